@@ -1,0 +1,36 @@
+// Loops over several threads whose results do not depend on how many there are.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace edda {
+
+/// Calls body(i) for i in [0, n), in parallel. body must write only what belongs to i.
+template <class Body>
+void parallel_for(std::size_t n, Body body) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < n; ++i) body(i);
+}
+
+/// Sum of term(i) over [0, n): chunks of fixed size are summed each in order, then the chunks in
+/// order, so the bits are the same for any number of threads.
+template <class Term>
+double ordered_sum(std::size_t n, Term term) {
+  constexpr std::size_t chunk = 4096;
+  const std::size_t chunks = (n + chunk - 1) / chunk;
+  std::vector<double> partial(chunks, 0.0);
+#pragma omp parallel for schedule(static)
+  for (std::size_t c = 0; c < chunks; ++c) {
+    const std::size_t end = std::min(n, (c + 1) * chunk);
+    double sum = 0.0;
+    for (std::size_t i = c * chunk; i < end; ++i) sum += term(i);
+    partial[c] = sum;
+  }
+  double sum = 0.0;
+  for (double p : partial) sum += p;
+  return sum;
+}
+
+}  // namespace edda

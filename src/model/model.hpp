@@ -1,0 +1,183 @@
+// The model as read: plain, constant, in SI units (angles in degrees, as written). Every reference by
+// name is already an index, every default filled in, every range checked. Built by read_model().
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/fault.hpp"
+#include "base/polygon.hpp"
+#include "base/vec2.hpp"
+
+namespace edda {
+
+/// Index into one of the model's lists; `none` where nothing is named.
+using Index = int;
+inline constexpr Index none = -1;
+
+enum class Plane { strain, stress };
+enum class Method { edda, dda };
+enum class MassKind { matched, covering, consistent };
+enum class Switching { exact, plain };
+enum class LawType { coulomb, glued };
+enum class BoundaryType { fixed, roller };
+
+struct Material {
+  std::string name;
+  double density = 0.0;  ///< kg/m3
+  double young = 0.0;    ///< Pa
+  double poisson = 0.0;
+  Where where;
+};
+
+/// Shear and tensile strength of a joint.
+struct Strength {
+  double friction_angle = 0.0;    ///< degrees
+  double cohesion = 0.0;          ///< Pa
+  double tensile_strength = 0.0;  ///< Pa
+};
+
+/// The contact law of a joint (method.md section 4).
+struct JointLaw {
+  std::string name;
+  LawType type = LawType::coulomb;
+  Strength peak;                ///< of a bonded contact
+  Strength residual;            ///< after failure, and of every contact not closed at the start
+  std::optional<double> kn;     ///< Pa/m; without it contact.normal_stiffness
+  std::optional<double> ks;     ///< Pa/m; filled with 0.4 kn where kn is given and ks is not
+  Where where;
+};
+
+struct ContactDefaults {
+  double normal_stiffness = 0.0;  ///< Pa (N/m per metre of thickness)
+  double shear_stiffness = 0.0;   ///< Pa
+  Index joint = none;             ///< law of contacts whose edges name none; none only if no law is needed
+};
+
+/// [[block]]
+struct BlockInput {
+  std::string name;        ///< empty if none was given
+  Ring polygon;            ///< either orientation, as written
+  Index material = none;
+  Index joint = none;      ///< law of its edges, or none
+  bool fixed = false;
+  Vec2 velocity;           ///< m/s
+  double angular_velocity = 0.0;  ///< rad/s
+  Where where;
+};
+
+/// [domain]
+struct Domain {
+  Ring outline;
+  Index material = none;
+  Index joint = none;      ///< law of cut edges that name none; none: contact.joint
+  double snap = 0.0;       ///< m
+  long long max_blocks = 300000;
+  Where where;
+};
+
+struct JointSet {
+  std::string name;
+  double angle = 0.0;      ///< degrees, counter-clockwise from +x
+  double spacing = 0.0;    ///< m
+  Vec2 origin;
+  Index joint = none;
+  Ring region;             ///< empty: the whole domain
+  Where where;
+};
+
+struct Trace {
+  std::vector<Vec2> points;
+  Index joint = none;
+  Where where;
+};
+
+struct Opening {
+  std::string name;
+  Ring polygon;
+  Index joint = none;      ///< law of its outline until taken out; none: glued
+  Where where;
+};
+
+struct HeldPoint {
+  Vec2 point;
+  Where where;
+};
+
+struct BrickWall {
+  Vec2 origin;             ///< lower left corner
+  int columns = 0;
+  int rows = 0;
+  Vec2 brick;              ///< length, height of a brick, m
+  Index material = none;
+  Index joint = none;
+  Where where;
+};
+
+struct Boundary {
+  std::string name;
+  BoundaryType type = BoundaryType::fixed;
+  std::vector<std::string> sides;  ///< of "left", "right", "bottom", "top"; empty where `along` is given
+  std::vector<Vec2> along;         ///< polyline
+  double stiffness = 0.0;          ///< Pa: spring per block vertex on it
+  Where where;
+};
+
+struct Monitor {
+  std::string name;
+  Vec2 point;
+  Where where;
+};
+
+struct Damping {
+  double mass = 0.0;     ///< 1/s
+  double local = 0.0;    ///< fraction of the unbalanced force (Cundall)
+  double contact = 0.0;  ///< fraction of critical
+};
+
+struct Solver {
+  Method method = Method::edda;
+  MassKind mass = MassKind::matched;
+  Switching switching = Switching::exact;
+  double duration = 0.0;               ///< s
+  std::optional<double> time_step;     ///< s; empty: "auto"
+  bool allow_unstable = false;
+  double safety = 0.8;                 ///< of the critical step
+  double max_displacement_ratio = 0.01;  ///< of the model's half-height in one step
+  Damping damping;
+  Where where;
+};
+
+struct Output {
+  double every = 0.0;          ///< s; default: duration / 20
+  double history_every = 0.0;  ///< s; default: duration / 200
+};
+
+struct Model {
+  std::string title;
+  std::string file;            ///< path as given on the command line
+  Vec2 gravity{0.0, -9.81};    ///< m/s2
+  Plane plane = Plane::strain;
+  double thickness = 1.0;      ///< m
+
+  std::vector<Material> materials;
+  std::vector<JointLaw> joints;
+  ContactDefaults contact;
+  std::vector<BlockInput> blocks;
+  std::optional<Domain> domain;
+  std::vector<JointSet> joint_sets;
+  std::vector<Trace> traces;
+  std::vector<Opening> openings;
+  std::vector<HeldPoint> held;
+  std::vector<BrickWall> walls;
+  std::vector<Boundary> boundaries;
+  std::vector<Monitor> monitors;
+  Solver solver;
+  Output output;
+};
+
+}  // namespace edda
