@@ -12,35 +12,41 @@ namespace edda {
 
 /// One block as a polygon, before it has mass or motion. Filled by build_polygons() (lines/).
 struct BlockPolygon {
-  std::vector<Ring> rings;                ///< [0] the outer ring, counter-clockwise; then holes, clockwise; m,
-                                          ///< relative to PolygonSet::origin
-  std::vector<std::vector<Index>> joint;  ///< joint[r][e]: law of the edge from rings[r][e] to the next
-                                          ///< vertex; none where none is named (contact.joint applies)
+  std::vector<Ring> rings;  ///< [0] the outer ring, counter-clockwise; then holes, clockwise; m,
+                            ///< relative to PolygonSet::origin
+  std::vector<std::vector<Index>>
+      joint;  ///< joint[r][e]: law of the edge from rings[r][e] to the next
+              ///< vertex; none where none is named (contact.joint applies)
   Index material = none;
-  bool fixed = false;                     ///< all its nodes are held
-  Vec2 velocity;                          ///< of the centroid at the start, m/s
-  double angular_velocity = 0.0;          ///< rad/s about the centroid
-  std::string name;                       ///< of a [[block]], else empty
-  Where where;                            ///< the table it came from
+  bool fixed = false;             ///< all its nodes are held
+  Vec2 velocity;                  ///< of the centroid at the start, m/s
+  double angular_velocity = 0.0;  ///< rad/s about the centroid
+  std::string name;               ///< of a [[block]], else empty
+  Where where;                    ///< the table it came from
+  Index opening = none;           ///< the opening it lies in; only in PolygonSet::removed
 };
 
 /// What the cut did, for the user to read.
 struct CutReport {
-  int dangling = 0;        ///< ends of joints that end inside a block and were trimmed
-  double area_in = 0.0;    ///< of the outline without its openings, m2
-  double area_out = 0.0;   ///< sum over the cut blocks, m2
-  int snap_rounded = 0;    ///< 1 where the line work had to be snap-rounded
+  int dangling = 0;             ///< ends of joints that end inside a block and were trimmed
+  int bridging = 0;             ///< pieces of joint with the same block on both sides, removed
+  int merged = 0;               ///< faces thinner than twice `domain.snap`, joined to a neighbour
+  double area_in = 0.0;         ///< of the outline without its openings, m2
+  double area_out = 0.0;        ///< sum over the cut blocks, m2
+  int snap_rounded = 0;         ///< 1 where the line work had to be snap-rounded
   double smallest_area = 0.0;   ///< m2, over all blocks
   double smallest_edge = 0.0;   ///< m
   double smallest_angle = 0.0;  ///< degrees
   Vec2 smallest_area_at, smallest_edge_at, smallest_angle_at;  ///< model coordinates (origin added)
 };
 
-/// All blocks in their final order: [[block]] in file order, walls row by row from the lower left, cut
-/// blocks by centroid (y, then x).
+/// All blocks in their final order: [[block]] in file order, walls row by row from the lower left,
+/// cut blocks by centroid (y, then x).
 struct PolygonSet {
   Vec2 origin;                       ///< model coordinates of the local origin (the model's centre)
   std::vector<BlockPolygon> blocks;  ///< local coordinates
+  std::vector<BlockPolygon>
+      removed;  ///< rock cut inside openings, ordered like cut blocks; not in `blocks`
   CutReport report;
 };
 

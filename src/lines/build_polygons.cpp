@@ -1,0 +1,28 @@
+#include "lines/build_polygons.hpp"
+
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "lines/given_blocks.hpp"
+#include "lines/quality.hpp"
+
+namespace edda {
+namespace {
+
+void append(std::vector<BlockPolygon>& to, std::vector<BlockPolygon> from) {
+  to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+}  // namespace
+
+Result<PolygonSet> build_polygons(const Model& model) {
+  PolygonSet set;
+  set.origin = model_centre(model);
+  set.blocks = given_blocks(model, set.origin);
+  append(set.blocks, wall_bricks(model, set.origin));
+  measure_quality(set.blocks, set.origin, set.report);
+  return set;
+}
+
+}  // namespace edda
