@@ -1,0 +1,150 @@
+#include "blocks/build_blocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "blocks/cover.hpp"
+
+namespace edda {
+namespace {
+
+struct Lame {
+  double lambda, mu;
+};
+
+/// Lame's constants for the model's plane: plane strain E nu/((1+nu)(1-2nu)), plane stress E nu/(1-nu^2).
+Lame lame(const Material& m, Plane plane) {
+  const double mu = m.young / (2.0 * (1.0 + m.poisson));
+  const double lambda = plane == Plane::strain
+                            ? m.young * m.poisson / ((1.0 + m.poisson) * (1.0 - 2.0 * m.poisson))
+                            : m.young * m.poisson / (1.0 - m.poisson * m.poisson);
+  return {lambda, mu};
+}
+
+/// Half the least distance between two parallel lines that hold the ring between them.
+double half_width(std::span<const Vec2> ring) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2 edge = ring[(i + 1) % ring.size()] - ring[i];
+    const double length = norm(edge);
+    if (length == 0.0) continue;
+    const Vec2 n = perp(edge) / length;
+    double lo = 0.0, hi = 0.0;
+    for (Vec2 p : ring) {
+      const double h = dot(p - ring[i], n);
+      lo = std::min(lo, h);
+      hi = std::max(hi, h);
+    }
+    least = std::min(least, hi - lo);
+  }
+  return 0.5 * least;
+}
+
+double interior_angle(Vec2 before, Vec2 at, Vec2 after) {
+  const Vec2 in = at - before, out = after - at;
+  return std::numbers::pi - std::atan2(cross(in, out), dot(in, out));
+}
+
+void add_vertices(BlockSet& b, const BlockPolygon& polygon, const Moments& m,
+                  const std::array<Vec2, 3>& g) {
+  const Id block = static_cast<Id>(b.area.size());
+  double smallest_edge = std::numeric_limits<double>::infinity(), radius = 0.0;
+  for (std::size_t r = 0; r < polygon.rings.size(); ++r) {
+    const Ring& ring = polygon.rings[r];
+    const Id first = static_cast<Id>(b.vertex_block.size());
+    const Id n = static_cast<Id>(ring.size());
+    b.ring_begin.push_back(first);
+    for (Id i = 0; i < n; ++i) {
+      const Vec2 p = ring[i], after = ring[(i + 1) % n], before = ring[(i + n - 1) % n];
+      for (std::size_t k = 0; k < 3; ++k) {
+        b.weight[k].push_back(1.0 / 3.0 + dot(g[k], p - m.centroid));
+      }
+      b.vertex_block.push_back(block);
+      b.next.push_back(first + (i + 1) % n);
+      b.previous.push_back(first + (i + n - 1) % n);
+      b.edge_joint.push_back(polygon.joint[r][i]);
+      b.edge_length.push_back(norm(after - p));
+      b.corner.push_back(interior_angle(before, p, after));
+      b.vertex_x.push_back(p.x);
+      b.vertex_y.push_back(p.y);
+      smallest_edge = std::min(smallest_edge, norm(after - p));
+      radius = std::max(radius, norm(p - m.centroid));
+    }
+  }
+  b.smallest_edge.push_back(smallest_edge);
+  b.radius.push_back(radius);
+}
+
+}  // namespace
+
+BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
+  BlockSet b;
+  b.origin = polygons.origin;
+  b.thickness = model.thickness;
+  b.mass_kind = model.solver.mass;
+  b.vertex_begin.push_back(0);
+  b.block_ring.push_back(0);
+  for (const BlockPolygon& polygon : polygons.blocks) {
+    const Moments m = moments(polygon.rings);
+    const Material& material = model.materials[static_cast<std::size_t>(polygon.material)];
+    const bool matched = model.solver.mass == MassKind::matched;
+    const Cover cover = matched ? matched_cover(m) : covering_cover(polygon.rings[0], m.centroid);
+    const std::array<Vec2, 3> g = gradients(cover);
+    const double volume = m.area * model.thickness;
+    const double mass = material.density * volume;
+    const Lame elastic = lame(material, model.plane);
+    add_vertices(b, polygon, m, g);
+    for (std::size_t k = 0; k < 3; ++k) {
+      b.grad_x[k].push_back(g[k].x);
+      b.grad_y[k].push_back(g[k].y);
+      b.node_x[k].push_back(cover[k].x);
+      b.node_y[k].push_back(cover[k].y);
+      b.node_mass[k].push_back(mass / 3.0);
+    }
+    if (model.solver.mass == MassKind::consistent) {
+      std::array<double, 6> per_mass = consistent_mass(m, g, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0});
+      const std::array<double, 6> inverse = inverse_symmetric(per_mass);
+      for (std::size_t e = 0; e < 6; ++e) b.inverse_mass[e].push_back(inverse[e] / mass);
+    }
+    b.volume.push_back(volume);
+    b.lame_lambda.push_back(elastic.lambda);
+    b.lame_mu.push_back(elastic.mu);
+    b.fixed.push_back(polygon.fixed ? 1 : 0);
+    b.area.push_back(m.area);
+    b.mass.push_back(mass);
+    b.centroid_x.push_back(m.centroid.x);
+    b.centroid_y.push_back(m.centroid.y);
+    b.inradius.push_back(half_width(polygon.rings[0]));
+    b.material.push_back(polygon.material);
+    b.name.push_back(polygon.name);
+    b.vertex_begin.push_back(static_cast<Id>(b.vertex_block.size()));
+    b.block_ring.push_back(static_cast<Id>(b.ring_begin.size()));
+  }
+  b.ring_begin.push_back(static_cast<Id>(b.vertex_block.size()));
+  return b;
+}
+
+State initial_state(const BlockSet& b, const PolygonSet& polygons) {
+  State s;
+  const std::size_t nb = b.size();
+  for (std::size_t k = 0; k < 3; ++k) {
+    s.x[k] = b.node_x[k];
+    s.y[k] = b.node_y[k];
+    s.vx[k].resize(nb);
+    s.vy[k].resize(nb);
+    for (std::size_t i = 0; i < nb; ++i) {
+      const BlockPolygon& p = polygons.blocks[i];
+      const Vec2 arm{b.node_x[k][i] - b.centroid_x[i], b.node_y[k][i] - b.centroid_y[i]};
+      const Vec2 v = p.velocity + p.angular_velocity * perp(arm);
+      s.vx[k][i] = p.fixed ? 0.0 : v.x;
+      s.vy[k][i] = p.fixed ? 0.0 : v.y;
+    }
+  }
+  s.alive.assign(nb, 1);
+  s.turns.assign(nb, 0);
+  return s;
+}
+
+}  // namespace edda

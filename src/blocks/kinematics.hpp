@@ -1,0 +1,82 @@
+// What the three nodes of a block say: vertices, centroid, deformation, rotation. Small and inline, so
+// that every stage says it in the same way.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "base/vec2.hpp"
+#include "blocks/block_set.hpp"
+#include "blocks/state.hpp"
+
+namespace edda {
+
+using Nodes = std::array<std::vector<double>, 3>;
+
+/// Deformation gradient F = sum x_k G_k^T.
+struct Deformation {
+  double xx, xy, yx, yy;
+};
+
+inline Deformation deformation(const BlockSet& b, const Nodes& x, const Nodes& y, std::size_t i) {
+  Deformation f{0.0, 0.0, 0.0, 0.0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    f.xx += x[k][i] * b.grad_x[k][i];
+    f.xy += x[k][i] * b.grad_y[k][i];
+    f.yx += y[k][i] * b.grad_x[k][i];
+    f.yy += y[k][i] * b.grad_y[k][i];
+  }
+  return f;
+}
+
+/// Rotation R = [c -s; s c] of the polar decomposition F = R U: a = F11 + F22, b = F21 - F12,
+/// (c, s) = (a, b)/sqrt(a^2 + b^2). `strength` is that root, 2 for an undeformed block; near 0 the
+/// rotation is undefined and the run has diverged.
+struct Rotation {
+  double c, s, strength;
+};
+
+inline Rotation rotation(const Deformation& f) {
+  const double a = f.xx + f.yy, b = f.yx - f.xy;
+  const double r = std::sqrt(a * a + b * b);
+  return {a / r, b / r, r};
+}
+
+/// Material point of weights (1/3, 1/3, 1/3): every cover is centred on the block's centroid.
+inline Vec2 centroid(const Nodes& x, const Nodes& y, std::size_t i) {
+  return {(x[0][i] + x[1][i] + x[2][i]) / 3.0, (y[0][i] + y[1][i] + y[2][i]) / 3.0};
+}
+
+/// Area coordinates w_k of the material point that was at `point` (local coordinates) at the start.
+inline std::array<double, 3> weights_at(const BlockSet& b, std::size_t i, Vec2 point) {
+  const Vec2 arm = point - Vec2{b.centroid_x[i], b.centroid_y[i]};
+  std::array<double, 3> w;
+  for (std::size_t k = 0; k < 3; ++k) {
+    w[k] = 1.0 / 3.0 + b.grad_x[k][i] * arm.x + b.grad_y[k][i] * arm.y;
+  }
+  return w;
+}
+
+inline Vec2 weighted(const std::array<double, 3>& w, const Nodes& x, const Nodes& y,
+                     std::size_t i) {
+  return {w[0] * x[0][i] + w[1] * x[1][i] + w[2] * x[2][i],
+          w[0] * y[0][i] + w[1] * y[1][i] + w[2] * y[2][i]};
+}
+
+inline Vec2 vertex_at(const BlockSet& b, const Nodes& x, const Nodes& y, std::size_t v) {
+  const std::size_t i = b.vertex_block[v];
+  return weighted({b.weight[0][v], b.weight[1][v], b.weight[2][v]}, x, y, i);
+}
+
+/// Symmetric 2 x 2 tensor.
+struct Tensor {
+  double xx = 0.0, yy = 0.0, xy = 0.0;
+};
+
+/// Corotated strain R^T F - I (symmetric by the choice of R).
+inline Tensor corotated_strain(const Deformation& f, const Rotation& r) {
+  return {r.c * f.xx + r.s * f.yx - 1.0, r.c * f.yy - r.s * f.xy - 1.0, r.c * f.xy + r.s * f.yy};
+}
+
+}  // namespace edda
