@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "lines/cut_domain.hpp"
 #include "lines/given_blocks.hpp"
 #include "lines/quality.hpp"
 
@@ -21,6 +22,13 @@ Result<PolygonSet> build_polygons(const Model& model) {
   set.origin = model_centre(model);
   set.blocks = given_blocks(model, set.origin);
   append(set.blocks, wall_bricks(model, set.origin));
+  if (model.domain) {
+    Result<DomainCut> cut = cut_domain(model, set.origin);
+    if (!cut.ok()) return cut.faults();
+    append(set.blocks, std::move(cut.value().blocks));
+    set.removed = std::move(cut.value().removed);
+    set.report = cut.value().report;
+  }
   measure_quality(set.blocks, set.origin, set.report);
   return set;
 }

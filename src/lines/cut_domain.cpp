@@ -1,0 +1,212 @@
+#include "lines/cut_domain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "lines/face_polygons.hpp"
+#include "lines/line_work.hpp"
+#include "lines/noding.hpp"
+#include "lines/place.hpp"
+#include "lines/planar_graph.hpp"
+#include "lines/rock_area.hpp"
+
+namespace edda {
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+double size_of(const Ring& ring) {
+  if (ring.empty()) return 0.0;
+  Vec2 low = ring[0], high = ring[0];
+  for (Vec2 p : ring) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return std::max(high.x - low.x, high.y - low.y);
+}
+
+double perimeter_of(const Ring& ring) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    sum += norm(ring[i + 1 == ring.size() ? 0 : i + 1] - ring[i]);
+  }
+  return sum;
+}
+
+bool in_rock(const LineWork& work, Vec2 p, double snap) {
+  if (side_of({&work.outline, 1}, p, snap) <= 0) return false;
+  return std::none_of(work.openings.begin(), work.openings.end(), [&](const Ring& o) {
+    return side_of({&o, 1}, p, snap) >= 0;
+  });
+}
+
+/// The faces and where each lies; the opening is that of lowest number.
+struct Partition {
+  Faces faces;
+  std::vector<Zone> zone;
+  std::vector<Index> opening;
+};
+
+/// Faces found and laid to a zone. A fault if the outline has come apart or an opening lies outside
+/// it.
+Result<Partition> partition(const Model& model, const PlanarGraph& graph, Cycles cycles,
+                            const LineWork& work) {
+  Partition p;
+  p.faces = find_faces(graph, std::move(cycles));
+  p.zone.assign(p.faces.outer.size(), Zone::outside);
+  p.opening.assign(p.faces.outer.size(), none);
+  const auto outline = static_cast<Index>(work.sources.size()) - 1;
+  const std::vector<std::uint8_t> inside = inside_ring(graph, p.faces, outline);
+  if (inside[0] || std::find(inside.begin(), inside.end(), 1) == inside.end()) {
+    return Fault{member_of(model.domain->where, "outline"),
+                 "encloses no area once points closer than domain.snap are joined",
+                 "lower domain.snap or enlarge the outline"};
+  }
+  for (std::size_t f = 0; f < inside.size(); ++f) {
+    if (inside[f]) p.zone[f] = Zone::rock;
+  }
+  for (std::size_t s = 0; s < work.sources.size(); ++s) {
+    if (work.sources[s].kind != LineKind::opening) continue;
+    const Opening& opening = model.openings[static_cast<std::size_t>(work.sources[s].index)];
+    const std::vector<std::uint8_t> taken = inside_ring(graph, p.faces, static_cast<Index>(s));
+    bool any = false;
+    for (std::size_t f = 0; f < inside.size(); ++f) {
+      if (!inside[f] || !taken[f]) continue;
+      any = true;
+      if (p.zone[f] == Zone::rock) p.opening[f] = work.sources[s].index;
+      p.zone[f] = Zone::opening;
+    }
+    if (!any) {
+      return Fault{member_of(opening.where, "polygon"), "lies wholly outside domain.outline",
+                   "move it into the outline or leave it out"};
+    }
+  }
+  return p;
+}
+
+long long count(const Partition& p, Zone zone) {
+  return std::count(p.zone.begin(), p.zone.end(), zone);
+}
+
+std::optional<Fault> wrong_count(const Model& model, const Partition& p) {
+  const long long blocks = count(p, Zone::rock);
+  if (blocks == 0) {
+    return Fault{member_of(model.domain->where, "outline"), "is wholly taken out by openings",
+                 "shrink the openings or enlarge the outline"};
+  }
+  if (blocks > model.domain->max_blocks) {
+    return Fault{member_of(model.domain->where, "max_blocks"),
+                 "the domain is cut into " + std::to_string(blocks) + " blocks, more than " +
+                     std::to_string(model.domain->max_blocks),
+                 "raise max_blocks, or cut with wider spacings"};
+  }
+  return std::nullopt;
+}
+
+std::vector<BlockPolygon> polygons(const Model& model, const PlanarGraph& graph, const Partition& p,
+                                   const LineWork& work, Zone zone, double snap) {
+  std::vector<BlockPolygon> blocks;
+  blocks.reserve(static_cast<std::size_t>(count(p, zone)));
+  for (std::size_t f = 1; f < p.zone.size(); ++f) {
+    if (p.zone[f] != zone) continue;
+    BlockPolygon block =
+        face_polygon(graph, p.faces, static_cast<int>(f), work.sources, 4.0 * snap);
+    block.material = model.domain->material;
+    block.where = model.domain->where;
+    block.opening = p.opening[f];
+    blocks.push_back(std::move(block));
+  }
+  sort_by_centroid(blocks, 1e-12 * size_of(work.outline));
+  return blocks;
+}
+
+double area_of(const std::vector<BlockPolygon>& blocks) {
+  double sum = 0.0;
+  for (const BlockPolygon& block : blocks) {
+    for (const Ring& ring : block.rings) sum += signed_area(ring);
+  }
+  return sum;
+}
+
+/// Snapping may move the outline by `snap`; beyond that the faces must fill what went in.
+std::optional<Fault> lost_area(const Model& model, const PlanarGraph& graph, const Partition& p,
+                               const LineWork& work, double snap, double area_in) {
+  double sum = 0.0, perimeter = perimeter_of(work.outline);
+  for (const Ring& opening : work.openings) perimeter += perimeter_of(opening);
+  for (std::size_t f = 1; f < p.zone.size(); ++f) {
+    if (p.zone[f] == Zone::rock) sum += face_area(graph, p.faces, static_cast<int>(f));
+  }
+  if (std::abs(sum - area_in) <= 1e-9 * area_in + 4.0 * snap * perimeter) return std::nullopt;
+  return Fault{member_of(model.domain->where, "snap"),
+               "the blocks fill " + number(sum) + " m2 of the " + number(area_in) +
+                   " m2 that the outline encloses",
+               "change domain.snap tenfold, or move apart lines that nearly coincide"};
+}
+
+/// Trims what bounds no block and counts it.
+Cycles trim(PlanarGraph& graph, const LineWork& work, double snap, CutReport& report) {
+  for (int v : trim_free_ends(graph)) {
+    report.dangling += in_rock(work, graph.node[static_cast<std::size_t>(v)], snap);
+  }
+  Cycles cycles = trace_cycles(graph);
+  const std::vector<int> bridges = remove_bridges(graph, cycles);
+  for (int e : bridges) {
+    const GraphEdge& edge = graph.edge[static_cast<std::size_t>(e)];
+    const Vec2 middle = 0.5 * (graph.node[static_cast<std::size_t>(edge.from)] +
+                               graph.node[static_cast<std::size_t>(edge.to)]);
+    report.bridging += in_rock(work, middle, snap);
+  }
+  return bridges.empty() ? std::move(cycles) : trace_cycles(graph);
+}
+
+}  // namespace
+
+double snap_of(const Model& model) {
+  if (model.domain->snap > 0.0) return model.domain->snap;
+  const double size = size_of(model.domain->outline);
+  return size > 0.0 ? 1e-9 * size : 1e-9;
+}
+
+Result<DomainCut> cut_domain(const Model& model, Vec2 origin) {
+  const double snap = snap_of(model);
+  Result<LineWork> lines = line_work(model, origin, snap);
+  if (!lines.ok()) return lines.faults();
+  const LineWork& work = lines.value();
+  const std::optional<double> area_in = rock_area(work.outline, work.openings);
+  if (!area_in) {
+    return Fault{member_of(model.domain->where, "outline"),
+                 "the outline or an opening crosses itself", "list the corners in order"};
+  }
+  Result<NodedLines> noded = node_lines(work, snap, model.domain->where);
+  if (!noded.ok()) return noded.faults();
+
+  DomainCut cut;
+  cut.report.area_in = *area_in;
+  cut.report.snap_rounded = noded.value().snap_rounded;
+  PlanarGraph graph = planar_graph(std::move(noded.value()), work.sources);
+  Cycles cycles = trim(graph, work, snap, cut.report);
+  Result<Partition> parts = partition(model, graph, std::move(cycles), work);
+  if (!parts.ok()) return parts.faults();
+  while (const int merged = merge_slivers(graph, parts.value().faces, parts.value().zone, snap)) {
+    cut.report.merged += merged;
+    parts = partition(model, graph, trace_cycles(graph), work);
+    if (!parts.ok()) return parts.faults();
+  }
+  if (auto fault = wrong_count(model, parts.value())) return *fault;
+  if (auto fault = lost_area(model, graph, parts.value(), work, snap, *area_in)) return *fault;
+  cut.blocks = polygons(model, graph, parts.value(), work, Zone::rock, snap);
+  cut.removed = polygons(model, graph, parts.value(), work, Zone::opening, snap);
+  cut.report.area_out = area_of(cut.blocks);
+  return cut;
+}
+
+}  // namespace edda

@@ -1,0 +1,26 @@
+// The domain cut into blocks by its line work (method.md section 7).
+#pragma once
+
+#include <vector>
+
+#include "base/fault.hpp"
+#include "lines/polygon_set.hpp"
+#include "model/model.hpp"
+
+namespace edda {
+
+struct DomainCut {
+  std::vector<BlockPolygon> blocks;   ///< rock, by centroid (y, then x); m, local
+  std::vector<BlockPolygon> removed;  ///< rock inside openings, likewise
+  CutReport report;                   ///< all but the smallest_* members
+};
+
+/// Cuts model.domain relative to `origin`: line work, noding, faces, trimming, slivers, polygons.
+/// Faults as in build_polygons(). Precondition: model.domain is set.
+Result<DomainCut> cut_domain(const Model& model, Vec2 origin);
+
+/// domain.snap, or its default where the model leaves it at 0; m. Precondition: model.domain is
+/// set.
+double snap_of(const Model& model);
+
+}  // namespace edda

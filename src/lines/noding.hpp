@@ -1,0 +1,36 @@
+// Line work -> edges that meet only at their ends.
+#pragma once
+
+#include <vector>
+
+#include "base/fault.hpp"
+#include "base/vec2.hpp"
+#include "lines/line_work.hpp"
+
+namespace edda {
+
+/// A stretch of line between two nodes, directed as its source runs. Stretches on which several
+/// sources coincide appear once for each.
+struct NodedEdge {
+  int from = 0, to = 0;  ///< nodes
+  Index source = 0;
+};
+
+struct NodedLines {
+  std::vector<Vec2> nodes;  ///< distinct, in order of x, then y; m, local
+  std::vector<NodedEdge> edges;
+  bool snap_rounded = false;  ///< the snapping noder alone was not enough
+};
+
+enum class Noding {
+  automatic,  ///< snapping; snap rounding only if that leaves a crossing
+  rounding    ///< snap rounding at once
+};
+
+/// Nodes all lines at the tolerance `snap` (m): GEOS's SnappingNoder, checked by
+/// FastNodingValidator, else its SnapRoundingNoder, checked too. Fault at `where` if lines still
+/// cross between nodes.
+Result<NodedLines> node_lines(const LineWork& work, double snap, const Where& where,
+                              Noding noding = Noding::automatic);
+
+}  // namespace edda

@@ -1,0 +1,36 @@
+#include "lines/rock_area.hpp"
+
+#include <exception>
+#include <memory>
+#include <utility>
+
+#include "lines/geos.hpp"
+
+namespace edda {
+namespace {
+
+std::unique_ptr<geos::geom::Geometry> polygon_of(const geos::geom::GeometryFactory& factory,
+                                                 const Ring& ring) {
+  auto points = std::make_unique<geos::geom::CoordinateArraySequence>();
+  for (Vec2 p : ring) points->add(geos::geom::Coordinate(p.x, p.y));
+  points->add(geos::geom::Coordinate(ring.front().x, ring.front().y));
+  return factory.createPolygon(factory.createLinearRing(std::move(points)));
+}
+
+}  // namespace
+
+std::optional<double> rock_area(const Ring& outline, const std::vector<Ring>& openings) {
+  if (outline.size() < 3) return std::nullopt;
+  try {
+    const auto factory = geos::geom::GeometryFactory::create();
+    std::unique_ptr<geos::geom::Geometry> rock = polygon_of(*factory, outline);
+    for (const Ring& opening : openings) {
+      if (opening.size() >= 3) rock = rock->difference(polygon_of(*factory, opening).get());
+    }
+    return rock->getArea();
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace edda
