@@ -1,0 +1,294 @@
+#include "model/complete.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "model/nearest.hpp"
+
+namespace edda {
+namespace {
+
+const Value* element(const Value& root, std::string_view section, std::size_t i) {
+  return child(find(&root, section), i);
+}
+
+bool is_table(const Value* value) {
+  return value != nullptr && std::holds_alternative<Table>(value->content);
+}
+
+bool given(const Value* table, std::string_view key) {
+  return find(table, key) != nullptr;
+}
+
+void complete_materials(const Value& root, Reading& reading) {
+  const auto keys = find_section("materials")->keys;
+  const double gravity = norm(reading.model.gravity);
+  constexpr double standard_gravity = 9.81;  // weighs materials of a model without gravity
+  auto& materials = reading.model.materials;
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    const Value* node = element(root, "materials", i);
+    if (!is_table(node)) continue;
+    const std::string path = materials[i].where.key + ".unit_weight";
+    const Value* weight = find(node, "unit_weight");
+    if (weight != nullptr) {
+      const auto value = read_number(*weight, *find_key(keys, "unit_weight"), path, reading);
+      if (given(node, "density")) {
+        add_fault(reading, weight->place, path, "density is given too", "give only one of them");
+      } else if (value) {
+        materials[i].density = *value / (gravity > 0.0 ? gravity : standard_gravity);
+      }
+    } else if (!given(node, "density")) {
+      add_fault(reading, node->place, materials[i].where.key + ".density", "is missing",
+                "give " + expected(*find_key(keys, "density")) + ", or unit_weight");
+    }
+  }
+}
+
+void complete_joints(const Value& root, Reading& reading) {
+  auto& joints = reading.model.joints;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const Value* node = element(root, "joints", i);
+    if (!is_table(node)) continue;
+    JointLaw& law = joints[i];
+    const Value* type = find(node, "type");
+    const std::string* word = type == nullptr ? nullptr : std::get_if<std::string>(&type->content);
+    const bool coulomb = type == nullptr || (word != nullptr && *word == "coulomb");
+    if (coulomb && !given(node, "friction_angle")) {
+      add_fault(reading, node->place, law.where.key + ".friction_angle", "is missing",
+                "give " + expected(*find_key(find_section("joints")->keys, "friction_angle")) +
+                    ", or type = \"glued\"");
+    }
+    if (!given(find(node, "residual"), "friction_angle")) {
+      law.residual.friction_angle = law.peak.friction_angle;
+    }
+    constexpr double shear_over_normal = 0.4;
+    if (law.kn && !law.ks && !given(node, "ks")) law.ks = shear_over_normal * *law.kn;
+  }
+}
+
+void complete_contact(const Value& root, Reading& reading) {
+  Model& model = reading.model;
+  const Value* node = find(&root, "contact");
+  double young = 0.0;
+  for (const Material& material : model.materials) young = std::max(young, material.young);
+  constexpr double stiffness_over_young = 10.0;
+  if (!given(node, "normal_stiffness")) {
+    model.contact.normal_stiffness = stiffness_over_young * young;
+  }
+  if (!given(node, "shear_stiffness")) {
+    model.contact.shear_stiffness = model.contact.normal_stiffness;
+  }
+  if (!given(node, "joint") && model.joints.size() == 1) model.contact.joint = 0;
+}
+
+/// Fills in a material that is left out where there is only one to choose from.
+void complete_material(const Value* node, Index& material, const Where& where, Reading& reading) {
+  if (!is_table(node) || given(node, "material")) return;
+  const auto& materials = reading.model.materials;
+  if (materials.size() == 1) {
+    material = 0;
+    return;
+  }
+  std::vector<std::string_view> names;
+  for (const Material& m : materials) names.push_back(m.name);
+  add_fault(reading, node->place, where.key + ".material", "is missing",
+            names.empty() ? "add a material: [materials.rock]"
+                          : "several are defined, name one of " + quoted_list(names));
+}
+
+void complete_material_references(const Value& root, Reading& reading) {
+  Model& model = reading.model;
+  for (std::size_t i = 0; i < model.blocks.size(); ++i) {
+    BlockInput& block = model.blocks[i];
+    complete_material(element(root, "block", i), block.material, block.where, reading);
+  }
+  if (model.domain) {
+    complete_material(find(&root, "domain"), model.domain->material, model.domain->where, reading);
+  }
+  for (std::size_t i = 0; i < model.walls.size(); ++i) {
+    BrickWall& wall = model.walls[i];
+    complete_material(element(root, "brick_wall", i), wall.material, wall.where, reading);
+  }
+}
+
+/// Numbers of blocks, as far as "none, one or several" goes.
+struct BlockCount {
+  double all = 0.0;
+  double without_law = 0.0;  ///< whose edges name no joint
+};
+
+BlockCount count_blocks(const Model& model) {
+  BlockCount count;
+  const auto add = [&](double blocks, double without_law) {
+    count.all += blocks;
+    count.without_law += without_law;
+  };
+  for (const BlockInput& block : model.blocks) add(1.0, block.joint == none ? 1.0 : 0.0);
+  for (const BrickWall& wall : model.walls) {
+    const double bricks = static_cast<double>(wall.columns) * wall.rows;
+    add(bricks, wall.joint == none ? bricks : 0.0);
+  }
+  if (model.domain) {
+    const auto names_none = [](const auto& cut) { return cut.joint == none; };
+    const bool cut = !model.joint_sets.empty() || !model.traces.empty();
+    const bool unnamed =
+        std::any_of(model.joint_sets.begin(), model.joint_sets.end(), names_none) ||
+        std::any_of(model.traces.begin(), model.traces.end(), names_none);
+    const double without_law = model.domain->joint != none ? 0.0 : unnamed ? 2.0 : 1.0;
+    add(cut ? 2.0 : 1.0, without_law);
+  }
+  return count;
+}
+
+/// Whether some value of this key, anywhere in the list or table, is not a known joint: such a
+/// fault stands already and makes the count of blocks without a law meaningless.
+void check_laws(const Value& root, Reading& reading, bool joints_are_faulty) {
+  const Model& model = reading.model;
+  if (joints_are_faulty) return;
+  const BlockCount count = count_blocks(model);
+  if (model.joints.empty() && count.all > 1.0) {
+    add_fault(reading, {1, 1, false}, "joints", "no contact law is defined",
+              "add [joints.NAME] with a friction_angle");
+  } else if (model.joints.size() > 1 && model.contact.joint == none && count.without_law > 1.0) {
+    std::vector<std::string_view> names;
+    for (const JointLaw& law : model.joints) names.push_back(law.name);
+    const Value* contact = find(&root, "contact");
+    add_fault(reading, contact == nullptr ? Place{1, 1, false} : contact->place, "contact.joint",
+              "is missing, and some edges name no joint",
+              "several are defined, name one of " + quoted_list(names));
+  }
+}
+
+template <class Item>
+void check_names(const Value& root, std::string_view section, const std::vector<Item>& items,
+                 Reading& reading) {
+  std::map<std::string_view, std::size_t> first;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (items[i].name.empty()) continue;
+    const auto [other, is_new] = first.emplace(items[i].name, i);
+    if (is_new) continue;
+    const Value* name = find(element(root, section, i), "name");
+    const Where& where = items[other->second].where;
+    add_fault(reading, name->place, items[i].where.key + ".name",
+              fmt::format("is the name of element {} ({}, line {}) too", other->second, where.file,
+                          where.line),
+              "give each its own name");
+  }
+}
+
+void check_blocks(const Value& root, Reading& reading) {
+  const auto& blocks = reading.model.blocks;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const BlockInput& block = blocks[i];
+    if (!block.fixed) continue;
+    const Value* node = element(root, "block", i);
+    const auto refuse = [&](const char* key) {
+      add_fault(reading, find(node, key)->place, block.where.key + "." + key,
+                "a fixed block cannot have a velocity", "leave it out, or set fixed = false");
+    };
+    if (block.velocity != Vec2{}) refuse("velocity");
+    if (block.angular_velocity != 0.0) refuse("angular_velocity");
+  }
+}
+
+void check_content(const Value& root, Reading& reading) {
+  const bool any = find(&root, "block") != nullptr || find(&root, "domain") != nullptr ||
+                   find(&root, "brick_wall") != nullptr;
+  const Model& model = reading.model;
+  if (!any ||
+      (model.blocks.empty() && !model.domain && model.walls.empty() && reading.faults.empty())) {
+    add_fault(reading, {1, 1, false}, "block", "the model has no blocks",
+              "add a [[block]], a [domain] or a [[brick_wall]]");
+  }
+  if (model.domain || find(&root, "domain") != nullptr) return;
+  for (const std::string_view name : {"joint_set", "trace", "opening", "held"}) {
+    const Value* first = element(root, name, 0);
+    if (first == nullptr) continue;
+    add_fault(reading, first->place, std::string(name), "there is no [domain] for it to act on",
+              "add a [domain] with an outline");
+  }
+}
+
+void complete_boundaries(const Value& root, Reading& reading) {
+  auto& boundaries = reading.model.boundaries;
+  for (std::size_t i = 0; i < boundaries.size(); ++i) {
+    Boundary& boundary = boundaries[i];
+    const Value* node = element(root, "boundary", i);
+    if (!is_table(node)) continue;
+    if (!given(node, "stiffness")) boundary.stiffness = reading.model.contact.normal_stiffness;
+    const bool sides = given(node, "sides"), along = given(node, "along");
+    if (sides && along) {
+      add_fault(reading, find(node, "along")->place, boundary.where.key + ".along",
+                "sides is given too", "give only one of them");
+    } else if (!sides && !along) {
+      add_fault(reading, node->place, boundary.where.key, "has neither sides nor along",
+                "say where it is, such as sides = [\"bottom\"]");
+    }
+  }
+}
+
+void check_solver(const Value& root, Reading& reading) {
+  const Solver& solver = reading.model.solver;
+  const Value* node = find(&root, "solver");
+  if (solver.method == Method::dda) {  // one line, until there is the implicit method
+    add_fault(reading, find(node, "method")->place, "solver.method",
+              "\"dda\" is not available in this version", "use \"edda\"");
+  }
+  if (solver.damping.local > 0.0 && solver.mass == MassKind::consistent) {
+    add_fault(reading, find(find(node, "damping"), "local")->place, "solver.damping.local",
+              "local damping does not go with mass = \"consistent\"",
+              "use mass = \"matched\", which moves the same way");
+  }
+  constexpr double most_steps = 1e12;
+  if (solver.time_step && solver.duration / *solver.time_step > most_steps) {
+    add_fault(reading, find(node, "time_step")->place, "solver.time_step",
+              fmt::format("would take {:.1e} steps", solver.duration / *solver.time_step),
+              "give a longer time_step, or \"auto\"");
+  }
+}
+
+/// A default of duration / `parts`, and a fault where there would be more than `most` rows.
+void complete_interval(const Value& root, const char* key, double& interval, double parts,
+                       double most, Reading& reading) {
+  const Value* value = find(find(&root, "output"), key);
+  const double duration = reading.model.solver.duration;
+  if (value == nullptr) {
+    interval = duration / parts;
+  } else if (interval > 0.0 && duration / interval > most) {
+    add_fault(reading, value->place, std::string("output.") + key,
+              fmt::format("would write {:.1e} times, more than {:.0e}", duration / interval, most),
+              fmt::format("give at least {:.3g} s", duration / most));
+  }
+}
+
+}  // namespace
+
+void complete(const Value& root, Reading& reading) {
+  Model& model = reading.model;
+  const bool joints_are_faulty =
+      std::any_of(reading.faults.begin(), reading.faults.end(), [](const Fault& fault) {
+        return fault.where.key.ends_with("joint") || fault.where.key == "joints";
+      });
+  complete_materials(root, reading);
+  complete_joints(root, reading);
+  complete_contact(root, reading);
+  complete_material_references(root, reading);
+  check_content(root, reading);
+  check_laws(root, reading, joints_are_faulty);
+  check_names(root, "block", model.blocks, reading);
+  check_names(root, "joint_set", model.joint_sets, reading);
+  check_names(root, "opening", model.openings, reading);
+  check_names(root, "boundary", model.boundaries, reading);
+  check_names(root, "monitor", model.monitors, reading);
+  check_blocks(root, reading);
+  complete_boundaries(root, reading);
+  complete_geometry(root, reading);
+  check_solver(root, reading);
+  complete_interval(root, "every", model.output.every, 20.0, 1e5, reading);
+  complete_interval(root, "history_every", model.output.history_every, 200.0, 1e7, reading);
+}
+
+}  // namespace edda

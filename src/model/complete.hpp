@@ -1,0 +1,22 @@
+// What the table of keys cannot say key by key: defaults that depend on other keys, and checks that
+// take several keys together.
+#pragma once
+
+#include "model/reader.hpp"
+
+namespace edda {
+
+/// Fills every default of `reading.model` that depends on other keys, and adds a fault for
+/// everything that needs no geometry to be cut: laws and materials that are not named, duplicate
+/// names, keys that exclude each other, counts that no machine could hold. `root` is what the model
+/// was read from.
+void complete(const Value& root, Reading& reading);
+
+/// Blocks that the joint sets would cut the domain into: 1 + joints + crossings. An upper estimate
+/// where sets are confined to regions; infinite rather than overflowing.
+double estimated_blocks(const Domain& domain, const std::vector<JointSet>& sets);
+
+/// As complete(), for [domain], [[joint_set]] and [[brick_wall]]: counts and the default of snap.
+void complete_geometry(const Value& root, Reading& reading);
+
+}  // namespace edda

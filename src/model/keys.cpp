@@ -1,0 +1,245 @@
+#include "model/keys.hpp"
+
+#include <array>
+
+#include "model/slots.hpp"
+
+namespace edda {
+namespace {
+
+using D = Dimension;
+
+constexpr Range any{};
+constexpr Range above(double low) {
+  return {.low = low, .low_open = true};
+}
+constexpr Range from(double low) {
+  return {.low = low};
+}
+constexpr Range from_below(double low, double high) {
+  return {.low = low, .high = high, .high_open = true};
+}
+constexpr Range between(double low, double high) {
+  return {.low = low, .high = high, .low_open = true, .high_open = true};
+}
+constexpr Range above_to(double low, double high) {
+  return {.low = low, .high = high, .low_open = true};
+}
+constexpr Range from_to(double low, double high) {
+  return {.low = low, .high = high};
+}
+
+constexpr Rule rule(Kind kind) {
+  return {.kind = kind};
+}
+constexpr Rule number(D dimension, Range range = any) {
+  return {.kind = Kind::number, .dimension = dimension, .range = range};
+}
+constexpr Rule number_or(std::string_view word, D dimension, Range range) {
+  return {.kind = Kind::number, .dimension = dimension, .range = range, .word = word};
+}
+constexpr Rule whole(double low, double high) {
+  return {.kind = Kind::integer, .range = from_to(low, high)};
+}
+constexpr Rule shape(Kind kind, D dimension, Range range = any) {
+  return {.kind = kind, .dimension = dimension, .range = range};
+}
+constexpr Rule words_of(std::span<const std::string_view> words) {
+  return {.kind = Kind::words, .words = words};
+}
+constexpr Rule flag = rule(Kind::flag), text = rule(Kind::text), name = rule(Kind::name),
+               choice = rule(Kind::choice), material = rule(Kind::material),
+               joint = rule(Kind::joint), table = rule(Kind::table),
+               point = shape(Kind::point, D::length), polygon = shape(Kind::polygon, D::length),
+               polyline = shape(Kind::polyline, D::length);
+
+constexpr Default required{true, {}};
+constexpr Default initial{};  // the field's initial value in model.hpp
+constexpr Default otherwise(std::string_view words) {
+  return {false, words};
+}
+
+constexpr Range friction = from_below(0.0, 90.0);
+constexpr std::string_view if_one = "may be left out where one is defined";
+
+// clang-format off
+constexpr std::array root_keys{
+    Key{"title", at<&Model::title>, text, initial, "What the pictures and tables are headed with."},
+    Key{"gravity", at<&Model::gravity>, shape(Kind::point, D::acceleration), initial, "Acceleration of gravity, x and y."},
+    Key{"plane", at<&Model::plane>, choice, initial, "Plane strain, or plane stress (a thin plate)."},
+    Key{"thickness", at<&Model::thickness>, number(D::length, above(0)), initial, "Thickness out of plane that forces and masses are given for."},
+};
+
+constexpr std::array material_keys{
+    Key{"density", at<&Material::density>, number(D::density, above(0)), otherwise("unit_weight / |gravity|"), "Mass per volume; either this or unit_weight must be given."},
+    Key{"unit_weight", nullptr, number(D::unit_weight, above(0)), otherwise("density * |gravity|"), "Weight per volume, in place of density; divided by |gravity|, or by 9.81 m/s2 where that is zero."},
+    Key{"young", at<&Material::young>, number(D::stress, above(0)), required, "Young's modulus."},
+    Key{"poisson", at<&Material::poisson>, number(D::plain, between(-1, 0.5)), required, "Poisson's ratio."},
+};
+
+constexpr std::array strength_keys{
+    Key{"friction_angle", at<&Strength::friction_angle>, number(D::angle, friction), otherwise("the joint's friction_angle"), "Friction angle after failure."},
+    Key{"cohesion", at<&Strength::cohesion>, number(D::stress, from(0)), initial, "Cohesion after failure."},
+    Key{"tensile_strength", at<&Strength::tensile_strength>, number(D::stress, from(0)), initial, "Tensile strength after failure."},
+};
+
+constexpr std::array joint_keys{
+    Key{"type", at<&JointLaw::type>, choice, initial, "Coulomb friction with cohesion and tension, or glued: never opens or slides."},
+    Key{"friction_angle", at<&JointLaw::peak, &Strength::friction_angle>, number(D::angle, friction), otherwise("required unless type is \"glued\""), "Friction angle until failure."},
+    Key{"cohesion", at<&JointLaw::peak, &Strength::cohesion>, number(D::stress, from(0)), initial, "Cohesion until failure."},
+    Key{"tensile_strength", at<&JointLaw::peak, &Strength::tensile_strength>, number(D::stress, from(0)), initial, "Tensile strength until failure."},
+    Key{"residual", at<&JointLaw::residual>, table, otherwise("same friction angle, no cohesion, no tension"), "Strength after failure, and of contacts that were not closed at the start."},
+    Key{"kn", at<&JointLaw::kn>, number(D::joint_stiffness, above(0)), otherwise("contact.normal_stiffness, as a spring per contact"), "Normal stiffness of the joint; the spring is kn times the length the contact stands for."},
+    Key{"ks", at<&JointLaw::ks>, number(D::joint_stiffness, above(0)), otherwise("0.4 kn"), "Shear stiffness of the joint."},
+};
+
+constexpr std::array contact_keys{
+    Key{"normal_stiffness", at<&ContactDefaults::normal_stiffness>, number(D::stiffness, above(0)), otherwise("10 x the largest young"), "Normal spring per contact where the joint has no kn."},
+    Key{"shear_stiffness", at<&ContactDefaults::shear_stiffness>, number(D::stiffness, above(0)), otherwise("normal_stiffness"), "Shear spring per contact where the joint has no ks."},
+    Key{"joint", at<&ContactDefaults::joint>, joint, otherwise(if_one), "Law of contacts whose edges name none."},
+};
+
+constexpr std::array block_keys{
+    Key{"name", at<&BlockInput::name>, name, otherwise("none"), "What --set and messages call the block."},
+    Key{"polygon", at<&BlockInput::polygon>, polygon, required, "Corners in order, either way round, convex or not."},
+    Key{"material", at<&BlockInput::material>, material, otherwise(if_one), "Material of the block."},
+    Key{"joint", at<&BlockInput::joint>, joint, otherwise("contact.joint"), "Law of the block's edges."},
+    Key{"fixed", at<&BlockInput::fixed>, flag, initial, "Whether all nodes of the block are held."},
+    Key{"velocity", at<&BlockInput::velocity>, shape(Kind::point, D::velocity), initial, "Velocity at the start."},
+    Key{"angular_velocity", at<&BlockInput::angular_velocity>, number(D::angular_velocity), initial, "Rate of rotation at the start, counter-clockwise."},
+};
+
+constexpr std::array domain_keys{
+    Key{"outline", at<&Domain::outline>, polygon, required, "Corners of the region that is cut into blocks."},
+    Key{"material", at<&Domain::material>, material, otherwise(if_one), "Material of the cut blocks."},
+    Key{"joint", at<&Domain::joint>, joint, otherwise("contact.joint"), "Law of cut edges that name none."},
+    Key{"snap", at<&Domain::snap>, number(D::length, above(0)), otherwise("1e-9 of the outline's larger side"), "Points closer than this are one point."},
+    Key{"max_blocks", at<&Domain::max_blocks>, whole(1, 2e9), initial, "An estimate of the number of blocks above this is an error."},
+};
+
+constexpr std::array joint_set_keys{
+    Key{"name", at<&JointSet::name>, name, otherwise("none"), "What --set and messages call the set."},
+    Key{"angle", at<&JointSet::angle>, number(D::angle), required, "Direction of the joints, counter-clockwise from +x."},
+    Key{"spacing", at<&JointSet::spacing>, number(D::length, above(0)), required, "Distance between neighbouring joints, across them."},
+    Key{"origin", at<&JointSet::origin>, point, initial, "One joint of the set passes through this point."},
+    Key{"joint", at<&JointSet::joint>, joint, otherwise("domain.joint"), "Law of the joints of the set."},
+    Key{"region", at<&JointSet::region>, polygon, otherwise("the whole domain"), "The set is only inside this polygon."},
+};
+
+constexpr std::array trace_keys{
+    Key{"points", at<&Trace::points>, polyline, required, "The trace of a single joint, a polyline."},
+    Key{"joint", at<&Trace::joint>, joint, otherwise("domain.joint"), "Law of the joint."},
+};
+
+constexpr std::array opening_keys{
+    Key{"name", at<&Opening::name>, name, otherwise("none"), "What --set, stages and messages call the opening."},
+    Key{"polygon", at<&Opening::polygon>, polygon, required, "Outline of the opening."},
+    Key{"joint", at<&Opening::joint>, joint, otherwise("glued"), "Law of the opening's outline until it is taken out."},
+};
+
+constexpr std::array held_keys{
+    Key{"point", at<&HeldPoint::point>, point, required, "The cut block that holds this point is fixed."},
+};
+
+constexpr std::array wall_keys{
+    Key{"origin", at<&BrickWall::origin>, point, initial, "Lower left corner of the wall."},
+    Key{"columns", at<&BrickWall::columns>, whole(1, 5e6), required, "Bricks in an even row."},
+    Key{"rows", at<&BrickWall::rows>, whole(1, 5e6), required, "Rows of bricks."},
+    Key{"brick", at<&BrickWall::brick>, shape(Kind::point, D::length, above(0)), required, "Length and height of a brick."},
+    Key{"material", at<&BrickWall::material>, material, otherwise(if_one), "Material of the bricks."},
+    Key{"joint", at<&BrickWall::joint>, joint, otherwise("contact.joint"), "Law of the bricks' edges."},
+};
+
+constexpr std::array boundary_keys{
+    Key{"name", at<&Boundary::name>, name, otherwise("none"), "What --set and messages call the boundary."},
+    Key{"sides", at<&Boundary::sides>, words_of(side_names), otherwise("none; either this or along"), "Sides of the box round the model."},
+    Key{"along", at<&Boundary::along>, polyline, otherwise("none; either this or sides"), "The polyline that the boundary follows."},
+    Key{"type", at<&Boundary::type>, choice, initial, "Springs in x and y, or only across the line (roller), on each block vertex on it."},
+    Key{"stiffness", at<&Boundary::stiffness>, number(D::stiffness, above(0)), otherwise("contact.normal_stiffness"), "Spring per block vertex."},
+};
+
+constexpr std::array monitor_keys{
+    Key{"name", at<&Monitor::name>, name, required, "What the columns of history.csv are called."},
+    Key{"point", at<&Monitor::point>, point, required, "A material point of the block that holds it at the start."},
+};
+
+constexpr std::array damping_keys{
+    Key{"mass", at<&Damping::mass>, number(D::rate, from(0)), initial, "Mass-proportional damping."},
+    Key{"local", at<&Damping::local>, number(D::plain, from_below(0, 1)), initial, "Local damping (Cundall), a fraction of the unbalanced force."},
+    Key{"contact", at<&Damping::contact>, number(D::plain, from(0)), initial, "Viscous damping at contacts, a fraction of critical."},
+};
+
+constexpr std::array solver_keys{
+    Key{"method", at<&Solver::method>, choice, initial, "Explicit (edda), or implicit with one global solve (dda)."},
+    Key{"mass", at<&Solver::mass>, choice, initial, "How a block's mass sits on its nodes."},
+    Key{"switching", at<&Solver::switching>, choice, initial, "How contacts open and close: keeping the energy (exact), or as in the paper (plain)."},
+    Key{"duration", at<&Solver::duration>, number(D::time, above(0)), required, "Time to simulate."},
+    Key{"time_step", at<&Solver::time_step>, number_or("auto", D::time, above(0)), otherwise("\"auto\""), "Time step; above the critical step it is refused."},
+    Key{"allow_unstable", at<&Solver::allow_unstable>, flag, initial, "Whether a time step above the critical one is run all the same."},
+    Key{"safety", at<&Solver::safety>, number(D::plain, above_to(0, 1)), initial, "Part of the critical step that is taken when time_step is \"auto\"."},
+    Key{"max_displacement_ratio", at<&Solver::max_displacement_ratio>, number(D::plain, above_to(0, 1)), initial, "Largest displacement in one step, of the model's half-height."},
+    Key{"damping", at<&Solver::damping>, table, initial, "Damping of the motion."},
+};
+
+constexpr std::array output_keys{
+    Key{"every", at<&Output::every>, number(D::time, above(0)), otherwise("solver.duration / 20"), "Time between pictures of all blocks."},
+    Key{"history_every", at<&Output::history_every>, number(D::time, above(0)), otherwise("solver.duration / 200"), "Time between rows of history.csv."},
+};
+
+constexpr Section root_section{"", Shape::root, false, root_keys, "The model as a whole.",
+    [](const Model&) { return std::size_t{1}; }, [](Model& m) -> void* { return &m; },
+    [](Model& m, std::size_t) -> void* { return &m; }, nullptr, nullptr};
+
+constexpr std::array all_sections{
+    root_section,
+    section<&Model::materials>("materials", Shape::named, material_keys, "Elastic rock."),
+    section<&Model::joints>("joints", Shape::named, joint_keys, "The contact law of a joint."),
+    section<&Model::contact>("contact", Shape::table, contact_keys, "What holds for contacts whose joint says nothing else."),
+    section<&Model::blocks>("block", Shape::list, block_keys, "A block given as it is."),
+    section<&Model::domain>("domain", Shape::table, domain_keys, "A region that joint sets, traces and openings cut into blocks."),
+    section<&Model::joint_sets>("joint_set", Shape::list, joint_set_keys, "Parallel, straight joints."),
+    section<&Model::traces>("trace", Shape::list, trace_keys, "A single joint."),
+    section<&Model::openings>("opening", Shape::list, opening_keys, "A part of the domain that is taken out."),
+    section<&Model::held>("held", Shape::list, held_keys, "A cut block that does not move."),
+    section<&Model::walls>("brick_wall", Shape::list, wall_keys, "Bricks in running bond, half bricks closing the odd rows."),
+    section<&Model::boundaries>("boundary", Shape::list, boundary_keys, "Springs that hold the model at a line."),
+    section<&Model::monitors>("monitor", Shape::list, monitor_keys, "A point whose history is written."),
+    section<&Model::solver>("solver", Shape::table, solver_keys, "How the motion is computed."),
+    section<&Model::output>("output", Shape::table, output_keys, "What is written, and how often."),
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const Key> keys_of(const Strength&) {
+  return strength_keys;
+}
+std::span<const Key> keys_of(const Damping&) {
+  return damping_keys;
+}
+
+std::span<const Section> sections() {
+  return all_sections;
+}
+
+const Section* find_section(std::string_view name) {
+  for (const Section& s : all_sections) {
+    if (s.shape != Shape::root && s.name == name) return &s;
+  }
+  return nullptr;
+}
+
+const Key* find_key(std::span<const Key> keys, std::string_view name) {
+  for (const Key& key : keys) {
+    if (key.name == name) return &key;
+  }
+  return nullptr;
+}
+
+std::vector<std::string_view> key_names(std::span<const Key> keys) {
+  std::vector<std::string_view> names;
+  for (const Key& key : keys) names.push_back(key.name);
+  return names;
+}
+
+}  // namespace edda

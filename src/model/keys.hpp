@@ -1,0 +1,122 @@
+// The table of keys. Every key of a model file is one line of keys.cpp: its name, the field it
+// fills, what it may hold, its default and its meaning. Reading, range checks, hints, the written
+// model.toml and the manual's reference all come from that line.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "model/model.hpp"
+#include "model/quantity.hpp"
+
+namespace edda {
+
+enum class Kind {
+  flag,
+  integer,
+  number,
+  text,
+  name,      ///< text that is not empty: what lists and --set call the element
+  choice,    ///< one of the words of an enumeration
+  material,  ///< name of a material
+  joint,     ///< name of a joint law
+  point,     ///< two numbers
+  polyline,  ///< two points or more
+  polygon,   ///< three points or more, with an area, not crossing itself
+  words,     ///< a list of distinct words, each one of Rule::words
+  table,     ///< keys inside a key: damping = { ... }
+};
+
+/// Bounds of a number, inclusive unless open. Points obey them in each component.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false, high_open = false;
+
+  bool holds(double x) const {
+    return (low_open ? x > low : x >= low) && (high_open ? x < high : x <= high);
+  }
+};
+
+/// What a key may hold.
+struct Rule {
+  Kind kind = Kind::number;
+  Dimension dimension = Dimension::plain;
+  Range range = {};
+  std::string_view word = {};  ///< accepted in place of a number ("auto"): no value
+  std::span<const std::string_view> words = {};  ///< of Kind::words
+};
+
+/// What holds where a key is left out: a fault, the field's initial value in model.hpp, or what
+/// `text` says (filled in by complete.cpp).
+struct Default {
+  bool required = false;
+  std::string_view text;
+};
+
+/// A field of an enumeration type, as a number and the names of its values.
+struct Choice {
+  std::span<const std::string_view> names;
+  void* field;
+  int (*get)(const void* field);
+  void (*set)(void* field, int value);
+};
+
+struct Key;
+struct SubTable {
+  std::span<const Key> keys;
+  void* object;
+};
+
+/// Typed access to the field that a key fills.
+using Slot = std::variant<bool*, int*, long long*, double*, std::optional<double>*, std::string*,
+                          Vec2*, std::vector<Vec2>*, std::vector<std::string>*, Choice, SubTable>;
+
+struct Key {
+  std::string_view name;
+  Slot (*slot)(void* object);  ///< null: no field of its own, complete.cpp reads it (unit_weight)
+  Rule rule;
+  Default otherwise;
+  std::string_view meaning;
+};
+
+enum class Shape {
+  root,   ///< keys outside any table
+  table,  ///< [solver]
+  named,  ///< [materials.NAME]
+  list,   ///< [[block]]
+};
+
+/// A table of the model file, and how its objects are reached in a Model.
+struct Section {
+  std::string_view name;
+  Shape shape;
+  bool optional;  ///< of Shape::table: nothing is read or required where the table is missing
+  std::span<const Key> keys;
+  std::string_view meaning;
+  std::size_t (*count)(const Model& model);
+  void* (*add)(Model& model);  ///< a new object of a list; the one object of a table
+  void* (*at)(Model& model, std::size_t i);
+  Where* (*where)(void* object);          ///< null if the object does not keep it
+  std::string* (*name_of)(void* object);  ///< of Shape::named, else null
+};
+
+/// All tables, in the order in which they are read and written: what others name comes first.
+std::span<const Section> sections();
+const Section* find_section(std::string_view name);
+const Key* find_key(std::span<const Key> keys, std::string_view name);
+std::vector<std::string_view> key_names(std::span<const Key> keys);
+
+/// What a value must be: `a length above 0 such as 2.5 or "2.5 m"`.
+std::string expected(const Key& key);
+/// As expected(), without the example: `a length above 0`.
+std::string expected_range(const Rule& rule);
+
+}  // namespace edda

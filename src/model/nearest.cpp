@@ -1,0 +1,82 @@
+#include "model/nearest.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <limits>
+
+namespace edda {
+namespace {
+
+constexpr std::size_t longest_word = 64;  // an edit distance costs the product of the lengths
+
+std::string lowered(std::string_view word) {
+  std::string lower(word.substr(0, longest_word));
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
+}
+
+}  // namespace
+
+std::string clipped(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  std::size_t end = text.size();
+  if (end > longest) {
+    end = longest;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  }
+  std::string line(text.substr(0, end));
+  for (char& c : line) {
+    if (static_cast<unsigned char>(c) < 0x20U || c == 0x7F) c = '?';
+  }
+  return end < text.size() ? line + "..." : line;
+}
+
+int edit_distance(std::string_view first, std::string_view second) {
+  const std::string a = lowered(first), b = lowered(second);
+  std::vector<int> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = static_cast<int>(j);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = static_cast<int>(i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const int replace = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, replace});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        row[j] = std::min(row[j], before[j - 2] + 1);
+      }
+    }
+    before.swap(last);
+    last.swap(row);
+  }
+  return last[b.size()];
+}
+
+std::string_view nearest(std::string_view word, std::span<const std::string_view> known) {
+  std::string_view best;
+  int fewest = std::numeric_limits<int>::max();
+  for (const std::string_view candidate : known) {
+    const int edits = edit_distance(word, candidate);
+    if (edits >= fewest) continue;
+    fewest = edits;
+    best = candidate;
+  }
+  return best;
+}
+
+std::string quoted_list(std::span<const std::string_view> words) {
+  constexpr std::size_t most = 12;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(words.size(), most); ++i) {
+    list += (i == 0 ? "\"" : ", \"") + clipped(words[i]) + '"';
+  }
+  if (words.size() > most) list += " and " + std::to_string(words.size() - most) + " more";
+  return list;
+}
+
+std::string suggestion(std::string_view word, std::span<const std::string_view> known) {
+  std::string text = "did you mean \"" + clipped(nearest(word, known)) + "\"?";
+  if (known.size() > 1) text += " known here: " + quoted_list(known);
+  return text;
+}
+
+}  // namespace edda

@@ -1,0 +1,27 @@
+// "Did you mean ...": the nearest of the words that are known.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace edda {
+
+/// The text on one line and of a length fit for a message: control characters as "?", cut after 40
+/// bytes between characters.
+std::string clipped(std::string_view text);
+
+/// Edits (insert, delete, replace, swap of neighbours) from a to b, ignoring case.
+int edit_distance(std::string_view a, std::string_view b);
+
+/// The word of `known` with the fewest edits from `word`, the first of equals; empty if none.
+std::string_view nearest(std::string_view word, std::span<const std::string_view> known);
+
+/// `"a", "b", "c"`, cut off after a dozen.
+std::string quoted_list(std::span<const std::string_view> words);
+
+/// `did you mean "rock"?` with the known words after it, where there are several.
+std::string suggestion(std::string_view word, std::span<const std::string_view> known);
+
+}  // namespace edda

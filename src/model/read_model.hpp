@@ -1,0 +1,23 @@
+// A model file becomes a checked, constant Model.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/fault.hpp"
+#include "model/model.hpp"
+
+namespace edda {
+
+/// Reads the TOML file `path`, applies `overrides` ("solver.duration=0.2") in order, fills in every
+/// default and checks all that needs no geometry to be cut. All faults come together, in the order
+/// of the lines, those of overrides last ("--set", line = number of the override from 1); a TOML
+/// syntax error, or a file that cannot be read, stands alone.
+Result<Model> read_model(const std::string& path, const std::vector<std::string>& overrides = {});
+
+/// As read_model(), for a text at hand; `file_name` is what faults and Model::file say.
+Result<Model> read_model_text(std::string_view text, const std::string& file_name,
+                              const std::vector<std::string>& overrides = {});
+
+}  // namespace edda

@@ -1,0 +1,401 @@
+#include "model/reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "model/nearest.hpp"
+#include "model/polygon_check.hpp"
+
+namespace edda {
+namespace {
+
+template <class T>
+const T* as(const Value& value) {
+  return std::get_if<T>(&value.content);
+}
+
+/// One value on its way into its field.
+struct Spot {
+  const Key& key;
+  const Value& value;
+  const std::string& path;  ///< dotted key
+  Reading& reading;
+};
+
+void type_fault(const Spot& spot) {
+  add_fault(spot.reading, spot.value.place, spot.path, "is " + shown(spot.value),
+            "expects " + expected(spot.key));
+}
+
+void unknown_name(const Spot& spot, const std::string& name, std::string_view what,
+                  std::span<const std::string_view> known, const std::string& none_known) {
+  add_fault(spot.reading, spot.value.place, spot.path,
+            fmt::format("no {} is called \"{}\"", what, clipped(name)),
+            known.empty() ? none_known : suggestion(name, known));
+}
+
+template <class Item>
+std::vector<std::string_view> item_names(const std::vector<Item>& items) {
+  std::vector<std::string_view> names;
+  for (const Item& item : items) names.push_back(item.name);
+  return names;
+}
+
+template <class Item>
+Index index_of(const std::vector<Item>& items, std::string_view name) {
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (items[i].name == name) return static_cast<Index>(i);
+  }
+  return none;
+}
+
+template <class Item>
+Index read_reference(const Spot& spot, const std::vector<Item>& items, std::string_view what,
+                     std::string_view table) {
+  const std::string* name = as<std::string>(spot.value);
+  if (name == nullptr) {
+    type_fault(spot);
+    return none;
+  }
+  const Index i = index_of(items, *name);
+  if (i == none) {
+    unknown_name(spot, *name, what, item_names(items),
+                 fmt::format("add [{}.{}]", table, clipped(*name)));
+  }
+  return i;
+}
+
+std::optional<long long> read_integer(const Spot& spot) {
+  const long long* integer = as<long long>(spot.value);
+  const double* number = as<double>(spot.value);
+  long long value = 0;
+  if (integer != nullptr) {
+    value = *integer;
+  } else if (number != nullptr && std::abs(*number) < 1e15 && *number == std::floor(*number)) {
+    value = static_cast<long long>(*number);
+  } else {
+    type_fault(spot);
+    return std::nullopt;
+  }
+  if (!spot.key.rule.range.holds(static_cast<double>(value))) {
+    add_fault(spot.reading, spot.value.place, spot.path, fmt::format("{} is out of range", value),
+              "expects " + expected_range(spot.key.rule));
+    return std::nullopt;
+  }
+  return value;
+}
+
+/// A point of two numbers; its faults carry `path`, which already holds the number of the point.
+std::optional<Vec2> read_point(const Value& value, const Key& key, const std::string& path,
+                               Reading& reading) {
+  const List* pair = as<List>(value);
+  if (pair == nullptr || pair->size() != 2) {
+    add_fault(reading, value.place, path,
+              pair == nullptr ? "is " + shown(value)
+                              : fmt::format("has {} numbers, not two", pair->size()),
+              key.rule.kind == Kind::point ? "expects " + expected(key)
+                                           : "expects a point such as [1.0, 2.5]");
+    return std::nullopt;
+  }
+  const auto x = read_number((*pair)[0], key, path + "[0]", reading);
+  const auto y = read_number((*pair)[1], key, path + "[1]", reading);
+  if (!x || !y) return std::nullopt;
+  return Vec2{*x, *y};
+}
+
+/// A list of points, empty where anything is wrong with it.
+std::vector<Vec2> read_points(const Spot& spot) {
+  const List* list = as<List>(spot.value);
+  if (list == nullptr) {
+    type_fault(spot);
+    return {};
+  }
+  std::vector<Vec2> points;
+  points.reserve(list->size());
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const auto point =
+        read_point((*list)[i], spot.key, fmt::format("{}[{}]", spot.path, i), spot.reading);
+    if (point) points.push_back(*point);
+  }
+  if (points.size() != list->size()) return {};
+  const std::size_t before = spot.reading.faults.size();
+  check_points(points, spot.key.rule.kind, spot.value, spot.path, spot.reading);
+  if (spot.reading.faults.size() != before) return {};
+  return points;
+}
+
+std::vector<std::string> read_words(const Spot& spot) {
+  const List* list = as<List>(spot.value);
+  if (list == nullptr || list->empty()) {
+    type_fault(spot);
+    return {};
+  }
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const Value& item = (*list)[i];
+    const std::string path = fmt::format("{}[{}]", spot.path, i);
+    const std::string* word = as<std::string>(item);
+    const auto& known = spot.key.rule.words;
+    if (word == nullptr) {
+      add_fault(spot.reading, item.place, path, "is " + shown(item),
+                "expects one of " + quoted_list(known));
+    } else if (std::find(known.begin(), known.end(), *word) == known.end()) {
+      add_fault(spot.reading, item.place, path, shown(item) + " is not known",
+                suggestion(*word, known));
+    } else if (std::find(words.begin(), words.end(), *word) != words.end()) {
+      add_fault(spot.reading, item.place, path, shown(item) + " is given twice", "name each once");
+    } else {
+      words.push_back(*word);
+    }
+  }
+  return words;
+}
+
+void read_keys(std::span<const Key> keys, void* object, const Value& table,
+               const std::string& prefix, Reading& reading);
+
+/// Reads a value into a field of each type.
+struct ReadInto {
+  Spot spot;
+
+  void operator()(bool* field) const {
+    if (const bool* value = as<bool>(spot.value)) {
+      *field = *value;
+    } else {
+      type_fault(spot);
+    }
+  }
+  void operator()(int* field) const {
+    if (spot.key.rule.kind == Kind::material) {
+      *field = read_reference(spot, spot.reading.model.materials, "material", "materials");
+    } else if (spot.key.rule.kind == Kind::joint) {
+      *field = read_reference(spot, spot.reading.model.joints, "joint", "joints");
+    } else if (const auto value = read_integer(spot)) {
+      *field = static_cast<int>(*value);
+    }
+  }
+  void operator()(long long* field) const {
+    if (const auto value = read_integer(spot)) *field = *value;
+  }
+  void operator()(double* field) const {
+    if (const auto value = number()) *field = *value;
+  }
+  void operator()(std::optional<double>* field) const {
+    const std::string* word = as<std::string>(spot.value);
+    if (word != nullptr && !spot.key.rule.word.empty() && *word == spot.key.rule.word) {
+      field->reset();
+    } else if (const auto value = number()) {
+      *field = *value;
+    }
+  }
+  void operator()(std::string* field) const {
+    const std::string* value = as<std::string>(spot.value);
+    if (value == nullptr) return type_fault(spot);
+    if (spot.key.rule.kind == Kind::name && value->empty()) {
+      add_fault(spot.reading, spot.value.place, spot.path, "is empty", "give a name");
+    }
+    *field = *value;
+  }
+  void operator()(Vec2* field) const {
+    const auto value = read_point(spot.value, spot.key, spot.path, spot.reading);
+    if (value) *field = *value;
+  }
+  void operator()(std::vector<Vec2>* field) const { *field = read_points(spot); }
+  void operator()(std::vector<std::string>* field) const { *field = read_words(spot); }
+  void operator()(const Choice& choice) const {
+    const std::string* word = as<std::string>(spot.value);
+    const auto found = word == nullptr ? choice.names.end()
+                                       : std::find(choice.names.begin(), choice.names.end(), *word);
+    if (found != choice.names.end()) {
+      choice.set(choice.field, static_cast<int>(found - choice.names.begin()));
+    } else if (word == nullptr) {
+      add_fault(spot.reading, spot.value.place, spot.path, "is " + shown(spot.value),
+                "expects one of " + quoted_list(choice.names));
+    } else {
+      add_fault(spot.reading, spot.value.place, spot.path, shown(spot.value) + " is not known",
+                suggestion(*word, choice.names));
+    }
+  }
+  void operator()(const SubTable& table) const {
+    if (as<Table>(spot.value) == nullptr) return type_fault(spot);
+    read_keys(table.keys, table.object, spot.value, spot.path + '.', spot.reading);
+  }
+
+  std::optional<double> number() const {
+    return read_number(spot.value, spot.key, spot.path, spot.reading);
+  }
+};
+
+/// Hint for a key that this table does not know: the one it may mean, or the table it belongs to.
+std::string unknown_key_hint(std::string_view name, std::span<const std::string_view> known) {
+  constexpr int likely = 2;
+  if (edit_distance(name, nearest(name, known)) > likely) {
+    for (const Section& section : sections()) {
+      if (section.shape != Shape::root && find_key(section.keys, name) != nullptr) {
+        return fmt::format("it belongs to [{}]; the nearest key here is \"{}\"", section.name,
+                           nearest(name, known));
+      }
+    }
+  }
+  return suggestion(name, known);
+}
+
+void unknown_key(const Entry& entry, std::span<const std::string_view> known,
+                 const std::string& prefix, Reading& reading) {
+  add_fault(reading, entry.place, prefix + entry.key, "unknown key",
+            unknown_key_hint(entry.key, known));
+}
+
+void read_keys(std::span<const Key> keys, void* object, const Value& table,
+               const std::string& prefix, Reading& reading) {
+  const Table* entries = as<Table>(table);
+  if (entries == nullptr) return;
+  const bool is_root = prefix.empty();
+  for (const Entry& entry : *entries) {
+    if (is_root && find_section(entry.key) != nullptr) continue;
+    const Key* key = find_key(keys, entry.key);
+    if (key == nullptr) {
+      std::vector<std::string_view> known = key_names(keys);
+      if (is_root) {
+        for (const Section& s : sections()) {
+          if (s.shape != Shape::root) known.push_back(s.name);
+        }
+      }
+      unknown_key(entry, known, prefix, reading);
+    } else if (key->slot != nullptr) {
+      const std::string path = prefix + entry.key;
+      std::visit(ReadInto{{*key, entry.value, path, reading}}, key->slot(object));
+    }
+  }
+  for (const Key& key : keys) {
+    if (!key.otherwise.required || find(&table, key.name) != nullptr) continue;
+    add_fault(reading, table.place, prefix + std::string(key.name), "is missing",
+              "give " + expected(key));
+  }
+}
+
+/// One object: its keys, its place and, in a named table, its name.
+void read_object(const Section& section, const Value& value, const std::string& path,
+                 const std::string& object_name, Reading& reading) {
+  void* object = section.add(reading.model);
+  if (section.where != nullptr) *section.where(object) = where_of(reading, value.place, path);
+  if (section.name_of != nullptr) *section.name_of(object) = object_name;
+  if (as<Table>(value) == nullptr) {
+    add_fault(reading, value.place, path, "is " + shown(value),
+              section.shape == Shape::list ? fmt::format("write [[{}]], one for each", section.name)
+                                           : fmt::format("write [{}]", path));
+    return;
+  }
+  read_keys(section.keys, object, value, section.shape == Shape::root ? "" : path + '.', reading);
+}
+
+void read_list(const Section& section, const Value& value, Reading& reading) {
+  const List* list = as<List>(value);
+  if (list == nullptr) {
+    add_fault(reading, value.place, std::string(section.name), "is " + shown(value),
+              fmt::format("write [[{}]], one for each", section.name));
+    return;
+  }
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const std::string path = fmt::format("{}.{}", section.name, label((*list)[i], i));
+    read_object(section, (*list)[i], path, {}, reading);
+  }
+}
+
+void read_named(const Section& section, const Value& value, Reading& reading) {
+  const Table* table = as<Table>(value);
+  if (table == nullptr) {
+    add_fault(reading, value.place, std::string(section.name), "is " + shown(value),
+              fmt::format("write [{}.NAME], one for each", section.name));
+    return;
+  }
+  for (const Entry& entry : *table) {
+    if (entry.key.empty()) {
+      add_fault(reading, entry.place, std::string(section.name), "an empty name", "give a name");
+    }
+    read_object(section, entry.value, fmt::format("{}.{}", section.name, entry.key), entry.key,
+                reading);
+  }
+}
+
+}  // namespace
+
+Where where_of(const Reading& reading, Place place, std::string key) {
+  if (place.from_set) return {std::move(key), "--set", place.line, 1};
+  return {std::move(key), reading.file, place.line, place.column};
+}
+
+void add_fault(Reading& reading, Place place, std::string key, std::string problem,
+               std::string remedy) {
+  for (char& c : key) {
+    if (static_cast<unsigned char>(c) < 0x20U) c = '?';  // a quoted key may hold a line break
+  }
+  reading.faults.push_back(
+      {where_of(reading, place, std::move(key)), std::move(problem), std::move(remedy)});
+}
+
+std::string label(const Value& element, std::size_t number) {
+  const Value* name = find(&element, "name");
+  const std::string* text = name == nullptr ? nullptr : as<std::string>(*name);
+  return text == nullptr || text->empty() ? std::to_string(number) : *text;
+}
+
+std::optional<double> read_number(const Value& value, const Key& key, const std::string& path,
+                                  Reading& reading) {
+  const auto fails = [&](std::string problem, std::string remedy) {
+    add_fault(reading, value.place, path, std::move(problem), std::move(remedy));
+    return std::nullopt;
+  };
+  // Of a point the key asks for a pair, of its elements for a number.
+  Key scalar = key;
+  if (key.rule.kind != Kind::number) scalar.rule.kind = Kind::number;
+  double number = 0.0;
+  if (const long long* integer = as<long long>(value)) {
+    number = static_cast<double>(*integer);
+  } else if (const double* real = as<double>(value)) {
+    number = *real;
+  } else if (const std::string* text = as<std::string>(value)) {
+    const Quantity quantity = parse_quantity(*text, key.rule.dimension);
+    if (!quantity.value) return fails(quantity.problem, "expects " + expected(scalar));
+    number = *quantity.value;
+  } else {
+    return fails("is " + shown(value), "expects " + expected(scalar));
+  }
+  // Squares and products of what passes stay far from overflow.
+  const double largest = key.rule.dimension == Dimension::length ? 1e12 : 1e150;
+  if (!std::isfinite(number)) return fails("is not a finite number", "expects " + expected(scalar));
+  if (std::abs(number) > largest) {
+    return fails(fmt::format("{} is too large", shown(value)),
+                 fmt::format("give at most {:.0e} in size", largest));
+  }
+  if (!key.rule.range.holds(number)) {
+    return fails(fmt::format("{} is out of range", shown(value)),
+                 "expects " + expected_range(scalar.rule));
+  }
+  return number;
+}
+
+void read_sections(const Value& root, Reading& reading) {
+  for (const Section& section : sections()) {
+    const Value* value = section.shape == Shape::root ? &root : find(&root, section.name);
+    if (section.shape == Shape::root) {
+      read_object(section, root, {}, {}, reading);
+    } else if (section.shape == Shape::table) {
+      // A table that is missing altogether may still have keys that are required.
+      const Value empty{Table{}, {1, 1, false}};
+      if (value == nullptr && section.optional) continue;
+      read_object(section, value == nullptr ? empty : *value, std::string(section.name), {},
+                  reading);
+    } else if (value != nullptr && section.shape == Shape::named) {
+      read_named(section, *value, reading);
+    } else if (value != nullptr) {
+      read_list(section, *value, reading);
+    }
+  }
+}
+
+}  // namespace edda

@@ -1,0 +1,34 @@
+// From the tree of values to the structs of the model, driven by the table of keys alone.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "model/keys.hpp"
+#include "model/value.hpp"
+
+namespace edda {
+
+/// What reading works on: the model so far and the faults so far.
+struct Reading {
+  std::string file;
+  Model model;
+  Faults faults;
+};
+
+Where where_of(const Reading& reading, Place place, std::string key);
+void add_fault(Reading& reading, Place place, std::string key, std::string problem,
+               std::string remedy);
+
+/// What an element of a list is called in keys: its name, else its number.
+std::string label(const Value& element, std::size_t number);
+
+/// Fills every object of every section. Objects and elements of the file keep the same numbers,
+/// also where an element is faulty. What is left out keeps the initial value of model.hpp.
+void read_sections(const Value& root, Reading& reading);
+
+/// A number in the key's unit, or nothing and a fault at `path`.
+std::optional<double> read_number(const Value& value, const Key& key, const std::string& path,
+                                  Reading& reading);
+
+}  // namespace edda

@@ -1,0 +1,126 @@
+#include "model/write_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "model/keys.hpp"
+
+namespace edda {
+namespace {
+
+std::string written(double x) {
+  std::string text = fmt::format("{}", x);
+  // Without this TOML would read an integer, and -0 would lose its sign.
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string written(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      quoted += '\\';
+      quoted += c;
+    } else if (static_cast<unsigned char>(c) < 0x20U || c == 0x7F) {
+      quoted += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + '"';
+}
+
+std::string written(Vec2 point) {
+  return '[' + written(point.x) + ", " + written(point.y) + ']';
+}
+
+template <class Item>
+std::string written(const std::vector<Item>& items) {
+  std::string text = "[";
+  for (std::size_t i = 0; i < items.size(); ++i) text += (i == 0 ? "" : ", ") + written(items[i]);
+  return text + ']';
+}
+
+std::string bare_or_quoted(const std::string& key) {
+  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  });
+  return bare ? key : written(key);
+}
+
+/// The value of a field as TOML; empty where there is nothing to write.
+struct Write {
+  const Key& key;
+  const Model& model;
+
+  std::string operator()(const bool* field) const { return *field ? "true" : "false"; }
+  std::string operator()(const int* field) const {
+    if (key.rule.kind == Kind::integer) return std::to_string(*field);
+    if (*field == none) return {};
+    const auto i = static_cast<std::size_t>(*field);
+    return written(key.rule.kind == Kind::material ? model.materials[i].name
+                                                   : model.joints[i].name);
+  }
+  std::string operator()(const long long* field) const { return std::to_string(*field); }
+  std::string operator()(const double* field) const { return written(*field); }
+  std::string operator()(const std::optional<double>* field) const {
+    if (*field) return written(**field);
+    return key.rule.word.empty() ? std::string{} : written(std::string(key.rule.word));
+  }
+  std::string operator()(const std::string* field) const {
+    return key.rule.kind == Kind::name && field->empty() ? std::string{} : written(*field);
+  }
+  std::string operator()(const Vec2* field) const { return written(*field); }
+  std::string operator()(const std::vector<Vec2>* field) const {
+    return field->empty() ? std::string{} : written(*field);
+  }
+  std::string operator()(const std::vector<std::string>* field) const {
+    return field->empty() ? std::string{} : written(*field);
+  }
+  std::string operator()(const Choice& choice) const {
+    return written(std::string(choice.names[static_cast<std::size_t>(choice.get(choice.field))]));
+  }
+  std::string operator()(const SubTable& table) const {
+    std::string text = "{ ";
+    for (const Key& inner : table.keys) {
+      if (text.size() > 2) text += ", ";
+      text += fmt::format("{} = {}", inner.name,
+                          std::visit(Write{inner, model}, inner.slot(table.object)));
+    }
+    return text + " }";
+  }
+};
+
+void write_header(const Section& section, void* object, std::string& text) {
+  if (section.shape == Shape::root) return;
+  if (section.shape == Shape::list) {
+    text += fmt::format("\n[[{}]]\n", section.name);
+  } else if (section.shape == Shape::named) {
+    text += fmt::format("\n[{}.{}]\n", section.name, bare_or_quoted(*section.name_of(object)));
+  } else {
+    text += fmt::format("\n[{}]\n", section.name);
+  }
+}
+
+}  // namespace
+
+std::string to_toml(const Model& model) {
+  Model copy = model;  // slots reach fields to fill them, too
+  std::string text;
+  for (const Section& section : sections()) {
+    for (std::size_t i = 0; i < section.count(copy); ++i) {
+      void* object = section.at(copy, i);
+      write_header(section, object, text);
+      for (const Key& key : section.keys) {
+        if (key.slot == nullptr) continue;
+        const std::string value = std::visit(Write{key, copy}, key.slot(object));
+        if (!value.empty()) text += fmt::format("{} = {}\n", key.name, value);
+      }
+    }
+  }
+  return text;
+}
+
+}  // namespace edda

@@ -1,0 +1,15 @@
+// A Model back as a model file.
+#pragma once
+
+#include <string>
+
+#include "model/model.hpp"
+
+namespace edda {
+
+/// The model as run: TOML with every key and every default filled in, in SI units and degrees,
+/// numbers the shortest that read back to the same bits. read_model_text() of it gives the same
+/// model but for Model::file and the places.
+std::string to_toml(const Model& model);
+
+}  // namespace edda
