@@ -1,11 +1,14 @@
 #include "lines/build_polygons.hpp"
 
+#include <cstddef>
 #include <iterator>
 #include <utility>
 #include <vector>
 
 #include "lines/cut_domain.hpp"
 #include "lines/given_blocks.hpp"
+#include "lines/held.hpp"
+#include "lines/overlaps.hpp"
 #include "lines/quality.hpp"
 
 namespace edda {
@@ -22,6 +25,7 @@ Result<PolygonSet> build_polygons(const Model& model) {
   set.origin = model_centre(model);
   set.blocks = given_blocks(model, set.origin);
   append(set.blocks, wall_bricks(model, set.origin));
+  const std::size_t first_cut = set.blocks.size();
   if (model.domain) {
     Result<DomainCut> cut = cut_domain(model, set.origin);
     if (!cut.ok()) return cut.faults();
@@ -29,6 +33,10 @@ Result<PolygonSet> build_polygons(const Model& model) {
     set.removed = std::move(cut.value().removed);
     set.report = cut.value().report;
   }
+  Faults faults = hold_blocks(model, model.domain ? snap_of(model) : 0.0, first_cut, set);
+  if (!faults.empty()) return faults;
+  faults = find_overlaps(set.blocks, first_cut);
+  if (!faults.empty()) return faults;
   measure_quality(set.blocks, set.origin, set.report);
   return set;
 }

@@ -1,10 +1,12 @@
 // Notation: a corner is a vertex that must stay (the law changes, or the ring turns by 90 degrees
 // or more); a run goes from one kept vertex to the next; its chord is the edge that would replace
 // it. Runs are split at the vertex farthest from the chord until all are within tolerance (Douglas
-// and Peucker 1973), so that errors do not add up along a run.
+// and Peucker 1973), so that errors do not add up along a run. Distances are to the chord itself,
+// not to its line.
 #include "lines/straight_runs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -47,6 +49,16 @@ std::vector<std::uint8_t> corners(const Ring& ring, const std::vector<Index>& la
     corner[i] = law[before] != law[i] || dot(in, out) <= 0.0;
   }
   return corner;
+}
+
+/// Whether the ring is so thin that the tolerance is no longer small beside its width (2 area /
+/// perimeter).
+bool is_thin(const Ring& ring, double tolerance) {
+  double perimeter = 0.0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    perimeter += norm(ring[(i + 1) % ring.size()] - ring[i]);
+  }
+  return 2.0 * std::abs(signed_area(ring)) < 4.0 * tolerance * perimeter;
 }
 
 bool anything_straight(const Ring& ring, const std::vector<std::uint8_t>& corner,
@@ -121,7 +133,7 @@ void drop_needless(const Ring& ring, const std::vector<std::uint8_t>& corner,
 void remove_straight_runs(Ring& ring, std::vector<Index>& law, double tolerance) {
   if (ring.size() <= 3) return;
   const std::vector<std::uint8_t> corner = corners(ring, law);
-  if (!anything_straight(ring, corner, tolerance)) return;
+  if (!anything_straight(ring, corner, tolerance) || is_thin(ring, tolerance)) return;
   std::vector<std::uint8_t> kept = first_kept(ring, corner);
   split_runs(ring, kept, tolerance);
   drop_needless(ring, corner, kept, tolerance);

@@ -1,0 +1,85 @@
+#include "lines/held.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/polygon.hpp"
+#include "lines/place.hpp"
+
+namespace edda {
+namespace {
+
+/// Whether p lies within `margin` of the box round the block's outer ring.
+bool in_box(const BlockPolygon& block, Vec2 p, double margin) {
+  bool left = false, right = false, below = false, above = false;
+  for (Vec2 v : block.rings[0]) {
+    left |= v.x <= p.x + margin;
+    right |= v.x >= p.x - margin;
+    below |= v.y <= p.y + margin;
+    above |= v.y >= p.y - margin;
+  }
+  return left && right && below && above;
+}
+
+/// The block that holds p, or all those on whose edge it lies.
+std::vector<std::size_t> holders(const PolygonSet& set, std::size_t first_cut, Vec2 p,
+                                 double snap) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = first_cut; i < set.blocks.size(); ++i) {
+    if (!in_box(set.blocks[i], p, snap)) continue;
+    const int side = side_of(set.blocks[i].rings, p, snap);
+    if (side > 0) return {i};
+    if (side == 0) found.push_back(i);
+  }
+  return found;
+}
+
+std::string list_of(const std::vector<std::size_t>& ids) {
+  std::string text;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (i > 0) text += i + 1 == ids.size() ? " and " : ", ";
+    text += std::to_string(ids[i]);
+  }
+  return text;
+}
+
+std::string opening_name(const Model& model, Index opening) {
+  const std::string& name = model.openings[static_cast<std::size_t>(opening)].name;
+  return name.empty() ? "opening " + std::to_string(opening) : "opening \"" + name + "\"";
+}
+
+Fault in_no_block(const Model& model, const PolygonSet& set, const HeldPoint& held, double snap) {
+  const Vec2 p = held.point - set.origin;
+  for (const BlockPolygon& gone : set.removed) {
+    if (!in_box(gone, p, snap) || side_of(gone.rings, p, snap) < 0) continue;
+    return {member_of(held.where, "point"),
+            "lies in " + opening_name(model, gone.opening) + ", which is taken out",
+            "move it into a block that stays"};
+  }
+  return {member_of(held.where, "point"), "lies in no cut block",
+          model.domain ? "move it inside domain.outline"
+                       : "give a [domain], or set fixed = true on a [[block]]"};
+}
+
+}  // namespace
+
+Faults hold_blocks(const Model& model, double snap, std::size_t first_cut, PolygonSet& set) {
+  Faults faults;
+  for (const HeldPoint& held : model.held) {
+    const auto found = holders(set, first_cut, held.point - set.origin, snap);
+    if (found.size() == 1) {
+      set.blocks[found[0]].fixed = true;
+    } else if (found.empty()) {
+      faults.push_back(in_no_block(model, set, held, snap));
+    } else {
+      faults.push_back({member_of(held.where, "point"),
+                        "lies on an edge shared by blocks " + list_of(found),
+                        "move it into the one that is to be held"});
+    }
+  }
+  return faults;
+}
+
+}  // namespace edda
