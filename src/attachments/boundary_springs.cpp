@@ -1,0 +1,133 @@
+#include "attachments/boundary_springs.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.hpp"
+
+namespace edda {
+namespace {
+
+struct Line {
+  Vec2 a, b;
+};
+
+struct Box {
+  Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Vec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  void add(Vec2 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+};
+
+/// The box whose sides boundaries name: the outline's, or that of all blocks.
+Box model_box(const Model& model, const BlockSet& b) {
+  Box box;
+  if (model.domain) {
+    for (Vec2 p : model.domain->outline) box.add(p - b.origin);
+  } else {
+    for (std::size_t v = 0; v < b.vertex_count(); ++v) box.add({b.vertex_x[v], b.vertex_y[v]});
+  }
+  return box;
+}
+
+std::vector<Line> lines_of(const Boundary& boundary, const Box& box, Vec2 origin) {
+  std::vector<Line> lines;
+  const Vec2 ll = box.low, ur = box.high, lr{ur.x, ll.y}, ul{ll.x, ur.y};
+  for (const std::string& side : boundary.sides) {
+    if (side == "left") lines.push_back({ll, ul});
+    if (side == "right") lines.push_back({lr, ur});
+    if (side == "bottom") lines.push_back({ll, lr});
+    if (side == "top") lines.push_back({ul, ur});
+  }
+  for (std::size_t i = 0; i + 1 < boundary.along.size(); ++i) {
+    lines.push_back({boundary.along[i] - origin, boundary.along[i + 1] - origin});
+  }
+  return lines;
+}
+
+double distance_to(const Line& line, Vec2 p) {
+  const Vec2 u = line.b - line.a;
+  const double l2 = dot(u, u);
+  const double s = l2 > 0.0 ? std::clamp(dot(p - line.a, u) / l2, 0.0, 1.0) : 0.0;
+  return norm(p - (line.a + s * u));
+}
+
+struct Spring {
+  Id vertex;
+  Index boundary;
+  double kxx, kyy, kxy;
+};
+
+}  // namespace
+
+Result<BoundarySprings> attach_boundaries(const Model& model, const BlockSet& b) {
+  const Box box = model_box(model, b);
+  const double extent = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  const double snap = std::max(model.domain ? 4.0 * model.domain->snap : 0.0, 1e-9 * extent);
+  std::vector<Spring> found;
+  Faults faults;
+  for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
+    const Boundary& boundary = model.boundaries[q];
+    const std::vector<Line> lines = lines_of(boundary, box, b.origin);
+    const double k = boundary.stiffness * b.thickness;
+    std::size_t hits = 0;
+    for (Id v = 0; v < b.vertex_count(); ++v) {
+      if (b.fixed[b.vertex_block[v]]) continue;
+      Spring s{v, static_cast<Index>(q), 0.0, 0.0, 0.0};
+      bool on = false;
+      for (const Line& line : lines) {
+        if (distance_to(line, {b.vertex_x[v], b.vertex_y[v]}) > snap) continue;
+        on = true;
+        if (boundary.type == BoundaryType::fixed) {
+          s.kxx = s.kyy = k;
+          break;
+        }
+        // Two rollers at a corner hold it across both lines.
+        const Vec2 n = perp(unit(line.b - line.a));
+        s.kxx += k * n.x * n.x;
+        s.kyy += k * n.y * n.y;
+        s.kxy += k * n.x * n.y;
+      }
+      if (!on) continue;
+      ++hits;
+      found.push_back(s);
+    }
+    if (hits == 0) {
+      faults.push_back({boundary.where, "no vertex of a free block lies on this boundary",
+                        "give a line that block corners lie on, or sides of the outline"});
+    }
+  }
+  if (!faults.empty()) return faults;
+  std::sort(found.begin(), found.end(), [&](const Spring& s, const Spring& t) {
+    return std::make_pair(s.vertex, s.boundary) < std::make_pair(t.vertex, t.boundary);
+  });
+  BoundarySprings springs;
+  springs.block_begin.assign(b.size() + 1, 0);
+  for (const Spring& s : found) {
+    springs.vertex.push_back(s.vertex);
+    springs.boundary.push_back(s.boundary);
+    springs.kxx.push_back(s.kxx);
+    springs.kyy.push_back(s.kyy);
+    springs.kxy.push_back(s.kxy);
+    springs.start_x.push_back(b.vertex_x[s.vertex]);
+    springs.start_y.push_back(b.vertex_y[s.vertex]);
+    ++springs.block_begin[b.vertex_block[s.vertex] + 1];
+  }
+  for (std::size_t i = 0; i < b.size(); ++i) springs.block_begin[i + 1] += springs.block_begin[i];
+  return springs;
+}
+
+double boundary_energy(const BoundarySprings& s, const Pose& pose) {
+  return ordered_sum(s.size(), [&](std::size_t q) {
+    const Id v = s.vertex[q];
+    const double ux = pose.x[v] - s.start_x[q], uy = pose.y[v] - s.start_y[q];
+    const double wx = pose.x1[v] - s.start_x[q], wy = pose.y1[v] - s.start_y[q];
+    return 0.5 * (wx * (s.kxx[q] * ux + s.kxy[q] * uy) + wy * (s.kxy[q] * ux + s.kyy[q] * uy));
+  });
+}
+
+}  // namespace edda

@@ -1,0 +1,26 @@
+// Vertex positions, derived from the nodes: at the step in hand and one step earlier.
+#pragma once
+
+#include <vector>
+
+#include "blocks/kinematics.hpp"
+
+namespace edda {
+
+struct Pose {
+  std::vector<double> x, y;    ///< [nv] at step n, m
+  std::vector<double> x1, y1;  ///< [nv] at step n - 1, m
+};
+
+/// Vertices of block i from its nodes (Eq. 19).
+inline void place_vertices(const BlockSet& b, const Nodes& x, const Nodes& y, std::size_t i,
+                           std::vector<double>& px, std::vector<double>& py) {
+  const double x0 = x[0][i], x1 = x[1][i], x2 = x[2][i];
+  const double y0 = y[0][i], y1 = y[1][i], y2 = y[2][i];
+  for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v) {
+    px[v] = b.weight[0][v] * x0 + b.weight[1][v] * x1 + b.weight[2][v] * x2;
+    py[v] = b.weight[0][v] * y0 + b.weight[1][v] * y1 + b.weight[2][v] * y2;
+  }
+}
+
+}  // namespace edda

@@ -1,0 +1,240 @@
+#include "contacts/candidates.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "contacts/gap.hpp"
+#include "contacts/search.hpp"
+#include "contacts/shares.hpp"
+
+namespace edda {
+namespace {
+
+using DoubleArray = std::vector<double> ContactSet::*;
+
+/// What a candidate remembers from one list to the next.
+constexpr std::array<DoubleArray, 22> memory = {
+    &ContactSet::depth,      &ContactSet::depth_1,       &ContactSet::depth_2,
+    &ContactSet::foot,       &ContactSet::share,         &ContactSet::rest,
+    &ContactSet::anchor,     &ContactSet::kn,            &ContactSet::ks,
+    &ContactSet::length,     &ContactSet::friction,      &ContactSet::cohesion,
+    &ContactSet::alpha,      &ContactSet::normal,        &ContactSet::shear,
+    &ContactSet::shear_1,    &ContactSet::slip_trial,    &ContactSet::dashpot,
+    &ContactSet::fracture_work, &ContactSet::friction_work, &ContactSet::damping_work,
+    &ContactSet::low};
+
+/// Filled anew; only their size matters here.
+constexpr std::array<DoubleArray, 8> scratch = {
+    &ContactSet::high, &ContactSet::extend_start, &ContactSet::extend_end, &ContactSet::fx,
+    &ContactSet::fy,   &ContactSet::gx,           &ContactSet::gy,         &ContactSet::next_share};
+
+void resize(ContactSet& c, std::size_t n) {
+  for (DoubleArray a : memory) (c.*a).assign(n, 0.0);
+  for (DoubleArray a : scratch) (c.*a).assign(n, 0.0);
+  c.state.assign(n, 0);
+  c.why.assign(n, Blocked::no);
+  c.balanced.assign(n, 0);
+  c.law.assign(n, 0);
+  c.edge_end.resize(n);
+  c.block_i.resize(n);
+  c.block_j.resize(n);
+}
+
+/// Near pairs and closed contacts of the old list, sorted, each once.
+std::vector<NearPair> wanted(const ContactSet& old, const BlockSet& b, const State& state,
+                             const Pose& pose, double reach) {
+  std::vector<NearPair> list = near_pairs(b, state.alive, pose.x, pose.y, reach);
+  const std::size_t found = list.size();
+  for (std::size_t c = 0; c < old.size(); ++c) {
+    if (old.is(c, contact_state::closed) && state.alive[old.block_i[c]] &&
+        state.alive[old.block_j[c]]) {
+      list.push_back({old.vertex[c], old.edge[c]});
+    }
+  }
+  std::inplace_merge(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(found), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  return list;
+}
+
+/// A candidate seen for the first time.
+void start_candidate(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
+                     std::size_t k) {
+  const EdgeFrame before = edge_frame(at(pose.x1, pose.y1, c.edge[k]),
+                                      at(pose.x1, pose.y1, c.edge_end[k]));
+  c.depth_1[k] = gap_to(before, at(pose.x1, pose.y1, c.vertex[k])).depth;
+  const EdgeFrame now = edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
+  const Gap gap = gap_to(now, at(pose.x, pose.y, c.vertex[k]));
+  c.depth[k] = gap.depth;
+  c.foot[k] = gap.foot;
+  c.depth_2[k] = c.depth_1[k];
+  c.share[k] = 1.0;
+  c.alpha[k] = 1.0;
+  set_spring(c, b, pose, laws, k);
+}
+
+/// How far an edge runs on: at a reentrant corner the block goes on beyond the end of the edge.
+void extend_edges(ContactSet& c, const BlockSet& b) {
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const double run_on = 0.05 * b.edge_length[c.edge[k]];
+    c.extend_start[k] = b.corner[c.edge[k]] > std::numbers::pi * 1.01 ? run_on : 0.0;
+    c.extend_end[k] = b.corner[c.edge_end[k]] > std::numbers::pi * 1.01 ? run_on : 0.0;
+  }
+}
+
+void list_by_vertex(ContactSet& c, std::size_t vertices) {
+  c.begin_of_vertex.assign(vertices + 1, 0);
+  for (Id v : c.vertex) ++c.begin_of_vertex[v + 1];
+  for (std::size_t v = 0; v < vertices; ++v) c.begin_of_vertex[v + 1] += c.begin_of_vertex[v];
+}
+
+/// Each block's contacts by (partner, vertex, edge): candidates are in (vertex, edge) order, so by
+/// (partner, candidate).
+void list_by_block(ContactSet& c, std::size_t blocks) {
+  c.block_begin.assign(blocks + 1, 0);
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    ++c.block_begin[c.block_i[k] + 1];
+    ++c.block_begin[c.block_j[k] + 1];
+  }
+  for (std::size_t i = 0; i < blocks; ++i) c.block_begin[i + 1] += c.block_begin[i];
+  c.block_entry.resize(2 * c.size());
+  std::vector<Id> fill(c.block_begin.begin(), c.block_begin.end() - 1);
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    c.block_entry[fill[c.block_i[k]]++] = static_cast<Id>(2 * k);
+    c.block_entry[fill[c.block_j[k]]++] = static_cast<Id>(2 * k + 1);
+  }
+  auto partner = [&](Id entry) {
+    return (entry & 1u) != 0 ? c.block_i[entry >> 1] : c.block_j[entry >> 1];
+  };
+  for (std::size_t i = 0; i < blocks; ++i) {
+    std::sort(c.block_entry.begin() + c.block_begin[i], c.block_entry.begin() + c.block_begin[i + 1],
+              [&](Id p, Id q) {
+                return std::make_pair(partner(p), p) < std::make_pair(partner(q), q);
+              });
+  }
+}
+
+/// Segments and blocked candidates by their new numbers.
+void renumber(ContactSet& next, const ContactSet& old, const std::vector<Id>& new_of_old) {
+  for (const Segment& s : old.segments) {
+    Segment kept;
+    for (Id m : s.members) {
+      if (new_of_old[m] != no_id) kept.members.push_back(new_of_old[m]);
+    }
+    if (!kept.members.empty()) next.segments.push_back(std::move(kept));
+  }
+  for (std::size_t k = 0; k < next.size(); ++k) {
+    if (next.is(k, contact_state::blocked)) next.blocked.push_back(static_cast<Id>(k));
+  }
+}
+
+}  // namespace
+
+double contact_length(const BlockSet& b, const Pose& pose, Id vertex, Id edge) {
+  const EdgeFrame e = edge_frame(at(pose.x, pose.y, edge), at(pose.x, pose.y, b.next[edge]));
+  double length = 0.0;
+  for (Id f : {b.previous[vertex], vertex}) {
+    const Vec2 p = at(pose.x, pose.y, f), q = at(pose.x, pose.y, b.next[f]);
+    if (dot(unit(q - p), e.t) > -opposite) continue;
+    const double z0 = dot(q - e.start, e.t), z1 = dot(p - e.start, e.t);
+    length += 0.5 * std::max(0.0, std::min(z1, e.length) - std::max(z0, 0.0));
+  }
+  return length;
+}
+
+void set_spring(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
+                std::size_t k) {
+  const Law& law = laws.rows[c.law[k]];
+  const double length = contact_length(b, pose, c.vertex[k], c.edge[k]);
+  c.length[k] = length;
+  const bool by_length = law.kn > 0.0 && length > 0.0;
+  c.kn[k] = laws.thickness * (by_length ? law.kn * length : laws.default_kn);
+  c.ks[k] = laws.thickness * (by_length ? law.ks * length : laws.default_ks);
+  c.friction[k] = law.residual_friction;
+  c.cohesion[k] = law.residual_cohesion * length * laws.thickness;
+}
+
+void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& state,
+                        const Pose& pose, const LawTable& laws, double reach) {
+  const std::vector<NearPair> list = wanted(contacts, b, state, pose, reach);
+  ContactSet next;
+  resize(next, list.size());
+  next.vertex.reserve(list.size());
+  next.edge.reserve(list.size());
+  std::vector<Id> new_of_old(contacts.size(), no_id);
+  std::size_t old = 0;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const NearPair pair = list[k];
+    next.vertex.push_back(pair.vertex);
+    next.edge.push_back(pair.edge);
+    next.edge_end[k] = b.next[pair.edge];
+    next.block_i[k] = b.vertex_block[pair.vertex];
+    next.block_j[k] = b.vertex_block[pair.edge];
+    const Vec2 n = edge_frame(at(pose.x, pose.y, pair.edge), at(pose.x, pose.y, next.edge_end[k]))
+                       .normal();
+    while (old < contacts.size() && NearPair{contacts.vertex[old], contacts.edge[old]} < pair) ++old;
+    if (old < contacts.size() && NearPair{contacts.vertex[old], contacts.edge[old]} == pair) {
+      for (DoubleArray a : memory) (next.*a)[k] = (contacts.*a)[old];
+      next.state[k] = contacts.state[old];
+      next.why[k] = contacts.why[old];
+      next.law[k] = contacts.law[old];
+      new_of_old[old] = static_cast<Id>(k);
+    } else {
+      next.law[k] = laws.resolve(b.edge_joint[pair.edge],
+                                 b.edge_joint[facing_edge(b, pose.x, pose.y, pair.vertex, n)]);
+      start_candidate(next, b, pose, laws, k);
+    }
+  }
+  next.retired_friction = contacts.retired_friction;
+  next.retired_damping = contacts.retired_damping;
+  next.retired_fracture = contacts.retired_fracture;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    if (new_of_old[k] != no_id) continue;
+    next.retired_friction += contacts.friction_work[k];
+    next.retired_damping += contacts.damping_work[k];
+    next.retired_fracture += contacts.fracture_work[k];
+  }
+  renumber(next, contacts, new_of_old);
+  extend_edges(next, b);
+  list_by_vertex(next, b.vertex_count());
+  list_by_block(next, b.size());
+  pair_corners(next, b, pose);
+  next.built_x = pose.x;
+  next.built_y = pose.y;
+  next.reach = reach;
+  next.built_at = state.steps;
+  next.rebuilds = contacts.rebuilds + 1;
+  contacts = std::move(next);
+}
+
+void bond_contacts(ContactSet& c, const BlockSet& b, const State& state, const Pose& pose,
+                   const LawTable& laws) {
+  std::map<std::pair<Id, Id>, Segment> by_edges;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const Law& law = laws.rows[c.law[k]];
+    const bool has_bond = law.glued || law.peak_cohesion > 0.0 || law.peak_tension > 0.0;
+    const double size = std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
+    const bool near_edge = c.on_edge(k) && c.share[k] > 0.0;
+    if (!has_bond || !near_edge || c.length[k] <= 0.0 || c.depth[k] < -1e-6 * size ||
+        c.is(k, contact_state::blocked) || !state.alive[c.block_i[k]]) {
+      continue;
+    }
+    const EdgeFrame e =
+        edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
+    const Id f = facing_edge(b, pose.x, pose.y, c.vertex[k], e.normal());
+    c.set(k, contact_state::closed | contact_state::bonded);
+    if (law.glued) c.set(k, contact_state::glued);
+    // A bond is made where the blocks are: a gap of 1e-6 carries nothing.
+    if (c.depth[k] < 0.0) c.rest[k] = c.depth[k];
+    c.anchor[k] = c.foot[k] / e.length;
+    c.friction[k] = law.peak_friction;
+    c.cohesion[k] = law.peak_cohesion * c.length[k] * laws.thickness;
+    by_edges[std::minmax(c.edge[k], f)].members.push_back(static_cast<Id>(k));
+  }
+  for (auto& [edges, segment] : by_edges) c.segments.push_back(std::move(segment));
+}
+
+}  // namespace edda

@@ -1,0 +1,61 @@
+// A vertex against an edge: the formulas of method.md section 4, once.
+#pragma once
+
+#include "blocks/block_set.hpp"
+#include "blocks/pose.hpp"
+
+namespace edda {
+
+/// Edge P2P3 as it lies: unit tangent t, length l, start P2.
+struct EdgeFrame {
+  Vec2 start, t;
+  double length;
+  Vec2 normal() const { return outward_normal(t); }
+};
+
+struct Gap {
+  double depth;  ///< d = -(P1 - P2).n = (Eq. 32) S0/l up to sign, m; > 0 penetrated
+  double foot;   ///< z = (P1 - P2).t, m
+};
+
+inline Vec2 at(const std::vector<double>& x, const std::vector<double>& y, Id v) {
+  return {x[v], y[v]};
+}
+
+inline EdgeFrame edge_frame(Vec2 start, Vec2 end) {
+  const Vec2 u = end - start;
+  const double l = norm(u);
+  return {start, u / l, l};
+}
+
+inline Gap gap_to(const EdgeFrame& e, Vec2 p) {
+  const Vec2 r = p - e.start;
+  return {cross(e.t, r), dot(r, e.t)};
+}
+
+/// How far a neighbour of A may reach below the edge, as a part of its distance from A.
+inline constexpr double entrance_slack = 0.1;
+
+/// Entrance cone: both neighbours A' of A satisfy (A' - A).n >= -entrance_slack |A' - A| - margin, so
+/// that the block lies on the outer side of the edge and may touch it with A. margin in m.
+inline bool facing(const BlockSet& b, const std::vector<double>& x, const std::vector<double>& y,
+                   Id vertex, Vec2 n, double margin = 0.0) {
+  const Vec2 a = at(x, y, vertex);
+  for (Id other : {b.next[vertex], b.previous[vertex]}) {
+    const Vec2 u = at(x, y, other) - a;
+    if (dot(u, n) < -entrance_slack * norm(u) - margin) return false;
+  }
+  return true;
+}
+
+/// Of the two edges that meet at the vertex, the one that lies most against an edge of normal n.
+inline Id facing_edge(const BlockSet& b, const std::vector<double>& x, const std::vector<double>& y,
+                      Id vertex, Vec2 n) {
+  const Id in = b.previous[vertex];
+  const Vec2 a = at(x, y, vertex);
+  const Vec2 n_out = outward_normal(unit(at(x, y, b.next[vertex]) - a));
+  const Vec2 n_in = outward_normal(unit(a - at(x, y, in)));
+  return dot(n_out, n) < dot(n_in, n) ? vertex : in;
+}
+
+}  // namespace edda

@@ -1,0 +1,25 @@
+#include "contacts/gaps.hpp"
+
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "contacts/gap.hpp"
+
+namespace edda {
+
+void update_gap(ContactSet& c, const Pose& pose, std::size_t k) {
+  const EdgeFrame e = edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
+  const Gap gap = gap_to(e, at(pose.x, pose.y, c.vertex[k]));
+  c.depth[k] = gap.depth;
+  c.foot[k] = gap.foot;
+  c.low[k] = -c.extend_start[k];
+  c.high[k] = e.length + c.extend_end[k];
+}
+
+void update_gaps(ContactSet& c, const Pose& pose) {
+  std::swap(c.depth_2, c.depth_1);
+  std::swap(c.depth_1, c.depth);
+  parallel_for(c.size(), [&](std::size_t k) { update_gap(c, pose, k); });
+}
+
+}  // namespace edda

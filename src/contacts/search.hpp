@@ -1,0 +1,23 @@
+// Broad phase: all vertices near edges of other blocks.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "blocks/block_set.hpp"
+
+namespace edda {
+
+struct NearPair {
+  Id vertex, edge;
+  friend auto operator<=>(const NearPair&, const NearPair&) = default;
+};
+
+/// Every (vertex, edge of another block) nearer than `reach` (m), sorted, with both blocks alive and
+/// not both held, whose vertex may come to face the edge (the entrance cone of gap.hpp) before any
+/// vertex has moved by half of reach. A hashed uniform grid over the edges; O(n) for blocks of like size.
+std::vector<NearPair> near_pairs(const BlockSet& blocks, const std::vector<std::uint8_t>& alive,
+                                 const std::vector<double>& x, const std::vector<double>& y,
+                                 double reach);
+
+}  // namespace edda

@@ -1,0 +1,272 @@
+#include "contacts/transitions.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "contacts/candidates.hpp"
+#include "contacts/gap.hpp"
+#include "contacts/shield.hpp"
+
+namespace edda {
+namespace {
+
+namespace cs = contact_state;
+
+EdgeFrame frame_of(const ContactSet& c, const Pose& pose, std::size_t k) {
+  return edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
+}
+
+/// Slip at step n before the return map.
+double slip_of(const ContactSet& c, const Pose& pose, std::size_t k) {
+  return c.foot[k] - c.anchor[k] * frame_of(c, pose, k).length;
+}
+
+/// What the ledger holds of this contact between n - 1 and n: p e_{n-1} e_n / 2 + p_t s_{n-1} s_n / 2.
+double stored(const ContactSet& c, const Pose& pose, std::size_t k) {
+  const double before = c.effective_1(k), now = c.effective(k);
+  const double normal = c.is(k, cs::bonded) || (before > 0.0 && now > 0.0) ? before * now : 0.0;
+  const double slip = -c.shear[k] / c.ks[k];
+  return 0.5 * c.share[k] * (c.kn[k] * normal + c.ks[k] * slip * slip_of(c, pose, k));
+}
+
+void start_shear(ContactSet& c, const Pose& pose, std::size_t k) {
+  c.anchor[k] = c.foot[k] / frame_of(c, pose, k).length;
+  c.shear[k] = c.shear_1[k] = c.slip_trial[k] = 0.0;
+}
+
+void close(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
+           std::size_t k) {
+  set_spring(c, b, pose, laws, k);
+  c.set(k, cs::closed);
+  c.alpha[k] = 1.0;
+  c.normal[k] = 0.0;
+  start_shear(c, pose, k);
+}
+
+void open(ContactSet& c, std::size_t k) {
+  c.clear(k, cs::closed | cs::bonded | cs::sliding);
+  c.set(k, cs::opened);
+  c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = c.dashpot[k] = 0.0;
+  c.alpha[k] = 1.0;
+  c.rest[k] = std::min(c.rest[k], std::max(c.depth[k], 0.0));
+}
+
+void block_contact(ContactSet& c, std::size_t k, Blocked why) {
+  c.set(k, cs::blocked);
+  c.why[k] = why;
+  c.rest[k] = std::numeric_limits<double>::infinity();
+  c.blocked.push_back(static_cast<Id>(k));
+}
+
+bool convex(const BlockSet& b, Id vertex) { return b.corner[vertex] < 0.999 * std::numbers::pi; }
+
+/// Edges of one block that meet in a convex corner explain one penetration in two ways.
+bool rivals(const BlockSet& b, Id e, Id f) {
+  return (b.next[e] == f && convex(b, f)) || (b.next[f] == e && convex(b, e));
+}
+
+/// Takes the contact k over into `heir`, with force and shear, as far as heir is penetrated.
+void hand_over(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
+               std::size_t k, std::size_t heir) {
+  const double before = stored(c, pose, k);
+  const double slip = slip_of(c, pose, k);
+  const double now = c.effective(k);
+  if (!c.is(heir, cs::closed)) set_spring(c, b, pose, laws, heir);
+  c.set(heir, static_cast<std::uint8_t>(c.state[k] & (cs::closed | cs::bonded | cs::glued)));
+  c.rest[heir] = c.depth[heir] - std::min(now, c.depth[heir]);
+  c.depth_1[heir] = c.effective_1(k) + c.rest[heir];
+  c.depth_2[heir] = c.effective_2(k) + c.rest[heir];
+  c.anchor[heir] = (c.foot[heir] - slip) / frame_of(c, pose, heir).length;
+  c.shear[heir] = c.shear[k] * c.ks[heir] / c.ks[k];
+  c.shear_1[heir] = c.shear_1[k] * c.ks[heir] / c.ks[k];
+  c.slip_trial[heir] = c.slip_trial[k];
+  c.normal[heir] = c.normal[k] * c.kn[heir] / c.kn[k];
+  c.dashpot[heir] = c.dashpot[k];
+  c.alpha[heir] = c.alpha[k];
+  if (c.is(k, cs::bonded)) {
+    c.friction[heir] = c.friction[k];
+    c.cohesion[heir] = c.cohesion[k];
+    for (Segment& s : c.segments) {
+      std::replace(s.members.begin(), s.members.end(), static_cast<Id>(k), static_cast<Id>(heir));
+    }
+  }
+  c.friction_work[k] += before - stored(c, pose, heir);
+}
+
+/// Who goes on when the foot of k leaves its edge: the same vertex on a collinear edge, of the same
+/// block or the next; else the corner it passes, against one of the vertex's own edges.
+Id heir_of(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
+  const EdgeFrame e = frame_of(c, pose, k);
+  const Id vertex = c.vertex[k];
+  const double slack = 1e-6 * e.length + 2.0 * std::abs(c.depth[k]);
+  auto free_and_near = [&](std::size_t q) {
+    return !c.is(q, cs::closed) && c.depth[q] > 0.0 && c.foot[q] >= c.low[q] - slack &&
+           c.foot[q] <= c.high[q] + slack;
+  };
+  for (Id q = c.begin_of_vertex[vertex]; q < c.begin_of_vertex[vertex + 1]; ++q) {
+    if (q == k || !free_and_near(q) || c.why[q] == Blocked::shield) continue;
+    if (dot(frame_of(c, pose, q).t, e.t) > opposite) return q;
+  }
+  const Id corner = c.foot[k] < 0.5 * e.length ? c.edge[k] : c.edge_end[k];
+  for (Id q = c.begin_of_vertex[corner]; q < c.begin_of_vertex[corner + 1]; ++q) {
+    const bool mine = c.edge[q] == vertex || c.edge[q] == b.previous[vertex];
+    if (mine && free_and_near(q) &&
+        facing(b, pose.x, pose.y, corner, frame_of(c, pose, q).normal())) {
+      return q;
+    }
+  }
+  return no_id;
+}
+
+void unblock(ContactSet& c, std::size_t k, double rest) {
+  c.clear(k, cs::blocked);
+  c.why[k] = Blocked::no;
+  c.rest[k] = rest;
+}
+
+/// The foot of a closed contact has left its edge.
+void leave(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws, std::size_t k,
+           TransitionCounts& counts) {
+  const Id heir = c.share[k] > 0.0 ? heir_of(c, b, pose, k) : no_id;
+  if (heir != no_id) {
+    if (c.is(heir, cs::blocked)) unblock(c, heir, 0.0);
+    hand_over(c, b, pose, laws, k, heir);
+    ++counts.handed_over;
+  } else {
+    c.friction_work[k] += stored(c, pose, k);
+  }
+  open(c, k);
+  ++counts.opened;
+}
+
+/// A corner that comes into its share of a spring from the side takes its partner's history.
+bool inherit_from_partner(ContactSet& c, const Pose& pose, std::size_t k) {
+  if (c.pair_of[k] == no_id) return false;
+  const CornerPair& p = c.pairs[c.pair_of[k]];
+  const Id other = p.first == k ? p.second : p.first;
+  if (!p.same_way() || !c.is(other, cs::closed) || c.share[other] >= 1.0) return false;
+  c.rest[k] = std::min(c.rest[other], std::max(c.depth[k], 0.0));
+  c.anchor[k] = (c.foot[k] - slip_of(c, pose, other)) / frame_of(c, pose, k).length;
+  c.shear[k] = c.shear[other] * c.ks[k] / c.ks[other];
+  c.shear_1[k] = c.shear_1[other] * c.ks[k] / c.ks[other];
+  return true;
+}
+
+struct Events {
+  std::vector<Id> opens, leaves, closes;
+};
+
+Events find_events(ContactSet& c) {
+  Events events;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (c.is(k, cs::closed)) {
+      if (c.is(k, cs::bonded)) continue;
+      if (c.effective(k) <= 0.0) {
+        events.opens.push_back(static_cast<Id>(k));
+      } else if (!c.on_edge(k)) {
+        events.leaves.push_back(static_cast<Id>(k));
+      }
+    } else if (!c.is(k, cs::blocked)) {
+      if (c.effective(k) > 0.0) {
+        if (c.on_edge(k)) events.closes.push_back(static_cast<Id>(k));
+      } else if (c.rest[k] != 0.0) {
+        c.rest[k] = std::min(c.rest[k], std::max(c.depth[k], 0.0));
+      }
+    }
+  }
+  return events;
+}
+
+/// Blocked candidates that may carry again, or are out of touch.
+void review_blocked(ContactSet& c, const BlockSet& b, const Pose& pose, std::uint64_t step,
+                    TransitionCounts& counts) {
+  if (c.blocked.empty()) return;
+  std::vector<Id> still;
+  for (const Id k : c.blocked) {
+    if (!c.is(k, cs::blocked)) continue;
+    if (c.why[k] == Blocked::shield) {
+      // A shield goes slowly; what it let by meanwhile is born where it is.
+      if (step % 16 != 0 || shielded(c, b, pose, k)) {
+        still.push_back(k);
+        continue;
+      }
+    } else if (c.depth[k] > 0.0 && c.on_edge(k)) {
+      c.why[k] = hindrance(c, b, pose, k);
+      if (c.why[k] != Blocked::no) {
+        still.push_back(k);
+        continue;
+      }
+    }
+    unblock(c, k, std::max(c.depth[k], 0.0));
+    ++counts.born_inside;
+  }
+  c.blocked = std::move(still);
+}
+
+}  // namespace
+
+Blocked hindrance(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
+  const Id i = c.block_i[k], j = c.block_j[k], vertex = c.vertex[k];
+  if (c.depth[k] > 0.5 * std::min(b.inradius[i], b.inradius[j])) return Blocked::depth;
+  if (!facing(b, pose.x, pose.y, vertex, frame_of(c, pose, k).normal())) return Blocked::facing;
+  if (shielded(c, b, pose, k)) return Blocked::shield;
+  // Of the edges that meet in a convex corner, the one that is closed, else the least penetrated.
+  const double tie = 1e-12 * b.radius[j];
+  for (Id q = c.begin_of_vertex[vertex]; q < c.begin_of_vertex[vertex + 1]; ++q) {
+    if (q == k || c.block_j[q] != j || !rivals(b, c.edge[k], c.edge[q])) continue;
+    if (c.is(q, cs::closed) && c.share[q] > 0.0) return Blocked::conflict;
+    const bool rival_open = c.depth[q] > 0.0 && c.on_edge(q) && c.depth[q] < c.depth[k] - tie &&
+                            !c.is(q, cs::blocked);
+    if (rival_open && facing(b, pose.x, pose.y, vertex, frame_of(c, pose, q).normal())) {
+      return Blocked::conflict;
+    }
+  }
+  return Blocked::no;
+}
+
+TransitionCounts settle_contacts(ContactSet& c, const BlockSet& b, const Pose& pose,
+                                 const LawTable& laws, std::uint64_t step, bool start) {
+  TransitionCounts counts;
+  const Events events = find_events(c);
+  for (const Id k : events.opens) {
+    // What the shear spring still holds goes with the contact.
+    c.friction_work[k] += stored(c, pose, k);
+    open(c, k);
+    ++counts.opened;
+  }
+  for (const Id k : events.leaves) leave(c, b, pose, laws, k, counts);
+  review_blocked(c, b, pose, step, counts);
+
+  // All are judged from the same state before any is closed.
+  std::vector<Blocked> verdict(events.closes.size());
+  for (std::size_t q = 0; q < events.closes.size(); ++q) {
+    const Id k = events.closes[q];
+    verdict[q] = c.is(k, cs::closed) ? Blocked::no : hindrance(c, b, pose, k);
+  }
+  const std::size_t blocked_before = c.blocked.size();
+  for (std::size_t q = 0; q < events.closes.size(); ++q) {
+    const Id k = events.closes[q];
+    if (c.is(k, cs::closed)) continue;  // has taken over from another
+    if (verdict[q] != Blocked::no) {
+      block_contact(c, k, verdict[q]);
+      continue;
+    }
+    if (start || c.effective_1(k) <= 0.0) {
+      close(c, b, pose, laws, k);
+      ++counts.closed;
+      continue;
+    }
+    // Entered from the side.
+    ++counts.born_inside;
+    close(c, b, pose, laws, k);
+    if (!inherit_from_partner(c, pose, k)) {
+      c.clear(k, cs::closed);
+      c.rest[k] = c.depth[k];
+    }
+  }
+  if (c.blocked.size() != blocked_before) std::sort(c.blocked.begin(), c.blocked.end());
+  return counts;
+}
+
+}  // namespace edda

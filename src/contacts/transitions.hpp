@@ -1,0 +1,29 @@
+// Narrow phase, second half: which candidates carry (method.md section 4, "Which contacts exist").
+//
+//   open, penetrated from outside, allowed       -> closed
+//   open, already penetrated when it appears     -> stays open with rest penetration d0 = d, or takes
+//                                                   over from the contact it succeeds
+//   closed, d <= d0, not bonded                  -> open
+//   closed, foot off the edge                    -> handed to its successor, or open
+//   penetrated, not allowed                      -> blocked until it may, then born where it is
+#pragma once
+
+#include "blocks/pose.hpp"
+#include "contacts/contact_set.hpp"
+
+namespace edda {
+
+struct TransitionCounts {
+  std::uint64_t closed = 0, opened = 0, handed_over = 0, born_inside = 0;
+};
+
+/// Brings every candidate's state in line with the gaps at step n; needs update_gaps() and
+/// update_shares(). `start`: nothing is born inside yet, so what overlaps as drawn is preloaded.
+TransitionCounts settle_contacts(ContactSet& contacts, const BlockSet& blocks, const Pose& pose,
+                                 const LawTable& laws, std::uint64_t step, bool start);
+
+/// Whether candidate k may close now, and why not. Public for the tests.
+Blocked hindrance(const ContactSet& contacts, const BlockSet& blocks, const Pose& pose,
+                  std::size_t k);
+
+}  // namespace edda

@@ -1,0 +1,190 @@
+#include "forces/stiffness.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.hpp"
+#include "contacts/gap.hpp"
+#include "forces/contact_forces.hpp"
+
+namespace edda {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+Vector6 along(const std::array<double, 3>& w, Vec2 direction) {
+  Vector6 h;
+  for (int k = 0; k < 3; ++k) {
+    const auto u = static_cast<std::size_t>(k);
+    h[2 * k] = w[u] * direction.x;
+    h[2 * k + 1] = w[u] * direction.y;
+  }
+  return h;
+}
+
+std::array<double, 3> vertex_weights(const BlockSet& b, Id v) {
+  return {b.weight[0][v], b.weight[1][v], b.weight[2][v]};
+}
+
+/// Elastic stiffness of the undeformed block, V B^T C B, in its own frame.
+Matrix6 elastic_matrix(const BlockSet& b, std::size_t i) {
+  Eigen::Matrix<double, 3, 6> strain;
+  for (int k = 0; k < 3; ++k) {
+    const auto u = static_cast<std::size_t>(k);
+    const double gx = b.grad_x[u][i], gy = b.grad_y[u][i];
+    strain.block<3, 2>(0, 2 * k) << gx, 0.0, 0.0, gy, gy, gx;
+  }
+  const double lambda = b.lame_lambda[i], mu = b.lame_mu[i];
+  Eigen::Matrix3d c;
+  c << lambda + 2.0 * mu, lambda, 0.0, lambda, lambda + 2.0 * mu, 0.0, 0.0, 0.0, mu;
+  return b.volume[i] * strain.transpose() * c * strain;
+}
+
+Matrix6 mass_matrix(const BlockSet& b, std::size_t i) {
+  Matrix6 m = Matrix6::Zero();
+  if (b.mass_kind != MassKind::consistent) {
+    for (int k = 0; k < 6; ++k) m(k, k) = b.node_mass[static_cast<std::size_t>(k / 2)][i];
+    return m;
+  }
+  Eigen::Matrix3d inverse;
+  inverse << b.inverse_mass[0][i], b.inverse_mass[1][i], b.inverse_mass[2][i],
+      b.inverse_mass[1][i], b.inverse_mass[3][i], b.inverse_mass[4][i], b.inverse_mass[2][i],
+      b.inverse_mass[4][i], b.inverse_mass[5][i];
+  const Eigen::Matrix3d full = inverse.inverse();
+  for (int k = 0; k < 3; ++k) {
+    for (int l = 0; l < 3; ++l) m(2 * k, 2 * l) = m(2 * k + 1, 2 * l + 1) = full(k, l);
+  }
+  return m;
+}
+
+/// Contribution of one contact to one block.
+struct Part {
+  Id contact;
+  Vector6 normal, tangent;  ///< h, k in the block's frame
+  double kn, ks;            ///< with the factor 1 or 2
+};
+
+/// May carry before the list is made anew.
+bool counts(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k,
+            const EdgeFrame& e) {
+  if (c.is(k, contact_state::closed)) return true;
+  if (c.why[k] == Blocked::shield) return false;
+  return c.foot[k] > c.low[k] - c.reach && c.foot[k] < c.high[k] + c.reach &&
+         facing(b, pose.x, pose.y, c.vertex[k], e.normal(), 0.5 * c.reach);
+}
+
+std::vector<Part> parts_of(const BlockSet& b, const State& s, const Pose& pose,
+                           const ContactSet& c, std::size_t i) {
+  const Rotation r = rotation(deformation(b, s.x, s.y, i));
+  auto back = [&](Vec2 u) { return Vec2{r.c * u.x + r.s * u.y, -r.s * u.x + r.c * u.y}; };
+  std::vector<Part> parts;
+  for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
+    const Id k = c.block_entry[q] >> 1;
+    const EdgeFrame e = edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
+    if (!counts(c, b, pose, k, e)) continue;
+    const bool has_vertex = (c.block_entry[q] & 1u) == 0;
+    const Id partner = has_vertex ? c.block_j[k] : c.block_i[k];
+    const double factor = (b.fixed[partner] ? 1.0 : 2.0) * c.share[k];
+    std::array<double, 3> w = vertex_weights(b, c.vertex[k]);
+    if (!has_vertex) {
+      const double xi = std::clamp(c.foot[k] / e.length, 0.0, 1.0);
+      const auto w2 = vertex_weights(b, c.edge[k]), w3 = vertex_weights(b, c.edge_end[k]);
+      for (std::size_t n = 0; n < 3; ++n) w[n] = (1.0 - xi) * w2[n] + xi * w3[n];
+    }
+    parts.push_back({k, along(w, back(e.normal())), along(w, back(e.t)), factor * c.kn[k],
+                     factor * c.ks[k]});
+  }
+  return parts;
+}
+
+Matrix6 boundary_matrix(const BlockSet& b, const State& s, const BoundarySprings& springs,
+                        std::size_t i) {
+  const Rotation r = rotation(deformation(b, s.x, s.y, i));
+  Eigen::Matrix2d turn;
+  turn << r.c, r.s, -r.s, r.c;
+  Matrix6 m = Matrix6::Zero();
+  for (Id q = springs.block_begin[i]; q < springs.block_begin[i + 1]; ++q) {
+    Eigen::Matrix2d k;
+    k << springs.kxx[q], springs.kxy[q], springs.kxy[q], springs.kyy[q];
+    k = turn * k * turn.transpose();
+    const auto w = vertex_weights(b, springs.vertex[q]);
+    for (int p = 0; p < 3; ++p) {
+      for (int l = 0; l < 3; ++l) {
+        m.block<2, 2>(2 * p, 2 * l) +=
+            w[static_cast<std::size_t>(p)] * w[static_cast<std::size_t>(l)] * k;
+      }
+    }
+  }
+  return m;
+}
+
+struct BlockBound {
+  double omega2 = 0.0;
+  double step = std::numeric_limits<double>::infinity();
+  Id contact = no_id;
+  double elastic = 0.0, contacts = 0.0, boundary = 0.0;
+};
+
+/// (2/w)(sqrt(1 + x^2) - x), x = zeta w / (lowest contact frequency of the block).
+double damped_step(double omega, double damping, double lowest) {
+  const double x = damping > 0.0 ? damping * omega / lowest : 0.0;
+  return 2.0 / omega * (std::sqrt(1.0 + x * x) - x);
+}
+
+BlockBound bound_of(const BlockSet& b, const State& s, const Pose& pose, const ContactSet& c,
+                    const BoundarySprings& springs, double damping, std::size_t i) {
+  const std::vector<Part> parts = parts_of(b, s, pose, c, i);
+  const Matrix6 elastic = elastic_matrix(b, i), boundary = boundary_matrix(b, s, springs, i);
+  Matrix6 k = elastic + boundary;
+  double lowest2 = std::numeric_limits<double>::infinity();
+  for (const Part& p : parts) {
+    k += p.kn * p.normal * p.normal.transpose() + p.ks * p.tangent * p.tangent.transpose();
+    if (damping > 0.0) {
+      const double xi = 0.5;
+      lowest2 = std::min(lowest2, c.kn[p.contact] * inverse_contact_mass(b, c, p.contact, xi));
+    }
+  }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(k, mass_matrix(b, i));
+  BlockBound bound;
+  bound.omega2 = solver.eigenvalues()[5];
+  if (!(bound.omega2 > 0.0)) return bound;
+  bound.step = damped_step(std::sqrt(bound.omega2), damping, std::sqrt(lowest2));
+  const Vector6 mode = solver.eigenvectors().col(5);
+  const double total = mode.dot(k * mode);
+  bound.elastic = mode.dot(elastic * mode) / total;
+  bound.boundary = mode.dot(boundary * mode) / total;
+  bound.contacts = 1.0 - bound.elastic - bound.boundary;
+  double largest = 0.0;
+  for (const Part& p : parts) {
+    const double hn = p.normal.dot(mode), ht = p.tangent.dot(mode);
+    const double part = p.kn * hn * hn + p.ks * ht * ht;
+    if (part > largest) {
+      largest = part;
+      bound.contact = p.contact;
+    }
+  }
+  return bound;
+}
+
+}  // namespace
+
+StepBound step_bound(const BlockSet& b, const State& s, const Pose& pose, const ContactSet& c,
+                     const BoundarySprings& springs, double damping) {
+  std::vector<BlockBound> bounds(b.size());
+  parallel_for(b.size(), [&](std::size_t i) {
+    if (!b.fixed[i] && s.alive[i]) bounds[i] = bound_of(b, s, pose, c, springs, damping, i);
+  });
+  StepBound result;
+  result.critical_step = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    if (bounds[i].step >= result.critical_step) continue;
+    result = {bounds[i].step,    static_cast<Id>(i),   bounds[i].contact,
+              bounds[i].elastic, bounds[i].contacts, bounds[i].boundary};
+  }
+  return result;
+}
+
+}  // namespace edda

@@ -1,0 +1,64 @@
+#include "run/ledger.hpp"
+
+#include "base/parallel.hpp"
+#include "contacts/gap.hpp"
+#include "forces/elastic.hpp"
+
+namespace edda {
+namespace {
+
+namespace cs = contact_state;
+
+/// p e_{n-1} e_n / 2 + p_t s_{n-1} s_n / 2, s_n before its return map.
+double contact_energy(const ContactSet& c, const Pose& pose, std::size_t k) {
+  if (!c.is(k, cs::closed)) return 0.0;
+  const double before = c.effective_1(k), now = c.effective(k);
+  const bool both = c.is(k, cs::bonded) || (before > 0.0 && now > 0.0);
+  const double length = norm(at(pose.x, pose.y, c.edge_end[k]) - at(pose.x, pose.y, c.edge[k]));
+  const double slip = c.foot[k] - c.anchor[k] * length, slip_1 = -c.shear[k] / c.ks[k];
+  return 0.5 * c.share[k] * (c.kn[k] * (both ? before * now : 0.0) + c.ks[k] * slip_1 * slip);
+}
+
+/// Strain energy between steps n - 1 and n; x_{n-1} = x_n - h v_{n-1/2}.
+double block_strain_energy(const BlockSet& b, const State& s, std::size_t i) {
+  const Deformation now = deformation(b, s.x, s.y, i);
+  const Deformation rate = deformation(b, s.vx, s.vy, i);
+  const Deformation before{now.xx - s.step * rate.xx, now.xy - s.step * rate.xy,
+                           now.yx - s.step * rate.yx, now.yy - s.step * rate.yy};
+  return strain_energy(corotated_strain(before, rotation(before)),
+                       corotated_strain(now, rotation(now)), b.volume[i], b.lame_lambda[i],
+                       b.lame_mu[i]);
+}
+
+double block_gravity_energy(const BlockSet& b, const State& s, Vec2 gravity, std::size_t i) {
+  const Vec2 half_back = 0.5 * s.step * centroid(s.vx, s.vy, i);
+  const Vec2 moved =
+      centroid(s.x, s.y, i) - half_back - Vec2{b.centroid_x[i], b.centroid_y[i]};
+  return -b.mass[i] * dot(gravity, moved);
+}
+
+}  // namespace
+
+Ledger sum_ledger(const BlockSet& b, const State& s, const Pose& pose, const ContactSet& c,
+                  const BoundarySprings& springs, const DampingWork& work, Vec2 gravity) {
+  auto over_free = [&](auto&& term) {
+    return ordered_sum(b.size(),
+                       [&](std::size_t i) { return b.fixed[i] || !s.alive[i] ? 0.0 : term(i); });
+  };
+  Ledger l;
+  l.kinetic = over_free([&](std::size_t i) { return kinetic_energy(b, s.vx, s.vy, i); });
+  l.strain = over_free([&](std::size_t i) { return block_strain_energy(b, s, i); });
+  l.gravity = over_free([&](std::size_t i) { return block_gravity_energy(b, s, gravity, i); });
+  l.contact = ordered_sum(c.size(), [&](std::size_t k) { return contact_energy(c, pose, k); }) +
+              boundary_energy(springs, pose);
+  l.friction =
+      c.retired_friction + ordered_sum(c.size(), [&](std::size_t k) { return c.friction_work[k]; });
+  l.fracture =
+      c.retired_fracture + ordered_sum(c.size(), [&](std::size_t k) { return c.fracture_work[k]; });
+  l.damping = c.retired_damping +
+              ordered_sum(c.size(), [&](std::size_t k) { return c.damping_work[k]; }) +
+              ordered_sum(work.joules.size(), [&](std::size_t i) { return work.joules[i]; });
+  return l;
+}
+
+}  // namespace edda

@@ -1,0 +1,31 @@
+// Open-close iteration with exact switching (method.md section 4): corrects the step just made for the
+// contacts that opened or closed in it.
+#pragma once
+
+#include <cstdint>
+
+#include "blocks/pose.hpp"
+#include "blocks/state.hpp"
+#include "contacts/contact_set.hpp"
+
+namespace edda {
+
+struct OpenCloseCounts {
+  std::uint64_t steps = 0;      ///< with at least one pass
+  std::uint64_t passes = 0;     ///< over all steps
+  std::uint64_t most = 0;       ///< passes in one step
+  std::uint64_t switched = 0;   ///< contacts that opened or closed
+  std::uint64_t unsettled = 0;  ///< steps that had not settled after the last pass
+};
+
+/// Steps behind and ahead of the force, and mass damping, as advance() used them.
+struct StepTaken {
+  double h_old = 0.0, h_new = 0.0, mass_damping = 0.0;
+};
+
+/// At entry: positions and gaps of step n + 1 made with alpha = 1; state flags and forces of step n. At
+/// return both are final. Passes: at most 12.
+void correct_switching(ContactSet& contacts, const BlockSet& blocks, State& state, Pose& pose,
+                       const StepTaken& taken, OpenCloseCounts& counts);
+
+}  // namespace edda

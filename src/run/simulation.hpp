@@ -1,0 +1,84 @@
+// One simulation: model, blocks, contacts, forces, step, ledger. The one place that names every stage.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "attachments/boundary_springs.hpp"
+#include "base/fault.hpp"
+#include "blocks/block_set.hpp"
+#include "blocks/pose.hpp"
+#include "blocks/state.hpp"
+#include "contacts/contact_set.hpp"
+#include "forces/nodal_forces.hpp"
+#include "forces/stiffness.hpp"
+#include "integrate/leapfrog.hpp"
+#include "lines/polygon_set.hpp"
+#include "model/model.hpp"
+#include "run/ledger.hpp"
+#include "run/open_close.hpp"
+
+namespace edda {
+
+/// Why a run stopped before its end: what, where, when and the likely cause.
+struct Failure {
+  std::string message;
+  Id block = no_id;
+  Vec2 place;         ///< model coordinates
+  double time = 0.0;  ///< s
+};
+
+struct StepStatistics {
+  double smallest = 0.0, largest = 0.0, sum = 0.0;  ///< s
+  std::uint64_t changes = 0;                        ///< of the step
+  std::uint64_t redone = 0;                         ///< steps done again with half the step
+};
+
+struct Simulation {
+  Model model;
+  PolygonSet polygons;
+  BlockSet blocks;
+  LawTable laws;
+  BoundarySprings springs;
+
+  State state;
+  Pose pose;
+  ContactSet contacts;
+  NodalForces forces;
+  DampingWork damping_work;
+  StepBound bound;            ///< at the last search
+  double step_limit = 0.0;    ///< s: largest step allowed at present
+  double base_reach = 0.0;    ///< m: skin of the contact search at rest
+  double displacement_limit = 0.0;  ///< m in one step
+  double last_displacement = 0.0;   ///< m: largest of a vertex in the last step
+  double max_penetration = 0.0;     ///< m, over the run
+  double step_change_energy = 0.0;  ///< J, created by changes of the step
+  StepStatistics steps;
+  OpenCloseCounts open_close;
+  std::optional<double> start_energy;  ///< J, of the ledger
+  double largest_energy = 0.0;         ///< J, so far
+
+  /// Cuts, builds, finds contacts, takes the first half step back. `step` s to start with is chosen so
+  /// that a whole number of steps ends at `first_event` (s); 0: as large as allowed.
+  static Result<Simulation> create(Model model);
+
+  /// Sets the step towards an event at `time` s: as few equal steps as the limit allows.
+  void aim_at(double time);
+  /// One step of the method: forces, motion, gaps, switching, search, contacts.
+  std::optional<Failure> step();
+  Ledger ledger();
+
+ private:
+  void place_all();
+  void search(double reach);
+  void search_if_due();
+  bool move(double h_old, double h_new);
+  std::optional<Failure> inspect() const;
+  void set_limit();
+  double target_ = 0.0;        ///< s: the event aimed at
+  double step_before_ = 0.0;   ///< s: step behind v_{n-1/2}
+  std::uint64_t steps_left_ = 0;
+};
+
+}  // namespace edda
