@@ -29,8 +29,7 @@ void complete_materials(const Value& root, Reading& reading) {
   constexpr double standard_gravity = 9.81;  // weighs materials of a model without gravity
   auto& materials = reading.model.materials;
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    const Value* node = element(root, "materials", i);
-    if (!is_table(node)) continue;
+    const Value* node = find(find(&root, "materials"), materials[i].name);
     const std::string path = materials[i].where.key + ".unit_weight";
     const Value* weight = find(node, "unit_weight");
     if (weight != nullptr) {
@@ -50,8 +49,7 @@ void complete_materials(const Value& root, Reading& reading) {
 void complete_joints(const Value& root, Reading& reading) {
   auto& joints = reading.model.joints;
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    const Value* node = element(root, "joints", i);
-    if (!is_table(node)) continue;
+    const Value* node = find(find(&root, "joints"), joints[i].name);
     JointLaw& law = joints[i];
     const Value* type = find(node, "type");
     const std::string* word = type == nullptr ? nullptr : std::get_if<std::string>(&type->content);
@@ -85,13 +83,15 @@ void complete_contact(const Value& root, Reading& reading) {
 }
 
 /// Fills in a material that is left out where there is only one to choose from.
-void complete_material(const Value* node, Index& material, const Where& where, Reading& reading) {
+void complete_material(const Value& root, const Value* node, Index& material, const Where& where,
+                       Reading& reading) {
   if (!is_table(node) || given(node, "material")) return;
   const auto& materials = reading.model.materials;
   if (materials.size() == 1) {
     material = 0;
     return;
   }
+  if (materials.empty() && given(&root, "materials")) return;  // faulty, as was said already
   std::vector<std::string_view> names;
   for (const Material& m : materials) names.push_back(m.name);
   add_fault(reading, node->place, where.key + ".material", "is missing",
@@ -101,16 +101,15 @@ void complete_material(const Value* node, Index& material, const Where& where, R
 
 void complete_material_references(const Value& root, Reading& reading) {
   Model& model = reading.model;
+  const auto complete_one = [&](const Value* node, auto& item) {
+    complete_material(root, node, item.material, item.where, reading);
+  };
   for (std::size_t i = 0; i < model.blocks.size(); ++i) {
-    BlockInput& block = model.blocks[i];
-    complete_material(element(root, "block", i), block.material, block.where, reading);
+    complete_one(element(root, "block", i), model.blocks[i]);
   }
-  if (model.domain) {
-    complete_material(find(&root, "domain"), model.domain->material, model.domain->where, reading);
-  }
+  if (model.domain) complete_one(find(&root, "domain"), *model.domain);
   for (std::size_t i = 0; i < model.walls.size(); ++i) {
-    BrickWall& wall = model.walls[i];
-    complete_material(element(root, "brick_wall", i), wall.material, wall.where, reading);
+    complete_one(element(root, "brick_wall", i), model.walls[i]);
   }
 }
 
@@ -143,11 +142,11 @@ BlockCount count_blocks(const Model& model) {
   return count;
 }
 
-/// Whether some value of this key, anywhere in the list or table, is not a known joint: such a
-/// fault stands already and makes the count of blocks without a law meaningless.
+/// A contact between edges that name no joint needs a law. Where a joint is named wrongly, a fault
+/// stands already and the count of edges without a law means nothing.
 void check_laws(const Value& root, Reading& reading, bool joints_are_faulty) {
   const Model& model = reading.model;
-  if (joints_are_faulty) return;
+  if (joints_are_faulty || (model.joints.empty() && given(&root, "joints"))) return;
   const BlockCount count = count_blocks(model);
   if (model.joints.empty() && count.all > 1.0) {
     add_fault(reading, {1, 1, false}, "joints", "no contact law is defined",
@@ -173,8 +172,7 @@ void check_names(const Value& root, std::string_view section, const std::vector<
     const Value* name = find(element(root, section, i), "name");
     const Where& where = items[other->second].where;
     add_fault(reading, name->place, items[i].where.key + ".name",
-              fmt::format("is the name of element {} ({}, line {}) too", other->second, where.file,
-                          where.line),
+              fmt::format("is the name of element {} (line {}) too", other->second, where.line),
               "give each its own name");
   }
 }
@@ -195,15 +193,16 @@ void check_blocks(const Value& root, Reading& reading) {
 }
 
 void check_content(const Value& root, Reading& reading) {
-  const bool any = find(&root, "block") != nullptr || find(&root, "domain") != nullptr ||
-                   find(&root, "brick_wall") != nullptr;
   const Model& model = reading.model;
-  if (!any ||
-      (model.blocks.empty() && !model.domain && model.walls.empty() && reading.faults.empty())) {
+  const bool is_misspelt =
+      std::any_of(reading.faults.begin(), reading.faults.end(), [](const Fault& fault) {
+        return fault.where.key == "block" || fault.where.key == "brick_wall";
+      });
+  if (model.blocks.empty() && !model.domain && model.walls.empty() && !is_misspelt) {
     add_fault(reading, {1, 1, false}, "block", "the model has no blocks",
               "add a [[block]], a [domain] or a [[brick_wall]]");
   }
-  if (model.domain || find(&root, "domain") != nullptr) return;
+  if (model.domain) return;
   for (const std::string_view name : {"joint_set", "trace", "opening", "held"}) {
     const Value* first = element(root, name, 0);
     if (first == nullptr) continue;

@@ -51,11 +51,25 @@ int edit_distance(std::string_view first, std::string_view second) {
   return last[b.size()];
 }
 
+namespace {
+
+int distance(std::string_view word, std::string_view candidate) {
+  constexpr std::size_t shortest_part = 4;
+  const std::string a = lowered(word), b = lowered(candidate);
+  const std::string& part = a.size() < b.size() ? a : b;
+  const std::string& whole = a.size() < b.size() ? b : a;
+  const int edits = edit_distance(a, b);
+  const bool holds = part.size() >= shortest_part && whole.find(part) != std::string::npos;
+  return holds ? std::min(edits, likely_edits) : edits;
+}
+
+}  // namespace
+
 std::string_view nearest(std::string_view word, std::span<const std::string_view> known) {
   std::string_view best;
   int fewest = std::numeric_limits<int>::max();
   for (const std::string_view candidate : known) {
-    const int edits = edit_distance(word, candidate);
+    const int edits = distance(word, candidate);
     if (edits >= fewest) continue;
     fewest = edits;
     best = candidate;
@@ -73,10 +87,17 @@ std::string quoted_list(std::span<const std::string_view> words) {
   return list;
 }
 
+bool is_likely(std::string_view word, std::span<const std::string_view> known) {
+  // Two edits turn any short word into any other.
+  const int most = word.size() < 4 ? 1 : likely_edits;
+  return !known.empty() && distance(word, nearest(word, known)) <= most;
+}
+
 std::string suggestion(std::string_view word, std::span<const std::string_view> known) {
-  std::string text = "did you mean \"" + clipped(nearest(word, known)) + "\"?";
-  if (known.size() > 1) text += " known here: " + quoted_list(known);
-  return text;
+  const std::string best = '"' + clipped(nearest(word, known)) + '"';
+  if (is_likely(word, known)) return "did you mean " + best + "?";
+  if (known.size() == 1) return "the only known one is " + best;
+  return "the nearest is " + best + ", known are " + quoted_list(known);
 }
 
 }  // namespace edda

@@ -12,16 +12,23 @@ namespace edda {
 /// bytes between characters.
 std::string clipped(std::string_view text);
 
+/// Up to so many edits a word is taken for a slip of another.
+inline constexpr int likely_edits = 2;
+
 /// Edits (insert, delete, replace, swap of neighbours) from a to b, ignoring case.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The word of `known` with the fewest edits from `word`, the first of equals; empty if none.
+/// The word of `known` with the fewest edits from `word`, the first of equals; empty if none. A
+/// word that holds the other as a part ("friction", "friction_angle") counts as likely_edits away.
 std::string_view nearest(std::string_view word, std::span<const std::string_view> known);
 
 /// `"a", "b", "c"`, cut off after a dozen.
 std::string quoted_list(std::span<const std::string_view> words);
 
-/// `did you mean "rock"?` with the known words after it, where there are several.
+/// Whether `word` may be a slip of the nearest of `known`.
+bool is_likely(std::string_view word, std::span<const std::string_view> known);
+
+/// `did you mean "rock"?`, or which is the nearest and which are known.
 std::string suggestion(std::string_view word, std::span<const std::string_view> known);
 
 }  // namespace edda

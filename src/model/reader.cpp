@@ -232,11 +232,10 @@ struct ReadInto {
 
 /// Hint for a key that this table does not know: the one it may mean, or the table it belongs to.
 std::string unknown_key_hint(std::string_view name, std::span<const std::string_view> known) {
-  constexpr int likely = 2;
-  if (edit_distance(name, nearest(name, known)) > likely) {
+  if (!is_likely(name, known)) {
     for (const Section& section : sections()) {
       if (section.shape != Shape::root && find_key(section.keys, name) != nullptr) {
-        return fmt::format("it belongs to [{}]; the nearest key here is \"{}\"", section.name,
+        return fmt::format("it belongs to [{}]; the nearest here is \"{}\"", section.name,
                            nearest(name, known));
       }
     }
@@ -314,11 +313,18 @@ void read_named(const Section& section, const Value& value, Reading& reading) {
     return;
   }
   for (const Entry& entry : *table) {
+    const std::string path = fmt::format("{}.{}", section.name, entry.key);
+    if (as<Table>(entry.value) == nullptr) {
+      // Most likely [materials] was written for [materials.rock].
+      const bool is_key = find_key(section.keys, entry.key) != nullptr;
+      add_fault(reading, entry.place, path, "is " + shown(entry.value) + ", not a table",
+                fmt::format("write [{}.{}]", section.name, is_key ? "NAME" : clipped(entry.key)));
+      continue;
+    }
     if (entry.key.empty()) {
       add_fault(reading, entry.place, std::string(section.name), "an empty name", "give a name");
     }
-    read_object(section, entry.value, fmt::format("{}.{}", section.name, entry.key), entry.key,
-                reading);
+    read_object(section, entry.value, path, entry.key, reading);
   }
 }
 
