@@ -88,8 +88,8 @@ std::string quoted_list(std::span<const std::string_view> words) {
 }
 
 bool is_likely(std::string_view word, std::span<const std::string_view> known) {
-  // Two edits turn any short word into any other.
-  const int most = word.size() < 4 ? 1 : likely_edits;
+  // A couple of edits turn any short word into any other.
+  const int most = word.size() < 2 ? 0 : word.size() < 4 ? 1 : likely_edits;
   return !known.empty() && distance(word, nearest(word, known)) <= most;
 }
 

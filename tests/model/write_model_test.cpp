@@ -1,0 +1,270 @@
+// A model of every key, read, written and read again.
+#include "model/write_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "model/base_model.hpp"
+#include "model/keys.hpp"
+#include "model/read_model.hpp"
+
+namespace edda {
+namespace {
+
+// No key has its default here.
+const std::string every_key = R"(title = "Every \"key\"\t\\ é"
+gravity = ["1 m/s2", -9.8]
+plane = "stress"
+thickness = "50 cm"
+[materials.rock]
+density = 2750
+young = "20 GPa"
+poisson = 0.25
+[materials."soft clay"]
+unit_weight = "20 kN/m3"
+young = 5e6
+poisson = "40 %"
+[joints.glue]
+type = "glued"
+[joints.rough]
+friction_angle = "0.5 rad"
+cohesion = "50 kPa"
+tensile_strength = 1e3
+residual = { friction_angle = 12, cohesion = "1 kPa", tensile_strength = 2.5 }
+kn = "20 GPa/m"
+ks = 9e9
+[contact]
+normal_stiffness = "200 MN/m"
+shear_stiffness = 1e8
+joint = "rough"
+[[block]]
+name = "slider"
+polygon = [[0, 0], [0, "10 cm"], [1, 1], [2, -0.0]]
+material = "soft clay"
+joint = "glue"
+velocity = ["1 mm/s", -0.1]
+angular_velocity = 0.3
+[[block]]
+polygon = [[-5, -5], [-4, -5], [-4, -4]]
+material = "rock"
+fixed = true
+[domain]
+outline = [[10, 0], [20, 0], [20, 10], [10, 10]]
+material = "rock"
+joint = "rough"
+snap = "1 um"
+max_blocks = 2_000_000_000
+[[joint_set]]
+name = "bedding"
+angle = -400.5
+spacing = 0.7
+origin = [0.1, 0.2]
+joint = "glue"
+region = [[11, 1], [19, 1], [15, 9]]
+[[trace]]
+points = [[11, 1], [12, 5], [13, 5]]
+joint = "rough"
+[[opening]]
+name = "cavern"
+polygon = [[14, 4], [16, 4], [16, 6], [14, 6]]
+joint = "glue"
+[[held]]
+point = [15, 1]
+[[held]]
+point = [15, 2]
+[[brick_wall]]
+origin = [30, 1]
+columns = 4
+rows = 3
+brick = [1.0, 0.5]
+material = "rock"
+joint = "rough"
+[[boundary]]
+name = "base"
+sides = ["bottom", "left"]
+type = "roller"
+stiffness = 2e11
+[[boundary]]
+name = "line"
+along = [[10, 10], [15, 10], [20, 10]]
+[[monitor]]
+name = "P1"
+point = [15, 9]
+[solver]
+method = "edda"
+mass = "covering"
+switching = "plain"
+duration = "2 min"
+time_step = 1e-5
+allow_unstable = true
+safety = 0.7
+max_displacement_ratio = "2 %"
+damping = { mass = "2 1/s", local = 0.1, contact = 0.3 }
+[output]
+every = 0.3
+history_every = 0.07
+)";
+
+void expect_every_key(const Model& m) {
+  EXPECT_EQ(m.title, "Every \"key\"\t\\ \u00e9");
+  EXPECT_EQ(m.gravity, (Vec2{1, -9.8}));
+  EXPECT_EQ(m.plane, Plane::stress);
+  EXPECT_EQ(m.thickness, 0.5);
+  ASSERT_EQ(m.materials.size(), 2U);
+  EXPECT_EQ(m.materials[0].name, "rock");
+  EXPECT_EQ(m.materials[0].density, 2750.0);
+  EXPECT_EQ(m.materials[0].young, 20e9);
+  EXPECT_EQ(m.materials[0].poisson, 0.25);
+  EXPECT_EQ(m.materials[1].name, "soft clay");
+  EXPECT_EQ(m.materials[1].density, 20e3 / norm(Vec2{1, -9.8}));
+  EXPECT_EQ(m.materials[1].poisson, 0.4);
+  ASSERT_EQ(m.joints.size(), 2U);
+  EXPECT_EQ(m.joints[0].type, LawType::glued);
+  const JointLaw& law = m.joints[1];
+  EXPECT_EQ(law.name, "rough");
+  EXPECT_EQ(law.type, LawType::coulomb);
+  EXPECT_NEAR(law.peak.friction_angle, 28.64788975654116, 1e-13);
+  EXPECT_EQ(law.peak.cohesion, 50e3);
+  EXPECT_EQ(law.peak.tensile_strength, 1e3);
+  EXPECT_EQ(law.residual.friction_angle, 12.0);
+  EXPECT_EQ(law.residual.cohesion, 1e3);
+  EXPECT_EQ(law.residual.tensile_strength, 2.5);
+  EXPECT_EQ(law.kn, 20e9);
+  EXPECT_EQ(law.ks, 9e9);
+  EXPECT_EQ(m.contact.normal_stiffness, 2e8);
+  EXPECT_EQ(m.contact.shear_stiffness, 1e8);
+  EXPECT_EQ(m.contact.joint, 1);
+}
+
+void expect_every_part(const Model& m) {
+  ASSERT_EQ(m.blocks.size(), 2U);
+  EXPECT_EQ(m.blocks[0].name, "slider");
+  EXPECT_EQ(m.blocks[0].polygon, (Ring{{0, 0}, {0, 0.1}, {1, 1}, {2, 0}}));
+  EXPECT_TRUE(std::signbit(m.blocks[0].polygon[3].y));
+  EXPECT_EQ(m.blocks[0].material, 1);
+  EXPECT_EQ(m.blocks[0].joint, 0);
+  EXPECT_FALSE(m.blocks[0].fixed);
+  EXPECT_EQ(m.blocks[0].velocity, (Vec2{0.001, -0.1}));
+  EXPECT_EQ(m.blocks[0].angular_velocity, 0.3);
+  EXPECT_TRUE(m.blocks[1].fixed);
+  EXPECT_EQ(m.blocks[1].joint, none);
+  ASSERT_TRUE(m.domain);
+  EXPECT_EQ(m.domain->outline.size(), 4U);
+  EXPECT_EQ(m.domain->material, 0);
+  EXPECT_EQ(m.domain->joint, 1);
+  EXPECT_EQ(m.domain->snap, 1e-6);
+  EXPECT_EQ(m.domain->max_blocks, 2000000000);
+  ASSERT_EQ(m.joint_sets.size(), 1U);
+  EXPECT_EQ(m.joint_sets[0].name, "bedding");
+  EXPECT_EQ(m.joint_sets[0].angle, -400.5);
+  EXPECT_EQ(m.joint_sets[0].spacing, 0.7);
+  EXPECT_EQ(m.joint_sets[0].origin, (Vec2{0.1, 0.2}));
+  EXPECT_EQ(m.joint_sets[0].joint, 0);
+  EXPECT_EQ(m.joint_sets[0].region, (Ring{{11, 1}, {19, 1}, {15, 9}}));
+  ASSERT_EQ(m.traces.size(), 1U);
+  EXPECT_EQ(m.traces[0].points, (Ring{{11, 1}, {12, 5}, {13, 5}}));
+  EXPECT_EQ(m.traces[0].joint, 1);
+  ASSERT_EQ(m.openings.size(), 1U);
+  EXPECT_EQ(m.openings[0].name, "cavern");
+  EXPECT_EQ(m.openings[0].polygon.size(), 4U);
+  EXPECT_EQ(m.openings[0].joint, 0);
+  ASSERT_EQ(m.held.size(), 2U);
+  EXPECT_EQ(m.held[1].point, (Vec2{15, 2}));
+  ASSERT_EQ(m.walls.size(), 1U);
+  EXPECT_EQ(m.walls[0].origin, (Vec2{30, 1}));
+  EXPECT_EQ(m.walls[0].columns, 4);
+  EXPECT_EQ(m.walls[0].rows, 3);
+  EXPECT_EQ(m.walls[0].brick, (Vec2{1, 0.5}));
+  EXPECT_EQ(m.walls[0].material, 0);
+  EXPECT_EQ(m.walls[0].joint, 1);
+}
+
+void expect_every_run_key(const Model& m) {
+  ASSERT_EQ(m.boundaries.size(), 2U);
+  EXPECT_EQ(m.boundaries[0].name, "base");
+  EXPECT_EQ(m.boundaries[0].sides, (std::vector<std::string>{"bottom", "left"}));
+  EXPECT_EQ(m.boundaries[0].type, BoundaryType::roller);
+  EXPECT_EQ(m.boundaries[0].stiffness, 2e11);
+  EXPECT_EQ(m.boundaries[1].along.size(), 3U);
+  EXPECT_TRUE(m.boundaries[1].sides.empty());
+  EXPECT_EQ(m.boundaries[1].stiffness, 2e8);
+  ASSERT_EQ(m.monitors.size(), 1U);
+  EXPECT_EQ(m.monitors[0].name, "P1");
+  EXPECT_EQ(m.monitors[0].point, (Vec2{15, 9}));
+  EXPECT_EQ(m.solver.mass, MassKind::covering);
+  EXPECT_EQ(m.solver.switching, Switching::plain);
+  EXPECT_EQ(m.solver.duration, 120.0);
+  EXPECT_EQ(m.solver.time_step, 1e-5);
+  EXPECT_TRUE(m.solver.allow_unstable);
+  EXPECT_EQ(m.solver.safety, 0.7);
+  EXPECT_EQ(m.solver.max_displacement_ratio, 0.02);
+  EXPECT_EQ(m.solver.damping.mass, 2.0);
+  EXPECT_EQ(m.solver.damping.local, 0.1);
+  EXPECT_EQ(m.solver.damping.contact, 0.3);
+  EXPECT_EQ(m.output.every, 0.3);
+  EXPECT_EQ(m.output.history_every, 0.07);
+}
+
+Model read(const std::string& text) {
+  const Result<Model> result = read_model_text(text, "m.toml");
+  if (!result) {
+    for (const Fault& fault : result.faults()) ADD_FAILURE() << to_string(fault) << "\n" << text;
+    return {};
+  }
+  return result.value();
+}
+
+TEST(WriteModel, EveryKeyIsReadAndComesBack) {
+  const Model first = read(every_key);
+  expect_every_key(first);
+  expect_every_part(first);
+  expect_every_run_key(first);
+  const std::string written = to_toml(first);
+  const Model second = read(written);
+  expect_every_key(second);
+  expect_every_part(second);
+  expect_every_run_key(second);
+  EXPECT_EQ(first.joints[1].peak.friction_angle, second.joints[1].peak.friction_angle);
+  EXPECT_EQ(to_toml(second), written);
+}
+
+TEST(WriteModel, EveryKeyOfTheTableIsInTheTest) {
+  for (const Section& section : sections()) {
+    for (const Key& key : section.keys) {
+      const std::string start = std::string(key.name) + " = ";
+      EXPECT_TRUE(every_key.starts_with(start) || every_key.find('\n' + start) != std::string::npos)
+          << section.name << '.' << key.name;
+    }
+  }
+}
+
+TEST(WriteModel, DefaultsComeBack) {
+  const Model first = read(testing::base_model);
+  const std::string written = to_toml(first);
+  const Model second = read(written);
+  EXPECT_EQ(to_toml(second), written);
+  EXPECT_EQ(second.output.history_every, first.output.history_every);
+  EXPECT_EQ(second.domain->snap, first.domain->snap);
+  EXPECT_NE(written.find("time_step = \"auto\""), std::string::npos);
+  EXPECT_NE(written.find("normal_stiffness = 200000000000.0"), std::string::npos);
+}
+
+TEST(Keys, AreWellFormed) {
+  std::set<std::string_view> section_names;
+  for (const Section& section : sections()) {
+    EXPECT_TRUE(section_names.insert(section.name).second) << section.name;
+    EXPECT_TRUE(section.meaning.ends_with('.')) << section.name;
+    std::set<std::string_view> names;
+    for (const Key& key : section.keys) {
+      EXPECT_TRUE(names.insert(key.name).second) << section.name << '.' << key.name;
+      EXPECT_TRUE(key.meaning.ends_with('.')) << section.name << '.' << key.name;
+      EXPECT_FALSE(key.otherwise.required && !key.otherwise.text.empty());
+      EXPECT_FALSE(expected(key).empty());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace edda
