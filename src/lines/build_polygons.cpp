@@ -9,6 +9,7 @@
 #include "lines/given_blocks.hpp"
 #include "lines/held.hpp"
 #include "lines/overlaps.hpp"
+#include "lines/place.hpp"
 #include "lines/quality.hpp"
 
 namespace edda {
@@ -18,9 +19,21 @@ void append(std::vector<BlockPolygon>& to, std::vector<BlockPolygon> from) {
   to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
+/// A ring needs three corners to have an inside; all later stages rely on it.
+Faults too_few_corners(const Model& model) {
+  Faults faults;
+  for (const BlockInput& block : model.blocks) {
+    if (block.polygon.size() >= 3) continue;
+    faults.push_back({member_of(block.where, "polygon"), "has fewer than three corners",
+                      "list the corners of the block in order"});
+  }
+  return faults;
+}
+
 }  // namespace
 
 Result<PolygonSet> build_polygons(const Model& model) {
+  if (Faults faults = too_few_corners(model); !faults.empty()) return faults;
   PolygonSet set;
   set.origin = model_centre(model);
   set.blocks = given_blocks(model, set.origin);

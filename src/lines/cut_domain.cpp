@@ -49,6 +49,18 @@ bool in_rock(const LineWork& work, Vec2 p, double snap) {
   });
 }
 
+std::optional<Fault> not_simple(const Model& model, const LineWork& work) {
+  const auto fault = [](const Where& table, const char* member) {
+    return Fault{member_of(table, member), "crosses or touches itself",
+                 "list the corners in order along the boundary"};
+  };
+  if (self_crossing(work.outline)) return fault(model.domain->where, "outline");
+  for (std::size_t i = 0; i < work.openings.size(); ++i) {
+    if (self_crossing(work.openings[i])) return fault(model.openings[i].where, "polygon");
+  }
+  return std::nullopt;
+}
+
 /// The faces and where each lies; the opening is that of lowest number.
 struct Partition {
   Faces faces;
@@ -181,10 +193,12 @@ Result<DomainCut> cut_domain(const Model& model, Vec2 origin) {
   Result<LineWork> lines = line_work(model, origin, snap);
   if (!lines.ok()) return lines.faults();
   const LineWork& work = lines.value();
+  if (auto fault = not_simple(model, work)) return *fault;
   const std::optional<double> area_in = rock_area(work.outline, work.openings);
   if (!area_in) {
     return Fault{member_of(model.domain->where, "outline"),
-                 "the outline or an opening crosses itself", "list the corners in order"};
+                 "the area of the outline without its openings cannot be measured",
+                 "simplify the outline or the openings where they nearly touch"};
   }
   Result<NodedLines> noded = node_lines(work, snap, model.domain->where);
   if (!noded.ok()) return noded.faults();

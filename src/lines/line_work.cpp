@@ -15,18 +15,20 @@ namespace {
 
 using Stretch = std::pair<double, double>;
 
-Ring local_ring(const Ring& ring, Vec2 origin) {
-  Ring local;
-  local.reserve(ring.size());
-  for (Vec2 p : ring) local.push_back(p - origin);
-  if (signed_area(local) < 0.0) std::reverse(local.begin(), local.end());
-  return local;
-}
-
 /// Without points that repeat the one before.
 std::vector<Vec2> without_repeats(std::vector<Vec2> points) {
   points.erase(std::unique(points.begin(), points.end()), points.end());
   return points;
+}
+
+Ring local_ring(const Ring& ring, Vec2 origin) {
+  Ring local;
+  local.reserve(ring.size());
+  for (Vec2 p : ring) local.push_back(p - origin);
+  local = without_repeats(std::move(local));
+  if (local.size() > 1 && local.front() == local.back()) local.pop_back();
+  if (signed_area(local) < 0.0) std::reverse(local.begin(), local.end());
+  return local;
 }
 
 std::vector<Vec2> closed(const Ring& ring) {
@@ -106,7 +108,7 @@ bool add_set(LineWork& work, const JointSet& set, Index source, Vec2 origin, dou
 }
 
 void add_ring(LineWork& work, const Ring& ring, Index source) {
-  std::vector<Vec2> points = without_repeats(closed(ring));
+  std::vector<Vec2> points = closed(ring);
   if (points.size() > 3) work.lines.push_back({std::move(points), source});
 }
 

@@ -25,19 +25,24 @@ double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
   return norm(p - (a + t * d));
 }
 
-struct Farthest {
+struct Departure {
   std::size_t vertex = 0;
-  double distance = -1.0;
+  double amount = -1.0;
+  bool straight() const { return amount < 1.0; }
 };
 
-Farthest farthest_from_chord(const Ring& ring, Run run) {
+/// The largest departure within a run.
+Departure departure(const Ring& ring, Run run, double tolerance) {
   const std::size_t n = ring.size();
-  Farthest far;
+  const Vec2 a = ring[run.from % n], b = ring[run.to % n];
+  Departure largest;
   for (std::size_t i = run.from + 1; i < run.to; ++i) {
-    const double d = distance_to_segment(ring[i % n], ring[run.from % n], ring[run.to % n]);
-    if (d > far.distance) far = {i, d};
+    const Vec2 p = ring[i % n];
+    const double d = distance_to_segment(p, a, b);
+    const double amount = std::max(d / tolerance, 8.0 * d / std::min(norm(p - a), norm(p - b)));
+    if (amount > largest.amount) largest = {i, amount};
   }
-  return far;
+  return largest;
 }
 
 std::vector<std::uint8_t> corners(const Ring& ring, const std::vector<Index>& law) {
@@ -66,7 +71,7 @@ bool anything_straight(const Ring& ring, const std::vector<std::uint8_t>& corner
   const std::size_t n = ring.size();
   for (std::size_t i = 0; i < n; ++i) {
     if (corner[i]) continue;
-    if (farthest_from_chord(ring, {i + n - 1, i + n + 1}).distance < tolerance) return true;
+    if (departure(ring, {i + n - 1, i + n + 1}, tolerance).straight()) return true;
   }
   return false;
 }
@@ -104,11 +109,11 @@ void split_runs(const Ring& ring, std::vector<std::uint8_t>& kept, double tolera
   while (!waiting.empty()) {
     const Run run = waiting.back();
     waiting.pop_back();
-    const Farthest far = farthest_from_chord(ring, run);
-    if (far.distance < tolerance) continue;
-    kept[far.vertex % n] = 1;
-    waiting.push_back({run.from, far.vertex});
-    waiting.push_back({far.vertex, run.to});
+    const Departure most = departure(ring, run, tolerance);
+    if (most.straight()) continue;
+    kept[most.vertex % n] = 1;
+    waiting.push_back({run.from, most.vertex});
+    waiting.push_back({most.vertex, run.to});
   }
 }
 
@@ -122,7 +127,7 @@ void drop_needless(const Ring& ring, const std::vector<std::uint8_t>& corner,
     std::size_t before = n + i - 1;
     while (!kept[before % n]) --before;
     const Run run{before, next_kept(kept, n + i)};
-    if (farthest_from_chord(ring, run).distance >= tolerance) continue;
+    if (!departure(ring, run, tolerance).straight()) continue;
     kept[i] = 0;
     --left;
   }

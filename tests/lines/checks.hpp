@@ -38,7 +38,7 @@ inline double distance_to_line(Vec2 p, Vec2 a, Vec2 b) {
 
 /// Rings simple and turned the right way, a law for each edge, no vertex on a straight side, order
 /// by centroid, area out = area in and equal to the polygons' own.
-inline void expect_sound(const PolygonSet& set, double snap) {
+inline void expect_sound(const PolygonSet& set, double snap, double area_tolerance = 1e-9) {
   double area = 0.0;
   for (const BlockPolygon& block : set.blocks) {
     ASSERT_FALSE(block.rings.empty());
@@ -65,13 +65,14 @@ inline void expect_sound(const PolygonSet& set, double snap) {
     }
     area += moments(block.rings).area;
   }
-  EXPECT_NEAR(area, set.report.area_in, 1e-9 * set.report.area_in);
+  EXPECT_NEAR(area, set.report.area_in, area_tolerance * set.report.area_in);
   EXPECT_NEAR(area, set.report.area_out, 1e-11 * set.report.area_in);
 }
 
-inline void expect_sound(const Result<PolygonSet>& result, double snap) {
+inline void expect_sound(const Result<PolygonSet>& result, double snap,
+                         double area_tolerance = 1e-9) {
   ASSERT_TRUE(result.ok()) << reason(result);
-  expect_sound(result.value(), snap);
+  expect_sound(result.value(), snap, area_tolerance);
 }
 
 }  // namespace edda::test
