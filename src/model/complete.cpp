@@ -19,6 +19,11 @@ bool is_table(const Value* value) {
   return value != nullptr && std::holds_alternative<Table>(value->content);
 }
 
+/// A default worked out from other keys, within what may be written in its place.
+double fitted(double x) {
+  return std::clamp(x, smallest_positive, largest_number);
+}
+
 bool given(const Value* table, std::string_view key) {
   return find(table, key) != nullptr;
 }
@@ -37,7 +42,7 @@ void complete_materials(const Value& root, Reading& reading) {
       if (given(node, "density")) {
         add_fault(reading, weight->place, path, "density is given too", "give only one of them");
       } else if (value) {
-        materials[i].density = *value / (gravity > 0.0 ? gravity : standard_gravity);
+        materials[i].density = fitted(*value / (gravity > 0.0 ? gravity : standard_gravity));
       }
     } else if (!given(node, "density")) {
       add_fault(reading, node->place, materials[i].where.key + ".density", "is missing",
@@ -63,7 +68,7 @@ void complete_joints(const Value& root, Reading& reading) {
       law.residual.friction_angle = law.peak.friction_angle;
     }
     constexpr double shear_over_normal = 0.4;
-    if (law.kn && !law.ks && !given(node, "ks")) law.ks = shear_over_normal * *law.kn;
+    if (law.kn && !law.ks && !given(node, "ks")) law.ks = fitted(shear_over_normal * *law.kn);
   }
 }
 
@@ -74,7 +79,7 @@ void complete_contact(const Value& root, Reading& reading) {
   for (const Material& material : model.materials) young = std::max(young, material.young);
   constexpr double stiffness_over_young = 10.0;
   if (!given(node, "normal_stiffness")) {
-    model.contact.normal_stiffness = stiffness_over_young * young;
+    model.contact.normal_stiffness = fitted(stiffness_over_young * young);
   }
   if (!given(node, "shear_stiffness")) {
     model.contact.shear_stiffness = model.contact.normal_stiffness;
@@ -255,7 +260,7 @@ void complete_interval(const Value& root, const char* key, double& interval, dou
   const Value* value = find(find(&root, "output"), key);
   const double duration = reading.model.solver.duration;
   if (value == nullptr) {
-    interval = duration / parts;
+    interval = fitted(duration / parts);
   } else if (interval > 0.0 && duration / interval > most) {
     add_fault(reading, value->place, std::string("output.") + key,
               fmt::format("would write {:.1e} times, more than {:.0e}", duration / interval, most),

@@ -110,7 +110,7 @@ void complete_snap(const Value& root, Reading& reading) {
   constexpr double parts_of_default = 1e9, largest_part = 1e-2;
   const Value* snap = find(find(&root, "domain"), "snap");
   if (snap == nullptr) {
-    domain.snap = side / parts_of_default;
+    domain.snap = std::max(side / parts_of_default, smallest_positive);
   } else if (domain.snap > largest_part * side) {
     add_fault(reading, snap->place, "domain.snap",
               fmt::format("{} is too coarse for an outline of {:.3g} m", shown(*snap), side),

@@ -47,7 +47,7 @@ constexpr Rule shape(Kind kind, D dimension, Range range = any) {
 constexpr Rule words_of(std::span<const std::string_view> words) {
   return {.kind = Kind::words, .words = words};
 }
-constexpr Rule flag = rule(Kind::flag), text = rule(Kind::text), name = rule(Kind::name),
+constexpr Rule flag = rule(Kind::flag), text = rule(Kind::text), naming = rule(Kind::name),
                choice = rule(Kind::choice), material = rule(Kind::material),
                joint = rule(Kind::joint), table = rule(Kind::table),
                point = shape(Kind::point, D::length), polygon = shape(Kind::polygon, D::length),
@@ -100,7 +100,7 @@ constexpr std::array contact_keys{
 };
 
 constexpr std::array block_keys{
-    Key{"name", at<&BlockInput::name>, name, otherwise("none"), "What --set and messages call the block."},
+    Key{"name", at<&BlockInput::name>, naming, otherwise("none"), "What --set and messages call the block."},
     Key{"polygon", at<&BlockInput::polygon>, polygon, required, "Corners in order, either way round, convex or not."},
     Key{"material", at<&BlockInput::material>, material, otherwise(if_one), "Material of the block."},
     Key{"joint", at<&BlockInput::joint>, joint, otherwise("contact.joint"), "Law of the block's edges."},
@@ -118,7 +118,7 @@ constexpr std::array domain_keys{
 };
 
 constexpr std::array joint_set_keys{
-    Key{"name", at<&JointSet::name>, name, otherwise("none"), "What --set and messages call the set."},
+    Key{"name", at<&JointSet::name>, naming, otherwise("none"), "What --set and messages call the set."},
     Key{"angle", at<&JointSet::angle>, number(D::angle), required, "Direction of the joints, counter-clockwise from +x."},
     Key{"spacing", at<&JointSet::spacing>, number(D::length, above(0)), required, "Distance between neighbouring joints, across them."},
     Key{"origin", at<&JointSet::origin>, point, initial, "One joint of the set passes through this point."},
@@ -132,7 +132,7 @@ constexpr std::array trace_keys{
 };
 
 constexpr std::array opening_keys{
-    Key{"name", at<&Opening::name>, name, otherwise("none"), "What --set, stages and messages call the opening."},
+    Key{"name", at<&Opening::name>, naming, otherwise("none"), "What --set, stages and messages call the opening."},
     Key{"polygon", at<&Opening::polygon>, polygon, required, "Outline of the opening."},
     Key{"joint", at<&Opening::joint>, joint, otherwise("glued"), "Law of the opening's outline until it is taken out."},
 };
@@ -151,7 +151,7 @@ constexpr std::array wall_keys{
 };
 
 constexpr std::array boundary_keys{
-    Key{"name", at<&Boundary::name>, name, otherwise("none"), "What --set and messages call the boundary."},
+    Key{"name", at<&Boundary::name>, naming, otherwise("none"), "What --set and messages call the boundary."},
     Key{"sides", at<&Boundary::sides>, words_of(side_names), otherwise("none; either this or along"), "Sides of the box round the model."},
     Key{"along", at<&Boundary::along>, polyline, otherwise("none; either this or sides"), "The polyline that the boundary follows."},
     Key{"type", at<&Boundary::type>, choice, initial, "Springs in x and y, or only across the line (roller), on each block vertex on it."},
@@ -159,7 +159,7 @@ constexpr std::array boundary_keys{
 };
 
 constexpr std::array monitor_keys{
-    Key{"name", at<&Monitor::name>, name, required, "What the columns of history.csv are called."},
+    Key{"name", at<&Monitor::name>, naming, required, "What the columns of history.csv are called."},
     Key{"point", at<&Monitor::point>, point, required, "A material point of the block that holds it at the start."},
 };
 

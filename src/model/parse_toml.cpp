@@ -106,6 +106,9 @@ int overlong_key(std::string_view text, int limit) {
 Fault syntax_fault(const std::string& file, int line, int column, std::string problem) {
   problem = problem.substr(0, problem.find(" (TOML_"));  // the library's own settings
   while (!problem.empty() && (problem.back() == '.' || problem.back() == ' ')) problem.pop_back();
+  for (char& c : problem) {
+    if (static_cast<unsigned char>(c) < 0x20U) c = '?';  // it quotes what it met, line ends too
+  }
   return {{"", file, std::max(line, 1), std::max(column, 1)},
           "not valid TOML: " + problem,
           "correct this line; nothing else was looked at"};

@@ -328,6 +328,10 @@ void read_named(const Section& section, const Value& value, Reading& reading) {
   }
 }
 
+bool starts_above_zero(const Range& range) {
+  return range.low_open && range.low == 0.0;
+}
+
 }  // namespace
 
 Where where_of(const Reading& reading, Place place, std::string key) {
@@ -371,12 +375,15 @@ std::optional<double> read_number(const Value& value, const Key& key, const std:
   } else {
     return fails("is " + shown(value), "expects " + expected(scalar));
   }
-  // Squares and products of what passes stay far from overflow.
-  const double largest = key.rule.dimension == Dimension::length ? 1e12 : 1e150;
+  const double largest = key.rule.dimension == Dimension::length ? largest_length : largest_number;
   if (!std::isfinite(number)) return fails("is not a finite number", "expects " + expected(scalar));
   if (std::abs(number) > largest) {
     return fails(fmt::format("{} is too large", shown(value)),
                  fmt::format("give at most {:.0e} in size", largest));
+  }
+  if (starts_above_zero(key.rule.range) && number > 0.0 && number < smallest_positive) {
+    return fails(fmt::format("{} is too small", shown(value)),
+                 fmt::format("give at least {:.0e}", smallest_positive));
   }
   if (!key.rule.range.holds(number)) {
     return fails(fmt::format("{} is out of range", shown(value)),

@@ -9,6 +9,10 @@
 
 namespace edda {
 
+// Sizes that numbers may have, so that their products and quotients neither overflow nor vanish.
+inline constexpr double largest_number = 1e150, largest_length = 1e12;
+inline constexpr double smallest_positive = 1e-150;  ///< of a key that must be above 0
+
 /// What reading works on: the model so far and the faults so far.
 struct Reading {
   std::string file;
