@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "contacts/gap.hpp"
+#include "contacts/gaps.hpp"
 #include "contacts/search.hpp"
 #include "contacts/shares.hpp"
 
@@ -66,10 +67,6 @@ void start_candidate(ContactSet& c, const BlockSet& b, const Pose& pose, const L
   const EdgeFrame before = edge_frame(at(pose.x1, pose.y1, c.edge[k]),
                                       at(pose.x1, pose.y1, c.edge_end[k]));
   c.depth_1[k] = gap_to(before, at(pose.x1, pose.y1, c.vertex[k])).depth;
-  const EdgeFrame now = edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
-  const Gap gap = gap_to(now, at(pose.x, pose.y, c.vertex[k]));
-  c.depth[k] = gap.depth;
-  c.foot[k] = gap.foot;
   c.depth_2[k] = c.depth_1[k];
   c.share[k] = 1.0;
   c.alpha[k] = 1.0;
@@ -199,6 +196,7 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
   }
   renumber(next, contacts, new_of_old);
   extend_edges(next, b);
+  for (std::size_t k = 0; k < next.size(); ++k) update_gap(next, pose, k);
   list_by_vertex(next, b.vertex_count());
   list_by_block(next, b.size());
   pair_corners(next, b, pose);

@@ -22,4 +22,20 @@ void update_gaps(ContactSet& c, const Pose& pose) {
   parallel_for(c.size(), [&](std::size_t k) { update_gap(c, pose, k); });
 }
 
+void look_at_previous_gaps(ContactSet& c, const Pose& pose) {
+  parallel_for(c.size(), [&](std::size_t k) {
+    const EdgeFrame e =
+        edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
+    c.depth_1[k] = c.depth_2[k] = gap_to(e, at(pose.x1, pose.y1, c.vertex[k])).depth;
+  });
+}
+
+void book_dashpots(ContactSet& c) {
+  parallel_for(c.size(), [&](std::size_t k) {
+    if (!c.is(k, contact_state::closed)) return;
+    c.damping_work[k] +=
+        0.5 * c.share[k] * c.alpha[k] * c.dashpot[k] * (c.depth[k] - c.depth_2[k]);
+  });
+}
+
 }  // namespace edda

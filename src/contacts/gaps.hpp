@@ -12,4 +12,10 @@ void update_gap(ContactSet& contacts, const Pose& pose, std::size_t k);
 /// All of them, after moving the gaps of the steps before back by one.
 void update_gaps(ContactSet& contacts, const Pose& pose);
 
+/// Gaps a step ago from pose.x1, y1, at the start of a run.
+void look_at_previous_gaps(ContactSet& contacts, const Pose& pose);
+
+/// Books what the dashpots of the last step took: N_damper (d_{n+1} - d_{n-1})/2.
+void book_dashpots(ContactSet& contacts);
+
 }  // namespace edda

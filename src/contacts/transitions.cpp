@@ -13,6 +13,9 @@ namespace {
 
 namespace cs = contact_state;
 
+/// Part of a block's size below which a penetration is rounding, not a place it came from.
+constexpr double rounding = 1e-12;
+
 EdgeFrame frame_of(const ContactSet& c, const Pose& pose, std::size_t k) {
   return edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
 }
@@ -30,8 +33,13 @@ double stored(const ContactSet& c, const Pose& pose, std::size_t k) {
   return 0.5 * c.share[k] * (c.kn[k] * normal + c.ks[k] * slip * slip_of(c, pose, k));
 }
 
+/// A contact that closes in a step feels the slip of that whole step: in the ledger's terms its force
+/// acts from x_{n-1} to x_{n+1}. (Starting from s = 0 at step n would leave the first force of every
+/// impact without friction, and a stiff contact may last no longer.)
 void start_shear(ContactSet& c, const Pose& pose, std::size_t k) {
-  c.anchor[k] = c.foot[k] / frame_of(c, pose, k).length;
+  const EdgeFrame before =
+      edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
+  c.anchor[k] = gap_to(before, at(pose.x1, pose.y1, c.vertex[k])).foot / before.length;
   c.shear[k] = c.shear_1[k] = c.slip_trial[k] = 0.0;
 }
 
@@ -191,6 +199,7 @@ void review_blocked(ContactSet& c, const BlockSet& b, const Pose& pose, std::uin
         still.push_back(k);
         continue;
       }
+      ++counts.unshielded;
     } else if (c.depth[k] > 0.0 && c.on_edge(k)) {
       c.why[k] = hindrance(c, b, pose, k);
       if (c.why[k] != Blocked::no) {
@@ -212,7 +221,7 @@ Blocked hindrance(const ContactSet& c, const BlockSet& b, const Pose& pose, std:
   if (!facing(b, pose.x, pose.y, vertex, frame_of(c, pose, k).normal())) return Blocked::facing;
   if (shielded(c, b, pose, k)) return Blocked::shield;
   // Of the edges that meet in a convex corner, the one that is closed, else the least penetrated.
-  const double tie = 1e-12 * b.radius[j];
+  const double tie = rounding * b.radius[j];
   for (Id q = c.begin_of_vertex[vertex]; q < c.begin_of_vertex[vertex + 1]; ++q) {
     if (q == k || c.block_j[q] != j || !rivals(b, c.edge[k], c.edge[q])) continue;
     if (c.is(q, cs::closed) && c.share[q] > 0.0) return Blocked::conflict;
@@ -223,6 +232,14 @@ Blocked hindrance(const ContactSet& c, const BlockSet& b, const Pose& pose, std:
     }
   }
   return Blocked::no;
+}
+
+void block_shielded(ContactSet& c, const BlockSet& b, const Pose& pose) {
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (c.is(k, cs::closed | cs::blocked) || !shielded(c, b, pose, k)) continue;
+    block_contact(c, k, Blocked::shield);
+  }
+  std::sort(c.blocked.begin(), c.blocked.end());
 }
 
 TransitionCounts settle_contacts(ContactSet& c, const BlockSet& b, const Pose& pose,
@@ -252,7 +269,7 @@ TransitionCounts settle_contacts(ContactSet& c, const BlockSet& b, const Pose& p
       block_contact(c, k, verdict[q]);
       continue;
     }
-    if (start || c.effective_1(k) <= 0.0) {
+    if (start || c.effective_1(k) <= rounding * b.radius[c.block_j[k]]) {
       close(c, b, pose, laws, k);
       ++counts.closed;
       continue;

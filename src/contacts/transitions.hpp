@@ -15,12 +15,16 @@ namespace edda {
 
 struct TransitionCounts {
   std::uint64_t closed = 0, opened = 0, handed_over = 0, born_inside = 0;
+  std::uint64_t unshielded = 0;  ///< may carry from now on: the step bound does not know them yet
 };
 
 /// Brings every candidate's state in line with the gaps at step n; needs update_gaps() and
 /// update_shares(). `start`: nothing is born inside yet, so what overlaps as drawn is preloaded.
 TransitionCounts settle_contacts(ContactSet& contacts, const BlockSet& blocks, const Pose& pose,
                                  const LawTable& laws, std::uint64_t step, bool start);
+
+/// Blocks the open candidates of a new list that a shield covers (contacts/shield.hpp), before they touch.
+void block_shielded(ContactSet& contacts, const BlockSet& blocks, const Pose& pose);
 
 /// Whether candidate k may close now, and why not. Public for the tests.
 Blocked hindrance(const ContactSet& contacts, const BlockSet& blocks, const Pose& pose,

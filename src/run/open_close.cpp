@@ -116,7 +116,7 @@ void refresh(std::vector<Id>& set, const Change& change, const ContactSet& c) {
 
 }  // namespace
 
-void correct_switching(ContactSet& c, const BlockSet& b, State& s, Pose& pose,
+double correct_switching(ContactSet& c, const BlockSet& b, State& s, Pose& pose,
                        const StepTaken& taken, OpenCloseCounts& counts) {
   std::vector<Id> set;
   double largest = 0.0;
@@ -125,7 +125,7 @@ void correct_switching(ContactSet& c, const BlockSet& b, State& s, Pose& pose,
     largest = std::max(largest, c.effective_1(k));
     if (switches(c, k)) set.push_back(static_cast<Id>(k));
   }
-  if (set.empty()) return;
+  if (set.empty()) return largest;
   const double h_mean = 0.5 * (taken.h_old + taken.h_new);
   const double dv_per_force = h_mean / (1.0 + 0.5 * taken.mass_damping * h_mean);
   std::uint64_t passes = 0;
@@ -160,6 +160,7 @@ void correct_switching(ContactSet& c, const BlockSet& b, State& s, Pose& pose,
   counts.most = std::max(counts.most, passes);
   counts.switched += set.size();
   if (!settled) ++counts.unsettled;
+  return largest;
 }
 
 }  // namespace edda

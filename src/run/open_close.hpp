@@ -24,8 +24,8 @@ struct StepTaken {
 };
 
 /// At entry: positions and gaps of step n + 1 made with alpha = 1; state flags and forces of step n. At
-/// return both are final. Passes: at most 12.
-void correct_switching(ContactSet& contacts, const BlockSet& blocks, State& state, Pose& pose,
+/// return both are final. Passes: at most 12. Returns the largest penetration of step n, m.
+double correct_switching(ContactSet& contacts, const BlockSet& blocks, State& state, Pose& pose,
                        const StepTaken& taken, OpenCloseCounts& counts);
 
 }  // namespace edda

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -59,10 +60,12 @@ struct Simulation {
   std::optional<double> start_energy;  ///< J, of the ledger
   double largest_energy = 0.0;         ///< J, so far
 
-  /// Cuts, builds, finds contacts, takes the first half step back. `step` s to start with is chosen so
-  /// that a whole number of steps ends at `first_event` (s); 0: as large as allowed.
+  /// Cuts, builds, finds what touches, bounds the step. Faults of the geometry come back as values.
   static Result<Simulation> create(Model model);
 
+  /// Chooses the step so that a whole number of steps ends at `first_event` (s), and takes the velocities
+  /// half a step back: v_{-1/2} = v_0 - a_0 h/2. Once, before the first step().
+  void start(double first_event);
   /// Sets the step towards an event at `time` s: as few equal steps as the limit allows.
   void aim_at(double time);
   /// One step of the method: forces, motion, gaps, switching, search, contacts.
@@ -74,8 +77,11 @@ struct Simulation {
   void search(double reach);
   void search_if_due();
   bool move(double h_old, double h_new);
+  void finish_step();
   std::optional<Failure> inspect() const;
+  Failure diverged() const;
   void set_limit();
+  double displacement_cap_ = std::numeric_limits<double>::infinity();  ///< s: after halvings
   double target_ = 0.0;        ///< s: the event aimed at
   double step_before_ = 0.0;   ///< s: step behind v_{n-1/2}
   std::uint64_t steps_left_ = 0;

@@ -1,0 +1,275 @@
+#include "run/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.hpp"
+#include "blocks/build_blocks.hpp"
+#include "contacts/candidates.hpp"
+#include "contacts/gaps.hpp"
+#include "contacts/shares.hpp"
+#include "contacts/transitions.hpp"
+#include "forces/contact_forces.hpp"
+#include "lines/build_polygons.hpp"
+
+namespace edda {
+namespace {
+
+double median_edge(const BlockSet& b) {
+  std::vector<double> edges;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (!b.fixed[i]) edges.push_back(b.smallest_edge[i]);
+  }
+  if (edges.empty()) edges = b.smallest_edge;
+  const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
+  std::nth_element(edges.begin(), middle, edges.end());
+  return *middle;
+}
+
+/// method.md section 5: a part of the model's half-height, never more than a tenth of the smallest edge.
+double largest_displacement(const BlockSet& b, double ratio) {
+  const auto [low, high] = std::minmax_element(b.vertex_y.begin(), b.vertex_y.end());
+  const double edge = *std::min_element(b.smallest_edge.begin(), b.smallest_edge.end());
+  return std::min(ratio * 0.5 * (*high - *low), 0.1 * edge);
+}
+
+StepDamping step_damping(const Solver& solver) {
+  return {solver.damping.mass, solver.damping.local};
+}
+
+/// Energy that a change of the step creates: sum of m |v+ - v-|^2 (h_old - h_new)/(4 h_mean) with the
+/// ledger's definition of work.
+double energy_of_step_change(const BlockSet& b, const State& s, const Nodes& old_vx,
+                             const Nodes& old_vy, double h_old, double h_new) {
+  Nodes dx = s.vx, dy = s.vy;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      dx[k][i] -= old_vx[k][i];
+      dy[k][i] -= old_vy[k][i];
+    }
+  }
+  const double twice = 2.0 * ordered_sum(b.size(), [&](std::size_t i) {
+    return b.fixed[i] || !s.alive[i] ? 0.0 : kinetic_energy(b, dx, dy, i);
+  });
+  return twice * (h_old - h_new) / (2.0 * (h_old + h_new));
+}
+
+}  // namespace
+
+Result<Simulation> Simulation::create(Model given) {
+  Simulation s;
+  s.model = std::move(given);
+  Result<PolygonSet> cut = build_polygons(s.model);
+  if (!cut.ok()) return cut.faults();
+  s.polygons = std::move(cut.value());
+  s.blocks = build_blocks(s.model, s.polygons);
+  s.laws = build_laws(s.model);
+  Result<BoundarySprings> springs = attach_boundaries(s.model, s.blocks);
+  if (!springs.ok()) return springs.faults();
+  s.springs = std::move(springs.value());
+  s.state = initial_state(s.blocks, s.polygons);
+
+  const std::size_t nb = s.blocks.size(), nv = s.blocks.vertex_count();
+  for (std::size_t k = 0; k < 3; ++k) {
+    s.forces.x[k].assign(nb, 0.0);
+    s.forces.y[k].assign(nb, 0.0);
+  }
+  s.damping_work.joules.assign(nb, 0.0);
+  s.pose.x.resize(nv);
+  s.pose.y.resize(nv);
+  s.place_all();
+  s.pose.x1 = s.pose.x;
+  s.pose.y1 = s.pose.y;
+  s.base_reach = 0.05 * median_edge(s.blocks);
+  s.displacement_limit =
+      largest_displacement(s.blocks, s.model.solver.max_displacement_ratio);
+  s.step_limit = std::numeric_limits<double>::infinity();
+
+  s.search(s.base_reach);
+  update_shares(s.contacts, s.pose);
+  bond_contacts(s.contacts, s.blocks, s.state, s.pose, s.laws);
+  settle_contacts(s.contacts, s.blocks, s.pose, s.laws, 0, true);
+  s.set_limit();
+  return s;
+}
+
+void Simulation::place_all() {
+  parallel_for(blocks.size(), [&](std::size_t i) {
+    if (state.alive[i]) place_vertices(blocks, state.x, state.y, i, pose.x, pose.y);
+  });
+}
+
+void Simulation::start(double first_event) {
+  aim_at(first_event);
+  const double h = state.step;
+  step_before_ = h;
+  auto look_back = [&] {
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      place_vertices(blocks, state.vx, state.vy, i, pose.x1, pose.y1);
+    }
+    parallel_for(blocks.vertex_count(), [&](std::size_t v) {
+      pose.x1[v] = pose.x[v] - h * pose.x1[v];
+      pose.y1[v] = pose.y[v] - h * pose.y1[v];
+    });
+    look_at_previous_gaps(contacts, pose);
+  };
+  look_back();
+  evaluate_contacts(contacts, blocks, pose, laws, h, model.solver.damping.contact);
+  gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity);
+  start_velocities(state, blocks, forces.x, forces.y, h);
+  look_back();
+}
+
+void Simulation::search(double reach) {
+  rebuild_candidates(contacts, blocks, state, pose, laws, reach);
+  block_shielded(contacts, blocks, pose);
+}
+
+void Simulation::set_limit() {
+  bound = step_bound(blocks, state, pose, contacts, springs, model.solver.damping.contact);
+  if (model.solver.time_step) {
+    step_limit = std::min(*model.solver.time_step, displacement_cap_);
+    return;
+  }
+  // Lowered at once, raised only when it is well worth the energy that a change costs.
+  const double allowed = std::min(model.solver.safety * bound.critical_step, displacement_cap_);
+  if (allowed < step_limit || allowed > 1.25 * step_limit) step_limit = allowed;
+}
+
+void Simulation::aim_at(double time) {
+  target_ = time;
+  const double left = time - state.time;
+  const double n = std::max(1.0, std::ceil(left / step_limit * (1.0 - 1e-12)));
+  steps_left_ = static_cast<std::uint64_t>(n);
+  const double h = left / n;
+  // Equal intervals must give equal bits, or every row would cost a change of the step.
+  if (std::abs(h - state.step) <= 1e-9 * h && state.step <= step_limit) return;
+  state.step = h;
+}
+
+bool Simulation::move(double h_old, double h_new) {
+  advance(state, blocks, forces.x, forces.y, h_old, h_new, step_damping(model.solver), damping_work);
+  std::swap(pose.x, pose.x1);
+  std::swap(pose.y, pose.y1);
+  place_all();
+  constexpr std::size_t chunk = 4096;
+  const std::size_t nv = blocks.vertex_count();
+  std::vector<double> largest((nv + chunk - 1) / chunk, 0.0);
+  parallel_for(largest.size(), [&](std::size_t c) {
+    for (std::size_t v = c * chunk; v < std::min(nv, (c + 1) * chunk); ++v) {
+      const double dx = pose.x[v] - pose.x1[v], dy = pose.y[v] - pose.y1[v];
+      const double d2 = dx * dx + dy * dy;
+      if (!(d2 <= largest[c])) largest[c] = std::isfinite(d2) ? d2 : 1e300;
+    }
+  });
+  last_displacement =
+      std::sqrt(largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end()));
+  return last_displacement <= displacement_limit;
+}
+
+std::optional<Failure> Simulation::step() {
+  const double h_old = step_before_;
+  evaluate_contacts(contacts, blocks, pose, laws, state.step, model.solver.damping.contact);
+  gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity);
+
+  const Nodes old_vx = state.vx, old_vy = state.vy;
+  const DampingWork old_work = damping_work;
+  for (int halvings = 0; !move(h_old, state.step); ++halvings) {
+    if (last_displacement > 1e100 || halvings == 40) return diverged();
+    retreat(state, blocks, state.step, old_vx, old_vy);
+    damping_work = old_work;
+    std::swap(pose.x, pose.x1);
+    std::swap(pose.y, pose.y1);
+    place_all();
+    displacement_cap_ = 0.5 * state.step;
+    step_limit = std::min(step_limit, displacement_cap_);
+    aim_at(target_);
+    ++steps.redone;
+  }
+  const double h = state.step;
+
+  update_gaps(contacts, pose);
+  if (model.solver.switching == Switching::exact) {
+    const StepTaken taken{h_old, h, model.solver.damping.mass};
+    max_penetration = std::max(
+        max_penetration, correct_switching(contacts, blocks, state, pose, taken, open_close));
+  }
+  if (h != h_old) {
+    step_change_energy += energy_of_step_change(blocks, state, old_vx, old_vy, h_old, h);
+    ++steps.changes;
+  }
+  if (model.solver.damping.contact > 0.0) book_dashpots(contacts);
+  finish_step();
+  update_shares(contacts, pose);
+  search_if_due();
+  const TransitionCounts counts =
+      settle_contacts(contacts, blocks, pose, laws, state.steps, false);
+  if (counts.unshielded > 0) set_limit();
+  if (step_limit < state.step * (1.0 - 1e-12) ||
+      (steps_left_ > 0 && step_limit > 1.25 * state.step)) {
+    if (steps_left_ > 0) aim_at(target_);
+  }
+  return inspect();
+}
+
+void Simulation::finish_step() {
+  const double h = state.step;
+  ++state.steps;
+  --steps_left_;
+  state.time = steps_left_ == 0 ? target_ : state.time + h;
+  step_before_ = h;
+  steps.smallest = steps.smallest == 0.0 ? h : std::min(steps.smallest, h);
+  steps.largest = std::max(steps.largest, h);
+  steps.sum += h;
+}
+
+void Simulation::search_if_due() {
+  contacts.travel += last_displacement;
+  const double ahead = 2.0 * last_displacement;
+  if (contacts.travel + ahead <= 0.5 * contacts.reach) return;
+  // The sum of displacements is a bound; what counts is how far any vertex is from where it was.
+  const std::size_t nv = blocks.vertex_count();
+  double moved2 = 0.0;
+  for (std::size_t v = 0; v < nv; ++v) {
+    const double dx = pose.x[v] - contacts.built_x[v], dy = pose.y[v] - contacts.built_y[v];
+    moved2 = std::max(moved2, dx * dx + dy * dy);
+  }
+  contacts.travel = std::sqrt(moved2);
+  if (contacts.travel + 2.0 * ahead <= 0.5 * contacts.reach) return;
+  search(std::max(base_reach, 20.0 * last_displacement));
+  update_shares(contacts, pose);
+  set_limit();
+}
+
+std::optional<Failure> Simulation::inspect() const {
+  if (!std::isfinite(last_displacement)) return diverged();
+  return std::nullopt;
+}
+
+Failure Simulation::diverged() const {
+  Failure f;
+  f.time = state.time;
+  f.message = "the run has diverged";
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    if (std::isfinite(forces.x[0][i])) continue;
+    f.block = static_cast<Id>(i);
+    f.place = centroid(state.x, state.y, i) + blocks.origin;
+    f.message = fmt::format("block {} has lost its shape (deformation out of bounds)", i);
+    break;
+  }
+  return f;
+}
+
+Ledger Simulation::ledger() {
+  Ledger l = sum_ledger(blocks, state, pose, contacts, springs, damping_work, model.gravity);
+  l.step_change = -step_change_energy;
+  if (!start_energy) start_energy = l.balance();
+  largest_energy = std::max(largest_energy, l.scale());
+  l.drift = largest_energy > 0.0 ? (l.balance() - *start_energy) / largest_energy : 0.0;
+  return l;
+}
+
+}  // namespace edda

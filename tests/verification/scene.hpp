@@ -1,0 +1,70 @@
+// Helpers of the verification problems: a model from text, run to its end with a look at every row.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "blocks/kinematics.hpp"
+#include "model/read_model.hpp"
+#include "run/simulation.hpp"
+
+namespace edda {
+
+inline Simulation scene(const std::string& toml) {
+  Result<Model> model = read_model_text(toml, "scene.toml", {});
+  if (!model.ok()) {
+    for (const Fault& f : model.faults()) ADD_FAILURE() << to_string(f);
+    std::abort();
+  }
+  Result<Simulation> sim = Simulation::create(std::move(model.value()));
+  if (!sim.ok()) {
+    for (const Fault& f : sim.faults()) ADD_FAILURE() << to_string(f);
+    std::abort();
+  }
+  return std::move(sim.value());
+}
+
+/// Runs to the model's duration, calling look(sim) at t = 0 and at every history row.
+inline void run(Simulation& sim, const std::function<void(Simulation&)>& look) {
+  const double every = sim.model.output.history_every;
+  const auto rows = static_cast<std::uint64_t>(std::llround(sim.model.solver.duration / every));
+  sim.start(every);
+  look(sim);
+  for (std::uint64_t row = 1; row <= rows; ++row) {
+    const double time = static_cast<double>(row) * every;
+    sim.aim_at(time);
+    while (sim.state.time < time) {
+      const auto failure = sim.step();
+      if (failure) FAIL() << failure->message << " at " << failure->time;
+    }
+    look(sim);
+  }
+}
+
+inline Vec2 displacement(const Simulation& sim, std::size_t i) {
+  return centroid(sim.state.x, sim.state.y, i) -
+         Vec2{sim.blocks.centroid_x[i], sim.blocks.centroid_y[i]};
+}
+
+inline double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+
+/// A point given along and across a slope that rises to the left at `angle` degrees: u down the slope.
+inline std::string on_slope(double angle, double u, double v) {
+  const double c = std::cos(radians(angle)), s = std::sin(radians(angle));
+  char text[96];
+  std::snprintf(text, sizeof text, "[%.17g, %.17g]", u * c + v * s, -u * s + v * c);
+  return text;
+}
+
+inline std::string number(double v) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", v);
+  return text;
+}
+
+}  // namespace edda
