@@ -30,10 +30,27 @@ Faults too_few_corners(const Model& model) {
   return faults;
 }
 
+/// Beyond this no machine that runs the model could hold them.
+constexpr double most_bricks = 1e7;
+
+Faults too_many_bricks(const Model& model) {
+  Faults faults;
+  double bricks = 0.0;
+  for (const BrickWall& wall : model.walls) {
+    bricks += (wall.columns + 0.5) * static_cast<double>(wall.rows);
+    if (bricks <= most_bricks) continue;
+    faults.push_back({member_of(wall.where, "columns"), "the walls have more than 1e7 bricks",
+                      "give fewer columns or rows"});
+    break;
+  }
+  return faults;
+}
+
 }  // namespace
 
 Result<PolygonSet> build_polygons(const Model& model) {
   if (Faults faults = too_few_corners(model); !faults.empty()) return faults;
+  if (Faults faults = too_many_bricks(model); !faults.empty()) return faults;
   PolygonSet set;
   set.origin = model_centre(model);
   set.blocks = given_blocks(model, set.origin);

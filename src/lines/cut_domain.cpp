@@ -219,6 +219,7 @@ Result<DomainCut> cut_domain(const Model& model, Vec2 origin) {
   if (auto fault = lost_area(model, graph, parts.value(), work, snap, *area_in)) return *fault;
   cut.blocks = polygons(model, graph, parts.value(), work, Zone::rock, snap);
   cut.removed = polygons(model, graph, parts.value(), work, Zone::opening, snap);
+  cut.report.cut_blocks = static_cast<int>(cut.blocks.size());
   cut.report.area_out = area_of(cut.blocks);
   return cut;
 }

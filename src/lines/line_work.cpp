@@ -126,12 +126,13 @@ Fault too_many_lines(const JointSet& set, long long max_blocks) {
 }  // namespace
 
 Vec2 direction_of(double angle) {
-  const double quarters = angle / 90.0;
+  const double turn = std::fmod(angle, 360.0);
+  const double quarters = turn / 90.0;
   if (quarters == std::round(quarters)) {
     constexpr Vec2 axes[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-    return axes[((static_cast<long long>(quarters) % 4) + 4) % 4];
+    return axes[(static_cast<int>(quarters) + 4) % 4];
   }
-  const double radians = angle * std::numbers::pi / 180.0;
+  const double radians = turn * std::numbers::pi / 180.0;
   return {std::cos(radians), std::sin(radians)};
 }
 

@@ -28,6 +28,7 @@ struct BlockPolygon {
 
 /// What the cut did, for the user to read.
 struct CutReport {
+  int cut_blocks = 0;           ///< blocks of the domain: the last of PolygonSet::blocks
   int dangling = 0;             ///< ends of joints that end inside a block and were trimmed
   int bridging = 0;             ///< pieces of joint with the same block on both sides, removed
   int merged = 0;               ///< faces thinner than twice `domain.snap`, joined to a neighbour
