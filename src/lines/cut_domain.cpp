@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -183,9 +184,13 @@ Cycles trim(PlanarGraph& graph, const LineWork& work, double snap, CutReport& re
 }  // namespace
 
 double snap_of(const Model& model) {
-  if (model.domain->snap > 0.0) return model.domain->snap;
-  const double size = size_of(model.domain->outline);
-  return size > 0.0 ? 1e-9 * size : 1e-9;
+  const Domain& domain = *model.domain;
+  const double size = size_of(domain.outline);
+  double farthest = 0.0;
+  for (Vec2 p : domain.outline) farthest = std::max({farthest, std::abs(p.x), std::abs(p.y)});
+  const double snap = domain.snap > 0.0 ? domain.snap : 1e-9 * size;
+  const double resolved = 4.0 * std::numeric_limits<double>::epsilon() * farthest;
+  return std::max({snap, resolved, std::numeric_limits<double>::min()});
 }
 
 Result<DomainCut> cut_domain(const Model& model, Vec2 origin) {

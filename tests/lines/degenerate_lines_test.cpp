@@ -73,6 +73,16 @@ TEST(DegenerateLines, TracesEndingOnTracesLoseNoBlockFarAway) {
   }
 }
 
+TEST(DegenerateLines, SnapNeverFallsBelowTheDigitsOfTheCoordinates) {
+  // At 1e8 m doubles are 1.5e-8 m apart: a snap of 1e-8 m would leave the ends of traces loose.
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    const auto result = build_polygons(shifted(split_blocks(20, seed), {1e8, -1e8}));
+    ASSERT_TRUE(result.ok()) << reason(result);
+    EXPECT_EQ(result.value().blocks.size(), 21u) << seed;
+    EXPECT_EQ(result.value().report.dangling, 0) << seed;
+  }
+}
+
 TEST(DegenerateLines, FiftyThroughOnePointMakeAHundredBlocks) {
   Model model = domain_model(box(-5, -5, 5, 5), 1e-8);
   for (int i = 0; i < 50; ++i) {

@@ -145,6 +145,15 @@ TEST(Domain, OutlineNeedNotBeConvex) {
   expect_cut(u, {1 + 3 + 2 * 6 + 2, 0, 0, 0});
 }
 
+TEST(Domain, SlotInTheOutlineThinnerThanSnapCloses) {
+  const double w = 0.2 * snap;
+  Model model =
+      domain_model({{0, 0}, {10, 0}, {10, 10}, {5 + w, 10}, {5, 5}, {5 - w, 10}, {0, 10}}, snap);
+  expect_cut(model, {1, 0, 0, 0});
+  add_trace(model, {{-1, 5}, {11, 5}});
+  expect_cut(model, {3, 0, 0, 0});
+}
+
 TEST(Domain, OpeningIsTakenOut) {
   Model model = square();
   add_opening(model, box(3, 3, 7, 7), 4);
