@@ -1,0 +1,13 @@
+# Writes the models of a folder into a .cpp, so that `edda example` has them wherever it is installed.
+function(embed_examples folder output)
+  file(GLOB models CONFIGURE_DEPENDS ${folder}/*.toml)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${models})
+  set(code "#include \"app/examples.hpp\"\n\nnamespace edda {\nnamespace {\n\nconstexpr Example examples[] = {\n")
+  foreach(model ${models})
+    get_filename_component(name ${model} NAME_WE)
+    file(READ ${model} text)
+    string(APPEND code "    {\"${name}\", R\"toml-model(${text})toml-model\"},\n")
+  endforeach()
+  string(APPEND code "};\n\n}  // namespace\n\nstd::span<const Example> built_in_examples() { return examples; }\n\n}  // namespace edda\n")
+  file(CONFIGURE OUTPUT ${output} CONTENT "@code@" @ONLY)
+endfunction()

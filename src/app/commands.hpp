@@ -1,0 +1,19 @@
+// The commands of the program. Each adds itself to the command line; its callback sets the exit
+// code.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace edda {
+
+namespace exit_code {
+inline constexpr int done = 0, failed = 1, bad_input = 2, interrupted = 130;
+}
+
+void add_run(CLI::App& app, int& code);
+void add_check(CLI::App& app, int& code);
+void add_cut(CLI::App& app, int& code);
+void add_plot(CLI::App& app, int& code);
+void add_example(CLI::App& app, int& code);
+
+}  // namespace edda

@@ -1,0 +1,76 @@
+#include "app/common.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "model/read_model.hpp"
+
+namespace edda {
+
+void print(const Faults& faults) {
+  for (const Fault& f : faults) fmt::print(stderr, "{}\n", to_string(f));
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& w : warnings) fmt::print(stderr, "warning: {}\n", w);
+}
+
+std::optional<Model> read_or_print(const std::string& path,
+                                   const std::vector<std::string>& overrides) {
+  Result<Model> model = read_model(path, overrides);
+  if (model.ok()) return std::move(model.value());
+  print(model.faults());
+  return {};
+}
+
+void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
+  command
+      .add_option(
+          "--set", overrides,
+          "Change a key of the model, for instance --set solver.duration=0.2; may be given often")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+void add_threads(CLI::App& command) {
+  command
+      .add_option_function<int>(
+          "--threads", [](int n) { omp_set_num_threads(n); },
+          "Threads to use (default: all cores); results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+}
+
+std::string stem_of(const std::string& path) {
+  std::filesystem::path p(path);
+  if (!p.has_filename()) p = p.parent_path();
+  return p.stem().string();
+}
+
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+std::string duration_text(double seconds) {
+  if (!(seconds >= 0.0) || !std::isfinite(seconds)) return "unknown";
+  if (seconds < 0.1) return "less than 0.1 s";
+  if (seconds < 10.0) return fmt::format("{:.2g} s", seconds);
+  if (seconds < 60.0) return fmt::format("{:.0f} s", seconds);
+  const double minutes = std::floor(seconds / 60.0);
+  if (minutes < 60.0)
+    return fmt::format("{:.0f} min {:.0f} s", minutes, std::floor(seconds - 60.0 * minutes));
+  const double hours = std::floor(minutes / 60.0);
+  if (hours < 48.0) return fmt::format("{:.0f} h {:.0f} min", hours, minutes - 60.0 * hours);
+  return fmt::format("{:.1f} days", hours / 24.0);
+}
+
+}  // namespace edda

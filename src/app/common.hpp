@@ -1,0 +1,37 @@
+// What several commands share.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "base/fault.hpp"
+#include "model/model.hpp"
+
+namespace edda {
+
+/// One line per fault on stderr.
+void print(const Faults& faults);
+void print_warnings(const std::vector<std::string>& warnings);
+
+/// Reads MODEL with its overrides; prints the faults and returns nothing if there are any.
+std::optional<Model> read_or_print(const std::string& path,
+                                   const std::vector<std::string>& overrides);
+
+/// Adds --set key=value.
+void add_overrides(CLI::App& command, std::vector<std::string>& overrides);
+
+/// Adds --threads N and sets them when parsed.
+void add_threads(CLI::App& command);
+
+/// File name without folder and ending.
+std::string stem_of(const std::string& path);
+
+/// ".svg" of "a/b.svg", in lower case.
+std::string ending_of(const std::string& path);
+
+/// "3 min 20 s", "1.4 s".
+std::string duration_text(double seconds);
+
+}  // namespace edda

@@ -1,0 +1,39 @@
+// The program: reads the command line and hands over to one command.
+#include <cstdio>
+
+#include "app/commands.hpp"
+#include "results/version.hpp"
+
+int main(int argc, char** argv) {
+  int code = edda::exit_code::done;
+  CLI::App app{
+      "edda computes how jointed rock moves: blocks cut by joints, their contacts with friction, "
+      "in time\n"
+      "(explicit discontinuous deformation analysis).\n\n"
+      "New here? Four commands from nothing to a picture:\n"
+      "  edda example ramp          writes ramp.toml, a model to read and to change\n"
+      "  edda check ramp.toml       says whether it is sound, and how long it will take\n"
+      "  edda run ramp.toml         computes it; results go to the folder ramp/\n"
+      "  edda plot ramp             draws the last state into ramp.png\n",
+      "edda"};
+  app.set_version_flag("--version", "edda " + std::string(edda::version));
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(34);
+  app.footer(
+      "Each command has a --help of its own.\n"
+      "Exit codes: 0 done, 1 the run failed, 2 bad usage or bad model, 130 interrupted.");
+  edda::add_run(app, code);
+  edda::add_check(app, code);
+  edda::add_cut(app, code);
+  edda::add_plot(app, code);
+  edda::add_example(app, code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? edda::exit_code::done : edda::exit_code::bad_input;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "edda: %s\n", error.what());
+    return edda::exit_code::failed;
+  }
+  return code;
+}

@@ -1,0 +1,26 @@
+// How a run gets on, on stderr.
+#pragma once
+
+#include <chrono>
+
+#include "run/run_model.hpp"
+
+namespace edda {
+
+/// A bar that redraws itself on a terminal; elsewhere a line every ten seconds, then every minute.
+class ProgressBar {
+ public:
+  ProgressBar();
+  void show(const Progress& progress);
+  /// Ends the bar's line.
+  void finish();
+
+ private:
+  void draw_bar(const Progress& progress);
+  bool terminal_;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point start_;
+  double next_line_ = 10.0;  ///< s after the start
+};
+
+}  // namespace edda

@@ -1,0 +1,113 @@
+// edda run
+#include <fmt/format.h>
+
+#include <atomic>
+#include <csignal>
+#include <memory>
+
+#include "app/common.hpp"
+#include "app/progress.hpp"
+#include "results/files.hpp"
+#include "run/run_model.hpp"
+
+namespace edda {
+namespace {
+
+struct RunArguments {
+  std::string model, folder;
+  std::vector<std::string> overrides;
+  bool quiet = false;
+};
+
+std::atomic<bool> stop_asked{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+/// The first signal asks the run to end well; a second one ends it at once.
+void ask_to_stop(int signal) {
+  if (stop_asked.exchange(true)) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+}
+
+int code_of(Status status) {
+  if (status == Status::failed) return exit_code::failed;
+  return status == Status::interrupted ? exit_code::interrupted : exit_code::done;
+}
+
+void print_end(const Outcome& o, const std::string& folder) {
+  fmt::print("{}: {}\n", status_name(o.status), o.message);
+  fmt::print("  {:.6g} s in {} steps, {} of wall time; {} contacts closed at the end\n", o.time,
+             o.steps, duration_text(o.wall.total), o.contacts);
+  fmt::print("  energy drift {:.2g}; results in {}/ (summary.json says it all)\n", o.ledger.drift,
+             folder);
+}
+
+int run(const RunArguments& args) {
+  const std::optional<Model> model = read_or_print(args.model, args.overrides);
+  if (!model) return exit_code::bad_input;
+  const std::string folder = args.folder.empty() ? stem_of(args.model) : args.folder;
+  // Asked before the cut, which may take minutes, and again when the run starts.
+  if (const Trouble trouble = check_folder(folder, args.model)) {
+    print({*trouble});
+    return exit_code::bad_input;
+  }
+  std::signal(SIGINT, ask_to_stop);
+  std::signal(SIGTERM, ask_to_stop);
+  Result<PreparedRun> prepared = prepare_run(*model);
+  if (!prepared.ok()) {
+    print(prepared.faults());
+    return exit_code::bad_input;
+  }
+  PreparedRun& ready = prepared.value();
+  if (!args.quiet) {
+    fmt::print(stderr, "{} blocks; step {:.4g} s of critical {:.4g} s, held by {}\n",
+               ready.sim.blocks.size(), ready.sim.step_limit, ready.sim.bound.critical_step,
+               ready.governed_by);
+    print_warnings(ready.warnings);
+  }
+  ProgressBar bar;
+  RunOptions options;
+  options.folder = folder;
+  options.stop = &stop_asked;
+  if (!args.quiet) options.progress = [&](const Progress& p) { bar.show(p); };
+  const Result<Outcome> outcome = run_model(ready, options);
+  bar.finish();
+  if (!outcome.ok()) {
+    print(outcome.faults());
+    return exit_code::bad_input;
+  }
+  const Outcome& o = outcome.value();
+  if (o.status == Status::failed) fmt::print(stderr, "edda: {}\n", o.message);
+  if (!args.quiet) print_end(o, folder);
+  return code_of(o.status);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand("run", "Run a model and write its results into a folder");
+  command->footer(
+      "Example:\n  edda run slope.toml -o steep --set joints.rock.friction_angle=20\n\n"
+      "The folder (default: the model's name without .toml, here) then holds\n"
+      "  summary.json   how the run ended, the energy ledger, checks to look at; written last\n"
+      "  history.csv    monitors and energies over time\n"
+      "  blocks.csv     every block at the end;  joints.csv: every contact\n"
+      "  blocks.pvd, contacts.pvd   time series: open them in ParaView\n"
+      "  model.toml     the model as run, every default filled in\n"
+      "Ctrl-C ends a run early and keeps everything so far (exit code 130).");
+  auto args = std::make_shared<RunArguments>();
+  command->add_option("MODEL", args->model, "The model, a TOML file")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("-o,--output", args->folder,
+                   "Folder for the results (default: the model's stem)")
+      ->type_name("DIR");
+  add_threads(*command);
+  add_overrides(*command, args->overrides);
+  command->add_flag("--quiet", args->quiet, "No progress, no warnings, no closing words");
+  command->callback([args, &code] { code = run(*args); });
+}
+
+}  // namespace edda

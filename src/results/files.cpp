@@ -1,0 +1,189 @@
+#include "results/files.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+namespace edda {
+namespace {
+
+namespace fs = std::filesystem;
+
+Fault cannot(const std::string& what, const std::string& path, const std::string& why,
+             std::string remedy) {
+  Fault fault;
+  fault.where.file = path;
+  fault.problem = "cannot be " + what + " (" + why + ")";
+  fault.remedy = std::move(remedy);
+  return fault;
+}
+
+Fault cannot_write(const std::string& path, int error) {
+  const char* remedy = error == ENOSPC || error == EDQUOT
+                           ? "free some disk space; what was written before is kept"
+                           : "see that the folder may be written to";
+  return cannot("written", path, std::strerror(error), remedy);
+}
+
+int write_and_close(std::FILE* file, std::string_view content) {
+  int error = 0;
+  if (std::fwrite(content.data(), 1, content.size(), file) != content.size()) error = errno;
+  if (std::fflush(file) != 0 && error == 0) error = errno;
+  if (std::fclose(file) != 0 && error == 0) error = errno;
+  return error;
+}
+
+constexpr std::array known_files{"summary.json", "history.csv",  "blocks.csv",    "joints.csv",
+                                 "blocks.pvd",   "contacts.pvd", "model.toml",    "checkpoint.h5",
+                                 "stages.csv",   "bolts.csv",    "reactions.csv", "fos.csv"};
+
+bool starts_with_and_is(const std::string& name, std::string_view start, std::string_view end) {
+  return name.size() >= start.size() + end.size() && name.starts_with(start) && name.ends_with(end);
+}
+
+bool is_result(const fs::directory_entry& entry) {
+  std::string name = entry.path().filename().string();
+  if (name == "frames") return entry.is_directory() && !entry.is_symlink();
+  if (name.ends_with(".part")) name.resize(name.size() - 5);
+  if (!entry.is_regular_file()) return false;
+  for (const char* known : known_files) {
+    if (name == known) return true;
+  }
+  return starts_with_and_is(name, "joints_", ".csv");
+}
+
+bool is_frame(const fs::directory_entry& entry) {
+  std::string name = entry.path().filename().string();
+  if (name.ends_with(".part")) name.resize(name.size() - 5);
+  return entry.is_regular_file() && (starts_with_and_is(name, "blocks_", ".vtu") ||
+                                     starts_with_and_is(name, "contacts_", ".vtu"));
+}
+
+/// All that is in the folder, or the first entry that no run has written.
+struct Content {
+  std::vector<fs::path> files;
+  std::optional<fs::path> alien;
+  std::error_code error;
+};
+
+Content content_of(const fs::path& folder) {
+  Content content;
+  for (fs::directory_iterator it(folder, content.error), end; it != end && !content.error;
+       it.increment(content.error)) {
+    if (!is_result(*it)) {
+      content.alien = it->path();
+      return content;
+    }
+    if (it->path().filename() != "frames") {
+      content.files.push_back(it->path());
+      continue;
+    }
+    for (fs::directory_iterator in(it->path(), content.error); in != end && !content.error;
+         in.increment(content.error)) {
+      if (!is_frame(*in)) {
+        content.alien = in->path();
+        return content;
+      }
+      content.files.push_back(in->path());
+    }
+  }
+  return content;
+}
+
+}  // namespace
+
+Trouble write_file(const std::string& path, std::string_view content) {
+  const std::string part = path + ".part";
+  std::FILE* file = std::fopen(part.c_str(), "wb");
+  if (file == nullptr) return cannot_write(path, errno);
+  int error = write_and_close(file, content);
+  if (error == 0 && std::rename(part.c_str(), path.c_str()) != 0) error = errno;
+  if (error == 0) return {};
+  std::remove(part.c_str());
+  return cannot_write(path, error);
+}
+
+Result<std::string> read_file(const std::string& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    return cannot("read", path, "it is a folder", "name a file");
+  }
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return cannot("read", path, std::strerror(errno), "see that the path is right");
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (in.bad()) return cannot("read", path, std::strerror(errno), "see that the disk is sound");
+  return text;
+}
+
+RowFile::~RowFile() {
+  if (file_ != nullptr) std::fclose(file_);
+}
+
+Trouble RowFile::open(const std::string& path) {
+  path_ = path;
+  file_ = std::fopen(path.c_str(), "wb");
+  if (file_ == nullptr) return cannot_write(path, errno);
+  return {};
+}
+
+Trouble RowFile::add(std::string_view rows) {
+  if (file_ == nullptr) return {};
+  if (std::fwrite(rows.data(), 1, rows.size(), file_) != rows.size() || std::fflush(file_) != 0) {
+    return cannot_write(path_, errno);
+  }
+  return {};
+}
+
+Trouble RowFile::close() {
+  if (file_ == nullptr) return {};
+  const int result = std::fclose(file_);
+  file_ = nullptr;
+  if (result != 0) return cannot_write(path_, errno);
+  return {};
+}
+
+Trouble check_folder(const std::string& folder, const std::string& input) {
+  std::error_code error;
+  if (!fs::exists(folder, error)) return {};
+  if (!fs::is_directory(folder, error)) {
+    return cannot("used for results", folder, "it is no folder", "name another with -o");
+  }
+  const fs::path parent = fs::absolute(fs::path(input)).parent_path();
+  if (!input.empty() && fs::equivalent(parent, folder, error)) {
+    return cannot("used for results", folder, "the model file lies in it",
+                  "name another folder with -o");
+  }
+  const Content content = content_of(folder);
+  if (content.error) {
+    return cannot("used for results", folder, content.error.message(),
+                  "name another folder with -o");
+  }
+  if (content.alien) {
+    return cannot("used for results", folder,
+                  "it holds " + content.alien->lexically_relative(folder).string() +
+                      ", which no run has written",
+                  "name another folder with -o, or move that away");
+  }
+  return {};
+}
+
+Trouble clear_folder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return cannot("made", folder, error.message(), "name another folder with -o");
+  // The summary goes first: its presence says that a run has ended.
+  fs::remove(fs::path(folder) / "summary.json", error);
+  const Content content = content_of(folder);
+  if (content.alien) return check_folder(folder, {});
+  for (const fs::path& file : content.files) fs::remove(file, error);
+  fs::create_directories(fs::path(folder) / "frames", error);
+  if (error)
+    return cannot("made", folder + "/frames", error.message(), "see that it may be written to");
+  return {};
+}
+
+}  // namespace edda

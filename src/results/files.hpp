@@ -1,0 +1,47 @@
+// Files that are there whole or not at all, and the folder that holds them.
+#pragma once
+
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/fault.hpp"
+
+namespace edda {
+
+/// Nothing, or why a file could not be written.
+using Trouble = std::optional<Fault>;
+
+/// Writes `content` beside `path` and then moves it there, so that a full disk never leaves half a
+/// file and an earlier file stays until the new one is complete.
+Trouble write_file(const std::string& path, std::string_view content);
+
+/// The whole of a file, or a fault.
+Result<std::string> read_file(const std::string& path);
+
+/// A file that grows row by row; every row is on its way to the disk when add() returns.
+class RowFile {
+ public:
+  RowFile() = default;
+  RowFile(const RowFile&) = delete;
+  RowFile& operator=(const RowFile&) = delete;
+  ~RowFile();
+
+  Trouble open(const std::string& path);
+  Trouble add(std::string_view rows);
+  Trouble close();
+
+ private:
+  std::FILE* file_ = nullptr;
+  std::string path_;
+};
+
+/// Whether `folder` may take results: it does not exist, is empty, or holds nothing but an earlier
+/// run's files. `input` is the model file; a folder that would overwrite it is refused.
+Trouble check_folder(const std::string& folder, const std::string& input);
+
+/// Makes the folder, or takes an earlier run's files out of it (those that check_folder() accepts).
+Trouble clear_folder(const std::string& folder);
+
+}  // namespace edda

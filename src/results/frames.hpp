@@ -1,0 +1,44 @@
+// One frame: the blocks as their exact polygons, and the contacts.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "blocks/block_set.hpp"
+#include "results/grid.hpp"
+#include "results/records.hpp"
+#include "results/vtu.hpp"
+
+namespace edda {
+
+/// The cells of every block, made once: a block's motion is affine, so they stay what they are.
+struct BlockCells {
+  std::vector<std::size_t> begin;               ///< [nb + 1] first cell of each block
+  std::vector<std::vector<std::int64_t>> cell;  ///< vertices of each, counter-clockwise
+};
+
+/// Convex blocks are one cell; others, and those with holes, are triangles.
+BlockCells block_cells(const BlockSet& blocks);
+
+/// Cell fields id material fixed displacement velocity rotation stress principal_stress, point
+/// fields displacement velocity. stress: XX YY ZZ XY YZ XZ; principal_stress: the larger and the
+/// smaller in the plane, then the one across it. Pa.
+Grid block_grid(const BlockCells& cells, const Picture& picture);
+
+/// A vertex cell per contact with normal_force shear_force opening slip state block_i block_j and
+/// the vector force (on block_i).
+Grid contact_grid(const Picture& picture);
+
+/// Frames in `folder`/frames and the two time series beside it.
+class FrameSeries {
+ public:
+  FrameSeries(std::string folder, const BlockSet& blocks);
+  Trouble add(const Picture& picture);
+
+ private:
+  std::string folder_;
+  BlockCells cells_;
+  std::vector<SeriesEntry> blocks_, contacts_;
+};
+
+}  // namespace edda

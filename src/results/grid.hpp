@@ -1,0 +1,39 @@
+// An unstructured grid of VTK: points, cells and named fields. What a frame is made of.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace edda {
+
+/// Values of all points or all cells, `components` each, one after another.
+struct Field {
+  std::string name;
+  std::size_t components = 1;
+  std::vector<double> values;
+  std::vector<std::string> component_names;  ///< may be empty
+  bool whole = false;                        ///< written as Int32
+};
+
+/// VTK's numbers of the cells used here.
+namespace cell_type {
+inline constexpr std::uint8_t vertex = 1, triangle = 5, polygon = 7;
+}
+
+struct Grid {
+  std::vector<double> points;         ///< x, y, 0 of each, m
+  std::vector<std::int64_t> corners;  ///< points of all cells, cell after cell
+  std::vector<std::int64_t> ends;     ///< of each cell in `corners`
+  std::vector<std::uint8_t> types;    ///< of each cell
+  std::vector<Field> point_fields, cell_fields;
+  double time = 0.0;  ///< s
+
+  std::size_t point_count() const { return points.size() / 3; }
+  std::size_t cell_count() const { return ends.size(); }
+  /// The cell field of that name, or null.
+  const Field* cell_field(const std::string& name) const;
+  const Field* point_field(const std::string& name) const;
+};
+
+}  // namespace edda

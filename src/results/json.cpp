@@ -1,0 +1,97 @@
+#include "results/json.hpp"
+
+#include <cmath>
+
+namespace edda {
+namespace {
+
+/// Text between quotes; bytes that are no valid UTF-8 become the replacement character.
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    const std::size_t length = c < 0x80                ? 1
+                               : c >= 0xc2 && c < 0xe0 ? 2
+                               : c >= 0xe0 && c < 0xf0 ? 3
+                               : c >= 0xf0 && c < 0xf5 ? 4
+                                                       : 0;
+    bool valid = length > 0 && i + length <= text.size();
+    for (std::size_t k = 1; valid && k < length; ++k) {
+      valid = (static_cast<unsigned char>(text[i + k]) & 0xc0u) == 0x80u;
+    }
+    if (!valid) {
+      out += "\xef\xbf\xbd";
+      ++i;
+      continue;
+    }
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += text[i];
+    } else if (c == '\n') {
+      out += "\\n";
+    } else if (c == '\t') {
+      out += "\\t";
+    } else if (c < 0x20 || c == 0x7f) {
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      out += text.substr(i, length);
+    }
+    i += length;
+  }
+  return out;
+}
+
+}  // namespace
+
+void Json::next_line() {
+  if (!first_) text_ += ',';
+  if (!ends_.empty()) {
+    text_ += '\n';
+    text_.append(2 * ends_.size(), ' ');
+  }
+  first_ = false;
+}
+
+Json& Json::raw(std::string_view content) {
+  if (!after_key_) next_line();
+  after_key_ = false;
+  text_ += content;
+  return *this;
+}
+
+Json& Json::open(char begin, char end) {
+  raw(std::string_view(&begin, 1));
+  ends_.push_back(end);
+  first_ = true;
+  return *this;
+}
+
+Json& Json::close() {
+  const char end = ends_.back();
+  ends_.pop_back();
+  if (!first_) {
+    text_ += '\n';
+    text_.append(2 * ends_.size(), ' ');
+  }
+  text_ += end;
+  first_ = false;
+  if (ends_.empty()) text_ += '\n';
+  return *this;
+}
+
+Json& Json::key(std::string_view name) {
+  next_line();
+  text_ += '"' + escaped(name) + "\": ";
+  after_key_ = true;
+  return *this;
+}
+
+Json& Json::value(double number) {
+  return std::isfinite(number) ? raw(shortest(number)) : null();
+}
+
+Json& Json::value(std::string_view text) {
+  return raw('"' + escaped(text) + '"');
+}
+
+}  // namespace edda

@@ -1,0 +1,43 @@
+// JSON, written in order, two spaces per level.
+#pragma once
+
+#include <concepts>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "results/number.hpp"
+
+namespace edda {
+
+/// Usage: open_object(); key("a").value(1.5); close(); text(). A number that is none (nan, inf)
+/// becomes null.
+class Json {
+ public:
+  Json& open_object() { return open('{', '}'); }
+  Json& open_list() { return open('[', ']'); }
+  Json& close();
+  Json& key(std::string_view name);
+  Json& value(double number);
+  Json& value(bool truth) { return raw(truth ? "true" : "false"); }
+  Json& value(std::integral auto number) { return raw(fmt::format("{}", number)); }
+  Json& value(std::string_view text);
+  Json& value(const char* text) { return value(std::string_view(text)); }
+  Json& null() { return raw("null"); }
+  template <class T>
+  Json& pair(std::string_view name, const T& content) {
+    return key(name).value(content);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  Json& open(char begin, char end);
+  Json& raw(std::string_view content);
+  void next_line();
+  std::string text_;
+  std::vector<char> ends_;  ///< of what is open
+  bool first_ = true;       ///< nothing yet at this level
+  bool after_key_ = false;
+};
+
+}  // namespace edda

@@ -1,0 +1,221 @@
+#include "results/vtu.hpp"
+
+#include <bit>
+#include <charconv>
+#include <cstring>
+#include <optional>
+#include <string_view>
+
+#include "results/number.hpp"
+
+namespace edda {
+
+static_assert(std::endian::native == std::endian::little,
+              "frames are written in the machine's own order");
+
+const Field* Grid::cell_field(const std::string& name) const {
+  for (const Field& f : cell_fields) {
+    if (f.name == name) return &f;
+  }
+  return nullptr;
+}
+
+const Field* Grid::point_field(const std::string& name) const {
+  for (const Field& f : point_fields) {
+    if (f.name == name) return &f;
+  }
+  return nullptr;
+}
+
+namespace {
+
+/// The XML and, behind it, the bytes of the arrays: each a count of bytes (UInt64), then the
+/// values.
+struct Writer {
+  std::string xml, bytes;
+
+  template <class T>
+  void array(const std::string& attributes, const char* type, const std::vector<T>& values) {
+    xml += fmt::format("<DataArray type=\"{}\" {} format=\"appended\" offset=\"{}\"/>\n", type,
+                       attributes, bytes.size());
+    const std::uint64_t size = values.size() * sizeof(T);
+    bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
+    bytes.append(reinterpret_cast<const char*>(values.data()), size);
+  }
+  void field(const Field& f) {
+    std::string attributes =
+        fmt::format("Name=\"{}\" NumberOfComponents=\"{}\"", f.name, f.components);
+    for (std::size_t k = 0; k < f.component_names.size(); ++k) {
+      attributes += fmt::format(" ComponentName{}=\"{}\"", k, f.component_names[k]);
+    }
+    if (!f.whole) return array(attributes, "Float64", f.values);
+    std::vector<std::int32_t> numbers;
+    for (const double v : f.values) numbers.push_back(static_cast<std::int32_t>(v));
+    array(attributes, "Int32", numbers);
+  }
+};
+
+Fault bad_file(const std::string& path, std::string problem) {
+  Fault fault;
+  fault.where.file = path;
+  fault.problem = std::move(problem);
+  fault.remedy = "give a folder that edda run has written";
+  return fault;
+}
+
+std::string attribute(std::string_view tag, std::string_view name) {
+  const std::string wanted = " " + std::string(name) + "=\"";
+  const std::size_t at = tag.find(wanted);
+  if (at == tag.npos) return {};
+  const std::size_t from = at + wanted.size();
+  return std::string(tag.substr(from, tag.find('"', from) - from));
+}
+
+template <class T>
+std::optional<T> number_in(const std::string& text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return {};
+  return value;
+}
+
+/// The values of one <DataArray> tag, from the bytes behind the XML.
+template <class T>
+bool values_of(std::string_view tag, std::string_view bytes, std::vector<T>& out) {
+  const auto offset = number_in<std::size_t>(attribute(tag, "offset"));
+  std::uint64_t size = 0;
+  if (!offset || *offset > bytes.size() || bytes.size() - *offset < sizeof size) return false;
+  std::memcpy(&size, bytes.data() + *offset, sizeof size);
+  if (size % sizeof(T) != 0 || size > bytes.size() - *offset - sizeof size) return false;
+  out.resize(size / sizeof(T));
+  if (size > 0) std::memcpy(out.data(), bytes.data() + *offset + sizeof size, size);
+  return true;
+}
+
+bool read_field(std::string_view tag, std::string_view bytes, std::vector<Field>& fields) {
+  Field f;
+  f.name = attribute(tag, "Name");
+  f.components = number_in<std::size_t>(attribute(tag, "NumberOfComponents")).value_or(1);
+  f.whole = attribute(tag, "type") == "Int32";
+  if (f.whole) {
+    std::vector<std::int32_t> numbers;
+    if (!values_of(tag, bytes, numbers)) return false;
+    f.values.assign(numbers.begin(), numbers.end());
+  } else if (!values_of(tag, bytes, f.values)) {
+    return false;
+  }
+  fields.push_back(std::move(f));
+  return true;
+}
+
+bool read_array(std::string_view section, std::string_view tag, std::string_view bytes, Grid& g) {
+  if (section == "PointData") return read_field(tag, bytes, g.point_fields);
+  if (section == "CellData") return read_field(tag, bytes, g.cell_fields);
+  if (section == "Points") return values_of(tag, bytes, g.points);
+  if (section == "FieldData") {
+    std::vector<double> time;
+    if (!values_of(tag, bytes, time)) return false;
+    if (!time.empty()) g.time = time[0];
+    return true;
+  }
+  const std::string name = attribute(tag, "Name");
+  if (name == "connectivity") return values_of(tag, bytes, g.corners);
+  if (name == "offsets") return values_of(tag, bytes, g.ends);
+  return values_of(tag, bytes, g.types);
+}
+
+/// Whether all that the arrays say of one another holds, so that users of the grid need not ask.
+bool consistent(const Grid& g) {
+  if (g.points.size() % 3 != 0 || g.types.size() != g.ends.size()) return false;
+  std::int64_t before = 0;
+  for (const std::int64_t end : g.ends) {
+    if (end < before) return false;
+    before = end;
+  }
+  if (before != static_cast<std::int64_t>(g.corners.size())) return false;
+  for (const std::int64_t c : g.corners) {
+    if (c < 0 || c >= static_cast<std::int64_t>(g.point_count())) return false;
+  }
+  for (const Field& f : g.cell_fields) {
+    if (f.values.size() != f.components * g.cell_count()) return false;
+  }
+  for (const Field& f : g.point_fields) {
+    if (f.values.size() != f.components * g.point_count()) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Trouble write_vtu(const std::string& path, const Grid& grid) {
+  Writer w;
+  w.xml =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n";
+  w.array("Name=\"TimeValue\" NumberOfTuples=\"1\"", "Float64", std::vector<double>{grid.time});
+  w.xml +=
+      fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n",
+                  grid.point_count(), grid.cell_count());
+  for (const Field& f : grid.point_fields) w.field(f);
+  w.xml += "</PointData>\n<CellData>\n";
+  for (const Field& f : grid.cell_fields) w.field(f);
+  w.xml += "</CellData>\n<Points>\n";
+  w.array("Name=\"Points\" NumberOfComponents=\"3\"", "Float64", grid.points);
+  w.xml += "</Points>\n<Cells>\n";
+  w.array("Name=\"connectivity\"", "Int64", grid.corners);
+  w.array("Name=\"offsets\"", "Int64", grid.ends);
+  w.array("Name=\"types\"", "UInt8", grid.types);
+  w.xml += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+  return write_file(path, w.xml + w.bytes + "\n</AppendedData>\n</VTKFile>\n");
+}
+
+Result<Grid> read_vtu(const std::string& path) {
+  const Result<std::string> file = read_file(path);
+  if (!file.ok()) return file.faults();
+  const std::string_view text = file.value();
+  constexpr std::string_view mark = "<AppendedData encoding=\"raw\">\n_";
+  const std::size_t split = text.find(mark);
+  if (split == text.npos) return bad_file(path, "is no frame of a run");
+  const std::string_view xml = text.substr(0, split), bytes = text.substr(split + mark.size());
+  Grid grid;
+  std::string section;
+  for (std::size_t at = xml.find('<'); at != xml.npos; at = xml.find('<', at + 1)) {
+    const std::string_view tag = xml.substr(at, xml.find('>', at) - at);
+    if (!tag.starts_with("<DataArray ")) {
+      if (!tag.starts_with("</")) section = std::string(tag.substr(1, tag.find_first_of(" >") - 1));
+    } else if (!read_array(section, tag, bytes, grid)) {
+      return bad_file(path, "is cut short or damaged at array \"" + attribute(tag, "Name") + "\"");
+    }
+  }
+  if (!consistent(grid)) return bad_file(path, "is damaged: its arrays do not fit together");
+  return grid;
+}
+
+Trouble write_pvd(const std::string& path, const std::vector<SeriesEntry>& series) {
+  std::string xml =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\">\n<Collection>\n";
+  for (const SeriesEntry& e : series) {
+    xml += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", shortest(e.time),
+                       e.file);
+  }
+  return write_file(path, xml + "</Collection>\n</VTKFile>\n");
+}
+
+Result<std::vector<SeriesEntry>> read_pvd(const std::string& path) {
+  const Result<std::string> file = read_file(path);
+  if (!file.ok()) return file.faults();
+  const std::string_view text = file.value();
+  std::vector<SeriesEntry> series;
+  for (std::size_t at = text.find("<DataSet "); at != text.npos;
+       at = text.find("<DataSet ", at + 1)) {
+    const std::string_view tag = text.substr(at, text.find('>', at) - at);
+    const auto time = number_in<double>(attribute(tag, "timestep"));
+    const std::string name = attribute(tag, "file");
+    if (!time || name.empty()) return bad_file(path, "is no time series of a run");
+    series.push_back({*time, name});
+  }
+  return series;
+}
+
+}  // namespace edda

@@ -1,0 +1,304 @@
+#include "run/driver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "forces/contact_forces.hpp"
+#include "run/guard_rails.hpp"
+
+namespace edda {
+namespace {
+
+namespace cs = contact_state;
+
+/// Blocks turn by less than half a turn in so many steps: none moves by more than a tenth of an
+/// edge in one.
+constexpr std::uint64_t look_every = 8;
+constexpr double largest_gain = 0.05;
+
+double since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool all_finite(const Simulation& sim) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+      if (!std::isfinite(sim.state.x[k][i] + sim.state.y[k][i] + sim.state.vx[k][i] +
+                         sim.state.vy[k][i])) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// The fastest block: where energy out of nothing shows first.
+std::size_t fastest_block(const Simulation& sim) {
+  std::size_t best = 0;
+  double most = -1.0;
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    if (sim.blocks.fixed[i] || !sim.state.alive[i]) continue;
+    const double speed =
+        kinetic_energy(sim.blocks, sim.state.vx, sim.state.vy, i) / sim.blocks.mass[i];
+    if (speed > most) {
+      most = speed;
+      best = i;
+    }
+  }
+  return best;
+}
+
+/// Sum of boundary springs and of contacts with held blocks, plus the weight of the blocks that
+/// move: 0 at rest. Over the weight; 0 where there is none.
+double reaction_error(const Simulation& sim, const Instant& at) {
+  Vec2 sum;
+  double weight = 0.0;
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    if (sim.blocks.fixed[i] || !sim.state.alive[i]) continue;
+    sum += 3.0 * centroid(at.forces.x, at.forces.y, i);
+    weight += sim.blocks.mass[i] * norm(sim.model.gravity);
+  }
+  return weight > 0.0 ? norm(sum) / weight : 0.0;
+}
+
+}  // namespace
+
+std::string likely_cause(const Simulation& sim) {
+  const Solver& solver = sim.model.solver;
+  if (solver.time_step && *solver.time_step > sim.bound.critical_step) {
+    return fmt::format("likely cause: time_step {:.6g} s is above the critical step {:.6g} s",
+                       *solver.time_step, sim.bound.critical_step);
+  }
+  if (solver.switching == Switching::plain) {
+    return "likely cause: switching = \"plain\" creates energy at every impact: use \"exact\" or a "
+           "smaller "
+           "solver.safety";
+  }
+  return "likely cause: loads or speeds that the contact springs cannot bear: raise "
+         "contact.normal_stiffness, or lower solver.max_displacement_ratio";
+}
+
+Driver::Driver(PreparedRun& run, const RunOptions& options)
+    : run_(run), sim_(run.sim), options_(options), recorder_(options.folder) {}
+
+Outcome Driver::run() {
+  started_ = reported_ = Clock::now();
+  outcome_.critical_step = sim_.bound.critical_step;
+  if (!ended_by(recorder_.begin(sim_, run_.monitors))) go();
+  write_end();
+  return outcome_;
+}
+
+void Driver::go() {
+  const Model& m = sim_.model;
+  EventTimes times(m.solver.duration, m.output.history_every, m.output.every);
+  const Event first = times.next();
+  Event event = times.next();
+  sim_.start(event.time);
+  count_turns(sim_, angle_);
+  if (!record(first)) return;
+  while (true) {
+    sim_.aim_at(event.time);
+    if (!step_to(event.time) || !record(event)) return;
+    if (event.end) return end(Status::completed, "the run has reached its duration");
+    event = times.next();
+  }
+}
+
+bool Driver::step_to(double time) {
+  while (sim_.state.time < time) {
+    if (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed)) {
+      end(Status::interrupted, fmt::format("stopped at {:.6g} s of {:.6g} s", sim_.state.time,
+                                           sim_.model.solver.duration));
+      return false;
+    }
+    const std::uint64_t rebuilds = sim_.contacts.rebuilds;
+    const auto start = Clock::now();
+    const std::optional<Failure> failure = sim_.step();
+    measure(since(start), sim_.contacts.rebuilds != rebuilds);
+    outcome_.critical_step = std::min(outcome_.critical_step, sim_.bound.critical_step);
+    outcome_.step_over_critical =
+        std::max(outcome_.step_over_critical, sim_.state.step / sim_.bound.critical_step);
+    if (failure) {
+      fail(*failure);
+      return false;
+    }
+    if (sim_.state.steps % look_every == 0) {
+      count_turns(sim_, angle_);
+      if (overlap_is_out_of_bounds()) return false;
+    }
+    if (options_.progress && since(reported_) >= options_.progress_every) report(false);
+  }
+  return true;
+}
+
+void Driver::measure(double seconds, bool searched) {
+  outcome_.wall.stepping += seconds;
+  if (!searched) return;
+  searching_ += seconds;
+  ++searches_;
+}
+
+bool Driver::record(const Event& event) {
+  const auto start = Clock::now();
+  count_turns(sim_, angle_);
+  if (!over_ && overlap_is_out_of_bounds()) return false;
+  observe(sim_, instant_);
+  bool fine = true;
+  if (event.row) {
+    const Ledger ledger = sim_.ledger();
+    outcome_.ledger = ledger;
+    outcome_.largest_drift = std::max(outcome_.largest_drift, std::abs(ledger.drift));
+    outcome_.unbalanced = unbalanced_ratio(sim_, instant_);
+    outcome_.reaction_error = reaction_error(sim_, instant_);
+    last_row_ = sim_.state.time;
+    fine = !ended_by(recorder_.row(sim_, instant_, run_.monitors, ledger, outcome_.unbalanced));
+  }
+  if (fine && event.frame && recorder_.writes()) {
+    last_frame_ = sim_.state.time;
+    fine = !ended_by(recorder_.frame(picture_of(sim_, instant_)));
+  }
+  outcome_.wall.output += since(start);
+  if (!fine || over_ || outcome_.ledger.drift <= largest_gain) return fine;
+  Failure failure;
+  failure.block = static_cast<Id>(fastest_block(sim_));
+  failure.place = centroid(sim_.state.x, sim_.state.y, failure.block) + sim_.blocks.origin;
+  failure.time = sim_.state.time;
+  failure.message =
+      fmt::format("energy out of nothing: the ledger has gained {:.3g} % (fastest: {})",
+                  100.0 * outcome_.ledger.drift, block_label(sim_.blocks, failure.block));
+  fail(failure);
+  return false;
+}
+
+bool Driver::overlap_is_out_of_bounds() {
+  const ContactSet& c = sim_.contacts;
+  const BlockSet& b = sim_.blocks;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (!c.is(k, cs::closed)) continue;
+    // Exact switching looks at every step itself.
+    sim_.max_penetration = std::max(sim_.max_penetration, c.effective(k));
+    const double size = std::min(b.inradius[c.block_i[k]], b.inradius[c.block_j[k]]);
+    if (c.depth[k] <= size) continue;
+    Failure failure;
+    failure.block = c.block_i[k];
+    failure.place = Vec2{sim_.pose.x[c.vertex[k]], sim_.pose.y[c.vertex[k]]} + b.origin;
+    failure.time = sim_.state.time;
+    failure.message =
+        fmt::format("a corner of {} is {:.3g} m inside {}, more than half the smaller one's width",
+                    block_label(b, c.block_i[k]), c.depth[k], block_label(b, c.block_j[k]));
+    fail(failure);
+    return true;
+  }
+  return false;
+}
+
+void Driver::end(Status status, std::string message) {
+  if (over_) return;
+  over_ = true;
+  outcome_.status = status;
+  outcome_.message = std::move(message);
+}
+
+void Driver::fail(const Failure& f) {
+  std::string where = f.block == no_id ? std::string{} : " at " + place_label(f.place);
+  end(Status::failed,
+      fmt::format("{}{}, t = {:.6g} s; {}", f.message, where, f.time, likely_cause(sim_)));
+}
+
+bool Driver::ended_by(const Trouble& trouble) {
+  if (!trouble) return false;
+  disk_trouble_ = true;
+  end(Status::failed, to_string(*trouble));
+  return true;
+}
+
+void Driver::write_end() {
+  const auto start = Clock::now();
+  outcome_.time = sim_.state.time;
+  outcome_.steps = sim_.state.steps;
+  const bool begun = last_row_.has_value();
+  if (begun && all_finite(sim_) && !disk_trouble_) {
+    Event event{sim_.state.time, last_row_ != sim_.state.time, last_frame_ != sim_.state.time,
+                true};
+    const double wall = outcome_.wall.output;
+    if (event.row || event.frame) record(event);
+    outcome_.wall.output = wall;
+  }
+  outcome_.contacts = closed_contacts(sim_.contacts);
+  if (begun && recorder_.writes()) {
+    count_turns(sim_, angle_);
+    observe(sim_, instant_);
+    const Picture picture = picture_of(sim_, instant_);
+    share_out_time();  // works on the instant's copies, so only now
+    const Trouble trouble = recorder_.tables(picture);
+    if (trouble && !disk_trouble_) {
+      outcome_.status = Status::failed;
+      outcome_.message = to_string(*trouble);
+    }
+  }
+  outcome_.wall.output += since(start);
+  outcome_.wall.cut = run_.cut_seconds;
+  outcome_.wall.total = since(started_) + run_.cut_seconds;
+  if (const Trouble trouble = recorder_.summary(sim_, outcome_, run_.governed_by)) {
+    outcome_.status = Status::failed;
+    outcome_.message = to_string(*trouble);
+  }
+  if (options_.progress) report(true);
+}
+
+void Driver::share_out_time() {
+  WallSeconds& w = outcome_.wall;
+  const auto steps = static_cast<double>(sim_.state.steps);
+  if (steps == 0.0) return;
+  // Forces and motion once more on copies, as in a step.
+  auto start = Clock::now();
+  evaluate_contacts(instant_.contacts, sim_.blocks, sim_.pose, sim_.laws, sim_.state.step,
+                    sim_.model.solver.damping.contact);
+  gather_forces(instant_.forces, sim_.blocks, sim_.state, sim_.pose, instant_.contacts,
+                sim_.springs, sim_.model.gravity);
+  const double forces = since(start);
+  State scratch = sim_.state;
+  DampingWork unused = sim_.damping_work;
+  start = Clock::now();
+  advance(scratch, sim_.blocks, instant_.forces.x, instant_.forces.y, scratch.step, scratch.step,
+          {}, unused);
+  const double integrate = since(start);
+  const double plain_steps = steps - static_cast<double>(searches_);
+  const double plain = plain_steps > 0.0 ? (w.stepping - searching_) / plain_steps : 0.0;
+  w.search = std::max(0.0, searching_ - static_cast<double>(searches_) * plain);
+  w.forces = std::min(forces * steps, w.stepping - w.search);
+  w.integrate = std::min(integrate * steps, w.stepping - w.search - w.forces);
+}
+
+void Driver::report(bool last) {
+  const double seconds = since(reported_);
+  if (seconds > 0.0 && sim_.state.steps > reported_steps_) {
+    const double rate = static_cast<double>(sim_.state.steps - reported_steps_) / seconds;
+    rate_ = rate_ == 0.0 ? rate : 0.7 * rate_ + 0.3 * rate;
+  }
+  reported_ = Clock::now();
+  reported_steps_ = sim_.state.steps;
+  Progress p;
+  p.time = sim_.state.time;
+  p.fraction = sim_.state.time / sim_.model.solver.duration;
+  p.steps = sim_.state.steps;
+  p.rate = rate_;
+  const double left = (sim_.model.solver.duration - sim_.state.time) / sim_.state.step;
+  p.seconds_left = last ? 0.0 : rate_ > 0.0 ? left / rate_ : -1.0;
+  for (std::size_t i = 0; i < sim_.blocks.size(); ++i) {
+    if (!sim_.blocks.fixed[i] && sim_.state.alive[i]) {
+      p.kinetic += kinetic_energy(sim_.blocks, sim_.state.vx, sim_.state.vy, i);
+    }
+  }
+  for (std::size_t k = 0; k < sim_.contacts.size(); ++k) {
+    if (sim_.contacts.is(k, cs::closed)) {
+      p.largest_overlap = std::max(p.largest_overlap, sim_.contacts.effective(k));
+    }
+  }
+  options_.progress(p);
+}
+
+}  // namespace edda

@@ -1,0 +1,59 @@
+// The loop over the steps of a run, with everything that happens between them.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "run/event_times.hpp"
+#include "run/recorder.hpp"
+#include "run/run_model.hpp"
+
+namespace edda {
+
+class Driver {
+ public:
+  Driver(PreparedRun& run, const RunOptions& options);
+  Outcome run();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void go();
+  /// Steps to the event. False: the run is over (outcome_ says why).
+  bool step_to(double time);
+  bool record(const Event& event);
+  void look_between_steps();
+  bool overlap_is_out_of_bounds();
+  void end(Status status, std::string message);
+  void fail(const Failure& failure);
+  /// Ends the run over a file that could not be written. True if there was trouble.
+  bool ended_by(const Trouble& trouble);
+  void write_end();
+  void measure(double seconds, bool searched);
+  void share_out_time();
+  void report(bool last);
+
+  PreparedRun& run_;
+  Simulation& sim_;
+  const RunOptions& options_;
+  Recorder recorder_;
+  Outcome outcome_;
+  Instant instant_;
+  std::vector<double> angle_;  ///< rad, of every block when turns were last counted
+  bool over_ = false;
+  bool disk_trouble_ = false;
+  std::optional<double> last_row_, last_frame_;  ///< s
+
+  Clock::time_point started_, reported_;
+  std::uint64_t reported_steps_ = 0;
+  double rate_ = 0.0;
+  double searching_ = 0.0;  ///< s, of steps with a search
+  std::uint64_t searches_ = 0;
+};
+
+/// The likely cause of a divergence, for the message.
+std::string likely_cause(const Simulation& sim);
+
+}  // namespace edda

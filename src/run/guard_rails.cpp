@@ -1,0 +1,182 @@
+#include "run/guard_rails.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contacts/gap.hpp"
+
+namespace edda {
+namespace {
+
+namespace cs = contact_state;
+
+// Spring of a contact over young times thickness. An edge has two such springs, so at 10 a joint
+// gives about 5 % of what its blocks give; at 0.1 five times as much.
+constexpr double soft = 0.1, stiff = 300.0;
+
+Vec2 model_place(const Simulation& sim, std::size_t k) {
+  return at(sim.pose.x, sim.pose.y, sim.contacts.vertex[k]) + sim.blocks.origin;
+}
+
+/// The governing block held, so that the bound is that of the others (but for the factor of
+/// contacts with it).
+double step_without(const Simulation& sim, Id block) {
+  BlockSet others = sim.blocks;
+  others.fixed[block] = 1;
+  return step_bound(others, sim.state, sim.pose, sim.contacts, sim.springs, sim.laws,
+                    sim.model.solver.damping.contact)
+      .critical_step;
+}
+
+std::string by_how_much(const Simulation& sim) {
+  if (sim.bound.block == no_id) return {};
+  const double others = step_without(sim, sim.bound.block);
+  if (!std::isfinite(others)) return {};
+  const double gain = others / sim.bound.critical_step;
+  if (gain < 1.02) return "; other blocks need as small a step";
+  return fmt::format("; the other blocks alone could take {:.3g} times the step", gain);
+}
+
+bool free_block(const Simulation& sim, std::size_t i) {
+  return sim.blocks.fixed[i] == 0;
+}
+
+void warn_of_sudden_gravity(const Simulation& sim, std::vector<std::string>& warnings) {
+  const Damping& d = sim.model.solver.damping;
+  if (sim.model.gravity == Vec2{} || d.mass > 0.0 || d.local > 0.0 || d.contact > 0.0) return;
+  bool carried = sim.springs.size() > 0;
+  for (std::size_t k = 0; k < sim.contacts.size() && !carried; ++k) {
+    carried = sim.contacts.is(k, cs::closed) && (free_block(sim, sim.contacts.block_i[k]) ||
+                                                 free_block(sim, sim.contacts.block_j[k]));
+  }
+  if (!carried) return;
+  warnings.push_back(
+      "gravity acts at once on blocks that carry no stress yet, and nothing damps them: forces "
+      "will swing "
+      "between nothing and about twice their value at rest; where the state at rest is wanted, "
+      "give "
+      "solver.damping (for instance local = 0.8)");
+}
+
+struct Extreme {
+  double ratio;
+  std::size_t contact = 0;
+};
+
+double young_of(const Simulation& sim, std::size_t i) {
+  const Index m = sim.blocks.material[i];
+  return m == none ? 0.0 : sim.model.materials[static_cast<std::size_t>(m)].young;
+}
+
+/// Spring over the stiffness of the softer block.
+double spring_ratio(const Simulation& sim, std::size_t k) {
+  double young = std::numeric_limits<double>::infinity();
+  for (const Id i : {sim.contacts.block_i[k], sim.contacts.block_j[k]}) {
+    if (free_block(sim, i)) young = std::min(young, young_of(sim, i));
+  }
+  return sim.contacts.kn[k] / (young * sim.blocks.thickness);
+}
+
+void warn_of_springs(const Simulation& sim, std::vector<std::string>& warnings) {
+  Extreme low{std::numeric_limits<double>::infinity()}, high{0.0};
+  for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
+    if (!sim.contacts.is(k, cs::closed)) continue;
+    const double ratio = spring_ratio(sim, k);
+    if (!(ratio > 0.0)) continue;
+    if (ratio < low.ratio) low = {ratio, k};
+    if (ratio > high.ratio) high = {ratio, k};
+  }
+  auto where = [&](const Extreme& e) {
+    return fmt::format("p_n = {:.3g} N/m between {} and {} at {} is {:.2g} times young of the rock",
+                       sim.contacts.kn[e.contact],
+                       block_label(sim.blocks, sim.contacts.block_i[e.contact]),
+                       block_label(sim.blocks, sim.contacts.block_j[e.contact]),
+                       place_label(model_place(sim, e.contact)), e.ratio);
+  };
+  if (low.ratio < soft) {
+    warnings.push_back(
+        "contact springs so soft that the joints give far more than the blocks: " + where(low) +
+        "; raise contact.normal_stiffness or the joint's kn, unless the joints are so");
+  }
+  if (high.ratio > stiff) {
+    warnings.push_back(
+        "contact springs so stiff that the joints give nothing and only shorten the step: " +
+        where(high) + "; contact.normal_stiffness of 10 times young is enough");
+  }
+}
+
+void warn_of_boundary(const Simulation& sim, std::vector<std::string>& warnings) {
+  if (!(sim.bound.boundary_part > 0.5)) return;
+  warnings.push_back(fmt::format(
+      "boundary springs hold the step: {:.0f} % of what governs it; boundary.stiffness of about "
+      "contact.normal_stiffness would allow up to {:.2g} times the step",
+      100.0 * sim.bound.boundary_part,
+      1.0 / std::sqrt(std::max(1.0 - sim.bound.boundary_part, 1e-12))));
+}
+
+void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings) {
+  const ContactSet& c = sim.contacts;
+  double energy = 0.0;
+  Extreme deepest{0.0};
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const double d = c.effective(k);
+    if (!c.is(k, cs::closed) || !(d > 0.0)) continue;
+    energy += 0.5 * c.share[k] * c.kn[k] * d * d;
+    if (d > deepest.ratio) deepest = {d, k};
+  }
+  if (deepest.ratio == 0.0) return;
+  const double size = std::sqrt(std::min(sim.blocks.area[c.block_i[deepest.contact]],
+                                         sim.blocks.area[c.block_j[deepest.contact]]));
+  if (deepest.ratio < 1e-9 * size) return;
+  warnings.push_back(
+      fmt::format("blocks overlap at the start, most {} and {} by {:.3g} m at {}: their contacts "
+                  "start out pressed and "
+                  "store {:.3g} J",
+                  block_label(sim.blocks, c.block_i[deepest.contact]),
+                  block_label(sim.blocks, c.block_j[deepest.contact]), deepest.ratio,
+                  place_label(model_place(sim, deepest.contact)), energy));
+}
+
+}  // namespace
+
+std::string block_label(const BlockSet& b, std::size_t i) {
+  return b.name[i].empty() ? fmt::format("block {}", i)
+                           : fmt::format("block {} ({})", i, b.name[i]);
+}
+
+std::string place_label(Vec2 p) {
+  return fmt::format("({:.6g}, {:.6g})", p.x + 0.0, p.y + 0.0);
+}
+
+std::string governed_by(const Simulation& sim) {
+  const StepBound& bound = sim.bound;
+  if (bound.block == no_id) return "nothing: no block is free to move";
+  const Vec2 place = centroid(sim.state.x, sim.state.y, bound.block) + sim.blocks.origin;
+  std::string text = fmt::format("{} at {}: {:.0f} % contacts, {:.0f} % its own elasticity",
+                                 block_label(sim.blocks, bound.block), place_label(place),
+                                 100.0 * bound.contact_part, 100.0 * bound.elastic_part);
+  if (bound.boundary_part > 0.0) {
+    text += fmt::format(", {:.0f} % boundary springs", 100.0 * bound.boundary_part);
+  }
+  if (bound.contact != no_id && bound.contact < sim.contacts.size()) {
+    const Id k = bound.contact, i = sim.contacts.block_i[k], j = sim.contacts.block_j[k];
+    text += fmt::format("; most of it by the contact with {} at {}",
+                        block_label(sim.blocks, i == bound.block ? j : i),
+                        place_label(model_place(sim, k)));
+  }
+  return text + by_how_much(sim);
+}
+
+std::vector<std::string> guard_rails(const Simulation& sim) {
+  std::vector<std::string> warnings;
+  warn_of_sudden_gravity(sim, warnings);
+  warn_of_springs(sim, warnings);
+  warn_of_boundary(sim, warnings);
+  warn_of_overlaps(sim, warnings);
+  return warnings;
+}
+
+}  // namespace edda

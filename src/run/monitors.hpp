@@ -1,0 +1,30 @@
+// Monitors: material points that history.csv follows.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/fault.hpp"
+#include "run/observe.hpp"
+
+namespace edda {
+
+struct MonitorPoint {
+  std::string name;
+  std::size_t block = 0;
+  std::array<double, 3> weight{};  ///< area coordinates in the block
+};
+
+/// The block of every monitor: of those that cover it (edges included), the one of lowest id;
+/// within domain.snap outside, the nearest. A fault for each that lies in no block.
+Result<std::vector<MonitorPoint>> place_monitors(const Simulation& sim);
+
+/// Displacement and velocity of the point, and its block's stress.
+struct MonitorReading {
+  Vec2 displacement, velocity;
+  BlockStress stress;
+};
+MonitorReading read_monitor(const Simulation& sim, const Instant& at, const MonitorPoint& point);
+
+}  // namespace edda

@@ -1,0 +1,237 @@
+#include "run/observe.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel.hpp"
+#include "contacts/gap.hpp"
+#include "forces/contact_forces.hpp"
+#include "forces/elastic.hpp"
+
+namespace edda {
+namespace {
+
+namespace cs = contact_state;
+
+bool moves(const Simulation& sim, std::size_t i) {
+  return sim.state.alive[i] != 0 && sim.blocks.fixed[i] == 0;
+}
+
+/// F = I + sum u_k G_k^T: nothing but the identity, to the bit, where nothing has moved.
+Deformation deformation_of(const BlockSet& b, const State& s, std::size_t i) {
+  Deformation f{1.0, 0.0, 0.0, 1.0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double ux = s.x[k][i] - b.node_x[k][i], uy = s.y[k][i] - b.node_y[k][i];
+    f.xx += ux * b.grad_x[k][i];
+    f.xy += ux * b.grad_y[k][i];
+    f.yx += uy * b.grad_x[k][i];
+    f.yy += uy * b.grad_y[k][i];
+  }
+  return f;
+}
+
+/// Velocity gradient's spin as seen by the polar angle: its rate for the affine motion of the
+/// block.
+double spin(const BlockSet& b, const State& s, std::size_t i) {
+  // theta = atan2(beta, alpha) with alpha = F11 + F22, beta = F21 - F12.
+  const Deformation f = deformation_of(b, s, i), rate = deformation(b, s.vx, s.vy, i);
+  const double alpha = f.xx + f.yy, beta = f.yx - f.xy;
+  const double alpha_rate = rate.xx + rate.yy, beta_rate = rate.yx - rate.xy;
+  return (alpha * beta_rate - beta * alpha_rate) / (alpha * alpha + beta * beta);
+}
+
+double polar_angle(const BlockSet& b, const State& s, std::size_t i) {
+  const Deformation f = deformation_of(b, s, i);
+  return std::atan2(f.yx - f.xy, f.xx + f.yy);
+}
+
+BlockRecord block_record(const Simulation& sim, const State& s, std::size_t i) {
+  const BlockSet& b = sim.blocks;
+  BlockRecord r;
+  r.id = static_cast<std::uint32_t>(i);
+  r.name = b.name[i];
+  r.material_index = b.material[i];
+  if (b.material[i] != none) {
+    r.material = sim.model.materials[static_cast<std::size_t>(b.material[i])].name;
+  }
+  r.fixed = b.fixed[i] != 0;
+  r.position = centroid(s.x, s.y, i) + b.origin;
+  r.displacement = displacement_of(b, s, i, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0});
+  const Deformation f = deformation_of(b, s, i);
+  r.area = b.area[i] * (f.xx * f.yy - f.xy * f.yx);
+  r.rotation = polar_angle(b, s, i) + 2.0 * std::numbers::pi * s.turns[i];
+  r.velocity = centroid(s.vx, s.vy, i);
+  r.omega = spin(b, s, i);
+  const BlockStress stress = block_stress(sim, s, i);
+  r.sxx = stress.xx;
+  r.syy = stress.yy;
+  r.szz = stress.zz;
+  r.sxy = stress.xy;
+  return r;
+}
+
+/// How far the vertex has gone along the edge since the start: of the same two material points,
+/// where they lie now and as drawn.
+double slip_since_start(const BlockSet& b, const ContactSet& c, std::size_t k) {
+  const EdgeFrame e =
+      edge_frame(at(b.vertex_x, b.vertex_y, c.edge[k]), at(b.vertex_x, b.vertex_y, c.edge_end[k]));
+  return c.foot[k] - gap_to(e, at(b.vertex_x, b.vertex_y, c.vertex[k])).foot;
+}
+
+ContactState state_of(const ContactSet& c, std::size_t k) {
+  if (!c.is(k, cs::closed)) return ContactState::open;
+  if (c.is(k, cs::bonded | cs::glued)) return ContactState::bonded;
+  return c.is(k, cs::sliding) ? ContactState::slide : ContactState::stick;
+}
+
+double mobilised(const ContactSet& c, std::size_t k) {
+  if (!c.is(k, cs::closed) || c.is(k, cs::glued)) return 0.0;
+  const double strength = c.cohesion[k] + std::max(c.normal[k], 0.0) * c.friction[k];
+  return c.shear[k] == 0.0 ? 0.0 : std::abs(c.shear[k]) / strength;
+}
+
+ContactRecord contact_record(const Simulation& sim, const ContactSet& c, std::size_t k) {
+  ContactRecord r;
+  r.block_i = c.block_i[k];
+  r.block_j = c.block_j[k];
+  const std::size_t law = c.law[k];
+  r.joint = law < sim.model.joints.size() ? sim.model.joints[law].name : "glued";
+  r.position = at(sim.pose.x, sim.pose.y, c.vertex[k]) + sim.blocks.origin;
+  r.opening = -c.depth[k];
+  r.slip = slip_since_start(sim.blocks, c, k);
+  r.state = state_of(c, k);
+  r.ever_slipped = c.is(k, cs::slipped);
+  r.ever_opened = c.is(k, cs::opened);
+  if (r.state == ContactState::open) return r;
+  r.force = {c.fx[k], c.fy[k]};
+  r.normal_force = c.share[k] * c.normal[k];
+  r.shear_force = c.share[k] * c.shear[k];
+  r.mobilised = mobilised(c, k);
+  return r;
+}
+
+void place_points(const BlockSet& b, const State& s, Picture& p) {
+  const std::size_t nv = b.vertex_count();
+  for (auto* values : {&p.x, &p.y, &p.ux, &p.uy, &p.vx, &p.vy}) values->resize(nv);
+  parallel_for(nv, [&](std::size_t v) {
+    const Vec2 now = vertex_at(b, s.x, s.y, v), speed = vertex_at(b, s.vx, s.vy, v);
+    p.x[v] = now.x + b.origin.x;
+    p.y[v] = now.y + b.origin.y;
+    const Vec2 u =
+        displacement_of(b, s, b.vertex_block[v], {b.weight[0][v], b.weight[1][v], b.weight[2][v]});
+    p.ux[v] = u.x;
+    p.uy[v] = u.y;
+    p.vx[v] = speed.x;
+    p.vy[v] = speed.y;
+  });
+}
+
+}  // namespace
+
+void observe(const Simulation& sim, Instant& at) {
+  const double h = sim.state.step;
+  const Damping& damping = sim.model.solver.damping;
+  at.contacts = sim.contacts;
+  evaluate_contacts(at.contacts, sim.blocks, sim.pose, sim.laws, h, damping.contact);
+  at.forces = sim.forces;
+  gather_forces(at.forces, sim.blocks, sim.state, sim.pose, at.contacts, sim.springs,
+                sim.model.gravity);
+  at.state = sim.state;
+  DampingWork unused = sim.damping_work;
+  advance(at.state, sim.blocks, at.forces.x, at.forces.y, h, h, {damping.mass, damping.local},
+          unused);
+  at.state.x = sim.state.x;
+  at.state.y = sim.state.y;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+      at.state.vx[k][i] = 0.5 * (at.state.vx[k][i] + sim.state.vx[k][i]);
+      at.state.vy[k][i] = 0.5 * (at.state.vy[k][i] + sim.state.vy[k][i]);
+    }
+  }
+}
+
+Picture picture_of(const Simulation& sim, const Instant& at) {
+  Picture p;
+  p.time = sim.state.time;
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    if (at.state.alive[i]) p.blocks.push_back(block_record(sim, at.state, i));
+  }
+  const ContactSet& c = at.contacts;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    // Of two candidates that share one spring, the one without a share has nothing to tell.
+    if (c.share[k] > 0.0 && c.is(k, cs::closed | cs::opened)) {
+      p.contacts.push_back(contact_record(sim, c, k));
+    }
+  }
+  place_points(sim.blocks, at.state, p);
+  return p;
+}
+
+Vec2 displacement_of(const BlockSet& b, const State& s, std::size_t i,
+                     const std::array<double, 3>& w) {
+  Vec2 u;
+  for (std::size_t k = 0; k < 3; ++k) {
+    u += w[k] * Vec2{s.x[k][i] - b.node_x[k][i], s.y[k][i] - b.node_y[k][i]};
+  }
+  return u;
+}
+
+BlockStress block_stress(const Simulation& sim, const State& s, std::size_t i) {
+  const BlockSet& b = sim.blocks;
+  const Deformation f = deformation_of(b, s, i);
+  const Tensor t = cauchy(piola(f, rotation(f), b.lame_lambda[i], b.lame_mu[i]), f);
+  BlockStress stress{t.xx, t.yy, 0.0, t.xy};
+  if (sim.model.plane == Plane::strain && b.material[i] != none) {
+    const double poisson = sim.model.materials[static_cast<std::size_t>(b.material[i])].poisson;
+    stress.zz = poisson * (t.xx + t.yy);
+  }
+  return stress;
+}
+
+double unbalanced_ratio(const Simulation& sim, const Instant& at) {
+  double force = 0.0, weight = 0.0;
+  std::size_t free_blocks = 0;
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    if (!moves(sim, i)) continue;
+    force += norm(3.0 * centroid(at.forces.x, at.forces.y, i));
+    weight += sim.blocks.mass[i] * norm(sim.model.gravity);
+    ++free_blocks;
+  }
+  double normal = 0.0;
+  std::size_t carrying = 0;
+  for (std::size_t k = 0; k < at.contacts.size(); ++k) {
+    const double n = at.contacts.share[k] * at.contacts.normal[k];
+    if (!at.contacts.is(k, cs::closed) || !(n > 0.0)) continue;
+    normal += n;
+    ++carrying;
+  }
+  if (free_blocks == 0 || force == 0.0) return 0.0;
+  const auto blocks = static_cast<double>(free_blocks);
+  // Contacts that only just touch, as at the start, carry rounding and no measure.
+  const double mean_weight = weight / blocks;
+  const double mean_normal = carrying > 0 ? normal / static_cast<double>(carrying) : 0.0;
+  const double scale = mean_normal > 1e-9 * mean_weight ? mean_normal : mean_weight;
+  return scale > 0.0 ? force / blocks / scale : 0.0;
+}
+
+std::size_t closed_contacts(const ContactSet& c) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < c.size(); ++k) count += c.is(k, cs::closed) && c.share[k] > 0.0;
+  return count;
+}
+
+void count_turns(Simulation& sim, std::vector<double>& angle) {
+  const std::size_t nb = sim.blocks.size();
+  const bool first = angle.empty();
+  angle.resize(nb, 0.0);
+  parallel_for(nb, [&](std::size_t i) {
+    if (!moves(sim, i)) return;
+    const double now = polar_angle(sim.blocks, sim.state, i);
+    if (!first && now - angle[i] > std::numbers::pi) --sim.state.turns[i];
+    if (!first && now - angle[i] < -std::numbers::pi) ++sim.state.turns[i];
+    angle[i] = now;
+  });
+}
+
+}  // namespace edda

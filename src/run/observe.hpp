@@ -1,0 +1,50 @@
+// A look at a simulation between two steps, without disturbing it.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "results/records.hpp"
+#include "run/simulation.hpp"
+
+namespace edda {
+
+/// Everything at step n: the leapfrog holds velocities at n - 1/2 and forces at n - 1, so the
+/// forces at n are worked out here on copies, and v_n = (v_{n-1/2} + v_{n+1/2})/2 (method.md
+/// section 5). Kept from row to row, so that the copies reuse their memory.
+struct Instant {
+  State state;          ///< x, y and v at n
+  ContactSet contacts;  ///< with the forces at n
+  NodalForces forces;   ///< at n, N
+};
+
+/// Fills `at` from the simulation as it stands after start() or step().
+void observe(const Simulation& sim, Instant& at);
+
+/// The tables and frames of that instant. Model coordinates.
+Picture picture_of(const Simulation& sim, const Instant& at);
+
+/// Of the material point of area coordinates w since the start, m: node by node, so that it is
+/// exactly 0 at t = 0.
+Vec2 displacement_of(const BlockSet& blocks, const State& state, std::size_t i,
+                     const std::array<double, 3>& w);
+
+/// Cauchy stress of block i in the model's plane: xx yy xy (Pa), and zz: nu (xx + yy) or, in plane
+/// stress, 0.
+struct BlockStress {
+  double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0;
+};
+BlockStress block_stress(const Simulation& sim, const State& state, std::size_t i);
+
+/// The mean over blocks not held of the resultant force, over the mean contact normal force (the
+/// mean weight where no contact carries); 0 where both are.
+double unbalanced_ratio(const Simulation& sim, const Instant& at);
+
+/// Candidates that are closed and have a share of their spring.
+std::size_t closed_contacts(const ContactSet& contacts);
+
+/// Brings State::turns up to date. To be called often enough that no block turns by half a turn
+/// between two calls; `angle` keeps the polar angles of the last call (rad, empty at first).
+void count_turns(Simulation& sim, std::vector<double>& angle);
+
+}  // namespace edda

@@ -1,0 +1,75 @@
+#include "run/recorder.hpp"
+
+#include "model/write_model.hpp"
+#include "results/csv.hpp"
+#include "results/sha256.hpp"
+#include "results/tables.hpp"
+#include "run/summary.hpp"
+
+namespace edda {
+namespace {
+
+std::string history_header(const std::vector<MonitorPoint>& monitors) {
+  Csv csv;
+  csv.add("time");
+  for (const MonitorPoint& m : monitors) {
+    for (const char* what : {".ux", ".uy", ".vx", ".vy", ".sxx", ".syy", ".sxy"})
+      csv.add(m.name + what);
+  }
+  csv.header({"kinetic", "strain", "contact", "gravity", "friction", "damping", "fracture",
+              "external", "step_change", "drift", "unbalanced"});
+  return csv.text();
+}
+
+}  // namespace
+
+Trouble Recorder::begin(const Simulation& sim, const std::vector<MonitorPoint>& monitors) {
+  if (!writes()) return {};
+  // What the model was read from; a model built in memory has no file to name.
+  const Result<std::string> input = read_file(sim.model.file);
+  if (input.ok()) input_hash_ = sha256(input.value());
+  if (auto t = clear_folder(folder_)) return t;
+  if (auto t = write_file(path("model.toml"), to_toml(sim.model))) return t;
+  if (auto t = history_.open(path("history.csv"))) return t;
+  if (auto t = history_.add(history_header(monitors))) return t;
+  frames_.emplace(folder_, sim.blocks);
+  return {};
+}
+
+Trouble Recorder::row(const Simulation& sim, const Instant& at,
+                      const std::vector<MonitorPoint>& monitors, const Ledger& l,
+                      double unbalanced) {
+  if (!writes()) return {};
+  Csv csv;
+  csv.add(sim.state.time);
+  for (const MonitorPoint& m : monitors) {
+    const MonitorReading r = read_monitor(sim, at, m);
+    csv.add(r.displacement.x).add(r.displacement.y).add(r.velocity.x).add(r.velocity.y);
+    csv.add(r.stress.xx).add(r.stress.yy).add(r.stress.xy);
+  }
+  for (const double v : {l.kinetic, l.strain, l.contact, l.gravity, l.friction, l.damping,
+                         l.fracture, l.external, l.step_change, l.drift, unbalanced}) {
+    csv.add(v);
+  }
+  return history_.add(csv.end().text());
+}
+
+Trouble Recorder::frame(const Picture& picture) {
+  return frames_ ? frames_->add(picture) : Trouble{};
+}
+
+Trouble Recorder::tables(const Picture& picture) {
+  if (!writes()) return {};
+  const Trouble history = history_.close();
+  if (auto t = write_file(path("blocks.csv"), blocks_csv(picture.blocks))) return t;
+  if (auto t = write_file(path("joints.csv"), joints_csv(picture.contacts))) return t;
+  return history;
+}
+
+Trouble Recorder::summary(const Simulation& sim, const Outcome& outcome,
+                          const std::string& governed_by) {
+  if (!writes()) return {};
+  return write_file(path("summary.json"), summary_json(sim, outcome, governed_by, input_hash_));
+}
+
+}  // namespace edda

@@ -1,0 +1,38 @@
+// The results folder of a run, filled as it goes.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/files.hpp"
+#include "results/frames.hpp"
+#include "run/monitors.hpp"
+#include "run/outcome.hpp"
+
+namespace edda {
+
+class Recorder {
+ public:
+  /// With an empty folder nothing is ever written.
+  explicit Recorder(std::string folder) : folder_(std::move(folder)) {}
+
+  /// Makes or empties the folder; model.toml and the head of history.csv.
+  Trouble begin(const Simulation& sim, const std::vector<MonitorPoint>& monitors);
+  Trouble row(const Simulation& sim, const Instant& at, const std::vector<MonitorPoint>& monitors,
+              const Ledger& ledger, double unbalanced);
+  Trouble frame(const Picture& picture);
+  /// blocks.csv, joints.csv, and the end of history.csv.
+  Trouble tables(const Picture& picture);
+  /// summary.json, last of all.
+  Trouble summary(const Simulation& sim, const Outcome& outcome, const std::string& governed_by);
+  bool writes() const { return !folder_.empty(); }
+
+ private:
+  std::string path(const char* name) const { return folder_ + "/" + name; }
+  std::string folder_, input_hash_;
+  RowFile history_;
+  std::optional<FrameSeries> frames_;
+};
+
+}  // namespace edda

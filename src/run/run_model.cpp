@@ -1,0 +1,65 @@
+#include "run/run_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "run/driver.hpp"
+#include "run/guard_rails.hpp"
+
+namespace edda {
+namespace {
+
+Fault solver_fault(const Model& model, const char* key, std::string problem, std::string remedy) {
+  Fault fault{model.solver.where, std::move(problem), std::move(remedy)};
+  if (fault.where.file.empty()) fault.where.file = model.file;
+  fault.where.key = std::string("solver.") + key;
+  return fault;
+}
+
+std::optional<Fault> unstable_step(const Simulation& sim) {
+  const Solver& solver = sim.model.solver;
+  if (!solver.time_step || solver.allow_unstable) return {};
+  if (*solver.time_step <= sim.bound.critical_step) return {};
+  return solver_fault(
+      sim.model, "time_step",
+      fmt::format("{:.6g} s is above the critical step of {:.6g} s", *solver.time_step,
+                  sim.bound.critical_step),
+      fmt::format(
+          "give at most that, or \"auto\" (now {:.6g} s); allow_unstable = true takes it as it is",
+          solver.safety * sim.bound.critical_step));
+}
+
+}  // namespace
+
+Result<PreparedRun> prepare_run(Model model) {
+  if (model.solver.method == Method::dda) {
+    return solver_fault(model, "method", "\"dda\" is not available in this version",
+                        "use method = \"edda\"");
+  }
+  const auto start = std::chrono::steady_clock::now();
+  Result<Simulation> made = Simulation::create(std::move(model));
+  if (!made.ok()) return made.faults();
+  PreparedRun run{std::move(made.value()), {}, {}, {}, 0.0};
+  run.cut_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  Faults faults;
+  Result<std::vector<MonitorPoint>> monitors = place_monitors(run.sim);
+  if (!monitors.ok()) faults = monitors.faults();
+  if (auto fault = unstable_step(run.sim)) faults.push_back(*fault);
+  if (!faults.empty()) return faults;
+  run.monitors = std::move(monitors.value());
+  run.governed_by = governed_by(run.sim);
+  run.warnings = guard_rails(run.sim);
+  return run;
+}
+
+Result<Outcome> run_model(PreparedRun& run, const RunOptions& options) {
+  if (!options.folder.empty()) {
+    if (auto trouble = check_folder(options.folder, run.sim.model.file)) return *trouble;
+  }
+  return Driver(run, options).run();
+}
+
+}  // namespace edda

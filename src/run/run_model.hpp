@@ -1,0 +1,49 @@
+// A model run from t = 0 to its duration: rows, frames, progress, guards, results folder.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "run/monitors.hpp"
+#include "run/outcome.hpp"
+#include "run/simulation.hpp"
+
+namespace edda {
+
+struct Progress {
+  double fraction = 0.0;  ///< of the duration
+  double time = 0.0;      ///< s simulated
+  std::uint64_t steps = 0;
+  double rate = 0.0;             ///< steps per second of wall time, lately
+  double seconds_left = 0.0;     ///< wall; -1 while unknown
+  double kinetic = 0.0;          ///< J
+  double largest_overlap = 0.0;  ///< m, of contacts that carry
+};
+
+struct RunOptions {
+  std::string folder;                             ///< for results; empty: none are written
+  std::function<void(const Progress&)> progress;  ///< may be empty
+  double progress_every = 0.2;                    ///< s of wall time
+  const std::atomic<bool>* stop = nullptr;  ///< set from anywhere: the run ends as interrupted
+};
+
+/// A run ready to start.
+struct PreparedRun {
+  Simulation sim;
+  std::vector<MonitorPoint> monitors;
+  std::string governed_by;            ///< what holds the step
+  std::vector<std::string> warnings;  ///< guard rails
+  double cut_seconds = 0.0;           ///< wall time of cutting and building
+};
+
+/// Cuts, builds and checks. Faults: geometry, monitors outside every block, a time_step above the
+/// critical step (unless allow_unstable).
+Result<PreparedRun> prepare_run(Model model);
+
+/// Runs it to its end. Faults only where the folder cannot be used; whatever happens later is an
+/// Outcome, with what had been computed kept.
+Result<Outcome> run_model(PreparedRun& run, const RunOptions& options);
+
+}  // namespace edda

@@ -1,0 +1,131 @@
+#include "run/summary.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "results/json.hpp"
+#include "results/version.hpp"
+
+namespace edda {
+namespace {
+
+/// Penetration over the smallest edge of the blocks that move.
+double overlap_over_edge(const Simulation& sim) {
+  double edge = 0.0;
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    if (sim.blocks.fixed[i]) continue;
+    edge = edge == 0.0 ? sim.blocks.smallest_edge[i] : std::min(edge, sim.blocks.smallest_edge[i]);
+  }
+  return edge > 0.0 ? sim.max_penetration / edge : 0.0;
+}
+
+/// A model counts as at rest when forces balance to this part of a contact force.
+constexpr double at_rest = 1e-2;
+
+Check limited(std::string name, double value, double limit) {
+  return {std::move(name), value, limit, value <= limit};
+}
+
+Check informed(std::string name, double value) {
+  return {std::move(name), value, {}, true};
+}
+
+constexpr std::string_view name_of(Method m) {
+  return m == Method::edda ? "edda" : "dda";
+}
+
+constexpr std::string_view name_of(MassKind m) {
+  return m == MassKind::matched ? "matched" : m == MassKind::covering ? "covering" : "consistent";
+}
+
+void add_steps(Json& j, const Simulation& sim, const Outcome& o) {
+  const StepStatistics& s = sim.steps;
+  const auto n = static_cast<double>(std::max<std::uint64_t>(o.steps, 1));
+  j.pair("steps", o.steps).key("time_step").open_object();
+  j.pair("min", s.smallest)
+      .pair("max", s.largest)
+      .pair("mean", std::clamp(s.sum / n, s.smallest, s.largest))
+      .close();
+}
+
+void add_open_close(Json& j, const Simulation& sim) {
+  const OpenCloseCounts& c = sim.open_close;
+  const auto steps = static_cast<double>(std::max<std::uint64_t>(c.steps, 1));
+  j.key("open_close").open_object().pair("mean", static_cast<double>(c.passes) / steps);
+  j.pair("max", c.most).pair("switched", c.switched).pair("unsettled", c.unsettled).close();
+}
+
+void add_energy(Json& j, const Ledger& l) {
+  j.key("energy").open_object().pair("kinetic", l.kinetic).pair("strain", l.strain);
+  j.pair("contact", l.contact).pair("gravity", l.gravity).pair("friction", l.friction);
+  j.pair("damping", l.damping).pair("fracture", l.fracture).pair("external", l.external);
+  j.pair("step_change", l.step_change).pair("drift", l.drift).close();
+}
+
+void add_wall(Json& j, const WallSeconds& w) {
+  j.key("wall_seconds").open_object().pair("total", w.total).pair("cut", w.cut);
+  j.pair("search", w.search).pair("forces", w.forces).pair("integrate", w.integrate);
+  j.pair("output", w.output).close();
+}
+
+void add_checks(Json& j, const std::vector<Check>& checks) {
+  j.key("checks").open_list();
+  for (const Check& c : checks) {
+    j.open_object().pair("name", c.name).pair("value", c.value).key("limit");
+    if (c.limit) {
+      j.value(*c.limit);
+    } else {
+      j.null();
+    }
+    j.pair("pass", c.pass).close();
+  }
+  j.close();
+}
+
+}  // namespace
+
+std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
+  std::vector<Check> checks{
+      limited("largest overlap over smallest edge", overlap_over_edge(sim), 0.01),
+      limited("largest step over critical step", o.step_over_critical, 1.0),
+      limited("largest drift of the energy", o.largest_drift, 0.05),
+  };
+  const bool rest = o.unbalanced <= at_rest;
+  // While blocks still move, reactions carry their inertia, too: nothing to judge.
+  checks.push_back(
+      rest ? limited("boundary reactions against weight", o.reaction_error, at_rest)
+           : informed("boundary reactions against weight (still moving)", o.reaction_error));
+  checks.push_back(rest ? limited("unbalanced contact forces at rest", o.unbalanced, at_rest)
+                        : informed("unbalanced contact forces (still moving)", o.unbalanced));
+  checks.push_back(informed("faces merged by the cut", sim.polygons.report.merged));
+  checks.push_back(informed("mass added by scaling (kg)", 0.0));
+  return checks;
+}
+
+std::string summary_json(const Simulation& sim, const Outcome& o, const std::string& governed_by,
+                         const std::string& input_hash) {
+  Json j;
+  j.open_object().pair("version", version).pair("title", sim.model.title);
+  j.pair("method", name_of(sim.model.solver.method)).pair("mass", name_of(sim.model.solver.mass));
+  j.pair("status", status_name(o.status)).pair("message", o.message);
+  j.pair("blocks", sim.blocks.size()).pair("contacts", o.contacts).pair("time", o.time);
+  add_steps(j, sim, o);
+  j.pair("critical_time_step", o.critical_step).pair("governed_by", governed_by);
+  add_open_close(j, sim);
+  j.pair("step_changes", sim.steps.changes).pair("max_penetration", sim.max_penetration);
+  add_energy(j, o.ledger);
+  add_wall(j, o.wall);
+  const double work = static_cast<double>(sim.blocks.size()) * static_cast<double>(o.steps);
+  j.pair("block_steps_per_second", o.wall.stepping > 0.0 ? work / o.wall.stepping : 0.0);
+  j.pair("threads", omp_get_max_threads());
+  add_checks(j, checks_of(sim, o));
+  j.key("inputs").open_list();
+  if (!input_hash.empty()) {
+    j.open_object().pair("file", sim.model.file).pair("sha256", input_hash).close();
+  }
+  return j.close().close().text();
+}
+
+}  // namespace edda
