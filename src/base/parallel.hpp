@@ -7,9 +7,16 @@
 
 namespace edda {
 
+/// Loops shorter than this are not worth waking other threads for.
+inline constexpr std::size_t worth_sharing = 1024;
+
 /// Calls body(i) for i in [0, n), in parallel. body must write only what belongs to i.
 template <class Body>
 void parallel_for(std::size_t n, Body body) {
+  if (n < worth_sharing) {
+    for (std::size_t i = 0; i < n; ++i) body(i);
+    return;
+  }
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < n; ++i) body(i);
 }
@@ -21,7 +28,7 @@ double ordered_sum(std::size_t n, Term term) {
   constexpr std::size_t chunk = 4096;
   const std::size_t chunks = (n + chunk - 1) / chunk;
   std::vector<double> partial(chunks, 0.0);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (chunks > 1)
   for (std::size_t c = 0; c < chunks; ++c) {
     const std::size_t end = std::min(n, (c + 1) * chunk);
     double sum = 0.0;

@@ -18,20 +18,36 @@ namespace {
 using DoubleArray = std::vector<double> ContactSet::*;
 
 /// What a candidate remembers from one list to the next.
-constexpr std::array<DoubleArray, 22> memory = {
-    &ContactSet::depth,      &ContactSet::depth_1,       &ContactSet::depth_2,
-    &ContactSet::foot,       &ContactSet::share,         &ContactSet::rest,
-    &ContactSet::anchor,     &ContactSet::kn,            &ContactSet::ks,
-    &ContactSet::length,     &ContactSet::friction,      &ContactSet::cohesion,
-    &ContactSet::alpha,      &ContactSet::normal,        &ContactSet::shear,
-    &ContactSet::shear_1,    &ContactSet::slip_trial,    &ContactSet::dashpot,
-    &ContactSet::fracture_work, &ContactSet::friction_work, &ContactSet::damping_work,
-    &ContactSet::low};
+constexpr std::array<DoubleArray, 26> memory = {&ContactSet::depth,
+                                                &ContactSet::depth_1,
+                                                &ContactSet::depth_2,
+                                                &ContactSet::foot,
+                                                &ContactSet::share,
+                                                &ContactSet::rest,
+                                                &ContactSet::anchor,
+                                                &ContactSet::kn,
+                                                &ContactSet::ks,
+                                                &ContactSet::length,
+                                                &ContactSet::friction,
+                                                &ContactSet::cohesion,
+                                                &ContactSet::alpha,
+                                                &ContactSet::normal,
+                                                &ContactSet::shear,
+                                                &ContactSet::shear_1,
+                                                &ContactSet::slip_trial,
+                                                &ContactSet::dashpot,
+                                                &ContactSet::fracture_work,
+                                                &ContactSet::friction_work,
+                                                &ContactSet::damping_work,
+                                                &ContactSet::low,
+                                                &ContactSet::fx,
+                                                &ContactSet::fy,
+                                                &ContactSet::gx,
+                                                &ContactSet::gy};
 
 /// Filled anew; only their size matters here.
-constexpr std::array<DoubleArray, 8> scratch = {
-    &ContactSet::high, &ContactSet::extend_start, &ContactSet::extend_end, &ContactSet::fx,
-    &ContactSet::fy,   &ContactSet::gx,           &ContactSet::gy,         &ContactSet::next_share};
+constexpr std::array<DoubleArray, 4> scratch = {&ContactSet::high, &ContactSet::extend_start,
+                                                &ContactSet::extend_end, &ContactSet::next_share};
 
 void resize(ContactSet& c, std::size_t n) {
   for (DoubleArray a : memory) (c.*a).assign(n, 0.0);
@@ -64,8 +80,8 @@ std::vector<NearPair> wanted(const ContactSet& old, const BlockSet& b, const Sta
 /// A candidate seen for the first time.
 void start_candidate(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
                      std::size_t k) {
-  const EdgeFrame before = edge_frame(at(pose.x1, pose.y1, c.edge[k]),
-                                      at(pose.x1, pose.y1, c.edge_end[k]));
+  const EdgeFrame before =
+      edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
   c.depth_1[k] = gap_to(before, at(pose.x1, pose.y1, c.vertex[k])).depth;
   c.depth_2[k] = c.depth_1[k];
   c.share[k] = 1.0;
@@ -107,10 +123,9 @@ void list_by_block(ContactSet& c, std::size_t blocks) {
     return (entry & 1u) != 0 ? c.block_i[entry >> 1] : c.block_j[entry >> 1];
   };
   for (std::size_t i = 0; i < blocks; ++i) {
-    std::sort(c.block_entry.begin() + c.block_begin[i], c.block_entry.begin() + c.block_begin[i + 1],
-              [&](Id p, Id q) {
-                return std::make_pair(partner(p), p) < std::make_pair(partner(q), q);
-              });
+    std::sort(
+        c.block_entry.begin() + c.block_begin[i], c.block_entry.begin() + c.block_begin[i + 1],
+        [&](Id p, Id q) { return std::make_pair(partner(p), p) < std::make_pair(partner(q), q); });
   }
 }
 
@@ -170,9 +185,10 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
     next.edge_end[k] = b.next[pair.edge];
     next.block_i[k] = b.vertex_block[pair.vertex];
     next.block_j[k] = b.vertex_block[pair.edge];
-    const Vec2 n = edge_frame(at(pose.x, pose.y, pair.edge), at(pose.x, pose.y, next.edge_end[k]))
-                       .normal();
-    while (old < contacts.size() && NearPair{contacts.vertex[old], contacts.edge[old]} < pair) ++old;
+    const Vec2 n =
+        edge_frame(at(pose.x, pose.y, pair.edge), at(pose.x, pose.y, next.edge_end[k])).normal();
+    while (old < contacts.size() && NearPair{contacts.vertex[old], contacts.edge[old]} < pair)
+      ++old;
     if (old < contacts.size() && NearPair{contacts.vertex[old], contacts.edge[old]} == pair) {
       for (DoubleArray a : memory) (next.*a)[k] = (contacts.*a)[old];
       next.state[k] = contacts.state[old];

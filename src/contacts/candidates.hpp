@@ -16,20 +16,20 @@ inline constexpr double corner_reach = 1e-3;
 inline constexpr double opposite = 0.99;
 
 /// Makes the list for all vertices nearer than `reach` to an edge: searches, carries over what is
-/// remembered of candidates that stay (force, shear, bond, rest penetration), keeps every closed one,
-/// pairs lined-up corners, and lists each block's contacts in the order of (partner, vertex, edge).
-/// New candidates take their gap a step ago from pose.x1, y1.
+/// remembered of candidates that stay (force, shear, bond, rest penetration), keeps every closed
+/// one, pairs lined-up corners, and lists each block's contacts in the order of (partner, vertex,
+/// edge). New candidates take their gap a step ago from pose.x1, y1.
 void rebuild_candidates(ContactSet& contacts, const BlockSet& blocks, const State& state,
                         const Pose& pose, const LawTable& laws, double reach);
 
-/// Closes what touches at the start: contacts whose gap is within 1e-6 of the smaller block's size and
-/// whose law has cohesion, tension or glue are bonded, and grouped into segments by their pair of edges.
-/// Needs update_gaps().
+/// Closes what touches at the start: contacts whose gap is within 1e-6 of the smaller block's size
+/// and whose law has cohesion, tension or glue are bonded, and grouped into segments by their pair
+/// of edges. Needs update_gaps().
 void bond_contacts(ContactSet& contacts, const BlockSet& blocks, const State& state,
                    const Pose& pose, const LawTable& laws);
 
-/// Length a contact of this vertex and edge stands for: half of what the edge shares with each of the
-/// vertex's edges that lie against it, m; 0 for a lone corner.
+/// Length a contact of this vertex and edge stands for: half of what the edge shares with each of
+/// the vertex's edges that lie against it, m; 0 for a lone corner.
 double contact_length(const BlockSet& blocks, const Pose& pose, Id vertex, Id edge);
 
 /// Takes the spring of the contact from its law and its present length (method.md section 4).

@@ -1,7 +1,7 @@
-// Contacts: every vertex near an edge of another block ("candidate"), whether it touches or not, and
-// the memory of those that do. Structure of arrays, [nc] each, sorted by (vertex, edge). Notation of
-// method.md section 4: vertex A = P1 of block i, edge e = P2P3 of block j, unit tangent t, outward
-// normal n, penetration d = -(P1 - P2).n, foot z = (P1 - P2).t = xi l.
+// Contacts: every vertex near an edge of another block ("candidate"), whether it touches or not,
+// and the memory of those that do. Structure of arrays, [nc] each, sorted by (vertex, edge).
+// Notation of method.md section 4: vertex A = P1 of block i, edge e = P2P3 of block j, unit tangent
+// t, outward normal n, penetration d = -(P1 - P2).n, foot z = (P1 - P2).t = xi l.
 #pragma once
 
 #include <cstdint>
@@ -26,10 +26,10 @@ inline constexpr std::uint8_t glued = 64;    ///< never opens or slides
 /// Two candidates (A, e) and (B, f) at one pair of corners A and B whose edges lie against each
 /// other; see contacts/shares.hpp for the weights they are given.
 struct CornerPair {
-  Id first = 0, second = 0;   ///< candidates, first < second
+  Id first = 0, second = 0;     ///< candidates, first < second
   bool first_at_start = true;   ///< B is the start (else the end) of e
   bool second_at_start = true;  ///< A is the start (else the end) of f
-  double reach = 0.0;         ///< r_v, m
+  double reach = 0.0;           ///< r_v, m
   /// The edges run the same way from the corner (one corner passes the other along a joint); else
   /// they run away from each other (corner against corner).
   bool same_way() const { return first_at_start != second_at_start; }
@@ -50,24 +50,26 @@ struct ContactSet {
   std::vector<Id> vertex, edge, edge_end;  ///< A, P2, P3
   std::vector<Id> block_i, block_j;        ///< of the vertex, of the edge
   std::vector<std::uint16_t> law;          ///< row of the LawTable
-  std::vector<double> extend_start, extend_end;  ///< m the edge is taken to run on at reentrant ends
+  std::vector<double> extend_start,
+      extend_end;  ///< m the edge is taken to run on at reentrant ends
 
   // Geometry. Filled by update_gaps() at every step.
   std::vector<double> depth, depth_1, depth_2;  ///< d at n, n - 1, n - 2, m
   std::vector<double> foot;                     ///< z at n, m
-  std::vector<double> share;                    ///< w: part of the spring this candidate has, 0 to 1
-  std::vector<double> low, high;                ///< range of z in which the foot counts as on the edge, m
+  std::vector<double> share;      ///< w: part of the spring this candidate has, 0 to 1
+  std::vector<double> low, high;  ///< range of z in which the foot counts as on the edge, m
 
   // Memory. Filled by the transitions.
-  std::vector<std::uint8_t> state;     ///< contact_state bits
-  std::vector<double> rest;            ///< d0, m; +infinity while blocked
-  std::vector<double> anchor;          ///< xi0
-  std::vector<double> kn, ks;          ///< p_n, p_t, N/m, frozen when it closes (before: what they would be)
-  std::vector<double> length;          ///< L it stands for, m; 0 for a lone corner
-  std::vector<double> friction;        ///< tan(phi) in force
-  std::vector<double> cohesion;        ///< c L in force, N
-  std::vector<double> alpha;           ///< part of the last force that the open-close iteration kept
-  std::vector<double> normal;          ///< N at n - 1 of the whole spring (before share and alpha), N
+  std::vector<std::uint8_t> state;  ///< contact_state bits
+  std::vector<double> rest;         ///< d0, m; +infinity while blocked
+  std::vector<double> anchor;       ///< xi0
+  std::vector<double> kn,
+      ks;  ///< p_n, p_t, N/m, frozen when it closes (before: what they would be)
+  std::vector<double> length;    ///< L it stands for, m; 0 for a lone corner
+  std::vector<double> friction;  ///< tan(phi) in force
+  std::vector<double> cohesion;  ///< c L in force, N
+  std::vector<double> alpha;     ///< part of the last force that the open-close iteration kept
+  std::vector<double> normal;    ///< N at n - 1 of the whole spring (before share and alpha), N
   std::vector<double> shear, shear_1;  ///< T at n - 1 and n - 2 of the whole spring, N
   std::vector<double> slip_trial;      ///< s before the return map at n - 1, m
   std::vector<double> dashpot;         ///< viscous part of N at n - 1, N
@@ -76,36 +78,40 @@ struct ContactSet {
   // Forces of the last evaluation, N: on the vertex and on P2; on P3 acts minus their sum.
   std::vector<double> fx, fy, gx, gy;
 
-  std::vector<Blocked> why;          ///< why it is blocked
-  std::vector<Id> blocked;           ///< the blocked candidates, ascending
-  std::vector<CornerPair> pairs;     ///< sorted by (first, second)
-  std::vector<Id> paired;            ///< candidates in any pair, ascending
-  std::vector<Id> pair_of;           ///< [nc] a pair the candidate is in, or no_id
-  std::vector<double> next_share;    ///< scratch of update_shares()
-  std::vector<std::uint8_t> balanced;  ///< scratch of update_shares(): its partner takes what it gives
-  std::vector<Segment> segments;     ///< the bonded ones
-  std::vector<Id> begin_of_vertex;   ///< [nv + 1] candidates of a vertex
+  std::vector<Blocked> why;        ///< why it is blocked
+  std::vector<Id> blocked;         ///< the blocked candidates, ascending
+  std::vector<CornerPair> pairs;   ///< sorted by (first, second)
+  std::vector<Id> paired;          ///< candidates in any pair, ascending
+  std::vector<Id> pair_of;         ///< [nc] a pair the candidate is in, or no_id
+  std::vector<double> next_share;  ///< scratch of update_shares()
+  std::vector<std::uint8_t>
+      balanced;                     ///< scratch of update_shares(): its partner takes what it gives
+  std::vector<Segment> segments;    ///< the bonded ones
+  std::vector<Id> begin_of_vertex;  ///< [nv + 1] candidates of a vertex
 
-  // Contacts of a block, in the order of (partner, vertex, edge): entry = 2 candidate + side, side 0
-  // where the block has the vertex, 1 where it has the edge.
-  std::vector<Id> block_begin;       ///< [nb + 1]
+  // Contacts of a block, in the order of (partner, vertex, edge): entry = 2 candidate + side, side
+  // 0 where the block has the vertex, 1 where it has the edge.
+  std::vector<Id> block_begin;  ///< [nb + 1]
   std::vector<Id> block_entry;
 
   // When the list was made, and how long it lives.
   std::vector<double> built_x, built_y;  ///< [nv] vertices then, m
-  double reach = 0.0;                    ///< m: every vertex nearer than this to an edge is in the list
-  double travel = 0.0;                   ///< m: bound of what any vertex has moved since
-  std::uint64_t built_at = 0;            ///< step
+  double reach = 0.0;          ///< m: every vertex nearer than this to an edge is in the list
+  double travel = 0.0;         ///< m: bound of what any vertex has moved since
+  std::uint64_t built_at = 0;  ///< step
   std::uint64_t rebuilds = 0;
 
-  double retired_friction = 0.0, retired_damping = 0.0, retired_fracture = 0.0;  ///< J, of candidates let go
+  double retired_friction = 0.0, retired_damping = 0.0,
+         retired_fracture = 0.0;  ///< J, of candidates let go
 
   /// Effective penetration d - d0 at n and n - 1.
   double effective(std::size_t c) const { return depth[c] - rest[c]; }
   double effective_1(std::size_t c) const { return depth_1[c] - rest[c]; }
   double effective_2(std::size_t c) const { return depth_2[c] - rest[c]; }
   bool is(std::size_t c, std::uint8_t bits) const { return (state[c] & bits) != 0; }
-  void set(std::size_t c, std::uint8_t bits) { state[c] = static_cast<std::uint8_t>(state[c] | bits); }
+  void set(std::size_t c, std::uint8_t bits) {
+    state[c] = static_cast<std::uint8_t>(state[c] | bits);
+  }
   void clear(std::size_t c, std::uint8_t bits) {
     state[c] = static_cast<std::uint8_t>(state[c] & ~bits);
   }

@@ -36,8 +36,8 @@ inline Gap gap_to(const EdgeFrame& e, Vec2 p) {
 /// How far a neighbour of A may reach below the edge, as a part of its distance from A.
 inline constexpr double entrance_slack = 0.1;
 
-/// Entrance cone: both neighbours A' of A satisfy (A' - A).n >= -entrance_slack |A' - A| - margin, so
-/// that the block lies on the outer side of the edge and may touch it with A. margin in m.
+/// Entrance cone: both neighbours A' of A satisfy (A' - A).n >= -entrance_slack |A' - A| - margin,
+/// so that the block lies on the outer side of the edge and may touch it with A. margin in m.
 inline bool facing(const BlockSet& b, const std::vector<double>& x, const std::vector<double>& y,
                    Id vertex, Vec2 n, double margin = 0.0) {
   const Vec2 a = at(x, y, vertex);

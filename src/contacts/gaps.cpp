@@ -33,8 +33,7 @@ void look_at_previous_gaps(ContactSet& c, const Pose& pose) {
 void book_dashpots(ContactSet& c) {
   parallel_for(c.size(), [&](std::size_t k) {
     if (!c.is(k, contact_state::closed)) return;
-    c.damping_work[k] +=
-        0.5 * c.share[k] * c.alpha[k] * c.dashpot[k] * (c.depth[k] - c.depth_2[k]);
+    c.damping_work[k] += 0.5 * c.share[k] * c.alpha[k] * c.dashpot[k] * (c.depth[k] - c.depth_2[k]);
   });
 }
 

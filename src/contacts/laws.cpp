@@ -9,7 +9,9 @@
 namespace edda {
 namespace {
 
-double tangent(double degrees) { return std::tan(degrees * std::numbers::pi / 180.0); }
+double tangent(double degrees) {
+  return std::tan(degrees * std::numbers::pi / 180.0);
+}
 
 }  // namespace
 

@@ -17,15 +17,16 @@ struct Law {
 };
 
 struct LawTable {
-  std::vector<Law> rows;       ///< in the order of Model::joints, then the built-in glued law
-  std::vector<std::uint16_t> rank;  ///< of each row: lower friction angle, then cohesion, tension, name
+  std::vector<Law> rows;  ///< in the order of Model::joints, then the built-in glued law
+  std::vector<std::uint16_t>
+      rank;  ///< of each row: lower friction angle, then cohesion, tension, name
   double default_kn = 0.0, default_ks = 0.0;  ///< N/m per metre of thickness
   double thickness = 1.0;
   Index default_law = none;
 
-  /// Law of a contact (method.md section 4): that of the edge struck; if it names none, of the facing
-  /// edge of the vertex's block; else contact.joint. Where both name one and they differ, the one of
-  /// lower friction angle, then cohesion, then tension, then name.
+  /// Law of a contact (method.md section 4): that of the edge struck; if it names none, of the
+  /// facing edge of the vertex's block; else contact.joint. Where both name one and they differ,
+  /// the one of lower friction angle, then cohesion, then tension, then name.
   std::uint16_t resolve(Index struck, Index facing) const;
 };
 

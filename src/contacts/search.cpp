@@ -9,8 +9,8 @@
 namespace edda {
 namespace {
 
-/// Cells of a uniform grid, hashed into a fixed number of buckets. Two cells may share a bucket: that
-/// only costs a distance test.
+/// Cells of a uniform grid, hashed into a fixed number of buckets. Two cells may share a bucket:
+/// that only costs a distance test.
 struct Grid {
   double cell = 1.0;
   std::uint64_t mask = 0;
@@ -26,8 +26,8 @@ struct Grid {
   std::int64_t index(double u) const { return static_cast<std::int64_t>(std::floor(u / cell)); }
 };
 
-/// Calls visit(ix, iy) for every cell that the edge a-b, widened by reach, may touch. Column by column,
-/// so that a long slanted edge does not fill its whole box.
+/// Calls visit(ix, iy) for every cell that the edge a-b, widened by reach, may touch. Column by
+/// column, so that a long slanted edge does not fill its whole box.
 template <class Visit>
 void for_cells(const Grid& grid, Vec2 a, Vec2 b, double reach, Visit visit) {
   if (a.x > b.x) std::swap(a, b);
@@ -53,7 +53,8 @@ Grid make_grid(const BlockSet& b, const std::vector<std::uint8_t>& alive,
   const std::size_t nv = b.vertex_count();
   double total = 0.0;
   for (double l : b.edge_length) total += l;
-  grid.cell = std::max(4.0 * reach, 0.5 * total / static_cast<double>(std::max<std::size_t>(nv, 1)));
+  grid.cell =
+      std::max(4.0 * reach, 0.5 * total / static_cast<double>(std::max<std::size_t>(nv, 1)));
   grid.mask = std::bit_ceil(4 * std::max<std::uint64_t>(nv, 16)) - 1;
   std::vector<Id> count(grid.mask + 2, 0);
   auto each = [&](auto&& visit) {
@@ -85,11 +86,11 @@ std::vector<NearPair> near_pairs(const BlockSet& b, const std::vector<std::uint8
                                  double reach) {
   const Grid grid = make_grid(b, alive, x, y, reach);
   const std::size_t nv = b.vertex_count();
-  // Chunks of vertices are searched in parallel and joined in order: the list does not depend on the
-  // number of threads.
+  // Chunks of vertices are searched in parallel and joined in order: the list does not depend on
+  // the number of threads.
   constexpr std::size_t chunk = 2048;
   std::vector<std::vector<NearPair>> found((nv + chunk - 1) / chunk);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (found.size() > 1)
   for (std::size_t c = 0; c < found.size(); ++c) {
     std::vector<Id> edges;
     for (std::size_t v = c * chunk; v < std::min(nv, (c + 1) * chunk); ++v) {

@@ -5,6 +5,7 @@
 
 #include "contacts/candidates.hpp"
 #include "contacts/gap.hpp"
+#include "contacts/stored_energy.hpp"
 
 namespace edda {
 namespace {
@@ -52,25 +53,21 @@ Share share_of(const CornerPair& p, double delta_first, double delta_second, dou
   return {o * w + (1.0 - o), o * w + (1.0 - o)};
 }
 
-/// Stored energy of the contact in the ledger's terms, between steps n - 1 and n.
-double stored(const ContactSet& c, std::size_t k) {
-  const double before = c.effective_1(k), now = c.effective(k);
-  return before > 0.0 && now > 0.0 ? 0.5 * c.kn[k] * c.share[k] * before * now : 0.0;
-}
-
 /// Gives a closed candidate a new share. Growing alone (balanced = false), the added part is born
-/// unloaded at the present penetration and slip.
-void change_share(ContactSet& c, std::size_t k, double share, bool balanced) {
+/// unloaded at the present penetration and slip. What the ledger holds less for it is dissipated.
+void change_share(ContactSet& c, const Pose& pose, std::size_t k, double share, bool balanced) {
   const double old = c.share[k];
   if (share == old) return;
-  if (!balanced && c.is(k, contact_state::closed) && share > old && old > 0.0) {
-    const double energy = stored(c, k);
-    c.rest[k] = c.depth[k] - (c.depth[k] - c.rest[k]) * old / share;
+  if (!c.is(k, contact_state::closed)) {
     c.share[k] = share;
-    c.friction_work[k] += energy - stored(c, k);
     return;
   }
+  const double energy = stored_energy(c, pose, k);
+  if (!balanced && share > old && old > 0.0) {
+    c.rest[k] = c.depth[k] - (c.depth[k] - c.rest[k]) * old / share;
+  }
   c.share[k] = share;
+  c.friction_work[k] += energy - stored_energy(c, pose, k);
 }
 
 }  // namespace
@@ -110,10 +107,10 @@ void update_shares(ContactSet& c, const Pose& pose) {
     c.balanced[k] = 0;
   }
   for (const CornerPair& p : c.pairs) {
-    const EdgeFrame e = edge_frame(at(pose.x, pose.y, c.edge[p.first]),
-                                   at(pose.x, pose.y, c.edge_end[p.first]));
-    const EdgeFrame f = edge_frame(at(pose.x, pose.y, c.edge[p.second]),
-                                   at(pose.x, pose.y, c.edge_end[p.second]));
+    const EdgeFrame e =
+        edge_frame(at(pose.x, pose.y, c.edge[p.first]), at(pose.x, pose.y, c.edge_end[p.first]));
+    const EdgeFrame f =
+        edge_frame(at(pose.x, pose.y, c.edge[p.second]), at(pose.x, pose.y, c.edge_end[p.second]));
     const double delta_first = p.first_at_start ? c.foot[p.first] : e.length - c.foot[p.first];
     const double delta_second = p.second_at_start ? c.foot[p.second] : f.length - c.foot[p.second];
     const double zone = 2.0 * p.reach;
@@ -128,7 +125,7 @@ void update_shares(ContactSet& c, const Pose& pose) {
     run_on(c, p.first, p.first_at_start, p.reach);
     run_on(c, p.second, p.second_at_start, p.reach);
   }
-  for (const Id k : c.paired) change_share(c, k, c.next_share[k], c.balanced[k] != 0);
+  for (const Id k : c.paired) change_share(c, pose, k, c.next_share[k], c.balanced[k] != 0);
 }
 
 }  // namespace edda

@@ -1,12 +1,14 @@
-// Corners that line up share one spring, so that a joint's stiffness does not depend on whether they
-// do, and hand it over smoothly as they pass each other (method.md section 4).
+// Corners that line up share one spring, so that a joint's stiffness does not depend on whether
+// they do, and hand it over smoothly as they pass each other (method.md section 4).
 //
 // Notation: A on edge e near its end B, B on edge f near its end A. delta_A: how far A's foot lies
 // inside e, measured from B; delta_B likewise.
 //   same way (one corner passes the other along a joint): delta_A = -delta_B but for the tilt;
-//     w_A = clamp(1/2 + (delta_A - delta_B)/4 r_v, 0, 1), w_B = 1 - w_A, each on the edge to r_v beyond.
+//     w_A = clamp(1/2 + (delta_A - delta_B)/4 r_v, 0, 1), w_B = 1 - w_A, each on the edge to r_v
+//     beyond.
 //   corner against corner: the overlap is delta_A = delta_B; both have
-//     w = clamp(1/2 + (delta_A + delta_B)/4 r_v, 1/2, 1): one spring while it is short, two beyond r_v.
+//     w = clamp(1/2 + (delta_A + delta_B)/4 r_v, 1/2, 1): one spring while it is short, two beyond
+//     r_v.
 // As the edges turn away from each other (n_f.n_e from -0.99 to -0.98) the weights fade to those of
 // corners that do not share.
 #pragma once

@@ -45,8 +45,8 @@ double filled(Vec2 from, double angle, const std::array<Wedge, 16>& fillers, std
 bool shielded(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   const Id vertex = c.vertex[k];
   const Vec2 a = at(pose.x, pose.y, vertex);
-  const double shortest = std::min({b.edge_length[c.edge[k]], b.edge_length[vertex],
-                                    b.edge_length[b.previous[vertex]]});
+  const double shortest = std::min(
+      {b.edge_length[c.edge[k]], b.edge_length[vertex], b.edge_length[b.previous[vertex]]});
   const double near = corner_reach * shortest;
   auto is_near = [&](Id v) { return norm(at(pose.x, pose.y, v) - a) <= near; };
   Id corner = no_id;
@@ -54,30 +54,35 @@ bool shielded(const ContactSet& c, const BlockSet& b, const Pose& pose, std::siz
   if (is_near(c.edge_end[k])) corner = c.edge_end[k];
   if (corner == no_id) return false;
 
-  // Corners of third blocks at the same point, from what the vertex is near to.
+  // Corners of third blocks at the same point, from what either of the two corners is near to (held
+  // blocks know nothing of each other).
   std::array<Wedge, 16> fillers;
   std::array<Id, 16> seen;
   std::size_t n = 0;
-  for (Id q = c.begin_of_vertex[vertex]; q < c.begin_of_vertex[vertex + 1]; ++q) {
-    const Id third = c.block_j[q];
-    if (third == c.block_j[k]) continue;
-    for (Id v : {c.edge[q], c.edge_end[q]}) {
-      const bool known = std::find(seen.begin(), seen.begin() + n, v) != seen.begin() + n;
-      if (known || n == fillers.size() || !is_near(v)) continue;
-      seen[n] = v;
-      fillers[n++] = wedge_at(b, pose, v);
+  for (const Id from : {vertex, corner}) {
+    for (Id q = c.begin_of_vertex[from]; q < c.begin_of_vertex[from + 1]; ++q) {
+      if (c.block_j[q] == c.block_i[k] || c.block_j[q] == c.block_j[k]) continue;
+      for (Id v : {c.edge[q], c.edge_end[q]}) {
+        const bool known = std::find(seen.begin(), seen.begin() + n, v) != seen.begin() + n;
+        if (known || n == fillers.size() || !is_near(v)) continue;
+        seen[n] = v;
+        fillers[n++] = wedge_at(b, pose, v);
+      }
     }
   }
   if (n == 0) return false;
   const Wedge mine = wedge_at(b, pose, vertex), theirs = wedge_at(b, pose, corner);
   constexpr double adjacent = 0.01, straight = 0.02;  // rad
-  for (const auto& [from, to] : {std::pair{mine.to, theirs.from}, std::pair{theirs.to, mine.from}}) {
+  for (const auto& [from, to] :
+       {std::pair{mine.to, theirs.from}, std::pair{theirs.to, mine.from}}) {
     const double gap = turn(from, to);
     if (gap < adjacent || gap > full_turn - adjacent) return false;
   }
-  for (const auto& [from, to] : {std::pair{mine.to, theirs.from}, std::pair{theirs.to, mine.from}}) {
+  for (const auto& [from, to] :
+       {std::pair{mine.to, theirs.from}, std::pair{theirs.to, mine.from}}) {
     const double gap = turn(from, to);
-    if (gap < std::numbers::pi - straight && filled(from, gap, fillers, n) >= 0.9 * gap) return true;
+    if (gap < std::numbers::pi - straight && filled(from, gap, fillers, n) >= 0.9 * gap)
+      return true;
   }
   return false;
 }

@@ -3,7 +3,8 @@
 //
 // Notation: a penalty spring under leapfrog does the discrete work -F (d_{n+1} - d_{n-1})/2 in the
 // step made with the force F = alpha p d_n. Its stored energy is p d_{n-1} d_n / 2 before and
-// p d_n d_{n+1} / 2 after (0 where it is open), and alpha makes the two agree. d_{n+1} = D - alpha q.
+// p d_n d_{n+1} / 2 after (0 where it is open), and alpha makes the two agree. d_{n+1} = D - alpha
+// q.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace edda {
 /// alpha in [0, 1]. before: penetration a step ago (<= 0: open); without: the next one without this
 /// force; push: q = h^2 p d / m_c > 0, what the whole force takes from it. All in metres.
 inline double switching_alpha(double before, double without, double push) {
-  if (before > 0.0) {                     // was closed
+  if (before > 0.0) {                      // was closed
     if (without - push > 0.0) return 1.0;  // stays closed
     const double b = before - without;
     const double r = std::sqrt(std::max(0.0, b * b + 4.0 * push * before));

@@ -7,6 +7,7 @@
 #include "contacts/candidates.hpp"
 #include "contacts/gap.hpp"
 #include "contacts/shield.hpp"
+#include "contacts/stored_energy.hpp"
 
 namespace edda {
 namespace {
@@ -20,22 +21,9 @@ EdgeFrame frame_of(const ContactSet& c, const Pose& pose, std::size_t k) {
   return edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
 }
 
-/// Slip at step n before the return map.
-double slip_of(const ContactSet& c, const Pose& pose, std::size_t k) {
-  return c.foot[k] - c.anchor[k] * frame_of(c, pose, k).length;
-}
-
-/// What the ledger holds of this contact between n - 1 and n: p e_{n-1} e_n / 2 + p_t s_{n-1} s_n / 2.
-double stored(const ContactSet& c, const Pose& pose, std::size_t k) {
-  const double before = c.effective_1(k), now = c.effective(k);
-  const double normal = c.is(k, cs::bonded) || (before > 0.0 && now > 0.0) ? before * now : 0.0;
-  const double slip = -c.shear[k] / c.ks[k];
-  return 0.5 * c.share[k] * (c.kn[k] * normal + c.ks[k] * slip * slip_of(c, pose, k));
-}
-
-/// A contact that closes in a step feels the slip of that whole step: in the ledger's terms its force
-/// acts from x_{n-1} to x_{n+1}. (Starting from s = 0 at step n would leave the first force of every
-/// impact without friction, and a stiff contact may last no longer.)
+/// A contact that closes in a step feels the slip of that whole step: in the ledger's terms its
+/// force acts from x_{n-1} to x_{n+1}. (Starting from s = 0 at step n would leave the first force
+/// of every impact without friction, and a stiff contact may last no longer.)
 void start_shear(ContactSet& c, const Pose& pose, std::size_t k) {
   const EdgeFrame before =
       edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
@@ -67,7 +55,9 @@ void block_contact(ContactSet& c, std::size_t k, Blocked why) {
   c.blocked.push_back(static_cast<Id>(k));
 }
 
-bool convex(const BlockSet& b, Id vertex) { return b.corner[vertex] < 0.999 * std::numbers::pi; }
+bool convex(const BlockSet& b, Id vertex) {
+  return b.corner[vertex] < 0.999 * std::numbers::pi;
+}
 
 /// Edges of one block that meet in a convex corner explain one penetration in two ways.
 bool rivals(const BlockSet& b, Id e, Id f) {
@@ -77,8 +67,8 @@ bool rivals(const BlockSet& b, Id e, Id f) {
 /// Takes the contact k over into `heir`, with force and shear, as far as heir is penetrated.
 void hand_over(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
                std::size_t k, std::size_t heir) {
-  const double before = stored(c, pose, k);
-  const double slip = slip_of(c, pose, k);
+  const double before = stored_energy(c, pose, k);
+  const double slip = trial_slip(c, pose, k);
   const double now = c.effective(k);
   if (!c.is(heir, cs::closed)) set_spring(c, b, pose, laws, heir);
   c.set(heir, static_cast<std::uint8_t>(c.state[k] & (cs::closed | cs::bonded | cs::glued)));
@@ -99,7 +89,7 @@ void hand_over(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTabl
       std::replace(s.members.begin(), s.members.end(), static_cast<Id>(k), static_cast<Id>(heir));
     }
   }
-  c.friction_work[k] += before - stored(c, pose, heir);
+  c.friction_work[k] += before - stored_energy(c, pose, heir);
 }
 
 /// Who goes on when the foot of k leaves its edge: the same vertex on a collinear edge, of the same
@@ -142,7 +132,7 @@ void leave(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& l
     hand_over(c, b, pose, laws, k, heir);
     ++counts.handed_over;
   } else {
-    c.friction_work[k] += stored(c, pose, k);
+    c.friction_work[k] += stored_energy(c, pose, k);
   }
   open(c, k);
   ++counts.opened;
@@ -155,7 +145,7 @@ bool inherit_from_partner(ContactSet& c, const Pose& pose, std::size_t k) {
   const Id other = p.first == k ? p.second : p.first;
   if (!p.same_way() || !c.is(other, cs::closed) || c.share[other] >= 1.0) return false;
   c.rest[k] = std::min(c.rest[other], std::max(c.depth[k], 0.0));
-  c.anchor[k] = (c.foot[k] - slip_of(c, pose, other)) / frame_of(c, pose, k).length;
+  c.anchor[k] = (c.foot[k] - trial_slip(c, pose, other)) / frame_of(c, pose, k).length;
   c.shear[k] = c.shear[other] * c.ks[k] / c.ks[other];
   c.shear_1[k] = c.shear_1[other] * c.ks[k] / c.ks[other];
   return true;
@@ -220,14 +210,15 @@ Blocked hindrance(const ContactSet& c, const BlockSet& b, const Pose& pose, std:
   if (c.depth[k] > 0.5 * std::min(b.inradius[i], b.inradius[j])) return Blocked::depth;
   if (!facing(b, pose.x, pose.y, vertex, frame_of(c, pose, k).normal())) return Blocked::facing;
   if (shielded(c, b, pose, k)) return Blocked::shield;
-  // Of the edges that meet in a convex corner, the one that is closed, else the least penetrated.
+  // Edges that meet in a convex corner: a vertex within the block is inside both, and touches the
+  // one that is closed, else the one least penetrated.
   const double tie = rounding * b.radius[j];
   for (Id q = c.begin_of_vertex[vertex]; q < c.begin_of_vertex[vertex + 1]; ++q) {
     if (q == k || c.block_j[q] != j || !rivals(b, c.edge[k], c.edge[q])) continue;
     if (c.is(q, cs::closed) && c.share[q] > 0.0) return Blocked::conflict;
-    const bool rival_open = c.depth[q] > 0.0 && c.on_edge(q) && c.depth[q] < c.depth[k] - tie &&
-                            !c.is(q, cs::blocked);
-    if (rival_open && facing(b, pose.x, pose.y, vertex, frame_of(c, pose, q).normal())) {
+    if (c.depth[q] <= -tie && c.share[k] == 1.0) return Blocked::conflict;
+    if (c.depth[q] < c.depth[k] - tie && c.share[q] > 0.0 &&
+        facing(b, pose.x, pose.y, vertex, frame_of(c, pose, q).normal())) {
       return Blocked::conflict;
     }
   }
@@ -248,7 +239,7 @@ TransitionCounts settle_contacts(ContactSet& c, const BlockSet& b, const Pose& p
   const Events events = find_events(c);
   for (const Id k : events.opens) {
     // What the shear spring still holds goes with the contact.
-    c.friction_work[k] += stored(c, pose, k);
+    c.friction_work[k] += stored_energy(c, pose, k);
     open(c, k);
     ++counts.opened;
   }

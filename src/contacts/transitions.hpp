@@ -1,7 +1,8 @@
 // Narrow phase, second half: which candidates carry (method.md section 4, "Which contacts exist").
 //
 //   open, penetrated from outside, allowed       -> closed
-//   open, already penetrated when it appears     -> stays open with rest penetration d0 = d, or takes
+//   open, already penetrated when it appears     -> stays open with rest penetration d0 = d, or
+//   takes
 //                                                   over from the contact it succeeds
 //   closed, d <= d0, not bonded                  -> open
 //   closed, foot off the edge                    -> handed to its successor, or open
@@ -23,7 +24,8 @@ struct TransitionCounts {
 TransitionCounts settle_contacts(ContactSet& contacts, const BlockSet& blocks, const Pose& pose,
                                  const LawTable& laws, std::uint64_t step, bool start);
 
-/// Blocks the open candidates of a new list that a shield covers (contacts/shield.hpp), before they touch.
+/// Blocks the open candidates of a new list that a shield covers (contacts/shield.hpp), before they
+/// touch.
 void block_shielded(ContactSet& contacts, const BlockSet& blocks, const Pose& pose);
 
 /// Whether candidate k may close now, and why not. Public for the tests.

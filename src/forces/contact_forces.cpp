@@ -19,8 +19,7 @@ EdgeFrame frame_of(const ContactSet& c, const Pose& pose, std::size_t k) {
 double quadratic_form(const BlockSet& b, std::size_t i, double w0, double w1, double w2) {
   if (b.fixed[i]) return 0.0;
   if (b.mass_kind != MassKind::consistent) {
-    return w0 * w0 / b.node_mass[0][i] + w1 * w1 / b.node_mass[1][i] +
-           w2 * w2 / b.node_mass[2][i];
+    return w0 * w0 / b.node_mass[0][i] + w1 * w1 / b.node_mass[1][i] + w2 * w2 / b.node_mass[2][i];
   }
   const auto& m = b.inverse_mass;
   return w0 * (m[0][i] * w0 + 2.0 * m[1][i] * w1 + 2.0 * m[2][i] * w2) +
@@ -58,10 +57,8 @@ void evaluate(ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k,
   c.dashpot[k] = 0.0;
   if (damping > 0.0) {
     const double coefficient =
-        2.0 * damping *
-        std::sqrt(c.kn[k] / inverse_contact_mass(b, c, k, c.foot[k] / e.length));
-    const double damped =
-        c.normal[k] + coefficient * (c.depth[k] - c.depth_1[k]) / step;
+        2.0 * damping * std::sqrt(c.kn[k] / inverse_contact_mass(b, c, k, c.foot[k] / e.length));
+    const double damped = c.normal[k] + coefficient * (c.depth[k] - c.depth_1[k]) / step;
     const double total = c.is(k, cs::bonded) ? damped : std::max(0.0, damped);
     c.dashpot[k] = total - c.normal[k];
     c.normal[k] = total;
@@ -72,8 +69,8 @@ void evaluate(ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k,
   set_contact_force(c, pose.x, pose.y, k, c.foot[k], c.depth[k]);
 }
 
-/// Whether the bonded contacts of one pair of edges fail together: |sum T| > c L + tan(phi) sum N, or
-/// one of them is pulled beyond its tensile strength.
+/// Whether the bonded contacts of one pair of edges fail together: |sum T| > c L + tan(phi) sum N,
+/// or one of them is pulled beyond its tensile strength.
 bool fails(const ContactSet& c, const LawTable& laws, const Segment& segment) {
   double shear = 0.0, normal = 0.0, cohesion = 0.0, friction = 0.0;
   for (const Id k : segment.members) {
@@ -98,8 +95,7 @@ void break_bond(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTab
   const double e = c.effective(k), e_1 = c.effective_1(k);
   if (e <= 0.0) {
     const double slip = -c.shear_1[k] / c.ks[k];
-    c.fracture_work[k] +=
-        0.5 * c.share[k] * (c.kn[k] * e * e_1 + c.ks[k] * slip * c.slip_trial[k]);
+    c.fracture_work[k] += 0.5 * c.share[k] * (c.kn[k] * e * e_1 + c.ks[k] * slip * c.slip_trial[k]);
     c.clear(k, cs::closed | cs::sliding);
     c.set(k, cs::opened);
     c.normal[k] = c.shear[k] = c.shear_1[k] = c.dashpot[k] = 0.0;
@@ -117,8 +113,8 @@ void break_bond(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTab
 
 }  // namespace
 
-ContactForce contact_force(Vec2 t, double l, double foot, double depth, double anchor, double normal,
-                           double shear) {
+ContactForce contact_force(Vec2 t, double l, double foot, double depth, double anchor,
+                           double normal, double shear) {
   const Vec2 n = outward_normal(t);
   const double xi = foot / l, lift = -depth / l;  // g/l
   const Vec2 f1 = normal * n + shear * t;

@@ -50,9 +50,9 @@ Matrix6 mass_matrix(const BlockSet& b, std::size_t i) {
     return m;
   }
   Eigen::Matrix3d inverse;
-  inverse << b.inverse_mass[0][i], b.inverse_mass[1][i], b.inverse_mass[2][i],
-      b.inverse_mass[1][i], b.inverse_mass[3][i], b.inverse_mass[4][i], b.inverse_mass[2][i],
-      b.inverse_mass[4][i], b.inverse_mass[5][i];
+  inverse << b.inverse_mass[0][i], b.inverse_mass[1][i], b.inverse_mass[2][i], b.inverse_mass[1][i],
+      b.inverse_mass[3][i], b.inverse_mass[4][i], b.inverse_mass[2][i], b.inverse_mass[4][i],
+      b.inverse_mass[5][i];
   const Eigen::Matrix3d full = inverse.inverse();
   for (int k = 0; k < 3; ++k) {
     for (int l = 0; l < 3; ++l) m(2 * k, 2 * l) = m(2 * k + 1, 2 * l + 1) = full(k, l);
@@ -76,14 +76,15 @@ bool counts(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_
          facing(b, pose.x, pose.y, c.vertex[k], e.normal(), 0.5 * c.reach);
 }
 
-std::vector<Part> parts_of(const BlockSet& b, const State& s, const Pose& pose,
-                           const ContactSet& c, std::size_t i) {
+std::vector<Part> parts_of(const BlockSet& b, const State& s, const Pose& pose, const ContactSet& c,
+                           std::size_t i) {
   const Rotation r = rotation(deformation(b, s.x, s.y, i));
   auto back = [&](Vec2 u) { return Vec2{r.c * u.x + r.s * u.y, -r.s * u.x + r.c * u.y}; };
   std::vector<Part> parts;
   for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
     const Id k = c.block_entry[q] >> 1;
-    const EdgeFrame e = edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
+    const EdgeFrame e =
+        edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
     if (!counts(c, b, pose, k, e)) continue;
     const bool has_vertex = (c.block_entry[q] & 1u) == 0;
     const Id partner = has_vertex ? c.block_j[k] : c.block_i[k];
@@ -94,8 +95,8 @@ std::vector<Part> parts_of(const BlockSet& b, const State& s, const Pose& pose,
       const auto w2 = vertex_weights(b, c.edge[k]), w3 = vertex_weights(b, c.edge_end[k]);
       for (std::size_t n = 0; n < 3; ++n) w[n] = (1.0 - xi) * w2[n] + xi * w3[n];
     }
-    parts.push_back({k, along(w, back(e.normal())), along(w, back(e.t)), factor * c.kn[k],
-                     factor * c.ks[k]});
+    parts.push_back(
+        {k, along(w, back(e.normal())), along(w, back(e.t)), factor * c.kn[k], factor * c.ks[k]});
   }
   return parts;
 }
@@ -121,8 +122,30 @@ Matrix6 boundary_matrix(const BlockSet& b, const State& s, const BoundarySprings
   return m;
 }
 
+/// Contacts that bare corners would make: a block in motion meets its neighbours corner first, and
+/// a step chosen with that in mind need not change when it does.
+Matrix6 bare_corners(const BlockSet& b, const ContactSet& c, const LawTable& laws,
+                     const std::vector<Part>& parts, std::size_t i) {
+  Matrix6 k = Matrix6::Zero();
+  for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v) {
+    const bool touches = std::any_of(parts.begin(), parts.end(),
+                                     [&](const Part& p) { return c.vertex[p.contact] == v; });
+    if (touches || b.corner[v] > 3.0) continue;
+    const Law& law = laws.rows[laws.resolve(b.edge_joint[v], b.edge_joint[b.previous[v]])];
+    const double length = 0.5 * std::max(b.edge_length[v], b.edge_length[b.previous[v]]);
+    const double kn = laws.thickness * (law.kn > 0.0 ? law.kn * length : laws.default_kn);
+    const double ks = laws.thickness * (law.kn > 0.0 ? law.ks * length : laws.default_ks);
+    for (const Vec2 n : {Vec2{1.0, 0.0}, Vec2{0.0, 1.0}}) {
+      const Vector6 h = along(vertex_weights(b, v), n);
+      k += std::max(kn, ks) * 2.0 * h * h.transpose();
+    }
+  }
+  return k;
+}
+
 struct BlockBound {
   double omega2 = 0.0;
+  double likely = std::numeric_limits<double>::infinity();
   double step = std::numeric_limits<double>::infinity();
   Id contact = no_id;
   double elastic = 0.0, contacts = 0.0, boundary = 0.0;
@@ -135,7 +158,8 @@ double damped_step(double omega, double damping, double lowest) {
 }
 
 BlockBound bound_of(const BlockSet& b, const State& s, const Pose& pose, const ContactSet& c,
-                    const BoundarySprings& springs, double damping, std::size_t i) {
+                    const BoundarySprings& springs, const LawTable& laws, double damping,
+                    std::size_t i) {
   const std::vector<Part> parts = parts_of(b, s, pose, c, i);
   const Matrix6 elastic = elastic_matrix(b, i), boundary = boundary_matrix(b, s, springs, i);
   Matrix6 k = elastic + boundary;
@@ -152,6 +176,10 @@ BlockBound bound_of(const BlockSet& b, const State& s, const Pose& pose, const C
   bound.omega2 = solver.eigenvalues()[5];
   if (!(bound.omega2 > 0.0)) return bound;
   bound.step = damped_step(std::sqrt(bound.omega2), damping, std::sqrt(lowest2));
+  const Matrix6 bare = bare_corners(b, c, laws, parts, i);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> likely(k + bare, mass_matrix(b, i),
+                                                                 Eigen::EigenvaluesOnly);
+  bound.likely = damped_step(std::sqrt(likely.eigenvalues()[5]), damping, std::sqrt(lowest2));
   const Vector6 mode = solver.eigenvectors().col(5);
   const double total = mode.dot(k * mode);
   bound.elastic = mode.dot(elastic * mode) / total;
@@ -172,17 +200,22 @@ BlockBound bound_of(const BlockSet& b, const State& s, const Pose& pose, const C
 }  // namespace
 
 StepBound step_bound(const BlockSet& b, const State& s, const Pose& pose, const ContactSet& c,
-                     const BoundarySprings& springs, double damping) {
+                     const BoundarySprings& springs, const LawTable& laws, double damping) {
   std::vector<BlockBound> bounds(b.size());
   parallel_for(b.size(), [&](std::size_t i) {
-    if (!b.fixed[i] && s.alive[i]) bounds[i] = bound_of(b, s, pose, c, springs, damping, i);
+    if (!b.fixed[i] && s.alive[i]) bounds[i] = bound_of(b, s, pose, c, springs, laws, damping, i);
   });
   StepBound result;
-  result.critical_step = std::numeric_limits<double>::infinity();
+  result.critical_step = result.likely_step = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < bounds.size(); ++i) {
-    if (bounds[i].step >= result.critical_step) continue;
-    result = {bounds[i].step,    static_cast<Id>(i),   bounds[i].contact,
-              bounds[i].elastic, bounds[i].contacts, bounds[i].boundary};
+    const double likely = std::min(result.likely_step, bounds[i].likely);
+    if (bounds[i].step < result.critical_step) {
+      result = {bounds[i].step,     likely,
+                static_cast<Id>(i), bounds[i].contact,
+                bounds[i].elastic,  bounds[i].contacts,
+                bounds[i].boundary};
+    }
+    result.likely_step = likely;
   }
   return result;
 }

@@ -14,6 +14,7 @@ namespace edda {
 /// candidate that may come to carry counts, closed or not.
 struct StepBound {
   double critical_step = 0.0;  ///< 2/omega_max, less what contact damping takes, s; +inf if no block is free
+  double likely_step = 0.0;    ///< the same if every bare corner of a block touched something, s
   Id block = no_id;            ///< whose eigenvalue it is
   Id contact = no_id;          ///< candidate with the largest part in it, no_id if none has
   double elastic_part = 0.0;   ///< parts of the Rayleigh quotient, summing to 1
@@ -23,6 +24,7 @@ struct StepBound {
 
 /// damping: zeta of the contacts, which shortens the step to (2/w)(sqrt(1 + x^2) - x), x = zeta w/w_c.
 StepBound step_bound(const BlockSet& blocks, const State& state, const Pose& pose,
-                     const ContactSet& contacts, const BoundarySprings& springs, double damping);
+                     const ContactSet& contacts, const BoundarySprings& springs,
+                     const LawTable& laws, double damping);
 
 }  // namespace edda

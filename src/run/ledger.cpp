@@ -1,23 +1,11 @@
 #include "run/ledger.hpp"
 
 #include "base/parallel.hpp"
-#include "contacts/gap.hpp"
+#include "contacts/stored_energy.hpp"
 #include "forces/elastic.hpp"
 
 namespace edda {
 namespace {
-
-namespace cs = contact_state;
-
-/// p e_{n-1} e_n / 2 + p_t s_{n-1} s_n / 2, s_n before its return map.
-double contact_energy(const ContactSet& c, const Pose& pose, std::size_t k) {
-  if (!c.is(k, cs::closed)) return 0.0;
-  const double before = c.effective_1(k), now = c.effective(k);
-  const bool both = c.is(k, cs::bonded) || (before > 0.0 && now > 0.0);
-  const double length = norm(at(pose.x, pose.y, c.edge_end[k]) - at(pose.x, pose.y, c.edge[k]));
-  const double slip = c.foot[k] - c.anchor[k] * length, slip_1 = -c.shear[k] / c.ks[k];
-  return 0.5 * c.share[k] * (c.kn[k] * (both ? before * now : 0.0) + c.ks[k] * slip_1 * slip);
-}
 
 /// Strain energy between steps n - 1 and n; x_{n-1} = x_n - h v_{n-1/2}.
 double block_strain_energy(const BlockSet& b, const State& s, std::size_t i) {
@@ -32,8 +20,7 @@ double block_strain_energy(const BlockSet& b, const State& s, std::size_t i) {
 
 double block_gravity_energy(const BlockSet& b, const State& s, Vec2 gravity, std::size_t i) {
   const Vec2 half_back = 0.5 * s.step * centroid(s.vx, s.vy, i);
-  const Vec2 moved =
-      centroid(s.x, s.y, i) - half_back - Vec2{b.centroid_x[i], b.centroid_y[i]};
+  const Vec2 moved = centroid(s.x, s.y, i) - half_back - Vec2{b.centroid_x[i], b.centroid_y[i]};
   return -b.mass[i] * dot(gravity, moved);
 }
 
@@ -49,7 +36,10 @@ Ledger sum_ledger(const BlockSet& b, const State& s, const Pose& pose, const Con
   l.kinetic = over_free([&](std::size_t i) { return kinetic_energy(b, s.vx, s.vy, i); });
   l.strain = over_free([&](std::size_t i) { return block_strain_energy(b, s, i); });
   l.gravity = over_free([&](std::size_t i) { return block_gravity_energy(b, s, gravity, i); });
-  l.contact = ordered_sum(c.size(), [&](std::size_t k) { return contact_energy(c, pose, k); }) +
+  l.contact = ordered_sum(c.size(),
+                          [&](std::size_t k) {
+                            return c.is(k, contact_state::closed) ? stored_energy(c, pose, k) : 0.0;
+                          }) +
               boundary_energy(springs, pose);
   l.friction =
       c.retired_friction + ordered_sum(c.size(), [&](std::size_t k) { return c.friction_work[k]; });

@@ -25,8 +25,8 @@ bool switches(const ContactSet& c, std::size_t k) {
 
 /// Changes of nodal forces on the few blocks concerned.
 struct Change {
-  std::vector<Id> blocks;                    ///< touched, ascending after sort
-  std::vector<std::array<Vec2, 3>> force;    ///< [blocks]
+  std::vector<Id> blocks;                  ///< touched, ascending after sort
+  std::vector<std::array<Vec2, 3>> force;  ///< [blocks]
 
   std::array<Vec2, 3>& of(Id block) {
     const auto it = std::lower_bound(blocks.begin(), blocks.end(), block);
@@ -46,7 +46,8 @@ double booked(const ContactSet& c, std::size_t k, double shear) {
 /// Gives contact k the part alpha of its force and the shear this allows; adds what this changes.
 void reset_force(ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k, double alpha,
                  Change& change) {
-  const EdgeFrame e = edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
+  const EdgeFrame e =
+      edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
   const Gap gap = gap_to(e, at(pose.x1, pose.y1, c.vertex[k]));
   const double limit = c.cohesion[k] + c.friction[k] * std::max(alpha * c.normal[k], 0.0);
   const double shear = cut_shear(-c.ks[k] * c.slip_trial[k], limit);
@@ -117,7 +118,7 @@ void refresh(std::vector<Id>& set, const Change& change, const ContactSet& c) {
 }  // namespace
 
 double correct_switching(ContactSet& c, const BlockSet& b, State& s, Pose& pose,
-                       const StepTaken& taken, OpenCloseCounts& counts) {
+                         const StepTaken& taken, OpenCloseCounts& counts) {
   std::vector<Id> set;
   double largest = 0.0;
   for (std::size_t k = 0; k < c.size(); ++k) {
@@ -139,11 +140,11 @@ double correct_switching(ContactSet& c, const BlockSet& b, State& s, Pose& pose,
       const EdgeFrame e =
           edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
       const double xi = gap_to(e, at(pose.x1, pose.y1, c.vertex[k])).foot / e.length;
-      const double push = dv_per_force * taken.h_new * c.share[k] * c.normal[k] *
-                          inverse_contact_mass(b, c, k, xi);
-      const double alpha = push > 0.0 ? switching_alpha(c.effective_2(k),
-                                                        c.effective(k) + c.alpha[k] * push, push)
-                                      : c.alpha[k];
+      const double push =
+          dv_per_force * taken.h_new * c.share[k] * c.normal[k] * inverse_contact_mass(b, c, k, xi);
+      const double alpha =
+          push > 0.0 ? switching_alpha(c.effective_2(k), c.effective(k) + c.alpha[k] * push, push)
+                     : c.alpha[k];
       worst = std::max(worst, std::abs(alpha - c.alpha[k]) * push);
       next.push_back(alpha);
     }

@@ -29,7 +29,8 @@ double median_edge(const BlockSet& b) {
   return *middle;
 }
 
-/// method.md section 5: a part of the model's half-height, never more than a tenth of the smallest edge.
+/// method.md section 5: a part of the model's half-height, never more than a tenth of the smallest
+/// edge.
 double largest_displacement(const BlockSet& b, double ratio) {
   const auto [low, high] = std::minmax_element(b.vertex_y.begin(), b.vertex_y.end());
   const double edge = *std::min_element(b.smallest_edge.begin(), b.smallest_edge.end());
@@ -40,8 +41,8 @@ StepDamping step_damping(const Solver& solver) {
   return {solver.damping.mass, solver.damping.local};
 }
 
-/// Energy that a change of the step creates: sum of m |v+ - v-|^2 (h_old - h_new)/(4 h_mean) with the
-/// ledger's definition of work.
+/// Energy that a change of the step creates: sum of m |v+ - v-|^2 (h_old - h_new)/(4 h_mean) with
+/// the ledger's definition of work.
 double energy_of_step_change(const BlockSet& b, const State& s, const Nodes& old_vx,
                              const Nodes& old_vy, double h_old, double h_new) {
   Nodes dx = s.vx, dy = s.vy;
@@ -52,8 +53,8 @@ double energy_of_step_change(const BlockSet& b, const State& s, const Nodes& old
     }
   }
   const double twice = 2.0 * ordered_sum(b.size(), [&](std::size_t i) {
-    return b.fixed[i] || !s.alive[i] ? 0.0 : kinetic_energy(b, dx, dy, i);
-  });
+                         return b.fixed[i] || !s.alive[i] ? 0.0 : kinetic_energy(b, dx, dy, i);
+                       });
   return twice * (h_old - h_new) / (2.0 * (h_old + h_new));
 }
 
@@ -84,8 +85,7 @@ Result<Simulation> Simulation::create(Model given) {
   s.pose.x1 = s.pose.x;
   s.pose.y1 = s.pose.y;
   s.base_reach = 0.05 * median_edge(s.blocks);
-  s.displacement_limit =
-      largest_displacement(s.blocks, s.model.solver.max_displacement_ratio);
+  s.displacement_limit = largest_displacement(s.blocks, s.model.solver.max_displacement_ratio);
   s.step_limit = std::numeric_limits<double>::infinity();
 
   s.search(s.base_reach);
@@ -129,14 +129,20 @@ void Simulation::search(double reach) {
 }
 
 void Simulation::set_limit() {
-  bound = step_bound(blocks, state, pose, contacts, springs, model.solver.damping.contact);
+  bound = step_bound(blocks, state, pose, contacts, springs, laws, model.solver.damping.contact);
   if (model.solver.time_step) {
     step_limit = std::min(*model.solver.time_step, displacement_cap_);
     return;
   }
-  // Lowered at once, raised only when it is well worth the energy that a change costs.
-  const double allowed = std::min(model.solver.safety * bound.critical_step, displacement_cap_);
-  if (allowed < step_limit || allowed > 1.25 * step_limit) step_limit = allowed;
+  // Lowered at once; raised only when it is well worth the energy that a change costs, and lasts.
+  constexpr double worth = 1.25;
+  constexpr std::uint64_t lasting = 20000;  // steps
+  const double allowed = std::min(model.solver.safety * bound.likely_step, displacement_cap_);
+  if (allowed <= worth * step_limit) larger_since_ = state.steps;
+  if (allowed < step_limit || state.steps >= larger_since_ + lasting || state.steps == 0) {
+    step_limit = allowed;
+    larger_since_ = state.steps;
+  }
 }
 
 void Simulation::aim_at(double time) {
@@ -151,7 +157,8 @@ void Simulation::aim_at(double time) {
 }
 
 bool Simulation::move(double h_old, double h_new) {
-  advance(state, blocks, forces.x, forces.y, h_old, h_new, step_damping(model.solver), damping_work);
+  advance(state, blocks, forces.x, forces.y, h_old, h_new, step_damping(model.solver),
+          damping_work);
   std::swap(pose.x, pose.x1);
   std::swap(pose.y, pose.y1);
   place_all();
@@ -194,8 +201,8 @@ std::optional<Failure> Simulation::step() {
   update_gaps(contacts, pose);
   if (model.solver.switching == Switching::exact) {
     const StepTaken taken{h_old, h, model.solver.damping.mass};
-    max_penetration = std::max(
-        max_penetration, correct_switching(contacts, blocks, state, pose, taken, open_close));
+    max_penetration = std::max(max_penetration,
+                               correct_switching(contacts, blocks, state, pose, taken, open_close));
   }
   if (h != h_old) {
     step_change_energy += energy_of_step_change(blocks, state, old_vx, old_vy, h_old, h);
@@ -205,8 +212,7 @@ std::optional<Failure> Simulation::step() {
   finish_step();
   update_shares(contacts, pose);
   search_if_due();
-  const TransitionCounts counts =
-      settle_contacts(contacts, blocks, pose, laws, state.steps, false);
+  const TransitionCounts counts = settle_contacts(contacts, blocks, pose, laws, state.steps, false);
   if (counts.unshielded > 0) set_limit();
   if (step_limit < state.step * (1.0 - 1e-12) ||
       (steps_left_ > 0 && step_limit > 1.25 * state.step)) {

@@ -82,6 +82,7 @@ struct Simulation {
   Failure diverged() const;
   void set_limit();
   double displacement_cap_ = std::numeric_limits<double>::infinity();  ///< s: after halvings
+  std::uint64_t larger_since_ = 0;  ///< step from which a much larger one would have been allowed
   double target_ = 0.0;        ///< s: the event aimed at
   double step_before_ = 0.0;   ///< s: step behind v_{n-1/2}
   std::uint64_t steps_left_ = 0;

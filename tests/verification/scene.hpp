@@ -29,8 +29,11 @@ inline Simulation scene(const std::string& toml) {
   return std::move(sim.value());
 }
 
-/// Runs to the model's duration, calling look(sim) at t = 0 and at every history row.
-inline void run(Simulation& sim, const std::function<void(Simulation&)>& look) {
+using Look = std::function<void(Simulation&)>;
+
+/// Runs to the model's duration, calling look(sim) at t = 0 and at every history row, and each(sim)
+/// after every step.
+inline void run(Simulation& sim, const Look& look, const Look& each = {}) {
   const double every = sim.model.output.history_every;
   const auto rows = static_cast<std::uint64_t>(std::llround(sim.model.solver.duration / every));
   sim.start(every);
@@ -41,6 +44,7 @@ inline void run(Simulation& sim, const std::function<void(Simulation&)>& look) {
     while (sim.state.time < time) {
       const auto failure = sim.step();
       if (failure) FAIL() << failure->message << " at " << failure->time;
+      if (each) each(sim);
     }
     look(sim);
   }
