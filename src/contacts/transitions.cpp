@@ -45,7 +45,7 @@ void open(ContactSet& c, std::size_t k) {
   c.set(k, cs::opened);
   c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = c.dashpot[k] = 0.0;
   c.alpha[k] = 1.0;
-  c.rest[k] = std::min(c.rest[k], std::max(c.depth[k], 0.0));
+  c.rest[k] = std::max(0.0, std::min(c.rest[k], c.depth[k]));
 }
 
 void block_contact(ContactSet& c, std::size_t k, Blocked why) {
@@ -64,17 +64,21 @@ bool rivals(const BlockSet& b, Id e, Id f) {
   return (b.next[e] == f && convex(b, f)) || (b.next[f] == e && convex(b, e));
 }
 
-/// Takes the contact k over into `heir`, with force and shear, as far as heir is penetrated.
+/// Takes the contact k over into `heir`: the same stored energy, and so (stiffness being equal) the same
+/// force, shear and bond. The rest penetration may be negative until the heir opens.
 void hand_over(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
                std::size_t k, std::size_t heir) {
   const double before = stored_energy(c, pose, k);
   const double slip = trial_slip(c, pose, k);
-  const double now = c.effective(k);
   if (!c.is(heir, cs::closed)) set_spring(c, b, pose, laws, heir);
+  // e' (e' - (d'_n - d'_{n-1})) p' = e_n e_{n-1} p, so that the ledger sees no change.
+  const double stiffness = c.kn[heir] * std::max(c.share[heir], 0.5);
+  const double product = c.effective(k) * c.effective_1(k) * c.kn[k] * c.share[k] / stiffness;
+  const double gained = c.depth[heir] - c.depth_1[heir];
+  const double now =
+      0.5 * (gained + std::sqrt(gained * gained + 4.0 * std::max(product, 0.0)));
   c.set(heir, static_cast<std::uint8_t>(c.state[k] & (cs::closed | cs::bonded | cs::glued)));
-  c.rest[heir] = c.depth[heir] - std::min(now, c.depth[heir]);
-  c.depth_1[heir] = c.effective_1(k) + c.rest[heir];
-  c.depth_2[heir] = c.effective_2(k) + c.rest[heir];
+  c.rest[heir] = c.depth[heir] - now;
   c.anchor[heir] = (c.foot[heir] - slip) / frame_of(c, pose, heir).length;
   c.shear[heir] = c.shear[k] * c.ks[heir] / c.ks[k];
   c.shear_1[heir] = c.shear_1[k] * c.ks[heir] / c.ks[k];
@@ -169,7 +173,7 @@ Events find_events(ContactSet& c) {
       if (c.effective(k) > 0.0) {
         if (c.on_edge(k)) events.closes.push_back(static_cast<Id>(k));
       } else if (c.rest[k] != 0.0) {
-        c.rest[k] = std::min(c.rest[k], std::max(c.depth[k], 0.0));
+        c.rest[k] = std::max(0.0, std::min(c.rest[k], c.depth[k]));
       }
     }
   }
