@@ -125,14 +125,21 @@ std::optional<Fault> wrong_count(const Model& model, const Partition& p) {
   return std::nullopt;
 }
 
-std::vector<BlockPolygon> polygons(const Model& model, const PlanarGraph& graph, const Partition& p,
-                                   const LineWork& work, Zone zone, double snap) {
+struct Arrangement {
+  PlanarGraph graph;
+  Partition parts;
+  CutReport report;  ///< what was trimmed, and whether by snap rounding
+};
+
+std::vector<BlockPolygon> polygons(const Model& model, const Arrangement& a, const LineWork& work,
+                                   Zone zone, double snap) {
+  const Partition& p = a.parts;
   std::vector<BlockPolygon> blocks;
   blocks.reserve(static_cast<std::size_t>(count(p, zone)));
   for (std::size_t f = 1; f < p.zone.size(); ++f) {
     if (p.zone[f] != zone) continue;
     BlockPolygon block =
-        face_polygon(graph, p.faces, static_cast<int>(f), work.sources, 4.0 * snap);
+        face_polygon(a.graph, p.faces, static_cast<int>(f), work.sources, 4.0 * snap);
     block.material = model.domain->material;
     block.where = model.domain->where;
     block.opening = p.opening[f];
@@ -151,12 +158,13 @@ double area_of(const std::vector<BlockPolygon>& blocks) {
 }
 
 /// Snapping may move the outline by `snap`; beyond that the faces must fill what went in.
-std::optional<Fault> lost_area(const Model& model, const PlanarGraph& graph, const Partition& p,
-                               const LineWork& work, double snap, double area_in) {
+std::optional<Fault> lost_area(const Model& model, const Arrangement& a, const LineWork& work,
+                               double snap, double area_in) {
   double sum = 0.0, perimeter = perimeter_of(work.outline);
   for (const Ring& opening : work.openings) perimeter += perimeter_of(opening);
-  for (std::size_t f = 1; f < p.zone.size(); ++f) {
-    if (p.zone[f] == Zone::rock) sum += face_area(graph, p.faces, static_cast<int>(f));
+  for (std::size_t f = 1; f < a.parts.zone.size(); ++f) {
+    if (a.parts.zone[f] != Zone::rock) continue;
+    sum += face_area(a.graph, a.parts.faces, static_cast<int>(f));
   }
   if (std::abs(sum - area_in) <= 1e-9 * area_in + 4.0 * snap * perimeter) return std::nullopt;
   return Fault{member_of(model.domain->where, "snap"),
@@ -181,6 +189,26 @@ Cycles trim(PlanarGraph& graph, const LineWork& work, double snap, CutReport& re
   return bridges.empty() ? std::move(cycles) : trace_cycles(graph);
 }
 
+/// Nodes the lines and finds their faces. Lines that lie on one another can come out of this with
+/// nodes that the other does not share, and so with a face thinner than snap between them: noded
+/// once more, with all nodes as vertices, they become one.
+Result<Arrangement> arrange(const Model& model, LineWork& work, double snap) {
+  constexpr int most_rounds = 3;
+  for (int round = 1;; ++round) {
+    Result<NodedLines> noded = node_lines(work, snap, model.domain->where);
+    if (!noded.ok()) return noded.faults();
+    Arrangement a;
+    a.report.snap_rounded = noded.value().snap_rounded;
+    if (round < most_rounds) work.lines = line_strings(noded.value());
+    a.graph = planar_graph(std::move(noded.value()), work.sources);
+    Cycles cycles = trim(a.graph, work, snap, a.report);
+    Result<Partition> parts = partition(model, a.graph, std::move(cycles), work);
+    if (!parts.ok()) return parts.faults();
+    a.parts = std::move(parts.value());
+    if (round == most_rounds || !has_thin_face(a.graph, a.parts.faces, snap)) return a;
+  }
+}
+
 }  // namespace
 
 double snap_of(const Model& model) {
@@ -197,7 +225,7 @@ Result<DomainCut> cut_domain(const Model& model, Vec2 origin) {
   const double snap = snap_of(model);
   Result<LineWork> lines = line_work(model, origin, snap);
   if (!lines.ok()) return lines.faults();
-  const LineWork& work = lines.value();
+  LineWork& work = lines.value();
   if (auto fault = not_simple(model, work)) return *fault;
   const std::optional<double> area_in = rock_area(work.outline, work.openings);
   if (!area_in) {
@@ -205,25 +233,23 @@ Result<DomainCut> cut_domain(const Model& model, Vec2 origin) {
                  "the area of the outline without its openings cannot be measured",
                  "simplify the outline or the openings where they nearly touch"};
   }
-  Result<NodedLines> noded = node_lines(work, snap, model.domain->where);
-  if (!noded.ok()) return noded.faults();
+  Result<Arrangement> arranged = arrange(model, work, snap);
+  if (!arranged.ok()) return arranged.faults();
+  Arrangement& a = arranged.value();
 
   DomainCut cut;
+  cut.report = a.report;
   cut.report.area_in = *area_in;
-  cut.report.snap_rounded = noded.value().snap_rounded;
-  PlanarGraph graph = planar_graph(std::move(noded.value()), work.sources);
-  Cycles cycles = trim(graph, work, snap, cut.report);
-  Result<Partition> parts = partition(model, graph, std::move(cycles), work);
-  if (!parts.ok()) return parts.faults();
-  while (const int merged = merge_slivers(graph, parts.value().faces, parts.value().zone, snap)) {
+  while (const int merged = merge_slivers(a.graph, a.parts.faces, a.parts.zone, snap)) {
     cut.report.merged += merged;
-    parts = partition(model, graph, trace_cycles(graph), work);
+    Result<Partition> parts = partition(model, a.graph, trace_cycles(a.graph), work);
     if (!parts.ok()) return parts.faults();
+    a.parts = std::move(parts.value());
   }
-  if (auto fault = wrong_count(model, parts.value())) return *fault;
-  if (auto fault = lost_area(model, graph, parts.value(), work, snap, *area_in)) return *fault;
-  cut.blocks = polygons(model, graph, parts.value(), work, Zone::rock, snap);
-  cut.removed = polygons(model, graph, parts.value(), work, Zone::opening, snap);
+  if (auto fault = wrong_count(model, a.parts)) return *fault;
+  if (auto fault = lost_area(model, a, work, snap, *area_in)) return *fault;
+  cut.blocks = polygons(model, a, work, Zone::rock, snap);
+  cut.removed = polygons(model, a, work, Zone::opening, snap);
   cut.report.cut_blocks = static_cast<int>(cut.blocks.size());
   cut.report.area_out = area_of(cut.blocks);
   return cut;

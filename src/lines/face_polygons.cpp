@@ -18,9 +18,8 @@ std::size_t at(int i) {
 /// A closed walk along half-edges.
 using Walk = std::vector<int>;
 
-/// Splits a cycle where it comes back to a node. Walks are short as a rule, so a search over what
-/// lies open is enough below a length; longer ones are sorted first to see whether they touch
-/// themselves.
+/// Splits a cycle where it comes back to a node, so that each part is a simple ring. Few cycles do,
+/// so that is found out first.
 std::vector<Walk> simple_walks(const PlanarGraph& g, const Walk& cycle) {
   std::vector<int> nodes;
   nodes.reserve(cycle.size());
@@ -80,10 +79,11 @@ double length_of(const PlanarGraph& g, int h) {
   return norm(g.node[at(target_of(g, h))] - g.node[at(origin_of(g, h))]);
 }
 
-bool is_sliver(const PlanarGraph& g, const Faces& faces, int face, double snap) {
+/// 2 area / perimeter: the width of a long thin face, m.
+double width_of(const PlanarGraph& g, const Faces& faces, int face) {
   double perimeter = 0.0;
   for_each_half_edge(faces, face, [&](int h) { perimeter += length_of(g, h); });
-  return 2.0 * face_area(g, faces, face) < 2.0 * snap * perimeter;
+  return 2.0 * face_area(g, faces, face) / perimeter;
 }
 
 /// The rock face with which `face` shares the longest boundary, or -1.
@@ -104,6 +104,30 @@ int longest_neighbour(const PlanarGraph& g, const Faces& faces, const std::vecto
   return best == shared.end() ? -1 : best->first;
 }
 
+double distance_to_edge(const PlanarGraph& g, int h, Vec2 p) {
+  const Vec2 a = g.node[at(origin_of(g, h))], d = g.node[at(target_of(g, h))] - a;
+  const double t = std::clamp(dot(p - a, d) / dot(d, d), 0.0, 1.0);
+  return norm(p - (a + t * d));
+}
+
+/// The two long sides of a sliver are one line: where the side towards `into` comes first in
+/// precedence, its source passes to the side that stays.
+void pass_on_source(PlanarGraph& g, const Faces& faces, int sliver, int into, double snap) {
+  std::vector<int> going, staying;
+  for_each_half_edge(faces, sliver, [&](int h) {
+    if (length_of(g, h) <= 4.0 * snap) return;
+    (face_of(faces, h ^ 1) == into ? going : staying).push_back(h);
+  });
+  for (int h : staying) {
+    const Vec2 middle = 0.5 * (g.node[at(origin_of(g, h))] + g.node[at(target_of(g, h))]);
+    Index& source = g.edge[at(h / 2)].source;
+    for (int k : going) {
+      if (distance_to_edge(g, k, middle) > 4.0 * snap) continue;
+      source = std::min(source, g.edge[at(k / 2)].source);
+    }
+  }
+}
+
 }  // namespace
 
 double face_area(const PlanarGraph& graph, const Faces& faces, int face) {
@@ -117,6 +141,13 @@ double face_area(const PlanarGraph& graph, const Faces& faces, int face) {
   return twice / 2.0;
 }
 
+bool has_thin_face(const PlanarGraph& graph, const Faces& faces, double width) {
+  for (int face = 1; face < static_cast<int>(faces.outer.size()); ++face) {
+    if (width_of(graph, faces, face) < width) return true;
+  }
+  return false;
+}
+
 int merge_slivers(PlanarGraph& graph, const Faces& faces, const std::vector<Zone>& zone,
                   double snap) {
   std::vector<int> parent(zone.size());
@@ -128,10 +159,11 @@ int merge_slivers(PlanarGraph& graph, const Faces& faces, const std::vector<Zone
   int merged = 0;
   for (std::size_t f = 1; f < zone.size(); ++f) {
     const int face = static_cast<int>(f);
-    if (zone[f] != Zone::rock || !is_sliver(graph, faces, face, snap)) continue;
+    if (zone[f] != Zone::rock || width_of(graph, faces, face) >= 2.0 * snap) continue;
     const int into = longest_neighbour(graph, faces, zone, face);
     if (into < 0 || root(into) == root(face)) continue;
     parent[at(root(face))] = root(into);
+    pass_on_source(graph, faces, face, into, snap);
     ++merged;
   }
   if (merged == 0) return 0;

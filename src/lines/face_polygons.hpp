@@ -20,9 +20,12 @@ BlockPolygon face_polygon(const PlanarGraph& graph, const Faces& faces, int face
 /// Signed area of a face, m2.
 double face_area(const PlanarGraph& graph, const Faces& faces, int face);
 
+/// Whether a bounded face is thinner than `width` (2 area / perimeter), m.
+bool has_thin_face(const PlanarGraph& graph, const Faces& faces, double width);
+
 /// Removes the edges between a rock face thinner than 2 `snap` (2 area / perimeter) and the rock
-/// face with which it shares the longest boundary. Returns how many faces went; if any, faces must
-/// be found anew.
+/// face with which it shares the longest boundary; of its two sides the source first in precedence
+/// stays. Returns how many faces went; if any, faces must be found anew.
 int merge_slivers(PlanarGraph& graph, const Faces& faces, const std::vector<Zone>& zone,
                   double snap);
 

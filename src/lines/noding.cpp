@@ -137,4 +137,14 @@ Result<NodedLines> node_lines(const LineWork& work, double snap, const Where& wh
   return lines;
 }
 
+std::vector<LineString> line_strings(const NodedLines& lines) {
+  std::vector<LineString> strings;
+  strings.reserve(lines.edges.size());
+  const auto node = [&](int i) { return lines.nodes[static_cast<std::size_t>(i)]; };
+  for (const NodedEdge& edge : lines.edges) {
+    strings.push_back({{node(edge.from), node(edge.to)}, edge.source});
+  }
+  return strings;
+}
+
 }  // namespace edda

@@ -33,4 +33,7 @@ enum class Noding {
 Result<NodedLines> node_lines(const LineWork& work, double snap, const Where& where,
                               Noding noding = Noding::automatic);
 
+/// The noded edges as lines again, to be noded once more.
+std::vector<LineString> line_strings(const NodedLines& lines);
+
 }  // namespace edda

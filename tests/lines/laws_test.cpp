@@ -59,6 +59,20 @@ TEST(Laws, FirstSetWinsWhereTwoCoincide) {
   expect_lengths(model, {{none, 20.0}, {7, 20.0 + 20.0}, {6, 40.0}});
 }
 
+TEST(Laws, FirstTraceWinsOverASliverToo) {
+  // Farther apart than snap, nearer than twice: a sliver is cut and merged, whichever side is
+  // longer.
+  for (double side : {1.6, -1.6}) {
+    for (bool first : {true, false}) {
+      Model model = square();
+      add_trace(model, {{-1, 3}, {11, 3}}, first ? 5 : 2);
+      add_trace(model, {{-1, 3 + side * snap}, {11, 3 + side * snap}}, first ? 2 : 5);
+      add_trace(model, {{6, -1}, {6, 3}}, 7);
+      expect_lengths(model, {{none, 40.0}, {first ? 5 : 2, 20.0}, {7, 6.0}});
+    }
+  }
+}
+
 TEST(Laws, DomainJointStandsInForTracesAndSetsOnly) {
   Model model = square();
   model.domain->joint = 9;
