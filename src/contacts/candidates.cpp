@@ -174,6 +174,7 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
   const std::vector<NearPair> list = wanted(contacts, b, state, pose, reach);
   ContactSet next;
   resize(next, list.size());
+  next.reach = reach;
   next.vertex.reserve(list.size());
   next.edge.reserve(list.size());
   std::vector<Id> new_of_old(contacts.size(), no_id);
@@ -218,7 +219,6 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
   pair_corners(next, b, pose);
   next.built_x = pose.x;
   next.built_y = pose.y;
-  next.reach = reach;
   next.built_at = state.steps;
   next.rebuilds = contacts.rebuilds + 1;
   contacts = std::move(next);

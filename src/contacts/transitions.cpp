@@ -142,12 +142,14 @@ void leave(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& l
   ++counts.opened;
 }
 
-/// A corner that comes into its share of a spring from the side takes its partner's history.
+/// A corner that comes into its share of a spring from the side, the share still small, takes its
+/// partner's history.
 bool inherit_from_partner(ContactSet& c, const Pose& pose, std::size_t k) {
   if (c.pair_of[k] == no_id) return false;
   const CornerPair& p = c.pairs[c.pair_of[k]];
   const Id other = p.first == k ? p.second : p.first;
-  if (!p.same_way() || !c.is(other, cs::closed) || c.share[other] >= 1.0) return false;
+  constexpr double small = 0.1;
+  if (!p.same_way() || !c.is(other, cs::closed) || c.share[k] > small) return false;
   c.rest[k] = std::min(c.rest[other], std::max(c.depth[k], 0.0));
   c.anchor[k] = (c.foot[k] - trial_slip(c, pose, other)) / frame_of(c, pose, k).length;
   c.shear[k] = c.shear[other] * c.ks[k] / c.ks[other];
@@ -272,7 +274,9 @@ TransitionCounts settle_contacts(ContactSet& c, const BlockSet& b, const Pose& p
     // Entered from the side.
     ++counts.born_inside;
     close(c, b, pose, laws, k);
-    if (!inherit_from_partner(c, pose, k)) {
+    if (inherit_from_partner(c, pose, k)) {
+      c.friction_work[k] -= stored_energy(c, pose, k);
+    } else {
       c.clear(k, cs::closed);
       c.rest[k] = c.depth[k];
     }

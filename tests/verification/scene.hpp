@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "blocks/kinematics.hpp"
+#include "forces/elastic.hpp"
 #include "model/read_model.hpp"
 #include "run/simulation.hpp"
 
