@@ -1,5 +1,6 @@
 #include "contacts/gaps.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/parallel.hpp"
@@ -33,7 +34,13 @@ void look_at_previous_gaps(ContactSet& c, const Pose& pose) {
 void book_dashpots(ContactSet& c) {
   parallel_for(c.size(), [&](std::size_t k) {
     if (!c.is(k, contact_state::closed)) return;
-    c.damping_work[k] += 0.5 * c.share[k] * c.alpha[k] * c.dashpot[k] * (c.depth[k] - c.depth_2[k]);
+    const bool bonded = c.is(k, contact_state::bonded);
+    const double e = c.effective_1(k);
+    const double before = bonded ? c.effective_2(k) : std::max(c.effective_2(k), 0.0);
+    const double after = bonded ? c.effective(k) : std::max(c.effective(k), 0.0);
+    c.damping_work[k] +=
+        0.5 * c.share[k] *
+        (c.kn[k] * e * (before - after) + c.alpha[k] * c.normal[k] * (c.depth[k] - c.depth_2[k]));
   });
 }
 

@@ -22,9 +22,15 @@ struct DampingWork {
 /// Mass-proportional damping is centred: v+ = ((1 - a h/2) v- + h f/m)/(1 + a h/2); local damping takes
 /// beta |f| against v-, node by node. forces: [3][nb] N.
 void advance(State& state, const BlockSet& blocks, const Nodes& force_x, const Nodes& force_y,
-             double h_old, double h_new, const StepDamping& damping, DampingWork& work);
+             double h_old, double h_new, const StepDamping& damping);
 
-/// Undoes the last advance() (same arguments, no damping work booked since).
+/// Books what damping took in the step just made, once its velocities are final: damping force times
+/// (x_{n+1} - x_{n-1})/2. old_vx, old_vy: velocities before it.
+void book_damping(const State& state, const BlockSet& blocks, const Nodes& force_x,
+                  const Nodes& force_y, const Nodes& old_vx, const Nodes& old_vy, double h_old,
+                  double h_new, const StepDamping& damping, DampingWork& work);
+
+/// Undoes the last advance().
 void retreat(State& state, const BlockSet& blocks, double h_new, const Nodes& old_vx,
              const Nodes& old_vy);
 

@@ -261,10 +261,8 @@ void Driver::share_out_time() {
                 sim_.springs, sim_.model.gravity);
   const double forces = since(start);
   State scratch = sim_.state;
-  DampingWork unused = sim_.damping_work;
   start = Clock::now();
-  advance(scratch, sim_.blocks, instant_.forces.x, instant_.forces.y, scratch.step, scratch.step,
-          {}, unused);
+  advance(scratch, sim_.blocks, instant_.forces.x, instant_.forces.y, scratch.step, scratch.step, {});
   const double integrate = since(start);
   const double plain_steps = steps - static_cast<double>(searches_);
   const double plain = plain_steps > 0.0 ? (w.stepping - searching_) / plain_steps : 0.0;

@@ -138,9 +138,7 @@ void observe(const Simulation& sim, Instant& at) {
   gather_forces(at.forces, sim.blocks, sim.state, sim.pose, at.contacts, sim.springs,
                 sim.model.gravity);
   at.state = sim.state;
-  DampingWork unused = sim.damping_work;
-  advance(at.state, sim.blocks, at.forces.x, at.forces.y, h, h, {damping.mass, damping.local},
-          unused);
+  advance(at.state, sim.blocks, at.forces.x, at.forces.y, h, h, {damping.mass, damping.local});
   at.state.x = sim.state.x;
   at.state.y = sim.state.y;
   for (std::size_t k = 0; k < 3; ++k) {

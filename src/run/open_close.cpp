@@ -43,6 +43,16 @@ double booked(const ContactSet& c, std::size_t k, double shear) {
   return 0.5 * c.share[k] * c.ks[k] * (c.slip_trial[k] - s) * (s + s_1);
 }
 
+/// Slip s (not more than `most`) of a contact that opens: its shear spring gives up what it stores
+/// between n - 1 and n, p_t s_tr s_{n-1}/2, and its force does the work -p_t s (D_n + D_{n+1})/2. s
+/// is the nearest to `nominal` for which the first covers the second, so that letting go dissipates
+/// and never drives.
+double releasing_slip(double nominal, double most, double trial, double before, double moved) {
+  const double released = trial * before;
+  if (nominal * moved + released >= 0.0 || moved == 0.0) return nominal;
+  return std::clamp(-released / moved, -most, most);
+}
+
 /// Gives contact k the part alpha of its force and the shear this allows; adds what this changes.
 void reset_force(ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k, double alpha,
                  Change& change) {
@@ -50,7 +60,17 @@ void reset_force(ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t
       edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
   const Gap gap = gap_to(e, at(pose.x1, pose.y1, c.vertex[k]));
   const double limit = c.cohesion[k] + c.friction[k] * std::max(alpha * c.normal[k], 0.0);
-  const double shear = cut_shear(-c.ks[k] * c.slip_trial[k], limit);
+  double shear = cut_shear(-c.ks[k] * c.slip_trial[k], limit);
+  if (c.effective(k) <= 0.0) {
+    const EdgeFrame now =
+        edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
+    const double before = -c.shear_1[k] / c.ks[k];
+    const double ahead =
+        (c.foot[k] - c.anchor[k] * now.length) - (gap.foot - c.anchor[k] * e.length);
+    const double moved = c.slip_trial[k] - before + ahead;
+    shear = -c.ks[k] *
+            releasing_slip(-shear / c.ks[k], limit / c.ks[k], c.slip_trial[k], before, moved);
+  }
   if (shear != c.shear[k]) {
     c.friction_work[k] += booked(c, k, shear) - booked(c, k, c.shear[k]);
     c.anchor[k] = (gap.foot + shear / c.ks[k]) / e.length;

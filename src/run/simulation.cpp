@@ -157,8 +157,7 @@ void Simulation::aim_at(double time) {
 }
 
 bool Simulation::move(double h_old, double h_new) {
-  advance(state, blocks, forces.x, forces.y, h_old, h_new, step_damping(model.solver),
-          damping_work);
+  advance(state, blocks, forces.x, forces.y, h_old, h_new, step_damping(model.solver));
   std::swap(pose.x, pose.x1);
   std::swap(pose.y, pose.y1);
   place_all();
@@ -183,11 +182,9 @@ std::optional<Failure> Simulation::step() {
   gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity);
 
   const Nodes old_vx = state.vx, old_vy = state.vy;
-  const DampingWork old_work = damping_work;
   for (int halvings = 0; !move(h_old, state.step); ++halvings) {
     if (last_displacement > 1e100 || halvings == 40) return diverged();
     retreat(state, blocks, state.step, old_vx, old_vy);
-    damping_work = old_work;
     std::swap(pose.x, pose.x1);
     std::swap(pose.y, pose.y1);
     place_all();
@@ -208,6 +205,8 @@ std::optional<Failure> Simulation::step() {
     step_change_energy += energy_of_step_change(blocks, state, old_vx, old_vy, h_old, h);
     ++steps.changes;
   }
+  book_damping(state, blocks, forces.x, forces.y, old_vx, old_vy, h_old, h,
+               step_damping(model.solver), damping_work);
   if (model.solver.damping.contact > 0.0) book_dashpots(contacts);
   finish_step();
   update_shares(contacts, pose);

@@ -43,7 +43,6 @@ history_every = 0.0031415926535897931
   });
   EXPECT_NEAR(area / rows / exact, 1.0, 2e-2);
   EXPECT_LT(worst, 1e-10);
-  printf("spin: area %.4e exact %.4e momentum %.2e\n", area / rows, exact, worst);
 }
 
 std::string dropped(double safety) {
@@ -63,7 +62,8 @@ polygon = [[-1, -1], [2, -1], [2, 0], [-1, 0]]
 polygon = [[0, 1e-4], [1, 1e-4], [1, 1.0001], [0, 1.0001]]
 [solver]
 duration = 0.6
-safety = )" + number(safety) + "\n[output]\nhistory_every = 0.01\n";
+safety = )" +
+         number(safety) + "\n[output]\nhistory_every = 0.01\n";
 }
 
 /// Row 8: depth and contact time of the first bounce; the ledger over twenty of them.
@@ -91,7 +91,6 @@ TEST(Bounce, DepthTimeAndEnergy) {
           before = d;
           before_time = s.state.time;
         });
-    printf("bounce: safety %g steps %llu bounces %d depth %.3e time %.3e drift %.2e unsettled %llu passes %llu changes %llu\n", safety, (unsigned long long)sim.state.steps, bounces, deepest / depth - 1.0, (left - touched) / time - 1.0, drift, (unsigned long long)sim.open_close.unsettled, (unsigned long long)sim.open_close.passes, (unsigned long long)sim.steps.changes);
     EXPECT_GE(bounces, 20);
     if (safety <= 0.4) {
       EXPECT_NEAR(deepest / depth, 1.0, 1e-2) << safety;
@@ -101,11 +100,107 @@ TEST(Bounce, DepthTimeAndEnergy) {
   }
 }
 
+/// Row 7: the three natural frequencies of one free block a x b. Each mode is started by its own
+/// strain rate; its strain then crosses zero every half period.
+TEST(FreeBlock, NaturalFrequencies) {
+  const double a = 2.0, b = 1.0, density = 2500.0, young = 1e9, nu = 0.25;
+  const double mu = young / (2 * (1 + nu)), lambda = young * nu / ((1 + nu) * (1 - 2 * nu));
+  // Stretch: eigenvalues and vectors of (12/rho)[C11/a^2, C12/a^2; C12/b^2, C22/b^2] acting on
+  // strain.
+  const double m11 = 12 / density * (lambda + 2 * mu) / (a * a),
+               m12 = 12 / density * lambda / (a * a);
+  const double m21 = 12 / density * lambda / (b * b),
+               m22 = 12 / density * (lambda + 2 * mu) / (b * b);
+  const double half = 0.5 * (m11 + m22), root = std::sqrt(half * half - (m11 * m22 - m12 * m21));
+  struct Mode {
+    double omega2;
+    Tensor rate;
+  };
+  std::vector<Mode> modes;
+  for (const double w2 : {half + root, half - root}) {
+    modes.push_back({w2, {m12, w2 - m11, 0.0}});
+  }
+  modes.push_back({12 * mu * (a * a + b * b) / (density * a * a * b * b), {0.0, 0.0, 1.0}});
+  for (const Mode& mode : modes) {
+    Simulation sim = scene(
+        "gravity = [0, 0]\n[materials.rock]\ndensity = 2500.0\nyoung = 1e9\n"
+        "poisson = 0.25\n[solver]\nduration = 0.05\nsafety = 0.02\n[output]\n"
+        "history_every = 0.01\n[[block]]\npolygon = [[0,0],[2,0],[2,1],[0,1]]\n");
+    const double size = std::max({std::abs(mode.rate.xx), std::abs(mode.rate.yy), mode.rate.xy});
+    // Shear without spin: velocity (y b-part, x a-part) with zero angular momentum.
+    const double shear_x = 2e-3 * mode.rate.xy / size * a * a / (a * a + b * b);
+    const double shear_y = 2e-3 * mode.rate.xy / size * b * b / (a * a + b * b);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = sim.state.x[k][0], y = sim.state.y[k][0];
+      sim.state.vx[k][0] = 1e-3 * mode.rate.xx / size * x + shear_x * y;
+      sim.state.vy[k][0] = 1e-3 * mode.rate.yy / size * y + shear_y * x;
+    }
+    double before = 0.0, first = 0.0, last = 0.0;
+    int crossings = 0;
+    run(
+        sim, [](Simulation&) {},
+        [&](Simulation& s) {
+          const Deformation f = deformation(s.blocks, s.state.x, s.state.y, 0);
+          const Tensor e = corotated_strain(f, rotation(f));
+          const double q = mode.rate.xx * e.xx + mode.rate.yy * e.yy + mode.rate.xy * e.xy;
+          if (before * q < 0.0) {
+            last = s.state.time - s.state.step * q / (q - before);
+            if (++crossings == 1) first = last;
+          }
+          before = q;
+        });
+    ASSERT_GT(crossings, 10);
+    const double omega = std::numbers::pi * (crossings - 1) / (last - first);
+    EXPECT_NEAR(omega / std::sqrt(mode.omega2), 1.0, 1e-3);
+  }
+}
+
+/// Six squares, each turned 0.1 rad more than the one below, fall on each other and on a held base.
+std::string falling_squares(double safety, const char* switching) {
+  std::string toml =
+      "[materials.rock]\ndensity = 2600.0\nyoung = 200e9\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = 0.0\n[contact]\nnormal_stiffness = 2e9\n[solver]\nduration = 2.5\n"
+      "switching = '" +
+      std::string(switching) + "'\nsafety = " + number(safety) +
+      "\n[output]\nhistory_every = 0.01\n[[block]]\nfixed = true\npolygon = "
+      "[[-6,-1],[6,-1],[6,0],[-6,0]]\n";
+  for (int i = 0; i < 6; ++i) {
+    toml += "[[block]]\npolygon = [";
+    for (Vec2 q : {Vec2{-.5, -.5}, Vec2{.5, -.5}, Vec2{.5, .5}, Vec2{-.5, .5}}) {
+      const Vec2 p = rotated(q, 0.1 * i) + Vec2{0.0, 0.625 + 1.25 * i};
+      toml += "[" + number(p.x) + "," + number(p.y) + "],";
+    }
+    toml += "]\n";
+  }
+  return toml;
+}
+
+/// Exact switching closes the ledger at every safety; the paper's plain switching does not.
+TEST(FallingSquares, EnergyLedger) {
+  for (const double safety : {0.1, 0.2, 0.4, 0.6, 0.8}) {
+    double worst = 0.0, end[2] = {0.0, 0.0};
+    for (const bool exact : {true, false}) {
+      Simulation sim = scene(falling_squares(safety, exact ? "exact" : "plain"));
+      run(sim, [&](Simulation& s) {
+        const double drift = std::abs(s.ledger().drift);
+        if (exact) worst = std::max(worst, drift);
+        end[exact ? 0 : 1] = drift;
+      });
+      EXPECT_EQ(sim.open_close.unsettled, 0u);
+    }
+    RecordProperty("safety_" + number(safety), "exact " + number(end[0]) + " plain " +
+                                                   number(end[1]) + " worst " + number(worst));
+    EXPECT_LT(end[0], 1e-5) << safety;
+    EXPECT_LT(worst, 5e-5) << safety;
+  }
+}
+
 /// Row 5: quarter period of rocking from rest, theta'' = -p^2 sin(alpha - theta), p^2 = 3 g/4 R.
 class Rocking : public testing::TestWithParam<std::pair<const char*, double>> {};
 
 double quarter_period(double alpha, double theta0, double p2) {
-  // Integrated from rest at theta0 to theta = 0 by RK4; the exact figure for 1 x 3 m is 2.44947/4 s.
+  // Integrated from rest at theta0 to theta = 0 by RK4; the exact figure for 1 x 3 m is 2.44947/4
+  // s.
   double theta = theta0, rate = 0.0, t = 0.0;
   const double h = 1e-5;
   auto acceleration = [&](double q) { return -p2 * std::sin(alpha - q); };
@@ -125,7 +220,7 @@ TEST_P(Rocking, QuarterPeriod) {
   const double alpha = std::atan2(1.0, 3.0), theta0 = 0.5 * alpha, radius = std::sqrt(10.0) / 2.0;
   std::string polygon = "[";
   for (Vec2 p : {Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 3}, Vec2{0, 3}}) {
-    const Vec2 q = rotated(p, -theta0) ;
+    const Vec2 q = rotated(p, -theta0);
     // Tilted about its lower right corner, which stays where it was.
     const Vec2 r = q - rotated(Vec2{1, 0}, -theta0) + Vec2{1, 0};
     polygon += "[" + number(r.x) + "," + number(r.y) + "],";
@@ -142,18 +237,22 @@ friction_angle = 60.0
 fixed = true
 polygon = [[-3, -1], [4, -1], [4, 0], [-3, 0]]
 [[block]]
-polygon = )" + polygon + "\n[solver]\nduration = 1.25\nmass = '" + mass + "'\nsafety = " +
-                         number(safety) + "\n[output]\nhistory_every = 0.001\n");
+polygon = )" + polygon + "\n[solver]\nduration = 1.25\nmass = '" +
+                         mass + "'\nsafety = " + number(safety) +
+                         "\n[output]\nhistory_every = 0.001\n");
   double flat_at = 0.0, before = -1.0;
-  run(sim, [](Simulation&) {}, [&](Simulation& s) {
-    const Rotation r = rotation(deformation(s.blocks, s.state.x, s.state.y, 1));
-    const double turned = -std::atan2(r.s, r.c);  // counted clockwise from the tilt at the start
-    const double theta = theta0 + turned;
-    if (flat_at == 0.0 && theta <= 0.0) {
-      flat_at = s.state.time - s.state.step * theta / (theta - before);
-    }
-    before = theta;
-  });
+  run(
+      sim, [](Simulation&) {},
+      [&](Simulation& s) {
+        const Rotation r = rotation(deformation(s.blocks, s.state.x, s.state.y, 1));
+        const double turned =
+            -std::atan2(r.s, r.c);  // counted clockwise from the tilt at the start
+        const double theta = theta0 + turned;
+        if (flat_at == 0.0 && theta <= 0.0) {
+          flat_at = s.state.time - s.state.step * theta / (theta - before);
+        }
+        before = theta;
+      });
   double p2 = 3.0 * 9.81 / (4.0 * radius);
   double slower = 1.0;
   if (std::string(mass) == "covering") {
@@ -166,7 +265,6 @@ polygon = )" + polygon + "\n[solver]\nduration = 1.25\nmass = '" + mass + "'\nsa
   if (slower == 1.0) {
     EXPECT_NEAR(exact, 2.44947 / 4.0, 1e-4);
   }
-  printf("rocking %s safety %g: %.6f exact %.6f error %.2e drift %.2e\n", mass, safety, flat_at, exact, flat_at / exact - 1.0, sim.ledger().drift);
   EXPECT_NEAR(flat_at / exact, 1.0, 5e-3);
 }
 

@@ -56,9 +56,12 @@ inline Vec2 displacement(const Simulation& sim, std::size_t i) {
          Vec2{sim.blocks.centroid_x[i], sim.blocks.centroid_y[i]};
 }
 
-inline double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+inline double radians(double degrees) {
+  return degrees * std::numbers::pi / 180.0;
+}
 
-/// A point given along and across a slope that rises to the left at `angle` degrees: u down the slope.
+/// A point given along and across a slope that rises to the left at `angle` degrees: u down the
+/// slope.
 inline std::string on_slope(double angle, double u, double v) {
   const double c = std::cos(radians(angle)), s = std::sin(radians(angle));
   char text[96];

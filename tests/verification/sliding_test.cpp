@@ -3,12 +3,12 @@
 namespace edda {
 namespace {
 
-/// validation.md row 1: the paper's ramp; pieces > 1 cuts the ramp itself into that many blocks (row 17).
+/// validation.md row 1: the paper's ramp; pieces > 1 cuts the ramp itself into that many blocks
+/// (row 17).
 std::string ramp(double alpha, double phi, const std::string& young, int pieces = 1) {
-  std::string toml =
-      "gravity = [0.0, -9.8]\n[materials.rock]\ndensity = 2750.0\nyoung = " + young +
-      "\npoisson = 0.25\n[joints.ramp]\nfriction_angle = " + number(phi) +
-      "\n[solver]\nduration = 0.1\n[output]\nhistory_every = 0.001\n";
+  std::string toml = "gravity = [0.0, -9.8]\n[materials.rock]\ndensity = 2750.0\nyoung = " + young +
+                     "\npoisson = 0.25\n[joints.ramp]\nfriction_angle = " + number(phi) +
+                     "\n[solver]\nduration = 0.1\n[output]\nhistory_every = 0.001\n";
   auto box = [&](double u0, double u1, double v0, double v1) {
     return "[" + on_slope(alpha, u0, v0) + "," + on_slope(alpha, u1, v0) + "," +
            on_slope(alpha, u1, v1) + "," + on_slope(alpha, u0, v1) + "]";
@@ -16,8 +16,8 @@ std::string ramp(double alpha, double phi, const std::string& young, int pieces 
   const double from = -4.0, to = 6.0;
   for (int p = 0; p < pieces; ++p) {
     const double a = from + (to - from) * p / pieces, b = from + (to - from) * (p + 1) / pieces;
-    toml += "[[block]]\nname = 'ramp" + std::to_string(p) + "'\nfixed = true\npolygon = " +
-            box(a, b, -1.0, 0.0) + "\n";
+    toml += "[[block]]\nname = 'ramp" + std::to_string(p) +
+            "'\nfixed = true\npolygon = " + box(a, b, -1.0, 0.0) + "\n";
   }
   toml += "[[block]]\nname = 'slider'\npolygon = " + box(0.0, 2.0, 0.0, 1.0) + "\n";
   return toml;
@@ -58,7 +58,8 @@ TEST(RampInTenPieces, SlidesAsOne) {
     Simulation sim = scene(ramp(alpha, phi, "20e9", 10));
     const double weight = 2.0 * 2750.0 * 9.8 * std::cos(radians(alpha));
     double drift = 0.0, largest = 0.0;
-    run(sim, [&](Simulation& s) { drift = std::max(drift, std::abs(s.ledger().drift)); },
+    run(
+        sim, [&](Simulation& s) { drift = std::max(drift, std::abs(s.ledger().drift)); },
         [&](Simulation& s) {
           double sum = 0.0;
           for (std::size_t k = 0; k < s.contacts.size(); ++k) {
@@ -69,7 +70,6 @@ TEST(RampInTenPieces, SlidesAsOne) {
     const double exact = sliding(alpha, phi, 0.1);
     RecordProperty("error", number(slid(sim, alpha) / exact - 1.0));
     RecordProperty("largest_normal", number(largest));
-    printf("pieces: %g error %.3e largest N %.3f drift %.2e unsettled %llu\n", alpha, slid(sim, alpha) / exact - 1.0, largest, drift, (unsigned long long)sim.open_close.unsettled);
     EXPECT_NEAR(slid(sim, alpha) / exact, 1.0, 2e-3);
     EXPECT_LE(largest, 2.1);
     EXPECT_LT(drift, 1e-5);

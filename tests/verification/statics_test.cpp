@@ -56,14 +56,16 @@ history_every = 0.1
 /// Row 11: the critical step of a column of 200 blocks, L/(c0 sqrt(3 (1 + kappa))).
 TEST(Column, CriticalStep) {
   for (const double p : {1e9, 1e10, 1e11}) {
-    std::string toml = "plane = 'stress'\n[materials.rock]\ndensity = 2500.0\nyoung = 1e10\n"
-                       "poisson = 0.0\n[joints.j]\nfriction_angle = 30\n[contact]\n"
-                       "normal_stiffness = " + number(p) + "\n[solver]\nduration = 1.0\n";
-    for (int i = 0; i < 200; ++i) toml += "[[block]]\npolygon = " + rectangle(0, i, 1, i + 1) + "\n";
+    std::string toml =
+        "plane = 'stress'\n[materials.rock]\ndensity = 2500.0\nyoung = 1e10\n"
+        "poisson = 0.0\n[joints.j]\nfriction_angle = 30\n[contact]\n"
+        "normal_stiffness = " +
+        number(p) + "\n[solver]\nduration = 1.0\n";
+    for (int i = 0; i < 200; ++i)
+      toml += "[[block]]\npolygon = " + rectangle(0, i, 1, i + 1) + "\n";
     const Simulation sim = scene(toml);
     const double kappa = 2.0 * p * 1.0 / (1e10 * 1.0), c0 = std::sqrt(1e10 / 2500.0);
     const double exact = 1.0 / (c0 * std::sqrt(3.0 * (1.0 + kappa)));
-    printf("column p %g: estimate over exact %.4f likely %.4f\n", p, sim.bound.critical_step / exact, sim.bound.likely_step / exact);
     EXPECT_LE(sim.bound.critical_step, exact * (1.0 + 1e-9));
     EXPECT_GE(sim.bound.critical_step, 0.7 * exact);
   }
@@ -110,7 +112,6 @@ TEST(Arch, StandsAndFalls) {
       }
       if (sunk > 1.0) s.model.solver.duration = s.state.time;
     });
-    printf("arch %g sunk %.3e max pen %.1e drift %.1e steps %llu\n", ratio, sunk, sim.max_penetration, sim.ledger().drift, (unsigned long long)sim.state.steps);
     if (stands) {
       EXPECT_LT(sunk, 0.01);
     } else {
@@ -140,19 +141,20 @@ history_every = 0.01
   toml += "[[block]]\nfixed = true\npolygon = " + rectangle(1 - dx, -1.5, 1.5, 1.5) + "\n";
   toml += "[[block]]\nfixed = true\npolygon = " + rectangle(-1.5, -1.5, 1.5, -1 + dy) + "\n";
   toml += "[[block]]\nfixed = true\npolygon = " + rectangle(-1.5, 1 - dy, 1.5, 1.5) + "\n";
-  for (const auto& [x, y] : {std::pair{-1, -1}, std::pair{0, -1}, std::pair{-1, 0}, std::pair{0, 0}}) {
+  for (const auto& [x, y] :
+       {std::pair{-1, -1}, std::pair{0, -1}, std::pair{-1, 0}, std::pair{0, 0}}) {
     toml += "[[block]]\npolygon = " + rectangle(x, y, x + 1, y + 1) + "\n";
   }
   Simulation sim = scene(toml);
   run(sim, [](Simulation&) {});
-  // Along x: two blocks and three interfaces of 2 p share the closure 2 dx; plane strain couples x and y.
+  // Along x: two blocks and three interfaces of 2 p share the closure 2 dx; plane strain couples x
+  // and y.
   const double c11 = (1 - nu * nu) / young, c12 = -nu * (1 + nu) / young, spring = 3.0 / (2.0 * p);
   const double a = 2 * c11 + spring, b = 2 * c12;
   const double sx = -(a * 2 * dx - b * 2 * dy) / (a * a - b * b);
   const double sy = -(a * 2 * dy - b * 2 * dx) / (a * a - b * b);
   for (std::size_t i = 4; i < 8; ++i) {
     const Tensor s = stress_of(sim, i);
-    printf("box: block %zu sxx %.8e (%.8e) syy %.8e (%.8e) sxy %.2e\n", i, s.xx, sx, s.yy, sy, s.xy);
     EXPECT_NEAR(s.xx / sx, 1.0, 2e-4);
     EXPECT_NEAR(s.yy / sy, 1.0, 2e-4);
     EXPECT_NEAR(s.xy / sx, 0.0, 1e-6);
@@ -165,7 +167,6 @@ history_every = 0.01
     const double force = sim.contacts.share[k] * sim.contacts.normal[k];
     if ((i == 4 && j == 7) || (i == 5 && j == 6)) diagonal = std::max(diagonal, std::abs(force));
     if (i == 4 && j == 5 && force > 0.0) ++joint_contacts;
-    if (i == 4 && j == 5) printf("v%u e%u d %.3e N %.4e share %.4f foot %.5f state %d why %d rest %.2e\n", sim.contacts.vertex[k], sim.contacts.edge[k], sim.contacts.depth[k], sim.contacts.normal[k], sim.contacts.share[k], sim.contacts.foot[k], sim.contacts.state[k], (int)sim.contacts.why[k], sim.contacts.rest[k]);
   }
   EXPECT_LE(diagonal, 1e-9 * std::abs(sx));
   EXPECT_EQ(joint_contacts, 4);  // two ends, each shared by two corners

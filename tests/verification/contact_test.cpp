@@ -1,0 +1,285 @@
+// Contacts in motion: validation.md rows 16, 19 and 21.
+#include <algorithm>
+#include <random>
+
+#include "verification/scene.hpp"
+
+namespace edda {
+namespace {
+
+constexpr const char* materials = R"(
+[materials.rock]
+density = 2600.0
+young = 20e9
+poisson = 0.2
+)";
+
+std::string polygon_text(const Ring& ring) {
+  std::string text = "[[block]]\npolygon = [";
+  for (Vec2 p : ring) text += "[" + number(p.x) + "," + number(p.y) + "],";
+  return text + "]\n";
+}
+
+struct CornerDrop {
+  std::vector<Vec2> path;   ///< of the centroid, m
+  double worst_jump = 0.0;  ///< change of contact force per step over p v h
+};
+
+/// Row 16: a square dropped corner on corner.
+CornerDrop drop_on_corner(double offset) {
+  const double d = std::sqrt(0.5), p = 2e10, height = 0.02;
+  Simulation sim = scene(std::string(materials) + R"(
+[joints.j]
+friction_angle = 20.0
+[contact]
+normal_stiffness = 2e10
+[solver]
+duration = 0.25
+time_step = 2e-5
+[output]
+history_every = 0.001
+)" + "[[block]]\nfixed = true\npolygon = [[0," +
+                         number(-2 * d) + "],[" + number(d) + "," + number(-d) + "],[0,0],[" +
+                         number(-d) + "," + number(-d) + "]]\n" +
+                         polygon_text({{offset, height},
+                                       {offset + d, height + d},
+                                       {offset, height + 2 * d},
+                                       {offset - d, height + d}}));
+  CornerDrop result;
+  Vec2 force{0.0, 0.0};
+  run(
+      sim, [&](Simulation& s) { result.path.push_back(displacement(s, 1)); },
+      [&](Simulation& s) {
+        const Vec2 now = contact_resultant(s.blocks, s.contacts, 1);
+        double speed = 0.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+          speed = std::max(speed, norm(Vec2{s.state.vx[k][1], s.state.vy[k][1]}));
+        }
+        result.worst_jump =
+            std::max(result.worst_jump, norm(now - force) / (p * speed * s.state.step));
+        force = now;
+      });
+  return result;
+}
+
+TEST(CornerOnCorner, MirrorAndNoJump) {
+  const CornerDrop right = drop_on_corner(1e-9), left = drop_on_corner(-1e-9);
+  ASSERT_EQ(right.path.size(), left.path.size());
+  double worst = 0.0, farthest = 0.0;
+  for (std::size_t i = 0; i < right.path.size(); ++i) {
+    worst = std::max({worst, std::abs(right.path[i].x + left.path[i].x),
+                      std::abs(right.path[i].y - left.path[i].y)});
+    farthest = std::max(farthest, std::abs(right.path[i].x));
+  }
+  EXPECT_LT(worst, 1e-6);
+  EXPECT_LE(right.worst_jump, 1.5);
+}
+
+/// Twenty tumbling polygons without gravity, thrown at each other.
+struct Heap {
+  std::vector<Ring> rings;
+  std::vector<Vec2> velocity;
+  std::vector<double> spin;
+};
+
+Heap random_heap(unsigned seed) {
+  std::mt19937 rng(seed);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  Heap heap;
+  for (int i = 0; i < 20; ++i) {
+    const Vec2 c{1.6 * (i % 5) + 0.2 * u(rng), 1.6 * (i / 5) + 0.2 * u(rng)};
+    const int n = 3 + static_cast<int>(4.0 * u(rng));
+    Ring ring;
+    const double turn = 6.0 * u(rng);
+    for (int k = 0; k < n; ++k) {
+      const double a = turn + 2.0 * std::numbers::pi * (k + 0.3 * u(rng)) / n;
+      ring.push_back(c + (0.45 + 0.2 * u(rng)) * Vec2{std::cos(a), std::sin(a)});
+    }
+    heap.rings.push_back(ring);
+    heap.velocity.push_back(1.5 * (Vec2{3.2, 2.4} - c) + Vec2{u(rng), u(rng)});
+    heap.spin.push_back(6.0 * u(rng) - 3.0);
+  }
+  return heap;
+}
+
+Simulation heap_scene(const Heap& heap, const std::string& solver, double friction) {
+  std::string toml = "gravity = [0.0, 0.0]\n" + std::string(materials) +
+                     "[joints.j]\nfriction_angle = " + number(friction) + "\n" + solver;
+  for (std::size_t i = 0; i < heap.rings.size(); ++i) {
+    toml += polygon_text(heap.rings[i]) + "velocity = [" + number(heap.velocity[i].x) + "," +
+            number(heap.velocity[i].y) + "]\nangular_velocity = " + number(heap.spin[i]) + "\n";
+  }
+  return scene(toml);
+}
+
+struct Momentum {
+  Vec2 linear;
+  double angular = 0.0;
+  double scale = 0.0, angular_scale = 0.0;
+};
+
+/// In the leapfrog's terms: v at n - 1/2, x halfway between n - 1 and n.
+Momentum momentum(const Simulation& s) {
+  Momentum m;
+  for (std::size_t i = 0; i < s.blocks.size(); ++i) {
+    if (s.blocks.fixed[i]) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 v{s.state.vx[k][i], s.state.vy[k][i]};
+      const Vec2 x = Vec2{s.state.x[k][i], s.state.y[k][i]} - 0.5 * s.state.step * v;
+      const double mass = s.blocks.node_mass[k][i];
+      m.linear += mass * v;
+      m.angular += mass * cross(x, v);
+      m.scale += mass * norm(v);
+      m.angular_scale += mass * norm(x) * norm(v);
+    }
+  }
+  return m;
+}
+
+/// Row 19: frictional collisions keep linear and angular momentum.
+TEST(Heap, MomentumInCollisions) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    Simulation sim = heap_scene(random_heap(seed),
+                                "[solver]\nduration = 0.5\n[output]\nhistory_every = 0.01\n", 30.0);
+    Momentum first;
+    bool started = false;
+    double linear = 0.0, angular = 0.0, drift = 0.0;
+    run(sim, [&](Simulation& s) {
+      const Momentum m = momentum(s);
+      if (!started) first = m;
+      started = true;
+      linear = std::max(linear, norm(m.linear - first.linear) / first.scale);
+      angular = std::max(angular, std::abs(m.angular - first.angular) / first.angular_scale);
+      drift = std::max(drift, std::abs(s.ledger().drift));
+    });
+    EXPECT_LT(linear, 1e-9);
+    EXPECT_LT(angular, 1e-9);
+    EXPECT_GT(sim.open_close.switched, 20u);
+  }
+}
+
+std::vector<Vec2> positions(const Simulation& s) {
+  std::vector<Vec2> p;
+  for (std::size_t i = 0; i < s.blocks.size(); ++i) {
+    p.push_back(centroid(s.state.x, s.state.y, i) + s.blocks.origin);
+  }
+  return p;
+}
+
+constexpr const char* two_impacts =
+    "[solver]\nduration = 0.26\ntime_step = 1e-5\n[output]\nhistory_every = 0.01\n";
+
+double farthest(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
+  double worst = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, norm(a[i] - b[i]));
+  return worst;
+}
+
+/// Row 19: a model turned, mirrored or renumbered gives the same motion.
+TEST(Heap, IndifferentToTurnMirrorAndNumbering) {
+  const Heap heap = random_heap(4);
+  Simulation reference = heap_scene(heap, two_impacts, 25.0);
+  run(reference, [](Simulation&) {});
+  const std::vector<Vec2> expected = positions(reference);
+  ASSERT_GT(reference.open_close.switched, 4u);
+
+  const double angle = 0.7;
+  Heap turned = heap;
+  for (Ring& r : turned.rings) {
+    for (Vec2& p : r) p = rotated(p, angle);
+  }
+  for (Vec2& v : turned.velocity) v = rotated(v, angle);
+  Simulation second = heap_scene(turned, two_impacts, 25.0);
+  run(second, [](Simulation&) {});
+  std::vector<Vec2> back = positions(second);
+  for (Vec2& p : back) p = rotated(p, -angle);
+  EXPECT_LT(farthest(back, expected), 1e-9);
+
+  Heap mirrored = heap;
+  for (Ring& r : mirrored.rings) {
+    for (Vec2& p : r) p.x = -p.x;
+  }
+  for (Vec2& v : mirrored.velocity) v.x = -v.x;
+  for (double& w : mirrored.spin) w = -w;
+  Simulation third = heap_scene(mirrored, two_impacts, 25.0);
+  run(third, [](Simulation&) {});
+  back = positions(third);
+  for (Vec2& p : back) p.x = -p.x;
+  EXPECT_LT(farthest(back, expected), 1e-9);
+
+  Heap renumbered;
+  for (std::size_t i = 0; i < heap.rings.size(); ++i) {
+    const std::size_t j = (7 * i + 3) % heap.rings.size();
+    renumbered.rings.push_back(heap.rings[j]);
+    renumbered.velocity.push_back(heap.velocity[j]);
+    renumbered.spin.push_back(heap.spin[j]);
+  }
+  Simulation fourth = heap_scene(renumbered, two_impacts, 25.0);
+  run(fourth, [](Simulation&) {});
+  const std::vector<Vec2> shuffled = positions(fourth);
+  for (std::size_t i = 0; i < heap.rings.size(); ++i) {
+    back[(7 * i + 3) % heap.rings.size()] = shuffled[i];
+  }
+  EXPECT_LT(farthest(back, expected), 1e-9);
+}
+
+/// `consistent` is `matched` in another basis.
+TEST(Heap, ConsistentAndMatchedMassesAgree) {
+  const Heap heap = random_heap(5);
+  std::vector<std::vector<Vec2>> ends;
+  for (const char* mass : {"matched", "consistent"}) {
+    Simulation sim = heap_scene(heap,
+                                std::string("[solver]\nduration = 0.3\ntime_step = 3e-4\n"
+                                            "allow_unstable = true\nmass = '") +
+                                    mass +
+                                    "'\n[output]\nhistory_every = 0.03\n[contact]\n"
+                                    "normal_stiffness = 1e8\n",
+                                30.0);
+    sim.blocks.lame_lambda.assign(sim.blocks.size(), 1e8);
+    sim.blocks.lame_mu.assign(sim.blocks.size(), 1e8);
+    run(sim, [](Simulation&) {});
+    EXPECT_EQ(sim.state.steps, 1000u);
+    EXPECT_GT(sim.open_close.switched, 4u);
+    ends.push_back(positions(sim));
+  }
+  EXPECT_LT(farthest(ends[0], ends[1]), 1e-8 * 8.0);
+}
+
+/// Row 21: what friction and damping take never comes back.
+TEST(Dissipation, NeverFalls) {
+  struct Case {
+    const char* damping;
+    double friction;
+  };
+  for (const Case& c :
+       {Case{"", 30.0}, Case{"damping = { mass = 2.0 }\n", 30.0},
+        Case{"damping = { local = 0.3 }\n", 30.0}, Case{"damping = { contact = 0.2 }\n", 30.0}}) {
+    std::string toml = std::string(materials) +
+                       "[joints.j]\nfriction_angle = " + number(c.friction) +
+                       "\n[solver]\nduration = 1.0\n" + c.damping +
+                       "[output]\nhistory_every = 0.01\n[[block]]\nfixed = true\npolygon = "
+                       "[[-6,-1],[8,-1],[8,0],[-6,0]]\n";
+    for (int i = 0; i < 6; ++i) {
+      Ring ring;
+      for (Vec2 q : {Vec2{-.5, -.5}, Vec2{.5, -.5}, Vec2{.5, .5}, Vec2{-.5, .5}}) {
+        ring.push_back(rotated(q, 0.13 * i) + Vec2{0.1 * i, 0.8 + 1.45 * i});
+      }
+      toml += polygon_text(ring);
+    }
+    Simulation sim = scene(toml);
+    double drift = 0.0, friction = 0.0, damping = 0.0, worst_fall = 0.0;
+    run(sim, [&](Simulation& s) {
+      const Ledger l = s.ledger();
+      drift = std::max(drift, std::abs(l.drift));
+      worst_fall = std::max({worst_fall, friction - l.friction, damping - l.damping});
+      friction = l.friction;
+      damping = l.damping;
+    });
+    EXPECT_LT(drift, 1e-5);
+    EXPECT_LE(worst_fall, 1e-6 * sim.largest_energy);
+    EXPECT_GT(friction + damping, 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace edda
