@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "base/fault.hpp"
 #include "model/model.hpp"
+#include "report/plot.hpp"
 
 namespace edda {
 
@@ -30,6 +31,9 @@ std::string stem_of(const std::string& path);
 
 /// ".svg" of "a/b.svg", in lower case.
 std::string ending_of(const std::string& path);
+
+/// Title, material names and monitors of a picture of the model.
+PlotOptions options_of(const Model& model, std::size_t blocks);
 
 /// "3 min 20 s", "1.4 s".
 std::string duration_text(double seconds);

@@ -1,5 +1,118 @@
-#include "app/commands.hpp"
+// edda cut
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/common.hpp"
+#include "blocks/build_blocks.hpp"
+#include "lines/build_polygons.hpp"
+#include "report/plot.hpp"
+#include "results/cut_table.hpp"
+#include "results/frames.hpp"
+#include "run/guard_rails.hpp"
+#include "run/start_picture.hpp"
+
 namespace edda {
-void add_cut(CLI::App&, int&) {}
-void add_plot(CLI::App&, int&) {}
+namespace {
+
+struct CutArguments {
+  std::string model, output;
+  std::vector<std::string> overrides;
+};
+
+void print_report(const PolygonSet& polygons) {
+  const CutReport& r = polygons.report;
+  std::size_t held = 0;
+  double area = 0.0;
+  for (const BlockPolygon& b : polygons.blocks) {
+    held += b.fixed;
+    area += moments(b.rings).area;
+  }
+  fmt::print("blocks           {} ({} held), {:.6g} m2\n", polygons.blocks.size(), held, area);
+  if (!polygons.removed.empty()) {
+    fmt::print("inside openings  {} blocks, not part of the model\n", polygons.removed.size());
+  }
+  if (r.area_in > 0.0) {
+    fmt::print("cut area         {:.9g} m2 of {:.9g} m2 (difference {:.1e} of it)\n", r.area_out,
+               r.area_in, (r.area_out - r.area_in) / r.area_in);
+  }
+  fmt::print(
+      "trimmed          {} ends of joints inside a block, {} pieces with one block on both sides\n",
+      r.dangling, r.bridging);
+  fmt::print("merged           {} slivers thinner than twice domain.snap\n", r.merged);
+  if (r.snap_rounded != 0)
+    fmt::print("noding           the lines had to be rounded to domain.snap\n");
+  fmt::print("smallest area    {:.4g} m2 at {}\n", r.smallest_area,
+             place_label(r.smallest_area_at));
+  fmt::print("smallest edge    {:.4g} m at {}\n", r.smallest_edge, place_label(r.smallest_edge_at));
+  fmt::print("smallest angle   {:.4g} degrees at {}\n", r.smallest_angle,
+             place_label(r.smallest_angle_at));
+}
+
+Trouble write_cut(const Model& model, const PolygonSet& polygons, const std::string& path) {
+  const std::string ending = ending_of(path);
+  if (ending == ".csv") return write_file(path, cut_csv(polygons, model));
+  const BlockSet blocks = build_blocks(model, polygons);
+  const Grid grid = block_grid(block_cells(blocks), start_picture(model, blocks));
+  if (ending == ".vtu") return write_vtu(path, grid);
+  const std::string field = model.materials.size() > 1 ? "material" : "none";
+  return plot(grid, nullptr, shown_field(field, grid, nullptr).value(),
+              options_of(model, blocks.size()), path);
+}
+
+int cut(const CutArguments& args) {
+  const std::string ending = ending_of(args.output);
+  if (!args.output.empty() && ending != ".svg" && ending != ".png" && ending != ".vtu" &&
+      ending != ".csv") {
+    fmt::print(stderr, "{}: ends in none of .svg .png .vtu .csv: name the file so\n", args.output);
+    return exit_code::bad_input;
+  }
+  const std::optional<Model> model = read_or_print(args.model, args.overrides);
+  if (!model) return exit_code::bad_input;
+  const Result<PolygonSet> polygons = build_polygons(*model);
+  if (!polygons.ok()) {
+    print(polygons.faults());
+    return exit_code::bad_input;
+  }
+  print_report(polygons.value());
+  if (args.output.empty()) return exit_code::done;
+  if (const Trouble trouble = write_cut(*model, polygons.value(), args.output)) {
+    print({*trouble});
+    return exit_code::failed;
+  }
+  fmt::print("wrote {}\n", args.output);
+  return exit_code::done;
+}
+
+}  // namespace
+
+PlotOptions options_of(const Model& model, std::size_t blocks) {
+  PlotOptions options;
+  options.title = model.title.empty() ? stem_of(model.file) : model.title;
+  options.subtitle = fmt::format("{} block{} as cut", blocks, blocks == 1 ? "" : "s");
+  for (const Material& m : model.materials) options.materials.push_back(m.name);
+  for (const Monitor& m : model.monitors) options.monitors.push_back({m.name, m.point});
+  return options;
+}
+
+void add_cut(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand(
+      "cut", "Cut the model into blocks, report their quality, and draw or list them");
+  command->footer(
+      "Examples:\n"
+      "  edda cut cavern.toml                  the report alone\n"
+      "  edda cut cavern.toml -o cavern.png    a picture (.svg for one that scales)\n"
+      "  edda cut cavern.toml -o cavern.csv    every corner: block,material,ring,x,y,joint");
+  auto args = std::make_shared<CutArguments>();
+  command->add_option("MODEL", args->model, "The model, a TOML file")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("-o,--output", args->output,
+                   "What to write: a .svg or .png picture, .vtu for ParaView, or .csv")
+      ->type_name("FILE");
+  add_overrides(*command, args->overrides);
+  command->callback([args, &code] { code = cut(*args); });
+}
+
 }  // namespace edda

@@ -16,6 +16,7 @@ namespace cs = contact_state;
 // Spring of a contact over young times thickness. An edge has two such springs, so at 10 a joint
 // gives about 5 % of what its blocks give; at 0.1 five times as much.
 constexpr double soft = 0.1, stiff = 300.0;
+constexpr double sliver = 1e-3;  // of the median edge
 
 Vec2 model_place(const Simulation& sim, std::size_t k) {
   return at(sim.pose.x, sim.pose.y, sim.contacts.vertex[k]) + sim.blocks.origin;
@@ -117,6 +118,21 @@ void warn_of_boundary(const Simulation& sim, std::vector<std::string>& warnings)
       1.0 / std::sqrt(std::max(1.0 - sim.bound.boundary_part, 1e-12))));
 }
 
+/// Slivers of the cut: they hold the step and carry nothing.
+void warn_of_slivers(const Simulation& sim, std::vector<std::string>& warnings) {
+  const CutReport& report = sim.polygons.report;
+  std::vector<double> edges = sim.blocks.edge_length;
+  if (edges.empty()) return;
+  const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
+  std::nth_element(edges.begin(), middle, edges.end());
+  if (!(report.smallest_edge < sliver * *middle)) return;
+  warnings.push_back(
+      fmt::format("a very short edge of {:.3g} m at {} (half of all edges are longer than {:.3g} "
+                  "m) makes for a small "
+                  "step: move a joint a little, or raise domain.snap",
+                  report.smallest_edge, place_label(report.smallest_edge_at), *middle));
+}
+
 void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings) {
   const ContactSet& c = sim.contacts;
   double energy = 0.0;
@@ -175,6 +191,7 @@ std::vector<std::string> guard_rails(const Simulation& sim) {
   warn_of_sudden_gravity(sim, warnings);
   warn_of_springs(sim, warnings);
   warn_of_boundary(sim, warnings);
+  warn_of_slivers(sim, warnings);
   warn_of_overlaps(sim, warnings);
   return warnings;
 }

@@ -1,0 +1,71 @@
+#include "report/colours.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace edda {
+namespace {
+
+template <std::size_t n>
+Colour between(const std::array<Colour, n>& stops, double s) {
+  if (!(s >= 0.0)) s = 0.0;
+  const double at = std::min(s, 1.0) * static_cast<double>(n - 1);
+  const auto k = std::min(static_cast<std::size_t>(at), n - 2);
+  const double f = at - static_cast<double>(k);
+  const Colour a = stops[k], b = stops[k + 1];
+  return {a.r + f * (b.r - a.r), a.g + f * (b.g - a.g), a.b + f * (b.b - a.b)};
+}
+
+// Every sixteenth entry of matplotlib's viridis (public domain, CC0).
+constexpr std::array<Colour, 17> viridis{{{0.267004, 0.004874, 0.329415},
+                                          {0.282327, 0.094955, 0.417331},
+                                          {0.278826, 0.175490, 0.483397},
+                                          {0.258965, 0.251537, 0.524736},
+                                          {0.229739, 0.322361, 0.545706},
+                                          {0.199430, 0.387607, 0.554642},
+                                          {0.172719, 0.448791, 0.557885},
+                                          {0.149039, 0.508051, 0.557250},
+                                          {0.127568, 0.566949, 0.550556},
+                                          {0.120638, 0.625828, 0.533488},
+                                          {0.157851, 0.683765, 0.501686},
+                                          {0.246070, 0.738910, 0.452024},
+                                          {0.369214, 0.788888, 0.382914},
+                                          {0.515992, 0.831158, 0.294279},
+                                          {0.678489, 0.863742, 0.189503},
+                                          {0.845561, 0.887322, 0.099702},
+                                          {0.993248, 0.906157, 0.143936}}};
+
+// Blue to red through near-white, lightness rising and falling evenly.
+constexpr std::array<Colour, 9> blue_red{{{0.020, 0.188, 0.380},
+                                          {0.130, 0.400, 0.674},
+                                          {0.263, 0.576, 0.765},
+                                          {0.573, 0.773, 0.871},
+                                          {0.969, 0.969, 0.969},
+                                          {0.957, 0.647, 0.510},
+                                          {0.839, 0.376, 0.302},
+                                          {0.698, 0.094, 0.169},
+                                          {0.404, 0.000, 0.122}}};
+
+constexpr std::array<Colour, 8> kinds{{{0.851, 0.831, 0.776},
+                                       {0.702, 0.804, 0.890},
+                                       {0.800, 0.922, 0.773},
+                                       {0.984, 0.806, 0.682},
+                                       {0.871, 0.796, 0.894},
+                                       {0.996, 0.949, 0.682},
+                                       {0.729, 0.882, 0.867},
+                                       {0.969, 0.784, 0.831}}};
+
+}  // namespace
+
+Colour sequential(double s) {
+  return between(viridis, s);
+}
+Colour diverging(double s) {
+  return between(blue_red, s);
+}
+Colour kind_colour(std::size_t k) {
+  return kinds[k % kinds.size()];
+}
+
+}  // namespace edda

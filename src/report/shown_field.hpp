@@ -1,0 +1,31 @@
+// What a picture colours: one number per cell of a frame, with its name, unit and kind of scale.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/fault.hpp"
+#include "results/grid.hpp"
+
+namespace edda {
+
+enum class ScaleKind { plain, kinds, numbers };
+
+struct ShownField {
+  ScaleKind kind = ScaleKind::plain;
+  bool of_contacts = false;    ///< else of blocks
+  std::string label;           ///< "displacement"
+  std::string unit;            ///< "m"
+  std::vector<double> values;  ///< one per cell
+};
+
+/// Field by name: id material displacement velocity rotation stress principal_stress, of which
+/// vectors may name a part (displacement.y, stress.xx, principal_stress.minor); contacts:
+/// normal_force shear_force opening slip state. "none" or "" for plain blocks. A fault lists the
+/// names.
+Result<ShownField> shown_field(const std::string& name, const Grid& blocks, const Grid* contacts);
+
+/// The names, for --help.
+std::string field_names();
+
+}  // namespace edda

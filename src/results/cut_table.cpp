@@ -1,0 +1,39 @@
+#include "results/cut_table.hpp"
+
+#include "results/csv.hpp"
+
+namespace edda {
+namespace {
+
+std::string joint_name(const Model& model, Index joint) {
+  if (joint == none) return {};
+  const auto k = static_cast<std::size_t>(joint);
+  return k < model.joints.size() ? model.joints[k].name : "glued";
+}
+
+}  // namespace
+
+std::string cut_csv(const PolygonSet& polygons, const Model& model) {
+  Csv csv;
+  csv.header({"block", "material", "ring", "x", "y", "joint"});
+  for (std::size_t i = 0; i < polygons.blocks.size(); ++i) {
+    const BlockPolygon& b = polygons.blocks[i];
+    const std::string material =
+        b.material == none ? "" : model.materials[static_cast<std::size_t>(b.material)].name;
+    for (std::size_t r = 0; r < b.rings.size(); ++r) {
+      for (std::size_t k = 0; k < b.rings[r].size(); ++k) {
+        const Vec2 p = b.rings[r][k] + polygons.origin;
+        csv.add(i)
+            .add(material)
+            .add(r)
+            .add(p.x)
+            .add(p.y)
+            .add(joint_name(model, b.joint[r][k]))
+            .end();
+      }
+    }
+  }
+  return csv.text();
+}
+
+}  // namespace edda

@@ -1,0 +1,12 @@
+// The block system before anything has moved, for pictures of a model that has not been run.
+#pragma once
+
+#include "blocks/block_set.hpp"
+#include "results/records.hpp"
+
+namespace edda {
+
+/// Every block where it was cut: no displacement, no stress, no contacts. Model coordinates.
+Picture start_picture(const Model& model, const BlockSet& blocks);
+
+}  // namespace edda
