@@ -18,7 +18,7 @@ namespace {
 using DoubleArray = std::vector<double> ContactSet::*;
 
 /// What a candidate remembers from one list to the next.
-constexpr std::array<DoubleArray, 26> memory = {&ContactSet::depth,
+constexpr std::array<DoubleArray, 25> memory = {&ContactSet::depth,
                                                 &ContactSet::depth_1,
                                                 &ContactSet::depth_2,
                                                 &ContactSet::foot,
@@ -39,15 +39,15 @@ constexpr std::array<DoubleArray, 26> memory = {&ContactSet::depth,
                                                 &ContactSet::fracture_work,
                                                 &ContactSet::friction_work,
                                                 &ContactSet::damping_work,
-                                                &ContactSet::low,
                                                 &ContactSet::fx,
                                                 &ContactSet::fy,
                                                 &ContactSet::gx,
                                                 &ContactSet::gy};
 
 /// Filled anew; only their size matters here.
-constexpr std::array<DoubleArray, 4> scratch = {&ContactSet::high, &ContactSet::extend_start,
-                                                &ContactSet::extend_end, &ContactSet::next_share};
+constexpr std::array<DoubleArray, 8> scratch = {
+    &ContactSet::before, &ContactSet::beyond, &ContactSet::extend_start, &ContactSet::extend_end,
+    &ContactSet::span,   &ContactSet::tx,     &ContactSet::ty,           &ContactSet::next_share};
 
 void resize(ContactSet& c, std::size_t n) {
   for (DoubleArray a : memory) (c.*a).assign(n, 0.0);
@@ -95,6 +95,8 @@ void extend_edges(ContactSet& c, const BlockSet& b) {
     const double run_on = 0.05 * b.edge_length[c.edge[k]];
     c.extend_start[k] = b.corner[c.edge[k]] > std::numbers::pi * 1.01 ? run_on : 0.0;
     c.extend_end[k] = b.corner[c.edge_end[k]] > std::numbers::pi * 1.01 ? run_on : 0.0;
+    c.before[k] = c.extend_start[k];
+    c.beyond[k] = c.extend_end[k];
   }
 }
 
@@ -236,14 +238,12 @@ void bond_contacts(ContactSet& c, const BlockSet& b, const State& state, const P
         c.is(k, contact_state::blocked) || !state.alive[c.block_i[k]]) {
       continue;
     }
-    const EdgeFrame e =
-        edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
-    const Id f = facing_edge(b, pose.x, pose.y, c.vertex[k], e.normal());
+    const Id f = facing_edge(b, pose.x, pose.y, c.vertex[k], normal_of(c, k));
     c.set(k, contact_state::closed | contact_state::bonded);
     if (law.glued) c.set(k, contact_state::glued);
     // A bond is made where the blocks are: a gap of 1e-6 carries nothing.
     if (c.depth[k] < 0.0) c.rest[k] = c.depth[k];
-    c.anchor[k] = c.foot[k] / e.length;
+    c.anchor[k] = c.foot[k] / c.span[k];
     c.friction[k] = law.peak_friction;
     c.cohesion[k] = law.peak_cohesion * c.length[k] * laws.thickness;
     by_edges[std::minmax(c.edge[k], f)].members.push_back(static_cast<Id>(k));

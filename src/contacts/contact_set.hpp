@@ -56,8 +56,11 @@ struct ContactSet {
   // Geometry. Filled by update_gaps() at every step.
   std::vector<double> depth, depth_1, depth_2;  ///< d at n, n - 1, n - 2, m
   std::vector<double> foot;                     ///< z at n, m
-  std::vector<double> share;      ///< w: part of the spring this candidate has, 0 to 1
-  std::vector<double> low, high;  ///< range of z in which the foot counts as on the edge, m
+  std::vector<double> span;                     ///< length l of the edge at n, m
+  std::vector<double> tx, ty;                   ///< its unit tangent t at n
+  std::vector<double> share;  ///< w: part of the spring this candidate has, 0 to 1
+  std::vector<double> before,
+      beyond;  ///< m before the edge's start and beyond its end in which the foot still counts
 
   // Memory. Filled by the transitions.
   std::vector<std::uint8_t> state;  ///< contact_state bits
@@ -116,7 +119,9 @@ struct ContactSet {
     state[c] = static_cast<std::uint8_t>(state[c] & ~bits);
   }
   /// Foot within the stretch of the edge that carries.
-  bool on_edge(std::size_t c) const { return foot[c] >= low[c] && foot[c] <= high[c]; }
+  bool on_edge(std::size_t c, double slack = 0.0) const {
+    return foot[c] >= -(before[c] + slack) && foot[c] <= span[c] + beyond[c] + slack;
+  }
 };
 
 }  // namespace edda

@@ -3,6 +3,7 @@
 
 #include "blocks/block_set.hpp"
 #include "blocks/pose.hpp"
+#include "contacts/contact_set.hpp"
 
 namespace edda {
 
@@ -31,6 +32,14 @@ inline EdgeFrame edge_frame(Vec2 start, Vec2 end) {
 inline Gap gap_to(const EdgeFrame& e, Vec2 p) {
   const Vec2 r = p - e.start;
   return {cross(e.t, r), dot(r, e.t)};
+}
+
+/// Unit tangent and outward normal of the edge of candidate k at step n, as update_gap() left them.
+inline Vec2 tangent_of(const ContactSet& c, std::size_t k) {
+  return {c.tx[k], c.ty[k]};
+}
+inline Vec2 normal_of(const ContactSet& c, std::size_t k) {
+  return {c.ty[k], -c.tx[k]};
 }
 
 /// How far a neighbour of A may reach below the edge, as a part of its distance from A.

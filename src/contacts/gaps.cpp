@@ -13,8 +13,9 @@ void update_gap(ContactSet& c, const Pose& pose, std::size_t k) {
   const Gap gap = gap_to(e, at(pose.x, pose.y, c.vertex[k]));
   c.depth[k] = gap.depth;
   c.foot[k] = gap.foot;
-  c.low[k] = -c.extend_start[k];
-  c.high[k] = e.length + c.extend_end[k];
+  c.span[k] = e.length;
+  c.tx[k] = e.t.x;
+  c.ty[k] = e.t.y;
 }
 
 void update_gaps(ContactSet& c, const Pose& pose) {

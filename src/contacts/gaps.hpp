@@ -15,8 +15,8 @@ void update_gaps(ContactSet& contacts, const Pose& pose);
 /// Gaps a step ago from pose.x1, y1, at the start of a run.
 void look_at_previous_gaps(ContactSet& contacts, const Pose& pose);
 
-/// Books what the dashpots of the last step took: what the springs gave off, less what the contacts'
-/// forces did on the blocks, p e_n (e_{n-1} - e_{n+1})/2 + alpha N (d_{n+1} - d_{n-1})/2.
+/// Books what the dashpots of the last step took: what the springs gave off, less what the
+/// contacts' forces did on the blocks, p e_n (e_{n-1} - e_{n+1})/2 + alpha N (d_{n+1} - d_{n-1})/2.
 void book_dashpots(ContactSet& contacts);
 
 }  // namespace edda

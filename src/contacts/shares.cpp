@@ -18,7 +18,7 @@ Id find_candidate(const ContactSet& c, Id vertex, Id edge) {
   return it != end && *it == edge ? static_cast<Id>(it - c.edge.begin()) : no_id;
 }
 
-Vec2 tangent_of(const BlockSet& b, const Pose& pose, Id edge) {
+Vec2 edge_tangent(const BlockSet& b, const Pose& pose, Id edge) {
   return unit(at(pose.x, pose.y, b.next[edge]) - at(pose.x, pose.y, edge));
 }
 
@@ -30,11 +30,8 @@ double against(Vec2 te, Vec2 tf) {
 
 /// A shared edge carries to r_v beyond its end.
 void run_on(ContactSet& c, std::size_t k, bool at_start, double reach) {
-  if (at_start) {
-    c.low[k] = std::min(c.low[k], -reach);
-  } else {
-    c.high[k] = std::max(c.high[k], c.high[k] - c.extend_end[k] + reach);
-  }
+  double& further = at_start ? c.before[k] : c.beyond[k];
+  further = std::max(further, reach);
 }
 
 struct Share {
@@ -55,19 +52,19 @@ Share share_of(const CornerPair& p, double delta_first, double delta_second, dou
 
 /// Gives a closed candidate a new share. Growing alone (balanced = false), the added part is born
 /// unloaded at the present penetration and slip. What the ledger holds less for it is dissipated.
-void change_share(ContactSet& c, const Pose& pose, std::size_t k, double share, bool balanced) {
+void change_share(ContactSet& c, std::size_t k, double share, bool balanced) {
   const double old = c.share[k];
   if (share == old) return;
   if (!c.is(k, contact_state::closed)) {
     c.share[k] = share;
     return;
   }
-  const double energy = stored_energy(c, pose, k);
+  const double energy = stored_energy(c, k);
   if (!balanced && share > old && old > 0.0) {
     c.rest[k] = c.depth[k] - (c.depth[k] - c.rest[k]) * old / share;
   }
   c.share[k] = share;
-  c.friction_work[k] += energy - stored_energy(c, pose, k);
+  c.friction_work[k] += energy - stored_energy(c, k);
 }
 
 }  // namespace
@@ -76,12 +73,12 @@ void pair_corners(ContactSet& c, const BlockSet& b, const Pose& pose) {
   c.pairs.clear();
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Id a = c.vertex[k], e = c.edge[k];
-    const Vec2 te = tangent_of(b, pose, e);
+    const Vec2 te = edge_tangent(b, pose, e);
     for (const bool at_start : {true, false}) {
       const Id corner = at_start ? e : c.edge_end[k];
       if (norm(at(pose.x, pose.y, a) - at(pose.x, pose.y, corner)) > 2.0 * c.reach) continue;
       for (const Id f : {b.previous[a], a}) {
-        if (-dot(te, tangent_of(b, pose, f)) < opposite - 0.1) continue;
+        if (-dot(te, edge_tangent(b, pose, f)) < opposite - 0.1) continue;
         const Id other = find_candidate(c, corner, f);
         if (other == no_id || other < k) continue;
         c.pairs.push_back({static_cast<Id>(k), other, at_start, f == a,
@@ -101,31 +98,30 @@ void pair_corners(ContactSet& c, const BlockSet& b, const Pose& pose) {
   c.paired.erase(std::unique(c.paired.begin(), c.paired.end()), c.paired.end());
 }
 
-void update_shares(ContactSet& c, const Pose& pose) {
+void update_shares(ContactSet& c) {
   for (const Id k : c.paired) {
     c.next_share[k] = 1.0;
     c.balanced[k] = 0;
+    c.before[k] = c.extend_start[k];
+    c.beyond[k] = c.extend_end[k];
   }
   for (const CornerPair& p : c.pairs) {
-    const EdgeFrame e =
-        edge_frame(at(pose.x, pose.y, c.edge[p.first]), at(pose.x, pose.y, c.edge_end[p.first]));
-    const EdgeFrame f =
-        edge_frame(at(pose.x, pose.y, c.edge[p.second]), at(pose.x, pose.y, c.edge_end[p.second]));
-    const double delta_first = p.first_at_start ? c.foot[p.first] : e.length - c.foot[p.first];
-    const double delta_second = p.second_at_start ? c.foot[p.second] : f.length - c.foot[p.second];
+    const Id e = p.first, f = p.second;
+    const double delta_first = p.first_at_start ? c.foot[e] : c.span[e] - c.foot[e];
+    const double delta_second = p.second_at_start ? c.foot[f] : c.span[f] - c.foot[f];
     const double zone = 2.0 * p.reach;
     if (std::abs(delta_first) >= zone || std::abs(delta_second) >= zone) continue;
-    const double o = against(e.t, f.t);
+    const double o = against(tangent_of(c, e), tangent_of(c, f));
     if (o == 0.0) continue;
     const Share share = share_of(p, delta_first, delta_second, o);
-    c.next_share[p.first] *= share.first;
-    c.next_share[p.second] *= share.second;
+    c.next_share[e] *= share.first;
+    c.next_share[f] *= share.second;
     if (!p.same_way()) continue;
-    c.balanced[p.first] = c.balanced[p.second] = 1;
-    run_on(c, p.first, p.first_at_start, p.reach);
-    run_on(c, p.second, p.second_at_start, p.reach);
+    c.balanced[e] = c.balanced[f] = 1;
+    run_on(c, e, p.first_at_start, p.reach);
+    run_on(c, f, p.second_at_start, p.reach);
   }
-  for (const Id k : c.paired) change_share(c, pose, k, c.next_share[k], c.balanced[k] != 0);
+  for (const Id k : c.paired) change_share(c, k, c.next_share[k], c.balanced[k] != 0);
 }
 
 }  // namespace edda

@@ -24,6 +24,6 @@ void pair_corners(ContactSet& contacts, const BlockSet& blocks, const Pose& pose
 /// Range of feet and share of every paired candidate, from the feet at step n. A share that grows
 /// without its partner's shrinking is born where it is: its rest penetration is such that the force
 /// does not jump, and what the spring then stores less is booked as dissipated.
-void update_shares(ContactSet& contacts, const Pose& pose);
+void update_shares(ContactSet& contacts);
 
 }  // namespace edda

@@ -17,10 +17,6 @@ namespace cs = contact_state;
 /// Part of a block's size below which a penetration is rounding, not a place it came from.
 constexpr double rounding = 1e-12;
 
-EdgeFrame frame_of(const ContactSet& c, const Pose& pose, std::size_t k) {
-  return edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
-}
-
 /// A contact that closes in a step feels the slip of that whole step: in the ledger's terms its
 /// force acts from x_{n-1} to x_{n+1}. (Starting from s = 0 at step n would leave the first force
 /// of every impact without friction, and a stiff contact may last no longer.)
@@ -64,22 +60,21 @@ bool rivals(const BlockSet& b, Id e, Id f) {
   return (b.next[e] == f && convex(b, f)) || (b.next[f] == e && convex(b, e));
 }
 
-/// Takes the contact k over into `heir`: the same stored energy, and so (stiffness being equal) the same
-/// force, shear and bond. The rest penetration may be negative until the heir opens.
+/// Takes the contact k over into `heir`: the same stored energy, and so (stiffness being equal) the
+/// same force, shear and bond. The rest penetration may be negative until the heir opens.
 void hand_over(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
                std::size_t k, std::size_t heir) {
-  const double before = stored_energy(c, pose, k);
-  const double slip = trial_slip(c, pose, k);
+  const double before = stored_energy(c, k);
+  const double slip = trial_slip(c, k);
   if (!c.is(heir, cs::closed)) set_spring(c, b, pose, laws, heir);
   // e' (e' - (d'_n - d'_{n-1})) p' = e_n e_{n-1} p, so that the ledger sees no change.
   const double stiffness = c.kn[heir] * std::max(c.share[heir], 0.5);
   const double product = c.effective(k) * c.effective_1(k) * c.kn[k] * c.share[k] / stiffness;
   const double gained = c.depth[heir] - c.depth_1[heir];
-  const double now =
-      0.5 * (gained + std::sqrt(gained * gained + 4.0 * std::max(product, 0.0)));
+  const double now = 0.5 * (gained + std::sqrt(gained * gained + 4.0 * std::max(product, 0.0)));
   c.set(heir, static_cast<std::uint8_t>(c.state[k] & (cs::closed | cs::bonded | cs::glued)));
   c.rest[heir] = c.depth[heir] - now;
-  c.anchor[heir] = (c.foot[heir] - slip) / frame_of(c, pose, heir).length;
+  c.anchor[heir] = (c.foot[heir] - slip) / c.span[heir];
   c.shear[heir] = c.shear[k] * c.ks[heir] / c.ks[k];
   c.shear_1[heir] = c.shear_1[k] * c.ks[heir] / c.ks[k];
   c.slip_trial[heir] = c.slip_trial[k];
@@ -93,28 +88,25 @@ void hand_over(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTabl
       std::replace(s.members.begin(), s.members.end(), static_cast<Id>(k), static_cast<Id>(heir));
     }
   }
-  c.friction_work[k] += before - stored_energy(c, pose, heir);
+  c.friction_work[k] += before - stored_energy(c, heir);
 }
 
 /// Who goes on when the foot of k leaves its edge: the same vertex on a collinear edge, of the same
 /// block or the next; else the corner it passes, against one of the vertex's own edges.
 Id heir_of(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
-  const EdgeFrame e = frame_of(c, pose, k);
   const Id vertex = c.vertex[k];
-  const double slack = 1e-6 * e.length + 2.0 * std::abs(c.depth[k]);
+  const double slack = 1e-6 * c.span[k] + 2.0 * std::abs(c.depth[k]);
   auto free_and_near = [&](std::size_t q) {
-    return !c.is(q, cs::closed) && c.depth[q] > 0.0 && c.foot[q] >= c.low[q] - slack &&
-           c.foot[q] <= c.high[q] + slack;
+    return !c.is(q, cs::closed) && c.depth[q] > 0.0 && c.on_edge(q, slack);
   };
   for (Id q = c.begin_of_vertex[vertex]; q < c.begin_of_vertex[vertex + 1]; ++q) {
     if (q == k || !free_and_near(q) || c.why[q] == Blocked::shield) continue;
-    if (dot(frame_of(c, pose, q).t, e.t) > opposite) return q;
+    if (dot(tangent_of(c, q), tangent_of(c, k)) > opposite) return q;
   }
-  const Id corner = c.foot[k] < 0.5 * e.length ? c.edge[k] : c.edge_end[k];
+  const Id corner = c.foot[k] < 0.5 * c.span[k] ? c.edge[k] : c.edge_end[k];
   for (Id q = c.begin_of_vertex[corner]; q < c.begin_of_vertex[corner + 1]; ++q) {
     const bool mine = c.edge[q] == vertex || c.edge[q] == b.previous[vertex];
-    if (mine && free_and_near(q) &&
-        facing(b, pose.x, pose.y, corner, frame_of(c, pose, q).normal())) {
+    if (mine && free_and_near(q) && facing(b, pose.x, pose.y, corner, normal_of(c, q))) {
       return q;
     }
   }
@@ -136,7 +128,7 @@ void leave(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& l
     hand_over(c, b, pose, laws, k, heir);
     ++counts.handed_over;
   } else {
-    c.friction_work[k] += stored_energy(c, pose, k);
+    c.friction_work[k] += stored_energy(c, k);
   }
   open(c, k);
   ++counts.opened;
@@ -144,14 +136,14 @@ void leave(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& l
 
 /// A corner that comes into its share of a spring from the side, the share still small, takes its
 /// partner's history.
-bool inherit_from_partner(ContactSet& c, const Pose& pose, std::size_t k) {
+bool inherit_from_partner(ContactSet& c, std::size_t k) {
   if (c.pair_of[k] == no_id) return false;
   const CornerPair& p = c.pairs[c.pair_of[k]];
   const Id other = p.first == k ? p.second : p.first;
   constexpr double small = 0.1;
   if (!p.same_way() || !c.is(other, cs::closed) || c.share[k] > small) return false;
   c.rest[k] = std::min(c.rest[other], std::max(c.depth[k], 0.0));
-  c.anchor[k] = (c.foot[k] - trial_slip(c, pose, other)) / frame_of(c, pose, k).length;
+  c.anchor[k] = (c.foot[k] - trial_slip(c, other)) / c.span[k];
   c.shear[k] = c.shear[other] * c.ks[k] / c.ks[other];
   c.shear_1[k] = c.shear_1[other] * c.ks[k] / c.ks[other];
   return true;
@@ -214,7 +206,7 @@ void review_blocked(ContactSet& c, const BlockSet& b, const Pose& pose, std::uin
 Blocked hindrance(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   const Id i = c.block_i[k], j = c.block_j[k], vertex = c.vertex[k];
   if (c.depth[k] > 0.5 * std::min(b.inradius[i], b.inradius[j])) return Blocked::depth;
-  if (!facing(b, pose.x, pose.y, vertex, frame_of(c, pose, k).normal())) return Blocked::facing;
+  if (!facing(b, pose.x, pose.y, vertex, normal_of(c, k))) return Blocked::facing;
   if (shielded(c, b, pose, k)) return Blocked::shield;
   // Edges that meet in a convex corner: a vertex within the block is inside both, and touches the
   // one that is closed, else the one least penetrated.
@@ -224,7 +216,7 @@ Blocked hindrance(const ContactSet& c, const BlockSet& b, const Pose& pose, std:
     if (c.is(q, cs::closed) && c.share[q] > 0.0) return Blocked::conflict;
     if (c.depth[q] <= -tie && c.share[k] == 1.0) return Blocked::conflict;
     if (c.depth[q] < c.depth[k] - tie && c.share[q] > 0.0 &&
-        facing(b, pose.x, pose.y, vertex, frame_of(c, pose, q).normal())) {
+        facing(b, pose.x, pose.y, vertex, normal_of(c, q))) {
       return Blocked::conflict;
     }
   }
@@ -245,7 +237,7 @@ TransitionCounts settle_contacts(ContactSet& c, const BlockSet& b, const Pose& p
   const Events events = find_events(c);
   for (const Id k : events.opens) {
     // What the shear spring still holds goes with the contact.
-    c.friction_work[k] += stored_energy(c, pose, k);
+    c.friction_work[k] += stored_energy(c, k);
     open(c, k);
     ++counts.opened;
   }
@@ -274,8 +266,8 @@ TransitionCounts settle_contacts(ContactSet& c, const BlockSet& b, const Pose& p
     // Entered from the side.
     ++counts.born_inside;
     close(c, b, pose, laws, k);
-    if (inherit_from_partner(c, pose, k)) {
-      c.friction_work[k] -= stored_energy(c, pose, k);
+    if (inherit_from_partner(c, k)) {
+      c.friction_work[k] -= stored_energy(c, k);
     } else {
       c.clear(k, cs::closed);
       c.rest[k] = c.depth[k];

@@ -5,16 +5,13 @@
 
 #include "base/parallel.hpp"
 #include "contacts/gap.hpp"
+#include "contacts/stored_energy.hpp"
 #include "contacts/switching.hpp"
 
 namespace edda {
 namespace {
 
 namespace cs = contact_state;
-
-EdgeFrame frame_of(const ContactSet& c, const Pose& pose, std::size_t k) {
-  return edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
-}
 
 double quadratic_form(const BlockSet& b, std::size_t i, double w0, double w1, double w2) {
   if (b.fixed[i]) return 0.0;
@@ -27,7 +24,7 @@ double quadratic_form(const BlockSet& b, std::size_t i, double w0, double w1, do
 }
 
 /// Shear by the return map; books the slip: p_t (s_tr - s)(s + s_{n-1})/2 (method.md section 4).
-void return_map(ContactSet& c, std::size_t k, double length) {
+void return_map(ContactSet& c, std::size_t k) {
   const double trial = -c.ks[k] * c.slip_trial[k];
   if (c.is(k, cs::bonded)) {
     c.shear[k] = trial;
@@ -39,34 +36,32 @@ void return_map(ContactSet& c, std::size_t k, double length) {
   if (kept != trial) {
     c.set(k, cs::sliding | cs::slipped);
     const double s = -kept / c.ks[k], s_1 = -c.shear_1[k] / c.ks[k];
-    c.anchor[k] = (c.foot[k] - s) / length;
+    c.anchor[k] = (c.foot[k] - s) / c.span[k];
     c.friction_work[k] += 0.5 * c.share[k] * c.ks[k] * (c.slip_trial[k] - s) * (s + s_1);
   }
   c.shear[k] = kept;
 }
 
-void evaluate(ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k, double step,
-              double damping) {
+void evaluate(ContactSet& c, const BlockSet& b, std::size_t k, double step, double damping) {
   if (!c.is(k, cs::closed)) {
     c.fx[k] = c.fy[k] = c.gx[k] = c.gy[k] = 0.0;
     return;
   }
-  const EdgeFrame e = frame_of(c, pose, k);
   c.alpha[k] = 1.0;
   c.normal[k] = c.kn[k] * c.effective(k);
   c.dashpot[k] = 0.0;
   if (damping > 0.0) {
     const double coefficient =
-        2.0 * damping * std::sqrt(c.kn[k] / inverse_contact_mass(b, c, k, c.foot[k] / e.length));
+        2.0 * damping * std::sqrt(c.kn[k] / inverse_contact_mass(b, c, k, c.foot[k] / c.span[k]));
     const double damped = c.normal[k] + coefficient * (c.depth[k] - c.depth_1[k]) / step;
     const double total = c.is(k, cs::bonded) ? damped : std::max(0.0, damped);
     c.dashpot[k] = total - c.normal[k];
     c.normal[k] = total;
   }
   c.shear_1[k] = c.shear[k];
-  c.slip_trial[k] = c.foot[k] - c.anchor[k] * e.length;
-  return_map(c, k, e.length);
-  set_contact_force(c, pose.x, pose.y, k, c.foot[k], c.depth[k]);
+  c.slip_trial[k] = trial_slip(c, k);
+  return_map(c, k);
+  set_contact_force(c, k, tangent_of(c, k), c.span[k], c.foot[k], c.depth[k]);
 }
 
 /// Whether the bonded contacts of one pair of edges fail together: |sum T| > c L + tan(phi) sum N,
@@ -86,8 +81,8 @@ bool fails(const ContactSet& c, const LawTable& laws, const Segment& segment) {
   return std::abs(shear) > cohesion + friction * normal;
 }
 
-void break_bond(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws, Id k,
-                double step, double damping) {
+void break_bond(ContactSet& c, const BlockSet& b, const LawTable& laws, Id k, double step,
+                double damping) {
   const Law& law = laws.rows[c.law[k]];
   c.clear(k, cs::bonded);
   c.friction[k] = law.residual_friction;
@@ -106,7 +101,7 @@ void break_bond(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTab
   // What the cohesion held is released by the return map; it is fracture energy, not friction.
   const double friction_before = c.friction_work[k];
   c.shear[k] = c.shear_1[k];
-  evaluate(c, b, pose, k, step, damping);
+  evaluate(c, b, k, step, damping);
   c.fracture_work[k] += c.friction_work[k] - friction_before;
   c.friction_work[k] = friction_before;
 }
@@ -131,24 +126,22 @@ double inverse_contact_mass(const BlockSet& b, const ContactSet& c, std::size_t 
          quadratic_form(b, c.block_j[k], foot(0), foot(1), foot(2));
 }
 
-void set_contact_force(ContactSet& c, const std::vector<double>& x, const std::vector<double>& y,
-                       std::size_t k, double foot, double depth) {
-  const EdgeFrame e = edge_frame(at(x, y, c.edge[k]), at(x, y, c.edge_end[k]));
+void set_contact_force(ContactSet& c, std::size_t k, Vec2 t, double l, double foot, double depth) {
   const double w = c.share[k];
-  const ContactForce f = contact_force(e.t, e.length, foot, depth, c.anchor[k],
-                                       w * c.alpha[k] * c.normal[k], w * c.shear[k]);
+  const ContactForce f =
+      contact_force(t, l, foot, depth, c.anchor[k], w * c.alpha[k] * c.normal[k], w * c.shear[k]);
   c.fx[k] = f.f1.x;
   c.fy[k] = f.f1.y;
   c.gx[k] = f.f2.x;
   c.gy[k] = f.f2.y;
 }
 
-void evaluate_contacts(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
-                       double step, double damping) {
-  parallel_for(c.size(), [&](std::size_t k) { evaluate(c, b, pose, k, step, damping); });
+void evaluate_contacts(ContactSet& c, const BlockSet& b, const LawTable& laws, double step,
+                       double damping) {
+  parallel_for(c.size(), [&](std::size_t k) { evaluate(c, b, k, step, damping); });
   for (Segment& segment : c.segments) {
     if (!fails(c, laws, segment)) continue;
-    for (const Id k : segment.members) break_bond(c, b, pose, laws, k, step, damping);
+    for (const Id k : segment.members) break_bond(c, b, laws, k, step, damping);
     segment.members.clear();
   }
   std::erase_if(c.segments, [](const Segment& s) { return s.members.empty(); });

@@ -16,23 +16,25 @@ struct ContactForce {
 };
 
 /// Gradient form of the springs, for the whole spring (share 1):
-///   f1 = N n + T t,  f2 = -(1-xi) N n - T [(1-xi0) t + (g/l) n],  f3 = -xi N n - T [xi0 t - (g/l) n].
-ContactForce contact_force(Vec2 t, double l, double foot, double depth, double anchor, double normal,
-                           double shear);
+///   f1 = N n + T t,  f2 = -(1-xi) N n - T [(1-xi0) t + (g/l) n],  f3 = -xi N n - T [xi0 t - (g/l)
+///   n].
+ContactForce contact_force(Vec2 t, double l, double foot, double depth, double anchor,
+                           double normal, double shear);
 
-/// 1/m_c = sum of weights^2/mass over both blocks for a unit force along `direction` on the vertex and
-/// against it at the foot, 1/kg (for `consistent` the quadratic form with the inverse mass).
+/// 1/m_c = sum of weights^2/mass over both blocks for a unit force along `direction` on the vertex
+/// and against it at the foot, 1/kg (for `consistent` the quadratic form with the inverse mass).
 double inverse_contact_mass(const BlockSet& blocks, const ContactSet& contacts, std::size_t k,
                             double xi);
 
-/// Springs and return map of every contact at step n with alpha = 1: fills normal, shear, slip_trial,
-/// dashpot, anchor and the forces. `step` s; `damping` zeta, fraction of critical. Then breaks bonded
-/// segments that are overloaded; both their contacts follow the residual law at once.
-void evaluate_contacts(ContactSet& contacts, const BlockSet& blocks, const Pose& pose,
-                       const LawTable& laws, double step, double damping);
+/// Springs and return map of every contact at step n with alpha = 1: fills normal, shear,
+/// slip_trial, dashpot, anchor and the forces. `step` s; `damping` zeta, fraction of critical. Then
+/// breaks bonded segments that are overloaded; both their contacts follow the residual law at once.
+void evaluate_contacts(ContactSet& contacts, const BlockSet& blocks, const LawTable& laws,
+                       double step, double damping);
 
-/// Forces of contact k from its N and T as they stand, scaled by its share (and alpha).
-void set_contact_force(ContactSet& contacts, const std::vector<double>& x,
-                       const std::vector<double>& y, std::size_t k, double foot, double depth);
+/// Sets the forces of contact k on P1, P2 from its N and T as they stand, scaled by its share (and
+/// alpha), for an edge of tangent t and length l with the foot at `foot` and penetration `depth`.
+void set_contact_force(ContactSet& contacts, std::size_t k, Vec2 t, double l, double foot,
+                       double depth);
 
 }  // namespace edda

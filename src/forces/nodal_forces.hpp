@@ -16,10 +16,11 @@ struct NodalForces {
 };
 
 /// Gravity, elasticity, boundary springs and contacts of every free block (Eq. 15), contacts in the
-/// order of ContactSet::block_entry. Blocks whose deformation has gone out of bounds (det F < 0.2 or no
-/// rotation left) get NaN; block_out_of_bounds() finds them.
-void gather_forces(NodalForces& forces, const BlockSet& blocks, const State& state, const Pose& pose,
-                   const ContactSet& contacts, const BoundarySprings& springs, Vec2 gravity);
+/// order of ContactSet::block_entry. Blocks whose deformation has gone out of bounds (det F < 0.2
+/// or no rotation left) get NaN; block_out_of_bounds() finds them.
+void gather_forces(NodalForces& forces, const BlockSet& blocks, const State& state,
+                   const Pose& pose, const ContactSet& contacts, const BoundarySprings& springs,
+                   Vec2 gravity);
 
 /// Force of the contacts and boundary springs alone on the whole of block i (for reactions).
 Vec2 contact_resultant(const BlockSet& blocks, const ContactSet& contacts, std::size_t i);

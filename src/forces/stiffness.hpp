@@ -1,4 +1,5 @@
-// The critical step, block by block (method.md section 5; Eq. 41 with a bound that is safe and sharp).
+// The critical step, block by block (method.md section 5; Eq. 41 with a bound that is safe and
+// sharp).
 #pragma once
 
 #include <vector>
@@ -9,20 +10,22 @@
 
 namespace edda {
 
-/// omega_max^2 <= max_i lambda_max{ M_i^-1 [K_i + boundary springs + 2 sum_c (p_n h h^T + p_t k k^T)] },
-/// h and k the weights of the contact along its normal and tangent, factor 1 against a held block. Every
-/// candidate that may come to carry counts, closed or not.
+/// omega_max^2 <= max_i lambda_max{ M_i^-1 [K_i + boundary springs + 2 sum_c (p_n h h^T + p_t k
+/// k^T)] }, h and k the weights of the contact along its normal and tangent, factor 1 against a
+/// held block. Every candidate that may come to carry counts, closed or not.
 struct StepBound {
-  double critical_step = 0.0;  ///< 2/omega_max, less what contact damping takes, s; +inf if no block is free
-  double likely_step = 0.0;    ///< the same if every bare corner of a block touched something, s
-  Id block = no_id;            ///< whose eigenvalue it is
-  Id contact = no_id;          ///< candidate with the largest part in it, no_id if none has
-  double elastic_part = 0.0;   ///< parts of the Rayleigh quotient, summing to 1
+  double critical_step =
+      0.0;  ///< 2/omega_max, less what contact damping takes, s; +inf if no block is free
+  double likely_step = 0.0;   ///< the same if every bare corner of a block touched something, s
+  Id block = no_id;           ///< whose eigenvalue it is
+  Id contact = no_id;         ///< candidate with the largest part in it, no_id if none has
+  double elastic_part = 0.0;  ///< parts of the Rayleigh quotient, summing to 1
   double contact_part = 0.0;
   double boundary_part = 0.0;
 };
 
-/// damping: zeta of the contacts, which shortens the step to (2/w)(sqrt(1 + x^2) - x), x = zeta w/w_c.
+/// damping: zeta of the contacts, which shortens the step to (2/w)(sqrt(1 + x^2) - x), x = zeta
+/// w/w_c.
 StepBound step_bound(const BlockSet& blocks, const State& state, const Pose& pose,
                      const ContactSet& contacts, const BoundarySprings& springs,
                      const LawTable& laws, double damping);

@@ -255,7 +255,7 @@ void Driver::share_out_time() {
   if (steps == 0.0) return;
   // Forces and motion once more on copies, as in a step.
   auto start = Clock::now();
-  evaluate_contacts(instant_.contacts, sim_.blocks, sim_.pose, sim_.laws, sim_.state.step,
+  evaluate_contacts(instant_.contacts, sim_.blocks, sim_.laws, sim_.state.step,
                     sim_.model.solver.damping.contact);
   gather_forces(instant_.forces, sim_.blocks, sim_.state, sim_.pose, instant_.contacts,
                 sim_.springs, sim_.model.gravity);

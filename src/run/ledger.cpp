@@ -38,7 +38,7 @@ Ledger sum_ledger(const BlockSet& b, const State& s, const Pose& pose, const Con
   l.gravity = over_free([&](std::size_t i) { return block_gravity_energy(b, s, gravity, i); });
   l.contact = ordered_sum(c.size(),
                           [&](std::size_t k) {
-                            return c.is(k, contact_state::closed) ? stored_energy(c, pose, k) : 0.0;
+                            return c.is(k, contact_state::closed) ? stored_energy(c, k) : 0.0;
                           }) +
               boundary_energy(springs, pose);
   l.friction =

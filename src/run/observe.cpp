@@ -98,6 +98,10 @@ ContactRecord contact_record(const Simulation& sim, const ContactSet& c, std::si
   const std::size_t law = c.law[k];
   r.joint = law < sim.model.joints.size() ? sim.model.joints[law].name : "glued";
   r.position = at(sim.pose.x, sim.pose.y, c.vertex[k]) + sim.blocks.origin;
+  const Id v = c.vertex[k];
+  r.displacement =
+      displacement_of(sim.blocks, sim.state, c.block_i[k],
+                      {sim.blocks.weight[0][v], sim.blocks.weight[1][v], sim.blocks.weight[2][v]});
   r.opening = -c.depth[k];
   r.slip = slip_since_start(sim.blocks, c, k);
   r.state = state_of(c, k);
@@ -133,7 +137,7 @@ void observe(const Simulation& sim, Instant& at) {
   const double h = sim.state.step;
   const Damping& damping = sim.model.solver.damping;
   at.contacts = sim.contacts;
-  evaluate_contacts(at.contacts, sim.blocks, sim.pose, sim.laws, h, damping.contact);
+  evaluate_contacts(at.contacts, sim.blocks, sim.laws, h, damping.contact);
   at.forces = sim.forces;
   gather_forces(at.forces, sim.blocks, sim.state, sim.pose, at.contacts, sim.springs,
                 sim.model.gravity);

@@ -62,11 +62,9 @@ void reset_force(ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t
   const double limit = c.cohesion[k] + c.friction[k] * std::max(alpha * c.normal[k], 0.0);
   double shear = cut_shear(-c.ks[k] * c.slip_trial[k], limit);
   if (c.effective(k) <= 0.0) {
-    const EdgeFrame now =
-        edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
     const double before = -c.shear_1[k] / c.ks[k];
     const double ahead =
-        (c.foot[k] - c.anchor[k] * now.length) - (gap.foot - c.anchor[k] * e.length);
+        (c.foot[k] - c.anchor[k] * c.span[k]) - (gap.foot - c.anchor[k] * e.length);
     const double moved = c.slip_trial[k] - before + ahead;
     shear = -c.ks[k] *
             releasing_slip(-shear / c.ks[k], limit / c.ks[k], c.slip_trial[k], before, moved);
@@ -79,7 +77,7 @@ void reset_force(ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t
   }
   c.alpha[k] = alpha;
   const Vec2 old1{c.fx[k], c.fy[k]}, old2{c.gx[k], c.gy[k]};
-  set_contact_force(c, pose.x1, pose.y1, k, gap.foot, gap.depth);
+  set_contact_force(c, k, e.t, e.length, gap.foot, gap.depth);
   const Vec2 d1 = Vec2{c.fx[k], c.fy[k]} - old1, d2 = Vec2{c.gx[k], c.gy[k]} - old2;
   if (!b.fixed[c.block_i[k]]) spread(change.of(c.block_i[k]), b, c.vertex[k], d1);
   if (!b.fixed[c.block_j[k]]) {

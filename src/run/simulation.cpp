@@ -89,7 +89,7 @@ Result<Simulation> Simulation::create(Model given) {
   s.step_limit = std::numeric_limits<double>::infinity();
 
   s.search(s.base_reach);
-  update_shares(s.contacts, s.pose);
+  update_shares(s.contacts);
   bond_contacts(s.contacts, s.blocks, s.state, s.pose, s.laws);
   settle_contacts(s.contacts, s.blocks, s.pose, s.laws, 0, true);
   s.set_limit();
@@ -117,7 +117,7 @@ void Simulation::start(double first_event) {
     look_at_previous_gaps(contacts, pose);
   };
   look_back();
-  evaluate_contacts(contacts, blocks, pose, laws, h, model.solver.damping.contact);
+  evaluate_contacts(contacts, blocks, laws, h, model.solver.damping.contact);
   gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity);
   start_velocities(state, blocks, forces.x, forces.y, h);
   look_back();
@@ -178,7 +178,7 @@ bool Simulation::move(double h_old, double h_new) {
 
 std::optional<Failure> Simulation::step() {
   const double h_old = step_before_;
-  evaluate_contacts(contacts, blocks, pose, laws, state.step, model.solver.damping.contact);
+  evaluate_contacts(contacts, blocks, laws, state.step, model.solver.damping.contact);
   gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity);
 
   const Nodes old_vx = state.vx, old_vy = state.vy;
@@ -209,7 +209,7 @@ std::optional<Failure> Simulation::step() {
                step_damping(model.solver), damping_work);
   if (model.solver.damping.contact > 0.0) book_dashpots(contacts);
   finish_step();
-  update_shares(contacts, pose);
+  update_shares(contacts);
   search_if_due();
   const TransitionCounts counts = settle_contacts(contacts, blocks, pose, laws, state.steps, false);
   if (counts.unshielded > 0) set_limit();
@@ -245,7 +245,7 @@ void Simulation::search_if_due() {
   contacts.travel = std::sqrt(moved2);
   if (contacts.travel + 2.0 * ahead <= 0.5 * contacts.reach) return;
   search(std::max(base_reach, 20.0 * last_displacement));
-  update_shares(contacts, pose);
+  update_shares(contacts);
   set_limit();
 }
 
