@@ -1,0 +1,97 @@
+#include "contacts/search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <random>
+
+#include "blocks/build_blocks.hpp"
+#include "contacts/gap.hpp"
+
+namespace edda {
+namespace {
+
+/// Random polygons, overlapping at will, of very different sizes; some held.
+BlockSet random_blocks(unsigned seed, int n, double spread) {
+  std::mt19937 rng(seed);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  Model model;
+  model.materials.push_back({"rock", 2600.0, 1e9, 0.2, {}});
+  PolygonSet set;
+  for (int i = 0; i < n; ++i) {
+    const double size = std::pow(10.0, -2.0 * u(rng) * spread);
+    const Vec2 c{10.0 * u(rng) - 5.0, 10.0 * u(rng) - 5.0};
+    const int corners = 3 + static_cast<int>(6.0 * u(rng));
+    Ring ring;
+    for (int k = 0; k < corners; ++k) {
+      const double a = 2.0 * std::numbers::pi * (k + 0.5 * u(rng)) / corners;
+      ring.push_back(c + size * (0.5 + 0.5 * u(rng)) * Vec2{std::cos(a), std::sin(a)});
+    }
+    BlockPolygon p;
+    p.rings = {ring};
+    p.joint = {std::vector<Index>(ring.size(), none)};
+    p.material = 0;
+    p.fixed = u(rng) < 0.2;
+    set.blocks.push_back(p);
+  }
+  return build_blocks(model, set);
+}
+
+double distance(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 u = b - a;
+  const double s = std::clamp(dot(p - a, u) / dot(u, u), 0.0, 1.0);
+  return norm(p - (a + s * u));
+}
+
+std::vector<NearPair> brute_force(const BlockSet& b, const std::vector<std::uint8_t>& alive,
+                                  double reach) {
+  std::vector<NearPair> pairs;
+  for (Id v = 0; v < b.vertex_count(); ++v) {
+    for (Id e = 0; e < b.vertex_count(); ++e) {
+      const Id i = b.vertex_block[v], j = b.vertex_block[e];
+      if (i == j || !alive[i] || !alive[j] || (b.fixed[i] && b.fixed[j])) continue;
+      const Vec2 p = at(b.vertex_x, b.vertex_y, v), q = at(b.vertex_x, b.vertex_y, e);
+      const Vec2 r = at(b.vertex_x, b.vertex_y, b.next[e]);
+      if (distance(p, q, r) >= reach) continue;
+      const Vec2 n = outward_normal(unit(r - q));
+      if (facing(b, b.vertex_x, b.vertex_y, v, n, 4.0 * reach)) pairs.push_back({v, e});
+    }
+  }
+  return pairs;
+}
+
+TEST(NearPairs, AgreeWithBruteForce) {
+  std::size_t total = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const BlockSet b = random_blocks(seed, 60, (seed % 3) * 0.5);
+    std::vector<std::uint8_t> alive(b.size(), 1);
+    alive[seed % b.size()] = 0;
+    for (const double reach : {1e-3, 0.03, 0.3, 2.0}) {
+      const auto expected = brute_force(b, alive, reach);
+      EXPECT_EQ(near_pairs(b, alive, b.vertex_x, b.vertex_y, reach), expected);
+      total += expected.size();
+    }
+  }
+  EXPECT_GT(total, 10000u);
+}
+
+TEST(NearPairs, FarOutlierIsFound) {
+  Model model;
+  model.materials.push_back({"rock", 2600.0, 1e9, 0.2, {}});
+  PolygonSet set;
+  for (const Vec2 c : {Vec2{0, 0}, Vec2{1e7, 1e7}, Vec2{1e7 + 1.0, 1e7}}) {
+    BlockPolygon p;
+    p.rings = {{c, c + Vec2{1, 0}, c + Vec2{1, 1}, c + Vec2{0, 1}}};
+    p.joint = {std::vector<Index>(4, none)};
+    p.material = 0;
+    set.blocks.push_back(p);
+  }
+  const BlockSet b = build_blocks(model, set);
+  const std::vector<std::uint8_t> alive(3, 1);
+  const auto pairs = near_pairs(b, alive, b.vertex_x, b.vertex_y, 0.01);
+  EXPECT_EQ(pairs, brute_force(b, alive, 0.01));
+  EXPECT_EQ(pairs.size(), 4u);
+}
+
+}  // namespace
+}  // namespace edda
