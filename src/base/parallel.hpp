@@ -8,7 +8,7 @@
 namespace edda {
 
 /// Loops shorter than this are not worth waking other threads for.
-inline constexpr std::size_t worth_sharing = 1024;
+inline constexpr std::size_t worth_sharing = 8192;
 
 /// Calls body(i) for i in [0, n), in parallel. body must write only what belongs to i.
 template <class Body>

@@ -1,0 +1,132 @@
+// Cohesion, tension and glue: validation.md row 4 and what a bond stands for (method.md section 4).
+#include <algorithm>
+
+#include "verification/scene.hpp"
+
+namespace edda {
+namespace {
+
+std::string rock = R"(
+[materials.rock]
+density = 2750.0
+young = 20e9
+poisson = 0.25
+)";
+
+std::string slope_box(double alpha, double u0, double u1, double v0, double v1) {
+  return "[" + on_slope(alpha, u0, v0) + "," + on_slope(alpha, u1, v0) + "," +
+         on_slope(alpha, u1, v1) + "," + on_slope(alpha, u0, v1) + "]";
+}
+
+/// Row 4: (30, 15), g 9.8; c_crit = 7221.2 Pa for L = 2 m. Overdamped at first, so that it is loaded
+/// without overshoot.
+Simulation cohesive_ramp(double factor, double duration, double damping, const std::string& law) {
+  return scene("gravity = [0.0, -9.8]\n" + rock + "[joints.ramp]\nfriction_angle = 15.0\ncohesion = " +
+               number(7221.2 * factor) + "\n" + law + "[solver]\nduration = " + number(duration) +
+               "\ndamping = { mass = " + number(damping) +
+               " }\n[output]\nhistory_every = 0.005\n[[block]]\nfixed = true\npolygon = " +
+               slope_box(30.0, -1, 4, -1, 0) + "\n[[block]]\npolygon = " +
+               slope_box(30.0, 0, 2, 0, 1) + "\n");
+}
+
+double slid(const Simulation& sim) {
+  const Vec2 u = displacement(sim, 1);
+  return u.x * std::cos(radians(30)) - u.y * std::sin(radians(30));
+}
+
+TEST(CohesiveRamp, HoldsAboveAndGoesBelowTheCriticalCohesion) {
+  for (const std::string law : {"", "kn = 2e11\nks = 2e11\n"}) {
+    Simulation holds = cohesive_ramp(1.01, 0.05, 2e4, law);
+    run(holds, [](Simulation&) {});
+    EXPECT_LT(slid(holds), 1e-5);
+    EXPECT_EQ(holds.contacts.segments.size(), 1u);
+    Simulation goes = cohesive_ramp(0.99, 0.05, 2e4, law);
+    run(goes, [](Simulation&) {});
+    EXPECT_TRUE(goes.contacts.segments.empty());
+    EXPECT_GT(slid(goes), 3.0 * slid(holds));
+  }
+}
+
+TEST(CohesiveRamp, OnceBrokenSlidesWithFrictionAlone) {
+  Simulation sim = cohesive_ramp(0.1, 0.1, 0.0, "");
+  double drift = 0.0, fracture = -1.0;
+  bool falls = false;
+  run(sim, [&](Simulation& s) {
+    const Ledger l = s.ledger();
+    drift = std::max(drift, std::abs(l.drift));
+    falls = falls || l.fracture < fracture - 1e-9;
+    fracture = l.fracture;
+  });
+  const double exact = 0.5 * 9.8 * 0.01 * (std::sin(radians(30)) - std::tan(radians(15)) * std::cos(radians(30)));
+  EXPECT_NEAR(slid(sim) / exact, 1.0, 5e-3);
+  EXPECT_GT(fracture, 0.0);
+  EXPECT_FALSE(falls);
+  EXPECT_LT(drift, 1e-5);
+}
+
+TEST(CohesiveRamp, ResidualStrengthHolds) {
+  // Peak cohesion is too small to hold, the residual cohesion is not.
+  Simulation sim = cohesive_ramp(0.5, 0.05, 2e4, "residual = { cohesion = 8000.0 }\n");
+  run(sim, [](Simulation&) {});
+  EXPECT_TRUE(sim.contacts.segments.empty());
+  EXPECT_LT(slid(sim), 1e-5);
+}
+
+/// A block hung from a held one by its tensile strength, or by glue.
+Simulation hanging(const std::string& law, double duration = 0.05) {
+  return scene("gravity = [0.0, -10.0]\n" + rock + "[joints.j]\n" + law +
+               "[solver]\nduration = " + number(duration) +
+               "\ndamping = { mass = 2e4 }\n[output]\nhistory_every = 0.005\n"
+               "[[block]]\nfixed = true\npolygon = [[-1,1],[2,1],[2,2],[-1,2]]\n"
+               "[[block]]\npolygon = [[0,0],[1,0],[1,1],[0,1]]\n");
+}
+
+TEST(Hanging, TensileStrengthDecides) {
+  // Weight 27.5 kN on 1 m: 27.5 kPa.
+  Simulation holds = hanging("friction_angle = 30\ntensile_strength = 28e3\ncohesion = 1e5\n");
+  run(holds, [](Simulation&) {});
+  EXPECT_EQ(holds.contacts.segments.size(), 1u);
+  double pull = 0.0;
+  for (std::size_t k = 0; k < holds.contacts.size(); ++k) {
+    pull += holds.contacts.share[k] * holds.contacts.normal[k];
+  }
+  EXPECT_NEAR(pull, -27.5e3, 30.0);
+  Simulation falls = hanging("friction_angle = 30\ntensile_strength = 27e3\ncohesion = 1e5\n");
+  run(falls, [](Simulation&) {});
+  EXPECT_TRUE(falls.contacts.segments.empty());
+}
+
+TEST(Hanging, GlueNeverOpensNorSlides) {
+  Simulation sim = hanging("type = 'glued'\n");
+  run(sim, [](Simulation&) {});
+  EXPECT_EQ(sim.contacts.segments.size(), 1u);
+  EXPECT_LT(norm(displacement(sim, 1)), 1e-5);
+}
+
+TEST(Hanging, BreaksWhereItTearsAndKeepsTheLedger) {
+  Simulation sim = scene("gravity = [0.0, -10.0]\n" + rock +
+                         "[joints.j]\nfriction_angle = 30\ntensile_strength = 20e3\n"
+                         "cohesion = 1e5\n[solver]\nduration = 0.2\n[output]\nhistory_every = 0.005\n"
+                         "[[block]]\nfixed = true\npolygon = [[-1,1],[2,1],[2,2],[-1,2]]\n"
+                         "[[block]]\npolygon = [[0,0],[1,0],[1,1],[0,1]]\n");
+  double drift = 0.0;
+  run(sim, [&](Simulation& s) { drift = std::max(drift, std::abs(s.ledger().drift)); });
+  EXPECT_LT(drift, 1e-5);
+  EXPECT_GT(sim.ledger().fracture, 0.0);
+  EXPECT_NEAR(displacement(sim, 1).y / (-0.5 * 10.0 * 0.04), 1.0, 1e-2);
+}
+
+/// kn times the length a contact stands for: a joint of 2 m under 1 MN closes by N/(kn L).
+TEST(JointStiffness, FollowsTheLengthOfTheJoint) {
+  Simulation sim = scene("gravity = [0.0, -10.0]\n[materials.rock]\ndensity = 2500.0\nyoung = 1e14\n"
+                         "poisson = 0.0\n[joints.j]\nfriction_angle = 30\nkn = 1e9\n[solver]\n"
+                         "duration = 0.1\ndamping = { mass = 1000 }\n[output]\nhistory_every = 0.01\n"
+                         "[[block]]\nfixed = true\npolygon = [[-1,-1],[3,-1],[3,0],[-1,0]]\n"
+                         "[[block]]\npolygon = [[0,0],[2,0],[2,1],[0,1]]\n");
+  sim.blocks.lame_mu.assign(2, 1e11);  // stiff, but not so stiff as to hold the step
+  run(sim, [](Simulation&) {});
+  EXPECT_NEAR(displacement(sim, 1).y / (-2.0 * 2500.0 * 10.0 / (1e9 * 2.0)), 1.0, 1e-2);
+}
+
+}  // namespace
+}  // namespace edda
