@@ -135,6 +135,14 @@ void refresh(std::vector<Id>& set, const Change& change, const ContactSet& c) {
 
 }  // namespace
 
+double largest_penetration(const ContactSet& c) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (c.is(k, cs::closed)) largest = std::max(largest, c.effective_1(k));
+  }
+  return largest;
+}
+
 double correct_switching(ContactSet& c, const BlockSet& b, State& s, Pose& pose,
                          const StepTaken& taken, OpenCloseCounts& counts) {
   std::vector<Id> set;

@@ -1,5 +1,5 @@
-// Open-close iteration with exact switching (method.md section 4): corrects the step just made for the
-// contacts that opened or closed in it.
+// Open-close iteration with exact switching (method.md section 4): corrects the step just made for
+// the contacts that opened or closed in it.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,13 @@ struct StepTaken {
   double h_old = 0.0, h_new = 0.0, mass_damping = 0.0;
 };
 
-/// At entry: positions and gaps of step n + 1 made with alpha = 1; state flags and forces of step n. At
-/// return both are final. Passes: at most 12. Returns the largest penetration of step n, m.
+/// At entry: positions and gaps of step n + 1 made with alpha = 1; state flags and forces of step
+/// n. At return both are final. Passes: at most 12. Returns the largest penetration of step n, m.
 double correct_switching(ContactSet& contacts, const BlockSet& blocks, State& state, Pose& pose,
-                       const StepTaken& taken, OpenCloseCounts& counts);
+                         const StepTaken& taken, OpenCloseCounts& counts);
+
+/// Largest effective penetration of a closed contact at step n, once the gaps of n + 1 are known,
+/// m.
+double largest_penetration(const ContactSet& contacts);
 
 }  // namespace edda

@@ -86,6 +86,7 @@ Result<Simulation> Simulation::create(Model given) {
   s.pose.y1 = s.pose.y;
   s.base_reach = 0.05 * median_edge(s.blocks);
   s.displacement_limit = largest_displacement(s.blocks, s.model.solver.max_displacement_ratio);
+  s.smallest_half_width = *std::min_element(s.blocks.inradius.begin(), s.blocks.inradius.end());
   s.step_limit = std::numeric_limits<double>::infinity();
 
   s.search(s.base_reach);
@@ -183,7 +184,7 @@ std::optional<Failure> Simulation::step() {
 
   const Nodes old_vx = state.vx, old_vy = state.vy;
   for (int halvings = 0; !move(h_old, state.step); ++halvings) {
-    if (last_displacement > 1e100 || halvings == 40) return diverged();
+    if (last_displacement > 1e100 || halvings == 40) return lost();
     retreat(state, blocks, state.step, old_vx, old_vy);
     std::swap(pose.x, pose.x1);
     std::swap(pose.y, pose.y1);
@@ -198,9 +199,11 @@ std::optional<Failure> Simulation::step() {
   update_gaps(contacts, pose);
   if (model.solver.switching == Switching::exact) {
     const StepTaken taken{h_old, h, model.solver.damping.mass};
-    max_penetration = std::max(max_penetration,
-                               correct_switching(contacts, blocks, state, pose, taken, open_close));
+    penetration = correct_switching(contacts, blocks, state, pose, taken, open_close);
+  } else {
+    penetration = largest_penetration(contacts);
   }
+  max_penetration = std::max(max_penetration, penetration);
   if (h != h_old) {
     step_change_energy += energy_of_step_change(blocks, state, old_vx, old_vy, h_old, h);
     ++steps.changes;
@@ -250,22 +253,13 @@ void Simulation::search_if_due() {
 }
 
 std::optional<Failure> Simulation::inspect() const {
-  if (!std::isfinite(last_displacement)) return diverged();
-  return std::nullopt;
+  if (!std::isfinite(last_displacement)) return lost();
+  return deep_overlap(contacts, blocks, state, pose, penetration, smallest_half_width,
+                      {state.step, bound.critical_step});
 }
 
-Failure Simulation::diverged() const {
-  Failure f;
-  f.time = state.time;
-  f.message = "the run has diverged";
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    if (std::isfinite(forces.x[0][i])) continue;
-    f.block = static_cast<Id>(i);
-    f.place = centroid(state.x, state.y, i) + blocks.origin;
-    f.message = fmt::format("block {} has lost its shape (deformation out of bounds)", i);
-    break;
-  }
-  return f;
+Failure Simulation::lost() const {
+  return lost_block(blocks, state, pose, forces, {state.step, bound.critical_step});
 }
 
 Ledger Simulation::ledger() {

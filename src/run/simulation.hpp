@@ -1,4 +1,5 @@
-// One simulation: model, blocks, contacts, forces, step, ledger. The one place that names every stage.
+// One simulation: model, blocks, contacts, forces, step, ledger. The one place that names every
+// stage.
 #pragma once
 
 #include <cstdint>
@@ -17,18 +18,11 @@
 #include "integrate/leapfrog.hpp"
 #include "lines/polygon_set.hpp"
 #include "model/model.hpp"
+#include "run/divergence.hpp"
 #include "run/ledger.hpp"
 #include "run/open_close.hpp"
 
 namespace edda {
-
-/// Why a run stopped before its end: what, where, when and the likely cause.
-struct Failure {
-  std::string message;
-  Id block = no_id;
-  Vec2 place;         ///< model coordinates
-  double time = 0.0;  ///< s
-};
 
 struct StepStatistics {
   double smallest = 0.0, largest = 0.0, sum = 0.0;  ///< s
@@ -48,13 +42,15 @@ struct Simulation {
   ContactSet contacts;
   NodalForces forces;
   DampingWork damping_work;
-  StepBound bound;            ///< at the last search
-  double step_limit = 0.0;    ///< s: largest step allowed at present
-  double base_reach = 0.0;    ///< m: skin of the contact search at rest
-  double displacement_limit = 0.0;  ///< m in one step
-  double last_displacement = 0.0;   ///< m: largest of a vertex in the last step
-  double max_penetration = 0.0;     ///< m, over the run
-  double step_change_energy = 0.0;  ///< J, created by changes of the step
+  StepBound bound;                   ///< at the last search
+  double step_limit = 0.0;           ///< s: largest step allowed at present
+  double base_reach = 0.0;           ///< m: skin of the contact search at rest
+  double displacement_limit = 0.0;   ///< m in one step
+  double last_displacement = 0.0;    ///< m: largest of a vertex in the last step
+  double penetration = 0.0;          ///< m: largest at the last step
+  double max_penetration = 0.0;      ///< m, over the run
+  double smallest_half_width = 0.0;  ///< m, of all blocks
+  double step_change_energy = 0.0;   ///< J, created by changes of the step
   StepStatistics steps;
   OpenCloseCounts open_close;
   std::optional<double> start_energy;  ///< J, of the ledger
@@ -63,8 +59,8 @@ struct Simulation {
   /// Cuts, builds, finds what touches, bounds the step. Faults of the geometry come back as values.
   static Result<Simulation> create(Model model);
 
-  /// Chooses the step so that a whole number of steps ends at `first_event` (s), and takes the velocities
-  /// half a step back: v_{-1/2} = v_0 - a_0 h/2. Once, before the first step().
+  /// Chooses the step so that a whole number of steps ends at `first_event` (s), and takes the
+  /// velocities half a step back: v_{-1/2} = v_0 - a_0 h/2. Once, before the first step().
   void start(double first_event);
   /// Sets the step towards an event at `time` s: as few equal steps as the limit allows.
   void aim_at(double time);
@@ -79,12 +75,12 @@ struct Simulation {
   bool move(double h_old, double h_new);
   void finish_step();
   std::optional<Failure> inspect() const;
-  Failure diverged() const;
+  Failure lost() const;
   void set_limit();
   double displacement_cap_ = std::numeric_limits<double>::infinity();  ///< s: after halvings
   std::uint64_t larger_since_ = 0;  ///< step from which a much larger one would have been allowed
-  double target_ = 0.0;        ///< s: the event aimed at
-  double step_before_ = 0.0;   ///< s: step behind v_{n-1/2}
+  double target_ = 0.0;             ///< s: the event aimed at
+  double step_before_ = 0.0;        ///< s: step behind v_{n-1/2}
   std::uint64_t steps_left_ = 0;
 };
 

@@ -18,15 +18,16 @@ std::string slope_box(double alpha, double u0, double u1, double v0, double v1) 
          on_slope(alpha, u1, v1) + "," + on_slope(alpha, u0, v1) + "]";
 }
 
-/// Row 4: (30, 15), g 9.8; c_crit = 7221.2 Pa for L = 2 m. Overdamped at first, so that it is loaded
-/// without overshoot.
+/// Row 4: (30, 15), g 9.8; c_crit = 7221.2 Pa for L = 2 m. Overdamped at first, so that it is
+/// loaded without overshoot.
 Simulation cohesive_ramp(double factor, double duration, double damping, const std::string& law) {
-  return scene("gravity = [0.0, -9.8]\n" + rock + "[joints.ramp]\nfriction_angle = 15.0\ncohesion = " +
-               number(7221.2 * factor) + "\n" + law + "[solver]\nduration = " + number(duration) +
+  return scene("gravity = [0.0, -9.8]\n" + rock +
+               "[joints.ramp]\nfriction_angle = 15.0\ncohesion = " + number(7221.2 * factor) +
+               "\n" + law + "[solver]\nduration = " + number(duration) +
                "\ndamping = { mass = " + number(damping) +
                " }\n[output]\nhistory_every = 0.005\n[[block]]\nfixed = true\npolygon = " +
-               slope_box(30.0, -1, 4, -1, 0) + "\n[[block]]\npolygon = " +
-               slope_box(30.0, 0, 2, 0, 1) + "\n");
+               slope_box(30.0, -1, 4, -1, 0) +
+               "\n[[block]]\npolygon = " + slope_box(30.0, 0, 2, 0, 1) + "\n");
 }
 
 double slid(const Simulation& sim) {
@@ -57,7 +58,8 @@ TEST(CohesiveRamp, OnceBrokenSlidesWithFrictionAlone) {
     falls = falls || l.fracture < fracture - 1e-9;
     fracture = l.fracture;
   });
-  const double exact = 0.5 * 9.8 * 0.01 * (std::sin(radians(30)) - std::tan(radians(15)) * std::cos(radians(30)));
+  const double exact =
+      0.5 * 9.8 * 0.01 * (std::sin(radians(30)) - std::tan(radians(15)) * std::cos(radians(30)));
   EXPECT_NEAR(slid(sim) / exact, 1.0, 5e-3);
   EXPECT_GT(fracture, 0.0);
   EXPECT_FALSE(falls);
@@ -104,11 +106,12 @@ TEST(Hanging, GlueNeverOpensNorSlides) {
 }
 
 TEST(Hanging, BreaksWhereItTearsAndKeepsTheLedger) {
-  Simulation sim = scene("gravity = [0.0, -10.0]\n" + rock +
-                         "[joints.j]\nfriction_angle = 30\ntensile_strength = 20e3\n"
-                         "cohesion = 1e5\n[solver]\nduration = 0.2\n[output]\nhistory_every = 0.005\n"
-                         "[[block]]\nfixed = true\npolygon = [[-1,1],[2,1],[2,2],[-1,2]]\n"
-                         "[[block]]\npolygon = [[0,0],[1,0],[1,1],[0,1]]\n");
+  Simulation sim =
+      scene("gravity = [0.0, -10.0]\n" + rock +
+            "[joints.j]\nfriction_angle = 30\ntensile_strength = 20e3\n"
+            "cohesion = 1e5\n[solver]\nduration = 0.2\n[output]\nhistory_every = 0.005\n"
+            "[[block]]\nfixed = true\npolygon = [[-1,1],[2,1],[2,2],[-1,2]]\n"
+            "[[block]]\npolygon = [[0,0],[1,0],[1,1],[0,1]]\n");
   double drift = 0.0;
   run(sim, [&](Simulation& s) { drift = std::max(drift, std::abs(s.ledger().drift)); });
   EXPECT_LT(drift, 1e-5);
@@ -118,11 +121,12 @@ TEST(Hanging, BreaksWhereItTearsAndKeepsTheLedger) {
 
 /// kn times the length a contact stands for: a joint of 2 m under 1 MN closes by N/(kn L).
 TEST(JointStiffness, FollowsTheLengthOfTheJoint) {
-  Simulation sim = scene("gravity = [0.0, -10.0]\n[materials.rock]\ndensity = 2500.0\nyoung = 1e14\n"
-                         "poisson = 0.0\n[joints.j]\nfriction_angle = 30\nkn = 1e9\n[solver]\n"
-                         "duration = 0.1\ndamping = { mass = 1000 }\n[output]\nhistory_every = 0.01\n"
-                         "[[block]]\nfixed = true\npolygon = [[-1,-1],[3,-1],[3,0],[-1,0]]\n"
-                         "[[block]]\npolygon = [[0,0],[2,0],[2,1],[0,1]]\n");
+  Simulation sim = scene(
+      "gravity = [0.0, -10.0]\n[materials.rock]\ndensity = 2500.0\nyoung = 1e14\n"
+      "poisson = 0.0\n[joints.j]\nfriction_angle = 30\nkn = 1e9\n[solver]\n"
+      "duration = 0.1\ndamping = { mass = 1000 }\n[output]\nhistory_every = 0.01\n"
+      "[[block]]\nfixed = true\npolygon = [[-1,-1],[3,-1],[3,0],[-1,0]]\n"
+      "[[block]]\npolygon = [[0,0],[2,0],[2,1],[0,1]]\n");
   sim.blocks.lame_mu.assign(2, 1e11);  // stiff, but not so stiff as to hold the step
   run(sim, [](Simulation&) {});
   EXPECT_NEAR(displacement(sim, 1).y / (-2.0 * 2500.0 * 10.0 / (1e9 * 2.0)), 1.0, 1e-2);

@@ -1,0 +1,91 @@
+#include "run/divergence.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "contacts/gap.hpp"
+
+namespace edda {
+namespace {
+
+std::string block_name(const BlockSet& b, std::size_t i) {
+  return b.name[i].empty() ? fmt::format("block {}", i)
+                           : fmt::format("block {} ({})", i, b.name[i]);
+}
+
+std::string cause(const StepInUse& step, const char* otherwise) {
+  if (step.step > step.critical) {
+    return fmt::format("the step of {:.3g} s is {:.2f} times the critical one: make it smaller",
+                       step.step, step.step / step.critical);
+  }
+  return otherwise;
+}
+
+/// Whether the vertex lies inside block j as it is now (ray crossings over all its rings).
+bool inside(const BlockSet& b, const Pose& pose, Vec2 p, std::size_t j) {
+  bool in = false;
+  for (Id e = b.vertex_begin[j]; e < b.vertex_begin[j + 1]; ++e) {
+    const Vec2 s = at(pose.x, pose.y, e), t = at(pose.x, pose.y, b.next[e]);
+    if ((s.y > p.y) == (t.y > p.y)) continue;
+    if ((cross(t - s, p - s) > 0.0) == (t.y > s.y)) in = !in;
+  }
+  return in;
+}
+
+}  // namespace
+
+Failure lost_block(const BlockSet& b, const State& s, const Pose& pose, const NodalForces& forces,
+                   const StepInUse& step) {
+  Failure f;
+  f.time = s.time;
+  f.message = "the motion has grown without bound: " +
+              cause(step, "loads or stiffnesses are out of proportion: check units");
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 3; ++k)
+      sum += forces.x[k][i] + forces.y[k][i] + s.vx[k][i] + s.vy[k][i];
+    if (std::isfinite(sum)) continue;
+    f.block = static_cast<Id>(i);
+    f.place = at(pose.x1, pose.y1, b.vertex_begin[i]) + b.origin;
+    f.message = block_name(b, i) + " has lost its shape: " +
+                cause(step,
+                      "it is strained beyond what a constant-strain block can bear: check young "
+                      "against the loads, and the units");
+    break;
+  }
+  return f;
+}
+
+std::optional<Failure> deep_overlap(const ContactSet& c, const BlockSet& b, const State& s,
+                                    const Pose& pose, double largest, double smallest_half_width,
+                                    const StepInUse& step) {
+  auto deep = [&](std::size_t k) {
+    const double limit = std::min(b.inradius[c.block_i[k]], b.inradius[c.block_j[k]]);
+    return c.depth[k] > limit && inside(b, pose, at(pose.x, pose.y, c.vertex[k]), c.block_j[k]);
+  };
+  Id worst = no_id;
+  if (largest > smallest_half_width) {
+    for (std::size_t k = 0; k < c.size() && worst == no_id; ++k) {
+      if (c.is(k, contact_state::closed) && deep(k)) worst = static_cast<Id>(k);
+    }
+  }
+  for (const Id k : c.blocked) {
+    if (worst == no_id && c.why[k] == Blocked::depth && deep(k)) worst = k;
+  }
+  if (worst == no_id) return std::nullopt;
+  Failure f;
+  f.time = s.time;
+  f.block = c.block_i[worst];
+  f.place = at(pose.x, pose.y, c.vertex[worst]) + b.origin;
+  f.message = fmt::format(
+      "{} is {:.3g} m inside {}, more than half the size of the smaller: {}",
+      block_name(b, c.block_i[worst]), c.depth[worst], block_name(b, c.block_j[worst]),
+      cause(step,
+            "contacts are too soft for these loads or speeds: raise contact.normal_stiffness "
+            "(or the joint's kn), or lower solver.max_displacement_ratio"));
+  return f;
+}
+
+}  // namespace edda

@@ -1,0 +1,113 @@
+// The critical step against the true limit: a power iteration on the assembled system.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "contacts/gaps.hpp"
+#include "forces/contact_forces.hpp"
+#include "model/read_model.hpp"
+#include "run/simulation.hpp"
+
+namespace edda {
+namespace {
+
+Simulation glued(const std::string& geometry) {
+  Result<Model> model = read_model_text(
+      "gravity = [0, 0]\n[materials.rock]\ndensity = 2600\nyoung = 20e9\npoisson = 0.2\n"
+      "[joints.j]\ntype = 'glued'\n[solver]\nduration = 1\n" +
+          geometry,
+      "t.toml", {});
+  if (!model.ok()) ADD_FAILURE() << to_string(model.faults()[0]);
+  Result<Simulation> sim = Simulation::create(std::move(model.value()));
+  if (!sim.ok()) ADD_FAILURE() << to_string(sim.faults()[0]);
+  return std::move(sim.value());
+}
+
+/// Acceleration of every node in the present state, with contacts as they are.
+Nodes accelerate(Simulation& s, bool along_x) {
+  for (std::size_t i = 0; i < s.blocks.size(); ++i) {
+    place_vertices(s.blocks, s.state.x, s.state.y, i, s.pose.x, s.pose.y);
+  }
+  for (std::size_t k = 0; k < s.contacts.size(); ++k) update_gap(s.contacts, s.pose, k);
+  evaluate_contacts(s.contacts, s.blocks, s.laws, 1.0, 0.0);
+  gather_forces(s.forces, s.blocks, s.state, s.pose, s.contacts, s.springs, {0, 0});
+  Nodes a = along_x ? s.forces.x : s.forces.y;
+  for (std::size_t i = 0; i < s.blocks.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      a[k][i] = s.blocks.fixed[i] ? 0.0 : a[k][i] / s.blocks.node_mass[k][i];
+    }
+  }
+  return a;
+}
+
+/// 2/omega_max of the assembled system.
+double true_critical_step(Simulation& s) {
+  const Nodes x0 = s.state.x, y0 = s.state.y;
+  const std::size_t nb = s.blocks.size();
+  std::mt19937 rng(1);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  Nodes vx = x0, vy = y0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < nb; ++i) {
+      vx[k][i] = s.blocks.fixed[i] ? 0.0 : u(rng);
+      vy[k][i] = s.blocks.fixed[i] ? 0.0 : u(rng);
+    }
+  }
+  double lambda = 0.0;
+  for (int round = 0; round < 3000; ++round) {
+    double size = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t i = 0; i < nb; ++i) size += vx[k][i] * vx[k][i] + vy[k][i] * vy[k][i];
+    }
+    const double scale = 1.0 / std::sqrt(size), epsilon = 1e-7;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t i = 0; i < nb; ++i) {
+        s.state.x[k][i] = x0[k][i] + epsilon * scale * vx[k][i];
+        s.state.y[k][i] = y0[k][i] + epsilon * scale * vy[k][i];
+      }
+    }
+    const Nodes ax = accelerate(s, true), ay = accelerate(s, false);
+    double product = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t i = 0; i < nb; ++i) {
+        product -= scale * (vx[k][i] * ax[k][i] + vy[k][i] * ay[k][i]) / epsilon;
+        vx[k][i] = -ax[k][i] / epsilon;
+        vy[k][i] = -ay[k][i] / epsilon;
+      }
+    }
+    lambda = std::max(lambda, product);
+  }
+  s.state.x = x0;
+  s.state.y = y0;
+  return 2.0 / std::sqrt(lambda);
+}
+
+TEST(StepBound, SafeAndSharp) {
+  const std::vector<std::string> scenes = {
+      // Two joint sets through a rectangle, boundary springs at the base.
+      "[domain]\noutline = [[0,0],[6,0],[6,4],[0,4]]\n[[joint_set]]\nname = 'a'\nangle = 65\n"
+      "spacing = 1.3\n[[joint_set]]\nname = 'b'\nangle = -15\nspacing = 0.9\n"
+      "[[boundary]]\nname = 'base'\nsides = ['bottom']\ntype = 'fixed'\n",
+      // A wall on a held base.
+      "[[block]]\nfixed = true\npolygon = [[-1,-1],[7,-1],[7,0],[-1,0]]\n"
+      "[[brick_wall]]\norigin = [0, 0]\ncolumns = 6\nrows = 5\nbrick = [1.0, 0.5]\n",
+      // A column.
+      "[[brick_wall]]\norigin = [0, 0]\ncolumns = 1\nrows = 1\nbrick = [1.0, 0.5]\n"
+      "[[block]]\npolygon = [[0,0.5],[1,0.5],[1,1.5],[0,1.5]]\n"
+      "[[block]]\npolygon = [[0,1.5],[1,1.5],[1,4],[0,4]]\n",
+  };
+  for (const std::string& geometry : scenes) {
+    for (const char* stiffness : {"2e9", "2e11"}) {
+      Simulation s = glued(geometry + "[contact]\nnormal_stiffness = " + stiffness + "\n");
+      const double exact = true_critical_step(s);
+      RecordProperty("ratio", std::to_string(s.bound.critical_step / exact));
+      EXPECT_LE(s.bound.critical_step, exact * (1.0 + 1e-4));
+      EXPECT_GE(s.bound.critical_step, 0.7 * exact);
+      EXPECT_LE(s.bound.likely_step, s.bound.critical_step);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace edda
