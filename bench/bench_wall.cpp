@@ -1,0 +1,42 @@
+// Million block-steps per second of the whole step, on a wall that has had a moment to settle.
+//   bench_wall COLUMNS ROWS STEPS THREADS      default: 50 40 1000 1
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+
+#include "wall.hpp"
+
+int main(int argc, char** argv) {
+  long given[] = {50, 40, 1000, 1};
+  for (int i = 1; i < std::min(argc, 5); ++i) given[i - 1] = std::strtol(argv[i], nullptr, 10);
+  const auto [columns, rows, steps, threads] = given;
+  if (argc > 5 || std::min({columns, rows, steps, threads}) < 1) {
+    std::fprintf(stderr, "usage: bench_wall COLUMNS ROWS STEPS THREADS\n");
+    return 2;
+  }
+  omp_set_num_threads(static_cast<int>(threads));
+
+  edda::Simulation sim = edda::wall(static_cast<int>(columns), static_cast<int>(rows));
+  edda::take_steps(sim, std::max(200L, steps / 5));
+
+  const auto searches = sim.contacts.rebuilds;
+  const auto passes = sim.open_close.passes;
+  const auto start = std::chrono::steady_clock::now();
+  edda::take_steps(sim, steps);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+  const double blocks = static_cast<double>(sim.blocks.size());
+  const double block_steps = blocks * static_cast<double>(steps);
+  std::printf("%.3f million block-steps/s, %.1f ns per block and step\n",
+              1e-6 * block_steps / seconds, 1e9 * seconds / block_steps);
+  std::printf("%zu blocks, %zu candidates, %ld steps of %.3g s, %ld threads, %.3f s\n",
+              sim.blocks.size(), sim.contacts.size(), steps, sim.state.step, threads, seconds);
+  std::printf("%.2f open-close passes per step, %llu searches\n",
+              static_cast<double>(sim.open_close.passes - passes) / static_cast<double>(steps),
+              static_cast<unsigned long long>(sim.contacts.rebuilds - searches));
+  return 0;
+}

@@ -1,0 +1,65 @@
+// The scene of all benchmarks: a wall in running bond on a held block, under its own weight.
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <utility>
+
+#include "model/read_model.hpp"
+#include "run/simulation.hpp"
+
+namespace edda {
+
+/// Bricks of 1 m x 0.5 m, E 20 GPa, contact springs 200 GPa, friction 30 degrees.
+inline std::string wall_model(int columns, int rows) {
+  const std::string right = std::to_string(columns + 1);
+  return R"(
+[materials.brick]
+density = 2600.0
+young = "20 GPa"
+poisson = 0.2
+[joints.dry]
+friction_angle = 30.0
+[contact]
+normal_stiffness = 2e11
+shear_stiffness = 2e11
+[[block]]
+name = "base"
+fixed = true
+polygon = [[-1, -0.5], [)" +
+         right + ", -0.5], [" + right + R"(, 0], [-1, 0]]
+[[brick_wall]]
+columns = )" +
+         std::to_string(columns) + "\nrows = " + std::to_string(rows) + R"(
+brick = [1.0, 0.5]
+[solver]
+duration = 1000.0
+)";
+}
+
+/// Ready for step(); ends the program with the faults if there are any. No event interrupts it.
+inline Simulation wall(int columns, int rows) {
+  const auto stop = [](const Faults& faults) {
+    for (const Fault& fault : faults) std::fprintf(stderr, "%s\n", to_string(fault).c_str());
+    std::exit(1);
+  };
+  Result<Model> model = read_model_text(wall_model(columns, rows), "wall.toml");
+  if (!model) stop(model.faults());
+  Result<Simulation> sim = Simulation::create(std::move(model.value()));
+  if (!sim) stop(sim.faults());
+  sim.value().start(1000.0);
+  return std::move(sim.value());
+}
+
+/// So many steps; ends the program if one fails.
+inline void take_steps(Simulation& sim, long steps) {
+  for (long i = 0; i < steps; ++i) {
+    if (const auto failure = sim.step()) {
+      std::fprintf(stderr, "step %ld: %s\n", i, failure->message.c_str());
+      std::exit(1);
+    }
+  }
+}
+
+}  // namespace edda
