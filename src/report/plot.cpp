@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "report/canvas.hpp"
 #include "report/colour_scale.hpp"
@@ -24,6 +25,7 @@ struct Scene {
   Layout layout;
   std::vector<Vec2> points;  ///< as drawn, m
   std::vector<BlockShape> shapes;
+  double exaggeration;  ///< of displacements
 };
 
 bool held(const Grid& g, std::size_t cell) {
@@ -131,8 +133,15 @@ void draw_contact_field(Canvas& canvas, const Scene& s, const Grid& contacts,
   cairo_t* cr = canvas.cr();
   const double radius =
       std::clamp(4.0 * outline_width(s), 2.0 * s.layout.unit, 7.0 * s.layout.unit);
-  for (std::size_t c = 0; c < contacts.point_count(); ++c) {
-    const Vec2 p = s.layout.px({contacts.points[3 * c], contacts.points[3 * c + 1]});
+  const std::vector<Vec2> points = drawn_points(contacts, s.exaggeration);
+  // Contacts of one corner lie on one another: the largest values on top.
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::abs(field.values[a]) < std::abs(field.values[b]);
+  });
+  for (const std::size_t c : order) {
+    const Vec2 p = s.layout.px(points[c]);
     cairo_arc(cr, p.x, p.y, radius, 0.0, 6.2831853);
     canvas.colour(scale.of(field.values[c]));
     cairo_fill_preserve(cr);
@@ -173,13 +182,13 @@ std::vector<Arrow> block_arrows(const Scene& s, const std::string& name) {
   return arrows;
 }
 
-std::vector<Arrow> force_arrows(const Grid& contacts) {
+std::vector<Arrow> force_arrows(const Scene& s, const Grid& contacts) {
   std::vector<Arrow> arrows;
   const Field* force = contacts.cell_field("force");
   if (force == nullptr) return arrows;
-  for (std::size_t c = 0; c < contacts.point_count(); ++c) {
-    arrows.push_back({{contacts.points[3 * c], contacts.points[3 * c + 1]},
-                      {force->values[3 * c], force->values[3 * c + 1]}});
+  const std::vector<Vec2> points = drawn_points(contacts, s.exaggeration);
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    arrows.push_back({points[c], {force->values[3 * c], force->values[3 * c + 1]}});
   }
   return arrows;
 }
@@ -200,7 +209,8 @@ std::string draw_vectors(Canvas& canvas, const Scene& s, const Grid* contacts,
   }
   if (options.forces && contacts != nullptr) {
     canvas.colour(force_colour);
-    describe("contact forces", "N", draw_arrows(canvas, s, force_arrows(*contacts), longest, true));
+    describe("contact forces", "N",
+             draw_arrows(canvas, s, force_arrows(s, *contacts), longest, true));
   }
   return note;
 }
@@ -272,7 +282,7 @@ Trouble plot(const Grid& blocks, const Grid* contacts, const ShownField& field,
   const ColourScale scale(field, counted);
   std::vector<Vec2> points = drawn_points(blocks, options.scale);
   const Layout layout = layout_for(box_around(points), options.width, scale.has_legend());
-  const Scene scene{blocks, layout, std::move(points), block_shapes(blocks)};
+  const Scene scene{blocks, layout, std::move(points), block_shapes(blocks), options.scale};
 
   Canvas canvas(path, layout.width, layout.height);
   cairo_save(canvas.cr());

@@ -152,7 +152,8 @@ Trouble check_folder(const std::string& folder, const std::string& input) {
   if (!fs::is_directory(folder, error)) {
     return cannot("used for results", folder, "it is no folder", "name another with -o");
   }
-  const fs::path parent = fs::absolute(fs::path(input)).parent_path();
+  fs::path parent = fs::path(input).parent_path();
+  if (parent.empty()) parent = ".";
   if (!input.empty() && fs::equivalent(parent, folder, error)) {
     return cannot("used for results", folder, "the model file lies in it",
                   "name another folder with -o");

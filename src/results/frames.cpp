@@ -113,6 +113,7 @@ Grid contact_grid(const Picture& picture) {
   Field normal{"normal_force", 1, {}, {}, false}, shear{"shear_force", 1, {}, {}, false};
   Field opening{"opening", 1, {}, {}, false}, slip{"slip", 1, {}, {}, false};
   Field force = vectors("force", picture.contacts.size());
+  Field displacement = vectors("displacement", picture.contacts.size());
   for (const ContactRecord& c : picture.contacts) {
     g.corners.push_back(static_cast<std::int64_t>(g.point_count()));
     g.points.insert(g.points.end(), {c.position.x, c.position.y, 0.0});
@@ -126,9 +127,10 @@ Grid contact_grid(const Picture& picture) {
     push(slip, {c.slip});
     push(state, {static_cast<double>(c.state)});
     push(force, {c.force.x, c.force.y, 0.0});
+    push(displacement, {c.displacement.x, c.displacement.y, 0.0});
   }
   // Both as point and as cell fields: glyphs want points, thresholds and tables cells.
-  g.cell_fields = {normal, shear, opening, slip, state, i, j, force};
+  g.cell_fields = {normal, shear, opening, slip, state, i, j, force, displacement};
   g.point_fields = g.cell_fields;
   return g;
 }

@@ -26,7 +26,7 @@ BlockCells block_cells(const BlockSet& blocks);
 Grid block_grid(const BlockCells& cells, const Picture& picture);
 
 /// A vertex cell per contact with normal_force shear_force opening slip state block_i block_j and
-/// the vector force (on block_i).
+/// the vectors force (on block_i) and displacement (of the vertex).
 Grid contact_grid(const Picture& picture);
 
 /// Frames in `folder`/frames and the two time series beside it.

@@ -31,6 +31,7 @@ struct ContactRecord {
   std::uint32_t block_i = 0, block_j = 0;  ///< of the vertex, of the edge
   std::string joint;                       ///< its law
   Vec2 position;                           ///< of the vertex, m
+  Vec2 displacement;                       ///< of the vertex since the start, m
   Vec2 force;                              ///< on block i, N
   double normal_force = 0.0;               ///< N, positive in compression
   double shear_force = 0.0;                ///< N, positive where it drives block i along the edge

@@ -34,13 +34,15 @@ bool locally_inside(const Loop& loop, std::size_t k, Vec2 p) {
 /// Corner of the loop that is seen from `from`, looking to +x (Eberly): the nearer end of the edge
 /// that the ray strikes first or, where other corners stand before it, the one at the smallest
 /// angle.
-std::size_t visible_corner(const Loop& loop, Vec2 from) {
+/// A hole that touches the loop at `from` is joined there; `before` and `after` are its next
+/// corners.
+std::size_t visible_corner(const Loop& loop, Vec2 from, Vec2 before, Vec2 after) {
   const std::size_t n = loop.size();
   double nearest = std::numeric_limits<double>::infinity();
   std::size_t best = n;
   for (std::size_t k = 0; k < n; ++k) {
     const Vec2 a = loop[k].p, b = loop[(k + 1) % n].p;
-    if (a == from && locally_inside(loop, k, from + Vec2{1.0, 0.0})) return k;
+    if (a == from && locally_inside(loop, k, before) && locally_inside(loop, k, after)) return k;
     // The region lies left of its edges, so the ray leaves it through an edge that runs upwards.
     if (!(a.y <= from.y && from.y <= b.y && a.y < b.y)) continue;
     const double x = a.x + (from.y - a.y) / (b.y - a.y) * (b.x - a.x);
@@ -71,7 +73,9 @@ std::size_t visible_corner(const Loop& loop, Vec2 from) {
 void bridge(Loop& loop, const Loop& hole) {
   const auto right = std::max_element(
       hole.begin(), hole.end(), [](const Corner& a, const Corner& b) { return a.p.x < b.p.x; });
-  const std::size_t k = visible_corner(loop, right->p);
+  const Vec2 before = (right == hole.begin() ? hole.back() : *(right - 1)).p;
+  const Vec2 after = (right + 1 == hole.end() ? hole.front() : *(right + 1)).p;
+  const std::size_t k = visible_corner(loop, right->p, before, after);
   if (k == loop.size()) return;
   Loop path(right, hole.end());
   path.insert(path.end(), hole.begin(), right + 1);
@@ -85,7 +89,15 @@ bool is_ear(const Loop& loop, std::size_t k) {
   if (!(orient(a, b, c) > 0.0)) return false;
   for (std::size_t q = 0; q < n; ++q) {
     const Vec2 p = loop[q].p;
-    if (q == before || q == k || q == after || p == a || p == b || p == c) continue;
+    if (q == before || q == k || q == after || p == a || p == c) continue;
+    if (p == b) {
+      // Another corner on this one, as where holes touch: its edges must not run through the ear.
+      for (const std::size_t r : {(q + n - 1) % n, (q + 1) % n}) {
+        const Vec2 d = loop[r].p - b;
+        if (cross(c - b, d) > 0.0 && cross(d, a - b) > 0.0) return false;
+      }
+      continue;
+    }
     if (!in_triangle(a, b, c, p)) continue;
     if (orient(loop[(q + n - 1) % n].p, p, loop[(q + 1) % n].p) <= 0.0) return false;
   }
@@ -107,6 +119,20 @@ std::size_t best_ear(const Loop& loop) {
     }
   }
   return best;
+}
+
+/// Takes out a corner whose neighbours lie on one another: there and back again, no area. Such
+/// spurs are left where holes touch.
+bool drop_spur(Loop& loop) {
+  const std::size_t n = loop.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t after = (k + 1) % n;
+    if (!(loop[(k + n - 1) % n].p == loop[after].p)) continue;
+    loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(std::max(k, after)));
+    loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(std::min(k, after)));
+    return true;
+  }
+  return false;
 }
 
 /// Where rounding has left no ear: the flattest corner adds the least that is wrong.
@@ -147,12 +173,13 @@ std::vector<Triangle> triangulate(std::span<const Ring> rings) {
   for (std::size_t h = 1; h < loops.size(); ++h) bridge(loop, loops[h]);
 
   while (loop.size() > 2) {
+    if (drop_spur(loop)) continue;
     const std::size_t n = loop.size();
     std::size_t k = best_ear(loop);
-    const bool ear = k < n;
-    if (!ear) k = flattest(loop);
-    if (ear || n == 3) {
+    if (k < n) {
       triangles.push_back({loop[(k + n - 1) % n].id, loop[k].id, loop[(k + 1) % n].id});
+    } else {
+      k = flattest(loop);
     }
     loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(k));
   }

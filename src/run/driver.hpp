@@ -25,7 +25,8 @@ class Driver {
   bool step_to(double time);
   bool record(const Event& event);
   void look_between_steps();
-  bool overlap_is_out_of_bounds();
+  void measure_overlaps();
+  bool energy_is_out_of_bounds();
   void end(Status status, std::string message);
   void fail(const Failure& failure);
   /// Ends the run over a file that could not be written. True if there was trouble.

@@ -6,9 +6,13 @@
 namespace edda {
 
 double multiple(std::uint64_t k, double every) {
-  const double per_second = 1.0 / every, whole = std::round(per_second);
-  const bool decimal = whole < 1e15 && whole >= 1.0 && 1.0 / whole == every;
-  return decimal ? static_cast<double>(k) / whole : static_cast<double>(k) * every;
+  // As a fraction of whole numbers, every = m / 10^d, there is one rounding only.
+  double power = 1.0;
+  for (int d = 0; d <= 15; ++d, power *= 10.0) {
+    const double m = std::round(every * power), product = static_cast<double>(k) * m;
+    if (m > 0.0 && m / power == every && product < 9e15) return product / power;
+  }
+  return static_cast<double>(k) * every;
 }
 
 EventTimes::EventTimes(double duration, double row_every, double frame_every)

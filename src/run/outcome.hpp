@@ -33,6 +33,7 @@ struct Outcome {
   Ledger ledger;                    ///< at the last row
   double largest_drift = 0.0;       ///< of all rows, in size
   double unbalanced = 0.0;          ///< at the last row
+  double overlap_over_edge = 0.0;   ///< largest, over the smallest edge of the two blocks
   double critical_step = 0.0;       ///< s: the smallest bound of the run
   double step_over_critical = 0.0;  ///< largest step over the bound then in force
   double reaction_error =

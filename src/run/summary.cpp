@@ -11,16 +11,6 @@
 namespace edda {
 namespace {
 
-/// Penetration over the smallest edge of the blocks that move.
-double overlap_over_edge(const Simulation& sim) {
-  double edge = 0.0;
-  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
-    if (sim.blocks.fixed[i]) continue;
-    edge = edge == 0.0 ? sim.blocks.smallest_edge[i] : std::min(edge, sim.blocks.smallest_edge[i]);
-  }
-  return edge > 0.0 ? sim.max_penetration / edge : 0.0;
-}
-
 /// A model counts as at rest when forces balance to this part of a contact force.
 constexpr double at_rest = 1e-2;
 
@@ -88,7 +78,7 @@ void add_checks(Json& j, const std::vector<Check>& checks) {
 
 std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
   std::vector<Check> checks{
-      limited("largest overlap over smallest edge", overlap_over_edge(sim), 0.01),
+      limited("largest overlap over smallest edge", o.overlap_over_edge, 0.01),
       limited("largest step over critical step", o.step_over_critical, 1.0),
       limited("largest drift of the energy", o.largest_drift, 0.05),
   };

@@ -1,0 +1,277 @@
+"""The command line, end to end: exit codes, what is written and what is not. Usage: cli_test.py EDDA"""
+import csv
+import json
+import os
+import pathlib
+import pty
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+EDDA = pathlib.Path(sys.argv.pop(1)).resolve()
+
+RAMP = """title = "Ramp \\"quoted\\""
+[materials.rock]
+density = 2750.0
+young = 2e8
+poisson = 0.25
+[joints.ramp]
+friction_angle = 15.0
+[[block]]
+name = "ramp"
+fixed = true
+polygon = [[-1, -1], [4, -1], [4, 0], [-1, 0]]
+[[block]]
+name = "slider"
+polygon = [[0, 0], [2, 0], [2, 1], [0, 1]]
+velocity = [1.0, 0.0]
+[[monitor]]
+name = "M"
+point = [1.0, 0.5]
+[solver]
+duration = 0.01
+[output]
+every = 0.005
+history_every = 0.001
+"""
+
+RESULTS = {"summary.json", "history.csv", "blocks.csv", "joints.csv", "blocks.pvd", "contacts.pvd", "frames", "model.toml"}
+SUMMARY = """version title method mass status message blocks contacts time steps time_step critical_time_step governed_by
+open_close step_changes max_penetration energy wall_seconds block_steps_per_second threads checks inputs""".split()
+
+
+def read_rows(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def read_cells(path):
+    with open(path, newline="") as file:
+        return list(csv.reader(file))
+
+
+class Cli(unittest.TestCase):
+    def setUp(self):
+        self.dir = pathlib.Path(tempfile.mkdtemp(prefix="edda_cli_"))
+        self.addCleanup(shutil.rmtree, self.dir)
+        (self.dir / "m.toml").write_text(RAMP)
+
+    def edda(self, *args, **more):
+        return subprocess.run([str(EDDA), *args], cwd=self.dir, text=True, capture_output=True, timeout=120, **more)
+
+    def expect(self, code, *args):
+        done = self.edda(*args)
+        self.assertEqual(done.returncode, code, f"{args}: {done.stdout}{done.stderr}")
+        return done
+
+    def names(self):
+        return sorted(p.name for p in self.dir.iterdir())
+
+    def test_run_writes_every_file_of_the_promise(self):
+        done = self.expect(0, "run", "m.toml")
+        self.assertEqual({p.name for p in (self.dir / "m").iterdir()}, RESULTS)
+        summary = json.loads((self.dir / "m/summary.json").read_text())
+        self.assertEqual([k for k in SUMMARY if k not in summary], [])
+        self.assertEqual(summary["status"], "completed")
+        self.assertEqual(summary["title"], 'Ramp "quoted"')
+        self.assertEqual(set(summary["time_step"]), {"min", "max", "mean"})
+        self.assertLess(abs(summary["energy"]["drift"]), 1e-3)
+        for check in summary["checks"]:
+            self.assertEqual(set(check), {"name", "value", "limit", "pass"})
+        rows = read_rows(self.dir / "m/history.csv")
+        self.assertEqual([r["time"] for r in rows], ["0"] + [f"0.00{k}" for k in range(1, 10)] + ["0.01"])
+        self.assertEqual(list(rows[0])[1:8], ["M." + n for n in "ux uy vx vy sxx syy sxy".split()])
+        self.assertEqual(
+            list(rows[0])[8:],
+            "kinetic strain contact gravity friction damping fracture external step_change drift unbalanced".split())
+        blocks = read_cells(self.dir / "m/blocks.csv")
+        self.assertEqual(" ".join(blocks[0]), "id name material x y area ux uy rotation vx vy omega sxx syy szz sxy")
+        self.assertEqual([b[1] for b in blocks[1:]], ["ramp", "slider"])
+        joints = read_cells(self.dir / "m/joints.csv")
+        self.assertEqual(" ".join(joints[0]),
+                         "block_i block_j joint x y normal_force shear_force opening slip state ever_slipped ever_opened mobilised")
+        self.assertEqual(done.stdout.splitlines()[0][:9], "completed")
+
+    def test_input_hash_is_that_of_the_file(self):
+        import hashlib
+        self.expect(0, "run", "m.toml", "--quiet")
+        inputs = json.loads((self.dir / "m/summary.json").read_text())["inputs"]
+        self.assertEqual(inputs, [{"file": "m.toml", "sha256": hashlib.sha256(RAMP.encode()).hexdigest()}])
+
+    def test_bad_models_exit_2_and_write_nothing(self):
+        for text in ("nonsense = 1\n" + RAMP, RAMP.replace("2e8", "-2e8"), "= not toml", RAMP.replace("[1.0, 0.5]", "[9, 9]"),
+                     RAMP.replace("duration = 0.01", "duration = 0.01\ntime_step = 0.1")):
+            (self.dir / "bad.toml").write_text(text)
+            before = self.names()
+            done = self.expect(2, "run", "bad.toml")
+            self.assertEqual(self.names(), before)
+            self.assertEqual(done.stdout, "")
+            lines = done.stderr.splitlines()
+            self.assertTrue(lines and all(line.startswith("bad.toml:") for line in lines), done.stderr)
+            self.expect(2, "check", "bad.toml")
+        self.expect(2, "run", "none.toml")
+
+    def test_bad_usage_exits_2(self):
+        for args in ((), ("nonsense",), ("run",), ("run", "m.toml", "--nonsense"), ("run", "m.toml", "--threads", "0"),
+                     ("cut", "m.toml", "-o", "x.doc"), ("plot", "m.toml", "-o", "x.doc"), ("plot", "none"),
+                     ("plot", "m.toml", "--field", "nonsense"), ("example", "nonsense"), ("run", "m.toml", "--set", "solver.nonsense=1")):
+            before = self.names()
+            done = self.expect(2, *args)
+            self.assertTrue(done.stderr, args)
+            self.assertEqual(self.names(), before)
+
+    def test_help_and_version(self):
+        self.assertRegex(self.expect(0, "--version").stdout, r"^edda \d+\.\d+")
+        self.assertIn("edda example ramp", self.expect(0, "--help").stdout)
+        for command in ("run", "check", "cut", "plot", "example"):
+            self.assertIn("Example", self.expect(0, command, "--help").stdout)
+
+    def test_set_changes_a_key(self):
+        self.expect(0, "run", "m.toml", "--set", "solver.duration=0.002", "--set", "block.slider.velocity=[2.0, 0.0]", "-o", "o")
+        rows = read_rows(self.dir / "o/history.csv")
+        self.assertEqual(rows[-1]["time"], "0.002")
+        self.assertEqual(float(rows[0]["M.vx"]), 2.0)
+        done = self.expect(2, "run", "m.toml", "--set", "solver.duration=0.002", "--set", "solver.duratoin=1")
+        self.assertTrue(done.stderr.startswith("--set:2:1"), done.stderr)
+
+    def test_model_as_run_gives_the_same_run(self):
+        self.expect(0, "run", "m.toml")
+        (self.dir / "again.toml").write_bytes((self.dir / "m/model.toml").read_bytes())
+        self.expect(0, "run", "again.toml")
+        self.assertEqual((self.dir / "m/blocks.csv").read_bytes(), (self.dir / "again/blocks.csv").read_bytes())
+
+    def test_folder_rule(self):
+        self.expect(0, "run", "m.toml", "--set", "output.every=0.001")
+        self.expect(0, "run", "m.toml")
+        self.assertEqual(len(list((self.dir / "m/frames").glob("blocks_*"))), 3)
+        (self.dir / "m/notes.txt").write_text("mine")
+        history = (self.dir / "m/history.csv").read_bytes()
+        done = self.expect(2, "run", "m.toml", "--set", "solver.duration=0.002")
+        self.assertIn("notes.txt", done.stderr)
+        self.assertEqual((self.dir / "m/history.csv").read_bytes(), history)
+        (self.dir / "model.toml").write_text(RAMP)
+        self.expect(2, "run", "model.toml", "-o", ".")
+        self.assertEqual((self.dir / "model.toml").read_text(), RAMP)
+
+    def interrupted(self, sent):
+        run = subprocess.Popen([str(EDDA), "run", "m.toml", "--set", "solver.duration=100000", "--set", "output.history_every=0.5",
+                                "--set", "output.every=1000"], cwd=self.dir, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        for _ in range(600):
+            if (self.dir / "m/frames/contacts_000000.vtu").exists():
+                break
+            time.sleep(0.05)
+        time.sleep(0.3)
+        run.send_signal(sent)
+        run.communicate(timeout=60)
+        self.assertEqual(run.returncode, 130)
+        self.assertEqual({p.name for p in (self.dir / "m").iterdir()}, RESULTS)
+        summary = json.loads((self.dir / "m/summary.json").read_text())
+        self.assertEqual(summary["status"], "interrupted")
+        self.assertEqual(read_rows(self.dir / "m/history.csv")[-1]["time"], repr(summary["time"]))
+
+    def test_interrupt_writes_everything(self):
+        self.interrupted(signal.SIGINT)
+
+    def test_termination_writes_everything(self):
+        self.interrupted(signal.SIGTERM)
+
+    def test_divergence_fails_and_keeps_what_was_computed(self):
+        (self.dir / "m.toml").write_text(RAMP.replace("duration = 0.01", "duration = 1.0\ntime_step = 2e-3\nallow_unstable = true")
+                                        .replace("every = 0.005\n", "every = 0.5\n").replace("history_every = 0.001", "history_every = 0.05"))
+        done = self.expect(1, "run", "m.toml")
+        self.assertRegex(done.stderr, r"diverged at \(.*\), t = .* s: .*block 1 \(slider\).*critical step")
+        summary = json.loads((self.dir / "m/summary.json").read_text())
+        self.assertEqual(summary["status"], "failed")
+        self.assertGreater(len((self.dir / "m/history.csv").read_text().splitlines()), 1)
+
+    @unittest.skipUnless(hasattr(os, "geteuid") and os.path.exists("/dev/shm"), "needs a small file system")
+    def test_full_disk_exits_1_and_keeps_earlier_files(self):
+        import resource
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (6000, 6000))
+        done = self.edda("run", "m.toml", "--set", "output.history_every=1e-4", preexec_fn=limit)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("cannot be written", done.stderr)
+        self.assertTrue((self.dir / "m/frames/blocks_000000.vtu").exists())
+        self.assertFalse(list((self.dir / "m").rglob("*.part")))
+
+    def test_bytes_do_not_depend_on_threads(self):
+        self.expect(0, "example", "cavern")
+        results = []
+        for n in (1, 2, 7):
+            self.expect(0, "run", "cavern.toml", "--quiet", "-o", f"t{n}", "--threads", str(n), "--set", "solver.duration=0.002",
+                        "--set", "output.history_every=0.001")
+            results.append([(self.dir / f"t{n}" / f).read_bytes() for f in ("blocks.csv", "joints.csv", "history.csv")])
+        self.assertEqual(results[0], results[1])
+        self.assertEqual(results[0], results[2])
+
+    def test_examples_are_sound_and_never_overwrite(self):
+        listed = [line.split()[0] for line in self.expect(0, "example").stdout.splitlines()[1:]]
+        for name in ("ramp", "ramp-30-10", "ramp-45-10", "ramp-45-15", "cavern", "slope", "arch", "wall"):
+            self.assertIn(name, listed)
+        for name in listed:
+            self.expect(0, "example", name)
+            self.assertIn("critical step", self.expect(0, "check", name + ".toml").stdout)
+        (self.dir / "ramp.toml").write_text("mine")
+        self.expect(2, "example", "ramp")
+        self.assertEqual((self.dir / "ramp.toml").read_text(), "mine")
+
+    def test_ramp_slides_as_it_should(self):
+        import math
+        for name, a, f in (("ramp", 30, 15), ("ramp-30-10", 30, 10), ("ramp-45-10", 45, 10), ("ramp-45-15", 45, 15)):
+            self.expect(0, "example", name)
+            self.expect(0, "run", name + ".toml")
+            last = read_rows(self.dir / name / "history.csv")[-1]
+            a, f = math.radians(a), math.radians(f)
+            slid = float(last["centre.ux"]) * math.cos(a) - float(last["centre.uy"]) * math.sin(a)
+            exact = 0.5 * 9.8 * 0.01 * (math.sin(a) - math.tan(f) * math.cos(a))
+            self.assertLess(abs(slid / exact - 1.0), 2e-3, name)
+
+    def test_check_writes_nothing(self):
+        before = self.names()
+        out = self.expect(0, "check", "m.toml").stdout
+        for word in ("blocks", "contacts", "critical step", "governed by", "steps", "time to expect", "warnings"):
+            self.assertIn(word, out)
+        self.assertEqual(self.names(), before)
+
+    def test_cut_in_every_format(self):
+        for ending in ("svg", "png", "vtu", "csv"):
+            self.expect(0, "cut", "m.toml", "-o", "cut." + ending)
+            self.assertGreater((self.dir / ("cut." + ending)).stat().st_size, 100)
+        rows = read_rows(self.dir / "cut.csv")
+        self.assertEqual(list(rows[0]), "block material ring x y joint".split())
+        self.assertEqual(len(rows), 8)
+
+    def test_plot_of_results_and_models(self):
+        self.expect(0, "run", "m.toml")
+        self.expect(0, "plot", "m")
+        self.assertEqual((self.dir / "m.png").read_bytes()[:4], b"\x89PNG")
+        for field in "id material displacement velocity rotation stress principal_stress normal_force shear_force opening slip state none".split():
+            self.expect(0, "plot", "m", "--field", field, "--time", "0.005", "-o", "p.svg", "--forces", "--vectors", "velocity")
+        self.expect(0, "plot", "m.toml", "-o", "model.png")
+
+    def test_progress_is_a_bar_on_a_terminal_and_silent_when_quiet(self):
+        self.assertEqual(self.expect(0, "run", "m.toml", "--quiet").stderr, "")
+        self.assertNotIn("\r", self.expect(0, "run", "m.toml").stderr)
+        main, other = pty.openpty()
+        run = subprocess.Popen([str(EDDA), "run", "m.toml"], cwd=self.dir, stdout=subprocess.DEVNULL, stderr=other)
+        os.close(other)
+        text = b""
+        try:
+            while chunk := os.read(main, 4096):
+                text += chunk
+        except OSError:
+            pass
+        run.wait(60)
+        os.close(main)
+        self.assertIn(b"100 %", text)
+        self.assertIn(b"steps/s", text)
+
+
+if __name__ == "__main__":
+    unittest.main()

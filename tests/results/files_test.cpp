@@ -1,0 +1,136 @@
+// The results folder's rule, files whole or not at all, frames there and back.
+#include "results/files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "results/vtu.hpp"
+
+namespace edda {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Folder : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    root = fs::path(testing::TempDir()) / (std::string("edda_") + info->name());
+    fs::remove_all(root);
+    fs::create_directories(root);
+  }
+  void TearDown() override { fs::remove_all(root); }
+  std::string at(const std::string& name) const { return (root / name).string(); }
+  void touch(const std::string& name) const {
+    fs::create_directories((root / name).parent_path());
+    std::ofstream(root / name) << "x";
+  }
+  fs::path root;
+};
+
+TEST_F(Folder, TakesAnEarlierRunsFilesAndNothingElse) {
+  EXPECT_FALSE(check_folder(at("new"), at("m.toml")));
+  touch("old/summary.json");
+  touch("old/frames/blocks_000001.vtu");
+  touch("old/history.csv.part");
+  EXPECT_FALSE(check_folder(at("old"), at("m.toml")));
+  touch("old/notes.txt");
+  ASSERT_TRUE(check_folder(at("old"), at("m.toml")));
+  EXPECT_NE(check_folder(at("old"), at("m.toml"))->problem.find("notes.txt"), std::string::npos);
+  touch("mine/frames/holiday.jpg");
+  EXPECT_TRUE(check_folder(at("mine"), at("m.toml")));
+  touch("file");
+  EXPECT_TRUE(check_folder(at("file"), at("m.toml")));
+}
+
+TEST_F(Folder, NeverTakesTheOneThatHoldsTheModel) {
+  touch("model.toml");
+  EXPECT_TRUE(check_folder(root.string(), at("model.toml")));
+}
+
+TEST_F(Folder, ClearingLeavesAnEmptyFrames) {
+  touch("run/summary.json");
+  touch("run/frames/contacts_000000.vtu");
+  ASSERT_FALSE(clear_folder(at("run")));
+  EXPECT_TRUE(fs::is_empty(at("run/frames")));
+  EXPECT_FALSE(fs::exists(at("run/summary.json")));
+}
+
+TEST_F(Folder, ClearingRefusesWhatItDoesNotKnow) {
+  touch("run/notes.txt");
+  EXPECT_TRUE(clear_folder(at("run")));
+  EXPECT_TRUE(fs::exists(at("run/notes.txt")));
+}
+
+TEST_F(Folder, FailedWritesKeepWhatWasThere) {
+  ASSERT_FALSE(write_file(at("a"), "first"));
+  EXPECT_TRUE(write_file(at("none/a"), "x"));
+  fs::create_directories(at("a.part"));  // stands where the new file would grow
+  EXPECT_TRUE(write_file(at("a"), "second"));
+  EXPECT_EQ(read_file(at("a")).value(), "first");
+}
+
+TEST(RowFile, ReportsAFullDisk) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP();
+  RowFile file;
+  ASSERT_FALSE(file.open("/dev/full"));
+  const Trouble trouble = file.add("1,2,3\n");
+  ASSERT_TRUE(trouble);
+  EXPECT_NE(trouble->problem.find("No space"), std::string::npos);
+}
+
+Grid small_grid() {
+  Grid g;
+  g.time = 0.25;
+  g.points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+  g.corners = {0, 1, 2, 0, 2, 3};
+  g.ends = {3, 6};
+  g.types = {cell_type::triangle, cell_type::triangle};
+  g.cell_fields = {{"id", 1, {7, 8}, {}, true}, {"velocity", 3, {1, 2, 3, 4, 5, 6.5}, {}, false}};
+  g.point_fields = {{"displacement", 3, std::vector<double>(12, 0.1), {}, false}};
+  return g;
+}
+
+TEST_F(Folder, FramesComeBackAsTheyWere) {
+  const Grid g = small_grid();
+  ASSERT_FALSE(write_vtu(at("g.vtu"), g));
+  const Result<Grid> back = read_vtu(at("g.vtu"));
+  ASSERT_TRUE(back.ok());
+  EXPECT_EQ(back.value().time, g.time);
+  EXPECT_EQ(back.value().points, g.points);
+  EXPECT_EQ(back.value().corners, g.corners);
+  EXPECT_EQ(back.value().types, g.types);
+  EXPECT_EQ(back.value().cell_field("id")->values, g.cell_fields[0].values);
+  EXPECT_EQ(back.value().cell_field("velocity")->values, g.cell_fields[1].values);
+  EXPECT_EQ(back.value().point_field("displacement")->values, g.point_fields[0].values);
+}
+
+TEST_F(Folder, FramesCutShortAreFaultsAndNeverCrash) {
+  ASSERT_FALSE(write_vtu(at("g.vtu"), small_grid()));
+  const std::string whole = read_file(at("g.vtu")).value();
+  const std::size_t needed = whole.rfind("\n</AppendedData>");
+  for (std::size_t n = 0; n < needed; n += 3) {
+    ASSERT_FALSE(write_file(at("cut.vtu"), whole.substr(0, n)));
+    EXPECT_FALSE(read_vtu(at("cut.vtu")).ok()) << n;
+  }
+  for (std::size_t n = 0; n < needed; n += 5) {
+    std::string damaged = whole;
+    damaged[n] = '9';
+    ASSERT_FALSE(write_file(at("bad.vtu"), damaged));
+    (void)read_vtu(at("bad.vtu")).ok();
+  }
+}
+
+TEST_F(Folder, SeriesComeBackAsTheyWere) {
+  ASSERT_FALSE(write_pvd(at("s.pvd"), {{0.0, "frames/a.vtu"}, {0.1, "frames/b.vtu"}}));
+  const auto back = read_pvd(at("s.pvd"));
+  ASSERT_TRUE(back.ok());
+  ASSERT_EQ(back.value().size(), 2u);
+  EXPECT_EQ(back.value()[1].time, 0.1);
+  EXPECT_EQ(back.value()[1].file, "frames/b.vtu");
+}
+
+}  // namespace
+}  // namespace edda

@@ -1,0 +1,132 @@
+"""Frames as ParaView reads them (VTK): polygons, fields and times against blocks.csv. Usage: frames_test.py EDDA"""
+import csv
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree
+
+try:
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+except ImportError:
+    print("python3-vtk9 is not there: nothing was tested")
+    sys.exit(77)
+
+MODEL = """[materials.rock]
+density = 2000.0
+young = 1e8
+poisson = 0.25
+[joints.j]
+friction_angle = 30.0
+[[block]]
+name = "floor"
+fixed = true
+polygon = [[-5, -1], [9, -1], [9, 0], [-5, 0]]
+[[block]]
+name = "box"
+polygon = [[0, 0], [2, 0], [2, 1], [0, 1]]
+velocity = [1.0, 0.0]
+[[block]]
+name = "L"
+polygon = [[4, 0], [7, 0], [7, 1], [5, 1], [5, 3], [4, 3]]
+velocity = [0.5, 1.0]
+angular_velocity = 0.5
+[solver]
+duration = 0.1
+[output]
+every = 0.05
+"""
+
+
+def read(path):
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    errors = []
+    reader.AddObserver("ErrorEvent", lambda *_: errors.append(path))
+    reader.SetFileName(str(path))
+    reader.Update()
+    assert not errors, path
+    return reader.GetOutput()
+
+
+def area_and_centre(cell):
+    p = [cell.GetPoints().GetPoint(k) for k in range(cell.GetNumberOfPoints())]
+    twice = x = y = 0.0
+    for (ax, ay, _), (bx, by, _) in zip(p, p[1:] + p[:1]):
+        w = ax * by - bx * ay
+        twice, x, y = twice + w, x + w * (ax + bx) / 3, y + w * (ay + by) / 3
+    return twice / 2, x / 2, y / 2  # area, first moments
+
+
+def close(a, b, scale=1.0):
+    assert abs(a - b) <= 1e-9 * max(scale, abs(b)), (a, b)
+
+
+def series(path):
+    return [(float(d.get("timestep")), d.get("file")) for d in xml.etree.ElementTree.parse(path).iter("DataSet")]
+
+
+def check_blocks(folder):
+    frames = series(folder / "blocks.pvd")
+    assert [t for t, _ in frames] == [0.0, 0.05, 0.1], frames
+    grid = read(folder / frames[-1][1])
+    names = "id material displacement velocity rotation stress principal_stress".split()
+    data = grid.GetCellData()
+    arrays = {n: vtk_to_numpy(data.GetArray(n)) for n in names}
+    assert grid.GetCellType(0) == vtk.VTK_POLYGON
+    totals = {}
+    for c in range(grid.GetNumberOfCells()):
+        totals.setdefault(int(arrays["id"][c]), []).append(c)
+    with open(folder / "blocks.csv") as file:
+        rows = list(csv.DictReader(file))
+    assert sorted(totals) == [int(r["id"]) for r in rows] == [0, 1, 2]
+    assert len(totals[2]) == 4, "the L is split into triangles"
+    for row in rows:
+        cells = totals[int(row["id"])]
+        parts = [area_and_centre(grid.GetCell(c)) for c in cells]
+        area = sum(p[0] for p in parts)
+        close(area, float(row["area"]))
+        close(sum(p[1] for p in parts) / area, float(row["x"]))
+        close(sum(p[2] for p in parts) / area, float(row["y"]))
+        for c in cells:
+            s = {k: float(row[k]) for k in ("sxx", "syy", "szz", "sxy")}
+            assert list(arrays["displacement"][c]) == [float(row["ux"]), float(row["uy"]), 0.0]
+            assert list(arrays["velocity"][c]) == [float(row["vx"]), float(row["vy"]), 0.0]
+            assert arrays["rotation"][c] == float(row["rotation"])
+            assert list(arrays["stress"][c]) == [s["sxx"], s["syy"], s["szz"], s["sxy"], 0.0, 0.0]
+            mean, radius = (s["sxx"] + s["syy"]) / 2, math.hypot((s["sxx"] - s["syy"]) / 2, s["sxy"])
+            close(arrays["principal_stress"][c][0], mean + radius, 1e3)
+            close(arrays["principal_stress"][c][1], mean - radius, 1e3)
+    assert float(rows[1]["ux"]) > 0.05, "nothing has moved: the comparison says nothing"
+    points = grid.GetPointData()
+    for name in ("displacement", "velocity"):
+        assert points.GetArray(name).GetNumberOfComponents() == 3
+    start = read(folder / frames[0][1])
+    moved = vtk_to_numpy(grid.GetPoints().GetData()) - vtk_to_numpy(start.GetPoints().GetData())
+    assert abs(moved - vtk_to_numpy(points.GetArray("displacement"))).max() < 1e-12
+
+
+def check_contacts(folder):
+    frames = series(folder / "contacts.pvd")
+    grid = read(folder / frames[-1][1])
+    with open(folder / "joints.csv") as file:
+        rows = list(csv.DictReader(file))
+    assert grid.GetNumberOfCells() == len(rows) > 0
+    states = ["open", "stick", "slide", "bonded"]
+    data = grid.GetCellData()
+    for c, row in enumerate(rows):
+        for name in ("normal_force", "shear_force", "opening", "slip"):
+            assert data.GetArray(name).GetTuple1(c) == float(row[name]), name
+        assert states[int(data.GetArray("state").GetTuple1(c))] == row["state"]
+        close(grid.GetPoint(c)[0], float(row["x"]))
+    assert data.GetArray("force").GetNumberOfComponents() == 3
+
+
+with tempfile.TemporaryDirectory() as name:
+    work = pathlib.Path(name)
+    (work / "m.toml").write_text(MODEL)
+    subprocess.run([str(pathlib.Path(sys.argv[1]).resolve()), "run", "m.toml", "--quiet"], cwd=work, check=True)
+    check_blocks(work / "m")
+    check_contacts(work / "m")
+print("frames agree with the tables")

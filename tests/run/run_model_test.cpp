@@ -1,0 +1,208 @@
+// The driver: rows, frames, velocities, turns, guards, stopping.
+#include "run/run_model.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "model/read_model.hpp"
+#include "results/files.hpp"
+
+namespace edda {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* falling = R"(
+gravity = [0.0, -10.0]
+[materials.rock]
+density = 2000.0
+young = 1e8
+poisson = 0.25
+[joints.j]
+friction_angle = 30.0
+[[block]]
+name = "flyer"
+polygon = [[0, 0], [1, 0], [1, 1], [0, 1]]
+velocity = [3.0, 0.0]
+angular_velocity = 7.0
+[[monitor]]
+name = "M"
+point = [0.5, 0.5]
+[solver]
+duration = 3.0
+[output]
+every = 1.5
+history_every = 0.3
+)";
+
+Result<PreparedRun> prepared(const std::string& toml, const std::vector<std::string>& sets = {}) {
+  Result<Model> model = read_model_text(toml, "m.toml", sets);
+  if (!model.ok()) return model.faults();
+  return prepare_run(std::move(model.value()));
+}
+
+std::string folder_of_test() {
+  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+  const std::string folder = testing::TempDir() + "edda_run_" + info->name();
+  fs::remove_all(folder);
+  return folder;
+}
+
+std::vector<std::vector<std::string>> table(const std::string& path) {
+  std::ifstream in(path);
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; std::getline(in, line);) {
+    std::stringstream cells(line);
+    rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+TEST(RunModel, RowsAtEveryMultipleWithVelocitiesOfTheirTime) {
+  const std::string folder = folder_of_test();
+  Result<PreparedRun> run = prepared(falling);
+  ASSERT_TRUE(run.ok());
+  const Result<Outcome> outcome = run_model(run.value(), {.folder = folder, .progress = {}});
+  ASSERT_TRUE(outcome.ok());
+  EXPECT_EQ(outcome.value().status, Status::completed);
+  const auto rows = table(folder + "/history.csv");
+  ASSERT_EQ(rows.size(), 12u);
+  EXPECT_EQ(rows[0][1], "M.ux");
+  EXPECT_EQ(rows[4][0], "0.9");
+  for (std::size_t r = 1; r < rows.size(); ++r) {
+    const double t = std::stod(rows[r][0]);
+    // Free flight: v_n is exact at t, not half a step before.
+    EXPECT_NEAR(std::stod(rows[r][3]), 3.0, 1e-9);
+    EXPECT_NEAR(std::stod(rows[r][4]), -10.0 * t, 1e-9) << t;
+    EXPECT_NEAR(std::stod(rows[r][1]), 3.0 * t, 1e-9);
+  }
+  const auto blocks = table(folder + "/blocks.csv");
+  ASSERT_EQ(blocks.size(), 2u);
+  // 21 rad are more than three turns; the spin carries a little centrifugal strain.
+  EXPECT_NEAR(std::stod(blocks[1][8]), 21.0, 0.02);
+  EXPECT_NEAR(std::stod(blocks[1][11]), 7.0, 0.01);
+  int frames = 0;
+  for (const auto& entry : fs::directory_iterator(folder + "/frames")) {
+    frames += entry.path().filename().string().starts_with("blocks_");
+  }
+  EXPECT_EQ(frames, 3);
+  fs::remove_all(folder);
+}
+
+TEST(RunModel, StopFlagEndsItWithEverythingWritten) {
+  const std::string folder = folder_of_test();
+  Result<PreparedRun> run = prepared(falling);
+  ASSERT_TRUE(run.ok());
+  std::atomic<bool> stop{false};
+  RunOptions options{.folder = folder, .progress = {}, .progress_every = 0.0, .stop = &stop};
+  options.progress = [&](const Progress& p) {
+    if (p.time > 1.0) stop = true;
+  };
+  const Result<Outcome> outcome = run_model(run.value(), options);
+  ASSERT_TRUE(outcome.ok());
+  EXPECT_EQ(outcome.value().status, Status::interrupted);
+  EXPECT_GT(outcome.value().time, 1.0);
+  EXPECT_LT(outcome.value().time, 1.2);
+  for (const char* file :
+       {"summary.json", "blocks.csv", "joints.csv", "history.csv", "blocks.pvd"}) {
+    EXPECT_TRUE(fs::exists(folder + "/" + file)) << file;
+  }
+  const auto rows = table(folder + "/history.csv");
+  EXPECT_EQ(std::stod(rows.back()[0]), outcome.value().time);
+  fs::remove_all(folder);
+}
+
+TEST(RunModel, GivenStepAboveTheBoundIsRefusedWithTheBound) {
+  const Result<PreparedRun> run = prepared(falling, {"solver.time_step=0.1"});
+  ASSERT_FALSE(run.ok());
+  ASSERT_EQ(run.faults().size(), 1u);
+  EXPECT_EQ(run.faults()[0].where.key, "solver.time_step");
+  EXPECT_NE(run.faults()[0].problem.find("critical step"), std::string::npos);
+  EXPECT_TRUE(prepared(falling, {"solver.time_step=0.1", "solver.allow_unstable=true"}).ok());
+}
+
+TEST(RunModel, UnstableStepFailsWithBlockPlaceTimeAndCause) {
+  const std::string folder = folder_of_test();
+  const Result<PreparedRun> stable = prepared(falling);
+  ASSERT_TRUE(stable.ok());
+  const std::string step = fmt::format("{}", 3.0 * stable.value().sim.bound.critical_step);
+  Result<PreparedRun> run = prepared(
+      falling, {"solver.time_step=" + step, "solver.allow_unstable=true", "gravity=[0.0, 0.0]",
+                "solver.max_displacement_ratio=1.0", "block.flyer.angular_velocity=0.1"});
+  ASSERT_TRUE(run.ok());
+  const Result<Outcome> outcome = run_model(run.value(), {.folder = folder, .progress = {}});
+  ASSERT_TRUE(outcome.ok());
+  EXPECT_EQ(outcome.value().status, Status::failed);
+  const std::string& message = outcome.value().message;
+  EXPECT_NE(message.find("block 0 (flyer)"), std::string::npos) << message;
+  EXPECT_NE(message.find("t = "), std::string::npos) << message;
+  EXPECT_NE(message.find("above the critical step"), std::string::npos) << message;
+  EXPECT_TRUE(fs::exists(folder + "/summary.json"));
+  EXPECT_GE(table(folder + "/history.csv").size(), 2u);
+  fs::remove_all(folder);
+}
+
+TEST(RunModel, MonitorsOutsideEveryBlockAreFaults) {
+  const Result<PreparedRun> run = prepared(falling, {"monitor.M.point=[5.0, 5.0]"});
+  ASSERT_FALSE(run.ok());
+  EXPECT_NE(run.faults()[0].where.key.find("monitor"), std::string::npos);
+}
+
+TEST(RunModel, MonitorsOnASharedEdgeBelongToTheLowestId) {
+  const std::string second = R"(
+[[block]]
+name = "second"
+polygon = [[1, 0], [2, 0], [2, 1], [1, 1]]
+)";
+  const auto block_of = [&](const char* point) {
+    Result<PreparedRun> run = prepared(falling + second, {std::string("monitor.M.point=") + point});
+    EXPECT_TRUE(run.ok());
+    return run.value().monitors.at(0).block;
+  };
+  EXPECT_EQ(block_of("[1.0, 0.5]"), 0u);
+  EXPECT_EQ(block_of("[1.1, 0.5]"), 1u);
+  EXPECT_EQ(block_of("[2.0000000005, 0.5]"), 1u);  // outside, within snap
+}
+
+TEST(RunModel, WarnsOfWhatLooksRightAndIsNot) {
+  const std::string on_floor = std::string(falling) + R"(
+[[block]]
+name = "floor"
+fixed = true
+polygon = [[-9, -1], [9, -1], [9, 0], [-9, 0]]
+)";
+  auto warned = [&](const std::vector<std::string>& sets, const char* word) {
+    Result<PreparedRun> run = prepared(on_floor, sets);
+    EXPECT_TRUE(run.ok());
+    for (const std::string& w : run.value().warnings) {
+      if (w.find(word) != std::string::npos) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(warned({}, "gravity acts at once"));
+  EXPECT_FALSE(warned({"solver.damping.local=0.8"}, "gravity acts at once"));
+  EXPECT_FALSE(warned({}, "springs so"));
+  EXPECT_TRUE(warned({"contact.normal_stiffness=1e6"}, "so soft"));
+  EXPECT_TRUE(warned({"contact.normal_stiffness=1e12"}, "so stiff"));
+  EXPECT_FALSE(warned({}, "overlap at the start"));
+  EXPECT_TRUE(warned({"block.flyer.polygon=[[0, -5e-4], [1, -5e-4], [1, 1], [0, 1]]"},
+                     "overlap at the start"));
+}
+
+TEST(RunModel, TwoInOneProcessDoNotMeet) {
+  Result<PreparedRun> a = prepared(falling), b = prepared(falling);
+  ASSERT_TRUE(a.ok() && b.ok());
+  const Result<Outcome> first = run_model(a.value(), {}), second = run_model(b.value(), {});
+  EXPECT_EQ(a.value().sim.state.x, b.value().sim.state.x);
+  EXPECT_EQ(first.value().steps, second.value().steps);
+}
+
+}  // namespace
+}  // namespace edda
