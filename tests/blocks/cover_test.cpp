@@ -112,13 +112,11 @@ TEST(BuildBlocks, KineticEnergyOfALinearFieldIsExact) {
     const BlockSet b = build_blocks(model, set);
     const State s = initial_state(b, set);
     const Moments m = moments(set.blocks[0].rings);
-    const double exact =
-        0.5 * b.mass[0] * 5.0 + 0.5 * 2600.0 * (m.sxx + m.syy) * 9.0;
+    const double exact = 0.5 * b.mass[0] * 5.0 + 0.5 * 2600.0 * (m.sxx + m.syy) * 9.0;
     double kinetic = 0.0;
     if (kind == MassKind::matched) {
       for (std::size_t k = 0; k < 3; ++k) {
-        kinetic += 0.5 * b.node_mass[k][0] *
-                   (s.vx[k][0] * s.vx[k][0] + s.vy[k][0] * s.vy[k][0]);
+        kinetic += 0.5 * b.node_mass[k][0] * (s.vx[k][0] * s.vx[k][0] + s.vy[k][0] * s.vy[k][0]);
       }
     } else {
       std::array<double, 6> inverse;
@@ -127,8 +125,7 @@ TEST(BuildBlocks, KineticEnergyOfALinearFieldIsExact) {
       constexpr std::size_t at[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
       for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t l = 0; l < 3; ++l) {
-          kinetic += 0.5 * mass[at[k][l]] *
-                     (s.vx[k][0] * s.vx[l][0] + s.vy[k][0] * s.vy[l][0]);
+          kinetic += 0.5 * mass[at[k][l]] * (s.vx[k][0] * s.vx[l][0] + s.vy[k][0] * s.vy[l][0]);
         }
       }
     }

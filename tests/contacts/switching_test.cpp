@@ -13,10 +13,10 @@ TEST(SwitchingAlpha, WorkEqualsChangeOfStoredEnergy) {
   std::uniform_real_distribution<double> u(0.0, 1.0);
   int opened = 0, closed = 0, stayed = 0, left = 0;
   for (int trial = 0; trial < 100000; ++trial) {
-    const double d = u(rng);                          // now, p = 1
-    const double before = 3.0 * u(rng) - 1.5;         // a step ago
-    const double without = 4.0 * u(rng) - 2.0;        // the next one without this force
-    const double push = 3.9 * d * u(rng);             // q = (w h)^2 d, (w h)^2 < 4
+    const double d = u(rng);                    // now, p = 1
+    const double before = 3.0 * u(rng) - 1.5;   // a step ago
+    const double without = 4.0 * u(rng) - 2.0;  // the next one without this force
+    const double push = 3.9 * d * u(rng);       // q = (w h)^2 d, (w h)^2 < 4
     const double alpha = switching_alpha(before, without, push);
     ASSERT_GE(alpha, 0.0);
     ASSERT_LE(alpha, 1.0);
@@ -28,7 +28,8 @@ TEST(SwitchingAlpha, WorkEqualsChangeOfStoredEnergy) {
       EXPECT_EQ(alpha, 1.0);
       EXPECT_NEAR(work, change, 1e-14);
     } else if (before > 0.0) {
-      // Opens: exact unless the whole force does not do (alpha cut at 1: it then keeps some energy back).
+      // Opens: exact unless the whole force does not do (alpha cut at 1: it then keeps some energy
+      // back).
       ++opened;
       if (alpha < 1.0) {
         EXPECT_NEAR(work, change, 1e-12);
@@ -50,7 +51,8 @@ TEST(SwitchingAlpha, WorkEqualsChangeOfStoredEnergy) {
 TEST(SwitchingAlpha, OneMassKeepsItsEnergy) {
   for (const double wh : {0.1, 0.5, 1.0, 1.5, 1.9}) {
     const double k = 1.0, m = 1.0, h = wh * std::sqrt(m / k), g = 1e-3;
-    double x = 0.5, v = 0.5 * g * h, x_before = x - h * v;  // height; v_{-1/2} = v_0 - a h/2 with a = -g
+    double x = 0.5, v = 0.5 * g * h,
+           x_before = x - h * v;  // height; v_{-1/2} = v_0 - a h/2 with a = -g
     auto energy = [&] {
       const double d = -x, d_before = -x_before;
       return 0.5 * m * v * v + m * g * 0.5 * (x + x_before) +

@@ -59,8 +59,8 @@ TEST(ContactForce, IsTheGradientOfTheSprings) {
         contact_force(e.t, e.length, gap.foot, gap.depth, anchor, kn * gap.depth, -ks * slip);
     const auto expected = descent(
         p, [&](const Points& q) { return normal_energy(q, kn) + shear_energy(q, ks, anchor); });
-    for (const auto& [got, want] :
-         {std::pair{f.f1, expected[0]}, std::pair{f.f2, expected[1]}, std::pair{f.f3, expected[2]}}) {
+    for (const auto& [got, want] : {std::pair{f.f1, expected[0]}, std::pair{f.f2, expected[1]},
+                                    std::pair{f.f3, expected[2]}}) {
       EXPECT_NEAR(got.x, want.x, 1e-7);
       EXPECT_NEAR(got.y, want.y, 1e-7);
     }
