@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contacts/gap.hpp"
 
@@ -23,15 +24,18 @@ std::string cause(const StepInUse& step, const char* otherwise) {
   return otherwise;
 }
 
-/// Whether the vertex lies inside block j as it is now (ray crossings over all its rings).
-bool inside(const BlockSet& b, const Pose& pose, Vec2 p, std::size_t j) {
+/// Distance of p from the boundary of block j as it is now if p lies inside it, else 0.
+double depth_inside(const BlockSet& b, const Pose& pose, Vec2 p, std::size_t j) {
   bool in = false;
+  double nearest = std::numeric_limits<double>::infinity();
   for (Id e = b.vertex_begin[j]; e < b.vertex_begin[j + 1]; ++e) {
     const Vec2 s = at(pose.x, pose.y, e), t = at(pose.x, pose.y, b.next[e]);
+    const double along = std::clamp(dot(p - s, t - s) / dot(t - s, t - s), 0.0, 1.0);
+    nearest = std::min(nearest, norm(p - (s + along * (t - s))));
     if ((s.y > p.y) == (t.y > p.y)) continue;
     if ((cross(t - s, p - s) > 0.0) == (t.y > s.y)) in = !in;
   }
-  return in;
+  return in ? nearest : 0.0;
 }
 
 }  // namespace
@@ -61,18 +65,21 @@ Failure lost_block(const BlockSet& b, const State& s, const Pose& pose, const No
 std::optional<Failure> deep_overlap(const ContactSet& c, const BlockSet& b, const State& s,
                                     const Pose& pose, double largest, double smallest_half_width,
                                     const StepInUse& step) {
-  auto deep = [&](std::size_t k) {
-    const double limit = std::min(b.inradius[c.block_i[k]], b.inradius[c.block_j[k]]);
-    return c.depth[k] > limit && inside(b, pose, at(pose.x, pose.y, c.vertex[k]), c.block_j[k]);
+  auto limit = [&](std::size_t k) {
+    return std::min(b.inradius[c.block_i[k]], b.inradius[c.block_j[k]]);
   };
   Id worst = no_id;
   if (largest > smallest_half_width) {
     for (std::size_t k = 0; k < c.size() && worst == no_id; ++k) {
-      if (c.is(k, contact_state::closed) && deep(k)) worst = static_cast<Id>(k);
+      if (c.is(k, contact_state::closed) && c.depth[k] > limit(k)) worst = static_cast<Id>(k);
     }
   }
+  // Blocked for its depth below the line of an edge: only where it is truly inside does that
+  // matter.
   for (const Id k : c.blocked) {
-    if (worst == no_id && c.why[k] == Blocked::depth && deep(k)) worst = k;
+    if (worst != no_id || c.why[k] != Blocked::depth) continue;
+    const Vec2 p = at(pose.x, pose.y, c.vertex[k]);
+    if (depth_inside(b, pose, p, c.block_j[k]) > 0.5 * limit(k)) worst = k;
   }
   if (worst == no_id) return std::nullopt;
   Failure f;

@@ -118,10 +118,9 @@ bool Driver::step_to(double time) {
                                            sim_.model.solver.duration));
       return false;
     }
-    const std::uint64_t rebuilds = sim_.contacts.rebuilds;
     const auto start = Clock::now();
     const std::optional<Failure> failure = sim_.step();
-    measure(since(start), sim_.contacts.rebuilds != rebuilds);
+    outcome_.wall.stepping += since(start);
     outcome_.critical_step = std::min(outcome_.critical_step, sim_.bound.critical_step);
     outcome_.step_over_critical =
         std::max(outcome_.step_over_critical, sim_.state.step / sim_.bound.critical_step);
@@ -136,13 +135,6 @@ bool Driver::step_to(double time) {
     if (options_.progress && since(reported_) >= options_.progress_every) report(false);
   }
   return true;
-}
-
-void Driver::measure(double seconds, bool searched) {
-  outcome_.wall.stepping += seconds;
-  if (!searched) return;
-  searching_ += seconds;
-  ++searches_;
 }
 
 bool Driver::record(const Event& event) {
@@ -234,7 +226,6 @@ void Driver::write_end() {
     count_turns(sim_, angle_);
     observe(sim_, instant_);
     const Picture picture = picture_of(sim_, instant_);
-    share_out_time();  // works on the instant's copies, so only now
     const Trouble trouble = recorder_.tables(picture);
     if (trouble && !disk_trouble_) {
       outcome_.status = Status::failed;
@@ -243,6 +234,7 @@ void Driver::write_end() {
   }
   outcome_.wall.output += since(start);
   outcome_.wall.cut = run_.cut_seconds;
+  share_out_time();
   outcome_.wall.total = since(started_) + run_.cut_seconds;
   if (const Trouble trouble = recorder_.summary(sim_, outcome_, run_.governed_by)) {
     outcome_.status = Status::failed;
@@ -253,25 +245,11 @@ void Driver::write_end() {
 
 void Driver::share_out_time() {
   WallSeconds& w = outcome_.wall;
-  const auto steps = static_cast<double>(sim_.state.steps);
-  if (steps == 0.0) return;
-  // Forces and motion once more on copies, as in a step.
-  auto start = Clock::now();
-  evaluate_contacts(instant_.contacts, sim_.blocks, sim_.laws, sim_.state.step,
-                    sim_.model.solver.damping.contact);
-  gather_forces(instant_.forces, sim_.blocks, sim_.state, sim_.pose, instant_.contacts,
-                sim_.springs, sim_.model.gravity);
-  const double forces = since(start);
-  State scratch = sim_.state;
-  start = Clock::now();
-  advance(scratch, sim_.blocks, instant_.forces.x, instant_.forces.y, scratch.step, scratch.step,
-          {});
-  const double integrate = since(start);
-  const double plain_steps = steps - static_cast<double>(searches_);
-  const double plain = plain_steps > 0.0 ? (w.stepping - searching_) / plain_steps : 0.0;
-  w.search = std::max(0.0, searching_ - static_cast<double>(searches_) * plain);
-  w.forces = std::min(forces * steps, w.stepping - w.search);
-  w.integrate = std::min(integrate * steps, w.stepping - w.search - w.forces);
+  const StageSeconds& sampled = sim_.seconds;
+  const double scale = sampled.sum() > 0.0 ? w.stepping / sampled.sum() : 0.0;
+  w.search = scale * sampled.search;
+  w.forces = scale * sampled.forces;
+  w.integrate = scale * sampled.integrate;
 }
 
 void Driver::report(bool last) {

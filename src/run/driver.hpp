@@ -32,7 +32,6 @@ class Driver {
   /// Ends the run over a file that could not be written. True if there was trouble.
   bool ended_by(const Trouble& trouble);
   void write_end();
-  void measure(double seconds, bool searched);
   void share_out_time();
   void report(bool last);
 
@@ -50,8 +49,6 @@ class Driver {
   Clock::time_point started_, reported_;
   std::uint64_t reported_steps_ = 0;
   double rate_ = 0.0;
-  double searching_ = 0.0;  ///< s, of steps with a search
-  std::uint64_t searches_ = 0;
 };
 
 /// The likely cause of a divergence, for the message.

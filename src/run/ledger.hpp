@@ -1,6 +1,6 @@
-// The energy ledger, in the leapfrog's own terms (method.md section 4): kinetic energy at half steps,
-// stored energies as products of two neighbouring steps. In these terms it closes to rounding, but for
-// what rotation and sliding along an edge really create.
+// The energy ledger, in the leapfrog's own terms (method.md section 4): kinetic energy at half
+// steps, stored energies as products of two neighbouring steps. In these terms it closes to
+// rounding, but for what rotation and sliding along an edge really create.
 #pragma once
 
 #include "attachments/boundary_springs.hpp"
@@ -14,14 +14,15 @@ namespace edda {
 /// All in J.
 struct Ledger {
   double kinetic = 0.0, strain = 0.0, contact = 0.0;
-  double gravity = 0.0;                                   ///< since t = 0
-  double friction = 0.0, damping = 0.0, fracture = 0.0;   ///< dissipated, >= 0
-  double external = 0.0;                                  ///< work done on the blocks
-  double step_change = 0.0;                               ///< what changes of the step took out
-  double drift = 0.0;                                     ///< a ratio, see interface.md
+  double gravity = 0.0;                                  ///< since t = 0
+  double friction = 0.0, damping = 0.0, fracture = 0.0;  ///< dissipated, >= 0
+  double external = 0.0;                                 ///< work done on the blocks
+  double step_change = 0.0;                              ///< what changes of the step took out
+  double drift = 0.0;                                    ///< a ratio, see interface.md
 
   double balance() const {
-    return kinetic + strain + contact + gravity + friction + damping + fracture + step_change - external;
+    return kinetic + strain + contact + gravity + friction + damping + fracture + step_change -
+           external;
   }
   /// What the drift is measured against.
   double scale() const { return kinetic + strain + contact + friction + damping + fracture; }

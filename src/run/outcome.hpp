@@ -17,8 +17,8 @@ constexpr std::string_view status_name(Status status) {
   return names[static_cast<int>(status)];
 }
 
-/// Wall time, s. The simulation is not timed from within: forces and integrate are measured at each
-/// row and scaled to all steps; search is what steps with a search took longer than those without.
+/// Wall time, s. search, forces and integrate share out the time of all steps as sampled by
+/// StageClock.
 struct WallSeconds {
   double total = 0.0, cut = 0.0, search = 0.0, forces = 0.0, integrate = 0.0, output = 0.0;
   double stepping = 0.0;  ///< all steps together

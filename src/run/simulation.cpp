@@ -178,9 +178,11 @@ bool Simulation::move(double h_old, double h_new) {
 }
 
 std::optional<Failure> Simulation::step() {
+  StageClock clock(state.steps);
   const double h_old = step_before_;
   evaluate_contacts(contacts, blocks, laws, state.step, model.solver.damping.contact);
   gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity);
+  clock.lap(seconds.forces);
 
   const Nodes old_vx = state.vx, old_vy = state.vy;
   for (int halvings = 0; !move(h_old, state.step); ++halvings) {
@@ -195,8 +197,10 @@ std::optional<Failure> Simulation::step() {
     ++steps.redone;
   }
   const double h = state.step;
+  clock.lap(seconds.integrate);
 
   update_gaps(contacts, pose);
+  clock.lap(seconds.search);
   if (model.solver.switching == Switching::exact) {
     const StepTaken taken{h_old, h, model.solver.damping.mass};
     penetration = correct_switching(contacts, blocks, state, pose, taken, open_close);
@@ -212,6 +216,8 @@ std::optional<Failure> Simulation::step() {
                step_damping(model.solver), damping_work);
   if (model.solver.damping.contact > 0.0) book_dashpots(contacts);
   finish_step();
+  clock.lap(seconds.integrate);
+
   update_shares(contacts);
   search_if_due();
   const TransitionCounts counts = settle_contacts(contacts, blocks, pose, laws, state.steps, false);
@@ -220,6 +226,7 @@ std::optional<Failure> Simulation::step() {
       (steps_left_ > 0 && step_limit > 1.25 * state.step)) {
     if (steps_left_ > 0) aim_at(target_);
   }
+  clock.lap(seconds.search);
   return inspect();
 }
 

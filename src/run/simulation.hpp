@@ -21,6 +21,7 @@
 #include "run/divergence.hpp"
 #include "run/ledger.hpp"
 #include "run/open_close.hpp"
+#include "run/stage_clock.hpp"
 
 namespace edda {
 
@@ -53,6 +54,7 @@ struct Simulation {
   double step_change_energy = 0.0;   ///< J, created by changes of the step
   StepStatistics steps;
   OpenCloseCounts open_close;
+  StageSeconds seconds;                ///< sampled; only their ratios mean something
   std::optional<double> start_energy;  ///< J, of the ledger
   double largest_energy = 0.0;         ///< J, so far
 
