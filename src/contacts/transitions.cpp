@@ -149,12 +149,10 @@ bool inherit_from_partner(ContactSet& c, std::size_t k) {
   return true;
 }
 
-struct Events {
-  std::vector<Id> opens, leaves, closes;
-};
-
-Events find_events(ContactSet& c) {
-  Events events;
+void find_events(ContactSet& c, TransitionScratch& events) {
+  events.opens.clear();
+  events.leaves.clear();
+  events.closes.clear();
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (c.is(k, cs::closed)) {
       if (c.is(k, cs::bonded)) continue;
@@ -171,14 +169,13 @@ Events find_events(ContactSet& c) {
       }
     }
   }
-  return events;
 }
 
 /// Blocked candidates that may carry again, or are out of touch.
 void review_blocked(ContactSet& c, const BlockSet& b, const Pose& pose, std::uint64_t step,
-                    TransitionCounts& counts) {
+                    TransitionCounts& counts, std::vector<Id>& still) {
   if (c.blocked.empty()) return;
-  std::vector<Id> still;
+  still.clear();
   for (const Id k : c.blocked) {
     if (!c.is(k, cs::blocked)) continue;
     if (c.why[k] == Blocked::shield) {
@@ -198,7 +195,7 @@ void review_blocked(ContactSet& c, const BlockSet& b, const Pose& pose, std::uin
     unblock(c, k, std::max(c.depth[k], 0.0));
     ++counts.born_inside;
   }
-  c.blocked = std::move(still);
+  std::swap(c.blocked, still);
 }
 
 }  // namespace
@@ -232,27 +229,29 @@ void block_shielded(ContactSet& c, const BlockSet& b, const Pose& pose) {
 }
 
 TransitionCounts settle_contacts(ContactSet& c, const BlockSet& b, const Pose& pose,
-                                 const LawTable& laws, std::uint64_t step, bool start) {
+                                 const LawTable& laws, std::uint64_t step, bool start,
+                                 TransitionScratch& scratch) {
   TransitionCounts counts;
-  const Events events = find_events(c);
-  for (const Id k : events.opens) {
+  find_events(c, scratch);
+  for (const Id k : scratch.opens) {
     // What the shear spring still holds goes with the contact.
     c.friction_work[k] += stored_energy(c, k);
     open(c, k);
     ++counts.opened;
   }
-  for (const Id k : events.leaves) leave(c, b, pose, laws, k, counts);
-  review_blocked(c, b, pose, step, counts);
+  for (const Id k : scratch.leaves) leave(c, b, pose, laws, k, counts);
+  review_blocked(c, b, pose, step, counts, scratch.still_blocked);
 
   // All are judged from the same state before any is closed.
-  std::vector<Blocked> verdict(events.closes.size());
-  for (std::size_t q = 0; q < events.closes.size(); ++q) {
-    const Id k = events.closes[q];
+  std::vector<Blocked>& verdict = scratch.verdict;
+  verdict.resize(scratch.closes.size());
+  for (std::size_t q = 0; q < scratch.closes.size(); ++q) {
+    const Id k = scratch.closes[q];
     verdict[q] = c.is(k, cs::closed) ? Blocked::no : hindrance(c, b, pose, k);
   }
   const std::size_t blocked_before = c.blocked.size();
-  for (std::size_t q = 0; q < events.closes.size(); ++q) {
-    const Id k = events.closes[q];
+  for (std::size_t q = 0; q < scratch.closes.size(); ++q) {
+    const Id k = scratch.closes[q];
     if (c.is(k, cs::closed)) continue;  // has taken over from another
     if (verdict[q] != Blocked::no) {
       block_contact(c, k, verdict[q]);

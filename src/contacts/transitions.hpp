@@ -19,10 +19,17 @@ struct TransitionCounts {
   std::uint64_t unshielded = 0;  ///< may carry from now on: the step bound does not know them yet
 };
 
+/// Lists of one step, kept so that a step allocates nothing once they have grown.
+struct TransitionScratch {
+  std::vector<Id> opens, leaves, closes, still_blocked;
+  std::vector<Blocked> verdict;  ///< of closes
+};
+
 /// Brings every candidate's state in line with the gaps at step n; needs update_gaps() and
 /// update_shares(). `start`: nothing is born inside yet, so what overlaps as drawn is preloaded.
 TransitionCounts settle_contacts(ContactSet& contacts, const BlockSet& blocks, const Pose& pose,
-                                 const LawTable& laws, std::uint64_t step, bool start);
+                                 const LawTable& laws, std::uint64_t step, bool start,
+                                 TransitionScratch& scratch);
 
 /// Blocks the open candidates of a new list that a shield covers (contacts/shield.hpp), before they
 /// touch.

@@ -23,16 +23,10 @@ bool switches(const ContactSet& c, std::size_t k) {
   return c.effective_2(k) <= 0.0 || c.effective(k) <= 0.0 || c.alpha[k] < 1.0;
 }
 
-/// Changes of nodal forces on the few blocks concerned.
-struct Change {
-  std::vector<Id> blocks;                  ///< touched, ascending after sort
-  std::vector<std::array<Vec2, 3>> force;  ///< [blocks]
-
-  std::array<Vec2, 3>& of(Id block) {
-    const auto it = std::lower_bound(blocks.begin(), blocks.end(), block);
-    return force[static_cast<std::size_t>(it - blocks.begin())];
-  }
-};
+std::array<Vec2, 3>& force_on(ForceChange& change, Id block) {
+  const auto it = std::lower_bound(change.blocks.begin(), change.blocks.end(), block);
+  return change.force[static_cast<std::size_t>(it - change.blocks.begin())];
+}
 
 void spread(std::array<Vec2, 3>& f, const BlockSet& b, Id v, Vec2 force) {
   for (std::size_t k = 0; k < 3; ++k) f[k] += b.weight[k][v] * force;
@@ -55,7 +49,7 @@ double releasing_slip(double nominal, double most, double trial, double before, 
 
 /// Gives contact k the part alpha of its force and the shear this allows; adds what this changes.
 void reset_force(ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k, double alpha,
-                 Change& change) {
+                 ForceChange& change) {
   const EdgeFrame e =
       edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
   const Gap gap = gap_to(e, at(pose.x1, pose.y1, c.vertex[k]));
@@ -79,15 +73,15 @@ void reset_force(ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t
   const Vec2 old1{c.fx[k], c.fy[k]}, old2{c.gx[k], c.gy[k]};
   set_contact_force(c, k, e.t, e.length, gap.foot, gap.depth);
   const Vec2 d1 = Vec2{c.fx[k], c.fy[k]} - old1, d2 = Vec2{c.gx[k], c.gy[k]} - old2;
-  if (!b.fixed[c.block_i[k]]) spread(change.of(c.block_i[k]), b, c.vertex[k], d1);
+  if (!b.fixed[c.block_i[k]]) spread(force_on(change, c.block_i[k]), b, c.vertex[k], d1);
   if (!b.fixed[c.block_j[k]]) {
-    std::array<Vec2, 3>& f = change.of(c.block_j[k]);
+    std::array<Vec2, 3>& f = force_on(change, c.block_j[k]);
     spread(f, b, c.edge[k], d2);
     spread(f, b, c.edge_end[k], -(d1 + d2));
   }
 }
 
-void start_change(Change& change, const ContactSet& c, const BlockSet& b,
+void start_change(ForceChange& change, const ContactSet& c, const BlockSet& b,
                   const std::vector<Id>& set) {
   change.blocks.clear();
   for (const Id k : set) {
@@ -100,7 +94,7 @@ void start_change(Change& change, const ContactSet& c, const BlockSet& b,
 }
 
 /// Moves the touched blocks by their changed impulses and looks at their gaps again.
-void apply(const Change& change, ContactSet& c, const BlockSet& b, State& s, Pose& pose,
+void apply(const ForceChange& change, ContactSet& c, const BlockSet& b, State& s, Pose& pose,
            double dv_per_force, double h_new) {
   for (std::size_t q = 0; q < change.blocks.size(); ++q) {
     const Id i = change.blocks[q];
@@ -122,7 +116,7 @@ void apply(const Change& change, ContactSet& c, const BlockSet& b, State& s, Pos
 }
 
 /// The switching contacts after the touched blocks have moved.
-void refresh(std::vector<Id>& set, const Change& change, const ContactSet& c) {
+void refresh(std::vector<Id>& set, const ForceChange& change, const ContactSet& c) {
   for (const Id i : change.blocks) {
     for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
       const Id k = c.block_entry[q] >> 1;
@@ -144,8 +138,12 @@ double largest_penetration(const ContactSet& c) {
 }
 
 double correct_switching(ContactSet& c, const BlockSet& b, State& s, Pose& pose,
-                         const StepTaken& taken, OpenCloseCounts& counts) {
-  std::vector<Id> set;
+                         const StepTaken& taken, OpenCloseCounts& counts,
+                         SwitchingScratch& scratch) {
+  std::vector<Id>& set = scratch.set;
+  std::vector<double>& next = scratch.alpha;
+  ForceChange& change = scratch.change;
+  set.clear();
   double largest = 0.0;
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (!c.is(k, cs::closed)) continue;
@@ -157,8 +155,6 @@ double correct_switching(ContactSet& c, const BlockSet& b, State& s, Pose& pose,
   const double dv_per_force = h_mean / (1.0 + 0.5 * taken.mass_damping * h_mean);
   std::uint64_t passes = 0;
   bool settled = false;
-  std::vector<double> next;
-  Change change;
   while (passes < most_passes && !settled) {
     next.clear();
     double worst = 0.0;

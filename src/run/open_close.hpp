@@ -2,7 +2,9 @@
 // the contacts that opened or closed in it.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <vector>
 
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
@@ -23,10 +25,24 @@ struct StepTaken {
   double h_old = 0.0, h_new = 0.0, mass_damping = 0.0;
 };
 
+/// Changes of nodal forces on the few blocks that one pass concerns.
+struct ForceChange {
+  std::vector<Id> blocks;                  ///< ascending
+  std::vector<std::array<Vec2, 3>> force;  ///< [blocks]
+};
+
+/// Lists of one step, kept so that a step allocates nothing once they have grown.
+struct SwitchingScratch {
+  std::vector<Id> set;        ///< contacts that switch
+  std::vector<double> alpha;  ///< their next alpha
+  ForceChange change;
+};
+
 /// At entry: positions and gaps of step n + 1 made with alpha = 1; state flags and forces of step
 /// n. At return both are final. Passes: at most 12. Returns the largest penetration of step n, m.
 double correct_switching(ContactSet& contacts, const BlockSet& blocks, State& state, Pose& pose,
-                         const StepTaken& taken, OpenCloseCounts& counts);
+                         const StepTaken& taken, OpenCloseCounts& counts,
+                         SwitchingScratch& scratch);
 
 /// Largest effective penetration of a closed contact at step n, once the gaps of n + 1 are known,
 /// m.

@@ -92,7 +92,7 @@ Result<Simulation> Simulation::create(Model given) {
   s.search(s.base_reach);
   update_shares(s.contacts);
   bond_contacts(s.contacts, s.blocks, s.state, s.pose, s.laws);
-  settle_contacts(s.contacts, s.blocks, s.pose, s.laws, 0, true);
+  settle_contacts(s.contacts, s.blocks, s.pose, s.laws, 0, true, s.transitions_);
   s.set_limit();
   return s;
 }
@@ -164,7 +164,8 @@ bool Simulation::move(double h_old, double h_new) {
   place_all();
   constexpr std::size_t chunk = 4096;
   const std::size_t nv = blocks.vertex_count();
-  std::vector<double> largest((nv + chunk - 1) / chunk, 0.0);
+  std::vector<double>& largest = largest_;
+  largest.assign((nv + chunk - 1) / chunk, 0.0);
   parallel_for(largest.size(), [&](std::size_t c) {
     for (std::size_t v = c * chunk; v < std::min(nv, (c + 1) * chunk); ++v) {
       const double dx = pose.x[v] - pose.x1[v], dy = pose.y[v] - pose.y1[v];
@@ -184,10 +185,11 @@ std::optional<Failure> Simulation::step() {
   gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity);
   clock.lap(seconds.forces);
 
-  const Nodes old_vx = state.vx, old_vy = state.vy;
+  old_vx_ = state.vx;
+  old_vy_ = state.vy;
   for (int halvings = 0; !move(h_old, state.step); ++halvings) {
     if (last_displacement > 1e100 || halvings == 40) return lost();
-    retreat(state, blocks, state.step, old_vx, old_vy);
+    retreat(state, blocks, state.step, old_vx_, old_vy_);
     std::swap(pose.x, pose.x1);
     std::swap(pose.y, pose.y1);
     place_all();
@@ -203,16 +205,16 @@ std::optional<Failure> Simulation::step() {
   clock.lap(seconds.search);
   if (model.solver.switching == Switching::exact) {
     const StepTaken taken{h_old, h, model.solver.damping.mass};
-    penetration = correct_switching(contacts, blocks, state, pose, taken, open_close);
+    penetration = correct_switching(contacts, blocks, state, pose, taken, open_close, switching_);
   } else {
     penetration = largest_penetration(contacts);
   }
   max_penetration = std::max(max_penetration, penetration);
   if (h != h_old) {
-    step_change_energy += energy_of_step_change(blocks, state, old_vx, old_vy, h_old, h);
+    step_change_energy += energy_of_step_change(blocks, state, old_vx_, old_vy_, h_old, h);
     ++steps.changes;
   }
-  book_damping(state, blocks, forces.x, forces.y, old_vx, old_vy, h_old, h,
+  book_damping(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h,
                step_damping(model.solver), damping_work);
   if (model.solver.damping.contact > 0.0) book_dashpots(contacts);
   finish_step();
@@ -220,7 +222,8 @@ std::optional<Failure> Simulation::step() {
 
   update_shares(contacts);
   search_if_due();
-  const TransitionCounts counts = settle_contacts(contacts, blocks, pose, laws, state.steps, false);
+  const TransitionCounts counts =
+      settle_contacts(contacts, blocks, pose, laws, state.steps, false, transitions_);
   if (counts.unshielded > 0) set_limit();
   if (step_limit < state.step * (1.0 - 1e-12) ||
       (steps_left_ > 0 && step_limit > 1.25 * state.step)) {

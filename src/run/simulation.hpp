@@ -13,6 +13,7 @@
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
 #include "contacts/contact_set.hpp"
+#include "contacts/transitions.hpp"
 #include "forces/nodal_forces.hpp"
 #include "forces/stiffness.hpp"
 #include "integrate/leapfrog.hpp"
@@ -84,6 +85,12 @@ struct Simulation {
   double target_ = 0.0;             ///< s: the event aimed at
   double step_before_ = 0.0;        ///< s: step behind v_{n-1/2}
   std::uint64_t steps_left_ = 0;
+
+  // Of one step, kept so that it allocates nothing.
+  Nodes old_vx_, old_vy_;  ///< velocities before it
+  std::vector<double> largest_;
+  SwitchingScratch switching_;
+  TransitionScratch transitions_;
 };
 
 }  // namespace edda
