@@ -1,5 +1,6 @@
 #include "forces/nodal_forces.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "base/parallel.hpp"
@@ -14,7 +15,7 @@ void spread(NodeForce& f, const BlockSet& b, Id v, Vec2 force) {
   for (std::size_t k = 0; k < 3; ++k) f[k] += b.weight[k][v] * force;
 }
 
-void add_contacts(NodeForce& f, const BlockSet& b, const ContactSet& c, std::size_t i) {
+void add_contacts_one_by_one(NodeForce& f, const BlockSet& b, const ContactSet& c, std::size_t i) {
   for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
     const Id k = c.block_entry[q] >> 1;
     const Vec2 f1{c.fx[k], c.fy[k]}, f2{c.gx[k], c.gy[k]};
@@ -25,6 +26,31 @@ void add_contacts(NodeForce& f, const BlockSet& b, const ContactSet& c, std::siz
       spread(f, b, c.edge_end[k], -(f1 + f2));
     }
   }
+}
+
+/// Contact forces are summed on the vertices first and spread to the nodes once per vertex.
+constexpr Id most_corners = 64;
+
+void add_contacts(NodeForce& f, const BlockSet& b, const ContactSet& c, std::size_t i) {
+  const Id first = b.vertex_begin[i], corners = b.vertex_begin[i + 1] - first;
+  if (corners > most_corners) {
+    add_contacts_one_by_one(f, b, c, i);
+    return;
+  }
+  std::array<Vec2, most_corners> on;
+  std::fill_n(on.begin(), corners, Vec2{});
+  for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
+    const Id k = c.block_entry[q] >> 1;
+    const Vec2 f1{c.fx[k], c.fy[k]};
+    if ((c.block_entry[q] & 1u) == 0) {
+      on[c.vertex[k] - first] += f1;
+    } else {
+      const Vec2 f2{c.gx[k], c.gy[k]};
+      on[c.edge[k] - first] += f2;
+      on[c.edge_end[k] - first] -= f1 + f2;
+    }
+  }
+  for (Id v = 0; v < corners; ++v) spread(f, b, first + v, on[v]);
 }
 
 void add_springs(NodeForce& f, const BlockSet& b, const BoundarySprings& s, const Pose& pose,
