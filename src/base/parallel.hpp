@@ -21,6 +21,15 @@ void parallel_for(std::size_t n, Body body) {
   for (std::size_t i = 0; i < n; ++i) body(i);
 }
 
+/// Calls body(chunk, begin, end) for [0, n) cut into chunks of `size`, in parallel. body must write
+/// only what belongs to its chunk.
+template <class Body>
+void parallel_chunks(std::size_t n, std::size_t size, Body body) {
+  const std::size_t chunks = (n + size - 1) / size;
+#pragma omp parallel for schedule(static) if (n >= worth_sharing)
+  for (std::size_t c = 0; c < chunks; ++c) body(c, c * size, std::min(n, (c + 1) * size));
+}
+
 /// Sum of term(i) over [0, n): chunks of fixed size are summed each in order, then the chunks in
 /// order, so the bits are the same for any number of threads.
 template <class Term>

@@ -45,9 +45,10 @@ constexpr std::array<DoubleArray, 25> memory = {&ContactSet::depth,
                                                 &ContactSet::gy};
 
 /// Filled anew; only their size matters here.
-constexpr std::array<DoubleArray, 8> scratch = {
-    &ContactSet::before, &ContactSet::beyond, &ContactSet::extend_start, &ContactSet::extend_end,
-    &ContactSet::span,   &ContactSet::tx,     &ContactSet::ty,           &ContactSet::next_share};
+constexpr std::array<DoubleArray, 10> scratch = {
+    &ContactSet::next_before,  &ContactSet::next_beyond, &ContactSet::before, &ContactSet::beyond,
+    &ContactSet::extend_start, &ContactSet::extend_end,  &ContactSet::span,   &ContactSet::tx,
+    &ContactSet::ty,           &ContactSet::next_share};
 
 void resize(ContactSet& c, std::size_t n) {
   for (DoubleArray a : memory) (c.*a).assign(n, 0.0);
@@ -59,6 +60,9 @@ void resize(ContactSet& c, std::size_t n) {
   c.edge_end.resize(n);
   c.block_i.resize(n);
   c.block_j.resize(n);
+  const std::size_t chunks = (n + ContactSet::chunk - 1) / ContactSet::chunk;
+  c.stirs.assign(chunks, 1);
+  c.deepest.assign(chunks, 0.0);
 }
 
 /// Near pairs and closed contacts of the old list, sorted, each once.

@@ -62,6 +62,15 @@ struct ContactSet {
   std::vector<double> before,
       beyond;  ///< m before the edge's start and beyond its end in which the foot still counts
 
+  // Per chunk of `chunk` candidates, so that a step need not look where nothing happens. Filled by
+  // update_gaps().
+  static constexpr std::size_t chunk = 256;
+  std::vector<std::uint8_t>
+      stirs;  ///< [chunks] 1: a contact in it may switch, open, close or leave its edge
+  std::vector<double>
+      deepest;  ///< [chunks] largest effective penetration of a closed contact at n - 1, m
+  void stir(std::size_t c) { stirs[c / chunk] = 1; }
+
   // Memory. Filled by the transitions.
   std::vector<std::uint8_t> state;  ///< contact_state bits
   std::vector<double> rest;         ///< d0, m; +infinity while blocked
@@ -81,12 +90,13 @@ struct ContactSet {
   // Forces of the last evaluation, N: on the vertex and on P2; on P3 acts minus their sum.
   std::vector<double> fx, fy, gx, gy;
 
-  std::vector<Blocked> why;        ///< why it is blocked
-  std::vector<Id> blocked;         ///< the blocked candidates, ascending
-  std::vector<CornerPair> pairs;   ///< sorted by (first, second)
-  std::vector<Id> paired;          ///< candidates in any pair, ascending
-  std::vector<Id> pair_of;         ///< [nc] a pair the candidate is in, or no_id
-  std::vector<double> next_share;  ///< scratch of update_shares()
+  std::vector<Blocked> why;                      ///< why it is blocked
+  std::vector<Id> blocked;                       ///< the blocked candidates, ascending
+  std::vector<CornerPair> pairs;                 ///< sorted by (first, second)
+  std::vector<Id> paired;                        ///< candidates in any pair, ascending
+  std::vector<Id> pair_of;                       ///< [nc] a pair the candidate is in, or no_id
+  std::vector<double> next_before, next_beyond;  ///< scratch of update_shares()
+  std::vector<double> next_share;                ///< scratch of update_shares()
   std::vector<std::uint8_t>
       balanced;                     ///< scratch of update_shares(): its partner takes what it gives
   std::vector<Segment> segments;    ///< the bonded ones

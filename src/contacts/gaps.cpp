@@ -8,7 +8,9 @@
 
 namespace edda {
 
-void update_gap(ContactSet& c, const Pose& pose, std::size_t k) {
+namespace {
+
+void measure(ContactSet& c, const Pose& pose, std::size_t k) {
   const EdgeFrame e = edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
   const Gap gap = gap_to(e, at(pose.x, pose.y, c.vertex[k]));
   c.depth[k] = gap.depth;
@@ -18,10 +20,39 @@ void update_gap(ContactSet& c, const Pose& pose, std::size_t k) {
   c.ty[k] = e.t.y;
 }
 
+/// Whether the candidate opened or closed at n - 1 or n, has left its edge, or has a rest
+/// penetration to look after. Bonded and blocked ones are looked after elsewhere.
+bool stirs(const ContactSet& c, std::size_t k) {
+  using namespace contact_state;
+  if (c.is(k, closed)) {
+    return !c.is(k, bonded) && (c.effective(k) <= 0.0 || c.effective_2(k) <= 0.0 || !c.on_edge(k));
+  }
+  return !c.is(k, blocked) && (c.rest[k] != 0.0 || (c.depth[k] > 0.0 && c.on_edge(k)));
+}
+
+}  // namespace
+
+void update_gap(ContactSet& c, const Pose& pose, std::size_t k) {
+  measure(c, pose, k);
+  c.stir(k);
+}
+
 void update_gaps(ContactSet& c, const Pose& pose) {
   std::swap(c.depth_2, c.depth_1);
   std::swap(c.depth_1, c.depth);
-  parallel_for(c.size(), [&](std::size_t k) { update_gap(c, pose, k); });
+  parallel_chunks(c.size(), ContactSet::chunk,
+                  [&](std::size_t q, std::size_t begin, std::size_t end) {
+                    bool any = false;
+                    double deepest = 0.0;
+                    for (std::size_t k = begin; k < end; ++k) {
+                      measure(c, pose, k);
+                      any = any || stirs(c, k);
+                      if (c.is(k, contact_state::closed))
+                        deepest = std::max(deepest, c.effective_1(k));
+                    }
+                    c.stirs[q] = any ? 1 : 0;
+                    c.deepest[q] = deepest;
+                  });
 }
 
 void look_at_previous_gaps(ContactSet& c, const Pose& pose) {

@@ -9,7 +9,7 @@ namespace edda {
 /// Gap, foot and range of candidate k at step n (Eq. 32 over l).
 void update_gap(ContactSet& contacts, const Pose& pose, std::size_t k);
 
-/// All of them, after moving the gaps of the steps before back by one.
+/// All of them, after moving the gaps of the steps before back by one; and which chunks stir.
 void update_gaps(ContactSet& contacts, const Pose& pose);
 
 /// Gaps a step ago from pose.x1, y1, at the start of a run.

@@ -30,8 +30,17 @@ double against(Vec2 te, Vec2 tf) {
 
 /// A shared edge carries to r_v beyond its end.
 void run_on(ContactSet& c, std::size_t k, bool at_start, double reach) {
-  double& further = at_start ? c.before[k] : c.beyond[k];
+  double& further = at_start ? c.next_before[k] : c.next_beyond[k];
   further = std::max(further, reach);
+}
+
+/// Where the edge carries has changed: the foot may count as on it, or no longer, without having
+/// moved.
+void change_range(ContactSet& c, std::size_t k) {
+  if (c.before[k] == c.next_before[k] && c.beyond[k] == c.next_beyond[k]) return;
+  c.before[k] = c.next_before[k];
+  c.beyond[k] = c.next_beyond[k];
+  c.stir(k);
 }
 
 struct Share {
@@ -102,8 +111,8 @@ void update_shares(ContactSet& c) {
   for (const Id k : c.paired) {
     c.next_share[k] = 1.0;
     c.balanced[k] = 0;
-    c.before[k] = c.extend_start[k];
-    c.beyond[k] = c.extend_end[k];
+    c.next_before[k] = c.extend_start[k];
+    c.next_beyond[k] = c.extend_end[k];
   }
   for (const CornerPair& p : c.pairs) {
     const Id e = p.first, f = p.second;
@@ -121,7 +130,10 @@ void update_shares(ContactSet& c) {
     run_on(c, e, p.first_at_start, p.reach);
     run_on(c, f, p.second_at_start, p.reach);
   }
-  for (const Id k : c.paired) change_share(c, k, c.next_share[k], c.balanced[k] != 0);
+  for (const Id k : c.paired) {
+    change_range(c, k);
+    change_share(c, k, c.next_share[k], c.balanced[k] != 0);
+  }
 }
 
 }  // namespace edda

@@ -153,19 +153,23 @@ void find_events(ContactSet& c, TransitionScratch& events) {
   events.opens.clear();
   events.leaves.clear();
   events.closes.clear();
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (c.is(k, cs::closed)) {
-      if (c.is(k, cs::bonded)) continue;
-      if (c.effective(k) <= 0.0) {
-        events.opens.push_back(static_cast<Id>(k));
-      } else if (!c.on_edge(k)) {
-        events.leaves.push_back(static_cast<Id>(k));
-      }
-    } else if (!c.is(k, cs::blocked)) {
-      if (c.effective(k) > 0.0) {
-        if (c.on_edge(k)) events.closes.push_back(static_cast<Id>(k));
-      } else if (c.rest[k] != 0.0) {
-        c.rest[k] = std::max(0.0, std::min(c.rest[k], c.depth[k]));
+  for (std::size_t q = 0; q < c.stirs.size(); ++q) {
+    if (c.stirs[q] == 0) continue;
+    const std::size_t end = std::min(c.size(), (q + 1) * ContactSet::chunk);
+    for (std::size_t k = q * ContactSet::chunk; k < end; ++k) {
+      if (c.is(k, cs::closed)) {
+        if (c.is(k, cs::bonded)) continue;
+        if (c.effective(k) <= 0.0) {
+          events.opens.push_back(static_cast<Id>(k));
+        } else if (!c.on_edge(k)) {
+          events.leaves.push_back(static_cast<Id>(k));
+        }
+      } else if (!c.is(k, cs::blocked)) {
+        if (c.effective(k) > 0.0) {
+          if (c.on_edge(k)) events.closes.push_back(static_cast<Id>(k));
+        } else if (c.rest[k] != 0.0) {
+          c.rest[k] = std::max(0.0, std::min(c.rest[k], c.depth[k]));
+        }
       }
     }
   }

@@ -130,11 +130,7 @@ void refresh(std::vector<Id>& set, const ForceChange& change, const ContactSet& 
 }  // namespace
 
 double largest_penetration(const ContactSet& c) {
-  double largest = 0.0;
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (c.is(k, cs::closed)) largest = std::max(largest, c.effective_1(k));
-  }
-  return largest;
+  return c.deepest.empty() ? 0.0 : *std::max_element(c.deepest.begin(), c.deepest.end());
 }
 
 double correct_switching(ContactSet& c, const BlockSet& b, State& s, Pose& pose,
@@ -144,11 +140,13 @@ double correct_switching(ContactSet& c, const BlockSet& b, State& s, Pose& pose,
   std::vector<double>& next = scratch.alpha;
   ForceChange& change = scratch.change;
   set.clear();
-  double largest = 0.0;
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (!c.is(k, cs::closed)) continue;
-    largest = std::max(largest, c.effective_1(k));
-    if (switches(c, k)) set.push_back(static_cast<Id>(k));
+  const double largest = largest_penetration(c);
+  for (std::size_t q = 0; q < c.stirs.size(); ++q) {
+    if (c.stirs[q] == 0) continue;
+    const std::size_t end = std::min(c.size(), (q + 1) * ContactSet::chunk);
+    for (std::size_t k = q * ContactSet::chunk; k < end; ++k) {
+      if (switches(c, k)) set.push_back(static_cast<Id>(k));
+    }
   }
   if (set.empty()) return largest;
   const double h_mean = 0.5 * (taken.h_old + taken.h_new);
