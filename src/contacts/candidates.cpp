@@ -11,6 +11,7 @@
 #include "contacts/gaps.hpp"
 #include "contacts/search.hpp"
 #include "contacts/shares.hpp"
+#include "contacts/stored_energy.hpp"
 
 namespace edda {
 namespace {
@@ -18,7 +19,8 @@ namespace {
 using DoubleArray = std::vector<double> ContactSet::*;
 
 /// What a candidate remembers from one list to the next.
-constexpr std::array<DoubleArray, 25> memory = {&ContactSet::depth,
+constexpr std::array<DoubleArray, 26> memory = {&ContactSet::tension,
+                                                &ContactSet::depth,
                                                 &ContactSet::depth_1,
                                                 &ContactSet::depth_2,
                                                 &ContactSet::foot,
@@ -168,11 +170,39 @@ void set_spring(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTab
   const Law& law = laws.rows[c.law[k]];
   const double length = contact_length(b, pose, c.vertex[k], c.edge[k]);
   c.length[k] = length;
-  const bool by_length = law.kn > 0.0 && length > 0.0;
-  c.kn[k] = laws.thickness * (by_length ? law.kn * length : laws.default_kn);
-  c.ks[k] = laws.thickness * (by_length ? law.ks * length : laws.default_ks);
+  // An edge that has only begun to overlap stands for a little at once, or it would carry nothing.
+  const double least = 0.01 * std::min({b.edge_length[c.edge[k]], b.edge_length[c.vertex[k]],
+                                        b.edge_length[b.previous[c.vertex[k]]]});
+  const double stands_for = std::max(length, least);
+  const bool lone_corner = length == 0.0;
+  c.kn[k] = laws.thickness * (law.kn > 0.0 && !lone_corner ? law.kn * stands_for : laws.default_kn);
+  c.ks[k] = laws.thickness * (law.ks > 0.0 && !lone_corner ? law.ks * stands_for : laws.default_ks);
   c.friction[k] = law.residual_friction;
   c.cohesion[k] = law.residual_cohesion * length * laws.thickness;
+}
+
+bool grow_springs(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws) {
+  constexpr double worth = 1.25;
+  bool grown = false;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const Law& law = laws.rows[c.law[k]];
+    if (law.kn == 0.0 && law.ks == 0.0 && law.residual_cohesion == 0.0) continue;
+    if (!c.is(k, contact_state::closed) || c.is(k, contact_state::bonded)) continue;
+    if (contact_length(b, pose, c.vertex[k], c.edge[k]) <= worth * c.length[k]) continue;
+    const double energy = stored_energy(c, k), e = c.effective(k), slip = trial_slip(c, k);
+    const double kn = c.kn[k], ks = c.ks[k], friction = c.friction[k];
+    set_spring(c, b, pose, laws, k);
+    c.friction[k] = friction;
+    // A lone corner was stiffer: it stays so, or energy would be made.
+    c.kn[k] = std::max(c.kn[k], kn);
+    c.ks[k] = std::max(c.ks[k], ks);
+    c.rest[k] = c.depth[k] - e * kn / c.kn[k];
+    c.anchor[k] = (c.foot[k] - slip * ks / c.ks[k]) / c.span[k];
+    c.friction_work[k] += energy - stored_energy(c, k);
+    c.stir(k);
+    grown = true;
+  }
+  return grown;
 }
 
 void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& state,
@@ -235,7 +265,8 @@ void bond_contacts(ContactSet& c, const BlockSet& b, const State& state, const P
   std::map<std::pair<Id, Id>, Segment> by_edges;
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Law& law = laws.rows[c.law[k]];
-    const bool has_bond = law.glued || law.peak_cohesion > 0.0 || law.peak_tension > 0.0;
+    const bool has_bond = law.glued || law.peak_cohesion > 0.0 || law.peak_tension > 0.0 ||
+                          law.peak_friction > law.residual_friction;
     const double size = std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
     const bool near_edge = c.on_edge(k) && c.share[k] > 0.0;
     if (!has_bond || !near_edge || c.length[k] <= 0.0 || c.depth[k] < -1e-6 * size ||
@@ -245,8 +276,10 @@ void bond_contacts(ContactSet& c, const BlockSet& b, const State& state, const P
     const Id f = facing_edge(b, pose.x, pose.y, c.vertex[k], normal_of(c, k));
     c.set(k, contact_state::closed | contact_state::bonded);
     if (law.glued) c.set(k, contact_state::glued);
-    // A bond is made where the blocks are: a gap of 1e-6 carries nothing.
-    if (c.depth[k] < 0.0) c.rest[k] = c.depth[k];
+    if (law.glued || law.peak_tension > 0.0) c.set(k, contact_state::pulls);
+    c.tension[k] = law.peak_tension * c.length[k] * laws.thickness;
+    // A bond that pulls is made where the blocks are: a gap of 1e-6 carries nothing.
+    if (c.depth[k] < 0.0 && c.is(k, contact_state::pulls)) c.rest[k] = c.depth[k];
     c.anchor[k] = c.foot[k] / c.span[k];
     c.friction[k] = law.peak_friction;
     c.cohesion[k] = law.peak_cohesion * c.length[k] * laws.thickness;

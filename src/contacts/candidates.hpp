@@ -23,8 +23,9 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& blocks, const Stat
                         const Pose& pose, const LawTable& laws, double reach);
 
 /// Closes what touches at the start: contacts whose gap is within 1e-6 of the smaller block's size
-/// and whose law has cohesion, tension or glue are bonded, and grouped into segments by their pair
-/// of edges. Needs update_gaps().
+/// and whose law has cohesion, tension, glue or a peak friction above the residual are bonded, and
+/// grouped into segments by their pair of edges. Those with tensile strength (or glue) pull, too.
+/// Needs update_gaps().
 void bond_contacts(ContactSet& contacts, const BlockSet& blocks, const State& state,
                    const Pose& pose, const LawTable& laws);
 
@@ -35,5 +36,12 @@ double contact_length(const BlockSet& blocks, const Pose& pose, Id vertex, Id ed
 /// Takes the spring of the contact from its law and its present length (method.md section 4).
 void set_spring(ContactSet& contacts, const BlockSet& blocks, const Pose& pose,
                 const LawTable& laws, std::size_t c);
+
+/// Springs frozen while their overlap was short grow with it, in leaps of 1.25: the force does not
+/// jump (the rest penetration and the anchor move), and what the stiffer spring stores less is
+/// booked as dissipated. Only contacts whose law gives stiffness or residual cohesion by length.
+/// True if any grew.
+bool grow_springs(ContactSet& contacts, const BlockSet& blocks, const Pose& pose,
+                  const LawTable& laws);
 
 }  // namespace edda

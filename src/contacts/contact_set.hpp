@@ -15,12 +15,13 @@ namespace edda {
 /// Bits of ContactSet::state.
 namespace contact_state {
 inline constexpr std::uint8_t closed = 1;    ///< carries force
-inline constexpr std::uint8_t bonded = 2;    ///< pulls, too, and its shear is not cut
+inline constexpr std::uint8_t bonded = 2;    ///< has its peak strength: its shear is not cut
 inline constexpr std::uint8_t sliding = 4;   ///< shear was cut at the last step
 inline constexpr std::uint8_t slipped = 8;   ///< has slid at least once
 inline constexpr std::uint8_t opened = 16;   ///< has opened after having been closed
 inline constexpr std::uint8_t blocked = 32;  ///< penetrated but not allowed to carry (see Blocked)
 inline constexpr std::uint8_t glued = 64;    ///< never opens or slides
+inline constexpr std::uint8_t pulls = 128;   ///< has tensile strength: N may be negative
 }  // namespace contact_state
 
 /// Two candidates (A, e) and (B, f) at one pair of corners A and B whose edges lie against each
@@ -80,6 +81,7 @@ struct ContactSet {
   std::vector<double> length;    ///< L it stands for, m; 0 for a lone corner
   std::vector<double> friction;  ///< tan(phi) in force
   std::vector<double> cohesion;  ///< c L in force, N
+  std::vector<double> tension;   ///< sigma_t L in force, N; of those that pull
   std::vector<double> alpha;     ///< part of the last force that the open-close iteration kept
   std::vector<double> normal;    ///< N at n - 1 of the whole spring (before share and alpha), N
   std::vector<double> shear, shear_1;  ///< T at n - 1 and n - 2 of the whole spring, N

@@ -25,7 +25,8 @@ void measure(ContactSet& c, const Pose& pose, std::size_t k) {
 bool stirs(const ContactSet& c, std::size_t k) {
   using namespace contact_state;
   if (c.is(k, closed)) {
-    return !c.is(k, bonded) && (c.effective(k) <= 0.0 || c.effective_2(k) <= 0.0 || !c.on_edge(k));
+    const bool switched = c.effective(k) <= 0.0 || c.effective_2(k) <= 0.0;
+    return (switched && !c.is(k, pulls)) || (!c.is(k, bonded) && !c.on_edge(k));
   }
   return !c.is(k, blocked) && (c.rest[k] != 0.0 || (c.depth[k] > 0.0 && c.on_edge(k)));
 }
@@ -66,10 +67,10 @@ void look_at_previous_gaps(ContactSet& c, const Pose& pose) {
 void book_dashpots(ContactSet& c) {
   parallel_for(c.size(), [&](std::size_t k) {
     if (!c.is(k, contact_state::closed)) return;
-    const bool bonded = c.is(k, contact_state::bonded);
+    const bool pulls = c.is(k, contact_state::pulls);
     const double e = c.effective_1(k);
-    const double before = bonded ? c.effective_2(k) : std::max(c.effective_2(k), 0.0);
-    const double after = bonded ? c.effective(k) : std::max(c.effective(k), 0.0);
+    const double before = pulls ? c.effective_2(k) : std::max(c.effective_2(k), 0.0);
+    const double after = pulls ? c.effective(k) : std::max(c.effective(k), 0.0);
     c.damping_work[k] +=
         0.5 * c.share[k] *
         (c.kn[k] * e * (before - after) + c.alpha[k] * c.normal[k] * (c.depth[k] - c.depth_2[k]));

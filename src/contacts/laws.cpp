@@ -24,8 +24,8 @@ LawTable build_laws(const Model& model) {
   for (const JointLaw& j : model.joints) {
     table.rows.push_back({tangent(j.peak.friction_angle), j.peak.cohesion, j.peak.tensile_strength,
                           tangent(j.residual.friction_angle), j.residual.cohesion,
-                          j.kn.value_or(0.0), j.ks.value_or(0.4 * j.kn.value_or(0.0)),
-                          j.type == LawType::glued});
+                          j.residual.tensile_strength, j.kn.value_or(0.0),
+                          j.ks.value_or(0.4 * j.kn.value_or(0.0)), j.type == LawType::glued});
   }
   std::vector<std::uint16_t> order(table.rows.size());
   std::iota(order.begin(), order.end(), std::uint16_t{0});
@@ -40,7 +40,7 @@ LawTable build_laws(const Model& model) {
   table.rank.resize(table.rows.size());
   for (std::uint16_t place = 0; place < order.size(); ++place) table.rank[order[place]] = place;
   if (table.rows.empty()) {  // a single block touches nothing: any law will do
-    table.rows.push_back({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, false});
+    table.rows.push_back({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, false});
     table.rank.push_back(0);
   }
   return table;

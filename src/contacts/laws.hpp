@@ -11,8 +11,8 @@ namespace edda {
 /// One joint law, angles as tangents. Stresses in Pa, stiffness in Pa/m.
 struct Law {
   double peak_friction, peak_cohesion, peak_tension;
-  double residual_friction, residual_cohesion;
-  double kn, ks;  ///< 0: the contact defaults apply
+  double residual_friction, residual_cohesion, residual_tension;
+  double kn, ks;  ///< each 0: the contact default applies
   bool glued;
 };
 

@@ -14,7 +14,7 @@ inline double trial_slip(const ContactSet& c, std::size_t k) {
 /// section 4): w (p e_{n-1} e_n + p_t s_{n-1} s_n)/2, s_n before its return map, J.
 inline double stored_energy(const ContactSet& c, std::size_t k) {
   const double before = c.effective_1(k), now = c.effective(k);
-  const bool both = c.is(k, contact_state::bonded) || (before > 0.0 && now > 0.0);
+  const bool both = c.is(k, contact_state::pulls) || (before > 0.0 && now > 0.0);
   const double slip_before = -c.shear[k] / c.ks[k];
   return 0.5 * c.share[k] *
          (c.kn[k] * (both ? before * now : 0.0) + c.ks[k] * slip_before * trial_slip(c, k));

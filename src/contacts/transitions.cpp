@@ -37,7 +37,7 @@ void close(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& l
 }
 
 void open(ContactSet& c, std::size_t k) {
-  c.clear(k, cs::closed | cs::bonded | cs::sliding);
+  c.clear(k, cs::closed | cs::bonded | cs::pulls | cs::sliding);
   c.set(k, cs::opened);
   c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = c.dashpot[k] = 0.0;
   c.alpha[k] = 1.0;
@@ -66,13 +66,21 @@ void hand_over(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTabl
                std::size_t k, std::size_t heir) {
   const double before = stored_energy(c, k);
   const double slip = trial_slip(c, k);
-  if (!c.is(heir, cs::closed)) set_spring(c, b, pose, laws, heir);
+  if (!c.is(heir, cs::closed)) {
+    set_spring(c, b, pose, laws, heir);
+    // The spring goes on as it is; only the strength is that of the heir's own law.
+    c.kn[heir] = c.kn[k];
+    c.ks[heir] = c.ks[k];
+    c.length[heir] = c.length[k];
+    c.cohesion[heir] = laws.rows[c.law[heir]].residual_cohesion * c.length[k] * laws.thickness;
+  }
   // e' (e' - (d'_n - d'_{n-1})) p' = e_n e_{n-1} p, so that the ledger sees no change.
   const double stiffness = c.kn[heir] * std::max(c.share[heir], 0.5);
   const double product = c.effective(k) * c.effective_1(k) * c.kn[k] * c.share[k] / stiffness;
   const double gained = c.depth[heir] - c.depth_1[heir];
   const double now = 0.5 * (gained + std::sqrt(gained * gained + 4.0 * std::max(product, 0.0)));
-  c.set(heir, static_cast<std::uint8_t>(c.state[k] & (cs::closed | cs::bonded | cs::glued)));
+  c.set(heir,
+        static_cast<std::uint8_t>(c.state[k] & (cs::closed | cs::bonded | cs::pulls | cs::glued)));
   c.rest[heir] = c.depth[heir] - now;
   c.anchor[heir] = (c.foot[heir] - slip) / c.span[heir];
   c.shear[heir] = c.shear[k] * c.ks[heir] / c.ks[k];
@@ -84,6 +92,7 @@ void hand_over(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTabl
   if (c.is(k, cs::bonded)) {
     c.friction[heir] = c.friction[k];
     c.cohesion[heir] = c.cohesion[k];
+    c.tension[heir] = c.tension[k];
     for (Segment& s : c.segments) {
       std::replace(s.members.begin(), s.members.end(), static_cast<Id>(k), static_cast<Id>(heir));
     }
@@ -159,7 +168,7 @@ void find_events(ContactSet& c, TransitionScratch& events) {
     for (std::size_t k = q * ContactSet::chunk; k < end; ++k) {
       if (c.is(k, cs::closed)) {
         if (c.is(k, cs::bonded)) continue;
-        if (c.effective(k) <= 0.0) {
+        if (c.effective(k) <= 0.0 && !c.is(k, cs::pulls)) {
           events.opens.push_back(static_cast<Id>(k));
         } else if (!c.on_edge(k)) {
           events.leaves.push_back(static_cast<Id>(k));

@@ -42,67 +42,90 @@ void return_map(ContactSet& c, std::size_t k) {
   c.shear[k] = kept;
 }
 
+/// A contact whose tensile strength is spent opens; what it stores is fracture energy.
+void tear(ContactSet& c, std::size_t k) {
+  const double before = c.effective_1(k), now = c.effective(k), slip = -c.shear_1[k] / c.ks[k];
+  const double normal = c.is(k, cs::pulls) || (before > 0.0 && now > 0.0) ? before * now : 0.0;
+  const double stored = 0.5 * c.share[k] * (c.kn[k] * normal + c.ks[k] * slip * c.slip_trial[k]);
+  c.fracture_work[k] += std::max(stored, 0.0);
+  c.clear(k, cs::closed | cs::bonded | cs::pulls | cs::sliding);
+  c.set(k, cs::opened);
+  c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = c.dashpot[k] = 0.0;
+  c.rest[k] = std::max(0.0, std::min(c.rest[k], c.depth[k]));
+  c.fx[k] = c.fy[k] = c.gx[k] = c.gy[k] = 0.0;
+}
+
 void evaluate(ContactSet& c, const BlockSet& b, std::size_t k, double step, double damping) {
   if (!c.is(k, cs::closed)) {
     c.fx[k] = c.fy[k] = c.gx[k] = c.gy[k] = 0.0;
     return;
   }
+  const bool pulls = c.is(k, cs::pulls);
   c.alpha[k] = 1.0;
-  c.normal[k] = c.kn[k] * c.effective(k);
+  c.normal[k] = c.kn[k] * (pulls ? c.effective(k) : std::max(c.effective(k), 0.0));
   c.dashpot[k] = 0.0;
-  if (damping > 0.0) {
+  if (damping > 0.0 && (pulls || c.effective(k) > 0.0)) {
     const double coefficient =
         2.0 * damping * std::sqrt(c.kn[k] / inverse_contact_mass(b, c, k, c.foot[k] / c.span[k]));
     const double damped = c.normal[k] + coefficient * (c.depth[k] - c.depth_1[k]) / step;
-    const double total = c.is(k, cs::bonded) ? damped : std::max(0.0, damped);
+    const double total = pulls ? damped : std::max(0.0, damped);
     c.dashpot[k] = total - c.normal[k];
     c.normal[k] = total;
   }
   c.shear_1[k] = c.shear[k];
   c.slip_trial[k] = trial_slip(c, k);
   return_map(c, k);
+  if (pulls && !c.is(k, cs::bonded) && c.normal[k] < -c.tension[k]) {
+    tear(c, k);
+    return;
+  }
   set_contact_force(c, k, tangent_of(c, k), c.span[k], c.foot[k], c.depth[k]);
 }
 
 /// Whether the bonded contacts of one pair of edges fail together: |sum T| > c L + tan(phi) sum N,
-/// or one of them is pulled beyond its tensile strength.
-bool fails(const ContactSet& c, const LawTable& laws, const Segment& segment) {
+/// or one of them tears. A joint without tensile strength tears where it gapes by more than 1e-6 of
+/// the smaller block's size, the gap within which contacts are bonded in the first place: at rest N
+/// is zero but for rounding, and rounding must not decide.
+bool fails(const ContactSet& c, const BlockSet& b, const LawTable& laws, const Segment& segment) {
   double shear = 0.0, normal = 0.0, cohesion = 0.0, friction = 0.0;
   for (const Id k : segment.members) {
-    const Law& law = laws.rows[c.law[k]];
-    if (law.glued) return false;
+    if (laws.rows[c.law[k]].glued) return false;
     shear += c.share[k] * c.shear[k];
     normal += c.share[k] * c.normal[k];
     cohesion += c.share[k] * c.cohesion[k];
     friction = std::max(friction, c.friction[k]);
-    const double strength = law.peak_tension * c.length[k] * laws.thickness;
-    if (c.share[k] > 0.0 && c.normal[k] < -strength) return true;
+    if (c.share[k] == 0.0) continue;
+    if (c.is(k, cs::pulls)) {
+      if (c.normal[k] < -c.tension[k]) return true;
+    } else {
+      const double size = std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
+      if (c.effective(k) < -1e-6 * size) return true;
+    }
   }
   return std::abs(shear) > cohesion + friction * normal;
 }
 
+/// From the peak to the residual law, at once.
 void break_bond(ContactSet& c, const BlockSet& b, const LawTable& laws, Id k, double step,
                 double damping) {
   const Law& law = laws.rows[c.law[k]];
+  const double strength = law.residual_tension * c.length[k] * laws.thickness;
+  const bool torn = c.normal[k] < -strength || (c.effective(k) <= 0.0 && strength == 0.0);
+  if (torn) {
+    tear(c, k);
+  } else {
+    if (strength == 0.0) c.clear(k, cs::pulls);
+    c.tension[k] = strength;
+  }
   c.clear(k, cs::bonded);
   c.friction[k] = law.residual_friction;
   c.cohesion[k] = law.residual_cohesion * c.length[k] * laws.thickness;
-  const double e = c.effective(k), e_1 = c.effective_1(k);
-  if (e <= 0.0) {
-    const double slip = -c.shear_1[k] / c.ks[k];
-    c.fracture_work[k] += 0.5 * c.share[k] * (c.kn[k] * e * e_1 + c.ks[k] * slip * c.slip_trial[k]);
-    c.clear(k, cs::closed | cs::sliding);
-    c.set(k, cs::opened);
-    c.normal[k] = c.shear[k] = c.shear_1[k] = c.dashpot[k] = 0.0;
-    c.rest[k] = 0.0;
-    c.fx[k] = c.fy[k] = c.gx[k] = c.gy[k] = 0.0;
-    return;
-  }
-  // What the cohesion held is released by the return map; it is fracture energy, not friction.
+  if (torn) return;
+  // What the peak strength held is released by the return map; it is fracture energy, not friction.
   const double friction_before = c.friction_work[k];
   c.shear[k] = c.shear_1[k];
   evaluate(c, b, k, step, damping);
-  c.fracture_work[k] += c.friction_work[k] - friction_before;
+  c.fracture_work[k] += std::max(0.0, c.friction_work[k] - friction_before);
   c.friction_work[k] = friction_before;
 }
 
@@ -140,7 +163,7 @@ void evaluate_contacts(ContactSet& c, const BlockSet& b, const LawTable& laws, d
                        double damping) {
   parallel_for(c.size(), [&](std::size_t k) { evaluate(c, b, k, step, damping); });
   for (Segment& segment : c.segments) {
-    if (!fails(c, laws, segment)) continue;
+    if (!fails(c, b, laws, segment)) continue;
     for (const Id k : segment.members) break_bond(c, b, laws, k, step, damping);
     segment.members.clear();
   }

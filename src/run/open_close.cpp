@@ -19,7 +19,7 @@ constexpr double tolerance = 1e-9;  // of the largest penetration
 
 /// Carried at step n and open before it or after it, or already corrected.
 bool switches(const ContactSet& c, std::size_t k) {
-  if (!c.is(k, cs::closed) || c.is(k, cs::bonded) || c.effective_1(k) <= 0.0) return false;
+  if (!c.is(k, cs::closed) || c.is(k, cs::pulls) || c.effective_1(k) <= 0.0) return false;
   return c.effective_2(k) <= 0.0 || c.effective(k) <= 0.0 || c.alpha[k] < 1.0;
 }
 
@@ -55,7 +55,9 @@ void reset_force(ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t
   const Gap gap = gap_to(e, at(pose.x1, pose.y1, c.vertex[k]));
   const double limit = c.cohesion[k] + c.friction[k] * std::max(alpha * c.normal[k], 0.0);
   double shear = cut_shear(-c.ks[k] * c.slip_trial[k], limit);
-  if (c.effective(k) <= 0.0) {
+  if (c.is(k, cs::bonded)) {
+    shear = c.shear[k];
+  } else if (c.effective(k) <= 0.0) {
     const double before = -c.shear_1[k] / c.ks[k];
     const double ahead =
         (c.foot[k] - c.anchor[k] * c.span[k]) - (gap.foot - c.anchor[k] * e.length);
