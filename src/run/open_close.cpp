@@ -14,18 +14,13 @@ namespace edda {
 namespace {
 
 namespace cs = contact_state;
-constexpr int most_passes = 12;
+constexpr int most_passes = 30;
 constexpr double tolerance = 1e-9;  // of the largest penetration
 
 /// Carried at step n and open before it or after it, or already corrected.
 bool switches(const ContactSet& c, std::size_t k) {
   if (!c.is(k, cs::closed) || c.is(k, cs::pulls) || c.effective_1(k) <= 0.0) return false;
   return c.effective_2(k) <= 0.0 || c.effective(k) <= 0.0 || c.alpha[k] < 1.0;
-}
-
-std::array<Vec2, 3>& force_on(ForceChange& change, Id block) {
-  const auto it = std::lower_bound(change.blocks.begin(), change.blocks.end(), block);
-  return change.force[static_cast<std::size_t>(it - change.blocks.begin())];
 }
 
 void spread(std::array<Vec2, 3>& f, const BlockSet& b, Id v, Vec2 force) {
@@ -47,12 +42,14 @@ double releasing_slip(double nominal, double most, double trial, double before, 
   return std::clamp(-released / moved, -most, most);
 }
 
-/// Gives contact k the part alpha of its force and the shear this allows; adds what this changes.
-void reset_force(ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k, double alpha,
-                 ForceChange& change) {
-  const EdgeFrame e =
-      edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
-  const Gap gap = gap_to(e, at(pose.x1, pose.y1, c.vertex[k]));
+/// Changes of the nodal forces on the two blocks of a contact.
+struct ForceChange {
+  std::array<Vec2, 3> on_i{}, on_j{};
+};
+
+/// Gives contact k the part alpha of its force and the shear this allows. What this changes.
+ForceChange reset_force(ContactSet& c, const BlockSet& b, std::size_t k, double alpha,
+                        const EdgeFrame& e, const Gap& gap) {
   const double limit = c.cohesion[k] + c.friction[k] * std::max(alpha * c.normal[k], 0.0);
   double shear = cut_shear(-c.ks[k] * c.slip_trial[k], limit);
   if (c.is(k, cs::bonded)) {
@@ -75,58 +72,44 @@ void reset_force(ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t
   const Vec2 old1{c.fx[k], c.fy[k]}, old2{c.gx[k], c.gy[k]};
   set_contact_force(c, k, e.t, e.length, gap.foot, gap.depth);
   const Vec2 d1 = Vec2{c.fx[k], c.fy[k]} - old1, d2 = Vec2{c.gx[k], c.gy[k]} - old2;
-  if (!b.fixed[c.block_i[k]]) spread(force_on(change, c.block_i[k]), b, c.vertex[k], d1);
-  if (!b.fixed[c.block_j[k]]) {
-    std::array<Vec2, 3>& f = force_on(change, c.block_j[k]);
-    spread(f, b, c.edge[k], d2);
-    spread(f, b, c.edge_end[k], -(d1 + d2));
-  }
+  ForceChange change;
+  spread(change.on_i, b, c.vertex[k], d1);
+  spread(change.on_j, b, c.edge[k], d2);
+  spread(change.on_j, b, c.edge_end[k], -(d1 + d2));
+  return change;
 }
 
-void start_change(ForceChange& change, const ContactSet& c, const BlockSet& b,
-                  const std::vector<Id>& set) {
-  change.blocks.clear();
-  for (const Id k : set) {
-    if (!b.fixed[c.block_i[k]]) change.blocks.push_back(c.block_i[k]);
-    if (!b.fixed[c.block_j[k]]) change.blocks.push_back(c.block_j[k]);
+/// Moves block i by a changed impulse.
+void push(const BlockSet& b, State& s, Pose& pose, Id i, const std::array<Vec2, 3>& force,
+          double dv_per_force, double h_new) {
+  if (b.fixed[i]) return;
+  const std::array<Vec2, 3> a = accelerations(b, i, force);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec2 dv = dv_per_force * a[k];
+    s.vx[k][i] += dv.x;
+    s.vy[k][i] += dv.y;
+    s.x[k][i] += h_new * dv.x;
+    s.y[k][i] += h_new * dv.y;
   }
-  std::sort(change.blocks.begin(), change.blocks.end());
-  change.blocks.erase(std::unique(change.blocks.begin(), change.blocks.end()), change.blocks.end());
-  change.force.assign(change.blocks.size(), {});
+  place_vertices(b, s.x, s.y, i, pose.x, pose.y);
 }
 
-/// Moves the touched blocks by their changed impulses and looks at their gaps again.
-void apply(const ForceChange& change, ContactSet& c, const BlockSet& b, State& s, Pose& pose,
-           double dv_per_force, double h_new) {
-  for (std::size_t q = 0; q < change.blocks.size(); ++q) {
-    const Id i = change.blocks[q];
-    const std::array<Vec2, 3> a = accelerations(b, i, change.force[q]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 dv = dv_per_force * a[k];
-      s.vx[k][i] += dv.x;
-      s.vy[k][i] += dv.y;
-      s.x[k][i] += h_new * dv.x;
-      s.y[k][i] += h_new * dv.y;
-    }
-    place_vertices(b, s.x, s.y, i, pose.x, pose.y);
-  }
-  for (const Id i : change.blocks) {
-    for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
-      update_gap(c, pose, c.block_entry[q] >> 1);
-    }
-  }
+void keep_once(std::vector<Id>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-/// The switching contacts after the touched blocks have moved.
-void refresh(std::vector<Id>& set, const ForceChange& change, const ContactSet& c) {
-  for (const Id i : change.blocks) {
+/// Looks again at the gaps of the blocks that were pushed; adds what switches now.
+void refresh(SwitchingScratch& scratch, ContactSet& c, const Pose& pose) {
+  keep_once(scratch.pushed);
+  for (const Id i : scratch.pushed) {
     for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
       const Id k = c.block_entry[q] >> 1;
-      if (switches(c, k)) set.push_back(k);
+      update_gap(c, pose, k);
+      if (switches(c, k)) scratch.set.push_back(k);
     }
   }
-  std::sort(set.begin(), set.end());
-  set.erase(std::unique(set.begin(), set.end()), set.end());
+  keep_once(scratch.set);
 }
 
 }  // namespace
@@ -138,50 +121,49 @@ double largest_penetration(const ContactSet& c) {
 double correct_switching(ContactSet& c, const BlockSet& b, State& s, Pose& pose,
                          const StepTaken& taken, OpenCloseCounts& counts,
                          SwitchingScratch& scratch) {
-  std::vector<Id>& set = scratch.set;
-  std::vector<double>& next = scratch.alpha;
-  ForceChange& change = scratch.change;
-  set.clear();
+  scratch.set.clear();
   const double largest = largest_penetration(c);
   for (std::size_t q = 0; q < c.stirs.size(); ++q) {
     if (c.stirs[q] == 0) continue;
     const std::size_t end = std::min(c.size(), (q + 1) * ContactSet::chunk);
     for (std::size_t k = q * ContactSet::chunk; k < end; ++k) {
-      if (switches(c, k)) set.push_back(static_cast<Id>(k));
+      if (switches(c, k)) scratch.set.push_back(static_cast<Id>(k));
     }
   }
-  if (set.empty()) return largest;
+  if (scratch.set.empty()) return largest;
   const double h_mean = 0.5 * (taken.h_old + taken.h_new);
   const double dv_per_force = h_mean / (1.0 + 0.5 * taken.mass_damping * h_mean);
   std::uint64_t passes = 0;
   bool settled = false;
   while (passes < most_passes && !settled) {
-    next.clear();
     double worst = 0.0;
-    for (const Id k : set) {
+    scratch.pushed.clear();
+    for (const Id k : scratch.set) {
+      update_gap(c, pose, k);
       const EdgeFrame e =
           edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
-      const double xi = gap_to(e, at(pose.x1, pose.y1, c.vertex[k])).foot / e.length;
-      const double push =
-          dv_per_force * taken.h_new * c.share[k] * c.normal[k] * inverse_contact_mass(b, c, k, xi);
+      const Gap gap = gap_to(e, at(pose.x1, pose.y1, c.vertex[k]));
+      const double push_whole = dv_per_force * taken.h_new * c.share[k] * c.normal[k] *
+                                inverse_contact_mass(b, c, k, gap.foot / e.length);
       const double alpha =
-          push > 0.0 ? switching_alpha(c.effective_2(k), c.effective(k) + c.alpha[k] * push, push)
-                     : c.alpha[k];
-      worst = std::max(worst, std::abs(alpha - c.alpha[k]) * push);
-      next.push_back(alpha);
+          push_whole > 0.0 ? switching_alpha(c.effective_2(k),
+                                             c.effective(k) + c.alpha[k] * push_whole, push_whole)
+                           : c.alpha[k];
+      worst = std::max(worst, std::abs(alpha - c.alpha[k]) * push_whole);
+      const ForceChange change = reset_force(c, b, k, alpha, e, gap);
+      push(b, s, pose, c.block_i[k], change.on_i, dv_per_force, taken.h_new);
+      push(b, s, pose, c.block_j[k], change.on_j, dv_per_force, taken.h_new);
+      scratch.pushed.push_back(c.block_i[k]);
+      scratch.pushed.push_back(c.block_j[k]);
     }
-    settled = worst <= tolerance * largest;
-    if (settled) break;
     ++passes;
-    start_change(change, c, b, set);
-    for (std::size_t q = 0; q < set.size(); ++q) reset_force(c, b, pose, set[q], next[q], change);
-    apply(change, c, b, s, pose, dv_per_force, taken.h_new);
-    refresh(set, change, c);
+    settled = worst <= tolerance * largest;
+    refresh(scratch, c, pose);
   }
   ++counts.steps;
   counts.passes += passes;
   counts.most = std::max(counts.most, passes);
-  counts.switched += set.size();
+  counts.switched += scratch.set.size();
   if (!settled) ++counts.unsettled;
   return largest;
 }

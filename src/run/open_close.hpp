@@ -25,17 +25,10 @@ struct StepTaken {
   double h_old = 0.0, h_new = 0.0, mass_damping = 0.0;
 };
 
-/// Changes of nodal forces on the few blocks that one pass concerns.
-struct ForceChange {
-  std::vector<Id> blocks;                  ///< ascending
-  std::vector<std::array<Vec2, 3>> force;  ///< [blocks]
-};
-
 /// Lists of one step, kept so that a step allocates nothing once they have grown.
 struct SwitchingScratch {
-  std::vector<Id> set;        ///< contacts that switch
-  std::vector<double> alpha;  ///< their next alpha
-  ForceChange change;
+  std::vector<Id> set;     ///< contacts that switch
+  std::vector<Id> pushed;  ///< blocks that one pass has moved
 };
 
 /// At entry: positions and gaps of step n + 1 made with alpha = 1; state flags and forces of step
