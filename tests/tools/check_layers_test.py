@@ -14,7 +14,7 @@ TABLE = """# Architecture
 | `base/` | vectors | nothing | | |
 | `lines/` | cutting | base | GEOS | yes |
 | `blocks/` | blocks | base, lines | | |
-| `results/` | files | base, `blocks/block_set.hpp` | fmt | yes |
+| `results/` | files | base, `blocks/block_set.hpp` | Eigen | yes |
 | `app/`, `python/` | the program | base, lines, blocks, results | CLI11 | yes |
 
 Text after the table.
@@ -28,7 +28,7 @@ SOUND = {
     "src/blocks/build.hpp": "#include \"blocks/block_set.hpp\"\n#include \"lines/cut.hpp\"\n",
     "src/blocks/build.cpp": "#include \"blocks/build.hpp\"\n#include <cstdio>\n// #include \"results/table.hpp\"\n"
                             "char t[9]; int n = std::snprintf(t, 9, \"exit(1) cout\");  // never printf\n",
-    "src/results/table.cpp": "#include \"blocks/block_set.hpp\"\n#include <fmt/format.h>\n",
+    "src/results/table.cpp": "#include \"blocks/block_set.hpp\"\n#include <Eigen/Dense>\n#include <fmt/format.h>\n",
     "src/app/main.cpp": "#include <CLI/CLI.hpp>\n#include \"blocks/build.hpp\"\nint main() { std::exit(0); }\n",
     "tests/base/vec2_test.cpp": "int x;\n" * 450,
 }
@@ -43,7 +43,7 @@ BROKEN = {
     "no such file": ({"src/blocks/b.cpp": "#include \"build.hpp\"\n"}, "which is not below src"),
     "a folder without a row": ({"src/extra/a.cpp": "\n"}, "no row for extra"),
     "a library of another": ({"src/blocks/b.cpp": "#include <geos/geom/Point.h>\n"}, "blocks must not know GEOS"),
-    "a library for none": ({"src/base/b.cpp": "#include <fmt/format.h>\n"}, "base must not know fmt"),
+    "a library for none": ({"src/base/b.cpp": "#include <Eigen/Dense>\n"}, "base must not know Eigen"),
     "a stream": ({"src/blocks/b.cpp": "#include <iostream>\n"}, "blocks must not touch files or streams: <iostream>"),
     "a print": ({"src/blocks/b.cpp": "void f() { std::printf(\"x\"); }\n"}, "blocks must not touch files or streams: printf"),
     "an exit": ({"src/lines/b.cpp": "/* exit(1)\n*/\nvoid f() { exit(1); }\n"}, "src/lines/b.cpp:3: only app may end the process"),
