@@ -61,9 +61,11 @@ int run(const RunArguments& args) {
   }
   PreparedRun& ready = prepared.value();
   if (!args.quiet) {
-    fmt::print(stderr, "{} blocks; step {:.4g} s of critical {:.4g} s, held by {}\n",
+    fmt::print(stderr,
+               "{} blocks; step {:.4g} s; critical {:.4g} s ({:.4g} s if every bare corner touched "
+               "something), held by {}\n",
                ready.sim.blocks.size(), ready.sim.step_limit, ready.sim.bound.critical_step,
-               ready.governed_by);
+               ready.sim.bound.likely_step, ready.governed_by);
     print_warnings(ready.warnings);
   }
   ProgressBar bar;

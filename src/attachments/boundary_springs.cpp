@@ -75,10 +75,12 @@ Result<BoundarySprings> attach_boundaries(const Model& model, const BlockSet& b)
     const std::vector<Line> lines = lines_of(boundary, box, b.origin);
     const double k = boundary.stiffness * b.thickness;
     std::size_t hits = 0;
+    std::vector<Vec2> across;  // normals that hold the vertex
     for (Id v = 0; v < b.vertex_count(); ++v) {
       if (b.fixed[b.vertex_block[v]]) continue;
       Spring s{v, static_cast<Index>(q), 0.0, 0.0, 0.0};
       bool on = false;
+      across.clear();
       for (const Line& line : lines) {
         if (distance_to(line, {b.vertex_x[v], b.vertex_y[v]}) > snap) continue;
         on = true;
@@ -86,8 +88,14 @@ Result<BoundarySprings> attach_boundaries(const Model& model, const BlockSet& b)
           s.kxx = s.kyy = k;
           break;
         }
-        // Two rollers at a corner hold it across both lines.
+        // Two rollers at a corner hold it across both lines; pieces of one straight line count
+        // once.
         const Vec2 n = perp(unit(line.b - line.a));
+        const bool known = std::any_of(across.begin(), across.end(), [&](Vec2 other) {
+          return std::abs(cross(n, other)) < 1e-9;
+        });
+        if (known) continue;
+        across.push_back(n);
         s.kxx += k * n.x * n.x;
         s.kyy += k * n.y * n.y;
         s.kxy += k * n.x * n.y;

@@ -12,8 +12,8 @@ struct RawMoments {
   double area = 0.0, x = 0.0, y = 0.0, xx = 0.0, yy = 0.0, xy = 0.0;
 };
 
-/// Adds the signed triangles (origin, a, b) of a ring: the simplex with one corner at the origin has
-/// area J/2, first moment J (a + b)/6 and second moments J (a a + b b + (a + b)(a + b))/24.
+/// Adds the signed triangles (origin, a, b) of a ring: the simplex with one corner at the origin
+/// has area J/2, first moment J (a + b)/6 and second moments J (a a + b b + (a + b)(a + b))/24.
 void add_ring(RawMoments& m, std::span<const Vec2> ring, Vec2 origin) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Vec2 a = ring[i] - origin;
@@ -30,7 +30,9 @@ void add_ring(RawMoments& m, std::span<const Vec2> ring, Vec2 origin) {
 }
 
 /// Twice the signed area of a, b, c: positive when c is left of the line from a to b.
-double orient(Vec2 a, Vec2 b, Vec2 c) { return cross(b - a, c - a); }
+double orient(Vec2 a, Vec2 b, Vec2 c) {
+  return cross(b - a, c - a);
+}
 
 bool in_box(Vec2 a, Vec2 b, Vec2 p) {
   return std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
@@ -86,8 +88,7 @@ int side_of(std::span<const Ring> rings, Vec2 point, double tolerance) {
       const Vec2 b = ring[i + 1 == ring.size() ? 0 : i + 1];
       const Vec2 edge = b - a;
       const double length2 = dot(edge, edge);
-      const double s =
-          length2 > 0.0 ? std::clamp(dot(point - a, edge) / length2, 0.0, 1.0) : 0.0;
+      const double s = length2 > 0.0 ? std::clamp(dot(point - a, edge) / length2, 0.0, 1.0) : 0.0;
       if (norm(point - (a + s * edge)) <= tolerance) return 0;
       if ((a.y > point.y) != (b.y > point.y)) {
         const double o = orient(a, b, point);

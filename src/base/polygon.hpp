@@ -12,18 +12,18 @@ using Ring = std::vector<Vec2>;  ///< vertices in order, the first not repeated 
 
 /// Integrals over a polygon. Second moments are about the centroid.
 struct Moments {
-  double area = 0.0;         ///< m2; negative for a clockwise ring
-  Vec2 centroid;             ///< m
-  double sxx = 0.0;          ///< integral of (x - cx)^2, m4
-  double syy = 0.0;          ///< integral of (y - cy)^2, m4
-  double sxy = 0.0;          ///< integral of (x - cx)(y - cy), m4
+  double area = 0.0;  ///< m2; negative for a clockwise ring
+  Vec2 centroid;      ///< m
+  double sxx = 0.0;   ///< integral of (x - cx)^2, m4
+  double syy = 0.0;   ///< integral of (y - cy)^2, m4
+  double sxy = 0.0;   ///< integral of (x - cx)(y - cy), m4
 };
 
 /// Moments of the region bounded by `rings`: counter-clockwise rings count positive, clockwise ones
-/// (holes) negative, so any simple polygon, convex or not, is exact (method.md section 2; the paper's
-/// "simplex integration"). The sum is formed about the first vertex, so that a polygon far from the
-/// origin keeps its digits. A region of zero area has zero second moments and its first vertex as
-/// centroid.
+/// (holes) negative, so any simple polygon, convex or not, is exact (method.md section 2; the
+/// paper's "simplex integration"). The sum is formed about the first vertex, so that a polygon far
+/// from the origin keeps its digits. A region of zero area has zero second moments and its first
+/// vertex as centroid.
 Moments moments(std::span<const Ring> rings);
 
 /// Signed area of one ring, positive if counter-clockwise.

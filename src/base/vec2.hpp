@@ -11,24 +11,52 @@ struct Vec2 {
   friend constexpr bool operator==(const Vec2&, const Vec2&) = default;
 };
 
-constexpr Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
-constexpr Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
-constexpr Vec2 operator-(Vec2 a) { return {-a.x, -a.y}; }
-constexpr Vec2 operator*(double s, Vec2 a) { return {s * a.x, s * a.y}; }
-constexpr Vec2 operator*(Vec2 a, double s) { return {s * a.x, s * a.y}; }
-constexpr Vec2 operator/(Vec2 a, double s) { return {a.x / s, a.y / s}; }
-constexpr Vec2& operator+=(Vec2& a, Vec2 b) { return a = a + b; }
-constexpr Vec2& operator-=(Vec2& a, Vec2 b) { return a = a - b; }
+constexpr Vec2 operator+(Vec2 a, Vec2 b) {
+  return {a.x + b.x, a.y + b.y};
+}
+constexpr Vec2 operator-(Vec2 a, Vec2 b) {
+  return {a.x - b.x, a.y - b.y};
+}
+constexpr Vec2 operator-(Vec2 a) {
+  return {-a.x, -a.y};
+}
+constexpr Vec2 operator*(double s, Vec2 a) {
+  return {s * a.x, s * a.y};
+}
+constexpr Vec2 operator*(Vec2 a, double s) {
+  return {s * a.x, s * a.y};
+}
+constexpr Vec2 operator/(Vec2 a, double s) {
+  return {a.x / s, a.y / s};
+}
+constexpr Vec2& operator+=(Vec2& a, Vec2 b) {
+  return a = a + b;
+}
+constexpr Vec2& operator-=(Vec2& a, Vec2 b) {
+  return a = a - b;
+}
 
-constexpr double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
+constexpr double dot(Vec2 a, Vec2 b) {
+  return a.x * b.x + a.y * b.y;
+}
 /// z component of a x b: positive when b lies counter-clockwise of a.
-constexpr double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
+constexpr double cross(Vec2 a, Vec2 b) {
+  return a.x * b.y - a.y * b.x;
+}
 /// a turned by +90 degrees.
-constexpr Vec2 perp(Vec2 a) { return {-a.y, a.x}; }
+constexpr Vec2 perp(Vec2 a) {
+  return {-a.y, a.x};
+}
 /// Outward normal of an edge of unit direction t whose block lies on its left.
-constexpr Vec2 outward_normal(Vec2 t) { return {t.y, -t.x}; }
-inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
-inline Vec2 unit(Vec2 a) { return a / norm(a); }
+constexpr Vec2 outward_normal(Vec2 t) {
+  return {t.y, -t.x};
+}
+inline double norm(Vec2 a) {
+  return std::sqrt(dot(a, a));
+}
+inline Vec2 unit(Vec2 a) {
+  return a / norm(a);
+}
 /// a turned counter-clockwise by `angle` radians.
 inline Vec2 rotated(Vec2 a, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);

@@ -14,7 +14,8 @@ struct Lame {
   double lambda, mu;
 };
 
-/// Lame's constants for the model's plane: plane strain E nu/((1+nu)(1-2nu)), plane stress E nu/(1-nu^2).
+/// Lame's constants for the model's plane: plane strain E nu/((1+nu)(1-2nu)), plane stress E
+/// nu/(1-nu^2).
 Lame lame(const Material& m, Plane plane) {
   const double mu = m.young / (2.0 * (1.0 + m.poisson));
   const double lambda = plane == Plane::strain

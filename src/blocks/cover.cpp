@@ -11,7 +11,9 @@ namespace {
 
 constexpr double third_turn = 2.0 * std::numbers::pi / 3.0;
 
-Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+Vec2 direction(double angle) {
+  return {std::cos(angle), std::sin(angle)};
+}
 
 std::vector<Vec2> convex_hull(std::span<const Vec2> ring) {
   std::vector<Vec2> p(ring.begin(), ring.end());
@@ -70,8 +72,8 @@ Cover matched_cover(const Moments& m) {
 
 Cover covering_cover(std::span<const Vec2> ring, Vec2 centroid) {
   // r(angle) is the largest of three support functions, each a sinusoid between the normals of two
-  // hull edges. Sinusoids are concave where they matter, so the least r lies either at an edge normal
-  // or where two of the three cross; we try them all.
+  // hull edges. Sinusoids are concave where they matter, so the least r lies either at an edge
+  // normal or where two of the three cross; we try them all.
   const std::vector<Vec2> hull = convex_hull(ring);
   std::vector<double> breaks;
   for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -93,7 +95,8 @@ Cover covering_cover(std::span<const Vec2> ring, Vec2 centroid) {
     const double hi = i + 1 < breaks.size() ? breaks[i + 1] : breaks[0] + third_turn;
     consider(lo);
     if (hi - lo < 1e-14) continue;
-    // In (lo, hi) the three supporting vertices q_k are fixed: r_k = q_k . direction(angle + k third).
+    // In (lo, hi) the three supporting vertices q_k are fixed: r_k = q_k . direction(angle + k
+    // third).
     std::array<Vec2, 3> q;
     for (int k = 0; k < 3; ++k) {
       const double shift = k * third_turn;

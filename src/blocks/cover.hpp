@@ -12,12 +12,12 @@ namespace edda {
 using Cover = std::array<Vec2, 3>;  ///< node positions X_k, counter-clockwise, m
 
 /// The cover whose consistent mass matrix is (M/3) times the identity:
-/// X_k = C + A e_k, A = sqrt(2 S / M), S/M the second moments per area about the centroid C, e_k the
-/// unit equilateral triangle (method.md section 2, `matched`). Needs a region of positive area.
+/// X_k = C + A e_k, A = sqrt(2 S / M), S/M the second moments per area about the centroid C, e_k
+/// the unit equilateral triangle (method.md section 2, `matched`). Needs a region of positive area.
 Cover matched_cover(const Moments& m);
 
-/// The paper's cover (Fig. 1): an equilateral triangle centred on the centroid that contains `ring`,
-/// of its orientations the one of least circumradius (method.md section 2, `covering`).
+/// The paper's cover (Fig. 1): an equilateral triangle centred on the centroid that contains
+/// `ring`, of its orientations the one of least circumradius (method.md section 2, `covering`).
 Cover covering_cover(std::span<const Vec2> ring, Vec2 centroid);
 
 /// Gradients G_k of the area coordinates w_k of a triangle (Eq. 22), 1/m.

@@ -1,5 +1,5 @@
-// What the three nodes of a block say: vertices, centroid, deformation, rotation. Small and inline, so
-// that every stage says it in the same way.
+// What the three nodes of a block say: vertices, centroid, deformation, rotation. Small and inline,
+// so that every stage says it in the same way.
 #pragma once
 
 #include <array>

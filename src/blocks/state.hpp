@@ -8,7 +8,7 @@
 namespace edda {
 
 struct State {
-  std::array<std::vector<double>, 3> x, y;    ///< [3][nb] node positions, m (total, never increments)
+  std::array<std::vector<double>, 3> x, y;  ///< [3][nb] node positions, m (total, never increments)
   std::array<std::vector<double>, 3> vx, vy;  ///< [3][nb] node velocities half a step earlier, m/s
   std::vector<std::uint8_t> alive;            ///< [nb] 0: taken out by an excavation
   std::vector<std::int32_t> turns;            ///< [nb] full turns counted so far

@@ -133,7 +133,7 @@ Matrix6 bare_corners(const BlockSet& b, const ContactSet& c, const LawTable& law
     const Law& law = laws.rows[laws.resolve(b.edge_joint[v], b.edge_joint[b.previous[v]])];
     const double length = 0.5 * std::max(b.edge_length[v], b.edge_length[b.previous[v]]);
     const double kn = laws.thickness * (law.kn > 0.0 ? law.kn * length : laws.default_kn);
-    const double ks = laws.thickness * (law.kn > 0.0 ? law.ks * length : laws.default_ks);
+    const double ks = laws.thickness * (law.ks > 0.0 ? law.ks * length : laws.default_ks);
     for (const Vec2 n : {Vec2{1.0, 0.0}, Vec2{0.0, 1.0}}) {
       const Vector6 h = along(vertex_weights(b, v), n);
       k += std::max(kn, ks) * 2.0 * h * h.transpose();
@@ -151,13 +151,14 @@ struct BlockBound {
 };
 
 /// (2/w)(sqrt(1 + x^2) - x), x = zeta w / (lowest contact frequency of the block).
-double damped_step(double omega, double damping, double lowest) {
-  const double x = damping > 0.0 ? damping * omega / lowest : 0.0;
-  return 2.0 / omega * (std::sqrt(1.0 + x * x) - x);
+double damped_step(double omega, const Damping& damping, double lowest) {
+  const double x = damping.contact > 0.0 ? damping.contact * omega / lowest : 0.0;
+  const double step = 2.0 / omega * (std::sqrt(1.0 + x * x) - x);
+  return damping.mass > 0.0 ? std::min(step, 1.0 / damping.mass) : step;
 }
 
 BlockBound bound_of(const BlockSet& b, const State& s, const Pose& pose, const ContactSet& c,
-                    const BoundarySprings& springs, const LawTable& laws, double damping,
+                    const BoundarySprings& springs, const LawTable& laws, const Damping& damping,
                     std::size_t i) {
   const std::vector<Part> parts = parts_of(b, s, pose, c, i);
   const Matrix6 elastic = elastic_matrix(b, i), boundary = boundary_matrix(b, s, springs, i);
@@ -165,20 +166,22 @@ BlockBound bound_of(const BlockSet& b, const State& s, const Pose& pose, const C
   double lowest2 = std::numeric_limits<double>::infinity();
   for (const Part& p : parts) {
     k += p.kn * p.normal * p.normal.transpose() + p.ks * p.tangent * p.tangent.transpose();
-    if (damping > 0.0) {
+    if (damping.contact > 0.0) {
       const double xi = 0.5;
       lowest2 = std::min(lowest2, c.kn[p.contact] * inverse_contact_mass(b, c, p.contact, xi));
     }
   }
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(k, mass_matrix(b, i));
   BlockBound bound;
-  bound.omega2 = solver.eigenvalues()[5];
+  const double against = 1.0 + damping.local;
+  bound.omega2 = against * solver.eigenvalues()[5];
   if (!(bound.omega2 > 0.0)) return bound;
   bound.step = damped_step(std::sqrt(bound.omega2), damping, std::sqrt(lowest2));
   const Matrix6 bare = bare_corners(b, c, laws, parts, i);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> likely(k + bare, mass_matrix(b, i),
                                                                  Eigen::EigenvaluesOnly);
-  bound.likely = damped_step(std::sqrt(likely.eigenvalues()[5]), damping, std::sqrt(lowest2));
+  bound.likely =
+      damped_step(std::sqrt(against * likely.eigenvalues()[5]), damping, std::sqrt(lowest2));
   const Vector6 mode = solver.eigenvectors().col(5);
   const double total = mode.dot(k * mode);
   bound.elastic = mode.dot(elastic * mode) / total;
@@ -199,7 +202,7 @@ BlockBound bound_of(const BlockSet& b, const State& s, const Pose& pose, const C
 }  // namespace
 
 StepBound step_bound(const BlockSet& b, const State& s, const Pose& pose, const ContactSet& c,
-                     const BoundarySprings& springs, const LawTable& laws, double damping) {
+                     const BoundarySprings& springs, const LawTable& laws, const Damping& damping) {
   std::vector<BlockBound> bounds(b.size());
   parallel_for(b.size(), [&](std::size_t i) {
     if (!b.fixed[i] && s.alive[i]) bounds[i] = bound_of(b, s, pose, c, springs, laws, damping, i);

@@ -24,10 +24,11 @@ struct StepBound {
   double boundary_part = 0.0;
 };
 
-/// damping: zeta of the contacts, which shortens the step to (2/w)(sqrt(1 + x^2) - x), x = zeta
-/// w/w_c.
+/// Damping shortens the step: contacts of zeta to (2/w)(sqrt(1 + x^2) - x), x = zeta w/w_c; local
+/// damping beta makes a node that moves against its force see (1 + beta) of it, so w^2 grows by
+/// that; and mass-proportional damping a turns velocities round beyond 2/a, so 1/a is the limit.
 StepBound step_bound(const BlockSet& blocks, const State& state, const Pose& pose,
                      const ContactSet& contacts, const BoundarySprings& springs,
-                     const LawTable& laws, double damping);
+                     const LawTable& laws, const Damping& damping);
 
 }  // namespace edda

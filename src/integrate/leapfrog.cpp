@@ -108,13 +108,13 @@ void retreat(State& s, const BlockSet& b, double h_new, const Nodes& old_vx, con
 }
 
 void start_velocities(State& s, const BlockSet& b, const Nodes& force_x, const Nodes& force_y,
-                      double h) {
+                      double h, double mass_damping) {
   parallel_for(b.size(), [&](std::size_t i) {
     if (b.fixed[i] || !s.alive[i]) return;
     const std::array<Vec2, 3> a = accelerations(b, i, node_vectors(force_x, force_y, i));
     for (std::size_t k = 0; k < 3; ++k) {
-      s.vx[k][i] -= 0.5 * h * a[k].x;
-      s.vy[k][i] -= 0.5 * h * a[k].y;
+      s.vx[k][i] -= 0.5 * h * (a[k].x - mass_damping * s.vx[k][i]);
+      s.vy[k][i] -= 0.5 * h * (a[k].y - mass_damping * s.vy[k][i]);
     }
   });
 }

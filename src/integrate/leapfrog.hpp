@@ -18,14 +18,14 @@ struct DampingWork {
   std::vector<double> joules;  ///< [nb]
 };
 
-/// v_{n+1/2} = v_{n-1/2} + a_n (h_old + h_new)/2, x_{n+1} = x_n + h_new v_{n+1/2} for every free block.
-/// Mass-proportional damping is centred: v+ = ((1 - a h/2) v- + h f/m)/(1 + a h/2); local damping takes
-/// beta |f| against v-, node by node. forces: [3][nb] N.
+/// v_{n+1/2} = v_{n-1/2} + a_n (h_old + h_new)/2, x_{n+1} = x_n + h_new v_{n+1/2} for every free
+/// block. Mass-proportional damping is centred: v+ = ((1 - a h/2) v- + h f/m)/(1 + a h/2); local
+/// damping takes beta |f| against v-, node by node. forces: [3][nb] N.
 void advance(State& state, const BlockSet& blocks, const Nodes& force_x, const Nodes& force_y,
              double h_old, double h_new, const StepDamping& damping);
 
-/// Books what damping took in the step just made, once its velocities are final: damping force times
-/// (x_{n+1} - x_{n-1})/2. old_vx, old_vy: velocities before it.
+/// Books what damping took in the step just made, once its velocities are final: damping force
+/// times (x_{n+1} - x_{n-1})/2. old_vx, old_vy: velocities before it.
 void book_damping(const State& state, const BlockSet& blocks, const Nodes& force_x,
                   const Nodes& force_y, const Nodes& old_vx, const Nodes& old_vy, double h_old,
                   double h_new, const StepDamping& damping, DampingWork& work);
@@ -34,9 +34,9 @@ void book_damping(const State& state, const BlockSet& blocks, const Nodes& force
 void retreat(State& state, const BlockSet& blocks, double h_new, const Nodes& old_vx,
              const Nodes& old_vy);
 
-/// v_{-1/2} = v_0 - a_0 h/2, for the start.
+/// v_{-1/2} = v_0 - (f/m - a v_0) h/2, for the start; a: mass-proportional damping, 1/s.
 void start_velocities(State& state, const BlockSet& blocks, const Nodes& force_x,
-                      const Nodes& force_y, double h);
+                      const Nodes& force_y, double h, double mass_damping = 0.0);
 
 /// Acceleration of the three nodes of block i under nodal forces, m/s2: f_k/m_k, or M^{-1} f for
 /// `consistent`.

@@ -1,5 +1,5 @@
-// The model as read: plain, constant, in SI units (angles in degrees, as written). Every reference by
-// name is already an index, every default filled in, every range checked. Built by read_model().
+// The model as read: plain, constant, in SI units (angles in degrees, as written). Every reference
+// by name is already an index, every default filled in, every range checked. Built by read_model().
 #pragma once
 
 #include <array>
@@ -45,27 +45,27 @@ struct Strength {
 struct JointLaw {
   std::string name;
   LawType type = LawType::coulomb;
-  Strength peak;                ///< of a bonded contact
-  Strength residual;            ///< after failure, and of every contact not closed at the start
-  std::optional<double> kn;     ///< Pa/m; without it contact.normal_stiffness
-  std::optional<double> ks;     ///< Pa/m; filled with 0.4 kn where kn is given and ks is not
+  Strength peak;             ///< of a bonded contact
+  Strength residual;         ///< after failure, and of every contact not closed at the start
+  std::optional<double> kn;  ///< Pa/m; without it contact.normal_stiffness
+  std::optional<double> ks;  ///< Pa/m; filled with 0.4 kn where kn is given and ks is not
   Where where;
 };
 
 struct ContactDefaults {
   double normal_stiffness = 0.0;  ///< Pa (N/m per metre of thickness)
   double shear_stiffness = 0.0;   ///< Pa
-  Index joint = none;             ///< law of contacts whose edges name none; none only if no law is needed
+  Index joint = none;  ///< law of contacts whose edges name none; none only if no law is needed
 };
 
 /// [[block]]
 struct BlockInput {
-  std::string name;        ///< empty if none was given
-  Ring polygon;            ///< either orientation, as written
+  std::string name;  ///< empty if none was given
+  Ring polygon;      ///< either orientation, as written
   Index material = none;
-  Index joint = none;      ///< law of its edges, or none
+  Index joint = none;  ///< law of its edges, or none
   bool fixed = false;
-  Vec2 velocity;           ///< m/s
+  Vec2 velocity;                  ///< m/s
   double angular_velocity = 0.0;  ///< rad/s
   Where where;
 };
@@ -74,19 +74,19 @@ struct BlockInput {
 struct Domain {
   Ring outline;
   Index material = none;
-  Index joint = none;      ///< law of cut edges that name none; none: contact.joint
-  double snap = 0.0;       ///< m
+  Index joint = none;  ///< law of cut edges that name none; none: contact.joint
+  double snap = 0.0;   ///< m
   long long max_blocks = 300000;
   Where where;
 };
 
 struct JointSet {
   std::string name;
-  double angle = 0.0;      ///< degrees, counter-clockwise from +x
-  double spacing = 0.0;    ///< m
+  double angle = 0.0;    ///< degrees, counter-clockwise from +x
+  double spacing = 0.0;  ///< m
   Vec2 origin;
   Index joint = none;
-  Ring region;             ///< empty: the whole domain
+  Ring region;  ///< empty: the whole domain
   Where where;
 };
 
@@ -99,7 +99,7 @@ struct Trace {
 struct Opening {
   std::string name;
   Ring polygon;
-  Index joint = none;      ///< law of its outline until taken out; none: glued
+  Index joint = none;  ///< law of its outline until taken out; none: glued
   Where where;
 };
 
@@ -109,10 +109,10 @@ struct HeldPoint {
 };
 
 struct BrickWall {
-  Vec2 origin;             ///< lower left corner
+  Vec2 origin;  ///< lower left corner
   int columns = 0;
   int rows = 0;
-  Vec2 brick;              ///< length, height of a brick, m
+  Vec2 brick;  ///< length, height of a brick, m
   Index material = none;
   Index joint = none;
   Where where;
@@ -121,9 +121,10 @@ struct BrickWall {
 struct Boundary {
   std::string name;
   BoundaryType type = BoundaryType::fixed;
-  std::vector<std::string> sides;  ///< of "left", "right", "bottom", "top"; empty where `along` is given
-  std::vector<Vec2> along;         ///< polyline
-  double stiffness = 0.0;          ///< Pa: spring per block vertex on it
+  std::vector<std::string>
+      sides;                ///< of "left", "right", "bottom", "top"; empty where `along` is given
+  std::vector<Vec2> along;  ///< polyline
+  double stiffness = 0.0;   ///< Pa: spring per block vertex on it
   Where where;
 };
 
@@ -143,10 +144,10 @@ struct Solver {
   Method method = Method::edda;
   MassKind mass = MassKind::matched;
   Switching switching = Switching::exact;
-  double duration = 0.0;               ///< s
-  std::optional<double> time_step;     ///< s; empty: "auto"
+  double duration = 0.0;            ///< s
+  std::optional<double> time_step;  ///< s; empty: "auto"
   bool allow_unstable = false;
-  double safety = 0.8;                 ///< of the critical step
+  double safety = 0.7;                   ///< of the critical step
   double max_displacement_ratio = 0.01;  ///< of the model's half-height in one step
   Damping damping;
   Where where;
@@ -159,10 +160,10 @@ struct Output {
 
 struct Model {
   std::string title;
-  std::string file;            ///< path as given on the command line
-  Vec2 gravity{0.0, -9.81};    ///< m/s2
+  std::string file;          ///< path as given on the command line
+  Vec2 gravity{0.0, -9.81};  ///< m/s2
   Plane plane = Plane::strain;
-  double thickness = 1.0;      ///< m
+  double thickness = 1.0;  ///< m
 
   std::vector<Material> materials;
   std::vector<JointLaw> joints;

@@ -89,7 +89,10 @@ void ColourScale::draw_legend(Canvas& canvas, const Layout& l, const ShownField&
   const double x = l.frame.high.x + 30.0 * l.unit, size = 22.0 * l.unit;
   double y = l.frame.low.y + size;
   canvas.colour(ink);
-  canvas.text(field.label, {x, y}, size, Align::left, true);
+  for (const std::string& line : wrapped(canvas, field.label, size, l.width - x - 10.0 * l.unit)) {
+    canvas.text(line, {x, y}, size, Align::left);
+    y += 1.25 * size;
+  }
   for (const std::size_t k : kinds_) {
     y += 36.0 * l.unit;
     cairo_rectangle(canvas.cr(), x, y - 0.8 * size, size, size);

@@ -69,7 +69,8 @@ std::optional<Failure> deep_overlap(const ContactSet& c, const BlockSet& b, cons
     return std::min(b.inradius[c.block_i[k]], b.inradius[c.block_j[k]]);
   };
   Id worst = no_id;
-  if (largest > smallest_half_width) {
+  constexpr std::uint64_t look_every = 64;
+  if (largest > smallest_half_width || s.steps % look_every == 0) {
     for (std::size_t k = 0; k < c.size() && worst == no_id; ++k) {
       if (c.is(k, contact_state::closed) && c.depth[k] > limit(k)) worst = static_cast<Id>(k);
     }

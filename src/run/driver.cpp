@@ -75,10 +75,19 @@ std::string likely_cause(const Simulation& sim) {
     return fmt::format("time_step {:.6g} s is above the critical step {:.6g} s", *solver.time_step,
                        sim.bound.critical_step);
   }
+  if (sim.steps.over_critical > 1.0) {
+    return fmt::format("the step was {:.3g} times the critical one: make solver.time_step smaller",
+                       sim.steps.over_critical);
+  }
   if (solver.switching == Switching::plain) {
     return "switching = \"plain\" creates energy at every impact: use \"exact\" or a "
            "smaller "
            "solver.safety";
+  }
+  if (solver.safety > 0.5 || solver.time_step) {
+    return "loads or speeds that the contact springs cannot bear, or a step too large for them: "
+           "lower "
+           "solver.safety, raise contact.normal_stiffness, or lower solver.max_displacement_ratio";
   }
   return "loads or speeds that the contact springs cannot bear: raise "
          "contact.normal_stiffness, or lower solver.max_displacement_ratio";

@@ -28,7 +28,7 @@ double step_without(const Simulation& sim, Id block) {
   BlockSet others = sim.blocks;
   others.fixed[block] = 1;
   return step_bound(others, sim.state, sim.pose, sim.contacts, sim.springs, sim.laws,
-                    sim.model.solver.damping.contact)
+                    sim.model.solver.damping)
       .critical_step;
 }
 

@@ -213,7 +213,7 @@ double unbalanced_ratio(const Simulation& sim, const Instant& at) {
   // Contacts that only just touch, as at the start, carry rounding and no measure.
   const double mean_weight = weight / blocks;
   const double mean_normal = carrying > 0 ? normal / static_cast<double>(carrying) : 0.0;
-  const double scale = mean_normal > 1e-9 * mean_weight ? mean_normal : mean_weight;
+  const double scale = mean_normal > 1e-3 * mean_weight ? mean_normal : mean_weight;
   return scale > 0.0 ? force / blocks / scale : 0.0;
 }
 

@@ -29,7 +29,7 @@ std::optional<Fault> unstable_step(const Simulation& sim) {
                   sim.bound.critical_step),
       fmt::format(
           "give at most that, or \"auto\" (now {:.6g} s); allow_unstable = true takes it as it is",
-          solver.safety * sim.bound.critical_step));
+          solver.safety * sim.bound.likely_step));
 }
 
 }  // namespace

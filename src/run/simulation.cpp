@@ -120,7 +120,7 @@ void Simulation::start(double first_event) {
   look_back();
   evaluate_contacts(contacts, blocks, laws, h, model.solver.damping.contact);
   gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity);
-  start_velocities(state, blocks, forces.x, forces.y, h);
+  start_velocities(state, blocks, forces.x, forces.y, h, model.solver.damping.mass);
   look_back();
 }
 
@@ -130,9 +130,12 @@ void Simulation::search(double reach) {
 }
 
 void Simulation::set_limit() {
-  bound = step_bound(blocks, state, pose, contacts, springs, laws, model.solver.damping.contact);
+  bound = step_bound(blocks, state, pose, contacts, springs, laws, model.solver.damping);
   if (model.solver.time_step) {
-    step_limit = std::min(*model.solver.time_step, displacement_cap_);
+    const double most = model.solver.allow_unstable
+                            ? displacement_cap_
+                            : std::min(bound.critical_step, displacement_cap_);
+    step_limit = std::min(*model.solver.time_step, most);
     return;
   }
   // Lowered at once; raised only when it is well worth the energy that a change costs, and lasts.
@@ -224,7 +227,9 @@ std::optional<Failure> Simulation::step() {
   search_if_due();
   const TransitionCounts counts =
       settle_contacts(contacts, blocks, pose, laws, state.steps, false, transitions_);
-  if (counts.unshielded > 0) set_limit();
+  constexpr std::uint64_t look_every = 64;
+  const bool grown = state.steps % look_every == 0 && grow_springs(contacts, blocks, pose, laws);
+  if (counts.unshielded > 0 || grown) set_limit();
   if (step_limit < state.step * (1.0 - 1e-12) ||
       (steps_left_ > 0 && step_limit > 1.25 * state.step)) {
     if (steps_left_ > 0) aim_at(target_);
@@ -242,6 +247,7 @@ void Simulation::finish_step() {
   steps.smallest = steps.smallest == 0.0 ? h : std::min(steps.smallest, h);
   steps.largest = std::max(steps.largest, h);
   steps.sum += h;
+  steps.over_critical = std::max(steps.over_critical, h / bound.critical_step);
 }
 
 void Simulation::search_if_due() {

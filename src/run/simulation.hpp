@@ -29,6 +29,7 @@ namespace edda {
 struct StepStatistics {
   double smallest = 0.0, largest = 0.0, sum = 0.0;  ///< s
   std::uint64_t changes = 0;                        ///< of the step
+  double over_critical = 0.0;                       ///< largest step over the bound then in force
   std::uint64_t redone = 0;                         ///< steps done again with half the step
 };
 

@@ -61,7 +61,7 @@ TEST(ReadModel, Defaults) {
   EXPECT_EQ(m.solver.switching, Switching::exact);
   EXPECT_FALSE(m.solver.time_step);
   EXPECT_FALSE(m.solver.allow_unstable);
-  EXPECT_EQ(m.solver.safety, 0.8);
+  EXPECT_EQ(m.solver.safety, 0.7);
   EXPECT_EQ(m.solver.max_displacement_ratio, 0.01);
   EXPECT_EQ(m.solver.damping.local, 0.0);
   EXPECT_EQ(m.output.every, 0.01);
