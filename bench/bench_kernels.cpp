@@ -96,7 +96,7 @@ void CriticalStep(benchmark::State& bench) {
   Simulation sim = settled(bench);
   for (auto _ : bench) {
     const StepBound bound =
-        step_bound(sim.blocks, sim.state, sim.pose, sim.contacts, sim.springs, sim.laws, 0.0);
+        step_bound(sim.blocks, sim.state, sim.pose, sim.contacts, sim.springs, sim.laws, {});
     benchmark::DoNotOptimize(bound);
   }
   count(bench, sim);
