@@ -6,6 +6,7 @@
 
 #include "contacts/gap.hpp"
 #include "contacts/gaps.hpp"
+#include "contacts/stored_energy.hpp"
 #include "contacts/switching.hpp"
 #include "forces/contact_forces.hpp"
 #include "integrate/leapfrog.hpp"
@@ -21,6 +22,19 @@ constexpr double tolerance = 1e-9;  // of the largest penetration
 bool switches(const ContactSet& c, std::size_t k) {
   if (!c.is(k, cs::closed) || c.is(k, cs::pulls) || c.effective_1(k) <= 0.0) return false;
   return c.effective_2(k) <= 0.0 || c.effective(k) <= 0.0 || c.alpha[k] < 1.0;
+}
+
+/// Coulomb's limit at step n + 1.
+double next_limit(const ContactSet& c, std::size_t k) {
+  return c.cohesion[k] + c.friction[k] * std::max(c.kn[k] * c.effective(k), 0.0);
+}
+
+/// Stays closed, but its shear has passed through zero within the step and slides the other way:
+/// the spring went on pushing after it had given back all it held.
+bool reverses(const ContactSet& c, std::size_t k) {
+  if (!c.is(k, cs::closed) || c.is(k, cs::bonded)) return false;
+  const double slip = trial_slip(c, k);
+  return slip * c.shear[k] > 0.0 && c.ks[k] * std::abs(slip) > next_limit(c, k);
 }
 
 void spread(std::array<Vec2, 3>& f, const BlockSet& b, Id v, Vec2 force) {
@@ -61,6 +75,11 @@ ForceChange reset_force(ContactSet& c, const BlockSet& b, std::size_t k, double 
     const double moved = c.slip_trial[k] - before + ahead;
     shear = -c.ks[k] *
             releasing_slip(-shear / c.ks[k], limit / c.ks[k], c.slip_trial[k], before, moved);
+  }
+  if (c.effective(k) > 0.0 && reverses(c, k)) {
+    // What slides next, s_{n+1}, has s_n + s_{n+1} of its own sign only if s_n is within the next
+    // limit.
+    shear = cut_shear(shear, next_limit(c, k));
   }
   if (shear != c.shear[k]) {
     c.friction_work[k] += booked(c, k, shear) - booked(c, k, c.shear[k]);
@@ -106,7 +125,7 @@ void refresh(SwitchingScratch& scratch, ContactSet& c, const Pose& pose) {
     for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
       const Id k = c.block_entry[q] >> 1;
       update_gap(c, pose, k);
-      if (switches(c, k)) scratch.set.push_back(k);
+      if (switches(c, k) || reverses(c, k)) scratch.set.push_back(k);
     }
   }
   keep_once(scratch.set);
@@ -127,7 +146,7 @@ double correct_switching(ContactSet& c, const BlockSet& b, State& s, Pose& pose,
     if (c.stirs[q] == 0) continue;
     const std::size_t end = std::min(c.size(), (q + 1) * ContactSet::chunk);
     for (std::size_t k = q * ContactSet::chunk; k < end; ++k) {
-      if (switches(c, k)) scratch.set.push_back(static_cast<Id>(k));
+      if (switches(c, k) || reverses(c, k)) scratch.set.push_back(static_cast<Id>(k));
     }
   }
   if (scratch.set.empty()) return largest;
