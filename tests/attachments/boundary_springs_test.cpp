@@ -81,6 +81,15 @@ TEST(BoundarySprings, SlantedRollerIsAcrossThePolyline) {
   EXPECT_DOUBLE_EQ(s.kxy[0], 2.5);
 }
 
+TEST(BoundarySprings, PiecesOfOneLineCountOnce) {
+  const Row one = row(boundary(BoundaryType::roller, {}, {{0, 0}, {3, 0}}));
+  const Row cut = row(boundary(BoundaryType::roller, {}, {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {1, 0}}));
+  const BoundarySprings a = attach_boundaries(one.model, one.blocks).value();
+  const BoundarySprings b = attach_boundaries(cut.model, cut.blocks).value();
+  EXPECT_EQ(a.kyy, b.kyy);
+  EXPECT_EQ(a.vertex, b.vertex);
+}
+
 TEST(BoundarySprings, ThicknessScalesThem) {
   Row r = row(boundary(BoundaryType::fixed, {"bottom"}));
   r.model.thickness = 2.0;

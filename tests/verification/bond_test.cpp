@@ -132,5 +132,82 @@ TEST(JointStiffness, FollowsTheLengthOfTheJoint) {
   EXPECT_NEAR(displacement(sim, 1).y / (-2.0 * 2500.0 * 10.0 / (1e9 * 2.0)), 1.0, 1e-2);
 }
 
+/// A key block held by cohesion between two held ones, its joints under no normal load: rounding
+/// must not tear it, however the model is turned or shifted.
+TEST(KeyBlock, CohesionAloneHoldsItHoweverTheModelLies) {
+  for (const double turn : {0.0, 17.0, 63.0}) {
+    for (const double shift : {0.0, 0.1, 1e5}) {
+      auto box = [&](double x0, double y0, double x1, double y1) {
+        std::string text = "[";
+        for (Vec2 p : {Vec2{x0, y0}, Vec2{x1, y0}, Vec2{x1, y1}, Vec2{x0, y1}}) {
+          const Vec2 q = rotated(p, radians(turn)) + Vec2{shift, shift};
+          text += "[" + number(q.x) + "," + number(q.y) + "],";
+        }
+        return text + "]\n";
+      };
+      const Vec2 g = rotated({0.0, -9.81}, radians(turn));
+      Simulation sim =
+          scene("gravity = [" + number(g.x) + "," + number(g.y) + "]\n" + rock +
+                "[joints.j]\nfriction_angle = 20\ncohesion = 1e6\n[solver]\nduration = 0.1\n"
+                "[output]\nhistory_every = 0.01\n[[block]]\nfixed = true\npolygon = " +
+                box(-1, 0, 0, 1) + "[[block]]\nfixed = true\npolygon = " + box(1, 0, 2, 1) +
+                "[[block]]\npolygon = " + box(0, 0, 1, 1));
+      run(sim, [](Simulation&) {});
+      EXPECT_EQ(sim.contacts.segments.size(), 2u) << turn << ' ' << shift;
+      EXPECT_LT(norm(displacement(sim, 2)), 1e-5) << turn << ' ' << shift;
+    }
+  }
+}
+
+/// Peak friction holds what the residual would not, until it fails.
+TEST(PeakFriction, HoldsUntilItFails) {
+  for (const double peak : {30.0, 24.0}) {
+    Simulation sim =
+        scene("gravity = [0.0, -9.8]\n" + rock + "[joints.j]\nfriction_angle = " + number(peak) +
+              "\nresidual = { friction_angle = 20.0 }\n[solver]\n"
+              "duration = 0.05\ndamping = { mass = 2e4 }\n[output]\nhistory_every = 0.005\n"
+              "[[block]]\nfixed = true\npolygon = " +
+              slope_box(25.0, -1, 4, -1, 0) +
+              "\n[[block]]\npolygon = " + slope_box(25.0, 0, 2, 0, 1) + "\n");
+    run(sim, [](Simulation&) {});
+    EXPECT_EQ(sim.contacts.segments.size(), peak > 25.0 ? 1u : 0u);
+  }
+}
+
+TEST(ResidualTension, HoldsAfterFailureInShear) {
+  // The joint slips at once (no peak strength in shear) but its residual tension carries the
+  // weight.
+  Simulation sim =
+      scene("gravity = [0.0, -10.0]\n" + rock +
+            "[joints.j]\nfriction_angle = 0\ncohesion = 1.0\ntensile_strength = 1e5\n"
+            "residual = { tensile_strength = 5e4 }\n[solver]\nduration = 0.05\n"
+            "damping = { mass = 2e4 }\n[output]\nhistory_every = 0.005\n[[block]]\nfixed = true\n"
+            "polygon = [[-1,1],[2,1],[2,2],[-1,2]]\n[[block]]\n"
+            "polygon = [[0,0],[1,0],[1,1],[0,1]]\n");
+  sim.model.gravity = {1.0, -10.0};
+  run(sim, [](Simulation&) {});
+  EXPECT_TRUE(sim.contacts.segments.empty());
+  EXPECT_LT(std::abs(displacement(sim, 1).y), 1e-5);
+}
+
+/// With kn, a slider that passes from one held block to the next stands on both by the length of
+/// each.
+TEST(JointStiffness, GoesOnOverASeam) {
+  Simulation sim = scene(
+      "[materials.rock]\ndensity = 2500\nyoung = 20e9\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = 0\nkn = 1e9\n[solver]\nduration = 4.0\n"
+      "damping = { contact = 0.3 }\n[output]\nhistory_every = 0.1\n"
+      "[[block]]\nfixed = true\npolygon = [[0,-1],[6,-1],[6,0],[0,0]]\n"
+      "[[block]]\nfixed = true\npolygon = [[6,-1],[20,-1],[20,0],[6,0]]\n"
+      "[[block]]\npolygon = [[3.75,0],[5.75,0],[5.75,0.5],[3.75,0.5]]\n"
+      "velocity = [1.0, 0.0]\n");
+  run(sim, [](Simulation&) {});
+  EXPECT_NEAR(displacement(sim, 2).x, 4.0, 1e-2);
+  const double settled = 2.0 * 0.5 * 2500.0 * 9.81 / (1e9 * 2.0);
+  for (Id v = sim.blocks.vertex_begin[2]; v < sim.blocks.vertex_begin[2] + 2; ++v) {
+    EXPECT_GT(sim.pose.y[v] + sim.blocks.origin.y, -4.0 * settled);
+  }
+}
+
 }  // namespace
 }  // namespace edda

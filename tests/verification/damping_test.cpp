@@ -1,0 +1,78 @@
+// Damping, and things at rest on one another.
+#include <algorithm>
+
+#include "verification/scene.hpp"
+
+namespace edda {
+namespace {
+
+std::string stack(int blocks, const std::string& solver, const std::string& contact = "") {
+  std::string toml =
+      "[materials.rock]\ndensity = 2500.0\nyoung = 20e9\npoisson = 0.25\n[joints.j]\n"
+      "friction_angle = 30\n" +
+      contact + "[solver]\nduration = 0.5\n" + solver +
+      "[output]\nhistory_every = 0.01\n[[block]]\nfixed = true\npolygon = "
+      "[[-3,-1],[5,-1],[5,0],[-3,0]]\n";
+  for (int i = 0; i < blocks; ++i) {
+    toml += "[[block]]\npolygon = [[0," + number(i) + "],[2," + number(i) + "],[2," +
+            number(i + 1) + "],[0," + number(i + 1) + "]]\n";
+  }
+  return toml;
+}
+
+TEST(LocalDamping, IsStableAtEveryFractionWithTheDefaultStep) {
+  for (const double beta : {0.3, 0.5, 0.7, 0.8, 0.95}) {
+    Simulation sim = scene(stack(1, "damping = { local = " + number(beta) + " }\n", "kn = 1e9\n"));
+    run(sim, [](Simulation&) {});
+    EXPECT_NEAR(displacement(sim, 1).y / (-2500.0 * 9.81 / 1e9), 1.0, 0.02) << beta;
+    EXPECT_LT(sim.ledger().kinetic, 1e-6) << beta;
+  }
+}
+
+TEST(MassDamping, DecaysAsExactlyAsTheStepAllows) {
+  // v = v0 exp(-a t) for a free block, from the first step on; a 1/step of 1/a is the longest
+  // allowed.
+  for (const double a : {1.0, 10.0, 100.0, 1000.0}) {
+    Simulation sim = scene(
+        "gravity = [0, 0]\n[materials.rock]\ndensity = 1000\nyoung = 2e5\n"
+        "poisson = 0.2\n[solver]\nduration = 0.1\ndamping = { mass = " +
+        number(a) +
+        " }\n[output]\nhistory_every = 0.01\n[[block]]\n"
+        "polygon = [[0,0],[1,0],[1,1],[0,1]]\nvelocity = [1, 0]\n");
+    run(sim, [](Simulation&) {});
+    const double ah = a * sim.state.step;
+    EXPECT_LE(ah, 1.0);
+    EXPECT_NEAR(displacement(sim, 0).x / ((1.0 - std::exp(-0.1 * a)) / a), 1.0,
+                0.2 * ah * ah + 1e-6)
+        << a;
+  }
+}
+
+/// Blocks at rest on one another flip between open and closed for ever; the ledger must not see it.
+TEST(Stack, AtRestWithoutDampingKeepsItsEnergy) {
+  for (const int blocks : {3, 5, 10}) {
+    Simulation sim = scene(stack(blocks, ""));
+    double drift = 0.0;
+    run(sim, [&](Simulation& s) { drift = std::max(drift, std::abs(s.ledger().drift)); });
+    EXPECT_LT(drift, 1e-6) << blocks;
+    EXPECT_LE(sim.open_close.unsettled, sim.open_close.steps / 50) << blocks;
+  }
+}
+
+/// A step given by hand is kept below the critical one when blocks land.
+TEST(GivenStep, FollowsTheBoundWhenItFalls) {
+  Simulation sim = scene(
+      "[materials.rock]\ndensity = 2600\nyoung = 1e8\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = 30\n[contact]\nnormal_stiffness = 2e10\n[solver]\n"
+      "duration = 0.6\ntime_step = 2e-3\n[output]\nhistory_every = 0.01\n[[block]]\n"
+      "fixed = true\npolygon = [[-3,-1],[4,-1],[4,0],[-3,0]]\n[[block]]\n"
+      "polygon = [[0,0.5],[1,0.55],[1,1.5],[0,1.5]]\n");
+  double drift = 0.0;
+  run(sim, [&](Simulation& s) { drift = std::max(drift, std::abs(s.ledger().drift)); });
+  EXPECT_LE(sim.steps.over_critical, 1.0 + 1e-9);
+  EXPECT_GT(sim.steps.changes, 0u);
+  EXPECT_LT(drift, 1e-3);
+}
+
+}  // namespace
+}  // namespace edda
