@@ -22,13 +22,15 @@ std::optional<Failure> run_until_failure(const std::string& toml, double duratio
 }
 
 const std::string base =
-    "[materials.rock]\ndensity = 2600\nyoung = 20e9\npoisson = 0.2\n[joints.j]\nfriction_angle = 30\n"
+    "[materials.rock]\ndensity = 2600\nyoung = 20e9\npoisson = 0.2\n[joints.j]\nfriction_angle = "
+    "30\n"
     "[[block]]\nname = 'base'\nfixed = true\npolygon = [[-3,-1],[4,-1],[4,0],[-3,0]]\n"
     "[[block]]\nname = 'stone'\npolygon = [[0,0],[1,0],[1,1],[0,1]]\n";
 
 TEST(Divergence, LostShapeIsNamed) {
   const std::string soft =
-      "[materials.mud]\ndensity = 2600\nyoung = 1e3\npoisson = 0.2\n[joints.j]\nfriction_angle = 30\n"
+      "[materials.mud]\ndensity = 2600\nyoung = 1e3\npoisson = 0.2\n[joints.j]\nfriction_angle = "
+      "30\n"
       "[[block]]\nfixed = true\npolygon = [[-3,-1],[4,-1],[4,0],[-3,0]]\n"
       "[[block]]\nname = 'pudding'\npolygon = [[0,0],[1,0],[1,1],[0,1]]\n"
       "[contact]\nnormal_stiffness = 1e7\n[solver]\nduration = 5\n";
