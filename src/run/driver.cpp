@@ -245,7 +245,8 @@ void Driver::write_end() {
   outcome_.wall.cut = run_.cut_seconds;
   share_out_time();
   outcome_.wall.total = since(started_) + run_.cut_seconds;
-  if (const Trouble trouble = recorder_.summary(sim_, outcome_, run_.governed_by)) {
+  const Trouble trouble = recorder_.summary(sim_, outcome_, run_.governed_by);
+  if (trouble && !disk_trouble_) {  // else the first file that could not be written says why
     outcome_.status = Status::failed;
     outcome_.message = to_string(*trouble);
   }
