@@ -18,7 +18,7 @@ struct Ledger {
   double friction = 0.0, damping = 0.0, fracture = 0.0;  ///< dissipated, >= 0
   double external = 0.0;                                 ///< work done on the blocks
   double step_change = 0.0;                              ///< what changes of the step took out
-  double drift = 0.0;                                    ///< a ratio, see interface.md
+  double drift = 0.0;  ///< balance, less that at the start, over the largest scale so far
 
   double balance() const {
     return kinetic + strain + contact + gravity + friction + damping + fracture + step_change -

@@ -270,7 +270,8 @@ polygon = )" + polygon + "\n[solver]\nduration = 1.25\nmass = '" +
 
 INSTANTIATE_TEST_SUITE_P(Masses, Rocking,
                          testing::Values(std::pair{"matched", 0.8}, std::pair{"consistent", 0.8},
-                                         std::pair{"covering", 0.8}));
+                                         std::pair{"covering", 0.8}),
+                         [](const auto& info) { return std::string(info.param.first); });
 
 }  // namespace
 }  // namespace edda
