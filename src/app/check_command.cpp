@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "app/common.hpp"
-#include "run/guard_rails.hpp"
+#include "run/labels.hpp"
 #include "run/run_model.hpp"
 
 namespace edda {

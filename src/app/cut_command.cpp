@@ -9,7 +9,7 @@
 #include "report/plot.hpp"
 #include "results/cut_table.hpp"
 #include "results/frames.hpp"
-#include "run/guard_rails.hpp"
+#include "run/labels.hpp"
 #include "run/start_picture.hpp"
 
 namespace edda {

@@ -49,13 +49,6 @@ std::vector<Line> lines_of(const Boundary& boundary, const Box& box, Vec2 origin
   return lines;
 }
 
-double distance_to(const Line& line, Vec2 p) {
-  const Vec2 u = line.b - line.a;
-  const double l2 = dot(u, u);
-  const double s = l2 > 0.0 ? std::clamp(dot(p - line.a, u) / l2, 0.0, 1.0) : 0.0;
-  return norm(p - (line.a + s * u));
-}
-
 struct Spring {
   Id vertex;
   Index boundary;
@@ -82,7 +75,7 @@ Result<BoundarySprings> attach_boundaries(const Model& model, const BlockSet& b)
       bool on = false;
       across.clear();
       for (const Line& line : lines) {
-        if (distance_to(line, {b.vertex_x[v], b.vertex_y[v]}) > snap) continue;
+        if (distance_to_segment({b.vertex_x[v], b.vertex_y[v]}, line.a, line.b) > snap) continue;
         on = true;
         if (boundary.type == BoundaryType::fixed) {
           s.kxx = s.kyy = k;

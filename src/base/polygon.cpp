@@ -86,10 +86,7 @@ int side_of(std::span<const Ring> rings, Vec2 point, double tolerance) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Vec2 a = ring[i];
       const Vec2 b = ring[i + 1 == ring.size() ? 0 : i + 1];
-      const Vec2 edge = b - a;
-      const double length2 = dot(edge, edge);
-      const double s = length2 > 0.0 ? std::clamp(dot(point - a, edge) / length2, 0.0, 1.0) : 0.0;
-      if (norm(point - (a + s * edge)) <= tolerance) return 0;
+      if (distance_to_segment(point, a, b) <= tolerance) return 0;
       if ((a.y > point.y) != (b.y > point.y)) {
         const double o = orient(a, b, point);
         if ((o > 0.0) == (b.y > a.y)) inside = !inside;

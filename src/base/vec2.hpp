@@ -1,6 +1,7 @@
 // Plane vectors. x right, y up; units are the caller's (metres unless said otherwise).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace edda {
@@ -56,6 +57,13 @@ inline double norm(Vec2 a) {
 }
 inline Vec2 unit(Vec2 a) {
   return a / norm(a);
+}
+/// Distance of p from the segment from a to b (from a, where they are one point).
+inline double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 u = b - a;
+  const double length2 = dot(u, u);
+  const double s = length2 > 0.0 ? std::clamp(dot(p - a, u) / length2, 0.0, 1.0) : 0.0;
+  return norm(p - (a + s * u));
 }
 /// a turned counter-clockwise by `angle` radians.
 inline Vec2 rotated(Vec2 a, double angle) {

@@ -64,6 +64,11 @@ inline Vec2 weighted(const std::array<double, 3>& w, const Nodes& x, const Nodes
           w[0] * y[0][i] + w[1] * y[1][i] + w[2] * y[2][i]};
 }
 
+/// Adds a force on vertex v to the nodes of its block, with the vertex's weights.
+inline void spread(std::array<Vec2, 3>& on_nodes, const BlockSet& b, Id v, Vec2 force) {
+  for (std::size_t k = 0; k < 3; ++k) on_nodes[k] += b.weight[k][v] * force;
+}
+
 inline Vec2 vertex_at(const BlockSet& b, const Nodes& x, const Nodes& y, std::size_t v) {
   const std::size_t i = b.vertex_block[v];
   return weighted({b.weight[0][v], b.weight[1][v], b.weight[2][v]}, x, y, i);

@@ -72,13 +72,6 @@ Grid make_grid(const BlockSet& b, const std::vector<std::uint8_t>& alive,
   return grid;
 }
 
-double distance_squared_to_segment(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 u = b - a;
-  const double s = std::clamp(dot(p - a, u) / dot(u, u), 0.0, 1.0);
-  const Vec2 r = p - (a + s * u);
-  return dot(r, r);
-}
-
 }  // namespace
 
 std::vector<NearPair> near_pairs(const BlockSet& b, const std::vector<std::uint8_t>& alive,
@@ -105,7 +98,7 @@ std::vector<NearPair> near_pairs(const BlockSet& b, const std::vector<std::uint8
         const Id other = b.vertex_block[e];
         if (other == block || (b.fixed[block] && b.fixed[other])) continue;
         const Vec2 start = at(x, y, e), end = at(x, y, b.next[e]);
-        if (distance_squared_to_segment(p, start, end) >= reach * reach) continue;
+        if (distance_to_segment(p, start, end) >= reach) continue;
         const Vec2 n = outward_normal(unit(end - start));
         if (facing(b, x, y, vertex, n, 4.0 * reach)) edges.push_back(e);
       }

@@ -11,10 +11,6 @@ namespace {
 
 using NodeForce = std::array<Vec2, 3>;
 
-void spread(NodeForce& f, const BlockSet& b, Id v, Vec2 force) {
-  for (std::size_t k = 0; k < 3; ++k) f[k] += b.weight[k][v] * force;
-}
-
 void add_contacts_one_by_one(NodeForce& f, const BlockSet& b, const ContactSet& c, std::size_t i) {
   for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
     const Id k = c.block_entry[q] >> 1;

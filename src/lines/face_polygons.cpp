@@ -105,9 +105,7 @@ int longest_neighbour(const PlanarGraph& g, const Faces& faces, const std::vecto
 }
 
 double distance_to_edge(const PlanarGraph& g, int h, Vec2 p) {
-  const Vec2 a = g.node[at(origin_of(g, h))], d = g.node[at(target_of(g, h))] - a;
-  const double t = std::clamp(dot(p - a, d) / dot(d, d), 0.0, 1.0);
-  return norm(p - (a + t * d));
+  return distance_to_segment(p, g.node[at(origin_of(g, h))], g.node[at(target_of(g, h))]);
 }
 
 /// The two long sides of a sliver are one line: where the side towards `into` comes first in

@@ -46,12 +46,8 @@ void for_each_edge(const Rings& rings, Visit visit) {
 
 double distance_to_boundary(const Rings& rings, Vec2 p) {
   double nearest = std::numeric_limits<double>::infinity();
-  for_each_edge(rings, [&](Vec2 a, Vec2 b) {
-    const Vec2 d = b - a;
-    const double length2 = dot(d, d);
-    const double t = length2 > 0.0 ? std::clamp(dot(p - a, d) / length2, 0.0, 1.0) : 0.0;
-    nearest = std::min(nearest, norm(p - (a + t * d)));
-  });
+  for_each_edge(rings,
+                [&](Vec2 a, Vec2 b) { nearest = std::min(nearest, distance_to_segment(p, a, b)); });
   return nearest;
 }
 

@@ -18,13 +18,6 @@ struct Run {
   std::size_t from, to;  ///< vertices; to > from, both taken modulo the ring's size
 };
 
-double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 d = b - a;
-  const double length2 = dot(d, d);
-  const double t = length2 > 0.0 ? std::clamp(dot(p - a, d) / length2, 0.0, 1.0) : 0.0;
-  return norm(p - (a + t * d));
-}
-
 struct Departure {
   std::size_t vertex = 0;
   double amount = -1.0;

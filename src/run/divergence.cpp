@@ -7,14 +7,10 @@
 #include <limits>
 
 #include "contacts/gap.hpp"
+#include "run/labels.hpp"
 
 namespace edda {
 namespace {
-
-std::string block_name(const BlockSet& b, std::size_t i) {
-  return b.name[i].empty() ? fmt::format("block {}", i)
-                           : fmt::format("block {} ({})", i, b.name[i]);
-}
 
 std::string cause(const StepInUse& step, const char* otherwise) {
   if (step.step > step.critical) {
@@ -30,8 +26,7 @@ double depth_inside(const BlockSet& b, const Pose& pose, Vec2 p, std::size_t j) 
   double nearest = std::numeric_limits<double>::infinity();
   for (Id e = b.vertex_begin[j]; e < b.vertex_begin[j + 1]; ++e) {
     const Vec2 s = at(pose.x, pose.y, e), t = at(pose.x, pose.y, b.next[e]);
-    const double along = std::clamp(dot(p - s, t - s) / dot(t - s, t - s), 0.0, 1.0);
-    nearest = std::min(nearest, norm(p - (s + along * (t - s))));
+    nearest = std::min(nearest, distance_to_segment(p, s, t));
     if ((s.y > p.y) == (t.y > p.y)) continue;
     if ((cross(t - s, p - s) > 0.0) == (t.y > s.y)) in = !in;
   }
@@ -53,7 +48,7 @@ Failure lost_block(const BlockSet& b, const State& s, const Pose& pose, const No
     if (std::isfinite(sum)) continue;
     f.block = static_cast<Id>(i);
     f.place = at(pose.x1, pose.y1, b.vertex_begin[i]) + b.origin;
-    f.message = block_name(b, i) + " has lost its shape: " +
+    f.message = block_label(b, i) + " has lost its shape: " +
                 cause(step,
                       "it is strained beyond what a constant-strain block can bear: check young "
                       "against the loads, and the units");
@@ -89,7 +84,7 @@ std::optional<Failure> deep_overlap(const ContactSet& c, const BlockSet& b, cons
   f.place = at(pose.x, pose.y, c.vertex[worst]) + b.origin;
   f.message = fmt::format(
       "{} is {:.3g} m inside {}, more than half the size of the smaller: {}",
-      block_name(b, c.block_i[worst]), c.depth[worst], block_name(b, c.block_j[worst]),
+      block_label(b, c.block_i[worst]), c.depth[worst], block_label(b, c.block_j[worst]),
       cause(step,
             "contacts are too soft for these loads or speeds: raise contact.normal_stiffness "
             "(or the joint's kn), or lower solver.max_displacement_ratio"));

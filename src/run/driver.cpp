@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "forces/contact_forces.hpp"
-#include "run/guard_rails.hpp"
+#include "run/labels.hpp"
 
 namespace edda {
 namespace {
@@ -131,8 +130,7 @@ bool Driver::step_to(double time) {
     const std::optional<Failure> failure = sim_.step();
     outcome_.wall.stepping += since(start);
     outcome_.critical_step = std::min(outcome_.critical_step, sim_.bound.critical_step);
-    outcome_.step_over_critical =
-        std::max(outcome_.step_over_critical, sim_.state.step / sim_.bound.critical_step);
+    outcome_.step_over_critical = sim_.steps.over_critical;
     if (failure) {
       fail(*failure);
       return false;

@@ -24,7 +24,6 @@ class Driver {
   /// Steps to the event. False: the run is over (outcome_ says why).
   bool step_to(double time);
   bool record(const Event& event);
-  void look_between_steps();
   void measure_overlaps();
   bool energy_is_out_of_bounds();
   void end(Status status, std::string message);

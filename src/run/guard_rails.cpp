@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "contacts/gap.hpp"
+#include "run/labels.hpp"
 
 namespace edda {
 namespace {
@@ -157,15 +158,6 @@ void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings)
 }
 
 }  // namespace
-
-std::string block_label(const BlockSet& b, std::size_t i) {
-  return b.name[i].empty() ? fmt::format("block {}", i)
-                           : fmt::format("block {} ({})", i, b.name[i]);
-}
-
-std::string place_label(Vec2 p) {
-  return fmt::format("({:.6g}, {:.6g})", p.x + 0.0, p.y + 0.0);
-}
 
 std::string governed_by(const Simulation& sim) {
   const StepBound& bound = sim.bound;

@@ -18,18 +18,11 @@ double extent(const BlockSet& b) {
   return 2.0 * largest;
 }
 
-double distance_to_segment(Vec2 a, Vec2 b, Vec2 p) {
-  const Vec2 u = b - a;
-  const double l2 = dot(u, u);
-  const double s = l2 > 0.0 ? std::clamp(dot(p - a, u) / l2, 0.0, 1.0) : 0.0;
-  return norm(p - (a + s * u));
-}
-
 double distance_to_rings(const std::vector<Ring>& rings, Vec2 p) {
   double least = std::numeric_limits<double>::infinity();
   for (const Ring& ring : rings) {
     for (std::size_t k = 0; k < ring.size(); ++k) {
-      least = std::min(least, distance_to_segment(ring[k], ring[(k + 1) % ring.size()], p));
+      least = std::min(least, distance_to_segment(p, ring[k], ring[(k + 1) % ring.size()]));
     }
   }
   return least;

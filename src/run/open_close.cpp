@@ -37,10 +37,6 @@ bool reverses(const ContactSet& c, std::size_t k) {
   return slip * c.shear[k] > 0.0 && c.ks[k] * std::abs(slip) > next_limit(c, k);
 }
 
-void spread(std::array<Vec2, 3>& f, const BlockSet& b, Id v, Vec2 force) {
-  for (std::size_t k = 0; k < 3; ++k) f[k] += b.weight[k][v] * force;
-}
-
 double booked(const ContactSet& c, std::size_t k, double shear) {
   const double s = -shear / c.ks[k], s_1 = -c.shear_1[k] / c.ks[k];
   return 0.5 * c.share[k] * c.ks[k] * (c.slip_trial[k] - s) * (s + s_1);

@@ -75,4 +75,10 @@ inline std::string number(double v) {
   return text;
 }
 
+/// A rectangle as TOML, by two corners.
+inline std::string rectangle(double x0, double y0, double x1, double y1) {
+  return "[[" + number(x0) + "," + number(y0) + "],[" + number(x1) + "," + number(y0) + "],[" +
+         number(x1) + "," + number(y1) + "],[" + number(x0) + "," + number(y1) + "]]";
+}
+
 }  // namespace edda

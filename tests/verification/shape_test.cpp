@@ -6,11 +6,6 @@
 namespace edda {
 namespace {
 
-std::string rectangle(double x0, double y0, double x1, double y1) {
-  return "[[" + number(x0) + "," + number(y0) + "],[" + number(x1) + "," + number(y0) + "],[" +
-         number(x1) + "," + number(y1) + "],[" + number(x0) + "," + number(y1) + "]]";
-}
-
 std::string header(double duration, double damping, double friction = 30.0) {
   return "[materials.rock]\ndensity = 2600.0\nyoung = 20e9\npoisson = 0.2\n[joints.j]\n"
          "friction_angle = " +

@@ -11,11 +11,6 @@ Tensor stress_of(const Simulation& sim, std::size_t i) {
   return cauchy(piola(f, rotation(f), sim.blocks.lame_lambda[i], sim.blocks.lame_mu[i]), f);
 }
 
-std::string rectangle(double x0, double y0, double x1, double y1) {
-  return "[[" + number(x0) + "," + number(y0) + "],[" + number(x1) + "," + number(y0) + "],[" +
-         number(x1) + "," + number(y1) + "],[" + number(x0) + "," + number(y1) + "]]";
-}
-
 /// Row 9: a column of ten blocks under its own weight.
 TEST(Column, StressAndSettlement) {
   const double density = 2600.0, young = 1e9, p = 1e10, g = 9.81;
