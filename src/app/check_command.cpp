@@ -56,8 +56,10 @@ int check(const CheckArguments& args) {
   print_blocks(sim);
   fmt::print("contacts        {} closed, {} within reach\n", closed_contacts(sim.contacts),
              sim.contacts.size());
-  fmt::print("critical step   {:.6g} s; {:.6g} s if every bare corner touched something\n",
-             sim.bound.critical_step, sim.bound.likely_step);
+  if (sim.explicit_method()) {
+    fmt::print("critical step   {:.6g} s; {:.6g} s if every bare corner touched something\n",
+               sim.bound.critical_step, sim.bound.likely_step);
+  }
   fmt::print("governed by     {}\n", run.governed_by);
   for (const MonitorPoint& m : run.monitors) {
     fmt::print("monitor         {} in {}\n", m.name, block_label(sim.blocks, m.block));
@@ -67,8 +69,9 @@ int check(const CheckArguments& args) {
                steps = std::max(1.0, std::ceil(sim.model.solver.duration / h - 1e-9));
   const double rate = step_rate(sim, 0.5);
   const std::string of_what =
-      sim.model.solver.time_step
-          ? "as given"
+      sim.model.solver.time_step ? "as given"
+      : !sim.explicit_method()
+          ? "as long as nothing moves too far in it; it is cut where needed"
           : fmt::format("{:.2g} of the smaller, or a little less", sim.model.solver.safety);
   fmt::print("step            {:.6g} s ({}), so about {:.0f} steps for {:.6g} s\n", h, of_what,
              steps, sim.model.solver.duration);

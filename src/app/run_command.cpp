@@ -61,11 +61,17 @@ int run(const RunArguments& args) {
   }
   PreparedRun& ready = prepared.value();
   if (!args.quiet) {
-    fmt::print(stderr,
-               "{} blocks; step {:.4g} s; critical {:.4g} s ({:.4g} s if every bare corner touched "
-               "something), held by {}\n",
-               ready.sim.blocks.size(), ready.sim.step_limit, ready.sim.bound.critical_step,
-               ready.sim.bound.likely_step, ready.governed_by);
+    const Simulation& sim = ready.sim;
+    if (sim.explicit_method()) {
+      fmt::print(stderr,
+                 "{} blocks; step {:.4g} s; critical {:.4g} s ({:.4g} s if every bare corner "
+                 "touched something), held by {}\n",
+                 sim.blocks.size(), sim.step_limit, sim.bound.critical_step, sim.bound.likely_step,
+                 ready.governed_by);
+    } else {
+      fmt::print(stderr, "{} blocks; step {:.4g} s, held by {}\n", sim.blocks.size(),
+                 sim.step_limit, ready.governed_by);
+    }
     print_warnings(ready.warnings);
   }
   ProgressBar bar;

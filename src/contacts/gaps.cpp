@@ -41,9 +41,7 @@ void update_gap(ContactSet& c, const Pose& pose, std::size_t k) {
   c.stir(k);
 }
 
-void update_gaps(ContactSet& c, const Pose& pose) {
-  std::swap(c.depth_2, c.depth_1);
-  std::swap(c.depth_1, c.depth);
+void remeasure_gaps(ContactSet& c, const Pose& pose) {
   parallel_chunks(c.size(), ContactSet::chunk,
                   [&](std::size_t q, std::size_t begin, std::size_t end) {
                     bool any = false;
@@ -57,6 +55,17 @@ void update_gaps(ContactSet& c, const Pose& pose) {
                     c.stirs[q] = any ? 1 : 0;
                     c.deepest[q] = deepest;
                   });
+}
+
+void update_gaps(ContactSet& c, const Pose& pose) {
+  std::swap(c.depth_2, c.depth_1);
+  std::swap(c.depth_1, c.depth);
+  remeasure_gaps(c, pose);
+}
+
+void stand_still(ContactSet& c) {
+  c.depth_1 = c.depth;
+  c.depth_2 = c.depth;
 }
 
 void look_at_previous_gaps(ContactSet& c, const Pose& pose) {

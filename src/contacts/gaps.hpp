@@ -12,6 +12,14 @@ void update_gap(ContactSet& contacts, const Pose& pose, std::size_t k);
 /// All of them, after moving the gaps of the steps before back by one; and which chunks stir.
 void update_gaps(ContactSet& contacts, const Pose& pose);
 
+/// All of them where the vertices are now, the gaps of the steps before left as they are.
+void remeasure_gaps(ContactSet& contacts, const Pose& pose);
+
+/// Makes the gaps of the steps before those of step n. In the ledger's terms the contacts then
+/// store what springs at rest do, p d^2/2: for a method whose positions and velocities belong to
+/// one instant.
+void stand_still(ContactSet& contacts);
+
 /// Gaps a step ago from pose.x1, y1, at the start of a run.
 void look_at_previous_gaps(ContactSet& contacts, const Pose& pose);
 

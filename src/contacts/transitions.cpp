@@ -211,50 +211,9 @@ void review_blocked(ContactSet& c, const BlockSet& b, const Pose& pose, std::uin
   std::swap(c.blocked, still);
 }
 
-}  // namespace
-
-Blocked hindrance(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
-  const Id i = c.block_i[k], j = c.block_j[k], vertex = c.vertex[k];
-  if (c.depth[k] > 0.5 * std::min(b.inradius[i], b.inradius[j])) return Blocked::depth;
-  if (!facing(b, pose.x, pose.y, vertex, normal_of(c, k))) return Blocked::facing;
-  if (shielded(c, b, pose, k)) return Blocked::shield;
-  // Edges that meet in a convex corner: a vertex within the block is inside both, and touches the
-  // one that is closed, else the one least penetrated.
-  const double tie = rounding * b.radius[j];
-  for (Id q = c.begin_of_vertex[vertex]; q < c.begin_of_vertex[vertex + 1]; ++q) {
-    if (q == k || c.block_j[q] != j || !rivals(b, c.edge[k], c.edge[q])) continue;
-    if (c.is(q, cs::closed) && c.share[q] > 0.0) return Blocked::conflict;
-    if (c.depth[q] <= -tie && c.share[k] == 1.0) return Blocked::conflict;
-    if (c.depth[q] < c.depth[k] - tie && c.share[q] > 0.0 &&
-        facing(b, pose.x, pose.y, vertex, normal_of(c, q))) {
-      return Blocked::conflict;
-    }
-  }
-  return Blocked::no;
-}
-
-void block_shielded(ContactSet& c, const BlockSet& b, const Pose& pose) {
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (c.is(k, cs::closed | cs::blocked) || !shielded(c, b, pose, k)) continue;
-    block_contact(c, k, Blocked::shield);
-  }
-  std::sort(c.blocked.begin(), c.blocked.end());
-}
-
-TransitionCounts settle_contacts(ContactSet& c, const BlockSet& b, const Pose& pose,
-                                 const LawTable& laws, std::uint64_t step, bool start,
-                                 TransitionScratch& scratch) {
-  TransitionCounts counts;
-  find_events(c, scratch);
-  for (const Id k : scratch.opens) {
-    // What the shear spring still holds goes with the contact.
-    c.friction_work[k] += stored_energy(c, k);
-    open(c, k);
-    ++counts.opened;
-  }
-  for (const Id k : scratch.leaves) leave(c, b, pose, laws, k, counts);
-  review_blocked(c, b, pose, step, counts, scratch.still_blocked);
-
+/// Closes those of scratch.closes that may.
+void close_touching(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
+                    bool start, TransitionScratch& scratch, TransitionCounts& counts) {
   // All are judged from the same state before any is closed.
   std::vector<Blocked>& verdict = scratch.verdict;
   verdict.resize(scratch.closes.size());
@@ -286,6 +245,67 @@ TransitionCounts settle_contacts(ContactSet& c, const BlockSet& b, const Pose& p
     }
   }
   if (c.blocked.size() != blocked_before) std::sort(c.blocked.begin(), c.blocked.end());
+}
+
+}  // namespace
+
+Blocked hindrance(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
+  const Id i = c.block_i[k], j = c.block_j[k], vertex = c.vertex[k];
+  if (c.depth[k] > 0.5 * std::min(b.inradius[i], b.inradius[j])) return Blocked::depth;
+  if (!facing(b, pose.x, pose.y, vertex, normal_of(c, k))) return Blocked::facing;
+  if (shielded(c, b, pose, k)) return Blocked::shield;
+  // Edges that meet in a convex corner: a vertex within the block is inside both, and touches the
+  // one that is closed, else the one least penetrated.
+  const double tie = rounding * b.radius[j];
+  for (Id q = c.begin_of_vertex[vertex]; q < c.begin_of_vertex[vertex + 1]; ++q) {
+    if (q == k || c.block_j[q] != j || !rivals(b, c.edge[k], c.edge[q])) continue;
+    if (c.is(q, cs::closed) && c.share[q] > 0.0) return Blocked::conflict;
+    if (c.depth[q] <= -tie && c.share[k] == 1.0) return Blocked::conflict;
+    if (c.depth[q] < c.depth[k] - tie && c.share[q] > 0.0 &&
+        facing(b, pose.x, pose.y, vertex, normal_of(c, q))) {
+      return Blocked::conflict;
+    }
+  }
+  return Blocked::no;
+}
+
+void block_shielded(ContactSet& c, const BlockSet& b, const Pose& pose) {
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (c.is(k, cs::closed | cs::blocked) || !shielded(c, b, pose, k)) continue;
+    block_contact(c, k, Blocked::shield);
+  }
+  std::sort(c.blocked.begin(), c.blocked.end());
+}
+
+std::uint64_t close_in_step(ContactSet& c, const BlockSet& b, const Pose& pose,
+                            const LawTable& laws, TransitionScratch& scratch) {
+  scratch.closes.clear();
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (!c.is(k, cs::closed | cs::blocked) && c.effective(k) > 0.0 && c.on_edge(k) &&
+        c.effective_1(k) <= rounding * b.radius[c.block_j[k]]) {
+      scratch.closes.push_back(static_cast<Id>(k));
+    }
+  }
+  TransitionCounts counts;
+  close_touching(c, b, pose, laws, false, scratch, counts);
+  return counts.closed;
+}
+
+TransitionCounts settle_contacts(ContactSet& c, const BlockSet& b, const Pose& pose,
+                                 const LawTable& laws, std::uint64_t step, bool start,
+                                 TransitionScratch& scratch) {
+  TransitionCounts counts;
+  find_events(c, scratch);
+  for (const Id k : scratch.opens) {
+    // What the shear spring still holds goes with the contact.
+    c.friction_work[k] += stored_energy(c, k);
+    open(c, k);
+    ++counts.opened;
+  }
+  for (const Id k : scratch.leaves) leave(c, b, pose, laws, k, counts);
+  review_blocked(c, b, pose, step, counts, scratch.still_blocked);
+
+  close_touching(c, b, pose, laws, start, scratch, counts);
   return counts;
 }
 

@@ -31,6 +31,11 @@ TransitionCounts settle_contacts(ContactSet& contacts, const BlockSet& blocks, c
                                  const LawTable& laws, std::uint64_t step, bool start,
                                  TransitionScratch& scratch);
 
+/// Closes what has come to touch within the step in hand (from outside, allowed) and nothing else,
+/// so that an implicit method can go on with it in the same step. Returns how many.
+std::uint64_t close_in_step(ContactSet& contacts, const BlockSet& blocks, const Pose& pose,
+                            const LawTable& laws, TransitionScratch& scratch);
+
 /// Blocks the open candidates of a new list that a shield covers (contacts/shield.hpp), before they
 /// touch.
 void block_shielded(ContactSet& contacts, const BlockSet& blocks, const Pose& pose);

@@ -42,14 +42,18 @@ void return_map(ContactSet& c, std::size_t k) {
   c.shear[k] = kept;
 }
 
+void let_go(ContactSet& c, std::size_t k) {
+  c.clear(k, cs::closed | cs::bonded | cs::pulls | cs::sliding);
+  c.set(k, cs::opened);
+}
+
 /// A contact whose tensile strength is spent opens; what it stores is fracture energy.
 void tear(ContactSet& c, std::size_t k) {
   const double before = c.effective_1(k), now = c.effective(k), slip = -c.shear_1[k] / c.ks[k];
   const double normal = c.is(k, cs::pulls) || (before > 0.0 && now > 0.0) ? before * now : 0.0;
   const double stored = 0.5 * c.share[k] * (c.kn[k] * normal + c.ks[k] * slip * c.slip_trial[k]);
   c.fracture_work[k] += std::max(stored, 0.0);
-  c.clear(k, cs::closed | cs::bonded | cs::pulls | cs::sliding);
-  c.set(k, cs::opened);
+  let_go(c, k);
   c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = c.dashpot[k] = 0.0;
   c.rest[k] = std::max(0.0, std::min(c.rest[k], c.depth[k]));
   c.fx[k] = c.fy[k] = c.gx[k] = c.gy[k] = 0.0;
@@ -105,22 +109,26 @@ bool fails(const ContactSet& c, const BlockSet& b, const LawTable& laws, const S
   return std::abs(shear) > cohesion + friction * normal;
 }
 
-/// From the peak to the residual law, at once.
-void break_bond(ContactSet& c, const BlockSet& b, const LawTable& laws, Id k, double step,
-                double damping) {
+/// From the peak to the residual law. True if the contact lets go altogether.
+bool take_residual_law(ContactSet& c, const LawTable& laws, Id k) {
   const Law& law = laws.rows[c.law[k]];
   const double strength = law.residual_tension * c.length[k] * laws.thickness;
-  const bool torn = c.normal[k] < -strength || (c.effective(k) <= 0.0 && strength == 0.0);
-  if (torn) {
-    tear(c, k);
-  } else {
-    if (strength == 0.0) c.clear(k, cs::pulls);
-    c.tension[k] = strength;
-  }
   c.clear(k, cs::bonded);
   c.friction[k] = law.residual_friction;
   c.cohesion[k] = law.residual_cohesion * c.length[k] * laws.thickness;
-  if (torn) return;
+  if (c.normal[k] < -strength || (c.effective(k) <= 0.0 && strength == 0.0)) return true;
+  if (strength == 0.0) c.clear(k, cs::pulls);
+  c.tension[k] = strength;
+  return false;
+}
+
+/// From the peak to the residual law, at once.
+void break_bond(ContactSet& c, const BlockSet& b, const LawTable& laws, Id k, double step,
+                double damping) {
+  if (take_residual_law(c, laws, k)) {
+    tear(c, k);
+    return;
+  }
   // What the peak strength held is released by the return map; it is fracture energy, not friction.
   const double friction_before = c.friction_work[k];
   c.shear[k] = c.shear_1[k];
@@ -168,6 +176,25 @@ void evaluate_contacts(ContactSet& c, const BlockSet& b, const LawTable& laws, d
     segment.members.clear();
   }
   std::erase_if(c.segments, [](const Segment& s) { return s.members.empty(); });
+}
+
+std::vector<Id> break_overloaded(ContactSet& c, const BlockSet& b, const LawTable& laws) {
+  std::vector<Id> broken;
+  for (Segment& segment : c.segments) {
+    if (!fails(c, b, laws, segment)) continue;
+    for (const Id k : segment.members) {
+      if (take_residual_law(c, laws, k)) let_go(c, k);
+      broken.push_back(k);
+    }
+    segment.members.clear();
+  }
+  std::erase_if(c.segments, [](const Segment& s) { return s.members.empty(); });
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (!c.is(k, cs::pulls) || c.is(k, cs::bonded) || !(c.normal[k] < -c.tension[k])) continue;
+    let_go(c, static_cast<Id>(k));
+    broken.push_back(static_cast<Id>(k));
+  }
+  return broken;
 }
 
 }  // namespace edda

@@ -32,6 +32,12 @@ double inverse_contact_mass(const BlockSet& blocks, const ContactSet& contacts, 
 void evaluate_contacts(ContactSet& contacts, const BlockSet& blocks, const LawTable& laws,
                        double step, double damping);
 
+/// The bonds alone, for a method that finds normal and shear itself: contacts whose segment is
+/// overloaded, or whose tensile strength is spent, follow the residual law from now on or let go.
+/// Nothing is booked. Returns them.
+std::vector<Id> break_overloaded(ContactSet& contacts, const BlockSet& blocks,
+                                 const LawTable& laws);
+
 /// Sets the forces of contact k on P1, P2 from its N and T as they stand, scaled by its share (and
 /// alpha), for an edge of tangent t and length l with the foot at `foot` and penetration `depth`.
 void set_contact_force(ContactSet& contacts, std::size_t k, Vec2 t, double l, double foot,

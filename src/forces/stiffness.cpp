@@ -1,64 +1,16 @@
 #include "forces/stiffness.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/parallel.hpp"
 #include "contacts/gap.hpp"
+#include "forces/block_matrices.hpp"
 #include "forces/contact_forces.hpp"
 
 namespace edda {
 namespace {
-
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-
-Vector6 along(const std::array<double, 3>& w, Vec2 direction) {
-  Vector6 h;
-  for (int k = 0; k < 3; ++k) {
-    const auto u = static_cast<std::size_t>(k);
-    h[2 * k] = w[u] * direction.x;
-    h[2 * k + 1] = w[u] * direction.y;
-  }
-  return h;
-}
-
-std::array<double, 3> vertex_weights(const BlockSet& b, Id v) {
-  return {b.weight[0][v], b.weight[1][v], b.weight[2][v]};
-}
-
-/// Elastic stiffness of the undeformed block, V B^T C B, in its own frame.
-Matrix6 elastic_matrix(const BlockSet& b, std::size_t i) {
-  Eigen::Matrix<double, 3, 6> strain;
-  for (int k = 0; k < 3; ++k) {
-    const auto u = static_cast<std::size_t>(k);
-    const double gx = b.grad_x[u][i], gy = b.grad_y[u][i];
-    strain.block<3, 2>(0, 2 * k) << gx, 0.0, 0.0, gy, gy, gx;
-  }
-  const double lambda = b.lame_lambda[i], mu = b.lame_mu[i];
-  Eigen::Matrix3d c;
-  c << lambda + 2.0 * mu, lambda, 0.0, lambda, lambda + 2.0 * mu, 0.0, 0.0, 0.0, mu;
-  return b.volume[i] * strain.transpose() * c * strain;
-}
-
-Matrix6 mass_matrix(const BlockSet& b, std::size_t i) {
-  Matrix6 m = Matrix6::Zero();
-  if (b.mass_kind != MassKind::consistent) {
-    for (int k = 0; k < 6; ++k) m(k, k) = b.node_mass[static_cast<std::size_t>(k / 2)][i];
-    return m;
-  }
-  Eigen::Matrix3d inverse;
-  inverse << b.inverse_mass[0][i], b.inverse_mass[1][i], b.inverse_mass[2][i], b.inverse_mass[1][i],
-      b.inverse_mass[3][i], b.inverse_mass[4][i], b.inverse_mass[2][i], b.inverse_mass[4][i],
-      b.inverse_mass[5][i];
-  const Eigen::Matrix3d full = inverse.inverse();
-  for (int k = 0; k < 3; ++k) {
-    for (int l = 0; l < 3; ++l) m(2 * k, 2 * l) = m(2 * k + 1, 2 * l + 1) = full(k, l);
-  }
-  return m;
-}
 
 /// Contribution of one contact to one block.
 struct Part {
@@ -98,27 +50,6 @@ std::vector<Part> parts_of(const BlockSet& b, const State& s, const Pose& pose, 
         {k, along(w, back(e.normal())), along(w, back(e.t)), factor * c.kn[k], factor * c.ks[k]});
   }
   return parts;
-}
-
-Matrix6 boundary_matrix(const BlockSet& b, const State& s, const BoundarySprings& springs,
-                        std::size_t i) {
-  const Rotation r = rotation(deformation(b, s.x, s.y, i));
-  Eigen::Matrix2d turn;
-  turn << r.c, r.s, -r.s, r.c;
-  Matrix6 m = Matrix6::Zero();
-  for (Id q = springs.block_begin[i]; q < springs.block_begin[i + 1]; ++q) {
-    Eigen::Matrix2d k;
-    k << springs.kxx[q], springs.kxy[q], springs.kxy[q], springs.kyy[q];
-    k = turn * k * turn.transpose();
-    const auto w = vertex_weights(b, springs.vertex[q]);
-    for (int p = 0; p < 3; ++p) {
-      for (int l = 0; l < 3; ++l) {
-        m.block<2, 2>(2 * p, 2 * l) +=
-            w[static_cast<std::size_t>(p)] * w[static_cast<std::size_t>(l)] * k;
-      }
-    }
-  }
-  return m;
 }
 
 /// Contacts that bare corners would make: a block in motion meets its neighbours corner first, and
@@ -161,7 +92,8 @@ BlockBound bound_of(const BlockSet& b, const State& s, const Pose& pose, const C
                     const BoundarySprings& springs, const LawTable& laws, const Damping& damping,
                     std::size_t i) {
   const std::vector<Part> parts = parts_of(b, s, pose, c, i);
-  const Matrix6 elastic = elastic_matrix(b, i), boundary = boundary_matrix(b, s, springs, i);
+  const Matrix6 elastic = elastic_matrix(b, i),
+                boundary = boundary_matrix(b, springs, rotation(deformation(b, s.x, s.y, i)), i);
   Matrix6 k = elastic + boundary;
   double lowest2 = std::numeric_limits<double>::infinity();
   for (const Part& p : parts) {

@@ -237,9 +237,15 @@ void complete_boundaries(const Value& root, Reading& reading) {
 void check_solver(const Value& root, Reading& reading) {
   const Solver& solver = reading.model.solver;
   const Value* node = find(&root, "solver");
-  if (solver.method == Method::dda) {  // one line, until there is the implicit method
-    add_fault(reading, find(node, "method")->place, "solver.method",
-              "\"dda\" is not available in this version", "use \"edda\"");
+  if (solver.method == Method::dda && solver.damping.local > 0.0) {
+    add_fault(reading, find(find(node, "damping"), "local")->place, "solver.damping.local",
+              "local damping belongs to method = \"edda\"",
+              "leave it out: the implicit method damps by itself, and dynamic = false most of all");
+  }
+  if (solver.method == Method::edda && !solver.dynamic) {
+    add_fault(reading, find(node, "dynamic")->place, "solver.dynamic",
+              "false belongs to method = \"dda\"",
+              "give method = \"dda\", or leave it out and give damping.local = 0.8");
   }
   if (solver.damping.local > 0.0 && solver.mass == MassKind::consistent) {
     add_fault(reading, find(find(node, "damping"), "local")->place, "solver.damping.local",

@@ -177,6 +177,7 @@ constexpr std::array solver_keys{
     Key{"time_step", at<&Solver::time_step>, number_or("auto", D::time, above(0)), otherwise("\"auto\""), "Time step; above the critical step it is refused."},
     Key{"allow_unstable", at<&Solver::allow_unstable>, flag, initial, "Whether a time step above the critical one is run all the same."},
     Key{"safety", at<&Solver::safety>, number(D::plain, above_to(0, 1)), initial, "Part of the critical step that is taken when time_step is \"auto\"."},
+    Key{"dynamic", at<&Solver::dynamic>, flag, initial, "Method dda: whether velocities carry over from step to step, or are dropped (for the state at rest)."},
     Key{"max_displacement_ratio", at<&Solver::max_displacement_ratio>, number(D::plain, above_to(0, 1)), initial, "Largest displacement in one step, of the model's half-height."},
     Key{"damping", at<&Solver::damping>, table, initial, "Damping of the motion."},
 };

@@ -148,6 +148,7 @@ struct Solver {
   std::optional<double> time_step;  ///< s; empty: "auto"
   bool allow_unstable = false;
   double safety = 0.7;                   ///< of the critical step
+  bool dynamic = true;                   ///< dda: false drops velocities at each step
   double max_displacement_ratio = 0.01;  ///< of the model's half-height in one step
   Damping damping;
   Where where;

@@ -70,6 +70,10 @@ double reaction_error(const Simulation& sim, const Instant& at) {
 
 std::string likely_cause(const Simulation& sim) {
   const Solver& solver = sim.model.solver;
+  if (!sim.explicit_method()) {
+    return "loads or speeds that the contact springs cannot bear, or a step too large for them: "
+           "lower solver.time_step, or raise contact.normal_stiffness";
+  }
   if (solver.time_step && *solver.time_step > sim.bound.critical_step) {
     return fmt::format("time_step {:.6g} s is above the critical step {:.6g} s", *solver.time_step,
                        sim.bound.critical_step);

@@ -160,6 +160,11 @@ void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings)
 }  // namespace
 
 std::string governed_by(const Simulation& sim) {
+  if (!sim.explicit_method()) {
+    return sim.model.solver.time_step
+               ? "time_step: the implicit method is stable at any step"
+               : "the largest displacement in one step: the implicit method is stable at any";
+  }
   const StepBound& bound = sim.bound;
   if (bound.block == no_id) return "nothing: no block is free to move";
   const Vec2 place = centroid(sim.state.x, sim.state.y, bound.block) + sim.blocks.origin;
@@ -180,9 +185,11 @@ std::string governed_by(const Simulation& sim) {
 
 std::vector<std::string> guard_rails(const Simulation& sim) {
   std::vector<std::string> warnings;
-  warn_of_sudden_gravity(sim, warnings);
+  if (sim.explicit_method()) {
+    warn_of_sudden_gravity(sim, warnings);
+    warn_of_boundary(sim, warnings);
+  }
   warn_of_springs(sim, warnings);
-  warn_of_boundary(sim, warnings);
   warn_of_slivers(sim, warnings);
   warn_of_overlaps(sim, warnings);
   return warnings;

@@ -8,34 +8,36 @@ namespace edda {
 namespace {
 
 /// Strain energy between steps n - 1 and n; x_{n-1} = x_n - h v_{n-1/2}.
-double block_strain_energy(const BlockSet& b, const State& s, std::size_t i) {
+double block_strain_energy(const BlockSet& b, const State& s, double h, std::size_t i) {
   const Deformation now = deformation(b, s.x, s.y, i);
   const Deformation rate = deformation(b, s.vx, s.vy, i);
-  const Deformation before{now.xx - s.step * rate.xx, now.xy - s.step * rate.xy,
-                           now.yx - s.step * rate.yx, now.yy - s.step * rate.yy};
+  const Deformation before{now.xx - h * rate.xx, now.xy - h * rate.xy, now.yx - h * rate.yx,
+                           now.yy - h * rate.yy};
   return strain_energy(corotated_strain(before, rotation(before)),
                        corotated_strain(now, rotation(now)), b.volume[i], b.lame_lambda[i],
                        b.lame_mu[i]);
 }
 
-double block_gravity_energy(const BlockSet& b, const State& s, Vec2 gravity, std::size_t i) {
-  const Vec2 half_back = 0.5 * s.step * centroid(s.vx, s.vy, i);
+double block_gravity_energy(const BlockSet& b, const State& s, double h, Vec2 gravity,
+                            std::size_t i) {
+  const Vec2 half_back = 0.5 * h * centroid(s.vx, s.vy, i);
   const Vec2 moved = centroid(s.x, s.y, i) - half_back - Vec2{b.centroid_x[i], b.centroid_y[i]};
   return -b.mass[i] * dot(gravity, moved);
 }
 
 }  // namespace
 
-Ledger sum_ledger(const BlockSet& b, const State& s, const Pose& pose, const ContactSet& c,
-                  const BoundarySprings& springs, const DampingWork& work, Vec2 gravity) {
+Ledger sum_ledger(const BlockSet& b, const State& s, double h, const Pose& pose,
+                  const ContactSet& c, const BoundarySprings& springs, const DampingWork& work,
+                  Vec2 gravity) {
   auto over_free = [&](auto&& term) {
     return ordered_sum(b.size(),
                        [&](std::size_t i) { return b.fixed[i] || !s.alive[i] ? 0.0 : term(i); });
   };
   Ledger l;
   l.kinetic = over_free([&](std::size_t i) { return kinetic_energy(b, s.vx, s.vy, i); });
-  l.strain = over_free([&](std::size_t i) { return block_strain_energy(b, s, i); });
-  l.gravity = over_free([&](std::size_t i) { return block_gravity_energy(b, s, gravity, i); });
+  l.strain = over_free([&](std::size_t i) { return block_strain_energy(b, s, h, i); });
+  l.gravity = over_free([&](std::size_t i) { return block_gravity_energy(b, s, h, gravity, i); });
   l.contact = ordered_sum(c.size(),
                           [&](std::size_t k) {
                             return c.is(k, contact_state::closed) ? stored_energy(c, k) : 0.0;

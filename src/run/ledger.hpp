@@ -28,8 +28,9 @@ struct Ledger {
   double scale() const { return kinetic + strain + contact + friction + damping + fracture; }
 };
 
-/// Every line but step_change and drift, from the state at step n (velocities at n - 1/2).
-Ledger sum_ledger(const BlockSet& blocks, const State& state, const Pose& pose,
+/// Every line but step_change and drift, from positions at step n and velocities half of `behind` s
+/// earlier: the step for the leapfrog, 0 where both belong to one instant (and pose.x1 = pose.x).
+Ledger sum_ledger(const BlockSet& blocks, const State& state, double behind, const Pose& pose,
                   const ContactSet& contacts, const BoundarySprings& springs,
                   const DampingWork& work, Vec2 gravity);
 

@@ -137,6 +137,16 @@ void observe(const Simulation& sim, Instant& at) {
   const double h = sim.state.step;
   const Damping& damping = sim.model.solver.damping;
   at.contacts = sim.contacts;
+  if (!sim.explicit_method()) {  // everything belongs to one instant already
+    ContactSprings springs;
+    begin_springs(springs, at.contacts);
+    evaluate_springs(springs, at.contacts, sim.blocks, h, 0.0, true);
+    at.forces = sim.forces;
+    gather_forces(at.forces, sim.blocks, sim.state, sim.pose, at.contacts, sim.springs,
+                  sim.model.gravity);
+    at.state = sim.state;
+    return;
+  }
   evaluate_contacts(at.contacts, sim.blocks, sim.laws, h, damping.contact);
   at.forces = sim.forces;
   gather_forces(at.forces, sim.blocks, sim.state, sim.pose, at.contacts, sim.springs,

@@ -21,7 +21,7 @@ Fault solver_fault(const Model& model, const char* key, std::string problem, std
 
 std::optional<Fault> unstable_step(const Simulation& sim) {
   const Solver& solver = sim.model.solver;
-  if (!solver.time_step || solver.allow_unstable) return {};
+  if (!sim.explicit_method() || !solver.time_step || solver.allow_unstable) return {};
   if (*solver.time_step <= sim.bound.critical_step) return {};
   return solver_fault(
       sim.model, "time_step",
@@ -35,10 +35,6 @@ std::optional<Fault> unstable_step(const Simulation& sim) {
 }  // namespace
 
 Result<PreparedRun> prepare_run(Model model) {
-  if (model.solver.method == Method::dda) {
-    return solver_fault(model, "method", "\"dda\" is not available in this version",
-                        "use method = \"edda\"");
-  }
   const auto start = std::chrono::steady_clock::now();
   Result<Simulation> made = Simulation::create(std::move(model));
   if (!made.ok()) return made.faults();

@@ -105,6 +105,7 @@ void Simulation::place_all() {
 
 void Simulation::start(double first_event) {
   aim_at(first_event);
+  if (!explicit_method()) return start_implicit();
   const double h = state.step;
   step_before_ = h;
   auto look_back = [&] {
@@ -130,6 +131,7 @@ void Simulation::search(double reach) {
 }
 
 void Simulation::set_limit() {
+  if (!explicit_method()) return set_implicit_limit();
   bound = step_bound(blocks, state, pose, contacts, springs, laws, model.solver.damping);
   if (model.solver.time_step) {
     const double most = model.solver.allow_unstable
@@ -182,6 +184,7 @@ bool Simulation::move(double h_old, double h_new) {
 }
 
 std::optional<Failure> Simulation::step() {
+  if (!explicit_method()) return step_implicit();
   StageClock clock(state.steps);
   const double h_old = step_before_;
   evaluate_contacts(contacts, blocks, laws, state.step, model.solver.damping.contact);
@@ -247,7 +250,9 @@ void Simulation::finish_step() {
   steps.smallest = steps.smallest == 0.0 ? h : std::min(steps.smallest, h);
   steps.largest = std::max(steps.largest, h);
   steps.sum += h;
-  steps.over_critical = std::max(steps.over_critical, h / bound.critical_step);
+  if (explicit_method()) {
+    steps.over_critical = std::max(steps.over_critical, h / bound.critical_step);
+  }
 }
 
 void Simulation::search_if_due() {
@@ -271,15 +276,22 @@ void Simulation::search_if_due() {
 std::optional<Failure> Simulation::inspect() const {
   if (!std::isfinite(last_displacement)) return lost();
   return deep_overlap(contacts, blocks, state, pose, penetration, smallest_half_width,
-                      {state.step, bound.critical_step});
+                      step_in_use());
+}
+
+StepInUse Simulation::step_in_use() const {
+  const double stable = explicit_method() ? bound.critical_step : state.step;
+  return {state.step, stable};
 }
 
 Failure Simulation::lost() const {
-  return lost_block(blocks, state, pose, forces, {state.step, bound.critical_step});
+  return lost_block(blocks, state, pose, forces, step_in_use());
 }
 
 Ledger Simulation::ledger() {
-  Ledger l = sum_ledger(blocks, state, pose, contacts, springs, damping_work, model.gravity);
+  const double behind = explicit_method() ? state.step : 0.0;
+  Ledger l =
+      sum_ledger(blocks, state, behind, pose, contacts, springs, damping_work, model.gravity);
   l.step_change = -step_change_energy;
   if (!start_energy) start_energy = l.balance();
   largest_energy = std::max(largest_energy, l.scale());

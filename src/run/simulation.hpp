@@ -16,6 +16,7 @@
 #include "contacts/transitions.hpp"
 #include "forces/nodal_forces.hpp"
 #include "forces/stiffness.hpp"
+#include "implicit/newmark.hpp"
 #include "integrate/leapfrog.hpp"
 #include "lines/polygon_set.hpp"
 #include "model/model.hpp"
@@ -30,7 +31,7 @@ struct StepStatistics {
   double smallest = 0.0, largest = 0.0, sum = 0.0;  ///< s
   std::uint64_t changes = 0;                        ///< of the step
   double over_critical = 0.0;                       ///< largest step over the bound then in force
-  std::uint64_t redone = 0;                         ///< steps done again with half the step
+  std::uint64_t redone = 0;  ///< steps made again with half the step ("step cuts")
 };
 
 struct Simulation {
@@ -55,7 +56,8 @@ struct Simulation {
   double smallest_half_width = 0.0;  ///< m, of all blocks
   double step_change_energy = 0.0;   ///< J, created by changes of the step
   StepStatistics steps;
-  OpenCloseCounts open_close;
+  OpenCloseCounts open_close;          ///< rounds of an implicit step count as passes
+  ImplicitSolver implicit;             ///< of method "dda"
   StageSeconds seconds;                ///< sampled; only their ratios mean something
   std::optional<double> start_energy;  ///< J, of the ledger
   double largest_energy = 0.0;         ///< J, so far
@@ -72,18 +74,25 @@ struct Simulation {
   std::optional<Failure> step();
   Ledger ledger();
 
+  bool explicit_method() const { return model.solver.method == Method::edda; }
+
  private:
   void place_all();
+  void start_implicit();
+  std::optional<Failure> step_implicit();
+  void set_implicit_limit();
   void search(double reach);
   void search_if_due();
   bool move(double h_old, double h_new);
   void finish_step();
   std::optional<Failure> inspect() const;
   Failure lost() const;
+  StepInUse step_in_use() const;
   void set_limit();
   double displacement_cap_ = std::numeric_limits<double>::infinity();  ///< s: after halvings
   std::uint64_t larger_since_ = 0;  ///< step from which a much larger one would have been allowed
   double target_ = 0.0;             ///< s: the event aimed at
+  double nominal_step_ = 0.0;       ///< s: of method "dda", before any cut
   double step_before_ = 0.0;        ///< s: step behind v_{n-1/2}
   std::uint64_t steps_left_ = 0;
 

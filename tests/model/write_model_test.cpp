@@ -100,6 +100,7 @@ duration = "2 min"
 time_step = 1e-5
 allow_unstable = true
 safety = 0.7
+dynamic = true
 max_displacement_ratio = "2 %"
 damping = { mass = "2 1/s", local = 0.1, contact = 0.3 }
 [output]
@@ -228,6 +229,16 @@ TEST(WriteModel, EveryKeyIsReadAndComesBack) {
   expect_every_run_key(second);
   EXPECT_EQ(first.joints[1].peak.friction_angle, second.joints[1].peak.friction_angle);
   EXPECT_EQ(to_toml(second), written);
+}
+
+TEST(WriteModel, ImplicitMethodComesBack) {
+  std::string text(every_key);
+  text.replace(text.find("method = \"edda\""), 15, "method = \"dda\"");
+  text.replace(text.find("dynamic = true"), 14, "dynamic = false");
+  text.replace(text.find("local = 0.1"), 11, "local = 0.0");
+  const Model second = read(to_toml(read(text)));
+  EXPECT_EQ(second.solver.method, Method::dda);
+  EXPECT_FALSE(second.solver.dynamic);
 }
 
 TEST(WriteModel, EveryKeyOfTheTableIsInTheTest) {

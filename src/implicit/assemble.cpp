@@ -1,0 +1,173 @@
+#include "implicit/assemble.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "contacts/gap.hpp"
+#include "forces/contact_forces.hpp"
+
+namespace edda {
+namespace {
+
+/// What is out of balance may be this part of the forces on a block.
+constexpr double balance = 1e-6;
+
+bool is_free(const BlockSet& b, const State& s, std::size_t i) {
+  return b.fixed[i] == 0 && s.alive[i] != 0;
+}
+
+/// Generalised directions of one contact on the block at hand and on its partner: a spring of
+/// stiffness p adds p u u^T and p u w^T to the row of the former.
+struct Directions {
+  Vector6 own, other;
+};
+
+Directions on_both(const BlockSet& b, const ContactSet& c, std::size_t k, const ContactForce& f,
+                   bool has_vertex) {
+  const Vector6 vertex = along(vertex_weights(b, c.vertex[k]), f.f1);
+  const Vector6 edge =
+      along(vertex_weights(b, c.edge[k]), f.f2) + along(vertex_weights(b, c.edge_end[k]), f.f3);
+  return has_vertex ? Directions{vertex, edge} : Directions{edge, vertex};
+}
+
+bool may_carry(const ContactSet& c, std::size_t k) {
+  return c.is(k, contact_state::closed) || c.why[k] != Blocked::shield;
+}
+
+Vector6 nodal(const Nodes& x, const Nodes& y, std::size_t i) {
+  Vector6 v;
+  v << x[0][i], y[0][i], x[1][i], y[1][i], x[2][i], y[2][i];
+  return v;
+}
+
+bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings& settings,
+                  const State& state, const ContactSet& c, Id row) {
+  const BlockSet& b = scene.blocks;
+  const Id i = s.block_of[row];
+  const double h = settings.step;
+  const Rotation r = rotation(deformation(b, state.x, state.y, i));
+  const Rotation none{1.0, 0.0, 2.0};
+  Matrix6 own = turned(s.elastic[i], r);
+  if (scene.springs.block_begin[i] != scene.springs.block_begin[i + 1]) {
+    own += boundary_matrix(b, scene.springs, none, i);
+  }
+  s.matrix.clear_row(row);
+  bool known = true;
+  Id partner = no_id, slot = no_id;
+  for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
+    const Id k = c.block_entry[q] >> 1;
+    const SpringState spring = s.springs.state[k];
+    if (spring == SpringState::open || c.share[k] == 0.0) continue;
+    const bool has_vertex = (c.block_entry[q] & 1u) == 0;
+    const Id other = has_vertex ? c.block_j[k] : c.block_i[k];
+    if (other != partner) {
+      partner = other;
+      slot = s.row_of[other] == no_id ? no_id : s.matrix.slot(row, s.row_of[other]);
+    }
+    known = known && (s.row_of[other] == no_id || slot != no_id);
+    auto add = [&](double stiffness, const ContactForce& f) {
+      const Directions d = on_both(b, c, k, f, has_vertex);
+      own += c.share[k] * stiffness * d.own * d.own.transpose();
+      if (slot != no_id) {
+        s.matrix.at(row, slot) += c.share[k] * stiffness * d.own * d.other.transpose();
+      }
+    };
+    const Vec2 t = tangent_of(c, k);
+    const double l = c.span[k], foot = c.foot[k], depth = c.depth[k], anchor = c.anchor[k];
+    if (spring != SpringState::shear) {
+      double kn = c.kn[k];
+      if (settings.contact_damping > 0.0) {
+        kn += dashpot_coefficient(c, b, k, settings.contact_damping) / h;
+      }
+      add(kn, contact_force(t, l, foot, depth, anchor, 1.0, 0.0));
+    }
+    if (spring != SpringState::slide) {
+      add(c.ks[k], contact_force(t, l, foot, depth, anchor, 0.0, 1.0));
+    }
+  }
+  s.stiffest[row] = own.diagonal().maxCoeff();
+  own += (2.0 / (h * h) + 2.0 * settings.mass_damping / h) * s.mass[i];
+  s.matrix.at(row, s.matrix.slot(row, row)) += own;
+  return known;
+}
+
+}  // namespace
+
+void set_pattern(ImplicitSolver& s, const ImplicitScene& scene, const State& state,
+                 const ContactSet& c) {
+  const BlockSet& b = scene.blocks;
+  s.row_of.assign(b.size(), no_id);
+  s.block_of.clear();
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (!is_free(b, state, i)) continue;
+    s.row_of[i] = static_cast<Id>(s.block_of.size());
+    s.block_of.push_back(static_cast<Id>(i));
+  }
+  std::vector<std::vector<Id>> columns(s.block_of.size());
+  parallel_for(columns.size(), [&](std::size_t row) {
+    const Id i = s.block_of[row];
+    std::vector<Id>& list = columns[row];
+    list.push_back(static_cast<Id>(row));
+    for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
+      const Id k = c.block_entry[q] >> 1;
+      const Id other = s.row_of[(c.block_entry[q] & 1u) == 0 ? c.block_j[k] : c.block_i[k]];
+      if (other != no_id && may_carry(c, k)) list.push_back(other);
+    }
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  });
+  s.matrix.set_pattern(columns);
+  s.linear.forget_pattern();
+  s.stiffest.assign(columns.size(), 0.0);
+  s.elastic.resize(b.size());
+  s.mass.resize(b.size());
+  parallel_for(b.size(), [&](std::size_t i) {
+    if (!is_free(b, state, i)) return;
+    s.elastic[i] = elastic_matrix(b, i);
+    s.mass[i] = mass_matrix(b, i);
+  });
+}
+
+bool assemble(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings& settings,
+              const State& state, const ContactSet& c) {
+  std::vector<std::uint8_t> known(s.block_of.size());
+  parallel_for(known.size(), [&](std::size_t row) {
+    known[row] = assemble_row(s, scene, settings, state, c, static_cast<Id>(row)) ? 1 : 0;
+  });
+  return std::all_of(known.begin(), known.end(), [](std::uint8_t k) { return k != 0; });
+}
+
+double measure_residual(ImplicitSolver& s, const ImplicitScene& scene,
+                        const ImplicitSettings& settings, const State& state, const ContactSet& c,
+                        const NodalForces& forces) {
+  const BlockSet& b = scene.blocks;
+  const double h = settings.step, a = settings.mass_damping;
+  const double gravity = norm(scene.gravity);
+  s.residual.resize(static_cast<Eigen::Index>(6 * s.block_of.size()));
+  s.error.assign(s.block_of.size(), 0.0);
+  parallel_for(s.block_of.size(), [&](std::size_t row) {
+    const Id i = s.block_of[row];
+    Vector6 moved = (2.0 / (h * h) + 2.0 * a / h) * nodal(s.dx, s.dy, i);
+    if (settings.dynamic) moved -= (2.0 / h + a) * nodal(state.vx, state.vy, i);
+    const Vector6 force = nodal(forces.x, forces.y, i), inertia = s.mass[i] * moved;
+    const Vector6 left = force - inertia;
+    s.residual.segment<6>(static_cast<Eigen::Index>(6 * row)) = left;
+    double carried = b.mass[i] * gravity + force.norm() + inertia.norm();
+    for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
+      const Id k = c.block_entry[q] >> 1;
+      carried += std::abs(c.fx[k]) + std::abs(c.fy[k]);
+    }
+    const double place = norm(centroid(state.x, state.y, i)) + b.radius[i];
+    const double rounding = 1e-14 * place * s.stiffest[row];
+    s.error[row] = left.norm() / (balance * carried + rounding + 1e-300);
+  });
+  double worst = 0.0;
+  for (const double e : s.error) {
+    if (!(e <= worst)) worst = e;
+    if (std::isnan(e)) return e;
+  }
+  return worst;
+}
+
+}  // namespace edda

@@ -1,0 +1,23 @@
+// The global equations of a step: K^ = (2/h^2 + 2a/h) M + K (Eq. 11) with the elastic, boundary and
+// contact springs of Eqs. 26-36, and what is out of balance at a trial position.
+#pragma once
+
+#include "implicit/newmark.hpp"
+
+namespace edda {
+
+/// Rows for the free blocks; pattern of the matrix from the candidates that may carry.
+void set_pattern(ImplicitSolver& solver, const ImplicitScene& scene, const State& state,
+                 const ContactSet& contacts);
+
+/// Fills the matrix. False if a contact has come to carry that the pattern does not know.
+bool assemble(ImplicitSolver& solver, const ImplicitScene& scene, const ImplicitSettings& settings,
+              const State& state, const ContactSet& contacts);
+
+/// residual = f(x_n + D) - M (2 D/h^2 - 2 v_n/h) - a M (2 D/h - v_n), N. Returns the largest of a
+/// block over what it may be: 1 and less is in balance; NaN where a block has lost its shape.
+double measure_residual(ImplicitSolver& solver, const ImplicitScene& scene,
+                        const ImplicitSettings& settings, const State& state,
+                        const ContactSet& contacts, const NodalForces& forces);
+
+}  // namespace edda

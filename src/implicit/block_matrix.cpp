@@ -1,0 +1,51 @@
+#include "implicit/block_matrix.hpp"
+
+#include <algorithm>
+
+namespace edda {
+
+void BlockMatrix::set_pattern(const std::vector<std::vector<Id>>& columns) {
+  begin_.assign(1, 0);
+  column_.clear();
+  for (const std::vector<Id>& row : columns) {
+    column_.insert(column_.end(), row.begin(), row.end());
+    begin_.push_back(static_cast<Id>(column_.size()));
+  }
+  const auto n = static_cast<Eigen::Index>(6 * rows());
+  const auto entries = static_cast<Eigen::Index>(36 * column_.size());
+  scalar_.resize(n, n);
+  scalar_.resizeNonZeros(entries);
+  int* outer = scalar_.outerIndexPtr();
+  int* inner = scalar_.innerIndexPtr();
+  std::fill_n(scalar_.valuePtr(), entries, 0.0);
+  int next = 0;
+  for (std::size_t r = 0; r < rows(); ++r) {
+    for (std::size_t line = 0; line < 6; ++line) {
+      outer[6 * r + line] = next;
+      for (Id q = begin_[r]; q < begin_[r + 1]; ++q) {
+        for (Id c = 0; c < 6; ++c) inner[next++] = static_cast<int>(6 * column_[q] + c);
+      }
+    }
+  }
+  outer[6 * rows()] = next;
+}
+
+Id BlockMatrix::slot(Id r, Id c) const {
+  const auto first = column_.begin() + begin_[r], last = column_.begin() + begin_[r + 1];
+  const auto found = std::lower_bound(first, last, c);
+  return found != last && *found == c ? static_cast<Id>(found - first) : no_id;
+}
+
+BlockMatrix::Block BlockMatrix::at(Id r, Id slot) {
+  const Eigen::Index line = 6 * static_cast<Eigen::Index>(begin_[r + 1] - begin_[r]);
+  double* first = scalar_.valuePtr() + 36 * static_cast<Eigen::Index>(begin_[r]);
+  return Block(first + 6 * static_cast<Eigen::Index>(slot), Eigen::OuterStride<>(line));
+}
+
+void BlockMatrix::clear_row(Id r) {
+  const auto first = static_cast<std::size_t>(36) * begin_[r];
+  std::fill_n(scalar_.valuePtr() + first,
+              static_cast<std::size_t>(36) * (begin_[r + 1] - begin_[r]), 0.0);
+}
+
+}  // namespace edda

@@ -1,0 +1,152 @@
+#include "implicit/contact_springs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "contacts/gap.hpp"
+#include "contacts/stored_energy.hpp"
+#include "contacts/switching.hpp"
+#include "forces/contact_forces.hpp"
+
+namespace edda {
+namespace {
+
+namespace cs = contact_state;
+
+/// Spring energies at one instant, w (p e^2 + p_t s^2)/2, J.
+double energy_now(const ContactSet& c, std::size_t k) {
+  if (!c.is(k, cs::closed)) return 0.0;
+  const double e = c.is(k, cs::pulls) ? c.effective(k) : std::max(c.effective(k), 0.0);
+  const double s = c.shear[k] / c.ks[k];
+  return 0.5 * c.share[k] * (c.kn[k] * e * e + c.ks[k] * s * s);
+}
+
+void let_rest(ContactSet& c, std::size_t k) {
+  c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = c.dashpot[k] = 0.0;
+  c.fx[k] = c.fy[k] = c.gx[k] = c.gy[k] = 0.0;
+}
+
+SpringState evaluate(ContactSprings& springs, ContactSet& c, const BlockSet& b, std::size_t k,
+                     double step, double damping) {
+  if (!c.is(k, cs::closed)) {
+    let_rest(c, k);
+    return SpringState::open;
+  }
+  if (!springs.known[k]) {
+    springs.known[k] = 1;
+    springs.anchor[k] = c.anchor[k];
+  }
+  const bool pulls = c.is(k, cs::pulls), bonded = c.is(k, cs::bonded);
+  const bool pressed = pulls || c.effective(k) > 0.0;
+  c.clear(k, cs::sliding);
+  if (!pressed && !bonded) {
+    let_rest(c, k);
+    c.anchor[k] = c.foot[k] / c.span[k];
+    return SpringState::open;
+  }
+  c.alpha[k] = 1.0;
+  c.normal[k] = pressed ? c.kn[k] * c.effective(k) : 0.0;
+  c.dashpot[k] = 0.0;
+  if (damping > 0.0 && pressed) {
+    const double damped =
+        c.normal[k] + dashpot_coefficient(c, b, k, damping) * (c.depth[k] - c.depth_1[k]) / step;
+    const double total = pulls ? damped : std::max(0.0, damped);
+    c.dashpot[k] = total - c.normal[k];
+    c.normal[k] = total;
+  }
+  c.anchor[k] = springs.anchor[k];
+  const double trial = -c.ks[k] * trial_slip(c, k);
+  const double limit = c.cohesion[k] + c.friction[k] * std::max(c.normal[k], 0.0);
+  c.shear[k] = bonded ? trial : cut_shear(trial, limit);
+  SpringState state = pressed ? SpringState::stick : SpringState::shear;
+  if (c.shear[k] != trial) {
+    c.anchor[k] = (c.foot[k] + c.shear[k] / c.ks[k]) / c.span[k];
+    c.set(k, cs::sliding);
+    state = SpringState::slide;
+  }
+  c.shear_1[k] = c.shear[k];
+  c.slip_trial[k] = trial_slip(c, k);
+  set_contact_force(c, k, tangent_of(c, k), c.span[k], c.foot[k], c.depth[k]);
+  return state;
+}
+
+/// Carries all the shear it can, but for rounding.
+bool at_limit(const ContactSet& c, std::size_t k) {
+  const double limit = c.cohesion[k] + c.friction[k] * std::max(c.normal[k], 0.0);
+  return std::abs(c.shear[k]) >= (1.0 - 1e-6) * limit;
+}
+
+/// -sum f . (x - x_1) over the three points of a contact, J.
+double taken_from_blocks(const ContactSet& c, const Pose& pose, std::size_t k) {
+  auto moved = [&](Id v) { return at(pose.x, pose.y, v) - at(pose.x1, pose.y1, v); };
+  const Vec2 f1{c.fx[k], c.fy[k]}, f2{c.gx[k], c.gy[k]};
+  const Vec2 end = moved(c.edge_end[k]);
+  return -(dot(f1, moved(c.vertex[k]) - end) + dot(f2, moved(c.edge[k]) - end));
+}
+
+}  // namespace
+
+double dashpot_coefficient(const ContactSet& c, const BlockSet& b, std::size_t k, double damping) {
+  return 2.0 * damping * std::sqrt(c.kn[k] / inverse_contact_mass(b, c, k, c.foot[k] / c.span[k]));
+}
+
+void begin_springs(ContactSprings& springs, const ContactSet& c) {
+  const std::size_t n = c.size();
+  springs.state.resize(n);
+  springs.known.resize(n);
+  springs.anchor = c.anchor;
+  springs.stored.resize(n);
+  parallel_for(n, [&](std::size_t k) {
+    springs.known[k] = c.is(k, cs::closed) ? 1 : 0;
+    springs.stored[k] = energy_now(c, k);
+    springs.state[k] = !c.is(k, cs::closed)                           ? SpringState::open
+                       : c.is(k, cs::sliding) && !c.is(k, cs::bonded) ? SpringState::slide
+                       : c.is(k, cs::pulls) || c.effective(k) > 0.0   ? SpringState::stick
+                       : c.is(k, cs::bonded)                          ? SpringState::shear
+                                                                      : SpringState::open;
+  });
+}
+
+std::size_t evaluate_springs(ContactSprings& springs, ContactSet& c, const BlockSet& b, double step,
+                             double damping, bool first) {
+  std::vector<std::size_t> changed((c.size() + ContactSet::chunk - 1) / ContactSet::chunk, 0);
+  parallel_chunks(c.size(), ContactSet::chunk,
+                  [&](std::size_t q, std::size_t begin, std::size_t end) {
+                    for (std::size_t k = begin; k < end; ++k) {
+                      SpringState state = evaluate(springs, c, b, k, step, damping);
+                      if (first && state == SpringState::stick && at_limit(c, k) &&
+                          springs.state[k] == SpringState::slide) {
+                        state = SpringState::slide;
+                        c.set(k, cs::sliding);
+                      }
+                      if (state != springs.state[k]) ++changed[q];
+                      springs.state[k] = state;
+                    }
+                  });
+  std::size_t sum = 0;
+  for (const std::size_t n : changed) sum += n;
+  return sum;
+}
+
+void book_springs(const ContactSprings& springs, ContactSet& c, const Pose& pose,
+                  const std::vector<Id>& broken) {
+  parallel_for(c.size(), [&](std::size_t k) {
+    if (!springs.known[k]) return;
+    const double lost = taken_from_blocks(c, pose, k) - (energy_now(c, k) - springs.stored[k]);
+    if (std::binary_search(broken.begin(), broken.end(), static_cast<Id>(k))) {
+      c.fracture_work[k] += std::max(lost, 0.0);
+      c.damping_work[k] += std::min(lost, 0.0);
+      return;
+    }
+    double friction = 0.0;
+    if (c.is(k, cs::sliding)) {
+      c.set(k, cs::slipped);
+      friction = -c.share[k] * c.shear[k] * (c.anchor[k] - springs.anchor[k]) * c.span[k];
+    }
+    c.friction_work[k] += friction;
+    c.damping_work[k] += lost - friction;
+  });
+}
+
+}  // namespace edda

@@ -1,0 +1,194 @@
+#include "implicit/linear_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+
+namespace edda {
+namespace {
+
+using Vector = Eigen::VectorXd;
+
+/// Orders blocks, not single rows: six times smaller a graph, and the six rows stay together.
+struct BlockOrdering {
+  using PermutationType = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
+  template <class Matrix>
+  void operator()(const Matrix& a, PermutationType& p) const {
+    using Graph = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+    const Eigen::Index blocks = a.cols() / 6;
+    std::vector<Eigen::Triplet<double>> edges;
+    for (Eigen::Index j = 0; j < blocks; ++j) {
+      for (typename Matrix::InnerIterator it(a, 6 * j); it; ++it) {
+        if (it.row() % 6 == 0) edges.emplace_back(it.row() / 6, j, 1.0);
+      }
+    }
+    Graph graph(blocks, blocks);
+    graph.setFromTriplets(edges.begin(), edges.end());
+    PermutationType of_blocks;
+    Eigen::AMDOrdering<int>()(graph, of_blocks);
+    p.resize(a.cols());
+    for (Eigen::Index j = 0; j < blocks; ++j) {
+      for (int r = 0; r < 6; ++r) {
+        p.indices()[6 * j + r] = 6 * of_blocks.indices()[j] + r;
+      }
+    }
+  }
+};
+
+}  // namespace
+
+struct LinearSolver::Factor
+    : Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, BlockOrdering> {
+  using Matrix = Eigen::SparseMatrix<double>;
+  /// Multiplications to make the factor, and to solve with it.
+  double making() const {
+    const int* outer = m_matrix.outerIndexPtr();
+    double sum = 0.0;
+    for (Eigen::Index j = 0; j < m_matrix.cols(); ++j) {
+      const double n = outer[j + 1] - outer[j];
+      sum += n * n;
+    }
+    return sum;
+  }
+  double using_it() const { return 2.0 * m_matrix.outerIndexPtr()[m_matrix.cols()]; }
+};
+
+LinearSolver::LinearSolver() : factor_(std::make_unique<Factor>()) {}
+LinearSolver::LinearSolver(const LinearSolver&) : LinearSolver() {}
+LinearSolver::~LinearSolver() = default;
+LinearSolver::LinearSolver(LinearSolver&&) noexcept = default;
+LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
+
+void LinearSolver::forget_pattern() {
+  ordered_ = made_ = false;
+}
+
+double LinearSolver::work_by_factor(const BlockMatrix& a) const {
+  return 36.0 * static_cast<double>(a.blocks()) + factor_->using_it();
+}
+
+double LinearSolver::work_by_diagonal(const BlockMatrix& a) const {
+  return 36.0 * static_cast<double>(a.blocks() + a.rows());
+}
+
+/// The matrix by columns: it is symmetric, so they are its rows.
+static Eigen::Map<const Eigen::SparseMatrix<double>> by_columns(const BlockMatrix& a) {
+  const BlockMatrix::Scalar& m = a.scalar();
+  return {m.rows(), m.cols(), m.nonZeros(), m.outerIndexPtr(), m.innerIndexPtr(), m.valuePtr()};
+}
+
+bool LinearSolver::factorise(const BlockMatrix& a) {
+  factor_->factorize(by_columns(a));
+  ++counts_.factorisations;
+  made_ = factor_->info() == Eigen::Success;
+  excess_ = solved_ = 0.0;
+  life_ = factor_->making();
+  return made_;
+}
+
+void LinearSolver::invert_diagonal(BlockMatrix& a) {
+  diagonal_.resize(a.rows());
+  parallel_for(a.rows(), [&](std::size_t r) {
+    const Id row = static_cast<Id>(r);
+    diagonal_[r] = Matrix6(a.at(row, a.slot(row, row))).inverse();
+  });
+}
+
+/// Hestenes and Stiefel 1952, with a preconditioner.
+bool LinearSolver::iterate(const BlockMatrix& a, const Vector& b, double tolerance, double most,
+                           Vector& x) {
+  const double enough = tolerance * b.norm();
+  auto precondition = [&](const Vector& r, Vector& z) {
+    if (with_factor_) {
+      z = factor_->solve(r);
+      return;
+    }
+    z.resize(r.size());
+    parallel_for(a.rows(), [&](std::size_t i) {
+      const auto row = static_cast<Eigen::Index>(6 * i);
+      z.segment<6>(row) = diagonal_[i] * r.segment<6>(row);
+    });
+  };
+  Vector r = b - a.scalar() * x, z, p, q;
+  last_iterations_ = 0;
+  if (!(r.norm() > enough)) return std::isfinite(r.norm());
+  precondition(r, z);
+  p = z;
+  double rz = r.dot(z);
+  while (last_iterations_ < most) {
+    ++last_iterations_;
+    ++counts_.iterations;
+    q = a.scalar() * p;
+    const double along = rz / p.dot(q);
+    x += along * p;
+    r -= along * q;
+    const double left = r.norm();
+    if (left <= enough) return true;
+    if (!std::isfinite(left)) return false;
+    precondition(r, z);
+    const double next = r.dot(z);
+    p = z + (next / rz) * p;
+    rz = next;
+  }
+  return false;
+}
+
+bool LinearSolver::solve_by_factor(const BlockMatrix& a, const Vector& b, double tolerance,
+                                   Vector& x) {
+  with_factor_ = true;
+  if (!made_ && !factorise(a)) return false;
+  const double work = work_by_factor(a);
+  const bool solved = iterate(a, b, tolerance, std::max(10.0, 2.0 * factor_->making() / work), x);
+  ++solved_;
+  excess_ += work * std::max(0, last_iterations_ - 1);
+  life_ += work * last_iterations_;
+  return solved;
+}
+
+bool LinearSolver::solve_by_diagonal(const BlockMatrix& a, const Vector& b, double tolerance,
+                                     Vector& x) {
+  with_factor_ = false;
+  const double work = work_by_diagonal(a);
+  const double most = std::max(10.0, 2.0 * (factor_->making() + work_by_factor(a)) / work);
+  const bool solved = iterate(a, b, tolerance, most, x);
+  by_diagonal_ = work * std::max(1, last_iterations_);
+  rent_ += by_diagonal_ - 2.0 * work_by_factor(a);
+  return solved;
+}
+
+bool LinearSolver::solve(BlockMatrix& a, const Vector& b, double tolerance, Vector& x) {
+  ++counts_.solves;
+  if (!ordered_) {
+    factor_->analyzePattern(by_columns(a));
+    ++counts_.orderings;
+    ordered_ = true;
+  }
+  const Vector guess = x;
+  if (!with_factor_) {
+    // Rented until the rent has come to the price; a factor that did no better costs more trust.
+    const double patience = per_solve_ > 0.0 ? 20.0 : 1.0;
+    if (rent_ <= patience * factor_->making()) {
+      invert_diagonal(a);
+      if (solve_by_diagonal(a, b, tolerance, x)) return true;
+      x = guess;
+    }
+    made_ = false;
+    rent_ = 0.0;
+    return solve_by_factor(a, b, tolerance, x);
+  }
+  if (made_ && excess_ <= factor_->making() && solve_by_factor(a, b, tolerance, x)) return true;
+  // The factor has served.
+  x = guess;
+  per_solve_ = solved_ > 0.0 ? life_ / solved_ : 0.0;
+  made_ = false;
+  if (by_diagonal_ > 0.0 && by_diagonal_ < per_solve_) {
+    rent_ = 0.0;
+    invert_diagonal(a);
+    if (solve_by_diagonal(a, b, tolerance, x)) return true;
+    x = guess;
+  }
+  return solve_by_factor(a, b, tolerance, x);
+}
+
+}  // namespace edda

@@ -1,0 +1,105 @@
+// The step of method "dda": Newmark with a global solve in place of the leapfrog. Blocks, contacts,
+// laws and results are the same.
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "contacts/candidates.hpp"
+#include "contacts/gaps.hpp"
+#include "contacts/shares.hpp"
+#include "run/simulation.hpp"
+
+namespace edda {
+namespace {
+
+/// Effective penetration of the closed contacts, the largest, m.
+double deepest(const ContactSet& c) {
+  double most = 0.0;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (c.is(k, contact_state::closed)) most = std::max(most, c.effective(k));
+  }
+  return most;
+}
+
+/// Step in which nothing that starts at its present velocity and falls freely goes beyond `limit`.
+double step_within(const BlockSet& b, const State& s, Vec2 gravity, double limit) {
+  double speed = 0.0;
+  for (std::size_t v = 0; v < b.vertex_count(); ++v) {
+    if (!b.fixed[b.vertex_block[v]]) speed = std::max(speed, norm(vertex_at(b, s.vx, s.vy, v)));
+  }
+  // v h + g h^2/2 = limit
+  const double root = std::sqrt(speed * speed + 2.0 * norm(gravity) * limit);
+  return 2.0 * limit / (speed + root);
+}
+
+}  // namespace
+
+void Simulation::set_implicit_limit() {
+  if (state.steps > 0) return;
+  step_limit = model.solver.time_step
+                   ? *model.solver.time_step
+                   : std::min(step_within(blocks, state, model.gravity, displacement_limit),
+                              std::min(model.output.history_every, model.output.every));
+  nominal_step_ = step_limit;
+  // What the explicit method could take, for whoever compares.
+  bound = step_bound(blocks, state, pose, contacts, springs, laws, model.solver.damping);
+}
+
+void Simulation::start_implicit() {
+  step_before_ = state.step;
+  stand_still(contacts);
+}
+
+std::optional<Failure> Simulation::step_implicit() {
+  StageClock clock(state.steps);
+  const Solver& solver = model.solver;
+  const ImplicitScene scene{blocks, laws, springs, model.gravity};
+  ImplicitSettings settings;
+  settings.dynamic = solver.dynamic;
+  settings.mass_damping = solver.damping.mass;
+  settings.contact_damping = solver.damping.contact;
+  settings.displacement_limit = displacement_limit;
+  constexpr int most_cuts = 60;
+  for (int cuts = 0;; ++cuts) {
+    settings.step = state.step;
+    const Attempt attempt =
+        newmark_step(implicit, scene, settings, state, pose, contacts, forces, damping_work.joules);
+    open_close.passes += static_cast<std::uint64_t>(implicit.rounds);
+    open_close.most = std::max(open_close.most, static_cast<std::uint64_t>(implicit.rounds));
+    open_close.switched += implicit.switched;
+    if (attempt == Attempt::accepted) break;
+    if (attempt == Attempt::unsettled) ++open_close.unsettled;
+    if (cuts == most_cuts) return lost();
+    step_limit = 0.5 * state.step;
+    aim_at(target_);
+    ++steps.redone;
+  }
+  ++open_close.steps;
+  clock.lap(seconds.integrate);
+
+  last_displacement = implicit.last_displacement;
+  if (state.step != step_before_) ++steps.changes;
+  finish_step();
+  stand_still(contacts);
+  pose.x1 = pose.x;
+  pose.y1 = pose.y;
+  update_shares(contacts);
+  search_if_due();
+  settle_contacts(contacts, blocks, pose, laws, state.steps, false, transitions_);
+  constexpr std::uint64_t look_every = 64;
+  if (state.steps % look_every == 0) grow_springs(contacts, blocks, pose, laws);
+  penetration = deepest(contacts);
+  max_penetration = std::max(max_penetration, penetration);
+
+  // A step that had been cut grows again once it is easy.
+  constexpr int easy = 3;  // rounds
+  if (step_limit < nominal_step_ && implicit.rounds <= easy &&
+      last_displacement < 0.5 * displacement_limit) {
+    step_limit = std::min(nominal_step_, 2.0 * step_limit);
+  }
+  if (steps_left_ > 0 && step_limit > 1.25 * state.step) aim_at(target_);
+  clock.lap(seconds.search);
+  return inspect();
+}
+
+}  // namespace edda
