@@ -10,8 +10,9 @@
 namespace edda {
 namespace {
 
-/// What is out of balance may be this part of the forces on a block.
-constexpr double balance = 1e-6;
+/// What is out of balance may be this part of the forces on a single block, and this of all
+/// blocks together (root of the sum of squares).
+constexpr double single_balance = 1e-2, balance = 1e-3;
 
 bool is_free(const BlockSet& b, const State& s, std::size_t i) {
   return b.fixed[i] == 0 && s.alive[i] != 0;
@@ -146,9 +147,11 @@ double measure_residual(ImplicitSolver& s, const ImplicitScene& scene,
   const double gravity = norm(scene.gravity);
   s.residual.resize(static_cast<Eigen::Index>(6 * s.block_of.size()));
   s.error.assign(s.block_of.size(), 0.0);
+  s.carried.resize(s.block_of.size());
   parallel_for(s.block_of.size(), [&](std::size_t row) {
     const Id i = s.block_of[row];
-    Vector6 moved = (2.0 / (h * h) + 2.0 * a / h) * nodal(s.dx, s.dy, i);
+    Vector6 moved =
+        (2.0 / (h * h) + 2.0 * a / h) * s.moved.segment<6>(static_cast<Eigen::Index>(6 * row));
     if (settings.dynamic) moved -= (2.0 / h + a) * nodal(state.vx, state.vy, i);
     const Vector6 force = nodal(forces.x, forces.y, i), inertia = s.mass[i] * moved;
     const Vector6 left = force - inertia;
@@ -160,9 +163,12 @@ double measure_residual(ImplicitSolver& s, const ImplicitScene& scene,
     }
     const double place = norm(centroid(state.x, state.y, i)) + b.radius[i];
     const double rounding = 1e-14 * place * s.stiffest[row];
-    s.error[row] = left.norm() / (balance * carried + rounding + 1e-300);
+    s.error[row] = left.norm() / (single_balance * carried + rounding + 1e-300);
+    s.carried[row] = carried + rounding / balance;
   });
-  double worst = 0.0;
+  double squares = 0.0;
+  for (const double f : s.carried) squares += f * f;
+  double worst = s.residual.norm() / (balance * std::sqrt(squares) + 1e-300);
   for (const double e : s.error) {
     if (!(e <= worst)) worst = e;
     if (std::isnan(e)) return e;

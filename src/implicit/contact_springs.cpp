@@ -7,6 +7,7 @@
 #include "contacts/gap.hpp"
 #include "contacts/stored_energy.hpp"
 #include "contacts/switching.hpp"
+#include "contacts/transitions.hpp"
 #include "forces/contact_forces.hpp"
 
 namespace edda {
@@ -36,6 +37,7 @@ SpringState evaluate(ContactSprings& springs, ContactSet& c, const BlockSet& b, 
   if (!springs.known[k]) {
     springs.known[k] = 1;
     springs.anchor[k] = c.anchor[k];
+    springs.limit[k] = c.cohesion[k];
   }
   const bool pulls = c.is(k, cs::pulls), bonded = c.is(k, cs::bonded);
   const bool pressed = pulls || c.effective(k) > 0.0;
@@ -57,8 +59,7 @@ SpringState evaluate(ContactSprings& springs, ContactSet& c, const BlockSet& b, 
   }
   c.anchor[k] = springs.anchor[k];
   const double trial = -c.ks[k] * trial_slip(c, k);
-  const double limit = c.cohesion[k] + c.friction[k] * std::max(c.normal[k], 0.0);
-  c.shear[k] = bonded ? trial : cut_shear(trial, limit);
+  c.shear[k] = bonded ? trial : cut_shear(trial, springs.limit[k]);
   SpringState state = pressed ? SpringState::stick : SpringState::shear;
   if (c.shear[k] != trial) {
     c.anchor[k] = (c.foot[k] + c.shear[k] / c.ks[k]) / c.span[k];
@@ -72,10 +73,12 @@ SpringState evaluate(ContactSprings& springs, ContactSet& c, const BlockSet& b, 
 }
 
 /// Carries all the shear it can, but for rounding.
-bool at_limit(const ContactSet& c, std::size_t k) {
-  const double limit = c.cohesion[k] + c.friction[k] * std::max(c.normal[k], 0.0);
-  return std::abs(c.shear[k]) >= (1.0 - 1e-6) * limit;
+bool at_limit(const ContactSprings& springs, const ContactSet& c, std::size_t k) {
+  return springs.limit[k] > 0.0 && std::abs(c.shear[k]) >= (1.0 - 1e-6) * springs.limit[k];
 }
+
+/// Gap, of the smaller block's size, within which a contact is expected to close.
+constexpr double touch = 1e-9;
 
 /// -sum f . (x - x_1) over the three points of a contact, J.
 double taken_from_blocks(const ContactSet& c, const Pose& pose, std::size_t k) {
@@ -97,9 +100,11 @@ void begin_springs(ContactSprings& springs, const ContactSet& c) {
   springs.known.resize(n);
   springs.anchor = c.anchor;
   springs.stored.resize(n);
+  springs.limit.resize(n);
   parallel_for(n, [&](std::size_t k) {
     springs.known[k] = c.is(k, cs::closed) ? 1 : 0;
     springs.stored[k] = energy_now(c, k);
+    springs.limit[k] = c.cohesion[k] + c.friction[k] * std::max(c.normal[k], 0.0);
     springs.state[k] = !c.is(k, cs::closed)                           ? SpringState::open
                        : c.is(k, cs::sliding) && !c.is(k, cs::bonded) ? SpringState::slide
                        : c.is(k, cs::pulls) || c.effective(k) > 0.0   ? SpringState::stick
@@ -115,7 +120,7 @@ std::size_t evaluate_springs(ContactSprings& springs, ContactSet& c, const Block
                   [&](std::size_t q, std::size_t begin, std::size_t end) {
                     for (std::size_t k = begin; k < end; ++k) {
                       SpringState state = evaluate(springs, c, b, k, step, damping);
-                      if (first && state == SpringState::stick && at_limit(c, k) &&
+                      if (first && state == SpringState::stick && at_limit(springs, c, k) &&
                           springs.state[k] == SpringState::slide) {
                         state = SpringState::slide;
                         c.set(k, cs::sliding);
@@ -127,6 +132,18 @@ std::size_t evaluate_springs(ContactSprings& springs, ContactSet& c, const Block
   std::size_t sum = 0;
   for (const std::size_t n : changed) sum += n;
   return sum;
+}
+
+void assume_touching(ContactSprings& springs, const ContactSet& c, const BlockSet& b,
+                     const Pose& pose) {
+  parallel_for(c.size(), [&](std::size_t k) {
+    if (springs.state[k] != SpringState::open || c.is(k, cs::blocked) || c.share[k] == 0.0) return;
+    const double size = std::min(b.radius[c.block_i[k]], b.radius[c.block_j[k]]);
+    if (c.effective(k) < -touch * size || !c.on_edge(k)) return;
+    if (c.is(k, cs::closed) || hindrance(c, b, pose, k) == Blocked::no) {
+      springs.state[k] = SpringState::stick;
+    }
+  });
 }
 
 void book_springs(const ContactSprings& springs, ContactSet& c, const Pose& pose,

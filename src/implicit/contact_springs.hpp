@@ -23,6 +23,7 @@ enum class SpringState : std::uint8_t {
 struct ContactSprings {
   std::vector<SpringState> state;   ///< at the last evaluation
   std::vector<double> anchor;       ///< xi0 at the start of the step
+  std::vector<double> limit;        ///< of shear, N, by the normal force at the start of the step
   std::vector<double> stored;       ///< J at the start of the step
   std::vector<std::uint8_t> known;  ///< closed at the start of the step, or since
 };
@@ -35,6 +36,9 @@ void begin_springs(ContactSprings& springs, const ContactSet& contacts);
 /// slide on. Returns how many contacts have changed their state.
 std::size_t evaluate_springs(ContactSprings& springs, ContactSet& contacts, const BlockSet& blocks,
                              double step, double damping, bool first);
+/// Takes for the first matrix of a step what all but touches for closed, and sticking.
+void assume_touching(ContactSprings& springs, const ContactSet& contacts, const BlockSet& blocks,
+                     const Pose& pose);
 
 /// Viscous coefficient of a contact, c = 2 zeta sqrt(p m_c), N s/m.
 double dashpot_coefficient(const ContactSet& contacts, const BlockSet& blocks, std::size_t k,

@@ -13,7 +13,8 @@ namespace edda {
 namespace {
 
 constexpr int most_rounds = 6;
-constexpr double linear_tolerance = 1e-9;
+// Of the global solve: what is then left is a small part of what a round may leave.
+constexpr double tightest = 1e-9, loosest = 1e-2, margin = 0.03;
 
 bool is_free(const BlockSet& b, const State& s, std::size_t i) {
   return b.fixed[i] == 0 && s.alive[i] != 0;
@@ -48,15 +49,16 @@ void begin(ImplicitSolver& s, const ImplicitScene& scene, const State& state, Po
   s.contacts_before = c;
   s.start_x = state.x;
   s.start_y = state.y;
-  for (std::size_t k = 0; k < 3; ++k) {
-    s.dx[k].assign(b.size(), 0.0);
-    s.dy[k].assign(b.size(), 0.0);
-  }
   pose.x1 = pose.x;
   pose.y1 = pose.y;
   begin_springs(s.springs, c);
   if (s.pattern_of != c.rebuilds) set_pattern(s, scene, state, c);
   s.pattern_of = c.rebuilds;
+  s.moved = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(6 * s.block_of.size()));
+  if (s.drift_x[0].empty()) {
+    s.drift_x = state.vx;
+    s.drift_y = state.vy;
+  }
   s.energy.resize(b.size());
   parallel_for(b.size(), [&](std::size_t i) {
     s.energy[i] = is_free(b, state, i) ? strain_energy_of(b, state, i) : 0.0;
@@ -66,16 +68,16 @@ void begin(ImplicitSolver& s, const ImplicitScene& scene, const State& state, Po
   s.last_displacement = 0.0;
 }
 
-/// D += correction, and everything that follows from where the blocks then are.
-void move(ImplicitSolver& s, const ImplicitScene& scene, State& state, Pose& pose, ContactSet& c) {
+/// D = base + part correction, and everything that follows from where the blocks then are.
+void move(ImplicitSolver& s, const ImplicitScene& scene, double part, State& state, Pose& pose,
+          ContactSet& c) {
+  s.moved = s.base + part * s.correction;
   parallel_for(s.block_of.size(), [&](std::size_t row) {
     const Id i = s.block_of[row];
     for (std::size_t k = 0; k < 3; ++k) {
       const auto at = static_cast<Eigen::Index>(6 * row + 2 * k);
-      s.dx[k][i] += s.correction[at];
-      s.dy[k][i] += s.correction[at + 1];
-      state.x[k][i] = s.start_x[k][i] + s.dx[k][i];
-      state.y[k][i] = s.start_y[k][i] + s.dy[k][i];
+      state.x[k][i] = s.start_x[k][i] + s.moved[at];
+      state.y[k][i] = s.start_y[k][i] + s.moved[at + 1];
     }
   });
   place_all(scene.blocks, state, pose);
@@ -94,31 +96,33 @@ void go_back(const ImplicitSolver& s, State& state, Pose& pose, ContactSet& c) {
 
 /// One solve: K^ correction = residual (Eq. 10).
 bool solve(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings& settings,
-           const State& state, const ContactSet& c) {
+           double error, const State& state, const ContactSet& c) {
   if (!assemble(s, scene, settings, state, c)) {
     set_pattern(s, scene, state, c);
     assemble(s, scene, settings, state, c);
   }
   s.correction = Eigen::VectorXd::Zero(s.residual.size());
-  return s.linear.solve(s.matrix, s.residual, linear_tolerance, s.correction);
+  return s.linear.solve(s.matrix, s.residual, std::clamp(margin / error, tightest, loosest),
+                        s.correction);
 }
 
 /// Work that the step dissipated in block i other than at its contacts: by the implicit scheme in
 /// its strain and its boundary springs (-f(x_{n+1}).D less the change of the stored energy), by
 /// mass damping, and, without dynamics, all of its motion.
 double dissipated(const ImplicitSolver& s, const ImplicitScene& scene,
-                  const ImplicitSettings& settings, const State& state, const Pose& pose,
-                  std::size_t i) {
+                  const ImplicitSettings& settings, const State& state, const Pose& pose, Id row) {
+  const Id i = s.block_of[row];
   const BlockSet& b = scene.blocks;
   const Deformation f = deformation(b, state.x, state.y, i);
   const PiolaStress p = piola(f, rotation(f), b.lame_lambda[i], b.lame_mu[i]);
   double sum = s.energy[i] - strain_energy_of(b, state, i);
-  Vector6 step, velocity;
+  const Vector6 step = s.moved.segment<6>(static_cast<Eigen::Index>(6 * row));
+  Vector6 velocity;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec2 d{s.dx[k][i], s.dy[k][i]};
+    const auto at = static_cast<Eigen::Index>(2 * k);
+    const Vec2 d{step[at], step[at + 1]};
     sum -= dot(elastic_force(p, b.volume[i], b.grad_x[k][i], b.grad_y[k][i]), d);
-    step.segment<2>(static_cast<Eigen::Index>(2 * k)) << d.x, d.y;
-    velocity.segment<2>(static_cast<Eigen::Index>(2 * k)) << state.vx[k][i], state.vy[k][i];
+    velocity.segment<2>(at) << state.vx[k][i], state.vy[k][i];
   }
   const BoundarySprings& springs = scene.springs;
   for (Id q = springs.block_begin[i]; q < springs.block_begin[i + 1]; ++q) {
@@ -142,58 +146,146 @@ void finish(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSetting
   const double h = settings.step;
   parallel_for(s.block_of.size(), [&](std::size_t row) {
     const Id i = s.block_of[row];
-    damping_work[i] += dissipated(s, scene, settings, state, pose, i);
+    damping_work[i] += dissipated(s, scene, settings, state, pose, static_cast<Id>(row));
     for (std::size_t k = 0; k < 3; ++k) {
-      state.vx[k][i] = settings.dynamic ? 2.0 * s.dx[k][i] / h - state.vx[k][i] : 0.0;
-      state.vy[k][i] = settings.dynamic ? 2.0 * s.dy[k][i] / h - state.vy[k][i] : 0.0;
+      const auto at = static_cast<Eigen::Index>(6 * row + 2 * k);
+      s.drift_x[k][i] = s.moved[at] / h;
+      s.drift_y[k][i] = s.moved[at + 1] / h;
+      state.vx[k][i] = settings.dynamic ? 2.0 * s.moved[at] / h - state.vx[k][i] : 0.0;
+      state.vy[k][i] = settings.dynamic ? 2.0 * s.moved[at + 1] / h - state.vy[k][i] : 0.0;
     }
   });
   book_springs(s.springs, c, pose, broken);
 }
+
+/// One attempt at a step: the pieces above, in order.
+class Rounds {
+ public:
+  Rounds(ImplicitSolver& solver, const ImplicitScene& scene, const ImplicitSettings& settings,
+         State& state, Pose& pose, ContactSet& contacts, NodalForces& forces)
+      : s_(solver),
+        scene_(scene),
+        settings_(settings),
+        state_(state),
+        pose_(pose),
+        c_(contacts),
+        forces_(forces) {}
+
+  /// Rounds until forces and contacts agree. `broken`: bonds that broke on the way, ascending.
+  Attempt run(std::vector<Id>& broken) {
+    begin(s_, scene_, state_, pose_, c_);
+    guess();
+    double error = balance();
+    int most = most_rounds;
+    while (s_.rounds == 0 || !(error <= 1.0) || !bonds_hold(broken, most, error)) {
+      if (std::isnan(error)) return Attempt::no_solution;
+      if (s_.rounds == most) return Attempt::unsettled;
+      if (!solve(s_, scene_, settings_, error, state_, c_)) return Attempt::no_solution;
+      ++s_.rounds;
+      error = search();
+      if (far()) return Attempt::too_far;
+    }
+    std::sort(broken.begin(), broken.end());
+    return s_.last_displacement > settings_.displacement_limit ? Attempt::too_far
+                                                               : Attempt::accepted;
+  }
+
+ private:
+  /// Beyond this the gaps mean nothing.
+  bool far() const { return !(s_.last_displacement <= 4.0 * settings_.displacement_limit); }
+
+  double balance() {
+    const std::size_t changed = evaluate_springs(s_.springs, c_, scene_.blocks, settings_.step,
+                                                 settings_.contact_damping, s_.rounds == 0);
+    if (s_.rounds > 0) {
+      s_.switched += changed;
+    } else {
+      assume_touching(s_.springs, c_, scene_.blocks, pose_);
+    }
+    gather_forces(forces_, scene_.blocks, state_, pose_, c_, scene_.springs, scene_.gravity);
+    return measure_residual(s_, scene_, settings_, state_, c_, forces_);
+  }
+
+  /// The first guess of a dynamic step: once more the displacement of the step before. (Not h v_n:
+  /// the scheme makes velocities of stiff springs change their sign from step to step.)
+  void guess() {
+    if (!settings_.dynamic) return;
+    s_.base = s_.moved;
+    s_.correction.resize(s_.moved.size());
+    parallel_for(s_.block_of.size(), [&](std::size_t row) {
+      const Id i = s_.block_of[row];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto at = static_cast<Eigen::Index>(6 * row + 2 * k);
+        s_.correction[at] = settings_.step * s_.drift_x[k][i];
+        s_.correction[at + 1] = settings_.step * s_.drift_y[k][i];
+      }
+    });
+    move(s_, scene_, 1.0, state_, pose_, c_);
+  }
+
+  /// Whether bonded contacts bear what they have come to carry. Those that do not break, and rounds
+  /// begin anew.
+  bool bonds_hold(std::vector<Id>& broken, int& most, double& error) {
+    const std::vector<Id> now = break_overloaded(c_, scene_.blocks, scene_.laws);
+    if (now.empty()) return true;
+    broken.insert(broken.end(), now.begin(), now.end());
+    most = s_.rounds + most_rounds;
+    error = balance();
+    return false;
+  }
+
+  double slope_at(double part, double& error) {
+    move(s_, scene_, part, state_, pose_, c_);
+    error = balance();
+    return s_.residual.dot(s_.correction);
+  }
+
+  /// Goes along the correction. With the limits of friction given, all springs together have a
+  /// potential made of parabolas, each of which ends where a contact opens, closes or slides: the
+  /// whole correction may be far too long, and where its slope (residual . correction) has turned
+  /// round its zero is looked for. Returns the error there.
+  double search() {
+    constexpr int most_looks = 8;
+    constexpr double flat = 0.1;  // of the slope at the start
+    s_.base = s_.moved;
+    double error = 0.0;
+    const double start = s_.residual.dot(s_.correction);
+    double low = 0.0, high = 1.0, at_low = start, at_high = slope_at(1.0, error);
+    double slope = at_high;
+    for (int look = 0; look < most_looks && !far(); ++look) {
+      if (at_high >= 0.0 || std::abs(slope) <= flat * start) break;
+      const double width = high - low;
+      const double part = std::clamp(low + width * at_low / (at_low - at_high), low + 0.1 * width,
+                                     high - 0.1 * width);
+      slope = slope_at(part, error);
+      (slope > 0.0 ? low : high) = part;
+      (slope > 0.0 ? at_low : at_high) = slope;
+    }
+    return error;
+  }
+
+  ImplicitSolver& s_;
+  const ImplicitScene& scene_;
+  const ImplicitSettings& settings_;
+  State& state_;
+  Pose& pose_;
+  ContactSet& c_;
+  NodalForces& forces_;
+};
 
 }  // namespace
 
 Attempt newmark_step(ImplicitSolver& s, const ImplicitScene& scene,
                      const ImplicitSettings& settings, State& state, Pose& pose, ContactSet& c,
                      NodalForces& forces, std::vector<double>& damping_work) {
-  begin(s, scene, state, pose, c);
   std::vector<Id> broken;
-  auto balance = [&] {
-    const std::size_t changed = evaluate_springs(s.springs, c, scene.blocks, settings.step,
-                                                 settings.contact_damping, s.rounds == 0);
-    if (s.rounds > 0) s.switched += changed;
-    gather_forces(forces, scene.blocks, state, pose, c, scene.springs, scene.gravity);
-    return measure_residual(s, scene, settings, state, c, forces);
-  };
-  auto given_up = [&](Attempt why) {
+  const Attempt attempt = Rounds(s, scene, settings, state, pose, c, forces).run(broken);
+  if (attempt == Attempt::accepted) {
+    finish(s, scene, settings, state, pose, c, broken, damping_work);
+  } else {
     go_back(s, state, pose, c);
-    return why;
-  };
-  int rounds_allowed = most_rounds;
-  while (true) {
-    double error = balance();
-    if (std::isnan(error)) return given_up(Attempt::no_solution);
-    if (s.rounds > 0 && error <= 1.0) {
-      const std::vector<Id> now = break_overloaded(c, scene.blocks, scene.laws);
-      if (now.empty()) break;
-      // Bonds have broken: a new problem, with rounds of its own.
-      broken.insert(broken.end(), now.begin(), now.end());
-      rounds_allowed = s.rounds + most_rounds;
-      error = balance();
-    }
-    if (s.rounds == rounds_allowed) return given_up(Attempt::unsettled);
-    if (!solve(s, scene, settings, state, c)) return given_up(Attempt::no_solution);
-    ++s.rounds;
-    move(s, scene, state, pose, c);
-    // Far beyond the limit the gaps mean nothing.
-    if (!(s.last_displacement <= 4.0 * settings.displacement_limit)) {
-      return given_up(Attempt::too_far);
-    }
   }
-  if (s.last_displacement > settings.displacement_limit) return given_up(Attempt::too_far);
-  std::sort(broken.begin(), broken.end());
-  finish(s, scene, settings, state, pose, c, broken, damping_work);
-  return Attempt::accepted;
+  return attempt;
 }
 
 }  // namespace edda

@@ -49,13 +49,16 @@ struct ImplicitSolver {
   std::vector<Id> block_of;                      ///< [rows]
   std::vector<Matrix6> elastic, mass;            ///< [nb] in the block's own frame
   std::uint64_t pattern_of = ~std::uint64_t{0};  ///< rebuild of the candidate list it was made for
-  Nodes dx, dy;                                  ///< [3][nb] displacement of the step D, m
   Nodes start_x, start_y;                        ///< [3][nb] positions at its start, m
-  ContactSet contacts_before;                    ///< to go back to where the step is cut
-  Eigen::VectorXd residual, correction;          ///< [6 rows] N, m
-  std::vector<double> stiffest;                  ///< [rows] largest stiffness on the diagonal, N/m
-  std::vector<double> error;                     ///< [rows] scratch of measure_residual()
-  std::vector<double> energy;                    ///< [nb] strain at the start of the step, J
+  Nodes drift_x, drift_y;            ///< [3][nb] mean velocity over the step before, m/s
+  ContactSet contacts_before;        ///< to go back to where the step is cut
+  Eigen::VectorXd moved;             ///< [6 rows] displacement of the step D, m
+  Eigen::VectorXd residual;          ///< [6 rows] what is out of balance, N
+  Eigen::VectorXd base, correction;  ///< [6 rows] D of the round before, and what it adds
+  std::vector<double> stiffest;      ///< [rows] largest stiffness on the diagonal, N/m
+  std::vector<double> carried;       ///< [rows] scratch of measure_residual(), N
+  std::vector<double> error;         ///< [rows] scratch of measure_residual()
+  std::vector<double> energy;        ///< [nb] strain at the start of the step, J
   TransitionScratch transitions;
   int rounds = 0;                  ///< solves of the last attempt
   std::uint64_t switched = 0;      ///< changes of contact states in it

@@ -140,6 +140,9 @@ void observe(const Simulation& sim, Instant& at) {
   if (!sim.explicit_method()) {  // everything belongs to one instant already
     ContactSprings springs;
     begin_springs(springs, at.contacts);
+    for (std::size_t k = 0; k < at.contacts.size(); ++k) {
+      springs.limit[k] = std::max(springs.limit[k], std::abs(at.contacts.shear[k]));
+    }
     evaluate_springs(springs, at.contacts, sim.blocks, h, 0.0, true);
     at.forces = sim.forces;
     gather_forces(at.forces, sim.blocks, sim.state, sim.pose, at.contacts, sim.springs,
