@@ -1,37 +1,7 @@
-#include "verification/scene.hpp"
+#include "verification/models.hpp"
 
 namespace edda {
 namespace {
-
-/// validation.md row 1: the paper's ramp; pieces > 1 cuts the ramp itself into that many blocks
-/// (row 17).
-std::string ramp(double alpha, double phi, const std::string& young, int pieces = 1) {
-  std::string toml = "gravity = [0.0, -9.8]\n[materials.rock]\ndensity = 2750.0\nyoung = " + young +
-                     "\npoisson = 0.25\n[joints.ramp]\nfriction_angle = " + number(phi) +
-                     "\n[solver]\nduration = 0.1\n[output]\nhistory_every = 0.001\n";
-  auto box = [&](double u0, double u1, double v0, double v1) {
-    return "[" + on_slope(alpha, u0, v0) + "," + on_slope(alpha, u1, v0) + "," +
-           on_slope(alpha, u1, v1) + "," + on_slope(alpha, u0, v1) + "]";
-  };
-  const double from = -4.0, to = 6.0;
-  for (int p = 0; p < pieces; ++p) {
-    const double a = from + (to - from) * p / pieces, b = from + (to - from) * (p + 1) / pieces;
-    toml += "[[block]]\nname = 'ramp" + std::to_string(p) +
-            "'\nfixed = true\npolygon = " + box(a, b, -1.0, 0.0) + "\n";
-  }
-  toml += "[[block]]\nname = 'slider'\npolygon = " + box(0.0, 2.0, 0.0, 1.0) + "\n";
-  return toml;
-}
-
-double sliding(double alpha, double phi, double t) {
-  const double a = radians(alpha);
-  return 0.5 * 9.8 * t * t * (std::sin(a) - std::tan(radians(phi)) * std::cos(a));
-}
-
-double slid(const Simulation& sim, double alpha) {
-  const Vec2 u = displacement(sim, sim.blocks.size() - 1);
-  return u.x * std::cos(radians(alpha)) - u.y * std::sin(radians(alpha));
-}
 
 class Ramp : public testing::TestWithParam<std::pair<double, double>> {};
 

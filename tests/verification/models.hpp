@@ -1,0 +1,123 @@
+// Models of the verification problems that more than one test runs. `solver`: more lines of their
+// [solver] table.
+#pragma once
+
+#include "verification/scene.hpp"
+
+namespace edda {
+
+inline Tensor stress_of(const Simulation& sim, std::size_t i) {
+  const Deformation f = deformation(sim.blocks, sim.state.x, sim.state.y, i);
+  return cauchy(piola(f, rotation(f), sim.blocks.lame_lambda[i], sim.blocks.lame_mu[i]), f);
+}
+
+/// validation.md row 1: the paper's ramp; pieces > 1 cuts the ramp itself into that many blocks
+/// (row 17).
+inline std::string ramp(double alpha, double phi, const std::string& young, int pieces = 1,
+                        const std::string& solver = {}) {
+  std::string toml = "gravity = [0.0, -9.8]\n[materials.rock]\ndensity = 2750.0\nyoung = " + young +
+                     "\npoisson = 0.25\n[joints.ramp]\nfriction_angle = " + number(phi) +
+                     "\n[solver]\nduration = 0.1\n" + solver + "[output]\nhistory_every = 0.001\n";
+  auto box = [&](double u0, double u1, double v0, double v1) {
+    return "[" + on_slope(alpha, u0, v0) + "," + on_slope(alpha, u1, v0) + "," +
+           on_slope(alpha, u1, v1) + "," + on_slope(alpha, u0, v1) + "]";
+  };
+  const double from = -4.0, to = 6.0;
+  for (int p = 0; p < pieces; ++p) {
+    const double a = from + (to - from) * p / pieces, b = from + (to - from) * (p + 1) / pieces;
+    toml += "[[block]]\nname = 'ramp" + std::to_string(p) +
+            "'\nfixed = true\npolygon = " + box(a, b, -1.0, 0.0) + "\n";
+  }
+  toml += "[[block]]\nname = 'slider'\npolygon = " + box(0.0, 2.0, 0.0, 1.0) + "\n";
+  return toml;
+}
+
+/// Row 1: how far the block has slid after t s.
+inline double sliding(double alpha, double phi, double t) {
+  const double a = radians(alpha);
+  return 0.5 * 9.8 * t * t * (std::sin(a) - std::tan(radians(phi)) * std::cos(a));
+}
+
+inline double slid(const Simulation& sim, double alpha) {
+  const Vec2 u = displacement(sim, sim.blocks.size() - 1);
+  return u.x * std::cos(radians(alpha)) - u.y * std::sin(radians(alpha));
+}
+
+/// Row 9: ten blocks under their own weight, frictionless.
+inline std::string column(const std::string& solver) {
+  std::string toml = R"(
+plane = "stress"
+[materials.rock]
+density = 2600.0
+young = 1e9
+poisson = 0.2
+[joints.j]
+friction_angle = 0.0
+[[block]]
+fixed = true
+polygon = [[-1, -1], [2, -1], [2, 0], [-1, 0]]
+[output]
+history_every = 0.1
+[solver]
+)" + solver;
+  for (int i = 0; i < 10; ++i) toml += "[[block]]\npolygon = " + rectangle(0, i, 1, i + 1) + "\n";
+  return toml;
+}
+
+/// Row 9: stress -rho g depth in every block, settlement by the blocks' shortening and the
+/// springs'.
+inline void expect_at_rest(const Simulation& column) {
+  const double density = 2600.0, young = 1e9, p = 1e10, g = 9.81;
+  const int n = 10;
+  double springs = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const double depth = n - i - 0.5;
+    EXPECT_NEAR(stress_of(column, static_cast<std::size_t>(i + 1)).yy / (-density * g * depth), 1.0,
+                1e-3);
+    springs += density * g * (n - i) / (2.0 * p);
+  }
+  const std::size_t top = column.blocks.vertex_begin[n] + 2;
+  const double settled = column.blocks.vertex_y[top] - column.pose.y[top];
+  EXPECT_NEAR(settled / (density * g * n * n / (2.0 * young) + springs), 1.0, 1e-3);
+}
+
+/// Row 13: semicircular arch of 16 equal voussoirs, thickness over radius given.
+inline std::string arch(double ratio,
+                        const std::string& solver = "duration = 4.0\ndamping = { mass = 0.5 }\n") {
+  const int n = 16;
+  const double radius = 5.0, t = ratio * radius;
+  std::string toml = R"(
+[materials.stone]
+density = 2400.0
+young = 20e9
+poisson = 0.2
+[joints.j]
+friction_angle = 40.0
+[output]
+history_every = 0.01
+[solver]
+)" + solver;
+  auto at_angle = [&](double r, double a) {
+    return "[" + number(r * std::cos(a)) + "," + number(r * std::sin(a)) + "]";
+  };
+  const double inner = radius - t / 2, outer = radius + t / 2;
+  toml += "[[block]]\nfixed = true\npolygon = " + rectangle(inner - 1, -1, outer + 1, 0) + "\n";
+  toml += "[[block]]\nfixed = true\npolygon = " + rectangle(-outer - 1, -1, -inner + 1, 0) + "\n";
+  for (int i = 0; i < n; ++i) {
+    const double a = std::numbers::pi * i / n, b = std::numbers::pi * (i + 1) / n;
+    toml += "[[block]]\npolygon = [" + at_angle(inner, a) + "," + at_angle(outer, a) + "," +
+            at_angle(outer, b) + "," + at_angle(inner, b) + "]\n";
+  }
+  return toml;
+}
+
+/// Row 13: how far the crown sinks, m, stopped beyond 1 m.
+inline double sunk(Simulation& arch) {
+  double most = 0.0;
+  run(arch, [&](Simulation& s) {
+    for (std::size_t i = 2; i < s.blocks.size(); ++i) most = std::max(most, -displacement(s, i).y);
+  });
+  return most;
+}
+
+}  // namespace edda
