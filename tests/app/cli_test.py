@@ -41,7 +41,7 @@ history_every = 0.001
 
 RESULTS = {"summary.json", "history.csv", "blocks.csv", "joints.csv", "blocks.pvd", "contacts.pvd", "frames", "model.toml"}
 SUMMARY = """version title method mass status message blocks contacts time steps time_step critical_time_step governed_by
-open_close step_changes max_penetration energy wall_seconds block_steps_per_second threads checks inputs""".split()
+open_close step_changes step_cuts max_penetration energy wall_seconds block_steps_per_second threads checks inputs""".split()
 
 
 def read_rows(path):
@@ -209,6 +209,24 @@ class Cli(unittest.TestCase):
             results.append([(self.dir / f"t{n}" / f).read_bytes() for f in ("blocks.csv", "joints.csv", "history.csv")])
         self.assertEqual(results[0], results[1])
         self.assertEqual(results[0], results[2])
+
+    def test_implicit_method_runs_the_same_model(self):
+        self.expect(0, "example", "cavern")
+        self.assertNotIn("critical step", self.expect(0, "check", "cavern.toml", "--set", "solver.method=dda").stdout)
+        results = []
+        for n in (1, 2, 7):
+            self.expect(0, "run", "cavern.toml", "--quiet", "-o", f"d{n}", "--threads", str(n), "--set", "solver.method=dda",
+                        "--set", "solver.duration=0.01", "--set", "output.history_every=0.001")
+            results.append([(self.dir / f"d{n}" / f).read_bytes() for f in ("blocks.csv", "joints.csv", "history.csv")])
+        self.assertEqual(results[0], results[1])
+        self.assertEqual(results[0], results[2])
+        summary = json.loads((self.dir / "d1/summary.json").read_text())
+        self.assertEqual((summary["method"], summary["status"]), ("dda", "completed"))
+        self.assertGreater(summary["open_close"]["mean"], 0)
+        static = self.expect(0, "run", "cavern.toml", "--quiet", "-o", "s", "--set", "solver.method=dda",
+                             "--set", "solver.dynamic=false", "--set", "solver.duration=0.05", "--set", "output.history_every=0.05",
+                             "--set", "output.every=0.05")
+        self.assertEqual(json.loads((self.dir / "s/summary.json").read_text())["energy"]["kinetic"], 0)
 
     def test_examples_are_sound_and_never_overwrite(self):
         listed = [line.split()[0] for line in self.expect(0, "example").stdout.splitlines()[1:]]
