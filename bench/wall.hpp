@@ -11,8 +11,9 @@
 
 namespace edda {
 
-/// Bricks of 1 m x 0.5 m, E 20 GPa, contact springs 200 GPa, friction 30 degrees.
-inline std::string wall_model(int columns, int rows) {
+/// Bricks of 1 m x 0.5 m, E 20 GPa, contact springs 200 GPa, friction 30 degrees. `solver`: more
+/// lines of its [solver] table.
+inline std::string wall_model(int columns, int rows, const std::string& solver = {}) {
   const std::string right = std::to_string(columns + 1);
   return R"(
 [materials.brick]
@@ -35,16 +36,16 @@ columns = )" +
 brick = [1.0, 0.5]
 [solver]
 duration = 1000.0
-)";
+)" + solver;
 }
 
 /// Ready for step(); ends the program with the faults if there are any. No event interrupts it.
-inline Simulation wall(int columns, int rows) {
+inline Simulation wall(int columns, int rows, const std::string& solver = {}) {
   const auto stop = [](const Faults& faults) {
     for (const Fault& fault : faults) std::fprintf(stderr, "%s\n", to_string(fault).c_str());
     std::exit(1);
   };
-  Result<Model> model = read_model_text(wall_model(columns, rows), "wall.toml");
+  Result<Model> model = read_model_text(wall_model(columns, rows, solver), "wall.toml");
   if (!model) stop(model.faults());
   Result<Simulation> sim = Simulation::create(std::move(model.value()));
   if (!sim) stop(sim.faults());
