@@ -1,5 +1,7 @@
 // The step of method "dda": Newmark with a global solve in place of the leapfrog. Blocks, contacts,
 // laws and results are the same.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +9,7 @@
 #include "contacts/candidates.hpp"
 #include "contacts/gaps.hpp"
 #include "contacts/shares.hpp"
+#include "run/labels.hpp"
 #include "run/simulation.hpp"
 
 namespace edda {
@@ -30,6 +33,23 @@ double step_within(const BlockSet& b, const State& s, Vec2 gravity, double limit
   // v h + g h^2/2 = limit
   const double root = std::sqrt(speed * speed + 2.0 * norm(gravity) * limit);
   return 2.0 * limit / (speed + root);
+}
+
+/// After the last cut.
+Failure out_of_balance(const Simulation& sim) {
+  const std::vector<double>& error = sim.implicit.error;
+  const auto worst = std::max_element(error.begin(), error.end(), [](double a, double b) {
+    return (std::isnan(a) ? 1e300 : a) < (std::isnan(b) ? 1e300 : b);
+  });
+  Failure f;
+  f.time = sim.state.time;
+  f.block = sim.implicit.block_of[static_cast<std::size_t>(worst - error.begin())];
+  f.place = centroid(sim.state.x, sim.state.y, f.block) + sim.blocks.origin;
+  f.message = fmt::format(
+      "forces and contacts of {} come to no agreement, not even in a step of {:.3g} s: loads or "
+      "stiffnesses are out of proportion: check units, and what the block rests on",
+      block_label(sim.blocks, f.block), sim.state.step);
+  return f;
 }
 
 }  // namespace
@@ -59,7 +79,7 @@ std::optional<Failure> Simulation::step_implicit() {
   settings.mass_damping = solver.damping.mass;
   settings.contact_damping = solver.damping.contact;
   settings.displacement_limit = displacement_limit;
-  constexpr int most_cuts = 60;
+  constexpr int most_cuts = 40;
   for (int cuts = 0;; ++cuts) {
     settings.step = state.step;
     const Attempt attempt =
@@ -69,7 +89,7 @@ std::optional<Failure> Simulation::step_implicit() {
     open_close.switched += implicit.switched;
     if (attempt == Attempt::accepted) break;
     if (attempt == Attempt::unsettled) ++open_close.unsettled;
-    if (cuts == most_cuts) return lost();
+    if (cuts == most_cuts) return out_of_balance(*this);
     step_limit = 0.5 * state.step;
     aim_at(target_);
     ++steps.redone;
