@@ -16,7 +16,7 @@ namespace {
 struct RunArguments {
   std::string model, folder;
   std::vector<std::string> overrides;
-  bool quiet = false;
+  bool quiet = false, resume = false;
 };
 
 std::atomic<bool> stop_asked{false};
@@ -78,6 +78,8 @@ int run(const RunArguments& args) {
   RunOptions options;
   options.folder = folder;
   options.stop = &stop_asked;
+  options.resume = args.resume;
+  options.warn = [](const std::string& w) { fmt::print(stderr, "edda: {}\n", w); };
   if (!args.quiet) options.progress = [&](const Progress& p) { bar.show(p); };
   const Result<Outcome> outcome = run_model(ready, options);
   bar.finish();
@@ -103,7 +105,9 @@ void add_run(CLI::App& app, int& code) {
       "  blocks.csv     every block at the end;  joints.csv: every contact\n"
       "  blocks.pvd, contacts.pvd   time series: open them in ParaView\n"
       "  model.toml     the model as run, every default filled in\n"
-      "Ctrl-C ends a run early and keeps everything so far (exit code 130).");
+      "  checkpoint.h5  where to go on from, every few minutes of a long run\n"
+      "Ctrl-C ends a run early and keeps everything so far (exit code 130); --resume goes on from\n"
+      "there, to the same digits as if it had never stopped.");
   auto args = std::make_shared<RunArguments>();
   command->add_option("MODEL", args->model, "The model, a TOML file")
       ->required()
@@ -112,6 +116,10 @@ void add_run(CLI::App& app, int& code) {
       ->add_option("-o,--output", args->folder,
                    "Folder for the results (default: the model's stem)")
       ->type_name("DIR");
+  command->add_flag(
+      "--resume", args->resume,
+      "Go on from the last checkpoint in the folder; the model must be the same, only "
+      "its duration may grow");
   add_threads(*command);
   add_overrides(*command, args->overrides);
   command->add_flag("--quiet", args->quiet, "No progress, no warnings, no closing words");

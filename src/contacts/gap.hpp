@@ -45,16 +45,29 @@ inline Vec2 normal_of(const ContactSet& c, std::size_t k) {
 /// How far a neighbour of A may reach below the edge, as a part of its distance from A.
 inline constexpr double entrance_slack = 0.1;
 
-/// Entrance cone: both neighbours A' of A satisfy (A' - A).n >= -entrance_slack |A' - A| - margin,
-/// so that the block lies on the outer side of the edge and may touch it with A. margin in m.
+/// Entrance cone: both neighbours A' of A satisfy (A' - A).n >= -(entrance_slack + turn) |A' - A| -
+/// margin, so that the block lies on the outer side of the edge and may touch it with A. margin in
+/// m; turn: how much n itself may change.
 inline bool facing(const BlockSet& b, const std::vector<double>& x, const std::vector<double>& y,
-                   Id vertex, Vec2 n, double margin = 0.0) {
+                   Id vertex, Vec2 n, double margin = 0.0, double turn = 0.0) {
   const Vec2 a = at(x, y, vertex);
   for (Id other : {b.next[vertex], b.previous[vertex]}) {
     const Vec2 u = at(x, y, other) - a;
-    if (dot(u, n) < -entrance_slack * norm(u) - margin) return false;
+    if (dot(u, n) < -(entrance_slack + turn) * norm(u) - margin) return false;
   }
   return true;
+}
+
+/// Whether A may come to face the edge e before any vertex has moved by half of `reach` (m). By
+/// then A' - A has changed by less than reach, and the edge of length l has turned by less than
+/// asin(reach/l), its normal by less than sqrt(2 - 2 sqrt(1 - (reach/l)^2)): beside a long block,
+/// that counts for far more than reach itself.
+inline bool may_face(const BlockSet& b, const std::vector<double>& x, const std::vector<double>& y,
+                     Id vertex, const EdgeFrame& e, double reach) {
+  if (reach >= e.length) return true;
+  const double part = reach / e.length;
+  const double turn = std::sqrt(2.0 - 2.0 * std::sqrt(1.0 - part * part));
+  return facing(b, x, y, vertex, e.normal(), (1.0 + entrance_slack) * reach, turn);
 }
 
 /// Of the two edges that meet at the vertex, the one that lies most against an edge of normal n.

@@ -99,8 +99,7 @@ std::vector<NearPair> near_pairs(const BlockSet& b, const std::vector<std::uint8
         if (other == block || (b.fixed[block] && b.fixed[other])) continue;
         const Vec2 start = at(x, y, e), end = at(x, y, b.next[e]);
         if (distance_to_segment(p, start, end) >= reach) continue;
-        const Vec2 n = outward_normal(unit(end - start));
-        if (facing(b, x, y, vertex, n, 4.0 * reach)) edges.push_back(e);
+        if (may_face(b, x, y, vertex, edge_frame(start, end), reach)) edges.push_back(e);
       }
       std::sort(edges.begin(), edges.end());
       edges.erase(std::unique(edges.begin(), edges.end()), edges.end());

@@ -24,7 +24,7 @@ bool counts(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_
             const EdgeFrame& e) {
   if (c.is(k, contact_state::closed)) return true;
   if (c.why[k] == Blocked::shield) return false;
-  return c.on_edge(k, c.reach) && facing(b, pose.x, pose.y, c.vertex[k], e.normal(), 0.5 * c.reach);
+  return c.on_edge(k, c.reach) && may_face(b, pose.x, pose.y, c.vertex[k], e, c.reach);
 }
 
 std::vector<Part> parts_of(const BlockSet& b, const State& s, const Pose& pose, const ContactSet& c,

@@ -118,13 +118,19 @@ void set_pattern(ImplicitSolver& s, const ImplicitScene& scene, const State& sta
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
   });
+  lay_out(s, scene, columns);
+}
+
+void lay_out(ImplicitSolver& s, const ImplicitScene& scene,
+             const std::vector<std::vector<Id>>& columns) {
+  const BlockSet& b = scene.blocks;
   s.matrix.set_pattern(columns);
   s.linear.forget_pattern();
   s.stiffest.assign(columns.size(), 0.0);
   s.elastic.resize(b.size());
   s.mass.resize(b.size());
-  parallel_for(b.size(), [&](std::size_t i) {
-    if (!is_free(b, state, i)) return;
+  parallel_for(s.block_of.size(), [&](std::size_t row) {
+    const Id i = s.block_of[row];
     s.elastic[i] = elastic_matrix(b, i);
     s.mass[i] = mass_matrix(b, i);
   });

@@ -10,6 +10,10 @@ namespace edda {
 void set_pattern(ImplicitSolver& solver, const ImplicitScene& scene, const State& state,
                  const ContactSet& contacts);
 
+/// The same for a pattern and rows that are known.
+void lay_out(ImplicitSolver& solver, const ImplicitScene& scene,
+             const std::vector<std::vector<Id>>& columns);
+
 /// Fills the matrix. False if a contact has come to carry that the pattern does not know.
 bool assemble(ImplicitSolver& solver, const ImplicitScene& scene, const ImplicitSettings& settings,
               const State& state, const ContactSet& contacts);

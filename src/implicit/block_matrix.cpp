@@ -30,6 +30,22 @@ void BlockMatrix::set_pattern(const std::vector<std::vector<Id>>& columns) {
   outer[6 * rows()] = next;
 }
 
+std::vector<std::vector<Id>> BlockMatrix::pattern() const {
+  std::vector<std::vector<Id>> columns(rows());
+  for (std::size_t r = 0; r < rows(); ++r) {
+    columns[r].assign(column_.begin() + begin_[r], column_.begin() + begin_[r + 1]);
+  }
+  return columns;
+}
+
+std::vector<double> BlockMatrix::values() const {
+  return {scalar_.valuePtr(), scalar_.valuePtr() + scalar_.nonZeros()};
+}
+
+void BlockMatrix::set_values(const std::vector<double>& values) {
+  std::copy(values.begin(), values.end(), scalar_.valuePtr());
+}
+
 Id BlockMatrix::slot(Id r, Id c) const {
   const auto first = column_.begin() + begin_[r], last = column_.begin() + begin_[r + 1];
   const auto found = std::lower_bound(first, last, c);

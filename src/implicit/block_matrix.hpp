@@ -17,6 +17,8 @@ class BlockMatrix {
   /// columns[r]: the columns of row r, ascending, r itself among them. Values become zero.
   void set_pattern(const std::vector<std::vector<Id>>& columns);
 
+  /// As it was given to set_pattern().
+  std::vector<std::vector<Id>> pattern() const;
   std::size_t rows() const { return begin_.empty() ? 0 : begin_.size() - 1; }
   std::size_t blocks() const { return column_.size(); }
   /// Slot of column c in row r, or no_id.
@@ -24,6 +26,9 @@ class BlockMatrix {
   Block at(Id r, Id slot);
   void clear_row(Id r);
   const Scalar& scalar() const { return scalar_; }
+  /// Values in the order of scalar(), for a matrix of the same pattern.
+  std::vector<double> values() const;
+  void set_values(const std::vector<double>& values);
 
  private:
   std::vector<Id> begin_, column_;

@@ -61,7 +61,7 @@ LinearSolver::LinearSolver(LinearSolver&&) noexcept = default;
 LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
 
 void LinearSolver::forget_pattern() {
-  ordered_ = made_ = false;
+  ordered_ = m_.made = false;
 }
 
 double LinearSolver::work_by_factor(const BlockMatrix& a) const {
@@ -78,13 +78,21 @@ static Eigen::Map<const Eigen::SparseMatrix<double>> by_columns(const BlockMatri
   return {m.rows(), m.cols(), m.nonZeros(), m.outerIndexPtr(), m.innerIndexPtr(), m.valuePtr()};
 }
 
+void LinearSolver::order(const BlockMatrix& a) {
+  if (ordered_) return;
+  factor_->analyzePattern(by_columns(a));
+  ++counts_.orderings;
+  ordered_ = true;
+}
+
 bool LinearSolver::factorise(const BlockMatrix& a) {
+  m_.values = a.values();
   factor_->factorize(by_columns(a));
   ++counts_.factorisations;
-  made_ = factor_->info() == Eigen::Success;
-  excess_ = solved_ = 0.0;
-  life_ = factor_->making();
-  return made_;
+  m_.made = factor_->info() == Eigen::Success;
+  m_.excess = m_.solved = 0.0;
+  m_.life = factor_->making();
+  return m_.made;
 }
 
 void LinearSolver::invert_diagonal(BlockMatrix& a) {
@@ -100,7 +108,7 @@ bool LinearSolver::iterate(const BlockMatrix& a, const Vector& b, double toleran
                            Vector& x) {
   const double enough = tolerance * b.norm();
   auto precondition = [&](const Vector& r, Vector& z) {
-    if (with_factor_) {
+    if (m_.with_factor) {
       z = factor_->solve(r);
       return;
     }
@@ -136,54 +144,59 @@ bool LinearSolver::iterate(const BlockMatrix& a, const Vector& b, double toleran
 
 bool LinearSolver::solve_by_factor(const BlockMatrix& a, const Vector& b, double tolerance,
                                    Vector& x) {
-  with_factor_ = true;
-  if (!made_ && !factorise(a)) return false;
+  m_.with_factor = true;
+  if (!m_.made && !factorise(a)) return false;
   const double work = work_by_factor(a);
   const bool solved = iterate(a, b, tolerance, std::max(10.0, 2.0 * factor_->making() / work), x);
-  ++solved_;
-  excess_ += work * std::max(0, last_iterations_ - 1);
-  life_ += work * last_iterations_;
+  ++m_.solved;
+  m_.excess += work * std::max(0, last_iterations_ - 1);
+  m_.life += work * last_iterations_;
   return solved;
 }
 
 bool LinearSolver::solve_by_diagonal(const BlockMatrix& a, const Vector& b, double tolerance,
                                      Vector& x) {
-  with_factor_ = false;
+  m_.with_factor = false;
   const double work = work_by_diagonal(a);
   const double most = std::max(10.0, 2.0 * (factor_->making() + work_by_factor(a)) / work);
   const bool solved = iterate(a, b, tolerance, most, x);
-  by_diagonal_ = work * std::max(1, last_iterations_);
-  rent_ += by_diagonal_ - 2.0 * work_by_factor(a);
+  m_.by_diagonal = work * std::max(1, last_iterations_);
+  m_.rent += m_.by_diagonal - 2.0 * work_by_factor(a);
   return solved;
+}
+
+bool LinearSolver::recall(BlockMatrix& a, SolverMemory memory) {
+  order(a);
+  m_ = std::move(memory);
+  if (!m_.made) return true;
+  a.set_values(m_.values);
+  factor_->factorize(by_columns(a));
+  return factor_->info() == Eigen::Success;
 }
 
 bool LinearSolver::solve(BlockMatrix& a, const Vector& b, double tolerance, Vector& x) {
   ++counts_.solves;
-  if (!ordered_) {
-    factor_->analyzePattern(by_columns(a));
-    ++counts_.orderings;
-    ordered_ = true;
-  }
+  order(a);
   const Vector guess = x;
-  if (!with_factor_) {
+  if (!m_.with_factor) {
     // Rented until the rent has come to the price; a factor that did no better costs more trust.
-    const double patience = per_solve_ > 0.0 ? 20.0 : 1.0;
-    if (rent_ <= patience * factor_->making()) {
+    const double patience = m_.per_solve > 0.0 ? 20.0 : 1.0;
+    if (m_.rent <= patience * factor_->making()) {
       invert_diagonal(a);
       if (solve_by_diagonal(a, b, tolerance, x)) return true;
       x = guess;
     }
-    made_ = false;
-    rent_ = 0.0;
+    m_.made = false;
+    m_.rent = 0.0;
     return solve_by_factor(a, b, tolerance, x);
   }
-  if (made_ && excess_ <= factor_->making() && solve_by_factor(a, b, tolerance, x)) return true;
+  if (m_.made && m_.excess <= factor_->making() && solve_by_factor(a, b, tolerance, x)) return true;
   // The factor has served.
   x = guess;
-  per_solve_ = solved_ > 0.0 ? life_ / solved_ : 0.0;
-  made_ = false;
-  if (by_diagonal_ > 0.0 && by_diagonal_ < per_solve_) {
-    rent_ = 0.0;
+  m_.per_solve = m_.solved > 0.0 ? m_.life / m_.solved : 0.0;
+  m_.made = false;
+  if (m_.by_diagonal > 0.0 && m_.by_diagonal < m_.per_solve) {
+    m_.rent = 0.0;
     invert_diagonal(a);
     if (solve_by_diagonal(a, b, tolerance, x)) return true;
     x = guess;

@@ -21,6 +21,20 @@ struct SolverCounts {
   std::uint64_t orderings = 0;  ///< symbolic factorisations
 };
 
+/// What a solver remembers from solve to solve, so that it can go on elsewhere to the same bits.
+struct SolverMemory {
+  bool made = false;         ///< there is a factor with numbers
+  bool with_factor = false;  ///< preconditioner in use
+  // All in multiplications.
+  double rent = 0.0;         ///< by diagonal blocks, beyond what a factor at hand would have taken
+  double excess = 0.0;       ///< with this factor, beyond one iteration a solve
+  double life = 0.0;         ///< with this factor, its making included
+  double solved = 0.0;       ///< solves with this factor
+  double by_diagonal = 0.0;  ///< the last solve by diagonal blocks, 0: none yet
+  double per_solve = 0.0;    ///< with the factor before, over its life; 0 while there was none
+  std::vector<double> values;  ///< of the matrix that was factorised
+};
+
 class LinearSolver {
  public:
   LinearSolver();
@@ -37,6 +51,9 @@ class LinearSolver {
   /// which for a positive definite matrix means that its numbers are out of range.
   bool solve(BlockMatrix& a, const Eigen::VectorXd& b, double tolerance, Eigen::VectorXd& x);
   const SolverCounts& counts() const { return counts_; }
+  const SolverMemory& memory() const { return m_; }
+  /// Takes up where another has left off; `a` has the pattern in force (its values are lost).
+  bool recall(BlockMatrix& a, SolverMemory memory);
 
  private:
   struct Factor;
@@ -48,6 +65,7 @@ class LinearSolver {
   bool solve_by_factor(const BlockMatrix& a, const Eigen::VectorXd& b, double tolerance,
                        Eigen::VectorXd& x);
   bool factorise(const BlockMatrix& a);
+  void order(const BlockMatrix& a);
   void invert_diagonal(BlockMatrix& a);
   double work_by_factor(const BlockMatrix& a) const;    ///< of one iteration, multiplications
   double work_by_diagonal(const BlockMatrix& a) const;  ///< the same
@@ -55,15 +73,7 @@ class LinearSolver {
   std::unique_ptr<Factor> factor_;
   std::vector<Matrix6> diagonal_;  ///< inverses of the diagonal blocks
   bool ordered_ = false;           ///< the factor knows the pattern
-  bool made_ = false;              ///< and its numbers
-  bool with_factor_ = false;       ///< preconditioner in use
-  // All in multiplications.
-  double rent_ = 0.0;         ///< by diagonal blocks, beyond what a factor at hand would have taken
-  double excess_ = 0.0;       ///< with this factor, beyond one iteration a solve
-  double life_ = 0.0;         ///< with this factor, its making included
-  double solved_ = 0.0;       ///< solves with this factor
-  double by_diagonal_ = 0.0;  ///< the last solve by diagonal blocks, 0: none yet
-  double per_solve_ = 0.0;    ///< with the factor before, over its life; 0 while there was none
+  SolverMemory m_;
   int last_iterations_ = 0;
   SolverCounts counts_;
 };

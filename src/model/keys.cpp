@@ -185,6 +185,7 @@ constexpr std::array solver_keys{
 constexpr std::array output_keys{
     Key{"every", at<&Output::every>, number(D::time, above(0)), otherwise("solver.duration / 20"), "Time between pictures of all blocks."},
     Key{"history_every", at<&Output::history_every>, number(D::time, above(0)), otherwise("solver.duration / 200"), "Time between rows of history.csv."},
+    Key{"checkpoint_every", at<&Output::checkpoint_every>, number(D::plain, above(0)), initial, "Minutes of wall time between checkpoints."},
 };
 
 constexpr Section root_section{"", Shape::root, false, root_keys, "The model as a whole.",

@@ -155,8 +155,9 @@ struct Solver {
 };
 
 struct Output {
-  double every = 0.0;          ///< s; default: duration / 20
-  double history_every = 0.0;  ///< s; default: duration / 200
+  double every = 0.0;             ///< s; default: duration / 20
+  double history_every = 0.0;     ///< s; default: duration / 200
+  double checkpoint_every = 5.0;  ///< minutes of wall time
 };
 
 struct Model {

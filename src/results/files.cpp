@@ -1,5 +1,9 @@
 #include "results/files.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -22,12 +26,16 @@ Fault cannot(const std::string& what, const std::string& path, const std::string
   return fault;
 }
 
+}  // namespace
+
 Fault cannot_write(const std::string& path, int error) {
   const char* remedy = error == ENOSPC || error == EDQUOT
                            ? "free some disk space; what was written before is kept"
                            : "see that the folder may be written to";
   return cannot("written", path, std::strerror(error), remedy);
 }
+
+namespace {
 
 int write_and_close(std::FILE* file, std::string_view content) {
   int error = 0;
@@ -37,9 +45,11 @@ int write_and_close(std::FILE* file, std::string_view content) {
   return error;
 }
 
-constexpr std::array known_files{"summary.json", "history.csv",  "blocks.csv",    "joints.csv",
-                                 "blocks.pvd",   "contacts.pvd", "model.toml",    "checkpoint.h5",
-                                 "stages.csv",   "bolts.csv",    "reactions.csv", "fos.csv"};
+constexpr std::array known_files{"summary.json", "history.csv",   "blocks.csv",
+                                 "joints.csv",   "blocks.pvd",    "contacts.pvd",
+                                 "model.toml",   "checkpoint.h5", "checkpoint.previous.h5",
+                                 "stages.csv",   "bolts.csv",     "reactions.csv",
+                                 "fos.csv"};
 
 bool starts_with_and_is(const std::string& name, std::string_view start, std::string_view end) {
   return name.size() >= start.size() + end.size() && name.starts_with(start) && name.ends_with(end);
@@ -135,6 +145,30 @@ Trouble RowFile::add(std::string_view rows) {
   if (std::fwrite(rows.data(), 1, rows.size(), file_) != rows.size() || std::fflush(file_) != 0) {
     return cannot_write(path_, errno);
   }
+  bytes_ += rows.size();
+  return {};
+}
+
+Trouble RowFile::reopen(const std::string& path, std::uint64_t bytes) {
+  path_ = path;
+  std::error_code error;
+  const auto size = fs::file_size(path, error);
+  if (error || size < bytes) {
+    return cannot("gone on with", path,
+                  error ? error.message() : "it is shorter than when the checkpoint was written",
+                  "run without --resume");
+  }
+  fs::resize_file(path, bytes, error);
+  if (error) return cannot_write(path, error.value());
+  file_ = std::fopen(path.c_str(), "ab");
+  if (file_ == nullptr) return cannot_write(path, errno);
+  bytes_ = bytes;
+  return {};
+}
+
+Trouble RowFile::sync() {
+  if (file_ == nullptr) return {};
+  if (std::fflush(file_) != 0 || ::fsync(::fileno(file_)) != 0) return cannot_write(path_, errno);
   return {};
 }
 
@@ -163,6 +197,7 @@ Trouble check_folder(const std::string& folder, const std::string& input) {
     return cannot("used for results", folder, content.error.message(),
                   "name another folder with -o");
   }
+  if (::access(folder.c_str(), W_OK) != 0) return cannot_write(folder, errno);
   if (content.alien) {
     return cannot("used for results", folder,
                   "it holds " + content.alien->lexically_relative(folder).string() +
@@ -172,10 +207,45 @@ Trouble check_folder(const std::string& folder, const std::string& input) {
   return {};
 }
 
-Trouble clear_folder(const std::string& folder) {
+FolderLock::~FolderLock() {
+  if (handle_ >= 0) ::close(handle_);
+}
+
+Trouble FolderLock::take(const std::string& folder) {
+  handle_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (handle_ < 0)
+    return cannot("used for results", folder, std::strerror(errno), "name another with -o");
+  if (::flock(handle_, LOCK_EX | LOCK_NB) == 0) return {};
+  if (errno != EWOULDBLOCK) return {};  // a file system without locks
+  return cannot("used for results", folder, "another run is writing to it",
+                "wait for it, or name another folder with -o");
+}
+
+Trouble make_folder(const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return cannot("made", folder, error.message(), "name another folder with -o");
+  return {};
+}
+
+Trouble forget_end(const std::string& folder, std::size_t frames) {
+  std::error_code error;
+  for (const char* name : {"summary.json", "blocks.csv", "joints.csv"}) {
+    fs::remove(fs::path(folder) / name, error);
+  }
+  const Content content = content_of(folder);
+  for (const fs::path& file : content.files) {
+    const std::string name = file.filename().string();
+    const auto digits = name.find_first_of("0123456789");
+    if (file.extension() != ".vtu" || digits == name.npos) continue;
+    if (std::stoull(name.substr(digits)) >= frames) fs::remove(file, error);
+  }
+  return {};
+}
+
+Trouble clear_folder(const std::string& folder) {
+  if (auto t = make_folder(folder)) return t;
+  std::error_code error;
   // The summary goes first: its presence says that a run has ended.
   fs::remove(fs::path(folder) / "summary.json", error);
   const Content content = content_of(folder);

@@ -138,14 +138,35 @@ Grid contact_grid(const Picture& picture) {
 FrameSeries::FrameSeries(std::string folder, const BlockSet& blocks)
     : folder_(std::move(folder)), cells_(block_cells(blocks)) {}
 
-Trouble FrameSeries::add(const Picture& picture) {
+std::vector<double> FrameSeries::times() const {
+  std::vector<double> times;
+  for (const SeriesEntry& e : blocks_) times.push_back(e.time);
+  return times;
+}
+
+void FrameSeries::go_on_after(const std::vector<double>& times) {
+  blocks_.clear();
+  contacts_.clear();
+  for (const double t : times) enter(t);
+}
+
+void FrameSeries::enter(double time) {
   const std::string number = fmt::format("{:06}", blocks_.size());
-  const SeriesEntry blocks{picture.time, "frames/blocks_" + number + ".vtu"};
-  const SeriesEntry contacts{picture.time, "frames/contacts_" + number + ".vtu"};
-  if (auto t = write_vtu(folder_ + "/" + blocks.file, block_grid(cells_, picture))) return t;
-  if (auto t = write_vtu(folder_ + "/" + contacts.file, contact_grid(picture))) return t;
-  blocks_.push_back(blocks);
-  contacts_.push_back(contacts);
+  blocks_.push_back({time, "frames/blocks_" + number + ".vtu"});
+  contacts_.push_back({time, "frames/contacts_" + number + ".vtu"});
+}
+
+Trouble FrameSeries::add(const Picture& picture) {
+  enter(picture.time);
+  const std::string blocks = folder_ + "/" + blocks_.back().file;
+  const std::string contacts = folder_ + "/" + contacts_.back().file;
+  Trouble trouble = write_vtu(blocks, block_grid(cells_, picture));
+  if (!trouble) trouble = write_vtu(contacts, contact_grid(picture));
+  if (trouble) {
+    blocks_.pop_back();
+    contacts_.pop_back();
+    return trouble;
+  }
   if (auto t = write_pvd(folder_ + "/blocks.pvd", blocks_)) return t;
   return write_pvd(folder_ + "/contacts.pvd", contacts_);
 }

@@ -34,8 +34,12 @@ class FrameSeries {
  public:
   FrameSeries(std::string folder, const BlockSet& blocks);
   Trouble add(const Picture& picture);
+  /// Times of the frames so far, s; and to go on after frames that are there.
+  std::vector<double> times() const;
+  void go_on_after(const std::vector<double>& times);
 
  private:
+  void enter(double time);
   std::string folder_;
   BlockCells cells_;
   std::vector<SeriesEntry> blocks_, contacts_;

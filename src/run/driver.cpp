@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "run/labels.hpp"
 
@@ -97,35 +98,59 @@ std::string likely_cause(const Simulation& sim) {
 }
 
 Driver::Driver(PreparedRun& run, const RunOptions& options)
-    : run_(run), sim_(run.sim), options_(options), recorder_(options.folder) {}
+    : run_(run),
+      sim_(run.sim),
+      options_(options),
+      recorder_(options.folder),
+      times_(run.sim.model.solver.duration, run.sim.model.output.history_every,
+             run.sim.model.output.every) {}
 
 Outcome Driver::run() {
-  started_ = reported_ = Clock::now();
-  outcome_.critical_step = sim_.bound.critical_step;
-  if (!ended_by(recorder_.begin(sim_, run_.monitors))) go();
+  started_ = reported_ = saved_ = Clock::now();
+  try {
+    if (resumed_) {
+      go_on();
+    } else {
+      outcome_.critical_step = sim_.bound.critical_step;
+      if (!ended_by(recorder_.begin(sim_, run_.monitors))) go();
+    }
+  } catch (const std::bad_alloc&) {
+    end(Status::failed,
+        "out of memory: close other programs, write fewer frames, or run a smaller model");
+  }
   write_end();
   return outcome_;
 }
 
 void Driver::go() {
-  const Model& m = sim_.model;
-  EventTimes times(m.solver.duration, m.output.history_every, m.output.every);
-  const Event first = times.next();
-  Event event = times.next();
-  sim_.start(event.time);
+  const Event first = times_.next();
+  event_ = times_.next();
+  sim_.start(event_.time);
   count_turns(sim_, angle_);
   if (!record(first)) return;
+  sim_.aim_at(event_.time);
+  go_on();
+}
+
+void Driver::go_on() {
   while (true) {
-    sim_.aim_at(event.time);
-    if (!step_to(event.time) || !record(event)) return;
-    if (event.end) return end(Status::completed, "the run has reached its duration");
-    event = times.next();
+    if (!step_to(event_.time) || !record(event_)) return;
+    if (event_.end) return end(Status::completed, "the run has reached its duration");
+    event_ = times_.next();
+    sim_.aim_at(event_.time);
   }
+}
+
+void Driver::write_checkpoint_if_due() {
+  constexpr std::uint64_t look = 16;  // steps: the clock is not free
+  if (!recorder_.writes() || sim_.state.steps % look != 0) return;
+  if (since(saved_) >= 60.0 * sim_.model.output.checkpoint_every) save_checkpoint();
 }
 
 bool Driver::step_to(double time) {
   while (sim_.state.time < time) {
     if (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed)) {
+      if (recorder_.writes()) save_checkpoint();
       end(Status::interrupted, fmt::format("stopped at {:.6g} s of {:.6g} s", sim_.state.time,
                                            sim_.model.solver.duration));
       return false;
@@ -143,6 +168,7 @@ bool Driver::step_to(double time) {
       count_turns(sim_, angle_);
       measure_overlaps();
     }
+    write_checkpoint_if_due();
     if (options_.progress && since(reported_) >= options_.progress_every) report(false);
   }
   return true;
@@ -246,7 +272,7 @@ void Driver::write_end() {
   outcome_.wall.output += since(start);
   outcome_.wall.cut = run_.cut_seconds;
   share_out_time();
-  outcome_.wall.total = since(started_) + run_.cut_seconds;
+  outcome_.wall.total = wall_before_ + since(started_) + run_.cut_seconds;
   const Trouble trouble = recorder_.summary(sim_, outcome_, run_.governed_by);
   if (trouble && !disk_trouble_) {  // else the first file that could not be written says why
     outcome_.status = Status::failed;

@@ -19,6 +19,13 @@ class EventTimes {
   /// The event after the last one given; the first is t = 0. Precondition: the end has not been
   /// given.
   Event next();
+  /// Multiples of both intervals that come next, and to go on from there.
+  std::uint64_t next_row() const { return row_; }
+  std::uint64_t next_frame() const { return frame_; }
+  void go_on_from(std::uint64_t row, std::uint64_t frame) {
+    row_ = row;
+    frame_ = frame;
+  }
 
  private:
   double duration_, row_every_, frame_every_;

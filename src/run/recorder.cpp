@@ -28,12 +28,28 @@ Trouble Recorder::begin(const Simulation& sim, const std::vector<MonitorPoint>& 
   // What the model was read from; a model built in memory has no file to name.
   const Result<std::string> input = read_file(sim.model.file);
   if (input.ok()) input_hash_ = sha256(input.value());
+  if (auto t = make_folder(folder_)) return t;
+  if (auto t = lock_.take(folder_)) return t;
   if (auto t = clear_folder(folder_)) return t;
   if (auto t = write_file(path("model.toml"), to_toml(sim.model))) return t;
   if (auto t = history_.open(path("history.csv"))) return t;
   if (auto t = history_.add(history_header(monitors))) return t;
   frames_.emplace(folder_, sim.blocks);
   return {};
+}
+
+RecorderMemory Recorder::memory() const {
+  return {history_.bytes(), frames_ ? frames_->times() : std::vector<double>{}, input_hash_};
+}
+
+Trouble Recorder::resume(const Simulation& sim, const RecorderMemory& memory) {
+  if (!writes()) return {};
+  if (auto t = lock_.take(folder_)) return t;
+  input_hash_ = memory.input_hash;
+  if (auto t = history_.reopen(path("history.csv"), memory.history_bytes)) return t;
+  frames_.emplace(folder_, sim.blocks);
+  frames_->go_on_after(memory.frame_times);
+  return forget_end(folder_, memory.frame_times.size());
 }
 
 Trouble Recorder::row(const Simulation& sim, const Instant& at,

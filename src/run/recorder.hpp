@@ -1,6 +1,7 @@
 // The results folder of a run, filled as it goes.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,13 @@
 
 namespace edda {
 
+/// How far the files of a run had come.
+struct RecorderMemory {
+  std::uint64_t history_bytes = 0;
+  std::vector<double> frame_times;  ///< s
+  std::string input_hash;
+};
+
 class Recorder {
  public:
   /// With an empty folder nothing is ever written.
@@ -19,6 +27,12 @@ class Recorder {
 
   /// Makes or empties the folder; model.toml and the head of history.csv.
   Trouble begin(const Simulation& sim, const std::vector<MonitorPoint>& monitors);
+  /// Goes on with a folder as it was when a checkpoint was written: history.csv cut to its length
+  /// then, frames that came later forgotten.
+  Trouble resume(const Simulation& sim, const RecorderMemory& memory);
+  RecorderMemory memory() const;
+  /// Brings to the disk what a checkpoint relies on.
+  Trouble sync() { return history_.sync(); }
   Trouble row(const Simulation& sim, const Instant& at, const std::vector<MonitorPoint>& monitors,
               const Ledger& ledger, double unbalanced);
   Trouble frame(const Picture& picture);
@@ -31,6 +45,7 @@ class Recorder {
  private:
   std::string path(const char* name) const { return folder_ + "/" + name; }
   std::string folder_, input_hash_;
+  FolderLock lock_;
   RowFile history_;
   std::optional<FrameSeries> frames_;
 };

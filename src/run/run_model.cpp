@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "checkpoint/envelope.hpp"
+#include "checkpoint/hdf5_image.hpp"
 #include "run/driver.hpp"
 #include "run/guard_rails.hpp"
 
@@ -55,7 +57,22 @@ Result<Outcome> run_model(PreparedRun& run, const RunOptions& options) {
   if (!options.folder.empty()) {
     if (auto trouble = check_folder(options.folder, run.sim.model.file)) return *trouble;
   }
-  return Driver(run, options).run();
+  Driver driver(run, options);
+  if (options.resume) {
+    std::string warning;
+    const Result<std::string> image = read_checkpoint(options.folder, warning);
+    if (!image.ok()) return image.faults();
+    if (!warning.empty() && options.warn) options.warn(warning);
+    Result<Record> record = from_hdf5(image.value());
+    if (!record.ok()) {
+      record = Fault{{{}, options.folder, 0, 0},
+                     "its checkpoint " + record.faults().front().problem,
+                     "run without --resume"};
+      return record.faults();
+    }
+    if (auto trouble = driver.take_up(record.value())) return *trouble;
+  }
+  return driver.run();
 }
 
 }  // namespace edda

@@ -77,6 +77,10 @@ struct Simulation {
   bool explicit_method() const { return model.solver.method == Method::edda; }
 
  private:
+  /// Names every field that a checkpoint holds (run/simulation_memory.cpp).
+  template <class Archive>
+  friend void list_memory(Archive& archive, Simulation& sim);
+
   void place_all();
   void start_implicit();
   std::optional<Failure> step_implicit();

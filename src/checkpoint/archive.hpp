@@ -1,0 +1,129 @@
+// One list of fields, read in two ways. A function template `list(archive, object)` names every
+// field of an object once; Saver copies them into a Record, Loader back out of it. So what is
+// written and what is read can never differ.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "checkpoint/record.hpp"
+
+namespace edda {
+
+namespace archive {
+
+/// Type in which a number is kept: enumerations and bool as bytes.
+template <class T, bool = std::is_enum_v<T>>
+struct Kept {
+  using type = T;
+};
+template <class T>
+struct Kept<T, true> {
+  using type = std::underlying_type_t<T>;
+};
+template <>
+struct Kept<bool, false> {
+  using type = std::uint8_t;
+};
+
+}  // namespace archive
+
+class Saver {
+ public:
+  explicit Saver(Record& record) : record_(record) {}
+  static constexpr bool loads = false;
+
+  template <class T>
+  void operator()(const std::string& name, const std::vector<T>& values) {
+    using K = typename archive::Kept<T>::type;
+    std::vector<K> kept;
+    kept.reserve(values.size());
+    for (const T& v : values) kept.push_back(static_cast<K>(v));
+    record_[name] = std::move(kept);
+  }
+  template <class T, std::size_t n>
+  void operator()(const std::string& name, const std::array<std::vector<T>, n>& values) {
+    for (std::size_t k = 0; k < n; ++k) (*this)(name + std::to_string(k), values[k]);
+  }
+  void operator()(const std::string& name, const std::string& text) { record_[name] = text; }
+  template <class T>
+  void operator()(const std::string& name, const std::optional<T>& value) {
+    (*this)(name, value ? std::vector<T>{*value} : std::vector<T>{});
+  }
+  template <class T>
+  requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void operator()(const std::string& name,
+                                                                         const T& value) {
+    using K = typename archive::Kept<T>::type;
+    record_[name] = std::vector<K>{static_cast<K>(value)};
+  }
+
+ private:
+  Record& record_;
+};
+
+class Loader {
+ public:
+  explicit Loader(const Record& record) : record_(record) {}
+  static constexpr bool loads = true;
+
+  /// What was missing or of another kind, empty if nothing was. Such fields are left as they are.
+  const std::string& flaw() const { return flaw_; }
+
+  template <class T>
+  void operator()(const std::string& name, std::vector<T>& values) {
+    using K = typename archive::Kept<T>::type;
+    const std::vector<K>* kept = find<std::vector<K>>(name);
+    if (kept == nullptr) return;
+    values.clear();
+    values.reserve(kept->size());
+    for (const K v : *kept) values.push_back(static_cast<T>(v));
+  }
+  template <class T, std::size_t n>
+  void operator()(const std::string& name, std::array<std::vector<T>, n>& values) {
+    for (std::size_t k = 0; k < n; ++k) (*this)(name + std::to_string(k), values[k]);
+  }
+  void operator()(const std::string& name, std::string& text) {
+    if (const std::string* kept = find<std::string>(name)) text = *kept;
+  }
+  template <class T>
+  void operator()(const std::string& name, std::optional<T>& value) {
+    std::vector<T> kept;
+    (*this)(name, kept);
+    value.reset();
+    if (!kept.empty()) value = kept.front();
+  }
+  template <class T>
+  requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void operator()(const std::string& name,
+                                                                         T& value) {
+    using K = typename archive::Kept<T>::type;
+    const std::vector<K>* kept = find<std::vector<K>>(name);
+    if (kept == nullptr) return;
+    if (kept->size() != 1) {
+      note(name + " is no single number");
+      return;
+    }
+    value = static_cast<T>(kept->front());
+  }
+
+ private:
+  void note(std::string what) {
+    if (flaw_.empty()) flaw_ = std::move(what);
+  }
+  template <class V>
+  const V* find(const std::string& name) {
+    const auto it = record_.find(name);
+    const V* value = it == record_.end() ? nullptr : std::get_if<V>(&it->second);
+    if (value == nullptr)
+      note(name + (it == record_.end() ? " is missing" : " is of another kind"));
+    return value;
+  }
+
+  const Record& record_;
+  std::string flaw_;
+};
+
+}  // namespace edda

@@ -1,0 +1,30 @@
+// The file round the image: an HDF5 user block of 512 bytes with what the file is, its length and a
+// hash of the rest, checked before anything else reads it. HDF5's own tools skip the block.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "base/fault.hpp"
+#include "results/files.hpp"
+
+namespace edda {
+
+inline constexpr std::size_t envelope_size = 512;
+
+/// The user block for this image.
+std::string seal(std::string_view image);
+
+/// The image inside a whole file, or what is wrong with the file. A view into `file`.
+Result<std::string_view> open_sealed(std::string_view file);
+
+/// Writes the sealed image to `folder`/checkpoint.h5, through a temporary file and to the disk
+/// itself; the one before it becomes checkpoint.previous.h5. Whatever happens, one of them is
+/// whole.
+Trouble write_checkpoint(const std::string& folder, std::string_view image);
+
+/// The image of `folder`/checkpoint.h5, or where that is damaged or missing of
+/// checkpoint.previous.h5; `warning` then says so. Faults: neither can be used.
+Result<std::string> read_checkpoint(const std::string& folder, std::string& warning);
+
+}  // namespace edda

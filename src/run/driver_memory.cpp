@@ -1,0 +1,154 @@
+// Checkpoints of a run: the simulation's memory, the driver's own, and how far the files had come.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "checkpoint/archive.hpp"
+#include "checkpoint/envelope.hpp"
+#include "checkpoint/hdf5_image.hpp"
+#include "model/write_model.hpp"
+#include "results/version.hpp"
+#include "run/driver.hpp"
+#include "run/simulation_memory.hpp"
+
+namespace edda {
+namespace {
+
+/// The model's text but for what may change between a run and its resumption.
+std::string identity(const Model& model) {
+  Model m = model;
+  m.title.clear();
+  m.solver.duration = 1.0;
+  m.output.checkpoint_every = 1.0;
+  return to_toml(m);
+}
+
+/// The first line in which two texts differ.
+std::string difference(std::string_view now, std::string_view then) {
+  while (!now.empty()) {
+    const auto line = now.substr(0, now.find('\n'));
+    if (!then.starts_with(line) || then.substr(0, then.find('\n')) != line)
+      return std::string(line);
+    now.remove_prefix(std::min(now.size(), line.size() + 1));
+    then.remove_prefix(std::min(then.size(), line.size() + 1));
+  }
+  return std::string(then.substr(0, then.find('\n')));
+}
+
+Fault refused(const std::string& folder, std::string problem, std::string remedy) {
+  return {{{}, folder, 0, 0}, std::move(problem), std::move(remedy)};
+}
+
+}  // namespace
+
+template <class Archive>
+void Driver::list(Archive& a) {
+  RecorderMemory files = recorder_.memory();
+  a("files.history_bytes", files.history_bytes);
+  a("files.frame_times", files.frame_times);
+  a("files.input_hash", files.input_hash);
+  std::uint64_t row = times_.next_row(), frame = times_.next_frame();
+  a("events.next_row", row);
+  a("events.next_frame", frame);
+  a("events.time", event_.time);
+  a("events.row", event_.row);
+  a("events.frame", event_.frame);
+  a("events.end", event_.end);
+  a("driver.angle", angle_);
+  a("driver.last_row", last_row_);
+  a("driver.last_frame", last_frame_);
+  a("outcome.largest_drift", outcome_.largest_drift);
+  a("outcome.unbalanced", outcome_.unbalanced);
+  a("outcome.overlap_over_edge", outcome_.overlap_over_edge);
+  a("outcome.critical_step", outcome_.critical_step);
+  a("outcome.step_over_critical", outcome_.step_over_critical);
+  a("outcome.reaction_error", outcome_.reaction_error);
+  a("outcome.stepping", outcome_.wall.stepping);
+  a("outcome.output", outcome_.wall.output);
+  Ledger& l = outcome_.ledger;
+  for (const auto& [name, value] : {std::pair{"kinetic", &l.kinetic},
+                                    {"strain", &l.strain},
+                                    {"contact", &l.contact},
+                                    {"gravity", &l.gravity},
+                                    {"friction", &l.friction},
+                                    {"damping", &l.damping},
+                                    {"fracture", &l.fracture},
+                                    {"external", &l.external},
+                                    {"step_change", &l.step_change},
+                                    {"drift", &l.drift}}) {
+    a(std::string("ledger.") + name, *value);
+  }
+  double wall = wall_before_ + std::chrono::duration<double>(Clock::now() - started_).count();
+  a("driver.wall", wall);
+  if constexpr (Archive::loads) {
+    wall_before_ = wall;
+    times_.go_on_from(row, frame);
+    files_ = std::move(files);
+  }
+}
+
+void Driver::save_checkpoint() {
+  saved_ = Clock::now();
+  Record record;
+  record["version"] = std::string(version);
+  record["model"] = identity(sim_.model);
+  Saver saver(record);
+  list(saver);
+  remember(sim_, record);
+  Trouble trouble = recorder_.sync();
+  if (!trouble) trouble = write_checkpoint(options_.folder, to_hdf5(record));
+  // The run is worth more than its checkpoint: it goes on, and the one before stays.
+  if (trouble && options_.warn) options_.warn("no checkpoint: " + to_string(*trouble));
+}
+
+Trouble Driver::take_up(const Record& record) {
+  Loader loader(record);
+  std::string by, model;
+  loader("version", by);
+  loader("model", model);
+  const std::string& folder = options_.folder;
+  if (!loader.flaw().empty()) {
+    return refused(folder, "holds no checkpoint of a run: " + loader.flaw(),
+                   "run without --resume");
+  }
+  if (by != version) {
+    return refused(folder, "its checkpoint is of version " + by + ", this is " + std::string(version),
+                   "resume with that version, or run without --resume");
+  }
+  if (const std::string now = identity(sim_.model); now != model) {
+    return refused(
+        folder,
+        "the model is not the one of the checkpoint; first difference: " + difference(now, model),
+        "resume with the model as it was (model.toml in that folder), or run without "
+        "--resume");
+  }
+  list(loader);
+  std::string flaw = loader.flaw();
+  if (flaw.empty()) flaw = recall(sim_, record);
+  if (flaw.empty() && angle_.size() != sim_.blocks.size() && !angle_.empty()) {
+    flaw = "driver.angle has another size than the model asks for";
+  }
+  if (flaw.empty() && sim_.state.time >= sim_.model.solver.duration) {
+    return refused(folder,
+                   fmt::format("its checkpoint is at {:.6g} s, the duration is {:.6g} s",
+                               sim_.state.time, sim_.model.solver.duration),
+                   "give a longer solver.duration");
+  }
+  if (!flaw.empty()) {
+    return refused(folder, "its checkpoint does not fit the model: " + flaw,
+                   "run without --resume");
+  }
+  started_ = Clock::now();
+  resumed_ = true;
+  // Where the duration has changed, so has what comes next.
+  if (event_.end || event_.time > sim_.model.solver.duration) {
+    times_.go_on_from(times_.next_row() - (event_.row ? 1 : 0),
+                      times_.next_frame() - (event_.frame ? 1 : 0));
+    const Event next = times_.next();
+    if (next.time != event_.time) sim_.aim_at(next.time);
+    event_ = next;
+  }
+  return recorder_.resume(sim_, files_);
+}
+
+}  // namespace edda

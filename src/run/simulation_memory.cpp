@@ -1,0 +1,372 @@
+#include "run/simulation_memory.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "checkpoint/archive.hpp"
+#include "implicit/assemble.hpp"
+
+namespace edda {
+namespace {
+
+template <class Archive>
+void list_contacts(Archive& a, ContactSet& c) {
+  a("contacts.vertex", c.vertex);
+  a("contacts.edge", c.edge);
+  a("contacts.edge_end", c.edge_end);
+  a("contacts.block_i", c.block_i);
+  a("contacts.block_j", c.block_j);
+  a("contacts.law", c.law);
+  a("contacts.extend_start", c.extend_start);
+  a("contacts.extend_end", c.extend_end);
+  a("contacts.depth", c.depth);
+  a("contacts.depth_1", c.depth_1);
+  a("contacts.depth_2", c.depth_2);
+  a("contacts.foot", c.foot);
+  a("contacts.span", c.span);
+  a("contacts.tx", c.tx);
+  a("contacts.ty", c.ty);
+  a("contacts.share", c.share);
+  a("contacts.before", c.before);
+  a("contacts.beyond", c.beyond);
+  a("contacts.stirs", c.stirs);
+  a("contacts.deepest", c.deepest);
+  a("contacts.state", c.state);
+  a("contacts.rest", c.rest);
+  a("contacts.anchor", c.anchor);
+  a("contacts.kn", c.kn);
+  a("contacts.ks", c.ks);
+  a("contacts.length", c.length);
+  a("contacts.friction", c.friction);
+  a("contacts.cohesion", c.cohesion);
+  a("contacts.tension", c.tension);
+  a("contacts.alpha", c.alpha);
+  a("contacts.normal", c.normal);
+  a("contacts.shear", c.shear);
+  a("contacts.shear_1", c.shear_1);
+  a("contacts.slip_trial", c.slip_trial);
+  a("contacts.dashpot", c.dashpot);
+  a("contacts.friction_work", c.friction_work);
+  a("contacts.damping_work", c.damping_work);
+  a("contacts.fracture_work", c.fracture_work);
+  a("contacts.fx", c.fx);
+  a("contacts.fy", c.fy);
+  a("contacts.gx", c.gx);
+  a("contacts.gy", c.gy);
+  a("contacts.why", c.why);
+  a("contacts.blocked", c.blocked);
+  a("contacts.paired", c.paired);
+  a("contacts.pair_of", c.pair_of);
+  a("contacts.begin_of_vertex", c.begin_of_vertex);
+  a("contacts.block_begin", c.block_begin);
+  a("contacts.block_entry", c.block_entry);
+  a("contacts.built_x", c.built_x);
+  a("contacts.built_y", c.built_y);
+  a("contacts.reach", c.reach);
+  a("contacts.travel", c.travel);
+  a("contacts.built_at", c.built_at);
+  a("contacts.rebuilds", c.rebuilds);
+  a("contacts.retired_friction", c.retired_friction);
+  a("contacts.retired_damping", c.retired_damping);
+  a("contacts.retired_fracture", c.retired_fracture);
+}
+
+/// Pairs and segments as flat arrays.
+template <class Archive>
+void list_groups(Archive& a, ContactSet& c) {
+  std::vector<Id> first, second, members, ends;
+  std::vector<bool> first_at_start, second_at_start;
+  std::vector<double> reach;
+  for (const CornerPair& p : c.pairs) {
+    first.push_back(p.first);
+    second.push_back(p.second);
+    first_at_start.push_back(p.first_at_start);
+    second_at_start.push_back(p.second_at_start);
+    reach.push_back(p.reach);
+  }
+  for (const Segment& s : c.segments) {
+    members.insert(members.end(), s.members.begin(), s.members.end());
+    ends.push_back(static_cast<Id>(members.size()));
+  }
+  a("pairs.first", first);
+  a("pairs.second", second);
+  a("pairs.first_at_start", first_at_start);
+  a("pairs.second_at_start", second_at_start);
+  a("pairs.reach", reach);
+  a("segments.members", members);
+  a("segments.ends", ends);
+  if constexpr (Archive::loads) {
+    c.pairs.clear();
+    const std::size_t n = std::min(
+        {first.size(), second.size(), first_at_start.size(), second_at_start.size(), reach.size()});
+    for (std::size_t k = 0; k < n; ++k) {
+      c.pairs.push_back({first[k], second[k], first_at_start[k], second_at_start[k], reach[k]});
+    }
+    c.segments.clear();
+    std::size_t begin = 0;
+    for (const Id end : ends) {
+      if (end < begin || end > members.size()) break;
+      const auto from = members.begin() + static_cast<std::ptrdiff_t>(begin);
+      c.segments.push_back({{from, members.begin() + static_cast<std::ptrdiff_t>(end)}});
+      begin = end;
+    }
+  }
+}
+
+template <class Archive>
+void list_state(Archive& a, Simulation& s) {
+  a("state.x", s.state.x);
+  a("state.y", s.state.y);
+  a("state.vx", s.state.vx);
+  a("state.vy", s.state.vy);
+  a("state.alive", s.state.alive);
+  a("state.turns", s.state.turns);
+  a("state.time", s.state.time);
+  a("state.step", s.state.step);
+  a("state.steps", s.state.steps);
+  a("pose.x", s.pose.x);
+  a("pose.y", s.pose.y);
+  a("pose.x1", s.pose.x1);
+  a("pose.y1", s.pose.y1);
+  a("damping_work", s.damping_work.joules);
+  a("forces.x", s.forces.x);
+  a("forces.y", s.forces.y);
+}
+
+template <class Archive>
+void list_counts(Archive& a, Simulation& s) {
+  a("bound.critical_step", s.bound.critical_step);
+  a("bound.likely_step", s.bound.likely_step);
+  a("bound.block", s.bound.block);
+  a("bound.contact", s.bound.contact);
+  a("bound.elastic_part", s.bound.elastic_part);
+  a("bound.contact_part", s.bound.contact_part);
+  a("bound.boundary_part", s.bound.boundary_part);
+  a("step_limit", s.step_limit);
+  a("last_displacement", s.last_displacement);
+  a("penetration", s.penetration);
+  a("max_penetration", s.max_penetration);
+  a("step_change_energy", s.step_change_energy);
+  a("steps.smallest", s.steps.smallest);
+  a("steps.largest", s.steps.largest);
+  a("steps.sum", s.steps.sum);
+  a("steps.changes", s.steps.changes);
+  a("steps.over_critical", s.steps.over_critical);
+  a("steps.redone", s.steps.redone);
+  a("open_close.steps", s.open_close.steps);
+  a("open_close.passes", s.open_close.passes);
+  a("open_close.most", s.open_close.most);
+  a("open_close.switched", s.open_close.switched);
+  a("open_close.unsettled", s.open_close.unsettled);
+  a("seconds.search", s.seconds.search);
+  a("seconds.forces", s.seconds.forces);
+  a("seconds.integrate", s.seconds.integrate);
+  a("start_energy", s.start_energy);
+  a("largest_energy", s.largest_energy);
+}
+
+/// Rows and columns within the model, each row with itself and sorted; else nothing is taken up.
+void take_up(Simulation& s, const std::vector<Id>& column, const std::vector<Id>& ends,
+             SolverMemory memory) {
+  ImplicitSolver& solver = s.implicit;
+  const std::size_t rows = solver.block_of.size();
+  if (rows == 0 || ends.size() != rows) return;
+  std::vector<std::vector<Id>> columns(rows);
+  solver.row_of.assign(s.blocks.size(), no_id);
+  std::size_t begin = 0;
+  for (std::size_t r = 0; r < rows; ++r) {
+    if (ends[r] < begin || ends[r] > column.size() || solver.block_of[r] >= s.blocks.size()) return;
+    columns[r].assign(column.begin() + static_cast<std::ptrdiff_t>(begin),
+                      column.begin() + static_cast<std::ptrdiff_t>(ends[r]));
+    begin = ends[r];
+    const bool sorted = std::is_sorted(columns[r].begin(), columns[r].end());
+    const bool own = std::binary_search(columns[r].begin(), columns[r].end(), static_cast<Id>(r));
+    if (!sorted || !own || columns[r].back() >= rows) return;
+    solver.row_of[solver.block_of[r]] = static_cast<Id>(r);
+  }
+  lay_out(solver, {s.blocks, s.laws, s.springs, s.model.gravity}, columns);
+  if (memory.made && memory.values.size() != 36 * column.size()) return;
+  solver.linear.recall(solver.matrix, std::move(memory));
+}
+
+/// The implicit method: its guess, and the factor that its solver keeps.
+template <class Archive>
+void list_implicit(Archive& a, Simulation& s) {
+  ImplicitSolver& solver = s.implicit;
+  a("implicit.drift_x", solver.drift_x);
+  a("implicit.drift_y", solver.drift_y);
+  a("implicit.block_of", solver.block_of);
+  a("implicit.pattern_of", solver.pattern_of);
+  std::vector<Id> column, ends;
+  for (const std::vector<Id>& row : solver.matrix.pattern()) {
+    column.insert(column.end(), row.begin(), row.end());
+    ends.push_back(static_cast<Id>(column.size()));
+  }
+  a("implicit.column", column);
+  a("implicit.ends", ends);
+  SolverMemory m = solver.linear.memory();
+  a("solver.made", m.made);
+  a("solver.with_factor", m.with_factor);
+  a("solver.rent", m.rent);
+  a("solver.excess", m.excess);
+  a("solver.life", m.life);
+  a("solver.solved", m.solved);
+  a("solver.by_diagonal", m.by_diagonal);
+  a("solver.per_solve", m.per_solve);
+  a("solver.values", m.values);
+  if constexpr (Archive::loads) take_up(s, column, ends, std::move(m));
+}
+
+/// The first thing that would lead out of an array, or to no number.
+class Judge {
+ public:
+  const std::string& flaw() const { return flaw_; }
+  template <class T>
+  void sized(const char* name, const std::vector<T>& values, std::size_t n) {
+    if (values.size() != n) note(name, "has another size than the model asks for");
+  }
+  void below(const char* name, const std::vector<Id>& values, std::size_t n, bool none = false) {
+    for (const Id v : values) {
+      if (v >= n && !(none && v == no_id)) return note(name, "points to what is not there");
+    }
+  }
+  void rising(const char* name, const std::vector<Id>& values, std::size_t last) {
+    const bool good = !values.empty() && values.front() == 0 && values.back() == last &&
+                      std::is_sorted(values.begin(), values.end());
+    if (!good) note(name, "is no list of beginnings");
+  }
+  void positive(const char* name, double value) {
+    if (!(value > 0.0)) note(name, "is not above zero");
+  }
+
+ private:
+  void note(const char* name, const char* what) {
+    if (flaw_.empty()) flaw_ = std::string(name) + " " + what;
+  }
+  std::string flaw_;
+};
+
+void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawTable& laws) {
+  const std::size_t nc = c.size(), nv = b.vertex_count();
+  const std::size_t chunks = (nc + ContactSet::chunk - 1) / ContactSet::chunk;
+  for (const auto* ids : {&c.edge, &c.edge_end, &c.block_i, &c.block_j, &c.pair_of}) {
+    j.sized("contacts", *ids, nc);
+  }
+  for (const auto* values : {&c.extend_start,
+                             &c.extend_end,
+                             &c.depth,
+                             &c.depth_1,
+                             &c.depth_2,
+                             &c.foot,
+                             &c.span,
+                             &c.tx,
+                             &c.ty,
+                             &c.share,
+                             &c.before,
+                             &c.beyond,
+                             &c.rest,
+                             &c.anchor,
+                             &c.kn,
+                             &c.ks,
+                             &c.length,
+                             &c.friction,
+                             &c.cohesion,
+                             &c.tension,
+                             &c.alpha,
+                             &c.normal,
+                             &c.shear,
+                             &c.shear_1,
+                             &c.slip_trial,
+                             &c.dashpot,
+                             &c.friction_work,
+                             &c.damping_work,
+                             &c.fracture_work,
+                             &c.fx,
+                             &c.fy,
+                             &c.gx,
+                             &c.gy}) {
+    j.sized("contacts", *values, nc);
+  }
+  j.sized("contacts.law", c.law, nc);
+  j.sized("contacts.state", c.state, nc);
+  j.sized("contacts.why", c.why, nc);
+  j.sized("contacts.stirs", c.stirs, chunks);
+  j.sized("contacts.deepest", c.deepest, chunks);
+  j.sized("contacts.built_x", c.built_x, nv);
+  j.sized("contacts.built_y", c.built_y, nv);
+  j.sized("contacts.begin_of_vertex", c.begin_of_vertex, nv + 1);
+  j.sized("contacts.block_begin", c.block_begin, b.size() + 1);
+  j.below("contacts.vertex", c.vertex, nv);
+  j.below("contacts.edge", c.edge, nv);
+  j.below("contacts.edge_end", c.edge_end, nv);
+  j.below("contacts.block_i", c.block_i, b.size());
+  j.below("contacts.block_j", c.block_j, b.size());
+  j.below("contacts.law", {c.law.begin(), c.law.end()}, laws.rows.size());
+  j.below("contacts.blocked", c.blocked, nc);
+  j.below("contacts.paired", c.paired, nc);
+  j.below("contacts.pair_of", c.pair_of, c.pairs.size(), true);
+  j.below("contacts.block_entry", c.block_entry, 2 * nc);
+  j.rising("contacts.begin_of_vertex", c.begin_of_vertex, nc);
+  j.rising("contacts.block_begin", c.block_begin, c.block_entry.size());
+  for (const CornerPair& p : c.pairs) j.below("pairs", {p.first, p.second}, nc);
+  for (const Segment& s : c.segments) j.below("segments", s.members, nc);
+}
+
+void judge(Judge& j, const Simulation& s) {
+  const std::size_t nb = s.blocks.size(), nv = s.blocks.vertex_count();
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const auto* nodes :
+         {&s.state.x, &s.state.y, &s.state.vx, &s.state.vy, &s.forces.x, &s.forces.y}) {
+      j.sized("state", (*nodes)[k], nb);
+    }
+  }
+  j.sized("state.alive", s.state.alive, nb);
+  j.sized("state.turns", s.state.turns, nb);
+  j.sized("damping_work", s.damping_work.joules, nb);
+  for (const auto* values : {&s.pose.x, &s.pose.y, &s.pose.x1, &s.pose.y1}) {
+    j.sized("pose", *values, nv);
+  }
+  j.below("bound.block", {s.bound.block}, nb, true);
+  j.positive("state.step", s.state.step);
+  j.positive("step_limit", s.step_limit);
+  judge_contacts(j, s.contacts, s.blocks, s.laws);
+}
+
+}  // namespace
+
+template <class Archive>
+void list_memory(Archive& a, Simulation& s) {
+  list_state(a, s);
+  list_contacts(a, s.contacts);
+  list_groups(a, s.contacts);
+  list_counts(a, s);
+  a("displacement_cap", s.displacement_cap_);
+  a("larger_since", s.larger_since_);
+  a("target", s.target_);
+  a("nominal_step", s.nominal_step_);
+  a("step_before", s.step_before_);
+  a("steps_left", s.steps_left_);
+  if (!s.explicit_method()) list_implicit(a, s);
+}
+
+void remember(const Simulation& sim, Record& record) {
+  Saver saver(record);
+  list_memory(saver, const_cast<Simulation&>(sim));  // Saver only reads
+}
+
+std::string recall(Simulation& sim, const Record& record) {
+  Loader loader(record);
+  list_memory(loader, sim);
+  if (!loader.flaw().empty()) return loader.flaw();
+  const std::size_t nc = sim.contacts.size();
+  for (auto* scratch :
+       {&sim.contacts.next_before, &sim.contacts.next_beyond, &sim.contacts.next_share}) {
+    scratch->assign(nc, 0.0);
+  }
+  sim.contacts.balanced.assign(nc, 0);
+  Judge j;
+  judge(j, sim);
+  return j.flaw();
+}
+
+}  // namespace edda
