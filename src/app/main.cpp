@@ -1,5 +1,6 @@
 // The program: reads the command line and hands over to one command.
 #include <cstdio>
+#include <new>
 
 #include "app/commands.hpp"
 #include "results/version.hpp"
@@ -31,6 +32,9 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? edda::exit_code::done : edda::exit_code::bad_input;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "edda: out of memory: close other programs, or make the model smaller\n");
+    return edda::exit_code::failed;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "edda: %s\n", error.what());
     return edda::exit_code::failed;

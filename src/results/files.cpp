@@ -236,6 +236,7 @@ Trouble forget_end(const std::string& folder, std::size_t frames) {
   const Content content = content_of(folder);
   for (const fs::path& file : content.files) {
     const std::string name = file.filename().string();
+    if (name.ends_with(".part")) fs::remove(file, error);
     const auto digits = name.find_first_of("0123456789");
     if (file.extension() != ".vtu" || digits == name.npos) continue;
     if (std::stoull(name.substr(digits)) >= frames) fs::remove(file, error);

@@ -68,7 +68,8 @@ class FolderLock {
 /// Makes the folder if it is not there.
 Trouble make_folder(const std::string& folder);
 
-/// Takes out of it what a run wrote at its end, and the frames from number `frames` on.
+/// Takes out of it what a run wrote at its end, the frames from number `frames` on, and files that
+/// were never finished.
 Trouble forget_end(const std::string& folder, std::size_t frames);
 
 /// Makes the folder, or takes an earlier run's files out of it (those that check_folder() accepts).

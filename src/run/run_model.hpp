@@ -23,11 +23,11 @@ struct Progress {
 };
 
 struct RunOptions {
-  std::string folder;                             ///< for results; empty: none are written
-  std::function<void(const Progress&)> progress;  ///< may be empty
-  double progress_every = 0.2;                    ///< s of wall time
-  bool resume = false;                            ///< go on from the checkpoint in the folder
-  std::function<void(const std::string&)> warn;   ///< of what does not end the run; may be empty
+  std::string folder;                              ///< for results; empty: none are written
+  std::function<void(const Progress&)> progress;   ///< may be empty
+  double progress_every = 0.2;                     ///< s of wall time
+  bool resume = false;                             ///< go on from the checkpoint in the folder
+  std::function<void(const std::string&)> warn{};  ///< of what does not end the run; may be empty
   const std::atomic<bool>* stop = nullptr;  ///< set from anywhere: the run ends as interrupted
 };
 

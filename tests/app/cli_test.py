@@ -168,7 +168,7 @@ class Cli(unittest.TestCase):
         run.send_signal(sent)
         run.communicate(timeout=60)
         self.assertEqual(run.returncode, 130)
-        self.assertEqual({p.name for p in (self.dir / "m").iterdir()}, RESULTS)
+        self.assertEqual({p.name for p in (self.dir / "m").iterdir()}, RESULTS | {"checkpoint.h5"})
         summary = json.loads((self.dir / "m/summary.json").read_text())
         self.assertEqual(summary["status"], "interrupted")
         self.assertEqual(read_rows(self.dir / "m/history.csv")[-1]["time"], repr(summary["time"]))

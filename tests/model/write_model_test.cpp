@@ -106,6 +106,7 @@ damping = { mass = "2 1/s", local = 0.1, contact = 0.3 }
 [output]
 every = 0.3
 history_every = 0.07
+checkpoint_every = 2.5
 )";
 
 void expect_every_key(const Model& m) {
@@ -206,6 +207,7 @@ void expect_every_run_key(const Model& m) {
   EXPECT_EQ(m.solver.damping.contact, 0.3);
   EXPECT_EQ(m.output.every, 0.3);
   EXPECT_EQ(m.output.history_every, 0.07);
+  EXPECT_EQ(m.output.checkpoint_every, 2.5);
 }
 
 Model read(const std::string& text) {

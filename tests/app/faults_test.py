@@ -1,0 +1,268 @@
+"""What befalls long runs: stopped, killed, disk full, damaged checkpoints, a folder in use, memory at an end.
+Each must end in a clear message, lose nothing already written, and go on to the same bytes.
+Usage: faults_test.py EDDA [--kills N]"""
+import json
+import os
+import pathlib
+import random
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+EDDA = pathlib.Path(sys.argv.pop(1)).resolve()
+KILLS = 5
+if "--kills" in sys.argv:
+    at = sys.argv.index("--kills")
+    KILLS = int(sys.argv[at + 1])
+    del sys.argv[at:at + 2]
+
+# Blocks tumbling into a corner: impacts, sliding, bonds that break, many searches.
+HEAP = """
+[materials.rock]
+density = 2600.0
+young = 2e9
+poisson = 0.2
+[joints.j]
+friction_angle = 25.0
+cohesion = 1e4
+[joints.bare]
+friction_angle = 25.0
+[contact]
+joint = "bare"
+[[block]]
+name = "floor"
+fixed = true
+polygon = [[-20, -1], [20, -1], [20, 0], [-20, 0]]
+[[brick_wall]]
+columns = 4
+rows = 5
+brick = [1.0, 0.5]
+joint = "j"
+[[block]]
+name = "ball"
+velocity = [-12.0, 3.0]
+angular_velocity = 4.0
+polygon = [[5, 1], [6, 1.2], [6.4, 2], [5.6, 2.5], [4.8, 1.8]]
+[[monitor]]
+name = "M"
+point = [5.5, 1.7]
+[solver]
+duration = 0.6
+[output]
+every = 0.05
+history_every = 0.005
+checkpoint_every = 0.0005
+"""
+
+
+def content(folder):
+    """Every file but the summary (it tells of wall time) and the checkpoints."""
+    return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*"))
+            if p.is_file() and p.name not in ("summary.json", "checkpoint.h5", "checkpoint.previous.h5", "model.toml")}
+
+
+def lasting(folder):
+    """What of the summary may not depend on how often the run was stopped."""
+    summary = json.loads((folder / "summary.json").read_text())
+    return {k: v for k, v in summary.items() if k not in ("wall_seconds", "block_steps_per_second", "threads")}
+
+
+class Faults(unittest.TestCase):
+    def setUp(self):
+        self.dir = pathlib.Path(tempfile.mkdtemp(prefix="edda_faults_"))
+        self.addCleanup(shutil.rmtree, self.dir, True)
+        (self.dir / "m.toml").write_text(HEAP)
+
+    def edda(self, *args, **more):
+        return subprocess.run([str(EDDA), *args], cwd=self.dir, text=True, capture_output=True, timeout=300, **more)
+
+    def expect(self, code, *args, **more):
+        done = self.edda(*args, **more)
+        self.assertEqual(done.returncode, code, f"{args}: {done.stdout}{done.stderr}")
+        return done
+
+    def start(self, *args):
+        return subprocess.Popen([str(EDDA), "run", "m.toml", "--quiet", *args], cwd=self.dir, stderr=subprocess.PIPE)
+
+    def whole(self, *args):
+        self.expect(0, "run", "m.toml", "--quiet", "-o", "whole", *args)
+        return content(self.dir / "whole"), lasting(self.dir / "whole")
+
+    def stop_early(self, *args, signals=signal.SIGINT):
+        """A run with a checkpoint, stopped on its way."""
+        for _ in range(20):
+            process = self.start("-o", "r", *args)
+            while not (self.dir / "r/checkpoint.h5").exists() and process.poll() is None:
+                time.sleep(0.005)
+            process.send_signal(signals)
+            process.communicate()
+            if process.returncode != 0:
+                return process.returncode
+        self.fail("the run is over before it can be stopped")
+
+    def killed_and_resumed(self, kills, *args):
+        expected, summary = self.whole(*args)
+        start = time.monotonic()
+        self.expect(0, "run", "m.toml", "--quiet", "-o", "r", *args)
+        length = time.monotonic() - start
+        chance = random.Random(7)
+        landed = 0
+        while landed < kills:
+            shutil.rmtree(self.dir / "r", ignore_errors=True)
+            process = self.start("-o", "r", *args)
+            while True:
+                try:
+                    process.wait(chance.uniform(0.02, 0.9 * length))
+                    break
+                except subprocess.TimeoutExpired:
+                    process.kill()
+                    landed += 1
+                    process.communicate()
+                    resumes = (self.dir / "r/checkpoint.h5").exists() or (self.dir / "r/checkpoint.previous.h5").exists()
+                    more = ("--resume", "--threads", str(chance.choice((1, 2, 3)))) if resumes else ()
+                    process = self.start("-o", "r", *more, *args)
+            _, errors = process.communicate()
+            self.assertEqual(process.returncode, 0, errors)
+            self.assertEqual(content(self.dir / "r"), expected)
+            self.assertEqual(lasting(self.dir / "r"), summary)
+        return landed
+
+    def test_killed_at_random_goes_on_to_the_same_bytes(self):
+        self.killed_and_resumed(KILLS)
+
+    def test_implicit_method_goes_on_to_the_same_bytes(self):
+        self.killed_and_resumed(max(2, KILLS // 10), "--set", "solver.method=dda", "--set", "solver.time_step=2e-4")
+
+    def test_interrupted_by_either_signal(self):
+        expected, summary = self.whole()
+        for number in (signal.SIGINT, signal.SIGTERM):
+            shutil.rmtree(self.dir / "r", ignore_errors=True)
+            self.assertEqual(self.stop_early(signals=number), 130)
+            self.assertEqual(json.loads((self.dir / "r/summary.json").read_text())["status"], "interrupted")
+            self.expect(0, "run", "m.toml", "--quiet", "-o", "r", "--resume")
+            self.assertEqual(content(self.dir / "r"), expected)
+            self.assertEqual(lasting(self.dir / "r"), summary)
+
+    def test_resume_may_make_a_run_longer(self):
+        self.expect(0, "run", "m.toml", "--quiet", "-o", "whole", "--set", "solver.duration=0.8")
+        self.stop_early()
+        self.expect(0, "run", "m.toml", "--quiet", "-o", "r", "--resume", "--set", "solver.duration=0.8")
+        self.assertEqual(content(self.dir / "r"), content(self.dir / "whole"))
+
+    def test_resume_refuses_what_it_cannot_go_on_with(self):
+        done = self.expect(2, "run", "m.toml", "-o", "nothing", "--resume")
+        self.assertIn("holds no checkpoint", done.stderr)
+        self.assertFalse((self.dir / "nothing").exists())
+        self.stop_early()
+        before = content(self.dir / "r")
+        done = self.expect(2, "run", "m.toml", "-o", "r", "--resume", "--set", "joints.j.friction_angle=26")
+        self.assertIn("friction_angle", done.stderr)
+        self.assertIn("not the one of the checkpoint", done.stderr)
+        done = self.expect(2, "run", "m.toml", "-o", "r", "--resume", "--set", "solver.duration=1e-3")
+        self.assertIn("longer solver.duration", done.stderr)
+        self.assertEqual(content(self.dir / "r"), before)
+
+    def test_damaged_checkpoints_are_refused_and_the_one_before_is_used(self):
+        expected, _ = self.whole()
+        self.stop_early()
+        while not (self.dir / "r/checkpoint.previous.h5").exists():
+            self.stop_early()
+        shutil.copytree(self.dir / "r", self.dir / "kept")
+        good = (self.dir / "r/checkpoint.h5").read_bytes()
+        chance = random.Random(3)
+
+        def flipped():
+            at, bit = chance.randrange(len(good)), 1 << chance.randrange(8)
+            return good[:at] + bytes([good[at] ^ bit]) + good[at + 1:]
+
+        damages = [b"", good[:100], good[:600], good[:-1], good + b"x", b"nonsense" * 1000] + [flipped() for _ in range(6)]
+        damages += [good[:k] + bytes([good[k] ^ 1]) + good[k + 1:] for k in (0, 20, 40, 500)]
+        for damage in damages:
+            shutil.rmtree(self.dir / "r")
+            shutil.copytree(self.dir / "kept", self.dir / "r")
+            (self.dir / "r/checkpoint.h5").write_bytes(damage)
+            done = self.expect(0, "run", "m.toml", "--quiet", "-o", "r", "--resume")
+            self.assertIn("is damaged", done.stderr)
+            self.assertIn("going on from r/checkpoint.previous.h5", done.stderr)
+            self.assertEqual(content(self.dir / "r"), expected)
+        (self.dir / "r/checkpoint.h5").write_bytes(good[:-1])
+        (self.dir / "r/checkpoint.previous.h5").write_bytes(good[:-2])
+        done = self.expect(2, "run", "m.toml", "-o", "r", "--resume")
+        self.assertEqual(done.stderr.count("is damaged"), 2)
+
+    def test_two_runs_into_one_folder(self):
+        first = self.start("-o", "r", "--set", "solver.duration=20")
+        while not (self.dir / "r/history.csv").exists():
+            time.sleep(0.01)
+        for more in ((), ("--resume",)):
+            done = self.edda("run", "m.toml", "-o", "r", *more)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertRegex(done.stderr, "another run is writing to it|holds no checkpoint")
+        first.send_signal(signal.SIGINT)
+        first.communicate()
+        self.assertEqual(first.returncode, 130)
+        self.assertGreater(len((self.dir / "r/history.csv").read_text().splitlines()), 1)
+
+    def test_a_disk_too_full_for_checkpoints_does_not_end_the_run(self):
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (60000, 60000))
+        expected, _ = self.whole()
+        done = self.expect(0, "run", "m.toml", "--quiet", "-o", "r", preexec_fn=limit)
+        self.assertIn("no checkpoint: r/checkpoint.h5: cannot be written", done.stderr)
+        self.assertEqual(content(self.dir / "r"), expected)
+
+    def test_a_full_disk_ends_the_run_and_keeps_what_is_there(self):
+        disk = self.dir / "disk"
+        disk.mkdir()
+        if os.geteuid() != 0 or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=256k", "tmpfs", str(disk)],
+                                               capture_output=True).returncode != 0:
+            self.skipTest("needs root, to mount a small disk")
+        try:
+            done = self.expect(1, "run", "m.toml", "--quiet", "-o", "disk/r")
+            self.assertIn("No space left on device", done.stderr)
+            self.assertIn("free some disk space", done.stderr)
+            self.assertGreater(len((disk / "r/history.csv").read_text().splitlines()), 2)
+            self.assertTrue((disk / "r/frames/blocks_000000.vtu").exists())
+            self.assertFalse(list((disk / "r").rglob("*.part")))
+        finally:
+            subprocess.run(["umount", str(disk)], check=True)
+
+    def test_a_folder_that_may_not_be_written_to(self):
+        (self.dir / "r").mkdir()
+        (self.dir / "r").chmod(0o555)
+        if os.geteuid() == 0:
+            self.skipTest("root may write anywhere")
+        done = self.expect(2, "run", "m.toml", "-o", "r")
+        self.assertIn("may be written to", done.stderr)
+
+    def test_memory_at_an_end(self):
+        big = HEAP.replace("columns = 4", "columns = 400").replace("rows = 5", "rows = 400").replace("polygon = [[5, 1]", "polygon = [[5, -9]")
+        big = big.replace("[6, 1.2], [6.4, 2], [5.6, 2.5], [4.8, 1.8]]", "[6, -9], [6, -8], [5, -8]]").replace("[5.5, 1.7]", "[5.5, -8.5]")
+        (self.dir / "big.toml").write_text(big)
+
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (400 << 20, 400 << 20))
+        done = self.edda("run", "big.toml", "-o", "r", "--quiet", "--threads", "1", preexec_fn=limit)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("out of memory", done.stderr)
+
+    def test_the_clock_set_back_changes_nothing(self):
+        """Wall time is measured by a clock that never goes back; no file carries a date."""
+        a = self.expect(0, "run", "m.toml", "--quiet", "-o", "a")
+        os.utime(self.dir / "a", (0, 0))
+        for path in (self.dir / "a").rglob("*"):
+            os.utime(path, (4e9, 4e9))  # files from the future
+        self.expect(0, "run", "m.toml", "--quiet", "-o", "b")
+        self.assertEqual(content(self.dir / "a"), content(self.dir / "b"))
+        self.expect(0, "run", "m.toml", "--quiet", "-o", "a")
+        self.assertEqual(content(self.dir / "a"), content(self.dir / "b"))
+
+
+if __name__ == "__main__":
+    unittest.main()
