@@ -21,15 +21,16 @@ void measure(ContactSet& c, const Pose& pose, std::size_t k) {
   c.ty[k] = e.t.y;
 }
 
-/// Whether the candidate opened or closed at n - 1 or n, has left its edge, has turned its shear
-/// round, or has a rest penetration to look after. Bonded and blocked ones are looked after
-/// elsewhere.
+/// Whether the candidate opened or closed at n - 1 or n, has left its edge or come back to it, has
+/// turned its shear round, or has a rest penetration to look after. Bonded and blocked ones are
+/// looked after elsewhere.
 bool stirs(const ContactSet& c, std::size_t k) {
   using namespace contact_state;
   if (c.is(k, closed)) {
     const bool switched = c.effective(k) <= 0.0 || c.effective_2(k) <= 0.0;
     const bool reversed = c.shear[k] * trial_slip(c, k) > 0.0;
-    return (switched && !c.is(k, pulls)) || (!c.is(k, bonded) && (reversed || !c.on_edge(k)));
+    const bool leaving = !c.on_edge(k) || (c.share[k] < 1.0 && c.pair_of[k] == no_id);
+    return (switched && !c.is(k, pulls)) || (!c.is(k, bonded) && (reversed || leaving));
   }
   return !c.is(k, blocked) && (c.rest[k] != 0.0 || (c.depth[k] > 0.0 && c.on_edge(k)));
 }

@@ -59,8 +59,8 @@ Share share_of(const CornerPair& p, double delta_first, double delta_second, dou
   return {o * w + (1.0 - o), o * w + (1.0 - o)};
 }
 
-/// Gives a closed candidate a new share. Growing alone (balanced = false), the added part is born
-/// unloaded at the present penetration and slip. What the ledger holds less for it is dissipated.
+}  // namespace
+
 void change_share(ContactSet& c, std::size_t k, double share, bool balanced) {
   const double old = c.share[k];
   if (share == old) return;
@@ -75,8 +75,6 @@ void change_share(ContactSet& c, std::size_t k, double share, bool balanced) {
   c.share[k] = share;
   c.friction_work[k] += energy - stored_energy(c, k);
 }
-
-}  // namespace
 
 void pair_corners(ContactSet& c, const BlockSet& b, const Pose& pose) {
   c.pairs.clear();

@@ -21,6 +21,11 @@ namespace edda {
 /// Finds the pairs among the candidates of a new list.
 void pair_corners(ContactSet& contacts, const BlockSet& blocks, const Pose& pose);
 
+/// Gives candidate k a new share. Of a closed one that grows alone (balanced = false) the added
+/// part is born unloaded at the present penetration and slip. What the ledger holds less for it is
+/// dissipated.
+void change_share(ContactSet& contacts, std::size_t k, double share, bool balanced);
+
 /// Range of feet and share of every paired candidate, from the feet at step n. A share that grows
 /// without its partner's shrinking is born where it is: its rest penetration is such that the force
 /// does not jump, and what the spring then stores less is booked as dissipated.

@@ -6,6 +6,7 @@
 
 #include "contacts/candidates.hpp"
 #include "contacts/gap.hpp"
+#include "contacts/shares.hpp"
 #include "contacts/shield.hpp"
 #include "contacts/stored_energy.hpp"
 
@@ -42,6 +43,7 @@ void open(ContactSet& c, std::size_t k) {
   c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = c.dashpot[k] = 0.0;
   c.alpha[k] = 1.0;
   c.rest[k] = std::max(0.0, std::min(c.rest[k], c.depth[k]));
+  if (c.pair_of[k] == no_id) c.share[k] = 1.0;
 }
 
 void block_contact(ContactSet& c, std::size_t k, Blocked why) {
@@ -128,7 +130,17 @@ void unblock(ContactSet& c, std::size_t k, double rest) {
   c.rest[k] = rest;
 }
 
-/// The foot of a closed contact has left its edge.
+/// Part of its force that a contact keeps whose foot has run past the end of its edge: from 1 to 0
+/// within r_v, so that passing a corner makes no jump.
+double kept_past_end(const ContactSet& c, const BlockSet& b, std::size_t k) {
+  const double past = std::max(-c.before[k] - c.foot[k], c.foot[k] - c.span[k] - c.beyond[k]);
+  const double run_off =
+      corner_reach * std::min({b.edge_length[c.edge[k]], b.edge_length[c.vertex[k]],
+                               b.edge_length[b.previous[c.vertex[k]]]});
+  return std::clamp(1.0 - past / run_off, 0.0, 1.0);
+}
+
+/// The foot of a closed contact has left its edge. Without an heir it lets go little by little.
 void leave(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws, std::size_t k,
            TransitionCounts& counts) {
   const Id heir = c.share[k] > 0.0 ? heir_of(c, b, pose, k) : no_id;
@@ -137,6 +149,13 @@ void leave(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& l
     hand_over(c, b, pose, laws, k, heir);
     ++counts.handed_over;
   } else {
+    const double kept = c.is(k, cs::pulls) ? 0.0 : kept_past_end(c, b, k);
+    // A shared spring has been given its share of this step already.
+    const double whole = c.pair_of[k] == no_id ? 1.0 : c.share[k];
+    if (kept * whole > 0.0) {
+      change_share(c, k, kept * whole, false);
+      return;
+    }
     c.friction_work[k] += stored_energy(c, k);
   }
   open(c, k);
@@ -161,6 +180,7 @@ bool inherit_from_partner(ContactSet& c, std::size_t k) {
 void find_events(ContactSet& c, TransitionScratch& events) {
   events.opens.clear();
   events.leaves.clear();
+  events.returns.clear();
   events.closes.clear();
   for (std::size_t q = 0; q < c.stirs.size(); ++q) {
     if (c.stirs[q] == 0) continue;
@@ -172,6 +192,8 @@ void find_events(ContactSet& c, TransitionScratch& events) {
           events.opens.push_back(static_cast<Id>(k));
         } else if (!c.on_edge(k)) {
           events.leaves.push_back(static_cast<Id>(k));
+        } else if (c.share[k] < 1.0 && c.pair_of[k] == no_id) {
+          events.returns.push_back(static_cast<Id>(k));
         }
       } else if (!c.is(k, cs::blocked)) {
         if (c.effective(k) > 0.0) {
@@ -303,6 +325,7 @@ TransitionCounts settle_contacts(ContactSet& c, const BlockSet& b, const Pose& p
     ++counts.opened;
   }
   for (const Id k : scratch.leaves) leave(c, b, pose, laws, k, counts);
+  for (const Id k : scratch.returns) change_share(c, k, 1.0, false);
   review_blocked(c, b, pose, step, counts, scratch.still_blocked);
 
   close_touching(c, b, pose, laws, start, scratch, counts);

@@ -5,7 +5,7 @@
 //   takes
 //                                                   over from the contact it succeeds
 //   closed, d <= d0, not bonded                  -> open
-//   closed, foot off the edge                    -> handed to its successor, or open
+//   closed, foot off the edge                    -> handed to its successor, or lets go within r_v
 //   penetrated, not allowed                      -> blocked until it may, then born where it is
 #pragma once
 
@@ -21,7 +21,7 @@ struct TransitionCounts {
 
 /// Lists of one step, kept so that a step allocates nothing once they have grown.
 struct TransitionScratch {
-  std::vector<Id> opens, leaves, closes, still_blocked;
+  std::vector<Id> opens, leaves, returns, closes, still_blocked;
   std::vector<Blocked> verdict;  ///< of closes
 };
 

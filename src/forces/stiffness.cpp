@@ -24,7 +24,7 @@ bool counts(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_
             const EdgeFrame& e) {
   if (c.is(k, contact_state::closed)) return true;
   if (c.why[k] == Blocked::shield) return false;
-  return c.on_edge(k, c.reach) && may_face(b, pose.x, pose.y, c.vertex[k], e, c.reach);
+  return c.on_edge(k, c.reach) && facing(b, pose.x, pose.y, c.vertex[k], e.normal(), 0.5 * c.reach);
 }
 
 std::vector<Part> parts_of(const BlockSet& b, const State& s, const Pose& pose, const ContactSet& c,
@@ -39,7 +39,9 @@ std::vector<Part> parts_of(const BlockSet& b, const State& s, const Pose& pose, 
     if (!counts(c, b, pose, k, e)) continue;
     const bool has_vertex = (c.block_entry[q] & 1u) == 0;
     const Id partner = has_vertex ? c.block_j[k] : c.block_i[k];
-    const double factor = (b.fixed[partner] ? 1.0 : 2.0) * c.share[k];
+    // One that is letting go past the end of its edge may come back.
+    const double share = c.pair_of[k] == no_id ? 1.0 : c.share[k];
+    const double factor = (b.fixed[partner] ? 1.0 : 2.0) * share;
     std::array<double, 3> w = vertex_weights(b, c.vertex[k]);
     if (!has_vertex) {
       const double xi = std::clamp(c.foot[k] / e.length, 0.0, 1.0);

@@ -53,8 +53,7 @@ std::vector<NearPair> brute_force(const BlockSet& b, const std::vector<std::uint
       const Vec2 p = at(b.vertex_x, b.vertex_y, v), q = at(b.vertex_x, b.vertex_y, e);
       const Vec2 r = at(b.vertex_x, b.vertex_y, b.next[e]);
       if (distance(p, q, r) >= reach) continue;
-      const Vec2 n = outward_normal(unit(r - q));
-      if (facing(b, b.vertex_x, b.vertex_y, v, n, 4.0 * reach)) pairs.push_back({v, e});
+      if (may_face(b, b.vertex_x, b.vertex_y, v, edge_frame(q, r), reach)) pairs.push_back({v, e});
     }
   }
   return pairs;

@@ -1,0 +1,117 @@
+// A random heap whose blocks drift about, its candidate list held to the oracle at every move.
+#pragma once
+
+#include <limits>
+
+#include "blocks/build_blocks.hpp"
+#include "contacts/candidates.hpp"
+#include "contacts/oracle.hpp"
+#include "contacts/random_shapes.hpp"
+
+namespace edda {
+
+/// Sizes spread over `decades` powers of ten; blocks lie over one another as they fall.
+inline PolygonSet random_polygons(std::mt19937& rng, int n, double decades) {
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  PolygonSet set;
+  Vec2 last;
+  for (int i = 0; i < n; ++i) {
+    const double size = std::pow(10.0, -decades * u(rng));
+    // Half of them beside the one before, so that the small ones meet something, too.
+    const bool near_last = i > 0 && u(rng) < 0.5;
+    const Vec2 c = near_last ? last + (2.0 * size) * Vec2{u(rng) - 0.5, u(rng) - 0.5}
+                             : 6.0 * Vec2{u(rng) - 0.5, u(rng) - 0.5};
+    BlockPolygon p;
+    p.rings = {random_shape(rng, c, size)};
+    p.joint = {std::vector<Index>(p.rings[0].size(), none)};
+    p.material = 0;
+    p.fixed = u(rng) < 0.1;
+    const std::size_t corner = static_cast<std::size_t>(u(rng) * 3.0);
+    last = p.rings[0][corner];
+    set.blocks.push_back(p);
+  }
+  return set;
+}
+
+struct DriftingHeap {
+  BlockSet blocks;
+  State state;
+  Pose pose;
+  LawTable laws;
+  ContactSet contacts;
+
+  DriftingHeap(std::mt19937& rng, int n, double decades) {
+    Model model;
+    model.materials.push_back({"rock", 2600.0, 1e9, 0.2, {}});
+    model.contact.normal_stiffness = model.contact.shear_stiffness = 1e9;
+    const PolygonSet polygons = random_polygons(rng, n, decades);
+    blocks = build_blocks(model, polygons);
+    state = initial_state(blocks, polygons);
+    laws = build_laws(model);
+    pose = {blocks.vertex_x, blocks.vertex_y, blocks.vertex_x, blocks.vertex_y};
+  }
+
+  /// Turns and shifts every block at random, no vertex by more than `most` m.
+  void drift(std::mt19937& rng, double most) {
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    pose.x1 = pose.x;
+    pose.y1 = pose.y;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      if (blocks.fixed[i]) continue;
+      const Id begin = blocks.vertex_begin[i], end = blocks.vertex_begin[i + 1];
+      Vec2 middle;
+      for (Id v = begin; v < end; ++v) middle += at(pose.x, pose.y, v);
+      middle = middle / static_cast<double>(end - begin);
+      double radius = 0.0;
+      for (Id v = begin; v < end; ++v)
+        radius = std::max(radius, norm(at(pose.x, pose.y, v) - middle));
+      const double part = std::abs(u(rng));
+      const double turn = std::clamp(part * most / radius, 0.0, 1.0) * (u(rng) < 0.0 ? -1.0 : 1.0);
+      const Vec2 shift = (1.0 - part) * 0.7 * most * Vec2{u(rng), u(rng)};
+      for (Id v = begin; v < end; ++v) {
+        const Vec2 p = middle + rotated(at(pose.x, pose.y, v) - middle, turn) + shift;
+        pose.x[v] = p.x;
+        pose.y[v] = p.y;
+      }
+    }
+  }
+
+  ListFaults check() const { return check_list(contacts, blocks, state.alive, pose.x, pose.y); }
+};
+
+/// One heap through `lists` lists and `moves` moves under each; closed contacts must survive every
+/// new list.
+inline ListFaults drifting_heap(unsigned seed, int blocks, int lists, int moves) {
+  std::mt19937 rng(seed);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  DriftingHeap heap(rng, blocks, 4.0 * u(rng));
+  ListFaults sum;
+  auto add = [&](const ListFaults& f) {
+    sum.wanted += f.wanted;
+    sum.missed += f.missed;
+    sum.repeated += f.repeated;
+  };
+  for (int list = 0; list < lists; ++list) {
+    const double reach = 0.3 * std::pow(10.0, -3.0 * u(rng));
+    std::vector<NearPair> closed;
+    ContactSet& c = heap.contacts;
+    for (std::size_t k = 0; k < c.size(); ++k) {
+      if (c.is(k, contact_state::closed)) closed.push_back({c.vertex[k], c.edge[k]});
+    }
+    rebuild_candidates(c, heap.blocks, heap.state, heap.pose, heap.laws, reach);
+    for (std::size_t k = 0, q = 0; k < c.size(); ++k) {
+      const bool was = q < closed.size() && NearPair{c.vertex[k], c.edge[k]} == closed[q];
+      q += was ? 1 : 0;
+      sum.missed += was != c.is(k, contact_state::closed) ? 1 : 0;
+      if (u(rng) < 0.1) c.set(k, contact_state::closed);
+    }
+    add(heap.check());
+    for (int move = 0; move < moves; ++move) {
+      heap.drift(rng, 0.5 * reach / moves);
+      add(heap.check());
+    }
+  }
+  return sum;
+}
+
+}  // namespace edda

@@ -1,0 +1,22 @@
+// The candidate list against brute force, while blocks move under it.
+#include <gtest/gtest.h>
+
+#include "contacts/drifting_heap.hpp"
+
+namespace edda {
+namespace {
+
+/// Sizes up to 1 : 10,000, needles, slivers, stars; tools/contact-oracle runs thousands of these.
+TEST(CandidateList, MissesNothingWhileBlocksMove) {
+  std::size_t wanted = 0;
+  for (unsigned seed = 0; seed < 150; ++seed) {
+    const ListFaults faults = drifting_heap(seed, 30, 2, 3);
+    ASSERT_EQ(faults.missed, 0u) << "seed " << seed;
+    ASSERT_EQ(faults.repeated, 0u) << "seed " << seed;
+    wanted += faults.wanted;
+  }
+  EXPECT_GT(wanted, 10000u);
+}
+
+}  // namespace
+}  // namespace edda

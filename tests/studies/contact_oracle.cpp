@@ -1,0 +1,89 @@
+// Random heaps against brute force: contact_oracle [N [FIRST]].
+// N heaps that drift under their candidate list, and N/20 that are thrown at each other and run.
+// Exit 1 if a contact was missed, listed twice, given a share outside [0, 1] or jumped in force.
+#include <cstdio>
+#include <cstdlib>
+
+#include "contacts/drifting_heap.hpp"
+#include "verification/heap_watch.hpp"
+#include "verification/random_heap.hpp"
+
+namespace {
+
+using namespace edda;
+
+/// A pair's force may change by p u, half as much again where corners pass (row 16), and up to
+/// sqrt(1 + 4 tan^2 phi) where shear turns round and slides in one step.
+constexpr double largest_jump = 2.0;
+
+struct Thrown {
+  double jump = 0.0, share = 0.0, drift = 0.0;
+  ListFaults list;
+  std::uint64_t steps = 0, switched = 0;
+  bool failed = false;
+};
+
+Thrown thrown(unsigned seed, std::uint64_t steps, bool verbose) {
+  const double decades = 2.5 * (seed % 4) / 3.0;
+  Simulation sim = scene(
+      thrown_model(thrown_blocks(seed, 4, decades, 30.0), (7 * seed) % 41, "duration = 0.5\n"));
+  HeapWatch watch(20);
+  sim.start(0.5);
+  Thrown t;
+  for (; t.steps < steps && sim.state.time < 0.5; ++t.steps) {
+    if (const auto failure = sim.step()) {
+      std::printf("seed %u: %s at %g s\n", seed, failure->message.c_str(), failure->time);
+      t.failed = true;
+      break;
+    }
+    watch.look(sim);
+    if (t.steps % 50 == 0) t.drift = std::max(t.drift, std::abs(sim.ledger().drift));
+  }
+  t.jump = watch.worst_jump;
+  t.share = watch.worst_share;
+  t.list = watch.list;
+  t.switched = sim.open_close.switched;
+  if (verbose || t.jump > largest_jump || t.list.missed + t.list.repeated > 0) {
+    std::printf(
+        "seed %u: jump %.3g at %.6g s (%u, %u), drift %.2g, %zu of %zu missed, switched %llu, "
+        "redone %llu\n",
+        seed, t.jump, watch.jump_at, watch.jump_of.first, watch.jump_of.second, t.drift,
+        t.list.missed, t.list.wanted, static_cast<unsigned long long>(t.switched),
+        static_cast<unsigned long long>(sim.steps.redone));
+  }
+  return t;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const unsigned n = argc > 1 ? static_cast<unsigned>(std::atoi(argv[1])) : 10000;
+  const unsigned first = argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 0;
+  ListFaults sum;
+  unsigned bad = 0;
+  for (unsigned seed = first; seed < first + n; ++seed) {
+    const ListFaults f = drifting_heap(seed, 30, 2, 3);
+    sum.wanted += f.wanted;
+    bad += f.missed + f.repeated > 0 ? 1 : 0;
+  }
+  std::printf("%u heaps adrift, %zu pairs wanted: %u heaps with a difference\n", n, sum.wanted,
+              bad);
+  double jump = 0.0, drift = 0.0;
+  const unsigned runs = (n + 19) / 20;
+  unsigned lost = 0;
+  std::uint64_t steps = 0, switched = 0;
+  for (unsigned seed = first; seed < first + runs; ++seed) {
+    const Thrown t = thrown(seed, 15000, n <= 1000);
+    jump = std::max(jump, t.jump);
+    drift = std::max(drift, t.drift);
+    steps += t.steps;
+    switched += t.switched;
+    lost += t.failed ? 1 : 0;
+    bad += t.list.missed + t.list.repeated > 0 || t.share > 0.0 || t.jump > largest_jump ? 1 : 0;
+  }
+  std::printf(
+      "%u heaps run, %llu steps, %llu switchings: largest jump %.3g p u, drift %.2g, %u lost\n",
+      runs, static_cast<unsigned long long>(steps), static_cast<unsigned long long>(switched), jump,
+      drift, lost);
+  return bad + lost > 0 ? 1 : 0;
+}

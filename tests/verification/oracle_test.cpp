@@ -1,0 +1,81 @@
+// Contacts of random blocks in motion against brute force: sizes 1 : 1,000, needles, slivers, stars
+// and Ls thrown at each other. tools/contact-oracle runs more of them, and longer.
+#include <algorithm>
+
+#include "verification/heap_watch.hpp"
+#include "verification/random_heap.hpp"
+
+namespace edda {
+namespace {
+
+Simulation thrown(const std::vector<ThrownBlock>& heap, double friction, double duration) {
+  Simulation sim = scene(thrown_model(heap, friction, "duration = " + number(duration) + "\n"));
+  sim.start(duration);
+  return sim;
+}
+
+/// No contact missed while blocks move between two lists, none twice, shares within [0, 1], and no
+/// jump of force when vertices change their edges.
+TEST(ThrownHeap, ContactsAgreeWithBruteForce) {
+  std::size_t wanted = 0;
+  std::uint64_t switched = 0;
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    Simulation sim = thrown(thrown_blocks(seed, 3, 0.75 * (seed % 4), 30.0), 3.0 * seed, 0.5);
+    HeapWatch watch(16);
+    double drift = 0.0;
+    while (sim.state.time < 0.5 && sim.state.steps < 6000) {
+      const auto failure = sim.step();
+      ASSERT_FALSE(failure.has_value()) << seed << ": " << failure->message;
+      watch.look(sim);
+      if (sim.state.steps % 100 == 0) drift = std::max(drift, std::abs(sim.ledger().drift));
+    }
+    EXPECT_EQ(watch.list.missed, 0u) << seed;
+    EXPECT_EQ(watch.list.repeated, 0u) << seed;
+    EXPECT_EQ(watch.worst_share, 0.0) << seed;
+    EXPECT_LE(watch.worst_jump, 2.0) << seed << " at " << watch.jump_at;
+    EXPECT_LT(drift, 1e-5) << seed;
+    wanted += watch.list.wanted;
+    switched += sim.open_close.switched;
+  }
+  EXPECT_GT(wanted, 1000u);
+  EXPECT_GT(switched, 100u);
+}
+
+std::vector<Vec2> centres(const Simulation& s) {
+  std::vector<Vec2> p;
+  for (std::size_t i = 0; i < s.blocks.size(); ++i)
+    p.push_back(centroid(s.state.x, s.state.y, i) + s.blocks.origin);
+  return p;
+}
+
+/// Mirrored, and numbered from the end: the same motion through the first impacts.
+TEST(ThrownHeap, MirroredAndRenumberedMoveAlike) {
+  std::uint64_t switched = 0;
+  for (const unsigned seed : {1u, 2u, 5u, 9u}) {
+    const std::vector<ThrownBlock> heap = thrown_blocks(seed, 3, 0.5 * (seed % 3), 30.0);
+    const double end = 2e-4 + (seed % 3 == 0 ? 0.03 : 0.0);
+    auto run_to_end = [&](const std::vector<ThrownBlock>& blocks) {
+      Simulation sim = thrown(blocks, 25.0, end);
+      while (sim.state.time < end) EXPECT_FALSE(sim.step().has_value());
+      switched += sim.open_close.switched;
+      return centres(sim);
+    };
+    const std::vector<Vec2> expected = run_to_end(heap);
+    std::vector<ThrownBlock> mirrored = heap;
+    for (ThrownBlock& b : mirrored) {
+      for (Vec2& p : b.ring) p.x = -p.x;
+      b.velocity.x = -b.velocity.x;
+      b.spin = -b.spin;
+    }
+    const std::vector<Vec2> image = run_to_end(mirrored);
+    const std::vector<Vec2> last_first = run_to_end({heap.rbegin(), heap.rend()});
+    for (std::size_t i = 0; i < heap.size(); ++i) {
+      EXPECT_LT(norm(Vec2{-image[i].x, image[i].y} - expected[i]), 1e-9) << seed << ' ' << i;
+      EXPECT_LT(norm(last_first[heap.size() - 1 - i] - expected[i]), 1e-9) << seed << ' ' << i;
+    }
+  }
+  EXPECT_GT(switched, 60u);
+}
+
+}  // namespace
+}  // namespace edda

@@ -1,0 +1,83 @@
+// A pulse along a column of blocks: validation.md row 10.
+#include <algorithm>
+
+#include "verification/scene.hpp"
+
+namespace edda {
+namespace {
+
+constexpr int blocks = 200;
+constexpr double density = 2500.0, young = 1e10;
+
+/// Unit blocks end to end, without gravity, whose joints pull as well as push.
+std::string free_column(double spring) {
+  std::string toml =
+      "plane = 'stress'\ngravity = [0, 0]\n[materials.rock]\ndensity = 2500.0\nyoung = 1e10\n"
+      "poisson = 0.0\n[joints.j]\nfriction_angle = 30\ncohesion = 1e9\ntensile_strength = "
+      "1e9\n[contact]\n"
+      "normal_stiffness = " +
+      number(spring) + "\n[solver]\nduration = 1.0\n[output]\nhistory_every = 1.0\n";
+  for (int i = 0; i < blocks; ++i)
+    toml += "[[block]]\npolygon = " + rectangle(0, i, 1, i + 1) + "\n";
+  return toml;
+}
+
+struct Peak {
+  double time = 0.0, speed = 0.0;
+};
+
+/// A hump of velocity 10 blocks wide round block 40; half of it runs up. When it passes each block,
+/// by a parabola through the three largest of its speeds, and how fast the block then is.
+std::vector<Peak> run_pulse(double spring, double c) {
+  Simulation sim = scene(free_column(spring));
+  const double width = 10.0, middle = 40.5;
+  for (std::size_t i = 0; i < blocks; ++i) {
+    const double from = static_cast<double>(i) + 0.5 - middle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      // Each block takes the hump's value and its slope.
+      const double y = sim.state.y[k][i] - centroid(sim.state.x, sim.state.y, i).y;
+      sim.state.vy[k][i] = 0.02 * std::exp(-0.5 * from * from / (width * width)) *
+                           (1.0 - from * y / (width * width));
+    }
+  }
+  std::vector<Peak> peaks(blocks);
+  std::vector<double> last(blocks, 0.0), before(blocks, 0.0);
+  const double end = 175.0 / c;
+  sim.start(end);
+  const double h = sim.state.step;
+  for (int n = 0; sim.state.time < end; ++n) {
+    EXPECT_FALSE(sim.step().has_value());
+    for (std::size_t i = 0; i < blocks; ++i) {
+      const double v = centroid(sim.state.vx, sim.state.vy, i).y;
+      // Not what comes back from the other end.
+      const bool first_pass = sim.state.time < (static_cast<double>(i) - middle + 40.0) / c;
+      if (n > 1 && first_pass && last[i] > before[i] && last[i] >= v && last[i] > peaks[i].speed) {
+        const double bend = before[i] - 2.0 * last[i] + v, slope = 0.5 * (v - before[i]);
+        peaks[i] = {sim.state.time - 1.5 * h - slope / bend * h,
+                    last[i] - 0.5 * slope * slope / bend};
+      }
+      before[i] = last[i];
+      last[i] = v;
+    }
+  }
+  EXPECT_LT(std::abs(sim.ledger().drift), 1e-6);
+  return peaks;
+}
+
+/// Row 10: c = sqrt(E/rho)/sqrt(1 + 1/kappa), kappa = K L/(E A); the free end moves twice as fast.
+TEST(Pulse, SpeedAndFreeEnd) {
+  for (const double spring : {1e9, 1e10, 1e11}) {
+    const double kappa = 2.0 * spring / young;
+    const double c = std::sqrt(young / density) / std::sqrt(1.0 + 1.0 / kappa);
+    const std::vector<Peak> peaks = run_pulse(spring, c);
+    const double measured = 80.0 / (peaks[160].time - peaks[80].time);
+    EXPECT_NEAR(measured / c, 1.0, 1e-2) << kappa;
+    // The velocity of the end itself, not of the last block's middle, is what doubles.
+    EXPECT_NEAR(peaks[199].speed / peaks[150].speed, 2.0, 2e-2) << kappa;
+    RecordProperty("speed_" + number(kappa), number(measured / c - 1.0));
+    RecordProperty("end_" + number(kappa), number(0.5 * peaks[199].speed / peaks[150].speed - 1.0));
+  }
+}
+
+}  // namespace
+}  // namespace edda
