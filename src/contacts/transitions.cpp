@@ -102,64 +102,105 @@ void hand_over(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTabl
   c.friction_work[k] += before - stored_energy(c, heir);
 }
 
-/// Who goes on when the foot of k leaves its edge: the same vertex on a collinear edge, of the same
-/// block or the next; else the corner it passes, against one of the vertex's own edges.
-Id heir_of(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
-  const Id vertex = c.vertex[k];
-  const double slack = 1e-6 * c.span[k] + 2.0 * std::abs(c.depth[k]);
-  auto free_and_near = [&](std::size_t q) {
-    return !c.is(q, cs::closed) && c.depth[q] > 0.0 && c.on_edge(q, slack);
-  };
-  for (Id q = c.begin_of_vertex[vertex]; q < c.begin_of_vertex[vertex + 1]; ++q) {
-    if (q == k || !free_and_near(q) || c.why[q] == Blocked::shield) continue;
-    if (dot(tangent_of(c, q), tangent_of(c, k)) > opposite) return q;
-  }
-  const Id corner = c.foot[k] < 0.5 * c.span[k] ? c.edge[k] : c.edge_end[k];
-  for (Id q = c.begin_of_vertex[corner]; q < c.begin_of_vertex[corner + 1]; ++q) {
-    const bool mine = c.edge[q] == vertex || c.edge[q] == b.previous[vertex];
-    if (mine && free_and_near(q) && facing(b, pose.x, pose.y, corner, normal_of(c, q))) {
-      return q;
-    }
-  }
-  return no_id;
-}
-
 void unblock(ContactSet& c, std::size_t k, double rest) {
   c.clear(k, cs::blocked);
   c.why[k] = Blocked::no;
   c.rest[k] = rest;
 }
 
-/// Part of its force that a contact keeps whose foot has run past the end of its edge: from 1 to 0
-/// within r_v, so that passing a corner makes no jump.
-double kept_past_end(const ContactSet& c, const BlockSet& b, std::size_t k) {
-  const double past = std::max(-c.before[k] - c.foot[k], c.foot[k] - c.span[k] - c.beyond[k]);
-  const double run_off =
-      corner_reach * std::min({b.edge_length[c.edge[k]], b.edge_length[c.vertex[k]],
-                               b.edge_length[b.previous[c.vertex[k]]]});
-  return std::clamp(1.0 - past / run_off, 0.0, 1.0);
+double slack_of(const ContactSet& c, std::size_t k) {
+  return 1e-6 * c.span[k] + 2.0 * std::abs(c.depth[k]);
 }
 
-/// The foot of a closed contact has left its edge. Without an heir it lets go little by little.
+/// The same vertex on a collinear edge, of the same block or the next, which takes all of k's
+/// spring over at once.
+Id collinear_heir(const ContactSet& c, std::size_t k) {
+  const Id vertex = c.vertex[k];
+  for (Id q = c.begin_of_vertex[vertex]; q < c.begin_of_vertex[vertex + 1]; ++q) {
+    if (q == k || c.is(q, cs::closed) || c.depth[q] <= 0.0 || !c.on_edge(q, slack_of(c, k)) ||
+        c.why[q] == Blocked::shield) {
+      continue;
+    }
+    if (dot(tangent_of(c, q), tangent_of(c, k)) > opposite) return q;
+  }
+  return no_id;
+}
+
+/// The corner that k passes, against one of the vertex's own edges; it may carry already.
+Id corner_heir(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
+  const Id vertex = c.vertex[k];
+  const Id corner = c.foot[k] < 0.5 * c.span[k] ? c.edge[k] : c.edge_end[k];
+  for (Id q = c.begin_of_vertex[corner]; q < c.begin_of_vertex[corner + 1]; ++q) {
+    const bool mine = c.edge[q] == vertex || c.edge[q] == b.previous[vertex];
+    if (mine && c.depth[q] > 0.0 && c.on_edge(q, slack_of(c, k)) && c.why[q] != Blocked::shield &&
+        facing(b, pose.x, pose.y, corner, normal_of(c, q))) {
+      return q;
+    }
+  }
+  return no_id;
+}
+
+/// Gives `heir` so much more normal energy (J) by moving its rest penetration; returns what it
+/// took.
+double load(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
+            std::size_t heir, double energy) {
+  if (!c.is(heir, cs::closed)) {
+    if (c.is(heir, cs::blocked)) unblock(c, heir, 0.0);
+    close(c, b, pose, laws, heir);
+    c.rest[heir] = std::max(c.depth[heir], c.depth_1[heir]);
+    c.anchor[heir] = c.foot[heir] / c.span[heir];
+  }
+  const double stiffness = c.kn[heir] * c.share[heir];
+  if (stiffness <= 0.0 || c.is(heir, cs::bonded | cs::pulls)) return 0.0;
+  const double before = stored_energy(c, heir);
+  const double product = std::max(c.effective(heir), 0.0) * std::max(c.effective_1(heir), 0.0) +
+                         2.0 * energy / stiffness;
+  const double gained = c.depth[heir] - c.depth_1[heir];
+  c.rest[heir] = c.depth[heir] - 0.5 * (gained + std::sqrt(gained * gained + 4.0 * product));
+  return stored_energy(c, heir) - before;
+}
+
+/// Part of its force that a contact keeps whose foot has run past the end of its edge by s r:
+/// 1 - s^2 for s up to 1, r twice r_v. What another takes over then grows as s, and neither jumps.
+double kept_past_end(const ContactSet& c, const BlockSet& b, std::size_t k) {
+  const double past = std::max(-c.before[k] - c.foot[k], c.foot[k] - c.span[k] - c.beyond[k]);
+  const double run_off = 2.0 * corner_reach *
+                         std::min({b.edge_length[c.edge[k]], b.edge_length[c.vertex[k]],
+                                   b.edge_length[b.previous[c.vertex[k]]]});
+  const double s = past / run_off;
+  return std::max(0.0, 1.0 - s * s);
+}
+
+/// The foot of a closed contact has left its edge. Without a collinear heir it lets go little by
+/// little; what the normal spring gives off goes to the corner that it passes, if that carries.
 void leave(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws, std::size_t k,
            TransitionCounts& counts) {
-  const Id heir = c.share[k] > 0.0 ? heir_of(c, b, pose, k) : no_id;
+  const Id heir = c.share[k] > 0.0 ? collinear_heir(c, k) : no_id;
   if (heir != no_id) {
     if (c.is(heir, cs::blocked)) unblock(c, heir, 0.0);
     hand_over(c, b, pose, laws, k, heir);
     ++counts.handed_over;
-  } else {
-    const double kept = c.is(k, cs::pulls) ? 0.0 : kept_past_end(c, b, k);
-    // A shared spring has been given its share of this step already.
-    const double whole = c.pair_of[k] == no_id ? 1.0 : c.share[k];
-    if (kept * whole > 0.0) {
-      change_share(c, k, kept * whole, false);
-      return;
-    }
-    c.friction_work[k] += stored_energy(c, k);
+    open(c, k);
+    ++counts.opened;
+    return;
   }
-  open(c, k);
-  ++counts.opened;
+  const double kept = c.is(k, cs::pulls) ? 0.0 : kept_past_end(c, b, k);
+  // A shared spring has been given its share of this step already.
+  const double whole = c.pair_of[k] == no_id ? 1.0 : c.share[k];
+  const double given_up = c.share[k] - kept * whole;
+  const double energy =
+      0.5 * given_up * c.kn[k] * std::max(c.effective(k), 0.0) * std::max(c.effective_1(k), 0.0);
+  if (kept * whole > 0.0) {
+    change_share(c, k, kept * whole, false);
+  } else {
+    c.friction_work[k] += stored_energy(c, k);
+    open(c, k);
+    ++counts.opened;
+  }
+  const Id corner = energy > 0.0 ? corner_heir(c, b, pose, k) : no_id;
+  if (corner == no_id) return;
+  c.friction_work[k] -= load(c, b, pose, laws, corner, energy);
+  ++counts.handed_over;
 }
 
 /// A corner that comes into its share of a spring from the side, the share still small, takes its
