@@ -72,6 +72,8 @@ class Loader {
 
   /// What was missing or of another kind, empty if nothing was. Such fields are left as they are.
   const std::string& flaw() const { return flaw_; }
+  /// For what a list finds wrong itself.
+  void refuse(std::string what) { note(std::move(what)); }
 
   template <class T>
   void operator()(const std::string& name, std::vector<T>& values) {

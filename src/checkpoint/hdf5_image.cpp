@@ -130,8 +130,9 @@ std::string to_hdf5(const Record& record) {
   const Handle access = in_memory(std::max<std::size_t>(1 << 16, bytes / 8));
   const Handle file(H5Fcreate("checkpoint", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
   bool good = file.ok();
-  for (const auto& [name, value] : record) {
-    good = good && std::visit([&](const auto& v) { return put(file.id(), name, v); }, value);
+  for (const auto& entry : record) {
+    good = good &&
+           std::visit([&](const auto& v) { return put(file.id(), entry.first, v); }, entry.second);
   }
   good = good && H5Fflush(file.id(), H5F_SCOPE_GLOBAL) >= 0;
   const ssize_t size = good ? H5Fget_file_image(file.id(), nullptr, 0) : -1;

@@ -112,7 +112,8 @@ Trouble Driver::take_up(const Record& record) {
                    "run without --resume");
   }
   if (by != version) {
-    return refused(folder, "its checkpoint is of version " + by + ", this is " + std::string(version),
+    return refused(folder,
+                   "its checkpoint is of version " + by + ", this is " + std::string(version),
                    "resume with that version, or run without --resume");
   }
   if (const std::string now = identity(sim_.model); now != model) {

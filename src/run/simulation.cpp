@@ -154,7 +154,9 @@ void Simulation::set_limit() {
 void Simulation::aim_at(double time) {
   target_ = time;
   const double left = time - state.time;
-  const double n = std::max(1.0, std::ceil(left / step_limit * (1.0 - 1e-12)));
+  constexpr double most = 1e18;  // a count of them must hold it
+  const double asked = std::ceil(left / step_limit * (1.0 - 1e-12));
+  const double n = asked >= 1.0 ? std::min(asked, most) : 1.0;
   steps_left_ = static_cast<std::uint64_t>(n);
   const double h = left / n;
   // Equal intervals must give equal bits, or every row would cost a change of the step.
@@ -264,9 +266,14 @@ void Simulation::search_if_due() {
   double moved2 = 0.0;
   for (std::size_t v = 0; v < nv; ++v) {
     const double dx = pose.x[v] - contacts.built_x[v], dy = pose.y[v] - contacts.built_y[v];
-    moved2 = std::max(moved2, dx * dx + dy * dy);
+    const double d2 = dx * dx + dy * dy;
+    if (!(d2 <= moved2)) moved2 = d2;
   }
   contacts.travel = std::sqrt(moved2);
+  if (!(contacts.travel <= 100.0 * (contacts.reach + displacement_limit))) {
+    last_displacement = std::numeric_limits<double>::infinity();  // inspect() ends the run
+    return;
+  }
   if (contacts.travel + 2.0 * ahead <= 0.5 * contacts.reach) return;
   search(std::max(base_reach, 20.0 * last_displacement));
   update_shares(contacts);

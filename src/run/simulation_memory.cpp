@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "checkpoint/archive.hpp"
 #include "implicit/assemble.hpp"
@@ -165,28 +166,41 @@ void list_counts(Archive& a, Simulation& s) {
   a("largest_energy", s.largest_energy);
 }
 
-/// Rows and columns within the model, each row with itself and sorted; else nothing is taken up.
-void take_up(Simulation& s, const std::vector<Id>& column, const std::vector<Id>& ends,
+/// The matrix and its factor as they were. False where rows, columns or values do not fit the model
+/// or each other.
+bool take_up(Simulation& s, const std::vector<Id>& column, const std::vector<Id>& ends,
              SolverMemory memory) {
   ImplicitSolver& solver = s.implicit;
   const std::size_t rows = solver.block_of.size();
-  if (rows == 0 || ends.size() != rows) return;
+  if (ends.size() != rows) return false;
+  if (rows == 0) return !memory.made;  // no step has been made yet
   std::vector<std::vector<Id>> columns(rows);
   solver.row_of.assign(s.blocks.size(), no_id);
   std::size_t begin = 0;
   for (std::size_t r = 0; r < rows; ++r) {
-    if (ends[r] < begin || ends[r] > column.size() || solver.block_of[r] >= s.blocks.size()) return;
-    columns[r].assign(column.begin() + static_cast<std::ptrdiff_t>(begin),
-                      column.begin() + static_cast<std::ptrdiff_t>(ends[r]));
+    const Id i = solver.block_of[r];
+    if (i >= s.blocks.size() || s.blocks.fixed[i] || solver.row_of[i] != no_id) return false;
+    if (ends[r] < begin || ends[r] > column.size()) return false;
+    solver.row_of[i] = static_cast<Id>(r);
+    std::vector<Id>& row = columns[r];
+    row.assign(column.begin() + static_cast<std::ptrdiff_t>(begin),
+               column.begin() + static_cast<std::ptrdiff_t>(ends[r]));
     begin = ends[r];
-    const bool sorted = std::is_sorted(columns[r].begin(), columns[r].end());
-    const bool own = std::binary_search(columns[r].begin(), columns[r].end(), static_cast<Id>(r));
-    if (!sorted || !own || columns[r].back() >= rows) return;
-    solver.row_of[solver.block_of[r]] = static_cast<Id>(r);
+    const bool rising =
+        std::adjacent_find(row.begin(), row.end(), std::greater_equal<>()) == row.end();
+    if (!rising || !std::binary_search(row.begin(), row.end(), static_cast<Id>(r))) return false;
+    if (row.back() >= rows) return false;
+  }
+  // Symmetric, or the factor would be one of another matrix.
+  for (std::size_t r = 0; r < rows; ++r) {
+    for (const Id c : columns[r]) {
+      if (!std::binary_search(columns[c].begin(), columns[c].end(), static_cast<Id>(r)))
+        return false;
+    }
   }
   lay_out(solver, {s.blocks, s.laws, s.springs, s.model.gravity}, columns);
-  if (memory.made && memory.values.size() != 36 * column.size()) return;
-  solver.linear.recall(solver.matrix, std::move(memory));
+  if (memory.made && memory.values.size() != 36 * column.size()) return false;
+  return solver.linear.recall(solver.matrix, std::move(memory));
 }
 
 /// The implicit method: its guess, and the factor that its solver keeps.
@@ -214,7 +228,15 @@ void list_implicit(Archive& a, Simulation& s) {
   a("solver.by_diagonal", m.by_diagonal);
   a("solver.per_solve", m.per_solve);
   a("solver.values", m.values);
-  if constexpr (Archive::loads) take_up(s, column, ends, std::move(m));
+  if constexpr (Archive::loads) {
+    const std::size_t size = solver.drift_x[0].empty() ? 0 : s.blocks.size();
+    bool good = true;
+    for (const auto* drift : {&solver.drift_x, &solver.drift_y}) {
+      for (const auto& values : *drift) good = good && values.size() == size;
+    }
+    if (!good || !take_up(s, column, ends, std::move(m)))
+      a.refuse("implicit does not fit the model");
+  }
 }
 
 /// The first thing that would lead out of an array, or to no number.
@@ -238,13 +260,36 @@ class Judge {
   void positive(const char* name, double value) {
     if (!(value > 0.0)) note(name, "is not above zero");
   }
+  void refuse(const char* what) { note(what, ""); }
 
  private:
   void note(const char* name, const char* what) {
-    if (flaw_.empty()) flaw_ = std::string(name) + " " + what;
+    if (flaw_.empty()) flaw_ = *what ? std::string(name) + " " + what : name;
   }
   std::string flaw_;
 };
+
+/// Vertices and edges are those of their blocks, and every list points to contacts of its own.
+bool belong_together(const ContactSet& c, const BlockSet& b) {
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (b.vertex_block[c.vertex[k]] != c.block_i[k] || b.vertex_block[c.edge[k]] != c.block_j[k] ||
+        b.next[c.edge[k]] != c.edge_end[k] || c.block_i[k] == c.block_j[k]) {
+      return false;
+    }
+  }
+  for (Id v = 0; v < b.vertex_count(); ++v) {
+    for (Id k = c.begin_of_vertex[v]; k < c.begin_of_vertex[v + 1]; ++k) {
+      if (c.vertex[k] != v) return false;
+    }
+  }
+  for (Id i = 0; i < b.size(); ++i) {
+    for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
+      const Id k = c.block_entry[q] >> 1;
+      if (((c.block_entry[q] & 1u) == 0 ? c.block_i[k] : c.block_j[k]) != i) return false;
+    }
+  }
+  return true;
+}
 
 void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawTable& laws) {
   const std::size_t nc = c.size(), nv = b.vertex_count();
@@ -308,8 +353,35 @@ void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawT
   j.below("contacts.block_entry", c.block_entry, 2 * nc);
   j.rising("contacts.begin_of_vertex", c.begin_of_vertex, nc);
   j.rising("contacts.block_begin", c.block_begin, c.block_entry.size());
+  if (j.flaw().empty() && !belong_together(c, b)) j.refuse("contacts do not belong together");
   for (const CornerPair& p : c.pairs) j.below("pairs", {p.first, p.second}, nc);
   for (const Segment& s : c.segments) j.below("segments", s.members, nc);
+}
+
+/// Blocks in one piece and not at the end of the world: the search for contacts counts cells.
+void judge_places(Judge& j, const Simulation& s) {
+  const BlockSet& b = s.blocks;
+  double extent = 0.0;
+  for (std::size_t v = 0; v < b.vertex_count(); ++v) {
+    extent = std::max({extent, std::abs(b.vertex_x[v]), std::abs(b.vertex_y[v])});
+  }
+  const double far = 1e6 * extent;
+  auto near = [&](const std::vector<double>& x, const std::vector<double>& y, std::size_t v) {
+    const Vec2 middle = centroid(s.state.x, s.state.y, b.vertex_block[v]);
+    const Vec2 p{x[v], y[v]};
+    return norm(p) <= far && norm(p - middle) <= 10.0 * b.radius[b.vertex_block[v]];
+  };
+  for (std::size_t v = 0; v < b.vertex_count(); ++v) {
+    if (!near(s.pose.x, s.pose.y, v) || !near(s.pose.x1, s.pose.y1, v)) {
+      return j.refuse("pose is not that of these blocks");
+    }
+    if (!(std::abs(s.contacts.built_x[v]) <= far && std::abs(s.contacts.built_y[v]) <= far)) {
+      return j.refuse("contacts.built is not of these blocks");
+    }
+  }
+  for (const double length : {s.contacts.reach, s.contacts.travel, s.last_displacement}) {
+    if (!(length >= 0.0 && length <= extent)) return j.refuse("a length is out of range");
+  }
 }
 
 void judge(Judge& j, const Simulation& s) {
@@ -330,6 +402,7 @@ void judge(Judge& j, const Simulation& s) {
   j.positive("state.step", s.state.step);
   j.positive("step_limit", s.step_limit);
   judge_contacts(j, s.contacts, s.blocks, s.laws);
+  if (j.flaw().empty()) judge_places(j, s);
 }
 
 }  // namespace
