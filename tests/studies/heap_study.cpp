@@ -1,0 +1,125 @@
+// A loose heap poured into a box: heap_study [BLOCKS [SEEDS [FIRST [STIFFNESS
+// [DAMPING [SECONDS [ODD [THINNEST]]]]]]]].
+// One line per seed. Exit 1 if one does not come to rest, overlaps, gains energy or cuts its steps.
+#include <cstdio>
+#include <cstdlib>
+
+#include "verification/heap_watch.hpp"
+#include "verification/overlap.hpp"
+#include "verification/random_heap.hpp"
+
+namespace {
+
+using namespace edda;
+
+struct Settings {
+  int blocks = 2000;
+  double stiffness = 5.0;  ///< contact over Young's modulus
+  double damping = 0.2;    ///< at contacts
+  double seconds = 5.0;
+  double odd = 0.1;       ///< part of blocks that are stars, needles, slivers or Ls
+  double thinnest = 0.2;  ///< of needles and slivers
+};
+
+/// Convex polygons of 0.5 to 1 m and some stars, needles and Ls, loosely stacked over a box.
+std::string poured(unsigned seed, const Settings& s) {
+  std::mt19937 rng(seed);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  const int columns = static_cast<int>(std::ceil(std::sqrt(4.0 * s.blocks)));
+  const double cell = 1.05, width = cell * columns, high = 60.0;
+  std::string toml =
+      "[materials.rock]\ndensity = 2600.0\nyoung = 2e9\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = 30\n[contact]\nnormal_stiffness = " +
+      number(2e9 * s.stiffness) + "\n[solver]\nduration = " + number(s.seconds) +
+      "\ndamping = { contact = " + number(s.damping) + " }\n";
+  auto wall = [&](double x0, double y0, double x1, double y1) {
+    toml += "[[block]]\nfixed = true\npolygon = " + rectangle(x0, y0, x1, y1) + "\n";
+  };
+  wall(-2, -2, width + 2, -0.5);
+  wall(-2, -0.5, -0.5, high);
+  wall(width - 0.5, -0.5, width + 2, high);
+  for (int i = 0; i < s.blocks; ++i) {
+    const Vec2 c{cell * (i % columns), 0.1 + cell * (i / columns)};
+    const double size = 0.25 + 0.25 * u(rng);
+    if (u(rng) < s.odd) {
+      toml += block_text(random_shape(rng, c, size, s.thinnest));
+      continue;
+    }
+    Ring ring;
+    const int corners = 4 + static_cast<int>(5.0 * u(rng));
+    const double turn = 6.3 * u(rng);
+    for (int k = 0; k < corners; ++k) {
+      const double a = turn + 2.0 * std::numbers::pi * (k + 0.6 * u(rng)) / corners;
+      ring.push_back(c + size * Vec2{std::cos(a), std::sin(a)});
+    }
+    toml += block_text(ring);
+  }
+  return toml;
+}
+
+bool pour(unsigned seed, const Settings& s) {
+  Simulation sim = scene(poured(seed, s));
+  double smallest = 1e9;
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i)
+    smallest = std::min(smallest, std::sqrt(sim.blocks.area[i]));
+  const double every = 0.05;
+  sim.start(every);
+  double overlap = 0.0, overlap_at = 0.0, gained = 0.0, energy = 0.0, drift = 0.0;
+  std::string failure;
+  for (int row = 1; row * every <= s.seconds * (1 + 1e-9) && failure.empty(); ++row) {
+    sim.aim_at(row * every);
+    while (sim.state.time < row * every) {
+      if (const auto f = sim.step()) {
+        failure = f->message;
+        break;
+      }
+    }
+    const Ledger l = sim.ledger();
+    const double now = l.kinetic + l.strain + l.contact + l.gravity;
+    if (row > 1) gained = std::max(gained, (now - energy) / sim.largest_energy);
+    energy = now;
+    drift = std::max(drift, std::abs(l.drift));
+    const Overlap o = deepest_overlap(sim.blocks, sim.pose);
+    if (o.depth > overlap) {
+      overlap = o.depth;
+      overlap_at = sim.state.time;
+    }
+  }
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i)
+    fastest = std::max(fastest, norm(centroid(sim.state.vx, sim.state.vy, i)));
+  const double cut = static_cast<double>(sim.steps.redone) / static_cast<double>(sim.state.steps);
+  const bool good = failure.empty() && overlap < 0.01 * smallest && gained <= 1e-6 && cut < 0.01 &&
+                    fastest < 1e-2;
+  std::printf(
+      "seed %u: %s; overlap %.2e of the smallest block at %.2f s, gained %.1e, drift %.1e, cut "
+      "%.1e "
+      "of %llu steps, fastest %.1e m/s, unsettled %.1e %s\n",
+      seed, good ? "good" : "BAD", overlap / smallest, overlap_at, gained, drift, cut,
+      static_cast<unsigned long long>(sim.state.steps), fastest,
+      static_cast<double>(sim.open_close.unsettled) / static_cast<double>(sim.state.steps),
+      failure.c_str());
+  std::fflush(stdout);
+  return good;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  auto argument = [&](int i, double otherwise) {
+    return argc > i ? std::atof(argv[i]) : otherwise;
+  };
+  Settings s;
+  s.blocks = static_cast<int>(argument(1, 2000));
+  const unsigned seeds = static_cast<unsigned>(argument(2, 20));
+  const unsigned first = static_cast<unsigned>(argument(3, 1));
+  s.stiffness = argument(4, s.stiffness);
+  s.damping = argument(5, s.damping);
+  s.seconds = argument(6, s.seconds);
+  s.odd = argument(7, s.odd);
+  s.thinnest = argument(8, s.thinnest);
+  unsigned bad = 0;
+  for (unsigned seed = first; seed < first + seeds; ++seed) bad += pour(seed, s) ? 0 : 1;
+  std::printf("%u of %u seeds bad\n", bad, seeds);
+  return bad > 0 ? 1 : 0;
+}

@@ -1,0 +1,31 @@
+// Row 18 in full: a wall of 8 x 8 bricks for a million steps, as drawn and settled:
+// rest_study [STEPS]. Exit 1 if its energy grows, its ledger has a trend, or it moves.
+#include <cstdio>
+#include <cstdlib>
+
+#include "verification/wall_at_rest.hpp"
+
+int main(int argc, char** argv) {
+  using namespace edda;
+  const std::uint64_t steps = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000000;
+  bool good = true;
+  for (const bool settle : {true, false}) {
+    Simulation sim = brick_wall(settle);
+    sim.start(1e4);
+    while (settle && sim.state.time < 1.0 && !sim.step()) {
+    }
+    sim.model.solver.damping.local = 0.0;
+    const Rest rest = watch_rest(sim, steps);
+    std::printf(
+        "%s: kinetic energy %.3g J in the first second, %.3g J after it; drift %.2e, trend %.1e; "
+        "%llu flips in %llu steps; moved %.2e m; unsettled %llu of %llu\n",
+        settle ? "settled" : "as drawn", rest.first_kinetic, rest.later_kinetic, rest.drift,
+        rest.trend, static_cast<unsigned long long>(rest.flips),
+        static_cast<unsigned long long>(rest.later_steps), rest.moved,
+        static_cast<unsigned long long>(sim.open_close.unsettled),
+        static_cast<unsigned long long>(sim.open_close.steps));
+    good = good && rest.drift < 1e-5 && rest.later_kinetic < 1.2 * rest.first_kinetic + 1e-12 &&
+           rest.moved < 1e-3 && (!settle || rest.flips == 0);
+  }
+  return good ? 0 : 1;
+}
