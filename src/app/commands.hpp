@@ -13,6 +13,7 @@ inline constexpr int done = 0, failed = 1, bad_input = 2, interrupted = 130;
 void add_run(CLI::App& app, int& code);
 void add_check(CLI::App& app, int& code);
 void add_cut(CLI::App& app, int& code);
+void add_verify(CLI::App& app, int& code);
 void add_plot(CLI::App& app, int& code);
 void add_example(CLI::App& app, int& code);
 

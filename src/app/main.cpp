@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   edda::add_run(app, code);
   edda::add_check(app, code);
   edda::add_cut(app, code);
+  edda::add_verify(app, code);
   edda::add_plot(app, code);
   edda::add_example(app, code);
   try {

@@ -36,9 +36,9 @@ std::optional<Fault> unstable_step(const Simulation& sim) {
 
 }  // namespace
 
-Result<PreparedRun> prepare_run(Model model) {
+Result<PreparedRun> prepare_run(Model model, BlockOrder order) {
   const auto start = std::chrono::steady_clock::now();
-  Result<Simulation> made = Simulation::create(std::move(model));
+  Result<Simulation> made = Simulation::create(std::move(model), order);
   if (!made.ok()) return made.faults();
   PreparedRun run{std::move(made.value()), {}, {}, {}, 0.0};
   run.cut_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -42,7 +42,7 @@ struct PreparedRun {
 
 /// Cuts, builds and checks. Faults: geometry, monitors outside every block, a time_step above the
 /// critical step (unless allow_unstable).
-Result<PreparedRun> prepare_run(Model model);
+Result<PreparedRun> prepare_run(Model model, BlockOrder order = BlockOrder::as_cut);
 
 /// Runs it to its end. Faults only where the folder cannot be used; whatever happens later is an
 /// Outcome, with what had been computed kept.

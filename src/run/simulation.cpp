@@ -60,12 +60,15 @@ double energy_of_step_change(const BlockSet& b, const State& s, const Nodes& old
 
 }  // namespace
 
-Result<Simulation> Simulation::create(Model given) {
+Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   Simulation s;
   s.model = std::move(given);
   Result<PolygonSet> cut = build_polygons(s.model);
   if (!cut.ok()) return cut.faults();
   s.polygons = std::move(cut.value());
+  if (order == BlockOrder::reversed) {
+    std::reverse(s.polygons.blocks.begin(), s.polygons.blocks.end());
+  }
   s.blocks = build_blocks(s.model, s.polygons);
   s.laws = build_laws(s.model);
   Result<BoundarySprings> springs = attach_boundaries(s.model, s.blocks);

@@ -34,6 +34,10 @@ struct StepStatistics {
   std::uint64_t redone = 0;  ///< steps made again with half the step ("step cuts")
 };
 
+/// In which order the blocks are numbered: as the cut gives them, or the other way round (for
+/// verification: nothing but rounding may depend on it).
+enum class BlockOrder { as_cut, reversed };
+
 struct Simulation {
   Model model;
   PolygonSet polygons;
@@ -63,7 +67,7 @@ struct Simulation {
   double largest_energy = 0.0;         ///< J, so far
 
   /// Cuts, builds, finds what touches, bounds the step. Faults of the geometry come back as values.
-  static Result<Simulation> create(Model model);
+  static Result<Simulation> create(Model model, BlockOrder order = BlockOrder::as_cut);
 
   /// Chooses the step so that a whole number of steps ends at `first_event` (s), and takes the
   /// velocities half a step back: v_{-1/2} = v_0 - a_0 h/2. Once, before the first step().
