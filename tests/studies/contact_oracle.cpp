@@ -12,9 +12,10 @@ namespace {
 
 using namespace edda;
 
-/// A pair's force may change by p u, half as much again where corners pass (row 16), and up to
-/// sqrt(1 + 4 tan^2 phi) where shear turns round and slides in one step.
-constexpr double largest_jump = 2.0;
+/// A pair's force may change by p u, half as much again where corners pass (row 16), up to
+/// sqrt(1 + 4 tan^2 phi) where shear turns round and slides in one step, and more where a corner is
+/// passed with a penetration over the 2 r_v in which it lets go.
+constexpr double largest_jump = 3.0;
 
 struct Thrown {
   double jump = 0.0, share = 0.0, drift = 0.0;

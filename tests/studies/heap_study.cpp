@@ -14,7 +14,7 @@ using namespace edda;
 
 struct Settings {
   int blocks = 2000;
-  double stiffness = 5.0;  ///< contact over Young's modulus
+  double stiffness = 1.0;  ///< contact over Young's modulus
   double damping = 0.2;    ///< at contacts
   double seconds = 5.0;
   double odd = 0.1;       ///< part of blocks that are stars, needles, slivers or Ls
@@ -28,9 +28,9 @@ std::string poured(unsigned seed, const Settings& s) {
   const int columns = static_cast<int>(std::ceil(std::sqrt(4.0 * s.blocks)));
   const double cell = 1.05, width = cell * columns, high = 60.0;
   std::string toml =
-      "[materials.rock]\ndensity = 2600.0\nyoung = 2e9\npoisson = 0.2\n[joints.j]\n"
+      "[materials.rock]\ndensity = 2600.0\nyoung = 2e10\npoisson = 0.2\n[joints.j]\n"
       "friction_angle = 30\n[contact]\nnormal_stiffness = " +
-      number(2e9 * s.stiffness) + "\n[solver]\nduration = " + number(s.seconds) +
+      number(2e10 * s.stiffness) + "\n[solver]\nduration = " + number(s.seconds) +
       "\ndamping = { contact = " + number(s.damping) + " }\n";
   auto wall = [&](double x0, double y0, double x1, double y1) {
     toml += "[[block]]\nfixed = true\npolygon = " + rectangle(x0, y0, x1, y1) + "\n";

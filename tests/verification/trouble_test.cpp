@@ -26,7 +26,7 @@ std::string held(const std::string& polygon) {
 /// or is stopped, and is never seen on the other side.
 TEST(ThinPlate, IsNotPassed) {
   const double thin = 0.002, plate = 0.005;
-  for (const double speed : {1.0, 10.0, 50.0}) {
+  for (const double speed : {8.0, 50.0}) {
     for (const double tilt : {0.0, 3.0, 45.0, 87.0, 90.0}) {
       Ring ring;
       const double a = radians(tilt);
@@ -51,9 +51,38 @@ TEST(ThinPlate, IsNotPassed) {
   }
 }
 
+/// Contacts too soft for the speed let blocks sink in: the run ends with a message then, and never
+/// lets one come out on the other side.
+TEST(ThinPlate, IsNotPassedWithSoftContactsEither) {
+  int stopped = 0, bounced = 0;
+  for (const double stiffness : {1e6, 1e7, 1e8}) {
+    for (const double speed : {5.0, 50.0, 200.0}) {
+      for (const double tilt : {0.0, 3.0, 45.0, 90.0}) {
+        Ring ring;
+        for (Vec2 p : {Vec2{-0.1, 0}, Vec2{0.1, 0}, Vec2{0.02, 0.002}})
+          ring.push_back(rotated(p, radians(tilt)) + Vec2{0.03, 0.2});
+        const double duration = 0.6 / speed;
+        Simulation sim = scene("gravity = [0, 0]\n" + std::string(rock) + joint(20) +
+                               "[contact]\nnormal_stiffness = " + number(stiffness) +
+                               "\n[solver]\nduration = " + number(duration) + "\n" +
+                               held(rectangle(-1, -0.005, 1, 0)) +
+                               block_text(ring, "velocity = [0, " + number(-speed) + "]\n"));
+        sim.start(duration);
+        bool failed = false;
+        while (!failed && sim.state.time < duration) failed = sim.step().has_value();
+        const double height = centroid(sim.state.x, sim.state.y, 1).y + sim.blocks.origin.y;
+        EXPECT_GT(height, -0.005) << stiffness << ' ' << speed << ' ' << tilt;
+        (failed ? stopped : bounced) += 1;
+      }
+    }
+  }
+  EXPECT_GT(stopped, 5);
+  EXPECT_GT(bounced, 5);
+}
+
 /// Slivers whose edges are long and whose width is not: the width must bound the step's motion.
 TEST(ThinPlate, IsNotPassedBySlivers) {
-  for (const double speed : {5.0, 50.0}) {
+  for (const double speed : {20.0, 80.0}) {
     for (const double turn : {0.0, 90.0, 180.0}) {
       Ring ring;
       for (Vec2 p : {Vec2{-0.5, 0}, Vec2{0.5, 0}, Vec2{0.1, 0.001}})
@@ -109,7 +138,7 @@ TEST(FlatRow, FortySeamsWithoutAKick) {
 TEST(LargeOnSmall, ABlockOnGrains) {
   const double grain = 1e-4;
   std::string toml = std::string(rock) + joint(30) +
-                     "[solver]\nduration = 1e-3\n[output]\nhistory_every = "
+                     "[solver]\nduration = 6e-4\n[output]\nhistory_every = "
                      "1e-4\n" +
                      held(rectangle(-1, -1, 1, 0));
   for (int i = 0; i < 12; ++i) {
