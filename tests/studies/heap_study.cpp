@@ -16,9 +16,9 @@ struct Settings {
   int blocks = 2000;
   double stiffness = 1.0;  ///< contact over Young's modulus
   double damping = 0.2;    ///< at contacts
-  double seconds = 5.0;
-  double odd = 0.1;       ///< part of blocks that are stars, needles, slivers or Ls
-  double thinnest = 0.2;  ///< of needles and slivers
+  double seconds = 8.0;    ///< the last avalanches take five
+  double odd = 0.1;        ///< part of blocks that are stars, needles, slivers or Ls
+  double thinnest = 0.2;   ///< of needles and slivers
 };
 
 /// Convex polygons of 0.5 to 1 m and some stars, needles and Ls, loosely stacked over a box.
