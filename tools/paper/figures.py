@@ -2,7 +2,7 @@
 import matplotlib
 
 matplotlib.use("svg")
-from matplotlib import pyplot  # noqa: E402
+from matplotlib import pyplot, ticker  # noqa: E402
 
 # One colour and one line for each method, throughout; the colours are told apart by the colour-blind, too.
 METHODS = {
@@ -33,6 +33,13 @@ def panels(rows, columns, width=7.2, height=2.7, **keys):
 def line(axes, method, x, y, **keys):
     """A curve in the look of its method."""
     axes.plot(x, y, **{**METHODS[method], **keys})
+
+
+def logarithmic(axes):
+    """Both axes, with numbers at the powers of ten alone."""
+    for axis, scale in ((axes.xaxis, axes.set_xscale), (axes.yaxis, axes.set_yscale)):
+        scale("log")
+        axis.set_minor_formatter(ticker.NullFormatter())
 
 
 def legend_below(figure, axes, columns):

@@ -10,8 +10,7 @@ import sys
 from paper import results
 
 LONGEST_RUN = 1800   # s; a run that takes longer is ended, and has failed
-BUSY = 0.93          # processor seconds over wall seconds below which a timed run is made again,
-LONG = 60.0          # s: unless it took this long
+LONG = 30.0          # s: a timed run that was disturbed is made again unless it took this long
 SHORT = 2.0          # s: timed runs shorter than this are made TRIES times in any case
 TRIES = 3
 AT_A_TIME = 2
@@ -29,7 +28,14 @@ class Program:
         self.folder = pathlib.Path(folder).resolve()
         self.folder.mkdir(parents=True, exist_ok=True)
         self.numbers = itertools.count()
-        self.runs = 0
+        self.runs = self.timed = self.disturbed = 0
+
+    def quiet(self):
+        """How far the times may be trusted, in a sentence."""
+        if self.disturbed == 0:
+            return f"None of the {self.timed} timed runs was disturbed by anything else on the machine."
+        return (f"Of the {self.timed} timed runs {self.disturbed} were disturbed by something else on the machine; of those,"
+                " processor seconds are given.")
 
     def run(self, name, model, sets=(), timed=False, may_fail=False):
         """Runs `model` (text) with `--set` overrides and one thread.
@@ -44,8 +50,10 @@ class Program:
                 return None
             if best is None or found.stepping < best.stepping:
                 best = found
-            if found.wall > LONG or (found.wall > SHORT and found.processor > BUSY * found.wall):
+            if found.wall > LONG or (found.wall > SHORT and not found.disturbed):
                 break
+        self.timed += timed
+        self.disturbed += timed and best.disturbed
         return best
 
     def run_all(self, jobs):

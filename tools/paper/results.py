@@ -5,6 +5,9 @@ import json
 
 import numpy as np
 
+BUSY = 0.95   # processor seconds over wall seconds below which something else kept the processor from a run,
+START = 0.02  # s: unless they differ by no more than starting a process takes
+
 
 @dataclasses.dataclass
 class Results:
@@ -38,10 +41,17 @@ class Results:
         return self.summary["time_step"]["mean"]
 
     @property
+    def disturbed(self):
+        """Whether something else kept the processor from this run."""
+        return self.processor < min(BUSY * self.wall, self.wall - START)
+
+    @property
     def stepping(self):
-        """Wall seconds of the steps alone: without cutting, reading and writing."""
+        """Wall seconds of the steps alone: without cutting, reading and writing. Of a run that was disturbed, the
+        processor's: the same but for the time in which it had to wait."""
         seconds = self.summary["wall_seconds"]
-        return seconds["total"] - seconds["cut"] - seconds["output"]
+        share = self.processor / self.wall if self.disturbed else 1.0
+        return share * (seconds["total"] - seconds["cut"] - seconds["output"])
 
     @property
     def per_second(self):

@@ -112,11 +112,15 @@ def _pair(pair, found, wins, k):
     """One pair of angles in a sentence."""
     end, mean = wins["covering", "end"][k], wins["covering", "mean"][k]
     errors = {m: percent(float(found[pair, m][1][-1]), 3) for m in METHODS}
-    held = "holds" if end == mean == "slightly better" else \
-        "holds, and by more than slightly," if end.endswith("better") and mean.endswith("better") else \
-        "holds in part" if "better" in end + mean else "does not hold"
-    return (f"({pair[0]:g}°, {pair[1]:g}°): it {held}: {end} at the end ({errors['covering']} against {errors['dda']}), {mean} in"
-            " the mean.")
+    better = [v.endswith("better") for v in (end, mean)]
+    if end == mean == "slightly better":
+        held = "It holds."
+    elif all(better):
+        held = "It is better, and by more than slightly."
+    else:
+        held = "It holds in part." if any(better) else "It does not hold."
+    return (f"({pair[0]:g}°, {pair[1]:g}°): {held} At the end it is {end} ({errors['covering']} against {errors['dda']}), in the"
+            f" mean {mean}.")
 
 
 def _common(found):

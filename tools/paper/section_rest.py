@@ -92,8 +92,7 @@ def _draw(report, points):
     for method, label in (("matched", "explicit, the better local damping"), ("dda", "implicit, static")):
         x, y = zip(*points[method])
         figures.line(axis, method, x, y, marker="o", markersize=3.5, label=label)
-    axis.set_xscale("log")
-    axis.set_yscale("log")
+    figures.logarithmic(axis)
     axis.set_xlabel("blocks")
     axis.set_ylabel("wall seconds to rest")
     axis.legend(loc="upper left")

@@ -2,7 +2,7 @@
 import math
 
 from paper import exact, figures, inertia, models
-from paper.report import digits, listed, percent, plain, times
+from paper.report import digits, listed, percent, plain
 
 ROCKING = (1.0, 3.0)               # m
 TOPPLING = (1.0, 4.0)              # m
@@ -64,8 +64,8 @@ def write(report, program, settings):
     report.heading("Rocking and toppling: what the paper could not show")
     report.text(
         "The paper's two examples hardly turn. Lumped on a triangle that covers the block, its mass sits far outside it,",
-        f"and the block resists turning too much: {times(rocking.excess)} for a block of {ROCKING[0]:g} m x {ROCKING[1]:g} m,",
-        f"{times(toppling.excess)} for one of {TOPPLING[0]:g} m x {TOPPLING[1]:g} m. About a corner, the distance to the",
+        f"and the block resists turning too much: {digits(rocking.excess, 3)} times for a block of {ROCKING[0]:g} m x {ROCKING[1]:g} m,",
+        f"{digits(toppling.excess, 3)} times for one of {TOPPLING[0]:g} m x {TOPPLING[1]:g} m. About a corner, the distance to the",
         f"corner adds to both, and what remains is that everything takes {digits(rocking.slower, 3)} and",
         f"{digits(toppling.slower, 3)} times as long. Two problems with an exact answer show it:")
     report.points([
@@ -109,7 +109,7 @@ def _table(report, both, found, settings):
             if method != "dda":
                 report.expect(abs(ratio / predicted - 1.0) < BOUND,
                               f"{case.name}, {method}: {ratio:.5g} times the exact time, predicted {predicted:.5g}")
-            rows.append([case.name, NAMES[method], digits(at, 5), digits(ratio, 4), digits(predicted, 4)])
+            rows.append([case.name, NAMES[method], digits(at, 5), f"{ratio:.4f}", f"{predicted:.4f}"])
     report.table(["problem", "method", "time (s)", "over the exact time", "predicted"], rows)
     worst = max(abs(e) for (_, m), e in errors.items() if m in ("matched", "consistent"))
     lumped = max(abs(e) for (_, m), e in errors.items() if m == "covering")

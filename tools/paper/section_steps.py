@@ -96,7 +96,7 @@ def _sentences(report, found, notes, stiff):
                 error = mean_error(*relative_error(found[factor, step, "matched"], ANGLE, FRICTION))
                 text += f" The step of {plain(step)} s is above the critical one; it got through, with {percent(error)}."
         sentences.append(text)
-    report.text("The paper reports that the error falls and falls as the step does.", *sentences)
+    report.text("The paper reports that the error falls with the step.", *sentences)
     report.verdict(
         f"Steps: that a smaller step makes the sliding more exact shows for {falls} of {len(STIFFNESSES)} contact stiffnesses;"
         " what is left is the unstressed start.")
