@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -205,12 +206,23 @@ bool grow_springs(ContactSet& c, const BlockSet& b, const Pose& pose, const LawT
   return grown;
 }
 
+/// What a gap may be wrong by, m: a few times the last digit of the largest coordinate.
+static double rounding_of(const Pose& pose) {
+  double largest = 0.0;
+  for (const auto* values : {&pose.x, &pose.y}) {
+    for (const double u : *values) largest = std::max(largest, std::abs(u));
+  }
+  constexpr double digits = 8.0;
+  return digits * std::numeric_limits<double>::epsilon() * largest;
+}
+
 void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& state,
                         const Pose& pose, const LawTable& laws, double reach) {
   const std::vector<NearPair> list = wanted(contacts, b, state, pose, reach);
   ContactSet next;
   resize(next, list.size());
   next.reach = reach;
+  next.noise = rounding_of(pose);
   next.vertex.reserve(list.size());
   next.edge.reserve(list.size());
   std::vector<Id> new_of_old(contacts.size(), no_id);

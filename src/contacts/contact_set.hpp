@@ -111,6 +111,7 @@ struct ContactSet {
 
   // When the list was made, and how long it lives.
   std::vector<double> built_x, built_y;  ///< [nv] vertices then, m
+  double noise = 0.0;                    ///< m: gaps this small are rounding of the coordinates
   double reach = 0.0;          ///< m: every vertex nearer than this to an edge is in the list
   double travel = 0.0;         ///< m: bound of what any vertex has moved since
   std::uint64_t built_at = 0;  ///< step

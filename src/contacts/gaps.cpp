@@ -1,6 +1,7 @@
 #include "contacts/gaps.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/parallel.hpp"
@@ -27,8 +28,11 @@ void measure(ContactSet& c, const Pose& pose, std::size_t k) {
 bool stirs(const ContactSet& c, std::size_t k) {
   using namespace contact_state;
   if (c.is(k, closed)) {
-    const bool switched = c.effective(k) <= 0.0 || c.effective_2(k) <= 0.0;
-    const bool reversed = c.shear[k] * trial_slip(c, k) > 0.0;
+    const bool carried = c.effective_1(k) > c.noise;
+    const bool switched = (carried && (c.effective(k) <= 0.0 || c.effective_2(k) <= 0.0)) ||
+                          c.effective(k) <= -c.noise;
+    const double slip = trial_slip(c, k);
+    const bool reversed = c.shear[k] * slip > 0.0 && std::abs(slip) > c.noise;
     const bool leaving = !c.on_edge(k) || (c.share[k] < 1.0 && c.pair_of[k] == no_id);
     return (switched && !c.is(k, pulls)) || (!c.is(k, bonded) && (reversed || leaving));
   }

@@ -229,7 +229,9 @@ void find_events(ContactSet& c, TransitionScratch& events) {
     for (std::size_t k = q * ContactSet::chunk; k < end; ++k) {
       if (c.is(k, cs::closed)) {
         if (c.is(k, cs::bonded)) continue;
-        if (c.effective(k) <= 0.0 && !c.is(k, cs::pulls)) {
+        // Within the rounding of coordinates a contact stays what it is, or joints that just touch
+        // would open and close in every step.
+        if (c.effective(k) <= -c.noise && !c.is(k, cs::pulls)) {
           events.opens.push_back(static_cast<Id>(k));
         } else if (!c.on_edge(k)) {
           events.leaves.push_back(static_cast<Id>(k));

@@ -20,7 +20,7 @@ constexpr double tolerance = 1e-9;  // of the largest penetration
 
 /// Carried at step n and open before it or after it, or already corrected.
 bool switches(const ContactSet& c, std::size_t k) {
-  if (!c.is(k, cs::closed) || c.is(k, cs::pulls) || c.effective_1(k) <= 0.0) return false;
+  if (!c.is(k, cs::closed) || c.is(k, cs::pulls) || c.effective_1(k) <= c.noise) return false;
   return c.effective_2(k) <= 0.0 || c.effective(k) <= 0.0 || c.alpha[k] < 1.0;
 }
 
@@ -34,7 +34,8 @@ double next_limit(const ContactSet& c, std::size_t k) {
 bool reverses(const ContactSet& c, std::size_t k) {
   if (!c.is(k, cs::closed) || c.is(k, cs::bonded)) return false;
   const double slip = trial_slip(c, k);
-  return slip * c.shear[k] > 0.0 && c.ks[k] * std::abs(slip) > next_limit(c, k);
+  return slip * c.shear[k] > 0.0 && std::abs(slip) > c.noise &&
+         c.ks[k] * std::abs(slip) > next_limit(c, k);
 }
 
 double booked(const ContactSet& c, std::size_t k, double shear) {

@@ -63,6 +63,7 @@ void list_contacts(Archive& a, ContactSet& c) {
   a("contacts.block_entry", c.block_entry);
   a("contacts.built_x", c.built_x);
   a("contacts.built_y", c.built_y);
+  a("contacts.noise", c.noise);
   a("contacts.reach", c.reach);
   a("contacts.travel", c.travel);
   a("contacts.built_at", c.built_at);
