@@ -7,13 +7,15 @@ from matplotlib import pyplot, ticker  # noqa: E402
 # One colour and one line for each method, throughout; the colours are told apart by the colour-blind, too.
 METHODS = {
     "exact": {"color": "#000000", "linestyle": (0, (1, 1.5)), "label": "exact"},
-    "matched": {"color": "#0072B2", "linestyle": "-", "linewidth": 2.4, "alpha": 0.75, "zorder": 2,
+    "matched": {"color": "#0072B2", "linestyle": "-", "linewidth": 2.6, "alpha": 0.6, "zorder": 2,
                 "label": "EDDA, matched"},
     "covering": {"color": "#D55E00", "linestyle": (0, (5, 1.5)), "label": "EDDA, paper's lumping"},
     "dda": {"color": "#009E73", "linestyle": (0, (4, 1.5, 1, 1.5)), "label": "DDA, implicit"},
     "consistent": {"color": "#CC79A7", "linestyle": (0, (2, 1)), "label": "EDDA, consistent"},
 }
-STEP_COLOURS = ("#0072B2", "#E69F00", "#000000")
+STEP_LINES = ({"color": "#56B4E9", "linestyle": "-", "linewidth": 3.2},
+              {"color": "#E69F00", "linestyle": (0, (5, 1.5)), "linewidth": 1.8},
+              {"color": "#000000", "linestyle": (0, (1, 1.5)), "linewidth": 1.4})
 
 STYLE = {
     "svg.hashsalt": "edda", "svg.fonttype": "none", "font.family": "sans-serif",

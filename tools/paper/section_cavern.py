@@ -55,7 +55,7 @@ def _draw(report, edda, dda):
         figures.line(top, "matched", 1e3 * edda.time, 1e3 * _magnitude(edda, monitor))
         figures.line(top, "dda", 1e3 * dda.time, 1e3 * _magnitude(dda, monitor))
         apart = np.linalg.norm(dda.monitor(monitor) - edda.monitor(monitor), axis=1)
-        bottom.plot(1e3 * edda.time, 100.0 * apart / largest, color="#D55E00", label="difference")
+        bottom.plot(1e3 * edda.time, 100.0 * apart / largest, color="#555555")
         top.set_title(monitor)
         bottom.set_xlabel("time (ms)")
     axes[0, 0].set_ylabel("displacement (mm)")

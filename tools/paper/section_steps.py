@@ -43,12 +43,11 @@ def write(report, program, settings):
 def _draw(report, found):
     drawing, axes = figures.panels(1, 3, height=2.7, sharey=True)
     for axis, factor in zip(axes[0], STIFFNESSES):
-        for step, colour, dash in zip(STEPS, figures.STEP_COLOURS, ("-", (0, (5, 1.5)), (0, (1, 1.5)))):
+        for step, look in zip(STEPS, figures.STEP_LINES):
             run = found[factor, step, "matched"]
             time, error = relative_error(run, ANGLE, FRICTION)
             keep = np.isfinite(error) & (error < 10.0)
-            label = f"step {plain(step)} s"
-            axis.plot(time[keep], np.maximum(error[keep], 1e-5), color=colour, linestyle=dash, label=label)
+            axis.plot(time[keep], np.maximum(error[keep], 1e-5), label=f"step {plain(step)} s", **look)
         axis.set_yscale("log")
         axis.set_title(f"contact springs of {factor:g} E")
         axis.set_xlabel("time (s)")
