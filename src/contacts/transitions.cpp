@@ -325,6 +325,8 @@ Blocked hindrance(const ContactSet& c, const BlockSet& b, const Pose& pose, std:
   for (Id q = c.begin_of_vertex[vertex]; q < c.begin_of_vertex[vertex + 1]; ++q) {
     if (q == k || c.block_j[q] != j || !rivals(b, c.edge[k], c.edge[q])) continue;
     if (c.is(q, cs::closed) && c.share[q] > 0.0) return Blocked::conflict;
+    // Within the rival's line a step ago already: it is k that the vertex has crossed.
+    if (c.effective_1(k) <= tie && c.depth_1[q] > tie) continue;
     if (c.depth[q] <= -tie && c.share[k] == 1.0) return Blocked::conflict;
     if (c.depth[q] < c.depth[k] - tie && c.share[q] > 0.0 &&
         facing(b, pose.x, pose.y, vertex, normal_of(c, q))) {

@@ -32,8 +32,12 @@ Directions on_both(const BlockSet& b, const ContactSet& c, std::size_t k, const 
   return has_vertex ? Directions{vertex, edge} : Directions{edge, vertex};
 }
 
+/// Closed, or so near that it may well be before the list is made anew. What comes from further off
+/// costs a new pattern.
 bool may_carry(const ContactSet& c, std::size_t k) {
-  return c.is(k, contact_state::closed) || c.why[k] != Blocked::shield;
+  const double near = c.reach / 6.0;
+  return c.is(k, contact_state::closed) ||
+         (c.why[k] != Blocked::shield && c.depth[k] > -near && c.on_edge(k, near));
 }
 
 Vector6 nodal(const Nodes& x, const Nodes& y, std::size_t i) {

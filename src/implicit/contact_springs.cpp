@@ -151,18 +151,18 @@ void book_springs(const ContactSprings& springs, ContactSet& c, const Pose& pose
   parallel_for(c.size(), [&](std::size_t k) {
     if (!springs.known[k]) return;
     const double lost = taken_from_blocks(c, pose, k) - (energy_now(c, k) - springs.stored[k]);
-    if (std::binary_search(broken.begin(), broken.end(), static_cast<Id>(k))) {
-      c.fracture_work[k] += std::max(lost, 0.0);
-      c.damping_work[k] += std::min(lost, 0.0);
-      return;
-    }
     double friction = 0.0;
     if (c.is(k, cs::sliding)) {
       c.set(k, cs::slipped);
       friction = -c.share[k] * c.shear[k] * (c.anchor[k] - springs.anchor[k]) * c.span[k];
     }
     c.friction_work[k] += friction;
-    c.damping_work[k] += lost - friction;
+    const double rest = lost - friction;
+    // A bond gives up what it held; what the scheme takes in the same step cannot be told apart.
+    const bool broke = std::binary_search(broken.begin(), broken.end(), static_cast<Id>(k));
+    const double fracture = broke ? std::clamp(rest, 0.0, springs.stored[k]) : 0.0;
+    c.fracture_work[k] += fracture;
+    c.damping_work[k] += rest - fracture;
   });
 }
 

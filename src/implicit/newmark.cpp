@@ -63,9 +63,29 @@ void begin(ImplicitSolver& s, const ImplicitScene& scene, const State& state, Po
   parallel_for(b.size(), [&](std::size_t i) {
     s.energy[i] = is_free(b, state, i) ? strain_energy_of(b, state, i) : 0.0;
   });
+  s.closed_in_step.clear();
   s.rounds = 0;
   s.switched = 0;
   s.last_displacement = 0.0;
+}
+
+/// Takes back what earlier trial positions of this step have closed or blocked and this one may
+/// see otherwise.
+void forget_verdicts(ImplicitSolver& s, ContactSet& c) {
+  const ContactSet& before = s.contacts_before;
+  for (const Id k : c.blocked) {
+    if (before.is(k, contact_state::blocked)) continue;
+    c.clear(k, contact_state::blocked);
+    c.why[k] = Blocked::no;
+    c.rest[k] = before.rest[k];
+  }
+  c.blocked = before.blocked;
+  for (const Id k : s.closed_in_step) {
+    if (!c.is(k, contact_state::closed) || c.effective(k) > 0.0) continue;
+    c.clear(k, contact_state::closed);
+    s.springs.known[k] = 0;
+  }
+  std::erase_if(s.closed_in_step, [&](Id k) { return !c.is(k, contact_state::closed); });
 }
 
 /// D = base + part correction, and everything that follows from where the blocks then are.
@@ -83,7 +103,11 @@ void move(ImplicitSolver& s, const ImplicitScene& scene, double part, State& sta
   place_all(scene.blocks, state, pose);
   s.last_displacement = largest_move(pose);
   remeasure_gaps(c, pose);
+  forget_verdicts(s, c);
   s.switched += close_in_step(c, scene.blocks, pose, scene.laws, s.transitions);
+  for (const Id k : s.transitions.closes) {
+    if (c.is(k, contact_state::closed)) s.closed_in_step.push_back(k);
+  }
 }
 
 void go_back(const ImplicitSolver& s, State& state, Pose& pose, ContactSet& c) {
@@ -228,6 +252,9 @@ class Rounds {
   bool bonds_hold(std::vector<Id>& broken, int& most, double& error) {
     const std::vector<Id> now = break_overloaded(c_, scene_.blocks, scene_.laws);
     if (now.empty()) return true;
+    for (const Id k : now) {
+      s_.springs.limit[k] = c_.cohesion[k] + c_.friction[k] * std::max(c_.normal[k], 0.0);
+    }
     broken.insert(broken.end(), now.begin(), now.end());
     most = s_.rounds + most_rounds;
     error = balance();

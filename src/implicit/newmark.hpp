@@ -59,6 +59,7 @@ struct ImplicitSolver {
   std::vector<double> carried;       ///< [rows] scratch of measure_residual(), N
   std::vector<double> error;         ///< [rows] scratch of measure_residual()
   std::vector<double> energy;        ///< [nb] strain at the start of the step, J
+  std::vector<Id> closed_in_step;    ///< contacts that the step in hand has closed
   TransitionScratch transitions;
   int rounds = 0;                  ///< solves of the last attempt
   std::uint64_t switched = 0;      ///< changes of contact states in it

@@ -161,9 +161,10 @@ void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings)
 
 std::string governed_by(const Simulation& sim) {
   if (!sim.explicit_method()) {
-    return sim.model.solver.time_step
-               ? "time_step: the implicit method is stable at any step"
-               : "the largest displacement in one step: the implicit method is stable at any";
+    return sim.model.solver.time_step ? "time_step: the implicit method is stable at any step"
+                                      : "the largest displacement in one step, and the interval of "
+                                        "rows: the implicit method is stable "
+                                        "at any";
   }
   const StepBound& bound = sim.bound;
   if (bound.block == no_id) return "nothing: no block is free to move";

@@ -89,6 +89,10 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   s.pose.y1 = s.pose.y;
   s.base_reach = 0.05 * median_edge(s.blocks);
   s.displacement_limit = largest_displacement(s.blocks, s.model.solver.max_displacement_ratio);
+  if (!s.explicit_method()) {
+    // Its steps go as far as they may from the first one on.
+    s.base_reach = std::max(s.base_reach, 6.0 * s.displacement_limit);
+  }
   s.smallest_half_width = *std::min_element(s.blocks.inradius.begin(), s.blocks.inradius.end());
   s.step_limit = std::numeric_limits<double>::infinity();
 
@@ -262,7 +266,8 @@ void Simulation::finish_step() {
 
 void Simulation::search_if_due() {
   contacts.travel += last_displacement;
-  const double ahead = 2.0 * last_displacement;
+  // How far any vertex may go before this is asked again.
+  const double ahead = explicit_method() ? 2.0 * last_displacement : displacement_limit;
   if (contacts.travel + ahead <= 0.5 * contacts.reach) return;
   // The sum of displacements is a bound; what counts is how far any vertex is from where it was.
   const std::size_t nv = blocks.vertex_count();
@@ -277,7 +282,8 @@ void Simulation::search_if_due() {
     last_displacement = std::numeric_limits<double>::infinity();  // inspect() ends the run
     return;
   }
-  if (contacts.travel + 2.0 * ahead <= 0.5 * contacts.reach) return;
+  const double margin = explicit_method() ? 2.0 * ahead : ahead;
+  if (contacts.travel + margin <= 0.5 * contacts.reach) return;
   search(std::max(base_reach, 20.0 * last_displacement));
   update_shares(contacts);
   set_limit();

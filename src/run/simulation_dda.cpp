@@ -36,7 +36,24 @@ double step_within(const BlockSet& b, const State& s, Vec2 gravity, double limit
 }
 
 /// After the last cut.
-Failure out_of_balance(const Simulation& sim) {
+Failure out_of_balance(const Simulation& sim, Attempt last) {
+  if (last == Attempt::too_far) {
+    Failure fast;
+    fast.time = sim.state.time;
+    double most = -1.0;
+    for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+      const double speed = norm(centroid(sim.state.vx, sim.state.vy, i));
+      if (sim.blocks.fixed[i] || !(speed > most)) continue;
+      most = speed;
+      fast.block = static_cast<Id>(i);
+    }
+    fast.place = centroid(sim.state.x, sim.state.y, fast.block) + sim.blocks.origin;
+    fast.message = fmt::format(
+        "{} moves at {:.3g} m/s, further than solver.max_displacement_ratio allows even in a step "
+        "of {:.3g} s: check velocities and loads, and their units",
+        block_label(sim.blocks, fast.block), most, sim.state.step);
+    return fast;
+  }
   const std::vector<double>& error = sim.implicit.error;
   const auto worst = std::max_element(error.begin(), error.end(), [](double a, double b) {
     return (std::isnan(a) ? 1e300 : a) < (std::isnan(b) ? 1e300 : b);
@@ -89,7 +106,7 @@ std::optional<Failure> Simulation::step_implicit() {
     open_close.switched += implicit.switched;
     if (attempt == Attempt::accepted) break;
     if (attempt == Attempt::unsettled) ++open_close.unsettled;
-    if (cuts == most_cuts) return out_of_balance(*this);
+    if (cuts == most_cuts) return out_of_balance(*this, attempt);
     step_limit = 0.5 * state.step;
     aim_at(target_);
     ++steps.redone;
