@@ -278,13 +278,14 @@ void review_blocked(ContactSet& c, const BlockSet& b, const Pose& pose, std::uin
 
 /// Closes those of scratch.closes that may.
 void close_touching(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
-                    bool start, TransitionScratch& scratch, TransitionCounts& counts) {
+                    bool start, TransitionScratch& scratch, TransitionCounts& counts,
+                    bool long_step = false) {
   // All are judged from the same state before any is closed.
   std::vector<Blocked>& verdict = scratch.verdict;
   verdict.resize(scratch.closes.size());
   for (std::size_t q = 0; q < scratch.closes.size(); ++q) {
     const Id k = scratch.closes[q];
-    verdict[q] = c.is(k, cs::closed) ? Blocked::no : hindrance(c, b, pose, k);
+    verdict[q] = c.is(k, cs::closed) ? Blocked::no : hindrance(c, b, pose, k, long_step);
   }
   const std::size_t blocked_before = c.blocked.size();
   for (std::size_t q = 0; q < scratch.closes.size(); ++q) {
@@ -314,7 +315,8 @@ void close_touching(ContactSet& c, const BlockSet& b, const Pose& pose, const La
 
 }  // namespace
 
-Blocked hindrance(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
+Blocked hindrance(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k,
+                  bool long_step) {
   const Id i = c.block_i[k], j = c.block_j[k], vertex = c.vertex[k];
   if (c.depth[k] > 0.5 * std::min(b.inradius[i], b.inradius[j])) return Blocked::depth;
   if (!facing(b, pose.x, pose.y, vertex, normal_of(c, k))) return Blocked::facing;
@@ -326,7 +328,7 @@ Blocked hindrance(const ContactSet& c, const BlockSet& b, const Pose& pose, std:
     if (q == k || c.block_j[q] != j || !rivals(b, c.edge[k], c.edge[q])) continue;
     if (c.is(q, cs::closed) && c.share[q] > 0.0) return Blocked::conflict;
     // Within the rival's line a step ago already: it is k that the vertex has crossed.
-    if (c.effective_1(k) <= tie && c.depth_1[q] > tie) continue;
+    if (long_step && c.effective_1(k) <= tie && c.depth_1[q] > tie) continue;
     if (c.depth[q] <= -tie && c.share[k] == 1.0) return Blocked::conflict;
     if (c.depth[q] < c.depth[k] - tie && c.share[q] > 0.0 &&
         facing(b, pose.x, pose.y, vertex, normal_of(c, q))) {
@@ -354,7 +356,7 @@ std::uint64_t close_in_step(ContactSet& c, const BlockSet& b, const Pose& pose,
     }
   }
   TransitionCounts counts;
-  close_touching(c, b, pose, laws, false, scratch, counts);
+  close_touching(c, b, pose, laws, false, scratch, counts, true);
   return counts.closed;
 }
 

@@ -40,8 +40,10 @@ std::uint64_t close_in_step(ContactSet& contacts, const BlockSet& blocks, const 
 /// touch.
 void block_shielded(ContactSet& contacts, const BlockSet& blocks, const Pose& pose);
 
-/// Whether candidate k may close now, and why not. Public for the tests.
+/// Whether candidate k may close now, and why not. `long_step`: a vertex may have gone deeper in
+/// one step than it lies from the next edge, so the edge that it has crossed counts and not the one
+/// least penetrated. Public for the tests.
 Blocked hindrance(const ContactSet& contacts, const BlockSet& blocks, const Pose& pose,
-                  std::size_t k);
+                  std::size_t k, bool long_step = false);
 
 }  // namespace edda
