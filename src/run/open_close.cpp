@@ -173,7 +173,7 @@ double correct_switching(ContactSet& c, const BlockSet& b, State& s, Pose& pose,
       scratch.pushed.push_back(c.block_j[k]);
     }
     ++passes;
-    settled = worst <= tolerance * largest;
+    settled = worst <= std::max(tolerance * largest, c.noise);
     refresh(scratch, c, pose);
   }
   ++counts.steps;
