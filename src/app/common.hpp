@@ -1,6 +1,7 @@
 // What several commands share.
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,10 @@ void print_warnings(const std::vector<std::string>& warnings);
 /// Reads MODEL with its overrides; prints the faults and returns nothing if there are any.
 std::optional<Model> read_or_print(const std::string& path,
                                    const std::vector<std::string>& overrides);
+
+/// From now on SIGINT and SIGTERM set what is returned, so that a run ends well; a second one ends
+/// the program at once.
+const std::atomic<bool>& stop_on_signals();
 
 /// Adds --set key=value.
 void add_overrides(CLI::App& command, std::vector<std::string>& overrides);

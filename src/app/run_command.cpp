@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <csignal>
 #include <memory>
 
 #include "app/common.hpp"
@@ -18,17 +17,6 @@ struct RunArguments {
   std::vector<std::string> overrides;
   bool quiet = false, resume = false;
 };
-
-std::atomic<bool> stop_asked{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-/// The first signal asks the run to end well; a second one ends it at once.
-void ask_to_stop(int signal) {
-  if (stop_asked.exchange(true)) {
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
-  }
-}
 
 int code_of(Status status) {
   if (status == Status::failed) return exit_code::failed;
@@ -52,8 +40,7 @@ int run(const RunArguments& args) {
     print({*trouble});
     return exit_code::bad_input;
   }
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
+  const std::atomic<bool>& stop_asked = stop_on_signals();
   Result<PreparedRun> prepared = prepare_run(*model);
   if (!prepared.ok()) {
     print(prepared.faults());

@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <cmath>
-#include <csignal>
 #include <memory>
 
 #include "app/common.hpp"
@@ -18,11 +17,6 @@ struct VerifyArguments {
   std::vector<std::string> overrides;
   bool quiet = false;
 };
-
-std::atomic<bool> stop_asked{false};
-void ask_to_stop(int) {
-  stop_asked = true;
-}
 
 /// "11.8 mm": a length in the unit that suits it.
 std::string length_text(double metres) {
@@ -55,8 +49,7 @@ void print_bars(const Verification& v, const Model& model) {
 int verify(const VerifyArguments& args) {
   const std::optional<Model> model = read_or_print(args.model, args.overrides);
   if (!model) return exit_code::bad_input;
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
+  const std::atomic<bool>& stop_asked = stop_on_signals();
   VerifyOptions options;
   options.stop = &stop_asked;
   std::unique_ptr<ProgressBar> bar;

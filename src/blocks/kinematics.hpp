@@ -14,6 +14,11 @@ namespace edda {
 
 using Nodes = std::array<std::vector<double>, 3>;
 
+/// Whether block i moves: neither held nor taken out.
+inline bool is_free(const BlockSet& b, const State& s, std::size_t i) {
+  return b.fixed[i] == 0 && s.alive[i] != 0;
+}
+
 /// Deformation gradient F = sum x_k G_k^T.
 struct Deformation {
   double xx, xy, yx, yy;

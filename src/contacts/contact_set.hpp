@@ -4,6 +4,7 @@
 // t, outward normal n, penetration d = -(P1 - P2).n, foot z = (P1 - P2).t = xi l.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -124,6 +125,10 @@ struct ContactSet {
   double effective(std::size_t c) const { return depth[c] - rest[c]; }
   double effective_1(std::size_t c) const { return depth_1[c] - rest[c]; }
   double effective_2(std::size_t c) const { return depth_2[c] - rest[c]; }
+  /// Coulomb's limit of the shear force under a normal force N, c L + tan(phi) max(N, 0).
+  double shear_limit(std::size_t c, double n) const {
+    return cohesion[c] + friction[c] * std::max(n, 0.0);
+  }
   bool is(std::size_t c, std::uint8_t bits) const { return (state[c] & bits) != 0; }
   void set(std::size_t c, std::uint8_t bits) {
     state[c] = static_cast<std::uint8_t>(state[c] | bits);

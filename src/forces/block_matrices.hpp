@@ -15,6 +15,13 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 /// What a unit force along `direction` at the material point of weights w does on the nodes.
 Vector6 along(const std::array<double, 3>& w, Vec2 direction);
 
+/// (u1 v1 u2 v2 u3 v3) of block i.
+inline Vector6 nodal(const Nodes& x, const Nodes& y, std::size_t i) {
+  Vector6 v;
+  v << x[0][i], y[0][i], x[1][i], y[1][i], x[2][i], y[2][i];
+  return v;
+}
+
 inline std::array<double, 3> vertex_weights(const BlockSet& b, Id v) {
   return {b.weight[0][v], b.weight[1][v], b.weight[2][v]};
 }

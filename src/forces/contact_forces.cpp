@@ -30,7 +30,7 @@ void return_map(ContactSet& c, std::size_t k) {
     c.shear[k] = trial;
     return;
   }
-  const double limit = c.cohesion[k] + std::max(c.normal[k], 0.0) * c.friction[k];
+  const double limit = c.shear_limit(k, c.normal[k]);
   const double kept = cut_shear(trial, limit);
   c.clear(k, cs::sliding);
   if (kept != trial) {
@@ -64,22 +64,11 @@ void evaluate(ContactSet& c, const BlockSet& b, std::size_t k, double step, doub
     c.fx[k] = c.fy[k] = c.gx[k] = c.gy[k] = 0.0;
     return;
   }
-  const bool pulls = c.is(k, cs::pulls);
-  c.alpha[k] = 1.0;
-  c.normal[k] = c.kn[k] * (pulls ? c.effective(k) : std::max(c.effective(k), 0.0));
-  c.dashpot[k] = 0.0;
-  if (damping > 0.0 && (pulls || c.effective(k) > 0.0)) {
-    const double coefficient =
-        2.0 * damping * std::sqrt(c.kn[k] / inverse_contact_mass(b, c, k, c.foot[k] / c.span[k]));
-    const double damped = c.normal[k] + coefficient * (c.depth[k] - c.depth_1[k]) / step;
-    const double total = pulls ? damped : std::max(0.0, damped);
-    c.dashpot[k] = total - c.normal[k];
-    c.normal[k] = total;
-  }
+  set_normal_force(c, b, k, step, damping);
   c.shear_1[k] = c.shear[k];
   c.slip_trial[k] = trial_slip(c, k);
   return_map(c, k);
-  if (pulls && !c.is(k, cs::bonded) && c.normal[k] < -c.tension[k]) {
+  if (c.is(k, cs::pulls) && !c.is(k, cs::bonded) && c.normal[k] < -c.tension[k]) {
     tear(c, k);
     return;
   }
@@ -137,6 +126,17 @@ void break_bond(ContactSet& c, const BlockSet& b, const LawTable& laws, Id k, do
   c.friction_work[k] = friction_before;
 }
 
+/// Calls break_one(k) for every contact of the bonded segments that fail, and lets these go.
+template <class Break>
+void break_failed(ContactSet& c, const BlockSet& b, const LawTable& laws, Break break_one) {
+  for (Segment& segment : c.segments) {
+    if (!fails(c, b, laws, segment)) continue;
+    for (const Id k : segment.members) break_one(k);
+    segment.members.clear();
+  }
+  std::erase_if(c.segments, [](const Segment& s) { return s.members.empty(); });
+}
+
 }  // namespace
 
 ContactForce contact_force(Vec2 t, double l, double foot, double depth, double anchor,
@@ -157,6 +157,25 @@ double inverse_contact_mass(const BlockSet& b, const ContactSet& c, std::size_t 
          quadratic_form(b, c.block_j[k], foot(0), foot(1), foot(2));
 }
 
+double dashpot_coefficient(const ContactSet& c, const BlockSet& b, std::size_t k, double damping) {
+  return 2.0 * damping * std::sqrt(c.kn[k] / inverse_contact_mass(b, c, k, c.foot[k] / c.span[k]));
+}
+
+void set_normal_force(ContactSet& c, const BlockSet& b, std::size_t k, double step,
+                      double damping) {
+  const bool pulls = c.is(k, cs::pulls);
+  c.alpha[k] = 1.0;
+  c.normal[k] = c.kn[k] * (pulls ? c.effective(k) : std::max(c.effective(k), 0.0));
+  c.dashpot[k] = 0.0;
+  if (damping > 0.0 && (pulls || c.effective(k) > 0.0)) {
+    const double damped =
+        c.normal[k] + dashpot_coefficient(c, b, k, damping) * (c.depth[k] - c.depth_1[k]) / step;
+    const double total = pulls ? damped : std::max(0.0, damped);
+    c.dashpot[k] = total - c.normal[k];
+    c.normal[k] = total;
+  }
+}
+
 void set_contact_force(ContactSet& c, std::size_t k, Vec2 t, double l, double foot, double depth) {
   const double w = c.share[k];
   const ContactForce f =
@@ -170,25 +189,15 @@ void set_contact_force(ContactSet& c, std::size_t k, Vec2 t, double l, double fo
 void evaluate_contacts(ContactSet& c, const BlockSet& b, const LawTable& laws, double step,
                        double damping) {
   parallel_for(c.size(), [&](std::size_t k) { evaluate(c, b, k, step, damping); });
-  for (Segment& segment : c.segments) {
-    if (!fails(c, b, laws, segment)) continue;
-    for (const Id k : segment.members) break_bond(c, b, laws, k, step, damping);
-    segment.members.clear();
-  }
-  std::erase_if(c.segments, [](const Segment& s) { return s.members.empty(); });
+  break_failed(c, b, laws, [&](Id k) { break_bond(c, b, laws, k, step, damping); });
 }
 
 std::vector<Id> break_overloaded(ContactSet& c, const BlockSet& b, const LawTable& laws) {
   std::vector<Id> broken;
-  for (Segment& segment : c.segments) {
-    if (!fails(c, b, laws, segment)) continue;
-    for (const Id k : segment.members) {
-      if (take_residual_law(c, laws, k)) let_go(c, k);
-      broken.push_back(k);
-    }
-    segment.members.clear();
-  }
-  std::erase_if(c.segments, [](const Segment& s) { return s.members.empty(); });
+  break_failed(c, b, laws, [&](Id k) {
+    if (take_residual_law(c, laws, k)) let_go(c, k);
+    broken.push_back(k);
+  });
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (!c.is(k, cs::pulls) || c.is(k, cs::bonded) || !(c.normal[k] < -c.tension[k])) continue;
     let_go(c, static_cast<Id>(k));

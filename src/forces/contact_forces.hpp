@@ -26,6 +26,15 @@ ContactForce contact_force(Vec2 t, double l, double foot, double depth, double a
 double inverse_contact_mass(const BlockSet& blocks, const ContactSet& contacts, std::size_t k,
                             double xi);
 
+/// Viscous coefficient of a contact, c = 2 zeta sqrt(p m_c), N s/m.
+double dashpot_coefficient(const ContactSet& contacts, const BlockSet& blocks, std::size_t k,
+                           double damping);
+
+/// Normal force of contact k at step n with alpha = 1, its spring's and its dashpot's: fills alpha,
+/// normal and dashpot. `step` s; `damping` zeta.
+void set_normal_force(ContactSet& contacts, const BlockSet& blocks, std::size_t k, double step,
+                      double damping);
+
 /// Springs and return map of every contact at step n with alpha = 1: fills normal, shear,
 /// slip_trial, dashpot, anchor and the forces. `step` s; `damping` zeta, fraction of critical. Then
 /// breaks bonded segments that are overloaded; both their contacts follow the residual law at once.

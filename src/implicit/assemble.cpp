@@ -14,10 +14,6 @@ namespace {
 /// blocks together (root of the sum of squares).
 constexpr double single_balance = 1e-2, balance = 1e-3;
 
-bool is_free(const BlockSet& b, const State& s, std::size_t i) {
-  return b.fixed[i] == 0 && s.alive[i] != 0;
-}
-
 /// Generalised directions of one contact on the block at hand and on its partner: a spring of
 /// stiffness p adds p u u^T and p u w^T to the row of the former.
 struct Directions {
@@ -38,12 +34,6 @@ bool may_carry(const ContactSet& c, std::size_t k) {
   const double near = c.reach / 6.0;
   return c.is(k, contact_state::closed) ||
          (c.why[k] != Blocked::shield && c.depth[k] > -near && c.on_edge(k, near));
-}
-
-Vector6 nodal(const Nodes& x, const Nodes& y, std::size_t i) {
-  Vector6 v;
-  v << x[0][i], y[0][i], x[1][i], y[1][i], x[2][i], y[2][i];
-  return v;
 }
 
 bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings& settings,

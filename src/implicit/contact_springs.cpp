@@ -39,24 +39,15 @@ SpringState evaluate(ContactSprings& springs, ContactSet& c, const BlockSet& b, 
     springs.anchor[k] = c.anchor[k];
     springs.limit[k] = c.cohesion[k];
   }
-  const bool pulls = c.is(k, cs::pulls), bonded = c.is(k, cs::bonded);
-  const bool pressed = pulls || c.effective(k) > 0.0;
+  const bool bonded = c.is(k, cs::bonded);
+  const bool pressed = c.is(k, cs::pulls) || c.effective(k) > 0.0;
   c.clear(k, cs::sliding);
   if (!pressed && !bonded) {
     let_rest(c, k);
     c.anchor[k] = c.foot[k] / c.span[k];
     return SpringState::open;
   }
-  c.alpha[k] = 1.0;
-  c.normal[k] = pressed ? c.kn[k] * c.effective(k) : 0.0;
-  c.dashpot[k] = 0.0;
-  if (damping > 0.0 && pressed) {
-    const double damped =
-        c.normal[k] + dashpot_coefficient(c, b, k, damping) * (c.depth[k] - c.depth_1[k]) / step;
-    const double total = pulls ? damped : std::max(0.0, damped);
-    c.dashpot[k] = total - c.normal[k];
-    c.normal[k] = total;
-  }
+  set_normal_force(c, b, k, step, damping);
   c.anchor[k] = springs.anchor[k];
   const double trial = -c.ks[k] * trial_slip(c, k);
   c.shear[k] = bonded ? trial : cut_shear(trial, springs.limit[k]);
@@ -90,10 +81,6 @@ double taken_from_blocks(const ContactSet& c, const Pose& pose, std::size_t k) {
 
 }  // namespace
 
-double dashpot_coefficient(const ContactSet& c, const BlockSet& b, std::size_t k, double damping) {
-  return 2.0 * damping * std::sqrt(c.kn[k] / inverse_contact_mass(b, c, k, c.foot[k] / c.span[k]));
-}
-
 void begin_springs(ContactSprings& springs, const ContactSet& c) {
   const std::size_t n = c.size();
   springs.state.resize(n);
@@ -104,7 +91,7 @@ void begin_springs(ContactSprings& springs, const ContactSet& c) {
   parallel_for(n, [&](std::size_t k) {
     springs.known[k] = c.is(k, cs::closed) ? 1 : 0;
     springs.stored[k] = energy_now(c, k);
-    springs.limit[k] = c.cohesion[k] + c.friction[k] * std::max(c.normal[k], 0.0);
+    springs.limit[k] = c.shear_limit(k, c.normal[k]);
     springs.state[k] = !c.is(k, cs::closed)                           ? SpringState::open
                        : c.is(k, cs::sliding) && !c.is(k, cs::bonded) ? SpringState::slide
                        : c.is(k, cs::pulls) || c.effective(k) > 0.0   ? SpringState::stick

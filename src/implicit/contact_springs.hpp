@@ -40,10 +40,6 @@ std::size_t evaluate_springs(ContactSprings& springs, ContactSet& contacts, cons
 void assume_touching(ContactSprings& springs, const ContactSet& contacts, const BlockSet& blocks,
                      const Pose& pose);
 
-/// Viscous coefficient of a contact, c = 2 zeta sqrt(p m_c), N s/m.
-double dashpot_coefficient(const ContactSet& contacts, const BlockSet& blocks, std::size_t k,
-                           double damping);
-
 /// Books the step once it is accepted: with positions a step ago in x1, y1, what the contact's
 /// forces took from the blocks is split into stored energy, friction, fracture (of `broken`,
 /// ascending) and, the rest, what the dashpots and the implicit integration dissipated.

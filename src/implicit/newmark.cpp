@@ -16,10 +16,6 @@ constexpr int most_rounds = 6;
 // Of the global solve: what is then left is a small part of what a round may leave.
 constexpr double tightest = 1e-9, loosest = 1e-2, margin = 0.03;
 
-bool is_free(const BlockSet& b, const State& s, std::size_t i) {
-  return b.fixed[i] == 0 && s.alive[i] != 0;
-}
-
 double strain_energy_of(const BlockSet& b, const State& s, std::size_t i) {
   const Deformation f = deformation(b, s.x, s.y, i);
   const Tensor e = corotated_strain(f, rotation(f));
@@ -141,12 +137,11 @@ double dissipated(const ImplicitSolver& s, const ImplicitScene& scene,
   const PiolaStress p = piola(f, rotation(f), b.lame_lambda[i], b.lame_mu[i]);
   double sum = s.energy[i] - strain_energy_of(b, state, i);
   const Vector6 step = s.moved.segment<6>(static_cast<Eigen::Index>(6 * row));
-  Vector6 velocity;
+  const Vector6 velocity = nodal(state.vx, state.vy, i);
   for (std::size_t k = 0; k < 3; ++k) {
     const auto at = static_cast<Eigen::Index>(2 * k);
     const Vec2 d{step[at], step[at + 1]};
     sum -= dot(elastic_force(p, b.volume[i], b.grad_x[k][i], b.grad_y[k][i]), d);
-    velocity.segment<2>(at) << state.vx[k][i], state.vy[k][i];
   }
   const BoundarySprings& springs = scene.springs;
   for (Id q = springs.block_begin[i]; q < springs.block_begin[i + 1]; ++q) {
@@ -253,7 +248,7 @@ class Rounds {
     const std::vector<Id> now = break_overloaded(c_, scene_.blocks, scene_.laws);
     if (now.empty()) return true;
     for (const Id k : now) {
-      s_.springs.limit[k] = c_.cohesion[k] + c_.friction[k] * std::max(c_.normal[k], 0.0);
+      s_.springs.limit[k] = c_.shear_limit(k, c_.normal[k]);
     }
     broken.insert(broken.end(), now.begin(), now.end());
     most = s_.rounds + most_rounds;

@@ -15,7 +15,7 @@ namespace {
 namespace cs = contact_state;
 
 bool moves(const Simulation& sim, std::size_t i) {
-  return sim.state.alive[i] != 0 && sim.blocks.fixed[i] == 0;
+  return is_free(sim.blocks, sim.state, i);
 }
 
 /// F = I + sum u_k G_k^T: nothing but the identity, to the bit, where nothing has moved.
@@ -87,7 +87,7 @@ ContactState state_of(const ContactSet& c, std::size_t k) {
 
 double mobilised(const ContactSet& c, std::size_t k) {
   if (!c.is(k, cs::closed) || c.is(k, cs::glued)) return 0.0;
-  const double strength = c.cohesion[k] + std::max(c.normal[k], 0.0) * c.friction[k];
+  const double strength = c.shear_limit(k, c.normal[k]);
   return c.shear[k] == 0.0 ? 0.0 : std::abs(c.shear[k]) / strength;
 }
 

@@ -26,7 +26,7 @@ bool switches(const ContactSet& c, std::size_t k) {
 
 /// Coulomb's limit at step n + 1.
 double next_limit(const ContactSet& c, std::size_t k) {
-  return c.cohesion[k] + c.friction[k] * std::max(c.kn[k] * c.effective(k), 0.0);
+  return c.shear_limit(k, c.kn[k] * c.effective(k));
 }
 
 /// Stays closed, but its shear has passed through zero within the step and slides the other way:
@@ -61,7 +61,7 @@ struct ForceChange {
 /// Gives contact k the part alpha of its force and the shear this allows. What this changes.
 ForceChange reset_force(ContactSet& c, const BlockSet& b, std::size_t k, double alpha,
                         const EdgeFrame& e, const Gap& gap) {
-  const double limit = c.cohesion[k] + c.friction[k] * std::max(alpha * c.normal[k], 0.0);
+  const double limit = c.shear_limit(k, alpha * c.normal[k]);
   double shear = cut_shear(-c.ks[k] * c.slip_trial[k], limit);
   if (c.is(k, cs::bonded)) {
     shear = c.shear[k];
