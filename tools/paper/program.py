@@ -33,7 +33,7 @@ class Program:
     def quiet(self):
         """How far the times may be trusted, in a sentence."""
         if self.disturbed == 0:
-            return f"None of the {self.timed} timed runs was disturbed by anything else on the machine."
+            return f"Nothing else on the machine disturbed any of the {self.timed} timed runs."
         return (f"Of the {self.timed} timed runs {self.disturbed} were disturbed by something else on the machine; of those,"
                 " processor seconds are given.")
 
