@@ -36,6 +36,19 @@ bool may_carry(const ContactSet& c, std::size_t k) {
          (c.why[k] != Blocked::shield && c.depth[k] > -near && c.on_edge(k, near));
 }
 
+/// Whether the matrix has a place for all of `columns`, and few more than that.
+bool serves(const BlockMatrix& matrix, const std::vector<std::vector<Id>>& columns) {
+  if (matrix.rows() != columns.size()) return false;
+  std::size_t wanted = 0;
+  for (std::size_t r = 0; r < columns.size(); ++r) {
+    wanted += columns[r].size();
+    for (const Id c : columns[r]) {
+      if (matrix.slot(static_cast<Id>(r), c) == no_id) return false;
+    }
+  }
+  return 4 * matrix.blocks() <= 5 * wanted;
+}
+
 bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings& settings,
                   const State& state, const ContactSet& c, Id row) {
   const BlockSet& b = scene.blocks;
@@ -92,6 +105,7 @@ bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitS
 void set_pattern(ImplicitSolver& s, const ImplicitScene& scene, const State& state,
                  const ContactSet& c) {
   const BlockSet& b = scene.blocks;
+  const std::vector<Id> rows_before = std::move(s.block_of);
   s.row_of.assign(b.size(), no_id);
   s.block_of.clear();
   for (std::size_t i = 0; i < b.size(); ++i) {
@@ -112,7 +126,8 @@ void set_pattern(ImplicitSolver& s, const ImplicitScene& scene, const State& sta
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
   });
-  lay_out(s, scene, columns);
+  // The order of the rows, and the factor with it, outlive a list that changes nothing here.
+  if (s.block_of != rows_before || !serves(s.matrix, columns)) lay_out(s, scene, columns);
 }
 
 void lay_out(ImplicitSolver& s, const ImplicitScene& scene,

@@ -88,6 +88,7 @@ void begin_springs(ContactSprings& springs, const ContactSet& c) {
   springs.anchor = c.anchor;
   springs.stored.resize(n);
   springs.limit.resize(n);
+  springs.assumed.assign(n, 0);
   parallel_for(n, [&](std::size_t k) {
     springs.known[k] = c.is(k, cs::closed) ? 1 : 0;
     springs.stored[k] = energy_now(c, k);
@@ -103,19 +104,21 @@ void begin_springs(ContactSprings& springs, const ContactSet& c) {
 std::size_t evaluate_springs(ContactSprings& springs, ContactSet& c, const BlockSet& b, double step,
                              double damping, bool first) {
   std::vector<std::size_t> changed((c.size() + ContactSet::chunk - 1) / ContactSet::chunk, 0);
-  parallel_chunks(c.size(), ContactSet::chunk,
-                  [&](std::size_t q, std::size_t begin, std::size_t end) {
-                    for (std::size_t k = begin; k < end; ++k) {
-                      SpringState state = evaluate(springs, c, b, k, step, damping);
-                      if (first && state == SpringState::stick && at_limit(springs, c, k) &&
-                          springs.state[k] == SpringState::slide) {
-                        state = SpringState::slide;
-                        c.set(k, cs::sliding);
-                      }
-                      if (state != springs.state[k]) ++changed[q];
-                      springs.state[k] = state;
-                    }
-                  });
+  parallel_chunks(
+      c.size(), ContactSet::chunk, [&](std::size_t q, std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+          SpringState state = evaluate(springs, c, b, k, step, damping);
+          if (first && state == SpringState::stick && at_limit(springs, c, k) &&
+              springs.state[k] == SpringState::slide) {
+            state = SpringState::slide;
+            c.set(k, cs::sliding);
+          }
+          const SpringState before = springs.assumed[k] ? SpringState::open : springs.state[k];
+          if (state != before) ++changed[q];
+          springs.state[k] = state;
+          springs.assumed[k] = 0;
+        }
+      });
   std::size_t sum = 0;
   for (const std::size_t n : changed) sum += n;
   return sum;
@@ -129,6 +132,7 @@ void assume_touching(ContactSprings& springs, const ContactSet& c, const BlockSe
     if (c.effective(k) < -touch * size || !c.on_edge(k)) return;
     if (c.is(k, cs::closed) || hindrance(c, b, pose, k) == Blocked::no) {
       springs.state[k] = SpringState::stick;
+      springs.assumed[k] = 1;
     }
   });
 }

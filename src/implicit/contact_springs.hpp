@@ -21,11 +21,12 @@ enum class SpringState : std::uint8_t {
 /// Memory of one step, [nc] each. Filled by begin_springs(), extended by nothing: a contact that
 /// closes within the step starts from the anchor it then has.
 struct ContactSprings {
-  std::vector<SpringState> state;   ///< at the last evaluation
-  std::vector<double> anchor;       ///< xi0 at the start of the step
-  std::vector<double> limit;        ///< of shear, N, by the normal force at the start of the step
-  std::vector<double> stored;       ///< J at the start of the step
-  std::vector<std::uint8_t> known;  ///< closed at the start of the step, or since
+  std::vector<SpringState> state;     ///< at the last evaluation
+  std::vector<double> anchor;         ///< xi0 at the start of the step
+  std::vector<double> limit;          ///< of shear, N, by the normal force at the start of the step
+  std::vector<double> stored;         ///< J at the start of the step
+  std::vector<std::uint8_t> known;    ///< closed at the start of the step, or since
+  std::vector<std::uint8_t> assumed;  ///< open, and in the matrix by assume_touching()
 };
 
 void begin_springs(ContactSprings& springs, const ContactSet& contacts);

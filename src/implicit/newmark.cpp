@@ -273,6 +273,14 @@ class Rounds {
     double error = 0.0;
     const double start = s_.residual.dot(s_.correction);
     double low = 0.0, high = 1.0, at_low = start, at_high = slope_at(1.0, error);
+    while (far() && high > 1e-3) {
+      high *= 0.25;
+      at_high = slope_at(high, error);
+    }
+    if (at_high > 0.0 && high < 1.0) {  // the zero lies where the gaps mean nothing
+      s_.last_displacement = 1e300;
+      return error;
+    }
     double slope = at_high;
     for (int look = 0; look < most_looks && !far(); ++look) {
       if (at_high >= 0.0 || std::abs(slope) <= flat * start) break;

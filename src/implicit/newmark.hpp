@@ -67,8 +67,8 @@ struct ImplicitSolver {
 };
 
 /// Tries one step of `settings.step` s. Accepted: positions, velocities (of the same instant), pose
-/// (x1, y1 the positions before), contacts and damping work are those of its end. Otherwise
-/// everything is as it was.
+/// (x1, y1 the positions before), contacts and damping work are those of its end. Otherwise they
+/// are, bit for bit, what they were; `forces` are those of the last trial position.
 Attempt newmark_step(ImplicitSolver& solver, const ImplicitScene& scene,
                      const ImplicitSettings& settings, State& state, Pose& pose,
                      ContactSet& contacts, NodalForces& forces, std::vector<double>& damping_work);

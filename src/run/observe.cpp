@@ -6,6 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "contacts/gap.hpp"
+#include "contacts/gaps.hpp"
 #include "forces/contact_forces.hpp"
 #include "forces/elastic.hpp"
 
@@ -115,6 +116,21 @@ ContactRecord contact_record(const Simulation& sim, const ContactSet& c, std::si
   return r;
 }
 
+/// Where the vertices were before the last step, as x1, y1: the dashpots act on what it moved.
+Pose a_step_ago(const Simulation& sim) {
+  Pose pose = sim.pose;
+  const Nodes &vx = sim.implicit.drift_x, &vy = sim.implicit.drift_y;
+  parallel_for(sim.blocks.size(), [&](std::size_t i) {
+    if (moves(sim, i)) place_vertices(sim.blocks, vx, vy, i, pose.x1, pose.y1);
+  });
+  for (std::size_t v = 0; v < pose.x.size(); ++v) {
+    if (!moves(sim, sim.blocks.vertex_block[v])) continue;
+    pose.x1[v] = pose.x[v] - sim.state.step * pose.x1[v];
+    pose.y1[v] = pose.y[v] - sim.state.step * pose.y1[v];
+  }
+  return pose;
+}
+
 void place_points(const BlockSet& b, const State& s, Picture& p) {
   const std::size_t nv = b.vertex_count();
   for (auto* values : {&p.x, &p.y, &p.ux, &p.uy, &p.vx, &p.vy}) values->resize(nv);
@@ -138,12 +154,15 @@ void observe(const Simulation& sim, Instant& at) {
   const Damping& damping = sim.model.solver.damping;
   at.contacts = sim.contacts;
   if (!sim.explicit_method()) {  // everything belongs to one instant already
+    if (damping.contact > 0.0 && !sim.implicit.drift_x[0].empty()) {
+      look_at_previous_gaps(at.contacts, a_step_ago(sim));
+    }
     ContactSprings springs;
     begin_springs(springs, at.contacts);
     for (std::size_t k = 0; k < at.contacts.size(); ++k) {
       springs.limit[k] = std::max(springs.limit[k], std::abs(at.contacts.shear[k]));
     }
-    evaluate_springs(springs, at.contacts, sim.blocks, h, 0.0, true);
+    evaluate_springs(springs, at.contacts, sim.blocks, h, damping.contact, true);
     at.forces = sim.forces;
     gather_forces(at.forces, sim.blocks, sim.state, sim.pose, at.contacts, sim.springs,
                   sim.model.gravity);
