@@ -8,14 +8,13 @@
 int main(int argc, char** argv) {
   using namespace edda;
   const std::uint64_t steps = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000000;
-  bool good = true;
   for (const bool settle : {true, false}) {
     Simulation sim = brick_wall(settle);
     sim.start(1e4);
     while (settle && sim.state.time < 1.0 && !sim.step()) {
     }
     sim.model.solver.damping.local = 0.0;
-    const Rest rest = watch_rest(sim, steps);
+    const Rest rest = watch_rest(sim, steps, settle);
     std::printf(
         "%s: kinetic energy %.3g J in the first second, %.3g J after it; drift %.2e, trend %.1e; "
         "%llu flips in %llu steps; moved %.2e m; unsettled %llu of %llu\n",
@@ -24,8 +23,6 @@ int main(int argc, char** argv) {
         static_cast<unsigned long long>(rest.later_steps), rest.moved,
         static_cast<unsigned long long>(sim.open_close.unsettled),
         static_cast<unsigned long long>(sim.open_close.steps));
-    good = good && rest.drift < 1e-5 && rest.later_kinetic < 1.2 * rest.first_kinetic + 1e-12 &&
-           rest.moved < 1e-3 && (!settle || rest.flips == 0);
   }
-  return good ? 0 : 1;
+  return testing::UnitTest::GetInstance()->ad_hoc_test_result().Failed() ? 1 : 0;
 }

@@ -1,6 +1,7 @@
 // Cohesion, tension and glue: validation.md row 4 and what a bond stands for (method.md section 4).
 #include <algorithm>
 
+#include "verification/record.hpp"
 #include "verification/scene.hpp"
 
 namespace edda {
@@ -18,16 +19,20 @@ std::string slope_box(double alpha, double u0, double u1, double v0, double v1) 
          on_slope(alpha, u1, v1) + "," + on_slope(alpha, u0, v1) + "]";
 }
 
-/// Row 4: (30, 15), g 9.8; c_crit = 7221.2 Pa for L = 2 m. Overdamped at first, so that it is
-/// loaded without overshoot.
+/// Row 4: (30, 15), g 9.8; c_crit = (W sin a - W cos a tan phi)/L = 7221.2 Pa for L = 2 m.
+const double critical_cohesion =
+    0.5 * 2.0 * 2750.0 * 9.8 *
+    (std::sin(radians(30)) - std::tan(radians(15)) * std::cos(radians(30)));
+
+/// Overdamped at first, so that it is loaded without overshoot. `factor`: of the critical cohesion.
 Simulation cohesive_ramp(double factor, double duration, double damping, const std::string& law) {
-  return scene("gravity = [0.0, -9.8]\n" + rock +
-               "[joints.ramp]\nfriction_angle = 15.0\ncohesion = " + number(7221.2 * factor) +
-               "\n" + law + "[solver]\nduration = " + number(duration) +
-               "\ndamping = { mass = " + number(damping) +
-               " }\n[output]\nhistory_every = 0.005\n[[block]]\nfixed = true\npolygon = " +
-               slope_box(30.0, -1, 4, -1, 0) +
-               "\n[[block]]\npolygon = " + slope_box(30.0, 0, 2, 0, 1) + "\n");
+  return scene(
+      "gravity = [0.0, -9.8]\n" + rock + "[joints.ramp]\nfriction_angle = 15.0\ncohesion = " +
+      number(critical_cohesion * factor) + "\n" + law + "[solver]\nduration = " + number(duration) +
+      "\ndamping = { mass = " + number(damping) +
+      " }\n[output]\nhistory_every = 0.005\n[[block]]\nfixed = true\npolygon = " +
+      slope_box(30.0, -1, 4, -1, 0) + "\n[[block]]\npolygon = " + slope_box(30.0, 0, 2, 0, 1) +
+      "\n");
 }
 
 double slid(const Simulation& sim) {
@@ -35,16 +40,51 @@ double slid(const Simulation& sim) {
   return u.x * std::cos(radians(30)) - u.y * std::sin(radians(30));
 }
 
+/// Below the critical cohesion: breaks, and then, without damping, slides as row 1 does.
+void expect_goes(double factor, const std::string& law, const std::string& stiffness) {
+  Simulation sim = cohesive_ramp(factor, 0.15, 2e4, law);
+  Series way(4, brief(factor) + ", " + stiffness, {"time", "exact", "computed"});
+  const double a = critical_cohesion / 2750.0;  // L c_crit is what is left of the weight
+  sim.start(0.15);
+  double broken_at = -1.0, start = 0.0;
+  while (sim.state.time < 0.15) {
+    ASSERT_FALSE(sim.step().has_value());
+    if (broken_at < 0.0 && sim.contacts.segments.empty()) {
+      broken_at = sim.state.time;
+      start = slid(sim);
+      sim.model.solver.damping.mass = 0.0;
+    }
+    const double t = sim.state.time - broken_at;
+    if (broken_at >= 0.0) way.add({sim.state.time, 0.5 * a * t * t, slid(sim) - start});
+  }
+  ASSERT_GT(broken_at, 0.0);
+  const double t = sim.state.time - broken_at;
+  expect_relative({4, brief(factor) + " of the critical cohesion, " + stiffness,
+                   "distance slid once broken", "m"},
+                  slid(sim) - start, 0.5 * a * t * t, 2e-3);
+  record_model(4, brief(factor), sim);
+}
+
 TEST(CohesiveRamp, HoldsAboveAndGoesBelowTheCriticalCohesion) {
   for (const std::string law : {"", "kn = 2e11\nks = 2e11\n"}) {
+    const std::string stiffness = law.empty() ? "springs per contact" : "springs per length";
     Simulation holds = cohesive_ramp(1.01, 0.05, 2e4, law);
-    run(holds, [](Simulation&) {});
-    EXPECT_LT(slid(holds), 1e-5);
+    Series held(4, "1.01, " + stiffness, {"time", "computed"});
+    run(holds, [&](Simulation& s) { held.add({s.state.time, slid(s)}); });
     EXPECT_EQ(holds.contacts.segments.size(), 1u);
-    Simulation goes = cohesive_ramp(0.99, 0.05, 2e4, law);
-    run(goes, [](Simulation&) {});
-    EXPECT_TRUE(goes.contacts.segments.empty());
-    EXPECT_GT(slid(goes), 3.0 * slid(holds));
+    expect_at_most({4, "1.01 of the critical cohesion, " + stiffness, "displacement", "m"},
+                   slid(holds), 1e-5);
+    expect_goes(0.99, law, stiffness);
+
+    double low = 0.93, high = 1.11;
+    while (high - low > 1e-4) {
+      const double middle = 0.5 * (low + high);
+      Simulation sim = cohesive_ramp(middle, 0.05, 2e4, law);
+      run(sim, [](Simulation&) {});
+      (sim.contacts.segments.empty() ? low : high) = middle;
+    }
+    expect_relative({4, stiffness, "critical cohesion, by bisection", "Pa"},
+                    0.5 * (low + high) * critical_cohesion, critical_cohesion, 1e-2);
   }
 }
 

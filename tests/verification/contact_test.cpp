@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <random>
 
+#include "verification/record.hpp"
 #include "verification/scene.hpp"
 
 namespace edda {
@@ -46,33 +47,43 @@ history_every = 0.001
                                        {offset, height + 2 * d},
                                        {offset - d, height + d}}));
   CornerDrop result;
+  const std::string side = offset > 0.0 ? "right" : "left";
+  Series path(16, "path, " + side, {"time", "x", "y"});
+  Series jumps(16, "change of force, " + side, {"time", "computed"});
   Vec2 force{0.0, 0.0};
   run(
-      sim, [&](Simulation& s) { result.path.push_back(displacement(s, 1)); },
+      sim,
+      [&](Simulation& s) {
+        result.path.push_back(displacement(s, 1));
+        path.add({s.state.time, result.path.back().x, result.path.back().y});
+      },
       [&](Simulation& s) {
         const Vec2 now = contact_resultant(s.blocks, s.contacts, 1);
         double speed = 0.0;
         for (std::size_t k = 0; k < 3; ++k) {
           speed = std::max(speed, norm(Vec2{s.state.vx[k][1], s.state.vy[k][1]}));
         }
-        result.worst_jump =
-            std::max(result.worst_jump, norm(now - force) / (p * speed * s.state.step));
+        const double jump = norm(now - force) / (p * speed * s.state.step);
+        result.worst_jump = std::max(result.worst_jump, jump);
+        if (jump > 0.0) jumps.add({s.state.time, jump});
         force = now;
       });
+  record_model(16, side, sim);
   return result;
 }
 
 TEST(CornerOnCorner, MirrorAndNoJump) {
   const CornerDrop right = drop_on_corner(1e-9), left = drop_on_corner(-1e-9);
   ASSERT_EQ(right.path.size(), left.path.size());
-  double worst = 0.0, farthest = 0.0;
+  double worst = 0.0;
   for (std::size_t i = 0; i < right.path.size(); ++i) {
     worst = std::max({worst, std::abs(right.path[i].x + left.path[i].x),
                       std::abs(right.path[i].y - left.path[i].y)});
-    farthest = std::max(farthest, std::abs(right.path[i].x));
   }
-  EXPECT_LT(worst, 1e-6);
-  EXPECT_LE(right.worst_jump, 1.5);
+  expect_at_most({16, "", "largest distance of one path from the other's mirror image", "m"}, worst,
+                 1e-6);
+  expect_at_most({16, "", "largest change of force per step over p v h", ""},
+                 std::max(right.worst_jump, left.worst_jump), 1.5);
 }
 
 /// Twenty tumbling polygons without gravity, thrown at each other.
@@ -141,19 +152,24 @@ TEST(Heap, MomentumInCollisions) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     Simulation sim = heap_scene(random_heap(seed),
                                 "[solver]\nduration = 0.5\n[output]\nhistory_every = 0.01\n", 30.0);
+    const std::string label = "heap " + std::to_string(seed);
+    Series changes(19, label, {"time", "linear", "angular"});
     Momentum first;
     bool started = false;
-    double linear = 0.0, angular = 0.0, drift = 0.0;
+    double linear = 0.0, angular = 0.0;
     run(sim, [&](Simulation& s) {
       const Momentum m = momentum(s);
       if (!started) first = m;
       started = true;
-      linear = std::max(linear, norm(m.linear - first.linear) / first.scale);
-      angular = std::max(angular, std::abs(m.angular - first.angular) / first.angular_scale);
-      drift = std::max(drift, std::abs(s.ledger().drift));
+      const double pushed = norm(m.linear - first.linear) / first.scale;
+      const double turned = std::abs(m.angular - first.angular) / first.angular_scale;
+      changes.add({s.state.time, pushed, turned});
+      linear = std::max(linear, pushed);
+      angular = std::max(angular, turned);
     });
-    EXPECT_LT(linear, 1e-9);
-    EXPECT_LT(angular, 1e-9);
+    expect_at_most({19, label, "largest change of momentum over the sum of m v", ""}, linear, 1e-9);
+    expect_at_most({19, label, "largest change of angular momentum over the sum of m r v", ""},
+                   angular, 1e-9);
     EXPECT_GT(sim.open_close.switched, 20u);
   }
 }
@@ -175,13 +191,39 @@ double farthest(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
   return worst;
 }
 
-/// Row 19: a model turned, mirrored or renumbered gives the same motion.
+/// Where the blocks are at every row.
+std::vector<std::vector<Vec2>> paths(Simulation& sim) {
+  std::vector<std::vector<Vec2>> rows;
+  run(sim, [&](Simulation& s) { rows.push_back(positions(s)); });
+  return rows;
+}
+
+/// Row 19: a model turned, mirrored or renumbered gives the same motion. `back` undoes the change
+/// in the positions of one row.
+void expect_same_motion(const Heap& heap, const std::vector<std::vector<Vec2>>& expected,
+                        const std::string& label,
+                        const std::function<void(std::vector<Vec2>&)>& back) {
+  Simulation sim = heap_scene(heap, two_impacts, 25.0);
+  std::vector<std::vector<Vec2>> rows = paths(sim);
+  ASSERT_EQ(rows.size(), expected.size());
+  Series apart(19, label, {"time", "computed"});
+  double worst = 0.0;
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    back(rows[n]);
+    const double now = farthest(rows[n], expected[n]);
+    worst = std::max(worst, now);
+    apart.add({0.01 * static_cast<double>(n), now});
+  }
+  expect_at_most({19, label, "largest distance of a block from where it was before", "m"}, worst,
+                 1e-9);
+}
+
 TEST(Heap, IndifferentToTurnMirrorAndNumbering) {
   const Heap heap = random_heap(4);
   Simulation reference = heap_scene(heap, two_impacts, 25.0);
-  run(reference, [](Simulation&) {});
-  const std::vector<Vec2> expected = positions(reference);
+  const std::vector<std::vector<Vec2>> expected = paths(reference);
   ASSERT_GT(reference.open_close.switched, 4u);
+  record_model(19, "", reference);
 
   const double angle = 0.7;
   Heap turned = heap;
@@ -189,11 +231,9 @@ TEST(Heap, IndifferentToTurnMirrorAndNumbering) {
     for (Vec2& p : r) p = rotated(p, angle);
   }
   for (Vec2& v : turned.velocity) v = rotated(v, angle);
-  Simulation second = heap_scene(turned, two_impacts, 25.0);
-  run(second, [](Simulation&) {});
-  std::vector<Vec2> back = positions(second);
-  for (Vec2& p : back) p = rotated(p, -angle);
-  EXPECT_LT(farthest(back, expected), 1e-9);
+  expect_same_motion(turned, expected, "turned", [&](std::vector<Vec2>& row) {
+    for (Vec2& p : row) p = rotated(p, -angle);
+  });
 
   Heap mirrored = heap;
   for (Ring& r : mirrored.rings) {
@@ -201,26 +241,21 @@ TEST(Heap, IndifferentToTurnMirrorAndNumbering) {
   }
   for (Vec2& v : mirrored.velocity) v.x = -v.x;
   for (double& w : mirrored.spin) w = -w;
-  Simulation third = heap_scene(mirrored, two_impacts, 25.0);
-  run(third, [](Simulation&) {});
-  back = positions(third);
-  for (Vec2& p : back) p.x = -p.x;
-  EXPECT_LT(farthest(back, expected), 1e-9);
+  expect_same_motion(mirrored, expected, "mirrored", [](std::vector<Vec2>& row) {
+    for (Vec2& p : row) p.x = -p.x;
+  });
 
   Heap renumbered;
+  const auto place = [&](std::size_t i) { return (7 * i + 3) % heap.rings.size(); };
   for (std::size_t i = 0; i < heap.rings.size(); ++i) {
-    const std::size_t j = (7 * i + 3) % heap.rings.size();
-    renumbered.rings.push_back(heap.rings[j]);
-    renumbered.velocity.push_back(heap.velocity[j]);
-    renumbered.spin.push_back(heap.spin[j]);
+    renumbered.rings.push_back(heap.rings[place(i)]);
+    renumbered.velocity.push_back(heap.velocity[place(i)]);
+    renumbered.spin.push_back(heap.spin[place(i)]);
   }
-  Simulation fourth = heap_scene(renumbered, two_impacts, 25.0);
-  run(fourth, [](Simulation&) {});
-  const std::vector<Vec2> shuffled = positions(fourth);
-  for (std::size_t i = 0; i < heap.rings.size(); ++i) {
-    back[(7 * i + 3) % heap.rings.size()] = shuffled[i];
-  }
-  EXPECT_LT(farthest(back, expected), 1e-9);
+  expect_same_motion(renumbered, expected, "renumbered", [&](std::vector<Vec2>& row) {
+    const std::vector<Vec2> shuffled = row;
+    for (std::size_t i = 0; i < row.size(); ++i) row[place(i)] = shuffled[i];
+  });
 }
 
 /// `consistent` is `matched` in another basis.
@@ -247,16 +282,14 @@ TEST(Heap, ConsistentAndMatchedMassesAgree) {
 
 /// Row 21: what friction and damping take never comes back.
 TEST(Dissipation, NeverFalls) {
-  struct Case {
-    const char* damping;
-    double friction;
-  };
-  for (const Case& c :
-       {Case{"", 30.0}, Case{"damping = { mass = 2.0 }\n", 30.0},
-        Case{"damping = { local = 0.3 }\n", 30.0}, Case{"damping = { contact = 0.2 }\n", 30.0}}) {
+  for (const auto& [label, damping_table] :
+       {std::pair{"friction alone", ""},
+        std::pair{"with mass damping", "damping = { mass = 2.0 }\n"},
+        std::pair{"with local damping", "damping = { local = 0.3 }\n"},
+        std::pair{"with contact damping", "damping = { contact = 0.2 }\n"}}) {
     std::string toml = std::string(materials) +
-                       "[joints.j]\nfriction_angle = " + number(c.friction) +
-                       "\n[solver]\nduration = 1.0\n" + c.damping +
+                       "[joints.j]\nfriction_angle = 30\n[solver]\nduration = 1.0\n" +
+                       damping_table +
                        "[output]\nhistory_every = 0.01\n[[block]]\nfixed = true\npolygon = "
                        "[[-6,-1],[8,-1],[8,0],[-6,0]]\n";
     for (int i = 0; i < 6; ++i) {
@@ -267,6 +300,7 @@ TEST(Dissipation, NeverFalls) {
       toml += polygon_text(ring);
     }
     Simulation sim = scene(toml);
+    Series taken(21, label, {"time", "friction", "damping"});
     double drift = 0.0, friction = 0.0, damping = 0.0, worst_fall = 0.0;
     run(sim, [&](Simulation& s) {
       const Ledger l = s.ledger();
@@ -274,9 +308,12 @@ TEST(Dissipation, NeverFalls) {
       worst_fall = std::max({worst_fall, friction - l.friction, damping - l.damping});
       friction = l.friction;
       damping = l.damping;
+      taken.add({s.state.time, friction, damping});
     });
-    EXPECT_LT(drift, 1e-5);
-    EXPECT_LE(worst_fall, 1e-6 * sim.largest_energy);
+    expect_at_most({21, label, "largest fall of a line over the largest energy", ""},
+                   worst_fall / sim.largest_energy, 1e-6);
+    expect_at_most({21, label, "largest drift of the ledger", ""}, drift, 1e-5);
+    record_model(21, label, sim);
     EXPECT_GT(friction + damping, 0.0);
   }
 }

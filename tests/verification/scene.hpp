@@ -75,6 +75,13 @@ inline std::string number(double v) {
   return text;
 }
 
+/// A number for labels.
+inline std::string brief(double v) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%g", v);
+  return text;
+}
+
 /// A rectangle as TOML, by two corners.
 inline std::string rectangle(double x0, double y0, double x1, double y1) {
   return "[[" + number(x0) + "," + number(y0) + "],[" + number(x1) + "," + number(y0) + "],[" +

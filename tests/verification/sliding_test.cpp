@@ -9,12 +9,7 @@ TEST_P(Ramp, SlidesAsAnalytic) {
   const auto [alpha, phi] = GetParam();
   for (const auto& [young, bound] : {std::pair{"200e6", 2e-2}, std::pair{"20e9", 2e-3}}) {
     Simulation sim = scene(ramp(alpha, phi, young));
-    double drift = 0.0;
-    run(sim, [&](Simulation& s) { drift = std::max(drift, std::abs(s.ledger().drift)); });
-    const double exact = sliding(alpha, phi, 0.1);
-    RecordProperty(std::string("error_") + young, number(slid(sim, alpha) / exact - 1.0));
-    EXPECT_NEAR(slid(sim, alpha) / exact, 1.0, bound) << young;
-    EXPECT_LT(drift, 1e-5);
+    EXPECT_LT(expect_slides(sim, 1, ramp_label(alpha, phi, young), alpha, phi, bound), 1e-5);
   }
 }
 
@@ -22,27 +17,39 @@ INSTANTIATE_TEST_SUITE_P(PaperPairs, Ramp,
                          testing::Values(std::pair{30.0, 10.0}, std::pair{30.0, 15.0},
                                          std::pair{45.0, 10.0}, std::pair{45.0, 15.0}));
 
-/// Row 17: the same ramp cut into ten blocks, none of whose seams may kick.
+/// Slides on ten pieces. The largest sum of normal forces over its static value.
+double press_in_ten_pieces(double alpha, double phi, const std::string& label,
+                           const std::string& solver) {
+  Simulation sim = scene(ramp(alpha, phi, "20e9", 10, solver));
+  const double weight = 2.0 * 2750.0 * 9.8 * std::cos(radians(alpha));
+  Series pressing(17, "normal forces, " + label, {"time", "computed"});
+  double largest = 0.0;
+  const double drift = expect_slides(sim, 17, label, alpha, phi, 2e-3, [&](Simulation& s) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < s.contacts.size(); ++k) {
+      sum += s.contacts.share[k] * s.contacts.alpha[k] * s.contacts.normal[k];
+    }
+    pressing.add({s.state.time, sum / weight});
+    largest = std::max(largest, sum / weight);
+  });
+  EXPECT_LT(drift, 1e-5);
+  return largest;
+}
+
+/// Row 17: the same ramp cut into ten blocks, none of whose seams may kick. Undamped, the stiff
+/// vibrations of so many contacts may feed on the slide (method-notes.md); at 10 degrees of
+/// friction they do, and the sum is held to its bound with a little contact damping.
 TEST(RampInTenPieces, SlidesAsOne) {
-  for (const auto& [alpha, phi] : {std::pair{30.0, 15.0}}) {
-    Simulation sim = scene(ramp(alpha, phi, "20e9", 10));
-    const double weight = 2.0 * 2750.0 * 9.8 * std::cos(radians(alpha));
-    double drift = 0.0, largest = 0.0;
-    run(
-        sim, [&](Simulation& s) { drift = std::max(drift, std::abs(s.ledger().drift)); },
-        [&](Simulation& s) {
-          double sum = 0.0;
-          for (std::size_t k = 0; k < s.contacts.size(); ++k) {
-            sum += s.contacts.share[k] * s.contacts.alpha[k] * s.contacts.normal[k];
-          }
-          largest = std::max(largest, sum / weight);
-        });
-    const double exact = sliding(alpha, phi, 0.1);
-    RecordProperty("error", number(slid(sim, alpha) / exact - 1.0));
-    RecordProperty("largest_normal", number(largest));
-    EXPECT_NEAR(slid(sim, alpha) / exact, 1.0, 2e-3);
-    EXPECT_LE(largest, 2.1);
-    EXPECT_LT(drift, 1e-5);
+  for (const auto& [alpha, phi] : {std::pair{30.0, 10.0}, std::pair{30.0, 15.0},
+                                   std::pair{45.0, 10.0}, std::pair{45.0, 15.0}}) {
+    for (const auto& [how, solver] :
+         {std::pair{"", ""},
+          std::pair{", contact damping 0.02", "damping = { contact = 0.02 }\n"}}) {
+      const std::string label = ramp_label(alpha, phi, "20e9") + how;
+      const double largest = press_in_ten_pieces(alpha, phi, label, solver);
+      if (phi == 10.0 && *how == '\0') continue;
+      expect_at_most({17, label, "largest sum N over W cos a", ""}, largest, 2.1);
+    }
   }
 }
 

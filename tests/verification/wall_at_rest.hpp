@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "verification/record.hpp"
 #include "verification/scene.hpp"
 
 namespace edda {
@@ -27,8 +28,29 @@ struct Rest {
   std::uint64_t later_steps = 0;
 };
 
-/// Runs `steps` steps and watches them.
-inline Rest watch_rest(Simulation& sim, std::uint64_t steps) {
+inline void expect_rest(const Rest& rest, bool settled, const std::string& label) {
+  expect_at_most({18, label, "largest drift of the ledger", ""}, rest.drift, settled ? 1e-9 : 1e-5);
+  expect_at_most({18, label, "largest displacement of a brick", "m"}, rest.moved,
+                 settled ? 1e-9 : 1e-3);
+  if (settled) {
+    // J: rounding, of a wall that stores hundreds
+    expect_at_most({18, label, "kinetic energy after the first second", "J"}, rest.later_kinetic,
+                   1e-12);
+    expect_at_most({18, label, "flips of contacts that carry", ""}, static_cast<double>(rest.flips),
+                   0.0);
+  } else {
+    expect_at_most({18, label, "kinetic energy after the first second over that in it", ""},
+                   rest.later_kinetic / rest.first_kinetic, 1.0);
+    EXPECT_LT(std::abs(rest.trend), 1e-6);
+  }
+}
+
+/// Runs `steps` steps and watches them, and holds them to the row's bounds.
+inline Rest watch_rest(Simulation& sim, std::uint64_t steps, bool settled) {
+  const std::string label =
+      std::string(settled ? "settled" : "as drawn") + ", " + std::to_string(steps) + " steps";
+  Series books(18, label, {"time", "kinetic", "drift"});
+  const std::uint64_t every = 16 * std::max<std::uint64_t>(steps / 16000, 1);
   Rest rest;
   const double begin = sim.state.time, weight = sim.blocks.mass[1] * 9.81;
   const std::uint64_t first = sim.state.steps;
@@ -62,6 +84,7 @@ inline Rest watch_rest(Simulation& sim, std::uint64_t steps) {
     const Ledger l = sim.ledger();
     double& kinetic = later ? rest.later_kinetic : rest.first_kinetic;
     kinetic = std::max(kinetic, l.kinetic);
+    if (n % every == 0) books.add({sim.state.time - begin, l.kinetic, std::abs(l.drift)});
     rest.drift = std::max(rest.drift, std::abs(l.drift));
     if (n <= steps / 10) early += l.drift, ++early_rows;
     if (n > steps - steps / 10) late += l.drift, ++late_rows;
@@ -69,6 +92,8 @@ inline Rest watch_rest(Simulation& sim, std::uint64_t steps) {
   rest.trend = late / static_cast<double>(late_rows) - early / static_cast<double>(early_rows);
   for (std::size_t i = 0; i < sim.blocks.size(); ++i)
     rest.moved = std::max(rest.moved, norm(centroid(sim.state.x, sim.state.y, i) - home[i]));
+  expect_rest(rest, settled, label);
+  record_model(18, label, sim);
   return rest;
 }
 
