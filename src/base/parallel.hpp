@@ -5,10 +5,14 @@
 #include <cstddef>
 #include <vector>
 
+#ifndef EDDA_WORTH_SHARING  // builds that look for races and differences share every loop
+#define EDDA_WORTH_SHARING 8192
+#endif
+
 namespace edda {
 
 /// Loops shorter than this are not worth waking other threads for.
-inline constexpr std::size_t worth_sharing = 8192;
+inline constexpr std::size_t worth_sharing = EDDA_WORTH_SHARING;
 
 /// Calls body(i) for i in [0, n), in parallel. body must write only what belongs to i.
 template <class Body>

@@ -1,0 +1,138 @@
+"""The same model gives the same bits: with any number of threads, after a stop and --resume, at any optimisation.
+Nothing is compared with a stored value, only builds of the same sources with each other. Compared are hashes of
+  blocks.csv, joints.csv, history.csv, the last frames, and summary.json without what tells of the machine (MACHINE).
+Usage: determinism_test.py EDDA [EDDA_O1]
+EDDA_O1 is the same sources at -O1 with every loop shared among the threads (CMake's EDDA_O1_TWIN), so that small scenes
+meet all of the threads' work; EDDA itself shares only long loops, which the last scene has."""
+import hashlib
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+EDDA = pathlib.Path(sys.argv.pop(1)).resolve()
+TWIN = pathlib.Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else None
+
+# What of the summary tells of the machine and the threads, not of the model.
+MACHINE = ("wall_seconds", "block_steps_per_second", "threads")
+STEPS = 10_000
+THREADS = (1, 2, 3, 8, 16)
+
+
+def steps_of(step, number=STEPS, frames=4, rows=50):
+    """Settings for so many steps of one length."""
+    duration = step * number
+    return {"solver.time_step": step, "solver.duration": duration, "output.every": duration / frames,
+            "output.history_every": duration / rows}
+
+
+# Soft rock, so that 10,000 steps are long enough for walls to fall and slopes to tumble.
+COLLAPSING_WALL = ("wall", {"materials.brick.young": 4e6, "joints.dry.cohesion": 2e3, "joints.dry.tensile_strength": 1e3,
+                            **steps_of(1e-4)})
+TUMBLING_SLOPE = ("slope", {"materials.rock.young": 5e7, "solver.damping.local": 0.02, **steps_of(1.2e-4)})
+BONDED_CAVERN = ("cavern", {"joint_set.steep.spacing": 7.0, "joint_set.flat.spacing": 7.0, "joints.bare.cohesion": 2e5,
+                            "joints.bare.tensile_strength": 1e5, "boundary.sides.stiffness": 1.9e11, **steps_of(1.5e-6)})
+IMPLICIT_WALL = ("wall", {"solver.method": "dda", **steps_of(5e-4, 300)})
+# Long enough loops for the release build to share them.
+LARGE_WALL = ("wall", {"brick_wall.0.columns": 45, "brick_wall.0.rows": 60,
+                       "block.floor.polygon": "[[-4, -0.5], [26, -0.5], [26, 0], [-4, 0]]", **steps_of(1.2e-5, 150)})
+
+
+class Determinism(unittest.TestCase):
+    def setUp(self):
+        self.dir = pathlib.Path(tempfile.mkdtemp(prefix="edda_determinism_"))
+        self.addCleanup(shutil.rmtree, self.dir, True)
+
+    def command(self, program, folder, settings, threads, *more):
+        given = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
+        return [str(program), "run", "m.toml", "--quiet", "-o", folder, "--threads", str(threads), *more, *given]
+
+    def environment(self):
+        # More threads than cores must not spin while they wait for each other.
+        return {**os.environ, "OMP_WAIT_POLICY": "passive", "OMP_DYNAMIC": "false"}
+
+    def take(self, scene):
+        name, settings = scene
+        subprocess.run([str(EDDA), "example", name], cwd=self.dir, check=True, capture_output=True)
+        (self.dir / (name + ".toml")).rename(self.dir / "m.toml")
+        return settings
+
+    def prints(self, folder, steps):
+        """Hash by file, and the summary."""
+        folder = self.dir / folder
+        summary = {k: v for k, v in json.loads((folder / "summary.json").read_text()).items() if k not in MACHINE}
+        self.assertEqual(summary["status"], "completed", summary["message"])
+        self.assertGreaterEqual(summary["steps"], steps)
+        files = [folder / name for name in ("blocks.csv", "joints.csv", "history.csv")]
+        for kind in ("blocks", "contacts"):
+            files.append(max((folder / "frames").glob(kind + "_*.vtu")))
+        result = {p.name: hashlib.sha256(p.read_bytes()).hexdigest() for p in files}
+        result["summary.json"] = hashlib.sha256(json.dumps(summary).encode()).hexdigest()
+        return result, summary
+
+    def whole(self, program, folder, settings, threads, steps):
+        done = subprocess.run(self.command(program, folder, settings, threads), cwd=self.dir, text=True, timeout=250,
+                              capture_output=True, env=self.environment())
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return self.prints(folder, steps)
+
+    def resumed(self, first, second, settings, threads, steps):
+        """Stopped once its first checkpoint is there, and gone on with by the other program."""
+        often = {**settings, "output.checkpoint_every": 1e-4}
+        for _ in range(20):
+            shutil.rmtree(self.dir / "stopped", ignore_errors=True)
+            process = subprocess.Popen(self.command(first, "stopped", often, threads[0]), cwd=self.dir,
+                                       stderr=subprocess.PIPE, env=self.environment())
+            while not (self.dir / "stopped/checkpoint.h5").exists() and process.poll() is None:
+                time.sleep(0.002)
+            process.send_signal(signal.SIGINT)
+            process.communicate()
+            if process.returncode == 130:
+                break
+        self.assertEqual(process.returncode, 130, "the run is over before it can be stopped")
+        done = subprocess.run(self.command(second, "stopped", often, threads[1], "--resume"), cwd=self.dir, text=True,
+                              capture_output=True, timeout=250, env=self.environment())
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return self.prints("stopped", steps)
+
+    def hold(self, scene, steps=STEPS, threads=THREADS, twin_threads=(1, 2)):
+        settings = self.take(scene)
+        expected, summary = self.whole(EDDA, "reference", settings, threads[0], steps)
+        for n in threads[1:]:
+            self.assertEqual(self.whole(EDDA, f"t{n}", settings, n, steps)[0], expected, f"{n} threads")
+        self.assertEqual(self.resumed(EDDA, EDDA, settings, (3, 2), steps)[0], expected, "resumed")
+        if TWIN:
+            for n in twin_threads:
+                self.assertEqual(self.whole(TWIN, f"o1_{n}", settings, n, steps)[0], expected, f"-O1, {n} threads")
+            self.assertEqual(self.resumed(EDDA, TWIN, settings, (2, 1), steps)[0], expected, "resumed at -O1")
+        return summary
+
+    def test_collapsing_wall(self):
+        summary = self.hold(COLLAPSING_WALL, twin_threads=(1, 3, 16))
+        self.assertGreater(summary["energy"]["fracture"], 0.0)  # bonds broke
+        self.assertGreater(summary["energy"]["friction"], 0.0)
+
+    def test_tumbling_slope(self):
+        summary = self.hold(TUMBLING_SLOPE)
+        self.assertGreater(summary["energy"]["friction"], 0.0)
+        self.assertGreater(summary["energy"]["damping"], 0.0)
+
+    def test_cavern_with_bonds(self):
+        summary = self.hold(BONDED_CAVERN)
+        self.assertGreater(summary["energy"]["fracture"], 0.0)
+
+    def test_implicit_wall(self):
+        self.hold(IMPLICIT_WALL, steps=300)
+
+    def test_loops_long_enough_to_be_shared(self):
+        self.hold(LARGE_WALL, steps=150, twin_threads=(8,))
+
+
+if __name__ == "__main__":
+    unittest.main()
