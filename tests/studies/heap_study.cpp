@@ -1,5 +1,5 @@
 // A loose heap poured into a box: heap_study [BLOCKS [SEEDS [FIRST [STIFFNESS
-// [DAMPING [SECONDS [ODD [THINNEST]]]]]]]].
+// [DAMPING [SECONDS [ODD [THINNEST [YOUNG]]]]]]]]].
 // One line per seed. Exit 1 if one does not come to rest, overlaps, gains energy or cuts its steps.
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +14,7 @@ using namespace edda;
 
 struct Settings {
   int blocks = 2000;
+  double young = 2e9;      ///< Pa
   double stiffness = 1.0;  ///< contact over Young's modulus
   double damping = 0.2;    ///< at contacts
   double seconds = 8.0;    ///< the last avalanches take five
@@ -27,11 +28,11 @@ std::string poured(unsigned seed, const Settings& s) {
   std::uniform_real_distribution<double> u(0.0, 1.0);
   const int columns = static_cast<int>(std::ceil(std::sqrt(4.0 * s.blocks)));
   const double cell = 1.05, width = cell * columns, high = 60.0;
-  std::string toml =
-      "[materials.rock]\ndensity = 2600.0\nyoung = 2e10\npoisson = 0.2\n[joints.j]\n"
-      "friction_angle = 30\n[contact]\nnormal_stiffness = " +
-      number(2e10 * s.stiffness) + "\n[solver]\nduration = " + number(s.seconds) +
-      "\ndamping = { contact = " + number(s.damping) + " }\n";
+  std::string toml = "[materials.rock]\ndensity = 2600.0\nyoung = " + number(s.young) +
+                     "\npoisson = 0.2\n[joints.j]\n"
+                     "friction_angle = 30\n[contact]\nnormal_stiffness = " +
+                     number(s.young * s.stiffness) + "\n[solver]\nduration = " + number(s.seconds) +
+                     "\ndamping = { contact = " + number(s.damping) + " }\n";
   auto wall = [&](double x0, double y0, double x1, double y1) {
     toml += "[[block]]\nfixed = true\npolygon = " + rectangle(x0, y0, x1, y1) + "\n";
   };
@@ -86,18 +87,25 @@ bool pour(unsigned seed, const Settings& s) {
     }
   }
   double fastest = 0.0;
-  for (std::size_t i = 0; i < sim.blocks.size(); ++i)
-    fastest = std::max(fastest, norm(centroid(sim.state.vx, sim.state.vy, i)));
+  std::size_t which = 0, moving = 0;
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    const double speed = norm(centroid(sim.state.vx, sim.state.vy, i));
+    moving += speed > 1e-3 ? 1 : 0;
+    if (speed > fastest) which = i;
+    fastest = std::max(fastest, speed);
+  }
   const double cut = static_cast<double>(sim.steps.redone) / static_cast<double>(sim.state.steps);
   const bool good = failure.empty() && overlap < 0.01 * smallest && gained <= 1e-6 && cut < 0.01 &&
                     fastest < 1e-2;
   std::printf(
       "seed %u: %s; overlap %.2e of the smallest block at %.2f s, gained %.1e, drift %.1e, cut "
       "%.1e "
-      "of %llu steps, fastest %.1e m/s, unsettled %.1e %s\n",
+      "of %llu steps, fastest %.1e m/s (block %zu at %.2f, %.2f; %zu above 1e-3), unsettled %.1e "
+      "%s\n",
       seed, good ? "good" : "BAD", overlap / smallest, overlap_at, gained, drift, cut,
-      static_cast<unsigned long long>(sim.state.steps), fastest,
-      static_cast<double>(sim.open_close.unsettled) / static_cast<double>(sim.state.steps),
+      static_cast<unsigned long long>(sim.state.steps), fastest, which,
+      sim.state.x[0][which] + sim.blocks.origin.x, sim.state.y[0][which] + sim.blocks.origin.y,
+      moving, static_cast<double>(sim.open_close.unsettled) / static_cast<double>(sim.state.steps),
       failure.c_str());
   std::fflush(stdout);
   return good;
@@ -118,6 +126,7 @@ int main(int argc, char** argv) {
   s.seconds = argument(6, s.seconds);
   s.odd = argument(7, s.odd);
   s.thinnest = argument(8, s.thinnest);
+  s.young = argument(9, s.young);
   unsigned bad = 0;
   for (unsigned seed = first; seed < first + seeds; ++seed) bad += pour(seed, s) ? 0 : 1;
   std::printf("%u of %u seeds bad\n", bad, seeds);
