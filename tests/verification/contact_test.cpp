@@ -214,8 +214,7 @@ void expect_same_motion(const Heap& heap, const std::vector<std::vector<Vec2>>& 
     worst = std::max(worst, now);
     apart.add({0.01 * static_cast<double>(n), now});
   }
-  expect_at_most({19, label, "largest distance of a block from where it was before", "m"}, worst,
-                 1e-9);
+  expect_at_most({19, label, "largest distance apart of a block", "m"}, worst, 1e-9);
 }
 
 TEST(Heap, IndifferentToTurnMirrorAndNumbering) {

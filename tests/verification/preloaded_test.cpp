@@ -127,6 +127,7 @@ TEST(StickThreshold, ATenthOfADegreeMoreHolds) {
         offsets.add({sim.state.time - begin, offset, along()});
       }
     }
+    record_model(3, label, sim);
     expect_at_most({3, label, "moves in the next 2 s, over the offset", ""}, most / offset, 1e-3);
     EXPECT_LT(kinetic, 1e-6 * weight * offset) << alpha;
   }

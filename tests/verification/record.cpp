@@ -93,10 +93,6 @@ void expect_relative(const Quantity& q, double computed, double exact, double lo
   check(q, "relative", computed, exact, computed / exact - 1.0, low, high);
 }
 
-void expect_within(const Quantity& q, double computed, double exact, double bound) {
-  check(q, "absolute", computed, exact, computed - exact, -bound, bound);
-}
-
 void expect_at_most(const Quantity& q, double computed, double limit) {
   check(q, "limit", computed, std::nan(""), computed, -infinity, limit);
 }

@@ -25,8 +25,6 @@ struct Quantity {
 /// computed/exact - 1 lies within -bound and bound, or within low and high.
 void expect_relative(const Quantity& q, double computed, double exact, double bound);
 void expect_relative(const Quantity& q, double computed, double exact, double low, double high);
-/// computed - exact lies within -bound and bound, in the quantity's unit.
-void expect_within(const Quantity& q, double computed, double exact, double bound);
 /// One-sided: what may not be passed.
 void expect_at_most(const Quantity& q, double computed, double limit);
 void expect_at_least(const Quantity& q, double computed, double limit);

@@ -1,0 +1,139 @@
+"""The rows of docs/validation.md in words. Numbers that were computed come from the records alone."""
+import dataclasses
+
+from verification import exact
+
+
+@dataclasses.dataclass(frozen=True)
+class Row:
+    """One problem. leave_out: facts of the recorded model that its run changes."""
+
+    number: int
+    title: str
+    model: str
+    exact: str
+    note: str = ""
+    leave_out: tuple = ()
+    expected: bool = True  # False: may have no record yet
+
+
+def _overhang(bricks):
+    return 0.5 * sum(1.0 / k for k in range(1, bricks + 1))
+
+
+ROWS = (
+    Row(1, "The paper's ramp",
+        "A block of 2 x 1 m is let go on a held ramp of slope a, with friction phi, and slides for 0.1 s. It starts"
+        " unstressed. Cases are named slope/friction in degrees.",
+        "A rigid block slides s = g t^2 (sin a - tan phi cos a)/2 (Coulomb; the paper's Eq. 42).",
+        "The block meets gravity unstressed, drops on its contact springs and swings. What that does to the slide is"
+        " nearly all of the error; it shrinks with stiffer rock, and row 2 is without it."),
+    Row(2, "The ramp, started stressed",
+        "The ramp of row 1, settled first: strong mass damping makes the block slide at a constant speed v0, and pulls"
+        " as inertia will, so that all forces are those of sliding. Then the damping is taken away.",
+        "s = v0 t + g t^2 (sin a - tan phi cos a)/2. The first term is taken off on both sides."),
+    Row(3, "Stick or slip within a tenth of a degree",
+        "The ramp of row 2, with 0.1 degrees less friction than slope, and with 0.1 degrees more. Contacts are as stiff"
+        " as the rock: stiffer ones flutter ([method-notes.md](method-notes.md)).",
+        "With less it slides as in row 2. With more it holds. The uphill corner has slipped to its limit, the shear"
+        " spring of the downhill one has what is left, (W sin a - N_up tan phi)/k_t, where N_up = W cos a/2 - W sin a/4"
+        " is what statics leaves on the uphill corner of a 2 x 1 m block."),
+    Row(4, "Critical cohesion",
+        "The block of row 1 on 30 degrees, with 15 degrees of friction, held by cohesion on its 2 m of joint; loaded"
+        " without overshoot by strong damping. Contact springs by themselves, or by the length of the joint. Below the"
+        " critical cohesion the damping is taken away when the bond breaks.",
+        "Statics: c L = W sin a - W cos a tan phi. Once broken, cohesion is gone and the block slides as in row 1."),
+    Row(5, "Rocking",
+        "A block of 1 x 3 m is let go on its corner at half its critical tilt. Time until it stands flat, for the three"
+        " mass matrices.",
+        "A quarter of the period of theta'' = -p^2 sin(alpha - theta), p^2 = 3 g/4 R, alpha = atan(1/3), R half the"
+        " diagonal (Housner 1963), integrated numerically; 2.44947/4 s. The lumping `covering` has the inertia of three"
+        " masses on a triangle round the block: its p^2 is g R/(R_c^2 + R^2), R_c being the nodes' distance from the"
+        " centroid, and it is held to that."),
+    Row(6, "Free spin",
+        "A unit square, plane stress, spins freely at 20 rad/s for ten turns. It starts unstressed, so it swings about"
+        " its stretched shape.",
+        "A block of uniform strain carries the mean centrifugal stress sigma = rho omega^2 a^2/12 in both directions"
+        " (virial theorem), so its area grows by 2 sigma (1 - nu)/E; the swing is that times"
+        " 1 - cos(w t), w^2 = 12 E/((1 - nu) rho a^2). Angular momentum does not change."),
+    Row(7, "Natural frequencies of a free block",
+        "A free block of 2 x 1 m, plane strain, started in each of its three modes by the velocities of that mode. Its"
+        " strain crosses zero every half period.",
+        "Stretch: w^2 are the eigenvalues of (12/rho) [C11/a^2, C12/a^2; C12/b^2, C22/b^2]. Shear:"
+        " w^2 = 12 G (a^2 + b^2)/(rho a^2 b^2). Both follow from the kinetic energy of a uniform strain rate."),
+    Row(8, "Bounce on two corners",
+        "A unit square falls 0.1 mm on two of its corners, undamped, again and again, on contact springs 200 times"
+        " softer than the rock. Steps from 0.1 to 0.8 of the critical one.",
+        "A mass on a spring that only pushes, w^2 = 2 p_n/m: contact time [pi + 2 atan(g/(w v))]/w, v = sqrt(2 g H);"
+        " depth d + sqrt(d^2 + 2 d H), d = m g/2 p_n. Energy does not change.",
+        "The rock is not rigid: that is what is left of the error, at every step."),
+    Row(9, "Column under its own weight",
+        "Ten unit squares on a held base, plane stress, no friction, at rest. Cases: the explicit method with mass damping;"
+        " the implicit one.",
+        "The stress in the middle of a block is -rho g times its depth. The top settles by rho g H^2/2E + sum N_i/K, the"
+        " blocks' own shortening and that of the springs, K = 2 p_n an interface."),
+    Row(10, "Pulse along a column",
+        "200 unit squares in a row, plane stress, nu = 0, bonded, free at both ends, without gravity. A hump of velocity,"
+        " a Gauss curve of standard deviation 10 m, starts about block 41; half of it runs to the far end. kappa ="
+        " K L/(E A) is the joints' stiffness over the blocks'.",
+        "Springs in series: c = sqrt(E/rho)/sqrt(1 + 1/kappa). The free end moves twice as fast as the hump, with its"
+        " mirror image coming the other way. The speed is that between blocks 81 and 161."),
+    Row(11, "Critical step",
+        "The bound of the step that the program computes, block by block, for a column of 200 unit squares.",
+        "The largest frequency of an endless row of such blocks gives the step L/(c0 sqrt(3 (1 + kappa))), c0 ="
+        " sqrt(E/rho), kappa as in row 10. The bound may not be above it, nor below 0.7 of it."),
+    Row(12, "Snap-through of a three-hinged beam",
+        "Two stiff halves of 2 x 0.15 m between held abutments press on each other and on these by their corners."
+        " Gravity is raised slowly until they snap through: to 0.85 of the exact load in the first 5 s, then to 1.1 of"
+        " it in 11 s.",
+        "Three springs p_n in a row carry the thrust, so W = (16/3) p_n y (t^2 - y^2)/S^2 at the rise y = t - sag, with"
+        " its peak 16 K t^3/(3 sqrt3 S^2), K = 2 p_n/3, at y = t/sqrt3.",
+        "Computed is the load at which the sag passes 0.8 t: a beam that has begun to fall needs a while to get there,"
+        " and the load goes on rising.", leave_out=("gravity",)),
+    Row(13, "Semicircular arch",
+        "An arch of 16 equal voussoirs, centre line of radius R = 5 m, on held springings, under its own weight.",
+        "It stands where some thrust line stays within it: t/R of at least"
+        f" {exact.arch_limit(16):.4f} (limit analysis, Heyman 1969, here by linear conditions on all joints; 0.1075 for"
+        " endlessly many voussoirs). So it must stand at 0.112 and fall at 0.1.",
+        "What is drawn of the arch that falls is the moment when a voussoir has sunk by 0.5 m."),
+    Row(14, "Gravity dam with rising water",
+        "A dam of 2 x 8 m, 24 kN/m3, on held rock, without uplift. Water rises on one side to a depth that is found by"
+        " bisection.",
+        "The moments of the water, gamma_w h^3/6, and of the weight, gamma_c B^2 H/2, about the toe are equal at"
+        " h = (3 gamma_c B^2 H/gamma_w)^(1/3).", expected=False),
+    Row(15, "Harmonic overhang",
+        "Four bricks of 1 x 0.25 m, each overhanging the one below by L/2i, i counted from the top, times a factor.",
+        f"Statics: the top brick can overhang the table by at most (1/2)(1 + 1/2 + 1/3 + 1/4) L = {_overhang(4):.4f} L. All"
+        " joints reach their limit together.",
+        "What is drawn of the stack that falls is the moment when the top brick has sunk by 0.2 m."),
+    Row(16, "Corner on corner",
+        "A unit square standing on its corner falls 20 mm on the corner of a held one, 1 nm to the right of it, or to the"
+        " left.",
+        "The two paths are mirror images. The contact force does not jump: in a step h it changes by no more than"
+        " p_n v h, and half as much again where corners pass."),
+    Row(17, "The ramp in ten pieces",
+        "The ramp of row 1 with the ramp itself cut into ten held blocks, so that the slider passes seams.",
+        "It slides as on one piece. No seam may kick: the sum of normal forces stays under 2.1 W cos a, which a block that"
+        " meets gravity unstressed nearly reaches by itself.",
+        "Undamped, the stiff vibrations of so many contacts may feed on the slide"
+        " ([method-notes.md](method-notes.md)); with 10 degrees of friction they do, and the sum passes its bound (figure)."
+        " It is held to it at these angles with contact damping of 0.02. The way slid does not notice."),
+    Row(18, "A wall at rest",
+        "Eight rows of eight bricks, 1 x 0.5 m, undamped; met by gravity at once (\"as drawn\"), or settled first.",
+        "Energy does not change: as drawn, kinetic energy after the first second is no larger than in it. Settled, it is at"
+        " the level of rounding, and no contact that carries more than 1e-9 of a brick's weight opens or closes.",
+        "Tests watch 40,000 steps, `tools/rest-study` a million."),
+    Row(19, "Momentum and indifference",
+        "Twenty polygons of three to six corners, thrown at each other without gravity; and the same turned by 0.7 rad,"
+        " mirrored, and with the blocks in another order.",
+        "Linear and angular momentum do not change. Turned, mirrored or renumbered, the motion is the same."),
+    Row(20, "Four blocks in a box",
+        "Four unit squares that meet at a point, plane strain, no friction, squeezed by a held box that is a little too"
+        " small in both directions.",
+        "Two blocks and three interfaces K = 2 p_n in series share the closure: 2 e_x + 3 s_x/K = -2 dx, likewise along y,"
+        " with e from s by Hooke's law in plane strain. Nothing goes across the diagonals.",
+        "What is left is the square of the strain, which a linear answer leaves out: half the squeeze halves it."),
+    Row(21, "Friction and damping only take",
+        "Six unit squares, each turned 0.13 rad more than the one below, fall on each other and on a held base.",
+        "What friction and damping have taken never falls, and the ledger of energies closes."),
+)
