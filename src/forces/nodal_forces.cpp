@@ -75,7 +75,8 @@ void add_elastic(NodeForce& f, const BlockSet& b, const State& state, std::size_
 }  // namespace
 
 void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
-                   const ContactSet& contacts, const BoundarySprings& springs, Vec2 gravity) {
+                   const ContactSet& contacts, const BoundarySprings& springs, Vec2 gravity,
+                   const LoadsNow& loads) {
   parallel_for(b.size(), [&](std::size_t i) {
     if (b.fixed[i] || !state.alive[i]) return;
     NodeForce f;
@@ -83,6 +84,7 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
     for (Vec2& node : f) node = (b.mass[i] / 3.0) * gravity;
     add_elastic(f, b, state, i);
     add_springs(f, b, springs, pose, i);
+    if (loads.loads != nullptr) add_loads(f, b, loads, pose.x, pose.y, i);
     add_contacts(f, b, contacts, i);
     for (std::size_t k = 0; k < 3; ++k) {
       forces.x[k][i] = f[k].x;

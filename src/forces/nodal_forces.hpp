@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "attachments/boundary_springs.hpp"
+#include "attachments/loads.hpp"
 #include "blocks/kinematics.hpp"
 #include "contacts/contact_set.hpp"
 
@@ -15,12 +16,12 @@ struct NodalForces {
   Nodes x, y;
 };
 
-/// Gravity, elasticity, boundary springs and contacts of every free block (Eq. 15), contacts in the
+/// Gravity, elasticity, boundary springs, loads and contacts of every free block (Eq. 15), contacts in the
 /// order of ContactSet::block_entry. Blocks whose deformation has gone out of bounds (det F < 0.2
 /// or no rotation left) get NaN; block_out_of_bounds() finds them.
 void gather_forces(NodalForces& forces, const BlockSet& blocks, const State& state,
                    const Pose& pose, const ContactSet& contacts, const BoundarySprings& springs,
-                   Vec2 gravity);
+                   Vec2 gravity, const LoadsNow& loads = {});
 
 /// Force of the contacts and boundary springs alone on the whole of block i (for reactions).
 Vec2 contact_resultant(const BlockSet& blocks, const ContactSet& contacts, std::size_t i);

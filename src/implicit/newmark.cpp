@@ -221,7 +221,8 @@ class Rounds {
     } else {
       assume_touching(s_.springs, c_, scene_.blocks, pose_);
     }
-    gather_forces(forces_, scene_.blocks, state_, pose_, c_, scene_.springs, scene_.gravity);
+    gather_forces(forces_, scene_.blocks, state_, pose_, c_, scene_.springs, scene_.gravity,
+                  scene_.loads);
     return measure_residual(s_, scene_, settings_, state_, c_, forces_);
   }
 

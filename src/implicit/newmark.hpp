@@ -22,6 +22,7 @@ struct ImplicitScene {
   const LawTable& laws;
   const BoundarySprings& springs;
   Vec2 gravity;
+  LoadsNow loads = {};  ///< at the end of the step
 };
 
 struct ImplicitSettings {

@@ -292,10 +292,13 @@ void complete(const Value& root, Reading& reading) {
   check_names(root, "joint_set", model.joint_sets, reading);
   check_names(root, "opening", model.openings, reading);
   check_names(root, "boundary", model.boundaries, reading);
+  check_names(root, "load", model.loads, reading);
+  check_names(root, "water", model.waters, reading);
   check_names(root, "monitor", model.monitors, reading);
   check_blocks(root, reading);
   complete_boundaries(root, reading);
   complete_geometry(root, reading);
+  complete_loads(root, reading);
   check_solver(root, reading);
   complete_interval(root, "every", model.output.every, 20.0, 1e5, reading);
   complete_interval(root, "history_every", model.output.history_every, 200.0, 1e7, reading);

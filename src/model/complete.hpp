@@ -16,6 +16,10 @@ void complete(const Value& root, Reading& reading);
 /// where sets are confined to regions; infinite rather than overflowing.
 double estimated_blocks(const Domain& domain, const std::vector<JointSet>& sets);
 
+/// As complete(), for [[load]] and [[water]]: keys that exclude each other, histories read from
+/// their files, openings that are named.
+void complete_loads(const Value& root, Reading& reading);
+
 /// As complete(), for [domain], [[joint_set]] and [[brick_wall]]: counts and the default of snap.
 void complete_geometry(const Value& root, Reading& reading);
 

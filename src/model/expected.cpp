@@ -41,11 +41,16 @@ std::string expected(const Key& key) {
       return "a name in quotes";
     case Kind::point:
       return rule.dimension == Dimension::length ? "a point such as [1.0, 2.5]"
+             : rule.dimension == Dimension::load ? "two numbers such as [0.0, -1e5]"
                                                  : "two numbers such as [0.0, -9.81]";
     case Kind::polyline:
       return "a list of points such as [[0, 0], [2, 1]]";
     case Kind::polygon:
       return "a list of points such as [[0, 0], [2, 0], [2, 1]]";
+    case Kind::names:
+      return "a list of names such as [\"one\", \"two\"]";
+    case Kind::file:
+      return "the path of a file in quotes";
     case Kind::words:
       return "a list of " + quoted_list(rule.words);
     case Kind::table:

@@ -51,7 +51,8 @@ constexpr Rule flag = rule(Kind::flag), text = rule(Kind::text), naming = rule(K
                choice = rule(Kind::choice), material = rule(Kind::material),
                joint = rule(Kind::joint), table = rule(Kind::table),
                point = shape(Kind::point, D::length), polygon = shape(Kind::polygon, D::length),
-               polyline = shape(Kind::polyline, D::length);
+               polyline = shape(Kind::polyline, D::length), names = rule(Kind::names),
+               file = rule(Kind::file);
 
 constexpr Default required{true, {}};
 constexpr Default initial{};  // the field's initial value in model.hpp
@@ -158,6 +159,23 @@ constexpr std::array boundary_keys{
     Key{"stiffness", at<&Boundary::stiffness>, number(D::stiffness, above(0)), otherwise("contact.normal_stiffness"), "Spring per block vertex."},
 };
 
+constexpr std::array load_keys{
+    Key{"name", at<&Load::name>, naming, otherwise("none"), "What --set, stages and messages call the load."},
+    Key{"point", at<&Load::point>, point, otherwise("none; either this or along"), "The point of a block that the force acts on, and moves with."},
+    Key{"along", at<&Load::along>, polyline, otherwise("none; either this or point"), "The line whose edges carry a traction or a pressure."},
+    Key{"force", at<&Load::force>, shape(Kind::point, D::load), otherwise("none; either this or pressure"), "Force at the point (N), or traction along the line (Pa), of constant direction."},
+    Key{"pressure", at<&Load::pressure>, number(D::stress), otherwise("none; either this or force"), "Pressure across the edges along the line; turns with them."},
+    Key{"history", at<&Load::history>, file, otherwise("constant from the start"), "CSV file of time and factor, linear between its rows."},
+};
+
+constexpr std::array water_keys{
+    Key{"name", at<&Water::name>, naming, otherwise("none"), "What --set, stages and messages call the water."},
+    Key{"table", at<&Water::table>, polyline, required, "Its level from left to right; joints and faces below carry its pressure, what lies beyond its ends is dry."},
+    Key{"flooded", at<&Water::flooded>, names, initial, "Names of the openings that are full of water, too; the others are dry."},
+    Key{"unit_weight", at<&Water::unit_weight>, number(D::unit_weight, above(0)), initial, "Weight of water per volume."},
+    Key{"history", at<&Water::history>, file, otherwise("constant from the start"), "CSV file of time and rise of the table (m), linear between its rows."},
+};
+
 constexpr std::array monitor_keys{
     Key{"name", at<&Monitor::name>, naming, required, "What the columns of history.csv are called."},
     Key{"point", at<&Monitor::point>, point, required, "A material point of the block that holds it at the start."},
@@ -205,6 +223,8 @@ constexpr std::array all_sections{
     section<&Model::held>("held", Shape::list, held_keys, "A cut block that does not move."),
     section<&Model::walls>("brick_wall", Shape::list, wall_keys, "Bricks in running bond, half bricks closing the odd rows."),
     section<&Model::boundaries>("boundary", Shape::list, boundary_keys, "Springs that hold the model at a line."),
+    section<&Model::loads>("load", Shape::list, load_keys, "A force at a point, or a traction or pressure along a line."),
+    section<&Model::waters>("water", Shape::list, water_keys, "Water in joints and on faces below a table."),
     section<&Model::monitors>("monitor", Shape::list, monitor_keys, "A point whose history is written."),
     section<&Model::solver>("solver", Shape::table, solver_keys, "How the motion is computed."),
     section<&Model::output>("output", Shape::table, output_keys, "What is written, and how often."),

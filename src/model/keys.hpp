@@ -31,6 +31,8 @@ enum class Kind {
   polyline,  ///< two points or more
   polygon,   ///< three points or more, with an area, not crossing itself
   words,     ///< a list of distinct words, each one of Rule::words
+  names,     ///< a list of distinct names of other elements
+  file,      ///< path of a file, as written relative to the model's
   table,     ///< keys inside a key: damping = { ... }
 };
 
@@ -77,7 +79,8 @@ struct SubTable {
 
 /// Typed access to the field that a key fills.
 using Slot = std::variant<bool*, int*, long long*, double*, std::optional<double>*, std::string*,
-                          Vec2*, std::vector<Vec2>*, std::vector<std::string>*, Choice, SubTable>;
+                          Vec2*, std::optional<Vec2>*, std::vector<Vec2>*,
+                          std::vector<std::string>*, Choice, SubTable>;
 
 struct Key {
   std::string_view name;

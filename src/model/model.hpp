@@ -128,6 +128,38 @@ struct Boundary {
   Where where;
 };
 
+/// A curve over time from a file, linear between its rows, held before the first and after the
+/// last.
+struct TimeHistory {
+  std::vector<double> time;  ///< s, ascending; empty: none was given
+  std::vector<double> value;
+  /// At t, or `otherwise` where none was given.
+  double at(double t, double otherwise) const;
+};
+
+/// [[load]]: a force at a point, or a traction or pressure on the edges along a line.
+struct Load {
+  std::string name;
+  std::optional<Vec2> point;       ///< either this or `along`
+  std::vector<Vec2> along;         ///< polyline
+  std::optional<Vec2> force;       ///< N; on a line Pa
+  std::optional<double> pressure;  ///< Pa, across the edge and into the block
+  std::string history;             ///< path of a file of time, factor
+  TimeHistory factor;
+  Where where;
+};
+
+/// [[water]]: hydrostatic pressure in joints and on faces below a table.
+struct Water {
+  std::string name;
+  std::vector<Vec2> table;           ///< from left to right
+  std::vector<std::string> flooded;  ///< openings that are full, too
+  double unit_weight = 9810.0;       ///< N/m3
+  std::string history;               ///< path of a file of time, rise (m)
+  TimeHistory rise;
+  Where where;
+};
+
 struct Monitor {
   std::string name;
   Vec2 point;
@@ -178,6 +210,8 @@ struct Model {
   std::vector<HeldPoint> held;
   std::vector<BrickWall> walls;
   std::vector<Boundary> boundaries;
+  std::vector<Load> loads;
+  std::vector<Water> waters;
   std::vector<Monitor> monitors;
   Solver solver;
   Output output;

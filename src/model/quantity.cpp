@@ -137,7 +137,8 @@ std::optional<Unit> parse_unit(std::string_view text) {
 bool fits(const Unit& unit, Dimension dimension) {
   const DimensionInfo& wanted = info(dimension);
   const bool metres = unit.metre == wanted.metre ||
-                      (dimension == Dimension::stiffness && unit.metre == wanted.metre + 1);
+                      (dimension == Dimension::stiffness && unit.metre == wanted.metre + 1) ||
+                      (dimension == Dimension::load && unit.metre == wanted.metre - 2);
   return metres && unit.kilogram == wanted.kilogram && unit.second == wanted.second &&
          unit.turn == wanted.turn;
 }
@@ -171,6 +172,7 @@ const DimensionInfo& info(Dimension dimension) {
       DimensionInfo{"a stiffness per length", "Pa/m", "20e9 or \"20 GPa/m\"", -2, 1, -2, 0, false},
       DimensionInfo{"a velocity", "m/s", "0.5 or \"0.5 m/s\"", 1, 0, -1, 0, false},
       DimensionInfo{"an acceleration", "m/s2", "-9.81 or \"-9.81 m/s2\"", 1, 0, -2, 0, false},
+      DimensionInfo{"a load", "N or Pa", "-1e5 or \"-100 kN\"", 1, 1, -2, 0, false},
       DimensionInfo{"a rate", "1/s", "0.5 or \"0.5 1/s\"", 0, 0, -1, 0, false},
       DimensionInfo{"an angular velocity", "rad/s", "0.5 or \"0.5 rad/s\"", 0, 0, -1, 1, false},
   };

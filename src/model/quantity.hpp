@@ -19,6 +19,7 @@ enum class Dimension {
   joint_stiffness,  ///< Pa/m
   velocity,
   acceleration,
+  load,              ///< N, or Pa where it is spread along a line
   rate,              ///< 1/s
   angular_velocity,  ///< rad/s
 };

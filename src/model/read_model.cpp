@@ -1,14 +1,11 @@
 #include "model/read_model.hpp"
 
 #include <algorithm>
-#include <cstdio>
-#include <filesystem>
-#include <memory>
-#include <system_error>
 #include <tuple>
 #include <variant>
 
 #include "model/complete.hpp"
+#include "model/file_text.hpp"
 #include "model/overrides.hpp"
 #include "model/reader.hpp"
 #include "model/value.hpp"
@@ -16,38 +13,8 @@
 namespace edda {
 namespace {
 
-constexpr std::size_t largest_file = std::size_t{64} << 20U;  // bytes
-
 Fault file_fault(const std::string& path, int line, std::string problem, std::string remedy) {
   return {{"", path, line, line > 0 ? 1 : 0}, std::move(problem), std::move(remedy)};
-}
-
-std::variant<std::string, Fault> file_text(const std::string& path) {
-  std::error_code error;
-  if (path.empty() || !std::filesystem::exists(path, error)) {
-    return file_fault(path, 0, "no such file", "check the name of the model file");
-  }
-  if (std::filesystem::is_directory(path, error)) {
-    return file_fault(path, 0, "is a folder, not a file", "give the model file in it");
-  }
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                             &std::fclose);
-  if (file == nullptr) {
-    return file_fault(path, 0, "cannot be opened", "check that you may read it");
-  }
-  std::string text;
-  std::string chunk(std::size_t{1} << 16U, '\0');
-  while (const std::size_t n = std::fread(chunk.data(), 1, chunk.size(), file.get())) {
-    text.append(chunk, 0, n);
-    if (text.size() > largest_file) {
-      return file_fault(path, 0, "is larger than 64 MiB",
-                        "is this a model file? describe the joints by sets and walls");
-    }
-  }
-  if (std::ferror(file.get()) != 0) {
-    return file_fault(path, 0, "cannot be read to its end", "check the disk it is on");
-  }
-  return text;
 }
 
 /// Length of the UTF-8 sequence that starts at text[i], 0 if it is not one.

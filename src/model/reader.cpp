@@ -130,7 +130,8 @@ std::vector<Vec2> read_points(const Spot& spot) {
 
 std::vector<std::string> read_words(const Spot& spot) {
   const List* list = as<List>(spot.value);
-  if (list == nullptr || list->empty()) {
+  const bool names = spot.key.rule.kind == Kind::names;  // whose meaning complete.cpp checks
+  if (list == nullptr || (list->empty() && !names)) {
     type_fault(spot);
     return {};
   }
@@ -142,8 +143,8 @@ std::vector<std::string> read_words(const Spot& spot) {
     const auto& known = spot.key.rule.words;
     if (word == nullptr) {
       add_fault(spot.reading, item.place, path, "is " + shown(item),
-                "expects one of " + quoted_list(known));
-    } else if (std::find(known.begin(), known.end(), *word) == known.end()) {
+                names ? "expects a name in quotes" : "expects one of " + quoted_list(known));
+    } else if (!names && std::find(known.begin(), known.end(), *word) == known.end()) {
       add_fault(spot.reading, item.place, path, shown(item) + " is not known",
                 suggestion(*word, known));
     } else if (std::find(words.begin(), words.end(), *word) != words.end()) {
@@ -195,14 +196,18 @@ struct ReadInto {
   void operator()(std::string* field) const {
     const std::string* value = as<std::string>(spot.value);
     if (value == nullptr) return type_fault(spot);
-    if (spot.key.rule.kind == Kind::name && value->empty()) {
-      add_fault(spot.reading, spot.value.place, spot.path, "is empty", "give a name");
+    if (spot.key.rule.kind != Kind::text && value->empty()) {
+      add_fault(spot.reading, spot.value.place, spot.path, "is empty",
+                spot.key.rule.kind == Kind::name ? "give a name" : "give the path of a file");
     }
     *field = *value;
   }
   void operator()(Vec2* field) const {
     const auto value = read_point(spot.value, spot.key, spot.path, spot.reading);
     if (value) *field = *value;
+  }
+  void operator()(std::optional<Vec2>* field) const {
+    *field = read_point(spot.value, spot.key, spot.path, spot.reading);
   }
   void operator()(std::vector<Vec2>* field) const { *field = read_points(spot); }
   void operator()(std::vector<std::string>* field) const { *field = read_words(spot); }

@@ -70,9 +70,12 @@ struct Write {
     return key.rule.word.empty() ? std::string{} : written(std::string(key.rule.word));
   }
   std::string operator()(const std::string* field) const {
-    return key.rule.kind == Kind::name && field->empty() ? std::string{} : written(*field);
+    return key.rule.kind != Kind::text && field->empty() ? std::string{} : written(*field);
   }
   std::string operator()(const Vec2* field) const { return written(*field); }
+  std::string operator()(const std::optional<Vec2>* field) const {
+    return *field ? written(**field) : std::string{};
+  }
   std::string operator()(const std::vector<Vec2>* field) const {
     return field->empty() ? std::string{} : written(*field);
   }

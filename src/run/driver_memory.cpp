@@ -20,7 +20,14 @@ std::string identity(const Model& model) {
   m.title.clear();
   m.solver.duration = 1.0;
   m.output.checkpoint_every = 1.0;
-  return to_toml(m);
+  std::string text = to_toml(m);
+  auto add = [&](const std::string& file, const TimeHistory& curve) {
+    for (std::size_t k = 0; k < curve.time.size(); ++k)
+      text += fmt::format("# {} {} {}\n", file, curve.time[k], curve.value[k]);
+  };
+  for (const Load& load : model.loads) add(load.history, load.factor);
+  for (const Water& water : model.waters) add(water.history, water.rise);
+  return text;
 }
 
 /// The first line in which two texts differ.

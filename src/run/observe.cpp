@@ -153,6 +153,7 @@ void observe(const Simulation& sim, Instant& at) {
   const double h = sim.state.step;
   const Damping& damping = sim.model.solver.damping;
   at.contacts = sim.contacts;
+  const LoadsNow acting = loads_at(sim.model, sim.loads, sim.state.time);
   if (!sim.explicit_method()) {  // everything belongs to one instant already
     if (damping.contact > 0.0 && !sim.implicit.drift_x[0].empty()) {
       look_at_previous_gaps(at.contacts, a_step_ago(sim));
@@ -165,14 +166,14 @@ void observe(const Simulation& sim, Instant& at) {
     evaluate_springs(springs, at.contacts, sim.blocks, h, damping.contact, true);
     at.forces = sim.forces;
     gather_forces(at.forces, sim.blocks, sim.state, sim.pose, at.contacts, sim.springs,
-                  sim.model.gravity);
+                  sim.model.gravity, acting);
     at.state = sim.state;
     return;
   }
   evaluate_contacts(at.contacts, sim.blocks, sim.laws, h, damping.contact);
   at.forces = sim.forces;
   gather_forces(at.forces, sim.blocks, sim.state, sim.pose, at.contacts, sim.springs,
-                sim.model.gravity);
+                sim.model.gravity, acting);
   at.state = sim.state;
   advance(at.state, sim.blocks, at.forces.x, at.forces.y, h, h, {damping.mass, damping.local});
   at.state.x = sim.state.x;

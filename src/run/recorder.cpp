@@ -1,5 +1,6 @@
 #include "run/recorder.hpp"
 
+#include "model/time_history.hpp"
 #include "model/write_model.hpp"
 #include "results/csv.hpp"
 #include "results/sha256.hpp"
@@ -36,6 +37,17 @@ Trouble Recorder::begin(const Simulation& sim, const std::vector<MonitorPoint>& 
   if (auto t = history_.add(history_header(monitors))) return t;
   frames_.emplace(folder_, sim.blocks);
   return {};
+}
+
+/// The model's file as it was at the start, and those that it names.
+std::vector<InputFile> Recorder::inputs(const Simulation& sim) const {
+  std::vector<InputFile> files;
+  if (!input_hash_.empty()) files.push_back({sim.model.file, input_hash_});
+  for (const std::string& name : history_files(sim.model)) {
+    const Result<std::string> text = read_file(name);
+    if (text.ok()) files.push_back({name, sha256(text.value())});
+  }
+  return files;
 }
 
 RecorderMemory Recorder::memory() const {
@@ -85,7 +97,7 @@ Trouble Recorder::tables(const Picture& picture) {
 Trouble Recorder::summary(const Simulation& sim, const Outcome& outcome,
                           const std::string& governed_by) {
   if (!writes()) return {};
-  return write_file(path("summary.json"), summary_json(sim, outcome, governed_by, input_hash_));
+  return write_file(path("summary.json"), summary_json(sim, outcome, governed_by, inputs(sim)));
 }
 
 }  // namespace edda

@@ -10,6 +10,7 @@
 #include "results/frames.hpp"
 #include "run/monitors.hpp"
 #include "run/outcome.hpp"
+#include "run/summary.hpp"
 
 namespace edda {
 
@@ -43,6 +44,7 @@ class Recorder {
   bool writes() const { return !folder_.empty(); }
 
  private:
+  std::vector<InputFile> inputs(const Simulation& sim) const;
   std::string path(const char* name) const { return folder_ + "/" + name; }
   std::string folder_, input_hash_;
   FolderLock lock_;

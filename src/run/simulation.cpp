@@ -74,6 +74,9 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   Result<BoundarySprings> springs = attach_boundaries(s.model, s.blocks);
   if (!springs.ok()) return springs.faults();
   s.springs = std::move(springs.value());
+  Result<Loads> loads = attach_loads(s.model, s.polygons, s.blocks);
+  if (!loads.ok()) return loads.faults();
+  s.loads = std::move(loads.value());
   s.state = initial_state(s.blocks, s.polygons);
 
   const std::size_t nb = s.blocks.size(), nv = s.blocks.vertex_count();
@@ -127,7 +130,8 @@ void Simulation::start(double first_event) {
   };
   look_back();
   evaluate_contacts(contacts, blocks, laws, h, model.solver.damping.contact);
-  gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity);
+  gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity,
+                loads_at(model, loads, state.time));
   start_velocities(state, blocks, forces.x, forces.y, h, model.solver.damping.mass);
   look_back();
 }
@@ -197,7 +201,8 @@ std::optional<Failure> Simulation::step() {
   StageClock clock(state.steps);
   const double h_old = step_before_;
   evaluate_contacts(contacts, blocks, laws, state.step, model.solver.damping.contact);
-  gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity);
+  const LoadsNow acting = loads_at(model, loads, state.time);
+  gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity, acting);
   clock.lap(seconds.forces);
 
   old_vx_ = state.vx;
@@ -232,6 +237,7 @@ std::optional<Failure> Simulation::step() {
   book_damping(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h,
                step_damping(model.solver), damping_work);
   if (model.solver.damping.contact > 0.0) book_dashpots(contacts);
+  book_loads(h_old, h, acting);
   finish_step();
   clock.lap(seconds.integrate);
 
@@ -248,6 +254,23 @@ std::optional<Failure> Simulation::step() {
   }
   clock.lap(seconds.search);
   return inspect();
+}
+
+/// Work of the loads in the leapfrog's terms: f_n . (x_{n+1} - x_{n-1})/2.
+void Simulation::book_loads(double h_old, double h_new, const LoadsNow& now) {
+  if (now.loads == nullptr) return;
+  external_work += ordered_sum(loads.blocks.size(), [&](std::size_t q) {
+    const Id i = loads.blocks[q];
+    if (!is_free(blocks, state, i)) return 0.0;
+    std::array<Vec2, 3> f{};
+    add_loads(f, blocks, now, pose.x1, pose.y1, i);
+    double work = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      work += 0.5 * (f[k].x * (h_old * old_vx_[k][i] + h_new * state.vx[k][i]) +
+                     f[k].y * (h_old * old_vy_[k][i] + h_new * state.vy[k][i]));
+    }
+    return work;
+  });
 }
 
 void Simulation::finish_step() {
@@ -309,6 +332,7 @@ Ledger Simulation::ledger() {
   Ledger l =
       sum_ledger(blocks, state, behind, pose, contacts, springs, damping_work, model.gravity);
   l.step_change = -step_change_energy;
+  l.external = external_work;
   if (!start_energy) start_energy = l.balance();
   largest_energy = std::max(largest_energy, l.scale());
   l.drift = largest_energy > 0.0 ? (l.balance() - *start_energy) / largest_energy : 0.0;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "attachments/boundary_springs.hpp"
+#include "attachments/loads.hpp"
 #include "base/fault.hpp"
 #include "blocks/block_set.hpp"
 #include "blocks/pose.hpp"
@@ -44,6 +45,7 @@ struct Simulation {
   BlockSet blocks;
   LawTable laws;
   BoundarySprings springs;
+  Loads loads;
 
   State state;
   Pose pose;
@@ -59,6 +61,7 @@ struct Simulation {
   double max_penetration = 0.0;      ///< m, over the run
   double smallest_half_width = 0.0;  ///< m, of all blocks
   double step_change_energy = 0.0;   ///< J, created by changes of the step
+  double external_work = 0.0;        ///< J, of the loads so far
   StepStatistics steps;
   OpenCloseCounts open_close;          ///< rounds of an implicit step count as passes
   ImplicitSolver implicit;             ///< of method "dda"
@@ -93,6 +96,8 @@ struct Simulation {
   void search_if_due();
   bool move(double h_old, double h_new);
   void finish_step();
+  void book_implicit_loads(const LoadsNow& now);
+  void book_loads(double h_old, double h_new, const LoadsNow& now);
   std::optional<Failure> inspect() const;
   Failure lost() const;
   StepInUse step_in_use() const;

@@ -87,10 +87,29 @@ void Simulation::start_implicit() {
   stand_still(contacts);
 }
 
+/// Work of the loads as the scheme sees it: f_{n+1} . D.
+void Simulation::book_implicit_loads(const LoadsNow& now) {
+  if (now.loads == nullptr) return;
+  external_work += ordered_sum(loads.blocks.size(), [&](std::size_t q) {
+    const Id i = loads.blocks[q];
+    if (!is_free(blocks, state, i)) return 0.0;
+    std::array<Vec2, 3> f{};
+    add_loads(f, blocks, now, pose.x, pose.y, i);
+    const Vector6 moved =
+        implicit.moved.segment<6>(6 * static_cast<Eigen::Index>(implicit.row_of[i]));
+    double work = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto at = static_cast<Eigen::Index>(2 * k);
+      work += f[k].x * moved[at] + f[k].y * moved[at + 1];
+    }
+    return work;
+  });
+}
+
 std::optional<Failure> Simulation::step_implicit() {
   StageClock clock(state.steps);
   const Solver& solver = model.solver;
-  const ImplicitScene scene{blocks, laws, springs, model.gravity};
+  ImplicitScene scene{blocks, laws, springs, model.gravity};
   ImplicitSettings settings;
   settings.dynamic = solver.dynamic;
   settings.mass_damping = solver.damping.mass;
@@ -99,6 +118,7 @@ std::optional<Failure> Simulation::step_implicit() {
   constexpr int most_cuts = 40;
   for (int cuts = 0;; ++cuts) {
     settings.step = state.step;
+    scene.loads = loads_at(model, loads, state.time + state.step);
     const Attempt attempt =
         newmark_step(implicit, scene, settings, state, pose, contacts, forces, damping_work.joules);
     open_close.passes += static_cast<std::uint64_t>(implicit.rounds);
@@ -115,6 +135,7 @@ std::optional<Failure> Simulation::step_implicit() {
   clock.lap(seconds.integrate);
 
   last_displacement = implicit.last_displacement;
+  book_implicit_loads(scene.loads);
   if (state.step != step_before_) ++steps.changes;
   finish_step();
   stand_still(contacts);

@@ -149,6 +149,7 @@ void list_counts(Archive& a, Simulation& s) {
   a("penetration", s.penetration);
   a("max_penetration", s.max_penetration);
   a("step_change_energy", s.step_change_energy);
+  a("external_work", s.external_work);
   a("steps.smallest", s.steps.smallest);
   a("steps.largest", s.steps.largest);
   a("steps.sum", s.steps.sum);

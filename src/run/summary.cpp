@@ -98,7 +98,7 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
 }
 
 std::string summary_json(const Simulation& sim, const Outcome& o, const std::string& governed_by,
-                         const std::string& input_hash) {
+                         const std::vector<InputFile>& inputs) {
   Json j;
   j.open_object().pair("version", version).pair("title", sim.model.title);
   j.pair("method", name_of(sim.model.solver.method)).pair("mass", name_of(sim.model.solver.mass));
@@ -117,8 +117,8 @@ std::string summary_json(const Simulation& sim, const Outcome& o, const std::str
   j.pair("threads", omp_get_max_threads());
   add_checks(j, checks_of(sim, o));
   j.key("inputs").open_list();
-  if (!input_hash.empty()) {
-    j.open_object().pair("file", sim.model.file).pair("sha256", input_hash).close();
+  for (const InputFile& input : inputs) {
+    j.open_object().pair("file", input.file).pair("sha256", input.sha256).close();
   }
   return j.close().close().text();
 }

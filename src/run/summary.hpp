@@ -19,8 +19,12 @@ struct Check {
 
 std::vector<Check> checks_of(const Simulation& sim, const Outcome& outcome);
 
-/// input_hash: sha256 of the model file, empty where there is none.
+/// A file that the run was made from.
+struct InputFile {
+  std::string file, sha256;
+};
+
 std::string summary_json(const Simulation& sim, const Outcome& outcome,
-                         const std::string& governed_by, const std::string& input_hash);
+                         const std::string& governed_by, const std::vector<InputFile>& inputs);
 
 }  // namespace edda

@@ -89,6 +89,20 @@ stiffness = 2e11
 [[boundary]]
 name = "line"
 along = [[10, 10], [15, 10], [20, 10]]
+[[load]]
+name = "axle"
+point = [15, 10]
+force = ["2 kN", -1e5]
+[[load]]
+along = [[10, 10], [20, 10]]
+pressure = "3 kPa"
+history = "tests/model/rise.csv"
+[[water]]
+name = "wet"
+table = [[0, 4], [30, 5]]
+flooded = ["cavern"]
+unit_weight = "10 kN/m3"
+history = "tests/model/rise.csv"
 [[monitor]]
 name = "P1"
 point = [15, 9]
@@ -192,6 +206,19 @@ void expect_every_run_key(const Model& m) {
   EXPECT_EQ(m.boundaries[1].along.size(), 3U);
   EXPECT_TRUE(m.boundaries[1].sides.empty());
   EXPECT_EQ(m.boundaries[1].stiffness, 2e8);
+  ASSERT_EQ(m.loads.size(), 2U);
+  EXPECT_EQ(m.loads[0].name, "axle");
+  EXPECT_EQ(m.loads[0].point, (Vec2{15, 10}));
+  EXPECT_EQ(m.loads[0].force, (Vec2{2000, -1e5}));
+  EXPECT_FALSE(m.loads[0].pressure);
+  EXPECT_EQ(m.loads[1].along.size(), 2U);
+  EXPECT_EQ(m.loads[1].pressure, 3000.0);
+  EXPECT_EQ(m.loads[1].factor.value, (std::vector<double>{0.0, 2.5}));
+  ASSERT_EQ(m.waters.size(), 1U);
+  EXPECT_EQ(m.waters[0].table[1], (Vec2{30, 5}));
+  EXPECT_EQ(m.waters[0].flooded, (std::vector<std::string>{"cavern"}));
+  EXPECT_EQ(m.waters[0].unit_weight, 1e4);
+  EXPECT_EQ(m.waters[0].rise.time, (std::vector<double>{0.0, 1.0}));
   ASSERT_EQ(m.monitors.size(), 1U);
   EXPECT_EQ(m.monitors[0].name, "P1");
   EXPECT_EQ(m.monitors[0].point, (Vec2{15, 9}));
@@ -211,7 +238,7 @@ void expect_every_run_key(const Model& m) {
 }
 
 Model read(const std::string& text) {
-  const Result<Model> result = read_model_text(text, "m.toml");
+  const Result<Model> result = read_model_text(text, EDDA_SOURCE_DIR "/m.toml", {});
   if (!result) {
     for (const Fault& fault : result.faults()) ADD_FAILURE() << to_string(fault) << "\n" << text;
     return {};

@@ -14,11 +14,11 @@ using namespace edda;
 
 struct Settings {
   int blocks = 2000;
-  double young = 2e9;      ///< Pa
-  double stiffness = 1.0;  ///< contact over Young's modulus
+  double young = 1e9;      ///< Pa
+  double stiffness = 4.0;  ///< contact over Young's modulus
   double damping = 0.2;    ///< at contacts
   double seconds = 8.0;    ///< the last avalanches take five
-  double odd = 0.1;        ///< part of blocks that are stars, needles, slivers or Ls
+  double odd = 0.0;        ///< part of blocks that are stars, needles, slivers or Ls
   double thinnest = 0.2;   ///< of needles and slivers
 };
 

@@ -1,0 +1,307 @@
+#include "attachments/loads.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "blocks/locate.hpp"
+
+namespace edda {
+namespace {
+
+Vec2 start_of(const BlockSet& b, Id v) {
+  return {b.vertex_x[v], b.vertex_y[v]};
+}
+
+/// A part of an edge in its own coordinate s.
+struct Part {
+  double from = 0.0, to = 0.0;
+};
+
+/// The part of edge v that lies on the segment from p to q, empty where it does not.
+Part on_segment(const BlockSet& b, Id v, Vec2 p, Vec2 q, double snap) {
+  const Vec2 a = start_of(b, v), u = start_of(b, b.next[v]) - a;
+  const double length2 = dot(u, u);
+  const double sp = dot(p - a, u) / length2, sq = dot(q - a, u) / length2;
+  const Part part{std::clamp(std::min(sp, sq), 0.0, 1.0), std::clamp(std::max(sp, sq), 0.0, 1.0)};
+  if ((part.to - part.from) * std::sqrt(length2) <= snap) return {};
+  const bool near = distance_to_segment(a + part.from * u, p, q) <= snap &&
+                    distance_to_segment(a + part.to * u, p, q) <= snap;
+  return near ? part : Part{};
+}
+
+/// An edge on a segment, and where: coordinates along the segment, m.
+struct OnLine {
+  Id edge;
+  Part part;
+  double low, high;
+  bool along;  ///< runs the way the segment does
+};
+
+std::vector<OnLine> edges_on(const BlockSet& b, Vec2 p, Vec2 q, double snap) {
+  const Vec2 t = unit(q - p);
+  std::vector<OnLine> found;
+  for (Id v = 0; v < b.vertex_count(); ++v) {
+    const Part part = on_segment(b, v, p, q, snap);
+    if (part.to <= part.from) continue;
+    const Vec2 a = start_of(b, v), u = start_of(b, b.next[v]) - a;
+    const double s = dot(a + part.from * u - p, t), e = dot(a + part.to * u - p, t);
+    found.push_back({v, part, std::min(s, e), std::max(s, e), e > s});
+  }
+  return found;
+}
+
+/// Whether another block's face lies against the middle of this one's.
+bool faces_rock(const std::vector<OnLine>& all, const OnLine& one, const BlockSet& b) {
+  const double middle = 0.5 * (one.low + one.high);
+  return std::any_of(all.begin(), all.end(), [&](const OnLine& other) {
+    return other.along != one.along && b.vertex_block[other.edge] != b.vertex_block[one.edge] &&
+           other.low < middle && middle < other.high;
+  });
+}
+
+void attach_line(const Load& load, Index row, const BlockSet& b, double snap, Loads& loads,
+                 Faults& faults) {
+  const double t = b.thickness;
+  std::size_t hits = 0, in_joints = 0;
+  for (std::size_t k = 0; k + 1 < load.along.size(); ++k) {
+    const std::vector<OnLine> all =
+        edges_on(b, load.along[k] - b.origin, load.along[k + 1] - b.origin, snap);
+    for (const OnLine& e : all) {
+      if (b.fixed[b.vertex_block[e.edge]]) continue;
+      if (load.force && faces_rock(all, e, b)) {
+        ++in_joints;
+        continue;
+      }
+      const Vec2 traction = load.force ? t * *load.force : Vec2{};
+      const double pressure = load.pressure ? t * *load.pressure : 0.0;
+      loads.edges.push_back({e.edge, e.part.from, e.part.to, traction, pressure, row});
+      ++hits;
+    }
+  }
+  if (hits > 0) return;
+  Fault fault{load.where, "no face of a free block lies on this line",
+              "give a line that faces of blocks lie on (edda cut draws them)"};
+  if (in_joints > 0) {
+    fault.problem = "lies along a joint, where a traction would act on both faces";
+    fault.remedy = "give pressure in place of force, or a line along a free face";
+  }
+  fault.where.key += ".along";
+  faults.push_back(fault);
+}
+
+void attach_point(const Model& model, const PolygonSet& polygons, const Load& load, Index row,
+                  const BlockSet& b, Loads& loads, Faults& faults) {
+  const Vec2 p = *load.point - b.origin;
+  const auto block = block_at(model, polygons, b, p);
+  if (block && !b.fixed[*block]) {
+    loads.points.push_back({*block, weights_at(b, *block, p), *load.force, row});
+    return;
+  }
+  Fault fault{load.where, "lies in no block", "move it into one (edda cut draws them)"};
+  if (block) {
+    fault.problem = "lies in a block that is held";
+    fault.remedy = "move it to a free block, or leave the load out";
+  }
+  fault.where.key += ".point";
+  faults.push_back(fault);
+}
+
+/// The table from left to right, local coordinates.
+struct Table {
+  std::vector<Vec2> points;
+
+  double low() const { return points.front().x; }
+  double high() const { return points.back().x; }
+  double at(double x) const {
+    if (x <= low()) return points.front().y;
+    std::size_t k = 1;
+    while (k + 1 < points.size() && points[k].x < x) ++k;
+    const Vec2 a = points[k - 1], b = points[k];
+    return a.y + std::min((x - a.x) / (b.x - a.x), 1.0) * (b.y - a.y);
+  }
+};
+
+/// Parts of edge v that are below or above one straight piece of the table each.
+void wet_edge(const BlockSet& b, Id v, const Table& table, double snap, Index row,
+              std::vector<WetEdge>& wet) {
+  const Vec2 a = start_of(b, v), u = start_of(b, b.next[v]) - a;
+  if (std::abs(u.x) <= snap) {  // upright
+    const double x = a.x + 0.5 * u.x;
+    if (x < table.low() - snap || x > table.high() + snap) return;
+    wet.push_back({v, 0.0, 1.0, table.at(x), table.at(x), row});
+    return;
+  }
+  const auto s_at = [&](double x) { return std::clamp((x - a.x) / u.x, 0.0, 1.0); };
+  std::vector<double> ends;
+  for (const Vec2 p : table.points) ends.push_back(s_at(p.x));
+  std::sort(ends.begin(), ends.end());
+  for (std::size_t k = 1; k < ends.size(); ++k) {
+    if ((ends[k] - ends[k - 1]) * norm(u) <= snap) continue;
+    wet.push_back({v, ends[k - 1], ends[k], table.at(a.x + ends[k - 1] * u.x),
+                   table.at(a.x + ends[k] * u.x), row});
+  }
+}
+
+/// Whether edge v lies on the outline of an opening that holds no water.
+bool is_dry(const Model& model, const Water& water, const BlockSet& b, Id v, double snap) {
+  const Vec2 a = start_of(b, v) + b.origin, c = start_of(b, b.next[v]) + b.origin;
+  for (const Opening& opening : model.openings) {
+    const auto& full = water.flooded;
+    if (std::find(full.begin(), full.end(), opening.name) != full.end()) continue;
+    for (const Vec2 p : {a, 0.5 * (a + c), c}) {
+      double least = snap * 2.0;
+      for (std::size_t k = 0; k < opening.polygon.size(); ++k) {
+        const Vec2 end = opening.polygon[(k + 1) % opening.polygon.size()];
+        least = std::min(least, distance_to_segment(p, opening.polygon[k], end));
+      }
+      if (least > snap) break;
+      if (p == c) return true;
+    }
+  }
+  return false;
+}
+
+void attach_water(const Model& model, const Water& water, Index row, const BlockSet& b, double snap,
+                  Loads& loads, Faults& faults) {
+  Table table;
+  for (const Vec2 p : water.table) table.points.push_back(p - b.origin);
+  const std::size_t before = loads.wet.size();
+  for (Id v = 0; v < b.vertex_count(); ++v) {
+    if (b.fixed[b.vertex_block[v]] || is_dry(model, water, b, v, snap)) continue;
+    wet_edge(b, v, table, snap, row, loads.wet);
+  }
+  if (loads.wet.size() > before) return;
+  Fault fault{water.where, "no face of a free block lies between the ends of the table",
+              "give a table that passes over the blocks it is to wet"};
+  fault.where.key += ".table";
+  faults.push_back(fault);
+}
+
+/// Sorts each list by block, and notes where each block's begin.
+void sort_by_block(const BlockSet& b, Loads& l) {
+  auto by_edge = [](const auto& x, const auto& y) { return x.edge < y.edge; };
+  std::stable_sort(l.points.begin(), l.points.end(),
+                   [](const PointLoad& x, const PointLoad& y) { return x.block < y.block; });
+  std::stable_sort(l.edges.begin(), l.edges.end(), by_edge);
+  std::stable_sort(l.wet.begin(), l.wet.end(), by_edge);
+  std::vector<std::uint8_t> any(b.size(), 0);
+  for (const PointLoad& p : l.points) any[p.block] = 1;
+  for (const EdgeLoad& e : l.edges) any[b.vertex_block[e.edge]] = 1;
+  for (const WetEdge& e : l.wet) any[b.vertex_block[e.edge]] = 1;
+  l.place.assign(b.size(), no_id);
+  Id point = 0, edge = 0, wet = 0;
+  for (Id i = 0; i < b.size(); ++i) {
+    if (!any[i]) continue;
+    l.place[i] = static_cast<Id>(l.blocks.size());
+    l.blocks.push_back(i);
+    Loads::Range r{point, 0, edge, 0, wet, 0};
+    while (point < l.points.size() && l.points[point].block == i) ++point;
+    while (edge < l.edges.size() && b.vertex_block[l.edges[edge].edge] == i) ++edge;
+    while (wet < l.wet.size() && b.vertex_block[l.wet[wet].edge] == i) ++wet;
+    r.point_end = point;
+    r.edge_end = edge;
+    r.wet_end = wet;
+    l.range.push_back(r);
+  }
+}
+
+/// Integrals over a part of an edge of d and of d s, d linear and cut off below zero.
+struct Head {
+  double all = 0.0, second = 0.0;
+};
+
+Head head(double s0, double s1, double d0, double d1) {
+  if (d0 <= 0.0 && d1 <= 0.0) return {};
+  if (d0 < 0.0) {
+    s0 += (s1 - s0) * d0 / (d0 - d1);
+    d0 = 0.0;
+  } else if (d1 < 0.0) {
+    s1 = s0 + (s1 - s0) * d0 / (d0 - d1);
+    d1 = 0.0;
+  }
+  const double w = s1 - s0;
+  return {0.5 * w * (d0 + d1), w * (d0 * (2.0 * s0 + s1) + d1 * (s0 + 2.0 * s1)) / 6.0};
+}
+
+}  // namespace
+
+Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const BlockSet& b) {
+  Loads loads;
+  Faults faults;
+  if (model.loads.empty() && model.waters.empty()) return loads;
+  const double snap = 4.0 * snap_distance(model, b);
+  for (std::size_t q = 0; q < model.loads.size(); ++q) {
+    const Load& load = model.loads[q];
+    if (load.point) {
+      attach_point(model, polygons, load, static_cast<Index>(q), b, loads, faults);
+    } else {
+      attach_line(load, static_cast<Index>(q), b, snap, loads, faults);
+    }
+  }
+  for (std::size_t q = 0; q < model.waters.size(); ++q) {
+    attach_water(model, model.waters[q], static_cast<Index>(q), b, snap, loads, faults);
+  }
+  if (!faults.empty()) return faults;
+  sort_by_block(b, loads);
+  return loads;
+}
+
+LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
+  LoadsNow now;
+  if (loads.blocks.empty()) return now;
+  now.loads = &loads;
+  for (const Load& load : model.loads) now.factor.push_back(load.factor.at(time, 1.0));
+  for (const Water& water : model.waters) {
+    now.rise.push_back(water.rise.at(time, 0.0));
+    now.weight.push_back(water.unit_weight * model.thickness);
+  }
+  return now;
+}
+
+void add_loads(std::array<Vec2, 3>& f, const BlockSet& b, const LoadsNow& now,
+               const std::vector<double>& x, const std::vector<double>& y, std::size_t i) {
+  const Loads& l = *now.loads;
+  if (l.place[i] == no_id) return;
+  const Loads::Range& r = l.range[l.place[i]];
+  for (Id q = r.point_begin; q < r.point_end; ++q) {
+    const PointLoad& p = l.points[q];
+    const double factor = now.factor[static_cast<std::size_t>(p.load)];
+    for (std::size_t k = 0; k < 3; ++k) f[k] += factor * p.weight[k] * p.force;
+  }
+  for (Id q = r.edge_begin; q < r.edge_end; ++q) {
+    const EdgeLoad& e = l.edges[q];
+    const Id end = b.next[e.edge];
+    const Vec2 u{x[end] - x[e.edge], y[end] - y[e.edge]};
+    const double part = now.factor[static_cast<std::size_t>(e.load)] * (e.to - e.from);
+    const double middle = 0.5 * (e.from + e.to);
+    const Vec2 whole = part * (b.edge_length[e.edge] * e.traction - e.pressure * outward_normal(u));
+    spread(f, b, e.edge, (1.0 - middle) * whole);
+    spread(f, b, end, middle * whole);
+  }
+  for (Id q = r.wet_begin; q < r.wet_end; ++q) {
+    const WetEdge& e = l.wet[q];
+    const auto row = static_cast<std::size_t>(e.water);
+    const Id end = b.next[e.edge];
+    const Vec2 u{x[end] - x[e.edge], y[end] - y[e.edge]};
+    const Head h = head(e.from, e.to, e.level_from + now.rise[row] - (y[e.edge] + e.from * u.y),
+                        e.level_to + now.rise[row] - (y[e.edge] + e.to * u.y));
+    if (h.all == 0.0) continue;
+    const Vec2 inward = -now.weight[row] * outward_normal(u);
+    spread(f, b, e.edge, (h.all - h.second) * inward);
+    spread(f, b, end, h.second * inward);
+  }
+}
+
+Vec2 total_load(const BlockSet& b, const LoadsNow& now, const Pose& pose) {
+  Vec2 sum;
+  if (now.loads == nullptr) return sum;
+  for (const Id i : now.loads->blocks) {
+    std::array<Vec2, 3> f{};
+    add_loads(f, b, now, pose.x, pose.y, i);
+    sum += f[0] + f[1] + f[2];
+  }
+  return sum;
+}
+
+}  // namespace edda

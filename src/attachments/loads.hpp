@@ -1,0 +1,76 @@
+// Loads from outside: forces at points, tractions and pressures along lines, water.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/fault.hpp"
+#include "blocks/kinematics.hpp"
+#include "blocks/pose.hpp"
+#include "lines/polygon_set.hpp"
+#include "model/model.hpp"
+
+namespace edda {
+
+/// A force of constant direction on a material point.
+struct PointLoad {
+  Id block;
+  std::array<double, 3> weight;  ///< of the point
+  Vec2 force;                    ///< N
+  Index load;                    ///< row of Model::loads
+};
+
+/// Traction or pressure on the part of an edge from s = from to s = to (0: its first vertex, 1: its
+/// second).
+struct EdgeLoad {
+  Id edge;
+  double from, to;
+  Vec2 traction;    ///< N per m of edge as it was at the start
+  double pressure;  ///< N per m of edge as it is, against its outward normal
+  Index load;       ///< row of Model::loads
+};
+
+/// Water on a part of an edge, over which the table is straight.
+struct WetEdge {
+  Id edge;
+  double from, to;
+  double level_from, level_to;  ///< y of the table above the ends of the part, m, local
+  Index water;                  ///< row of Model::waters
+};
+
+/// All of them, each list sorted by block, on blocks that are not held.
+struct Loads {
+  std::vector<PointLoad> points;
+  std::vector<EdgeLoad> edges;
+  std::vector<WetEdge> wet;
+  std::vector<Id> blocks;  ///< that carry any, ascending
+  struct Range {
+    Id point_begin, point_end, edge_begin, edge_end, wet_begin, wet_end;
+  };
+  std::vector<Range> range;  ///< [blocks]
+  std::vector<Id> place;     ///< [nb] index into `blocks`, or no_id; empty where there are none
+};
+
+/// Loads as they act at one time.
+struct LoadsNow {
+  const Loads* loads = nullptr;  ///< null: there are none
+  std::vector<double> factor;    ///< [rows of Model::loads]
+  std::vector<double> rise;      ///< [rows of Model::waters] m
+  std::vector<double> weight;    ///< [rows of Model::waters] N/m3 times thickness
+};
+
+/// Finds what the loads and waters of the model act on. A load or a water that finds nothing is a
+/// fault.
+Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const BlockSet& blocks);
+
+LoadsNow loads_at(const Model& model, const Loads& loads, double time);
+
+/// Adds what acts on block i, its vertices at `x`, `y`, to the forces on its nodes, N. Water:
+/// gamma (level + rise - y) across each edge where that is positive.
+void add_loads(std::array<Vec2, 3>& on_nodes, const BlockSet& blocks, const LoadsNow& now,
+               const std::vector<double>& x, const std::vector<double>& y, std::size_t i);
+
+/// Resultant of all loads at the pose, N.
+Vec2 total_load(const BlockSet& blocks, const LoadsNow& now, const Pose& pose);
+
+}  // namespace edda

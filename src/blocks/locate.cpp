@@ -1,0 +1,55 @@
+#include "blocks/locate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lines/cut_domain.hpp"
+
+namespace edda {
+namespace {
+
+double extent(const BlockSet& b) {
+  double largest = 0.0;
+  for (std::size_t v = 0; v < b.vertex_count(); ++v) {
+    largest = std::max({largest, std::abs(b.vertex_x[v]), std::abs(b.vertex_y[v])});
+  }
+  return 2.0 * largest;
+}
+
+double distance_to_rings(const std::vector<Ring>& rings, Vec2 p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Ring& ring : rings) {
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      least = std::min(least, distance_to_segment(p, ring[k], ring[(k + 1) % ring.size()]));
+    }
+  }
+  return least;
+}
+
+}  // namespace
+
+double snap_distance(const Model& model, const BlockSet& b) {
+  return model.domain ? snap_of(model) : 1e-9 * extent(b);
+}
+
+std::optional<Id> block_at(const Model& model, const PolygonSet& polygons, const BlockSet& b,
+                           Vec2 p) {
+  const double snap = snap_distance(model, b);
+  const double edge = std::min(snap, 1e-13 * (extent(b) + norm(p + b.origin)));  // rounding only
+  std::optional<Id> nearest;
+  double least = snap;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    const Vec2 arm = p - Vec2{b.centroid_x[i], b.centroid_y[i]};
+    if (norm(arm) > b.radius[i] + snap + edge) continue;
+    const std::vector<Ring>& rings = polygons.blocks[i].rings;
+    if (side_of(rings, p, edge) >= 0) return static_cast<Id>(i);
+    const double d = distance_to_rings(rings, p);
+    if (d > least || (nearest && d == least)) continue;
+    least = d;
+    nearest = static_cast<Id>(i);
+  }
+  return nearest;
+}
+
+}  // namespace edda

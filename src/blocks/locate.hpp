@@ -1,0 +1,19 @@
+// Which block holds a point of the model at the start.
+#pragma once
+
+#include <optional>
+
+#include "blocks/block_set.hpp"
+#include "lines/polygon_set.hpp"
+
+namespace edda {
+
+/// The block of lowest number that holds p (local coordinates) or has it on its edge; else the
+/// nearest within the snap distance: `domain.snap`, or 1e-9 of the model's size.
+std::optional<Id> block_at(const Model& model, const PolygonSet& polygons, const BlockSet& blocks,
+                           Vec2 p);
+
+/// Points closer than this are one point, m.
+double snap_distance(const Model& model, const BlockSet& blocks);
+
+}  // namespace edda

@@ -1,0 +1,43 @@
+#include "model/file_text.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+namespace edda {
+
+static constexpr std::size_t largest_file = std::size_t{64} << 20U;  // bytes
+
+std::variant<std::string, Fault> file_text(const std::string& path) {
+  auto fault = [&](std::string problem, std::string remedy) {
+    return Fault{{"", path, 0, 0}, std::move(problem), std::move(remedy)};
+  };
+  std::error_code error;
+  if (path.empty() || !std::filesystem::exists(path, error)) {
+    return fault("no such file", "check the name of the model file");
+  }
+  if (std::filesystem::is_directory(path, error)) {
+    return fault("is a folder, not a file", "give the model file in it");
+  }
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                             &std::fclose);
+  if (file == nullptr) {
+    return fault("cannot be opened", "check that you may read it");
+  }
+  std::string text;
+  std::string chunk(std::size_t{1} << 16U, '\0');
+  while (const std::size_t n = std::fread(chunk.data(), 1, chunk.size(), file.get())) {
+    text.append(chunk, 0, n);
+    if (text.size() > largest_file) {
+      return fault("is larger than 64 MiB",
+                   "is this the right file? a model describes its joints by sets and walls");
+    }
+  }
+  if (std::ferror(file.get()) != 0) {
+    return fault("cannot be read to its end", "check the disk it is on");
+  }
+  return text;
+}
+
+}  // namespace edda

@@ -1,0 +1,14 @@
+// The text of an input file.
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "base/fault.hpp"
+
+namespace edda {
+
+/// The whole file, or why it cannot be read: missing, a folder, larger than 64 MiB.
+std::variant<std::string, Fault> file_text(const std::string& path);
+
+}  // namespace edda

@@ -1,0 +1,254 @@
+#include "attachments/loads.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "blocks/build_blocks.hpp"
+
+namespace edda {
+namespace {
+
+/// Blocks as given, with the loads and waters of a model on them.
+struct Loaded {
+  Model model;
+  PolygonSet set;
+  BlockSet blocks;
+  Loads loads;
+  Faults faults;
+
+  void add(const Ring& ring, bool fixed = false) {
+    BlockPolygon p;
+    p.rings = {ring};
+    p.joint = {std::vector<Index>(ring.size(), none)};
+    p.material = 0;
+    p.fixed = fixed;
+    set.blocks.push_back(p);
+  }
+  void attach() {
+    model.materials.push_back({"rock", 2600.0, 1e9, 0.2, {}});
+    blocks = build_blocks(model, set);
+    Result<Loads> found = attach_loads(model, set, blocks);
+    if (found.ok()) {
+      loads = std::move(found.value());
+    } else {
+      faults = found.faults();
+    }
+  }
+  /// Resultant on block i, and its moment about the centroid, with the vertices at x, y.
+  struct Resultant {
+    Vec2 force;
+    double moment;
+  };
+  Resultant on(std::size_t i, const std::vector<double>& x, const std::vector<double>& y,
+               double time = 0.0) const {
+    std::array<Vec2, 3> f{};
+    add_loads(f, blocks, loads_at(model, loads, time), x, y, i);
+    // Nodes move with the vertices: as the block is drawn here it is not deformed.
+    Resultant r{f[0] + f[1] + f[2], 0.0};
+    for (std::size_t k = 0; k < 3; ++k) {
+      r.moment += cross(Vec2{blocks.node_x[k][i] - blocks.centroid_x[i],
+                             blocks.node_y[k][i] - blocks.centroid_y[i]},
+                        f[k]);
+    }
+    return r;
+  }
+  Resultant on(std::size_t i, double time = 0.0) const {
+    return on(i, blocks.vertex_x, blocks.vertex_y, time);
+  }
+};
+
+Water lake(std::vector<Vec2> table) {
+  Water w;
+  w.table = std::move(table);
+  return w;
+}
+
+const Ring odd_shape{{0, 0}, {3, 0.5}, {2.5, 2}, {1.2, 0.9}, {0.2, 1.7}};
+
+/// Archimedes: water all round pushes up with its weight, through the centroid.
+TEST(Water, LiftsWhatIsUnderIt) {
+  Loaded l;
+  l.add(odd_shape);
+  l.model.waters = {lake({{-9, 7}, {2, 7}, {2.2, 7}, {9, 7}})};
+  l.model.thickness = 2.0;
+  l.attach();
+  ASSERT_TRUE(l.faults.empty());
+  const auto r = l.on(0);
+  const double up = 9810.0 * 2.0 * l.blocks.area[0];
+  EXPECT_NEAR(r.force.y / up, 1.0, 1e-12);
+  EXPECT_NEAR(r.force.x, 0.0, 1e-9 * up);
+  EXPECT_NEAR(r.moment, 0.0, 1e-9 * up);
+}
+
+/// Half in: the weight of the water that it takes the place of, through that part's centroid; the
+/// table falls and rises with time.
+TEST(Water, LiftsWhatReachesIntoIt) {
+  Loaded l;
+  l.add({{0, 0}, {2, 0}, {2, 2}, {0, 2}});
+  l.model.waters = {lake({{-9, 0}, {9, 0}})};
+  l.model.waters[0].rise = {{0.0, 1.0, 3.0}, {-1.0, 0.5, 1.5}};
+  l.attach();
+  EXPECT_EQ(l.on(0, 0.0).force, (Vec2{0.0, 0.0}));
+  EXPECT_NEAR(l.on(0, 1.0).force.y, 9810.0 * 2.0 * 0.5, 1e-8);
+  EXPECT_NEAR(l.on(0, 2.0).force.y, 9810.0 * 2.0 * 1.0, 1e-8);
+  EXPECT_NEAR(l.on(0, 9.0).force.y, 9810.0 * 2.0 * 1.5, 1e-8);
+  EXPECT_NEAR(l.on(0, 9.0).force.x, 0.0, 1e-8);
+}
+
+/// A table with a kink over a turned block, against brute force: many short pieces of every edge.
+TEST(Water, IntegratesUnderAnyTable) {
+  Loaded l;
+  l.add(odd_shape);
+  const std::vector<Vec2> table{{-5, 0.2}, {0.9, 1.4}, {1.1, 0.6}, {2.6, 1.9}};
+  l.model.waters = {lake(table)};
+  l.attach();
+  const auto level = [&](double x) {
+    std::size_t k = 1;
+    while (k + 1 < table.size() && table[k].x < x) ++k;
+    const double part = (x - table[k - 1].x) / (table[k].x - table[k - 1].x);
+    return table[k - 1].y + part * (table[k].y - table[k - 1].y);
+  };
+  // The block has turned a little and moved: the table stays with the faces it was over.
+  std::vector<double> x = l.blocks.vertex_x, y = l.blocks.vertex_y;
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    const Vec2 p = rotated({x[v], y[v]}, 0.2) + Vec2{0.3, -0.1};
+    x[v] = p.x;
+    y[v] = p.y;
+  }
+  Vec2 force;
+  for (Id v = 0; v < x.size(); ++v) {
+    const Id end = l.blocks.next[v];
+    const Vec2 u{x[end] - x[v], y[end] - y[v]};
+    constexpr int pieces = 200000;
+    for (int k = 0; k < pieces; ++k) {
+      const double s = (k + 0.5) / pieces;
+      const double x0 = (1 - s) * l.blocks.vertex_x[v] + s * l.blocks.vertex_x[end];
+      if (x0 > 2.6) continue;
+      const double depth = level(x0) - (y[v] + s * u.y);
+      if (depth > 0.0) force -= 9810.0 * depth / pieces * outward_normal(u);
+    }
+  }
+  const auto r = l.on(0, x, y);
+  EXPECT_NEAR(r.force.x, force.x, 1e-5 * norm(force));
+  EXPECT_NEAR(r.force.y, force.y, 1e-5 * norm(force));
+}
+
+/// Of two blocks side by side the joint is pushed apart; faces of an opening stay dry unless it is
+/// flooded.
+TEST(Water, FillsJointsAndLeavesOpeningsDry) {
+  for (const bool flooded : {false, true}) {
+    Loaded l;
+    l.add({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+    l.add({{1, 0}, {2, 0}, {2, 1}, {1, 1}});
+    Opening opening;
+    opening.name = "pit";
+    opening.polygon = {{2, 0}, {3, 0}, {3, 1}, {2, 1}};
+    l.model.openings = {opening};
+    l.model.waters = {lake({{0.5, 3}, {2.5, 3}})};
+    if (flooded) l.model.waters[0].flooded = {"pit"};
+    l.attach();
+    const double push = 9810.0 * 2.5;
+    EXPECT_NEAR(l.on(0).force.x, -push, 1e-8);
+    EXPECT_NEAR(l.on(1).force.x, flooded ? 0.0 : push, 1e-8);
+    EXPECT_NEAR(l.on(1).force.y, 9810.0, 1e-8);
+  }
+}
+
+TEST(Load, ActsAtItsPoint) {
+  Loaded l;
+  l.add({{0, 0}, {2, 0}, {2, 2}, {0, 2}});
+  Load load;
+  load.point = Vec2{1.5, 2.0};
+  load.force = Vec2{10.0, -30.0};
+  load.factor = {{1.0, 2.0}, {0.0, 1.0}};
+  l.model.loads = {load};
+  l.attach();
+  ASSERT_TRUE(l.faults.empty());
+  EXPECT_EQ(l.on(0, 0.5).force, (Vec2{0.0, 0.0}));
+  const auto r = l.on(0, 1.5);
+  EXPECT_NEAR(r.force.x, 5.0, 1e-12);
+  EXPECT_NEAR(r.force.y, -15.0, 1e-12);
+  EXPECT_NEAR(r.moment, 0.5 * -15.0 - 1.0 * 5.0, 1e-12);
+}
+
+/// A traction keeps its direction and the length it was given for; a pressure turns with the face.
+/// Both act where the line lies on the face and nowhere else.
+TEST(Load, ActsAlongALine) {
+  Loaded l;
+  l.add({{0, 0}, {2, 0}, {2, 2}, {0, 2}});
+  l.add({{2, 0}, {4, 0}, {4, 2}, {2, 2}});
+  Load traction, pressure;
+  traction.along = {{0.5, 2}, {3, 2}, {3, 9}};
+  traction.force = Vec2{0.0, -100.0};
+  pressure.along = {{0, -1}, {0, 3}};
+  pressure.pressure = 40.0;
+  l.model.loads = {traction, pressure};
+  l.attach();
+  ASSERT_TRUE(l.faults.empty());
+  const auto left = l.on(0), right = l.on(1);
+  EXPECT_NEAR(left.force.x, 80.0, 1e-12);
+  EXPECT_NEAR(left.force.y, -150.0, 1e-12);
+  EXPECT_NEAR(left.moment, -150.0 * 0.25, 1e-12);
+  EXPECT_NEAR(right.force.y, -100.0, 1e-12);
+  EXPECT_NEAR(right.moment, 100.0 * 0.5, 1e-12);
+  // Turned by a quarter: the pressure acts downwards, the traction as before.
+  std::vector<double> x, y;
+  for (std::size_t v = 0; v < l.blocks.vertex_count(); ++v) {
+    x.push_back(-l.blocks.vertex_y[v]);
+    y.push_back(l.blocks.vertex_x[v]);
+  }
+  const auto turned = l.on(0, x, y);
+  EXPECT_NEAR(turned.force.x, 0.0, 1e-12);
+  EXPECT_NEAR(turned.force.y, -150.0 + 80.0, 1e-12);
+}
+
+TEST(Load, PressureInAJointActsOnBothFaces) {
+  Loaded l;
+  l.add({{0, 0}, {2, 0}, {2, 2}, {0, 2}});
+  l.add({{2, 0}, {4, 0}, {4, 2}, {2, 2}});
+  Load jack;
+  jack.along = {{2, 0.5}, {2, 1.0}};
+  jack.pressure = 10.0;
+  l.model.loads = {jack};
+  l.attach();
+  ASSERT_TRUE(l.faults.empty());
+  EXPECT_NEAR(l.on(0).force.x, -5.0, 1e-12);
+  EXPECT_NEAR(l.on(1).force.x, 5.0, 1e-12);
+}
+
+/// What a load that acts on nothing says.
+TEST(Load, RefusesWhatItCannotActOn) {
+  struct Case {
+    Load load;
+    std::string key, problem;
+  };
+  Load nowhere, held, joint, outside;
+  nowhere.point = Vec2{1, 9};
+  nowhere.force = Vec2{1, 0};
+  held.point = Vec2{5, 1};
+  held.force = Vec2{1, 0};
+  joint.along = {{2, 0}, {2, 2}};
+  joint.force = Vec2{1, 0};
+  outside.along = {{0, 7}, {2, 7}};
+  outside.pressure = 1.0;
+  for (const Case& c :
+       {Case{nowhere, "load.0.point", "lies in no block"}, Case{held, "load.0.point", "held"},
+        Case{joint, "load.0.along", "along a joint"},
+        Case{outside, "load.0.along", "no face of a free block"}}) {
+    Loaded l;
+    l.add({{0, 0}, {2, 0}, {2, 2}, {0, 2}});
+    l.add({{2, 0}, {4, 0}, {4, 2}, {2, 2}});
+    l.add({{4, 0}, {6, 0}, {6, 2}, {4, 2}}, true);
+    l.model.loads = {c.load};
+    l.model.loads[0].where.key = "load.0";
+    l.attach();
+    ASSERT_EQ(l.faults.size(), 1u) << c.problem;
+    EXPECT_EQ(l.faults[0].where.key, c.key);
+    EXPECT_NE(l.faults[0].problem.find(c.problem), std::string::npos) << l.faults[0].problem;
+  }
+}
+
+}  // namespace
+}  // namespace edda

@@ -1,0 +1,119 @@
+// Loads from outside: validation.md row 14, and what loads must do to the books in both methods.
+#include <algorithm>
+
+#include "verification/models.hpp"
+#include "verification/record.hpp"
+
+namespace edda {
+namespace {
+
+constexpr double width = 2.0, height = 8.0, heavy = 24e3, water = 9810.0;
+
+/// A dam on rock, water up to `depth` above its base on the left, let in over two seconds.
+std::string dam(double depth, const std::string& solver) {
+  return R"(
+[materials.concrete]
+unit_weight = 24e3
+young = 20e9
+poisson = 0.2
+[joints.base]
+friction_angle = 35
+[contact]
+normal_stiffness = 20e9
+[[block]]
+fixed = true
+polygon = [[-3, -1], [9, -1], [9, 0], [-3, 0]]
+[[block]]
+polygon = )" +
+         rectangle(0.0, 0.0, width, height) + "\n[[water]]\ntable = [[-9, " + number(depth) +
+         "], [0, " + number(depth) + "]]\n[output]\nhistory_every = 0.05\n[solver]\n" + solver;
+}
+
+Simulation filled(double depth, const std::string& solver) {
+  Simulation sim = scene(dam(depth, solver));
+  sim.model.waters[0].rise = {{0.0, 2.0}, {-depth, 0.0}};
+  return sim;
+}
+
+/// Downstream displacement of the crest at the end, m.
+double leans(double depth) {
+  Simulation sim = filled(depth, "duration = 4.0\ndamping = { local = 0.5 }\n");
+  double drift = 0.0;
+  run(sim, [&](Simulation& s) { drift = std::max(drift, std::abs(s.ledger().drift)); });
+  EXPECT_LT(drift, 1e-5);
+  const Id crest = sim.blocks.vertex_begin[1] + 3;
+  return sim.pose.x[crest] - sim.blocks.vertex_x[crest];
+}
+
+/// Row 14: the dam overturns where the moment of the water, gw h^3/6, comes to that of its weight,
+/// gc B^2 H/2, about the toe; no uplift. Between which depths it goes over is found by bisection.
+TEST(Dam, Overturns) {
+  const double exact = std::cbrt(3.0 * heavy * width * width * height / water);
+  double holds = 0.9 * exact, falls = 1.1 * exact;
+  while (falls - holds > 1e-3 * exact) {
+    const double middle = 0.5 * (holds + falls);
+    (leans(middle) > 0.05 ? falls : holds) = middle;
+  }
+  EXPECT_GT(holds, 0.9 * exact);
+  EXPECT_LT(falls, 1.1 * exact);
+  expect_relative({14, "", "depth of water that overturns the dam", "m"}, 0.5 * (holds + falls),
+                  exact, 2e-2);
+  Series series(14, "", {"h", "crest"});
+  for (const double part : {0.90, 0.94, 0.97, 0.99, 1.00, 1.01, 1.02, 1.03}) {
+    if (!recording()) break;
+    series.add({part * exact, leans(part * exact)});
+  }
+  Simulation sim = filled(1.02 * exact, "duration = 4.0\ndamping = { local = 0.5 }\n");
+  run(sim, [](Simulation&) {});
+  record_model(14, "", sim);
+}
+
+/// A square under a traction that grows and falls: the work of the load is all there is to its
+/// motion.
+std::string pushed(const std::string& solver) {
+  return "gravity = [0, 0]\n[materials.rock]\ndensity = 2500.0\nyoung = 2e9\npoisson = 0.2\n"
+         "[joints.j]\nfriction_angle = 0\n[[block]]\npolygon = " +
+         rectangle(0, 0, 1, 1) +
+         "\n[[load]]\nalong = [[0, 0], [0, 1]]\nforce = [1e5, 0]\n[[load]]\npoint = [1, 0.25]\n"
+         "force = [0, 2e4]\n[output]\nhistory_every = 0.01\n[solver]\nduration = 0.2\n" +
+         solver;
+}
+
+TEST(Load, WorkIsTheEnergyOfTheMotion) {
+  for (const auto& [method, close] : {std::pair{"time_step = 1e-4\n", 1e-6},
+                                      std::pair{"method = 'dda'\ntime_step = 1e-4\n", 1e-3}}) {
+    Simulation sim = scene(pushed(method));
+    sim.model.loads[0].factor = {{0.0, 0.1, 0.2}, {0.0, 1.0, 0.0}};
+    double drift = 0.0;
+    run(sim, [&](Simulation& s) { drift = std::max(drift, std::abs(s.ledger().drift)); });
+    const Ledger l = sim.ledger();
+    EXPECT_LT(drift, close) << method;
+    EXPECT_GT(l.external, 0.0);
+    // Momentum is the load's impulse: 1e5 over half of 0.2 s, and 2e4 over all of it.
+    const Vec2 v = centroid(sim.state.vx, sim.state.vy, 0);
+    EXPECT_NEAR(v.x * 2500.0 / 1e4, 1.0, 2e-3) << method;
+    EXPECT_NEAR(v.y * 2500.0 / 4e3, 1.0, 2e-3) << method;
+  }
+}
+
+/// A block let go under water bobs up: it floats with the part under water that weighs as much.
+TEST(Water, FloatsABlock) {
+  for (const std::string method :
+       {"damping = { mass = 3.0 }\n",
+        "method = 'dda'\ntime_step = 0.01\ndamping = { mass = 3.0 }\n"}) {
+    Simulation sim = scene(
+        "[materials.wood]\ndensity = 600.0\nyoung = 1e7\npoisson = 0.0\n[joints.j]\nfriction_angle "
+        "= 0\n[[block]]\npolygon = " +
+        rectangle(-1, -2, 1, -1) +
+        "\n[[water]]\ntable = [[-9, 0], [9, 0]]\n[output]\nhistory_every = 1.0\n[solver]\n"
+        "duration = 12.0\n" +
+        method);
+    run(sim, [](Simulation&) {});
+    const double bottom = -2.0 + displacement(sim, 0).y;
+    EXPECT_NEAR(bottom, -600.0 * 9.81 / 9810.0, 1e-3) << method;
+    EXPECT_NEAR(sim.ledger().drift, 0.0, 1e-5) << method;
+  }
+}
+
+}  // namespace
+}  // namespace edda
