@@ -36,7 +36,7 @@ FIGURES = {
 
 def small(value):
     """An error or a bound: 2e-3, 0.7, 1.5."""
-    if value == 0.0 or 0.1 <= abs(value) < 1e3:
+    if value == 0.0 or 0.1 <= abs(value) < 1e3 or not math.isfinite(value):
         return f"{value:.3g}"
     mantissa, exponent = f"{value:.1e}".split("e")
     return f"{mantissa.removesuffix('.0')}e{int(exponent)}"
@@ -44,7 +44,14 @@ def small(value):
 
 def amount(value, unit):
     """A quantity in its unit."""
-    return "-" if value is None else f"{digits(value, 6)} {unit}".strip()
+    if value is None:
+        return "-"
+    return (f"{digits(value, 6)} {unit}" if math.isfinite(value) else f"{value}").strip()
+
+
+def case(check):
+    """Which of the row's cases, long numbers with commas."""
+    return re.sub(r"\d{5,}", lambda found: f"{int(found[0]):,}", check.which)
 
 
 def bound(check):
@@ -84,12 +91,12 @@ class Page:
         for row in ROWS:
             checks = self.records.checks_of(row.number)
             if not checks:
-                lines.append(f"| {row.number} | {_link(row)} | - | - | - | not yet |")
+                lines.append(f"| {row.number} | {_link(row)} | - | - | - | {'**none**' if row.expected else 'not yet'} |")
                 continue
             worst = max(checks, key=lambda check: math.inf if math.isnan(check.part) else check.part)
             held = sum(check.holds for check in checks)
             verdict = f"{held} of {len(checks)} hold" if held == len(checks) else f"**{held} of {len(checks)} hold**"
-            which = f"{worst.what} ({worst.which})" if worst.which else worst.what
+            which = f"{worst.what} ({case(worst)})" if worst.which else worst.what
             lines.append(f"| {row.number} | {_link(row)} | {which} | {error(worst)} | {bound(worst)} | {verdict} |")
         return "\n".join(lines)
 
@@ -101,7 +108,7 @@ class Page:
             if row.expected:
                 self.broken.append(f"row {row.number} has no record")
             return [*parts, "Not yet: no test has recorded it."]
-        self.broken += [f"row {row.number}, {check.which}: {check.what} is {check.computed:g}, not {bound(check)}"
+        self.broken += [f"row {row.number}: {check.what} ({case(check) or row.title}): {error(check)}, not {bound(check)}"
                         for check in checks if not check.holds]
         facts = _facts(self.records.models_of(row.number), row.leave_out)
         parts[1] = wrapped(f"**Model.** {row.model} {facts}")
@@ -140,8 +147,7 @@ def _table(checks):
         exact = amount(check.exact, check.unit)
         computed = amount(check.computed, check.unit) if check.exact is not None else error(check)
         off = error(check) if check.exact is not None else "-"
-        case = re.sub(r"\d{5,}", lambda found: f"{int(found[0]):,}", check.which)
-        lines.append(f"| {case or '-'} | {check.what} | {exact} | {computed} | {off} | {bound(check)} |")
+        lines.append(f"| {case(check) or '-'} | {check.what} | {exact} | {computed} | {off} | {bound(check)} |")
     return "\n".join(lines)
 
 
