@@ -75,54 +75,128 @@ Matrix6 bare_corners(const BlockSet& b, const ContactSet& c, const LawTable& law
   return k;
 }
 
-struct BlockBound {
-  double omega2 = 0.0;
-  double likely = std::numeric_limits<double>::infinity();
-  double step = std::numeric_limits<double>::infinity();
-  Id contact = no_id;
-  double elastic = 0.0, contacts = 0.0, boundary = 0.0;
+/// Stiffness of one block with all that may act on it.
+struct BlockStiffness {
+  std::vector<Part> parts;
+  Matrix6 elastic, boundary;
+  Matrix6 all;                                               ///< with the contacts
+  double lowest2 = std::numeric_limits<double>::infinity();  ///< contact frequency^2, with damping
 };
 
+/// What a step bound looks at.
+struct Scene {
+  const BlockSet& b;
+  const State& s;
+  const Pose& pose;
+  const ContactSet& c;
+  const BoundarySprings& springs;
+  const LawTable& laws;
+  const Damping& damping;
+};
+
+BlockStiffness stiffness_of(const Scene& w, std::size_t i) {
+  BlockStiffness k;
+  k.parts = parts_of(w.b, w.s, w.pose, w.c, i);
+  k.elastic = elastic_matrix(w.b, i);
+  k.boundary = boundary_matrix(w.b, w.springs, rotation(deformation(w.b, w.s.x, w.s.y, i)), i);
+  k.all = k.elastic + k.boundary;
+  for (const Part& p : k.parts) {
+    k.all += p.kn * p.normal * p.normal.transpose() + p.ks * p.tangent * p.tangent.transpose();
+    if (w.damping.contact > 0.0) {
+      const double xi = 0.5;
+      k.lowest2 =
+          std::min(k.lowest2, w.c.kn[p.contact] * inverse_contact_mass(w.b, w.c, p.contact, xi));
+    }
+  }
+  return k;
+}
+
 /// (2/w)(sqrt(1 + x^2) - x), x = zeta w / (lowest contact frequency of the block).
-double damped_step(double omega, const Damping& damping, double lowest) {
-  const double x = damping.contact > 0.0 ? damping.contact * omega / lowest : 0.0;
+double damped_step(double omega2, const Damping& damping, double lowest2) {
+  const double omega = std::sqrt((1.0 + damping.local) * omega2);
+  const double x = damping.contact > 0.0 ? damping.contact * omega / std::sqrt(lowest2) : 0.0;
   const double step = 2.0 / omega * (std::sqrt(1.0 + x * x) - x);
   return damping.mass > 0.0 ? std::min(step, 1.0 / damping.mass) : step;
 }
 
-BlockBound bound_of(const BlockSet& b, const State& s, const Pose& pose, const ContactSet& c,
-                    const BoundarySprings& springs, const LawTable& laws, const Damping& damping,
-                    std::size_t i) {
-  const std::vector<Part> parts = parts_of(b, s, pose, c, i);
-  const Matrix6 elastic = elastic_matrix(b, i),
-                boundary = boundary_matrix(b, springs, rotation(deformation(b, s.x, s.y, i)), i);
-  Matrix6 k = elastic + boundary;
-  double lowest2 = std::numeric_limits<double>::infinity();
-  for (const Part& p : parts) {
-    k += p.kn * p.normal * p.normal.transpose() + p.ks * p.tangent * p.tangent.transpose();
-    if (damping.contact > 0.0) {
-      const double xi = 0.5;
-      lowest2 = std::min(lowest2, c.kn[p.contact] * inverse_contact_mass(b, c, p.contact, xi));
-    }
+double largest_eigenvalue(const Matrix6& k, const Matrix6& mass) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(k, mass, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[5];
+}
+
+/// Not below the largest eigenvalue of M^-1 K, and at most 6^(1/16) times it: with A = L^-1 K L^-T,
+/// M = L L^T, the root (tr A^16)^(1/16).
+double eigenvalue_bound(const Matrix6& k, const Eigen::LLT<Matrix6>& mass) {
+  Matrix6 a = mass.matrixL().solve(k);
+  a = mass.matrixL().solve(a.transpose().eval()).eval();
+  const double size = a.trace();
+  if (!(size > 0.0) || !std::isfinite(size)) return std::numeric_limits<double>::infinity();
+  a /= size;
+  for (int square = 0; square < 3; ++square) a = (a * a).eval();
+  constexpr double rounding = 1e-9;
+  return (1.0 + rounding) * size * std::pow(a.squaredNorm(), 1.0 / 16.0);
+}
+
+/// The step of one block, and what it would be with bare corners; from below, or exact.
+struct BlockSteps {
+  double step = std::numeric_limits<double>::infinity();
+  double likely = std::numeric_limits<double>::infinity();
+};
+
+BlockSteps estimate(const Scene& w, std::size_t i) {
+  const BlockStiffness k = stiffness_of(w, i);
+  const Eigen::LLT<Matrix6> mass(mass_matrix(w.b, i));
+  const Matrix6 bare = bare_corners(w.b, w.c, w.laws, k.parts, i);
+  return {damped_step(eigenvalue_bound(k.all, mass), w.damping, k.lowest2),
+          damped_step(eigenvalue_bound(k.all + bare, mass), w.damping, k.lowest2)};
+}
+
+double exact_step(const Scene& w, std::size_t i, bool with_bare_corners) {
+  BlockStiffness k = stiffness_of(w, i);
+  if (with_bare_corners) k.all += bare_corners(w.b, w.c, w.laws, k.parts, i);
+  const double omega2 = largest_eigenvalue(k.all, mass_matrix(w.b, i));
+  return omega2 > 0.0 ? damped_step(omega2, w.damping, k.lowest2)
+                      : std::numeric_limits<double>::infinity();
+}
+
+struct Smallest {
+  double step = std::numeric_limits<double>::infinity();
+  Id block = no_id;
+};
+
+/// The smallest exact step, and the first block that has it: worked out only for blocks whose
+/// `estimates` from below leave it open.
+Smallest smallest_step(const Scene& w, const std::vector<double>& estimates,
+                       bool with_bare_corners) {
+  const auto first = std::min_element(estimates.begin(), estimates.end());
+  if (first == estimates.end() || !(*first < std::numeric_limits<double>::infinity())) return {};
+  const double known =
+      exact_step(w, static_cast<std::size_t>(first - estimates.begin()), with_bare_corners);
+  std::vector<Id> open;
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    if (estimates[i] <= known) open.push_back(static_cast<Id>(i));
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(k, mass_matrix(b, i));
-  BlockBound bound;
-  const double against = 1.0 + damping.local;
-  bound.omega2 = against * solver.eigenvalues()[5];
-  if (!(bound.omega2 > 0.0)) return bound;
-  bound.step = damped_step(std::sqrt(bound.omega2), damping, std::sqrt(lowest2));
-  const Matrix6 bare = bare_corners(b, c, laws, parts, i);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> likely(k + bare, mass_matrix(b, i),
-                                                                 Eigen::EigenvaluesOnly);
-  bound.likely =
-      damped_step(std::sqrt(against * likely.eigenvalues()[5]), damping, std::sqrt(lowest2));
+  std::vector<double> exact(open.size());
+  parallel_for(open.size(),
+               [&](std::size_t q) { exact[q] = exact_step(w, open[q], with_bare_corners); });
+  Smallest found;
+  for (std::size_t q = 0; q < open.size(); ++q) {
+    if (exact[q] < found.step) found = {exact[q], open[q]};
+  }
+  return found;
+}
+
+/// Whose stiffness it is that holds block i's step.
+void explain(StepBound& bound, const Scene& w, std::size_t i) {
+  const BlockStiffness k = stiffness_of(w, i);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(k.all, mass_matrix(w.b, i));
   const Vector6 mode = solver.eigenvectors().col(5);
-  const double total = mode.dot(k * mode);
-  bound.elastic = mode.dot(elastic * mode) / total;
-  bound.boundary = mode.dot(boundary * mode) / total;
-  bound.contacts = 1.0 - bound.elastic - bound.boundary;
+  const double total = mode.dot(k.all * mode);
+  bound.elastic_part = mode.dot(k.elastic * mode) / total;
+  bound.boundary_part = mode.dot(k.boundary * mode) / total;
+  bound.contact_part = 1.0 - bound.elastic_part - bound.boundary_part;
   double largest = 0.0;
-  for (const Part& p : parts) {
+  for (const Part& p : k.parts) {
     const double hn = p.normal.dot(mode), ht = p.tangent.dot(mode);
     const double part = p.kn * hn * hn + p.ks * ht * ht;
     if (part > largest) {
@@ -130,30 +204,27 @@ BlockBound bound_of(const BlockSet& b, const State& s, const Pose& pose, const C
       bound.contact = p.contact;
     }
   }
-  return bound;
 }
 
 }  // namespace
 
 StepBound step_bound(const BlockSet& b, const State& s, const Pose& pose, const ContactSet& c,
                      const BoundarySprings& springs, const LawTable& laws, const Damping& damping) {
-  std::vector<BlockBound> bounds(b.size());
+  const Scene scene{b, s, pose, c, springs, laws, damping};
+  std::vector<double> step(b.size(), std::numeric_limits<double>::infinity()), likely = step;
   parallel_for(b.size(), [&](std::size_t i) {
-    if (!b.fixed[i] && s.alive[i]) bounds[i] = bound_of(b, s, pose, c, springs, laws, damping, i);
+    if (b.fixed[i] || !s.alive[i]) return;
+    const BlockSteps e = estimate(scene, i);
+    step[i] = e.step;
+    likely[i] = e.likely;
   });
-  StepBound result;
-  result.critical_step = result.likely_step = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < bounds.size(); ++i) {
-    const double likely = std::min(result.likely_step, bounds[i].likely);
-    if (bounds[i].step < result.critical_step) {
-      result = {bounds[i].step,     likely,
-                static_cast<Id>(i), bounds[i].contact,
-                bounds[i].elastic,  bounds[i].contacts,
-                bounds[i].boundary};
-    }
-    result.likely_step = likely;
-  }
-  return result;
+  const Smallest critical = smallest_step(scene, step, false);
+  StepBound bound;
+  bound.critical_step = critical.step;
+  bound.likely_step = smallest_step(scene, likely, true).step;
+  bound.block = critical.block;
+  if (bound.block != no_id) explain(bound, scene, bound.block);
+  return bound;
 }
 
 }  // namespace edda
