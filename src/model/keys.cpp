@@ -51,7 +51,7 @@ constexpr Rule flag = rule(Kind::flag), text = rule(Kind::text), naming = rule(K
                choice = rule(Kind::choice), material = rule(Kind::material),
                joint = rule(Kind::joint), table = rule(Kind::table),
                point = shape(Kind::point, D::length), polygon = shape(Kind::polygon, D::length),
-               polyline = shape(Kind::polyline, D::length), names = rule(Kind::names),
+               polyline = shape(Kind::polyline, D::length), name_list = rule(Kind::names),
                file = rule(Kind::file);
 
 constexpr Default required{true, {}};
@@ -171,7 +171,7 @@ constexpr std::array load_keys{
 constexpr std::array water_keys{
     Key{"name", at<&Water::name>, naming, otherwise("none"), "What --set, stages and messages call the water."},
     Key{"table", at<&Water::table>, polyline, required, "Its level from left to right; joints and faces below carry its pressure, what lies beyond its ends is dry."},
-    Key{"flooded", at<&Water::flooded>, names, initial, "Names of the openings that are full of water, too; the others are dry."},
+    Key{"flooded", at<&Water::flooded>, name_list, initial, "Names of the openings that are full of water, too; the others are dry."},
     Key{"unit_weight", at<&Water::unit_weight>, number(D::unit_weight, above(0)), initial, "Weight of water per volume."},
     Key{"history", at<&Water::history>, file, otherwise("constant from the start"), "CSV file of time and rise of the table (m), linear between its rows."},
 };
