@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <omp.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -9,8 +10,10 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 
 #include "model/read_model.hpp"
+#include "run/size_limits.hpp"
 
 namespace edda {
 namespace {
@@ -23,6 +26,13 @@ void ask_to_stop(int signal) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }
+}
+
+/// Bytes that this machine has; infinity where it does not say.
+double memory_here() {
+  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || page <= 0) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(pages) * static_cast<double>(page);
 }
 
 }  // namespace
@@ -44,7 +54,11 @@ void print_warnings(const std::vector<std::string>& warnings) {
 std::optional<Model> read_or_print(const std::string& path,
                                    const std::vector<std::string>& overrides) {
   Result<Model> model = read_model(path, overrides);
-  if (model.ok()) return std::move(model.value());
+  if (model.ok()) {
+    const std::optional<Fault> fault = beyond_memory(model.value(), memory_here());
+    if (!fault) return std::move(model.value());
+    model = *fault;
+  }
   print(model.faults());
   return {};
 }

@@ -38,7 +38,9 @@ LawTable build_laws(const Model& model) {
   std::sort(order.begin(), order.end(),
             [&](std::uint16_t a, std::uint16_t b) { return key(a) < key(b); });
   table.rank.resize(table.rows.size());
-  for (std::uint16_t place = 0; place < order.size(); ++place) table.rank[order[place]] = place;
+  for (std::size_t place = 0; place < order.size(); ++place) {
+    table.rank[order[place]] = static_cast<std::uint16_t>(place);
+  }
   if (table.rows.empty()) {  // a single block touches nothing: any law will do
     table.rows.push_back({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, false});
     table.rank.push_back(0);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <iterator>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,27 @@ Faults too_few_corners(const Model& model) {
   return faults;
 }
 
+/// Work on a block grows with the square of its corners, and one strain for so many says nothing.
+constexpr std::size_t most_corners = 10000;
+
+Faults too_many_corners(const std::vector<BlockPolygon>& blocks, std::size_t first_cut) {
+  Faults faults;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    std::size_t corners = 0;
+    for (const Ring& ring : blocks[i].rings) corners += ring.size();
+    if (corners <= most_corners) continue;
+    const bool cut = i >= first_cut;
+    faults.push_back(
+        {member_of(blocks[i].where, cut ? "outline" : "polygon"),
+         (cut ? "a block cut from it has " : "has ") + std::to_string(corners) +
+             " corners, more than " + std::to_string(most_corners),
+         cut ? "give outline, traces and openings fewer points, or cut into more blocks"
+             : "give fewer corners, or several blocks"});
+    if (cut) break;
+  }
+  return faults;
+}
+
 /// Beyond this no machine that runs the model could hold them.
 constexpr double most_bricks = 1e7;
 
@@ -54,6 +76,9 @@ Result<PolygonSet> build_polygons(const Model& model) {
   PolygonSet set;
   set.origin = model_centre(model);
   set.blocks = given_blocks(model, set.origin);
+  const std::size_t given = set.blocks.size();
+  Faults faults = too_many_corners(set.blocks, given);
+  if (!faults.empty()) return faults;
   append(set.blocks, wall_bricks(model, set.origin));
   const std::size_t first_cut = set.blocks.size();
   if (model.domain) {
@@ -62,8 +87,10 @@ Result<PolygonSet> build_polygons(const Model& model) {
     append(set.blocks, std::move(cut.value().blocks));
     set.removed = std::move(cut.value().removed);
     set.report = cut.value().report;
+    faults = too_many_corners(set.blocks, first_cut);
+    if (!faults.empty()) return faults;
   }
-  Faults faults = hold_blocks(model, model.domain ? snap_of(model) : 0.0, first_cut, set);
+  faults = hold_blocks(model, model.domain ? snap_of(model) : 0.0, first_cut, set);
   if (!faults.empty()) return faults;
   faults = find_overlaps(set.blocks, first_cut);
   if (!faults.empty()) return faults;

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "lines/crossings.hpp"
 #include "lines/face_polygons.hpp"
 #include "lines/line_work.hpp"
 #include "lines/noding.hpp"
@@ -125,6 +126,20 @@ std::optional<Fault> wrong_count(const Model& model, const Partition& p) {
   return std::nullopt;
 }
 
+/// Joint sets were counted when the model was read. Lines through one point make fewer blocks than
+/// they have crossings, hence the allowance.
+std::optional<Fault> too_many_crossings(const Model& model, const LineWork& work) {
+  if (model.traces.empty()) return std::nullopt;
+  constexpr double allowance = 4.0;
+  const double crossings = estimated_crossings(work.lines);
+  const auto most = static_cast<double>(model.domain->max_blocks);
+  if (crossings <= allowance * most) return std::nullopt;
+  return Fault{member_of(model.domain->where, "max_blocks"),
+               "the lines cross about " + number(crossings) + " times, too often for " +
+                   number(most) + " blocks",
+               "raise max_blocks, or give fewer traces or wider spacings"};
+}
+
 struct Arrangement {
   PlanarGraph graph;
   Partition parts;
@@ -227,6 +242,7 @@ Result<DomainCut> cut_domain(const Model& model, Vec2 origin) {
   if (!lines.ok()) return lines.faults();
   LineWork& work = lines.value();
   if (auto fault = not_simple(model, work)) return *fault;
+  if (auto fault = too_many_crossings(model, work)) return *fault;
   const std::optional<double> area_in = rock_area(work.outline, work.openings);
   if (!area_in) {
     return Fault{member_of(model.domain->where, "outline"),

@@ -53,6 +53,12 @@ void complete_materials(const Value& root, Reading& reading) {
 
 void complete_joints(const Value& root, Reading& reading) {
   auto& joints = reading.model.joints;
+  constexpr std::size_t most = 65535;  // a contact keeps its law in 16 bits
+  if (joints.size() > most) {
+    add_fault(reading, find(&root, "joints")->place, "joints",
+              fmt::format("has {} laws, more than {}", joints.size(), most),
+              "let edges with like strength share a law");
+  }
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const Value* node = find(find(&root, "joints"), joints[i].name);
     JointLaw& law = joints[i];

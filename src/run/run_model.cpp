@@ -10,6 +10,7 @@
 #include "checkpoint/hdf5_image.hpp"
 #include "run/driver.hpp"
 #include "run/guard_rails.hpp"
+#include "run/size_limits.hpp"
 
 namespace edda {
 namespace {
@@ -46,6 +47,7 @@ Result<PreparedRun> prepare_run(Model model, BlockOrder order) {
   Result<std::vector<MonitorPoint>> monitors = place_monitors(run.sim);
   if (!monitors.ok()) faults = monitors.faults();
   if (auto fault = unstable_step(run.sim)) faults.push_back(*fault);
+  if (auto fault = beyond_disks(run.sim)) faults.push_back(*fault);
   if (!faults.empty()) return faults;
   run.monitors = std::move(monitors.value());
   run.governed_by = governed_by(run.sim);

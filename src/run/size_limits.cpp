@@ -1,0 +1,63 @@
+#include "run/size_limits.hpp"
+
+#include <fmt/format.h>
+
+#include "model/complete.hpp"
+
+namespace edda {
+namespace {
+
+/// Measured: 4,700 a brick, 7,900 a block cut with sharp corners, both with their contacts.
+constexpr double bytes_per_block = 4000.0;
+
+std::string gigabytes(double bytes) {
+  return fmt::format("{:.3g} GB", 1e-9 * bytes);
+}
+
+Fault at_key(Where where, const char* key, std::string problem, std::string remedy) {
+  where.key += std::string(".") + key;
+  return {std::move(where), std::move(problem), std::move(remedy)};
+}
+
+}  // namespace
+
+std::optional<Fault> beyond_memory(const Model& model, double memory) {
+  double bricks = 0.0;
+  for (const BrickWall& wall : model.walls) {
+    bricks += static_cast<double>(wall.columns) * wall.rows;
+  }
+  // Openings and short regions may leave half of what an estimate sees.
+  const double cut = model.domain ? 0.5 * estimated_blocks(*model.domain, model.joint_sets) : 0.0;
+  const double needed = (bricks + cut) * bytes_per_block;
+  if (needed <= memory) return {};
+  const std::string problem =
+      fmt::format("{:.3g} blocks and more need at least {}, and this machine has {}", bricks + cut,
+                  gigabytes(needed), gigabytes(memory));
+  if (bricks > cut) {
+    return at_key(model.walls.front().where, "columns", problem, "give fewer columns or rows");
+  }
+  return at_key(model.domain->where, "max_blocks", problem, "give larger spacings");
+}
+
+std::optional<Fault> beyond_disks(const Simulation& sim) {
+  constexpr double most = 1e13;                            // bytes
+  constexpr double per_vertex = 100.0, per_column = 10.0;  // bytes, at least
+  const Output& output = sim.model.output;
+  const double duration = sim.model.solver.duration;
+  const double frames =
+      duration / output.every * static_cast<double>(sim.blocks.vertex_count()) * per_vertex;
+  const double columns = 12.0 + 7.0 * static_cast<double>(sim.model.monitors.size());
+  const double rows = duration / output.history_every * columns * per_column;
+  if (frames + rows <= most) return {};
+  const bool by_frames = frames > rows;
+  Where where = sim.model.solver.where;
+  if (where.file.empty()) where.file = sim.model.file;
+  where.key = "output";
+  where.line = where.column = 0;
+  return at_key(where, by_frames ? "every" : "history_every",
+                fmt::format("the files would take at least {}", gigabytes(frames + rows)),
+                by_frames ? "give more time between frames"
+                          : "give more time between rows, or fewer monitors");
+}
+
+}  // namespace edda
