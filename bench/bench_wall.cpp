@@ -15,7 +15,7 @@
 int main(int argc, char** argv) {
   long given[] = {50, 40, 1000, 1};
   for (int i = 1; i < std::min(argc, 5); ++i) given[i - 1] = std::strtol(argv[i], nullptr, 10);
-  const auto [columns, rows, steps, threads] = given;
+  const long columns = given[0], rows = given[1], steps = given[2], threads = given[3];
   const bool implicit = argc == 6;
   if (argc > 6 || std::min({columns, rows, steps, threads}) < 1) {
     std::fprintf(stderr, "usage: bench_wall COLUMNS ROWS STEPS THREADS [STEP]\n");

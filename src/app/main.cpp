@@ -5,7 +5,9 @@
 #include "app/commands.hpp"
 #include "results/version.hpp"
 
-int main(int argc, char** argv) {
+namespace {
+
+int run_command(int argc, char** argv) {
   int code = edda::exit_code::done;
   CLI::App app{
       "edda computes how jointed rock moves: blocks cut by joints, their contacts with friction, "
@@ -33,12 +35,19 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? edda::exit_code::done : edda::exit_code::bad_input;
-  } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "edda: out of memory: close other programs, or make the model smaller\n");
-    return edda::exit_code::failed;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "edda: %s\n", error.what());
-    return edda::exit_code::failed;
   }
   return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_command(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "edda: out of memory: close other programs, or make the model smaller\n");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "edda: %s\n", error.what());
+  }
+  return edda::exit_code::failed;
 }

@@ -145,7 +145,7 @@ std::string to_hdf5(const Record& record) {
 Result<Record> from_hdf5(std::string_view image) {
   be_quiet();
   const Handle access = in_memory(1 << 16);
-  // The library only copies the image.
+  // The library only copies the image. NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
   if (H5Pset_file_image(access.id(), const_cast<char*>(image.data()), image.size()) < 0) {
     return unreadable("it is no HDF5 file");
   }

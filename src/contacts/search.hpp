@@ -10,6 +10,7 @@ namespace edda {
 
 struct NearPair {
   Id vertex, edge;
+  // clang-tidy 14 takes the zero inside <=> for a pointer. NOLINTNEXTLINE(modernize-use-nullptr)
   friend auto operator<=>(const NearPair&, const NearPair&) = default;
 };
 

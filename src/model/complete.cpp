@@ -33,19 +33,19 @@ void complete_materials(const Value& root, Reading& reading) {
   const double gravity = norm(reading.model.gravity);
   constexpr double standard_gravity = 9.81;  // weighs materials of a model without gravity
   auto& materials = reading.model.materials;
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    const Value* node = find(find(&root, "materials"), materials[i].name);
-    const std::string path = materials[i].where.key + ".unit_weight";
+  for (Material& material : materials) {
+    const Value* node = find(find(&root, "materials"), material.name);
+    const std::string path = material.where.key + ".unit_weight";
     const Value* weight = find(node, "unit_weight");
     if (weight != nullptr) {
       const auto value = read_number(*weight, *find_key(keys, "unit_weight"), path, reading);
       if (given(node, "density")) {
         add_fault(reading, weight->place, path, "density is given too", "give only one of them");
       } else if (value) {
-        materials[i].density = fitted(*value / (gravity > 0.0 ? gravity : standard_gravity));
+        material.density = fitted(*value / (gravity > 0.0 ? gravity : standard_gravity));
       }
     } else if (!given(node, "density")) {
-      add_fault(reading, node->place, materials[i].where.key + ".density", "is missing",
+      add_fault(reading, node->place, material.where.key + ".density", "is missing",
                 "give " + expected(*find_key(keys, "density")) + ", or unit_weight");
     }
   }
@@ -59,9 +59,8 @@ void complete_joints(const Value& root, Reading& reading) {
               fmt::format("has {} laws, more than {}", joints.size(), most),
               "let edges with like strength share a law");
   }
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    const Value* node = find(find(&root, "joints"), joints[i].name);
-    JointLaw& law = joints[i];
+  for (JointLaw& law : joints) {
+    const Value* node = find(find(&root, "joints"), law.name);
     const Value* type = find(node, "type");
     const std::string* word = type == nullptr ? nullptr : std::get_if<std::string>(&type->content);
     const bool coulomb = type == nullptr || (word != nullptr && *word == "coulomb");
@@ -104,6 +103,7 @@ void complete_material(const Value& root, const Value* node, Index& material, co
   }
   if (materials.empty() && given(&root, "materials")) return;  // faulty, as was said already
   std::vector<std::string_view> names;
+  names.reserve(materials.size());
   for (const Material& m : materials) names.push_back(m.name);
   add_fault(reading, node->place, where.key + ".material", "is missing",
             names.empty() ? "add a material: [materials.rock]"

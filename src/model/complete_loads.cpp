@@ -57,7 +57,7 @@ void check_unit(const Value& force, const Load& load, Reading& reading) {
   }
 }
 
-void complete_load(const Value* node, Load& load, Reading& reading) {
+void complete_load(const Value* node, const Load& load, Reading& reading) {
   const std::string& key = load.where.key;
   const auto one_of = [&](const char* first, const char* second, const char* example) {
     if (given(node, first) && given(node, second)) {

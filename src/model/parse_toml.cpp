@@ -104,7 +104,9 @@ int overlong_key(std::string_view text, int limit) {
 }
 
 Fault syntax_fault(const std::string& file, int line, int column, std::string problem) {
-  problem = problem.substr(0, problem.find(" (TOML_"));  // the library's own settings
+  if (const auto own = problem.find(" (TOML_"); own != std::string::npos) {
+    problem.resize(own);  // the library's own settings
+  }
   while (!problem.empty() && (problem.back() == '.' || problem.back() == ' ')) problem.pop_back();
   for (char& c : problem) {
     if (static_cast<unsigned char>(c) < 0x20U) c = '?';  // it quotes what it met, line ends too

@@ -41,6 +41,7 @@ void unknown_name(const Spot& spot, const std::string& name, std::string_view wh
 template <class Item>
 std::vector<std::string_view> item_names(const std::vector<Item>& items) {
   std::vector<std::string_view> names;
+  names.reserve(items.size());
   for (const Item& item : items) names.push_back(item.name);
   return names;
 }

@@ -8,10 +8,11 @@
 namespace edda {
 
 Canvas::Canvas(std::string path, double width, double height)
-    : path_(std::move(path)), svg_(path_.ends_with(".svg") || path_.ends_with(".SVG")) {
-  surface_ = svg_ ? cairo_svg_surface_create_for_stream(&Canvas::take, this, width, height)
-                  : cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width),
-                                               static_cast<int>(height));
+    : path_(std::move(path)),
+      svg_(path_.ends_with(".svg") || path_.ends_with(".SVG")),
+      surface_(svg_ ? cairo_svg_surface_create_for_stream(&Canvas::take, this, width, height)
+                    : cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width),
+                                                 static_cast<int>(height))) {
   if (svg_) cairo_svg_surface_set_document_unit(surface_, CAIRO_SVG_UNIT_PX);
   cr_ = cairo_create(surface_);
   cairo_set_source_rgb(cr_, 1.0, 1.0, 1.0);

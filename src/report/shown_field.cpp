@@ -86,7 +86,7 @@ Fault no_field(const std::string& problem) {
 
 Result<ShownField> shown_field(const std::string& name, const Grid& blocks, const Grid* contacts) {
   if (name.empty() || name == "none") return ShownField{};
-  const auto recipe =
+  const auto* const recipe =
       std::find_if(recipes.begin(), recipes.end(), [&](const Recipe& r) { return name == r.name; });
   if (recipe == recipes.end()) return no_field("there is no field \"" + name + "\"");
   const Grid* grid = recipe->of_contacts ? contacts : &blocks;

@@ -238,7 +238,7 @@ Trouble forget_end(const std::string& folder, std::size_t frames) {
     const std::string name = file.filename().string();
     if (name.ends_with(".part")) fs::remove(file, error);
     const auto digits = name.find_first_of("0123456789");
-    if (file.extension() != ".vtu" || digits == name.npos) continue;
+    if (file.extension() != ".vtu" || digits == std::string::npos) continue;
     if (std::stoull(name.substr(digits)) >= frames) fs::remove(file, error);
   }
   return {};

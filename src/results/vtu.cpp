@@ -66,7 +66,7 @@ Fault bad_file(const std::string& path, std::string problem) {
 std::string attribute(std::string_view tag, std::string_view name) {
   const std::string wanted = " " + std::string(name) + "=\"";
   const std::size_t at = tag.find(wanted);
-  if (at == tag.npos) return {};
+  if (at == std::string_view::npos) return {};
   const std::size_t from = at + wanted.size();
   return std::string(tag.substr(from, tag.find('"', from) - from));
 }
@@ -175,11 +175,11 @@ Result<Grid> read_vtu(const std::string& path) {
   const std::string_view text = file.value();
   constexpr std::string_view mark = "<AppendedData encoding=\"raw\">\n_";
   const std::size_t split = text.find(mark);
-  if (split == text.npos) return bad_file(path, "is no frame of a run");
+  if (split == std::string_view::npos) return bad_file(path, "is no frame of a run");
   const std::string_view xml = text.substr(0, split), bytes = text.substr(split + mark.size());
   Grid grid;
   std::string section;
-  for (std::size_t at = xml.find('<'); at != xml.npos; at = xml.find('<', at + 1)) {
+  for (std::size_t at = xml.find('<'); at != std::string_view::npos; at = xml.find('<', at + 1)) {
     const std::string_view tag = xml.substr(at, xml.find('>', at) - at);
     if (!tag.starts_with("<DataArray ")) {
       if (!tag.starts_with("</")) section = std::string(tag.substr(1, tag.find_first_of(" >") - 1));
@@ -207,7 +207,7 @@ Result<std::vector<SeriesEntry>> read_pvd(const std::string& path) {
   if (!file.ok()) return file.faults();
   const std::string_view text = file.value();
   std::vector<SeriesEntry> series;
-  for (std::size_t at = text.find("<DataSet "); at != text.npos;
+  for (std::size_t at = text.find("<DataSet "); at != std::string_view::npos;
        at = text.find("<DataSet ", at + 1)) {
     const std::string_view tag = text.substr(at, text.find('>', at) - at);
     const auto time = number_in<double>(attribute(tag, "timestep"));

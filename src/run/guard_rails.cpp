@@ -55,7 +55,7 @@ void warn_of_sudden_gravity(const Simulation& sim, std::vector<std::string>& war
                                                  free_block(sim, sim.contacts.block_j[k]));
   }
   if (!carried) return;
-  warnings.push_back(
+  warnings.emplace_back(
       "gravity acts at once on blocks that carry no stress yet, and nothing damps them: forces "
       "will swing "
       "between nothing and about twice their value at rest; where the state at rest is wanted, "
@@ -64,7 +64,7 @@ void warn_of_sudden_gravity(const Simulation& sim, std::vector<std::string>& war
 }
 
 struct Extreme {
-  double ratio;
+  double ratio = 0.0;
   std::size_t contact = 0;
 };
 

@@ -88,7 +88,7 @@ Trouble Recorder::frame(const Picture& picture) {
 
 Trouble Recorder::tables(const Picture& picture) {
   if (!writes()) return {};
-  const Trouble history = history_.close();
+  Trouble history = history_.close();
   if (auto t = write_file(path("blocks.csv"), blocks_csv(picture.blocks))) return t;
   if (auto t = write_file(path("joints.csv"), joints_csv(picture.contacts))) return t;
   return history;

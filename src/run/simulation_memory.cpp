@@ -426,7 +426,8 @@ void list_memory(Archive& a, Simulation& s) {
 
 void remember(const Simulation& sim, Record& record) {
   Saver saver(record);
-  list_memory(saver, const_cast<Simulation&>(sim));  // Saver only reads
+  // Saver only reads. NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
+  list_memory(saver, const_cast<Simulation&>(sim));
 }
 
 std::string recall(Simulation& sim, const Record& record) {
