@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
   edda::Simulation sim = edda::wall(static_cast<int>(columns), static_cast<int>(rows), solver);
   // Damping while a wave runs up and down the wall, none while the clock runs.
   const double height = 0.5 * static_cast<double>(rows), speed = std::sqrt(20e9 / 2600.0);
-  edda::Damping& damping = sim.model.solver.damping;
+  edda::Damping& damping = sim.damping;
   (implicit ? damping.mass : damping.local) = implicit ? speed / height : 0.8;
   const double waves = implicit ? 20.0 : 2.0;
   edda::take_steps(sim, std::max(200L, std::lround(waves * height / speed / sim.state.step)));

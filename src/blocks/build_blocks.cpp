@@ -143,6 +143,8 @@ State initial_state(const BlockSet& b, const PolygonSet& polygons) {
       s.vy[k][i] = p.fixed ? 0.0 : v.y;
     }
   }
+  s.from_x = s.x;
+  s.from_y = s.y;
   s.alive.assign(nb, 1);
   s.turns.assign(nb, 0);
   return s;

@@ -240,6 +240,65 @@ void complete_boundaries(const Value& root, Reading& reading) {
   }
 }
 
+/// Damping of a stage: what it does not give is the solver's, but for local damping, which brings a
+/// model to rest.
+void complete_stage_damping(const Value* node, const Solver& solver, Stage& stage) {
+  const Value* own = find(node, "damping");
+  constexpr double at_rest = 0.8;
+  const bool settles = stage.until == StageEnd::equilibrium && solver.method == Method::edda &&
+                       solver.mass != MassKind::consistent;
+  if (!given(own, "mass")) stage.damping.mass = solver.damping.mass;
+  if (!given(own, "contact")) stage.damping.contact = solver.damping.contact;
+  if (!given(own, "local")) stage.damping.local = settles ? at_rest : solver.damping.local;
+}
+
+/// Durations of the stages, and of all together.
+void complete_stages(const Value& root, Reading& reading) {
+  Solver& solver = reading.model.solver;
+  const Value* node = find(&root, "solver");
+  const Value* duration = find(node, "duration");
+  if (reading.model.stages.empty()) {
+    if (duration == nullptr && !given(&root, "stage")) {
+      add_fault(reading, node == nullptr ? Place{1, 1, false} : node->place, "solver.duration",
+                "is missing",
+                "give " + expected(*find_key(find_section("solver")->keys, "duration")));
+    }
+    return;
+  }
+  double sum = 0.0;
+  bool all_given = true;
+  for (std::size_t i = 0; i < reading.model.stages.size(); ++i) {
+    Stage& stage = reading.model.stages[i];
+    const Value* own = element(root, "stage", i);
+    if (!is_table(own)) continue;
+    complete_stage_damping(own, solver, stage);
+    sum += stage.duration;
+    if (stage.until == StageEnd::time && !given(own, "duration")) {
+      all_given = false;
+      add_fault(reading, own->place, stage.where.key + ".duration", "is missing",
+                "give a time such as 0.1, or until = \"equilibrium\"");
+    }
+    if (stage.damping.local > 0.0 && given(find(own, "damping"), "local")) {
+      if (solver.method == Method::dda) {
+        add_fault(reading, find(find(own, "damping"), "local")->place,
+                  stage.where.key + ".damping.local", "local damping belongs to method = \"edda\"",
+                  "leave it out: until equilibrium this method drops velocities at each step");
+      } else if (solver.mass == MassKind::consistent) {
+        add_fault(reading, find(find(own, "damping"), "local")->place,
+                  stage.where.key + ".damping.local",
+                  "local damping does not go with mass = \"consistent\"",
+                  "use mass = \"matched\", which moves the same way");
+      }
+    }
+  }
+  constexpr double same = 1e-9;
+  if (duration != nullptr && all_given && std::abs(solver.duration - sum) > same * sum) {
+    add_fault(reading, duration->place, "solver.duration",
+              fmt::format("is not the {:.6g} s of the stages together", sum), "leave it out");
+  }
+  solver.duration = sum;
+}
+
 void check_solver(const Value& root, Reading& reading) {
   const Solver& solver = reading.model.solver;
   const Value* node = find(&root, "solver");
@@ -300,11 +359,13 @@ void complete(const Value& root, Reading& reading) {
   check_names(root, "boundary", model.boundaries, reading);
   check_names(root, "load", model.loads, reading);
   check_names(root, "water", model.waters, reading);
+  check_names(root, "stage", model.stages, reading);
   check_names(root, "monitor", model.monitors, reading);
   check_blocks(root, reading);
   complete_boundaries(root, reading);
   complete_geometry(root, reading);
   complete_loads(root, reading);
+  complete_stages(root, reading);
   check_solver(root, reading);
   complete_interval(root, "every", model.output.every, 20.0, 1e5, reading);
   complete_interval(root, "history_every", model.output.history_every, 200.0, 1e7, reading);

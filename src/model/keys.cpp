@@ -187,11 +187,20 @@ constexpr std::array damping_keys{
     Key{"contact", at<&Damping::contact>, number(D::plain, from(0)), initial, "Viscous damping at contacts, a fraction of critical."},
 };
 
+constexpr std::array stage_keys{
+    Key{"name", at<&Stage::name>, naming, otherwise("none"), "What messages, stages.csv and --set call the stage."},
+    Key{"until", at<&Stage::until>, choice, initial, "Whether it ends at its duration (time) or as soon as all is at rest (equilibrium)."},
+    Key{"ratio", at<&Stage::ratio>, number(D::plain, above_to(0, 1)), initial, "Equilibrium: mean resultant force of the blocks over the mean contact force."},
+    Key{"duration", at<&Stage::duration>, number(D::time, above(0)), otherwise("required until \"time\"; 10 s until \"equilibrium\""), "Length of the stage; until equilibrium the longest it may take."},
+    Key{"reset_displacements", at<&Stage::reset_displacements>, flag, initial, "Whether displacements count from the start of this stage."},
+    Key{"damping", at<&Stage::damping>, table, otherwise("solver.damping; until equilibrium local = 0.8"), "Damping while the stage lasts."},
+};
+
 constexpr std::array solver_keys{
     Key{"method", at<&Solver::method>, choice, initial, "Explicit (edda), or implicit with one global solve (dda)."},
     Key{"mass", at<&Solver::mass>, choice, initial, "How a block's mass sits on its nodes."},
     Key{"switching", at<&Solver::switching>, choice, initial, "Method edda: how contacts open and close, keeping the energy (exact) or as in the paper (plain)."},
-    Key{"duration", at<&Solver::duration>, number(D::time, above(0)), required, "Time to simulate."},
+    Key{"duration", at<&Solver::duration>, number(D::time, above(0)), otherwise("required unless there are stages: their durations together"), "Time to simulate."},
     Key{"time_step", at<&Solver::time_step>, number_or("auto", D::time, above(0)), otherwise("\"auto\""), "Time step; above the critical step it is refused."},
     Key{"allow_unstable", at<&Solver::allow_unstable>, flag, initial, "Method edda: whether a time step above the critical one is run all the same."},
     Key{"safety", at<&Solver::safety>, number(D::plain, above_to(0, 1)), initial, "Method edda: part of the critical step that is taken when time_step is \"auto\"."},
@@ -226,6 +235,7 @@ constexpr std::array all_sections{
     section<&Model::loads>("load", Shape::list, load_keys, "A force at a point, or a traction or pressure along a line."),
     section<&Model::waters>("water", Shape::list, water_keys, "Water in joints and on faces below a table."),
     section<&Model::monitors>("monitor", Shape::list, monitor_keys, "A point whose history is written."),
+    section<&Model::stages>("stage", Shape::list, stage_keys, "A part of the run, one after the other."),
     section<&Model::solver>("solver", Shape::table, solver_keys, "How the motion is computed."),
     section<&Model::output>("output", Shape::table, output_keys, "What is written, and how often."),
 };

@@ -24,6 +24,7 @@ enum class Method { edda, dda };
 enum class MassKind { matched, covering, consistent };
 enum class Switching { exact, plain };
 enum class LawType { coulomb, glued };
+enum class StageEnd { time, equilibrium };
 enum class BoundaryType { fixed, roller };
 
 struct Material {
@@ -186,6 +187,17 @@ struct Solver {
   Where where;
 };
 
+/// [[stage]]: a part of the run, until a time or until nothing moves any more.
+struct Stage {
+  std::string name;
+  StageEnd until = StageEnd::time;
+  double ratio = 1e-5;               ///< of an equilibrium: mean resultant over mean contact force
+  double duration = 10.0;            ///< s; of an equilibrium: the longest
+  bool reset_displacements = false;  ///< at its start
+  Damping damping;                   ///< while it lasts
+  Where where;
+};
+
 struct Output {
   double every = 0.0;             ///< s; default: duration / 20
   double history_every = 0.0;     ///< s; default: duration / 200
@@ -213,6 +225,7 @@ struct Model {
   std::vector<Load> loads;
   std::vector<Water> waters;
   std::vector<Monitor> monitors;
+  std::vector<Stage> stages;  ///< in sequence; none: one, until solver.duration
   Solver solver;
   Output output;
 };

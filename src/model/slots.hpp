@@ -16,6 +16,7 @@ inline constexpr std::array<std::string_view, 2> method_names{"edda", "dda"};
 inline constexpr std::array<std::string_view, 3> mass_names{"matched", "covering", "consistent"};
 inline constexpr std::array<std::string_view, 2> switching_names{"exact", "plain"};
 inline constexpr std::array<std::string_view, 2> law_names{"coulomb", "glued"};
+inline constexpr std::array<std::string_view, 2> stage_end_names{"time", "equilibrium"};
 inline constexpr std::array<std::string_view, 2> boundary_names{"fixed", "roller"};
 inline constexpr std::array<std::string_view, 4> side_names{"left", "right", "bottom", "top"};
 
@@ -33,6 +34,9 @@ constexpr std::span<const std::string_view> names_of(Switching) {
 }
 constexpr std::span<const std::string_view> names_of(LawType) {
   return law_names;
+}
+constexpr std::span<const std::string_view> names_of(StageEnd) {
+  return stage_end_names;
 }
 constexpr std::span<const std::string_view> names_of(BoundaryType) {
   return boundary_names;

@@ -102,8 +102,8 @@ Driver::Driver(PreparedRun& run, const RunOptions& options)
       sim_(run.sim),
       options_(options),
       recorder_(options.folder),
-      times_(run.sim.model.solver.duration, run.sim.model.output.history_every,
-             run.sim.model.output.every) {}
+      stages_(stages_of(run.sim.model)),
+      times_(run.sim.model.output.history_every, run.sim.model.output.every) {}
 
 Outcome Driver::run() {
   started_ = reported_ = saved_ = Clock::now();
@@ -123,6 +123,7 @@ Outcome Driver::run() {
 }
 
 void Driver::go() {
+  begin_stage(0);
   const Event first = times_.next();
   event_ = times_.next();
   sim_.start(event_.time);
@@ -134,10 +135,16 @@ void Driver::go() {
 
 void Driver::go_on() {
   while (true) {
-    if (!step_to(event_.time) || !record(event_)) return;
-    if (event_.end) return end(Status::completed, "the run has reached its duration");
+    const Went went = step_to(event_.time);
+    if (went == Went::over) return;
+    const bool at_rest = went == Went::at_rest;
+    if (at_rest) rest_before(event_);
+    if (!record(event_)) return;
+    const bool next_stage = event_.end || at_rest;
+    if (next_stage && !end_stage(at_rest)) return;
     event_ = times_.next();
     sim_.aim_at(event_.time);
+    if (next_stage && recorder_.writes()) save_checkpoint();
   }
 }
 
@@ -147,13 +154,13 @@ void Driver::write_checkpoint_if_due() {
   if (since(saved_) >= 60.0 * sim_.model.output.checkpoint_every) save_checkpoint();
 }
 
-bool Driver::step_to(double time) {
+Driver::Went Driver::step_to(double time) {
   while (sim_.state.time < time) {
     if (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed)) {
       if (recorder_.writes()) save_checkpoint();
       end(Status::interrupted, fmt::format("stopped at {:.6g} s of {:.6g} s", sim_.state.time,
                                            sim_.model.solver.duration));
-      return false;
+      return Went::over;
     }
     const auto start = Clock::now();
     const std::optional<Failure> failure = sim_.step();
@@ -162,7 +169,7 @@ bool Driver::step_to(double time) {
     outcome_.step_over_critical = sim_.steps.over_critical;
     if (failure) {
       fail(*failure);
-      return false;
+      return Went::over;
     }
     if (sim_.state.steps % look_every == 0) {
       count_turns(sim_, angle_);
@@ -170,8 +177,9 @@ bool Driver::step_to(double time) {
     }
     write_checkpoint_if_due();
     if (options_.progress && since(reported_) >= options_.progress_every) report(false);
+    if (is_at_rest()) return Went::at_rest;
   }
-  return true;
+  return Went::there;
 }
 
 bool Driver::record(const Event& event) {

@@ -10,6 +10,7 @@
 #include "run/event_times.hpp"
 #include "run/recorder.hpp"
 #include "run/run_model.hpp"
+#include "run/stages.hpp"
 
 namespace edda {
 
@@ -32,8 +33,19 @@ class Driver {
   /// Names every field of its own that a checkpoint holds (run/driver_memory.cpp).
   template <class Archive>
   void list(Archive& archive);
-  /// Steps to the event. False: the run is over (outcome_ says why).
-  bool step_to(double time);
+  template <class Archive>
+  void list_stages(Archive& archive);
+  enum class Went { there, at_rest, over };
+  /// Steps to the event, or until the stage has found its equilibrium. Over: outcome_ says why.
+  Went step_to(double time);
+  // Stages (run/driver_stages.cpp).
+  void begin_stage(std::size_t index);
+  /// Whether the stage in hand waits for an equilibrium and has found it.
+  bool is_at_rest();
+  /// The event in hand becomes one at the present time.
+  void rest_before(Event& event);
+  /// Writes down the end of the stage and begins the next. False: the run is over.
+  bool end_stage(bool at_rest);
   bool record(const Event& event);
   void measure_overlaps();
   bool energy_is_out_of_bounds();
@@ -50,6 +62,12 @@ class Driver {
   const RunOptions& options_;
   Recorder recorder_;
   Outcome outcome_;
+  std::vector<Stage> stages_;
+  std::size_t stage_ = 0;          ///< in hand
+  double stage_start_ = 0.0;       ///< s
+  std::uint64_t stage_steps_ = 0;  ///< steps before it
+  std::uint64_t calm_ = 0;         ///< looks in sequence that have found an equilibrium
+  std::vector<StageRecord> ends_;  ///< of the stages before
   EventTimes times_;
   Event event_;  ///< stepped towards
   bool resumed_ = false;

@@ -49,6 +49,69 @@ Fault refused(const std::string& folder, std::string problem, std::string remedy
 }  // namespace
 
 template <class Archive>
+void Driver::list_stages(Archive& a) {
+  a("stage.index", stage_);
+  a("stage.start", stage_start_);
+  a("stage.steps", stage_steps_);
+  a("stage.calm", calm_);
+  std::vector<double> numbers;
+  for (const StageRecord& r : ends_) {
+    const Ledger& l = r.ledger;
+    for (const double v : {r.reached ? 1.0 : 0.0,
+                           r.start,
+                           r.end,
+                           static_cast<double>(r.steps),
+                           r.balance.mean,
+                           r.balance.largest,
+                           r.balance.block == no_id ? -1.0 : static_cast<double>(r.balance.block),
+                           static_cast<double>(r.balance.resting),
+                           static_cast<double>(r.balance.detached),
+                           l.kinetic,
+                           l.strain,
+                           l.contact,
+                           l.gravity,
+                           l.friction,
+                           l.damping,
+                           l.fracture,
+                           l.external,
+                           l.step_change,
+                           l.drift,
+                           static_cast<double>(r.closed),
+                           static_cast<double>(r.sliding),
+                           static_cast<double>(r.bonded)}) {
+      numbers.push_back(v);
+    }
+  }
+  a("stage.ends", numbers);
+  if constexpr (Archive::loads) {
+    constexpr std::size_t width = 22;
+    if (stage_ >= stages_.size() || numbers.size() != width * stage_) {
+      a.refuse("stages do not fit the model");
+      return;
+    }
+    ends_.clear();
+    const auto whole = [](double v) { return static_cast<std::size_t>(v); };
+    for (std::size_t q = 0; q < stage_; ++q) {
+      const double* v = &numbers[width * q];
+      StageRecord r;
+      r.name = stages_[q].name;
+      r.reached = v[0] != 0.0;
+      r.start = v[1];
+      r.end = v[2];
+      r.steps = whole(v[3]);
+      r.balance = {v[4], v[5], v[6] < 0.0 ? no_id : static_cast<Id>(v[6]), whole(v[7]),
+                   whole(v[8])};
+      r.ledger = {v[9], v[10], v[11], v[12], v[13], v[14], v[15], v[16], v[17], v[18]};
+      r.closed = whole(v[19]);
+      r.sliding = whole(v[20]);
+      r.bonded = whole(v[21]);
+      ends_.push_back(r);
+    }
+    times_.end_at(stage_start_ + stages_[stage_].duration);
+  }
+}
+
+template <class Archive>
 void Driver::list(Archive& a) {
   RecorderMemory files = recorder_.memory();
   a("files.history_bytes", files.history_bytes);
@@ -61,6 +124,9 @@ void Driver::list(Archive& a) {
   a("events.row", event_.row);
   a("events.frame", event_.frame);
   a("events.end", event_.end);
+  a("events.counted_row", event_.counted_row);
+  a("events.counted_frame", event_.counted_frame);
+  list_stages(a);
   a("driver.angle", angle_);
   a("driver.last_row", last_row_);
   a("driver.last_frame", last_frame_);
@@ -150,8 +216,7 @@ Trouble Driver::take_up(const Record& record) {
   resumed_ = true;
   // Where the duration has changed, so has what comes next.
   if (event_.end || event_.time > sim_.model.solver.duration) {
-    times_.go_on_from(times_.next_row() - (event_.row ? 1 : 0),
-                      times_.next_frame() - (event_.frame ? 1 : 0));
+    times_.put_back(event_);
     const Event next = times_.next();
     if (next.time != event_.time) sim_.aim_at(next.time);
     event_ = next;

@@ -15,22 +15,21 @@ double multiple(std::uint64_t k, double every) {
   return static_cast<double>(k) * every;
 }
 
-EventTimes::EventTimes(double duration, double row_every, double frame_every)
-    : duration_(duration), row_every_(row_every), frame_every_(frame_every) {}
-
 Event EventTimes::next() {
   const double row = multiple(row_, row_every_), frame = multiple(frame_, frame_every_);
-  const double same = 1e-9 * std::min({row_every_, frame_every_, duration_});
+  const double same = 1e-9 * std::min({row_every_, frame_every_, end_});
   Event e;
   e.time = std::min(row, frame);
-  e.end = e.time >= duration_ - same;
-  if (e.end) e.time = duration_;
-  e.row = e.end || row <= e.time + same;
-  e.frame = e.end || frame <= e.time + same;
+  e.end = e.time >= end_ - same;
+  if (e.end) e.time = end_;
+  e.counted_row = row <= e.time + same;
+  e.counted_frame = frame <= e.time + same;
+  e.row = e.end || e.counted_row;
+  e.frame = e.end || e.counted_frame;
   // The row's own time where both fall together, so that history.csv shows its multiples.
   if (e.row && !e.end) e.time = row;
-  if (e.row) ++row_;
-  if (e.frame) ++frame_;
+  if (e.counted_row) ++row_;
+  if (e.counted_frame) ++frame_;
   return e;
 }
 

@@ -7,18 +7,28 @@ namespace edda {
 
 struct Event {
   double time = 0.0;  ///< s
-  bool row = false, frame = false, end = false;
+  bool row = false, frame = false;
+  bool end = false;                                 ///< of the stage
+  bool counted_row = false, counted_frame = false;  ///< a multiple of its interval falls here
 };
 
-/// t = 0, every multiple of both intervals, and the end, in order; times that rounding keeps apart
-/// are one.
+/// t = 0, every multiple of both intervals, and the end of each stage, in order; times that
+/// rounding keeps apart are one.
 class EventTimes {
  public:
-  /// Seconds, all > 0.
-  EventTimes(double duration, double row_every, double frame_every);
-  /// The event after the last one given; the first is t = 0. Precondition: the end has not been
-  /// given.
+  /// Seconds, both > 0.
+  EventTimes(double row_every, double frame_every)
+      : row_every_(row_every), frame_every_(frame_every) {}
+  /// The stage in hand ends at this time, s.
+  void end_at(double time) { end_ = time; }
+  /// The event after the last one given; the first is t = 0. Precondition: the end of the stage has
+  /// not been given.
   Event next();
+  /// An event that was given but not waited for comes again.
+  void put_back(const Event& event) {
+    if (event.counted_row) --row_;
+    if (event.counted_frame) --frame_;
+  }
   /// Multiples of both intervals that come next, and to go on from there.
   std::uint64_t next_row() const { return row_; }
   std::uint64_t next_frame() const { return frame_; }
@@ -28,7 +38,7 @@ class EventTimes {
   }
 
  private:
-  double duration_, row_every_, frame_every_;
+  double end_ = 0.0, row_every_, frame_every_;
   std::uint64_t row_ = 0, frame_ = 0;  ///< multiples that come next
 };
 

@@ -24,7 +24,7 @@ Result<std::vector<MonitorPoint>> place_monitors(const Simulation& sim) {
 
 MonitorReading read_monitor(const Simulation& sim, const Instant& at, const MonitorPoint& m) {
   MonitorReading r;
-  r.displacement = displacement_of(sim.blocks, at.state, m.block, m.weight);
+  r.displacement = displacement_of(at.state, m.block, m.weight);
   r.velocity = weighted(m.weight, at.state.vx, at.state.vy, m.block);
   r.stress = block_stress(sim, at.state, m.block);
   return r;

@@ -58,7 +58,7 @@ BlockRecord block_record(const Simulation& sim, const State& s, std::size_t i) {
   }
   r.fixed = b.fixed[i] != 0;
   r.position = centroid(s.x, s.y, i) + b.origin;
-  r.displacement = displacement_of(b, s, i, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0});
+  r.displacement = displacement_of(s, i, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0});
   const Deformation f = deformation_of(b, s, i);
   r.area = b.area[i] * (f.xx * f.yy - f.xy * f.yx);
   r.rotation = polar_angle(b, s, i) + 2.0 * std::numbers::pi * s.turns[i];
@@ -101,7 +101,7 @@ ContactRecord contact_record(const Simulation& sim, const ContactSet& c, std::si
   r.position = at(sim.pose.x, sim.pose.y, c.vertex[k]) + sim.blocks.origin;
   const Id v = c.vertex[k];
   r.displacement =
-      displacement_of(sim.blocks, sim.state, c.block_i[k],
+      displacement_of(sim.state, c.block_i[k],
                       {sim.blocks.weight[0][v], sim.blocks.weight[1][v], sim.blocks.weight[2][v]});
   r.opening = -c.depth[k];
   r.slip = slip_since_start(sim.blocks, c, k);
@@ -139,7 +139,7 @@ void place_points(const BlockSet& b, const State& s, Picture& p) {
     p.x[v] = now.x + b.origin.x;
     p.y[v] = now.y + b.origin.y;
     const Vec2 u =
-        displacement_of(b, s, b.vertex_block[v], {b.weight[0][v], b.weight[1][v], b.weight[2][v]});
+        displacement_of(s, b.vertex_block[v], {b.weight[0][v], b.weight[1][v], b.weight[2][v]});
     p.ux[v] = u.x;
     p.uy[v] = u.y;
     p.vx[v] = speed.x;
@@ -151,7 +151,7 @@ void place_points(const BlockSet& b, const State& s, Picture& p) {
 
 void observe(const Simulation& sim, Instant& at) {
   const double h = sim.state.step;
-  const Damping& damping = sim.model.solver.damping;
+  const Damping& damping = sim.damping;
   at.contacts = sim.contacts;
   const LoadsNow acting = loads_at(sim.model, sim.loads, sim.state.time);
   if (!sim.explicit_method()) {  // everything belongs to one instant already
@@ -203,11 +203,10 @@ Picture picture_of(const Simulation& sim, const Instant& at) {
   return p;
 }
 
-Vec2 displacement_of(const BlockSet& b, const State& s, std::size_t i,
-                     const std::array<double, 3>& w) {
+Vec2 displacement_of(const State& s, std::size_t i, const std::array<double, 3>& w) {
   Vec2 u;
   for (std::size_t k = 0; k < 3; ++k) {
-    u += w[k] * Vec2{s.x[k][i] - b.node_x[k][i], s.y[k][i] - b.node_y[k][i]};
+    u += w[k] * Vec2{s.x[k][i] - s.from_x[k][i], s.y[k][i] - s.from_y[k][i]};
   }
   return u;
 }

@@ -24,10 +24,9 @@ void observe(const Simulation& sim, Instant& at);
 /// The tables and frames of that instant. Model coordinates.
 Picture picture_of(const Simulation& sim, const Instant& at);
 
-/// Of the material point of area coordinates w since the start, m: node by node, so that it is
-/// exactly 0 at t = 0.
-Vec2 displacement_of(const BlockSet& blocks, const State& state, std::size_t i,
-                     const std::array<double, 3>& w);
+/// Of the material point of area coordinates w since the start or the last reset, m: node by node,
+/// so that it is exactly 0 there.
+Vec2 displacement_of(const State& state, std::size_t i, const std::array<double, 3>& w);
 
 /// Cauchy stress of block i in the model's plane: xx yy xy (Pa), and zz: nu (xx + yy) or, in plane
 /// stress, 0.

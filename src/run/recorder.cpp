@@ -82,6 +82,10 @@ Trouble Recorder::row(const Simulation& sim, const Instant& at,
   return history_.add(csv.end().text());
 }
 
+Trouble Recorder::stages(const std::string& csv) {
+  return writes() ? write_file(path("stages.csv"), csv) : Trouble{};
+}
+
 Trouble Recorder::frame(const Picture& picture) {
   return frames_ ? frames_->add(picture) : Trouble{};
 }

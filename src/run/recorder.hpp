@@ -37,6 +37,8 @@ class Recorder {
   Trouble row(const Simulation& sim, const Instant& at, const std::vector<MonitorPoint>& monitors,
               const Ledger& ledger, double unbalanced);
   Trouble frame(const Picture& picture);
+  /// stages.csv, as it is by now.
+  Trouble stages(const std::string& csv);
   /// blocks.csv, joints.csv, and the end of history.csv.
   Trouble tables(const Picture& picture);
   /// summary.json, last of all.

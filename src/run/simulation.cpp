@@ -37,8 +37,8 @@ double largest_displacement(const BlockSet& b, double ratio) {
   return std::min(ratio * 0.5 * (*high - *low), 0.1 * edge);
 }
 
-StepDamping step_damping(const Solver& solver) {
-  return {solver.damping.mass, solver.damping.local};
+StepDamping step_damping(const Damping& damping) {
+  return {damping.mass, damping.local};
 }
 
 /// Energy that a change of the step creates: sum of m |v+ - v-|^2 (h_old - h_new)/(4 h_mean) with
@@ -63,6 +63,8 @@ double energy_of_step_change(const BlockSet& b, const State& s, const Nodes& old
 Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   Simulation s;
   s.model = std::move(given);
+  s.damping = s.model.solver.damping;
+  s.dynamic = s.model.solver.dynamic;
   Result<PolygonSet> cut = build_polygons(s.model);
   if (!cut.ok()) return cut.faults();
   s.polygons = std::move(cut.value());
@@ -129,10 +131,10 @@ void Simulation::start(double first_event) {
     look_at_previous_gaps(contacts, pose);
   };
   look_back();
-  evaluate_contacts(contacts, blocks, laws, h, model.solver.damping.contact);
+  evaluate_contacts(contacts, blocks, laws, h, damping.contact);
   gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity,
                 loads_at(model, loads, state.time));
-  start_velocities(state, blocks, forces.x, forces.y, h, model.solver.damping.mass);
+  start_velocities(state, blocks, forces.x, forces.y, h, damping.mass);
   look_back();
 }
 
@@ -143,7 +145,7 @@ void Simulation::search(double reach) {
 
 void Simulation::set_limit() {
   if (!explicit_method()) return set_implicit_limit();
-  bound = step_bound(blocks, state, pose, contacts, springs, laws, model.solver.damping);
+  bound = step_bound(blocks, state, pose, contacts, springs, laws, damping);
   if (model.solver.time_step) {
     const double most = model.solver.allow_unstable
                             ? displacement_cap_
@@ -162,6 +164,18 @@ void Simulation::set_limit() {
   }
 }
 
+void Simulation::change_damping(const Damping& now, bool carry_velocities) {
+  damping = now;
+  dynamic = carry_velocities;
+  step_limit = std::numeric_limits<double>::infinity();
+  set_limit();
+}
+
+void Simulation::reset_displacements() {
+  state.from_x = state.x;
+  state.from_y = state.y;
+}
+
 void Simulation::aim_at(double time) {
   target_ = time;
   const double left = time - state.time;
@@ -176,7 +190,7 @@ void Simulation::aim_at(double time) {
 }
 
 bool Simulation::move(double h_old, double h_new) {
-  advance(state, blocks, forces.x, forces.y, h_old, h_new, step_damping(model.solver));
+  advance(state, blocks, forces.x, forces.y, h_old, h_new, step_damping(damping));
   std::swap(pose.x, pose.x1);
   std::swap(pose.y, pose.y1);
   place_all();
@@ -200,7 +214,7 @@ std::optional<Failure> Simulation::step() {
   if (!explicit_method()) return step_implicit();
   StageClock clock(state.steps);
   const double h_old = step_before_;
-  evaluate_contacts(contacts, blocks, laws, state.step, model.solver.damping.contact);
+  evaluate_contacts(contacts, blocks, laws, state.step, damping.contact);
   const LoadsNow acting = loads_at(model, loads, state.time);
   gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity, acting);
   clock.lap(seconds.forces);
@@ -224,7 +238,7 @@ std::optional<Failure> Simulation::step() {
   update_gaps(contacts, pose);
   clock.lap(seconds.search);
   if (model.solver.switching == Switching::exact) {
-    const StepTaken taken{h_old, h, model.solver.damping.mass};
+    const StepTaken taken{h_old, h, damping.mass};
     penetration = correct_switching(contacts, blocks, state, pose, taken, open_close, switching_);
   } else {
     penetration = largest_penetration(contacts);
@@ -234,9 +248,9 @@ std::optional<Failure> Simulation::step() {
     step_change_energy += energy_of_step_change(blocks, state, old_vx_, old_vy_, h_old, h);
     ++steps.changes;
   }
-  book_damping(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h,
-               step_damping(model.solver), damping_work);
-  if (model.solver.damping.contact > 0.0) book_dashpots(contacts);
+  book_damping(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h, step_damping(damping),
+               damping_work);
+  if (damping.contact > 0.0) book_dashpots(contacts);
   book_loads(h_old, h, acting);
   finish_step();
   clock.lap(seconds.integrate);

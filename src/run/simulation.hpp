@@ -52,6 +52,8 @@ struct Simulation {
   ContactSet contacts;
   NodalForces forces;
   DampingWork damping_work;
+  Damping damping;                   ///< in force
+  bool dynamic = true;               ///< of method "dda": whether velocities carry over
   StepBound bound;                   ///< at the last search
   double step_limit = 0.0;           ///< s: largest step allowed at present
   double base_reach = 0.0;           ///< m: skin of the contact search at rest
@@ -77,6 +79,10 @@ struct Simulation {
   void start(double first_event);
   /// Sets the step towards an event at `time` s: as few equal steps as the limit allows.
   void aim_at(double time);
+  /// Puts other damping in force between two steps, and the step that it allows.
+  void change_damping(const Damping& now, bool carry_velocities);
+  /// Displacements count from here.
+  void reset_displacements();
   /// One step of the method: forces, motion, gaps, switching, search, contacts.
   std::optional<Failure> step();
   Ledger ledger();

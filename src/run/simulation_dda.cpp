@@ -72,14 +72,14 @@ Failure out_of_balance(const Simulation& sim, Attempt last) {
 }  // namespace
 
 void Simulation::set_implicit_limit() {
-  if (state.steps > 0) return;
+  if (state.steps > 0 && step_limit <= nominal_step_) return;
   step_limit = model.solver.time_step
                    ? *model.solver.time_step
                    : std::min(step_within(blocks, state, model.gravity, displacement_limit),
                               std::min(model.output.history_every, model.output.every));
   nominal_step_ = step_limit;
   // What the explicit method could take, for whoever compares.
-  bound = step_bound(blocks, state, pose, contacts, springs, laws, model.solver.damping);
+  bound = step_bound(blocks, state, pose, contacts, springs, laws, damping);
 }
 
 void Simulation::start_implicit() {
@@ -108,12 +108,11 @@ void Simulation::book_implicit_loads(const LoadsNow& now) {
 
 std::optional<Failure> Simulation::step_implicit() {
   StageClock clock(state.steps);
-  const Solver& solver = model.solver;
   ImplicitScene scene{blocks, laws, springs, model.gravity};
   ImplicitSettings settings;
-  settings.dynamic = solver.dynamic;
-  settings.mass_damping = solver.damping.mass;
-  settings.contact_damping = solver.damping.contact;
+  settings.dynamic = dynamic;
+  settings.mass_damping = damping.mass;
+  settings.contact_damping = damping.contact;
   settings.displacement_limit = displacement_limit;
   constexpr int most_cuts = 40;
   for (int cuts = 0;; ++cuts) {

@@ -121,6 +121,12 @@ void list_state(Archive& a, Simulation& s) {
   a("state.y", s.state.y);
   a("state.vx", s.state.vx);
   a("state.vy", s.state.vy);
+  a("state.from_x", s.state.from_x);
+  a("state.from_y", s.state.from_y);
+  a("damping.mass", s.damping.mass);
+  a("damping.local", s.damping.local);
+  a("damping.contact", s.damping.contact);
+  a("dynamic", s.dynamic);
   a("state.alive", s.state.alive);
   a("state.turns", s.state.turns);
   a("state.time", s.state.time);
@@ -389,8 +395,8 @@ void judge_places(Judge& j, const Simulation& s) {
 void judge(Judge& j, const Simulation& s) {
   const std::size_t nb = s.blocks.size(), nv = s.blocks.vertex_count();
   for (std::size_t k = 0; k < 3; ++k) {
-    for (const auto* nodes :
-         {&s.state.x, &s.state.y, &s.state.vx, &s.state.vy, &s.forces.x, &s.forces.y}) {
+    for (const auto* nodes : {&s.state.x, &s.state.y, &s.state.vx, &s.state.vy, &s.state.from_x,
+                              &s.state.from_y, &s.forces.x, &s.forces.y}) {
       j.sized("state", (*nodes)[k], nb);
     }
   }

@@ -42,7 +42,7 @@ Result<End> run_to_end(Model model, BlockOrder order, const std::vector<MonitorP
   end.outcome = outcome.value();
   end.monitors = run.monitors;
   for (const MonitorPoint& m : run.monitors) {
-    end.displacement.push_back(displacement_of(run.sim.blocks, run.sim.state, m.block, m.weight));
+    end.displacement.push_back(displacement_of(run.sim.state, m.block, m.weight));
   }
   return end;
 }

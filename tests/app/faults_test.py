@@ -146,6 +146,26 @@ class Faults(unittest.TestCase):
     def test_implicit_method_goes_on_to_the_same_bytes(self):
         self.killed_and_resumed(max(2, KILLS // 10), "--set", "solver.method=dda", "--set", "solver.time_step=2e-4")
 
+    def test_stages_go_on_to_the_same_bytes(self):
+        """The wall settles, is hit, and comes to rest: killed in any of the three."""
+        stages = """[[stage]]
+until = "equilibrium"
+ratio = 1e-3
+[[stage]]
+name = "hit"
+duration = 0.2
+reset_displacements = true
+damping = { contact = 0.1 }
+[[stage]]
+until = "equilibrium"
+ratio = 1e-3
+duration = 2.0
+[solver]"""
+        (self.dir / "m.toml").write_text(HEAP.replace("[solver]\nduration = 0.6", stages))
+        self.killed_and_resumed(max(3, KILLS // 10))
+        self.assertIn("equilibrium", (self.dir / "r/summary.json").read_text())
+        self.assertEqual(len((self.dir / "r/stages.csv").read_text().splitlines()), 4)
+
     def test_interrupted_by_either_signal(self):
         expected, summary = self.whole()
         for number in (signal.SIGINT, signal.SIGTERM):

@@ -106,6 +106,15 @@ history = "tests/model/rise.csv"
 [[monitor]]
 name = "P1"
 point = [15, 9]
+[[stage]]
+name = "settle"
+until = "equilibrium"
+ratio = 1e-4
+duration = "1 min"
+damping = { contact = 0.2 }
+[[stage]]
+duration = 60.0
+reset_displacements = true
 [solver]
 method = "edda"
 mass = "covering"
@@ -222,6 +231,18 @@ void expect_every_run_key(const Model& m) {
   ASSERT_EQ(m.monitors.size(), 1U);
   EXPECT_EQ(m.monitors[0].name, "P1");
   EXPECT_EQ(m.monitors[0].point, (Vec2{15, 9}));
+  ASSERT_EQ(m.stages.size(), 2U);
+  EXPECT_EQ(m.stages[0].name, "settle");
+  EXPECT_EQ(m.stages[0].until, StageEnd::equilibrium);
+  EXPECT_EQ(m.stages[0].ratio, 1e-4);
+  EXPECT_EQ(m.stages[0].duration, 60.0);
+  EXPECT_EQ(m.stages[0].damping.mass, 2.0);
+  EXPECT_EQ(m.stages[0].damping.local, 0.8);
+  EXPECT_EQ(m.stages[0].damping.contact, 0.2);
+  EXPECT_FALSE(m.stages[0].reset_displacements);
+  EXPECT_EQ(m.stages[1].until, StageEnd::time);
+  EXPECT_EQ(m.stages[1].damping.local, 0.1);
+  EXPECT_TRUE(m.stages[1].reset_displacements);
   EXPECT_EQ(m.solver.mass, MassKind::covering);
   EXPECT_EQ(m.solver.switching, Switching::plain);
   EXPECT_EQ(m.solver.duration, 120.0);

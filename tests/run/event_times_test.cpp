@@ -8,7 +8,8 @@ namespace edda {
 namespace {
 
 TEST(EventTimes, RowsFramesAndTheEndInOrder) {
-  EventTimes times(1.0, 0.3, 0.5);
+  EventTimes times(0.3, 0.5);
+  times.end_at(1.0);
   const struct {
     double time;
     bool row, frame, end;
@@ -24,7 +25,8 @@ TEST(EventTimes, RowsFramesAndTheEndInOrder) {
 }
 
 TEST(EventTimes, NoRoundingPilesUp) {
-  EventTimes times(100.0, 0.001, 0.01);
+  EventTimes times(0.001, 0.01);
+  times.end_at(100.0);
   std::uint64_t rows = 0, frames = 0;
   for (Event e = times.next();; e = times.next()) {
     EXPECT_EQ(e.time, static_cast<double>(rows) / 1000.0);
@@ -38,11 +40,35 @@ TEST(EventTimes, NoRoundingPilesUp) {
 }
 
 TEST(EventTimes, IntervalsLongerThanTheRun) {
-  EventTimes times(0.1, 5.0, 7.0);
+  EventTimes times(5.0, 7.0);
+  times.end_at(0.1);
   EXPECT_EQ(times.next().time, 0.0);
   const Event end = times.next();
   EXPECT_EQ(end.time, 0.1);
   EXPECT_TRUE(end.end && end.row && end.frame);
+}
+
+/// A stage may end between multiples, by the clock or because all is at rest; the next multiple is
+/// the same.
+TEST(EventTimes, GoesOnAfterAStage) {
+  EventTimes times(0.3, 0.5);
+  times.end_at(0.4);
+  EXPECT_EQ(times.next().time, 0.0);
+  EXPECT_EQ(times.next().time, 0.3);
+  Event e = times.next();
+  EXPECT_EQ(e.time, 0.4);
+  EXPECT_TRUE(e.end && e.row && e.frame);
+  times.end_at(2.0);
+  e = times.next();
+  EXPECT_EQ(e.time, 0.5);
+  EXPECT_TRUE(e.frame && !e.row && !e.end);
+  e = times.next();
+  EXPECT_EQ(e.time, 0.6);
+  times.put_back(e);  // at rest before it
+  times.end_at(3.0);
+  e = times.next();
+  EXPECT_EQ(e.time, 0.6);
+  EXPECT_TRUE(e.row && !e.frame);
 }
 
 TEST(EventTimes, MultiplesReadAsDecimals) {

@@ -50,7 +50,7 @@ double measured_growth(double phi, double spring, double safety, double duration
                                   "\n[contact]\nnormal_stiffness = " + number(spring) + "\n"));
   sim.start(settle);
   while (sim.state.time < settle) EXPECT_FALSE(sim.step().has_value());
-  sim.model.solver.damping.mass = 0.0;
+  sim.damping.mass = 0.0;
   const auto normal = [&] {
     double largest = 0.0;
     for (std::size_t k = 0; k < sim.contacts.size(); ++k)

@@ -1,4 +1,4 @@
-// Bad loads and waters, with exactly the fault each must give.
+// Bad loads, waters and stages, with exactly the fault each must give.
 #include <gtest/gtest.h>
 
 #include "model/base_model.hpp"
@@ -64,6 +64,24 @@ TEST(BadModel, Waters) {
        }) {
     expect_fault(bad);
   }
+}
+
+TEST(BadModel, Stages) {
+  for (const Bad& bad : {
+           Bad{"[[stage]]\nduration = 0.1\nuntil = \"rest\"\n", 44, "stage.0.until", "not known"},
+           Bad{"[[stage]]\nname = \"a\"\n", 42, "stage.a.duration", "is missing"},
+           Bad{"[[stage]]\nduration = 0.1\nratio = 0\n", 44, "stage.0.ratio", "out of range"},
+           Bad{"[[stage]]\nduration = 0.05\n[[stage]]\nduration = 0.1\n", 39, "solver.duration",
+               "is not the 0.15 s of the stages together"},
+           Bad{"[[stage]]\nduration = 0.1\ndamping = { local = 1.5 }\n", 44,
+               "stage.0.damping.local", "out of range"},
+       }) {
+    expect_fault(bad);
+  }
+  const auto missing = read_model_text(testing::base_with("duration = 0.1\n", ""), "m.toml", {});
+  ASSERT_FALSE(missing.ok());
+  EXPECT_EQ(missing.faults()[0].where.key, "solver.duration");
+  EXPECT_EQ(missing.faults()[0].where.line, 38);
 }
 
 }  // namespace

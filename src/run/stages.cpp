@@ -1,0 +1,158 @@
+#include "run/stages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "results/csv.hpp"
+#include "run/labels.hpp"
+
+namespace edda {
+namespace {
+
+namespace cs = contact_state;
+
+bool carries(const ContactSet& c, std::size_t k) {
+  return c.is(k, cs::closed) && c.share[k] > 0.0;
+}
+
+/// Blocks that touch something, or are held by a boundary.
+std::vector<std::uint8_t> touching(const Simulation& sim) {
+  std::vector<std::uint8_t> touches(sim.blocks.size(), 0);
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    touches[i] = sim.springs.block_begin[i] != sim.springs.block_begin[i + 1] ? 1 : 0;
+  }
+  for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
+    if (carries(sim.contacts, k)) {
+      touches[sim.contacts.block_i[k]] = touches[sim.contacts.block_j[k]] = 1;
+    }
+  }
+  return touches;
+}
+
+}  // namespace
+
+Balance balance_of(const Simulation& sim) {
+  Balance balance;
+  const std::vector<std::uint8_t> touches = touching(sim);
+  double sum = 0.0, weight = 0.0;
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    if (!is_free(sim.blocks, sim.state, i)) continue;
+    if (!touches[i]) {
+      ++balance.detached;
+      continue;
+    }
+    ++balance.resting;
+    const double force = 3.0 * norm(centroid(sim.forces.x, sim.forces.y, i));
+    sum += force;
+    weight += sim.blocks.mass[i] * norm(sim.model.gravity);
+    if (balance.block == no_id || force > balance.largest) {
+      balance.largest = force;
+      balance.block = static_cast<Id>(i);
+    }
+  }
+  double normal = 0.0;
+  std::size_t pressed = 0;
+  for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
+    const double n = sim.contacts.share[k] * sim.contacts.normal[k];
+    if (!sim.contacts.is(k, cs::closed) || !(n > 0.0)) continue;
+    normal += n;
+    ++pressed;
+  }
+  if (balance.resting == 0) return balance;
+  const auto blocks = static_cast<double>(balance.resting);
+  const double mean_weight = weight / blocks;
+  const double mean_normal = pressed > 0 ? normal / static_cast<double>(pressed) : 0.0;
+  const double scale = mean_normal > 1e-3 * mean_weight ? mean_normal : mean_weight;
+  if (!(scale > 0.0)) return balance;
+  balance.mean = sum / blocks / scale;
+  balance.largest /= scale;
+  return balance;
+}
+
+StageRecord stage_record(const Simulation& sim, const Ledger& ledger, std::size_t stage,
+                         double start, std::uint64_t first_step, bool reached) {
+  StageRecord r;
+  r.name = stages_of(sim.model)[stage].name;
+  r.reached = reached;
+  r.start = start;
+  r.end = sim.state.time;
+  r.steps = sim.state.steps - first_step;
+  r.balance = balance_of(sim);
+  r.ledger = ledger;
+  for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
+    if (!carries(sim.contacts, k)) continue;
+    ++r.closed;
+    r.sliding += sim.contacts.is(k, cs::sliding);
+    r.bonded += sim.contacts.is(k, cs::bonded | cs::glued);
+  }
+  return r;
+}
+
+std::string stages_csv(const Model& model, const std::vector<StageRecord>& records) {
+  Csv csv;
+  csv.header({"stage",   "name",     "until",         "reached",       "start",    "end",
+              "steps",   "ratio",    "largest_ratio", "largest_block", "kinetic",  "strain",
+              "contact", "gravity",  "friction",      "damping",       "fracture", "external",
+              "drift",   "contacts", "sliding",       "bonded",        "detached"});
+  const std::vector<Stage> stages = stages_of(model);
+  for (std::size_t q = 0; q < records.size(); ++q) {
+    const StageRecord& r = records[q];
+    const Ledger& l = r.ledger;
+    csv.add(q).add(r.name);
+    csv.add(stages[q].until == StageEnd::time ? "time" : "equilibrium").add(r.reached ? 1 : 0);
+    csv.add(r.start).add(r.end).add(r.steps).add(r.balance.mean).add(r.balance.largest);
+    if (r.balance.block == no_id) {
+      csv.add("");
+    } else {
+      csv.add(r.balance.block);
+    }
+    for (const double v : {l.kinetic, l.strain, l.contact, l.gravity, l.friction, l.damping,
+                           l.fracture, l.external, l.drift}) {
+      csv.add(v);
+    }
+    csv.add(r.closed).add(r.sliding).add(r.bonded).add(r.balance.detached).end();
+  }
+  return csv.text();
+}
+
+std::vector<Stage> stages_of(const Model& model) {
+  if (!model.stages.empty()) return model.stages;
+  Stage only;
+  only.duration = model.solver.duration;
+  only.damping = model.solver.damping;
+  return {only};
+}
+
+std::string stage_label(const Model& model, std::size_t stage) {
+  const std::string name = stages_of(model)[stage].name;
+  return name.empty() ? fmt::format("stage {}", stage) : fmt::format("stage {} ({})", stage, name);
+}
+
+std::string still_moving(const Simulation& sim, const Balance& balance) {
+  std::vector<std::pair<double, Id>> speeds;
+  const std::vector<std::uint8_t> touches = touching(sim);
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    if (!is_free(sim.blocks, sim.state, i) || !touches[i]) continue;
+    speeds.emplace_back(norm(centroid(sim.state.vx, sim.state.vy, i)), static_cast<Id>(i));
+  }
+  constexpr std::size_t named = 3;
+  const std::size_t count = std::min(named, speeds.size());
+  std::partial_sort(speeds.begin(), speeds.begin() + static_cast<std::ptrdiff_t>(count),
+                    speeds.end(), [](const auto& a, const auto& b) {
+                      return a.first != b.first ? a.first > b.first : a.second < b.second;
+                    });
+  std::string text = fmt::format("the mean unbalanced ratio is {:.3g}", balance.mean);
+  if (balance.block != no_id) {
+    text += fmt::format(", the largest {:.3g} at {}", balance.largest,
+                        block_label(sim.blocks, balance.block));
+  }
+  for (std::size_t q = 0; q < count; ++q) {
+    text += fmt::format("{}{} at {:.3g} m/s", q == 0 ? "; fastest are " : ", ",
+                        block_label(sim.blocks, speeds[q].second), speeds[q].first);
+  }
+  if (balance.detached > 0) text += fmt::format("; {} fall freely", balance.detached);
+  return text;
+}
+
+}  // namespace edda

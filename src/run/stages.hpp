@@ -1,0 +1,49 @@
+// Stages of a run: how far from rest all is, and what is written at the end of each.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run/simulation.hpp"
+
+namespace edda {
+
+/// How far from equilibrium the forces of the last step are. Blocks that touch nothing do not
+/// count: they fall, whatever the others do.
+struct Balance {
+  double mean = 0.0;        ///< resultant of a block, mean, over the mean contact normal force (the
+                            ///< mean weight where no contact carries)
+  double largest = 0.0;     ///< the same of the block furthest from rest
+  Id block = no_id;         ///< that block
+  std::size_t resting = 0;  ///< blocks that count
+  std::size_t detached = 0;  ///< free blocks that touch nothing
+};
+
+Balance balance_of(const Simulation& sim);
+
+/// A row of stages.csv.
+struct StageRecord {
+  std::string name;
+  bool reached = true;            ///< its end; false: no equilibrium within its duration
+  double start = 0.0, end = 0.0;  ///< s
+  std::uint64_t steps = 0;
+  Balance balance;
+  Ledger ledger;                                    ///< at the end
+  std::size_t closed = 0, sliding = 0, bonded = 0;  ///< contacts at the end
+};
+
+StageRecord stage_record(const Simulation& sim, const Ledger& ledger, std::size_t stage,
+                         double start, std::uint64_t first_step, bool reached);
+
+std::string stages_csv(const Model& model, const std::vector<StageRecord>& records);
+
+/// The stages of the model, or the one that it is without any.
+std::vector<Stage> stages_of(const Model& model);
+
+/// "stage 2 (heading)".
+std::string stage_label(const Model& model, std::size_t stage);
+
+/// The fastest blocks and how many move, for a stage that found no rest.
+std::string still_moving(const Simulation& sim, const Balance& balance);
+
+}  // namespace edda

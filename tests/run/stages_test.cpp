@@ -1,0 +1,120 @@
+// Stages: equilibrium found and not found, displacements counted anew, what falls not waited for.
+#include "run/stages.hpp"
+
+#include <gtest/gtest.h>
+
+#include "model/read_model.hpp"
+#include "run/run_model.hpp"
+
+namespace edda {
+namespace {
+
+PreparedRun prepared(const std::string& toml) {
+  Result<Model> model = read_model_text(toml, "m.toml", {});
+  if (!model.ok()) ADD_FAILURE() << to_string(model.faults()[0]);
+  Result<PreparedRun> run = prepare_run(std::move(model.value()));
+  if (!run.ok()) ADD_FAILURE() << to_string(run.faults()[0]);
+  return std::move(run.value());
+}
+
+Outcome run(PreparedRun& ready) {
+  const Result<Outcome> outcome = run_model(ready, RunOptions{});
+  EXPECT_TRUE(outcome.ok());
+  return outcome.value();
+}
+
+/// Two squares on a floor, one on the other, and one that falls for ever beside it.
+std::string tower(const std::string& more, double slope = 0.0, double phi = 30.0) {
+  auto number = [](double v) { return std::to_string(v); };
+  return R"(
+[materials.rock]
+density = 2500.0
+young = 2e9
+poisson = 0.0
+[joints.j]
+friction_angle = )" +
+         number(phi) + R"(
+[[block]]
+name = "lower"
+polygon = [[0, 0], [1, )" +
+         number(slope) + "], [1, " + number(slope + 1) + R"(], [0, 1]]
+[[block]]
+name = "upper"
+polygon = [[0, 1], [1, )" +
+         number(slope + 1) + "], [1, " + number(slope + 2) + R"(], [0, 2]]
+[[block]]
+name = "falling"
+polygon = [[30, 0], [31, 0], [31, 1], [30, 1]]
+[[block]]
+name = "floor"
+fixed = true
+polygon = [[-9, )" +
+         number(-9 * slope) + "], [9, " + number(9 * slope) + R"(], [9, -9], [-9, -9]]
+[[monitor]]
+name = "top"
+point = [0.5, )" +
+         number(2.0 + 0.5 * slope) + "]\n" + more;
+}
+
+/// The settlement is that of statics: each block's own half weight and what it carries on E, and
+/// two springs at each joint; the block that falls is not waited for.
+TEST(Stages, EquilibriumIsThatOfStatics) {
+  for (const auto& [method, ratio] : {std::pair{"edda", 1e-7}, std::pair{"dda", 1e-5}}) {
+    PreparedRun ready =
+        prepared(tower("[[stage]]\nuntil = 'equilibrium'\nratio = " +
+                       std::string(method == std::string("edda") ? "1e-7" : "1e-5") +
+                       "\n[solver]\nmethod = '" + method + "'\n"));
+    const Outcome o = run(ready);
+    EXPECT_EQ(o.status, Status::equilibrium) << method << o.message;
+    EXPECT_LT(o.time, 2.0);
+    const Balance b = balance_of(ready.sim);
+    EXPECT_LE(b.mean, ratio);
+    EXPECT_EQ(b.resting, 2u);
+    EXPECT_EQ(b.detached, 1u);
+    const double weight = 2500.0 * 9.81, young = 2e9, spring = 2e10;
+    const double settlement =
+        weight / (2.0 * spring) * 3.0 + weight / young * (0.5 + 1.0) + 0.5 * weight / young;
+    const MonitorPoint& m = ready.monitors[0];
+    EXPECT_NEAR(displacement_of(ready.sim.state, m.block, m.weight).y / -settlement, 1.0, 1e-3)
+        << method;
+  }
+}
+
+/// Where nothing holds, the run says so and who moves.
+TEST(Stages, NoEquilibriumIsACollapse) {
+  PreparedRun ready = prepared(tower(
+      "[[stage]]\nname = 'settle'\nuntil = 'equilibrium'\nduration = 0.3\n[solver]\n", 0.5, 10.0));
+  const Outcome o = run(ready);
+  EXPECT_EQ(o.status, Status::collapsed);
+  EXPECT_NEAR(o.time, 0.3, 1e-12);
+  for (const char* part :
+       {"stage 0 (settle)", "no equilibrium in 0.3 s", "upper", "1 fall freely"}) {
+    EXPECT_NE(o.message.find(part), std::string::npos) << o.message << " lacks " << part;
+  }
+}
+
+/// Displacements count from the stage that resets them; damping is the stage's.
+TEST(Stages, ResetAndDampingHoldForTheirStage) {
+  PreparedRun ready =
+      prepared(tower("[[stage]]\nuntil = 'equilibrium'\nratio = 1e-7\n[[stage]]\nduration = "
+                     "0.05\nreset_displacements = true\n[solver]\ndamping = { contact = 0.05 }\n"));
+  const Outcome o = run(ready);
+  EXPECT_EQ(o.status, Status::completed);
+  const MonitorPoint& m = ready.monitors[0];
+  EXPECT_LT(norm(displacement_of(ready.sim.state, m.block, m.weight)), 1e-9);
+  EXPECT_EQ(ready.sim.damping.local, 0.0);
+  EXPECT_EQ(ready.sim.damping.contact, 0.05);
+}
+
+/// A stage by time is the same run as without stages, to the bit.
+TEST(Stages, OneByTimeChangesNothing) {
+  PreparedRun a = prepared(tower("[solver]\nduration = 0.05\n"));
+  PreparedRun b = prepared(tower("[[stage]]\nduration = 0.05\n[solver]\n"));
+  run(a);
+  run(b);
+  EXPECT_EQ(a.sim.state.x, b.sim.state.x);
+  EXPECT_EQ(a.sim.state.vy, b.sim.state.vy);
+}
+
+}  // namespace
+}  // namespace edda
