@@ -6,6 +6,7 @@
 
 #include "app/common.hpp"
 #include "run/labels.hpp"
+#include "run/load_report.hpp"
 #include "run/run_model.hpp"
 
 namespace edda {
@@ -64,6 +65,7 @@ int check(const CheckArguments& args) {
   for (const MonitorPoint& m : run.monitors) {
     fmt::print("monitor         {} in {}\n", m.name, block_label(sim.blocks, m.block));
   }
+  for (const std::string& line : load_report(sim)) fmt::print("load            {}\n", line);
   sim.start(std::min(sim.model.output.history_every, sim.model.solver.duration));
   const double h = sim.state.step,
                steps = std::max(1.0, std::ceil(sim.model.solver.duration / h - 1e-9));

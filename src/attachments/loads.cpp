@@ -51,38 +51,87 @@ std::vector<OnLine> edges_on(const BlockSet& b, Vec2 p, Vec2 q, double snap) {
   return found;
 }
 
-/// Whether another block's face lies against the middle of this one's.
-bool faces_rock(const std::vector<OnLine>& all, const OnLine& one, const BlockSet& b) {
-  const double middle = 0.5 * (one.low + one.high);
-  return std::any_of(all.begin(), all.end(), [&](const OnLine& other) {
-    return other.along != one.along && b.vertex_block[other.edge] != b.vertex_block[one.edge] &&
-           other.low < middle && middle < other.high;
+/// What is left of `whole` without `taken`, in order.
+std::vector<Part> without(Part whole, std::vector<Part> taken) {
+  std::sort(taken.begin(), taken.end(), [](Part x, Part y) { return x.from < y.from; });
+  std::vector<Part> left;
+  for (const Part t : taken) {
+    if (t.from > whole.from) left.push_back({whole.from, std::min(t.from, whole.to)});
+    whole.from = std::max(whole.from, t.to);
+    if (whole.from >= whole.to) return left;
+  }
+  left.push_back(whole);
+  return left;
+}
+
+/// Parts of one face, in its own coordinate, against which no other block's face lies.
+std::vector<Part> free_parts(const std::vector<OnLine>& all, const OnLine& one, const BlockSet& b,
+                             double snap) {
+  std::vector<Part> covered;
+  for (const OnLine& other : all) {
+    if (other.along != one.along && b.vertex_block[other.edge] != b.vertex_block[one.edge])
+      covered.push_back({other.low, other.high});
+  }
+  std::vector<Part> parts;
+  for (const Part p : without({one.low, one.high}, covered)) {
+    if (p.to - p.from <= snap) continue;
+    const double scale = (one.part.to - one.part.from) / (one.high - one.low);
+    const auto s_of = [&](double at) {
+      return one.along ? one.part.from + scale * (at - one.low)
+                       : one.part.from + scale * (one.high - at);
+    };
+    parts.push_back(one.along ? Part{s_of(p.from), s_of(p.to)} : Part{s_of(p.to), s_of(p.from)});
+  }
+  return parts;
+}
+
+/// A part of one edge.
+struct Piece {
+  Id edge;
+  Part part;
+};
+
+/// A line that turns back or touches an edge twice loads it once.
+void unite(std::vector<Piece>& pieces) {
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& x, const Piece& y) {
+    return x.edge != y.edge ? x.edge < y.edge : x.part.from < y.part.from;
   });
+  std::vector<Piece> united;
+  for (const Piece& p : pieces) {
+    if (!united.empty() && united.back().edge == p.edge && p.part.from <= united.back().part.to) {
+      united.back().part.to = std::max(united.back().part.to, p.part.to);
+    } else {
+      united.push_back(p);
+    }
+  }
+  pieces = std::move(united);
 }
 
 void attach_line(const Load& load, Index row, const BlockSet& b, double snap, Loads& loads,
                  Faults& faults) {
-  const double t = b.thickness;
-  std::size_t hits = 0, in_joints = 0;
+  std::vector<Piece> pieces;
+  bool in_joints = false;
   for (std::size_t k = 0; k + 1 < load.along.size(); ++k) {
     const std::vector<OnLine> all =
         edges_on(b, load.along[k] - b.origin, load.along[k + 1] - b.origin, snap);
     for (const OnLine& e : all) {
       if (b.fixed[b.vertex_block[e.edge]]) continue;
-      if (load.force && faces_rock(all, e, b)) {
-        ++in_joints;
-        continue;
-      }
-      const Vec2 traction = load.force ? t * *load.force : Vec2{};
-      const double pressure = load.pressure ? t * *load.pressure : 0.0;
-      loads.edges.push_back({e.edge, e.part.from, e.part.to, traction, pressure, row});
-      ++hits;
+      const std::vector<Part> parts =
+          load.force ? free_parts(all, e, b, snap) : std::vector<Part>{e.part};
+      in_joints = in_joints || parts.empty();
+      for (const Part p : parts) pieces.push_back({e.edge, p});
     }
   }
-  if (hits > 0) return;
+  unite(pieces);
+  const double t = b.thickness;
+  for (const Piece& p : pieces) {
+    loads.edges.push_back({p.edge, p.part.from, p.part.to, load.force ? t * *load.force : Vec2{},
+                           load.pressure ? t * *load.pressure : 0.0, row});
+  }
+  if (!pieces.empty()) return;
   Fault fault{load.where, "no face of a free block lies on this line",
               "give a line that faces of blocks lie on (edda cut draws them)"};
-  if (in_joints > 0) {
+  if (in_joints) {
     fault.problem = "lies along a joint, where a traction would act on both faces";
     fault.remedy = "give pressure in place of force, or a line along a free face";
   }
@@ -93,13 +142,12 @@ void attach_line(const Load& load, Index row, const BlockSet& b, double snap, Lo
 void attach_point(const Model& model, const PolygonSet& polygons, const Load& load, Index row,
                   const BlockSet& b, Loads& loads, Faults& faults) {
   const Vec2 p = *load.point - b.origin;
-  const auto block = block_at(model, polygons, b, p);
-  if (block && !b.fixed[*block]) {
+  if (const auto block = block_at(model, polygons, b, p, Among::free_blocks)) {
     loads.points.push_back({*block, weights_at(b, *block, p), *load.force, row});
     return;
   }
   Fault fault{load.where, "lies in no block", "move it into one (edda cut draws them)"};
-  if (block) {
+  if (block_at(model, polygons, b, p)) {
     fault.problem = "lies in a block that is held";
     fault.remedy = "move it to a free block, or leave the load out";
   }
@@ -122,54 +170,58 @@ struct Table {
   }
 };
 
-/// Parts of edge v that are below or above one straight piece of the table each.
-void wet_edge(const BlockSet& b, Id v, const Table& table, double snap, Index row,
-              std::vector<WetEdge>& wet) {
+/// Parts of edge v that are below or above one straight piece of the table each, without those that
+/// are dry.
+void wet_edge(const BlockSet& b, Id v, const Table& table, const std::vector<Part>& dry,
+              double snap, Index row, std::vector<WetEdge>& wet) {
   const Vec2 a = start_of(b, v), u = start_of(b, b.next[v]) - a;
+  const auto add = [&](Part piece) {
+    for (const Part p : without(piece, dry)) {
+      if ((p.to - p.from) * norm(u) <= snap) continue;
+      wet.push_back(
+          {v, p.from, p.to, table.at(a.x + p.from * u.x), table.at(a.x + p.to * u.x), row});
+    }
+  };
   if (std::abs(u.x) <= snap) {  // upright
     const double x = a.x + 0.5 * u.x;
-    if (x < table.low() - snap || x > table.high() + snap) return;
-    wet.push_back({v, 0.0, 1.0, table.at(x), table.at(x), row});
+    if (x >= table.low() - snap && x <= table.high() + snap) add({0.0, 1.0});
     return;
   }
-  const auto s_at = [&](double x) { return std::clamp((x - a.x) / u.x, 0.0, 1.0); };
   std::vector<double> ends;
-  for (const Vec2 p : table.points) ends.push_back(s_at(p.x));
+  for (const Vec2 p : table.points) ends.push_back(std::clamp((p.x - a.x) / u.x, 0.0, 1.0));
   std::sort(ends.begin(), ends.end());
-  for (std::size_t k = 1; k < ends.size(); ++k) {
-    if ((ends[k] - ends[k - 1]) * norm(u) <= snap) continue;
-    wet.push_back({v, ends[k - 1], ends[k], table.at(a.x + ends[k - 1] * u.x),
-                   table.at(a.x + ends[k] * u.x), row});
-  }
+  for (std::size_t k = 1; k < ends.size(); ++k) add({ends[k - 1], ends[k]});
 }
 
-/// Whether edge v lies on the outline of an opening that holds no water.
-bool is_dry(const Model& model, const Water& water, const BlockSet& b, Id v, double snap) {
-  const Vec2 a = start_of(b, v) + b.origin, c = start_of(b, b.next[v]) + b.origin;
+/// Outlines of the openings that hold no water, local coordinates.
+std::vector<std::array<Vec2, 2>> dry_outlines(const Model& model, const Water& water, Vec2 origin) {
+  std::vector<std::array<Vec2, 2>> lines;
   for (const Opening& opening : model.openings) {
     const auto& full = water.flooded;
     if (std::find(full.begin(), full.end(), opening.name) != full.end()) continue;
-    for (const Vec2 p : {a, 0.5 * (a + c), c}) {
-      double least = snap * 2.0;
-      for (std::size_t k = 0; k < opening.polygon.size(); ++k) {
-        const Vec2 end = opening.polygon[(k + 1) % opening.polygon.size()];
-        least = std::min(least, distance_to_segment(p, opening.polygon[k], end));
-      }
-      if (least > snap) break;
-      if (p == c) return true;
+    for (std::size_t k = 0; k < opening.polygon.size(); ++k) {
+      const Vec2 end = opening.polygon[(k + 1) % opening.polygon.size()];
+      lines.push_back({opening.polygon[k] - origin, end - origin});
     }
   }
-  return false;
+  return lines;
 }
 
 void attach_water(const Model& model, const Water& water, Index row, const BlockSet& b, double snap,
                   Loads& loads, Faults& faults) {
   Table table;
   for (const Vec2 p : water.table) table.points.push_back(p - b.origin);
+  const std::vector<std::array<Vec2, 2>> outlines = dry_outlines(model, water, b.origin);
   const std::size_t before = loads.wet.size();
+  std::vector<Part> dry;
   for (Id v = 0; v < b.vertex_count(); ++v) {
-    if (b.fixed[b.vertex_block[v]] || is_dry(model, water, b, v, snap)) continue;
-    wet_edge(b, v, table, snap, row, loads.wet);
+    if (b.fixed[b.vertex_block[v]]) continue;
+    dry.clear();
+    for (const auto& line : outlines) {
+      const Part part = on_segment(b, v, line[0], line[1], snap);
+      if (part.to > part.from) dry.push_back(part);
+    }
+    wet_edge(b, v, table, dry, snap, row, loads.wet);
   }
   if (loads.wet.size() > before) return;
   Fault fault{water.where, "no face of a free block lies between the ends of the table",
@@ -293,15 +345,11 @@ void add_loads(std::array<Vec2, 3>& f, const BlockSet& b, const LoadsNow& now,
   }
 }
 
-Vec2 total_load(const BlockSet& b, const LoadsNow& now, const Pose& pose) {
-  Vec2 sum;
-  if (now.loads == nullptr) return sum;
-  for (const Id i : now.loads->blocks) {
-    std::array<Vec2, 3> f{};
-    add_loads(f, b, now, pose.x, pose.y, i);
-    sum += f[0] + f[1] + f[2];
-  }
-  return sum;
+Vec2 load_on(const BlockSet& b, const LoadsNow& now, const Pose& pose, std::size_t i) {
+  if (now.loads == nullptr) return {};
+  std::array<Vec2, 3> f{};
+  add_loads(f, b, now, pose.x, pose.y, i);
+  return f[0] + f[1] + f[2];
 }
 
 }  // namespace edda

@@ -70,7 +70,7 @@ LoadsNow loads_at(const Model& model, const Loads& loads, double time);
 void add_loads(std::array<Vec2, 3>& on_nodes, const BlockSet& blocks, const LoadsNow& now,
                const std::vector<double>& x, const std::vector<double>& y, std::size_t i);
 
-/// Resultant of all loads at the pose, N.
-Vec2 total_load(const BlockSet& blocks, const LoadsNow& now, const Pose& pose);
+/// Their resultant on block i at the pose, N.
+Vec2 load_on(const BlockSet& blocks, const LoadsNow& now, const Pose& pose, std::size_t i);
 
 }  // namespace edda

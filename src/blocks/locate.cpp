@@ -30,16 +30,19 @@ double distance_to_rings(const std::vector<Ring>& rings, Vec2 p) {
 }  // namespace
 
 double snap_distance(const Model& model, const BlockSet& b) {
-  return model.domain ? snap_of(model) : 1e-9 * extent(b);
+  const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * norm(b.origin);
+  return std::max(model.domain ? snap_of(model) : 1e-9 * extent(b), rounding);
 }
 
 std::optional<Id> block_at(const Model& model, const PolygonSet& polygons, const BlockSet& b,
-                           Vec2 p) {
+                           Vec2 p, Among among) {
   const double snap = snap_distance(model, b);
   const double edge = std::min(snap, 1e-13 * (extent(b) + norm(p + b.origin)));  // rounding only
   std::optional<Id> nearest;
   double least = snap;
-  for (std::size_t i = 0; i < b.size(); ++i) {
+  for (std::size_t q = 0; q < b.size(); ++q) {
+    const std::size_t i = polygons.reversed ? b.size() - 1 - q : q;
+    if (among == Among::free_blocks && b.fixed[i]) continue;
     const Vec2 arm = p - Vec2{b.centroid_x[i], b.centroid_y[i]};
     if (norm(arm) > b.radius[i] + snap + edge) continue;
     const std::vector<Ring>& rings = polygons.blocks[i].rings;

@@ -8,10 +8,13 @@
 
 namespace edda {
 
-/// The block of lowest number that holds p (local coordinates) or has it on its edge; else the
-/// nearest within the snap distance: `domain.snap`, or 1e-9 of the model's size.
+/// Which blocks may be found.
+enum class Among { all_blocks, free_blocks };
+
+/// The block of lowest number, as cut, that holds p (local coordinates) or has it on its edge; else
+/// the nearest within the snap distance: `domain.snap`, or 1e-9 of the model's size.
 std::optional<Id> block_at(const Model& model, const PolygonSet& polygons, const BlockSet& blocks,
-                           Vec2 p);
+                           Vec2 p, Among among = Among::all_blocks);
 
 /// Points closer than this are one point, m.
 double snap_distance(const Model& model, const BlockSet& blocks);

@@ -49,6 +49,7 @@ struct PolygonSet {
   std::vector<BlockPolygon>
       removed;  ///< rock cut inside openings, ordered like cut blocks; not in `blocks`
   CutReport report;
+  bool reversed = false;  ///< blocks stand in the opposite order (for verification)
 };
 
 }  // namespace edda

@@ -18,7 +18,7 @@ std::string beside_model(const std::string& path, const std::string& model_file)
   const std::filesystem::path found = std::filesystem::path(model_file).parent_path() / path;
   std::error_code error;
   const std::filesystem::path whole = std::filesystem::absolute(found, error);
-  return (error ? found : whole).lexically_normal().string();
+  return (error ? found : whole).string();
 }
 
 /// Reads the file that `path` names, where one is given.
@@ -103,7 +103,9 @@ void check_flooded(const Value* node, const Water& water, Reading& reading) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     add_fault(reading, find(node, "flooded")->place, water.where.key + ".flooded",
               "no opening is called \"" + clipped(name) + '"',
-              known.empty() ? "give the opening a name" : suggestion(name, known));
+              !known.empty()                   ? suggestion(name, known)
+              : reading.model.openings.empty() ? "there are no openings: leave it out"
+                                               : "give the opening that name");
   }
 }
 

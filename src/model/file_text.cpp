@@ -15,10 +15,10 @@ std::variant<std::string, Fault> file_text(const std::string& path) {
   };
   std::error_code error;
   if (path.empty() || !std::filesystem::exists(path, error)) {
-    return fault("no such file", "check the name of the model file");
+    return fault("no such file", "check the name of the file");
   }
   if (std::filesystem::is_directory(path, error)) {
-    return fault("is a folder, not a file", "give the model file in it");
+    return fault("is a folder, not a file", "give a file in it");
   }
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);
@@ -30,8 +30,7 @@ std::variant<std::string, Fault> file_text(const std::string& path) {
   while (const std::size_t n = std::fread(chunk.data(), 1, chunk.size(), file.get())) {
     text.append(chunk, 0, n);
     if (text.size() > largest_file) {
-      return fault("is larger than 64 MiB",
-                   "is this the right file? a model describes its joints by sets and walls");
+      return fault("is larger than 64 MiB", "is this the right file?");
     }
   }
   if (std::ferror(file.get()) != 0) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <variant>
@@ -26,6 +27,15 @@ bool read(std::string_view text, double& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return !text.empty() && error == std::errc{} && end == text.data() + text.size() &&
          std::isfinite(value);
+}
+
+/// What a column may be called: begins with a letter, and is not one of the words for numbers.
+bool is_name(std::string_view text) {
+  text = trimmed(text);
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return !text.empty() && std::isalpha(static_cast<unsigned char>(text.front())) != 0 &&
+         error == std::errc::invalid_argument;
 }
 
 }  // namespace
@@ -58,7 +68,8 @@ Result<TimeHistory> parse_time_history(std::string_view text, const std::string&
     double time = 0.0, value = 0.0;
     const bool is_time = read(row.substr(0, comma), time);
     const bool is_value = comma != std::string_view::npos && read(row.substr(comma + 1), value);
-    if (names_may_come && !is_time && !is_value && comma != std::string_view::npos) {
+    if (names_may_come && comma != std::string_view::npos && is_name(row.substr(0, comma)) &&
+        is_name(row.substr(comma + 1))) {
       names_may_come = false;
       continue;
     }

@@ -55,14 +55,17 @@ std::size_t fastest_block(const Simulation& sim) {
 }
 
 /// Sum of boundary springs and of contacts with held blocks, plus the weight of the blocks that
-/// move: 0 at rest. Over the weight; 0 where there is none.
+/// move and the loads on them: 0 at rest. Over the size of weights and loads; 0 where there are
+/// none.
 double reaction_error(const Simulation& sim, const Instant& at) {
   Vec2 sum;
   double weight = 0.0;
+  const LoadsNow acting = loads_at(sim.model, sim.loads, sim.state.time);
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
     if (sim.blocks.fixed[i] || !sim.state.alive[i]) continue;
     sum += 3.0 * centroid(at.forces.x, at.forces.y, i);
-    weight += sim.blocks.mass[i] * norm(sim.model.gravity);
+    weight += sim.blocks.mass[i] * norm(sim.model.gravity) +
+              norm(load_on(sim.blocks, acting, sim.pose, i));
   }
   return weight > 0.0 ? norm(sum) / weight : 0.0;
 }

@@ -20,14 +20,35 @@ std::string identity(const Model& model) {
   m.title.clear();
   m.solver.duration = 1.0;
   m.output.checkpoint_every = 1.0;
+  // What a history says counts, not where it lies.
+  for (Load& load : m.loads) load.history.clear();
+  for (Water& water : m.waters) water.history.clear();
   std::string text = to_toml(m);
-  auto add = [&](const std::string& file, const TimeHistory& curve) {
+  auto add = [&](const std::string& key, const TimeHistory& curve) {
     for (std::size_t k = 0; k < curve.time.size(); ++k)
-      text += fmt::format("# {} {} {}\n", file, curve.time[k], curve.value[k]);
+      text += fmt::format("{}.history, row {},{}\n", key, curve.time[k], curve.value[k]);
   };
-  for (const Load& load : model.loads) add(load.history, load.factor);
-  for (const Water& water : model.waters) add(water.history, water.rise);
+  for (const Load& load : model.loads) add(load.where.key, load.factor);
+  for (const Water& water : model.waters) add(water.where.key, water.rise);
   return text;
+}
+
+/// Names and hashes, a line each in turn.
+std::vector<InputFile> input_files(std::string_view text) {
+  std::vector<InputFile> files;
+  const auto line = [&] {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string found(text.substr(0, end));
+    text.remove_prefix(std::min(text.size(), end + 1));
+    return found;
+  };
+  while (!text.empty()) {
+    InputFile f;
+    f.file = line();
+    f.sha256 = line();
+    files.push_back(f);
+  }
+  return files;
 }
 
 /// The first line in which two texts differ.
@@ -116,7 +137,11 @@ void Driver::list(Archive& a) {
   RecorderMemory files = recorder_.memory();
   a("files.history_bytes", files.history_bytes);
   a("files.frame_times", files.frame_times);
-  a("files.input_hash", files.input_hash);
+  // Each file's name, a line break, and its hash.
+  std::string inputs;
+  for (const InputFile& f : files.inputs) inputs += f.file + '\n' + f.sha256 + '\n';
+  a("files.inputs", inputs);
+  if constexpr (Archive::loads) files.inputs = input_files(inputs);
   std::uint64_t row = times_.next_row(), frame = times_.next_frame();
   a("events.next_row", row);
   a("events.next_frame", frame);

@@ -29,8 +29,7 @@ Vec2 model_place(const Simulation& sim, std::size_t k) {
 double step_without(const Simulation& sim, Id block) {
   BlockSet others = sim.blocks;
   others.fixed[block] = 1;
-  return step_bound(others, sim.state, sim.pose, sim.contacts, sim.springs, sim.laws,
-                    sim.damping)
+  return step_bound(others, sim.state, sim.pose, sim.contacts, sim.springs, sim.laws, sim.damping)
       .critical_step;
 }
 
@@ -50,7 +49,9 @@ bool free_block(const Simulation& sim, std::size_t i) {
 void warn_of_sudden_gravity(const Simulation& sim, std::vector<std::string>& warnings) {
   const Stage first = stages_of(sim.model).front();
   const Damping& d = first.damping;
-  if (first.until == StageEnd::equilibrium || sim.model.gravity == Vec2{} || d.mass > 0.0 || d.local > 0.0 || d.contact > 0.0) return;
+  if (first.until == StageEnd::equilibrium || sim.model.gravity == Vec2{} || d.mass > 0.0 ||
+      d.local > 0.0 || d.contact > 0.0)
+    return;
   bool carried = sim.springs.size() > 0;
   for (std::size_t k = 0; k < sim.contacts.size() && !carried; ++k) {
     carried = sim.contacts.is(k, cs::closed) && (free_block(sim, sim.contacts.block_i[k]) ||

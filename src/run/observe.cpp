@@ -223,30 +223,38 @@ BlockStress block_stress(const Simulation& sim, const State& s, std::size_t i) {
   return stress;
 }
 
-double unbalanced_ratio(const Simulation& sim, const Instant& at) {
-  double force = 0.0, weight = 0.0;
-  std::size_t free_blocks = 0;
-  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
-    if (!moves(sim, i)) continue;
-    force += norm(3.0 * centroid(at.forces.x, at.forces.y, i));
-    weight += sim.blocks.mass[i] * norm(sim.model.gravity);
-    ++free_blocks;
+double force_scale(const Simulation& sim, const ContactSet& c, const std::vector<Id>& blocks) {
+  const LoadsNow acting = loads_at(sim.model, sim.loads, sim.state.time);
+  double loads = 0.0;
+  for (const Id i : blocks) {
+    loads += sim.blocks.mass[i] * norm(sim.model.gravity) +
+             norm(load_on(sim.blocks, acting, sim.pose, i));
   }
   double normal = 0.0;
   std::size_t carrying = 0;
-  for (std::size_t k = 0; k < at.contacts.size(); ++k) {
-    const double n = at.contacts.share[k] * at.contacts.normal[k];
-    if (!at.contacts.is(k, cs::closed) || !(n > 0.0)) continue;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const double n = c.share[k] * c.normal[k];
+    if (!c.is(k, cs::closed) || !(n > 0.0)) continue;
     normal += n;
     ++carrying;
   }
-  if (free_blocks == 0 || force == 0.0) return 0.0;
-  const auto blocks = static_cast<double>(free_blocks);
   // Contacts that only just touch, as at the start, carry rounding and no measure.
-  const double mean_weight = weight / blocks;
+  const double mean_load = blocks.empty() ? 0.0 : loads / static_cast<double>(blocks.size());
   const double mean_normal = carrying > 0 ? normal / static_cast<double>(carrying) : 0.0;
-  const double scale = mean_normal > 1e-3 * mean_weight ? mean_normal : mean_weight;
-  return scale > 0.0 ? force / blocks / scale : 0.0;
+  return mean_normal > 1e-3 * mean_load ? mean_normal : mean_load;
+}
+
+double unbalanced_ratio(const Simulation& sim, const Instant& at) {
+  std::vector<Id> free_blocks;
+  double force = 0.0;
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    if (!moves(sim, i)) continue;
+    force += norm(3.0 * centroid(at.forces.x, at.forces.y, i));
+    free_blocks.push_back(static_cast<Id>(i));
+  }
+  if (force == 0.0) return 0.0;
+  const double scale = force_scale(sim, at.contacts, free_blocks);
+  return scale > 0.0 ? force / static_cast<double>(free_blocks.size()) / scale : 1.0;
 }
 
 std::size_t closed_contacts(const ContactSet& c) {

@@ -35,8 +35,13 @@ struct BlockStress {
 };
 BlockStress block_stress(const Simulation& sim, const State& state, std::size_t i);
 
-/// The mean over blocks not held of the resultant force, over the mean contact normal force (the
-/// mean weight where no contact carries); 0 where both are.
+/// The mean contact normal force, N; where no contact carries, the mean over `blocks` of weight and
+/// loads.
+double force_scale(const Simulation& sim, const ContactSet& contacts,
+                   const std::vector<Id>& blocks);
+
+/// The mean over blocks not held of the resultant force, over force_scale(); 0 where no force is, 1
+/// where there is nothing to measure it by.
 double unbalanced_ratio(const Simulation& sim, const Instant& at);
 
 /// Candidates that are closed and have a share of their spring.

@@ -27,8 +27,13 @@ std::string history_header(const std::vector<MonitorPoint>& monitors) {
 Trouble Recorder::begin(const Simulation& sim, const std::vector<MonitorPoint>& monitors) {
   if (!writes()) return {};
   // What the model was read from; a model built in memory has no file to name.
-  const Result<std::string> input = read_file(sim.model.file);
-  if (input.ok()) input_hash_ = sha256(input.value());
+  inputs_.clear();
+  std::vector<std::string> files = history_files(sim.model);
+  files.insert(files.begin(), sim.model.file);
+  for (const std::string& name : files) {
+    const Result<std::string> text = read_file(name);
+    if (text.ok()) inputs_.push_back({name, sha256(text.value())});
+  }
   if (auto t = make_folder(folder_)) return t;
   if (auto t = lock_.take(folder_)) return t;
   if (auto t = clear_folder(folder_)) return t;
@@ -39,25 +44,14 @@ Trouble Recorder::begin(const Simulation& sim, const std::vector<MonitorPoint>& 
   return {};
 }
 
-/// The model's file as it was at the start, and those that it names.
-std::vector<InputFile> Recorder::inputs(const Simulation& sim) const {
-  std::vector<InputFile> files;
-  if (!input_hash_.empty()) files.push_back({sim.model.file, input_hash_});
-  for (const std::string& name : history_files(sim.model)) {
-    const Result<std::string> text = read_file(name);
-    if (text.ok()) files.push_back({name, sha256(text.value())});
-  }
-  return files;
-}
-
 RecorderMemory Recorder::memory() const {
-  return {history_.bytes(), frames_ ? frames_->times() : std::vector<double>{}, input_hash_};
+  return {history_.bytes(), frames_ ? frames_->times() : std::vector<double>{}, inputs_};
 }
 
 Trouble Recorder::resume(const Simulation& sim, const RecorderMemory& memory) {
   if (!writes()) return {};
   if (auto t = lock_.take(folder_)) return t;
-  input_hash_ = memory.input_hash;
+  inputs_ = memory.inputs;
   if (auto t = history_.reopen(path("history.csv"), memory.history_bytes)) return t;
   frames_.emplace(folder_, sim.blocks);
   frames_->go_on_after(memory.frame_times);
@@ -101,7 +95,7 @@ Trouble Recorder::tables(const Picture& picture) {
 Trouble Recorder::summary(const Simulation& sim, const Outcome& outcome,
                           const std::string& governed_by) {
   if (!writes()) return {};
-  return write_file(path("summary.json"), summary_json(sim, outcome, governed_by, inputs(sim)));
+  return write_file(path("summary.json"), summary_json(sim, outcome, governed_by, inputs_));
 }
 
 }  // namespace edda

@@ -18,7 +18,7 @@ namespace edda {
 struct RecorderMemory {
   std::uint64_t history_bytes = 0;
   std::vector<double> frame_times;  ///< s
-  std::string input_hash;
+  std::vector<InputFile> inputs;
 };
 
 class Recorder {
@@ -46,9 +46,9 @@ class Recorder {
   bool writes() const { return !folder_.empty(); }
 
  private:
-  std::vector<InputFile> inputs(const Simulation& sim) const;
   std::string path(const char* name) const { return folder_ + "/" + name; }
-  std::string folder_, input_hash_;
+  std::string folder_;
+  std::vector<InputFile> inputs_;  ///< as they were at the start
   FolderLock lock_;
   RowFile history_;
   std::optional<FrameSeries> frames_;

@@ -70,6 +70,7 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   s.polygons = std::move(cut.value());
   if (order == BlockOrder::reversed) {
     std::reverse(s.polygons.blocks.begin(), s.polygons.blocks.end());
+    s.polygons.reversed = true;
   }
   s.blocks = build_blocks(s.model, s.polygons);
   s.laws = build_laws(s.model);

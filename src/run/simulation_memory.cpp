@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "checkpoint/archive.hpp"
-#include "implicit/assemble.hpp"
+#include "run/implicit_memory.hpp"
 
 namespace edda {
 namespace {
@@ -172,79 +172,6 @@ void list_counts(Archive& a, Simulation& s) {
   a("seconds.integrate", s.seconds.integrate);
   a("start_energy", s.start_energy);
   a("largest_energy", s.largest_energy);
-}
-
-/// The matrix and its factor as they were. False where rows, columns or values do not fit the model
-/// or each other.
-bool take_up(Simulation& s, const std::vector<Id>& column, const std::vector<Id>& ends,
-             SolverMemory memory) {
-  ImplicitSolver& solver = s.implicit;
-  const std::size_t rows = solver.block_of.size();
-  if (ends.size() != rows) return false;
-  if (rows == 0) return !memory.made;  // no step has been made yet
-  std::vector<std::vector<Id>> columns(rows);
-  solver.row_of.assign(s.blocks.size(), no_id);
-  std::size_t begin = 0;
-  for (std::size_t r = 0; r < rows; ++r) {
-    const Id i = solver.block_of[r];
-    if (i >= s.blocks.size() || s.blocks.fixed[i] || solver.row_of[i] != no_id) return false;
-    if (ends[r] < begin || ends[r] > column.size()) return false;
-    solver.row_of[i] = static_cast<Id>(r);
-    std::vector<Id>& row = columns[r];
-    row.assign(column.begin() + static_cast<std::ptrdiff_t>(begin),
-               column.begin() + static_cast<std::ptrdiff_t>(ends[r]));
-    begin = ends[r];
-    const bool rising =
-        std::adjacent_find(row.begin(), row.end(), std::greater_equal<>()) == row.end();
-    if (!rising || !std::binary_search(row.begin(), row.end(), static_cast<Id>(r))) return false;
-    if (row.back() >= rows) return false;
-  }
-  // Symmetric, or the factor would be one of another matrix.
-  for (std::size_t r = 0; r < rows; ++r) {
-    for (const Id c : columns[r]) {
-      if (!std::binary_search(columns[c].begin(), columns[c].end(), static_cast<Id>(r)))
-        return false;
-    }
-  }
-  lay_out(solver, {s.blocks, s.laws, s.springs, s.model.gravity}, columns);
-  if (memory.made && memory.values.size() != 36 * column.size()) return false;
-  return solver.linear.recall(solver.matrix, std::move(memory));
-}
-
-/// The implicit method: its guess, and the factor that its solver keeps.
-template <class Archive>
-void list_implicit(Archive& a, Simulation& s) {
-  ImplicitSolver& solver = s.implicit;
-  a("implicit.drift_x", solver.drift_x);
-  a("implicit.drift_y", solver.drift_y);
-  a("implicit.block_of", solver.block_of);
-  a("implicit.pattern_of", solver.pattern_of);
-  std::vector<Id> column, ends;
-  for (const std::vector<Id>& row : solver.matrix.pattern()) {
-    column.insert(column.end(), row.begin(), row.end());
-    ends.push_back(static_cast<Id>(column.size()));
-  }
-  a("implicit.column", column);
-  a("implicit.ends", ends);
-  SolverMemory m = solver.linear.memory();
-  a("solver.made", m.made);
-  a("solver.with_factor", m.with_factor);
-  a("solver.rent", m.rent);
-  a("solver.excess", m.excess);
-  a("solver.life", m.life);
-  a("solver.solved", m.solved);
-  a("solver.by_diagonal", m.by_diagonal);
-  a("solver.per_solve", m.per_solve);
-  a("solver.values", m.values);
-  if constexpr (Archive::loads) {
-    const std::size_t size = solver.drift_x[0].empty() ? 0 : s.blocks.size();
-    bool good = true;
-    for (const auto* drift : {&solver.drift_x, &solver.drift_y}) {
-      for (const auto& values : *drift) good = good && values.size() == size;
-    }
-    if (!good || !take_up(s, column, ends, std::move(m)))
-      a.refuse("implicit does not fit the model");
-  }
 }
 
 /// The first thing that would lead out of an array, or to no number.

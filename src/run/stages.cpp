@@ -6,6 +6,7 @@
 
 #include "results/csv.hpp"
 #include "run/labels.hpp"
+#include "run/observe.hpp"
 
 namespace edda {
 namespace {
@@ -35,38 +36,27 @@ std::vector<std::uint8_t> touching(const Simulation& sim) {
 Balance balance_of(const Simulation& sim) {
   Balance balance;
   const std::vector<std::uint8_t> touches = touching(sim);
-  double sum = 0.0, weight = 0.0;
+  double sum = 0.0;
+  std::vector<Id> resting;
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
     if (!is_free(sim.blocks, sim.state, i)) continue;
     if (!touches[i]) {
       ++balance.detached;
       continue;
     }
-    ++balance.resting;
+    resting.push_back(static_cast<Id>(i));
     const double force = 3.0 * norm(centroid(sim.forces.x, sim.forces.y, i));
     sum += force;
-    weight += sim.blocks.mass[i] * norm(sim.model.gravity);
     if (balance.block == no_id || force > balance.largest) {
       balance.largest = force;
       balance.block = static_cast<Id>(i);
     }
   }
-  double normal = 0.0;
-  std::size_t pressed = 0;
-  for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
-    const double n = sim.contacts.share[k] * sim.contacts.normal[k];
-    if (!sim.contacts.is(k, cs::closed) || !(n > 0.0)) continue;
-    normal += n;
-    ++pressed;
-  }
-  if (balance.resting == 0) return balance;
-  const auto blocks = static_cast<double>(balance.resting);
-  const double mean_weight = weight / blocks;
-  const double mean_normal = pressed > 0 ? normal / static_cast<double>(pressed) : 0.0;
-  const double scale = mean_normal > 1e-3 * mean_weight ? mean_normal : mean_weight;
-  if (!(scale > 0.0)) return balance;
-  balance.mean = sum / blocks / scale;
-  balance.largest /= scale;
+  balance.resting = resting.size();
+  if (sum == 0.0) return balance;
+  const double scale = force_scale(sim, sim.contacts, resting);
+  balance.mean = scale > 0.0 ? sum / static_cast<double>(resting.size()) / scale : 1.0;
+  balance.largest = scale > 0.0 ? balance.largest / scale : 1.0;
   return balance;
 }
 

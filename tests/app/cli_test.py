@@ -144,6 +144,20 @@ class Cli(unittest.TestCase):
         self.expect(0, "run", "again.toml")
         self.assertEqual((self.dir / "m/blocks.csv").read_bytes(), (self.dir / "again/blocks.csv").read_bytes())
 
+    def test_model_as_run_finds_its_history_from_anywhere(self):
+        import hashlib
+        curve = "time,factor\n0,0\n0.01,1\n"
+        (self.dir / "sub").mkdir()
+        (self.dir / "sub/push.csv").write_text(curve)
+        (self.dir / "sub/h.toml").write_text(RAMP + '[[load]]\npoint = [1.0, 0.5]\nforce = ["1 kN", 0]\nhistory = "push.csv"\n')
+        self.expect(0, "run", "sub/h.toml", "--quiet", "-o", "r")
+        (self.dir / "else").mkdir()
+        subprocess.run([str(EDDA), "run", "../r/model.toml", "--quiet", "-o", "r"], cwd=self.dir / "else", check=True, timeout=60)
+        self.assertEqual((self.dir / "r/blocks.csv").read_bytes(), (self.dir / "else/r/blocks.csv").read_bytes())
+        self.assertRegex(self.expect(0, "check", "sub/h.toml").stdout, r"load 0 on block \d+ .*: \(1000, 0\) N, times 0 to 1 over 0.01 s")
+        inputs = json.loads((self.dir / "r/summary.json").read_text())["inputs"]
+        self.assertEqual([i["sha256"] for i in inputs][1:], [hashlib.sha256(curve.encode()).hexdigest()])
+
     def test_folder_rule(self):
         self.expect(0, "run", "m.toml", "--set", "output.every=0.001")
         self.expect(0, "run", "m.toml")

@@ -52,6 +52,12 @@ polygon = [[5, 1], [6, 1.2], [6.4, 2], [5.6, 2.5], [4.8, 1.8]]
 [[monitor]]
 name = "M"
 point = [5.5, 1.7]
+[[load]]
+point = [5.5, 1.7]
+force = [-3e3, 0]
+history = "push.csv"
+[[water]]
+table = [[-20, 0.3], [20, 0.3]]
 [solver]
 duration = 0.6
 [output]
@@ -85,6 +91,7 @@ class Faults(unittest.TestCase):
         self.dir = pathlib.Path(tempfile.mkdtemp(prefix="edda_faults_"))
         self.addCleanup(shutil.rmtree, self.dir, True)
         (self.dir / "m.toml").write_text(HEAP)
+        (self.dir / "push.csv").write_text("time,factor\n0,0\n0.2,1\n0.5,-1\n")
 
     def edda(self, *args, **more):
         return subprocess.run([str(EDDA), *args], cwd=self.dir, text=True, capture_output=True, timeout=300, **more)
@@ -193,6 +200,11 @@ duration = 2.0
         self.assertIn("not the one of the checkpoint", done.stderr)
         done = self.expect(2, "run", "m.toml", "-o", "r", "--resume", "--set", "solver.duration=1e-3")
         self.assertIn("longer solver.duration", done.stderr)
+        push = (self.dir / "push.csv").read_text()
+        (self.dir / "push.csv").write_text(push.replace("0.5,-1", "0.5,-2"))
+        done = self.expect(2, "run", "m.toml", "-o", "r", "--resume")
+        self.assertIn("load.0.history, row 0.5,-2", done.stderr)
+        (self.dir / "push.csv").write_text(push)
         self.assertEqual(content(self.dir / "r"), before)
 
     def test_damaged_checkpoints_are_refused_and_the_one_before_is_used(self):

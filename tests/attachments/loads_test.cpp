@@ -156,6 +156,26 @@ TEST(Water, FillsJointsAndLeavesOpeningsDry) {
   }
 }
 
+/// A face that runs on past an opening, or along two of them, is dry just where they are.
+TEST(Water, IsDryOnlyAlongTheOpening) {
+  auto with = [](std::vector<Ring> openings) {
+    Loaded l;
+    l.add({{0, 0}, {10, 0}, {10, 4}, {0, 4}});
+    for (const Ring& ring : openings) {
+      Opening o;
+      o.polygon = ring;
+      l.model.openings.push_back(o);
+    }
+    l.model.waters = {lake({{-1, 10}, {11, 10}})};
+    l.attach();
+    return l.on(0).force.y / 9810.0;
+  };
+  const Ring pit{{4, 4}, {6, 4}, {6, 6}, {4, 6}}, shaft{{6, 4}, {7, 4}, {7, 9}, {6, 9}};
+  EXPECT_NEAR(with({}), 40.0, 1e-9);
+  EXPECT_NEAR(with({pit}), 40.0 + 2.0 * 6.0, 1e-9);
+  EXPECT_NEAR(with({pit, shaft}), 40.0 + 3.0 * 6.0, 1e-9);
+}
+
 TEST(Load, ActsAtItsPoint) {
   Loaded l;
   l.add({{0, 0}, {2, 0}, {2, 2}, {0, 2}});
@@ -202,6 +222,77 @@ TEST(Load, ActsAlongALine) {
   const auto turned = l.on(0, x, y);
   EXPECT_NEAR(turned.force.x, 0.0, 1e-12);
   EXPECT_NEAR(turned.force.y, -150.0 + 80.0, 1e-12);
+}
+
+/// A traction acts where the face is free: what a neighbour covers, at either end, in the middle or
+/// from a lower block, is left out.
+TEST(Load, LeavesOutWhatANeighbourCovers) {
+  struct Case {
+    Ring neighbour;
+    double left;  ///< of the ten metres
+  };
+  for (const Case& c :
+       {Case{{{0, 1}, {2, 1}, {2, 2}, {0, 2}}, 8.0}, Case{{{4, 1}, {7, 1}, {7, 2}, {4, 2}}, 7.0},
+        Case{{{8, 1}, {10, 1}, {10, 2}, {8, 2}}, 8.0},
+        Case{{{-3, 1}, {6, 1}, {6, 2}, {-3, 2}}, 4.0}}) {
+    for (const bool held : {false, true}) {
+      Loaded l;
+      l.add({{0, 0}, {10, 0}, {10, 1}, {0, 1}});
+      l.add(c.neighbour, held);
+      Load load;
+      load.along = {{-1, 1}, {11, 1}};
+      load.force = Vec2{0.0, -100.0};
+      l.model.loads = {load};
+      l.attach();
+      ASSERT_TRUE(l.faults.empty());
+      EXPECT_NEAR(l.on(0).force.y, -100.0 * c.left, 1e-9);
+    }
+  }
+}
+
+/// A line that turns back loads no face twice.
+TEST(Load, CountsAFaceOnce) {
+  Loaded l;
+  l.add({{0, 0}, {2, 0}, {2, 2}, {0, 2}});
+  Load load;
+  load.along = {{0, 2}, {2, 2}, {1, 2}, {3, 2}};
+  load.pressure = 10.0;
+  l.model.loads = {load};
+  l.attach();
+  ASSERT_TRUE(l.faults.empty());
+  EXPECT_NEAR(l.on(0).force.y, -20.0, 1e-12);
+}
+
+/// Far from the origin, along a face that no axis is parallel to.
+TEST(Load, FindsFacesFarAway) {
+  Loaded l;
+  const Vec2 far{5e6, 3e6};
+  Ring ring;
+  for (const Vec2 p : {Vec2{0, 0}, Vec2{0.05, 0}, Vec2{0.05, 0.05}, Vec2{0, 0.05}})
+    ring.push_back(rotated(p, 0.7));
+  l.add(ring);
+  l.set.origin = far;
+  Load load;
+  load.along = {far + ring[2], far + ring[3]};
+  load.pressure = 100.0;
+  l.model.loads = {load};
+  l.attach();
+  ASSERT_TRUE(l.faults.empty());
+  EXPECT_NEAR(norm(l.on(0).force), 5.0, 1e-6);
+}
+
+/// Where a free and a held block meet, the load is the free one's.
+TEST(Load, PrefersTheFreeBlock) {
+  Loaded l;
+  l.add({{0, 0}, {2, 0}, {2, 2}, {0, 2}}, true);
+  l.add({{2, 0}, {4, 0}, {4, 2}, {2, 2}});
+  Load load;
+  load.point = Vec2{2.0, 1.0};
+  load.force = Vec2{3.0, 0.0};
+  l.model.loads = {load};
+  l.attach();
+  ASSERT_TRUE(l.faults.empty());
+  EXPECT_NEAR(l.on(1).force.x, 3.0, 1e-12);
 }
 
 TEST(Load, PressureInAJointActsOnBothFaces) {

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
     sim.start(1e4);
     while (settle && sim.state.time < 1.0 && !sim.step()) {
     }
-    sim.model.solver.damping.local = 0.0;
+    sim.damping.local = 0.0;
     const Rest rest = watch_rest(sim, steps, settle);
     std::printf(
         "%s: kinetic energy %.3g J in the first second, %.3g J after it; drift %.2e, trend %.1e; "

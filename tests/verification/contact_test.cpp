@@ -303,7 +303,7 @@ TEST(Dissipation, NeverFalls) {
     double drift = 0.0, friction = 0.0, damping = 0.0, worst_fall = 0.0;
     run(sim, [&](Simulation& s) {
       const Ledger l = s.ledger();
-      drift = std::max(drift, std::abs(l.drift));
+      keep_largest(drift, l.drift);
       worst_fall = std::max({worst_fall, friction - l.friction, damping - l.damping});
       friction = l.friction;
       damping = l.damping;

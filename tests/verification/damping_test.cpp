@@ -53,7 +53,7 @@ TEST(Stack, AtRestWithoutDampingKeepsItsEnergy) {
   for (const int blocks : {3, 5, 10}) {
     Simulation sim = scene(stack(blocks, ""));
     double drift = 0.0;
-    run(sim, [&](Simulation& s) { drift = std::max(drift, std::abs(s.ledger().drift)); });
+    run(sim, [&](Simulation& s) { keep_largest(drift, s.ledger().drift); });
     EXPECT_LT(drift, 1e-6) << blocks;
     EXPECT_LE(sim.open_close.unsettled, sim.open_close.steps / 50) << blocks;
   }
@@ -68,7 +68,7 @@ TEST(GivenStep, FollowsTheBoundWhenItFalls) {
       "fixed = true\npolygon = [[-3,-1],[4,-1],[4,0],[-3,0]]\n[[block]]\n"
       "polygon = [[0,0.5],[1,0.55],[1,1.5],[0,1.5]]\n");
   double drift = 0.0;
-  run(sim, [&](Simulation& s) { drift = std::max(drift, std::abs(s.ledger().drift)); });
+  run(sim, [&](Simulation& s) { keep_largest(drift, s.ledger().drift); });
   EXPECT_LE(sim.steps.over_critical, 1.0 + 1e-9);
   EXPECT_GT(sim.steps.changes, 0u);
   EXPECT_LT(drift, 1e-3);

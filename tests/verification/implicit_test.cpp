@@ -207,7 +207,7 @@ TEST(ImplicitHeap, LedgerClosesAndDissipates) {
   run(sim, [&](Simulation& s) {
     const Ledger l = s.ledger();
     scale = std::max(scale, l.scale());
-    drift = std::max(drift, std::abs(l.drift));
+    keep_largest(drift, l.drift);
     EXPECT_GE(l.friction, friction - 1e-4 * scale) << s.state.time;
     EXPECT_GE(l.damping, damping - 1e-4 * scale) << s.state.time;
     friction = l.friction;

@@ -60,7 +60,7 @@ inline double expect_slides(Simulation& sim, int row, const std::string& label, 
   run(
       sim,
       [&](Simulation& s) {
-        drift = std::max(drift, std::abs(s.ledger().drift));
+        keep_largest(drift, s.ledger().drift);
         way.add({s.state.time, sliding(alpha, phi, s.state.time), slid(s, alpha)});
       },
       each);

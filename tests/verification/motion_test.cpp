@@ -105,7 +105,7 @@ TEST(Bounce, DepthTimeAndEnergy) {
     run(
         sim,
         [&](Simulation& s) {
-          drift = std::max(drift, std::abs(s.ledger().drift));
+          keep_largest(drift, s.ledger().drift);
           books.add({s.state.time, std::abs(s.ledger().drift)});
         },
         [&](Simulation& s) {

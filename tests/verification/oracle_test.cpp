@@ -27,7 +27,7 @@ TEST(ThrownHeap, ContactsAgreeWithBruteForce) {
       const auto failure = sim.step();
       ASSERT_FALSE(failure.has_value()) << seed << ": " << failure->message;
       watch.look(sim);
-      if (sim.state.steps % 100 == 0) drift = std::max(drift, std::abs(sim.ledger().drift));
+      if (sim.state.steps % 100 == 0) keep_largest(drift, sim.ledger().drift);
     }
     EXPECT_EQ(watch.list.missed, 0u) << seed;
     EXPECT_EQ(watch.list.repeated, 0u) << seed;

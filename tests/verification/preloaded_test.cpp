@@ -19,7 +19,7 @@ Simulation settled_ramp(double alpha, double phi, const std::string& young, doub
     const auto failure = sim.step();
     EXPECT_FALSE(failure.has_value());
   }
-  sim.model.solver.damping.mass = 0.0;
+  sim.damping.mass = 0.0;
   return sim;
 }
 

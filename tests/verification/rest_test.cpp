@@ -18,7 +18,7 @@ TEST(WallAtRest, StaysSettled) {
   Simulation sim = brick_wall(true);
   sim.start(1e4);
   while (sim.state.time < 1.0) ASSERT_FALSE(sim.step().has_value());
-  sim.model.solver.damping.local = 0.0;
+  sim.damping.local = 0.0;
   EXPECT_GT(watch_rest(sim, steps, true).later_steps, steps / 3);
 }
 

@@ -56,6 +56,11 @@ inline Vec2 displacement(const Simulation& sim, std::size_t i) {
          Vec2{sim.blocks.centroid_x[i], sim.blocks.centroid_y[i]};
 }
 
+/// The largest size so far; NaN stays.
+inline void keep_largest(double& most, double value) {
+  if (std::isnan(value) || std::abs(value) > most) most = std::abs(value);
+}
+
 inline double radians(double degrees) {
   return degrees * std::numbers::pi / 180.0;
 }

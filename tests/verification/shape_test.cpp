@@ -64,7 +64,7 @@ TEST(Seams, NeitherCatchNorSink) {
   double lowest = 0.0, drift = 0.0;
   run(sim, [&](Simulation& s) {
     lowest = std::min(lowest, displacement(s, 12).y);
-    drift = std::max(drift, std::abs(s.ledger().drift));
+    keep_largest(drift, s.ledger().drift);
   });
   EXPECT_NEAR(displacement(sim, 12).x, 1.8, 2e-3);
   const double settled = 2600.0 * 0.25 * 9.81 / (2.0 * 2e9);

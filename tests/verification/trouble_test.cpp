@@ -39,7 +39,7 @@ TEST(ThinPlate, IsNotPassed) {
                              block_text(ring, "velocity = [0, " + number(-speed) + "]\n"));
       double lowest = 1.0, drift = 0.0;
       run(
-          sim, [&](Simulation& s) { drift = std::max(drift, std::abs(s.ledger().drift)); },
+          sim, [&](Simulation& s) { keep_largest(drift, s.ledger().drift); },
           [&](Simulation& s) {
             for (Id v = 4; v < 8; ++v) lowest = std::min(lowest, s.pose.y[v] + s.blocks.origin.y);
           });
@@ -120,7 +120,7 @@ TEST(FlatRow, FortySeamsWithoutAKick) {
     run(
         sim,
         [&](Simulation& s) {
-          drift = std::max(drift, std::abs(s.ledger().drift));
+          keep_largest(drift, s.ledger().drift);
           worst = std::max(worst, std::abs(centroid(s.state.vx, s.state.vy, slider).x / 4.0 - 1.0));
           highest = std::max(highest, std::abs(displacement(s, slider).y));
         },
@@ -156,7 +156,7 @@ TEST(LargeOnSmall, ABlockOnGrains) {
   HeapWatch watch(50);
   double drift = 0.0, lowest = 1.0;
   run(
-      sim, [&](Simulation& s) { drift = std::max(drift, std::abs(s.ledger().drift)); },
+      sim, [&](Simulation& s) { keep_largest(drift, s.ledger().drift); },
       [&](Simulation& s) {
         watch.look(s);
         const Id v = s.blocks.vertex_begin[13];

@@ -39,7 +39,7 @@ Simulation filled(double depth, const std::string& solver) {
 double leans(double depth) {
   Simulation sim = filled(depth, "duration = 4.0\ndamping = { local = 0.5 }\n");
   double drift = 0.0;
-  run(sim, [&](Simulation& s) { drift = std::max(drift, std::abs(s.ledger().drift)); });
+  run(sim, [&](Simulation& s) { keep_largest(drift, s.ledger().drift); });
   EXPECT_LT(drift, 1e-5);
   const Id crest = sim.blocks.vertex_begin[1] + 3;
   return sim.pose.x[crest] - sim.blocks.vertex_x[crest];
@@ -85,10 +85,11 @@ TEST(Load, WorkIsTheEnergyOfTheMotion) {
     Simulation sim = scene(pushed(method));
     sim.model.loads[0].factor = {{0.0, 0.1, 0.2}, {0.0, 1.0, 0.0}};
     double drift = 0.0;
-    run(sim, [&](Simulation& s) { drift = std::max(drift, std::abs(s.ledger().drift)); });
+    run(sim, [&](Simulation& s) { keep_largest(drift, s.ledger().drift); });
     const Ledger l = sim.ledger();
     EXPECT_LT(drift, close) << method;
     EXPECT_GT(l.external, 0.0);
+    EXPECT_NEAR((l.kinetic + l.strain + l.damping) / l.external, 1.0, 2.0 * close) << method;
     // Momentum is the load's impulse: 1e5 over half of 0.2 s, and 2e4 over all of it.
     const Vec2 v = centroid(sim.state.vx, sim.state.vy, 0);
     EXPECT_NEAR(v.x * 2500.0 / 1e4, 1.0, 2e-3) << method;
@@ -108,11 +109,38 @@ TEST(Water, FloatsABlock) {
         "\n[[water]]\ntable = [[-9, 0], [9, 0]]\n[output]\nhistory_every = 1.0\n[solver]\n"
         "duration = 12.0\n" +
         method);
-    run(sim, [](Simulation&) {});
+    double drift = 0.0;
+    run(sim, [&](Simulation& s) { keep_largest(drift, s.ledger().drift); });
     const double bottom = -2.0 + displacement(sim, 0).y;
     EXPECT_NEAR(bottom, -600.0 * 9.81 / 9810.0, 1e-3) << method;
-    EXPECT_NEAR(sim.ledger().drift, 0.0, 1e-5) << method;
+    EXPECT_LT(drift, 1e-4) << method;  // implicit: balance is asked for to 1e-3
   }
+}
+
+/// A pressure follows the face: a spinning square with pressure on one side is driven round and
+/// round, by both methods alike, and its work is what the motion has.
+TEST(Load, PressureTurnsWithItsFace) {
+  Vec2 end[2];
+  int which = 0;
+  for (const std::string method : {"time_step = 2e-5\n", "method = 'dda'\ntime_step = 2e-5\n"}) {
+    Simulation sim = scene(
+        "gravity = [0, 0]\nthickness = 2.0\n[materials.rock]\ndensity = 2500.0\nyoung = 2e9\n"
+        "poisson = 0.2\n[joints.j]\nfriction_angle = 0\n[[block]]\nangular_velocity = "
+        "20.0\npolygon = " +
+        rectangle(0, 0, 1, 1) +
+        "\n[[load]]\nalong = [[0, 0], [0, 1]]\npressure = 5e4\n[output]\nhistory_every = 0.01\n"
+        "[solver]\nduration = 0.5\n" +
+        method);
+    double drift = 0.0;
+    run(sim, [&](Simulation& s) { keep_largest(drift, s.ledger().drift); });
+    EXPECT_LT(drift, 1e-4) << method;
+    end[which++] = displacement(sim, 0);
+  }
+  // Driven by p/rho in a direction that turns at w: x = p/(rho w^2) (1 - cos wt), y alike.
+  const double a = 5e4 / 2500.0 / 400.0, angle = 10.0;
+  EXPECT_NEAR(end[0].x, a * (1.0 - std::cos(angle)), 2e-3 * a);
+  EXPECT_NEAR(end[0].y, a * (angle - std::sin(angle)), 2e-3 * a * angle);
+  EXPECT_LT(norm(end[0] - end[1]), 1e-2 * norm(end[0]));
 }
 
 }  // namespace

@@ -1,0 +1,74 @@
+#include "run/load_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "run/labels.hpp"
+
+namespace edda {
+namespace {
+
+std::string range_of(const TimeHistory& h, const char* what, const char* unit) {
+  if (h.value.empty()) return {};
+  const auto [low, high] = std::minmax_element(h.value.begin(), h.value.end());
+  return fmt::format(", {} {:.4g} to {:.4g}{} over {:.4g} s", what, *low, *high, unit,
+                     h.time.back() - std::min(h.time.front(), 0.0));
+}
+
+std::string called(const char* what, const std::string& name, std::size_t row) {
+  return name.empty() ? fmt::format("{} {}", what, row) : fmt::format("{} {}", what, name);
+}
+
+/// Resultant of one load or water alone at full strength, N.
+Vec2 alone(const Simulation& sim, std::size_t load, std::size_t water) {
+  LoadsNow now = loads_at(sim.model, sim.loads, 0.0);
+  for (std::size_t q = 0; q < now.factor.size(); ++q) now.factor[q] = q == load ? 1.0 : 0.0;
+  for (std::size_t q = 0; q < now.weight.size(); ++q) {
+    if (q != water) now.weight[q] = 0.0;
+  }
+  Vec2 sum;
+  for (const Id i : sim.loads.blocks) sum += load_on(sim.blocks, now, sim.pose, i);
+  return sum;
+}
+
+}  // namespace
+
+std::vector<std::string> load_report(const Simulation& sim) {
+  constexpr std::size_t no_row = static_cast<std::size_t>(-1);
+  std::vector<std::string> lines;
+  const BlockSet& b = sim.blocks;
+  for (std::size_t q = 0; q < sim.model.loads.size(); ++q) {
+    const Load& load = sim.model.loads[q];
+    std::string on;
+    double length = 0.0;
+    std::size_t faces = 0;
+    for (const PointLoad& p : sim.loads.points) {
+      if (static_cast<std::size_t>(p.load) == q) on = block_label(b, p.block);
+    }
+    for (const EdgeLoad& e : sim.loads.edges) {
+      if (static_cast<std::size_t>(e.load) != q) continue;
+      ++faces;
+      length += (e.to - e.from) * b.edge_length[e.edge];
+    }
+    if (!load.point) on = fmt::format("{:.4g} m of {} faces", length, faces);
+    const Vec2 f = alone(sim, q, no_row);
+    lines.push_back(fmt::format("{} on {}: ({:.4g}, {:.4g}) N{}", called("load", load.name, q), on,
+                                f.x, f.y, range_of(load.factor, "times", "")));
+  }
+  for (std::size_t q = 0; q < sim.model.waters.size(); ++q) {
+    const Water& water = sim.model.waters[q];
+    double length = 0.0;
+    for (const WetEdge& e : sim.loads.wet) {
+      if (static_cast<std::size_t>(e.water) == q) length += (e.to - e.from) * b.edge_length[e.edge];
+    }
+    const Vec2 f = alone(sim, no_row, q);
+    lines.push_back(fmt::format(
+        "{} over {:.4g} m of faces, {} of {} openings full: ({:.4g}, {:.4g}) N at the start{}",
+        called("water", water.name, q), length, water.flooded.size(), sim.model.openings.size(),
+        f.x, f.y, range_of(water.rise, "rising", " m")));
+  }
+  return lines;
+}
+
+}  // namespace edda
