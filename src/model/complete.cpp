@@ -58,6 +58,7 @@ void complete_joints(const Value& root, Reading& reading) {
     add_fault(reading, find(&root, "joints")->place, "joints",
               fmt::format("has {} laws, more than {}", joints.size(), most),
               "let edges with like strength share a law");
+    return;
   }
   for (JointLaw& law : joints) {
     const Value* node = find(find(&root, "joints"), law.name);

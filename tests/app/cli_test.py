@@ -287,6 +287,42 @@ class Cli(unittest.TestCase):
             self.expect(0, "plot", "m", "--field", field, "--time", "0.005", "-o", "p.svg", "--forces", "--vectors", "velocity")
         self.expect(0, "plot", "m.toml", "-o", "model.png")
 
+    def test_verify_puts_bars_on_every_monitor(self):
+        done = self.expect(0, "verify", "m.toml")
+        for words in ("after 0.01 s", "M  ", " step, +- ", " stiffness, +- ", " order", "energy drift"):
+            self.assertIn(words, done.stdout)
+        self.assertEqual(done.stderr.count("run: "), 4)
+        self.assertEqual(self.expect(0, "verify", "m.toml", "--quiet").stderr, "")
+        self.assertEqual(self.names(), ["m.toml"])
+        self.expect(2, "verify", "m.toml", "--set", "joints.ramp.friction_angle=-1")
+        self.expect(2, "verify", "m.toml", "--set", "solver.time_step=0.1")
+        lost = self.expect(1, "verify", "m.toml", "--set", "solver.time_step=2e-3", "--set", "solver.allow_unstable=true",
+                           "--set", "solver.duration=1", "--set", "output.every=0.5", "--set", "output.history_every=0.05")
+        self.assertIn("diverged", lost.stderr)
+
+    def test_verify_can_be_interrupted(self):
+        run = subprocess.Popen([str(EDDA), "verify", "m.toml", "--set", "solver.duration=1000", "--set", "output.history_every=1",
+                                "--set", "output.every=100"], cwd=self.dir, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.assertIn(b"run: ", run.stderr.readline())
+        run.send_signal(signal.SIGINT)
+        run.communicate(timeout=60)
+        self.assertEqual(run.returncode, 130)
+
+    def test_cut_says_what_it_took_out_and_what_it_cannot_do(self):
+        self.expect(0, "example", "cavern")
+        out = self.expect(0, "cut", "cavern.toml").stdout
+        self.assertRegex(out, r"inside openings  \d+ blocks, not part of the model")
+        self.assertRegex(out, r"cut area         .* m2 \(difference")
+        (self.dir / "two.toml").write_text(RAMP.replace("[2, 0], [2, 1]", "[2, -0.5], [2, 1]"))
+        self.assertIn("two.toml", self.expect(2, "cut", "two.toml").stderr)
+        self.assertIn("none/cut.svg", self.expect(1, "cut", "m.toml", "-o", "none/cut.svg").stderr)
+        self.assertIn("none/p.png", self.expect(1, "plot", "m.toml", "-o", "none/p.png").stderr)
+
+    def test_plot_wants_the_folder_of_a_run(self):
+        (self.dir / "empty").mkdir()
+        done = self.expect(2, "plot", "empty")
+        self.assertIn("give a folder that edda run has written, or a model file", done.stderr)
+
     def test_progress_is_a_bar_on_a_terminal_and_silent_when_quiet(self):
         self.assertEqual(self.expect(0, "run", "m.toml", "--quiet").stderr, "")
         self.assertNotIn("\r", self.expect(0, "run", "m.toml").stderr)

@@ -46,7 +46,7 @@ class Limits(unittest.TestCase):
         def limit():
             resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
         return subprocess.run([str(EDDA), "run", "m.toml", "--threads", "1", *more], cwd=self.dir, text=True,
-                              capture_output=True, timeout=60, preexec_fn=limit)
+                              capture_output=True, timeout=120, preexec_fn=limit)
 
     def refused(self, text, *words):
         done = self.run_limited(text)

@@ -23,7 +23,7 @@ struct Thing {
   std::optional<double> given = 2.5, missing;
   std::uint64_t count = 1ull << 60;
   bool yes = true;
-  std::string text = "line\nwith \0 inside";
+  std::string text = std::string("line\nwith \0 inside", 18);
   bool operator==(const Thing&) const = default;
 };
 
