@@ -114,7 +114,7 @@ class Determinism(unittest.TestCase):
         return summary
 
     def test_collapsing_wall(self):
-        summary = self.hold(COLLAPSING_WALL, twin_threads=(1, 3, 16))
+        summary = self.hold(COLLAPSING_WALL, twin_threads=(1, 16))
         self.assertGreater(summary["energy"]["fracture"], 0.0)  # bonds broke
         self.assertGreater(summary["energy"]["friction"], 0.0)
 
