@@ -17,7 +17,7 @@ struct Settings {
   double young = 1e9;      ///< Pa
   double stiffness = 4.0;  ///< contact over Young's modulus
   double damping = 0.4;    ///< at contacts
-  double seconds = 8.0;    ///< the last avalanches take five
+  double seconds = 12.0;   ///< the last block may slide for ten
   double odd = 0.0;        ///< part of blocks that are stars, needles, slivers or Ls
   double thinnest = 0.2;   ///< of needles and slivers
 };
