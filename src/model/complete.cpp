@@ -253,6 +253,22 @@ void complete_stage_damping(const Value* node, const Solver& solver, Stage& stag
   if (!given(own, "local")) stage.damping.local = settles ? at_rest : solver.damping.local;
 }
 
+/// Local damping, where it is given, must go with the method and the mass. `instead`: what to do in
+/// the implicit method.
+void check_local_damping(const Value* damping, const std::string& owner, const Solver& solver,
+                         const char* instead, Reading& reading) {
+  const Value* local = find(damping, "local");
+  if (local == nullptr) return;
+  const std::string key = owner + ".damping.local";
+  if (solver.method == Method::dda) {
+    add_fault(reading, local->place, key, "local damping belongs to method = \"edda\"", instead);
+  }
+  if (solver.mass == MassKind::consistent) {
+    add_fault(reading, local->place, key, "local damping does not go with mass = \"consistent\"",
+              "use mass = \"matched\", which moves the same way");
+  }
+}
+
 /// Durations of the stages, and of all together.
 void complete_stages(const Value& root, Reading& reading) {
   Solver& solver = reading.model.solver;
@@ -279,17 +295,11 @@ void complete_stages(const Value& root, Reading& reading) {
       add_fault(reading, own->place, stage.where.key + ".duration", "is missing",
                 "give a time such as 0.1, or until = \"equilibrium\"");
     }
-    if (stage.damping.local > 0.0 && given(find(own, "damping"), "local")) {
-      if (solver.method == Method::dda) {
-        add_fault(reading, find(find(own, "damping"), "local")->place,
-                  stage.where.key + ".damping.local", "local damping belongs to method = \"edda\"",
-                  "leave it out: until equilibrium this method drops velocities at each step");
-      } else if (solver.mass == MassKind::consistent) {
-        add_fault(reading, find(find(own, "damping"), "local")->place,
-                  stage.where.key + ".damping.local",
-                  "local damping does not go with mass = \"consistent\"",
-                  "use mass = \"matched\", which moves the same way");
-      }
+    if (stage.damping.local > 0.0) {
+      check_local_damping(find(own, "damping"), stage.where.key, solver,
+                          "leave it out: until equilibrium this method drops velocities at each "
+                          "step",
+                          reading);
     }
   }
   constexpr double same = 1e-9;
@@ -303,20 +313,16 @@ void complete_stages(const Value& root, Reading& reading) {
 void check_solver(const Value& root, Reading& reading) {
   const Solver& solver = reading.model.solver;
   const Value* node = find(&root, "solver");
-  if (solver.method == Method::dda && solver.damping.local > 0.0) {
-    add_fault(reading, find(find(node, "damping"), "local")->place, "solver.damping.local",
-              "local damping belongs to method = \"edda\"",
-              "leave it out: the implicit method damps by itself, and dynamic = false most of all");
+  if (solver.damping.local > 0.0) {
+    check_local_damping(
+        find(node, "damping"), "solver", solver,
+        "leave it out: the implicit method damps by itself, and dynamic = false most of all",
+        reading);
   }
   if (solver.method == Method::edda && !solver.dynamic) {
     add_fault(reading, find(node, "dynamic")->place, "solver.dynamic",
               "false belongs to method = \"dda\"",
               "give method = \"dda\", or leave it out and give damping.local = 0.8");
-  }
-  if (solver.damping.local > 0.0 && solver.mass == MassKind::consistent) {
-    add_fault(reading, find(find(node, "damping"), "local")->place, "solver.damping.local",
-              "local damping does not go with mass = \"consistent\"",
-              "use mass = \"matched\", which moves the same way");
   }
   constexpr double most_steps = 1e12;
   if (solver.time_step && solver.duration / *solver.time_step > most_steps) {

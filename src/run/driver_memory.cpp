@@ -63,6 +63,22 @@ std::string difference(std::string_view now, std::string_view then) {
   return std::string(then.substr(0, then.find('\n')));
 }
 
+template <class Archive>
+void list_ledger(Archive& a, const std::string& of, Ledger& l) {
+  for (const auto& [name, value] : {std::pair{"kinetic", &l.kinetic},
+                                    {"strain", &l.strain},
+                                    {"contact", &l.contact},
+                                    {"gravity", &l.gravity},
+                                    {"friction", &l.friction},
+                                    {"damping", &l.damping},
+                                    {"fracture", &l.fracture},
+                                    {"external", &l.external},
+                                    {"step_change", &l.step_change},
+                                    {"drift", &l.drift}}) {
+    a(of + name, *value);
+  }
+}
+
 Fault refused(const std::string& folder, std::string problem, std::string remedy) {
   return {{{}, folder, 0, 0}, std::move(problem), std::move(remedy)};
 }
@@ -75,60 +91,30 @@ void Driver::list_stages(Archive& a) {
   a("stage.start", stage_start_);
   a("stage.steps", stage_steps_);
   a("stage.calm", calm_);
-  std::vector<double> numbers;
-  for (const StageRecord& r : ends_) {
-    const Ledger& l = r.ledger;
-    for (const double v : {r.reached ? 1.0 : 0.0,
-                           r.start,
-                           r.end,
-                           static_cast<double>(r.steps),
-                           r.balance.mean,
-                           r.balance.largest,
-                           r.balance.block == no_id ? -1.0 : static_cast<double>(r.balance.block),
-                           static_cast<double>(r.balance.resting),
-                           static_cast<double>(r.balance.detached),
-                           l.kinetic,
-                           l.strain,
-                           l.contact,
-                           l.gravity,
-                           l.friction,
-                           l.damping,
-                           l.fracture,
-                           l.external,
-                           l.step_change,
-                           l.drift,
-                           static_cast<double>(r.closed),
-                           static_cast<double>(r.sliding),
-                           static_cast<double>(r.bonded)}) {
-      numbers.push_back(v);
-    }
-  }
-  a("stage.ends", numbers);
   if constexpr (Archive::loads) {
-    constexpr std::size_t width = 22;
-    if (stage_ >= stages_.size() || numbers.size() != width * stage_) {
+    if (stage_ >= stages_.size()) {
       a.refuse("stages do not fit the model");
       return;
     }
-    ends_.clear();
-    const auto whole = [](double v) { return static_cast<std::size_t>(v); };
-    for (std::size_t q = 0; q < stage_; ++q) {
-      const double* v = &numbers[width * q];
-      StageRecord r;
-      r.name = stages_[q].name;
-      r.reached = v[0] != 0.0;
-      r.start = v[1];
-      r.end = v[2];
-      r.steps = whole(v[3]);
-      r.balance = {v[4], v[5], v[6] < 0.0 ? no_id : static_cast<Id>(v[6]), whole(v[7]),
-                   whole(v[8])};
-      r.ledger = {v[9], v[10], v[11], v[12], v[13], v[14], v[15], v[16], v[17], v[18]};
-      r.closed = whole(v[19]);
-      r.sliding = whole(v[20]);
-      r.bonded = whole(v[21]);
-      ends_.push_back(r);
-    }
+    ends_.resize(stage_);
     times_.end_at(stage_start_ + stages_[stage_].duration);
+  }
+  for (std::size_t q = 0; q < ends_.size(); ++q) {
+    const std::string of = fmt::format("stage.{}.", q);
+    StageRecord& r = ends_[q];
+    a(of + "reached", r.reached);
+    a(of + "start", r.start);
+    a(of + "end", r.end);
+    a(of + "steps", r.steps);
+    a(of + "mean", r.balance.mean);
+    a(of + "largest", r.balance.largest);
+    a(of + "block", r.balance.block);
+    a(of + "resting", r.balance.resting);
+    a(of + "detached", r.balance.detached);
+    list_ledger(a, of, r.ledger);
+    a(of + "closed", r.closed);
+    a(of + "sliding", r.sliding);
+    a(of + "bonded", r.bonded);
   }
 }
 
@@ -163,19 +149,7 @@ void Driver::list(Archive& a) {
   a("outcome.reaction_error", outcome_.reaction_error);
   a("outcome.stepping", outcome_.wall.stepping);
   a("outcome.output", outcome_.wall.output);
-  Ledger& l = outcome_.ledger;
-  for (const auto& [name, value] : {std::pair{"kinetic", &l.kinetic},
-                                    {"strain", &l.strain},
-                                    {"contact", &l.contact},
-                                    {"gravity", &l.gravity},
-                                    {"friction", &l.friction},
-                                    {"damping", &l.damping},
-                                    {"fracture", &l.fracture},
-                                    {"external", &l.external},
-                                    {"step_change", &l.step_change},
-                                    {"drift", &l.drift}}) {
-    a(std::string("ledger.") + name, *value);
-  }
+  list_ledger(a, "ledger.", outcome_.ledger);
   double wall = wall_before_ + std::chrono::duration<double>(Clock::now() - started_).count();
   a("driver.wall", wall);
   if constexpr (Archive::loads) {

@@ -39,8 +39,7 @@ bool Driver::end_stage(bool at_rest) {
   const Stage& stage = stages_[stage_];
   const bool reached = at_rest || stage.until == StageEnd::time;
   if (!sim_.model.stages.empty()) {
-    ends_.push_back(
-        stage_record(sim_, outcome_.ledger, stage_, stage_start_, stage_steps_, reached));
+    ends_.push_back(stage_record(sim_, outcome_.ledger, stage_start_, stage_steps_, reached));
     if (ended_by(recorder_.stages(stages_csv(sim_.model, ends_)))) return false;
   }
   const std::string label = stage_label(sim_.model, stage_);

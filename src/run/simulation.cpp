@@ -14,6 +14,7 @@
 #include "contacts/transitions.hpp"
 #include "forces/contact_forces.hpp"
 #include "lines/build_polygons.hpp"
+#include "run/load_work.hpp"
 
 namespace edda {
 namespace {
@@ -273,18 +274,9 @@ std::optional<Failure> Simulation::step() {
 
 /// Work of the loads in the leapfrog's terms: f_n . (x_{n+1} - x_{n-1})/2.
 void Simulation::book_loads(double h_old, double h_new, const LoadsNow& now) {
-  if (now.loads == nullptr) return;
-  external_work += ordered_sum(loads.blocks.size(), [&](std::size_t q) {
-    const Id i = loads.blocks[q];
-    if (!is_free(blocks, state, i)) return 0.0;
-    std::array<Vec2, 3> f{};
-    add_loads(f, blocks, now, pose.x1, pose.y1, i);
-    double work = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      work += 0.5 * (f[k].x * (h_old * old_vx_[k][i] + h_new * state.vx[k][i]) +
-                     f[k].y * (h_old * old_vy_[k][i] + h_new * state.vy[k][i]));
-    }
-    return work;
+  external_work += load_work(*this, now, pose.x1, pose.y1, [&](Id i, std::size_t k) {
+    const Vec2 before{old_vx_[k][i], old_vy_[k][i]}, after{state.vx[k][i], state.vy[k][i]};
+    return 0.5 * (h_old * before + h_new * after);
   });
 }
 

@@ -10,6 +10,7 @@
 #include "contacts/gaps.hpp"
 #include "contacts/shares.hpp"
 #include "run/labels.hpp"
+#include "run/load_work.hpp"
 #include "run/simulation.hpp"
 
 namespace edda {
@@ -89,20 +90,9 @@ void Simulation::start_implicit() {
 
 /// Work of the loads as the scheme sees it: f_{n+1} . D.
 void Simulation::book_implicit_loads(const LoadsNow& now) {
-  if (now.loads == nullptr) return;
-  external_work += ordered_sum(loads.blocks.size(), [&](std::size_t q) {
-    const Id i = loads.blocks[q];
-    if (!is_free(blocks, state, i)) return 0.0;
-    std::array<Vec2, 3> f{};
-    add_loads(f, blocks, now, pose.x, pose.y, i);
-    const Vector6 moved =
-        implicit.moved.segment<6>(6 * static_cast<Eigen::Index>(implicit.row_of[i]));
-    double work = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto at = static_cast<Eigen::Index>(2 * k);
-      work += f[k].x * moved[at] + f[k].y * moved[at + 1];
-    }
-    return work;
+  external_work += load_work(*this, now, pose.x, pose.y, [&](Id i, std::size_t k) {
+    const auto at = static_cast<Eigen::Index>(6 * std::size_t{implicit.row_of[i]} + 2 * k);
+    return Vec2{implicit.moved[at], implicit.moved[at + 1]};
   });
 }
 

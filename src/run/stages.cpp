@@ -60,10 +60,9 @@ Balance balance_of(const Simulation& sim) {
   return balance;
 }
 
-StageRecord stage_record(const Simulation& sim, const Ledger& ledger, std::size_t stage,
-                         double start, std::uint64_t first_step, bool reached) {
+StageRecord stage_record(const Simulation& sim, const Ledger& ledger, double start,
+                         std::uint64_t first_step, bool reached) {
   StageRecord r;
-  r.name = stages_of(sim.model)[stage].name;
   r.reached = reached;
   r.start = start;
   r.end = sim.state.time;
@@ -89,7 +88,7 @@ std::string stages_csv(const Model& model, const std::vector<StageRecord>& recor
   for (std::size_t q = 0; q < records.size(); ++q) {
     const StageRecord& r = records[q];
     const Ledger& l = r.ledger;
-    csv.add(q).add(r.name);
+    csv.add(q).add(stages[q].name);
     csv.add(stages[q].until == StageEnd::time ? "time" : "equilibrium").add(r.reached ? 1 : 0);
     csv.add(r.start).add(r.end).add(r.steps).add(r.balance.mean).add(r.balance.largest);
     if (r.balance.block == no_id) {

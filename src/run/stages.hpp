@@ -23,7 +23,6 @@ Balance balance_of(const Simulation& sim);
 
 /// A row of stages.csv.
 struct StageRecord {
-  std::string name;
   bool reached = true;            ///< its end; false: no equilibrium within its duration
   double start = 0.0, end = 0.0;  ///< s
   std::uint64_t steps = 0;
@@ -32,8 +31,8 @@ struct StageRecord {
   std::size_t closed = 0, sliding = 0, bonded = 0;  ///< contacts at the end
 };
 
-StageRecord stage_record(const Simulation& sim, const Ledger& ledger, std::size_t stage,
-                         double start, std::uint64_t first_step, bool reached);
+StageRecord stage_record(const Simulation& sim, const Ledger& ledger, double start,
+                         std::uint64_t first_step, bool reached);
 
 std::string stages_csv(const Model& model, const std::vector<StageRecord>& records);
 

@@ -1,0 +1,29 @@
+// Work of the loads over the motion of a step.
+#pragma once
+
+#include <array>
+
+#include "base/parallel.hpp"
+#include "run/simulation.hpp"
+
+namespace edda {
+
+/// Sum of f . u over the nodes of all free blocks that carry loads, J: f of the loads with the
+/// vertices at x, y; moved(i, k) the displacement u of node k of block i that the method counts, m.
+template <class Moved>
+double load_work(const Simulation& sim, const LoadsNow& now, const std::vector<double>& x,
+                 const std::vector<double>& y, Moved moved) {
+  if (now.loads == nullptr) return 0.0;
+  const std::vector<Id>& loaded = now.loads->blocks;
+  return ordered_sum(loaded.size(), [&](std::size_t q) {
+    const Id i = loaded[q];
+    if (!is_free(sim.blocks, sim.state, i)) return 0.0;
+    std::array<Vec2, 3> f{};
+    add_loads(f, sim.blocks, now, x, y, i);
+    double work = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) work += dot(f[k], moved(i, k));
+    return work;
+  });
+}
+
+}  // namespace edda
