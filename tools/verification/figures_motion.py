@@ -177,8 +177,8 @@ def ten_pieces(records):
         pair = which.split(",")[0]
         draw.exact_line(middle, way["time"], 1e3 * way["exact"])
         draw.marks(middle, way["time"], 1e3 * way["computed"], index, pair)
+    sums = records.series_of(17, "normal forces")
     for index, which in enumerate(ways):
-        sums = records.series_of(17, "normal forces")
         press = sums[f"normal forces, {which}"]
         right.plot(*draw.highest(press["time"], press["computed"], 60), color=draw.COLORS[index], linewidth=1.0)
         damped = sums[f"normal forces, {which}, contact damping 0.02"]
