@@ -12,6 +12,8 @@
 #pragma GCC diagnostic ignored "-Wdeprecated-copy"
 #pragma GCC diagnostic ignored "-Woverloaded-virtual"
 #endif
+#include <geos/algorithm/Distance.h>
+#include <geos/algorithm/LineIntersector.h>
 #include <geos/algorithm/Orientation.h>
 #include <geos/geom/Coordinate.h>
 #include <geos/geom/CoordinateArraySequence.h>
@@ -23,7 +25,8 @@
 #include <geos/geom/PrecisionModel.h>
 #include <geos/index/strtree/TemplateSTRtree.h>
 #include <geos/noding/FastNodingValidator.h>
+#include <geos/noding/MCIndexNoder.h>
 #include <geos/noding/NodedSegmentString.h>
-#include <geos/noding/snap/SnappingNoder.h>
+#include <geos/noding/SegmentIntersector.h>
 #include <geos/noding/snapround/SnapRoundingNoder.h>
 #pragma GCC diagnostic pop

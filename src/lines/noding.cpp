@@ -10,6 +10,7 @@
 
 #include "lines/geos.hpp"
 #include "lines/place.hpp"
+#include "lines/snapping.hpp"
 
 namespace edda {
 namespace {
@@ -37,12 +38,14 @@ class Strings {
   std::vector<SegmentString*> items_;
 };
 
-Strings strings_of(const LineWork& work) {
+/// The lines through their points as `place` moves them, without repeats.
+template <class Place>
+Strings strings_of(const LineWork& work, Place place) {
   Strings strings;
   strings.items().reserve(work.lines.size());
   for (const LineString& line : work.lines) {
     auto points = std::make_unique<geos::geom::CoordinateArraySequence>();
-    for (Vec2 p : line.points) points->add(geos::geom::Coordinate(p.x, p.y));
+    for (Vec2 p : line.points) points->add(place(geos::geom::Coordinate(p.x, p.y)), false);
     const LineSource* source = &work.sources[static_cast<std::size_t>(line.source)];
     strings.items().push_back(new geos::noding::NodedSegmentString(points.release(), source));
   }
@@ -50,8 +53,7 @@ Strings strings_of(const LineWork& work) {
 }
 
 /// The noded strings, or nothing where two of them still cross.
-std::optional<Strings> noded_by(geos::noding::Noder& noder, const LineWork& work) {
-  Strings input = strings_of(work);
+std::optional<Strings> noded_by(geos::noding::Noder& noder, Strings input) {
   noder.computeNodes(&input.items());
   Strings output(noder.getNodedSubstrings());
   geos::noding::FastNodingValidator validator(output.items());
@@ -59,15 +61,18 @@ std::optional<Strings> noded_by(geos::noding::Noder& noder, const LineWork& work
   return output;
 }
 
+/// Vertices are snapped first, so that crossings snap to them and not the other way round.
 std::optional<Strings> by_snapping(const LineWork& work, double snap) {
-  geos::noding::snap::SnappingNoder noder(snap);
-  return noded_by(noder, work);
+  SnapPoints points(snap);
+  SnappingAdder adder(snap, points);
+  geos::noding::MCIndexNoder noder(&adder, 2.0 * snap);
+  return noded_by(noder, strings_of(work, [&](const auto& p) { return points.snap(p); }));
 }
 
 std::optional<Strings> by_rounding(const LineWork& work, double snap) {
   const geos::geom::PrecisionModel grid(1.0 / snap);
   geos::noding::snapround::SnapRoundingNoder noder(&grid);
-  return noded_by(noder, work);
+  return noded_by(noder, strings_of(work, [](const auto& p) { return p; }));
 }
 
 /// GEOS reports what it cannot do by exceptions; here that is one more way to be invalid.

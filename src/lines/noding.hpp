@@ -27,7 +27,7 @@ enum class Noding {
   rounding    ///< snap rounding at once
 };
 
-/// Nodes all lines at the tolerance `snap` (m): GEOS's SnappingNoder, checked by
+/// Nodes all lines at the tolerance `snap` (m): snapping (snapping.hpp), checked by GEOS's
 /// FastNodingValidator, else its SnapRoundingNoder, checked too. Fault at `where` if lines still
 /// cross between nodes.
 Result<NodedLines> node_lines(const LineWork& work, double snap, const Where& where,
