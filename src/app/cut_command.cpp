@@ -51,7 +51,7 @@ void print_report(const PolygonSet& polygons) {
 
 Trouble write_cut(const Model& model, const PolygonSet& polygons, const std::string& path) {
   const std::string ending = ending_of(path);
-  if (ending == ".csv") return write_file(path, cut_csv(polygons, model));
+  if (ending == ".csv") return write_cut_csv(path, polygons, model);
   const BlockSet blocks = build_blocks(model, polygons);
   const Grid grid = block_grid(block_cells(blocks), start_picture(model, blocks));
   if (ending == ".vtu") return write_vtu(path, grid);

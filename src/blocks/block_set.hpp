@@ -5,7 +5,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/vec2.hpp"
@@ -54,13 +56,19 @@ struct BlockSet {
   std::vector<double> mass;                    ///< [nb] kg
   std::vector<double> centroid_x, centroid_y;  ///< [nb] at the start, m
   std::vector<double> smallest_edge;           ///< [nb] m
-  std::vector<double> radius;     ///< [nb] largest distance of a vertex from the centroid, m
-  std::vector<double> inradius;   ///< [nb] half the narrowest extent of the outer ring, m
-  std::vector<Index> material;    ///< [nb]
-  std::vector<std::string> name;  ///< [nb] empty where none was given
-  std::vector<Id> ring_begin;     ///< first vertex of each ring, then nv
-  std::vector<Id> block_ring;     ///< [nb + 1] first ring of each block
+  std::vector<double> radius;       ///< [nb] largest distance of a vertex from the centroid, m
+  std::vector<double> inradius;     ///< [nb] half the narrowest extent of the outer ring, m
+  std::vector<Index> material;      ///< [nb]
+  std::map<Id, std::string> names;  ///< of the blocks that were given one
+  std::vector<Id> ring_begin;       ///< first vertex of each ring, then nv
+  std::vector<Id> block_ring;       ///< [nb + 1] first ring of each block
   MassKind mass_kind = MassKind::matched;
+
+  /// Empty where none was given.
+  std::string_view name(std::size_t i) const {
+    const auto found = names.find(static_cast<Id>(i));
+    return found == names.end() ? std::string_view{} : found->second;
+  }
 };
 
 }  // namespace edda

@@ -78,6 +78,32 @@ void add_vertices(BlockSet& b, const BlockPolygon& polygon, const Moments& m,
   b.radius.push_back(radius);
 }
 
+/// Room for all, so that no array ends with twice what it needs.
+void reserve(BlockSet& b, const std::vector<BlockPolygon>& polygons) {
+  const std::size_t nb = polygons.size();
+  std::size_t nv = 0, rings = 0;
+  for (const BlockPolygon& polygon : polygons) {
+    rings += polygon.rings.size();
+    for (const Ring& ring : polygon.rings) nv += ring.size();
+  }
+  for (auto* nodes : {&b.grad_x, &b.grad_y, &b.node_x, &b.node_y, &b.node_mass}) {
+    for (auto& values : *nodes) values.reserve(nb);
+  }
+  for (auto* values : {&b.volume, &b.lame_lambda, &b.lame_mu, &b.area, &b.mass, &b.centroid_x,
+                       &b.centroid_y, &b.smallest_edge, &b.radius, &b.inradius}) {
+    values->reserve(nb);
+  }
+  b.fixed.reserve(nb);
+  b.material.reserve(nb);
+  b.vertex_begin.reserve(nb + 1);
+  b.block_ring.reserve(nb + 1);
+  b.ring_begin.reserve(rings + 1);
+  for (auto& values : b.weight) values.reserve(nv);
+  for (auto* values : {&b.edge_length, &b.corner, &b.vertex_x, &b.vertex_y}) values->reserve(nv);
+  for (auto* ids : {&b.vertex_block, &b.next, &b.previous}) ids->reserve(nv);
+  b.edge_joint.reserve(nv);
+}
+
 }  // namespace
 
 BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
@@ -85,6 +111,7 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
   b.origin = polygons.origin;
   b.thickness = model.thickness;
   b.mass_kind = model.solver.mass;
+  reserve(b, polygons.blocks);
   b.vertex_begin.push_back(0);
   b.block_ring.push_back(0);
   for (const BlockPolygon& polygon : polygons.blocks) {
@@ -119,7 +146,7 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
     b.centroid_y.push_back(m.centroid.y);
     b.inradius.push_back(half_width(polygon.rings[0]));
     b.material.push_back(polygon.material);
-    b.name.push_back(polygon.name);
+    if (!polygon.name.empty()) b.names[static_cast<Id>(b.area.size() - 1)] = polygon.name;
     b.vertex_begin.push_back(static_cast<Id>(b.vertex_block.size()));
     b.block_ring.push_back(static_cast<Id>(b.ring_begin.size()));
   }

@@ -1,6 +1,6 @@
 #include "results/cut_table.hpp"
 
-#include "results/csv.hpp"
+#include "results/csv_file.hpp"
 
 namespace edda {
 namespace {
@@ -13,10 +13,10 @@ std::string joint_name(const Model& model, Index joint) {
 
 }  // namespace
 
-std::string cut_csv(const PolygonSet& polygons, const Model& model) {
+Trouble write_cut_csv(const std::string& path, const PolygonSet& polygons, const Model& model) {
   Csv csv;
   csv.header({"block", "material", "ring", "x", "y", "joint"});
-  for (std::size_t i = 0; i < polygons.blocks.size(); ++i) {
+  return write_rows(path, csv, polygons.blocks.size(), [&](std::size_t i) {
     const BlockPolygon& b = polygons.blocks[i];
     const std::string material =
         b.material == none ? "" : model.materials[static_cast<std::size_t>(b.material)].name;
@@ -32,8 +32,7 @@ std::string cut_csv(const PolygonSet& polygons, const Model& model) {
             .end();
       }
     }
-  }
-  return csv.text();
+  });
 }
 
 }  // namespace edda

@@ -5,11 +5,12 @@
 
 #include "lines/polygon_set.hpp"
 #include "model/model.hpp"
+#include "results/files.hpp"
 
 namespace edda {
 
 /// block,material,ring,x,y,joint: a row per vertex, with the joint of the edge that starts there
 /// (empty where none is named, so that contact.joint applies). Model coordinates, m.
-std::string cut_csv(const PolygonSet& polygons, const Model& model);
+Trouble write_cut_csv(const std::string& path, const PolygonSet& polygons, const Model& model);
 
 }  // namespace edda

@@ -37,14 +37,6 @@ Fault cannot_write(const std::string& path, int error) {
 
 namespace {
 
-int write_and_close(std::FILE* file, std::string_view content) {
-  int error = 0;
-  if (std::fwrite(content.data(), 1, content.size(), file) != content.size()) error = errno;
-  if (std::fflush(file) != 0 && error == 0) error = errno;
-  if (std::fclose(file) != 0 && error == 0) error = errno;
-  return error;
-}
-
 constexpr std::array known_files{
     "summary.json", "stages.csv",   "history.csv",   "blocks.csv",    "joints.csv",
     "blocks.pvd",   "contacts.pvd", "model.toml",    "checkpoint.h5", "checkpoint.previous.h5",
@@ -105,15 +97,37 @@ Content content_of(const fs::path& folder) {
 
 }  // namespace
 
+WholeFile::WholeFile(std::string path)
+    : path_(std::move(path)), part_(path_ + ".part"), file_(std::fopen(part_.c_str(), "wb")) {
+  if (file_ == nullptr) error_ = errno;
+}
+
+WholeFile::~WholeFile() {
+  if (file_ == nullptr) return;
+  std::fclose(file_);
+  std::remove(part_.c_str());
+}
+
+void WholeFile::add(std::string_view bytes) {
+  if (error_ != 0) return;
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) error_ = errno;
+}
+
+Trouble WholeFile::complete() {
+  if (file_ == nullptr) return cannot_write(path_, error_);
+  if (std::fflush(file_) != 0 && error_ == 0) error_ = errno;
+  if (std::fclose(file_) != 0 && error_ == 0) error_ = errno;
+  file_ = nullptr;
+  if (error_ == 0 && std::rename(part_.c_str(), path_.c_str()) != 0) error_ = errno;
+  if (error_ == 0) return {};
+  std::remove(part_.c_str());
+  return cannot_write(path_, error_);
+}
+
 Trouble write_file(const std::string& path, std::string_view content) {
-  const std::string part = path + ".part";
-  std::FILE* file = std::fopen(part.c_str(), "wb");
-  if (file == nullptr) return cannot_write(path, errno);
-  int error = write_and_close(file, content);
-  if (error == 0 && std::rename(part.c_str(), path.c_str()) != 0) error = errno;
-  if (error == 0) return {};
-  std::remove(part.c_str());
-  return cannot_write(path, error);
+  WholeFile file(path);
+  file.add(content);
+  return file.complete();
 }
 
 Result<std::string> read_file(const std::string& path) {

@@ -17,8 +17,25 @@ using Trouble = std::optional<Fault>;
 /// Why a file could not be written, with what to do.
 Fault cannot_write(const std::string& path, int error);
 
-/// Writes `content` beside `path` and then moves it there, so that a full disk never leaves half a
-/// file and an earlier file stays until the new one is complete.
+/// A file written piece by piece beside its path and moved there once it is complete, so that a
+/// full disk never leaves half a file and an earlier file stays until the new one is complete.
+class WholeFile {
+ public:
+  explicit WholeFile(std::string path);
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+  ~WholeFile();
+  /// After trouble nothing more is written; complete() tells.
+  void add(std::string_view bytes);
+  Trouble complete();
+
+ private:
+  std::string path_, part_;
+  std::FILE* file_;
+  int error_ = 0;
+};
+
+/// A whole file at once.
 Trouble write_file(const std::string& path, std::string_view content);
 
 /// The whole of a file, or a fault.

@@ -20,30 +20,41 @@ std::vector<Ring> rings_of(const BlockSet& b, std::size_t i) {
   return rings;
 }
 
-void add_cells(const BlockSet& b, std::size_t i, std::vector<std::vector<std::int64_t>>& cells) {
+void add_cells(const BlockSet& b, std::size_t i, BlockCells& cells) {
   const std::vector<Ring> rings = rings_of(b, i);
-  const auto first = static_cast<std::int64_t>(b.vertex_begin[i]);
+  const Id first = b.vertex_begin[i];
+  const auto close = [&] { cells.end.push_back(static_cast<Id>(cells.corner.size())); };
   if (rings.size() == 1 && is_convex(rings[0])) {
-    auto& cell = cells.emplace_back();
-    for (std::size_t k = 0; k < rings[0].size(); ++k) {
-      cell.push_back(first + static_cast<std::int64_t>(k));
-    }
+    for (Id v = first; v < b.vertex_begin[i + 1]; ++v) cells.corner.push_back(v);
+    close();
     return;
   }
   for (const Triangle& t : triangulate(rings)) {
-    auto& cell = cells.emplace_back();
-    for (const std::size_t k : t) cell.push_back(first + static_cast<std::int64_t>(k));
+    for (const std::size_t k : t) cells.corner.push_back(first + static_cast<Id>(k));
+    close();
   }
 }
 
-Field vectors(std::string name, std::size_t count) {
-  Field f{std::move(name), 3, {}, {}, false};
-  f.values.reserve(3 * count);
+Field field_of(const char* name, std::size_t components, std::size_t count) {
+  Field f{name, components, {}, {}, false};
+  f.values.reserve(components * count);
+  return f;
+}
+
+Field numbers(const char* name, std::size_t count) {
+  Field f = field_of(name, 1, count);
+  f.whole = true;
   return f;
 }
 
 void push(Field& f, std::initializer_list<double> values) {
   f.values.insert(f.values.end(), values);
+}
+
+/// Without a copy.
+template <class... Fields>
+void take(std::vector<Field>& into, Fields&... fields) {
+  (into.push_back(std::move(fields)), ...);
 }
 
 void push_principal(Field& f, const BlockRecord& b) {
@@ -53,7 +64,7 @@ void push_principal(Field& f, const BlockRecord& b) {
 }
 
 Field point_vectors(const char* name, const std::vector<double>& x, const std::vector<double>& y) {
-  Field f = vectors(name, x.size());
+  Field f = field_of(name, 3, x.size());
   for (std::size_t v = 0; v < x.size(); ++v) push(f, {x[v], y[v], 0.0});
   return f;
 }
@@ -62,10 +73,13 @@ Field point_vectors(const char* name, const std::vector<double>& x, const std::v
 
 BlockCells block_cells(const BlockSet& blocks) {
   BlockCells cells;
+  cells.begin.reserve(blocks.size() + 1);
+  cells.end.reserve(blocks.size());
+  cells.corner.reserve(blocks.vertex_count());
   cells.begin.push_back(0);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    add_cells(blocks, i, cells.cell);
-    cells.begin.push_back(cells.cell.size());
+    add_cells(blocks, i, cells);
+    cells.begin.push_back(static_cast<Id>(cells.end.size()));
   }
   return cells;
 }
@@ -73,22 +87,28 @@ BlockCells block_cells(const BlockSet& blocks) {
 Grid block_grid(const BlockCells& cells, const Picture& picture) {
   Grid g;
   g.time = picture.time;
+  g.points.reserve(3 * picture.x.size());
   for (std::size_t v = 0; v < picture.x.size(); ++v) {
     g.points.insert(g.points.end(), {picture.x[v], picture.y[v], 0.0});
   }
-  const std::size_t n = cells.cell.size();
-  Field id{"id", 1, {}, {}, true}, material{"material", 1, {}, {}, true},
-      fixed{"fixed", 1, {}, {}, true};
-  Field displacement = vectors("displacement", n), velocity = vectors("velocity", n);
-  Field rotation{"rotation", 1, {}, {}, false};
-  Field stress{"stress", 6, {}, {"XX", "YY", "ZZ", "XY", "YZ", "XZ"}, false};
-  Field principal{"principal_stress", 3, {}, {"major", "minor", "out_of_plane"}, false};
+  const std::size_t n = cells.end.size();
+  g.corners.reserve(cells.corner.size());
+  g.ends.reserve(n);
+  g.types.reserve(n);
+  Field id = numbers("id", n), material = numbers("material", n), fixed = numbers("fixed", n);
+  Field displacement = field_of("displacement", 3, n), velocity = field_of("velocity", 3, n);
+  Field rotation = field_of("rotation", 1, n), stress = field_of("stress", 6, n);
+  Field principal = field_of("principal_stress", 3, n);
+  stress.component_names = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+  principal.component_names = {"major", "minor", "out_of_plane"};
   for (const BlockRecord& b : picture.blocks) {
-    for (std::size_t c = cells.begin[b.id]; c < cells.begin[b.id + 1]; ++c) {
-      g.corners.insert(g.corners.end(), cells.cell[c].begin(), cells.cell[c].end());
+    const Id first = cells.begin[b.id], end = cells.begin[b.id + 1];
+    for (Id c = first; c < end; ++c) {
+      for (Id k = c == 0 ? 0 : cells.end[c - 1]; k < cells.end[c]; ++k) {
+        g.corners.push_back(cells.corner[k]);
+      }
       g.ends.push_back(static_cast<std::int64_t>(g.corners.size()));
-      g.types.push_back(cells.begin[b.id + 1] - cells.begin[b.id] == 1 ? cell_type::polygon
-                                                                       : cell_type::triangle);
+      g.types.push_back(end - first == 1 ? cell_type::polygon : cell_type::triangle);
       push(id, {static_cast<double>(b.id)});
       push(material, {static_cast<double>(b.material_index)});
       push(fixed, {b.fixed ? 1.0 : 0.0});
@@ -99,21 +119,24 @@ Grid block_grid(const BlockCells& cells, const Picture& picture) {
       push_principal(principal, b);
     }
   }
-  g.cell_fields = {id, material, fixed, displacement, velocity, rotation, stress, principal};
-  g.point_fields = {point_vectors("displacement", picture.ux, picture.uy),
-                    point_vectors("velocity", picture.vx, picture.vy)};
+  take(g.cell_fields, id, material, fixed, displacement, velocity, rotation, stress, principal);
+  g.point_fields.push_back(point_vectors("displacement", picture.ux, picture.uy));
+  g.point_fields.push_back(point_vectors("velocity", picture.vx, picture.vy));
   return g;
 }
 
 Grid contact_grid(const Picture& picture) {
   Grid g;
   g.time = picture.time;
-  Field i{"block_i", 1, {}, {}, true}, j{"block_j", 1, {}, {}, true},
-      state{"state", 1, {}, {}, true};
-  Field normal{"normal_force", 1, {}, {}, false}, shear{"shear_force", 1, {}, {}, false};
-  Field opening{"opening", 1, {}, {}, false}, slip{"slip", 1, {}, {}, false};
-  Field force = vectors("force", picture.contacts.size());
-  Field displacement = vectors("displacement", picture.contacts.size());
+  const std::size_t n = picture.contacts.size();
+  g.points.reserve(3 * n);
+  g.corners.reserve(n);
+  g.ends.reserve(n);
+  g.types.reserve(n);
+  Field i = numbers("block_i", n), j = numbers("block_j", n), state = numbers("state", n);
+  Field normal = field_of("normal_force", 1, n), shear = field_of("shear_force", 1, n);
+  Field opening = field_of("opening", 1, n), slip = field_of("slip", 1, n);
+  Field force = field_of("force", 3, n), displacement = field_of("displacement", 3, n);
   for (const ContactRecord& c : picture.contacts) {
     g.corners.push_back(static_cast<std::int64_t>(g.point_count()));
     g.points.insert(g.points.end(), {c.position.x, c.position.y, 0.0});
@@ -130,8 +153,8 @@ Grid contact_grid(const Picture& picture) {
     push(displacement, {c.displacement.x, c.displacement.y, 0.0});
   }
   // Both as point and as cell fields: glyphs want points, thresholds and tables cells.
-  g.cell_fields = {normal, shear, opening, slip, state, i, j, force, displacement};
-  g.point_fields = g.cell_fields;
+  g.cells_are_points = true;
+  take(g.cell_fields, normal, shear, opening, slip, state, i, j, force, displacement);
   return g;
 }
 

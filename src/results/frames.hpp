@@ -13,8 +13,9 @@ namespace edda {
 
 /// The cells of every block, made once: a block's motion is affine, so they stay what they are.
 struct BlockCells {
-  std::vector<std::size_t> begin;               ///< [nb + 1] first cell of each block
-  std::vector<std::vector<std::int64_t>> cell;  ///< vertices of each, counter-clockwise
+  std::vector<Id> begin;   ///< [nb + 1] first cell of each block
+  std::vector<Id> end;     ///< of each cell in `corner`
+  std::vector<Id> corner;  ///< vertices of all cells, each counter-clockwise
 };
 
 /// Convex blocks are one cell; others, and those with holes, are triangles.

@@ -27,7 +27,8 @@ struct Grid {
   std::vector<std::int64_t> ends;     ///< of each cell in `corners`
   std::vector<std::uint8_t> types;    ///< of each cell
   std::vector<Field> point_fields, cell_fields;
-  double time = 0.0;  ///< s
+  bool cells_are_points = false;  ///< one each: written files have the cell fields at points, too
+  double time = 0.0;              ///< s
 
   std::size_t point_count() const { return points.size() / 3; }
   std::size_t cell_count() const { return ends.size(); }

@@ -1,9 +1,10 @@
 // What a run tells of its blocks and contacts at one time: rows of the tables, values of the
-// frames. Filled by run/; model coordinates, SI units, stresses positive in tension.
+// frames. Filled by run/; model coordinates, SI units, stresses positive in tension. Names are
+// those of the model and the blocks, which must outlive a record.
 #pragma once
 
 #include <cstdint>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/vec2.hpp"
@@ -12,7 +13,7 @@ namespace edda {
 
 struct BlockRecord {
   std::uint32_t id = 0;
-  std::string name, material;
+  std::string_view name, material;
   std::int32_t material_index = 0;
   bool fixed = false;
   Vec2 position;                                      ///< centroid, m
@@ -29,7 +30,7 @@ enum class ContactState : std::int32_t { open = 0, stick = 1, slide = 2, bonded 
 
 struct ContactRecord {
   std::uint32_t block_i = 0, block_j = 0;  ///< of the vertex, of the edge
-  std::string joint;                       ///< its law
+  std::string_view joint;                  ///< its law
   Vec2 position;                           ///< of the vertex, m
   Vec2 displacement;                       ///< of the vertex since the start, m
   Vec2 force;                              ///< on block i, N

@@ -2,35 +2,35 @@
 
 #include <array>
 
-#include "results/csv.hpp"
+#include "results/csv_file.hpp"
 
 namespace edda {
 
-std::string blocks_csv(std::span<const BlockRecord> blocks) {
+Trouble write_blocks_csv(const std::string& path, std::span<const BlockRecord> blocks) {
   Csv csv;
   csv.header({"id", "name", "material", "x", "y", "area", "ux", "uy", "rotation", "vx", "vy",
               "omega", "sxx", "syy", "szz", "sxy"});
-  for (const BlockRecord& b : blocks) {
+  return write_rows(path, csv, blocks.size(), [&](std::size_t i) {
+    const BlockRecord& b = blocks[i];
     csv.add(b.id).add(b.name).add(b.material).add(b.position.x).add(b.position.y).add(b.area);
     csv.add(b.displacement.x).add(b.displacement.y).add(b.rotation);
     csv.add(b.velocity.x).add(b.velocity.y).add(b.omega);
     csv.add(b.sxx).add(b.syy).add(b.szz).add(b.sxy).end();
-  }
-  return csv.text();
+  });
 }
 
-std::string joints_csv(std::span<const ContactRecord> contacts) {
+Trouble write_joints_csv(const std::string& path, std::span<const ContactRecord> contacts) {
   constexpr std::array state_names{"open", "stick", "slide", "bonded"};
   Csv csv;
   csv.header({"block_i", "block_j", "joint", "x", "y", "normal_force", "shear_force", "opening",
               "slip", "state", "ever_slipped", "ever_opened", "mobilised"});
-  for (const ContactRecord& c : contacts) {
+  return write_rows(path, csv, contacts.size(), [&](std::size_t k) {
+    const ContactRecord& c = contacts[k];
     csv.add(c.block_i).add(c.block_j).add(c.joint).add(c.position.x).add(c.position.y);
     csv.add(c.normal_force).add(c.shear_force).add(c.opening).add(c.slip);
     csv.add(state_names[static_cast<std::size_t>(c.state)]);
     csv.add(int{c.ever_slipped}).add(int{c.ever_opened}).add(c.mobilised).end();
-  }
-  return csv.text();
+  });
 }
 
 }  // namespace edda

@@ -4,11 +4,12 @@
 #include <span>
 #include <string>
 
+#include "results/files.hpp"
 #include "results/records.hpp"
 
 namespace edda {
 
-std::string blocks_csv(std::span<const BlockRecord> blocks);
-std::string joints_csv(std::span<const ContactRecord> contacts);
+Trouble write_blocks_csv(const std::string& path, std::span<const BlockRecord> blocks);
+Trouble write_joints_csv(const std::string& path, std::span<const ContactRecord> contacts);
 
 }  // namespace edda

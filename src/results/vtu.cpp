@@ -3,6 +3,7 @@
 #include <bit>
 #include <charconv>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <string_view>
 
@@ -29,18 +30,20 @@ const Field* Grid::point_field(const std::string& name) const {
 
 namespace {
 
-/// The XML and, behind it, the bytes of the arrays: each a count of bytes (UInt64), then the
-/// values.
-struct Writer {
-  std::string xml, bytes;
+/// The XML, and what is to follow it: for each array a count of bytes (UInt64), then the values.
+/// Nothing is copied, so that a frame takes no more memory than its grid.
+class Writer {
+ public:
+  std::string xml;
 
   template <class T>
   void array(const std::string& attributes, const char* type, const std::vector<T>& values) {
-    xml += fmt::format("<DataArray type=\"{}\" {} format=\"appended\" offset=\"{}\"/>\n", type,
-                       attributes, bytes.size());
-    const std::uint64_t size = values.size() * sizeof(T);
-    bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
-    bytes.append(reinterpret_cast<const char*>(values.data()), size);
+    announce(attributes, type, values.size() * sizeof(T));
+    pieces_.push_back([&values](WholeFile& file) {
+      const std::uint64_t size = values.size() * sizeof(T);
+      file.add({reinterpret_cast<const char*>(&size), sizeof size});
+      file.add({reinterpret_cast<const char*>(values.data()), size});
+    });
   }
   void field(const Field& f) {
     std::string attributes =
@@ -49,10 +52,30 @@ struct Writer {
       attributes += fmt::format(" ComponentName{}=\"{}\"", k, f.component_names[k]);
     }
     if (!f.whole) return array(attributes, "Float64", f.values);
-    std::vector<std::int32_t> numbers;
-    for (const double v : f.values) numbers.push_back(static_cast<std::int32_t>(v));
-    array(attributes, "Int32", numbers);
+    announce(attributes, "Int32", f.values.size() * sizeof(std::int32_t));
+    pieces_.push_back([&f](WholeFile& file) {
+      const std::vector<std::int32_t> numbers(f.values.begin(), f.values.end());
+      const std::uint64_t size = numbers.size() * sizeof numbers[0];
+      file.add({reinterpret_cast<const char*>(&size), sizeof size});
+      file.add({reinterpret_cast<const char*>(numbers.data()), size});
+    });
   }
+  Trouble write(const std::string& path) const {
+    WholeFile file(path);
+    file.add(xml);
+    for (const auto& piece : pieces_) piece(file);
+    file.add("\n</AppendedData>\n</VTKFile>\n");
+    return file.complete();
+  }
+
+ private:
+  void announce(const std::string& attributes, const char* type, std::size_t size) {
+    xml += fmt::format("<DataArray type=\"{}\" {} format=\"appended\" offset=\"{}\"/>\n", type,
+                       attributes, offset_);
+    offset_ += sizeof(std::uint64_t) + size;
+  }
+  std::size_t offset_ = 0;
+  std::vector<std::function<void(WholeFile&)>> pieces_;
 };
 
 Fault bad_file(const std::string& path, std::string problem) {
@@ -152,11 +175,12 @@ Trouble write_vtu(const std::string& path, const Grid& grid) {
   w.xml =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n";
-  w.array("Name=\"TimeValue\" NumberOfTuples=\"1\"", "Float64", std::vector<double>{grid.time});
+  const std::vector<double> time{grid.time};
+  w.array("Name=\"TimeValue\" NumberOfTuples=\"1\"", "Float64", time);
   w.xml +=
       fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n",
                   grid.point_count(), grid.cell_count());
-  for (const Field& f : grid.point_fields) w.field(f);
+  for (const Field& f : grid.cells_are_points ? grid.cell_fields : grid.point_fields) w.field(f);
   w.xml += "</PointData>\n<CellData>\n";
   for (const Field& f : grid.cell_fields) w.field(f);
   w.xml += "</CellData>\n<Points>\n";
@@ -166,7 +190,7 @@ Trouble write_vtu(const std::string& path, const Grid& grid) {
   w.array("Name=\"offsets\"", "Int64", grid.ends);
   w.array("Name=\"types\"", "UInt8", grid.types);
   w.xml += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
-  return write_file(path, w.xml + w.bytes + "\n</AppendedData>\n</VTKFile>\n");
+  return w.write(path);
 }
 
 Result<Grid> read_vtu(const std::string& path) {

@@ -189,20 +189,21 @@ bool Driver::record(const Event& event) {
   const auto start = Clock::now();
   count_turns(sim_, angle_);
   measure_overlaps();
-  observe(sim_, instant_);
+  Instant instant;
+  observe(sim_, instant);
   bool fine = true;
   if (event.row) {
     const Ledger ledger = sim_.ledger();
     outcome_.ledger = ledger;
     outcome_.largest_drift = std::max(outcome_.largest_drift, std::abs(ledger.drift));
-    outcome_.unbalanced = unbalanced_ratio(sim_, instant_);
-    outcome_.reaction_error = reaction_error(sim_, instant_);
+    outcome_.unbalanced = unbalanced_ratio(sim_, instant);
+    outcome_.reaction_error = reaction_error(sim_, instant);
     last_row_ = sim_.state.time;
-    fine = !ended_by(recorder_.row(sim_, instant_, run_.monitors, ledger, outcome_.unbalanced));
+    fine = !ended_by(recorder_.row(sim_, instant, run_.monitors, ledger, outcome_.unbalanced));
   }
   if (fine && event.frame && recorder_.writes()) {
     last_frame_ = sim_.state.time;
-    fine = !ended_by(recorder_.frame(picture_of(sim_, instant_)));
+    fine = !ended_by(recorder_.frame(picture_of(sim_, instant)));
   }
   outcome_.wall.output += since(start);
   if (!fine || over_ || !event.row) return fine;
@@ -272,8 +273,9 @@ void Driver::write_end() {
   outcome_.contacts = closed_contacts(sim_.contacts);
   if (begun && recorder_.writes()) {
     count_turns(sim_, angle_);
-    observe(sim_, instant_);
-    const Picture picture = picture_of(sim_, instant_);
+    Instant instant;
+    observe(sim_, instant);
+    const Picture picture = picture_of(sim_, instant);
     const Trouble trouble = recorder_.tables(picture);
     if (trouble && !disk_trouble_) {
       outcome_.status = Status::failed;

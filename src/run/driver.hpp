@@ -71,7 +71,6 @@ class Driver {
   EventTimes times_;
   Event event_;  ///< stepped towards
   bool resumed_ = false;
-  Instant instant_;
   std::vector<double> angle_;  ///< rad, of every block when turns were last counted
   bool over_ = false;
   bool disk_trouble_ = false;

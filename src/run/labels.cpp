@@ -5,8 +5,8 @@
 namespace edda {
 
 std::string block_label(const BlockSet& b, std::size_t i) {
-  return b.name[i].empty() ? fmt::format("block {}", i)
-                           : fmt::format("block {} ({})", i, b.name[i]);
+  return b.name(i).empty() ? fmt::format("block {}", i)
+                           : fmt::format("block {} ({})", i, b.name(i));
 }
 
 std::string place_label(Vec2 p) {

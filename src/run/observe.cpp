@@ -51,7 +51,7 @@ BlockRecord block_record(const Simulation& sim, const State& s, std::size_t i) {
   const BlockSet& b = sim.blocks;
   BlockRecord r;
   r.id = static_cast<std::uint32_t>(i);
-  r.name = b.name[i];
+  r.name = b.name(i);
   r.material_index = b.material[i];
   if (b.material[i] != none) {
     r.material = sim.model.materials[static_cast<std::size_t>(b.material[i])].name;
@@ -97,7 +97,8 @@ ContactRecord contact_record(const Simulation& sim, const ContactSet& c, std::si
   r.block_i = c.block_i[k];
   r.block_j = c.block_j[k];
   const std::size_t law = c.law[k];
-  r.joint = law < sim.model.joints.size() ? sim.model.joints[law].name : "glued";
+  r.joint = "glued";
+  if (law < sim.model.joints.size()) r.joint = sim.model.joints[law].name;
   r.position = at(sim.pose.x, sim.pose.y, c.vertex[k]) + sim.blocks.origin;
   const Id v = c.vertex[k];
   r.displacement =
@@ -189,15 +190,20 @@ void observe(const Simulation& sim, Instant& at) {
 Picture picture_of(const Simulation& sim, const Instant& at) {
   Picture p;
   p.time = sim.state.time;
+  p.blocks.reserve(sim.blocks.size());
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
     if (at.state.alive[i]) p.blocks.push_back(block_record(sim, at.state, i));
   }
   const ContactSet& c = at.contacts;
+  // Of two candidates that share one spring, the one without a share has nothing to tell.
+  const auto tells = [&](std::size_t k) {
+    return c.share[k] > 0.0 && c.is(k, cs::closed | cs::opened);
+  };
+  std::size_t telling = 0;
+  for (std::size_t k = 0; k < c.size(); ++k) telling += tells(k);
+  p.contacts.reserve(telling);
   for (std::size_t k = 0; k < c.size(); ++k) {
-    // Of two candidates that share one spring, the one without a share has nothing to tell.
-    if (c.share[k] > 0.0 && c.is(k, cs::closed | cs::opened)) {
-      p.contacts.push_back(contact_record(sim, c, k));
-    }
+    if (tells(k)) p.contacts.push_back(contact_record(sim, c, k));
   }
   place_points(sim.blocks, at.state, p);
   return p;

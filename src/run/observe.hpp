@@ -11,7 +11,7 @@ namespace edda {
 
 /// Everything at step n: the leapfrog holds velocities at n - 1/2 and forces at n - 1, so the
 /// forces at n are worked out here on copies, and v_n = (v_{n-1/2} + v_{n+1/2})/2 (method.md
-/// section 5). Kept from row to row, so that the copies reuse their memory.
+/// section 5). They are large: not to be kept from row to row.
 struct Instant {
   State state;          ///< x, y and v at n
   ContactSet contacts;  ///< with the forces at n

@@ -87,8 +87,8 @@ Trouble Recorder::frame(const Picture& picture) {
 Trouble Recorder::tables(const Picture& picture) {
   if (!writes()) return {};
   Trouble history = history_.close();
-  if (auto t = write_file(path("blocks.csv"), blocks_csv(picture.blocks))) return t;
-  if (auto t = write_file(path("joints.csv"), joints_csv(picture.contacts))) return t;
+  if (auto t = write_blocks_csv(path("blocks.csv"), picture.blocks)) return t;
+  if (auto t = write_joints_csv(path("joints.csv"), picture.contacts)) return t;
   return history;
 }
 

@@ -50,6 +50,9 @@ Result<PreparedRun> prepare_run(Model model, BlockOrder order) {
   if (auto fault = beyond_disks(run.sim)) faults.push_back(*fault);
   if (!faults.empty()) return faults;
   run.monitors = std::move(monitors.value());
+  // The blocks have their shapes by now, and nothing looks for places among the polygons any more.
+  run.sim.polygons.blocks = {};
+  run.sim.polygons.removed = {};
   run.governed_by = governed_by(run.sim);
   run.warnings = guard_rails(run.sim);
   return run;

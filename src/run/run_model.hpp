@@ -31,7 +31,7 @@ struct RunOptions {
   const std::atomic<bool>* stop = nullptr;  ///< set from anywhere: the run ends as interrupted
 };
 
-/// A run ready to start.
+/// A run ready to start. Of its polygons only the report of the cut is left.
 struct PreparedRun {
   Simulation sim;
   std::vector<MonitorPoint> monitors;
