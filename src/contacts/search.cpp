@@ -1,67 +1,108 @@
 #include "contacts/search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
+#include "base/parallel.hpp"
 #include "contacts/gap.hpp"
 
 namespace edda {
 namespace {
 
-/// Cells of a uniform grid, hashed into a fixed number of buckets. Two cells may share a bucket:
-/// that only costs a distance test.
+/// Square cells of several sizes, hashed into a fixed number of buckets: an edge lies in cells of
+/// about the width of its block, so that no cell holds many, be blocks small or thin. Two cells may
+/// share a bucket: that only costs a distance test.
 struct Grid {
-  double cell = 1.0;
+  std::vector<double> cell;  ///< m, of each size in use
   std::uint64_t mask = 0;
   std::vector<Id> begin;  ///< [buckets + 1]
   std::vector<Id> edges;
 
-  std::uint64_t bucket(std::int64_t ix, std::int64_t iy) const {
+  std::int64_t index(std::size_t size, double u) const {
+    return static_cast<std::int64_t>(std::floor(u / cell[size]));
+  }
+  std::uint64_t bucket(std::size_t size, std::int64_t ix, std::int64_t iy) const {
     std::uint64_t h = static_cast<std::uint64_t>(ix) * 0x9e3779b97f4a7c15ull ^
                       static_cast<std::uint64_t>(iy) * 0xc2b2ae3d27d4eb4full;
+    h += size * 0xd6e8feb86659fd93ull;
     h ^= h >> 29;
     return h & mask;
   }
-  std::int64_t index(double u) const { return static_cast<std::int64_t>(std::floor(u / cell)); }
 };
 
-/// Calls visit(ix, iy) for every cell that the edge a-b, widened by reach, may touch. Column by
-/// column, so that a long slanted edge does not fill its whole box.
+/// Calls visit(ix, iy) for every cell of a size that the edge a-b, widened by reach, may touch.
+/// Column by column, so that a long slanted edge does not fill its whole box.
 template <class Visit>
-void for_cells(const Grid& grid, Vec2 a, Vec2 b, double reach, Visit visit) {
+void for_cells(const Grid& grid, std::size_t size, Vec2 a, Vec2 b, double reach, Visit visit) {
   if (a.x > b.x) std::swap(a, b);
-  const std::int64_t first = grid.index(a.x - reach), last = grid.index(b.x + reach);
+  const double cell = grid.cell[size];
+  const std::int64_t first = grid.index(size, a.x - reach), last = grid.index(size, b.x + reach);
   const double dx = b.x - a.x;
   for (std::int64_t ix = first; ix <= last; ++ix) {
     double lo = 0.0, hi = 1.0;
     if (dx > 0.0) {
-      const double left = static_cast<double>(ix) * grid.cell - reach;
+      const double left = static_cast<double>(ix) * cell - reach;
       lo = std::clamp((left - a.x) / dx, 0.0, 1.0);
-      hi = std::clamp((left + grid.cell + 2.0 * reach - a.x) / dx, 0.0, 1.0);
+      hi = std::clamp((left + cell + 2.0 * reach - a.x) / dx, 0.0, 1.0);
     }
     const double y0 = a.y + lo * (b.y - a.y), y1 = a.y + hi * (b.y - a.y);
-    const std::int64_t low = grid.index(std::min(y0, y1) - reach);
-    const std::int64_t high = grid.index(std::max(y0, y1) + reach);
+    const std::int64_t low = grid.index(size, std::min(y0, y1) - reach);
+    const std::int64_t high = grid.index(size, std::max(y0, y1) + reach);
     for (std::int64_t iy = low; iy <= high; ++iy) visit(ix, iy);
   }
+}
+
+constexpr std::size_t most_sizes = 16;
+
+/// Number of the cell size that suits an edge, in powers of four times the smallest cell.
+std::size_t fitting_size(const BlockSet& b, Id e, double smallest) {
+  constexpr double most_cells = 64.0;  // along one edge
+  const double wanted = std::max(b.inradius[b.vertex_block[e]], b.edge_length[e] / most_cells);
+  const double power = std::round(0.5 * std::log2(wanted / smallest));
+  return static_cast<std::size_t>(std::clamp(power, 0.0, most_sizes - 1.0));
+}
+
+/// Every vertex looks into a cell of each size: edges of a size that few have go to the next larger
+/// that is in use. Returns, for each power of four, the number of the size in use.
+std::array<std::size_t, most_sizes> choose_sizes(const std::vector<std::uint8_t>& power,
+                                                 double smallest, Grid& grid) {
+  std::array<std::size_t, most_sizes> edges{};
+  for (const std::uint8_t p : power) ++edges[p];
+  std::size_t last = most_sizes - 1;
+  while (last > 0 && edges[last] == 0) --last;
+  const std::size_t few = power.size() / 32;
+  std::array<std::size_t, most_sizes> size{};
+  std::size_t waiting = 0;
+  for (std::size_t p = 0; p <= last; ++p) {
+    size[p] = grid.cell.size();
+    waiting += edges[p];
+    if (waiting <= few && p < last) continue;
+    grid.cell.push_back(std::ldexp(smallest, 2 * static_cast<int>(p)));
+    waiting = 0;
+  }
+  return size;
 }
 
 Grid make_grid(const BlockSet& b, const std::vector<std::uint8_t>& alive,
                const std::vector<double>& x, const std::vector<double>& y, double reach) {
   Grid grid;
   const std::size_t nv = b.vertex_count();
-  double total = 0.0;
-  for (double l : b.edge_length) total += l;
-  grid.cell =
-      std::max(4.0 * reach, 0.5 * total / static_cast<double>(std::max<std::size_t>(nv, 1)));
+  const double smallest = 4.0 * reach;
+  std::vector<std::uint8_t> power(nv);
+  parallel_for(nv, [&](std::size_t e) {
+    power[e] = static_cast<std::uint8_t>(fitting_size(b, static_cast<Id>(e), smallest));
+  });
+  const auto size = choose_sizes(power, smallest, grid);
   grid.mask = std::bit_ceil(4 * std::max<std::uint64_t>(nv, 16)) - 1;
   std::vector<Id> count(grid.mask + 2, 0);
   auto each = [&](auto&& visit) {
     for (Id e = 0; e < nv; ++e) {
       if (!alive[b.vertex_block[e]]) continue;
-      for_cells(grid, at(x, y, e), at(x, y, b.next[e]), reach,
-                [&](std::int64_t ix, std::int64_t iy) { visit(grid.bucket(ix, iy), e); });
+      const std::size_t s = size[power[e]];
+      for_cells(grid, s, at(x, y, e), at(x, y, b.next[e]), reach,
+                [&](std::int64_t ix, std::int64_t iy) { visit(grid.bucket(s, ix, iy), e); });
     }
   };
   each([&](std::uint64_t k, Id) { ++count[k + 1]; });
@@ -91,15 +132,17 @@ std::vector<NearPair> near_pairs(const BlockSet& b, const std::vector<std::uint8
       const Id block = b.vertex_block[v];
       if (!alive[block]) continue;
       const Vec2 p = at(x, y, vertex);
-      const std::uint64_t k = grid.bucket(grid.index(p.x), grid.index(p.y));
       edges.clear();
-      for (Id q = grid.begin[k]; q < grid.begin[k + 1]; ++q) {
-        const Id e = grid.edges[q];
-        const Id other = b.vertex_block[e];
-        if (other == block || (b.fixed[block] && b.fixed[other])) continue;
-        const Vec2 start = at(x, y, e), end = at(x, y, b.next[e]);
-        if (distance_to_segment(p, start, end) >= reach) continue;
-        if (may_face(b, x, y, vertex, edge_frame(start, end), reach)) edges.push_back(e);
+      for (std::size_t s = 0; s < grid.cell.size(); ++s) {
+        const std::uint64_t k = grid.bucket(s, grid.index(s, p.x), grid.index(s, p.y));
+        for (Id q = grid.begin[k]; q < grid.begin[k + 1]; ++q) {
+          const Id e = grid.edges[q];
+          const Id other = b.vertex_block[e];
+          if (other == block || (b.fixed[block] && b.fixed[other])) continue;
+          const Vec2 start = at(x, y, e), end = at(x, y, b.next[e]);
+          if (distance_to_segment(p, start, end) >= reach) continue;
+          if (may_face(b, x, y, vertex, edge_frame(start, end), reach)) edges.push_back(e);
+        }
       }
       std::sort(edges.begin(), edges.end());
       edges.erase(std::unique(edges.begin(), edges.end()), edges.end());

@@ -92,5 +92,30 @@ TEST(NearPairs, FarOutlierIsFound) {
   EXPECT_EQ(pairs.size(), 4u);
 }
 
+TEST(NearPairs, ThinStripsBesideBlocksOfAnySize) {
+  Model model;
+  model.materials.push_back({"rock", 2600.0, 1e9, 0.2, {}});
+  PolygonSet set;
+  const auto add = [&](Vec2 low, Vec2 along, double width) {
+    const Vec2 across = width / norm(along) * perp(along);
+    BlockPolygon p;
+    p.rings = {{low, low + along, low + along + across, low + across}};
+    p.joint = {std::vector<Index>(4, none)};
+    p.material = 0;
+    set.blocks.push_back(p);
+  };
+  for (int k = 0; k < 100; ++k) add({0.0, 0.01 * k}, {50.0, 0.0}, 0.01);
+  for (int k = 0; k < 100; ++k) add({0.01 * k, 2.0}, {20.0, 31.0}, 0.008);
+  for (int k = 0; k < 40; ++k) add({10.0 + 1e-3 * k, -1e-3}, {1e-3, 0.0}, 1e-3);
+  add({-500.0, -1000.0}, {1000.0, 0.0}, 1000.0 - 2e-3);
+  const BlockSet b = build_blocks(model, set);
+  const std::vector<std::uint8_t> alive(b.size(), 1);
+  for (const double reach : {1e-5, 5e-4, 0.02}) {
+    const auto pairs = near_pairs(b, alive, b.vertex_x, b.vertex_y, reach);
+    EXPECT_EQ(pairs, brute_force(b, alive, reach));
+    EXPECT_GT(pairs.size(), 300u);
+  }
+}
+
 }  // namespace
 }  // namespace edda
