@@ -14,6 +14,10 @@ namespace edda {
 /// Loops shorter than this are not worth waking other threads for.
 inline constexpr std::size_t worth_sharing = EDDA_WORTH_SHARING;
 
+/// Blocks that go through all stages of a step together, so that what one stage leaves is at hand
+/// for the next.
+inline constexpr std::size_t blocks_at_once = 256;
+
 /// Calls body(i) for i in [0, n), in parallel. body must write only what belongs to i.
 template <class Body>
 void parallel_for(std::size_t n, Body body) {

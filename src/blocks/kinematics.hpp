@@ -7,12 +7,23 @@
 #include <cstddef>
 
 #include "base/vec2.hpp"
+#include "base/vector_loop.hpp"
 #include "blocks/block_set.hpp"
 #include "blocks/state.hpp"
 
 namespace edda {
 
 using Nodes = std::array<std::vector<double>, 3>;
+
+/// The same for the loops over all blocks (base/vector_loop.hpp).
+using NodeValues = std::array<double*, 3>;
+using ConstNodeValues = std::array<const double*, 3>;
+inline NodeValues values_of(Nodes& n) {
+  return {n[0].data(), n[1].data(), n[2].data()};
+}
+inline ConstNodeValues values_of(const Nodes& n) {
+  return {n[0].data(), n[1].data(), n[2].data()};
+}
 
 /// Whether block i moves: neither held nor taken out.
 inline bool is_free(const BlockSet& b, const State& s, std::size_t i) {
@@ -24,15 +35,18 @@ struct Deformation {
   double xx, xy, yx, yy;
 };
 
-inline Deformation deformation(const BlockSet& b, const Nodes& x, const Nodes& y, std::size_t i) {
-  Deformation f{0.0, 0.0, 0.0, 0.0};
-  for (std::size_t k = 0; k < 3; ++k) {
-    f.xx += x[k][i] * b.grad_x[k][i];
-    f.xy += x[k][i] * b.grad_y[k][i];
-    f.yx += y[k][i] * b.grad_x[k][i];
-    f.yy += y[k][i] * b.grad_y[k][i];
-  }
-  return f;
+/// sum u_k w_k: a row of F times a column of the gradients.
+template <class Values, class Weights>
+EDDA_INLINE double sum_over_nodes(const Values& u, const Weights& w, std::size_t i) {
+  return u[0][i] * w[0][i] + u[1][i] * w[1][i] + u[2][i] * w[2][i];
+}
+
+/// Of block i. Blocks: BlockSet or what has its gradients; Values: Nodes or pointers to them.
+template <class Blocks, class Values>
+EDDA_INLINE Deformation deformation(const Blocks& b, const Values& x, const Values& y,
+                                    std::size_t i) {
+  return {sum_over_nodes(x, b.grad_x, i), sum_over_nodes(x, b.grad_y, i),
+          sum_over_nodes(y, b.grad_x, i), sum_over_nodes(y, b.grad_y, i)};
 }
 
 /// Rotation R = [c -s; s c] of the polar decomposition F = R U: a = F11 + F22, b = F21 - F12,
@@ -42,7 +56,7 @@ struct Rotation {
   double c, s, strength;
 };
 
-inline Rotation rotation(const Deformation& f) {
+EDDA_INLINE Rotation rotation(const Deformation& f) {
   const double a = f.xx + f.yy, b = f.yx - f.xy;
   const double r = std::sqrt(a * a + b * b);
   return {a / r, b / r, r};

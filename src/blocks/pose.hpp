@@ -23,4 +23,9 @@ inline void place_vertices(const BlockSet& b, const Nodes& x, const Nodes& y, st
   }
 }
 
+/// Next vertices of the blocks [begin, end), from their nodes, into pose.x1, y1. Returns the
+/// largest square of a distance from pose.x, y, m2; 1e300 if one is not finite.
+double place_next(const BlockSet& blocks, const Nodes& x, const Nodes& y, Pose& pose,
+                  std::size_t begin, std::size_t end);
+
 }  // namespace edda

@@ -20,7 +20,7 @@ namespace {
 using DoubleArray = std::vector<double> ContactSet::*;
 
 /// What a candidate remembers from one list to the next.
-constexpr std::array<DoubleArray, 26> memory = {&ContactSet::tension,
+constexpr std::array<DoubleArray, 25> memory = {&ContactSet::tension,
                                                 &ContactSet::depth,
                                                 &ContactSet::depth_1,
                                                 &ContactSet::depth_2,
@@ -38,7 +38,6 @@ constexpr std::array<DoubleArray, 26> memory = {&ContactSet::tension,
                                                 &ContactSet::shear,
                                                 &ContactSet::shear_1,
                                                 &ContactSet::slip_trial,
-                                                &ContactSet::dashpot,
                                                 &ContactSet::fracture_work,
                                                 &ContactSet::friction_work,
                                                 &ContactSet::damping_work,
@@ -63,9 +62,7 @@ void resize(ContactSet& c, std::size_t n) {
   c.edge_end.resize(n);
   c.block_i.resize(n);
   c.block_j.resize(n);
-  const std::size_t chunks = (n + ContactSet::chunk - 1) / ContactSet::chunk;
-  c.stirs.assign(chunks, 1);
-  c.deepest.assign(chunks, 0.0);
+  c.deepest.assign((n + ContactSet::chunk - 1) / ContactSet::chunk, 0.0);
 }
 
 /// Near pairs and closed contacts of the old list, sorted, each once.
@@ -113,8 +110,8 @@ void list_by_vertex(ContactSet& c, std::size_t vertices) {
   for (std::size_t v = 0; v < vertices; ++v) c.begin_of_vertex[v + 1] += c.begin_of_vertex[v];
 }
 
-/// Each block's contacts by (partner, vertex, edge): candidates are in (vertex, edge) order, so by
-/// (partner, candidate).
+/// Each block's contacts: those of its vertices, which follow each other in the list, then those of
+/// its edges. Candidates are taken in their order, so both stand by (vertex, edge).
 void list_by_block(ContactSet& c, std::size_t blocks) {
   c.block_begin.assign(blocks + 1, 0);
   for (std::size_t k = 0; k < c.size(); ++k) {
@@ -126,15 +123,9 @@ void list_by_block(ContactSet& c, std::size_t blocks) {
   std::vector<Id> fill(c.block_begin.begin(), c.block_begin.end() - 1);
   for (std::size_t k = 0; k < c.size(); ++k) {
     c.block_entry[fill[c.block_i[k]]++] = static_cast<Id>(2 * k);
-    c.block_entry[fill[c.block_j[k]]++] = static_cast<Id>(2 * k + 1);
   }
-  auto partner = [&](Id entry) {
-    return (entry & 1u) != 0 ? c.block_i[entry >> 1] : c.block_j[entry >> 1];
-  };
-  for (std::size_t i = 0; i < blocks; ++i) {
-    std::sort(
-        c.block_entry.begin() + c.block_begin[i], c.block_entry.begin() + c.block_begin[i + 1],
-        [&](Id p, Id q) { return std::make_pair(partner(p), p) < std::make_pair(partner(q), q); });
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    c.block_entry[fill[c.block_j[k]]++] = static_cast<Id>(2 * k + 1);
   }
 }
 
@@ -260,6 +251,7 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
     next.retired_fracture += contacts.fracture_work[k];
   }
   renumber(next, contacts, new_of_old);
+  next.look_everywhere();
   extend_edges(next, b);
   for (std::size_t k = 0; k < next.size(); ++k) update_gap(next, pose, k);
   list_by_vertex(next, b.vertex_count());

@@ -17,8 +17,8 @@ inline constexpr double opposite = 0.99;
 
 /// Makes the list for all vertices nearer than `reach` to an edge: searches, carries over what is
 /// remembered of candidates that stay (force, shear, bond, rest penetration), keeps every closed
-/// one, pairs lined-up corners, and lists each block's contacts in the order of (partner, vertex,
-/// edge). New candidates take their gap a step ago from pose.x1, y1.
+/// one, pairs lined-up corners, and lists each block's contacts. New candidates take their gap a
+/// step ago from pose.x1, y1.
 void rebuild_candidates(ContactSet& contacts, const BlockSet& blocks, const State& state,
                         const Pose& pose, const LawTable& laws, double reach);
 

@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
+#include "base/vec2.hpp"
+#include "base/vector_loop.hpp"
 #include "blocks/block_set.hpp"
 #include "contacts/laws.hpp"
 
@@ -32,6 +35,13 @@ struct CornerPair {
   bool first_at_start = true;   ///< B is the start (else the end) of e
   bool second_at_start = true;  ///< A is the start (else the end) of f
   double reach = 0.0;           ///< r_v, m
+  /// delta_A, delta_B (m) and how far the edges lie against each other (0 to 1) when the shares
+  /// were last set; infinite before that.
+  double seen_first = std::numeric_limits<double>::infinity();
+  double seen_second = std::numeric_limits<double>::infinity();
+  double seen_against = 0.0;
+  /// The shares must be set again whatever the feet do.
+  void forget() { seen_first = seen_second = std::numeric_limits<double>::infinity(); }
   /// The edges run the same way from the corner (one corner passes the other along a joint); else
   /// they run away from each other (corner against corner).
   bool same_way() const { return first_at_start != second_at_start; }
@@ -45,7 +55,75 @@ struct Segment {
 /// Why a penetrated candidate carries nothing.
 enum class Blocked : std::uint8_t { no, conflict, shield, depth, facing };
 
-struct ContactSet {
+/// What of its state decides the force of a contact, as a number for the loops over many of them.
+namespace contact_hold {
+inline constexpr double none = 0.0;    ///< open
+inline constexpr double sticks = 1.0;  ///< closed, its shear cut by friction
+inline constexpr double bonds = 2.0;   ///< closed, its shear not cut
+inline constexpr double pulls = 3.0;   ///< closed, cut by friction, N may be negative
+inline constexpr double glues = 4.0;   ///< closed, not cut, N may be negative
+}  // namespace contact_hold
+
+inline double hold_of(std::uint8_t state) {
+  namespace cs = contact_state;
+  if ((state & cs::closed) == 0) return contact_hold::none;
+  return contact_hold::sticks + ((state & cs::bonded) != 0 ? 1.0 : 0.0) +
+         ((state & cs::pulls) != 0 ? 2.0 : 0.0);
+}
+EDDA_INLINE bool carries(double hold) {
+  return hold != contact_hold::none;
+}
+EDDA_INLINE bool is_bonded(double hold) {
+  return (hold == contact_hold::bonds) | (hold == contact_hold::glues);
+}
+EDDA_INLINE bool may_pull(double hold) {
+  return hold >= contact_hold::pulls;
+}
+
+/// What the arrays of a contact say together. Self: ContactSet or ContactView.
+template <class Self>
+struct ContactTerms {
+  /// Effective penetration d - d0 at n, n - 1 and n - 2.
+  [[gnu::always_inline]] double effective(std::size_t c) const {
+    return self().depth[c] - self().rest[c];
+  }
+  [[gnu::always_inline]] double effective_1(std::size_t c) const {
+    return self().depth_1[c] - self().rest[c];
+  }
+  [[gnu::always_inline]] double effective_2(std::size_t c) const {
+    return self().depth_2[c] - self().rest[c];
+  }
+  /// Slip s at step n before the return map, m.
+  [[gnu::always_inline]] double trial_slip(std::size_t c) const {
+    return self().foot[c] - self().anchor[c] * self().span[c];
+  }
+  /// Coulomb's limit of the shear force under a normal force N, c L + tan(phi) max(N, 0).
+  [[gnu::always_inline]] double shear_limit(std::size_t c, double n) const {
+    return self().cohesion[c] + self().friction[c] * larger(n, 0.0);
+  }
+  /// Foot within the stretch of the edge that carries.
+  [[gnu::always_inline]] bool on_edge(std::size_t c, double slack = 0.0) const {
+    const double foot = self().foot[c], from = -(self().before[c] + slack),
+                 to = self().span[c] + self().beyond[c] + slack;
+    return foot >= from && foot <= to;
+  }
+  /// Unit tangent of the edge.
+  [[gnu::always_inline]] Vec2 tangent(std::size_t c) const { return {self().tx[c], self().ty[c]}; }
+
+ private:
+  [[gnu::always_inline]] const Self& self() const { return static_cast<const Self&>(*this); }
+};
+
+/// The arrays that the loops over all contacts of a step read and write (base/vector_loop.hpp);
+/// what they mean stands in ContactSet.
+struct ContactView : ContactTerms<ContactView> {
+  const Id *vertex, *edge, *edge_end;
+  double *depth, *depth_1, *depth_2, *foot, *span, *tx, *ty, *share, *before, *beyond, *hold, *rest,
+      *anchor, *kn, *ks, *friction, *cohesion, *alpha, *normal, *shear, *shear_1, *slip_trial, *fx,
+      *fy, *gx, *gy;
+};
+
+struct ContactSet : ContactTerms<ContactSet> {
   std::size_t size() const { return vertex.size(); }
 
   // Identity. Filled by rebuild_candidates(); fixed between two searches.
@@ -66,15 +144,30 @@ struct ContactSet {
 
   // Per chunk of `chunk` candidates, so that a step need not look where nothing happens. Filled by
   // update_gaps().
-  static constexpr std::size_t chunk = 256;
+  static constexpr std::size_t chunk = 32;
+  static constexpr std::size_t run = 16 * chunk;  ///< what a thread takes at once
   std::vector<std::uint8_t>
       stirs;  ///< [chunks] 1: a contact in it may switch, open, close or leave its edge
   std::vector<double>
       deepest;  ///< [chunks] largest effective penetration of a closed contact at n - 1, m
+  std::vector<std::uint8_t> slides;  ///< [chunks] 1: a contact in it may have the bit `sliding`
+  std::vector<std::uint8_t>
+      lingers;  ///< [chunks] 1: one without a partner may have a part of its share
   void stir(std::size_t c) { stirs[c / chunk] = 1; }
+  std::size_t chunks() const { return (size() + chunk - 1) / chunk; }
+  std::size_t chunk_end(std::size_t q) const { return std::min(size(), (q + 1) * chunk); }
+  /// What only saves looking: whatever the contacts' memory is, this fits it.
+  void look_everywhere() {
+    hold.resize(size());
+    for (std::size_t c = 0; c < size(); ++c) hold[c] = hold_of(state[c]);
+    stirs.assign(chunks(), 1);
+    slides.assign(chunks(), 1);
+    lingers.assign(chunks(), 1);
+  }
 
   // Memory. Filled by the transitions.
-  std::vector<std::uint8_t> state;  ///< contact_state bits
+  std::vector<std::uint8_t> state;  ///< contact_state bits; changed by set() and clear()
+  std::vector<double> hold;         ///< hold_of(state)
   std::vector<double> rest;         ///< d0, m; +infinity while blocked
   std::vector<double> anchor;       ///< xi0
   std::vector<double> kn,
@@ -87,17 +180,18 @@ struct ContactSet {
   std::vector<double> normal;    ///< N at n - 1 of the whole spring (before share and alpha), N
   std::vector<double> shear, shear_1;  ///< T at n - 1 and n - 2 of the whole spring, N
   std::vector<double> slip_trial;      ///< s before the return map at n - 1, m
-  std::vector<double> dashpot;         ///< viscous part of N at n - 1, N
   std::vector<double> friction_work, damping_work, fracture_work;  ///< dissipated so far, J
 
   // Forces of the last evaluation, N: on the vertex and on P2; on P3 acts minus their sum.
   std::vector<double> fx, fy, gx, gy;
 
-  std::vector<Blocked> why;                      ///< why it is blocked
-  std::vector<Id> blocked;                       ///< the blocked candidates, ascending
-  std::vector<CornerPair> pairs;                 ///< sorted by (first, second)
-  std::vector<Id> paired;                        ///< candidates in any pair, ascending
-  std::vector<Id> pair_of;                       ///< [nc] a pair the candidate is in, or no_id
+  std::vector<Blocked> why;  ///< why it is blocked
+  std::vector<Id> blocked;   ///< the blocked candidates, ascending
+  std::vector<CornerPair>
+      pairs;                   ///< by (first, second): those that share no candidate, then others
+  std::size_t lone_pairs = 0;  ///< how many share none
+  std::vector<Id> tangled;     ///< candidates in several pairs, and their partners, ascending
+  std::vector<Id> pair_of;     ///< [nc] a pair the candidate is in, or no_id
   std::vector<double> next_before, next_beyond;  ///< scratch of update_shares()
   std::vector<double> next_share;                ///< scratch of update_shares()
   std::vector<std::uint8_t>
@@ -105,8 +199,8 @@ struct ContactSet {
   std::vector<Segment> segments;    ///< the bonded ones
   std::vector<Id> begin_of_vertex;  ///< [nv + 1] candidates of a vertex
 
-  // Contacts of a block, in the order of (partner, vertex, edge): entry = 2 candidate + side, side
-  // 0 where the block has the vertex, 1 where it has the edge.
+  // Contacts of a block: entry = 2 candidate + side, first those of its vertices (side 0), then
+  // those of its edges (side 1), each in the order of the candidates.
   std::vector<Id> block_begin;  ///< [nb + 1]
   std::vector<Id> block_entry;
 
@@ -121,25 +215,50 @@ struct ContactSet {
   double retired_friction = 0.0, retired_damping = 0.0,
          retired_fracture = 0.0;  ///< J, of candidates let go
 
-  /// Effective penetration d - d0 at n and n - 1.
-  double effective(std::size_t c) const { return depth[c] - rest[c]; }
-  double effective_1(std::size_t c) const { return depth_1[c] - rest[c]; }
-  double effective_2(std::size_t c) const { return depth_2[c] - rest[c]; }
-  /// Coulomb's limit of the shear force under a normal force N, c L + tan(phi) max(N, 0).
-  double shear_limit(std::size_t c, double n) const {
-    return cohesion[c] + friction[c] * std::max(n, 0.0);
-  }
   bool is(std::size_t c, std::uint8_t bits) const { return (state[c] & bits) != 0; }
   void set(std::size_t c, std::uint8_t bits) {
     state[c] = static_cast<std::uint8_t>(state[c] | bits);
+    hold[c] = hold_of(state[c]);
   }
   void clear(std::size_t c, std::uint8_t bits) {
     state[c] = static_cast<std::uint8_t>(state[c] & ~bits);
+    hold[c] = hold_of(state[c]);
   }
-  /// Foot within the stretch of the edge that carries.
-  bool on_edge(std::size_t c, double slack = 0.0) const {
-    return foot[c] >= -(before[c] + slack) && foot[c] <= span[c] + beyond[c] + slack;
-  }
+  ContactView view();
 };
+
+inline ContactView ContactSet::view() {
+  ContactView v;
+  v.vertex = vertex.data();
+  v.edge = edge.data();
+  v.edge_end = edge_end.data();
+  v.depth = depth.data();
+  v.depth_1 = depth_1.data();
+  v.depth_2 = depth_2.data();
+  v.foot = foot.data();
+  v.span = span.data();
+  v.tx = tx.data();
+  v.ty = ty.data();
+  v.share = share.data();
+  v.before = before.data();
+  v.beyond = beyond.data();
+  v.hold = hold.data();
+  v.rest = rest.data();
+  v.anchor = anchor.data();
+  v.kn = kn.data();
+  v.ks = ks.data();
+  v.friction = friction.data();
+  v.cohesion = cohesion.data();
+  v.alpha = alpha.data();
+  v.normal = normal.data();
+  v.shear = shear.data();
+  v.shear_1 = shear_1.data();
+  v.slip_trial = slip_trial.data();
+  v.fx = fx.data();
+  v.fy = fy.data();
+  v.gx = gx.data();
+  v.gy = gy.data();
+  return v;
+}
 
 }  // namespace edda

@@ -1,6 +1,7 @@
 // A vertex against an edge: the formulas of method.md section 4, once.
 #pragma once
 
+#include "base/vector_loop.hpp"
 #include "blocks/block_set.hpp"
 #include "blocks/pose.hpp"
 #include "contacts/contact_set.hpp"
@@ -23,19 +24,19 @@ inline Vec2 at(const std::vector<double>& x, const std::vector<double>& y, Id v)
   return {x[v], y[v]};
 }
 
-inline EdgeFrame edge_frame(Vec2 start, Vec2 end) {
+EDDA_INLINE EdgeFrame edge_frame(Vec2 start, Vec2 end) {
   const Vec2 u = end - start;
   const double l = norm(u);
   return {start, u / l, l};
 }
 
-inline Gap gap_to(const EdgeFrame& e, Vec2 p) {
+EDDA_INLINE Gap gap_to(const EdgeFrame& e, Vec2 p) {
   const Vec2 r = p - e.start;
   return {cross(e.t, r), dot(r, e.t)};
 }
 
 /// Unit tangent and outward normal of the edge of candidate k at step n, as update_gap() left them.
-inline Vec2 tangent_of(const ContactSet& c, std::size_t k) {
+EDDA_INLINE Vec2 tangent_of(const ContactSet& c, std::size_t k) {
   return {c.tx[k], c.ty[k]};
 }
 inline Vec2 normal_of(const ContactSet& c, std::size_t k) {

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/vector_loop.hpp"
 #include "contacts/gap.hpp"
 #include "contacts/stored_energy.hpp"
 
@@ -12,9 +14,11 @@ namespace edda {
 
 namespace {
 
-void measure(ContactSet& c, const Pose& pose, std::size_t k) {
-  const EdgeFrame e = edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
-  const Gap gap = gap_to(e, at(pose.x, pose.y, c.vertex[k]));
+/// Where candidate k stands; t and l of its edge.
+EDDA_INLINE void measure(const ContactView& c, const double* x, const double* y, std::size_t k) {
+  const Id p = c.edge[k], q = c.edge_end[k], v = c.vertex[k];
+  const EdgeFrame e = edge_frame({x[p], y[p]}, {x[q], y[q]});
+  const Gap gap = gap_to(e, {x[v], y[v]});
   c.depth[k] = gap.depth;
   c.foot[k] = gap.foot;
   c.span[k] = e.length;
@@ -23,43 +27,63 @@ void measure(ContactSet& c, const Pose& pose, std::size_t k) {
 }
 
 /// Whether the candidate opened or closed at n - 1 or n, has left its edge or come back to it, has
-/// turned its shear round, or has a rest penetration to look after. Bonded and blocked ones are
-/// looked after elsewhere.
-bool stirs(const ContactSet& c, std::size_t k) {
-  using namespace contact_state;
-  if (c.is(k, closed)) {
-    const bool carried = c.effective_1(k) > c.noise;
-    const bool switched = (carried && (c.effective(k) <= 0.0 || c.effective_2(k) <= 0.0)) ||
-                          c.effective(k) <= -c.noise;
-    const double slip = trial_slip(c, k);
-    const bool reversed = c.shear[k] * slip > 0.0 && std::abs(slip) > c.noise;
-    const bool leaving = !c.on_edge(k) || (c.share[k] < 1.0 && c.pair_of[k] == no_id);
-    return (switched && !c.is(k, pulls)) || (!c.is(k, bonded) && (reversed || leaving));
+/// turned its shear round, or has a rest penetration to look after. Bonded ones are looked after
+/// elsewhere, and so are blocked ones, whose rest penetration is infinite.
+EDDA_INLINE bool may_switch(const ContactView& c, std::size_t k, double noise) {
+  const double hold = c.hold[k], rest = c.rest[k], depth = c.depth[k], foot = c.foot[k];
+  const double e = depth - rest, e_1 = c.effective_1(k), e_2 = c.effective_2(k);
+  const double slip = c.trial_slip(k), shear = c.shear[k];
+  const double from = -c.before[k], to = c.span[k] + c.beyond[k];
+  // & and |, not && and ||: no branches.
+  const bool switched = ((e_1 > noise) & ((e <= 0.0) | (e_2 <= 0.0))) | (e <= -noise);
+  const bool reversed = (shear * slip > 0.0) & (std::abs(slip) > noise);
+  const bool away = (foot < from) | (foot > to);
+  const bool cut = !is_bonded(hold), pushes = !may_pull(hold);
+  const bool closed_one = (switched & pushes) | ((reversed | away) & cut);
+  const bool inside = (depth > 0.0) & !away;
+  const bool open_one = ((rest != 0.0) | inside) & (rest < std::numeric_limits<double>::infinity());
+  const bool closed = carries(hold), open = !closed;
+  return (closed & closed_one) | (open & open_one);
+}
+
+/// Where a chunk's findings go, by chunk.
+struct Findings {
+  std::uint8_t* stirs;
+  const std::uint8_t* lingers;
+  double* deepest;
+};
+
+/// Measures the candidates [begin, end), whole chunks.
+EDDA_VECTOR void measure_chunks(ContactView c, const double* x, const double* y, double noise,
+                                Findings found, std::size_t begin, std::size_t end) {
+  for (std::size_t first = begin; first < end; first += ContactSet::chunk) {
+    const std::size_t last = std::min(end, first + ContactSet::chunk);
+    double stirring = 0.0, depth = 0.0;
+#pragma omp simd reduction(max : stirring, depth)
+    for (std::size_t k = first; k < last; ++k) {
+      measure(c, x, y, k);
+      stirring = larger(stirring, may_switch(c, k, noise) ? 1.0 : 0.0);
+      depth = larger(depth, carries(c.hold[k]) ? c.effective_1(k) : 0.0);
+    }
+    const std::size_t q = first / ContactSet::chunk;
+    found.stirs[q] = stirring > 0.0 || found.lingers[q] != 0 ? 1 : 0;
+    found.deepest[q] = depth;
   }
-  return !c.is(k, blocked) && (c.rest[k] != 0.0 || (c.depth[k] > 0.0 && c.on_edge(k)));
 }
 
 }  // namespace
 
 void update_gap(ContactSet& c, const Pose& pose, std::size_t k) {
-  measure(c, pose, k);
+  measure(c.view(), pose.x.data(), pose.y.data(), k);
   c.stir(k);
 }
 
 void remeasure_gaps(ContactSet& c, const Pose& pose) {
-  parallel_chunks(c.size(), ContactSet::chunk,
-                  [&](std::size_t q, std::size_t begin, std::size_t end) {
-                    bool any = false;
-                    double deepest = 0.0;
-                    for (std::size_t k = begin; k < end; ++k) {
-                      measure(c, pose, k);
-                      any = any || stirs(c, k);
-                      if (c.is(k, contact_state::closed))
-                        deepest = std::max(deepest, c.effective_1(k));
-                    }
-                    c.stirs[q] = any ? 1 : 0;
-                    c.deepest[q] = deepest;
-                  });
+  const ContactView view = c.view();
+  const Findings found{c.stirs.data(), c.lingers.data(), c.deepest.data()};
+  parallel_chunks(c.size(), ContactSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
+    measure_chunks(view, pose.x.data(), pose.y.data(), c.noise, found, begin, end);
+  });
 }
 
 void update_gaps(ContactSet& c, const Pose& pose) {

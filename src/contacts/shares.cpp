@@ -59,6 +59,81 @@ Share share_of(const CornerPair& p, double delta_first, double delta_second, dou
   return {o * w + (1.0 - o), o * w + (1.0 - o)};
 }
 
+/// Where the two corners of a pair stand.
+struct PairStand {
+  double first, second;  ///< delta_A, delta_B, m
+  double against;
+};
+
+PairStand stand_of(const ContactSet& c, const CornerPair& p) {
+  const Id e = p.first, f = p.second;
+  return {p.first_at_start ? c.foot[e] : c.span[e] - c.foot[e],
+          p.second_at_start ? c.foot[f] : c.span[f] - c.foot[f],
+          against(tangent_of(c, e), tangent_of(c, f))};
+}
+
+/// Before the pairs of candidate k have been looked at: all of the spring, on the edge alone.
+void start_share(ContactSet& c, std::size_t k) {
+  c.next_share[k] = 1.0;
+  c.balanced[k] = 0;
+  c.next_before[k] = c.extend_start[k];
+  c.next_beyond[k] = c.extend_end[k];
+}
+
+void set_shares(ContactSet& c, const CornerPair& p, const PairStand& stand) {
+  const double zone = 2.0 * p.reach;
+  if (std::abs(stand.first) >= zone || std::abs(stand.second) >= zone || stand.against == 0.0) {
+    return;
+  }
+  const Share share = share_of(p, stand.first, stand.second, stand.against);
+  c.next_share[p.first] *= share.first;
+  c.next_share[p.second] *= share.second;
+  if (!p.same_way()) return;
+  c.balanced[p.first] = c.balanced[p.second] = 1;
+  run_on(c, p.first, p.first_at_start, p.reach);
+  run_on(c, p.second, p.second_at_start, p.reach);
+}
+
+void take_share(ContactSet& c, std::size_t k) {
+  change_range(c, k);
+  change_share(c, k, c.next_share[k], c.balanced[k] != 0);
+}
+
+/// Shares are let be until a corner has moved by a ten-thousandth of r_v: at rest nothing changes.
+void update_lone_pair(ContactSet& c, CornerPair& p) {
+  constexpr double slack = 1e-4;
+  const PairStand now = stand_of(c, p);
+  const double moved = std::abs(now.first - p.seen_first) + std::abs(now.second - p.seen_second);
+  if (moved <= slack * p.reach && now.against == p.seen_against) return;
+  p.seen_first = now.first;
+  p.seen_second = now.second;
+  p.seen_against = now.against;
+  for (const Id k : {p.first, p.second}) start_share(c, k);
+  set_shares(c, p, now);
+  for (const Id k : {p.first, p.second}) take_share(c, k);
+}
+
+/// Pairs that share no candidate with another come first.
+void part_pairs(ContactSet& c) {
+  std::vector<std::uint8_t> pairs_of(c.size(), 0);
+  for (const CornerPair& p : c.pairs) {
+    for (const Id k : {p.first, p.second}) {
+      if (pairs_of[k] < 2) ++pairs_of[k];
+    }
+  }
+  const auto rest = std::stable_partition(c.pairs.begin(), c.pairs.end(), [&](const CornerPair& p) {
+    return pairs_of[p.first] == 1 && pairs_of[p.second] == 1;
+  });
+  c.lone_pairs = static_cast<std::size_t>(rest - c.pairs.begin());
+  c.tangled.clear();
+  for (auto p = rest; p != c.pairs.end(); ++p) {
+    c.tangled.push_back(p->first);
+    c.tangled.push_back(p->second);
+  }
+  std::sort(c.tangled.begin(), c.tangled.end());
+  c.tangled.erase(std::unique(c.tangled.begin(), c.tangled.end()), c.tangled.end());
+}
+
 }  // namespace
 
 void change_share(ContactSet& c, std::size_t k, double share, bool balanced) {
@@ -93,45 +168,22 @@ void pair_corners(ContactSet& c, const BlockSet& b, const Pose& pose) {
       }
     }
   }
-  c.paired.clear();
+  part_pairs(c);
   c.pair_of.assign(c.size(), no_id);
   for (std::size_t p = 0; p < c.pairs.size(); ++p) {
     for (const Id k : {c.pairs[p].first, c.pairs[p].second}) {
-      c.paired.push_back(k);
       if (c.pair_of[k] == no_id || c.pairs[p].same_way()) c.pair_of[k] = static_cast<Id>(p);
     }
   }
-  std::sort(c.paired.begin(), c.paired.end());
-  c.paired.erase(std::unique(c.paired.begin(), c.paired.end()), c.paired.end());
 }
 
 void update_shares(ContactSet& c) {
-  for (const Id k : c.paired) {
-    c.next_share[k] = 1.0;
-    c.balanced[k] = 0;
-    c.next_before[k] = c.extend_start[k];
-    c.next_beyond[k] = c.extend_end[k];
+  for (std::size_t p = 0; p < c.lone_pairs; ++p) update_lone_pair(c, c.pairs[p]);
+  for (const Id k : c.tangled) start_share(c, k);
+  for (std::size_t p = c.lone_pairs; p < c.pairs.size(); ++p) {
+    set_shares(c, c.pairs[p], stand_of(c, c.pairs[p]));
   }
-  for (const CornerPair& p : c.pairs) {
-    const Id e = p.first, f = p.second;
-    const double delta_first = p.first_at_start ? c.foot[e] : c.span[e] - c.foot[e];
-    const double delta_second = p.second_at_start ? c.foot[f] : c.span[f] - c.foot[f];
-    const double zone = 2.0 * p.reach;
-    if (std::abs(delta_first) >= zone || std::abs(delta_second) >= zone) continue;
-    const double o = against(tangent_of(c, e), tangent_of(c, f));
-    if (o == 0.0) continue;
-    const Share share = share_of(p, delta_first, delta_second, o);
-    c.next_share[e] *= share.first;
-    c.next_share[f] *= share.second;
-    if (!p.same_way()) continue;
-    c.balanced[e] = c.balanced[f] = 1;
-    run_on(c, e, p.first_at_start, p.reach);
-    run_on(c, f, p.second_at_start, p.reach);
-  }
-  for (const Id k : c.paired) {
-    change_range(c, k);
-    change_share(c, k, c.next_share[k], c.balanced[k] != 0);
-  }
+  for (const Id k : c.tangled) take_share(c, k);
 }
 
 }  // namespace edda

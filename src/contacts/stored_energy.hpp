@@ -7,7 +7,7 @@ namespace edda {
 
 /// Slip s of contact k at step n before the return map, m.
 inline double trial_slip(const ContactSet& c, std::size_t k) {
-  return c.foot[k] - c.anchor[k] * c.span[k];
+  return c.trial_slip(k);
 }
 
 /// Stored energy of a closed contact between steps n - 1 and n, in the ledger's terms (method.md

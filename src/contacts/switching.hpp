@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/vector_loop.hpp"
+
 namespace edda {
 
 /// alpha in [0, 1]. before: penetration a step ago (<= 0: open); without: the next one without this
@@ -29,8 +31,8 @@ inline double switching_alpha(double before, double without, double push) {
 }
 
 /// Coulomb's limit by a return map: the shear force cut to +-limit.
-inline double cut_shear(double trial, double limit) {
-  return std::clamp(trial, -limit, limit);
+EDDA_INLINE double cut_shear(double trial, double limit) {
+  return smaller(larger(trial, -limit), limit);
 }
 
 }  // namespace edda

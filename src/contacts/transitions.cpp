@@ -28,6 +28,11 @@ void start_shear(ContactSet& c, const Pose& pose, std::size_t k) {
   c.shear[k] = c.shear_1[k] = c.slip_trial[k] = 0.0;
 }
 
+/// What has lost its partner is given the rest of its share at the next step.
+void watch_part(ContactSet& c, std::size_t k) {
+  if (c.share[k] < 1.0 && c.pair_of[k] == no_id) c.lingers[k / ContactSet::chunk] = 1;
+}
+
 void close(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
            std::size_t k) {
   set_spring(c, b, pose, laws, k);
@@ -35,12 +40,13 @@ void close(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& l
   c.alpha[k] = 1.0;
   c.normal[k] = 0.0;
   start_shear(c, pose, k);
+  watch_part(c, k);
 }
 
 void open(ContactSet& c, std::size_t k) {
   c.clear(k, cs::closed | cs::bonded | cs::pulls | cs::sliding);
   c.set(k, cs::opened);
-  c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = c.dashpot[k] = 0.0;
+  c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = 0.0;
   c.alpha[k] = 1.0;
   c.rest[k] = std::max(0.0, std::min(c.rest[k], c.depth[k]));
   if (c.pair_of[k] == no_id) c.share[k] = 1.0;
@@ -89,7 +95,6 @@ void hand_over(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTabl
   c.shear_1[heir] = c.shear_1[k] * c.ks[heir] / c.ks[k];
   c.slip_trial[heir] = c.slip_trial[k];
   c.normal[heir] = c.normal[k] * c.kn[heir] / c.kn[k];
-  c.dashpot[heir] = c.dashpot[k];
   c.alpha[heir] = c.alpha[k];
   if (c.is(k, cs::bonded)) {
     c.friction[heir] = c.friction[k];
@@ -100,6 +105,7 @@ void hand_over(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTabl
     }
   }
   c.friction_work[k] += before - stored_energy(c, heir);
+  watch_part(c, heir);
 }
 
 void unblock(ContactSet& c, std::size_t k, double rest) {
@@ -192,6 +198,8 @@ void leave(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& l
       0.5 * given_up * c.kn[k] * std::max(c.effective(k), 0.0) * std::max(c.effective_1(k), 0.0);
   if (kept * whole > 0.0) {
     change_share(c, k, kept * whole, false);
+    if (c.pair_of[k] != no_id) c.pairs[c.pair_of[k]].forget();
+    watch_part(c, k);
   } else {
     c.friction_work[k] += stored_energy(c, k);
     open(c, k);
@@ -225,8 +233,8 @@ void find_events(ContactSet& c, TransitionScratch& events) {
   events.closes.clear();
   for (std::size_t q = 0; q < c.stirs.size(); ++q) {
     if (c.stirs[q] == 0) continue;
-    const std::size_t end = std::min(c.size(), (q + 1) * ContactSet::chunk);
-    for (std::size_t k = q * ContactSet::chunk; k < end; ++k) {
+    c.lingers[q] = 0;
+    for (std::size_t k = q * ContactSet::chunk; k < c.chunk_end(q); ++k) {
       if (c.is(k, cs::closed)) {
         if (c.is(k, cs::bonded)) continue;
         // Within the rounding of coordinates a contact stays what it is, or joints that just touch

@@ -1,9 +1,11 @@
 #include "forces/contact_forces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "base/vector_loop.hpp"
 #include "contacts/gap.hpp"
 #include "contacts/stored_energy.hpp"
 #include "contacts/switching.hpp"
@@ -23,23 +25,17 @@ double quadratic_form(const BlockSet& b, std::size_t i, double w0, double w1, do
          w1 * (m[3][i] * w1 + 2.0 * m[4][i] * w2) + w2 * m[5][i] * w2;
 }
 
-/// Shear by the return map; books the slip: p_t (s_tr - s)(s + s_{n-1})/2 (method.md section 4).
-void return_map(ContactSet& c, std::size_t k) {
-  const double trial = -c.ks[k] * c.slip_trial[k];
-  if (c.is(k, cs::bonded)) {
-    c.shear[k] = trial;
-    return;
-  }
-  const double limit = c.shear_limit(k, c.normal[k]);
-  const double kept = cut_shear(trial, limit);
+/// What a cut of its shear does to contact k: the anchor follows, and the slip is booked, p_t
+/// (s_tr - s)(s + s_{n-1})/2 (method.md section 4).
+void book_slip(ContactSet& c, std::size_t k) {
+  if (!c.is(k, cs::closed) || c.is(k, cs::bonded)) return;
   c.clear(k, cs::sliding);
-  if (kept != trial) {
-    c.set(k, cs::sliding | cs::slipped);
-    const double s = -kept / c.ks[k], s_1 = -c.shear_1[k] / c.ks[k];
-    c.anchor[k] = (c.foot[k] - s) / c.span[k];
-    c.friction_work[k] += 0.5 * c.share[k] * c.ks[k] * (c.slip_trial[k] - s) * (s + s_1);
-  }
-  c.shear[k] = kept;
+  if (c.shear[k] == -c.ks[k] * c.slip_trial[k]) return;
+  c.set(k, cs::sliding | cs::slipped);
+  const double s = -c.shear[k] / c.ks[k], s_1 = -c.shear_1[k] / c.ks[k];
+  c.anchor[k] = (c.foot[k] - s) / c.span[k];
+  c.friction_work[k] += 0.5 * c.share[k] * c.ks[k] * (c.slip_trial[k] - s) * (s + s_1);
+  set_contact_force(c, k, tangent_of(c, k), c.span[k], c.foot[k], c.depth[k]);
 }
 
 void let_go(ContactSet& c, std::size_t k) {
@@ -54,25 +50,86 @@ void tear(ContactSet& c, std::size_t k) {
   const double stored = 0.5 * c.share[k] * (c.kn[k] * normal + c.ks[k] * slip * c.slip_trial[k]);
   c.fracture_work[k] += std::max(stored, 0.0);
   let_go(c, k);
-  c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = c.dashpot[k] = 0.0;
+  c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = 0.0;
   c.rest[k] = std::max(0.0, std::min(c.rest[k], c.depth[k]));
   c.fx[k] = c.fy[k] = c.gx[k] = c.gy[k] = 0.0;
 }
 
-void evaluate(ContactSet& c, const BlockSet& b, std::size_t k, double step, double damping) {
-  if (!c.is(k, cs::closed)) {
-    c.fx[k] = c.fy[k] = c.gx[k] = c.gy[k] = 0.0;
-    return;
+/// N of the spring alone.
+template <class Contacts>
+EDDA_INLINE double spring_normal(const Contacts& c, std::size_t k) {
+  const double e = c.effective(k), n = c.kn[k] * (may_pull(c.hold[k]) ? e : larger(e, 0.0));
+  return carries(c.hold[k]) ? n : 0.0;
+}
+
+/// Adds what the dashpot does.
+void add_dashpot(ContactSet& c, const BlockSet& b, std::size_t k, double step, double damping) {
+  if (!c.is(k, cs::closed) || !(c.is(k, cs::pulls) || c.effective(k) > 0.0)) return;
+  const double damped =
+      c.normal[k] + dashpot_coefficient(c, b, k, damping) * (c.depth[k] - c.depth_1[k]) / step;
+  c.normal[k] = c.is(k, cs::pulls) ? damped : std::max(0.0, damped);
+}
+
+EDDA_VECTOR void spring_normals(ContactView c, std::size_t begin, std::size_t end) {
+#pragma omp simd
+  for (std::size_t k = begin; k < end; ++k) c.normal[k] = spring_normal(c, k);
+}
+
+/// T by the return map, its history, and the forces as long as nothing slides. Whether the shear
+/// was cut.
+EDDA_INLINE bool cut_and_push(const ContactView& c, std::size_t k) {
+  const double hold = c.hold[k], present = c.trial_slip(k), before = c.shear[k];
+  const double slip = carries(hold) ? present : 0.0;
+  const double trial = -c.ks[k] * slip, limit = c.shear_limit(k, c.normal[k]);
+  const double kept = is_bonded(hold) ? trial : cut_shear(trial, limit);
+  c.shear_1[k] = before;
+  c.slip_trial[k] = slip;
+  c.shear[k] = kept;
+  c.alpha[k] = 1.0;
+  set_contact_force(c, k, c.tangent(k), c.span[k], c.foot[k], c.depth[k]);
+  return kept != trial;
+}
+
+/// The contacts [begin, end), whole chunks or one. found[q] of each chunk: its strongest hold,
+/// negative if any shear was cut.
+EDDA_VECTOR void shear_and_forces(ContactView c, double* found, std::size_t begin,
+                                  std::size_t end) {
+  for (std::size_t first = begin; first < end; first += ContactSet::chunk) {
+    const std::size_t last = std::min(end, first + ContactSet::chunk);
+    double cut = 0.0, hold = 0.0;
+#pragma omp simd reduction(max : cut, hold)
+    for (std::size_t k = first; k < last; ++k) {
+      cut = larger(cut, cut_and_push(c, k) ? 1.0 : 0.0);
+      hold = larger(hold, c.hold[k]);
+    }
+    found[(first - begin) / ContactSet::chunk] = cut > 0.0 ? -hold : hold;
   }
-  set_normal_force(c, b, k, step, damping);
-  c.shear_1[k] = c.shear[k];
-  c.slip_trial[k] = trial_slip(c, k);
-  return_map(c, k);
-  if (c.is(k, cs::pulls) && !c.is(k, cs::bonded) && c.normal[k] < -c.tension[k]) {
-    tear(c, k);
-    return;
+}
+
+/// Springs, dashpots and return map of the contacts [begin, end) of one run: whole chunks, or one.
+void evaluate(ContactSet& c, const BlockSet& b, std::size_t begin, std::size_t end, double step,
+              double damping) {
+  const ContactView view = c.view();
+  spring_normals(view, begin, end);
+  if (damping > 0.0) {
+    for (std::size_t k = begin; k < end; ++k) add_dashpot(c, b, k, step, damping);
   }
-  set_contact_force(c, k, tangent_of(c, k), c.span[k], c.foot[k], c.depth[k]);
+  std::array<double, ContactSet::run / ContactSet::chunk> found;
+  shear_and_forces(view, found.data(), begin, end);
+  for (std::size_t first = begin; first < end; first += ContactSet::chunk) {
+    const std::size_t last = std::min(end, first + ContactSet::chunk);
+    const double hold = found[(first - begin) / ContactSet::chunk];
+    std::uint8_t& slides = c.slides[first / ContactSet::chunk];
+    if (hold < 0.0 || slides != 0) {
+      for (std::size_t k = first; k < last; ++k) book_slip(c, k);
+      const bool whole = end - begin > 1;
+      slides = hold < 0.0 || !whole ? 1 : 0;
+    }
+    if (!may_pull(std::abs(hold))) continue;
+    for (std::size_t k = first; k < last; ++k) {
+      if (c.is(k, cs::pulls) && !c.is(k, cs::bonded) && c.normal[k] < -c.tension[k]) tear(c, k);
+    }
+  }
 }
 
 /// Whether the bonded contacts of one pair of edges fail together: |sum T| > c L + tan(phi) sum N,
@@ -121,7 +178,7 @@ void break_bond(ContactSet& c, const BlockSet& b, const LawTable& laws, Id k, do
   // What the peak strength held is released by the return map; it is fracture energy, not friction.
   const double friction_before = c.friction_work[k];
   c.shear[k] = c.shear_1[k];
-  evaluate(c, b, k, step, damping);
+  evaluate(c, b, k, k + 1, step, damping);
   c.fracture_work[k] += std::max(0.0, c.friction_work[k] - friction_before);
   c.friction_work[k] = friction_before;
 }
@@ -139,15 +196,6 @@ void break_failed(ContactSet& c, const BlockSet& b, const LawTable& laws, Break 
 
 }  // namespace
 
-ContactForce contact_force(Vec2 t, double l, double foot, double depth, double anchor,
-                           double normal, double shear) {
-  const Vec2 n = outward_normal(t);
-  const double xi = foot / l, lift = -depth / l;  // g/l
-  const Vec2 f1 = normal * n + shear * t;
-  const Vec2 f3 = -xi * normal * n - shear * (anchor * t - lift * n);
-  return {f1, -(f1 + f3), f3};
-}
-
 double inverse_contact_mass(const BlockSet& b, const ContactSet& c, std::size_t k, double xi) {
   const Id v = c.vertex[k], p = c.edge[k], q = c.edge_end[k];
   auto foot = [&](std::size_t node) {
@@ -163,32 +211,16 @@ double dashpot_coefficient(const ContactSet& c, const BlockSet& b, std::size_t k
 
 void set_normal_force(ContactSet& c, const BlockSet& b, std::size_t k, double step,
                       double damping) {
-  const bool pulls = c.is(k, cs::pulls);
   c.alpha[k] = 1.0;
-  c.normal[k] = c.kn[k] * (pulls ? c.effective(k) : std::max(c.effective(k), 0.0));
-  c.dashpot[k] = 0.0;
-  if (damping > 0.0 && (pulls || c.effective(k) > 0.0)) {
-    const double damped =
-        c.normal[k] + dashpot_coefficient(c, b, k, damping) * (c.depth[k] - c.depth_1[k]) / step;
-    const double total = pulls ? damped : std::max(0.0, damped);
-    c.dashpot[k] = total - c.normal[k];
-    c.normal[k] = total;
-  }
-}
-
-void set_contact_force(ContactSet& c, std::size_t k, Vec2 t, double l, double foot, double depth) {
-  const double w = c.share[k];
-  const ContactForce f =
-      contact_force(t, l, foot, depth, c.anchor[k], w * c.alpha[k] * c.normal[k], w * c.shear[k]);
-  c.fx[k] = f.f1.x;
-  c.fy[k] = f.f1.y;
-  c.gx[k] = f.f2.x;
-  c.gy[k] = f.f2.y;
+  c.normal[k] = spring_normal(c, k);
+  if (damping > 0.0) add_dashpot(c, b, k, step, damping);
 }
 
 void evaluate_contacts(ContactSet& c, const BlockSet& b, const LawTable& laws, double step,
                        double damping) {
-  parallel_for(c.size(), [&](std::size_t k) { evaluate(c, b, k, step, damping); });
+  parallel_chunks(c.size(), ContactSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
+    evaluate(c, b, begin, end, step, damping);
+  });
   break_failed(c, b, laws, [&](Id k) { break_bond(c, b, laws, k, step, damping); });
 }
 

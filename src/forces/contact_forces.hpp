@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/vector_loop.hpp"
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
 #include "contacts/contact_set.hpp"
@@ -18,8 +19,14 @@ struct ContactForce {
 /// Gradient form of the springs, for the whole spring (share 1):
 ///   f1 = N n + T t,  f2 = -(1-xi) N n - T [(1-xi0) t + (g/l) n],  f3 = -xi N n - T [xi0 t - (g/l)
 ///   n].
-ContactForce contact_force(Vec2 t, double l, double foot, double depth, double anchor,
-                           double normal, double shear);
+EDDA_INLINE ContactForce contact_force(Vec2 t, double l, double foot, double depth, double anchor,
+                                       double normal, double shear) {
+  const Vec2 n = outward_normal(t);
+  const double xi = foot / l, lift = -depth / l;  // g/l
+  const Vec2 f1 = normal * n + shear * t;
+  const Vec2 f3 = -xi * normal * n - shear * (anchor * t - lift * n);
+  return {f1, -(f1 + f3), f3};
+}
 
 /// 1/m_c = sum of weights^2/mass over both blocks for a unit force along `direction` on the vertex
 /// and against it at the foot, 1/kg (for `consistent` the quadratic form with the inverse mass).
@@ -49,7 +56,16 @@ std::vector<Id> break_overloaded(ContactSet& contacts, const BlockSet& blocks,
 
 /// Sets the forces of contact k on P1, P2 from its N and T as they stand, scaled by its share (and
 /// alpha), for an edge of tangent t and length l with the foot at `foot` and penetration `depth`.
-void set_contact_force(ContactSet& contacts, std::size_t k, Vec2 t, double l, double foot,
-                       double depth);
+template <class Contacts>
+EDDA_INLINE void set_contact_force(Contacts&& c, std::size_t k, Vec2 t, double l, double foot,
+                                   double depth) {
+  const double w = c.share[k];
+  const ContactForce f =
+      contact_force(t, l, foot, depth, c.anchor[k], w * c.alpha[k] * c.normal[k], w * c.shear[k]);
+  c.fx[k] = f.f1.x;
+  c.fy[k] = f.f1.y;
+  c.gx[k] = f.f2.x;
+  c.gy[k] = f.f2.y;
+}
 
 }  // namespace edda

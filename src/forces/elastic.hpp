@@ -14,7 +14,7 @@ struct PiolaStress {
 
 /// P = 2 mu (F - R) + lambda tr(R^T F - I) R. The gradient of
 /// W = mu |F - R|^2 + lambda/2 tr(R^T F - I)^2 per volume; no stress under a rotation.
-inline PiolaStress piola(const Deformation& f, const Rotation& r, double lambda, double mu) {
+EDDA_INLINE PiolaStress piola(const Deformation& f, const Rotation& r, double lambda, double mu) {
   const double trace = r.c * (f.xx + f.yy) + r.s * (f.yx - f.xy) - 2.0;
   const double lt = lambda * trace;
   return {2.0 * mu * (f.xx - r.c) + lt * r.c, 2.0 * mu * (f.xy + r.s) - lt * r.s,
@@ -22,7 +22,7 @@ inline PiolaStress piola(const Deformation& f, const Rotation& r, double lambda,
 }
 
 /// Nodal force f_k = -V P G_k, N.
-inline Vec2 elastic_force(const PiolaStress& p, double volume, double gx, double gy) {
+EDDA_INLINE Vec2 elastic_force(const PiolaStress& p, double volume, double gx, double gy) {
   return {-volume * (p.xx * gx + p.xy * gy), -volume * (p.yx * gx + p.yy * gy)};
 }
 

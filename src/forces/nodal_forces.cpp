@@ -11,42 +11,41 @@ namespace {
 
 using NodeForce = std::array<Vec2, 3>;
 
-void add_contacts_one_by_one(NodeForce& f, const BlockSet& b, const ContactSet& c, std::size_t i) {
-  for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
+/// Contact forces are summed on the vertices first and spread to the nodes once per vertex. Most
+/// blocks have no more corners than this.
+constexpr Id few_corners = 64;
+
+/// Contact forces on the vertices of block i: those of its own vertices, which follow each other in
+/// the list, then those of its edges.
+void sum_on_vertices(Vec2* on, const BlockSet& b, const ContactSet& c, std::size_t i) {
+  const Id first = b.vertex_begin[i], end = b.vertex_begin[i + 1];
+  for (Id v = first; v < end; ++v) {
+    Vec2 sum;
+    for (Id k = c.begin_of_vertex[v]; k < c.begin_of_vertex[v + 1]; ++k) {
+      sum += Vec2{c.fx[k], c.fy[k]};
+    }
+    on[v - first] = sum;
+  }
+  const Id own = c.begin_of_vertex[end] - c.begin_of_vertex[first];
+  for (Id q = c.block_begin[i] + own; q < c.block_begin[i + 1]; ++q) {
     const Id k = c.block_entry[q] >> 1;
     const Vec2 f1{c.fx[k], c.fy[k]}, f2{c.gx[k], c.gy[k]};
-    if ((c.block_entry[q] & 1u) == 0) {
-      spread(f, b, c.vertex[k], f1);
-    } else {
-      spread(f, b, c.edge[k], f2);
-      spread(f, b, c.edge_end[k], -(f1 + f2));
-    }
+    on[c.edge[k] - first] += f2;
+    on[c.edge_end[k] - first] -= f1 + f2;
   }
 }
 
-/// Contact forces are summed on the vertices first and spread to the nodes once per vertex.
-constexpr Id most_corners = 64;
-
 void add_contacts(NodeForce& f, const BlockSet& b, const ContactSet& c, std::size_t i) {
   const Id first = b.vertex_begin[i], corners = b.vertex_begin[i + 1] - first;
-  if (corners > most_corners) {
-    add_contacts_one_by_one(f, b, c, i);
-    return;
+  if (corners <= few_corners) {
+    std::array<Vec2, few_corners> on;
+    sum_on_vertices(on.data(), b, c, i);
+    for (Id v = 0; v < corners; ++v) spread(f, b, first + v, on[v]);
+  } else {
+    std::vector<Vec2> on(corners);
+    sum_on_vertices(on.data(), b, c, i);
+    for (Id v = 0; v < corners; ++v) spread(f, b, first + v, on[v]);
   }
-  std::array<Vec2, most_corners> on;
-  std::fill_n(on.begin(), corners, Vec2{});
-  for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
-    const Id k = c.block_entry[q] >> 1;
-    const Vec2 f1{c.fx[k], c.fy[k]};
-    if ((c.block_entry[q] & 1u) == 0) {
-      on[c.vertex[k] - first] += f1;
-    } else {
-      const Vec2 f2{c.gx[k], c.gy[k]};
-      on[c.edge[k] - first] += f2;
-      on[c.edge_end[k] - first] -= f1 + f2;
-    }
-  }
-  for (Id v = 0; v < corners; ++v) spread(f, b, first + v, on[v]);
 }
 
 void add_springs(NodeForce& f, const BlockSet& b, const BoundarySprings& s, const Pose& pose,
@@ -58,38 +57,68 @@ void add_springs(NodeForce& f, const BlockSet& b, const BoundarySprings& s, cons
   }
 }
 
-void add_elastic(NodeForce& f, const BlockSet& b, const State& state, std::size_t i) {
-  const Deformation d = deformation(b, state.x, state.y, i);
+struct BodyView {
+  ConstNodeValues grad_x, grad_y;
+  const double *volume, *lame_lambda, *lame_mu, *mass;
+};
+
+/// Gravity and elasticity of block i, in place of what its forces were. Every cover is centred on
+/// the centroid, so each node carries a third of the weight.
+EDDA_INLINE void body_force(const BodyView& b, const ConstNodeValues& x, const ConstNodeValues& y,
+                            Vec2 gravity, const NodeValues& fx, const NodeValues& fy,
+                            std::size_t i) {
+  const Deformation d = deformation(b, x, y, i);
   const Rotation r = rotation(d);
-  const double det = d.xx * d.yy - d.xy * d.yx;
-  if (!(det > 0.2) || !(r.strength > 0.2)) {
-    f[0].x = std::numeric_limits<double>::quiet_NaN();
-    return;
-  }
   const PiolaStress p = piola(d, r, b.lame_lambda[i], b.lame_mu[i]);
-  for (std::size_t k = 0; k < 3; ++k) {
-    f[k] += elastic_force(p, b.volume[i], b.grad_x[k][i], b.grad_y[k][i]);
-  }
+  const double det = d.xx * d.yy - d.xy * d.yx;
+  const bool sound = (det > 0.2) & (r.strength > 0.2);
+  const Vec2 weight = (b.mass[i] / 3.0) * gravity;
+  const Vec2 f0 = weight + elastic_force(p, b.volume[i], b.grad_x[0][i], b.grad_y[0][i]);
+  const Vec2 f1 = weight + elastic_force(p, b.volume[i], b.grad_x[1][i], b.grad_y[1][i]);
+  const Vec2 f2 = weight + elastic_force(p, b.volume[i], b.grad_x[2][i], b.grad_y[2][i]);
+  fx[0][i] = f0.x + (sound ? 0.0 : std::numeric_limits<double>::quiet_NaN());
+  fy[0][i] = f0.y;
+  fx[1][i] = f1.x;
+  fy[1][i] = f1.y;
+  fx[2][i] = f2.x;
+  fy[2][i] = f2.y;
+}
+
+EDDA_VECTOR void body_forces(BodyView b, ConstNodeValues x, ConstNodeValues y, Vec2 gravity,
+                             NodeValues fx, NodeValues fy, std::size_t begin, std::size_t end) {
+#pragma omp simd
+  for (std::size_t i = begin; i < end; ++i) body_force(b, x, y, gravity, fx, fy, i);
 }
 
 }  // namespace
 
 void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
                    const ContactSet& contacts, const BoundarySprings& springs, Vec2 gravity,
-                   const LoadsNow& loads) {
-  parallel_for(b.size(), [&](std::size_t i) {
-    if (b.fixed[i] || !state.alive[i]) return;
-    NodeForce f;
-    // Every cover is centred on the centroid, so each node carries a third of the weight.
-    for (Vec2& node : f) node = (b.mass[i] / 3.0) * gravity;
-    add_elastic(f, b, state, i);
-    add_springs(f, b, springs, pose, i);
-    if (loads.loads != nullptr) add_loads(f, b, loads, pose.x, pose.y, i);
-    add_contacts(f, b, contacts, i);
+                   const LoadsNow& loads, std::size_t begin, std::size_t end) {
+  const BodyView body{values_of(b.grad_x),  values_of(b.grad_y), b.volume.data(),
+                      b.lame_lambda.data(), b.lame_mu.data(),    b.mass.data()};
+  body_forces(body, values_of(state.x), values_of(state.y), gravity, values_of(forces.x),
+              values_of(forces.y), begin, end);
+  for (std::size_t i = begin; i < end; ++i) {
+    NodeForce f{};
+    if (is_free(b, state, i)) {
+      for (std::size_t k = 0; k < 3; ++k) f[k] = {forces.x[k][i], forces.y[k][i]};
+      add_springs(f, b, springs, pose, i);
+      if (loads.loads != nullptr) add_loads(f, b, loads, pose.x, pose.y, i);
+      add_contacts(f, b, contacts, i);
+    }
     for (std::size_t k = 0; k < 3; ++k) {
       forces.x[k][i] = f[k].x;
       forces.y[k][i] = f[k].y;
     }
+  }
+}
+
+void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
+                   const ContactSet& contacts, const BoundarySprings& springs, Vec2 gravity,
+                   const LoadsNow& loads) {
+  parallel_chunks(b.size(), blocks_at_once, [&](std::size_t, std::size_t begin, std::size_t end) {
+    gather_forces(forces, b, state, pose, contacts, springs, gravity, loads, begin, end);
   });
 }
 

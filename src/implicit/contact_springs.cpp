@@ -24,7 +24,7 @@ double energy_now(const ContactSet& c, std::size_t k) {
 }
 
 void let_rest(ContactSet& c, std::size_t k) {
-  c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = c.dashpot[k] = 0.0;
+  c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = 0.0;
   c.fx[k] = c.fy[k] = c.gx[k] = c.gy[k] = 0.0;
 }
 

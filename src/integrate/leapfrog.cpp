@@ -1,6 +1,7 @@
 #include "integrate/leapfrog.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "base/parallel.hpp"
 #include "blocks/cover.hpp"
@@ -8,8 +9,8 @@
 namespace edda {
 namespace {
 
-double sign(double v) {
-  return v > 0.0 ? 1.0 : v < 0.0 ? -1.0 : 0.0;
+EDDA_INLINE double sign(double v) {
+  return (v > 0.0 ? 1.0 : 0.0) - (v < 0.0 ? 1.0 : 0.0);
 }
 
 std::array<Vec2, 3> node_vectors(const Nodes& x, const Nodes& y, std::size_t i) {
@@ -17,7 +18,7 @@ std::array<Vec2, 3> node_vectors(const Nodes& x, const Nodes& y, std::size_t i) 
 }
 
 /// Cundall's local damping: beta |f| against the velocity, component by component.
-Vec2 local_damping(Vec2 f, Vec2 v, double beta) {
+EDDA_INLINE Vec2 local_damping(Vec2 f, Vec2 v, double beta) {
   return {-beta * std::abs(f.x) * sign(v.x), -beta * std::abs(f.y) * sign(v.y)};
 }
 
@@ -49,27 +50,77 @@ std::array<Vec2, 3> accelerations(const BlockSet& b, std::size_t i, const std::a
           m[2][i] * f[0] + m[4][i] * f[1] + m[5][i] * f[2]};
 }
 
-void advance(State& s, const BlockSet& b, const Nodes& force_x, const Nodes& force_y, double h_old,
-             double h_new, const StepDamping& damping) {
+namespace {
+
+/// What one step does to a velocity: v+ = ((1 - drag) v- + h f/m)/(1 + drag), and the step it then
+/// makes.
+struct Kick {
+  double h, h_new, drag, local;
+};
+
+EDDA_INLINE Vec2 kicked(Vec2 before, Vec2 acceleration, const Kick& kick) {
+  return ((1.0 - kick.drag) * before + kick.h * acceleration) / (1.0 + kick.drag);
+}
+
+/// One node of all blocks, its mass lumped.
+struct NodeView {
+  const double *mass, *fx, *fy, *old_vx, *old_vy;
+  double *vx, *vy, *x, *y;
+};
+
+EDDA_INLINE void advance_one(const NodeView& n, const Kick& kick, std::size_t i) {
+  constexpr double held = std::numeric_limits<double>::infinity();
+  const Vec2 before{n.old_vx[i], n.old_vy[i]}, push{n.fx[i], n.fy[i]};
+  const Vec2 force = push + local_damping(push, before, kick.local);
+  const double mass = n.mass[i] > 0.0 ? n.mass[i] : held;
+  const Vec2 after = kicked(before, (1.0 / mass) * force, kick);
+  n.vx[i] = after.x;
+  n.vy[i] = after.y;
+  n.x[i] += kick.h_new * after.x;
+  n.y[i] += kick.h_new * after.y;
+}
+
+EDDA_VECTOR void advance_nodes(NodeView n, Kick kick, std::size_t begin, std::size_t end) {
+#pragma omp simd
+  for (std::size_t i = begin; i < end; ++i) advance_one(n, kick, i);
+}
+
+}  // namespace
+
+void advance(State& s, const BlockSet& b, const Nodes& force_x, const Nodes& force_y,
+             const Nodes& old_vx, const Nodes& old_vy, double h_old, double h_new,
+             const StepDamping& damping, std::size_t begin, std::size_t end) {
   const double h = 0.5 * (h_old + h_new);
-  const double drag = 0.5 * damping.mass * h;
-  parallel_for(b.size(), [&](std::size_t i) {
-    if (b.fixed[i] || !s.alive[i]) return;
-    std::array<Vec2, 3> f = node_vectors(force_x, force_y, i);
-    if (damping.local > 0.0) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        f[k] += local_damping(f[k], {s.vx[k][i], s.vy[k][i]}, damping.local);
-      }
-    }
-    const std::array<Vec2, 3> a = accelerations(b, i, f);
+  const Kick kick{h, h_new, 0.5 * damping.mass * h, damping.local};
+  if (b.mass_kind != MassKind::consistent) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 before{s.vx[k][i], s.vy[k][i]};
-      const Vec2 after = ((1.0 - drag) * before + h * a[k]) / (1.0 + drag);
+      const NodeView node{b.node_mass[k].data(), force_x[k].data(), force_y[k].data(),
+                          old_vx[k].data(),      old_vy[k].data(),  s.vx[k].data(),
+                          s.vy[k].data(),        s.x[k].data(),     s.y[k].data()};
+      advance_nodes(node, kick, begin, end);
+    }
+    return;
+  }
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::array<Vec2, 3> v = node_vectors(old_vx, old_vy, i);
+    std::array<Vec2, 3> f = node_vectors(force_x, force_y, i);
+    for (std::size_t k = 0; k < 3; ++k) f[k] += local_damping(f[k], v[k], damping.local);
+    const bool moves = is_free(b, s, i);
+    const std::array<Vec2, 3> a = moves ? accelerations(b, i, f) : std::array<Vec2, 3>{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 after = kicked(v[k], a[k], kick);
       s.vx[k][i] = after.x;
       s.vy[k][i] = after.y;
       s.x[k][i] += h_new * after.x;
       s.y[k][i] += h_new * after.y;
     }
+  }
+}
+
+void advance(State& s, const BlockSet& b, const Nodes& force_x, const Nodes& force_y, double h_old,
+             double h_new, const StepDamping& damping) {
+  parallel_chunks(b.size(), blocks_at_once, [&](std::size_t, std::size_t begin, std::size_t end) {
+    advance(s, b, force_x, force_y, s.vx, s.vy, h_old, h_new, damping, begin, end);
   });
 }
 

@@ -24,6 +24,12 @@ struct DampingWork {
 void advance(State& state, const BlockSet& blocks, const Nodes& force_x, const Nodes& force_y,
              double h_old, double h_new, const StepDamping& damping);
 
+/// The same for the blocks [begin, end), from the velocities old_vx, old_vy to those of `state`
+/// (which may be the same).
+void advance(State& state, const BlockSet& blocks, const Nodes& force_x, const Nodes& force_y,
+             const Nodes& old_vx, const Nodes& old_vy, double h_old, double h_new,
+             const StepDamping& damping, std::size_t begin, std::size_t end);
+
 /// Books what damping took in the step just made, once its velocities are final: damping force
 /// times (x_{n+1} - x_{n-1})/2. old_vx, old_vy: velocities before it.
 void book_damping(const State& state, const BlockSet& blocks, const Nodes& force_x,

@@ -141,8 +141,7 @@ double correct_switching(ContactSet& c, const BlockSet& b, State& s, Pose& pose,
   const double largest = largest_penetration(c);
   for (std::size_t q = 0; q < c.stirs.size(); ++q) {
     if (c.stirs[q] == 0) continue;
-    const std::size_t end = std::min(c.size(), (q + 1) * ContactSet::chunk);
-    for (std::size_t k = q * ContactSet::chunk; k < end; ++k) {
+    for (std::size_t k = q * ContactSet::chunk; k < c.chunk_end(q); ++k) {
       if (switches(c, k) || reverses(c, k)) scratch.set.push_back(static_cast<Id>(k));
     }
   }

@@ -191,24 +191,22 @@ void Simulation::aim_at(double time) {
   state.step = h;
 }
 
-bool Simulation::move(double h_old, double h_new) {
-  advance(state, blocks, forces.x, forces.y, h_old, h_new, step_damping(damping));
+bool Simulation::move(double h_old, double h_new, const LoadsNow* not_yet_gathered) {
+  largest_.assign((blocks.size() + blocks_at_once - 1) / blocks_at_once, 0.0);
+  parallel_chunks(blocks.size(), blocks_at_once,
+                  [&](std::size_t c, std::size_t begin, std::size_t end) {
+                    if (not_yet_gathered != nullptr) {
+                      gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity,
+                                    *not_yet_gathered, begin, end);
+                    }
+                    advance(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h_new,
+                            step_damping(damping), begin, end);
+                    largest_[c] = place_next(blocks, state.x, state.y, pose, begin, end);
+                  });
   std::swap(pose.x, pose.x1);
   std::swap(pose.y, pose.y1);
-  place_all();
-  constexpr std::size_t chunk = 4096;
-  const std::size_t nv = blocks.vertex_count();
-  std::vector<double>& largest = largest_;
-  largest.assign((nv + chunk - 1) / chunk, 0.0);
-  parallel_for(largest.size(), [&](std::size_t c) {
-    for (std::size_t v = c * chunk; v < std::min(nv, (c + 1) * chunk); ++v) {
-      const double dx = pose.x[v] - pose.x1[v], dy = pose.y[v] - pose.y1[v];
-      const double d2 = dx * dx + dy * dy;
-      if (!(d2 <= largest[c])) largest[c] = std::isfinite(d2) ? d2 : 1e300;
-    }
-  });
   last_displacement =
-      std::sqrt(largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end()));
+      std::sqrt(largest_.empty() ? 0.0 : *std::max_element(largest_.begin(), largest_.end()));
   return last_displacement <= displacement_limit;
 }
 
@@ -218,12 +216,17 @@ std::optional<Failure> Simulation::step() {
   const double h_old = step_before_;
   evaluate_contacts(contacts, blocks, laws, state.step, damping.contact);
   const LoadsNow acting = loads_at(model, loads, state.time);
-  gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity, acting);
   clock.lap(seconds.forces);
 
-  old_vx_ = state.vx;
-  old_vy_ = state.vy;
-  for (int halvings = 0; !move(h_old, state.step); ++halvings) {
+  if (old_vx_[0].size() != blocks.size()) {
+    old_vx_ = state.vx;
+    old_vy_ = state.vy;
+  }
+  std::swap(old_vx_, state.vx);
+  std::swap(old_vy_, state.vy);
+  const LoadsNow* not_yet_gathered = &acting;
+  for (int halvings = 0; !move(h_old, state.step, not_yet_gathered); ++halvings) {
+    not_yet_gathered = nullptr;
     if (last_displacement > 1e100 || halvings == 40) return lost();
     retreat(state, blocks, state.step, old_vx_, old_vy_);
     std::swap(pose.x, pose.x1);

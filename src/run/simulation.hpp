@@ -100,7 +100,7 @@ struct Simulation {
   void set_implicit_limit();
   void search(double reach);
   void search_if_due();
-  bool move(double h_old, double h_new);
+  bool move(double h_old, double h_new, const LoadsNow* not_yet_gathered);
   void finish_step();
   void book_implicit_loads(const LoadsNow& now);
   void book_loads(double h_old, double h_new, const LoadsNow& now);
@@ -116,7 +116,7 @@ struct Simulation {
   std::uint64_t steps_left_ = 0;
 
   // Of one step, kept so that it allocates nothing.
-  Nodes old_vx_, old_vy_;  ///< velocities before it
+  Nodes old_vx_, old_vy_;  ///< velocities before it, and where the next ones will be
   std::vector<double> largest_;
   SwitchingScratch switching_;
   TransitionScratch transitions_;

@@ -30,7 +30,6 @@ void list_contacts(Archive& a, ContactSet& c) {
   a("contacts.share", c.share);
   a("contacts.before", c.before);
   a("contacts.beyond", c.beyond);
-  a("contacts.stirs", c.stirs);
   a("contacts.deepest", c.deepest);
   a("contacts.state", c.state);
   a("contacts.rest", c.rest);
@@ -46,7 +45,6 @@ void list_contacts(Archive& a, ContactSet& c) {
   a("contacts.shear", c.shear);
   a("contacts.shear_1", c.shear_1);
   a("contacts.slip_trial", c.slip_trial);
-  a("contacts.dashpot", c.dashpot);
   a("contacts.friction_work", c.friction_work);
   a("contacts.damping_work", c.damping_work);
   a("contacts.fracture_work", c.fracture_work);
@@ -56,7 +54,8 @@ void list_contacts(Archive& a, ContactSet& c) {
   a("contacts.gy", c.gy);
   a("contacts.why", c.why);
   a("contacts.blocked", c.blocked);
-  a("contacts.paired", c.paired);
+  a("contacts.tangled", c.tangled);
+  a("contacts.lone_pairs", c.lone_pairs);
   a("contacts.pair_of", c.pair_of);
   a("contacts.begin_of_vertex", c.begin_of_vertex);
   a("contacts.block_begin", c.block_begin);
@@ -78,13 +77,16 @@ template <class Archive>
 void list_groups(Archive& a, ContactSet& c) {
   std::vector<Id> first, second, members, ends;
   std::vector<bool> first_at_start, second_at_start;
-  std::vector<double> reach;
+  std::vector<double> reach, seen_first, seen_second, seen_against;
   for (const CornerPair& p : c.pairs) {
     first.push_back(p.first);
     second.push_back(p.second);
     first_at_start.push_back(p.first_at_start);
     second_at_start.push_back(p.second_at_start);
     reach.push_back(p.reach);
+    seen_first.push_back(p.seen_first);
+    seen_second.push_back(p.seen_second);
+    seen_against.push_back(p.seen_against);
   }
   for (const Segment& s : c.segments) {
     members.insert(members.end(), s.members.begin(), s.members.end());
@@ -95,14 +97,19 @@ void list_groups(Archive& a, ContactSet& c) {
   a("pairs.first_at_start", first_at_start);
   a("pairs.second_at_start", second_at_start);
   a("pairs.reach", reach);
+  a("pairs.seen_first", seen_first);
+  a("pairs.seen_second", seen_second);
+  a("pairs.seen_against", seen_against);
   a("segments.members", members);
   a("segments.ends", ends);
   if constexpr (Archive::loads) {
     c.pairs.clear();
-    const std::size_t n = std::min(
-        {first.size(), second.size(), first_at_start.size(), second_at_start.size(), reach.size()});
+    const std::size_t n =
+        std::min({first.size(), second.size(), first_at_start.size(), second_at_start.size(),
+                  reach.size(), seen_first.size(), seen_second.size(), seen_against.size()});
     for (std::size_t k = 0; k < n; ++k) {
-      c.pairs.push_back({first[k], second[k], first_at_start[k], second_at_start[k], reach[k]});
+      c.pairs.push_back({first[k], second[k], first_at_start[k], second_at_start[k], reach[k],
+                         seen_first[k], seen_second[k], seen_against[k]});
     }
     c.segments.clear();
     std::size_t begin = 0;
@@ -218,8 +225,10 @@ bool belong_together(const ContactSet& c, const BlockSet& b) {
     }
   }
   for (Id i = 0; i < b.size(); ++i) {
+    const Id own = c.begin_of_vertex[b.vertex_begin[i + 1]] - c.begin_of_vertex[b.vertex_begin[i]];
     for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
       const Id k = c.block_entry[q] >> 1;
+      if (((c.block_entry[q] & 1u) == 0) != (q - c.block_begin[i] < own)) return false;
       if (((c.block_entry[q] & 1u) == 0 ? c.block_i[k] : c.block_j[k]) != i) return false;
     }
   }
@@ -232,45 +241,27 @@ void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawT
   for (const auto* ids : {&c.edge, &c.edge_end, &c.block_i, &c.block_j, &c.pair_of}) {
     j.sized("contacts", *ids, nc);
   }
-  for (const auto* values : {&c.extend_start,
-                             &c.extend_end,
-                             &c.depth,
-                             &c.depth_1,
-                             &c.depth_2,
-                             &c.foot,
-                             &c.span,
-                             &c.tx,
-                             &c.ty,
-                             &c.share,
-                             &c.before,
-                             &c.beyond,
-                             &c.rest,
-                             &c.anchor,
-                             &c.kn,
-                             &c.ks,
-                             &c.length,
-                             &c.friction,
-                             &c.cohesion,
-                             &c.tension,
-                             &c.alpha,
-                             &c.normal,
-                             &c.shear,
-                             &c.shear_1,
-                             &c.slip_trial,
-                             &c.dashpot,
-                             &c.friction_work,
-                             &c.damping_work,
-                             &c.fracture_work,
-                             &c.fx,
-                             &c.fy,
-                             &c.gx,
-                             &c.gy}) {
+  for (const auto* values : {&c.extend_start, &c.extend_end,
+                             &c.depth,        &c.depth_1,
+                             &c.depth_2,      &c.foot,
+                             &c.span,         &c.tx,
+                             &c.ty,           &c.share,
+                             &c.before,       &c.beyond,
+                             &c.rest,         &c.anchor,
+                             &c.kn,           &c.ks,
+                             &c.length,       &c.friction,
+                             &c.cohesion,     &c.tension,
+                             &c.alpha,        &c.normal,
+                             &c.shear,        &c.shear_1,
+                             &c.slip_trial,   &c.friction_work,
+                             &c.damping_work, &c.fracture_work,
+                             &c.fx,           &c.fy,
+                             &c.gx,           &c.gy}) {
     j.sized("contacts", *values, nc);
   }
   j.sized("contacts.law", c.law, nc);
   j.sized("contacts.state", c.state, nc);
   j.sized("contacts.why", c.why, nc);
-  j.sized("contacts.stirs", c.stirs, chunks);
   j.sized("contacts.deepest", c.deepest, chunks);
   j.sized("contacts.built_x", c.built_x, nv);
   j.sized("contacts.built_y", c.built_y, nv);
@@ -283,12 +274,13 @@ void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawT
   j.below("contacts.block_j", c.block_j, b.size());
   j.below("contacts.law", {c.law.begin(), c.law.end()}, laws.rows.size());
   j.below("contacts.blocked", c.blocked, nc);
-  j.below("contacts.paired", c.paired, nc);
+  j.below("contacts.tangled", c.tangled, nc);
   j.below("contacts.pair_of", c.pair_of, c.pairs.size(), true);
   j.below("contacts.block_entry", c.block_entry, 2 * nc);
   j.rising("contacts.begin_of_vertex", c.begin_of_vertex, nc);
   j.rising("contacts.block_begin", c.block_begin, c.block_entry.size());
   if (j.flaw().empty() && !belong_together(c, b)) j.refuse("contacts do not belong together");
+  if (c.lone_pairs > c.pairs.size()) j.refuse("contacts.lone_pairs is too large");
   for (const CornerPair& p : c.pairs) j.below("pairs", {p.first, p.second}, nc);
   for (const Segment& s : c.segments) j.below("segments", s.members, nc);
 }
@@ -375,6 +367,7 @@ std::string recall(Simulation& sim, const Record& record) {
   sim.contacts.balanced.assign(nc, 0);
   Judge j;
   judge(j, sim);
+  if (j.flaw().empty()) sim.contacts.look_everywhere();
   return j.flaw();
 }
 

@@ -1,0 +1,39 @@
+// Loops over several array elements at once.
+//
+// A hot loop is written for one element, with the same inline formulas as everywhere else, in a
+// function of its own that is marked EDDA_VECTOR, under `#pragma omp simd`. g++ then compiles the
+// function for AVX-512, for AVX2 and for any processor, and the program takes what its processor
+// knows when it starts. Every element goes through the same roundings in all of them (no sum runs
+// across elements, no multiply-add is fused), so the bits are the same on every processor.
+//
+// What such a loop calls must be inlined before the function is compiled three times: the mark
+// EDDA_INLINE sees to it.
+//
+// Vectors and other structures belong into those inlined functions, not into the body of the loop
+// itself, where OpenMP would keep them in memory.
+//
+// To be worth it such a loop has no branches but selections, arrays of one width (double, with Id
+// as an index), and no sums over its elements: largest values only.
+#pragma once
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__OPTIMIZE__) && \
+    !defined(__SANITIZE_ADDRESS__)
+#define EDDA_VECTOR __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define EDDA_VECTOR
+#endif
+
+/// A formula of hot loops.
+#define EDDA_INLINE [[gnu::always_inline]] inline
+
+namespace edda {
+
+/// std::max by value: a choice between references is not one that g++ takes for several elements.
+EDDA_INLINE double larger(double a, double b) {
+  return a < b ? b : a;
+}
+EDDA_INLINE double smaller(double a, double b) {
+  return b < a ? b : a;
+}
+
+}  // namespace edda

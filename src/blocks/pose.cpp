@@ -1,0 +1,42 @@
+#include "blocks/pose.hpp"
+
+#include <algorithm>
+
+namespace edda {
+namespace {
+
+struct VertexView {
+  ConstNodeValues weight;
+  const Id* block;
+  const double *from_x, *from_y;
+  double *to_x, *to_y;
+};
+
+EDDA_VECTOR double place(VertexView p, ConstNodeValues x, ConstNodeValues y, std::size_t begin,
+                         std::size_t end) {
+  constexpr double lost = 1e300;
+  double largest = 0.0;
+#pragma omp simd reduction(max : largest)
+  for (std::size_t v = begin; v < end; ++v) {
+    const Id i = p.block[v];
+    const double w0 = p.weight[0][v], w1 = p.weight[1][v], w2 = p.weight[2][v];
+    const double px = w0 * x[0][i] + w1 * x[1][i] + w2 * x[2][i];
+    const double py = w0 * y[0][i] + w1 * y[1][i] + w2 * y[2][i];
+    const double dx = px - p.from_x[v], dy = py - p.from_y[v], d2 = dx * dx + dy * dy;
+    p.to_x[v] = px;
+    p.to_y[v] = py;
+    largest = larger(largest, d2 <= lost ? d2 : lost);
+  }
+  return largest;
+}
+
+}  // namespace
+
+double place_next(const BlockSet& b, const Nodes& x, const Nodes& y, Pose& pose, std::size_t begin,
+                  std::size_t end) {
+  const VertexView view{values_of(b.weight), b.vertex_block.data(), pose.x.data(),
+                        pose.y.data(),       pose.x1.data(),        pose.y1.data()};
+  return place(view, values_of(x), values_of(y), b.vertex_begin[begin], b.vertex_begin[end]);
+}
+
+}  // namespace edda
