@@ -60,8 +60,6 @@ struct BlockSet {
   std::vector<double> inradius;     ///< [nb] half the narrowest extent of the outer ring, m
   std::vector<Index> material;      ///< [nb]
   std::map<Id, std::string> names;  ///< of the blocks that were given one
-  std::vector<Id> ring_begin;       ///< first vertex of each ring, then nv
-  std::vector<Id> block_ring;       ///< [nb + 1] first ring of each block
   MassKind mass_kind = MassKind::matched;
 
   /// Empty where none was given.

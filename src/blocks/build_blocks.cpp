@@ -56,7 +56,6 @@ void add_vertices(BlockSet& b, const BlockPolygon& polygon, const Moments& m,
     const Ring& ring = polygon.rings[r];
     const Id first = static_cast<Id>(b.vertex_block.size());
     const Id n = static_cast<Id>(ring.size());
-    b.ring_begin.push_back(first);
     for (Id i = 0; i < n; ++i) {
       const Vec2 p = ring[i], after = ring[(i + 1) % n], before = ring[(i + n - 1) % n];
       for (std::size_t k = 0; k < 3; ++k) {
@@ -81,9 +80,8 @@ void add_vertices(BlockSet& b, const BlockPolygon& polygon, const Moments& m,
 /// Room for all, so that no array ends with twice what it needs.
 void reserve(BlockSet& b, const std::vector<BlockPolygon>& polygons) {
   const std::size_t nb = polygons.size();
-  std::size_t nv = 0, rings = 0;
+  std::size_t nv = 0;
   for (const BlockPolygon& polygon : polygons) {
-    rings += polygon.rings.size();
     for (const Ring& ring : polygon.rings) nv += ring.size();
   }
   for (auto* nodes : {&b.grad_x, &b.grad_y, &b.node_x, &b.node_y, &b.node_mass}) {
@@ -96,8 +94,6 @@ void reserve(BlockSet& b, const std::vector<BlockPolygon>& polygons) {
   b.fixed.reserve(nb);
   b.material.reserve(nb);
   b.vertex_begin.reserve(nb + 1);
-  b.block_ring.reserve(nb + 1);
-  b.ring_begin.reserve(rings + 1);
   for (auto& values : b.weight) values.reserve(nv);
   for (auto* values : {&b.edge_length, &b.corner, &b.vertex_x, &b.vertex_y}) values->reserve(nv);
   for (auto* ids : {&b.vertex_block, &b.next, &b.previous}) ids->reserve(nv);
@@ -113,7 +109,6 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
   b.mass_kind = model.solver.mass;
   reserve(b, polygons.blocks);
   b.vertex_begin.push_back(0);
-  b.block_ring.push_back(0);
   for (const BlockPolygon& polygon : polygons.blocks) {
     const Moments m = moments(polygon.rings);
     const Material& material = model.materials[static_cast<std::size_t>(polygon.material)];
@@ -148,9 +143,7 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
     b.material.push_back(polygon.material);
     if (!polygon.name.empty()) b.names[static_cast<Id>(b.area.size() - 1)] = polygon.name;
     b.vertex_begin.push_back(static_cast<Id>(b.vertex_block.size()));
-    b.block_ring.push_back(static_cast<Id>(b.ring_begin.size()));
   }
-  b.ring_begin.push_back(static_cast<Id>(b.vertex_block.size()));
   return b;
 }
 

@@ -9,7 +9,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <vector>
 
 namespace edda {
@@ -137,7 +136,13 @@ Result<std::string> read_file(const std::string& path) {
   }
   std::ifstream in(path, std::ios::binary);
   if (!in) return cannot("read", path, std::strerror(errno), "see that the path is right");
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string text;
+  const auto size = fs::file_size(path, error);
+  if (!error) text.reserve(size);
+  std::vector<char> piece(1 << 16);
+  while (in.read(piece.data(), static_cast<std::streamsize>(piece.size())), in.gcount() > 0) {
+    text.append(piece.data(), static_cast<std::size_t>(in.gcount()));
+  }
   if (in.bad()) return cannot("read", path, std::strerror(errno), "see that the disk is sound");
   return text;
 }

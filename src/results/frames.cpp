@@ -11,11 +11,10 @@ namespace {
 
 std::vector<Ring> rings_of(const BlockSet& b, std::size_t i) {
   std::vector<Ring> rings;
-  for (Id r = b.block_ring[i]; r < b.block_ring[i + 1]; ++r) {
-    Ring& ring = rings.emplace_back();
-    for (Id v = b.ring_begin[r]; v < b.ring_begin[r + 1]; ++v) {
-      ring.push_back({b.vertex_x[v], b.vertex_y[v]});
-    }
+  for (Id first = b.vertex_begin[i], v = first; v < b.vertex_begin[i + 1]; ++v) {
+    if (v == first) rings.emplace_back();
+    rings.back().push_back({b.vertex_x[v], b.vertex_y[v]});
+    if (b.next[v] == first) first = v + 1;
   }
   return rings;
 }
