@@ -1,7 +1,6 @@
 #include "lines/held.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,17 +22,44 @@ bool in_box(const BlockPolygon& block, Vec2 p, double margin) {
   return left && right && below && above;
 }
 
-/// The block that holds p, or all those on whose edge it lies.
-std::vector<std::size_t> holders(const PolygonSet& set, std::size_t first_cut, Vec2 p,
-                                 double snap) {
-  std::vector<std::size_t> found;
-  for (std::size_t i = first_cut; i < set.blocks.size(); ++i) {
-    if (!in_box(set.blocks[i], p, snap)) continue;
-    const int side = side_of(set.blocks[i].rings, p, snap);
-    if (side > 0) return {i};
-    if (side == 0) found.push_back(i);
+/// A held point and the blocks it lies in or on, ascending.
+struct Held {
+  Vec2 point;  ///< local
+  std::size_t row;
+  std::vector<std::size_t> inside, on_edge;
+
+  /// The block that holds it, or all those on whose edge it lies.
+  std::vector<std::size_t> holders() const {
+    return inside.empty() ? on_edge : std::vector<std::size_t>{inside.front()};
   }
-  return found;
+};
+
+/// All held points, in the order of the model. One pass over the blocks, each asking those of the
+/// points, sorted by x, that may lie in it.
+std::vector<Held> find_holders(const Model& model, const PolygonSet& set, std::size_t first_cut,
+                               double snap) {
+  std::vector<Held> points;
+  for (const HeldPoint& held : model.held) {
+    points.push_back({held.point - set.origin, points.size(), {}, {}});
+  }
+  std::sort(points.begin(), points.end(),
+            [](const Held& a, const Held& b) { return a.point.x < b.point.x; });
+  for (std::size_t i = first_cut; i < set.blocks.size() && !points.empty(); ++i) {
+    const Ring& ring = set.blocks[i].rings[0];
+    const auto [low, high] =
+        std::minmax_element(ring.begin(), ring.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
+    auto p = std::lower_bound(points.begin(), points.end(), low->x - 2.0 * snap,
+                              [](const Held& h, double x) { return h.point.x < x; });
+    for (; p != points.end() && p->point.x <= high->x + 2.0 * snap; ++p) {
+      if (!in_box(set.blocks[i], p->point, snap)) continue;
+      const int side = side_of(set.blocks[i].rings, p->point, snap);
+      if (side > 0) p->inside.push_back(i);
+      if (side == 0) p->on_edge.push_back(i);
+    }
+  }
+  std::sort(points.begin(), points.end(),
+            [](const Held& a, const Held& b) { return a.row < b.row; });
+  return points;
 }
 
 std::string list_of(const std::vector<std::size_t>& ids) {
@@ -67,8 +93,9 @@ Fault in_no_block(const Model& model, const PolygonSet& set, const HeldPoint& he
 
 Faults hold_blocks(const Model& model, double snap, std::size_t first_cut, PolygonSet& set) {
   Faults faults;
-  for (const HeldPoint& held : model.held) {
-    const auto found = holders(set, first_cut, held.point - set.origin, snap);
+  for (const Held& point : find_holders(model, set, first_cut, snap)) {
+    const HeldPoint& held = model.held[point.row];
+    const auto found = point.holders();
     if (found.size() == 1) {
       set.blocks[found[0]].fixed = true;
     } else if (found.empty()) {
