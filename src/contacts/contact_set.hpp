@@ -18,9 +18,10 @@ namespace edda {
 
 /// Bits of ContactSet::state.
 namespace contact_state {
-inline constexpr std::uint8_t closed = 1;    ///< carries force
-inline constexpr std::uint8_t bonded = 2;    ///< has its peak strength: its shear is not cut
-inline constexpr std::uint8_t sliding = 4;   ///< shear was cut at the last step
+inline constexpr std::uint8_t closed = 1;  ///< carries force
+inline constexpr std::uint8_t bonded = 2;  ///< has its peak strength: its shear is not cut
+inline constexpr std::uint8_t sliding =
+    4;  ///< shear was cut at the last round (dda; else see cut())
 inline constexpr std::uint8_t slipped = 8;   ///< has slid at least once
 inline constexpr std::uint8_t opened = 16;   ///< has opened after having been closed
 inline constexpr std::uint8_t blocked = 32;  ///< penetrated but not allowed to carry (see Blocked)
@@ -55,29 +56,26 @@ struct Segment {
 /// Why a penetrated candidate carries nothing.
 enum class Blocked : std::uint8_t { no, conflict, shield, depth, facing };
 
-/// What of its state decides the force of a contact, as a number for the loops over many of them.
-namespace contact_hold {
-inline constexpr double none = 0.0;    ///< open
-inline constexpr double sticks = 1.0;  ///< closed, its shear cut by friction
-inline constexpr double bonds = 2.0;   ///< closed, its shear not cut
-inline constexpr double pulls = 3.0;   ///< closed, cut by friction, N may be negative
-inline constexpr double glues = 4.0;   ///< closed, not cut, N may be negative
-}  // namespace contact_hold
-
+/// What of its state decides the force of a contact, as a number for the loops over many of them: 0
+/// where it is open; else 1, and 1 more where it is bonded, 2 more where it may pull, and a quarter
+/// where it has slid before.
 inline double hold_of(std::uint8_t state) {
   namespace cs = contact_state;
-  if ((state & cs::closed) == 0) return contact_hold::none;
-  return contact_hold::sticks + ((state & cs::bonded) != 0 ? 1.0 : 0.0) +
-         ((state & cs::pulls) != 0 ? 2.0 : 0.0);
+  if ((state & cs::closed) == 0) return 0.0;
+  return 1.0 + ((state & cs::bonded) != 0 ? 1.0 : 0.0) + ((state & cs::pulls) != 0 ? 2.0 : 0.0) +
+         ((state & cs::slipped) != 0 ? 0.25 : 0.0);
 }
 EDDA_INLINE bool carries(double hold) {
-  return hold != contact_hold::none;
+  return hold != 0.0;
 }
 EDDA_INLINE bool is_bonded(double hold) {
-  return (hold == contact_hold::bonds) | (hold == contact_hold::glues);
+  return ((hold >= 2.0) & (hold < 3.0)) | (hold >= 4.0);
 }
 EDDA_INLINE bool may_pull(double hold) {
-  return hold >= contact_hold::pulls;
+  return hold >= 3.0;
+}
+EDDA_INLINE bool has_slipped(double hold) {
+  return (hold == 1.25) | (hold == 2.25) | (hold == 3.25) | (hold == 4.25);
 }
 
 /// What the arrays of a contact say together. Self: ContactSet or ContactView.
@@ -107,6 +105,11 @@ struct ContactTerms {
                  to = self().span[c] + self().beyond[c] + slack;
     return foot >= from && foot <= to;
   }
+  /// Whether its shear was cut at the last step.
+  bool cut(std::size_t c) const {
+    return carries(self().hold[c]) && !is_bonded(self().hold[c]) &&
+           self().shear[c] != -self().ks[c] * self().slip_trial[c];
+  }
   /// Unit tangent of the edge.
   [[gnu::always_inline]] Vec2 tangent(std::size_t c) const { return {self().tx[c], self().ty[c]}; }
 
@@ -119,8 +122,8 @@ struct ContactTerms {
 struct ContactView : ContactTerms<ContactView> {
   const Id *vertex, *edge, *edge_end;
   double *depth, *depth_1, *depth_2, *foot, *span, *tx, *ty, *share, *before, *beyond, *hold, *rest,
-      *anchor, *kn, *ks, *friction, *cohesion, *alpha, *normal, *shear, *shear_1, *slip_trial, *fx,
-      *fy, *gx, *gy;
+      *anchor, *kn, *ks, *friction, *cohesion, *alpha, *normal, *shear, *shear_1, *slip_trial,
+      *friction_work, *fx, *fy, *gx, *gy;
 };
 
 struct ContactSet : ContactTerms<ContactSet> {
@@ -150,7 +153,6 @@ struct ContactSet : ContactTerms<ContactSet> {
       stirs;  ///< [chunks] 1: a contact in it may switch, open, close or leave its edge
   std::vector<double>
       deepest;  ///< [chunks] largest effective penetration of a closed contact at n - 1, m
-  std::vector<std::uint8_t> slides;  ///< [chunks] 1: a contact in it may have the bit `sliding`
   std::vector<std::uint8_t>
       lingers;  ///< [chunks] 1: one without a partner may have a part of its share
   void stir(std::size_t c) { stirs[c / chunk] = 1; }
@@ -161,7 +163,6 @@ struct ContactSet : ContactTerms<ContactSet> {
     hold.resize(size());
     for (std::size_t c = 0; c < size(); ++c) hold[c] = hold_of(state[c]);
     stirs.assign(chunks(), 1);
-    slides.assign(chunks(), 1);
     lingers.assign(chunks(), 1);
   }
 
@@ -254,6 +255,7 @@ inline ContactView ContactSet::view() {
   v.shear = shear.data();
   v.shear_1 = shear_1.data();
   v.slip_trial = slip_trial.data();
+  v.friction_work = friction_work.data();
   v.fx = fx.data();
   v.fy = fy.data();
   v.gx = gx.data();

@@ -25,19 +25,6 @@ double quadratic_form(const BlockSet& b, std::size_t i, double w0, double w1, do
          w1 * (m[3][i] * w1 + 2.0 * m[4][i] * w2) + w2 * m[5][i] * w2;
 }
 
-/// What a cut of its shear does to contact k: the anchor follows, and the slip is booked, p_t
-/// (s_tr - s)(s + s_{n-1})/2 (method.md section 4).
-void book_slip(ContactSet& c, std::size_t k) {
-  if (!c.is(k, cs::closed) || c.is(k, cs::bonded)) return;
-  c.clear(k, cs::sliding);
-  if (c.shear[k] == -c.ks[k] * c.slip_trial[k]) return;
-  c.set(k, cs::sliding | cs::slipped);
-  const double s = -c.shear[k] / c.ks[k], s_1 = -c.shear_1[k] / c.ks[k];
-  c.anchor[k] = (c.foot[k] - s) / c.span[k];
-  c.friction_work[k] += 0.5 * c.share[k] * c.ks[k] * (c.slip_trial[k] - s) * (s + s_1);
-  set_contact_force(c, k, tangent_of(c, k), c.span[k], c.foot[k], c.depth[k]);
-}
-
 void let_go(ContactSet& c, std::size_t k) {
   c.clear(k, cs::closed | cs::bonded | cs::pulls | cs::sliding);
   c.set(k, cs::opened);
@@ -75,34 +62,42 @@ EDDA_VECTOR void spring_normals(ContactView c, std::size_t begin, std::size_t en
   for (std::size_t k = begin; k < end; ++k) c.normal[k] = spring_normal(c, k);
 }
 
-/// T by the return map, its history, and the forces as long as nothing slides. Whether the shear
-/// was cut.
+/// T by the return map, and the forces. Where the shear is cut, the anchor follows and the slip is
+/// booked, p_t (s_tr - s)(s + s_{n-1})/2 (method.md section 4). True where it slides for the first
+/// time.
 EDDA_INLINE bool cut_and_push(const ContactView& c, std::size_t k) {
-  const double hold = c.hold[k], present = c.trial_slip(k), before = c.shear[k];
-  const double slip = carries(hold) ? present : 0.0;
-  const double trial = -c.ks[k] * slip, limit = c.shear_limit(k, c.normal[k]);
-  const double kept = is_bonded(hold) ? trial : cut_shear(trial, limit);
+  const double hold = c.hold[k], ks = c.ks[k], present = c.trial_slip(k), before = c.shear[k];
+  const double trial_slip = carries(hold) ? present : 0.0;
+  const double trial = -ks * trial_slip, limit = c.shear_limit(k, c.normal[k]);
+  const double within = cut_shear(trial, limit);
+  const double kept = is_bonded(hold) ? trial : within;
+  const bool slid = kept != trial;
+  const double slip = -kept / ks, slip_1 = -before / ks;
+  const double followed = (c.foot[k] - slip) / c.span[k], anchor = c.anchor[k];
+  const double work = 0.5 * c.share[k] * ks * (trial_slip - slip) * (slip + slip_1);
   c.shear_1[k] = before;
-  c.slip_trial[k] = slip;
+  c.slip_trial[k] = trial_slip;
   c.shear[k] = kept;
   c.alpha[k] = 1.0;
+  c.anchor[k] = slid ? followed : anchor;
+  c.friction_work[k] += slid ? work : 0.0;
   set_contact_force(c, k, c.tangent(k), c.span[k], c.foot[k], c.depth[k]);
-  return kept != trial;
+  return slid & !has_slipped(hold);
 }
 
 /// The contacts [begin, end), whole chunks or one. found[q] of each chunk: its strongest hold,
-/// negative if any shear was cut.
+/// negative if any slides for the first time.
 EDDA_VECTOR void shear_and_forces(ContactView c, double* found, std::size_t begin,
                                   std::size_t end) {
   for (std::size_t first = begin; first < end; first += ContactSet::chunk) {
     const std::size_t last = std::min(end, first + ContactSet::chunk);
-    double cut = 0.0, hold = 0.0;
-#pragma omp simd reduction(max : cut, hold)
+    double fresh = 0.0, hold = 0.0;
+#pragma omp simd reduction(max : fresh, hold)
     for (std::size_t k = first; k < last; ++k) {
-      cut = larger(cut, cut_and_push(c, k) ? 1.0 : 0.0);
+      fresh = larger(fresh, cut_and_push(c, k) ? 1.0 : 0.0);
       hold = larger(hold, c.hold[k]);
     }
-    found[(first - begin) / ContactSet::chunk] = cut > 0.0 ? -hold : hold;
+    found[(first - begin) / ContactSet::chunk] = fresh > 0.0 ? -hold : hold;
   }
 }
 
@@ -119,11 +114,8 @@ void evaluate(ContactSet& c, const BlockSet& b, std::size_t begin, std::size_t e
   for (std::size_t first = begin; first < end; first += ContactSet::chunk) {
     const std::size_t last = std::min(end, first + ContactSet::chunk);
     const double hold = found[(first - begin) / ContactSet::chunk];
-    std::uint8_t& slides = c.slides[first / ContactSet::chunk];
-    if (hold < 0.0 || slides != 0) {
-      for (std::size_t k = first; k < last; ++k) book_slip(c, k);
-      const bool whole = end - begin > 1;
-      slides = hold < 0.0 || !whole ? 1 : 0;
+    for (std::size_t k = first; hold < 0.0 && k < last; ++k) {
+      if (c.cut(k)) c.set(k, cs::slipped);
     }
     if (!may_pull(std::abs(hold))) continue;
     for (std::size_t k = first; k < last; ++k) {

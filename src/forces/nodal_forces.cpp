@@ -19,15 +19,10 @@ constexpr Id few_corners = 64;
 /// the list, then those of its edges.
 void sum_on_vertices(Vec2* on, const BlockSet& b, const ContactSet& c, std::size_t i) {
   const Id first = b.vertex_begin[i], end = b.vertex_begin[i + 1];
-  for (Id v = first; v < end; ++v) {
-    Vec2 sum;
-    for (Id k = c.begin_of_vertex[v]; k < c.begin_of_vertex[v + 1]; ++k) {
-      sum += Vec2{c.fx[k], c.fy[k]};
-    }
-    on[v - first] = sum;
-  }
-  const Id own = c.begin_of_vertex[end] - c.begin_of_vertex[first];
-  for (Id q = c.block_begin[i] + own; q < c.block_begin[i + 1]; ++q) {
+  std::fill(on, on + (end - first), Vec2{});
+  const Id own = c.begin_of_vertex[first], own_end = c.begin_of_vertex[end];
+  for (Id k = own; k < own_end; ++k) on[c.vertex[k] - first] += Vec2{c.fx[k], c.fy[k]};
+  for (Id q = c.block_begin[i] + (own_end - own); q < c.block_begin[i + 1]; ++q) {
     const Id k = c.block_entry[q] >> 1;
     const Vec2 f1{c.fx[k], c.fy[k]}, f2{c.gx[k], c.gy[k]};
     on[c.edge[k] - first] += f2;

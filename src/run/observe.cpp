@@ -80,10 +80,10 @@ double slip_since_start(const BlockSet& b, const ContactSet& c, std::size_t k) {
   return c.foot[k] - gap_to(e, at(b.vertex_x, b.vertex_y, c.vertex[k])).foot;
 }
 
-ContactState state_of(const ContactSet& c, std::size_t k) {
+ContactState state_of(const Simulation& sim, const ContactSet& c, std::size_t k) {
   if (!c.is(k, cs::closed)) return ContactState::open;
   if (c.is(k, cs::bonded | cs::glued)) return ContactState::bonded;
-  return c.is(k, cs::sliding) ? ContactState::slide : ContactState::stick;
+  return slides(sim, c, k) ? ContactState::slide : ContactState::stick;
 }
 
 double mobilised(const ContactSet& c, std::size_t k) {
@@ -106,7 +106,7 @@ ContactRecord contact_record(const Simulation& sim, const ContactSet& c, std::si
                       {sim.blocks.weight[0][v], sim.blocks.weight[1][v], sim.blocks.weight[2][v]});
   r.opening = -c.depth[k];
   r.slip = slip_since_start(sim.blocks, c, k);
-  r.state = state_of(c, k);
+  r.state = state_of(sim, c, k);
   r.ever_slipped = c.is(k, cs::slipped);
   r.ever_opened = c.is(k, cs::opened);
   if (r.state == ContactState::open) return r;
@@ -261,6 +261,10 @@ double unbalanced_ratio(const Simulation& sim, const Instant& at) {
   if (force == 0.0) return 0.0;
   const double scale = force_scale(sim, at.contacts, free_blocks);
   return scale > 0.0 ? force / static_cast<double>(free_blocks.size()) / scale : 1.0;
+}
+
+bool slides(const Simulation& sim, const ContactSet& c, std::size_t k) {
+  return sim.explicit_method() ? c.cut(k) : c.is(k, cs::sliding);
 }
 
 std::size_t closed_contacts(const ContactSet& c) {

@@ -44,6 +44,9 @@ double force_scale(const Simulation& sim, const ContactSet& contacts,
 /// where there is nothing to measure it by.
 double unbalanced_ratio(const Simulation& sim, const Instant& at);
 
+/// Whether the shear of contact k was cut at the last step (or round, of method "dda").
+bool slides(const Simulation& sim, const ContactSet& contacts, std::size_t k);
+
 /// Candidates that are closed and have a share of their spring.
 std::size_t closed_contacts(const ContactSet& contacts);
 

@@ -16,6 +16,7 @@ namespace {
 
 namespace cs = contact_state;
 constexpr int most_passes = 30;
+constexpr int passes_to_look = 4;   // before the neighbours are looked at again
 constexpr double tolerance = 1e-9;  // of the largest penetration
 
 /// Carried at step n and open before it or after it, or already corrected.
@@ -56,19 +57,19 @@ double releasing_slip(double nominal, double most, double trial, double before, 
 /// Changes of the nodal forces on the two blocks of a contact.
 struct ForceChange {
   std::array<Vec2, 3> on_i{}, on_j{};
+  double size = 0.0;  ///< N, of the force on the vertex
 };
 
-/// Gives contact k the part alpha of its force and the shear this allows. What this changes.
-ForceChange reset_force(ContactSet& c, const BlockSet& b, std::size_t k, double alpha,
-                        const EdgeFrame& e, const Gap& gap) {
+/// Gives the contact the part alpha of its force and the shear this allows. What this changes.
+ForceChange reset_force(ContactSet& c, const BlockSet& b, const Switcher& s, double alpha) {
+  const std::size_t k = s.contact;
   const double limit = c.shear_limit(k, alpha * c.normal[k]);
   double shear = cut_shear(-c.ks[k] * c.slip_trial[k], limit);
   if (c.is(k, cs::bonded)) {
     shear = c.shear[k];
   } else if (c.effective(k) <= 0.0) {
     const double before = -c.shear_1[k] / c.ks[k];
-    const double ahead =
-        (c.foot[k] - c.anchor[k] * c.span[k]) - (gap.foot - c.anchor[k] * e.length);
+    const double ahead = c.trial_slip(k) - (s.foot - c.anchor[k] * s.length);
     const double moved = c.slip_trial[k] - before + ahead;
     shear = -c.ks[k] *
             releasing_slip(-shear / c.ks[k], limit / c.ks[k], c.slip_trial[k], before, moved);
@@ -80,15 +81,17 @@ ForceChange reset_force(ContactSet& c, const BlockSet& b, std::size_t k, double 
   }
   if (shear != c.shear[k]) {
     c.friction_work[k] += booked(c, k, shear) - booked(c, k, c.shear[k]);
-    c.anchor[k] = (gap.foot + shear / c.ks[k]) / e.length;
+    c.anchor[k] = (s.foot + shear / c.ks[k]) / s.length;
     c.shear[k] = shear;
-    if (shear != -c.ks[k] * c.slip_trial[k]) c.set(k, cs::sliding | cs::slipped);
+    if (shear != -c.ks[k] * c.slip_trial[k]) c.set(k, cs::slipped);
   }
   c.alpha[k] = alpha;
   const Vec2 old1{c.fx[k], c.fy[k]}, old2{c.gx[k], c.gy[k]};
-  set_contact_force(c, k, e.t, e.length, gap.foot, gap.depth);
+  set_contact_force(c, k, s.t, s.length, s.foot, s.depth);
   const Vec2 d1 = Vec2{c.fx[k], c.fy[k]} - old1, d2 = Vec2{c.gx[k], c.gy[k]} - old2;
   ForceChange change;
+  change.size = norm(d1);
+  if (change.size == 0.0) return change;
   spread(change.on_i, b, c.vertex[k], d1);
   spread(change.on_j, b, c.edge[k], d2);
   spread(change.on_j, b, c.edge_end[k], -(d1 + d2));
@@ -115,18 +118,117 @@ void keep_once(std::vector<Id>& list) {
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-/// Looks again at the gaps of the blocks that were pushed; adds what switches now.
-void refresh(SwitchingScratch& scratch, ContactSet& c, const Pose& pose) {
-  keep_once(scratch.pushed);
-  for (const Id i : scratch.pushed) {
-    for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
-      const Id k = c.block_entry[q] >> 1;
-      update_gap(c, pose, k);
-      if (switches(c, k) || reverses(c, k)) scratch.set.push_back(k);
-    }
+/// One step's correction: what it works on.
+class Correction {
+ public:
+  Correction(ContactSet& contacts, const BlockSet& blocks, State& state, Pose& pose,
+             const StepTaken& taken, double largest, SwitchingScratch& scratch)
+      : c_(contacts), b_(blocks), s_(state), pose_(pose), scratch_(scratch) {
+    const double h_mean = 0.5 * (taken.h_old + taken.h_new);
+    h_new_ = taken.h_new;
+    dv_per_force_ = h_mean / (1.0 + 0.5 * taken.mass_damping * h_mean);
+    settled_ = std::max(tolerance * largest, c_.noise);
+    scratch_.moved.resize(b_.size(), 0);
+    scratch_.set.clear();
+    scratch_.pushed.clear();
   }
-  keep_once(scratch.set);
-}
+
+  /// Takes those of the chunks that stir. Whether there are any.
+  bool find() {
+    for (std::size_t q = 0; q < c_.stirs.size(); ++q) {
+      if (c_.stirs[q] == 0) continue;
+      for (std::size_t k = q * ContactSet::chunk; k < c_.chunk_end(q); ++k) {
+        if (switches(c_, k) || reverses(c_, k)) add(static_cast<Id>(k));
+      }
+    }
+    return !scratch_.set.empty();
+  }
+
+  /// Goes once through the contacts that switch, but not through those that feel nothing new: they
+  /// have changed by no more than is settled, and so have the others of their blocks since. Whether
+  /// all have settled.
+  bool pass() {
+    bool all = true;
+    for (Switcher& s : scratch_.set) {
+      const Id i = c_.block_i[s.contact], j = c_.block_j[s.contact];
+      if (s.done && scratch_.moved[i] <= s.seen && scratch_.moved[j] <= s.seen) continue;
+      all = correct(s, i, j) && all;
+    }
+    return all;
+  }
+
+  /// Looks again at the gaps of the blocks that were pushed; adds what switches now. Whether
+  /// anything does.
+  bool refresh() {
+    keep_once(scratch_.pushed);
+    const std::size_t known = scratch_.set.size();
+    for (const Id i : scratch_.pushed) {
+      for (Id q = c_.block_begin[i]; q < c_.block_begin[i + 1]; ++q) {
+        const Id k = c_.block_entry[q] >> 1;
+        update_gap(c_, pose_, k);
+        if ((switches(c_, k) || reverses(c_, k)) && !is_known(k, known)) add(k);
+      }
+    }
+    scratch_.pushed.clear();
+    if (scratch_.set.size() == known) return false;
+    const auto by_contact = [](const Switcher& p, const Switcher& q) {
+      return p.contact < q.contact;
+    };
+    const auto same = [](const Switcher& p, const Switcher& q) { return p.contact == q.contact; };
+    const auto fresh = scratch_.set.begin() + static_cast<std::ptrdiff_t>(known);
+    std::sort(fresh, scratch_.set.end(), by_contact);
+    scratch_.set.erase(std::unique(fresh, scratch_.set.end(), same), scratch_.set.end());
+    std::inplace_merge(scratch_.set.begin(), fresh, scratch_.set.end(), by_contact);
+    return true;
+  }
+
+ private:
+  bool is_known(Id k, std::size_t known) const {
+    const auto end = scratch_.set.begin() + static_cast<std::ptrdiff_t>(known);
+    const auto it = std::lower_bound(scratch_.set.begin(), end, k,
+                                     [](const Switcher& s, Id id) { return s.contact < id; });
+    return it != end && it->contact == k;
+  }
+
+  void add(Id k) {
+    const EdgeFrame e =
+        edge_frame(at(pose_.x1, pose_.y1, c_.edge[k]), at(pose_.x1, pose_.y1, c_.edge_end[k]));
+    const Gap gap = gap_to(e, at(pose_.x1, pose_.y1, c_.vertex[k]));
+    const double whole = dv_per_force_ * h_new_ * c_.share[k];
+    const double per_force = inverse_contact_mass(b_, c_, k, gap.foot / e.length);
+    scratch_.set.push_back({k, e.t, e.length, gap.foot, gap.depth, whole * c_.normal[k] * per_force,
+                            dv_per_force_ * h_new_ * per_force, 0, false});
+  }
+
+  /// Whether the contact has settled.
+  bool correct(Switcher& s, Id i, Id j) {
+    const Id k = s.contact;
+    update_gap(c_, pose_, k);
+    const double alpha =
+        s.push > 0.0
+            ? switching_alpha(c_.effective_2(k), c_.effective(k) + c_.alpha[k] * s.push, s.push)
+            : c_.alpha[k];
+    const bool same_part = std::abs(alpha - c_.alpha[k]) * s.push <= settled_;
+    const ForceChange change = reset_force(c_, b_, s, alpha);
+    s.seen = ++scratch_.tick;
+    s.done = same_part && change.size * s.moved_per_force <= settled_;
+    if (change.size == 0.0) return same_part;
+    push(b_, s_, pose_, i, change.on_i, dv_per_force_, h_new_);
+    push(b_, s_, pose_, j, change.on_j, dv_per_force_, h_new_);
+    scratch_.pushed.push_back(i);
+    scratch_.pushed.push_back(j);
+    if (!s.done) scratch_.moved[i] = scratch_.moved[j] = s.seen;
+    return same_part;
+  }
+
+  ContactSet& c_;
+  const BlockSet& b_;
+  State& s_;
+  Pose& pose_;
+  SwitchingScratch& scratch_;
+  double h_new_ = 0.0, dv_per_force_ = 0.0;
+  double settled_ = 0.0;  ///< m
+};
 
 }  // namespace
 
@@ -137,43 +239,17 @@ double largest_penetration(const ContactSet& c) {
 double correct_switching(ContactSet& c, const BlockSet& b, State& s, Pose& pose,
                          const StepTaken& taken, OpenCloseCounts& counts,
                          SwitchingScratch& scratch) {
-  scratch.set.clear();
   const double largest = largest_penetration(c);
-  for (std::size_t q = 0; q < c.stirs.size(); ++q) {
-    if (c.stirs[q] == 0) continue;
-    for (std::size_t k = q * ContactSet::chunk; k < c.chunk_end(q); ++k) {
-      if (switches(c, k) || reverses(c, k)) scratch.set.push_back(static_cast<Id>(k));
-    }
-  }
-  if (scratch.set.empty()) return largest;
-  const double h_mean = 0.5 * (taken.h_old + taken.h_new);
-  const double dv_per_force = h_mean / (1.0 + 0.5 * taken.mass_damping * h_mean);
+  Correction correction(c, b, s, pose, taken, largest, scratch);
+  if (!correction.find()) return largest;
   std::uint64_t passes = 0;
-  bool settled = false;
-  while (passes < most_passes && !settled) {
-    double worst = 0.0;
-    scratch.pushed.clear();
-    for (const Id k : scratch.set) {
-      update_gap(c, pose, k);
-      const EdgeFrame e =
-          edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
-      const Gap gap = gap_to(e, at(pose.x1, pose.y1, c.vertex[k]));
-      const double push_whole = dv_per_force * taken.h_new * c.share[k] * c.normal[k] *
-                                inverse_contact_mass(b, c, k, gap.foot / e.length);
-      const double alpha =
-          push_whole > 0.0 ? switching_alpha(c.effective_2(k),
-                                             c.effective(k) + c.alpha[k] * push_whole, push_whole)
-                           : c.alpha[k];
-      worst = std::max(worst, std::abs(alpha - c.alpha[k]) * push_whole);
-      const ForceChange change = reset_force(c, b, k, alpha, e, gap);
-      push(b, s, pose, c.block_i[k], change.on_i, dv_per_force, taken.h_new);
-      push(b, s, pose, c.block_j[k], change.on_j, dv_per_force, taken.h_new);
-      scratch.pushed.push_back(c.block_i[k]);
-      scratch.pushed.push_back(c.block_j[k]);
-    }
-    ++passes;
-    settled = worst <= std::max(tolerance * largest, c.noise);
-    refresh(scratch, c, pose);
+  bool settled = false, more = true;
+  while (more) {
+    do {
+      settled = correction.pass();
+      ++passes;
+    } while (!settled && passes % passes_to_look != 0);
+    more = (correction.refresh() || !settled) && passes < most_passes;
   }
   ++counts.steps;
   counts.passes += passes;

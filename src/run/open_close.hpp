@@ -25,14 +25,28 @@ struct StepTaken {
   double h_old = 0.0, h_new = 0.0, mass_damping = 0.0;
 };
 
+/// A contact that opened, closed or turned its shear round in the step in hand.
+struct Switcher {
+  Id contact;
+  // Where it was at step n, when its force acted.
+  Vec2 t;
+  double length, foot, depth;
+  double push;             ///< q of contacts/switching.hpp: what its whole force takes from d, m
+  double moved_per_force;  ///< m/N
+  std::uint64_t seen;      ///< tick at which it was last corrected
+  bool done;               ///< it changed by no more than is settled then
+};
+
 /// Lists of one step, kept so that a step allocates nothing once they have grown.
 struct SwitchingScratch {
-  std::vector<Id> set;     ///< contacts that switch
-  std::vector<Id> pushed;  ///< blocks that one pass has moved
+  std::vector<Switcher> set;         ///< by contact
+  std::vector<Id> pushed;            ///< blocks that have moved since the gaps were looked at
+  std::vector<std::uint64_t> moved;  ///< [nb] tick at which a contact last moved the block
+  std::uint64_t tick = 0;            ///< corrections so far
 };
 
 /// At entry: positions and gaps of step n + 1 made with alpha = 1; state flags and forces of step
-/// n. At return both are final. Passes: at most 12. Returns the largest penetration of step n, m.
+/// n. At return both are final. Passes: at most 30. Returns the largest penetration of step n, m.
 double correct_switching(ContactSet& contacts, const BlockSet& blocks, State& state, Pose& pose,
                          const StepTaken& taken, OpenCloseCounts& counts,
                          SwitchingScratch& scratch);

@@ -72,7 +72,7 @@ StageRecord stage_record(const Simulation& sim, const Ledger& ledger, double sta
   for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
     if (!carries(sim.contacts, k)) continue;
     ++r.closed;
-    r.sliding += sim.contacts.is(k, cs::sliding);
+    r.sliding += slides(sim, sim.contacts, k);
     r.bonded += sim.contacts.is(k, cs::bonded | cs::glued);
   }
   return r;
