@@ -39,7 +39,7 @@ class Writer {
   template <class T>
   void array(const std::string& attributes, const char* type, const std::vector<T>& values) {
     announce(attributes, type, values.size() * sizeof(T));
-    pieces_.push_back([&values](WholeFile& file) {
+    pieces_.emplace_back([&values](WholeFile& file) {
       const std::uint64_t size = values.size() * sizeof(T);
       file.add({reinterpret_cast<const char*>(&size), sizeof size});
       file.add({reinterpret_cast<const char*>(values.data()), size});
@@ -53,7 +53,7 @@ class Writer {
     }
     if (!f.whole) return array(attributes, "Float64", f.values);
     announce(attributes, "Int32", f.values.size() * sizeof(std::int32_t));
-    pieces_.push_back([&f](WholeFile& file) {
+    pieces_.emplace_back([&f](WholeFile& file) {
       const std::vector<std::int32_t> numbers(f.values.begin(), f.values.end());
       const std::uint64_t size = numbers.size() * sizeof numbers[0];
       file.add({reinterpret_cast<const char*>(&size), sizeof size});
