@@ -17,6 +17,7 @@ namespace {
 namespace cs = contact_state;
 constexpr int most_passes = 30;
 constexpr int passes_to_look = 4;   // before the neighbours are looked at again
+constexpr double let_be = 0.01;     // of what counts as settled: what others need not answer to
 constexpr double tolerance = 1e-9;  // of the largest penetration
 
 /// Carried at step n and open before it or after it, or already corrected.
@@ -144,9 +145,9 @@ class Correction {
     return !scratch_.set.empty();
   }
 
-  /// Goes once through the contacts that switch, but not through those that feel nothing new: they
-  /// have changed by no more than is settled, and so have the others of their blocks since. Whether
-  /// all have settled.
+  /// Goes once through the contacts that switch, but not through those that feel nothing new:
+  /// neither they nor the others of their blocks have changed since by more than may be let be.
+  /// Whether all have settled.
   bool pass() {
     bool all = true;
     for (Switcher& s : scratch_.set) {
@@ -211,7 +212,7 @@ class Correction {
     const bool same_part = std::abs(alpha - c_.alpha[k]) * s.push <= settled_;
     const ForceChange change = reset_force(c_, b_, s, alpha);
     s.seen = ++scratch_.tick;
-    s.done = same_part && change.size * s.moved_per_force <= settled_;
+    s.done = same_part && change.size * s.moved_per_force <= let_be * settled_;
     if (change.size == 0.0) return same_part;
     push(b_, s_, pose_, i, change.on_i, dv_per_force_, h_new_);
     push(b_, s_, pose_, j, change.on_j, dv_per_force_, h_new_);

@@ -34,7 +34,7 @@ struct Switcher {
   double push;             ///< q of contacts/switching.hpp: what its whole force takes from d, m
   double moved_per_force;  ///< m/N
   std::uint64_t seen;      ///< tick at which it was last corrected
-  bool done;               ///< it changed by no more than is settled then
+  bool done;               ///< it changed by next to nothing then
 };
 
 /// Lists of one step, kept so that a step allocates nothing once they have grown.

@@ -338,7 +338,7 @@ Failure Simulation::lost() const {
 }
 
 Ledger Simulation::ledger() {
-  const double behind = explicit_method() ? state.step : 0.0;
+  const double behind = explicit_method() ? step_before_ : 0.0;  // of v_{n-1/2}
   Ledger l =
       sum_ledger(blocks, state, behind, pose, contacts, springs, damping_work, model.gravity);
   l.step_change = -step_change_energy;
