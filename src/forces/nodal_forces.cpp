@@ -31,6 +31,7 @@ void sum_on_vertices(Vec2* on, const BlockSet& b, const ContactSet& c, std::size
 }
 
 void add_contacts(NodeForce& f, const BlockSet& b, const ContactSet& c, std::size_t i) {
+  if (c.block_begin[i] == c.block_begin[i + 1]) return;
   const Id first = b.vertex_begin[i], corners = b.vertex_begin[i + 1] - first;
   if (corners <= few_corners) {
     std::array<Vec2, few_corners> on;
