@@ -56,10 +56,13 @@ Result<Source> from_folder(const PlotArguments& args) {
   Result<Grid> blocks = read_vtu(folder + "/" + entry->file);
   if (!blocks.ok()) return blocks.faults();
   Source source{std::move(blocks.value()), {}, {}};
-  std::string contacts_file = entry->file;
-  contacts_file.replace(contacts_file.find("blocks_"), 6, "contacts");
-  if (Result<Grid> contacts = read_vtu(folder + "/" + contacts_file); contacts.ok()) {
-    source.contacts = std::move(contacts.value());
+  // Contacts take more room than the blocks: only where they are drawn.
+  if (args.forces || is_of_contacts(args.field)) {
+    std::string contacts_file = entry->file;
+    contacts_file.replace(contacts_file.find("blocks_"), 6, "contacts");
+    if (Result<Grid> contacts = read_vtu(folder + "/" + contacts_file); contacts.ok()) {
+      source.contacts = std::move(contacts.value());
+    }
   }
   // The title, names and monitors; a picture does without them where the model is gone.
   if (const Result<Model> model = read_model(folder + "/model.toml"); model.ok()) {

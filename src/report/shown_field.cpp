@@ -74,6 +74,12 @@ constexpr std::array recipes{
     Recipe{"state", "state", "state of contacts", "", kinds, true, first},
 };
 
+const Recipe* recipe_of(const std::string& name) {
+  const auto* const recipe =
+      std::find_if(recipes.begin(), recipes.end(), [&](const Recipe& r) { return name == r.name; });
+  return recipe == recipes.end() ? nullptr : recipe;
+}
+
 Fault no_field(const std::string& problem) {
   Fault fault;
   fault.where.key = "--field";
@@ -86,17 +92,22 @@ Fault no_field(const std::string& problem) {
 
 Result<ShownField> shown_field(const std::string& name, const Grid& blocks, const Grid* contacts) {
   if (name.empty() || name == "none") return ShownField{};
-  const auto* const recipe =
-      std::find_if(recipes.begin(), recipes.end(), [&](const Recipe& r) { return name == r.name; });
-  if (recipe == recipes.end()) return no_field("there is no field \"" + name + "\"");
+  const Recipe* recipe = recipe_of(name);
+  if (recipe == nullptr) return no_field("there is no field \"" + name + "\"");
   const Grid* grid = recipe->of_contacts ? contacts : &blocks;
   const Field* field = grid == nullptr ? nullptr : grid->cell_field(recipe->array);
   if (field == nullptr) return no_field("\"" + name + "\" is not in these results");
   ShownField shown{recipe->kind, recipe->of_contacts, recipe->label, recipe->unit, {}};
+  shown.values.reserve(grid->cell_count());
   for (std::size_t c = 0; c < grid->cell_count(); ++c) {
     shown.values.push_back(recipe->value(field->values.data() + c * field->components));
   }
   return shown;
+}
+
+bool is_of_contacts(const std::string& name) {
+  const Recipe* recipe = recipe_of(name);
+  return recipe != nullptr && recipe->of_contacts;
 }
 
 std::string field_names() {

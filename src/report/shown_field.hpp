@@ -25,6 +25,9 @@ struct ShownField {
 /// names.
 Result<ShownField> shown_field(const std::string& name, const Grid& blocks, const Grid* contacts);
 
+/// Whether that is a field of contacts.
+bool is_of_contacts(const std::string& name);
+
 /// The names, for --help.
 std::string field_names();
 
