@@ -37,10 +37,10 @@ EDDA_INLINE bool may_switch(const ContactView& c, std::size_t k, double noise) {
   // & and |, not && and ||: no branches.
   const bool switched = ((e_1 > noise) & ((e <= 0.0) | (e_2 <= 0.0))) | (e <= -noise);
   const bool reversed = (shear * slip > 0.0) & (std::abs(slip) > noise);
-  const bool away = (foot < from) | (foot > to);
+  const bool away = (foot < from) | (foot > to), on = !away;
   const bool cut = !is_bonded(hold), pushes = !may_pull(hold);
   const bool closed_one = (switched & pushes) | ((reversed | away) & cut);
-  const bool inside = (depth > 0.0) & !away;
+  const bool inside = (depth > 0.0) & on;
   const bool open_one = ((rest != 0.0) | inside) & (rest < std::numeric_limits<double>::infinity());
   const bool closed = carries(hold), open = !closed;
   return (closed & closed_one) | (open & open_one);

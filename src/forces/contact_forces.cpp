@@ -71,7 +71,7 @@ EDDA_INLINE bool cut_and_push(const ContactView& c, std::size_t k) {
   const double trial = -ks * trial_slip, limit = c.shear_limit(k, c.normal[k]);
   const double within = cut_shear(trial, limit);
   const double kept = is_bonded(hold) ? trial : within;
-  const bool slid = kept != trial;
+  const bool slid = kept != trial, fresh = !has_slipped(hold);
   const double slip = -kept / ks, slip_1 = -before / ks;
   const double followed = (c.foot[k] - slip) / c.span[k], anchor = c.anchor[k];
   const double work = 0.5 * c.share[k] * ks * (trial_slip - slip) * (slip + slip_1);
@@ -82,7 +82,7 @@ EDDA_INLINE bool cut_and_push(const ContactView& c, std::size_t k) {
   c.anchor[k] = slid ? followed : anchor;
   c.friction_work[k] += slid ? work : 0.0;
   set_contact_force(c, k, c.tangent(k), c.span[k], c.foot[k], c.depth[k]);
-  return slid & !has_slipped(hold);
+  return slid & fresh;
 }
 
 /// The contacts [begin, end), whole chunks or one. found[q] of each chunk: its strongest hold,
