@@ -20,7 +20,7 @@ namespace {
 using DoubleArray = std::vector<double> ContactSet::*;
 
 /// What a candidate remembers from one list to the next.
-constexpr std::array<DoubleArray, 25> memory = {&ContactSet::tension,
+constexpr std::array<DoubleArray, 23> memory = {&ContactSet::tension,
                                                 &ContactSet::depth,
                                                 &ContactSet::depth_1,
                                                 &ContactSet::depth_2,
@@ -42,9 +42,7 @@ constexpr std::array<DoubleArray, 25> memory = {&ContactSet::tension,
                                                 &ContactSet::friction_work,
                                                 &ContactSet::damping_work,
                                                 &ContactSet::fx,
-                                                &ContactSet::fy,
-                                                &ContactSet::gx,
-                                                &ContactSet::gy};
+                                                &ContactSet::fy};
 
 /// Filled anew; only their size matters here.
 constexpr std::array<DoubleArray, 10> scratch = {
@@ -55,6 +53,7 @@ constexpr std::array<DoubleArray, 10> scratch = {
 void resize(ContactSet& c, std::size_t n) {
   for (DoubleArray a : memory) (c.*a).assign(n, 0.0);
   for (DoubleArray a : scratch) (c.*a).assign(n, 0.0);
+  c.on_ends.assign(4 * n, 0.0);
   c.state.assign(n, 0);
   c.why.assign(n, Blocked::no);
   c.balanced.assign(n, 0);
@@ -231,6 +230,7 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
       ++old;
     if (old < contacts.size() && NearPair{contacts.vertex[old], contacts.edge[old]} == pair) {
       for (DoubleArray a : memory) (next.*a)[k] = (contacts.*a)[old];
+      for (std::size_t e = 0; e < 4; ++e) next.on_ends[4 * k + e] = contacts.on_ends[4 * old + e];
       next.state[k] = contacts.state[old];
       next.why[k] = contacts.why[old];
       next.law[k] = contacts.law[old];

@@ -123,7 +123,7 @@ struct ContactView : ContactTerms<ContactView> {
   const Id *vertex, *edge, *edge_end;
   double *depth, *depth_1, *depth_2, *foot, *span, *tx, *ty, *share, *before, *beyond, *hold, *rest,
       *anchor, *kn, *ks, *friction, *cohesion, *alpha, *normal, *shear, *shear_1, *slip_trial,
-      *friction_work, *fx, *fy, *gx, *gy;
+      *friction_work, *fx, *fy, *on_ends;
 };
 
 struct ContactSet : ContactTerms<ContactSet> {
@@ -183,8 +183,9 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::vector<double> slip_trial;      ///< s before the return map at n - 1, m
   std::vector<double> friction_work, damping_work, fracture_work;  ///< dissipated so far, J
 
-  // Forces of the last evaluation, N: on the vertex and on P2; on P3 acts minus their sum.
-  std::vector<double> fx, fy, gx, gy;
+  // Forces of the last evaluation, N: on the vertex, and on the ends of the edge.
+  std::vector<double> fx, fy;
+  std::vector<double> on_ends;  ///< [4 nc] x, y on P2, x, y on P3
 
   std::vector<Blocked> why;  ///< why it is blocked
   std::vector<Id> blocked;   ///< the blocked candidates, ascending
@@ -216,6 +217,9 @@ struct ContactSet : ContactTerms<ContactSet> {
   double retired_friction = 0.0, retired_damping = 0.0,
          retired_fracture = 0.0;  ///< J, of candidates let go
 
+  Vec2 on_vertex(std::size_t c) const { return {fx[c], fy[c]}; }
+  Vec2 on_start(std::size_t c) const { return {on_ends[4 * c], on_ends[4 * c + 1]}; }
+  Vec2 on_end(std::size_t c) const { return {on_ends[4 * c + 2], on_ends[4 * c + 3]}; }
   bool is(std::size_t c, std::uint8_t bits) const { return (state[c] & bits) != 0; }
   void set(std::size_t c, std::uint8_t bits) {
     state[c] = static_cast<std::uint8_t>(state[c] | bits);
@@ -258,8 +262,7 @@ inline ContactView ContactSet::view() {
   v.friction_work = friction_work.data();
   v.fx = fx.data();
   v.fy = fy.data();
-  v.gx = gx.data();
-  v.gy = gy.data();
+  v.on_ends = on_ends.data();
   return v;
 }
 

@@ -39,7 +39,7 @@ void tear(ContactSet& c, std::size_t k) {
   let_go(c, k);
   c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = 0.0;
   c.rest[k] = std::max(0.0, std::min(c.rest[k], c.depth[k]));
-  c.fx[k] = c.fy[k] = c.gx[k] = c.gy[k] = 0.0;
+  clear_contact_force(c, k);
 }
 
 /// N of the spring alone.

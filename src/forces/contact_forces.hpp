@@ -1,6 +1,7 @@
 // Contact springs with Coulomb friction, cohesion and bonds (method.md section 4).
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -64,8 +65,15 @@ EDDA_INLINE void set_contact_force(Contacts&& c, std::size_t k, Vec2 t, double l
       contact_force(t, l, foot, depth, c.anchor[k], w * c.alpha[k] * c.normal[k], w * c.shear[k]);
   c.fx[k] = f.f1.x;
   c.fy[k] = f.f1.y;
-  c.gx[k] = f.f2.x;
-  c.gy[k] = f.f2.y;
+  c.on_ends[4 * k] = f.f2.x;
+  c.on_ends[4 * k + 1] = f.f2.y;
+  c.on_ends[4 * k + 2] = f.f3.x;
+  c.on_ends[4 * k + 3] = f.f3.y;
+}
+
+inline void clear_contact_force(ContactSet& c, std::size_t k) {
+  c.fx[k] = c.fy[k] = 0.0;
+  std::fill_n(c.on_ends.begin() + 4 * static_cast<std::ptrdiff_t>(k), 4, 0.0);
 }
 
 }  // namespace edda

@@ -15,32 +15,49 @@ using NodeForce = std::array<Vec2, 3>;
 /// blocks have no more corners than this.
 constexpr Id few_corners = 64;
 
+/// Sums on one vertex: of its own contacts, and of those of the edges that start and end there.
+/// Apart, so that one sum need not wait for the other; and plain numbers, for an array of them that
+/// is not filled before it is known how many count.
+struct VertexSums {
+  double own_x, own_y, start_x, start_y, end_x, end_y;
+  Vec2 sum() const { return {own_x + start_x + end_x, own_y + start_y + end_y}; }
+};
+
 /// Contact forces on the vertices of block i: those of its own vertices, which follow each other in
 /// the list, then those of its edges.
-void sum_on_vertices(Vec2* on, const BlockSet& b, const ContactSet& c, std::size_t i) {
+void sum_on_vertices(VertexSums* on, const BlockSet& b, const ContactSet& c, std::size_t i) {
   const Id first = b.vertex_begin[i], end = b.vertex_begin[i + 1];
-  std::fill(on, on + (end - first), Vec2{});
+  std::fill(on, on + (end - first), VertexSums{0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
   const Id own = c.begin_of_vertex[first], own_end = c.begin_of_vertex[end];
-  for (Id k = own; k < own_end; ++k) on[c.vertex[k] - first] += Vec2{c.fx[k], c.fy[k]};
+  for (Id k = own; k < own_end; ++k) {
+    VertexSums& at = on[c.vertex[k] - first];
+    at.own_x += c.fx[k];
+    at.own_y += c.fy[k];
+  }
   for (Id q = c.block_begin[i] + (own_end - own); q < c.block_begin[i + 1]; ++q) {
     const Id k = c.block_entry[q] >> 1;
-    const Vec2 f1{c.fx[k], c.fy[k]}, f2{c.gx[k], c.gy[k]};
-    on[c.edge[k] - first] += f2;
-    on[c.edge_end[k] - first] -= f1 + f2;
+    const Vec2 start = c.on_start(k), last = c.on_end(k);
+    VertexSums &from = on[c.edge[k] - first], &to = on[c.edge_end[k] - first];
+    from.start_x += start.x;
+    from.start_y += start.y;
+    to.end_x += last.x;
+    to.end_y += last.y;
   }
 }
 
 void add_contacts(NodeForce& f, const BlockSet& b, const ContactSet& c, std::size_t i) {
   if (c.block_begin[i] == c.block_begin[i + 1]) return;
   const Id first = b.vertex_begin[i], corners = b.vertex_begin[i + 1] - first;
+  const auto add = [&](VertexSums* on) {
+    sum_on_vertices(on, b, c, i);
+    for (Id v = 0; v < corners; ++v) spread(f, b, first + v, on[v].sum());
+  };
   if (corners <= few_corners) {
-    std::array<Vec2, few_corners> on;
-    sum_on_vertices(on.data(), b, c, i);
-    for (Id v = 0; v < corners; ++v) spread(f, b, first + v, on[v]);
+    std::array<VertexSums, few_corners> on;
+    add(on.data());
   } else {
-    std::vector<Vec2> on(corners);
-    sum_on_vertices(on.data(), b, c, i);
-    for (Id v = 0; v < corners; ++v) spread(f, b, first + v, on[v]);
+    std::vector<VertexSums> on(corners);
+    add(on.data());
   }
 }
 

@@ -25,7 +25,7 @@ double energy_now(const ContactSet& c, std::size_t k) {
 
 void let_rest(ContactSet& c, std::size_t k) {
   c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = 0.0;
-  c.fx[k] = c.fy[k] = c.gx[k] = c.gy[k] = 0.0;
+  clear_contact_force(c, k);
 }
 
 SpringState evaluate(ContactSprings& springs, ContactSet& c, const BlockSet& b, std::size_t k,
@@ -74,9 +74,9 @@ constexpr double touch = 1e-9;
 /// -sum f . (x - x_1) over the three points of a contact, J.
 double taken_from_blocks(const ContactSet& c, const Pose& pose, std::size_t k) {
   auto moved = [&](Id v) { return at(pose.x, pose.y, v) - at(pose.x1, pose.y1, v); };
-  const Vec2 f1{c.fx[k], c.fy[k]}, f2{c.gx[k], c.gy[k]};
   const Vec2 end = moved(c.edge_end[k]);
-  return -(dot(f1, moved(c.vertex[k]) - end) + dot(f2, moved(c.edge[k]) - end));
+  return -(dot(c.on_vertex(k), moved(c.vertex[k]) - end) +
+           dot(c.on_start(k), moved(c.edge[k]) - end));
 }
 
 }  // namespace

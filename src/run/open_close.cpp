@@ -87,15 +87,15 @@ ForceChange reset_force(ContactSet& c, const BlockSet& b, const Switcher& s, dou
     if (shear != -c.ks[k] * c.slip_trial[k]) c.set(k, cs::slipped);
   }
   c.alpha[k] = alpha;
-  const Vec2 old1{c.fx[k], c.fy[k]}, old2{c.gx[k], c.gy[k]};
+  const Vec2 old1 = c.on_vertex(k), old2 = c.on_start(k), old3 = c.on_end(k);
   set_contact_force(c, k, s.t, s.length, s.foot, s.depth);
-  const Vec2 d1 = Vec2{c.fx[k], c.fy[k]} - old1, d2 = Vec2{c.gx[k], c.gy[k]} - old2;
+  const Vec2 d1 = c.on_vertex(k) - old1;
   ForceChange change;
   change.size = norm(d1);
   if (change.size == 0.0) return change;
   spread(change.on_i, b, c.vertex[k], d1);
-  spread(change.on_j, b, c.edge[k], d2);
-  spread(change.on_j, b, c.edge_end[k], -(d1 + d2));
+  spread(change.on_j, b, c.edge[k], c.on_start(k) - old2);
+  spread(change.on_j, b, c.edge_end[k], c.on_end(k) - old3);
   return change;
 }
 

@@ -50,8 +50,7 @@ void list_contacts(Archive& a, ContactSet& c) {
   a("contacts.fracture_work", c.fracture_work);
   a("contacts.fx", c.fx);
   a("contacts.fy", c.fy);
-  a("contacts.gx", c.gx);
-  a("contacts.gy", c.gy);
+  a("contacts.on_ends", c.on_ends);
   a("contacts.why", c.why);
   a("contacts.blocked", c.blocked);
   a("contacts.tangled", c.tangled);
@@ -255,10 +254,10 @@ void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawT
                              &c.shear,        &c.shear_1,
                              &c.slip_trial,   &c.friction_work,
                              &c.damping_work, &c.fracture_work,
-                             &c.fx,           &c.fy,
-                             &c.gx,           &c.gy}) {
+                             &c.fx,           &c.fy}) {
     j.sized("contacts", *values, nc);
   }
+  j.sized("contacts.on_ends", c.on_ends, 4 * nc);
   j.sized("contacts.law", c.law, nc);
   j.sized("contacts.state", c.state, nc);
   j.sized("contacts.why", c.why, nc);
