@@ -36,16 +36,21 @@ struct CornerPair {
   bool first_at_start = true;   ///< B is the start (else the end) of e
   bool second_at_start = true;  ///< A is the start (else the end) of f
   double reach = 0.0;           ///< r_v, m
-  /// delta_A, delta_B (m) and how far the edges lie against each other (0 to 1) when the shares
-  /// were last set; infinite before that.
-  double seen_first = std::numeric_limits<double>::infinity();
-  double seen_second = std::numeric_limits<double>::infinity();
-  double seen_against = 0.0;
-  /// The shares must be set again whatever the feet do.
-  void forget() { seen_first = seen_second = std::numeric_limits<double>::infinity(); }
   /// The edges run the same way from the corner (one corner passes the other along a joint); else
   /// they run away from each other (corner against corner).
   bool same_way() const { return first_at_start != second_at_start; }
+};
+
+/// How corner pairs stood when their shares were last set; [pairs] each. For the loop that finds
+/// those that have moved since.
+struct PairMemory {
+  std::vector<Id> first, second;              ///< candidates, as in CornerPair
+  std::vector<double> first_end, second_end;  ///< 1 where the corner is the end of the edge, else 0
+  std::vector<double> first_seen, second_seen;  ///< delta_A, delta_B, m; infinite before that
+  std::vector<double> against;  ///< how far the edges lay against each other, 0 to 1
+  std::vector<double> slack;    ///< m: what counts as having moved
+  /// The shares of pair p must be set again whatever its corners do.
+  void forget(std::size_t p) { first_seen[p] = std::numeric_limits<double>::infinity(); }
 };
 
 /// Contacts closed at the start between one pair of edges, which break together.
@@ -192,8 +197,10 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::vector<CornerPair>
       pairs;                   ///< by (first, second): those that share no candidate, then others
   std::size_t lone_pairs = 0;  ///< how many share none
+  PairMemory pair_memory;      ///< of the lone ones
   std::vector<Id> tangled;     ///< candidates in several pairs, and their partners, ascending
-  std::vector<Id> pair_of;     ///< [nc] a pair the candidate is in, or no_id
+  std::vector<double> pairs_moved;               ///< scratch of update_shares()
+  std::vector<Id> pair_of;                       ///< [nc] a pair the candidate is in, or no_id
   std::vector<double> next_before, next_beyond;  ///< scratch of update_shares()
   std::vector<double> next_share;                ///< scratch of update_shares()
   std::vector<std::uint8_t>

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "base/parallel.hpp"
+#include "base/vector_loop.hpp"
 #include "contacts/candidates.hpp"
 #include "contacts/gap.hpp"
 #include "contacts/stored_energy.hpp"
@@ -23,9 +26,9 @@ Vec2 edge_tangent(const BlockSet& b, const Pose& pose, Id edge) {
 }
 
 /// 1 where the edges lie against each other, 0 where they have turned away.
-double against(Vec2 te, Vec2 tf) {
+EDDA_INLINE double against(Vec2 te, Vec2 tf) {
   constexpr double fade = 0.01;
-  return std::clamp((-dot(te, tf) - (opposite - fade)) / fade, 0.0, 1.0);
+  return smaller(larger((-dot(te, tf) - (opposite - fade)) / fade, 0.0), 1.0);
 }
 
 /// A shared edge carries to r_v beyond its end.
@@ -65,11 +68,21 @@ struct PairStand {
   double against;
 };
 
+/// How far the foot of k lies inside its edge, measured from the start (at_end = 0) or the end (1).
+template <class Contacts>
+EDDA_INLINE double inside(const Contacts& c, std::size_t k, double at_end) {
+  const double foot = c.foot[k];
+  return foot + at_end * (c.span[k] - 2.0 * foot);
+}
+
+template <class Contacts>
+EDDA_INLINE PairStand stand_of(const Contacts& c, Id e, Id f, double e_end, double f_end) {
+  return {inside(c, e, e_end), inside(c, f, f_end), against(c.tangent(e), c.tangent(f))};
+}
+
 PairStand stand_of(const ContactSet& c, const CornerPair& p) {
-  const Id e = p.first, f = p.second;
-  return {p.first_at_start ? c.foot[e] : c.span[e] - c.foot[e],
-          p.second_at_start ? c.foot[f] : c.span[f] - c.foot[f],
-          against(tangent_of(c, e), tangent_of(c, f))};
+  return stand_of(c, p.first, p.second, p.first_at_start ? 0.0 : 1.0,
+                  p.second_at_start ? 0.0 : 1.0);
 }
 
 /// Before the pairs of candidate k have been looked at: all of the spring, on the edge alone.
@@ -99,18 +112,63 @@ void take_share(ContactSet& c, std::size_t k) {
   change_share(c, k, c.next_share[k], c.balanced[k] != 0);
 }
 
-/// Shares are let be until a corner has moved by a ten-thousandth of r_v: at rest nothing changes.
-void update_lone_pair(ContactSet& c, CornerPair& p) {
-  constexpr double slack = 1e-4;
-  const PairStand now = stand_of(c, p);
-  const double moved = std::abs(now.first - p.seen_first) + std::abs(now.second - p.seen_second);
-  if (moved <= slack * p.reach && now.against == p.seen_against) return;
-  p.seen_first = now.first;
-  p.seen_second = now.second;
-  p.seen_against = now.against;
-  for (const Id k : {p.first, p.second}) start_share(c, k);
-  set_shares(c, p, now);
-  for (const Id k : {p.first, p.second}) take_share(c, k);
+/// Part of r_v that a corner may move before shares are set again: at rest nothing changes.
+constexpr double slack = 1e-4;
+
+struct PairView {
+  const Id *first, *second;
+  const double *first_end, *second_end, *first_seen, *second_seen, *against, *slack;
+};
+
+EDDA_INLINE bool has_moved(const PairView& m, const ContactView& c, std::size_t p) {
+  const PairStand now = stand_of(c, m.first[p], m.second[p], m.first_end[p], m.second_end[p]);
+  const double moved =
+      std::abs(now.first - m.first_seen[p]) + std::abs(now.second - m.second_seen[p]);
+  return (moved > m.slack[p]) | (now.against != m.against[p]);
+}
+
+constexpr std::size_t pairs_at_once = 32;
+
+/// moved[q] of each group of pairs_at_once: 1 if a corner in it has moved.
+EDDA_VECTOR void find_moved(PairView m, ContactView c, double* moved, std::size_t begin,
+                            std::size_t end) {
+  for (std::size_t first = begin; first < end; first += pairs_at_once) {
+    const std::size_t last = std::min(end, first + pairs_at_once);
+    double any = 0.0;
+#pragma omp simd reduction(max : any)
+    for (std::size_t p = first; p < last; ++p) any = larger(any, has_moved(m, c, p) ? 1.0 : 0.0);
+    moved[first / pairs_at_once] = any;
+  }
+}
+
+void update_lone_pair(ContactSet& c, std::size_t p) {
+  const CornerPair& pair = c.pairs[p];
+  PairMemory& m = c.pair_memory;
+  const PairStand now = stand_of(c, pair);
+  const double moved =
+      std::abs(now.first - m.first_seen[p]) + std::abs(now.second - m.second_seen[p]);
+  if (moved <= m.slack[p] && now.against == m.against[p]) return;
+  m.first_seen[p] = now.first;
+  m.second_seen[p] = now.second;
+  m.against[p] = now.against;
+  for (const Id k : {pair.first, pair.second}) start_share(c, k);
+  set_shares(c, pair, now);
+  for (const Id k : {pair.first, pair.second}) take_share(c, k);
+}
+
+void remember_pairs(ContactSet& c) {
+  const double never = std::numeric_limits<double>::infinity();
+  PairMemory& m = c.pair_memory;
+  m = {};
+  for (std::size_t p = 0; p < c.lone_pairs; ++p) {
+    const CornerPair& pair = c.pairs[p];
+    m.first.push_back(pair.first);
+    m.second.push_back(pair.second);
+    m.first_end.push_back(pair.first_at_start ? 0.0 : 1.0);
+    m.second_end.push_back(pair.second_at_start ? 0.0 : 1.0);
+    m.slack.push_back(slack * pair.reach);
+  }
+  for (auto* seen : {&m.first_seen, &m.second_seen, &m.against}) seen->assign(c.lone_pairs, never);
 }
 
 /// Pairs that share no candidate with another come first.
@@ -132,6 +190,7 @@ void part_pairs(ContactSet& c) {
   }
   std::sort(c.tangled.begin(), c.tangled.end());
   c.tangled.erase(std::unique(c.tangled.begin(), c.tangled.end()), c.tangled.end());
+  remember_pairs(c);
 }
 
 }  // namespace
@@ -178,7 +237,21 @@ void pair_corners(ContactSet& c, const BlockSet& b, const Pose& pose) {
 }
 
 void update_shares(ContactSet& c) {
-  for (std::size_t p = 0; p < c.lone_pairs; ++p) update_lone_pair(c, c.pairs[p]);
+  const PairMemory& m = c.pair_memory;
+  const PairView view{m.first.data(),      m.second.data(),     m.first_end.data(),
+                      m.second_end.data(), m.first_seen.data(), m.second_seen.data(),
+                      m.against.data(),    m.slack.data()};
+  c.pairs_moved.resize((c.lone_pairs + pairs_at_once - 1) / pairs_at_once);
+  const ContactView contacts = c.view();
+  parallel_chunks(c.lone_pairs, 16 * pairs_at_once,
+                  [&](std::size_t, std::size_t begin, std::size_t end) {
+                    find_moved(view, contacts, c.pairs_moved.data(), begin, end);
+                  });
+  for (std::size_t q = 0; q < c.pairs_moved.size(); ++q) {
+    if (c.pairs_moved[q] == 0.0) continue;
+    const std::size_t end = std::min(c.lone_pairs, (q + 1) * pairs_at_once);
+    for (std::size_t p = q * pairs_at_once; p < end; ++p) update_lone_pair(c, p);
+  }
   for (const Id k : c.tangled) start_share(c, k);
   for (std::size_t p = c.lone_pairs; p < c.pairs.size(); ++p) {
     set_shares(c, c.pairs[p], stand_of(c, c.pairs[p]));

@@ -76,16 +76,13 @@ template <class Archive>
 void list_groups(Archive& a, ContactSet& c) {
   std::vector<Id> first, second, members, ends;
   std::vector<bool> first_at_start, second_at_start;
-  std::vector<double> reach, seen_first, seen_second, seen_against;
+  std::vector<double> reach;
   for (const CornerPair& p : c.pairs) {
     first.push_back(p.first);
     second.push_back(p.second);
     first_at_start.push_back(p.first_at_start);
     second_at_start.push_back(p.second_at_start);
     reach.push_back(p.reach);
-    seen_first.push_back(p.seen_first);
-    seen_second.push_back(p.seen_second);
-    seen_against.push_back(p.seen_against);
   }
   for (const Segment& s : c.segments) {
     members.insert(members.end(), s.members.begin(), s.members.end());
@@ -96,19 +93,23 @@ void list_groups(Archive& a, ContactSet& c) {
   a("pairs.first_at_start", first_at_start);
   a("pairs.second_at_start", second_at_start);
   a("pairs.reach", reach);
-  a("pairs.seen_first", seen_first);
-  a("pairs.seen_second", seen_second);
-  a("pairs.seen_against", seen_against);
+  PairMemory& m = c.pair_memory;
+  a("pairs.lone_first", m.first);
+  a("pairs.lone_second", m.second);
+  a("pairs.first_end", m.first_end);
+  a("pairs.second_end", m.second_end);
+  a("pairs.first_seen", m.first_seen);
+  a("pairs.second_seen", m.second_seen);
+  a("pairs.against", m.against);
+  a("pairs.slack", m.slack);
   a("segments.members", members);
   a("segments.ends", ends);
   if constexpr (Archive::loads) {
     c.pairs.clear();
-    const std::size_t n =
-        std::min({first.size(), second.size(), first_at_start.size(), second_at_start.size(),
-                  reach.size(), seen_first.size(), seen_second.size(), seen_against.size()});
+    const std::size_t n = std::min(
+        {first.size(), second.size(), first_at_start.size(), second_at_start.size(), reach.size()});
     for (std::size_t k = 0; k < n; ++k) {
-      c.pairs.push_back({first[k], second[k], first_at_start[k], second_at_start[k], reach[k],
-                         seen_first[k], seen_second[k], seen_against[k]});
+      c.pairs.push_back({first[k], second[k], first_at_start[k], second_at_start[k], reach[k]});
     }
     c.segments.clear();
     std::size_t begin = 0;
@@ -280,6 +281,15 @@ void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawT
   j.rising("contacts.block_begin", c.block_begin, c.block_entry.size());
   if (j.flaw().empty() && !belong_together(c, b)) j.refuse("contacts do not belong together");
   if (c.lone_pairs > c.pairs.size()) j.refuse("contacts.lone_pairs is too large");
+  const PairMemory& m = c.pair_memory;
+  for (const auto* ids : {&m.first, &m.second}) {
+    j.sized("pairs.lone", *ids, c.lone_pairs);
+    j.below("pairs.lone", *ids, nc);
+  }
+  for (const auto* values :
+       {&m.first_end, &m.second_end, &m.first_seen, &m.second_seen, &m.against, &m.slack}) {
+    j.sized("pairs.lone", *values, c.lone_pairs);
+  }
   for (const CornerPair& p : c.pairs) j.below("pairs", {p.first, p.second}, nc);
   for (const Segment& s : c.segments) j.below("segments", s.members, nc);
 }
