@@ -39,18 +39,27 @@ duration = 1000.0
 )" + solver;
 }
 
-/// Ready for step(); ends the program with the faults if there are any. No event interrupts it.
-inline Simulation wall(int columns, int rows, const std::string& solver = {}) {
+/// Before start(); ends the program with the faults if there are any.
+inline Simulation built(Result<Model> model) {
   const auto stop = [](const Faults& faults) {
     for (const Fault& fault : faults) std::fprintf(stderr, "%s\n", to_string(fault).c_str());
     std::exit(1);
   };
-  Result<Model> model = read_model_text(wall_model(columns, rows, solver), "wall.toml");
   if (!model) stop(model.faults());
   Result<Simulation> sim = Simulation::create(std::move(model.value()));
   if (!sim) stop(sim.faults());
-  sim.value().start(1000.0);
   return std::move(sim.value());
+}
+
+inline Simulation built_wall(int columns, int rows, const std::string& solver = {}) {
+  return built(read_model_text(wall_model(columns, rows, solver), "wall.toml"));
+}
+
+/// Ready for step(). No event interrupts it.
+inline Simulation wall(int columns, int rows, const std::string& solver = {}) {
+  Simulation sim = built_wall(columns, rows, solver);
+  sim.start(1000.0);
+  return sim;
 }
 
 /// So many steps; ends the program if one fails.
