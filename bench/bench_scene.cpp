@@ -1,0 +1,144 @@
+// Speed of the whole step on one scene (scenes.hpp), for tools/bench to read.
+//   bench_scene SCENE [--steps N] [--repeat N] [--threads N] [--cache DIR] [--wait] [--limit
+//   ROUNDS]
+// Prints a line of JSON for the scene, one for each repetition of so many steps, and one for the
+// memory. With --wait each repetition waits for a line on standard input, so that something else
+// can be measured in between. --limit compares the critical step with the true one instead.
+#include <omp.h>
+#if __has_include(<valgrind/callgrind.h>)
+#include <valgrind/callgrind.h>
+#else
+#define CALLGRIND_START_INSTRUMENTATION
+#define CALLGRIND_STOP_INSTRUMENTATION
+#endif
+
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <utility>
+
+#include "memory.hpp"
+#include "scenes.hpp"
+#include "true_step.hpp"
+#include "wall.hpp"
+
+namespace {
+
+using edda::Simulation;
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  std::string scene, cache;
+  long steps = 100, repeat = 1, threads = 1, limit = 0;
+  bool wait = false;
+};
+
+bool read_options(int argc, char** argv, Options& o) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--wait") {
+      o.wait = true;
+    } else if (word.rfind("--", 0) != 0 && o.scene.empty()) {
+      o.scene = word;
+    } else if (i + 1 == argc) {
+      return false;
+    } else if (word == "--cache") {
+      o.cache = argv[++i];
+    } else {
+      long* const value = word == "--steps"     ? &o.steps
+                          : word == "--repeat"  ? &o.repeat
+                          : word == "--threads" ? &o.threads
+                          : word == "--limit"   ? &o.limit
+                                                : nullptr;
+      if (value == nullptr || (*value = std::strtol(argv[++i], nullptr, 10)) < 1) return false;
+    }
+  }
+  return !o.scene.empty();
+}
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void describe(const edda::Scene& scene, double made_in) {
+  const Simulation& s = scene.sim;
+  std::size_t closed = 0;
+  for (std::size_t c = 0; c < s.contacts.size(); ++c) {
+    if (s.contacts.is(c, edda::contact_state::closed)) ++closed;
+  }
+  std::printf(
+      "{\"blocks\": %zu, \"candidates\": %zu, \"closed\": %zu, \"step\": %.6g, "
+      "\"critical_step\": %.6g, \"row_error\": %.3g, \"made_in\": %.2f}\n",
+      s.blocks.size(), s.contacts.size(), closed, s.state.step, s.bound.critical_step,
+      scene.row_error, made_in);
+  std::fflush(stdout);
+}
+
+/// What callgrind counts, too.
+void measure(Simulation& s, long steps) {
+  const edda::OpenCloseCounts before = s.open_close;
+  const edda::StageSeconds stages = s.seconds;
+  const std::uint64_t searches = s.contacts.rebuilds, redone = s.steps.redone;
+  CALLGRIND_START_INSTRUMENTATION;
+  const Clock::time_point start = Clock::now();
+  edda::take_steps(s, steps);
+  const double seconds = seconds_since(start);
+  CALLGRIND_STOP_INSTRUMENTATION;
+  const double sampled = s.seconds.sum() - stages.sum();
+  const double scale = sampled > 0.0 ? seconds / sampled : 0.0;
+  std::printf(
+      "{\"steps\": %ld, \"seconds\": %.6g, \"switched\": %llu, \"passes\": %llu, "
+      "\"searches\": %llu, \"redone\": %llu, \"search\": %.4g, \"forces\": %.4g, "
+      "\"integrate\": %.4g}\n",
+      steps, seconds, static_cast<unsigned long long>(s.open_close.switched - before.switched),
+      static_cast<unsigned long long>(s.open_close.passes - before.passes),
+      static_cast<unsigned long long>(s.contacts.rebuilds - searches),
+      static_cast<unsigned long long>(s.steps.redone - redone),
+      scale * (s.seconds.search - stages.search), scale * (s.seconds.forces - stages.forces),
+      scale * (s.seconds.integrate - stages.integrate));
+  std::fflush(stdout);
+}
+
+/// Whether there was a line before the end of the input.
+bool wait_for_line() {
+  int c = std::getchar();
+  while (c != '\n' && c != EOF) c = std::getchar();
+  return c == '\n';
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  const bool good = read_options(argc, argv, o);
+  const std::string flaw =
+      good ? edda::flaw_of_scene(o.scene)
+           : "bench_scene SCENE [--steps N] [--repeat N] [--threads N] [--cache DIR] "
+             "[--wait] [--limit ROUNDS]";
+  if (!flaw.empty()) {
+    std::fprintf(stderr, "%s\n", flaw.c_str());
+    return 2;
+  }
+  omp_set_num_threads(static_cast<int>(o.threads));
+  const Clock::time_point start = Clock::now();
+  edda::Scene scene = edda::make_scene(o.scene, o.cache);
+  describe(scene, seconds_since(start));
+  if (o.limit > 0) {
+    std::printf("{\"true_step\": %.6g}\n",
+                edda::true_critical_step(scene.sim, static_cast<int>(o.limit)));
+    return 0;
+  }
+  edda::take_steps(scene.sim, 2);  // what grows once has grown
+  for (long i = 0; i < o.repeat; ++i) {
+    if (o.wait && !wait_for_line()) return 0;
+    measure(scene.sim, o.steps);
+  }
+  const edda::MemoryInUse m = edda::take_apart(std::move(scene.sim));
+  std::printf(
+      "{\"bytes\": %zu, \"model\": %zu, \"polygons\": %zu, \"block_arrays\": %zu, \"state\": "
+      "%zu, \"contacts\": %zu, \"rest\": %zu, \"peak\": %zu}\n",
+      m.sum(), m.model, m.polygons, m.blocks, m.state, m.contacts, m.rest, edda::peak_memory());
+  return 0;
+}

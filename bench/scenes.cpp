@@ -1,0 +1,172 @@
+#include "scenes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <random>
+
+#include "settled_wall.hpp"
+#include "wall.hpp"
+
+namespace edda {
+namespace {
+
+constexpr std::string_view soft_rock = R"(
+[materials.rock]
+density = 2600.0
+young = "1 GPa"
+poisson = 0.2
+[contact]
+normal_stiffness = "4 GPa"
+[solver]
+duration = 1000.0
+)";
+
+struct Named {
+  std::string kind;
+  int first = 0, second = 0;
+};
+
+/// KIND, KIND:N or KIND:NxM.
+Named taken_apart(const std::string& name) {
+  Named n;
+  const std::size_t colon = name.find(':');
+  n.kind = name.substr(0, colon);
+  if (colon == std::string::npos) return n;
+  int read = 0;
+  const std::string size = name.substr(colon + 1);
+  if (std::sscanf(size.c_str(), "%d%nx%d%n", &n.first, &read, &n.second, &read) < 1 ||
+      read != static_cast<int>(size.size())) {
+    n.first = n.second = -1;
+  }
+  return n;
+}
+
+void take_time(Simulation& sim, double seconds) {
+  const double end = sim.state.time + seconds;
+  while (sim.state.time < end) take_steps(sim, 1);
+}
+
+/// A convex polygon about the unit circle, drawn `size` times as large.
+std::string polygon_text(std::mt19937& rng, Vec2 centre, double size) {
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  const int corners = 5 + static_cast<int>(4.0 * u(rng));
+  const double turn = 2.0 * std::numbers::pi * u(rng);
+  std::string text = "polygon = [";
+  for (int k = 0; k < corners; ++k) {
+    const double a = turn + 2.0 * std::numbers::pi * (k + 0.5 * u(rng)) / corners;
+    text += fmt::format("[{}, {}], ", centre.x + size * std::cos(a), centre.y + size * std::sin(a));
+  }
+  return text + "]\n";
+}
+
+std::string held_text(double left, double low, double right, double high) {
+  return fmt::format(
+      "[[block]]\nfixed = true\npolygon = [[{0}, {1}], [{2}, {1}], [{2}, {3}], [{0}, {3}]]\n", left,
+      low, right, high);
+}
+
+/// A wall whose base is gone: it stands on the edges of ridges, comes down on them, and every brick
+/// goes its own way a little.
+Simulation collapsing_wall(int columns, int rows) {
+  std::string toml = std::string(soft_rock) + "[joints.dry]\nfriction_angle = 30.0\n";
+  toml +=
+      fmt::format("[[brick_wall]]\ncolumns = {}\nrows = {}\nbrick = [1.0, 0.5]\n", columns, rows);
+  const double width = 8.0, high = 3.0;
+  for (double left = -4.0 * width - 0.3; left < columns + 4.0 * width; left += width) {
+    toml += fmt::format("[[block]]\nfixed = true\npolygon = [[{}, {}], [{}, {}], [{}, 0.0]]\n",
+                        left, -high, left + width, -high, left + 0.5 * width);
+  }
+  Simulation sim = built(read_model_text(toml, "collapse.toml"));
+  const BlockSet& b = sim.blocks;
+  std::mt19937 rng(1);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (b.fixed[i]) continue;
+    const Vec2 v{0.5 * u(rng), 0.5 * u(rng) - 3.0};
+    const double spin = 0.5 * u(rng);
+    for (std::size_t k = 0; k < 3; ++k) {
+      sim.state.vx[k][i] = v.x - spin * (b.node_y[k][i] - b.centroid_y[i]);
+      sim.state.vy[k][i] = v.y + spin * (b.node_x[k][i] - b.centroid_x[i]);
+    }
+  }
+  sim.start(1000.0);
+  take_time(sim, 0.25);
+  return sim;
+}
+
+/// Polygons side by side above a slope, thrown down it and at each other, until they have met.
+Simulation flowing_heap(int count) {
+  const double slope = 30.0 * std::numbers::pi / 180.0, cell = 1.05;
+  const int columns = std::max(2, static_cast<int>(std::sqrt(3.0 * count)));
+  std::mt19937 rng(1);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  std::string toml =
+      fmt::format("gravity = [{}, {}]\n", 9.81 * std::sin(slope), -9.81 * std::cos(slope));
+  toml +=
+      std::string(soft_rock) + "damping = { contact = 0.2 }\n[joints.dry]\nfriction_angle = 25.0\n";
+  toml += held_text(-10.0, -2.5, cell * columns + 40.0, -0.5);
+  for (int i = 0; i < count; ++i) {
+    const double x = cell * (i % columns), y = 0.1 + cell * (i / columns);
+    toml += "[[block]]\n" + polygon_text(rng, {x, y}, 0.5 + 0.02 * u(rng));
+    toml += fmt::format("velocity = [{}, {}]\nangular_velocity = {}\n",
+                        3.0 + 0.1 * y + 0.5 * u(rng), 0.5 * u(rng) - 0.2 * y, u(rng));
+  }
+  Simulation sim = built(read_model_text(toml, "heap.toml"));
+  sim.start(1000.0);
+  take_time(sim, 0.3);
+  return sim;
+}
+
+Simulation free_blocks(int count) {
+  const int columns = std::max(1, static_cast<int>(std::sqrt(count)));
+  std::mt19937 rng(1);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  std::string toml =
+      "gravity = [0.0, 0.0]\n" + std::string(soft_rock) + "[joints.dry]\nfriction_angle = 30.0\n";
+  for (int i = 0; i < count; ++i) {
+    toml += "[[block]]\n" + polygon_text(rng, {1.25 * (i % columns), 1.25 * (i / columns)}, 0.5);
+    toml += fmt::format("angular_velocity = {}\n", u(rng));
+  }
+  Simulation sim = built(read_model_text(toml, "free.toml"));
+  sim.start(1000.0);
+  take_steps(sim, 100);
+  return sim;
+}
+
+Simulation cavern() {
+  Simulation sim = built(read_model(std::string(EDDA_SOURCE_DIR) + "/examples/cavern.toml"));
+  sim.start(1000.0);
+  take_steps(sim, 2000);
+  return sim;
+}
+
+}  // namespace
+
+std::string flaw_of_scene(const std::string& name) {
+  const Named n = taken_apart(name);
+  constexpr int most = 100'000'000;
+  const bool one = n.first > 0 && n.first <= most && n.second == 0;
+  const bool two = n.first > 0 && n.second > 0 && n.first <= most / n.second;
+  if (n.kind == "wall" || n.kind == "collapse") return two ? "" : name + ": needs COLUMNSxROWS";
+  if (n.kind == "heap" || n.kind == "free") return one ? "" : name + ": needs a number of blocks";
+  if (name == "cavern") return "";
+  return name + ": no such scene";
+}
+
+Scene make_scene(const std::string& name, const std::string& cache) {
+  const Named n = taken_apart(name);
+  if (n.kind == "collapse") return {collapsing_wall(n.first, n.second)};
+  if (n.kind == "heap") return {flowing_heap(n.first)};
+  if (n.kind == "free") return {free_blocks(n.first)};
+  if (n.kind == "cavern") return {cavern()};
+  Scene scene{settled_wall(n.first, n.second, cache)};
+  scene.row_error = error_of_row_forces(scene.sim);
+  return scene;
+}
+
+}  // namespace edda

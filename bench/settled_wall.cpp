@@ -1,0 +1,261 @@
+#include "settled_wall.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <unordered_map>
+
+#include "blocks/kinematics.hpp"
+#include "contacts/gaps.hpp"
+#include "contacts/shares.hpp"
+#include "contacts/transitions.hpp"
+#include "wall.hpp"
+
+namespace edda {
+namespace {
+
+namespace cs = contact_state;
+
+/// Of a brick: by how far its centroid has gone, m, and its deformation.
+struct Placed {
+  double ux, uy, xx, xy, yx, yy;
+};
+
+/// Of a contact, m.
+struct Touch {
+  double slip, rest;
+  bool closed;
+};
+
+/// A brick by where it was drawn, in quarters of a brick from the left, and rows from below; the
+/// base block is in row -1.
+struct Place {
+  int quarter = 0, row = -1;
+  bool is_brick() const { return row >= 0; }
+};
+
+Place place_of(const BlockSet& b, std::size_t i) {
+  if (b.fixed[i]) return {};
+  return {static_cast<int>(std::lround(4.0 * (b.centroid_x[i] + b.origin.x))),
+          static_cast<int>(std::floor(2.0 * (b.centroid_y[i] + b.origin.y)))};
+}
+
+/// Corner of its brick, 0 to 3 counter-clockwise from the lower left.
+int corner_of(const BlockSet& b, std::size_t v) {
+  const std::size_t i = b.vertex_block[v];
+  const bool right = b.vertex_x[v] > b.centroid_x[i], above = b.vertex_y[v] > b.centroid_y[i];
+  return above ? (right ? 2 : 3) : (right ? 1 : 0);
+}
+
+std::uint64_t key_of(Place p) {
+  return static_cast<std::uint64_t>(p.row + 1) << 32 | static_cast<std::uint32_t>(p.quarter);
+}
+
+/// Of a contact whose vertex belongs to the brick at `from`: the other one by where it lies from
+/// there, so that it is found again wherever the brick is put. The base lies beneath all.
+std::uint64_t key_of(const BlockSet& b, const ContactSet& c, std::size_t k, Place from) {
+  const Place i = place_of(b, c.block_i[k]), j = place_of(b, c.block_j[k]);
+  const int aside = j.is_brick() ? j.quarter - i.quarter + 8 : 0, up = j.row - i.row + 1;
+  const int corners = 4 * corner_of(b, c.vertex[k]) + corner_of(b, c.edge[k]);
+  return key_of(from) << 12 | static_cast<std::uint64_t>((aside * 3 + up) * 16 + corners);
+}
+
+/// The state of a wall at rest.
+struct Rest {
+  int columns = 0;
+  std::unordered_map<std::uint64_t, Placed> bricks;
+  std::unordered_map<std::uint64_t, Touch> touches;
+};
+
+bool between_neighbours(const BlockSet& b, const ContactSet& c, std::size_t k) {
+  const Place i = place_of(b, c.block_i[k]), j = place_of(b, c.block_j[k]);
+  return i.is_brick() && std::abs(j.row - i.row) <= 1 &&
+         (!j.is_brick() || std::abs(j.quarter - i.quarter) <= 8);
+}
+
+Rest rest_of(const Simulation& s, int columns) {
+  const BlockSet& b = s.blocks;
+  const ContactSet& c = s.contacts;
+  Rest rest;
+  rest.columns = columns;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    const Place place = place_of(b, i);
+    if (!place.is_brick()) continue;
+    const Deformation f = deformation(b, s.state.x, s.state.y, i);
+    const Vec2 u = centroid(s.state.x, s.state.y, i) - Vec2{b.centroid_x[i], b.centroid_y[i]};
+    rest.bricks[key_of(place)] = {u.x, u.y, f.xx, f.xy, f.yx, f.yy};
+  }
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (!between_neighbours(b, c, k) || c.is(k, cs::blocked) || !(c.depth[k] > 0.0)) continue;
+    rest.touches[key_of(b, c, k, place_of(b, c.block_i[k]))] = {c.trial_slip(k), c.rest[k],
+                                                                c.is(k, cs::closed)};
+  }
+  return rest;
+}
+
+/// The brick of the short wall that stands for one of the long wall; `drifts`: with what it has
+/// gone sideways.
+struct Source {
+  Place place;
+  bool drifts;
+};
+
+Source stands_for(Place p, int short_columns, int columns) {
+  const int half = 2 * short_columns, right = 4 * (columns - short_columns);
+  if (p.quarter <= half) return {p, true};
+  if (p.quarter >= right + half) return {{p.quarter - right, p.row}, true};
+  // Whole bricks all of them: those of every other row lie half a brick aside.
+  const int middle = half + ((p.quarter - half) % 4 + 4) % 4;
+  return {{middle, p.row}, false};
+}
+
+void put(Simulation& s, const Rest& rest, int columns) {
+  const BlockSet& b = s.blocks;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    const Place place = place_of(b, i);
+    if (!place.is_brick()) continue;
+    const Source from = stands_for(place, rest.columns, columns);
+    const Placed& p = rest.bricks.at(key_of(from.place));
+    const Vec2 c{b.centroid_x[i], b.centroid_y[i]};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double ax = b.node_x[k][i] - c.x, ay = b.node_y[k][i] - c.y;
+      s.state.x[k][i] = c.x + (from.drifts ? p.ux : 0.0) + p.xx * ax + p.xy * ay;
+      s.state.y[k][i] = c.y + p.uy + p.yx * ax + p.yy * ay;
+    }
+    place_vertices(b, s.state.x, s.state.y, i, s.pose.x, s.pose.y);
+  }
+  s.pose.x1 = s.pose.x;
+  s.pose.y1 = s.pose.y;
+}
+
+/// As at the start of a run, and then what the contacts of the short wall remember.
+void touch(Simulation& s, const Rest& rest, int columns) {
+  const BlockSet& b = s.blocks;
+  ContactSet& c = s.contacts;
+  update_gaps(c, s.pose);
+  update_shares(c);
+  TransitionScratch scratch;
+  settle_contacts(c, b, s.pose, s.laws, 0, true, scratch);
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (!between_neighbours(b, c, k)) continue;
+    const Source from = stands_for(place_of(b, c.block_i[k]), rest.columns, columns);
+    const auto found = rest.touches.find(key_of(b, c, k, from.place));
+    if (found == rest.touches.end()) continue;
+    const Touch& t = found->second;
+    c.rest[k] = t.rest;
+    c.anchor[k] = (c.foot[k] - t.slip) / c.span[k];
+    if (!t.closed) c.clear(k, cs::closed);
+  }
+  c.look_everywhere();
+}
+
+/// So many steps under `damping`, with the step that it allows.
+void damp(Simulation& s, const Damping& damping, long steps) {
+  s.change_damping(damping, true);
+  s.aim_at(1000.0);
+  take_steps(s, steps);
+}
+
+/// Damped where it is stiff, and so that its slowest wave does not swing, either.
+Rest settle(int columns, int rows) {
+  Simulation s = wall(columns, rows);
+  const double height = 0.5 * rows, speed = std::sqrt(20e9 / 2600.0), period = 4.0 * height / speed;
+  Damping damping;
+  damping.local = 0.8;
+  damping.mass = 2.0 * speed / height;
+  const long steps = std::lround(12.0 * period / (0.7 * s.state.step));
+  damp(s, damping, steps);
+  return rest_of(s, columns);
+}
+
+template <class Map>
+void write_map(std::ofstream& out, const Map& map) {
+  const std::uint64_t n = map.size();
+  out.write(reinterpret_cast<const char*>(&n), sizeof n);
+  for (const auto& entry : map) {
+    out.write(reinterpret_cast<const char*>(&entry.first), sizeof entry.first);
+    out.write(reinterpret_cast<const char*>(&entry.second), sizeof entry.second);
+  }
+}
+
+template <class Map>
+bool read_map(std::ifstream& in, Map& map) {
+  std::uint64_t n = 0;
+  in.read(reinterpret_cast<char*>(&n), sizeof n);
+  for (std::uint64_t i = 0; in && i < n; ++i) {
+    std::uint64_t key = 0;
+    typename Map::mapped_type value{};
+    in.read(reinterpret_cast<char*>(&key), sizeof key);
+    in.read(reinterpret_cast<char*>(&value), sizeof value);
+    map[key] = value;
+  }
+  return static_cast<bool>(in);
+}
+
+/// Settles the wall, or reads what it came to when it did before. The file begins with the model.
+Rest rest_from(int columns, int rows, const std::string& cache) {
+  if (cache.empty()) return settle(columns, rows);
+  const std::string model = "at rest 1" + wall_model(columns, rows);
+  const std::filesystem::path path =
+      std::filesystem::path(cache) /
+      ("wall-" + std::to_string(columns) + "x" + std::to_string(rows) + ".rest");
+  std::ifstream in(path, std::ios::binary);
+  std::string begins(model.size(), ' ');
+  in.read(begins.data(), static_cast<std::streamsize>(begins.size()));
+  Rest rest;
+  rest.columns = columns;
+  if (in && begins == model && read_map(in, rest.bricks) && read_map(in, rest.touches)) return rest;
+  rest = settle(columns, rows);
+  std::filesystem::create_directories(cache);
+  const std::string beside = path.string() + ".part";
+  std::ofstream out(beside, std::ios::binary);
+  out << model;
+  write_map(out, rest.bricks);
+  write_map(out, rest.touches);
+  out.close();
+  if (out) std::filesystem::rename(beside, path);
+  return rest;
+}
+
+}  // namespace
+
+Simulation settled_wall(int columns, int rows, const std::string& cache) {
+  // Ends feel each other up to about their height away.
+  const int short_columns = std::min(columns, std::max(4 * rows + 7, 20));
+  const Rest rest = rest_from(short_columns, rows, cache);
+  Simulation s = built_wall(columns, rows);
+  put(s, rest, columns);
+  touch(s, rest, columns);
+  s.start(1000.0);
+  // What the joins between ends and middle, and the middle itself, are off by.
+  Damping damping;
+  damping.local = 0.8;
+  damp(s, damping, 300);
+  damp(s, {}, 100);
+  return s;
+}
+
+double error_of_row_forces(const Simulation& s) {
+  const BlockSet& b = s.blocks;
+  const ContactSet& c = s.contacts;
+  std::map<int, double> weight, force;  // by row; of the joint beneath it
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (!b.fixed[i]) weight[place_of(b, i).row] += b.mass[i] * -s.model.gravity.y;
+  }
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const int i = place_of(b, c.block_i[k]).row, j = place_of(b, c.block_j[k]).row;
+    if (i != j && c.is(k, cs::closed)) force[std::max(i, j)] += c.share[k] * c.normal[k];
+  }
+  double above = 0.0, error = 0.0;
+  for (auto row = weight.rbegin(); row != weight.rend(); ++row) {
+    above += row->second;
+    error = std::max(error, std::abs(force[row->first] - above));
+  }
+  return error / above;
+}
+
+}  // namespace edda
