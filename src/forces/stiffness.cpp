@@ -227,4 +227,17 @@ StepBound step_bound(const BlockSet& b, const State& s, const Pose& pose, const 
   return bound;
 }
 
+std::vector<double> steps_of_blocks(const BlockSet& b, const State& s, const Pose& pose,
+                                    const ContactSet& c, const BoundarySprings& springs,
+                                    const LawTable& laws, const Damping& damping, double limit) {
+  const Scene scene{b, s, pose, c, springs, laws, damping};
+  std::vector<double> step(b.size(), std::numeric_limits<double>::infinity());
+  parallel_for(b.size(), [&](std::size_t i) {
+    if (b.fixed[i] || !s.alive[i]) return;
+    step[i] = estimate(scene, i).likely;
+    if (step[i] < limit) step[i] = exact_step(scene, i, true);
+  });
+  return step;
+}
+
 }  // namespace edda

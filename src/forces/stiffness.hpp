@@ -31,4 +31,11 @@ StepBound step_bound(const BlockSet& blocks, const State& state, const Pose& pos
                      const ContactSet& contacts, const BoundarySprings& springs,
                      const LawTable& laws, const Damping& damping);
 
+/// The step that each block would allow alone, every bare corner of it touching, [nb] s: exact
+/// where it is below `limit`, elsewhere not below `limit` and perhaps too small; infinite for held
+/// ones.
+std::vector<double> steps_of_blocks(const BlockSet& blocks, const State& state, const Pose& pose,
+                                    const ContactSet& contacts, const BoundarySprings& springs,
+                                    const LawTable& laws, const Damping& damping, double limit);
+
 }  // namespace edda

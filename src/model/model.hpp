@@ -183,6 +183,7 @@ struct Solver {
   double safety = 0.7;                   ///< of the critical step
   bool dynamic = true;                   ///< dda: false drops velocities at each step
   double max_displacement_ratio = 0.01;  ///< of the model's half-height in one step
+  double mass_scaling = 0.0;             ///< s; edda: the step that inertia is raised for; 0: off
   Damping damping;
   Where where;
 };

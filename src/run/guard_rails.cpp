@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
+#include "base/parallel.hpp"
 #include "contacts/gap.hpp"
+#include "forces/mass_scaling.hpp"
 #include "run/labels.hpp"
 #include "run/stages.hpp"
 
@@ -122,6 +125,53 @@ void warn_of_boundary(const Simulation& sim, std::vector<std::string>& warnings)
       1.0 / std::sqrt(std::max(1.0 - sim.bound.boundary_part, 1e-12))));
 }
 
+std::string counted(std::size_t n, const char* one) {
+  return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s");
+}
+
+/// A few small blocks that hold back all the others; or what was done about it.
+void warn_of_few(const Simulation& sim, std::vector<std::string>& warnings) {
+  const double all = ordered_sum(sim.blocks.size(), [&](std::size_t i) {
+    return free_block(sim, i) ? sim.blocks.mass[i] : 0.0;
+  });
+  if (!sim.inertia.empty()) {
+    const auto scaled = static_cast<std::size_t>(
+        std::count_if(sim.inertia.begin(), sim.inertia.end(), [](double f) { return f > 1.0; }));
+    const double added = added_mass(sim.blocks, sim.inertia);
+    warnings.push_back(fmt::format(
+        "solver.mass_scaling: {} seem heavier to move by {:.3g} kg together, {:.2g} % of all mass",
+        counted(scaled, "block"), added, 100.0 * added / all));
+    return;
+  }
+  constexpr double few = 0.01, worth = 2.0;
+  constexpr std::size_t least = 20;  // blocks, for "few" to mean something
+  std::vector<double> steps = steps_of_blocks(sim.blocks, sim.state, sim.pose, sim.contacts,
+                                              sim.springs, sim.laws, sim.damping, 0.0);
+  std::vector<double> sorted;
+  std::copy_if(steps.begin(), steps.end(), std::back_inserter(sorted),
+               [](double h) { return std::isfinite(h); });
+  if (sorted.size() < least) return;
+  const std::size_t place = static_cast<std::size_t>(few * static_cast<double>(sorted.size())) + 1;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(place),
+                   sorted.end());
+  const double others = sorted[place];
+  const double smallest = *std::min_element(sorted.begin(), sorted.end());
+  if (!(others > worth * smallest)) return;
+  std::size_t count = 0;
+  double added = 0.0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (!(steps[i] < others)) continue;
+    ++count;
+    added += (others * others / (steps[i] * steps[i]) - 1.0) * sim.blocks.mass[i];
+  }
+  warnings.push_back(fmt::format(
+      "{} of {} hold the step to 1/{:.2g} of what the others need: solver.mass_scaling = {:.3g} "
+      "makes them slower to move, by {:.3g} kg together, {:.2g} % of all mass, and changes "
+      "nothing at rest",
+      counted(count, "block"), sorted.size(), others / smallest, sim.model.solver.safety * others,
+      added, 100.0 * added / all));
+}
+
 /// Slivers of the cut: they hold the step and carry nothing.
 void warn_of_slivers(const Simulation& sim, std::vector<std::string>& warnings) {
   const CutReport& report = sim.polygons.report;
@@ -192,6 +242,7 @@ std::vector<std::string> guard_rails(const Simulation& sim) {
   if (sim.explicit_method()) {
     warn_of_sudden_gravity(sim, warnings);
     warn_of_boundary(sim, warnings);
+    warn_of_few(sim, warnings);
   }
   warn_of_springs(sim, warnings);
   warn_of_slivers(sim, warnings);

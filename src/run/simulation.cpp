@@ -13,6 +13,7 @@
 #include "contacts/shares.hpp"
 #include "contacts/transitions.hpp"
 #include "forces/contact_forces.hpp"
+#include "forces/mass_scaling.hpp"
 #include "lines/build_polygons.hpp"
 #include "run/load_work.hpp"
 
@@ -145,8 +146,30 @@ void Simulation::search(double reach) {
   block_shielded(contacts, blocks, pose);
 }
 
+/// Blocks that would hold the step below what was asked for are made slower. One in motion keeps
+/// its momentum, and the energy that it loses by that is booked with that of changed steps.
+void Simulation::scale_masses() {
+  const Solver& solver = model.solver;
+  const double step = solver.time_step ? solver.mass_scaling : solver.mass_scaling / solver.safety;
+  const std::vector<double> before = inertia;
+  const bool moving = state.steps > 0;
+  const double energy = moving ? ledger_now().balance() : 0.0;
+  const std::vector<Id> raised =
+      raise_inertia(blocks, inertia, state, pose, contacts, springs, laws, damping, step);
+  if (!moving || raised.empty()) return;
+  for (const Id i : raised) {
+    const double factor = inertia[i] / (before.empty() ? 1.0 : before[i]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      state.vx[k][i] /= factor;
+      state.vy[k][i] /= factor;
+    }
+  }
+  step_change_energy += ledger_now().balance() - energy;
+}
+
 void Simulation::set_limit() {
   if (!explicit_method()) return set_implicit_limit();
+  if (model.solver.mass_scaling > 0.0) scale_masses();
   bound = step_bound(blocks, state, pose, contacts, springs, laws, damping);
   if (model.solver.time_step) {
     const double most = model.solver.allow_unstable
@@ -337,12 +360,17 @@ Failure Simulation::lost() const {
   return lost_block(blocks, state, pose, forces, step_in_use());
 }
 
-Ledger Simulation::ledger() {
+Ledger Simulation::ledger_now() const {
   const double behind = explicit_method() ? step_before_ : 0.0;  // of v_{n-1/2}
   Ledger l =
       sum_ledger(blocks, state, behind, pose, contacts, springs, damping_work, model.gravity);
   l.step_change = -step_change_energy;
   l.external = external_work;
+  return l;
+}
+
+Ledger Simulation::ledger() {
+  Ledger l = ledger_now();
   if (!start_energy) start_energy = l.balance();
   largest_energy = std::max(largest_energy, l.scale());
   l.drift = largest_energy > 0.0 ? (l.balance() - *start_energy) / largest_energy : 0.0;

@@ -52,15 +52,16 @@ struct Simulation {
   ContactSet contacts;
   NodalForces forces;
   DampingWork damping_work;
-  Damping damping;                   ///< in force
-  bool dynamic = true;               ///< of method "dda": whether velocities carry over
-  StepBound bound;                   ///< at the last search
-  double step_limit = 0.0;           ///< s: largest step allowed at present
-  double base_reach = 0.0;           ///< m: skin of the contact search at rest
-  double displacement_limit = 0.0;   ///< m in one step
-  double last_displacement = 0.0;    ///< m: largest of a vertex in the last step
-  double penetration = 0.0;          ///< m: largest at the last step
-  double max_penetration = 0.0;      ///< m, over the run
+  Damping damping;                  ///< in force
+  bool dynamic = true;              ///< of method "dda": whether velocities carry over
+  std::vector<double> inertia;      ///< [nb] factor on the masses, by solver.mass_scaling; or empty
+  StepBound bound;                  ///< at the last search
+  double step_limit = 0.0;          ///< s: largest step allowed at present
+  double base_reach = 0.0;          ///< m: skin of the contact search at rest
+  double displacement_limit = 0.0;  ///< m in one step
+  double last_displacement = 0.0;   ///< m: largest of a vertex in the last step
+  double penetration = 0.0;         ///< m: largest at the last step
+  double max_penetration = 0.0;     ///< m, over the run
   double smallest_half_width = 0.0;  ///< m, of all blocks
   double step_change_energy = 0.0;   ///< J, created by changes of the step
   double external_work = 0.0;        ///< J, of the loads so far
@@ -107,7 +108,9 @@ struct Simulation {
   std::optional<Failure> inspect() const;
   Failure lost() const;
   StepInUse step_in_use() const;
+  Ledger ledger_now() const;
   void set_limit();
+  void scale_masses();
   double displacement_cap_ = std::numeric_limits<double>::infinity();  ///< s: after halvings
   std::uint64_t larger_since_ = 0;  ///< step from which a much larger one would have been allowed
   double target_ = 0.0;             ///< s: the event aimed at

@@ -337,6 +337,14 @@ void judge(Judge& j, const Simulation& s) {
   j.below("bound.block", {s.bound.block}, nb, true);
   j.positive("state.step", s.state.step);
   j.positive("step_limit", s.step_limit);
+  if (!s.inertia.empty()) j.sized("inertia", s.inertia, nb);
+  for (const auto& mass : s.blocks.node_mass) j.sized("node_mass", mass, nb);
+  for (const auto& entry : s.blocks.inverse_mass) {
+    j.sized("inverse_mass", entry, s.blocks.mass_kind == MassKind::consistent ? nb : 0);
+  }
+  for (std::size_t i = 0; i < s.inertia.size() && j.flaw().empty(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) j.positive("node_mass", s.blocks.node_mass[k][i]);
+  }
   judge_contacts(j, s.contacts, s.blocks, s.laws);
   if (j.flaw().empty()) judge_places(j, s);
 }
@@ -356,6 +364,11 @@ void list_memory(Archive& a, Simulation& s) {
   a("step_before", s.step_before_);
   a("steps_left", s.steps_left_);
   if (!s.explicit_method()) list_implicit(a, s);
+  if (s.model.solver.mass_scaling > 0.0) {  // masses by their bits, not by their factors
+    a("inertia", s.inertia);
+    a("node_mass", s.blocks.node_mass);
+    a("inverse_mass", s.blocks.inverse_mass);
+  }
 }
 
 void remember(const Simulation& sim, Record& record) {

@@ -1,0 +1,100 @@
+// solver.mass_scaling: a few small blocks no longer hold the step of all.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "forces/mass_scaling.hpp"
+#include "model/read_model.hpp"
+#include "run/simulation.hpp"
+
+namespace edda {
+namespace {
+
+/// A cube on a floor, and a pebble on the cube, `height` above it.
+Simulation pebble(const std::string& solver, double height = 0.0) {
+  const std::string low = std::to_string(1.0 + height), high = std::to_string(1.05 + height);
+  Result<Model> model = read_model_text(
+      "[materials.rock]\ndensity = 2600\nyoung = 20e9\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = 30\n[[block]]\nfixed = true\npolygon = [[-1,-1],[2,-1],[2,0],[-1,0]]\n"
+      "[[block]]\npolygon = [[0,0],[1,0],[1,1],[0,1]]\n"
+      "[[block]]\npolygon = [[0.4," +
+          low + "],[0.45," + low + "],[0.45," + high + "],[0.4," + high +
+          "]]\n[solver]\nduration = 1\n" + solver,
+      "t.toml", {});
+  EXPECT_TRUE(model.ok()) << to_string(model.faults()[0]);
+  Result<Simulation> made = Simulation::create(std::move(model.value()));
+  EXPECT_TRUE(made.ok());
+  return std::move(made.value());
+}
+
+std::string scaled_to(double step) {
+  return "mass_scaling = " + std::to_string(1e6 * step) + "e-6\n";
+}
+
+double free_step() {
+  return pebble("").step_limit;
+}
+
+TEST(MassScaling, ReachesTheStepWithThePebbleAlone) {
+  const double step = 5.0 * free_step();
+  for (const char* mass : {"", "mass = 'covering'\n", "mass = 'consistent'\n"}) {
+    const Simulation sim = pebble(scaled_to(step) + mass);
+    EXPECT_GE(sim.step_limit, step * (1.0 - 1e-6)) << mass;
+    ASSERT_EQ(sim.inertia.size(), 3u);
+    EXPECT_EQ(sim.inertia[1], 1.0);
+    EXPECT_GT(sim.inertia[2], 5.0);
+    EXPECT_NEAR(added_mass(sim.blocks, sim.inertia), (sim.inertia[2] - 1.0) * sim.blocks.mass[2],
+                1e-9 * sim.blocks.mass[2]);
+    EXPECT_NEAR(sim.blocks.mass[2], 2600 * 0.05 * 0.05, 1e-9) << "its weight stays";
+  }
+  EXPECT_TRUE(pebble("").inertia.empty());
+  EXPECT_TRUE(pebble(scaled_to(0.5 * free_step())).inertia.empty());
+}
+
+TEST(MassScaling, LeavesTheStateAtRestAsItIs) {
+  const double step = 5.0 * free_step();
+
+  for (const std::string& solver : {std::string(), scaled_to(step)}) {
+    Simulation sim = pebble(solver + "damping = { local = 0.8 }\n");
+    sim.start(0.03);
+    while (sim.state.time < 0.03) ASSERT_FALSE(sim.step());
+    double on_floor = 0.0, on_cube = 0.0;
+    for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
+      const double n = sim.contacts.share[k] * sim.contacts.normal[k];
+      const Id low = std::min(sim.contacts.block_i[k], sim.contacts.block_j[k]);
+      (low == 0 ? on_floor : on_cube) += n;
+    }
+    EXPECT_NEAR(on_cube, 2600 * 0.05 * 0.05 * 9.81, 1e-3 * on_cube) << solver;
+    EXPECT_NEAR(on_floor, 2600 * (1.0 + 0.05 * 0.05) * 9.81, 1e-3 * on_floor) << solver;
+  }
+}
+
+TEST(MassScaling, InMotionKeepsMomentumAndTheLedger) {
+  Simulation sim = pebble("", 0.3);
+  sim.start(1.0);
+  const double before_start = sim.ledger().drift;
+  for (int n = 0; n < 3000; ++n) ASSERT_FALSE(sim.step());
+  auto momentum = [&] {
+    Vec2 sum;
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum += sim.blocks.node_mass[k][2] * Vec2{sim.state.vx[k][2], sim.state.vy[k][2]};
+    }
+    return sum;
+  };
+  const Vec2 p = momentum();
+  ASSERT_LT(p.y, 0.0);
+  const double drift = sim.ledger().drift, kinetic = sim.ledger().kinetic;
+  sim.model.solver.mass_scaling = 5.0 * free_step();
+  sim.change_damping(sim.damping, true);
+  ASSERT_EQ(sim.inertia.size(), 3u);
+  EXPECT_GT(sim.inertia[2], 20.0);
+  EXPECT_NEAR(norm(momentum() - p), 0.0, 1e-12 * norm(p));
+  EXPECT_LT(sim.ledger().kinetic, 0.2 * kinetic);
+  EXPECT_NEAR(sim.ledger().drift, drift, 1e-10);
+  sim.aim_at(1.0);
+  while (sim.state.time < 1.0) ASSERT_FALSE(sim.step());
+  EXPECT_NEAR(sim.ledger().drift, before_start, 1e-5);
+}
+
+}  // namespace
+}  // namespace edda
