@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "settled_wall.hpp"
 #include "wall.hpp"
@@ -70,51 +71,53 @@ std::string held_text(double left, double low, double right, double high) {
       low, right, high);
 }
 
-/// A wall whose base is gone: it stands on the edges of ridges, comes down on them, and every brick
-/// goes its own way a little.
+/// A wall whose base is gone: it stands on the edges of ridges and comes down between
+/// them, already on its way.
 Simulation collapsing_wall(int columns, int rows) {
-  std::string toml = std::string(soft_rock) + "[joints.dry]\nfriction_angle = 30.0\n";
+  std::string toml =
+      std::string(soft_rock) + "damping = { contact = 0.2 }\n[joints.dry]\nfriction_angle = 30.0\n";
   toml +=
       fmt::format("[[brick_wall]]\ncolumns = {}\nrows = {}\nbrick = [1.0, 0.5]\n", columns, rows);
-  const double width = 8.0, high = 3.0;
+  const double width = 8.0, high = 4.0;
   for (double left = -4.0 * width - 0.3; left < columns + 4.0 * width; left += width) {
     toml += fmt::format("[[block]]\nfixed = true\npolygon = [[{}, {}], [{}, {}], [{}, 0.0]]\n",
                         left, -high, left + width, -high, left + 0.5 * width);
   }
   Simulation sim = built(read_model_text(toml, "collapse.toml"));
-  const BlockSet& b = sim.blocks;
-  std::mt19937 rng(1);
-  std::uniform_real_distribution<double> u(-1.0, 1.0);
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    if (b.fixed[i]) continue;
-    const Vec2 v{0.5 * u(rng), 0.5 * u(rng) - 3.0};
-    const double spin = 0.5 * u(rng);
-    for (std::size_t k = 0; k < 3; ++k) {
-      sim.state.vx[k][i] = v.x - spin * (b.node_y[k][i] - b.centroid_y[i]);
-      sim.state.vy[k][i] = v.y + spin * (b.node_x[k][i] - b.centroid_x[i]);
-    }
+  constexpr double fallen = 1.5;  // m/s
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    if (sim.blocks.fixed[i]) continue;
+    for (auto& vy : sim.state.vy) vy[i] = -fallen;
   }
   sim.start(1000.0);
   take_time(sim, 0.25);
   return sim;
 }
 
-/// Polygons side by side above a slope, thrown down it and at each other, until they have met.
+/// Random polygons that fit together at first, on a slope, the upper ones ahead of the lower.
 Simulation flowing_heap(int count) {
-  const double slope = 30.0 * std::numbers::pi / 180.0, cell = 1.05;
+  const double slope = 35.0 * std::numbers::pi / 180.0;
   const int columns = std::max(2, static_cast<int>(std::sqrt(3.0 * count)));
+  const int rows = std::max(1, count / columns);
   std::mt19937 rng(1);
-  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  std::uniform_real_distribution<double> u(-0.22, 0.22);
+  std::vector<Vec2> corners;  // of a net, those at its foot in a line
+  for (int j = 0; j <= rows; ++j) {
+    for (int i = 0; i <= columns; ++i) corners.push_back({i + u(rng), j == 0 ? 0.0 : j + u(rng)});
+  }
   std::string toml =
       fmt::format("gravity = [{}, {}]\n", 9.81 * std::sin(slope), -9.81 * std::cos(slope));
   toml +=
-      std::string(soft_rock) + "damping = { contact = 0.2 }\n[joints.dry]\nfriction_angle = 25.0\n";
-  toml += held_text(-10.0, -2.5, cell * columns + 40.0, -0.5);
-  for (int i = 0; i < count; ++i) {
-    const double x = cell * (i % columns), y = 0.1 + cell * (i / columns);
-    toml += "[[block]]\n" + polygon_text(rng, {x, y}, 0.5 + 0.02 * u(rng));
-    toml += fmt::format("velocity = [{}, {}]\nangular_velocity = {}\n",
-                        3.0 + 0.1 * y + 0.5 * u(rng), 0.5 * u(rng) - 0.2 * y, u(rng));
+      std::string(soft_rock) + "damping = { contact = 0.2 }\n[joints.dry]\nfriction_angle = 20.0\n";
+  toml += held_text(-10.0, -2.0, columns + 60.0, 0.0);
+  for (int k = 0; k < columns * rows; ++k) {
+    const int first = k / columns * (columns + 1) + k % columns;
+    toml += "[[block]]\npolygon = [";
+    for (const int c : {first, first + 1, first + columns + 2, first + columns + 1}) {
+      const Vec2 p = corners[static_cast<std::size_t>(c)];
+      toml += fmt::format("[{}, {}], ", p.x, p.y);
+    }
+    toml += fmt::format("]\nvelocity = [{}, 0.0]\n", 0.3 * (1 + k / columns));
   }
   Simulation sim = built(read_model_text(toml, "heap.toml"));
   sim.start(1000.0);

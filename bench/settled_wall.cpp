@@ -160,16 +160,23 @@ void damp(Simulation& s, const Damping& damping, long steps) {
   take_steps(s, steps);
 }
 
-/// Damped where it is stiff, and so that its slowest wave does not swing, either.
-Rest settle(int columns, int rows) {
-  Simulation s = wall(columns, rows);
+/// So many times the period of its slowest wave, damped where it is stiff, and so that this wave
+/// does not swing, either.
+void settle(Simulation& s, int rows, double periods) {
   const double height = 0.5 * rows, speed = std::sqrt(20e9 / 2600.0), period = 4.0 * height / speed;
   Damping damping;
   damping.local = 0.8;
   damping.mass = 2.0 * speed / height;
-  const long steps = std::lround(12.0 * period / (0.7 * s.state.step));
-  damp(s, damping, steps);
-  return rest_of(s, columns);
+  damp(s, damping, std::lround(periods * period / (0.7 * s.state.step)));
+}
+
+/// A wall as drawn, with what another at rest can lend it.
+Simulation lent(int columns, int rows, const Rest& rest) {
+  Simulation s = built_wall(columns, rows);
+  put(s, rest, columns);
+  touch(s, rest, columns);
+  s.start(1000.0);
+  return s;
 }
 
 template <class Map>
@@ -196,46 +203,65 @@ bool read_map(std::ifstream& in, Map& map) {
   return static_cast<bool>(in);
 }
 
-/// Settles the wall, or reads what it came to when it did before. The file begins with the model.
-Rest rest_from(int columns, int rows, const std::string& cache) {
-  if (cache.empty()) return settle(columns, rows);
-  const std::string model = "at rest 1" + wall_model(columns, rows);
-  const std::filesystem::path path =
-      std::filesystem::path(cache) /
-      ("wall-" + std::to_string(columns) + "x" + std::to_string(rows) + ".rest");
+/// Begins a file: another model, or another way to its rest, does not fit.
+std::string title_of(int columns, int rows) {
+  return "at rest, 2" + wall_model(columns, rows);
+}
+
+bool read_rest(const std::filesystem::path& path, const std::string& title, Rest& rest) {
   std::ifstream in(path, std::ios::binary);
-  std::string begins(model.size(), ' ');
+  std::string begins(title.size(), ' ');
   in.read(begins.data(), static_cast<std::streamsize>(begins.size()));
-  Rest rest;
-  rest.columns = columns;
-  if (in && begins == model && read_map(in, rest.bricks) && read_map(in, rest.touches)) return rest;
-  rest = settle(columns, rows);
-  std::filesystem::create_directories(cache);
-  const std::string beside = path.string() + ".part";
+  return in && begins == title && read_map(in, rest.bricks) && read_map(in, rest.touches);
+}
+
+void write_rest(const std::filesystem::path& path, const std::string& title, const Rest& rest) {
+  std::filesystem::create_directories(path.parent_path());
+  const std::filesystem::path beside = path.string() + ".part";
   std::ofstream out(beside, std::ios::binary);
-  out << model;
+  out << title;
   write_map(out, rest.bricks);
   write_map(out, rest.touches);
   out.close();
   if (out) std::filesystem::rename(beside, path);
+}
+
+/// Ends feel each other up to about two heights away, in a hundredth of what they are off by.
+int short_columns(int rows) {
+  return std::max(4 * rows + 7, 20);
+}
+
+/// The same where a millionth counts: at the top of the wall sides press on each other with next to
+/// nothing.
+int long_columns(int rows) {
+  return std::max(12 * rows + 7, 60);
+}
+
+/// Settles the wall, or reads what it came to when it did before.
+Rest rest_from(int columns, int rows, const std::string& cache) {
+  const std::string name = "wall-" + std::to_string(columns) + "x" + std::to_string(rows) + ".rest";
+  const std::filesystem::path path = std::filesystem::path(cache) / name;
+  Rest rest;
+  rest.columns = columns;
+  if (!cache.empty() && read_rest(path, title_of(columns, rows), rest)) return rest;
+  const bool as_drawn = columns <= short_columns(rows);
+  Simulation s = as_drawn ? wall(columns, rows)
+                          : lent(columns, rows, rest_from(short_columns(rows), rows, cache));
+  settle(s, rows, as_drawn ? 12.0 : 4.0);
+  rest = rest_of(s, columns);
+  if (!cache.empty()) write_rest(path, title_of(columns, rows), rest);
   return rest;
 }
 
 }  // namespace
 
 Simulation settled_wall(int columns, int rows, const std::string& cache) {
-  // Ends feel each other up to about their height away.
-  const int short_columns = std::min(columns, std::max(4 * rows + 7, 20));
-  const Rest rest = rest_from(short_columns, rows, cache);
-  Simulation s = built_wall(columns, rows);
-  put(s, rest, columns);
-  touch(s, rest, columns);
-  s.start(1000.0);
-  // What the joins between ends and middle, and the middle itself, are off by.
+  Simulation s = lent(columns, rows, rest_from(std::min(columns, long_columns(rows)), rows, cache));
+  // What friction and the joins between ends and middle are still off by.
   Damping damping;
   damping.local = 0.8;
-  damp(s, damping, 300);
-  damp(s, {}, 100);
+  damp(s, damping, 200);
+  damp(s, {}, 50);
   return s;
 }
 

@@ -42,16 +42,28 @@ Field accelerations_of(Simulation& s) {
   return a;
 }
 
+/// Springs that neither open nor slide.
+void hold_contacts(ContactSet& c, Carrying which) {
+  constexpr double enough = 1e300;  // N
+  c.segments.clear();
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const bool closed = c.is(k, cs::closed);
+    if (!closed && (which == Carrying::now || c.is(k, cs::blocked) || !c.on_edge(k))) continue;
+    if (!closed) {
+      c.rest[k] = c.depth[k];
+      c.anchor[k] = c.foot[k] / c.span[k];
+    }
+    c.set(k, cs::closed | cs::bonded | cs::pulls | cs::glued);
+    c.tension[k] = enough;
+  }
+  c.look_everywhere();
+}
+
 }  // namespace
 
-double true_critical_step(const Simulation& sim, int rounds) {
+double true_critical_step(const Simulation& sim, Carrying which, int rounds) {
   Simulation s = sim;
-  s.contacts.segments.clear();
-  for (std::size_t c = 0; c < s.contacts.size(); ++c) {
-    if (s.contacts.is(c, cs::closed)) s.contacts.set(c, cs::bonded | cs::pulls | cs::glued);
-    s.contacts.tension[c] = 1e300;
-  }
-  s.contacts.look_everywhere();
+  hold_contacts(s.contacts, which);
   const Nodes x0 = s.state.x, y0 = s.state.y;
   const Field at_rest = accelerations_of(s);
   std::mt19937 rng(1);
@@ -61,32 +73,30 @@ double true_critical_step(const Simulation& sim, int rounds) {
     v.x[k][i] = u(rng);
     v.y[k][i] = u(rng);
   });
+  const double heaviest = *std::max_element(s.blocks.mass.begin(), s.blocks.mass.end());
+  constexpr double amplitude = 1e-8;  // m, were it all in the heaviest block
   double largest = 0.0;
   for (int round = 0; round < rounds; ++round) {
     double square = 0.0;
     for_each_node(s, [&](std::size_t k, std::size_t i) {
       square += s.blocks.node_mass[k][i] * (v.x[k][i] * v.x[k][i] + v.y[k][i] * v.y[k][i]);
     });
-    constexpr double amplitude = 1e-8;  // m, were it all in one node
-    double heaviest = 0.0;
-    for_each_node(s, [&](std::size_t k, std::size_t i) {
-      heaviest = std::max(heaviest, s.blocks.node_mass[k][i]);
-    });
     const double scale = amplitude * std::sqrt(heaviest / square);
     for_each_node(s, [&](std::size_t k, std::size_t i) {
-      s.state.x[k][i] = x0[k][i] + scale * v.x[k][i];
-      s.state.y[k][i] = y0[k][i] + scale * v.y[k][i];
+      v.x[k][i] *= scale;
+      v.y[k][i] *= scale;
+      s.state.x[k][i] = x0[k][i] + v.x[k][i];
+      s.state.y[k][i] = y0[k][i] + v.y[k][i];
     });
     const Field a = accelerations_of(s);
     double product = 0.0;
     for_each_node(s, [&](std::size_t k, std::size_t i) {
-      const double ax = (at_rest.x[k][i] - a.x[k][i]) / scale,
-                   ay = (at_rest.y[k][i] - a.y[k][i]) / scale;
-      product += s.blocks.node_mass[k][i] * (v.x[k][i] * ax + v.y[k][i] * ay);
-      v.x[k][i] = ax;
-      v.y[k][i] = ay;
+      const Vec2 pulled{at_rest.x[k][i] - a.x[k][i], at_rest.y[k][i] - a.y[k][i]};
+      product += s.blocks.node_mass[k][i] * (v.x[k][i] * pulled.x + v.y[k][i] * pulled.y);
+      v.x[k][i] = pulled.x;
+      v.y[k][i] = pulled.y;
     });
-    largest = std::max(largest, product / square);
+    largest = std::max(largest, product / (amplitude * amplitude * heaviest));
   }
   return 2.0 / std::sqrt(largest);
 }

@@ -6,8 +6,14 @@
 
 namespace edda {
 
-/// 2/omega_max of the system linearised where it stands, contacts that carry taken as sticking, by
-/// power iteration: `rounds` of it. From above: more rounds can only make it smaller.
-double true_critical_step(const Simulation& sim, int rounds);
+/// Which contacts count.
+enum class Carrying {
+  now,  ///< those that carry where the system stands
+  may,  ///< and all candidates that would if they touched
+};
+
+/// 2/omega_max of the system linearised where it stands, without damping, all contacts taken as
+/// sticking, by power iteration: `rounds` of it. From above: more rounds can only make it smaller.
+double true_critical_step(const Simulation& sim, Carrying which, int rounds);
 
 }  // namespace edda
