@@ -253,7 +253,7 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc && i <= 3; ++i) {
     given[static_cast<std::size_t>(i) - 1] = std::strtol(argv[i], nullptr, 10);
   }
-  const auto [columns, rows, steps] = given;
+  const long columns = given[0], rows = given[1], steps = given[2];
   if (argc != 4 || columns < 1 || rows < 1 || steps < 1 || columns * rows > 100'000'000) {
     std::fprintf(stderr, "usage: bench_kernel COLUMNS ROWS STEPS\n");
     return 2;
