@@ -17,6 +17,8 @@
 #include <utility>
 #include <vector>
 
+#include "stopwatch.hpp"
+
 namespace {
 
 using Index = std::int32_t;
@@ -78,6 +80,10 @@ struct Wall {
   Wall(Index wide, Index high);
   void contacts_at_step();
   void bricks_at_step();
+  void step_once() {
+    contacts_at_step();
+    bricks_at_step();
+  }
 
  private:
   void touch(Index i, Index corner, Index j, Index from);
@@ -259,25 +265,31 @@ int main(int argc, char** argv) {
     return 2;
   }
   Wall wall(static_cast<Index>(columns), static_cast<Index>(rows));
-  double in_contacts = 0.0, in_bricks = 0.0;
+  double in_contacts = 0.0, in_all = 0.0, seconds = 0.0;
   const long warm_up = steps / 10 + 1;
 #pragma omp parallel
-  for (long i = -warm_up; i < steps; ++i) {
-    const double first = now();
-    wall.contacts_at_step();
-    const double second = now();
-    wall.bricks_at_step();
-    const double third = now();
-    if (omp_get_thread_num() != 0 || i < 0) continue;
-    in_contacts += second - first;
-    in_bricks += third - second;
+  {
+    for (long i = 0; i < warm_up; ++i) wall.step_once();
+    const bool first = omp_get_thread_num() == 0;
+    const Stopwatch watch(omp_get_num_threads());
+    for (long i = 0; i < steps; ++i) {
+      const double begin = now();
+      wall.contacts_at_step();
+      const double middle = now();
+      wall.bricks_at_step();
+      if (!first) continue;
+      in_contacts += middle - begin;
+      in_all += now() - begin;
+    }
+    if (first) seconds = watch.seconds();
   }
   const double bricks = static_cast<double>(wall.bricks),
                contacts = static_cast<double>(wall.vertex.size()),
-               taken = static_cast<double>(steps);
+               ns_per_step = 1e9 * seconds / static_cast<double>(steps),
+               part = in_contacts / in_all;
   std::printf(
       "%d bricks, %.0f contacts, %.4f million brick-steps/s, %.2f ns/contact, %.2f ns/brick\n",
-      wall.bricks, contacts, 1e-6 * bricks * taken / (in_contacts + in_bricks),
-      1e9 * in_contacts / taken / contacts, 1e9 * in_bricks / taken / bricks);
+      wall.bricks, contacts, 1e3 * bricks / ns_per_step, part * ns_per_step / contacts,
+      (1.0 - part) * ns_per_step / bricks);
   return 0;
 }

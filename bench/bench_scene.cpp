@@ -12,7 +12,6 @@
 #define CALLGRIND_STOP_INSTRUMENTATION
 #endif
 
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -21,13 +20,13 @@
 
 #include "memory.hpp"
 #include "scenes.hpp"
+#include "stopwatch.hpp"
 #include "true_step.hpp"
 #include "wall.hpp"
 
 namespace {
 
 using edda::Simulation;
-using Clock = std::chrono::steady_clock;
 
 struct Options {
   std::string scene, cache;
@@ -58,10 +57,6 @@ bool read_options(int argc, char** argv, Options& o) {
   return !o.scene.empty();
 }
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 void describe(const edda::Scene& scene, double made_in) {
   const Simulation& s = scene.sim;
   std::size_t closed = 0;
@@ -77,14 +72,14 @@ void describe(const edda::Scene& scene, double made_in) {
 }
 
 /// What callgrind counts, too.
-void measure(Simulation& s, long steps) {
+void measure(Simulation& s, const Options& o) {
   const edda::OpenCloseCounts before = s.open_close;
   const edda::StageSeconds stages = s.seconds;
   const std::uint64_t searches = s.contacts.rebuilds, redone = s.steps.redone;
   CALLGRIND_START_INSTRUMENTATION;
-  const Clock::time_point start = Clock::now();
-  edda::take_steps(s, steps);
-  const double seconds = seconds_since(start);
+  const Stopwatch watch(static_cast<int>(o.threads));
+  edda::take_steps(s, o.steps);
+  const double seconds = watch.seconds();
   CALLGRIND_STOP_INSTRUMENTATION;
   const double sampled = s.seconds.sum() - stages.sum();
   const double scale = sampled > 0.0 ? seconds / sampled : 0.0;
@@ -92,7 +87,7 @@ void measure(Simulation& s, long steps) {
       "{\"steps\": %ld, \"seconds\": %.6g, \"switched\": %llu, \"passes\": %llu, "
       "\"searches\": %llu, \"redone\": %llu, \"search\": %.4g, \"forces\": %.4g, "
       "\"integrate\": %.4g}\n",
-      steps, seconds, static_cast<unsigned long long>(s.open_close.switched - before.switched),
+      o.steps, seconds, static_cast<unsigned long long>(s.open_close.switched - before.switched),
       static_cast<unsigned long long>(s.open_close.passes - before.passes),
       static_cast<unsigned long long>(s.contacts.rebuilds - searches),
       static_cast<unsigned long long>(s.steps.redone - redone),
@@ -130,9 +125,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   omp_set_num_threads(static_cast<int>(o.threads));
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch(static_cast<int>(o.threads));
   edda::Scene scene = edda::make_scene(o.scene, o.cache);
-  describe(scene, seconds_since(start));
+  describe(scene, watch.seconds());
   if (o.limit > 0) {
     compare_steps(scene.sim, static_cast<int>(o.limit));
     return 0;
@@ -140,7 +135,7 @@ int main(int argc, char** argv) {
   edda::take_steps(scene.sim, 2);  // what grows once has grown
   for (long i = 0; i < o.repeat; ++i) {
     if (o.wait && !wait_for_line()) return 0;
-    measure(scene.sim, o.steps);
+    measure(scene.sim, o);
   }
   const edda::MemoryInUse m = edda::take_apart(std::move(scene.sim));
   std::printf(
