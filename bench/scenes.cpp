@@ -111,13 +111,13 @@ Simulation flowing_heap(int count) {
       std::string(soft_rock) + "damping = { contact = 0.2 }\n[joints.dry]\nfriction_angle = 20.0\n";
   toml += held_text(-10.0, -2.0, columns + 60.0, 0.0);
   for (int k = 0; k < columns * rows; ++k) {
-    const int first = k / columns * (columns + 1) + k % columns;
+    const int row = k / columns, first = row * (columns + 1) + k % columns;
     toml += "[[block]]\npolygon = [";
     for (const int c : {first, first + 1, first + columns + 2, first + columns + 1}) {
       const Vec2 p = corners[static_cast<std::size_t>(c)];
       toml += fmt::format("[{}, {}], ", p.x, p.y);
     }
-    toml += fmt::format("]\nvelocity = [{}, 0.0]\n", 0.3 * (1 + k / columns));
+    toml += fmt::format("]\nvelocity = [{}, 0.0]\n", 0.3 * (1 + row));
   }
   Simulation sim = built(read_model_text(toml, "heap.toml"));
   sim.start(1000.0);
@@ -132,7 +132,8 @@ Simulation free_blocks(int count) {
   std::string toml =
       "gravity = [0.0, 0.0]\n" + std::string(soft_rock) + "[joints.dry]\nfriction_angle = 30.0\n";
   for (int i = 0; i < count; ++i) {
-    toml += "[[block]]\n" + polygon_text(rng, {1.25 * (i % columns), 1.25 * (i / columns)}, 0.5);
+    const int row = i / columns, column = i % columns;
+    toml += "[[block]]\n" + polygon_text(rng, {1.25 * column, 1.25 * row}, 0.5);
     toml += fmt::format("angular_velocity = {}\n", u(rng));
   }
   Simulation sim = built(read_model_text(toml, "free.toml"));

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <unordered_map>
 
@@ -268,7 +269,8 @@ Simulation settled_wall(int columns, int rows, const std::string& cache) {
 double error_of_row_forces(const Simulation& s) {
   const BlockSet& b = s.blocks;
   const ContactSet& c = s.contacts;
-  std::map<int, double> weight, force;  // by row; of the joint beneath it
+  std::map<int, double, std::greater<>> weight;  // by row, from above
+  std::map<int, double> force;                   // of the joint beneath the row
   for (std::size_t i = 0; i < b.size(); ++i) {
     if (!b.fixed[i]) weight[place_of(b, i).row] += b.mass[i] * -s.model.gravity.y;
   }
@@ -277,9 +279,9 @@ double error_of_row_forces(const Simulation& s) {
     if (i != j && c.is(k, cs::closed)) force[std::max(i, j)] += c.share[k] * c.normal[k];
   }
   double above = 0.0, error = 0.0;
-  for (auto row = weight.rbegin(); row != weight.rend(); ++row) {
-    above += row->second;
-    error = std::max(error, std::abs(force[row->first] - above));
+  for (const auto& [row, of_row] : weight) {
+    above += of_row;
+    error = std::max(error, std::abs(force[row] - above));
   }
   return error / above;
 }
