@@ -244,6 +244,8 @@ TEST(BadModel, Ranges) {
              "below 1"),
       broken("negative mass damping", more, more + "damping = { mass = -1 }\n", 40,
              "solver.damping.mass", "at least 0"),
+      broken("negative mass scaling", more, more + "mass_scaling = -1\n", 40, "solver.mass_scaling",
+             "at least 0"),
       broken("displacement ratio 0", more, more + "max_displacement_ratio = 0\n", 40,
              "solver.max_displacement_ratio", "above 0"),
       broken("thickness 0", "title = \"base\"", "thickness = 0", 1, "thickness", "above 0"),

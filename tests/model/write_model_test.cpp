@@ -125,6 +125,7 @@ allow_unstable = true
 safety = 0.7
 dynamic = true
 max_displacement_ratio = "2 %"
+mass_scaling = "3 us"
 damping = { mass = "2 1/s", local = 0.1, contact = 0.3 }
 [output]
 every = 0.3
@@ -250,6 +251,7 @@ void expect_every_run_key(const Model& m) {
   EXPECT_TRUE(m.solver.allow_unstable);
   EXPECT_EQ(m.solver.safety, 0.7);
   EXPECT_EQ(m.solver.max_displacement_ratio, 0.02);
+  EXPECT_EQ(m.solver.mass_scaling, 3e-6);
   EXPECT_EQ(m.solver.damping.mass, 2.0);
   EXPECT_EQ(m.solver.damping.local, 0.1);
   EXPECT_EQ(m.solver.damping.contact, 0.3);
