@@ -21,9 +21,9 @@ std::vector<Id> raise_inertia(BlockSet& b, std::vector<double>& inertia, const S
   constexpr int most_rounds = 20;
   constexpr double rounding = 1e-9;
   std::vector<Id> raised;
-  std::vector<double> own;
   for (int round = 0; round < most_rounds; ++round) {
-    own = steps_of_blocks(b, state, pose, contacts, springs, laws, damping, step);
+    const std::vector<double> own =
+        steps_of_blocks(b, state, pose, contacts, springs, laws, damping, step);
     bool enough = true;
     for (std::size_t i = 0; i < b.size(); ++i) {
       if (!(own[i] < step) || !(own[i] > 0.0)) continue;

@@ -119,16 +119,25 @@ void keep_once(std::vector<Id>& list) {
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
+/// Change of velocity per change of acceleration, as advance() makes it, s.
+double kick_of(const StepTaken& taken) {
+  const double h_mean = 0.5 * (taken.h_old + taken.h_new);
+  return h_mean / (1.0 + 0.5 * taken.mass_damping * h_mean);
+}
+
 /// One step's correction: what it works on.
 class Correction {
  public:
   Correction(ContactSet& contacts, const BlockSet& blocks, State& state, Pose& pose,
              const StepTaken& taken, double largest, SwitchingScratch& scratch)
-      : c_(contacts), b_(blocks), s_(state), pose_(pose), scratch_(scratch) {
-    const double h_mean = 0.5 * (taken.h_old + taken.h_new);
-    h_new_ = taken.h_new;
-    dv_per_force_ = h_mean / (1.0 + 0.5 * taken.mass_damping * h_mean);
-    settled_ = std::max(tolerance * largest, c_.noise);
+      : c_(contacts),
+        b_(blocks),
+        s_(state),
+        pose_(pose),
+        scratch_(scratch),
+        h_new_(taken.h_new),
+        dv_per_force_(kick_of(taken)),
+        settled_(std::max(tolerance * largest, contacts.noise)) {
     scratch_.moved.resize(b_.size(), 0);
     scratch_.set.clear();
     scratch_.pushed.clear();
@@ -227,8 +236,8 @@ class Correction {
   State& s_;
   Pose& pose_;
   SwitchingScratch& scratch_;
-  double h_new_ = 0.0, dv_per_force_ = 0.0;
-  double settled_ = 0.0;  ///< m
+  double h_new_, dv_per_force_;
+  double settled_;  ///< m
 };
 
 }  // namespace
