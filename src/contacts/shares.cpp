@@ -145,9 +145,6 @@ void update_lone_pair(ContactSet& c, std::size_t p) {
   const CornerPair& pair = c.pairs[p];
   PairMemory& m = c.pair_memory;
   const PairStand now = stand_of(c, pair);
-  const double moved =
-      std::abs(now.first - m.first_seen[p]) + std::abs(now.second - m.second_seen[p]);
-  if (moved <= m.slack[p] && now.against == m.against[p]) return;
   m.first_seen[p] = now.first;
   m.second_seen[p] = now.second;
   m.against[p] = now.against;
@@ -250,7 +247,9 @@ void update_shares(ContactSet& c) {
   for (std::size_t q = 0; q < c.pairs_moved.size(); ++q) {
     if (c.pairs_moved[q] == 0.0) continue;
     const std::size_t end = std::min(c.lone_pairs, (q + 1) * pairs_at_once);
-    for (std::size_t p = q * pairs_at_once; p < end; ++p) update_lone_pair(c, p);
+    for (std::size_t p = q * pairs_at_once; p < end; ++p) {
+      if (has_moved(view, contacts, p)) update_lone_pair(c, p);
+    }
   }
   for (const Id k : c.tangled) start_share(c, k);
   for (std::size_t p = c.lone_pairs; p < c.pairs.size(); ++p) {

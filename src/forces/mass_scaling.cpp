@@ -5,22 +5,25 @@
 #include "base/parallel.hpp"
 
 namespace edda {
+namespace {
 
+/// Multiplies the masses of the nodes of block i, its weight left as it is.
 void multiply_inertia(BlockSet& b, std::size_t i, double factor) {
   for (std::vector<double>& mass : b.node_mass) mass[i] *= factor;
   if (b.mass_kind != MassKind::consistent) return;
   for (std::vector<double>& entry : b.inverse_mass) entry[i] /= factor;
 }
 
-std::vector<Id> raise_inertia(BlockSet& b, std::vector<double>& inertia, const State& state,
-                              const Pose& pose, const ContactSet& contacts,
-                              const BoundarySprings& springs, const LawTable& laws,
-                              const Damping& damping, double step) {
+}  // namespace
+
+std::vector<double> raise_inertia(BlockSet& b, const State& state, const Pose& pose,
+                                  const ContactSet& contacts, const BoundarySprings& springs,
+                                  const LawTable& laws, const Damping& damping, double step) {
   // Frequencies fall as the root of the mass; damping makes the step fall a little faster than
   // that.
   constexpr int most_rounds = 20;
   constexpr double rounding = 1e-9;
-  std::vector<Id> raised;
+  std::vector<double> factors;
   for (int round = 0; round < most_rounds; ++round) {
     const std::vector<double> own =
         steps_of_blocks(b, state, pose, contacts, springs, laws, damping, step);
@@ -28,15 +31,14 @@ std::vector<Id> raise_inertia(BlockSet& b, std::vector<double>& inertia, const S
     for (std::size_t i = 0; i < b.size(); ++i) {
       if (!(own[i] < step) || !(own[i] > 0.0)) continue;
       enough = false;
-      if (inertia.empty()) inertia.assign(b.size(), 1.0);
+      if (factors.empty()) factors.assign(b.size(), 1.0);
       const double ratio = step / own[i], factor = ratio * ratio * (1.0 + rounding);
       multiply_inertia(b, i, factor);
-      inertia[i] *= factor;
-      if (round == 0) raised.push_back(static_cast<Id>(i));
+      factors[i] *= factor;
     }
     if (enough) break;
   }
-  return raised;
+  return factors;
 }
 
 double added_mass(const BlockSet& b, const std::vector<double>& inertia) {

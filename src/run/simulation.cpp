@@ -151,17 +151,18 @@ void Simulation::search(double reach) {
 void Simulation::scale_masses() {
   const Solver& solver = model.solver;
   const double step = solver.time_step ? solver.mass_scaling : solver.mass_scaling / solver.safety;
-  const std::vector<double> before = inertia;
   const bool moving = state.steps > 0;
   const double energy = moving ? ledger_now().balance() : 0.0;
-  const std::vector<Id> raised =
-      raise_inertia(blocks, inertia, state, pose, contacts, springs, laws, damping, step);
-  if (!moving || raised.empty()) return;
-  for (const Id i : raised) {
-    const double factor = inertia[i] / (before.empty() ? 1.0 : before[i]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      state.vx[k][i] /= factor;
-      state.vy[k][i] /= factor;
+  const std::vector<double> factor =
+      raise_inertia(blocks, state, pose, contacts, springs, laws, damping, step);
+  if (factor.empty()) return;
+  if (inertia.empty()) inertia.assign(blocks.size(), 1.0);
+  for (std::size_t i = 0; i < blocks.size(); ++i) inertia[i] *= factor[i];
+  if (!moving) return;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      state.vx[k][i] /= factor[i];
+      state.vy[k][i] /= factor[i];
     }
   }
   step_change_energy += ledger_now().balance() - energy;

@@ -237,7 +237,6 @@ bool belong_together(const ContactSet& c, const BlockSet& b) {
 
 void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawTable& laws) {
   const std::size_t nc = c.size(), nv = b.vertex_count();
-  const std::size_t chunks = (nc + ContactSet::chunk - 1) / ContactSet::chunk;
   for (const auto* ids : {&c.edge, &c.edge_end, &c.block_i, &c.block_j, &c.pair_of}) {
     j.sized("contacts", *ids, nc);
   }
@@ -262,7 +261,7 @@ void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawT
   j.sized("contacts.law", c.law, nc);
   j.sized("contacts.state", c.state, nc);
   j.sized("contacts.why", c.why, nc);
-  j.sized("contacts.deepest", c.deepest, chunks);
+  j.sized("contacts.deepest", c.deepest, c.chunks());
   j.sized("contacts.built_x", c.built_x, nv);
   j.sized("contacts.built_y", c.built_y, nv);
   j.sized("contacts.begin_of_vertex", c.begin_of_vertex, nv + 1);
