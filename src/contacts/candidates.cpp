@@ -20,7 +20,7 @@ namespace {
 using DoubleArray = std::vector<double> ContactSet::*;
 
 /// What a candidate remembers from one list to the next.
-constexpr std::array<DoubleArray, 23> memory = {&ContactSet::tension,
+constexpr std::array<DoubleArray, 21> memory = {&ContactSet::tension,
                                                 &ContactSet::depth,
                                                 &ContactSet::depth_1,
                                                 &ContactSet::depth_2,
@@ -40,23 +40,18 @@ constexpr std::array<DoubleArray, 23> memory = {&ContactSet::tension,
                                                 &ContactSet::slip_trial,
                                                 &ContactSet::fracture_work,
                                                 &ContactSet::friction_work,
-                                                &ContactSet::damping_work,
-                                                &ContactSet::fx,
-                                                &ContactSet::fy};
+                                                &ContactSet::damping_work};
 
 /// Filled anew; only their size matters here.
-constexpr std::array<DoubleArray, 10> scratch = {
-    &ContactSet::next_before,  &ContactSet::next_beyond, &ContactSet::before, &ContactSet::beyond,
-    &ContactSet::extend_start, &ContactSet::extend_end,  &ContactSet::span,   &ContactSet::tx,
-    &ContactSet::ty,           &ContactSet::next_share};
+constexpr std::array<DoubleArray, 5> scratch = {
+    &ContactSet::before, &ContactSet::beyond, &ContactSet::span, &ContactSet::tx, &ContactSet::ty};
 
 void resize(ContactSet& c, std::size_t n) {
   for (DoubleArray a : memory) (c.*a).assign(n, 0.0);
   for (DoubleArray a : scratch) (c.*a).assign(n, 0.0);
-  c.on_ends.assign(4 * n, 0.0);
+  c.force.assign(4 * n, 0.0);
   c.state.assign(n, 0);
   c.why.assign(n, Blocked::no);
-  c.balanced.assign(n, 0);
   c.law.assign(n, 0);
   c.edge_end.resize(n);
   c.block_i.resize(n);
@@ -92,14 +87,11 @@ void start_candidate(ContactSet& c, const BlockSet& b, const Pose& pose, const L
   set_spring(c, b, pose, laws, k);
 }
 
-/// How far an edge runs on: at a reentrant corner the block goes on beyond the end of the edge.
 void extend_edges(ContactSet& c, const BlockSet& b) {
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    const double run_on = 0.05 * b.edge_length[c.edge[k]];
-    c.extend_start[k] = b.corner[c.edge[k]] > std::numbers::pi * 1.01 ? run_on : 0.0;
-    c.extend_end[k] = b.corner[c.edge_end[k]] > std::numbers::pi * 1.01 ? run_on : 0.0;
-    c.before[k] = c.extend_start[k];
-    c.beyond[k] = c.extend_end[k];
+  list_run_ons(c, b);
+  for (const RunOn& r : c.run_ons) {
+    c.before[r.candidate] = r.before;
+    c.beyond[r.candidate] = r.beyond;
   }
 }
 
@@ -143,6 +135,18 @@ void renumber(ContactSet& next, const ContactSet& old, const std::vector<Id>& ne
 }
 
 }  // namespace
+
+void list_run_ons(ContactSet& c, const BlockSet& b) {
+  c.run_ons.clear();
+  const auto reentrant = [&](Id v) { return b.corner[v] > std::numbers::pi * 1.01; };
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const Id e = c.edge[k], f = c.edge_end[k];
+    if (!reentrant(e) && !reentrant(f)) continue;
+    const double run_on = 0.05 * b.edge_length[e];
+    c.run_ons.push_back(
+        {static_cast<Id>(k), reentrant(e) ? run_on : 0.0, reentrant(f) ? run_on : 0.0});
+  }
+}
 
 double contact_length(const BlockSet& b, const Pose& pose, Id vertex, Id edge) {
   const EdgeFrame e = edge_frame(at(pose.x, pose.y, edge), at(pose.x, pose.y, b.next[edge]));
@@ -230,7 +234,8 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
       ++old;
     if (old < contacts.size() && NearPair{contacts.vertex[old], contacts.edge[old]} == pair) {
       for (DoubleArray a : memory) (next.*a)[k] = (contacts.*a)[old];
-      for (std::size_t e = 0; e < 4; ++e) next.on_ends[4 * k + e] = contacts.on_ends[4 * old + e];
+      next.slip_trial[k] = contacts.slip_before_cut(old);
+      for (std::size_t e = 0; e < 4; ++e) next.force[4 * k + e] = contacts.force[4 * old + e];
       next.state[k] = contacts.state[old];
       next.why[k] = contacts.why[old];
       next.law[k] = contacts.law[old];

@@ -22,6 +22,10 @@ inline constexpr double opposite = 0.99;
 void rebuild_candidates(ContactSet& contacts, const BlockSet& blocks, const State& state,
                         const Pose& pose, const LawTable& laws, double reach);
 
+/// Fills run_ons: at a reentrant corner the block goes on beyond the end of the edge, and so does,
+/// by a twentieth of its length, the stretch that carries.
+void list_run_ons(ContactSet& contacts, const BlockSet& blocks);
+
 /// Closes what touches at the start: contacts whose gap is within 1e-6 of the smaller block's size
 /// and whose law has cohesion, tension, glue or a peak friction above the residual are bonded, and
 /// grouped into segments by their pair of edges. Those with tensile strength (or glue) pull, too.

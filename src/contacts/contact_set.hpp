@@ -53,6 +53,18 @@ struct PairMemory {
   void forget(std::size_t p) { first_seen[p] = std::numeric_limits<double>::infinity(); }
 };
 
+/// What a candidate's share of its spring is about to be, and how far its edge carries then.
+struct NextShare {
+  double share, before, beyond;
+  bool balanced;  ///< its partner takes what it gives
+};
+
+/// A candidate whose edge has a reentrant end: how far the edge is taken to run on, m.
+struct RunOn {
+  Id candidate;
+  double before, beyond;
+};
+
 /// Contacts closed at the start between one pair of edges, which break together.
 struct Segment {
   std::vector<Id> members;  ///< candidates
@@ -110,11 +122,6 @@ struct ContactTerms {
                  to = self().span[c] + self().beyond[c] + slack;
     return foot >= from && foot <= to;
   }
-  /// Whether its shear was cut at the last step.
-  bool cut(std::size_t c) const {
-    return carries(self().hold[c]) && !is_bonded(self().hold[c]) &&
-           self().shear[c] != -self().ks[c] * self().slip_trial[c];
-  }
   /// Unit tangent of the edge.
   [[gnu::always_inline]] Vec2 tangent(std::size_t c) const { return {self().tx[c], self().ty[c]}; }
 
@@ -127,8 +134,8 @@ struct ContactTerms {
 struct ContactView : ContactTerms<ContactView> {
   const Id *vertex, *edge, *edge_end;
   double *depth, *depth_1, *depth_2, *foot, *span, *tx, *ty, *share, *before, *beyond, *hold, *rest,
-      *anchor, *kn, *ks, *friction, *cohesion, *alpha, *normal, *shear, *shear_1, *slip_trial,
-      *friction_work, *fx, *fy, *on_ends;
+      *anchor, *kn, *ks, *friction, *cohesion, *normal, *shear, *shear_1, *slip_trial,
+      *friction_work, *force;
 };
 
 struct ContactSet : ContactTerms<ContactSet> {
@@ -138,8 +145,6 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::vector<Id> vertex, edge, edge_end;  ///< A, P2, P3
   std::vector<Id> block_i, block_j;        ///< of the vertex, of the edge
   std::vector<std::uint16_t> law;          ///< row of the LawTable
-  std::vector<double> extend_start,
-      extend_end;  ///< m the edge is taken to run on at reentrant ends
 
   // Geometry. Filled by update_gaps() at every step.
   std::vector<double> depth, depth_1, depth_2;  ///< d at n, n - 1, n - 2, m
@@ -160,6 +165,8 @@ struct ContactSet : ContactTerms<ContactSet> {
       deepest;  ///< [chunks] largest effective penetration of a closed contact at n - 1, m
   std::vector<std::uint8_t>
       lingers;  ///< [chunks] 1: one without a partner may have a part of its share
+  std::vector<std::uint8_t>
+      cuts;  ///< [chunks] 1: the shear of one was cut at the last step, and slip_trial holds
   void stir(std::size_t c) { stirs[c / chunk] = 1; }
   std::size_t chunks() const { return (size() + chunk - 1) / chunk; }
   std::size_t chunk_end(std::size_t q) const { return std::min(size(), (q + 1) * chunk); }
@@ -167,8 +174,11 @@ struct ContactSet : ContactTerms<ContactSet> {
   void look_everywhere() {
     hold.resize(size());
     for (std::size_t c = 0; c < size(); ++c) hold[c] = hold_of(state[c]);
-    stirs.assign(chunks(), 1);
-    lingers.assign(chunks(), 1);
+    reduced.clear();
+    for (std::size_t c = 0; c < size(); ++c) {
+      if (alpha[c] < 1.0) reduced.push_back(static_cast<Id>(c));
+    }
+    for (auto* flags : {&stirs, &lingers, &cuts}) flags->assign(chunks(), 1);
   }
 
   // Memory. Filled by the transitions.
@@ -183,14 +193,14 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::vector<double> cohesion;  ///< c L in force, N
   std::vector<double> tension;   ///< sigma_t L in force, N; of those that pull
   std::vector<double> alpha;     ///< part of the last force that the open-close iteration kept
+  std::vector<Id> reduced;       ///< those whose alpha is below 1; may name one twice
   std::vector<double> normal;    ///< N at n - 1 of the whole spring (before share and alpha), N
   std::vector<double> shear, shear_1;  ///< T at n - 1 and n - 2 of the whole spring, N
-  std::vector<double> slip_trial;      ///< s before the return map at n - 1, m
+  std::vector<double> slip_trial;  ///< s before the return map at n - 1, m; see slip_before_cut()
   std::vector<double> friction_work, damping_work, fracture_work;  ///< dissipated so far, J
 
-  // Forces of the last evaluation, N: on the vertex, and on the ends of the edge.
-  std::vector<double> fx, fy;
-  std::vector<double> on_ends;  ///< [4 nc] x, y on P2, x, y on P3
+  // Forces of the last evaluation, N.
+  std::vector<double> force;  ///< [4 nc] x, y on P1, x, y on P3; on P2 is what is missing to zero
 
   std::vector<Blocked> why;  ///< why it is blocked
   std::vector<Id> blocked;   ///< the blocked candidates, ascending
@@ -199,14 +209,12 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::size_t lone_pairs = 0;  ///< how many share none
   PairMemory pair_memory;      ///< of the lone ones
   std::vector<Id> tangled;     ///< candidates in several pairs, and their partners, ascending
-  std::vector<double> pairs_moved;               ///< scratch of update_shares()
-  std::vector<Id> pair_of;                       ///< [nc] a pair the candidate is in, or no_id
-  std::vector<double> next_before, next_beyond;  ///< scratch of update_shares()
-  std::vector<double> next_share;                ///< scratch of update_shares()
-  std::vector<std::uint8_t>
-      balanced;                     ///< scratch of update_shares(): its partner takes what it gives
-  std::vector<Segment> segments;    ///< the bonded ones
-  std::vector<Id> begin_of_vertex;  ///< [nv + 1] candidates of a vertex
+  std::vector<NextShare> next_shares;  ///< of the tangled; scratch of update_shares()
+  std::vector<double> pairs_moved;     ///< scratch of update_shares()
+  std::vector<Id> pair_of;             ///< [nc] a pair the candidate is in, or no_id
+  std::vector<RunOn> run_ons;          ///< edges with a reentrant end, by candidate
+  std::vector<Segment> segments;       ///< the bonded ones
+  std::vector<Id> begin_of_vertex;     ///< [nv + 1] candidates of a vertex
 
   // Contacts of a block: entry = 2 candidate + side, first those of its vertices (side 0), then
   // those of its edges (side 1), each in the order of the candidates.
@@ -224,9 +232,31 @@ struct ContactSet : ContactTerms<ContactSet> {
   double retired_friction = 0.0, retired_damping = 0.0,
          retired_fracture = 0.0;  ///< J, of candidates let go
 
-  Vec2 on_vertex(std::size_t c) const { return {fx[c], fy[c]}; }
-  Vec2 on_start(std::size_t c) const { return {on_ends[4 * c], on_ends[4 * c + 1]}; }
-  Vec2 on_end(std::size_t c) const { return {on_ends[4 * c + 2], on_ends[4 * c + 3]}; }
+  Vec2 on_vertex(std::size_t c) const { return {force[4 * c], force[4 * c + 1]}; }
+  Vec2 on_start(std::size_t c) const { return -(on_vertex(c) + on_end(c)); }
+  Vec2 on_end(std::size_t c) const { return {force[4 * c + 2], force[4 * c + 3]}; }
+
+  void set_alpha(std::size_t c, double value) {
+    if (value < 1.0) reduced.push_back(static_cast<Id>(c));
+    alpha[c] = value;
+  }
+
+  /// s of step n - 1 before its return map, m.
+  double slip_before_cut(std::size_t c) const {
+    return cuts[c / chunk] != 0 ? slip_trial[c] : -shear[c] / ks[c];
+  }
+  /// Fills slip_trial in the chunk of c.
+  void keep_slips(std::size_t c) {
+    const std::size_t q = c / chunk;
+    if (cuts[q] != 0) return;
+    for (std::size_t k = q * chunk; k < chunk_end(q); ++k) slip_trial[k] = slip_before_cut(k);
+    cuts[q] = 1;
+  }
+  /// Whether its shear was cut at the last step.
+  bool cut(std::size_t c) const {
+    return is(c, contact_state::closed) && !is(c, contact_state::bonded) &&
+           slip_before_cut(c) != -shear[c] / ks[c];
+  }
   bool is(std::size_t c, std::uint8_t bits) const { return (state[c] & bits) != 0; }
   void set(std::size_t c, std::uint8_t bits) {
     state[c] = static_cast<std::uint8_t>(state[c] | bits);
@@ -261,15 +291,12 @@ inline ContactView ContactSet::view() {
   v.ks = ks.data();
   v.friction = friction.data();
   v.cohesion = cohesion.data();
-  v.alpha = alpha.data();
   v.normal = normal.data();
   v.shear = shear.data();
   v.shear_1 = shear_1.data();
   v.slip_trial = slip_trial.data();
   v.friction_work = friction_work.data();
-  v.fx = fx.data();
-  v.fy = fy.data();
-  v.on_ends = on_ends.data();
+  v.force = force.data();
   return v;
 }
 

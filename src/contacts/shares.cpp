@@ -32,17 +32,17 @@ EDDA_INLINE double against(Vec2 te, Vec2 tf) {
 }
 
 /// A shared edge carries to r_v beyond its end.
-void run_on(ContactSet& c, std::size_t k, bool at_start, double reach) {
-  double& further = at_start ? c.next_before[k] : c.next_beyond[k];
+void run_on(NextShare& next, bool at_start, double reach) {
+  double& further = at_start ? next.before : next.beyond;
   further = std::max(further, reach);
 }
 
 /// Where the edge carries has changed: the foot may count as on it, or no longer, without having
 /// moved.
-void change_range(ContactSet& c, std::size_t k) {
-  if (c.before[k] == c.next_before[k] && c.beyond[k] == c.next_beyond[k]) return;
-  c.before[k] = c.next_before[k];
-  c.beyond[k] = c.next_beyond[k];
+void change_range(ContactSet& c, std::size_t k, const NextShare& next) {
+  if (c.before[k] == next.before && c.beyond[k] == next.beyond) return;
+  c.before[k] = next.before;
+  c.beyond[k] = next.beyond;
   c.stir(k);
 }
 
@@ -86,30 +86,35 @@ PairStand stand_of(const ContactSet& c, const CornerPair& p) {
 }
 
 /// Before the pairs of candidate k have been looked at: all of the spring, on the edge alone.
-void start_share(ContactSet& c, std::size_t k) {
-  c.next_share[k] = 1.0;
-  c.balanced[k] = 0;
-  c.next_before[k] = c.extend_start[k];
-  c.next_beyond[k] = c.extend_end[k];
+NextShare start_share(const ContactSet& c, Id k) {
+  NextShare next{1.0, 0.0, 0.0, false};
+  const auto it = std::lower_bound(c.run_ons.begin(), c.run_ons.end(), k,
+                                   [](const RunOn& r, Id id) { return r.candidate < id; });
+  if (it != c.run_ons.end() && it->candidate == k) {
+    next.before = it->before;
+    next.beyond = it->beyond;
+  }
+  return next;
 }
 
-void set_shares(ContactSet& c, const CornerPair& p, const PairStand& stand) {
+void set_shares(const CornerPair& p, const PairStand& stand, NextShare& of_first,
+                NextShare& of_second) {
   const double zone = 2.0 * p.reach;
   if (std::abs(stand.first) >= zone || std::abs(stand.second) >= zone || stand.against == 0.0) {
     return;
   }
   const Share share = share_of(p, stand.first, stand.second, stand.against);
-  c.next_share[p.first] *= share.first;
-  c.next_share[p.second] *= share.second;
+  of_first.share *= share.first;
+  of_second.share *= share.second;
   if (!p.same_way()) return;
-  c.balanced[p.first] = c.balanced[p.second] = 1;
-  run_on(c, p.first, p.first_at_start, p.reach);
-  run_on(c, p.second, p.second_at_start, p.reach);
+  of_first.balanced = of_second.balanced = true;
+  run_on(of_first, p.first_at_start, p.reach);
+  run_on(of_second, p.second_at_start, p.reach);
 }
 
-void take_share(ContactSet& c, std::size_t k) {
-  change_range(c, k);
-  change_share(c, k, c.next_share[k], c.balanced[k] != 0);
+void take_share(ContactSet& c, std::size_t k, const NextShare& next) {
+  change_range(c, k, next);
+  change_share(c, k, next.share, next.balanced);
 }
 
 /// Part of r_v that a corner may move before shares are set again: at rest nothing changes.
@@ -148,9 +153,27 @@ void update_lone_pair(ContactSet& c, std::size_t p) {
   m.first_seen[p] = now.first;
   m.second_seen[p] = now.second;
   m.against[p] = now.against;
-  for (const Id k : {pair.first, pair.second}) start_share(c, k);
-  set_shares(c, pair, now);
-  for (const Id k : {pair.first, pair.second}) take_share(c, k);
+  NextShare first = start_share(c, pair.first), second = start_share(c, pair.second);
+  set_shares(pair, now, first, second);
+  take_share(c, pair.first, first);
+  take_share(c, pair.second, second);
+}
+
+/// Pairs that share candidates with others: all of a candidate's pairs have a say.
+void update_tangled(ContactSet& c) {
+  c.next_shares.resize(c.tangled.size());
+  for (std::size_t q = 0; q < c.tangled.size(); ++q) {
+    c.next_shares[q] = start_share(c, c.tangled[q]);
+  }
+  const auto next_of = [&c](Id k) -> NextShare& {
+    const auto it = std::lower_bound(c.tangled.begin(), c.tangled.end(), k);
+    return c.next_shares[static_cast<std::size_t>(it - c.tangled.begin())];
+  };
+  for (std::size_t p = c.lone_pairs; p < c.pairs.size(); ++p) {
+    const CornerPair& pair = c.pairs[p];
+    set_shares(pair, stand_of(c, pair), next_of(pair.first), next_of(pair.second));
+  }
+  for (std::size_t q = 0; q < c.tangled.size(); ++q) take_share(c, c.tangled[q], c.next_shares[q]);
 }
 
 void remember_pairs(ContactSet& c) {
@@ -251,11 +274,7 @@ void update_shares(ContactSet& c) {
       if (has_moved(view, contacts, p)) update_lone_pair(c, p);
     }
   }
-  for (const Id k : c.tangled) start_share(c, k);
-  for (std::size_t p = c.lone_pairs; p < c.pairs.size(); ++p) {
-    set_shares(c, c.pairs[p], stand_of(c, c.pairs[p]));
-  }
-  for (const Id k : c.tangled) take_share(c, k);
+  update_tangled(c);
 }
 
 }  // namespace edda

@@ -73,7 +73,8 @@ bool rivals(const BlockSet& b, Id e, Id f) {
 void hand_over(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
                std::size_t k, std::size_t heir) {
   const double before = stored_energy(c, k);
-  const double slip = trial_slip(c, k);
+  const double slip = trial_slip(c, k), slip_before_cut = c.slip_before_cut(k);
+  c.keep_slips(heir);
   if (!c.is(heir, cs::closed)) {
     set_spring(c, b, pose, laws, heir);
     // The spring goes on as it is; only the strength is that of the heir's own law.
@@ -93,9 +94,9 @@ void hand_over(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTabl
   c.anchor[heir] = (c.foot[heir] - slip) / c.span[heir];
   c.shear[heir] = c.shear[k] * c.ks[heir] / c.ks[k];
   c.shear_1[heir] = c.shear_1[k] * c.ks[heir] / c.ks[k];
-  c.slip_trial[heir] = c.slip_trial[k];
+  c.slip_trial[heir] = slip_before_cut;
   c.normal[heir] = c.normal[k] * c.kn[heir] / c.kn[k];
-  c.alpha[heir] = c.alpha[k];
+  c.set_alpha(heir, c.alpha[k]);
   if (c.is(k, cs::bonded)) {
     c.friction[heir] = c.friction[k];
     c.cohesion[heir] = c.cohesion[k];

@@ -33,8 +33,9 @@ void let_go(ContactSet& c, std::size_t k) {
 /// A contact whose tensile strength is spent opens; what it stores is fracture energy.
 void tear(ContactSet& c, std::size_t k) {
   const double before = c.effective_1(k), now = c.effective(k), slip = -c.shear_1[k] / c.ks[k];
+  const double slip_now = c.slip_before_cut(k);
   const double normal = c.is(k, cs::pulls) || (before > 0.0 && now > 0.0) ? before * now : 0.0;
-  const double stored = 0.5 * c.share[k] * (c.kn[k] * normal + c.ks[k] * slip * c.slip_trial[k]);
+  const double stored = 0.5 * c.share[k] * (c.kn[k] * normal + c.ks[k] * slip * slip_now);
   c.fracture_work[k] += std::max(stored, 0.0);
   let_go(c, k);
   c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = 0.0;
@@ -62,62 +63,102 @@ EDDA_VECTOR void spring_normals(ContactView c, std::size_t begin, std::size_t en
   for (std::size_t k = begin; k < end; ++k) c.normal[k] = spring_normal(c, k);
 }
 
-/// T by the return map, and the forces. Where the shear is cut, the anchor follows and the slip is
-/// booked, p_t (s_tr - s)(s + s_{n-1})/2 (method.md section 4). True where it slides for the first
-/// time.
-EDDA_INLINE bool cut_and_push(const ContactView& c, std::size_t k) {
-  const double hold = c.hold[k], ks = c.ks[k], present = c.trial_slip(k), before = c.shear[k];
+/// T by the return map.
+struct Cut {
+  double trial_slip, kept;
+  bool slid;
+};
+
+EDDA_INLINE Cut cut_of(const ContactView& c, std::size_t k) {
+  const double hold = c.hold[k], present = c.trial_slip(k);
   const double trial_slip = carries(hold) ? present : 0.0;
-  const double trial = -ks * trial_slip, limit = c.shear_limit(k, c.normal[k]);
-  const double within = cut_shear(trial, limit);
+  const double trial = -c.ks[k] * trial_slip;
+  const double within = cut_shear(trial, c.shear_limit(k, c.normal[k]));
   const double kept = is_bonded(hold) ? trial : within;
-  const bool slid = kept != trial, fresh = !has_slipped(hold);
-  const double slip = -kept / ks, slip_1 = -before / ks;
-  const double followed = (c.foot[k] - slip) / c.span[k], anchor = c.anchor[k];
-  const double work = 0.5 * c.share[k] * ks * (trial_slip - slip) * (slip + slip_1);
-  c.shear_1[k] = before;
-  c.slip_trial[k] = trial_slip;
-  c.shear[k] = kept;
-  c.alpha[k] = 1.0;
+  return {trial_slip, kept, kept != trial};
+}
+
+/// Where the anchor lies so that the slip is that of the shear force T.
+EDDA_INLINE double anchor_of(const ContactView& c, std::size_t k, double shear) {
+  return (c.foot[k] + shear / c.ks[k]) / c.span[k];
+}
+
+/// T and the forces. Whether T was cut.
+EDDA_INLINE bool cut_and_push(const ContactView& c, std::size_t k) {
+  const Cut cut = cut_of(c, k);
+  const double followed = anchor_of(c, k, cut.kept), anchor = c.anchor[k], w = c.share[k];
+  c.shear[k] = cut.kept;
+  keep_contact_force(c, k,
+                     contact_force(c.tangent(k), c.span[k], c.foot[k], c.depth[k],
+                                   cut.slid ? followed : anchor, w * c.normal[k], w * cut.kept));
+  return cut.slid;
+}
+
+/// Where T was cut the anchor follows and the slip is booked, p_t (s_tr - s)(s + s_{n-1})/2
+/// (method.md section 4). True where that is for the first time.
+EDDA_INLINE bool book_cut(const ContactView& c, std::size_t k) {
+  const Cut cut = cut_of(c, k);
+  const double ks = c.ks[k], slip = -cut.kept / ks, slip_1 = -c.shear_1[k] / ks;
+  const double followed = anchor_of(c, k, cut.kept), anchor = c.anchor[k];
+  const double work = 0.5 * c.share[k] * ks * (cut.trial_slip - slip) * (slip + slip_1);
+  const bool slid = cut.slid;
+  c.slip_trial[k] = slid ? cut.trial_slip : slip;
   c.anchor[k] = slid ? followed : anchor;
   c.friction_work[k] += slid ? work : 0.0;
-  set_contact_force(c, k, c.tangent(k), c.span[k], c.foot[k], c.depth[k]);
-  return slid & fresh;
+  return slid & !has_slipped(c.hold[k]);
 }
 
-/// The contacts [begin, end), whole chunks or one. found[q] of each chunk: its strongest hold,
-/// negative if any slides for the first time.
-EDDA_VECTOR void shear_and_forces(ContactView c, double* found, std::size_t begin,
-                                  std::size_t end) {
-  for (std::size_t first = begin; first < end; first += ContactSet::chunk) {
-    const std::size_t last = std::min(end, first + ContactSet::chunk);
-    double fresh = 0.0, hold = 0.0;
-#pragma omp simd reduction(max : fresh, hold)
-    for (std::size_t k = first; k < last; ++k) {
-      fresh = larger(fresh, cut_and_push(c, k) ? 1.0 : 0.0);
-      hold = larger(hold, c.hold[k]);
-    }
-    found[(first - begin) / ContactSet::chunk] = fresh > 0.0 ? -hold : hold;
+/// What was found in a chunk.
+struct Found {
+  double hold;  ///< the strongest
+  bool cut;     ///< the shear of one was cut
+  bool fresh;   ///< for the first time
+};
+
+/// Of one chunk, or of one contact.
+EDDA_VECTOR Found shear_and_forces(ContactView c, std::size_t first, std::size_t last) {
+  double cut = 0.0, fresh = 0.0, hold = 0.0;
+#pragma omp simd reduction(max : cut, hold)
+  for (std::size_t k = first; k < last; ++k) {
+    cut = larger(cut, cut_and_push(c, k) ? 1.0 : 0.0);
+    hold = larger(hold, c.hold[k]);
   }
+  if (cut > 0.0) {
+#pragma omp simd reduction(max : fresh)
+    for (std::size_t k = first; k < last; ++k) fresh = larger(fresh, book_cut(c, k) ? 1.0 : 0.0);
+  }
+  return {hold, cut > 0.0, fresh > 0.0};
 }
 
-/// Springs, dashpots and return map of the contacts [begin, end) of one run: whole chunks, or one.
+/// N of springs and dashpots.
+void push_normally(ContactSet& c, const BlockSet& b, std::size_t begin, std::size_t end,
+                   double step, double damping) {
+  spring_normals(c.view(), begin, end);
+  for (std::size_t k = begin; damping > 0.0 && k < end; ++k) add_dashpot(c, b, k, step, damping);
+}
+
+void evaluate_one(ContactSet& c, const BlockSet& b, std::size_t k, double step, double damping) {
+  push_normally(c, b, k, k + 1, step, damping);
+  c.keep_slips(k);
+  const Found found = shear_and_forces(c.view(), k, k + 1);
+  if (found.fresh) c.set(k, cs::slipped);
+  if (!found.cut) c.slip_trial[k] = -c.shear[k] / c.ks[k];
+  if (c.is(k, cs::pulls) && !c.is(k, cs::bonded) && c.normal[k] < -c.tension[k]) tear(c, k);
+}
+
+/// Springs, dashpots and return map of the contacts [begin, end): whole chunks.
 void evaluate(ContactSet& c, const BlockSet& b, std::size_t begin, std::size_t end, double step,
               double damping) {
+  push_normally(c, b, begin, end, step, damping);
   const ContactView view = c.view();
-  spring_normals(view, begin, end);
-  if (damping > 0.0) {
-    for (std::size_t k = begin; k < end; ++k) add_dashpot(c, b, k, step, damping);
-  }
-  std::array<double, ContactSet::run / ContactSet::chunk> found;
-  shear_and_forces(view, found.data(), begin, end);
   for (std::size_t first = begin; first < end; first += ContactSet::chunk) {
     const std::size_t last = std::min(end, first + ContactSet::chunk);
-    const double hold = found[(first - begin) / ContactSet::chunk];
-    for (std::size_t k = first; hold < 0.0 && k < last; ++k) {
+    const Found found = shear_and_forces(view, first, last);
+    c.cuts[first / ContactSet::chunk] = found.cut ? 1 : 0;
+    for (std::size_t k = first; found.fresh && k < last; ++k) {
       if (c.cut(k)) c.set(k, cs::slipped);
     }
-    if (!may_pull(std::abs(hold))) continue;
+    if (!may_pull(found.hold)) continue;
     for (std::size_t k = first; k < last; ++k) {
       if (c.is(k, cs::pulls) && !c.is(k, cs::bonded) && c.normal[k] < -c.tension[k]) tear(c, k);
     }
@@ -169,8 +210,7 @@ void break_bond(ContactSet& c, const BlockSet& b, const LawTable& laws, Id k, do
   }
   // What the peak strength held is released by the return map; it is fracture energy, not friction.
   const double friction_before = c.friction_work[k];
-  c.shear[k] = c.shear_1[k];
-  evaluate(c, b, k, k + 1, step, damping);
+  evaluate_one(c, b, k, step, damping);
   c.fracture_work[k] += std::max(0.0, c.friction_work[k] - friction_before);
   c.friction_work[k] = friction_before;
 }
@@ -210,6 +250,9 @@ void set_normal_force(ContactSet& c, const BlockSet& b, std::size_t k, double st
 
 void evaluate_contacts(ContactSet& c, const BlockSet& b, const LawTable& laws, double step,
                        double damping) {
+  for (const Id k : c.reduced) c.alpha[k] = 1.0;
+  c.reduced.clear();
+  std::swap(c.shear, c.shear_1);
   parallel_chunks(c.size(), ContactSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
     evaluate(c, b, begin, end, step, damping);
   });

@@ -55,25 +55,27 @@ void evaluate_contacts(ContactSet& contacts, const BlockSet& blocks, const LawTa
 std::vector<Id> break_overloaded(ContactSet& contacts, const BlockSet& blocks,
                                  const LawTable& laws);
 
-/// Sets the forces of contact k on P1, P2 from its N and T as they stand, scaled by its share (and
-/// alpha), for an edge of tangent t and length l with the foot at `foot` and penetration `depth`.
+/// Keeps the forces of contact k.
 template <class Contacts>
-EDDA_INLINE void set_contact_force(Contacts&& c, std::size_t k, Vec2 t, double l, double foot,
-                                   double depth) {
+EDDA_INLINE void keep_contact_force(Contacts&& c, std::size_t k, const ContactForce& f) {
+  c.force[4 * k] = f.f1.x;
+  c.force[4 * k + 1] = f.f1.y;
+  c.force[4 * k + 2] = f.f3.x;
+  c.force[4 * k + 3] = f.f3.y;
+}
+
+/// Sets the forces of contact k from its N and T as they stand, scaled by its share (and alpha),
+/// for an edge of tangent t and length l with the foot at `foot` and penetration `depth`.
+inline void set_contact_force(ContactSet& c, std::size_t k, Vec2 t, double l, double foot,
+                              double depth) {
   const double w = c.share[k];
-  const ContactForce f =
-      contact_force(t, l, foot, depth, c.anchor[k], w * c.alpha[k] * c.normal[k], w * c.shear[k]);
-  c.fx[k] = f.f1.x;
-  c.fy[k] = f.f1.y;
-  c.on_ends[4 * k] = f.f2.x;
-  c.on_ends[4 * k + 1] = f.f2.y;
-  c.on_ends[4 * k + 2] = f.f3.x;
-  c.on_ends[4 * k + 3] = f.f3.y;
+  keep_contact_force(
+      c, k,
+      contact_force(t, l, foot, depth, c.anchor[k], w * c.alpha[k] * c.normal[k], w * c.shear[k]));
 }
 
 inline void clear_contact_force(ContactSet& c, std::size_t k) {
-  c.fx[k] = c.fy[k] = 0.0;
-  std::fill_n(c.on_ends.begin() + 4 * static_cast<std::ptrdiff_t>(k), 4, 0.0);
+  keep_contact_force(c, k, {});
 }
 
 }  // namespace edda

@@ -31,8 +31,8 @@ void sum_on_vertices(VertexSums* on, const BlockSet& b, const ContactSet& c, std
   const Id own = c.begin_of_vertex[first], own_end = c.begin_of_vertex[end];
   for (Id k = own; k < own_end; ++k) {
     VertexSums& at = on[c.vertex[k] - first];
-    at.own_x += c.fx[k];
-    at.own_y += c.fy[k];
+    at.own_x += c.force[4 * k];
+    at.own_y += c.force[4 * k + 1];
   }
   for (Id q = c.block_begin[i] + (own_end - own); q < c.block_begin[i + 1]; ++q) {
     const Id k = c.block_entry[q] >> 1;

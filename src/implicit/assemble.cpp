@@ -174,7 +174,7 @@ double measure_residual(ImplicitSolver& s, const ImplicitScene& scene,
     double carried = b.mass[i] * gravity + force.norm() + inertia.norm();
     for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
       const Id k = c.block_entry[q] >> 1;
-      carried += std::abs(c.fx[k]) + std::abs(c.fy[k]);
+      carried += std::abs(c.on_vertex(k).x) + std::abs(c.on_vertex(k).y);
     }
     const double place = norm(centroid(state.x, state.y, i)) + b.radius[i];
     const double rounding = 1e-14 * place * s.stiffest[row];

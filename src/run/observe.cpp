@@ -110,7 +110,7 @@ ContactRecord contact_record(const Simulation& sim, const ContactSet& c, std::si
   r.ever_slipped = c.is(k, cs::slipped);
   r.ever_opened = c.is(k, cs::opened);
   if (r.state == ContactState::open) return r;
-  r.force = {c.fx[k], c.fy[k]};
+  r.force = c.on_vertex(k);
   r.normal_force = c.share[k] * c.normal[k];
   r.shear_force = c.share[k] * c.shear[k];
   r.mobilised = mobilised(c, k);

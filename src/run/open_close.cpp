@@ -40,9 +40,10 @@ bool reverses(const ContactSet& c, std::size_t k) {
          c.ks[k] * std::abs(slip) > next_limit(c, k);
 }
 
-double booked(const ContactSet& c, std::size_t k, double shear) {
+/// Dissipated where the return map cuts the slip `trial` so that the shear is `shear`, J.
+double booked(const ContactSet& c, std::size_t k, double trial, double shear) {
   const double s = -shear / c.ks[k], s_1 = -c.shear_1[k] / c.ks[k];
-  return 0.5 * c.share[k] * c.ks[k] * (c.slip_trial[k] - s) * (s + s_1);
+  return 0.5 * c.share[k] * c.ks[k] * (trial - s) * (s + s_1);
 }
 
 /// Slip s (not more than `most`) of a contact that opens: its shear spring gives up what it stores
@@ -65,15 +66,15 @@ struct ForceChange {
 ForceChange reset_force(ContactSet& c, const BlockSet& b, const Switcher& s, double alpha) {
   const std::size_t k = s.contact;
   const double limit = c.shear_limit(k, alpha * c.normal[k]);
-  double shear = cut_shear(-c.ks[k] * c.slip_trial[k], limit);
+  const double trial = c.slip_before_cut(k);
+  double shear = cut_shear(-c.ks[k] * trial, limit);
   if (c.is(k, cs::bonded)) {
     shear = c.shear[k];
   } else if (c.effective(k) <= 0.0) {
     const double before = -c.shear_1[k] / c.ks[k];
     const double ahead = c.trial_slip(k) - (s.foot - c.anchor[k] * s.length);
-    const double moved = c.slip_trial[k] - before + ahead;
-    shear = -c.ks[k] *
-            releasing_slip(-shear / c.ks[k], limit / c.ks[k], c.slip_trial[k], before, moved);
+    const double moved = trial - before + ahead;
+    shear = -c.ks[k] * releasing_slip(-shear / c.ks[k], limit / c.ks[k], trial, before, moved);
   }
   if (c.effective(k) > 0.0 && reverses(c, k)) {
     // What slides next, s_{n+1}, has s_n + s_{n+1} of its own sign only if s_n is within the next
@@ -81,12 +82,13 @@ ForceChange reset_force(ContactSet& c, const BlockSet& b, const Switcher& s, dou
     shear = cut_shear(shear, next_limit(c, k));
   }
   if (shear != c.shear[k]) {
-    c.friction_work[k] += booked(c, k, shear) - booked(c, k, c.shear[k]);
+    c.keep_slips(k);
+    c.friction_work[k] += booked(c, k, trial, shear) - booked(c, k, trial, c.shear[k]);
     c.anchor[k] = (s.foot + shear / c.ks[k]) / s.length;
     c.shear[k] = shear;
-    if (shear != -c.ks[k] * c.slip_trial[k]) c.set(k, cs::slipped);
+    if (shear != -c.ks[k] * trial) c.set(k, cs::slipped);
   }
-  c.alpha[k] = alpha;
+  c.set_alpha(k, alpha);
   const Vec2 old1 = c.on_vertex(k), old2 = c.on_start(k), old3 = c.on_end(k);
   set_contact_force(c, k, s.t, s.length, s.foot, s.depth);
   const Vec2 d1 = c.on_vertex(k) - old1;

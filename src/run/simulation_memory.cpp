@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "checkpoint/archive.hpp"
+#include "contacts/candidates.hpp"
 #include "run/implicit_memory.hpp"
 
 namespace edda {
@@ -18,8 +19,6 @@ void list_contacts(Archive& a, ContactSet& c) {
   a("contacts.block_i", c.block_i);
   a("contacts.block_j", c.block_j);
   a("contacts.law", c.law);
-  a("contacts.extend_start", c.extend_start);
-  a("contacts.extend_end", c.extend_end);
   a("contacts.depth", c.depth);
   a("contacts.depth_1", c.depth_1);
   a("contacts.depth_2", c.depth_2);
@@ -48,9 +47,7 @@ void list_contacts(Archive& a, ContactSet& c) {
   a("contacts.friction_work", c.friction_work);
   a("contacts.damping_work", c.damping_work);
   a("contacts.fracture_work", c.fracture_work);
-  a("contacts.fx", c.fx);
-  a("contacts.fy", c.fy);
-  a("contacts.on_ends", c.on_ends);
+  a("contacts.force", c.force);
   a("contacts.why", c.why);
   a("contacts.blocked", c.blocked);
   a("contacts.tangled", c.tangled);
@@ -240,24 +237,15 @@ void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawT
   for (const auto* ids : {&c.edge, &c.edge_end, &c.block_i, &c.block_j, &c.pair_of}) {
     j.sized("contacts", *ids, nc);
   }
-  for (const auto* values : {&c.extend_start, &c.extend_end,
-                             &c.depth,        &c.depth_1,
-                             &c.depth_2,      &c.foot,
-                             &c.span,         &c.tx,
-                             &c.ty,           &c.share,
-                             &c.before,       &c.beyond,
-                             &c.rest,         &c.anchor,
-                             &c.kn,           &c.ks,
-                             &c.length,       &c.friction,
-                             &c.cohesion,     &c.tension,
-                             &c.alpha,        &c.normal,
-                             &c.shear,        &c.shear_1,
-                             &c.slip_trial,   &c.friction_work,
-                             &c.damping_work, &c.fracture_work,
-                             &c.fx,           &c.fy}) {
+  for (const auto* values :
+       {&c.depth,        &c.depth_1,      &c.depth_2, &c.foot,     &c.span,       &c.tx,
+        &c.ty,           &c.share,        &c.before,  &c.beyond,   &c.rest,       &c.anchor,
+        &c.kn,           &c.ks,           &c.length,  &c.friction, &c.cohesion,   &c.tension,
+        &c.alpha,        &c.normal,       &c.shear,   &c.shear_1,  &c.slip_trial, &c.friction_work,
+        &c.damping_work, &c.fracture_work}) {
     j.sized("contacts", *values, nc);
   }
-  j.sized("contacts.on_ends", c.on_ends, 4 * nc);
+  j.sized("contacts.force", c.force, 4 * nc);
   j.sized("contacts.law", c.law, nc);
   j.sized("contacts.state", c.state, nc);
   j.sized("contacts.why", c.why, nc);
@@ -372,23 +360,22 @@ void list_memory(Archive& a, Simulation& s) {
 
 void remember(const Simulation& sim, Record& record) {
   Saver saver(record);
-  // Saver only reads. NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
-  list_memory(saver, const_cast<Simulation&>(sim));
+  // Saver only reads, and the slips that are filled in are those that were taken for granted.
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
+  Simulation& listed = const_cast<Simulation&>(sim);
+  for (std::size_t k = 0; k < sim.contacts.size(); ++k) listed.contacts.keep_slips(k);
+  list_memory(saver, listed);
 }
 
 std::string recall(Simulation& sim, const Record& record) {
   Loader loader(record);
   list_memory(loader, sim);
   if (!loader.flaw().empty()) return loader.flaw();
-  const std::size_t nc = sim.contacts.size();
-  for (auto* scratch :
-       {&sim.contacts.next_before, &sim.contacts.next_beyond, &sim.contacts.next_share}) {
-    scratch->assign(nc, 0.0);
-  }
-  sim.contacts.balanced.assign(nc, 0);
   Judge j;
   judge(j, sim);
-  if (j.flaw().empty()) sim.contacts.look_everywhere();
+  if (!j.flaw().empty()) return j.flaw();
+  sim.contacts.look_everywhere();
+  list_run_ons(sim.contacts, sim.blocks);
   return j.flaw();
 }
 

@@ -26,7 +26,7 @@ class HeapWatch {
     std::map<std::pair<Id, Id>, Pair> now;
     for (std::size_t k = 0; k < c.size(); ++k) {
       worst_share = std::max({worst_share, -c.share[k], c.share[k] - 1.0});
-      const Vec2 f{c.fx[k], c.fy[k]};
+      const Vec2 f = c.on_vertex(k);
       const bool carries = norm(f) > 0.0;
       if (!carries && !c.is(k, contact_state::closed)) continue;
       Pair& pair = now[std::minmax(c.block_i[k], c.block_j[k])];

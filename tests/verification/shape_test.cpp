@@ -27,7 +27,7 @@ TEST(ReentrantCorner, CarriesOnBothSides) {
   Vec2 reaction{0, 0};
   int carrying = 0;
   for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
-    reaction += Vec2{sim.contacts.fx[k], sim.contacts.fy[k]};
+    reaction += sim.contacts.on_vertex(k);
     if (sim.contacts.normal[k] * sim.contacts.share[k] > 1.0) ++carrying;
   }
   EXPECT_NEAR(reaction.x, 2600.0 * 5.0, 5.0);
