@@ -49,7 +49,8 @@ constexpr std::array<DoubleArray, 5> scratch = {
 void resize(ContactSet& c, std::size_t n) {
   for (DoubleArray a : memory) (c.*a).assign(n, 0.0);
   for (DoubleArray a : scratch) (c.*a).assign(n, 0.0);
-  c.force.assign(4 * n, 0.0);
+  c.force.assign(2 * n, 0.0);
+  c.reaction.assign(4 * n, 0.0);
   c.state.assign(n, 0);
   c.why.assign(n, Blocked::no);
   c.law.assign(n, 0);
@@ -95,29 +96,12 @@ void extend_edges(ContactSet& c, const BlockSet& b) {
   }
 }
 
-void list_by_vertex(ContactSet& c, std::size_t vertices) {
-  c.begin_of_vertex.assign(vertices + 1, 0);
-  for (Id v : c.vertex) ++c.begin_of_vertex[v + 1];
-  for (std::size_t v = 0; v < vertices; ++v) c.begin_of_vertex[v + 1] += c.begin_of_vertex[v];
-}
-
-/// Each block's contacts: those of its vertices, which follow each other in the list, then those of
-/// its edges. Candidates are taken in their order, so both stand by (vertex, edge).
-void list_by_block(ContactSet& c, std::size_t blocks) {
-  c.block_begin.assign(blocks + 1, 0);
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    ++c.block_begin[c.block_i[k] + 1];
-    ++c.block_begin[c.block_j[k] + 1];
-  }
-  for (std::size_t i = 0; i < blocks; ++i) c.block_begin[i + 1] += c.block_begin[i];
-  c.block_entry.resize(2 * c.size());
-  std::vector<Id> fill(c.block_begin.begin(), c.block_begin.end() - 1);
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    c.block_entry[fill[c.block_i[k]]++] = static_cast<Id>(2 * k);
-  }
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    c.block_entry[fill[c.block_j[k]]++] = static_cast<Id>(2 * k + 1);
-  }
+/// Where the entries of each vertex (or edge) begin, if they are sorted by it.
+std::vector<Id> begins(const std::vector<Id>& of, std::size_t vertices) {
+  std::vector<Id> begin(vertices + 1, 0);
+  for (const Id v : of) ++begin[v + 1];
+  for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
+  return begin;
 }
 
 /// Segments and blocked candidates by their new numbers.
@@ -135,6 +119,18 @@ void renumber(ContactSet& next, const ContactSet& old, const std::vector<Id>& ne
 }
 
 }  // namespace
+
+void list_by_corner(ContactSet& c, std::size_t vertices) {
+  c.begin_of_vertex = begins(c.vertex, vertices);
+  c.begin_of_edge = begins(c.edge, vertices);
+  c.slot.resize(c.size());
+  c.of_slot.resize(c.size());
+  std::vector<Id> fill(c.begin_of_edge.begin(), c.begin_of_edge.end() - 1);
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    c.slot[k] = fill[c.edge[k]]++;
+    c.of_slot[c.slot[k]] = static_cast<Id>(k);
+  }
+}
 
 void list_run_ons(ContactSet& c, const BlockSet& b) {
   c.run_ons.clear();
@@ -219,7 +215,7 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
   next.noise = rounding_of(pose);
   next.vertex.reserve(list.size());
   next.edge.reserve(list.size());
-  std::vector<Id> new_of_old(contacts.size(), no_id);
+  std::vector<Id> new_of_old(contacts.size(), no_id), old_of_new(list.size(), no_id);
   std::size_t old = 0;
   for (std::size_t k = 0; k < list.size(); ++k) {
     const NearPair pair = list[k];
@@ -235,11 +231,12 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
     if (old < contacts.size() && NearPair{contacts.vertex[old], contacts.edge[old]} == pair) {
       for (DoubleArray a : memory) (next.*a)[k] = (contacts.*a)[old];
       next.slip_trial[k] = contacts.slip_before_cut(old);
-      for (std::size_t e = 0; e < 4; ++e) next.force[4 * k + e] = contacts.force[4 * old + e];
+      for (std::size_t e = 0; e < 2; ++e) next.force[2 * k + e] = contacts.force[2 * old + e];
       next.state[k] = contacts.state[old];
       next.why[k] = contacts.why[old];
       next.law[k] = contacts.law[old];
       new_of_old[old] = static_cast<Id>(k);
+      old_of_new[k] = static_cast<Id>(old);
     } else {
       next.law[k] = laws.resolve(b.edge_joint[pair.edge],
                                  b.edge_joint[facing_edge(b, pose.x, pose.y, pair.vertex, n)]);
@@ -259,8 +256,13 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
   next.look_everywhere();
   extend_edges(next, b);
   for (std::size_t k = 0; k < next.size(); ++k) update_gap(next, pose, k);
-  list_by_vertex(next, b.vertex_count());
-  list_by_block(next, b.size());
+  list_by_corner(next, b.vertex_count());
+  for (std::size_t k = 0; k < old_of_new.size(); ++k) {
+    if (old_of_new[k] == no_id) continue;
+    const Id from = contacts.slot[old_of_new[k]], to = next.slot[k];
+    std::copy_n(contacts.reaction.begin() + 4 * std::ptrdiff_t{from}, 4,
+                next.reaction.begin() + 4 * std::ptrdiff_t{to});
+  }
   pair_corners(next, b, pose);
   next.built_x = pose.x;
   next.built_y = pose.y;

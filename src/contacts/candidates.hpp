@@ -22,6 +22,9 @@ inline constexpr double opposite = 0.99;
 void rebuild_candidates(ContactSet& contacts, const BlockSet& blocks, const State& state,
                         const Pose& pose, const LawTable& laws, double reach);
 
+/// Fills begin_of_vertex and the slots.
+void list_by_corner(ContactSet& contacts, std::size_t vertices);
+
 /// Fills run_ons: at a reentrant corner the block goes on beyond the end of the edge, and so does,
 /// by a twentieth of its length, the stretch that carries.
 void list_run_ons(ContactSet& contacts, const BlockSet& blocks);

@@ -132,10 +132,10 @@ struct ContactTerms {
 /// The arrays that the loops over all contacts of a step read and write (base/vector_loop.hpp);
 /// what they mean stands in ContactSet.
 struct ContactView : ContactTerms<ContactView> {
-  const Id *vertex, *edge, *edge_end;
+  const Id *vertex, *edge, *edge_end, *slot;
   double *depth, *depth_1, *depth_2, *foot, *span, *tx, *ty, *share, *before, *beyond, *hold, *rest,
       *anchor, *kn, *ks, *friction, *cohesion, *normal, *shear, *shear_1, *slip_trial,
-      *friction_work, *force;
+      *friction_work, *force, *reaction;
 };
 
 struct ContactSet : ContactTerms<ContactSet> {
@@ -200,7 +200,8 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::vector<double> friction_work, damping_work, fracture_work;  ///< dissipated so far, J
 
   // Forces of the last evaluation, N.
-  std::vector<double> force;  ///< [4 nc] x, y on P1, x, y on P3; on P2 is what is missing to zero
+  std::vector<double> force;     ///< [2 nc] x, y on P1
+  std::vector<double> reaction;  ///< [4 nc] x, y on P2, x, y on P3; by slot
 
   std::vector<Blocked> why;  ///< why it is blocked
   std::vector<Id> blocked;   ///< the blocked candidates, ascending
@@ -216,10 +217,11 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::vector<Segment> segments;       ///< the bonded ones
   std::vector<Id> begin_of_vertex;     ///< [nv + 1] candidates of a vertex
 
-  // Contacts of a block: entry = 2 candidate + side, first those of its vertices (side 0), then
-  // those of its edges (side 1), each in the order of the candidates.
-  std::vector<Id> block_begin;  ///< [nb + 1]
-  std::vector<Id> block_entry;
+  // Slots: the candidates by (edge, vertex), so that a block finds in one place what acts on its
+  // edges, as it does what acts on its vertices.
+  std::vector<Id> begin_of_edge;  ///< [nv + 1] slots of an edge
+  std::vector<Id> of_slot;        ///< [nc] its candidate
+  std::vector<Id> slot;           ///< [nc] of a candidate
 
   // When the list was made, and how long it lives.
   std::vector<double> built_x, built_y;  ///< [nv] vertices then, m
@@ -232,9 +234,28 @@ struct ContactSet : ContactTerms<ContactSet> {
   double retired_friction = 0.0, retired_damping = 0.0,
          retired_fracture = 0.0;  ///< J, of candidates let go
 
-  Vec2 on_vertex(std::size_t c) const { return {force[4 * c], force[4 * c + 1]}; }
-  Vec2 on_start(std::size_t c) const { return -(on_vertex(c) + on_end(c)); }
-  Vec2 on_end(std::size_t c) const { return {force[4 * c + 2], force[4 * c + 3]}; }
+  /// Calls visit(c, has_vertex) for the candidates of a block's vertices [first, end), then for
+  /// those of its edges, each by (vertex, edge) or (edge, vertex).
+  template <class Visit>
+  void for_contacts(Id first, Id end, Visit visit) const {
+    for (Id c = begin_of_vertex[first]; c < begin_of_vertex[end]; ++c) visit(c, true);
+    for (Id q = begin_of_edge[first]; q < begin_of_edge[end]; ++q) visit(of_slot[q], false);
+  }
+  /// As above, for block i.
+  template <class Visit>
+  void for_contacts(const BlockSet& b, std::size_t i, Visit visit) const {
+    for_contacts(b.vertex_begin[i], b.vertex_begin[i + 1], visit);
+  }
+
+  Vec2 on_vertex(std::size_t c) const { return {force[2 * c], force[2 * c + 1]}; }
+  Vec2 on_start(std::size_t c) const {
+    const std::size_t q = slot[c];
+    return {reaction[4 * q], reaction[4 * q + 1]};
+  }
+  Vec2 on_end(std::size_t c) const {
+    const std::size_t q = slot[c];
+    return {reaction[4 * q + 2], reaction[4 * q + 3]};
+  }
 
   void set_alpha(std::size_t c, double value) {
     if (value < 1.0) reduced.push_back(static_cast<Id>(c));
@@ -296,7 +317,9 @@ inline ContactView ContactSet::view() {
   v.shear_1 = shear_1.data();
   v.slip_trial = slip_trial.data();
   v.friction_work = friction_work.data();
+  v.slot = slot.data();
   v.force = force.data();
+  v.reaction = reaction.data();
   return v;
 }
 

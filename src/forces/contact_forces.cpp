@@ -1,8 +1,8 @@
 #include "forces/contact_forces.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstring>
 
 #include "base/parallel.hpp"
 #include "base/vector_loop.hpp"
@@ -83,14 +83,17 @@ EDDA_INLINE double anchor_of(const ContactView& c, std::size_t k, double shear) 
   return (c.foot[k] + shear / c.ks[k]) / c.span[k];
 }
 
-/// T and the forces. Whether T was cut.
-EDDA_INLINE bool cut_and_push(const ContactView& c, std::size_t k) {
+/// T and the forces, the reaction as entry q. Whether T was cut.
+EDDA_INLINE bool cut_and_push(const ContactView& c, std::size_t k, double* reaction,
+                              std::size_t q) {
   const Cut cut = cut_of(c, k);
   const double followed = anchor_of(c, k, cut.kept), anchor = c.anchor[k], w = c.share[k];
   c.shear[k] = cut.kept;
-  keep_contact_force(c, k,
-                     contact_force(c.tangent(k), c.span[k], c.foot[k], c.depth[k],
-                                   cut.slid ? followed : anchor, w * c.normal[k], w * cut.kept));
+  const ContactForce f = contact_force(c.tangent(k), c.span[k], c.foot[k], c.depth[k],
+                                       cut.slid ? followed : anchor, w * c.normal[k], w * cut.kept);
+  c.force[2 * k] = f.f1.x;
+  c.force[2 * k + 1] = f.f1.y;
+  keep_reaction(reaction, q, f);
   return cut.slid;
 }
 
@@ -118,10 +121,15 @@ struct Found {
 /// Of one chunk, or of one contact.
 EDDA_VECTOR Found shear_and_forces(ContactView c, std::size_t first, std::size_t last) {
   double cut = 0.0, fresh = 0.0, hold = 0.0;
+  double reaction[4 * ContactSet::chunk];
 #pragma omp simd reduction(max : cut, hold)
   for (std::size_t k = first; k < last; ++k) {
-    cut = larger(cut, cut_and_push(c, k) ? 1.0 : 0.0);
+    cut = larger(cut, cut_and_push(c, k, reaction, k - first) ? 1.0 : 0.0);
     hold = larger(hold, c.hold[k]);
+  }
+  for (std::size_t k = first; k < last; ++k) {
+    std::memcpy(c.reaction + 4 * static_cast<std::size_t>(c.slot[k]), reaction + 4 * (k - first),
+                4 * sizeof(double));
   }
   if (cut > 0.0) {
 #pragma omp simd reduction(max : fresh)

@@ -55,13 +55,19 @@ void evaluate_contacts(ContactSet& contacts, const BlockSet& blocks, const LawTa
 std::vector<Id> break_overloaded(ContactSet& contacts, const BlockSet& blocks,
                                  const LawTable& laws);
 
+/// Keeps what acts on the ends of an edge as entry q of `reaction`.
+EDDA_INLINE void keep_reaction(double* reaction, std::size_t q, const ContactForce& f) {
+  reaction[4 * q] = f.f2.x;
+  reaction[4 * q + 1] = f.f2.y;
+  reaction[4 * q + 2] = f.f3.x;
+  reaction[4 * q + 3] = f.f3.y;
+}
+
 /// Keeps the forces of contact k.
-template <class Contacts>
-EDDA_INLINE void keep_contact_force(Contacts&& c, std::size_t k, const ContactForce& f) {
-  c.force[4 * k] = f.f1.x;
-  c.force[4 * k + 1] = f.f1.y;
-  c.force[4 * k + 2] = f.f3.x;
-  c.force[4 * k + 3] = f.f3.y;
+inline void keep_contact_force(ContactSet& c, std::size_t k, const ContactForce& f) {
+  c.force[2 * k] = f.f1.x;
+  c.force[2 * k + 1] = f.f1.y;
+  keep_reaction(c.reaction.data(), c.slot[k], f);
 }
 
 /// Sets the forces of contact k from its N and T as they stand, scaled by its share (and alpha),

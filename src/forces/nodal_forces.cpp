@@ -1,6 +1,5 @@
 #include "forces/nodal_forces.hpp"
 
-#include <algorithm>
 #include <limits>
 
 #include "base/parallel.hpp"
@@ -11,53 +10,52 @@ namespace {
 
 using NodeForce = std::array<Vec2, 3>;
 
-/// Contact forces are summed on the vertices first and spread to the nodes once per vertex. Most
-/// blocks have no more corners than this.
+/// Blocks with no more corners than this need no memory of their own.
 constexpr Id few_corners = 64;
 
-/// Sums on one vertex: of its own contacts, and of those of the edges that start and end there.
-/// Apart, so that one sum need not wait for the other; and plain numbers, for an array of them that
-/// is not filled before it is known how many count.
-struct VertexSums {
-  double own_x, own_y, start_x, start_y, end_x, end_y;
-  Vec2 sum() const { return {own_x + start_x + end_x, own_y + start_y + end_y}; }
+/// On one vertex: of the edge that starts there, and of the one that ends there.
+struct OfEdges {
+  double start_x, start_y, end_x, end_y;
 };
 
-/// Contact forces on the vertices of block i: those of its own vertices, which follow each other in
-/// the list, then those of its edges.
-void sum_on_vertices(VertexSums* on, const BlockSet& b, const ContactSet& c, std::size_t i) {
-  const Id first = b.vertex_begin[i], end = b.vertex_begin[i + 1];
-  std::fill(on, on + (end - first), VertexSums{0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
-  const Id own = c.begin_of_vertex[first], own_end = c.begin_of_vertex[end];
-  for (Id k = own; k < own_end; ++k) {
-    VertexSums& at = on[c.vertex[k] - first];
-    at.own_x += c.force[4 * k];
-    at.own_y += c.force[4 * k + 1];
+/// Contact forces on the nodes of the block with the vertices [first, end): summed on each vertex,
+/// those of its own contacts and of those of its edges, then spread to the nodes. `of`: scratch,
+/// [vertices].
+void add_contacts(NodeForce& f, const BlockSet& b, const ContactSet& c, Id first, Id end,
+                  OfEdges* of) {
+  for (Id v = first; v < end; ++v) {
+    double start_x = 0.0, start_y = 0.0, end_x = 0.0, end_y = 0.0;
+    for (std::size_t q = c.begin_of_edge[v]; q < c.begin_of_edge[v + 1]; ++q) {
+      start_x += c.reaction[4 * q];
+      start_y += c.reaction[4 * q + 1];
+      end_x += c.reaction[4 * q + 2];
+      end_y += c.reaction[4 * q + 3];
+    }
+    OfEdges &from = of[v - first], &to = of[b.next[v] - first];
+    from.start_x = start_x;
+    from.start_y = start_y;
+    to.end_x = end_x;
+    to.end_y = end_y;
   }
-  for (Id q = c.block_begin[i] + (own_end - own); q < c.block_begin[i + 1]; ++q) {
-    const Id k = c.block_entry[q] >> 1;
-    const Vec2 start = c.on_start(k), last = c.on_end(k);
-    VertexSums &from = on[c.edge[k] - first], &to = on[c.edge_end[k] - first];
-    from.start_x += start.x;
-    from.start_y += start.y;
-    to.end_x += last.x;
-    to.end_y += last.y;
+  for (Id v = first; v < end; ++v) {
+    double x = 0.0, y = 0.0;
+    for (std::size_t k = c.begin_of_vertex[v]; k < c.begin_of_vertex[v + 1]; ++k) {
+      x += c.force[2 * k];
+      y += c.force[2 * k + 1];
+    }
+    const OfEdges& edges = of[v - first];
+    spread(f, b, v, {x + edges.start_x + edges.end_x, y + edges.start_y + edges.end_y});
   }
 }
 
 void add_contacts(NodeForce& f, const BlockSet& b, const ContactSet& c, std::size_t i) {
-  if (c.block_begin[i] == c.block_begin[i + 1]) return;
-  const Id first = b.vertex_begin[i], corners = b.vertex_begin[i + 1] - first;
-  const auto add = [&](VertexSums* on) {
-    sum_on_vertices(on, b, c, i);
-    for (Id v = 0; v < corners; ++v) spread(f, b, first + v, on[v].sum());
-  };
-  if (corners <= few_corners) {
-    std::array<VertexSums, few_corners> on;
-    add(on.data());
+  const Id first = b.vertex_begin[i], end = b.vertex_begin[i + 1];
+  if (end - first <= few_corners) {
+    std::array<OfEdges, few_corners> of;
+    add_contacts(f, b, c, first, end, of.data());
   } else {
-    std::vector<VertexSums> on(corners);
-    add(on.data());
+    std::vector<OfEdges> of(end - first);
+    add_contacts(f, b, c, first, end, of.data());
   }
 }
 

@@ -32,12 +32,10 @@ std::vector<Part> parts_of(const BlockSet& b, const State& s, const Pose& pose, 
   const Rotation r = rotation(deformation(b, s.x, s.y, i));
   auto back = [&](Vec2 u) { return Vec2{r.c * u.x + r.s * u.y, -r.s * u.x + r.c * u.y}; };
   std::vector<Part> parts;
-  for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
-    const Id k = c.block_entry[q] >> 1;
+  c.for_contacts(b, i, [&](Id k, bool has_vertex) {
     const EdgeFrame e =
         edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
-    if (!counts(c, b, pose, k, e)) continue;
-    const bool has_vertex = (c.block_entry[q] & 1u) == 0;
+    if (!counts(c, b, pose, k, e)) return;
     const Id partner = has_vertex ? c.block_j[k] : c.block_i[k];
     // One that is letting go past the end of its edge may come back.
     const double share = c.pair_of[k] == no_id ? 1.0 : c.share[k];
@@ -50,7 +48,7 @@ std::vector<Part> parts_of(const BlockSet& b, const State& s, const Pose& pose, 
     }
     parts.push_back(
         {k, along(w, back(e.normal())), along(w, back(e.t)), factor * c.kn[k], factor * c.ks[k]});
-  }
+  });
   return parts;
 }
 

@@ -63,11 +63,9 @@ bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitS
   s.matrix.clear_row(row);
   bool known = true;
   Id partner = no_id, slot = no_id;
-  for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
-    const Id k = c.block_entry[q] >> 1;
+  c.for_contacts(b, i, [&](Id k, bool has_vertex) {
     const SpringState spring = s.springs.state[k];
-    if (spring == SpringState::open || c.share[k] == 0.0) continue;
-    const bool has_vertex = (c.block_entry[q] & 1u) == 0;
+    if (spring == SpringState::open || c.share[k] == 0.0) return;
     const Id other = has_vertex ? c.block_j[k] : c.block_i[k];
     if (other != partner) {
       partner = other;
@@ -93,7 +91,7 @@ bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitS
     if (spring != SpringState::slide) {
       add(c.ks[k], contact_force(t, l, foot, depth, anchor, 0.0, 1.0));
     }
-  }
+  });
   s.stiffest[row] = own.diagonal().maxCoeff();
   own += (2.0 / (h * h) + 2.0 * settings.mass_damping / h) * s.mass[i];
   s.matrix.at(row, s.matrix.slot(row, row)) += own;
@@ -118,11 +116,10 @@ void set_pattern(ImplicitSolver& s, const ImplicitScene& scene, const State& sta
     const Id i = s.block_of[row];
     std::vector<Id>& list = columns[row];
     list.push_back(static_cast<Id>(row));
-    for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
-      const Id k = c.block_entry[q] >> 1;
-      const Id other = s.row_of[(c.block_entry[q] & 1u) == 0 ? c.block_j[k] : c.block_i[k]];
+    c.for_contacts(b, i, [&](Id k, bool has_vertex) {
+      const Id other = s.row_of[has_vertex ? c.block_j[k] : c.block_i[k]];
       if (other != no_id && may_carry(c, k)) list.push_back(other);
-    }
+    });
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
   });
@@ -172,10 +169,9 @@ double measure_residual(ImplicitSolver& s, const ImplicitScene& scene,
     const Vector6 left = force - inertia;
     s.residual.segment<6>(static_cast<Eigen::Index>(6 * row)) = left;
     double carried = b.mass[i] * gravity + force.norm() + inertia.norm();
-    for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
-      const Id k = c.block_entry[q] >> 1;
+    c.for_contacts(b, i, [&](Id k, bool) {
       carried += std::abs(c.on_vertex(k).x) + std::abs(c.on_vertex(k).y);
-    }
+    });
     const double place = norm(centroid(state.x, state.y, i)) + b.radius[i];
     const double rounding = 1e-14 * place * s.stiffest[row];
     s.error[row] = left.norm() / (single_balance * carried + rounding + 1e-300);

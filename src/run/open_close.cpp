@@ -175,11 +175,10 @@ class Correction {
     keep_once(scratch_.pushed);
     const std::size_t known = scratch_.set.size();
     for (const Id i : scratch_.pushed) {
-      for (Id q = c_.block_begin[i]; q < c_.block_begin[i + 1]; ++q) {
-        const Id k = c_.block_entry[q] >> 1;
+      c_.for_contacts(b_, i, [&](Id k, bool) {
         update_gap(c_, pose_, k);
         if ((switches(c_, k) || reverses(c_, k)) && !is_known(k, known)) add(k);
-      }
+      });
     }
     scratch_.pushed.clear();
     if (scratch_.set.size() == known) return false;

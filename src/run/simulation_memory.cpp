@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "checkpoint/archive.hpp"
 #include "contacts/candidates.hpp"
@@ -48,14 +49,12 @@ void list_contacts(Archive& a, ContactSet& c) {
   a("contacts.damping_work", c.damping_work);
   a("contacts.fracture_work", c.fracture_work);
   a("contacts.force", c.force);
+  a("contacts.reaction", c.reaction);
   a("contacts.why", c.why);
   a("contacts.blocked", c.blocked);
   a("contacts.tangled", c.tangled);
   a("contacts.lone_pairs", c.lone_pairs);
   a("contacts.pair_of", c.pair_of);
-  a("contacts.begin_of_vertex", c.begin_of_vertex);
-  a("contacts.block_begin", c.block_begin);
-  a("contacts.block_entry", c.block_entry);
   a("contacts.built_x", c.built_x);
   a("contacts.built_y", c.built_y);
   a("contacts.noise", c.noise);
@@ -208,25 +207,15 @@ class Judge {
   std::string flaw_;
 };
 
-/// Vertices and edges are those of their blocks, and every list points to contacts of its own.
+/// Vertices and edges are those of their blocks, and stand in order.
 bool belong_together(const ContactSet& c, const BlockSet& b) {
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (b.vertex_block[c.vertex[k]] != c.block_i[k] || b.vertex_block[c.edge[k]] != c.block_j[k] ||
         b.next[c.edge[k]] != c.edge_end[k] || c.block_i[k] == c.block_j[k]) {
       return false;
     }
-  }
-  for (Id v = 0; v < b.vertex_count(); ++v) {
-    for (Id k = c.begin_of_vertex[v]; k < c.begin_of_vertex[v + 1]; ++k) {
-      if (c.vertex[k] != v) return false;
-    }
-  }
-  for (Id i = 0; i < b.size(); ++i) {
-    const Id own = c.begin_of_vertex[b.vertex_begin[i + 1]] - c.begin_of_vertex[b.vertex_begin[i]];
-    for (Id q = c.block_begin[i]; q < c.block_begin[i + 1]; ++q) {
-      const Id k = c.block_entry[q] >> 1;
-      if (((c.block_entry[q] & 1u) == 0) != (q - c.block_begin[i] < own)) return false;
-      if (((c.block_entry[q] & 1u) == 0 ? c.block_i[k] : c.block_j[k]) != i) return false;
+    if (k > 0 && std::pair(c.vertex[k - 1], c.edge[k - 1]) >= std::pair(c.vertex[k], c.edge[k])) {
+      return false;
     }
   }
   return true;
@@ -245,15 +234,14 @@ void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawT
         &c.damping_work, &c.fracture_work}) {
     j.sized("contacts", *values, nc);
   }
-  j.sized("contacts.force", c.force, 4 * nc);
+  j.sized("contacts.force", c.force, 2 * nc);
+  j.sized("contacts.reaction", c.reaction, 4 * nc);
   j.sized("contacts.law", c.law, nc);
   j.sized("contacts.state", c.state, nc);
   j.sized("contacts.why", c.why, nc);
   j.sized("contacts.deepest", c.deepest, c.chunks());
   j.sized("contacts.built_x", c.built_x, nv);
   j.sized("contacts.built_y", c.built_y, nv);
-  j.sized("contacts.begin_of_vertex", c.begin_of_vertex, nv + 1);
-  j.sized("contacts.block_begin", c.block_begin, b.size() + 1);
   j.below("contacts.vertex", c.vertex, nv);
   j.below("contacts.edge", c.edge, nv);
   j.below("contacts.edge_end", c.edge_end, nv);
@@ -263,9 +251,6 @@ void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawT
   j.below("contacts.blocked", c.blocked, nc);
   j.below("contacts.tangled", c.tangled, nc);
   j.below("contacts.pair_of", c.pair_of, c.pairs.size(), true);
-  j.below("contacts.block_entry", c.block_entry, 2 * nc);
-  j.rising("contacts.begin_of_vertex", c.begin_of_vertex, nc);
-  j.rising("contacts.block_begin", c.block_begin, c.block_entry.size());
   if (j.flaw().empty() && !belong_together(c, b)) j.refuse("contacts do not belong together");
   if (c.lone_pairs > c.pairs.size()) j.refuse("contacts.lone_pairs is too large");
   const PairMemory& m = c.pair_memory;
@@ -375,6 +360,7 @@ std::string recall(Simulation& sim, const Record& record) {
   judge(j, sim);
   if (!j.flaw().empty()) return j.flaw();
   sim.contacts.look_everywhere();
+  list_by_corner(sim.contacts, sim.blocks.vertex_count());
   list_run_ons(sim.contacts, sim.blocks);
   return j.flaw();
 }
