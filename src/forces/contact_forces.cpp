@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "base/parallel.hpp"
 #include "base/vector_loop.hpp"
@@ -58,22 +57,17 @@ void add_dashpot(ContactSet& c, const BlockSet& b, std::size_t k, double step, d
   c.normal[k] = c.is(k, cs::pulls) ? damped : std::max(0.0, damped);
 }
 
-EDDA_VECTOR void spring_normals(ContactView c, std::size_t begin, std::size_t end) {
-#pragma omp simd
-  for (std::size_t k = begin; k < end; ++k) c.normal[k] = spring_normal(c, k);
-}
-
 /// T by the return map.
 struct Cut {
   double trial_slip, kept;
   bool slid;
 };
 
-EDDA_INLINE Cut cut_of(const ContactView& c, std::size_t k) {
+EDDA_INLINE Cut cut_of(const ContactView& c, std::size_t k, double normal) {
   const double hold = c.hold[k], present = c.trial_slip(k);
   const double trial_slip = carries(hold) ? present : 0.0;
   const double trial = -c.ks[k] * trial_slip;
-  const double within = cut_shear(trial, c.shear_limit(k, c.normal[k]));
+  const double within = cut_shear(trial, c.shear_limit(k, normal));
   const double kept = is_bonded(hold) ? trial : within;
   return {trial_slip, kept, kept != trial};
 }
@@ -83,24 +77,36 @@ EDDA_INLINE double anchor_of(const ContactView& c, std::size_t k, double shear) 
   return (c.foot[k] + shear / c.ks[k]) / c.span[k];
 }
 
-/// T and the forces, the reaction as entry q. Whether T was cut.
-EDDA_INLINE bool cut_and_push(const ContactView& c, std::size_t k, double* reaction,
-                              std::size_t q) {
-  const Cut cut = cut_of(c, k);
+/// What acts on the ends of the edges of a chunk, N.
+struct Reactions {
+  double start_x[ContactSet::chunk], start_y[ContactSet::chunk], end_x[ContactSet::chunk],
+      end_y[ContactSet::chunk];
+};
+
+/// N, unless dashpots have been added to it, T and the forces; the reaction as entry q. Whether T
+/// was cut.
+EDDA_INLINE bool push(const ContactView& c, std::size_t k, bool damped, Reactions& on,
+                      std::size_t q) {
+  const double spring = spring_normal(c, k), normal = damped ? c.normal[k] : spring;
+  const Cut cut = cut_of(c, k, normal);
   const double followed = anchor_of(c, k, cut.kept), anchor = c.anchor[k], w = c.share[k];
+  c.normal[k] = normal;
   c.shear[k] = cut.kept;
   const ContactForce f = contact_force(c.tangent(k), c.span[k], c.foot[k], c.depth[k],
-                                       cut.slid ? followed : anchor, w * c.normal[k], w * cut.kept);
+                                       cut.slid ? followed : anchor, w * normal, w * cut.kept);
   c.force[2 * k] = f.f1.x;
   c.force[2 * k + 1] = f.f1.y;
-  keep_reaction(reaction, q, f);
+  on.start_x[q] = f.f2.x;
+  on.start_y[q] = f.f2.y;
+  on.end_x[q] = f.f3.x;
+  on.end_y[q] = f.f3.y;
   return cut.slid;
 }
 
 /// Where T was cut the anchor follows and the slip is booked, p_t (s_tr - s)(s + s_{n-1})/2
 /// (method.md section 4). True where that is for the first time.
 EDDA_INLINE bool book_cut(const ContactView& c, std::size_t k) {
-  const Cut cut = cut_of(c, k);
+  const Cut cut = cut_of(c, k, c.normal[k]);
   const double ks = c.ks[k], slip = -cut.kept / ks, slip_1 = -c.shear_1[k] / ks;
   const double followed = anchor_of(c, k, cut.kept), anchor = c.anchor[k];
   const double work = 0.5 * c.share[k] * ks * (cut.trial_slip - slip) * (slip + slip_1);
@@ -118,18 +124,22 @@ struct Found {
   bool fresh;   ///< for the first time
 };
 
-/// Of one chunk, or of one contact.
-EDDA_VECTOR Found shear_and_forces(ContactView c, std::size_t first, std::size_t last) {
+/// One chunk, or one contact.
+EDDA_VECTOR Found push_chunk(ContactView c, std::size_t first, std::size_t last, bool damped) {
   double cut = 0.0, fresh = 0.0, hold = 0.0;
-  double reaction[4 * ContactSet::chunk];
+  Reactions on;
 #pragma omp simd reduction(max : cut, hold)
   for (std::size_t k = first; k < last; ++k) {
-    cut = larger(cut, cut_and_push(c, k, reaction, k - first) ? 1.0 : 0.0);
+    cut = larger(cut, push(c, k, damped, on, k - first) ? 1.0 : 0.0);
     hold = larger(hold, c.hold[k]);
   }
   for (std::size_t k = first; k < last; ++k) {
-    std::memcpy(c.reaction + 4 * static_cast<std::size_t>(c.slot[k]), reaction + 4 * (k - first),
-                4 * sizeof(double));
+    double* const reaction = c.reaction + 4 * static_cast<std::size_t>(c.slot[k]);
+    const std::size_t q = k - first;
+    reaction[0] = on.start_x[q];
+    reaction[1] = on.start_y[q];
+    reaction[2] = on.end_x[q];
+    reaction[3] = on.end_y[q];
   }
   if (cut > 0.0) {
 #pragma omp simd reduction(max : fresh)
@@ -138,17 +148,18 @@ EDDA_VECTOR Found shear_and_forces(ContactView c, std::size_t first, std::size_t
   return {hold, cut > 0.0, fresh > 0.0};
 }
 
-/// N of springs and dashpots.
-void push_normally(ContactSet& c, const BlockSet& b, std::size_t begin, std::size_t end,
-                   double step, double damping) {
-  spring_normals(c.view(), begin, end);
-  for (std::size_t k = begin; damping > 0.0 && k < end; ++k) add_dashpot(c, b, k, step, damping);
+void add_dashpots(ContactSet& c, const BlockSet& b, std::size_t begin, std::size_t end, double step,
+                  double damping) {
+  for (std::size_t k = begin; k < end; ++k) {
+    c.normal[k] = spring_normal(c, k);
+    add_dashpot(c, b, k, step, damping);
+  }
 }
 
 void evaluate_one(ContactSet& c, const BlockSet& b, std::size_t k, double step, double damping) {
-  push_normally(c, b, k, k + 1, step, damping);
+  if (damping > 0.0) add_dashpots(c, b, k, k + 1, step, damping);
   c.keep_slips(k);
-  const Found found = shear_and_forces(c.view(), k, k + 1);
+  const Found found = push_chunk(c.view(), k, k + 1, damping > 0.0);
   if (found.fresh) c.set(k, cs::slipped);
   if (!found.cut) c.slip_trial[k] = -c.shear[k] / c.ks[k];
   if (c.is(k, cs::pulls) && !c.is(k, cs::bonded) && c.normal[k] < -c.tension[k]) tear(c, k);
@@ -157,11 +168,11 @@ void evaluate_one(ContactSet& c, const BlockSet& b, std::size_t k, double step, 
 /// Springs, dashpots and return map of the contacts [begin, end): whole chunks.
 void evaluate(ContactSet& c, const BlockSet& b, std::size_t begin, std::size_t end, double step,
               double damping) {
-  push_normally(c, b, begin, end, step, damping);
+  if (damping > 0.0) add_dashpots(c, b, begin, end, step, damping);
   const ContactView view = c.view();
   for (std::size_t first = begin; first < end; first += ContactSet::chunk) {
     const std::size_t last = std::min(end, first + ContactSet::chunk);
-    const Found found = shear_and_forces(view, first, last);
+    const Found found = push_chunk(view, first, last, damping > 0.0);
     c.cuts[first / ContactSet::chunk] = found.cut ? 1 : 0;
     for (std::size_t k = first; found.fresh && k < last; ++k) {
       if (c.cut(k)) c.set(k, cs::slipped);
