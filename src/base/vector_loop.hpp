@@ -16,6 +16,8 @@
 // as an index), and no sums over its elements: largest values only.
 #pragma once
 
+#include <cstring>
+
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__OPTIMIZE__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(EDDA_PLAIN_LOOPS)
 #define EDDA_VECTOR __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
@@ -27,6 +29,16 @@
 #define EDDA_INLINE [[gnu::always_inline]] inline
 
 namespace edda {
+
+/// Two and four numbers that are added as one, for sums too short for a loop over several.
+using Two = double [[gnu::vector_size(16)]];
+using Four = double [[gnu::vector_size(32)]];
+template <class Vector>
+EDDA_INLINE void add_from(Vector& sum, const double* values) {
+  Vector more;
+  std::memcpy(&more, values, sizeof more);
+  sum += more;
+}
 
 /// std::max by value: a choice between references is not one that g++ takes for several elements.
 EDDA_INLINE double larger(double a, double b) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -210,12 +211,13 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::size_t lone_pairs = 0;  ///< how many share none
   PairMemory pair_memory;      ///< of the lone ones
   std::vector<Id> tangled;     ///< candidates in several pairs, and their partners, ascending
-  std::vector<NextShare> next_shares;  ///< of the tangled; scratch of update_shares()
-  std::vector<double> pairs_moved;     ///< scratch of update_shares()
-  std::vector<Id> pair_of;             ///< [nc] a pair the candidate is in, or no_id
-  std::vector<RunOn> run_ons;          ///< edges with a reentrant end, by candidate
-  std::vector<Segment> segments;       ///< the bonded ones
-  std::vector<Id> begin_of_vertex;     ///< [nv + 1] candidates of a vertex
+  std::vector<NextShare> next_shares;            ///< of the tangled; scratch of update_shares()
+  std::vector<std::array<Id, 2>> among_tangled;  ///< [pairs that are not alone] their candidates
+  std::vector<double> pairs_moved;               ///< scratch of update_shares()
+  std::vector<Id> pair_of;                       ///< [nc] a pair the candidate is in, or no_id
+  std::vector<RunOn> run_ons;                    ///< edges with a reentrant end, by candidate
+  std::vector<Segment> segments;                 ///< the bonded ones
+  std::vector<Id> begin_of_vertex;               ///< [nv + 1] candidates of a vertex
 
   // Slots: the candidates by (edge, vertex), so that a block finds in one place what acts on its
   // edges, as it does what acts on its vertices.

@@ -159,19 +159,28 @@ void update_lone_pair(ContactSet& c, std::size_t p) {
   take_share(c, pair.second, second);
 }
 
+/// Where the candidates of the pairs that are not alone stand among `tangled`.
+void find_tangled(ContactSet& c) {
+  const auto place_of = [&c](Id k) {
+    const auto it = std::lower_bound(c.tangled.begin(), c.tangled.end(), k);
+    return static_cast<Id>(it - c.tangled.begin());
+  };
+  c.among_tangled.clear();
+  for (std::size_t p = c.lone_pairs; p < c.pairs.size(); ++p) {
+    c.among_tangled.push_back({place_of(c.pairs[p].first), place_of(c.pairs[p].second)});
+  }
+}
+
 /// Pairs that share candidates with others: all of a candidate's pairs have a say.
 void update_tangled(ContactSet& c) {
+  if (c.among_tangled.size() != c.pairs.size() - c.lone_pairs) find_tangled(c);
   c.next_shares.resize(c.tangled.size());
   for (std::size_t q = 0; q < c.tangled.size(); ++q) {
     c.next_shares[q] = start_share(c, c.tangled[q]);
   }
-  const auto next_of = [&c](Id k) -> NextShare& {
-    const auto it = std::lower_bound(c.tangled.begin(), c.tangled.end(), k);
-    return c.next_shares[static_cast<std::size_t>(it - c.tangled.begin())];
-  };
   for (std::size_t p = c.lone_pairs; p < c.pairs.size(); ++p) {
-    const CornerPair& pair = c.pairs[p];
-    set_shares(pair, stand_of(c, pair), next_of(pair.first), next_of(pair.second));
+    const auto& [first, second] = c.among_tangled[p - c.lone_pairs];
+    set_shares(c.pairs[p], stand_of(c, c.pairs[p]), c.next_shares[first], c.next_shares[second]);
   }
   for (std::size_t q = 0; q < c.tangled.size(); ++q) take_share(c, c.tangled[q], c.next_shares[q]);
 }
@@ -210,6 +219,7 @@ void part_pairs(ContactSet& c) {
   }
   std::sort(c.tangled.begin(), c.tangled.end());
   c.tangled.erase(std::unique(c.tangled.begin(), c.tangled.end()), c.tangled.end());
+  find_tangled(c);
   remember_pairs(c);
 }
 

@@ -23,7 +23,7 @@ void gather_forces(NodalForces& forces, const BlockSet& blocks, const State& sta
                    const Pose& pose, const ContactSet& contacts, const BoundarySprings& springs,
                    Vec2 gravity, const LoadsNow& loads = {});
 
-/// The same for the blocks [begin, end).
+/// The same for the blocks [begin, end), not more than blocks_at_once.
 void gather_forces(NodalForces& forces, const BlockSet& blocks, const State& state,
                    const Pose& pose, const ContactSet& contacts, const BoundarySprings& springs,
                    Vec2 gravity, const LoadsNow& loads, std::size_t begin, std::size_t end);
