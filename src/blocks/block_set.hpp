@@ -32,6 +32,8 @@ struct BlockSet {
   std::array<std::vector<double>, 3> weight;  ///< [3][nv] w_k of each vertex, sum 1 (Eq. 22)
   std::array<std::vector<double>, 3>
       node_mass;                             ///< [3][nb] lumped m_k, kg (unused by `consistent`)
+  std::vector<double> point_inverse,
+      edge_inverse;  ///< [nv] w_v^T M^-1 w_v and w_v^T M^-1 w_next, 1/kg (blocks/point_mass.hpp)
   std::vector<double> volume;                ///< [nb] area times thickness, m3
   std::vector<double> lame_lambda, lame_mu;  ///< [nb] Pa, for the model's plane
   std::vector<std::uint8_t> fixed;           ///< [nb] 1: all nodes held

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "blocks/cover.hpp"
+#include "blocks/point_mass.hpp"
 
 namespace edda {
 namespace {
@@ -144,6 +145,7 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
     if (!polygon.name.empty()) b.names[static_cast<Id>(b.area.size() - 1)] = polygon.name;
     b.vertex_begin.push_back(static_cast<Id>(b.vertex_block.size()));
   }
+  fill_point_masses(b);
   return b;
 }
 

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -49,7 +48,7 @@ struct PairMemory {
   std::vector<double> first_end, second_end;  ///< 1 where the corner is the end of the edge, else 0
   std::vector<double> first_seen, second_seen;  ///< delta_A, delta_B, m; infinite before that
   std::vector<double> against;  ///< how far the edges lay against each other, 0 to 1
-  std::vector<double> slack;    ///< m: what counts as having moved
+  std::vector<double> zone;     ///< m: within which they share
   /// The shares of pair p must be set again whatever its corners do.
   void forget(std::size_t p) { first_seen[p] = std::numeric_limits<double>::infinity(); }
 };
@@ -58,6 +57,14 @@ struct PairMemory {
 struct NextShare {
   double share, before, beyond;
   bool balanced;  ///< its partner takes what it gives
+};
+
+/// Candidates in several pairs, and their partners; what pairs they are in.
+struct Tangle {
+  std::vector<Id> candidate;        ///< ascending
+  std::vector<Id> begin, pair;      ///< [candidates + 1] into the pairs of each, ascending
+  std::vector<Id> place;            ///< [2 per pair that is not alone] where its candidates stand
+  std::vector<std::uint8_t> stale;  ///< [candidates] scratch of update_shares()
 };
 
 /// A candidate whose edge has a reentrant end: how far the edge is taken to run on, m.
@@ -209,15 +216,14 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::vector<CornerPair>
       pairs;                   ///< by (first, second): those that share no candidate, then others
   std::size_t lone_pairs = 0;  ///< how many share none
-  PairMemory pair_memory;      ///< of the lone ones
-  std::vector<Id> tangled;     ///< candidates in several pairs, and their partners, ascending
-  std::vector<NextShare> next_shares;            ///< of the tangled; scratch of update_shares()
-  std::vector<std::array<Id, 2>> among_tangled;  ///< [pairs that are not alone] their candidates
-  std::vector<double> pairs_moved;               ///< scratch of update_shares()
-  std::vector<Id> pair_of;                       ///< [nc] a pair the candidate is in, or no_id
-  std::vector<RunOn> run_ons;                    ///< edges with a reentrant end, by candidate
-  std::vector<Segment> segments;                 ///< the bonded ones
-  std::vector<Id> begin_of_vertex;               ///< [nv + 1] candidates of a vertex
+  PairMemory pair_memory;
+  Tangle tangle;
+  std::vector<double> pair_moved;         ///< scratch of update_shares()
+  std::vector<std::uint8_t> pairs_moved;  ///< scratch of update_shares()
+  std::vector<Id> pair_of;                ///< [nc] a pair the candidate is in, or no_id
+  std::vector<RunOn> run_ons;             ///< edges with a reentrant end, by candidate
+  std::vector<Segment> segments;          ///< the bonded ones
+  std::vector<Id> begin_of_vertex;        ///< [nv + 1] candidates of a vertex
 
   // Slots: the candidates by (edge, vertex), so that a block finds in one place what acts on its
   // edges, as it does what acts on its vertices.

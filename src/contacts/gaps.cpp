@@ -71,6 +71,23 @@ EDDA_VECTOR void measure_chunks(ContactView c, const double* x, const double* y,
   }
 }
 
+/// What the dashpot of candidate k took in the last step, J (see book_dashpots() in gaps.hpp).
+EDDA_INLINE double taken_by_dashpot(const ContactView& c, const double* alpha, std::size_t k) {
+  const double hold = c.hold[k], e = c.effective_1(k), e_2 = c.effective_2(k), e_0 = c.effective(k);
+  const double before = may_pull(hold) ? e_2 : larger(e_2, 0.0);
+  const double after = may_pull(hold) ? e_0 : larger(e_0, 0.0);
+  const double work =
+      0.5 * c.share[k] *
+      (c.kn[k] * e * (before - after) + alpha[k] * c.normal[k] * (c.depth[k] - c.depth_2[k]));
+  return carries(hold) ? work : 0.0;
+}
+
+EDDA_VECTOR void book_dashpots(ContactView c, const double* alpha, double* taken, std::size_t begin,
+                               std::size_t end) {
+#pragma omp simd
+  for (std::size_t k = begin; k < end; ++k) taken[k] += taken_by_dashpot(c, alpha, k);
+}
+
 }  // namespace
 
 void update_gap(ContactSet& c, const Pose& pose, std::size_t k) {
@@ -106,15 +123,8 @@ void look_at_previous_gaps(ContactSet& c, const Pose& pose) {
 }
 
 void book_dashpots(ContactSet& c) {
-  parallel_for(c.size(), [&](std::size_t k) {
-    if (!c.is(k, contact_state::closed)) return;
-    const bool pulls = c.is(k, contact_state::pulls);
-    const double e = c.effective_1(k);
-    const double before = pulls ? c.effective_2(k) : std::max(c.effective_2(k), 0.0);
-    const double after = pulls ? c.effective(k) : std::max(c.effective(k), 0.0);
-    c.damping_work[k] +=
-        0.5 * c.share[k] *
-        (c.kn[k] * e * (before - after) + c.alpha[k] * c.normal[k] * (c.depth[k] - c.depth_2[k]));
+  parallel_chunks(c.size(), ContactSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
+    book_dashpots(c.view(), c.alpha.data(), c.damping_work.data(), begin, end);
   });
 }
 

@@ -97,12 +97,19 @@ NextShare start_share(const ContactSet& c, Id k) {
   return next;
 }
 
+/// Corners so far apart, or edges so turned, that all of each spring stays where it is.
+EDDA_INLINE bool apart(double first, double second, double against, double zone) {
+  return (std::abs(first) >= zone) | (std::abs(second) >= zone) | (against == 0.0);
+}
+
+/// Distance within which corners share, m.
+double zone_of(const CornerPair& p) {
+  return 2.0 * p.reach;
+}
+
 void set_shares(const CornerPair& p, const PairStand& stand, NextShare& of_first,
                 NextShare& of_second) {
-  const double zone = 2.0 * p.reach;
-  if (std::abs(stand.first) >= zone || std::abs(stand.second) >= zone || stand.against == 0.0) {
-    return;
-  }
+  if (apart(stand.first, stand.second, stand.against, zone_of(p))) return;
   const Share share = share_of(p, stand.first, stand.second, stand.against);
   of_first.share *= share.first;
   of_second.share *= share.second;
@@ -117,87 +124,111 @@ void take_share(ContactSet& c, std::size_t k, const NextShare& next) {
   change_share(c, k, next.share, next.balanced);
 }
 
-/// Part of r_v that a corner may move before shares are set again: at rest nothing changes.
-constexpr double slack = 1e-4;
+/// Part of the zone 2 r_v that a corner may move before shares are set again: at rest nothing
+/// changes.
+constexpr double slack = 0.5e-4;
+constexpr double never = std::numeric_limits<double>::infinity();
 
 struct PairView {
   const Id *first, *second;
-  const double *first_end, *second_end, *first_seen, *second_seen, *against, *slack;
+  const double *first_end, *second_end, *first_seen, *second_seen, *against, *zone;
 };
 
+/// Whether the shares of pair p must be set again.
 EDDA_INLINE bool has_moved(const PairView& m, const ContactView& c, std::size_t p) {
   const PairStand now = stand_of(c, m.first[p], m.second[p], m.first_end[p], m.second_end[p]);
-  const double moved =
-      std::abs(now.first - m.first_seen[p]) + std::abs(now.second - m.second_seen[p]);
-  return (moved > m.slack[p]) | (now.against != m.against[p]);
+  const double first = m.first_seen[p], second = m.second_seen[p], zone = m.zone[p];
+  const double moved = std::abs(now.first - first) + std::abs(now.second - second);
+  const bool changed = (moved > slack * zone) | (now.against != m.against[p]);
+  const bool out =
+      apart(now.first, now.second, now.against, zone) & apart(first, second, m.against[p], zone);
+  return (first == never) | (changed & !out);
 }
 
-constexpr std::size_t pairs_at_once = 32;
+constexpr std::size_t pairs_at_once = 64;
 
-/// moved[q] of each group of pairs_at_once: 1 if a corner in it has moved.
-EDDA_VECTOR void find_moved(PairView m, ContactView c, double* moved, std::size_t begin,
+/// moved[p] of each pair: 1 if its shares must be set again. Whether there is any.
+EDDA_VECTOR bool find_moved(PairView m, ContactView c, double* moved, std::size_t begin,
                             std::size_t end) {
-  for (std::size_t first = begin; first < end; first += pairs_at_once) {
-    const std::size_t last = std::min(end, first + pairs_at_once);
-    double any = 0.0;
+  double any = 0.0;
 #pragma omp simd reduction(max : any)
-    for (std::size_t p = first; p < last; ++p) any = larger(any, has_moved(m, c, p) ? 1.0 : 0.0);
-    moved[first / pairs_at_once] = any;
+  for (std::size_t p = begin; p < end; ++p) {
+    moved[p] = has_moved(m, c, p) ? 1.0 : 0.0;
+    any = larger(any, moved[p]);
   }
+  return any > 0.0;
+}
+
+PairStand see(ContactSet& c, std::size_t p) {
+  const PairStand now = stand_of(c, c.pairs[p]);
+  PairMemory& m = c.pair_memory;
+  m.first_seen[p] = now.first;
+  m.second_seen[p] = now.second;
+  m.against[p] = now.against;
+  return now;
 }
 
 void update_lone_pair(ContactSet& c, std::size_t p) {
   const CornerPair& pair = c.pairs[p];
-  PairMemory& m = c.pair_memory;
-  const PairStand now = stand_of(c, pair);
-  m.first_seen[p] = now.first;
-  m.second_seen[p] = now.second;
-  m.against[p] = now.against;
+  const PairStand now = see(c, p);
   NextShare first = start_share(c, pair.first), second = start_share(c, pair.second);
   set_shares(pair, now, first, second);
   take_share(c, pair.first, first);
   take_share(c, pair.second, second);
 }
 
-/// Where the candidates of the pairs that are not alone stand among `tangled`.
-void find_tangled(ContactSet& c) {
-  const auto place_of = [&c](Id k) {
-    const auto it = std::lower_bound(c.tangled.begin(), c.tangled.end(), k);
-    return static_cast<Id>(it - c.tangled.begin());
+/// Which pairs the tangled candidates are in.
+void find_pairs_of_tangled(ContactSet& c) {
+  Tangle& t = c.tangle;
+  const auto place_of = [&t](Id k) {
+    const auto it = std::lower_bound(t.candidate.begin(), t.candidate.end(), k);
+    return static_cast<std::size_t>(it - t.candidate.begin());
   };
-  c.among_tangled.clear();
-  for (std::size_t p = c.lone_pairs; p < c.pairs.size(); ++p) {
-    c.among_tangled.push_back({place_of(c.pairs[p].first), place_of(c.pairs[p].second)});
-  }
+  t.begin.assign(t.candidate.size() + 1, 0);
+  const auto each = [&](auto visit) {
+    for (std::size_t p = c.lone_pairs; p < c.pairs.size(); ++p) {
+      for (const Id k : {c.pairs[p].first, c.pairs[p].second}) visit(place_of(k), p);
+    }
+  };
+  each([&](std::size_t q, std::size_t) { ++t.begin[q + 1]; });
+  for (std::size_t q = 0; q < t.candidate.size(); ++q) t.begin[q + 1] += t.begin[q];
+  std::vector<Id> fill(t.begin.begin(), t.begin.end() - 1);
+  t.pair.resize(t.begin.back());
+  t.place.resize(2 * (c.pairs.size() - c.lone_pairs));
+  std::size_t entry = 0;
+  each([&](std::size_t q, std::size_t p) {
+    t.pair[fill[q]++] = static_cast<Id>(p);
+    t.place[entry++] = static_cast<Id>(q);
+  });
+  t.stale.assign(t.candidate.size(), 0);
 }
 
-/// Pairs that share candidates with others: all of a candidate's pairs have a say.
-void update_tangled(ContactSet& c) {
-  if (c.among_tangled.size() != c.pairs.size() - c.lone_pairs) find_tangled(c);
-  c.next_shares.resize(c.tangled.size());
-  for (std::size_t q = 0; q < c.tangled.size(); ++q) {
-    c.next_shares[q] = start_share(c, c.tangled[q]);
+/// The share of the tangled candidate q: all of its pairs have a say.
+void update_tangled(ContactSet& c, std::size_t q) {
+  const Id k = c.tangle.candidate[q];
+  NextShare next = start_share(c, k);
+  for (Id e = c.tangle.begin[q]; e < c.tangle.begin[q + 1]; ++e) {
+    const CornerPair& pair = c.pairs[c.tangle.pair[e]];
+    NextShare other{};
+    const bool is_first = pair.first == k;
+    set_shares(pair, stand_of(c, pair), is_first ? next : other, is_first ? other : next);
   }
-  for (std::size_t p = c.lone_pairs; p < c.pairs.size(); ++p) {
-    const auto& [first, second] = c.among_tangled[p - c.lone_pairs];
-    set_shares(c.pairs[p], stand_of(c, c.pairs[p]), c.next_shares[first], c.next_shares[second]);
-  }
-  for (std::size_t q = 0; q < c.tangled.size(); ++q) take_share(c, c.tangled[q], c.next_shares[q]);
+  take_share(c, k, next);
 }
 
 void remember_pairs(ContactSet& c) {
-  const double never = std::numeric_limits<double>::infinity();
   PairMemory& m = c.pair_memory;
   m = {};
-  for (std::size_t p = 0; p < c.lone_pairs; ++p) {
-    const CornerPair& pair = c.pairs[p];
+  for (const CornerPair& pair : c.pairs) {
     m.first.push_back(pair.first);
     m.second.push_back(pair.second);
     m.first_end.push_back(pair.first_at_start ? 0.0 : 1.0);
     m.second_end.push_back(pair.second_at_start ? 0.0 : 1.0);
-    m.slack.push_back(slack * pair.reach);
+    m.zone.push_back(zone_of(pair));
   }
-  for (auto* seen : {&m.first_seen, &m.second_seen, &m.against}) seen->assign(c.lone_pairs, never);
+  for (auto* seen : {&m.first_seen, &m.second_seen, &m.against}) {
+    seen->assign(c.pairs.size(), never);
+  }
 }
 
 /// Pairs that share no candidate with another come first.
@@ -212,18 +243,22 @@ void part_pairs(ContactSet& c) {
     return pairs_of[p.first] == 1 && pairs_of[p.second] == 1;
   });
   c.lone_pairs = static_cast<std::size_t>(rest - c.pairs.begin());
-  c.tangled.clear();
-  for (auto p = rest; p != c.pairs.end(); ++p) {
-    c.tangled.push_back(p->first);
-    c.tangled.push_back(p->second);
-  }
-  std::sort(c.tangled.begin(), c.tangled.end());
-  c.tangled.erase(std::unique(c.tangled.begin(), c.tangled.end()), c.tangled.end());
-  find_tangled(c);
   remember_pairs(c);
 }
 
 }  // namespace
+
+void list_tangled(ContactSet& c) {
+  std::vector<Id>& list = c.tangle.candidate;
+  list.clear();
+  for (std::size_t p = c.lone_pairs; p < c.pairs.size(); ++p) {
+    list.push_back(c.pairs[p].first);
+    list.push_back(c.pairs[p].second);
+  }
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  find_pairs_of_tangled(c);
+}
 
 void change_share(ContactSet& c, std::size_t k, double share, bool balanced) {
   const double old = c.share[k];
@@ -258,6 +293,7 @@ void pair_corners(ContactSet& c, const BlockSet& b, const Pose& pose) {
     }
   }
   part_pairs(c);
+  list_tangled(c);
   c.pair_of.assign(c.size(), no_id);
   for (std::size_t p = 0; p < c.pairs.size(); ++p) {
     for (const Id k : {c.pairs[p].first, c.pairs[p].second}) {
@@ -270,21 +306,34 @@ void update_shares(ContactSet& c) {
   const PairMemory& m = c.pair_memory;
   const PairView view{m.first.data(),      m.second.data(),     m.first_end.data(),
                       m.second_end.data(), m.first_seen.data(), m.second_seen.data(),
-                      m.against.data(),    m.slack.data()};
-  c.pairs_moved.resize((c.lone_pairs + pairs_at_once - 1) / pairs_at_once);
+                      m.against.data(),    m.zone.data()};
+  const std::size_t pairs = c.pairs.size();
+  c.pair_moved.resize(pairs);
+  c.pairs_moved.resize((pairs + pairs_at_once - 1) / pairs_at_once);
   const ContactView contacts = c.view();
-  parallel_chunks(c.lone_pairs, 16 * pairs_at_once,
-                  [&](std::size_t, std::size_t begin, std::size_t end) {
-                    find_moved(view, contacts, c.pairs_moved.data(), begin, end);
-                  });
+  parallel_chunks(pairs, pairs_at_once, [&](std::size_t q, std::size_t begin, std::size_t end) {
+    c.pairs_moved[q] = find_moved(view, contacts, c.pair_moved.data(), begin, end) ? 1 : 0;
+  });
+  Tangle& t = c.tangle;
   for (std::size_t q = 0; q < c.pairs_moved.size(); ++q) {
-    if (c.pairs_moved[q] == 0.0) continue;
-    const std::size_t end = std::min(c.lone_pairs, (q + 1) * pairs_at_once);
+    if (c.pairs_moved[q] == 0) continue;
+    const std::size_t end = std::min(pairs, (q + 1) * pairs_at_once);
     for (std::size_t p = q * pairs_at_once; p < end; ++p) {
-      if (has_moved(view, contacts, p)) update_lone_pair(c, p);
+      if (c.pair_moved[p] == 0.0) continue;
+      if (p < c.lone_pairs) {
+        update_lone_pair(c, p);
+        continue;
+      }
+      see(c, p);
+      const std::size_t entry = 2 * (p - c.lone_pairs);
+      t.stale[t.place[entry]] = t.stale[t.place[entry + 1]] = 1;
     }
   }
-  update_tangled(c);
+  for (std::size_t q = 0; q < t.stale.size(); ++q) {
+    if (t.stale[q] == 0) continue;
+    update_tangled(c, q);
+    t.stale[q] = 0;
+  }
 }
 
 }  // namespace edda

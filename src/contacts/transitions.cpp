@@ -199,7 +199,7 @@ void leave(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& l
       0.5 * given_up * c.kn[k] * std::max(c.effective(k), 0.0) * std::max(c.effective_1(k), 0.0);
   if (kept * whole > 0.0) {
     change_share(c, k, kept * whole, false);
-    if (c.pair_of[k] < c.lone_pairs) c.pair_memory.forget(c.pair_of[k]);
+    if (c.pair_of[k] != no_id) c.pair_memory.forget(c.pair_of[k]);
     watch_part(c, k);
   } else {
     c.friction_work[k] += stored_energy(c, k);

@@ -5,6 +5,7 @@
 
 #include "base/parallel.hpp"
 #include "base/vector_loop.hpp"
+#include "blocks/point_mass.hpp"
 #include "contacts/gap.hpp"
 #include "contacts/stored_energy.hpp"
 #include "contacts/switching.hpp"
@@ -13,16 +14,6 @@ namespace edda {
 namespace {
 
 namespace cs = contact_state;
-
-double quadratic_form(const BlockSet& b, std::size_t i, double w0, double w1, double w2) {
-  if (b.fixed[i]) return 0.0;
-  if (b.mass_kind != MassKind::consistent) {
-    return w0 * w0 / b.node_mass[0][i] + w1 * w1 / b.node_mass[1][i] + w2 * w2 / b.node_mass[2][i];
-  }
-  const auto& m = b.inverse_mass;
-  return w0 * (m[0][i] * w0 + 2.0 * m[1][i] * w1 + 2.0 * m[2][i] * w2) +
-         w1 * (m[3][i] * w1 + 2.0 * m[4][i] * w2) + w2 * m[5][i] * w2;
-}
 
 void let_go(ContactSet& c, std::size_t k) {
   c.clear(k, cs::closed | cs::bonded | cs::pulls | cs::sliding);
@@ -49,12 +40,39 @@ EDDA_INLINE double spring_normal(const Contacts& c, std::size_t k) {
   return carries(c.hold[k]) ? n : 0.0;
 }
 
-/// Adds what the dashpot does.
-void add_dashpot(ContactSet& c, const BlockSet& b, std::size_t k, double step, double damping) {
-  if (!c.is(k, cs::closed) || !(c.is(k, cs::pulls) || c.effective(k) > 0.0)) return;
-  const double damped =
-      c.normal[k] + dashpot_coefficient(c, b, k, damping) * (c.depth[k] - c.depth_1[k]) / step;
-  c.normal[k] = c.is(k, cs::pulls) ? damped : std::max(0.0, damped);
+/// Dashpots of all contacts; what of the blocks decides them.
+struct Dashpots {
+  double damping, step;  ///< zeta; s
+  const double *point_inverse, *edge_inverse;
+};
+
+Dashpots dashpots_of(const BlockSet& b, double damping, double step) {
+  return {damping, step, b.point_inverse.data(), b.edge_inverse.data()};
+}
+
+/// 1/m_c at the foot of k.
+template <class Blocks, class Contacts>
+EDDA_INLINE double inverse_mass_at(const Blocks& b, const Contacts& c, std::size_t k, double xi) {
+  return b.point_inverse[c.vertex[k]] + inverse_mass_on_edge(b, c.edge[k], c.edge_end[k], xi);
+}
+
+/// c = 2 zeta sqrt(p m_c).
+template <class Blocks, class Contacts>
+EDDA_INLINE double coefficient(const Blocks& b, const Contacts& c, std::size_t k, double damping) {
+  const double xi = c.foot[k] / c.span[k];
+  return 2.0 * damping * std::sqrt(c.kn[k] / inverse_mass_at(b, c, k, xi));
+}
+
+/// N with what the dashpot does.
+template <class Contacts>
+EDDA_INLINE double damped_normal(const Contacts& c, std::size_t k, double spring,
+                                 const Dashpots& d) {
+  const double hold = c.hold[k];
+  const double rate = (c.depth[k] - c.depth_1[k]) / d.step;
+  const double damped = spring + coefficient(d, c, k, d.damping) * rate;
+  const bool acts = carries(hold) & (may_pull(hold) | (c.effective(k) > 0.0));
+  const double pushing = larger(damped, 0.0);
+  return acts ? (may_pull(hold) ? damped : pushing) : spring;
 }
 
 /// T by the return map.
@@ -83,11 +101,9 @@ struct Reactions {
       end_y[ContactSet::chunk];
 };
 
-/// N, unless dashpots have been added to it, T and the forces; the reaction as entry q. Whether T
-/// was cut.
-EDDA_INLINE bool push(const ContactView& c, std::size_t k, bool damped, Reactions& on,
+/// T and the forces under the normal force N; the reaction as entry q. Whether T was cut.
+EDDA_INLINE bool push(const ContactView& c, std::size_t k, double normal, Reactions& on,
                       std::size_t q) {
-  const double spring = spring_normal(c, k), normal = damped ? c.normal[k] : spring;
   const Cut cut = cut_of(c, k, normal);
   const double followed = anchor_of(c, k, cut.kept), anchor = c.anchor[k], w = c.share[k];
   c.normal[k] = normal;
@@ -101,6 +117,11 @@ EDDA_INLINE bool push(const ContactView& c, std::size_t k, bool damped, Reaction
   on.end_x[q] = f.f3.x;
   on.end_y[q] = f.f3.y;
   return cut.slid;
+}
+
+EDDA_INLINE bool push_damped(const ContactView& c, const Dashpots& d, std::size_t k, Reactions& on,
+                             std::size_t q) {
+  return push(c, k, damped_normal(c, k, spring_normal(c, k), d), on, q);
 }
 
 /// Where T was cut the anchor follows and the slip is booked, p_t (s_tr - s)(s + s_{n-1})/2
@@ -125,13 +146,21 @@ struct Found {
 };
 
 /// One chunk, or one contact.
-EDDA_VECTOR Found push_chunk(ContactView c, std::size_t first, std::size_t last, bool damped) {
+EDDA_VECTOR Found push_chunk(ContactView c, Dashpots d, std::size_t first, std::size_t last) {
   double cut = 0.0, fresh = 0.0, hold = 0.0;
   Reactions on;
+  if (d.damping > 0.0) {
 #pragma omp simd reduction(max : cut, hold)
-  for (std::size_t k = first; k < last; ++k) {
-    cut = larger(cut, push(c, k, damped, on, k - first) ? 1.0 : 0.0);
-    hold = larger(hold, c.hold[k]);
+    for (std::size_t k = first; k < last; ++k) {
+      cut = larger(cut, push_damped(c, d, k, on, k - first) ? 1.0 : 0.0);
+      hold = larger(hold, c.hold[k]);
+    }
+  } else {
+#pragma omp simd reduction(max : cut, hold)
+    for (std::size_t k = first; k < last; ++k) {
+      cut = larger(cut, push(c, k, spring_normal(c, k), on, k - first) ? 1.0 : 0.0);
+      hold = larger(hold, c.hold[k]);
+    }
   }
   for (std::size_t k = first; k < last; ++k) {
     double* const reaction = c.reaction + 4 * static_cast<std::size_t>(c.slot[k]);
@@ -148,18 +177,9 @@ EDDA_VECTOR Found push_chunk(ContactView c, std::size_t first, std::size_t last,
   return {hold, cut > 0.0, fresh > 0.0};
 }
 
-void add_dashpots(ContactSet& c, const BlockSet& b, std::size_t begin, std::size_t end, double step,
-                  double damping) {
-  for (std::size_t k = begin; k < end; ++k) {
-    c.normal[k] = spring_normal(c, k);
-    add_dashpot(c, b, k, step, damping);
-  }
-}
-
 void evaluate_one(ContactSet& c, const BlockSet& b, std::size_t k, double step, double damping) {
-  if (damping > 0.0) add_dashpots(c, b, k, k + 1, step, damping);
   c.keep_slips(k);
-  const Found found = push_chunk(c.view(), k, k + 1, damping > 0.0);
+  const Found found = push_chunk(c.view(), dashpots_of(b, damping, step), k, k + 1);
   if (found.fresh) c.set(k, cs::slipped);
   if (!found.cut) c.slip_trial[k] = -c.shear[k] / c.ks[k];
   if (c.is(k, cs::pulls) && !c.is(k, cs::bonded) && c.normal[k] < -c.tension[k]) tear(c, k);
@@ -168,11 +188,11 @@ void evaluate_one(ContactSet& c, const BlockSet& b, std::size_t k, double step, 
 /// Springs, dashpots and return map of the contacts [begin, end): whole chunks.
 void evaluate(ContactSet& c, const BlockSet& b, std::size_t begin, std::size_t end, double step,
               double damping) {
-  if (damping > 0.0) add_dashpots(c, b, begin, end, step, damping);
   const ContactView view = c.view();
+  const Dashpots dashpots = dashpots_of(b, damping, step);
   for (std::size_t first = begin; first < end; first += ContactSet::chunk) {
     const std::size_t last = std::min(end, first + ContactSet::chunk);
-    const Found found = push_chunk(view, first, last, damping > 0.0);
+    const Found found = push_chunk(view, dashpots, first, last);
     c.cuts[first / ContactSet::chunk] = found.cut ? 1 : 0;
     for (std::size_t k = first; found.fresh && k < last; ++k) {
       if (c.cut(k)) c.set(k, cs::slipped);
@@ -248,23 +268,18 @@ void break_failed(ContactSet& c, const BlockSet& b, const LawTable& laws, Break 
 }  // namespace
 
 double inverse_contact_mass(const BlockSet& b, const ContactSet& c, std::size_t k, double xi) {
-  const Id v = c.vertex[k], p = c.edge[k], q = c.edge_end[k];
-  auto foot = [&](std::size_t node) {
-    return (1.0 - xi) * b.weight[node][p] + xi * b.weight[node][q];
-  };
-  return quadratic_form(b, c.block_i[k], b.weight[0][v], b.weight[1][v], b.weight[2][v]) +
-         quadratic_form(b, c.block_j[k], foot(0), foot(1), foot(2));
+  return inverse_mass_at(b, c, k, xi);
 }
 
 double dashpot_coefficient(const ContactSet& c, const BlockSet& b, std::size_t k, double damping) {
-  return 2.0 * damping * std::sqrt(c.kn[k] / inverse_contact_mass(b, c, k, c.foot[k] / c.span[k]));
+  return coefficient(b, c, k, damping);
 }
 
 void set_normal_force(ContactSet& c, const BlockSet& b, std::size_t k, double step,
                       double damping) {
   c.alpha[k] = 1.0;
-  c.normal[k] = spring_normal(c, k);
-  if (damping > 0.0) add_dashpot(c, b, k, step, damping);
+  const double spring = spring_normal(c, k);
+  c.normal[k] = damping > 0.0 ? damped_normal(c, k, spring, dashpots_of(b, damping, step)) : spring;
 }
 
 void evaluate_contacts(ContactSet& c, const BlockSet& b, const LawTable& laws, double step,

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "blocks/point_mass.hpp"
 
 namespace edda {
 namespace {
@@ -38,6 +39,7 @@ std::vector<double> raise_inertia(BlockSet& b, const State& state, const Pose& p
     }
     if (enough) break;
   }
+  if (!factors.empty()) fill_point_masses(b);
   return factors;
 }
 

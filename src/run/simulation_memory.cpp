@@ -5,8 +5,10 @@
 #include <functional>
 #include <utility>
 
+#include "blocks/point_mass.hpp"
 #include "checkpoint/archive.hpp"
 #include "contacts/candidates.hpp"
+#include "contacts/shares.hpp"
 #include "run/implicit_memory.hpp"
 
 namespace edda {
@@ -52,7 +54,6 @@ void list_contacts(Archive& a, ContactSet& c) {
   a("contacts.reaction", c.reaction);
   a("contacts.why", c.why);
   a("contacts.blocked", c.blocked);
-  a("contacts.tangled", c.tangled);
   a("contacts.lone_pairs", c.lone_pairs);
   a("contacts.pair_of", c.pair_of);
   a("contacts.built_x", c.built_x);
@@ -90,14 +91,14 @@ void list_groups(Archive& a, ContactSet& c) {
   a("pairs.second_at_start", second_at_start);
   a("pairs.reach", reach);
   PairMemory& m = c.pair_memory;
-  a("pairs.lone_first", m.first);
-  a("pairs.lone_second", m.second);
+  a("pairs.first_again", m.first);
+  a("pairs.second_again", m.second);
   a("pairs.first_end", m.first_end);
   a("pairs.second_end", m.second_end);
   a("pairs.first_seen", m.first_seen);
   a("pairs.second_seen", m.second_seen);
   a("pairs.against", m.against);
-  a("pairs.slack", m.slack);
+  a("pairs.zone", m.zone);
   a("segments.members", members);
   a("segments.ends", ends);
   if constexpr (Archive::loads) {
@@ -249,18 +250,17 @@ void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawT
   j.below("contacts.block_j", c.block_j, b.size());
   j.below("contacts.law", {c.law.begin(), c.law.end()}, laws.rows.size());
   j.below("contacts.blocked", c.blocked, nc);
-  j.below("contacts.tangled", c.tangled, nc);
   j.below("contacts.pair_of", c.pair_of, c.pairs.size(), true);
   if (j.flaw().empty() && !belong_together(c, b)) j.refuse("contacts do not belong together");
   if (c.lone_pairs > c.pairs.size()) j.refuse("contacts.lone_pairs is too large");
   const PairMemory& m = c.pair_memory;
   for (const auto* ids : {&m.first, &m.second}) {
-    j.sized("pairs.lone", *ids, c.lone_pairs);
-    j.below("pairs.lone", *ids, nc);
+    j.sized("pairs", *ids, c.pairs.size());
+    j.below("pairs", *ids, nc);
   }
   for (const auto* values :
-       {&m.first_end, &m.second_end, &m.first_seen, &m.second_seen, &m.against, &m.slack}) {
-    j.sized("pairs.lone", *values, c.lone_pairs);
+       {&m.first_end, &m.second_end, &m.first_seen, &m.second_seen, &m.against, &m.zone}) {
+    j.sized("pairs", *values, c.pairs.size());
   }
   for (const CornerPair& p : c.pairs) j.below("pairs", {p.first, p.second}, nc);
   for (const Segment& s : c.segments) j.below("segments", s.members, nc);
@@ -360,8 +360,10 @@ std::string recall(Simulation& sim, const Record& record) {
   judge(j, sim);
   if (!j.flaw().empty()) return j.flaw();
   sim.contacts.look_everywhere();
+  if (!sim.inertia.empty()) fill_point_masses(sim.blocks);
   list_by_corner(sim.contacts, sim.blocks.vertex_count());
   list_run_ons(sim.contacts, sim.blocks);
+  list_tangled(sim.contacts);
   return j.flaw();
 }
 
