@@ -46,4 +46,22 @@ void measure_quality(std::span<const BlockPolygon> blocks, Vec2 origin, CutRepor
   }
 }
 
+void count_poor_blocks(std::span<const BlockPolygon> cut, const Quality& quality,
+                       CutReport& report) {
+  for (const BlockPolygon& block : cut) {
+    const double area = moments(block.rings).area;
+    double perimeter = 0.0;
+    for (const Ring& ring : block.rings) {
+      const std::size_t n = ring.size();
+      for (std::size_t i = 0; i < n; ++i) {
+        const Vec2 a = ring[i], b = ring[(i + 1) % n], c = ring[(i + 2) % n];
+        perimeter += norm(b - a);
+        report.short_edges += norm(b - a) < quality.min_edge;
+        report.sharp_corners += inner_angle(a, b, c) < quality.min_angle;
+      }
+    }
+    report.slivers += area < quality.min_area || 2.0 * area < quality.min_edge * perimeter;
+  }
+}
+
 }  // namespace edda

@@ -12,4 +12,9 @@ namespace edda {
 /// model coordinates. Angles between neighbouring edges, inside the block, in degrees.
 void measure_quality(std::span<const BlockPolygon> blocks, Vec2 origin, CutReport& report);
 
+/// Counts what is still below the limits of [quality] among the cut blocks, edges between two
+/// blocks once for each. Fills slivers, short_edges and sharp_corners.
+void count_poor_blocks(std::span<const BlockPolygon> cut, const Quality& quality,
+                       CutReport& report);
+
 }  // namespace edda

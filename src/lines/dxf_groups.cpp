@@ -1,0 +1,321 @@
+#include "lines/dxf_groups.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "lines/file_words.hpp"
+
+namespace edda {
+namespace {
+
+struct Group {
+  int code = 0;
+  std::string_view value;
+  int line = 0;  ///< of the code
+};
+
+std::optional<int> whole_number(std::string_view text) {
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// Pairs of lines, one at a time.
+class Groups {
+ public:
+  Groups(std::string_view text, std::string path) : rest_(text), path_(std::move(path)) {}
+
+  /// The next pair; nothing at the end of the file, or where a fault has been found.
+  std::optional<Group> next() {
+    while (!fault_ && !rest_.empty()) {
+      Group group;
+      group.line = line_ + 1;
+      const std::string_view code = trimmed(take());
+      const auto number = whole_number(code);
+      if (!number) {
+        fail(group.line, '"' + for_message(code) + "\" is not a group code");
+        return std::nullopt;
+      }
+      if (rest_.empty() && code_is_last_) return std::nullopt;
+      group.code = *number;
+      group.value = trimmed(take());
+      constexpr int comment = 999;
+      if (group.code != comment) return group;
+    }
+    return std::nullopt;
+  }
+
+  void fail(int line, std::string problem) {
+    if (!fault_) {
+      fault_ = Fault{{"", path_, line, 1},
+                     std::move(problem),
+                     "save it again as an ASCII DXF drawing, or export the lines as .csv"};
+    }
+  }
+  const std::optional<Fault>& fault() const { return fault_; }
+  int line() const { return line_; }
+
+ private:
+  std::string_view take() {
+    ++line_;
+    code_is_last_ = rest_.empty();
+    return next_line(rest_);
+  }
+
+  std::string_view rest_;
+  std::string path_;
+  int line_ = 0;
+  bool code_is_last_ = false;
+  std::optional<Fault> fault_;
+};
+
+/// An entity: its name and its groups up to the next one.
+struct Entity {
+  std::string_view name;
+  int line = 0;
+  std::vector<Group> groups;
+
+  const Group* find(int code) const {
+    for (const Group& g : groups) {
+      if (g.code == code) return &g;
+    }
+    return nullptr;
+  }
+};
+
+/// What the reader asks of one entity.
+class Writer {
+ public:
+  explicit Writer(Groups& file) : file_(file) { pair(0, "SECTION"), pair(2, "ENTITIES"); }
+
+  bool entity(const Entity& e) {
+    if (e.name == "VERTEX") return vertex(e);
+    if (e.name == "SEQEND") {
+      if (!open_) return count(e.name);
+      pair(0, "SEQEND"), pair(8, layer_);
+      return close();
+    }
+    if (open_) return fail(e.line, "a POLYLINE is not ended by SEQEND");
+    if (skipping_ && e.name != "SEQEND") skipping_ = false;
+    if (e.name != "LINE" && e.name != "LWPOLYLINE" && e.name != "POLYLINE") return count(e.name);
+    if (const Group* paper = e.find(67); paper != nullptr && whole_number(paper->value) == 1) {
+      skipping_ = e.name == "POLYLINE";
+      return count(std::string(e.name) + " on paper");
+    }
+    if (e.name == "LINE") return line(e);
+    const auto side = side_of_plane(e);
+    if (!side) return false;
+    if (*side == 0) {
+      skipping_ = e.name == "POLYLINE";
+      return count(std::string(e.name) + " across the plane");
+    }
+    return e.name == "POLYLINE" ? polyline(e, *side) : light_polyline(e, *side);
+  }
+
+  SafeDrawing finish() {
+    if (open_) fail(file_.line(), "a POLYLINE is not ended by SEQEND");
+    pair(0, "ENDSEC"), pair(0, "EOF");
+    return std::move(drawing_);
+  }
+
+ private:
+  bool fail(int line, std::string problem) {
+    file_.fail(line, std::move(problem));
+    return false;
+  }
+  bool count(std::string_view name) {
+    ++drawing_.skipped[for_message(name)];
+    return true;
+  }
+  void pair(int code, std::string_view value) {
+    drawing_.text += std::to_string(code) + '\n';
+    drawing_.text += value;
+    drawing_.text += '\n';
+  }
+  void pair(int code, double value) {
+    std::array<char, 40> text{};
+    std::snprintf(text.data(), text.size(), "%.17g", value);
+    pair(code, std::string_view(text.data()));
+  }
+  void begin(const Entity& e) {
+    drawing_.lines.push_back(e.line);
+    pair(0, e.name);
+    const Group* layer = e.find(8);
+    layer_ = layer == nullptr || layer->value.empty() ? "0" : std::string(layer->value);
+    constexpr std::size_t longest = 1000;
+    if (layer_.size() > longest) layer_.resize(longest);
+    pair(8, layer_);
+  }
+
+  std::optional<double> real(const Group& g) {
+    const auto value = place_number(g.value);
+    if (!value) fail(g.line + 1, '"' + for_message(g.value) + "\" is not a length");
+    return value;
+  }
+  /// A coordinate that must be there.
+  std::optional<double> real(const Entity& e, int code) {
+    const Group* g = e.find(code);
+    if (g != nullptr) return real(*g);
+    fail(e.line, std::string(e.name) + " lacks group " + std::to_string(code));
+    return std::nullopt;
+  }
+  /// A flag; 0 where it is left out.
+  std::optional<int> flags(const Entity& e) {
+    const Group* g = e.find(70);
+    if (g == nullptr) return 0;
+    const auto value = whole_number(g->value);
+    if (!value) fail(g->line + 1, '"' + for_message(g->value) + "\" is not a whole number");
+    return value;
+  }
+
+  /// Of a polyline, whose points are in the plane across its extrusion: +1 drawn from above, -1
+  /// from below (x is mirrored), 0 aslant.
+  std::optional<int> side_of_plane(const Entity& e) {
+    std::array<double, 3> up{0.0, 0.0, 1.0};
+    for (int k = 0; k < 3; ++k) {
+      const Group* g = e.find(210 + 10 * k);
+      if (g == nullptr) continue;
+      const auto value = real(*g);
+      if (!value) return std::nullopt;
+      up[static_cast<std::size_t>(k)] = *value;
+    }
+    constexpr double aslant = 1e-6;
+    if (std::abs(up[0]) > aslant || std::abs(up[1]) > aslant || up[2] == 0.0) return 0;
+    return up[2] > 0.0 ? 1 : -1;
+  }
+
+  bool line(const Entity& e) {
+    const auto x1 = real(e, 10), y1 = real(e, 20), x2 = real(e, 11), y2 = real(e, 21);
+    if (!x1 || !y1 || !x2 || !y2) return false;
+    begin(e);
+    pair(10, *x1), pair(20, *y1), pair(11, *x2), pair(21, *y2);
+    return true;
+  }
+
+  struct Corner {
+    double x = 0.0, y = 0.0, bulge = 0.0;
+    bool has_y = false;
+  };
+
+  bool light_polyline(const Entity& e, int side) {
+    const auto flag = flags(e);
+    if (!flag) return false;
+    std::vector<Corner> corners;
+    for (const Group& g : e.groups) {
+      if (g.code != 10 && g.code != 20 && g.code != 42) continue;
+      const auto value = real(g);
+      if (!value) return false;
+      if (g.code == 10) {
+        if (!corners.empty() && !corners.back().has_y) break;
+        corners.push_back({side * *value, 0.0, 0.0, false});
+      } else if (corners.empty()) {
+        return fail(g.line, "a corner of an LWPOLYLINE does not begin with group 10");
+      } else if (g.code == 20) {
+        corners.back().y = *value;
+        corners.back().has_y = true;
+      } else {
+        corners.back().bulge = side * *value;
+      }
+    }
+    if (corners.empty()) return count("LWPOLYLINE without corners");
+    if (!corners.back().has_y) return fail(e.line, "a corner of an LWPOLYLINE lacks group 20");
+    begin(e);
+    pair(90, std::to_string(corners.size()));
+    pair(70, std::to_string(*flag & 1));
+    for (const Corner& c : corners) pair(10, c.x), pair(20, c.y), pair(42, c.bulge);
+    return true;
+  }
+
+  bool polyline(const Entity& e, int side) {
+    const auto flag = flags(e);
+    if (!flag) return false;
+    constexpr int mesh = 16 | 64;
+    if ((*flag & mesh) != 0) {
+      skipping_ = true;
+      return count("POLYLINE as a mesh");
+    }
+    begin(e);
+    pair(66, "1");
+    pair(70, std::to_string(*flag & 1));
+    open_ = true;
+    side_ = side;
+    return true;
+  }
+
+  bool vertex(const Entity& e) {
+    if (skipping_) return true;
+    if (!open_) return count(e.name);
+    const auto flag = flags(e);
+    const auto x = real(e, 10), y = real(e, 20);
+    if (!flag || !x || !y) return false;
+    constexpr int frame_of_spline = 16;
+    if ((*flag & frame_of_spline) != 0) return true;
+    double bulge = 0.0;
+    if (const Group* g = e.find(42)) {
+      const auto value = real(*g);
+      if (!value) return false;
+      bulge = *value;
+    }
+    pair(0, "VERTEX"), pair(8, layer_);
+    pair(10, side_ * *x), pair(20, *y), pair(42, side_ * bulge);
+    return true;
+  }
+
+  bool close() {
+    open_ = false;
+    return true;
+  }
+
+  Groups& file_;
+  SafeDrawing drawing_;
+  std::string layer_;
+  bool open_ = false;      ///< within a POLYLINE
+  bool skipping_ = false;  ///< within one that is left out
+  int side_ = 1;
+};
+
+/// Reads the entities of the section that has just begun, up to its end.
+void read_entities(Groups& file, Writer& writer) {
+  Entity e;
+  while (const auto group = file.next()) {
+    if (group->code != 0) {
+      e.groups.push_back(*group);
+      continue;
+    }
+    if (!e.name.empty() && !writer.entity(e)) return;
+    e = {group->value, group->line, {}};
+    if (group->value == "ENDSEC") return;
+    if (group->value == "EOF" || group->value == "SECTION") {
+      return file.fail(group->line, "the section of entities is not ended by ENDSEC");
+    }
+  }
+  file.fail(file.line(), "breaks off within its entities");
+}
+
+}  // namespace
+
+Result<SafeDrawing> safe_drawing(std::string_view text, const std::string& path) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  Groups file(text, path);
+  if (text.starts_with("AutoCAD Binary DXF")) file.fail(1, "is a binary drawing");
+  Writer writer(file);
+  bool section = false, entities = false;
+  for (auto group = file.next(); group && !file.fault(); group = file.next()) {
+    const bool names_it = section && group->code == 2;
+    section = group->code == 0 && group->value == "SECTION";
+    if (!names_it || group->value != "ENTITIES") continue;
+    entities = true;
+    read_entities(file, writer);
+  }
+  SafeDrawing drawing = writer.finish();
+  if (!file.fault() && !entities) file.fail(0, "has no section of entities");
+  if (file.fault()) return *file.fault();
+  return drawing;
+}
+
+}  // namespace edda
