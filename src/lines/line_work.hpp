@@ -39,6 +39,7 @@ struct LineWork {
 /// The line work of model.domain relative to `origin`. Joint-set lines run from just outside the
 /// outline to just outside it, or to the edge of their region. Fault: a set of more lines than
 /// max_blocks. Precondition: model.domain is set.
-Result<LineWork> line_work(const Model& model, Vec2 origin, double snap, const Imports& imports);
+Result<LineWork> line_work(const Model& model, Vec2 origin, double snap,
+                           const Imports& imports = {});
 
 }  // namespace edda

@@ -5,6 +5,8 @@
 #include <map>
 #include <numbers>
 
+#include "lines/quality.hpp"
+
 namespace edda {
 namespace {
 
@@ -36,7 +38,7 @@ class Merger {
 
   /// The face that `face` ought to be merged into; -1 if it is good as it is, or has none.
   int target(int face) const {
-    const bool sliver = is_sliver(face), sharp = !sliver && is_sharp(face);
+    const bool sliver = is_poor(face), sharp = !sliver && is_sharp(face);
     if ((!sliver && !sharp) || is_held(face)) return -1;
     const int into = longest_neighbour(face);
     return into >= 0 && (sliver || cures_corners(face, into)) ? into : -1;
@@ -45,10 +47,15 @@ class Merger {
  private:
   const Faces& faces() const { return parts_.faces; }
 
-  bool is_sliver(int face) const {
-    const double area = face_area(g_, faces(), face);
-    return area < quality_.min_area ||
-           2.0 * area < quality_.min_edge * perimeter_of(g_, faces(), face);
+  bool is_poor(int face) const {
+    std::vector<Vec2> ring;
+    const int start = faces().cycles.start[at(faces().outer[at(face)])];
+    int h = start;
+    do {
+      ring.push_back(g_.node[at(origin_of(g_, h))]);
+      h = faces().cycles.next[at(h)];
+    } while (h != start);
+    return is_sliver(face_area(g_, faces(), face), perimeter_of(g_, faces(), face), ring, quality_);
   }
 
   bool is_sharp(int face) const {

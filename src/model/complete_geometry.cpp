@@ -142,12 +142,21 @@ double smallest_spacing(const Model& model) {
     if (set.spacing > 0.0) least = std::min(least, set.spacing);
   }
   if (model.voronoi && model.voronoi->size > 0.0) least = std::min(least, model.voronoi->size);
+  // Of a network: area over length, what parallel joints of that density would be apart.
+  for (const FractureNetwork& network : model.networks) {
+    if (network.p21 && *network.p21 > 0.0) least = std::min(least, 1.0 / *network.p21);
+    if (!network.count || !network.length.mean || !model.domain) continue;
+    const Ring& ring = network.region.empty() ? model.domain->outline : network.region;
+    const double length = static_cast<double>(*network.count) * *network.length.mean;
+    if (!ring.empty() && length > 0.0) {
+      least = std::min(least, std::abs(signed_area(ring)) / length);
+    }
+  }
   return least;
 }
 
 /// Two hundredths of the spacing: a strip so thin is an accident of where the joints happen to lie,
-/// and far below what the joints of a set are apart. A square that is just too small is just too
-/// thin as well (2 area / perimeter).
+/// far below what the joints of a set are apart; and the area of a square of twice that.
 void complete_quality(const Value& root, Reading& reading) {
   Quality& quality = reading.model.quality;
   const Value* node = find(&root, "quality");

@@ -41,7 +41,9 @@ TEST(Arc, BulgeIsTheRiseOverHalfTheChord) {
     ASSERT_FALSE(corners.empty());
     double farthest = 0.0;
     for (const Vec2 p : corners) farthest = std::max(farthest, std::abs(p.x - 1.0));
-    if (std::abs(bulge) <= 1.0) EXPECT_NEAR(farthest, std::abs(bulge) * 2.0, 1e-3);
+    if (std::abs(bulge) <= 1.0) {
+      EXPECT_NEAR(farthest, std::abs(bulge) * 2.0, 1e-3);
+    }
     for (const Vec2 p : corners) EXPECT_EQ(p.x > 1.0, bulge > 0.0);
   }
   EXPECT_TRUE(bulge_corners({0, 0}, {1, 0}, 0.0, 48).empty());

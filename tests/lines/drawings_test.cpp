@@ -130,7 +130,8 @@ TEST(Dxf, BadOnesGiveOneFaultAtTheirLine) {
   dxf_fault("\x89PNG\r\n\x1a\n", 1, "not a group code");
   dxf_fault("0\nSECTION\n2\nHEADER\n0\nENDSEC\n0\nEOF\n", 0, "no section of entities");
   dxf_fault("0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nJ\n", 8, "breaks off");
-  dxf_fault("0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nJ\n0\nEOF\n", 9, "not ended by ENDSEC");
+  dxf_fault(dxf(line_entity("J", "0", "0", "1", "1")).substr(0, 52) + "0\nEOF\n", 17,
+            "not ended by ENDSEC");
   dxf_fault("0\nSECTION\n2\nENTITIES\nLINE\n8\n", 5, "\"LINE\" is not a group code");
   dxf_fault(dxf(line_entity("J", "0", "zero", "1", "1")), 12, "\"zero\" is not a length");
   dxf_fault(dxf(line_entity("J", "0", "1e400", "1", "1")), 12, "is not a length");
@@ -139,12 +140,11 @@ TEST(Dxf, BadOnesGiveOneFaultAtTheirLine) {
   dxf_fault(dxf("0\nLINE\n8\nJ\n10\n1\n20\n1\n11\n2\n"), 5, "lacks group 21");
   dxf_fault(dxf("0\nLWPOLYLINE\n90\n1000000000\n20\n1\n"), 9, "does not begin with group 10");
   dxf_fault(dxf("0\nLWPOLYLINE\n10\n1\n10\n1\n"), 5, "lacks group 20");
-  dxf_fault(dxf("0\nPOLYLINE\n0\nVERTEX\n10\n1\n20\n1\n"), 13, "not ended by SEQEND");
+  dxf_fault(dxf("0\nPOLYLINE\n0\nVERTEX\n10\n1\n20\n1\n"), 16, "not ended by SEQEND");
   dxf_fault(dxf("0\nPOLYLINE\n0\nLINE\n"), 7, "not ended by SEQEND");
   dxf_fault(dxf("0\nPOLYLINE\n70\nx\n0\nSEQEND\n"), 8, "not a whole number");
 }
 
-/// libdime allocates by the count that group 90 claims: what it is given is counted anew.
 TEST(Dxf, CountsThatLieDoNoHarm) {
   for (const char* claim : {"0", "-5", "1", "2000000000"}) {
     std::string text = light_polyline("0", "0");
@@ -169,7 +169,9 @@ TEST(Dxf, OddDrawingsNeverCrash) {
   int read_ones = 0;
   for (int round = 0; round < 3000; ++round) {
     std::vector<std::string> odd = lines;
-    for (int change = 0; change < 3; ++change) {
+    const unsigned changes = 1 + random() % 2;
+    for (unsigned change = 0; change < changes; ++change) {
+      if (odd.empty()) break;
       const std::size_t at = random() % odd.size();
       constexpr const char* values[] = {"0", "-1", "70", "66", "10", "999", "1e308", "VERTEX",
                                         "",  "90", "42", "5",  "16", "EOF", "SEQEND"};
@@ -191,7 +193,9 @@ TEST(Dxf, OddDrawingsNeverCrash) {
     for (const std::string& line : odd) text += line + '\n';
     const Result<Drawing> result = parse_dxf(text, "odd.dxf");
     read_ones += result.ok();
-    if (!result.ok()) ASSERT_EQ(result.faults().size(), 1U);
+    if (!result.ok()) {
+      ASSERT_EQ(result.faults().size(), 1U);
+    }
   }
   EXPECT_GT(read_ones, 100);
   EXPECT_LT(read_ones, 2900);
@@ -272,8 +276,8 @@ TEST(Geo, BadOnesGiveOneFault) {
                "more than the file");
   expect_fault(parse_geo(without(two_squares, "7 6", "-7 6"), "a.geo"), 2, "\"-7\"");
   expect_fault(parse_geo(without(two_squares, "7 6", "7.5 6"), "a.geo"), 2, "\"7.5\"");
-  expect_fault(parse_geo(without(two_squares, "7 6", "6 6"), "a.geo"), 19, "after its last number");
-  expect_fault(parse_geo(without(two_squares, "1 1\n2 1\n", "1 1\n2\n"), "a.geo"), 19,
+  expect_fault(parse_geo(without(two_squares, "7 6", "6 6"), "a.geo"), 18, "after its last number");
+  expect_fault(parse_geo(without(two_squares, "1 1\n2 1\n", "1 1\n2\n"), "a.geo"), 20,
                "ends before");
   expect_fault(parse_geo(without(two_squares, "\n1\n0\n2", "\n1\n3\n2"), "a.geo"), 9, "bolts");
   expect_fault(parse_geo(without(two_squares, "0 1.5 0 0", "0 1.5 x 0"), "a.geo"), 12, "\"x\"");

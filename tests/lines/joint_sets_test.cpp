@@ -66,8 +66,12 @@ TEST(JointSets, WithoutDeviationsTracesAndGapsAlternate) {
     std::sort(traces.begin(), traces.end());
     for (std::size_t i = 0; i < traces.size(); ++i) {
       const bool whole = traces[i].first > 0.0 && traces[i].second < 40.0;
-      if (whole) EXPECT_NEAR(traces[i].second - traces[i].first, 3.0, 1e-12);
-      if (i > 0) EXPECT_NEAR(traces[i].first - traces[i - 1].second, 2.0, 1e-12);
+      if (whole) {
+        EXPECT_NEAR(traces[i].second - traces[i].first, 3.0, 1e-12);
+      }
+      if (i > 0) {
+        EXPECT_NEAR(traces[i].first - traces[i - 1].second, 2.0, 1e-12);
+      }
     }
     phases += std::fmod(traces[1].first, 5.0) / 5.0;
   }

@@ -96,8 +96,12 @@ TEST(Shapes, HorseshoeComesInBelowItsWidestLine) {
   EXPECT_EQ(ring[0].y, -2.0);
   for (const Vec2 p : ring) {
     const double right = norm(p - Vec2{0, 0}), left = norm(p - Vec2{6, 0});
-    if (p.y <= 0.0) EXPECT_NEAR(p.x > 3.0 ? right : left, 6.0, 1e-12);
-    if (p.y >= 0.0) EXPECT_NEAR(norm(p - Vec2{3, 0}), 3.0, 1e-12);
+    if (p.y <= 0.0) {
+      EXPECT_NEAR(p.x > 3.0 ? right : left, 6.0, 1e-12);
+    }
+    if (p.y >= 0.0) {
+      EXPECT_NEAR(norm(p - Vec2{3, 0}), 3.0, 1e-12);
+    }
   }
 }
 
