@@ -10,10 +10,10 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
-  const edda::Result<edda::Drawing> drawing =
-      data[0] % 3 == 0   ? edda::parse_dxf(text, "fuzz.dxf")
-      : data[0] % 3 == 1 ? edda::parse_geo(text, "fuzz.geo")
-                         : edda::parse_traces(text, "fuzz.csv");
+  const edda::Result<edda::Drawing> drawing = data[0] % 3 == 0 ? edda::parse_dxf(text, "fuzz.dxf")
+                                              : data[0] % 3 == 1
+                                                  ? edda::parse_geo(text, "fuzz.geo")
+                                                  : edda::parse_traces(text, "fuzz.csv");
   if (!drawing.ok()) {
     const edda::Faults& faults = drawing.faults();
     if (faults.size() != 1 || faults[0].problem.empty() || faults[0].remedy.empty()) std::abort();
