@@ -74,8 +74,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       "[solver]\nduration = 1\n[domain]\nmax_blocks = 3000\noutline = ";
   toml += bytes.next() % 4 == 0 ? bytes.points(3, 7) : "[[0,0],[16,0],[16,12],[0,12]]";
   toml += "\n";
+  if (const unsigned poor = bytes.next(); poor % 4 != 0) {
+    toml += "[quality]\nmin_edge = " + Bytes::number(poor / 256.0) +
+            "\nmin_angle = " + std::to_string(poor % 20) + "\n";
+  }
   for (unsigned n = 0; n < 60 && !bytes.empty(); ++n) {
-    switch (bytes.next() % 5) {
+    switch (bytes.next() % 8) {
       case 0:
         toml += "[[joint_set]]\nname = 's" + std::to_string(n) +
                 "'\nangle = " + Bytes::number(bytes.next() * 180.0 / 256.0) +
@@ -84,6 +88,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       case 1:
         toml += "[[opening]]\nname = 'o" + std::to_string(n) +
                 "'\npolygon = " + bytes.points(3, 6) + "\n";
+        break;
+      case 2:
+        toml += "[[region]]\npolygon = " + bytes.points(3, 6) + "\n";
+        break;
+      case 3:
+        toml += "[[joint_set]]\nname = 's" + std::to_string(n) +
+                "'\nangle = " + Bytes::number(bytes.next() * 180.0 / 256.0) +
+                "\nspacing = " + Bytes::number(0.5 + bytes.next() / 32.0) +
+                "\ntrace_length = " + Bytes::number(0.5 + bytes.next() / 8.0) +
+                "\ngap = " + Bytes::number(bytes.next() / 32.0) +
+                "\ndeviation = { angle = 10, spacing = 0.2, trace_length = 0.4 }\n";
         break;
       default:
         toml += "[[trace]]\npoints = " + bytes.points(2, 4) + "\n";

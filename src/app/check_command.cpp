@@ -42,6 +42,7 @@ void print_blocks(const Simulation& sim) {
       "smallest        area {:.4g} m2 at {}, edge {:.4g} m at {}, angle {:.3g} degrees at {}\n",
       r.smallest_area, place_label(r.smallest_area_at), r.smallest_edge,
       place_label(r.smallest_edge_at), r.smallest_angle, place_label(r.smallest_angle_at));
+  for (const std::string& note : r.notes) fmt::print("lines           {}\n", note);
 }
 
 int check(const CheckArguments& args) {

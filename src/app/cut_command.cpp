@@ -20,7 +20,7 @@ struct CutArguments {
   std::vector<std::string> overrides;
 };
 
-void print_report(const PolygonSet& polygons) {
+void print_report(const Model& model, const PolygonSet& polygons) {
   const CutReport& r = polygons.report;
   std::size_t held = 0;
   double area = 0.0;
@@ -40,6 +40,16 @@ void print_report(const PolygonSet& polygons) {
       "trimmed          {} ends of joints inside a block, {} pieces with one block on both sides\n",
       r.dangling, r.bridging);
   fmt::print("merged           {} slivers thinner than twice domain.snap\n", r.merged);
+  const Quality& q = model.quality;
+  fmt::print("quality          {} slivers joined to a neighbour, {:.4g} m2 in all; {} stay\n",
+             r.quality_merged, r.quality_area, r.slivers);
+  if (r.short_edges > 0) {
+    fmt::print("short edges      {} below {:.4g} m\n", r.short_edges, q.min_edge);
+  }
+  if (r.sharp_corners > 0) {
+    fmt::print("sharp corners    {} below {:.4g} degrees\n", r.sharp_corners, q.min_angle);
+  }
+  for (const std::string& note : r.notes) fmt::print("lines            {}\n", note);
   if (r.snap_rounded != 0)
     fmt::print("noding           the lines had to be rounded to domain.snap\n");
   fmt::print("smallest area    {:.4g} m2 at {}\n", r.smallest_area,
@@ -74,7 +84,7 @@ int cut(const CutArguments& args) {
     print(polygons.faults());
     return exit_code::bad_input;
   }
-  print_report(polygons.value());
+  print_report(*model, polygons.value());
   if (args.output.empty()) return exit_code::done;
   if (const Trouble trouble = write_cut(*model, polygons.value(), args.output)) {
     print({*trouble});

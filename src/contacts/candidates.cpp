@@ -239,7 +239,8 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
       old_of_new[k] = static_cast<Id>(old);
     } else {
       next.law[k] = laws.resolve(b.edge_joint[pair.edge],
-                                 b.edge_joint[facing_edge(b, pose.x, pose.y, pair.vertex, n)]);
+                                 b.edge_joint[facing_edge(b, pose.x, pose.y, pair.vertex, n)],
+                                 b.material[next.block_j[k]], b.material[next.block_i[k]]);
       start_candidate(next, b, pose, laws, k);
     }
   }

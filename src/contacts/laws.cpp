@@ -13,6 +13,20 @@ double tangent(double degrees) {
   return std::tan(degrees * std::numbers::pi / 180.0);
 }
 
+void add_pair(std::vector<LawTable::Pair>& pairs, const Index (&between)[2], Index law) {
+  if (between[0] == none || law == none) return;
+  pairs.push_back({std::minmax(between[0], between[1]), static_cast<std::uint16_t>(law)});
+}
+
+/// The law of a pair, or none.
+Index law_of(const std::vector<LawTable::Pair>& pairs, Index a, Index b) {
+  const std::pair<Index, Index> between = std::minmax(a, b);
+  const auto found = std::lower_bound(
+      pairs.begin(), pairs.end(), between,
+      [](const LawTable::Pair& p, const std::pair<Index, Index>& x) { return p.between < x; });
+  return found != pairs.end() && found->between == between ? found->law : none;
+}
+
 }  // namespace
 
 LawTable build_laws(const Model& model) {
@@ -41,6 +55,15 @@ LawTable build_laws(const Model& model) {
   for (std::size_t place = 0; place < order.size(); ++place) {
     table.rank[order[place]] = static_cast<std::uint16_t>(place);
   }
+  for (const ContactPair& pair : model.pairs) {
+    add_pair(table.joint_pairs, pair.joints, pair.joint);
+    add_pair(table.material_pairs, pair.materials, pair.joint);
+  }
+  for (auto* pairs : {&table.joint_pairs, &table.material_pairs}) {
+    std::sort(pairs->begin(), pairs->end(), [](const LawTable::Pair& a, const LawTable::Pair& b) {
+      return a.between < b.between;
+    });
+  }
   if (table.rows.empty()) {  // a single block touches nothing: any law will do
     table.rows.push_back({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, false});
     table.rank.push_back(0);
@@ -56,6 +79,20 @@ std::uint16_t LawTable::resolve(Index struck, Index facing) const {
   if (facing == none || facing == struck) return static_cast<std::uint16_t>(struck);
   const auto a = static_cast<std::uint16_t>(struck), b = static_cast<std::uint16_t>(facing);
   return rank[a] < rank[b] ? a : b;
+}
+
+std::uint16_t LawTable::resolve(Index struck, Index facing, Index struck_material,
+                                Index facing_material) const {
+  if (!joint_pairs.empty()) {
+    const Index law = law_of(joint_pairs, struck == none ? default_law : struck,
+                             facing == none ? default_law : facing);
+    if (law != none) return static_cast<std::uint16_t>(law);
+  }
+  if (!material_pairs.empty()) {
+    const Index law = law_of(material_pairs, struck_material, facing_material);
+    if (law != none) return static_cast<std::uint16_t>(law);
+  }
+  return resolve(struck, facing);
 }
 
 }  // namespace edda

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "model/model.hpp"
@@ -23,6 +24,19 @@ struct LawTable {
   double default_kn = 0.0, default_ks = 0.0;  ///< N/m per metre of thickness
   double thickness = 1.0;
   Index default_law = none;
+  /// [[contact_pair]]: two joints or two materials, the smaller index first, with their law;
+  /// sorted.
+  struct Pair {
+    std::pair<Index, Index> between;
+    std::uint16_t law;
+  };
+  std::vector<Pair> joint_pairs, material_pairs;
+
+  /// Law of a contact between an edge of joint `struck` and material `struck_material` and a vertex
+  /// whose facing edge has the others: that of their pair of joints (an edge that names none counts
+  /// as contact.joint), else of their pair of materials, else resolve() of the joints alone.
+  std::uint16_t resolve(Index struck, Index facing, Index struck_material,
+                        Index facing_material) const;
 
   /// Law of a contact (method.md section 4): that of the edge struck; if it names none, of the
   /// facing edge of the vertex's block; else contact.joint. Where both name one and they differ,

@@ -1,7 +1,9 @@
 #include "lines/build_polygons.hpp"
 
 #include <cstddef>
+#include <cstdio>
 #include <iterator>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "lines/cut_domain.hpp"
 #include "lines/given_blocks.hpp"
 #include "lines/held.hpp"
+#include "lines/imports.hpp"
 #include "lines/overlaps.hpp"
 #include "lines/place.hpp"
 #include "lines/quality.hpp"
@@ -68,9 +71,58 @@ Faults too_many_bricks(const Model& model) {
   return faults;
 }
 
-}  // namespace
+std::string place_text(Vec2 p) {
+  char text[64];
+  std::snprintf(text, sizeof text, "(%.6g, %.6g)", p.x, p.y);
+  return text;
+}
 
-Result<PolygonSet> build_polygons(const Model& model) {
+/// [quality] action = "error": the worst that was found, as one fault.
+Faults poor_blocks(const Model& model, const CutReport& r) {
+  if (model.quality.action != QualityAction::error) return {};
+  const Quality& q = model.quality;
+  const auto fault = [&](const char* key, std::string problem) {
+    Where where = q.where;
+    if (where.file.empty()) where = {"quality", model.file, 0, 0};
+    return Faults{{member_of(where, key), std::move(problem),
+                   "change what cuts there, give a smaller limit, or action = \"merge\""}};
+  };
+  if (r.slivers > 0) {
+    return fault("min_area", std::to_string(r.slivers) +
+                                 " blocks are smaller than it, or thinner than min_edge; the "
+                                 "smallest lies at " +
+                                 place_text(r.smallest_area_at));
+  }
+  if (r.short_edges > 0) {
+    return fault("min_edge", std::to_string(r.short_edges) +
+                                 " edges are shorter; the shortest lies at " +
+                                 place_text(r.smallest_edge_at));
+  }
+  if (r.sharp_corners > 0) {
+    return fault("min_angle", std::to_string(r.sharp_corners) +
+                                  " corners are sharper; the sharpest lies at " +
+                                  place_text(r.smallest_angle_at));
+  }
+  return {};
+}
+
+/// The blocks of the domain, or of the lines of imports where there is none.
+Result<PolygonSet> add_cut_blocks(const Model& model, const Imports& imports, bool framed,
+                                  PolygonSet set) {
+  const std::size_t first_cut = set.blocks.size();
+  Result<DomainCut> cut = cut_domain(model, set.origin, imports, framed);
+  if (!cut.ok()) return cut.faults();
+  append(set.blocks, std::move(cut.value().blocks));
+  set.removed = std::move(cut.value().removed);
+  set.report = cut.value().report;
+  Faults faults = too_many_corners(set.blocks, first_cut);
+  if (faults.empty()) faults = hold_blocks(model, snap_of(model), first_cut, set);
+  if (faults.empty()) faults = hold_along(model, imports, snap_of(model), first_cut, set);
+  if (!faults.empty()) return faults;
+  return set;
+}
+
+Result<PolygonSet> all_blocks(const Model& model, const Imports& imports, bool framed) {
   if (Faults faults = too_few_corners(model); !faults.empty()) return faults;
   if (Faults faults = too_many_bricks(model); !faults.empty()) return faults;
   PolygonSet set;
@@ -80,22 +132,37 @@ Result<PolygonSet> build_polygons(const Model& model) {
   Faults faults = too_many_corners(set.blocks, given);
   if (!faults.empty()) return faults;
   append(set.blocks, wall_bricks(model, set.origin));
+  append(set.blocks, voussoirs(model, set.origin));
   const std::size_t first_cut = set.blocks.size();
   if (model.domain) {
-    Result<DomainCut> cut = cut_domain(model, set.origin);
+    Result<PolygonSet> cut = add_cut_blocks(model, imports, framed, std::move(set));
     if (!cut.ok()) return cut.faults();
-    append(set.blocks, std::move(cut.value().blocks));
-    set.removed = std::move(cut.value().removed);
-    set.report = cut.value().report;
-    faults = too_many_corners(set.blocks, first_cut);
+    set = std::move(cut.value());
+  } else {
+    faults = hold_blocks(model, 0.0, first_cut, set);
     if (!faults.empty()) return faults;
   }
-  faults = hold_blocks(model, model.domain ? snap_of(model) : 0.0, first_cut, set);
-  if (!faults.empty()) return faults;
   faults = find_overlaps(set.blocks, first_cut);
   if (!faults.empty()) return faults;
   measure_quality(set.blocks, set.origin, set.report);
+  count_poor_blocks(std::span(set.blocks).subspan(first_cut), model.quality, set.report);
+  faults = poor_blocks(model, set.report);
+  if (!faults.empty()) return faults;
   return set;
+}
+
+}  // namespace
+
+Result<PolygonSet> build_polygons(const Model& model) {
+  if (model.imports.empty()) return all_blocks(model, {}, false);
+  const Result<Imports> imports = read_imports(model);
+  if (!imports.ok()) return imports.faults();
+  if (model.domain) return all_blocks(model, imports.value(), false);
+  Result<Domain> frame = frame_of(model, imports.value());
+  if (!frame.ok()) return frame.faults();
+  Model framed = model;
+  framed.domain = std::move(frame.value());
+  return all_blocks(framed, imports.value(), true);
 }
 
 }  // namespace edda

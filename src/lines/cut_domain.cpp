@@ -13,8 +13,11 @@
 #include "lines/face_polygons.hpp"
 #include "lines/line_work.hpp"
 #include "lines/noding.hpp"
+#include "lines/partition.hpp"
 #include "lines/place.hpp"
 #include "lines/planar_graph.hpp"
+#include "lines/poor_faces.hpp"
+#include "lines/rings.hpp"
 #include "lines/rock_area.hpp"
 
 namespace edda {
@@ -24,16 +27,6 @@ std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);
   return text;
-}
-
-double size_of(const Ring& ring) {
-  if (ring.empty()) return 0.0;
-  Vec2 low = ring[0], high = ring[0];
-  for (Vec2 p : ring) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  return std::max(high.x - low.x, high.y - low.y);
 }
 
 double perimeter_of(const Ring& ring) {
@@ -63,56 +56,12 @@ std::optional<Fault> not_simple(const Model& model, const LineWork& work) {
   return std::nullopt;
 }
 
-/// The faces and where each lies; the opening is that of lowest number.
-struct Partition {
-  Faces faces;
-  std::vector<Zone> zone;
-  std::vector<Index> opening;
-};
-
-/// Faces found and laid to a zone. A fault if the outline has come apart or an opening lies outside
-/// it.
-Result<Partition> partition(const Model& model, const PlanarGraph& graph, Cycles cycles,
-                            const LineWork& work) {
-  Partition p;
-  p.faces = find_faces(graph, std::move(cycles));
-  p.zone.assign(p.faces.outer.size(), Zone::outside);
-  p.opening.assign(p.faces.outer.size(), none);
-  const auto outline = static_cast<Index>(work.sources.size()) - 1;
-  const std::vector<std::uint8_t> inside = inside_ring(graph, p.faces, outline);
-  if (inside[0] || std::find(inside.begin(), inside.end(), 1) == inside.end()) {
-    return Fault{member_of(model.domain->where, "outline"),
-                 "encloses no area once points closer than domain.snap are joined",
-                 "lower domain.snap or enlarge the outline"};
-  }
-  for (std::size_t f = 0; f < inside.size(); ++f) {
-    if (inside[f]) p.zone[f] = Zone::rock;
-  }
-  for (std::size_t s = 0; s < work.sources.size(); ++s) {
-    if (work.sources[s].kind != LineKind::opening) continue;
-    const Opening& opening = model.openings[static_cast<std::size_t>(work.sources[s].index)];
-    const std::vector<std::uint8_t> taken = inside_ring(graph, p.faces, static_cast<Index>(s));
-    bool any = false;
-    for (std::size_t f = 0; f < inside.size(); ++f) {
-      if (!inside[f] || !taken[f]) continue;
-      any = true;
-      if (p.zone[f] == Zone::rock) p.opening[f] = work.sources[s].index;
-      p.zone[f] = Zone::opening;
-    }
-    if (!any) {
-      return Fault{member_of(opening.where, "polygon"), "lies wholly outside domain.outline",
-                   "move it into the outline or leave it out"};
-    }
-  }
-  return p;
-}
-
-long long count(const Partition& p, Zone zone) {
-  return std::count(p.zone.begin(), p.zone.end(), zone);
-}
-
-std::optional<Fault> wrong_count(const Model& model, const Partition& p) {
+std::optional<Fault> wrong_count(const Model& model, const Partition& p, bool framed) {
   const long long blocks = count(p, Zone::rock);
+  if (blocks == 0 && framed) {
+    return Fault{member_of(model.imports.front().where, "file"), "the lines enclose nothing",
+                 "give lines that bound blocks, or a [domain] for them to cut"};
+  }
   if (blocks == 0) {
     return Fault{member_of(model.domain->where, "outline"), "is wholly taken out by openings",
                  "shrink the openings or enlarge the outline"};
@@ -129,7 +78,10 @@ std::optional<Fault> wrong_count(const Model& model, const Partition& p) {
 /// Joint sets were counted when the model was read. Lines through one point make fewer blocks than
 /// they have crossings, hence the allowance.
 std::optional<Fault> too_many_crossings(const Model& model, const LineWork& work) {
-  if (model.traces.empty()) return std::nullopt;
+  const auto finite = [](const JointSet& set) { return set.trace_length.has_value(); };
+  const bool sets_alone = model.traces.empty() && model.imports.empty() && model.networks.empty() &&
+                          std::none_of(model.joint_sets.begin(), model.joint_sets.end(), finite);
+  if (sets_alone) return std::nullopt;
   constexpr double allowance = 4.0;
   const double crossings = estimated_crossings(work.lines);
   const auto most = static_cast<double>(model.domain->max_blocks);
@@ -137,13 +89,14 @@ std::optional<Fault> too_many_crossings(const Model& model, const LineWork& work
   return Fault{member_of(model.domain->where, "max_blocks"),
                "the lines cross about " + number(crossings) + " times, too often for " +
                    number(most) + " blocks",
-               "raise max_blocks, or give fewer traces or wider spacings"};
+               "raise max_blocks, or give fewer lines or wider spacings"};
 }
 
 struct Arrangement {
   PlanarGraph graph;
   Partition parts;
   CutReport report;  ///< what was trimmed, and whether by snap rounding
+  std::vector<Index> region_of_half_edge;
 };
 
 std::vector<BlockPolygon> polygons(const Model& model, const Arrangement& a, const LineWork& work,
@@ -155,7 +108,9 @@ std::vector<BlockPolygon> polygons(const Model& model, const Arrangement& a, con
     if (p.zone[f] != zone) continue;
     BlockPolygon block =
         face_polygon(a.graph, p.faces, static_cast<int>(f), work.sources, 4.0 * snap);
-    block.material = model.domain->material;
+    const Index region = region_of(a.graph, p.faces, static_cast<int>(f), a.region_of_half_edge);
+    block.material = region == none ? model.domain->material
+                                    : model.regions[static_cast<std::size_t>(region)].material;
     block.where = model.domain->where;
     block.opening = p.opening[f];
     blocks.push_back(std::move(block));
@@ -207,7 +162,7 @@ Cycles trim(PlanarGraph& graph, const LineWork& work, double snap, CutReport& re
 /// Nodes the lines and finds their faces. Lines that lie on one another can come out of this with
 /// nodes that the other does not share, and so with a face thinner than snap between them: noded
 /// once more, with all nodes as vertices, they become one.
-Result<Arrangement> arrange(const Model& model, LineWork& work, double snap) {
+Result<Arrangement> arrange(const Model& model, LineWork& work, double snap, bool framed) {
   constexpr int most_rounds = 3;
   for (int round = 1;; ++round) {
     Result<NodedLines> noded = node_lines(work, snap, model.domain->where);
@@ -217,11 +172,48 @@ Result<Arrangement> arrange(const Model& model, LineWork& work, double snap) {
     if (round < most_rounds) work.lines = line_strings(noded.value());
     a.graph = planar_graph(std::move(noded.value()), work.sources);
     Cycles cycles = trim(a.graph, work, snap, a.report);
-    Result<Partition> parts = partition(model, a.graph, std::move(cycles), work);
+    Result<Partition> parts = partition(model, a.graph, std::move(cycles), work, framed);
     if (!parts.ok()) return parts.faults();
     a.parts = std::move(parts.value());
-    if (round == most_rounds || !has_thin_face(a.graph, a.parts.faces, snap)) return a;
+    if (round < most_rounds && has_thin_face(a.graph, a.parts.faces, snap)) continue;
+    auto regions = regions_of_half_edges(model, a.graph, a.parts, work);
+    if (!regions.ok()) return regions.faults();
+    a.region_of_half_edge = std::move(regions.value());
+    return a;
   }
+}
+
+double rock_in(const Arrangement& a) {
+  double sum = 0.0;
+  for (std::size_t f = 1; f < a.parts.zone.size(); ++f) {
+    if (a.parts.zone[f] == Zone::rock) {
+      sum += face_area(a.graph, a.parts.faces, static_cast<int>(f));
+    }
+  }
+  return sum;
+}
+
+/// Calls merge(), which says how many faces it merged, until there is nothing left to merge.
+template <class Merge>
+std::optional<Faults> merge_all(const Model& model, Arrangement& a, const LineWork& work,
+                                bool framed, int& merged, Merge merge) {
+  while (const int now = merge()) {
+    merged += now;
+    Result<Partition> parts = partition(model, a.graph, trace_cycles(a.graph), work, framed);
+    if (!parts.ok()) return parts.faults();
+    a.parts = std::move(parts.value());
+  }
+  return std::nullopt;
+}
+
+/// Points of blocks that are to be fixed, m, local.
+std::vector<Vec2> held_points(const Model& model, const Imports& imports, Vec2 origin) {
+  std::vector<Vec2> points;
+  for (const HeldPoint& held : model.held) points.push_back(held.point - origin);
+  for (const auto& [a, b] : imports.held_lines) {
+    for (const Vec2 p : {a, 0.5 * (a + b), b}) points.push_back(p - origin);
+  }
+  return points;
 }
 
 }  // namespace
@@ -236,33 +228,46 @@ double snap_of(const Model& model) {
   return std::max({snap, resolved, std::numeric_limits<double>::min()});
 }
 
-Result<DomainCut> cut_domain(const Model& model, Vec2 origin) {
+Result<DomainCut> cut_domain(const Model& model, Vec2 origin, const Imports& imports, bool framed) {
   const double snap = snap_of(model);
-  Result<LineWork> lines = line_work(model, origin, snap);
+  Result<LineWork> lines = line_work(model, origin, snap, imports);
   if (!lines.ok()) return lines.faults();
   LineWork& work = lines.value();
   if (auto fault = not_simple(model, work)) return *fault;
   if (auto fault = too_many_crossings(model, work)) return *fault;
-  const std::optional<double> area_in = rock_area(work.outline, work.openings);
+  std::optional<double> area_in = rock_area(work.outline, work.openings);
   if (!area_in) {
     return Fault{member_of(model.domain->where, "outline"),
                  "the area of the outline without its openings cannot be measured",
                  "simplify the outline or the openings where they nearly touch"};
   }
-  Result<Arrangement> arranged = arrange(model, work, snap);
+  Result<Arrangement> arranged = arrange(model, work, snap, framed);
   if (!arranged.ok()) return arranged.faults();
   Arrangement& a = arranged.value();
+  if (framed) area_in = rock_in(a);
 
   DomainCut cut;
   cut.report = a.report;
+  cut.report.notes = imports.notes;
+  cut.report.notes.insert(cut.report.notes.end(), work.notes.begin(), work.notes.end());
   cut.report.area_in = *area_in;
-  while (const int merged = merge_slivers(a.graph, a.parts.faces, a.parts.zone, snap)) {
-    cut.report.merged += merged;
-    Result<Partition> parts = partition(model, a.graph, trace_cycles(a.graph), work);
-    if (!parts.ok()) return parts.faults();
-    a.parts = std::move(parts.value());
+  const auto merge_thin = [&] { return merge_slivers(a.graph, a.parts.faces, a.parts.zone, snap); };
+  if (auto faults = merge_all(model, a, work, framed, cut.report.merged, merge_thin)) {
+    return *faults;
   }
-  if (auto fault = wrong_count(model, a.parts)) return *fault;
+  const Quality& q = model.quality;
+  const bool asks = q.min_area > 0.0 || q.min_edge > 0.0 || q.min_angle > 0.0;
+  if (asks && q.action == QualityAction::merge) {
+    const std::vector<Vec2> held = held_points(model, imports, origin);
+    const auto merge_poor = [&] {
+      return merge_poor_faces(a.graph, a.parts, q, {a.region_of_half_edge, held, snap},
+                              cut.report.quality_area);
+    };
+    if (auto faults = merge_all(model, a, work, framed, cut.report.quality_merged, merge_poor)) {
+      return *faults;
+    }
+  }
+  if (auto fault = wrong_count(model, a.parts, framed)) return *fault;
   if (auto fault = lost_area(model, a, work, snap, *area_in)) return *fault;
   cut.blocks = polygons(model, a, work, Zone::rock, snap);
   cut.removed = polygons(model, a, work, Zone::opening, snap);

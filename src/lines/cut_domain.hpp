@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/fault.hpp"
+#include "lines/imports.hpp"
 #include "lines/polygon_set.hpp"
 #include "model/model.hpp"
 
@@ -16,8 +17,9 @@ struct DomainCut {
 };
 
 /// Cuts model.domain relative to `origin`: line work, noding, faces, trimming, slivers, polygons.
-/// Faults as in build_polygons(). Precondition: model.domain is set.
-Result<DomainCut> cut_domain(const Model& model, Vec2 origin);
+/// Faults as in build_polygons(). `framed`: model.domain is frame_of() imports. Precondition:
+/// model.domain is set.
+Result<DomainCut> cut_domain(const Model& model, Vec2 origin, const Imports& imports, bool framed);
 
 /// domain.snap, or its default where the model leaves it at 0; m. Precondition: model.domain is
 /// set.

@@ -29,4 +29,5 @@
 #include <geos/noding/NodedSegmentString.h>
 #include <geos/noding/SegmentIntersector.h>
 #include <geos/noding/snapround/SnapRoundingNoder.h>
+#include <geos/triangulate/VoronoiDiagramBuilder.h>
 #pragma GCC diagnostic pop

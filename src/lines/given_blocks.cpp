@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/polygon.hpp"
+#include "lines/rings.hpp"
 
 namespace edda {
 namespace {
@@ -42,6 +43,20 @@ BlockPolygon brick(const BrickWall& wall, Vec2 low, int from, int to, int row) {
   return block;
 }
 
+/// Inner and outer corner of each joint in turn, the first again at the end of a full circle.
+std::vector<Vec2> arch_corners(const Arch& arch, Vec2 centre) {
+  constexpr double full = 360.0;
+  const double turn = arch.to_angle - arch.from_angle;
+  std::vector<Vec2> corners;
+  for (int i = 0; i <= arch.count; ++i) {
+    const bool closes = turn == full && i == arch.count;
+    const Vec2 out = direction_of(arch.from_angle + (closes ? 0.0 : turn * i / arch.count));
+    corners.push_back(centre + (arch.radius - 0.5 * arch.thickness) * out);
+    corners.push_back(centre + (arch.radius + 0.5 * arch.thickness) * out);
+  }
+  return corners;
+}
+
 }  // namespace
 
 Vec2 model_centre(const Model& model) {
@@ -50,6 +65,9 @@ Vec2 model_centre(const Model& model) {
   for (const BrickWall& wall : model.walls) {
     grow(box, wall.origin);
     grow(box, wall.origin + wall_extent(wall));
+  }
+  for (const Arch& arch : model.arches) {
+    for (const Vec2 p : arch_corners(arch, arch.centre)) grow(box, p);
   }
   if (model.domain) grow(box, model.domain->outline);
   for (const Opening& opening : model.openings) grow(box, opening.polygon);
@@ -92,6 +110,22 @@ std::vector<BlockPolygon> wall_bricks(const Model& model, Vec2 origin) {
       blocks.push_back(brick(wall, low, 0, 1, row));
       for (int i = 1; i + 2 < end; i += 2) blocks.push_back(brick(wall, low, i, i + 2, row));
       blocks.push_back(brick(wall, low, end - 1, end, row));
+    }
+  }
+  return blocks;
+}
+
+std::vector<BlockPolygon> voussoirs(const Model& model, Vec2 origin) {
+  std::vector<BlockPolygon> blocks;
+  for (const Arch& arch : model.arches) {
+    const std::vector<Vec2> corners = arch_corners(arch, arch.centre - origin);
+    for (std::size_t i = 0; i + 3 < corners.size(); i += 2) {
+      BlockPolygon block;
+      block.rings = {{corners[i], corners[i + 1], corners[i + 3], corners[i + 2]}};
+      block.joint = {std::vector<Index>(4, arch.joint)};
+      block.material = arch.material;
+      block.where = arch.where;
+      blocks.push_back(std::move(block));
     }
   }
   return blocks;

@@ -9,7 +9,7 @@
 
 namespace edda {
 
-/// Centre of the bounding box of the outline, the blocks, the walls and the openings, m; (0, 0) for
+/// Centre of the bounding box of the outline, the blocks, walls, arches and openings, m; (0, 0) for
 /// an empty model. Coordinates are kept relative to it.
 Vec2 model_centre(const Model& model);
 
@@ -20,5 +20,9 @@ std::vector<BlockPolygon> given_blocks(const Model& model, Vec2 origin);
 /// 0) have `columns` bricks; odd rows are shifted by half a brick and closed by two half bricks.
 /// Corners shared by two bricks have the same bits.
 std::vector<BlockPolygon> wall_bricks(const Model& model, Vec2 origin);
+
+/// The voussoirs of every arch, counter-clockwise, relative to `origin`. Corners shared by two have
+/// the same bits.
+std::vector<BlockPolygon> voussoirs(const Model& model, Vec2 origin);
 
 }  // namespace edda

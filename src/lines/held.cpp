@@ -6,6 +6,7 @@
 
 #include "base/polygon.hpp"
 #include "lines/place.hpp"
+#include "lines/rings.hpp"
 
 namespace edda {
 namespace {
@@ -103,6 +104,50 @@ Faults hold_blocks(const Model& model, double snap, std::size_t first_cut, Polyg
     } else {
       faults.push_back({member_of(held.where, "point"),
                         "lies on an edge shared by blocks " + list_of(found),
+                        "move it into the one that is to be held"});
+    }
+  }
+  return faults;
+}
+
+/// How a block meets a line from a to b: +1 within, 0 on its edge alone, -1 not at all.
+static int meeting(const BlockPolygon& block, Vec2 a, Vec2 b, double snap) {
+  const double length = norm(b - a);
+  if (length <= snap) return side_of(block.rings, a, snap);
+  const Vec2 along = (b - a) / length;
+  int best = -1;
+  for (const Stretch& part : common(clip_line(block.rings[0], a, along, snap), {{0.0, length}})) {
+    if (part.second - part.first <= 4.0 * snap) continue;
+    best = std::max(best, side_of(block.rings, a + 0.5 * (part.first + part.second) * along, snap));
+  }
+  return best;
+}
+
+Faults hold_along(const Model& model, const Imports& imports, double snap, std::size_t first_cut,
+                  PolygonSet& set) {
+  Faults faults;
+  for (std::size_t i = 0; i < imports.held_lines.size(); ++i) {
+    const Vec2 a = imports.held_lines[i].first - set.origin,
+               b = imports.held_lines[i].second - set.origin;
+    const double reach = 0.5 * norm(b - a) + snap;
+    std::vector<std::size_t> within, touched;
+    for (std::size_t k = first_cut; k < set.blocks.size(); ++k) {
+      if (!in_box(set.blocks[k], 0.5 * (a + b), reach)) continue;
+      const int how = meeting(set.blocks[k], a, b, snap);
+      if (how > 0) within.push_back(k);
+      if (how == 0) touched.push_back(k);
+    }
+    if (within.empty() && touched.size() == 1) within = touched;
+    for (const std::size_t k : within) set.blocks[k].fixed = true;
+    if (!within.empty()) continue;
+    const Where where =
+        member_of(model.imports[static_cast<std::size_t>(imports.held_import[i])].where, "file");
+    const std::string which = "fixed line " + std::to_string(i);
+    if (touched.empty()) {
+      faults.push_back(
+          {where, which + " meets no block", "move it into the one that is to be held"});
+    } else {
+      faults.push_back({where, which + " lies on an edge shared by blocks " + list_of(touched),
                         "move it into the one that is to be held"});
     }
   }

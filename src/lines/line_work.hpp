@@ -2,16 +2,18 @@
 // source.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "base/fault.hpp"
 #include "base/polygon.hpp"
 #include "base/vec2.hpp"
+#include "lines/imports.hpp"
 #include "model/model.hpp"
 
 namespace edda {
 
-enum class LineKind { trace, joint_set, opening, outline };
+enum class LineKind { trace, import, joint_set, network, voronoi, region, opening, outline };
 
 /// One table of the model that gave lines.
 struct LineSource {
@@ -29,21 +31,15 @@ struct LineString {
 struct LineWork {
   std::vector<LineSource> sources;  ///< in order of precedence where lines coincide: the first wins
   std::vector<LineString> lines;
-  Ring outline;                ///< counter-clockwise, local
-  std::vector<Ring> openings;  ///< counter-clockwise, local, in file order
+  Ring outline;                    ///< counter-clockwise, local
+  std::vector<Ring> openings;      ///< counter-clockwise, local, in file order
+  std::vector<std::string> notes;  ///< what was drawn, for the user to read
 };
-
-/// Stretches [first, second] of the line point + t direction that lie inside `ring` or within
-/// `tolerance` of its edge; direction is a unit vector, so t is in m. The ring need not be convex.
-std::vector<std::pair<double, double>> clip_line(const Ring& ring, Vec2 point, Vec2 direction,
-                                                 double tolerance);
-
-/// Unit vector at `angle` degrees, exact at multiples of 90.
-Vec2 direction_of(double angle);
 
 /// The line work of model.domain relative to `origin`. Joint-set lines run from just outside the
 /// outline to just outside it, or to the edge of their region. Fault: a set of more lines than
 /// max_blocks. Precondition: model.domain is set.
-Result<LineWork> line_work(const Model& model, Vec2 origin, double snap);
+Result<LineWork> line_work(const Model& model, Vec2 origin, double snap,
+                           const Imports& imports = {});
 
 }  // namespace edda

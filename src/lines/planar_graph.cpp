@@ -91,7 +91,8 @@ void add_passages(PlanarGraph& g, const std::vector<NodedEdge>& edges,
                   const std::vector<int>& graph_edge, const std::vector<LineSource>& sources) {
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const LineKind kind = sources[at(edges[i].source)].kind;
-    if (kind != LineKind::outline && kind != LineKind::opening) continue;
+    if (kind != LineKind::outline && kind != LineKind::opening && kind != LineKind::region)
+      continue;
     const int net = edges[i].from == g.edge[at(graph_edge[i])].from ? 1 : -1;
     g.passages.push_back({graph_edge[i], edges[i].source, net});
   }

@@ -28,16 +28,22 @@ struct BlockPolygon {
 
 /// What the cut did, for the user to read.
 struct CutReport {
-  int cut_blocks = 0;           ///< blocks of the domain: the last of PolygonSet::blocks
-  int dangling = 0;             ///< ends of joints that end inside a block and were trimmed
-  int bridging = 0;             ///< pieces of joint with the same block on both sides, removed
-  int merged = 0;               ///< faces thinner than twice `domain.snap`, joined to a neighbour
-  double area_in = 0.0;         ///< of the outline without its openings, m2
-  double area_out = 0.0;        ///< sum over the cut blocks, m2
-  int snap_rounded = 0;         ///< 1 where the line work had to be snap-rounded
-  double smallest_area = 0.0;   ///< m2, over all blocks
-  double smallest_edge = 0.0;   ///< m
-  double smallest_angle = 0.0;  ///< degrees
+  int cut_blocks = 0;         ///< blocks of the domain: the last of PolygonSet::blocks
+  int dangling = 0;           ///< ends of joints that end inside a block and were trimmed
+  int bridging = 0;           ///< pieces of joint with the same block on both sides, removed
+  int merged = 0;             ///< faces thinner than twice `domain.snap`, joined to a neighbour
+  int quality_merged = 0;     ///< blocks below [quality], joined to a neighbour
+  double quality_area = 0.0;  ///< theirs, m2
+  int slivers = 0;            ///< cut blocks that are still below min_area or thinner than min_edge
+  int short_edges = 0;        ///< edges of cut blocks below min_edge
+  int sharp_corners = 0;      ///< corners of cut blocks below min_angle
+  std::vector<std::string> notes;  ///< what was imported and drawn at random, and what left out
+  double area_in = 0.0;            ///< of the outline without its openings, m2
+  double area_out = 0.0;           ///< sum over the cut blocks, m2
+  int snap_rounded = 0;            ///< 1 where the line work had to be snap-rounded
+  double smallest_area = 0.0;      ///< m2, over all blocks
+  double smallest_edge = 0.0;      ///< m
+  double smallest_angle = 0.0;     ///< degrees
   Vec2 smallest_area_at, smallest_edge_at, smallest_angle_at;  ///< model coordinates (origin added)
 };
 

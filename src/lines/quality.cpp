@@ -1,5 +1,6 @@
 #include "lines/quality.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -43,6 +44,45 @@ void measure_quality(std::span<const BlockPolygon> blocks, Vec2 origin, CutRepor
     const Moments m = moments(block.rings);
     keep_smaller(m.area, origin + m.centroid, report.smallest_area, report.smallest_area_at);
     for (const Ring& ring : block.rings) measure_ring(ring, origin, report);
+  }
+}
+
+/// Width w, area A, diameter D and perimeter P of a convex ring: A <= w D and 2 D <= P, so it is no
+/// thinner than 2 A/P.
+bool is_sliver(double area, double perimeter, std::span<const Vec2> ring, const Quality& quality) {
+  if (area < quality.min_area) return true;
+  if (2.0 * area >= quality.min_edge * perimeter) return false;
+  if (4.0 * area < quality.min_edge * perimeter) return true;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2 edge = ring[(i + 1) % ring.size()] - ring[i];
+    const double length = norm(edge);
+    if (length == 0.0) continue;
+    double low = 0.0, high = 0.0;
+    for (const Vec2 p : ring) {
+      const double h = cross(edge, p - ring[i]) / length;
+      low = std::min(low, h);
+      high = std::max(high, h);
+    }
+    if (high - low < quality.min_edge) return true;
+  }
+  return false;
+}
+
+void count_poor_blocks(std::span<const BlockPolygon> cut, const Quality& quality,
+                       CutReport& report) {
+  for (const BlockPolygon& block : cut) {
+    const double area = moments(block.rings).area;
+    double perimeter = 0.0;
+    for (const Ring& ring : block.rings) {
+      const std::size_t n = ring.size();
+      for (std::size_t i = 0; i < n; ++i) {
+        const Vec2 a = ring[i], b = ring[(i + 1) % n], c = ring[(i + 2) % n];
+        perimeter += norm(b - a);
+        report.short_edges += norm(b - a) < quality.min_edge;
+        report.sharp_corners += inner_angle(a, b, c) < quality.min_angle;
+      }
+    }
+    report.slivers += is_sliver(area, perimeter, block.rings[0], quality);
   }
 }
 

@@ -33,4 +33,16 @@ std::optional<double> rock_area(const Ring& outline, const std::vector<Ring>& op
   }
 }
 
+std::optional<double> common_area(const Ring& a, const Ring& b) {
+  if (a.size() < 3) return std::nullopt;
+  try {
+    const auto factory = geos::geom::GeometryFactory::create();
+    const auto first = polygon_of(*factory, a);
+    if (b.size() < 3) return first->getArea();
+    return first->intersection(polygon_of(*factory, b).get())->getArea();
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace edda

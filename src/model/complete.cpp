@@ -1,4 +1,4 @@
-#include "model/complete.hpp"
+#include "model/complete_tools.hpp"
 
 #include <fmt/format.h>
 
@@ -11,21 +11,9 @@
 namespace edda {
 namespace {
 
-const Value* element(const Value& root, std::string_view section, std::size_t i) {
-  return child(find(&root, section), i);
-}
-
-bool is_table(const Value* value) {
-  return value != nullptr && std::holds_alternative<Table>(value->content);
-}
-
 /// A default worked out from other keys, within what may be written in its place.
 double fitted(double x) {
   return std::clamp(x, smallest_positive, largest_number);
-}
-
-bool given(const Value* table, std::string_view key) {
-  return find(table, key) != nullptr;
 }
 
 void complete_materials(const Value& root, Reading& reading) {
@@ -119,9 +107,21 @@ void complete_material_references(const Value& root, Reading& reading) {
   for (std::size_t i = 0; i < model.blocks.size(); ++i) {
     complete_one(element(root, "block", i), model.blocks[i]);
   }
-  if (model.domain) complete_one(find(&root, "domain"), *model.domain);
+  if (model.domain) {
+    const Value* node = find(&root, "domain");
+    complete_one(node != nullptr ? node : find(&root, "slope"), *model.domain);
+  }
   for (std::size_t i = 0; i < model.walls.size(); ++i) {
     complete_one(element(root, "brick_wall", i), model.walls[i]);
+  }
+  for (std::size_t i = 0; i < model.arches.size(); ++i) {
+    complete_one(element(root, "arch", i), model.arches[i]);
+  }
+  for (std::size_t i = 0; i < model.regions.size(); ++i) {
+    complete_one(element(root, "region", i), model.regions[i]);
+  }
+  for (std::size_t i = 0; i < model.imports.size() && !model.domain; ++i) {
+    complete_one(element(root, "import", i), model.imports[i]);
   }
 }
 
@@ -142,12 +142,25 @@ BlockCount count_blocks(const Model& model) {
     const double bricks = static_cast<double>(wall.columns) * wall.rows;
     add(bricks, wall.joint == none ? bricks : 0.0);
   }
+  for (const Arch& arch : model.arches) {
+    add(arch.count, arch.joint == none ? arch.count : 0.0);
+  }
+  if (!model.domain && !model.imports.empty()) {
+    const bool unnamed = std::any_of(model.imports.begin(), model.imports.end(),
+                                     [](const Import& import) { return import.joint == none; });
+    add(2.0, unnamed ? 2.0 : 0.0);
+  }
   if (model.domain) {
     const auto names_none = [](const auto& cut) { return cut.joint == none; };
-    const bool cut = !model.joint_sets.empty() || !model.traces.empty();
-    const bool unnamed =
-        std::any_of(model.joint_sets.begin(), model.joint_sets.end(), names_none) ||
-        std::any_of(model.traces.begin(), model.traces.end(), names_none);
+    const bool cut = !model.joint_sets.empty() || !model.traces.empty() ||
+                     !model.networks.empty() || model.voronoi || !model.imports.empty() ||
+                     !model.regions.empty();
+    const auto any_unnamed = [&](const auto& items) {
+      return std::any_of(items.begin(), items.end(), names_none);
+    };
+    const bool unnamed = any_unnamed(model.joint_sets) || any_unnamed(model.traces) ||
+                         any_unnamed(model.networks) || any_unnamed(model.imports) ||
+                         (model.voronoi && names_none(*model.voronoi));
     const double without_law = model.domain->joint != none ? 0.0 : unnamed ? 2.0 : 1.0;
     add(cut ? 2.0 : 1.0, without_law);
   }
@@ -208,18 +221,26 @@ void check_content(const Value& root, Reading& reading) {
   const Model& model = reading.model;
   const bool is_misspelt =
       std::any_of(reading.faults.begin(), reading.faults.end(), [](const Fault& fault) {
-        return fault.where.key == "block" || fault.where.key == "brick_wall";
+        return fault.where.key == "block" || fault.where.key == "brick_wall" ||
+               fault.where.key == "arch" || fault.where.key == "import";
       });
-  if (model.blocks.empty() && !model.domain && model.walls.empty() && !is_misspelt) {
+  if (model.blocks.empty() && !model.domain && model.walls.empty() && model.arches.empty() &&
+      model.imports.empty() && !is_misspelt) {
     add_fault(reading, {1, 1, false}, "block", "the model has no blocks",
               "add a [[block]], a [domain] or a [[brick_wall]]");
   }
   if (model.domain) return;
-  for (const std::string_view name : {"joint_set", "trace", "opening", "held"}) {
+  for (const std::string_view name :
+       {"joint_set", "trace", "fracture_network", "opening", "region", "held"}) {
     const Value* first = element(root, name, 0);
-    if (first == nullptr) continue;
+    if (first == nullptr || (name == "held" && !model.imports.empty())) continue;
     add_fault(reading, first->place, std::string(name), "there is no [domain] for it to act on",
-              "add a [domain] with an outline");
+              "add a [domain] with an outline, or a [slope]");
+  }
+  if (model.voronoi) {
+    add_fault(reading, find(&root, "voronoi")->place, "voronoi",
+              "there is no [domain] for it to act on",
+              "add a [domain] with an outline, or a [slope]");
   }
 }
 
@@ -354,6 +375,7 @@ void complete(const Value& root, Reading& reading) {
       std::any_of(reading.faults.begin(), reading.faults.end(), [](const Fault& fault) {
         return fault.where.key.ends_with("joint") || fault.where.key == "joints";
       });
+  complete_shapes(root, reading);
   complete_materials(root, reading);
   complete_joints(root, reading);
   complete_contact(root, reading);
@@ -362,6 +384,7 @@ void complete(const Value& root, Reading& reading) {
   check_laws(root, reading, joints_are_faulty);
   check_names(root, "block", model.blocks, reading);
   check_names(root, "joint_set", model.joint_sets, reading);
+  check_names(root, "fracture_network", model.networks, reading);
   check_names(root, "opening", model.openings, reading);
   check_names(root, "boundary", model.boundaries, reading);
   check_names(root, "load", model.loads, reading);
@@ -370,6 +393,7 @@ void complete(const Value& root, Reading& reading) {
   check_names(root, "monitor", model.monitors, reading);
   check_blocks(root, reading);
   complete_boundaries(root, reading);
+  complete_lines(root, reading);
   complete_geometry(root, reading);
   complete_loads(root, reading);
   complete_stages(root, reading);

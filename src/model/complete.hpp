@@ -12,15 +12,25 @@ namespace edda {
 /// was read from.
 void complete(const Value& root, Reading& reading);
 
-/// Blocks that the joint sets would cut the domain into: 1 + joints + crossings. An upper estimate
-/// where sets are confined to regions; infinite rather than overflowing.
+/// Blocks that joint sets and polygons would cut the domain into: 1 + joints + crossings, and one
+/// per polygon. An upper estimate where sets are confined to regions; infinite rather than
+/// overflowing. Precondition: model.domain is set, with an outline.
+double estimated_blocks(const Model& model);
+/// Of joint sets alone.
 double estimated_blocks(const Domain& domain, const std::vector<JointSet>& sets);
+
+/// As complete(), for [slope] and the shapes of openings: outlines from a few numbers.
+void complete_shapes(const Value& root, Reading& reading);
+
+/// As complete(), for what random or mapped lines are drawn from, [[import]], [[region]],
+/// [[contact_pair]] and [[arch]].
+void complete_lines(const Value& root, Reading& reading);
 
 /// As complete(), for [[load]] and [[water]]: keys that exclude each other, histories read from
 /// their files, openings that are named.
 void complete_loads(const Value& root, Reading& reading);
 
-/// As complete(), for [domain], [[joint_set]] and [[brick_wall]]: counts and the default of snap.
+/// As complete(), for counts of blocks and the defaults of snap and [quality].
 void complete_geometry(const Value& root, Reading& reading);
 
 }  // namespace edda

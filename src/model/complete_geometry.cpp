@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "model/complete.hpp"
@@ -36,20 +37,22 @@ struct Lines {
   double angle = 0.0;    ///< radians
   double spacing = 0.0;  ///< m
   double count = 0.0;    ///< joints through the ring
+  double part = 1.0;     ///< of their length that is joint
   double area = 0.0;     ///< m2, that they run through
   Box box;
 };
 
 /// The joints of `set` inside `ring`, which must not be empty.
 Lines lines_of(const JointSet& set, const Ring& ring) {
-  Lines lines{set.angle * std::numbers::pi / 180.0, set.spacing, 0.0, std::abs(signed_area(ring)),
-              box_of(ring)};
+  Lines lines{set.angle * std::numbers::pi / 180.0, set.spacing, 0.0, 1.0,
+              std::abs(signed_area(ring)),          box_of(ring)};
   const Vec2 across{-std::sin(lines.angle), std::cos(lines.angle)};
   double low = dot(ring[0] - set.origin, across), high = low;
   for (const Vec2 p : ring) {
     low = std::min(low, dot(p - set.origin, across));
     high = std::max(high, dot(p - set.origin, across));
   }
+  lines.part = set.trace_length ? *set.trace_length / (*set.trace_length + set.gap) : 1.0;
   lines.count = (high - low) / set.spacing;
   return lines;
 }
@@ -59,7 +62,8 @@ double crossings(const Lines& a, const Lines& b) {
   const double sine = std::abs(std::sin(a.angle - b.angle));
   const double area = std::min({a.area, b.area, shared_area(a.box, b.box)});
   constexpr double parallel = 1e-9;
-  return sine < parallel || area <= 0.0 ? 0.0 : area * sine / a.spacing / b.spacing;
+  return sine < parallel || area <= 0.0 ? 0.0
+                                        : area * sine / a.spacing / b.spacing * a.part * b.part;
 }
 
 std::string counted(double n) {
@@ -67,11 +71,24 @@ std::string counted(double n) {
   return n < written_out ? fmt::format("{:.0f}", n) : fmt::format("{:.2e}", n);
 }
 
+double polygons_of(const Domain& domain, const Voronoi& voronoi) {
+  const Ring& ring = voronoi.region.empty() ? domain.outline : voronoi.region;
+  return std::abs(signed_area(ring)) / voronoi.size / voronoi.size;
+}
+
 void check_block_estimate(const Value& root, Reading& reading) {
   const Domain& domain = *reading.model.domain;
   const auto& sets = reading.model.joint_sets;
-  const double blocks = estimated_blocks(domain, sets);
+  const double blocks = estimated_blocks(reading.model);
   if (blocks <= static_cast<double>(domain.max_blocks)) return;
+  const std::optional<Voronoi>& voronoi = reading.model.voronoi;
+  if (sets.empty() || (voronoi && polygons_of(domain, *voronoi) > 0.5 * blocks)) {
+    add_fault(reading, find(find(&root, "voronoi"), "size")->place, "voronoi.size",
+              fmt::format("about {} blocks would be cut, more than domain.max_blocks = {}",
+                          counted(blocks), domain.max_blocks),
+              "give a larger size, or raise domain.max_blocks");
+    return;
+  }
   std::size_t densest = 0;
   const auto density = [&](std::size_t i) {
     const Ring& ring = sets[i].region.empty() ? domain.outline : sets[i].region;
@@ -118,7 +135,47 @@ void complete_snap(const Value& root, Reading& reading) {
   }
 }
 
+/// The smallest spacing that the model asks for, m; infinite where it asks for none.
+double smallest_spacing(const Model& model) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const JointSet& set : model.joint_sets) {
+    if (set.spacing > 0.0) least = std::min(least, set.spacing);
+  }
+  if (model.voronoi && model.voronoi->size > 0.0) least = std::min(least, model.voronoi->size);
+  // Of a network: area over length, what parallel joints of that density would be apart.
+  for (const FractureNetwork& network : model.networks) {
+    if (network.p21 && *network.p21 > 0.0) least = std::min(least, 1.0 / *network.p21);
+    if (!network.count || !network.length.mean || !model.domain) continue;
+    const Ring& ring = network.region.empty() ? model.domain->outline : network.region;
+    const double length = static_cast<double>(*network.count) * *network.length.mean;
+    if (!ring.empty() && length > 0.0) {
+      least = std::min(least, std::abs(signed_area(ring)) / length);
+    }
+  }
+  return least;
+}
+
+/// Two hundredths of the spacing: a strip so thin is an accident of where the joints happen to lie,
+/// far below what the joints of a set are apart; and the area of a square of twice that.
+void complete_quality(const Value& root, Reading& reading) {
+  Quality& quality = reading.model.quality;
+  const Value* node = find(&root, "quality");
+  constexpr double part_of_spacing = 0.02;
+  const double spacing = smallest_spacing(reading.model);
+  if (find(node, "min_edge") == nullptr && std::isfinite(spacing)) {
+    quality.min_edge = std::min(part_of_spacing * spacing, largest_length);
+  }
+  if (find(node, "min_area") == nullptr) {
+    quality.min_area = 4.0 * quality.min_edge * quality.min_edge;
+  }
+}
+
 }  // namespace
+
+double estimated_blocks(const Model& model) {
+  const double blocks = estimated_blocks(*model.domain, model.joint_sets);
+  return model.voronoi ? blocks + polygons_of(*model.domain, *model.voronoi) : blocks;
+}
 
 double estimated_blocks(const Domain& domain, const std::vector<JointSet>& sets) {
   std::vector<Lines> all;
@@ -130,7 +187,7 @@ double estimated_blocks(const Domain& domain, const std::vector<JointSet>& sets)
   }
   double blocks = 1.0;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    blocks += all[i].count;
+    blocks += all[i].count * all[i].part;
     for (std::size_t j = 0; j < i; ++j) blocks += crossings(all[i], all[j]);
   }
   return blocks;
@@ -139,10 +196,13 @@ double estimated_blocks(const Domain& domain, const std::vector<JointSet>& sets)
 void complete_geometry(const Value& root, Reading& reading) {
   const Model& model = reading.model;
   check_walls(root, reading);
+  complete_quality(root, reading);
   if (!model.domain || model.domain->outline.empty()) return;
   complete_snap(root, reading);
-  const bool all_sets_read = std::all_of(model.joint_sets.begin(), model.joint_sets.end(),
-                                         [](const JointSet& set) { return set.spacing > 0.0; });
+  const bool sized = !model.voronoi || model.voronoi->size > 0.0;
+  const bool all_sets_read =
+      sized && std::all_of(model.joint_sets.begin(), model.joint_sets.end(),
+                           [](const JointSet& set) { return set.spacing > 0.0; });
   if (all_sets_read) check_block_estimate(root, reading);
 }
 

@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <filesystem>
 
 #include "model/complete.hpp"
+#include "model/file_text.hpp"
 #include "model/nearest.hpp"
 #include "model/time_history.hpp"
 
@@ -10,15 +10,6 @@ namespace {
 
 bool given(const Value* table, std::string_view key) {
   return find(table, key) != nullptr;
-}
-
-/// The path as the model names it, seen from where the program runs. Absolute, so that the written
-/// model finds it, too.
-std::string beside_model(const std::string& path, const std::string& model_file) {
-  const std::filesystem::path found = std::filesystem::path(model_file).parent_path() / path;
-  std::error_code error;
-  const std::filesystem::path whole = std::filesystem::absolute(found, error);
-  return (error ? found : whole).string();
 }
 
 /// Reads the file that `path` names, where one is given.

@@ -49,6 +49,8 @@ std::string expected(const Key& key) {
       return "a list of points such as [[0, 0], [2, 0], [2, 1]]";
     case Kind::names:
       return "a list of names such as [\"one\", \"two\"]";
+    case Kind::joint_map:
+      return "a table such as { NAME = \"joint\" }";
     case Kind::file:
       return "the path of a file in quotes";
     case Kind::words:

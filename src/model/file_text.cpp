@@ -39,4 +39,11 @@ std::variant<std::string, Fault> file_text(const std::string& path) {
   return text;
 }
 
+std::string beside_model(const std::string& path, const std::string& model_file) {
+  const std::filesystem::path found = std::filesystem::path(model_file).parent_path() / path;
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::absolute(found, error);
+  return (error ? found : whole).string();
+}
+
 }  // namespace edda

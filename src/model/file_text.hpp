@@ -11,4 +11,8 @@ namespace edda {
 /// The whole file, or why it cannot be read: missing, a folder, larger than 64 MiB.
 std::variant<std::string, Fault> file_text(const std::string& path);
 
+/// The path as the model names it, seen from where the program runs. Absolute, so that the written
+/// model finds it, too.
+std::string beside_model(const std::string& path, const std::string& model_file);
+
 }  // namespace edda

@@ -2,66 +2,17 @@
 
 #include <array>
 
+#include "model/keys_geometry.hpp"
+#include "model/rules.hpp"
 #include "model/slots.hpp"
 
 namespace edda {
 namespace {
 
-using D = Dimension;
-
-constexpr Range any{};
-constexpr Range above(double low) {
-  return {.low = low, .low_open = true};
-}
-constexpr Range from(double low) {
-  return {.low = low};
-}
-constexpr Range from_below(double low, double high) {
-  return {.low = low, .high = high, .high_open = true};
-}
-constexpr Range between(double low, double high) {
-  return {.low = low, .high = high, .low_open = true, .high_open = true};
-}
-constexpr Range above_to(double low, double high) {
-  return {.low = low, .high = high, .low_open = true};
-}
-constexpr Range from_to(double low, double high) {
-  return {.low = low, .high = high};
-}
-
-constexpr Rule rule(Kind kind) {
-  return {.kind = kind};
-}
-constexpr Rule number(D dimension, Range range = any) {
-  return {.kind = Kind::number, .dimension = dimension, .range = range};
-}
-constexpr Rule number_or(std::string_view word, D dimension, Range range) {
-  return {.kind = Kind::number, .dimension = dimension, .range = range, .word = word};
-}
-constexpr Rule whole(double low, double high) {
-  return {.kind = Kind::integer, .range = from_to(low, high)};
-}
-constexpr Rule shape(Kind kind, D dimension, Range range = any) {
-  return {.kind = kind, .dimension = dimension, .range = range};
-}
-constexpr Rule words_of(std::span<const std::string_view> words) {
-  return {.kind = Kind::words, .words = words};
-}
-constexpr Rule flag = rule(Kind::flag), text = rule(Kind::text), naming = rule(Kind::name),
-               choice = rule(Kind::choice), material = rule(Kind::material),
-               joint = rule(Kind::joint), table = rule(Kind::table),
-               point = shape(Kind::point, D::length), polygon = shape(Kind::polygon, D::length),
-               polyline = shape(Kind::polyline, D::length), name_list = rule(Kind::names),
-               file = rule(Kind::file);
-
-constexpr Default required{true, {}};
-constexpr Default initial{};  // the field's initial value in model.hpp
-constexpr Default otherwise(std::string_view words) {
-  return {false, words};
-}
+using namespace rules;
+using namespace geometry_keys;
 
 constexpr Range friction = from_below(0.0, 90.0);
-constexpr std::string_view if_one = "may be left out where one is defined";
 
 // clang-format off
 constexpr std::array root_keys{
@@ -108,47 +59,6 @@ constexpr std::array block_keys{
     Key{"fixed", at<&BlockInput::fixed>, flag, initial, "Whether all nodes of the block are held."},
     Key{"velocity", at<&BlockInput::velocity>, shape(Kind::point, D::velocity), initial, "Velocity at the start."},
     Key{"angular_velocity", at<&BlockInput::angular_velocity>, number(D::angular_velocity), initial, "Rate of rotation at the start, counter-clockwise."},
-};
-
-constexpr std::array domain_keys{
-    Key{"outline", at<&Domain::outline>, polygon, required, "Corners of the region that is cut into blocks."},
-    Key{"material", at<&Domain::material>, material, otherwise(if_one), "Material of the cut blocks."},
-    Key{"joint", at<&Domain::joint>, joint, otherwise("contact.joint"), "Law of cut edges that name none."},
-    Key{"snap", at<&Domain::snap>, number(D::length, above(0)), otherwise("1e-9 of the outline's larger side"), "Points closer than this are one point."},
-    Key{"max_blocks", at<&Domain::max_blocks>, whole(1, 2e9), initial, "An estimate of the number of blocks above this is an error."},
-};
-
-constexpr std::array joint_set_keys{
-    Key{"name", at<&JointSet::name>, naming, otherwise("none"), "What --set and messages call the set."},
-    Key{"angle", at<&JointSet::angle>, number(D::angle), required, "Direction of the joints, counter-clockwise from +x."},
-    Key{"spacing", at<&JointSet::spacing>, number(D::length, above(0)), required, "Distance between neighbouring joints, across them."},
-    Key{"origin", at<&JointSet::origin>, point, initial, "One joint of the set passes through this point."},
-    Key{"joint", at<&JointSet::joint>, joint, otherwise("domain.joint"), "Law of the joints of the set."},
-    Key{"region", at<&JointSet::region>, polygon, otherwise("the whole domain"), "The set is only inside this polygon."},
-};
-
-constexpr std::array trace_keys{
-    Key{"points", at<&Trace::points>, polyline, required, "The trace of a single joint, a polyline."},
-    Key{"joint", at<&Trace::joint>, joint, otherwise("domain.joint"), "Law of the joint."},
-};
-
-constexpr std::array opening_keys{
-    Key{"name", at<&Opening::name>, naming, otherwise("none"), "What --set, stages and messages call the opening."},
-    Key{"polygon", at<&Opening::polygon>, polygon, required, "Outline of the opening."},
-    Key{"joint", at<&Opening::joint>, joint, otherwise("glued"), "Law of the opening's outline until it is taken out."},
-};
-
-constexpr std::array held_keys{
-    Key{"point", at<&HeldPoint::point>, point, required, "The cut block that holds this point is fixed."},
-};
-
-constexpr std::array wall_keys{
-    Key{"origin", at<&BrickWall::origin>, point, initial, "Lower left corner of the wall."},
-    Key{"columns", at<&BrickWall::columns>, whole(1, 5e6), required, "Bricks in an even row."},
-    Key{"rows", at<&BrickWall::rows>, whole(1, 5e6), required, "Rows of bricks."},
-    Key{"brick", at<&BrickWall::brick>, shape(Kind::point, D::length, above(0)), required, "Length and height of a brick."},
-    Key{"material", at<&BrickWall::material>, material, otherwise(if_one), "Material of the bricks."},
-    Key{"joint", at<&BrickWall::joint>, joint, otherwise("contact.joint"), "Law of the bricks' edges."},
 };
 
 constexpr std::array boundary_keys{
@@ -227,11 +137,20 @@ constexpr std::array all_sections{
     section<&Model::contact>("contact", Shape::table, contact_keys, "What holds for contacts whose joint says nothing else."),
     section<&Model::blocks>("block", Shape::list, block_keys, "A block given as it is."),
     section<&Model::domain>("domain", Shape::table, domain_keys, "A region that joint sets, traces and openings cut into blocks."),
+    section<&Model::slope>("slope", Shape::table, slope_keys, "An outline by a few numbers: ground that rises to the right."),
+    section<&Model::section>("section", Shape::table, cross_section_keys, "How the model's plane lies in the ground."),
     section<&Model::joint_sets>("joint_set", Shape::list, joint_set_keys, "Parallel, straight joints."),
     section<&Model::traces>("trace", Shape::list, trace_keys, "A single joint."),
+    section<&Model::networks>("fracture_network", Shape::list, network_keys, "Independent fractures."),
+    section<&Model::voronoi>("voronoi", Shape::table, voronoi_keys, "The domain as Voronoi polygons."),
+    section<&Model::imports>("import", Shape::list, import_keys, "Lines from a file."),
     section<&Model::openings>("opening", Shape::list, opening_keys, "A part of the domain that is taken out."),
+    section<&Model::regions>("region", Shape::list, region_keys, "Another material inside a polygon."),
     section<&Model::held>("held", Shape::list, held_keys, "A cut block that does not move."),
     section<&Model::walls>("brick_wall", Shape::list, wall_keys, "Bricks in running bond, half bricks closing the odd rows."),
+    section<&Model::arches>("arch", Shape::list, arch_keys, "Voussoirs."),
+    section<&Model::quality>("quality", Shape::table, quality_keys, "Which cut blocks are too small or too thin, and what becomes of them."),
+    section<&Model::pairs>("contact_pair", Shape::list, pair_keys, "The law where two joints or two materials meet."),
     section<&Model::boundaries>("boundary", Shape::list, boundary_keys, "Springs that hold the model at a line."),
     section<&Model::loads>("load", Shape::list, load_keys, "A force at a point, or a traction or pressure along a line."),
     section<&Model::waters>("water", Shape::list, water_keys, "Water in joints and on faces below a table."),
@@ -249,6 +168,18 @@ std::span<const Key> keys_of(const Strength&) {
 }
 std::span<const Key> keys_of(const Damping&) {
   return damping_keys;
+}
+std::span<const Key> keys_of(const Deviation&) {
+  return deviation_keys;
+}
+std::span<const Key> keys_of(const AngleSpread&) {
+  return angle_spread_keys;
+}
+std::span<const Key> keys_of(const LengthSpread&) {
+  return length_spread_keys;
+}
+std::span<const Key> keys_of(const OpeningShape&) {
+  return shape_keys;
 }
 
 std::span<const Section> sections() {

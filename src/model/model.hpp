@@ -12,12 +12,9 @@
 #include "base/fault.hpp"
 #include "base/polygon.hpp"
 #include "base/vec2.hpp"
+#include "model/geometry_inputs.hpp"
 
 namespace edda {
-
-/// Index into one of the model's lists; `none` where nothing is named.
-using Index = int;
-inline constexpr Index none = -1;
 
 enum class Plane { strain, stress };
 enum class Method { edda, dda };
@@ -68,54 +65,6 @@ struct BlockInput {
   bool fixed = false;
   Vec2 velocity;                  ///< m/s
   double angular_velocity = 0.0;  ///< rad/s
-  Where where;
-};
-
-/// [domain]
-struct Domain {
-  Ring outline;
-  Index material = none;
-  Index joint = none;  ///< law of cut edges that name none; none: contact.joint
-  double snap = 0.0;   ///< m
-  long long max_blocks = 300000;
-  Where where;
-};
-
-struct JointSet {
-  std::string name;
-  double angle = 0.0;    ///< degrees, counter-clockwise from +x
-  double spacing = 0.0;  ///< m
-  Vec2 origin;
-  Index joint = none;
-  Ring region;  ///< empty: the whole domain
-  Where where;
-};
-
-struct Trace {
-  std::vector<Vec2> points;
-  Index joint = none;
-  Where where;
-};
-
-struct Opening {
-  std::string name;
-  Ring polygon;
-  Index joint = none;  ///< law of its outline until taken out; none: glued
-  Where where;
-};
-
-struct HeldPoint {
-  Vec2 point;
-  Where where;
-};
-
-struct BrickWall {
-  Vec2 origin;  ///< lower left corner
-  int columns = 0;
-  int rows = 0;
-  Vec2 brick;  ///< length, height of a brick, m
-  Index material = none;
-  Index joint = none;
   Where where;
 };
 
@@ -217,11 +166,20 @@ struct Model {
   ContactDefaults contact;
   std::vector<BlockInput> blocks;
   std::optional<Domain> domain;
+  std::optional<Slope> slope;
+  std::optional<CrossSection> section;
   std::vector<JointSet> joint_sets;
   std::vector<Trace> traces;
+  std::vector<FractureNetwork> networks;
+  std::optional<Voronoi> voronoi;
+  std::vector<Import> imports;
   std::vector<Opening> openings;
+  std::vector<Region> regions;
   std::vector<HeldPoint> held;
   std::vector<BrickWall> walls;
+  std::vector<Arch> arches;
+  Quality quality;
+  std::vector<ContactPair> pairs;
   std::vector<Boundary> boundaries;
   std::vector<Load> loads;
   std::vector<Water> waters;

@@ -175,6 +175,8 @@ const DimensionInfo& info(Dimension dimension) {
       DimensionInfo{"a load", "N or Pa", "-1e5 or \"-100 kN\"", 1, 1, -2, 0, false},
       DimensionInfo{"a rate", "1/s", "0.5 or \"0.5 1/s\"", 0, 0, -1, 0, false},
       DimensionInfo{"an angular velocity", "rad/s", "0.5 or \"0.5 rad/s\"", 0, 0, -1, 1, false},
+      DimensionInfo{"an area", "m2", "0.01 or \"1 dm2\"", 2, 0, 0, 0, false},
+      DimensionInfo{"a length per area", "1/m", "1.2 or \"1.2 1/m\"", -1, 0, 0, 0, false},
   };
   return table[static_cast<std::size_t>(dimension)];
 }

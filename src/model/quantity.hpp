@@ -22,6 +22,8 @@ enum class Dimension {
   load,              ///< N, or Pa where it is spread along a line
   rate,              ///< 1/s
   angular_velocity,  ///< rad/s
+  area,
+  per_length,  ///< 1/m
 };
 
 struct DimensionInfo {

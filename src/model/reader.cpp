@@ -194,6 +194,7 @@ struct ReadInto {
       *field = *value;
     }
   }
+  void operator()(std::optional<long long>* field) const { *field = read_integer(spot); }
   void operator()(std::string* field) const {
     const std::string* value = as<std::string>(spot.value);
     if (value == nullptr) return type_fault(spot);
@@ -202,6 +203,21 @@ struct ReadInto {
                 spot.key.rule.kind == Kind::name ? "give a name" : "give the path of a file");
     }
     *field = *value;
+  }
+  void operator()(JointMap* field) const {
+    const Table* entries = as<Table>(spot.value);
+    if (entries == nullptr) return type_fault(spot);
+    const auto& joints = spot.reading.model.joints;
+    for (const Entry& entry : *entries) {
+      const std::string path = spot.path + '.' + entry.key;
+      const Spot named{spot.key, entry.value, path, spot.reading};
+      if (as<std::string>(entry.value) == nullptr) {
+        add_fault(spot.reading, entry.value.place, path, "is " + shown(entry.value),
+                  "expects the name of a joint in quotes");
+      } else if (const Index i = read_reference(named, joints, "joint", "joints"); i != none) {
+        field->emplace_back(entry.key, i);
+      }
+    }
   }
   void operator()(Vec2* field) const {
     const auto value = read_point(spot.value, spot.key, spot.path, spot.reading);
@@ -228,7 +244,8 @@ struct ReadInto {
   }
   void operator()(const SubTable& table) const {
     if (as<Table>(spot.value) == nullptr) return type_fault(spot);
-    read_keys(table.keys, table.object, spot.value, spot.path + '.', spot.reading);
+    void* object = table.object != nullptr ? table.object : table.make(table.owner);
+    read_keys(table.keys, object, spot.value, spot.path + '.', spot.reading);
   }
 
   std::optional<double> number() const {

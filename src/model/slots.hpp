@@ -18,6 +18,12 @@ inline constexpr std::array<std::string_view, 2> switching_names{"exact", "plain
 inline constexpr std::array<std::string_view, 2> law_names{"coulomb", "glued"};
 inline constexpr std::array<std::string_view, 2> stage_end_names{"time", "equilibrium"};
 inline constexpr std::array<std::string_view, 2> boundary_names{"fixed", "roller"};
+inline constexpr std::array<std::string_view, 2> spread_names{"uniform", "normal"};
+inline constexpr std::array<std::string_view, 3> length_names{"lognormal", "power", "constant"};
+inline constexpr std::array<std::string_view, 4> shape_names{"arch", "circle", "rectangle",
+                                                             "horseshoe"};
+inline constexpr std::array<std::string_view, 6> unit_names{"m", "mm", "cm", "km", "ft", "in"};
+inline constexpr std::array<std::string_view, 3> action_names{"merge", "report", "error"};
 inline constexpr std::array<std::string_view, 4> side_names{"left", "right", "bottom", "top"};
 
 constexpr std::span<const std::string_view> names_of(Plane) {
@@ -41,10 +47,29 @@ constexpr std::span<const std::string_view> names_of(StageEnd) {
 constexpr std::span<const std::string_view> names_of(BoundaryType) {
   return boundary_names;
 }
+constexpr std::span<const std::string_view> names_of(Spread) {
+  return spread_names;
+}
+constexpr std::span<const std::string_view> names_of(LengthKind) {
+  return length_names;
+}
+constexpr std::span<const std::string_view> names_of(ShapeKind) {
+  return shape_names;
+}
+constexpr std::span<const std::string_view> names_of(LengthUnit) {
+  return unit_names;
+}
+constexpr std::span<const std::string_view> names_of(QualityAction) {
+  return action_names;
+}
 
 // Keys of the tables inside a key.
 std::span<const Key> keys_of(const Strength&);
 std::span<const Key> keys_of(const Damping&);
+std::span<const Key> keys_of(const Deviation&);
+std::span<const Key> keys_of(const AngleSpread&);
+std::span<const Key> keys_of(const LengthSpread&);
+std::span<const Key> keys_of(const OpeningShape&);
 
 template <class Field>
 Slot slot_of(Field& field) {
@@ -53,7 +78,10 @@ Slot slot_of(Field& field) {
                   [](const void* f) { return static_cast<int>(*static_cast<const Field*>(f)); },
                   [](void* f, int value) { *static_cast<Field*>(f) = static_cast<Field>(value); }};
   } else if constexpr (requires { keys_of(field); }) {
-    return SubTable{keys_of(field), &field};
+    return SubTable{keys_of(field), &field, nullptr, nullptr};
+  } else if constexpr (requires { keys_of(*field); }) {
+    return SubTable{keys_of(typename Field::value_type{}), field ? &*field : nullptr, &field,
+                    [](void* f) -> void* { return &static_cast<Field*>(f)->emplace(); }};
   } else {
     return &field;
   }

@@ -98,7 +98,7 @@ Result<TimeHistory> read_time_history(const std::string& path, const std::string
   return parse_time_history(std::get<std::string>(text), path, key);
 }
 
-std::vector<std::string> history_files(const Model& model) {
+std::vector<std::string> files_beside(const Model& model) {
   std::vector<std::string> files;
   auto add = [&](const std::string& file) {
     const bool known = std::find(files.begin(), files.end(), file) != files.end();
@@ -106,6 +106,7 @@ std::vector<std::string> history_files(const Model& model) {
   };
   for (const Load& load : model.loads) add(load.history);
   for (const Water& water : model.waters) add(water.history);
+  for (const Import& import : model.imports) add(import.file);
   return files;
 }
 

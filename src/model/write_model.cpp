@@ -69,6 +69,17 @@ struct Write {
     if (*field) return written(**field);
     return key.rule.word.empty() ? std::string{} : written(std::string(key.rule.word));
   }
+  std::string operator()(const std::optional<long long>* field) const {
+    return *field ? std::to_string(**field) : std::string{};
+  }
+  std::string operator()(const JointMap* field) const {
+    std::string text;
+    for (const auto& [name, joint] : *field) {
+      text += fmt::format("{}{} = {}", text.empty() ? "{ " : ", ", bare_or_quoted(name),
+                          written(model.joints[static_cast<std::size_t>(joint)].name));
+    }
+    return text.empty() ? text : text + " }";
+  }
   std::string operator()(const std::string* field) const {
     return key.rule.kind != Kind::text && field->empty() ? std::string{} : written(*field);
   }
@@ -86,13 +97,14 @@ struct Write {
     return written(std::string(choice.names[static_cast<std::size_t>(choice.get(choice.field))]));
   }
   std::string operator()(const SubTable& table) const {
-    std::string text = "{ ";
+    std::string text;
     for (const Key& inner : table.keys) {
-      if (text.size() > 2) text += ", ";
-      text += fmt::format("{} = {}", inner.name,
-                          std::visit(Write{inner, model}, inner.slot(table.object)));
+      if (table.object == nullptr) break;
+      const std::string value = std::visit(Write{inner, model}, inner.slot(table.object));
+      if (value.empty()) continue;
+      text += fmt::format("{}{} = {}", text.empty() ? "{ " : ", ", inner.name, value);
     }
-    return text + " }";
+    return text.empty() ? text : text + " }";
   }
 };
 

@@ -28,7 +28,7 @@ Trouble Recorder::begin(const Simulation& sim, const std::vector<MonitorPoint>& 
   if (!writes()) return {};
   // What the model was read from; a model built in memory has no file to name.
   inputs_.clear();
-  std::vector<std::string> files = history_files(sim.model);
+  std::vector<std::string> files = files_beside(sim.model);
   files.insert(files.begin(), sim.model.file);
   for (const std::string& name : files) {
     const Result<std::string> text = read_file(name);

@@ -35,6 +35,18 @@ std::optional<Fault> unstable_step(const Simulation& sim) {
           solver.safety * sim.bound.likely_step));
 }
 
+/// What the cut changed or left out of what the model asks for.
+void add_cut_warnings(const CutReport& report, std::vector<std::string>& warnings) {
+  if (report.quality_merged > 0) {
+    warnings.push_back(
+        fmt::format("{} slivers, {:.3g} m2 in all, were joined to a neighbour ([quality])",
+                    report.quality_merged, report.quality_area));
+  }
+  for (const std::string& note : report.notes) {
+    if (note.find("left out") != std::string::npos) warnings.push_back(note);
+  }
+}
+
 }  // namespace
 
 Result<PreparedRun> prepare_run(Model model, BlockOrder order) {
@@ -55,6 +67,7 @@ Result<PreparedRun> prepare_run(Model model, BlockOrder order) {
   run.sim.polygons.removed = {};
   run.governed_by = governed_by(run.sim);
   run.warnings = guard_rails(run.sim);
+  add_cut_warnings(run.sim.polygons.report, run.warnings);
   return run;
 }
 

@@ -27,7 +27,7 @@ std::optional<Fault> beyond_memory(const Model& model, double memory) {
     bricks += static_cast<double>(wall.columns) * wall.rows;
   }
   // Openings and short regions may leave half of what an estimate sees.
-  const double cut = model.domain ? 0.5 * estimated_blocks(*model.domain, model.joint_sets) : 0.0;
+  const double cut = model.domain ? 0.5 * estimated_blocks(model) : 0.0;
   const double needed = (bricks + cut) * bytes_per_block;
   if (needed <= memory) return {};
   const std::string problem =

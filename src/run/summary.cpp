@@ -94,6 +94,7 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
   checks.push_back(rest ? limited("unbalanced contact forces at rest", o.unbalanced, at_rest)
                         : informed("unbalanced contact forces (still moving)", o.unbalanced));
   checks.push_back(informed("faces merged by the cut", sim.polygons.report.merged));
+  checks.push_back(informed("slivers joined by [quality]", sim.polygons.report.quality_merged));
   checks.push_back(informed("mass added by scaling (kg)", added_mass(sim.blocks, sim.inertia)));
   return checks;
 }

@@ -116,8 +116,8 @@ TEST(BadModel, UnknownKeys) {
              "it belongs to [joint_set]"),
       broken("nothing near", "title = \"base\"", "qwertyuiop = 1", 1, "qwertyuiop",
              "the nearest is \""),
-      broken("a key that is not due yet", "spacing = 2.0", "spacing = 2.0\ntrace_length = 3.0", 21,
-             "joint_set.bedding.trace_length", "unknown key"),
+      broken("a key that is not due yet", "spacing = 2.0", "spacing = 2.0\nstrength = 3.0", 21,
+             "joint_set.bedding.strength", "unknown key"),
   });
 }
 

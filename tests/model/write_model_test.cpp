@@ -7,131 +7,15 @@
 #include <string>
 
 #include "model/base_model.hpp"
+#include "model/every_key.hpp"
 #include "model/keys.hpp"
 #include "model/read_model.hpp"
 
 namespace edda {
 namespace {
 
-// No key has its default here.
-const std::string every_key = R"(title = "Every \"key\"\t\\ é"
-gravity = ["1 m/s2", -9.8]
-plane = "stress"
-thickness = "50 cm"
-[materials.rock]
-density = 2750
-young = "20 GPa"
-poisson = 0.25
-[materials."soft clay"]
-unit_weight = "20 kN/m3"
-young = 5e6
-poisson = "40 %"
-[joints.glue]
-type = "glued"
-[joints.rough]
-friction_angle = "0.5 rad"
-cohesion = "50 kPa"
-tensile_strength = 1e3
-residual = { friction_angle = 12, cohesion = "1 kPa", tensile_strength = 2.5 }
-kn = "20 GPa/m"
-ks = 9e9
-[contact]
-normal_stiffness = "200 MN/m"
-shear_stiffness = 1e8
-joint = "rough"
-[[block]]
-name = "slider"
-polygon = [[0, 0], [0, "10 cm"], [1, 1], [2, -0.0]]
-material = "soft clay"
-joint = "glue"
-velocity = ["1 mm/s", -0.1]
-angular_velocity = 0.3
-[[block]]
-polygon = [[-5, -5], [-4, -5], [-4, -4]]
-material = "rock"
-fixed = true
-[domain]
-outline = [[10, 0], [20, 0], [20, 10], [10, 10]]
-material = "rock"
-joint = "rough"
-snap = "1 um"
-max_blocks = 2_000_000_000
-[[joint_set]]
-name = "bedding"
-angle = -400.5
-spacing = 0.7
-origin = [0.1, 0.2]
-joint = "glue"
-region = [[11, 1], [19, 1], [15, 9]]
-[[trace]]
-points = [[11, 1], [12, 5], [13, 5]]
-joint = "rough"
-[[opening]]
-name = "cavern"
-polygon = [[14, 4], [16, 4], [16, 6], [14, 6]]
-joint = "glue"
-[[held]]
-point = [15, 1]
-[[held]]
-point = [15, 2]
-[[brick_wall]]
-origin = [30, 1]
-columns = 4
-rows = 3
-brick = [1.0, 0.5]
-material = "rock"
-joint = "rough"
-[[boundary]]
-name = "base"
-sides = ["bottom", "left"]
-type = "roller"
-stiffness = 2e11
-[[boundary]]
-name = "line"
-along = [[10, 10], [15, 10], [20, 10]]
-[[load]]
-name = "axle"
-point = [15, 10]
-force = ["2 kN", -1e5]
-[[load]]
-along = [[10, 10], [20, 10]]
-pressure = "3 kPa"
-history = "tests/model/rise.csv"
-[[water]]
-name = "wet"
-table = [[0, 4], [30, 5]]
-flooded = ["cavern"]
-unit_weight = "10 kN/m3"
-history = "tests/model/rise.csv"
-[[monitor]]
-name = "P1"
-point = [15, 9]
-[[stage]]
-name = "settle"
-until = "equilibrium"
-ratio = 1e-4
-duration = "1 min"
-damping = { contact = 0.2 }
-[[stage]]
-duration = 60.0
-reset_displacements = true
-[solver]
-method = "edda"
-mass = "covering"
-switching = "plain"
-duration = "2 min"
-time_step = 1e-5
-allow_unstable = true
-safety = 0.7
-dynamic = true
-max_displacement_ratio = "2 %"
-mass_scaling = "3 us"
-damping = { mass = "2 1/s", local = 0.1, contact = 0.3 }
-[output]
-every = 0.3
-history_every = 0.07
-checkpoint_every = 2.5
-)";
+using testing::every_key;
+using testing::every_slope_key;
 
 void expect_every_key(const Model& m) {
   EXPECT_EQ(m.title, "Every \"key\"\t\\ \u00e9");
@@ -182,7 +66,7 @@ void expect_every_part(const Model& m) {
   EXPECT_EQ(m.domain->joint, 1);
   EXPECT_EQ(m.domain->snap, 1e-6);
   EXPECT_EQ(m.domain->max_blocks, 2000000000);
-  ASSERT_EQ(m.joint_sets.size(), 1U);
+  ASSERT_EQ(m.joint_sets.size(), 2U);
   EXPECT_EQ(m.joint_sets[0].name, "bedding");
   EXPECT_EQ(m.joint_sets[0].angle, -400.5);
   EXPECT_EQ(m.joint_sets[0].spacing, 0.7);
@@ -192,7 +76,7 @@ void expect_every_part(const Model& m) {
   ASSERT_EQ(m.traces.size(), 1U);
   EXPECT_EQ(m.traces[0].points, (Ring{{11, 1}, {12, 5}, {13, 5}}));
   EXPECT_EQ(m.traces[0].joint, 1);
-  ASSERT_EQ(m.openings.size(), 1U);
+  ASSERT_EQ(m.openings.size(), 2U);
   EXPECT_EQ(m.openings[0].name, "cavern");
   EXPECT_EQ(m.openings[0].polygon.size(), 4U);
   EXPECT_EQ(m.openings[0].joint, 0);
@@ -205,6 +89,77 @@ void expect_every_part(const Model& m) {
   EXPECT_EQ(m.walls[0].brick, (Vec2{1, 0.5}));
   EXPECT_EQ(m.walls[0].material, 0);
   EXPECT_EQ(m.walls[0].joint, 1);
+}
+
+void expect_every_geometry_key(const Model& m) {
+  EXPECT_EQ(m.section->azimuth, 75.0);
+  const JointSet& set = m.joint_sets[0];
+  EXPECT_EQ(set.trace_length, 3.0);
+  EXPECT_EQ(set.gap, 0.25);
+  EXPECT_EQ(set.deviation.angle, 3.0);
+  EXPECT_EQ(set.deviation.spacing, 0.1);
+  EXPECT_EQ(set.deviation.trace_length, 1.0);
+  EXPECT_EQ(set.deviation.gap, 0.2);
+  EXPECT_EQ(set.deviation.distribution, Spread::normal);
+  EXPECT_EQ(set.seed, 7);
+  EXPECT_EQ(m.joint_sets[1].dip, 60.0);
+  EXPECT_EQ(m.joint_sets[1].dip_direction, 300.0);
+  EXPECT_EQ(m.joint_sets[1].given_spacing, 4.0);
+  ASSERT_EQ(m.networks.size(), 2U);
+  const FractureNetwork& f = m.networks[0];
+  EXPECT_EQ(f.name, "f");
+  EXPECT_EQ(f.p21, 1.2);
+  EXPECT_FALSE(f.count);
+  EXPECT_EQ(f.angle.mean, 30.0);
+  EXPECT_EQ(f.angle.deviation, 4.0);
+  EXPECT_EQ(f.angle.distribution, Spread::uniform);
+  EXPECT_EQ(f.length.mean, 3.0);
+  EXPECT_EQ(f.length.deviation, 1.0);
+  EXPECT_EQ(f.joint, 0);
+  EXPECT_EQ(f.region.size(), 3U);
+  EXPECT_EQ(f.seed, 8);
+  EXPECT_EQ(m.networks[1].count, 9);
+  EXPECT_EQ(m.networks[1].length.distribution, LengthKind::power);
+  EXPECT_EQ(m.networks[1].length.exponent, 2.5);
+  EXPECT_EQ(m.networks[1].length.max, 4.0);
+  EXPECT_EQ(m.voronoi->size, 2.0);
+  EXPECT_EQ(m.voronoi->smoothing, 3);
+  EXPECT_EQ(m.voronoi->joint, 0);
+  EXPECT_EQ(m.voronoi->region.size(), 3U);
+  EXPECT_EQ(m.voronoi->seed, 9);
+  ASSERT_EQ(m.imports.size(), 1U);
+  EXPECT_TRUE(m.imports[0].file.ends_with("/t.csv"));
+  EXPECT_EQ(m.imports[0].units, LengthUnit::cm);
+  EXPECT_EQ(m.imports[0].scale, 2.0);
+  EXPECT_EQ(m.imports[0].shift, (Vec2{1, 2}));
+  EXPECT_EQ(m.imports[0].layers, (JointMap{{"J 1", 0}, {"b", 1}}));
+  EXPECT_EQ(m.imports[0].joint, 0);
+  EXPECT_EQ(m.openings[1].shape->kind, ShapeKind::horseshoe);
+  EXPECT_EQ(m.openings[1].shape->at, (Vec2{12, 7}));
+  EXPECT_EQ(m.openings[1].shape->width, 2.0);
+  EXPECT_EQ(m.openings[1].shape->height, 1.5);
+  EXPECT_EQ(m.openings[1].shape->segments, 24);
+  EXPECT_GT(m.openings[1].polygon.size(), 12U);
+  ASSERT_EQ(m.regions.size(), 1U);
+  EXPECT_EQ(m.regions[0].material, 1);
+  EXPECT_EQ(m.regions[0].joint, 0);
+  ASSERT_EQ(m.arches.size(), 1U);
+  EXPECT_EQ(m.arches[0].centre, (Vec2{50, 1}));
+  EXPECT_EQ(m.arches[0].radius, 5.0);
+  EXPECT_EQ(m.arches[0].thickness, 0.5);
+  EXPECT_EQ(m.arches[0].count, 7);
+  EXPECT_EQ(m.arches[0].from_angle, 10.0);
+  EXPECT_EQ(m.arches[0].to_angle, 170.0);
+  EXPECT_EQ(m.arches[0].joint, 1);
+  EXPECT_EQ(m.quality.min_area, 0.01);
+  EXPECT_EQ(m.quality.min_edge, 0.05);
+  EXPECT_EQ(m.quality.min_angle, 2.0);
+  EXPECT_EQ(m.quality.action, QualityAction::report);
+  ASSERT_EQ(m.pairs.size(), 1U);
+  EXPECT_EQ(m.pairs[0].between, (std::vector<std::string>{"rock", "soft clay"}));
+  EXPECT_EQ(m.pairs[0].materials[1], 1);
+  EXPECT_EQ(m.pairs[0].joints[0], none);
+  EXPECT_EQ(m.pairs[0].joint, 0);
 }
 
 void expect_every_run_key(const Model& m) {
@@ -273,14 +228,31 @@ TEST(WriteModel, EveryKeyIsReadAndComesBack) {
   const Model first = read(every_key);
   expect_every_key(first);
   expect_every_part(first);
+  expect_every_geometry_key(first);
   expect_every_run_key(first);
   const std::string written = to_toml(first);
   const Model second = read(written);
   expect_every_key(second);
   expect_every_part(second);
+  expect_every_geometry_key(second);
   expect_every_run_key(second);
   EXPECT_EQ(first.joints[1].peak.friction_angle, second.joints[1].peak.friction_angle);
   EXPECT_EQ(to_toml(second), written);
+}
+
+TEST(WriteModel, SlopeComesBack) {
+  std::string text(every_key);
+  const std::string outline = "outline = [[10, 0], [20, 0], [20, 10], [10, 10]]\n";
+  text.erase(text.find(outline), outline.size());
+  const Model second = read(to_toml(read(text + every_slope_key)));
+  EXPECT_EQ(second.slope->toe, (Vec2{12, 2}));
+  EXPECT_EQ(second.slope->height, 6.0);
+  EXPECT_EQ(second.slope->face_angle, 80.0);
+  EXPECT_EQ(second.slope->base_y, 0.5);
+  EXPECT_EQ(second.slope->extent, (Vec2{10, 20}));
+  EXPECT_EQ(second.slope->benches, 2);
+  EXPECT_EQ(second.slope->bench_width, 1.5);
+  EXPECT_EQ(second.domain->outline.size(), 8U);
 }
 
 TEST(WriteModel, ImplicitMethodComesBack) {
@@ -297,7 +269,8 @@ TEST(WriteModel, EveryKeyOfTheTableIsInTheTest) {
   for (const Section& section : sections()) {
     for (const Key& key : section.keys) {
       const std::string start = std::string(key.name) + " = ";
-      EXPECT_TRUE(every_key.starts_with(start) || every_key.find('\n' + start) != std::string::npos)
+      const std::string all = every_key + every_slope_key;
+      EXPECT_TRUE(all.starts_with(start) || all.find('\n' + start) != std::string::npos)
           << section.name << '.' << key.name;
     }
   }

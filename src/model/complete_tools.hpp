@@ -1,0 +1,33 @@
+// Words that the parts of complete() share.
+#pragma once
+
+#include <string_view>
+
+#include "model/complete.hpp"
+
+namespace edda {
+
+inline bool given(const Value* table, std::string_view key) {
+  return find(table, key) != nullptr;
+}
+
+inline bool is_table(const Value* value) {
+  return value != nullptr && std::holds_alternative<Table>(value->content);
+}
+
+/// The i-th [[section]].
+inline const Value* element(const Value& root, std::string_view section, std::size_t i) {
+  return child(find(&root, section), i);
+}
+
+/// Where `key` was written, else its table.
+inline Place place_of(const Value* table, std::string_view key) {
+  const Value* value = find(table, key);
+  return value != nullptr ? value->place : table->place;
+}
+
+/// One of the two keys, not both: a fault otherwise. `example`: what to add where both are missing.
+bool one_of(const Value* table, const std::string& path, std::string_view first,
+            std::string_view second, const std::string& example, Reading& reading);
+
+}  // namespace edda

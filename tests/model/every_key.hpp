@@ -1,0 +1,197 @@
+// A model of every key.
+#pragma once
+
+#include <string>
+
+namespace edda::testing {
+
+// No key has its default here.
+inline const std::string every_key = R"(title = "Every \"key\"\t\\ é"
+gravity = ["1 m/s2", -9.8]
+plane = "stress"
+thickness = "50 cm"
+[materials.rock]
+density = 2750
+young = "20 GPa"
+poisson = 0.25
+[materials."soft clay"]
+unit_weight = "20 kN/m3"
+young = 5e6
+poisson = "40 %"
+[joints.glue]
+type = "glued"
+[joints.rough]
+friction_angle = "0.5 rad"
+cohesion = "50 kPa"
+tensile_strength = 1e3
+residual = { friction_angle = 12, cohesion = "1 kPa", tensile_strength = 2.5 }
+kn = "20 GPa/m"
+ks = 9e9
+[contact]
+normal_stiffness = "200 MN/m"
+shear_stiffness = 1e8
+joint = "rough"
+[[block]]
+name = "slider"
+polygon = [[0, 0], [0, "10 cm"], [1, 1], [2, -0.0]]
+material = "soft clay"
+joint = "glue"
+velocity = ["1 mm/s", -0.1]
+angular_velocity = 0.3
+[[block]]
+polygon = [[-5, -5], [-4, -5], [-4, -4]]
+material = "rock"
+fixed = true
+[domain]
+outline = [[10, 0], [20, 0], [20, 10], [10, 10]]
+material = "rock"
+joint = "rough"
+snap = "1 um"
+max_blocks = 2_000_000_000
+[section]
+azimuth = 75
+[[joint_set]]
+name = "bedding"
+angle = -400.5
+spacing = 0.7
+origin = [0.1, 0.2]
+joint = "glue"
+region = [[11, 1], [19, 1], [15, 9]]
+trace_length = "3 m"
+gap = 0.25
+deviation = { angle = 3, spacing = 0.1, trace_length = 1, gap = 0.2, distribution = "normal" }
+seed = 7
+[[joint_set]]
+dip = 60
+dip_direction = 300
+spacing = 4
+[[trace]]
+points = [[11, 1], [12, 5], [13, 5]]
+joint = "rough"
+[[fracture_network]]
+name = "f"
+p21 = "1.2 1/m"
+angle = { mean = 30, deviation = 4, distribution = "uniform" }
+length = { mean = 3, deviation = 1 }
+joint = "glue"
+region = [[11, 1], [12, 1], [12, 2]]
+seed = 8
+[[fracture_network]]
+count = 9
+angle = { mean = 1 }
+length = { distribution = "power", exponent = 2.5, min = 1, max = 4 }
+[voronoi]
+size = 2
+smoothing = 3
+joint = "glue"
+region = [[11, 1], [12, 1], [12, 2]]
+seed = 9
+[[import]]
+file = "t.csv"
+units = "cm"
+scale = 2
+shift = [1, 2]
+layers = { "J 1" = "glue", b = "rough" }
+joint = "glue"
+[[opening]]
+name = "cavern"
+polygon = [[14, 4], [16, 4], [16, 6], [14, 6]]
+joint = "glue"
+[[opening]]
+shape = { kind = "horseshoe", at = [12, 7], width = 2, height = "1.5 m", segments = 24 }
+[[region]]
+polygon = [[11, 1], [12, 1], [12, 2]]
+material = "soft clay"
+joint = "glue"
+[[held]]
+point = [15, 1]
+[[held]]
+point = [15, 2]
+[[brick_wall]]
+origin = [30, 1]
+columns = 4
+rows = 3
+brick = [1.0, 0.5]
+material = "rock"
+joint = "rough"
+[[arch]]
+centre = [50, 1]
+radius = 5
+thickness = 0.5
+count = 7
+from_angle = 10
+to_angle = 170
+material = "rock"
+joint = "rough"
+[quality]
+min_area = "1 dm2"
+min_edge = 0.05
+min_angle = 2
+action = "report"
+[[contact_pair]]
+between = ["rock", "soft clay"]
+joint = "glue"
+[[boundary]]
+name = "base"
+sides = ["bottom", "left"]
+type = "roller"
+stiffness = 2e11
+[[boundary]]
+name = "line"
+along = [[10, 10], [15, 10], [20, 10]]
+[[load]]
+name = "axle"
+point = [15, 10]
+force = ["2 kN", -1e5]
+[[load]]
+along = [[10, 10], [20, 10]]
+pressure = "3 kPa"
+history = "tests/model/rise.csv"
+[[water]]
+name = "wet"
+table = [[0, 4], [30, 5]]
+flooded = ["cavern"]
+unit_weight = "10 kN/m3"
+history = "tests/model/rise.csv"
+[[monitor]]
+name = "P1"
+point = [15, 9]
+[[stage]]
+name = "settle"
+until = "equilibrium"
+ratio = 1e-4
+duration = "1 min"
+damping = { contact = 0.2 }
+[[stage]]
+duration = 60.0
+reset_displacements = true
+[solver]
+method = "edda"
+mass = "covering"
+switching = "plain"
+duration = "2 min"
+time_step = 1e-5
+allow_unstable = true
+safety = 0.7
+dynamic = true
+max_displacement_ratio = "2 %"
+mass_scaling = "3 us"
+damping = { mass = "2 1/s", local = 0.1, contact = 0.3 }
+[output]
+every = 0.3
+history_every = 0.07
+checkpoint_every = 2.5
+)";
+
+// In place of an outline.
+inline const std::string every_slope_key = R"([slope]
+toe = [12, 2]
+height = 6
+face_angle = 80
+base_y = 0.5
+extent = [10, 20]
+benches = 2
+bench_width = 1.5
+)";
+
+}  // namespace edda::testing
