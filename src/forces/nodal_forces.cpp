@@ -64,9 +64,7 @@ void add_contacts(NodeForce& f, const BlockSet& b, const ContactSet& c, std::siz
 void add_springs(NodeForce& f, const BlockSet& b, const BoundarySprings& s, const Pose& pose,
                  std::size_t i) {
   for (Id q = s.block_begin[i]; q < s.block_begin[i + 1]; ++q) {
-    const Id v = s.vertex[q];
-    const double ux = pose.x[v] - s.start_x[q], uy = pose.y[v] - s.start_y[q];
-    spread(f, b, v, {-(s.kxx[q] * ux + s.kxy[q] * uy), -(s.kxy[q] * ux + s.kyy[q] * uy)});
+    spread(f, b, s.vertex[q], spring_force(s, q, pose.x, pose.y));
   }
 }
 
@@ -110,8 +108,8 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
                    const LoadsNow& loads, std::size_t begin, std::size_t end) {
   const BodyView body{values_of(b.grad_x),  values_of(b.grad_y), b.volume.data(),
                       b.lame_lambda.data(), b.lame_mu.data(),    b.mass.data()};
-  body_forces(body, values_of(state.x), values_of(state.y), gravity, values_of(forces.x),
-              values_of(forces.y), begin, end);
+  body_forces(body, values_of(state.x), values_of(state.y), gravity - loads.frame,
+              values_of(forces.x), values_of(forces.y), begin, end);
   for (std::size_t i = begin; i < end; ++i) {
     NodeForce f{};
     if (is_free(b, state, i)) {

@@ -34,6 +34,7 @@ enum class Kind {
   names,     ///< a list of distinct names of other elements
   file,      ///< path of a file, as written relative to the model's
   table,     ///< keys inside a key: damping = { ... }
+  source,    ///< path of a file, or a table
 };
 
 /// Bounds of a number, inclusive unless open. Points obey them in each component.
@@ -75,6 +76,7 @@ struct Key;
 struct SubTable {
   std::span<const Key> keys;
   void* object;
+  std::string* file;  ///< where the path of a file may stand in place of the table; else null
 };
 
 /// Typed access to the field that a key fills.

@@ -173,6 +173,9 @@ const DimensionInfo& info(Dimension dimension) {
       DimensionInfo{"a velocity", "m/s", "0.5 or \"0.5 m/s\"", 1, 0, -1, 0, false},
       DimensionInfo{"an acceleration", "m/s2", "-9.81 or \"-9.81 m/s2\"", 1, 0, -2, 0, false},
       DimensionInfo{"a load", "N or Pa", "-1e5 or \"-100 kN\"", 1, 1, -2, 0, false},
+      DimensionInfo{"a force", "N", "3e4 or \"30 kN\"", 1, 1, -2, 0, false},
+      DimensionInfo{"a force per length", "N/m", "4e5 or \"400 kN/m\"", 0, 1, -2, 0, false},
+      DimensionInfo{"a frequency", "Hz", "2.0 or \"2 Hz\"", 0, 0, -1, 0, false},
       DimensionInfo{"a rate", "1/s", "0.5 or \"0.5 1/s\"", 0, 0, -1, 0, false},
       DimensionInfo{"an angular velocity", "rad/s", "0.5 or \"0.5 rad/s\"", 0, 0, -1, 1, false},
   };

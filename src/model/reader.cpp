@@ -227,6 +227,9 @@ struct ReadInto {
     }
   }
   void operator()(const SubTable& table) const {
+    if (table.file != nullptr && as<std::string>(spot.value) != nullptr) {
+      return (*this)(table.file);
+    }
     if (as<Table>(spot.value) == nullptr) return type_fault(spot);
     read_keys(table.keys, table.object, spot.value, spot.path + '.', spot.reading);
   }

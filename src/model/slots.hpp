@@ -17,7 +17,10 @@ inline constexpr std::array<std::string_view, 3> mass_names{"matched", "covering
 inline constexpr std::array<std::string_view, 2> switching_names{"exact", "plain"};
 inline constexpr std::array<std::string_view, 2> law_names{"coulomb", "glued"};
 inline constexpr std::array<std::string_view, 2> stage_end_names{"time", "equilibrium"};
-inline constexpr std::array<std::string_view, 2> boundary_names{"fixed", "roller"};
+inline constexpr std::array<std::string_view, 6> boundary_names{"fixed",  "roller",   "viscous",
+                                                                "stress", "velocity", "free-field"};
+inline constexpr std::array<std::string_view, 3> shaking_names{"base", "inertia", "upgoing"};
+inline constexpr std::array<std::string_view, 2> bolt_names{"grouted", "end"};
 inline constexpr std::array<std::string_view, 4> side_names{"left", "right", "bottom", "top"};
 
 constexpr std::span<const std::string_view> names_of(Plane) {
@@ -41,10 +44,19 @@ constexpr std::span<const std::string_view> names_of(StageEnd) {
 constexpr std::span<const std::string_view> names_of(BoundaryType) {
   return boundary_names;
 }
+constexpr std::span<const std::string_view> names_of(ShakingKind) {
+  return shaking_names;
+}
+constexpr std::span<const std::string_view> names_of(BoltType) {
+  return bolt_names;
+}
 
 // Keys of the tables inside a key.
 std::span<const Key> keys_of(const Strength&);
 std::span<const Key> keys_of(const Damping&);
+std::span<const Key> keys_of(const Acceleration&);
+std::span<const Key> keys_of(const BoltBond&);
+std::span<const Key> keys_of(const BoltDowel&);
 
 template <class Field>
 Slot slot_of(Field& field) {
@@ -53,7 +65,9 @@ Slot slot_of(Field& field) {
                   [](const void* f) { return static_cast<int>(*static_cast<const Field*>(f)); },
                   [](void* f, int value) { *static_cast<Field*>(f) = static_cast<Field>(value); }};
   } else if constexpr (requires { keys_of(field); }) {
-    return SubTable{keys_of(field), &field};
+    SubTable table{keys_of(field), &field, nullptr};
+    if constexpr (requires { field.file; }) table.file = &field.file;
+    return table;
   } else {
     return &field;
   }

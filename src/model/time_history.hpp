@@ -19,7 +19,8 @@ Result<TimeHistory> read_time_history(const std::string& path, const std::string
 Result<TimeHistory> parse_time_history(std::string_view text, const std::string& path,
                                        const std::string& key);
 
-/// The files that the model's loads and waters name, each once, in their order.
+/// The files that the model's loads, waters, boundaries and shakings name, each once, in their
+/// order.
 std::vector<std::string> history_files(const Model& model);
 
 }  // namespace edda

@@ -13,6 +13,7 @@
 #include "contacts/shares.hpp"
 #include "contacts/transitions.hpp"
 #include "forces/contact_forces.hpp"
+#include "forces/dashpot_forces.hpp"
 #include "forces/mass_scaling.hpp"
 #include "lines/build_polygons.hpp"
 #include "run/load_work.hpp"
@@ -82,6 +83,11 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   Result<Loads> loads = attach_loads(s.model, s.polygons, s.blocks);
   if (!loads.ok()) return loads.faults();
   s.loads = std::move(loads.value());
+  Result<Dashpots> dashpots = attach_dashpots(s.model, s.blocks);
+  if (!dashpots.ok()) return dashpots.faults();
+  s.dashpots = std::move(dashpots.value());
+  s.on_dashpots.assign(s.dashpots.points.size(), Vec2{});
+  s.ground = find_ground(s.model, s.blocks);
   s.state = initial_state(s.blocks, s.polygons);
 
   const std::size_t nb = s.blocks.size(), nv = s.blocks.vertex_count();
@@ -131,12 +137,16 @@ void Simulation::start(double first_event) {
       pose.x1[v] = pose.x[v] - h * pose.x1[v];
       pose.y1[v] = pose.y[v] - h * pose.y1[v];
     });
+    start_ground(h);
     look_at_previous_gaps(contacts, pose);
   };
   look_back();
   evaluate_contacts(contacts, blocks, laws, h, damping.contact);
   gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity,
                 loads_at(model, loads, state.time));
+  references_ = dashpot_references({});
+  add_dashpots(forces, on_dashpots, dashpots, blocks, state, state.vx, state.vy,
+               {0.0, 0.0, references_}, 0, blocks.size());
   start_velocities(state, blocks, forces.x, forces.y, h, damping.mass);
   look_back();
 }
@@ -216,6 +226,10 @@ void Simulation::aim_at(double time) {
 }
 
 bool Simulation::move(double h_old, double h_new, const LoadsNow* not_yet_gathered) {
+  drive_ground(h_old, h_new);
+  if (not_yet_gathered == nullptr) remove_dashpots(forces, on_dashpots, dashpots);
+  const double h = 0.5 * (h_old + h_new);
+  const DashpotStep dashing{h, 0.5 * damping.mass * h, references_};
   largest_.assign((blocks.size() + blocks_at_once - 1) / blocks_at_once, 0.0);
   parallel_chunks(blocks.size(), blocks_at_once,
                   [&](std::size_t c, std::size_t begin, std::size_t end) {
@@ -223,6 +237,8 @@ bool Simulation::move(double h_old, double h_new, const LoadsNow* not_yet_gather
                       gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity,
                                     *not_yet_gathered, begin, end);
                     }
+                    add_dashpots(forces, on_dashpots, dashpots, blocks, state, old_vx_, old_vy_,
+                                 dashing, begin, end);
                     advance(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h_new,
                             step_damping(damping), begin, end);
                     largest_[c] = place_next(blocks, state.x, state.y, pose, begin, end);
@@ -255,6 +271,7 @@ std::optional<Failure> Simulation::step() {
     retreat(state, blocks, state.step, old_vx_, old_vy_);
     std::swap(pose.x, pose.x1);
     std::swap(pose.y, pose.y1);
+    hold_ground();
     place_all();
     displacement_cap_ = 0.5 * state.step;
     step_limit = std::min(step_limit, displacement_cap_);
@@ -281,6 +298,7 @@ std::optional<Failure> Simulation::step() {
                damping_work);
   if (damping.contact > 0.0) book_dashpots(contacts);
   book_loads(h_old, h, acting);
+  book_boundaries(h_old, h);
   finish_step();
   clock.lap(seconds.integrate);
 
@@ -301,10 +319,11 @@ std::optional<Failure> Simulation::step() {
 
 /// Work of the loads in the leapfrog's terms: f_n . (x_{n+1} - x_{n-1})/2.
 void Simulation::book_loads(double h_old, double h_new, const LoadsNow& now) {
-  external_work += load_work(*this, now, pose.x1, pose.y1, [&](Id i, std::size_t k) {
+  const auto moved = [&](Id i, std::size_t k) {
     const Vec2 before{old_vx_[k][i], old_vy_[k][i]}, after{state.vx[k][i], state.vy[k][i]};
     return 0.5 * (h_old * before + h_new * after);
-  });
+  };
+  external_work += load_work(*this, now, pose.x1, pose.y1, moved) + frame_work(*this, now, moved);
 }
 
 void Simulation::finish_step() {
