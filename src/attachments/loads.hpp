@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "attachments/bolts.hpp"
 #include "base/fault.hpp"
 #include "blocks/kinematics.hpp"
 #include "blocks/pose.hpp"
@@ -66,6 +67,7 @@ struct LoadsNow {
   std::vector<double> factor;    ///< [rows of Model::loads, then those of Model::boundaries]
   std::vector<double> rise;      ///< [rows of Model::waters] m
   std::vector<double> weight;    ///< [rows of Model::waters] N/m3 times thickness
+  const Bolts* bolts = nullptr;  ///< with their forces at this time; null: there are none
   Vec2 frame;  ///< m/s2: acceleration of the ground that all blocks feel backwards
 };
 

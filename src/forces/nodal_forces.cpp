@@ -116,6 +116,7 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
       for (std::size_t k = 0; k < 3; ++k) f[k] = {forces.x[k][i], forces.y[k][i]};
       add_springs(f, b, springs, pose, i);
       if (loads.loads != nullptr) add_loads(f, b, loads, pose.x, pose.y, i);
+      if (loads.bolts != nullptr) add_bolts(f, *loads.bolts, i);
       add_contacts(f, b, contacts, i);
     }
     for (std::size_t k = 0; k < 3; ++k) {

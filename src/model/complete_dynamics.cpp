@@ -40,7 +40,7 @@ const std::vector<TypeKey>& type_keys() {
       {"stiffness", {T::fixed, T::roller, T::velocity}, false, ""},
       {"traction", {T::stress}, true, "a traction such as traction = [0.0, -1e5]"},
       {"velocity", {T::velocity}, true, "a velocity such as velocity = [0.01, 0.0]"},
-      {"wave_speeds", {T::viscous, T::free_field}, false, ""},
+      {"wave_speeds", {T::viscous}, false, ""},
       {"history", {T::stress, T::velocity}, false, ""},
   };
   return keys;

@@ -25,7 +25,7 @@ enum class MassKind { matched, covering, consistent };
 enum class Switching { exact, plain };
 enum class LawType { coulomb, glued };
 enum class StageEnd { time, equilibrium };
-enum class BoundaryType { fixed, roller, viscous, stress, velocity, free_field };
+enum class BoundaryType { fixed, roller, viscous, stress, velocity };
 enum class ShakingKind { base, inertia, upgoing };
 enum class BoltType { grouted, end };
 
@@ -140,7 +140,7 @@ struct Boundary {
   double stiffness = 0.0;   ///< Pa: spring per block vertex on it; fixed, roller, velocity
   std::optional<Vec2> traction;     ///< Pa, on the edges along it; stress
   std::optional<Vec2> velocity;     ///< m/s; velocity
-  std::optional<Vec2> wave_speeds;  ///< m/s, P and S; viscous, free-field; empty: the rock's own
+  std::optional<Vec2> wave_speeds;  ///< m/s, P and S; viscous; empty: the rock's own
   std::string history;              ///< path of a file of time, factor; stress, velocity
   TimeHistory factor;
   Where where;

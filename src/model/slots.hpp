@@ -17,8 +17,8 @@ inline constexpr std::array<std::string_view, 3> mass_names{"matched", "covering
 inline constexpr std::array<std::string_view, 2> switching_names{"exact", "plain"};
 inline constexpr std::array<std::string_view, 2> law_names{"coulomb", "glued"};
 inline constexpr std::array<std::string_view, 2> stage_end_names{"time", "equilibrium"};
-inline constexpr std::array<std::string_view, 6> boundary_names{"fixed",  "roller",   "viscous",
-                                                                "stress", "velocity", "free-field"};
+inline constexpr std::array<std::string_view, 5> boundary_names{"fixed", "roller", "viscous",
+                                                                "stress", "velocity"};
 inline constexpr std::array<std::string_view, 3> shaking_names{"base", "inertia", "upgoing"};
 inline constexpr std::array<std::string_view, 2> bolt_names{"grouted", "end"};
 inline constexpr std::array<std::string_view, 4> side_names{"left", "right", "bottom", "top"};

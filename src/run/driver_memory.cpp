@@ -131,6 +131,8 @@ template <class Archive>
 void Driver::list(Archive& a) {
   RecorderMemory files = recorder_.memory();
   a("files.history_bytes", files.history_bytes);
+  a("files.reactions_bytes", files.reactions_bytes);
+  a("files.bolts_bytes", files.bolts_bytes);
   a("files.frame_times", files.frame_times);
   // Each file's name, a line break, and its hash.
   std::string inputs;

@@ -155,7 +155,7 @@ void observe(const Simulation& sim, Instant& at) {
   const double h = sim.state.step;
   const Damping& damping = sim.damping;
   at.contacts = sim.contacts;
-  const LoadsNow acting = loads_at(sim.model, sim.loads, sim.state.time);
+  const LoadsNow acting = sim.acting();
   if (!sim.explicit_method()) {  // everything belongs to one instant already
     if (damping.contact > 0.0 && !sim.implicit.drift_x[0].empty()) {
       look_at_previous_gaps(at.contacts, a_step_ago(sim));

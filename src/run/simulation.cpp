@@ -107,6 +107,9 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
     // Its steps go as far as they may from the first one on.
     s.base_reach = std::max(s.base_reach, 6.0 * s.displacement_limit);
   }
+  Result<Bolts> bolts = attach_bolts(s.model, s.blocks, s.state, s.pose.x, s.pose.y);
+  if (!bolts.ok()) return bolts.faults();
+  s.bolts = std::move(bolts.value());
   s.smallest_half_width = *std::min_element(s.blocks.inradius.begin(), s.blocks.inradius.end());
   s.step_limit = std::numeric_limits<double>::infinity();
 
@@ -142,8 +145,7 @@ void Simulation::start(double first_event) {
   };
   look_back();
   evaluate_contacts(contacts, blocks, laws, h, damping.contact);
-  gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity,
-                loads_at(model, loads, state.time));
+  gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity, acting());
   references_ = dashpot_references({});
   add_dashpots(forces, on_dashpots, dashpots, blocks, state, state.vx, state.vy,
                {0.0, 0.0, references_}, 0, blocks.size());
@@ -164,7 +166,7 @@ void Simulation::scale_masses() {
   const bool moving = state.steps > 0;
   const double energy = moving ? ledger_now().balance() : 0.0;
   const std::vector<double> factor =
-      raise_inertia(blocks, state, pose, contacts, springs, laws, damping, step);
+      raise_inertia(blocks, state, pose, contacts, springs, laws, damping, step, &bolts);
   if (factor.empty()) return;
   if (inertia.empty()) inertia.assign(blocks.size(), 1.0);
   for (std::size_t i = 0; i < blocks.size(); ++i) inertia[i] *= factor[i];
@@ -181,7 +183,7 @@ void Simulation::scale_masses() {
 void Simulation::set_limit() {
   if (!explicit_method()) return set_implicit_limit();
   if (model.solver.mass_scaling > 0.0) scale_masses();
-  bound = step_bound(blocks, state, pose, contacts, springs, laws, damping);
+  bound = step_bound(blocks, state, pose, contacts, springs, laws, damping, &bolts);
   if (model.solver.time_step) {
     const double most = model.solver.allow_unstable
                             ? displacement_cap_
@@ -255,7 +257,7 @@ std::optional<Failure> Simulation::step() {
   StageClock clock(state.steps);
   const double h_old = step_before_;
   evaluate_contacts(contacts, blocks, laws, state.step, damping.contact);
-  const LoadsNow acting = loads_at(model, loads, state.time);
+  const LoadsNow at_work = acting();
   clock.lap(seconds.forces);
 
   if (old_vx_[0].size() != blocks.size()) {
@@ -264,7 +266,7 @@ std::optional<Failure> Simulation::step() {
   }
   std::swap(old_vx_, state.vx);
   std::swap(old_vy_, state.vy);
-  const LoadsNow* not_yet_gathered = &acting;
+  const LoadsNow* not_yet_gathered = &at_work;
   for (int halvings = 0; !move(h_old, state.step, not_yet_gathered); ++halvings) {
     not_yet_gathered = nullptr;
     if (last_displacement > 1e100 || halvings == 40) return lost();
@@ -297,8 +299,9 @@ std::optional<Failure> Simulation::step() {
   book_damping(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h, step_damping(damping),
                damping_work);
   if (damping.contact > 0.0) book_dashpots(contacts);
-  book_loads(h_old, h, acting);
+  book_loads(h_old, h, at_work);
   book_boundaries(h_old, h);
+  update_bolts(bolts, state);
   finish_step();
   clock.lap(seconds.integrate);
 
@@ -386,6 +389,9 @@ Ledger Simulation::ledger_now() const {
       sum_ledger(blocks, state, behind, pose, contacts, springs, damping_work, model.gravity);
   l.step_change = -step_change_energy;
   l.external = external_work;
+  l.contact += bolt_energy(bolts);
+  l.friction += bolts.slipped;
+  l.fracture += bolts.fractured;
   return l;
 }
 

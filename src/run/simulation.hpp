@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "attachments/bolts.hpp"
 #include "attachments/boundary_springs.hpp"
 #include "attachments/dashpots.hpp"
 #include "attachments/ground.hpp"
@@ -50,6 +51,7 @@ struct Simulation {
   Loads loads;
   Dashpots dashpots;
 
+  Bolts bolts;
   State state;
   Pose pose;
   ContactSet contacts;
@@ -93,6 +95,8 @@ struct Simulation {
   std::optional<Failure> step();
   Ledger ledger();
 
+  /// Loads and bolts as they act at n.
+  LoadsNow acting() const;
   /// Velocity at n of what dashpots are held to, [rows of Model::boundaries] m/s: the ground where
   /// it moves at `ground_velocity`, and twice that of a wave that comes up.
   std::vector<Vec2> dashpot_references(Vec2 ground_velocity) const;

@@ -7,6 +7,12 @@
 
 namespace edda {
 
+LoadsNow Simulation::acting() const {
+  LoadsNow now = loads_at(model, loads, state.time);
+  if (!bolts.rows.empty()) now.bolts = &bolts;
+  return now;
+}
+
 Vec2 Simulation::ground_velocity() const {
   return ground.velocity + (0.5 * state.step) * ground_acceleration(model, loads.since, state.time);
 }
@@ -75,7 +81,11 @@ void Simulation::book_boundaries(double h_old, double h_new) {
     external_work += dot(spring_force(springs, q, pose.x1, pose.y1), carried);
   }
   Vec2 on_held;
-  for (const Id i : ground.held) on_held += contact_resultant(blocks, contacts, i);
+  for (const Id i : ground.held) {
+    std::array<Vec2, 3> f{};
+    add_bolts(f, bolts, i);
+    on_held += contact_resultant(blocks, contacts, i) + f[0] + f[1] + f[2];
+  }
   external_work -= dot(on_held, 0.5 * (next_ground_.shift - ground.shift_1));
   springs.shift_1 = springs.shift;
   springs.shift = next_ground_.shifts;

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "checkpoint/archive.hpp"
+#include "run/attachment_memory.hpp"
 #include "run/implicit_memory.hpp"
 
 namespace edda {
@@ -149,41 +150,6 @@ void list_state(Archive& a, Simulation& s) {
 }
 
 template <class Archive>
-void list_points(Archive& a, const std::string& name, std::vector<Vec2>& points) {
-  std::vector<double> flat;
-  for (const Vec2 p : points) {
-    flat.push_back(p.x);
-    flat.push_back(p.y);
-  }
-  a(name, flat);
-  if constexpr (Archive::loads) {
-    points.clear();
-    for (std::size_t k = 0; k + 1 < flat.size(); k += 2) points.push_back({flat[k], flat[k + 1]});
-  }
-}
-
-/// The ground, and when what shakes and drives it began.
-template <class Archive>
-void list_ground(Archive& a, Simulation& s) {
-  std::vector<Vec2> ground{s.ground.velocity, s.ground.shift, s.ground.shift_1};
-  list_points(a, "ground", ground);
-  list_points(a, "springs.shift", s.springs.shift);
-  list_points(a, "springs.shift_1", s.springs.shift_1);
-  a("since.boundaries", s.loads.since.boundaries);
-  a("since.shakings", s.loads.since.shakings);
-  if constexpr (Archive::loads) {
-    const std::size_t rows = s.model.boundaries.size();
-    const bool fits = ground.size() == 3 && s.springs.shift.size() == rows &&
-                      s.springs.shift_1.size() == rows && s.loads.since.boundaries.size() == rows &&
-                      s.loads.since.shakings.size() == s.model.shakings.size();
-    if (!fits) return a.refuse("ground does not fit the model");
-    s.ground.velocity = ground[0];
-    s.ground.shift = ground[1];
-    s.ground.shift_1 = ground[2];
-  }
-}
-
-template <class Archive>
 void list_counts(Archive& a, Simulation& s) {
   a("bound.critical_step", s.bound.critical_step);
   a("bound.likely_step", s.bound.likely_step);
@@ -192,6 +158,7 @@ void list_counts(Archive& a, Simulation& s) {
   a("bound.elastic_part", s.bound.elastic_part);
   a("bound.contact_part", s.bound.contact_part);
   a("bound.boundary_part", s.bound.boundary_part);
+  a("bound.bolt_part", s.bound.bolt_part);
   a("step_limit", s.step_limit);
   a("last_displacement", s.last_displacement);
   a("penetration", s.penetration);
@@ -392,6 +359,7 @@ void list_memory(Archive& a, Simulation& s) {
   list_groups(a, s.contacts);
   list_counts(a, s);
   list_ground(a, s);
+  list_bolts(a, s);
   a("displacement_cap", s.displacement_cap_);
   a("larger_since", s.larger_since_);
   a("target", s.target_);
