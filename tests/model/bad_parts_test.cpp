@@ -69,15 +69,15 @@ TEST(BadModel, Waters) {
 TEST(BadModel, Boundaries) {
   const std::string at = "[[boundary]]\nsides = [\"left\"]\n";
   for (const Bad& bad : {
-           Bad{at + "type = \"viscus\"\n", 44, "boundary.0.type", "did you mean \"viscous\""},
-           Bad{at + "type = \"stress\"\n", 42, "boundary.0.traction", "is missing"},
-           Bad{at + "type = \"velocity\"\n", 42, "boundary.0.velocity", "is missing"},
-           Bad{at + "traction = [1, 0]\n", 44, "boundary.0.traction", "means nothing to type"},
+           Bad{at + "type = \"viscus\"\n", 44, "boundary.1.type", "did you mean \"viscous\""},
+           Bad{at + "type = \"stress\"\n", 42, "boundary.1.traction", "is missing"},
+           Bad{at + "type = \"velocity\"\n", 42, "boundary.1.velocity", "is missing"},
+           Bad{at + "traction = [1, 0]\n", 44, "boundary.1.traction", "means nothing to type"},
            Bad{at + "type = \"viscous\"\nhistory = \"tests/model/rise.csv\"\n", 45,
-               "boundary.0.history", "give another type: \"stress\""},
-           Bad{at + "type = \"viscous\"\nwave_speeds = [0, 1]\n", 45, "boundary.0.wave_speeds[0]",
+               "boundary.1.history", "give another type: \"stress\""},
+           Bad{at + "type = \"viscous\"\nwave_speeds = [0, 1]\n", 45, "boundary.1.wave_speeds[0]",
                "out of range"},
-           Bad{at + "type = \"stress\"\ntraction = [0, \"3 kN\"]\n", 45, "boundary.0.traction[1]",
+           Bad{at + "type = \"stress\"\ntraction = [0, \"3 kN\"]\n", 45, "boundary.1.traction[1]",
                "is not a stress"},
        }) {
     expect_fault(bad);
@@ -139,9 +139,9 @@ TEST(BadModel, WhatTheImplicitMethodCannotDo) {
   const std::string solver = "method = \"dda\"\n";
   for (const auto& [text, key] :
        {std::pair<std::string, std::string>{
-            "[[boundary]]\nsides = [\"left\"]\ntype = \"viscous\"\n", "boundary.0.type"},
+            "[[boundary]]\nsides = [\"left\"]\ntype = \"viscous\"\n", "boundary.1.type"},
         {"[[boundary]]\nsides = [\"left\"]\ntype = \"velocity\"\nvelocity = [1, 0]\n",
-         "boundary.0.type"},
+         "boundary.1.type"},
         {"[[shaking]]\nacceleration = { amplitude = 1, frequency = 2 }\n", "shaking.0.apply"},
         {"[[bolt]]\nfrom = [15, 1]\nto = [15, 3]\ndiameter = 0.02\ntype = \"end\"\n", "bolt.0"}}) {
     const std::string whole = testing::base_with("duration = 0.1\n", "duration = 0.1\n" + solver);
