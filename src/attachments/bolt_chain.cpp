@@ -33,10 +33,16 @@ double energy(const BoltSprings& s, std::size_t k, double stretch) {
          0.5 * (most + std::abs(a.force)) * (whole - most) / s.stiffness[k];
 }
 
+/// Energy that flow from n - 1 to n takes: the half of it that F_{n-1} has done by now, and the
+/// half that F_n does in the step to come.
+struct Spent {
+  double slipped = 0.0, fractured = 0.0;
+  double will_slip = 0.0, will_fracture = 0.0;
+};
+
 /// Takes over the force at an elongation; plastic flow dissipates (F_{n-1} + F_n)/2 of it. A spring
 /// that has just broken lets go of all it stored.
-void settle(BoltSprings& s, std::size_t k, double elongation, double& dissipated,
-            double& fractured) {
+void settle(BoltSprings& s, std::size_t k, double elongation, Spent& spent) {
   s.force_1[k] = s.force[k];
   if (s.stiffness[k] == 0.0) return;
   const double stretch = elongation - s.plastic[k];
@@ -45,7 +51,8 @@ void settle(BoltSprings& s, std::size_t k, double elongation, double& dissipated
   if (!broken && !(std::abs(s.force[k]) > s.strength[k])) return;
   const double flow = stretch - s.force[k] / s.stiffness[k];
   s.plastic[k] += flow;
-  (broken ? fractured : dissipated) += 0.5 * (s.force_1[k] + s.force[k]) * flow;
+  (broken ? spent.fractured : spent.slipped) += 0.5 * s.force_1[k] * flow;
+  (broken ? spent.will_fracture : spent.will_slip) += 0.5 * s.force[k] * flow;
   if (!broken) s.yielded[k] = 1;
 }
 
@@ -181,18 +188,14 @@ void drop_dead(Bolts& b, const State& state, Id first, Id last) {
   }
 }
 
-struct Spent {
-  double slipped = 0.0, fractured = 0.0;
-};
-
 Spent update_grouted(Bolts& b, const BoltData& row, const State& state, Id first, Id last) {
   Spent spent;
   Chain(b, state, first, last).solve();
   for (std::size_t k = first; k < last; ++k) {
-    settle(b.bonds, k, b.slip[k], spent.slipped, spent.fractured);
+    settle(b.bonds, k, b.slip[k], spent);
     if (k + 1 == last) break;
-    settle(b.bars, k, elongation(b, b.slip, k), spent.slipped, spent.fractured);
-    settle(b.dowels, k, cross(b.frame[k].t, b.frame[k].gap), spent.slipped, spent.fractured);
+    settle(b.bars, k, elongation(b, b.slip, k), spent);
+    settle(b.dowels, k, cross(b.frame[k].t, b.frame[k].gap), spent);
   }
   for (std::size_t k = first; k + 1 < last; ++k) {
     push_hosts(b, k);
@@ -207,7 +210,7 @@ Spent update_ends(Bolts& b, const BoltData& row, const State& state, Id k) {
   const Vec2 gap = node_place(b, state, k + 1) - node_place(b, state, k);
   const double distance = norm(gap), longer = distance - b.length[k];
   if (longer - b.bars.plastic[k] >= 0.0 || b.bars.broken[k] != 0) {
-    settle(b.bars, k, longer, spent.slipped, spent.fractured);
+    settle(b.bars, k, longer, spent);
   } else {
     b.bars.force_1[k] = b.bars.force[k];
     b.bars.force[k] = 0.0;
@@ -256,9 +259,14 @@ void update_bolts(Bolts& b, const State& state) {
     spent[r] = b.rows[r].grouted ? update_grouted(b, b.rows[r], state, first, last)
                                  : update_ends(b, b.rows[r], state, first);
   });
+  b.slipped += b.will_slip;
+  b.fractured += b.will_fracture;
+  b.will_slip = b.will_fracture = 0.0;
   for (const Spent& s : spent) {
     b.slipped += s.slipped;
     b.fractured += s.fractured;
+    b.will_slip += s.will_slip;
+    b.will_fracture += s.will_fracture;
   }
 }
 

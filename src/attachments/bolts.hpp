@@ -78,11 +78,12 @@ struct Bolts {
   std::vector<double> length;                 ///< [nn] L of the bar after the node, m
   std::vector<std::uint8_t> crossing;         ///< [nn] 1: that bar goes from host to host
 
-  std::vector<double> slip;                  ///< [nn] s, m
-  BoltSprings bonds, bars, dowels;           ///< [nn] each
-  double slipped = 0.0;                      ///< J, dissipated by yield and slip
-  double fractured = 0.0;                    ///< J, by rupture
-  std::vector<std::array<Vec2, 3>> on_host;  ///< [nn] what node, bar and dowel do to its host, N
+  std::vector<double> slip;                     ///< [nn] s, m
+  BoltSprings bonds, bars, dowels;              ///< [nn] each
+  double slipped = 0.0;                         ///< J, dissipated by yield and slip
+  double fractured = 0.0;                       ///< J, by rupture
+  double will_slip = 0.0, will_fracture = 0.0;  ///< J: what the forces at n will add to them
+  std::vector<std::array<Vec2, 3>> on_host;     ///< [nn] what node, bar and dowel do to its host, N
 
   std::vector<Id> place;        ///< [nb] index into `block_begin`, or no_id; empty without bolts
   std::vector<Id> block_begin;  ///< [blocks with nodes + 1]

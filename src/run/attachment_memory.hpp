@@ -44,6 +44,8 @@ void list_bolts(Archive& a, Simulation& s) {
   list_bolt_springs(a, "bolts.dowels.", b.dowels);
   a("bolts.slipped", b.slipped);
   a("bolts.fractured", b.fractured);
+  a("bolts.will_slip", b.will_slip);
+  a("bolts.will_fracture", b.will_fracture);
   std::vector<Vec2> pushes;
   for (const auto& f : b.on_host) pushes.insert(pushes.end(), f.begin(), f.end());
   list_points(a, "bolts.on_host", pushes);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -105,11 +106,12 @@ TEST(Bolts, GoInWhereBlocksAreNow) {
     m.blocks.vertex_x[v] = p.x;
     m.blocks.vertex_y[v] = p.y;
   }
-  const Vec2 origin = m.blocks.origin;
-  m.model.bolts = {grouted(origin + Vec2{0.3, -0.4}, origin + Vec2{0.1, 0.5})};
+  const Vec2 from = centroid(m.state.x, m.state.y, 0), to = centroid(m.state.x, m.state.y, 1);
+  m.model.bolts = {grouted(m.blocks.origin + from + Vec2{0.1, 0.2}, m.blocks.origin + to)};
   m.attach();
   ASSERT_TRUE(m.faults.empty()) << to_string(m.faults[0]);
-  EXPECT_GT(m.bolts.size(), 4u);
+  EXPECT_GT(m.bolts.size(), 10u);
+  EXPECT_EQ(std::count(m.bolts.crossing.begin(), m.bolts.crossing.end(), 1), 1);
   for (std::size_t k = 0; k < m.bolts.size(); ++k) {
     EXPECT_NEAR(m.bolts.bars.force[k], 0.0, 1e-3);
     EXPECT_NEAR(m.bolts.bonds.force[k], 0.0, 1e-3);

@@ -99,7 +99,7 @@ TEST(Bolt, PulledOutOfItsGrout) {
                   2.0 * (bond_strength / bond + bond_strength * length * length / (2.0 * steel)),
                   1e-2);
   // And no more after that; back it goes as stiff as it was.
-  shift_upper(sim, {0.0, 1e-3});
+  for (int n = 0; n < 200; ++n) shift_upper(sim, {0.0, n < 100 ? 1e-5 : 1e-8});
   EXPECT_NEAR(-on_upper(sim).y, bond_strength * length, 1e-3 * bond_strength * length);
   const double before = -on_upper(sim).y;
   shift_upper(sim, {0.0, -1e-6});
@@ -116,7 +116,8 @@ TEST(Bolt, YieldsAndBreaks) {
     shift_upper(sim, {0.0, 1e-5});
     opening += 1e-5;
     largest = std::max(largest, -on_upper(sim).y);
-    if (broke_at == 0.0 && -on_upper(sim).y < 0.5 * yield) broke_at = opening;
+    if (broke_at == 0.0 && largest > 0.9 * yield && -on_upper(sim).y < 0.5 * yield)
+      broke_at = opening;
   }
   EXPECT_NEAR(largest / yield, 1.0, 1e-3);
   EXPECT_NEAR(on_upper(sim).y, 0.0, 1e-6);
@@ -147,7 +148,9 @@ TEST(Bolt, BooksEveryJoule) {
     }
   }
   EXPECT_GT(sim.bolts.slipped, 100.0);
-  EXPECT_NEAR((stored + sim.bolts.slipped + sim.bolts.fractured) / work, 1.0, 1e-5);
+  const Bolts& b = sim.bolts;
+  const double spent = b.slipped + b.will_slip + b.fractured + b.will_fracture;
+  EXPECT_NEAR((stored + spent) / work, 1.0, 1e-5);
 }
 
 /// Forces are gradients of the energy, whatever way the hosts have turned and deformed.
@@ -241,16 +244,16 @@ TEST(Bolt, DowelsAJoint) {
 TEST(Bolt, HoldsABlockUp) {
   for (const double pretension : {0.0, 40e3}) {
     Simulation sim = scene(
-        "[materials.rock]\ndensity = 2500.0\nyoung = 50e9\npoisson = 0.2\n[joints.j]\n"
+        "[materials.rock]\ndensity = 2000.0\nyoung = 50e9\npoisson = 0.2\n[joints.j]\n"
         "friction_angle = 30\n[[block]]\nfixed = true\npolygon = " +
         rectangle(-1, 3, 1, 4) + "\n[[block]]\npolygon = " + rectangle(-1, 0, 1, 2) +
-        "\n[[bolt]]\ntype = 'end'\nfrom = [0, 0]\nto = [0, 4]\ndiameter = 0.02\npretension = " +
+        "\n[[bolt]]\ntype = 'end'\nfrom = [0, 0]\nto = [0, 4]\ndiameter = 0.03\npretension = " +
         number(pretension) +
         "\nyield_stress = 500e6\nspacing = 2.0\n[output]\nhistory_every = 0.05\n[solver]\n"
         "duration = 3.0\ndamping = { mass = 8.0 }\n");
     double drift = 0.0;
     run(sim, [&](Simulation& s) { keep_largest(drift, s.ledger().drift); });
-    const double weight = 2500.0 * 9.81 * 4.0, steel = young * std::numbers::pi * 1e-4 / 2.0;
+    const double weight = 2000.0 * 9.81 * 4.0, steel = young * std::numbers::pi * 2.25e-4 / 2.0;
     const double longer = (weight - 0.5 * pretension) * 4.0 / steel;
     const Vec2 foot = node_place(sim.bolts, sim.state, 0) + sim.blocks.origin;
     expect_relative({35, brief(1e-3 * pretension) + " kN", "elongation of the bolt", "m"}, -foot.y,

@@ -161,7 +161,7 @@ ROWS = (
         "The bolt adds its dowel stiffness, up to its strength, over its spacing.",
         leave_out=("gravity",)),
     Row(35, "A block that hangs on a bolt",
-        "A block of 2 x 2 m hangs on an end-anchored bolt of 20 mm and 4 m, spacing 2 m, put in with no tension or with"
+        "A block of 2 x 2 m hangs on an end-anchored bolt of 30 mm and 4 m, spacing 2 m, put in with no tension or with"
         " 40 kN.",
         "At rest the bolt is longer by (W - T0) L/EA, as the model has them, that is per metre of thickness."),
 )
