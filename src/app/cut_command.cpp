@@ -102,6 +102,7 @@ PlotOptions options_of(const Model& model, std::size_t blocks) {
   options.subtitle = fmt::format("{} block{} as cut", blocks, blocks == 1 ? "" : "s");
   for (const Material& m : model.materials) options.materials.push_back(m.name);
   for (const Monitor& m : model.monitors) options.monitors.push_back({m.name, m.point});
+  options.bolts = bolt_lines(model);
   return options;
 }
 

@@ -89,6 +89,8 @@ void add_run(CLI::App& app, int& code) {
       "The folder (default: the model's name without .toml, here) then holds\n"
       "  summary.json   how the run ended, the energy ledger, checks to look at; written last\n"
       "  history.csv    monitors and energies over time\n"
+      "  reactions.csv  forces of the boundaries over time, where there are any\n"
+      "  bolts.csv      forces along the bolts at each frame, where there are any\n"
       "  blocks.csv     every block at the end;  joints.csv: every contact\n"
       "  blocks.pvd, contacts.pvd   time series: open them in ParaView\n"
       "  model.toml     the model as run, every default filled in\n"

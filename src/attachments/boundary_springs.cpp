@@ -1,53 +1,13 @@
 #include "attachments/boundary_springs.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
+#include "attachments/boundary_lines.hpp"
 #include "base/parallel.hpp"
 
 namespace edda {
 namespace {
-
-struct Line {
-  Vec2 a, b;
-};
-
-struct Box {
-  Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  Vec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  void add(Vec2 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-};
-
-/// The box whose sides boundaries name: the outline's, or that of all blocks.
-Box model_box(const Model& model, const BlockSet& b) {
-  Box box;
-  if (model.domain) {
-    for (Vec2 p : model.domain->outline) box.add(p - b.origin);
-  } else {
-    for (std::size_t v = 0; v < b.vertex_count(); ++v) box.add({b.vertex_x[v], b.vertex_y[v]});
-  }
-  return box;
-}
-
-std::vector<Line> lines_of(const Boundary& boundary, const Box& box, Vec2 origin) {
-  std::vector<Line> lines;
-  const Vec2 ll = box.low, ur = box.high, lr{ur.x, ll.y}, ul{ll.x, ur.y};
-  for (const std::string& side : boundary.sides) {
-    if (side == "left") lines.push_back({ll, ul});
-    if (side == "right") lines.push_back({lr, ur});
-    if (side == "bottom") lines.push_back({ll, lr});
-    if (side == "top") lines.push_back({ul, ur});
-  }
-  for (std::size_t i = 0; i + 1 < boundary.along.size(); ++i) {
-    lines.push_back({boundary.along[i] - origin, boundary.along[i + 1] - origin});
-  }
-  return lines;
-}
 
 struct Spring {
   Id vertex;
@@ -58,14 +18,13 @@ struct Spring {
 }  // namespace
 
 Result<BoundarySprings> attach_boundaries(const Model& model, const BlockSet& b) {
-  const Box box = model_box(model, b);
-  const double extent = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-  const double snap = std::max(model.domain ? 4.0 * model.domain->snap : 0.0, 1e-9 * extent);
+  const double snap = boundary_snap(model, b);
   std::vector<Spring> found;
   Faults faults;
   for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
     const Boundary& boundary = model.boundaries[q];
-    const std::vector<Line> lines = lines_of(boundary, box, b.origin);
+    if (!has_springs(boundary.type)) continue;
+    const std::vector<Line> lines = boundary_lines(model, b, boundary);
     const double k = boundary.stiffness * b.thickness;
     std::size_t hits = 0;
     std::vector<Vec2> across;  // normals that hold the vertex
@@ -77,7 +36,7 @@ Result<BoundarySprings> attach_boundaries(const Model& model, const BlockSet& b)
       for (const Line& line : lines) {
         if (distance_to_segment({b.vertex_x[v], b.vertex_y[v]}, line.a, line.b) > snap) continue;
         on = true;
-        if (boundary.type == BoundaryType::fixed) {
+        if (boundary.type != BoundaryType::roller) {
           s.kxx = s.kyy = k;
           break;
         }
@@ -107,6 +66,8 @@ Result<BoundarySprings> attach_boundaries(const Model& model, const BlockSet& b)
     return std::make_pair(s.vertex, s.boundary) < std::make_pair(t.vertex, t.boundary);
   });
   BoundarySprings springs;
+  springs.shift.assign(model.boundaries.size(), Vec2{});
+  springs.shift_1 = springs.shift;
   springs.block_begin.assign(b.size() + 1, 0);
   for (const Spring& s : found) {
     springs.vertex.push_back(s.vertex);
@@ -125,8 +86,11 @@ Result<BoundarySprings> attach_boundaries(const Model& model, const BlockSet& b)
 double boundary_energy(const BoundarySprings& s, const Pose& pose) {
   return ordered_sum(s.size(), [&](std::size_t q) {
     const Id v = s.vertex[q];
-    const double ux = pose.x[v] - s.start_x[q], uy = pose.y[v] - s.start_y[q];
-    const double wx = pose.x1[v] - s.start_x[q], wy = pose.y1[v] - s.start_y[q];
+    const auto row = static_cast<std::size_t>(s.boundary[q]);
+    const Vec2 now = s.shift[row], before = s.shift_1[row];
+    const double ux = pose.x[v] - s.start_x[q] - now.x, uy = pose.y[v] - s.start_y[q] - now.y;
+    const double wx = pose.x1[v] - s.start_x[q] - before.x;
+    const double wy = pose.y1[v] - s.start_y[q] - before.y;
     return 0.5 * (wx * (s.kxx[q] * ux + s.kxy[q] * uy) + wy * (s.kxy[q] * ux + s.kyy[q] * uy));
   });
 }

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "attachments/boundary_lines.hpp"
+#include "attachments/edges_on_line.hpp"
 #include "base/parallel.hpp"
 #include "blocks/locate.hpp"
+#include "model/accelerogram.hpp"
 
 namespace edda {
 namespace {
@@ -13,116 +16,15 @@ Vec2 start_of(const BlockSet& b, Id v) {
   return {b.vertex_x[v], b.vertex_y[v]};
 }
 
-/// A part of an edge in its own coordinate s.
-struct Part {
-  double from = 0.0, to = 0.0;
-};
-
-/// The part of edge v that lies on the segment from p to q, empty where it does not.
-Part on_segment(const BlockSet& b, Id v, Vec2 p, Vec2 q, double snap) {
-  const Vec2 a = start_of(b, v), u = start_of(b, b.next[v]) - a;
-  const double length2 = dot(u, u);
-  const double sp = dot(p - a, u) / length2, sq = dot(q - a, u) / length2;
-  const Part part{std::clamp(std::min(sp, sq), 0.0, 1.0), std::clamp(std::max(sp, sq), 0.0, 1.0)};
-  if ((part.to - part.from) * std::sqrt(length2) <= snap) return {};
-  const bool near = distance_to_segment(a + part.from * u, p, q) <= snap &&
-                    distance_to_segment(a + part.to * u, p, q) <= snap;
-  return near ? part : Part{};
-}
-
-/// An edge on a segment, and where: coordinates along the segment, m.
-struct OnLine {
-  Id edge;
-  Part part;
-  double low, high;
-  bool along;  ///< runs the way the segment does
-};
-
-std::vector<OnLine> edges_on(const BlockSet& b, Vec2 p, Vec2 q, double snap) {
-  const Vec2 t = unit(q - p);
-  std::vector<OnLine> found;
-  for (Id v = 0; v < b.vertex_count(); ++v) {
-    const Part part = on_segment(b, v, p, q, snap);
-    if (part.to <= part.from) continue;
-    const Vec2 a = start_of(b, v), u = start_of(b, b.next[v]) - a;
-    const double s = dot(a + part.from * u - p, t), e = dot(a + part.to * u - p, t);
-    found.push_back({v, part, std::min(s, e), std::max(s, e), e > s});
-  }
-  return found;
-}
-
-/// What is left of `whole` without `taken`, in order.
-std::vector<Part> without(Part whole, std::vector<Part> taken) {
-  std::sort(taken.begin(), taken.end(), [](Part x, Part y) { return x.from < y.from; });
-  std::vector<Part> left;
-  for (const Part t : taken) {
-    if (t.from > whole.from) left.push_back({whole.from, std::min(t.from, whole.to)});
-    whole.from = std::max(whole.from, t.to);
-    if (whole.from >= whole.to) return left;
-  }
-  left.push_back(whole);
-  return left;
-}
-
-/// Parts of one face, in its own coordinate, against which no other block's face lies.
-std::vector<Part> free_parts(const std::vector<OnLine>& all, const OnLine& one, const BlockSet& b,
-                             double snap) {
-  std::vector<Part> covered;
-  for (const OnLine& other : all) {
-    if (other.along != one.along && b.vertex_block[other.edge] != b.vertex_block[one.edge])
-      covered.push_back({other.low, other.high});
-  }
-  std::vector<Part> parts;
-  for (const Part p : without({one.low, one.high}, covered)) {
-    if (p.to - p.from <= snap) continue;
-    const double scale = (one.part.to - one.part.from) / (one.high - one.low);
-    const auto s_of = [&](double at) {
-      return one.along ? one.part.from + scale * (at - one.low)
-                       : one.part.from + scale * (one.high - at);
-    };
-    parts.push_back(one.along ? Part{s_of(p.from), s_of(p.to)} : Part{s_of(p.to), s_of(p.from)});
-  }
-  return parts;
-}
-
-/// A part of one edge.
-struct Piece {
-  Id edge;
-  Part part;
-};
-
-/// A line that turns back or touches an edge twice loads it once.
-void unite(std::vector<Piece>& pieces) {
-  std::sort(pieces.begin(), pieces.end(), [](const Piece& x, const Piece& y) {
-    return x.edge != y.edge ? x.edge < y.edge : x.part.from < y.part.from;
-  });
-  std::vector<Piece> united;
-  for (const Piece& p : pieces) {
-    if (!united.empty() && united.back().edge == p.edge && p.part.from <= united.back().part.to) {
-      united.back().part.to = std::max(united.back().part.to, p.part.to);
-    } else {
-      united.push_back(p);
-    }
-  }
-  pieces = std::move(united);
-}
-
 void attach_line(const Load& load, Index row, const BlockSet& b, double snap, Loads& loads,
                  Faults& faults) {
-  std::vector<Piece> pieces;
-  bool in_joints = false;
+  std::vector<Line> lines;
   for (std::size_t k = 0; k + 1 < load.along.size(); ++k) {
-    const std::vector<OnLine> all =
-        edges_on(b, load.along[k] - b.origin, load.along[k + 1] - b.origin, snap);
-    for (const OnLine& e : all) {
-      if (b.fixed[b.vertex_block[e.edge]]) continue;
-      const std::vector<Part> parts =
-          load.force ? free_parts(all, e, b, snap) : std::vector<Part>{e.part};
-      in_joints = in_joints || parts.empty();
-      for (const Part p : parts) pieces.push_back({e.edge, p});
-    }
+    lines.push_back({load.along[k] - b.origin, load.along[k + 1] - b.origin});
   }
-  unite(pieces);
+  bool in_joints = false;
+  const std::vector<Piece> pieces =
+      pieces_on(b, lines, load.force ? Faces::open : Faces::all, snap, in_joints);
   const double t = b.thickness;
   for (const Piece& p : pieces) {
     loads.edges.push_back({p.edge, p.part.from, p.part.to, load.force ? t * *load.force : Vec2{},
@@ -137,6 +39,22 @@ void attach_line(const Load& load, Index row, const BlockSet& b, double snap, Lo
   }
   fault.where.key += ".along";
   faults.push_back(fault);
+}
+
+/// A boundary of type stress: a traction on the faces along it.
+void attach_stress(const Model& model, std::size_t row, const BlockSet& b, double snap,
+                   Loads& loads, Faults& faults) {
+  const Boundary& boundary = model.boundaries[row];
+  bool in_joints = false;
+  const std::vector<Piece> pieces =
+      pieces_on(b, boundary_lines(model, b, boundary), Faces::open, snap, in_joints);
+  for (const Piece& p : pieces) {
+    loads.edges.push_back({p.edge, p.part.from, p.part.to, b.thickness * *boundary.traction, 0.0,
+                           static_cast<Index>(model.loads.size() + row)});
+  }
+  if (!pieces.empty()) return;
+  faults.push_back({boundary.where, "no open face of a free block lies on this boundary",
+                    "give a line that faces of blocks lie on, or sides of the outline"});
 }
 
 void attach_point(const Model& model, const PolygonSet& polygons, const Load& load, Index row,
@@ -281,7 +199,11 @@ Head head(double s0, double s1, double d0, double d1) {
 Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const BlockSet& b) {
   Loads loads;
   Faults faults;
-  if (model.loads.empty() && model.waters.empty()) return loads;
+  loads.since.boundaries.assign(model.boundaries.size(), 0.0);
+  loads.since.shakings.assign(model.shakings.size(), 0.0);
+  const auto is_stress = [](const Boundary& q) { return q.type == BoundaryType::stress; };
+  const bool stressed = std::any_of(model.boundaries.begin(), model.boundaries.end(), is_stress);
+  if (model.loads.empty() && model.waters.empty() && !stressed) return loads;
   const double snap = 4.0 * snap_distance(model, b);
   for (std::size_t q = 0; q < model.loads.size(); ++q) {
     const Load& load = model.loads[q];
@@ -290,6 +212,9 @@ Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const
     } else {
       attach_line(load, static_cast<Index>(q), b, snap, loads, faults);
     }
+  }
+  for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
+    if (is_stress(model.boundaries[q])) attach_stress(model, q, b, snap, loads, faults);
   }
   for (std::size_t q = 0; q < model.waters.size(); ++q) {
     attach_water(model, model.waters[q], static_cast<Index>(q), b, snap, loads, faults);
@@ -301,9 +226,18 @@ Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const
 
 LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
   LoadsNow now;
+  for (std::size_t q = 0; q < model.shakings.size(); ++q) {
+    const Shaking& shaking = model.shakings[q];
+    if (shaking.apply != ShakingKind::inertia || time < loads.since.shakings[q]) continue;
+    now.frame += acceleration_at(shaking, time - loads.since.shakings[q]);
+  }
   if (loads.blocks.empty()) return now;
   now.loads = &loads;
   for (const Load& load : model.loads) now.factor.push_back(load.factor.at(time, 1.0));
+  for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
+    const double since = loads.since.boundaries[q];
+    now.factor.push_back(time < since ? 0.0 : model.boundaries[q].factor.at(time - since, 1.0));
+  }
   for (const Water& water : model.waters) {
     now.rise.push_back(water.rise.at(time, 0.0));
     now.weight.push_back(water.unit_weight * model.thickness);

@@ -1,9 +1,11 @@
-// Loads from outside: forces at points, tractions and pressures along lines, water.
+// Loads from outside: forces at points, tractions and pressures along lines, water, and the inertia
+// of a ground that shakes.
 #pragma once
 
 #include <array>
 #include <vector>
 
+#include "attachments/bolts.hpp"
 #include "base/fault.hpp"
 #include "blocks/kinematics.hpp"
 #include "blocks/pose.hpp"
@@ -27,7 +29,7 @@ struct EdgeLoad {
   double from, to;
   Vec2 traction;    ///< N per m of edge as it was at the start
   double pressure;  ///< N per m of edge as it is, against its outward normal
-  Index load;       ///< row of Model::loads
+  Index load;       ///< row of Model::loads, or their number and the row of Model::boundaries
 };
 
 /// Water on a part of an edge, over which the table is straight.
@@ -36,6 +38,13 @@ struct WetEdge {
   double from, to;
   double level_from, level_to;  ///< y of the table above the ends of the part, m, local
   Index water;                  ///< row of Model::waters
+};
+
+/// When what stages may switch on began to act, s: histories run from there. Infinite: it does not
+/// act.
+struct ActiveSince {
+  std::vector<double> boundaries;  ///< [rows of Model::boundaries]
+  std::vector<double> shakings;    ///< [rows of Model::shakings]
 };
 
 /// All of them, each list sorted by block, on blocks that are not held.
@@ -49,17 +58,20 @@ struct Loads {
   };
   std::vector<Range> range;  ///< [blocks]
   std::vector<Id> place;     ///< [nb] index into `blocks`, or no_id; empty where there are none
+  ActiveSince since;
 };
 
 /// Loads as they act at one time.
 struct LoadsNow {
   const Loads* loads = nullptr;  ///< null: there are none
-  std::vector<double> factor;    ///< [rows of Model::loads]
+  std::vector<double> factor;    ///< [rows of Model::loads, then those of Model::boundaries]
   std::vector<double> rise;      ///< [rows of Model::waters] m
   std::vector<double> weight;    ///< [rows of Model::waters] N/m3 times thickness
+  const Bolts* bolts = nullptr;  ///< with their forces at this time; null: there are none
+  Vec2 frame;  ///< m/s2: acceleration of the ground that all blocks feel backwards
 };
 
-/// Finds what the loads and waters of the model act on. A load or a water that finds nothing is a
+/// Finds what the loads, waters and boundaries of type stress act on. One that finds nothing is a
 /// fault.
 Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const BlockSet& blocks);
 

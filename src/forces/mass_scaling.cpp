@@ -19,7 +19,8 @@ void multiply_inertia(BlockSet& b, std::size_t i, double factor) {
 
 std::vector<double> raise_inertia(BlockSet& b, const State& state, const Pose& pose,
                                   const ContactSet& contacts, const BoundarySprings& springs,
-                                  const LawTable& laws, const Damping& damping, double step) {
+                                  const LawTable& laws, const Damping& damping, double step,
+                                  const Bolts* bolts) {
   // Frequencies fall as the root of the mass; damping makes the step fall a little faster than
   // that.
   constexpr int most_rounds = 20;
@@ -27,7 +28,7 @@ std::vector<double> raise_inertia(BlockSet& b, const State& state, const Pose& p
   std::vector<double> factors;
   for (int round = 0; round < most_rounds; ++round) {
     const std::vector<double> own =
-        steps_of_blocks(b, state, pose, contacts, springs, laws, damping, step);
+        steps_of_blocks(b, state, pose, contacts, springs, laws, damping, step, bolts);
     bool enough = true;
     for (std::size_t i = 0; i < b.size(); ++i) {
       if (!(own[i] < step) || !(own[i] > 0.0)) continue;

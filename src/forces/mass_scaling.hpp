@@ -13,7 +13,8 @@ namespace edda {
 /// nothing where all stayed as they were.
 std::vector<double> raise_inertia(BlockSet& blocks, const State& state, const Pose& pose,
                                   const ContactSet& contacts, const BoundarySprings& springs,
-                                  const LawTable& laws, const Damping& damping, double step);
+                                  const LawTable& laws, const Damping& damping, double step,
+                                  const Bolts* bolts = nullptr);
 
 /// Mass that the blocks only seem to have, kg. inertia: [nb] factors on their masses, or none.
 double added_mass(const BlockSet& blocks, const std::vector<double>& inertia);

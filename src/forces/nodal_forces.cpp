@@ -93,9 +93,7 @@ void add_contacts(NodeForce& f, const BlockSet& b, const ContactSet& c, std::siz
 void add_springs(NodeForce& f, const BlockSet& b, const BoundarySprings& s, const Pose& pose,
                  std::size_t i) {
   for (Id q = s.block_begin[i]; q < s.block_begin[i + 1]; ++q) {
-    const Id v = s.vertex[q];
-    const double ux = pose.x[v] - s.start_x[q], uy = pose.y[v] - s.start_y[q];
-    spread(f, b, v, {-(s.kxx[q] * ux + s.kxy[q] * uy), -(s.kxy[q] * ux + s.kyy[q] * uy)});
+    spread(f, b, s.vertex[q], spring_force(s, q, pose.x, pose.y));
   }
 }
 
@@ -139,20 +137,21 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
                    const LoadsNow& loads, std::size_t begin, std::size_t end) {
   const BodyView body{values_of(b.grad_x),  values_of(b.grad_y), b.volume.data(),
                       b.lame_lambda.data(), b.lame_mu.data(),    b.mass.data()};
-  body_forces(body, values_of(state.x), values_of(state.y), gravity, values_of(forces.x),
-              values_of(forces.y), begin, end);
+  body_forces(body, values_of(state.x), values_of(state.y), gravity - loads.frame,
+              values_of(forces.x), values_of(forces.y), begin, end);
   std::array<std::uint8_t, blocks_at_once> moves;
   for (std::size_t i = begin; i < end; ++i) {
     const bool many_corners = b.vertex_begin[i + 1] - b.vertex_begin[i] > few_corners;
     moves[i - begin] = is_free(b, state, i) ? 1 : 0;
     const bool acted_on = springs.block_begin[i] < springs.block_begin[i + 1] ||
-                          loads.loads != nullptr || many_corners;
+                          loads.loads != nullptr || loads.bolts != nullptr || many_corners;
     if (moves[i - begin] != 0 && !acted_on) continue;
     NodeForce f{};
     if (moves[i - begin] != 0) {
       for (std::size_t k = 0; k < 3; ++k) f[k] = {forces.x[k][i], forces.y[k][i]};
       add_springs(f, b, springs, pose, i);
       if (loads.loads != nullptr) add_loads(f, b, loads, pose.x, pose.y, i);
+      if (loads.bolts != nullptr) add_bolts(f, *loads.bolts, i);
       if (many_corners) add_contacts(f, b, contacts, i);
     }
     for (std::size_t k = 0; k < 3; ++k) {

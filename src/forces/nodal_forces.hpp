@@ -16,9 +16,9 @@ struct NodalForces {
   Nodes x, y;
 };
 
-/// Gravity, elasticity, boundary springs, loads and contacts of every free block (Eq. 15), contacts
-/// in the order of ContactSet::for_contacts(). Blocks whose deformation has gone out of bounds (det
-/// F < 0.2 or no rotation left) get NaN; block_out_of_bounds() finds them.
+/// Gravity, elasticity, boundary springs, loads, bolts and contacts of every free block (Eq. 15),
+/// contacts in the order of ContactSet::for_contacts(). Blocks whose deformation has gone out of
+/// bounds (det F < 0.2 or no rotation left) get NaN; block_out_of_bounds() finds them.
 void gather_forces(NodalForces& forces, const BlockSet& blocks, const State& state,
                    const Pose& pose, const ContactSet& contacts, const BoundarySprings& springs,
                    Vec2 gravity, const LoadsNow& loads = {});

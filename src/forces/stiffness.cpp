@@ -7,6 +7,7 @@
 #include "base/parallel.hpp"
 #include "contacts/gap.hpp"
 #include "forces/block_matrices.hpp"
+#include "forces/bolt_matrix.hpp"
 #include "forces/contact_forces.hpp"
 
 namespace edda {
@@ -76,7 +77,7 @@ Matrix6 bare_corners(const BlockSet& b, const ContactSet& c, const LawTable& law
 /// Stiffness of one block with all that may act on it.
 struct BlockStiffness {
   std::vector<Part> parts;
-  Matrix6 elastic, boundary;
+  Matrix6 elastic, boundary, bolts;
   Matrix6 all;                                               ///< with the contacts
   double lowest2 = std::numeric_limits<double>::infinity();  ///< contact frequency^2, with damping
 };
@@ -90,6 +91,7 @@ struct Scene {
   const BoundarySprings& springs;
   const LawTable& laws;
   const Damping& damping;
+  const Bolts* bolts;
 };
 
 BlockStiffness stiffness_of(const Scene& w, std::size_t i) {
@@ -97,7 +99,8 @@ BlockStiffness stiffness_of(const Scene& w, std::size_t i) {
   k.parts = parts_of(w.b, w.s, w.pose, w.c, i);
   k.elastic = elastic_matrix(w.b, i);
   k.boundary = boundary_matrix(w.b, w.springs, rotation(deformation(w.b, w.s.x, w.s.y, i)), i);
-  k.all = k.elastic + k.boundary;
+  k.bolts = w.bolts == nullptr ? Matrix6::Zero().eval() : bolt_matrix(*w.bolts, w.b, w.s, i);
+  k.all = k.elastic + k.boundary + k.bolts;
   for (const Part& p : k.parts) {
     k.all += p.kn * p.normal * p.normal.transpose() + p.ks * p.tangent * p.tangent.transpose();
     if (w.damping.contact > 0.0) {
@@ -192,7 +195,8 @@ void explain(StepBound& bound, const Scene& w, std::size_t i) {
   const double total = mode.dot(k.all * mode);
   bound.elastic_part = mode.dot(k.elastic * mode) / total;
   bound.boundary_part = mode.dot(k.boundary * mode) / total;
-  bound.contact_part = 1.0 - bound.elastic_part - bound.boundary_part;
+  bound.bolt_part = mode.dot(k.bolts * mode) / total;
+  bound.contact_part = 1.0 - bound.elastic_part - bound.boundary_part - bound.bolt_part;
   double largest = 0.0;
   for (const Part& p : k.parts) {
     const double hn = p.normal.dot(mode), ht = p.tangent.dot(mode);
@@ -207,8 +211,9 @@ void explain(StepBound& bound, const Scene& w, std::size_t i) {
 }  // namespace
 
 StepBound step_bound(const BlockSet& b, const State& s, const Pose& pose, const ContactSet& c,
-                     const BoundarySprings& springs, const LawTable& laws, const Damping& damping) {
-  const Scene scene{b, s, pose, c, springs, laws, damping};
+                     const BoundarySprings& springs, const LawTable& laws, const Damping& damping,
+                     const Bolts* bolts) {
+  const Scene scene{b, s, pose, c, springs, laws, damping, bolts};
   std::vector<double> step(b.size(), std::numeric_limits<double>::infinity()), likely = step;
   parallel_for(b.size(), [&](std::size_t i) {
     if (b.fixed[i] || !s.alive[i]) return;
@@ -227,8 +232,9 @@ StepBound step_bound(const BlockSet& b, const State& s, const Pose& pose, const 
 
 std::vector<double> steps_of_blocks(const BlockSet& b, const State& s, const Pose& pose,
                                     const ContactSet& c, const BoundarySprings& springs,
-                                    const LawTable& laws, const Damping& damping, double limit) {
-  const Scene scene{b, s, pose, c, springs, laws, damping};
+                                    const LawTable& laws, const Damping& damping, double limit,
+                                    const Bolts* bolts) {
+  const Scene scene{b, s, pose, c, springs, laws, damping, bolts};
   std::vector<double> step(b.size(), std::numeric_limits<double>::infinity());
   parallel_for(b.size(), [&](std::size_t i) {
     if (b.fixed[i] || !s.alive[i]) return;

@@ -4,15 +4,17 @@
 
 #include <vector>
 
+#include "attachments/bolts.hpp"
 #include "attachments/boundary_springs.hpp"
 #include "blocks/state.hpp"
 #include "contacts/contact_set.hpp"
 
 namespace edda {
 
-/// omega_max^2 <= max_i lambda_max{ M_i^-1 [K_i + boundary springs + 2 sum_c (p_n h h^T + p_t k
-/// k^T)] }, h and k the weights of the contact along its normal and tangent, factor 1 against a
-/// held block. Every candidate that may come to carry counts, closed or not.
+/// omega_max^2 <= max_i lambda_max{ M_i^-1 [K_i + boundary springs + bolts + 2 sum_c (p_n h h^T +
+/// p_t k k^T)] }, h and k the weights of the contact along its normal and tangent, factor 1 against
+/// a held block. Every candidate that may come to carry counts, closed or not. Bolts count by
+/// bolt_matrix(). Dashpots at boundaries do not: they are centred (dashpot_forces.hpp).
 struct StepBound {
   double critical_step =
       0.0;  ///< 2/omega_max, less what contact damping takes, s; +inf if no block is free
@@ -22,6 +24,7 @@ struct StepBound {
   double elastic_part = 0.0;  ///< parts of the Rayleigh quotient, summing to 1
   double contact_part = 0.0;
   double boundary_part = 0.0;
+  double bolt_part = 0.0;
 };
 
 /// Damping shortens the step: contacts of zeta to (2/w)(sqrt(1 + x^2) - x), x = zeta w/w_c; local
@@ -29,13 +32,14 @@ struct StepBound {
 /// that; and mass-proportional damping a turns velocities round beyond 2/a, so 1/a is the limit.
 StepBound step_bound(const BlockSet& blocks, const State& state, const Pose& pose,
                      const ContactSet& contacts, const BoundarySprings& springs,
-                     const LawTable& laws, const Damping& damping);
+                     const LawTable& laws, const Damping& damping, const Bolts* bolts = nullptr);
 
 /// The step that each block would allow alone, every bare corner of it touching, [nb] s: exact
 /// where it is below `limit`, elsewhere not below `limit` and perhaps too small; infinite for held
 /// ones.
 std::vector<double> steps_of_blocks(const BlockSet& blocks, const State& state, const Pose& pose,
                                     const ContactSet& contacts, const BoundarySprings& springs,
-                                    const LawTable& laws, const Damping& damping, double limit);
+                                    const LawTable& laws, const Damping& damping, double limit,
+                                    const Bolts* bolts = nullptr);
 
 }  // namespace edda

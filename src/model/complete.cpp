@@ -244,24 +244,6 @@ void check_content(const Value& root, Reading& reading) {
   }
 }
 
-void complete_boundaries(const Value& root, Reading& reading) {
-  auto& boundaries = reading.model.boundaries;
-  for (std::size_t i = 0; i < boundaries.size(); ++i) {
-    Boundary& boundary = boundaries[i];
-    const Value* node = element(root, "boundary", i);
-    if (!is_table(node)) continue;
-    if (!given(node, "stiffness")) boundary.stiffness = reading.model.contact.normal_stiffness;
-    const bool sides = given(node, "sides"), along = given(node, "along");
-    if (sides && along) {
-      add_fault(reading, find(node, "along")->place, boundary.where.key + ".along",
-                "sides is given too", "give only one of them");
-    } else if (!sides && !along) {
-      add_fault(reading, node->place, boundary.where.key, "has neither sides nor along",
-                "say where it is, such as sides = [\"bottom\"]");
-    }
-  }
-}
-
 /// Damping of a stage: what it does not give is the solver's, but for local damping, which brings a
 /// model to rest.
 void complete_stage_damping(const Value* node, const Solver& solver, Stage& stage) {
@@ -392,8 +374,13 @@ void complete(const Value& root, Reading& reading) {
   check_names(root, "stage", model.stages, reading);
   check_names(root, "monitor", model.monitors, reading);
   check_blocks(root, reading);
+  check_names(root, "shaking", model.shakings, reading);
+  check_names(root, "bolt", model.bolts, reading);
+  check_names(root, "bolt_pattern", model.bolt_patterns, reading);
   complete_boundaries(root, reading);
   complete_lines(root, reading);
+  complete_shakings(root, reading);
+  complete_bolts(root, reading);
   complete_geometry(root, reading);
   complete_loads(root, reading);
   complete_stages(root, reading);

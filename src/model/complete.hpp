@@ -30,6 +30,15 @@ void complete_lines(const Value& root, Reading& reading);
 /// their files, openings that are named.
 void complete_loads(const Value& root, Reading& reading);
 
+/// As complete(), for [[boundary]]: what each type needs, and does not know.
+void complete_boundaries(const Value& root, Reading& reading);
+
+/// As complete(), for [[shaking]]: records read from their files, the boundary that is named.
+void complete_shakings(const Value& root, Reading& reading);
+
+/// As complete(), for [[bolt]] and [[bolt_pattern]]: what each type needs, openings that are named.
+void complete_bolts(const Value& root, Reading& reading);
+
 /// As complete(), for counts of blocks and the defaults of snap and [quality].
 void complete_geometry(const Value& root, Reading& reading);
 

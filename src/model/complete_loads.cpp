@@ -1,35 +1,14 @@
 #include <algorithm>
 
 #include "model/complete.hpp"
-#include "model/file_text.hpp"
+#include "model/input_file.hpp"
 #include "model/nearest.hpp"
-#include "model/time_history.hpp"
 
 namespace edda {
 namespace {
 
 bool given(const Value* table, std::string_view key) {
   return find(table, key) != nullptr;
-}
-
-/// Reads the file that `path` names, where one is given.
-void read_history(const Value* node, const std::string& element, std::string& path,
-                  TimeHistory& history, Reading& reading) {
-  if (path.empty()) return;
-  const std::string key = element + ".history";
-  path = beside_model(path, reading.model.file);
-  Result<TimeHistory> read = read_time_history(path, key);
-  if (read) {
-    history = std::move(read.value());
-    return;
-  }
-  Fault fault = read.faults().front();
-  if (fault.where.line > 0) {
-    reading.faults.push_back(fault);
-    return;
-  }
-  // Nothing in the file is to blame, but its name.
-  add_fault(reading, find(node, "history")->place, key, path + " " + fault.problem, fault.remedy);
 }
 
 /// A force at a point is in N, a traction in Pa; a number without a unit is either.

@@ -65,8 +65,12 @@ constexpr std::array boundary_keys{
     Key{"name", at<&Boundary::name>, naming, otherwise("none"), "What --set and messages call the boundary."},
     Key{"sides", at<&Boundary::sides>, words_of(side_names), otherwise("none; either this or along"), "Sides of the box round the model."},
     Key{"along", at<&Boundary::along>, polyline, otherwise("none; either this or sides"), "The polyline that the boundary follows."},
-    Key{"type", at<&Boundary::type>, choice, initial, "Springs in x and y, or only across the line (roller), on each block vertex on it."},
-    Key{"stiffness", at<&Boundary::stiffness>, number(D::stiffness, above(0)), otherwise("contact.normal_stiffness"), "Spring per block vertex."},
+    Key{"type", at<&Boundary::type>, choice, initial, "Springs in x and y (fixed) or only across the line (roller) on each block vertex on it; springs drawn along at a velocity; dashpots that let waves out (viscous); a traction on the edges (stress)."},
+    Key{"stiffness", at<&Boundary::stiffness>, number(D::stiffness, above(0)), otherwise("contact.normal_stiffness"), "Types fixed, roller and velocity: spring per block vertex."},
+    Key{"traction", at<&Boundary::traction>, shape(Kind::point, D::stress), otherwise("none; required by type stress"), "Type stress: traction on the edges along the line, of constant direction."},
+    Key{"velocity", at<&Boundary::velocity>, shape(Kind::point, D::velocity), otherwise("none; required by type velocity"), "Type velocity: how fast the vertices on the line are moved."},
+    Key{"wave_speeds", at<&Boundary::wave_speeds>, shape(Kind::point, D::velocity, above(0)), otherwise("those of the unjointed rock of each block"), "Type viscous: speeds of P and S waves in the jointed rock."},
+    Key{"history", at<&Boundary::history>, file, otherwise("constant from the start"), "Types stress and velocity: CSV file of time and factor, linear between its rows."},
 };
 
 constexpr std::array load_keys{
@@ -84,6 +88,64 @@ constexpr std::array water_keys{
     Key{"flooded", at<&Water::flooded>, name_list, initial, "Names of the openings that are full of water, too; the others are dry."},
     Key{"unit_weight", at<&Water::unit_weight>, number(D::unit_weight, above(0)), initial, "Weight of water per volume."},
     Key{"history", at<&Water::history>, file, otherwise("constant from the start"), "CSV file of time and rise of the table (m), linear between its rows."},
+};
+
+constexpr std::array shaking_keys{
+    Key{"name", at<&Shaking::name>, naming, otherwise("none"), "What --set, stages and messages call the shaking."},
+    Key{"acceleration", at<&Shaking::acceleration>, source, required, "Acceleration of the ground: a CSV file of time, x and y (m/s2), an .AT2 file (g), or a sine as a table."},
+    Key{"direction", at<&Shaking::direction>, shape(Kind::point, D::plain), initial, "Direction of the one component that an .AT2 file holds."},
+    Key{"scale", at<&Shaking::scale>, number(D::plain), initial, "What the acceleration is multiplied by."},
+    Key{"apply", at<&Shaking::apply>, choice, initial, "Held blocks and boundaries move (base), all blocks feel it backwards (inertia), or it is a wave that comes up through a viscous boundary (upgoing)."},
+    Key{"boundary", at<&Shaking::boundary>, naming, otherwise("the only viscous one"), "Upgoing: name of the viscous boundary that the wave comes in through."},
+};
+
+constexpr std::array acceleration_keys{
+    Key{"amplitude", at<&Acceleration::amplitude>, number(D::acceleration), required, "Amplitude of the sine."},
+    Key{"frequency", at<&Acceleration::frequency>, number(D::frequency, above(0)), required, "Frequency of the sine, which begins at zero."},
+    Key{"direction", at<&Acceleration::direction>, shape(Kind::point, D::plain), initial, "Direction of the sine."},
+};
+
+constexpr std::array bond_keys{
+    Key{"stiffness", at<&BoltBond::stiffness>, number(D::stress, from(0)), required, "Force per slip and per metre of bolt."},
+    Key{"strength", at<&BoltBond::strength>, number(D::line_load, from(0)), required, "Largest force per metre of bolt."},
+};
+
+constexpr std::array dowel_keys{
+    Key{"stiffness", at<&BoltDowel::stiffness>, number(D::line_load, from(0)), required, "Force across the bolt per offset of the joint's sides."},
+    Key{"strength", at<&BoltDowel::strength>, number(D::force, from(0)), required, "Largest force across the bolt."},
+};
+
+constexpr std::array bolt_keys{
+    Key{"name", at<&Bolt::name>, naming, otherwise("none"), "What --set, stages and tables call the bolt."},
+    Key{"from", at<&Bolt::from>, point, required, "Head of the bolt."},
+    Key{"to", at<&Bolt::to>, point, required, "Its far end."},
+    Key{"type", at<&Bolt::type>, choice, initial, "Grouted along its length, or fixed at its ends (end)."},
+    Key{"diameter", at<&Bolt::diameter>, number(D::length, above(0)), required, "Diameter of the steel."},
+    Key{"young", at<&Bolt::young>, number(D::stress, above(0)), initial, "Young's modulus of the steel."},
+    Key{"yield_stress", at<&Bolt::yield_stress>, number(D::stress, above(0)), otherwise("none: it never yields"), "Stress at which it yields."},
+    Key{"rupture_strain", at<&Bolt::rupture_strain>, number(D::plain, above(0)), otherwise("none: it never breaks"), "Strain at which it breaks."},
+    Key{"spacing", at<&Bolt::spacing>, number(D::length, above(0)), initial, "Distance from bolt to bolt out of plane."},
+    Key{"pretension", at<&Bolt::pretension>, number(D::force, from(0)), initial, "Force in the bolt when it is put in, per bolt."},
+    Key{"bond", at<&Bolt::bond>, table, otherwise("none; required by a grouted bolt"), "Stiffness and strength of the grout, per metre of bolt."},
+    Key{"dowel", at<&Bolt::dowel>, table, otherwise("no dowel action"), "Stiffness and strength across the bolt where it crosses a joint, per bolt."},
+};
+
+constexpr std::array bolt_pattern_keys{
+    Key{"name", at<&BoltPattern::name>, naming, otherwise("none"), "What --set, stages and tables call the bolts: with .0, .1 and so on."},
+    Key{"opening", at<&BoltPattern::opening>, naming, required, "Name of the opening that the bolts stand round."},
+    Key{"from_angle", at<&BoltPattern::from_angle>, number(D::angle), required, "Direction of the first bolt from the centroid of the opening, counter-clockwise from +x."},
+    Key{"to_angle", at<&BoltPattern::to_angle>, number(D::angle), required, "Direction of the last bolt."},
+    Key{"count", at<&BoltPattern::count>, whole(1, 1e5), required, "Number of bolts."},
+    Key{"length", at<&BoltPattern::length>, number(D::length, above(0)), required, "Length of a bolt from the outline of the opening outwards."},
+    Key{"type", at<&BoltPattern::bolt, &Bolt::type>, choice, initial, "As of a bolt."},
+    Key{"diameter", at<&BoltPattern::bolt, &Bolt::diameter>, number(D::length, above(0)), required, "As of a bolt."},
+    Key{"young", at<&BoltPattern::bolt, &Bolt::young>, number(D::stress, above(0)), initial, "As of a bolt."},
+    Key{"yield_stress", at<&BoltPattern::bolt, &Bolt::yield_stress>, number(D::stress, above(0)), otherwise("none: it never yields"), "As of a bolt."},
+    Key{"rupture_strain", at<&BoltPattern::bolt, &Bolt::rupture_strain>, number(D::plain, above(0)), otherwise("none: it never breaks"), "As of a bolt."},
+    Key{"spacing", at<&BoltPattern::bolt, &Bolt::spacing>, number(D::length, above(0)), initial, "As of a bolt."},
+    Key{"pretension", at<&BoltPattern::bolt, &Bolt::pretension>, number(D::force, from(0)), initial, "As of a bolt."},
+    Key{"bond", at<&BoltPattern::bolt, &Bolt::bond>, table, otherwise("none; required by grouted bolts"), "As of a bolt."},
+    Key{"dowel", at<&BoltPattern::bolt, &Bolt::dowel>, table, otherwise("no dowel action"), "As of a bolt."},
 };
 
 constexpr std::array monitor_keys{
@@ -151,9 +213,12 @@ constexpr std::array all_sections{
     section<&Model::arches>("arch", Shape::list, arch_keys, "Voussoirs."),
     section<&Model::quality>("quality", Shape::table, quality_keys, "Which cut blocks are too small or too thin, and what becomes of them."),
     section<&Model::pairs>("contact_pair", Shape::list, pair_keys, "The law where two joints or two materials meet."),
-    section<&Model::boundaries>("boundary", Shape::list, boundary_keys, "Springs that hold the model at a line."),
+    section<&Model::boundaries>("boundary", Shape::list, boundary_keys, "What holds, drives or damps the model at a line."),
     section<&Model::loads>("load", Shape::list, load_keys, "A force at a point, or a traction or pressure along a line."),
     section<&Model::waters>("water", Shape::list, water_keys, "Water in joints and on faces below a table."),
+    section<&Model::shakings>("shaking", Shape::list, shaking_keys, "An earthquake."),
+    section<&Model::bolts>("bolt", Shape::list, bolt_keys, "A rock bolt."),
+    section<&Model::bolt_patterns>("bolt_pattern", Shape::list, bolt_pattern_keys, "Bolts round an opening."),
     section<&Model::monitors>("monitor", Shape::list, monitor_keys, "A point whose history is written."),
     section<&Model::stages>("stage", Shape::list, stage_keys, "A part of the run, one after the other."),
     section<&Model::solver>("solver", Shape::table, solver_keys, "How the motion is computed."),
@@ -180,6 +245,15 @@ std::span<const Key> keys_of(const LengthSpread&) {
 }
 std::span<const Key> keys_of(const OpeningShape&) {
   return shape_keys;
+}
+std::span<const Key> keys_of(const Acceleration&) {
+  return acceleration_keys;
+}
+std::span<const Key> keys_of(const BoltBond&) {
+  return bond_keys;
+}
+std::span<const Key> keys_of(const BoltDowel&) {
+  return dowel_keys;
 }
 
 std::span<const Section> sections() {

@@ -35,6 +35,7 @@ enum class Kind {
   joint_map,  ///< a table of names, each with the name of a joint law
   file,       ///< path of a file, as written relative to the model's
   table,      ///< keys inside a key: damping = { ... }
+  source,     ///< path of a file, or a table
 };
 
 /// Bounds of a number, inclusive unless open. Points obey them in each component.
@@ -78,6 +79,7 @@ struct SubTable {
   void* object;                ///< null where the table may be left out, and is
   void* owner;                 ///< then: what holds it,
   void* (*make)(void* owner);  ///< and how it is put there
+  std::string* file;  ///< where the path of a file may stand in place of the table; else null
 };
 
 using JointMap = std::vector<std::pair<std::string, Index>>;

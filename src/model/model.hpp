@@ -22,7 +22,9 @@ enum class MassKind { matched, covering, consistent };
 enum class Switching { exact, plain };
 enum class LawType { coulomb, glued };
 enum class StageEnd { time, equilibrium };
-enum class BoundaryType { fixed, roller };
+enum class BoundaryType { fixed, roller, viscous, stress, velocity };
+enum class ShakingKind { base, inertia, upgoing };
+enum class BoltType { grouted, end };
 
 struct Material {
   std::string name;
@@ -68,16 +70,6 @@ struct BlockInput {
   Where where;
 };
 
-struct Boundary {
-  std::string name;
-  BoundaryType type = BoundaryType::fixed;
-  std::vector<std::string>
-      sides;                ///< of "left", "right", "bottom", "top"; empty where `along` is given
-  std::vector<Vec2> along;  ///< polyline
-  double stiffness = 0.0;   ///< Pa: spring per block vertex on it
-  Where where;
-};
-
 /// A curve over time from a file, linear between its rows, held before the first and after the
 /// last.
 struct TimeHistory {
@@ -85,6 +77,52 @@ struct TimeHistory {
   std::vector<double> value;
   /// At t, or `otherwise` where none was given.
   double at(double t, double otherwise) const;
+};
+
+/// [[boundary]]
+struct Boundary {
+  std::string name;
+  BoundaryType type = BoundaryType::fixed;
+  std::vector<std::string>
+      sides;                ///< of "left", "right", "bottom", "top"; empty where `along` is given
+  std::vector<Vec2> along;  ///< polyline
+  double stiffness = 0.0;   ///< Pa: spring per block vertex on it; fixed, roller, velocity
+  std::optional<Vec2> traction;     ///< Pa, on the edges along it; stress
+  std::optional<Vec2> velocity;     ///< m/s; velocity
+  std::optional<Vec2> wave_speeds;  ///< m/s, P and S; viscous; empty: the rock's own
+  std::string history;              ///< path of a file of time, factor; stress, velocity
+  TimeHistory factor;
+  Where where;
+};
+
+/// Acceleration of the ground over time: linear between its rows, zero before the first and after
+/// the last. The velocity is its integral
+/// from the first row on.
+struct Accelerogram {
+  std::vector<double> time;        ///< s, ascending
+  std::vector<Vec2> acceleration;  ///< m/s2
+  std::vector<Vec2> velocity;      ///< m/s
+};
+
+/// Where an acceleration comes from: a file, or a sine.
+struct Acceleration {
+  std::string file;                 ///< path; empty: a sine
+  std::optional<double> amplitude;  ///< m/s2
+  std::optional<double> frequency;  ///< Hz
+  Vec2 direction{1.0, 0.0};         ///< of the sine; its length says nothing
+};
+
+/// [[shaking]]
+struct Shaking {
+  std::string name;
+  Acceleration acceleration;
+  Vec2 direction{1.0, 0.0};  ///< of a file that has one component; its length says nothing
+  double scale = 1.0;
+  ShakingKind apply = ShakingKind::base;
+  std::string boundary;  ///< upgoing: name of the viscous boundary that the wave comes in through
+  Index enters = none;   ///< its row
+  Accelerogram record;   ///< of the file
+  Where where;
 };
 
 /// [[load]]: a force at a point, or a traction or pressure on the edges along a line.
@@ -107,6 +145,45 @@ struct Water {
   double unit_weight = 9810.0;       ///< N/m3
   std::string history;               ///< path of a file of time, rise (m)
   TimeHistory rise;
+  Where where;
+};
+
+/// Grout along a bolt: elastic up to its strength, perfectly plastic beyond it.
+struct BoltBond {
+  double stiffness = 0.0;  ///< Pa, that is N/m per metre of bolt
+  double strength = 0.0;   ///< N/m
+};
+
+/// A bolt sheared by a joint: elastic up to its strength, perfectly plastic beyond it.
+struct BoltDowel {
+  double stiffness = 0.0;  ///< N/m
+  double strength = 0.0;   ///< N
+};
+
+/// [[bolt]], per bolt and not per metre of thickness.
+struct Bolt {
+  std::string name;
+  Vec2 from, to;
+  BoltType type = BoltType::grouted;
+  double diameter = 0.0;                 ///< m
+  double young = 200e9;                  ///< Pa
+  std::optional<double> yield_stress;    ///< Pa; empty: never yields
+  std::optional<double> rupture_strain;  ///< empty: never breaks
+  double spacing = 1.0;                  ///< m, out of plane
+  double pretension = 0.0;               ///< N
+  BoltBond bond;                         ///< between bolt and rock along the bolt
+  BoltDowel dowel;                       ///< across the bolt, where it crosses a joint
+  Where where;
+};
+
+/// [[bolt_pattern]]: bolts from the outline of an opening outwards, away from its centroid.
+struct BoltPattern {
+  std::string name;
+  std::string opening;
+  double from_angle = 0.0, to_angle = 0.0;  ///< degrees, counter-clockwise from +x
+  int count = 0;
+  double length = 0.0;  ///< m
+  Bolt bolt;            ///< all that they have in common
   Where where;
 };
 
@@ -183,6 +260,9 @@ struct Model {
   std::vector<Boundary> boundaries;
   std::vector<Load> loads;
   std::vector<Water> waters;
+  std::vector<Shaking> shakings;
+  std::vector<Bolt> bolts;
+  std::vector<BoltPattern> bolt_patterns;
   std::vector<Monitor> monitors;
   std::vector<Stage> stages;  ///< in sequence; none: one, until solver.duration
   Solver solver;

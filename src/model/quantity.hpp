@@ -19,7 +19,10 @@ enum class Dimension {
   joint_stiffness,  ///< Pa/m
   velocity,
   acceleration,
-  load,              ///< N, or Pa where it is spread along a line
+  load,  ///< N, or Pa where it is spread along a line
+  force,
+  line_load,         ///< N/m: a stiffness, or a force per length
+  frequency,         ///< Hz
   rate,              ///< 1/s
   angular_velocity,  ///< rad/s
   area,

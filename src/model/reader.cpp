@@ -243,6 +243,9 @@ struct ReadInto {
     }
   }
   void operator()(const SubTable& table) const {
+    if (table.file != nullptr && as<std::string>(spot.value) != nullptr) {
+      return (*this)(table.file);
+    }
     if (as<Table>(spot.value) == nullptr) return type_fault(spot);
     void* object = table.object != nullptr ? table.object : table.make(table.owner);
     read_keys(table.keys, object, spot.value, spot.path + '.', spot.reading);

@@ -17,13 +17,16 @@ inline constexpr std::array<std::string_view, 3> mass_names{"matched", "covering
 inline constexpr std::array<std::string_view, 2> switching_names{"exact", "plain"};
 inline constexpr std::array<std::string_view, 2> law_names{"coulomb", "glued"};
 inline constexpr std::array<std::string_view, 2> stage_end_names{"time", "equilibrium"};
-inline constexpr std::array<std::string_view, 2> boundary_names{"fixed", "roller"};
 inline constexpr std::array<std::string_view, 2> spread_names{"uniform", "normal"};
 inline constexpr std::array<std::string_view, 3> length_names{"lognormal", "power", "constant"};
 inline constexpr std::array<std::string_view, 4> shape_names{"arch", "circle", "rectangle",
                                                              "horseshoe"};
 inline constexpr std::array<std::string_view, 6> unit_names{"m", "mm", "cm", "km", "ft", "in"};
 inline constexpr std::array<std::string_view, 3> action_names{"merge", "report", "error"};
+inline constexpr std::array<std::string_view, 5> boundary_names{"fixed", "roller", "viscous",
+                                                                "stress", "velocity"};
+inline constexpr std::array<std::string_view, 3> shaking_names{"base", "inertia", "upgoing"};
+inline constexpr std::array<std::string_view, 2> bolt_names{"grouted", "end"};
 inline constexpr std::array<std::string_view, 4> side_names{"left", "right", "bottom", "top"};
 
 constexpr std::span<const std::string_view> names_of(Plane) {
@@ -62,6 +65,12 @@ constexpr std::span<const std::string_view> names_of(LengthUnit) {
 constexpr std::span<const std::string_view> names_of(QualityAction) {
   return action_names;
 }
+constexpr std::span<const std::string_view> names_of(ShakingKind) {
+  return shaking_names;
+}
+constexpr std::span<const std::string_view> names_of(BoltType) {
+  return bolt_names;
+}
 
 // Keys of the tables inside a key.
 std::span<const Key> keys_of(const Strength&);
@@ -70,6 +79,9 @@ std::span<const Key> keys_of(const Deviation&);
 std::span<const Key> keys_of(const AngleSpread&);
 std::span<const Key> keys_of(const LengthSpread&);
 std::span<const Key> keys_of(const OpeningShape&);
+std::span<const Key> keys_of(const Acceleration&);
+std::span<const Key> keys_of(const BoltBond&);
+std::span<const Key> keys_of(const BoltDowel&);
 
 template <class Field>
 Slot slot_of(Field& field) {
@@ -78,10 +90,12 @@ Slot slot_of(Field& field) {
                   [](const void* f) { return static_cast<int>(*static_cast<const Field*>(f)); },
                   [](void* f, int value) { *static_cast<Field*>(f) = static_cast<Field>(value); }};
   } else if constexpr (requires { keys_of(field); }) {
-    return SubTable{keys_of(field), &field, nullptr, nullptr};
+    SubTable table{keys_of(field), &field, nullptr, nullptr, nullptr};
+    if constexpr (requires { field.file; }) table.file = &field.file;
+    return table;
   } else if constexpr (requires { keys_of(*field); }) {
     return SubTable{keys_of(typename Field::value_type{}), field ? &*field : nullptr, &field,
-                    [](void* f) -> void* { return &static_cast<Field*>(f)->emplace(); }};
+                    [](void* f) -> void* { return &static_cast<Field*>(f)->emplace(); }, nullptr};
   } else {
     return &field;
   }

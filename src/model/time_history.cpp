@@ -1,45 +1,12 @@
 #include "model/time_history.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cctype>
-#include <charconv>
-#include <cmath>
 #include <variant>
 
+#include "model/csv_rows.hpp"
 #include "model/file_text.hpp"
 
 namespace edda {
-namespace {
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blank = " \t\r";
-  const std::size_t first = text.find_first_not_of(blank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blank) - first + 1);
-}
-
-/// The whole of `text` as a finite number.
-bool read(std::string_view text, double& value) {
-  text = trimmed(text);
-  if (text.starts_with('+')) text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return !text.empty() && error == std::errc{} && end == text.data() + text.size() &&
-         std::isfinite(value);
-}
-
-/// What a column may be called: begins with a letter, and is not one of the words for numbers.
-bool is_name(std::string_view text) {
-  text = trimmed(text);
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return !text.empty() && std::isalpha(static_cast<unsigned char>(text.front())) != 0 &&
-         error == std::errc::invalid_argument;
-}
-
-}  // namespace
-
 double TimeHistory::at(double t, double otherwise) const {
   if (time.empty()) return otherwise;
   const auto after = std::upper_bound(time.begin(), time.end(), t);
@@ -52,39 +19,14 @@ double TimeHistory::at(double t, double otherwise) const {
 
 Result<TimeHistory> parse_time_history(std::string_view text, const std::string& path,
                                        const std::string& key) {
+  const RowShape shape{2, "two numbers", "write time,value", "0.5,1.0"};
+  const Result<std::vector<double>> rows = parse_rows(text, shape, path, key);
+  if (!rows) return rows.faults();
   TimeHistory history;
-  int line = 0;
-  bool names_may_come = true;
-  auto fault = [&](std::string problem, std::string remedy) {
-    return Fault{{key, path, line, line > 0 ? 1 : 0}, std::move(problem), std::move(remedy)};
-  };
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view row = trimmed(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-    ++line;
-    if (row.empty() || row.front() == '#') continue;
-    const std::size_t comma = row.find(',');
-    double time = 0.0, value = 0.0;
-    const bool is_time = read(row.substr(0, comma), time);
-    const bool is_value = comma != std::string_view::npos && read(row.substr(comma + 1), value);
-    if (names_may_come && comma != std::string_view::npos && is_name(row.substr(0, comma)) &&
-        is_name(row.substr(comma + 1))) {
-      names_may_come = false;
-      continue;
-    }
-    names_may_come = false;
-    if (!is_time || !is_value)
-      return fault("is not two numbers", "write time,value in each line, such as 0.5,1.0");
-    if (!history.time.empty() && !(time > history.time.back())) {
-      return fault(fmt::format("time {} does not come after {}", time, history.time.back()),
-                   "write the rows in the order of their times, each time once");
-    }
-    history.time.push_back(time);
-    history.value.push_back(value);
+  for (std::size_t k = 0; k < rows.value().size(); k += 2) {
+    history.time.push_back(rows.value()[k]);
+    history.value.push_back(rows.value()[k + 1]);
   }
-  line = 0;
-  if (history.time.empty()) return fault("has no rows", "write time,value in each line");
   return history;
 }
 
@@ -107,6 +49,8 @@ std::vector<std::string> files_beside(const Model& model) {
   for (const Load& load : model.loads) add(load.history);
   for (const Water& water : model.waters) add(water.history);
   for (const Import& import : model.imports) add(import.file);
+  for (const Boundary& boundary : model.boundaries) add(boundary.history);
+  for (const Shaking& shaking : model.shakings) add(shaking.acceleration.file);
   return files;
 }
 

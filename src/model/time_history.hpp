@@ -19,7 +19,8 @@ Result<TimeHistory> read_time_history(const std::string& path, const std::string
 Result<TimeHistory> parse_time_history(std::string_view text, const std::string& path,
                                        const std::string& key);
 
-/// The files that the model's loads, waters and imports name, each once, in their order.
+/// The files that the model's loads, waters, boundaries, shakings and imports name, each once, in
+/// their order.
 std::vector<std::string> files_beside(const Model& model);
 
 }  // namespace edda

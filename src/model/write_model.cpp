@@ -97,6 +97,7 @@ struct Write {
     return written(std::string(choice.names[static_cast<std::size_t>(choice.get(choice.field))]));
   }
   std::string operator()(const SubTable& table) const {
+    if (table.file != nullptr && !table.file->empty()) return written(*table.file);
     std::string text;
     for (const Key& inner : table.keys) {
       if (table.object == nullptr) break;

@@ -18,6 +18,7 @@ namespace {
 constexpr Colour ink{0.12, 0.12, 0.14}, held_fill{0.80, 0.80, 0.80}, held_hatch{0.62, 0.62, 0.62};
 constexpr Colour plain_block{0.87, 0.85, 0.80}, force_colour{0.75, 0.10, 0.10};
 constexpr Colour vector_colour{0.05, 0.05, 0.05}, monitor_colour{0.80, 0.05, 0.45};
+constexpr Colour bolt_colour{0.05, 0.25, 0.65};
 
 /// Everything that the parts of a picture share.
 struct Scene {
@@ -237,6 +238,30 @@ void draw_monitors(Canvas& canvas, const Scene& s, const PlotOptions& options) {
   }
 }
 
+/// Bolts, carried along by the blocks that they go through.
+void draw_bolts(Canvas& canvas, const Scene& s, const PlotOptions& options) {
+  constexpr int pieces = 12;
+  for (const auto& [from, to] : options.bolts) {
+    bool drawing = false;
+    for (int q = 0; q <= pieces; ++q) {
+      Vec2 now;
+      // A hair inside of its ends, which lie on faces.
+      const double part = std::clamp(static_cast<double>(q) / pieces, 1e-3, 1.0 - 1e-3);
+      if (!follow(s.grid, s.points, from + part * (to - from), now)) continue;
+      const Vec2 p = s.layout.px(now);
+      if (drawing) {
+        cairo_line_to(canvas.cr(), p.x, p.y);
+      } else {
+        cairo_move_to(canvas.cr(), p.x, p.y);
+      }
+      drawing = true;
+    }
+    canvas.colour(bolt_colour);
+    cairo_set_line_width(canvas.cr(), 4.0 * s.layout.unit);
+    cairo_stroke(canvas.cr());
+  }
+}
+
 void draw_axes(Canvas& canvas, const Layout& l) {
   const double u = l.unit, size = 20.0 * u;
   canvas.colour(ink);
@@ -293,6 +318,7 @@ Trouble plot(const Grid& blocks, const Grid* contacts, const ShownField& field,
   if (field.of_contacts && contacts != nullptr)
     draw_contact_field(canvas, scene, *contacts, field, scale);
   const std::string note = draw_vectors(canvas, scene, contacts, options);
+  draw_bolts(canvas, scene, options);
   draw_monitors(canvas, scene, options);
   cairo_restore(canvas.cr());
   draw_axes(canvas, layout);

@@ -1,6 +1,7 @@
 // A picture of a frame: blocks, a field in colour, vectors, contact forces, monitors, axes, legend.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,8 @@ struct PlotOptions {
   std::string subtitle;                ///< such as the time
   std::vector<std::string> materials;  ///< names, for the legend
   std::vector<PlotMonitor> monitors;
-  double scale = 1.0;     ///< of the displacements drawn
+  std::vector<std::array<Vec2, 2>> bolts;  ///< from where to where they were at the start, m
+  double scale = 1.0;                      ///< of the displacements drawn
   std::string vectors;    ///< "displacement" or "velocity": arrows at block centres; empty: none
   bool forces = false;    ///< contact forces as arrows
   double width = 1600.0;  ///< px, of a picture that is not taller than wide

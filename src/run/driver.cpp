@@ -203,7 +203,7 @@ bool Driver::record(const Event& event) {
   }
   if (fine && event.frame && recorder_.writes()) {
     last_frame_ = sim_.state.time;
-    fine = !ended_by(recorder_.frame(picture_of(sim_, instant)));
+    fine = !ended_by(recorder_.frame(sim_, picture_of(sim_, instant)));
   }
   outcome_.wall.output += since(start);
   if (!fine || over_ || !event.row) return fine;

@@ -23,6 +23,8 @@ std::string identity(const Model& model) {
   // What a history says counts, not where it lies.
   for (Load& load : m.loads) load.history.clear();
   for (Water& water : m.waters) water.history.clear();
+  for (Boundary& boundary : m.boundaries) boundary.history.clear();
+  for (Shaking& shaking : m.shakings) shaking.acceleration.file.clear();
   std::string text = to_toml(m);
   auto add = [&](const std::string& key, const TimeHistory& curve) {
     for (std::size_t k = 0; k < curve.time.size(); ++k)
@@ -30,6 +32,13 @@ std::string identity(const Model& model) {
   };
   for (const Load& load : model.loads) add(load.where.key, load.factor);
   for (const Water& water : model.waters) add(water.where.key, water.rise);
+  for (const Boundary& boundary : model.boundaries) add(boundary.where.key, boundary.factor);
+  for (const Shaking& shaking : model.shakings) {
+    const Accelerogram& r = shaking.record;
+    for (std::size_t k = 0; k < r.time.size(); ++k)
+      text += fmt::format("{}.acceleration, row {},{},{}\n", shaking.where.key, r.time[k],
+                          r.acceleration[k].x, r.acceleration[k].y);
+  }
   return text;
 }
 
@@ -122,6 +131,8 @@ template <class Archive>
 void Driver::list(Archive& a) {
   RecorderMemory files = recorder_.memory();
   a("files.history_bytes", files.history_bytes);
+  a("files.reactions_bytes", files.reactions_bytes);
+  a("files.bolts_bytes", files.bolts_bytes);
   a("files.frame_times", files.frame_times);
   // Each file's name, a line break, and its hash.
   std::string inputs;

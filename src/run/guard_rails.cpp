@@ -32,7 +32,8 @@ Vec2 model_place(const Simulation& sim, std::size_t k) {
 double step_without(const Simulation& sim, Id block) {
   BlockSet others = sim.blocks;
   others.fixed[block] = 1;
-  return step_bound(others, sim.state, sim.pose, sim.contacts, sim.springs, sim.laws, sim.damping)
+  return step_bound(others, sim.state, sim.pose, sim.contacts, sim.springs, sim.laws, sim.damping,
+                    &sim.bolts)
       .critical_step;
 }
 
@@ -146,7 +147,7 @@ void warn_of_few(const Simulation& sim, std::vector<std::string>& warnings) {
   constexpr double few = 0.01, worth = 2.0;
   constexpr std::size_t least = 20;  // blocks, for "few" to mean something
   std::vector<double> steps = steps_of_blocks(sim.blocks, sim.state, sim.pose, sim.contacts,
-                                              sim.springs, sim.laws, sim.damping, 0.0);
+                                              sim.springs, sim.laws, sim.damping, 0.0, &sim.bolts);
   std::vector<double> sorted;
   std::copy_if(steps.begin(), steps.end(), std::back_inserter(sorted),
                [](double h) { return std::isfinite(h); });
@@ -228,6 +229,7 @@ std::string governed_by(const Simulation& sim) {
   if (bound.boundary_part > 0.0) {
     text += fmt::format(", {:.0f} % boundary springs", 100.0 * bound.boundary_part);
   }
+  if (bound.bolt_part > 0.0) text += fmt::format(", {:.0f} % bolts", 100.0 * bound.bolt_part);
   if (bound.contact != no_id && bound.contact < sim.contacts.size()) {
     const Id k = bound.contact, i = sim.contacts.block_i[k], j = sim.contacts.block_j[k];
     text += fmt::format("; most of it by the contact with {} at {}",

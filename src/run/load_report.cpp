@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "model/accelerogram.hpp"
 #include "run/labels.hpp"
 
 namespace edda {
@@ -30,6 +31,29 @@ Vec2 alone(const Simulation& sim, std::size_t load, std::size_t water) {
   Vec2 sum;
   for (const Id i : sim.loads.blocks) sum += load_on(sim.blocks, now, sim.pose, i);
   return sum;
+}
+
+/// Peak and length of a shaking, and what its integral ends in: a record that is not corrected for
+/// its base line goes on for ever.
+std::string shaking_line(const Shaking& s, std::size_t row) {
+  const std::string name = called("shaking", s.name, row);
+  if (s.acceleration.file.empty()) {
+    return fmt::format("{}: sine of {:.4g} m/s2 and {:.4g} Hz", name,
+                       s.scale * *s.acceleration.amplitude, *s.acceleration.frequency);
+  }
+  double peak = 0.0;
+  for (const Vec2 a : s.record.acceleration) peak = std::max(peak, std::abs(s.scale) * norm(a));
+  const Vec2 end = velocity_at(s, s.record.time.back());
+  return fmt::format(
+      "{}: {} rows to {:.4g} s, peak {:.4g} m/s2; its velocity ends at ({:.4g}, {:.4g}) m/s", name,
+      s.record.time.size(), s.record.time.back(), peak, end.x, end.y);
+}
+
+std::string bolts_line(const Bolts& bolts) {
+  std::size_t joints = 0;
+  for (std::size_t k = 0; k < bolts.size(); ++k) joints += bolts.crossing[k];
+  return fmt::format("{} bolts of {} nodes cross {} joints", bolts.rows.size(), bolts.size(),
+                     joints);
 }
 
 }  // namespace
@@ -68,6 +92,10 @@ std::vector<std::string> load_report(const Simulation& sim) {
         called("water", water.name, q), length, water.flooded.size(), sim.model.openings.size(),
         f.x, f.y, range_of(water.rise, "rising", " m")));
   }
+  for (std::size_t q = 0; q < sim.model.shakings.size(); ++q) {
+    lines.push_back(shaking_line(sim.model.shakings[q], q));
+  }
+  if (!sim.bolts.rows.empty()) lines.push_back(bolts_line(sim.bolts));
   return lines;
 }
 

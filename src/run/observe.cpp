@@ -8,6 +8,7 @@
 #include "contacts/gap.hpp"
 #include "contacts/gaps.hpp"
 #include "forces/contact_forces.hpp"
+#include "forces/dashpot_forces.hpp"
 #include "forces/elastic.hpp"
 
 namespace edda {
@@ -154,7 +155,7 @@ void observe(const Simulation& sim, Instant& at) {
   const double h = sim.state.step;
   const Damping& damping = sim.damping;
   at.contacts = sim.contacts;
-  const LoadsNow acting = loads_at(sim.model, sim.loads, sim.state.time);
+  const LoadsNow acting = sim.acting();
   if (!sim.explicit_method()) {  // everything belongs to one instant already
     if (damping.contact > 0.0 && !sim.implicit.drift_x[0].empty()) {
       look_at_previous_gaps(at.contacts, a_step_ago(sim));
@@ -175,6 +176,11 @@ void observe(const Simulation& sim, Instant& at) {
   at.forces = sim.forces;
   gather_forces(at.forces, sim.blocks, sim.state, sim.pose, at.contacts, sim.springs,
                 sim.model.gravity, acting);
+  at.on_dashpots = sim.on_dashpots;
+  add_dashpots(at.forces, at.on_dashpots, sim.dashpots, sim.blocks, sim.state, sim.state.vx,
+               sim.state.vy,
+               {h, 0.5 * damping.mass * h, sim.dashpot_references(sim.ground_velocity())}, 0,
+               sim.blocks.size());
   at.state = sim.state;
   advance(at.state, sim.blocks, at.forces.x, at.forces.y, h, h, {damping.mass, damping.local});
   at.state.x = sim.state.x;
@@ -183,6 +189,10 @@ void observe(const Simulation& sim, Instant& at) {
     for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
       at.state.vx[k][i] = 0.5 * (at.state.vx[k][i] + sim.state.vx[k][i]);
       at.state.vy[k][i] = 0.5 * (at.state.vy[k][i] + sim.state.vy[k][i]);
+    }
+    for (const Id i : sim.ground.held) {
+      at.state.vx[k][i] = sim.ground_velocity().x;
+      at.state.vy[k][i] = sim.ground_velocity().y;
     }
   }
 }

@@ -13,9 +13,10 @@ namespace edda {
 /// forces at n are worked out here on copies, and v_n = (v_{n-1/2} + v_{n+1/2})/2 (method.md
 /// section 5). They are large: not to be kept from row to row.
 struct Instant {
-  State state;          ///< x, y and v at n
-  ContactSet contacts;  ///< with the forces at n
-  NodalForces forces;   ///< at n, N
+  State state;                    ///< x, y and v at n
+  ContactSet contacts;            ///< with the forces at n
+  NodalForces forces;             ///< at n, N
+  std::vector<Vec2> on_dashpots;  ///< at n, N
 };
 
 /// Fills `at` from the simulation as it stands after start() or step().

@@ -5,6 +5,7 @@
 #include "results/csv.hpp"
 #include "results/sha256.hpp"
 #include "results/tables.hpp"
+#include "run/attachment_rows.hpp"
 #include "run/summary.hpp"
 
 namespace edda {
@@ -40,12 +41,27 @@ Trouble Recorder::begin(const Simulation& sim, const std::vector<MonitorPoint>& 
   if (auto t = write_file(path("model.toml"), to_toml(sim.model))) return t;
   if (auto t = history_.open(path("history.csv"))) return t;
   if (auto t = history_.add(history_header(monitors))) return t;
+  if (!sim.model.boundaries.empty()) {
+    if (auto t = reactions_.open(path("reactions.csv"))) return t;
+    if (auto t = reactions_.add(reactions_header(sim.model))) return t;
+  }
+  if (!sim.bolts.rows.empty()) {
+    if (auto t = bolts_.open(path("bolts.csv"))) return t;
+    if (auto t = bolts_.add(bolts_header())) return t;
+  }
   frames_.emplace(folder_, sim.blocks);
   return {};
 }
 
 RecorderMemory Recorder::memory() const {
-  return {history_.bytes(), frames_ ? frames_->times() : std::vector<double>{}, inputs_};
+  return {history_.bytes(), reactions_.bytes(), bolts_.bytes(),
+          frames_ ? frames_->times() : std::vector<double>{}, inputs_};
+}
+
+Trouble Recorder::sync() {
+  if (auto t = history_.sync()) return t;
+  if (auto t = reactions_.sync()) return t;
+  return bolts_.sync();
 }
 
 Trouble Recorder::resume(const Simulation& sim, const RecorderMemory& memory) {
@@ -53,6 +69,12 @@ Trouble Recorder::resume(const Simulation& sim, const RecorderMemory& memory) {
   if (auto t = lock_.take(folder_)) return t;
   inputs_ = memory.inputs;
   if (auto t = history_.reopen(path("history.csv"), memory.history_bytes)) return t;
+  if (!sim.model.boundaries.empty()) {
+    if (auto t = reactions_.reopen(path("reactions.csv"), memory.reactions_bytes)) return t;
+  }
+  if (!sim.bolts.rows.empty()) {
+    if (auto t = bolts_.reopen(path("bolts.csv"), memory.bolts_bytes)) return t;
+  }
   frames_.emplace(folder_, sim.blocks);
   frames_->go_on_after(memory.frame_times);
   return forget_end(folder_, memory.frame_times.size());
@@ -73,6 +95,9 @@ Trouble Recorder::row(const Simulation& sim, const Instant& at,
                          l.fracture, l.external, l.step_change, l.drift, unbalanced}) {
     csv.add(v);
   }
+  if (!sim.model.boundaries.empty()) {
+    if (auto t = reactions_.add(reactions_row(sim, at))) return t;
+  }
   return history_.add(csv.end().text());
 }
 
@@ -80,13 +105,20 @@ Trouble Recorder::stages(const std::string& csv) {
   return writes() ? write_file(path("stages.csv"), csv) : Trouble{};
 }
 
-Trouble Recorder::frame(const Picture& picture) {
+Trouble Recorder::frame(const Simulation& sim, const Picture& picture) {
+  if (!sim.bolts.rows.empty()) {
+    if (auto t = bolts_.add(bolts_rows(sim))) return t;
+  }
   return frames_ ? frames_->add(picture) : Trouble{};
 }
 
 Trouble Recorder::tables(const Picture& picture) {
   if (!writes()) return {};
   Trouble history = history_.close();
+  for (RowFile* file : {&reactions_, &bolts_}) {
+    const Trouble t = file->close();
+    if (!history) history = t;
+  }
   if (auto t = write_blocks_csv(path("blocks.csv"), picture.blocks)) return t;
   if (auto t = write_joints_csv(path("joints.csv"), picture.contacts)) return t;
   return history;

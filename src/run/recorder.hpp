@@ -16,7 +16,7 @@ namespace edda {
 
 /// How far the files of a run had come.
 struct RecorderMemory {
-  std::uint64_t history_bytes = 0;
+  std::uint64_t history_bytes = 0, reactions_bytes = 0, bolts_bytes = 0;
   std::vector<double> frame_times;  ///< s
   std::vector<InputFile> inputs;
 };
@@ -26,17 +26,18 @@ class Recorder {
   /// With an empty folder nothing is ever written.
   explicit Recorder(std::string folder) : folder_(std::move(folder)) {}
 
-  /// Makes or empties the folder; model.toml and the head of history.csv.
+  /// Makes or empties the folder; model.toml and the heads of the tables that
+  /// grow.
   Trouble begin(const Simulation& sim, const std::vector<MonitorPoint>& monitors);
-  /// Goes on with a folder as it was when a checkpoint was written: history.csv cut to its length
-  /// then, frames that came later forgotten.
+  /// Goes on with a folder as it was when a checkpoint was written: tables that grow cut to their
+  /// length then, frames that came later forgotten.
   Trouble resume(const Simulation& sim, const RecorderMemory& memory);
   RecorderMemory memory() const;
   /// Brings to the disk what a checkpoint relies on.
-  Trouble sync() { return history_.sync(); }
+  Trouble sync();
   Trouble row(const Simulation& sim, const Instant& at, const std::vector<MonitorPoint>& monitors,
               const Ledger& ledger, double unbalanced);
-  Trouble frame(const Picture& picture);
+  Trouble frame(const Simulation& sim, const Picture& picture);
   /// stages.csv, as it is by now.
   Trouble stages(const std::string& csv);
   /// blocks.csv, joints.csv, and the end of history.csv.
@@ -50,7 +51,7 @@ class Recorder {
   std::string folder_;
   std::vector<InputFile> inputs_;  ///< as they were at the start
   FolderLock lock_;
-  RowFile history_;
+  RowFile history_, reactions_, bolts_;
   std::optional<FrameSeries> frames_;
 };
 

@@ -13,6 +13,7 @@
 #include "contacts/shares.hpp"
 #include "contacts/transitions.hpp"
 #include "forces/contact_forces.hpp"
+#include "forces/dashpot_forces.hpp"
 #include "forces/mass_scaling.hpp"
 #include "lines/build_polygons.hpp"
 #include "run/load_work.hpp"
@@ -82,6 +83,11 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   Result<Loads> loads = attach_loads(s.model, s.polygons, s.blocks);
   if (!loads.ok()) return loads.faults();
   s.loads = std::move(loads.value());
+  Result<Dashpots> dashpots = attach_dashpots(s.model, s.blocks);
+  if (!dashpots.ok()) return dashpots.faults();
+  s.dashpots = std::move(dashpots.value());
+  s.on_dashpots.assign(s.dashpots.points.size(), Vec2{});
+  s.ground = find_ground(s.model, s.blocks);
   s.state = initial_state(s.blocks, s.polygons);
 
   const std::size_t nb = s.blocks.size(), nv = s.blocks.vertex_count();
@@ -101,6 +107,9 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
     // Its steps go as far as they may from the first one on.
     s.base_reach = std::max(s.base_reach, 6.0 * s.displacement_limit);
   }
+  Result<Bolts> bolts = attach_bolts(s.model, s.blocks, s.state, s.pose.x, s.pose.y);
+  if (!bolts.ok()) return bolts.faults();
+  s.bolts = std::move(bolts.value());
   s.smallest_half_width = *std::min_element(s.blocks.inradius.begin(), s.blocks.inradius.end());
   s.step_limit = std::numeric_limits<double>::infinity();
 
@@ -131,12 +140,15 @@ void Simulation::start(double first_event) {
       pose.x1[v] = pose.x[v] - h * pose.x1[v];
       pose.y1[v] = pose.y[v] - h * pose.y1[v];
     });
+    start_ground(h);
     look_at_previous_gaps(contacts, pose);
   };
   look_back();
   evaluate_contacts(contacts, blocks, laws, h, damping.contact);
-  gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity,
-                loads_at(model, loads, state.time));
+  gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity, acting());
+  references_ = dashpot_references({});
+  add_dashpots(forces, on_dashpots, dashpots, blocks, state, state.vx, state.vy,
+               {0.0, 0.0, references_}, 0, blocks.size());
   start_velocities(state, blocks, forces.x, forces.y, h, damping.mass);
   look_back();
 }
@@ -154,7 +166,7 @@ void Simulation::scale_masses() {
   const bool moving = state.steps > 0;
   const double energy = moving ? ledger_now().balance() : 0.0;
   const std::vector<double> factor =
-      raise_inertia(blocks, state, pose, contacts, springs, laws, damping, step);
+      raise_inertia(blocks, state, pose, contacts, springs, laws, damping, step, &bolts);
   if (factor.empty()) return;
   if (inertia.empty()) inertia.assign(blocks.size(), 1.0);
   for (std::size_t i = 0; i < blocks.size(); ++i) inertia[i] *= factor[i];
@@ -171,7 +183,7 @@ void Simulation::scale_masses() {
 void Simulation::set_limit() {
   if (!explicit_method()) return set_implicit_limit();
   if (model.solver.mass_scaling > 0.0) scale_masses();
-  bound = step_bound(blocks, state, pose, contacts, springs, laws, damping);
+  bound = step_bound(blocks, state, pose, contacts, springs, laws, damping, &bolts);
   if (model.solver.time_step) {
     const double most = model.solver.allow_unstable
                             ? displacement_cap_
@@ -216,6 +228,10 @@ void Simulation::aim_at(double time) {
 }
 
 bool Simulation::move(double h_old, double h_new, const LoadsNow* not_yet_gathered) {
+  drive_ground(h_old, h_new);
+  if (not_yet_gathered == nullptr) remove_dashpots(forces, on_dashpots, dashpots);
+  const double h = 0.5 * (h_old + h_new);
+  const DashpotStep dashing{h, 0.5 * damping.mass * h, references_};
   largest_.assign((blocks.size() + blocks_at_once - 1) / blocks_at_once, 0.0);
   parallel_chunks(blocks.size(), blocks_at_once,
                   [&](std::size_t c, std::size_t begin, std::size_t end) {
@@ -223,6 +239,8 @@ bool Simulation::move(double h_old, double h_new, const LoadsNow* not_yet_gather
                       gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity,
                                     *not_yet_gathered, begin, end);
                     }
+                    add_dashpots(forces, on_dashpots, dashpots, blocks, state, old_vx_, old_vy_,
+                                 dashing, begin, end);
                     advance(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h_new,
                             step_damping(damping), begin, end);
                     largest_[c] = place_next(blocks, state.x, state.y, pose, begin, end);
@@ -239,7 +257,7 @@ std::optional<Failure> Simulation::step() {
   StageClock clock(state.steps);
   const double h_old = step_before_;
   evaluate_contacts(contacts, blocks, laws, state.step, damping.contact);
-  const LoadsNow acting = loads_at(model, loads, state.time);
+  const LoadsNow at_work = acting();
   clock.lap(seconds.forces);
 
   if (old_vx_[0].size() != blocks.size()) {
@@ -248,13 +266,14 @@ std::optional<Failure> Simulation::step() {
   }
   std::swap(old_vx_, state.vx);
   std::swap(old_vy_, state.vy);
-  const LoadsNow* not_yet_gathered = &acting;
+  const LoadsNow* not_yet_gathered = &at_work;
   for (int halvings = 0; !move(h_old, state.step, not_yet_gathered); ++halvings) {
     not_yet_gathered = nullptr;
     if (last_displacement > 1e100 || halvings == 40) return lost();
     retreat(state, blocks, state.step, old_vx_, old_vy_);
     std::swap(pose.x, pose.x1);
     std::swap(pose.y, pose.y1);
+    hold_ground();
     place_all();
     displacement_cap_ = 0.5 * state.step;
     step_limit = std::min(step_limit, displacement_cap_);
@@ -280,7 +299,9 @@ std::optional<Failure> Simulation::step() {
   book_damping(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h, step_damping(damping),
                damping_work);
   if (damping.contact > 0.0) book_dashpots(contacts);
-  book_loads(h_old, h, acting);
+  book_loads(h_old, h, at_work);
+  book_boundaries(h_old, h);
+  update_bolts(bolts, state);
   finish_step();
   clock.lap(seconds.integrate);
 
@@ -301,10 +322,11 @@ std::optional<Failure> Simulation::step() {
 
 /// Work of the loads in the leapfrog's terms: f_n . (x_{n+1} - x_{n-1})/2.
 void Simulation::book_loads(double h_old, double h_new, const LoadsNow& now) {
-  external_work += load_work(*this, now, pose.x1, pose.y1, [&](Id i, std::size_t k) {
+  const auto moved = [&](Id i, std::size_t k) {
     const Vec2 before{old_vx_[k][i], old_vy_[k][i]}, after{state.vx[k][i], state.vy[k][i]};
     return 0.5 * (h_old * before + h_new * after);
-  });
+  };
+  external_work += load_work(*this, now, pose.x1, pose.y1, moved) + frame_work(*this, now, moved);
 }
 
 void Simulation::finish_step() {
@@ -367,6 +389,9 @@ Ledger Simulation::ledger_now() const {
       sum_ledger(blocks, state, behind, pose, contacts, springs, damping_work, model.gravity);
   l.step_change = -step_change_energy;
   l.external = external_work;
+  l.contact += bolt_energy(bolts);
+  l.friction += bolts.slipped;
+  l.fracture += bolts.fractured;
   return l;
 }
 

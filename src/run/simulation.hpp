@@ -7,7 +7,10 @@
 #include <optional>
 #include <string>
 
+#include "attachments/bolts.hpp"
 #include "attachments/boundary_springs.hpp"
+#include "attachments/dashpots.hpp"
+#include "attachments/ground.hpp"
 #include "attachments/loads.hpp"
 #include "base/fault.hpp"
 #include "blocks/block_set.hpp"
@@ -46,11 +49,15 @@ struct Simulation {
   LawTable laws;
   BoundarySprings springs;
   Loads loads;
+  Dashpots dashpots;
 
+  Bolts bolts;
   State state;
   Pose pose;
   ContactSet contacts;
+  Ground ground;
   NodalForces forces;
+  std::vector<Vec2> on_dashpots;  ///< [points of dashpots] their forces in the last step, N
   DampingWork damping_work;
   Damping damping;                  ///< in force
   bool dynamic = true;              ///< of method "dda": whether velocities carry over
@@ -64,7 +71,7 @@ struct Simulation {
   double max_penetration = 0.0;     ///< m, over the run
   double smallest_half_width = 0.0;  ///< m, of all blocks
   double step_change_energy = 0.0;   ///< J, created by changes of the step
-  double external_work = 0.0;        ///< J, of the loads so far
+  double external_work = 0.0;        ///< J, of loads, shaking and driven boundaries so far
   StepStatistics steps;
   OpenCloseCounts open_close;          ///< rounds of an implicit step count as passes
   ImplicitSolver implicit;             ///< of method "dda"
@@ -88,6 +95,14 @@ struct Simulation {
   std::optional<Failure> step();
   Ledger ledger();
 
+  /// Loads and bolts as they act at n.
+  LoadsNow acting() const;
+  /// Velocity at n of what dashpots are held to, [rows of Model::boundaries] m/s: the ground where
+  /// it moves at `ground_velocity`, and twice that of a wave that comes up.
+  std::vector<Vec2> dashpot_references(Vec2 ground_velocity) const;
+  /// Velocity of the ground at n, m/s.
+  Vec2 ground_velocity() const;
+
   bool explicit_method() const { return model.solver.method == Method::edda; }
 
  private:
@@ -102,6 +117,10 @@ struct Simulation {
   void search(double reach);
   void search_if_due();
   bool move(double h_old, double h_new, const LoadsNow* not_yet_gathered);
+  void start_ground(double h);
+  void drive_ground(double h_old, double h_new);
+  void hold_ground();
+  void book_boundaries(double h_old, double h_new);
   void finish_step();
   void book_implicit_loads(const LoadsNow& now);
   void book_loads(double h_old, double h_new, const LoadsNow& now);
@@ -120,6 +139,8 @@ struct Simulation {
 
   // Of one step, kept so that it allocates nothing.
   Nodes old_vx_, old_vy_;  ///< velocities before it, and where the next ones will be
+  GroundStep next_ground_;
+  std::vector<Vec2> references_;  ///< [rows of Model::boundaries] of the dashpots, m/s
   std::vector<double> largest_;
   SwitchingScratch switching_;
   TransitionScratch transitions_;

@@ -90,10 +90,11 @@ void Simulation::start_implicit() {
 
 /// Work of the loads as the scheme sees it: f_{n+1} . D.
 void Simulation::book_implicit_loads(const LoadsNow& now) {
-  external_work += load_work(*this, now, pose.x, pose.y, [&](Id i, std::size_t k) {
+  const auto moved = [&](Id i, std::size_t k) {
     const auto at = static_cast<Eigen::Index>(6 * std::size_t{implicit.row_of[i]} + 2 * k);
     return Vec2{implicit.moved[at], implicit.moved[at + 1]};
-  });
+  };
+  external_work += load_work(*this, now, pose.x, pose.y, moved) + frame_work(*this, now, moved);
 }
 
 std::optional<Failure> Simulation::step_implicit() {

@@ -9,6 +9,7 @@
 #include "checkpoint/archive.hpp"
 #include "contacts/candidates.hpp"
 #include "contacts/shares.hpp"
+#include "run/attachment_memory.hpp"
 #include "run/implicit_memory.hpp"
 
 namespace edda {
@@ -154,6 +155,7 @@ void list_counts(Archive& a, Simulation& s) {
   a("bound.elastic_part", s.bound.elastic_part);
   a("bound.contact_part", s.bound.contact_part);
   a("bound.boundary_part", s.bound.boundary_part);
+  a("bound.bolt_part", s.bound.bolt_part);
   a("step_limit", s.step_limit);
   a("last_displacement", s.last_displacement);
   a("penetration", s.penetration);
@@ -329,6 +331,8 @@ void list_memory(Archive& a, Simulation& s) {
   list_contacts(a, s.contacts);
   list_groups(a, s.contacts);
   list_counts(a, s);
+  list_ground(a, s);
+  list_bolts(a, s);
   a("displacement_cap", s.displacement_cap_);
   a("larger_since", s.larger_since_);
   a("target", s.target_);

@@ -17,12 +17,13 @@ bool carries(const ContactSet& c, std::size_t k) {
   return c.is(k, cs::closed) && c.share[k] > 0.0;
 }
 
-/// Blocks that touch something, or are held by a boundary.
+/// Blocks that touch something, or are held by a boundary or a bolt.
 std::vector<std::uint8_t> touching(const Simulation& sim) {
   std::vector<std::uint8_t> touches(sim.blocks.size(), 0);
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
     touches[i] = sim.springs.block_begin[i] != sim.springs.block_begin[i + 1] ? 1 : 0;
   }
+  for (const Id i : sim.bolts.host) touches[i] = 1;
   for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
     if (carries(sim.contacts, k)) {
       touches[sim.contacts.block_i[k]] = touches[sim.contacts.block_j[k]] = 1;

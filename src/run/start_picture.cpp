@@ -1,5 +1,7 @@
 #include "run/start_picture.hpp"
 
+#include "attachments/bolts.hpp"
+
 namespace edda {
 
 Picture start_picture(const Model& model, const BlockSet& b) {
@@ -26,6 +28,12 @@ Picture start_picture(const Model& model, const BlockSet& b) {
     p.y.push_back(b.vertex_y[v] + b.origin.y);
   }
   return p;
+}
+
+std::vector<std::array<Vec2, 2>> bolt_lines(const Model& model) {
+  std::vector<std::array<Vec2, 2>> lines;
+  for (const Bolt& bolt : all_bolts(model)) lines.push_back({bolt.from, bolt.to});
+  return lines;
 }
 
 }  // namespace edda

@@ -1,6 +1,9 @@
 // The block system before anything has moved, for pictures of a model that has not been run.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "blocks/block_set.hpp"
 #include "results/records.hpp"
 
@@ -8,5 +11,8 @@ namespace edda {
 
 /// Every block where it was cut: no displacement, no stress, no contacts. Model coordinates.
 Picture start_picture(const Model& model, const BlockSet& blocks);
+
+/// Head and far end of every bolt, those of patterns, too. Model coordinates.
+std::vector<std::array<Vec2, 2>> bolt_lines(const Model& model);
 
 }  // namespace edda

@@ -244,7 +244,7 @@ class Cli(unittest.TestCase):
 
     def test_examples_are_sound_and_never_overwrite(self):
         listed = [line.split()[0] for line in self.expect(0, "example").stdout.splitlines()[1:]]
-        for name in ("ramp", "ramp-30-10", "ramp-45-10", "ramp-45-15", "cavern", "slope", "arch", "wall"):
+        for name in ("ramp", "ramp-30-10", "ramp-45-10", "ramp-45-15", "cavern", "slope", "bolted-slope", "arch", "wall"):
             self.assertIn(name, listed)
         for name in listed:
             self.expect(0, "example", name)

@@ -66,6 +66,92 @@ TEST(BadModel, Waters) {
   }
 }
 
+TEST(BadModel, Boundaries) {
+  const std::string at = "[[boundary]]\nsides = [\"left\"]\n";
+  for (const Bad& bad : {
+           Bad{at + "type = \"viscus\"\n", 44, "boundary.1.type", "did you mean \"viscous\""},
+           Bad{at + "type = \"stress\"\n", 42, "boundary.1.traction", "is missing"},
+           Bad{at + "type = \"velocity\"\n", 42, "boundary.1.velocity", "is missing"},
+           Bad{at + "traction = [1, 0]\n", 44, "boundary.1.traction", "means nothing to type"},
+           Bad{at + "type = \"viscous\"\nhistory = \"" EDDA_SOURCE_DIR "/tests/model/rise.csv\"\n",
+               45, "boundary.1.history", "give another type: \"stress\""},
+           Bad{at + "type = \"viscous\"\nwave_speeds = [0, 1]\n", 45, "boundary.1.wave_speeds[0]",
+               "out of range"},
+           Bad{at + "type = \"stress\"\ntraction = [0, \"3 kN\"]\n", 45, "boundary.1.traction[1]",
+               "is not a stress"},
+       }) {
+    expect_fault(bad);
+  }
+}
+
+TEST(BadModel, Shakings) {
+  const std::string at = "[[shaking]]\nacceleration = { amplitude = 1, frequency = 2 }\n",
+                    viscous = "[[boundary]]\nsides = [\"left\"]\ntype = \"viscous\"\n";
+  for (const Bad& bad : {
+           Bad{"[[shaking]]\n", 42, "shaking.0.acceleration", "is missing"},
+           Bad{"[[shaking]]\nacceleration = 3\n", 43, "shaking.0.acceleration",
+               "the path of a file in quotes, or a table"},
+           Bad{"[[shaking]]\nacceleration = { amplitude = 1 }\n", 43,
+               "shaking.0.acceleration.frequency", "is missing"},
+           Bad{"[[shaking]]\nacceleration = \"no.csv\"\n", 43, "shaking.0.acceleration",
+               "no.csv no such file"},
+           Bad{at + "direction = [0, 0]\n", 44, "shaking.0.direction", "has no length"},
+           Bad{at + "apply = \"upgoing\"\n", 42, "shaking.0.apply", "needs a viscous boundary"},
+           Bad{at + "boundary = \"b\"\n", 44, "shaking.0.boundary", "belongs to apply"},
+           Bad{viscous + "name = \"low\"\n" + at + "apply = \"upgoing\"\nboundary = \"lov\"\n", 49,
+               "shaking.0.boundary", "did you mean \"low\""},
+           Bad{viscous + viscous + at + "apply = \"upgoing\"\n", 48, "shaking.0.boundary",
+               "several viscous"},
+       }) {
+    expect_fault(bad);
+  }
+}
+
+TEST(BadModel, Bolts) {
+  const std::string at = "[[bolt]]\nfrom = [15, 1]\nto = [15, 3]\ndiameter = 0.02\n",
+                    end = at + "type = \"end\"\n";
+  const std::string bond = "bond = { stiffness = 1e9, strength = 4e5 }\n";
+  for (const Bad& bad : {
+           Bad{at, 42, "bolt.0.bond", "is missing"},
+           Bad{at + "bond = { stiffness = 0, strength = 4e5 }\n", 46, "bolt.0.bond.stiffness",
+               "is zero"},
+           Bad{at + "bond = { stiffness = 1e9 }\n", 46, "bolt.0.bond.strength", "is missing"},
+           Bad{at + "bond = { stiffness = 1e9, strength = \"4 kN\" }\n", 46, "bolt.0.bond.strength",
+               "is not a force per length"},
+           Bad{end + "dowel = { stiffness = 1e8, strength = 1e5 }\n", 47, "bolt.0.dowel",
+               "means nothing"},
+           Bad{end + "yield_stress = 1e6\npretension = 1e6\n", 48, "bolt.0.pretension",
+               "at which the bolt yields"},
+           Bad{end + "yield_stress = 4e8\nrupture_strain = 1e-3\n", 48, "bolt.0.rupture_strain",
+               "less than the strain"},
+           Bad{"[[bolt]]\nfrom = [1, 1]\nto = [1, 1]\ndiameter = 0.02\ntype = \"end\"\n", 44,
+               "bolt.0.to", "is where from is"},
+           Bad{"[[bolt_pattern]]\nopening = \"hol\"\nfrom_angle = 0\nto_angle = 90\ncount = "
+               "3\nlength = 1\ndiameter = 0.02\n" +
+                   bond,
+               43, "bolt_pattern.0.opening", "did you mean \"hole\""},
+       }) {
+    expect_fault(bad);
+  }
+}
+
+TEST(BadModel, WhatTheImplicitMethodCannotDo) {
+  const std::string solver = "method = \"dda\"\n";
+  for (const auto& [text, key] :
+       {std::pair<std::string, std::string>{
+            "[[boundary]]\nsides = [\"left\"]\ntype = \"viscous\"\n", "boundary.1.type"},
+        {"[[boundary]]\nsides = [\"left\"]\ntype = \"velocity\"\nvelocity = [1, 0]\n",
+         "boundary.1.type"},
+        {"[[shaking]]\nacceleration = { amplitude = 1, frequency = 2 }\n", "shaking.0.apply"},
+        {"[[bolt]]\nfrom = [15, 1]\nto = [15, 3]\ndiameter = 0.02\ntype = \"end\"\n", "bolt.0"}}) {
+    const std::string whole = testing::base_with("duration = 0.1\n", "duration = 0.1\n" + solver);
+    const Result<Model> result = read_model_text(whole + text, "m.toml", {});
+    ASSERT_FALSE(result.ok()) << text;
+    EXPECT_EQ(result.faults()[0].where.key, key);
+    EXPECT_NE(to_string(result.faults()[0]).find("dda"), std::string::npos);
+  }
+}
+
 TEST(BadModel, Stages) {
   for (const Bad& bad : {
            Bad{"[[stage]]\nduration = 0.1\nuntil = \"rest\"\n", 44, "stage.0.until", "not known"},

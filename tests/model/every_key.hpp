@@ -139,6 +139,20 @@ stiffness = 2e11
 [[boundary]]
 name = "line"
 along = [[10, 10], [15, 10], [20, 10]]
+[[boundary]]
+name = "far"
+sides = ["right"]
+type = "viscous"
+wave_speeds = ["3 km/s", 1500]
+[[boundary]]
+sides = ["top"]
+type = "stress"
+traction = [0.5, "-100 kPa"]
+history = "tests/model/rise.csv"
+[[boundary]]
+sides = ["left"]
+type = "velocity"
+velocity = ["1 mm/s", -0.5]
 [[load]]
 name = "axle"
 point = [15, 10]
@@ -153,6 +167,43 @@ table = [[0, 4], [30, 5]]
 flooded = ["cavern"]
 unit_weight = "10 kN/m3"
 history = "tests/model/rise.csv"
+[[shaking]]
+name = "quake"
+acceleration = "tests/model/quake.at2"
+direction = [0, 2]
+scale = -0.5
+apply = "inertia"
+[[shaking]]
+acceleration = { amplitude = "5 m/s2", frequency = "2 Hz", direction = [1, 1] }
+apply = "upgoing"
+boundary = "far"
+[[bolt]]
+name = "crown"
+from = [15, 6]
+to = [15, "9 m"]
+type = "end"
+diameter = "25 mm"
+young = "210 GPa"
+yield_stress = "500 MPa"
+rupture_strain = "8 %"
+spacing = "1.5 m"
+pretension = "30 kN"
+[[bolt_pattern]]
+name = "round"
+opening = "cavern"
+from_angle = 10
+to_angle = 170
+count = 9
+length = "2 m"
+type = "grouted"
+diameter = 0.02
+young = 2e11
+yield_stress = 4e8
+rupture_strain = 0.05
+spacing = 2.0
+pretension = 1e3
+bond = { stiffness = "1 GN/m2", strength = "400 kN/m" }
+dowel = { stiffness = "100 MN/m", strength = "150 kN" }
 [[monitor]]
 name = "P1"
 point = [15, 9]

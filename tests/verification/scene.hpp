@@ -17,7 +17,7 @@
 namespace edda {
 
 inline Simulation scene(const std::string& toml) {
-  Result<Model> model = read_model_text(toml, "scene.toml", {});
+  Result<Model> model = read_model_text(toml, EDDA_SOURCE_DIR "/scene.toml", {});
   if (!model.ok()) {
     for (const Fault& f : model.faults()) ADD_FAILURE() << to_string(f);
     std::abort();

@@ -114,6 +114,8 @@ class Page:
         return [*parts, _table(checks), *([wrapped(row.note)] if row.note else []), *self._figure(row), _tests(checks)]
 
     def _figure(self, row):
+        if row.number not in FIGURES:
+            return []
         draw, caption = FIGURES[row.number]
         drawing = draw(self.records)
         file = self.folder / "figures" / f"verification-{row.number:02}.svg"

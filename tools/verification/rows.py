@@ -137,4 +137,31 @@ ROWS = (
     Row(21, "Friction and damping only take",
         "Six unit squares, each turned 0.13 rad more than the one below, fall on each other and on a held base.",
         "What friction and damping have taken never falls, and the ledger of energies closes."),
+    Row(30, "A block on shaken ground",
+        "A block of 2 x 1 m on a held slope of 20 degrees with 30 degrees of friction, shaken along x by a sine of 0.5 g and"
+        " 2 Hz: as inertia of all blocks, and by moving the slope. Mean of the second and third cycle.",
+        "A rigid block slides while the pull down the slope exceeds its friction, until it is as fast as the ground"
+        " (Newmark 1965), integrated numerically: 0.078405 m in each cycle."),
+    Row(31, "Waves that leave",
+        "A bar of 120 unit blocks held together, in plane strain, what would move across the wave held by rollers. A hump of"
+        " velocity runs down into a viscous boundary; joints fifty times as stiff as the rock, or as stiff as it, with the"
+        " wave speeds of the jointed bar given.",
+        "A boundary of impedance rho c sends nothing back (Lysmer and Kuhlemeyer 1969).",
+        "Largest velocity that comes back over that of the hump."),
+    Row(32, "Waves that come in",
+        "The bar of row 31 with stiff joints; a sine of acceleration of 10 Hz comes up through its viscous base.",
+        "On its way up it has v = A/w (1 - cos w t), at the free end twice that."),
+    Row(33, "A grouted bolt pulled out",
+        "A bolt of 25 mm and 4 m, half of it in either of two stiff blocks that are drawn apart along it. Bond 1 GN/m2,"
+        " 400 kN/m.",
+        "Shear lag: N falls off from the joint as sinh(lambda (L - x)), lambda = sqrt(K/EA). The bond first slips at the"
+        " joint, where K u = strength, and gives way as a whole when P = strength L."),
+    Row(34, "A bolted joint in shear",
+        "One block is drawn over another along a joint with a grouted bolt square to it, spacing 1.5 m.",
+        "The bolt adds its dowel stiffness, up to its strength, over its spacing.",
+        leave_out=("gravity",)),
+    Row(35, "A block that hangs on a bolt",
+        "A block of 2 x 2 m hangs on an end-anchored bolt of 30 mm and 4 m, spacing 2 m, put in with no tension or with"
+        " 40 kN.",
+        "At rest the bolt is longer by (W - T0) L/EA, as the model has them, that is per metre of thickness."),
 )

@@ -1,0 +1,290 @@
+#include "attachments/bolts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+
+namespace edda {
+namespace {
+
+/// Slope of a spring beyond its strength, as a part of its stiffness: enough for one answer where
+/// all of a bolt slips. The force exceeds the strength by this part of what one step adds.
+constexpr double beyond = 1e-4;
+
+struct Answer {
+  double force, slope;
+};
+
+/// Force of a spring whose elongation, less its plastic part, is `stretch`.
+Answer answer(const BoltSprings& s, std::size_t k, double stretch) {
+  const double stiffness = s.broken[k] != 0 ? 0.0 : s.stiffness[k];
+  const double force = stiffness * stretch, over = std::abs(force) - s.strength[k];
+  if (!(over > 0.0)) return {force, stiffness};
+  return {std::copysign(s.strength[k] + beyond * over, force), beyond * stiffness};
+}
+
+/// Energy that its stretching takes, as the integral of that force.
+double energy(const BoltSprings& s, std::size_t k, double stretch) {
+  const Answer a = answer(s, k, stretch);
+  if (s.broken[k] != 0 || s.stiffness[k] == 0.0) return 0.0;
+  const double whole = s.stiffness[k] * std::abs(stretch), most = std::min(whole, s.strength[k]);
+  return 0.5 * most * most / s.stiffness[k] +
+         0.5 * (most + std::abs(a.force)) * (whole - most) / s.stiffness[k];
+}
+
+/// Energy that flow from n - 1 to n takes: the half of it that F_{n-1} has done by now, and the
+/// half that F_n does in the step to come.
+struct Spent {
+  double slipped = 0.0, fractured = 0.0;
+  double will_slip = 0.0, will_fracture = 0.0;
+};
+
+/// Takes over the force at an elongation; plastic flow dissipates (F_{n-1} + F_n)/2 of it. A spring
+/// that has just broken lets go of all it stored.
+void settle(BoltSprings& s, std::size_t k, double elongation, Spent& spent) {
+  s.force_1[k] = s.force[k];
+  if (s.stiffness[k] == 0.0) return;
+  const double stretch = elongation - s.plastic[k];
+  s.force[k] = answer(s, k, stretch).force;
+  const bool broken = s.broken[k] != 0;
+  if (!broken && !(std::abs(s.force[k]) > s.strength[k])) return;
+  const double flow = stretch - s.force[k] / s.stiffness[k];
+  s.plastic[k] += flow;
+  (broken ? spent.fractured : spent.slipped) += 0.5 * s.force_1[k] * flow;
+  (broken ? spent.will_fracture : spent.will_slip) += 0.5 * s.force[k] * flow;
+  if (!broken) s.yielded[k] = 1;
+}
+
+double elongation(const Bolts& b, const std::vector<double>& slip, std::size_t k) {
+  const BarFrame& f = b.frame[k];
+  return f.stretch + slip[k + 1] * f.end - slip[k] * f.start;
+}
+
+bool is_dead(const Bolts& b, const State& state, std::size_t k) {
+  return state.alive[b.host[k]] == 0;
+}
+
+/// One grouted bolt at its hosts' present places.
+class Chain {
+ public:
+  Chain(Bolts& bolts, const State& state, Id first, Id last)
+      : b_(bolts), first_(first), last_(last) {
+    for (std::size_t k = first; k + 1 < last; ++k) b_.frame[k] = bar_frame(b_, state, k);
+  }
+
+  /// Newton's method on a convex sum of pieces of parabolas, shortened where it would climb.
+  void solve() {
+    constexpr int most = 100, most_cuts = 30;
+    constexpr double rounding = 1e-12;
+    double now = energy_at(b_.slip);
+    for (int round = 0; round < most && !in_balance(); ++round) {
+      find_change();
+      double part = 1.0, next = 0.0;
+      for (int cut = 0; cut < most_cuts; ++cut, part *= 0.5) {
+        for (std::size_t k = first_; k < last_; ++k) b_.trial[k] = b_.slip[k] + part * b_.change[k];
+        next = energy_at(b_.trial);
+        if (next <= (1.0 + rounding) * now) break;
+      }
+      std::copy_n(b_.trial.data() + first_, last_ - first_, b_.slip.data() + first_);
+      now = next;
+    }
+  }
+
+ private:
+  double energy_at(const std::vector<double>& slip) const {
+    double sum = 0.0;
+    for (std::size_t k = first_; k < last_; ++k) {
+      sum += energy(b_.bonds, k, slip[k] - b_.bonds.plastic[k]);
+      if (k + 1 < last_) sum += energy(b_.bars, k, elongation(b_, slip, k) - b_.bars.plastic[k]);
+    }
+    return sum;
+  }
+
+  /// Fills residual and tangent. Whether the residual is rounding.
+  bool in_balance() {
+    constexpr double rounding = 1e-11;
+    std::fill_n(b_.diagonal.data() + first_, last_ - first_, 0.0);
+    std::fill_n(b_.right.data() + first_, last_ - first_, 0.0);
+    double largest = 0.0, error = 0.0;
+    for (std::size_t k = first_; k < last_; ++k) {
+      const Answer bond = answer(b_.bonds, k, b_.slip[k] - b_.bonds.plastic[k]);
+      b_.diagonal[k] += bond.slope;
+      b_.right[k] -= bond.force;
+      largest = std::max(largest, std::abs(bond.force));
+      if (k + 1 < last_) {
+        const BarFrame& f = b_.frame[k];
+        const Answer bar = answer(b_.bars, k, elongation(b_, b_.slip, k) - b_.bars.plastic[k]);
+        b_.diagonal[k] += bar.slope * f.start * f.start;
+        b_.diagonal[k + 1] += bar.slope * f.end * f.end;
+        b_.upper[k] = -bar.slope * f.start * f.end;
+        b_.right[k] += bar.force * f.start;
+        b_.right[k + 1] -= bar.force * f.end;
+        largest = std::max(largest, std::abs(bar.force));
+      }
+      if (b_.diagonal[k] == 0.0) b_.diagonal[k] = 1.0;  // hangs on nothing
+      error = std::max(error, std::abs(b_.right[k]));
+    }
+    return error <= rounding * largest;
+  }
+
+  /// The tridiagonal system, by elimination from the head.
+  void find_change() {
+    b_.change[first_] = b_.right[first_];
+    for (std::size_t k = first_ + 1; k < last_; ++k) {
+      const double factor = b_.upper[k - 1] / b_.diagonal[k - 1];
+      b_.diagonal[k] -= factor * b_.upper[k - 1];
+      b_.change[k] = b_.right[k] - factor * b_.change[k - 1];
+    }
+    b_.change[last_ - 1] /= b_.diagonal[last_ - 1];
+    for (std::size_t k = last_ - 1; k-- > first_;) {
+      b_.change[k] = (b_.change[k] - b_.upper[k] * b_.change[k + 1]) / b_.diagonal[k];
+    }
+  }
+
+  Bolts& b_;
+  std::size_t first_, last_;
+};
+
+/// What bar k of a grouted bolt and its dowel do to the hosts of its two nodes: the gradients of
+/// their elongations. e = t . g: t on the points, and (g - t (t . g))/|m| on the directions. delta
+/// = t x h: its normal on the points, and -n (t . h)/|m| on the directions.
+void push_hosts(Bolts& b, std::size_t k) {
+  const BarFrame& f = b.frame[k];
+  const double axial = b.bars.force[k], across = b.dowels.force[k];
+  if (axial == 0.0 && across == 0.0) return;
+  const Vec2 n = perp(f.t);
+  const Vec2 whole = f.gap + b.slip[k + 1] * f.to - b.slip[k] * f.from;
+  const Vec2 turning =
+      (axial / f.size) * (whole - dot(f.t, whole) * f.t) - (across * dot(f.t, f.gap) / f.size) * n;
+  for (std::size_t j = 0; j < 3; ++j) {
+    b.on_host[k + 1][j] -= (b.weight[j][k + 1] + b.slip[k + 1] * b.along[j][k + 1]) * axial * f.t +
+                           b.weight[j][k + 1] * across * n + b.along[j][k + 1] * turning;
+    b.on_host[k][j] += (b.weight[j][k] + b.slip[k] * b.along[j][k]) * axial * f.t +
+                       b.weight[j][k] * across * n - b.along[j][k] * turning;
+  }
+}
+
+/// Steel breaks where it is strained too far: plastic and elastic stretch over the length that
+/// stretches.
+void break_steel(Bolts& b, const BoltData& row, std::size_t k) {
+  if (b.bars.stiffness[k] == 0.0 || b.bars.broken[k] != 0 || !(b.bars.force[k] > 0.0)) return;
+  const bool link = row.grouted && b.crossing[k] != 0;
+  const double elastic = b.bars.force[k] / row.steel;
+  // What pretension stretched at the start counts as elastic stretch, not as yield.
+  const double before = -row.pretension / b.bars.stiffness[k];
+  const double yielded = b.bars.plastic[k] - before;
+  const double strain = elastic + yielded / (link ? row.gauge : b.length[k]);
+  if (strain < row.rupture) return;
+  b.bars.broken[k] = 1;
+  b.dowels.broken[k] = 1;
+}
+
+void drop_dead(Bolts& b, const State& state, Id first, Id last) {
+  for (std::size_t k = first; k < last; ++k) {
+    const bool dead = is_dead(b, state, k), next = k + 1 < last && is_dead(b, state, k + 1);
+    if (dead) b.bonds.broken[k] = 1;
+    if (dead || next) b.bars.broken[k] = b.dowels.broken[k] = 1;
+  }
+}
+
+Spent update_grouted(Bolts& b, const BoltData& row, const State& state, Id first, Id last) {
+  Spent spent;
+  Chain(b, state, first, last).solve();
+  for (std::size_t k = first; k < last; ++k) {
+    settle(b.bonds, k, b.slip[k], spent);
+    if (k + 1 == last) break;
+    settle(b.bars, k, elongation(b, b.slip, k), spent);
+    settle(b.dowels, k, cross(b.frame[k].t, b.frame[k].gap), spent);
+  }
+  for (std::size_t k = first; k + 1 < last; ++k) {
+    push_hosts(b, k);
+    break_steel(b, row, k);
+  }
+  return spent;
+}
+
+/// One bar from end to end, along their distance; it goes slack rather than push.
+Spent update_ends(Bolts& b, const BoltData& row, const State& state, Id k) {
+  Spent spent;
+  const Vec2 gap = node_place(b, state, k + 1) - node_place(b, state, k);
+  const double distance = norm(gap), longer = distance - b.length[k];
+  if (longer - b.bars.plastic[k] >= 0.0 || b.bars.broken[k] != 0) {
+    settle(b.bars, k, longer, spent);
+  } else {
+    b.bars.force_1[k] = b.bars.force[k];
+    b.bars.force[k] = 0.0;
+  }
+  const Vec2 pull = (b.bars.force[k] / distance) * gap;
+  for (std::size_t j = 0; j < 3; ++j) {
+    b.on_host[k][j] += b.weight[j][k] * pull;
+    b.on_host[k + 1][j] -= b.weight[j][k + 1] * pull;
+  }
+  break_steel(b, row, k);
+  return spent;
+}
+
+}  // namespace
+
+BarFrame bar_frame(const Bolts& b, const State& state, std::size_t k) {
+  const auto place = [&](const std::array<std::vector<double>, 3>& w, std::size_t node) {
+    return weighted({w[0][node], w[1][node], w[2][node]}, state.x, state.y, b.host[node]);
+  };
+  const Vec2 from = place(b.along, k), to = place(b.along, k + 1), sum = from + to;
+  BarFrame f;
+  f.from = from;
+  f.to = to;
+  f.size = norm(sum);
+  f.t = sum / f.size;
+  f.gap = place(b.weight, k + 1) - place(b.weight, k);
+  f.start = dot(f.t, from);
+  f.end = dot(f.t, to);
+  f.stretch = dot(f.t, f.gap) - b.length[k];
+  return f;
+}
+
+Vec2 node_place(const Bolts& b, const State& state, std::size_t k) {
+  std::array<double, 3> w;
+  for (std::size_t j = 0; j < 3; ++j) w[j] = b.weight[j][k] + b.slip[k] * b.along[j][k];
+  return weighted(w, state.x, state.y, b.host[k]);
+}
+
+void update_bolts(Bolts& b, const State& state) {
+  if (b.rows.empty()) return;
+  std::vector<Spent> spent(b.rows.size());
+  parallel_for(b.rows.size(), [&](std::size_t r) {
+    const Id first = b.begin[r], last = b.begin[r + 1];
+    for (Id k = first; k < last; ++k) b.on_host[k] = {};
+    drop_dead(b, state, first, last);
+    spent[r] = b.rows[r].grouted ? update_grouted(b, b.rows[r], state, first, last)
+                                 : update_ends(b, b.rows[r], state, first);
+  });
+  b.slipped += b.will_slip;
+  b.fractured += b.will_fracture;
+  b.will_slip = b.will_fracture = 0.0;
+  for (const Spent& s : spent) {
+    b.slipped += s.slipped;
+    b.fractured += s.fractured;
+    b.will_slip += s.will_slip;
+    b.will_fracture += s.will_fracture;
+  }
+}
+
+void add_bolts(std::array<Vec2, 3>& f, const Bolts& b, std::size_t i) {
+  if (b.place.empty() || b.place[i] == no_id) return;
+  for (Id q = b.block_begin[b.place[i]]; q < b.block_begin[b.place[i] + 1]; ++q) {
+    for (std::size_t j = 0; j < 3; ++j) f[j] += b.on_host[b.block_nodes[q]][j];
+  }
+}
+
+double bolt_energy(const Bolts& b) {
+  double sum = 0.0;
+  for (const BoltSprings* s : {&b.bonds, &b.bars, &b.dowels}) {
+    for (std::size_t k = 0; k < s->force.size(); ++k) {
+      if (s->stiffness[k] > 0.0) sum += 0.5 * s->force_1[k] * s->force[k] / s->stiffness[k];
+    }
+  }
+  return sum;
+}
+
+}  // namespace edda

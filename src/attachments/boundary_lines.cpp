@@ -1,0 +1,54 @@
+#include "attachments/boundary_lines.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace edda {
+namespace {
+
+struct Box {
+  Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Vec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  void add(Vec2 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+};
+
+Box model_box(const Model& model, const BlockSet& b) {
+  Box box;
+  if (model.domain) {
+    for (Vec2 p : model.domain->outline) box.add(p - b.origin);
+  } else {
+    for (std::size_t v = 0; v < b.vertex_count(); ++v) box.add({b.vertex_x[v], b.vertex_y[v]});
+  }
+  return box;
+}
+
+}  // namespace
+
+std::vector<Line> boundary_lines(const Model& model, const BlockSet& b, const Boundary& boundary) {
+  std::vector<Line> lines;
+  if (!boundary.sides.empty()) {
+    const Box box = model_box(model, b);
+    const Vec2 ll = box.low, ur = box.high, lr{ur.x, ll.y}, ul{ll.x, ur.y};
+    for (const std::string& side : boundary.sides) {
+      if (side == "left") lines.push_back({ll, ul});
+      if (side == "right") lines.push_back({lr, ur});
+      if (side == "bottom") lines.push_back({ll, lr});
+      if (side == "top") lines.push_back({ul, ur});
+    }
+  }
+  for (std::size_t i = 0; i + 1 < boundary.along.size(); ++i) {
+    lines.push_back({boundary.along[i] - b.origin, boundary.along[i + 1] - b.origin});
+  }
+  return lines;
+}
+
+double boundary_snap(const Model& model, const BlockSet& b) {
+  const Box box = model_box(model, b);
+  const double extent = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  return std::max(model.domain ? 4.0 * model.domain->snap : 0.0, 1e-9 * extent);
+}
+
+}  // namespace edda

@@ -1,0 +1,67 @@
+#include "attachments/dashpots.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "attachments/edges_on_line.hpp"
+#include "blocks/kinematics.hpp"
+
+namespace edda {
+namespace {
+
+/// The two points of a piece of an edge.
+void add_points(const BlockSet& b, const Boundary& boundary, Index row, const Piece& piece,
+                std::vector<Dashpot>& points) {
+  const Id v = piece.edge, end = b.next[v], i = b.vertex_block[v];
+  const Vec2 a{b.vertex_x[v], b.vertex_y[v]}, u = Vec2{b.vertex_x[end], b.vertex_y[end]} - a;
+  const Vec2 t = unit(u), n = outward_normal(t);
+  const double density = b.mass[i] / b.volume[i];
+  const double p_speed = boundary.wave_speeds
+                             ? boundary.wave_speeds->x
+                             : std::sqrt((b.lame_lambda[i] + 2.0 * b.lame_mu[i]) / density);
+  const double s_speed =
+      boundary.wave_speeds ? boundary.wave_speeds->y : std::sqrt(b.lame_mu[i] / density);
+  const double length = (piece.part.to - piece.part.from) * norm(u);
+  const double half = 0.5 * b.thickness * length * density;
+  const double cn = half * p_speed, ct = half * s_speed;
+  const double middle = 0.5 * (piece.part.from + piece.part.to);
+  const double off = 0.5 * (piece.part.to - piece.part.from) / std::sqrt(3.0);
+  for (const double s : {middle - off, middle + off}) {
+    points.push_back({i, weights_at(b, i, a + s * u), cn * n.x * n.x + ct * t.x * t.x,
+                      cn * n.y * n.y + ct * t.y * t.y, cn * n.x * n.y + ct * t.x * t.y, row});
+  }
+}
+
+}  // namespace
+
+Result<Dashpots> attach_dashpots(const Model& model, const BlockSet& b) {
+  Dashpots dashpots;
+  Faults faults;
+  for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
+    const Boundary& boundary = model.boundaries[q];
+    if (boundary.type != BoundaryType::viscous) continue;
+    bool in_joints = false;
+    const std::vector<Piece> pieces = pieces_on(b, boundary_lines(model, b, boundary), Faces::open,
+                                                boundary_snap(model, b), in_joints);
+    for (const Piece& piece : pieces) {
+      add_points(b, boundary, static_cast<Index>(q), piece, dashpots.points);
+    }
+    if (pieces.empty()) {
+      faults.push_back({boundary.where, "no open face of a free block lies on this boundary",
+                        "give a line that faces of blocks lie on, or sides of the outline"});
+    }
+  }
+  if (!faults.empty()) return faults;
+  std::stable_sort(dashpots.points.begin(), dashpots.points.end(),
+                   [](const Dashpot& x, const Dashpot& y) { return x.block < y.block; });
+  for (std::size_t p = 0; p < dashpots.points.size(); ++p) {
+    const Id i = dashpots.points[p].block;
+    if (!dashpots.blocks.empty() && dashpots.blocks.back() == i) continue;
+    dashpots.blocks.push_back(i);
+    dashpots.begin.push_back(static_cast<Id>(p));
+  }
+  dashpots.begin.push_back(static_cast<Id>(dashpots.points.size()));
+  return dashpots;
+}
+
+}  // namespace edda

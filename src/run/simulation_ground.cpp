@@ -1,0 +1,97 @@
+// What drives and damps the model at its borders, in the explicit method: a ground that shakes,
+// boundaries that are moved, waves that leave and come in.
+#include "base/parallel.hpp"
+#include "forces/nodal_forces.hpp"
+#include "model/accelerogram.hpp"
+#include "run/simulation.hpp"
+
+namespace edda {
+
+LoadsNow Simulation::acting() const {
+  LoadsNow now = loads_at(model, loads, state.time);
+  if (!bolts.rows.empty()) now.bolts = &bolts;
+  return now;
+}
+
+Vec2 Simulation::ground_velocity() const {
+  return ground.velocity + (0.5 * state.step) * ground_acceleration(model, loads.since, state.time);
+}
+
+std::vector<Vec2> Simulation::dashpot_references(Vec2 of_ground) const {
+  std::vector<Vec2> reference(model.boundaries.size(), of_ground);
+  for (std::size_t q = 0; q < model.shakings.size(); ++q) {
+    const Shaking& shaking = model.shakings[q];
+    if (shaking.apply != ShakingKind::upgoing || state.time < loads.since.shakings[q]) continue;
+    reference[static_cast<std::size_t>(shaking.enters)] +=
+        2.0 * velocity_at(shaking, state.time - loads.since.shakings[q]);
+  }
+  return reference;
+}
+
+/// Half a step back, as the blocks: v_{-1/2} = -a_0 h/2. Looks back at where it was, too.
+void Simulation::start_ground(double h) {
+  if (!ground.moves) return;
+  ground.velocity = (-0.5 * h) * ground_acceleration(model, loads.since, state.time);
+  ground.shift_1 = ground.shift - h * ground.velocity;
+  springs.shift_1.assign(springs.shift.size(), ground.shift_1);
+  for (const Id i : ground.held) {
+    for (Id v = blocks.vertex_begin[i]; v < blocks.vertex_begin[i + 1]; ++v) {
+      pose.x1[v] = pose.x[v] - h * ground.velocity.x;
+      pose.y1[v] = pose.y[v] - h * ground.velocity.y;
+    }
+  }
+}
+
+void Simulation::drive_ground(double h_old, double h_new) {
+  if (!ground.moves) {
+    if (!dashpots.points.empty()) references_ = dashpot_references({});
+    return;
+  }
+  next_ground_ = next_ground(model, loads.since, ground, springs, state.time, h_old, h_new);
+  place_held(blocks, ground, next_ground_.shift, state.x, state.y);
+  references_ = dashpot_references(0.5 * (ground.velocity + next_ground_.velocity));
+}
+
+void Simulation::hold_ground() {
+  if (ground.moves) place_held(blocks, ground, ground.shift, state.x, state.y);
+}
+
+/// Work in the leapfrog's terms, f_n . (x_{n+1} - x_{n-1})/2. A dashpot between a block that moves
+/// by u and a ground that moves by r dissipates -f . (u - r), and is given f . r. Held blocks and
+/// springs that are moved by r against the force f that they bear are given -f . r.
+void Simulation::book_boundaries(double h_old, double h_new) {
+  for (std::size_t p = 0; p < dashpots.points.size(); ++p) {
+    const Dashpot& at = dashpots.points[p];
+    if (!is_free(blocks, state, at.block)) continue;
+    Vec2 moved;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 before{old_vx_[k][at.block], old_vy_[k][at.block]};
+      const Vec2 after{state.vx[k][at.block], state.vy[k][at.block]};
+      moved += (0.5 * at.weight[k]) * (h_old * before + h_new * after);
+    }
+    const Vec2 carried =
+        (0.5 * (h_old + h_new)) * references_[static_cast<std::size_t>(at.boundary)];
+    damping_work.joules[at.block] -= dot(on_dashpots[p], moved - carried);
+    external_work += dot(on_dashpots[p], carried);
+  }
+  if (!ground.moves) return;
+  for (std::size_t q = 0; q < springs.size(); ++q) {
+    const auto row = static_cast<std::size_t>(springs.boundary[q]);
+    const Vec2 carried = 0.5 * (next_ground_.shifts[row] - springs.shift_1[row]);
+    external_work += dot(spring_force(springs, q, pose.x1, pose.y1), carried);
+  }
+  Vec2 on_held;
+  for (const Id i : ground.held) {
+    std::array<Vec2, 3> f{};
+    add_bolts(f, bolts, i);
+    on_held += contact_resultant(blocks, contacts, i) + f[0] + f[1] + f[2];
+  }
+  external_work -= dot(on_held, 0.5 * (next_ground_.shift - ground.shift_1));
+  springs.shift_1 = springs.shift;
+  springs.shift = next_ground_.shifts;
+  ground.shift_1 = ground.shift;
+  ground.shift = next_ground_.shift;
+  ground.velocity = next_ground_.velocity;
+}
+
+}  // namespace edda
