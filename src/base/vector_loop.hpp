@@ -31,8 +31,8 @@
 namespace edda {
 
 /// Two and four numbers that are added as one, for sums too short for a loop over several.
-using Two = double [[gnu::vector_size(16)]];
-using Four = double [[gnu::vector_size(32)]];
+using Two __attribute__((vector_size(16))) = double;
+using Four __attribute__((vector_size(32))) = double;
 template <class Vector>
 EDDA_INLINE void add_from(Vector& sum, const double* values) {
   Vector more;

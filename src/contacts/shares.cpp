@@ -99,7 +99,8 @@ NextShare start_share(const ContactSet& c, Id k) {
 
 /// Corners so far apart, or edges so turned, that all of each spring stays where it is.
 EDDA_INLINE bool apart(double first, double second, double against, double zone) {
-  return (std::abs(first) >= zone) | (std::abs(second) >= zone) | (against == 0.0);
+  const bool first_away = std::abs(first) >= zone, second_away = std::abs(second) >= zone;
+  return first_away | second_away | (against == 0.0);
 }
 
 /// Distance within which corners share, m.
@@ -140,8 +141,8 @@ EDDA_INLINE bool has_moved(const PairView& m, const ContactView& c, std::size_t 
   const double first = m.first_seen[p], second = m.second_seen[p], zone = m.zone[p];
   const double moved = std::abs(now.first - first) + std::abs(now.second - second);
   const bool changed = (moved > slack * zone) | (now.against != m.against[p]);
-  const bool out =
-      apart(now.first, now.second, now.against, zone) & apart(first, second, m.against[p], zone);
+  const bool out_now = apart(now.first, now.second, now.against, zone);
+  const bool out_then = apart(first, second, m.against[p], zone), out = out_now & out_then;
   return (first == never) | (changed & !out);
 }
 

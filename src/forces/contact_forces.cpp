@@ -70,9 +70,10 @@ EDDA_INLINE double damped_normal(const Contacts& c, std::size_t k, double spring
   const double hold = c.hold[k];
   const double rate = (c.depth[k] - c.depth_1[k]) / d.step;
   const double damped = spring + coefficient(d, c, k, d.damping) * rate;
-  const bool acts = carries(hold) & (may_pull(hold) | (c.effective(k) > 0.0));
   const double pushing = larger(damped, 0.0);
-  return acts ? (may_pull(hold) ? damped : pushing) : spring;
+  const bool carrying = carries(hold), pulling = may_pull(hold), inside = c.effective(k) > 0.0;
+  const bool acts = carrying & (pulling | inside);
+  return acts ? (pulling ? damped : pushing) : spring;
 }
 
 /// T by the return map.
