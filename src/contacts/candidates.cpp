@@ -96,7 +96,7 @@ void extend_edges(ContactSet& c, const BlockSet& b) {
   }
 }
 
-/// Where the entries of each vertex (or edge) begin, if they are sorted by it.
+/// Where the entries of each vertex (or edge) begin in a list sorted by it.
 std::vector<Id> begins(const std::vector<Id>& of, std::size_t vertices) {
   std::vector<Id> begin(vertices + 1, 0);
   for (const Id v : of) ++begin[v + 1];
@@ -189,6 +189,7 @@ bool grow_springs(ContactSet& c, const BlockSet& b, const Pose& pose, const LawT
     c.ks[k] = std::max(c.ks[k], ks);
     c.rest[k] = c.depth[k] - e * kn / c.kn[k];
     c.anchor[k] = (c.foot[k] - slip * ks / c.ks[k]) / c.span[k];
+    c.forget_cut(k);
     c.friction_work[k] += energy - stored_energy(c, k);
     c.stir(k);
     grown = true;

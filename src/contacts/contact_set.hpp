@@ -178,7 +178,7 @@ struct ContactSet : ContactTerms<ContactSet> {
   void stir(std::size_t c) { stirs[c / chunk] = 1; }
   std::size_t chunks() const { return (size() + chunk - 1) / chunk; }
   std::size_t chunk_end(std::size_t q) const { return std::min(size(), (q + 1) * chunk); }
-  /// What only saves looking: whatever the contacts' memory is, this fits it.
+  /// What only saves looking: whatever the contacts' memory is, slip_trial included, this fits it.
   void look_everywhere() {
     hold.resize(size());
     for (std::size_t c = 0; c < size(); ++c) hold[c] = hold_of(state[c]);
@@ -280,6 +280,11 @@ struct ContactSet : ContactTerms<ContactSet> {
     if (cuts[q] != 0) return;
     for (std::size_t k = q * chunk; k < chunk_end(q); ++k) slip_trial[k] = slip_before_cut(k);
     cuts[q] = 1;
+  }
+  /// Takes its shear for one that has not been cut.
+  void forget_cut(std::size_t c) {
+    keep_slips(c);
+    slip_trial[c] = -shear[c] / ks[c];
   }
   /// Whether its shear was cut at the last step.
   bool cut(std::size_t c) const {

@@ -204,6 +204,12 @@ void find_pairs_of_tangled(ContactSet& c) {
   t.stale.assign(t.candidate.size(), 0);
 }
 
+/// Where the corners of a pair stood when its shares were last set, so that both are set alike.
+PairStand seen(const ContactSet& c, std::size_t p) {
+  const PairMemory& m = c.pair_memory;
+  return {m.first_seen[p], m.second_seen[p], m.against[p]};
+}
+
 /// The share of the tangled candidate q: all of its pairs have a say.
 void update_tangled(ContactSet& c, std::size_t q) {
   const Id k = c.tangle.candidate[q];
@@ -212,7 +218,7 @@ void update_tangled(ContactSet& c, std::size_t q) {
     const CornerPair& pair = c.pairs[c.tangle.pair[e]];
     NextShare other{};
     const bool is_first = pair.first == k;
-    set_shares(pair, stand_of(c, pair), is_first ? next : other, is_first ? other : next);
+    set_shares(pair, seen(c, c.tangle.pair[e]), is_first ? next : other, is_first ? other : next);
   }
   take_share(c, k, next);
 }

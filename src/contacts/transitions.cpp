@@ -224,6 +224,7 @@ bool inherit_from_partner(ContactSet& c, std::size_t k) {
   c.anchor[k] = (c.foot[k] - trial_slip(c, other)) / c.span[k];
   c.shear[k] = c.shear[other] * c.ks[k] / c.ks[other];
   c.shear_1[k] = c.shear_1[other] * c.ks[k] / c.ks[other];
+  c.forget_cut(k);
   return true;
 }
 

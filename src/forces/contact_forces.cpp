@@ -41,12 +41,12 @@ EDDA_INLINE double spring_normal(const Contacts& c, std::size_t k) {
 }
 
 /// Dashpots of all contacts; what of the blocks decides them.
-struct Dashpots {
+struct ContactDashpots {
   double damping, step;  ///< zeta; s
   const double *point_inverse, *edge_inverse;
 };
 
-Dashpots dashpots_of(const BlockSet& b, double damping, double step) {
+ContactDashpots dashpots_of(const BlockSet& b, double damping, double step) {
   return {damping, step, b.point_inverse.data(), b.edge_inverse.data()};
 }
 
@@ -66,7 +66,7 @@ EDDA_INLINE double coefficient(const Blocks& b, const Contacts& c, std::size_t k
 /// N with what the dashpot does.
 template <class Contacts>
 EDDA_INLINE double damped_normal(const Contacts& c, std::size_t k, double spring,
-                                 const Dashpots& d) {
+                                 const ContactDashpots& d) {
   const double hold = c.hold[k];
   const double rate = (c.depth[k] - c.depth_1[k]) / d.step;
   const double damped = spring + coefficient(d, c, k, d.damping) * rate;
@@ -120,8 +120,8 @@ EDDA_INLINE bool push(const ContactView& c, std::size_t k, double normal, Reacti
   return cut.slid;
 }
 
-EDDA_INLINE bool push_damped(const ContactView& c, const Dashpots& d, std::size_t k, Reactions& on,
-                             std::size_t q) {
+EDDA_INLINE bool push_damped(const ContactView& c, const ContactDashpots& d, std::size_t k,
+                             Reactions& on, std::size_t q) {
   return push(c, k, damped_normal(c, k, spring_normal(c, k), d), on, q);
 }
 
@@ -147,7 +147,8 @@ struct Found {
 };
 
 /// One chunk, or one contact.
-EDDA_VECTOR Found push_chunk(ContactView c, Dashpots d, std::size_t first, std::size_t last) {
+EDDA_VECTOR Found push_chunk(ContactView c, ContactDashpots d, std::size_t first,
+                             std::size_t last) {
   double cut = 0.0, fresh = 0.0, hold = 0.0;
   Reactions on;
   if (d.damping > 0.0) {
@@ -190,7 +191,7 @@ void evaluate_one(ContactSet& c, const BlockSet& b, std::size_t k, double step, 
 void evaluate(ContactSet& c, const BlockSet& b, std::size_t begin, std::size_t end, double step,
               double damping) {
   const ContactView view = c.view();
-  const Dashpots dashpots = dashpots_of(b, damping, step);
+  const ContactDashpots dashpots = dashpots_of(b, damping, step);
   for (std::size_t first = begin; first < end; first += ContactSet::chunk) {
     const std::size_t last = std::min(end, first + ContactSet::chunk);
     const Found found = push_chunk(view, dashpots, first, last);

@@ -38,14 +38,15 @@ double inverse_contact_mass(const BlockSet& blocks, const ContactSet& contacts, 
 double dashpot_coefficient(const ContactSet& contacts, const BlockSet& blocks, std::size_t k,
                            double damping);
 
-/// Normal force of contact k at step n with alpha = 1, its spring's and its dashpot's: fills alpha,
-/// normal and dashpot. `step` s; `damping` zeta.
+/// Normal force of contact k at step n with alpha = 1, its spring's and its dashpot's: fills alpha
+/// and normal. `step` s; `damping` zeta.
 void set_normal_force(ContactSet& contacts, const BlockSet& blocks, std::size_t k, double step,
                       double damping);
 
-/// Springs and return map of every contact at step n with alpha = 1: fills normal, shear,
-/// slip_trial, dashpot, anchor and the forces. `step` s; `damping` zeta, fraction of critical. Then
-/// breaks bonded segments that are overloaded; both their contacts follow the residual law at once.
+/// Springs and return map of every contact at step n with alpha = 1: fills normal, shear
+/// and the forces, and where the shear is cut slip_trial and the anchor. `step` s; `damping` zeta,
+/// fraction of critical. Then breaks bonded segments that are overloaded; both their contacts
+/// follow the residual law at once.
 void evaluate_contacts(ContactSet& contacts, const BlockSet& blocks, const LawTable& laws,
                        double step, double damping);
 

@@ -39,8 +39,8 @@ std::vector<double> raise_inertia(BlockSet& b, const State& state, const Pose& p
       factors[i] *= factor;
     }
     if (enough) break;
+    fill_point_masses(b);
   }
-  if (!factors.empty()) fill_point_masses(b);
   return factors;
 }
 

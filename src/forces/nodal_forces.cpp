@@ -1,6 +1,7 @@
 #include "forces/nodal_forces.hpp"
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <limits>
 
@@ -139,6 +140,7 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
                       b.lame_lambda.data(), b.lame_mu.data(),    b.mass.data()};
   body_forces(body, values_of(state.x), values_of(state.y), gravity - loads.frame,
               values_of(forces.x), values_of(forces.y), begin, end);
+  assert(end - begin <= blocks_at_once);
   std::array<std::uint8_t, blocks_at_once> moves;
   for (std::size_t i = begin; i < end; ++i) {
     const bool many_corners = b.vertex_begin[i + 1] - b.vertex_begin[i] > few_corners;

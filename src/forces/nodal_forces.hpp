@@ -28,7 +28,7 @@ void gather_forces(NodalForces& forces, const BlockSet& blocks, const State& sta
                    const Pose& pose, const ContactSet& contacts, const BoundarySprings& springs,
                    Vec2 gravity, const LoadsNow& loads, std::size_t begin, std::size_t end);
 
-/// Force of the contacts and boundary springs alone on the whole of block i (for reactions).
+/// Force of the contacts alone on the whole of block i (for reactions).
 Vec2 contact_resultant(const BlockSet& blocks, const ContactSet& contacts, std::size_t i);
 
 }  // namespace edda

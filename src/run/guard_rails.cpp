@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/parallel.hpp"
+#include "blocks/point_mass.hpp"
 #include "contacts/gap.hpp"
 #include "forces/mass_scaling.hpp"
 #include "run/labels.hpp"
@@ -32,6 +33,7 @@ Vec2 model_place(const Simulation& sim, std::size_t k) {
 double step_without(const Simulation& sim, Id block) {
   BlockSet others = sim.blocks;
   others.fixed[block] = 1;
+  fill_point_masses(others);
   return step_bound(others, sim.state, sim.pose, sim.contacts, sim.springs, sim.laws, sim.damping,
                     &sim.bolts)
       .critical_step;

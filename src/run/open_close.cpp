@@ -67,7 +67,7 @@ ForceChange reset_force(ContactSet& c, const BlockSet& b, const Switcher& s, dou
   const std::size_t k = s.contact;
   const double limit = c.shear_limit(k, alpha * c.normal[k]);
   const double trial = c.slip_before_cut(k);
-  double shear = cut_shear(-c.ks[k] * trial, limit);
+  double shear = cut_shear(c.cut(k) ? -c.ks[k] * trial : c.shear[k], limit);
   if (c.is(k, cs::bonded)) {
     shear = c.shear[k];
   } else if (c.effective(k) <= 0.0) {

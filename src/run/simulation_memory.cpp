@@ -193,11 +193,6 @@ class Judge {
       if (v >= n && !(none && v == no_id)) return note(name, "points to what is not there");
     }
   }
-  void rising(const char* name, const std::vector<Id>& values, std::size_t last) {
-    const bool good = !values.empty() && values.front() == 0 && values.back() == last &&
-                      std::is_sorted(values.begin(), values.end());
-    if (!good) note(name, "is no list of beginnings");
-  }
   void positive(const char* name, double value) {
     if (!(value > 0.0)) note(name, "is not above zero");
   }
@@ -364,7 +359,7 @@ std::string recall(Simulation& sim, const Record& record) {
   judge(j, sim);
   if (!j.flaw().empty()) return j.flaw();
   sim.contacts.look_everywhere();
-  if (!sim.inertia.empty()) fill_point_masses(sim.blocks);
+  fill_point_masses(sim.blocks);
   list_by_corner(sim.contacts, sim.blocks.vertex_count());
   list_run_ons(sim.contacts, sim.blocks);
   list_tangled(sim.contacts);
