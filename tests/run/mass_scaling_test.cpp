@@ -51,6 +51,35 @@ TEST(MassScaling, ReachesTheStepWithThePebbleAlone) {
   EXPECT_TRUE(pebble(scaled_to(0.5 * free_step())).inertia.empty());
 }
 
+/// A block of middle size that stands on pebbles alone, its contacts damped.
+Simulation on_pebbles(const std::string& solver) {
+  std::string text =
+      "[materials.rock]\ndensity = 2600\nyoung = 20e9\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = 30\n[[block]]\nfixed = true\npolygon = [[-1,-1],[2,-1],[2,0],[-1,0]]\n"
+      "[[block]]\npolygon = [[0,0.02],[0.2,0.02],[0.2,0.22],[0,0.22]]\n";
+  for (const char* x : {"0.02", "0.16"}) {
+    const double from = std::stod(x);
+    text += "[[block]]\npolygon = [[" + std::to_string(from) + ",0],[" +
+            std::to_string(from + 0.02) + ",0],[" + std::to_string(from + 0.02) + ",0.02],[" +
+            std::to_string(from) + ",0.02]]\n";
+  }
+  Result<Model> model = read_model_text(
+      text + "[solver]\nduration = 1\ndamping = { contact = 0.3 }\n" + solver, "t.toml", {});
+  EXPECT_TRUE(model.ok()) << to_string(model.faults()[0]);
+  Result<Simulation> made = Simulation::create(std::move(model.value()));
+  EXPECT_TRUE(made.ok());
+  return std::move(made.value());
+}
+
+TEST(MassScaling, HeavierPebblesSlowTheContactsOfWhatStandsOnThem) {
+  const double step = 10.0 * on_pebbles("").step_limit;
+  const Simulation sim = on_pebbles(scaled_to(step));
+  EXPECT_GE(sim.step_limit, step * (1.0 - 1e-6));
+  ASSERT_EQ(sim.inertia.size(), 4u);
+  EXPECT_GT(sim.inertia[2], 50.0);
+  EXPECT_GT(sim.inertia[1], 1.0);
+}
+
 TEST(MassScaling, LeavesTheStateAtRestAsItIs) {
   const double step = 5.0 * free_step();
 
