@@ -55,7 +55,8 @@ class Numbers {
     if (n < 0.0 || n != std::floor(n)) {
       return static_cast<int>(fail("has \"" + for_message(word()) + "\" in place of " + what));
     }
-    if (n * static_cast<double>(numbers) > static_cast<double>(left())) {
+    constexpr double most = 1e9;  // of what takes no numbers
+    if (n > most || n * static_cast<double>(numbers) > static_cast<double>(left())) {
       return static_cast<int>(
           fail(std::string(what) + " is " + for_message(word()) + ", more than the file holds"));
     }
