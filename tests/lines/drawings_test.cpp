@@ -274,7 +274,8 @@ TEST(Geo, BadOnesGiveOneFault) {
   expect_fault(parse_geo("nonsense\n", "a.geo"), 1, "\"nonsense\"");
   expect_fault(parse_geo(without(two_squares, "7 6", "7000000 6"), "a.geo"), 2,
                "more than the file");
-  expect_fault(parse_geo(without(two_squares, "7 6", "7 6e12"), "a.geo"), 2, "more than the file");
+  expect_fault(parse_geo(without(two_squares, "7 6", "7 6000000000000"), "a.geo"), 2,
+               "more than the file");
   expect_fault(parse_geo(without(two_squares, "7 6", "-7 6"), "a.geo"), 2, "\"-7\"");
   expect_fault(parse_geo(without(two_squares, "7 6", "7.5 6"), "a.geo"), 2, "\"7.5\"");
   expect_fault(parse_geo(without(two_squares, "7 6", "6 6"), "a.geo"), 18, "after its last number");
