@@ -274,7 +274,7 @@ TEST(Geo, BadOnesGiveOneFault) {
   expect_fault(parse_geo("nonsense\n", "a.geo"), 1, "\"nonsense\"");
   expect_fault(parse_geo(without(two_squares, "7 6", "7000000 6"), "a.geo"), 2,
                "more than the file");
-  expect_fault(parse_geo(without(two_squares, "7 6", "7 6000000000000"), "a.geo"), 2,
+  expect_fault(parse_geo(without(two_squares, "7 6", "7 9000000000"), "a.geo"), 2,
                "more than the file");
   expect_fault(parse_geo(without(two_squares, "7 6", "-7 6"), "a.geo"), 2, "\"-7\"");
   expect_fault(parse_geo(without(two_squares, "7 6", "7.5 6"), "a.geo"), 2, "\"7.5\"");
