@@ -5,8 +5,8 @@
 
 namespace edda {
 
-/// Fills point_inverse and edge_inverse from the masses of the nodes. Again
-/// whenever these, or what is held, change.
+/// Fills point_inverse and edge_inverse from the masses of the nodes. Again whenever these, or what
+/// is held, change.
 void fill_point_masses(BlockSet& blocks);
 
 /// Inverse of the mass that a force feels on edge e-f at the part xi of its length, 1/kg: the

@@ -223,21 +223,6 @@ void update_tangled(ContactSet& c, std::size_t q) {
   take_share(c, k, next);
 }
 
-void remember_pairs(ContactSet& c) {
-  PairMemory& m = c.pair_memory;
-  m = {};
-  for (const CornerPair& pair : c.pairs) {
-    m.first.push_back(pair.first);
-    m.second.push_back(pair.second);
-    m.first_end.push_back(pair.first_at_start ? 0.0 : 1.0);
-    m.second_end.push_back(pair.second_at_start ? 0.0 : 1.0);
-    m.zone.push_back(zone_of(pair));
-  }
-  for (auto* seen : {&m.first_seen, &m.second_seen, &m.against}) {
-    seen->assign(c.pairs.size(), never);
-  }
-}
-
 /// Pairs that share no candidate with another come first.
 void part_pairs(ContactSet& c) {
   std::vector<std::uint8_t> pairs_of(c.size(), 0);
@@ -250,12 +235,21 @@ void part_pairs(ContactSet& c) {
     return pairs_of[p.first] == 1 && pairs_of[p.second] == 1;
   });
   c.lone_pairs = static_cast<std::size_t>(rest - c.pairs.begin());
-  remember_pairs(c);
 }
 
 }  // namespace
 
-void list_tangled(ContactSet& c) {
+void list_pairs(ContactSet& c) {
+  PairMemory& m = c.pair_memory;
+  for (auto* ids : {&m.first, &m.second}) ids->clear();
+  for (auto* values : {&m.first_end, &m.second_end, &m.zone}) values->clear();
+  for (const CornerPair& pair : c.pairs) {
+    m.first.push_back(pair.first);
+    m.second.push_back(pair.second);
+    m.first_end.push_back(pair.first_at_start ? 0.0 : 1.0);
+    m.second_end.push_back(pair.second_at_start ? 0.0 : 1.0);
+    m.zone.push_back(zone_of(pair));
+  }
   std::vector<Id>& list = c.tangle.candidate;
   list.clear();
   for (std::size_t p = c.lone_pairs; p < c.pairs.size(); ++p) {
@@ -300,7 +294,11 @@ void pair_corners(ContactSet& c, const BlockSet& b, const Pose& pose) {
     }
   }
   part_pairs(c);
-  list_tangled(c);
+  PairMemory& m = c.pair_memory;
+  for (auto* seen : {&m.first_seen, &m.second_seen, &m.against}) {
+    seen->assign(c.pairs.size(), never);
+  }
+  list_pairs(c);
   c.pair_of.assign(c.size(), no_id);
   for (std::size_t p = 0; p < c.pairs.size(); ++p) {
     for (const Id k : {c.pairs[p].first, c.pairs[p].second}) {

@@ -21,8 +21,9 @@ namespace edda {
 /// Finds the pairs among the candidates of a new list.
 void pair_corners(ContactSet& contacts, const BlockSet& blocks, const Pose& pose);
 
-/// Fills `tangle` from the pairs.
-void list_tangled(ContactSet& contacts);
+/// Fills what of `pair_memory` and `tangle` follows from the pairs: all but where the corners
+/// stood.
+void list_pairs(ContactSet& contacts);
 
 /// Gives candidate k a new share. Of a closed one that grows alone (balanced = false) the added
 /// part is born unloaded at the present penetration and slip. What the ledger holds less for it is

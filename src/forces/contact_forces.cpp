@@ -165,12 +165,9 @@ EDDA_VECTOR Found push_chunk(ContactView c, ContactDashpots d, std::size_t first
     }
   }
   for (std::size_t k = first; k < last; ++k) {
-    double* const reaction = c.reaction + 4 * static_cast<std::size_t>(c.slot[k]);
     const std::size_t q = k - first;
-    reaction[0] = on.start_x[q];
-    reaction[1] = on.start_y[q];
-    reaction[2] = on.end_x[q];
-    reaction[3] = on.end_y[q];
+    keep_reaction(c.reaction, c.slot[k],
+                  {{}, {on.start_x[q], on.start_y[q]}, {on.end_x[q], on.end_y[q]}});
   }
   if (cut > 0.0) {
 #pragma omp simd reduction(max : fresh)

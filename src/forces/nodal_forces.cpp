@@ -146,7 +146,9 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
     const bool many_corners = b.vertex_begin[i + 1] - b.vertex_begin[i] > few_corners;
     moves[i - begin] = is_free(b, state, i) ? 1 : 0;
     const bool acted_on = springs.block_begin[i] < springs.block_begin[i + 1] ||
-                          loads.loads != nullptr || loads.bolts != nullptr || many_corners;
+                          (loads.loads != nullptr && loads.loads->place[i] != no_id) ||
+                          (loads.bolts != nullptr && loads.bolts->place[i] != no_id) ||
+                          many_corners;
     if (moves[i - begin] != 0 && !acted_on) continue;
     NodeForce f{};
     if (moves[i - begin] != 0) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "model/accelerogram.hpp"
-#include "model/complete.hpp"
+#include "model/complete_tools.hpp"
 #include "model/file_text.hpp"
 #include "model/input_file.hpp"
 #include "model/nearest.hpp"
@@ -11,15 +11,6 @@
 
 namespace edda {
 namespace {
-
-bool given(const Value* table, std::string_view key) {
-  return find(table, key) != nullptr;
-}
-
-const Value* element(const Value& root, std::string_view section, std::size_t i) {
-  const Value* node = child(find(&root, section), i);
-  return node != nullptr && std::holds_alternative<Table>(node->content) ? node : nullptr;
-}
 
 std::string_view name_of(BoundaryType type) {
   return names_of(type)[static_cast<std::size_t>(type)];
@@ -208,7 +199,7 @@ void complete_boundaries(const Value& root, Reading& reading) {
   for (std::size_t i = 0; i < boundaries.size(); ++i) {
     Boundary& boundary = boundaries[i];
     const Value* node = element(root, "boundary", i);
-    if (node == nullptr) continue;
+    if (!is_table(node)) continue;
     if (!given(node, "stiffness")) boundary.stiffness = reading.model.contact.normal_stiffness;
     check_place(node, boundary, reading);
     check_type(node, boundary, reading);
@@ -221,7 +212,7 @@ void complete_shakings(const Value& root, Reading& reading) {
   for (std::size_t i = 0; i < shakings.size(); ++i) {
     Shaking& shaking = shakings[i];
     const Value* node = element(root, "shaking", i);
-    if (node == nullptr) continue;
+    if (!is_table(node)) continue;
     check_directions(node, shaking, reading);
     read_record(node, shaking, reading);
     find_entrance(node, shaking, reading);
@@ -239,7 +230,7 @@ void complete_bolts(const Value& root, Reading& reading) {
   for (std::size_t i = 0; i < model.bolts.size(); ++i) {
     const Bolt& bolt = model.bolts[i];
     const Value* node = element(root, "bolt", i);
-    if (node == nullptr) continue;
+    if (!is_table(node)) continue;
     check_bolt(node, bolt, bolt.where, reading);
     if (given(node, "from") && given(node, "to") && bolt.from == bolt.to) {
       add_fault(reading, find(node, "to")->place, bolt.where.key + ".to", "is where from is",
@@ -249,7 +240,7 @@ void complete_bolts(const Value& root, Reading& reading) {
   for (std::size_t i = 0; i < model.bolt_patterns.size(); ++i) {
     const BoltPattern& pattern = model.bolt_patterns[i];
     const Value* node = element(root, "bolt_pattern", i);
-    if (node == nullptr) continue;
+    if (!is_table(node)) continue;
     check_bolt(node, pattern.bolt, pattern.where, reading);
     check_opening(node, pattern, reading);
   }

@@ -1,15 +1,11 @@
 #include <algorithm>
 
-#include "model/complete.hpp"
+#include "model/complete_tools.hpp"
 #include "model/input_file.hpp"
 #include "model/nearest.hpp"
 
 namespace edda {
 namespace {
-
-bool given(const Value* table, std::string_view key) {
-  return find(table, key) != nullptr;
-}
 
 /// A force at a point is in N, a traction in Pa; a number without a unit is either.
 void check_unit(const Value& force, const Load& load, Reading& reading) {

@@ -92,14 +92,9 @@ void list_groups(Archive& a, ContactSet& c) {
   a("pairs.second_at_start", second_at_start);
   a("pairs.reach", reach);
   PairMemory& m = c.pair_memory;
-  a("pairs.first_again", m.first);
-  a("pairs.second_again", m.second);
-  a("pairs.first_end", m.first_end);
-  a("pairs.second_end", m.second_end);
   a("pairs.first_seen", m.first_seen);
   a("pairs.second_seen", m.second_seen);
   a("pairs.against", m.against);
-  a("pairs.zone", m.zone);
   a("segments.members", members);
   a("segments.ends", ends);
   if constexpr (Archive::loads) {
@@ -251,12 +246,7 @@ void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawT
   if (j.flaw().empty() && !belong_together(c, b)) j.refuse("contacts do not belong together");
   if (c.lone_pairs > c.pairs.size()) j.refuse("contacts.lone_pairs is too large");
   const PairMemory& m = c.pair_memory;
-  for (const auto* ids : {&m.first, &m.second}) {
-    j.sized("pairs", *ids, c.pairs.size());
-    j.below("pairs", *ids, nc);
-  }
-  for (const auto* values :
-       {&m.first_end, &m.second_end, &m.first_seen, &m.second_seen, &m.against, &m.zone}) {
+  for (const auto* values : {&m.first_seen, &m.second_seen, &m.against}) {
     j.sized("pairs", *values, c.pairs.size());
   }
   for (const CornerPair& p : c.pairs) j.below("pairs", {p.first, p.second}, nc);
@@ -362,7 +352,7 @@ std::string recall(Simulation& sim, const Record& record) {
   fill_point_masses(sim.blocks);
   list_by_corner(sim.contacts, sim.blocks.vertex_count());
   list_run_ons(sim.contacts, sim.blocks);
-  list_tangled(sim.contacts);
+  list_pairs(sim.contacts);
   return j.flaw();
 }
 

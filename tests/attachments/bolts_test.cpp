@@ -7,31 +7,19 @@
 #include <numeric>
 
 #include "attachments/dashpots.hpp"
-#include "blocks/build_blocks.hpp"
+#include "attachments/drawn_blocks.hpp"
 
 namespace edda {
 namespace {
 
 /// Blocks as given, with the bolts of a model in them.
-struct Bolted {
-  Model model;
-  PolygonSet set;
-  BlockSet blocks;
+struct Bolted : test::DrawnBlocks {
   State state;
   Bolts bolts;
   Faults faults;
 
-  void add(const Ring& ring, bool fixed = false) {
-    BlockPolygon p;
-    p.rings = {ring};
-    p.joint = {std::vector<Index>(ring.size(), none)};
-    p.material = 0;
-    p.fixed = fixed;
-    set.blocks.push_back(p);
-  }
   void build() {
-    model.materials.push_back({"rock", 2600.0, 1e9, 0.2, {}});
-    blocks = build_blocks(model, set);
+    build_all();
     state = initial_state(blocks, set);
   }
   void attach() {

@@ -5,30 +5,18 @@
 #include <cmath>
 #include <numbers>
 
-#include "blocks/build_blocks.hpp"
+#include "attachments/drawn_blocks.hpp"
 
 namespace edda {
 namespace {
 
 /// Blocks as given, with the loads and waters of a model on them.
-struct Loaded {
-  Model model;
-  PolygonSet set;
-  BlockSet blocks;
+struct Loaded : test::DrawnBlocks {
   Loads loads;
   Faults faults;
 
-  void add(const Ring& ring, bool fixed = false) {
-    BlockPolygon p;
-    p.rings = {ring};
-    p.joint = {std::vector<Index>(ring.size(), none)};
-    p.material = 0;
-    p.fixed = fixed;
-    set.blocks.push_back(p);
-  }
   void attach() {
-    model.materials.push_back({"rock", 2600.0, 1e9, 0.2, {}});
-    blocks = build_blocks(model, set);
+    build_all();
     Result<Loads> found = attach_loads(model, set, blocks);
     if (found.ok()) {
       loads = std::move(found.value());

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "lines/checks.hpp"
+#include "lines/length_inside.hpp"
 #include "lines/line_models.hpp"
 #include "lines/random_lines.hpp"
 #include "lines/rings.hpp"
@@ -47,19 +48,6 @@ LineWork drawn_network(const FractureNetwork& n, LineWork work) {
   return work;
 }
 
-double length_inside(const LineWork& work, const Ring& ring) {
-  double sum = 0.0;
-  for (const LineString& line : work.lines) {
-    const Vec2 a = line.points[0], b = line.points[1];
-    const double length = norm(b - a);
-    for (const Stretch& part :
-         common(clip_line(ring, a, (b - a) / length, snap), {{0.0, length}})) {
-      sum += part.second - part.first;
-    }
-  }
-  return sum;
-}
-
 TEST(FractureNetwork, ReachesItsDensityInsideToHalfAFracture) {
   const Ring ell = {{0, 0}, {30, 0}, {30, 10}, {12, 10}, {12, 30}, {0, 30}};
   for (long long seed = 0; seed < 5; ++seed) {
@@ -67,7 +55,7 @@ TEST(FractureNetwork, ReachesItsDensityInsideToHalfAFracture) {
     work.outline = ell;
     work = drawn_network(network(1.5, 35.0, constant(4.0), seed), work);
     const double area = signed_area(ell);
-    EXPECT_NEAR(length_inside(work, ell), 1.5 * area, 2.0 + 1e-9);
+    EXPECT_NEAR(length_inside(work, ell, snap), 1.5 * area, 2.0 + 1e-9);
     ASSERT_EQ(work.notes.size(), 1U);
     EXPECT_NE(work.notes[0].find("m of them per m2"), std::string::npos);
   }
@@ -81,8 +69,8 @@ TEST(FractureNetwork, IsAsDenseAtTheEdgeAsInTheMiddle) {
     FractureNetwork n = network(1.0, 0.0, constant(6.0), seed);
     n.angle = {0.0, 90.0, Spread::uniform};
     const LineWork work = drawn_network(n, square(20.0));
-    edge += length_inside(work, box(0, 0, 20, 1)) / 20.0 / seeds;
-    middle += length_inside(work, box(0, 9.5, 20, 10.5)) / 20.0 / seeds;
+    edge += length_inside(work, box(0, 0, 20, 1), snap) / 20.0 / seeds;
+    middle += length_inside(work, box(0, 9.5, 20, 10.5), snap) / 20.0 / seeds;
   }
   EXPECT_NEAR(edge, 1.0, 0.05);
   EXPECT_NEAR(middle, 1.0, 0.05);
@@ -183,7 +171,7 @@ TEST(FractureNetwork, CountIsOfFracturesThatShow) {
   for (const LineString& line : work.lines) {
     LineWork one;
     one.lines = {line};
-    EXPECT_GT(length_inside(one, box(0, 0, 10, 10)), snap);
+    EXPECT_GT(length_inside(one, box(0, 0, 10, 10), snap), snap);
   }
 }
 
@@ -192,7 +180,7 @@ TEST(FractureNetwork, StaysInItsRegion) {
   n.region = {{2, 2}, {8, 2}, {5, 30}};
   const LineWork work = drawn_network(n, square(20.0));
   const Ring inside = {{2, 2}, {8, 2}, {5 + 3.0 * 10 / 28, 20}, {5 - 3.0 * 10 / 28, 20}};
-  EXPECT_NEAR(length_inside(work, n.region), 2.0 * signed_area(inside), 5.0);
+  EXPECT_NEAR(length_inside(work, n.region, snap), 2.0 * signed_area(inside), 5.0);
   for (const LineString& line : work.lines) {
     EXPECT_GE(side_of({&n.region, 1}, 0.5 * (line.points[0] + line.points[1]), 1e-6), 0);
   }

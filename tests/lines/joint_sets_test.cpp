@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "lines/checks.hpp"
+#include "lines/length_inside.hpp"
 #include "lines/line_models.hpp"
 #include "lines/rings.hpp"
 
@@ -35,19 +36,6 @@ JointSet set_of(double angle, double spacing) {
 LineWork drawn_set(const JointSet& set, LineWork work) {
   EXPECT_TRUE(add_joint_set(work, set, 0, {0, 0}, snap, 1e6));
   return work;
-}
-
-double length_inside(const LineWork& work, const Ring& ring) {
-  double sum = 0.0;
-  for (const LineString& line : work.lines) {
-    const Vec2 a = line.points[0], b = line.points[1];
-    const double length = norm(b - a);
-    for (const Stretch& part :
-         common(clip_line(ring, a, (b - a) / length, snap), {{0.0, length}})) {
-      sum += part.second - part.first;
-    }
-  }
-  return sum;
 }
 
 TEST(JointSets, WithoutDeviationsTracesAndGapsAlternate) {
@@ -88,7 +76,7 @@ TEST(JointSets, LengthPerAreaIsThatOfTheMeans) {
       set.gap = 2.0;
       set.deviation = {4.0, 0.3, 1.0, 0.6, spread};
       set.seed = seed;
-      sum += length_inside(drawn_set(set, square(40.0)), box(0, 0, 40, 40));
+      sum += length_inside(drawn_set(set, square(40.0)), box(0, 0, 40, 40), snap);
     }
     const double per_area = sum / 20.0 / 1600.0;
     EXPECT_NEAR(per_area, 4.0 / 6.0, 0.01) << (spread == Spread::uniform);
@@ -208,7 +196,7 @@ TEST(JointSets, FarFromTheirOriginTheyAreDrawnAllTheSame) {
   set.gap = 2.0;
   set.deviation = {2.0, 0.2, 0.2, 0.2, Spread::uniform};
   const LineWork work = drawn_set(set, square(30.0));
-  EXPECT_NEAR(length_inside(work, box(0, 0, 30, 30)) / 900.0, 0.5, 0.1);
+  EXPECT_NEAR(length_inside(work, box(0, 0, 30, 30), snap) / 900.0, 0.5, 0.1);
 }
 
 TEST(JointSets, StayInTheirRegion) {
@@ -225,7 +213,7 @@ TEST(JointSets, StayInTheirRegion) {
     }
   }
   const Ring region = set.region;
-  EXPECT_NEAR(length_inside(work, region) / signed_area(region), 3.0 / 3.5 / 0.5, 0.35);
+  EXPECT_NEAR(length_inside(work, region, snap) / signed_area(region), 3.0 / 3.5 / 0.5, 0.35);
 }
 
 TEST(JointSets, TooManyAreRefused) {

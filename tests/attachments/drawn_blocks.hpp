@@ -1,0 +1,28 @@
+// Blocks as given, for the tests of what is attached to them.
+#pragma once
+
+#include "blocks/build_blocks.hpp"
+
+namespace edda::test {
+
+struct DrawnBlocks {
+  Model model;
+  PolygonSet set;
+  BlockSet blocks;
+
+  void add(const Ring& ring, bool fixed = false) {
+    BlockPolygon p;
+    p.rings = {ring};
+    p.joint = {std::vector<Index>(ring.size(), none)};
+    p.material = 0;
+    p.fixed = fixed;
+    set.blocks.push_back(p);
+  }
+  /// Of one rock.
+  void build_all() {
+    model.materials.push_back({"rock", 2600.0, 1e9, 0.2, {}});
+    blocks = build_blocks(model, set);
+  }
+};
+
+}  // namespace edda::test
