@@ -31,7 +31,7 @@ struct BlockSet {
       grad_y;  ///< [3][nb] G_k, gradient of the area coordinate w_k, 1/m
   std::array<std::vector<double>, 3> weight;  ///< [3][nv] w_k of each vertex, sum 1 (Eq. 22)
   std::array<std::vector<double>, 3>
-      node_mass;                             ///< [3][nb] lumped m_k, kg (unused by `consistent`)
+      node_mass;  ///< [3][nb] lumped m_k, kg (unused by `consistent`)
   std::vector<double> point_inverse,
       edge_inverse;  ///< [nv] w_v^T M^-1 w_v and w_v^T M^-1 w_next, 1/kg (blocks/point_mass.hpp)
   std::vector<double> volume;                ///< [nb] area times thickness, m3
