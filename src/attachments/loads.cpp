@@ -160,6 +160,8 @@ void sort_by_block(const BlockSet& b, Loads& l) {
   for (const EdgeLoad& e : l.edges) any[b.vertex_block[e.edge]] = 1;
   for (const WetEdge& e : l.wet) any[b.vertex_block[e.edge]] = 1;
   l.place.assign(b.size(), no_id);
+  l.blocks.clear();
+  l.range.clear();
   Id point = 0, edge = 0, wet = 0;
   for (Id i = 0; i < b.size(); ++i) {
     if (!any[i]) continue;
@@ -201,6 +203,7 @@ Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const
   Faults faults;
   loads.since.boundaries.assign(model.boundaries.size(), 0.0);
   loads.since.shakings.assign(model.shakings.size(), 0.0);
+  loads.held.assign(model.openings.size(), 0.0);
   const auto is_stress = [](const Boundary& q) { return q.type == BoundaryType::stress; };
   const bool stressed = std::any_of(model.boundaries.begin(), model.boundaries.end(), is_stress);
   if (model.loads.empty() && model.waters.empty() && !stressed) return loads;
@@ -224,6 +227,19 @@ Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const
   return loads;
 }
 
+void hold_walls(const Model& model, const BlockSet& b, const std::vector<WallForce>& forces,
+                Loads& loads) {
+  const std::size_t before = model.loads.size() + model.boundaries.size();
+  for (const WallForce& f : forces) {
+    const Id v = f.vertex;
+    loads.points.push_back({b.vertex_block[v],
+                            {b.weight[0][v], b.weight[1][v], b.weight[2][v]},
+                            f.force,
+                            static_cast<Index>(before) + f.opening});
+  }
+  sort_by_block(b, loads);
+}
+
 LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
   LoadsNow now;
   for (std::size_t q = 0; q < model.shakings.size(); ++q) {
@@ -238,6 +254,7 @@ LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
     const double since = loads.since.boundaries[q];
     now.factor.push_back(time < since ? 0.0 : model.boundaries[q].factor.at(time - since, 1.0));
   }
+  now.factor.insert(now.factor.end(), loads.held.begin(), loads.held.end());
   for (const Water& water : model.waters) {
     now.rise.push_back(water.rise.at(time, 0.0));
     now.weight.push_back(water.unit_weight * model.thickness);

@@ -19,7 +19,7 @@ struct PointLoad {
   Id block;
   std::array<double, 3> weight;  ///< of the point
   Vec2 force;                    ///< N
-  Index load;                    ///< row of Model::loads
+  Index load;                    ///< row of Model::loads, or that of a held opening (hold_walls())
 };
 
 /// Traction or pressure on the part of an edge from s = from to s = to (0: its first vertex, 1: its
@@ -59,14 +59,15 @@ struct Loads {
   std::vector<Range> range;  ///< [blocks]
   std::vector<Id> place;     ///< [nb] index into `blocks`, or no_id; empty where there are none
   ActiveSince since;
+  std::vector<double> held;  ///< [rows of Model::openings] part of their walls' forces still there
 };
 
 /// Loads as they act at one time.
 struct LoadsNow {
   const Loads* loads = nullptr;  ///< null: there are none
-  std::vector<double> factor;    ///< [rows of Model::loads, then those of Model::boundaries]
-  std::vector<double> rise;      ///< [rows of Model::waters] m
-  std::vector<double> weight;    ///< [rows of Model::waters] N/m3 times thickness
+  std::vector<double> factor;  ///< [rows of Model::loads, those of Model::boundaries, of openings]
+  std::vector<double> rise;    ///< [rows of Model::waters] m
+  std::vector<double> weight;  ///< [rows of Model::waters] N/m3 times thickness
   const Bolts* bolts = nullptr;  ///< with their forces at this time; null: there are none
   Vec2 frame;  ///< m/s2: acceleration of the ground that all blocks feel backwards
 };
@@ -74,6 +75,17 @@ struct LoadsNow {
 /// Finds what the loads, waters and boundaries of type stress act on. One that finds nothing is a
 /// fault.
 Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const BlockSet& blocks);
+
+/// A force that rock taken out has had on a vertex of rock that stays, N.
+struct WallForce {
+  Id vertex;
+  Vec2 force;
+  Index opening;  ///< row of Model::openings
+};
+
+/// Keeps these forces as loads whose part Loads::held is there.
+void hold_walls(const Model& model, const BlockSet& blocks, const std::vector<WallForce>& forces,
+                Loads& loads);
 
 LoadsNow loads_at(const Model& model, const Loads& loads, double time);
 

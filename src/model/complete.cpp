@@ -273,6 +273,48 @@ void check_local_damping(const Value* damping, const std::string& owner, const S
 }
 
 /// Durations of the stages, and of all together.
+Opening* opening_called(Model& model, const std::string& name) {
+  const auto found = std::find_if(model.openings.begin(), model.openings.end(),
+                                  [&](const Opening& o) { return o.name == name; });
+  return found == model.openings.end() ? nullptr : &*found;
+}
+
+/// What a stage takes out, and what it lets go.
+void complete_excavation(const Value* own, Stage& stage, Reading& reading) {
+  Model& model = reading.model;
+  std::vector<std::string_view> known;
+  for (const Opening& o : model.openings) known.push_back(o.name);
+  const auto unknown = [&](const Value& value, const std::string& path, const std::string& name) {
+    add_fault(reading, value.place, path, '"' + name + "\" names no opening",
+              suggestion(name, known));
+  };
+  for (std::size_t q = 0; q < stage.excavate.size(); ++q) {
+    const Value& list = *find(own, "excavate");
+    const std::string path = fmt::format("{}.excavate[{}]", stage.where.key, q);
+    Opening* const opening = opening_called(model, stage.excavate[q]);
+    if (opening == nullptr) {
+      unknown(list, path, stage.excavate[q]);
+    } else if (opening->staged) {
+      add_fault(reading, list.place, path, '"' + opening->name + "\" has been taken out before",
+                "take each opening out once");
+    } else {
+      opening->staged = true;
+      if (opening->joint == none) opening->joint = glued_law(reading);
+    }
+  }
+  for (const auto& [name, part] : stage.relax) {
+    const Value& table = *find(own, "relax");
+    const std::string path = stage.where.key + ".relax." + name;
+    const Opening* const opening = opening_called(model, name);
+    if (opening == nullptr) {
+      unknown(table, path, name);
+    } else if (!opening->staged) {
+      add_fault(reading, table.place, path, '"' + name + "\" has not been taken out yet",
+                "name it in excavate of this stage or one before");
+    }
+  }
+}
+
 void complete_stages(const Value& root, Reading& reading) {
   Solver& solver = reading.model.solver;
   const Value* node = find(&root, "solver");
@@ -292,6 +334,7 @@ void complete_stages(const Value& root, Reading& reading) {
     const Value* own = element(root, "stage", i);
     if (!is_table(own)) continue;
     complete_stage_damping(own, solver, stage);
+    complete_excavation(own, stage, reading);
     sum += stage.duration;
     if (stage.until == StageEnd::time && !given(own, "duration")) {
       all_given = false;

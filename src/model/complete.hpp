@@ -26,6 +26,9 @@ void complete_shapes(const Value& root, Reading& reading);
 /// [[contact_pair]] and [[arch]].
 void complete_lines(const Value& root, Reading& reading);
 
+/// The built-in law of outlines that name none: rock as whole as it was. Made where it is needed.
+Index glued_law(Reading& reading);
+
 /// As complete(), for [[load]] and [[water]]: keys that exclude each other, histories read from
 /// their files, openings that are named.
 void complete_loads(const Value& root, Reading& reading);

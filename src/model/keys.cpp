@@ -164,6 +164,8 @@ constexpr std::array stage_keys{
     Key{"until", at<&Stage::until>, choice, initial, "Whether it ends at its duration (time) or as soon as all is at rest (equilibrium)."},
     Key{"ratio", at<&Stage::ratio>, number(D::plain, above_to(0, 1)), initial, "Equilibrium: mean resultant force of the blocks over the mean contact force."},
     Key{"duration", at<&Stage::duration>, number(D::time, above(0)), otherwise("required until \"time\"; 10 s until \"equilibrium\""), "Length of the stage; until equilibrium the longest it may take."},
+    Key{"excavate", at<&Stage::excavate>, name_list, otherwise("none"), "Openings whose rock is taken out at the stage's start."},
+    Key{"relax", at<&Stage::relax>, numbers_of_names(from_to(0, 1)), otherwise("all, when an opening is taken out"), "Part of the forces of the rock taken out that has been let go, by opening: the rest still holds its walls, as an advancing face does."},
     Key{"reset_displacements", at<&Stage::reset_displacements>, flag, initial, "Whether displacements count from the start of this stage."},
     Key{"damping", at<&Stage::damping>, table, otherwise("solver.damping; until equilibrium local = 0.8"), "Damping while the stage lasts."},
 };

@@ -214,14 +214,18 @@ struct Solver {
   Where where;
 };
 
+using NumberMap = std::vector<std::pair<std::string, double>>;
+
 /// [[stage]]: a part of the run, until a time or until nothing moves any more.
 struct Stage {
   std::string name;
   StageEnd until = StageEnd::time;
-  double ratio = 1e-5;               ///< of an equilibrium: mean resultant over mean contact force
-  double duration = 10.0;            ///< s; of an equilibrium: the longest
-  bool reset_displacements = false;  ///< at its start
-  Damping damping;                   ///< while it lasts
+  double ratio = 1e-5;                ///< of an equilibrium: mean resultant over mean contact force
+  double duration = 10.0;             ///< s; of an equilibrium: the longest
+  std::vector<std::string> excavate;  ///< openings taken out at its start
+  NumberMap relax;                    ///< part of their forces let go, by opening
+  bool reset_displacements = false;   ///< at its start
+  Damping damping;                    ///< while it lasts
   Where where;
 };
 

@@ -80,6 +80,14 @@ struct Write {
     }
     return text.empty() ? text : text + " }";
   }
+  std::string operator()(const NumberMap* field) const {
+    std::string text;
+    for (const auto& [name, value] : *field) {
+      text += fmt::format("{}{} = {}", text.empty() ? "{ " : ", ", bare_or_quoted(name),
+                          written(value));
+    }
+    return text.empty() ? text : text + " }";
+  }
   std::string operator()(const std::string* field) const {
     return key.rule.kind != Kind::text && field->empty() ? std::string{} : written(*field);
   }

@@ -62,6 +62,37 @@ void list_bolts(Archive& a, Simulation& s) {
   }
 }
 
+/// What rock taken out did to its walls, and how much of that is still there.
+template <class Archive>
+void list_walls(Archive& a, Simulation& s) {
+  std::vector<Id> vertex;
+  std::vector<Vec2> force;
+  std::vector<Index> opening;
+  for (const WallForce& w : s.walls) {
+    vertex.push_back(w.vertex);
+    force.push_back(w.force);
+    opening.push_back(w.opening);
+  }
+  a("walls.vertex", vertex);
+  list_points(a, "walls.force", force);
+  a("walls.opening", opening);
+  a("walls.held", s.loads.held);
+  if constexpr (Archive::loads) {
+    const std::size_t openings = s.model.openings.size();
+    bool fits = force.size() == vertex.size() && opening.size() == vertex.size() &&
+                s.loads.held.size() == openings;
+    for (std::size_t k = 0; fits && k < vertex.size(); ++k) {
+      fits = vertex[k] < s.blocks.vertex_count() && opening[k] >= 0 &&
+             static_cast<std::size_t>(opening[k]) < openings;
+    }
+    if (!fits) return a.refuse("walls of openings do not fit the model");
+    for (std::size_t k = 0; k < vertex.size(); ++k) {
+      s.walls.push_back({vertex[k], force[k], opening[k]});
+    }
+    hold_walls(s.model, s.blocks, s.walls, s.loads);
+  }
+}
+
 /// The ground, and when what shakes and drives it began.
 template <class Archive>
 void list_ground(Archive& a, Simulation& s) {

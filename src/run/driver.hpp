@@ -40,6 +40,7 @@ class Driver {
   Went step_to(double time);
   // Stages (run/driver_stages.cpp).
   void begin_stage(std::size_t index);
+  void take_out(const Stage& stage);
   /// Whether the stage in hand waits for an equilibrium and has found it.
   bool is_at_rest();
   /// The event in hand becomes one at the present time.

@@ -1,6 +1,8 @@
 // The driver's way from stage to stage.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "run/driver.hpp"
 
 namespace edda {
@@ -13,9 +15,24 @@ void Driver::begin_stage(std::size_t index) {
   const Stage& stage = stages_[index];
   times_.end_at(stage_start_ + stage.duration);
   if (sim_.model.stages.empty()) return;
+  take_out(stage);
   const bool settles = stage.until == StageEnd::equilibrium;
   sim_.change_damping(stage.damping, sim_.model.solver.dynamic && !settles);
   if (stage.reset_displacements) sim_.reset_displacements();
+}
+
+/// Openings of the stage, and what they let go.
+void Driver::take_out(const Stage& stage) {
+  const std::vector<Opening>& all = sim_.model.openings;
+  const auto row_of = [&](const std::string& name) {
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Opening& o) { return o.name == name; });
+    return static_cast<Index>(found - all.begin());
+  };
+  std::vector<Index> out;
+  for (const std::string& name : stage.excavate) out.push_back(row_of(name));
+  if (!out.empty()) sim_.excavate(out);
+  for (const auto& [name, part] : stage.relax) sim_.relax(row_of(name), part);
 }
 
 bool Driver::is_at_rest() {

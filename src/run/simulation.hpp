@@ -58,6 +58,7 @@ struct Simulation {
   Ground ground;
   NodalForces forces;
   std::vector<Vec2> on_dashpots;  ///< [points of dashpots] their forces in the last step, N
+  std::vector<WallForce> walls;   ///< of all that has been taken out
   DampingWork damping_work;
   Damping damping;                  ///< in force
   bool dynamic = true;              ///< of method "dda": whether velocities carry over
@@ -89,6 +90,12 @@ struct Simulation {
   void aim_at(double time);
   /// Puts other damping in force between two steps, and the step that it allows.
   void change_damping(const Damping& now, bool carry_velocities);
+  /// Takes out the rock of these openings (rows of Model::openings), between two steps. What it did
+  /// to its walls is kept as loads, of which nothing acts until relax() says so; the energy that
+  /// goes with it counts as external work.
+  void excavate(const std::vector<Index>& openings);
+  /// Lets go `part` (0 to 1) of the forces that the rock of an opening had on its walls.
+  void relax(Index opening, double part);
   /// Displacements count from here.
   void reset_displacements();
   /// One step of the method: forces, motion, gaps, switching, search, contacts.
@@ -111,6 +118,7 @@ struct Simulation {
   friend void list_memory(Archive& archive, Simulation& sim);
 
   void place_all();
+  void hold(const std::vector<WallForce>& forces);
   void start_implicit();
   std::optional<Failure> step_implicit();
   void set_implicit_limit();

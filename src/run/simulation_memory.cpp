@@ -316,6 +316,7 @@ void list_memory(Archive& a, Simulation& s) {
   list_contacts(a, s.contacts);
   list_groups(a, s.contacts);
   list_counts(a, s);
+  list_walls(a, s);
   list_ground(a, s);
   list_bolts(a, s);
   a("displacement_cap", s.displacement_cap_);

@@ -215,6 +215,8 @@ duration = "1 min"
 damping = { contact = 0.2 }
 [[stage]]
 duration = 60.0
+excavate = ["cavern"]
+relax = { cavern = 0.6 }
 reset_displacements = true
 [solver]
 method = "edda"

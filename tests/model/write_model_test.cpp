@@ -241,6 +241,10 @@ void expect_every_run_key(const Model& m) {
   EXPECT_EQ(m.stages[1].until, StageEnd::time);
   EXPECT_EQ(m.stages[1].damping.local, 0.1);
   EXPECT_TRUE(m.stages[1].reset_displacements);
+  EXPECT_EQ(m.stages[1].excavate, std::vector<std::string>{"cavern"});
+  EXPECT_EQ(m.stages[1].relax, (NumberMap{{"cavern", 0.6}}));
+  EXPECT_TRUE(m.openings[0].staged);
+  EXPECT_FALSE(m.openings[1].staged);
   EXPECT_EQ(m.solver.mass, MassKind::covering);
   EXPECT_EQ(m.solver.switching, Switching::plain);
   EXPECT_EQ(m.solver.duration, 120.0);
