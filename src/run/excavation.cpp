@@ -9,9 +9,9 @@ namespace edda {
 namespace {
 
 /// What rock that goes does to rock that stays, by the contacts as they are now.
-std::vector<WallForce> wall_forces(const BlockSet& b, const ContactSet& c,
+std::vector<KeptForce> wall_forces(const BlockSet& b, const ContactSet& c,
                                    const std::vector<std::uint8_t>& goes) {
-  std::vector<WallForce> walls;
+  std::vector<KeptForce> walls;
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Id i = c.block_i[k], j = c.block_j[k];
     if (goes[i] == goes[j] || !c.is(k, contact_state::closed)) continue;
@@ -37,26 +37,21 @@ void Simulation::excavate(const std::vector<Index>& openings) {
   }
   Instant now;
   observe(*this, now);
-  const std::vector<WallForce> on_walls = wall_forces(blocks, now.contacts, goes);
+  const std::vector<KeptForce> on_walls = wall_forces(blocks, now.contacts, goes);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     if (goes[i] == 0) continue;
     state.alive[i] = 0;
     for (std::size_t k = 0; k < 3; ++k) state.vx[k][i] = state.vy[k][i] = 0.0;
   }
-  for (const Index o : openings) loads.held[static_cast<std::size_t>(o)] = 0.0;
-  hold(on_walls);
+  for (const Index o : openings) loads.held[static_cast<std::size_t>(o)] = {0.0, 1.0, state.time};
+  keep(on_walls);
   search(contacts.reach);
   update_shares(contacts);
   external_work += ledger_now().balance() - energy;
 }
 
 void Simulation::relax(Index opening, double part) {
-  loads.held[static_cast<std::size_t>(opening)] = 1.0 - part;
-}
-
-void Simulation::hold(const std::vector<WallForce>& more) {
-  walls.insert(walls.end(), more.begin(), more.end());
-  hold_walls(model, blocks, more, loads);
+  loads.held[static_cast<std::size_t>(opening)].change(1.0 - part, state.time);
 }
 
 }  // namespace edda

@@ -100,7 +100,7 @@ TEST(Excavation, LetsGoThePartThatItSays) {
     const std::string relax = "relax = { middle = " + std::to_string(part) + " }\n";
     const Ran r = ran(column(dig + relax));
     const double fallen = held - risen(r.ready.sim);
-    EXPECT_NEAR(fallen, 0.5 * part * 9.81 * 0.05 * 0.05, 2e-5) << part;
+    EXPECT_NEAR(fallen, 0.5 * part * 9.81 * 0.05 * 0.05, 2e-6) << part;
     EXPECT_LT(std::abs(r.outcome.largest_drift), 1e-8) << part;
     std::size_t gone = 0;
     for (const std::uint8_t alive : r.ready.sim.state.alive) gone += alive == 0;
