@@ -77,6 +77,8 @@ Result<BoundarySprings> attach_boundaries(const Model& model, const BlockSet& b)
     springs.kxy.push_back(s.kxy);
     springs.start_x.push_back(b.vertex_x[s.vertex]);
     springs.start_y.push_back(b.vertex_y[s.vertex]);
+    springs.held_x.push_back(0.0);
+    springs.held_y.push_back(0.0);
     ++springs.block_begin[b.vertex_block[s.vertex] + 1];
   }
   for (std::size_t i = 0; i < b.size(); ++i) springs.block_begin[i + 1] += springs.block_begin[i];
@@ -91,7 +93,8 @@ double boundary_energy(const BoundarySprings& s, const Pose& pose) {
     const double ux = pose.x[v] - s.start_x[q] - now.x, uy = pose.y[v] - s.start_y[q] - now.y;
     const double wx = pose.x1[v] - s.start_x[q] - before.x;
     const double wy = pose.y1[v] - s.start_y[q] - before.y;
-    return 0.5 * (wx * (s.kxx[q] * ux + s.kxy[q] * uy) + wy * (s.kxy[q] * ux + s.kyy[q] * uy));
+    return 0.5 * (wx * (s.kxx[q] * ux + s.kxy[q] * uy) + wy * (s.kxy[q] * ux + s.kyy[q] * uy) -
+                  s.held_x[q] * (ux + wx) - s.held_y[q] * (uy + wy));
   });
 }
 

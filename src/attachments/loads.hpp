@@ -7,7 +7,7 @@
 
 #include "attachments/bolts.hpp"
 #include "base/fault.hpp"
-#include "blocks/kinematics.hpp"
+#include "blocks/initial_stress.hpp"
 #include "blocks/pose.hpp"
 #include "lines/polygon_set.hpp"
 #include "model/model.hpp"
@@ -19,7 +19,7 @@ struct PointLoad {
   Id block;
   std::array<double, 3> weight;  ///< of the point
   Vec2 force;                    ///< N
-  Index load;                    ///< row of Model::loads
+  Index load;                    ///< row of Model::loads, or as of an EdgeLoad
 };
 
 /// Traction or pressure on the part of an edge from s = from to s = to (0: its first vertex, 1: its
@@ -75,12 +75,20 @@ struct LoadsNow {
 /// fault.
 Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const BlockSet& blocks);
 
+/// Adds loads on points to the lists.
+void add_point_loads(const BlockSet& blocks, const std::vector<PointLoad>& more, Loads& loads);
+
 LoadsNow loads_at(const Model& model, const Loads& loads, double time);
 
 /// Adds what acts on block i, its vertices at `x`, `y`, to the forces on its nodes, N. Water:
 /// gamma (level + rise - y) across each edge where that is positive.
 void add_loads(std::array<Vec2, 3>& on_nodes, const BlockSet& blocks, const LoadsNow& now,
                const std::vector<double>& x, const std::vector<double>& y, std::size_t i);
+
+/// What the water on the part from s = from to s = to of a face does, as forces on the ends of that
+/// part; its vertices at `x`, `y`.
+EndForces water_on(const BlockSet& blocks, const LoadsNow& now, const std::vector<double>& x,
+                   const std::vector<double>& y, Id edge, double from, double to);
 
 /// Their resultant on block i at the pose, N.
 Vec2 load_on(const BlockSet& blocks, const LoadsNow& now, const Pose& pose, std::size_t i);

@@ -239,6 +239,12 @@ void part_pairs(ContactSet& c) {
 
 }  // namespace
 
+bool divides(const ContactSet& c, std::size_t p) {
+  const PairStand stand = seen(c, p);
+  return c.pairs[p].same_way() &&
+         !apart(stand.first, stand.second, stand.against, zone_of(c.pairs[p]));
+}
+
 void list_pairs(ContactSet& c) {
   PairMemory& m = c.pair_memory;
   for (auto* ids : {&m.first, &m.second}) ids->clear();

@@ -27,6 +27,7 @@ enum class Dimension {
   angular_velocity,  ///< rad/s
   area,
   per_length,  ///< 1/m
+  stress_gradient,  ///< Pa/m
 };
 
 struct DimensionInfo {

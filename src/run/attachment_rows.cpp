@@ -49,6 +49,13 @@ std::vector<Vec2> reactions(const Simulation& sim, const Instant& at) {
     sum[row - loads] +=
         now.factor[row] * (e.to - e.from) * sim.blocks.edge_length[e.edge] * e.traction;
   }
+  for (const PointLoad& p : sim.loads.points) {
+    const auto row = static_cast<std::size_t>(p.load), loads = sim.model.loads.size();
+    if (row < loads || row >= loads + sum.size() || !is_free(sim.blocks, sim.state, p.block)) {
+      continue;
+    }
+    sum[row - loads] += now.factor[row] * p.force;
+  }
   return sum;
 }
 

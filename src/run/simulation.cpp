@@ -87,6 +87,7 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   if (!dashpots.ok()) return dashpots.faults();
   s.dashpots = std::move(dashpots.value());
   s.on_dashpots.assign(s.dashpots.points.size(), Vec2{});
+  if (s.model.initial_stress) s.hold_boundaries();
   s.ground = find_ground(s.model, s.blocks);
   s.state = initial_state(s.blocks, s.polygons);
 
@@ -116,7 +117,7 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   s.search(s.base_reach);
   update_shares(s.contacts);
   bond_contacts(s.contacts, s.blocks, s.state, s.pose, s.laws);
-  settle_contacts(s.contacts, s.blocks, s.pose, s.laws, 0, true, s.transitions_);
+  s.close_contacts();
   s.set_limit();
   return s;
 }

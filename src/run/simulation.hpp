@@ -17,6 +17,7 @@
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
 #include "contacts/contact_set.hpp"
+#include "contacts/preload.hpp"
 #include "contacts/transitions.hpp"
 #include "forces/nodal_forces.hpp"
 #include "forces/stiffness.hpp"
@@ -61,6 +62,8 @@ struct Simulation {
   DampingWork damping_work;
   Damping damping;                  ///< in force
   bool dynamic = true;              ///< of method "dda": whether velocities carry over
+  std::vector<JointStress>
+      joint_stress;  ///< what the initial stress asks of each law; empty without one
   std::vector<double> inertia;      ///< [nb] factor on the masses, by solver.mass_scaling; or empty
   StepBound bound;                  ///< at the last search
   double step_limit = 0.0;          ///< s: largest step allowed at present
@@ -111,6 +114,8 @@ struct Simulation {
   friend void list_memory(Archive& archive, Simulation& sim);
 
   void place_all();
+  void hold_boundaries();
+  void close_contacts();
   void start_implicit();
   std::optional<Failure> step_implicit();
   void set_implicit_limit();
