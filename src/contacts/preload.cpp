@@ -68,12 +68,14 @@ void judge(JointStress& joint, const ContactSet& c, std::size_t k, double length
   if (c.is(k, cs::glued)) return;
   const double tension = c.is(k, cs::pulls) ? c.tension[k] : 0.0;
   if (normal < -tension) joint.torn += length;
-  const double strength = c.shear_limit(k, normal), size = std::abs(shear);
+  constexpr double rounding = 1e-9;
+  const double strength = c.shear_limit(k, normal);
+  const double size = std::abs(shear) > rounding * std::abs(normal) ? std::abs(shear) : 0.0;
   if (normal > 0.0) {
     joint.ratio = std::max(joint.ratio, size / normal);
     if (size > 0.0) joint.mobilised = std::max(joint.mobilised, size / strength);
   }
-  if (normal >= -tension && size > strength) joint.over += length;
+  if (normal >= -tension && size > (1.0 + rounding) * strength) joint.over += length;
 }
 
 }  // namespace

@@ -17,7 +17,6 @@
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
 #include "contacts/contact_set.hpp"
-#include "contacts/preload.hpp"
 #include "contacts/transitions.hpp"
 #include "forces/nodal_forces.hpp"
 #include "forces/stiffness.hpp"
@@ -26,6 +25,7 @@
 #include "lines/polygon_set.hpp"
 #include "model/model.hpp"
 #include "run/divergence.hpp"
+#include "run/initial_balance.hpp"
 #include "run/ledger.hpp"
 #include "run/open_close.hpp"
 #include "run/stage_clock.hpp"
@@ -62,8 +62,7 @@ struct Simulation {
   DampingWork damping_work;
   Damping damping;                  ///< in force
   bool dynamic = true;              ///< of method "dda": whether velocities carry over
-  std::vector<JointStress>
-      joint_stress;  ///< what the initial stress asks of each law; empty without one
+  std::optional<InitialBalance> initial;  ///< of the initial stress, as created; empty without one
   std::vector<double> inertia;      ///< [nb] factor on the masses, by solver.mass_scaling; or empty
   StepBound bound;                  ///< at the last search
   double step_limit = 0.0;          ///< s: largest step allowed at present

@@ -2,7 +2,7 @@
 #include "attachments/initial_forces.hpp"
 #include "contacts/preload.hpp"
 #include "forces/contact_forces.hpp"
-#include "run/simulation.hpp"
+#include "run/initial_stress_report.hpp"
 
 namespace edda {
 
@@ -28,9 +28,11 @@ void Simulation::close_contacts() {
   const auto traction = [&](Id edge, double from, double to) {
     return faces.on(edge, {from, to});
   };
-  joint_stress = preload_contacts(contacts, blocks, pose, laws, traction, transitions_);
+  initial.emplace();
+  initial->joints = preload_contacts(contacts, blocks, pose, laws, traction, transitions_);
   break_overloaded(contacts, blocks, laws);
   cut_preload(contacts);
+  judge_initial_stress(*this);
 }
 
 }  // namespace edda

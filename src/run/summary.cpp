@@ -8,6 +8,7 @@
 #include "forces/mass_scaling.hpp"
 #include "results/json.hpp"
 #include "results/version.hpp"
+#include "run/initial_stress_report.hpp"
 
 namespace edda {
 namespace {
@@ -96,6 +97,7 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
   checks.push_back(informed("faces merged by the cut", sim.polygons.report.merged));
   checks.push_back(informed("slivers joined by [quality]", sim.polygons.report.quality_merged));
   checks.push_back(informed("mass added by scaling (kg)", added_mass(sim.blocks, sim.inertia)));
+  add_initial_checks(sim, checks);
   return checks;
 }
 
