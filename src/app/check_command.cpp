@@ -67,6 +67,11 @@ int check(const CheckArguments& args) {
   for (const MonitorPoint& m : run.monitors) {
     fmt::print("monitor         {} in {}\n", m.name, block_label(sim.blocks, m.block));
   }
+  for (const ConvergenceLine& line : run.convergences) {
+    fmt::print("convergence     {} from {} to {}\n", line.name,
+               block_label(sim.blocks, line.ends[0].block),
+               block_label(sim.blocks, line.ends[1].block));
+  }
   for (const std::string& line : load_report(sim)) fmt::print("load            {}\n", line);
   for (const std::string& line : initial_stress_report(sim)) {
     fmt::print("initial stress  {}\n", line);

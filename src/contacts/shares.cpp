@@ -210,15 +210,34 @@ PairStand seen(const ContactSet& c, std::size_t p) {
   return {m.first_seen[p], m.second_seen[p], m.against[p]};
 }
 
-/// The share of the tangled candidate q: all of its pairs have a say.
+}  // namespace
+
+bool divides(const ContactSet& c, std::size_t p) {
+  const PairStand stand = seen(c, p);
+  return c.pairs[p].same_way() &&
+         !apart(stand.first, stand.second, stand.against, zone_of(c.pairs[p]));
+}
+
+namespace {
+
+/// The share of the tangled candidate q: all of its pairs have a say. Where its corner and another
+/// pass each other, the edge beyond that corner, bent a little, has none: it belongs to the same
+/// joint, and would take away half of a spring that stands for all of it.
 void update_tangled(ContactSet& c, std::size_t q) {
   const Id k = c.tangle.candidate[q];
   NextShare next = start_share(c, k);
+  double passing = 0.0;
+  for (Id e = c.tangle.begin[q]; e < c.tangle.begin[q + 1]; ++e) {
+    const Id p = c.tangle.pair[e];
+    if (divides(c, p)) passing = std::max(passing, seen(c, p).against);
+  }
   for (Id e = c.tangle.begin[q]; e < c.tangle.begin[q + 1]; ++e) {
     const CornerPair& pair = c.pairs[c.tangle.pair[e]];
+    const double before = next.share;
     NextShare other{};
     const bool is_first = pair.first == k;
     set_shares(pair, seen(c, c.tangle.pair[e]), is_first ? next : other, is_first ? other : next);
+    if (!pair.same_way()) next.share += passing * (before - next.share);
   }
   take_share(c, k, next);
 }
@@ -238,12 +257,6 @@ void part_pairs(ContactSet& c) {
 }
 
 }  // namespace
-
-bool divides(const ContactSet& c, std::size_t p) {
-  const PairStand stand = seen(c, p);
-  return c.pairs[p].same_way() &&
-         !apart(stand.first, stand.second, stand.against, zone_of(c.pairs[p]));
-}
 
 void list_pairs(ContactSet& c) {
   PairMemory& m = c.pair_memory;

@@ -41,8 +41,8 @@ struct Material {
   double density = 0.0;  ///< kg/m3
   double young = 0.0;    ///< Pa
   double poisson = 0.0;
-  std::optional<RockStrength> strength;
   Where where;
+  std::optional<RockStrength> strength{};
 };
 
 /// Shear and tensile strength of a joint.

@@ -124,6 +124,12 @@ void Driver::list_stages(Archive& a) {
     a(of + "closed", r.closed);
     a(of + "sliding", r.sliding);
     a(of + "bonded", r.bonded);
+    a(of + "convergences", r.convergences);
+    if constexpr (Archive::loads) {
+      if (r.convergences.size() != run_.convergences.size()) {
+        a.refuse("stages do not fit the model");
+      }
+    }
   }
 }
 

@@ -10,6 +10,7 @@
 #include "forces/contact_forces.hpp"
 #include "forces/dashpot_forces.hpp"
 #include "forces/elastic.hpp"
+#include "run/overstress.hpp"
 
 namespace edda {
 namespace {
@@ -70,6 +71,7 @@ BlockRecord block_record(const Simulation& sim, const State& s, std::size_t i) {
   r.syy = stress.yy;
   r.szz = stress.zz;
   r.sxy = stress.xy;
+  r.overstress = overstress(sim, s, i);
   return r;
 }
 

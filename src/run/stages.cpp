@@ -81,10 +81,14 @@ StageRecord stage_record(const Simulation& sim, const Ledger& ledger, double sta
 
 std::string stages_csv(const Model& model, const std::vector<StageRecord>& records) {
   Csv csv;
-  csv.header({"stage",   "name",     "until",         "reached",       "start",    "end",
+  for (const char* name : {"stage",   "name",     "until",         "reached",       "start",    "end",
               "steps",   "ratio",    "largest_ratio", "largest_block", "kinetic",  "strain",
               "contact", "gravity",  "friction",      "damping",       "fracture", "external",
-              "drift",   "contacts", "sliding",       "bonded",        "detached"});
+              "drift",   "contacts", "sliding",       "bonded",        "detached"}) {
+    csv.add(name);
+  }
+  for (const Convergence& c : model.convergences) csv.add(c.name + ".convergence");
+  csv.end();
   const std::vector<Stage> stages = stages_of(model);
   for (std::size_t q = 0; q < records.size(); ++q) {
     const StageRecord& r = records[q];
@@ -101,7 +105,9 @@ std::string stages_csv(const Model& model, const std::vector<StageRecord>& recor
                            l.fracture, l.external, l.drift}) {
       csv.add(v);
     }
-    csv.add(r.closed).add(r.sliding).add(r.bonded).add(r.balance.detached).end();
+    csv.add(r.closed).add(r.sliding).add(r.bonded).add(r.balance.detached);
+    for (const double closed : r.convergences) csv.add(closed);
+    csv.end();
   }
   return csv.text();
 }

@@ -29,6 +29,7 @@ struct StageRecord {
   Balance balance;
   Ledger ledger;                                    ///< at the end
   std::size_t closed = 0, sliding = 0, bonded = 0;  ///< contacts at the end
+  std::vector<double> convergences;                 ///< at the end, m, by row of the model's
 };
 
 StageRecord stage_record(const Simulation& sim, const Ledger& ledger, double start,
