@@ -57,13 +57,10 @@ void check_surface(const Value* node, const InitialStress& stress, Reading& read
 void complete_convergence(const Value* node, const Convergence& c, Reading& reading) {
   if (!given(node, "between") || c.between.empty()) return;
   const std::string key = c.where.key + ".between";
-  if (c.between.size() != 2) {
-    add_fault(reading, find(node, "between")->place, key,
+  if (c.between.size() == 2) return;
+  add_fault(reading, find(node, "between")->place, key,
               fmt::format("has {} points, not two", c.between.size()),
               "give the two points, such as [[-5.0, 0.5], [5.0, 0.5]]");
-  } else if (c.between[0] == c.between[1]) {
-    add_fault(reading, find(node, "between")->place, key, "the points are one", "move one of them");
-  }
 }
 
 }  // namespace

@@ -87,19 +87,23 @@ TEST(BadModel, ConvergenceAndStrength) {
            Bad{"[[convergence]]\nname = \"H\"\nbetween = [[1, 1], [2, 1], [3, 1]]\n", 44,
                "convergence.H.between", "has 3 points, not two"},
            Bad{"[[convergence]]\nname = \"H\"\nbetween = [[1, 1], [1, 1]]\n", 44,
-               "convergence.H.between", "the points are one"},
-           Bad{"[materials.weak]\ndensity = 2e3\nyoung = 1e9\npoisson = 0.2\nstrength = { ucs = 1e6 "
-               "}\n",
-               46, "materials.weak.strength.tension", "is missing"},
-           Bad{"[materials.weak]\ndensity = 2e3\nyoung = 1e9\npoisson = 0.2\nstrength = { ucs = 0, "
-               "tension = 1 }\n",
-               46, "materials.weak.strength.ucs", "out of range"},
+               "convergence.H.between[1]", "is the same point"},
        }) {
     const Result<Model> result = read_model_text(testing::base_model + bad.text, "m.toml", {});
     ASSERT_FALSE(result.ok()) << bad.text;
     const Fault& f = result.faults()[0];
     EXPECT_EQ(f.where.key, bad.key) << to_string(f);
     EXPECT_NE(to_string(f).find(bad.fragment), std::string::npos) << to_string(f);
+  }
+  for (const auto& [strength, key] :
+       {std::pair<std::string, std::string>{"{ ucs = 1e6 }", "materials.rock.strength.tension"},
+        {"{ ucs = 0, tension = 1 }", "materials.rock.strength.ucs"}}) {
+    const auto result = read_model_text(
+        testing::base_with("poisson = 0.25\n", "poisson = 0.25\nstrength = " + strength + "\n"),
+        "m.toml", {});
+    ASSERT_FALSE(result.ok()) << strength;
+    EXPECT_EQ(result.faults()[0].where.key, key);
+    EXPECT_EQ(result.faults()[0].where.line, 7);
   }
 }
 

@@ -11,6 +11,7 @@
 
 namespace edda::kirsch {
 
+inline constexpr double joints = 2.0;  // stiffness of a joint over that of the blocks beside it
 inline constexpr double radius = 1.0, fine_to = 4.0, far = 16.0;  // m
 inline constexpr double young = 20e9, poisson = 0.25;
 /// Far stresses, compression positive: across and upright.
@@ -40,16 +41,23 @@ inline double exact_closure(const Mass& m, double t) {
          (p + d * (3.0 - 4.0 * m.poisson) * std::cos(2.0 * t));
 }
 
-/// Blocks of this size, and joints that give a fixed part of what the blocks do.
-inline std::string mass_of(double size, double joints_over_rock) {
+/// Blocks of this size, and joints that give a fixed part of what the blocks do: the mass is the same
+/// for every size. (A block's strain is constant, so a mass of blocks whose joints give nothing could
+/// not bend at all: it is finely divided when joints over rock times (block/radius)^2 is small.)
+inline std::string mass_of(double size) {
   return "gravity = [0, 0]\n[materials.rock]\ndensity = 2700.0\nyoung = " + number(young) +
          "\npoisson = " + number(poisson) + "\n[joints.j]\ntype = 'glued'\nkn = " +
-         number(joints_over_rock * young / size) + "\nks = " +
-         number(0.4 * joints_over_rock * young / size) +
+         number(joints * young / size) + "\nks = " +
+         number(0.4 * joints * young / size) +
          "\n[quality]\nmin_edge = " + number(0.05 * size) + "\n";
 }
-inline std::string until_rest(double ratio) {
-  return "[[stage]]\nuntil = 'equilibrium'\nratio = " + number(ratio) + "\nduration = 10.0\n";
+inline std::string until_rest(double ratio, const std::string& solver) {
+  return "[[stage]]\nuntil = 'equilibrium'\nratio = " + number(ratio) +
+         "\nduration = 2.0\n[solver]\n" + solver;
+}
+/// Small blocks do not hold the step: how fast they move on their way to rest says nothing.
+inline std::string in_steps_for(double size) {
+  return "mass_scaling = " + number(0.15 * size / std::sqrt(young / 2700.0)) + "\n";
 }
 inline std::string ring(double r, int corners) {
   std::string text = "[";
@@ -58,6 +66,12 @@ inline std::string ring(double r, int corners) {
     text += (k > 0 ? ", [" : "[") + number(r * std::cos(t)) + ", " + number(r * std::sin(t)) + "]";
   }
   return text + "]";
+}
+
+/// A ring as a line that ends where it begins.
+inline std::string closed_ring(double r, int corners) {
+  std::string points = ring(r, corners);
+  return points.insert(points.size() - 1, ", [" + number(r) + ", 0]");
 }
 
 inline Simulation settled(const std::string& toml) {
@@ -110,19 +124,19 @@ inline Tensor mean_strain(const Simulation& sim, double half) {
 }
 
 /// A square of the same mass, pressed across and then upright.
-inline Mass test_mass(double size, double joints_over_rock) {
+inline Mass test_mass(double size) {
   const double half = 12.0 * size, p = 1e6;
   double difference = 0.0, across = 0.0;
   for (const bool along_x : {true, false}) {
     const Simulation sim = settled(
-        mass_of(size, joints_over_rock) + "[domain]\noutline = " +
+        mass_of(size) + "[domain]\noutline = " +
         rectangle(-half, -half, half, half) + "\n[voronoi]\nsize = " + number(size) +
         "\nseed = 3\n" +
         "[[boundary]]\nsides = ['" + (along_x ? "left" : "bottom") +
         "']\ntype = 'stress'\ntraction = " + (along_x ? "[1e6, 0]" : "[0, 1e6]") +
         "\n[[boundary]]\nsides = ['" + (along_x ? "right" : "top") +
         "']\ntype = 'stress'\ntraction = " + (along_x ? "[-1e6, 0]" : "[0, -1e6]") + "\n" +
-        until_rest(1e-4));
+        until_rest(1e-4, in_steps_for(size)));
     const Tensor e = mean_strain(sim, 0.75 * half);
     const double main = along_x ? e.xx : e.yy, other = along_x ? e.yy : e.xx;
     difference += -0.5 * (main - other) / p;
@@ -133,29 +147,36 @@ inline Mass test_mass(double size, double joints_over_rock) {
 }
 
 /// The opening cut at once from rock under stress, and left to come to rest.
-inline Simulation opening(double size, double joints_over_rock) {
+inline Simulation opening(double size) {
   std::string toml =
-      mass_of(size, joints_over_rock) + "[domain]\noutline = " + ring(far, 32) +
+      mass_of(size) + "[domain]\noutline = " + ring(far, 32) +
       "\n[voronoi]\nsize = " + number(size) + "\nseed = 3\nregion = " + ring(fine_to, 32) +
       "\n[[opening]]\nname = 'hole'\nshape = { kind = 'circle', at = [0, 0], width = " +
       number(2.0 * radius) + ", segments = 64 }\n[initial_stress]\nstress = [" + number(-px) +
-      ", " + number(-py) + ", 0]\n[[boundary]]\nalong = " + ring(far, 32) +
-      "\ntype = 'fixed'\n" + until_rest(1e-5);
-  // The ring closes.
-  toml.replace(toml.find("along = [") + 9, 0, "[" + number(far) + ", -1e-9], ");
-  const double growth = std::pow(far / fine_to, 1.0 / 8.0);
+      ", " + number(-py) + ", 0]\n[[boundary]]\nalong = " + closed_ring(far, 32) +
+      "\ntype = 'fixed'\n" + until_rest(1e-4, in_steps_for(size));
+  // Further out, blocks grow with the distance, and their joints give as much of it as the small ones
+  // do: a law for each ring.
+  constexpr int rings = 7;
+  const double growth = std::pow(far / fine_to, 1.0 / rings);
+  std::string laws;
   double r = fine_to;
-  for (int k = 1; k < 8; ++k) {
-    r *= growth;
-    std::string points = ring(r, 32);
-    points.insert(points.size() - 1, ", [" + number(r) + ", 0]");
-    toml += "[[trace]]\npoints = " + points + "\n";
+  for (int k = 0; k < rings; ++k, r *= growth) {
+    const std::string law = "ring" + std::to_string(k);
+    const double kn = joints * young / (r * (growth - 1.0));
+    laws += "[joints." + law + "]\ntype = 'glued'\nkn = " + number(kn) + "\nks = " +
+            number(0.4 * kn) + "\n";
+    if (k > 0) {
+      toml += "[[trace]]\njoint = '" + law + "'\npoints = " + closed_ring(r, 32) + "\n";
+    }
+    for (int q = 0; q < 32; ++q) {
+      const double t = 2.0 * std::numbers::pi * q / 32, c = std::cos(t), n = std::sin(t);
+      toml += "[[trace]]\njoint = '" + law + "'\npoints = [[" + number(r * c) + ", " +
+              number(r * n) + "], [" + number(r * growth * c) + ", " + number(r * growth * n) +
+              "]]\n";
+    }
   }
-  for (int k = 0; k < 32; ++k) {
-    const double t = 2.0 * std::numbers::pi * k / 32, c = std::cos(t), s = std::sin(t);
-    toml += "[[trace]]\npoints = [[" + number(fine_to * c) + ", " + number(fine_to * s) + "], [" +
-            number(far * c) + ", " + number(far * s) + "]]\n";
-  }
+  toml.replace(toml.find("[domain]"), 8, laws + "[domain]\njoint = 'j'");
   return settled(toml);
 }
 
@@ -201,8 +222,9 @@ inline Polar polar(const BlockStress& s, double t) {
           (s.yy - s.xx) * c * n + s.xy * (c * c - n * n)};
 }
 
-inline Errors compare(const Simulation& sim, const Mass& mass, double size,
-                      const std::string& label) {
+/// `bound`: none are held to any where it is infinite.
+inline Errors compare(const Simulation& sim, const Mass& mass, double size, double bound) {
+  const std::string label = "blocks of " + brief(size) + " radii";
   const BlockSet& b = sim.blocks;
   Errors e;
   Series profile(41, label, {"r", "rr x exact", "rr x", "tt x exact", "tt x", "rr y exact", "rr y",
@@ -239,12 +261,12 @@ inline Errors compare(const Simulation& sim, const Mass& mass, double size,
     const double exact = exact_closure(mass, side > 0.0 ? 0.0 : 0.5 * std::numbers::pi);
     const std::string where = side > 0.0 ? ", along x" : ", upright";
     expect_relative({41, label, "closure of the wall" + where, "m"}, w.rr + side * w.rr2, exact,
-                    0.1);
+                    bound);
     keep_largest(e.closure, (w.rr + side * w.rr2) / exact - 1.0);
   }
-  expect_at_most({41, label, "hoop stress, furthest off, over the exact one", ""}, e.hoop, 0.1);
+  expect_at_most({41, label, "hoop stress, furthest off, over the exact one", ""}, e.hoop, bound);
   expect_at_most({41, label, "radial stress, furthest off, over the exact hoop stress", ""},
-                 e.radial, 0.1);
+                 e.radial, bound);
   record_model(41, label, sim);
   return e;
 }
