@@ -1,8 +1,10 @@
 #include "attachments/initial_forces.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "attachments/boundary_lines.hpp"
+#include "attachments/boundary_springs.hpp"
 
 namespace edda {
 namespace {
@@ -18,11 +20,21 @@ std::vector<Piece> faces_of(const Model& model, const BlockSet& b, const Boundar
                    in_joints);
 }
 
-/// On the two vertices of the piece's face.
-EndForces on_vertices(const Piece& p, const EndForces& on_piece) {
-  const auto [from, to] = p.part;
-  return {(1.0 - from) * on_piece.at_from + (1.0 - to) * on_piece.at_to,
-          from * on_piece.at_from + to * on_piece.at_to};
+/// Faces that have been held, by edge.
+using Taken = std::map<Id, std::vector<Part>>;
+
+/// What of the faces of a boundary nobody has held yet; from now on it has.
+std::vector<Piece> take(const Model& model, const BlockSet& b, const Boundary& boundary,
+                        Taken& taken) {
+  std::vector<Piece> mine;
+  for (const Piece& p : faces_of(model, b, boundary)) {
+    std::vector<Part>& others = taken[p.edge];
+    for (const Part part : without(p.part, others)) {
+      if (part.to > part.from) mine.push_back({p.edge, part});
+    }
+    others.push_back(p.part);
+  }
+  return mine;
 }
 
 }  // namespace
@@ -37,53 +49,46 @@ EndForces FaceForces::on(Id edge, Part part) const {
   const double length = (part.to - part.from) * norm(u) * b_.thickness;
   const Vec2 t0 = traction(field_.at(a + part.from * u), n),
              t1 = traction(field_.at(a + part.to * u), n);
-  const EndForces water =
-      water_on(b_, now_, b_.vertex_x, b_.vertex_y, edge, part.from, part.to);
+  const EndForces water = water_on(b_, now_, b_.vertex_x, b_.vertex_y, edge, part.from, part.to);
   return {length / 6.0 * (2.0 * t0 + t1) - water.at_from,
           length / 6.0 * (t0 + 2.0 * t1) - water.at_to};
 }
 
-void hold_initial_stress(BoundarySprings& springs, const Model& model, const BlockSet& b,
-                         const FaceForces& faces) {
-  for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
-    if (!has_springs(model.boundaries[q].type)) continue;
-    const auto hold = [&](Id v, Vec2 force) {
-      const Id i = b.vertex_block[v];
-      for (Id s = springs.block_begin[i]; s < springs.block_begin[i + 1]; ++s) {
-        if (springs.vertex[s] != v || springs.boundary[s] != static_cast<Index>(q)) continue;
-        springs.held_x[s] += force.x;
-        springs.held_y[s] += force.y;
+std::vector<KeptForce> held_initial_stress(const Model& model, const BlockSet& b,
+                                           const Spells& spells, const FaceForces& faces) {
+  std::vector<KeptForce> held;
+  Taken taken;
+  const auto each = [&](auto is_meant, bool keeps) {
+    for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
+      const Boundary& boundary = model.boundaries[q];
+      if (!spells.boundaries[q].acts() || !is_meant(boundary.type)) continue;
+      const auto keeper = static_cast<Index>(model.openings.size() + q);
+      for (const Piece& p : take(model, b, boundary, taken)) {
+        if (!keeps) continue;
+        const EndForces on = on_vertices(p.part.from, p.part.to, faces.on(p.edge, p.part));
+        held.push_back({p.edge, on.at_from, keeper});
+        held.push_back({b.next[p.edge], on.at_to, keeper});
       }
-    };
-    for (const Piece& p : faces_of(model, b, model.boundaries[q])) {
-      const EndForces on = on_vertices(p, faces.on(p.edge, p.part));
-      hold(p.edge, on.at_from);
-      hold(b.next[p.edge], on.at_to);
     }
-  }
+  };
+  each(has_springs, true);
+  each([](BoundaryType type) { return type == BoundaryType::stress; }, false);
+  each([](BoundaryType type) { return type == BoundaryType::viscous; }, true);
+  return held;
 }
 
 void load_initial_stress(Loads& loads, const Model& model, const BlockSet& b,
                          const FaceForces& faces) {
-  std::vector<PointLoad> more;
+  std::vector<EdgeLoad> more;
   for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
     const Boundary& boundary = model.boundaries[q];
-    const bool stress = boundary.type == BoundaryType::stress && !boundary.traction;
-    if (!stress && boundary.type != BoundaryType::viscous) continue;
+    if (boundary.type != BoundaryType::stress || boundary.traction) continue;
     const auto row = static_cast<Index>(model.loads.size() + q);
-    const auto load = [&](Id v, Vec2 force) {
-      more.push_back({b.vertex_block[v],
-                      {b.weight[0][v], b.weight[1][v], b.weight[2][v]},
-                      force,
-                      row});
-    };
     for (const Piece& p : faces_of(model, b, boundary)) {
-      const EndForces on = on_vertices(p, faces.on(p.edge, p.part));
-      load(p.edge, on.at_from);
-      load(b.next[p.edge], on.at_to);
+      more.push_back({p.edge, p.part.from, p.part.to, {}, 0.0, row, faces.on(p.edge, p.part)});
     }
   }
-  if (!more.empty()) add_point_loads(b, more, loads);
+  if (!more.empty()) add_edge_loads(b, more, loads);
 }
 
 }  // namespace edda

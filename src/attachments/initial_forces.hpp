@@ -1,7 +1,6 @@
 // Forces of the initial stress on faces of blocks, and the boundaries that carry them.
 #pragma once
 
-#include "attachments/boundary_springs.hpp"
 #include "attachments/edges_on_line.hpp"
 #include "attachments/loads.hpp"
 #include "blocks/initial_stress.hpp"
@@ -24,13 +23,13 @@ class FaceForces {
   const LoadsNow& now_;
 };
 
-/// Springs take over the force of the initial stress on the open faces along their boundary. Across
-/// the line and along it: along a roller it stays as it is.
-void hold_initial_stress(BoundarySprings& springs, const Model& model, const BlockSet& blocks,
-                         const FaceForces& faces);
+/// What the boundaries that act at the start hold of the initial stress on the open faces along
+/// them: those with springs and dashpots, across the line and along it (a roller too), keep it up
+/// as forces on the vertices. No face is held twice: springs go first, then tractions.
+std::vector<KeptForce> held_initial_stress(const Model& model, const BlockSet& blocks,
+                                           const Spells& spells, const FaceForces& faces);
 
-/// Boundaries of type viscous, and those of type stress that name no traction, keep it up as a load of
-/// constant direction on the vertices of those faces.
+/// Boundaries of type stress that name no traction have that of the initial stress.
 void load_initial_stress(Loads& loads, const Model& model, const BlockSet& blocks,
                          const FaceForces& faces);
 

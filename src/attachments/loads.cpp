@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "attachments/boundary_lines.hpp"
 #include "attachments/edges_on_line.hpp"
 #include "base/parallel.hpp"
 #include "blocks/locate.hpp"
 #include "model/accelerogram.hpp"
+#include "model/stage_names.hpp"
 
 namespace edda {
 namespace {
@@ -41,8 +43,8 @@ void attach_line(const Load& load, Index row, const BlockSet& b, double snap, Lo
   faults.push_back(fault);
 }
 
-/// A boundary of type stress: a traction on the faces along it. One that names none takes it from the
-/// initial stress (load_initial_stress()).
+/// A boundary of type stress: a traction on the faces along it. One that names none takes it from
+/// the initial stress (load_initial_stress()).
 void attach_stress(const Model& model, std::size_t row, const BlockSet& b, double snap,
                    Loads& loads, Faults& faults) {
   const Boundary& boundary = model.boundaries[row];
@@ -150,6 +152,15 @@ void attach_water(const Model& model, const Water& water, Index row, const Block
   faults.push_back(fault);
 }
 
+/// Each acts from the start, or not yet.
+template <class Item>
+std::vector<Spell> first_spells(const Model& model, const std::vector<Item>& items) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  std::vector<Spell> spells;
+  for (const Item& item : items) spells.push_back({acts_at_first(model, item.name) ? 0.0 : never});
+  return spells;
+}
+
 /// Sorts each list by block, and notes where each block's begin.
 void sort_by_block(const BlockSet& b, Loads& l) {
   auto by_edge = [](const auto& x, const auto& y) { return x.edge < y.edge; };
@@ -162,6 +173,8 @@ void sort_by_block(const BlockSet& b, Loads& l) {
   for (const EdgeLoad& e : l.edges) any[b.vertex_block[e.edge]] = 1;
   for (const WetEdge& e : l.wet) any[b.vertex_block[e.edge]] = 1;
   l.place.assign(b.size(), no_id);
+  l.blocks.clear();
+  l.range.clear();
   Id point = 0, edge = 0, wet = 0;
   for (Id i = 0; i < b.size(); ++i) {
     if (!any[i]) continue;
@@ -221,8 +234,9 @@ EndForces water_of(const BlockSet& b, const LoadsNow& now, const WetEdge& e,
 Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const BlockSet& b) {
   Loads loads;
   Faults faults;
-  loads.since.boundaries.assign(model.boundaries.size(), 0.0);
-  loads.since.shakings.assign(model.shakings.size(), 0.0);
+  loads.spells = {first_spells(model, model.loads), first_spells(model, model.waters),
+                  first_spells(model, model.boundaries), first_spells(model, model.shakings)};
+  loads.held.assign(model.openings.size() + model.boundaries.size(), {});
   const auto is_stress = [](const Boundary& q) { return q.type == BoundaryType::stress; };
   const bool stressed = std::any_of(model.boundaries.begin(), model.boundaries.end(), is_stress);
   if (model.loads.empty() && model.waters.empty() && !stressed) return loads;
@@ -246,10 +260,27 @@ Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const
   return loads;
 }
 
-void add_point_loads(const BlockSet& b, const std::vector<PointLoad>& more, Loads& loads) {
-  loads.points.insert(loads.points.end(), more.begin(), more.end());
-  loads.blocks.clear();
-  loads.range.clear();
+void add_edge_loads(const BlockSet& b, const std::vector<EdgeLoad>& more, Loads& loads) {
+  loads.edges.insert(loads.edges.end(), more.begin(), more.end());
+  sort_by_block(b, loads);
+}
+
+void keep_forces(const Model& model, const BlockSet& b, const std::vector<KeptForce>& forces,
+                 Loads& loads) {
+  const std::size_t before = model.loads.size() + model.boundaries.size();
+  for (const KeptForce& f : forces) {
+    const Id v = f.vertex;
+    loads.points.push_back({b.vertex_block[v],
+                            {b.weight[0][v], b.weight[1][v], b.weight[2][v]},
+                            f.force,
+                            static_cast<Index>(before) + f.keeper});
+  }
+  sort_by_block(b, loads);
+}
+
+void drop_forces(const Model& model, const BlockSet& b, Index keeper, Loads& loads) {
+  const auto row = static_cast<Index>(model.loads.size() + model.boundaries.size()) + keeper;
+  std::erase_if(loads.points, [&](const PointLoad& p) { return p.load == row; });
   sort_by_block(b, loads);
 }
 
@@ -257,19 +288,29 @@ LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
   LoadsNow now;
   for (std::size_t q = 0; q < model.shakings.size(); ++q) {
     const Shaking& shaking = model.shakings[q];
-    if (shaking.apply != ShakingKind::inertia || time < loads.since.shakings[q]) continue;
-    now.frame += acceleration_at(shaking, time - loads.since.shakings[q]);
+    const Spell& spell = loads.spells.shakings[q];
+    const double part = spell.part(time);
+    if (shaking.apply != ShakingKind::inertia || part == 0.0) continue;
+    now.frame += part * acceleration_at(shaking, time - spell.since);
   }
   if (loads.blocks.empty()) return now;
   now.loads = &loads;
-  for (const Load& load : model.loads) now.factor.push_back(load.factor.at(time, 1.0));
-  for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
-    const double since = loads.since.boundaries[q];
-    now.factor.push_back(time < since ? 0.0 : model.boundaries[q].factor.at(time - since, 1.0));
-  }
-  for (const Water& water : model.waters) {
-    now.rise.push_back(water.rise.at(time, 0.0));
-    now.weight.push_back(water.unit_weight * model.thickness);
+  const auto add_factors = [&](const auto& items, const std::vector<Spell>& spells) {
+    for (std::size_t q = 0; q < items.size(); ++q) {
+      const double part = spells[q].part(time);
+      now.factor.push_back(part > 0.0 ? part * items[q].factor.at(time - spells[q].since, 1.0)
+                                      : 0.0);
+    }
+  };
+  add_factors(model.loads, loads.spells.loads);
+  add_factors(model.boundaries, loads.spells.boundaries);
+  for (const Hold& hold : loads.held) now.factor.push_back(hold.at(time));
+  for (std::size_t q = 0; q < model.waters.size(); ++q) {
+    const Water& water = model.waters[q];
+    const Spell& spell = loads.spells.waters[q];
+    const double part = spell.part(time);
+    now.rise.push_back(part > 0.0 ? water.rise.at(time - spell.since, 0.0) : 0.0);
+    now.weight.push_back(part * water.unit_weight * model.thickness);
   }
   return now;
 }
@@ -291,8 +332,10 @@ void add_loads(std::array<Vec2, 3>& f, const BlockSet& b, const LoadsNow& now,
     const double part = now.factor[static_cast<std::size_t>(e.load)] * (e.to - e.from);
     const double middle = 0.5 * (e.from + e.to);
     const Vec2 whole = part * (b.edge_length[e.edge] * e.traction - e.pressure * outward_normal(u));
-    spread(f, b, e.edge, (1.0 - middle) * whole);
-    spread(f, b, end, middle * whole);
+    const double factor = now.factor[static_cast<std::size_t>(e.load)];
+    const EndForces ends = on_vertices(e.from, e.to, e.ends);
+    spread(f, b, e.edge, (1.0 - middle) * whole + factor * ends.at_from);
+    spread(f, b, end, middle * whole + factor * ends.at_to);
   }
   for (Id q = r.wet_begin; q < r.wet_end; ++q) {
     const EndForces on = water_of(b, now, l.wet[q], x, y, 0.0, 1.0);

@@ -9,8 +9,8 @@
 
 namespace edda {
 
-/// Two forces at the ends of a part of a face, N: with the resultant and the moment of what is spread
-/// over it. In a block of constant strain nothing else of it is felt.
+/// Two forces at the ends of a part of a face, N: with the resultant and the moment of what is
+/// spread over it. In a block of constant strain nothing else of it is felt.
 struct EndForces {
   Vec2 at_from, at_to;
 };
@@ -39,8 +39,8 @@ class StressField {
 
   const Model* model_;
   Vec2 origin_;
-  std::vector<Body> bodies_;  ///< later ones count where they overlap
-  std::vector<Ring> rings_;   ///< of walls: bricks as one
+  std::vector<Body> bodies_;       ///< later ones count where they overlap
+  std::vector<Ring> rings_;        ///< of walls: bricks as one
   double low_ = 0.0, high_ = 0.0;  ///< m, extent in x
 };
 

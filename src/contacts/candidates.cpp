@@ -217,6 +217,7 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
   next.vertex.reserve(list.size());
   next.edge.reserve(list.size());
   std::vector<Id> new_of_old(contacts.size(), no_id), old_of_new(list.size(), no_id);
+  if (!contacts.lent.empty()) next.lent.assign(list.size(), 0);
   std::size_t old = 0;
   for (std::size_t k = 0; k < list.size(); ++k) {
     const NearPair pair = list[k];
@@ -235,6 +236,7 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
       for (std::size_t e = 0; e < 2; ++e) next.force[2 * k + e] = contacts.force[2 * old + e];
       next.state[k] = contacts.state[old];
       next.why[k] = contacts.why[old];
+      if (!contacts.lent.empty()) next.lent[k] = contacts.lent[old];
       next.law[k] = contacts.law[old];
       new_of_old[old] = static_cast<Id>(k);
       old_of_new[k] = static_cast<Id>(old);
@@ -245,6 +247,7 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
       start_candidate(next, b, pose, laws, k);
     }
   }
+  next.broken = contacts.broken;
   next.retired_friction = contacts.retired_friction;
   next.retired_damping = contacts.retired_damping;
   next.retired_fracture = contacts.retired_fracture;

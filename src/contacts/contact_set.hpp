@@ -222,6 +222,8 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::vector<std::uint8_t> pairs_moved;  ///< scratch of update_shares()
   std::vector<Id> pair_of;                ///< [nc] a pair the candidate is in, or no_id
   std::vector<RunOn> run_ons;             ///< edges with a reentrant end, by candidate
+  std::vector<std::uint8_t> lent;         ///< [nc] 1: glued for a stage; 2: and bonded besides;
+                                          ///< empty while nothing is
   std::vector<Segment> segments;          ///< the bonded ones
   std::vector<Id> begin_of_vertex;        ///< [nv + 1] candidates of a vertex
 
@@ -239,6 +241,7 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::uint64_t built_at = 0;  ///< step
   std::uint64_t rebuilds = 0;
 
+  std::uint64_t broken = 0;  ///< bonded contacts that have gone to their residual law so far
   double retired_friction = 0.0, retired_damping = 0.0,
          retired_fracture = 0.0;  ///< J, of candidates let go
 

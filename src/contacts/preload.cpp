@@ -122,7 +122,6 @@ void cut_preload(ContactSet& c) {
     load(c, k, c.normal[k], std::copysign(limit, c.shear[k]));
     c.set(k, cs::slipped);
   }
-  c.look_everywhere();
 }
 
 }  // namespace edda

@@ -62,8 +62,7 @@ inline double strain_energy(const Tensor& a, const Tensor& b, double volume, dou
 inline double initial_energy(const Deformation& a, const Deformation& b, const Tensor& s,
                              double volume, double lambda, double mu) {
   const double axx = a.xx - 1.0, ayy = a.yy - 1.0, bxx = b.xx - 1.0, byy = b.yy - 1.0;
-  const double first = s.xx * (axx + bxx) + s.yy * (ayy + byy) +
-                       s.xy * (a.xy + a.yx + b.xy + b.yx);
+  const double first = s.xx * (axx + bxx) + s.yy * (ayy + byy) + s.xy * (a.xy + a.yx + b.xy + b.yx);
   const double second = s.xx * (axx * bxx + a.yx * b.yx) + s.yy * (a.xy * b.xy + ayy * byy) +
                         s.xy * (axx * b.xy + a.xy * bxx + a.yx * byy + ayy * b.yx);
   const double trace = s.xx + s.yy;

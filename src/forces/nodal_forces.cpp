@@ -169,7 +169,7 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
   body_forces(body, values_of(state.x), values_of(state.y), gravity - loads.frame,
               values_of(forces.x), values_of(forces.y), begin, end);
   if (!b.initial_xx.empty()) {
-    const InitialView initial{values_of(b.grad_x),  values_of(b.grad_y),  b.volume.data(),
+    const InitialView initial{values_of(b.grad_x), values_of(b.grad_y), b.volume.data(),
                               b.initial_xx.data(), b.initial_yy.data(), b.initial_xy.data()};
     add_initial_forces(initial, values_of(state.x), values_of(state.y), values_of(forces.x),
                        values_of(forces.y), begin, end);

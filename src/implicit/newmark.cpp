@@ -21,8 +21,8 @@ double strain_energy_of(const BlockSet& b, const State& s, std::size_t i) {
   const Tensor e = corotated_strain(f, rotation(f));
   const double strain = strain_energy(e, e, b.volume[i], b.lame_lambda[i], b.lame_mu[i]);
   if (b.initial_xx.empty()) return strain;
-  return strain + initial_energy(f, f, initial_stress(b, i), b.volume[i], b.lame_lambda[i],
-                                 b.lame_mu[i]);
+  return strain +
+         initial_energy(f, f, initial_stress(b, i), b.volume[i], b.lame_lambda[i], b.lame_mu[i]);
 }
 
 void place_all(const BlockSet& b, const State& s, Pose& pose) {

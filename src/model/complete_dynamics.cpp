@@ -30,7 +30,10 @@ const std::vector<TypeKey>& type_keys() {
   using T = BoundaryType;
   static const std::vector<TypeKey> keys{
       {"stiffness", {T::fixed, T::roller, T::velocity}, false, ""},
-      {"traction", {T::stress}, true, "a traction such as traction = [0.0, -1e5], or an [initial_stress]"},
+      {"traction",
+       {T::stress},
+       true,
+       "a traction such as traction = [0.0, -1e5], or an [initial_stress]"},
       {"velocity", {T::velocity}, true, "a velocity such as velocity = [0.01, 0.0]"},
       {"wave_speeds", {T::viscous}, false, ""},
       {"history", {T::stress, T::velocity}, false, ""},

@@ -59,8 +59,8 @@ void complete_convergence(const Value* node, const Convergence& c, Reading& read
   const std::string key = c.where.key + ".between";
   if (c.between.size() == 2) return;
   add_fault(reading, find(node, "between")->place, key,
-              fmt::format("has {} points, not two", c.between.size()),
-              "give the two points, such as [[-5.0, 0.5], [5.0, 0.5]]");
+            fmt::format("has {} points, not two", c.between.size()),
+            "give the two points, such as [[-5.0, 0.5], [5.0, 0.5]]");
 }
 
 }  // namespace

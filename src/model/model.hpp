@@ -22,6 +22,9 @@ enum class MassKind { matched, covering, consistent };
 enum class Switching { exact, plain };
 enum class LawType { coulomb, glued };
 enum class StageEnd { time, equilibrium };
+enum class StageJoints { as_given, glued };
+enum class StageMasses { as_given, uniform_step };
+enum class FallingBlocks { report, wait };
 enum class BoundaryType { fixed, roller, viscous, stress, velocity };
 enum class ShakingKind { base, inertia, upgoing };
 enum class BoltType { grouted, end };
@@ -246,14 +249,23 @@ struct Solver {
   Where where;
 };
 
+using NumberMap = std::vector<std::pair<std::string, double>>;
+
 /// [[stage]]: a part of the run, until a time or until nothing moves any more.
 struct Stage {
   std::string name;
   StageEnd until = StageEnd::time;
-  double ratio = 1e-5;               ///< of an equilibrium: mean resultant over mean contact force
-  double duration = 10.0;            ///< s; of an equilibrium: the longest
-  bool reset_displacements = false;  ///< at its start
-  Damping damping;                   ///< while it lasts
+  double ratio = 1e-5;                ///< of an equilibrium: mean resultant over mean contact force
+  double duration = 10.0;             ///< s; of an equilibrium: the longest
+  std::vector<std::string> excavate;  ///< openings taken out at its start
+  NumberMap relax;                    ///< part of their forces let go, by opening
+  std::vector<std::string> install;   ///< bolts and patterns put in at its start
+  std::vector<std::string> activate, deactivate;  ///< loads, waters, boundaries, shakings
+  bool reset_displacements = false;               ///< at its start
+  Damping damping;                                ///< while it lasts
+  StageJoints joints = StageJoints::as_given;     ///< while it lasts
+  StageMasses masses = StageMasses::as_given;     ///< while it lasts
+  FallingBlocks falling = FallingBlocks::report;  ///< whether an equilibrium waits for them
   Where where;
 };
 
@@ -261,6 +273,7 @@ struct Output {
   double every = 0.0;             ///< s; default: duration / 20
   double history_every = 0.0;     ///< s; default: duration / 200
   double checkpoint_every = 5.0;  ///< minutes of wall time
+  bool stages = true;             ///< contacts and a checkpoint at the end of each stage
 };
 
 struct Model {

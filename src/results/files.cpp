@@ -53,7 +53,8 @@ bool is_result(const fs::directory_entry& entry) {
   for (const char* known : known_files) {
     if (name == known) return true;
   }
-  return starts_with_and_is(name, "joints_", ".csv");
+  return starts_with_and_is(name, "joints_", ".csv") ||
+         starts_with_and_is(name, "checkpoint_", ".h5");
 }
 
 bool is_frame(const fs::directory_entry& entry) {

@@ -20,8 +20,8 @@ constexpr double most_unbalanced = 1e-3;  // of the mean contact force
 /// gradient makes over the height of the model, over the stress.
 double missed(const Simulation& sim, double density) {
   const InitialStress& s = *sim.model.initial_stress;
-  const Vec2 g = sim.model.gravity, off{(*s.gradient)[2] + density * g.x,
-                                        (*s.gradient)[1] + density * g.y};
+  const Vec2 g = sim.model.gravity,
+             off{(*s.gradient)[2] + density * g.x, (*s.gradient)[1] + density * g.y};
   if (norm(g) > 0.0) return norm(off) / (density * norm(g));
   const auto [low, high] =
       std::minmax_element(sim.blocks.vertex_y.begin(), sim.blocks.vertex_y.end());
@@ -78,8 +78,7 @@ void judge_balance(const Simulation& sim, InitialBalance& balance) {
   }
   const double scale = force_scale(sim, sim.contacts, free_blocks);
   if (sum == 0.0) return;
-  balance.unbalanced =
-      scale > 0.0 ? sum / static_cast<double>(free_blocks.size()) / scale : 1.0;
+  balance.unbalanced = scale > 0.0 ? sum / static_cast<double>(free_blocks.size()) / scale : 1.0;
   balance.largest = scale > 0.0 ? balance.largest / scale : 1.0;
 }
 
@@ -130,18 +129,18 @@ std::vector<std::string> initial_stress_report(const Simulation& sim) {
   if (!sim.initial) return {};
   std::vector<std::string> lines{weight_line(sim)};
   for (const auto& [name, joint] : joints_of(sim)) {
-    lines.push_back(fmt::format(
-        "joint {}: tau/sigma_n up to {:.3g}, tau up to {:.3g} of the strength; {:.3g} % of {:.4g} m "
-        "over it, {:.3g} % in more tension than it bears",
-        name, joint.ratio, joint.mobilised, 100.0 * part(joint.over, joint), joint.length,
-        100.0 * part(joint.torn, joint)));
+    lines.push_back(
+        fmt::format("joint {}: tau/sigma_n up to {:.3g}, tau up to {:.3g} of the strength; {:.3g} "
+                    "% of {:.4g} m "
+                    "over it, {:.3g} % in more tension than it bears",
+                    name, joint.ratio, joint.mobilised, 100.0 * part(joint.over, joint),
+                    joint.length, 100.0 * part(joint.torn, joint)));
   }
-  lines.push_back(fmt::format("forces balance to {:.2g} of the mean contact force, of {} to {:.2g}",
-                              sim.initial->unbalanced,
-                              sim.initial->block == no_id
-                                  ? "no block"
-                                  : block_label(sim.blocks, sim.initial->block),
-                              sim.initial->largest));
+  lines.push_back(fmt::format(
+      "forces balance to {:.2g} of the mean contact force, of {} to {:.2g}",
+      sim.initial->unbalanced,
+      sim.initial->block == no_id ? "no block" : block_label(sim.blocks, sim.initial->block),
+      sim.initial->largest));
   return lines;
 }
 
@@ -150,10 +149,10 @@ void warn_of_initial_stress(const Simulation& sim, std::vector<std::string>& war
   const InitialBalance& balance = *sim.initial;
   if (balance.gradient > most_off) {
     const Vec2 g = sim.model.gravity;
-    const double density =
-        sim.model.materials[static_cast<std::size_t>(balance.material)].density;
+    const double density = sim.model.materials[static_cast<std::size_t>(balance.material)].density;
     warnings.push_back(fmt::format(
-        "initial_stress: its gradient and the weight of {} are {:.2g} % apart, so that the model is "
+        "initial_stress: its gradient and the weight of {} are {:.2g} % apart, so that the model "
+        "is "
         "not in equilibrium: give syy a gradient of {:.6g} and sxy one of {:.6g}, or change the "
         "density or gravity",
         sim.model.materials[static_cast<std::size_t>(balance.material)].name,
@@ -163,7 +162,8 @@ void warn_of_initial_stress(const Simulation& sim, std::vector<std::string>& war
     if (joint.over > 0.0) {
       warnings.push_back(fmt::format(
           "initial_stress: shear is above the strength of joint {} on {:.3g} % of its {:.4g} m (up "
-          "to {:.3g} times, tau/sigma_n {:.3g}) and was cut to it: give a stress that the joints can "
+          "to {:.3g} times, tau/sigma_n {:.3g}) and was cut to it: give a stress that the joints "
+          "can "
           "bear, stronger joints, or let a stage until equilibrium sort it out",
           name, 100.0 * part(joint.over, joint), joint.length, joint.mobilised, joint.ratio));
     }
@@ -176,8 +176,10 @@ void warn_of_initial_stress(const Simulation& sim, std::vector<std::string>& war
   }
   if (balance.unbalanced > most_unbalanced) {
     warnings.push_back(fmt::format(
-        "initial_stress: forces are out of balance at the start by {:.2g} of the mean contact force, "
-        "most on {} at {}: outer faces and openings that nothing holds, or what the lines above say, "
+        "initial_stress: forces are out of balance at the start by {:.2g} of the mean contact "
+        "force, "
+        "most on {} at {}: outer faces and openings that nothing holds, or what the lines above "
+        "say, "
         "set the rock in motion; begin with a stage until equilibrium",
         balance.unbalanced, block_label(sim.blocks, balance.block),
         place_label(centroid(sim.state.x, sim.state.y, balance.block) + sim.blocks.origin)));
@@ -203,7 +205,9 @@ void add_initial_checks(const Simulation& sim, std::vector<Check>& checks) {
     add(fmt::format("initial stress: part of joint {} in too much tension", name),
         part(joint.torn, joint), 0.0);
     checks.push_back({fmt::format("initial stress: largest tau over sigma_n of joint {}", name),
-                      joint.ratio, {}, true});
+                      joint.ratio,
+                      {},
+                      true});
   }
 }
 

@@ -6,8 +6,8 @@ namespace edda {
 
 namespace {
 
-/// The material point at `point`, model coordinates; a fault at `where` with `key` added if there is
-/// none.
+/// The material point at `point`, model coordinates; a fault at `where` with `key` added if there
+/// is none.
 MonitorPoint place(const Simulation& sim, const std::string& name, Vec2 point, const Where& where,
                    const std::string& key, Faults& faults) {
   const Vec2 p = point - sim.blocks.origin;

@@ -8,8 +8,8 @@ namespace edda {
 double utilisation(const RockStrength& strength, const BlockStress& stress) {
   const double mean = 0.5 * (stress.xx + stress.yy);
   const double round = std::hypot(0.5 * (stress.xx - stress.yy), stress.xy);
-  const double least = -std::max(mean + round, stress.zz);      // sigma_3
-  const double largest = -std::min(mean - round, stress.zz);    // sigma_1
+  const double least = -std::max(mean + round, stress.zz);    // sigma_3
+  const double largest = -std::min(mean - round, stress.zz);  // sigma_1
   const double m = strength.ucs / strength.tension - strength.tension / strength.ucs;
   const double u = std::hypot(m * least, 2.0 * (largest - least)) - m * least;
   return 0.5 * u / strength.ucs;

@@ -6,8 +6,8 @@
 
 namespace edda {
 
-/// Utilisation u of intact rock: the stress divided by u, all of it, would lie on the criterion of Hoek
-/// and Brown (1980) for intact rock,
+/// Utilisation u of intact rock: the stress divided by u, all of it, would lie on the criterion of
+/// Hoek and Brown (1980) for intact rock,
 ///   sigma_1 = sigma_3 + ucs sqrt(m sigma_3/ucs + 1),   m = ucs/T - T/ucs,
 /// compression positive, which both strengths fix alone: it meets sigma_1 = ucs at sigma_3 = 0, and
 /// sigma_3 = -T at sigma_1 = 0. So

@@ -23,10 +23,11 @@ struct Progress {
 };
 
 struct RunOptions {
-  std::string folder;                              ///< for results; empty: none are written
-  std::function<void(const Progress&)> progress;   ///< may be empty
-  double progress_every = 0.2;                     ///< s of wall time
-  bool resume = false;                             ///< go on from the checkpoint in the folder
+  std::string folder;                             ///< for results; empty: none are written
+  std::function<void(const Progress&)> progress;  ///< may be empty
+  double progress_every = 0.2;                    ///< s of wall time
+  bool resume = false;                            ///< go on from the checkpoint in the folder
+  std::optional<std::size_t> from_stage{};  ///< go on from that of the end of this stage instead
   std::function<void(const std::string&)> warn{};  ///< of what does not end the run; may be empty
   const std::atomic<bool>* stop = nullptr;  ///< set from anywhere: the run ends as interrupted
 };
@@ -41,8 +42,8 @@ struct PreparedRun {
   double cut_seconds = 0.0;           ///< wall time of cutting and building
 };
 
-/// Cuts, builds and checks. Faults: geometry, monitors and convergence lines outside every block, a time_step above the
-/// critical step (unless allow_unstable).
+/// Cuts, builds and checks. Faults: geometry, monitors and convergence lines outside every block, a
+/// time_step above the critical step (unless allow_unstable).
 Result<PreparedRun> prepare_run(Model model, BlockOrder order = BlockOrder::as_cut);
 
 /// Runs it to its end. Faults only where the folder cannot be used; whatever happens later is an

@@ -79,10 +79,13 @@ void add_checks(Json& j, const std::vector<Check>& checks) {
 
 }  // namespace
 
-/// Blocks whose material gives a strength: the one that uses most of it, and how many more than all.
+/// Blocks whose material gives a strength: the one that uses most of it, and how many more than
+/// all.
 static void add_overstress(const Simulation& sim, std::vector<Check>& checks) {
   const auto& materials = sim.model.materials;
-  if (std::none_of(materials.begin(), materials.end(), [](const Material& m) { return m.strength.has_value(); })) return;
+  if (std::none_of(materials.begin(), materials.end(),
+                   [](const Material& m) { return m.strength.has_value(); }))
+    return;
   double largest = 0.0;
   std::size_t over = 0;
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {

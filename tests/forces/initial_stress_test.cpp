@@ -1,4 +1,5 @@
-// What an initial stress adds to a block's forces is the gradient of an energy, and makes no torque.
+// What an initial stress adds to a block's forces is the gradient of an energy, and makes no
+// torque.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -52,12 +53,12 @@ TEST(InitialStressForce, WorksWhatTheLedgerCounts) {
     const Deformation a = random_deformation(chance), b = random_deformation(chance),
                       c = random_deformation(chance);
     const PiolaStress p = carried_along(b, s.xx, s.yy, s.xy);
-    const double work = 0.5 * volume *
-                        (p.xx * (c.xx - a.xx) + p.xy * (c.xy - a.xy) + p.yx * (c.yx - a.yx) +
-                         p.yy * (c.yy - a.yy));
-    EXPECT_NEAR(initial_energy(b, c, s, volume, lambda, mu) -
-                    initial_energy(a, b, s, volume, lambda, mu),
-                work, 1e-9 * 1e6);
+    const double work =
+        0.5 * volume *
+        (p.xx * (c.xx - a.xx) + p.xy * (c.xy - a.xy) + p.yx * (c.yx - a.yx) + p.yy * (c.yy - a.yy));
+    EXPECT_NEAR(
+        initial_energy(b, c, s, volume, lambda, mu) - initial_energy(a, b, s, volume, lambda, mu),
+        work, 1e-9 * 1e6);
   }
 }
 
@@ -72,8 +73,7 @@ TEST(InitialStressForce, EnergyIsThatOfTheWholeStress) {
   const double start = initial_energy(none, none, s, volume, lambda, mu);
   const double end =
       strain_energy(e, e, volume, lambda, mu) + initial_energy(f, f, s, volume, lambda, mu);
-  EXPECT_NEAR(start,
-              0.5 * volume * (s.xx * (s.xx - part) + s.yy * (s.yy - part)) / (2.0 * mu),
+  EXPECT_NEAR(start, 0.5 * volume * (s.xx * (s.xx - part) + s.yy * (s.yy - part)) / (2.0 * mu),
               1e-9 * start);
   EXPECT_NEAR(end / start, 0.0, 1e-3);
 }

@@ -22,8 +22,10 @@ const std::string two_sets =
     "[[joint_set]]\nangle = 101.0\nspacing = 2.6\norigin = [0.1, 981.3]\n";
 /// Traces that end in the rock and on each other: corners against the middle of edges.
 const std::string short_traces =
-    "[[joint_set]]\nangle = 12.0\nspacing = 1.7\norigin = [0.3, 980.7]\ntrace_length = 6.0\ngap = 0.8\n"
-    "[[joint_set]]\nangle = 78.0\nspacing = 1.9\norigin = [0.3, 980.7]\ntrace_length = 5.0\ngap = 0.3\n"
+    "[[joint_set]]\nangle = 12.0\nspacing = 1.7\norigin = [0.3, 980.7]\ntrace_length = 6.0\ngap = "
+    "0.8\n"
+    "[[joint_set]]\nangle = 78.0\nspacing = 1.9\norigin = [0.3, 980.7]\ntrace_length = 5.0\ngap = "
+    "0.3\n"
     "deviation = { angle = 5.0, spacing = 0.3 }\n"
     "[[joint_set]]\nangle = 130.0\nspacing = 3.1\norigin = [0.0, 981.7]\n";
 const std::string voronoi = "[voronoi]\nsize = 1.8\nsmoothing = 0\nseed = 5\n";
@@ -73,8 +75,8 @@ Watched watch(Simulation& sim) {
     for (std::size_t i = 0; i < b.size(); ++i) {
       const BlockStress t = block_stress(s, at.state, i);
       const Tensor start = initial_stress(b, i);
-      for (const double off : {t.xx - start.xx, t.yy - start.yy, t.xy - start.xy,
-                               t.zz - b.initial_zz[i]}) {
+      for (const double off :
+           {t.xx - start.xx, t.yy - start.yy, t.xy - start.xy, t.zz - b.initial_zz[i]}) {
         keep_largest(w.stress, off / largest);
       }
       if (b.fixed[i]) {
@@ -110,7 +112,8 @@ void expect_stays(const std::string& label, const std::string& toml, double boun
   expect_at_most({40, label, "largest unbalanced ratio", ""}, w.unbalanced, bound);
   expect_at_most({40, label, "largest displacement over sigma L/E", ""}, w.moved, 1e-2);
   expect_at_most({40, label, "change of stress in a block over the largest", ""}, w.stress, bound);
-  expect_at_most({40, label, "reactions with weight, over the weight", ""}, w.reactions, 10.0 * bound);
+  expect_at_most({40, label, "reactions with weight, over the weight", ""}, w.reactions,
+                 10.0 * bound);
   EXPECT_LT(w.drift, 1e-8);
   EXPECT_LT(sim.initial->unbalanced, 1e-6);
   EXPECT_EQ(sim.steps.redone, 0U);
@@ -120,10 +123,11 @@ void expect_stays(const std::string& label, const std::string& toml, double boun
 const std::string explicit_run = "[solver]\nduration = 0.004\n";
 
 TEST(InitialStress, ObliqueJointsKeepATensor) {
-  expect_stays("two sets, tensor, fixed", rock + strong + two_sets + tensor + all_fixed + explicit_run);
-  expect_stays("two sets, tensor, rollers and stress",
-               rock + strong + two_sets + tensor + on_rollers + boundary("'top'", "stress") +
-                   explicit_run);
+  expect_stays("two sets, tensor, fixed",
+               rock + strong + two_sets + tensor + all_fixed + explicit_run);
+  expect_stays(
+      "two sets, tensor, rollers and stress",
+      rock + strong + two_sets + tensor + on_rollers + boundary("'top'", "stress") + explicit_run);
   expect_stays("two sets, tensor, viscous",
                rock + strong + two_sets + tensor + boundary("'top'", "stress") +
                    boundary("'left', 'right', 'bottom'", "viscous") + explicit_run);
@@ -143,36 +147,38 @@ TEST(InitialStress, SoftJointsAreStrainedForIt) {
 }
 
 TEST(InitialStress, OddBlocksKeepATensor) {
-  expect_stays("Voronoi, tensor, fixed", rock + strong + voronoi + tensor + all_fixed + explicit_run);
+  expect_stays("Voronoi, tensor, fixed",
+               rock + strong + voronoi + tensor + all_fixed + explicit_run);
   expect_stays("short traces, tensor, fixed",
                rock + strong + short_traces + tensor + all_fixed + explicit_run);
 }
 
 TEST(InitialStress, WeightOfTheRockAbove) {
-  expect_stays("two sets, k0, free top",
-               rock + rough + two_sets + from_weight("surface = 'outline'") + on_rollers + explicit_run);
-  expect_stays("Voronoi, k0, free top",
-               rock + rough + voronoi + from_weight("surface_y = 1000.0") + on_rollers + explicit_run);
-  expect_stays("Voronoi, k0, 200 m deep",
-               rock + rough + voronoi + from_weight("surface_y = 1200.0") + on_rollers +
-                   boundary("'top'", "stress") + explicit_run);
+  expect_stays(
+      "two sets, k0, free top",
+      rock + rough + two_sets + from_weight("surface = 'outline'") + on_rollers + explicit_run);
+  expect_stays("Voronoi, k0, free top", rock + rough + voronoi + from_weight("surface_y = 1000.0") +
+                                            on_rollers + explicit_run);
+  expect_stays("Voronoi, k0, 200 m deep", rock + rough + voronoi +
+                                              from_weight("surface_y = 1200.0") + on_rollers +
+                                              boundary("'top'", "stress") + explicit_run);
 }
 
 TEST(InitialStress, LayersOfOtherRock) {
-  expect_stays("layers, k0",
-               "[materials.clay]\ndensity = 1900.0\nyoung = 20e9\npoisson = 0.25\n" + rock + rough +
-                   "[[joint_set]]\nangle = 0.0\nspacing = 2.0\norigin = [0, 980]\n"
-                   "[[joint_set]]\nangle = 80.0\nspacing = 2.3\norigin = [0, 980]\n"
-                   "[[region]]\nmaterial = 'clay'\njoint = 'j'\n"
-                   "polygon = [[-10, 986], [10, 986], [10, 992], [-10, 992]]\n" +
-                   from_weight("surface_y = 1000.0") + on_rollers + explicit_run);
+  expect_stays("layers, k0", "[materials.clay]\ndensity = 1900.0\nyoung = 20e9\npoisson = 0.25\n" +
+                                 rock + rough +
+                                 "[[joint_set]]\nangle = 0.0\nspacing = 2.0\norigin = [0, 980]\n"
+                                 "[[joint_set]]\nangle = 80.0\nspacing = 2.3\norigin = [0, 980]\n"
+                                 "[[region]]\nmaterial = 'clay'\njoint = 'j'\n"
+                                 "polygon = [[-10, 986], [10, 986], [10, 992], [-10, 992]]\n" +
+                                 from_weight("surface_y = 1000.0") + on_rollers + explicit_run);
 }
 
 TEST(InitialStress, WaterBearsItsShare) {
   const std::string wet = "[[water]]\ntable = [[-10, 994.5], [10, 994.5]]\n";
-  expect_stays("two sets, k0, water",
-               rock + rough + two_sets + wet + from_weight("surface_y = 1000.0") + on_rollers +
-                   explicit_run);
+  expect_stays("two sets, k0, water", rock + rough + two_sets + wet +
+                                          from_weight("surface_y = 1000.0") + on_rollers +
+                                          explicit_run);
   expect_stays("Voronoi, tensor, water, stress on top",
                rock + strong + voronoi + "[[water]]\ntable = [[-10, 1010], [10, 1030]]\n" + tensor +
                    on_rollers + boundary("'top'", "stress") + explicit_run);
@@ -184,10 +190,9 @@ TEST(InitialStress, OtherMassesAndTheImplicitMethod) {
     expect_stays(mass, ground + explicit_run + "mass = '" + mass + "'\n");
   }
   expect_stays("implicit", ground + explicit_run + "method = 'dda'\ntime_step = 1e-4\n");
-  expect_stays("held blocks",
-               rock + rough + voronoi + from_weight("surface_y = 1000.0") +
-                   boundary("'left', 'right', 'bottom'", "roller") + "[[held]]\npoint = [0, 982]\n" +
-                   explicit_run);
+  expect_stays("held blocks", rock + rough + voronoi + from_weight("surface_y = 1000.0") +
+                                  boundary("'left', 'right', 'bottom'", "roller") +
+                                  "[[held]]\npoint = [0, 982]\n" + explicit_run);
 }
 
 /// Without the preload, or with the wrong gradient, the same ground does move: the test can fail.

@@ -31,24 +31,23 @@ inline Polar exact_stress(double r, double t) {
   const double p = 0.5 * (px + py), d = 0.5 * (px - py), q = radius * radius / (r * r);
   const double c = std::cos(2.0 * t), s = std::sin(2.0 * t);
   return {-(p * (1.0 - q) + d * (1.0 - 4.0 * q + 3.0 * q * q) * c),
-          -(p * (1.0 + q) - d * (1.0 + 3.0 * q * q) * c),
-          d * (1.0 + 2.0 * q - 3.0 * q * q) * s};
+          -(p * (1.0 + q) - d * (1.0 + 3.0 * q * q) * c), d * (1.0 + 2.0 * q - 3.0 * q * q) * s};
 }
 /// Way inwards of the wall when the opening is made.
 inline double exact_closure(const Mass& m, double t) {
   const double p = 0.5 * (px + py), d = 0.5 * (px - py);
-  return radius / (2.0 * m.shear_modulus) *
-         (p + d * (3.0 - 4.0 * m.poisson) * std::cos(2.0 * t));
+  return radius / (2.0 * m.shear_modulus) * (p + d * (3.0 - 4.0 * m.poisson) * std::cos(2.0 * t));
 }
 
-/// Blocks of this size, and joints that give a fixed part of what the blocks do: the mass is the same
-/// for every size. (A block's strain is constant, so a mass of blocks whose joints give nothing could
-/// not bend at all: it is finely divided when joints over rock times (block/radius)^2 is small.)
+/// Blocks of this size, and joints that give a fixed part of what the blocks do: the mass is the
+/// same for every size. (A block's strain is constant, so a mass of blocks whose joints give
+/// nothing could not bend at all: it is finely divided when joints over rock times (block/radius)^2
+/// is small.)
 inline std::string mass_of(double size) {
   return "gravity = [0, 0]\n[materials.rock]\ndensity = 2700.0\nyoung = " + number(young) +
-         "\npoisson = " + number(poisson) + "\n[joints.j]\ntype = 'glued'\nkn = " +
-         number(joints * young / size) + "\nks = " +
-         number(0.4 * joints * young / size) +
+         "\npoisson = " + number(poisson) +
+         "\n[joints.j]\ntype = 'glued'\nkn = " + number(joints * young / size) +
+         "\nks = " + number(0.4 * joints * young / size) +
          "\n[quality]\nmin_edge = " + number(0.05 * size) + "\n";
 }
 inline std::string until_rest(double ratio, const std::string& solver) {
@@ -128,15 +127,14 @@ inline Mass test_mass(double size) {
   const double half = 12.0 * size, p = 1e6;
   double difference = 0.0, across = 0.0;
   for (const bool along_x : {true, false}) {
-    const Simulation sim = settled(
-        mass_of(size) + "[domain]\noutline = " +
-        rectangle(-half, -half, half, half) + "\n[voronoi]\nsize = " + number(size) +
-        "\nseed = 3\n" +
-        "[[boundary]]\nsides = ['" + (along_x ? "left" : "bottom") +
-        "']\ntype = 'stress'\ntraction = " + (along_x ? "[1e6, 0]" : "[0, 1e6]") +
-        "\n[[boundary]]\nsides = ['" + (along_x ? "right" : "top") +
-        "']\ntype = 'stress'\ntraction = " + (along_x ? "[-1e6, 0]" : "[0, -1e6]") + "\n" +
-        until_rest(1e-4, in_steps_for(size)));
+    const Simulation sim =
+        settled(mass_of(size) + "[domain]\noutline = " + rectangle(-half, -half, half, half) +
+                "\n[voronoi]\nsize = " + number(size) + "\nseed = 3\n" +
+                "[[boundary]]\nsides = ['" + (along_x ? "left" : "bottom") +
+                "']\ntype = 'stress'\ntraction = " + (along_x ? "[1e6, 0]" : "[0, 1e6]") +
+                "\n[[boundary]]\nsides = ['" + (along_x ? "right" : "top") +
+                "']\ntype = 'stress'\ntraction = " + (along_x ? "[-1e6, 0]" : "[0, -1e6]") + "\n" +
+                until_rest(1e-4, in_steps_for(size)));
     const Tensor e = mean_strain(sim, 0.75 * half);
     const double main = along_x ? e.xx : e.yy, other = along_x ? e.yy : e.xx;
     difference += -0.5 * (main - other) / p;
@@ -155,8 +153,8 @@ inline Simulation opening(double size) {
       number(2.0 * radius) + ", segments = 64 }\n[initial_stress]\nstress = [" + number(-px) +
       ", " + number(-py) + ", 0]\n[[boundary]]\nalong = " + closed_ring(far, 32) +
       "\ntype = 'fixed'\n" + until_rest(1e-4, in_steps_for(size));
-  // Further out, blocks grow with the distance, and their joints give as much of it as the small ones
-  // do: a law for each ring.
+  // Further out, blocks grow with the distance, and their joints give as much of it as the small
+  // ones do: a law for each ring.
   constexpr int rings = 7;
   const double growth = std::pow(far / fine_to, 1.0 / rings);
   std::string laws;
@@ -164,8 +162,8 @@ inline Simulation opening(double size) {
   for (int k = 0; k < rings; ++k, r *= growth) {
     const std::string law = "ring" + std::to_string(k);
     const double kn = joints * young / (r * (growth - 1.0));
-    laws += "[joints." + law + "]\ntype = 'glued'\nkn = " + number(kn) + "\nks = " +
-            number(0.4 * kn) + "\n";
+    laws += "[joints." + law + "]\ntype = 'glued'\nkn = " + number(kn) +
+            "\nks = " + number(0.4 * kn) + "\n";
     if (k > 0) {
       toml += "[[trace]]\njoint = '" + law + "'\npoints = " + closed_ring(r, 32) + "\n";
     }
@@ -227,8 +225,9 @@ inline Errors compare(const Simulation& sim, const Mass& mass, double size, doub
   const std::string label = "blocks of " + brief(size) + " radii";
   const BlockSet& b = sim.blocks;
   Errors e;
-  Series profile(41, label, {"r", "rr x exact", "rr x", "tt x exact", "tt x", "rr y exact", "rr y",
-                             "tt y exact", "tt y"});
+  Series profile(41, label,
+                 {"r", "rr x exact", "rr x", "tt x exact", "tt x", "rr y exact", "rr y",
+                  "tt y exact", "tt y"});
   // Rings as wide as a block, the first of them the blocks at the wall.
   for (double from = radius + size; from + size <= fine_to - size; from += size) {
     RingFit computed, exact;
