@@ -8,7 +8,7 @@
 namespace edda {
 namespace {
 
-constexpr double density = 2700.0, gravity = 9.81, young = 20e9, poisson = 0.25;
+constexpr double density = 2700.0, gravity = 9.81, young = 20e9;
 
 const std::string rock =
     "[materials.rock]\ndensity = 2700.0\nyoung = 20e9\npoisson = 0.25\n"
