@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/common.hpp"
+#include "run/initial_stress_report.hpp"
 #include "run/labels.hpp"
 #include "run/load_report.hpp"
 #include "run/run_model.hpp"
@@ -66,7 +67,15 @@ int check(const CheckArguments& args) {
   for (const MonitorPoint& m : run.monitors) {
     fmt::print("monitor         {} in {}\n", m.name, block_label(sim.blocks, m.block));
   }
+  for (const ConvergenceLine& line : run.convergences) {
+    fmt::print("convergence     {} from {} to {}\n", line.name,
+               block_label(sim.blocks, line.ends[0].block),
+               block_label(sim.blocks, line.ends[1].block));
+  }
   for (const std::string& line : load_report(sim)) fmt::print("load            {}\n", line);
+  for (const std::string& line : initial_stress_report(sim)) {
+    fmt::print("initial stress  {}\n", line);
+  }
   sim.start(std::min(sim.model.output.history_every, sim.model.solver.duration));
   const double h = sim.state.step,
                steps = std::max(1.0, std::ceil(sim.model.solver.duration / h - 1e-9));

@@ -102,6 +102,9 @@ PlotOptions options_of(const Model& model, std::size_t blocks) {
   options.subtitle = fmt::format("{} block{} as cut", blocks, blocks == 1 ? "" : "s");
   for (const Material& m : model.materials) options.materials.push_back(m.name);
   for (const Monitor& m : model.monitors) options.monitors.push_back({m.name, m.point});
+  for (const Convergence& c : model.convergences) {
+    options.lines.push_back({c.name, {c.between[0], c.between[1]}});
+  }
   options.bolts = bolt_lines(model);
   return options;
 }

@@ -137,7 +137,8 @@ void add_plot(CLI::App& app, int& code) {
       "Fields: " +
       field_names() +
       ".\n"
-      "Held blocks are grey and hatched; monitors are circles with their names, bolts blue lines.");
+      "Held blocks are grey and hatched; monitors are circles with their names, bolts blue lines, "
+      "convergence lines dashed.");
   auto args = std::make_shared<PlotArguments>();
   command->add_option("DIR", args->source, "A folder of results, or a model file")
       ->required()

@@ -7,6 +7,7 @@
 #include "app/common.hpp"
 #include "app/progress.hpp"
 #include "results/files.hpp"
+#include "run/initial_stress_report.hpp"
 #include "run/run_model.hpp"
 
 namespace edda {
@@ -69,6 +70,9 @@ int run(const RunArguments& args) {
     } else {
       fmt::print(stderr, "{} blocks; step {:.4g} s, held by {}\n", sim.blocks.size(),
                  sim.step_limit, ready.governed_by);
+    }
+    for (const std::string& line : initial_stress_report(sim)) {
+      fmt::print(stderr, "initial stress: {}\n", line);
     }
     print_warnings(ready.warnings);
   }

@@ -43,7 +43,8 @@ void attach_line(const Load& load, Index row, const BlockSet& b, double snap, Lo
   faults.push_back(fault);
 }
 
-/// A boundary of type stress: a traction on the faces along it.
+/// A boundary of type stress: a traction on the faces along it. One that names none takes it from
+/// the initial stress (load_initial_stress()).
 void attach_stress(const Model& model, std::size_t row, const BlockSet& b, double snap,
                    Loads& loads, Faults& faults) {
   const Boundary& boundary = model.boundaries[row];
@@ -51,6 +52,7 @@ void attach_stress(const Model& model, std::size_t row, const BlockSet& b, doubl
   const std::vector<Piece> pieces =
       pieces_on(b, boundary_lines(model, b, boundary), Faces::open, snap, in_joints);
   for (const Piece& p : pieces) {
+    if (!boundary.traction) break;
     loads.edges.push_back({p.edge, p.part.from, p.part.to, b.thickness * *boundary.traction, 0.0,
                            static_cast<Index>(model.loads.size() + row)});
   }
@@ -207,6 +209,26 @@ Head head(double s0, double s1, double d0, double d1) {
   return {0.5 * w * (d0 + d1), w * (d0 * (2.0 * s0 + s1) + d1 * (s0 + 2.0 * s1)) / 6.0};
 }
 
+/// What one wet piece does within from and to of its edge, as forces on the two ends of the edge.
+EndForces water_of(const BlockSet& b, const LoadsNow& now, const WetEdge& e,
+                   const std::vector<double>& x, const std::vector<double>& y, double from,
+                   double to) {
+  const double s0 = std::max(from, e.from), s1 = std::min(to, e.to);
+  if (!(s1 > s0)) return {};
+  const auto row = static_cast<std::size_t>(e.water);
+  const Id end = b.next[e.edge];
+  const Vec2 u{x[end] - x[e.edge], y[end] - y[e.edge]};
+  const double slope = (e.level_to - e.level_from) / (e.to - e.from);
+  const auto depth = [&](double s) {
+    const double level = s == e.to ? e.level_to : e.level_from + slope * (s - e.from);
+    return level + now.rise[row] - (y[e.edge] + s * u.y);
+  };
+  const Head h = head(s0, s1, depth(s0), depth(s1));
+  if (h.all == 0.0) return {};
+  const Vec2 inward = -now.weight[row] * outward_normal(u);
+  return {(h.all - h.second) * inward, h.second * inward};
+}
+
 }  // namespace
 
 Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const BlockSet& b) {
@@ -236,6 +258,11 @@ Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const
   if (!faults.empty()) return faults;
   sort_by_block(b, loads);
   return loads;
+}
+
+void add_edge_loads(const BlockSet& b, const std::vector<EdgeLoad>& more, Loads& loads) {
+  loads.edges.insert(loads.edges.end(), more.begin(), more.end());
+  sort_by_block(b, loads);
 }
 
 void keep_forces(const Model& model, const BlockSet& b, const std::vector<KeptForce>& forces,
@@ -305,21 +332,34 @@ void add_loads(std::array<Vec2, 3>& f, const BlockSet& b, const LoadsNow& now,
     const double part = now.factor[static_cast<std::size_t>(e.load)] * (e.to - e.from);
     const double middle = 0.5 * (e.from + e.to);
     const Vec2 whole = part * (b.edge_length[e.edge] * e.traction - e.pressure * outward_normal(u));
-    spread(f, b, e.edge, (1.0 - middle) * whole);
-    spread(f, b, end, middle * whole);
+    const double factor = now.factor[static_cast<std::size_t>(e.load)];
+    const EndForces ends = on_vertices(e.from, e.to, e.ends);
+    spread(f, b, e.edge, (1.0 - middle) * whole + factor * ends.at_from);
+    spread(f, b, end, middle * whole + factor * ends.at_to);
   }
   for (Id q = r.wet_begin; q < r.wet_end; ++q) {
-    const WetEdge& e = l.wet[q];
-    const auto row = static_cast<std::size_t>(e.water);
-    const Id end = b.next[e.edge];
-    const Vec2 u{x[end] - x[e.edge], y[end] - y[e.edge]};
-    const Head h = head(e.from, e.to, e.level_from + now.rise[row] - (y[e.edge] + e.from * u.y),
-                        e.level_to + now.rise[row] - (y[e.edge] + e.to * u.y));
-    if (h.all == 0.0) continue;
-    const Vec2 inward = -now.weight[row] * outward_normal(u);
-    spread(f, b, e.edge, (h.all - h.second) * inward);
-    spread(f, b, end, h.second * inward);
+    const EndForces on = water_of(b, now, l.wet[q], x, y, 0.0, 1.0);
+    if (on.at_from == Vec2{} && on.at_to == Vec2{}) continue;
+    spread(f, b, l.wet[q].edge, on.at_from);
+    spread(f, b, b.next[l.wet[q].edge], on.at_to);
   }
+}
+
+EndForces water_on(const BlockSet& b, const LoadsNow& now, const std::vector<double>& x,
+                   const std::vector<double>& y, Id edge, double from, double to) {
+  EndForces whole;
+  const Id i = b.vertex_block[edge];
+  if (now.loads == nullptr || now.loads->place[i] == no_id || !(to > from)) return whole;
+  const Loads::Range& r = now.loads->range[now.loads->place[i]];
+  for (Id q = r.wet_begin; q < r.wet_end; ++q) {
+    if (now.loads->wet[q].edge != edge) continue;
+    const EndForces on = water_of(b, now, now.loads->wet[q], x, y, from, to);
+    whole.at_from += on.at_from;
+    whole.at_to += on.at_to;
+  }
+  const Vec2 sum = whole.at_from + whole.at_to;
+  const Vec2 at_to = (1.0 / (to - from)) * (whole.at_to - from * sum);
+  return {sum - at_to, at_to};
 }
 
 Vec2 load_on(const BlockSet& b, const LoadsNow& now, const Pose& pose, std::size_t i) {

@@ -9,7 +9,7 @@
 
 #include "attachments/bolts.hpp"
 #include "base/fault.hpp"
-#include "blocks/kinematics.hpp"
+#include "blocks/initial_stress.hpp"
 #include "blocks/pose.hpp"
 #include "lines/polygon_set.hpp"
 #include "model/model.hpp"
@@ -29,10 +29,17 @@ struct PointLoad {
 struct EdgeLoad {
   Id edge;
   double from, to;
-  Vec2 traction;    ///< N per m of edge as it was at the start
-  double pressure;  ///< N per m of edge as it is, against its outward normal
-  Index load;       ///< row of Model::loads, or their number and the row of Model::boundaries
+  Vec2 traction;     ///< N per m of edge as it was at the start
+  double pressure;   ///< N per m of edge as it is, against its outward normal
+  Index load;        ///< row of Model::loads, or their number and the row of Model::boundaries
+  EndForces ends{};  ///< N: of constant direction, on the ends of the part
 };
+
+/// What the forces at the ends of a part are on the two vertices of its edge.
+inline EndForces on_vertices(double from, double to, const EndForces& ends) {
+  return {(1.0 - from) * ends.at_from + (1.0 - to) * ends.at_to,
+          from * ends.at_from + to * ends.at_to};
+}
 
 /// Water on a part of an edge, over which the table is straight.
 struct WetEdge {
@@ -100,6 +107,9 @@ struct LoadsNow {
 /// fault.
 Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const BlockSet& blocks);
 
+/// Adds loads on faces to the lists.
+void add_edge_loads(const BlockSet& blocks, const std::vector<EdgeLoad>& more, Loads& loads);
+
 /// A force on a vertex, N, of something that has gone: rock taken out, or a boundary that another
 /// has taken over from. Its keeper says how much of it is still there: a row of Model::openings, or
 /// their number and the row of the Model::boundaries that took over.
@@ -121,6 +131,11 @@ LoadsNow loads_at(const Model& model, const Loads& loads, double time);
 /// gamma (level + rise - y) across each edge where that is positive.
 void add_loads(std::array<Vec2, 3>& on_nodes, const BlockSet& blocks, const LoadsNow& now,
                const std::vector<double>& x, const std::vector<double>& y, std::size_t i);
+
+/// What the water on the part from s = from to s = to of a face does, as forces on the ends of that
+/// part; its vertices at `x`, `y`.
+EndForces water_on(const BlockSet& blocks, const LoadsNow& now, const std::vector<double>& x,
+                   const std::vector<double>& y, Id edge, double from, double to);
 
 /// Their resultant on block i at the pose, N.
 Vec2 load_on(const BlockSet& blocks, const LoadsNow& now, const Pose& pose, std::size_t i);

@@ -38,6 +38,9 @@ struct BlockSet {
   std::vector<double> lame_lambda, lame_mu;  ///< [nb] Pa, for the model's plane
   std::vector<std::uint8_t> fixed;           ///< [nb] 1: all nodes held
 
+  std::vector<double> initial_xx, initial_yy,
+      initial_xy;  ///< [nb] stress at the start, Pa; all empty without an [initial_stress]
+
   // Warm: contact search and events. Vertices of a block are contiguous, ring after ring; edge v
   // runs from vertex v to next[v] and has the block on its left.
   std::vector<Id> vertex_begin;     ///< [nb + 1] first vertex of each block
@@ -55,6 +58,7 @@ struct BlockSet {
       inverse_mass;  ///< [6][nb] xx order 11 12 13 22 23 33, 1/kg; `consistent` only
   std::vector<double> vertex_x, vertex_y;      ///< [nv] vertices at the start, m
   std::vector<double> area;                    ///< [nb] m2
+  std::vector<double> initial_zz;              ///< [nb] out of plane, Pa; as initial_xx
   std::vector<double> mass;                    ///< [nb] kg
   std::vector<double> centroid_x, centroid_y;  ///< [nb] at the start, m
   std::vector<double> smallest_edge;           ///< [nb] m

@@ -120,6 +120,18 @@ void set_shares(const CornerPair& p, const PairStand& stand, NextShare& of_first
   run_on(of_second, p.second_at_start, p.reach);
 }
 
+/// A bond holds on to an edge that its corner has slid past, and the corner that it has passed has
+/// the whole spring: it does not get it back.
+void leave_to_partner(const ContactSet& c, const CornerPair& p, const PairStand& stand,
+                      NextShare& of_first, NextShare& of_second) {
+  if (!p.same_way() || stand.against == 0.0 ||
+      !apart(stand.first, stand.second, stand.against, zone_of(p))) {
+    return;
+  }
+  if (stand.first < 0.0 && c.is(p.first, contact_state::bonded)) of_first.share = 0.0;
+  if (stand.second < 0.0 && c.is(p.second, contact_state::bonded)) of_second.share = 0.0;
+}
+
 void take_share(ContactSet& c, std::size_t k, const NextShare& next) {
   change_range(c, k, next);
   change_share(c, k, next.share, next.balanced);
@@ -174,6 +186,7 @@ void update_lone_pair(ContactSet& c, std::size_t p) {
   const PairStand now = see(c, p);
   NextShare first = start_share(c, pair.first), second = start_share(c, pair.second);
   set_shares(pair, now, first, second);
+  leave_to_partner(c, pair, now, first, second);
   take_share(c, pair.first, first);
   take_share(c, pair.second, second);
 }
@@ -210,15 +223,36 @@ PairStand seen(const ContactSet& c, std::size_t p) {
   return {m.first_seen[p], m.second_seen[p], m.against[p]};
 }
 
-/// The share of the tangled candidate q: all of its pairs have a say.
+}  // namespace
+
+bool divides(const ContactSet& c, std::size_t p) {
+  const PairStand stand = seen(c, p);
+  return c.pairs[p].same_way() &&
+         !apart(stand.first, stand.second, stand.against, zone_of(c.pairs[p]));
+}
+
+namespace {
+
+/// The share of the tangled candidate q: all of its pairs have a say. Where its corner and another
+/// pass each other, the edge beyond that corner, bent a little, has none: it belongs to the same
+/// joint, and would take away half of a spring that stands for all of it.
 void update_tangled(ContactSet& c, std::size_t q) {
   const Id k = c.tangle.candidate[q];
   NextShare next = start_share(c, k);
+  double passing = 0.0;
   for (Id e = c.tangle.begin[q]; e < c.tangle.begin[q + 1]; ++e) {
-    const CornerPair& pair = c.pairs[c.tangle.pair[e]];
+    const Id p = c.tangle.pair[e];
+    if (divides(c, p)) passing = std::max(passing, seen(c, p).against);
+  }
+  for (Id e = c.tangle.begin[q]; e < c.tangle.begin[q + 1]; ++e) {
+    const Id p = c.tangle.pair[e];
+    const CornerPair& pair = c.pairs[p];
+    const double before = next.share;
     NextShare other{};
     const bool is_first = pair.first == k;
-    set_shares(pair, seen(c, c.tangle.pair[e]), is_first ? next : other, is_first ? other : next);
+    set_shares(pair, seen(c, p), is_first ? next : other, is_first ? other : next);
+    leave_to_partner(c, pair, seen(c, p), is_first ? next : other, is_first ? other : next);
+    if (!pair.same_way()) next.share += passing * (before - next.share);
   }
   take_share(c, k, next);
 }

@@ -33,6 +33,10 @@ void change_share(ContactSet& contacts, std::size_t k, double share, bool balanc
 /// Range of feet and share of every paired candidate, from the feet at step n. A share that grows
 /// without its partner's shrinking is born where it is: its rest penetration is such that the force
 /// does not jump, and what the spring then stores less is booked as dissipated.
+/// Whether the corners of pair p pass each other and divide one spring between them, as they stood
+/// when their shares were last set.
+bool divides(const ContactSet& contacts, std::size_t p);
+
 void update_shares(ContactSet& contacts);
 
 }  // namespace edda

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "blocks/initial_stress.hpp"
 #include "blocks/kinematics.hpp"
 
 namespace edda {
@@ -19,6 +20,21 @@ EDDA_INLINE PiolaStress piola(const Deformation& f, const Rotation& r, double la
   const double lt = lambda * trace;
   return {2.0 * mu * (f.xx - r.c) + lt * r.c, 2.0 * mu * (f.xy + r.s) - lt * r.s,
           2.0 * mu * (f.yx - r.s) + lt * r.s, 2.0 * mu * (f.yy - r.c) + lt * r.c};
+}
+
+/// F sigma0, what an initial stress adds to P: the gradient of sigma0 : (F^T F - I)/2. (R sigma0
+/// would be that of no energy, and make a torque.)
+EDDA_INLINE PiolaStress carried_along(const Deformation& f, double xx, double yy, double xy) {
+  return {f.xx * xx + f.xy * xy, f.xx * xy + f.xy * yy, f.yx * xx + f.yy * xy,
+          f.yx * xy + f.yy * yy};
+}
+
+/// P of block i with its initial stress.
+inline PiolaStress stress_in(const BlockSet& b, std::size_t i, const Deformation& f) {
+  const PiolaStress p = piola(f, rotation(f), b.lame_lambda[i], b.lame_mu[i]);
+  const Tensor s = initial_stress(b, i);
+  const PiolaStress q = carried_along(f, s.xx, s.yy, s.xy);
+  return {p.xx + q.xx, p.xy + q.xy, p.yx + q.yx, p.yy + q.yy};
 }
 
 /// Nodal force f_k = -V P G_k, N.
@@ -39,6 +55,21 @@ inline double strain_energy(const Tensor& a, const Tensor& b, double volume, dou
   return 0.5 * volume *
          (2.0 * mu * (a.xx * b.xx + a.yy * b.yy + 2.0 * a.xy * b.xy) +
           lambda * (a.xx + a.yy) * (b.xx + b.yy));
+}
+
+/// As strain_energy(), of an initial stress s: V [s : C^-1 : s / 2 + (A s B^T - s : I)/2], A and B
+/// the deformations, so that with strain_energy() it is the energy of the whole stress, J.
+inline double initial_energy(const Deformation& a, const Deformation& b, const Tensor& s,
+                             double volume, double lambda, double mu) {
+  const double axx = a.xx - 1.0, ayy = a.yy - 1.0, bxx = b.xx - 1.0, byy = b.yy - 1.0;
+  const double first = s.xx * (axx + bxx) + s.yy * (ayy + byy) + s.xy * (a.xy + a.yx + b.xy + b.yx);
+  const double second = s.xx * (axx * bxx + a.yx * b.yx) + s.yy * (a.xy * b.xy + ayy * byy) +
+                        s.xy * (axx * b.xy + a.xy * bxx + a.yx * byy + ayy * b.yx);
+  const double trace = s.xx + s.yy;
+  const double start = (s.xx * s.xx + s.yy * s.yy + 2.0 * s.xy * s.xy -
+                        lambda / (2.0 * (lambda + mu)) * trace * trace) /
+                       (2.0 * mu);
+  return 0.5 * volume * (start + first + second);
 }
 
 }  // namespace edda

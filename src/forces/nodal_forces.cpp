@@ -131,6 +131,34 @@ EDDA_VECTOR void body_forces(BodyView b, ConstNodeValues x, ConstNodeValues y, V
   for (std::size_t i = begin; i < end; ++i) body_force(b, x, y, gravity, fx, fy, i);
 }
 
+struct InitialView {
+  ConstNodeValues grad_x, grad_y;
+  const double *volume, *xx, *yy, *xy;
+};
+
+/// What initial stress adds.
+EDDA_INLINE void add_initial_force(const InitialView& b, const ConstNodeValues& x,
+                                   const ConstNodeValues& y, const NodeValues& fx,
+                                   const NodeValues& fy, std::size_t i) {
+  const PiolaStress p = carried_along(deformation(b, x, y, i), b.xx[i], b.yy[i], b.xy[i]);
+  const Vec2 f0 = elastic_force(p, b.volume[i], b.grad_x[0][i], b.grad_y[0][i]);
+  const Vec2 f1 = elastic_force(p, b.volume[i], b.grad_x[1][i], b.grad_y[1][i]);
+  const Vec2 f2 = elastic_force(p, b.volume[i], b.grad_x[2][i], b.grad_y[2][i]);
+  fx[0][i] += f0.x;
+  fy[0][i] += f0.y;
+  fx[1][i] += f1.x;
+  fy[1][i] += f1.y;
+  fx[2][i] += f2.x;
+  fy[2][i] += f2.y;
+}
+
+EDDA_VECTOR void add_initial_forces(InitialView b, ConstNodeValues x, ConstNodeValues y,
+                                    NodeValues fx, NodeValues fy, std::size_t begin,
+                                    std::size_t end) {
+#pragma omp simd
+  for (std::size_t i = begin; i < end; ++i) add_initial_force(b, x, y, fx, fy, i);
+}
+
 }  // namespace
 
 void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
@@ -140,6 +168,12 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
                       b.lame_lambda.data(), b.lame_mu.data(),    b.mass.data()};
   body_forces(body, values_of(state.x), values_of(state.y), gravity - loads.frame,
               values_of(forces.x), values_of(forces.y), begin, end);
+  if (!b.initial_xx.empty()) {
+    const InitialView initial{values_of(b.grad_x), values_of(b.grad_y), b.volume.data(),
+                              b.initial_xx.data(), b.initial_yy.data(), b.initial_xy.data()};
+    add_initial_forces(initial, values_of(state.x), values_of(state.y), values_of(forces.x),
+                       values_of(forces.y), begin, end);
+  }
   assert(end - begin <= blocks_at_once);
   std::array<std::uint8_t, blocks_at_once> moves;
   for (std::size_t i = begin; i < end; ++i) {

@@ -19,7 +19,10 @@ constexpr double tightest = 1e-9, loosest = 1e-2, margin = 0.03;
 double strain_energy_of(const BlockSet& b, const State& s, std::size_t i) {
   const Deformation f = deformation(b, s.x, s.y, i);
   const Tensor e = corotated_strain(f, rotation(f));
-  return strain_energy(e, e, b.volume[i], b.lame_lambda[i], b.lame_mu[i]);
+  const double strain = strain_energy(e, e, b.volume[i], b.lame_lambda[i], b.lame_mu[i]);
+  if (b.initial_xx.empty()) return strain;
+  return strain +
+         initial_energy(f, f, initial_stress(b, i), b.volume[i], b.lame_lambda[i], b.lame_mu[i]);
 }
 
 void place_all(const BlockSet& b, const State& s, Pose& pose) {
@@ -134,7 +137,7 @@ double dissipated(const ImplicitSolver& s, const ImplicitScene& scene,
   const Id i = s.block_of[row];
   const BlockSet& b = scene.blocks;
   const Deformation f = deformation(b, state.x, state.y, i);
-  const PiolaStress p = piola(f, rotation(f), b.lame_lambda[i], b.lame_mu[i]);
+  const PiolaStress p = stress_in(b, i, f);
   double sum = s.energy[i] - strain_energy_of(b, state, i);
   const Vector6 step = s.moved.segment<6>(static_cast<Eigen::Index>(6 * row));
   const Vector6 velocity = nodal(state.vx, state.vy, i);

@@ -322,8 +322,10 @@ void complete(const Value& root, Reading& reading) {
   check_names(root, "shaking", model.shakings, reading);
   check_names(root, "bolt", model.bolts, reading);
   check_names(root, "bolt_pattern", model.bolt_patterns, reading);
+  check_names(root, "convergence", model.convergences, reading);
   complete_boundaries(root, reading);
   complete_lines(root, reading);
+  complete_initial_stress(root, reading);
   complete_shakings(root, reading);
   complete_bolts(root, reading);
   complete_geometry(root, reading);

@@ -36,6 +36,10 @@ void complete_loads(const Value& root, Reading& reading);
 /// As complete(), for [[boundary]]: what each type needs, and does not know.
 void complete_boundaries(const Value& root, Reading& reading);
 
+/// As complete(), for [initial_stress], boundaries that take their traction from it, and
+/// [[convergence]].
+void complete_initial_stress(const Value& root, Reading& reading);
+
 /// As complete(), for [[shaking]]: records read from their files, the boundary that is named.
 void complete_shakings(const Value& root, Reading& reading);
 

@@ -30,7 +30,10 @@ const std::vector<TypeKey>& type_keys() {
   using T = BoundaryType;
   static const std::vector<TypeKey> keys{
       {"stiffness", {T::fixed, T::roller, T::velocity}, false, ""},
-      {"traction", {T::stress}, true, "a traction such as traction = [0.0, -1e5]"},
+      {"traction",
+       {T::stress},
+       true,
+       "a traction such as traction = [0.0, -1e5], or an [initial_stress]"},
       {"velocity", {T::velocity}, true, "a velocity such as velocity = [0.01, 0.0]"},
       {"wave_speeds", {T::viscous, T::free_field}, false, ""},
       {"history", {T::stress, T::velocity}, false, ""},
@@ -51,7 +54,8 @@ void check_type(const Value* node, const Boundary& boundary, Reading& reading) {
       add_fault(reading, value->place, path,
                 fmt::format("means nothing to type \"{}\"", name_of(boundary.type)),
                 "leave it out, or give another type: " + quoted_list(types));
-    } else if (value == nullptr && known && key.required) {
+    } else if (value == nullptr && known && key.required &&
+               !(key.name == "traction" && reading.model.initial_stress)) {
       add_fault(reading, node->place, path, "is missing", std::string("give ") + key.example);
     }
   }

@@ -43,6 +43,8 @@ std::string expected(const Key& key) {
       return rule.dimension == Dimension::length ? "a point such as [1.0, 2.5]"
              : rule.dimension == Dimension::load ? "two numbers such as [0.0, -1e5]"
                                                  : "two numbers such as [0.0, -9.81]";
+    case Kind::triple:
+      return "three numbers such as [-24e6, -24e6, 0.0]";
     case Kind::polyline:
       return "a list of points such as [[0, 0], [2, 1]]";
     case Kind::polygon:

@@ -27,6 +27,12 @@ constexpr std::array material_keys{
     Key{"unit_weight", nullptr, number(D::unit_weight, above(0)), otherwise("density * |gravity|"), "Weight per volume, in place of density; divided by |gravity|, or by 9.81 m/s2 where that is zero."},
     Key{"young", at<&Material::young>, number(D::stress, above(0)), required, "Young's modulus."},
     Key{"poisson", at<&Material::poisson>, number(D::plain, between(-1, 0.5)), required, "Poisson's ratio."},
+    Key{"strength", at<&Material::strength>, table, otherwise("none: blocks are not judged"), "Strength of the intact rock; blocks stay elastic, over-stressed ones are reported."},
+};
+
+constexpr std::array rock_strength_keys{
+    Key{"ucs", at<&RockStrength::ucs>, number(D::stress, above(0)), required, "Uniaxial compressive strength of the intact rock."},
+    Key{"tension", at<&RockStrength::tension>, number(D::stress, above(0)), required, "Its tensile strength."},
 };
 
 constexpr std::array strength_keys{
@@ -67,10 +73,20 @@ constexpr std::array boundary_keys{
     Key{"along", at<&Boundary::along>, polyline, otherwise("none; either this or sides"), "The polyline that the boundary follows."},
     Key{"type", at<&Boundary::type>, choice, initial, "Springs in x and y (fixed) or only across the line (roller) on each block vertex on it; springs drawn along at a velocity; dashpots that let waves out (viscous); a traction on the edges (stress); upright sides that an earthquake moves as the ground beyond them (free-field)."},
     Key{"stiffness", at<&Boundary::stiffness>, number(D::stiffness, above(0)), otherwise("contact.normal_stiffness"), "Types fixed, roller and velocity: spring per block vertex."},
-    Key{"traction", at<&Boundary::traction>, shape(Kind::point, D::stress), otherwise("none; required by type stress"), "Type stress: traction on the edges along the line, of constant direction."},
+    Key{"traction", at<&Boundary::traction>, shape(Kind::point, D::stress), otherwise("that of [initial_stress]; required by type stress without one"), "Type stress: traction on the edges along the line, of constant direction."},
     Key{"velocity", at<&Boundary::velocity>, shape(Kind::point, D::velocity), otherwise("none; required by type velocity"), "Type velocity: how fast the vertices on the line are moved."},
     Key{"wave_speeds", at<&Boundary::wave_speeds>, shape(Kind::point, D::velocity, above(0)), otherwise("those of the unjointed rock of each block"), "Types viscous and free-field: speeds of P and S waves in the jointed rock."},
     Key{"history", at<&Boundary::history>, file, otherwise("constant from the start"), "Types stress and velocity: CSV file of time and factor, linear between its rows."},
+};
+
+constexpr std::array initial_stress_keys{
+    Key{"stress", at<&InitialStress::stress>, shape(Kind::triple, D::stress), otherwise("none; either this or k0"), "Total stress xx, yy and xy at y = at_y, positive in tension."},
+    Key{"at_y", at<&InitialStress::at_y>, number(D::length), otherwise("0"), "Level that the stress is given for."},
+    Key{"gradient", at<&InitialStress::gradient>, shape(Kind::triple, D::stress_gradient), otherwise("[0, 0, 0]"), "What is added to xx, yy and xy per metre of y."},
+    Key{"k0", at<&InitialStress::k0>, number(D::plain, from(0)), otherwise("none; either this or stress"), "Horizontal over vertical stress; the vertical one is the weight of the rock above."},
+    Key{"k0_out", at<&InitialStress::k0_out>, number(D::plain, from(0)), otherwise("k0; with stress: zz is nu (xx + yy)"), "Out-of-plane over vertical stress, zz / yy."},
+    Key{"surface_y", at<&InitialStress::surface_y>, number(D::length), otherwise("none; k0 asks for it, or for surface"), "Level of the ground's surface; it may lie above the model."},
+    Key{"surface", at<&InitialStress::surface>, choice, initial, "Where the ground ends: at a level (surface_y), or at the upper side of the domain's outline."},
 };
 
 constexpr std::array load_keys{
@@ -153,6 +169,11 @@ constexpr std::array monitor_keys{
     Key{"point", at<&Monitor::point>, point, required, "A material point of the block that holds it at the start."},
 };
 
+constexpr std::array convergence_keys{
+    Key{"name", at<&Convergence::name>, naming, required, "What the columns of history.csv and stages.csv are called."},
+    Key{"between", at<&Convergence::between>, polyline, required, "Two material points; that they come nearer counts positive."},
+};
+
 constexpr std::array damping_keys{
     Key{"mass", at<&Damping::mass>, number(D::rate, from(0)), initial, "Mass-proportional damping."},
     Key{"local", at<&Damping::local>, number(D::plain, from_below(0, 1)), initial, "Local damping (Cundall), a fraction of the unbalanced force."},
@@ -222,6 +243,7 @@ constexpr std::array all_sections{
     section<&Model::arches>("arch", Shape::list, arch_keys, "Voussoirs."),
     section<&Model::quality>("quality", Shape::table, quality_keys, "Which cut blocks are too small or too thin, and what becomes of them."),
     section<&Model::pairs>("contact_pair", Shape::list, pair_keys, "The law where two joints or two materials meet."),
+    section<&Model::initial_stress>("initial_stress", Shape::table, initial_stress_keys, "Stress in the rock at the start, in blocks and contacts."),
     section<&Model::boundaries>("boundary", Shape::list, boundary_keys, "What holds, drives or damps the model at a line."),
     section<&Model::loads>("load", Shape::list, load_keys, "A force at a point, or a traction or pressure along a line."),
     section<&Model::waters>("water", Shape::list, water_keys, "Water in joints and on faces below a table."),
@@ -229,6 +251,7 @@ constexpr std::array all_sections{
     section<&Model::bolts>("bolt", Shape::list, bolt_keys, "A rock bolt."),
     section<&Model::bolt_patterns>("bolt_pattern", Shape::list, bolt_pattern_keys, "Bolts round an opening."),
     section<&Model::monitors>("monitor", Shape::list, monitor_keys, "A point whose history is written."),
+    section<&Model::convergences>("convergence", Shape::list, convergence_keys, "Two points whose coming together is written."),
     section<&Model::stages>("stage", Shape::list, stage_keys, "A part of the run, one after the other."),
     section<&Model::solver>("solver", Shape::table, solver_keys, "How the motion is computed."),
     section<&Model::output>("output", Shape::table, output_keys, "What is written, and how often."),
@@ -239,6 +262,9 @@ constexpr std::array all_sections{
 
 std::span<const Key> keys_of(const Strength&) {
   return strength_keys;
+}
+std::span<const Key> keys_of(const RockStrength&) {
+  return rock_strength_keys;
 }
 std::span<const Key> keys_of(const Damping&) {
   return damping_keys;

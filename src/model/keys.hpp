@@ -28,6 +28,7 @@ enum class Kind {
   material,    ///< name of a material
   joint,       ///< name of a joint law
   point,       ///< two numbers
+  triple,      ///< three numbers
   polyline,    ///< two points or more
   polygon,     ///< three points or more, with an area, not crossing itself
   words,       ///< a list of distinct words, each one of Rule::words
@@ -88,8 +89,8 @@ using JointMap = std::vector<std::pair<std::string, Index>>;
 /// Typed access to the field that a key fills.
 using Slot = std::variant<bool*, int*, long long*, double*, std::optional<double>*,
                           std::optional<long long>*, std::string*, JointMap*, NumberMap*, Vec2*,
-                          std::optional<Vec2>*, std::vector<Vec2>*, std::vector<std::string>*,
-                          Choice, SubTable>;
+                          std::optional<Vec2>*, Triple*, std::optional<Triple>*, std::vector<Vec2>*,
+                          std::vector<std::string>*, Choice, SubTable>;
 
 struct Key {
   std::string_view name;

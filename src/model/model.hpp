@@ -28,6 +28,16 @@ enum class FallingBlocks { report, wait };
 enum class BoundaryType { fixed, roller, viscous, stress, velocity, free_field };
 enum class ShakingKind { base, inertia, upgoing };
 enum class BoltType { grouted, end };
+enum class SurfaceKind { level, outline };
+
+/// Three numbers, such as the components xx, yy and xy of a stress.
+using Triple = std::array<double, 3>;
+
+/// Strength of intact rock.
+struct RockStrength {
+  double ucs = 0.0;      ///< Pa, uniaxial compressive
+  double tension = 0.0;  ///< Pa, tensile
+};
 
 struct Material {
   std::string name;
@@ -35,6 +45,7 @@ struct Material {
   double young = 0.0;    ///< Pa
   double poisson = 0.0;
   Where where;
+  std::optional<RockStrength> strength{};
 };
 
 /// Shear and tensile strength of a joint.
@@ -90,7 +101,8 @@ struct Boundary {
       sides;                ///< of "left", "right", "bottom", "top"; empty where `along` is given
   std::vector<Vec2> along;  ///< polyline
   double stiffness = 0.0;   ///< Pa: spring per block vertex on it; fixed, roller, velocity
-  std::optional<Vec2> traction;     ///< Pa, on the edges along it; stress
+  std::optional<Vec2>
+      traction;  ///< Pa, on the edges along it; stress; empty: that of the initial stress
   std::optional<Vec2> velocity;     ///< m/s; velocity
   std::optional<Vec2> wave_speeds;  ///< m/s, P and S; viscous; empty: the rock's own
   std::string history;              ///< path of a file of time, factor; stress, velocity
@@ -125,6 +137,19 @@ struct Shaking {
   std::string boundary;  ///< upgoing: name of the viscous boundary that the wave comes in through
   Index enters = none;   ///< its row
   Accelerogram record;   ///< of the file
+  Where where;
+};
+
+/// [initial_stress]: either stress at a level with its gradient, or the weight of the rock above
+/// with k0. Stresses are total, positive in tension.
+struct InitialStress {
+  std::optional<Triple> stress;     ///< Pa, xx, yy and xy at y = at_y
+  std::optional<double> at_y;       ///< m; with stress, filled with 0
+  std::optional<Triple> gradient;   ///< Pa per metre of y; with stress, filled with 0
+  std::optional<double> k0;         ///< xx / yy
+  std::optional<double> k0_out;     ///< zz / yy; empty: k0, or nu (xx + yy) where stress is given
+  std::optional<double> surface_y;  ///< m
+  SurfaceKind surface = SurfaceKind::level;  ///< level: at surface_y
   Where where;
 };
 
@@ -193,6 +218,13 @@ struct BoltPattern {
 struct Monitor {
   std::string name;
   Vec2 point;
+  Where where;
+};
+
+/// [[convergence]]: how much nearer two material points come to each other.
+struct Convergence {
+  std::string name;
+  std::vector<Vec2> between;  ///< two points
   Where where;
 };
 
@@ -270,6 +302,7 @@ struct Model {
   std::vector<Arch> arches;
   Quality quality;
   std::vector<ContactPair> pairs;
+  std::optional<InitialStress> initial_stress;
   std::vector<Boundary> boundaries;
   std::vector<Load> loads;
   std::vector<Water> waters;
@@ -277,6 +310,7 @@ struct Model {
   std::vector<Bolt> bolts;
   std::vector<BoltPattern> bolt_patterns;
   std::vector<Monitor> monitors;
+  std::vector<Convergence> convergences;
   std::vector<Stage> stages;  ///< in sequence; none: one, until solver.duration
   Solver solver;
   Output output;

@@ -26,7 +26,8 @@ enum class Dimension {
   rate,              ///< 1/s
   angular_velocity,  ///< rad/s
   area,
-  per_length,  ///< 1/m
+  per_length,       ///< 1/m
+  stress_gradient,  ///< Pa/m
 };
 
 struct DimensionInfo {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -90,22 +91,37 @@ std::optional<long long> read_integer(const Spot& spot) {
   return value;
 }
 
-/// A point of two numbers; its faults carry `path`, which already holds the number of the point.
-std::optional<Vec2> read_point(const Value& value, const Key& key, const std::string& path,
-                               Reading& reading) {
-  const List* pair = as<List>(value);
-  if (pair == nullptr || pair->size() != 2) {
+/// `count` numbers; faults carry `path`, which already holds the number of a point in its list.
+std::optional<std::array<double, 3>> read_numbers(const Value& value, const Key& key,
+                                                  const std::string& path, std::size_t count,
+                                                  Reading& reading) {
+  const List* list = as<List>(value);
+  if (list == nullptr || list->size() != count) {
     add_fault(reading, value.place, path,
-              pair == nullptr ? "is " + shown(value)
-                              : fmt::format("has {} numbers, not two", pair->size()),
-              key.rule.kind == Kind::point ? "expects " + expected(key)
-                                           : "expects a point such as [1.0, 2.5]");
+              list == nullptr ? "is " + shown(value)
+                              : fmt::format("has {} numbers, not {}", list->size(),
+                                            count == 2 ? "two" : "three"),
+              key.rule.kind == Kind::point || key.rule.kind == Kind::triple
+                  ? "expects " + expected(key)
+                  : "expects a point such as [1.0, 2.5]");
     return std::nullopt;
   }
-  const auto x = read_number((*pair)[0], key, path + "[0]", reading);
-  const auto y = read_number((*pair)[1], key, path + "[1]", reading);
-  if (!x || !y) return std::nullopt;
-  return Vec2{*x, *y};
+  std::array<double, 3> numbers{};
+  bool sound = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto number = read_number((*list)[i], key, fmt::format("{}[{}]", path, i), reading);
+    sound = sound && number.has_value();
+    numbers[i] = number.value_or(0.0);
+  }
+  if (!sound) return std::nullopt;
+  return numbers;
+}
+
+std::optional<Vec2> read_point(const Value& value, const Key& key, const std::string& path,
+                               Reading& reading) {
+  const auto pair = read_numbers(value, key, path, 2, reading);
+  if (!pair) return std::nullopt;
+  return Vec2{(*pair)[0], (*pair)[1]};
 }
 
 /// A list of points, empty where anything is wrong with it.
@@ -236,6 +252,13 @@ struct ReadInto {
   void operator()(std::optional<Vec2>* field) const {
     *field = read_point(spot.value, spot.key, spot.path, spot.reading);
   }
+  void operator()(Triple* field) const {
+    const auto value = read_numbers(spot.value, spot.key, spot.path, 3, spot.reading);
+    if (value) *field = *value;
+  }
+  void operator()(std::optional<Triple>* field) const {
+    *field = read_numbers(spot.value, spot.key, spot.path, 3, spot.reading);
+  }
   void operator()(std::vector<Vec2>* field) const { *field = read_points(spot); }
   void operator()(std::vector<std::string>* field) const { *field = read_words(spot); }
   void operator()(const Choice& choice) const {
@@ -364,10 +387,6 @@ void read_named(const Section& section, const Value& value, Reading& reading) {
   }
 }
 
-bool starts_above_zero(const Range& range) {
-  return range.low_open && range.low == 0.0;
-}
-
 }  // namespace
 
 Where where_of(const Reading& reading, Place place, std::string key) {
@@ -388,44 +407,6 @@ std::string label(const Value& element, std::size_t number) {
   const Value* name = find(&element, "name");
   const std::string* text = name == nullptr ? nullptr : as<std::string>(*name);
   return text == nullptr || text->empty() ? std::to_string(number) : *text;
-}
-
-std::optional<double> read_number(const Value& value, const Key& key, const std::string& path,
-                                  Reading& reading) {
-  const auto fails = [&](std::string problem, std::string remedy) {
-    add_fault(reading, value.place, path, std::move(problem), std::move(remedy));
-    return std::nullopt;
-  };
-  // Of a point the key asks for a pair, of its elements for a number.
-  Key scalar = key;
-  if (key.rule.kind != Kind::number) scalar.rule.kind = Kind::number;
-  double number = 0.0;
-  if (const long long* integer = as<long long>(value)) {
-    number = static_cast<double>(*integer);
-  } else if (const double* real = as<double>(value)) {
-    number = *real;
-  } else if (const std::string* text = as<std::string>(value)) {
-    const Quantity quantity = parse_quantity(*text, key.rule.dimension);
-    if (!quantity.value) return fails(quantity.problem, "expects " + expected(scalar));
-    number = *quantity.value;
-  } else {
-    return fails("is " + shown(value), "expects " + expected(scalar));
-  }
-  const double largest = key.rule.dimension == Dimension::length ? largest_length : largest_number;
-  if (!std::isfinite(number)) return fails("is not a finite number", "expects " + expected(scalar));
-  if (std::abs(number) > largest) {
-    return fails(fmt::format("{} is too large", shown(value)),
-                 fmt::format("give at most {:.0e} in size", largest));
-  }
-  if (starts_above_zero(key.rule.range) && number > 0.0 && number < smallest_positive) {
-    return fails(fmt::format("{} is too small", shown(value)),
-                 fmt::format("give at least {:.0e}", smallest_positive));
-  }
-  if (!key.rule.range.holds(number)) {
-    return fails(fmt::format("{} is out of range", shown(value)),
-                 "expects " + expected_range(scalar.rule));
-  }
-  return number;
 }
 
 void read_sections(const Value& root, Reading& reading) {

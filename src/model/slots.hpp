@@ -30,6 +30,7 @@ inline constexpr std::array<std::string_view, 6> boundary_names{"fixed",  "rolle
                                                                 "stress", "velocity", "free-field"};
 inline constexpr std::array<std::string_view, 3> shaking_names{"base", "inertia", "upgoing"};
 inline constexpr std::array<std::string_view, 2> bolt_names{"grouted", "end"};
+inline constexpr std::array<std::string_view, 2> surface_names{"level", "outline"};
 inline constexpr std::array<std::string_view, 4> side_names{"left", "right", "bottom", "top"};
 
 constexpr std::span<const std::string_view> names_of(Plane) {
@@ -83,8 +84,12 @@ constexpr std::span<const std::string_view> names_of(ShakingKind) {
 constexpr std::span<const std::string_view> names_of(BoltType) {
   return bolt_names;
 }
+constexpr std::span<const std::string_view> names_of(SurfaceKind) {
+  return surface_names;
+}
 
 // Keys of the tables inside a key.
+std::span<const Key> keys_of(const RockStrength&);
 std::span<const Key> keys_of(const Strength&);
 std::span<const Key> keys_of(const Damping&);
 std::span<const Key> keys_of(const Deviation&);

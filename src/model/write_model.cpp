@@ -91,6 +91,12 @@ struct Write {
   std::string operator()(const std::string* field) const {
     return key.rule.kind != Kind::text && field->empty() ? std::string{} : written(*field);
   }
+  std::string operator()(const Triple* field) const {
+    return written(std::vector<double>(field->begin(), field->end()));
+  }
+  std::string operator()(const std::optional<Triple>* field) const {
+    return *field ? (*this)(&**field) : std::string{};
+  }
   std::string operator()(const Vec2* field) const { return written(*field); }
   std::string operator()(const std::optional<Vec2>* field) const {
     return *field ? written(**field) : std::string{};

@@ -238,6 +238,31 @@ void draw_monitors(Canvas& canvas, const Scene& s, const PlotOptions& options) {
   }
 }
 
+/// Lines whose ends come nearer, from block to block.
+void draw_lines(Canvas& canvas, const Scene& s, const PlotOptions& options) {
+  const double u = s.layout.unit;
+  for (const PlotLine& line : options.lines) {
+    const Vec2 way = line.start[1] - line.start[0];
+    // Ends lie on the walls: a hair beyond they are within a block.
+    const auto end = [&](Vec2 at, Vec2 beyond, Vec2& now) {
+      return follow(s.grid, s.points, at, now) || follow(s.grid, s.points, at + beyond, now);
+    };
+    Vec2 a, b;
+    if (!end(line.start[0], -1e-3 * way, a) || !end(line.start[1], 1e-3 * way, b)) continue;
+    const Vec2 p = s.layout.px(a), q = s.layout.px(b);
+    const double dash = 8.0 * u;
+    canvas.colour(monitor_colour);
+    cairo_set_dash(canvas.cr(), &dash, 1, 0.0);
+    cairo_set_line_width(canvas.cr(), 2.0 * u);
+    cairo_move_to(canvas.cr(), p.x, p.y);
+    cairo_line_to(canvas.cr(), q.x, q.y);
+    cairo_stroke(canvas.cr());
+    cairo_set_dash(canvas.cr(), nullptr, 0, 0.0);
+    canvas.text(line.name, 0.5 * (p + q) + Vec2{6.0 * u, -6.0 * u}, 22.0 * u, Align::left, true,
+                true);
+  }
+}
+
 /// Bolts, carried along by the blocks that they go through.
 void draw_bolts(Canvas& canvas, const Scene& s, const PlotOptions& options) {
   constexpr int pieces = 12;
@@ -319,6 +344,7 @@ Trouble plot(const Grid& blocks, const Grid* contacts, const ShownField& field,
     draw_contact_field(canvas, scene, *contacts, field, scale);
   const std::string note = draw_vectors(canvas, scene, contacts, options);
   draw_bolts(canvas, scene, options);
+  draw_lines(canvas, scene, options);
   draw_monitors(canvas, scene, options);
   cairo_restore(canvas.cr());
   draw_axes(canvas, layout);

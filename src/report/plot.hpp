@@ -17,11 +17,18 @@ struct PlotMonitor {
   Vec2 start;  ///< where the point was at the start, m
 };
 
+/// A line between two material points.
+struct PlotLine {
+  std::string name;
+  std::array<Vec2, 2> start;  ///< where its ends were at the start, m
+};
+
 struct PlotOptions {
   std::string title;
   std::string subtitle;                ///< such as the time
   std::vector<std::string> materials;  ///< names, for the legend
   std::vector<PlotMonitor> monitors;
+  std::vector<PlotLine> lines;             ///< [[convergence]]
   std::vector<std::array<Vec2, 2>> bolts;  ///< from where to where they were at the start, m
   double scale = 1.0;                      ///< of the displacements drawn
   std::string vectors;    ///< "displacement" or "velocity": arrows at block centres; empty: none

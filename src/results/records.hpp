@@ -23,6 +23,7 @@ struct BlockRecord {
   Vec2 velocity;                                      ///< of the centroid, m/s
   double omega = 0.0;                                 ///< rad/s
   double sxx = 0.0, syy = 0.0, szz = 0.0, sxy = 0.0;  ///< Pa
+  double overstress = 0.0;  ///< part of the rock's strength that is used, 0 where none is given
 };
 
 /// Numbers as in the frames.

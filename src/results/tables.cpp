@@ -9,13 +9,14 @@ namespace edda {
 Trouble write_blocks_csv(const std::string& path, std::span<const BlockRecord> blocks) {
   Csv csv;
   csv.header({"id", "name", "material", "x", "y", "area", "ux", "uy", "rotation", "vx", "vy",
-              "omega", "sxx", "syy", "szz", "sxy"});
+              "omega", "sxx", "syy", "szz", "sxy", "overstress"});
   return write_rows(path, csv, blocks.size(), [&](std::size_t i) {
     const BlockRecord& b = blocks[i];
     csv.add(b.id).add(b.name).add(b.material).add(b.position.x).add(b.position.y).add(b.area);
     csv.add(b.displacement.x).add(b.displacement.y).add(b.rotation);
     csv.add(b.velocity.x).add(b.velocity.y).add(b.omega);
-    csv.add(b.sxx).add(b.syy).add(b.szz).add(b.sxy).end();
+    csv.add(b.sxx).add(b.syy).add(b.szz).add(b.sxy);
+    csv.add(b.overstress).end();
   });
 }
 

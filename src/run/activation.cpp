@@ -64,8 +64,10 @@ std::vector<KeptForce> Simulation::release_boundaries(const std::vector<Index>& 
     const double part = now.factor[static_cast<std::size_t>(e.load)] * (e.to - e.from);
     const double middle = 0.5 * (e.from + e.to);
     const Vec2 whole = (part * blocks.edge_length[e.edge]) * e.traction;
-    borne.push_back({e.edge, (1.0 - middle) * whole, none});
-    borne.push_back({blocks.next[e.edge], middle * whole, none});
+    const double factor = now.factor[static_cast<std::size_t>(e.load)];
+    const EndForces ends = on_vertices(e.from, e.to, e.ends);
+    borne.push_back({e.edge, (1.0 - middle) * whole + factor * ends.at_from, none});
+    borne.push_back({blocks.next[e.edge], middle * whole + factor * ends.at_to, none});
   }
   for (std::size_t q = 0; q < springs.size(); ++q) {
     if (!names_row(rows, springs.boundary[q])) continue;

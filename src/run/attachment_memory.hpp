@@ -140,6 +140,10 @@ void list_kept(Archive& a, Simulation& s) {
     for (std::size_t k = 0; k < keepers; ++k) {
       s.loads.held[k] = {part[k], before[k], changed[k]};
     }
+    for (std::size_t k = 0; k < keepers; ++k) {
+      drop_forces(s.model, s.blocks, static_cast<Index>(k), s.loads);
+    }
+    s.kept.clear();
     for (std::size_t k = 0; k < vertex.size(); ++k) {
       s.kept.push_back({vertex[k], force[k], keeper[k]});
     }

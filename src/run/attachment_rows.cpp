@@ -47,7 +47,8 @@ std::vector<Vec2> reactions(const Simulation& sim, const Instant& at) {
     const auto row = static_cast<std::size_t>(e.load), loads = sim.model.loads.size();
     if (row < loads || !is_free(sim.blocks, sim.state, sim.blocks.vertex_block[e.edge])) continue;
     sum[row - loads] +=
-        now.factor[row] * (e.to - e.from) * sim.blocks.edge_length[e.edge] * e.traction;
+        now.factor[row] * ((e.to - e.from) * sim.blocks.edge_length[e.edge] * e.traction +
+                           e.ends.at_from + e.ends.at_to);
   }
   // What a boundary has taken over from another it bears as well.
   const auto openings = static_cast<Index>(sim.model.openings.size());

@@ -115,7 +115,7 @@ Outcome Driver::run() {
       go_on();
     } else {
       outcome_.critical_step = sim_.bound.critical_step;
-      if (!ended_by(recorder_.begin(sim_, run_.monitors))) go();
+      if (!ended_by(recorder_.begin(sim_, run_.monitors, run_.convergences))) go();
     }
   } catch (const std::bad_alloc&) {
     end(Status::failed,
@@ -206,7 +206,8 @@ bool Driver::record(const Event& event) {
     outcome_.unbalanced = unbalanced_ratio(sim_, instant);
     outcome_.reaction_error = reaction_error(sim_, instant);
     last_row_ = sim_.state.time;
-    fine = !ended_by(recorder_.row(sim_, instant, run_.monitors, ledger, outcome_.unbalanced));
+    fine = !ended_by(recorder_.row(sim_, instant, run_.monitors, run_.convergences, ledger,
+                                   outcome_.unbalanced));
   }
   if (fine && event.frame && recorder_.writes()) {
     last_frame_ = sim_.state.time;

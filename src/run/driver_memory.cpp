@@ -159,6 +159,12 @@ void Driver::list_stages(Archive& a) {
     a(of + "open", r.open);
     a(of + "broken", r.broken);
     a(of + "yielded", r.yielded);
+    a(of + "convergences", r.convergences);
+    if constexpr (Archive::loads) {
+      if (r.convergences.size() != run_.convergences.size()) {
+        a.refuse("stages do not fit the model");
+      }
+    }
   }
 }
 

@@ -69,6 +69,9 @@ bool Driver::end_stage(bool at_rest) {
   const bool reached = at_rest || stage.until == StageEnd::time;
   if (!sim_.model.stages.empty()) {
     ends_.push_back(stage_record(sim_, outcome_.ledger, stage_start_, stage_steps_, reached));
+    for (const ConvergenceLine& line : run_.convergences) {
+      ends_.back().convergences.push_back(convergence(sim_.state, line));
+    }
     if (ended_by(recorder_.stages(stages_csv(sim_.model, ends_)))) return false;
     save_stage();
   }

@@ -11,6 +11,7 @@
 #include "blocks/point_mass.hpp"
 #include "contacts/gap.hpp"
 #include "forces/mass_scaling.hpp"
+#include "run/initial_stress_report.hpp"
 #include "run/labels.hpp"
 #include "run/stages.hpp"
 
@@ -53,6 +54,7 @@ bool free_block(const Simulation& sim, std::size_t i) {
 }
 
 void warn_of_sudden_gravity(const Simulation& sim, std::vector<std::string>& warnings) {
+  if (sim.initial) return;
   const Stage first = stages_of(sim.model).front();
   const Damping& d = first.damping;
   if (first.until == StageEnd::equilibrium || sim.model.gravity == Vec2{} || d.mass > 0.0 ||
@@ -195,7 +197,8 @@ void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings)
   double energy = 0.0;
   Extreme deepest{0.0};
   for (std::size_t k = 0; k < c.size(); ++k) {
-    const double d = c.effective(k);
+    // A contact that carries the initial stress is strained, and does not overlap for it.
+    const double d = sim.initial ? std::min(c.effective(k), c.depth[k]) : c.effective(k);
     if (!c.is(k, cs::closed) || !(d > 0.0)) continue;
     energy += 0.5 * c.share[k] * c.kn[k] * d * d;
     if (d > deepest.ratio) deepest = {d, k};
@@ -251,6 +254,7 @@ std::vector<std::string> guard_rails(const Simulation& sim) {
   warn_of_springs(sim, warnings);
   warn_of_slivers(sim, warnings);
   warn_of_overlaps(sim, warnings);
+  warn_of_initial_stress(sim, warnings);
   return warnings;
 }
 

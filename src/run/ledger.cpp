@@ -13,9 +13,12 @@ double block_strain_energy(const BlockSet& b, const State& s, double h, std::siz
   const Deformation rate = deformation(b, s.vx, s.vy, i);
   const Deformation before{now.xx - h * rate.xx, now.xy - h * rate.xy, now.yx - h * rate.yx,
                            now.yy - h * rate.yy};
-  return strain_energy(corotated_strain(before, rotation(before)),
-                       corotated_strain(now, rotation(now)), b.volume[i], b.lame_lambda[i],
-                       b.lame_mu[i]);
+  const double strain = strain_energy(corotated_strain(before, rotation(before)),
+                                      corotated_strain(now, rotation(now)), b.volume[i],
+                                      b.lame_lambda[i], b.lame_mu[i]);
+  if (b.initial_xx.empty()) return strain;
+  return strain + initial_energy(before, now, initial_stress(b, i), b.volume[i], b.lame_lambda[i],
+                                 b.lame_mu[i]);
 }
 
 double block_gravity_energy(const BlockSet& b, const State& s, double h, Vec2 gravity,

@@ -20,6 +20,18 @@ struct MonitorPoint {
 /// within domain.snap outside, the nearest. A fault for each that lies in no block.
 Result<std::vector<MonitorPoint>> place_monitors(const Simulation& sim);
 
+/// A [[convergence]]: two material points.
+struct ConvergenceLine {
+  std::string name;
+  std::array<MonitorPoint, 2> ends;
+};
+
+/// The blocks of both ends, found as those of monitors.
+Result<std::vector<ConvergenceLine>> place_convergences(const Simulation& sim);
+
+/// How much shorter the line has become since the start or the last reset of displacements, m.
+double convergence(const State& state, const ConvergenceLine& line);
+
 /// Displacement and velocity of the point, and its block's stress.
 struct MonitorReading {
   Vec2 displacement, velocity;

@@ -10,6 +10,7 @@
 #include "forces/contact_forces.hpp"
 #include "forces/dashpot_forces.hpp"
 #include "forces/elastic.hpp"
+#include "run/overstress.hpp"
 
 namespace edda {
 namespace {
@@ -70,6 +71,7 @@ BlockRecord block_record(const Simulation& sim, const State& s, std::size_t i) {
   r.syy = stress.yy;
   r.szz = stress.zz;
   r.sxy = stress.xy;
+  r.overstress = overstress(sim, s, i);
   return r;
 }
 
@@ -232,11 +234,13 @@ Vec2 displacement_of(const State& s, std::size_t i, const std::array<double, 3>&
 BlockStress block_stress(const Simulation& sim, const State& s, std::size_t i) {
   const BlockSet& b = sim.blocks;
   const Deformation f = deformation_of(b, s, i);
-  const Tensor t = cauchy(piola(f, rotation(f), b.lame_lambda[i], b.lame_mu[i]), f);
+  const Tensor t = cauchy(stress_in(b, i, f), f);
   BlockStress stress{t.xx, t.yy, 0.0, t.xy};
   if (sim.model.plane == Plane::strain && b.material[i] != none) {
     const double poisson = sim.model.materials[static_cast<std::size_t>(b.material[i])].poisson;
-    stress.zz = poisson * (t.xx + t.yy);
+    const Tensor start = initial_stress(b, i);
+    const double out = b.initial_zz.empty() ? 0.0 : b.initial_zz[i];
+    stress.zz = out + poisson * (t.xx - start.xx + t.yy - start.yy);
   }
   return stress;
 }

@@ -29,8 +29,8 @@ Picture picture_of(const Simulation& sim, const Instant& at);
 /// so that it is exactly 0 there.
 Vec2 displacement_of(const State& state, std::size_t i, const std::array<double, 3>& w);
 
-/// Cauchy stress of block i in the model's plane: xx yy xy (Pa), and zz: nu (xx + yy) or, in plane
-/// stress, 0.
+/// Cauchy stress of block i in the model's plane: xx yy xy (Pa), and zz: the initial one and nu
+/// times what xx + yy have changed by; in plane stress 0.
 struct BlockStress {
   double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0;
 };

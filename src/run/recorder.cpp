@@ -13,13 +13,15 @@
 namespace edda {
 namespace {
 
-std::string history_header(const std::vector<MonitorPoint>& monitors) {
+std::string history_header(const std::vector<MonitorPoint>& monitors,
+                           const std::vector<ConvergenceLine>& lines) {
   Csv csv;
   csv.add("time");
   for (const MonitorPoint& m : monitors) {
     for (const char* what : {".ux", ".uy", ".vx", ".vy", ".sxx", ".syy", ".sxy"})
       csv.add(m.name + what);
   }
+  for (const ConvergenceLine& line : lines) csv.add(line.name + ".convergence");
   csv.header({"kinetic", "strain", "contact", "gravity", "friction", "damping", "fracture",
               "external", "step_change", "drift", "unbalanced"});
   return csv.text();
@@ -27,7 +29,8 @@ std::string history_header(const std::vector<MonitorPoint>& monitors) {
 
 }  // namespace
 
-Trouble Recorder::begin(const Simulation& sim, const std::vector<MonitorPoint>& monitors) {
+Trouble Recorder::begin(const Simulation& sim, const std::vector<MonitorPoint>& monitors,
+                        const std::vector<ConvergenceLine>& lines) {
   if (!writes()) return {};
   // What the model was read from; a model built in memory has no file to name.
   inputs_.clear();
@@ -42,7 +45,7 @@ Trouble Recorder::begin(const Simulation& sim, const std::vector<MonitorPoint>& 
   if (auto t = clear_folder(folder_)) return t;
   if (auto t = write_file(path("model.toml"), to_toml(sim.model))) return t;
   if (auto t = history_.open(path("history.csv"))) return t;
-  if (auto t = history_.add(history_header(monitors))) return t;
+  if (auto t = history_.add(history_header(monitors, lines))) return t;
   if (!sim.model.boundaries.empty()) {
     if (auto t = reactions_.open(path("reactions.csv"))) return t;
     if (auto t = reactions_.add(reactions_header(sim.model))) return t;
@@ -83,7 +86,8 @@ Trouble Recorder::resume(const Simulation& sim, const RecorderMemory& memory) {
 }
 
 Trouble Recorder::row(const Simulation& sim, const Instant& at,
-                      const std::vector<MonitorPoint>& monitors, const Ledger& l,
+                      const std::vector<MonitorPoint>& monitors,
+                      const std::vector<ConvergenceLine>& lines, const Ledger& l,
                       double unbalanced) {
   if (!writes()) return {};
   Csv csv;
@@ -93,6 +97,7 @@ Trouble Recorder::row(const Simulation& sim, const Instant& at,
     csv.add(r.displacement.x).add(r.displacement.y).add(r.velocity.x).add(r.velocity.y);
     csv.add(r.stress.xx).add(r.stress.yy).add(r.stress.xy);
   }
+  for (const ConvergenceLine& line : lines) csv.add(convergence(at.state, line));
   for (const double v : {l.kinetic, l.strain, l.contact, l.gravity, l.friction, l.damping,
                          l.fracture, l.external, l.step_change, l.drift, unbalanced}) {
     csv.add(v);

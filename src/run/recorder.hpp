@@ -28,7 +28,8 @@ class Recorder {
 
   /// Makes or empties the folder; model.toml and the heads of the tables that
   /// grow.
-  Trouble begin(const Simulation& sim, const std::vector<MonitorPoint>& monitors);
+  Trouble begin(const Simulation& sim, const std::vector<MonitorPoint>& monitors,
+                const std::vector<ConvergenceLine>& lines);
   /// Goes on with a folder as it was when a checkpoint was written: tables that grow cut to their
   /// length then, frames that came later forgotten.
   Trouble resume(const Simulation& sim, const RecorderMemory& memory);
@@ -36,7 +37,7 @@ class Recorder {
   /// Brings to the disk what a checkpoint relies on.
   Trouble sync();
   Trouble row(const Simulation& sim, const Instant& at, const std::vector<MonitorPoint>& monitors,
-              const Ledger& ledger, double unbalanced);
+              const std::vector<ConvergenceLine>& lines, const Ledger& ledger, double unbalanced);
   Trouble frame(const Simulation& sim, const Picture& picture);
   /// stages.csv, as it is by now.
   Trouble stages(const std::string& csv);

@@ -53,15 +53,18 @@ Result<PreparedRun> prepare_run(Model model, BlockOrder order) {
   const auto start = std::chrono::steady_clock::now();
   Result<Simulation> made = Simulation::create(std::move(model), order);
   if (!made.ok()) return made.faults();
-  PreparedRun run{std::move(made.value()), {}, {}, {}, 0.0};
+  PreparedRun run{std::move(made.value()), {}, {}, {}, {}, 0.0};
   run.cut_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   Faults faults;
   Result<std::vector<MonitorPoint>> monitors = place_monitors(run.sim);
   if (!monitors.ok()) faults = monitors.faults();
+  Result<std::vector<ConvergenceLine>> lines = place_convergences(run.sim);
+  if (!lines.ok()) faults.insert(faults.end(), lines.faults().begin(), lines.faults().end());
   if (auto fault = unstable_step(run.sim)) faults.push_back(*fault);
   if (auto fault = beyond_disks(run.sim)) faults.push_back(*fault);
   if (!faults.empty()) return faults;
   run.monitors = std::move(monitors.value());
+  run.convergences = std::move(lines.value());
   // The blocks have their shapes by now, and nothing looks for places among the polygons any more.
   run.sim.polygons.blocks = {};
   run.sim.polygons.removed = {};

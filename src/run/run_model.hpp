@@ -36,13 +36,14 @@ struct RunOptions {
 struct PreparedRun {
   Simulation sim;
   std::vector<MonitorPoint> monitors;
+  std::vector<ConvergenceLine> convergences;
   std::string governed_by;            ///< what holds the step
   std::vector<std::string> warnings;  ///< guard rails
   double cut_seconds = 0.0;           ///< wall time of cutting and building
 };
 
-/// Cuts, builds and checks. Faults: geometry, monitors outside every block, a time_step above the
-/// critical step (unless allow_unstable).
+/// Cuts, builds and checks. Faults: geometry, monitors and convergence lines outside every block, a
+/// time_step above the critical step (unless allow_unstable).
 Result<PreparedRun> prepare_run(Model model, BlockOrder order = BlockOrder::as_cut);
 
 /// Runs it to its end. Faults only where the folder cannot be used; whatever happens later is an

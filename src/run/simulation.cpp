@@ -91,6 +91,7 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   }
   s.dashpots.set_acting(s.loads.spells.boundaries);
   s.on_dashpots.assign(s.dashpots.points.size(), Vec2{});
+  if (s.model.initial_stress) s.hold_boundaries();
   s.ground = find_ground(s.model, s.blocks);
   s.state = initial_state(s.blocks, s.polygons);
 
@@ -125,7 +126,7 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   s.search(s.base_reach);
   update_shares(s.contacts);
   bond_contacts(s.contacts, s.blocks, s.state, s.pose, s.laws);
-  settle_contacts(s.contacts, s.blocks, s.pose, s.laws, 0, true, s.transitions_);
+  s.close_contacts();
   s.set_limit();
   s.free_field = attach_free_field(s.model, s.blocks, s.dashpots, s.step_limit);
   return s;

@@ -27,6 +27,7 @@
 #include "model/model.hpp"
 #include "model/stage_names.hpp"
 #include "run/divergence.hpp"
+#include "run/initial_balance.hpp"
 #include "run/ledger.hpp"
 #include "run/open_close.hpp"
 #include "run/stage_clock.hpp"
@@ -63,8 +64,9 @@ struct Simulation {
   std::vector<Vec2> on_dashpots;  ///< [points of dashpots] their forces in the last step, N
   std::vector<KeptForce> kept;    ///< of rock taken out, and of boundaries taken over from
   DampingWork damping_work;
-  Damping damping;                  ///< in force
-  bool dynamic = true;              ///< of method "dda": whether velocities carry over
+  Damping damping;                        ///< in force
+  bool dynamic = true;                    ///< of method "dda": whether velocities carry over
+  std::optional<InitialBalance> initial;  ///< of the initial stress, as created; empty without one
   std::vector<double> inertia;      ///< [nb] factor on the masses, by solver.mass_scaling; or empty
   StepBound bound;                  ///< at the last search
   double step_limit = 0.0;          ///< s: largest step allowed at present
@@ -139,6 +141,8 @@ struct Simulation {
   friend void list_memory(Archive& archive, Simulation& sim);
 
   void place_all();
+  void hold_boundaries();
+  void close_contacts();
   void keep(const std::vector<KeptForce>& forces);
   std::vector<KeptForce> release_boundaries(const std::vector<Index>& rows);
   void start_implicit();

@@ -98,11 +98,16 @@ StageRecord stage_record(const Simulation& sim, const Ledger& ledger, double sta
 
 std::string stages_csv(const Model& model, const std::vector<StageRecord>& records) {
   Csv csv;
-  csv.header({"stage",   "name",         "until",         "reached",       "start",    "end",
-              "steps",   "ratio",        "largest_ratio", "largest_block", "kinetic",  "strain",
-              "contact", "gravity",      "friction",      "damping",       "fracture", "external",
-              "drift",   "contacts",     "sliding",       "bonded",        "detached", "open",
-              "broken",  "yielded_bolts"});
+  for (const char* name :
+       {"stage",   "name",         "until",         "reached",       "start",    "end",
+        "steps",   "ratio",        "largest_ratio", "largest_block", "kinetic",  "strain",
+        "contact", "gravity",      "friction",      "damping",       "fracture", "external",
+        "drift",   "contacts",     "sliding",       "bonded",        "detached", "open",
+        "broken",  "yielded_bolts"}) {
+    csv.add(name);
+  }
+  for (const Convergence& c : model.convergences) csv.add(c.name + ".convergence");
+  csv.end();
   const std::vector<Stage> stages = stages_of(model);
   for (std::size_t q = 0; q < records.size(); ++q) {
     const StageRecord& r = records[q];
@@ -120,7 +125,9 @@ std::string stages_csv(const Model& model, const std::vector<StageRecord>& recor
       csv.add(v);
     }
     csv.add(r.closed).add(r.sliding).add(r.bonded).add(r.balance.detached);
-    csv.add(r.open).add(r.broken).add(r.yielded).end();
+    csv.add(r.open).add(r.broken).add(r.yielded);
+    for (const double closed : r.convergences) csv.add(closed);
+    csv.end();
   }
   return csv.text();
 }

@@ -8,6 +8,8 @@
 #include "forces/mass_scaling.hpp"
 #include "results/json.hpp"
 #include "results/version.hpp"
+#include "run/initial_stress_report.hpp"
+#include "run/overstress.hpp"
 
 namespace edda {
 namespace {
@@ -77,6 +79,25 @@ void add_checks(Json& j, const std::vector<Check>& checks) {
 
 }  // namespace
 
+/// Blocks whose material gives a strength: the one that uses most of it, and how many more than
+/// all.
+static void add_overstress(const Simulation& sim, std::vector<Check>& checks) {
+  const auto& materials = sim.model.materials;
+  if (std::none_of(materials.begin(), materials.end(),
+                   [](const Material& m) { return m.strength.has_value(); }))
+    return;
+  double largest = 0.0;
+  std::size_t over = 0;
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    if (!is_free(sim.blocks, sim.state, i)) continue;
+    const double used = overstress(sim, sim.state, i);
+    largest = std::max(largest, used);
+    over += used > 1.0;
+  }
+  checks.push_back(limited("largest part of the rock's strength used in a block", largest, 1.0));
+  checks.push_back(informed("blocks over-stressed", static_cast<double>(over)));
+}
+
 std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
   std::vector<Check> checks{
       limited("largest overlap over smallest edge", o.overlap_over_edge, 0.01),
@@ -96,6 +117,8 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
   checks.push_back(informed("faces merged by the cut", sim.polygons.report.merged));
   checks.push_back(informed("slivers joined by [quality]", sim.polygons.report.quality_merged));
   checks.push_back(informed("mass added by scaling (kg)", added_mass(sim.blocks, sim.inertia)));
+  add_initial_checks(sim, checks);
+  add_overstress(sim, checks);
   return checks;
 }
 

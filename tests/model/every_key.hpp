@@ -14,6 +14,7 @@ thickness = "50 cm"
 density = 2750
 young = "20 GPa"
 poisson = 0.25
+strength = { ucs = "90 MPa", tension = 6e6 }
 [materials."soft clay"]
 unit_weight = "20 kN/m3"
 young = 5e6
@@ -131,6 +132,11 @@ action = "report"
 [[contact_pair]]
 between = ["rock", "soft clay"]
 joint = "glue"
+[initial_stress]
+stress = ["-24 MPa", -20e6, 0.5]
+at_y = "2 m"
+gradient = [1e4, "27 kPa/m", 2.0]
+k0_out = 0.75
 [[boundary]]
 name = "base"
 sides = ["bottom", "left"]
@@ -207,6 +213,9 @@ dowel = { stiffness = "100 MN/m", strength = "150 kN" }
 [[monitor]]
 name = "P1"
 point = [15, 9]
+[[convergence]]
+name = "H1"
+between = [[11, 5], ["19 m", 5]]
 [[stage]]
 name = "settle"
 until = "equilibrium"
@@ -241,6 +250,14 @@ every = 0.3
 history_every = 0.07
 checkpoint_every = 2.5
 stages = false
+)";
+
+// In place of stress, at_y and gradient.
+inline const std::string every_weight_key = R"([initial_stress]
+k0 = 1.2
+k0_out = 0.9
+surface_y = "150 m"
+surface = "level"
 )";
 
 // In place of an outline.

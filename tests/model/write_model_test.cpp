@@ -16,6 +16,7 @@ namespace {
 
 using testing::every_key;
 using testing::every_slope_key;
+using testing::every_weight_key;
 
 void expect_every_key(const Model& m) {
   EXPECT_EQ(m.title, "Every \"key\"\t\\ \u00e9");
@@ -30,6 +31,19 @@ void expect_every_key(const Model& m) {
   EXPECT_EQ(m.materials[1].name, "soft clay");
   EXPECT_EQ(m.materials[1].density, 20e3 / norm(Vec2{1, -9.8}));
   EXPECT_EQ(m.materials[1].poisson, 0.4);
+  ASSERT_TRUE(m.materials[0].strength);
+  EXPECT_EQ(m.materials[0].strength->ucs, 90e6);
+  EXPECT_EQ(m.materials[0].strength->tension, 6e6);
+  EXPECT_FALSE(m.materials[1].strength);
+  ASSERT_TRUE(m.initial_stress);
+  EXPECT_EQ(m.initial_stress->stress, (Triple{-24e6, -20e6, 0.5}));
+  EXPECT_EQ(m.initial_stress->at_y, 2.0);
+  EXPECT_EQ(m.initial_stress->gradient, (Triple{1e4, 27e3, 2.0}));
+  EXPECT_EQ(m.initial_stress->k0_out, 0.75);
+  EXPECT_FALSE(m.initial_stress->k0);
+  ASSERT_EQ(m.convergences.size(), 1U);
+  EXPECT_EQ(m.convergences[0].name, "H1");
+  EXPECT_EQ(m.convergences[0].between, (Ring{{11, 5}, {19, 5}}));
   ASSERT_EQ(m.joints.size(), 2U);
   EXPECT_EQ(m.joints[0].type, LawType::glued);
   const JointLaw& law = m.joints[1];
@@ -310,6 +324,19 @@ TEST(WriteModel, SlopeComesBack) {
   EXPECT_EQ(second.domain->outline.size(), 8U);
 }
 
+TEST(WriteModel, WeightOfTheRockComesBack) {
+  std::string text(every_key);
+  const std::size_t from = text.find("[initial_stress]");
+  text.replace(from, text.find("[[boundary]]") - from, every_weight_key);
+  const Model second = read(to_toml(read(text)));
+  ASSERT_TRUE(second.initial_stress);
+  EXPECT_EQ(second.initial_stress->k0, 1.2);
+  EXPECT_EQ(second.initial_stress->k0_out, 0.9);
+  EXPECT_EQ(second.initial_stress->surface_y, 150.0);
+  EXPECT_EQ(second.initial_stress->surface, SurfaceKind::level);
+  EXPECT_FALSE(second.initial_stress->stress);
+}
+
 TEST(WriteModel, ImplicitMethodComesBack) {
   std::string text(every_key);
   text.replace(text.find("method = \"edda\""), 15, "method = \"dda\"");
@@ -331,7 +358,7 @@ TEST(WriteModel, EveryKeyOfTheTableIsInTheTest) {
   for (const Section& section : sections()) {
     for (const Key& key : section.keys) {
       const std::string start = std::string(key.name) + " = ";
-      const std::string all = every_key + every_slope_key;
+      const std::string all = every_key + every_slope_key + every_weight_key;
       EXPECT_TRUE(all.starts_with(start) || all.find('\n' + start) != std::string::npos)
           << section.name << '.' << key.name;
     }

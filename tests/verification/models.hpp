@@ -9,7 +9,7 @@ namespace edda {
 
 inline Tensor stress_of(const Simulation& sim, std::size_t i) {
   const Deformation f = deformation(sim.blocks, sim.state.x, sim.state.y, i);
-  return cauchy(piola(f, rotation(f), sim.blocks.lame_lambda[i], sim.blocks.lame_mu[i]), f);
+  return cauchy(stress_in(sim.blocks, i, f), f);
 }
 
 /// validation.md row 1: the paper's ramp; pieces > 1 cuts the ramp itself into that many blocks

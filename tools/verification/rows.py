@@ -168,4 +168,20 @@ ROWS = (
         "A square of 24 m of rock in blocks of 3 m that hold together, free-field sides, a viscous base; a sine of"
         " acceleration of 6 Hz comes up through it.",
         "The ground goes on for ever, so every point of the surface moves by twice v = A/w (1 - cos w t)."),
+    Row(40, "Ground that stays as it is",
+        "20 x 20 m of jointed rock under an initial stress, by tensor and gradient or by k0 and the weight above, uncut by any"
+        " opening, undamped: oblique joint sets, traces that end in the rock, Voronoi polygons, layers, water, boundaries of"
+        " every type, both methods, every mass matrix.",
+        "Nothing happens. Each block's forces balance where the gradient of the stress is density times gravity; the"
+        " reactions, with water, equal the weight.",
+        "A shear spring acts at its anchor, which the initial shear has moved away from the corner: hence the looser bounds"
+        " where joints are soft."),
+    Row(41, "A circular opening",
+        "A hole of 1 m radius, cut at once from Voronoi polygons that are glued by joints twice as stiff as the blocks, under"
+        " 10 MPa across and 20 MPa upright; held 16 m away. Beyond 4 m rings of larger blocks whose joints give as much.",
+        "Kirsch (1898), plane strain, with shear modulus and Poisson's ratio of a square of the same mass under pressure."
+        " Stress is compared by rings as wide as a block, outside of the one at the wall, by its mean and its second"
+        " harmonic.",
+        "Blocks have one strain each, so the mass bends only where joints give: that is the error, and it goes with the square"
+        " of the block. Smaller and larger blocks: `kirsch_long_test.cpp`."),
 )

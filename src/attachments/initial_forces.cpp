@@ -1,0 +1,94 @@
+#include "attachments/initial_forces.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "attachments/boundary_lines.hpp"
+#include "attachments/boundary_springs.hpp"
+
+namespace edda {
+namespace {
+
+Vec2 traction(const Tensor& s, Vec2 n) {
+  return {s.xx * n.x + s.xy * n.y, s.xy * n.x + s.yy * n.y};
+}
+
+/// The open faces along a boundary.
+std::vector<Piece> faces_of(const Model& model, const BlockSet& b, const Boundary& boundary) {
+  bool in_joints = false;
+  return pieces_on(b, boundary_lines(model, b, boundary), Faces::open, boundary_snap(model, b),
+                   in_joints);
+}
+
+/// Faces that have been held, by edge.
+using Taken = std::map<Id, std::vector<Part>>;
+
+/// What of the faces of a boundary nobody has held yet; from now on it has.
+std::vector<Piece> take(const Model& model, const BlockSet& b, const Boundary& boundary,
+                        Taken& taken) {
+  std::vector<Piece> mine;
+  for (const Piece& p : faces_of(model, b, boundary)) {
+    std::vector<Part>& others = taken[p.edge];
+    for (const Part part : without(p.part, others)) {
+      if (part.to > part.from) mine.push_back({p.edge, part});
+    }
+    others.push_back(p.part);
+  }
+  return mine;
+}
+
+}  // namespace
+
+FaceForces::FaceForces(const BlockSet& blocks, const StressField& field, const LoadsNow& at_start)
+    : b_(blocks), field_(field), now_(at_start) {}
+
+EndForces FaceForces::on(Id edge, Part part) const {
+  const Vec2 a{b_.vertex_x[edge], b_.vertex_y[edge]};
+  const Vec2 u = Vec2{b_.vertex_x[b_.next[edge]], b_.vertex_y[b_.next[edge]]} - a;
+  const Vec2 n = outward_normal(unit(u));
+  const double length = (part.to - part.from) * norm(u) * b_.thickness;
+  const Vec2 t0 = traction(field_.at(a + part.from * u), n),
+             t1 = traction(field_.at(a + part.to * u), n);
+  const EndForces water = water_on(b_, now_, b_.vertex_x, b_.vertex_y, edge, part.from, part.to);
+  return {length / 6.0 * (2.0 * t0 + t1) - water.at_from,
+          length / 6.0 * (t0 + 2.0 * t1) - water.at_to};
+}
+
+std::vector<KeptForce> held_initial_stress(const Model& model, const BlockSet& b,
+                                           const Spells& spells, const FaceForces& faces) {
+  std::vector<KeptForce> held;
+  Taken taken;
+  const auto each = [&](auto is_meant, bool keeps) {
+    for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
+      const Boundary& boundary = model.boundaries[q];
+      if (!spells.boundaries[q].acts() || !is_meant(boundary.type)) continue;
+      const auto keeper = static_cast<Index>(model.openings.size() + q);
+      for (const Piece& p : take(model, b, boundary, taken)) {
+        if (!keeps) continue;
+        const EndForces on = on_vertices(p.part.from, p.part.to, faces.on(p.edge, p.part));
+        held.push_back({p.edge, on.at_from, keeper});
+        held.push_back({b.next[p.edge], on.at_to, keeper});
+      }
+    }
+  };
+  each(has_springs, true);
+  each([](BoundaryType type) { return type == BoundaryType::stress; }, false);
+  each([](BoundaryType type) { return type == BoundaryType::viscous; }, true);
+  return held;
+}
+
+void load_initial_stress(Loads& loads, const Model& model, const BlockSet& b,
+                         const FaceForces& faces) {
+  std::vector<EdgeLoad> more;
+  for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
+    const Boundary& boundary = model.boundaries[q];
+    if (boundary.type != BoundaryType::stress || boundary.traction) continue;
+    const auto row = static_cast<Index>(model.loads.size() + q);
+    for (const Piece& p : faces_of(model, b, boundary)) {
+      more.push_back({p.edge, p.part.from, p.part.to, {}, 0.0, row, faces.on(p.edge, p.part)});
+    }
+  }
+  if (!more.empty()) add_edge_loads(b, more, loads);
+}
+
+}  // namespace edda

@@ -1,0 +1,211 @@
+// Rock that starts stressed stays as it is: validation.md row 40.
+#include <algorithm>
+
+#include "run/attachment_rows.hpp"
+#include "run/observe.hpp"
+#include "verification/models.hpp"
+
+namespace edda {
+namespace {
+
+constexpr double density = 2700.0, gravity = 9.81, young = 20e9;
+
+const std::string rock =
+    "[materials.rock]\ndensity = 2700.0\nyoung = 20e9\npoisson = 0.25\n"
+    "[domain]\noutline = [[-10, 980], [10, 980], [10, 1000], [-10, 1000]]\nmaterial = 'rock'\n"
+    "[output]\nhistory_every = 0.0005\n";
+const std::string strong =
+    "[joints.j]\nfriction_angle = 40.0\ncohesion = 30e6\ntensile_strength = 5e6\n";
+const std::string rough = "[joints.j]\nfriction_angle = 40.0\n";
+const std::string two_sets =
+    "[[joint_set]]\nangle = 23.0\nspacing = 2.1\norigin = [0.3, 980.7]\n"
+    "[[joint_set]]\nangle = 101.0\nspacing = 2.6\norigin = [0.1, 981.3]\n";
+/// Traces that end in the rock and on each other: corners against the middle of edges.
+const std::string short_traces =
+    "[[joint_set]]\nangle = 12.0\nspacing = 1.7\norigin = [0.3, 980.7]\ntrace_length = 6.0\ngap = "
+    "0.8\n"
+    "[[joint_set]]\nangle = 78.0\nspacing = 1.9\norigin = [0.3, 980.7]\ntrace_length = 5.0\ngap = "
+    "0.3\n"
+    "deviation = { angle = 5.0, spacing = 0.3 }\n"
+    "[[joint_set]]\nangle = 130.0\nspacing = 3.1\norigin = [0.0, 981.7]\n";
+const std::string voronoi = "[voronoi]\nsize = 1.8\nsmoothing = 0\nseed = 5\n";
+
+/// As deep as a mine, with shear in the plane.
+const std::string tensor =
+    "[initial_stress]\nstress = [-31e6, -24e6, 4e6]\nat_y = 990.0\ngradient = [1.9e4, " +
+    number(density * gravity) + ", 0.0]\n";
+std::string from_weight(const std::string& surface) {
+  return "[initial_stress]\nk0 = 1.4\nk0_out = 0.8\n" + surface + "\n";
+}
+
+std::string boundary(const std::string& sides, const std::string& type) {
+  return "[[boundary]]\nsides = [" + sides + "]\ntype = '" + type + "'\n";
+}
+const std::string all_fixed = boundary("'left', 'right', 'bottom', 'top'", "fixed");
+const std::string on_rollers = boundary("'bottom', 'left', 'right'", "roller");
+
+/// Everything that is asked of ground that nothing has been done to.
+struct Watched {
+  double unbalanced = 0.0;  ///< largest
+  double moved = 0.0;       ///< largest of a vertex over that which the stress would have made
+  double stress = 0.0;      ///< furthest off its value at the start, over the largest stress
+  double reactions = 0.0;   ///< with weight, water and loads, over the weight
+  double drift = 0.0, slid = 0.0;
+};
+
+Watched watch(Simulation& sim) {
+  Watched w;
+  double largest = 0.0, size = 0.0;
+  const BlockSet& b = sim.blocks;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    largest = std::max({largest, std::abs(b.initial_xx[i]), std::abs(b.initial_yy[i])});
+    size = std::max(size, b.radius[i]);
+  }
+  Vec2 sum;
+  double weight = 0.0;
+  run(sim, [&](Simulation& s) {
+    Instant at;
+    observe(s, at);
+    keep_largest(w.unbalanced, unbalanced_ratio(s, at));
+    keep_largest(w.drift, s.ledger().drift);
+    sum = Vec2{};
+    weight = 0.0;
+    const LoadsNow acting = s.acting();
+    for (const Vec2 f : reactions(s, at)) sum += f;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      const BlockStress t = block_stress(s, at.state, i);
+      const Tensor start = initial_stress(b, i);
+      for (const double off :
+           {t.xx - start.xx, t.yy - start.yy, t.xy - start.xy, t.zz - b.initial_zz[i]}) {
+        keep_largest(w.stress, off / largest);
+      }
+      if (b.fixed[i]) {
+        sum -= contact_resultant(b, at.contacts, i);
+        continue;
+      }
+      weight += b.mass[i] * gravity;
+      sum += b.mass[i] * s.model.gravity;
+      // Dead loads of boundaries are among the reactions already.
+      for (Id q = 0; acting.loads != nullptr && q < acting.loads->wet.size(); ++q) {
+        const Id edge = acting.loads->wet[q].edge;
+        if (b.vertex_block[edge] != i || (q > 0 && acting.loads->wet[q - 1].edge == edge)) continue;
+        const EndForces on = water_on(b, acting, s.pose.x, s.pose.y, edge, 0.0, 1.0);
+        sum += on.at_from + on.at_to;
+      }
+    }
+    for (std::size_t v = 0; v < b.vertex_count(); ++v) {
+      const double ux = s.pose.x[v] - b.vertex_x[v], uy = s.pose.y[v] - b.vertex_y[v];
+      keep_largest(w.moved, std::hypot(ux, uy) / (largest / young * size));
+    }
+  });
+  w.reactions = norm(sum) / weight;
+  w.slid = sim.ledger().friction;
+  return w;
+}
+
+/// `bound`: of the unbalanced ratio and of the change of stress.
+void expect_stays(const std::string& label, const std::string& toml, double bound = 1e-4) {
+  SCOPED_TRACE(label);
+  Simulation sim = scene(toml);
+  ASSERT_GT(sim.blocks.size(), 20U);
+  const Watched w = watch(sim);
+  expect_at_most({40, label, "largest unbalanced ratio", ""}, w.unbalanced, bound);
+  expect_at_most({40, label, "largest displacement over sigma L/E", ""}, w.moved, 1e-2);
+  expect_at_most({40, label, "change of stress in a block over the largest", ""}, w.stress, bound);
+  expect_at_most({40, label, "reactions with weight, over the weight", ""}, w.reactions,
+                 10.0 * bound);
+  EXPECT_LT(w.drift, 1e-8);
+  EXPECT_LT(sim.initial->unbalanced, 1e-6);
+  EXPECT_EQ(sim.steps.redone, 0U);
+  record_model(40, label, sim);
+}
+
+const std::string explicit_run = "[solver]\nduration = 0.004\n";
+
+TEST(InitialStress, ObliqueJointsKeepATensor) {
+  expect_stays("two sets, tensor, fixed",
+               rock + strong + two_sets + tensor + all_fixed + explicit_run);
+  expect_stays(
+      "two sets, tensor, rollers and stress",
+      rock + strong + two_sets + tensor + on_rollers + boundary("'top'", "stress") + explicit_run);
+  expect_stays("two sets, tensor, viscous",
+               rock + strong + two_sets + tensor + boundary("'top'", "stress") +
+                   boundary("'left', 'right', 'bottom'", "viscous") + explicit_run);
+}
+
+/// A joint's own stiffness: its springs are strained by a millimetre, and what a shear spring does
+/// acts that far from the corner.
+TEST(InitialStress, SoftJointsAreStrainedForIt) {
+  expect_stays("two sets, tensor, soft joints",
+               rock + strong + "kn = '10 GPa/m'\nks = '4 GPa/m'\n" + two_sets + tensor + all_fixed +
+                   explicit_run,
+               1e-3);
+  expect_stays("glued, tensor",
+               rock + "[joints.j]\ntype = 'glued'\nkn = '10 GPa/m'\n" + voronoi + tensor +
+                   all_fixed + explicit_run,
+               1e-3);
+}
+
+TEST(InitialStress, OddBlocksKeepATensor) {
+  expect_stays("Voronoi, tensor, fixed",
+               rock + strong + voronoi + tensor + all_fixed + explicit_run);
+  expect_stays("short traces, tensor, fixed",
+               rock + strong + short_traces + tensor + all_fixed + explicit_run);
+}
+
+TEST(InitialStress, WeightOfTheRockAbove) {
+  expect_stays(
+      "two sets, k0, free top",
+      rock + rough + two_sets + from_weight("surface = 'outline'") + on_rollers + explicit_run);
+  expect_stays("Voronoi, k0, free top", rock + rough + voronoi + from_weight("surface_y = 1000.0") +
+                                            on_rollers + explicit_run);
+  expect_stays("Voronoi, k0, 200 m deep", rock + rough + voronoi +
+                                              from_weight("surface_y = 1200.0") + on_rollers +
+                                              boundary("'top'", "stress") + explicit_run);
+}
+
+TEST(InitialStress, LayersOfOtherRock) {
+  expect_stays("layers, k0", "[materials.clay]\ndensity = 1900.0\nyoung = 20e9\npoisson = 0.25\n" +
+                                 rock + rough +
+                                 "[[joint_set]]\nangle = 0.0\nspacing = 2.0\norigin = [0, 980]\n"
+                                 "[[joint_set]]\nangle = 80.0\nspacing = 2.3\norigin = [0, 980]\n"
+                                 "[[region]]\nmaterial = 'clay'\njoint = 'j'\n"
+                                 "polygon = [[-10, 986], [10, 986], [10, 992], [-10, 992]]\n" +
+                                 from_weight("surface_y = 1000.0") + on_rollers + explicit_run);
+}
+
+TEST(InitialStress, WaterBearsItsShare) {
+  const std::string wet = "[[water]]\ntable = [[-10, 994.5], [10, 994.5]]\n";
+  expect_stays("two sets, k0, water", rock + rough + two_sets + wet +
+                                          from_weight("surface_y = 1000.0") + on_rollers +
+                                          explicit_run);
+  expect_stays("Voronoi, tensor, water, stress on top",
+               rock + strong + voronoi + "[[water]]\ntable = [[-10, 1010], [10, 1030]]\n" + tensor +
+                   on_rollers + boundary("'top'", "stress") + explicit_run);
+}
+
+TEST(InitialStress, OtherMassesAndTheImplicitMethod) {
+  const std::string ground = rock + strong + two_sets + tensor + all_fixed;
+  for (const char* mass : {"covering", "consistent"}) {
+    expect_stays(mass, ground + explicit_run + "mass = '" + mass + "'\n");
+  }
+  expect_stays("implicit", ground + explicit_run + "method = 'dda'\ntime_step = 1e-4\n");
+  expect_stays("held blocks", rock + rough + voronoi + from_weight("surface_y = 1000.0") +
+                                  boundary("'left', 'right', 'bottom'", "roller") +
+                                  "[[held]]\npoint = [0, 982]\n" + explicit_run);
+}
+
+/// Without the preload, or with the wrong gradient, the same ground does move: the test can fail.
+TEST(InitialStress, WhatDoesNotMatchMoves) {
+  Simulation steep = scene(rock + strong + two_sets +
+                           "[initial_stress]\nstress = [-31e6, -24e6, 4e6]\n"
+                           "at_y = 990.0\ngradient = [1.9e4, 2e4, 0.0]\n" +
+                           all_fixed + explicit_run);
+  EXPECT_NEAR(steep.initial->gradient, 1.0 - 2e4 / (density * gravity), 1e-12);
+  EXPECT_GT(watch(steep).unbalanced, 1e-3);
+  Simulation loose = scene(rock + strong + two_sets + tensor + on_rollers + explicit_run);
+  EXPECT_GT(loose.initial->unbalanced, 1e-2);
+}
+
+}  // namespace
+}  // namespace edda
