@@ -68,6 +68,7 @@ LawTable build_laws(const Model& model) {
     table.rows.push_back({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, false});
     table.rank.push_back(0);
   }
+  table.divided_by.assign(table.rows.size(), 1.0);
   return table;
 }
 

@@ -21,6 +21,8 @@ struct LawTable {
   std::vector<Law> rows;  ///< in the order of Model::joints, then the built-in glued law
   std::vector<std::uint16_t>
       rank;  ///< of each row: lower friction angle, then cohesion, tension, name
+  std::vector<double>
+      divided_by;  ///< [rows] what the strength in `rows` was divided by (contacts/strength.hpp)
   double default_kn = 0.0, default_ks = 0.0;  ///< N/m per metre of thickness
   double thickness = 1.0;
   Index default_law = none;

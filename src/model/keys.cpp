@@ -165,6 +165,7 @@ constexpr std::array stage_keys{
     Key{"ratio", at<&Stage::ratio>, number(D::plain, above_to(0, 1)), initial, "Equilibrium: mean resultant force of the blocks over the mean contact force."},
     Key{"duration", at<&Stage::duration>, number(D::time, above(0)), otherwise("required until \"time\"; 10 s until \"equilibrium\""), "Length of the stage; until equilibrium the longest it may take."},
     Key{"reset_displacements", at<&Stage::reset_displacements>, flag, initial, "Whether displacements count from the start of this stage."},
+    Key{"strength_factor", at<&Stage::strength_factor>, number(D::plain, above(0)), initial, "What cohesion, tangent of the friction angle and tensile strength of all joints are divided by while the stage lasts."},
     Key{"damping", at<&Stage::damping>, table, otherwise("solver.damping; until equilibrium local = 0.8"), "Damping while the stage lasts."},
 };
 
@@ -186,6 +187,20 @@ constexpr std::array output_keys{
     Key{"every", at<&Output::every>, number(D::time, above(0)), otherwise("solver.duration / 20"), "Time between pictures of all blocks."},
     Key{"history_every", at<&Output::history_every>, number(D::time, above(0)), otherwise("solver.duration / 200"), "Time between rows of history.csv."},
     Key{"checkpoint_every", at<&Output::checkpoint_every>, number(D::plain, above(0)), initial, "Minutes of wall time between checkpoints."},
+};
+
+constexpr std::array fos_fails_keys{
+    Key{"displacement", at<&FosFails::displacement>, number(D::length, above(0)), otherwise("a hundredth of the mean size of the blocks"), "A trial fails where a corner of a block moves further than this."},
+    Key{"velocity", at<&FosFails::velocity>, number(D::velocity, above(0)), otherwise("displacement over ten times the length of a trial"), "A trial fails where a corner still moves faster than this at its end."},
+};
+
+constexpr std::array fos_keys{
+    Key{"stage", at<&Fos::stage>, naming, otherwise("the last one, or the model at rest where there are no stages"), "The stage whose end the trials begin from."},
+    Key{"vary", at<&Fos::vary>, naming, initial, "What the factor acts on: \"strength\" (divided by it), \"load:NAME\", \"shaking:NAME\" or \"water:NAME\" (the pressure of that water), multiplied by it."},
+    Key{"bracket", at<&Fos::bracket>, shape(Kind::point, D::plain, above(0)), initial, "Two factors, the lower one expected to hold and the upper one to fail; widened where they do not."},
+    Key{"tolerance", at<&Fos::tolerance>, number(D::plain, above(0)), initial, "Difference between a factor that fails and one that holds at which the search ends."},
+    Key{"exclude", at<&Fos::exclude>, name_list, initial, "Joints that keep their strength."},
+    Key{"fails", at<&Fos::fails>, table, otherwise("by the size of the blocks and gravity"), "When a trial counts as failed."},
 };
 
 constexpr Section root_section{"", Shape::root, false, root_keys, "The model as a whole.",
@@ -223,6 +238,7 @@ constexpr std::array all_sections{
     section<&Model::stages>("stage", Shape::list, stage_keys, "A part of the run, one after the other."),
     section<&Model::solver>("solver", Shape::table, solver_keys, "How the motion is computed."),
     section<&Model::output>("output", Shape::table, output_keys, "What is written, and how often."),
+    section<&Model::fos>("fos", Shape::table, fos_keys, "The factor of safety (edda fos)."),
 };
 // clang-format on
 
@@ -254,6 +270,10 @@ std::span<const Key> keys_of(const BoltBond&) {
 }
 std::span<const Key> keys_of(const BoltDowel&) {
   return dowel_keys;
+}
+
+std::span<const Key> keys_of(const FosFails&) {
+  return fos_fails_keys;
 }
 
 std::span<const Section> sections() {

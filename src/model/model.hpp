@@ -25,6 +25,7 @@ enum class StageEnd { time, equilibrium };
 enum class BoundaryType { fixed, roller, viscous, stress, velocity };
 enum class ShakingKind { base, inertia, upgoing };
 enum class BoltType { grouted, end };
+enum class Varied { strength, load, shaking, water };
 
 struct Material {
   std::string name;
@@ -221,6 +222,7 @@ struct Stage {
   double ratio = 1e-5;               ///< of an equilibrium: mean resultant over mean contact force
   double duration = 10.0;            ///< s; of an equilibrium: the longest
   bool reset_displacements = false;  ///< at its start
+  double strength_factor = 1.0;      ///< what the strength of all joints is divided by meanwhile
   Damping damping;                   ///< while it lasts
   Where where;
 };
@@ -229,6 +231,25 @@ struct Output {
   double every = 0.0;             ///< s; default: duration / 20
   double history_every = 0.0;     ///< s; default: duration / 200
   double checkpoint_every = 5.0;  ///< minutes of wall time
+};
+
+/// What counts as failure of a trial; left out: by the size of the blocks and gravity.
+struct FosFails {
+  std::optional<double> displacement;  ///< m, of a corner since the start of the trial
+  std::optional<double> velocity;      ///< m/s, at its end
+};
+
+/// [fos]: the factor of safety.
+struct Fos {
+  std::string stage;              ///< whose end the trials begin from; empty: the last
+  std::string vary = "strength";  ///< as written
+  Vec2 bracket{0.5, 3.0};         ///< factors to begin with, lower and upper
+  double tolerance = 0.01;        ///< width of the bracket at the end
+  std::vector<std::string> exclude;  ///< joints that keep their strength
+  FosFails fails;
+  Varied varied = Varied::strength;  ///< what `vary` says
+  Index target = none;               ///< row of loads, shakings or waters
+  Where where;
 };
 
 struct Model {
@@ -267,6 +288,7 @@ struct Model {
   std::vector<Stage> stages;  ///< in sequence; none: one, until solver.duration
   Solver solver;
   Output output;
+  std::optional<Fos> fos;
 };
 
 }  // namespace edda

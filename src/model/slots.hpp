@@ -82,6 +82,7 @@ std::span<const Key> keys_of(const OpeningShape&);
 std::span<const Key> keys_of(const Acceleration&);
 std::span<const Key> keys_of(const BoltBond&);
 std::span<const Key> keys_of(const BoltDowel&);
+std::span<const Key> keys_of(const FosFails&);
 
 template <class Field>
 Slot slot_of(Field& field) {

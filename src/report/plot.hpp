@@ -23,7 +23,8 @@ struct PlotOptions {
   std::vector<std::string> materials;  ///< names, for the legend
   std::vector<PlotMonitor> monitors;
   std::vector<std::array<Vec2, 2>> bolts;  ///< from where to where they were at the start, m
-  double scale = 1.0;                      ///< of the displacements drawn
+  std::vector<std::array<Vec2, 2>> joints;  ///< drawn thick, where they are drawn, m
+  double scale = 1.0;                       ///< of the displacements drawn
   std::string vectors;    ///< "displacement" or "velocity": arrows at block centres; empty: none
   bool forces = false;    ///< contact forces as arrows
   double width = 1600.0;  ///< px, of a picture that is not taller than wide

@@ -20,6 +20,7 @@ std::string identity(const Model& model) {
   m.title.clear();
   m.solver.duration = 1.0;
   m.output.checkpoint_every = 1.0;
+  m.fos.reset();
   // What a history says counts, not where it lies.
   for (Load& load : m.loads) load.history.clear();
   for (Water& water : m.waters) water.history.clear();

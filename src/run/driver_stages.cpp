@@ -15,6 +15,7 @@ void Driver::begin_stage(std::size_t index) {
   if (sim_.model.stages.empty()) return;
   const bool settles = stage.until == StageEnd::equilibrium;
   sim_.change_damping(stage.damping, sim_.model.solver.dynamic && !settles);
+  sim_.set_strength_factor(stage.strength_factor);
   if (stage.reset_displacements) sim_.reset_displacements();
 }
 

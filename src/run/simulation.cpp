@@ -11,6 +11,7 @@
 #include "contacts/candidates.hpp"
 #include "contacts/gaps.hpp"
 #include "contacts/shares.hpp"
+#include "contacts/strength.hpp"
 #include "contacts/transitions.hpp"
 #include "forces/contact_forces.hpp"
 #include "forces/dashpot_forces.hpp"
@@ -207,6 +208,17 @@ void Simulation::change_damping(const Damping& now, bool carry_velocities) {
   dynamic = carry_velocities;
   step_limit = std::numeric_limits<double>::infinity();
   set_limit();
+}
+
+void Simulation::set_strength_factors(const std::vector<double>& factors) {
+  if (factors == laws.divided_by) return;
+  LawTable divided = divided_laws(model, factors);
+  take_strength(contacts, laws, divided);
+  laws = std::move(divided);
+}
+
+void Simulation::set_strength_factor(double factor) {
+  set_strength_factors(std::vector<double>(laws.rows.size(), factor));
 }
 
 void Simulation::reset_displacements() {

@@ -9,6 +9,7 @@
 #include "checkpoint/archive.hpp"
 #include "contacts/candidates.hpp"
 #include "contacts/shares.hpp"
+#include "contacts/strength.hpp"
 #include "run/attachment_memory.hpp"
 #include "run/implicit_memory.hpp"
 
@@ -127,6 +128,7 @@ void list_state(Archive& a, Simulation& s) {
   a("damping.local", s.damping.local);
   a("damping.contact", s.damping.contact);
   a("dynamic", s.dynamic);
+  a("laws.divided_by", s.laws.divided_by);
   a("state.alive", s.state.alive);
   a("state.turns", s.state.turns);
   a("state.time", s.state.time);
@@ -345,6 +347,12 @@ std::string recall(Simulation& sim, const Record& record) {
   Loader loader(record);
   list_memory(loader, sim);
   if (!loader.flaw().empty()) return loader.flaw();
+  const std::vector<double> factors = sim.laws.divided_by;
+  if (factors.size() != sim.laws.rows.size() ||
+      !std::all_of(factors.begin(), factors.end(), [](double f) { return f > 0.0 && std::isfinite(f); })) {
+    return "laws.divided_by is not of these laws";
+  }
+  sim.laws = divided_laws(sim.model, factors);
   Judge j;
   judge(j, sim);
   if (!j.flaw().empty()) return j.flaw();

@@ -17,7 +17,8 @@ bool carries(const ContactSet& c, std::size_t k) {
   return c.is(k, cs::closed) && c.share[k] > 0.0;
 }
 
-/// Blocks that touch something, or are held by a boundary or a bolt.
+}  // namespace
+
 std::vector<std::uint8_t> touching(const Simulation& sim) {
   std::vector<std::uint8_t> touches(sim.blocks.size(), 0);
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
@@ -31,8 +32,6 @@ std::vector<std::uint8_t> touching(const Simulation& sim) {
   }
   return touches;
 }
-
-}  // namespace
 
 Balance balance_of(const Simulation& sim) {
   Balance balance;

@@ -216,6 +216,7 @@ damping = { contact = 0.2 }
 [[stage]]
 duration = 60.0
 reset_displacements = true
+strength_factor = 1.25
 [solver]
 method = "edda"
 mass = "covering"
@@ -232,6 +233,13 @@ damping = { mass = "2 1/s", local = 0.1, contact = 0.3 }
 every = 0.3
 history_every = 0.07
 checkpoint_every = 2.5
+[fos]
+stage = "settle"
+vary = "water:wet"
+bracket = [0.7, 2]
+tolerance = 0.02
+exclude = ["glue"]
+fails = { displacement = "1 cm", velocity = "2 mm/s" }
 )";
 
 // In place of an outline.

@@ -241,6 +241,8 @@ void expect_every_run_key(const Model& m) {
   EXPECT_EQ(m.stages[1].until, StageEnd::time);
   EXPECT_EQ(m.stages[1].damping.local, 0.1);
   EXPECT_TRUE(m.stages[1].reset_displacements);
+  EXPECT_EQ(m.stages[0].strength_factor, 1.0);
+  EXPECT_EQ(m.stages[1].strength_factor, 1.25);
   EXPECT_EQ(m.solver.mass, MassKind::covering);
   EXPECT_EQ(m.solver.switching, Switching::plain);
   EXPECT_EQ(m.solver.duration, 120.0);
@@ -255,6 +257,16 @@ void expect_every_run_key(const Model& m) {
   EXPECT_EQ(m.output.every, 0.3);
   EXPECT_EQ(m.output.history_every, 0.07);
   EXPECT_EQ(m.output.checkpoint_every, 2.5);
+  ASSERT_TRUE(m.fos);
+  EXPECT_EQ(m.fos->stage, "settle");
+  EXPECT_EQ(m.fos->vary, "water:wet");
+  EXPECT_EQ(m.fos->varied, Varied::water);
+  EXPECT_EQ(m.fos->target, 0);
+  EXPECT_EQ(m.fos->bracket, (Vec2{0.7, 2.0}));
+  EXPECT_EQ(m.fos->tolerance, 0.02);
+  EXPECT_EQ(m.fos->exclude, std::vector<std::string>{"glue"});
+  EXPECT_EQ(m.fos->fails.displacement, 0.01);
+  EXPECT_EQ(m.fos->fails.velocity, 0.002);
 }
 
 Model read(const std::string& text) {
