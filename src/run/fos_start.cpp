@@ -106,7 +106,9 @@ bool stopped(const FosOptions& options) {
 /// Without stages: the model as drawn, its joints strong.
 Result<FosStart> settled(const Model& model, const Fos& fos, const FosOptions& options) {
   const double at_first = fos.varied == Varied::strength ? 1.0 : 0.0;
-  Result<PreparedRun> prepared = prepare_run(before_trials(model, fos, at_first, 1.0));
+  Model drawn = before_trials(model, fos, at_first, 1.0);
+  drawn.solver.damping.local = local_damping;  // as it will be
+  Result<PreparedRun> prepared = prepare_run(std::move(drawn));
   if (!prepared.ok()) return prepared.faults();
   FosStart s{std::move(prepared.value().sim), {}, {}, {}, {}, {}, {}, {}, {}};
   s.warnings = std::move(prepared.value().warnings);

@@ -24,8 +24,17 @@ double turned(const Simulation& before, const Simulation& after, std::size_t i) 
   return std::atan2(a.c * b.s - a.s * b.c, a.c * b.c + a.s * b.s);
 }
 
-MovingBlock motion_of(const Simulation& before, const Simulation& after, std::size_t i,
-                      bool touches) {
+/// [nb] 1: a corner of it is at an edge, or one of another block at its own, but for `gap`.
+std::vector<std::uint8_t> next_to_something(const Simulation& s, double gap) {
+  std::vector<std::uint8_t> near = touching(s);
+  const ContactSet& c = s.contacts;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (c.depth[k] > -gap && c.on_edge(k)) near[c.block_i[k]] = near[c.block_j[k]] = 1;
+  }
+  return near;
+}
+
+MovingBlock motion_of(const Simulation& before, const Simulation& after, std::size_t i) {
   MovingBlock m;
   m.id = static_cast<Id>(i);
   const Vec2 at = centroid(before.state.x, before.state.y, i);
@@ -40,9 +49,6 @@ MovingBlock motion_of(const Simulation& before, const Simulation& after, std::si
   m.rotation = turned(before, after, i);
   const double way = norm(m.displacement);
   m.turning_part = way > 0.0 ? std::abs(m.rotation) * before.blocks.radius[i] / way : 0.0;
-  m.motion = !touches                    ? Motion::falls
-             : m.turning_part >= topples ? Motion::topples
-                                         : Motion::slides;
   return m;
 }
 
@@ -74,7 +80,8 @@ std::vector<MovingJoint> joints_of(const Simulation& before, const Simulation& a
   const ContactSet& c = before.contacts;
   std::map<std::tuple<Id, Id, std::uint16_t>, MovingJoint> joints;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if (!c.is(k, cs::closed) || c.share[k] <= 0.0) continue;
+    const bool touches = c.is(k, cs::closed) || (c.depth[k] > -least && c.on_edge(k));
+    if (!touches || c.share[k] <= 0.0 || c.why[k] != Blocked::no) continue;
     const auto gap = [&](const Pose& pose) {
       const EdgeFrame e = edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
       return gap_to(e, at(pose.x, pose.y, c.vertex[k]));
@@ -121,12 +128,17 @@ std::string sentence(const Mechanism& m) {
 
 Mechanism mechanism_of(const Simulation& before, const Simulation& after) {
   Mechanism m;
-  const std::vector<std::uint8_t> touches = touching(after);
   double largest = 0.0, weight = 0.0;
   for (std::size_t i = 0; i < before.blocks.size(); ++i) {
     if (!is_free(before.blocks, before.state, i)) continue;
-    m.blocks.push_back(motion_of(before, after, i, touches[i] != 0));
+    m.blocks.push_back(motion_of(before, after, i));
     largest = std::max(largest, m.blocks.back().largest);
+  }
+  const std::vector<std::uint8_t> near = next_to_something(after, moves * largest);
+  for (MovingBlock& b : m.blocks) {
+    b.motion = !near[b.id]                  ? Motion::falls
+               : b.turning_part >= topples ? Motion::topples
+                                            : Motion::slides;
   }
   std::erase_if(m.blocks, [&](const MovingBlock& b) { return b.largest < moves * largest; });
   for (const MovingBlock& b : m.blocks) {

@@ -50,7 +50,7 @@ struct Mechanism {
 ///
 /// A block topples where turning moves its furthest corner by at least half of what the block
 /// itself moves: turning_part >= 1/2 (a block that turns about one of its corners has about 1, one
-/// that slides 0). One that touches nothing any more falls.
+/// that slides 0). One that is next to nothing any more, but for a tenth of that displacement, falls.
 Mechanism mechanism_of(const Simulation& before, const Simulation& after);
 
 std::string mechanism_csv(const Simulation& sim, const Mechanism& mechanism);
