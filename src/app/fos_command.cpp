@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 
 #include "app/common.hpp"
@@ -108,8 +109,11 @@ int fos(const FosArguments& args) {
   const FosResult& r = found.value();
   if (!args.quiet) print_warnings(r.warnings);
   FolderLock lock;
-  Trouble trouble = clear_folder(folder);
+  Trouble trouble = make_folder(folder);
   if (!trouble) trouble = lock.take(folder);
+  if (!trouble) trouble = clear_folder(folder);
+  std::error_code none_there;
+  std::filesystem::remove(folder + "/frames", none_there);  // it has no frames
   if (!trouble) trouble = write_results(*model, r, folder);
   if (trouble) {
     print({*trouble});

@@ -152,6 +152,25 @@ TEST(BadModel, WhatTheImplicitMethodCannotDo) {
   }
 }
 
+TEST(BadModel, FactorOfSafety) {
+  const std::string load = "[[load]]\nname = \"push\"\npoint = [15, 9]\nforce = [1, 0]\n";
+  for (const Bad& bad : {
+           Bad{"[fos]\nvary = \"strenght\"\n", 43, "fos.vary", "load:NAME"},
+           Bad{load + "[fos]\nvary = \"load:pusch\"\n", 47, "fos.vary", "did you mean \"push\""},
+           Bad{"[fos]\nvary = \"water:lake\"\n", 43, "fos.vary", "no water is called"},
+           Bad{"[fos]\nvary = \"shaking:\"\n", 43, "fos.vary", "no shaking is called"},
+           Bad{"[fos]\nstage = \"last\"\n", 43, "fos.stage", "no stage is called \"last\""},
+           Bad{"[fos]\nexclude = [\"rouh\"]\n", 43, "fos.exclude", "did you mean \"rough\""},
+           Bad{"[fos]\nbracket = [2, 1]\n", 43, "fos.bracket", "not below"},
+           Bad{"[fos]\nbracket = [0, 1]\n", 43, "fos.bracket[0]", "above 0"},
+           Bad{"[fos]\ntolerance = 0\n", 43, "fos.tolerance", "out of range"},
+           Bad{"[fos]\nfails = { displacement = -1 }\n", 43, "fos.fails.displacement",
+               "out of range"},
+       }) {
+    expect_fault(bad);
+  }
+}
+
 TEST(BadModel, Stages) {
   for (const Bad& bad : {
            Bad{"[[stage]]\nduration = 0.1\nuntil = \"rest\"\n", 44, "stage.0.until", "not known"},
@@ -161,6 +180,8 @@ TEST(BadModel, Stages) {
                "is not the 0.15 s of the stages together"},
            Bad{"[[stage]]\nduration = 0.1\ndamping = { local = 1.5 }\n", 44,
                "stage.0.damping.local", "out of range"},
+           Bad{"[[stage]]\nduration = 0.1\nstrength_factor = 0\n", 44, "stage.0.strength_factor",
+               "out of range"},
        }) {
     expect_fault(bad);
   }
