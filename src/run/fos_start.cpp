@@ -56,12 +56,12 @@ FosCriterion criterion_of(const Simulation& sim, const Model& model, const Fos& 
   c.size /= std::max(count, 1.0);
   c.acceleration = norm(model.gravity);
   if (c.acceleration == 0.0) c.acceleration = force > 0.0 ? force / mass : standard_gravity;
-  constexpr double part_of_size = 0.01, times = 10.0, ramp = 0.2;
+  constexpr double part_of_size = 0.01, times = 5.0, ramp = 0.2, slower = 10.0;
   c.duration = times * std::sqrt(c.size / c.acceleration);
   c.ramp = ramp * c.duration;
   c.shaking = shaking_time(model, fos);
   c.displacement = fos.fails.displacement.value_or(part_of_size * c.size);
-  c.velocity = fos.fails.velocity.value_or(c.displacement / (times * c.duration));
+  c.velocity = fos.fails.velocity.value_or(c.displacement / (slower * c.duration));
   return c;
 }
 
