@@ -39,6 +39,9 @@ void complete_shakings(const Value& root, Reading& reading);
 /// As complete(), for [[bolt]] and [[bolt_pattern]]: what each type needs, openings that are named.
 void complete_bolts(const Value& root, Reading& reading);
 
+/// As complete(), for [joints.NAME]: what each type needs and does not know, residual strength.
+void complete_joints(const Value& root, Reading& reading);
+
 /// As complete(), for [fos]: the stage, joints and what is varied must exist.
 void complete_fos(const Value& root, Reading& reading);
 

@@ -36,11 +36,16 @@ constexpr std::array strength_keys{
 };
 
 constexpr std::array joint_keys{
-    Key{"type", at<&JointLaw::type>, choice, initial, "Coulomb friction with cohesion and tension, or glued: never opens or slides."},
-    Key{"friction_angle", at<&JointLaw::peak, &Strength::friction_angle>, number(D::angle, friction), otherwise("required unless type is \"glued\""), "Friction angle until failure."},
+    Key{"type", at<&JointLaw::type>, choice, initial, "Coulomb friction with cohesion and tension; glued: never opens or slides; slip-weakening: from the peak to the residual strength over slip_distance; barton-bandis: by jrc, jcs and residual_angle."},
+    Key{"friction_angle", at<&JointLaw::peak, &Strength::friction_angle>, number(D::angle, friction), otherwise("required unless type is \"glued\" or \"barton-bandis\""), "Friction angle until failure."},
     Key{"cohesion", at<&JointLaw::peak, &Strength::cohesion>, number(D::stress, from(0)), initial, "Cohesion until failure."},
     Key{"tensile_strength", at<&JointLaw::peak, &Strength::tensile_strength>, number(D::stress, from(0)), initial, "Tensile strength until failure."},
     Key{"residual", at<&JointLaw::residual>, table, otherwise("same friction angle, no cohesion, no tension"), "Strength after failure, and of contacts that were not closed at the start."},
+    Key{"dilation_angle", at<&JointLaw::dilation_angle>, number(D::angle, from_below(0, 90)), otherwise("none"), "How steeply the joint opens as it slips; less than its friction angles."},
+    Key{"slip_distance", at<&JointLaw::slip_distance>, number(D::length, above(0)), otherwise("required of slip-weakening; of Coulomb friction: without end"), "Slip from peak to residual strength, at which dilation ends, too."},
+    Key{"jrc", at<&JointLaw::jrc>, number(D::plain, from_to(0, 20)), otherwise("required of barton-bandis"), "Joint roughness coefficient, of walls as long as the blocks' edges."},
+    Key{"jcs", at<&JointLaw::jcs>, number(D::stress, above(0)), otherwise("required of barton-bandis"), "Compressive strength of the joint's walls."},
+    Key{"residual_angle", at<&JointLaw::residual_angle>, number(D::angle, friction), otherwise("required of barton-bandis"), "Residual friction angle of barton-bandis."},
     Key{"kn", at<&JointLaw::kn>, number(D::joint_stiffness, above(0)), otherwise("contact.normal_stiffness, as a spring per contact"), "Normal stiffness of the joint; the spring is kn times the length the contact stands for."},
     Key{"ks", at<&JointLaw::ks>, number(D::joint_stiffness, above(0)), otherwise("0.4 kn"), "Shear stiffness of the joint."},
 };

@@ -20,7 +20,7 @@ enum class Plane { strain, stress };
 enum class Method { edda, dda };
 enum class MassKind { matched, covering, consistent };
 enum class Switching { exact, plain };
-enum class LawType { coulomb, glued };
+enum class LawType { coulomb, glued, slip_weakening, barton_bandis };
 enum class StageEnd { time, equilibrium };
 enum class BoundaryType { fixed, roller, viscous, stress, velocity };
 enum class ShakingKind { base, inertia, upgoing };
@@ -48,6 +48,10 @@ struct JointLaw {
   LawType type = LawType::coulomb;
   Strength peak;             ///< of a bonded contact
   Strength residual;         ///< after failure, and of every contact not closed at the start
+  std::optional<double> dilation_angle;  ///< degrees; coulomb, slip-weakening
+  std::optional<double> slip_distance;   ///< m: from peak to residual; coulomb: of dilation
+  std::optional<double> jrc, jcs;        ///< roughness (-), strength of the walls (Pa); barton-bandis
+  std::optional<double> residual_angle;  ///< degrees; barton-bandis
   std::optional<double> kn;  ///< Pa/m; without it contact.normal_stiffness
   std::optional<double> ks;  ///< Pa/m; filled with 0.4 kn where kn is given and ks is not
   Where where;

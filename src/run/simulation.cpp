@@ -10,6 +10,7 @@
 #include "blocks/build_blocks.hpp"
 #include "contacts/candidates.hpp"
 #include "contacts/gaps.hpp"
+#include "contacts/joint_laws.hpp"
 #include "contacts/shares.hpp"
 #include "contacts/strength.hpp"
 #include "contacts/transitions.hpp"
@@ -145,6 +146,7 @@ void Simulation::start(double first_event) {
     look_at_previous_gaps(contacts, pose);
   };
   look_back();
+  if (laws.any_changes) update_joint_laws(contacts, blocks, laws);
   evaluate_contacts(contacts, blocks, laws, h, damping.contact);
   gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity, acting());
   references_ = dashpot_references({});
@@ -268,6 +270,7 @@ std::optional<Failure> Simulation::step() {
   if (!explicit_method()) return step_implicit();
   StageClock clock(state.steps);
   const double h_old = step_before_;
+  if (laws.any_changes) update_joint_laws(contacts, blocks, laws);
   evaluate_contacts(contacts, blocks, laws, state.step, damping.contact);
   const LoadsNow at_work = acting();
   clock.lap(seconds.forces);

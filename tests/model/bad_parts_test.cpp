@@ -143,12 +143,48 @@ TEST(BadModel, WhatTheImplicitMethodCannotDo) {
         {"[[boundary]]\nsides = [\"left\"]\ntype = \"velocity\"\nvelocity = [1, 0]\n",
          "boundary.1.type"},
         {"[[shaking]]\nacceleration = { amplitude = 1, frequency = 2 }\n", "shaking.0.apply"},
+        {"[joints.a]\nfriction_angle = 30\ndilation_angle = 3\n[contact]\njoint = \"rough\"\n",
+         "joints.a"},
         {"[[bolt]]\nfrom = [15, 1]\nto = [15, 3]\ndiameter = 0.02\ntype = \"end\"\n", "bolt.0"}}) {
     const std::string whole = testing::base_with("duration = 0.1\n", "duration = 0.1\n" + solver);
     const Result<Model> result = read_model_text(whole + text, "m.toml", {});
     ASSERT_FALSE(result.ok()) << text;
     EXPECT_EQ(result.faults()[0].where.key, key);
     EXPECT_NE(to_string(result.faults()[0]).find("dda"), std::string::npos);
+  }
+}
+
+TEST(BadModel, JointLaws) {
+  const std::string weak = "[joints.a]\ntype = \"slip-weakening\"\nfriction_angle = 30\n",
+                    barton = "[joints.a]\ntype = \"barton-bandis\"\njrc = 9\njcs = 1e8\n"
+                             "residual_angle = 28\n[contact]\njoint = \"rough\"\n",
+                    plain = "[joints.a]\nfriction_angle = 30\n",
+                    end = "[contact]\njoint = \"rough\"\n";
+  const auto barton_with = [&](const std::string& line) {
+    std::string text = barton;
+    return text.insert(text.find("[contact]"), line);
+  };
+  for (const Bad& bad : {
+           Bad{weak + end, 42, "joints.a.slip_distance", "is missing"},
+           Bad{weak + "slip_distance = 0\n" + end, 45, "joints.a.slip_distance", "above 0"},
+           Bad{weak + "slip_distance = 1\njrc = 3\n" + end, 46, "joints.a.jrc", "means nothing"},
+           Bad{weak + "slip_distance = 1\ndilation_angle = 31\n" + end, 46,
+               "joints.a.dilation_angle", "not below the friction angle of 30"},
+           Bad{plain + "residual = { friction_angle = 5 }\ndilation_angle = 6\n" + end, 45,
+               "joints.a.dilation_angle", "angle of 5 degrees"},
+           Bad{plain + "slip_distance = 1\n" + end, 44, "joints.a.slip_distance", "dilation_angle"},
+           Bad{barton_with("cohesion = 5\n"), 47, "joints.a.cohesion", "means nothing"},
+           Bad{barton_with("friction_angle = 5\n"), 47, "joints.a.friction_angle", "means nothing"},
+           Bad{barton_with("dilation_angle = 5\n"), 47, "joints.a.dilation_angle", "means nothing"},
+           Bad{barton_with("residual = { cohesion = 5 }\n"), 47, "joints.a.residual",
+               "means nothing"},
+           Bad{"[joints.a]\ntype = \"barton-bandis\"\njrc = 9\nresidual_angle = 28\n" + end, 42,
+               "joints.a.jcs", "is missing"},
+           Bad{"[joints.a]\ntype = \"barton-bandis\"\njrc = 21\njcs = 1e8\nresidual_angle = 28\n" +
+                   end,
+               44, "joints.a.jrc", "at most 20"},
+       }) {
+    expect_fault(bad);
   }
 }
 

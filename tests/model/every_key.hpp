@@ -27,6 +27,17 @@ tensile_strength = 1e3
 residual = { friction_angle = 12, cohesion = "1 kPa", tensile_strength = 2.5 }
 kn = "20 GPa/m"
 ks = 9e9
+[joints.weak]
+type = "slip-weakening"
+friction_angle = 35
+residual = { friction_angle = 25 }
+dilation_angle = 4
+slip_distance = "5 mm"
+[joints.barton]
+type = "barton-bandis"
+jrc = 9
+jcs = "80 MPa"
+residual_angle = 28
 [contact]
 normal_stiffness = "200 MN/m"
 shear_stiffness = 1e8

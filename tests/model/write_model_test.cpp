@@ -30,7 +30,7 @@ void expect_every_key(const Model& m) {
   EXPECT_EQ(m.materials[1].name, "soft clay");
   EXPECT_EQ(m.materials[1].density, 20e3 / norm(Vec2{1, -9.8}));
   EXPECT_EQ(m.materials[1].poisson, 0.4);
-  ASSERT_EQ(m.joints.size(), 2U);
+  ASSERT_EQ(m.joints.size(), 4U);
   EXPECT_EQ(m.joints[0].type, LawType::glued);
   const JointLaw& law = m.joints[1];
   EXPECT_EQ(law.name, "rough");
@@ -43,6 +43,18 @@ void expect_every_key(const Model& m) {
   EXPECT_EQ(law.residual.tensile_strength, 2.5);
   EXPECT_EQ(law.kn, 20e9);
   EXPECT_EQ(law.ks, 9e9);
+  const JointLaw& weak = m.joints[2];
+  EXPECT_EQ(weak.type, LawType::slip_weakening);
+  EXPECT_EQ(weak.dilation_angle, 4.0);
+  EXPECT_EQ(weak.slip_distance, 0.005);
+  EXPECT_EQ(weak.residual.friction_angle, 25.0);
+  const JointLaw& barton = m.joints[3];
+  EXPECT_EQ(barton.type, LawType::barton_bandis);
+  EXPECT_EQ(barton.jrc, 9.0);
+  EXPECT_EQ(barton.jcs, 80e6);
+  EXPECT_EQ(barton.residual_angle, 28.0);
+  EXPECT_EQ(barton.peak.friction_angle, 28.0);
+  EXPECT_FALSE(barton.dilation_angle);
   EXPECT_EQ(m.contact.normal_stiffness, 2e8);
   EXPECT_EQ(m.contact.shear_stiffness, 1e8);
   EXPECT_EQ(m.contact.joint, 1);
@@ -315,6 +327,8 @@ TEST(WriteModel, ImplicitMethodComesBack) {
   text.replace(text.find("dynamic = true"), 14, "dynamic = false");
   text.replace(text.find("local = 0.1"), 11, "local = 0.0");
   // What belongs to the explicit method alone.
+  const std::size_t laws = text.find("[joints.weak]");
+  text.erase(laws, text.find("[contact]") - laws);
   const std::size_t driven = text.find("[[boundary]]\nname = \"far\"");
   text.erase(driven, text.find("[[load]]") - driven);
   const std::size_t wave = text.find("[[shaking]]\nacceleration");

@@ -217,21 +217,43 @@ TEST(StrengthFactor, DividesAllStrength) {
   EXPECT_EQ(sim.laws.rows[0].peak_tension, law.peak_tension);
 }
 
+/// The factor in force, and the slip that laws remember.
 TEST(StrengthFactor, LivesInACheckpoint) {
-  const std::string text = ramp(rough);
-  PreparedRun run = prepared(text), other = prepared(text);
-  Simulation &a = run.sim, &b = other.sim;
-  a.start(0.5);
-  a.set_strength_factor(1.8);
-  for (int k = 0; k < 300; ++k) ASSERT_FALSE(a.step());
-  Record record;
-  remember(a, record);
-  b.start(0.5);
-  ASSERT_EQ(recall(b, record), "");
-  EXPECT_EQ(b.laws.rows[0].residual_friction, a.laws.rows[0].residual_friction);
-  for (int k = 0; k < 300; ++k) ASSERT_FALSE(a.step() || b.step());
-  EXPECT_EQ(a.state.x, b.state.x);
-  EXPECT_EQ(a.state.vy, b.state.vy);
+  for (const std::string law :
+       {"friction_angle = 45\n", "friction_angle = 45\ndilation_angle = 3\n",
+        "type = 'slip-weakening'\nfriction_angle = 45\nresidual = { friction_angle = 30 }\n"
+        "slip_distance = 0.05\n",
+        "type = 'barton-bandis'\njrc = 5\njcs = 1e7\nresidual_angle = 25\n"}) {
+    const std::string text = ramp(law);
+    PreparedRun run = prepared(text), other = prepared(text);
+    Simulation &a = run.sim, &b = other.sim;
+    a.start(0.5);
+    a.set_strength_factor(1.8);
+    for (int k = 0; k < 300; ++k) ASSERT_FALSE(a.step());
+    Record record;
+    remember(a, record);
+    b.start(0.5);
+    ASSERT_EQ(recall(b, record), "");
+    EXPECT_EQ(b.laws.rows[0].residual_friction, a.laws.rows[0].residual_friction);
+    EXPECT_EQ(b.contacts.slid, a.contacts.slid);
+    for (int k = 0; k < 300; ++k) ASSERT_FALSE(a.step() || b.step());
+    EXPECT_EQ(a.state.x, b.state.x) << law;
+    EXPECT_EQ(a.state.vy, b.state.vy) << law;
+  }
+}
+
+/// The factor divides the strength that slip and stress have left, too.
+TEST(Fos, DividesLawsThatChange) {
+  const double sigma = 2500.0 * 9.81 * std::cos(std::numbers::pi / 6.0);
+  const FosResult barton = found(
+      ramp("type = 'barton-bandis'\njrc = 5\njcs = 1e7\nresidual_angle = 30\n", coarse));
+  const double angle = 30.0 + 5.0 * std::log10(1e7 / sigma);
+  EXPECT_NEAR(*barton.factor, std::tan(angle * std::numbers::pi / 180.0) * std::sqrt(3.0), 0.05);
+  const FosResult weak = found(
+      ramp("type = 'slip-weakening'\nfriction_angle = 45\nresidual = { friction_angle = 20 }\n"
+           "slip_distance = 0.05\n",
+           coarse));
+  EXPECT_NEAR(*weak.factor, exact, 0.05);
 }
 
 }  // namespace
