@@ -17,5 +17,6 @@ void add_verify(CLI::App& app, int& code);
 void add_fos(CLI::App& app, int& code);
 void add_plot(CLI::App& app, int& code);
 void add_example(CLI::App& app, int& code);
+void add_keys(CLI::App& app, int& code);
 
 }  // namespace edda

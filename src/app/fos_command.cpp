@@ -48,8 +48,8 @@ Trouble draw_mechanism(const Model& model, const FosResult& r, const std::string
   options.scale = round_scale(shown * r.criterion.size / largest);
   options.vectors = "displacement";
   for (const MovingJoint& j : r.mechanism->joints) {
-    options.joints.push_back({j.from + options.scale * j.from_moved,
-                              j.to + options.scale * j.to_moved});
+    options.joints.push_back(
+        {j.from + options.scale * j.from_moved, j.to + options.scale * j.to_moved});
   }
   for (const char* name : {"/mechanism.png", "/mechanism.svg"}) {
     if (Trouble trouble = plot(blocks, nullptr, field.value(), options, folder + name)) {
@@ -130,11 +130,14 @@ void add_fos(CLI::App& app, int& code) {
   command->footer(
       "Example:\n  edda fos slope.toml\n  edda fos dam.toml --set fos.vary=water:lake\n\n"
       "Brings the model to rest, then tries factors: the strength of the joints divided by it\n"
-      "(cohesion, tangent of the friction angle, tensile strength), or a load, a water or a shaking\n"
+      "(cohesion, tangent of the friction angle, tensile strength), or a load, a water or a "
+      "shaking\n"
       "multiplied by it, until one that holds and one that fails are as near as fos.tolerance.\n"
       "The folder (default: the model's name without .toml and with -fos, here) then holds\n"
-      "  summary.json          the factor, its bracket, the criterion, the mechanism; written last\n"
-      "  fos.csv               every trial: factor, outcome, how far and how fast which block went\n"
+      "  summary.json          the factor, its bracket, the criterion, the mechanism; written "
+      "last\n"
+      "  fos.csv               every trial: factor, outcome, how far and how fast which block "
+      "went\n"
       "  mechanism.csv         which blocks move at the lowest factor that fails, and how\n"
       "  mechanism_joints.csv  along which joints;  mechanism.png, mechanism.svg: a picture\n"
       "Ctrl-C ends it early with the bracket so far (exit code 130).");
@@ -142,8 +145,7 @@ void add_fos(CLI::App& app, int& code) {
   command->add_option("MODEL", args->model, "The model, a TOML file")
       ->required()
       ->type_name("FILE");
-  command
-      ->add_option("-o,--output", args->folder, "Folder for the results (default: stem-fos)")
+  command->add_option("-o,--output", args->folder, "Folder for the results (default: stem-fos)")
       ->type_name("DIR");
   add_threads(*command);
   add_overrides(*command, args->overrides);

@@ -32,6 +32,7 @@ int run_command(int argc, char** argv) {
   edda::add_fos(app, code);
   edda::add_plot(app, code);
   edda::add_example(app, code);
+  edda::add_keys(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -16,6 +16,7 @@ struct RunArguments {
   std::string model, folder;
   std::vector<std::string> overrides;
   bool quiet = false, resume = false;
+  std::string from;  ///< name or number of a stage
 };
 
 int code_of(Status status) {
@@ -34,6 +35,16 @@ void print_end(const Outcome& o, const std::string& folder) {
 int run(const RunArguments& args) {
   const std::optional<Model> model = read_or_print(args.model, args.overrides);
   if (!model) return exit_code::bad_input;
+  std::optional<std::size_t> from;
+  if (!args.from.empty()) {
+    from = stage_called(*model, args.from);
+    if (!from) {
+      print({{{"--from", {}, 0, 0},
+              '"' + args.from + "\" is no stage of the model",
+              "name one of its [[stage]]s, or give its number from 0"}});
+      return exit_code::bad_input;
+    }
+  }
   const std::string folder = args.folder.empty() ? stem_of(args.model) : args.folder;
   // Asked before the cut, which may take minutes, and again when the run starts.
   if (const Trouble trouble = check_folder(folder, args.model)) {
@@ -66,6 +77,7 @@ int run(const RunArguments& args) {
   options.folder = folder;
   options.stop = &stop_asked;
   options.resume = args.resume;
+  options.from_stage = from;
   options.warn = [](const std::string& w) { fmt::print(stderr, "edda: {}\n", w); };
   if (!args.quiet) options.progress = [&](const Progress& p) { bar.show(p); };
   const Result<Outcome> outcome = run_model(ready, options);
@@ -94,6 +106,7 @@ void add_run(CLI::App& app, int& code) {
       "  blocks.csv     every block at the end;  joints.csv: every contact\n"
       "  blocks.pvd, contacts.pvd   time series: open them in ParaView\n"
       "  model.toml     the model as run, every default filled in\n"
+      "  stages.csv     a row per stage, with joints_N.csv and checkpoint_N.h5 of its end\n"
       "  checkpoint.h5  where to go on from, every few minutes of a long run\n"
       "Ctrl-C ends a run early and keeps everything so far (exit code 130); --resume goes on from\n"
       "there, to the same digits as if it had never stopped.");
@@ -109,6 +122,12 @@ void add_run(CLI::App& app, int& code) {
       "--resume", args->resume,
       "Go on from the last checkpoint in the folder; the model must be the same, only "
       "its duration may grow");
+  command
+      ->add_option("--from", args->from,
+                   "Go on from the end of this stage (name or number from 0) of the run in the "
+                   "folder; stages after it may have changed")
+      ->type_name("STAGE")
+      ->excludes("--resume");
   add_threads(*command);
   add_overrides(*command, args->overrides);
   command->add_flag("--quiet", args->quiet, "No progress, no warnings, no closing words");

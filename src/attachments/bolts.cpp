@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/polygon.hpp"
+#include "model/stage_names.hpp"
 
 namespace edda {
 namespace {
@@ -89,6 +90,7 @@ std::vector<Stay> stays_of(const Outlines& o, const State& state, Vec2 head, Vec
 BoltData data_of(const Bolt& bolt, std::size_t number, double thickness) {
   BoltData d;
   d.name = bolt.name.empty() ? std::to_string(number) : bolt.name;
+  d.row = static_cast<Index>(number);
   d.grouted = bolt.type == BoltType::grouted;
   d.share = thickness / bolt.spacing;
   const double area = 0.25 * std::numbers::pi * bolt.diameter * bolt.diameter;
@@ -118,7 +120,8 @@ void add_spring(BoltSprings& s, double stiffness, double strength) {
 /// Builds one bolt after the other.
 class Builder {
  public:
-  Builder(const Outlines& outlines, const State& state) : o_(outlines), state_(state) {
+  Builder(const Outlines& outlines, const State& state, double slack)
+      : o_(outlines), state_(state), slack_(slack) {
     bolts.begin.push_back(0);
   }
 
@@ -136,7 +139,7 @@ class Builder {
     if (data.grouted) {
       add_grouted(data, stays, head, t, length);
     } else {
-      const double near = 1e-6 * length;
+      const double near = slack_ * length;
       const bool ends = stays.front().from <= near && stays.back().to >= length - near;
       if (!ends) {
         return Fault{bolt.where, "an end of bolt " + data.name + " lies in no block",
@@ -223,10 +226,27 @@ class Builder {
   static constexpr std::size_t no_node = static_cast<std::size_t>(-1);
   const Outlines& o_;
   const State& state_;
+  double slack_;
 };
+
+template <class T>
+void append(std::vector<T>& list, const std::vector<T>& more) {
+  list.insert(list.end(), more.begin(), more.end());
+}
+
+void append(BoltSprings& s, const BoltSprings& more) {
+  for (auto of : {&BoltSprings::stiffness, &BoltSprings::strength, &BoltSprings::plastic,
+                  &BoltSprings::force, &BoltSprings::force_1}) {
+    append(s.*of, more.*of);
+  }
+  append(s.yielded, more.yielded);
+  append(s.broken, more.broken);
+}
 
 void list_by_block(Bolts& bolts, std::size_t blocks) {
   bolts.place.assign(blocks, no_id);
+  bolts.block_begin.clear();
+  bolts.block_nodes.clear();
   std::vector<std::vector<Id>> nodes(blocks);
   for (Id k = 0; k < bolts.size(); ++k) nodes[bolts.host[k]].push_back(k);
   for (std::size_t i = 0; i < blocks; ++i) {
@@ -274,28 +294,76 @@ std::vector<Bolt> all_bolts(const Model& model) {
 }
 
 Result<Bolts> attach_bolts(const Model& model, const BlockSet& b, const State& state,
-                           const std::vector<double>& x, const std::vector<double>& y) {
+                           const std::vector<double>& x, const std::vector<double>& y,
+                           const std::vector<Index>& which, double slack) {
   const std::vector<Bolt> all = all_bolts(model);
-  if (all.empty()) return Bolts{};
+  if (which.empty()) return Bolts{};
   const Outlines outlines{b, x, y};
-  Builder builder(outlines, state);
+  Builder builder(outlines, state, slack);
   Faults faults;
-  for (std::size_t q = 0; q < all.size(); ++q) {
+  for (const Index row : which) {
+    const auto q = static_cast<std::size_t>(row);
     if (auto fault = builder.add(all[q], data_of(all[q], q, b.thickness))) faults.push_back(*fault);
   }
   if (!faults.empty()) return faults;
   Bolts bolts = std::move(builder.bolts);
-  list_by_block(bolts, b.size());
-  bolts.on_host.resize(bolts.size());
-  bolts.frame.resize(bolts.size());
-  for (auto* scratch : {&bolts.trial, &bolts.diagonal, &bolts.upper, &bolts.right, &bolts.change}) {
-    scratch->resize(bolts.size());
-  }
+  complete_bolts(bolts, model, b.size());
   update_bolts(bolts, state);
   // What letting pretension settle made slip is no part of the run.
   bolts.slipped = bolts.fractured = bolts.will_slip = bolts.will_fracture = 0.0;
   for (BoltSprings* s : {&bolts.bonds, &bolts.bars, &bolts.dowels}) s->force_1 = s->force;
   return bolts;
+}
+
+Result<Bolts> attach_bolts(const Model& model, const BlockSet& b, const State& state,
+                           const std::vector<double>& x, const std::vector<double>& y) {
+  constexpr double as_drawn = 1e-6;
+  std::vector<Index> all, later;
+  for (std::size_t q = 0; q < all_bolts(model).size(); ++q) all.push_back(static_cast<Index>(q));
+  for (const Stage& stage : model.stages) append(later, bolts_called(model, stage.install));
+  Result<Bolts> found = attach_bolts(model, b, state, x, y, all, as_drawn);
+  if (later.empty() || !found.ok()) return found;
+  std::vector<Index> now;
+  for (const Index q : all) {
+    if (std::find(later.begin(), later.end(), q) == later.end()) now.push_back(q);
+  }
+  return attach_bolts(model, b, state, x, y, now, as_drawn);
+}
+
+void complete_bolts(Bolts& bolts, const Model& model, std::size_t blocks) {
+  const std::vector<Bolt> all = all_bolts(model);
+  for (BoltData& row : bolts.rows) {
+    const auto q = static_cast<std::size_t>(row.row);
+    row = data_of(all[q], q, model.thickness);
+  }
+  list_by_block(bolts, blocks);
+  bolts.on_host.resize(bolts.size());
+  bolts.frame.resize(bolts.size());
+  for (auto* scratch : {&bolts.trial, &bolts.diagonal, &bolts.upper, &bolts.right, &bolts.change}) {
+    scratch->resize(bolts.size());
+  }
+}
+
+void add_bolts(Bolts& bolts, const Bolts& more, const Model& model, std::size_t blocks) {
+  const auto before = static_cast<Id>(bolts.size());
+  if (bolts.begin.empty()) bolts.begin.push_back(0);
+  append(bolts.rows, more.rows);
+  for (std::size_t r = 1; r < more.begin.size(); ++r) bolts.begin.push_back(before + more.begin[r]);
+  append(bolts.host, more.host);
+  for (std::size_t k = 0; k < 3; ++k) {
+    append(bolts.weight[k], more.weight[k]);
+    append(bolts.along[k], more.along[k]);
+  }
+  append(bolts.distance, more.distance);
+  append(bolts.bonded, more.bonded);
+  append(bolts.length, more.length);
+  append(bolts.crossing, more.crossing);
+  append(bolts.slip, more.slip);
+  append(bolts.bonds, more.bonds);
+  append(bolts.bars, more.bars);
+  append(bolts.dowels, more.dowels);
+  append(bolts.on_host, more.on_host);
+  complete_bolts(bolts, model, blocks);
 }
 
 }  // namespace edda

@@ -36,6 +36,7 @@ namespace edda {
 /// bolt times thickness over spacing.
 struct BoltData {
   std::string name;  ///< as given, or its number
+  Index row = 0;     ///< of all_bolts()
   bool grouted = true;
   double share = 1.0;       ///< thickness over spacing
   double steel = 0.0;       ///< EA, N
@@ -95,15 +96,30 @@ struct Bolts {
   std::size_t size() const { return host.size(); }
 };
 
+/// Whether the model has any.
+inline bool has_bolts(const Model& model) {
+  return !model.bolts.empty() || !model.bolt_patterns.empty();
+}
+
 /// The bolts of the model, those of patterns after the others. A pattern's bolts stand where rays
 /// from the centroid of the opening leave its outline for the last time.
 std::vector<Bolt> all_bolts(const Model& model);
 
-/// Puts bolts in where the blocks now are (`x`, `y`: their vertices), and lets pretension settle. A
-/// bolt that meets no free block, and an end-anchored one with an end outside of all blocks, is a
-/// fault.
+/// Puts bolts in where the blocks now are (`x`, `y`: their vertices), and lets pretension settle:
+/// `which` of all_bolts(). A bolt that meets no free block, and an end-anchored one with an end
+/// further outside of all blocks than `slack` of its length, is a fault.
+Result<Bolts> attach_bolts(const Model& model, const BlockSet& blocks, const State& state,
+                           const std::vector<double>& x, const std::vector<double>& y,
+                           const std::vector<Index>& which, double slack);
+/// Those that no stage installs, at the start of the run; one of the others that could not be put
+/// in there is a fault, too.
 Result<Bolts> attach_bolts(const Model& model, const BlockSet& blocks, const State& state,
                            const std::vector<double>& x, const std::vector<double>& y);
+
+/// Adds bolts to others in the same blocks.
+void add_bolts(Bolts& bolts, const Bolts& more, const Model& model, std::size_t blocks);
+/// What follows from the other arrays: data of the rows, lists by block, room for a step.
+void complete_bolts(Bolts& bolts, const Model& model, std::size_t blocks);
 
 /// Bar k where it now is.
 BarFrame bar_frame(const Bolts& bolts, const State& state, std::size_t k);

@@ -75,12 +75,32 @@ Result<BoundarySprings> attach_boundaries(const Model& model, const BlockSet& b)
     springs.kxx.push_back(s.kxx);
     springs.kyy.push_back(s.kyy);
     springs.kxy.push_back(s.kxy);
+    springs.acting_k.push_back({s.kxx, s.kyy, s.kxy});
     springs.start_x.push_back(b.vertex_x[s.vertex]);
     springs.start_y.push_back(b.vertex_y[s.vertex]);
     ++springs.block_begin[b.vertex_block[s.vertex] + 1];
   }
   for (std::size_t i = 0; i < b.size(); ++i) springs.block_begin[i + 1] += springs.block_begin[i];
   return springs;
+}
+
+void BoundarySprings::release(Index row) {
+  for (std::size_t q = 0; q < size(); ++q) {
+    if (boundary[q] == row) kxx[q] = kyy[q] = kxy[q] = 0.0;
+  }
+}
+
+void BoundarySprings::engage(Index row, const std::vector<double>& x,
+                             const std::vector<double>& y) {
+  const Vec2 moved = shift[static_cast<std::size_t>(row)];
+  for (std::size_t q = 0; q < size(); ++q) {
+    if (boundary[q] != row) continue;
+    kxx[q] = acting_k[q][0];
+    kyy[q] = acting_k[q][1];
+    kxy[q] = acting_k[q][2];
+    start_x[q] = x[vertex[q]] - moved.x;
+    start_y[q] = y[vertex[q]] - moved.y;
+  }
 }
 
 double boundary_energy(const BoundarySprings& s, const Pose& pose) {

@@ -2,6 +2,7 @@
 // started, or to where the boundary has moved since.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -16,14 +17,19 @@ namespace edda {
 /// Springs sorted by (block, vertex, boundary). Force on the vertex: -K (x - x_start - shift), K
 /// symmetric.
 struct BoundarySprings {
-  std::vector<Id> vertex;                ///< [ns]
-  std::vector<Index> boundary;           ///< [ns] row of Model::boundaries
-  std::vector<double> kxx, kyy, kxy;     ///< [ns] N/m
-  std::vector<double> start_x, start_y;  ///< [ns] m
-  std::vector<Id> block_begin;           ///< [nb + 1]
-  std::vector<Vec2> shift, shift_1;      ///< [rows of Model::boundaries] how far the boundary has
-                                         ///< moved by step n and by step n - 1, m
+  std::vector<Id> vertex;                       ///< [ns]
+  std::vector<Index> boundary;                  ///< [ns] row of Model::boundaries
+  std::vector<double> kxx, kyy, kxy;            ///< [ns] N/m; 0 while the boundary does not act
+  std::vector<std::array<double, 3>> acting_k;  ///< [ns] kxx, kyy, kxy of those that act
+  std::vector<double> start_x, start_y;         ///< [ns] m
+  std::vector<Id> block_begin;                  ///< [nb + 1]
+  std::vector<Vec2> shift, shift_1;  ///< [rows of Model::boundaries] how far the boundary has
+                                     ///< moved by step n and by step n - 1, m
   std::size_t size() const { return vertex.size(); }
+  /// Springs of one boundary act no more.
+  void release(Index row);
+  /// Springs of one boundary act from where their vertices are at x, y.
+  void engage(Index row, const std::vector<double>& x, const std::vector<double>& y);
 };
 
 inline bool has_springs(BoundaryType type) {

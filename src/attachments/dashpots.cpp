@@ -61,7 +61,18 @@ Result<Dashpots> attach_dashpots(const Model& model, const BlockSet& b) {
     dashpots.begin.push_back(static_cast<Id>(p));
   }
   dashpots.begin.push_back(static_cast<Id>(dashpots.points.size()));
+  dashpots.set_acting(std::vector<Spell>(model.boundaries.size()));
   return dashpots;
+}
+
+void Dashpots::set_acting(const std::vector<Spell>& boundaries) {
+  acts.clear();
+  for (const Spell& spell : boundaries) acts.push_back(spell.acts() ? 1 : 0);
+  damped.clear();
+  for (const Dashpot& p : points) {
+    if (acts[static_cast<std::size_t>(p.boundary)] == 0) continue;
+    if (damped.empty() || damped.back() != p.block) damped.push_back(p.block);
+  }
 }
 
 }  // namespace edda

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
+#include "attachments/loads.hpp"
 #include "base/fault.hpp"
 #include "blocks/block_set.hpp"
 #include "model/model.hpp"
@@ -25,8 +27,12 @@ struct Dashpot {
 /// All of them, sorted by block.
 struct Dashpots {
   std::vector<Dashpot> points;
-  std::vector<Id> blocks;  ///< that have any, ascending
-  std::vector<Id> begin;   ///< [blocks + 1] first point of each
+  std::vector<Id> blocks;          ///< that have any, ascending
+  std::vector<Id> begin;           ///< [blocks + 1] first point of each
+  std::vector<std::uint8_t> acts;  ///< [rows of Model::boundaries]
+  std::vector<Id> damped;          ///< blocks with a dashpot that acts, ascending
+  /// Says which boundaries act.
+  void set_acting(const std::vector<Spell>& boundaries);
 };
 
 /// Dashpots of all viscous boundaries, on open faces of blocks that are not held. A boundary that

@@ -18,28 +18,31 @@ Ground find_ground(const Model& model, const BlockSet& b) {
   return ground;
 }
 
-Vec2 ground_acceleration(const Model& model, const ActiveSince& since, double time) {
+Vec2 ground_acceleration(const Model& model, const Spells& spells, double time) {
   Vec2 a;
   for (std::size_t q = 0; q < model.shakings.size(); ++q) {
     const Shaking& shaking = model.shakings[q];
-    if (shaking.apply != ShakingKind::base || time < since.shakings[q]) continue;
-    a += acceleration_at(shaking, time - since.shakings[q]);
+    const Spell& spell = spells.shakings[q];
+    const double part = spell.part(time);
+    if (shaking.apply != ShakingKind::base || part == 0.0) continue;
+    a += part * acceleration_at(shaking, time - spell.since);
   }
   return a;
 }
 
-GroundStep next_ground(const Model& model, const ActiveSince& since, const Ground& ground,
+GroundStep next_ground(const Model& model, const Spells& spells, const Ground& ground,
                        const BoundarySprings& springs, double time, double h_old, double h_new) {
   GroundStep next;
   next.velocity =
-      ground.velocity + (0.5 * (h_old + h_new)) * ground_acceleration(model, since, time);
+      ground.velocity + (0.5 * (h_old + h_new)) * ground_acceleration(model, spells, time);
   next.shift = ground.shift + h_new * next.velocity;
   next.shifts = springs.shift;
   for (std::size_t q = 0; q < next.shifts.size(); ++q) {
     const Boundary& boundary = model.boundaries[q];
     Vec2 velocity = next.velocity;
-    if (boundary.type == BoundaryType::velocity && time >= since.boundaries[q]) {
-      const double middle = time + 0.5 * h_new - since.boundaries[q];
+    const Spell& spell = spells.boundaries[q];
+    if (boundary.type == BoundaryType::velocity && spell.acts()) {
+      const double middle = time + 0.5 * h_new - spell.since;
       velocity += boundary.factor.at(middle, 1.0) * *boundary.velocity;
     }
     next.shifts[q] += h_new * velocity;

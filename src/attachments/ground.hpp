@@ -30,11 +30,11 @@ struct GroundStep {
 Ground find_ground(const Model& model, const BlockSet& blocks);
 
 /// Acceleration that shakings of kind "base" give the ground, m/s2.
-Vec2 ground_acceleration(const Model& model, const ActiveSince& since, double time);
+Vec2 ground_acceleration(const Model& model, const Spells& spells, double time);
 
 /// From `time` on, h_old and h_new the steps behind and ahead (s). A boundary of type velocity
 /// moves at its velocity at the middle of the step, too.
-GroundStep next_ground(const Model& model, const ActiveSince& since, const Ground& ground,
+GroundStep next_ground(const Model& model, const Spells& spells, const Ground& ground,
                        const BoundarySprings& springs, double time, double h_old, double h_new);
 
 /// Puts the nodes of the held blocks where the ground takes them.

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "attachments/boundary_lines.hpp"
 #include "attachments/edges_on_line.hpp"
 #include "base/parallel.hpp"
 #include "blocks/locate.hpp"
 #include "model/accelerogram.hpp"
+#include "model/stage_names.hpp"
 
 namespace edda {
 namespace {
@@ -148,6 +150,15 @@ void attach_water(const Model& model, const Water& water, Index row, const Block
   faults.push_back(fault);
 }
 
+/// Each acts from the start, or not yet.
+template <class Item>
+std::vector<Spell> first_spells(const Model& model, const std::vector<Item>& items) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  std::vector<Spell> spells;
+  for (const Item& item : items) spells.push_back({acts_at_first(model, item.name) ? 0.0 : never});
+  return spells;
+}
+
 /// Sorts each list by block, and notes where each block's begin.
 void sort_by_block(const BlockSet& b, Loads& l) {
   auto by_edge = [](const auto& x, const auto& y) { return x.edge < y.edge; };
@@ -160,6 +171,8 @@ void sort_by_block(const BlockSet& b, Loads& l) {
   for (const EdgeLoad& e : l.edges) any[b.vertex_block[e.edge]] = 1;
   for (const WetEdge& e : l.wet) any[b.vertex_block[e.edge]] = 1;
   l.place.assign(b.size(), no_id);
+  l.blocks.clear();
+  l.range.clear();
   Id point = 0, edge = 0, wet = 0;
   for (Id i = 0; i < b.size(); ++i) {
     if (!any[i]) continue;
@@ -199,8 +212,9 @@ Head head(double s0, double s1, double d0, double d1) {
 Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const BlockSet& b) {
   Loads loads;
   Faults faults;
-  loads.since.boundaries.assign(model.boundaries.size(), 0.0);
-  loads.since.shakings.assign(model.shakings.size(), 0.0);
+  loads.spells = {first_spells(model, model.loads), first_spells(model, model.waters),
+                  first_spells(model, model.boundaries), first_spells(model, model.shakings)};
+  loads.held.assign(model.openings.size() + model.boundaries.size(), {});
   const auto is_stress = [](const Boundary& q) { return q.type == BoundaryType::stress; };
   const bool stressed = std::any_of(model.boundaries.begin(), model.boundaries.end(), is_stress);
   if (model.loads.empty() && model.waters.empty() && !stressed) return loads;
@@ -224,23 +238,52 @@ Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const
   return loads;
 }
 
+void keep_forces(const Model& model, const BlockSet& b, const std::vector<KeptForce>& forces,
+                 Loads& loads) {
+  const std::size_t before = model.loads.size() + model.boundaries.size();
+  for (const KeptForce& f : forces) {
+    const Id v = f.vertex;
+    loads.points.push_back({b.vertex_block[v],
+                            {b.weight[0][v], b.weight[1][v], b.weight[2][v]},
+                            f.force,
+                            static_cast<Index>(before) + f.keeper});
+  }
+  sort_by_block(b, loads);
+}
+
+void drop_forces(const Model& model, const BlockSet& b, Index keeper, Loads& loads) {
+  const auto row = static_cast<Index>(model.loads.size() + model.boundaries.size()) + keeper;
+  std::erase_if(loads.points, [&](const PointLoad& p) { return p.load == row; });
+  sort_by_block(b, loads);
+}
+
 LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
   LoadsNow now;
   for (std::size_t q = 0; q < model.shakings.size(); ++q) {
     const Shaking& shaking = model.shakings[q];
-    if (shaking.apply != ShakingKind::inertia || time < loads.since.shakings[q]) continue;
-    now.frame += acceleration_at(shaking, time - loads.since.shakings[q]);
+    const Spell& spell = loads.spells.shakings[q];
+    const double part = spell.part(time);
+    if (shaking.apply != ShakingKind::inertia || part == 0.0) continue;
+    now.frame += part * acceleration_at(shaking, time - spell.since);
   }
   if (loads.blocks.empty()) return now;
   now.loads = &loads;
-  for (const Load& load : model.loads) now.factor.push_back(load.factor.at(time, 1.0));
-  for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
-    const double since = loads.since.boundaries[q];
-    now.factor.push_back(time < since ? 0.0 : model.boundaries[q].factor.at(time - since, 1.0));
-  }
-  for (const Water& water : model.waters) {
-    now.rise.push_back(water.rise.at(time, 0.0));
-    now.weight.push_back(water.unit_weight * model.thickness);
+  const auto add_factors = [&](const auto& items, const std::vector<Spell>& spells) {
+    for (std::size_t q = 0; q < items.size(); ++q) {
+      const double part = spells[q].part(time);
+      now.factor.push_back(part > 0.0 ? part * items[q].factor.at(time - spells[q].since, 1.0)
+                                      : 0.0);
+    }
+  };
+  add_factors(model.loads, loads.spells.loads);
+  add_factors(model.boundaries, loads.spells.boundaries);
+  for (const Hold& hold : loads.held) now.factor.push_back(hold.at(time));
+  for (std::size_t q = 0; q < model.waters.size(); ++q) {
+    const Water& water = model.waters[q];
+    const Spell& spell = loads.spells.waters[q];
+    const double part = spell.part(time);
+    now.rise.push_back(part > 0.0 ? water.rise.at(time - spell.since, 0.0) : 0.0);
+    now.weight.push_back(part * water.unit_weight * model.thickness);
   }
   return now;
 }

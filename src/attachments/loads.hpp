@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "attachments/bolts.hpp"
@@ -19,7 +21,7 @@ struct PointLoad {
   Id block;
   std::array<double, 3> weight;  ///< of the point
   Vec2 force;                    ///< N
-  Index load;                    ///< row of Model::loads
+  Index load;                    ///< row of Model::loads, or that of a keeper (keep_forces())
 };
 
 /// Traction or pressure on the part of an edge from s = from to s = to (0: its first vertex, 1: its
@@ -40,11 +42,33 @@ struct WetEdge {
   Index water;                  ///< row of Model::waters
 };
 
-/// When what stages may switch on began to act, s: histories run from there. Infinite: it does not
-/// act.
-struct ActiveSince {
-  std::vector<double> boundaries;  ///< [rows of Model::boundaries]
-  std::vector<double> shakings;    ///< [rows of Model::shakings]
+/// When something acts, s. At the instant of a jump its part is the mean of both sides, so that a
+/// leapfrog that has this instant amid its step begins and ends where it should.
+struct Spell {
+  double since = 0.0;  ///< histories run from here; infinite: it does not act yet
+  double until = std::numeric_limits<double>::infinity();
+  bool acts() const { return std::isfinite(since) && !std::isfinite(until); }
+  double part(double time) const {
+    if (time < since || time > until) return 0.0;
+    return (time == since && since > 0.0) || time == until ? 0.5 : 1.0;
+  }
+};
+
+/// Of what stages may switch on and off.
+struct Spells {
+  std::vector<Spell> loads;       ///< [rows of Model::loads]
+  std::vector<Spell> waters;      ///< [rows of Model::waters]
+  std::vector<Spell> boundaries;  ///< [rows of Model::boundaries]
+  std::vector<Spell> shakings;    ///< [rows of Model::shakings]
+};
+
+/// How much of the forces on a keeper (see KeptForce) is still there: now, and before the last
+/// change.
+struct Hold {
+  double part = 0.0, before = 0.0;
+  double changed = -1.0;  ///< s
+  double at(double time) const { return time == changed ? 0.5 * (before + part) : part; }
+  void change(double to, double time) { *this = {to, time == changed ? before : part, time}; }
 };
 
 /// All of them, each list sorted by block, on blocks that are not held.
@@ -58,13 +82,14 @@ struct Loads {
   };
   std::vector<Range> range;  ///< [blocks]
   std::vector<Id> place;     ///< [nb] index into `blocks`, or no_id; empty where there are none
-  ActiveSince since;
+  Spells spells;
+  std::vector<Hold> held;  ///< [keepers]
 };
 
 /// Loads as they act at one time.
 struct LoadsNow {
   const Loads* loads = nullptr;  ///< null: there are none
-  std::vector<double> factor;    ///< [rows of Model::loads, then those of Model::boundaries]
+  std::vector<double> factor;    ///< [rows of Model::loads, those of Model::boundaries, keepers]
   std::vector<double> rise;      ///< [rows of Model::waters] m
   std::vector<double> weight;    ///< [rows of Model::waters] N/m3 times thickness
   const Bolts* bolts = nullptr;  ///< with their forces at this time; null: there are none
@@ -74,6 +99,21 @@ struct LoadsNow {
 /// Finds what the loads, waters and boundaries of type stress act on. One that finds nothing is a
 /// fault.
 Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const BlockSet& blocks);
+
+/// A force on a vertex, N, of something that has gone: rock taken out, or a boundary that another
+/// has taken over from. Its keeper says how much of it is still there: a row of Model::openings, or
+/// their number and the row of the Model::boundaries that took over.
+struct KeptForce {
+  Id vertex;
+  Vec2 force;
+  Index keeper;
+};
+
+/// Puts these forces among the loads, of which the part Loads::held is there.
+void keep_forces(const Model& model, const BlockSet& blocks, const std::vector<KeptForce>& forces,
+                 Loads& loads);
+/// Takes those on one keeper out again.
+void drop_forces(const Model& model, const BlockSet& blocks, Index keeper, Loads& loads);
 
 LoadsNow loads_at(const Model& model, const Loads& loads, double time);
 

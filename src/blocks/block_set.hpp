@@ -61,6 +61,7 @@ struct BlockSet {
   std::vector<double> radius;       ///< [nb] largest distance of a vertex from the centroid, m
   std::vector<double> inradius;     ///< [nb] half the narrowest extent of the outer ring, m
   std::vector<Index> material;      ///< [nb]
+  std::vector<Index> opening;       ///< [nb] that a stage takes the block out for; empty: none does
   std::map<Id, std::string> names;  ///< of the blocks that were given one
   MassKind mass_kind = MassKind::matched;
 

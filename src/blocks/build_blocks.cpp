@@ -142,6 +142,10 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
     b.centroid_y.push_back(m.centroid.y);
     b.inradius.push_back(half_width(polygon.rings[0]));
     b.material.push_back(polygon.material);
+    if (polygon.opening != none) {
+      b.opening.resize(polygons.blocks.size(), none);
+      b.opening[b.area.size() - 1] = polygon.opening;
+    }
     if (!polygon.name.empty()) b.names[static_cast<Id>(b.area.size() - 1)] = polygon.name;
     b.vertex_begin.push_back(static_cast<Id>(b.vertex_block.size()));
   }

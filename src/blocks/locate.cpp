@@ -38,7 +38,7 @@ std::optional<Id> block_at(const Model& model, const PolygonSet& polygons, const
                            Vec2 p, Among among) {
   const double snap = snap_distance(model, b);
   const double edge = std::min(snap, 1e-13 * (extent(b) + norm(p + b.origin)));  // rounding only
-  std::optional<Id> nearest;
+  std::optional<Id> nearest, leaving;
   double least = snap;
   for (std::size_t q = 0; q < b.size(); ++q) {
     const std::size_t i = polygons.reversed ? b.size() - 1 - q : q;
@@ -46,13 +46,18 @@ std::optional<Id> block_at(const Model& model, const PolygonSet& polygons, const
     const Vec2 arm = p - Vec2{b.centroid_x[i], b.centroid_y[i]};
     if (norm(arm) > b.radius[i] + snap + edge) continue;
     const std::vector<Ring>& rings = polygons.blocks[i].rings;
-    if (side_of(rings, p, edge) >= 0) return static_cast<Id>(i);
+    if (side_of(rings, p, edge) >= 0) {
+      const bool stays = b.opening.empty() || b.opening[i] == none;
+      if (stays) return static_cast<Id>(i);
+      if (!leaving) leaving = static_cast<Id>(i);
+      continue;
+    }
     const double d = distance_to_rings(rings, p);
     if (d > least || (nearest && d == least)) continue;
     least = d;
     nearest = static_cast<Id>(i);
   }
-  return nearest;
+  return leaving ? leaving : nearest;
 }
 
 }  // namespace edda

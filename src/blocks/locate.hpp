@@ -11,8 +11,9 @@ namespace edda {
 /// Which blocks may be found.
 enum class Among { all_blocks, free_blocks };
 
-/// The block of lowest number, as cut, that holds p (local coordinates) or has it on its edge; else
-/// the nearest within the snap distance: `domain.snap`, or 1e-9 of the model's size.
+/// The block of lowest number, as cut, that holds p (local coordinates) or has it on its edge: one
+/// that stays before one that a stage takes out. Else the nearest within the snap distance:
+/// `domain.snap`, or 1e-9 of the model's size.
 std::optional<Id> block_at(const Model& model, const PolygonSet& polygons, const BlockSet& blocks,
                            Vec2 p, Among among = Among::all_blocks);
 

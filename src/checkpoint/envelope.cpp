@@ -27,6 +27,10 @@ std::string former(const std::string& folder) {
   return folder + "/checkpoint.previous.h5";
 }
 
+std::string of_stage(const std::string& folder, std::size_t stage) {
+  return fmt::format("{}/checkpoint_{}.h5", folder, stage);
+}
+
 /// Takes `start` off the front.
 bool take(std::string_view& text, std::string_view start) {
   if (!text.starts_with(start)) return false;
@@ -50,6 +54,27 @@ int sync_folder(const std::string& folder) {
   const int error = ::fsync(handle) == 0 ? 0 : errno;
   ::close(handle);
   return error;
+}
+
+/// The sealed image in a file, on the disk. Returns an error number, 0: none.
+int write_part(const std::string& part, std::string_view image) {
+  const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) return errno;
+  int error = write_all(file, seal(image));
+  if (error == 0) error = write_all(file, image);
+  if (error == 0 && ::fsync(file) != 0) error = errno;
+  if (::close(file) != 0 && error == 0) error = errno;
+  return error;
+}
+
+/// Gives the part its name, unless there was an error.
+Trouble put_in_place(const std::string& folder, const std::string& path, const std::string& part,
+                     int error) {
+  if (error == 0 && std::rename(part.c_str(), path.c_str()) != 0) error = errno;
+  if (error == 0) error = sync_folder(folder);
+  if (error == 0) return {};
+  std::remove(part.c_str());
+  return cannot_write(path, error);
 }
 
 Result<std::string> read_sealed(const std::string& path) {
@@ -96,23 +121,29 @@ Result<std::string_view> open_sealed(std::string_view file) {
 
 Trouble write_checkpoint(const std::string& folder, std::string_view image) {
   const std::string part = current(folder) + ".part";
-  const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  int error = file < 0 ? errno : 0;
-  if (error == 0) {
-    error = write_all(file, seal(image));
-    if (error == 0) error = write_all(file, image);
-    if (error == 0 && ::fsync(file) != 0) error = errno;
-    if (::close(file) != 0 && error == 0) error = errno;
-  }
+  int error = write_part(part, image);
   if (error == 0 && ::access(current(folder).c_str(), F_OK) == 0 &&
       std::rename(current(folder).c_str(), former(folder).c_str()) != 0) {
     error = errno;
   }
-  if (error == 0 && std::rename(part.c_str(), current(folder).c_str()) != 0) error = errno;
-  if (error == 0) error = sync_folder(folder);
-  if (error == 0) return {};
-  std::remove(part.c_str());
-  return cannot_write(current(folder), error);
+  return put_in_place(folder, current(folder), part, error);
+}
+
+Trouble write_stage_checkpoint(const std::string& folder, std::size_t stage,
+                               std::string_view image) {
+  const std::string path = of_stage(folder, stage), part = path + ".part";
+  return put_in_place(folder, path, part, write_part(part, image));
+}
+
+Result<std::string> read_stage_checkpoint(const std::string& folder, std::size_t stage) {
+  const std::string path = of_stage(folder, stage);
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
+    return Fault{{{}, folder, 0, 0},
+                 fmt::format("holds no checkpoint of the end of stage {}", stage),
+                 "name a stage that the run has ended (stages.csv lists them)"};
+  }
+  return read_sealed(path);
 }
 
 Result<std::string> read_checkpoint(const std::string& folder, std::string& warning) {

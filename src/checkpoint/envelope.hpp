@@ -23,6 +23,12 @@ Result<std::string_view> open_sealed(std::string_view file);
 /// whole.
 Trouble write_checkpoint(const std::string& folder, std::string_view image);
 
+/// The same for the end of a stage: `folder`/checkpoint_`stage`.h5.
+Trouble write_stage_checkpoint(const std::string& folder, std::size_t stage,
+                               std::string_view image);
+/// Its image. Faults: it is not there, or is damaged.
+Result<std::string> read_stage_checkpoint(const std::string& folder, std::size_t stage);
+
 /// The image of `folder`/checkpoint.h5, or where that is damaged or missing of
 /// checkpoint.previous.h5; `warning` then says so. Faults: neither can be used.
 Result<std::string> read_checkpoint(const std::string& folder, std::string& warning);

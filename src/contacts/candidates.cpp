@@ -222,6 +222,7 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
   next.vertex.reserve(list.size());
   next.edge.reserve(list.size());
   std::vector<Id> new_of_old(contacts.size(), no_id), old_of_new(list.size(), no_id);
+  if (!contacts.lent.empty()) next.lent.assign(list.size(), 0);
   std::size_t old = 0;
   for (std::size_t k = 0; k < list.size(); ++k) {
     const NearPair pair = list[k];
@@ -241,6 +242,7 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
       for (std::size_t e = 0; e < 2; ++e) next.force[2 * k + e] = contacts.force[2 * old + e];
       next.state[k] = contacts.state[old];
       next.why[k] = contacts.why[old];
+      if (!contacts.lent.empty()) next.lent[k] = contacts.lent[old];
       next.law[k] = contacts.law[old];
       new_of_old[old] = static_cast<Id>(k);
       old_of_new[k] = static_cast<Id>(old);
@@ -252,6 +254,7 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
       if (laws.any_changes) next.slid[k] = first_slip(laws.rows[next.law[k]]);
     }
   }
+  next.broken = contacts.broken;
   next.retired_friction = contacts.retired_friction;
   next.retired_damping = contacts.retired_damping;
   next.retired_fracture = contacts.retired_fracture;
@@ -286,8 +289,8 @@ void bond_contacts(ContactSet& c, const BlockSet& b, const State& state, const P
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Law& law = laws.rows[c.law[k]];
     const bool weakens = law.type == LawType::slip_weakening;
-    const bool has_bond = weakens || law.glued || law.peak_cohesion > 0.0 || law.peak_tension > 0.0 ||
-                          law.peak_friction > law.residual_friction;
+    const bool has_bond = weakens || law.glued || law.peak_cohesion > 0.0 ||
+                          law.peak_tension > 0.0 || law.peak_friction > law.residual_friction;
     const double size = std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
     const bool near_edge = c.on_edge(k) && c.share[k] > 0.0;
     if (!has_bond || !near_edge || c.length[k] <= 0.0 || c.depth[k] < -1e-6 * size ||

@@ -205,8 +205,8 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::vector<double> normal;    ///< N at n - 1 of the whole spring (before share and alpha), N
   std::vector<double> shear, shear_1;  ///< T at n - 1 and n - 2 of the whole spring, N
   std::vector<double> slip_trial;  ///< s before the return map at n - 1, m; see slip_before_cut()
-  std::vector<double>
-      slid;  ///< slip so far, m; infinite: has its residual strength; empty where no law asks for it
+  std::vector<double> slid;  ///< slip so far, m; infinite: has its residual strength; empty where
+                             ///< no law asks for it
   std::vector<double> friction_work, damping_work, fracture_work;  ///< dissipated so far, J
 
   // Forces of the last evaluation, N.
@@ -224,6 +224,8 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::vector<std::uint8_t> pairs_moved;  ///< scratch of update_shares()
   std::vector<Id> pair_of;                ///< [nc] a pair the candidate is in, or no_id
   std::vector<RunOn> run_ons;             ///< edges with a reentrant end, by candidate
+  std::vector<std::uint8_t> lent;         ///< [nc] 1: glued for a stage; 2: and bonded besides;
+                                          ///< empty while nothing is
   std::vector<Segment> segments;          ///< the bonded ones
   std::vector<Id> begin_of_vertex;        ///< [nv + 1] candidates of a vertex
 
@@ -241,6 +243,7 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::uint64_t built_at = 0;  ///< step
   std::uint64_t rebuilds = 0;
 
+  std::uint64_t broken = 0;  ///< bonded contacts that have gone to their residual law so far
   double retired_friction = 0.0, retired_damping = 0.0,
          retired_fracture = 0.0;  ///< J, of candidates let go
 

@@ -66,8 +66,8 @@ double taken_by_friction(const ContactSet& c, std::size_t k) {
   return 0.5 * c.share[k] * c.ks[k] * (c.slip_before_cut(k) - s) * (s + s_1);
 }
 
-/// Lifts the faces off each other by `rise` m, or as far as what friction has taken goes: the spring
-/// gains w p (r (e_n + e_{n-1}) + r^2)/2 by a rise r.
+/// Lifts the faces off each other by `rise` m, or as far as what friction has taken goes: the
+/// spring gains w p (r (e_n + e_{n-1}) + r^2)/2 by a rise r.
 void lift(ContactSet& c, std::size_t k, double rise) {
   const double sum = c.effective(k) + c.effective_1(k);
   if (c.effective(k) <= 0.0 || c.effective_1(k) <= 0.0 || c.share[k] <= 0.0) return;
@@ -84,7 +84,8 @@ void update_one(ContactSet& c, const BlockSet& b, const LawTable& laws, std::siz
   const double slip = slip_of_step(c, k);
   if (slip > 0.0) {
     const double dilation = in_force(c, b, laws, k).dilation;
-    const double left = law.slip_distance > 0.0 ? std::max(law.slip_distance - c.slid[k], 0.0) : slip;
+    const double left =
+        law.slip_distance > 0.0 ? std::max(law.slip_distance - c.slid[k], 0.0) : slip;
     const bool ends = law.type != LawType::barton_bandis;
     if (dilation > 0.0) lift(c, k, dilation * (ends ? std::min(slip, left) : slip));
     c.slid[k] += slip;

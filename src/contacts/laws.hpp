@@ -18,8 +18,8 @@ struct Law {
   // What goes with slip (contacts/joint_laws.hpp).
   bool changes = false;  ///< its strength or opening does
   LawType type = LawType::coulomb;
-  double slip_distance = 0.0;  ///< m; infinite where dilation has no end
-  double dilation = 0.0;       ///< tangent of its angle
+  double slip_distance = 0.0;                         ///< m; infinite where dilation has no end
+  double dilation = 0.0;                              ///< tangent of its angle
   double jrc = 0.0, jcs = 0.0, residual_angle = 0.0;  ///< -, Pa, degrees
 };
 
@@ -29,7 +29,7 @@ struct LawTable {
       rank;  ///< of each row: lower friction angle, then cohesion, tension, name
   std::vector<double>
       divided_by;  ///< [rows] what the strength in `rows` was divided by (contacts/strength.hpp)
-  bool any_changes = false;  ///< a row has `changes`
+  bool any_changes = false;                   ///< a row has `changes`
   double default_kn = 0.0, default_ks = 0.0;  ///< N/m per metre of thickness
   double thickness = 1.0;
   Index default_law = none;

@@ -37,6 +37,10 @@ void close(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& l
            std::size_t k) {
   set_spring(c, b, pose, laws, k);
   c.set(k, cs::closed);
+  if (!c.lent.empty()) {
+    c.lent[k] = 1;
+    c.set(k, cs::glued | cs::bonded | cs::pulls);
+  }
   c.alpha[k] = 1.0;
   c.normal[k] = 0.0;
   start_shear(c, pose, k);
@@ -90,6 +94,7 @@ void hand_over(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTabl
   const double now = 0.5 * (gained + std::sqrt(gained * gained + 4.0 * std::max(product, 0.0)));
   c.set(heir,
         static_cast<std::uint8_t>(c.state[k] & (cs::closed | cs::bonded | cs::pulls | cs::glued)));
+  if (!c.lent.empty()) c.lent[heir] = c.lent[k];
   c.rest[heir] = c.depth[heir] - now;
   c.anchor[heir] = (c.foot[heir] - slip) / c.span[heir];
   c.shear[heir] = c.shear[k] * c.ks[heir] / c.ks[k];

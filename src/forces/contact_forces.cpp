@@ -20,7 +20,8 @@ void let_go(ContactSet& c, std::size_t k) {
   c.set(k, cs::opened);
 }
 
-/// A contact whose tensile strength is spent opens; what it stores is fracture energy.
+}  // namespace
+
 void tear(ContactSet& c, std::size_t k) {
   const double before = c.effective_1(k), now = c.effective(k), slip = -c.shear_1[k] / c.ks[k];
   const double slip_now = c.slip_before_cut(k);
@@ -32,6 +33,8 @@ void tear(ContactSet& c, std::size_t k) {
   c.rest[k] = std::max(0.0, std::min(c.rest[k], c.depth[k]));
   clear_contact_force(c, k);
 }
+
+namespace {
 
 /// N of the spring alone.
 template <class Contacts>
@@ -207,10 +210,10 @@ void evaluate(ContactSet& c, const BlockSet& b, std::size_t begin, std::size_t e
 /// or one of them tears. A joint without tensile strength tears where it gapes by more than 1e-6 of
 /// the smaller block's size, the gap within which contacts are bonded in the first place: at rest N
 /// is zero but for rounding, and rounding must not decide.
-bool fails(const ContactSet& c, const BlockSet& b, const LawTable& laws, const Segment& segment) {
+bool fails(const ContactSet& c, const BlockSet& b, const Segment& segment) {
   double shear = 0.0, normal = 0.0, cohesion = 0.0, friction = 0.0;
   for (const Id k : segment.members) {
-    if (laws.rows[c.law[k]].glued) return false;
+    if (c.is(k, cs::glued)) return false;
     shear += c.share[k] * c.shear[k];
     normal += c.share[k] * c.normal[k];
     cohesion += c.share[k] * c.cohesion[k];
@@ -255,10 +258,11 @@ void break_bond(ContactSet& c, const BlockSet& b, const LawTable& laws, Id k, do
 
 /// Calls break_one(k) for every contact of the bonded segments that fail, and lets these go.
 template <class Break>
-void break_failed(ContactSet& c, const BlockSet& b, const LawTable& laws, Break break_one) {
+void break_failed(ContactSet& c, const BlockSet& b, Break break_one) {
   for (Segment& segment : c.segments) {
-    if (!fails(c, b, laws, segment)) continue;
+    if (!fails(c, b, segment)) continue;
     for (const Id k : segment.members) break_one(k);
+    c.broken += segment.members.size();
     segment.members.clear();
   }
   std::erase_if(c.segments, [](const Segment& s) { return s.members.empty(); });
@@ -289,12 +293,12 @@ void evaluate_contacts(ContactSet& c, const BlockSet& b, const LawTable& laws, d
   parallel_chunks(c.size(), ContactSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
     evaluate(c, b, begin, end, step, damping);
   });
-  break_failed(c, b, laws, [&](Id k) { break_bond(c, b, laws, k, step, damping); });
+  break_failed(c, b, [&](Id k) { break_bond(c, b, laws, k, step, damping); });
 }
 
 std::vector<Id> break_overloaded(ContactSet& c, const BlockSet& b, const LawTable& laws) {
   std::vector<Id> broken;
-  break_failed(c, b, laws, [&](Id k) {
+  break_failed(c, b, [&](Id k) {
     if (take_residual_law(c, laws, k)) let_go(c, k);
     broken.push_back(k);
   });

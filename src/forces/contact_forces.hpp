@@ -85,4 +85,7 @@ inline void clear_contact_force(ContactSet& c, std::size_t k) {
   keep_contact_force(c, k, {});
 }
 
+/// A contact whose tensile strength is spent opens; what it stores is fracture energy.
+void tear(ContactSet& contacts, std::size_t k);
+
 }  // namespace edda

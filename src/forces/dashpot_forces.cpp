@@ -7,11 +7,16 @@
 namespace edda {
 namespace {
 
+bool acts(const Dashpots& d, const Dashpot& at) {
+  return d.acts[static_cast<std::size_t>(at.boundary)] != 0;
+}
+
 /// sum over the points of w w^T (x) C.
 Matrix6 damping_matrix(const Dashpots& d, Id first, Id last) {
   Matrix6 m = Matrix6::Zero();
   for (Id p = first; p < last; ++p) {
     const Dashpot& at = d.points[p];
+    if (!acts(d, at)) continue;
     Eigen::Matrix2d c;
     c << at.cxx, at.cxy, at.cxy, at.cyy;
     for (int k = 0; k < 3; ++k) {
@@ -48,7 +53,7 @@ void add_dashpots(NodalForces& forces, std::vector<Vec2>& on_point, const Dashpo
   for (auto it = first; it != d.blocks.end() && *it < end; ++it) {
     const Id i = *it;
     const auto q = static_cast<std::size_t>(it - d.blocks.begin());
-    if (!state.alive[i]) {
+    if (!state.alive[i] || !std::binary_search(d.damped.begin(), d.damped.end(), i)) {
       std::fill(on_point.begin() + d.begin[q], on_point.begin() + d.begin[q + 1], Vec2{});
       continue;
     }
@@ -57,6 +62,7 @@ void add_dashpots(NodalForces& forces, std::vector<Vec2>& on_point, const Dashpo
     const Vector6 before = nodal(vx, vy, i);
     Vector6 push = nodal(forces.x, forces.y, i);
     for (Id p = d.begin[q]; p < d.begin[q + 1]; ++p) {
+      if (!acts(d, d.points[p])) continue;
       push += along(d.points[p].weight, times(d.points[p], reference_of(step, d.points[p])));
     }
     const Vector6 right = (1.0 - step.drag) * (mass * before) + step.h * (push - 0.5 * c * before);
@@ -64,6 +70,8 @@ void add_dashpots(NodalForces& forces, std::vector<Vec2>& on_point, const Dashpo
     const Vector6 mean = 0.5 * (before + Eigen::LLT<Matrix6>(left).solve(right));
     for (Id p = d.begin[q]; p < d.begin[q + 1]; ++p) {
       const Dashpot& at = d.points[p];
+      on_point[p] = {};
+      if (!acts(d, at)) continue;
       Vec2 v;
       for (std::size_t k = 0; k < 3; ++k) {
         const auto n = static_cast<Eigen::Index>(2 * k);

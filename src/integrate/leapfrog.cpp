@@ -1,5 +1,6 @@
 #include "integrate/leapfrog.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -90,6 +91,16 @@ EDDA_VECTOR void advance_nodes(NodeView n, Kick kick, std::size_t begin, std::si
 void advance(State& s, const BlockSet& b, const Nodes& force_x, const Nodes& force_y,
              const Nodes& old_vx, const Nodes& old_vy, double h_old, double h_new,
              const StepDamping& damping, std::size_t begin, std::size_t end) {
+  if (damping.local > 0.0 && damping.spared != nullptr) {
+    const std::vector<Id>& spared = *damping.spared;
+    const StepDamping others{damping.mass, damping.local}, these{damping.mass};
+    auto next = std::lower_bound(spared.begin(), spared.end(), static_cast<Id>(begin));
+    for (; next != spared.end() && *next < end; ++next) {
+      advance(s, b, force_x, force_y, old_vx, old_vy, h_old, h_new, others, begin, *next);
+      advance(s, b, force_x, force_y, old_vx, old_vy, h_old, h_new, these, *next, *next + 1);
+      begin = *next + 1;
+    }
+  }
   const double h = 0.5 * (h_old + h_new);
   const Kick kick{h, h_new, 0.5 * damping.mass * h, damping.local};
   if (b.mass_kind != MassKind::consistent) {
@@ -128,17 +139,21 @@ void book_damping(const State& s, const BlockSet& b, const Nodes& force_x, const
                   const Nodes& old_vx, const Nodes& old_vy, double h_old, double h_new,
                   const StepDamping& damping, DampingWork& work) {
   if (damping.mass == 0.0 && damping.local == 0.0) return;
+  const auto is_spared = [&](std::size_t i) {
+    return damping.spared != nullptr &&
+           std::binary_search(damping.spared->begin(), damping.spared->end(), static_cast<Id>(i));
+  };
   parallel_for(b.size(), [&](std::size_t i) {
     if (b.fixed[i] || !s.alive[i]) return;
     const std::array<Vec2, 3> f = node_vectors(force_x, force_y, i);
     double dissipated = 0.0;
+    const double local = damping.local > 0.0 && !is_spared(i) ? damping.local : 0.0;
     std::array<Vec2, 3> moved, mean;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec2 before{old_vx[k][i], old_vy[k][i]}, after{s.vx[k][i], s.vy[k][i]};
       moved[k] = 0.5 * (h_old * before + h_new * after);
       mean[k] = 0.5 * (before + after);
-      if (damping.local > 0.0)
-        dissipated -= dot(local_damping(f[k], before, damping.local), moved[k]);
+      if (local > 0.0) dissipated -= dot(local_damping(f[k], before, local), moved[k]);
     }
     if (damping.mass > 0.0) {
       dissipated += damping.mass * mass_product(b, i, mean, moved);

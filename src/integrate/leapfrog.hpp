@@ -11,6 +11,9 @@ namespace edda {
 struct StepDamping {
   double mass = 0.0;   ///< a, 1/s
   double local = 0.0;  ///< beta
+  /// Blocks that local damping spares, ascending: those on dashpots, which damp them already, and
+  /// would grow where beta of their own force came on top. Null: none.
+  const std::vector<Id>* spared = nullptr;
 };
 
 /// Work dissipated by damping at the nodes, per block.

@@ -99,15 +99,30 @@ struct Arrangement {
   std::vector<Index> region_of_half_edge;
 };
 
+bool is_staged(const Model& model, Index opening) {
+  return opening != none && model.openings[static_cast<std::size_t>(opening)].staged;
+}
+
+/// Rock beside an opening that a stage takes out: its side of the outline names no law. What holds
+/// it to the rock inside goes with that; what it meets later, it meets as any other face.
+std::vector<LineSource> sources_for(const Model& model, const LineWork& work, Zone zone) {
+  std::vector<LineSource> sources = work.sources;
+  for (LineSource& s : sources) {
+    const bool outline = s.kind == LineKind::opening && is_staged(model, s.index);
+    if (outline && zone == Zone::rock) s.joint = none;
+  }
+  return sources;
+}
+
 std::vector<BlockPolygon> polygons(const Model& model, const Arrangement& a, const LineWork& work,
                                    Zone zone, double snap) {
   const Partition& p = a.parts;
+  const std::vector<LineSource> sources = sources_for(model, work, zone);
   std::vector<BlockPolygon> blocks;
   blocks.reserve(static_cast<std::size_t>(count(p, zone)));
   for (std::size_t f = 1; f < p.zone.size(); ++f) {
     if (p.zone[f] != zone) continue;
-    BlockPolygon block =
-        face_polygon(a.graph, p.faces, static_cast<int>(f), work.sources, 4.0 * snap);
+    BlockPolygon block = face_polygon(a.graph, p.faces, static_cast<int>(f), sources, 4.0 * snap);
     const Index region = region_of(a.graph, p.faces, static_cast<int>(f), a.region_of_half_edge);
     block.material = region == none ? model.domain->material
                                     : model.regions[static_cast<std::size_t>(region)].material;
@@ -125,6 +140,18 @@ double area_of(const std::vector<BlockPolygon>& blocks) {
     for (const Ring& ring : block.rings) sum += signed_area(ring);
   }
   return sum;
+}
+
+/// Rock that a stage takes out is there until then: it follows the other cut blocks.
+void keep_staged(const Model& model, DomainCut& cut) {
+  const auto gone = std::stable_partition(
+      cut.removed.begin(), cut.removed.end(),
+      [&](const BlockPolygon& block) { return is_staged(model, block.opening); });
+  const std::vector<BlockPolygon> kept(cut.removed.begin(), gone);
+  cut.removed.erase(cut.removed.begin(), gone);
+  for (BlockPolygon& block : cut.blocks) block.opening = none;
+  cut.report.area_in += area_of(kept);
+  cut.blocks.insert(cut.blocks.end(), kept.begin(), kept.end());
 }
 
 /// Snapping may move the outline by `snap`; beyond that the faces must fill what went in.
@@ -271,6 +298,7 @@ Result<DomainCut> cut_domain(const Model& model, Vec2 origin, const Imports& imp
   if (auto fault = lost_area(model, a, work, snap, *area_in)) return *fault;
   cut.blocks = polygons(model, a, work, Zone::rock, snap);
   cut.removed = polygons(model, a, work, Zone::opening, snap);
+  keep_staged(model, cut);
   cut.report.cut_blocks = static_cast<int>(cut.blocks.size());
   cut.report.area_out = area_of(cut.blocks);
   return cut;

@@ -23,7 +23,7 @@ struct BlockPolygon {
   double angular_velocity = 0.0;  ///< rad/s about the centroid
   std::string name;               ///< of a [[block]], else empty
   Where where;                    ///< the table it came from
-  Index opening = none;           ///< the opening it lies in; only in PolygonSet::removed
+  Index opening = none;           ///< the opening it lies in; of rock that is taken out
 };
 
 /// What the cut did, for the user to read.

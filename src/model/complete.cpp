@@ -212,75 +212,6 @@ void check_content(const Value& root, Reading& reading) {
   }
 }
 
-/// Damping of a stage: what it does not give is the solver's, but for local damping, which brings a
-/// model to rest.
-void complete_stage_damping(const Value* node, const Solver& solver, Stage& stage) {
-  const Value* own = find(node, "damping");
-  constexpr double at_rest = 0.8;
-  const bool settles = stage.until == StageEnd::equilibrium && solver.method == Method::edda &&
-                       solver.mass != MassKind::consistent;
-  if (!given(own, "mass")) stage.damping.mass = solver.damping.mass;
-  if (!given(own, "contact")) stage.damping.contact = solver.damping.contact;
-  if (!given(own, "local")) stage.damping.local = settles ? at_rest : solver.damping.local;
-}
-
-/// Local damping, where it is given, must go with the method and the mass. `instead`: what to do in
-/// the implicit method.
-void check_local_damping(const Value* damping, const std::string& owner, const Solver& solver,
-                         const char* instead, Reading& reading) {
-  const Value* local = find(damping, "local");
-  if (local == nullptr) return;
-  const std::string key = owner + ".damping.local";
-  if (solver.method == Method::dda) {
-    add_fault(reading, local->place, key, "local damping belongs to method = \"edda\"", instead);
-  }
-  if (solver.mass == MassKind::consistent) {
-    add_fault(reading, local->place, key, "local damping does not go with mass = \"consistent\"",
-              "use mass = \"matched\", which moves the same way");
-  }
-}
-
-/// Durations of the stages, and of all together.
-void complete_stages(const Value& root, Reading& reading) {
-  Solver& solver = reading.model.solver;
-  const Value* node = find(&root, "solver");
-  const Value* duration = find(node, "duration");
-  if (reading.model.stages.empty()) {
-    if (duration == nullptr && !given(&root, "stage")) {
-      add_fault(reading, node == nullptr ? Place{1, 1, false} : node->place, "solver.duration",
-                "is missing",
-                "give " + expected(*find_key(find_section("solver")->keys, "duration")));
-    }
-    return;
-  }
-  double sum = 0.0;
-  bool all_given = true;
-  for (std::size_t i = 0; i < reading.model.stages.size(); ++i) {
-    Stage& stage = reading.model.stages[i];
-    const Value* own = element(root, "stage", i);
-    if (!is_table(own)) continue;
-    complete_stage_damping(own, solver, stage);
-    sum += stage.duration;
-    if (stage.until == StageEnd::time && !given(own, "duration")) {
-      all_given = false;
-      add_fault(reading, own->place, stage.where.key + ".duration", "is missing",
-                "give a time such as 0.1, or until = \"equilibrium\"");
-    }
-    if (stage.damping.local > 0.0) {
-      check_local_damping(find(own, "damping"), stage.where.key, solver,
-                          "leave it out: until equilibrium this method drops velocities at each "
-                          "step",
-                          reading);
-    }
-  }
-  constexpr double same = 1e-9;
-  if (duration != nullptr && all_given && std::abs(solver.duration - sum) > same * sum) {
-    add_fault(reading, duration->place, "solver.duration",
-              fmt::format("is not the {:.6g} s of the stages together", sum), "leave it out");
-  }
-  solver.duration = sum;
-}
-
 void check_solver(const Value& root, Reading& reading) {
   const Solver& solver = reading.model.solver;
   const Value* node = find(&root, "solver");
@@ -318,6 +249,20 @@ void complete_interval(const Value& root, const char* key, double& interval, dou
 }
 
 }  // namespace
+
+void check_local_damping(const Value* damping, const std::string& owner, const Solver& solver,
+                         const char* instead, Reading& reading) {
+  const Value* local = find(damping, "local");
+  if (local == nullptr) return;
+  const std::string key = owner + ".damping.local";
+  if (solver.method == Method::dda) {
+    add_fault(reading, local->place, key, "local damping belongs to method = \"edda\"", instead);
+  }
+  if (solver.mass == MassKind::consistent) {
+    add_fault(reading, local->place, key, "local damping does not go with mass = \"consistent\"",
+              "use mass = \"matched\", which moves the same way");
+  }
+}
 
 void complete(const Value& root, Reading& reading) {
   Model& model = reading.model;

@@ -26,6 +26,9 @@ void complete_shapes(const Value& root, Reading& reading);
 /// [[contact_pair]] and [[arch]].
 void complete_lines(const Value& root, Reading& reading);
 
+/// The built-in law of outlines that name none: rock as whole as it was. Made where it is needed.
+Index glued_law(Reading& reading);
+
 /// As complete(), for [[load]] and [[water]]: keys that exclude each other, histories read from
 /// their files, openings that are named.
 void complete_loads(const Value& root, Reading& reading);
@@ -44,6 +47,9 @@ void complete_joints(const Value& root, Reading& reading);
 
 /// As complete(), for [fos]: the stage, joints and what is varied must exist.
 void complete_fos(const Value& root, Reading& reading);
+
+/// As complete(), for [[stage]]: damping and masses by default, what is named, durations together.
+void complete_stages(const Value& root, Reading& reading);
 
 /// As complete(), for counts of blocks and the defaults of snap and [quality].
 void complete_geometry(const Value& root, Reading& reading);

@@ -48,7 +48,8 @@ void read_varied(const Value* node, Fos& fos, Reading& reading) {
   if (kind == "load") return find_in(Varied::load, model.loads);
   if (kind == "shaking") return find_in(Varied::shaking, model.shakings);
   if (kind == "water") return find_in(Varied::water, model.waters);
-  add_fault(reading, place, "fos.vary", '"' + clipped(fos.vary) + "\" is nothing that can be varied",
+  add_fault(reading, place, "fos.vary",
+            '"' + clipped(fos.vary) + "\" is nothing that can be varied",
             "give \"strength\", \"load:NAME\", \"shaking:NAME\" or \"water:NAME\"");
 }
 

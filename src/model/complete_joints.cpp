@@ -67,7 +67,8 @@ void check_no_strength(const Value* node, const JointLaw& law, Reading& reading)
   if (peak.cohesion != 0.0) refuse("cohesion");
   if (peak.tensile_strength != 0.0) refuse("tensile_strength");
   const Strength& after = law.residual;
-  const bool same = !given(find(node, "residual"), "friction_angle") || after.friction_angle == angle;
+  const bool same =
+      !given(find(node, "residual"), "friction_angle") || after.friction_angle == angle;
   if (!same || after.cohesion != 0.0 || after.tensile_strength != 0.0) refuse("residual");
 }
 

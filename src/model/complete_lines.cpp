@@ -166,25 +166,6 @@ void complete_import(const Value* node, Import& import, Reading& reading) {
   }
 }
 
-/// The built-in law of outlines that name none: rock as whole as it was. Made where it is needed.
-Index glued_law(Reading& reading) {
-  auto& joints = reading.model.joints;
-  std::string name = "glued";
-  for (int number = 2;; ++number) {
-    const auto taken = std::find_if(joints.begin(), joints.end(),
-                                    [&](const JointLaw& law) { return law.name == name; });
-    if (taken == joints.end()) break;
-    if (taken->type == LawType::glued) return static_cast<Index>(taken - joints.begin());
-    name = fmt::format("glued {}", number);
-  }
-  JointLaw law;
-  law.name = name;
-  law.type = LawType::glued;
-  law.where = {"joints." + name, reading.file, 0, 0};
-  joints.push_back(law);
-  return static_cast<Index>(joints.size()) - 1;
-}
-
 template <class Item>
 Index named(const std::vector<Item>& items, const std::string& name) {
   const auto found =
@@ -272,6 +253,24 @@ void each(const Value& root, std::string_view section, std::vector<Item>& items,
 }
 
 }  // namespace
+
+Index glued_law(Reading& reading) {
+  auto& joints = reading.model.joints;
+  std::string name = "glued";
+  for (int number = 2;; ++number) {
+    const auto taken = std::find_if(joints.begin(), joints.end(),
+                                    [&](const JointLaw& law) { return law.name == name; });
+    if (taken == joints.end()) break;
+    if (taken->type == LawType::glued) return static_cast<Index>(taken - joints.begin());
+    name = fmt::format("glued {}", number);
+  }
+  JointLaw law;
+  law.name = name;
+  law.type = LawType::glued;
+  law.where = {"joints." + name, reading.file, 0, 0};
+  joints.push_back(law);
+  return static_cast<Index>(joints.size()) - 1;
+}
 
 void complete_lines(const Value& root, Reading& reading) {
   Model& model = reading.model;

@@ -36,4 +36,9 @@ inline Place place_of(const Value* table, std::string_view key) {
 bool one_of(const Value* table, const std::string& path, std::string_view first,
             std::string_view second, const std::string& example, Reading& reading);
 
+/// Local damping, where it is given, must go with the method and the mass. `instead`: what to do in
+/// the implicit method.
+void check_local_damping(const Value* damping, const std::string& owner, const Solver& solver,
+                         const char* instead, Reading& reading);
+
 }  // namespace edda

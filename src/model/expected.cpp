@@ -51,6 +51,8 @@ std::string expected(const Key& key) {
       return "a list of names such as [\"one\", \"two\"]";
     case Kind::joint_map:
       return "a table such as { NAME = \"joint\" }";
+    case Kind::number_map:
+      return "a table such as { NAME = 0.5 }, each " + expected_range(rule);
     case Kind::file:
       return "the path of a file in quotes";
     case Kind::words:

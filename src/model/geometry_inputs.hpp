@@ -150,7 +150,8 @@ struct Opening {
   Ring polygon;        ///< given_polygon, or that of the shape
   Ring given_polygon;  ///< as written; empty where there is a shape
   std::optional<OpeningShape> shape;
-  Index joint = none;  ///< law of its outline until taken out; none: glued
+  Index joint = none;   ///< law of its outline until taken out; none: glued
+  bool staged = false;  ///< a stage takes it out: until then its rock is there
   Where where;
 };
 

@@ -169,9 +169,17 @@ constexpr std::array stage_keys{
     Key{"until", at<&Stage::until>, choice, initial, "Whether it ends at its duration (time) or as soon as all is at rest (equilibrium)."},
     Key{"ratio", at<&Stage::ratio>, number(D::plain, above_to(0, 1)), initial, "Equilibrium: mean resultant force of the blocks over the mean contact force."},
     Key{"duration", at<&Stage::duration>, number(D::time, above(0)), otherwise("required until \"time\"; 10 s until \"equilibrium\""), "Length of the stage; until equilibrium the longest it may take."},
+    Key{"excavate", at<&Stage::excavate>, name_list, otherwise("none"), "Openings whose rock is taken out at the stage's start."},
+    Key{"relax", at<&Stage::relax>, numbers_of_names(from_to(0, 1)), otherwise("all, when an opening is taken out"), "Part of the forces of the rock taken out that has been let go, by opening: the rest still holds its walls, as an advancing face does."},
+    Key{"install", at<&Stage::install>, name_list, otherwise("bolts that no stage names are there from the start"), "Bolts and patterns of bolts put in at the stage's start, where the rock then is."},
+    Key{"activate", at<&Stage::activate>, name_list, otherwise("what no stage names acts from the start"), "Loads, waters, boundaries and shakings that act from the stage's start on; their histories run from there."},
+    Key{"deactivate", at<&Stage::deactivate>, name_list, otherwise("none"), "Those that act no more. Where a boundary takes over from one, it bears what that bore."},
     Key{"reset_displacements", at<&Stage::reset_displacements>, flag, initial, "Whether displacements count from the start of this stage."},
     Key{"strength_factor", at<&Stage::strength_factor>, number(D::plain, above(0)), initial, "What cohesion, tangent of the friction angle and tensile strength of all joints are divided by while the stage lasts."},
     Key{"damping", at<&Stage::damping>, table, otherwise("solver.damping; until equilibrium local = 0.8"), "Damping while the stage lasts."},
+    Key{"joints", at<&Stage::joints>, choice, initial, "Joints as given, or glued: what touches neither opens nor slides while the stage lasts."},
+    Key{"mass_scaling", at<&Stage::masses>, choice, otherwise("\"static\" until equilibrium (method edda), else \"as given\""), "Masses as given, or static: inertia raised so that all blocks allow one time step, weights unchanged."},
+    Key{"detached", at<&Stage::falling>, choice, initial, "Blocks that fall freely do not hold up an equilibrium (report), or do (wait)."},
 };
 
 constexpr std::array solver_keys{
@@ -192,6 +200,7 @@ constexpr std::array output_keys{
     Key{"every", at<&Output::every>, number(D::time, above(0)), otherwise("solver.duration / 20"), "Time between pictures of all blocks."},
     Key{"history_every", at<&Output::history_every>, number(D::time, above(0)), otherwise("solver.duration / 200"), "Time between rows of history.csv."},
     Key{"checkpoint_every", at<&Output::checkpoint_every>, number(D::plain, above(0)), initial, "Minutes of wall time between checkpoints."},
+    Key{"stages", at<&Output::stages>, flag, initial, "With stages: whether contacts and a checkpoint are kept of the end of each, under stages/."},
 };
 
 constexpr std::array fos_fails_keys{

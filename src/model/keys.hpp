@@ -23,19 +23,20 @@ enum class Kind {
   integer,
   number,
   text,
-  name,       ///< text that is not empty: what lists and --set call the element
-  choice,     ///< one of the words of an enumeration
-  material,   ///< name of a material
-  joint,      ///< name of a joint law
-  point,      ///< two numbers
-  polyline,   ///< two points or more
-  polygon,    ///< three points or more, with an area, not crossing itself
-  words,      ///< a list of distinct words, each one of Rule::words
-  names,      ///< a list of distinct names of other elements
-  joint_map,  ///< a table of names, each with the name of a joint law
-  file,       ///< path of a file, as written relative to the model's
-  table,      ///< keys inside a key: damping = { ... }
-  source,     ///< path of a file, or a table
+  name,        ///< text that is not empty: what lists and --set call the element
+  choice,      ///< one of the words of an enumeration
+  material,    ///< name of a material
+  joint,       ///< name of a joint law
+  point,       ///< two numbers
+  polyline,    ///< two points or more
+  polygon,     ///< three points or more, with an area, not crossing itself
+  words,       ///< a list of distinct words, each one of Rule::words
+  names,       ///< a list of distinct names of other elements
+  joint_map,   ///< a table of names, each with the name of a joint law
+  number_map,  ///< a table of names, each with a number in Rule::range
+  file,        ///< path of a file, as written relative to the model's
+  table,       ///< keys inside a key: damping = { ... }
+  source,      ///< path of a file, or a table
 };
 
 /// Bounds of a number, inclusive unless open. Points obey them in each component.
@@ -85,10 +86,10 @@ struct SubTable {
 using JointMap = std::vector<std::pair<std::string, Index>>;
 
 /// Typed access to the field that a key fills.
-using Slot =
-    std::variant<bool*, int*, long long*, double*, std::optional<double>*,
-                 std::optional<long long>*, std::string*, JointMap*, Vec2*, std::optional<Vec2>*,
-                 std::vector<Vec2>*, std::vector<std::string>*, Choice, SubTable>;
+using Slot = std::variant<bool*, int*, long long*, double*, std::optional<double>*,
+                          std::optional<long long>*, std::string*, JointMap*, NumberMap*, Vec2*,
+                          std::optional<Vec2>*, std::vector<Vec2>*, std::vector<std::string>*,
+                          Choice, SubTable>;
 
 struct Key {
   std::string_view name;

@@ -22,6 +22,9 @@ enum class MassKind { matched, covering, consistent };
 enum class Switching { exact, plain };
 enum class LawType { coulomb, glued, slip_weakening, barton_bandis };
 enum class StageEnd { time, equilibrium };
+enum class StageJoints { as_given, glued };
+enum class StageMasses { as_given, uniform_step };
+enum class FallingBlocks { report, wait };
 enum class BoundaryType { fixed, roller, viscous, stress, velocity };
 enum class ShakingKind { base, inertia, upgoing };
 enum class BoltType { grouted, end };
@@ -46,13 +49,13 @@ struct Strength {
 struct JointLaw {
   std::string name;
   LawType type = LawType::coulomb;
-  Strength peak;             ///< of a bonded contact
-  Strength residual;         ///< after failure, and of every contact not closed at the start
+  Strength peak;      ///< of a bonded contact
+  Strength residual;  ///< after failure, and of every contact not closed at the start
   std::optional<double> dilation_angle;  ///< degrees; coulomb, slip-weakening
   std::optional<double> slip_distance;   ///< m: from peak to residual; coulomb: of dilation
-  std::optional<double> jrc, jcs;        ///< roughness (-), strength of the walls (Pa); barton-bandis
+  std::optional<double> jrc, jcs;  ///< roughness (-), strength of the walls (Pa); barton-bandis
   std::optional<double> residual_angle;  ///< degrees; barton-bandis
-  std::optional<double> kn;  ///< Pa/m; without it contact.normal_stiffness
+  std::optional<double> kn;              ///< Pa/m; without it contact.normal_stiffness
   std::optional<double> ks;  ///< Pa/m; filled with 0.4 kn where kn is given and ks is not
   Where where;
 };
@@ -219,15 +222,24 @@ struct Solver {
   Where where;
 };
 
+using NumberMap = std::vector<std::pair<std::string, double>>;
+
 /// [[stage]]: a part of the run, until a time or until nothing moves any more.
 struct Stage {
   std::string name;
   StageEnd until = StageEnd::time;
-  double ratio = 1e-5;               ///< of an equilibrium: mean resultant over mean contact force
-  double duration = 10.0;            ///< s; of an equilibrium: the longest
-  bool reset_displacements = false;  ///< at its start
-  double strength_factor = 1.0;      ///< what the strength of all joints is divided by meanwhile
-  Damping damping;                   ///< while it lasts
+  double ratio = 1e-5;                ///< of an equilibrium: mean resultant over mean contact force
+  double duration = 10.0;             ///< s; of an equilibrium: the longest
+  std::vector<std::string> excavate;  ///< openings taken out at its start
+  NumberMap relax;                    ///< part of their forces let go, by opening
+  std::vector<std::string> install;   ///< bolts and patterns put in at its start
+  std::vector<std::string> activate, deactivate;  ///< loads, waters, boundaries, shakings
+  bool reset_displacements = false;               ///< at its start
+  double strength_factor = 1.0;  ///< what the strength of all joints is divided by meanwhile
+  Damping damping;               ///< while it lasts
+  StageJoints joints = StageJoints::as_given;     ///< while it lasts
+  StageMasses masses = StageMasses::as_given;     ///< while it lasts
+  FallingBlocks falling = FallingBlocks::report;  ///< whether an equilibrium waits for them
   Where where;
 };
 
@@ -235,6 +247,7 @@ struct Output {
   double every = 0.0;             ///< s; default: duration / 20
   double history_every = 0.0;     ///< s; default: duration / 200
   double checkpoint_every = 5.0;  ///< minutes of wall time
+  bool stages = true;             ///< contacts and a checkpoint at the end of each stage
 };
 
 /// What counts as failure of a trial; left out: by the size of the blocks and gravity.
@@ -245,10 +258,10 @@ struct FosFails {
 
 /// [fos]: the factor of safety.
 struct Fos {
-  std::string stage;              ///< whose end the trials begin from; empty: the last
-  std::string vary = "strength";  ///< as written
-  Vec2 bracket{0.5, 3.0};         ///< factors to begin with, lower and upper
-  double tolerance = 0.01;        ///< width of the bracket at the end
+  std::string stage;                 ///< whose end the trials begin from; empty: the last
+  std::string vary = "strength";     ///< as written
+  Vec2 bracket{0.5, 3.0};            ///< factors to begin with, lower and upper
+  double tolerance = 0.01;           ///< width of the bracket at the end
   std::vector<std::string> exclude;  ///< joints that keep their strength
   FosFails fails;
   Varied varied = Varied::strength;  ///< what `vary` says

@@ -164,6 +164,13 @@ void read_keys(std::span<const Key> keys, void* object, const Value& table,
 struct ReadInto {
   Spot spot;
 
+  /// Calls take(entry, path) for each entry of a table whose keys are names.
+  template <class Take>
+  void each_entry(Take take) const {
+    const Table* entries = as<Table>(spot.value);
+    if (entries == nullptr) return type_fault(spot);
+    for (const Entry& entry : *entries) take(entry, spot.path + '.' + entry.key);
+  }
   void operator()(bool* field) const {
     if (const bool* value = as<bool>(spot.value)) {
       *field = *value;
@@ -205,23 +212,26 @@ struct ReadInto {
     *field = *value;
   }
   void operator()(JointMap* field) const {
-    const Table* entries = as<Table>(spot.value);
-    if (entries == nullptr) return type_fault(spot);
-    const auto& joints = spot.reading.model.joints;
-    for (const Entry& entry : *entries) {
-      const std::string path = spot.path + '.' + entry.key;
+    each_entry([&](const Entry& entry, const std::string& path) {
       const Spot named{spot.key, entry.value, path, spot.reading};
       if (as<std::string>(entry.value) == nullptr) {
         add_fault(spot.reading, entry.value.place, path, "is " + shown(entry.value),
                   "expects the name of a joint in quotes");
-      } else if (const Index i = read_reference(named, joints, "joint", "joints"); i != none) {
-        field->emplace_back(entry.key, i);
+        return;
       }
-    }
+      const Index i = read_reference(named, spot.reading.model.joints, "joint", "joints");
+      if (i != none) field->emplace_back(entry.key, i);
+    });
+  }
+  void operator()(NumberMap* field) const {
+    const Key key{spot.key.name, nullptr, {.range = spot.key.rule.range}, {}, {}};
+    each_entry([&](const Entry& entry, const std::string& path) {
+      const auto value = read_number(entry.value, key, path, spot.reading);
+      if (value) field->emplace_back(entry.key, *value);
+    });
   }
   void operator()(Vec2* field) const {
-    const auto value = read_point(spot.value, spot.key, spot.path, spot.reading);
-    if (value) *field = *value;
+    if (const auto p = read_point(spot.value, spot.key, spot.path, spot.reading)) *field = *p;
   }
   void operator()(std::optional<Vec2>* field) const {
     *field = read_point(spot.value, spot.key, spot.path, spot.reading);

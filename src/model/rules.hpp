@@ -42,6 +42,9 @@ constexpr Rule whole(double low, double high) {
 constexpr Rule shape(Kind kind, D dimension, Range range = any) {
   return {.kind = kind, .dimension = dimension, .range = range};
 }
+constexpr Rule numbers_of_names(Range range) {
+  return {.kind = Kind::number_map, .range = range};
+}
 constexpr Rule words_of(std::span<const std::string_view> words) {
   return {.kind = Kind::words, .words = words};
 }

@@ -18,6 +18,9 @@ inline constexpr std::array<std::string_view, 2> switching_names{"exact", "plain
 inline constexpr std::array<std::string_view, 4> law_names{"coulomb", "glued", "slip-weakening",
                                                            "barton-bandis"};
 inline constexpr std::array<std::string_view, 2> stage_end_names{"time", "equilibrium"};
+inline constexpr std::array<std::string_view, 2> stage_joint_names{"as given", "glued"};
+inline constexpr std::array<std::string_view, 2> stage_mass_names{"as given", "static"};
+inline constexpr std::array<std::string_view, 2> falling_names{"report", "wait"};
 inline constexpr std::array<std::string_view, 2> spread_names{"uniform", "normal"};
 inline constexpr std::array<std::string_view, 3> length_names{"lognormal", "power", "constant"};
 inline constexpr std::array<std::string_view, 4> shape_names{"arch", "circle", "rectangle",
@@ -47,6 +50,15 @@ constexpr std::span<const std::string_view> names_of(LawType) {
 }
 constexpr std::span<const std::string_view> names_of(StageEnd) {
   return stage_end_names;
+}
+constexpr std::span<const std::string_view> names_of(StageJoints) {
+  return stage_joint_names;
+}
+constexpr std::span<const std::string_view> names_of(StageMasses) {
+  return stage_mass_names;
+}
+constexpr std::span<const std::string_view> names_of(FallingBlocks) {
+  return falling_names;
 }
 constexpr std::span<const std::string_view> names_of(BoundaryType) {
   return boundary_names;

@@ -80,6 +80,14 @@ struct Write {
     }
     return text.empty() ? text : text + " }";
   }
+  std::string operator()(const NumberMap* field) const {
+    std::string text;
+    for (const auto& [name, value] : *field) {
+      text += fmt::format("{}{} = {}", text.empty() ? "{ " : ", ", bare_or_quoted(name),
+                          written(value));
+    }
+    return text.empty() ? text : text + " }";
+  }
   std::string operator()(const std::string* field) const {
     return key.rule.kind != Kind::text && field->empty() ? std::string{} : written(*field);
   }
@@ -122,6 +130,10 @@ void write_header(const Section& section, void* object, std::string& text) {
 
 }  // namespace
 
+std::string toml_value(const Key& key, const Slot& slot, const Model& model) {
+  return std::visit(Write{key, model}, slot);
+}
+
 std::string to_toml(const Model& model) {
   Model copy = model;  // slots reach fields to fill them, too
   std::string text;
@@ -131,7 +143,7 @@ std::string to_toml(const Model& model) {
       write_header(section, object, text);
       for (const Key& key : section.keys) {
         if (key.slot == nullptr) continue;
-        const std::string value = std::visit(Write{key, copy}, key.slot(object));
+        const std::string value = toml_value(key, key.slot(object), copy);
         if (!value.empty()) text += fmt::format("{} = {}\n", key.name, value);
       }
     }

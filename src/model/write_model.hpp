@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "model/model.hpp"
+#include "model/keys.hpp"
 
 namespace edda {
 
@@ -11,5 +11,9 @@ namespace edda {
 /// numbers the shortest that read back to the same bits. read_model_text() of it gives the same
 /// model but for Model::file and the places.
 std::string to_toml(const Model& model);
+
+/// One value of it; empty where the field holds none. `slot`: the key's field in an object of
+/// `model`.
+std::string toml_value(const Key& key, const Slot& slot, const Model& model);
 
 }  // namespace edda

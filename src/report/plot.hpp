@@ -22,7 +22,7 @@ struct PlotOptions {
   std::string subtitle;                ///< such as the time
   std::vector<std::string> materials;  ///< names, for the legend
   std::vector<PlotMonitor> monitors;
-  std::vector<std::array<Vec2, 2>> bolts;  ///< from where to where they were at the start, m
+  std::vector<std::array<Vec2, 2>> bolts;   ///< from where to where they were at the start, m
   std::vector<std::array<Vec2, 2>> joints;  ///< drawn thick, where they are drawn, m
   double scale = 1.0;                       ///< of the displacements drawn
   std::string vectors;    ///< "displacement" or "velocity": arrows at block centres; empty: none

@@ -36,11 +36,15 @@ Fault cannot_write(const std::string& path, int error) {
 
 namespace {
 
-constexpr std::array known_files{
-    "summary.json", "stages.csv",   "history.csv",   "blocks.csv",    "joints.csv",
-    "blocks.pvd",   "contacts.pvd", "model.toml",    "checkpoint.h5", "checkpoint.previous.h5",
-    "stages.csv",   "bolts.csv",    "reactions.csv", "fos.csv",
-    "mechanism.csv", "mechanism_joints.csv", "mechanism.png", "mechanism.svg"};
+constexpr std::array known_files{"summary.json",  "stages.csv",
+                                 "history.csv",   "blocks.csv",
+                                 "joints.csv",    "blocks.pvd",
+                                 "contacts.pvd",  "model.toml",
+                                 "checkpoint.h5", "checkpoint.previous.h5",
+                                 "stages.csv",    "bolts.csv",
+                                 "reactions.csv", "fos.csv",
+                                 "mechanism.csv", "mechanism_joints.csv",
+                                 "mechanism.png", "mechanism.svg"};
 
 bool starts_with_and_is(const std::string& name, std::string_view start, std::string_view end) {
   return name.size() >= start.size() + end.size() && name.starts_with(start) && name.ends_with(end);
@@ -54,7 +58,8 @@ bool is_result(const fs::directory_entry& entry) {
   for (const char* known : known_files) {
     if (name == known) return true;
   }
-  return starts_with_and_is(name, "joints_", ".csv");
+  return starts_with_and_is(name, "joints_", ".csv") ||
+         starts_with_and_is(name, "checkpoint_", ".h5");
 }
 
 bool is_frame(const fs::directory_entry& entry) {

@@ -49,6 +49,16 @@ std::vector<Vec2> reactions(const Simulation& sim, const Instant& at) {
     sum[row - loads] +=
         now.factor[row] * (e.to - e.from) * sim.blocks.edge_length[e.edge] * e.traction;
   }
+  // What a boundary has taken over from another it bears as well.
+  const auto openings = static_cast<Index>(sim.model.openings.size());
+  for (const KeptForce& f : sim.kept) {
+    if (f.keeper < openings || !is_free(sim.blocks, sim.state, sim.blocks.vertex_block[f.vertex])) {
+      continue;
+    }
+    const auto row = static_cast<std::size_t>(f.keeper);
+    sum[row - static_cast<std::size_t>(openings)] +=
+        sim.loads.held[row].at(sim.state.time) * f.force;
+  }
   return sum;
 }
 

@@ -137,6 +137,10 @@ void Driver::go() {
 }
 
 void Driver::go_on() {
+  if (stage_has_ended_) {
+    stage_has_ended_ = false;
+    if (!begin_next_stage()) return;
+  }
   while (true) {
     const Went went = step_to(event_.time);
     if (went == Went::over) return;
@@ -144,9 +148,12 @@ void Driver::go_on() {
     if (at_rest) rest_before(event_);
     if (!record(event_)) return;
     const bool next_stage = event_.end || at_rest;
-    if (next_stage && !end_stage(at_rest)) return;
-    event_ = times_.next();
-    sim_.aim_at(event_.time);
+    if (next_stage) {
+      if (!end_stage(at_rest) || !begin_next_stage()) return;
+    } else {
+      event_ = times_.next();
+      sim_.aim_at(event_.time);
+    }
     if (next_stage && recorder_.writes()) save_checkpoint();
   }
 }

@@ -30,6 +30,9 @@ class Driver {
   void go_on();
   void write_checkpoint_if_due();
   void save_checkpoint();
+  /// Of the end of the stage in hand, and its contacts.
+  void save_stage();
+  Record memory(std::size_t stages);
   /// Names every field of its own that a checkpoint holds (run/driver_memory.cpp).
   template <class Archive>
   void list(Archive& archive);
@@ -40,12 +43,15 @@ class Driver {
   Went step_to(double time);
   // Stages (run/driver_stages.cpp).
   void begin_stage(std::size_t index);
+  void take_out(const Stage& stage);
   /// Whether the stage in hand waits for an equilibrium and has found it.
   bool is_at_rest();
   /// The event in hand becomes one at the present time.
   void rest_before(Event& event);
-  /// Writes down the end of the stage and begins the next. False: the run is over.
+  /// Writes down the end of the stage. False: the run is over.
   bool end_stage(bool at_rest);
+  /// And steps towards its first event. False: the run is over.
+  bool begin_next_stage();
   bool record(const Event& event);
   void measure_overlaps();
   bool energy_is_out_of_bounds();
@@ -67,6 +73,7 @@ class Driver {
   double stage_start_ = 0.0;       ///< s
   std::uint64_t stage_steps_ = 0;  ///< steps before it
   std::uint64_t calm_ = 0;         ///< looks in sequence that have found an equilibrium
+  bool stage_has_ended_ = false;   ///< the next one is yet to begin
   std::vector<StageRecord> ends_;  ///< of the stages before
   EventTimes times_;
   Event event_;  ///< stepped towards

@@ -6,6 +6,7 @@
 #include "checkpoint/archive.hpp"
 #include "checkpoint/envelope.hpp"
 #include "checkpoint/hdf5_image.hpp"
+#include "model/stage_names.hpp"
 #include "model/write_model.hpp"
 #include "results/version.hpp"
 #include "run/driver.hpp"
@@ -14,10 +15,36 @@
 namespace edda {
 namespace {
 
-/// The model's text but for what may change between a run and its resumption.
-std::string identity(const Model& model) {
+constexpr auto all_stages = static_cast<std::size_t>(-1);
+
+/// What the names in later stages make of the parts of the model before them.
+std::string first_states(const Model& model) {
+  std::string text;
+  const auto add = [&](const auto& items, const char* what, auto state) {
+    for (const auto& item : items) {
+      if (!item.name.empty())
+        text += fmt::format("{}.{} at first = {}\n", what, item.name, state(item));
+    }
+  };
+  const auto acts = [&](const auto& item) { return acts_at_first(model, item.name); };
+  const auto there = [&](const auto& item) { return installed_at_first(model, item.name); };
+  add(model.loads, "load", acts);
+  add(model.waters, "water", acts);
+  add(model.boundaries, "boundary", acts);
+  add(model.shakings, "shaking", acts);
+  add(model.bolts, "bolt", there);
+  add(model.bolt_patterns, "bolt_pattern", there);
+  add(model.openings, "opening", [](const Opening& o) { return o.staged; });
+  return text;
+}
+
+/// The model's text but for what may change between a run and its resumption. `stages`: as many of
+/// them count, and the intervals of rows and frames do not where that is not all.
+std::string identity(const Model& model, std::size_t stages) {
   Model m = model;
   m.title.clear();
+  if (stages < m.stages.size()) m.stages.resize(stages);
+  m.output.every = m.output.history_every = 1.0;
   m.solver.duration = 1.0;
   m.output.checkpoint_every = 1.0;
   m.fos.reset();
@@ -26,7 +53,11 @@ std::string identity(const Model& model) {
   for (Water& water : m.waters) water.history.clear();
   for (Boundary& boundary : m.boundaries) boundary.history.clear();
   for (Shaking& shaking : m.shakings) shaking.acceleration.file.clear();
-  std::string text = to_toml(m);
+  std::string text = to_toml(m) + first_states(model);
+  if (stages == all_stages) {
+    text += fmt::format("output.every = {}\noutput.history_every = {}\n", model.output.every,
+                        model.output.history_every);
+  }
   auto add = [&](const std::string& key, const TimeHistory& curve) {
     for (std::size_t k = 0; k < curve.time.size(); ++k)
       text += fmt::format("{}.history, row {},{}\n", key, curve.time[k], curve.value[k]);
@@ -101,12 +132,13 @@ void Driver::list_stages(Archive& a) {
   a("stage.start", stage_start_);
   a("stage.steps", stage_steps_);
   a("stage.calm", calm_);
+  a("stage.has_ended", stage_has_ended_);
   if constexpr (Archive::loads) {
     if (stage_ >= stages_.size()) {
       a.refuse("stages do not fit the model");
       return;
     }
-    ends_.resize(stage_);
+    ends_.resize(stage_ + (stage_has_ended_ ? 1 : 0));
     times_.end_at(stage_start_ + stages_[stage_].duration);
   }
   for (std::size_t q = 0; q < ends_.size(); ++q) {
@@ -125,6 +157,9 @@ void Driver::list_stages(Archive& a) {
     a(of + "closed", r.closed);
     a(of + "sliding", r.sliding);
     a(of + "bonded", r.bonded);
+    a(of + "open", r.open);
+    a(of + "broken", r.broken);
+    a(of + "yielded", r.yielded);
   }
 }
 
@@ -171,17 +206,35 @@ void Driver::list(Archive& a) {
   }
 }
 
-void Driver::save_checkpoint() {
-  saved_ = Clock::now();
+Record Driver::memory(std::size_t stages) {
   Record record;
   record["version"] = std::string(version);
-  record["model"] = identity(sim_.model);
+  record["model"] = identity(sim_.model, stages);
   Saver saver(record);
   list(saver);
   remember(sim_, record);
+  return record;
+}
+
+void Driver::save_checkpoint() {
+  saved_ = Clock::now();
   Trouble trouble = recorder_.sync();
-  if (!trouble) trouble = write_checkpoint(options_.folder, to_hdf5(record));
+  if (!trouble) trouble = write_checkpoint(options_.folder, to_hdf5(memory(all_stages)));
   // The run is worth more than its checkpoint: it goes on, and the one before stays.
+  if (trouble && options_.warn) options_.warn("no checkpoint: " + to_string(*trouble));
+}
+
+void Driver::save_stage() {
+  if (!recorder_.writes() || !sim_.model.output.stages || sim_.model.stages.empty()) return;
+  Instant instant;
+  observe(sim_, instant);
+  if (ended_by(recorder_.stage_joints(stage_, picture_of(sim_, instant)))) return;
+  stage_has_ended_ = true;
+  Trouble trouble = recorder_.sync();
+  if (!trouble) {
+    trouble = write_stage_checkpoint(options_.folder, stage_, to_hdf5(memory(stage_ + 1)));
+  }
+  stage_has_ended_ = false;
   if (trouble && options_.warn) options_.warn("no checkpoint: " + to_string(*trouble));
 }
 
@@ -200,7 +253,8 @@ Trouble Driver::take_up(const Record& record) {
                    "its checkpoint is of version " + by + ", this is " + std::string(version),
                    "resume with that version, or run without --resume");
   }
-  if (const std::string now = identity(sim_.model); now != model) {
+  const std::size_t stages = options_.from_stage ? *options_.from_stage + 1 : all_stages;
+  if (const std::string now = identity(sim_.model, stages); now != model) {
     return refused(
         folder,
         "the model is not the one of the checkpoint; first difference: " + difference(now, model),
@@ -213,7 +267,8 @@ Trouble Driver::take_up(const Record& record) {
   if (flaw.empty() && angle_.size() != sim_.blocks.size() && !angle_.empty()) {
     flaw = "driver.angle has another size than the model asks for";
   }
-  if (flaw.empty() && sim_.state.time >= sim_.model.solver.duration) {
+  const bool goes_on = stage_has_ended_ && stage_ + 1 < stages_.size();
+  if (flaw.empty() && !goes_on && sim_.state.time >= sim_.model.solver.duration) {
     return refused(folder,
                    fmt::format("its checkpoint is at {:.6g} s, the duration is {:.6g} s",
                                sim_.state.time, sim_.model.solver.duration),
@@ -225,8 +280,9 @@ Trouble Driver::take_up(const Record& record) {
   }
   started_ = Clock::now();
   resumed_ = true;
+  if (stage_has_ended_) times_.go_on_after(sim_.state.time);
   // Where the duration has changed, so has what comes next.
-  if (event_.end || event_.time > sim_.model.solver.duration) {
+  if (!stage_has_ended_ && (event_.end || event_.time > sim_.model.solver.duration)) {
     times_.put_back(event_);
     const Event next = times_.next();
     if (next.time != event_.time) sim_.aim_at(next.time);

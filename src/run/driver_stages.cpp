@@ -1,6 +1,8 @@
 // The driver's way from stage to stage.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "run/driver.hpp"
 
 namespace edda {
@@ -13,10 +15,36 @@ void Driver::begin_stage(std::size_t index) {
   const Stage& stage = stages_[index];
   times_.end_at(stage_start_ + stage.duration);
   if (sim_.model.stages.empty()) return;
+  sim_.glue_joints(false);
+  take_out(stage);
+  sim_.switch_over(rows_called(sim_.model, stage.deactivate),
+                   rows_called(sim_.model, stage.activate));
+  const std::vector<Index> bolts = bolts_called(sim_.model, stage.install);
+  if (!bolts.empty()) {
+    if (const auto fault = sim_.install(bolts)) {
+      return end(Status::failed, stage_label(sim_.model, stage_) + ": " + fault->problem);
+    }
+  }
+  sim_.glue_joints(stage.joints == StageJoints::glued);
+  sim_.scale_masses(stage.masses);
   const bool settles = stage.until == StageEnd::equilibrium;
   sim_.change_damping(stage.damping, sim_.model.solver.dynamic && !settles);
   sim_.set_strength_factor(stage.strength_factor);
   if (stage.reset_displacements) sim_.reset_displacements();
+}
+
+/// Openings of the stage, and what they let go.
+void Driver::take_out(const Stage& stage) {
+  const std::vector<Opening>& all = sim_.model.openings;
+  const auto row_of = [&](const std::string& name) {
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Opening& o) { return o.name == name; });
+    return static_cast<Index>(found - all.begin());
+  };
+  std::vector<Index> out;
+  for (const std::string& name : stage.excavate) out.push_back(row_of(name));
+  if (!out.empty()) sim_.excavate(out);
+  for (const auto& [name, part] : stage.relax) sim_.relax(row_of(name), part);
 }
 
 bool Driver::is_at_rest() {
@@ -26,7 +54,8 @@ bool Driver::is_at_rest() {
   const std::uint64_t every = sim_.explicit_method() ? look : 1;
   if (stage.until != StageEnd::equilibrium || sim_.state.steps % every != 0) return false;
   const Balance balance = balance_of(sim_);
-  const bool calm = balance.resting > 0 && balance.mean <= stage.ratio;
+  const bool waits = stage.falling == FallingBlocks::wait && balance.detached > 0;
+  const bool calm = !waits && balance.resting > 0 && balance.mean <= stage.ratio;
   calm_ = calm ? calm_ + 1 : 0;
   return calm_ >= enough;
 }
@@ -42,6 +71,7 @@ bool Driver::end_stage(bool at_rest) {
   if (!sim_.model.stages.empty()) {
     ends_.push_back(stage_record(sim_, outcome_.ledger, stage_start_, stage_steps_, reached));
     if (ended_by(recorder_.stages(stages_csv(sim_.model, ends_)))) return false;
+    save_stage();
   }
   const std::string label = stage_label(sim_.model, stage_);
   if (!reached) {
@@ -51,7 +81,7 @@ bool Driver::end_stage(bool at_rest) {
                     label, stage.duration, still_moving(sim_, ends_.back().balance)));
     return false;
   }
-  if (stage_ + 1 == stages_.size()) {
+  if (stage_ + 1 == stages_.size() || options_.last_stage == stage_) {
     if (at_rest) {
       end(Status::equilibrium,
           fmt::format("at rest after {:.6g} s", sim_.state.time - stage_start_));
@@ -60,8 +90,18 @@ bool Driver::end_stage(bool at_rest) {
     }
     return false;
   }
-  begin_stage(stage_ + 1);
   return true;
+}
+
+bool Driver::begin_next_stage() {
+  if (stage_ + 1 == stages_.size()) {
+    end(Status::completed, "all stages of the model have ended before");
+    return false;
+  }
+  begin_stage(stage_ + 1);
+  event_ = times_.next();
+  sim_.aim_at(event_.time);
+  return !over_;
 }
 
 }  // namespace edda

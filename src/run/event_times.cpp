@@ -15,6 +15,16 @@ double multiple(std::uint64_t k, double every) {
   return static_cast<double>(k) * every;
 }
 
+void EventTimes::go_on_after(double time) {
+  const auto after = [&](double every) {
+    auto k = static_cast<std::uint64_t>(std::floor(time / every));
+    while (multiple(k, every) <= time * (1.0 + 1e-9)) ++k;
+    return k;
+  };
+  row_ = after(row_every_);
+  frame_ = after(frame_every_);
+}
+
 Event EventTimes::next() {
   const double row = multiple(row_, row_every_), frame = multiple(frame_, frame_every_);
   const double same = 1e-9 * std::min({row_every_, frame_every_, end_});

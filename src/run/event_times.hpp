@@ -36,6 +36,8 @@ class EventTimes {
     row_ = row;
     frame_ = frame;
   }
+  /// To go on with the multiples behind a time.
+  void go_on_after(double time);
 
  private:
   double end_ = 0.0, row_every_, frame_every_;

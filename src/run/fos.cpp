@@ -183,9 +183,10 @@ void conclude(const FosBracket& bracket, const Fos& fos, bool stopped, FosResult
                                      : "something else moves it");
   } else if (!bracket.fails) {
     r.status = FosStatus::above;
-    r.message = fmt::format("it holds at every factor tried, up to {:.6g}: {}", *r.holds,
-                            strength ? "it does not need the strength of these joints"
-                                     : std::string(what_was_varied(fos.varied)) + " cannot move it");
+    r.message =
+        fmt::format("it holds at every factor tried, up to {:.6g}: {}", *r.holds,
+                    strength ? "it does not need the strength of these joints"
+                             : std::string(what_was_varied(fos.varied)) + " cannot move it");
   } else {
     r.factor = 0.5 * (*r.holds + *r.fails);
     r.message = fmt::format("factor of safety {:.4g} (holds at {:.6g}, fails at {:.6g})", *r.factor,
@@ -207,8 +208,8 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
   r.warnings = start.warnings;
   if (start.status != FosStatus::found) {
     r.status = start.status;
-    r.message = start.status == FosStatus::interrupted ? "stopped before the first trial"
-                                                       : start.message;
+    r.message =
+        start.status == FosStatus::interrupted ? "stopped before the first trial" : start.message;
   } else {
     Search search(model, fos, start, options, r);
     const FosBracket bracket = search.go();

@@ -36,14 +36,14 @@ constexpr std::string_view fos_status_name(FosStatus s) {
 struct FosResult {
   FosStatus status = FosStatus::found;
   std::string message;
-  std::optional<double> factor;          ///< middle of the bracket
-  std::optional<double> holds, fails;    ///< the bracket
+  std::optional<double> factor;        ///< middle of the bracket
+  std::optional<double> holds, fails;  ///< the bracket
   FosCriterion criterion;
-  std::vector<Trial> trials;             ///< in the order in which one thread makes them
-  std::optional<Mechanism> mechanism;    ///< at the lowest factor that failed
-  std::optional<Simulation> failed;      ///< its state; displacements count from the trial's start
+  std::vector<Trial> trials;           ///< in the order in which one thread makes them
+  std::optional<Mechanism> mechanism;  ///< at the lowest factor that failed
+  std::optional<Simulation> failed;    ///< its state; displacements count from the trial's start
   std::size_t blocks = 0;
-  double seconds = 0.0;                  ///< of wall time
+  double seconds = 0.0;  ///< of wall time
   std::vector<std::string> warnings;
 };
 

@@ -14,14 +14,9 @@ constexpr double strong = 1e-3;  // what strength is divided by where nothing is
 constexpr double local_damping = 0.8, contact_damping = 0.1;
 constexpr double standard_gravity = 9.81;  // of a model on which nothing acts at all
 
-/// The model up to the stage that trials begin from, with what is varied multiplied by `multiplier`
-/// and strength divided by `divided` once more.
+/// The model with what is varied multiplied by `multiplier` and strength divided by `divided` once
+/// more.
 Model before_trials(Model model, const Fos& fos, double multiplier, double divided) {
-  if (!fos.stage.empty()) {
-    const auto named = std::find_if(model.stages.begin(), model.stages.end(),
-                                    [&](const Stage& s) { return s.name == fos.stage; });
-    if (named != model.stages.end()) model.stages.erase(named + 1, model.stages.end());
-  }
   for (Stage& stage : model.stages) stage.strength_factor *= divided;
   const auto q = static_cast<std::size_t>(std::max(fos.target, 0));
   if (fos.varied == Varied::shaking) model.shakings[q].scale *= multiplier;
@@ -115,8 +110,8 @@ Result<FosStart> settled(const Model& model, const Fos& fos, const FosOptions& o
   s.given = {std::vector<double>(s.sim.laws.rows.size(), 1.0), 1.0};
   s.loading = {std::vector<double>(s.sim.laws.rows.size(), strong), at_first};
   s.plan = plan_of(s.sim, model, fos);
-  const Trial settling = run_trial(s.sim, s.plan, s.loading, s.loading, true,
-                                   [&] { return stopped(options); });
+  const Trial settling =
+      run_trial(s.sim, s.plan, s.loading, s.loading, true, [&] { return stopped(options); });
   if (settling.end == TrialEnd::stopped) {
     s.status = FosStatus::interrupted;
   } else if (settling.end == TrialEnd::fails) {
@@ -138,6 +133,7 @@ Result<std::optional<FosStart>> staged(const Model& model, const Fos& fos,
   if (!prepared.ok()) return prepared.faults();
   RunOptions how;
   how.stop = options.stop;
+  if (!fos.stage.empty()) how.last_stage = stage_called(model, fos.stage);
   const Result<Outcome> outcome = run_model(prepared.value(), how);
   if (!outcome.ok()) return outcome.faults();
   const Status status = outcome.value().status;
@@ -168,7 +164,8 @@ Result<FosStart> after_stages(const Model& model, const Fos& fos, const FosOptio
   if (!none.ok()) return none.faults();
   none.value().status = FosStatus::unstable;
   none.value().message =
-      "the stages find no rest even with joints that do not give way: edda run says which, and what "
+      "the stages find no rest even with joints that do not give way: edda run says which, and "
+      "what "
       "still moves";
   return none;
 }
@@ -192,8 +189,8 @@ Loading loading_of(const Fos& fos, const Model& model, const Loading& given, dou
 
 Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptions& options) {
   if (auto fault = refused(model)) return *fault;
-  Result<FosStart> made = model.stages.empty() ? settled(model, fos, options)
-                                               : after_stages(model, fos, options);
+  Result<FosStart> made =
+      model.stages.empty() ? settled(model, fos, options) : after_stages(model, fos, options);
   if (!made.ok()) return made;
   FosStart& s = made.value();
   if (s.status != FosStatus::found) return made;

@@ -9,10 +9,10 @@ namespace edda {
 /// A state at rest, and under what.
 struct FosStart {
   Simulation sim;
-  Loading loading;          ///< in force in it
-  Loading given;            ///< of the model as it is (no shaking)
+  Loading loading;  ///< in force in it
+  Loading given;    ///< of the model as it is (no shaking)
   TrialPlan plan;
-  std::vector<Trial> seen;  ///< the trial of the factor 1, where one was made
+  std::vector<Trial> seen;              ///< the trial of the factor 1, where one was made
   FosStatus status = FosStatus::found;  ///< else unstable or interrupted, with a message
   std::string message;
   std::optional<Simulation> failed;  ///< end of the trial of the factor 1, where that failed

@@ -134,7 +134,20 @@ class Run {
     apply(sim_, plan_, between(from_, to_, static_cast<double>(increment) / increments));
   }
 
+  /// What no stage has switched on acts from now on, from nothing on.
+  void switch_on() {
+    Spells& spells = sim_.loads.spells;
+    Spell* spell = plan_.varied == Varied::load    ? &spells.loads[plan_.target]
+                   : plan_.varied == Varied::water ? &spells.waters[plan_.target]
+                                                   : nullptr;
+    if (spell == nullptr || spell->acts()) return;
+    *spell = {start_};
+    from_.multiplier = 0.0;
+  }
+
   void ramp() {
+    switch_on();
+    bring_on(0.0);
     const double end_of_ramp = start_ + plan_.criterion.ramp;
     if (settles_) {  // nothing to bring on: it begins under its loading
       apply(sim_, plan_, to_);
@@ -150,7 +163,7 @@ class Run {
 
   void shake() {
     apply(sim_, plan_, to_);
-    sim_.loads.since.shakings[plan_.target] = start_;
+    sim_.loads.spells.shakings[plan_.target] = {start_};
     sim_.change_damping(plan_.shaken, sim_.dynamic);
     step_to(start_ + plan_.criterion.shaking, start_);
     if (over_) return;
@@ -187,7 +200,8 @@ class Run {
 
   Simulation& sim_;
   const TrialPlan& plan_;
-  const Loading &from_, &to_;
+  Loading from_;
+  const Loading& to_;
   const std::function<bool()>& stops_;
   const bool settles_;
   Watch watch_;
@@ -222,6 +236,8 @@ void apply(Simulation& sim, const TrialPlan& plan, const Loading& loading) {
 Trial run_trial(Simulation& sim, const TrialPlan& plan, const Loading& from, const Loading& to,
                 bool settles, const std::function<bool()>& stops) {
   sim.reset_displacements();
+  sim.glue_joints(false);
+  sim.scale_masses(StageMasses::as_given);
   sim.change_damping(plan.quiet, sim.dynamic);
   return Run(sim, plan, from, to, settles, stops).go();
 }

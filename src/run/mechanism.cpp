@@ -42,8 +42,8 @@ MovingBlock motion_of(const Simulation& before, const Simulation& after, std::si
   m.place = at + before.blocks.origin;
   m.displacement = centroid(after.state.x, after.state.y, i) - at - ground;
   for (Id v = before.blocks.vertex_begin[i]; v < before.blocks.vertex_begin[i + 1]; ++v) {
-    const Vec2 u = Vec2{after.pose.x[v], after.pose.y[v]} -
-                   Vec2{before.pose.x[v], before.pose.y[v]} - ground;
+    const Vec2 u =
+        Vec2{after.pose.x[v], after.pose.y[v]} - Vec2{before.pose.x[v], before.pose.y[v]} - ground;
     m.largest = std::max(m.largest, norm(u));
   }
   m.rotation = turned(before, after, i);
@@ -76,14 +76,16 @@ void place_stretch(const Simulation& before, const Simulation& after, std::size_
 }
 
 /// What has become of the joints that carried before.
-std::vector<MovingJoint> joints_of(const Simulation& before, const Simulation& after, double least) {
+std::vector<MovingJoint> joints_of(const Simulation& before, const Simulation& after,
+                                   double least) {
   const ContactSet& c = before.contacts;
   std::map<std::tuple<Id, Id, std::uint16_t>, MovingJoint> joints;
   for (std::size_t k = 0; k < c.size(); ++k) {
     const bool touches = c.is(k, cs::closed) || (c.depth[k] > -least && c.on_edge(k));
     if (!touches || c.share[k] <= 0.0 || c.why[k] != Blocked::no) continue;
     const auto gap = [&](const Pose& pose) {
-      const EdgeFrame e = edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
+      const EdgeFrame e =
+          edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
       return gap_to(e, at(pose.x, pose.y, c.vertex[k]));
     };
     const Gap was = gap(before.pose), is = gap(after.pose);
@@ -113,10 +115,10 @@ std::string sentence(const Mechanism& m) {
   for (const MovingBlock& b : m.blocks) ++count[static_cast<int>(b.motion)];
   const double largest = std::max({m.sliding, m.toppling, m.falling});
   constexpr double most = 0.75;
-  const char* kind = largest < most           ? "mixed"
-                     : largest == m.sliding   ? "sliding"
+  const char* kind = largest < most          ? "mixed"
+                     : largest == m.sliding  ? "sliding"
                      : largest == m.toppling ? "toppling"
-                                              : "falling";
+                                             : "falling";
   const auto some = [](std::size_t n, const char* one, const char* many) {
     return fmt::format("{} {}", n, n == 1 ? one : many);
   };
@@ -136,16 +138,17 @@ Mechanism mechanism_of(const Simulation& before, const Simulation& after) {
   }
   const std::vector<std::uint8_t> near = next_to_something(after, moves * largest);
   for (MovingBlock& b : m.blocks) {
-    b.motion = !near[b.id]                  ? Motion::falls
+    b.motion = !near[b.id]                 ? Motion::falls
                : b.turning_part >= topples ? Motion::topples
-                                            : Motion::slides;
+                                           : Motion::slides;
   }
   std::erase_if(m.blocks, [&](const MovingBlock& b) { return b.largest < moves * largest; });
   for (const MovingBlock& b : m.blocks) {
     const double mass = before.blocks.mass[b.id];
     weight += mass;
-    (b.motion == Motion::slides ? m.sliding : b.motion == Motion::topples ? m.toppling : m.falling) +=
-        mass;
+    (b.motion == Motion::slides    ? m.sliding
+     : b.motion == Motion::topples ? m.toppling
+                                   : m.falling) += mass;
   }
   for (double* part : {&m.sliding, &m.toppling, &m.falling}) *part /= weight > 0.0 ? weight : 1.0;
   m.joints = joints_of(before, after, moves * largest);
@@ -155,7 +158,8 @@ Mechanism mechanism_of(const Simulation& before, const Simulation& after) {
 
 std::string mechanism_csv(const Simulation& sim, const Mechanism& mechanism) {
   Csv csv;
-  csv.header({"id", "name", "x", "y", "ux", "uy", "displacement", "rotation", "turning_part", "motion"});
+  csv.header(
+      {"id", "name", "x", "y", "ux", "uy", "displacement", "rotation", "turning_part", "motion"});
   for (const MovingBlock& b : mechanism.blocks) {
     csv.add(b.id).add(sim.blocks.name(b.id)).add(b.place.x).add(b.place.y);
     csv.add(b.displacement.x).add(b.displacement.y).add(b.largest).add(b.rotation);

@@ -32,16 +32,16 @@ struct MovingBlock {
 struct MovingJoint {
   Id block_i = 0, block_j = 0;
   std::string_view joint;
-  Vec2 place;            ///< m, of the contact that moves most
-  Vec2 from, to;         ///< m, ends of the stretch of joint between the two
+  Vec2 place;                 ///< m, of the contact that moves most
+  Vec2 from, to;              ///< m, ends of the stretch of joint between the two
   Vec2 from_moved, to_moved;  ///< m, how far the block beside it has carried them
-  double slip = 0.0;     ///< m, largest along the joint, either way
-  double opening = 0.0;  ///< m, largest across it
+  double slip = 0.0;          ///< m, largest along the joint, either way
+  double opening = 0.0;       ///< m, largest across it
 };
 
 struct Mechanism {
-  std::vector<MovingBlock> blocks;  ///< by id
-  std::vector<MovingJoint> joints;  ///< by blocks
+  std::vector<MovingBlock> blocks;                      ///< by id
+  std::vector<MovingJoint> joints;                      ///< by blocks
   double sliding = 0.0, toppling = 0.0, falling = 0.0;  ///< parts of the weight that moves
   std::string text;                                     ///< one sentence
 };
@@ -50,7 +50,8 @@ struct Mechanism {
 ///
 /// A block topples where turning moves its furthest corner by at least half of what the block
 /// itself moves: turning_part >= 1/2 (a block that turns about one of its corners has about 1, one
-/// that slides 0). One that is next to nothing any more, but for a tenth of that displacement, falls.
+/// that slides 0). One that is next to nothing any more, but for a tenth of that displacement,
+/// falls.
 Mechanism mechanism_of(const Simulation& before, const Simulation& after);
 
 std::string mechanism_csv(const Simulation& sim, const Mechanism& mechanism);

@@ -1,5 +1,7 @@
 #include "run/recorder.hpp"
 
+#include <fmt/format.h>
+
 #include "model/time_history.hpp"
 #include "model/write_model.hpp"
 #include "results/csv.hpp"
@@ -45,7 +47,7 @@ Trouble Recorder::begin(const Simulation& sim, const std::vector<MonitorPoint>& 
     if (auto t = reactions_.open(path("reactions.csv"))) return t;
     if (auto t = reactions_.add(reactions_header(sim.model))) return t;
   }
-  if (!sim.bolts.rows.empty()) {
+  if (has_bolts(sim.model)) {
     if (auto t = bolts_.open(path("bolts.csv"))) return t;
     if (auto t = bolts_.add(bolts_header())) return t;
   }
@@ -72,7 +74,7 @@ Trouble Recorder::resume(const Simulation& sim, const RecorderMemory& memory) {
   if (!sim.model.boundaries.empty()) {
     if (auto t = reactions_.reopen(path("reactions.csv"), memory.reactions_bytes)) return t;
   }
-  if (!sim.bolts.rows.empty()) {
+  if (has_bolts(sim.model)) {
     if (auto t = bolts_.reopen(path("bolts.csv"), memory.bolts_bytes)) return t;
   }
   frames_.emplace(folder_, sim.blocks);
@@ -105,8 +107,13 @@ Trouble Recorder::stages(const std::string& csv) {
   return writes() ? write_file(path("stages.csv"), csv) : Trouble{};
 }
 
+Trouble Recorder::stage_joints(std::size_t stage, const Picture& picture) {
+  if (!writes()) return {};
+  return write_joints_csv(fmt::format("{}/joints_{}.csv", folder_, stage), picture.contacts);
+}
+
 Trouble Recorder::frame(const Simulation& sim, const Picture& picture) {
-  if (!sim.bolts.rows.empty()) {
+  if (has_bolts(sim.model)) {
     if (auto t = bolts_.add(bolts_rows(sim))) return t;
   }
   return frames_ ? frames_->add(picture) : Trouble{};

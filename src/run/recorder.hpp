@@ -40,6 +40,8 @@ class Recorder {
   Trouble frame(const Simulation& sim, const Picture& picture);
   /// stages.csv, as it is by now.
   Trouble stages(const std::string& csv);
+  /// joints_`stage`.csv, the contacts at its end.
+  Trouble stage_joints(std::size_t stage, const Picture& picture);
   /// blocks.csv, joints.csv, and the end of history.csv.
   Trouble tables(const Picture& picture);
   /// summary.json, last of all.

@@ -76,9 +76,11 @@ Result<Outcome> run_model(PreparedRun& run, const RunOptions& options) {
     if (auto trouble = check_folder(options.folder, run.sim.model.file)) return *trouble;
   }
   Driver driver(run, options);
-  if (options.resume) {
+  if (options.resume || options.from_stage) {
     std::string warning;
-    const Result<std::string> image = read_checkpoint(options.folder, warning);
+    const Result<std::string> image =
+        options.from_stage ? read_stage_checkpoint(options.folder, *options.from_stage)
+                           : read_checkpoint(options.folder, warning);
     if (!image.ok()) return image.faults();
     if (!warning.empty() && options.warn) options.warn(warning);
     Result<Record> record = from_hdf5(image.value());

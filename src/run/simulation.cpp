@@ -42,8 +42,8 @@ double largest_displacement(const BlockSet& b, double ratio) {
   return std::min(ratio * 0.5 * (*high - *low), 0.1 * edge);
 }
 
-StepDamping step_damping(const Damping& damping) {
-  return {damping.mass, damping.local};
+StepDamping step_damping(const Damping& damping, const Dashpots& dashpots) {
+  return {damping.mass, damping.local, dashpots.damped.empty() ? nullptr : &dashpots.damped};
 }
 
 /// Energy that a change of the step creates: sum of m |v+ - v-|^2 (h_old - h_new)/(4 h_mean) with
@@ -88,6 +88,10 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   Result<Dashpots> dashpots = attach_dashpots(s.model, s.blocks);
   if (!dashpots.ok()) return dashpots.faults();
   s.dashpots = std::move(dashpots.value());
+  for (std::size_t q = 0; q < s.model.boundaries.size(); ++q) {
+    if (!s.loads.spells.boundaries[q].acts()) s.springs.release(static_cast<Index>(q));
+  }
+  s.dashpots.set_acting(s.loads.spells.boundaries);
   s.on_dashpots.assign(s.dashpots.points.size(), Vec2{});
   s.ground = find_ground(s.model, s.blocks);
   s.state = initial_state(s.blocks, s.polygons);
@@ -115,6 +119,11 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   s.smallest_half_width = *std::min_element(s.blocks.inradius.begin(), s.blocks.inradius.end());
   s.step_limit = std::numeric_limits<double>::infinity();
 
+  const auto& stages = s.model.stages;
+  if (std::any_of(stages.begin(), stages.end(),
+                  [](const Stage& q) { return q.masses == StageMasses::uniform_step; })) {
+    s.given_mass_ = {s.blocks.node_mass, s.blocks.inverse_mass};
+  }
   s.search(s.base_reach);
   update_shares(s.contacts);
   bond_contacts(s.contacts, s.blocks, s.state, s.pose, s.laws);
@@ -163,9 +172,11 @@ void Simulation::search(double reach) {
 
 /// Blocks that would hold the step below what was asked for are made slower. One in motion keeps
 /// its momentum, and the energy that it loses by that is booked with that of changed steps.
-void Simulation::scale_masses() {
+void Simulation::raise_masses() {
   const Solver& solver = model.solver;
-  const double step = solver.time_step ? solver.mass_scaling : solver.mass_scaling / solver.safety;
+  const double step = scaled_step_ > 0.0 ? scaled_step_
+                      : solver.time_step ? solver.mass_scaling
+                                         : solver.mass_scaling / solver.safety;
   const bool moving = state.steps > 0;
   const double energy = moving ? ledger_now().balance() : 0.0;
   const std::vector<double> factor =
@@ -185,7 +196,7 @@ void Simulation::scale_masses() {
 
 void Simulation::set_limit() {
   if (!explicit_method()) return set_implicit_limit();
-  if (model.solver.mass_scaling > 0.0) scale_masses();
+  if (model.solver.mass_scaling > 0.0 || scaled_step_ > 0.0) raise_masses();
   bound = step_bound(blocks, state, pose, contacts, springs, laws, damping, &bolts);
   if (model.solver.time_step) {
     const double most = model.solver.allow_unstable
@@ -256,7 +267,7 @@ bool Simulation::move(double h_old, double h_new, const LoadsNow* not_yet_gather
                     add_dashpots(forces, on_dashpots, dashpots, blocks, state, old_vx_, old_vy_,
                                  dashing, begin, end);
                     advance(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h_new,
-                            step_damping(damping), begin, end);
+                            step_damping(damping, dashpots), begin, end);
                     largest_[c] = place_next(blocks, state.x, state.y, pose, begin, end);
                   });
   std::swap(pose.x, pose.x1);
@@ -311,8 +322,8 @@ std::optional<Failure> Simulation::step() {
     step_change_energy += energy_of_step_change(blocks, state, old_vx_, old_vy_, h_old, h);
     ++steps.changes;
   }
-  book_damping(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h, step_damping(damping),
-               damping_work);
+  book_damping(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h,
+               step_damping(damping, dashpots), damping_work);
   if (damping.contact > 0.0) book_dashpots(contacts);
   book_loads(h_old, h, at_work);
   book_boundaries(h_old, h);

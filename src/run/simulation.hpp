@@ -24,6 +24,7 @@
 #include "integrate/leapfrog.hpp"
 #include "lines/polygon_set.hpp"
 #include "model/model.hpp"
+#include "model/stage_names.hpp"
 #include "run/divergence.hpp"
 #include "run/ledger.hpp"
 #include "run/open_close.hpp"
@@ -58,6 +59,7 @@ struct Simulation {
   Ground ground;
   NodalForces forces;
   std::vector<Vec2> on_dashpots;  ///< [points of dashpots] their forces in the last step, N
+  std::vector<KeptForce> kept;    ///< of rock taken out, and of boundaries taken over from
   DampingWork damping_work;
   Damping damping;                  ///< in force
   bool dynamic = true;              ///< of method "dda": whether velocities carry over
@@ -95,6 +97,22 @@ struct Simulation {
   void set_strength_factors(const std::vector<double>& factors);
   /// The same factor for all laws.
   void set_strength_factor(double factor);
+  /// Takes out the rock of these openings (rows of Model::openings), between two steps. What it did
+  /// to its walls is kept as loads, of which nothing acts until relax() says so; the energy that
+  /// goes with it counts as external work.
+  void excavate(const std::vector<Index>& openings);
+  /// Lets go `part` (0 to 1) of the forces that the rock of an opening had on its walls.
+  void relax(Index opening, double part);
+  /// Some of what the model names acts no more, other from now on, between two steps. A boundary of
+  /// any type but stress that now acts where one acted that no longer does bears what that one
+  /// bore; energy stored in springs that go counts as external work.
+  void switch_over(const NamedRows& off, const NamedRows& on);
+  /// Puts in bolts (rows of all_bolts()) where the rock now is.
+  std::optional<Fault> install(const std::vector<Index>& bolts);
+  /// What is closed neither opens nor slides from now on; or does again.
+  void glue_joints(bool glued);
+  /// Masses as given, or raised so that all blocks allow one time step.
+  void scale_masses(StageMasses masses);
   /// Displacements count from here.
   void reset_displacements();
   /// One step of the method: forces, motion, gaps, switching, search, contacts.
@@ -117,6 +135,8 @@ struct Simulation {
   friend void list_memory(Archive& archive, Simulation& sim);
 
   void place_all();
+  void keep(const std::vector<KeptForce>& forces);
+  std::vector<KeptForce> release_boundaries(const std::vector<Index>& rows);
   void start_implicit();
   std::optional<Failure> step_implicit();
   void set_implicit_limit();
@@ -135,7 +155,14 @@ struct Simulation {
   StepInUse step_in_use() const;
   Ledger ledger_now() const;
   void set_limit();
-  void scale_masses();
+  void raise_masses();
+  /// Masses of the nodes as the model gives them.
+  struct GivenMass {
+    decltype(BlockSet::node_mass) node_mass;
+    decltype(BlockSet::inverse_mass) inverse_mass;
+  };
+  GivenMass given_mass_;      ///< kept where a stage scales them
+  double scaled_step_ = 0.0;  ///< s: step that a stage raises inertia for; 0: none does
   double displacement_cap_ = std::numeric_limits<double>::infinity();  ///< s: after halvings
   std::uint64_t larger_since_ = 0;  ///< step from which a much larger one would have been allowed
   double target_ = 0.0;             ///< s: the event aimed at

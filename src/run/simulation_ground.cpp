@@ -14,16 +14,18 @@ LoadsNow Simulation::acting() const {
 }
 
 Vec2 Simulation::ground_velocity() const {
-  return ground.velocity + (0.5 * state.step) * ground_acceleration(model, loads.since, state.time);
+  return ground.velocity +
+         (0.5 * state.step) * ground_acceleration(model, loads.spells, state.time);
 }
 
 std::vector<Vec2> Simulation::dashpot_references(Vec2 of_ground) const {
   std::vector<Vec2> reference(model.boundaries.size(), of_ground);
   for (std::size_t q = 0; q < model.shakings.size(); ++q) {
     const Shaking& shaking = model.shakings[q];
-    if (shaking.apply != ShakingKind::upgoing || state.time < loads.since.shakings[q]) continue;
+    const Spell& spell = loads.spells.shakings[q];
+    if (shaking.apply != ShakingKind::upgoing || !spell.acts()) continue;
     reference[static_cast<std::size_t>(shaking.enters)] +=
-        2.0 * velocity_at(shaking, state.time - loads.since.shakings[q]);
+        2.0 * velocity_at(shaking, state.time - spell.since);
   }
   return reference;
 }
@@ -31,7 +33,7 @@ std::vector<Vec2> Simulation::dashpot_references(Vec2 of_ground) const {
 /// Half a step back, as the blocks: v_{-1/2} = -a_0 h/2. Looks back at where it was, too.
 void Simulation::start_ground(double h) {
   if (!ground.moves) return;
-  ground.velocity = (-0.5 * h) * ground_acceleration(model, loads.since, state.time);
+  ground.velocity = (-0.5 * h) * ground_acceleration(model, loads.spells, state.time);
   ground.shift_1 = ground.shift - h * ground.velocity;
   springs.shift_1.assign(springs.shift.size(), ground.shift_1);
   for (const Id i : ground.held) {
@@ -47,7 +49,7 @@ void Simulation::drive_ground(double h_old, double h_new) {
     if (!dashpots.points.empty()) references_ = dashpot_references({});
     return;
   }
-  next_ground_ = next_ground(model, loads.since, ground, springs, state.time, h_old, h_new);
+  next_ground_ = next_ground(model, loads.spells, ground, springs, state.time, h_old, h_new);
   place_held(blocks, ground, next_ground_.shift, state.x, state.y);
   references_ = dashpot_references(0.5 * (ground.velocity + next_ground_.velocity));
 }

@@ -41,6 +41,7 @@ void list_contacts(Archive& a, ContactSet& c) {
   a("contacts.kn", c.kn);
   a("contacts.ks", c.ks);
   a("contacts.length", c.length);
+  a("contacts.lent", c.lent);
   a("contacts.friction", c.friction);
   a("contacts.cohesion", c.cohesion);
   a("contacts.tension", c.tension);
@@ -66,6 +67,7 @@ void list_contacts(Archive& a, ContactSet& c) {
   a("contacts.travel", c.travel);
   a("contacts.built_at", c.built_at);
   a("contacts.rebuilds", c.rebuilds);
+  a("contacts.broken", c.broken);
   a("contacts.retired_friction", c.retired_friction);
   a("contacts.retired_damping", c.retired_damping);
   a("contacts.retired_fracture", c.retired_fracture);
@@ -236,6 +238,7 @@ void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawT
   j.sized("contacts.law", c.law, nc);
   j.sized("contacts.state", c.state, nc);
   j.sized("contacts.why", c.why, nc);
+  if (!c.lent.empty()) j.sized("contacts.lent", c.lent, nc);
   j.sized("contacts.deepest", c.deepest, c.chunks());
   j.sized("contacts.built_x", c.built_x, nv);
   j.sized("contacts.built_y", c.built_y, nv);
@@ -320,6 +323,7 @@ void list_memory(Archive& a, Simulation& s) {
   list_contacts(a, s.contacts);
   list_groups(a, s.contacts);
   list_counts(a, s);
+  list_kept(a, s);
   list_ground(a, s);
   list_bolts(a, s);
   a("displacement_cap", s.displacement_cap_);
@@ -329,7 +333,9 @@ void list_memory(Archive& a, Simulation& s) {
   a("step_before", s.step_before_);
   a("steps_left", s.steps_left_);
   if (!s.explicit_method()) list_implicit(a, s);
-  if (s.model.solver.mass_scaling > 0.0) {  // masses by their bits, not by their factors
+  if (!s.given_mass_.node_mass[0].empty()) a("scaled_step", s.scaled_step_);
+  if (s.model.solver.mass_scaling > 0.0 || s.scaled_step_ > 0.0) {
+    // Masses by their bits, not by their factors.
     a("inertia", s.inertia);
     a("node_mass", s.blocks.node_mass);
     a("inverse_mass", s.blocks.inverse_mass);
@@ -351,7 +357,8 @@ std::string recall(Simulation& sim, const Record& record) {
   if (!loader.flaw().empty()) return loader.flaw();
   const std::vector<double> factors = sim.laws.divided_by;
   if (factors.size() != sim.laws.rows.size() ||
-      !std::all_of(factors.begin(), factors.end(), [](double f) { return f > 0.0 && std::isfinite(f); })) {
+      !std::all_of(factors.begin(), factors.end(),
+                   [](double f) { return f > 0.0 && std::isfinite(f); })) {
     return "laws.divided_by is not of these laws";
   }
   sim.laws = divided_laws(sim.model, factors);

@@ -17,6 +17,20 @@ bool carries(const ContactSet& c, std::size_t k) {
   return c.is(k, cs::closed) && c.share[k] > 0.0;
 }
 
+std::size_t yielded_bolts(const Bolts& b) {
+  std::size_t count = 0;
+  for (std::size_t r = 0; r < b.rows.size(); ++r) {
+    bool any = false;
+    for (std::size_t k = b.begin[r]; k < b.begin[r + 1]; ++k) {
+      for (const BoltSprings* s : {&b.bonds, &b.bars, &b.dowels}) {
+        any = any || s->yielded[k] != 0 || s->broken[k] != 0;
+      }
+    }
+    count += any;
+  }
+  return count;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> touching(const Simulation& sim) {
@@ -69,7 +83,10 @@ StageRecord stage_record(const Simulation& sim, const Ledger& ledger, double sta
   r.steps = sim.state.steps - first_step;
   r.balance = balance_of(sim);
   r.ledger = ledger;
+  r.broken = sim.contacts.broken;
+  r.yielded = yielded_bolts(sim.bolts);
   for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
+    r.open += sim.contacts.is(k, cs::opened) && !sim.contacts.is(k, cs::closed);
     if (!carries(sim.contacts, k)) continue;
     ++r.closed;
     r.sliding += slides(sim, sim.contacts, k);
@@ -80,10 +97,11 @@ StageRecord stage_record(const Simulation& sim, const Ledger& ledger, double sta
 
 std::string stages_csv(const Model& model, const std::vector<StageRecord>& records) {
   Csv csv;
-  csv.header({"stage",   "name",     "until",         "reached",       "start",    "end",
-              "steps",   "ratio",    "largest_ratio", "largest_block", "kinetic",  "strain",
-              "contact", "gravity",  "friction",      "damping",       "fracture", "external",
-              "drift",   "contacts", "sliding",       "bonded",        "detached"});
+  csv.header({"stage",   "name",         "until",         "reached",       "start",    "end",
+              "steps",   "ratio",        "largest_ratio", "largest_block", "kinetic",  "strain",
+              "contact", "gravity",      "friction",      "damping",       "fracture", "external",
+              "drift",   "contacts",     "sliding",       "bonded",        "detached", "open",
+              "broken",  "yielded_bolts"});
   const std::vector<Stage> stages = stages_of(model);
   for (std::size_t q = 0; q < records.size(); ++q) {
     const StageRecord& r = records[q];
@@ -100,7 +118,8 @@ std::string stages_csv(const Model& model, const std::vector<StageRecord>& recor
                            l.fracture, l.external, l.drift}) {
       csv.add(v);
     }
-    csv.add(r.closed).add(r.sliding).add(r.bonded).add(r.balance.detached).end();
+    csv.add(r.closed).add(r.sliding).add(r.bonded).add(r.balance.detached);
+    csv.add(r.open).add(r.broken).add(r.yielded).end();
   }
   return csv.text();
 }

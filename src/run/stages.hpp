@@ -32,6 +32,9 @@ struct StageRecord {
   Balance balance;
   Ledger ledger;                                    ///< at the end
   std::size_t closed = 0, sliding = 0, bonded = 0;  ///< contacts at the end
+  std::size_t open = 0;                             ///< those near each other that have come apart
+  std::uint64_t broken = 0;                         ///< bonds broken since the start of the run
+  std::size_t yielded = 0;  ///< bolts of which any part has yielded, slipped or broken
 };
 
 StageRecord stage_record(const Simulation& sim, const Ledger& ledger, double start,

@@ -156,8 +156,9 @@ TEST(BadModel, WhatTheImplicitMethodCannotDo) {
 
 TEST(BadModel, JointLaws) {
   const std::string weak = "[joints.a]\ntype = \"slip-weakening\"\nfriction_angle = 30\n",
-                    barton = "[joints.a]\ntype = \"barton-bandis\"\njrc = 9\njcs = 1e8\n"
-                             "residual_angle = 28\n[contact]\njoint = \"rough\"\n",
+                    barton =
+                        "[joints.a]\ntype = \"barton-bandis\"\njrc = 9\njcs = 1e8\n"
+                        "residual_angle = 28\n[contact]\njoint = \"rough\"\n",
                     plain = "[joints.a]\nfriction_angle = 30\n",
                     end = "[contact]\njoint = \"rough\"\n";
   const auto barton_with = [&](const std::string& line) {
@@ -220,6 +221,38 @@ TEST(BadModel, Stages) {
                "out of range"},
        }) {
     expect_fault(bad);
+  }
+  const std::string load = "[[load]]\nname = \"push\"\npoint = [15, 9]\nforce = [1, 0]\n";
+  const std::string bolt =
+      "[[bolt]]\nname = \"nail\"\nfrom = [15, 1]\nto = [15, 3]\ndiameter = 0.02\ntype = \"end\"\n";
+  const std::string stage = "[[stage]]\nduration = 0.1\n", next = "[[stage]]\nduration = 0.1\n";
+  const std::string known = testing::base_with("duration = 0.1\n", "");
+  for (const Bad& bad : {
+           Bad{stage + "joints = \"loose\"\n", 44, "stage.0.joints", "not known"},
+           Bad{stage + "mass_scaling = \"none\"\n", 44, "stage.0.mass_scaling", "not known"},
+           Bad{stage + "detached = 3\n", 44, "stage.0.detached", "expects one of"},
+           Bad{stage + "excavate = [\"cave\"]\n", 44, "stage.0.excavate[0]", "names no opening"},
+           Bad{stage + "relax = { cave = 0.5 }\n", 44, "stage.0.relax.cave", "names no opening"},
+           Bad{stage + "install = [\"nail\"]\n", 44, "stage.0.install[0]",
+               "names no bolt or pattern of bolts"},
+           Bad{bolt + stage + "install = [\"nial\"]\n", 50, "stage.0.install[0]", "nail"},
+           Bad{bolt + stage + "install = [\"nail\"]\n" + next + "install = [\"nail\"]\n", 53,
+               "stage.1.install[0]", "has been installed before"},
+           Bad{load + stage + "activate = [\"pusch\"]\n", 48, "stage.0.activate[0]", "push"},
+           Bad{load + stage + "activate = [\"push\"]\n" + next + "activate = [\"push\"]\n", 51,
+               "stage.1.activate[0]", "acts already"},
+           Bad{load + stage + "deactivate = [\"push\"]\n" + next + "deactivate = [\"push\"]\n", 51,
+               "stage.1.deactivate[0]", "does not act before this stage"},
+           Bad{load + stage + "deactivate = [\"push\"]\nactivate = [\"push\"]\n", 49,
+               "stage.0.activate", "is in deactivate, too"},
+       }) {
+    const std::string text = known + bad.text;
+    const Result<Model> result = read_model_text(text, "m.toml", {});
+    ASSERT_FALSE(result.ok()) << bad.text;
+    const Fault& f = result.faults()[0];
+    EXPECT_EQ(f.where.line, bad.line - 1) << to_string(f);
+    EXPECT_EQ(f.where.key, bad.key) << to_string(f);
+    EXPECT_NE(to_string(f).find(bad.fragment), std::string::npos) << to_string(f);
   }
   const auto missing = read_model_text(testing::base_with("duration = 0.1\n", ""), "m.toml", {});
   ASSERT_FALSE(missing.ok());

@@ -224,8 +224,16 @@ until = "equilibrium"
 ratio = 1e-4
 duration = "1 min"
 damping = { contact = 0.2 }
+joints = "glued"
+detached = "wait"
+deactivate = ["wet"]
 [[stage]]
 duration = 60.0
+excavate = ["cavern"]
+relax = { cavern = 0.6 }
+install = ["round"]
+activate = ["axle", "wet"]
+mass_scaling = "as given"
 reset_displacements = true
 strength_factor = 1.25
 [solver]
@@ -244,6 +252,7 @@ damping = { mass = "2 1/s", local = 0.1, contact = 0.3 }
 every = 0.3
 history_every = 0.07
 checkpoint_every = 2.5
+stages = false
 [fos]
 stage = "settle"
 vary = "water:wet"

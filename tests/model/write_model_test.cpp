@@ -255,6 +255,18 @@ void expect_every_run_key(const Model& m) {
   EXPECT_TRUE(m.stages[1].reset_displacements);
   EXPECT_EQ(m.stages[0].strength_factor, 1.0);
   EXPECT_EQ(m.stages[1].strength_factor, 1.25);
+  EXPECT_EQ(m.stages[1].excavate, std::vector<std::string>{"cavern"});
+  EXPECT_EQ(m.stages[1].relax, (NumberMap{{"cavern", 0.6}}));
+  EXPECT_EQ(m.stages[0].joints, StageJoints::glued);
+  EXPECT_EQ(m.stages[0].falling, FallingBlocks::wait);
+  EXPECT_EQ(m.stages[0].masses, StageMasses::as_given) << "the model gives a time step";
+  EXPECT_EQ(m.stages[0].deactivate, std::vector<std::string>{"wet"});
+  EXPECT_EQ(m.stages[1].install, std::vector<std::string>{"round"});
+  EXPECT_EQ(m.stages[1].activate, (std::vector<std::string>{"axle", "wet"}));
+  EXPECT_EQ(m.stages[1].joints, StageJoints::as_given);
+  EXPECT_EQ(m.stages[1].falling, FallingBlocks::report);
+  EXPECT_TRUE(m.openings[0].staged);
+  EXPECT_FALSE(m.openings[1].staged);
   EXPECT_EQ(m.solver.mass, MassKind::covering);
   EXPECT_EQ(m.solver.switching, Switching::plain);
   EXPECT_EQ(m.solver.duration, 120.0);
@@ -279,6 +291,7 @@ void expect_every_run_key(const Model& m) {
   EXPECT_EQ(m.fos->exclude, std::vector<std::string>{"glue"});
   EXPECT_EQ(m.fos->fails.displacement, 0.01);
   EXPECT_EQ(m.fos->fails.velocity, 0.002);
+  EXPECT_FALSE(m.output.stages);
 }
 
 Model read(const std::string& text) {
@@ -333,6 +346,8 @@ TEST(WriteModel, ImplicitMethodComesBack) {
   text.erase(driven, text.find("[[load]]") - driven);
   const std::size_t wave = text.find("[[shaking]]\nacceleration");
   text.erase(wave, text.find("[[monitor]]") - wave);
+  const std::string install = "install = [\"round\"]\n";
+  text.erase(text.find(install), install.size());
   const Model second = read(to_toml(read(text)));
   EXPECT_EQ(second.solver.method, Method::dda);
   EXPECT_FALSE(second.solver.dynamic);

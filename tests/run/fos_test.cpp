@@ -147,6 +147,22 @@ TEST(Fos, BeginsFromAStage) {
   EXPECT_NEAR(*last.factor, exact / 1.25, 0.05);
 }
 
+/// A load that no stage has switched on yet acts in the trials.
+TEST(Fos, SwitchesOnWhatItVaries) {
+  std::string text = ramp("friction_angle = 45\n",
+                          "[[load]]\nname = 'push'\npoint = [1.1, -0.05]\nforce = [1e4, 0]\n"
+                          "[[stage]]\nname = 'rest'\nuntil = 'equilibrium'\n[[stage]]\nname = "
+                          "'pushed'\nuntil = 'equilibrium'\nactivate = ['push']\n");
+  text.erase(text.find("duration = 0.5\n"), 15);
+  const double s = 0.5, c = std::sqrt(0.75), weight = 2500.0 * 2.0 * 9.81;
+  for (const char* stage : {"rest", "pushed"}) {
+    const FosResult r =
+        found(text + coarse + "vary = 'load:push'\nbracket = [0.5, 2]\nstage = '" + stage + "'\n");
+    ASSERT_TRUE(r.factor) << r.message;
+    EXPECT_NEAR(*r.factor, weight * (c - s) / (c + s) / 1e4, 0.05);
+  }
+}
+
 TEST(Fos, StopsWhenAsked) {
   std::atomic<bool> stop{false};
   FosOptions options;
@@ -177,17 +193,19 @@ PreparedRun prepared(const std::string& toml) {
   return std::move(run.value());
 }
 
-/// A stage's factor: a block that holds at one below its limit goes at one above it, in both methods.
+/// A stage's factor: a block that holds at one below its limit goes at one above it, in both
+/// methods.
 TEST(StrengthFactor, ActsFromTheStartOfItsStage) {
   for (const std::string method : {"edda", "dda"}) {
-    for (const auto& [factor, status] : {std::pair{0.95 * exact, Status::equilibrium},
-                                         {1.05 * exact, Status::collapsed}}) {
+    for (const auto& [factor, status] :
+         {std::pair{0.95 * exact, Status::equilibrium}, {1.05 * exact, Status::collapsed}}) {
       std::string text = ramp(rough);
       text.replace(text.find("duration = 0.5\n"), 15, "method = '" + method + "'\n");
-      PreparedRun run = prepared(
-          text + "[[stage]]\nuntil = 'equilibrium'\n[[stage]]\nuntil = 'equilibrium'\nduration = "
-                 "0.5\nratio = 1e-4\nstrength_factor = " +
-          number(factor) + "\n");
+      PreparedRun run =
+          prepared(text +
+                   "[[stage]]\nuntil = 'equilibrium'\n[[stage]]\nuntil = 'equilibrium'\nduration = "
+                   "0.5\nratio = 1e-4\nstrength_factor = " +
+                   number(factor) + "\n");
       const Result<Outcome> o = run_model(run, {});
       ASSERT_TRUE(o.ok());
       EXPECT_EQ(o.value().status, status) << method << ' ' << factor << o.value().message;
@@ -198,9 +216,9 @@ TEST(StrengthFactor, ActsFromTheStartOfItsStage) {
 
 /// Cohesion and tension are divided, too, and all of it comes back when the factor does.
 TEST(StrengthFactor, DividesAllStrength) {
-  PreparedRun run = prepared(
-      ramp("friction_angle = 40\ncohesion = 1e5\ntensile_strength = 2e4\nresidual = { "
-           "friction_angle = 30 }\n"));
+  PreparedRun run =
+      prepared(ramp("friction_angle = 40\ncohesion = 1e5\ntensile_strength = 2e4\nresidual = { "
+                    "friction_angle = 30 }\n"));
   Simulation& sim = run.sim;
   const ContactSet before = sim.contacts;
   const Law law = sim.laws.rows[0];
@@ -245,8 +263,8 @@ TEST(StrengthFactor, LivesInACheckpoint) {
 /// The factor divides the strength that slip and stress have left, too.
 TEST(Fos, DividesLawsThatChange) {
   const double sigma = 2500.0 * 9.81 * std::cos(std::numbers::pi / 6.0);
-  const FosResult barton = found(
-      ramp("type = 'barton-bandis'\njrc = 5\njcs = 1e7\nresidual_angle = 30\n", coarse));
+  const FosResult barton =
+      found(ramp("type = 'barton-bandis'\njrc = 5\njcs = 1e7\nresidual_angle = 30\n", coarse));
   const double angle = 30.0 + 5.0 * std::log10(1e7 / sigma);
   EXPECT_NEAR(*barton.factor, std::tan(angle * std::numbers::pi / 180.0) * std::sqrt(3.0), 0.05);
   const FosResult weak = found(

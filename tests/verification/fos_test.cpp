@@ -47,8 +47,11 @@ const MovingBlock* moving(const FosResult& r, Id id) {
 /// Row 40: the paper's ramp; F = tan(phi)/tan(alpha).
 TEST(FactorOfSafety, Ramp) {
   Series factors(40, "", {"phi", "exact", "computed"});
-  for (const auto& [phi, young] :
-       {std::pair{35.0, "200e6"}, {40.0, "200e6"}, {45.0, "200e6"}, {50.0, "200e6"}, {35.0, "2e9"}}) {
+  for (const auto& [phi, young] : {std::pair{35.0, "200e6"},
+                                   {40.0, "200e6"},
+                                   {45.0, "200e6"},
+                                   {50.0, "200e6"},
+                                   {35.0, "2e9"}}) {
     const FosResult r = factor_of(ramp(30.0, phi, young), "tolerance = 0.004\n");
     const double exact = std::tan(radians(phi)) / std::tan(radians(30.0));
     expect_factor(r, 40, ramp_label(30.0, phi, young), exact, 5e-3);
@@ -62,9 +65,9 @@ TEST(FactorOfSafety, Ramp) {
   }
 }
 
-/// Row 41: a block over a plane that daylights, an open vertical tension crack behind it, cohesion on
-/// the plane, water in the crack and, from its foot to nothing at the toe, on the plane (Hoek and Bray
-/// 1981): F = [c A + (W cos p - U - V sin p) tan phi]/(W sin p + V cos p).
+/// Row 41: a block over a plane that daylights, an open vertical tension crack behind it, cohesion
+/// on the plane, water in the crack and, from its foot to nothing at the toe, on the plane (Hoek
+/// and Bray 1981): F = [c A + (W cos p - U - V sin p) tan phi]/(W sin p + V cos p).
 struct PlaneSlide {
   double dip = 35.0, face = 60.0, height = 12.0, crack_at = 12.0;  ///< degrees, m
   double cohesion = 20e3, phi = 30.0, water = 0.0;                 ///< Pa, degrees, m in the crack
@@ -75,7 +78,8 @@ struct PlaneSlide {
   double exact() const {
     const double p = radians(dip), unit_weight = 26e3, gw = 9810.0;
     const double crest = height / std::tan(radians(face));
-    const double area = 0.5 * height * crest + height * (crack_at - crest) - 0.5 * crack_at * foot();
+    const double area =
+        0.5 * height * crest + height * (crack_at - crest) - 0.5 * crack_at * foot();
     const double w = unit_weight * area, v = 0.5 * gw * water * water;
     const double u = 0.5 * gw * water * plane();
     return (cohesion * plane() + (w * std::cos(p) - u - v * std::sin(p)) * std::tan(radians(phi))) /
@@ -141,8 +145,8 @@ TEST(FactorOfSafety, LoadThatGrows) {
   EXPECT_LT(moving(tips, 1)->rotation, 0.0);
 }
 
-/// Row 43: the slope of sixteen blocks of Goodman and Bray (1976), in the numbers of Hoek and Bray's
-/// example.
+/// Row 43: the slope of sixteen blocks of Goodman and Bray (1976), in the numbers of Hoek and
+/// Bray's example.
 struct TopplingSlope {
   static constexpr int count = 16, crest = 10;
   static constexpr double width = 10.0, a1 = 5.0, a2 = 5.2, b = 1.0, unit_weight = 25e3;
@@ -158,8 +162,8 @@ struct TopplingSlope {
   }
   double y(int n) const { return height[static_cast<std::size_t>(n)]; }
 
-  /// Force that keeps block 1 from going, from block to block down the slope: each passes on what it
-  /// needs not to topple, or not to slide, whichever is more (Goodman and Bray's equations).
+  /// Force that keeps block 1 from going, from block to block down the slope: each passes on what
+  /// it needs not to topple, or not to slide, whichever is more (Goodman and Bray's equations).
   double tie(double phi) const {
     const double t = std::tan(radians(phi)), s = std::sin(radians(dip)), c = std::cos(radians(dip));
     double p = 0.0;
@@ -213,8 +217,7 @@ TEST(FactorOfSafety, GoodmanAndBraysSlope) {
   EXPECT_EQ(slope.y(10), 40.0);
   EXPECT_NEAR(slope.y(16), 2.8, 1e-12);
   const double phi = 38.15;
-  const FosResult r =
-      factor_of(slope.toml(phi), "bracket = [0.9, 1.1]\ntolerance = 0.01\n");
+  const FosResult r = factor_of(slope.toml(phi), "bracket = [0.9, 1.1]\ntolerance = 0.01\n");
   ASSERT_TRUE(r.factor);
   const double at_limit = std::atan(std::tan(radians(phi)) / *r.factor) * 180.0 / std::numbers::pi;
   expect_relative({43, "", "friction angle at the limit", "degrees"}, at_limit, slope.limit(),
@@ -233,10 +236,9 @@ TEST(FactorOfSafety, GoodmanAndBraysSlope) {
 /// Row 44: a block on a slope yields to a horizontal acceleration of g tan(phi - alpha).
 TEST(FactorOfSafety, ShakingThatGrows) {
   const double alpha = 20.0, phi = 35.0;
-  const std::string toml =
-      ramp(alpha, phi, "200e6", 1, "damping = { contact = 0.1 }\n") +
-      "[[shaking]]\nname = 'push'\napply = 'inertia'\nacceleration = "
-      "'tests/verification/push.csv'\n";
+  const std::string toml = ramp(alpha, phi, "200e6", 1, "damping = { contact = 0.1 }\n") +
+                           "[[shaking]]\nname = 'push'\napply = 'inertia'\nacceleration = "
+                           "'tests/verification/push.csv'\n";
   const FosResult r = factor_of(toml,
                                 "vary = 'shaking:push'\nbracket = [1.0, 4.0]\ntolerance = 0.01\n"
                                 "fails = { displacement = 0.005 }\n");

@@ -14,7 +14,8 @@ constexpr double length = 2.0, height = 0.2, density = 2500.0, gravity = 10.0, s
 /// `pressure` on top, Pa. Springs as stiff as the rock and a little damping: no flutter.
 std::string thrown(const std::string& law, double pressure = 0.0, double duration = 0.15) {
   std::string text =
-      "gravity = [0, -10]\n[materials.rock]\ndensity = 2500\nyoung = 2e8\npoisson = 0\n[joints.j]\n" +
+      "gravity = [0, -10]\n[materials.rock]\ndensity = 2500\nyoung = 2e8\npoisson = "
+      "0\n[joints.j]\n" +
       law +
       "[contact]\nnormal_stiffness = 2e8\n[[block]]\nfixed = true\npolygon = [[-3, -1], [9, -1], "
       "[9, 0], [-3, 0]]\n[[block]]\nvelocity = [0.5, 0]\npolygon = " +
@@ -30,8 +31,8 @@ double normal_load(double pressure) {
   return length * (height * density * gravity + pressure);
 }
 
-/// What a shear test shows: the work of friction over the normal load, against the way slid, and how
-/// far the block rises.
+/// What a shear test shows: the work of friction over the normal load, against the way slid, and
+/// how far the block rises.
 struct Shown {
   double slip = 0.0, work = 0.0, rise = 0.0, drift = 0.0;
 };
@@ -102,7 +103,8 @@ TEST(DirectShear, SlipWeakeningTakesCohesionAway) {
   EXPECT_NEAR(shown.work / integral(strength, shown.slip), 1.0, 1e-2);
 }
 
-/// A block on a level joint under gravity (0, -g), stiff, settled by damping until drive() lets it go.
+/// A block on a level joint under gravity (0, -g), stiff, settled by damping until drive() lets it
+/// go.
 Simulation driven(const std::string& law, double g, double duration) {
   std::string text = thrown(law, 0.0, duration);
   text.replace(text.find("[0, -10]"), 8, "[0, " + number(-g) + "]");
@@ -115,8 +117,8 @@ Simulation driven(const std::string& law, double g, double duration) {
   return scene(text);
 }
 
-/// Largest departures of the way slid and of the opening from `slip` (m, of the time since it was let
-/// go) and `opening` (m, of the slip), over the second half of the way `until`.
+/// Largest departures of the way slid and of the opening from `slip` (m, of the time since it was
+/// let go) and `opening` (m, of the slip), over the second half of the way `until`.
 struct Ways {
   FurthestOff slip, opening;
   double end = 0.0;  ///< m, of the slip
@@ -154,8 +156,9 @@ Ways drive(Simulation& sim, double gx, const std::function<double(double)>& slip
   return ways;
 }
 
-/// Row 47: a joint of 30 degrees that opens at 5 degrees over 10 mm of slip. Pulled by m gx, pressed by
-/// N = m (g + a tan(psi)): a = (gx - g tan(phi))/(1 + tan(phi) tan(psi)), and it rises by tan(psi) u.
+/// Row 47: a joint of 30 degrees that opens at 5 degrees over 10 mm of slip. Pulled by m gx,
+/// pressed by N = m (g + a tan(psi)): a = (gx - g tan(phi))/(1 + tan(phi) tan(psi)), and it rises
+/// by tan(psi) u.
 TEST(DirectShear, Dilation) {
   const std::string law = "friction_angle = 30\ndilation_angle = 5\nslip_distance = 0.01\n";
   const double t = std::tan(radians(30)), psi = std::tan(radians(5)), g = 10.0, excess = 1.0;
@@ -163,17 +166,18 @@ TEST(DirectShear, Dilation) {
   const double a = excess / (1.0 + t * psi);
   Series series(47, "", {"slip", "exact", "computed"});
   const Ways ways = drive(
-      sim, g * t + excess, [&](double time) { return 0.5 * a * time * time; }, [&](double u) { return psi * u; },
-      0.0098, series);
+      sim, g * t + excess, [&](double time) { return 0.5 * a * time * time; },
+      [&](double u) { return psi * u; }, 0.0098, series);
   ways.slip.expect({47, "", "way slid, furthest off", "m"}, 2e-2);
   ways.opening.expect({47, "", "opening, furthest off", "m"}, 1e-2);
   EXPECT_GT(ways.end, 0.01);
   record_model(47, "", sim);
 }
 
-/// Row 48: Barton and Bandis at three normal stresses. Pulled in so thick a fluid that it creeps, the
-/// block holds at 0.99 of tan(phi_r + JRC log10(JCS/sigma)), and goes at 1.01, rising by half of what is
-/// above phi_r. (The peak is at l/500 (JRC/l)^0.33 = 6.6 mm of slip, further than it comes.)
+/// Row 48: Barton and Bandis at three normal stresses. Pulled in so thick a fluid that it creeps,
+/// the block holds at 0.99 of tan(phi_r + JRC log10(JCS/sigma)), and goes at 1.01, rising by half
+/// of what is above phi_r. (The peak is at l/500 (JRC/l)^0.33 = 6.6 mm of slip, further than it
+/// comes.)
 TEST(DirectShear, BartonBandisPeak) {
   const std::string law = "type = 'barton-bandis'\njrc = 9\njcs = 60e6\nresidual_angle = 28\n";
   for (const double sigma : {0.1e6, 0.5e6, 2e6}) {

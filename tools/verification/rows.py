@@ -164,4 +164,40 @@ ROWS = (
         "A block of 2 x 2 m hangs on an end-anchored bolt of 30 mm and 4 m, spacing 2 m, put in with no tension or with"
         " 40 kN.",
         "At rest the bolt is longer by (W - T0) L/EA, as the model has them, that is per metre of thickness."),
+    Row(40, "Factor of safety of a ramp",
+        "The block of row 1 on 30 degrees; the strength of its joint is divided by a factor.",
+        "A block slides where tan(phi)/F = tan(a)."),
+    Row(41, "Factor of safety of a plane slide",
+        "A block over a plane of 35 degrees that daylights in a face of 60 degrees, 12 m high, an open tension crack behind it;"
+        " cohesion on the plane, water in the crack and, from its foot to nothing at the toe, on the plane.",
+        "Limit equilibrium (Hoek and Bray 1981): resistance [c A + (W cos p - U - V sin p) tan(phi)] over drive"
+        " (W sin p + V cos p)."),
+    Row(42, "A load that grows",
+        "A block on level ground is pushed by a tenth of its weight times a factor, low down or high up.",
+        "It slides at P = W tan(phi), or tips at P h = W b/2."),
+    Row(43, "Toppling slope of Goodman and Bray",
+        "Sixteen columns 10 m wide on a stepped base of 30 degrees, 4 to 40 m high, crest at the tenth; the numbers of Hoek and"
+        " Bray's example.",
+        "From block to block down the slope each passes on the force that it needs not to topple, or not to slide (Goodman"
+        " and Bray 1976); block 1 needs none at 38.15 degrees (38.13 without rounding). Blocks 16 to 14 stay, 13 to 4"
+        " topple, 3 to 1 slide."),
+    Row(44, "A shaking that grows",
+        "A block on 20 degrees with 35 degrees of friction; all blocks feel a horizontal acceleration that rises to 1 m/s2"
+        " times a factor and stays.",
+        "It slides from g tan(phi - a) on."),
+    Row(45, "Water that grows heavier",
+        "The dam of row 14 with 5 m of water, whose unit weight is multiplied by a factor.",
+        "It overturns where F gw h^3/6 = gc B^2 H/2."),
+    Row(46, "Direct shear: slip weakening",
+        "A block thrown along a level joint whose friction falls from 40 to 20 degrees over 8 mm of slip.",
+        "Friction takes N times the integral of tan(phi(u)) du, until the motion is gone."),
+    Row(47, "Direct shear: dilation",
+        "A block on a level joint of 30 degrees that opens at 5 degrees, pulled a little harder than friction holds.",
+        "It rises by tan(psi) u. N is the weight and what lifts it, so a = (gx - g tan(phi))/(1 + tan(phi) tan(psi)).",
+        leave_out=("gravity",)),
+    Row(48, "Direct shear: Barton and Bandis",
+        "A block on a level joint with JRC 9, JCS 60 MPa and 28 degrees of residual friction, pulled in a thick fluid, at three"
+        " normal stresses; the pull at which it goes by bisection.",
+        "Peak strength tan(phi_r + JRC log10(JCS/sigma)) (Barton and Choubey 1977), dilation half of the angle above"
+        " phi_r.", leave_out=("gravity",)),
 )

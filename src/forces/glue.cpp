@@ -1,0 +1,35 @@
+#include "forces/glue.hpp"
+
+#include "forces/contact_forces.hpp"
+
+namespace edda {
+
+namespace cs = contact_state;
+
+void glue(ContactSet& c) {
+  c.lent.assign(c.size(), 0);
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (!c.is(k, cs::closed) || c.is(k, cs::glued)) continue;
+    c.keep_slips(k);
+    c.lent[k] = c.is(k, cs::bonded) ? 2 : 1;
+    c.set(k, cs::glued | cs::bonded | cs::pulls);
+    c.forget_cut(k);
+  }
+}
+
+void unglue(ContactSet& c, const LawTable& laws) {
+  for (std::size_t k = 0; k < c.lent.size(); ++k) {
+    if (c.lent[k] == 0) continue;
+    c.keep_slips(k);
+    c.clear(k, cs::glued);
+    if (!c.is(k, cs::closed)) continue;
+    const bool bonded = c.lent[k] == 2;
+    const bool pulls = bonded && laws.rows[c.law[k]].peak_tension > 0.0;
+    if (!bonded) c.clear(k, cs::bonded);
+    if (!pulls) c.clear(k, cs::pulls);
+    if (!bonded && c.effective(k) <= 0.0) tear(c, k);
+  }
+  c.lent.clear();
+}
+
+}  // namespace edda

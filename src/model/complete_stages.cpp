@@ -1,0 +1,208 @@
+// [[stage]]: what its defaults are, and whether what it names is there.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "model/complete_tools.hpp"
+#include "model/nearest.hpp"
+#include "model/stage_names.hpp"
+
+namespace edda {
+namespace {
+
+/// Damping of a stage: what it does not give is the solver's, but for local damping, which brings a
+/// model to rest.
+void complete_stage_damping(const Value* node, const Solver& solver, Stage& stage) {
+  const Value* own = find(node, "damping");
+  constexpr double at_rest = 0.8;
+  const bool settles = stage.until == StageEnd::equilibrium && solver.method == Method::edda &&
+                       solver.mass != MassKind::consistent;
+  if (!given(own, "mass")) stage.damping.mass = solver.damping.mass;
+  if (!given(own, "contact")) stage.damping.contact = solver.damping.contact;
+  if (!given(own, "local")) stage.damping.local = settles ? at_rest : solver.damping.local;
+}
+
+/// Small blocks must not cost a model at rest its time step.
+void complete_masses(const Value* node, const Solver& solver, Stage& stage, Reading& reading) {
+  const Value* own = find(node, "mass_scaling");
+  if (own == nullptr) {
+    const bool settles = stage.until == StageEnd::equilibrium && solver.method == Method::edda &&
+                         solver.mass_scaling == 0.0 && !solver.time_step;
+    if (settles) stage.masses = StageMasses::uniform_step;
+    return;
+  }
+  if (stage.masses != StageMasses::uniform_step) return;
+  const std::string key = stage.where.key + ".mass_scaling";
+  if (solver.method == Method::dda) {
+    add_fault(reading, own->place, key, "\"static\" belongs to method = \"edda\"",
+              "leave it out: an implicit step is as long as you choose");
+  } else if (solver.mass_scaling > 0.0 || solver.time_step) {
+    add_fault(reading, own->place, key,
+              std::string("\"static\" chooses the time step, and solver.") +
+                  (solver.time_step ? "time_step" : "mass_scaling") + " does too",
+              "leave one of them out");
+  }
+}
+
+template <class Item>
+std::vector<std::string_view> names_in(const std::vector<Item>& items) {
+  std::vector<std::string_view> names;
+  for (const Item& item : items) {
+    if (!item.name.empty()) names.push_back(item.name);
+  }
+  return names;
+}
+
+void names_nothing(Reading& reading, const Value& value, const std::string& path,
+                   const std::string& name, const std::string& what,
+                   const std::vector<std::string_view>& known) {
+  add_fault(reading, value.place, path, '"' + name + "\" names no " + what,
+            known.empty() ? "the model has none that has a name" : suggestion(name, known));
+}
+
+Opening* opening_called(Model& model, const std::string& name) {
+  const auto found = std::find_if(model.openings.begin(), model.openings.end(),
+                                  [&](const Opening& o) { return o.name == name; });
+  return found == model.openings.end() ? nullptr : &*found;
+}
+
+/// What a stage takes out, and what it lets go.
+void complete_excavation(const Value* own, Stage& stage, Reading& reading) {
+  Model& model = reading.model;
+  const std::vector<std::string_view> known = names_in(model.openings);
+  const auto unknown = [&](const Value& value, const std::string& path, const std::string& name) {
+    names_nothing(reading, value, path, name, "opening", known);
+  };
+  for (std::size_t q = 0; q < stage.excavate.size(); ++q) {
+    const Value& list = *find(own, "excavate");
+    const std::string path = fmt::format("{}.excavate[{}]", stage.where.key, q);
+    Opening* const opening = opening_called(model, stage.excavate[q]);
+    if (opening == nullptr) {
+      unknown(list, path, stage.excavate[q]);
+    } else if (opening->staged) {
+      add_fault(reading, list.place, path, '"' + opening->name + "\" has been taken out before",
+                "take each opening out once");
+    } else {
+      opening->staged = true;
+      if (opening->joint == none) opening->joint = glued_law(reading);
+    }
+  }
+  for (const auto& [name, part] : stage.relax) {
+    const Value& table = *find(own, "relax");
+    const std::string path = stage.where.key + ".relax." + name;
+    const Opening* const opening = opening_called(model, name);
+    if (opening == nullptr) {
+      unknown(table, path, name);
+    } else if (!opening->staged) {
+      add_fault(reading, table.place, path, '"' + name + "\" has not been taken out yet",
+                "name it in excavate of this stage or one before");
+    }
+  }
+}
+
+/// Bolts that a stage puts in, each once.
+void check_install(const Value* own, const Stage& stage, std::set<std::string>& installed,
+                   Reading& reading) {
+  std::vector<std::string_view> known = names_in(reading.model.bolts);
+  for (const std::string_view name : names_in(reading.model.bolt_patterns)) known.push_back(name);
+  for (std::size_t q = 0; q < stage.install.size(); ++q) {
+    const std::string& name = stage.install[q];
+    const Value& list = *find(own, "install");
+    const std::string path = fmt::format("{}.install[{}]", stage.where.key, q);
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      names_nothing(reading, list, path, name, "bolt or pattern of bolts", known);
+    } else if (!installed.insert(name).second) {
+      add_fault(reading, list.place, path, '"' + name + "\" has been installed before",
+                "install each once");
+    }
+  }
+}
+
+/// What a stage switches on and off acts, or does not, before that.
+void check_switches(const Value* own, const Stage& stage, std::set<std::string>& acting,
+                    const std::vector<std::string_view>& known, Reading& reading) {
+  const auto check = [&](const char* key, const std::vector<std::string>& names, bool on) {
+    for (std::size_t q = 0; q < names.size(); ++q) {
+      const std::string& name = names[q];
+      const Value& list = *find(own, key);
+      const std::string path = fmt::format("{}.{}[{}]", stage.where.key, key, q);
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        names_nothing(reading, list, path, name, "load, water, boundary or shaking", known);
+        continue;
+      }
+      const bool changed = on ? acting.insert(name).second : acting.erase(name) > 0;
+      if (changed) continue;
+      add_fault(reading, list.place, path,
+                '"' + name + (on ? "\" acts already" : "\" does not act before this stage"),
+                "leave it out here");
+    }
+  };
+  check("deactivate", stage.deactivate, false);
+  check("activate", stage.activate, true);
+  for (const std::string& name : stage.activate) {
+    const auto& off = stage.deactivate;
+    if (std::find(off.begin(), off.end(), name) == off.end()) continue;
+    add_fault(reading, find(own, "activate")->place, stage.where.key + ".activate",
+              '"' + name + "\" is in deactivate, too", "name it in one of them");
+  }
+}
+
+}  // namespace
+
+void complete_stages(const Value& root, Reading& reading) {
+  Solver& solver = reading.model.solver;
+  const Value* node = find(&root, "solver");
+  const Value* duration = find(node, "duration");
+  if (reading.model.stages.empty()) {
+    if (duration == nullptr && !given(&root, "stage")) {
+      add_fault(reading, node == nullptr ? Place{1, 1, false} : node->place, "solver.duration",
+                "is missing",
+                "give " + expected(*find_key(find_section("solver")->keys, "duration")));
+    }
+    return;
+  }
+  const Model& model = reading.model;
+  std::vector<std::string_view> known;
+  for (const auto& names : {names_in(model.loads), names_in(model.waters),
+                            names_in(model.boundaries), names_in(model.shakings)}) {
+    known.insert(known.end(), names.begin(), names.end());
+  }
+  std::set<std::string> installed, acting;
+  for (const std::string_view name : known) {
+    if (acts_at_first(model, std::string(name))) acting.emplace(name);
+  }
+  double sum = 0.0;
+  bool all_given = true;
+  for (std::size_t i = 0; i < reading.model.stages.size(); ++i) {
+    Stage& stage = reading.model.stages[i];
+    const Value* own = element(root, "stage", i);
+    if (!is_table(own)) continue;
+    complete_stage_damping(own, solver, stage);
+    complete_masses(own, solver, stage, reading);
+    complete_excavation(own, stage, reading);
+    check_install(own, stage, installed, reading);
+    check_switches(own, stage, acting, known, reading);
+    sum += stage.duration;
+    if (stage.until == StageEnd::time && !given(own, "duration")) {
+      all_given = false;
+      add_fault(reading, own->place, stage.where.key + ".duration", "is missing",
+                "give a time such as 0.1, or until = \"equilibrium\"");
+    }
+    if (stage.damping.local > 0.0) {
+      check_local_damping(find(own, "damping"), stage.where.key, solver,
+                          "leave it out: until equilibrium this method drops velocities at each "
+                          "step",
+                          reading);
+    }
+  }
+  constexpr double same = 1e-9;
+  if (duration != nullptr && all_given && std::abs(solver.duration - sum) > same * sum) {
+    add_fault(reading, duration->place, "solver.duration",
+              fmt::format("is not the {:.6g} s of the stages together", sum), "leave it out");
+  }
+  solver.duration = sum;
+}
+
+}  // namespace edda

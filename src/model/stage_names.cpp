@@ -1,0 +1,59 @@
+#include "model/stage_names.hpp"
+
+#include <algorithm>
+
+namespace edda {
+namespace {
+
+bool holds(const std::vector<std::string>& names, const std::string& name) {
+  return !name.empty() && std::find(names.begin(), names.end(), name) != names.end();
+}
+
+template <class Item>
+std::vector<Index> rows_of(const std::vector<Item>& items, const std::vector<std::string>& names) {
+  std::vector<Index> rows;
+  for (std::size_t q = 0; q < items.size(); ++q) {
+    if (holds(names, items[q].name)) rows.push_back(static_cast<Index>(q));
+  }
+  return rows;
+}
+
+}  // namespace
+
+NamedRows rows_called(const Model& model, const std::vector<std::string>& names) {
+  return {rows_of(model.loads, names), rows_of(model.waters, names),
+          rows_of(model.boundaries, names), rows_of(model.shakings, names)};
+}
+
+std::vector<Index> bolts_called(const Model& model, const std::vector<std::string>& names) {
+  std::vector<Index> rows = rows_of(model.bolts, names);
+  auto row = static_cast<Index>(model.bolts.size());
+  for (const BoltPattern& pattern : model.bolt_patterns) {
+    for (int q = 0; q < pattern.count; ++q, ++row) {
+      if (holds(names, pattern.name)) rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+std::optional<std::size_t> stage_called(const Model& model, const std::string& name) {
+  for (std::size_t q = 0; q < model.stages.size(); ++q) {
+    if (model.stages[q].name == name || std::to_string(q) == name) return q;
+  }
+  return {};
+}
+
+bool acts_at_first(const Model& model, const std::string& name) {
+  for (const Stage& stage : model.stages) {
+    if (holds(stage.deactivate, name)) return true;
+    if (holds(stage.activate, name)) return false;
+  }
+  return true;
+}
+
+bool installed_at_first(const Model& model, const std::string& name) {
+  return std::none_of(model.stages.begin(), model.stages.end(),
+                      [&](const Stage& stage) { return holds(stage.install, name); });
+}
+
+}  // namespace edda

@@ -1,0 +1,57 @@
+// Rock taken out between two steps.
+#include <algorithm>
+
+#include "contacts/shares.hpp"
+#include "run/observe.hpp"
+#include "run/simulation.hpp"
+
+namespace edda {
+namespace {
+
+/// What rock that goes does to rock that stays, by the contacts as they are now.
+std::vector<KeptForce> wall_forces(const BlockSet& b, const ContactSet& c,
+                                   const std::vector<std::uint8_t>& goes) {
+  std::vector<KeptForce> walls;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const Id i = c.block_i[k], j = c.block_j[k];
+    if (goes[i] == goes[j] || !c.is(k, contact_state::closed)) continue;
+    if (goes[j] != 0 && !b.fixed[i]) {
+      walls.push_back({c.vertex[k], c.on_vertex(k), b.opening[j]});
+    } else if (goes[i] != 0 && !b.fixed[j]) {
+      walls.push_back({c.edge[k], c.on_start(k), b.opening[i]});
+      walls.push_back({c.edge_end[k], c.on_end(k), b.opening[i]});
+    }
+  }
+  return walls;
+}
+
+}  // namespace
+
+void Simulation::excavate(const std::vector<Index>& openings) {
+  const double energy = ledger_now().balance();
+  std::vector<std::uint8_t> goes(blocks.size(), 0);
+  for (std::size_t i = 0; i < blocks.opening.size(); ++i) {
+    const bool named =
+        std::find(openings.begin(), openings.end(), blocks.opening[i]) != openings.end();
+    goes[i] = named && state.alive[i] != 0 ? 1 : 0;
+  }
+  Instant now;
+  observe(*this, now);
+  const std::vector<KeptForce> on_walls = wall_forces(blocks, now.contacts, goes);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    if (goes[i] == 0) continue;
+    state.alive[i] = 0;
+    for (std::size_t k = 0; k < 3; ++k) state.vx[k][i] = state.vy[k][i] = 0.0;
+  }
+  for (const Index o : openings) loads.held[static_cast<std::size_t>(o)] = {0.0, 1.0, state.time};
+  keep(on_walls);
+  search(contacts.reach);
+  update_shares(contacts);
+  external_work += ledger_now().balance() - energy;
+}
+
+void Simulation::relax(Index opening, double part) {
+  loads.held[static_cast<std::size_t>(opening)].change(1.0 - part, state.time);
+}
+
+}  // namespace edda

@@ -1,0 +1,433 @@
+// What stages switch on and off: loads, water, boundaries, shaking, bolts, glue, masses; and that a
+// run through all of it resumes to the same bits.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "model/read_model.hpp"
+#include "run/attachment_rows.hpp"
+#include "run/run_model.hpp"
+
+namespace edda {
+namespace {
+
+namespace fs = std::filesystem;
+
+PreparedRun prepared(const std::string& toml) {
+  Result<Model> model = read_model_text(toml, "m.toml", {});
+  if (!model.ok()) ADD_FAILURE() << to_string(model.faults()[0]);
+  Result<PreparedRun> run = prepare_run(std::move(model.value()));
+  if (!run.ok()) ADD_FAILURE() << to_string(run.faults()[0]);
+  return std::move(run.value());
+}
+
+struct Ran {
+  PreparedRun ready;
+  Outcome outcome;
+
+  Vec2 moved(const char* name) const {
+    const Simulation& s = ready.sim;
+    for (std::size_t i = 0; i < s.blocks.size(); ++i) {
+      if (s.blocks.name(i) != name) continue;
+      return centroid(s.state.x, s.state.y, i) -
+             Vec2{s.blocks.centroid_x[i], s.blocks.centroid_y[i]};
+    }
+    ADD_FAILURE() << "no block is called " << name;
+    return {};
+  }
+};
+
+Ran ran(const std::string& toml) {
+  Ran r{prepared(toml), {}};
+  const Result<Outcome> outcome = run_model(r.ready, RunOptions{});
+  EXPECT_TRUE(outcome.ok());
+  if (outcome.ok()) r.outcome = outcome.value();
+  return r;
+}
+
+/// A square metre of 2500 kg, alone.
+std::string lone(const std::string& more, const std::string& gravity = "[0, 0]") {
+  return "gravity = " + gravity + R"(
+[materials.rock]
+density = 2500.0
+young = 10e9
+poisson = 0.2
+[[block]]
+name = "b"
+polygon = [[0, 0], [1, 0], [1, 1], [0, 1]]
+)" + more;
+}
+
+/// s = F t^2/2m from the stage that activates it on; histories run from there.
+TEST(Activation, OfALoad) {
+  const std::string load = "[[load]]\nname = \"push\"\npoint = [0.5, 0.5]\nforce = [5e3, 0]\n";
+  const Ran later = ran(lone(load + "[[stage]]\nduration = 0.1\n"
+                                    "[[stage]]\nduration = 0.2\nactivate = [\"push\"]\n"));
+  EXPECT_NEAR(later.moved("b").x, 0.5 * 2.0 * 0.2 * 0.2, 1e-6);
+  const Ran before = ran(lone(load + "[[stage]]\nduration = 0.1\n"
+                                     "[[stage]]\nduration = 0.2\ndeactivate = [\"push\"]\n"));
+  EXPECT_NEAR(before.moved("b").x, 0.5 * 2.0 * 0.1 * 0.1 + 2.0 * 0.1 * 0.2, 1e-4)
+      << "acts until it is deactivated";
+  const Ran both = ran(lone(load + "[[stage]]\nduration = 0.1\n[[stage]]\nduration = 0.2\n"));
+  EXPECT_NEAR(both.moved("b").x, 0.5 * 2.0 * 0.3 * 0.3, 1e-6) << "no stage names it";
+  for (const Ran* r : {&later, &before, &both}) EXPECT_LT(r->outcome.largest_drift, 1e-6);
+}
+
+/// A sine that begins with the stage: v = A (1 - cos wt)/w.
+TEST(Activation, OfAShaking) {
+  const Ran r = ran(lone(R"(
+[[shaking]]
+name = "quake"
+apply = "inertia"
+acceleration = { amplitude = -3.0, frequency = 2.0 }
+[[stage]]
+duration = 0.13
+[[stage]]
+duration = 0.25
+activate = ["quake"]
+)"));
+  const double w = 4.0 * M_PI, t = 0.25;
+  EXPECT_NEAR(r.moved("b").x, 3.0 / w * (t - std::sin(w * t) / w), 1e-5);
+}
+
+/// A column at rest on springs, whose place dashpots take: it stays at rest, and they bear its
+/// weight. Without them it falls.
+TEST(Activation, ABoundaryThatTakesOverBearsWhatTheOtherBore) {
+  const std::string stands = R"(
+[[boundary]]
+name = "static"
+along = [[0, 0], [1, 0]]
+type = "fixed"
+[[boundary]]
+name = "far"
+along = [[0, 0], [1, 0]]
+type = "viscous"
+[[stage]]
+until = "equilibrium"
+ratio = 1e-8
+[[stage]]
+duration = 0.2
+reset_displacements = true
+deactivate = ["static"]
+)";
+  const Ran r = ran(lone(stands + "activate = [\"far\"]\n", "[0, -9.81]"));
+  const Simulation& s = r.ready.sim;
+  EXPECT_LT(norm(centroid(s.state.vx, s.state.vy, 0)), 1e-7);
+  Instant now;
+  observe(s, now);
+  const std::vector<Vec2> reaction = reactions(s, now);
+  EXPECT_EQ(reaction[0], Vec2{});
+  EXPECT_NEAR(reaction[1].y / (2500.0 * 9.81), 1.0, 1e-6);
+  const Ran falls = ran(lone(stands + R"(
+[[stage]]
+duration = 0.01
+activate = ["far"]
+)",
+                             "[0, -9.81]"));
+  const Simulation& f = falls.ready.sim;
+  // Nothing to take over from any more: it sinks as fast as dashpots let it, m g/(rho c_p A).
+  const double speed = std::sqrt(10e9 * 0.8 / (1.2 * 0.6) / 2500.0);
+  EXPECT_NEAR(centroid(f.state.vx, f.state.vy, 0).y / (-9.81 / speed), 1.0, 0.01);
+}
+
+/// Springs that take over begin where the block is, and hold it as it was held.
+TEST(Activation, SpringsTakeOverToo) {
+  const Ran r = ran(lone(R"(
+[[boundary]]
+name = "static"
+along = [[0, 0], [1, 0]]
+type = "roller"
+[[boundary]]
+name = "stiff"
+along = [[0, 0], [1, 0]]
+type = "fixed"
+[[stage]]
+until = "equilibrium"
+ratio = 1e-8
+[[stage]]
+duration = 0.05
+deactivate = ["static"]
+activate = ["stiff"]
+)",
+                         "[0, -9.81]"));
+  const Simulation& s = r.ready.sim;
+  EXPECT_LT(norm(centroid(s.state.vx, s.state.vy, 0)), 1e-7);
+  EXPECT_LT(r.outcome.largest_drift, 1e-6);
+}
+
+/// A block that has fallen before its bolt was put in: the bolt pulls from there on only.
+TEST(Activation, OfABolt) {
+  const std::string hangs = R"(
+[contact]
+joint = "j"
+[joints.j]
+friction_angle = 0
+[[block]]
+name = "roof"
+fixed = true
+polygon = [[0, 1], [1, 1], [1, 2], [0, 2]]
+[[bolt]]
+name = "anchor"
+type = "end"
+from = [0.5, 0.4]
+to = [0.5, 1.5]
+diameter = 0.02
+[[stage]]
+duration = 0.05
+)";
+  const std::string second = "[[stage]]\nduration = 0.001\n";
+  const Ran free_fall = ran(lone(hangs + second + "install = [\"anchor\"]\n", "[0, -9.81]"));
+  const Bolts& late = free_fall.ready.sim.bolts;
+  ASSERT_EQ(late.rows.size(), 1u);
+  // It stretches by v t + g t^2/2 less what it pulls back.
+  const double stiffness = 200e9 * M_PI * 1e-4 / 1.1, v = 9.81 * 0.05, t = 0.001;
+  const double w = std::sqrt(stiffness / 2500.0);
+  EXPECT_NEAR(late.bars.force[0] / (stiffness * v / w * std::sin(w * t)), 1.0, 0.03);
+  EXPECT_LT(free_fall.outcome.largest_drift, 1e-6);
+}
+
+const char* const slope = R"(
+[materials.rock]
+density = 2500.0
+young = 10e9
+poisson = 0.2
+[joints.smooth]
+friction_angle = 0
+[[block]]
+name = "b"
+polygon = [[0, 0], [0.8, 0.6], [0.2, 1.4], [-0.6, 0.8]]
+[[block]]
+name = "floor"
+fixed = true
+polygon = [[-8, -6], [8, 6], [8, -6]]
+)";
+
+/// Nothing slides while joints are glued; then it does, as if it had begun there.
+TEST(Activation, GluedJointsHold) {
+  const std::string damped = "[solver]\ndamping = { contact = 0.1 }\n";
+  const Ran held =
+      ran(std::string(slope) + "[[stage]]\nduration = 0.2\njoints = \"glued\"\n" + damped);
+  EXPECT_LT(norm(held.moved("b")), 1e-4);
+  const Ran r =
+      ran(std::string(slope) +
+          "[[stage]]\nduration = 0.2\njoints = \"glued\"\n[[stage]]\nduration = 0.1\n" + damped);
+  EXPECT_NEAR(norm(r.moved("b")), 0.5 * 9.81 * 0.6 * 0.01, 2e-4);
+  EXPECT_LT(r.outcome.largest_drift, 1e-6);
+  EXPECT_GE(r.outcome.ledger.friction, -1e-9);
+  EXPECT_GE(r.outcome.ledger.fracture, -1e-9);
+}
+
+/// A pebble under a boulder: with masses scaled all have one step, the state at rest is the same,
+/// and afterwards every mass is its own again, to the bit.
+TEST(Activation, StaticMassesCostFewerStepsAndChangeNothingAtRest) {
+  const auto model = [](const char* masses) {
+    return std::string(R"(
+[materials.rock]
+density = 2500.0
+young = 10e9
+poisson = 0.0
+[joints.j]
+friction_angle = 30
+[[block]]
+name = "b"
+polygon = [[0, 0.05], [2, 0.05], [2, 2.05], [0, 2.05]]
+[[block]]
+name = "pebble"
+polygon = [[0.9, 0], [1.1, 0], [1.1, 0.05], [0.9, 0.05]]
+[[block]]
+name = "left"
+polygon = [[0, 0], [0.2, 0], [0.2, 0.05], [0, 0.05]]
+[[block]]
+name = "right"
+polygon = [[1.8, 0], [2, 0], [2, 0.05], [1.8, 0.05]]
+[[block]]
+fixed = true
+polygon = [[-5, -1], [5, -1], [5, 0], [-5, 0]]
+[[stage]]
+until = "equilibrium"
+ratio = 1e-6
+)") + masses +
+           "[[stage]]\nduration = 1e-4\n";
+  };
+  const Ran given = ran(model("mass_scaling = \"as given\"\n")), scaled = ran(model(""));
+  EXPECT_LT(3 * scaled.outcome.steps, given.outcome.steps);
+  EXPECT_NEAR(scaled.moved("b").y / given.moved("b").y, 1.0, 1e-4);
+  const PreparedRun fresh = prepared(model(""));
+  EXPECT_EQ(scaled.ready.sim.blocks.node_mass, fresh.sim.blocks.node_mass);
+  EXPECT_EQ(scaled.ready.sim.blocks.point_inverse, fresh.sim.blocks.point_inverse);
+  EXPECT_LT(scaled.outcome.largest_drift, 1e-6);
+}
+
+// ---- resumption
+
+const char* const everything = R"(
+[materials.rock]
+density = 2500.0
+young = 1e9
+poisson = 0.2
+[joints.j]
+friction_angle = 25
+cohesion = 1e3
+[contact]
+joint = "j"
+[domain]
+outline = [[0, 0], [6, 0], [6, 5], [0, 5]]
+joint = "j"
+[[joint_set]]
+angle = 3
+spacing = 1.1
+origin = [0, 0.4]
+[[joint_set]]
+angle = 82
+spacing = 1.3
+origin = [0.2, 0]
+[[opening]]
+name = "hole"
+polygon = [[2, 1], [4, 1], [4, 2.5], [2, 2.5]]
+[[boundary]]
+name = "box"
+sides = ["left", "right", "bottom"]
+type = "roller"
+[[boundary]]
+name = "far"
+sides = ["left", "right", "bottom"]
+type = "viscous"
+[[load]]
+name = "surcharge"
+along = [[0, 5], [6, 5]]
+pressure = 2e4
+[[water]]
+name = "wet"
+table = [[-1, 3], [7, 3]]
+[[shaking]]
+name = "quake"
+apply = "inertia"
+acceleration = { amplitude = 2.0, frequency = 5.0 }
+[[bolt_pattern]]
+name = "crown"
+opening = "hole"
+from_angle = 60
+to_angle = 120
+count = 3
+length = 2
+diameter = 0.02
+pretension = 1e4
+bond = { stiffness = 1e8, strength = 1e5 }
+[[stage]]
+name = "rest"
+until = "equilibrium"
+ratio = 1e-3
+joints = "glued"
+[[stage]]
+name = "dig"
+excavate = ["hole"]
+relax = { hole = 0.5 }
+install = ["crown"]
+until = "equilibrium"
+ratio = 1e-3
+duration = 0.5
+[[stage]]
+name = "shake"
+duration = 0.05
+relax = { hole = 1.0 }
+deactivate = ["box"]
+activate = ["far", "surcharge", "wet", "quake"]
+[output]
+history_every = 0.01
+every = 0.05
+)";
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+struct Folder {
+  explicit Folder(const char* name) : path(fs::temp_directory_path() / name) {
+    fs::remove_all(path);
+  }
+  ~Folder() { fs::remove_all(path); }
+  fs::path path;
+};
+
+void expect_same_results(const fs::path& a, const fs::path& b) {
+  for (const char* file : {"history.csv", "blocks.csv", "joints.csv", "stages.csv", "bolts.csv",
+                           "reactions.csv", "joints_0.csv", "joints_1.csv"}) {
+    EXPECT_EQ(text_of(a / file), text_of(b / file)) << file;
+    EXPECT_GT(text_of(a / file).size(), 100u) << file;
+  }
+}
+
+/// From the end of each stage, and from the middle of one.
+TEST(Activation, ResumesToTheSameBits) {
+  const Folder whole("edda_stages_whole"), broken("edda_stages_broken");
+  RunOptions options;
+  options.folder = whole.path.string();
+  PreparedRun first = prepared(everything);
+  const Result<Outcome> outcome = run_model(first, options);
+  ASSERT_TRUE(outcome.ok());
+  ASSERT_EQ(outcome.value().status, Status::completed) << outcome.value().message;
+  for (const std::size_t stage : {0u, 1u}) {
+    fs::remove_all(broken.path);
+    fs::copy(whole.path, broken.path, fs::copy_options::recursive);
+    options.folder = broken.path.string();
+    options.from_stage = stage;
+    PreparedRun again = prepared(everything);
+    const Result<Outcome> resumed = run_model(again, options);
+    ASSERT_TRUE(resumed.ok()) << to_string(resumed.faults()[0]);
+    expect_same_results(whole.path, broken.path);
+  }
+  options.from_stage.reset();
+  fs::remove_all(broken.path);
+  std::atomic<bool> stop{false};
+  options.stop = &stop;
+  options.progress_every = 0.0;
+  options.progress = [&](const Progress& p) {
+    if (p.fraction > 0.99 || p.steps > outcome.value().steps - 400) stop = true;
+  };
+  PreparedRun halted = prepared(everything);
+  const Result<Outcome> half = run_model(halted, options);
+  ASSERT_TRUE(half.ok());
+  ASSERT_EQ(half.value().status, Status::interrupted);
+  options.stop = nullptr;
+  options.progress = nullptr;
+  options.resume = true;
+  PreparedRun again = prepared(everything);
+  const Result<Outcome> resumed = run_model(again, options);
+  ASSERT_TRUE(resumed.ok()) << to_string(resumed.faults()[0]);
+  expect_same_results(whole.path, broken.path);
+}
+
+/// Later stages may change; what came before may not.
+TEST(Activation, GoesOnFromAStageWithOtherStagesBehindIt) {
+  const Folder folder("edda_stages_other");
+  RunOptions options;
+  options.folder = folder.path.string();
+  PreparedRun first = prepared(everything);
+  ASSERT_TRUE(run_model(first, options).ok());
+  options.from_stage = 1;
+  const std::string text = everything;
+  const auto at = text.find("duration = 0.05\nrelax");
+  ASSERT_NE(at, std::string::npos);
+  std::string other = text;
+  other.replace(at, 15, "duration = 0.02");
+  PreparedRun changed = prepared(other);
+  const Result<Outcome> outcome = run_model(changed, options);
+  ASSERT_TRUE(outcome.ok()) << to_string(outcome.faults()[0]);
+  EXPECT_LT(outcome.value().time, first.sim.state.time);
+  std::string earlier = text;
+  earlier.replace(earlier.find("hole = 0.5"), 10, "hole = 0.4");
+  PreparedRun wrong = prepared(earlier);
+  const Result<Outcome> refused = run_model(wrong, options);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(to_string(refused.faults()[0]).find("the model is not the one"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace edda

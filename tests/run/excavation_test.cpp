@@ -1,0 +1,130 @@
+// Rock taken out between two stages: what it held stays held, or falls, by the part that is let go.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/read_model.hpp"
+#include "run/run_model.hpp"
+
+namespace edda {
+namespace {
+
+/// A column on a held foot; a stage takes out its middle.
+std::string column(const std::string& stages, const std::string& solver = "") {
+  return R"(
+[materials.rock]
+density = 2500.0
+young = 10e9
+poisson = 0.2
+[joints.j]
+friction_angle = 30
+[contact]
+normal_stiffness = 100e9
+joint = "j"
+[domain]
+outline = [[0, 0], [1, 0], [1, 3], [0, 3]]
+material = "rock"
+[[trace]]
+points = [[0, 1.5], [1, 1.5]]
+joint = "j"
+[[trace]]
+points = [[0, 2.5], [1, 2.5]]
+joint = "j"
+[[opening]]
+name = "middle"
+polygon = [[0, 1], [1, 1], [1, 2], [0, 2]]
+[[held]]
+point = [0.5, 0.5]
+[[stage]]
+until = "equilibrium"
+ratio = 1e-6
+)" + stages +
+         "[solver]\n" + solver;
+}
+
+PreparedRun prepared(const std::string& toml) {
+  Result<Model> model = read_model_text(toml, "m.toml", {});
+  if (!model.ok()) ADD_FAILURE() << to_string(model.faults()[0]);
+  Result<PreparedRun> run = prepare_run(std::move(model.value()));
+  if (!run.ok()) ADD_FAILURE() << to_string(run.faults()[0]);
+  return std::move(run.value());
+}
+
+struct Ran {
+  PreparedRun ready;
+  Outcome outcome;
+};
+
+Ran ran(const std::string& toml) {
+  Ran r{prepared(toml), {}};
+  const Result<Outcome> outcome = run_model(r.ready, RunOptions{});
+  EXPECT_TRUE(outcome.ok());
+  r.outcome = outcome.value();
+  return r;
+}
+
+/// How far the two blocks above the opening have risen together: nothing but outer forces moves
+/// their common centre.
+double risen(const Simulation& sim) {
+  double sum = 0.0;
+  std::size_t above = 0;
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    if (sim.blocks.centroid_y[i] + sim.blocks.origin.y < 2.0) continue;
+    sum += centroid(sim.state.x, sim.state.y, i).y - sim.blocks.centroid_y[i];
+    ++above;
+  }
+  EXPECT_EQ(above, 2u);
+  return sum / 2.0;
+}
+
+/// Its joints go through it, and across its outline rock is as whole as it was.
+TEST(Excavation, IsThereUntilItIsTakenOut) {
+  const PreparedRun run = prepared(column("[[stage]]\nexcavate = [\"middle\"]\nduration = 1\n"));
+  const Simulation& sim = run.sim;
+  EXPECT_EQ(sim.blocks.size(), 5u);
+  std::size_t glued = 0;
+  for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
+    glued += sim.contacts.is(k, contact_state::glued);
+  }
+  EXPECT_EQ(glued, 8u) << "two joints of four contacts";
+  EXPECT_EQ(prepared(column("")).sim.blocks.size(), 3u) << "no stage takes it out: it never was";
+}
+
+/// What stood on it falls with the part of gravity that is let go: h = part g t^2/2. Measured from
+/// where it was at the start of the stage, which the same run without that part tells.
+TEST(Excavation, LetsGoThePartThatItSays) {
+  const std::string dig = "[[stage]]\nexcavate = [\"middle\"]\nduration = 0.05\n";
+  const double held = risen(ran(column(dig + "relax = { middle = 0 }\n")).ready.sim);
+  EXPECT_NEAR(held, 0.0, 1e-4);
+  for (const double part : {0.25, 0.6, 1.0}) {
+    const std::string relax = "relax = { middle = " + std::to_string(part) + " }\n";
+    const Ran r = ran(column(dig + relax));
+    const double fallen = held - risen(r.ready.sim);
+    EXPECT_NEAR(fallen, 0.5 * part * 9.81 * 0.05 * 0.05, 2e-6) << part;
+    EXPECT_LT(std::abs(r.outcome.largest_drift), 1e-8) << part;
+    std::size_t gone = 0;
+    for (const std::uint8_t alive : r.ready.sim.state.alive) gone += alive == 0;
+    EXPECT_EQ(gone, 2u);
+  }
+  const double all = risen(ran(column(dig)).ready.sim),
+               said = risen(ran(column(dig + "relax = { middle = 1 }\n")).ready.sim);
+  EXPECT_EQ(all, said) << "all is let go where nothing is said";
+}
+
+/// Held by all its forces a column does not move at all; let go in the next stage, it falls.
+TEST(Excavation, LetsGoTheRestLater) {
+  const std::string dig =
+      "[[stage]]\nexcavate = [\"middle\"]\nrelax = { middle = 0 }\nduration = 0.05\n";
+  const double held = risen(ran(column(dig)).ready.sim);
+  const Ran r = ran(column(dig + "[[stage]]\nrelax = { middle = 1 }\nduration = 0.05\n"));
+  EXPECT_NEAR(held - risen(r.ready.sim), 0.5 * 9.81 * 0.05 * 0.05, 2e-5);
+}
+
+TEST(Excavation, WorksWithTheImplicitMethod) {
+  const Ran r = ran(column("[[stage]]\nexcavate = [\"middle\"]\nduration = 0.05\n",
+                           "method = \"dda\"\ntime_step = 1e-4\n"));
+  EXPECT_NEAR(-risen(r.ready.sim), 0.5 * 9.81 * 0.05 * 0.05, 2e-4);
+}
+
+}  // namespace
+}  // namespace edda
