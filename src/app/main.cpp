@@ -29,6 +29,7 @@ int run_command(int argc, char** argv) {
   edda::add_check(app, code);
   edda::add_cut(app, code);
   edda::add_verify(app, code);
+  edda::add_fos(app, code);
   edda::add_plot(app, code);
   edda::add_example(app, code);
   edda::add_keys(app, code);

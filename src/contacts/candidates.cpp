@@ -10,6 +10,7 @@
 
 #include "contacts/gap.hpp"
 #include "contacts/gaps.hpp"
+#include "contacts/joint_laws.hpp"
 #include "contacts/search.hpp"
 #include "contacts/shares.hpp"
 #include "contacts/stored_energy.hpp"
@@ -156,15 +157,18 @@ double contact_length(const BlockSet& b, const Pose& pose, Id vertex, Id edge) {
   return length;
 }
 
+double carried_length(const ContactSet& c, const BlockSet& b, std::size_t k) {
+  const double least = 0.01 * std::min({b.edge_length[c.edge[k]], b.edge_length[c.vertex[k]],
+                                        b.edge_length[b.previous[c.vertex[k]]]});
+  return std::max(c.length[k], least);
+}
+
 void set_spring(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
                 std::size_t k) {
   const Law& law = laws.rows[c.law[k]];
   const double length = contact_length(b, pose, c.vertex[k], c.edge[k]);
   c.length[k] = length;
-  // An edge that has only begun to overlap stands for a little at once, or it would carry nothing.
-  const double least = 0.01 * std::min({b.edge_length[c.edge[k]], b.edge_length[c.vertex[k]],
-                                        b.edge_length[b.previous[c.vertex[k]]]});
-  const double stands_for = std::max(length, least);
+  const double stands_for = carried_length(c, b, k);
   const bool lone_corner = length == 0.0;
   c.kn[k] = laws.thickness * (law.kn > 0.0 && !lone_corner ? law.kn * stands_for : laws.default_kn);
   c.ks[k] = laws.thickness * (law.ks > 0.0 && !lone_corner ? law.ks * stands_for : laws.default_ks);
@@ -214,6 +218,7 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
   resize(next, list.size());
   next.reach = reach;
   next.noise = rounding_of(pose);
+  if (laws.any_changes) next.slid.resize(list.size());
   next.vertex.reserve(list.size());
   next.edge.reserve(list.size());
   std::vector<Id> new_of_old(contacts.size(), no_id), old_of_new(list.size(), no_id);
@@ -233,6 +238,7 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
     if (old < contacts.size() && NearPair{contacts.vertex[old], contacts.edge[old]} == pair) {
       for (DoubleArray a : memory) (next.*a)[k] = (contacts.*a)[old];
       next.slip_trial[k] = contacts.slip_before_cut(old);
+      if (laws.any_changes) next.slid[k] = contacts.slid[old];
       for (std::size_t e = 0; e < 2; ++e) next.force[2 * k + e] = contacts.force[2 * old + e];
       next.state[k] = contacts.state[old];
       next.why[k] = contacts.why[old];
@@ -245,6 +251,7 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
                                  b.edge_joint[facing_edge(b, pose.x, pose.y, pair.vertex, n)],
                                  b.material[next.block_j[k]], b.material[next.block_i[k]]);
       start_candidate(next, b, pose, laws, k);
+      if (laws.any_changes) next.slid[k] = first_slip(laws.rows[next.law[k]]);
     }
   }
   next.broken = contacts.broken;
@@ -281,8 +288,9 @@ void bond_contacts(ContactSet& c, const BlockSet& b, const State& state, const P
   std::map<std::pair<Id, Id>, Segment> by_edges;
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Law& law = laws.rows[c.law[k]];
-    const bool has_bond = law.glued || law.peak_cohesion > 0.0 || law.peak_tension > 0.0 ||
-                          law.peak_friction > law.residual_friction;
+    const bool weakens = law.type == LawType::slip_weakening;
+    const bool has_bond = weakens || law.glued || law.peak_cohesion > 0.0 ||
+                          law.peak_tension > 0.0 || law.peak_friction > law.residual_friction;
     const double size = std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
     const bool near_edge = c.on_edge(k) && c.share[k] > 0.0;
     if (!has_bond || !near_edge || c.length[k] <= 0.0 || c.depth[k] < -1e-6 * size ||
@@ -290,7 +298,10 @@ void bond_contacts(ContactSet& c, const BlockSet& b, const State& state, const P
       continue;
     }
     const Id f = facing_edge(b, pose.x, pose.y, c.vertex[k], normal_of(c, k));
-    c.set(k, contact_state::closed | contact_state::bonded);
+    if (weakens) c.slid[k] = 0.0;
+    if (weakens && law.peak_tension == 0.0) continue;
+    c.set(k, contact_state::closed);
+    if (!weakens) c.set(k, contact_state::bonded);
     if (law.glued) c.set(k, contact_state::glued);
     if (law.glued || law.peak_tension > 0.0) c.set(k, contact_state::pulls);
     c.tension[k] = law.peak_tension * c.length[k] * laws.thickness;
@@ -299,7 +310,7 @@ void bond_contacts(ContactSet& c, const BlockSet& b, const State& state, const P
     c.anchor[k] = c.foot[k] / c.span[k];
     c.friction[k] = law.peak_friction;
     c.cohesion[k] = law.peak_cohesion * c.length[k] * laws.thickness;
-    by_edges[std::minmax(c.edge[k], f)].members.push_back(static_cast<Id>(k));
+    if (!weakens) by_edges[std::minmax(c.edge[k], f)].members.push_back(static_cast<Id>(k));
   }
   for (auto& [edges, segment] : by_edges) c.segments.push_back(std::move(segment));
 }

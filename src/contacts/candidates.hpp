@@ -40,6 +40,10 @@ void bond_contacts(ContactSet& contacts, const BlockSet& blocks, const State& st
 /// the vertex's edges that lie against it, m; 0 for a lone corner.
 double contact_length(const BlockSet& blocks, const Pose& pose, Id vertex, Id edge);
 
+/// Of contact k, m: an edge that has only begun to overlap stands for a little at once (a hundredth
+/// of the shortest edge), or it would carry nothing.
+double carried_length(const ContactSet& contacts, const BlockSet& blocks, std::size_t k);
+
 /// Takes the spring of the contact from its law and its present length (method.md section 4).
 void set_spring(ContactSet& contacts, const BlockSet& blocks, const Pose& pose,
                 const LawTable& laws, std::size_t c);

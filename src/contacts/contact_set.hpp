@@ -205,6 +205,8 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::vector<double> normal;    ///< N at n - 1 of the whole spring (before share and alpha), N
   std::vector<double> shear, shear_1;  ///< T at n - 1 and n - 2 of the whole spring, N
   std::vector<double> slip_trial;  ///< s before the return map at n - 1, m; see slip_before_cut()
+  std::vector<double> slid;  ///< slip so far, m; infinite: has its residual strength; empty where
+                             ///< no law asks for it
   std::vector<double> friction_work, damping_work, fracture_work;  ///< dissipated so far, J
 
   // Forces of the last evaluation, N.

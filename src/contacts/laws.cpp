@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <tuple>
@@ -11,6 +12,18 @@ namespace {
 
 double tangent(double degrees) {
   return std::tan(degrees * std::numbers::pi / 180.0);
+}
+
+/// What of the joint goes with slip.
+void add_slip(const JointLaw& j, Law& law) {
+  law.type = j.type;
+  law.changes = j.type == LawType::slip_weakening || j.type == LawType::barton_bandis ||
+                j.dilation_angle.value_or(0.0) > 0.0;
+  law.slip_distance = j.slip_distance.value_or(std::numeric_limits<double>::infinity());
+  law.dilation = tangent(j.dilation_angle.value_or(0.0));
+  law.jrc = j.jrc.value_or(0.0);
+  law.jcs = j.jcs.value_or(0.0);
+  law.residual_angle = j.residual_angle.value_or(0.0);
 }
 
 void add_pair(std::vector<LawTable::Pair>& pairs, const Index (&between)[2], Index law) {
@@ -40,6 +53,8 @@ LawTable build_laws(const Model& model) {
                           tangent(j.residual.friction_angle), j.residual.cohesion,
                           j.residual.tensile_strength, j.kn.value_or(0.0),
                           j.ks.value_or(0.4 * j.kn.value_or(0.0)), j.type == LawType::glued});
+    add_slip(j, table.rows.back());
+    table.any_changes = table.any_changes || table.rows.back().changes;
   }
   std::vector<std::uint16_t> order(table.rows.size());
   std::iota(order.begin(), order.end(), std::uint16_t{0});
@@ -68,6 +83,7 @@ LawTable build_laws(const Model& model) {
     table.rows.push_back({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, false});
     table.rank.push_back(0);
   }
+  table.divided_by.assign(table.rows.size(), 1.0);
   return table;
 }
 

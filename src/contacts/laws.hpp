@@ -15,12 +15,21 @@ struct Law {
   double residual_friction, residual_cohesion, residual_tension;
   double kn, ks;  ///< each 0: the contact default applies
   bool glued;
+  // What goes with slip (contacts/joint_laws.hpp).
+  bool changes = false;  ///< its strength or opening does
+  LawType type = LawType::coulomb;
+  double slip_distance = 0.0;                         ///< m; infinite where dilation has no end
+  double dilation = 0.0;                              ///< tangent of its angle
+  double jrc = 0.0, jcs = 0.0, residual_angle = 0.0;  ///< -, Pa, degrees
 };
 
 struct LawTable {
   std::vector<Law> rows;  ///< in the order of Model::joints, then the built-in glued law
   std::vector<std::uint16_t>
       rank;  ///< of each row: lower friction angle, then cohesion, tension, name
+  std::vector<double>
+      divided_by;  ///< [rows] what the strength in `rows` was divided by (contacts/strength.hpp)
+  bool any_changes = false;                   ///< a row has `changes`
   double default_kn = 0.0, default_ks = 0.0;  ///< N/m per metre of thickness
   double thickness = 1.0;
   Index default_law = none;

@@ -102,6 +102,7 @@ void hand_over(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTabl
   c.slip_trial[heir] = slip_before_cut;
   c.normal[heir] = c.normal[k] * c.kn[heir] / c.kn[k];
   c.set_alpha(heir, c.alpha[k]);
+  if (!c.slid.empty()) c.slid[heir] = c.slid[k];
   if (c.is(k, cs::bonded)) {
     c.friction[heir] = c.friction[k];
     c.cohesion[heir] = c.cohesion[k];
@@ -230,6 +231,7 @@ bool inherit_from_partner(ContactSet& c, std::size_t k) {
   c.shear[k] = c.shear[other] * c.ks[k] / c.ks[other];
   c.shear_1[k] = c.shear_1[other] * c.ks[k] / c.ks[other];
   c.forget_cut(k);
+  if (!c.slid.empty()) c.slid[k] = c.slid[other];
   return true;
 }
 

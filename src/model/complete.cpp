@@ -11,11 +11,6 @@
 namespace edda {
 namespace {
 
-/// A default worked out from other keys, within what may be written in its place.
-double fitted(double x) {
-  return std::clamp(x, smallest_positive, largest_number);
-}
-
 void complete_materials(const Value& root, Reading& reading) {
   const auto keys = find_section("materials")->keys;
   const double gravity = norm(reading.model.gravity);
@@ -36,33 +31,6 @@ void complete_materials(const Value& root, Reading& reading) {
       add_fault(reading, node->place, material.where.key + ".density", "is missing",
                 "give " + expected(*find_key(keys, "density")) + ", or unit_weight");
     }
-  }
-}
-
-void complete_joints(const Value& root, Reading& reading) {
-  auto& joints = reading.model.joints;
-  constexpr std::size_t most = 65535;  // a contact keeps its law in 16 bits
-  if (joints.size() > most) {
-    add_fault(reading, find(&root, "joints")->place, "joints",
-              fmt::format("has {} laws, more than {}", joints.size(), most),
-              "let edges with like strength share a law");
-    return;
-  }
-  for (JointLaw& law : joints) {
-    const Value* node = find(find(&root, "joints"), law.name);
-    const Value* type = find(node, "type");
-    const std::string* word = type == nullptr ? nullptr : std::get_if<std::string>(&type->content);
-    const bool coulomb = type == nullptr || (word != nullptr && *word == "coulomb");
-    if (coulomb && !given(node, "friction_angle")) {
-      add_fault(reading, node->place, law.where.key + ".friction_angle", "is missing",
-                "give " + expected(*find_key(find_section("joints")->keys, "friction_angle")) +
-                    ", or type = \"glued\"");
-    }
-    if (!given(find(node, "residual"), "friction_angle")) {
-      law.residual.friction_angle = law.peak.friction_angle;
-    }
-    constexpr double shear_over_normal = 0.4;
-    if (law.kn && !law.ks && !given(node, "ks")) law.ks = fitted(shear_over_normal * *law.kn);
   }
 }
 
@@ -332,6 +300,7 @@ void complete(const Value& root, Reading& reading) {
   complete_loads(root, reading);
   complete_stages(root, reading);
   check_solver(root, reading);
+  complete_fos(root, reading);
   complete_interval(root, "every", model.output.every, 20.0, 1e5, reading);
   complete_interval(root, "history_every", model.output.history_every, 200.0, 1e7, reading);
 }

@@ -46,6 +46,12 @@ void complete_shakings(const Value& root, Reading& reading);
 /// As complete(), for [[bolt]] and [[bolt_pattern]]: what each type needs, openings that are named.
 void complete_bolts(const Value& root, Reading& reading);
 
+/// As complete(), for [joints.NAME]: what each type needs and does not know, residual strength.
+void complete_joints(const Value& root, Reading& reading);
+
+/// As complete(), for [fos]: the stage, joints and what is varied must exist.
+void complete_fos(const Value& root, Reading& reading);
+
 /// As complete(), for [[stage]]: damping and masses by default, what is named, durations together.
 void complete_stages(const Value& root, Reading& reading);
 

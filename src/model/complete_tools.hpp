@@ -1,11 +1,17 @@
 // Words that the parts of complete() share.
 #pragma once
 
+#include <algorithm>
 #include <string_view>
 
 #include "model/complete.hpp"
 
 namespace edda {
+
+/// A default worked out from other keys, within what may be written in its place.
+inline double fitted(double x) {
+  return std::clamp(x, smallest_positive, largest_number);
+}
 
 inline bool given(const Value* table, std::string_view key) {
   return find(table, key) != nullptr;

@@ -42,11 +42,16 @@ constexpr std::array strength_keys{
 };
 
 constexpr std::array joint_keys{
-    Key{"type", at<&JointLaw::type>, choice, initial, "Coulomb friction with cohesion and tension, or glued: never opens or slides."},
-    Key{"friction_angle", at<&JointLaw::peak, &Strength::friction_angle>, number(D::angle, friction), otherwise("required unless type is \"glued\""), "Friction angle until failure."},
+    Key{"type", at<&JointLaw::type>, choice, initial, "Coulomb friction with cohesion and tension; glued: never opens or slides; slip-weakening: from the peak to the residual strength over slip_distance; barton-bandis: by jrc, jcs and residual_angle."},
+    Key{"friction_angle", at<&JointLaw::peak, &Strength::friction_angle>, number(D::angle, friction), otherwise("required unless type is \"glued\" or \"barton-bandis\""), "Friction angle until failure."},
     Key{"cohesion", at<&JointLaw::peak, &Strength::cohesion>, number(D::stress, from(0)), initial, "Cohesion until failure."},
     Key{"tensile_strength", at<&JointLaw::peak, &Strength::tensile_strength>, number(D::stress, from(0)), initial, "Tensile strength until failure."},
     Key{"residual", at<&JointLaw::residual>, table, otherwise("same friction angle, no cohesion, no tension"), "Strength after failure, and of contacts that were not closed at the start."},
+    Key{"dilation_angle", at<&JointLaw::dilation_angle>, number(D::angle, from_below(0, 90)), otherwise("none"), "How steeply the joint opens as it slips; less than its friction angles."},
+    Key{"slip_distance", at<&JointLaw::slip_distance>, number(D::length, above(0)), otherwise("required of slip-weakening; of Coulomb friction: without end"), "Slip from peak to residual strength, at which dilation ends, too."},
+    Key{"jrc", at<&JointLaw::jrc>, number(D::plain, from_to(0, 20)), otherwise("required of barton-bandis"), "Joint roughness coefficient, of walls as long as the blocks' edges."},
+    Key{"jcs", at<&JointLaw::jcs>, number(D::stress, above(0)), otherwise("required of barton-bandis"), "Compressive strength of the joint's walls."},
+    Key{"residual_angle", at<&JointLaw::residual_angle>, number(D::angle, friction), otherwise("required of barton-bandis"), "Residual friction angle of barton-bandis."},
     Key{"kn", at<&JointLaw::kn>, number(D::joint_stiffness, above(0)), otherwise("contact.normal_stiffness, as a spring per contact"), "Normal stiffness of the joint; the spring is kn times the length the contact stands for."},
     Key{"ks", at<&JointLaw::ks>, number(D::joint_stiffness, above(0)), otherwise("0.4 kn"), "Shear stiffness of the joint."},
 };
@@ -191,6 +196,7 @@ constexpr std::array stage_keys{
     Key{"activate", at<&Stage::activate>, name_list, otherwise("what no stage names acts from the start"), "Loads, waters, boundaries and shakings that act from the stage's start on; their histories run from there."},
     Key{"deactivate", at<&Stage::deactivate>, name_list, otherwise("none"), "Those that act no more. Where a boundary takes over from one, it bears what that bore."},
     Key{"reset_displacements", at<&Stage::reset_displacements>, flag, initial, "Whether displacements count from the start of this stage."},
+    Key{"strength_factor", at<&Stage::strength_factor>, number(D::plain, above(0)), initial, "What cohesion, tangent of the friction angle and tensile strength of all joints are divided by while the stage lasts."},
     Key{"damping", at<&Stage::damping>, table, otherwise("solver.damping; until equilibrium local = 0.8"), "Damping while the stage lasts."},
     Key{"joints", at<&Stage::joints>, choice, initial, "Joints as given, or glued: what touches neither opens nor slides while the stage lasts."},
     Key{"mass_scaling", at<&Stage::masses>, choice, otherwise("\"static\" until equilibrium (method edda), else \"as given\""), "Masses as given, or static: inertia raised so that all blocks allow one time step, weights unchanged."},
@@ -216,6 +222,20 @@ constexpr std::array output_keys{
     Key{"history_every", at<&Output::history_every>, number(D::time, above(0)), otherwise("solver.duration / 200"), "Time between rows of history.csv."},
     Key{"checkpoint_every", at<&Output::checkpoint_every>, number(D::plain, above(0)), initial, "Minutes of wall time between checkpoints."},
     Key{"stages", at<&Output::stages>, flag, initial, "With stages: whether contacts and a checkpoint are kept of the end of each, under stages/."},
+};
+
+constexpr std::array fos_fails_keys{
+    Key{"displacement", at<&FosFails::displacement>, number(D::length, above(0)), otherwise("a hundredth of the mean size of the blocks"), "A trial fails where a corner of a block moves further than this."},
+    Key{"velocity", at<&FosFails::velocity>, number(D::velocity, above(0)), otherwise("displacement over ten times the length of a trial"), "A trial fails where a corner still moves faster than this at its end."},
+};
+
+constexpr std::array fos_keys{
+    Key{"stage", at<&Fos::stage>, naming, otherwise("the last one, or the model at rest where there are no stages"), "The stage whose end the trials begin from."},
+    Key{"vary", at<&Fos::vary>, naming, initial, "What the factor acts on: \"strength\" (divided by it), \"load:NAME\", \"shaking:NAME\" or \"water:NAME\" (the pressure of that water), multiplied by it."},
+    Key{"bracket", at<&Fos::bracket>, shape(Kind::point, D::plain, above(0)), initial, "Two factors, the lower one expected to hold and the upper one to fail; widened where they do not."},
+    Key{"tolerance", at<&Fos::tolerance>, number(D::plain, above(0)), initial, "Difference between a factor that fails and one that holds at which the search ends."},
+    Key{"exclude", at<&Fos::exclude>, name_list, initial, "Joints that keep their strength."},
+    Key{"fails", at<&Fos::fails>, table, otherwise("by the size of the blocks and gravity"), "When a trial counts as failed."},
 };
 
 constexpr Section root_section{"", Shape::root, false, root_keys, "The model as a whole.",
@@ -255,6 +275,7 @@ constexpr std::array all_sections{
     section<&Model::stages>("stage", Shape::list, stage_keys, "A part of the run, one after the other."),
     section<&Model::solver>("solver", Shape::table, solver_keys, "How the motion is computed."),
     section<&Model::output>("output", Shape::table, output_keys, "What is written, and how often."),
+    section<&Model::fos>("fos", Shape::table, fos_keys, "The factor of safety (edda fos)."),
 };
 // clang-format on
 
@@ -289,6 +310,10 @@ std::span<const Key> keys_of(const BoltBond&) {
 }
 std::span<const Key> keys_of(const BoltDowel&) {
   return dowel_keys;
+}
+
+std::span<const Key> keys_of(const FosFails&) {
+  return fos_fails_keys;
 }
 
 std::span<const Section> sections() {

@@ -20,7 +20,7 @@ enum class Plane { strain, stress };
 enum class Method { edda, dda };
 enum class MassKind { matched, covering, consistent };
 enum class Switching { exact, plain };
-enum class LawType { coulomb, glued };
+enum class LawType { coulomb, glued, slip_weakening, barton_bandis };
 enum class StageEnd { time, equilibrium };
 enum class StageJoints { as_given, glued };
 enum class StageMasses { as_given, uniform_step };
@@ -28,6 +28,7 @@ enum class FallingBlocks { report, wait };
 enum class BoundaryType { fixed, roller, viscous, stress, velocity, free_field };
 enum class ShakingKind { base, inertia, upgoing };
 enum class BoltType { grouted, end };
+enum class Varied { strength, load, shaking, water };
 enum class SurfaceKind { level, outline };
 
 /// Three numbers, such as the components xx, yy and xy of a stress.
@@ -59,9 +60,13 @@ struct Strength {
 struct JointLaw {
   std::string name;
   LawType type = LawType::coulomb;
-  Strength peak;             ///< of a bonded contact
-  Strength residual;         ///< after failure, and of every contact not closed at the start
-  std::optional<double> kn;  ///< Pa/m; without it contact.normal_stiffness
+  Strength peak;      ///< of a bonded contact
+  Strength residual;  ///< after failure, and of every contact not closed at the start
+  std::optional<double> dilation_angle;  ///< degrees; coulomb, slip-weakening
+  std::optional<double> slip_distance;   ///< m: from peak to residual; coulomb: of dilation
+  std::optional<double> jrc, jcs;  ///< roughness (-), strength of the walls (Pa); barton-bandis
+  std::optional<double> residual_angle;  ///< degrees; barton-bandis
+  std::optional<double> kn;              ///< Pa/m; without it contact.normal_stiffness
   std::optional<double> ks;  ///< Pa/m; filled with 0.4 kn where kn is given and ks is not
   Where where;
 };
@@ -262,7 +267,8 @@ struct Stage {
   std::vector<std::string> install;   ///< bolts and patterns put in at its start
   std::vector<std::string> activate, deactivate;  ///< loads, waters, boundaries, shakings
   bool reset_displacements = false;               ///< at its start
-  Damping damping;                                ///< while it lasts
+  double strength_factor = 1.0;  ///< what the strength of all joints is divided by meanwhile
+  Damping damping;               ///< while it lasts
   StageJoints joints = StageJoints::as_given;     ///< while it lasts
   StageMasses masses = StageMasses::as_given;     ///< while it lasts
   FallingBlocks falling = FallingBlocks::report;  ///< whether an equilibrium waits for them
@@ -274,6 +280,25 @@ struct Output {
   double history_every = 0.0;     ///< s; default: duration / 200
   double checkpoint_every = 5.0;  ///< minutes of wall time
   bool stages = true;             ///< contacts and a checkpoint at the end of each stage
+};
+
+/// What counts as failure of a trial; left out: by the size of the blocks and gravity.
+struct FosFails {
+  std::optional<double> displacement;  ///< m, of a corner since the start of the trial
+  std::optional<double> velocity;      ///< m/s, at its end
+};
+
+/// [fos]: the factor of safety.
+struct Fos {
+  std::string stage;                 ///< whose end the trials begin from; empty: the last
+  std::string vary = "strength";     ///< as written
+  Vec2 bracket{0.5, 3.0};            ///< factors to begin with, lower and upper
+  double tolerance = 0.01;           ///< width of the bracket at the end
+  std::vector<std::string> exclude;  ///< joints that keep their strength
+  FosFails fails;
+  Varied varied = Varied::strength;  ///< what `vary` says
+  Index target = none;               ///< row of loads, shakings or waters
+  Where where;
 };
 
 struct Model {
@@ -314,6 +339,7 @@ struct Model {
   std::vector<Stage> stages;  ///< in sequence; none: one, until solver.duration
   Solver solver;
   Output output;
+  std::optional<Fos> fos;
 };
 
 }  // namespace edda

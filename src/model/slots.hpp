@@ -15,7 +15,8 @@ inline constexpr std::array<std::string_view, 2> plane_names{"strain", "stress"}
 inline constexpr std::array<std::string_view, 2> method_names{"edda", "dda"};
 inline constexpr std::array<std::string_view, 3> mass_names{"matched", "covering", "consistent"};
 inline constexpr std::array<std::string_view, 2> switching_names{"exact", "plain"};
-inline constexpr std::array<std::string_view, 2> law_names{"coulomb", "glued"};
+inline constexpr std::array<std::string_view, 4> law_names{"coulomb", "glued", "slip-weakening",
+                                                           "barton-bandis"};
 inline constexpr std::array<std::string_view, 2> stage_end_names{"time", "equilibrium"};
 inline constexpr std::array<std::string_view, 2> stage_joint_names{"as given", "glued"};
 inline constexpr std::array<std::string_view, 2> stage_mass_names{"as given", "static"};
@@ -99,6 +100,7 @@ std::span<const Key> keys_of(const OpeningShape&);
 std::span<const Key> keys_of(const Acceleration&);
 std::span<const Key> keys_of(const BoltBond&);
 std::span<const Key> keys_of(const BoltDowel&);
+std::span<const Key> keys_of(const FosFails&);
 
 template <class Field>
 Slot slot_of(Field& field) {

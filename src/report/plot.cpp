@@ -18,7 +18,7 @@ namespace {
 constexpr Colour ink{0.12, 0.12, 0.14}, held_fill{0.80, 0.80, 0.80}, held_hatch{0.62, 0.62, 0.62};
 constexpr Colour plain_block{0.87, 0.85, 0.80}, force_colour{0.75, 0.10, 0.10};
 constexpr Colour vector_colour{0.05, 0.05, 0.05}, monitor_colour{0.80, 0.05, 0.45};
-constexpr Colour bolt_colour{0.05, 0.25, 0.65};
+constexpr Colour bolt_colour{0.05, 0.25, 0.65}, joint_colour{0.85, 0.10, 0.05};
 
 /// Everything that the parts of a picture share.
 struct Scene {
@@ -287,6 +287,13 @@ void draw_bolts(Canvas& canvas, const Scene& s, const PlotOptions& options) {
   }
 }
 
+void draw_joints(Canvas& canvas, const Scene& s, const PlotOptions& options) {
+  canvas.colour(joint_colour);
+  for (const auto& [from, to] : options.joints) {
+    canvas.line(s.layout.px(from), s.layout.px(to), 5.0 * s.layout.unit);
+  }
+}
+
 void draw_axes(Canvas& canvas, const Layout& l) {
   const double u = l.unit, size = 20.0 * u;
   canvas.colour(ink);
@@ -342,6 +349,7 @@ Trouble plot(const Grid& blocks, const Grid* contacts, const ShownField& field,
   draw_blocks(canvas, scene, field, scale);
   if (field.of_contacts && contacts != nullptr)
     draw_contact_field(canvas, scene, *contacts, field, scale);
+  draw_joints(canvas, scene, options);
   const std::string note = draw_vectors(canvas, scene, contacts, options);
   draw_bolts(canvas, scene, options);
   draw_lines(canvas, scene, options);

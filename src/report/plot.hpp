@@ -28,9 +28,10 @@ struct PlotOptions {
   std::string subtitle;                ///< such as the time
   std::vector<std::string> materials;  ///< names, for the legend
   std::vector<PlotMonitor> monitors;
-  std::vector<PlotLine> lines;             ///< [[convergence]]
-  std::vector<std::array<Vec2, 2>> bolts;  ///< from where to where they were at the start, m
-  double scale = 1.0;                      ///< of the displacements drawn
+  std::vector<PlotLine> lines;              ///< [[convergence]]
+  std::vector<std::array<Vec2, 2>> bolts;   ///< from where to where they were at the start, m
+  std::vector<std::array<Vec2, 2>> joints;  ///< drawn thick, where they are drawn, m
+  double scale = 1.0;                       ///< of the displacements drawn
   std::string vectors;    ///< "displacement" or "velocity": arrows at block centres; empty: none
   bool forces = false;    ///< contact forces as arrows
   double width = 1600.0;  ///< px, of a picture that is not taller than wide

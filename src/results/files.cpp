@@ -36,10 +36,15 @@ Fault cannot_write(const std::string& path, int error) {
 
 namespace {
 
-constexpr std::array known_files{
-    "summary.json", "stages.csv",   "history.csv",   "blocks.csv",    "joints.csv",
-    "blocks.pvd",   "contacts.pvd", "model.toml",    "checkpoint.h5", "checkpoint.previous.h5",
-    "stages.csv",   "bolts.csv",    "reactions.csv", "fos.csv"};
+constexpr std::array known_files{"summary.json",  "stages.csv",
+                                 "history.csv",   "blocks.csv",
+                                 "joints.csv",    "blocks.pvd",
+                                 "contacts.pvd",  "model.toml",
+                                 "checkpoint.h5", "checkpoint.previous.h5",
+                                 "stages.csv",    "bolts.csv",
+                                 "reactions.csv", "fos.csv",
+                                 "mechanism.csv", "mechanism_joints.csv",
+                                 "mechanism.png", "mechanism.svg"};
 
 bool starts_with_and_is(const std::string& name, std::string_view start, std::string_view end) {
   return name.size() >= start.size() + end.size() && name.starts_with(start) && name.ends_with(end);

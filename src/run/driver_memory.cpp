@@ -47,6 +47,7 @@ std::string identity(const Model& model, std::size_t stages) {
   m.output.every = m.output.history_every = 1.0;
   m.solver.duration = 1.0;
   m.output.checkpoint_every = 1.0;
+  m.fos.reset();
   // What a history says counts, not where it lies.
   for (Load& load : m.loads) load.history.clear();
   for (Water& water : m.waters) water.history.clear();

@@ -29,6 +29,7 @@ void Driver::begin_stage(std::size_t index) {
   sim_.scale_masses(stage.masses);
   const bool settles = stage.until == StageEnd::equilibrium;
   sim_.change_damping(stage.damping, sim_.model.solver.dynamic && !settles);
+  sim_.set_strength_factor(stage.strength_factor);
   if (stage.reset_displacements) sim_.reset_displacements();
 }
 
@@ -83,7 +84,7 @@ bool Driver::end_stage(bool at_rest) {
                     label, stage.duration, still_moving(sim_, ends_.back().balance)));
     return false;
   }
-  if (stage_ + 1 == stages_.size()) {
+  if (stage_ + 1 == stages_.size() || options_.last_stage == stage_) {
     if (at_rest) {
       end(Status::equilibrium,
           fmt::format("at rest after {:.6g} s", sim_.state.time - stage_start_));

@@ -29,6 +29,7 @@ struct RunOptions {
   bool resume = false;                            ///< go on from the checkpoint in the folder
   std::optional<std::size_t> from_stage{};  ///< go on from that of the end of this stage instead
   std::function<void(const std::string&)> warn{};  ///< of what does not end the run; may be empty
+  std::optional<std::size_t> last_stage{};         ///< the run ends with this one
   const std::atomic<bool>* stop = nullptr;  ///< set from anywhere: the run ends as interrupted
 };
 

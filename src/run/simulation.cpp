@@ -10,7 +10,9 @@
 #include "blocks/build_blocks.hpp"
 #include "contacts/candidates.hpp"
 #include "contacts/gaps.hpp"
+#include "contacts/joint_laws.hpp"
 #include "contacts/shares.hpp"
+#include "contacts/strength.hpp"
 #include "contacts/transitions.hpp"
 #include "forces/contact_forces.hpp"
 #include "forces/dashpot_forces.hpp"
@@ -155,6 +157,7 @@ void Simulation::start(double first_event) {
     look_at_previous_gaps(contacts, pose);
   };
   look_back();
+  if (laws.any_changes) update_joint_laws(contacts, blocks, laws);
   evaluate_contacts(contacts, blocks, laws, h, damping.contact);
   gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity, acting());
   hold_ = dashpot_hold({}, free_field.columns);
@@ -222,6 +225,17 @@ void Simulation::change_damping(const Damping& now, bool carry_velocities) {
   set_limit();
 }
 
+void Simulation::set_strength_factors(const std::vector<double>& factors) {
+  if (factors == laws.divided_by) return;
+  LawTable divided = divided_laws(model, factors);
+  take_strength(contacts, laws, divided);
+  laws = std::move(divided);
+}
+
+void Simulation::set_strength_factor(double factor) {
+  set_strength_factors(std::vector<double>(laws.rows.size(), factor));
+}
+
 void Simulation::reset_displacements() {
   state.from_x = state.x;
   state.from_y = state.y;
@@ -269,6 +283,7 @@ std::optional<Failure> Simulation::step() {
   if (!explicit_method()) return step_implicit();
   StageClock clock(state.steps);
   const double h_old = step_before_;
+  if (laws.any_changes) update_joint_laws(contacts, blocks, laws);
   evaluate_contacts(contacts, blocks, laws, state.step, damping.contact);
   const LoadsNow at_work = acting();
   clock.lap(seconds.forces);

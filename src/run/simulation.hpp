@@ -95,6 +95,12 @@ struct Simulation {
   void aim_at(double time);
   /// Puts other damping in force between two steps, and the step that it allows.
   void change_damping(const Damping& now, bool carry_velocities);
+  /// From now on the strength of law r, as the model gives it, is divided by factors[r] (rows of
+  /// the LawTable, above zero): cohesion, tangent of the friction angle and tensile strength, peak
+  /// and residual. Between two steps.
+  void set_strength_factors(const std::vector<double>& factors);
+  /// The same factor for all laws.
+  void set_strength_factor(double factor);
   /// Takes out the rock of these openings (rows of Model::openings), between two steps. What it did
   /// to its walls is kept as loads, of which nothing acts until relax() says so; the energy that
   /// goes with it counts as external work.

@@ -9,6 +9,7 @@
 #include "checkpoint/archive.hpp"
 #include "contacts/candidates.hpp"
 #include "contacts/shares.hpp"
+#include "contacts/strength.hpp"
 #include "run/attachment_memory.hpp"
 #include "run/implicit_memory.hpp"
 
@@ -49,6 +50,7 @@ void list_contacts(Archive& a, ContactSet& c) {
   a("contacts.shear", c.shear);
   a("contacts.shear_1", c.shear_1);
   a("contacts.slip_trial", c.slip_trial);
+  a("contacts.slid", c.slid);
   a("contacts.friction_work", c.friction_work);
   a("contacts.damping_work", c.damping_work);
   a("contacts.fracture_work", c.fracture_work);
@@ -129,6 +131,7 @@ void list_state(Archive& a, Simulation& s) {
   a("damping.local", s.damping.local);
   a("damping.contact", s.damping.contact);
   a("dynamic", s.dynamic);
+  a("laws.divided_by", s.laws.divided_by);
   a("state.alive", s.state.alive);
   a("state.turns", s.state.turns);
   a("state.time", s.state.time);
@@ -229,6 +232,7 @@ void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawT
         &c.damping_work, &c.fracture_work}) {
     j.sized("contacts", *values, nc);
   }
+  j.sized("contacts.slid", c.slid, laws.any_changes ? nc : 0);
   j.sized("contacts.force", c.force, 2 * nc);
   j.sized("contacts.reaction", c.reaction, 4 * nc);
   j.sized("contacts.law", c.law, nc);
@@ -351,6 +355,13 @@ std::string recall(Simulation& sim, const Record& record) {
   Loader loader(record);
   list_memory(loader, sim);
   if (!loader.flaw().empty()) return loader.flaw();
+  const std::vector<double> factors = sim.laws.divided_by;
+  if (factors.size() != sim.laws.rows.size() ||
+      !std::all_of(factors.begin(), factors.end(),
+                   [](double f) { return f > 0.0 && std::isfinite(f); })) {
+    return "laws.divided_by is not of these laws";
+  }
+  sim.laws = divided_laws(sim.model, factors);
   Judge j;
   judge(j, sim);
   if (!j.flaw().empty()) return j.flaw();

@@ -31,7 +31,8 @@ std::size_t yielded_bolts(const Bolts& b) {
   return count;
 }
 
-/// Blocks that touch something, or are held by a boundary or a bolt.
+}  // namespace
+
 std::vector<std::uint8_t> touching(const Simulation& sim) {
   std::vector<std::uint8_t> touches(sim.blocks.size(), 0);
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
@@ -45,8 +46,6 @@ std::vector<std::uint8_t> touching(const Simulation& sim) {
   }
   return touches;
 }
-
-}  // namespace
 
 Balance balance_of(const Simulation& sim) {
   Balance balance;

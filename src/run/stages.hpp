@@ -21,6 +21,9 @@ struct Balance {
 
 Balance balance_of(const Simulation& sim);
 
+/// [nb] 1: touches something, or is held by a boundary or a bolt.
+std::vector<std::uint8_t> touching(const Simulation& sim);
+
 /// A row of stages.csv.
 struct StageRecord {
   bool reached = true;            ///< its end; false: no equilibrium within its duration

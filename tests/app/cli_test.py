@@ -89,7 +89,7 @@ class Cli(unittest.TestCase):
             list(rows[0])[8:],
             "kinetic strain contact gravity friction damping fracture external step_change drift unbalanced".split())
         blocks = read_cells(self.dir / "m/blocks.csv")
-        self.assertEqual(" ".join(blocks[0]), "id name material x y area ux uy rotation vx vy omega sxx syy szz sxy")
+        self.assertEqual(" ".join(blocks[0]), "id name material x y area ux uy rotation vx vy omega sxx syy szz sxy overstress")
         self.assertEqual([b[1] for b in blocks[1:]], ["ramp", "slider"])
         joints = read_cells(self.dir / "m/joints.csv")
         self.assertEqual(" ".join(joints[0]),
@@ -114,6 +114,41 @@ class Cli(unittest.TestCase):
             self.assertTrue(lines and all(line.startswith("bad.toml:") for line in lines), done.stderr)
             self.expect(2, "check", "bad.toml")
         self.expect(2, "run", "none.toml")
+
+    def test_fos_writes_every_file_of_the_promise(self):
+        model = RAMP.replace("[-1, -1], [4, -1], [4, 0], [-1, 0]", "[-9, -1], [9, -1], [9, 0], [-9, 0]") \
+            .replace("velocity = [1.0, 0.0]\n", "")
+        push = '[[load]]\nname = "push"\npoint = [0, 0.1]\nforce = [2000, 0]\n'
+        (self.dir / "m.toml").write_text(model + push)
+        args = ["fos", "m.toml", "--set", "fos.vary=load:push", "--set", "fos.tolerance=0.1", "--set", "fos.bracket=[5, 9]"]
+        done = self.expect(0, *args)
+        files = "summary.json fos.csv mechanism.csv mechanism_joints.csv mechanism.png mechanism.svg model.toml".split()
+        self.assertEqual(sorted(p.name for p in (self.dir / "m-fos").iterdir()), sorted(files))
+        summary = json.loads((self.dir / "m-fos/summary.json").read_text())
+        exact = 2 * 2750 * 9.81 * 0.2679492 / 2000
+        self.assertAlmostEqual(summary["factor_of_safety"], exact, delta=0.1)
+        self.assertLess(summary["holds"], exact)
+        self.assertGreater(summary["fails"], exact)
+        self.assertEqual(summary["status"], "found")
+        self.assertGreater(summary["criterion"]["fails_displacement"], 0)
+        self.assertIn("sliding", summary["mechanism"]["text"])
+        rows = read_rows(self.dir / "m-fos/fos.csv")
+        self.assertEqual(" ".join(rows[0]), "factor outcome displacement block time velocity unbalanced steps reason")
+        self.assertEqual({r["outcome"] for r in rows}, {"holds", "fails"})
+        block, = read_rows(self.dir / "m-fos/mechanism.csv")
+        self.assertEqual((block["name"], block["motion"]), ("slider", "slides"))
+        joint, = read_rows(self.dir / "m-fos/mechanism_joints.csv")
+        self.assertEqual(joint["joint"], "ramp")
+        self.assertIn("factor of safety", done.stdout)
+        # Threads and an earlier run's folder change nothing; what is no result stays where it is.
+        before = (self.dir / "m-fos/fos.csv").read_bytes()
+        quiet = self.expect(0, *args, "--threads", "2", "--quiet")
+        self.assertEqual((self.dir / "m-fos/fos.csv").read_bytes(), before)
+        self.assertEqual(quiet.stdout + quiet.stderr, "")
+        (self.dir / "m-fos/notes.txt").write_text("mine")
+        self.expect(2, *args)
+        self.expect(2, "fos", "m.toml", "--set", "fos.vary=load:pull")
+        self.expect(2, "fos", "m.toml", "--set", "solver.method=dda")
 
     def test_bad_usage_exits_2(self):
         for args in ((), ("nonsense",), ("run",), ("run", "m.toml", "--nonsense"), ("run", "m.toml", "--threads", "0"),

@@ -147,12 +147,68 @@ TEST(BadModel, WhatTheImplicitMethodCannotDo) {
         {"[[boundary]]\nsides = [\"left\"]\ntype = \"velocity\"\nvelocity = [1, 0]\n",
          "boundary.1.type"},
         {"[[shaking]]\nacceleration = { amplitude = 1, frequency = 2 }\n", "shaking.0.apply"},
+        {"[joints.a]\nfriction_angle = 30\ndilation_angle = 3\n[contact]\njoint = \"rough\"\n",
+         "joints.a"},
         {"[[bolt]]\nfrom = [15, 1]\nto = [15, 3]\ndiameter = 0.02\ntype = \"end\"\n", "bolt.0"}}) {
     const std::string whole = testing::base_with("duration = 0.1\n", "duration = 0.1\n" + solver);
     const Result<Model> result = read_model_text(whole + text, "m.toml", {});
     ASSERT_FALSE(result.ok()) << text;
     EXPECT_EQ(result.faults()[0].where.key, key);
     EXPECT_NE(to_string(result.faults()[0]).find("dda"), std::string::npos);
+  }
+}
+
+TEST(BadModel, JointLaws) {
+  const std::string weak = "[joints.a]\ntype = \"slip-weakening\"\nfriction_angle = 30\n",
+                    barton =
+                        "[joints.a]\ntype = \"barton-bandis\"\njrc = 9\njcs = 1e8\n"
+                        "residual_angle = 28\n[contact]\njoint = \"rough\"\n",
+                    plain = "[joints.a]\nfriction_angle = 30\n",
+                    end = "[contact]\njoint = \"rough\"\n";
+  const auto barton_with = [&](const std::string& line) {
+    std::string text = barton;
+    return text.insert(text.find("[contact]"), line);
+  };
+  for (const Bad& bad : {
+           Bad{weak + end, 42, "joints.a.slip_distance", "is missing"},
+           Bad{weak + "slip_distance = 0\n" + end, 45, "joints.a.slip_distance", "above 0"},
+           Bad{weak + "slip_distance = 1\njrc = 3\n" + end, 46, "joints.a.jrc", "means nothing"},
+           Bad{weak + "slip_distance = 1\ndilation_angle = 31\n" + end, 46,
+               "joints.a.dilation_angle", "not below the friction angle of 30"},
+           Bad{plain + "residual = { friction_angle = 5 }\ndilation_angle = 6\n" + end, 45,
+               "joints.a.dilation_angle", "angle of 5 degrees"},
+           Bad{plain + "slip_distance = 1\n" + end, 44, "joints.a.slip_distance", "dilation_angle"},
+           Bad{barton_with("cohesion = 5\n"), 47, "joints.a.cohesion", "means nothing"},
+           Bad{barton_with("friction_angle = 5\n"), 47, "joints.a.friction_angle", "means nothing"},
+           Bad{barton_with("dilation_angle = 5\n"), 47, "joints.a.dilation_angle", "means nothing"},
+           Bad{barton_with("residual = { cohesion = 5 }\n"), 47, "joints.a.residual",
+               "means nothing"},
+           Bad{"[joints.a]\ntype = \"barton-bandis\"\njrc = 9\nresidual_angle = 28\n" + end, 42,
+               "joints.a.jcs", "is missing"},
+           Bad{"[joints.a]\ntype = \"barton-bandis\"\njrc = 21\njcs = 1e8\nresidual_angle = 28\n" +
+                   end,
+               44, "joints.a.jrc", "at most 20"},
+       }) {
+    expect_fault(bad);
+  }
+}
+
+TEST(BadModel, FactorOfSafety) {
+  const std::string load = "[[load]]\nname = \"push\"\npoint = [15, 9]\nforce = [1, 0]\n";
+  for (const Bad& bad : {
+           Bad{"[fos]\nvary = \"strenght\"\n", 43, "fos.vary", "load:NAME"},
+           Bad{load + "[fos]\nvary = \"load:pusch\"\n", 47, "fos.vary", "did you mean \"push\""},
+           Bad{"[fos]\nvary = \"water:lake\"\n", 43, "fos.vary", "no water is called"},
+           Bad{"[fos]\nvary = \"shaking:\"\n", 43, "fos.vary", "no shaking is called"},
+           Bad{"[fos]\nstage = \"last\"\n", 43, "fos.stage", "no stage is called \"last\""},
+           Bad{"[fos]\nexclude = [\"rouh\"]\n", 43, "fos.exclude", "did you mean \"rough\""},
+           Bad{"[fos]\nbracket = [2, 1]\n", 43, "fos.bracket", "not below"},
+           Bad{"[fos]\nbracket = [0, 1]\n", 43, "fos.bracket[0]", "above 0"},
+           Bad{"[fos]\ntolerance = 0\n", 43, "fos.tolerance", "out of range"},
+           Bad{"[fos]\nfails = { displacement = -1 }\n", 43, "fos.fails.displacement",
+               "out of range"},
+       }) {
+    expect_fault(bad);
   }
 }
 
@@ -165,6 +221,8 @@ TEST(BadModel, Stages) {
                "is not the 0.15 s of the stages together"},
            Bad{"[[stage]]\nduration = 0.1\ndamping = { local = 1.5 }\n", 44,
                "stage.0.damping.local", "out of range"},
+           Bad{"[[stage]]\nduration = 0.1\nstrength_factor = 0\n", 44, "stage.0.strength_factor",
+               "out of range"},
        }) {
     expect_fault(bad);
   }

@@ -28,6 +28,17 @@ tensile_strength = 1e3
 residual = { friction_angle = 12, cohesion = "1 kPa", tensile_strength = 2.5 }
 kn = "20 GPa/m"
 ks = 9e9
+[joints.weak]
+type = "slip-weakening"
+friction_angle = 35
+residual = { friction_angle = 25 }
+dilation_angle = 4
+slip_distance = "5 mm"
+[joints.barton]
+type = "barton-bandis"
+jrc = 9
+jcs = "80 MPa"
+residual_angle = 28
 [contact]
 normal_stiffness = "200 MN/m"
 shear_stiffness = 1e8
@@ -233,6 +244,7 @@ install = ["round"]
 activate = ["axle", "wet"]
 mass_scaling = "as given"
 reset_displacements = true
+strength_factor = 1.25
 [solver]
 method = "edda"
 mass = "covering"
@@ -250,6 +262,13 @@ every = 0.3
 history_every = 0.07
 checkpoint_every = 2.5
 stages = false
+[fos]
+stage = "settle"
+vary = "water:wet"
+bracket = [0.7, 2]
+tolerance = 0.02
+exclude = ["glue"]
+fails = { displacement = "1 cm", velocity = "2 mm/s" }
 )";
 
 // In place of stress, at_y and gradient.

@@ -44,7 +44,7 @@ void expect_every_key(const Model& m) {
   ASSERT_EQ(m.convergences.size(), 1U);
   EXPECT_EQ(m.convergences[0].name, "H1");
   EXPECT_EQ(m.convergences[0].between, (Ring{{11, 5}, {19, 5}}));
-  ASSERT_EQ(m.joints.size(), 2U);
+  ASSERT_EQ(m.joints.size(), 4U);
   EXPECT_EQ(m.joints[0].type, LawType::glued);
   const JointLaw& law = m.joints[1];
   EXPECT_EQ(law.name, "rough");
@@ -57,6 +57,18 @@ void expect_every_key(const Model& m) {
   EXPECT_EQ(law.residual.tensile_strength, 2.5);
   EXPECT_EQ(law.kn, 20e9);
   EXPECT_EQ(law.ks, 9e9);
+  const JointLaw& weak = m.joints[2];
+  EXPECT_EQ(weak.type, LawType::slip_weakening);
+  EXPECT_EQ(weak.dilation_angle, 4.0);
+  EXPECT_EQ(weak.slip_distance, 0.005);
+  EXPECT_EQ(weak.residual.friction_angle, 25.0);
+  const JointLaw& barton = m.joints[3];
+  EXPECT_EQ(barton.type, LawType::barton_bandis);
+  EXPECT_EQ(barton.jrc, 9.0);
+  EXPECT_EQ(barton.jcs, 80e6);
+  EXPECT_EQ(barton.residual_angle, 28.0);
+  EXPECT_EQ(barton.peak.friction_angle, 28.0);
+  EXPECT_FALSE(barton.dilation_angle);
   EXPECT_EQ(m.contact.normal_stiffness, 2e8);
   EXPECT_EQ(m.contact.shear_stiffness, 1e8);
   EXPECT_EQ(m.contact.joint, 1);
@@ -255,6 +267,8 @@ void expect_every_run_key(const Model& m) {
   EXPECT_EQ(m.stages[1].until, StageEnd::time);
   EXPECT_EQ(m.stages[1].damping.local, 0.1);
   EXPECT_TRUE(m.stages[1].reset_displacements);
+  EXPECT_EQ(m.stages[0].strength_factor, 1.0);
+  EXPECT_EQ(m.stages[1].strength_factor, 1.25);
   EXPECT_EQ(m.stages[1].excavate, std::vector<std::string>{"cavern"});
   EXPECT_EQ(m.stages[1].relax, (NumberMap{{"cavern", 0.6}}));
   EXPECT_EQ(m.stages[0].joints, StageJoints::glued);
@@ -281,6 +295,16 @@ void expect_every_run_key(const Model& m) {
   EXPECT_EQ(m.output.every, 0.3);
   EXPECT_EQ(m.output.history_every, 0.07);
   EXPECT_EQ(m.output.checkpoint_every, 2.5);
+  ASSERT_TRUE(m.fos);
+  EXPECT_EQ(m.fos->stage, "settle");
+  EXPECT_EQ(m.fos->vary, "water:wet");
+  EXPECT_EQ(m.fos->varied, Varied::water);
+  EXPECT_EQ(m.fos->target, 0);
+  EXPECT_EQ(m.fos->bracket, (Vec2{0.7, 2.0}));
+  EXPECT_EQ(m.fos->tolerance, 0.02);
+  EXPECT_EQ(m.fos->exclude, std::vector<std::string>{"glue"});
+  EXPECT_EQ(m.fos->fails.displacement, 0.01);
+  EXPECT_EQ(m.fos->fails.velocity, 0.002);
   EXPECT_FALSE(m.output.stages);
 }
 
@@ -343,6 +367,8 @@ TEST(WriteModel, ImplicitMethodComesBack) {
   text.replace(text.find("dynamic = true"), 14, "dynamic = false");
   text.replace(text.find("local = 0.1"), 11, "local = 0.0");
   // What belongs to the explicit method alone.
+  const std::size_t laws = text.find("[joints.weak]");
+  text.erase(laws, text.find("[contact]") - laws);
   const std::size_t driven = text.find("[[boundary]]\nname = \"far\"");
   text.erase(driven, text.find("[[load]]") - driven);
   const std::size_t wave = text.find("[[shaking]]\nacceleration");

@@ -1,4 +1,4 @@
-// validation.md row 41: closer with smaller blocks.
+// validation.md row 38: closer with smaller blocks.
 #include <limits>
 
 #include "verification/kirsch.hpp"

@@ -1,4 +1,4 @@
-// validation.md row 41 at its fast size; kirsch_long_test.cpp has the others.
+// validation.md row 38 at its fast size; kirsch_long_test.cpp has the others.
 #include "verification/kirsch.hpp"
 
 namespace edda {

@@ -131,7 +131,7 @@ def box(records):
 
 def opening(records):
     drawing, (left, right) = draw.panels(1, 1)
-    for which, stress in sorted(records.series_of(41).items()):
+    for which, stress in sorted(records.series_of(38).items()):
         for axis, along, title in ((left, "x", "along x"), (right, "y", "upright")):
             for index, (part, name) in enumerate((("rr", "radial"), ("tt", "hoop"))):
                 draw.exact_line(axis, stress["r"], 1e-6 * stress[f"{part} {along} exact"], "exact" if index == 0 else None)

@@ -31,7 +31,7 @@ FIGURES = {
     19: (motion.heap, "The heap at its start and end; what changes of its momentum; how far the same motion is apart."),
     20: (rest.box, "Model, and the stress in one block as the box closes on it."),
     21: (motion.dissipation, "What friction and damping take."),
-    41: (rest.opening, "Stress along the two axes, by rings of blocks; the first ring is left out."),
+    38: (rest.opening, "Stress along the two axes, by rings of blocks; the first ring is left out."),
 }
 
 

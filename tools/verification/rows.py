@@ -168,7 +168,7 @@ ROWS = (
         "A square of 24 m of rock in blocks of 3 m that hold together, free-field sides, a viscous base; a sine of"
         " acceleration of 6 Hz comes up through it.",
         "The ground goes on for ever, so every point of the surface moves by twice v = A/w (1 - cos w t)."),
-    Row(40, "Ground that stays as it is",
+    Row(37, "Ground that stays as it is",
         "20 x 20 m of jointed rock under an initial stress, by tensor and gradient or by k0 and the weight above, uncut by any"
         " opening, undamped: oblique joint sets, traces that end in the rock, Voronoi polygons, layers, water, boundaries of"
         " every type, both methods, every mass matrix.",
@@ -176,7 +176,7 @@ ROWS = (
         " reactions, with water, equal the weight.",
         "A shear spring acts at its anchor, which the initial shear has moved away from the corner: hence the looser bounds"
         " where joints are soft."),
-    Row(41, "A circular opening",
+    Row(38, "A circular opening",
         "A hole of 1 m radius, cut at once from Voronoi polygons that are glued by joints twice as stiff as the blocks, under"
         " 10 MPa across and 20 MPa upright; held 16 m away. Beyond 4 m rings of larger blocks whose joints give as much.",
         "Kirsch (1898), plane strain, with shear modulus and Poisson's ratio of a square of the same mass under pressure."
@@ -184,4 +184,40 @@ ROWS = (
         " harmonic.",
         "Blocks have one strain each, so the mass bends only where joints give: that is the error, and it goes with the square"
         " of the block. Smaller and larger blocks: `kirsch_long_test.cpp`."),
+    Row(40, "Factor of safety of a ramp",
+        "The block of row 1 on 30 degrees; the strength of its joint is divided by a factor.",
+        "A block slides where tan(phi)/F = tan(a)."),
+    Row(41, "Factor of safety of a plane slide",
+        "A block over a plane of 35 degrees that daylights in a face of 60 degrees, 12 m high, an open tension crack behind it;"
+        " cohesion on the plane, water in the crack and, from its foot to nothing at the toe, on the plane.",
+        "Limit equilibrium (Hoek and Bray 1981): resistance [c A + (W cos p - U - V sin p) tan(phi)] over drive"
+        " (W sin p + V cos p)."),
+    Row(42, "A load that grows",
+        "A block on level ground is pushed by a tenth of its weight times a factor, low down or high up.",
+        "It slides at P = W tan(phi), or tips at P h = W b/2."),
+    Row(43, "Toppling slope of Goodman and Bray",
+        "Sixteen columns 10 m wide on a stepped base of 30 degrees, 4 to 40 m high, crest at the tenth; the numbers of Hoek and"
+        " Bray's example.",
+        "From block to block down the slope each passes on the force that it needs not to topple, or not to slide (Goodman"
+        " and Bray 1976); block 1 needs none at 38.15 degrees (38.13 without rounding). Blocks 16 to 14 stay, 13 to 4"
+        " topple, 3 to 1 slide."),
+    Row(44, "A shaking that grows",
+        "A block on 20 degrees with 35 degrees of friction; all blocks feel a horizontal acceleration that rises to 1 m/s2"
+        " times a factor and stays.",
+        "It slides from g tan(phi - a) on."),
+    Row(45, "Water that grows heavier",
+        "The dam of row 14 with 5 m of water, whose unit weight is multiplied by a factor.",
+        "It overturns where F gw h^3/6 = gc B^2 H/2."),
+    Row(46, "Direct shear: slip weakening",
+        "A block thrown along a level joint whose friction falls from 40 to 20 degrees over 8 mm of slip.",
+        "Friction takes N times the integral of tan(phi(u)) du, until the motion is gone."),
+    Row(47, "Direct shear: dilation",
+        "A block on a level joint of 30 degrees that opens at 5 degrees, pulled a little harder than friction holds.",
+        "It rises by tan(psi) u. N is the weight and what lifts it, so a = (gx - g tan(phi))/(1 + tan(phi) tan(psi)).",
+        leave_out=("gravity",)),
+    Row(48, "Direct shear: Barton and Bandis",
+        "A block on a level joint with JRC 9, JCS 60 MPa and 28 degrees of residual friction, pulled in a thick fluid, at three"
+        " normal stresses; the pull at which it goes by bisection.",
+        "Peak strength tan(phi_r + JRC log10(JCS/sigma)) (Barton and Choubey 1977), dilation half of the angle above"
+        " phi_r.", leave_out=("gravity",)),
 )

@@ -1,0 +1,156 @@
+// edda fos
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "app/common.hpp"
+#include "model/write_model.hpp"
+#include "report/plot.hpp"
+#include "results/files.hpp"
+#include "results/frames.hpp"
+#include "run/fos.hpp"
+#include "run/observe.hpp"
+
+namespace edda {
+namespace {
+
+struct FosArguments {
+  std::string model, folder;
+  std::vector<std::string> overrides;
+  bool quiet = false;
+};
+
+/// 1, 2 or 5 times a power of ten, not above x; at least 1.
+double round_scale(double x) {
+  if (!(x > 1.0)) return 1.0;
+  const double power = std::pow(10.0, std::floor(std::log10(x)));
+  const double digit = x / power;
+  return power * (digit >= 5.0 ? 5.0 : digit >= 2.0 ? 2.0 : 1.0);
+}
+
+/// The blocks as they have moved, enlarged until that shows, and the joints along which they did.
+Trouble draw_mechanism(const Model& model, const FosResult& r, const std::string& folder) {
+  const Simulation& sim = *r.failed;
+  Instant instant;
+  observe(sim, instant);
+  const Grid blocks = block_grid(block_cells(sim.blocks), picture_of(sim, instant));
+  const Result<ShownField> field = shown_field("displacement", blocks, nullptr);
+  if (!field.ok()) return field.faults().front();
+  double largest = 0.0;
+  for (const MovingBlock& b : r.mechanism->blocks) largest = std::max(largest, b.largest);
+  PlotOptions options = options_of(model, sim.blocks.size());
+  options.subtitle = fmt::format("mechanism at factor {:.4g}: {}", *r.fails, r.mechanism->text);
+  constexpr double shown = 0.5;  // of a block's size
+  options.scale = round_scale(shown * r.criterion.size / largest);
+  options.vectors = "displacement";
+  for (const MovingJoint& j : r.mechanism->joints) {
+    options.joints.push_back(
+        {j.from + options.scale * j.from_moved, j.to + options.scale * j.to_moved});
+  }
+  for (const char* name : {"/mechanism.png", "/mechanism.svg"}) {
+    if (Trouble trouble = plot(blocks, nullptr, field.value(), options, folder + name)) {
+      return trouble;
+    }
+  }
+  return {};
+}
+
+Trouble write_results(const Model& model, const FosResult& r, const std::string& folder) {
+  const auto write = [&](const char* name, const std::string& text) {
+    return write_file(folder + "/" + name, text);
+  };
+  if (Trouble t = write("model.toml", to_toml(model))) return t;
+  if (Trouble t = write("fos.csv", fos_csv(r.trials))) return t;
+  if (r.mechanism) {
+    if (Trouble t = write("mechanism.csv", mechanism_csv(*r.failed, *r.mechanism))) return t;
+    if (Trouble t = write("mechanism_joints.csv", mechanism_joints_csv(*r.mechanism))) return t;
+    if (Trouble t = draw_mechanism(model, r, folder)) return t;
+  }
+  return write("summary.json", fos_summary(model, r, omp_get_max_threads()));
+}
+
+void print_end(const FosResult& r, const std::string& folder) {
+  const FosCriterion& c = r.criterion;
+  fmt::print("{}\n", r.message);
+  if (r.mechanism) fmt::print("  mechanism at {:.6g}: {}\n", *r.fails, r.mechanism->text);
+  fmt::print(
+      "  a trial fails where a corner goes {:.3g} m, or still moves at {:.3g} m/s after {:.3g} s\n",
+      c.displacement, c.velocity, c.duration + (c.shaking > 0.0 ? c.shaking : c.ramp));
+  fmt::print("  {} trials, {} of wall time; results in {}/ (fos.csv, mechanism.png)\n",
+             r.trials.size(), duration_text(r.seconds), folder);
+}
+
+int code_of(FosStatus status) {
+  return status == FosStatus::interrupted ? exit_code::interrupted : exit_code::done;
+}
+
+int fos(const FosArguments& args) {
+  const std::optional<Model> model = read_or_print(args.model, args.overrides);
+  if (!model) return exit_code::bad_input;
+  const std::string folder = args.folder.empty() ? stem_of(args.model) + "-fos" : args.folder;
+  if (const Trouble trouble = check_folder(folder, args.model)) {
+    print({*trouble});
+    return exit_code::bad_input;
+  }
+  const std::atomic<bool>& stop_asked = stop_on_signals();
+  FosOptions options;
+  options.threads = omp_get_max_threads();
+  options.stop = &stop_asked;
+  if (!args.quiet) options.say = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  const Result<FosResult> found = find_factor(*model, options);
+  if (!found.ok()) {
+    print(found.faults());
+    return exit_code::bad_input;
+  }
+  const FosResult& r = found.value();
+  if (!args.quiet) print_warnings(r.warnings);
+  FolderLock lock;
+  Trouble trouble = make_folder(folder);
+  if (!trouble) trouble = lock.take(folder);
+  if (!trouble) trouble = clear_folder(folder);
+  std::error_code none_there;
+  std::filesystem::remove(folder + "/frames", none_there);  // it has no frames
+  if (!trouble) trouble = write_results(*model, r, folder);
+  if (trouble) {
+    print({*trouble});
+    return exit_code::failed;
+  }
+  if (!args.quiet) print_end(r, folder);
+  return code_of(r.status);
+}
+
+}  // namespace
+
+void add_fos(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand("fos", "Find a model's factor of safety");
+  command->footer(
+      "Example:\n  edda fos slope.toml\n  edda fos dam.toml --set fos.vary=water:lake\n\n"
+      "Brings the model to rest, then tries factors: the strength of the joints divided by it\n"
+      "(cohesion, tangent of the friction angle, tensile strength), or a load, a water or a "
+      "shaking\n"
+      "multiplied by it, until one that holds and one that fails are as near as fos.tolerance.\n"
+      "The folder (default: the model's name without .toml and with -fos, here) then holds\n"
+      "  summary.json          the factor, its bracket, the criterion, the mechanism; written "
+      "last\n"
+      "  fos.csv               every trial: factor, outcome, how far and how fast which block "
+      "went\n"
+      "  mechanism.csv         which blocks move at the lowest factor that fails, and how\n"
+      "  mechanism_joints.csv  along which joints;  mechanism.png, mechanism.svg: a picture\n"
+      "Ctrl-C ends it early with the bracket so far (exit code 130).");
+  auto args = std::make_shared<FosArguments>();
+  command->add_option("MODEL", args->model, "The model, a TOML file")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("-o,--output", args->folder, "Folder for the results (default: stem-fos)")
+      ->type_name("DIR");
+  add_threads(*command);
+  add_overrides(*command, args->overrides);
+  command->add_flag("--quiet", args->quiet, "No progress, no warnings, no closing words");
+  command->callback([args, &code] { code = fos(*args); });
+}
+
+}  // namespace edda

@@ -1,0 +1,141 @@
+#include "contacts/joint_laws.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "contacts/candidates.hpp"
+#include "contacts/stored_energy.hpp"
+
+namespace edda {
+namespace {
+
+namespace cs = contact_state;
+constexpr double whole_gap = 1e-6;  // of the smaller block: what gapes by more is whole no more
+constexpr double steepest = 70.0;   // degrees
+
+double radians(double degrees) {
+  return degrees * std::numbers::pi / 180.0;
+}
+
+/// Plastic slip of contact k in the last step, m.
+double slip_of_step(const ContactSet& c, std::size_t k) {
+  return c.is(k, cs::bonded) ? 0.0 : std::abs(c.slip_before_cut(k) + c.shear[k] / c.ks[k]);
+}
+
+/// What of a law holds at contact k after the slip so far.
+struct InForce {
+  double friction, cohesion, tension;  ///< tangent; Pa
+  double dilation;                     ///< tangent
+};
+
+InForce weakened(const Law& law, double slip) {
+  const double w = std::min(slip / law.slip_distance, 1.0);
+  const auto between = [&](double peak, double residual) { return peak + w * (residual - peak); };
+  return {between(law.peak_friction, law.residual_friction),
+          between(law.peak_cohesion, law.residual_cohesion),
+          between(law.peak_tension, law.residual_tension), (1.0 - w) * law.dilation};
+}
+
+InForce rough(const Law& law, double slip, double length, double sigma, double divided_by) {
+  constexpr double sizes = 500.0, power = 0.33;
+  const double wall = 2.0 * length;
+  const double peak = law.jrc > 0.0 ? wall / sizes * std::pow(law.jrc / wall, power) : 0.0;
+  const double left = roughness_left(slip, peak);
+  const double angle = barton_angle(law, left, sigma);
+  return {std::tan(radians(angle)) / divided_by, 0.0, 0.0,
+          std::tan(radians(0.5 * (angle - law.residual_angle)))};
+}
+
+InForce in_force(const ContactSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
+  const Law& law = laws.rows[c.law[k]];
+  if (law.type == LawType::slip_weakening) return weakened(law, c.slid[k]);
+  if (law.type == LawType::barton_bandis) {
+    const double length = carried_length(c, b, k);
+    const double sigma = c.kn[k] * std::max(c.effective(k), 0.0) / (length * laws.thickness);
+    return rough(law, c.slid[k], length, sigma, laws.divided_by[c.law[k]]);
+  }
+  return {c.friction[k], 0.0, 0.0, c.slid[k] < law.slip_distance ? law.dilation : 0.0};
+}
+
+/// What friction has taken in the last step, in the ledger's terms (method.md section 4), J.
+double taken_by_friction(const ContactSet& c, std::size_t k) {
+  const double s = -c.shear[k] / c.ks[k], s_1 = -c.shear_1[k] / c.ks[k];
+  return 0.5 * c.share[k] * c.ks[k] * (c.slip_before_cut(k) - s) * (s + s_1);
+}
+
+/// Lifts the faces off each other by `rise` m, or as far as what friction has taken goes: the
+/// spring gains w p (r (e_n + e_{n-1}) + r^2)/2 by a rise r.
+void lift(ContactSet& c, std::size_t k, double rise) {
+  const double sum = c.effective(k) + c.effective_1(k);
+  if (c.effective(k) <= 0.0 || c.effective_1(k) <= 0.0 || c.share[k] <= 0.0) return;
+  const double most = 2.0 * std::max(taken_by_friction(c, k), 0.0) / (c.share[k] * c.kn[k]);
+  rise = std::min(rise, 0.5 * (std::sqrt(sum * sum + 4.0 * most) - sum));
+  const double before = stored_energy(c, k);
+  c.rest[k] -= rise;
+  c.friction_work[k] += before - stored_energy(c, k);
+  c.stir(k);
+}
+
+void update_one(ContactSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
+  const Law& law = laws.rows[c.law[k]];
+  const double slip = slip_of_step(c, k);
+  if (slip > 0.0) {
+    const double dilation = in_force(c, b, laws, k).dilation;
+    const double left =
+        law.slip_distance > 0.0 ? std::max(law.slip_distance - c.slid[k], 0.0) : slip;
+    const bool ends = law.type != LawType::barton_bandis;
+    if (dilation > 0.0) lift(c, k, dilation * (ends ? std::min(slip, left) : slip));
+    c.slid[k] += slip;
+  }
+  if (law.type == LawType::coulomb) return;
+  const InForce now = in_force(c, b, laws, k);
+  const double stands_for = c.length[k] * laws.thickness;
+  c.friction[k] = now.friction;
+  c.cohesion[k] = now.cohesion * stands_for;
+  c.tension[k] = now.tension * stands_for;
+}
+
+}  // namespace
+
+double first_slip(const Law& law) {
+  return law.type == LawType::slip_weakening ? std::numeric_limits<double>::infinity() : 0.0;
+}
+
+double roughness_left(double slip, double peak) {
+  // Barton, Bandis and Bakhtar (1985), beyond the peak; straight over log10(u/u_p).
+  constexpr std::array<std::array<double, 2>, 6> table{
+      {{1.0, 1.0}, {2.0, 0.85}, {4.0, 0.70}, {10.0, 0.50}, {25.0, 0.40}, {100.0, 0.0}}};
+  if (slip <= peak) return 1.0;
+  const double ratio = slip / peak;
+  for (std::size_t q = 1; q < table.size(); ++q) {
+    if (ratio > table[q][0]) continue;
+    const double part = std::log(ratio / table[q - 1][0]) / std::log(table[q][0] / table[q - 1][0]);
+    return table[q - 1][1] + part * (table[q][1] - table[q - 1][1]);
+  }
+  return 0.0;
+}
+
+double barton_angle(const Law& law, double roughness, double sigma) {
+  if (law.jrc == 0.0 || roughness == 0.0 || sigma >= law.jcs) return law.residual_angle;
+  if (sigma <= 0.0) return std::max(law.residual_angle, steepest);
+  const double angle = law.residual_angle + roughness * law.jrc * std::log10(law.jcs / sigma);
+  return std::max(law.residual_angle, std::min(angle, steepest));
+}
+
+void update_joint_laws(ContactSet& c, const BlockSet& b, const LawTable& laws) {
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const Law& law = laws.rows[c.law[k]];
+    if (!law.changes) continue;
+    if (c.is(k, cs::closed)) {
+      update_one(c, b, laws, k);
+    } else if (law.type == LawType::slip_weakening && c.slid[k] < law.slip_distance) {
+      const double size = std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
+      if (c.depth[k] < -whole_gap * size) c.slid[k] = first_slip(law);
+    }
+  }
+}
+
+}  // namespace edda

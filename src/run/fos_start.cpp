@@ -1,0 +1,223 @@
+#include "run/fos_start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "run/stages.hpp"
+
+namespace edda {
+namespace {
+
+constexpr double strong = 1e-3;  // what strength is divided by where nothing is to slip or break
+constexpr double local_damping = 0.8, contact_damping = 0.1;
+constexpr double standard_gravity = 9.81;  // of a model on which nothing acts at all
+
+/// The model with what is varied multiplied by `multiplier` and strength divided by `divided` once
+/// more.
+Model before_trials(Model model, const Fos& fos, double multiplier, double divided) {
+  for (Stage& stage : model.stages) stage.strength_factor *= divided;
+  const auto q = static_cast<std::size_t>(std::max(fos.target, 0));
+  if (fos.varied == Varied::shaking) model.shakings[q].scale *= multiplier;
+  if (fos.varied == Varied::water) model.waters[q].unit_weight *= multiplier;
+  if (fos.varied == Varied::load && multiplier != 1.0) {
+    TimeHistory& factor = model.loads[q].factor;
+    if (factor.time.empty()) factor = {{0.0}, {1.0}};
+    for (double& value : factor.value) value *= multiplier;
+  }
+  return model;
+}
+
+/// Length of the shaking that is varied: of its record, or for a sine of the stage named, or all.
+double shaking_time(const Model& model, const Fos& fos) {
+  if (fos.varied != Varied::shaking) return 0.0;
+  const Shaking& shaking = model.shakings[static_cast<std::size_t>(fos.target)];
+  if (!shaking.record.time.empty()) return shaking.record.time.back();
+  return model.solver.duration;
+}
+
+FosCriterion criterion_of(const Simulation& sim, const Model& model, const Fos& fos) {
+  FosCriterion c;
+  double count = 0.0, mass = 0.0, force = 0.0;
+  const LoadsNow acting = loads_at(model, sim.loads, sim.state.time);
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    if (!is_free(sim.blocks, sim.state, i)) continue;
+    c.size += std::sqrt(sim.blocks.area[i]);
+    mass += sim.blocks.mass[i];
+    force += norm(load_on(sim.blocks, acting, sim.pose, i));
+    count += 1.0;
+  }
+  c.size /= std::max(count, 1.0);
+  c.acceleration = norm(model.gravity);
+  if (c.acceleration == 0.0) c.acceleration = force > 0.0 ? force / mass : standard_gravity;
+  constexpr double part_of_size = 0.01, times = 5.0, ramp = 0.2, slower = 10.0;
+  c.duration = times * std::sqrt(c.size / c.acceleration);
+  c.ramp = ramp * c.duration;
+  c.shaking = shaking_time(model, fos);
+  c.displacement = fos.fails.displacement.value_or(part_of_size * c.size);
+  c.velocity = fos.fails.velocity.value_or(c.displacement / (slower * c.duration));
+  return c;
+}
+
+TrialPlan plan_of(const Simulation& sim, const Model& model, const Fos& fos) {
+  const Damping& own = model.solver.damping;
+  TrialPlan plan;
+  plan.given = model;
+  plan.varied = fos.varied;
+  plan.target = static_cast<std::size_t>(std::max(fos.target, 0));
+  plan.criterion = criterion_of(sim, model, fos);
+  plan.quiet = {0.0, local_damping, own.contact};
+  plan.released = {0.0, 0.0, std::max(own.contact, contact_damping)};
+  plan.shaken = own;
+  return plan;
+}
+
+Fault cannot(const Model& model, const char* key, std::string problem, std::string remedy) {
+  Fault fault{model.solver.where, std::move(problem), std::move(remedy)};
+  if (fault.where.file.empty()) fault.where.file = model.file;
+  fault.where.key = key;
+  return fault;
+}
+
+/// What a search cannot do.
+std::optional<Fault> refused(const Model& model) {
+  if (model.solver.method == Method::dda) {
+    return cannot(model, "solver.method", "the factor of safety is not sought by \"dda\"",
+                  "use method = \"edda\" (--set solver.method=edda)");
+  }
+  if (model.solver.mass == MassKind::consistent) {
+    return cannot(model, "solver.mass",
+                  "trials are damped locally, which does not go with \"consistent\"",
+                  "use mass = \"matched\", which moves the same way");
+  }
+  return {};
+}
+
+bool stopped(const FosOptions& options) {
+  return options.stop != nullptr && options.stop->load(std::memory_order_relaxed);
+}
+
+/// Without stages: the model as drawn, its joints strong.
+Result<FosStart> settled(const Model& model, const Fos& fos, const FosOptions& options) {
+  const double at_first = fos.varied == Varied::strength ? 1.0 : 0.0;
+  Model drawn = before_trials(model, fos, at_first, 1.0);
+  drawn.solver.damping.local = local_damping;  // as it will be
+  Result<PreparedRun> prepared = prepare_run(std::move(drawn));
+  if (!prepared.ok()) return prepared.faults();
+  FosStart s{std::move(prepared.value().sim), {}, {}, {}, {}, {}, {}, {}, {}};
+  s.warnings = std::move(prepared.value().warnings);
+  s.given = {std::vector<double>(s.sim.laws.rows.size(), 1.0), 1.0};
+  s.loading = {std::vector<double>(s.sim.laws.rows.size(), strong), at_first};
+  s.plan = plan_of(s.sim, model, fos);
+  const Trial settling =
+      run_trial(s.sim, s.plan, s.loading, s.loading, true, [&] { return stopped(options); });
+  if (settling.end == TrialEnd::stopped) {
+    s.status = FosStatus::interrupted;
+  } else if (settling.end == TrialEnd::fails) {
+    s.status = FosStatus::unstable;
+    s.message = fmt::format(
+        "the model finds no rest however strong its joints are ({}): {}; hold what falls, or see "
+        "what it stands on",
+        settling.reason, still_moving(s.sim, balance_of(s.sim)));
+  }
+  return s;
+}
+
+/// With stages: as they run. Nothing where they find no rest.
+Result<std::optional<FosStart>> staged(const Model& model, const Fos& fos,
+                                       const FosOptions& options, double multiplier,
+                                       double divided) {
+  Model whole = before_trials(model, fos, multiplier, divided);
+  Result<PreparedRun> prepared = prepare_run(std::move(whole));
+  if (!prepared.ok()) return prepared.faults();
+  RunOptions how;
+  how.stop = options.stop;
+  if (!fos.stage.empty()) how.last_stage = stage_called(model, fos.stage);
+  const Result<Outcome> outcome = run_model(prepared.value(), how);
+  if (!outcome.ok()) return outcome.faults();
+  const Status status = outcome.value().status;
+  if (status == Status::collapsed || status == Status::failed) return std::optional<FosStart>{};
+  FosStart s{std::move(prepared.value().sim), {}, {}, {}, {}, {}, {}, {}, {}};
+  s.warnings = std::move(prepared.value().warnings);
+  if (status == Status::interrupted) s.status = FosStatus::interrupted;
+  s.loading = {s.sim.laws.divided_by, multiplier};
+  s.given = {s.sim.laws.divided_by, 1.0};
+  for (double& factor : s.given.strength) factor /= divided;
+  s.plan = plan_of(s.sim, model, fos);
+  return std::optional<FosStart>(std::move(s));
+}
+
+Result<FosStart> after_stages(const Model& model, const Fos& fos, const FosOptions& options) {
+  const bool shaken = fos.varied == Varied::shaking;
+  const double as_given = shaken ? 0.0 : 1.0;
+  const double weak = fos.varied == Varied::strength ? 1.0 : 0.0;
+  for (const auto& [multiplier, divided] : {std::pair{as_given, 1.0}, std::pair{weak, strong}}) {
+    Result<std::optional<FosStart>> run = staged(model, fos, options, multiplier, divided);
+    if (!run.ok()) return run.faults();
+    if (run.value()) return std::move(*run.value());
+    if (options.say && divided == 1.0) {
+      options.say("the stages find no rest as they are: again with joints that do not give way");
+    }
+  }
+  Result<FosStart> none = settled(model, fos, options);
+  if (!none.ok()) return none.faults();
+  none.value().status = FosStatus::unstable;
+  none.value().message =
+      "the stages find no rest even with joints that do not give way: edda run says which, and "
+      "what "
+      "still moves";
+  return none;
+}
+
+}  // namespace
+
+Loading loading_of(const Fos& fos, const Model& model, const Loading& given, double factor) {
+  Loading to = given;
+  if (fos.varied != Varied::strength) {
+    to.multiplier = factor;
+    return to;
+  }
+  for (std::size_t r = 0; r < to.strength.size(); ++r) {
+    const bool spared = r < model.joints.size() &&
+                        std::find(fos.exclude.begin(), fos.exclude.end(), model.joints[r].name) !=
+                            fos.exclude.end();
+    if (!spared) to.strength[r] *= factor;
+  }
+  return to;
+}
+
+Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptions& options) {
+  if (auto fault = refused(model)) return *fault;
+  Result<FosStart> made =
+      model.stages.empty() ? settled(model, fos, options) : after_stages(model, fos, options);
+  if (!made.ok()) return made;
+  FosStart& s = made.value();
+  if (s.status != FosStatus::found) return made;
+  const bool shaken = fos.varied == Varied::shaking;
+  const Loading to = loading_of(fos, model, s.given, shaken ? 0.0 : 1.0);
+  Simulation as_given = s.sim;
+  Trial trial = run_trial(as_given, s.plan, s.loading, to, false, [&] { return stopped(options); });
+  trial.factor = 1.0;
+  if (trial.end == TrialEnd::stopped) {
+    s.status = FosStatus::interrupted;
+    return made;
+  }
+  if (trial.end == TrialEnd::holds) {
+    s.sim = std::move(as_given);
+    s.loading = to;
+    if (!shaken) s.seen.push_back(trial);
+    return made;
+  }
+  if (shaken) {
+    s.status = FosStatus::unstable;
+    s.message = "the model does not stand without the shaking: " +
+                still_moving(as_given, balance_of(as_given));
+    return made;
+  }
+  s.seen.push_back(trial);
+  s.failed = std::move(as_given);
+  return made;
+}
+
+}  // namespace edda

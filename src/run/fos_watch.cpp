@@ -1,0 +1,66 @@
+#include "run/fos_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "run/stages.hpp"
+
+namespace edda {
+
+Watch::Watch(const Simulation& sim, bool all)
+    : counted_(sim.blocks.size(), 0), speed_(sim.blocks.size(), 0.0), last_time_(sim.state.time) {
+  const std::vector<std::uint8_t> touches = touching(sim);
+  for (std::size_t i = 0; i < counted_.size(); ++i) {
+    counted_[i] = is_free(sim.blocks, sim.state, i) && (all || touches[i]) ? 1 : 0;
+  }
+  for (std::size_t v = 0; v < sim.blocks.vertex_count(); ++v) start_.push_back(place(sim, v));
+  last_ = start_;
+}
+
+Vec2 Watch::place(const Simulation& sim, std::size_t v) const {
+  return Vec2{sim.pose.x[v], sim.pose.y[v]} - sim.ground.shift;
+}
+
+Furthest Watch::displacement(const Simulation& sim) const {
+  Furthest most;
+  for (std::size_t i = 0; i < counted_.size(); ++i) {
+    if (!counted_[i]) continue;
+    for (Id v = sim.blocks.vertex_begin[i]; v < sim.blocks.vertex_begin[i + 1]; ++v) {
+      const double u = norm(place(sim, v) - start_[v]);
+      if (u > most.value) most = {u, static_cast<Id>(i)};
+    }
+  }
+  return most;
+}
+
+Furthest Watch::velocity(const Simulation& sim) {
+  Furthest most;
+  const double time = sim.state.time - last_time_;
+  last_time_ = sim.state.time;
+  for (std::size_t i = 0; i < counted_.size(); ++i) {
+    speed_[i] = 0.0;
+    if (!counted_[i]) continue;
+    for (Id v = sim.blocks.vertex_begin[i]; v < sim.blocks.vertex_begin[i + 1]; ++v) {
+      const Vec2 now = place(sim, v);
+      if (time > 0.0) speed_[i] = std::max(speed_[i], norm(now - last_[v]) / time);
+      last_[v] = now;
+    }
+    if (speed_[i] > most.value) most = {speed_[i], static_cast<Id>(i)};
+  }
+  return most;
+}
+
+double Watch::prospect(const Simulation& sim, double t) const {
+  const std::vector<std::uint8_t> touches = touching(sim);
+  double furthest = -1.0;
+  for (std::size_t i = 0; i < counted_.size(); ++i) {
+    if (!counted_[i] || !touches[i]) continue;
+    const double resultant = 3.0 * norm(centroid(sim.forces.x, sim.forces.y, i));
+    const double acceleration = (1.0 - sim.damping.local) * resultant / sim.blocks.mass[i];
+    furthest = std::max(furthest, speed_[i] * t + 0.5 * acceleration * t * t);
+  }
+  return furthest < 0.0 ? std::numeric_limits<double>::infinity() : furthest;
+}
+
+}  // namespace edda

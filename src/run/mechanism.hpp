@@ -1,0 +1,60 @@
+// The mechanism of a failure: which blocks move, how, and along which joints.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "results/records.hpp"
+#include "run/simulation.hpp"
+
+namespace edda {
+
+enum class Motion { slides, topples, falls };
+
+constexpr std::string_view motion_name(Motion m) {
+  constexpr std::string_view names[] = {"slides", "topples", "falls"};
+  return names[static_cast<int>(m)];
+}
+
+/// A block that moves: by more than a tenth of the largest displacement of a corner.
+struct MovingBlock {
+  Id id = 0;
+  Vec2 place;                 ///< of its centroid at the start, m
+  Vec2 displacement;          ///< of its centroid since then, m
+  double largest = 0.0;       ///< displacement of a corner, m
+  double rotation = 0.0;      ///< rad, counter-clockwise
+  double turning_part = 0.0;  ///< |rotation| r/|displacement|, r from centroid to furthest corner
+  Motion motion = Motion::slides;
+};
+
+/// A joint between two blocks that slips or opens by more than a tenth of that displacement.
+struct MovingJoint {
+  Id block_i = 0, block_j = 0;
+  std::string_view joint;
+  Vec2 place;                 ///< m, of the contact that moves most
+  Vec2 from, to;              ///< m, ends of the stretch of joint between the two
+  Vec2 from_moved, to_moved;  ///< m, how far the block beside it has carried them
+  double slip = 0.0;          ///< m, largest along the joint, either way
+  double opening = 0.0;       ///< m, largest across it
+};
+
+struct Mechanism {
+  std::vector<MovingBlock> blocks;                      ///< by id
+  std::vector<MovingJoint> joints;                      ///< by blocks
+  double sliding = 0.0, toppling = 0.0, falling = 0.0;  ///< parts of the weight that moves
+  std::string text;                                     ///< one sentence
+};
+
+/// From `before`, at rest, to `after`, the same model later.
+///
+/// A block topples where turning moves its furthest corner by at least half of what the block
+/// itself moves: turning_part >= 1/2 (a block that turns about one of its corners has about 1, one
+/// that slides 0). One that is next to nothing any more, but for a tenth of that displacement,
+/// falls.
+Mechanism mechanism_of(const Simulation& before, const Simulation& after);
+
+std::string mechanism_csv(const Simulation& sim, const Mechanism& mechanism);
+std::string mechanism_joints_csv(const Mechanism& mechanism);
+
+}  // namespace edda

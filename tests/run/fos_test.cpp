@@ -1,0 +1,278 @@
+// The search for a factor of safety: which factors it asks for, what it finds, and that threads and
+// interruptions change nothing else.
+#include "run/fos.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "checkpoint/record.hpp"
+#include "model/read_model.hpp"
+#include "run/fos_bracket.hpp"
+#include "run/run_model.hpp"
+#include "run/simulation_memory.hpp"
+
+namespace edda {
+namespace {
+
+/// What a search asks for until it ends, if everything below `limit` holds.
+std::vector<double> asked(FosBracket bracket, double limit) {
+  std::vector<double> factors;
+  while (const auto f = bracket.next()) {
+    factors.push_back(*f);
+    bracket.take(*f, *f < limit);
+  }
+  return factors;
+}
+
+TEST(FosBracket, Bisects) {
+  FosBracket b{1.0, 2.0, 0.25};
+  EXPECT_EQ(asked(b, 1.6), (std::vector<double>{1.0, 2.0, 1.5, 1.75}));
+}
+
+TEST(FosBracket, MovesAnEndThatDoesNotHold) {
+  FosBracket b{1.0, 2.0, 0.5};
+  EXPECT_EQ(asked(b, 0.3), (std::vector<double>{1.0, 0.5, 0.25}));
+  EXPECT_EQ(asked(b, 5.0), (std::vector<double>{1.0, 2.0, 4.0, 8.0, 6.0, 5.0, 4.5}));
+}
+
+TEST(FosBracket, GivesUp) {
+  FosBracket b{1.0, 2.0, 0.5};
+  EXPECT_EQ(asked(b, 0.0).back(), 1.0 / 32.0);
+  EXPECT_EQ(asked(b, 1e9).back(), 64.0);
+}
+
+/// What is known already is not asked again.
+TEST(FosBracket, TakesWhatIsKnown) {
+  FosBracket b{0.5, 3.0, 0.5};
+  b.take(1.0, true);
+  EXPECT_EQ(b.next(), 3.0);
+  FosBracket c{0.5, 3.0, 0.5};
+  c.take(1.0, false);
+  EXPECT_EQ(c.next(), 0.5);
+  FosBracket d{2.0, 3.0, 0.5};
+  d.take(1.0, true);
+  EXPECT_EQ(asked(d, 1.4), (std::vector<double>{3.0, 2.0, 1.5}));
+}
+
+std::string number(double v) {
+  return std::to_string(v);
+}
+
+/// A block of 2 x 1 m on a slope of 30 degrees, its joint with `law`.
+std::string ramp(const std::string& law, const std::string& more = {}) {
+  const double c = std::cos(std::numbers::pi / 6.0), s = std::sin(std::numbers::pi / 6.0);
+  const auto box = [&](double u0, double u1, double v0, double v1) {
+    const auto p = [&](double u, double v) {
+      return "[" + number(u * c + v * s) + "," + number(v * c - u * s) + "]";
+    };
+    return "[" + p(u0, v0) + "," + p(u1, v0) + "," + p(u1, v1) + "," + p(u0, v1) + "]";
+  };
+  return "[materials.rock]\ndensity = 2500\nyoung = 2e8\npoisson = 0.2\n[joints.j]\n" + law +
+         "[solver]\nduration = 0.5\n[[block]]\nfixed = true\npolygon = " + box(-4, 6, -1, 0) +
+         "\n[[block]]\nname = 'slider'\npolygon = " + box(0, 2, 0, 1) + "\n" + more;
+}
+
+Model model_of(const std::string& toml) {
+  Result<Model> model = read_model_text(toml, "m.toml", {});
+  if (!model.ok()) ADD_FAILURE() << to_string(model.faults()[0]);
+  return model.value();
+}
+
+FosResult found(const std::string& toml, int threads = 1) {
+  FosOptions options;
+  options.threads = threads;
+  Result<FosResult> r = find_factor(model_of(toml), options);
+  if (!r.ok()) ADD_FAILURE() << to_string(r.faults()[0]);
+  return std::move(r.value());
+}
+
+const double exact = std::tan(std::numbers::pi / 4.0) / std::tan(std::numbers::pi / 6.0);
+const std::string rough = "friction_angle = 45\n", coarse = "[fos]\ntolerance = 0.05\n";
+
+TEST(Fos, DoesNotDependOnThreads) {
+  const FosResult one = found(ramp(rough, coarse));
+  EXPECT_EQ(one.status, FosStatus::found);
+  EXPECT_NEAR(*one.factor, exact, 0.05);
+  const FosResult three = found(ramp(rough, coarse), 3);
+  EXPECT_EQ(fos_csv(one.trials), fos_csv(three.trials));
+  EXPECT_EQ(one.failed->state.x, three.failed->state.x);
+  EXPECT_EQ(mechanism_csv(*one.failed, *one.mechanism),
+            mechanism_csv(*three.failed, *three.mechanism));
+}
+
+/// Joints that keep their strength cannot fail; the search ends all the same.
+TEST(Fos, ExcludedJointsHold) {
+  const FosResult r = found(ramp(rough, coarse + "exclude = ['j']\n"));
+  EXPECT_EQ(r.status, FosStatus::above);
+  EXPECT_FALSE(r.factor);
+  EXPECT_GE(*r.holds, 64.0);
+  EXPECT_NE(r.message.find("holds at every factor"), std::string::npos);
+}
+
+/// A model that does not stand as given has a factor below 1.
+TEST(Fos, BelowOne) {
+  const FosResult r = found(ramp("friction_angle = 20\n", coarse));
+  EXPECT_EQ(r.status, FosStatus::found);
+  EXPECT_NEAR(*r.factor, std::tan(20.0 * std::numbers::pi / 180.0) * std::sqrt(3.0), 0.05);
+  EXPECT_EQ(r.trials.front().factor, 1.0);
+  EXPECT_EQ(r.trials.front().end, TrialEnd::fails);
+}
+
+/// Where joints that are too weak keep their strength no factor helps; without any friction, or in
+/// the air, nothing finds a rest.
+TEST(Fos, NothingToBracket) {
+  const FosResult below = found(ramp("friction_angle = 20\n", coarse + "exclude = ['j']\n"));
+  EXPECT_EQ(below.status, FosStatus::below);
+  EXPECT_LE(*below.fails, 0.5 / 16.0);
+  const FosResult falling =
+      found("[materials.rock]\ndensity = 2500\nyoung = 2e8\npoisson = 0.2\n[joints.j]\n" + rough +
+            "[solver]\nduration = 1\n[[block]]\npolygon = [[0, 0], [1, 0], [1, 1], [0, 1]]\n");
+  EXPECT_EQ(found(ramp("friction_angle = 0\n", coarse)).status, FosStatus::unstable);
+  EXPECT_EQ(falling.status, FosStatus::unstable);
+  EXPECT_NE(falling.message.find("no rest"), std::string::npos) << falling.message;
+}
+
+/// The trials begin from the end of the stage named, with the strength that it has there.
+TEST(Fos, BeginsFromAStage) {
+  const std::string stages =
+      "[[stage]]\nname = 'rest'\nuntil = 'equilibrium'\n[[stage]]\nname = 'weak'\nuntil = "
+      "'equilibrium'\nstrength_factor = 1.25\n";
+  std::string text = ramp(rough);
+  text.erase(text.find("duration = 0.5\n"), 15);
+  const FosResult first = found(text + stages + coarse + "stage = 'rest'\n");
+  const FosResult last = found(text + stages + coarse);
+  EXPECT_NEAR(*first.factor, exact, 0.05);
+  EXPECT_NEAR(*last.factor, exact / 1.25, 0.05);
+}
+
+/// A load that no stage has switched on yet acts in the trials.
+TEST(Fos, SwitchesOnWhatItVaries) {
+  std::string text = ramp("friction_angle = 45\n",
+                          "[[load]]\nname = 'push'\npoint = [1.1, -0.05]\nforce = [1e4, 0]\n"
+                          "[[stage]]\nname = 'rest'\nuntil = 'equilibrium'\n[[stage]]\nname = "
+                          "'pushed'\nuntil = 'equilibrium'\nactivate = ['push']\n");
+  text.erase(text.find("duration = 0.5\n"), 15);
+  const double s = 0.5, c = std::sqrt(0.75), weight = 2500.0 * 2.0 * 9.81;
+  for (const char* stage : {"rest", "pushed"}) {
+    const FosResult r =
+        found(text + coarse + "vary = 'load:push'\nbracket = [0.5, 2]\nstage = '" + stage + "'\n");
+    ASSERT_TRUE(r.factor) << r.message;
+    EXPECT_NEAR(*r.factor, weight * (c - s) / (c + s) / 1e4, 0.05);
+  }
+}
+
+TEST(Fos, StopsWhenAsked) {
+  std::atomic<bool> stop{false};
+  FosOptions options;
+  options.stop = &stop;
+  int said = 0;
+  options.say = [&](const std::string&) { stop = ++said >= 2; };
+  const Result<FosResult> r = find_factor(model_of(ramp(rough, coarse)), options);
+  ASSERT_TRUE(r.ok());
+  EXPECT_EQ(r.value().status, FosStatus::interrupted);
+  EXPECT_EQ(r.value().trials.size(), 2U);
+  EXPECT_EQ(r.value().holds, 1.0);
+}
+
+TEST(Fos, RefusesWhatItCannotDo) {
+  for (const auto& [line, key] :
+       {std::pair{"method = 'dda'\n", "solver.method"}, {"mass = 'consistent'\n", "solver.mass"}}) {
+    std::string text = ramp(rough);
+    text.insert(text.find("duration"), line);
+    const Result<FosResult> r = find_factor(model_of(text), {});
+    ASSERT_FALSE(r.ok());
+    EXPECT_EQ(r.faults()[0].where.key, key);
+  }
+}
+
+PreparedRun prepared(const std::string& toml) {
+  Result<PreparedRun> run = prepare_run(model_of(toml));
+  if (!run.ok()) ADD_FAILURE() << to_string(run.faults()[0]);
+  return std::move(run.value());
+}
+
+/// A stage's factor: a block that holds at one below its limit goes at one above it, in both
+/// methods.
+TEST(StrengthFactor, ActsFromTheStartOfItsStage) {
+  for (const std::string method : {"edda", "dda"}) {
+    for (const auto& [factor, status] :
+         {std::pair{0.95 * exact, Status::equilibrium}, {1.05 * exact, Status::collapsed}}) {
+      std::string text = ramp(rough);
+      text.replace(text.find("duration = 0.5\n"), 15, "method = '" + method + "'\n");
+      PreparedRun run =
+          prepared(text +
+                   "[[stage]]\nuntil = 'equilibrium'\n[[stage]]\nuntil = 'equilibrium'\nduration = "
+                   "0.5\nratio = 1e-4\nstrength_factor = " +
+                   number(factor) + "\n");
+      const Result<Outcome> o = run_model(run, {});
+      ASSERT_TRUE(o.ok());
+      EXPECT_EQ(o.value().status, status) << method << ' ' << factor << o.value().message;
+      EXPECT_EQ(run.sim.laws.divided_by[0], std::stod(number(factor)));
+    }
+  }
+}
+
+/// Cohesion and tension are divided, too, and all of it comes back when the factor does.
+TEST(StrengthFactor, DividesAllStrength) {
+  PreparedRun run =
+      prepared(ramp("friction_angle = 40\ncohesion = 1e5\ntensile_strength = 2e4\nresidual = { "
+                    "friction_angle = 30 }\n"));
+  Simulation& sim = run.sim;
+  const ContactSet before = sim.contacts;
+  const Law law = sim.laws.rows[0];
+  sim.set_strength_factor(2.0);
+  EXPECT_EQ(sim.laws.rows[0].peak_friction, law.peak_friction / 2.0);
+  EXPECT_EQ(sim.laws.rows[0].residual_friction, law.residual_friction / 2.0);
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    EXPECT_EQ(sim.contacts.friction[k], before.friction[k] / 2.0);
+    EXPECT_EQ(sim.contacts.cohesion[k], before.cohesion[k] / 2.0);
+    EXPECT_EQ(sim.contacts.tension[k], before.tension[k] / 2.0);
+  }
+  sim.set_strength_factor(1.0);
+  EXPECT_EQ(sim.contacts.friction, before.friction);
+  EXPECT_EQ(sim.laws.rows[0].peak_tension, law.peak_tension);
+}
+
+/// The factor in force, and the slip that laws remember.
+TEST(StrengthFactor, LivesInACheckpoint) {
+  for (const std::string law :
+       {"friction_angle = 45\n", "friction_angle = 45\ndilation_angle = 3\n",
+        "type = 'slip-weakening'\nfriction_angle = 45\nresidual = { friction_angle = 30 }\n"
+        "slip_distance = 0.05\n",
+        "type = 'barton-bandis'\njrc = 5\njcs = 1e7\nresidual_angle = 25\n"}) {
+    const std::string text = ramp(law);
+    PreparedRun run = prepared(text), other = prepared(text);
+    Simulation &a = run.sim, &b = other.sim;
+    a.start(0.5);
+    a.set_strength_factor(1.8);
+    for (int k = 0; k < 300; ++k) ASSERT_FALSE(a.step());
+    Record record;
+    remember(a, record);
+    b.start(0.5);
+    ASSERT_EQ(recall(b, record), "");
+    EXPECT_EQ(b.laws.rows[0].residual_friction, a.laws.rows[0].residual_friction);
+    EXPECT_EQ(b.contacts.slid, a.contacts.slid);
+    for (int k = 0; k < 300; ++k) ASSERT_FALSE(a.step() || b.step());
+    EXPECT_EQ(a.state.x, b.state.x) << law;
+    EXPECT_EQ(a.state.vy, b.state.vy) << law;
+  }
+}
+
+/// The factor divides the strength that slip and stress have left, too.
+TEST(Fos, DividesLawsThatChange) {
+  const double sigma = 2500.0 * 9.81 * std::cos(std::numbers::pi / 6.0);
+  const FosResult barton =
+      found(ramp("type = 'barton-bandis'\njrc = 5\njcs = 1e7\nresidual_angle = 30\n", coarse));
+  const double angle = 30.0 + 5.0 * std::log10(1e7 / sigma);
+  EXPECT_NEAR(*barton.factor, std::tan(angle * std::numbers::pi / 180.0) * std::sqrt(3.0), 0.05);
+  const FosResult weak = found(
+      ramp("type = 'slip-weakening'\nfriction_angle = 45\nresidual = { friction_angle = 20 }\n"
+           "slip_distance = 0.05\n",
+           coarse));
+  EXPECT_NEAR(*weak.factor, exact, 0.05);
+}
+
+}  // namespace
+}  // namespace edda
