@@ -89,7 +89,7 @@ class Cli(unittest.TestCase):
             list(rows[0])[8:],
             "kinetic strain contact gravity friction damping fracture external step_change drift unbalanced".split())
         blocks = read_cells(self.dir / "m/blocks.csv")
-        self.assertEqual(" ".join(blocks[0]), "id name material x y area ux uy rotation vx vy omega sxx syy szz sxy")
+        self.assertEqual(" ".join(blocks[0]), "id name material x y area ux uy rotation vx vy omega sxx syy szz sxy overstress")
         self.assertEqual([b[1] for b in blocks[1:]], ["ramp", "slider"])
         joints = read_cells(self.dir / "m/joints.csv")
         self.assertEqual(" ".join(joints[0]),
