@@ -5,17 +5,21 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <string_view>
 
 #include "app/common.hpp"
 #include "app/examples.hpp"
-#include "model/read_model.hpp"
 
 namespace edda {
 namespace {
 
+/// From its text: some read tables that are not here.
 std::string title_of(const Example& example) {
-  const Result<Model> model = read_model_text(example.text, std::string(example.name) + ".toml");
-  return model.ok() ? model.value().title : std::string{};
+  const std::string_view text = example.text, key = "\ntitle = \"";
+  const std::size_t at = text.find(key);
+  if (at == std::string_view::npos) return {};
+  const std::size_t from = at + key.size();
+  return std::string(text.substr(from, text.find('"', from) - from));
 }
 
 int list() {
@@ -25,8 +29,7 @@ int list() {
 }
 
 /// Never over a file: the mode "x" refuses one, whoever made it and when.
-int write(const Example& example) {
-  const std::string path = std::string(example.name) + ".toml";
+int write_new(const std::string& path, const char* text) {
   std::FILE* file = std::fopen(path.c_str(), "wx");
   if (file == nullptr) {
     const bool there = errno == EEXIST;
@@ -35,13 +38,27 @@ int write(const Example& example) {
         there ? "move it away, or go to another folder" : "see that this folder may be written to");
     return exit_code::bad_input;
   }
-  const std::size_t size = std::strlen(example.text);
-  const bool written = std::fwrite(example.text, 1, size, file) == size;
+  const std::size_t size = std::strlen(text);
+  const bool written = std::fwrite(text, 1, size, file) == size;
   if (std::fclose(file) != 0 || !written) {
     fmt::print(stderr, "{}: could not be written whole: free some disk space\n", path);
     return exit_code::failed;
   }
-  fmt::print("wrote {0}; next: edda check {0}, edda run {0}\n", path);
+  return exit_code::done;
+}
+
+int write(const Example& example) {
+  const std::string path = std::string(example.name) + ".toml", table = example.table_name;
+  if (!table.empty()) {
+    // The model alone would be of no use.
+    if (const int code = write_new(table, example.table); code != exit_code::done) return code;
+  }
+  if (const int code = write_new(path, example.text); code != exit_code::done) {
+    if (!table.empty()) std::remove(table.c_str());
+    return code;
+  }
+  fmt::print("wrote {0}{1}; next: edda check {0}, edda run {0}\n", path,
+             table.empty() ? "" : " and " + table);
   return exit_code::done;
 }
 

@@ -28,7 +28,8 @@ void add_points(const BlockSet& b, const Boundary& boundary, Index row, const Pi
   const double off = 0.5 * (piece.part.to - piece.part.from) / std::sqrt(3.0);
   for (const double s : {middle - off, middle + off}) {
     points.push_back({i, weights_at(b, i, a + s * u), cn * n.x * n.x + ct * t.x * t.x,
-                      cn * n.y * n.y + ct * t.y * t.y, cn * n.x * n.y + ct * t.x * t.y, row});
+                      cn * n.y * n.y + ct * t.y * t.y, cn * n.x * n.y + ct * t.x * t.y, row,
+                      0.5 * length, n});
   }
 }
 
@@ -39,7 +40,7 @@ Result<Dashpots> attach_dashpots(const Model& model, const BlockSet& b) {
   Faults faults;
   for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
     const Boundary& boundary = model.boundaries[q];
-    if (boundary.type != BoundaryType::viscous) continue;
+    if (!has_dashpots(boundary.type)) continue;
     bool in_joints = false;
     const std::vector<Piece> pieces = pieces_on(b, boundary_lines(model, b, boundary), Faces::open,
                                                 boundary_snap(model, b), in_joints);

@@ -22,6 +22,8 @@ struct Dashpot {
   std::array<double, 3> weight;  ///< area coordinates of the point
   double cxx, cyy, cxy;          ///< N s/m; with the normal that the edge had at the start
   Index boundary;                ///< row of Model::boundaries
+  double length;                 ///< of the face that the point stands for, m
+  Vec2 normal;                   ///< outward, at the start
 };
 
 /// All of them, sorted by block.
@@ -35,10 +37,14 @@ struct Dashpots {
   void set_acting(const std::vector<Spell>& boundaries);
 };
 
-/// Dashpots of all viscous boundaries, on open faces of blocks that are not held. A boundary that
-/// finds no face is a fault. Wave speeds are those of each block's own rock, c_p = sqrt((lambda + 2
-/// mu)/rho), c_s = sqrt(mu/rho) with the Lame constants of the model's plane, or those given:
-/// joints make the mass softer than its rock.
+inline bool has_dashpots(BoundaryType type) {
+  return type == BoundaryType::viscous || type == BoundaryType::free_field;
+}
+
+/// Dashpots of all boundaries of type viscous and free-field, on open faces of blocks that are not
+/// held. A boundary that finds no face is a fault. Wave speeds are those of each block's own rock,
+/// c_p = sqrt((lambda + 2 mu)/rho), c_s = sqrt(mu/rho) with the Lame constants of the model's
+/// plane, or those given: joints make the mass softer than its rock.
 Result<Dashpots> attach_dashpots(const Model& model, const BlockSet& blocks);
 
 }  // namespace edda

@@ -33,8 +33,8 @@ Vec2 times(const Dashpot& at, Vec2 v) {
   return {at.cxx * v.x + at.cxy * v.y, at.cxy * v.x + at.cyy * v.y};
 }
 
-Vec2 reference_of(const DashpotStep& step, const Dashpot& at) {
-  return step.reference[static_cast<std::size_t>(at.boundary)];
+Vec2 push_of(const DashpotStep& step, std::size_t p) {
+  return step.push.empty() ? Vec2{} : step.push[p];
 }
 
 void spread_to(NodalForces& forces, const Dashpot& at, Vec2 f) {
@@ -63,7 +63,7 @@ void add_dashpots(NodalForces& forces, std::vector<Vec2>& on_point, const Dashpo
     Vector6 push = nodal(forces.x, forces.y, i);
     for (Id p = d.begin[q]; p < d.begin[q + 1]; ++p) {
       if (!acts(d, d.points[p])) continue;
-      push += along(d.points[p].weight, times(d.points[p], reference_of(step, d.points[p])));
+      push += along(d.points[p].weight, times(d.points[p], step.reference[p]) + push_of(step, p));
     }
     const Vector6 right = (1.0 - step.drag) * (mass * before) + step.h * (push - 0.5 * c * before);
     const Matrix6 left = (1.0 + step.drag) * mass + (0.5 * step.h) * c;
@@ -77,7 +77,7 @@ void add_dashpots(NodalForces& forces, std::vector<Vec2>& on_point, const Dashpo
         const auto n = static_cast<Eigen::Index>(2 * k);
         v += at.weight[k] * Vec2{mean[n], mean[n + 1]};
       }
-      on_point[p] = -times(at, v - reference_of(step, at));
+      on_point[p] = push_of(step, p) - times(at, v - step.reference[p]);
       spread_to(forces, at, on_point[p]);
     }
   }

@@ -13,11 +13,13 @@ namespace edda {
 struct DashpotStep {
   double h;                            ///< mean of the steps behind and ahead, s
   double drag;                         ///< a h/2, a the mass-proportional damping
-  const std::vector<Vec2>& reference;  ///< [rows of Model::boundaries] r_n, m/s
+  const std::vector<Vec2>& reference;  ///< [points] r_n, m/s
+  const std::vector<Vec2>& push;       ///< [points] forces besides, N; empty: none
 };
 
-/// Adds the forces f = -C ((v_{n-1/2} + v_{n+1/2})/2 - r_n) of the dashpots on the blocks [begin,
-/// end) to their nodal forces, with the v_{n+1/2} that these then lead to: per block six equations
+/// Adds the forces f = -C ((v_{n-1/2} + v_{n+1/2})/2 - r_n) + push of the dashpots on the blocks
+/// [begin, end) to their nodal forces, with the v_{n+1/2} that these then lead to: per block six
+/// equations
 /// ((1 + a h/2) M + h C/2) v+ = ((1 - a h/2) M - h C/2) v- + h (f + C r). So they take energy out
 /// at every step, whatever its length, and the critical step is what it is without them. vx, vy:
 /// v_{n-1/2}. on_point: [points] N, filled.

@@ -278,7 +278,7 @@ Result<DomainCut> cut_domain(const Model& model, Vec2 origin, const Imports& imp
   cut.report.notes = imports.notes;
   cut.report.notes.insert(cut.report.notes.end(), work.notes.begin(), work.notes.end());
   cut.report.area_in = *area_in;
-  const auto merge_thin = [&] { return merge_slivers(a.graph, a.parts.faces, a.parts.zone, snap); };
+  const auto merge_thin = [&] { return merge_slivers(a.graph, a.parts.faces, a.parts.rock, snap); };
   if (auto faults = merge_all(model, a, work, framed, cut.report.merged, merge_thin)) {
     return *faults;
   }

@@ -87,12 +87,12 @@ double width_of(const PlanarGraph& g, const Faces& faces, int face) {
 }
 
 /// The rock face with which `face` shares the longest boundary, or -1.
-int longest_neighbour(const PlanarGraph& g, const Faces& faces, const std::vector<Zone>& zone,
+int longest_neighbour(const PlanarGraph& g, const Faces& faces, const std::vector<int>& rock,
                       int face) {
   std::vector<std::pair<int, double>> shared;
   for_each_half_edge(faces, face, [&](int h) {
     const int other = face_of(faces, h ^ 1);
-    if (other == face || zone[at(other)] != Zone::rock) return;
+    if (other == face || rock[at(other)] != rock[at(face)]) return;
     auto known =
         std::find_if(shared.begin(), shared.end(), [&](const auto& s) { return s.first == other; });
     if (known == shared.end()) known = shared.insert(shared.end(), {other, 0.0});
@@ -146,19 +146,19 @@ bool has_thin_face(const PlanarGraph& graph, const Faces& faces, double width) {
   return false;
 }
 
-int merge_slivers(PlanarGraph& graph, const Faces& faces, const std::vector<Zone>& zone,
+int merge_slivers(PlanarGraph& graph, const Faces& faces, const std::vector<int>& rock,
                   double snap) {
-  std::vector<int> parent(zone.size());
+  std::vector<int> parent(rock.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int i) {
     while (parent[at(i)] != i) i = parent[at(i)];
     return i;
   };
   int merged = 0;
-  for (std::size_t f = 1; f < zone.size(); ++f) {
+  for (std::size_t f = 1; f < rock.size(); ++f) {
     const int face = static_cast<int>(f);
-    if (zone[f] != Zone::rock || width_of(graph, faces, face) >= 2.0 * snap) continue;
-    const int into = longest_neighbour(graph, faces, zone, face);
+    if (rock[f] < 0 || width_of(graph, faces, face) >= 2.0 * snap) continue;
+    const int into = longest_neighbour(graph, faces, rock, face);
     if (into < 0 || root(into) == root(face)) continue;
     parent[at(root(face))] = root(into);
     pass_on_source(graph, faces, face, into, snap);

@@ -25,8 +25,9 @@ bool has_thin_face(const PlanarGraph& graph, const Faces& faces, double width);
 
 /// Removes the edges between a rock face thinner than 2 `snap` (2 area / perimeter) and the rock
 /// face with which it shares the longest boundary; of its two sides the source first in precedence
-/// stays. Returns how many faces went; if any, faces must be found anew.
-int merge_slivers(PlanarGraph& graph, const Faces& faces, const std::vector<Zone>& zone,
+/// stays. `rock`: as Partition has it. Returns how many faces went; if any, faces must be found
+/// anew.
+int merge_slivers(PlanarGraph& graph, const Faces& faces, const std::vector<int>& rock,
                   double snap);
 
 /// Sorts by centroid: y, then x; heights closer than `tolerance` to the next count as equal, so

@@ -56,6 +56,12 @@ Result<Partition> partition(const Model& model, const PlanarGraph& graph, Cycles
                    "move it into the outline or leave it out"};
     }
   }
+  p.rock.assign(p.zone.size(), -1);
+  for (std::size_t f = 0; f < p.zone.size(); ++f) {
+    if (p.zone[f] == Zone::rock) p.rock[f] = 0;
+    if (p.opening[f] == none) continue;
+    if (model.openings[static_cast<std::size_t>(p.opening[f])].staged) p.rock[f] = 1 + p.opening[f];
+  }
   return p;
 }
 

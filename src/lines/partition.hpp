@@ -16,6 +16,8 @@ struct Partition {
   Faces faces;
   std::vector<Zone> zone;
   std::vector<Index> opening;  ///< of lowest number; none outside openings
+  std::vector<int> rock;       ///< -1 where there is no rock; 0 in rock, 1 + opening in that of an
+                               ///< opening that a stage takes out: what is merged is of one number
 };
 
 /// Faces found and laid to a zone. `framed`: the outline is but a box round lines that bound the

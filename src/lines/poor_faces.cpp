@@ -104,7 +104,7 @@ class Merger {
     const Index own = region(face);
     for_each_half_edge(faces(), face, [&](int h) {
       const int other = face_of(faces(), h ^ 1);
-      if (other == face || parts_.zone[at(other)] != Zone::rock) return;
+      if (other == face || parts_.rock[at(other)] != parts_.rock[at(face)]) return;
       shared[other] += norm(along(g_, h));
     });
     int best = -1;
@@ -132,7 +132,7 @@ int merge_poor_faces(PlanarGraph& graph, const Partition& parts, const Quality& 
   };
   std::vector<Poor> poor;
   for (int f = 1; f < static_cast<int>(parts.zone.size()); ++f) {
-    if (parts.zone[at(f)] != Zone::rock) continue;
+    if (parts.rock[at(f)] < 0) continue;
     const int into = merger.target(f);
     if (into >= 0) poor.push_back({face_area(graph, parts.faces, f), f, into});
   }

@@ -35,7 +35,7 @@ const std::vector<TypeKey>& type_keys() {
        true,
        "a traction such as traction = [0.0, -1e5], or an [initial_stress]"},
       {"velocity", {T::velocity}, true, "a velocity such as velocity = [0.01, 0.0]"},
-      {"wave_speeds", {T::viscous}, false, ""},
+      {"wave_speeds", {T::viscous, T::free_field}, false, ""},
       {"history", {T::stress, T::velocity}, false, ""},
   };
   return keys;
@@ -67,6 +67,23 @@ void check_type(const Value* node, const Boundary& boundary, Reading& reading) {
     add_fault(reading, find(node, "type")->place, boundary.where.key + ".type",
               fmt::format("\"{}\" does not go with method = \"dda\"", name_of(boundary.type)),
               "use method = \"edda\", or another type");
+  }
+}
+
+/// Columns stand upright.
+void check_upright(const Value* node, const Boundary& boundary, Reading& reading) {
+  if (boundary.type != BoundaryType::free_field) return;
+  const auto refuse = [&](const char* key) {
+    add_fault(reading, find(node, key)->place, boundary.where.key + "." + key,
+              "a free-field boundary stands upright",
+              "give sides left or right, or an upright line");
+  };
+  for (const std::string& side : boundary.sides) {
+    if (side != "left" && side != "right") return refuse("sides");
+  }
+  for (const Vec2 p : boundary.along) {
+    const double height = std::abs(boundary.along.front().y - boundary.along.back().y);
+    if (std::abs(p.x - boundary.along.front().x) > 1e-6 * height) return refuse("along");
   }
 }
 
@@ -206,6 +223,7 @@ void complete_boundaries(const Value& root, Reading& reading) {
     if (!is_table(node)) continue;
     if (!given(node, "stiffness")) boundary.stiffness = reading.model.contact.normal_stiffness;
     check_place(node, boundary, reading);
+    check_upright(node, boundary, reading);
     check_type(node, boundary, reading);
     read_history(node, boundary.where.key, boundary.history, boundary.factor, reading);
   }

@@ -71,11 +71,11 @@ constexpr std::array boundary_keys{
     Key{"name", at<&Boundary::name>, naming, otherwise("none"), "What --set and messages call the boundary."},
     Key{"sides", at<&Boundary::sides>, words_of(side_names), otherwise("none; either this or along"), "Sides of the box round the model."},
     Key{"along", at<&Boundary::along>, polyline, otherwise("none; either this or sides"), "The polyline that the boundary follows."},
-    Key{"type", at<&Boundary::type>, choice, initial, "Springs in x and y (fixed) or only across the line (roller) on each block vertex on it; springs drawn along at a velocity; dashpots that let waves out (viscous); a traction on the edges (stress)."},
+    Key{"type", at<&Boundary::type>, choice, initial, "Springs in x and y (fixed) or only across the line (roller) on each block vertex on it; springs drawn along at a velocity; dashpots that let waves out (viscous); a traction on the edges (stress); upright sides that an earthquake moves as the ground beyond them (free-field)."},
     Key{"stiffness", at<&Boundary::stiffness>, number(D::stiffness, above(0)), otherwise("contact.normal_stiffness"), "Types fixed, roller and velocity: spring per block vertex."},
     Key{"traction", at<&Boundary::traction>, shape(Kind::point, D::stress), otherwise("that of [initial_stress]; required by type stress without one"), "Type stress: traction on the edges along the line, of constant direction."},
     Key{"velocity", at<&Boundary::velocity>, shape(Kind::point, D::velocity), otherwise("none; required by type velocity"), "Type velocity: how fast the vertices on the line are moved."},
-    Key{"wave_speeds", at<&Boundary::wave_speeds>, shape(Kind::point, D::velocity, above(0)), otherwise("those of the unjointed rock of each block"), "Type viscous: speeds of P and S waves in the jointed rock."},
+    Key{"wave_speeds", at<&Boundary::wave_speeds>, shape(Kind::point, D::velocity, above(0)), otherwise("those of the unjointed rock of each block"), "Types viscous and free-field: speeds of P and S waves in the jointed rock."},
     Key{"history", at<&Boundary::history>, file, otherwise("constant from the start"), "Types stress and velocity: CSV file of time and factor, linear between its rows."},
 };
 

@@ -25,7 +25,7 @@ enum class StageEnd { time, equilibrium };
 enum class StageJoints { as_given, glued };
 enum class StageMasses { as_given, uniform_step };
 enum class FallingBlocks { report, wait };
-enum class BoundaryType { fixed, roller, viscous, stress, velocity };
+enum class BoundaryType { fixed, roller, viscous, stress, velocity, free_field };
 enum class ShakingKind { base, inertia, upgoing };
 enum class BoltType { grouted, end };
 enum class SurfaceKind { level, outline };

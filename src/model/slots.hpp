@@ -26,8 +26,8 @@ inline constexpr std::array<std::string_view, 4> shape_names{"arch", "circle", "
                                                              "horseshoe"};
 inline constexpr std::array<std::string_view, 6> unit_names{"m", "mm", "cm", "km", "ft", "in"};
 inline constexpr std::array<std::string_view, 3> action_names{"merge", "report", "error"};
-inline constexpr std::array<std::string_view, 5> boundary_names{"fixed", "roller", "viscous",
-                                                                "stress", "velocity"};
+inline constexpr std::array<std::string_view, 6> boundary_names{"fixed",  "roller",   "viscous",
+                                                                "stress", "velocity", "free-field"};
 inline constexpr std::array<std::string_view, 3> shaking_names{"base", "inertia", "upgoing"};
 inline constexpr std::array<std::string_view, 2> bolt_names{"grouted", "end"};
 inline constexpr std::array<std::string_view, 2> surface_names{"level", "outline"};

@@ -1,6 +1,8 @@
 // What a checkpoint holds of the attachments: the ground and what is driven with it, and bolts.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -171,6 +173,17 @@ void list_ground(Archive& a, Simulation& s) {
   list_points(a, "ground", ground);
   list_points(a, "springs.shift", s.springs.shift);
   list_points(a, "springs.shift_1", s.springs.shift_1);
+  for (std::size_t q = 0; q < s.free_field.columns.size(); ++q) {
+    FreeFieldColumn& column = s.free_field.columns[q];
+    const std::size_t nodes = column.moved.size();
+    list_points(a, fmt::format("free_field.{}.moved", q), column.moved);
+    list_points(a, fmt::format("free_field.{}.velocity", q), column.velocity);
+    if constexpr (Archive::loads) {
+      if (column.moved.size() != nodes || column.velocity.size() != nodes) {
+        return a.refuse("free-field columns do not fit the model");
+      }
+    }
+  }
   a("springs.start_x", s.springs.start_x);
   a("springs.start_y", s.springs.start_y);
   Spells& spells = s.loads.spells;

@@ -128,6 +128,7 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   bond_contacts(s.contacts, s.blocks, s.state, s.pose, s.laws);
   s.close_contacts();
   s.set_limit();
+  s.free_field = attach_free_field(s.model, s.blocks, s.dashpots, s.step_limit);
   return s;
 }
 
@@ -156,9 +157,9 @@ void Simulation::start(double first_event) {
   look_back();
   evaluate_contacts(contacts, blocks, laws, h, damping.contact);
   gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity, acting());
-  references_ = dashpot_references({});
+  hold_ = dashpot_hold({}, free_field.columns);
   add_dashpots(forces, on_dashpots, dashpots, blocks, state, state.vx, state.vy,
-               {0.0, 0.0, references_}, 0, blocks.size());
+               {0.0, 0.0, hold_.reference, hold_.push}, 0, blocks.size());
   start_velocities(state, blocks, forces.x, forces.y, h, damping.mass);
   look_back();
 }
@@ -243,7 +244,7 @@ bool Simulation::move(double h_old, double h_new, const LoadsNow* not_yet_gather
   drive_ground(h_old, h_new);
   if (not_yet_gathered == nullptr) remove_dashpots(forces, on_dashpots, dashpots);
   const double h = 0.5 * (h_old + h_new);
-  const DashpotStep dashing{h, 0.5 * damping.mass * h, references_};
+  const DashpotStep dashing{h, 0.5 * damping.mass * h, hold_.reference, hold_.push};
   largest_.assign((blocks.size() + blocks_at_once - 1) / blocks_at_once, 0.0);
   parallel_chunks(blocks.size(), blocks_at_once,
                   [&](std::size_t c, std::size_t begin, std::size_t end) {

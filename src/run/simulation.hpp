@@ -10,6 +10,7 @@
 #include "attachments/bolts.hpp"
 #include "attachments/boundary_springs.hpp"
 #include "attachments/dashpots.hpp"
+#include "attachments/free_field.hpp"
 #include "attachments/ground.hpp"
 #include "attachments/loads.hpp"
 #include "base/fault.hpp"
@@ -52,6 +53,7 @@ struct Simulation {
   BoundarySprings springs;
   Loads loads;
   Dashpots dashpots;
+  FreeField free_field;
 
   Bolts bolts;
   State state;
@@ -117,9 +119,17 @@ struct Simulation {
 
   /// Loads and bolts as they act at n.
   LoadsNow acting() const;
-  /// Velocity at n of what dashpots are held to, [rows of Model::boundaries] m/s: the ground where
-  /// it moves at `ground_velocity`, and twice that of a wave that comes up.
-  std::vector<Vec2> dashpot_references(Vec2 ground_velocity) const;
+  /// What dashpots are held to at n, and what pushes besides, [points]: the ground where it moves
+  /// at `ground_velocity`, and twice that of a wave that comes up; beside free-field columns these,
+  /// at the mean of their velocities now and in `next`, and their stress.
+  struct DashpotHold {
+    std::vector<Vec2> reference;  ///< m/s
+    std::vector<Vec2> push;       ///< N; empty: none
+  };
+  DashpotHold dashpot_hold(Vec2 ground_velocity, const std::vector<FreeFieldColumn>& next) const;
+  /// Free-field columns a step further.
+  std::vector<FreeFieldColumn> next_free_field(Vec2 ground_velocity, double h_old,
+                                               double h_new) const;
   /// Velocity of the ground at n, m/s.
   Vec2 ground_velocity() const;
 
@@ -141,6 +151,7 @@ struct Simulation {
   void search(double reach);
   void search_if_due();
   bool move(double h_old, double h_new, const LoadsNow* not_yet_gathered);
+  Vec2 twice_incoming(Index boundary) const;
   void start_ground(double h);
   void drive_ground(double h_old, double h_new);
   void hold_ground();
@@ -171,7 +182,8 @@ struct Simulation {
   // Of one step, kept so that it allocates nothing.
   Nodes old_vx_, old_vy_;  ///< velocities before it, and where the next ones will be
   GroundStep next_ground_;
-  std::vector<Vec2> references_;  ///< [rows of Model::boundaries] of the dashpots, m/s
+  DashpotHold hold_;
+  std::vector<FreeFieldColumn> next_columns_;
   std::vector<double> largest_;
   SwitchingScratch switching_;
   TransitionScratch transitions_;

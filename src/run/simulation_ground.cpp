@@ -1,5 +1,7 @@
 // What drives and damps the model at its borders, in the explicit method: a ground that shakes,
 // boundaries that are moved, waves that leave and come in.
+#include <algorithm>
+
 #include "base/parallel.hpp"
 #include "forces/nodal_forces.hpp"
 #include "model/accelerogram.hpp"
@@ -18,16 +20,56 @@ Vec2 Simulation::ground_velocity() const {
          (0.5 * state.step) * ground_acceleration(model, loads.spells, state.time);
 }
 
-std::vector<Vec2> Simulation::dashpot_references(Vec2 of_ground) const {
-  std::vector<Vec2> reference(model.boundaries.size(), of_ground);
+/// 2 v of the waves that come up through a boundary, m/s; `none`: of all.
+Vec2 Simulation::twice_incoming(Index boundary) const {
+  Vec2 sum;
   for (std::size_t q = 0; q < model.shakings.size(); ++q) {
     const Shaking& shaking = model.shakings[q];
     const Spell& spell = loads.spells.shakings[q];
     if (shaking.apply != ShakingKind::upgoing || !spell.acts()) continue;
-    reference[static_cast<std::size_t>(shaking.enters)] +=
-        2.0 * velocity_at(shaking, state.time - spell.since);
+    if (boundary != none && shaking.enters != boundary) continue;
+    sum += 2.0 * velocity_at(shaking, state.time - spell.since);
   }
-  return reference;
+  return sum;
+}
+
+Simulation::DashpotHold Simulation::dashpot_hold(Vec2 of_ground,
+                                                 const std::vector<FreeFieldColumn>& next) const {
+  DashpotHold hold;
+  const std::size_t points = dashpots.points.size();
+  std::vector<Vec2> of_row(model.boundaries.size());
+  for (std::size_t q = 0; q < of_row.size(); ++q) {
+    of_row[q] = of_ground + twice_incoming(static_cast<Index>(q));
+  }
+  hold.reference.resize(points);
+  if (!free_field.empty()) hold.push.resize(points);
+  for (std::size_t p = 0; p < points; ++p) {
+    const Index q = free_field.empty() ? none : free_field.column[p];
+    if (q == none) {
+      hold.reference[p] = of_row[static_cast<std::size_t>(dashpots.points[p].boundary)];
+      continue;
+    }
+    const FreeFieldColumn& now = free_field.columns[static_cast<std::size_t>(q)];
+    const FreeFieldColumn& then = next[static_cast<std::size_t>(q)];
+    const double y = free_field.height[p];
+    hold.reference[p] = 0.5 * (now.at(now.velocity, y) + then.at(then.velocity, y));
+    hold.push[p] = free_field.face[p] * now.traction(now.moved, y);
+  }
+  return hold;
+}
+
+std::vector<FreeFieldColumn> Simulation::next_free_field(Vec2 of_ground, double h_old,
+                                                         double h_new) const {
+  if (free_field.empty()) return {};
+  FreeFieldDrive drive;
+  drive.lets_waves_in =
+      std::any_of(model.shakings.begin(), model.shakings.end(),
+                  [](const Shaking& s) { return s.apply == ShakingKind::upgoing; });
+  drive.twice_incoming = twice_incoming(none);
+  drive.ground = of_ground;
+  drive.frame = loads_at(model, loads, state.time).frame;
+  drive.mass_damping = damping.mass;
+  return next_columns(free_field.columns, drive, h_old, h_new);
 }
 
 /// Half a step back, as the blocks: v_{-1/2} = -a_0 h/2. Looks back at where it was, too.
@@ -46,12 +88,15 @@ void Simulation::start_ground(double h) {
 
 void Simulation::drive_ground(double h_old, double h_new) {
   if (!ground.moves) {
-    if (!dashpots.points.empty()) references_ = dashpot_references({});
+    if (dashpots.points.empty()) return;
+    next_columns_ = next_free_field({}, h_old, h_new);
+    hold_ = dashpot_hold({}, next_columns_);
     return;
   }
   next_ground_ = next_ground(model, loads.spells, ground, springs, state.time, h_old, h_new);
   place_held(blocks, ground, next_ground_.shift, state.x, state.y);
-  references_ = dashpot_references(0.5 * (ground.velocity + next_ground_.velocity));
+  next_columns_ = next_free_field(next_ground_.velocity, h_old, h_new);
+  hold_ = dashpot_hold(0.5 * (ground.velocity + next_ground_.velocity), next_columns_);
 }
 
 void Simulation::hold_ground() {
@@ -60,7 +105,8 @@ void Simulation::hold_ground() {
 
 /// Work in the leapfrog's terms, f_n . (x_{n+1} - x_{n-1})/2. A dashpot between a block that moves
 /// by u and a ground that moves by r dissipates -f . (u - r), and is given f . r. Held blocks and
-/// springs that are moved by r against the force f that they bear are given -f . r.
+/// springs that are moved by r against the force f that they bear are given -f . r. What columns
+/// push with is work from outside.
 void Simulation::book_boundaries(double h_old, double h_new) {
   for (std::size_t p = 0; p < dashpots.points.size(); ++p) {
     const Dashpot& at = dashpots.points[p];
@@ -71,11 +117,12 @@ void Simulation::book_boundaries(double h_old, double h_new) {
       const Vec2 after{state.vx[k][at.block], state.vy[k][at.block]};
       moved += (0.5 * at.weight[k]) * (h_old * before + h_new * after);
     }
-    const Vec2 carried =
-        (0.5 * (h_old + h_new)) * references_[static_cast<std::size_t>(at.boundary)];
-    damping_work.joules[at.block] -= dot(on_dashpots[p], moved - carried);
-    external_work += dot(on_dashpots[p], carried);
+    const Vec2 carried = (0.5 * (h_old + h_new)) * hold_.reference[p];
+    const Vec2 push = hold_.push.empty() ? Vec2{} : hold_.push[p];
+    damping_work.joules[at.block] -= dot(on_dashpots[p] - push, moved - carried);
+    external_work += dot(on_dashpots[p] - push, carried) + dot(push, moved);
   }
+  free_field.columns.swap(next_columns_);
   if (!ground.moves) return;
   for (std::size_t q = 0; q < springs.size(); ++q) {
     const auto row = static_cast<std::size_t>(springs.boundary[q]);

@@ -69,6 +69,10 @@ TEST(BadModel, Waters) {
 TEST(BadModel, Boundaries) {
   const std::string at = "[[boundary]]\nsides = [\"left\"]\n";
   for (const Bad& bad : {
+           Bad{"[[boundary]]\nsides = [\"left\", \"top\"]\ntype = \"free-field\"\n", 43,
+               "boundary.1.sides", "stands upright"},
+           Bad{"[[boundary]]\nalong = [[0, 0], [1, 9]]\ntype = \"free-field\"\n", 43,
+               "boundary.1.along", "stands upright"},
            Bad{at + "type = \"viscus\"\n", 44, "boundary.1.type", "did you mean \"viscous\""},
            Bad{at + "type = \"stress\"\n", 42, "boundary.1.traction", "is missing"},
            Bad{at + "type = \"velocity\"\n", 42, "boundary.1.velocity", "is missing"},

@@ -126,5 +126,48 @@ TEST(Excavation, WorksWithTheImplicitMethod) {
   EXPECT_NEAR(-risen(r.ready.sim), 0.5 * 9.81 * 0.05 * 0.05, 2e-4);
 }
 
+/// Joints that run close by the outline of rock that is to be taken out leave slivers on either
+/// side: each is joined to rock on its own side, and what stays is what stays.
+TEST(Excavation, SliversAreJoinedOnTheirOwnSide) {
+  const std::string model = R"(
+[materials.rock]
+density = 2500.0
+young = 1e9
+poisson = 0.2
+[joints.j]
+friction_angle = 25
+[domain]
+outline = [[0, 0], [6, 0], [6, 5], [0, 5]]
+[[trace]]
+points = [[0, 1.05], [6, 1.05]]
+[[trace]]
+points = [[1.95, 0], [1.95, 5]]
+[[opening]]
+name = "hole"
+polygon = [[2, 1], [4, 1], [4, 2.5], [2, 2.5]]
+[[stage]]
+duration = 0.01
+[[stage]]
+duration = 0.01
+excavate = ["hole"]
+[quality]
+min_edge = 0.1
+action = ")";
+  const PreparedRun joined = prepared(model + "merge\"\n"), as_cut = prepared(model + "report\"\n");
+  EXPECT_LT(joined.sim.blocks.size(), as_cut.sim.blocks.size());
+  for (const PreparedRun* run : {&joined, &as_cut}) {
+    const BlockSet& b = run->sim.blocks;
+    double inside = 0.0, outside = 0.0;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      (b.opening[i] == none ? outside : inside) += b.area[i];
+    }
+    EXPECT_NEAR(inside, 3.0, 1e-9);
+    EXPECT_NEAR(outside, 27.0, 1e-9);
+  }
+  for (std::size_t i = 0; i < joined.sim.blocks.size(); ++i) {
+    EXPECT_GT(joined.sim.blocks.area[i], 0.2);
+  }
+}
+
 }  // namespace
 }  // namespace edda

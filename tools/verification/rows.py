@@ -164,6 +164,10 @@ ROWS = (
         "A block of 2 x 2 m hangs on an end-anchored bolt of 30 mm and 4 m, spacing 2 m, put in with no tension or with"
         " 40 kN.",
         "At rest the bolt is longer by (W - T0) L/EA, as the model has them, that is per metre of thickness."),
+    Row(36, "Ground beyond the sides",
+        "A square of 24 m of rock in blocks of 3 m that hold together, free-field sides, a viscous base; a sine of"
+        " acceleration of 6 Hz comes up through it.",
+        "The ground goes on for ever, so every point of the surface moves by twice v = A/w (1 - cos w t)."),
     Row(40, "Ground that stays as it is",
         "20 x 20 m of jointed rock under an initial stress, by tensor and gradient or by k0 and the weight above, uncut by any"
         " opening, undamped: oblique joint sets, traces that end in the rock, Voronoi polygons, layers, water, boundaries of"

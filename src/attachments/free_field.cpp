@@ -1,0 +1,167 @@
+#include "attachments/free_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "attachments/edges_on_line.hpp"
+
+namespace edda {
+namespace {
+
+double p_modulus(const FreeFieldColumn& c, std::size_t k) {
+  return c.lambda[k] + 2.0 * c.mu[k];
+}
+
+/// Stress across the column in a cell, s_xy and s_yy.
+Vec2 across(const FreeFieldColumn& c, const std::vector<Vec2>& u, std::size_t k) {
+  const Vec2 strain = (u[k + 1] - u[k]) / c.cell;
+  return {c.mu[k] * strain.x, p_modulus(c, k) * strain.y};
+}
+
+/// What a side is made of, piece by piece, and how far it reaches.
+struct Side {
+  double bottom = 0.0, top = 0.0, shortest = 0.0;
+  std::vector<std::pair<double, Id>> blocks;  ///< height of a point, its block
+};
+
+}  // namespace
+
+std::size_t FreeFieldColumn::cell_at(double y) const {
+  const double place = std::floor((y - bottom) / cell);
+  const auto last = static_cast<double>(density.size() - 1);
+  return static_cast<std::size_t>(std::clamp(place, 0.0, last));
+}
+
+Vec2 FreeFieldColumn::at(const std::vector<Vec2>& nodes, double y) const {
+  const std::size_t k = cell_at(y);
+  const double s = (y - bottom) / cell - static_cast<double>(k);
+  return nodes[k] + s * (nodes[k + 1] - nodes[k]);
+}
+
+Vec2 FreeFieldColumn::traction(const std::vector<Vec2>& nodes, double y) const {
+  const std::size_t k = cell_at(y);
+  const Vec2 strain = (nodes[k + 1] - nodes[k]) / cell;
+  return outward * Vec2{lambda[k] * strain.y, mu[k] * strain.x};
+}
+
+FreeField attach_free_field(const Model& model, const BlockSet& b, const Dashpots& dashpots,
+                            double step) {
+  FreeField field;
+  field.column.assign(dashpots.points.size(), none);
+  field.height.assign(dashpots.points.size(), 0.0);
+  field.face.assign(dashpots.points.size(), 0.0);
+  std::map<std::pair<Index, int>, Side> sides;  // by boundary, left before right
+  std::vector<std::pair<Index, int>> side_of(dashpots.points.size());
+  for (std::size_t p = 0; p < dashpots.points.size(); ++p) {
+    const Dashpot& at = dashpots.points[p];
+    if (model.boundaries[static_cast<std::size_t>(at.boundary)].type != BoundaryType::free_field) {
+      continue;
+    }
+    double y = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) y += at.weight[k] * b.node_y[k][at.block];
+    // Two points stand for each piece of a face, 1/sqrt(3) of its length apart.
+    const double reach = 0.5 * at.length * (1.0 + 1.0 / std::sqrt(3.0));
+    const std::pair<Index, int> key{at.boundary, at.normal.x > 0.0 ? 1 : 0};
+    const auto [found, is_new] = sides.try_emplace(key);
+    Side& side = found->second;
+    const double low = y - reach, high = y + reach;
+    side.bottom = is_new ? low : std::min(side.bottom, low);
+    side.top = is_new ? high : std::max(side.top, high);
+    side.shortest = is_new ? 2.0 * at.length : std::min(side.shortest, 2.0 * at.length);
+    side.blocks.emplace_back(y, at.block);
+    side_of[p] = key;
+    field.height[p] = y;
+    field.face[p] = at.length * b.thickness;
+  }
+  std::map<std::pair<Index, int>, Index> number;
+  for (auto& [key, side] : sides) {
+    std::sort(side.blocks.begin(), side.blocks.end());
+    FreeFieldColumn c;
+    c.boundary = key.first;
+    c.outward = key.second == 1 ? 1.0 : -1.0;
+    c.bottom = side.bottom;
+    const double height = side.top - side.bottom;
+    double fastest = 0.0;
+    for (const auto& [y, i] : side.blocks) {
+      const double density = b.mass[i] / b.volume[i];
+      fastest = std::max(fastest, std::sqrt((b.lame_lambda[i] + 2.0 * b.lame_mu[i]) / density));
+    }
+    constexpr double margin = 2.0, most = 2000.0;  // steps may grow later
+    const double least = std::isfinite(step) ? margin * fastest * step : 0.0;
+    const double wanted = std::max({side.shortest, least, height / most});
+    const double cells = std::max(1.0, std::floor(height / wanted));
+    c.cell = height / cells;
+    const auto nodes = static_cast<std::size_t>(cells) + 1;
+    for (std::size_t k = 0; k + 1 < nodes; ++k) {
+      const double middle = c.bottom + (static_cast<double>(k) + 0.5) * c.cell;
+      const auto nearest = std::min_element(
+          side.blocks.begin(), side.blocks.end(), [&](const auto& p, const auto& q) {
+            return std::abs(p.first - middle) < std::abs(q.first - middle);
+          });
+      const Id i = nearest->second;
+      c.density.push_back(b.mass[i] / b.volume[i]);
+      const Boundary& boundary = model.boundaries[static_cast<std::size_t>(key.first)];
+      if (boundary.wave_speeds) {
+        const Vec2 speed = *boundary.wave_speeds;
+        c.mu.push_back(c.density.back() * speed.y * speed.y);
+        c.lambda.push_back(c.density.back() * speed.x * speed.x - 2.0 * c.mu.back());
+      } else {
+        c.mu.push_back(b.lame_mu[i]);
+        c.lambda.push_back(b.lame_lambda[i]);
+      }
+    }
+    c.moved.assign(nodes, {});
+    c.velocity.assign(nodes, {});
+    number[key] = static_cast<Index>(field.columns.size());
+    field.columns.push_back(std::move(c));
+  }
+  for (std::size_t p = 0; p < dashpots.points.size(); ++p) {
+    if (field.face[p] > 0.0) field.column[p] = number[side_of[p]];
+  }
+  return field;
+}
+
+std::vector<FreeFieldColumn> next_columns(const std::vector<FreeFieldColumn>& columns,
+                                          const FreeFieldDrive& drive, double h_old, double h_new) {
+  std::vector<FreeFieldColumn> next = columns;
+  const double h = 0.5 * (h_old + h_new), drag = 0.5 * drive.mass_damping * h;
+  for (std::size_t q = 0; q < columns.size(); ++q) {
+    const FreeFieldColumn& c = columns[q];
+    FreeFieldColumn& to = next[q];
+    const std::size_t top = c.density.size();
+    for (std::size_t k = 0; k <= top; ++k) {
+      Vec2 force;
+      double mass = 0.0, damper_x = 0.0, damper_y = 0.0;
+      if (k < top) {
+        force += across(c, c.moved, k);
+        mass += 0.5 * c.density[k] * c.cell;
+      }
+      if (k > 0) {
+        force -= across(c, c.moved, k - 1);
+        mass += 0.5 * c.density[k - 1] * c.cell;
+      }
+      if (k == 0) {
+        if (!drive.lets_waves_in) {
+          to.velocity[0] = drive.ground;
+          to.moved[0] += h_new * drive.ground;
+          continue;
+        }
+        damper_x = std::sqrt(c.density[0] * c.mu[0]);
+        damper_y = std::sqrt(c.density[0] * p_modulus(c, 0));
+        force += Vec2{damper_x * drive.twice_incoming.x, damper_y * drive.twice_incoming.y};
+      }
+      force -= mass * drive.frame;
+      const Vec2 v = c.velocity[k];
+      const auto kicked = [&](double before, double f, double damper) {
+        const double half = 0.5 * h * damper / mass;
+        return ((1.0 - drag - half) * before + h * f / mass) / (1.0 + drag + half);
+      };
+      to.velocity[k] = {kicked(v.x, force.x, damper_x), kicked(v.y, force.y, damper_y)};
+      to.moved[k] += h_new * to.velocity[k];
+    }
+  }
+  return next;
+}
+
+}  // namespace edda

@@ -1,0 +1,102 @@
+"""Every built-in model, run as its first lines say: what it is there to show, it shows.
+Usage: examples_test.py EDDA"""
+import csv
+import json
+import math
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+EDDA = pathlib.Path(sys.argv.pop(1)).resolve()
+
+
+class Examples(unittest.TestCase):
+    def setUp(self):
+        self.dir = pathlib.Path(tempfile.mkdtemp(prefix="edda-examples-"))
+
+    def tearDown(self):
+        shutil.rmtree(self.dir)
+
+    def edda(self, *args):
+        return subprocess.run([EDDA, *args], cwd=self.dir, capture_output=True, text=True, check=False)
+
+    def ran(self, name, *args, out=None):
+        """Writes the model if it is not there yet, runs it; its summary and folder."""
+        out = out or name
+        if not (self.dir / f"{name}.toml").exists():
+            self.assertEqual(self.edda("example", name).returncode, 0)
+        done = self.edda("run", f"{name}.toml", "-o", out, "--quiet", *args)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads((self.dir / out / "summary.json").read_text()), self.dir / out
+
+    def rows(self, path):
+        with open(path, newline="") as file:
+            return list(csv.DictReader(file))
+
+    def moved(self, folder, name):
+        row = self.rows(folder / "history.csv")[-1]
+        return float(row[name + ".ux"]), float(row[name + ".uy"])
+
+    def test_arch_stands(self):
+        summary, _ = self.ran("arch")
+        self.assertEqual(summary["status"], "completed")
+        self.assertLess(summary["energy"]["kinetic"], 1.0)
+
+    def test_wall_is_hit(self):
+        summary, folder = self.ran("wall")
+        self.assertEqual(summary["status"], "completed")
+        self.assertLess(abs(summary["energy"]["drift"]), 1e-4)
+        self.assertGreater(max(math.hypot(float(b["ux"]), float(b["uy"])) for b in self.rows(folder / "blocks.csv")), 0.05)
+
+    def test_roof_wedge_hangs_on_its_bolts(self):
+        summary, folder = self.ran("roof-wedge")
+        self.assertEqual(summary["status"], "equilibrium")
+        # Smooth flanks bear nothing: each bolt has half the weight of 4 x 2.4/2 m2, 1.5 m apart.
+        force = 0.5 * 4.8 * 27e3 * 1.5
+        for row in self.rows(folder / "bolts.csv")[-4:]:
+            self.assertLess(abs(float(row["axial_force"]) / force - 1.0), 1e-3)
+        loose, folder = self.ran("roof-wedge", "--set", "bolt=[]", out="loose")
+        self.assertEqual(loose["status"], "collapsed")
+        self.assertLess(self.moved(folder, "wedge")[1], -1.0)
+
+    def test_newmark_slides_by_the_closed_form(self):
+        _, folder = self.ran("newmark")
+        slid = math.hypot(*self.moved(folder, "block"))
+        self.assertLess(abs(slid / (4 * 0.078405) - 1.0), 0.01)
+        _, folder = self.ran("newmark", "--set", "shaking.quake.scale=0.3", out="weak")
+        self.assertLess(math.hypot(*self.moved(folder, "block")), 1e-3)
+
+    def test_dam_slides_when_water_is_high_enough(self):
+        _, folder = self.ran("dam")
+        stages = self.rows(folder / "stages.csv")
+        start, rows = float(stages[0]["end"]), self.rows(folder / "history.csv")
+        # gw h^2/2 = (W - U) tan 28, U under the part of the base that is wet; h rises by 11.9 m in 9 s.
+        weight, t = 72 * 24e3, math.tan(math.radians(28))
+        limit = math.sqrt(weight * t / (9810 / 2 * (1 + 10 / 11.9 * t)))
+        gone = next(float(r["time"]) - start for r in rows if float(r["crest.ux"]) > 0.005)
+        self.assertLess(abs(gone * 11.9 / 9 / limit - 1.0), 0.05)
+        _, folder = self.ran("dam", "--set", "joints.rock.friction_angle=35", out="rough")
+        self.assertLess(self.moved(folder, "crest")[0], 0.005)
+
+    def test_rockfall_comes_to_rest(self):
+        summary, folder = self.ran("rockfall")
+        self.assertLess(summary["energy"]["kinetic"], 1.0)
+        heights = [float(b["y"]) for b in self.rows(folder / "blocks.csv") if b["name"]]
+        for y in heights:
+            self.assertTrue(any(0.2 < y - level < 1.2 for level in (0, 8, 16, 24)), heights)
+        self.assertLess(min(heights), 20)
+
+    def test_cavern_stands_an_earthquake(self):
+        summary, folder = self.ran("quake-cavern")
+        self.assertEqual(summary["status"], "completed")
+        self.assertLess(abs(summary["energy"]["drift"]), 1e-4)
+        history = [r for r in self.rows(folder / "history.csv")]
+        peak = {m: max(abs(float(r[m + ".vx"])) for r in history) for m in ("base", "surface")}
+        self.assertGreater(peak["surface"], 1.2 * peak["base"])
+
+
+if __name__ == "__main__":
+    unittest.main()
