@@ -146,16 +146,19 @@ inline Mass test_mass(double size) {
 
 /// The opening cut at once from rock under stress, and left to come to rest.
 inline Simulation opening(double size) {
+  // Blocks further out are twice as large for their distance.
+  const double angle = 2.0 * size / fine_to;
+  const int corners = 4 * static_cast<int>(std::lround(0.5 * std::numbers::pi / angle));
+  const int rings = static_cast<int>(std::lround(std::log(far / fine_to) / angle));
   std::string toml =
-      mass_of(size) + "[domain]\noutline = " + ring(far, 32) +
-      "\n[voronoi]\nsize = " + number(size) + "\nseed = 3\nregion = " + ring(fine_to, 32) +
+      mass_of(size) + "[domain]\noutline = " + ring(far, corners) +
+      "\n[voronoi]\nsize = " + number(size) + "\nseed = 3\nregion = " + ring(fine_to, corners) +
       "\n[[opening]]\nname = 'hole'\nshape = { kind = 'circle', at = [0, 0], width = " +
       number(2.0 * radius) + ", segments = 64 }\n[initial_stress]\nstress = [" + number(-px) +
-      ", " + number(-py) + ", 0]\n[[boundary]]\nalong = " + closed_ring(far, 32) +
+      ", " + number(-py) + ", 0]\n[[boundary]]\nalong = " + closed_ring(far, corners) +
       "\ntype = 'fixed'\n" + until_rest(1e-4, in_steps_for(size));
   // Further out, blocks grow with the distance, and their joints give as much of it as the small
   // ones do: a law for each ring.
-  constexpr int rings = 7;
   const double growth = std::pow(far / fine_to, 1.0 / rings);
   std::string laws;
   double r = fine_to;
@@ -165,10 +168,10 @@ inline Simulation opening(double size) {
     laws += "[joints." + law + "]\ntype = 'glued'\nkn = " + number(kn) +
             "\nks = " + number(0.4 * kn) + "\n";
     if (k > 0) {
-      toml += "[[trace]]\njoint = '" + law + "'\npoints = " + closed_ring(r, 32) + "\n";
+      toml += "[[trace]]\njoint = '" + law + "'\npoints = " + closed_ring(r, corners) + "\n";
     }
-    for (int q = 0; q < 32; ++q) {
-      const double t = 2.0 * std::numbers::pi * q / 32, c = std::cos(t), n = std::sin(t);
+    for (int q = 0; q < corners; ++q) {
+      const double t = 2.0 * std::numbers::pi * q / corners, c = std::cos(t), n = std::sin(t);
       toml += "[[trace]]\njoint = '" + law + "'\npoints = [[" + number(r * c) + ", " +
               number(r * n) + "], [" + number(r * growth * c) + ", " + number(r * growth * n) +
               "]]\n";
@@ -207,10 +210,12 @@ class RingFit {
   std::array<double, 4> sum_{};
 };
 
-/// The largest errors outside the first ring of blocks.
+/// Errors outside the first ring of blocks: the largest, of the profiles along x and y over the
+/// exact hoop stress; and the root of the mean of their squares.
 struct Errors {
-  double radial = 0.0, hoop = 0.0;  ///< of the profiles along x and y, over the exact hoop stress
-  double closure = 0.0;             ///< of the wall along x and along y, over the exact one
+  double radial = 0.0, hoop = 0.0;
+  double profile = 0.0;  ///< mean, radial and hoop
+  double closure = 0.0;  ///< largest of the wall along x and upright, over the exact one
 };
 
 inline Polar polar(const BlockStress& s, double t) {
@@ -225,6 +230,8 @@ inline Errors compare(const Simulation& sim, const Mass& mass, double size, doub
   const std::string label = "blocks of " + brief(size) + " radii";
   const BlockSet& b = sim.blocks;
   Errors e;
+  double squares = 0.0;
+  int count = 0;
   Series profile(38, label,
                  {"r", "rr x exact", "rr x", "tt x exact", "tt x", "rr y exact", "rr y",
                   "tt y exact", "tt y"});
@@ -243,10 +250,15 @@ inline Errors compare(const Simulation& sim, const Mass& mass, double size, doub
                  x.rr - x.rr2, c.rr - c.rr2, x.tt - x.tt2, c.tt - c.tt2});
     for (const double side : {1.0, -1.0}) {
       const double scale = std::abs(x.tt + side * x.tt2);
-      keep_largest(e.hoop, (c.tt - x.tt + side * (c.tt2 - x.tt2)) / scale);
-      keep_largest(e.radial, (c.rr - x.rr + side * (c.rr2 - x.rr2)) / scale);
+      const double hoop = (c.tt - x.tt + side * (c.tt2 - x.tt2)) / scale;
+      const double radial = (c.rr - x.rr + side * (c.rr2 - x.rr2)) / scale;
+      keep_largest(e.hoop, hoop);
+      keep_largest(e.radial, radial);
+      squares += hoop * hoop + radial * radial;
+      count += 2;
     }
   }
+  e.profile = std::sqrt(squares / count);
   // The wall: mean and second harmonic of its way inwards.
   RingFit wall;
   for (std::size_t v = 0; v < b.vertex_count(); ++v) {

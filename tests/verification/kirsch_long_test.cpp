@@ -8,14 +8,14 @@ namespace {
 
 TEST(KirschLong, CloserWithSmallerBlocks) {
   const kirsch::Mass mass = kirsch::test_mass(0.2);
-  kirsch::Errors before{1.0, 1.0, 1.0};
-  for (const double size : {0.4, 0.28, 0.2, 0.14}) {
+  kirsch::Errors before;
+  before.closure = before.profile = 1.0;
+  for (const double size : {0.4, 0.28, 0.2}) {
     const bool coarse = size > 0.3;
     const kirsch::Errors e = kirsch::compare(
         kirsch::opening(size), mass, size, coarse ? std::numeric_limits<double>::infinity() : 0.1);
     EXPECT_LT(e.closure, before.closure) << size;
-    EXPECT_LT(e.radial, before.radial) << size;
-    EXPECT_LT(e.hoop, before.hoop) << size;
+    EXPECT_LT(e.profile, before.profile) << size;
     before = e;
   }
 }
