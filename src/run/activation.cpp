@@ -98,7 +98,7 @@ std::optional<Fault> Simulation::install(const std::vector<Index>& which) {
 
 void Simulation::switch_over(const NamedRows& off, const NamedRows& on) {
   const double energy = ledger_now().balance();
-  const std::vector<KeptForce> borne = release_boundaries(off.boundaries);
+  std::vector<KeptForce> borne = release_boundaries(off.boundaries);
   for (const Index q : off.shakings) {
     const auto row = static_cast<std::size_t>(q);
     const Shaking& shaking = model.shakings[row];
@@ -119,9 +119,11 @@ void Simulation::switch_over(const NamedRows& off, const NamedRows& on) {
     springs.engage(row, pose.x, pose.y);
     if (boundary.type == BoundaryType::stress) continue;
     const Index keeper = keeper_of(model, row);
-    for (const KeptForce& f : borne) {
+    for (KeptForce& f : borne) {
       const Vec2 part = borne_by(model, blocks, boundary, f.vertex, f.force);
-      if (part != Vec2{}) inherited.push_back({f.vertex, part, keeper});
+      if (part == Vec2{}) continue;
+      inherited.push_back({f.vertex, part, keeper});
+      f.force -= part;  // where two boundaries meet, one bears it
     }
     loads.held[static_cast<std::size_t>(keeper)] = {1.0, 1.0, state.time};
   }

@@ -31,7 +31,7 @@ struct MovingBlock {
 /// A joint between two blocks that slips or opens by more than a tenth of that displacement.
 struct MovingJoint {
   Id block_i = 0, block_j = 0;
-  std::string_view joint;
+  std::string joint;
   Vec2 place;                 ///< m, of the contact that moves most
   Vec2 from, to;              ///< m, ends of the stretch of joint between the two
   Vec2 from_moved, to_moved;  ///< m, how far the block beside it has carried them

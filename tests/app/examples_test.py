@@ -40,6 +40,42 @@ class Examples(unittest.TestCase):
         row = self.rows(folder / "history.csv")[-1]
         return float(row[name + ".ux"]), float(row[name + ".uy"])
 
+    def factor(self, name):
+        self.assertEqual(self.edda("example", name).returncode, 0)
+        done = self.edda("fos", f"{name}.toml", "-o", name, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads((self.dir / name / "summary.json").read_text())["factor_of_safety"], self.dir / name
+
+    def test_tunnel_from_stress_to_support(self):
+        summary, folder = self.ran("tunnel")
+        self.assertEqual(summary["status"], "equilibrium")
+        checks = {c["name"]: c for c in summary["checks"]}
+        self.assertLess(checks["boundary reactions against weight"]["value"], 1e-3)
+        self.assertLess(checks["initial stress: unbalanced forces at the start"]["value"], 1e-3)
+        stages = self.rows(folder / "stages.csv")
+        self.assertEqual([s["name"] for s in stages], ["in-situ", "heading", "support", "bench", "bench-support"])
+        self.assertTrue(all(s["reached"] == "1" for s in stages))
+        self.assertLess(abs(float(stages[0]["span.convergence"])), 1e-6)
+        _, bare = self.ran("tunnel", "--set", "bolt_pattern=[]", "--set", "stage.support.install=[]", "--set",
+                           "stage.bench-support.install=[]", out="bare")
+        last, without = stages[-1], self.rows(bare / "stages.csv")[-1]
+        for closure in ("span.convergence", "height.convergence"):
+            self.assertTrue(0 < float(last[closure]) < float(without[closure]), closure)
+
+    def test_slope_has_a_factor_of_safety_below_one(self):
+        factor, folder = self.factor("slope")
+        # A block on the beds alone has tan 20/tan 32 = 0.582; what holds and drives it besides is little.
+        self.assertLess(abs(factor / (math.tan(math.radians(20)) / math.tan(math.radians(32))) - 1), 0.05)
+        self.assertTrue((folder / "mechanism.png").exists())
+
+    def test_toppling_slope_goes_as_goodman_and_bray_say(self):
+        factor, folder = self.factor("toppling")
+        at_limit = math.degrees(math.atan(math.tan(math.radians(40)) / factor))
+        self.assertLess(abs(at_limit - 38.15), 1.5)
+        motion = {int(row["name"]): row["motion"] for row in self.rows(folder / "mechanism.csv")}
+        for n in range(1, 14):
+            self.assertEqual(motion[n], "slides" if n < 4 else "topples", n)
+
     def test_arch_stands(self):
         summary, _ = self.ran("arch")
         self.assertEqual(summary["status"], "completed")

@@ -134,6 +134,38 @@ activate = ["far"]
   EXPECT_NEAR(centroid(f.state.vx, f.state.vy, 0).y / (-9.81 / speed), 1.0, 0.01);
 }
 
+/// Where two boundaries meet the forces are there once.
+TEST(Activation, BoundariesThatTakeOverTogetherBearTheForcesOnce) {
+  const Ran r = ran(lone(R"(
+[[boundary]]
+name = "box"
+sides = ["left", "right", "bottom"]
+type = "fixed"
+[[boundary]]
+name = "base"
+sides = ["bottom"]
+type = "viscous"
+[[boundary]]
+name = "flanks"
+sides = ["left", "right"]
+type = "free-field"
+[[stage]]
+until = "equilibrium"
+ratio = 1e-8
+[[stage]]
+duration = 0.2
+deactivate = ["box"]
+activate = ["base", "flanks"]
+)",
+                         "[0, -9.81]"));
+  const Simulation& s = r.ready.sim;
+  EXPECT_LT(norm(centroid(s.state.vx, s.state.vy, 0)), 1e-7);
+  Instant now;
+  observe(s, now);
+  const std::vector<Vec2> reaction = reactions(s, now);
+  EXPECT_NEAR((reaction[1] + reaction[2]).y / (2500.0 * 9.81), 1.0, 1e-6);
+}
+
 /// Springs that take over begin where the block is, and hold it as it was held.
 TEST(Activation, SpringsTakeOverToo) {
   const Ran r = ran(lone(R"(
