@@ -1,0 +1,192 @@
+// A run through stages that excavate, install and switch resumes to the same bits, from the end of
+// a stage and from the middle of one.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "model/read_model.hpp"
+#include "run/run_model.hpp"
+
+namespace edda {
+namespace {
+
+namespace fs = std::filesystem;
+
+PreparedRun prepared(const std::string& toml) {
+  Result<Model> model = read_model_text(toml, "m.toml", {});
+  if (!model.ok()) ADD_FAILURE() << to_string(model.faults()[0]);
+  Result<PreparedRun> run = prepare_run(std::move(model.value()));
+  if (!run.ok()) ADD_FAILURE() << to_string(run.faults()[0]);
+  return std::move(run.value());
+}
+
+const char* const everything = R"(
+[materials.rock]
+density = 2500.0
+young = 1e9
+poisson = 0.2
+[joints.j]
+friction_angle = 25
+cohesion = 1e3
+[contact]
+joint = "j"
+[domain]
+outline = [[0, 0], [6, 0], [6, 5], [0, 5]]
+joint = "j"
+[[joint_set]]
+angle = 3
+spacing = 1.1
+origin = [0, 0.4]
+[[joint_set]]
+angle = 82
+spacing = 1.3
+origin = [0.2, 0]
+[[opening]]
+name = "hole"
+polygon = [[2, 1], [4, 1], [4, 2.5], [2, 2.5]]
+[[boundary]]
+name = "box"
+sides = ["left", "right", "bottom"]
+type = "roller"
+[[boundary]]
+name = "far"
+sides = ["left", "right", "bottom"]
+type = "viscous"
+[[load]]
+name = "surcharge"
+along = [[0, 5], [6, 5]]
+pressure = 2e4
+[[water]]
+name = "wet"
+table = [[-1, 3], [7, 3]]
+[[shaking]]
+name = "quake"
+apply = "inertia"
+acceleration = { amplitude = 2.0, frequency = 5.0 }
+[[bolt_pattern]]
+name = "crown"
+opening = "hole"
+from_angle = 60
+to_angle = 120
+count = 3
+length = 2
+diameter = 0.02
+pretension = 1e4
+bond = { stiffness = 1e8, strength = 1e5 }
+[[stage]]
+name = "rest"
+until = "equilibrium"
+ratio = 1e-3
+joints = "glued"
+[[stage]]
+name = "dig"
+excavate = ["hole"]
+relax = { hole = 0.5 }
+install = ["crown"]
+until = "equilibrium"
+ratio = 1e-3
+duration = 0.5
+[[stage]]
+name = "shake"
+duration = 0.05
+relax = { hole = 1.0 }
+deactivate = ["box"]
+activate = ["far", "surcharge", "wet", "quake"]
+[output]
+history_every = 0.01
+every = 0.05
+)";
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+struct Folder {
+  explicit Folder(const char* name) : path(fs::temp_directory_path() / name) {
+    fs::remove_all(path);
+  }
+  ~Folder() { fs::remove_all(path); }
+  fs::path path;
+};
+
+void expect_same_results(const fs::path& a, const fs::path& b) {
+  for (const char* file : {"history.csv", "blocks.csv", "joints.csv", "stages.csv", "bolts.csv",
+                           "reactions.csv", "joints_0.csv", "joints_1.csv"}) {
+    EXPECT_EQ(text_of(a / file), text_of(b / file)) << file;
+    EXPECT_GT(text_of(a / file).size(), 100u) << file;
+  }
+}
+
+/// From the end of each stage, and from the middle of one.
+TEST(StageResume, ResumesToTheSameBits) {
+  const Folder whole("edda_stages_whole"), broken("edda_stages_broken");
+  RunOptions options;
+  options.folder = whole.path.string();
+  PreparedRun first = prepared(everything);
+  const Result<Outcome> outcome = run_model(first, options);
+  ASSERT_TRUE(outcome.ok());
+  ASSERT_EQ(outcome.value().status, Status::completed) << outcome.value().message;
+  for (const std::size_t stage : {0u, 1u}) {
+    fs::remove_all(broken.path);
+    fs::copy(whole.path, broken.path, fs::copy_options::recursive);
+    options.folder = broken.path.string();
+    options.from_stage = stage;
+    PreparedRun again = prepared(everything);
+    const Result<Outcome> resumed = run_model(again, options);
+    ASSERT_TRUE(resumed.ok()) << to_string(resumed.faults()[0]);
+    expect_same_results(whole.path, broken.path);
+  }
+  options.from_stage.reset();
+  fs::remove_all(broken.path);
+  std::atomic<bool> stop{false};
+  options.stop = &stop;
+  options.progress_every = 0.0;
+  options.progress = [&](const Progress& p) {
+    if (p.fraction > 0.99 || p.steps > outcome.value().steps - 400) stop = true;
+  };
+  PreparedRun halted = prepared(everything);
+  const Result<Outcome> half = run_model(halted, options);
+  ASSERT_TRUE(half.ok());
+  ASSERT_EQ(half.value().status, Status::interrupted);
+  options.stop = nullptr;
+  options.progress = nullptr;
+  options.resume = true;
+  PreparedRun again = prepared(everything);
+  const Result<Outcome> resumed = run_model(again, options);
+  ASSERT_TRUE(resumed.ok()) << to_string(resumed.faults()[0]);
+  expect_same_results(whole.path, broken.path);
+}
+
+/// Later stages may change; what came before may not.
+TEST(StageResume, GoesOnFromAStageWithOtherStagesBehindIt) {
+  const Folder folder("edda_stages_other");
+  RunOptions options;
+  options.folder = folder.path.string();
+  PreparedRun first = prepared(everything);
+  ASSERT_TRUE(run_model(first, options).ok());
+  options.from_stage = 1;
+  const std::string text = everything;
+  const auto at = text.find("duration = 0.05\nrelax");
+  ASSERT_NE(at, std::string::npos);
+  std::string other = text;
+  other.replace(at, 15, "duration = 0.02");
+  PreparedRun changed = prepared(other);
+  const Result<Outcome> outcome = run_model(changed, options);
+  ASSERT_TRUE(outcome.ok()) << to_string(outcome.faults()[0]);
+  EXPECT_LT(outcome.value().time, first.sim.state.time);
+  std::string earlier = text;
+  earlier.replace(earlier.find("hole = 0.5"), 10, "hole = 0.4");
+  PreparedRun wrong = prepared(earlier);
+  const Result<Outcome> refused = run_model(wrong, options);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(to_string(refused.faults()[0]).find("the model is not the one"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace edda
