@@ -77,7 +77,7 @@ def obey_permissions():
 def content(folder):
     """Every file but the summary (it tells of wall time) and the checkpoints."""
     return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*"))
-            if p.is_file() and p.name not in ("summary.json", "checkpoint.h5", "checkpoint.previous.h5", "model.toml")}
+            if p.is_file() and p.name not in ("summary.json", "model.toml") and not p.name.startswith("checkpoint")}
 
 
 def lasting(folder):
