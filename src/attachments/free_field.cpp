@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "attachments/edges_on_line.hpp"
@@ -43,6 +44,16 @@ Vec2 FreeFieldColumn::traction(const std::vector<Vec2>& nodes, double y) const {
   const std::size_t k = cell_at(y);
   const Vec2 strain = (nodes[k + 1] - nodes[k]) / cell;
   return outward * Vec2{lambda[k] * strain.y, mu[k] * strain.x};
+}
+
+double FreeField::largest_step() const {
+  double step = std::numeric_limits<double>::infinity();
+  for (const FreeFieldColumn& c : columns) {
+    for (std::size_t k = 0; k < c.density.size(); ++k) {
+      step = std::min(step, 0.9 * c.cell * std::sqrt(c.density[k] / p_modulus(c, k)));
+    }
+  }
+  return step;
 }
 
 FreeField attach_free_field(const Model& model, const BlockSet& b, const Dashpots& dashpots,
@@ -153,6 +164,12 @@ std::vector<FreeFieldColumn> next_columns(const std::vector<FreeFieldColumn>& co
       }
       force -= mass * drive.frame;
       const Vec2 v = c.velocity[k];
+      if (k > 0) {  // the dashpot damps the bottom
+        const auto damped = [&](double f, double along) {
+          return f - (along == 0.0 ? 0.0 : std::copysign(drive.local_damping * std::abs(f), along));
+        };
+        force = {damped(force.x, v.x), damped(force.y, v.y)};
+      }
       const auto kicked = [&](double before, double f, double damper) {
         const double half = 0.5 * h * damper / mass;
         return ((1.0 - drag - half) * before + h * f / mass) / (1.0 + drag + half);

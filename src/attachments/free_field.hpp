@@ -39,6 +39,7 @@ struct FreeFieldDrive {
   Vec2 ground;                 ///< velocity of the ground at n + 1/2, m/s
   Vec2 frame;                  ///< acceleration of the ground that all feel backwards, m/s2
   double mass_damping = 0.0;   ///< a, 1/s, as of the blocks
+  double local_damping = 0.0;  ///< beta, as of the blocks
 };
 
 struct FreeField {
@@ -47,6 +48,8 @@ struct FreeField {
   std::vector<double> height;  ///< [points] y, m
   std::vector<double> face;    ///< [points] area of the side that the point stands for, m2
   bool empty() const { return columns.empty(); }
+  /// The step that all columns bear, s; infinite without any: 0.9 D/c_p.
+  double largest_step() const;
 };
 
 /// Columns beside all boundaries of type free-field, of the rock at the model's side. Their cells

@@ -5,6 +5,7 @@
 
 #include "attachments/boundary_lines.hpp"
 #include "attachments/boundary_springs.hpp"
+#include "attachments/dashpots.hpp"
 
 namespace edda {
 namespace {
@@ -73,7 +74,7 @@ std::vector<KeptForce> held_initial_stress(const Model& model, const BlockSet& b
   };
   each(has_springs, true);
   each([](BoundaryType type) { return type == BoundaryType::stress; }, false);
-  each([](BoundaryType type) { return type == BoundaryType::viscous; }, true);
+  each(has_dashpots, true);
   return held;
 }
 

@@ -224,8 +224,9 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::vector<std::uint8_t> pairs_moved;  ///< scratch of update_shares()
   std::vector<Id> pair_of;                ///< [nc] a pair the candidate is in, or no_id
   std::vector<RunOn> run_ons;             ///< edges with a reentrant end, by candidate
-  std::vector<std::uint8_t> lent;         ///< [nc] 1: glued for a stage; 2: and bonded besides;
-                                          ///< empty while nothing is
+  std::vector<std::uint8_t> lent;         ///< [nc] of what a stage glues: its state before, of the
+                                          ///< bits closed, bonded and pulls; else 0; empty while
+                                          ///< nothing is glued
   std::vector<Segment> segments;          ///< the bonded ones
   std::vector<Id> begin_of_vertex;        ///< [nv + 1] candidates of a vertex
 

@@ -38,7 +38,7 @@ void close(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& l
   set_spring(c, b, pose, laws, k);
   c.set(k, cs::closed);
   if (!c.lent.empty()) {
-    c.lent[k] = 1;
+    c.lent[k] = cs::closed;
     c.set(k, cs::glued | cs::bonded | cs::pulls);
   }
   c.alpha[k] = 1.0;

@@ -11,23 +11,22 @@ void glue(ContactSet& c) {
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (!c.is(k, cs::closed) || c.is(k, cs::glued)) continue;
     c.keep_slips(k);
-    c.lent[k] = c.is(k, cs::bonded) ? 2 : 1;
+    c.lent[k] = static_cast<std::uint8_t>(cs::closed | (c.state[k] & (cs::bonded | cs::pulls)));
     c.set(k, cs::glued | cs::bonded | cs::pulls);
     c.forget_cut(k);
   }
 }
 
-void unglue(ContactSet& c, const LawTable& laws) {
+void unglue(ContactSet& c) {
   for (std::size_t k = 0; k < c.lent.size(); ++k) {
     if (c.lent[k] == 0) continue;
     c.keep_slips(k);
     c.clear(k, cs::glued);
     if (!c.is(k, cs::closed)) continue;
-    const bool bonded = c.lent[k] == 2;
-    const bool pulls = bonded && laws.rows[c.law[k]].peak_tension > 0.0;
+    const bool bonded = (c.lent[k] & cs::bonded) != 0, pulls = (c.lent[k] & cs::pulls) != 0;
     if (!bonded) c.clear(k, cs::bonded);
     if (!pulls) c.clear(k, cs::pulls);
-    if (!bonded && c.effective(k) <= 0.0) tear(c, k);
+    if (!bonded && !pulls && c.effective(k) <= 0.0) tear(c, k);
   }
   c.lent.clear();
 }

@@ -9,8 +9,8 @@ namespace edda {
 /// as they are.
 void glue(ContactSet& contacts);
 
-/// All of them go back to their own laws: what is pulled apart, and was not bonded, opens, its
-/// energy booked as fracture; shear beyond the strength slips at the next step.
-void unglue(ContactSet& contacts, const LawTable& laws);
+/// All of them go back to their own laws: what is pulled apart, and neither was bonded nor may
+/// pull, opens, its energy booked as fracture; shear beyond the strength slips at the next step.
+void unglue(ContactSet& contacts);
 
 }  // namespace edda

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "model/complete_tools.hpp"
@@ -69,7 +70,8 @@ Opening* opening_called(Model& model, const std::string& name) {
 }
 
 /// What a stage takes out, and what it lets go.
-void complete_excavation(const Value* own, Stage& stage, Reading& reading) {
+void complete_excavation(const Value* own, Stage& stage, std::map<std::string, double>& let_go,
+                         Reading& reading) {
   Model& model = reading.model;
   const std::vector<std::string_view> known = names_in(model.openings);
   const auto unknown = [&](const Value& value, const std::string& path, const std::string& name) {
@@ -86,6 +88,9 @@ void complete_excavation(const Value* own, Stage& stage, Reading& reading) {
                 "take each opening out once");
     } else {
       opening->staged = true;
+      const auto says = [&](const auto& part) { return part.first == opening->name; };
+      const bool by_part = std::any_of(stage.relax.begin(), stage.relax.end(), says);
+      let_go[opening->name] = by_part ? 0.0 : 1.0;
       if (opening->joint == none) opening->joint = glued_law(reading);
     }
   }
@@ -98,6 +103,12 @@ void complete_excavation(const Value* own, Stage& stage, Reading& reading) {
     } else if (!opening->staged) {
       add_fault(reading, table.place, path, '"' + name + "\" has not been taken out yet",
                 "name it in excavate of this stage or one before");
+    } else if (part < let_go[name]) {
+      add_fault(reading, table.place, path,
+                fmt::format("is less than the {:.6g} let go so far", let_go[name]),
+                "give the part let go by then, all stages together");
+    } else {
+      let_go[name] = part;
     }
   }
 }
@@ -170,8 +181,11 @@ void complete_stages(const Value& root, Reading& reading) {
     known.insert(known.end(), names.begin(), names.end());
   }
   std::set<std::string> installed, acting;
+  std::map<std::string, double> let_go;
   for (const std::string_view name : known) {
-    if (acts_at_first(model, std::string(name))) acting.emplace(name);
+    const auto& first = model.stages.front().activate;
+    const bool at_once = std::find(first.begin(), first.end(), name) != first.end();
+    if (!at_once && acts_at_first(model, std::string(name))) acting.emplace(name);
   }
   double sum = 0.0;
   bool all_given = true;
@@ -181,7 +195,7 @@ void complete_stages(const Value& root, Reading& reading) {
     if (!is_table(own)) continue;
     complete_stage_damping(own, solver, stage);
     complete_masses(own, solver, stage, reading);
-    complete_excavation(own, stage, reading);
+    complete_excavation(own, stage, let_go, reading);
     check_install(own, stage, installed, reading);
     check_switches(own, stage, acting, known, reading);
     sum += stage.duration;

@@ -191,7 +191,7 @@ constexpr std::array stage_keys{
     Key{"ratio", at<&Stage::ratio>, number(D::plain, above_to(0, 1)), initial, "Equilibrium: mean resultant force of the blocks over the mean contact force."},
     Key{"duration", at<&Stage::duration>, number(D::time, above(0)), otherwise("required until \"time\"; 10 s until \"equilibrium\""), "Length of the stage; until equilibrium the longest it may take."},
     Key{"excavate", at<&Stage::excavate>, name_list, otherwise("none"), "Openings whose rock is taken out at the stage's start."},
-    Key{"relax", at<&Stage::relax>, numbers_of_names(from_to(0, 1)), otherwise("all, when an opening is taken out"), "Part of the forces of the rock taken out that has been let go, by opening: the rest still holds its walls, as an advancing face does."},
+    Key{"relax", at<&Stage::relax>, numbers_of_names(from_to(0, 1)), otherwise("all, when an opening is taken out"), "Part of the forces of the rock taken out that has been let go by then, all stages together, by opening: the rest still holds its walls, as an advancing face does."},
     Key{"install", at<&Stage::install>, name_list, otherwise("bolts that no stage names are there from the start"), "Bolts and patterns of bolts put in at the stage's start, where the rock then is."},
     Key{"activate", at<&Stage::activate>, name_list, otherwise("what no stage names acts from the start"), "Loads, waters, boundaries and shakings that act from the stage's start on; their histories run from there."},
     Key{"deactivate", at<&Stage::deactivate>, name_list, otherwise("none"), "Those that act no more. Where a boundary takes over from one, it bears what that bore."},

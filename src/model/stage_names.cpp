@@ -46,7 +46,7 @@ std::optional<std::size_t> stage_called(const Model& model, const std::string& n
 bool acts_at_first(const Model& model, const std::string& name) {
   for (const Stage& stage : model.stages) {
     if (holds(stage.deactivate, name)) return true;
-    if (holds(stage.activate, name)) return false;
+    if (holds(stage.activate, name)) return &stage == &model.stages.front();
   }
   return true;
 }

@@ -20,8 +20,8 @@ NamedRows rows_called(const Model& model, const std::vector<std::string>& names)
 /// Rows among Model::bolts and, behind them, the bolts of the patterns in their order.
 std::vector<Index> bolts_called(const Model& model, const std::vector<std::string>& names);
 
-/// Whether what has this name acts from the start of the run: unless a stage activates it before
-/// any deactivates it. Without a name it does.
+/// Whether what has this name acts from the start of the run: unless a stage behind the first
+/// activates it before any deactivates it. Without a name it does.
 bool acts_at_first(const Model& model, const std::string& name);
 
 /// Whether bolts of this name are there from the start of the run: unless a stage installs them.

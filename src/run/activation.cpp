@@ -109,6 +109,15 @@ void Simulation::switch_over(const NamedRows& off, const NamedRows& on) {
   set_all(spells.loads, off.loads, on.loads, state.time);
   set_all(spells.waters, off.waters, on.waters, state.time);
   set_all(spells.boundaries, off.boundaries, on.boundaries, state.time);
+  // Springs and what is kept go and come at once; so does a traction that takes over or is taken
+  // over from, or half of it would be there twice, or not at all, in this step.
+  const double before = std::nextafter(state.time, -never);
+  for (const Index q : off.boundaries) {
+    spells.boundaries[static_cast<std::size_t>(q)].until = before;
+  }
+  for (const Index q : on.boundaries) {
+    if (!off.boundaries.empty()) spells.boundaries[static_cast<std::size_t>(q)].since = before;
+  }
   set_all(spells.shakings, off.shakings, on.shakings, state.time);
   const bool shakes = std::any_of(spells.shakings.begin(), spells.shakings.end(),
                                   [](const Spell& spell) { return spell.acts(); });
@@ -137,7 +146,7 @@ void Simulation::glue_joints(bool glued) {
   if (glued) {
     glue(contacts);
   } else {
-    unglue(contacts, laws);
+    unglue(contacts);
     update_shares(contacts);
   }
 }

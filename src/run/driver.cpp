@@ -127,6 +127,7 @@ Outcome Driver::run() {
 
 void Driver::go() {
   begin_stage(0);
+  if (over_) return;
   const Event first = times_.next();
   event_ = times_.next();
   sim_.start(event_.time);
@@ -185,9 +186,10 @@ Driver::Went Driver::step_to(double time) {
       count_turns(sim_, angle_);
       measure_overlaps();
     }
-    write_checkpoint_if_due();
+    const bool at_rest = is_at_rest();
+    if (!at_rest) write_checkpoint_if_due();  // after the look, which a resumed run must not miss
     if (options_.progress && since(reported_) >= options_.progress_every) report(false);
-    if (is_at_rest()) return Went::at_rest;
+    if (at_rest) return Went::at_rest;
   }
   return Went::there;
 }

@@ -15,7 +15,8 @@ void Driver::begin_stage(std::size_t index) {
   const Stage& stage = stages_[index];
   times_.end_at(stage_start_ + stage.duration);
   if (sim_.model.stages.empty()) return;
-  sim_.glue_joints(false);
+  const bool glued = stage.joints == StageJoints::glued;
+  if (!glued) sim_.glue_joints(false);
   take_out(stage);
   sim_.switch_over(rows_called(sim_.model, stage.deactivate),
                    rows_called(sim_.model, stage.activate));
@@ -25,7 +26,7 @@ void Driver::begin_stage(std::size_t index) {
       return end(Status::failed, stage_label(sim_.model, stage_) + ": " + fault->problem);
     }
   }
-  sim_.glue_joints(stage.joints == StageJoints::glued);
+  sim_.glue_joints(glued);
   sim_.scale_masses(stage.masses);
   const bool settles = stage.until == StageEnd::equilibrium;
   sim_.change_damping(stage.damping, sim_.model.solver.dynamic && !settles);
@@ -61,7 +62,7 @@ bool Driver::is_at_rest() {
 }
 
 void Driver::rest_before(Event& event) {
-  times_.put_back(event);
+  if (event.time > sim_.state.time) times_.put_back(event);
   event = {sim_.state.time, true, true, true, false, false};
 }
 

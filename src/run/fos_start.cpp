@@ -94,6 +94,14 @@ std::optional<Fault> refused(const Model& model) {
   return {};
 }
 
+std::optional<Fault> nothing_moves(const Model& model, const Simulation& sim) {
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    if (is_free(sim.blocks, sim.state, i)) return {};
+  }
+  return cannot(model, "block", "no block is free to move, so nothing can fail",
+                "leave some blocks neither fixed nor held, nor taken out");
+}
+
 bool stopped(const FosOptions& options) {
   return options.stop != nullptr && options.stop->load(std::memory_order_relaxed);
 }
@@ -105,6 +113,7 @@ Result<FosStart> settled(const Model& model, const Fos& fos, const FosOptions& o
   drawn.solver.damping.local = local_damping;  // as it will be
   Result<PreparedRun> prepared = prepare_run(std::move(drawn));
   if (!prepared.ok()) return prepared.faults();
+  if (auto fault = nothing_moves(model, prepared.value().sim)) return *fault;
   FosStart s{std::move(prepared.value().sim), {}, {}, {}, {}, {}, {}, {}, {}};
   s.warnings = std::move(prepared.value().warnings);
   s.given = {std::vector<double>(s.sim.laws.rows.size(), 1.0), 1.0};
@@ -138,6 +147,7 @@ Result<std::optional<FosStart>> staged(const Model& model, const Fos& fos,
   if (!outcome.ok()) return outcome.faults();
   const Status status = outcome.value().status;
   if (status == Status::collapsed || status == Status::failed) return std::optional<FosStart>{};
+  if (auto fault = nothing_moves(model, prepared.value().sim)) return *fault;
   FosStart s{std::move(prepared.value().sim), {}, {}, {}, {}, {}, {}, {}, {}};
   s.warnings = std::move(prepared.value().warnings);
   if (status == Status::interrupted) s.status = FosStatus::interrupted;

@@ -210,7 +210,8 @@ void Simulation::set_limit() {
   // Lowered at once; raised only when it is well worth the energy that a change costs, and lasts.
   constexpr double worth = 1.25;
   constexpr std::uint64_t lasting = 20000;  // steps
-  const double allowed = std::min(model.solver.safety * bound.likely_step, displacement_cap_);
+  const double allowed = std::min(
+      {model.solver.safety * bound.likely_step, displacement_cap_, free_field.largest_step()});
   if (allowed <= worth * step_limit) larger_since_ = state.steps;
   if (allowed < step_limit || state.steps >= larger_since_ + lasting || state.steps == 0) {
     step_limit = allowed;

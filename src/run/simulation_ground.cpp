@@ -69,6 +69,7 @@ std::vector<FreeFieldColumn> Simulation::next_free_field(Vec2 of_ground, double 
   drive.ground = of_ground;
   drive.frame = loads_at(model, loads, state.time).frame;
   drive.mass_damping = damping.mass;
+  drive.local_damping = damping.local;
   return next_columns(free_field.columns, drive, h_old, h_new);
 }
 
@@ -110,7 +111,8 @@ void Simulation::hold_ground() {
 void Simulation::book_boundaries(double h_old, double h_new) {
   for (std::size_t p = 0; p < dashpots.points.size(); ++p) {
     const Dashpot& at = dashpots.points[p];
-    if (!is_free(blocks, state, at.block)) continue;
+    const bool acts = dashpots.acts[static_cast<std::size_t>(at.boundary)] != 0;
+    if (!acts || !is_free(blocks, state, at.block)) continue;
     Vec2 moved;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec2 before{old_vx_[k][at.block], old_vy_[k][at.block]};

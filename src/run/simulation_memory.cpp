@@ -333,7 +333,7 @@ void list_memory(Archive& a, Simulation& s) {
   a("step_before", s.step_before_);
   a("steps_left", s.steps_left_);
   if (!s.explicit_method()) list_implicit(a, s);
-  if (!s.given_mass_.node_mass[0].empty()) a("scaled_step", s.scaled_step_);
+  a("scaled_step", s.scaled_step_);
   if (s.model.solver.mass_scaling > 0.0 || s.scaled_step_ > 0.0) {
     // Masses by their bits, not by their factors.
     a("inertia", s.inertia);

@@ -36,9 +36,15 @@ std::size_t yielded_bolts(const Bolts& b) {
 std::vector<std::uint8_t> touching(const Simulation& sim) {
   std::vector<std::uint8_t> touches(sim.blocks.size(), 0);
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
-    touches[i] = sim.springs.block_begin[i] != sim.springs.block_begin[i + 1] ? 1 : 0;
+    for (Id q = sim.springs.block_begin[i]; q < sim.springs.block_begin[i + 1]; ++q) {
+      if (sim.springs.kxx[q] + sim.springs.kyy[q] > 0.0) touches[i] = 1;
+    }
   }
-  for (const Id i : sim.bolts.host) touches[i] = 1;
+  const Bolts& bolts = sim.bolts;
+  for (std::size_t r = 0; r < bolts.rows.size(); ++r) {
+    if (!bolts.rows[r].grouted && bolts.bars.broken[bolts.begin[r]] != 0) continue;
+    for (Id k = bolts.begin[r]; k < bolts.begin[r + 1]; ++k) touches[bolts.host[k]] = 1;
+  }
   for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
     if (carries(sim.contacts, k)) {
       touches[sim.contacts.block_i[k]] = touches[sim.contacts.block_j[k]] = 1;

@@ -237,6 +237,9 @@ TEST(BadModel, Stages) {
            Bad{stage + "detached = 3\n", 44, "stage.0.detached", "expects one of"},
            Bad{stage + "excavate = [\"cave\"]\n", 44, "stage.0.excavate[0]", "names no opening"},
            Bad{stage + "relax = { cave = 0.5 }\n", 44, "stage.0.relax.cave", "names no opening"},
+           Bad{stage + "excavate = [\"hole\"]\nrelax = { hole = 0.6 }\n" + next +
+                   "relax = { hole = 0.4 }\n",
+               48, "stage.1.relax.hole", "is less than the 0.6 let go so far"},
            Bad{stage + "install = [\"nail\"]\n", 44, "stage.0.install[0]",
                "names no bolt or pattern of bolts"},
            Bad{bolt + stage + "install = [\"nial\"]\n", 50, "stage.0.install[0]", "nail"},
@@ -247,8 +250,10 @@ TEST(BadModel, Stages) {
                "stage.1.activate[0]", "acts already"},
            Bad{load + stage + "deactivate = [\"push\"]\n" + next + "deactivate = [\"push\"]\n", 51,
                "stage.1.deactivate[0]", "does not act before this stage"},
-           Bad{load + stage + "deactivate = [\"push\"]\nactivate = [\"push\"]\n", 49,
-               "stage.0.activate", "is in deactivate, too"},
+           Bad{load + stage + "deactivate = [\"push\"]\nactivate = [\"push\"]\n", 48,
+               "stage.0.deactivate[0]", "does not act before this stage"},
+           Bad{load + stage + next + "deactivate = [\"push\"]\nactivate = [\"push\"]\n", 51,
+               "stage.1.activate", "is in deactivate, too"},
        }) {
     const std::string text = known + bad.text;
     const Result<Model> result = read_model_text(text, "m.toml", {});

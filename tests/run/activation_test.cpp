@@ -246,6 +246,82 @@ TEST(Activation, GluedJointsHold) {
   EXPECT_GE(r.outcome.ledger.fracture, -1e-9);
 }
 
+/// What hangs on glue goes on hanging in a second stage that glues, and falls in one that does not.
+TEST(Activation, GlueHoldsFromStageToStage) {
+  const auto hung = [](const std::string& last) {
+    return ran(R"(
+[materials.rock]
+density = 2500.0
+young = 10e9
+poisson = 0.2
+[joints.j]
+friction_angle = 30
+[[block]]
+name = "roof"
+fixed = true
+polygon = [[0, 1], [1, 1], [1, 2], [0, 2]]
+[[block]]
+name = "b"
+polygon = [[0, 0], [1, 0], [1, 1.00000001], [0, 1.00000001]]
+[[stage]]
+duration = 0.02
+joints = "glued"
+[[stage]]
+duration = 0.05
+)" + last)
+        .moved("b")
+        .y;
+  };
+  EXPECT_GT(hung("joints = \"glued\"\n"), -1e-4);
+  EXPECT_NEAR(hung(""), -0.5 * 9.81 * 0.05 * 0.05, 2e-4);
+}
+
+/// A traction that dashpots take over from leaves no jolt.
+TEST(Activation, ATractionIsTakenOverFromWithoutAJolt) {
+  const Ran r = ran(lone(R"(
+[[boundary]]
+name = "stressed"
+sides = ["left", "right", "bottom", "top"]
+type = "stress"
+traction = [0, 0]
+[[load]]
+name = "left"
+along = [[0, 0], [0, 1]]
+pressure = 1e7
+[[load]]
+name = "right"
+along = [[1, 0], [1, 1]]
+pressure = 1e7
+[[boundary]]
+name = "squeeze"
+along = [[0, 1], [1, 1]]
+type = "stress"
+traction = [0, -1e7]
+[[boundary]]
+name = "foot"
+along = [[0, 0], [1, 0]]
+type = "stress"
+traction = [0, 1e7]
+[[boundary]]
+name = "far"
+sides = ["bottom", "top"]
+type = "viscous"
+[[stage]]
+until = "equilibrium"
+ratio = 1e-7
+[[stage]]
+duration = 0.01
+deactivate = ["squeeze", "foot"]
+activate = ["far"]
+)"));
+  const Simulation& s = r.ready.sim;
+  double fastest = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    fastest = std::max({fastest, std::abs(s.state.vx[k][0]), std::abs(s.state.vy[k][0])});
+  }
+  EXPECT_LT(fastest, 1e-5);
+}
+
 /// A pebble under a boulder: with masses scaled all have one step, the state at rest is the same,
 /// and afterwards every mass is its own again, to the bit.
 TEST(Activation, StaticMassesCostFewerStepsAndChangeNothingAtRest) {
