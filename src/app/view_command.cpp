@@ -52,8 +52,9 @@ int write(ViewRun& run, const ViewArguments& args) {
   }
   if (r.precision == ViewPrecision::whole16) {
     fmt::print(
-        "  numbers are stored to 1/65534 of the largest of their kind in a frame; those of the "
-        "last frame to 7 digits\n");
+        "  displacements are stored to 1/65534, velocities, rotations and stresses to 1/4094 of "
+        "the\n"
+        "  largest in their frame; the last frame to 7 digits\n");
   }
   return exit_code::done;
 }

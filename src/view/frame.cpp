@@ -18,17 +18,25 @@
 //   d and A: of the displacement since the datum; where the block was at the datum says that
 //   then the contacts, sorted by the row of block i:
 //     varint [m] row of block i, less that before; varint [m] vertex of it;
-//     zigzag [m] row of block j less that of i; u8 [m] state; and the columns
-//     normal_force shear_force | direction | opening | slip
+//     zigzag [m] row of block j less that of i; varint [m] edge of it; u8 [m] state; and the
+//     columns normal_force shear_force | opening | slip
 //
 // A bar separates groups; those of a group share a scale. A column of 16 bits is an f32 scale s (of
 // each group, before its first column) and whole numbers q = round(v / s), zigzagged, all low bytes
 // before all high bytes. A column of 32 bits is f32, in four planes of bytes alike.
+//
+// With 16 bits the scale leaves to each value what it needs and no more, since the rest is noise
+// that cannot be packed: motion_steps for a displacement (and for A what moves no vertex by more),
+// value_steps for what is shown as a number or a colour, contact_steps for what is but drawn; and
+// the overlap of closed contacts, which no drawing shows, is left out.
 
 namespace edda {
 namespace {
 
 using Columns = std::vector<std::vector<double>>;
+
+// Largest whole numbers.
+constexpr double motion_steps = 32767.0, value_steps = 2047.0, contact_steps = 127.0;
 
 void add_planes(Bytes& bytes, const std::string& numbers, std::size_t width) {
   const std::size_t n = numbers.size() / width;
@@ -57,19 +65,25 @@ void add_single(Bytes& bytes, const std::vector<double>& column) {
   add_planes(bytes, numbers.text(), 4);
 }
 
-/// Columns that share a scale.
-void add_group(Bytes& bytes, const Columns& columns, ViewPrecision precision) {
-  if (precision == ViewPrecision::single) {
-    for (const auto& column : columns) add_single(bytes, column);
-    return;
-  }
+double largest_of(const Columns& columns) {
   double largest = 0.0;
   for (const auto& column : columns) {
     for (const double v : column) largest = std::max(largest, std::abs(finite(v)));
   }
+  return largest;
+}
+
+/// Columns that share a scale: their largest magnitude over `steps`, or `coarse` where that is
+/// more.
+void add_group(Bytes& bytes, const Columns& columns, ViewPrecision precision, double steps,
+               double coarse = 0.0) {
+  if (precision == ViewPrecision::single) {
+    for (const auto& column : columns) add_single(bytes, column);
+    return;
+  }
   // As the page will read it, so that the quotient is rounded with the same number.
-  const float scale =
-      std::max(static_cast<float>(largest / 32767.0), std::numeric_limits<float>::min());
+  const auto scale = static_cast<float>(
+      std::max({largest_of(columns) / steps, coarse, double{std::numeric_limits<float>::min()}}));
   bytes.f32(scale);
   for (const auto& column : columns) add_whole(bytes, column, double{scale});
 }
@@ -86,7 +100,15 @@ std::vector<double> column(const Grid& g, const char* name, std::size_t k,
   return values;
 }
 
-void add_motions(Bytes& bytes, const std::vector<BlockMotion>& motions, ViewPrecision precision) {
+/// Half the largest extent of a block, m.
+double reach_of(const ViewMesh& mesh) {
+  double reach = 0.0;
+  for (const Vec2 r : mesh.vertex) reach = std::max({reach, std::abs(r.x), std::abs(r.y)});
+  return reach;
+}
+
+void add_motions(Bytes& bytes, const std::vector<BlockMotion>& motions, ViewPrecision precision,
+                 double reach) {
   Columns d(2), a(4);
   for (const BlockMotion& m : motions) {
     d[0].push_back(m.d.x);
@@ -96,8 +118,8 @@ void add_motions(Bytes& bytes, const std::vector<BlockMotion>& motions, ViewPrec
     a[2].push_back(m.yx);
     a[3].push_back(m.yy);
   }
-  add_group(bytes, d, precision);
-  add_group(bytes, a, precision);
+  add_group(bytes, d, precision, motion_steps);
+  add_group(bytes, a, precision, motion_steps, largest_of(d) / motion_steps / reach);
 }
 
 void add_fields(Bytes& bytes, const Grid& g, const std::vector<std::size_t>& cells,
@@ -105,7 +127,7 @@ void add_fields(Bytes& bytes, const Grid& g, const std::vector<std::size_t>& cel
   const auto group = [&](const char* name, std::initializer_list<std::size_t> components) {
     Columns columns;
     for (const std::size_t k : components) columns.push_back(column(g, name, k, cells));
-    add_group(bytes, columns, precision);
+    add_group(bytes, columns, precision, value_steps);
   };
   group("velocity", {0, 1});
   group("omega", {0});
@@ -116,7 +138,7 @@ void add_fields(Bytes& bytes, const Grid& g, const std::vector<std::size_t>& cel
 
 /// A contact of the frame by rows of the mesh.
 struct Touch {
-  std::size_t cell = 0, i = 0, j = 0, vertex = 0;
+  std::size_t cell = 0, i = 0, j = 0, vertex = 0, edge = 0;
 };
 
 /// The vertex of block `row` that lies at the contact's point: contacts are where a vertex is.
@@ -135,16 +157,66 @@ std::size_t nearest_vertex(const ViewMesh& mesh, std::size_t row, const std::vec
   return best;
 }
 
+double distance_to(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 along = b - a;
+  const double square = dot(along, along);
+  const double s = square > 0.0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0.0;
+  const Vec2 foot = p - (a + s * along);
+  return std::hypot(foot.x, foot.y);
+}
+
+/// What a contact does to block i.
+struct Push {
+  Vec2 force;
+  double normal = 0.0, shear = 0.0;
+};
+
+/// The edge of block `row` that the contact is with: where a corner meets a corner, that from whose
+/// direction the force comes; else the nearest.
+std::size_t edge_of(const ViewMesh& mesh, std::size_t row, const std::vector<double>& places,
+                    Vec2 at, const Push& push) {
+  const auto place = [&](std::uint32_t v) {
+    const auto p = 3 * static_cast<std::size_t>(mesh.point[v]);
+    return Vec2{places[p], places[p + 1]};
+  };
+  const double size = std::hypot(push.force.x, push.force.y);
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t e = mesh.edge_begin[row]; e < mesh.edge_begin[row + 1]; ++e) {
+    const Vec2 a = place(mesh.edges[e][0]), b = place(mesh.edges[e][1]);
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    if (!(length > 0.0)) continue;
+    double misfit = distance_to(at, a, b) / length;
+    if (size > 0.0) {
+      const Vec2 t = (b - a) / length;
+      const Vec2 off = push.force - (push.normal * outward_normal(t) + push.shear * t);
+      misfit += 10.0 * std::hypot(off.x, off.y) / size;
+    }
+    if (misfit < least) {
+      least = misfit;
+      best = e - mesh.edge_begin[row];
+    }
+  }
+  return best;
+}
+
 std::vector<Touch> touches_of(const ViewMesh& mesh, const Grid& blocks, const Grid& contacts) {
-  const Field *i = contacts.cell_field("block_i"), *j = contacts.cell_field("block_j");
+  const Field *i = contacts.cell_field("block_i"), *j = contacts.cell_field("block_j"),
+              *force = contacts.cell_field("force"), *normal = contacts.cell_field("normal_force"),
+              *shear = contacts.cell_field("shear_force");
   std::vector<Touch> touches;
-  if (i == nullptr || j == nullptr) return touches;
+  for (const Field* field : {i, j, force, normal, shear}) {
+    if (field == nullptr) return touches;
+  }
   for (std::size_t c = 0; c < contacts.cell_count(); ++c) {
     Touch t{c, mesh.row_of(static_cast<std::int32_t>(i->values[c])),
-            mesh.row_of(static_cast<std::int32_t>(j->values[c])), 0};
+            mesh.row_of(static_cast<std::int32_t>(j->values[c])), 0, 0};
     if (t.i == mesh.size() || t.j == mesh.size()) continue;
-    t.vertex = nearest_vertex(mesh, t.i, blocks.points,
-                              {contacts.points[3 * c], contacts.points[3 * c + 1]});
+    const Vec2 at{contacts.points[3 * c], contacts.points[3 * c + 1]};
+    t.vertex = nearest_vertex(mesh, t.i, blocks.points, at);
+    t.edge = edge_of(
+        mesh, t.j, blocks.points, at,
+        {{force->values[3 * c], force->values[3 * c + 1]}, normal->values[c], shear->values[c]});
     touches.push_back(t);
   }
   std::stable_sort(touches.begin(), touches.end(),
@@ -162,19 +234,20 @@ void add_contacts(Bytes& bytes, const std::vector<Touch>& touches, const Grid& c
   for (const Touch& t : touches) bytes.varint(t.vertex);
   for (const Touch& t : touches)
     bytes.zigzag(static_cast<std::int64_t>(t.j) - static_cast<std::int64_t>(t.i));
+  for (const Touch& t : touches) bytes.varint(t.edge);
   std::vector<std::size_t> cells;
   for (const Touch& t : touches) cells.push_back(t.cell);
-  for (const double state : column(contacts, "state", 0, cells))
-    bytes.u8(static_cast<std::uint8_t>(state));
-  const std::vector<double> normal = column(contacts, "normal_force", 0, cells);
-  const std::vector<double> x = column(contacts, "force", 0, cells);
-  const std::vector<double> y = column(contacts, "force", 1, cells);
-  std::vector<double> direction(cells.size());
-  for (std::size_t k = 0; k < cells.size(); ++k) direction[k] = std::atan2(y[k], x[k]);
-  add_group(bytes, {normal, column(contacts, "shear_force", 0, cells)}, precision);
-  add_group(bytes, {direction}, precision);
-  add_group(bytes, {column(contacts, "opening", 0, cells)}, precision);
-  add_group(bytes, {column(contacts, "slip", 0, cells)}, precision);
+  const std::vector<double> state = column(contacts, "state", 0, cells);
+  for (const double s : state) bytes.u8(static_cast<std::uint8_t>(s));
+  std::vector<double> opening = column(contacts, "opening", 0, cells);
+  for (std::size_t k = 0; k < opening.size(); ++k) {
+    if (precision == ViewPrecision::whole16 && state[k] != 0.0) opening[k] = 0.0;
+  }
+  add_group(bytes,
+            {column(contacts, "normal_force", 0, cells), column(contacts, "shear_force", 0, cells)},
+            precision, contact_steps);
+  add_group(bytes, {opening}, precision, contact_steps);
+  add_group(bytes, {column(contacts, "slip", 0, cells)}, precision, contact_steps);
 }
 
 Vec2 point_value(const std::vector<double>& values, std::int64_t point) {
@@ -215,7 +288,7 @@ double apart(const ViewMesh& mesh, std::size_t row, const BlockMotion& a, const 
 
 std::string datum_bytes(const ViewDatum& datum) {
   Bytes bytes;
-  add_motions(bytes, datum.motion, ViewPrecision::single);
+  add_motions(bytes, datum.motion, ViewPrecision::single, 1.0);
   return bytes.text();
 }
 
@@ -269,7 +342,7 @@ std::string frame_bytes(const ViewMesh& mesh, const ViewBlocks& in, const Grid& 
   for (const std::uint8_t bits : alive) bytes.u8(bits);
   std::vector<BlockMotion> motions;
   for (const std::size_t row : in.row) motions.push_back(displacement_of(mesh, row, blocks));
-  add_motions(bytes, motions, precision);
+  add_motions(bytes, motions, precision, reach_of(mesh));
   add_fields(bytes, blocks, in.cell, precision);
   if (contacts != nullptr) add_contacts(bytes, touches, *contacts, precision);
   return bytes.text();

@@ -45,6 +45,7 @@ void add_block(const Grid& g, const BlockShape& shape, const std::vector<Vec2>& 
   }
   for (const auto& [a, b] : shape.outline) mesh.edges.push_back({vertex(a), vertex(b)});
   mesh.begin.push_back(mesh.vertex.size());
+  mesh.edge_begin.push_back(mesh.edges.size());
 }
 
 }  // namespace
@@ -57,6 +58,7 @@ std::size_t ViewMesh::row_of(std::int32_t block) const {
 ViewMesh view_mesh(const Grid& first) {
   ViewMesh mesh;
   mesh.begin.push_back(0);
+  mesh.edge_begin.push_back(0);
   const std::vector<Vec2> points = drawn_points(first, 1.0);
   for (const BlockShape& shape : block_shapes(first)) add_block(first, shape, points, mesh);
   return mesh;

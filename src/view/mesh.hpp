@@ -23,6 +23,7 @@ struct ViewMesh {
   std::vector<std::int64_t> point;                      ///< [nv] the vertex in the frames' grids
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of vertices
   std::vector<std::array<std::uint32_t, 2>> edges;      ///< of vertices, counter-clockwise
+  std::vector<std::size_t> edge_begin;                  ///< [nb + 1] first edge of each block
 
   std::size_t size() const { return id.size(); }
   std::size_t row_of(std::int32_t block) const;  ///< size() where there is none

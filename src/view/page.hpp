@@ -26,7 +26,7 @@ struct PageReport {
 
 /// Writes the run's page to `path`. Frames are left out evenly, never the first nor the last, where
 /// it would be larger than about `most_bytes`. Numbers are stored singly where that takes less than
-/// small_page bytes, else as 16 bits; those of the last frame always singly.
+/// small_page bytes, else as whole numbers; those of the last frame always singly.
 Result<PageReport> write_page(ViewRun& run, const std::string& path, std::size_t most_bytes);
 inline constexpr std::size_t small_page = std::size_t{12} << 20;
 

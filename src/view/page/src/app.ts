@@ -7,7 +7,7 @@ import { readResults, refresh, type Results } from './data/results';
 import type { Field } from './data/run';
 import { Scale } from './data/scale';
 import type { Source } from './data/source';
-import { quantity, short } from './data/units';
+import { brief, quantity } from './data/units';
 import { usualForce, usualStress } from './scene/layers';
 import { Overlay } from './scene/overlay';
 import { View } from './scene/view';
@@ -92,7 +92,7 @@ export class App {
     this.view.draw();
     this.overlay.draw(this.view.camera, this.view.pose, overlayStyle(), this.overlayOptions());
     this.paintLegend(byId<HTMLCanvasElement>('overlay').getContext('2d')!);
-    ++this.drawn;
+    if (this.frame !== undefined) ++this.drawn;
     this.scriptTimes.push(performance.now() - start);
     if (this.scriptTimes.length > 600) this.scriptTimes.shift();
   }
@@ -225,7 +225,7 @@ export class App {
 
   private save(): void {
     const style = overlayStyle();
-    const title = [this.results.run.title, `t = ${short(this.player.time, 6)} s`].filter((t) => t !== '').join('    ');
+    const title = [this.results.run.title, `t = ${brief(this.player.time, 6)} s`].filter((t) => t !== '').join('    ');
     const ratio = Math.max(2, devicePixelRatio);
     savePicture(`${this.results.run.title || 'edda'}-${this.player.index}.png`.replaceAll(/[^\w.-]+/g, '_'), this.view, ratio, title, style.halo, style.ink, (g) => {
       this.overlay.paint(g, this.view.camera, this.view.pose, style, this.overlayOptions());

@@ -10,15 +10,14 @@ export interface Contacts {
   /** Rows of the mesh: of the vertex, of the edge. */
   i: Uint32Array;
   j: Uint32Array;
-  /** Vertex of the mesh. */
+  /** Vertex and edge of the mesh. */
   vertex: Uint32Array;
+  edge: Uint32Array;
   /** 0 open, 1 stick, 2 slide, 3 bonded. */
   state: Uint8Array;
   /** N; compression positive. */
   normal: Float32Array;
   shear: Float32Array;
-  /** Of the force on block i, rad. */
-  direction: Float32Array;
   /** m */
   opening: Float32Array;
   slip: Float32Array;
@@ -62,8 +61,13 @@ export function readMotion(bytes: Uint8Array, blocks: number): Motion {
   return [...columns.group(2, blocks), ...columns.group(4, blocks)];
 }
 
-/** `begin`: [nb + 1] first vertex of each block of the mesh. */
-export function readFrame(bytes: Uint8Array, begin: Uint32Array): Frame {
+/** Where the vertices and edges of each block begin, [nb + 1]. */
+export interface Beginnings {
+  begin: Uint32Array;
+  edgeBegin: Uint32Array;
+}
+
+export function readFrame(bytes: Uint8Array, mesh: Beginnings): Frame {
   const r = new Reader(bytes);
   const [bits, blocks, count, datum, touching] = [r.u32(), r.u32(), r.u32(), r.u32(), r.u32()];
   const flags = r.take(Math.ceil(blocks / 8));
@@ -78,7 +82,7 @@ export function readFrame(bytes: Uint8Array, begin: Uint32Array): Frame {
   const [rotation] = group(1);
   const [sxx, syy, szz, sxy] = group(4);
   const [overstress] = group(1);
-  const contacts = readContacts(r, columns, touching, begin);
+  const contacts = readContacts(r, columns, touching, mesh);
   return { bits, alive, datum, motion, vx, vy, omega, rotation, sxx, syy, szz, sxy, overstress, contacts };
 }
 
@@ -90,21 +94,19 @@ function spread(values: Float32Array, alive: Uint8Array): Float32Array {
   return all;
 }
 
-function readContacts(r: Reader, columns: Columns, count: number, begin: Uint32Array): Contacts {
-  const [i, j, vertex] = [new Uint32Array(count), new Uint32Array(count), new Uint32Array(count)];
+function readContacts(r: Reader, columns: Columns, count: number, mesh: Beginnings): Contacts {
+  const [i, j, vertex, edge] = Array.from({ length: 4 }, () => new Uint32Array(count));
   for (let k = 0, row = 0; k < count; ++k) i[k] = row += r.varint();
-  for (let k = 0; k < count; ++k) vertex[k] = begin[i[k]] + r.varint();
+  for (let k = 0; k < count; ++k) vertex[k] = mesh.begin[i[k]] + r.varint();
   for (let k = 0; k < count; ++k) j[k] = i[k] + r.zigzag();
+  for (let k = 0; k < count; ++k) edge[k] = mesh.edgeBegin[j[k]] + r.varint();
   const state = r.take(count).slice();
-  if (r.left === 0) {
-    const none = new Float32Array(0);
-    return { count, i, j, vertex, state, normal: none, shear: none, direction: none, opening: none, slip: none };
-  }
-  const [normal, shear] = columns.group(2, count);
-  const [direction] = columns.group(1, count);
-  const [opening] = columns.group(1, count);
-  const [slip] = columns.group(1, count);
-  return { count, i, j, vertex, state, normal, shear, direction, opening, slip };
+  const some = r.left > 0;
+  const group = (n: number) => (some ? columns.group(n, count) : Array.from({ length: n }, () => new Float32Array(0)));
+  const [normal, shear] = group(2);
+  const [opening] = group(1);
+  const [slip] = group(1);
+  return { count, i, j, vertex, edge, state, normal, shear, opening, slip };
 }
 
 /** The arrays behind a frame, to hand over without a copy. */

@@ -17,7 +17,7 @@ export class Frames {
   constructor(private readonly source: Source, private readonly mesh: Mesh) {
     this.worker = new Worker(URL.createObjectURL(new Blob([workerCode], { type: 'text/javascript' })));
     this.worker.onmessage = ({ data }: MessageEvent<Done>) => this.done(data);
-    this.worker.postMessage({ begin: mesh.begin } satisfies Setup);
+    this.worker.postMessage({ begin: mesh.begin, edgeBegin: mesh.edgeBegin } satisfies Setup);
   }
 
   /** Frames that may be kept. */

@@ -18,8 +18,10 @@ export interface Mesh {
   row: Uint32Array;
   /** Three vertices each. */
   triangles: Uint32Array;
-  /** Two vertices each, block by block. */
+  /** Two vertices each, block by block, counter-clockwise. */
   edges: Uint32Array;
+  /** [nb + 1] first edge of each block. */
+  edgeBegin: Uint32Array;
   /** [nb] 1: held. */
   fixed: Uint8Array;
 }
@@ -37,8 +39,11 @@ export function readMesh(bytes: Uint8Array): Mesh {
     row: new Uint32Array(vertices),
     triangles: r.u32s(3 * triangles),
     edges: r.u32s(2 * edges),
+    edgeBegin: new Uint32Array(blocks + 1),
     fixed: r.take(blocks).slice(),
   };
   for (let b = 0; b < blocks; ++b) mesh.row.fill(b, begin[b], begin[b + 1]);
+  for (let e = 0; e < edges; ++e) ++mesh.edgeBegin[mesh.row[mesh.edges[2 * e]] + 1];
+  for (let b = 0; b < blocks; ++b) mesh.edgeBegin[b + 1] += mesh.edgeBegin[b];
   return mesh;
 }

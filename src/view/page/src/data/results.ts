@@ -34,7 +34,7 @@ export async function readResults(source: Source): Promise<Results> {
 export async function refresh(source: Source, results: Results): Promise<void> {
   const text = async (name: string) => {
     const bytes = await source.chunk(name);
-    return bytes === undefined ? undefined : readTable(new TextDecoder().decode(bytes));
+    return bytes === undefined || bytes.length === 0 ? undefined : readTable(new TextDecoder().decode(bytes));
   };
   for (let k = results.datums.length; k < results.run.datums; ++k) {
     results.datums.push(readMotion((await source.chunk(`datum-${k}`))!, results.mesh.blocks));

@@ -42,6 +42,12 @@ export function short(value: number, digits = 4): string {
   return (text.includes('e+') ? String(Number(text)) : text).replaceAll('-', '\u2212');
 }
 
+/** The same without trailing zeros. */
+export function brief(value: number, digits = 4): string {
+  const text = short(value, digits);
+  return text.includes('.') && !text.includes('e') ? text.replace(/\.?0+$/, '') : text;
+}
+
 /** With the unit's own prefix: "12.5 mm". */
 export function quantity(value: number, unit: string, digits = 4): string {
   const scaled = scaledUnit(unit, Math.abs(value));

@@ -1,11 +1,9 @@
 // Unpacks frames beside the page's own thread.
-import { buffersOf, type Frame, readFrame } from './frame';
+import { type Beginnings, buffersOf, type Frame, readFrame } from './frame';
 import { fromBase64, inflate } from './inflate';
 
-/** First: where the blocks' vertices begin. */
-export interface Setup {
-  begin: Uint32Array;
-}
+/** First: where the blocks' vertices and edges begin. */
+export type Setup = Beginnings;
 /** Then a frame at a time: base64, or where to fetch it. */
 export interface Job {
   index: number;
@@ -18,13 +16,13 @@ export interface Done {
   error?: string;
 }
 
-let begin = new Uint32Array();
+let mesh: Beginnings = { begin: new Uint32Array(), edgeBegin: new Uint32Array() };
 
 async function unpack(job: Job): Promise<Frame> {
-  if (job.text !== undefined) return readFrame(await inflate(fromBase64(job.text)), begin);
+  if (job.text !== undefined) return readFrame(await inflate(fromBase64(job.text)), mesh);
   const reply = await fetch(job.url!);
   if (!reply.ok) throw new Error(`frame ${job.index}: ${await reply.text()}`);
-  return readFrame(await inflate(new Uint8Array(await reply.arrayBuffer())), begin);
+  return readFrame(await inflate(new Uint8Array(await reply.arrayBuffer())), mesh);
 }
 
 // A worker's own global; the page's types know it as a window.
@@ -35,7 +33,7 @@ const self_ = self as unknown as {
 
 self_.onmessage = async ({ data }) => {
   if ('begin' in data) {
-    begin = data.begin as typeof begin;
+    mesh = data;
     return;
   }
   try {

@@ -1,7 +1,7 @@
 // What is drawn over the blocks: strokes of contacts, stresses, motions and bolts.
 import type { BoltNode } from '../data/bolts';
 import { contactValues, length as lengthOf, principal } from '../data/fields';
-import type { Frame } from '../data/frame';
+import type { Contacts, Frame } from '../data/frame';
 import type { Mesh } from '../data/mesh';
 import { type Scale, stateColours } from '../data/scale';
 import type { Pose } from './pose';
@@ -47,16 +47,24 @@ function stroke(layer: Strokes, x0: number, y0: number, x1: number, y1: number, 
   layer.add(x0, y0, x1, y1, width, ink[0], ink[1], ink[2]);
 }
 
+/** Force on block i, times `scale`: N across the edge, outwards from its block, and S along it. */
+function forceOn(c: Contacts, k: number, pose: Pose, mesh: Mesh, scale: number): [number, number] {
+  const [ax, ay] = pose.vertex(mesh.edges[2 * c.edge[k]]);
+  const [bx, by] = pose.vertex(mesh.edges[2 * c.edge[k] + 1]);
+  const size = lengthOf(bx - ax, by - ay) || 1;
+  const [tx, ty] = [(bx - ax) / size, (by - ay) / size];
+  return [scale * (c.normal[k] * ty + c.shear[k] * tx), scale * (-c.normal[k] * tx + c.shear[k] * ty)];
+}
+
 /** A stroke through each closed contact along its force; `length`: m of one of the usual force. */
-export function drawForces(layer: Strokes, frame: Frame, pose: Pose, usual: number, length: number, c: Palette): void {
+export function drawForces(layer: Strokes, frame: Frame, pose: Pose, mesh: Mesh, usual: number, length: number, c: Palette): void {
   const { contacts } = frame;
   layer.clear(2 * contacts.normal.length);
   for (let k = 0; k < contacts.normal.length && usual > 0; ++k) {
     const size = Math.min(lengthOf(contacts.normal[k], contacts.shear[k]) / usual, LONGEST);
     if (contacts.state[k] === 0 || size <= 1e-3) continue;
     const [x, y] = pose.vertex(contacts.vertex[k]);
-    const half = 0.5 * length * size;
-    const [dx, dy] = [half * Math.cos(contacts.direction[k]), half * Math.sin(contacts.direction[k])];
+    const [dx, dy] = forceOn(contacts, k, pose, mesh, (0.5 * length * size) / lengthOf(contacts.normal[k], contacts.shear[k]));
     stroke(layer, x - dx, y - dy, x + dx, y + dy, 1 + size, contacts.normal[k] < 0 ? c.tension : c.ink, c);
   }
   layer.upload();

@@ -92,7 +92,7 @@ export class View {
     this.blocks.setPose(this.pose);
     const size = this.blockSize;
     if (shown.contacts) layers.drawContacts(this.contactDots, frame, this.pose, shown.scale, 5);
-    if (shown.forces) layers.drawForces(this.forceStrokes, frame, this.pose, shown.usualForce, FORCE * size, theme);
+    if (shown.forces) layers.drawForces(this.forceStrokes, frame, this.pose, this.mesh, shown.usualForce, FORCE * size, theme);
     if (shown.crosses) layers.drawCrosses(this.crossStrokes, frame, this.pose, this.mesh, shown.usualStress, CROSS * size, theme);
     if (shown.vectors !== 'none') {
       const [x, y] = shown.vectors === 'velocity' ? [frame.vx, frame.vy] : frame.motion;

@@ -3,7 +3,7 @@ import { isKnown } from '../data/fields';
 import type { Frame } from '../data/frame';
 import type { Results } from '../data/results';
 import type { Field } from '../data/run';
-import { quantity, scaledUnit, short } from '../data/units';
+import { brief, scaledUnit } from '../data/units';
 import type { Vectors } from '../scene/view';
 import { byId, make } from './dom';
 import type { Player } from './player';
@@ -114,7 +114,7 @@ export class Controls {
     scrub.value = String(player.index);
     const t = player.time;
     const stage = results.stages.find((s) => t <= s.end * (1 + 1e-12) && (t > s.start || s === results.stages[0]));
-    const text = `t = ${short(t, 5)} s`;
+    const text = `t = ${brief(t, 5)} s`;
     byId('time').textContent = results.stages.length > 1 && stage !== undefined ? `${stage.name} \u00b7 ${text}` : text;
     scrub.setAttribute('aria-valuetext', text);
     const play = byId('play');
@@ -162,7 +162,7 @@ export class Controls {
     byId('own-unit').textContent = scaled.unit;
   }
   private showMagnification(): void {
-    byId('magnify-value').textContent = `\u00d7 ${quantity(this.magnification, '', 3)}`;
+    byId('magnify-value').textContent = `\u00d7 ${brief(this.magnification, 3)}`;
   }
 
   private marked = '';

@@ -1,6 +1,6 @@
 // A plot over time, with the shown frame's time as a line; a click goes to that time.
 import uPlot from 'uplot';
-import { short } from '../data/units';
+import { brief, short } from '../data/units';
 
 export interface Series {
   label: string;
@@ -38,7 +38,7 @@ export class Plot {
         cursor: { drag: { x: true, y: false } },
         axes: [
           { ...axis, label: 'time in s', labelFont: '11px system-ui', labelSize: 16, size: 34 },
-          { ...axis, label: unit, labelFont: '11px system-ui', labelSize: 16, size: 62, values: (_u, at) => at.map((v) => short(v, 3)) },
+          { ...axis, label: unit, labelFont: '11px system-ui', labelSize: 16, size: 62, values: (_u, at) => at.map((v) => brief(v, 6)) },
         ],
         series: [
           { label: 't', value: (_u, v) => (v == null ? '\u2013' : `${short(v, 5)} s`) },
