@@ -70,7 +70,7 @@ export class Controls {
     this.showMagnification();
     this.changed();
   }
-  /** True, or so that the largest displacement is a twentieth of the model. */
+  /** True, or a round factor that makes the largest displacement about a fortieth of the model. */
   flipMagnification(results: Results, frame: Frame | undefined): void {
     if (this.magnification > 1 || frame === undefined) {
       this.setMagnification(1);
@@ -85,7 +85,8 @@ export class Controls {
       y0 = Math.min(y0, mesh.centre[2 * b + 1]);
       y1 = Math.max(y1, mesh.centre[2 * b + 1]);
     }
-    this.setMagnification(largest > 0 ? Math.max(1, (0.05 * Math.hypot(x1 - x0, y1 - y0)) / largest) : 1);
+    const wanted = largest > 0 ? (0.025 * Math.hypot(x1 - x0, y1 - y0)) / largest : 1;
+    this.setMagnification(Math.max(1, Number(wanted.toPrecision(1))));
   }
 
   /** Ends of the colours; undefined: the field's own over all frames. */
