@@ -249,5 +249,28 @@ TEST(JointStiffness, GoesOnOverASeam) {
   }
 }
 
+/// A bond so soft that corners which lined up pass each other while it holds: one spring, whoever
+/// has it, and no energy out of nothing.
+TEST(SoftBond, KeepsItsEnergyWhenCornersSlidePastEachOther) {
+  for (const double velocity : {0.2, -0.2}) {
+    Simulation sim =
+        scene("gravity = [0.0, 0.0]\n" + rock +
+              "[joints.j]\nfriction_angle = 0\ncohesion = 1e9\ntensile_strength = 1e9\nkn = "
+              "4e6\nks = 1e6\n"
+              "[solver]\nduration = 2.0\n[output]\nhistory_every = 0.05\n"
+              "[[block]]\nfixed = true\npolygon = [[0,-1],[1,-1],[1,0],[0,0]]\n"
+              "[[block]]\npolygon = [[0,0],[1,0],[1,1],[0,1]]\nvelocity = [" +
+              number(velocity) + ", 0.0]\n[[block]]\npolygon = [[0,1],[1,1],[1,2],[0,2]]\n");
+    double drift = 0.0, furthest = 0.0;
+    run(sim, [&](Simulation& now) {
+      keep_largest(drift, now.ledger().drift);
+      keep_largest(furthest, displacement(now, 1).x);
+    });
+    EXPECT_GT(furthest, 5e-3) << "corners should pass by more than what they share";
+    EXPECT_LT(drift, 6e-8) << velocity;
+    EXPECT_FALSE(sim.contacts.segments.empty());
+  }
+}
+
 }  // namespace
 }  // namespace edda
