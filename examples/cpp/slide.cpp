@@ -18,13 +18,13 @@ int main(int argc, char** argv) {
       std::printf("%.4f s: moved by (%.6f, %.6f) m\n", simulation.time(), at.ux, at.uy);
     });
     simulation.advance_to(0.1);
-    simulation.set_velocity(slider, {-0.5, 0.3});
+    simulation.set_velocity(slider, {-0.433, 0.25});
     const api::Outcome outcome = simulation.run();
     for (const api::Contact& contact : simulation.contacts()) {
       std::printf("contact at (%.3f, %.3f): %.1f N\n", contact.x, contact.y, contact.normal_force);
     }
-    std::printf("%s after %.4g s, energy drift %.1e\n", name_of(outcome.status).data(), outcome.time,
-                outcome.drift);
+    std::printf("%s after %.4g s, energy drift %.1e\n", name_of(outcome.status).data(),
+                outcome.time, outcome.drift);
   } catch (const api::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;

@@ -8,6 +8,18 @@ namespace {
 constexpr std::uint64_t no_step = std::numeric_limits<std::uint64_t>::max();
 constexpr double no_time = std::numeric_limits<double>::infinity();
 
+/// True as long as it lives, whatever ends that.
+class Within {
+ public:
+  explicit Within(bool& flag) : flag_(flag) { flag_ = true; }
+  ~Within() { flag_ = false; }
+  Within(const Within&) = delete;
+  Within& operator=(const Within&) = delete;
+
+ private:
+  bool& flag_;
+};
+
 PreparedRun prepare(const Model& model, const Options& options) {
   const edda::Model& given = model.impl().model;
   if (!options.results.empty()) {
@@ -87,9 +99,10 @@ void Simulation::Impl::go(std::uint64_t to_step, double to_time) {
   pause = false;
   pause_step_ = to_step;
   pause_time_ = to_time;
-  stepping_ = true;
-  driver->go_on();
-  stepping_ = false;
+  {
+    const Within within(stepping_);
+    driver->go_on();
+  }
   instant_.reset();
   hand_over();
   if (driver->over()) finish();
