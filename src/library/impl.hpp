@@ -55,6 +55,7 @@ struct Simulation::Impl {
   RunOptions run_options;
   std::optional<Driver> driver;
   Outcome outcome;
+  std::size_t last_stage = 0;  ///< of a finished run, whose driver is gone
   bool begun = false, finished = false;
   std::atomic<bool> stop{false}, pause{false};
 

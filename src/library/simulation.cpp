@@ -117,6 +117,8 @@ void Simulation::Impl::finish() {
   take_back();
   finished = true;
   outcome = outcome_of(driver->finish());
+  last_stage = driver->stage();
+  driver.reset();  // and with it the folder
   hand_over();
 }
 
@@ -197,7 +199,7 @@ void Simulation::Impl::end_change() {
 const Instant& Simulation::Impl::look() {
   take_back();
   if (!instant_) {
-    if (begun) driver->count_turns_now();
+    if (begun && driver) driver->count_turns_now();
     observe(sim(), instant_.emplace());
   }
   return *instant_;

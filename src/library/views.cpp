@@ -118,7 +118,7 @@ std::vector<std::string> Simulation::warnings() const {
 }
 
 std::size_t Simulation::stage() const {
-  return impl_->driver->stage();
+  return impl_->driver ? impl_->driver->stage() : impl_->last_stage;
 }
 
 Ledger Simulation::ledger() const {
