@@ -1,4 +1,7 @@
 # What `cmake --install` puts where: the program, libedda with its header and package, examples, licence.
+if(EXISTS /etc/debian_version AND CMAKE_LIBRARY_ARCHITECTURE AND NOT DEFINED CMAKE_INSTALL_LIBDIR)
+  set(CMAKE_INSTALL_LIBDIR lib/${CMAKE_LIBRARY_ARCHITECTURE})  # whatever the prefix: it is looked for there
+endif()
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -14,7 +17,7 @@ target_compile_features(edda_shared INTERFACE cxx_std_20)
 target_include_directories(edda_shared INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 
 install(TARGETS edda RUNTIME)
-install(TARGETS edda_shared EXPORT edda LIBRARY NAMELINK_COMPONENT Development)
+install(TARGETS edda_shared EXPORT edda LIBRARY)
 install(FILES src/library/edda.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/edda)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/edda)
@@ -29,4 +32,4 @@ install(DIRECTORY examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/edda/models FIL
         PATTERN cpp EXCLUDE PATTERN python EXCLUDE)
 install(DIRECTORY examples/cpp examples/python DESTINATION ${CMAKE_INSTALL_DATADIR}/edda/examples
         PATTERN __pycache__ EXCLUDE)
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)  # in a package, Debian's own copy stands for it

@@ -10,7 +10,7 @@ endif()
 
 file(GLOB python_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/python/*.cpp)
 pybind11_add_module(edda_python NO_EXTRAS ${python_sources} $<TARGET_OBJECTS:edda_library>)
-set_target_properties(edda_python PROPERTIES OUTPUT_NAME _edda LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/python/edda)
+set_target_properties(edda_python PROPERTIES OUTPUT_NAME _edda SKIP_BUILD_RPATH ON LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/python/edda)
 target_link_libraries(edda_python PRIVATE edda_run)
 target_link_options(edda_python PRIVATE -Wl,--exclude-libs,ALL)
 
@@ -32,4 +32,7 @@ install(CODE "
   endif()
   file(INSTALL ${python_files} ${CMAKE_CURRENT_SOURCE_DIR}/src/python/edda/py.typed $<TARGET_FILE:edda_python>
        DESTINATION \"\${CMAKE_INSTALL_PREFIX}/\${folder}/edda\")
+  if(CMAKE_INSTALL_DO_STRIP)
+    execute_process(COMMAND ${CMAKE_STRIP} --strip-unneeded \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/\${folder}/edda/$<TARGET_FILE_NAME:edda_python>\")
+  endif()
 ")
