@@ -34,6 +34,14 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         return _pack(build, pathlib.Path(wheel_directory))
 
 
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    information = pathlib.Path(metadata_directory) / f"edda-{_version()}.dist-info"
+    information.mkdir()
+    (information / "METADATA").write_text(_metadata(), encoding="utf-8")
+    (information / "WHEEL").write_text(_wheel_file(), encoding="utf-8")
+    return information.name
+
+
 def build_sdist(sdist_directory, config_settings=None):
     stem = f"edda-{_version()}"
     path = pathlib.Path(sdist_directory) / f"{stem}.tar.gz"
@@ -69,14 +77,17 @@ def _tag():
     return f"{python}-{python}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
 
 
+def _wheel_file():
+    return f"Wheel-Version: 1.0\nGenerator: edda {_version()}\nRoot-Is-Purelib: false\nTag: {_tag()}\n"
+
+
 def _pack(build, wheel_directory):
     subprocess.run(["cmake", "--build", build, "--target", "edda_python"], check=True)
     information = f"edda-{_version()}.dist-info"
     contents = {f"edda/{file.name}": file.read_bytes() for file in sorted((build / "python/edda").iterdir()) if file.is_file()}
     contents[f"{information}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
     contents[f"{information}/METADATA"] = _metadata().encode()
-    contents[f"{information}/WHEEL"] = (
-        f"Wheel-Version: 1.0\nGenerator: edda {_version()}\nRoot-Is-Purelib: false\nTag: {_tag()}\n".encode())
+    contents[f"{information}/WHEEL"] = _wheel_file().encode()
     record = "".join(f"{name},sha256={_hash(data)},{len(data)}\n" for name, data in contents.items())
     contents[f"{information}/RECORD"] = f"{record}{information}/RECORD,,\n".encode()
     path = wheel_directory / f"edda-{_version()}-{_tag()}.whl"

@@ -24,6 +24,9 @@ struct Model::Impl {
 /// One fault of a call: `key` names the function or its argument.
 [[noreturn]] void raise(std::string key, std::string problem, std::string remedy);
 
+/// An Error where the blocks cannot fit into this machine's memory.
+void check_memory(const edda::Model& model);
+
 /// The value, or an Error.
 template <class T>
 T value_or_raise(Result<T> result) {

@@ -7,7 +7,9 @@
 #include "lines/build_polygons.hpp"
 #include "model/read_model.hpp"
 #include "model/write_model.hpp"
+#include "results/machine.hpp"
 #include "results/version.hpp"
+#include "run/size_limits.hpp"
 
 namespace edda::api {
 namespace {
@@ -76,6 +78,10 @@ void raise(std::string key, std::string problem, std::string remedy) {
   throw Error({{std::move(key), {}, 0, 0, std::move(problem), std::move(remedy)}});
 }
 
+void check_memory(const edda::Model& model) {
+  if (const auto fault = beyond_memory(model, memory_here())) raise(Faults{*fault});
+}
+
 Model::Model(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 
 Model Model::read(const std::string& path, const std::vector<std::string>& overrides) {
@@ -120,6 +126,7 @@ std::vector<std::string> Model::stages() const {
 }
 
 Cut cut(const Model& model) {
+  check_memory(model.impl().model);
   const PolygonSet polygons = value_or_raise(build_polygons(model.impl().model));
   const CutReport& r = polygons.report;
   Cut result;

@@ -27,6 +27,7 @@ PreparedRun prepare(const Model& model, const Options& options) {
   } else if (options.resume || options.from_stage) {
     raise("results", "names no folder to go on from", "name the folder of the run");
   }
+  check_memory(given);
   return value_or_raise(prepare_run(given));
 }
 

@@ -323,6 +323,45 @@ TEST_F(Library, RockTakenOutByHandIsGone) {
   EXPECT_LT(std::abs(simulation.ledger().drift), 1e-3);
 }
 
+TEST_F(Library, ARunGoesOnFromTheEndOfAStage) {
+  std::string text = text_of(examples + "ramp.toml");
+  text.replace(text.find("\nduration ="), 1, "\n# ");
+  const Model model = Model::parse(
+      text + "[[stage]]\nduration = 0.01\n[[stage]]\nduration = 0.02\nstrength_factor = 2.0\n");
+  Simulation whole(model, {.results = in_folder("out")});
+  EXPECT_EQ(whole.run().status, Status::completed);
+  EXPECT_EQ(whole.stage(), 1u);
+  const std::string history = text_of(in_folder("out") + "/history.csv");
+  Simulation second(model, {.results = in_folder("out"), .from_stage = 0});
+  EXPECT_NEAR(second.time(), 0.01, 1e-15);
+  const auto* vx = second.node_vx()[0].data();
+  EXPECT_EQ(second.run().status, Status::completed);
+  EXPECT_EQ(second.node_vx()[0].data(), vx);
+  EXPECT_EQ(positions(second), positions(whole));
+  EXPECT_TRUE(text_of(in_folder("out") + "/history.csv") == history);
+}
+
+TEST_F(Library, ModelsBeyondThisMachineAreRefused) {
+  const Model model = Model::read(
+      examples + "cavern.toml", {"joint_set.steep.spacing=1.3e-3", "joint_set.flat.spacing=1.3e-3",
+                                 "domain.max_blocks=2000000000"});
+  EXPECT_FALSE(faults_of([&] { Simulation too_large(model); }).empty());
+  EXPECT_FALSE(faults_of([&] { cut(model); }).empty());
+}
+
+TEST_F(Library, AStoneThrownInAnImplicitRunFlies) {
+  Simulation simulation(
+      Model::parse(falling, "falling", {"solver.method=dda", "solver.time_step=1e-3"}));
+  const std::size_t stone = *simulation.block_called("stone");
+  simulation.advance_to(0.1);
+  simulation.set_velocity(stone, {3.0, 0.0});
+  EXPECT_EQ(simulation.run().status, Status::completed);
+  const auto moved = simulation.field(Field::displacement);
+  EXPECT_NEAR(moved[2 * stone], 3.0 * 0.1, 1e-9);
+  EXPECT_NEAR(moved[2 * stone + 1], -5.0 * (0.01 + 0.01), 1e-9);
+  EXPECT_NEAR(simulation.ledger().drift, 0.0, 1e-9);
+}
+
 TEST_F(Library, ImplicitRunsWorkTheSameWay) {
   const Model model =
       Model::read(examples + "ramp.toml",
