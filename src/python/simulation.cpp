@@ -80,6 +80,9 @@ class Runner {
     }
   }
 
+  bool is_busy() const { return busy_; }
+  const api::Simulation& at_rest() const { return *simulation_; }
+
   void pause() { simulation_->pause(); }
   void stop() { simulation_->stop(); }
 
@@ -360,6 +363,20 @@ void add_changing(py::class_<Runner>& type) {
           "Displacements count from here.");
 }
 
+/// A model, or what edda.load() makes one of.
+api::Model model_of(const py::object& source) {
+  if (py::isinstance<api::Model>(source)) return source.cast<api::Model>();
+  return py::module_::import("edda").attr("load")(source).cast<api::Model>();
+}
+
+std::string repr(const Runner& self) {
+  if (self.is_busy()) return "<edda.Simulation, going on>";
+  const api::Simulation& s = self.at_rest();
+  const std::string time = py::str(py::float_(s.time()));
+  return "<edda.Simulation of " + std::to_string(s.block_count()) + " blocks at " + time +
+         " s, step " + std::to_string(s.steps()) + ">";
+}
+
 std::string path_or_empty(const py::object& path) {
   return path.is_none() ? "" : py::module_::import("os").attr("fspath")(path).cast<std::string>();
 }
@@ -370,16 +387,18 @@ void add_simulation(py::module_& m) {
   PYBIND11_NUMPY_DTYPE(api::Contact, block_i, block_j, joint, state, x, y, normal_force,
                        shear_force, opening, slip, mobilised, ever_slipped, ever_opened);
   py::class_<Runner> type(m, "Simulation", "A model in motion.");
-  type.def(py::init([](const api::Model& model, const py::object& results, bool resume,
+  type.def(py::init([](const py::object& model, const py::object& results, bool resume,
                        std::optional<std::size_t> from_stage, py::object progress,
                        double progress_every, py::object warn) {
-             return std::make_unique<Runner>(model, path_or_empty(results), resume, from_stage,
-                                             std::move(progress), progress_every, std::move(warn));
+             return std::make_unique<Runner>(model_of(model), path_or_empty(results), resume,
+                                             from_stage, std::move(progress), progress_every,
+                                             std::move(warn));
            }),
            py::arg("model"), py::arg("results") = py::none(), py::arg("resume") = false,
            py::arg("from_stage") = py::none(), py::arg("progress") = py::none(),
            py::arg("progress_every") = 0.2, py::arg("warn") = py::none(),
            "Cuts, builds and checks; nothing is written before the first step.");
+  type.def("__repr__", &repr);
   add_running(type);
   add_numbers(type);
   add_views(type);

@@ -59,3 +59,12 @@ def test_names_in_the_manual_exist(source, page):
         assert hasattr(edda, name) or name in {"hpp", "api"}, name
     for name in re.findall(r"`simulation\.(\w+)", text):
         assert hasattr(edda.Simulation, name), name
+
+
+def test_the_page_that_greets_runs(source, tmp_path):
+    """The model and the script of README.md."""
+    text = (source / "README.md").read_text()
+    for name, language in (("hillside.toml", "toml"), ("script.py", "python")):
+        (tmp_path / name).write_text(re.search(rf"^```{language}\n(.*?)^```", text, re.S | re.M).group(1))
+    assert len(run("script.py", cwd=tmp_path).splitlines()) > 3
+    assert (tmp_path / "hillside.png").stat().st_size > 5000

@@ -70,6 +70,15 @@ def test_positions_cannot_be_written_to(ramp, name):
         assert not getattr(simulation, other).flags.writeable
 
 
+def test_a_simulation_takes_what_load_takes_and_tells_where_it_is(models):
+    simulation = edda.Simulation(models / "ramp.toml")
+    simulation.step(3)
+    assert repr(simulation) == f"<edda.Simulation of 2 blocks at {simulation.time} s, step 3>"
+    assert type(simulation).__module__ == edda.ModelError.__module__ == "edda"
+    with pytest.raises(edda.ModelError):
+        edda.Simulation({"no": "model"})
+
+
 def test_views_keep_the_simulation(ramp):
     x = edda.Simulation(ramp).node_x[0]
     gc.collect()

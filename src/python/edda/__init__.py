@@ -57,6 +57,10 @@ __all__ = [
 ]
 __version__ = version()
 
+for _name in __all__:  # where users find them, not where they are written
+    if isinstance(globals().get(_name), type):
+        globals()[_name].__module__ = __name__
+
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 Overrides = Union[Mapping[str, Any], Iterable[str], None]
 

@@ -1,7 +1,7 @@
 """The compiled part of edda. nb: number of blocks, nv: number of their vertices; SI units."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, Literal, Optional, Union
 
 import numpy as np
@@ -176,7 +176,7 @@ class Simulation:
 
     def __init__(
         self,
-        model: Model,
+        model: Union[Model, str, os.PathLike[str], Mapping[str, Any]],
         results: Union[str, os.PathLike[str], None] = None,
         resume: bool = False,
         from_stage: Optional[int] = None,
@@ -186,7 +186,7 @@ class Simulation:
     ) -> None:
         """Cuts, builds and checks; nothing is written before the first step.
 
-        results: folder, as of `edda run -o`. resume, from_stage: go on from its checkpoint.
+        model: a Model, or what edda.load() takes. results: folder, as of `edda run -o`. resume, from_stage: go on from its checkpoint.
         progress: called about every progress_every s of wall time; False stops the run.
         """
     def run(self) -> Outcome:
