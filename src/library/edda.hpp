@@ -269,8 +269,8 @@ class EDDA_API Simulation {
   std::vector<Contact> contacts() const;       ///< closed now or before, as in joints.csv
 
   // -- Monitors
-  /// The material point now at `point`. With a results folder before the first step alone:
-  /// history.csv has a column for each from its first row on.
+  /// The material point that is at `point` at the start. With a results folder before the first
+  /// step alone: history.csv has a column for each from its first row on.
   void add_monitor(const std::string& name, Point point);
   std::vector<std::string> monitors() const;  ///< those of the model first
   MonitorReading read(const std::string& monitor) const;

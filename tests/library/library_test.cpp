@@ -57,6 +57,12 @@ std::vector<double> positions(const Simulation& simulation) {
   return all;
 }
 
+double max_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double most = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, std::abs(a[k] - b[k]));
+  return most;
+}
+
 class Library : public testing::Test {
  protected:
   void SetUp() override {
@@ -319,8 +325,17 @@ TEST_F(Library, RockTakenOutByHandIsGone) {
   EXPECT_GT(gone, 0u);
   EXPECT_NEAR(simulation.ledger().drift, drift, 1e-9);
   EXPECT_FALSE(faults_of([&] { simulation.excavate({"no such"}); }).empty());
+  simulation.relax(opening, 0.5);
   simulation.step(20);
   EXPECT_LT(std::abs(simulation.ledger().drift), 1e-3);
+  Simulation twice(model);
+  twice.step(4);
+  twice.excavate({opening});
+  twice.relax(opening, 0.5);
+  twice.step();
+  twice.excavate({opening});  // there is nothing left of it
+  twice.step(19);
+  EXPECT_LT(max_difference(positions(twice), positions(simulation)), 1e-11);
 }
 
 TEST_F(Library, ARunGoesOnFromTheEndOfAStage) {
