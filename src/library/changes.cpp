@@ -103,6 +103,7 @@ void Simulation::set_strength_factor(const std::string& joint, double factor) {
 
 void Simulation::excavate(const std::vector<std::string>& openings) {
   std::vector<Index> rows;
+  rows.reserve(openings.size());
   for (const std::string& name : openings) {
     rows.push_back(row_of_opening("excavate", impl_->sim(), name));
   }

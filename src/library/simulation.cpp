@@ -11,7 +11,7 @@ constexpr double no_time = std::numeric_limits<double>::infinity();
 /// True as long as it lives, whatever ends that.
 class Within {
  public:
-  explicit Within(bool& flag) : flag_(flag) { flag_ = true; }
+  explicit Within(bool& flag) : flag_(flag) { flag = true; }
   ~Within() { flag_ = false; }
   Within(const Within&) = delete;
   Within& operator=(const Within&) = delete;
