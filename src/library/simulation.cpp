@@ -62,7 +62,8 @@ Simulation::Impl::Impl(const Model& given, Options&& wanted)
     run_options.progress = [this](const edda::Progress& p) { report(p); };
   }
   driver.emplace(prepared, run_options);
-  if (const Trouble trouble = take_up_folder(*driver, run_options)) raise(Faults{*trouble});
+  const Faults faults = take_up_folder(*driver, run_options);
+  if (!faults.empty()) raise(faults);
   velocities_ = sim().state.vx[0].data();
   if (options.resume || options.from_stage) enter();
 }

@@ -111,7 +111,8 @@ class Driver {
 };
 
 /// Takes up what the checkpoint in RunOptions::folder holds, where the options ask for that.
-Trouble take_up_folder(Driver& driver, const RunOptions& options);
+/// What is wrong with it or the folder; empty: nothing.
+Faults take_up_folder(Driver& driver, const RunOptions& options);
 
 /// The likely cause of a divergence, for the message.
 std::string likely_cause(const Simulation& sim);
