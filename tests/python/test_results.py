@@ -82,6 +82,11 @@ def test_stages_and_bolts(models, tmp_path):
     results = edda.Results(tmp_path / "out")
     assert len(results.stages) == 1
     assert results.stages["steps"].dtype.kind == "i"
+    at_end = results.stage_joints(0)
+    assert at_end.dtype.names == results.joints.dtype.names
+    assert np.count_nonzero(at_end["normal_force"] > 0.0) > 10
+    with pytest.raises(AttributeError, match="joints_1.csv"):
+        results.stage_joints(1)
 
 
 def test_pictures(folder, models, tmp_path):

@@ -18,7 +18,7 @@ Table = np.ndarray[Any, np.dtype[np.void]]  #: structured, a field per column
 
 
 class Results:
-    """A folder that `edda run` or a Simulation has written.
+    """A folder that `edda run`, `edda fos` or a Simulation has written.
 
     Tables are structured arrays: results.history["time"] is a column of float64, to the bit what
     was computed. What a run did not write is an AttributeError that says so.
@@ -28,7 +28,7 @@ class Results:
         self.folder = pathlib.Path(folder)
         if not self.folder.is_dir():
             raise FileNotFoundError(f"{self.folder}: no such folder")
-        if not (self.folder / "history.csv").is_file():
+        if not any((self.folder / name).is_file() for name in ("history.csv", "fos.csv")):
             raise FileNotFoundError(f"{self.folder}: holds no history.csv: give a folder that edda run has written")
 
     def __repr__(self) -> str:
@@ -59,6 +59,15 @@ class Results:
     def stages(self) -> Table:
         """A row per stage; of a model with stages."""
         return read_table(self._file("stages.csv"))
+
+    def stage_joints(self, stage: int) -> Table:
+        """The contacts at the end of a stage, by its number from 0."""
+        return read_table(self._file(f"joints_{stage}.csv"))
+
+    @property
+    def fos(self) -> Table:
+        """The trials of `edda fos`."""
+        return read_table(self._file("fos.csv"))
 
     @property
     def reactions(self) -> Table:
