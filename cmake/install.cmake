@@ -1,7 +1,4 @@
 # What `cmake --install` puts where: the program, libedda with its header and package, examples, licence.
-if(EXISTS /etc/debian_version AND CMAKE_LIBRARY_ARCHITECTURE AND NOT DEFINED CMAKE_INSTALL_LIBDIR)
-  set(CMAKE_INSTALL_LIBDIR lib/${CMAKE_LIBRARY_ARCHITECTURE})  # whatever the prefix: it is looked for there
-endif()
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
