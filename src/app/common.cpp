@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <omp.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -10,9 +9,9 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
 
 #include "model/read_model.hpp"
+#include "results/machine.hpp"
 #include "run/size_limits.hpp"
 
 namespace edda {
@@ -26,13 +25,6 @@ void ask_to_stop(int signal) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }
-}
-
-/// Bytes that this machine has; infinity where it does not say.
-double memory_here() {
-  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
-  if (pages <= 0 || page <= 0) return std::numeric_limits<double>::infinity();
-  return static_cast<double>(pages) * static_cast<double>(page);
 }
 
 }  // namespace

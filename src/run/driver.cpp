@@ -109,23 +109,63 @@ Driver::Driver(PreparedRun& run, const RunOptions& options)
       times_(run.sim.model.output.history_every, run.sim.model.output.every) {}
 
 Outcome Driver::run() {
+  begin();
+  go_on();
+  return finish();
+}
+
+void Driver::begin() {
   started_ = reported_ = saved_ = Clock::now();
-  try {
-    if (resumed_) {
-      go_on();
-    } else {
-      outcome_.critical_step = sim_.bound.critical_step;
-      if (!ended_by(recorder_.begin(sim_, run_.monitors, run_.convergences))) go();
-    }
-  } catch (const std::bad_alloc&) {
-    end(Status::failed,
-        "out of memory: close other programs, write fewer frames, or run a smaller model");
+  if (!resumed_) {
+    outcome_.critical_step = sim_.bound.critical_step;
+    within_memory([&] {
+      if (!ended_by(recorder_.begin(sim_, run_.monitors, run_.convergences))) enter_first_stage();
+    });
   }
+  pause();
+}
+
+void Driver::go_on() {
+  if (over_) return;
+  started_ = Clock::now();
+  paused_ = pause_asked_ = false;
+  within_memory([&] { follow_events(); });
+  if (!over_) pause();
+}
+
+Outcome Driver::finish() {
+  if (paused_) started_ = Clock::now();
+  if (!over_) stop_early();
   write_end();
   return outcome_;
 }
 
-void Driver::go() {
+void Driver::aim_again() {
+  sim_.aim_at(event_.time);
+}
+
+template <class Part>
+void Driver::within_memory(Part part) {
+  try {
+    part();
+  } catch (const std::bad_alloc&) {
+    end(Status::failed,
+        "out of memory: close other programs, write fewer frames, or run a smaller model");
+  }
+}
+
+void Driver::pause() {
+  wall_before_ += since(started_);
+  paused_ = true;
+}
+
+void Driver::stop_early() {
+  if (recorder_.writes()) save_checkpoint();
+  end(Status::interrupted,
+      fmt::format("stopped at {:.6g} s of {:.6g} s", sim_.state.time, sim_.model.solver.duration));
+}
+
+void Driver::enter_first_stage() {
   begin_stage(0);
   if (over_) return;
   const Event first = times_.next();
@@ -134,17 +174,16 @@ void Driver::go() {
   count_turns(sim_, angle_);
   if (!record(first)) return;
   sim_.aim_at(event_.time);
-  go_on();
 }
 
-void Driver::go_on() {
+void Driver::follow_events() {
   if (stage_has_ended_) {
     stage_has_ended_ = false;
     if (!begin_next_stage()) return;
   }
   while (true) {
     const Went went = step_to(event_.time);
-    if (went == Went::over) return;
+    if (went == Went::over || went == Went::paused) return;
     const bool at_rest = went == Went::at_rest;
     if (at_rest) rest_before(event_);
     if (!record(event_)) return;
@@ -168,11 +207,10 @@ void Driver::write_checkpoint_if_due() {
 Driver::Went Driver::step_to(double time) {
   while (sim_.state.time < time) {
     if (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed)) {
-      if (recorder_.writes()) save_checkpoint();
-      end(Status::interrupted, fmt::format("stopped at {:.6g} s of {:.6g} s", sim_.state.time,
-                                           sim_.model.solver.duration));
+      stop_early();
       return Went::over;
     }
+    if (pause_asked_) return Went::paused;
     const auto start = Clock::now();
     const std::optional<Failure> failure = sim_.step();
     outcome_.wall.stepping += since(start);
@@ -189,6 +227,7 @@ Driver::Went Driver::step_to(double time) {
     const bool at_rest = is_at_rest();
     if (!at_rest) write_checkpoint_if_due();  // after the look, which a resumed run must not miss
     if (options_.progress && since(reported_) >= options_.progress_every) report(false);
+    if (options_.after_step && options_.after_step()) pause_asked_ = true;
     if (at_rest) return Went::at_rest;
   }
   return Went::there;

@@ -18,6 +18,19 @@ class Driver {
  public:
   Driver(PreparedRun& run, const RunOptions& options);
   Outcome run();
+  // run() in parts, for a caller that looks on and steps in between.
+  /// Opens the folder, begins the first stage and writes the first row; of a run taken up, nothing.
+  void begin();
+  /// Steps until the run is over, or until RunOptions::after_step asks for a pause. After begin().
+  void go_on();
+  bool over() const { return over_; }
+  /// Writes what comes at the end. A run that is not over ends here, as interrupted.
+  Outcome finish();
+  /// Fits the step to the event ahead again: the simulation was changed between two steps.
+  void aim_again();
+  /// Brings State::turns up to date, for one who looks between two steps.
+  void count_turns_now() { count_turns(sim_, angle_); }
+  std::size_t stage() const { return stage_; }
   /// Takes up the run that `record` was written of; before run(). Returns what is wrong with the
   /// record or the folder.
   Trouble take_up(const Record& record);
@@ -25,9 +38,15 @@ class Driver {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void go();
+  void enter_first_stage();
   /// Steps from event to event, the first of them `event_`.
-  void go_on();
+  void follow_events();
+  /// Runs `part`; without memory for it, the run ends.
+  template <class Part>
+  void within_memory(Part part);
+  /// Wall time stops, until go_on() or finish().
+  void pause();
+  void stop_early();
   void write_checkpoint_if_due();
   void save_checkpoint();
   /// Of the end of the stage in hand, and its contacts.
@@ -38,7 +57,7 @@ class Driver {
   void list(Archive& archive);
   template <class Archive>
   void list_stages(Archive& archive);
-  enum class Went { there, at_rest, over };
+  enum class Went { there, at_rest, paused, over };
   /// Steps to the event, or until the stage has found its equilibrium. Over: outcome_ says why.
   Went step_to(double time);
   // Stages (run/driver_stages.cpp).
@@ -80,6 +99,7 @@ class Driver {
   bool resumed_ = false;
   std::vector<double> angle_;  ///< rad, of every block when turns were last counted
   bool over_ = false;
+  bool pause_asked_ = false, paused_ = false;
   bool disk_trouble_ = false;
   std::optional<double> last_row_, last_frame_;  ///< s
 
@@ -89,6 +109,10 @@ class Driver {
   std::uint64_t reported_steps_ = 0;
   double rate_ = 0.0;
 };
+
+/// Takes up what the checkpoint in RunOptions::folder holds, where the options ask for that.
+/// What is wrong with it or the folder; empty: nothing.
+Faults take_up_folder(Driver& driver, const RunOptions& options);
 
 /// The likely cause of a divergence, for the message.
 std::string likely_cause(const Simulation& sim);

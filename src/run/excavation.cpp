@@ -1,5 +1,6 @@
 // Rock taken out between two steps.
 #include <algorithm>
+#include <set>
 
 #include "contacts/shares.hpp"
 #include "run/observe.hpp"
@@ -30,10 +31,12 @@ std::vector<KeptForce> wall_forces(const BlockSet& b, const ContactSet& c,
 void Simulation::excavate(const std::vector<Index>& openings) {
   const double energy = ledger_now().balance();
   std::vector<std::uint8_t> goes(blocks.size(), 0);
+  std::set<Index> going;  // what was taken out before keeps what it has let go
   for (std::size_t i = 0; i < blocks.opening.size(); ++i) {
     const bool named =
         std::find(openings.begin(), openings.end(), blocks.opening[i]) != openings.end();
     goes[i] = named && state.alive[i] != 0 ? 1 : 0;
+    if (goes[i] != 0) going.insert(blocks.opening[i]);
   }
   Instant now;
   observe(*this, now);
@@ -43,7 +46,7 @@ void Simulation::excavate(const std::vector<Index>& openings) {
     state.alive[i] = 0;
     for (std::size_t k = 0; k < 3; ++k) state.vx[k][i] = state.vy[k][i] = 0.0;
   }
-  for (const Index o : openings) loads.held[static_cast<std::size_t>(o)] = {0.0, 1.0, state.time};
+  for (const Index o : going) loads.held[static_cast<std::size_t>(o)] = {0.0, 1.0, state.time};
   keep(on_walls);
   search(contacts.reach);
   update_shares(contacts);

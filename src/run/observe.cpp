@@ -49,32 +49,6 @@ double polar_angle(const BlockSet& b, const State& s, std::size_t i) {
   return std::atan2(f.yx - f.xy, f.xx + f.yy);
 }
 
-BlockRecord block_record(const Simulation& sim, const State& s, std::size_t i) {
-  const BlockSet& b = sim.blocks;
-  BlockRecord r;
-  r.id = static_cast<std::uint32_t>(i);
-  r.name = b.name(i);
-  r.material_index = b.material[i];
-  if (b.material[i] != none) {
-    r.material = sim.model.materials[static_cast<std::size_t>(b.material[i])].name;
-  }
-  r.fixed = b.fixed[i] != 0;
-  r.position = centroid(s.x, s.y, i) + b.origin;
-  r.displacement = displacement_of(s, i, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0});
-  const Deformation f = deformation_of(b, s, i);
-  r.area = b.area[i] * (f.xx * f.yy - f.xy * f.yx);
-  r.rotation = polar_angle(b, s, i) + 2.0 * std::numbers::pi * s.turns[i];
-  r.velocity = centroid(s.vx, s.vy, i);
-  r.omega = spin(b, s, i);
-  const BlockStress stress = block_stress(sim, s, i);
-  r.sxx = stress.xx;
-  r.syy = stress.yy;
-  r.szz = stress.zz;
-  r.sxy = stress.xy;
-  r.overstress = overstress(sim, s, i);
-  return r;
-}
-
 /// How far the vertex has gone along the edge since the start: of the same two material points,
 /// where they lie now and as drawn.
 double slip_since_start(const BlockSet& b, const ContactSet& c, std::size_t k) {
@@ -221,6 +195,32 @@ Picture picture_of(const Simulation& sim, const Instant& at) {
   }
   place_points(sim.blocks, at.state, p);
   return p;
+}
+
+BlockRecord block_record(const Simulation& sim, const State& s, std::size_t i) {
+  const BlockSet& b = sim.blocks;
+  BlockRecord r;
+  r.id = static_cast<std::uint32_t>(i);
+  r.name = b.name(i);
+  r.material_index = b.material[i];
+  if (b.material[i] != none) {
+    r.material = sim.model.materials[static_cast<std::size_t>(b.material[i])].name;
+  }
+  r.fixed = b.fixed[i] != 0;
+  r.position = centroid(s.x, s.y, i) + b.origin;
+  r.displacement = displacement_of(s, i, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0});
+  const Deformation f = deformation_of(b, s, i);
+  r.area = b.area[i] * (f.xx * f.yy - f.xy * f.yx);
+  r.rotation = polar_angle(b, s, i) + 2.0 * std::numbers::pi * s.turns[i];
+  r.velocity = centroid(s.vx, s.vy, i);
+  r.omega = spin(b, s, i);
+  const BlockStress stress = block_stress(sim, s, i);
+  r.sxx = stress.xx;
+  r.syy = stress.yy;
+  r.szz = stress.zz;
+  r.sxy = stress.xy;
+  r.overstress = overstress(sim, s, i);
+  return r;
 }
 
 Vec2 displacement_of(const State& s, std::size_t i, const std::array<double, 3>& w) {

@@ -29,6 +29,9 @@ Picture picture_of(const Simulation& sim, const Instant& at);
 /// so that it is exactly 0 there.
 Vec2 displacement_of(const State& state, std::size_t i, const std::array<double, 3>& w);
 
+/// The row of block i in the tables, of positions and velocities in `state`.
+BlockRecord block_record(const Simulation& sim, const State& state, std::size_t i);
+
 /// Cauchy stress of block i in the model's plane: xx yy xy (Pa), and zz: the initial one and nu
 /// times what xx + yy have changed by; in plane stress 0.
 struct BlockStress {

@@ -79,23 +79,27 @@ Result<Outcome> run_model(PreparedRun& run, const RunOptions& options) {
     if (auto trouble = check_folder(options.folder, run.sim.model.file)) return *trouble;
   }
   Driver driver(run, options);
-  if (options.resume || options.from_stage) {
-    std::string warning;
-    const Result<std::string> image =
-        options.from_stage ? read_stage_checkpoint(options.folder, *options.from_stage)
-                           : read_checkpoint(options.folder, warning);
-    if (!image.ok()) return image.faults();
-    if (!warning.empty() && options.warn) options.warn(warning);
-    Result<Record> record = from_hdf5(image.value());
-    if (!record.ok()) {
-      record = Fault{{{}, options.folder, 0, 0},
-                     "its checkpoint " + record.faults().front().problem,
-                     "run without --resume"};
-      return record.faults();
-    }
-    if (auto trouble = driver.take_up(record.value())) return *trouble;
-  }
+  const Faults faults = take_up_folder(driver, options);
+  if (!faults.empty()) return faults;
   return driver.run();
+}
+
+Faults take_up_folder(Driver& driver, const RunOptions& options) {
+  if (!options.resume && !options.from_stage) return {};
+  std::string warning;
+  const Result<std::string> image = options.from_stage
+                                        ? read_stage_checkpoint(options.folder, *options.from_stage)
+                                        : read_checkpoint(options.folder, warning);
+  if (!image.ok()) return image.faults();
+  if (!warning.empty() && options.warn) options.warn(warning);
+  const Result<Record> record = from_hdf5(image.value());
+  if (!record.ok()) {
+    return {{{{}, options.folder, 0, 0},
+             "its checkpoint " + record.faults().front().problem,
+             "run without --resume"}};
+  }
+  if (const Trouble trouble = driver.take_up(record.value())) return {*trouble};
+  return {};
 }
 
 }  // namespace edda

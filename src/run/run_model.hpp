@@ -31,6 +31,7 @@ struct RunOptions {
   std::function<void(const std::string&)> warn{};  ///< of what does not end the run; may be empty
   std::optional<std::size_t> last_stage{};         ///< the run ends with this one
   const std::atomic<bool>* stop = nullptr;  ///< set from anywhere: the run ends as interrupted
+  std::function<bool()> after_step{};       ///< true: Driver::go_on() returns; may be empty
 };
 
 /// A run ready to start. Of its polygons only the report of the cut is left.

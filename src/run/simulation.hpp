@@ -119,9 +119,17 @@ struct Simulation {
   void scale_masses(StageMasses masses);
   /// Displacements count from here.
   void reset_displacements();
+  /// Every second step leaves the velocities in other arrays than before. Moves them, contents and
+  /// all, into the arrays that the step before had: for views of them that outlive a step.
+  void exchange_velocity_arrays();
+  /// Other velocities of the nodes (m/s) from now on, between two steps. The energy that they bring
+  /// counts as external work.
+  void change_velocities(const Nodes& vx, const Nodes& vy);
   /// One step of the method: forces, motion, gaps, switching, search, contacts.
   std::optional<Failure> step();
   Ledger ledger();
+  /// The same without its drift, and without remembering that it was looked at.
+  Ledger ledger_now() const;
 
   /// Loads and bolts as they act at n.
   LoadsNow acting() const;
@@ -168,7 +176,6 @@ struct Simulation {
   std::optional<Failure> inspect() const;
   Failure lost() const;
   StepInUse step_in_use() const;
-  Ledger ledger_now() const;
   void set_limit();
   void raise_masses();
   /// Masses of the nodes as the model gives them.

@@ -1,0 +1,161 @@
+// Changing a Simulation between two steps.
+#include <algorithm>
+#include <cmath>
+
+#include "library/impl.hpp"
+#include "model/nearest.hpp"
+#include "model/stage_names.hpp"
+
+namespace edda::api {
+namespace {
+
+template <class Items>
+void add_names(const Items& items, std::vector<std::string_view>& names) {
+  for (const auto& item : items) {
+    if (!item.name.empty()) names.push_back(item.name);
+  }
+}
+
+void check_known(const char* function, const std::string& name, const char* what,
+                 const std::vector<std::string_view>& known) {
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  raise(function, '"' + name + "\" is no " + what + " of the model", suggestion(name, known));
+}
+
+void check_number(const char* function, const char* what, double value, double least,
+                  double most = std::numeric_limits<double>::infinity()) {
+  if (std::isfinite(value) && value >= least && value <= most) return;
+  raise(function, std::string(what) + " is " + std::to_string(value),
+        "give a number from " + std::to_string(least) +
+            (std::isfinite(most) ? " to " + std::to_string(most) : " on"));
+}
+
+/// Openings whose rock is in the model.
+Index row_of_opening(const char* function, const edda::Simulation& sim, const std::string& name) {
+  std::vector<std::string_view> known;
+  add_names(sim.model.openings, known);
+  check_known(function, name, "opening", known);
+  for (std::size_t q = 0; q < sim.model.openings.size(); ++q) {
+    const Opening& opening = sim.model.openings[q];
+    if (opening.name == name && opening.staged) return static_cast<Index>(q);
+  }
+  raise(function, "the rock of \"" + name + "\" was cut away at the start",
+        "name the opening in a stage's excavate");
+}
+
+std::vector<double> strength_factors(const LawTable& laws) {
+  return laws.divided_by.empty() ? std::vector<double>(laws.rows.size(), 1.0) : laws.divided_by;
+}
+
+constexpr double smallest_factor = 1e-6;
+
+}  // namespace
+
+void Simulation::set_velocity(std::size_t block, Point velocity, double omega) {
+  impl_->begin_change("set_velocity");
+  edda::Simulation& sim = impl_->sim();
+  if (block >= sim.blocks.size() || !is_free(sim.blocks, sim.state, block)) {
+    raise("set_velocity", "block " + std::to_string(block) + " is not free to move",
+          "name a block that is neither held nor taken out");
+  }
+  check_number("set_velocity", "velocity",
+               std::abs(velocity.x) + std::abs(velocity.y) + std::abs(omega), 0.0);
+  edda::Nodes vx = sim.state.vx, vy = sim.state.vy;
+  const Vec2 middle = centroid(sim.state.x, sim.state.y, block);
+  for (std::size_t k = 0; k < 3; ++k) {
+    vx[k][block] = velocity.x - omega * (sim.state.y[k][block] - middle.y);
+    vy[k][block] = velocity.y + omega * (sim.state.x[k][block] - middle.x);
+  }
+  sim.change_velocities(vx, vy);
+  impl_->end_change();
+}
+
+void Simulation::set_damping(double mass, double local, double contact) {
+  check_number("set_damping", "mass", mass, 0.0);
+  check_number("set_damping", "local", local, 0.0, 1.0);
+  check_number("set_damping", "contact", contact, 0.0, 10.0);
+  impl_->begin_change("set_damping");
+  impl_->sim().change_damping({mass, local, contact}, impl_->sim().dynamic);
+  impl_->end_change();
+}
+
+void Simulation::set_strength_factor(double factor) {
+  check_number("set_strength_factor", "factor", factor, smallest_factor);
+  impl_->begin_change("set_strength_factor");
+  impl_->sim().set_strength_factor(factor);
+  impl_->end_change();
+}
+
+void Simulation::set_strength_factor(const std::string& joint, double factor) {
+  check_number("set_strength_factor", "factor", factor, smallest_factor);
+  edda::Simulation& sim = impl_->sim();
+  std::vector<std::string_view> known;
+  add_names(sim.model.joints, known);
+  check_known("set_strength_factor", joint, "joint", known);
+  impl_->begin_change("set_strength_factor");
+  std::vector<double> factors = strength_factors(sim.laws);
+  for (std::size_t r = 0; r < sim.model.joints.size(); ++r) {
+    if (sim.model.joints[r].name == joint) factors[r] = factor;
+  }
+  sim.set_strength_factors(factors);
+  impl_->end_change();
+}
+
+void Simulation::excavate(const std::vector<std::string>& openings) {
+  std::vector<Index> rows;
+  rows.reserve(openings.size());
+  for (const std::string& name : openings) {
+    rows.push_back(row_of_opening("excavate", impl_->sim(), name));
+  }
+  if (rows.empty()) return;
+  impl_->begin_change("excavate");
+  impl_->sim().excavate(rows);
+  impl_->end_change();
+}
+
+void Simulation::relax(const std::string& opening, double part) {
+  const Index row = row_of_opening("relax", impl_->sim(), opening);
+  check_number("relax", "part", part, 0.0, 1.0);
+  impl_->begin_change("relax");
+  impl_->sim().relax(row, part);
+  impl_->end_change();
+}
+
+void Simulation::switch_over(const std::vector<std::string>& deactivate,
+                             const std::vector<std::string>& activate) {
+  const edda::Model& model = impl_->sim().model;
+  std::vector<std::string_view> known;
+  add_names(model.loads, known);
+  add_names(model.waters, known);
+  add_names(model.boundaries, known);
+  add_names(model.shakings, known);
+  for (const auto* names : {&deactivate, &activate}) {
+    for (const std::string& name : *names) {
+      check_known("switch_over", name, "load, water, boundary or shaking", known);
+    }
+  }
+  impl_->begin_change("switch_over");
+  impl_->sim().switch_over(rows_called(model, deactivate), rows_called(model, activate));
+  impl_->end_change();
+}
+
+void Simulation::install(const std::vector<std::string>& bolts) {
+  const edda::Model& model = impl_->sim().model;
+  std::vector<std::string_view> known;
+  add_names(model.bolts, known);
+  add_names(model.bolt_patterns, known);
+  for (const std::string& name : bolts) check_known("install", name, "bolt", known);
+  const std::vector<Index> rows = bolts_called(model, bolts);
+  if (rows.empty()) return;
+  impl_->begin_change("install");
+  if (const auto fault = impl_->sim().install(rows)) raise(Faults{*fault});
+  impl_->end_change();
+}
+
+void Simulation::reset_displacements() {
+  impl_->begin_change("reset_displacements");
+  impl_->sim().reset_displacements();
+  impl_->end_change();
+}
+
+}  // namespace edda::api

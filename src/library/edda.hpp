@@ -1,0 +1,303 @@
+// The library's interface: read a model, cut it, run it step by step, look at it and change it.
+//
+//   const edda::api::Model model = edda::api::Model::read("slope.toml");
+//   edda::api::Simulation simulation(model, {.results = "slope"});
+//   const edda::api::Outcome outcome = simulation.run();
+//
+// Units are SI, angles in rad, stresses positive in tension, coordinates those of the model unless
+// said otherwise. nb: number of blocks, nv: number of their vertices.
+//
+// Whatever goes wrong with what a caller gives is an Error, an exception that carries the list of
+// faults with key, problem and remedy: constructors and callbacks have no other way to say so, and
+// a fault that nobody looks at must not pass. A run that ends badly (it diverges, or finds no rest)
+// is no Error: Outcome says how it ended, and all that was computed stays.
+//
+// Objects of one Simulation belong to one thread at a time; only pause() and stop() may be called
+// from others. Two simulations may run at the same time.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#define EDDA_API __attribute__((visibility("default")))
+
+namespace edda::api {
+
+/// "0.1.0".
+EDDA_API std::string_view version();
+
+struct Point {
+  double x = 0.0, y = 0.0;
+};
+
+/// One thing wrong with what was given.
+struct EDDA_API Fault {
+  std::string key;              ///< dotted path in the model ("block.slider.polygon"), or empty
+  std::string file;             ///< "--set" for an override (line = its number, from 1)
+  int line = 0, column = 0;     ///< from 1; 0 where unknown
+  std::string problem, remedy;  ///< no full stops
+  std::string text() const;     ///< "FILE:LINE:COLUMN: key: problem: remedy"
+};
+
+class EDDA_API Error : public std::runtime_error {
+ public:
+  explicit Error(std::vector<Fault> faults);
+  ~Error() override;
+  const std::vector<Fault>& faults() const { return faults_; }
+
+ private:
+  std::vector<Fault> faults_;  ///< one or more
+};
+
+// ---- Models and blocks
+
+/// A checked model; never changes. Copies share it.
+class EDDA_API Model {
+ public:
+  /// Reads a TOML file and applies `overrides` ("solver.duration=0.2"), as --set does.
+  static Model read(const std::string& path, const std::vector<std::string>& overrides = {});
+  /// The same of a text; `name` is what faults call it, and paths in it count from that file.
+  static Model parse(std::string_view toml, const std::string& name = "model",
+                     const std::vector<std::string>& overrides = {});
+
+  std::string title() const;
+  std::string file() const;
+  double duration() const;      ///< s
+  std::string to_toml() const;  ///< every key and default filled in; reads back to the same bits
+
+  // Names, in the order of the model. Numbers of materials and joints below are rows of these.
+  std::vector<std::string> materials() const, joints() const, openings() const, stages() const;
+
+  struct Impl;
+  explicit Model(std::shared_ptr<const Impl> impl);
+  const Impl& impl() const { return *impl_; }
+
+ private:
+  std::shared_ptr<const Impl> impl_;
+};
+
+/// One block as cut.
+struct CutBlock {
+  std::string name;  ///< of a [[block]], else empty
+  int material = 0;  ///< row of Model::materials(), -1: none
+  bool fixed = false;
+  double area = 0.0;  ///< m2
+  std::vector<std::vector<Point>>
+      rings;  ///< the outer one counter-clockwise, then holes, clockwise
+  /// joints[r][e]: row of Model::joints() of the edge from rings[r][e] to the next vertex, -1: none
+  std::vector<std::vector<int>> joints;
+};
+
+/// The model's blocks, and what the cut did to its lines.
+struct Cut {
+  std::vector<CutBlock> blocks;  ///< in the order of their ids
+  int trimmed = 0;               ///< ends of joints inside a block
+  int merged = 0;                ///< slivers joined to a neighbour
+  double smallest_area = 0.0;    ///< m2
+  double smallest_edge = 0.0;    ///< m
+  double smallest_angle = 0.0;   ///< degrees
+  std::vector<std::string> notes;
+};
+
+EDDA_API Cut cut(const Model& model);
+
+// ---- What a simulation tells
+
+enum class Status { completed, equilibrium, collapsed, interrupted, failed };
+EDDA_API std::string_view name_of(Status status);
+
+/// How a run ended.
+struct Outcome {
+  Status status = Status::completed;
+  std::string message;  ///< one sentence
+  double time = 0.0;    ///< s reached
+  std::uint64_t steps = 0;
+  std::size_t contacts = 0;  ///< closed at the end
+  double drift = 0.0;        ///< of the energy, largest in size of all rows
+  double wall_seconds = 0.0;
+};
+
+struct Progress {
+  double fraction = 0.0;  ///< of the duration
+  double time = 0.0;      ///< s simulated
+  std::uint64_t steps = 0;
+  double rate = 0.0;             ///< steps per second of wall time
+  double seconds_left = 0.0;     ///< wall; -1 while unknown
+  double kinetic = 0.0;          ///< J
+  double largest_overlap = 0.0;  ///< m
+};
+
+/// Energies since t = 0, J: friction, damping and fracture are dissipated, external is work done on
+/// the blocks; drift is what does not add up, over the largest energy so far.
+struct Ledger {
+  double kinetic = 0.0, strain = 0.0, contact = 0.0, gravity = 0.0, friction = 0.0, damping = 0.0,
+         fracture = 0.0, external = 0.0, step_change = 0.0, drift = 0.0;
+};
+
+enum class ContactState : std::int32_t { open = 0, stick = 1, slide = 2, bonded = 3 };
+
+/// A vertex of block i at an edge of block j, as in joints.csv.
+struct Contact {
+  std::int32_t block_i = 0, block_j = 0;
+  std::int32_t joint = 0;  ///< row of Model::joints(), -1: glued
+  ContactState state = ContactState::open;
+  double x = 0.0, y = 0.0;    ///< of the vertex, m
+  double normal_force = 0.0;  ///< N, positive in compression
+  double shear_force = 0.0;   ///< N, positive where it drives block i along the edge
+  double opening = 0.0;       ///< m, negative: penetrated
+  double slip = 0.0;          ///< m along the edge since the start
+  double mobilised = 0.0;     ///< |shear| over shear strength
+  bool ever_slipped = false, ever_opened = false;
+};
+
+/// What blocks are asked for, and how many numbers a block has of it.
+enum class Field {
+  centroid,      ///< 2: x, y, m
+  displacement,  ///< 2: of the centroid since the start or the last reset, m
+  rotation,      ///< 1: rad, full turns counted
+  velocity,      ///< 2: of the centroid, at the time of the positions, m/s
+  omega,         ///< 1: rad/s
+  stress,        ///< 4: xx, yy, zz, xy, Pa
+  overstress,    ///< 1: part of the rock's strength that is used
+};
+EDDA_API std::size_t components_of(Field field);
+
+/// A material point that is followed.
+struct MonitorReading {
+  double ux = 0.0, uy = 0.0;               ///< m
+  double vx = 0.0, vy = 0.0;               ///< m/s
+  double sxx = 0.0, syy = 0.0, sxy = 0.0;  ///< Pa, of its block
+};
+
+/// [3] spans of nb numbers each: node k of block i is the k-th span's element i.
+using Nodes = std::array<std::span<const double>, 3>;
+using MutableNodes = std::array<std::span<double>, 3>;
+
+/// What never changes about the blocks. Views that live as long as the Simulation.
+struct BlockViews {
+  std::span<const double> area;                 ///< [nb] at the start, m2
+  std::span<const double> mass;                 ///< [nb] kg
+  std::span<const std::int32_t> material;       ///< [nb] row of Model::materials(), -1: none
+  std::span<const std::uint8_t> fixed;          ///< [nb] 1: held
+  std::span<const std::uint32_t> vertex_begin;  ///< [nb + 1] first vertex of each block
+  std::span<const std::uint32_t> next;          ///< [nv] the vertex behind this one along its ring
+};
+
+// ---- Simulations
+
+struct Options {
+  std::string results{};  ///< folder for results, as of `edda run -o`; empty: none
+  bool resume = false;    ///< go on from the checkpoint in it
+  std::optional<std::size_t> from_stage{};  ///< go on from that of the end of this stage
+  /// Called about every `progress_every` s of wall time; false: as stop(). May be empty.
+  std::function<bool(const Progress&)> progress{};
+  double progress_every = 0.2;
+  std::function<void(const std::string&)> warn{};  ///< of what does not end the run; may be empty
+};
+
+/// A model in motion. It stands at step n; run(), step() and advance_to() are one and the same run,
+/// in parts or at once: stages, rows and frames come in either way, to the same bits, and looking
+/// at it changes nothing.
+class EDDA_API Simulation {
+ public:
+  /// Cuts, builds and checks; nothing is written before the first step.
+  explicit Simulation(const Model& model, Options options = {});
+  /// A run with a results folder that has begun and is not over ends here as interrupted.
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  // -- Going on. An exception out of a callback leaves the simulation between two steps, and comes
+  // through; going on is possible.
+  Outcome run();  ///< to the end, or to a pause (then outcome says interrupted)
+  bool step(std::uint64_t steps = 1);  ///< so many, fewer at the end; false: the run is over
+  bool advance_to(double time);        ///< the first step at or past it (s); false: over
+  bool over() const;
+  Outcome finish();  ///< ends the run where it stands and writes what is due
+  void pause();      ///< from any thread: the call in hand returns
+  void stop();       ///< from any thread: the run ends as interrupted
+
+  /// Calls `action` after every `steps`-th step; what it does to the simulation is between two
+  /// steps. Returns a number for forget().
+  std::size_t every(std::uint64_t steps, std::function<void()> action);
+  void forget(std::size_t callback);
+
+  // -- Looking at it
+  const Model& model() const;
+  double time() const;  ///< s
+  std::uint64_t steps() const;
+  double time_step() const;         ///< s, in force; 0 before the first
+  double critical_step() const;     ///< s
+  std::string governed_by() const;  ///< what holds the step
+  std::vector<std::string> warnings() const;
+  std::size_t stage() const;  ///< in hand, from 0
+  Ledger ledger() const;
+  double unbalanced() const;  ///< mean resultant over the mean contact force
+
+  // Views without copies, of the arrays that the steps work on. They end with the Simulation; a
+  // step changes what they show, never where they are.
+  std::size_t block_count() const;
+  std::size_t vertex_count() const;
+  BlockViews blocks() const;
+  std::span<const std::uint8_t> alive() const;  ///< [nb] 0: taken out by an excavation
+  Point origin() const;                         ///< node positions count from here
+  Nodes node_x() const;                         ///< m, at step n, relative to origin()
+  Nodes node_y() const;
+  /// m/s, half a step before the positions (method "dda": with them). May be written to between two
+  /// steps; the energy that this brings counts as external work.
+  MutableNodes node_vx();
+  MutableNodes node_vy();
+  /// The name of a block, empty where it has none, and the block of a name.
+  std::string name(std::size_t block) const;
+  std::optional<std::size_t> block_called(std::string_view name) const;
+
+  // Worked out on request.
+  /// Into `out`, block by block, nb * components_of(field) numbers; of blocks taken out as they
+  /// went.
+  void field(Field field, std::span<double> out) const;
+  std::vector<double> field(Field field) const;
+  void vertices(std::span<double> out) const;  ///< nv times x, y, m
+  std::vector<Contact> contacts() const;       ///< closed now or before, as in joints.csv
+
+  // -- Monitors
+  /// The material point that is at `point` at the start. With a results folder before the first
+  /// step alone: history.csv has a column for each from its first row on.
+  void add_monitor(const std::string& name, Point point);
+  std::vector<std::string> monitors() const;  ///< those of the model first
+  MonitorReading read(const std::string& monitor) const;
+
+  // -- Changing it, between two steps. A change before the first step begins the run.
+  /// Velocity of the centroid and rate of turn of a free block; its strain rate becomes 0.
+  void set_velocity(std::size_t block, Point velocity, double omega = 0.0);
+  /// Mass-proportional (1/s), local, and of contacts (part of critical).
+  void set_damping(double mass, double local = 0.0, double contact = 0.0);
+  void set_strength_factor(double factor);  ///< of all joints
+  void set_strength_factor(const std::string& joint, double factor);
+  /// Names as in a stage. Rock of an opening is there to be taken out where a stage names it.
+  void excavate(const std::vector<std::string>& openings);
+  void relax(const std::string& opening, double part);
+  /// What has the first names acts no more (loads, water, boundaries, shaking), what has the second
+  /// does. A boundary bears from now on what one that goes has borne.
+  void switch_over(const std::vector<std::string>& deactivate,
+                   const std::vector<std::string>& activate);
+  void install(const std::vector<std::string>& bolts);
+  void reset_displacements();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Threads that simulations of this process use; results do not depend on it.
+EDDA_API void set_threads(int threads);
+
+}  // namespace edda::api

@@ -1,0 +1,264 @@
+// A Simulation going on: the Driver's run, in parts.
+#include "library/impl.hpp"
+#include "results/files.hpp"
+
+namespace edda::api {
+namespace {
+
+constexpr std::uint64_t no_step = std::numeric_limits<std::uint64_t>::max();
+constexpr double no_time = std::numeric_limits<double>::infinity();
+
+/// True as long as it lives, whatever ends that.
+class Within {
+ public:
+  explicit Within(bool& flag) : flag_(flag) { flag = true; }
+  ~Within() { flag_ = false; }
+  Within(const Within&) = delete;
+  Within& operator=(const Within&) = delete;
+
+ private:
+  bool& flag_;
+};
+
+PreparedRun prepare(const Model& model, const Options& options) {
+  const edda::Model& given = model.impl().model;
+  if (!options.results.empty()) {
+    if (const Trouble trouble = check_folder(options.results, given.file)) raise(Faults{*trouble});
+  } else if (options.resume || options.from_stage) {
+    raise("results", "names no folder to go on from", "name the folder of the run");
+  }
+  check_memory(given);
+  return value_or_raise(prepare_run(given));
+}
+
+Outcome outcome_of(const edda::Outcome& o) {
+  Outcome outcome;
+  outcome.status = static_cast<Status>(o.status);
+  outcome.message = o.message;
+  outcome.time = o.time;
+  outcome.steps = o.steps;
+  outcome.contacts = o.contacts;
+  outcome.drift = o.largest_drift;
+  outcome.wall_seconds = o.wall.total;
+  return outcome;
+}
+
+}  // namespace
+
+std::string_view name_of(Status status) {
+  return status_name(static_cast<edda::Status>(status));
+}
+
+Simulation::Impl::Impl(const Model& given, Options&& wanted)
+    : model(given), options(std::move(wanted)), prepared(prepare(given, options)) {
+  run_options.folder = options.results;
+  run_options.resume = options.resume;
+  run_options.from_stage = options.from_stage;
+  run_options.warn = options.warn;
+  run_options.stop = &stop;
+  run_options.after_step = [this] { return after_step(); };
+  if (options.progress) {
+    run_options.progress_every = options.progress_every;
+    run_options.progress = [this](const edda::Progress& p) { report(p); };
+  }
+  driver.emplace(prepared, run_options);
+  const Faults faults = take_up_folder(*driver, run_options);
+  if (!faults.empty()) raise(faults);
+  velocities_ = sim().state.vx[0].data();
+  if (options.resume || options.from_stage) enter();
+}
+
+Simulation::Impl::~Impl() {
+  if (!begun || finished || options.results.empty()) return;
+  try {
+    options.progress = {};
+    finish();
+  } catch (...) {  // nobody is left to tell
+  }
+}
+
+void Simulation::Impl::refuse_within_step(const char* function) const {
+  if (stepping_) {
+    raise(function, "called while the simulation goes on", "pause() it, and call this afterwards");
+  }
+}
+
+void Simulation::Impl::enter() {
+  if (begun) return;
+  begun = true;
+  driver->begin();  // takes the velocities, as they are now, half a step back
+  instant_.reset();
+  hand_over();
+  if (driver->over()) finish();
+}
+
+void Simulation::Impl::go(std::uint64_t to_step, double to_time) {
+  refuse_within_step("run");
+  if (finished) return;
+  enter();
+  if (finished) return;
+  take_back();
+  pause = false;
+  pause_step_ = to_step;
+  pause_time_ = to_time;
+  {
+    const Within within(stepping_);
+    driver->go_on();
+  }
+  instant_.reset();
+  hand_over();
+  if (driver->over()) finish();
+  if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
+}
+
+void Simulation::Impl::finish() {
+  refuse_within_step("finish");
+  if (finished) return;
+  enter();
+  if (finished) return;
+  take_back();
+  finished = true;
+  outcome = outcome_of(driver->finish());
+  last_stage = driver->stage();
+  driver.reset();  // and with it the folder
+  hand_over();
+}
+
+bool Simulation::Impl::after_step() {
+  instant_.reset();
+  if (thrown_ || !run_callbacks()) return true;
+  const State& state = sim().state;
+  return pause || state.steps >= pause_step_ || state.time >= pause_time_;
+}
+
+bool Simulation::Impl::run_callbacks() {
+  const std::uint64_t step = sim().state.steps;
+  std::vector<std::function<void()>> due;  // an action may add and forget others
+  for (const Repeated& r : callbacks) {
+    if (step % r.steps == 0) due.push_back(r.action);
+  }
+  if (due.empty()) return true;
+  hand_over();
+  try {
+    for (const auto& action : due) action();
+  } catch (...) {
+    thrown_ = std::current_exception();
+  }
+  take_back();
+  return !thrown_;
+}
+
+void Simulation::Impl::report(const edda::Progress& p) {
+  if (!options.progress || thrown_) return;
+  try {
+    const bool go_on = options.progress(
+        {p.fraction, p.time, p.steps, p.rate, p.seconds_left, p.kinetic, p.largest_overlap});
+    if (!go_on) stop = true;
+  } catch (...) {
+    thrown_ = std::current_exception();
+  }
+}
+
+void Simulation::Impl::hand_over() {
+  if (sim().state.vx[0].data() != velocities_) sim().exchange_velocity_arrays();
+  if (!lent_) return;
+  lent_vx_ = sim().state.vx;
+  lent_vy_ = sim().state.vy;
+}
+
+void Simulation::Impl::take_back() {
+  State& state = sim().state;
+  if (!lent_ || (state.vx == lent_vx_ && state.vy == lent_vy_)) return;
+  const edda::Nodes vx = state.vx, vy = state.vy;
+  state.vx = lent_vx_;
+  state.vy = lent_vy_;
+  sim().change_velocities(vx, vy);
+  lent_vx_ = vx;
+  lent_vy_ = vy;
+  instant_.reset();
+}
+
+void Simulation::Impl::lend_velocities() {
+  if (lent_) return;
+  lent_ = true;
+  hand_over();
+}
+
+void Simulation::Impl::begin_change(const char* function) {
+  enter();
+  if (finished) raise(function, "the run is over", "make a new Simulation");
+  take_back();
+}
+
+void Simulation::Impl::end_change() {
+  edda::Simulation& s = sim();
+  s.change_damping(s.damping, s.dynamic);  // sets the step that is allowed now
+  driver->aim_again();
+  instant_.reset();
+  hand_over();
+}
+
+const Instant& Simulation::Impl::look() {
+  take_back();
+  if (!instant_) {
+    if (begun && driver) driver->count_turns_now();
+    observe(sim(), instant_.emplace());
+  }
+  return *instant_;
+}
+
+Simulation::Simulation(const Model& model, Options options)
+    : impl_(std::make_unique<Impl>(model, std::move(options))) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+Outcome Simulation::run() {
+  impl_->go(no_step, no_time);
+  if (impl_->finished) return impl_->outcome;
+  Outcome paused;
+  paused.status = Status::interrupted;
+  paused.message = "paused";
+  paused.time = time();
+  paused.steps = steps();
+  return paused;
+}
+
+bool Simulation::step(std::uint64_t count) {
+  if (count > 0) impl_->go(steps() + std::min(count, no_step - steps()), no_time);
+  return !impl_->finished;
+}
+
+bool Simulation::advance_to(double until) {
+  if (!(time() >= until)) impl_->go(no_step, until);
+  return !impl_->finished;
+}
+
+bool Simulation::over() const {
+  return impl_->finished;
+}
+
+Outcome Simulation::finish() {
+  impl_->finish();
+  return impl_->outcome;
+}
+
+void Simulation::pause() {
+  impl_->pause = true;
+}
+
+void Simulation::stop() {
+  impl_->stop = true;
+}
+
+std::size_t Simulation::every(std::uint64_t count, std::function<void()> action) {
+  if (count == 0) raise("every", "0 steps", "give 1 or more");
+  impl_->callbacks.push_back({impl_->next_callback, count, std::move(action)});
+  return impl_->next_callback++;
+}
+
+void Simulation::forget(std::size_t callback) {
+  std::erase_if(impl_->callbacks, [&](const auto& c) { return c.number == callback; });
+}
+
+}  // namespace edda::api

@@ -1,0 +1,121 @@
+"""Pictures with Matplotlib, which is imported when one is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .results import Frame, Results
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from ._edda import Cut, Simulation
+
+_COMPONENTS = {
+    "displacement": ("x", "y"),
+    "velocity": ("x", "y"),
+    "centroid": ("x", "y"),
+    "stress": ("xx", "yy", "zz", "xy"),
+}
+_UNITS = {"displacement": "m", "velocity": "m/s", "centroid": "m", "stress": "Pa", "rotation": "rad", "omega": "rad/s"}
+
+
+def plot_blocks(
+    source: Simulation | Results | Frame | Cut,
+    field: str | NDArray[Any] | None = None,
+    ax: Axes | None = None,
+    **options: Any,
+) -> Axes:
+    """Draws the blocks, coloured by a field.
+
+    source: a Simulation as it stands, a Frame, Results (their last frame) or a Cut. field: a name
+    as of Simulation.field() or of a frame ("displacement" and "velocity" give sizes,
+    "displacement.x" and "stress.yy" components), or an array (nb,) with a number per block.
+    options go to Matplotlib's PathCollection.
+    """
+    import matplotlib.pyplot as plt
+    from matplotlib.collections import PathCollection
+
+    paths, ids = _outlines(source)
+    if ax is None:
+        ax = plt.subplots()[1]
+    style: dict[str, Any] = {"edgecolors": "black", "linewidths": 0.4, "facecolors": "0.85"}
+    if field is not None:
+        del style["facecolors"]
+    drawn = PathCollection(paths, **{**style, **options})
+    if field is not None:
+        drawn.set_array(_values(source, field, ids))
+        label = field if isinstance(field, str) else ""
+        unit = _UNITS.get(label.split(".")[0])
+        ax.figure.colorbar(drawn, ax=ax, label=f"{label} ({unit})" if unit else label)
+    ax.add_collection(drawn)
+    ax.set_aspect("equal")
+    ax.autoscale_view()
+    ax.set_xlabel("x (m)")
+    ax.set_ylabel("y (m)")
+    return ax
+
+
+def plot_history(results: Results, columns: str | Sequence[str], ax: Axes | None = None, **options: Any) -> Axes:
+    """Draws columns of history.csv over time, one or several; options go to Axes.plot()."""
+    import matplotlib.pyplot as plt
+
+    if ax is None:
+        ax = plt.subplots()[1]
+    history = results.history
+    for column in [columns] if isinstance(columns, str) else columns:
+        if column not in (history.dtype.names or ()):
+            raise ValueError(f'history.csv has no column "{column}": it has {", ".join(history.dtype.names or ())}')
+        ax.plot(history["time"], history[column], **{"label": column, **options})
+    ax.set_xlabel("time (s)")
+    ax.legend()
+    return ax
+
+
+def _outlines(source: Any) -> tuple[list[Any], NDArray[np.int64]]:
+    """Closed paths, and the block that each belongs to."""
+    from matplotlib.path import Path
+
+    def path_of(rings: Sequence[NDArray[np.float64]]) -> Path:
+        return Path.make_compound_path(*(Path(np.vstack([r, r[:1]]), closed=True) for r in rings))
+
+    if isinstance(source, Results):
+        source = source.frames[-1]
+    if isinstance(source, Frame):
+        return [path_of([p]) for p in source.polygons()], np.asarray(source["id"], dtype=np.int64)
+    if hasattr(source, "polygons"):
+        alive = np.flatnonzero(source.alive)
+        polygons = source.polygons()
+        return [path_of(polygons[i]) for i in alive], alive
+    return [path_of(block.rings) for block in source.blocks], np.arange(len(source.blocks))
+
+
+def _values(source: Any, field: str | NDArray[Any], ids: NDArray[np.int64]) -> NDArray[Any]:
+    """A number per path."""
+    if not isinstance(field, str):
+        return np.asarray(field)[ids]
+    name, _, component = field.partition(".")
+    if isinstance(source, Results):
+        source = source.frames[-1]
+    if isinstance(source, Frame):
+        if name not in source.cell_fields:
+            raise ValueError(f'frames have no field "{name}": they have {", ".join(source.cell_fields)}')
+        values = source[name]
+    elif hasattr(source, "field"):
+        values = source.field(name)[ids]
+    else:
+        values = np.array([getattr(block, name) for block in source.blocks])
+    if values.ndim == 1:
+        return values
+    if component:
+        known = _COMPONENTS.get(name, ())
+        if component not in known:
+            raise ValueError(f'"{name}" has no component "{component}": it has {", ".join(known)}')
+        return values[:, known.index(component)]
+    if name in ("displacement", "velocity"):
+        return np.hypot(values[:, 0], values[:, 1])
+    raise ValueError(f'"{name}" has components: give "{name}.{_COMPONENTS.get(name, ("0",))[0]}"')

@@ -1,0 +1,111 @@
+// Faults, models and their blocks.
+#include "python/bindings.hpp"
+
+namespace edda::python {
+namespace {
+
+/// edda.ModelError with the same list of faults.
+void raise_model_error(std::exception_ptr pointer) {
+  try {
+    if (pointer) std::rethrow_exception(pointer);
+  } catch (const api::Error& error) {
+    const py::module_ errors = py::module_::import("edda._errors");
+    py::list faults;
+    for (const api::Fault& f : error.faults()) {
+      faults.append(errors.attr("Fault")(f.key, f.problem, f.remedy, f.file, f.line, f.column));
+    }
+    const py::object type = errors.attr("ModelError");
+    PyErr_SetObject(type.ptr(), type(faults).ptr());
+  }
+}
+
+using Overrides = std::vector<std::string>;
+
+api::Model read(const py::object& path, const Overrides& overrides) {
+  const auto name = py::module_::import("os").attr("fspath")(path).cast<std::string>();
+  const py::gil_scoped_release release;
+  return api::Model::read(name, overrides);
+}
+
+api::Model parse(const std::string& toml, const std::string& name, const Overrides& overrides) {
+  const py::gil_scoped_release release;
+  return api::Model::parse(toml, name, overrides);
+}
+
+api::Cut cut(const api::Model& model) {
+  const py::gil_scoped_release release;
+  return api::cut(model);
+}
+
+}  // namespace
+
+py::array_t<double> array_of(const std::vector<api::Point>& points) {
+  py::array_t<double> array({points.size(), std::size_t{2}});
+  auto out = array.mutable_unchecked<2>();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto row = static_cast<py::ssize_t>(i);
+    out(row, 0) = points[i].x;
+    out(row, 1) = points[i].y;
+  }
+  return array;
+}
+
+void add_models(py::module_& m) {
+  py::register_exception_translator(&raise_model_error);
+  m.def(
+      "version", [] { return std::string(api::version()); }, "The version, \"0.1.0\".");
+  m.def("set_threads", &api::set_threads, py::arg("threads"),
+        "Threads that simulations of this process use; results do not depend on it.");
+
+  py::class_<api::Model>(m, "Model", "A checked model; never changes.")
+      .def_static("read", &read, py::arg("path"), py::arg("overrides") = Overrides{},
+                  "Reads a TOML file; overrides as of --set, \"solver.duration=0.2\".")
+      .def_static("parse", &parse, py::arg("toml"), py::arg("name") = "model",
+                  py::arg("overrides") = Overrides{}, "The same of a text.")
+      .def_property_readonly("title", &api::Model::title, "As the model says.")
+      .def_property_readonly("file", &api::Model::file, "Path or name it was read from.")
+      .def_property_readonly("duration", &api::Model::duration, "s")
+      .def_property_readonly("materials", &api::Model::materials, "Names, in order.")
+      .def_property_readonly("joints", &api::Model::joints, "Names of the laws, in order.")
+      .def_property_readonly("openings", &api::Model::openings, "Names, in order.")
+      .def_property_readonly("stages", &api::Model::stages, "Names, in order.")
+      .def("to_toml", &api::Model::to_toml, "The model with every key and default filled in.")
+      .def("cut", &cut, "Its blocks as polygons.")
+      .def("__repr__", [](const api::Model& model) { return "<edda.Model " + model.file() + ">"; });
+
+  py::class_<api::CutBlock>(m, "CutBlock", "One block as cut.")
+      .def_readonly("name", &api::CutBlock::name, "Of a [[block]], else empty.")
+      .def_readonly("material", &api::CutBlock::material, "Row of Model.materials, -1: none.")
+      .def_readonly("fixed", &api::CutBlock::fixed, "Whether it is held.")
+      .def_readonly("area", &api::CutBlock::area, "m2")
+      .def_property_readonly(
+          "rings",
+          [](const api::CutBlock& block) {
+            py::list rings;
+            for (const auto& ring : block.rings) rings.append(array_of(ring));
+            return rings;
+          },
+          "Arrays (n, 2), m: the outer ring counter-clockwise, then holes, clockwise.")
+      .def_property_readonly(
+          "joints",
+          [](const api::CutBlock& block) {
+            py::list rings;
+            for (const auto& joints : block.joints) {
+              rings.append(
+                  py::array_t<int>(static_cast<py::ssize_t>(joints.size()), joints.data()));
+            }
+            return rings;
+          },
+          "Arrays (n,): row of Model.joints of the edge from each vertex to the next, -1: none.");
+
+  py::class_<api::Cut>(m, "Cut", "The model's blocks, and what the cut did to its lines.")
+      .def_readonly("blocks", &api::Cut::blocks, "In the order of their ids.")
+      .def_readonly("trimmed", &api::Cut::trimmed, "Ends of joints inside a block.")
+      .def_readonly("merged", &api::Cut::merged, "Slivers joined to a neighbour.")
+      .def_readonly("smallest_area", &api::Cut::smallest_area, "m2")
+      .def_readonly("smallest_edge", &api::Cut::smallest_edge, "m")
+      .def_readonly("smallest_angle", &api::Cut::smallest_angle, "degrees")
+      .def_readonly("notes", &api::Cut::notes, "What was imported, drawn at random, left out.");
+}
+
+}  // namespace edda::python

@@ -1,0 +1,409 @@
+// Simulations. While one goes on the GIL is free: callbacks take it, and so does a look at the
+// signals ten times a second, so that Ctrl-C ends a run in good order.
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <thread>
+
+#include "python/bindings.hpp"
+
+namespace edda::python {
+namespace {
+
+/// A callable that may be copied and dropped without the GIL.
+using Callback = std::shared_ptr<py::object>;
+
+Callback hold(py::object action) {
+  return Callback(new py::object(std::move(action)), [](py::object* held) {
+    const py::gil_scoped_acquire acquire;
+    delete held;
+  });
+}
+
+class Runner {
+ public:
+  Runner(const api::Model& model, std::string results, bool resume,
+         std::optional<std::size_t> from_stage, py::object progress, double progress_every,
+         py::object warn)
+      : records_(!results.empty()) {
+    api::Options options;
+    options.results = std::move(results);
+    options.resume = resume;
+    options.from_stage = from_stage;
+    constexpr double look_at_signals = 0.1;  // s
+    options.progress_every = look_at_signals;
+    if (!progress.is_none()) progress_ = hold(std::move(progress));
+    progress_every_ = progress_every;
+    options.progress = [this](const api::Progress& p) { return report(p); };
+    if (!warn.is_none()) {
+      options.warn = [held = hold(std::move(warn))](const std::string& text) {
+        const py::gil_scoped_acquire acquire;
+        (*held)(text);
+      };
+    }
+    const py::gil_scoped_release release;
+    simulation_.emplace(model, std::move(options));
+  }
+
+  ~Runner() {
+    const py::gil_scoped_release release;
+    simulation_.reset();
+  }
+
+  /// The simulation, for the thread that may have it.
+  api::Simulation& get() {
+    if (busy_ && thread_ != std::this_thread::get_id()) {
+      throw std::runtime_error("the simulation goes on in another thread: pause() it first");
+    }
+    return *simulation_;
+  }
+
+  /// Goes on without the GIL. An exception ends a run that writes results as Ctrl-C in the program
+  /// would, so that nothing is lost; without results it is paused.
+  template <class Action>
+  auto go(Action action) {
+    api::Simulation& simulation = get();
+    const bool within = busy_;  // called by a callback: refused there
+    thread_ = std::this_thread::get_id();
+    busy_ = true;
+    const py::gil_scoped_release release;
+    try {
+      const auto result = action(simulation);
+      busy_ = within;
+      return result;
+    } catch (...) {
+      busy_ = within;
+      ending_ = true;
+      if (records_ && !within) simulation.finish();
+      ending_ = false;
+      throw;
+    }
+  }
+
+  bool is_busy() const { return busy_; }
+  const api::Simulation& at_rest() const { return *simulation_; }
+
+  void pause() { simulation_->pause(); }
+  void stop() { simulation_->stop(); }
+
+ private:
+  bool report(const api::Progress& p) {
+    if (ending_) return true;
+    const py::gil_scoped_acquire acquire;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (!progress_) return true;
+    const auto now = std::chrono::steady_clock::now();
+    if (std::chrono::duration<double>(now - reported_).count() < progress_every_) return true;
+    reported_ = now;
+    const py::object answer = (*progress_)(p);
+    return answer.is_none() || answer.cast<bool>();
+  }
+
+  std::optional<api::Simulation> simulation_;
+  Callback progress_;
+  double progress_every_ = 0.0;
+  bool records_;
+  bool ending_ = false;
+  std::atomic<bool> busy_{false};
+  std::atomic<std::thread::id> thread_{};
+  std::chrono::steady_clock::time_point reported_{};
+};
+
+api::Simulation& of(const py::object& self) {
+  return self.cast<Runner&>().get();
+}
+
+template <class Nodes>
+py::tuple node_views(const Nodes& nodes, const py::object& owner) {
+  return py::make_tuple(view_of(nodes[0], owner), view_of(nodes[1], owner),
+                        view_of(nodes[2], owner));
+}
+
+api::Field field_called(const std::string& name) {
+  static const std::map<std::string, api::Field> fields{
+      {"centroid", api::Field::centroid},    {"displacement", api::Field::displacement},
+      {"rotation", api::Field::rotation},    {"velocity", api::Field::velocity},
+      {"omega", api::Field::omega},          {"stress", api::Field::stress},
+      {"overstress", api::Field::overstress}};
+  const auto found = fields.find(name);
+  if (found != fields.end()) return found->second;
+  std::string known;
+  for (const auto& [other, value] : fields) known += (known.empty() ? "" : ", ") + other;
+  throw py::value_error("\"" + name + "\" is no field: give one of " + known);
+}
+
+using Numbers = py::array_t<double, py::array::c_style>;
+
+Numbers field(Runner& self, const std::string& name, const py::object& out) {
+  const api::Simulation& simulation = self.get();
+  const api::Field field = field_called(name);
+  const std::size_t width = api::components_of(field), nb = simulation.block_count();
+  std::vector<std::size_t> shape{nb};
+  if (width > 1) shape.push_back(width);
+  if (!out.is_none() && !Numbers::check_(out)) {
+    throw py::type_error("out is no contiguous array of float64");
+  }
+  Numbers values = out.is_none() ? Numbers(shape) : py::reinterpret_borrow<Numbers>(out);
+  double* const data = values.mutable_data();
+  simulation.field(field, {data, static_cast<std::size_t>(values.size())});
+  return values;
+}
+
+/// Per block its rings, the outer one first.
+py::list polygons(Runner& self) {
+  const api::Simulation& simulation = self.get();
+  std::vector<double> xy(2 * simulation.vertex_count());
+  simulation.vertices(xy);
+  const api::BlockViews blocks = simulation.blocks();
+  py::list all;
+  for (std::size_t i = 0; i < simulation.block_count(); ++i) {
+    py::list rings;
+    std::vector<api::Point> ring;
+    for (std::uint32_t v = blocks.vertex_begin[i]; v < blocks.vertex_begin[i + 1]; ++v) {
+      ring.push_back({xy[2 * v], xy[2 * v + 1]});
+      if (blocks.next[v] > v) continue;
+      rings.append(array_of(ring));
+      ring.clear();
+    }
+    all.append(rings);
+  }
+  return all;
+}
+
+std::size_t block_number(const api::Simulation& simulation, const py::object& block) {
+  if (!py::isinstance<py::str>(block)) return block.cast<std::size_t>();
+  const auto name = block.cast<std::string>();
+  if (const auto found = simulation.block_called(name)) return *found;
+  throw py::key_error("no block is called \"" + name + "\"");
+}
+
+std::size_t every(const py::object& self, std::uint64_t steps, py::object action) {
+  if (!PyCallable_Check(action.ptr())) throw py::type_error("action cannot be called");
+  // No reference to the simulation, which holds the callback: it would never be let go.
+  return of(self).every(steps, [held = hold(std::move(action)), owner = self.ptr()] {
+    const py::gil_scoped_acquire acquire;
+    (*held)(py::handle(owner));
+  });
+}
+
+using Names = std::vector<std::string>;
+
+void add_running(py::class_<Runner>& type) {
+  type.def(
+          "run", [](Runner& self) { return self.go([](auto& s) { return s.run(); }); },
+          "To the end, through all stages.")
+      .def(
+          "step",
+          [](Runner& self, std::uint64_t steps) {
+            return self.go([&](auto& s) { return s.step(steps); });
+          },
+          py::arg("steps") = 1, "So many steps; False: the run is over.")
+      .def(
+          "advance_to",
+          [](Runner& self, double time) {
+            return self.go([&](auto& s) { return s.advance_to(time); });
+          },
+          py::arg("time"), "To the first step at or past a time (s); False: the run is over.")
+      .def(
+          "finish", [](Runner& self) { return self.go([](auto& s) { return s.finish(); }); },
+          "Ends the run where it stands and writes what is due.")
+      .def("pause", &Runner::pause, "From any thread: the call in hand returns.")
+      .def("stop", &Runner::stop, "From any thread: the run ends as interrupted.")
+      .def("every", &every, py::arg("steps"), py::arg("action"),
+           "Calls action(simulation) after every so many steps; returns a number for forget().")
+      .def(
+          "forget", [](Runner& self, std::size_t callback) { self.get().forget(callback); },
+          py::arg("callback"), "Drops what every() has returned the number of.");
+}
+
+void add_numbers(py::class_<Runner>& type) {
+  const auto add = [&](const char* name, auto get, const char* text) {
+    type.def_property_readonly(
+        name, [get](Runner& self) { return get(self.get()); }, text);
+  };
+  add(
+      "model", [](auto& s) { return s.model(); }, "The model.");
+  add(
+      "time", [](auto& s) { return s.time(); }, "s");
+  add(
+      "steps", [](auto& s) { return s.steps(); }, "Steps made.");
+  add(
+      "time_step", [](auto& s) { return s.time_step(); }, "s, in force; 0 before the first.");
+  add(
+      "critical_step", [](auto& s) { return s.critical_step(); }, "s");
+  add(
+      "governed_by", [](auto& s) { return s.governed_by(); }, "What holds the step.");
+  add(
+      "warnings", [](auto& s) { return s.warnings(); }, "What to look at before running.");
+  add(
+      "stage", [](auto& s) { return s.stage(); }, "In hand, from 0.");
+  add(
+      "over", [](auto& s) { return s.over(); }, "Whether the run has ended.");
+  add(
+      "ledger", [](auto& s) { return s.ledger(); }, "Energies now.");
+  add(
+      "unbalanced", [](auto& s) { return s.unbalanced(); },
+      "Mean resultant over mean contact force.");
+  add(
+      "block_count", [](auto& s) { return s.block_count(); }, "nb");
+  add(
+      "vertex_count", [](auto& s) { return s.vertex_count(); }, "nv");
+  add(
+      "monitors", [](auto& s) { return s.monitors(); }, "Names, those of the model first.");
+  add(
+      "origin", [](auto& s) { return py::make_tuple(s.origin().x, s.origin().y); },
+      "(x, y), m: node positions count from here.");
+}
+
+void add_views(py::class_<Runner>& type) {
+  const auto add = [&](const char* name, auto get, const char* text) {
+    type.def_property_readonly(
+        name, [get](const py::object& self) { return view_of(get(of(self)), self); }, text);
+  };
+  add(
+      "area", [](auto& s) { return s.blocks().area; }, "(nb,) m2 at the start; a view.");
+  add(
+      "mass", [](auto& s) { return s.blocks().mass; }, "(nb,) kg; a view.");
+  add(
+      "material", [](auto& s) { return s.blocks().material; },
+      "(nb,) row of Model.materials; a view.");
+  add(
+      "fixed", [](auto& s) { return s.blocks().fixed; }, "(nb,) 1: held; a view.");
+  add(
+      "alive", [](auto& s) { return s.alive(); }, "(nb,) 0: taken out; a view.");
+  const auto add_nodes = [&](const char* name, auto get, const char* text) {
+    type.def_property_readonly(
+        name, [get](const py::object& self) { return node_views(get(of(self)), self); }, text);
+  };
+  add_nodes(
+      "node_x", [](auto& s) { return s.node_x(); }, "3 views (nb,), m from origin.");
+  add_nodes(
+      "node_y", [](auto& s) { return s.node_y(); }, "3 views (nb,), m from origin.");
+  add_nodes(
+      "node_vx", [](auto& s) { return s.node_vx(); }, "3 views (nb,) to read and write, m/s.");
+  add_nodes(
+      "node_vy", [](auto& s) { return s.node_vy(); }, "3 views (nb,) to read and write, m/s.");
+}
+
+void add_looking(py::class_<Runner>& type) {
+  type.def(
+          "field", &field, py::arg("name"), py::arg("out") = py::none(),
+          "centroid, displacement, velocity (nb, 2), stress (nb, 4: xx yy zz xy), rotation, omega, "
+          "overstress (nb,).")
+      .def("polygons", &polygons, "Per block its rings, arrays (n, 2), m, as they are now.")
+      .def(
+          "contacts",
+          [](Runner& self) {
+            const std::vector<api::Contact> found = self.get().contacts();
+            return py::array_t<api::Contact>(static_cast<py::ssize_t>(found.size()), found.data());
+          },
+          "A structured array, as joints.csv; state: 0 open, 1 stick, 2 slide, 3 bonded.")
+      .def(
+          "name", [](Runner& self, std::size_t block) { return self.get().name(block); },
+          py::arg("block"), "Of a block, empty where it has none.")
+      .def(
+          "block_called",
+          [](Runner& self, const std::string& name) {
+            return block_number(self.get(), py::str(name));
+          },
+          py::arg("name"), "The number of a block.")
+      .def(
+          "add_monitor",
+          [](Runner& self, const std::string& name, std::pair<double, double> point) {
+            self.get().add_monitor(name, {point.first, point.second});
+          },
+          py::arg("name"), py::arg("point"),
+          "Follows the material point at (x, y) of the start, m.")
+      .def(
+          "read", [](Runner& self, const std::string& m) { return self.get().read(m); },
+          py::arg("monitor"), "What a monitor tells now.");
+}
+
+void add_changing(py::class_<Runner>& type) {
+  type.def(
+          "set_velocity",
+          [](Runner& self, const py::object& block, std::pair<double, double> v, double omega) {
+            api::Simulation& s = self.get();
+            s.set_velocity(block_number(s, block), {v.first, v.second}, omega);
+          },
+          py::arg("block"), py::arg("velocity"), py::arg("omega") = 0.0,
+          "Of a block by number or name: (vx, vy) of its centroid, m/s, and turn, rad/s.")
+      .def(
+          "set_damping",
+          [](Runner& self, double mass, double local, double contact) {
+            self.get().set_damping(mass, local, contact);
+          },
+          py::arg("mass") = 0.0, py::arg("local") = 0.0, py::arg("contact") = 0.0,
+          "1/s; a fraction; a fraction of critical.")
+      .def(
+          "set_strength_factor",
+          [](Runner& self, double factor, const std::optional<std::string>& joint) {
+            if (joint) return self.get().set_strength_factor(*joint, factor);
+            self.get().set_strength_factor(factor);
+          },
+          py::arg("factor"), py::arg("joint") = py::none(),
+          "Strength of all joints, or of one, as the model gives it, divided by the factor.")
+      .def(
+          "excavate", [](Runner& self, const Names& names) { self.get().excavate(names); },
+          py::arg("openings"), "Takes out rock that a stage of the model names.")
+      .def(
+          "relax",
+          [](Runner& self, const std::string& name, double part) { self.get().relax(name, part); },
+          py::arg("opening"), py::arg("part"), "Lets go a part (0 to 1) of the excavated forces.")
+      .def(
+          "switch_over",
+          [](Runner& self, const Names& off, const Names& on) { self.get().switch_over(off, on); },
+          py::arg("deactivate") = Names{}, py::arg("activate") = Names{},
+          "Loads, water, boundaries, shaking, as in a stage.")
+      .def(
+          "install", [](Runner& self, const Names& names) { self.get().install(names); },
+          py::arg("bolts"), "Puts in bolts and patterns.")
+      .def(
+          "reset_displacements", [](Runner& self) { self.get().reset_displacements(); },
+          "Displacements count from here.");
+}
+
+/// A model, or what edda.load() makes one of.
+api::Model model_of(const py::object& source) {
+  if (py::isinstance<api::Model>(source)) return source.cast<api::Model>();
+  return py::module_::import("edda").attr("load")(source).cast<api::Model>();
+}
+
+std::string repr(const Runner& self) {
+  if (self.is_busy()) return "<edda.Simulation, going on>";
+  const api::Simulation& s = self.at_rest();
+  const std::string time = py::str(py::float_(s.time()));
+  return "<edda.Simulation of " + std::to_string(s.block_count()) + " blocks at " + time +
+         " s, step " + std::to_string(s.steps()) + ">";
+}
+
+std::string path_or_empty(const py::object& path) {
+  return path.is_none() ? "" : py::module_::import("os").attr("fspath")(path).cast<std::string>();
+}
+
+}  // namespace
+
+void add_simulation(py::module_& m) {
+  PYBIND11_NUMPY_DTYPE(api::Contact, block_i, block_j, joint, state, x, y, normal_force,
+                       shear_force, opening, slip, mobilised, ever_slipped, ever_opened);
+  py::class_<Runner> type(m, "Simulation", "A model in motion.");
+  type.def(py::init([](const py::object& model, const py::object& results, bool resume,
+                       std::optional<std::size_t> from_stage, py::object progress,
+                       double progress_every, py::object warn) {
+             return std::make_unique<Runner>(model_of(model), path_or_empty(results), resume,
+                                             from_stage, std::move(progress), progress_every,
+                                             std::move(warn));
+           }),
+           py::arg("model"), py::arg("results") = py::none(), py::arg("resume") = false,
+           py::arg("from_stage") = py::none(), py::arg("progress") = py::none(),
+           py::arg("progress_every") = 0.2, py::arg("warn") = py::none(),
+           "Cuts, builds and checks; nothing is written before the first step.");
+  type.def("__repr__", &repr);
+  add_running(type);
+  add_numbers(type);
+  add_views(type);
+  add_looking(type);
+  add_changing(type);
+}
+
+}  // namespace edda::python

@@ -1,0 +1,129 @@
+"""Results folders as arrays, against the files; pictures."""
+import csv
+import subprocess
+import sys
+
+import edda
+import numpy as np
+import pytest
+
+
+@pytest.fixture(scope="module")
+def folder(models, tmp_path_factory):
+    path = tmp_path_factory.mktemp("results") / "tunnel"
+    short = ["output.every=0.5", "output.history_every=0.1"]
+    simulation = edda.Simulation(edda.load(models / "tunnel.toml", short), results=path)
+    simulation.step(400)
+    simulation.finish()
+    return path
+
+
+def columns_of(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    return {name: [row[name] for row in rows] for name in rows[0]}
+
+
+@pytest.mark.parametrize("name", ["history", "blocks", "joints", "reactions"])
+def test_tables_hold_what_the_files_say_to_the_bit(folder, name):
+    table = getattr(edda.Results(folder), name)
+    columns = columns_of(folder / f"{name}.csv")
+    assert list(table.dtype.names) == list(columns)
+    assert len(table) > 0
+    for column, texts in columns.items():
+        if table[column].dtype.kind == "U":
+            assert table[column].tolist() == texts
+        else:
+            assert table[column].tolist() == [float(t) if t else pytest.approx(np.nan, nan_ok=True) for t in texts]
+    assert table.dtype[list(columns)[0]].kind in "fi"
+
+
+def test_summary_and_what_was_not_written(folder, models, tmp_path):
+    results = edda.Results(folder)
+    assert results.summary["status"] == "interrupted"
+    assert results.summary["steps"] == 400
+    edda.run(models / "ramp.toml", tmp_path / "ramp", {"solver.duration": 0.01})
+    with pytest.raises(AttributeError, match="no stages.csv"):
+        edda.Results(tmp_path / "ramp").stages
+    with pytest.raises(FileNotFoundError):
+        edda.Results(tmp_path / "nothing")
+    with pytest.raises(FileNotFoundError):
+        edda.Results(tmp_path)
+
+
+def test_frames_agree_with_the_table_at_the_end(folder):
+    results = edda.Results(folder)
+    frames = results.frames
+    assert len(frames) >= 2 and frames.times[0] == 0.0
+    last, blocks = frames[-1], results.blocks
+    assert last.time == frames.times[-1] == results.history["time"][-1]
+    row = {block: k for k, block in enumerate(blocks["id"])}
+    rows = [row[block] for block in last["id"]]
+    assert np.array_equal(last["displacement"][:, 0], blocks["ux"][rows])
+    assert np.array_equal(last["stress"][:, 1], blocks["syy"][rows])
+    area = np.zeros(len(blocks))
+    for polygon, k in zip(last.polygons(), rows):
+        x, y = polygon.T
+        area[k] += 0.5 * np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))
+    assert area == pytest.approx(blocks["area"])
+    assert [f.time for f in frames[:2]] == list(frames.times[:2])
+    assert len(list(frames)) == len(frames)
+    contacts = results.contact_frames[-1]
+    assert np.array_equal(contacts["normal_force"], results.joints["normal_force"])
+
+
+def test_stages_and_bolts(models, tmp_path):
+    model = edda.load(models / "tunnel.toml", ["output.every=10", "output.history_every=1"])
+    assert len(model.stages) > 1
+    simulation = edda.Simulation(model, results=tmp_path / "out")
+    while simulation.stage == 0 and simulation.step(50):
+        pass
+    simulation.finish()
+    results = edda.Results(tmp_path / "out")
+    assert len(results.stages) == 1
+    assert results.stages["steps"].dtype.kind == "i"
+    at_end = results.stage_joints(0)
+    assert at_end.dtype.names == results.joints.dtype.names
+    assert np.count_nonzero(at_end["normal_force"] > 0.0) > 10
+    with pytest.raises(AttributeError, match="joints_1.csv"):
+        results.stage_joints(1)
+
+
+def test_pictures(folder, models, tmp_path):
+    import matplotlib.pyplot as plt
+
+    results = edda.Results(folder)
+    model = edda.load(models / "cavern.toml")
+    simulation = edda.Simulation(model)
+    simulation.step(5)
+    for source, field in [
+        (results, "displacement"),
+        (results.frames[0], "stress.yy"),
+        (simulation, "velocity.x"),
+        (simulation, np.arange(simulation.block_count)),
+        (model.cut(), "area"),
+        (model.cut(), None),
+    ]:
+        ax = edda.plot_blocks(source, field, linewidths=0.2)
+        drawn = ax.collections[0]
+        if field is None:
+            assert drawn.get_array() is None
+        else:
+            assert len(drawn.get_array()) == len(drawn.get_paths()) > 100
+        plt.close(ax.figure)
+    ax = edda.plot_history(results, ["kinetic", "strain"])
+    assert np.array_equal(ax.lines[1].get_ydata(), results.history["strain"])
+    ax.figure.savefig(tmp_path / "history.png")
+    plt.close(ax.figure)
+    with pytest.raises(ValueError, match="no column"):
+        edda.plot_history(results, "speed")
+    with pytest.raises(ValueError, match="no component"):
+        edda.plot_blocks(results, "stress.up")
+    with pytest.raises(ValueError, match="has components"):
+        edda.plot_blocks(results, "stress")
+    plt.close("all")
+
+
+def test_matplotlib_is_imported_only_for_pictures():
+    code = "import edda, sys; sys.exit('matplotlib' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
