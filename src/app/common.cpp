@@ -94,6 +94,10 @@ std::string ending_of(const std::string& path) {
   return ending;
 }
 
+bool is_picture(const std::string& ending) {
+  return ending == ".png" || ending == ".svg" || ending == ".pdf";
+}
+
 std::string duration_text(double seconds) {
   if (!(seconds >= 0.0) || !std::isfinite(seconds)) return "unknown";
   if (seconds < 0.1) return "less than 0.1 s";

@@ -37,6 +37,9 @@ std::string stem_of(const std::string& path);
 /// ".svg" of "a/b.svg", in lower case.
 std::string ending_of(const std::string& path);
 
+/// Whether a file of that ending (as ending_of() gives it) is one that plot() draws.
+bool is_picture(const std::string& ending);
+
 /// Title, material names and monitors of a picture of the model.
 PlotOptions options_of(const Model& model, std::size_t blocks);
 

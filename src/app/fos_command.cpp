@@ -37,9 +37,10 @@ Trouble draw_mechanism(const Model& model, const FosResult& r, const std::string
   const Simulation& sim = *r.failed;
   Instant instant;
   observe(sim, instant);
-  const Grid blocks = block_grid(block_cells(sim.blocks), picture_of(sim, instant));
-  const Result<ShownField> field = shown_field("displacement", blocks, nullptr);
+  Snapshot shot{block_grid(block_cells(sim.blocks), picture_of(sim, instant))};
+  const Result<ShownField> field = shown_field("displacement", shot.blocks, nullptr);
   if (!field.ok()) return field.faults().front();
+  shot.field = field.value();
   double largest = 0.0;
   for (const MovingBlock& b : r.mechanism->blocks) largest = std::max(largest, b.largest);
   PlotOptions options = options_of(model, sim.blocks.size());
@@ -52,7 +53,7 @@ Trouble draw_mechanism(const Model& model, const FosResult& r, const std::string
         {j.from + options.scale * j.from_moved, j.to + options.scale * j.to_moved});
   }
   for (const char* name : {"/mechanism.png", "/mechanism.svg"}) {
-    if (Trouble trouble = plot(blocks, nullptr, field.value(), options, folder + name)) {
+    if (Trouble trouble = plot({&shot, 1}, options, folder + name)) {
       return trouble;
     }
   }
