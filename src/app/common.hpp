@@ -15,11 +15,19 @@ namespace edda {
 
 /// One line per fault on stderr.
 void print(const Faults& faults);
+/// Or as JSON on stdout.
+void print(const Faults& faults, bool json);
 void print_warnings(const std::vector<std::string>& warnings);
 
-/// Reads MODEL with its overrides; prints the faults and returns nothing if there are any.
+/// Reads MODEL with its overrides. A model that does not fit into memory is a fault, too.
+Result<Model> read_for_run(const std::string& path, const std::vector<std::string>& overrides);
+
+/// The same; prints the faults and returns nothing if there are any.
 std::optional<Model> read_or_print(const std::string& path,
-                                   const std::vector<std::string>& overrides);
+                                   const std::vector<std::string>& overrides, bool json = false);
+
+/// Adds --json.
+void add_json(CLI::App& command, bool& json, const std::string& description);
 
 /// From now on SIGINT and SIGTERM set what is returned, so that a run ends well; a second one ends
 /// the program at once.

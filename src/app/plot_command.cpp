@@ -102,7 +102,7 @@ void add_what(CLI::App& command, PlotArguments& args) {
           .add_option("--field", args.field,
                       "What to colour by (default: displacement; with --principal: none; of a "
                       "model: its materials)")
-          ->type_name("NAME");
+          ->type_name("FIELD");
   CLI::Option* const time = command
                                 .add_option("--time", args.time,
                                             "The frame nearest to this time in s (default: the "
