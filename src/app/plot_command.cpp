@@ -157,6 +157,7 @@ void add_how(CLI::App& command, PlotArguments& args) {
       ->type_name("X0,Y0,X1,Y1")
       ->delimiter(',')
       ->expected(4);
+  command.add_flag("--no-marks", args.no_marks, "Leave out monitors and convergence lines");
   command.add_option("--title", args.title, "In place of the model's")->type_name("TEXT");
   command
       .add_option_function<std::string>(

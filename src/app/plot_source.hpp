@@ -21,7 +21,7 @@ struct PlotArguments {
   double width = 0.0;  ///< mm; 0: not given
   int width_pixels = 0;
   double dpi = 254.0, font = 8.0;
-  bool forces = false, principal = false, bolts = false, before = false;
+  bool forces = false, principal = false, bolts = false, before = false, no_marks = false;
 };
 
 /// Everything of a picture.

@@ -16,26 +16,27 @@ double widest_label(const std::vector<Tick>& all, double font) {
   return digit * font * static_cast<double>(most);
 }
 
-/// As many as leave a label's width between labels.
+/// As many as leave some room between labels.
 std::vector<Tick> ticks_across(const Box& world, double width, double font) {
-  for (int count = std::max(2, static_cast<int>(width / (2.5 * font))); count > 1; --count) {
-    std::vector<Tick> all = ticks(world.low.x, world.high.x, count);
-    if (static_cast<double>(all.size()) * (widest_label(all, font) + 1.2 * font) <= width)
-      return all;
+  double count = width / (2.5 * font);
+  std::vector<Tick> all = ticks(world.low.x, world.high.x, count);
+  while (count > 1.0 &&
+         static_cast<double>(all.size()) * (widest_label(all, font) + 1.2 * font) > width) {
+    count *= 0.8;
+    all = ticks(world.low.x, world.high.x, count);
   }
-  return ticks(world.low.x, world.high.x, 1);
+  return all;
 }
 
 std::vector<Tick> ticks_up(const Box& world, double height, double font) {
-  return ticks(world.low.y, world.high.y,
-               std::clamp(static_cast<int>(height / (3.0 * font)), 2, 10));
+  return ticks(world.low.y, world.high.y, std::clamp(height / (2.2 * font), 1.0, 10.0));
 }
 
 }  // namespace
 
 double axis_room(const Box& world, double font) {
   // However high the drawing becomes, its labels have no more digits than those of ten ticks.
-  return widest_label(ticks(world.low.y, world.high.y, 10), font) + 2.9 * font;
+  return widest_label(ticks(world.low.y, world.high.y, 10.0), font) + 2.9 * font;
 }
 
 void draw_axes(Canvas& canvas, const View& v, double font, bool y_labels) {

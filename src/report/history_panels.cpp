@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 namespace edda {
@@ -23,10 +24,6 @@ constexpr std::array<Kind, 8> kinds{{{".ux", "displacement", "m"},
                                      {".sxy", "stress", "Pa"},
                                      {".convergence", "convergence", "m"}}};
 
-bool is_zero(const Column& column) {
-  return std::all_of(column.values.begin(), column.values.end(), [](double v) { return v == 0.0; });
-}
-
 bool is_energy(const std::string& name) {
   return std::find(energies.begin(), energies.end(), name) != energies.end();
 }
@@ -42,15 +39,35 @@ HistoryPanel panel_for(const std::string& name) {
   return {name, "", {}};
 }
 
+double largest(const Column& column) {
+  double most = 0.0;
+  for (const double v : column.values) most = std::max(most, std::abs(v));
+  return most;
+}
+
+/// The energies that can be seen beside the largest.
+std::vector<const Column*> visible_energies(const Table& history) {
+  constexpr double least = 0.005;
+  double most = 0.0;
+  for (const Column& c : history.columns) {
+    if (is_energy(c.name)) most = std::max(most, largest(c));
+  }
+  std::vector<const Column*> found;
+  for (const Column& c : history.columns) {
+    if (is_energy(c.name) && largest(c) >= least * most) found.push_back(&c);
+  }
+  return found;
+}
+
 /// A name as given stands for these columns.
 std::vector<const Column*> columns_of(const Table& history, const std::string& name) {
+  if (name == "energy") return visible_energies(history);
   std::vector<const Column*> found;
   for (const Column& c : history.columns) {
     if (c.name == "time") continue;
     const bool of_a_point =
         c.name.starts_with(name + ".") && c.name.find('.', name.size() + 1) == std::string::npos;
-    if (c.name == name || of_a_point || (name == "energy" && is_energy(c.name) && !is_zero(c)))
-      found.push_back(&c);
+    if (c.name == name || of_a_point) found.push_back(&c);
   }
   return found;
 }

@@ -17,8 +17,8 @@ struct HistoryPanel {
 };
 
 /// `names`: columns of history.csv; a monitor or convergence line for all columns of it; "energy"
-/// for those of the ledger that are not zero throughout. Panels in the order in which they are
-/// first named. Faults name what there is.
+/// for those of the ledger that can be seen beside the largest. Panels in the order in which they
+/// are first named. Faults name what there is.
 Result<std::vector<HistoryPanel>> history_panels(const Table& history,
                                                  const std::vector<std::string>& names);
 

@@ -72,7 +72,7 @@ Axis axis_of(const HistoryPanel& panel) {
   return axis;
 }
 
-std::vector<Tick> ticks_of(const Axis& axis, int count) {
+std::vector<Tick> ticks_of(const Axis& axis, double count) {
   if (!axis.logarithmic) return ticks(axis.low, axis.high, count);
   std::vector<Tick> all;
   const int every = std::max(1, static_cast<int>(std::ceil((axis.high - axis.low) / count)));
@@ -159,9 +159,7 @@ class HistoryPage {
     if (!(last_ > first_)) last_ = first_ + 1.0;
   }
 
-  int tick_count(std::size_t k) const {
-    return std::max(2, static_cast<int>(panel_heights_[k] / (2.6 * f_)));
-  }
+  double tick_count(std::size_t k) const { return panel_heights_[k] / (2.2 * f_); }
 
   void draw_title() {
     canvas_->colour(ink::line);
@@ -264,7 +262,7 @@ class HistoryPage {
   }
 
   void draw_time_axis(const Box& frame, bool labels) {
-    const int count = std::max(2, static_cast<int>(frame.width() / (6.0 * f_)));
+    const double count = frame.width() / (6.0 * f_);
     canvas_->colour(ink::line);
     for (const Tick& t : ticks(first_, last_, count)) {
       const double x = x_of(t.value);

@@ -178,7 +178,7 @@ void Legend::draw_bar(Canvas& canvas, double left, double top, double bottom) co
 
 void Legend::draw_ticks(Canvas& canvas, double left, const Box& bar, double factor) const {
   const double low = scale_.low() * factor, high = scale_.high() * factor;
-  const int count = std::clamp(static_cast<int>(bar.height() / (1.7 * font_)), 2, 8);
+  const double count = std::clamp(bar.height() / (1.4 * font_), 1.0, 8.0);
   for (const Tick& t : ticks(low, high, count)) {
     const double y = bar.high.y - (t.value - low) / (high - low) * bar.height();
     canvas.line({left, y}, {left + 0.35 * font_, y}, rule);

@@ -124,7 +124,7 @@ void draw_scene(Canvas& canvas, const Scene& s, const PlotOptions& options,
   if (!options.vectors.empty()) draw_vectors(canvas, s, options.vectors, scales.vectors);
   if (options.forces) draw_forces(canvas, s, scales.forces);
   draw_bolts(canvas, s, options, scales.bolts);
-  draw_marks(canvas, s, options);
+  if (options.marks) draw_marks(canvas, s, options);
   cairo_restore(canvas.cr());
 }
 

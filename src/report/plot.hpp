@@ -58,6 +58,7 @@ struct PlotOptions {
   bool forces = false;       ///< contact forces as arrows
   bool principal = false;    ///< principal stresses as crosses at block centres
   bool bolt_forces = false;  ///< bolts as wide as their axial force
+  bool marks = true;         ///< monitors and convergence lines
   std::optional<std::pair<double, double>> range{};  ///< of the colours, SI units
   std::optional<Box> window{};                       ///< what is shown, m; default: everything
   Paper paper{};

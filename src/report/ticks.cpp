@@ -9,10 +9,10 @@
 
 namespace edda {
 
-std::vector<Tick> ticks(double low, double high, int count) {
+std::vector<Tick> ticks(double low, double high, double count) {
   std::vector<Tick> result;
   if (!(high > low) || !std::isfinite(high - low)) return result;
-  const double rough = (high - low) / std::max(count, 1);
+  const double rough = (high - low) / std::max(count, 1.0);
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
   double step = 10.0 * power;
   for (const double round : {1.0, 2.0, 5.0}) {

@@ -53,7 +53,7 @@ TEST(HistoryPanels, OneForEachKindOfQuantity) {
   EXPECT_EQ(panels.value()[1].unit, "m/s");
 }
 
-TEST(HistoryPanels, EnergyLeavesOutWhatIsZeroThroughout) {
+TEST(HistoryPanels, EnergyLeavesOutWhatCannotBeSeen) {
   const Table table = small_history();
   const auto panels = history_panels(table, {"energy"});
   ASSERT_TRUE(panels.ok());
