@@ -189,9 +189,13 @@ ArrowScale stress_scale(const std::vector<Scene>& scenes) {
     }
   }
   if (sizes.empty()) return {};
-  // A few blocks under stress concentrations may have longer crosses than there is room for: else
-  // all others would be dots.
-  return scale_for(quantile(sizes, 0.95), 0.6 * quantile(rooms, 0.5));
+  // A few blocks under stress concentrations may have longer crosses than there is room for, else
+  // all others would be dots; but not so long that nothing else is seen.
+  constexpr double usual = 0.6, longest_arm = 1.8;  // of a block's side
+  const double room = quantile(rooms, 0.5), most = quantile(sizes, 1.0);
+  const ArrowScale wanted = scale_for(quantile(sizes, 0.95), usual * room);
+  const ArrowScale least = scale_for(most, longest_arm * room);
+  return wanted.per_unit == 0.0 || least.per_unit < wanted.per_unit ? least : wanted;
 }
 
 void draw_stresses(Canvas& canvas, const Scene& s, const ArrowScale& scale) {

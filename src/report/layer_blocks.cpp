@@ -74,18 +74,16 @@ bool is_dark(Colour c) {
   return 0.21 * c.r + 0.72 * c.g + 0.07 * c.b < 0.3;
 }
 
-/// The outlines of many shapes at once: fewer and shorter elements in a file of vectors.
+/// One by one, so that an edge between two blocks is drawn twice wherever it is and all weigh the
+/// same.
 template <class Wanted>
 void stroke_outlines(Canvas& canvas, const Scene& s, const std::vector<std::size_t>& visible,
                      Wanted wanted) {
-  constexpr std::size_t at_once = 64;
-  std::size_t in_hand = 0;
   for (const std::size_t i : visible) {
     if (!wanted(s.shapes[i])) continue;
     trace(canvas.cr(), s, s.shapes[i]);
-    if (++in_hand % at_once == 0) cairo_stroke(canvas.cr());
+    cairo_stroke(canvas.cr());
   }
-  cairo_stroke(canvas.cr());
 }
 
 }  // namespace
