@@ -116,7 +116,7 @@ void add_cut(CLI::App& app, int& code) {
   command->footer(
       "Examples:\n"
       "  edda cut cavern.toml                  the report alone\n"
-      "  edda cut cavern.toml -o cavern.png    a picture (.svg for one that scales)\n"
+      "  edda cut cavern.toml -o cavern.png    a picture (.svg or .pdf for one that scales)\n"
       "  edda cut cavern.toml -o cavern.csv    every corner: block,material,ring,x,y,joint");
   auto args = std::make_shared<CutArguments>();
   command->add_option("MODEL", args->model, "The model, a TOML file")
@@ -124,7 +124,7 @@ void add_cut(CLI::App& app, int& code) {
       ->type_name("FILE");
   command
       ->add_option("-o,--output", args->output,
-                   "What to write: a .svg or .png picture, .vtu for ParaView, or .csv")
+                   "What to write: a .png, .svg or .pdf picture, .vtu for ParaView, or .csv")
       ->type_name("FILE");
   add_overrides(*command, args->overrides);
   command->callback([args, &code] { code = cut(*args); });

@@ -31,13 +31,15 @@ Layout lay_out(const Box& world, const Paper& paper, const Surroundings& room) {
   // A slim model gives a narrow page, but the title must still fit.
   const double used = room.left + n * wide + (n - 1.0) * gap + right;
   l.width = std::max(used, std::min(paper.width, 0.55 * paper.width));
-  l.height = room.top + std::max(high + below, room.legend_height) + edge;
+  l.height = room.top + std::max(high + below, room.legend_height) + room.legend_below + edge;
+  l.drawings = n * wide + (n - 1.0) * gap;
   double x = room.left + 0.5 * (l.width - used);
   for (std::size_t k = 0; k < room.drawings; ++k) {
     l.views.push_back({{{x, room.top}, {x + wide, room.top + high}}, world, scale});
     x += wide + gap;
   }
-  l.legend_left = x;
+  l.legend = room.legend_below > 0.0 ? Vec2{l.views.front().frame.low.x, room.top + high + below}
+                                     : Vec2{x, room.top};
   return l;
 }
 

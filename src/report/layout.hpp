@@ -38,7 +38,8 @@ struct View {
 struct Layout {
   double width = 0.0, height = 0.0, font = 8.0;
   std::vector<View> views;
-  double legend_left = 0.0;
+  Vec2 legend;            ///< its upper left corner
+  double drawings = 0.0;  ///< width of all drawings together
 };
 
 /// What has to find room beside the drawings.
@@ -46,8 +47,9 @@ struct Surroundings {
   std::size_t drawings = 1;
   double left = 0.0;           ///< labels of the y axis
   double top = 0.0;            ///< titles
-  double legend_width = 0.0;   ///< 0: no legend
-  double legend_height = 0.0;  ///< least
+  double legend_width = 0.0;   ///< on the right; 0: none there
+  double legend_height = 0.0;  ///< least, on the right
+  double legend_below = 0.0;   ///< height of one below
 };
 
 Layout lay_out(const Box& world, const Paper& paper, const Surroundings& room);

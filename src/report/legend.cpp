@@ -56,15 +56,15 @@ Legend::Legend(const ColourScale& scale, const ShownField& field,
       keys_(std::move(keys)),
       font_(font) {
   if (!scale_.has_legend()) return;
-  std::string text = field_.label;
+  label_ = field_.label;
   if (scale_.kind() == ScaleKind::numbers) {
     const ScaledUnit unit =
         scaled_unit(field_.unit, std::max(std::abs(scale_.low()), std::abs(scale_.high())));
     factor_ = unit.factor;
-    if (!unit.name.empty()) text += " (" + unit.name + ")";
+    if (!unit.name.empty()) label_ += " (" + unit.name + ")";
   }
   Canvas measure("", 1.0, 1.0, 1.0);
-  heading_ = wrapped(measure, text, font_, width());
+  heading_ = wrapped(measure, label_, font_, width());
 }
 
 bool Legend::is_empty() const {
@@ -123,57 +123,67 @@ double Legend::draw_heading(Canvas& canvas, double left, double top) const {
 void Legend::draw_kinds(Canvas& canvas, double left, double top) const {
   double y = top + font_;
   for (const std::size_t k : scale_.kinds()) {
-    cairo_rectangle(canvas.cr(), left, y - 0.8 * font_, font_, font_);
-    canvas.colour(kind_colour(k));
-    cairo_fill_preserve(canvas.cr());
-    canvas.colour(ink::line);
-    cairo_set_line_width(canvas.cr(), rule);
-    cairo_stroke(canvas.cr());
-    canvas.text(k < kind_names_.size() ? kind_names_[k] : fmt::format("{}", k),
-                {left + 1.5 * font_, y}, {.size = font_});
+    draw_kind(canvas, k, {left, y});
     y += 1.6 * font_;
   }
 }
 
+void Legend::draw_kind(Canvas& canvas, std::size_t kind, Vec2 at) const {
+  cairo_rectangle(canvas.cr(), at.x, at.y - 0.8 * font_, font_, font_);
+  canvas.colour(kind_colour(kind));
+  cairo_fill_preserve(canvas.cr());
+  canvas.colour(ink::line);
+  cairo_set_line_width(canvas.cr(), rule);
+  cairo_stroke(canvas.cr());
+  canvas.text(kind < kind_names_.size() ? kind_names_[kind] : fmt::format("{}", kind),
+              at + Vec2{1.5 * font_, 0.0}, {.size = font_});
+}
+
 void Legend::draw_bar(Canvas& canvas, double left, double top, double bottom) const {
-  const double low = scale_.low(), high = scale_.high();
-  if (!(high > low)) {
-    canvas.text(typeset(fmt::format("{:.4g}", low * factor_ + 0.0)) + " everywhere",
+  if (!(scale_.high() > scale_.low())) {
+    canvas.text(typeset(fmt::format("{:.4g}", scale_.low() * factor_ + 0.0)) + " everywhere",
                 {left, top + font_}, {.size = font_});
     return;
   }
-  cairo_t* cr = canvas.cr();
-  // Points where values go beyond a range that was given.
   const double point = 0.9 * font_;
   const Box bar{{left, top + (scale_.values_above() ? point : 0.3 * font_)},
                 {left + 1.3 * font_, bottom - (scale_.values_below() ? point : 0.0)}};
-  // Colours, in as many steps as an eye can tell apart; each reaches below the next, so that no
-  // seam shows.
+  paint_bar(canvas, bar, true);
+  draw_ticks(canvas, bar.high.x, bar, factor_);
+}
+
+void Legend::paint_bar(Canvas& canvas, const Box& bar, bool upwards) const {
+  cairo_t* cr = canvas.cr();
+  const double low = scale_.low(), high = scale_.high();
+  const double length = upwards ? bar.height() : bar.width();
+  // A place so far along the bar and across it.
+  const auto at = [&](double along, double across) {
+    return upwards ? Vec2{bar.low.x + across * bar.width(), bar.high.y - along * length}
+                   : Vec2{bar.low.x + along * length, bar.low.y + across * bar.height()};
+  };
+  // In as many steps as an eye can tell apart; each reaches below those after it, so that no seam
+  // shows.
   constexpr int steps = 128;
   for (int k = 0; k < steps; ++k) {
-    const double s = 1.0 - (k + 0.5) / steps;
-    canvas.colour(scale_.of(low + s * (high - low)));
-    const double y = bar.low.y + bar.height() * k / steps;
-    cairo_rectangle(cr, bar.low.x, y, bar.width(), bar.high.y - y);
+    canvas.colour(scale_.of(low + (k + 0.5) / steps * (high - low)));
+    const Vec2 a = at(static_cast<double>(k) / steps, 0.0), b = at(1.0, 1.0);
+    cairo_rectangle(cr, a.x, a.y, b.x - a.x, b.y - a.y);
     cairo_fill(cr);
   }
-  const auto triangle = [&](double base, double tip, double value) {
-    cairo_move_to(cr, bar.low.x, base);
-    cairo_line_to(cr, 0.5 * (bar.low.x + bar.high.x), tip);
-    cairo_line_to(cr, bar.high.x, base);
+  cairo_set_line_width(cr, rule);
+  const auto tip = [&](double base, double beyond, double value) {
+    const double peak = base + beyond * 0.9 * font_ / length;
+    for (const Vec2 p : {at(base, 0.0), at(peak, 0.5), at(base, 1.0)}) cairo_line_to(cr, p.x, p.y);
     canvas.colour(scale_.of(value));
     cairo_fill_preserve(cr);
     canvas.colour(ink::line);
-    cairo_set_line_width(cr, rule);
     cairo_stroke(cr);
   };
-  if (scale_.values_above()) triangle(bar.low.y, bar.low.y - point, high);
-  if (scale_.values_below()) triangle(bar.high.y, bar.high.y + point, low);
+  if (scale_.values_above()) tip(1.0, 1.0, high);
+  if (scale_.values_below()) tip(0.0, -1.0, low);
   canvas.colour(ink::line);
   cairo_rectangle(cr, bar.low.x, bar.low.y, bar.width(), bar.height());
-  cairo_set_line_width(cr, rule);
   cairo_stroke(cr);
-  draw_ticks(canvas, bar.high.x, bar, factor_);
 }
 
 void Legend::draw_ticks(Canvas& canvas, double left, const Box& bar, double factor) const {

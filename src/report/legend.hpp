@@ -1,5 +1,5 @@
-// What stands at the right of the drawings: the colours and what they mean, and how long an arrow
-// of a round value is.
+// What stands at the right of the drawings, or below them on a narrow page: the colours and what
+// they mean, and how long an arrow of a round value is.
 #pragma once
 
 #include <string>
@@ -30,8 +30,23 @@ class Legend {
   /// Least, pt.
   double height() const;
   void draw(Canvas& canvas, double left, double top, double bottom) const;
+  /// The same below drawings that are so wide together, pt.
+  double height_below(double width) const;
+  void draw_below(Canvas& canvas, double left, double top, double width) const;
 
  private:
+  /// Where the keys stand below, relative to the first.
+  struct Rows {
+    std::vector<Vec2> places;
+    double height = 0.0;
+  };
+  Rows rows_below(double width) const;
+  double colours_height_below(double width) const;
+  void draw_kinds_across(Canvas& canvas, double left, double top, double width) const;
+  void draw_bar_across(Canvas& canvas, double left, double top, double width) const;
+  void draw_kind(Canvas& canvas, std::size_t kind, Vec2 at) const;
+  /// The colours within a box, upwards or to the right, and the points beyond its ends.
+  void paint_bar(Canvas& canvas, const Box& bar, bool upwards) const;
   double draw_heading(Canvas& canvas, double left, double top) const;
   void draw_kinds(Canvas& canvas, double left, double top) const;
   void draw_bar(Canvas& canvas, double left, double top, double bottom) const;
@@ -44,8 +59,9 @@ class Legend {
   std::vector<std::string> kind_names_;
   std::vector<LegendKey> keys_;
   double font_;
-  double factor_ = 1.0;               ///< of values in the bar's unit
-  std::vector<std::string> heading_;  ///< lines
+  double factor_ = 1.0;  ///< of values in the bar's unit
+  std::string label_;
+  std::vector<std::string> heading_;  ///< lines of it
 };
 
 /// Breaks a text into lines no wider than `width` pt.

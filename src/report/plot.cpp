@@ -140,14 +140,10 @@ class Page {
     const double f = options_.paper.font;
     const Titles titles = titles_of(shots_, options_);
     const Box world = world_of(scenes_, options_);
-    Surroundings room{scenes_.size(), axis_room(world, f) + 0.8 * f, titles.height(f), 0.0, 0.0};
+    Surroundings room{scenes_.size(), axis_room(world, f) + 0.8 * f, titles.height(f)};
     // Lengths of arrows follow from the size of the drawings, the legend's height from what it
     // lists: laid out once without the lengths, then with the legend.
-    const Legend listed = legend_with({});
-    if (!listed.is_empty()) {
-      room.legend_width = listed.width();
-      room.legend_height = listed.height();
-    }
+    make_room(legend_with({}), world, room);
     const Layout layout = lay_out(world, options_.paper, room);
     for (std::size_t k = 0; k < scenes_.size(); ++k) {
       scenes_[k].view = layout.views[k];
@@ -158,9 +154,7 @@ class Page {
     for (const Scene& s : scenes_) draw_scene(canvas, s, options_, colours_, scales);
     for (std::size_t k = 0; k < scenes_.size(); ++k) draw_surroundings(canvas, k, layout);
     draw_titles(canvas, layout, titles);
-    const Box& frame = layout.views.front().frame;
-    legend_with(scales).draw(canvas, layout.legend_left, frame.low.y,
-                             std::max(frame.high.y, frame.low.y + room.legend_height));
+    draw_legend(canvas, legend_with(scales), layout, room);
     return canvas.finish();
   }
 
@@ -170,6 +164,26 @@ class Page {
     const std::vector<std::string> states{"open", "stick", "slide", "bonded"};
     return {colours_, field, field.of_contacts ? states : options_.materials,
             keys_of(shots_, options_, scales), options_.paper.font};
+  }
+
+  void make_room(const Legend& legend, const Box& world, Surroundings& room) const {
+    constexpr double narrow = 40.0;  // sizes of the font
+    if (legend.is_empty()) return;
+    if (options_.paper.width >= narrow * options_.paper.font) {
+      room.legend_width = legend.width();
+      room.legend_height = legend.height();
+    } else {
+      room.legend_below = legend.height_below(lay_out(world, options_.paper, room).drawings);
+    }
+  }
+
+  static void draw_legend(Canvas& canvas, const Legend& legend, const Layout& layout,
+                          const Surroundings& room) {
+    if (legend.is_empty()) return;
+    if (room.legend_below > 0.0)
+      return legend.draw_below(canvas, layout.legend.x, layout.legend.y, layout.drawings);
+    legend.draw(canvas, layout.legend.x, layout.legend.y,
+                std::max(layout.views.front().frame.high.y, layout.legend.y + room.legend_height));
   }
 
   void draw_surroundings(Canvas& canvas, std::size_t k, const Layout& layout) const {

@@ -82,6 +82,21 @@ TEST(Plot, EveryMillimetreOfPaperCounts) {
   EXPECT_NEAR(wide, 160.0 / 25.4 * 72.0, 0.1);
 }
 
+TEST(Plot, LegendsOfNarrowPagesStandBelow) {
+  Snapshot shot = snapshot("displacement");
+  PlotOptions options;
+  options.vectors = "velocity";
+  std::string svg = drawn({&shot, 1}, options);
+  EXPECT_GT(text_of(svg, "displacement (mm)")->x, text_of(svg, "x (m)")->x);
+  EXPECT_LT(text_of(svg, "displacement (mm)")->y, text_of(svg, "x (m)")->y);
+  options.paper.width = 85.0 * 72.0 / 25.4;
+  svg = drawn({&shot, 1}, options);
+  EXPECT_LT(text_of(svg, "displacement (mm)")->x, text_of(svg, "x (m)")->x);
+  EXPECT_GT(text_of(svg, "displacement (mm)")->y, text_of(svg, "x (m)")->y);
+  EXPECT_GT(text_of(svg, "velocity")->y, text_of(svg, "displacement (mm)")->y);
+  EXPECT_LT(text_of(svg, "velocity")->y, size_of_svg(svg).y);
+}
+
 TEST(Plot, MonitorsStandWhereTheirBlockHasGone) {
   // The axes' labels say where on paper a place is: the monitor has moved by 0.5 to x = 0.5.
   const Snapshot shot = snapshot("none");
