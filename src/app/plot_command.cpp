@@ -147,9 +147,7 @@ void add_what(CLI::App& command, PlotArguments& args) {
 void add_how(CLI::App& command, PlotArguments& args) {
   command.add_option("--scale", args.scale, "Draw displacements this many times as large")
       ->type_name("FACTOR");
-  command
-      .add_option("--range", args.range,
-                  "Values of the ends of the colours, in SI units; two-sided where LO is -HI")
+  command.add_option("--range", args.range, "Values of the ends of the colours, in SI units")
       ->type_name("LO,HI")
       ->delimiter(',')
       ->expected(2);

@@ -31,7 +31,7 @@ ColourScale::ColourScale(std::span<const Snapshot> shots,
   if (range) {
     take_range(range->first, range->second);
   } else {
-    round_up();
+    judge_values();
   }
 }
 
@@ -52,10 +52,10 @@ void ColourScale::take_range(double low, double high) {
   values_above_ = high_ > high;
   low_ = low;
   high_ = high;
-  two_sided_ = std::abs(low + high) <= 1e-9 * (high - low);
+  two_sided_ = low < 0.0 && high > 0.0;
 }
 
-void ColourScale::round_up() {
+void ColourScale::judge_values() {
   // Rounding about zero, as before anything moves, is no range to paint.
   const double size = std::max(std::abs(low_), std::abs(high_));
   if (high_ - low_ <= 1e-9 * size) {
@@ -63,18 +63,15 @@ void ColourScale::round_up() {
     if (high_ < 0.0) high_ = 0.0;
   }
   two_sided_ = low_ < -1e-3 * size && high_ > 1e-3 * size;
-  if (two_sided_) {
-    low_ = -size;
-    high_ = size;
-  }
 }
 
 Colour ColourScale::of(double value) const {
   if (kind_ == ScaleKind::plain || !std::isfinite(value)) return ink::block;
   if (kind_ == ScaleKind::kinds) return kind_colour(static_cast<std::size_t>(std::max(value, 0.0)));
-  if (!(high_ > low_)) return two_sided_ ? diverging(0.5) : sequential(0.0);
-  const double s = std::clamp((value - low_) / (high_ - low_), 0.0, 1.0);
-  return two_sided_ ? diverging(s) : sequential(s);
+  if (!(high_ > low_)) return sequential(0.0);
+  const double v = std::clamp(value, low_, high_);
+  if (!two_sided_) return sequential((v - low_) / (high_ - low_));
+  return diverging(0.5 + 0.5 * v / std::max(-low_, high_));
 }
 
 bool ColourScale::has_legend() const {

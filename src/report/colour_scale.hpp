@@ -14,8 +14,8 @@ namespace edda {
 class ColourScale {
  public:
   /// One scale for all snapshots, over the values of all blocks that are not held. `range`: over
-  /// that instead; values beyond take the colours of its ends. It is two-sided, blue over white to
-  /// red, where values have both signs (a range: where its ends are each other's negatives).
+  /// that instead; values beyond take the colours of its ends. Where it has both signs it
+  /// is two-sided: blue below nothing, red above, as dark on either side at the same distance.
   ColourScale(std::span<const Snapshot> shots, std::optional<std::pair<double, double>> range);
   Colour of(double value) const;
 
@@ -30,7 +30,7 @@ class ColourScale {
  private:
   void take_values(std::span<const Snapshot> shots);
   void take_range(double low, double high);
-  void round_up();
+  void judge_values();
   ScaleKind kind_;
   bool two_sided_ = false;
   double low_ = 0.0, high_ = 0.0;

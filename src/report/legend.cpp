@@ -61,7 +61,10 @@ Legend::Legend(const ColourScale& scale, const ShownField& field,
     const ScaledUnit unit =
         scaled_unit(field_.unit, std::max(std::abs(scale_.low()), std::abs(scale_.high())));
     factor_ = unit.factor;
-    if (!unit.name.empty()) label_ += " (" + unit.name + ")";
+    if (!unit.name.empty()) {
+      const bool has_brackets = label_.find('(') != std::string::npos;
+      label_ += has_brackets ? ", " + unit.name : " (" + unit.name + ")";
+    }
   }
   Canvas measure("", 1.0, 1.0, 1.0);
   heading_ = wrapped(measure, label_, font_, width());

@@ -72,6 +72,17 @@ TEST(Plot, BlocksHaveTheColoursOfTheirValues) {
   EXPECT_TRUE(looks_like(clipped[1], sequential(1.0)));
 }
 
+TEST(Plot, ColoursOfBothSignsAreWhiteAtNothing) {
+  Snapshot shot = snapshot("displacement.x");
+  shot.blocks.cell_fields[1].values = {0, 0, 0};
+  shot.field.values = {-0.25, -0.25, 1.0};
+  const std::string svg = drawn({&shot, 1}, {});
+  const auto fills = block_fills(svg, 2);
+  EXPECT_TRUE(looks_like(fills[0], diverging(0.375)));  // a quarter as far as the red end
+  EXPECT_TRUE(looks_like(fills[1], diverging(1.0)));
+  EXPECT_FALSE(text_of(svg, "\u22121.0"));  // the bar ends where the values do
+}
+
 TEST(Plot, EveryMillimetreOfPaperCounts) {
   const Snapshot shot = snapshot("displacement");
   PlotOptions options;
