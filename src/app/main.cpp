@@ -13,11 +13,12 @@ int run_command(int argc, char** argv) {
       "edda computes how jointed rock moves: blocks cut by joints, their contacts with friction, "
       "in time\n"
       "(explicit discontinuous deformation analysis).\n\n"
-      "New here? Four commands from nothing to a picture:\n"
+      "New here? Five commands from nothing to a film:\n"
       "  edda example ramp          writes ramp.toml, a model to read and to change\n"
       "  edda check ramp.toml       says whether it is sound, and how long it will take\n"
       "  edda run ramp.toml         computes it; results go to the folder ramp/\n"
-      "  edda plot ramp             draws the last state into ramp.png\n",
+      "  edda plot ramp             draws the last state into ramp.png\n"
+      "  edda view ramp             ramp.html replays it in a browser\n",
       "edda"};
   app.set_version_flag("--version", "edda " + std::string(edda::version));
   app.require_subcommand(1);
@@ -31,6 +32,7 @@ int run_command(int argc, char** argv) {
   edda::add_verify(app, code);
   edda::add_fos(app, code);
   edda::add_plot(app, code);
+  edda::add_view(app, code);
   edda::add_example(app, code);
   edda::add_keys(app, code);
   edda::add_completion(app, code);

@@ -79,18 +79,19 @@ void lift(ContactSet& c, std::size_t k, double rise) {
   c.stir(k);
 }
 
-void update_one(ContactSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
-  const Law& law = laws.rows[c.law[k]];
+void take_slip(ContactSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
   const double slip = slip_of_step(c, k);
-  if (slip > 0.0) {
-    const double dilation = in_force(c, b, laws, k).dilation;
-    const double left =
-        law.slip_distance > 0.0 ? std::max(law.slip_distance - c.slid[k], 0.0) : slip;
-    const bool ends = law.type != LawType::barton_bandis;
-    if (dilation > 0.0) lift(c, k, dilation * (ends ? std::min(slip, left) : slip));
-    c.slid[k] += slip;
-  }
-  if (law.type == LawType::coulomb) return;
+  if (slip <= 0.0) return;
+  const Law& law = laws.rows[c.law[k]];
+  const double dilation = in_force(c, b, laws, k).dilation;
+  const double left = law.slip_distance > 0.0 ? std::max(law.slip_distance - c.slid[k], 0.0) : slip;
+  const bool ends = law.type != LawType::barton_bandis;
+  if (dilation > 0.0) lift(c, k, dilation * (ends ? std::min(slip, left) : slip));
+  c.slid[k] += slip;
+}
+
+void put_in_force(ContactSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
+  if (laws.rows[c.law[k]].type == LawType::coulomb) return;
   const InForce now = in_force(c, b, laws, k);
   const double stands_for = c.length[k] * laws.thickness;
   c.friction[k] = now.friction;
@@ -125,12 +126,19 @@ double barton_angle(const Law& law, double roughness, double sigma) {
   return std::max(law.residual_angle, std::min(angle, steepest));
 }
 
+void put_strengths_in_force(ContactSet& c, const BlockSet& b, const LawTable& laws) {
+  for (std::size_t k = 0; laws.any_changes && k < c.size(); ++k) {
+    if (laws.rows[c.law[k]].changes && c.is(k, cs::closed)) put_in_force(c, b, laws, k);
+  }
+}
+
 void update_joint_laws(ContactSet& c, const BlockSet& b, const LawTable& laws) {
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Law& law = laws.rows[c.law[k]];
     if (!law.changes) continue;
     if (c.is(k, cs::closed)) {
-      update_one(c, b, laws, k);
+      take_slip(c, b, laws, k);
+      put_in_force(c, b, laws, k);
     } else if (law.type == LawType::slip_weakening && c.slid[k] < law.slip_distance) {
       const double size = std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
       if (c.depth[k] < -whole_gap * size) c.slid[k] = first_slip(law);

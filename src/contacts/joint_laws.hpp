@@ -27,6 +27,9 @@ double roughness_left(double slip, double peak);
 /// Barton and Bandis' angle of friction, degrees, at the normal stress sigma (Pa); at most 70.
 double barton_angle(const Law& law, double roughness, double sigma);
 
+/// Puts the strength in force that follows from the slip so far and the normal force as it is.
+void put_strengths_in_force(ContactSet& contacts, const BlockSet& blocks, const LawTable& laws);
+
 /// Adds the slip of the last step, opens what dilates, and puts in force the strength that follows.
 /// Before evaluate_contacts(); where no law asks for it (LawTable::any_changes), not at all.
 void update_joint_laws(ContactSet& contacts, const BlockSet& blocks, const LawTable& laws);

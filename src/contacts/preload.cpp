@@ -5,6 +5,7 @@
 
 #include "contacts/candidates.hpp"
 #include "contacts/gap.hpp"
+#include "contacts/joint_laws.hpp"
 #include "contacts/shares.hpp"
 
 namespace edda {
@@ -94,18 +95,21 @@ std::vector<JointStress> preload_contacts(ContactSet& c, const BlockSet& b, cons
   }
   settle_contacts(c, b, pose, laws, 0, true, scratch);
   const std::vector<double> whole = shares_of_ends(c);
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (is_end[k] == 0) continue;
+    forces[k] = 1.0 / whole[k] * forces[k];
+    if (!c.is(k, cs::closed)) continue;
+    const double normal = dot(forces[k], normal_of(c, k));
+    const bool bears = normal > 0.0 || c.is(k, cs::pulls);
+    load(c, k, bears ? normal : 0.0, bears ? dot(forces[k], c.tangent(k)) : 0.0);
+  }
+  put_strengths_in_force(c, b, laws);
   std::vector<JointStress> joints(laws.rows.size());
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (is_end[k] == 0) continue;
-    const bool closed = c.is(k, cs::closed);
-    const Vec2 force = 1.0 / whole[k] * forces[k];
-    const double normal = dot(force, normal_of(c, k)), shear = dot(force, c.tangent(k));
-    if (closed || normal <= 0.0) {
+    const double normal = dot(forces[k], normal_of(c, k)), shear = dot(forces[k], c.tangent(k));
+    if (c.is(k, cs::closed) || normal <= 0.0)
       judge(joints[c.law[k]], c, k, c.length[k] * c.share[k] / whole[k], normal, shear);
-    }
-    if (!closed) continue;
-    const bool bears = normal > 0.0 || c.is(k, cs::pulls);
-    load(c, k, bears ? normal : 0.0, bears ? shear : 0.0);
   }
   return joints;
 }

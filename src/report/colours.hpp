@@ -18,5 +18,6 @@ Colour diverging(double s);
 
 /// The k-th of a few light, well told apart colours, again from the first after the last.
 Colour kind_colour(std::size_t k);
+inline constexpr std::size_t kind_colour_count = 8;
 
 }  // namespace edda

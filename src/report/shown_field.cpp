@@ -118,4 +118,15 @@ std::string field_names() {
   return names;
 }
 
+std::vector<std::string> all_fields() {
+  std::vector<std::string> names;
+  for (const Recipe& r : recipes) names.emplace_back(r.name);
+  return names;
+}
+
+FieldText field_text(const std::string& name) {
+  const Recipe* r = recipe_of(name);
+  return r == nullptr ? FieldText{} : FieldText{r->label, r->unit, r->kind, r->of_contacts};
+}
+
 }  // namespace edda

@@ -31,4 +31,15 @@ bool is_of_contacts(const std::string& name);
 /// The names, for --help.
 std::string field_names();
 
+/// All of them but "none", in the order of --help.
+std::vector<std::string> all_fields();
+
+/// What is said of a field wherever it is shown; name: one of all_fields().
+struct FieldText {
+  std::string label, unit;
+  ScaleKind kind = ScaleKind::numbers;
+  bool of_contacts = false;
+};
+FieldText field_text(const std::string& name);
+
 }  // namespace edda

@@ -98,7 +98,7 @@ Grid block_grid(const BlockCells& cells, const Picture& picture) {
   Field displacement = field_of("displacement", 3, n), velocity = field_of("velocity", 3, n);
   Field rotation = field_of("rotation", 1, n), stress = field_of("stress", 6, n);
   Field principal = field_of("principal_stress", 3, n);
-  Field overstress = field_of("overstress", 1, n);
+  Field omega = field_of("omega", 1, n), overstress = field_of("overstress", 1, n);
   stress.component_names = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
   principal.component_names = {"major", "minor", "out_of_plane"};
   for (const BlockRecord& b : picture.blocks) {
@@ -115,13 +115,14 @@ Grid block_grid(const BlockCells& cells, const Picture& picture) {
       push(displacement, {b.displacement.x, b.displacement.y, 0.0});
       push(velocity, {b.velocity.x, b.velocity.y, 0.0});
       push(rotation, {b.rotation});
+      push(omega, {b.omega});
       push(stress, {b.sxx, b.syy, b.szz, b.sxy, 0.0, 0.0});
       push_principal(principal, b);
       push(overstress, {b.overstress});
     }
   }
-  take(g.cell_fields, id, material, fixed, displacement, velocity, rotation, stress, principal,
-       overstress);
+  take(g.cell_fields, id, material, fixed, displacement, velocity, rotation, omega, stress,
+       principal, overstress);
   g.point_fields.push_back(point_vectors("displacement", picture.ux, picture.uy));
   g.point_fields.push_back(point_vectors("velocity", picture.vx, picture.vy));
   return g;

@@ -21,9 +21,9 @@ struct BlockCells {
 /// Convex blocks are one cell; others, and those with holes, are triangles.
 BlockCells block_cells(const BlockSet& blocks);
 
-/// Cell fields id material fixed displacement velocity rotation stress principal_stress, point
-/// fields displacement velocity. stress: XX YY ZZ XY YZ XZ; principal_stress: the larger and the
-/// smaller in the plane, then the one across it. Pa.
+/// Cell fields id material fixed displacement velocity rotation omega stress principal_stress,
+/// point fields displacement velocity. stress: XX YY ZZ XY YZ XZ; principal_stress: the larger and
+/// the smaller in the plane, then the one across it. Pa.
 Grid block_grid(const BlockCells& cells, const Picture& picture);
 
 /// A vertex cell per contact with normal_force shear_force opening slip state block_i block_j and

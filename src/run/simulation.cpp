@@ -79,6 +79,9 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   }
   s.blocks = build_blocks(s.model, s.polygons);
   s.laws = build_laws(s.model);
+  // What the first stage finds at the start is judged by its strength.
+  const double factor = s.model.stages.empty() ? 1.0 : s.model.stages.front().strength_factor;
+  s.laws = divided_laws(s.model, std::vector<double>(s.laws.rows.size(), factor));
   Result<BoundarySprings> springs = attach_boundaries(s.model, s.blocks);
   if (!springs.ok()) return springs.faults();
   s.springs = std::move(springs.value());

@@ -1,0 +1,120 @@
+// edda view
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/common.hpp"
+#include "model/read_model.hpp"
+#include "view/page.hpp"
+#include "view/server.hpp"
+
+namespace edda {
+namespace {
+
+struct ViewArguments {
+  std::string folder, output;
+  double most = 200.0;  // MB
+  bool serve = false;
+  int port = 8080;
+};
+
+/// What the model knows; a page does without it where the model is gone.
+ViewNames names_of(const std::string& folder) {
+  ViewNames names;
+  const Result<Model> read = read_model(folder + "/model.toml");
+  if (!read.ok()) return names;
+  const Model& model = read.value();
+  names.title = model.title;
+  for (const Material& m : model.materials) names.materials.push_back(m.name);
+  for (const Monitor& m : model.monitors) names.monitors.push_back({m.name, {m.point}});
+  for (const Convergence& c : model.convergences)
+    names.convergences.push_back({c.name, {c.between[0], c.between[1]}});
+  return names;
+}
+
+int write(ViewRun& run, const ViewArguments& args) {
+  const std::string path = args.output.empty() ? stem_of(args.folder) + ".html" : args.output;
+  const Result<PageReport> report =
+      write_page(run, path, static_cast<std::size_t>(args.most * 1e6));
+  if (!report.ok()) {
+    print(report.faults());
+    return exit_code::failed;
+  }
+  const PageReport& r = report.value();
+  fmt::print("wrote {}: {} frames, {:.1f} MB\n", path, r.frames,
+             1e-6 * static_cast<double>(r.bytes));
+  if (r.frames < r.of) {
+    fmt::print(
+        "  {} of the run's {} frames were left out, evenly, to stay below {:g} MB: --max-size\n",
+        r.of - r.frames, r.of, args.most);
+  }
+  if (r.precision == ViewPrecision::whole16) {
+    fmt::print(
+        "  displacements are stored to 1/65534, velocities, rotations and stresses to 1/4094 of "
+        "the\n"
+        "  largest in their frame; the last frame to 7 digits\n");
+  }
+  return exit_code::done;
+}
+
+int serve(ViewRun& run, const ViewArguments& args) {
+  const auto ready = [](const std::string& address) {
+    fmt::print("open {} in a browser; Ctrl-C ends it\n", address);
+    std::fflush(stdout);
+  };
+  if (const Trouble trouble = serve_page(run, args.port, ready, stop_on_signals())) {
+    print({*trouble});
+    return exit_code::bad_input;
+  }
+  return exit_code::done;
+}
+
+int view(const ViewArguments& args) {
+  if (page_template().head.empty()) {
+    fmt::print(stderr,
+               "edda view: this program was built without the replay page: build it with "
+               "-DEDDA_VIEW=ON\n");
+    return exit_code::bad_input;
+  }
+  if (!args.output.empty() && ending_of(args.output) != ".html") {
+    fmt::print(stderr, "{}: does not end in .html: name the page so\n", args.output);
+    return exit_code::bad_input;
+  }
+  Result<ViewRun> run = ViewRun::open(args.folder, names_of(args.folder));
+  if (!run.ok()) {
+    print(run.faults());
+    return exit_code::bad_input;
+  }
+  return args.serve ? serve(run.value(), args) : write(run.value(), args);
+}
+
+}  // namespace
+
+void add_view(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand("view", "Make a page that replays a run in the browser");
+  command->footer(
+      "Examples:\n"
+      "  edda view slope                    slope.html: one file, opens from disk, needs no "
+      "network\n"
+      "  edda view slope --serve            while the run goes on: the page follows it\n\n"
+      "The page plays the frames (output.every), colours blocks and contacts by any field, shows\n"
+      "values and histories of what is clicked, and saves pictures. Keys: press ? on the page.");
+  auto args = std::make_shared<ViewArguments>();
+  command->add_option("DIR", args->folder, "A folder of results")->required()->type_name("DIR");
+  command->add_option("-o,--output", args->output, "The page (default: the folder's name + .html)")
+      ->type_name("FILE.html");
+  command
+      ->add_option("--max-size", args->most,
+                   "Leave frames out, evenly, where the page would be larger (default 200)")
+      ->type_name("MB")
+      ->check(CLI::Range(1.0, 1e5));
+  command->add_flag("--serve", args->serve, "Serve the page to this machine instead of writing it");
+  command->add_option("--port", args->port, "Of --serve (default 8080; 0: any that is free)")
+      ->type_name("N")
+      ->check(CLI::Range(0, 65535));
+  command->callback([args, &code] { code = view(*args); });
+}
+
+}  // namespace edda

@@ -1,0 +1,351 @@
+#include "view/frame.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "view/bytes.hpp"
+
+// Layout of a frame (numbers little-endian):
+//
+//   u32   bits of a number (16 or 32), rows nb, blocks n, datum, contacts m
+//   u8    [ceil(nb / 8)] a bit per row of the mesh, lowest first: alive
+//   then the columns of the blocks, n values each:
+//     d.x d.y | A.xx A.xy A.yx A.yy | velocity.x velocity.y | omega | rotation |
+//     stress.xx .yy .zz .xy | overstress
+//   d and A: of the displacement since the datum; where the block was at the datum says that
+//   then the contacts, sorted by the row of block i:
+//     varint [m] row of block i, less that before; varint [m] vertex of it;
+//     zigzag [m] row of block j less that of i; varint [m] edge of it; u8 [m] state; and the
+//     columns normal_force shear_force | opening | slip
+//
+// A bar separates groups; those of a group share a scale. A column of 16 bits is an f32 scale s (of
+// each group, before its first column) and whole numbers q = round(v / s), zigzagged, all low bytes
+// before all high bytes. A column of 32 bits is f32, in four planes of bytes alike.
+//
+// With 16 bits the scale leaves to each value what it needs and no more, since the rest is noise
+// that cannot be packed: motion_steps for a displacement (and for A what moves no vertex by more),
+// value_steps for what is shown as a number or a colour, contact_steps for what is but drawn; and
+// the overlap of closed contacts, which no drawing shows, is left out.
+
+namespace edda {
+namespace {
+
+using Columns = std::vector<std::vector<double>>;
+
+// Largest whole numbers.
+constexpr double motion_steps = 32767.0, value_steps = 2047.0, contact_steps = 127.0;
+
+void add_planes(Bytes& bytes, const std::string& numbers, std::size_t width) {
+  const std::size_t n = numbers.size() / width;
+  for (std::size_t plane = 0; plane < width; ++plane) {
+    for (std::size_t k = 0; k < n; ++k)
+      bytes.u8(static_cast<std::uint8_t>(numbers[width * k + plane]));
+  }
+}
+
+double finite(double value) {
+  return std::isfinite(value) ? value : 0.0;
+}
+
+void add_whole(Bytes& bytes, const std::vector<double>& column, double scale) {
+  Bytes numbers;
+  for (const double v : column) {
+    const auto q = static_cast<std::int32_t>(std::lround(finite(v) / scale));
+    numbers.u16(static_cast<std::uint16_t>(q < 0 ? -2 * q - 1 : 2 * q));
+  }
+  add_planes(bytes, numbers.text(), 2);
+}
+
+void add_single(Bytes& bytes, const std::vector<double>& column) {
+  Bytes numbers;
+  for (const double v : column) numbers.f32(finite(v));
+  add_planes(bytes, numbers.text(), 4);
+}
+
+double largest_of(const Columns& columns) {
+  double largest = 0.0;
+  for (const auto& column : columns) {
+    for (const double v : column) largest = std::max(largest, std::abs(finite(v)));
+  }
+  return largest;
+}
+
+/// Columns that share a scale: their largest magnitude over `steps`, or `coarse` where that is
+/// more.
+void add_group(Bytes& bytes, const Columns& columns, ViewPrecision precision, double steps,
+               double coarse = 0.0) {
+  if (precision == ViewPrecision::single) {
+    for (const auto& column : columns) add_single(bytes, column);
+    return;
+  }
+  // As the page will read it, so that the quotient is rounded with the same number.
+  const auto scale = static_cast<float>(
+      std::max({largest_of(columns) / steps, coarse, double{std::numeric_limits<float>::min()}}));
+  bytes.f32(scale);
+  for (const auto& column : columns) add_whole(bytes, column, double{scale});
+}
+
+/// Component `k` of the cell field at these cells; zeros where there is no such field.
+std::vector<double> column(const Grid& g, const char* name, std::size_t k,
+                           const std::vector<std::size_t>& cells) {
+  const Field* field = g.cell_field(name);
+  std::vector<double> values(cells.size(), 0.0);
+  if (field == nullptr) return values;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    values[i] = field->values[field->components * cells[i] + k];
+  }
+  return values;
+}
+
+/// Half the largest extent of a block, m.
+double reach_of(const ViewMesh& mesh) {
+  double reach = 0.0;
+  for (const Vec2 r : mesh.vertex) reach = std::max({reach, std::abs(r.x), std::abs(r.y)});
+  return reach;
+}
+
+void add_motions(Bytes& bytes, const std::vector<BlockMotion>& motions, ViewPrecision precision,
+                 double reach) {
+  Columns d(2), a(4);
+  for (const BlockMotion& m : motions) {
+    d[0].push_back(m.d.x);
+    d[1].push_back(m.d.y);
+    a[0].push_back(m.xx);
+    a[1].push_back(m.xy);
+    a[2].push_back(m.yx);
+    a[3].push_back(m.yy);
+  }
+  add_group(bytes, d, precision, motion_steps);
+  add_group(bytes, a, precision, motion_steps, largest_of(d) / motion_steps / reach);
+}
+
+void add_fields(Bytes& bytes, const Grid& g, const std::vector<std::size_t>& cells,
+                ViewPrecision precision) {
+  const auto group = [&](const char* name, std::initializer_list<std::size_t> components) {
+    Columns columns;
+    for (const std::size_t k : components) columns.push_back(column(g, name, k, cells));
+    add_group(bytes, columns, precision, value_steps);
+  };
+  group("velocity", {0, 1});
+  group("omega", {0});
+  group("rotation", {0});
+  group("stress", {0, 1, 2, 3});
+  group("overstress", {0});
+}
+
+/// A contact of the frame by rows of the mesh.
+struct Touch {
+  std::size_t cell = 0, i = 0, j = 0, vertex = 0, edge = 0;
+};
+
+/// The vertex of block `row` that lies at the contact's point: contacts are where a vertex is.
+std::size_t nearest_vertex(const ViewMesh& mesh, std::size_t row, const std::vector<double>& places,
+                           Vec2 at) {
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t v = mesh.begin[row]; v < mesh.begin[row + 1]; ++v) {
+    const auto p = 3 * static_cast<std::size_t>(mesh.point[v]);
+    const double distance = std::hypot(places[p] - at.x, places[p + 1] - at.y);
+    if (distance < least) {
+      least = distance;
+      best = v - mesh.begin[row];
+    }
+  }
+  return best;
+}
+
+double distance_to(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 along = b - a;
+  const double square = dot(along, along);
+  const double s = square > 0.0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0.0;
+  const Vec2 foot = p - (a + s * along);
+  return std::hypot(foot.x, foot.y);
+}
+
+/// What a contact does to block i.
+struct Push {
+  Vec2 force;
+  double normal = 0.0, shear = 0.0;
+};
+
+/// The edge of block `row` that the contact is with: where a corner meets a corner, that from whose
+/// direction the force comes; else the nearest.
+std::size_t edge_of(const ViewMesh& mesh, std::size_t row, const std::vector<double>& places,
+                    Vec2 at, const Push& push) {
+  const auto place = [&](std::uint32_t v) {
+    const auto p = 3 * static_cast<std::size_t>(mesh.point[v]);
+    return Vec2{places[p], places[p + 1]};
+  };
+  const double size = std::hypot(push.force.x, push.force.y);
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t e = mesh.edge_begin[row]; e < mesh.edge_begin[row + 1]; ++e) {
+    const Vec2 a = place(mesh.edges[e][0]), b = place(mesh.edges[e][1]);
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    if (!(length > 0.0)) continue;
+    double misfit = distance_to(at, a, b) / length;
+    if (size > 0.0) {
+      const Vec2 t = (b - a) / length;
+      const Vec2 off = push.force - (push.normal * outward_normal(t) + push.shear * t);
+      misfit += 10.0 * std::hypot(off.x, off.y) / size;
+    }
+    if (misfit < least) {
+      least = misfit;
+      best = e - mesh.edge_begin[row];
+    }
+  }
+  return best;
+}
+
+std::vector<Touch> touches_of(const ViewMesh& mesh, const Grid& blocks, const Grid& contacts) {
+  const Field *i = contacts.cell_field("block_i"), *j = contacts.cell_field("block_j"),
+              *force = contacts.cell_field("force"), *normal = contacts.cell_field("normal_force"),
+              *shear = contacts.cell_field("shear_force");
+  std::vector<Touch> touches;
+  for (const Field* field : {i, j, force, normal, shear}) {
+    if (field == nullptr) return touches;
+  }
+  for (std::size_t c = 0; c < contacts.cell_count(); ++c) {
+    Touch t{c, mesh.row_of(static_cast<std::int32_t>(i->values[c])),
+            mesh.row_of(static_cast<std::int32_t>(j->values[c])), 0, 0};
+    if (t.i == mesh.size() || t.j == mesh.size()) continue;
+    const Vec2 at{contacts.points[3 * c], contacts.points[3 * c + 1]};
+    t.vertex = nearest_vertex(mesh, t.i, blocks.points, at);
+    t.edge = edge_of(
+        mesh, t.j, blocks.points, at,
+        {{force->values[3 * c], force->values[3 * c + 1]}, normal->values[c], shear->values[c]});
+    touches.push_back(t);
+  }
+  std::stable_sort(touches.begin(), touches.end(),
+                   [](const Touch& a, const Touch& b) { return a.i < b.i; });
+  return touches;
+}
+
+void add_contacts(Bytes& bytes, const std::vector<Touch>& touches, const Grid& contacts,
+                  ViewPrecision precision) {
+  std::size_t before = 0;
+  for (const Touch& t : touches) {
+    bytes.varint(t.i - before);
+    before = t.i;
+  }
+  for (const Touch& t : touches) bytes.varint(t.vertex);
+  for (const Touch& t : touches)
+    bytes.zigzag(static_cast<std::int64_t>(t.j) - static_cast<std::int64_t>(t.i));
+  for (const Touch& t : touches) bytes.varint(t.edge);
+  std::vector<std::size_t> cells;
+  for (const Touch& t : touches) cells.push_back(t.cell);
+  const std::vector<double> state = column(contacts, "state", 0, cells);
+  for (const double s : state) bytes.u8(static_cast<std::uint8_t>(s));
+  std::vector<double> opening = column(contacts, "opening", 0, cells);
+  for (std::size_t k = 0; k < opening.size(); ++k) {
+    if (precision == ViewPrecision::whole16 && state[k] != 0.0) opening[k] = 0.0;
+  }
+  add_group(bytes,
+            {column(contacts, "normal_force", 0, cells), column(contacts, "shear_force", 0, cells)},
+            precision, contact_steps);
+  add_group(bytes, {opening}, precision, contact_steps);
+  add_group(bytes, {column(contacts, "slip", 0, cells)}, precision, contact_steps);
+}
+
+Vec2 point_value(const std::vector<double>& values, std::int64_t point) {
+  const auto at = 3 * static_cast<std::size_t>(point);
+  return {values[at], values[at + 1]};
+}
+
+/// The displacement since the datum.
+BlockMotion displacement_of(const ViewMesh& mesh, std::size_t row, const Grid& g) {
+  const Field* u = g.point_field("displacement");
+  if (u == nullptr) return {};
+  return block_motion(mesh, row,
+                      [&](std::size_t v) { return point_value(u->values, mesh.point[v]); });
+}
+
+/// From the first frame to the datum.
+BlockMotion datum_of(const ViewMesh& mesh, std::size_t row, const Grid& g) {
+  const Field* u = g.point_field("displacement");
+  return block_motion(mesh, row, [&](std::size_t v) {
+    Vec2 start = point_value(g.points, mesh.point[v]);
+    if (u != nullptr) start = start - point_value(u->values, mesh.point[v]);
+    return (start - mesh.centre[row]) - mesh.vertex[v];
+  });
+}
+
+/// By how much the vertices of a block lie apart in two motions, m.
+double apart(const ViewMesh& mesh, std::size_t row, const BlockMotion& a, const BlockMotion& b) {
+  double most = 0.0;
+  for (std::size_t v = mesh.begin[row]; v < mesh.begin[row + 1]; ++v) {
+    const Vec2 r = mesh.vertex[v], d = a.d - b.d;
+    most = std::max(most, std::hypot(d.x + (a.xx - b.xx) * r.x + (a.xy - b.xy) * r.y,
+                                     d.y + (a.yx - b.yx) * r.x + (a.yy - b.yy) * r.y));
+  }
+  return most;
+}
+
+}  // namespace
+
+std::string datum_bytes(const ViewDatum& datum) {
+  Bytes bytes;
+  add_motions(bytes, datum.motion, ViewPrecision::single, 1.0);
+  return bytes.text();
+}
+
+Result<ViewBlocks> blocks_in(const ViewMesh& mesh, const Grid& blocks) {
+  ViewBlocks in;
+  const Field* id = blocks.cell_field("id");
+  for (std::size_t c = 0; id != nullptr && c < blocks.cell_count(); ++c) {
+    if (c > 0 && id->values[c] == id->values[c - 1]) continue;
+    const std::size_t row = mesh.row_of(static_cast<std::int32_t>(id->values[c]));
+    if (row == mesh.size() || (!in.row.empty() && row <= in.row.back()))
+      return Fault{{}, "its frames are not of one run", "run the model again"};
+    in.row.push_back(row);
+    in.cell.push_back(c);
+  }
+  return in;
+}
+
+bool find_datum(const ViewMesh& mesh, const Grid& blocks, const ViewBlocks& in,
+                const ViewDatum* before, ViewDatum& found) {
+  constexpr double rounding = 1e-7;  // of a block's size
+  if (before != nullptr) {
+    found = *before;
+  } else {
+    found.motion.assign(mesh.size(), {});
+  }
+  bool other = before == nullptr;
+  for (const std::size_t row : in.row) {
+    const BlockMotion m = datum_of(mesh, row, blocks);
+    double size = 0.0;
+    for (std::size_t v = mesh.begin[row]; v < mesh.begin[row + 1]; ++v)
+      size = std::max({size, std::abs(mesh.vertex[v].x), std::abs(mesh.vertex[v].y)});
+    if (apart(mesh, row, m, found.motion[row]) <= rounding * size) continue;
+    found.motion[row] = m;
+    other = true;
+  }
+  return other;
+}
+
+std::string frame_bytes(const ViewMesh& mesh, const ViewBlocks& in, const Grid& blocks,
+                        const Grid* contacts, ViewPrecision precision, std::size_t datum) {
+  std::vector<Touch> touches;
+  if (contacts != nullptr) touches = touches_of(mesh, blocks, *contacts);
+  Bytes bytes;
+  for (const std::size_t n :
+       {static_cast<std::size_t>(precision), mesh.size(), in.row.size(), datum, touches.size()}) {
+    bytes.u32(static_cast<std::uint32_t>(n));
+  }
+  std::vector<std::uint8_t> alive((mesh.size() + 7) / 8, 0);
+  for (const std::size_t row : in.row)
+    alive[row / 8] = static_cast<std::uint8_t>(alive[row / 8] | 1U << row % 8);
+  for (const std::uint8_t bits : alive) bytes.u8(bits);
+  std::vector<BlockMotion> motions;
+  for (const std::size_t row : in.row) motions.push_back(displacement_of(mesh, row, blocks));
+  add_motions(bytes, motions, precision, reach_of(mesh));
+  add_fields(bytes, blocks, in.cell, precision);
+  if (contacts != nullptr) add_contacts(bytes, touches, *contacts, precision);
+  return bytes.text();
+}
+
+}  // namespace edda

@@ -1,0 +1,45 @@
+// One frame of the replay page, packed: six numbers a block for its motion, nine for what it
+// feels, and the contacts by vertex.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/fault.hpp"
+#include "results/grid.hpp"
+#include "view/mesh.hpp"
+
+namespace edda {
+
+/// How numbers are stored. single: as they are, to seven digits. whole16: as whole numbers of
+/// steps, so that displacements are right to 1/65534 of the largest in the frame, velocities,
+/// rotations and stresses to 1/4094, forces, openings and slips of contacts to 1/254.
+enum class ViewPrecision : std::uint32_t { whole16 = 16, single = 32 };
+
+/// Displacements count from where the blocks were at a datum: the start, or a reset.
+struct ViewDatum {
+  std::vector<BlockMotion> motion;  ///< [nb] since the first frame
+};
+
+/// Blocks of a frame.
+struct ViewBlocks {
+  std::vector<std::size_t> row;   ///< of the mesh, rising
+  std::vector<std::size_t> cell;  ///< the first of each; it has all values of its block
+};
+
+/// Faults: a block that the first frame has not.
+Result<ViewBlocks> blocks_in(const ViewMesh& mesh, const Grid& blocks);
+
+/// The datum of a frame where it is another than the one before (null: none yet).
+bool find_datum(const ViewMesh& mesh, const Grid& blocks, const ViewBlocks& in,
+                const ViewDatum* before, ViewDatum& found);
+
+/// Six f32 columns d.x d.y A.xx A.xy A.yx A.yy, as in a frame.
+std::string datum_bytes(const ViewDatum& datum);
+
+/// `datum`: number of the one in force. `contacts` may be null.
+std::string frame_bytes(const ViewMesh& mesh, const ViewBlocks& in, const Grid& blocks,
+                        const Grid* contacts, ViewPrecision precision, std::size_t datum);
+
+}  // namespace edda

@@ -1,0 +1,78 @@
+// The blocks of the replay page as they lie in the first frame. A block's motion is affine, so
+// that from then on six numbers per block and frame place all its vertices.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/fault.hpp"
+#include "base/vec2.hpp"
+#include "results/grid.hpp"
+
+namespace edda {
+
+struct ViewMesh {
+  std::vector<std::int32_t> id;                         ///< [nb] rising
+  std::vector<std::int32_t> material;                   ///< [nb]
+  std::vector<std::uint8_t> fixed;                      ///< [nb]
+  std::vector<Vec2> centre;                             ///< [nb] of area, m
+  std::vector<std::size_t> begin;                       ///< [nb + 1] first vertex of each block
+  std::vector<Vec2> vertex;                             ///< [nv] from the block's centre, m
+  std::vector<std::int64_t> point;                      ///< [nv] the vertex in the frames' grids
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of vertices
+  std::vector<std::array<std::uint32_t, 2>> edges;      ///< of vertices, counter-clockwise
+  std::vector<std::size_t> edge_begin;                  ///< [nb + 1] first edge of each block
+
+  std::size_t size() const { return id.size(); }
+  std::size_t row_of(std::int32_t block) const;  ///< size() where there is none
+};
+
+ViewMesh view_mesh(const Grid& first);
+
+/// How the page gets it (view/page/src/mesh.ts reads it): nb, nv, triangles, edges as u32; centres
+/// f64; vertices f32; then by u32 id, material, first vertex; fixed u8; triangles and edges u32.
+std::string mesh_bytes(const ViewMesh& mesh);
+
+/// How an affine vector field goes over a block: u(X) = d + A (X - c), X in the first frame.
+struct BlockMotion {
+  Vec2 d;                                         ///< at the centre, m
+  double xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0;  ///< A
+};
+
+/// Of block `row`, from the values (m) at its vertices: least squares, exact for an affine field.
+/// `value(v)` is that at vertex v of the mesh.
+template <class Value>
+BlockMotion block_motion(const ViewMesh& mesh, std::size_t row, Value value) {
+  const std::size_t first = mesh.begin[row], end = mesh.begin[row + 1];
+  const auto n = static_cast<double>(end - first);
+  Vec2 place, mean;
+  for (std::size_t v = first; v < end; ++v) {
+    place += mesh.vertex[v] / n;
+    mean += value(v) / n;
+  }
+  // A = (sum u r^T) (sum r r^T)^-1, u and r from their means.
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  Vec2 ux, uy;
+  for (std::size_t v = first; v < end; ++v) {
+    const Vec2 r = mesh.vertex[v] - place, u = value(v) - mean;
+    xx += r.x * r.x;
+    xy += r.x * r.y;
+    yy += r.y * r.y;
+    ux += u.x * r;
+    uy += u.y * r;
+  }
+  const double det = xx * yy - xy * xy;
+  BlockMotion m;
+  if (det > 0.0) {
+    m.xx = (ux.x * yy - ux.y * xy) / det;
+    m.xy = (ux.y * xx - ux.x * xy) / det;
+    m.yx = (uy.x * yy - uy.y * xy) / det;
+    m.yy = (uy.y * xx - uy.x * xy) / det;
+  }
+  m.d = mean - Vec2{m.xx * place.x + m.xy * place.y, m.yx * place.x + m.yy * place.y};
+  return m;
+}
+
+}  // namespace edda

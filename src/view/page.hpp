@@ -1,0 +1,42 @@
+// The replay page: one file that needs nothing but a browser.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "results/files.hpp"
+#include "view/view_run.hpp"
+
+namespace edda {
+
+/// The page without a run, as built from view/page: before and behind what fills it.
+struct PageTemplate {
+  std::string_view head, tail;
+};
+PageTemplate page_template();
+
+/// What a written page holds.
+struct PageReport {
+  std::size_t frames = 0;  ///< in the page
+  std::size_t of = 0;      ///< in the folder
+  std::size_t bytes = 0;   ///< of the page
+  ViewPrecision precision = ViewPrecision::single;
+};
+
+/// Writes the run's page to `path`. Frames are left out evenly, never the first nor the last, where
+/// it would be larger than about `most_bytes`. Numbers are stored singly where that takes less than
+/// small_page bytes, else as whole numbers; those of the last frame always singly.
+Result<PageReport> write_page(ViewRun& run, const std::string& path, std::size_t most_bytes);
+inline constexpr std::size_t small_page = std::size_t{12} << 20;
+
+/// A chunk of the page: `name` and its bytes, deflated.
+std::string chunk(std::string_view name, std::string_view bytes);
+
+/// The header as a script of the page.
+std::string header_script(const ViewRun& run, bool served);
+
+/// Rows of a table that a page takes along.
+inline constexpr std::size_t most_table_rows = 20000;
+
+}  // namespace edda

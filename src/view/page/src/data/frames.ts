@@ -1,0 +1,82 @@
+// Frames by number: unpacked beside, ahead of the play, and forgotten when there are too many.
+import type { Frame } from './frame';
+import type { Mesh } from './mesh';
+import type { Source } from './source';
+import type { Done, Job, Setup } from './worker';
+import workerCode from 'worker:./worker.ts';
+
+const MOST_BYTES = 384e6;
+
+export class Frames {
+  private readonly worker: Worker;
+  private readonly kept = new Map<number, Frame>(); // oldest use first
+  private readonly waiting = new Map<number, { resolve: (f: Frame) => void; reject: (e: Error) => void }[]>();
+  private queue: number[] = [];
+  private busy = 0;
+
+  constructor(private readonly source: Source, private readonly mesh: Mesh) {
+    this.worker = new Worker(URL.createObjectURL(new Blob([workerCode], { type: 'text/javascript' })));
+    this.worker.onmessage = ({ data }: MessageEvent<Done>) => this.done(data);
+    this.worker.postMessage({ begin: mesh.begin, edgeBegin: mesh.edgeBegin } satisfies Setup);
+  }
+
+  /** Frames that may be kept. */
+  get room(): number {
+    return Math.max(4, Math.floor(MOST_BYTES / (72 * this.mesh.blocks + 40 * 4 * this.mesh.blocks + 1)));
+  }
+
+  ready(index: number): Frame | undefined {
+    const frame = this.kept.get(index);
+    if (frame !== undefined) {
+      this.kept.delete(index);
+      this.kept.set(index, frame);
+    }
+    return frame;
+  }
+
+  want(index: number): Promise<Frame> {
+    const frame = this.ready(index);
+    if (frame !== undefined) return Promise.resolve(frame);
+    return new Promise((resolve, reject) => {
+      const others = this.waiting.get(index);
+      if (others !== undefined) {
+        others.push({ resolve, reject });
+        return;
+      }
+      this.waiting.set(index, [{ resolve, reject }]);
+      this.queue.push(index);
+      this.next();
+    });
+  }
+
+  /** Those that will be wanted soon. */
+  prepare(indices: number[]): void {
+    const ahead = Math.min(this.room - 2, 8);
+    for (const index of indices.slice(0, ahead)) if (!this.kept.has(index)) this.want(index).catch(() => {});
+  }
+
+  private next(): void {
+    // Two at a time: one is fetched while the other is unpacked.
+    while (this.busy < 2 && this.queue.length > 0) {
+      ++this.busy;
+      this.worker.postMessage(this.source.job(this.queue.shift()!) satisfies Job);
+    }
+  }
+
+  private done(done: Done): void {
+    --this.busy;
+    const waiting = this.waiting.get(done.index) ?? [];
+    this.waiting.delete(done.index);
+    if (done.frame !== undefined) {
+      this.kept.set(done.index, done.frame);
+      for (const oldest of this.kept.keys()) {
+        if (this.kept.size <= this.room) break;
+        this.kept.delete(oldest);
+      }
+      for (const w of waiting) w.resolve(done.frame);
+    } else {
+      for (const w of waiting) w.reject(new Error(done.error));
+    }
+    this.next();
+  }
+}

@@ -1,0 +1,74 @@
+// Values to colours.
+import { coloursOf, type Field, type Run } from './run';
+
+export type Palette = 'sequential' | 'diverging' | 'kinds' | 'plain';
+
+export class Scale {
+  readonly palette: Palette;
+  readonly low: number;
+  readonly high: number;
+  /** Red, green, blue of each step. */
+  readonly colours: Uint8Array;
+
+  /** `range`: given by hand, or the field's own. */
+  constructor(run: Run, readonly field: Field | undefined, range?: [number, number]) {
+    let [low, high] = range ?? field?.range ?? [0, 0];
+    if (field === undefined) {
+      this.palette = 'plain';
+    } else if (field.kind === 'kinds') {
+      this.palette = 'kinds';
+    } else {
+      // Rounding about zero, as before anything moves, is no range to paint.
+      const size = Math.max(Math.abs(low), Math.abs(high));
+      if (high - low <= 1e-9 * size) {
+        low = Math.min(low, 0);
+        high = Math.max(high, 0);
+      }
+      const twoSided = low < -1e-3 * size && high > 1e-3 * size;
+      if (twoSided && range === undefined) [low, high] = [-size, size];
+      this.palette = twoSided ? 'diverging' : 'sequential';
+    }
+    this.low = low;
+    this.high = high;
+    this.colours = this.palette === 'plain' ? new Uint8Array([200, 200, 200]) : coloursOf(run.colours[this.palette]);
+  }
+
+  get steps(): number {
+    return this.colours.length / 3;
+  }
+  /** Number of the colour of a value. */
+  step(value: number): number {
+    if (this.palette === 'kinds') return ((Math.round(value) % this.steps) + this.steps) % this.steps;
+    if (!(this.high > this.low)) return 0;
+    const s = (value - this.low) / (this.high - this.low);
+    return Math.max(0, Math.min(this.steps - 1, Math.round(s * (this.steps - 1))));
+  }
+  /** Colours of all blocks, 65536 red + 256 green + blue; held ones and those without a value have their own. */
+  paint(values: Float32Array, fixed: Uint8Array, held: number[], none: number[], colours: Float32Array): void {
+    const packed = (c: ArrayLike<number>, k = 0) => 65536 * c[k] + 256 * c[k + 1] + c[k + 2];
+    const steps = Array.from({ length: this.steps }, (_, step) => packed(this.colours, 3 * step));
+    const [heldColour, noColour] = [packed(held), packed(none)];
+    // As step() does, without a call per block.
+    const last = this.steps - 1;
+    const perStep = this.high > this.low ? last / (this.high - this.low) : 0;
+    const { low } = this;
+    const kinds = this.palette === 'kinds';
+    for (let b = 0; b < values.length; ++b) {
+      const value = values[b];
+      if (fixed[b]) colours[b] = heldColour;
+      else if (value !== value) colours[b] = noColour;
+      else if (kinds) colours[b] = steps[this.step(value)];
+      else {
+        const at = (value - low) * perStep + 0.5;
+        colours[b] = steps[at < 0 ? 0 : at > last ? last : at | 0];
+      }
+    }
+  }
+  css(step: number): string {
+    const [r, g, b] = this.colours.subarray(3 * step, 3 * step + 3);
+    return `rgb(${r},${g},${b})`;
+  }
+}
+
+/** Of contacts: open, sticking, sliding, bonded. Told apart by lightness, too. */
+export const stateColours = new Uint8Array([150, 160, 172, 38, 132, 92, 226, 118, 20, 110, 74, 190]);

@@ -1,0 +1,45 @@
+// Where the run comes from: this page, or the program that serves it.
+import { fromBase64, inflate } from './inflate';
+import type { Run } from './run';
+import type { Job } from './worker';
+
+export interface Source {
+  run(): Promise<Run>;
+  /** A chunk's bytes, inflated; undefined where there is none. */
+  chunk(name: string): Promise<Uint8Array | undefined>;
+  /** How the worker gets a frame. */
+  job(frame: number): Job;
+}
+
+export class PageSource implements Source {
+  async run(): Promise<Run> {
+    return JSON.parse(this.text('run')!) as Run;
+  }
+  async chunk(name: string): Promise<Uint8Array | undefined> {
+    const text = this.text(name);
+    return text === undefined ? undefined : inflate(fromBase64(text));
+  }
+  job(frame: number): Job {
+    return { index: frame, text: this.text(`frame-${frame}`) };
+  }
+  private text(name: string): string | undefined {
+    return document.getElementById(`edda-${name}`)?.textContent ?? undefined;
+  }
+}
+
+export class ServedSource implements Source {
+  async run(): Promise<Run> {
+    const reply = await fetch('run');
+    if (!reply.ok) throw new Error(await reply.text());
+    return (await reply.json()) as Run;
+  }
+  async chunk(name: string): Promise<Uint8Array | undefined> {
+    const reply = await fetch(`chunk/${name}`);
+    if (reply.status === 404) return undefined;
+    if (!reply.ok) throw new Error(await reply.text());
+    return inflate(new Uint8Array(await reply.arrayBuffer()));
+  }
+  job(frame: number): Job {
+    return { index: frame, url: new URL(`chunk/frame-${frame}`, location.href).href };
+  }
+}

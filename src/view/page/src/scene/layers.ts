@@ -1,0 +1,133 @@
+// What is drawn over the blocks: strokes of contacts, stresses, motions and bolts.
+import type { BoltNode } from '../data/bolts';
+import { contactValues, length as lengthOf, principal } from '../data/fields';
+import type { Contacts, Frame } from '../data/frame';
+import type { Mesh } from '../data/mesh';
+import { type Scale, stateColours } from '../data/scale';
+import type { Pose } from './pose';
+import type { Strokes } from './strokes';
+
+export interface Palette {
+  paper: number[];
+  ink: number[];
+  tension: number[];
+  compression: number[];
+  bolt: number[];
+}
+
+/** What a stroke of the usual length stands for: nearly the largest value, so that a few giants do not
+ * make dots of all others. */
+function usual(sizes: Float32Array): number {
+  if (sizes.length === 0) return 0;
+  const sorted = sizes.slice().sort();
+  return sorted[Math.floor(0.95 * (sorted.length - 1))] || sorted[sorted.length - 1];
+}
+/** Strokes are never longer than so many usual ones. */
+const LONGEST = 4;
+
+/** N */
+export function usualForce(frame: Frame): number {
+  const { normal, shear, state } = frame.contacts;
+  return usual(normal.map((n, k) => lengthOf(n, shear[k])).filter((f, k) => state[k] !== 0 && f > 0));
+}
+/** Pa */
+export function usualStress(frame: Frame, mesh: Mesh): number {
+  const sizes = new Float32Array(mesh.blocks);
+  for (let b = 0; b < mesh.blocks; ++b) {
+    const { major, minor } = principal(frame, b);
+    sizes[b] = Math.max(Math.abs(major), Math.abs(minor));
+  }
+  return usual(sizes.filter((_, b) => frame.alive[b] && !mesh.fixed[b]));
+}
+
+/** A stroke with a rim that sets it off from what lies below. */
+function stroke(layer: Strokes, x0: number, y0: number, x1: number, y1: number, width: number, ink: number[], c: Palette): void {
+  const [r, g, b] = c.paper;
+  layer.add(x0, y0, x1, y1, width + 1.8, r, g, b, 170);
+  layer.add(x0, y0, x1, y1, width, ink[0], ink[1], ink[2]);
+}
+
+/** Force on block i, times `scale`: N across the edge, outwards from its block, and S along it. */
+function forceOn(c: Contacts, k: number, pose: Pose, mesh: Mesh, scale: number): [number, number] {
+  const [ax, ay] = pose.vertex(mesh.edges[2 * c.edge[k]]);
+  const [bx, by] = pose.vertex(mesh.edges[2 * c.edge[k] + 1]);
+  const size = lengthOf(bx - ax, by - ay) || 1;
+  const [tx, ty] = [(bx - ax) / size, (by - ay) / size];
+  return [scale * (c.normal[k] * ty + c.shear[k] * tx), scale * (-c.normal[k] * tx + c.shear[k] * ty)];
+}
+
+/** A stroke through each closed contact along its force; `length`: m of one of the usual force. */
+export function drawForces(layer: Strokes, frame: Frame, pose: Pose, mesh: Mesh, usual: number, length: number, c: Palette): void {
+  const { contacts } = frame;
+  layer.clear(2 * contacts.normal.length);
+  for (let k = 0; k < contacts.normal.length && usual > 0; ++k) {
+    const size = Math.min(lengthOf(contacts.normal[k], contacts.shear[k]) / usual, LONGEST);
+    if (contacts.state[k] === 0 || size <= 1e-3) continue;
+    const [x, y] = pose.vertex(contacts.vertex[k]);
+    const [dx, dy] = forceOn(contacts, k, pose, mesh, (0.5 * length * size) / lengthOf(contacts.normal[k], contacts.shear[k]));
+    stroke(layer, x - dx, y - dy, x + dx, y + dy, 1 + size, contacts.normal[k] < 0 ? c.tension : c.ink, c);
+  }
+  layer.upload();
+}
+
+/** A dot on each contact: by its state, or by a field of contacts. */
+export function drawContacts(layer: Strokes, frame: Frame, pose: Pose, scale: Scale, size: number): void {
+  const { contacts } = frame;
+  const name = scale.field?.name ?? 'state';
+  const values = contactValues(name, contacts) ?? contacts.state;
+  const byState = name === 'state' || contactValues(name, contacts) === undefined;
+  layer.clear(contacts.count);
+  for (let k = 0; k < contacts.count; ++k) {
+    if (!byState && contacts.state[k] === 0 && name.endsWith('force')) continue;
+    const [x, y] = pose.vertex(contacts.vertex[k]);
+    const from = byState ? stateColours : scale.colours;
+    const step = byState ? contacts.state[k] : scale.step(values[k]);
+    layer.add(x, y, x, y, size, from[3 * step], from[3 * step + 1], from[3 * step + 2]);
+  }
+  layer.upload();
+}
+
+/** Two strokes along the principal directions of each block; `length`: m of the usual stress. */
+export function drawCrosses(layer: Strokes, frame: Frame, pose: Pose, mesh: Mesh, usual: number, length: number, c: Palette): void {
+  layer.clear(4 * mesh.blocks);
+  for (let b = 0; b < mesh.blocks && usual > 0; ++b) {
+    if (!pose.isAlive(b) || mesh.fixed[b]) continue;
+    const { major, minor, angle } = principal(frame, b);
+    const [x, y] = [pose.place[4 * b], pose.place[4 * b + 1]];
+    for (const [stress, at] of [[major, angle], [minor, angle + Math.PI / 2]]) {
+      const half = 0.5 * length * Math.min(Math.abs(stress) / usual, LONGEST);
+      const [dx, dy] = [half * Math.cos(at), half * Math.sin(at)];
+      stroke(layer, x - dx, y - dy, x + dx, y + dy, 1.6, stress > 0 ? c.tension : c.compression, c);
+    }
+  }
+  layer.upload();
+}
+
+/** An arrow from each block's centre; `length`: m of the largest. Returns the largest value. */
+export function drawArrows(layer: Strokes, x: Float32Array, y: Float32Array, pose: Pose, mesh: Mesh, length: number, c: Palette): number {
+  let largest = 0;
+  for (let b = 0; b < mesh.blocks; ++b) largest = Math.max(largest, lengthOf(x[b], y[b]));
+  layer.clear(2 * mesh.blocks);
+  for (let b = 0; b < mesh.blocks && largest > 0; ++b) {
+    if (!pose.isAlive(b) || lengthOf(x[b], y[b]) < 1e-3 * largest) continue;
+    const [px, py] = [pose.place[4 * b], pose.place[4 * b + 1]];
+    const s = length / largest;
+    stroke(layer, px, py, px + s * x[b], py + s * y[b], 1.6, c.ink, c);
+  }
+  layer.upload();
+  return largest;
+}
+
+/** Bars of the bolts, thicker and warmer where they bear more. */
+export function drawBolts(layer: Strokes, nodes: BoltNode[], origin: [number, number], c: Palette): void {
+  layer.clear(nodes.length);
+  for (let k = 0; k + 1 < nodes.length; ++k) {
+    const [a, b] = [nodes[k], nodes[k + 1]];
+    if (a.bolt !== b.bolt) continue;
+    const used = Math.min(1, Math.max(a.utilisation, b.utilisation));
+    const mixed = c.bolt.map((v, i) => v + used * (c.tension[i] - v));
+    const alpha = a.ruptured && b.ruptured ? 70 : 255;
+    layer.add(a.x - origin[0], a.y - origin[1], b.x - origin[0], b.y - origin[1], 2 + 4 * used, mixed[0], mixed[1], mixed[2], alpha);
+  }
+  layer.upload();
+}

@@ -1,0 +1,187 @@
+// Text and thin lines over the drawing: axes, the selected block, monitors, convergence lines.
+import type { Mark } from '../data/run';
+import type { Mesh } from '../data/mesh';
+import { ticks } from '../data/units';
+import type { Camera } from './camera';
+import type { Pose } from './pose';
+
+export interface OverlayStyle {
+  ink: string;
+  faint: string;
+  halo: string;
+  accent: string;
+  font: string;
+}
+
+/** A mark's points as they move with their blocks. */
+export interface Follower {
+  name: string;
+  /** Per point: the block, and the place from its centre in the first frame; block -1: outside all. */
+  at: { row: number; rx: number; ry: number }[];
+}
+
+export class Overlay {
+  readonly monitors: Follower[];
+  readonly lines: Follower[];
+
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly mesh: Mesh, monitors: Mark[], lines: Mark[]) {
+    this.monitors = monitors.map((m) => follow(mesh, m));
+    this.lines = lines.map((m) => follow(mesh, m));
+  }
+
+  resize(width: number, height: number, ratio: number): void {
+    this.canvas.width = Math.round(width * ratio);
+    this.canvas.height = Math.round(height * ratio);
+  }
+
+  draw(camera: Camera, pose: Pose, style: OverlayStyle, options: { axes: boolean; marks: boolean; selected: number; monitor: string }): void {
+    const g = this.canvas.getContext('2d')!;
+    const ratio = this.canvas.width / camera.width;
+    g.setTransform(ratio, 0, 0, ratio, 0, 0);
+    g.clearRect(0, 0, camera.width, camera.height);
+    this.paint(g, camera, pose, style, options);
+  }
+
+  /** On any canvas whose units are pixels of the screen. */
+  paint(g: CanvasRenderingContext2D, camera: Camera, pose: Pose, style: OverlayStyle, options: { axes: boolean; marks: boolean; selected: number; monitor: string }): void {
+    if (options.axes) drawAxes(g, camera, pose.origin, style);
+    if (options.selected >= 0 && pose.isAlive(options.selected)) this.outline(g, camera, pose, options.selected, style);
+    if (!options.marks) return;
+    g.font = `600 12px ${style.font}`;
+    for (const line of this.lines) this.drawLine(g, camera, pose, line, style);
+    for (const m of this.monitors) this.drawMonitor(g, camera, pose, m, style, m.name === options.monitor);
+  }
+
+  /** The monitor within reach of the pixel, or undefined. */
+  monitorAt(camera: Camera, pose: Pose, px: number, py: number): Follower | undefined {
+    return this.monitors.find((m) => {
+      const [x, y] = this.place(camera, pose, m, 0);
+      return Math.hypot(x - px, y - py) < 9;
+    });
+  }
+
+  private place(camera: Camera, pose: Pose, f: Follower, k: number): [number, number] {
+    const { row, rx, ry } = f.at[k];
+    if (row < 0) return camera.px(rx - pose.origin[0], ry - pose.origin[1]);
+    return camera.px(...pose.point(row, rx, ry));
+  }
+
+  private outline(g: CanvasRenderingContext2D, camera: Camera, pose: Pose, row: number, style: OverlayStyle): void {
+    const { edges } = this.mesh;
+    g.beginPath();
+    for (let e = 0; e < edges.length; e += 2) {
+      if (this.mesh.row[edges[e]] !== row) continue;
+      g.moveTo(...camera.px(...pose.vertex(edges[e])));
+      g.lineTo(...camera.px(...pose.vertex(edges[e + 1])));
+    }
+    g.lineCap = 'round';
+    for (const [width, colour] of [[6, style.halo], [3, style.accent]] as const) {
+      g.lineWidth = width;
+      g.strokeStyle = colour;
+      g.stroke();
+    }
+  }
+
+  private drawMonitor(g: CanvasRenderingContext2D, camera: Camera, pose: Pose, m: Follower, style: OverlayStyle, selected: boolean): void {
+    if (m.at[0].row >= 0 && !pose.isAlive(m.at[0].row)) return;
+    const [x, y] = this.place(camera, pose, m, 0);
+    g.beginPath();
+    g.arc(x, y, 5, 0, 2 * Math.PI);
+    g.fillStyle = selected ? style.accent : style.halo;
+    g.fill();
+    g.lineWidth = 2;
+    g.strokeStyle = selected ? style.halo : style.ink;
+    g.stroke();
+    label(g, m.name, x + 9, y - 8, style);
+  }
+
+  private drawLine(g: CanvasRenderingContext2D, camera: Camera, pose: Pose, line: Follower, style: OverlayStyle): void {
+    const [a, b] = [this.place(camera, pose, line, 0), this.place(camera, pose, line, 1)];
+    g.setLineDash([6, 4]);
+    g.beginPath();
+    g.moveTo(...a);
+    g.lineTo(...b);
+    g.lineWidth = 1.5;
+    g.strokeStyle = style.ink;
+    g.stroke();
+    g.setLineDash([]);
+    // Off the middle, where others may cross.
+    label(g, line.name, a[0] + 0.3 * (b[0] - a[0]) + 6, a[1] + 0.3 * (b[1] - a[1]) - 6, style);
+  }
+}
+
+function label(g: CanvasRenderingContext2D, text: string, x: number, y: number, style: OverlayStyle): void {
+  g.lineWidth = 4;
+  g.lineJoin = 'round';
+  g.strokeStyle = style.halo;
+  g.strokeText(text, x, y);
+  g.fillStyle = style.ink;
+  g.fillText(text, x, y);
+}
+
+/** The block of lowest id round each point, in the first frame; a point a rounding outside still counts. */
+function follow(mesh: Mesh, mark: Mark): Follower {
+  const at = mark.points.map(([x, y]) => {
+    const row = blockRound(mesh, x, y);
+    if (row < 0) return { row, rx: x, ry: y };
+    return { row, rx: x - mesh.centre[2 * row], ry: y - mesh.centre[2 * row + 1] };
+  });
+  return { name: mark.name, at };
+}
+
+function blockRound(mesh: Mesh, x: number, y: number): number {
+  const { triangles, vertex, row, centre } = mesh;
+  for (let t = 0; t < triangles.length; t += 3) {
+    const b = row[triangles[t]];
+    const [px, py] = [x - centre[2 * b], y - centre[2 * b + 1]];
+    const corner = (k: number) => [vertex[2 * triangles[t + k]], vertex[2 * triangles[t + k] + 1]];
+    const [p, q, r] = [corner(0), corner(1), corner(2)];
+    const side = (u: number[], v: number[]) => (v[0] - u[0]) * (py - u[1]) - (v[1] - u[1]) * (px - u[0]);
+    const area = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+    const least = -1e-5 * Math.abs(area);
+    if (side(p, q) >= least && side(q, r) >= least && side(r, p) >= least) return b;
+  }
+  return -1;
+}
+
+function drawAxes(g: CanvasRenderingContext2D, camera: Camera, origin: [number, number], style: OverlayStyle): void {
+  const [x0, y0] = camera.at(0, camera.height);
+  const [x1, y1] = camera.at(camera.width, 0);
+  g.font = `11px ${style.font}`;
+  g.fillStyle = style.faint;
+  g.strokeStyle = style.faint;
+  g.lineWidth = 1;
+  const across = ticks(x0 + origin[0], x1 + origin[0], camera.width / 110);
+  g.textAlign = 'center';
+  for (const t of across.at) {
+    const [px] = camera.px(t - origin[0], 0);
+    if (px < 46 || px > camera.width - 22) continue;
+    g.beginPath();
+    g.moveTo(px, camera.height);
+    g.lineTo(px, camera.height - 5);
+    g.stroke();
+    haloed(g, t.toFixed(across.digits).replace('-', '\u2212'), px, camera.height - 8, style);
+  }
+  const up = ticks(y0 + origin[1], y1 + origin[1], camera.height / 90);
+  g.textAlign = 'left';
+  for (const t of up.at) {
+    const [, py] = camera.px(0, t - origin[1]);
+    if (py < 14 || py > camera.height - 24) continue;
+    g.beginPath();
+    g.moveTo(0, py);
+    g.lineTo(5, py);
+    g.stroke();
+    haloed(g, t.toFixed(up.digits).replace('-', '\u2212'), 8, py + 4, style);
+  }
+  haloed(g, 'm', 8, camera.height - 8, style);
+}
+
+function haloed(g: CanvasRenderingContext2D, text: string, x: number, y: number, style: OverlayStyle): void {
+  g.save();
+  g.lineWidth = 3;
+  g.lineJoin = 'round';
+  g.strokeStyle = style.halo;
+  g.strokeText(text, x, y);
+  g.restore();
+  g.fillText(text, x, y);
+}

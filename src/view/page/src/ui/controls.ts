@@ -1,0 +1,183 @@
+// What is to be shown and how: the panel's upper part, and the line below the drawing.
+import { isKnown } from '../data/fields';
+import type { Frame } from '../data/frame';
+import type { Results } from '../data/results';
+import type { Field } from '../data/run';
+import { brief, scaledUnit } from '../data/units';
+import type { Vectors } from '../scene/view';
+import { byId, make } from './dom';
+import type { Player } from './player';
+
+const checkbox = (id: string) => byId<HTMLInputElement>(id).checked;
+
+export class Controls {
+  private readonly fields: Map<string, Field>;
+
+  constructor(results: Results, private readonly changed: () => void) {
+    const known = results.run.fields.filter((f) => isKnown(f.name) && f.name !== 'id');
+    this.fields = new Map(known.map((f) => [f.name, f]));
+    const select = byId<HTMLSelectElement>('field');
+    const group = (label: string, of: Field['of']) => {
+      const element = make('optgroup', '', { label });
+      // principal_stress and its minor part are one and the same.
+      const shown = known.filter((f) => f.of === of && f.name !== 'principal_stress');
+      element.append(...shown.map((f) => make('option', f.label.replace(' (tension positive)', ''), { value: f.name })));
+      return element;
+    };
+    select.replaceChildren(make('option', 'nothing', { value: 'none' }), group('blocks', 'blocks'), group('contacts', 'contacts'));
+    select.value = 'displacement';
+    byId('bolts').parentElement!.hidden = !results.bolts.any && !results.run.served;
+    byId('marks').parentElement!.hidden = results.run.monitors.length + results.run.convergences.length === 0;
+    this.listen();
+    this.showMagnification();
+  }
+
+  get field(): Field | undefined {
+    return this.fields.get(byId<HTMLSelectElement>('field').value);
+  }
+  get edges(): boolean {
+    return checkbox('edges');
+  }
+  get contacts(): boolean {
+    return checkbox('contacts');
+  }
+  get forces(): boolean {
+    return checkbox('forces');
+  }
+  get crosses(): boolean {
+    return checkbox('crosses');
+  }
+  get bolts(): boolean {
+    return checkbox('bolts');
+  }
+  get marks(): boolean {
+    return checkbox('marks');
+  }
+  get axes(): boolean {
+    return checkbox('axes');
+  }
+  get vectors(): Vectors {
+    return byId<HTMLSelectElement>('vectors').value as Vectors;
+  }
+
+  /** 1 in the first tenth of the slider, then to 10,000. */
+  get magnification(): number {
+    const s = Number(byId<HTMLInputElement>('magnify').value);
+    return s <= 0.1 ? 1 : 10 ** ((4 * (s - 0.1)) / 0.9);
+  }
+  setMagnification(m: number): void {
+    byId<HTMLInputElement>('magnify').value = String(m <= 1 ? 0 : 0.1 + (0.9 * Math.log10(Math.min(m, 1e4))) / 4);
+    this.showMagnification();
+    this.changed();
+  }
+  /** True, or a round factor that makes the largest displacement about a fortieth of the model. */
+  flipMagnification(results: Results, frame: Frame | undefined): void {
+    if (this.magnification > 1 || frame === undefined) {
+      this.setMagnification(1);
+      return;
+    }
+    const { mesh } = results;
+    let [largest, x0, x1, y0, y1] = [0, Infinity, -Infinity, Infinity, -Infinity];
+    for (let b = 0; b < mesh.blocks; ++b) {
+      largest = Math.max(largest, Math.hypot(frame.motion[0][b], frame.motion[1][b]));
+      x0 = Math.min(x0, mesh.centre[2 * b]);
+      x1 = Math.max(x1, mesh.centre[2 * b]);
+      y0 = Math.min(y0, mesh.centre[2 * b + 1]);
+      y1 = Math.max(y1, mesh.centre[2 * b + 1]);
+    }
+    const wanted = largest > 0 ? (0.025 * Math.hypot(x1 - x0, y1 - y0)) / largest : 1;
+    this.setMagnification(Math.max(1, Number(wanted.toPrecision(1))));
+  }
+
+  /** Ends of the colours; undefined: the field's own over all frames. */
+  rangeOf(frame: Frame, values: Float32Array): [number, number] | undefined {
+    const how = byId<HTMLSelectElement>('range').value;
+    if (this.field === undefined || this.field.kind === 'kinds') return undefined;
+    if (how === 'own') {
+      const scaled = this.ownUnit();
+      const [low, high] = ['low', 'high'].map((id) => Number(byId<HTMLInputElement>(id).value) / scaled.factor);
+      return high > low ? [low, high] : undefined;
+    }
+    if (how === 'run' || this.field.of === 'contacts') return undefined;
+    let [low, high] = [Infinity, -Infinity];
+    for (let b = 0; b < values.length; ++b) {
+      if (!frame.alive[b] || this.held[b] || Number.isNaN(values[b])) continue;
+      low = Math.min(low, values[b]);
+      high = Math.max(high, values[b]);
+    }
+    return high > low ? [low, high] : undefined;
+  }
+  held: Uint8Array = new Uint8Array(0);
+
+  setTime(player: Player, results: Results): void {
+    const scrub = byId<HTMLInputElement>('scrub');
+    scrub.max = String(player.end);
+    scrub.value = String(player.index);
+    const t = player.time;
+    const stage = results.stages.find((s) => t <= s.end * (1 + 1e-12) && (t > s.start || s === results.stages[0]));
+    const text = `t = ${brief(t, 5)} s`;
+    byId('time').textContent = results.stages.length > 1 && stage !== undefined ? `${stage.name} \u00b7 ${text}` : text;
+    scrub.setAttribute('aria-valuetext', text);
+    const play = byId('play');
+    play.textContent = player.playing ? '\u23f8' : '\u25b6';
+    play.setAttribute('aria-label', player.playing ? 'Pause' : 'Play');
+    this.markStages(player, results);
+  }
+
+  connect(player: Player): void {
+    const press = (id: string, act: () => void) => byId(id).addEventListener('click', act);
+    press('play', () => player.toggle());
+    press('first', () => player.go(0));
+    press('back', () => player.go(player.index - 1));
+    press('on', () => player.go(player.index + 1));
+    press('last', () => player.go(player.end));
+    byId('scrub').addEventListener('input', () => player.go(Number(byId<HTMLInputElement>('scrub').value)));
+    byId('speed').addEventListener('change', () => (player.speed = Number(byId<HTMLSelectElement>('speed').value)));
+  }
+
+  private listen(): void {
+    for (const id of ['field', 'range', 'vectors', 'edges', 'contacts', 'forces', 'crosses', 'bolts', 'marks', 'axes', 'low', 'high']) {
+      byId(id).addEventListener('change', () => {
+        if (id === 'range' || id === 'field') this.offerOwnRange();
+        this.changed();
+      });
+    }
+    byId('magnify').addEventListener('input', () => {
+      this.showMagnification();
+      this.changed();
+    });
+  }
+
+  private ownUnit() {
+    const range = this.field?.range ?? [0, 0];
+    return scaledUnit(this.field?.unit ?? '', Math.max(Math.abs(range[0]), Math.abs(range[1])));
+  }
+  private offerOwnRange(): void {
+    const own = byId<HTMLSelectElement>('range').value === 'own';
+    byId('own').hidden = !own;
+    if (!own || this.field === undefined) return;
+    const scaled = this.ownUnit();
+    const [low, high] = this.field.range ?? [0, 1];
+    byId<HTMLInputElement>('low').value = String(Number((low * scaled.factor).toPrecision(4)));
+    byId<HTMLInputElement>('high').value = String(Number((high * scaled.factor).toPrecision(4)));
+    byId('own-unit').textContent = scaled.unit;
+  }
+  private showMagnification(): void {
+    byId('magnify-value').textContent = `\u00d7 ${brief(this.magnification, 3)}`;
+  }
+
+  private marked = '';
+  private markStages(player: Player, results: Results): void {
+    const key = JSON.stringify([results.stages, player.end]);
+    if (key === this.marked) return;
+    this.marked = key;
+    const marks = results.stages.slice(0, -1).map((s) => {
+      let k = 0;
+      results.run.frames.forEach((t, i) => {
+        if (t <= s.end * (1 + 1e-12)) k = i;
+      });
+      return make('i', '', { style: `left: ${(100 * k) / Math.max(player.end, 1)}%`, title: `end of ${s.name}` });
+    });
+    byId('marks-of-stages').replaceChildren(...marks);
+  }
+}

@@ -1,0 +1,147 @@
+// What the colours and strokes mean.
+import { stateNames } from '../data/fields';
+import { type Scale, stateColours } from '../data/scale';
+import { quantity, scaledUnit, ticks } from '../data/units';
+import type { OverlayStyle } from '../scene/overlay';
+
+export interface LegendEntries {
+  scale: Scale;
+  /** Names of kinds, by number; those that occur. */
+  kinds: [number, string][];
+  states: boolean;
+  /** Strokes; where their length means something, what a pixel of it stands for. */
+  strokes: { colour: string; text: string; perPixel?: number; unit?: string }[];
+}
+
+export const WIDTH = 168;
+const BAR = 190;
+
+/** Paints it with its upper right corner at (right, top). */
+export function paintLegend(g: CanvasRenderingContext2D, right: number, top: number, style: OverlayStyle, e: LegendEntries): void {
+  const lines = e.scale.field === undefined ? [] : wrap(g, e.scale.field.label, style);
+  const bar = e.scale.palette === 'sequential' || e.scale.palette === 'diverging';
+  const kinds = e.scale.palette === 'kinds' && e.kinds.length <= 12 ? e.kinds : [];
+  const measured = e.strokes.filter((stroke) => stroke.perPixel !== undefined);
+  const rows = kinds.length + (e.states ? 4 : 0) + e.strokes.length + measured.length;
+  const height = 14 + 16 * lines.length + (bar ? BAR + 36 : 0) + 18 * rows;
+  if (height <= 14) return;
+  const left = right - WIDTH;
+  g.save();
+  g.globalAlpha = 0.88;
+  g.fillStyle = style.halo;
+  g.beginPath();
+  g.roundRect(left, top, WIDTH, height, 6);
+  g.fill();
+  g.globalAlpha = 1;
+  g.textAlign = 'left';
+  let y = top + 20;
+  g.fillStyle = style.ink;
+  g.font = `600 12px ${style.font}`;
+  for (const line of lines) {
+    g.fillText(line, left + 12, y);
+    y += 16;
+  }
+  g.font = `12px ${style.font}`;
+  if (bar) {
+    paintBar(g, left + 12, y, style, e.scale);
+    y += BAR + 36;
+  }
+  const entry = (text: string, swatch: () => void) => {
+    swatch();
+    g.fillStyle = style.ink;
+    g.fillText(text, left + 36, y + 1, WIDTH - 42);
+    y += 18;
+  };
+  for (const [k, name] of kinds) entry(name, () => square(g, left + 12, y - 9, e.scale.css(e.scale.step(k)), style));
+  if (e.states) {
+    stateNames.forEach((name, k) => entry(name, () => {
+      const [r, gr, b] = stateColours.subarray(3 * k, 3 * k + 3);
+      dot(g, left + 19, y - 3, `rgb(${r},${gr},${b})`);
+    }));
+  }
+  for (const stroke of e.strokes) {
+    entry(stroke.text, () => line(g, left + 12, y - 3, 16, stroke.colour));
+    if (stroke.perPixel === undefined) continue;
+    const value = roundBelow(72 * stroke.perPixel);
+    line(g, left + 12, y - 3, value / stroke.perPixel || 0, stroke.colour);
+    g.fillStyle = style.ink;
+    g.fillText(quantity(value, stroke.unit ?? '', 1), left + 92, y + 1, WIDTH - 98);
+    y += 18;
+  }
+  g.restore();
+}
+
+function paintBar(g: CanvasRenderingContext2D, left: number, top: number, style: OverlayStyle, scale: Scale): void {
+  const { low, high } = scale;
+  const largest = Math.max(Math.abs(low), Math.abs(high));
+  const unit = scaledUnit(scale.field!.unit, largest);
+  if (unit.unit !== '') {
+    g.fillStyle = style.faint;
+    g.fillText(unit.unit === 'degrees' ? '\u00b0 (degrees)' : unit.unit, left, top + 2);
+  }
+  const y0 = top + 12;
+  if (!(high > low)) {
+    g.fillStyle = scale.css(scale.step(low));
+    g.fillRect(left, y0, 18, BAR);
+    g.fillStyle = style.ink;
+    g.fillText(quantity(low, '', 3), left + 26, y0 + BAR);
+    return;
+  }
+  for (let k = 0; k < BAR; ++k) {
+    g.fillStyle = scale.css(scale.step(low + ((high - low) * (k + 0.5)) / BAR));
+    g.fillRect(left, y0 + BAR - 1 - k, 18, 1.5);
+  }
+  const t = ticks(low * unit.factor, high * unit.factor, 6);
+  g.strokeStyle = style.ink;
+  g.fillStyle = style.ink;
+  g.lineWidth = 1;
+  for (const at of t.at) {
+    const y = y0 + BAR * (1 - (at / unit.factor - low) / (high - low));
+    g.beginPath();
+    g.moveTo(left + 18, y);
+    g.lineTo(left + 22, y);
+    g.stroke();
+    g.fillText(at.toFixed(t.digits).replace('-', '\u2212'), left + 26, y + 4);
+  }
+}
+
+/** The largest of 1, 2, 5 times a power of ten that is not above. */
+function roundBelow(value: number): number {
+  if (!(value > 0)) return 0;
+  const power = 10 ** Math.floor(Math.log10(value));
+  return ([5, 2, 1].find((m) => m * power <= value * (1 + 1e-9)) ?? 1) * power;
+}
+
+function square(g: CanvasRenderingContext2D, x: number, y: number, colour: string, style: OverlayStyle): void {
+  g.fillStyle = colour;
+  g.fillRect(x, y, 14, 12);
+  g.strokeStyle = style.faint;
+  g.strokeRect(x, y, 14, 12);
+}
+
+function dot(g: CanvasRenderingContext2D, x: number, y: number, colour: string): void {
+  g.fillStyle = colour;
+  g.beginPath();
+  g.arc(x, y, 4.5, 0, 2 * Math.PI);
+  g.fill();
+}
+
+function line(g: CanvasRenderingContext2D, x: number, y: number, length: number, colour: string): void {
+  g.strokeStyle = colour;
+  g.lineWidth = 3;
+  g.beginPath();
+  g.moveTo(x, y);
+  g.lineTo(x + length, y);
+  g.stroke();
+}
+
+function wrap(g: CanvasRenderingContext2D, text: string, style: OverlayStyle): string[] {
+  g.font = `600 12px ${style.font}`;
+  const lines = [''];
+  for (const word of text.split(' ')) {
+    const longer = lines[lines.length - 1] === '' ? word : `${lines[lines.length - 1]} ${word}`;
+    if (g.measureText(longer).width <= WIDTH - 24) lines[lines.length - 1] = longer;
+    else lines.push(word);
+  }
+  return lines;
+}

@@ -1,0 +1,97 @@
+// A plot over time, with the shown frame's time as a line; a click goes to that time.
+import uPlot from 'uplot';
+import { brief, short } from '../data/units';
+
+export interface Series {
+  label: string;
+  values: (number | null)[];
+}
+
+// Told apart by the colour-blind, on light and on dark (Okabe and Ito's palette, darkened a little).
+const COLOURS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#b8860b', '#56b4e9', '#7f7f7f', '#8b5cf6', '#94a3b8', '#a16207'];
+
+export class Plot {
+  private plot?: uPlot;
+  private time = 0;
+  private key = '';
+
+  constructor(private readonly holder: HTMLElement, private readonly seek: (time: number) => void) {
+    new ResizeObserver(() => this.plot?.setSize(this.size())).observe(holder);
+  }
+
+  /** `times` rising, s. */
+  show(unit: string, times: number[], series: Series[], colours: { ink: string; line: string }): void {
+    const key = JSON.stringify([unit, series.map((s) => s.label), colours]);
+    const data = [times, ...series.map((s) => s.values)] as uPlot.AlignedData;
+    if (this.plot !== undefined && this.key === key) {
+      this.plot.setData(data);
+      return;
+    }
+    this.key = key;
+    this.plot?.destroy();
+    const axis = { stroke: colours.ink, grid: { stroke: colours.line, width: 1 }, ticks: { stroke: colours.line, width: 1 }, font: '11px system-ui' };
+    this.plot = new uPlot(
+      {
+        ...this.size(),
+        scales: { x: { time: false } },
+        legend: { live: true },
+        cursor: { drag: { x: true, y: false } },
+        axes: [
+          { ...axis, label: 'time in s', labelFont: '11px system-ui', labelSize: 16, size: 34 },
+          { ...axis, label: unit, labelFont: '11px system-ui', labelSize: 16, size: 62, values: (_u, at) => at.map((v) => brief(v, 6)) },
+        ],
+        series: [
+          { label: 't', value: (_u, v) => (v == null ? '\u2013' : `${short(v, 5)} s`) },
+          ...series.map((s, k) => ({
+            label: s.label, stroke: COLOURS[k % COLOURS.length], width: 1.5, spanGaps: true,
+            value: (_u: uPlot, v: number | null) => (v == null ? '\u2013' : short(v, 5)),
+          })),
+        ],
+        hooks: {
+          draw: [(u) => this.drawTime(u, colours.ink)],
+          ready: [(u) => this.listen(u)],
+        },
+      },
+      data,
+      this.holder,
+    );
+  }
+
+  hide(): void {
+    this.plot?.destroy();
+    this.plot = undefined;
+    this.key = '';
+  }
+
+  setTime(time: number): void {
+    this.time = time;
+    this.plot?.redraw(false, false);
+  }
+
+  private size(): { width: number; height: number } {
+    return { width: Math.max(160, this.holder.clientWidth), height: 220 };
+  }
+
+  private listen(u: uPlot): void {
+    let down = 0;
+    u.over.addEventListener('mousedown', (e) => (down = e.clientX));
+    u.over.addEventListener('click', (e) => {
+      if (Math.abs(e.clientX - down) < 3) this.seek(u.posToVal(e.clientX - u.over.getBoundingClientRect().left, 'x'));
+    });
+  }
+
+  private drawTime(u: uPlot, colour: string): void {
+    const x = u.valToPos(this.time, 'x', true);
+    if (x < u.bbox.left || x > u.bbox.left + u.bbox.width) return;
+    const { ctx } = u;
+    ctx.save();
+    ctx.strokeStyle = colour;
+    ctx.globalAlpha = 0.6;
+    ctx.lineWidth = devicePixelRatio;
+    ctx.beginPath();
+    ctx.moveTo(x, u.bbox.top);
+    ctx.lineTo(x, u.bbox.top + u.bbox.height);
+    ctx.stroke();
+    ctx.restore();
+  }
+}

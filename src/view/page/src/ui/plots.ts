@@ -1,0 +1,128 @@
+// The panel's plot: the selected block or monitor over time, the energies, or another column.
+import { blockValue } from '../data/fields';
+import type { Frames } from '../data/frames';
+import type { Results } from '../data/results';
+import type { Field } from '../data/run';
+import { numbers } from '../data/table';
+import { scaledUnit } from '../data/units';
+import { byId, options } from './dom';
+import { Plot, type Series } from './plot';
+
+const ENERGIES = ['kinetic', 'strain', 'contact', 'gravity', 'friction', 'damping', 'fracture', 'external'];
+/** Columns of a monitor, and the unit of each. */
+const MONITOR: [string, string[], string][] = [
+  ['displacement', ['ux', 'uy'], 'm'],
+  ['velocity', ['vx', 'vy'], 'm/s'],
+  ['stress', ['sxx', 'syy', 'sxy'], 'Pa'],
+];
+
+export class Plots {
+  private readonly plot: Plot;
+  private readonly select_ = byId<HTMLSelectElement>('plot-of');
+  private block = -1;
+  private field?: Field;
+  /** Of the block's history that is being read; an older one gives up. */
+  private reading = 0;
+
+  constructor(private readonly results: Results, private readonly frames: Frames, seek: (time: number) => void) {
+    this.plot = new Plot(byId('plot'), seek);
+    this.select_.addEventListener('change', () => this.show());
+    this.offer();
+  }
+
+  select(block: number, monitor: string): void {
+    this.block = block;
+    this.offer();
+    if (monitor !== '') this.select_.value = `monitor:${monitor}:displacement`;
+    else if (block >= 0) this.select_.value = 'block';
+    this.show();
+  }
+  setField(field: Field | undefined): void {
+    if (field === this.field) return;
+    this.field = field;
+    this.offer();
+    if (this.select_.value === 'block') this.show();
+  }
+  refresh(): void {
+    this.offer();
+    this.show();
+  }
+  restyle(): void {
+    this.show();
+  }
+  setTime(time: number): void {
+    this.plot.setTime(time);
+  }
+
+  private offer(): void {
+    const { run, history } = this.results;
+    const pairs: [string, string][] = [];
+    if (this.block >= 0) pairs.push(['block', `block ${this.results.mesh.id[this.block]}: ${this.blockField().label}`]);
+    if (history !== undefined) {
+      pairs.push(['energy', 'energies'], ['drift', 'drift of the energy ledger'], ['unbalanced', 'unbalanced force']);
+      for (const m of run.monitors) for (const [what] of MONITOR) pairs.push([`monitor:${m.name}:${what}`, `${m.name}: ${what}`]);
+      for (const c of run.convergences) pairs.push([`convergence:${c.name}`, `${c.name}: convergence`]);
+    }
+    const first = this.select_.options.length === 0;
+    options(this.select_, pairs);
+    if (first && pairs.length > 0) this.show();
+  }
+
+  /** What a block's history shows: the colour's field, or displacement where that is none of numbers. */
+  private blockField(): Field {
+    const { fields } = this.results.run;
+    const fit = this.field !== undefined && this.field.of === 'blocks' && this.field.kind === 'numbers';
+    return fit ? this.field! : fields.find((f) => f.name === 'displacement')!;
+  }
+
+  private show(): void {
+    ++this.reading;
+    const [kind, name, what] = this.select_.value.split(':');
+    if (kind === 'block') {
+      void this.showBlock(this.reading);
+    } else if (kind === 'energy') {
+      this.showColumns(ENERGIES.map((e) => [e, e]), 'J');
+    } else if (kind === 'monitor') {
+      const [, columns, unit] = MONITOR.find(([w]) => w === what)!;
+      this.showColumns(columns.map((c) => [`${name}.${c}`, c]), unit);
+    } else if (kind === 'convergence') {
+      this.showColumns([[`${name}.convergence`, name]], 'm');
+    } else if (kind !== '') {
+      this.showColumns([[kind, kind]], '');
+    } else {
+      this.plot.hide();
+    }
+  }
+
+  private showColumns(columns: [string, string][], unit: string): void {
+    const { history } = this.results;
+    const found = columns.map(([column, label]) => ({ label, values: numbers(history, column) }));
+    const series = found.filter((s): s is { label: string; values: number[] } => s.values !== undefined);
+    this.draw(unit, numbers(history, 'time') ?? [], series.filter((s) => unit !== 'J' || s.values.some((v) => v !== 0)));
+  }
+
+  /** From the frames, one after another; the line grows as they come. */
+  private async showBlock(reading: number): Promise<void> {
+    const { run, mesh } = this.results;
+    const field = this.blockField();
+    const values: (number | null)[] = run.frames.map(() => null);
+    const draw = () => this.draw(field.unit, run.frames, [{ label: field.label.replace(' (tension positive)', ''), values }]);
+    for (let k = 0; k < run.frames.length; ++k) {
+      const frame = this.frames.ready(k) ?? (await this.frames.want(k).catch(() => undefined));
+      if (reading !== this.reading) return;
+      if (frame?.alive[this.block]) values[k] = blockValue(field.name, frame, this.block, mesh);
+      if (k % 50 === 49) draw();
+    }
+    draw();
+  }
+
+  private draw(unit: string, times: number[], series: Series[]): void {
+    const largest = series.reduce((most, s) => s.values.reduce((m: number, v) => Math.max(m, Math.abs(v ?? 0)), most), 0);
+    const scaled = scaledUnit(unit, largest);
+    const style = getComputedStyle(document.documentElement);
+    this.plot.show(scaled.unit, times, series.map((s) => ({ label: s.label, values: s.values.map((v) => (v === null ? null : v * scaled.factor)) })), {
+      ink: style.getPropertyValue('--ink').trim(),
+      line: style.getPropertyValue('--line').trim(),
+    });
+  }
+}

@@ -1,0 +1,119 @@
+#include "view/server.hpp"
+
+#include <fmt/format.h>
+#include <httplib.h>
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+#include "view/bytes.hpp"
+#include "view/page.hpp"
+
+namespace edda {
+namespace {
+
+constexpr const char* this_machine = "127.0.0.1";
+
+/// Answers of one run; one at a time, since taking up a frame changes it.
+class Answers {
+ public:
+  explicit Answers(ViewRun& run) : run_(run) {}
+
+  void page(httplib::Response& reply) {
+    reply.set_content(std::string(page_template().head) + std::string(page_template().tail),
+                      "text/html");
+  }
+
+  void header(httplib::Response& reply) {
+    const std::lock_guard lock(busy_);
+    if (const Trouble trouble = take_up_new()) return fail(reply, *trouble);
+    reply.set_content(run_.header(true), "application/json");
+  }
+
+  void named(const std::string& name, httplib::Response& reply) {
+    const std::lock_guard lock(busy_);
+    if (name == "mesh") return give(mesh_bytes(run_.mesh()), reply);
+    if (const auto k = number_after("datum-", name, run_.datums().size()))
+      return give(datum_bytes(run_.datums()[*k]), reply);
+    if (const auto k = number_after("frame-", name, run_.frames())) {
+      const Result<std::string> frame = run_.again(*k, ViewPrecision::single);
+      return frame.ok() ? give(frame.value(), reply) : fail(reply, frame.faults().front());
+    }
+    if (std::find(std::begin(view_tables), std::end(view_tables), name) != std::end(view_tables)) {
+      // None yet: an empty answer, which is no error of the page's.
+      return give(run_.table(name, most_table_rows), reply);
+    }
+    reply.status = 404;
+  }
+
+ private:
+  /// Frames that have come since.
+  Trouble take_up_new() {
+    const Result<std::vector<SeriesEntry>> series = run_.series();
+    if (!series.ok()) return series.faults().front();
+    for (std::size_t k = run_.frames(); k < series.value().size(); ++k) {
+      const Result<std::string> frame = run_.take(series.value()[k], ViewPrecision::whole16);
+      if (!frame.ok()) return frame.faults().front();
+    }
+    return {};
+  }
+
+  static std::optional<std::size_t> number_after(const std::string& prefix, const std::string& name,
+                                                 std::size_t end) {
+    if (!name.starts_with(prefix)) return {};
+    const std::string digits = name.substr(prefix.size());
+    if (digits.empty() || digits.size() > 9 ||
+        digits.find_first_not_of("0123456789") != std::string::npos)
+      return {};
+    const std::size_t k = std::stoul(digits);
+    if (k >= end) return {};
+    return k;
+  }
+
+  static void give(const std::string& bytes, httplib::Response& reply) {
+    reply.set_content(deflated(bytes), "application/octet-stream");
+  }
+  static void fail(httplib::Response& reply, const Fault& fault) {
+    reply.status = 500;
+    reply.set_content(to_string(fault), "text/plain");
+  }
+
+  ViewRun& run_;
+  std::mutex busy_;
+};
+
+}  // namespace
+
+Trouble serve_page(ViewRun& run, int port, const std::function<void(const std::string&)>& ready,
+                   const std::atomic<bool>& stop) {
+  Answers answers(run);
+  httplib::Server server;
+  server.set_default_headers({{"Cache-Control", "no-store"}});
+  server.Get("/", [&](const httplib::Request&, httplib::Response& r) { answers.page(r); });
+  server.Get("/run", [&](const httplib::Request&, httplib::Response& r) { answers.header(r); });
+  server.Get(R"(/chunk/([\w.-]+))", [&](const httplib::Request& request, httplib::Response& r) {
+    answers.named(request.matches[1], r);
+  });
+  const int bound = port == 0 ? server.bind_to_any_port(this_machine)
+                    : server.bind_to_port(this_machine, port) ? port
+                                                              : -1;
+  if (bound < 0) {
+    Fault fault;
+    fault.where.key = "--port";
+    fault.problem = fmt::format("port {} is taken, or not allowed", port);
+    fault.remedy = "give another one, or 0 for any that is free";
+    return fault;
+  }
+  ready(fmt::format("http://{}:{}/", this_machine, bound));
+  std::thread watch([&] {
+    while (!stop) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    server.stop();
+  });
+  server.listen_after_bind();
+  watch.join();
+  return {};
+}
+
+}  // namespace edda

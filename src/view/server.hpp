@@ -1,0 +1,19 @@
+// The replay page of a run that may still be going on, served to this machine's browsers.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+
+#include "results/files.hpp"
+#include "view/view_run.hpp"
+
+namespace edda {
+
+/// Serves the page at http://127.0.0.1:PORT/ until `stop`: the page itself, the run's header
+/// ("run"), its mesh, datums, frames and tables ("chunk/NAME", deflated). Frames are read when they
+/// are asked for. `port` 0: any that is free. `ready` is called with the address once it answers.
+Trouble serve_page(ViewRun& run, int port, const std::function<void(const std::string&)>& ready,
+                   const std::atomic<bool>& stop);
+
+}  // namespace edda

@@ -1,0 +1,88 @@
+// A results folder as the replay page sees it: its frames, tables and names. May grow while it is
+// looked at.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/fault.hpp"
+#include "results/vtu.hpp"
+#include "view/frame.hpp"
+
+namespace edda {
+
+/// A point or a line of the model, where it was at the start, m.
+struct ViewMark {
+  std::string name;
+  std::vector<Vec2> points;
+};
+
+/// What the model knows and the results do not; a page does without it.
+struct ViewNames {
+  std::string title;
+  std::vector<std::string> materials;
+  std::vector<ViewMark> monitors;      ///< one point each
+  std::vector<ViewMark> convergences;  ///< two
+  std::vector<std::string> stages;
+};
+
+/// Smallest and largest value of a field of pictures in the frames so far; held blocks do not
+/// count.
+struct ViewRange {
+  double low = 0.0, high = 0.0;
+  bool any = false;
+};
+
+class ViewRun {
+ public:
+  /// Faults: no results there, frames that do not fit together.
+  static Result<ViewRun> open(std::string folder, ViewNames names);
+
+  /// The frames there are, in order of time.
+  Result<std::vector<SeriesEntry>> series() const;
+  /// Takes up a frame that is later than those taken up so far, and packs it. The bytes are not
+  /// deflated.
+  Result<std::string> take(const SeriesEntry& frame, ViewPrecision precision);
+  /// Packs one of those taken up once more.
+  Result<std::string> again(std::size_t frame, ViewPrecision precision) const;
+  /// Packs any frame without taking it up, to see how large it is.
+  Result<std::string> probe(const SeriesEntry& frame, ViewPrecision precision) const;
+
+  const ViewMesh& mesh() const { return mesh_; }
+  const std::vector<ViewDatum>& datums() const { return datums_; }
+  std::size_t frames() const { return taken_.size(); }
+  /// A table of the folder, rows left out evenly where it is longer than `most_rows`; empty where
+  /// there is none.
+  std::string table(const std::string& name, std::size_t most_rows) const;
+  /// What the page is told before anything else, as JSON (view/page/src/run.ts). `served`: chunks
+  /// are to be fetched; else they are in the page.
+  std::string header(bool served) const;
+
+ private:
+  struct Taken {
+    SeriesEntry entry;
+    std::size_t datum = 0;
+  };
+  struct Grids {
+    Grid blocks;
+    std::optional<Grid> contacts;
+  };
+  Result<Grids> read(const SeriesEntry& frame) const;
+  Result<std::string> pack(const SeriesEntry& frame, ViewPrecision precision,
+                           std::size_t datum) const;
+  void widen_ranges(const Grids& grids);
+
+  std::string folder_;
+  ViewNames names_;
+  ViewMesh mesh_;
+  std::vector<ViewDatum> datums_;
+  std::vector<Taken> taken_;
+  std::map<std::string, ViewRange> ranges_;  ///< by name of the field
+};
+
+/// Tables that a page takes along.
+inline constexpr const char* view_tables[] = {"history.csv", "stages.csv", "bolts.csv"};
+
+}  // namespace edda

@@ -1,0 +1,250 @@
+#include "view/frame.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "view/frames_of.hpp"
+
+namespace edda {
+namespace {
+
+/// Reads a frame as the page does (view/page/src/data/frame.ts), written from the layout alone.
+class Unpacked {
+ public:
+  explicit Unpacked(const std::string& bytes) : bytes_(bytes) {
+    for (std::uint32_t* n : {&bits, &rows, &count, &datum, &touching}) *n = number<std::uint32_t>();
+    for (std::uint32_t r = 0; r < rows; ++r)
+      alive.push_back(static_cast<unsigned char>(bytes[20 + r / 8]) >> r % 8 & 1);
+    at_ += (rows + 7) / 8;
+    for (const std::size_t columns : {2, 4, 2, 1, 1, 4, 1}) group(columns, count, blocks);
+    std::uint64_t i = 0;
+    for (std::uint32_t k = 0; k < touching; ++k) contact_i.push_back(i += varint());
+    for (std::uint32_t k = 0; k < touching; ++k) contact_vertex.push_back(varint());
+    for (std::uint32_t k = 0; k < touching; ++k) {
+      const std::uint64_t twice = varint();
+      const auto by = static_cast<std::int64_t>(twice >> 1);
+      contact_j.push_back(static_cast<std::int64_t>(contact_i[k]) + (twice & 1 ? -by - 1 : by));
+    }
+    for (std::uint32_t k = 0; k < touching; ++k) contact_edge.push_back(varint());
+    for (std::uint32_t k = 0; k < touching; ++k)
+      state.push_back(static_cast<unsigned char>(bytes_[at_++]));
+    if (at_ < bytes.size()) {
+      for (const std::size_t columns : {2, 1, 1}) group(columns, touching, contacts);
+    }
+    EXPECT_EQ(at_, bytes.size());
+  }
+  std::uint32_t bits = 0, rows = 0, count = 0, datum = 0, touching = 0;
+  std::vector<int> alive, state;
+  std::vector<std::uint64_t> contact_i, contact_vertex, contact_edge;
+  std::vector<std::int64_t> contact_j;
+  std::vector<std::vector<double>> blocks, contacts;  ///< columns
+
+ private:
+  template <class T>
+  T number() {
+    T value;
+    std::memcpy(&value, bytes_.data() + at_, sizeof value);
+    at_ += sizeof value;
+    return value;
+  }
+  std::uint64_t varint() {
+    std::uint64_t value = 0;
+    for (int shift = 0;; shift += 7) {
+      const auto byte = static_cast<unsigned char>(bytes_[at_++]);
+      value |= std::uint64_t{byte & 127U} << shift;
+      if (byte < 128) return value;
+    }
+  }
+  void group(std::size_t columns, std::size_t n, std::vector<std::vector<double>>& out) {
+    const double scale = bits == 16 ? double{number<float>()} : 1.0;
+    const std::size_t width = bits / 8;
+    for (std::size_t c = 0; c < columns; ++c) {
+      out.emplace_back();
+      for (std::size_t k = 0; k < n; ++k) {
+        std::uint32_t raw = 0;
+        for (std::size_t plane = 0; plane < width; ++plane)
+          raw |= std::uint32_t{static_cast<unsigned char>(bytes_[at_ + plane * n + k])}
+                 << 8 * plane;
+        float single = 0.0F;
+        std::memcpy(&single, &raw, sizeof single);
+        const int whole = raw & 1 ? -static_cast<int>((raw + 1) / 2) : static_cast<int>(raw / 2);
+        out.back().push_back(bits == 16 ? scale * whole : double{single});
+      }
+      at_ += width * n;
+    }
+  }
+  std::string bytes_;
+  std::size_t at_ = 0;
+};
+
+const std::vector<TestBlock> three{{0, {{0, 0}, {2, 0}, {2, 1}, {0, 1}}, false},
+                                   {1, {{2, 0}, {4, 0}, {4, 1}, {2, 1}}, false},
+                                   {2, {{0, 1}, {2, 1}, {1, 3}}, true}};
+
+/// A turn and a shift that differ from block to block.
+Vec2 turned(const TestBlock& b, Vec2 p) {
+  const double angle = 0.3 * (b.id + 1);
+  return {p.x * std::cos(angle) - p.y * std::sin(angle) + 5.0,
+          p.x * std::sin(angle) + p.y * std::cos(angle) - 1.0};
+}
+Vec2 by_turn(const TestBlock& b, Vec2 p) {
+  return turned(b, p) - p;
+}
+
+/// What edge k of a block (from corner k on) does to the other with these forces.
+Vec2 force_across(const TestBlock& b, std::size_t k, double normal, double shear) {
+  const Vec2 from = turned(b, b.corners[k]), to = turned(b, b.corners[(k + 1) % b.corners.size()]);
+  const Vec2 t = (to - from) / std::hypot(to.x - from.x, to.y - from.y);
+  return normal * outward_normal(t) + shear * t;
+}
+
+/// A corner of block 2 on edge 2 of block 0, and one of block 0 on edge 3 of block 1: both lie at a
+/// corner of the other, where two edges are equally near.
+Grid two_contacts() {
+  Grid g;
+  const auto field = [&](const char* name, std::size_t components, std::vector<double> values) {
+    g.cell_fields.push_back({name, components, std::move(values), {}, false});
+  };
+  const Vec2 p = turned(three[2], {2, 1}), q = turned(three[0], {2, 0});
+  const Vec2 f = force_across(three[0], 2, 1e5, -3e4), h = force_across(three[1], 3, 4e3, 0.0);
+  g.points = {p.x, p.y, 0.0, q.x, q.y, 0.0};
+  g.corners = {0, 1};
+  g.ends = {1, 2};
+  g.types = {cell_type::vertex, cell_type::vertex};
+  field("block_i", 1, {2, 0});
+  field("block_j", 1, {0, 1});
+  field("state", 1, {2, 1});
+  field("normal_force", 1, {1e5, 4e3});
+  field("shear_force", 1, {-3e4, 0.0});
+  field("force", 3, {f.x, f.y, 0.0, h.x, h.y, 0.0});
+  field("opening", 1, {-1e-5, -2e-6});
+  field("slip", 1, {0.5, -0.25});
+  return g;
+}
+
+Unpacked unpacked(const Grid& g, const Grid* contacts, ViewPrecision precision) {
+  const ViewMesh mesh = view_mesh(frame_of(three, stays, nothing));
+  const Result<ViewBlocks> in = blocks_in(mesh, g);
+  EXPECT_TRUE(in.ok());
+  return Unpacked(frame_bytes(mesh, in.value(), g, contacts, precision, 3));
+}
+
+/// `x` from what the page makes of the motion of block k.
+Vec2 placed(const Unpacked& u, std::size_t k, Vec2 r) {
+  return {u.blocks[0][k] + u.blocks[2][k] * r.x + u.blocks[3][k] * r.y,
+          u.blocks[1][k] + u.blocks[4][k] * r.x + u.blocks[5][k] * r.y};
+}
+
+TEST(ViewFrame, SingleNumbersComeBackToSevenDigits) {
+  const Unpacked u = unpacked(frame_of(three, turned, by_turn), nullptr, ViewPrecision::single);
+  EXPECT_EQ(u.bits, 32u);
+  EXPECT_EQ(u.datum, 3u);
+  ASSERT_EQ(u.count, 3u);
+  const ViewMesh mesh = view_mesh(frame_of(three, stays, nothing));
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t v = mesh.begin[row]; v < mesh.begin[row + 1]; ++v) {
+      const Vec2 expected = by_turn(three[row], mesh.centre[row] + mesh.vertex[v]);
+      EXPECT_NEAR(placed(u, row, mesh.vertex[v]).x, expected.x, 2e-6);
+      EXPECT_NEAR(placed(u, row, mesh.vertex[v]).y, expected.y, 2e-6);
+    }
+    const double n = static_cast<double>(row) + 1.0;
+    EXPECT_FLOAT_EQ(static_cast<float>(u.blocks[6][row]), static_cast<float>(0.1 * n));
+    EXPECT_FLOAT_EQ(static_cast<float>(u.blocks[8][row]), static_cast<float>(-7.0 * n));
+    EXPECT_FLOAT_EQ(static_cast<float>(u.blocks[9][row]), static_cast<float>(0.01 * n));
+    EXPECT_FLOAT_EQ(static_cast<float>(u.blocks[13][row]), static_cast<float>(4e5 * n));
+  }
+}
+
+double largest_in(const Unpacked& u, std::size_t first, std::size_t end) {
+  double largest = 0.0;
+  for (std::size_t c = first; c < end; ++c)
+    for (const double v : u.blocks[c]) largest = std::max(largest, std::abs(v));
+  return largest;
+}
+
+TEST(ViewFrame, WholeNumbersAreRightToHalfAStep) {
+  const Grid g = frame_of(three, turned, by_turn);
+  const Unpacked exact = unpacked(g, nullptr, ViewPrecision::single);
+  const Unpacked u = unpacked(g, nullptr, ViewPrecision::whole16);
+  EXPECT_EQ(u.bits, 16u);
+  struct Group {
+    std::size_t first, end;
+    double steps;
+  };
+  for (const Group& group : {Group{0, 2, 32767},
+                             {2, 6, 32767},
+                             {6, 8, 2047},
+                             {8, 9, 2047},
+                             {9, 10, 2047},
+                             {10, 14, 2047}}) {
+    const double half = 0.501 * largest_in(exact, group.first, group.end) / group.steps;
+    double most = 0.0;
+    for (std::size_t c = group.first; c < group.end; ++c) {
+      for (std::size_t k = 0; k < 3; ++k)
+        most = std::max(most, std::abs(u.blocks[c][k] - exact.blocks[c][k]));
+    }
+    // A of blocks that move far is as coarse as their displacement makes the place of a vertex.
+    EXPECT_LE(most, group.first == 2 ? 0.501 * largest_in(exact, 0, 2) / 32767 / 1.0 : half)
+        << "columns from " << group.first;
+  }
+}
+
+TEST(ViewFrame, BlocksTakenOutLeaveTheirRowEmpty) {
+  const Unpacked u =
+      unpacked(frame_of({three[0], three[2]}, stays, nothing), nullptr, ViewPrecision::single);
+  EXPECT_EQ(u.rows, 3u);
+  EXPECT_EQ(u.count, 2u);
+  EXPECT_EQ(u.alive, (std::vector<int>{1, 0, 1}));
+  EXPECT_FLOAT_EQ(static_cast<float>(u.blocks[8][1]), -21.0F);  // of block 2
+}
+
+TEST(ViewFrame, ABlockThatTheFirstFrameHasNotIsAFault) {
+  const ViewMesh mesh = view_mesh(frame_of({three[0], three[2]}, stays, nothing));
+  EXPECT_FALSE(blocks_in(mesh, frame_of(three, stays, nothing)).ok());
+}
+
+TEST(ViewFrame, ContactsNameTheVertexThatTheyLieAt) {
+  const Grid contacts = two_contacts();
+  const Unpacked u = unpacked(frame_of(three, turned, by_turn), &contacts, ViewPrecision::single);
+  ASSERT_EQ(u.touching, 2u);
+  EXPECT_EQ(u.contact_i, (std::vector<std::uint64_t>{0, 2}));  // sorted by block
+  EXPECT_EQ(u.contact_j, (std::vector<std::int64_t>{1, 0}));
+  EXPECT_EQ(u.contact_vertex, (std::vector<std::uint64_t>{1, 1}));
+  EXPECT_EQ(u.state, (std::vector<int>{1, 2}));
+  EXPECT_FLOAT_EQ(static_cast<float>(u.contacts[0][1]), 1e5F);
+  EXPECT_FLOAT_EQ(static_cast<float>(u.contacts[1][1]), -3e4F);
+  // Both forces were made to come across a certain edge.
+  EXPECT_EQ(u.contact_edge, (std::vector<std::uint64_t>{3, 2}));
+  EXPECT_FLOAT_EQ(static_cast<float>(u.contacts[2][1]), -1e-5F);
+  EXPECT_FLOAT_EQ(static_cast<float>(u.contacts[3][0]), -0.25F);
+}
+
+TEST(ViewFrame, OverlapsOfClosedContactsAreLeftOutOfSixteenBits) {
+  const Grid contacts = two_contacts();
+  const Unpacked u = unpacked(frame_of(three, turned, by_turn), &contacts, ViewPrecision::whole16);
+  EXPECT_EQ(u.contacts[2], (std::vector<double>{0.0, 0.0}));
+  EXPECT_NEAR(u.contacts[0][1], 1e5, 0.5 * 1e5 / 127.0);
+  EXPECT_NEAR(u.contacts[3][0], -0.25, 0.501 * 0.5 / 127.0);
+}
+
+TEST(ViewFrame, TheDatumChangesWhereDisplacementsAreReset) {
+  const Grid first = frame_of(three, stays, nothing);
+  const ViewMesh mesh = view_mesh(first);
+  ViewDatum start, other;
+  ASSERT_TRUE(find_datum(mesh, first, blocks_in(mesh, first).value(), nullptr, start));
+  EXPECT_EQ(start.motion[1].d, (Vec2{}));
+  const Grid moved = frame_of(three, turned, by_turn);
+  EXPECT_FALSE(find_datum(mesh, moved, blocks_in(mesh, moved).value(), &start, other));
+  // The same places, counted from there on.
+  const Grid reset = frame_of(three, turned, nothing);
+  ASSERT_TRUE(find_datum(mesh, reset, blocks_in(mesh, reset).value(), &start, other));
+  const Vec2 expected = by_turn(three[1], mesh.centre[1]);
+  EXPECT_NEAR(other.motion[1].d.x, expected.x, 1e-13);
+  EXPECT_NEAR(other.motion[1].d.y, expected.y, 1e-13);
+  EXPECT_NEAR(other.motion[1].yx, std::sin(0.6), 1e-13);
+}
+
+}  // namespace
+}  // namespace edda

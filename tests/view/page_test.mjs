@@ -1,0 +1,333 @@
+// The replay page in a real browser, used as a person does.
+//   node page_test.mjs EDDA PACKAGES      PACKAGES: the folder with node_modules
+import assert from 'node:assert/strict';
+import { execFileSync, spawn } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { launch, open } from './browser.mjs';
+
+const [edda, packages] = process.argv.slice(2).map((p) => path.resolve(p));
+if (!existsSync('/usr/bin/chromium')) {
+  console.log('no chromium here: skipped');
+  process.exit(77);
+}
+
+const folder = mkdtempSync(path.join(os.tmpdir(), 'edda-page-'));
+const run = (...args) => execFileSync(edda, args, { cwd: folder, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'], env: { ...process.env, OMP_NUM_THREADS: '1' } });
+const table = (file) => {
+  const [head, ...rows] = readFileSync(path.join(folder, file), 'utf8').trim().split('\n').map((line) => line.split(','));
+  return rows.map((row) => Object.fromEntries(row.map((cell, k) => [head[k], cell])));
+};
+
+let browser;
+const faults = [];
+const page = async (name) => open(browser, name.startsWith('http') ? name : `file://${folder}/${name}`, faults);
+
+/** Clicks where a point of the model is drawn. */
+async function clickAt(p, x, y) {
+  const [px, py] = await p.evaluate(([a, b]) => edda.pixelOf(a, b), [x, y]);
+  const box = await p.locator('#overlay').boundingBox();
+  await p.mouse.click(box.x + px, box.y + py);
+}
+/** What the panel says: name -> { text, value }. */
+const shownValues = (p) =>
+  p.$$eval('#values tr', (rows) =>
+    Object.fromEntries(rows.map((r) => [r.dataset.name, { text: r.cells[1].textContent, value: Number(r.cells[1].dataset.value) }])));
+const settled = (p) => p.waitForFunction(() => document.getElementById('busy').hidden);
+const choose = (p, id, value) => p.locator(`#${id}`).selectOption(value);
+const ink = (p, x, y) =>
+  p.evaluate(([a, b]) => {
+    const [px, py] = edda.pixelOf(a, b);
+    const copy = document.createElement('canvas');
+    [copy.width, copy.height] = [edda.view.camera.width, edda.view.camera.height];
+    const g = copy.getContext('2d');
+    edda.view.copyTo(g, 0, 0, copy.width, copy.height);
+    return [...g.getImageData(Math.round(px), Math.round(py), 1, 1).data].slice(0, 3);
+  }, [x, y]);
+
+before(async () => {
+  run('example', 'cavern');
+  run('run', 'cavern.toml', '--quiet');
+  run('view', 'cavern');
+  run('example', 'tunnel');
+  run('run', 'tunnel.toml', '--quiet');
+  run('view', 'tunnel');
+  browser = await launch(packages);
+});
+after(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+test('shows the values that blocks.csv has, of any block', async () => {
+  const p = await page('cavern.html');
+  const rows = table('cavern/blocks.csv');
+  let seen = 0;
+  for (const row of rows.filter((_, k) => k % 23 === 0)) {
+    await clickAt(p, Number(row.x), Number(row.y));
+    const shown = await shownValues(p);
+    assert.equal(shown.id.text, row.id);
+    assert.equal(shown.material.text, row.material);
+    for (const name of ['x', 'y', 'ux', 'uy', 'rotation', 'vx', 'vy', 'omega', 'sxx', 'syy', 'szz', 'sxy']) {
+      const expected = Number(row[name]);
+      assert.ok(Math.abs(shown[name].value - expected) <= 3e-7 * Math.max(Math.abs(expected), 1e-12) + 1e-30, `${name}: ${shown[name].value}, not ${expected}`);
+    }
+    assert.ok(Math.abs(shown.area.value - Number(row.area)) <= 1e-6 * Number(row.area), `area: ${shown.area.value}`);
+    ++seen;
+  }
+  assert.ok(seen >= 9);
+  // And in digits, with a unit that people read.
+  const last = rows[23];
+  await clickAt(p, Number(last.x), Number(last.y));
+  const { sxx } = await shownValues(p);
+  const [number, unit] = sxx.text.replace('\u2212', '-').split(' ');
+  const factor = { Pa: 1, kPa: 1e3, MPa: 1e6, GPa: 1e9 }[unit];
+  assert.equal((Number(number) * factor).toPrecision(6), Number(last.sxx).toPrecision(6));
+  await p.close();
+});
+
+test('plays from the first frame to the last, and pauses', async () => {
+  const p = await page('cavern.html');
+  await choose(p, 'speed', '4');
+  await p.click('#play');
+  await p.waitForFunction(() => document.getElementById('time').textContent === 't = 0 s');
+  await p.waitForFunction(() => edda.player.index > 2 && edda.player.index < edda.player.end);
+  await p.click('#play');
+  const paused = await p.evaluate(() => edda.player.index);
+  await p.waitForTimeout(300);
+  assert.equal(await p.evaluate(() => edda.player.index), paused);
+  await p.click('#play');
+  await p.waitForFunction(() => !edda.player.playing, null, { timeout: 20000 });
+  assert.equal(await p.evaluate(() => edda.player.index), 10);
+  await p.close();
+});
+
+test('scrubs, and answers keys', async () => {
+  const p = await page('cavern.html');
+  await p.locator('#scrub').fill('4');
+  await settled(p);
+  assert.match(await p.textContent('#time'), /^t = 0\.02 s$/);
+  await p.locator('#overlay').focus();
+  for (const [key, frame] of [['ArrowRight', 5], ['ArrowLeft', 4], ['Home', 0], ['ArrowLeft', 0], ['End', 10]]) {
+    await p.keyboard.press(key);
+    assert.equal(await p.evaluate(() => edda.player.index), frame, key);
+  }
+  await p.keyboard.press('?');
+  assert.ok(await p.locator('#keys').isVisible());
+  await p.keyboard.press('Escape');
+  const light = await p.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  await p.keyboard.press('t');
+  assert.notEqual(await p.evaluate(() => getComputedStyle(document.body).backgroundColor), light);
+  await p.close();
+});
+
+test('paints blocks in the colour of their value', async () => {
+  const p = await page('cavern.html');
+  await p.locator('#edges').uncheck();
+  await p.locator('#marks').uncheck();
+  for (const field of ['displacement', 'principal_stress.minor', 'rotation', 'velocity.y', 'stress.xx']) {
+    await choose(p, 'field', field);
+    for (const row of table('cavern/blocks.csv').filter((_, k) => k % 37 === 5)) {
+      await clickAt(p, Number(row.x), Number(row.y));
+      const expected = await p.evaluate((f) => {
+        const { scale } = edda;
+        const step = scale.step(edda.valueOf(f));
+        return [...scale.colours.subarray(3 * step, 3 * step + 3)];
+      }, field);
+      assert.deepEqual(await ink(p, Number(row.x), Number(row.y)), expected, `${field} of block ${row.id}`);
+    }
+  }
+  await p.close();
+});
+
+test('knows every field that edda plot knows', async () => {
+  const p = await page('cavern.html');
+  const offered = await p.$$eval('#field option', (options) => options.map((o) => o.value));
+  const named = await p.evaluate(() => edda.results.run.fields.map((f) => f.name));
+  for (const name of named.filter((n) => !['id', 'principal_stress'].includes(n))) assert.ok(offered.includes(name), name);
+  for (const name of offered) {
+    await choose(p, 'field', name);
+    await p.waitForFunction(() => !edda.stale && !edda.overlayStale);
+  }
+  await p.close();
+});
+
+test('follows a monitor and plots its history', async () => {
+  const p = await page('cavern.html');
+  const history = table('cavern/history.csv');
+  const monitor = await p.evaluate(() => edda.results.run.monitors[0]);
+  const last = history[history.length - 1];
+  const at = [monitor.points[0][0] + Number(last[`${monitor.name}.ux`]), monitor.points[0][1] + Number(last[`${monitor.name}.uy`])];
+  await clickAt(p, ...at);
+  assert.match(await p.textContent('#selection-title'), new RegExp(`Monitor ${monitor.name}`));
+  assert.equal(await p.inputValue('#plot-of'), `monitor:${monitor.name}:displacement`);
+  const plotted = await p.evaluate(() => edda.plots.plot.plot.data.map((c) => Array.from(c)));
+  assert.equal(plotted[0].length, history.length);
+  const unit = await p.evaluate(() => edda.plots.plot.key);
+  const factor = unit.includes('"mm"') ? 1e3 : unit.includes('\u00b5m') ? 1e6 : 1;
+  history.forEach((row, k) => assert.ok(Math.abs(plotted[2][k] - factor * Number(row[`${monitor.name}.uy`])) <= 1e-9 * factor));
+  await choose(p, 'plot-of', 'energy');
+  assert.ok(await p.locator('#plot canvas').isVisible());
+  await p.close();
+});
+
+test('plots a block over the frames', async () => {
+  const p = await page('cavern.html');
+  const row = table('cavern/blocks.csv')[120];
+  await choose(p, 'field', 'stress.yy');
+  await clickAt(p, Number(row.x), Number(row.y));
+  assert.equal(await p.inputValue('#plot-of'), 'block');
+  await p.waitForFunction(() => edda.plots.plot.plot?.data[1].length === 11 && edda.plots.plot.plot.data[1].every((v) => v !== null));
+  const { data, key } = await p.evaluate(() => ({ data: edda.plots.plot.plot.data.map((c) => Array.from(c)), key: edda.plots.plot.key }));
+  const factor = { MPa: 1e-6, kPa: 1e-3, Pa: 1 }[JSON.parse(key)[0]];
+  assert.equal(data[1].length, 11);
+  assert.ok(Math.abs(data[1][10] - factor * Number(row.syy)) <= 1e-5 * Math.abs(factor * Number(row.syy)));
+  await p.close();
+});
+
+test('magnifies displacements about the start', async () => {
+  const p = await page('cavern.html');
+  const row = table('cavern/blocks.csv').reduce((a, b) => (Math.hypot(a.ux, a.uy) > Math.hypot(b.ux, b.uy) ? a : b));
+  await p.evaluate(() => edda.controls.setMagnification(50));
+  const m = await p.evaluate(() => edda.controls.magnification);
+  assert.ok(Math.abs(m - 50) < 0.5, String(m));
+  await p.waitForFunction(() => !edda.stale);
+  await clickAt(p, Number(row.x) + (m - 1) * Number(row.ux), Number(row.y) + (m - 1) * Number(row.uy));
+  const shown = await shownValues(p);
+  assert.equal(shown.id.text, row.id);
+  assert.ok(Math.abs(shown.x.value - Number(row.x)) < 1e-6 * 30, 'positions stay what they are');
+  await p.close();
+});
+
+test('moves and zooms under the pointer', async () => {
+  const p = await page('cavern.html');
+  const box = await p.locator('#overlay').boundingBox();
+  const at = () => p.evaluate(() => edda.view.camera.at(300, 200));
+  const held = await at();
+  await p.mouse.move(box.x + 300, box.y + 200);
+  const far = await p.evaluate(() => edda.view.camera.scale);
+  await p.mouse.wheel(0, -400);
+  await p.waitForFunction((s) => edda.view.camera.scale > 1.5 * s, far);
+  // The page may lie between pixels, and a wheel's place is a whole one.
+  (await at()).forEach((v, k) => assert.ok(Math.abs(v - held[k]) < 1 / far));
+  const before_ = await at();
+  await p.mouse.down();
+  await p.mouse.move(box.x + 350, box.y + 260);
+  await p.mouse.up();
+  const scale = await p.evaluate(() => edda.view.camera.scale);
+  const now = await p.evaluate(() => edda.view.camera.at(350, 260));
+  now.forEach((v, k) => assert.ok(Math.abs(v - before_[k]) < 0.1 / scale));
+  assert.equal(await p.evaluate(() => edda.selected), -1, 'a drag selects nothing');
+  await p.close();
+});
+
+test('saves a picture', async () => {
+  const p = await page('cavern.html');
+  const [download] = await Promise.all([p.waitForEvent('download'), p.click('#save')]);
+  assert.match(download.suggestedFilename(), /^Cavern.*\.png$/);
+  const bytes = readFileSync(await download.path());
+  assert.deepEqual([...bytes.subarray(1, 4)], [...Buffer.from('PNG')]);
+  const [width, height] = await p.evaluate(() => [edda.view.camera.width, edda.view.camera.height]);
+  assert.equal(bytes.readUInt32BE(16), 2 * width);
+  assert.equal(bytes.readUInt32BE(20), 2 * (height + 34));
+  await p.close();
+});
+
+test('shows stages, bolts and rock that is taken out', async () => {
+  const p = await page('tunnel.html');
+  const stages = table('tunnel/stages.csv');
+  assert.equal(await p.locator('#marks-of-stages i').count(), stages.length - 1);
+  assert.match(await p.textContent('#time'), new RegExp(stages[stages.length - 1].name));
+  assert.ok(await p.locator('#bolts').isVisible());
+  assert.ok(await p.evaluate(() => edda.view.boltStrokes.count) > 10);
+  await clickAt(p, 0.5, 2.0);
+  assert.equal(await p.evaluate(() => edda.selected), -1, 'the heading is open in the end');
+  await p.keyboard.press('Home');
+  await settled(p);
+  await clickAt(p, 0.5, 2.0);
+  assert.ok(await p.evaluate(() => edda.selected) >= 0, 'and rock at the start');
+  await p.keyboard.press('End');
+  await settled(p);
+  await p.waitForFunction(() => document.getElementById('selection-title').textContent.endsWith('taken out'));
+  for (const id of ['contacts', 'forces', 'crosses']) await p.locator(`#${id}`).check();
+  for (const what of ['velocity', 'displacement']) await choose(p, 'vectors', what);
+  await p.waitForFunction(() => !edda.stale && !edda.overlayStale);
+  const strokes = await p.evaluate(() => ['contactDots', 'forceStrokes', 'crossStrokes', 'arrowStrokes'].map((k) => edda.view[k].count));
+  assert.ok(strokes.every((n) => n > 50), String(strokes));
+  await p.close();
+});
+
+test('follows a run that goes on', async () => {
+  run('example', 'rockfall');
+  const going = spawn(edda, ['run', 'rockfall.toml', '--quiet', '--set', 'solver.safety=0.05', '--set', 'output.every=0.05'], { cwd: folder, stdio: 'ignore' });
+  const ended = new Promise((resolve) => going.on('exit', resolve));
+  while (!existsSync(path.join(folder, 'rockfall/blocks.pvd'))) await new Promise((r) => setTimeout(r, 20));
+  const server = spawn(edda, ['view', 'rockfall', '--serve', '--port', '0'], { cwd: folder, stdio: ['ignore', 'pipe', 'inherit'] });
+  const address = await new Promise((resolve) => server.stdout.on('data', (text) => resolve(/http:\S+/.exec(String(text))[0])));
+  const p = await page(address);
+  const first = await p.evaluate(() => edda.results.run.frames.length);
+  await p.waitForFunction((n) => edda.results.run.frames.length > n, first, { timeout: 30000 });
+  await ended;
+  await p.waitForFunction(() => !document.getElementById('status').textContent.startsWith('going on'), null, { timeout: 30000 });
+  const rows = table('rockfall/blocks.csv');
+  await settled(p);
+  assert.equal(await p.evaluate(() => edda.player.index === edda.player.end), true, 'stays at the end');
+  const row = rows[rows.length - 1];
+  await p.keyboard.press('f');
+  await p.waitForFunction(() => !edda.stale && !edda.overlayStale);
+  await clickAt(p, Number(row.x), Number(row.y));
+  const shown = await shownValues(p);
+  assert.equal(shown.id.text, row.id);
+  assert.ok(Math.abs(shown.ux.value - Number(row.ux)) <= 1e-6 * Math.abs(Number(row.ux)) + 1e-12);
+  await p.close();
+  server.kill('SIGINT');
+  assert.equal(await new Promise((resolve) => server.on('exit', resolve)), 0);
+});
+
+test('small pages are kept small, and still end with exact values', async () => {
+  writeFileSync(path.join(folder, 'wall.toml'), `
+    [materials.rock]
+    density = 2000.0
+    young = 5e9
+    poisson = 0.2
+    [joints.mortar]
+    friction_angle = 30.0
+    [[block]]
+    fixed = true
+    polygon = [[-5, -1], [65, -1], [65, 0], [-5, 0]]
+    [[brick_wall]]
+    columns = 60
+    rows = 33
+    brick = [1.0, 0.5]
+    [solver]
+    duration = 0.2
+    [output]
+    every = 0.001
+    history_every = 0.01`);
+  run('run', 'wall.toml', '--quiet');
+  const said = run('view', 'wall');
+  const [, frames, size] = /(\d+) frames, ([\d.]+) MB/.exec(said);
+  assert.equal(frames, '201');
+  assert.ok(Number(size) < 20, `${size} MB for 200 frames of 2,000 blocks`);
+  assert.match(said, /1\/65534/);
+  assert.match(said, /1\/4094/);
+  const p = await page('wall.html');
+  const row = table('wall/blocks.csv')[1500];
+  await clickAt(p, Number(row.x), Number(row.y));
+  const shown = await shownValues(p);
+  for (const name of ['ux', 'uy', 'sxx', 'syy', 'vx']) {
+    assert.ok(Math.abs(shown[name].value - Number(row[name])) <= 3e-7 * Math.abs(Number(row[name])) + 1e-30, name);
+  }
+  run('view', 'wall', '-o', 'thin.html', '--max-size', '2');
+  const thin = await page('thin.html');
+  const times = await thin.evaluate(() => edda.results.run.frames);
+  assert.ok(times.length < 60 && times[0] === 0 && Math.abs(times[times.length - 1] - 0.2) < 1e-12);
+  await p.close();
+  await thin.close();
+});
+
+test('nothing was said to the console, nothing asked of the network', () => {
+  assert.deepEqual(faults, []);
+});
