@@ -52,8 +52,8 @@ Canvas::Canvas(std::string path, double width, double height, double pixels_per_
       format_(ends_in(path_, ".svg", ".SVG")   ? Format::svg
               : ends_in(path_, ".pdf", ".PDF") ? Format::pdf
                                                : Format::png),
-      surface_(surface_for(width, height, pixels_per_point)) {
-  cr_ = cairo_create(surface_);
+      surface_(surface_for(width, height, pixels_per_point)),
+      cr_(cairo_create(surface_)) {
   cairo_set_source_rgb(cr_, 1.0, 1.0, 1.0);
   cairo_paint(cr_);
   if (format_ == Format::png) cairo_scale(cr_, pixels_per_point, pixels_per_point);

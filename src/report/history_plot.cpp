@@ -97,9 +97,10 @@ std::vector<double> spread(const std::vector<double>& wanted, double apart, doub
     next = placed[i] + apart;
   }
   double last = bottom;
-  for (auto i = order.rbegin(); i != order.rend(); ++i) {
-    placed[*i] = std::min(placed[*i], last);
-    last = placed[*i] - apart;
+  for (std::size_t k = order.size(); k-- > 0;) {
+    const std::size_t i = order[k];
+    placed[i] = std::min(placed[i], last);
+    last = placed[i] - apart;
   }
   return placed;
 }
