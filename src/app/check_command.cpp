@@ -1,10 +1,13 @@
 // edda check
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 
 #include "app/common.hpp"
+#include "results/json.hpp"
 #include "run/initial_stress_report.hpp"
 #include "run/labels.hpp"
 #include "run/load_report.hpp"
@@ -16,6 +19,16 @@ namespace {
 struct CheckArguments {
   std::string model;
   std::vector<std::string> overrides;
+  bool json = false;
+};
+
+/// What a check finds out.
+struct Check {
+  std::vector<std::string> loads, initial_stress;
+  double step = 0.0, steps = 0.0;                 ///< s; to expect
+  double rate = 0.0;                              ///< steps per second of wall time
+  std::size_t closed = 0, within_reach = 0;       ///< contacts, at the start
+  double critical_step = 0.0, likely_step = 0.0;  ///< s, at the start
 };
 
 /// Steps per second of wall time, from a few steps made and thrown away.
@@ -33,12 +46,32 @@ double step_rate(Simulation& sim, double seconds) {
   return wall > 0.0 ? static_cast<double>(steps) / wall : 0.0;
 }
 
+std::size_t held_blocks(const Simulation& sim) {
+  return static_cast<std::size_t>(std::count_if(sim.blocks.fixed.begin(), sim.blocks.fixed.end(),
+                                                [](auto fixed) { return fixed != 0; }));
+}
+
+/// Makes a few steps.
+Check look_at(Simulation& sim) {
+  Check found;
+  found.closed = closed_contacts(sim.contacts);
+  found.within_reach = sim.contacts.size();
+  found.critical_step = sim.bound.critical_step;
+  found.likely_step = sim.bound.likely_step;
+  found.loads = load_report(sim);
+  found.initial_stress = initial_stress_report(sim);
+  sim.start(std::min(sim.model.output.history_every, sim.model.solver.duration));
+  found.step = sim.state.step;
+  found.steps = std::max(1.0, std::ceil(sim.model.solver.duration / found.step - 1e-9));
+  found.rate = step_rate(sim, 0.5);
+  return found;
+}
+
 void print_blocks(const Simulation& sim) {
   const BlockSet& b = sim.blocks;
-  std::size_t held = 0;
-  for (const auto f : b.fixed) held += f != 0;
   const CutReport& r = sim.polygons.report;
-  fmt::print("blocks          {} ({} held), {} vertices\n", b.size(), held, b.vertex_count());
+  fmt::print("blocks          {} ({} held), {} vertices\n", b.size(), held_blocks(sim),
+             b.vertex_count());
   fmt::print(
       "smallest        area {:.4g} m2 at {}, edge {:.4g} m at {}, angle {:.3g} degrees at {}\n",
       r.smallest_area, place_label(r.smallest_area_at), r.smallest_edge,
@@ -46,51 +79,102 @@ void print_blocks(const Simulation& sim) {
   for (const std::string& note : r.notes) fmt::print("lines           {}\n", note);
 }
 
-int check(const CheckArguments& args) {
-  const std::optional<Model> model = read_or_print(args.model, args.overrides);
-  if (!model) return exit_code::bad_input;
-  Result<PreparedRun> prepared = prepare_run(*model);
-  if (!prepared.ok()) {
-    print(prepared.faults());
-    return exit_code::bad_input;
-  }
-  PreparedRun& run = prepared.value();
-  Simulation& sim = run.sim;
-  print_blocks(sim);
-  fmt::print("contacts        {} closed, {} within reach\n", closed_contacts(sim.contacts),
-             sim.contacts.size());
-  if (sim.explicit_method()) {
-    fmt::print("critical step   {:.6g} s; {:.6g} s if every bare corner touched something\n",
-               sim.bound.critical_step, sim.bound.likely_step);
-  }
-  fmt::print("governed by     {}\n", run.governed_by);
+void print_places(const PreparedRun& run) {
+  const BlockSet& blocks = run.sim.blocks;
   for (const MonitorPoint& m : run.monitors) {
-    fmt::print("monitor         {} in {}\n", m.name, block_label(sim.blocks, m.block));
+    fmt::print("monitor         {} in {}\n", m.name, block_label(blocks, m.block));
   }
   for (const ConvergenceLine& line : run.convergences) {
     fmt::print("convergence     {} from {} to {}\n", line.name,
-               block_label(sim.blocks, line.ends[0].block),
-               block_label(sim.blocks, line.ends[1].block));
+               block_label(blocks, line.ends[0].block), block_label(blocks, line.ends[1].block));
   }
-  for (const std::string& line : load_report(sim)) fmt::print("load            {}\n", line);
-  for (const std::string& line : initial_stress_report(sim)) {
-    fmt::print("initial stress  {}\n", line);
-  }
-  sim.start(std::min(sim.model.output.history_every, sim.model.solver.duration));
-  const double h = sim.state.step,
-               steps = std::max(1.0, std::ceil(sim.model.solver.duration / h - 1e-9));
-  const double rate = step_rate(sim, 0.5);
+}
+
+void print_step(const Simulation& sim, const Check& found) {
   const std::string of_what =
       sim.model.solver.time_step ? "as given"
       : !sim.explicit_method()
           ? "as long as nothing moves too far in it; it is cut where needed"
           : fmt::format("{:.2g} of the smaller, or a little less", sim.model.solver.safety);
-  fmt::print("step            {:.6g} s ({}), so about {:.0f} steps for {:.6g} s\n", h, of_what,
-             steps, sim.model.solver.duration);
-  fmt::print("time to expect  {} at {:.3g} steps per second\n", duration_text(steps / rate), rate);
+  fmt::print("step            {:.6g} s ({}), so about {:.0f} steps for {:.6g} s\n", found.step,
+             of_what, found.steps, sim.model.solver.duration);
+  fmt::print("time to expect  {} at {:.3g} steps per second\n",
+             duration_text(found.steps / found.rate), found.rate);
+}
+
+void print_text(const PreparedRun& run, const Check& found) {
+  const Simulation& sim = run.sim;
+  print_blocks(sim);
+  fmt::print("contacts        {} closed, {} within reach\n", found.closed, found.within_reach);
+  if (sim.explicit_method()) {
+    fmt::print("critical step   {:.6g} s; {:.6g} s if every bare corner touched something\n",
+               found.critical_step, found.likely_step);
+  }
+  fmt::print("governed by     {}\n", run.governed_by);
+  print_places(run);
+  for (const std::string& line : found.loads) fmt::print("load            {}\n", line);
+  for (const std::string& line : found.initial_stress) fmt::print("initial stress  {}\n", line);
+  print_step(sim, found);
   fmt::print("warnings        {}\n",
              run.warnings.empty() ? "none" : fmt::format("{}", run.warnings.size()));
   for (const std::string& w : run.warnings) fmt::print("  - {}\n", w);
+}
+
+void add_texts(Json& json, const char* name, const std::vector<std::string>& texts) {
+  json.key(name).open_list();
+  for (const std::string& text : texts) json.value(text);
+  json.close();
+}
+
+void add_place(Json& json, const char* name, double value, Vec2 at) {
+  json.key(name).open_object().pair("value", value).key("at").open_list();
+  json.value(at.x).value(at.y).close().close();
+}
+
+void print_object(const PreparedRun& run, const Check& found) {
+  const Simulation& sim = run.sim;
+  const CutReport& r = sim.polygons.report;
+  Json json;
+  json.open_object().pair("model", sim.model.file).pair("title", sim.model.title);
+  json.pair("blocks", sim.blocks.size()).pair("held", held_blocks(sim));
+  json.pair("vertices", sim.blocks.vertex_count());
+  json.key("smallest").open_object();
+  add_place(json, "area", r.smallest_area, r.smallest_area_at);
+  add_place(json, "edge", r.smallest_edge, r.smallest_edge_at);
+  add_place(json, "angle", r.smallest_angle, r.smallest_angle_at);
+  json.close();
+  json.pair("contacts", found.closed).pair("contacts_within_reach", found.within_reach);
+  if (sim.explicit_method()) {
+    json.pair("critical_time_step", found.critical_step);
+    json.pair("likely_time_step", found.likely_step);
+  }
+  json.pair("governed_by", run.governed_by);
+  json.key("monitors").open_object();
+  for (const MonitorPoint& m : run.monitors) {
+    json.pair(m.name, block_label(sim.blocks, m.block));
+  }
+  json.close();
+  add_texts(json, "lines", r.notes);
+  add_texts(json, "loads", found.loads);
+  add_texts(json, "initial_stress", found.initial_stress);
+  json.pair("duration", sim.model.solver.duration).pair("time_step", found.step);
+  json.pair("steps", found.steps).pair("steps_per_second", found.rate);
+  json.pair("seconds", found.steps / found.rate);
+  add_texts(json, "warnings", run.warnings);
+  fmt::print("{}\n", json.close().line());
+}
+
+int check(const CheckArguments& args) {
+  const std::optional<Model> model = read_or_print(args.model, args.overrides, args.json);
+  if (!model) return exit_code::bad_input;
+  Result<PreparedRun> prepared = prepare_run(*model);
+  if (!prepared.ok()) {
+    print(prepared.faults(), args.json);
+    return exit_code::bad_input;
+  }
+  PreparedRun& run = prepared.value();
+  const Check found = look_at(run.sim);
+  args.json ? print_object(run, found) : print_text(run, found);
   return exit_code::done;
 }
 
@@ -111,6 +195,7 @@ void add_check(CLI::App& app, int& code) {
       ->type_name("FILE");
   add_threads(*command);
   add_overrides(*command, args->overrides);
+  add_json(*command, args->json, "Print what it finds as one JSON object on stdout, faults too");
   command->callback([args, &code] { code = check(*args); });
 }
 

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/json_lines.hpp"
 #include "model/read_model.hpp"
 #include "results/machine.hpp"
 #include "run/size_limits.hpp"
@@ -43,16 +44,28 @@ void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& w : warnings) fmt::print(stderr, "warning: {}\n", w);
 }
 
-std::optional<Model> read_or_print(const std::string& path,
-                                   const std::vector<std::string>& overrides) {
+void print(const Faults& faults, bool json) {
+  if (json) return print_json(faults);
+  print(faults);
+}
+
+Result<Model> read_for_run(const std::string& path, const std::vector<std::string>& overrides) {
   Result<Model> model = read_model(path, overrides);
-  if (model.ok()) {
-    const std::optional<Fault> fault = beyond_memory(model.value(), memory_here());
-    if (!fault) return std::move(model.value());
-    model = *fault;
-  }
-  print(model.faults());
+  if (!model.ok()) return model;
+  if (const std::optional<Fault> fault = beyond_memory(model.value(), memory_here())) return *fault;
+  return model;
+}
+
+std::optional<Model> read_or_print(const std::string& path,
+                                   const std::vector<std::string>& overrides, bool json) {
+  Result<Model> model = read_for_run(path, overrides);
+  if (model.ok()) return std::move(model.value());
+  print(model.faults(), json);
   return {};
+}
+
+void add_json(CLI::App& command, bool& json, const std::string& description) {
+  command.add_flag("--json", json, description);
 }
 
 void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
@@ -84,6 +97,10 @@ std::string ending_of(const std::string& path) {
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return ending;
+}
+
+bool is_picture(const std::string& ending) {
+  return ending == ".png" || ending == ".svg" || ending == ".pdf";
 }
 
 std::string duration_text(double seconds) {

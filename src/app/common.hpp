@@ -15,11 +15,19 @@ namespace edda {
 
 /// One line per fault on stderr.
 void print(const Faults& faults);
+/// Or as JSON on stdout.
+void print(const Faults& faults, bool json);
 void print_warnings(const std::vector<std::string>& warnings);
 
-/// Reads MODEL with its overrides; prints the faults and returns nothing if there are any.
+/// Reads MODEL with its overrides. A model that does not fit into memory is a fault, too.
+Result<Model> read_for_run(const std::string& path, const std::vector<std::string>& overrides);
+
+/// The same; prints the faults and returns nothing if there are any.
 std::optional<Model> read_or_print(const std::string& path,
-                                   const std::vector<std::string>& overrides);
+                                   const std::vector<std::string>& overrides, bool json = false);
+
+/// Adds --json.
+void add_json(CLI::App& command, bool& json, const std::string& description);
 
 /// From now on SIGINT and SIGTERM set what is returned, so that a run ends well; a second one ends
 /// the program at once.
@@ -36,6 +44,9 @@ std::string stem_of(const std::string& path);
 
 /// ".svg" of "a/b.svg", in lower case.
 std::string ending_of(const std::string& path);
+
+/// Whether a file of that ending (as ending_of() gives it) is one that plot() draws.
+bool is_picture(const std::string& ending);
 
 /// Title, material names and monitors of a picture of the model.
 PlotOptions options_of(const Model& model, std::size_t blocks);

@@ -63,18 +63,19 @@ Trouble write_cut(const Model& model, const PolygonSet& polygons, const std::str
   const std::string ending = ending_of(path);
   if (ending == ".csv") return write_cut_csv(path, polygons, model);
   const BlockSet blocks = build_blocks(model, polygons);
-  const Grid grid = block_grid(block_cells(blocks), start_picture(model, blocks));
+  Grid grid = block_grid(block_cells(blocks), start_picture(model, blocks));
   if (ending == ".vtu") return write_vtu(path, grid);
   const std::string field = model.materials.size() > 1 ? "material" : "none";
-  return plot(grid, nullptr, shown_field(field, grid, nullptr).value(),
-              options_of(model, blocks.size()), path);
+  Snapshot shot{std::move(grid)};
+  shot.field = shown_field(field, shot.blocks, nullptr).value();
+  return plot({&shot, 1}, options_of(model, blocks.size()), path);
 }
 
 int cut(const CutArguments& args) {
   const std::string ending = ending_of(args.output);
-  if (!args.output.empty() && ending != ".svg" && ending != ".png" && ending != ".vtu" &&
-      ending != ".csv") {
-    fmt::print(stderr, "{}: ends in none of .svg .png .vtu .csv: name the file so\n", args.output);
+  if (!args.output.empty() && !is_picture(ending) && ending != ".vtu" && ending != ".csv") {
+    fmt::print(stderr, "{}: ends in none of .png .svg .pdf .vtu .csv: name the file so\n",
+               args.output);
     return exit_code::bad_input;
   }
   const std::optional<Model> model = read_or_print(args.model, args.overrides);
@@ -115,7 +116,7 @@ void add_cut(CLI::App& app, int& code) {
   command->footer(
       "Examples:\n"
       "  edda cut cavern.toml                  the report alone\n"
-      "  edda cut cavern.toml -o cavern.png    a picture (.svg for one that scales)\n"
+      "  edda cut cavern.toml -o cavern.png    a picture (.svg or .pdf for one that scales)\n"
       "  edda cut cavern.toml -o cavern.csv    every corner: block,material,ring,x,y,joint");
   auto args = std::make_shared<CutArguments>();
   command->add_option("MODEL", args->model, "The model, a TOML file")
@@ -123,7 +124,7 @@ void add_cut(CLI::App& app, int& code) {
       ->type_name("FILE");
   command
       ->add_option("-o,--output", args->output,
-                   "What to write: a .svg or .png picture, .vtu for ParaView, or .csv")
+                   "What to write: a .png, .svg or .pdf picture, .vtu for ParaView, or .csv")
       ->type_name("FILE");
   add_overrides(*command, args->overrides);
   command->callback([args, &code] { code = cut(*args); });

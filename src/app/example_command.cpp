@@ -80,7 +80,7 @@ void add_example(CLI::App& app, int& code) {
       "Example:\n  edda example           lists them\n  edda example cavern    writes cavern.toml, "
       "never over a file");
   auto name = std::make_shared<std::string>();
-  command->add_option("NAME", *name, "Which one");
+  command->add_option("NAME", *name, "Which one")->type_name("EXAMPLE");
   command->callback([name, &code] { code = example(*name); });
 }
 

@@ -12,6 +12,7 @@
 #include "report/plot.hpp"
 #include "results/files.hpp"
 #include "results/frames.hpp"
+#include "results/json.hpp"
 #include "run/fos.hpp"
 #include "run/observe.hpp"
 
@@ -21,7 +22,7 @@ namespace {
 struct FosArguments {
   std::string model, folder;
   std::vector<std::string> overrides;
-  bool quiet = false;
+  bool quiet = false, json = false;
 };
 
 /// 1, 2 or 5 times a power of ten, not above x; at least 1.
@@ -37,9 +38,10 @@ Trouble draw_mechanism(const Model& model, const FosResult& r, const std::string
   const Simulation& sim = *r.failed;
   Instant instant;
   observe(sim, instant);
-  const Grid blocks = block_grid(block_cells(sim.blocks), picture_of(sim, instant));
-  const Result<ShownField> field = shown_field("displacement", blocks, nullptr);
+  Snapshot shot{block_grid(block_cells(sim.blocks), picture_of(sim, instant))};
+  const Result<ShownField> field = shown_field("displacement", shot.blocks, nullptr);
   if (!field.ok()) return field.faults().front();
+  shot.field = field.value();
   double largest = 0.0;
   for (const MovingBlock& b : r.mechanism->blocks) largest = std::max(largest, b.largest);
   PlotOptions options = options_of(model, sim.blocks.size());
@@ -52,7 +54,7 @@ Trouble draw_mechanism(const Model& model, const FosResult& r, const std::string
         {j.from + options.scale * j.from_moved, j.to + options.scale * j.to_moved});
   }
   for (const char* name : {"/mechanism.png", "/mechanism.svg"}) {
-    if (Trouble trouble = plot(blocks, nullptr, field.value(), options, folder + name)) {
+    if (Trouble trouble = plot({&shot, 1}, options, folder + name)) {
       return trouble;
     }
   }
@@ -89,25 +91,26 @@ int code_of(FosStatus status) {
 }
 
 int fos(const FosArguments& args) {
-  const std::optional<Model> model = read_or_print(args.model, args.overrides);
+  const std::optional<Model> model = read_or_print(args.model, args.overrides, args.json);
   if (!model) return exit_code::bad_input;
   const std::string folder = args.folder.empty() ? stem_of(args.model) + "-fos" : args.folder;
   if (const Trouble trouble = check_folder(folder, args.model)) {
-    print({*trouble});
+    print({*trouble}, args.json);
     return exit_code::bad_input;
   }
   const std::atomic<bool>& stop_asked = stop_on_signals();
   FosOptions options;
   options.threads = omp_get_max_threads();
   options.stop = &stop_asked;
-  if (!args.quiet) options.say = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  if (!args.quiet && !args.json)
+    options.say = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
   const Result<FosResult> found = find_factor(*model, options);
   if (!found.ok()) {
-    print(found.faults());
+    print(found.faults(), args.json);
     return exit_code::bad_input;
   }
   const FosResult& r = found.value();
-  if (!args.quiet) print_warnings(r.warnings);
+  if (!args.quiet && !args.json) print_warnings(r.warnings);
   FolderLock lock;
   Trouble trouble = make_folder(folder);
   if (!trouble) trouble = lock.take(folder);
@@ -116,10 +119,14 @@ int fos(const FosArguments& args) {
   std::filesystem::remove(folder + "/frames", none_there);  // it has no frames
   if (!trouble) trouble = write_results(*model, r, folder);
   if (trouble) {
-    print({*trouble});
+    print({*trouble}, args.json);
     return exit_code::failed;
   }
-  if (!args.quiet) print_end(r, folder);
+  if (args.json) {
+    fmt::print("{}\n", one_line(fos_summary(*model, r, omp_get_max_threads())));
+  } else if (!args.quiet) {
+    print_end(r, folder);
+  }
   return code_of(r.status);
 }
 
@@ -150,6 +157,8 @@ void add_fos(CLI::App& app, int& code) {
   add_threads(*command);
   add_overrides(*command, args->overrides);
   command->add_flag("--quiet", args->quiet, "No progress, no warnings, no closing words");
+  add_json(*command, args->json,
+           "Print the summary as one JSON object on stdout, and nothing on stderr");
   command->callback([args, &code] { code = fos(*args); });
 }
 

@@ -35,6 +35,8 @@ int run_command(int argc, char** argv) {
   edda::add_view(app, code);
   edda::add_example(app, code);
   edda::add_keys(app, code);
+  edda::add_completion(app, code);
+  edda::add_man(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,111 +1,26 @@
 // edda plot
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 
 #include "app/common.hpp"
-#include "blocks/build_blocks.hpp"
-#include "lines/build_polygons.hpp"
-#include "model/read_model.hpp"
-#include "report/plot.hpp"
-#include "results/frames.hpp"
-#include "run/start_picture.hpp"
+#include "app/plot_source.hpp"
 
 namespace edda {
 namespace {
 
-struct PlotArguments {
-  std::string source, output, field, vectors;
-  std::vector<std::string> overrides;
-  std::optional<double> time, scale;
-  bool forces = false;
-};
+constexpr std::size_t most_drawings = 4;
 
-/// What is drawn, from either source.
-struct Source {
-  Grid blocks;
-  std::optional<Grid> contacts;
-  PlotOptions options;
-};
-
-Fault no_results(const std::string& folder, const std::string& problem) {
-  Fault fault;
-  fault.where.file = folder;
-  fault.problem = problem;
-  fault.remedy = "give a folder that edda run has written, or a model file";
-  return fault;
+int refuse(const Fault& fault) {
+  print({fault});
+  return exit_code::bad_input;
 }
 
-const SeriesEntry* nearest(const std::vector<SeriesEntry>& series, std::optional<double> time) {
-  const SeriesEntry* best = nullptr;
-  for (const SeriesEntry& e : series) {
-    if (best == nullptr || !time || std::abs(e.time - *time) < std::abs(best->time - *time))
-      best = &e;
-  }
-  return best;
-}
-
-Result<Source> from_folder(const PlotArguments& args) {
-  const std::string& folder = args.source;
-  const auto series = read_pvd(folder + "/blocks.pvd");
-  if (!series.ok()) return no_results(folder, "holds no blocks.pvd");
-  const SeriesEntry* entry = nearest(series.value(), args.time);
-  if (entry == nullptr) return no_results(folder, "holds no frames yet");
-  Result<Grid> blocks = read_vtu(folder + "/" + entry->file);
-  if (!blocks.ok()) return blocks.faults();
-  Source source{std::move(blocks.value()), {}, {}};
-  // Contacts take more room than the blocks: only where they are drawn.
-  if (args.forces || is_of_contacts(args.field)) {
-    std::string contacts_file = entry->file;
-    contacts_file.replace(contacts_file.find("blocks_"), 6, "contacts");
-    if (Result<Grid> contacts = read_vtu(folder + "/" + contacts_file); contacts.ok()) {
-      source.contacts = std::move(contacts.value());
-    }
-  }
-  // The title, names and monitors; a picture does without them where the model is gone.
-  if (const Result<Model> model = read_model(folder + "/model.toml"); model.ok()) {
-    source.options = options_of(model.value(), 0);
-  }
-  source.options.subtitle = fmt::format("t = {:.6g} s", entry->time);
-  return source;
-}
-
-Result<Source> from_model(const PlotArguments& args) {
-  const Result<Model> model = read_model(args.source, args.overrides);
-  if (!model.ok()) return model.faults();
-  const Result<PolygonSet> polygons = build_polygons(model.value());
-  if (!polygons.ok()) return polygons.faults();
-  const BlockSet blocks = build_blocks(model.value(), polygons.value());
-  return Source{block_grid(block_cells(blocks), start_picture(model.value(), blocks)),
-                {},
-                options_of(model.value(), blocks.size())};
-}
-
-int draw(const PlotArguments& args) {
-  const bool folder = std::filesystem::is_directory(args.source);
-  Result<Source> read = folder ? from_folder(args) : from_model(args);
-  if (!read.ok()) {
-    print(read.faults());
-    return exit_code::bad_input;
-  }
-  Source& source = read.value();
-  const Grid* contacts = source.contacts ? &*source.contacts : nullptr;
-  const std::string wanted = !args.field.empty()                   ? args.field
-                             : folder                              ? "displacement"
-                             : source.options.materials.size() > 1 ? "material"
-                                                                   : "none";
-  const Result<ShownField> field = shown_field(wanted, source.blocks, contacts);
-  if (!field.ok()) {
-    print(field.faults());
-    return exit_code::bad_input;
-  }
-  source.options.vectors = args.vectors;
-  source.options.forces = args.forces;
-  source.options.scale = args.scale.value_or(1.0);
-  const std::string path = args.output.empty() ? stem_of(args.source) + ".png" : args.output;
-  if (const Trouble trouble = plot(source.blocks, contacts, field.value(), source.options, path)) {
+int finish(const Trouble& trouble, const std::string& path) {
+  if (trouble) {
     print({*trouble});
     return exit_code::failed;
   }
@@ -113,13 +28,150 @@ int draw(const PlotArguments& args) {
   return exit_code::done;
 }
 
-int plot_or_refuse(const PlotArguments& args) {
-  const std::string ending = ending_of(args.output);
-  if (!args.output.empty() && ending != ".svg" && ending != ".png") {
-    fmt::print(stderr, "{}: ends in neither .svg nor .png: name the file so\n", args.output);
+int draw_histories(const PlotArguments& args, const std::string& path) {
+  if (!std::filesystem::is_directory(args.source)) {
+    return refuse({{"--history", {}, 0, 0},
+                   args.source + " is no folder of results",
+                   "run the model, and give the folder of its results"});
+  }
+  HistorySource source;
+  if (const Trouble trouble = read_histories(args, source)) return refuse(*trouble);
+  return finish(plot_history(source.picture, path), path);
+}
+
+int draw_frames(const PlotArguments& args, const std::string& path) {
+  Result<PlotSource> read =
+      std::filesystem::is_directory(args.source) ? from_folder(args) : from_model(args);
+  if (!read.ok()) {
+    print(read.faults());
     return exit_code::bad_input;
   }
-  return draw(args);
+  return finish(plot(read.value().shots, read.value().options, path), path);
+}
+
+/// What one option alone cannot say.
+Trouble check(const PlotArguments& args) {
+  const auto fault = [](const char* key, std::string problem, std::string remedy) {
+    return Fault{{key, {}, 0, 0}, std::move(problem), std::move(remedy)};
+  };
+  if (!args.output.empty() && !is_picture(ending_of(args.output))) {
+    return Fault{{{}, args.output, 0, 0}, "ends in none of .png .svg .pdf", "name the file so"};
+  }
+  if (!args.range.empty() && !(args.range[0] < args.range[1]))
+    return fault("--range", "is empty", "give LO,HI with LO below HI");
+  if (const auto& w = args.window; !w.empty() && !(w[0] < w[2] && w[1] < w[3]))
+    return fault("--window", "is empty", "give x0,y0,x1,y1 with x0 below x1 and y0 below y1");
+  if (args.compare.size() == 1 || args.compare.size() > most_drawings) {
+    return fault("--compare",
+                 fmt::format("names {} {}", args.compare.size(),
+                             args.compare.size() == 1 ? "time" : "times"),
+                 fmt::format("give two to {}", most_drawings));
+  }
+  return {};
+}
+
+int draw(const PlotArguments& args) {
+  if (const Trouble trouble = check(args)) return refuse(*trouble);
+  const std::string path = args.output.empty() ? stem_of(args.source) + ".png" : args.output;
+  return args.history.empty() ? draw_frames(args, path) : draw_histories(args, path);
+}
+
+/// "90", "90mm" or "1200px"; what is wrong with it otherwise.
+std::string read_width(const std::string& text, PlotArguments& args) {
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  const std::string unit(stop, end);
+  const bool pixels = unit == "px";
+  const double least = pixels ? 100.0 : 30.0, most = pixels ? 20000.0 : 2000.0;
+  if (error != std::errc{} || (!pixels && !unit.empty() && unit != "mm"))
+    return "is no width: give mm as 90mm, or pixels as 1200px";
+  if (!(value >= least && value <= most))
+    return fmt::format("is not between {0:.0f} and {1:.0f} {2}", least, most, pixels ? "px" : "mm");
+  if (pixels) {
+    args.width_pixels = static_cast<int>(std::lround(value));
+  } else {
+    args.width = value;
+  }
+  return {};
+}
+
+void add_what(CLI::App& command, PlotArguments& args) {
+  CLI::Option* const field =
+      command
+          .add_option("--field", args.field,
+                      "What to colour by (default: displacement; with --principal: none; of a "
+                      "model: its materials)")
+          ->type_name("FIELD");
+  CLI::Option* const time = command
+                                .add_option("--time", args.time,
+                                            "The frame nearest to this time in s (default: the "
+                                            "last)")
+                                ->type_name("T");
+  CLI::Option* const compare =
+      command
+          .add_option("--compare", args.compare,
+                      "The frames nearest to these times (s) side by side, with one scale")
+          ->type_name("T0,T1")
+          ->delimiter(',')
+          ->allow_extra_args(false)
+          ->excludes(time);
+  CLI::Option* const before =
+      command.add_flag("--before", args.before, "The first frame beside the one that is drawn")
+          ->excludes(compare);
+  CLI::Option* const vectors =
+      command
+          .add_option("--vectors", args.vectors,
+                      "Arrows at the blocks' centres: displacement or velocity")
+          ->check(CLI::IsMember({"displacement", "velocity"}));
+  CLI::Option* const forces =
+      command.add_flag("--forces", args.forces, "Arrows of the contact forces");
+  CLI::Option* const principal =
+      command.add_flag("--principal", args.principal,
+                       "Principal stresses: crosses at the blocks' centres, tension as arrows");
+  CLI::Option* const bolts =
+      command.add_flag("--bolts", args.bolts, "Bolts as wide as their axial force");
+  CLI::Option* const history =
+      command
+          .add_option("--history", args.history,
+                      "Lines over time instead: columns of history.csv, a monitor's name for all "
+                      "of it, or energy")
+          ->type_name("NAME[,NAME...]")
+          ->delimiter(',')
+          ->allow_extra_args(false);
+  for (CLI::Option* other : {field, time, compare, before, vectors, forces, principal, bolts}) {
+    history->excludes(other);
+  }
+}
+
+void add_how(CLI::App& command, PlotArguments& args) {
+  command.add_option("--scale", args.scale, "Draw displacements this many times as large")
+      ->type_name("FACTOR");
+  command.add_option("--range", args.range, "Values of the ends of the colours, in SI units")
+      ->type_name("LO,HI")
+      ->delimiter(',')
+      ->expected(2);
+  command.add_option("--window", args.window, "The part of the model to show, m")
+      ->type_name("X0,Y0,X1,Y1")
+      ->delimiter(',')
+      ->expected(4);
+  command.add_flag("--no-marks", args.no_marks, "Leave out monitors and convergence lines");
+  command.add_option("--title", args.title, "In place of the model's")->type_name("TEXT");
+  command
+      .add_option_function<std::string>(
+          "--width",
+          [&args](const std::string& text) {
+            if (const std::string problem = read_width(text, args); !problem.empty())
+              throw CLI::ValidationError("--width", '"' + text + "\" " + problem);
+          },
+          "Width on paper, as 90mm (default 160mm), or pixels of a PNG, as 1200px")
+      ->type_name("LENGTH");
+  command.add_option("--dpi", args.dpi, "Pixels per inch of a PNG (default 254, 10 per mm)")
+      ->type_name("N")
+      ->check(CLI::Range(30.0, 2400.0));
+  command.add_option("--font-size", args.font, "Of the text, in points on paper (default 8)")
+      ->type_name("PT")
+      ->check(CLI::Range(3.0, 40.0));
 }
 
 }  // namespace
@@ -133,36 +185,28 @@ void add_plot(CLI::App& app, int& code) {
       "slope.png\n"
       "  edda plot slope --time 0.5 --field stress.yy -o stress.svg\n"
       "  edda plot slope --scale 200 --vectors velocity --forces\n"
+      "  edda plot tunnel --principal --bolts -o tunnel.pdf\n"
+      "  edda plot slope --before --range 0,0.5       before and after, one scale\n"
+      "  edda plot slope --history energy,drift       lines over time\n"
       "  edda plot slope.toml                         the blocks before the run\n\n"
       "Fields: " +
       field_names() +
       ".\n"
-      "Held blocks are grey and hatched; monitors are circles with their names, bolts blue lines, "
-      "convergence lines dashed.");
+      "Held blocks are grey and hatched; monitors are circles with their names, bolts blue lines "
+      "(orange: yielded), convergence lines dashed. Where blocks are small, vectors and crosses "
+      "are drawn of some only, evenly spread.");
   auto args = std::make_shared<PlotArguments>();
   command->add_option("DIR", args->source, "A folder of results, or a model file")
       ->required()
       ->type_name("DIR|MODEL");
   command
       ->add_option("-o,--output", args->output,
-                   "The picture, .png or .svg (default: the source's stem + .png)")
+                   "The picture, .png, .svg or .pdf (default: the source's stem + .png)")
       ->type_name("FILE");
-  command
-      ->add_option("--field", args->field,
-                   "What to colour by (default: displacement; of a model: none)")
-      ->type_name("NAME");
-  command
-      ->add_option("--time", args->time, "The frame nearest to this time in s (default: the last)")
-      ->type_name("T");
-  command->add_option("--scale", args->scale, "Draw displacements this many times as large")
-      ->type_name("FACTOR");
-  command
-      ->add_option("--vectors", args->vectors,
-                   "Arrows at the blocks' centres: displacement or velocity")
-      ->check(CLI::IsMember({"displacement", "velocity"}));
-  command->add_flag("--forces", args->forces, "Arrows of the contact forces");
+  add_what(*command, *args);
+  add_how(*command, *args);
   add_overrides(*command, args->overrides);
-  command->callback([args, &code] { code = plot_or_refuse(*args); });
+  command->callback([args, &code] { code = draw(*args); });
 }
 
 }  // namespace edda

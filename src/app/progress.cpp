@@ -1,15 +1,79 @@
 #include "app/progress.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <string>
+#include <vector>
 
 #include "app/common.hpp"
 
 namespace edda {
+namespace {
+
+constexpr std::size_t gap = 2;  // columns between two parts
+
+/// Columns of the terminal on stderr.
+std::size_t terminal_columns() {
+  winsize size{};
+  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col : 80;
+}
+
+/// Characters of a text in UTF-8.
+std::size_t length_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+  }));
+}
+
+std::string percent(const Progress& p) {
+  return fmt::format("{:.0f} %", 100.0 * std::clamp(p.fraction, 0.0, 1.0));
+}
+
+std::string stage_text(const Progress& p) {
+  return p.stage_name.empty()
+             ? std::string{}
+             : fmt::format("stage {} of {} ({})", p.stage + 1, p.stages, p.stage_name);
+}
+
+/// Its parts in the order of their importance.
+std::vector<std::string> parts_of(const Progress& p) {
+  return {percent(p),
+          duration_text(p.seconds_left) + " left",
+          stage_text(p),
+          fmt::format("t {:.4g} s", p.time),
+          fmt::format("{:.3g} steps/s", p.rate),
+          fmt::format("velocity {:.2g} m/s", p.largest_velocity),
+          fmt::format("overlap {:.2g} m", p.largest_overlap)};
+}
+
+std::string bar_of(double fraction, std::size_t width) {
+  const double filled = std::clamp(fraction, 0.0, 1.0) * static_cast<double>(width);
+  std::string bar(static_cast<std::size_t>(filled), '#');
+  bar.resize(width, '.');
+  return '[' + bar + ']';
+}
+
+}  // namespace
+
+std::string progress_line(const Progress& p, std::size_t columns) {
+  std::string text;
+  std::size_t used = 0;
+  for (const std::string& part : parts_of(p)) {
+    const std::size_t more = length_of(part) + (used > 0 ? gap : 0);
+    if (part.empty()) continue;
+    if (used + more > columns) break;
+    text += (used > 0 ? std::string(gap, ' ') : "") + part;
+    used += more;
+  }
+  constexpr std::size_t narrowest = 8, widest = 24, ends = 2;
+  if (used + gap + ends + narrowest > columns) return text;
+  const std::size_t width = std::min(widest, columns - used - gap - ends);
+  return bar_of(p.fraction, width) + std::string(gap, ' ') + text;
+}
 
 ProgressBar::ProgressBar()
     : terminal_(isatty(STDERR_FILENO) == 1), start_(std::chrono::steady_clock::now()) {}
@@ -20,23 +84,17 @@ void ProgressBar::show(const Progress& p) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   if (wall < next_line_) return;
   next_line_ = wall < 60.0 ? wall + 10.0 : wall + 60.0;
+  const std::string stage = stage_text(p);
   fmt::print(stderr,
-             "{:.0f} %, t = {:.4g} s, {} steps, {:.3g} steps/s, {} left, kinetic {:.3g} J, overlap "
+             "{}, {}t = {:.4g} s, {} steps, {:.3g} steps/s, {} left, velocity {:.2g} m/s, overlap "
              "{:.2g} m\n",
-             100.0 * p.fraction, p.time, p.steps, p.rate, duration_text(p.seconds_left), p.kinetic,
-             p.largest_overlap);
+             percent(p), stage.empty() ? "" : stage + ", ", p.time, p.steps, p.rate,
+             duration_text(p.seconds_left), p.largest_velocity, p.largest_overlap);
 }
 
 void ProgressBar::draw_bar(const Progress& p) {
-  constexpr int width = 24;
-  const int full = std::clamp(static_cast<int>(p.fraction * width), 0, width);
-  std::string bar(static_cast<std::size_t>(full), '#');
-  bar.resize(width, '.');
-  fmt::print(stderr,
-             "\r\x1b[K[{}] {:3.0f} %  t {:.4g} s  {:.3g} steps/s  {} left  kinetic {:.2g} J  "
-             "overlap {:.1g} m",
-             bar, 100.0 * p.fraction, p.time, p.rate, duration_text(p.seconds_left), p.kinetic,
-             p.largest_overlap);
+  // The last column stays empty: some terminals go to the next line once it is full.
+  fmt::print(stderr, "\r\x1b[K{}", progress_line(p, terminal_columns() - 1));
   std::fflush(stderr);
   drawn_ = true;
 }

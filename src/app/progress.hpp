@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 #include "run/run_model.hpp"
 
@@ -22,5 +23,9 @@ class ProgressBar {
   std::chrono::steady_clock::time_point start_;
   double next_line_ = 10.0;  ///< s after the start
 };
+
+/// What is said of it in at most `columns` characters, a bar included where there is room: the most
+/// important first (part done, time left, stage), the others as far as they fit.
+std::string progress_line(const Progress& progress, std::size_t columns);
 
 }  // namespace edda

@@ -5,9 +5,8 @@
 #include <memory>
 
 #include "app/common.hpp"
-#include "app/progress.hpp"
+#include "app/run_report.hpp"
 #include "results/files.hpp"
-#include "run/initial_stress_report.hpp"
 #include "run/run_model.hpp"
 
 namespace edda {
@@ -16,7 +15,7 @@ namespace {
 struct RunArguments {
   std::string model, folder;
   std::vector<std::string> overrides;
-  bool quiet = false, resume = false;
+  bool quiet = false, resume = false, json = false;
   std::string from;  ///< name or number of a stage
 };
 
@@ -25,75 +24,59 @@ int code_of(Status status) {
   return status == Status::interrupted ? exit_code::interrupted : exit_code::done;
 }
 
-void print_end(const Outcome& o, const std::string& folder) {
-  fmt::print("{}: {}\n", status_name(o.status), o.message);
-  fmt::print("  {:.6g} s in {} steps, {} of wall time; {} contacts closed at the end\n", o.time,
-             o.steps, duration_text(o.wall.total), o.contacts);
-  fmt::print("  energy drift {:.2g}; results in {}/ (summary.json says it all)\n", o.ledger.drift,
-             folder);
+/// The stage of --from; nothing without the option.
+Result<std::optional<std::size_t>> first_stage(const Model& model, const std::string& name) {
+  if (name.empty()) return std::optional<std::size_t>{};
+  if (const auto stage = stage_called(model, name)) return stage;
+  return Fault{{"--from", {}, 0, 0},
+               '"' + name + "\" is no stage of the model",
+               "name one of its [[stage]]s, or give its number from 0"};
+}
+
+RunOptions options_for(const RunArguments& args, const std::string& folder, RunReport& report) {
+  RunOptions options;
+  options.folder = folder;
+  options.resume = args.resume;
+  options.warn = [&](const std::string& w) { report.warns(w); };
+  options.progress = [&](const Progress& p) { report.goes_on(p); };
+  options.stage_ended = [&](const StageReport& s) { report.stage_ended(s); };
+  if (args.json) options.progress_every = 1.0;
+  return options;
+}
+
+/// The model of the command line, where it, its stage to start from and its folder can be used.
+Result<Model> usable_model(const RunArguments& args, const std::string& folder) {
+  Result<Model> model = read_for_run(args.model, args.overrides);
+  if (!model.ok()) return model;
+  const auto from = first_stage(model.value(), args.from);
+  if (!from.ok()) return from.faults();
+  // Asked before the cut, which may take minutes, and again when the run starts.
+  if (const Trouble trouble = check_folder(folder, args.model)) return *trouble;
+  return model;
 }
 
 int run(const RunArguments& args) {
-  const std::optional<Model> model = read_or_print(args.model, args.overrides);
-  if (!model) return exit_code::bad_input;
-  std::optional<std::size_t> from;
-  if (!args.from.empty()) {
-    from = stage_called(*model, args.from);
-    if (!from) {
-      print({{{"--from", {}, 0, 0},
-              '"' + args.from + "\" is no stage of the model",
-              "name one of its [[stage]]s, or give its number from 0"}});
-      return exit_code::bad_input;
-    }
-  }
+  const std::unique_ptr<RunReport> report =
+      args.json ? report_to_machines(args.quiet) : report_to_people(args.quiet);
+  const auto refuse = [&](const Faults& faults) {
+    report->refused(faults);
+    return exit_code::bad_input;
+  };
   const std::string folder = args.folder.empty() ? stem_of(args.model) : args.folder;
-  // Asked before the cut, which may take minutes, and again when the run starts.
-  if (const Trouble trouble = check_folder(folder, args.model)) {
-    print({*trouble});
-    return exit_code::bad_input;
-  }
+  const Result<Model> model = usable_model(args, folder);
+  if (!model.ok()) return refuse(model.faults());
   const std::atomic<bool>& stop_asked = stop_on_signals();
-  Result<PreparedRun> prepared = prepare_run(*model);
-  if (!prepared.ok()) {
-    print(prepared.faults());
-    return exit_code::bad_input;
-  }
-  PreparedRun& ready = prepared.value();
-  if (!args.quiet) {
-    const Simulation& sim = ready.sim;
-    if (sim.explicit_method()) {
-      fmt::print(stderr,
-                 "{} blocks; step {:.4g} s; critical {:.4g} s ({:.4g} s if every bare corner "
-                 "touched something), held by {}\n",
-                 sim.blocks.size(), sim.step_limit, sim.bound.critical_step, sim.bound.likely_step,
-                 ready.governed_by);
-    } else {
-      fmt::print(stderr, "{} blocks; step {:.4g} s, held by {}\n", sim.blocks.size(),
-                 sim.step_limit, ready.governed_by);
-    }
-    for (const std::string& line : initial_stress_report(sim)) {
-      fmt::print(stderr, "initial stress: {}\n", line);
-    }
-    print_warnings(ready.warnings);
-  }
-  ProgressBar bar;
-  RunOptions options;
-  options.folder = folder;
+  Result<PreparedRun> prepared = prepare_run(model.value());
+  if (!prepared.ok()) return refuse(prepared.faults());
+  report->starts(prepared.value(), folder);
+  RunOptions options = options_for(args, folder, *report);
   options.stop = &stop_asked;
-  options.resume = args.resume;
-  options.from_stage = from;
-  options.warn = [](const std::string& w) { fmt::print(stderr, "edda: {}\n", w); };
-  if (!args.quiet) options.progress = [&](const Progress& p) { bar.show(p); };
-  const Result<Outcome> outcome = run_model(ready, options);
-  bar.finish();
-  if (!outcome.ok()) {
-    print(outcome.faults());
-    return exit_code::bad_input;
-  }
-  const Outcome& o = outcome.value();
-  if (o.status == Status::failed) fmt::print(stderr, "edda: {}\n", o.message);
-  if (!args.quiet) print_end(o, folder);
-  return code_of(o.status);
+  options.from_stage = first_stage(model.value(), args.from).value();
+  const Result<Outcome> outcome = run_model(prepared.value(), options);
+  if (!outcome.ok()) return refuse(outcome.faults());
+  const int code = code_of(outcome.value().status);
+  report->ends(outcome.value(), folder, code);
+  return code;
 }
 
 }  // namespace
@@ -135,6 +118,8 @@ void add_run(CLI::App& app, int& code) {
   add_threads(*command);
   add_overrides(*command, args->overrides);
   command->add_flag("--quiet", args->quiet, "No progress, no warnings, no closing words");
+  add_json(*command, args->json,
+           "Say all that happens as JSON, one object per line on stdout, and nothing on stderr");
   command->callback([args, &code] { code = run(*args); });
 }
 

@@ -1,10 +1,10 @@
-// A cairo drawing that ends as a PNG or SVG file.
+// A drawing that ends as a PNG, SVG or PDF file. Lengths are points (1/72 inch), y down.
 #pragma once
 
 #include <cairo.h>
 
-#include <memory>
 #include <string>
+#include <string_view>
 
 #include "base/vec2.hpp"
 #include "report/colours.hpp"
@@ -14,32 +14,52 @@ namespace edda {
 
 enum class Align { left, centre, right };
 
+/// How a line of text is set.
+struct TextStyle {
+  double size = 8.0;  ///< pt
+  Align align = Align::left;
+  bool bold = false;
+  bool halo = false;     ///< white around it, where it lies on a drawing
+  bool upwards = false;  ///< turned by a quarter, reading upwards
+};
+
 class Canvas {
  public:
-  /// Pixels; SVG where `path` ends in .svg, else PNG. White.
-  Canvas(std::string path, double width, double height);
+  /// White, `width` x `height` pt. The ending of `path` says what it becomes: .svg, .pdf, else PNG
+  /// with so many pixels per point.
+  Canvas(std::string path, double width, double height, double pixels_per_point);
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
   ~Canvas();
 
   cairo_t* cr() { return cr_; }
-  void colour(Colour c, double alpha = 1.0) { cairo_set_source_rgba(cr_, c.r, c.g, c.b, alpha); }
-  /// Baseline at y; with a white halo where it lies on a drawing.
-  void text(const std::string& text, Vec2 at, double size, Align align, bool bold = false,
-            bool halo = false);
+  void colour(Colour c, double alpha = 1.0);
+  /// Baseline at `at`. Stays text in SVG and PDF.
+  void text(const std::string& text, Vec2 at, const TextStyle& style);
   double text_width(const std::string& text, double size, bool bold = false);
   void line(Vec2 a, Vec2 b, double width);
+  /// A shaft and a head of the same colour; nothing where it is too short to see.
   void arrow(Vec2 from, Vec2 to, double width);
+  /// Until the next cairo_restore().
+  void clip(Vec2 low, Vec2 high);
 
   /// Writes the file.
   Trouble finish();
 
  private:
+  enum class Format { png, svg, pdf };
   static cairo_status_t take(void* self, const unsigned char* data, unsigned int size);
+  cairo_surface_t* surface_for(double width, double height, double pixels_per_point);
+  void svg_text(const std::string& text, Vec2 at, const TextStyle& style);
   std::string path_, bytes_;
-  bool svg_;
+  std::string svg_texts_;  ///< cairo would make outlines of them
+  Format format_;
+  Colour colour_;
   cairo_surface_t* surface_ = nullptr;
   cairo_t* cr_ = nullptr;
 };
+
+/// A number as it is printed: with a minus sign, not a hyphen.
+std::string typeset(std::string_view number);
 
 }  // namespace edda

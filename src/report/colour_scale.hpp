@@ -1,31 +1,41 @@
-// Values to colours, and the legend that says which.
+// Values to colours.
 #pragma once
 
-#include <string>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
-#include "report/canvas.hpp"
-#include "report/layout.hpp"
-#include "report/shown_field.hpp"
+#include "report/colours.hpp"
+#include "report/plot.hpp"
 
 namespace edda {
 
 class ColourScale {
  public:
-  /// `counted[c]`: whether value c takes part in the range (held blocks do not).
-  ColourScale(const ShownField& field, const std::vector<bool>& counted);
+  /// One scale for all snapshots, over the values of all blocks that are not held. `range`: over
+  /// that instead; values beyond take the colours of its ends. Where it has both signs it
+  /// is two-sided: blue below nothing, red above, as dark on either side at the same distance.
+  ColourScale(std::span<const Snapshot> shots, std::optional<std::pair<double, double>> range);
   Colour of(double value) const;
-  /// A bar with ticks, unit and name at the right of the drawing; entries by name for kinds.
-  void draw_legend(Canvas& canvas, const Layout& layout, const ShownField& field,
-                   const std::vector<std::string>& kind_names) const;
-  bool has_legend() const { return kind_ != ScaleKind::plain && !many_kinds_; }
+
+  ScaleKind kind() const { return kind_; }
+  double low() const { return low_; }
+  double high() const { return high_; }
+  bool values_below() const { return values_below_; }
+  bool values_above() const { return values_above_; }
+  const std::vector<std::size_t>& kinds() const { return kinds_; }
+  bool has_legend() const;
 
  private:
-  void draw_bar(Canvas& canvas, const Layout& layout, const ShownField& field) const;
+  void take_values(std::span<const Snapshot> shots);
+  void take_range(double low, double high);
+  void judge_values();
   ScaleKind kind_;
-  bool two_sided_ = false, many_kinds_ = false;
+  bool two_sided_ = false;
   double low_ = 0.0, high_ = 0.0;
-  std::vector<std::size_t> kinds_;  ///< that occur
+  bool values_below_ = false, values_above_ = false;  ///< of a range given
+  std::vector<std::size_t> kinds_;                    ///< that occur
 };
 
 }  // namespace edda

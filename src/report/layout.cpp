@@ -17,28 +17,29 @@ Box box_around(const std::vector<Vec2>& points) {
   return {box.low - Vec2{margin, margin}, box.high + Vec2{margin, margin}};
 }
 
-Layout layout_for(const Box& world, double width, bool legend) {
+Layout lay_out(const Box& world, const Paper& paper, const Surroundings& room) {
+  const double f = paper.font, gap = 1.5 * f, below = 3.6 * f, edge = 0.8 * f;
+  const double right = room.legend_width > 0.0 ? gap + room.legend_width + edge : 1.5 * f;
+  const auto n = static_cast<double>(room.drawings);
   Layout l;
-  l.world = world;
-  l.width = std::floor(width);
-  l.unit = l.width / 1600.0;
-  const double left = 120.0 * l.unit, right = (legend ? 230.0 : 50.0) * l.unit;
-  const double top = 120.0 * l.unit, bottom = 95.0 * l.unit;
-  const double most_height = 1.05 * l.width - top - bottom, room = l.width - left - right;
-  l.scale = std::min(room / world.width(), most_height / world.height());
-  const double drawn_width = l.scale * world.width(), drawn_height = l.scale * world.height();
-  // A slim model on a wide picture: narrower, but the title must still fit.
-  l.width = std::floor(std::max(left + drawn_width + right, std::min(l.width, 900.0 * l.unit)));
-  const double shift = 0.5 * (l.width - left - right - drawn_width);
-  // A flat one: room for the legend.
-  const double least_height = legend ? 320.0 * l.unit : 120.0 * l.unit;
-  const double frame_height = std::max(drawn_height, least_height);
-  l.height = std::floor(top + frame_height + bottom);
-  l.frame.low = {left + shift, top};
-  l.frame.high = {left + shift + drawn_width, top + frame_height};
-  const double more = 0.5 * (frame_height - drawn_height) / l.scale;
-  l.world.low.y -= more;
-  l.world.high.y += more;
+  l.font = f;
+  const double for_drawings =
+      std::max(paper.width - room.left - right - (n - 1.0) * gap, 0.2 * paper.width);
+  const double tallest = std::max(1.05 * paper.width - room.top - below, 0.2 * paper.width);
+  const double scale = std::min(for_drawings / n / world.width(), tallest / world.height());
+  const double wide = scale * world.width(), high = scale * world.height();
+  // A slim model gives a narrow page, but the title must still fit.
+  const double used = room.left + n * wide + (n - 1.0) * gap + right;
+  l.width = std::max(used, std::min(paper.width, 0.55 * paper.width));
+  l.height = room.top + std::max(high + below, room.legend_height) + room.legend_below + edge;
+  l.drawings = n * wide + (n - 1.0) * gap;
+  double x = room.left + 0.5 * (l.width - used);
+  for (std::size_t k = 0; k < room.drawings; ++k) {
+    l.views.push_back({{{x, room.top}, {x + wide, room.top + high}}, world, scale});
+    x += wide + gap;
+  }
+  l.legend = room.legend_below > 0.0 ? Vec2{l.views.front().frame.low.x, room.top + high + below}
+                                     : Vec2{x, room.top};
   return l;
 }
 

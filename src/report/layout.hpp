@@ -1,7 +1,8 @@
-// Where things go on a picture: title above, axes left and below, legend right, one scale for x and
-// y.
+// Where things go on a page: title above, one or more drawings side by side with axes left and
+// below, legend right, one scale for x and y and for all drawings. Points (1/72 inch), y down.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "base/vec2.hpp"
@@ -17,19 +18,40 @@ struct Box {
 /// The box of the points that are finite, with a margin; a unit box where there are none.
 Box box_around(const std::vector<Vec2>& points);
 
-struct Layout {
-  double width = 0.0, height = 0.0;  ///< of the picture, px
-  double unit = 1.0;                 ///< size of text relative to a picture 1600 px wide
-  Box frame;                         ///< of the drawing on the picture, px, y down
-  Box world;                         ///< what it shows, m
-  double scale = 1.0;                ///< px per m
-  Vec2 px(Vec2 p) const {
+/// Sizes that do not depend on what is drawn.
+struct Paper {
+  double width = 160.0 * 72.0 / 25.4;            ///< pt
+  double font = 8.0;                             ///< pt
+  double pixels_per_point = 10.0 * 25.4 / 72.0;  ///< of a PNG: 10 per mm
+};
+
+/// One drawing on the page.
+struct View {
+  Box frame;           ///< pt
+  Box world;           ///< what it shows, m
+  double scale = 1.0;  ///< pt per m
+  Vec2 at(Vec2 p) const {
     return {frame.low.x + (p.x - world.low.x) * scale, frame.high.y - (p.y - world.low.y) * scale};
   }
 };
 
-/// `width` px for pictures that are not much taller than wide, less for those that are.
-/// `legend`: keeps room for one on the right.
-Layout layout_for(const Box& world, double width, bool legend);
+struct Layout {
+  double width = 0.0, height = 0.0, font = 8.0;
+  std::vector<View> views;
+  Vec2 legend;            ///< its upper left corner
+  double drawings = 0.0;  ///< width of all drawings together
+};
+
+/// What has to find room beside the drawings.
+struct Surroundings {
+  std::size_t drawings = 1;
+  double left = 0.0;           ///< labels of the y axis
+  double top = 0.0;            ///< titles
+  double legend_width = 0.0;   ///< on the right; 0: none there
+  double legend_height = 0.0;  ///< least, on the right
+  double legend_below = 0.0;   ///< height of one below
+};
+
+Layout lay_out(const Box& world, const Paper& paper, const Surroundings& room);
 
 }  // namespace edda

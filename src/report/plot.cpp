@@ -3,368 +3,209 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 #include "report/canvas.hpp"
-#include "report/colour_scale.hpp"
-#include "report/layout.hpp"
-#include "report/shapes.hpp"
-#include "report/ticks.hpp"
+#include "report/legend.hpp"
+#include "report/scene.hpp"
 
 namespace edda {
 namespace {
 
-constexpr Colour ink{0.12, 0.12, 0.14}, held_fill{0.80, 0.80, 0.80}, held_hatch{0.62, 0.62, 0.62};
-constexpr Colour plain_block{0.87, 0.85, 0.80}, force_colour{0.75, 0.10, 0.10};
-constexpr Colour vector_colour{0.05, 0.05, 0.05}, monitor_colour{0.80, 0.05, 0.45};
-constexpr Colour bolt_colour{0.05, 0.25, 0.65}, joint_colour{0.85, 0.10, 0.05};
-
-/// Everything that the parts of a picture share.
-struct Scene {
-  const Grid& grid;
-  Layout layout;
-  std::vector<Vec2> points;  ///< as drawn, m
-  std::vector<BlockShape> shapes;
-  double exaggeration;  ///< of displacements
+/// What the layers draw as lines, with one scale for all drawings.
+struct Scales {
+  ArrowScale vectors, forces, stresses, bolts;
 };
 
-bool held(const Grid& g, std::size_t cell) {
-  const Field* fixed = g.cell_field("fixed");
-  return fixed != nullptr && fixed->values[cell] != 0.0;
+Scales scales_of(const std::vector<Scene>& scenes, const PlotOptions& options) {
+  Scales scales;
+  if (!options.vectors.empty()) scales.vectors = vector_scale(scenes, options.vectors);
+  if (options.forces) scales.forces = force_scale(scenes);
+  if (options.principal) scales.stresses = stress_scale(scenes);
+  if (options.bolt_forces) scales.bolts = bolt_scale(scenes);
+  return scales;
 }
 
-void trace_outline(cairo_t* cr, const Scene& s, const BlockShape& shape) {
-  std::int64_t last = -1;
-  for (const auto& [a, b] : shape.outline) {
-    const Vec2 p = s.layout.px(s.points[static_cast<std::size_t>(a)]);
-    const Vec2 q = s.layout.px(s.points[static_cast<std::size_t>(b)]);
-    if (a != last) cairo_move_to(cr, p.x, p.y);
-    cairo_line_to(cr, q.x, q.y);
-    last = b;
-  }
-}
-
-/// The cells in one path, so that no seam shows between those of one block.
-void trace_cells(cairo_t* cr, const Scene& s, const BlockShape& shape) {
-  for (std::size_t c = shape.first_cell; c < shape.end_cell; ++c) {
-    const auto from = c == 0 ? std::size_t{0} : static_cast<std::size_t>(s.grid.ends[c - 1]);
-    for (std::size_t k = from; k < static_cast<std::size_t>(s.grid.ends[c]); ++k) {
-      const Vec2 p = s.layout.px(s.points[static_cast<std::size_t>(s.grid.corners[k])]);
-      if (k == from) {
-        cairo_move_to(cr, p.x, p.y);
-      } else {
-        cairo_line_to(cr, p.x, p.y);
-      }
-    }
-    cairo_close_path(cr);
-  }
-}
-
-void hatch(Canvas& canvas, const Scene& s, const BlockShape& shape) {
-  cairo_t* cr = canvas.cr();
-  double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
-  for (const auto& edge : shape.outline) {
-    const Vec2 p = s.layout.px(s.points[static_cast<std::size_t>(edge.first)]);
-    x0 = std::min(x0, p.x), x1 = std::max(x1, p.x), y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);
-  }
-  x0 = std::max(x0, s.layout.frame.low.x), x1 = std::min(x1, s.layout.frame.high.x);
-  y0 = std::max(y0, s.layout.frame.low.y), y1 = std::min(y1, s.layout.frame.high.y);
-  cairo_save(cr);
-  trace_cells(cr, s, shape);
-  cairo_clip(cr);
-  canvas.colour(held_hatch);
-  // On one raster for all blocks, so that neighbours match.
-  const double gap = 12.0 * s.layout.unit;
-  for (double c = std::floor((x0 + y0) / gap) * gap; c <= x1 + y1; c += gap) {
-    cairo_move_to(cr, c - y0, y0);
-    cairo_line_to(cr, c - y1, y1);
-  }
-  cairo_set_line_width(cr, 1.2 * s.layout.unit);
-  cairo_stroke(cr);
-  cairo_restore(cr);
-}
-
-/// Thinner where blocks are small, so that they stay visible between their outlines.
-double outline_width(const Scene& s) {
-  const double area = s.layout.frame.width() * s.layout.frame.height();
-  const double block =
-      std::sqrt(area / static_cast<double>(std::max<std::size_t>(s.shapes.size(), 1)));
-  return std::clamp(0.02 * block, 0.25, 1.6) * s.layout.unit;
-}
-
-bool is_dark(Colour c) {
-  return 0.21 * c.r + 0.72 * c.g + 0.07 * c.b < 0.3;
-}
-
-void draw_blocks(Canvas& canvas, const Scene& s, const ShownField& field,
-                 const ColourScale& scale) {
-  cairo_t* cr = canvas.cr();
-  const bool coloured = field.kind != ScaleKind::plain && !field.of_contacts;
-  for (const BlockShape& shape : s.shapes) {
-    const bool is_held = held(s.grid, shape.first_cell);
-    trace_cells(cr, s, shape);
-    canvas.colour(is_held    ? held_fill
-                  : coloured ? scale.of(field.values[shape.first_cell])
-                             : plain_block);
-    cairo_fill(cr);
-    if (is_held) hatch(canvas, s, shape);
-  }
-  // Dark lines vanish on dark blocks: those get a light one on top, which leaves their neighbours'
-  // dark rim.
-  cairo_set_line_width(cr, outline_width(s));
-  canvas.colour(ink);
-  for (const BlockShape& shape : s.shapes) {
-    trace_outline(cr, s, shape);
-    cairo_stroke(cr);
-  }
-  if (!coloured) return;
-  cairo_set_line_width(cr, 0.6 * outline_width(s));
-  canvas.colour({1.0, 1.0, 1.0}, 0.6);
-  for (const BlockShape& shape : s.shapes) {
-    if (held(s.grid, shape.first_cell) || !is_dark(scale.of(field.values[shape.first_cell])))
-      continue;
-    trace_outline(cr, s, shape);
-    cairo_stroke(cr);
-  }
-}
-
-void draw_contact_field(Canvas& canvas, const Scene& s, const Grid& contacts,
-                        const ShownField& field, const ColourScale& scale) {
-  cairo_t* cr = canvas.cr();
-  const double radius =
-      std::clamp(4.0 * outline_width(s), 2.0 * s.layout.unit, 7.0 * s.layout.unit);
-  const std::vector<Vec2> points = drawn_points(contacts, s.exaggeration);
-  // Contacts of one corner lie on one another: the largest values on top.
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::abs(field.values[a]) < std::abs(field.values[b]);
+bool any_yielded(std::span<const Snapshot> shots) {
+  return std::any_of(shots.begin(), shots.end(), [](const Snapshot& shot) {
+    return shot.bolts && std::any_of(shot.bolts->begin(), shot.bolts->end(), [](const auto& bolt) {
+             return bolt.yielded || bolt.ruptured;
+           });
   });
-  for (const std::size_t c : order) {
-    const Vec2 p = s.layout.px(points[c]);
-    cairo_arc(cr, p.x, p.y, radius, 0.0, 6.2831853);
-    canvas.colour(scale.of(field.values[c]));
-    cairo_fill_preserve(cr);
-    canvas.colour(ink);
-    cairo_set_line_width(cr, 0.8 * s.layout.unit);
-    cairo_stroke(cr);
-  }
 }
 
-struct Arrow {
-  Vec2 at, vector;
+/// The same scale with a reference short enough for the legend.
+ArrowScale for_legend(ArrowScale scale, double longest) {
+  if (scale.per_unit > 0.0)
+    scale.reference = std::min(scale.reference, round_below(longest / scale.per_unit));
+  return scale;
+}
+
+std::vector<LegendKey> keys_of(std::span<const Snapshot> shots, const PlotOptions& options,
+                               const Scales& scales) {
+  using Sign = LegendKey::Sign;
+  const double longest = 4.5 * options.paper.font;
+  std::vector<LegendKey> keys;
+  if (!options.vectors.empty()) {
+    keys.push_back({Sign::vector, options.vectors, options.vectors == "velocity" ? "m/s" : "m",
+                    for_legend(scales.vectors, longest)});
+  }
+  if (options.forces)
+    keys.push_back({Sign::force, "contact force", "N", for_legend(scales.forces, longest)});
+  if (options.principal) {
+    // Each arm of a cross goes either way from the centre.
+    ArrowScale whole = scales.stresses;
+    whole.per_unit *= 2.0;
+    keys.push_back({Sign::stress, "principal stress", "Pa", for_legend(whole, longest)});
+  }
+  if (options.bolt_forces) {
+    keys.push_back({Sign::bolt_load, "force of bolts", "N", scales.bolts, any_yielded(shots)});
+  } else if (any_yielded(shots)) {
+    keys.push_back({Sign::bolt, "bolts", "", {}, true});
+  }
+  return keys;
+}
+
+/// What is shown: the window, or all that is drawn in any of the drawings.
+Box world_of(const std::vector<Scene>& scenes, const PlotOptions& options) {
+  if (options.window) return *options.window;
+  std::vector<Vec2> points;
+  for (const Scene& s : scenes) points.insert(points.end(), s.points.begin(), s.points.end());
+  return box_around(points);
+}
+
+struct Titles {
+  std::vector<std::string> title, subtitle;  ///< lines
+  bool headings = false;                     ///< one above each drawing
+  double height(double font) const {
+    return font * (1.0 + 1.5 * static_cast<double>(title.size()) +
+                   1.3 * static_cast<double>(subtitle.size()) + (headings ? 1.6 : 0.0));
+  }
 };
 
-/// Arrows of one kind, the longest `longest` px. Returns the size of the longest vector.
-double draw_arrows(Canvas& canvas, const Scene& s, const std::vector<Arrow>& arrows, double longest,
-                   bool ends_at) {
-  double most = 0.0;
-  for (const Arrow& a : arrows) {
-    if (std::isfinite(norm(a.vector))) most = std::max(most, norm(a.vector));
+Titles titles_of(std::span<const Snapshot> shots, const PlotOptions& options) {
+  const double room = options.paper.width - 2.0 * options.paper.font;
+  Canvas measure("", 1.0, 1.0, 1.0);
+  std::string subtitle = options.subtitle;
+  if (options.scale != 1.0) {
+    subtitle += fmt::format("{}displacements drawn {:.4g} times", subtitle.empty() ? "" : "; ",
+                            options.scale);
   }
-  if (most == 0.0) return 0.0;
-  for (const Arrow& a : arrows) {
-    const Vec2 p = s.layout.px(a.at), v = longest / most * Vec2{a.vector.x, -a.vector.y};
-    if (!std::isfinite(norm(v))) continue;
-    canvas.arrow(ends_at ? p - v : p, ends_at ? p : p + v, 1.8 * s.layout.unit);
+  Titles t;
+  t.headings = shots.size() > 1;
+  if (!options.title.empty()) {
+    t.title = wrapped(measure, options.title, 1.2 * options.paper.font, room, true);
   }
-  return most;
+  if (!subtitle.empty()) t.subtitle = wrapped(measure, subtitle, options.paper.font, room);
+  return t;
 }
 
-std::vector<Arrow> block_arrows(const Scene& s, const std::string& name) {
-  std::vector<Arrow> arrows;
-  const Field* field = s.grid.cell_field(name);
-  if (field == nullptr || field->components < 2) return arrows;
-  for (const BlockShape& shape : s.shapes) {
-    const double* v = field->values.data() + shape.first_cell * field->components;
-    arrows.push_back({centre_of(s.grid, shape, s.points), {v[0], v[1]}});
+void draw_titles(Canvas& canvas, const Layout& l, const Titles& titles) {
+  const double f = l.font;
+  double y = 0.5 * f;
+  canvas.colour(ink::line);
+  for (const std::string& line : titles.title) {
+    y += 1.5 * f;
+    canvas.text(line, {0.5 * l.width, y}, {.size = 1.2 * f, .align = Align::centre, .bold = true});
   }
-  return arrows;
-}
-
-std::vector<Arrow> force_arrows(const Scene& s, const Grid& contacts) {
-  std::vector<Arrow> arrows;
-  const Field* force = contacts.cell_field("force");
-  if (force == nullptr) return arrows;
-  const std::vector<Vec2> points = drawn_points(contacts, s.exaggeration);
-  for (std::size_t c = 0; c < points.size(); ++c) {
-    arrows.push_back({points[c], {force->values[3 * c], force->values[3 * c + 1]}});
-  }
-  return arrows;
-}
-
-/// Arrows that were asked for; returns what the subtitle says of them.
-std::string draw_vectors(Canvas& canvas, const Scene& s, const Grid* contacts,
-                         const PlotOptions& options) {
-  std::string note;
-  const double longest = 0.08 * std::min(s.layout.frame.width(), 1.4 * s.layout.frame.height());
-  auto describe = [&](const std::string& name, const char* unit, double most) {
-    const ScaledUnit u = scaled_unit(unit, most);
-    note += fmt::format("; {}: longest arrow {:.3g} {}", name, most * u.factor, u.name);
-  };
-  if (!options.vectors.empty()) {
-    canvas.colour(vector_colour);
-    const double most = draw_arrows(canvas, s, block_arrows(s, options.vectors), longest, false);
-    describe(options.vectors, options.vectors == "velocity" ? "m/s" : "m", most);
-  }
-  if (options.forces && contacts != nullptr) {
-    canvas.colour(force_colour);
-    describe("contact forces", "N",
-             draw_arrows(canvas, s, force_arrows(s, *contacts), longest, true));
-  }
-  return note;
-}
-
-void draw_monitors(Canvas& canvas, const Scene& s, const PlotOptions& options) {
-  const double u = s.layout.unit, r = 9.0 * u;
-  for (const PlotMonitor& m : options.monitors) {
-    Vec2 now;
-    if (!follow(s.grid, s.points, m.start, now)) continue;
-    const Vec2 p = s.layout.px(now);
-    cairo_arc(canvas.cr(), p.x, p.y, 0.7 * r, 0.0, 6.2831853);
-    canvas.colour({1.0, 1.0, 1.0});
-    cairo_fill_preserve(canvas.cr());
-    canvas.colour(monitor_colour);
-    cairo_set_line_width(canvas.cr(), 2.5 * u);
-    cairo_stroke(canvas.cr());
-    // Beside the point, on the side where there is room.
-    const double size = 22.0 * u;
-    const bool left = p.x + r + canvas.text_width(m.name, size, true) > s.layout.frame.high.x - r;
-    const double y = std::max(p.y - r, s.layout.frame.low.y + size);
-    canvas.colour(monitor_colour);
-    canvas.text(m.name, {left ? p.x - r : p.x + r, y}, size, left ? Align::right : Align::left,
-                true, true);
+  for (const std::string& line : titles.subtitle) {
+    y += 1.3 * f;
+    canvas.text(line, {0.5 * l.width, y}, {.size = f, .align = Align::centre});
   }
 }
 
-/// Lines whose ends come nearer, from block to block.
-void draw_lines(Canvas& canvas, const Scene& s, const PlotOptions& options) {
-  const double u = s.layout.unit;
-  for (const PlotLine& line : options.lines) {
-    const Vec2 way = line.start[1] - line.start[0];
-    // Ends lie on the walls: a hair beyond they are within a block.
-    const auto end = [&](Vec2 at, Vec2 beyond, Vec2& now) {
-      return follow(s.grid, s.points, at, now) || follow(s.grid, s.points, at + beyond, now);
-    };
-    Vec2 a, b;
-    if (!end(line.start[0], -1e-3 * way, a) || !end(line.start[1], 1e-3 * way, b)) continue;
-    const Vec2 p = s.layout.px(a), q = s.layout.px(b);
-    const double dash = 8.0 * u;
-    canvas.colour(monitor_colour);
-    cairo_set_dash(canvas.cr(), &dash, 1, 0.0);
-    cairo_set_line_width(canvas.cr(), 2.0 * u);
-    cairo_move_to(canvas.cr(), p.x, p.y);
-    cairo_line_to(canvas.cr(), q.x, q.y);
-    cairo_stroke(canvas.cr());
-    cairo_set_dash(canvas.cr(), nullptr, 0, 0.0);
-    canvas.text(line.name, 0.5 * (p + q) + Vec2{6.0 * u, -6.0 * u}, 22.0 * u, Align::left, true,
-                true);
-  }
-}
-
-/// Bolts, carried along by the blocks that they go through.
-void draw_bolts(Canvas& canvas, const Scene& s, const PlotOptions& options) {
-  constexpr int pieces = 12;
-  for (const auto& [from, to] : options.bolts) {
-    bool drawing = false;
-    for (int q = 0; q <= pieces; ++q) {
-      Vec2 now;
-      // A hair inside of its ends, which lie on faces.
-      const double part = std::clamp(static_cast<double>(q) / pieces, 1e-3, 1.0 - 1e-3);
-      if (!follow(s.grid, s.points, from + part * (to - from), now)) continue;
-      const Vec2 p = s.layout.px(now);
-      if (drawing) {
-        cairo_line_to(canvas.cr(), p.x, p.y);
-      } else {
-        cairo_move_to(canvas.cr(), p.x, p.y);
-      }
-      drawing = true;
-    }
-    canvas.colour(bolt_colour);
-    cairo_set_line_width(canvas.cr(), 4.0 * s.layout.unit);
-    cairo_stroke(canvas.cr());
-  }
-}
-
-void draw_joints(Canvas& canvas, const Scene& s, const PlotOptions& options) {
-  canvas.colour(joint_colour);
-  for (const auto& [from, to] : options.joints) {
-    canvas.line(s.layout.px(from), s.layout.px(to), 5.0 * s.layout.unit);
-  }
-}
-
-void draw_axes(Canvas& canvas, const Layout& l) {
-  const double u = l.unit, size = 20.0 * u;
-  canvas.colour(ink);
-  cairo_rectangle(canvas.cr(), l.frame.low.x, l.frame.low.y, l.frame.width(), l.frame.height());
-  cairo_set_line_width(canvas.cr(), 1.4 * u);
-  cairo_stroke(canvas.cr());
-  const int across = std::max(2, static_cast<int>(l.frame.width() / (150.0 * u)));
-  for (const Tick& t : ticks(l.world.low.x, l.world.high.x, across)) {
-    const double x = l.px({t.value, 0.0}).x;
-    canvas.line({x, l.frame.high.y}, {x, l.frame.high.y + 8.0 * u}, 1.4 * u);
-    canvas.text(t.label, {x, l.frame.high.y + 32.0 * u}, size, Align::centre);
-  }
-  const int up = std::max(2, static_cast<int>(l.frame.height() / (80.0 * u)));
-  for (const Tick& t : ticks(l.world.low.y, l.world.high.y, up)) {
-    const double y = l.px({0.0, t.value}).y;
-    canvas.line({l.frame.low.x - 8.0 * u, y}, {l.frame.low.x, y}, 1.4 * u);
-    canvas.text(t.label, {l.frame.low.x - 14.0 * u, y + 0.36 * size}, size, Align::right);
-  }
-  canvas.text("x (m)", {0.5 * (l.frame.low.x + l.frame.high.x), l.frame.high.y + 66.0 * u}, size,
-              Align::centre);
+void draw_scene(Canvas& canvas, const Scene& s, const PlotOptions& options,
+                const ColourScale& colours, const Scales& scales) {
   cairo_save(canvas.cr());
-  cairo_translate(canvas.cr(), l.frame.low.x - 92.0 * u, 0.5 * (l.frame.low.y + l.frame.high.y));
-  cairo_rotate(canvas.cr(), -1.5707963267948966);
-  canvas.text("y (m)", {0.0, 0.0}, size, Align::centre);
+  canvas.clip(s.view.frame.low, s.view.frame.high);
+  draw_blocks(canvas, s, colours);
+  draw_contact_field(canvas, s, colours);
+  draw_joints(canvas, s, options);
+  if (options.principal) draw_stresses(canvas, s, scales.stresses);
+  if (!options.vectors.empty()) draw_vectors(canvas, s, options.vectors, scales.vectors);
+  if (options.forces) draw_forces(canvas, s, scales.forces);
+  draw_bolts(canvas, s, options, scales.bolts);
+  if (options.marks) draw_marks(canvas, s, options);
   cairo_restore(canvas.cr());
 }
 
-/// A heading, smaller where it would not fit.
-void draw_line_of_text(Canvas& canvas, const Layout& l, const std::string& text, double y,
-                       double size, bool bold) {
-  const double room = l.width - 60.0 * l.unit, wide = canvas.text_width(text, size, bold);
-  if (wide > room) size *= room / wide;
-  canvas.text(text, {0.5 * l.width, y}, size, Align::centre, bold);
-}
+/// One page: what is drawn first decides how large the page is.
+class Page {
+ public:
+  Page(std::span<const Snapshot> shots, const PlotOptions& options)
+      : shots_(shots), options_(options), colours_(shots, options.range) {
+    for (const Snapshot& shot : shots) scenes_.push_back(make_scene(shot, options.scale));
+  }
+
+  Trouble draw(const std::string& path) {
+    const double f = options_.paper.font;
+    const Titles titles = titles_of(shots_, options_);
+    const Box world = world_of(scenes_, options_);
+    Surroundings room{scenes_.size(), axis_room(world, f) + 0.8 * f, titles.height(f)};
+    // Lengths of arrows follow from the size of the drawings, the legend's height from what it
+    // lists: laid out once without the lengths, then with the legend.
+    make_room(legend_with({}), world, room);
+    const Layout layout = lay_out(world, options_.paper, room);
+    for (std::size_t k = 0; k < scenes_.size(); ++k) {
+      scenes_[k].view = layout.views[k];
+      scenes_[k].font = f;
+    }
+    const Scales scales = scales_of(scenes_, options_);
+    Canvas canvas(path, layout.width, layout.height, options_.paper.pixels_per_point);
+    for (const Scene& s : scenes_) draw_scene(canvas, s, options_, colours_, scales);
+    for (std::size_t k = 0; k < scenes_.size(); ++k) draw_surroundings(canvas, k, layout);
+    draw_titles(canvas, layout, titles);
+    draw_legend(canvas, legend_with(scales), layout, room);
+    return canvas.finish();
+  }
+
+ private:
+  Legend legend_with(const Scales& scales) const {
+    const ShownField& field = shots_.front().field;
+    const std::vector<std::string> states{"open", "stick", "slide", "bonded"};
+    return {colours_, field, field.of_contacts ? states : options_.materials,
+            keys_of(shots_, options_, scales), options_.paper.font};
+  }
+
+  void make_room(const Legend& legend, const Box& world, Surroundings& room) const {
+    constexpr double narrow = 40.0;  // sizes of the font
+    if (legend.is_empty()) return;
+    if (options_.paper.width >= narrow * options_.paper.font) {
+      room.legend_width = legend.width();
+      room.legend_height = legend.height();
+    } else {
+      room.legend_below = legend.height_below(lay_out(world, options_.paper, room).drawings);
+    }
+  }
+
+  static void draw_legend(Canvas& canvas, const Legend& legend, const Layout& layout,
+                          const Surroundings& room) {
+    if (legend.is_empty()) return;
+    if (room.legend_below > 0.0)
+      return legend.draw_below(canvas, layout.legend.x, layout.legend.y, layout.drawings);
+    legend.draw(canvas, layout.legend.x, layout.legend.y,
+                std::max(layout.views.front().frame.high.y, layout.legend.y + room.legend_height));
+  }
+
+  void draw_surroundings(Canvas& canvas, std::size_t k, const Layout& layout) const {
+    const View& view = layout.views[k];
+    draw_axes(canvas, view, layout.font, k == 0);
+    if (shots_.size() == 1) return;
+    canvas.text(
+        shots_[k].heading,
+        {0.5 * (view.frame.low.x + view.frame.high.x), view.frame.low.y - 0.6 * layout.font},
+        {.size = layout.font, .align = Align::centre});
+  }
+
+  std::span<const Snapshot> shots_;
+  const PlotOptions& options_;
+  ColourScale colours_;
+  std::vector<Scene> scenes_;
+};
 
 }  // namespace
 
-Trouble plot(const Grid& blocks, const Grid* contacts, const ShownField& field,
-             const PlotOptions& options, const std::string& path) {
-  std::vector<bool> counted(field.values.size(), true);
-  for (std::size_t c = 0; c < counted.size(); ++c)
-    counted[c] = field.of_contacts || !held(blocks, c);
-  const ColourScale scale(field, counted);
-  std::vector<Vec2> points = drawn_points(blocks, options.scale);
-  const Layout layout = layout_for(box_around(points), options.width, scale.has_legend());
-  const Scene scene{blocks, layout, std::move(points), block_shapes(blocks), options.scale};
-
-  Canvas canvas(path, layout.width, layout.height);
-  cairo_save(canvas.cr());
-  cairo_rectangle(canvas.cr(), layout.frame.low.x, layout.frame.low.y, layout.frame.width(),
-                  layout.frame.height());
-  cairo_clip(canvas.cr());
-  draw_blocks(canvas, scene, field, scale);
-  if (field.of_contacts && contacts != nullptr)
-    draw_contact_field(canvas, scene, *contacts, field, scale);
-  draw_joints(canvas, scene, options);
-  const std::string note = draw_vectors(canvas, scene, contacts, options);
-  draw_bolts(canvas, scene, options);
-  draw_lines(canvas, scene, options);
-  draw_monitors(canvas, scene, options);
-  cairo_restore(canvas.cr());
-  draw_axes(canvas, layout);
-  canvas.colour(ink);
-  std::string subtitle = options.subtitle;
-  if (options.scale != 1.0)
-    subtitle += fmt::format("; displacements drawn {:.4g} times", options.scale);
-  draw_line_of_text(canvas, layout, options.title, 48.0 * layout.unit, 30.0 * layout.unit, true);
-  draw_line_of_text(canvas, layout, subtitle + note, 88.0 * layout.unit, 22.0 * layout.unit, false);
-  const std::vector<std::string> states{"open", "stick", "slide", "bonded"};
-  scale.draw_legend(canvas, layout, field, field.of_contacts ? states : options.materials);
-  return canvas.finish();
+Trouble plot(std::span<const Snapshot> shots, const PlotOptions& options, const std::string& path) {
+  return Page(shots, options).draw(path);
 }
 
 }  // namespace edda

@@ -1,11 +1,16 @@
-// A picture of a frame: blocks, a field in colour, vectors, contact forces, monitors, axes, legend.
+// A picture of one or more frames: blocks, a field in colour, stresses, vectors, contact forces,
+// bolts, monitors, axes, legend.
 #pragma once
 
 #include <array>
+#include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/vec2.hpp"
+#include "report/layout.hpp"
 #include "report/shown_field.hpp"
 #include "results/files.hpp"
 #include "results/grid.hpp"
@@ -23,6 +28,23 @@ struct PlotLine {
   std::array<Vec2, 2> start;  ///< where its ends were at the start, m
 };
 
+/// A bolt at the time of a frame: its nodes in order.
+struct BoltChain {
+  std::vector<Vec2> points;                ///< m
+  std::vector<double> force;               ///< axial, N, positive in tension
+  bool yielded = false, ruptured = false;  ///< anywhere
+};
+
+/// What one of the drawings of a picture shows.
+struct Snapshot {
+  Grid blocks;
+  std::optional<Grid> contacts{};  ///< may be missing where nothing of them is shown
+  ShownField field{};
+  /// As recorded; empty where there are no records.
+  std::optional<std::vector<BoltChain>> bolts{};
+  std::string heading{};  ///< above the drawing, where there are several
+};
+
 struct PlotOptions {
   std::string title;
   std::string subtitle;                ///< such as the time
@@ -32,13 +54,18 @@ struct PlotOptions {
   std::vector<std::array<Vec2, 2>> bolts;   ///< from where to where they were at the start, m
   std::vector<std::array<Vec2, 2>> joints;  ///< drawn thick, where they are drawn, m
   double scale = 1.0;                       ///< of the displacements drawn
-  std::string vectors;    ///< "displacement" or "velocity": arrows at block centres; empty: none
-  bool forces = false;    ///< contact forces as arrows
-  double width = 1600.0;  ///< px, of a picture that is not taller than wide
+  std::string vectors;       ///< "displacement" or "velocity": arrows at block centres; empty: none
+  bool forces = false;       ///< contact forces as arrows
+  bool principal = false;    ///< principal stresses as crosses at block centres
+  bool bolt_forces = false;  ///< bolts as wide as their axial force
+  bool marks = true;         ///< monitors and convergence lines
+  std::optional<std::pair<double, double>> range{};  ///< of the colours, SI units
+  std::optional<Box> window{};                       ///< what is shown, m; default: everything
+  Paper paper{};
 };
 
-/// Draws into `path` (.png or .svg). `contacts` may be null where nothing of them is shown.
-Trouble plot(const Grid& blocks, const Grid* contacts, const ShownField& field,
-             const PlotOptions& options, const std::string& path);
+/// Draws into `path` (.png, .svg or .pdf), at least one snapshot, side by side, with one scale and
+/// one legend for all.
+Trouble plot(std::span<const Snapshot> shots, const PlotOptions& options, const std::string& path);
 
 }  // namespace edda

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace edda {
 namespace {
@@ -30,6 +31,31 @@ std::vector<Edge> outline_of(const Grid& g, std::size_t first, std::size_t end) 
   return outline;
 }
 
+/// Closed rings of the edges: at a point that several edges leave, any will do.
+std::vector<std::vector<std::int64_t>> rings_of(const std::vector<Edge>& edges) {
+  std::multimap<std::int64_t, std::int64_t> next(edges.begin(), edges.end());
+  std::vector<std::vector<std::int64_t>> rings;
+  while (!next.empty()) {
+    std::vector<std::int64_t>& ring = rings.emplace_back();
+    auto at = next.begin();
+    while (at != next.end()) {
+      ring.push_back(at->first);
+      const std::int64_t to = at->second;
+      next.erase(at);
+      at = next.find(to);
+    }
+  }
+  return rings;
+}
+
+std::vector<std::vector<std::int64_t>> rings_of_shape(const std::vector<Edge>& outline,
+                                                      bool one_cell) {
+  if (!one_cell) return rings_of(outline);
+  std::vector<std::int64_t> ring;
+  for (const Edge& e : outline) ring.push_back(e.first);
+  return {ring};
+}
+
 }  // namespace
 
 std::vector<BlockShape> block_shapes(const Grid& g) {
@@ -38,7 +64,9 @@ std::vector<BlockShape> block_shapes(const Grid& g) {
   for (std::size_t c = 0; c < g.cell_count();) {
     std::size_t end = c + 1;
     while (id != nullptr && end < g.cell_count() && id->values[end] == id->values[c]) ++end;
-    shapes.push_back({c, end, outline_of(g, c, end)});
+    std::vector<Edge> outline = outline_of(g, c, end);
+    auto rings = rings_of_shape(outline, end - c == 1);
+    shapes.push_back({c, end, std::move(outline), std::move(rings)});
     c = end;
   }
   return shapes;
@@ -67,24 +95,66 @@ Vec2 centre_of(const Grid& g, const BlockShape& shape, const std::vector<Vec2>& 
   return twice == 0.0 ? base : base + moment / twice;
 }
 
-bool follow(const Grid& g, const std::vector<Vec2>& drawn, Vec2 start, Vec2& now) {
-  const std::vector<Vec2> before = drawn_points(g, 0.0);
-  for (std::size_t c = 0; c < g.cell_count(); ++c) {
-    const std::size_t from = begin_of(g, c), to = static_cast<std::size_t>(g.ends[c]);
-    const auto a = static_cast<std::size_t>(g.corners[from]);
-    for (std::size_t k = from + 1; k + 1 < to; ++k) {
-      const auto b = static_cast<std::size_t>(g.corners[k]),
-                 d = static_cast<std::size_t>(g.corners[k + 1]);
-      const double area = cross(before[b] - before[a], before[d] - before[a]);
-      const double wb = cross(start - before[a], before[d] - before[a]) / area;
-      const double wd = cross(before[b] - before[a], start - before[a]) / area;
-      constexpr double slack = 1e-6;
-      if (!(wb >= -slack) || !(wd >= -slack) || !(wb + wd <= 1.0 + slack)) continue;
-      now = drawn[a] + wb * (drawn[b] - drawn[a]) + wd * (drawn[d] - drawn[a]);
-      return true;
+Follower::Follower(const Grid& grid, std::vector<Vec2> from, const std::vector<Vec2>& to)
+    : grid_(grid), from_(std::move(from)), to_(to) {
+  bounds_.reserve(grid.cell_count());
+  for (std::size_t c = 0; c < grid.cell_count(); ++c) {
+    Bounds b{{1e300, 1e300}, {-1e300, -1e300}};
+    for (std::size_t k = begin_of(grid, c); k < static_cast<std::size_t>(grid.ends[c]); ++k) {
+      const Vec2 p = from_[static_cast<std::size_t>(grid.corners[k])];
+      b.low = {std::min(b.low.x, p.x), std::min(b.low.y, p.y)};
+      b.high = {std::max(b.high.x, p.x), std::max(b.high.y, p.y)};
     }
+    const double slack = 1e-6 * (b.high.x - b.low.x + b.high.y - b.low.y);
+    bounds_.push_back({b.low - Vec2{slack, slack}, b.high + Vec2{slack, slack}});
   }
-  return false;
+}
+
+std::optional<Vec2> Follower::within(std::size_t cell, Vec2 start) const {
+  const std::size_t from = begin_of(grid_, cell), to = static_cast<std::size_t>(grid_.ends[cell]);
+  const auto a = static_cast<std::size_t>(grid_.corners[from]);
+  for (std::size_t k = from + 1; k + 1 < to; ++k) {
+    const auto b = static_cast<std::size_t>(grid_.corners[k]),
+               d = static_cast<std::size_t>(grid_.corners[k + 1]);
+    const double area = cross(from_[b] - from_[a], from_[d] - from_[a]);
+    const double wb = cross(start - from_[a], from_[d] - from_[a]) / area;
+    const double wd = cross(from_[b] - from_[a], start - from_[a]) / area;
+    constexpr double slack = 1e-6;
+    if (!(wb >= -slack) || !(wd >= -slack) || !(wb + wd <= 1.0 + slack)) continue;
+    return to_[a] + wb * (to_[b] - to_[a]) + wd * (to_[d] - to_[a]);
+  }
+  return {};
+}
+
+std::optional<Vec2> Follower::operator()(Vec2 start) const {
+  for (std::size_t c = 0; c < bounds_.size(); ++c) {
+    const Bounds& b = bounds_[c];
+    if (start.x < b.low.x || start.x > b.high.x || start.y < b.low.y || start.y > b.high.y)
+      continue;
+    if (const std::optional<Vec2> now = within(c, start)) return now;
+  }
+  return {};
+}
+
+std::vector<std::size_t> thinned(const std::vector<Vec2>& centres, double raster) {
+  struct Best {
+    std::size_t shape;
+    double distance;
+  };
+  std::map<std::pair<long, long>, Best> best;
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    const Vec2 p = centres[i] / raster;
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
+    const Vec2 square{std::floor(p.x), std::floor(p.y)};
+    const double distance = norm(p - square - Vec2{0.5, 0.5});
+    const auto [there, is_new] = best.try_emplace(
+        {static_cast<long>(square.x), static_cast<long>(square.y)}, Best{i, distance});
+    if (!is_new && distance < there->second.distance) there->second = {i, distance};
+  }
+  std::vector<std::size_t> kept;
+  kept.reserve(best.size());
+  for (const auto& [square, b] : best) kept.push_back(b.shape);
+  return kept;
 }
 
 }  // namespace edda

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace edda {
 struct BlockShape {
   std::size_t first_cell = 0, end_cell = 0;                    ///< cells of one id
   std::vector<std::pair<std::int64_t, std::int64_t>> outline;  ///< edges, by points of the grid
+  std::vector<std::vector<std::int64_t>> rings;                ///< the same, closed, holes too
 };
 
 /// Cells that follow each other and have one id are one block; edges between two of its cells are
@@ -25,7 +27,26 @@ std::vector<Vec2> drawn_points(const Grid& grid, double scale);
 /// Area-weighted centre of a shape at the given points.
 Vec2 centre_of(const Grid& grid, const BlockShape& shape, const std::vector<Vec2>& points);
 
-/// Where the material point that was at `start` is drawn; false where it lies in no cell.
-bool follow(const Grid& grid, const std::vector<Vec2>& drawn, Vec2 start, Vec2& now);
+/// Carries material points along with the cells that hold them, from one place of the grid's points
+/// to another. `grid` must outlive it.
+class Follower {
+ public:
+  Follower(const Grid& grid, std::vector<Vec2> from, const std::vector<Vec2>& to);
+  /// Where `start` has gone; nothing where it lies in no cell.
+  std::optional<Vec2> operator()(Vec2 start) const;
+
+ private:
+  struct Bounds {
+    Vec2 low, high;
+  };
+  std::optional<Vec2> within(std::size_t cell, Vec2 start) const;
+  const Grid& grid_;
+  std::vector<Vec2> from_;
+  const std::vector<Vec2>& to_;
+  std::vector<Bounds> bounds_;  ///< of each cell, before
+};
+
+/// At most one shape per square of side `raster` m: that whose centre is nearest to the square's.
+std::vector<std::size_t> thinned(const std::vector<Vec2>& centres, double raster);
 
 }  // namespace edda

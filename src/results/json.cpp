@@ -94,4 +94,23 @@ Json& Json::value(std::string_view text) {
   return raw('"' + escaped(text) + '"');
 }
 
+std::string Json::line() const {
+  return one_line(text_);
+}
+
+std::string one_line(std::string_view json) {
+  std::string line;
+  for (std::size_t k = 0; k < json.size(); ++k) {
+    if (json[k] != '\n') {
+      line += json[k];
+      continue;
+    }
+    // Only the layout has line breaks and what follows them: those of texts are escaped.
+    const bool after_comma = !line.empty() && line.back() == ',';
+    while (k + 1 < json.size() && json[k + 1] == ' ') ++k;
+    if (after_comma) line += ' ';
+  }
+  return line;
+}
+
 }  // namespace edda

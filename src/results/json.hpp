@@ -29,6 +29,8 @@ class Json {
     return key(name).value(content);
   }
   const std::string& text() const { return text_; }
+  /// The same without line breaks.
+  std::string line() const;
 
  private:
   Json& open(char begin, char end);
@@ -39,5 +41,8 @@ class Json {
   bool first_ = true;       ///< nothing yet at this level
   bool after_key_ = false;
 };
+
+/// JSON as Json lays it out, without its line breaks.
+std::string one_line(std::string_view json);
 
 }  // namespace edda

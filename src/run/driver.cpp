@@ -363,20 +363,28 @@ void Driver::report(bool last) {
   Progress p;
   p.time = sim_.state.time;
   p.fraction = sim_.state.time / sim_.model.solver.duration;
+  // Equilibria come before their longest time.
+  const bool arrived =
+      outcome_.status == Status::completed || outcome_.status == Status::equilibrium;
+  if (last && arrived) p.fraction = 1.0;
   p.steps = sim_.state.steps;
   p.rate = rate_;
   const double left = (sim_.model.solver.duration - sim_.state.time) / sim_.state.step;
   p.seconds_left = last ? 0.0 : rate_ > 0.0 ? left / rate_ : -1.0;
   for (std::size_t i = 0; i < sim_.blocks.size(); ++i) {
-    if (!sim_.blocks.fixed[i] && sim_.state.alive[i]) {
-      p.kinetic += kinetic_energy(sim_.blocks, sim_.state.vx, sim_.state.vy, i);
-    }
+    if (sim_.blocks.fixed[i] || !sim_.state.alive[i]) continue;
+    p.kinetic += kinetic_energy(sim_.blocks, sim_.state.vx, sim_.state.vy, i);
+    p.largest_velocity =
+        std::max(p.largest_velocity, norm(centroid(sim_.state.vx, sim_.state.vy, i)));
   }
   for (std::size_t k = 0; k < sim_.contacts.size(); ++k) {
     if (sim_.contacts.is(k, cs::closed)) {
       p.largest_overlap = std::max(p.largest_overlap, sim_.contacts.effective(k));
     }
   }
+  p.stage = stage_;
+  p.stages = stages_.size();
+  if (!sim_.model.stages.empty()) p.stage_name = stages_[stage_].name;
   options_.progress(p);
 }
 

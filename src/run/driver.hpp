@@ -69,6 +69,8 @@ class Driver {
   void rest_before(Event& event);
   /// Writes down the end of the stage. False: the run is over.
   bool end_stage(bool at_rest);
+  /// Of the stage that has just ended.
+  StageReport report_of_stage() const;
   /// And steps towards its first event. False: the run is over.
   bool begin_next_stage();
   bool record(const Event& event);

@@ -74,6 +74,7 @@ bool Driver::end_stage(bool at_rest) {
     for (const ConvergenceLine& line : run_.convergences) {
       ends_.back().convergences.push_back(convergence(sim_.state, line));
     }
+    if (options_.stage_ended) options_.stage_ended(report_of_stage());
     if (ended_by(recorder_.stages(stages_csv(sim_.model, ends_)))) return false;
     save_stage();
   }
@@ -95,6 +96,11 @@ bool Driver::end_stage(bool at_rest) {
     return false;
   }
   return true;
+}
+
+StageReport Driver::report_of_stage() const {
+  const StageRecord& r = ends_.back();
+  return {stage_, stages_[stage_].name, r.reached, r.start, r.end, r.steps, r.balance.mean};
 }
 
 bool Driver::begin_next_stage() {

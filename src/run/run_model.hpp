@@ -16,10 +16,24 @@ struct Progress {
   double fraction = 0.0;  ///< of the duration
   double time = 0.0;      ///< s simulated
   std::uint64_t steps = 0;
-  double rate = 0.0;             ///< steps per second of wall time, lately
-  double seconds_left = 0.0;     ///< wall; -1 while unknown
-  double kinetic = 0.0;          ///< J
-  double largest_overlap = 0.0;  ///< m, of contacts that carry
+  double rate = 0.0;              ///< steps per second of wall time, lately
+  double seconds_left = 0.0;      ///< wall, at most where stages may end early; -1 while unknown
+  double kinetic = 0.0;           ///< J
+  double largest_overlap = 0.0;   ///< m, of contacts that carry
+  double largest_velocity = 0.0;  ///< m/s, of the blocks' centroids
+  std::size_t stage = 0;          ///< in hand, from 0
+  std::size_t stages = 1;         ///< of the model; 1 where it has none
+  std::string stage_name{};       ///< empty where it has none
+};
+
+/// The end of a stage of the model.
+struct StageReport {
+  std::size_t stage = 0;  ///< from 0
+  std::string name;
+  bool reached = true;            ///< its end; false: no equilibrium within its duration
+  double start = 0.0, end = 0.0;  ///< s
+  std::uint64_t steps = 0;        ///< made in it
+  double ratio = 0.0;             ///< of unbalanced forces at its end, mean
 };
 
 struct RunOptions {
@@ -32,6 +46,7 @@ struct RunOptions {
   std::optional<std::size_t> last_stage{};         ///< the run ends with this one
   const std::atomic<bool>* stop = nullptr;  ///< set from anywhere: the run ends as interrupted
   std::function<bool()> after_step{};       ///< true: Driver::go_on() returns; may be empty
+  std::function<void(const StageReport&)> stage_ended{};  ///< may be empty
 };
 
 /// A run ready to start. Of its polygons only the report of the cut is left.

@@ -322,6 +322,43 @@ class Cli(unittest.TestCase):
             self.expect(0, "plot", "m", "--field", field, "--time", "0.005", "-o", "p.svg", "--forces", "--vectors", "velocity")
         self.expect(0, "plot", "m.toml", "-o", "model.png")
 
+    def test_plot_compares_times(self):
+        self.expect(0, "run", "m.toml")
+        self.expect(0, "plot", "m", "--compare", "0,0.01", "--field", "displacement.x", "-o", "c.svg")
+        picture = (self.dir / "c.svg").read_text(encoding="utf-8")
+        self.assertIn(">t = 0 s</text>", picture)
+        self.assertIn(">t = 0.01 s</text>", picture)
+        self.assertEqual(picture.count(">y (m)</text>"), 1)
+        self.expect(0, "plot", "m", "--before", "--time", "0.005", "-o", "b.svg")
+        self.assertIn(">t = 0.005 s</text>", (self.dir / "b.svg").read_text(encoding="utf-8"))
+
+    def test_plot_draws_histories(self):
+        self.expect(0, "run", "m.toml")
+        self.expect(0, "plot", "m", "--history", "M.ux,energy", "-o", "h.svg", "--title", "A <b>")
+        picture = (self.dir / "h.svg").read_text(encoding="utf-8")
+        for text in ("M.ux", "kinetic", "displacement (mm)", "time (s)", "A &lt;b&gt;"):
+            self.assertIn(f">{text}</text>", picture)
+        self.expect(0, "plot", "m", "--history", "M", "-o", "h.pdf")
+        self.assertEqual((self.dir / "h.pdf").read_bytes()[:5], b"%PDF-")
+
+    def test_plot_takes_its_size_from_paper_and_pixels(self):
+        for more, wide in (((), 1600), (("--width", "80mm"), 800), (("--width", "300px"), 300), (("--dpi", "127"), 800)):
+            self.expect(0, "plot", "m.toml", "-o", "p.png", "--field", "material", *more)
+            self.assertEqual(int.from_bytes((self.dir / "p.png").read_bytes()[16:20], "big"), wide, more)
+
+    def test_plot_refuses_with_one_message(self):
+        self.expect(0, "run", "m.toml")
+        for more in (("--field", "nope"), ("--history", "nope"), ("--history", "M.nope"), ("--range", "2,1"), ("--window", "0,0,0,1"),
+                     ("--compare", "1"), ("--compare", "1,2,3,4,5"), ("--bolts",), ("-o", "x.gif")):
+            done = self.expect(2, "plot", "m", *more)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            self.assertEqual(done.stdout, "")
+        for more in (("--history", "energy"), ("--before",), ("--principal",), ("--bolts",)):
+            self.assertEqual(self.expect(2, "plot", "m.toml", *more).stderr.count("\n"), 1)
+        for more in (("--range", "1"), ("--width", "9mm"), ("--width", "x"), ("--history", "M", "--forces"), ("--vectors", "up")):
+            self.expect(2, "plot", "m", *more)
+        self.assertEqual(self.names(), ["m", "m.toml"])
+
     def test_verify_puts_bars_on_every_monitor(self):
         done = self.expect(0, "verify", "m.toml")
         for words in ("after 0.01 s", "M  ", " step, +- ", " stiffness, +- ", " order", "energy drift"):

@@ -2,103 +2,196 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 
-#include "report/colours.hpp"
-#include "report/shapes.hpp"
-#include "report/ticks.hpp"
+#include "report/picture_reading.hpp"
+#include "report/scene.hpp"
+#include "report/two_blocks.hpp"
 
 namespace edda {
 namespace {
 
-/// A square of two triangles (block 4) and a square cell (block 5), moved by (0.5, 0).
-Grid two_blocks() {
-  Grid g;
-  g.points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0, 3, 0, 0, 3, 1, 0, 2, 1, 0};
-  g.corners = {0, 1, 2, 0, 2, 3, 4, 5, 6, 7};
-  g.ends = {3, 6, 10};
-  g.types = {cell_type::triangle, cell_type::triangle, cell_type::polygon};
-  std::vector<double> u;
-  for (int k = 0; k < 8; ++k) u.insert(u.end(), {0.5, 0.0, 0.0});
-  g.point_fields = {{"displacement", 3, u, {}, false}};
-  g.cell_fields = {{"id", 1, {4, 4, 5}, {}, true},
-                   {"fixed", 1, {0, 0, 1}, {}, true},
-                   {"displacement", 3, {0.5, 0, 0, 0.5, 0, 0, 0.5, 0, 0}, {}, false}};
-  return g;
+Snapshot snapshot(const std::string& field) {
+  Snapshot shot{two_blocks()};
+  shot.field = shown_field(field, shot.blocks, nullptr).value();
+  return shot;
 }
 
-TEST(Shapes, TrianglesOfOneBlockHaveOneOutline) {
-  const auto shapes = block_shapes(two_blocks());
-  ASSERT_EQ(shapes.size(), 2u);
-  EXPECT_EQ(shapes[0].outline.size(), 4u);
-  EXPECT_EQ(shapes[1].outline.size(), 4u);
-  const Grid g = two_blocks();
-  const Vec2 c = centre_of(g, shapes[0], drawn_points(g, 1.0));
-  EXPECT_NEAR(c.x, 0.5, 1e-12);
-  EXPECT_NEAR(c.y, 0.5, 1e-12);
+std::string drawn(std::span<const Snapshot> shots, const PlotOptions& options,
+                  const std::string& name = "plot.svg") {
+  const std::string path = testing::TempDir() + name;
+  std::filesystem::remove(path);
+  EXPECT_FALSE(plot(shots, options, path));
+  const std::string bytes = read_file(path).value();
+  std::filesystem::remove(path);
+  return bytes;
 }
 
-TEST(Shapes, MaterialPointsAreFollowed) {
-  const Grid g = two_blocks();
-  const auto drawn = drawn_points(g, 3.0);
-  Vec2 now;
-  ASSERT_TRUE(follow(g, drawn, {-0.25, 0.75}, now));  // in block 4 as it lay at the start
-  EXPECT_NEAR(now.x, -0.25 + 1.5, 1e-12);
-  EXPECT_NEAR(now.y, 0.75, 1e-12);
-  EXPECT_FALSE(follow(g, drawn, {9.0, 9.0}, now));
+TEST(Plot, DrawsAllFormatsWithTextAsText) {
+  const Snapshot shot = snapshot("displacement");
+  PlotOptions options;
+  options.title = "Title <&> of it";
+  options.monitors = {{"M", {0.0, 0.5}}};
+  EXPECT_EQ(drawn({&shot, 1}, options, "plot.png").substr(0, 4), "\x89PNG");
+  const std::string svg = drawn({&shot, 1}, options);
+  EXPECT_EQ(svg.substr(0, 5), "<?xml");
+  EXPECT_TRUE(text_of(svg, "Title &lt;&amp;&gt; of it"));
+  EXPECT_TRUE(text_of(svg, "M"));
+  EXPECT_TRUE(text_of(svg, "x (m)"));
+  const std::string pdf = drawn({&shot, 1}, options, "plot.pdf");
+  EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
+  EXPECT_NE(pdf.find("/Font"), std::string::npos);
 }
 
-TEST(Ticks, AreRoundAndInside) {
-  const auto t = ticks(-0.31, 1.02, 6);
-  ASSERT_EQ(t.size(), 3u);
-  EXPECT_EQ(t[0].label, "0.0");
-  EXPECT_EQ(t[1].label, "0.5");
-  EXPECT_TRUE(ticks(1.0, 1.0, 5).empty());
-  EXPECT_EQ(ticks(0.0, 100.0, 5).size(), 6u);
+TEST(Plot, TellsOfAFileThatCannotBeWritten) {
+  const Snapshot shot = snapshot("none");
+  EXPECT_TRUE(plot({&shot, 1}, {}, testing::TempDir() + "none/x.png"));
 }
 
-TEST(Ticks, UnitsTakeThePrefixThatSuits) {
-  EXPECT_EQ(scaled_unit("Pa", 2.3e6).name, "MPa");
-  EXPECT_EQ(scaled_unit("m", 0.004).name, "mm");
-  EXPECT_EQ(scaled_unit("m", 5000.0).name, "m");
-  EXPECT_EQ(scaled_unit("degrees", 1e-5).name, "degrees");
-  EXPECT_DOUBLE_EQ(scaled_unit("N", 1500.0).factor, 1e-3);
-}
-
-TEST(Colours, LightnessOfTheSequentialMapOnlyRises) {
-  double before = -1.0;
-  for (int k = 0; k <= 100; ++k) {
-    const Colour c = sequential(k / 100.0);
-    const double light =
-        0.2126 * std::pow(c.r, 2.2) + 0.7152 * std::pow(c.g, 2.2) + 0.0722 * std::pow(c.b, 2.2);
-    EXPECT_GT(light, before) << k;
-    before = light;
-  }
-}
-
-TEST(Plot, DrawsBothFormatsAndNamesUnknownFields) {
-  const Grid g = two_blocks();
-  const Result<ShownField> field = shown_field("displacement", g, nullptr);
-  ASSERT_TRUE(field.ok());
-  EXPECT_DOUBLE_EQ(field.value().values[0], 0.5);
-  for (const char* name : {"plot.png", "plot.svg"}) {
-    const std::string path = testing::TempDir() + name;
-    std::filesystem::remove(path);
-    PlotOptions options;
-    options.title = "Title <&> of it";
-    options.monitors = {{"M", {0.0, 0.5}}};
-    ASSERT_FALSE(plot(g, nullptr, field.value(), options, path));
-    const std::string bytes = read_file(path).value();
-    const bool png = path.ends_with("png");
-    EXPECT_EQ(bytes.substr(0, png ? 4 : 5), png ? "\x89PNG" : "<?xml");
-    EXPECT_GT(bytes.size(), 2000u);
-    std::filesystem::remove(path);
-  }
-  const Result<ShownField> none = shown_field("displacment", g, nullptr);
+TEST(Plot, UnknownFieldsNameTheKnown) {
+  const Result<ShownField> none = shown_field("displacment", two_blocks(), nullptr);
   ASSERT_FALSE(none.ok());
   EXPECT_NE(none.faults()[0].remedy.find("displacement"), std::string::npos);
-  EXPECT_TRUE(plot(g, nullptr, field.value(), {}, testing::TempDir() + "none/x.png"));
+}
+
+TEST(Plot, BlocksHaveTheColoursOfTheirValues) {
+  Snapshot shot = snapshot("displacement");
+  shot.blocks.cell_fields[1].values = {0, 0, 0};  // none held
+  shot.field.values = {0.0, 0.0, 1.0};
+  const std::string svg = drawn({&shot, 1}, {});
+  const auto fills = block_fills(svg, 2);
+  ASSERT_EQ(fills.size(), 2u);
+  EXPECT_TRUE(looks_like(fills[0], sequential(0.0)));
+  EXPECT_TRUE(looks_like(fills[1], sequential(1.0)));
+  // A range that both lie beyond: the ends of the colours, and an arrowhead at either end of the
+  // bar.
+  PlotOptions options;
+  options.range = {0.25, 0.5};
+  const auto clipped = block_fills(drawn({&shot, 1}, options), 2);
+  EXPECT_TRUE(looks_like(clipped[0], sequential(0.0)));
+  EXPECT_TRUE(looks_like(clipped[1], sequential(1.0)));
+}
+
+TEST(Plot, ColoursOfBothSignsAreWhiteAtNothing) {
+  Snapshot shot = snapshot("displacement.x");
+  shot.blocks.cell_fields[1].values = {0, 0, 0};
+  shot.field.values = {-0.25, -0.25, 1.0};
+  const std::string svg = drawn({&shot, 1}, {});
+  const auto fills = block_fills(svg, 2);
+  EXPECT_TRUE(looks_like(fills[0], diverging(0.375)));  // a quarter as far as the red end
+  EXPECT_TRUE(looks_like(fills[1], diverging(1.0)));
+  EXPECT_FALSE(text_of(svg, "\u22121.0"));  // the bar ends where the values do
+}
+
+TEST(Plot, EveryMillimetreOfPaperCounts) {
+  const Snapshot shot = snapshot("displacement");
+  PlotOptions options;
+  const double wide = size_of_svg(drawn({&shot, 1}, options)).x;
+  options.paper.width /= 2.0;
+  const double half = size_of_svg(drawn({&shot, 1}, options)).x;
+  EXPECT_NEAR(half, wide / 2.0, 1e-3 * wide);
+  EXPECT_NEAR(wide, 160.0 / 25.4 * 72.0, 0.1);
+}
+
+TEST(Plot, LegendsOfNarrowPagesStandBelow) {
+  Snapshot shot = snapshot("displacement");
+  PlotOptions options;
+  options.vectors = "velocity";
+  std::string svg = drawn({&shot, 1}, options);
+  EXPECT_GT(text_of(svg, "displacement (mm)")->x, text_of(svg, "x (m)")->x);
+  EXPECT_LT(text_of(svg, "displacement (mm)")->y, text_of(svg, "x (m)")->y);
+  options.paper.width = 85.0 * 72.0 / 25.4;
+  svg = drawn({&shot, 1}, options);
+  EXPECT_LT(text_of(svg, "displacement (mm)")->x, text_of(svg, "x (m)")->x);
+  EXPECT_GT(text_of(svg, "displacement (mm)")->y, text_of(svg, "x (m)")->y);
+  EXPECT_GT(text_of(svg, "velocity")->y, text_of(svg, "displacement (mm)")->y);
+  EXPECT_LT(text_of(svg, "velocity")->y, size_of_svg(svg).y);
+}
+
+TEST(Plot, MonitorsStandWhereTheirBlockHasGone) {
+  // The axes' labels say where on paper a place is: the monitor has moved by 0.5 to x = 0.5.
+  const Snapshot shot = snapshot("none");
+  PlotOptions options;
+  options.monitors = {{"M", {0.0, 0.5}}};
+  options.window = Box{{-1.0, 0.0}, {4.0, 1.0}};
+  const std::string svg = drawn({&shot, 1}, options);
+  const double x2 = text_of(svg, "2.0")->x, x4 = text_of(svg, "4.0")->x;
+  const std::vector<std::string> marks = stroked(svg, ink::monitor);
+  ASSERT_EQ(marks.size(), 1u);
+  constexpr double radius = 1.8;  // a circle's path starts at its right
+  EXPECT_NEAR((points_of(marks[0])[0].x - radius - x2) / (x4 - x2), -0.75, 1e-3);
+}
+
+TEST(Plot, NamesOfMonitorsDoNotOverlap) {
+  const Snapshot shot = snapshot("none");
+  PlotOptions options;
+  for (int k = 0; k < 5; ++k) options.monitors.push_back({"name", {0.001 * k, 0.5}});
+  const std::string svg = drawn({&shot, 1}, options);
+  const std::vector<Vec2> names = all_texts(svg, "name");
+  ASSERT_EQ(names.size(), 5u);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vec2 d = names[i] - names[j];
+      EXPECT_TRUE(std::abs(d.y) >= 6.5 || std::abs(d.x) >= 16.0) << i << " " << j;
+    }
+  }
+}
+
+TEST(Plot, SnapshotsStandSideBySideWithOneScale) {
+  std::vector<Snapshot> shots{snapshot("displacement"), snapshot("displacement")};
+  shots[0].heading = "t = 1 s";
+  shots[1].heading = "t = 2 s";
+  for (Snapshot& s : shots) s.blocks.cell_fields[1].values = {0, 0, 0};
+  shots[0].field.values = {0.0, 0.0, 0.5};
+  shots[1].field.values = {0.0, 0.0, 1.0};
+  const std::string svg = drawn(shots, {});
+  ASSERT_TRUE(text_of(svg, "t = 1 s"));
+  ASSERT_TRUE(text_of(svg, "t = 2 s"));
+  EXPECT_LT(text_of(svg, "t = 1 s")->x, text_of(svg, "t = 2 s")->x);
+  EXPECT_EQ(text_of(svg, "t = 1 s")->y, text_of(svg, "t = 2 s")->y);
+  const auto fills = block_fills(svg, 4);
+  ASSERT_EQ(fills.size(), 4u);
+  EXPECT_TRUE(looks_like(fills[1], sequential(0.5)));
+  EXPECT_TRUE(looks_like(fills[3], sequential(1.0)));
+  EXPECT_EQ(all_texts(svg, "displacement (m)").size(), 1u);
+}
+
+TEST(Plot, LegendHasAnArrowOfARoundLength) {
+  Snapshot shot = snapshot("none");
+  for (double& v : shot.blocks.cell_fields[2].values) v *= 0.74;  // 0.37 m
+  PlotOptions options;
+  options.vectors = "displacement";
+  EXPECT_TRUE(text_of(drawn({&shot, 1}, options), "200 mm"));
+}
+
+TEST(Plot, TensionAndCompressionAreToldApart) {
+  Snapshot shot = snapshot("none");
+  shot.blocks.cell_fields[1].values = {0, 0, 0};
+  PlotOptions options;
+  options.principal = true;
+  const auto with = [&](double sxx) {
+    Field stress{"stress", 6, {}, {}, false};
+    for (int c = 0; c < 3; ++c) stress.values.insert(stress.values.end(), {sxx, 0, 0, 0, 0, 0});
+    Snapshot loaded = shot;
+    loaded.blocks.cell_fields.push_back(stress);
+    return drawn({&loaded, 1}, options);
+  };
+  // The legend has one of either; the two blocks add theirs.
+  EXPECT_GT(stroked(with(1e6), ink::tension).size(), stroked(with(-1e6), ink::tension).size());
+  EXPECT_LT(stroked(with(1e6), ink::compression).size(),
+            stroked(with(-1e6), ink::compression).size());
+}
+
+TEST(Plot, BoltsAreAsWideAsTheirForce) {
+  Snapshot shot = snapshot("none");
+  shot.bolts = std::vector<BoltChain>{{{{0.1, 0.5}, {0.5, 0.5}, {0.9, 0.5}}, {1e5, 1e5, 0.0}}};
+  PlotOptions options;
+  options.bolt_forces = true;
+  const std::string svg = drawn({&shot, 1}, options);
+  const std::vector<double> widths = stroke_widths(svg, ink::bolt);
+  ASSERT_EQ(widths.size(), 3u);  // two pieces and the legend
+  EXPECT_NEAR(widths[1] / widths[0], 0.5, 0.01);
+  EXPECT_TRUE(text_of(svg, "100 kN"));
 }
 
 }  // namespace

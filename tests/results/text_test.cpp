@@ -44,6 +44,12 @@ TEST(Json, EscapesTextAndKeepsItsForm) {
             "  \"list\": [\n    1,\n    0.5\n  ],\n  \"empty\": []\n}\n");
 }
 
+TEST(Json, OneLineKeepsTextsAsTheyAre) {
+  Json json;
+  json.open_object().pair("a", "x,\n  y").key("b").open_list().value(1).value(2).close().close();
+  EXPECT_EQ(json.line(), R"({"a": "x,\n  y", "b": [1, 2]})");
+}
+
 TEST(Json, ReplacesBytesThatAreNoUtf8) {
   Json json;
   json.open_list().value("\xc3\xa9\xff\xc3").close();

@@ -80,6 +80,42 @@ TEST(Stages, EquilibriumIsThatOfStatics) {
   }
 }
 
+TEST(Stages, ProgressAndEndsAreTold) {
+  PreparedRun ready =
+      prepared(tower("[[stage]]\nname = 'settle'\nuntil = 'equilibrium'\n[[stage]]\nname = "
+                     "'wait'\nduration = 0.01\n[solver]\n"));
+  std::vector<StageReport> ends;
+  std::vector<Progress> told;
+  RunOptions options;
+  options.progress_every = 0.0;
+  options.progress = [&](const Progress& p) { told.push_back(p); };
+  options.stage_ended = [&](const StageReport& s) { ends.push_back(s); };
+  const Outcome o = run_model(ready, options).value();
+  ASSERT_EQ(ends.size(), 2u);
+  EXPECT_EQ(ends[0].name, "settle");
+  EXPECT_LE(ends[0].ratio, 1e-5);
+  EXPECT_EQ(ends[1].stage, 1u);
+  EXPECT_EQ(ends[1].start, ends[0].end);
+  EXPECT_NEAR(ends[1].end - ends[1].start, 0.01, 1e-12);
+  EXPECT_EQ(ends[0].steps + ends[1].steps, o.steps);
+  const Progress& last = told.back();
+  EXPECT_EQ(last.stage_name, "wait");
+  EXPECT_EQ(last.stages, 2u);
+  EXPECT_EQ(last.fraction, 1.0);
+  EXPECT_EQ(told.front().stage_name, "settle");
+}
+
+TEST(Stages, ProgressHasTheFastestBlock) {
+  PreparedRun ready = prepared(tower("[solver]\nduration = 0.1\n"));
+  Progress last;
+  RunOptions options;
+  options.progress = [&](const Progress& p) { last = p; };
+  const Outcome o = run_model(ready, options).value();
+  EXPECT_NEAR(last.largest_velocity, 9.81 * o.time, 0.01);  // that which falls beside the tower
+  EXPECT_EQ(last.stages, 1u);
+  EXPECT_TRUE(last.stage_name.empty());
+}
+
 /// Where nothing holds, the run says so and who moves.
 TEST(Stages, NoEquilibriumIsACollapse) {
   PreparedRun ready = prepared(tower(

@@ -11,7 +11,7 @@ export async function launch(packages) {
     args: [
       '--no-sandbox', // the only way for root
       '--enable-unsafe-swiftshader', // WebGL without a graphics card
-      '--disable-dev-shm-usage', '--disable-quic', '--no-first-run', '--disable-background-networking',
+      '--disable-quic', '--no-first-run', '--disable-background-networking',
       '--disable-component-update', '--disable-sync',
     ],
   });

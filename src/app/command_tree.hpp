@@ -1,0 +1,39 @@
+// The command line as data: what the manual page and the shells' completions are made of, read off
+// the parser itself.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/commands.hpp"
+
+namespace edda {
+
+/// Files that an argument may name.
+enum class Files { none, any, models, folders, folders_or_models };
+
+struct OptionText {
+  std::vector<std::string> names;    ///< "-o", "--output"; of what stands alone: "MODEL"
+  std::string value;                 ///< "FILE", "displacement|velocity"; empty: a flag
+  std::string text;                  ///< what it does
+  std::vector<std::string> choices;  ///< where it takes one of a few words
+  Files files = Files::none;
+  bool required = false;
+};
+
+struct CommandText {
+  std::string name, text, footer;
+  std::vector<OptionText> options;
+  std::optional<OptionText> positional;
+};
+
+struct ProgramText {
+  std::string name, text, footer;
+  std::vector<OptionText> options;
+  std::vector<CommandText> commands;  ///< but those without a group, which are hidden
+};
+
+ProgramText describe(const CLI::App& program);
+
+}  // namespace edda

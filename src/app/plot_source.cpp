@@ -1,0 +1,203 @@
+#include "app/plot_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/common.hpp"
+#include "blocks/build_blocks.hpp"
+#include "lines/build_polygons.hpp"
+#include "model/read_model.hpp"
+#include "results/frames.hpp"
+#include "run/start_picture.hpp"
+
+namespace edda {
+namespace {
+
+constexpr double points_per_mm = 72.0 / 25.4;
+
+Fault no_results(const std::string& folder, const std::string& problem) {
+  return {{{}, folder, 0, 0}, problem, "give a folder that edda run has written, or a model file"};
+}
+
+const SeriesEntry& nearest(const std::vector<SeriesEntry>& series, double time) {
+  return *std::min_element(series.begin(), series.end(),
+                           [&](const SeriesEntry& a, const SeriesEntry& b) {
+                             return std::abs(a.time - time) < std::abs(b.time - time);
+                           });
+}
+
+/// The frames to draw, side by side.
+std::vector<SeriesEntry> chosen(const std::vector<SeriesEntry>& series, const PlotArguments& args) {
+  const SeriesEntry& last = args.time ? nearest(series, *args.time) : series.back();
+  if (args.before) return {series.front(), last};
+  if (args.compare.empty()) return {last};
+  std::vector<SeriesEntry> entries;
+  for (const double time : args.compare) entries.push_back(nearest(series, time));
+  return entries;
+}
+
+/// A field where none is asked for: crosses of stresses want plain ground below them.
+std::string field_of(const PlotArguments& args, const std::string& otherwise) {
+  if (!args.field.empty()) return args.field;
+  return args.principal ? "none" : otherwise;
+}
+
+/// The bolts at the time of a frame, where they are recorded.
+std::vector<BoltChain> bolts_at(const Table& table, double time) {
+  std::vector<BoltChain> chains;
+  const Column *t = table.column("time"), *name = table.column("bolt"), *x = table.column("x"),
+               *y = table.column("y"), *force = table.column("axial_force"),
+               *yielded = table.column("yielded"), *ruptured = table.column("ruptured");
+  for (const Column* c : {t, name, x, y, force, yielded, ruptured}) {
+    if (c == nullptr) return chains;
+  }
+  std::string last;
+  for (std::size_t r = 0; r < table.rows(); ++r) {
+    if (std::abs(t->values[r] - time) > 1e-9 * std::max(1.0, std::abs(time))) continue;
+    const std::string bolt = name->texts.empty() ? "" : name->texts[r];
+    if (chains.empty() || bolt != last) chains.emplace_back();
+    last = bolt;
+    BoltChain& chain = chains.back();
+    chain.points.push_back({x->values[r], y->values[r]});
+    chain.force.push_back(force->values[r]);
+    chain.yielded = chain.yielded || yielded->values[r] != 0.0;
+    chain.ruptured = chain.ruptured || ruptured->values[r] != 0.0;
+  }
+  return chains;
+}
+
+Result<Snapshot> snapshot_of(const PlotArguments& args, const SeriesEntry& entry,
+                             const Table* bolts) {
+  const std::string& folder = args.source;
+  Result<Grid> blocks = read_vtu(folder + "/" + entry.file);
+  if (!blocks.ok()) return blocks.faults();
+  Snapshot shot{std::move(blocks.value())};
+  shot.heading = fmt::format("t = {:.6g} s", entry.time);
+  // Contacts take more room than the blocks: only where they are drawn.
+  if (args.forces || is_of_contacts(args.field)) {
+    std::string contacts_file = entry.file;
+    contacts_file.replace(contacts_file.find("blocks_"), 6, "contacts");
+    if (Result<Grid> contacts = read_vtu(folder + "/" + contacts_file); contacts.ok()) {
+      shot.contacts = std::move(contacts.value());
+    }
+  }
+  const Result<ShownField> field = shown_field(field_of(args, "displacement"), shot.blocks,
+                                               shot.contacts ? &*shot.contacts : nullptr);
+  if (!field.ok()) return field.faults();
+  shot.field = field.value();
+  if (bolts != nullptr) shot.bolts = bolts_at(*bolts, entry.time);
+  return shot;
+}
+
+/// What holds for either source.
+void add_wishes(const PlotArguments& args, PlotOptions& options) {
+  options.vectors = args.vectors;
+  options.forces = args.forces;
+  options.principal = args.principal;
+  options.bolt_forces = args.bolts;
+  options.marks = !args.no_marks;
+  options.scale = args.scale.value_or(1.0);
+  options.paper = paper_of(args);
+  if (!args.title.empty()) options.title = args.title;
+  if (!args.range.empty()) options.range = {args.range[0], args.range[1]};
+  if (!args.window.empty()) {
+    options.window = Box{{args.window[0], args.window[1]}, {args.window[2], args.window[3]}};
+  }
+}
+
+std::vector<StageSpan> stages_of(const std::string& folder) {
+  std::vector<StageSpan> stages;
+  const Result<Table> table = read_table(folder + "/stages.csv");
+  if (!table.ok()) return stages;
+  const Column *name = table.value().column("name"), *start = table.value().column("start"),
+               *end = table.value().column("end");
+  if (name == nullptr || start == nullptr || end == nullptr) return stages;
+  for (std::size_t r = 0; r < table.value().rows(); ++r) {
+    stages.push_back({name->texts.empty() ? "" : name->texts[r], start->values[r], end->values[r]});
+  }
+  return stages;
+}
+
+}  // namespace
+
+Paper paper_of(const PlotArguments& args) {
+  Paper paper;
+  paper.font = args.font;
+  paper.pixels_per_point = args.dpi / 72.0;
+  if (args.width > 0.0) paper.width = args.width * points_per_mm;
+  if (args.width_pixels > 0) paper.pixels_per_point = args.width_pixels / paper.width;
+  return paper;
+}
+
+Result<PlotSource> from_folder(const PlotArguments& args) {
+  const std::string& folder = args.source;
+  const auto series = read_pvd(folder + "/blocks.pvd");
+  if (!series.ok()) return no_results(folder, "holds no blocks.pvd");
+  if (series.value().empty()) return no_results(folder, "holds no frames yet");
+  const Result<Table> bolts = read_table(folder + "/bolts.csv");
+  if (args.bolts && !bolts.ok()) {
+    return Fault{{"--bolts", {}, 0, 0},
+                 folder + " holds no bolts.csv",
+                 "leave it out: the model has no bolts"};
+  }
+  PlotSource source;
+  for (const SeriesEntry& entry : chosen(series.value(), args)) {
+    Result<Snapshot> shot = snapshot_of(args, entry, bolts.ok() ? &bolts.value() : nullptr);
+    if (!shot.ok()) return shot.faults();
+    source.shots.push_back(std::move(shot.value()));
+  }
+  // The title, names and monitors; a picture does without them where the model is gone.
+  if (const Result<Model> model = read_model(folder + "/model.toml"); model.ok()) {
+    source.options = options_of(model.value(), 0);
+  }
+  source.options.subtitle = source.shots.size() == 1 ? source.shots.front().heading : "";
+  add_wishes(args, source.options);
+  return source;
+}
+
+Result<PlotSource> from_model(const PlotArguments& args) {
+  if (!args.compare.empty() || args.before || args.bolts || args.principal) {
+    return Fault{{{}, args.source, 0, 0},
+                 "is a model, which has no times, stresses or loads yet",
+                 "run it, and give the folder of its results"};
+  }
+  const Result<Model> model = read_model(args.source, args.overrides);
+  if (!model.ok()) return model.faults();
+  const Result<PolygonSet> polygons = build_polygons(model.value());
+  if (!polygons.ok()) return polygons.faults();
+  const BlockSet blocks = build_blocks(model.value(), polygons.value());
+  Snapshot shot{block_grid(block_cells(blocks), start_picture(model.value(), blocks))};
+  const std::string otherwise = model.value().materials.size() > 1 ? "material" : "none";
+  const Result<ShownField> field = shown_field(field_of(args, otherwise), shot.blocks, nullptr);
+  if (!field.ok()) return field.faults();
+  shot.field = field.value();
+  PlotSource source;
+  source.shots.push_back(std::move(shot));
+  source.options = options_of(model.value(), blocks.size());
+  add_wishes(args, source.options);
+  return source;
+}
+
+Trouble read_histories(const PlotArguments& args, HistorySource& source) {
+  Result<Table> table = read_table(args.source + "/history.csv");
+  if (!table.ok() || table.value().column("time") == nullptr)
+    return no_results(args.source, "holds no history.csv");
+  source.table = std::move(table.value());
+  Result<std::vector<HistoryPanel>> panels = history_panels(source.table, args.history);
+  if (!panels.ok()) return panels.faults().front();
+  HistoryPicture& picture = source.picture;
+  picture.panels = std::move(panels.value());
+  picture.time = source.table.column("time")->values;
+  picture.stages = stages_of(args.source);
+  picture.paper = paper_of(args);
+  picture.title = args.title;
+  if (!args.title.empty()) return {};
+  if (const Result<Model> model = read_model(args.source + "/model.toml"); model.ok()) {
+    picture.title = options_of(model.value(), 0).title;
+  }
+  return {};
+}
+
+}  // namespace edda

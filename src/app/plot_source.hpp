@@ -1,0 +1,46 @@
+// What edda plot draws, read from a results folder or made of a model.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/fault.hpp"
+#include "report/history_plot.hpp"
+#include "report/plot.hpp"
+#include "results/read_table.hpp"
+
+namespace edda {
+
+struct PlotArguments {
+  std::string source, output, field, vectors, title;
+  std::vector<std::string> overrides, history;
+  std::vector<double> compare;        ///< s
+  std::vector<double> range, window;  ///< low, high; x0, y0, x1, y1
+  std::optional<double> time, scale;
+  double width = 0.0;  ///< mm; 0: not given
+  int width_pixels = 0;
+  double dpi = 254.0, font = 8.0;
+  bool forces = false, principal = false, bolts = false, before = false, no_marks = false;
+};
+
+/// Everything of a picture.
+struct PlotSource {
+  std::vector<Snapshot> shots;
+  PlotOptions options;
+};
+
+Result<PlotSource> from_folder(const PlotArguments& args);
+Result<PlotSource> from_model(const PlotArguments& args);
+
+/// What --history draws; its panels point into `table`.
+struct HistorySource {
+  Table table;
+  HistoryPicture picture;
+};
+/// Fills `source`, which must stay where it is.
+Trouble read_histories(const PlotArguments& args, HistorySource& source);
+
+Paper paper_of(const PlotArguments& args);
+
+}  // namespace edda

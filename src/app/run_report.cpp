@@ -1,0 +1,142 @@
+#include "app/run_report.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include "app/common.hpp"
+#include "app/json_lines.hpp"
+#include "app/progress.hpp"
+#include "results/version.hpp"
+#include "run/initial_stress_report.hpp"
+
+namespace edda {
+namespace {
+
+class ForPeople : public RunReport {
+ public:
+  explicit ForPeople(bool quiet) : quiet_(quiet) {}
+
+  void refused(const Faults& faults) override {
+    bar_.finish();
+    print(faults);
+  }
+
+  void starts(const PreparedRun& run, const std::string&) override {
+    if (quiet_) return;
+    const Simulation& sim = run.sim;
+    if (sim.explicit_method()) {
+      fmt::print(stderr,
+                 "{} blocks; step {:.4g} s; critical {:.4g} s ({:.4g} s if every bare corner "
+                 "touched something), held by {}\n",
+                 sim.blocks.size(), sim.step_limit, sim.bound.critical_step, sim.bound.likely_step,
+                 run.governed_by);
+    } else {
+      fmt::print(stderr, "{} blocks; step {:.4g} s, held by {}\n", sim.blocks.size(),
+                 sim.step_limit, run.governed_by);
+    }
+    for (const std::string& line : initial_stress_report(sim)) {
+      fmt::print(stderr, "initial stress: {}\n", line);
+    }
+    print_warnings(run.warnings);
+  }
+
+  void goes_on(const Progress& progress) override {
+    if (!quiet_) bar_.show(progress);
+  }
+
+  void stage_ended(const StageReport&) override {}
+
+  void warns(const std::string& message) override {
+    bar_.finish();
+    fmt::print(stderr, "edda: {}\n", message);
+  }
+
+  void ends(const Outcome& o, const std::string& folder, int) override {
+    bar_.finish();
+    if (o.status == Status::failed) fmt::print(stderr, "edda: {}\n", o.message);
+    if (quiet_) return;
+    fmt::print("{}: {}\n", status_name(o.status), o.message);
+    fmt::print("  {:.6g} s in {} steps, {} of wall time; {} contacts closed at the end\n", o.time,
+               o.steps, duration_text(o.wall.total), o.contacts);
+    fmt::print("  energy drift {:.2g}; results in {}/ (summary.json says it all)\n", o.ledger.drift,
+               folder);
+  }
+
+ private:
+  bool quiet_;
+  ProgressBar bar_;
+};
+
+class ForMachines : public RunReport {
+ public:
+  explicit ForMachines(bool quiet) : quiet_(quiet) {}
+
+  void refused(const Faults& faults) override {
+    print_json(faults);
+    Json json = event("end");
+    json.pair("status", "refused").pair("exit_code", exit_code::bad_input);
+    print_line(json);
+  }
+
+  void starts(const PreparedRun& run, const std::string& folder) override {
+    const Simulation& sim = run.sim;
+    Json json = event("start");
+    json.pair("version", version).pair("model", sim.model.file).pair("title", sim.model.title);
+    json.pair("folder", folder).pair("blocks", sim.blocks.size());
+    json.pair("duration", sim.model.solver.duration).key("stages").open_list();
+    for (const Stage& stage : sim.model.stages) json.value(stage.name);
+    json.close().pair("step", sim.step_limit).pair("governed_by", run.governed_by);
+    json.pair("threads", omp_get_max_threads());
+    print_line(json);
+    for (const std::string& warning : run.warnings) warns(warning);
+  }
+
+  void goes_on(const Progress& p) override {
+    if (quiet_) return;
+    Json json = event("progress");
+    json.pair("time", p.time).pair("fraction", p.fraction).pair("steps", p.steps);
+    json.pair("steps_per_second", p.rate).key("seconds_left");
+    if (p.seconds_left >= 0.0) {
+      json.value(p.seconds_left);
+    } else {
+      json.null();
+    }
+    json.pair("stage", p.stage).pair("stages", p.stages).pair("stage_name", p.stage_name);
+    json.pair("kinetic", p.kinetic).pair("largest_velocity", p.largest_velocity);
+    json.pair("largest_overlap", p.largest_overlap);
+    print_line(json);
+  }
+
+  void stage_ended(const StageReport& s) override {
+    Json json = event("stage_end");
+    json.pair("stage", s.stage).pair("name", s.name).pair("reached", s.reached);
+    json.pair("start", s.start).pair("end", s.end).pair("steps", s.steps).pair("ratio", s.ratio);
+    print_line(json);
+  }
+
+  void warns(const std::string& message) override { print_json_warning(message); }
+
+  void ends(const Outcome& o, const std::string& folder, int code) override {
+    Json json = event("end");
+    json.pair("status", status_name(o.status)).pair("exit_code", code).pair("message", o.message);
+    json.pair("folder", folder).pair("time", o.time).pair("steps", o.steps);
+    json.pair("contacts", o.contacts).pair("drift", o.ledger.drift);
+    json.pair("wall_seconds", o.wall.total);
+    print_line(json);
+  }
+
+ private:
+  bool quiet_;
+};
+
+}  // namespace
+
+std::unique_ptr<RunReport> report_to_people(bool quiet) {
+  return std::make_unique<ForPeople>(quiet);
+}
+
+std::unique_ptr<RunReport> report_to_machines(bool quiet) {
+  return std::make_unique<ForMachines>(quiet);
+}
+
+}  // namespace edda

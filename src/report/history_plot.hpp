@@ -1,0 +1,35 @@
+// Lines over time: one panel above another for each kind of quantity, stages marked.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/history_panels.hpp"
+#include "report/layout.hpp"
+#include "results/files.hpp"
+
+namespace edda {
+
+struct StageSpan {
+  std::string name;
+  double start = 0.0, end = 0.0;  ///< s
+};
+
+struct HistoryPicture {
+  std::string title;
+  std::vector<double> time;  ///< s, of the rows
+  std::vector<HistoryPanel> panels;
+  std::vector<StageSpan> stages;  ///< may be empty
+  Paper paper{};
+};
+
+/// Draws into `path` (.png, .svg or .pdf). Names stand at the ends of their lines. A ratio that is
+/// positive and spans more than three powers of ten has a logarithmic axis.
+Trouble plot_history(const HistoryPicture& picture, const std::string& path);
+
+/// The rows that show in a picture `width` pt wide: all of them, or of each sliver of it the first,
+/// the last, the lowest and the highest. `time` ascends.
+std::vector<std::size_t> rows_to_draw(const std::vector<double>& time,
+                                      const std::vector<double>& values, double width);
+
+}  // namespace edda

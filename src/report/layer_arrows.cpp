@@ -1,0 +1,226 @@
+// Vectors, contact forces and principal stresses: lines whose length is a quantity.
+#include <algorithm>
+#include <cmath>
+
+#include "report/scene.hpp"
+
+namespace edda {
+namespace {
+
+constexpr double shaft = 0.6;   // pt
+constexpr double casing = 0.7;  // pt of white on either side, so that lines show on any colour
+
+struct Arrow {
+  Vec2 at, vector;
+};
+
+/// Between the marks of neighbouring blocks on paper: closer ones are left out.
+double raster(const Scene& s) {
+  return 1.6 * s.font / s.view.scale;
+}
+
+std::vector<std::size_t> shown_shapes(const Scene& s, std::vector<Vec2>& centres) {
+  centres.clear();
+  for (const BlockShape& shape : s.shapes) {
+    centres.push_back(centre_of(s.grid(), shape, s.points));
+  }
+  return thinned(centres, raster(s));
+}
+
+double longest(const Scene& s) {
+  return 0.08 * std::min(s.view.frame.width(), 1.4 * s.view.frame.height());
+}
+
+std::vector<Arrow> block_arrows(const Scene& s, const std::string& name) {
+  std::vector<Arrow> arrows;
+  const Field* field = s.grid().cell_field(name);
+  if (field == nullptr || field->components < 2) return arrows;
+  std::vector<Vec2> centres;
+  for (const std::size_t i : shown_shapes(s, centres)) {
+    const double* v = field->values.data() + s.shapes[i].first_cell * field->components;
+    arrows.push_back({centres[i], {v[0], v[1]}});
+  }
+  return arrows;
+}
+
+std::vector<Arrow> force_arrows(const Scene& s) {
+  std::vector<Arrow> arrows;
+  if (!s.shot.contacts) return arrows;
+  const Field* force = s.shot.contacts->cell_field("force");
+  if (force == nullptr) return arrows;
+  const std::vector<Vec2> points = drawn_points(*s.shot.contacts, s.exaggeration);
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    arrows.push_back({points[c], {force->values[3 * c], force->values[3 * c + 1]}});
+  }
+  return arrows;
+}
+
+bool is_inside(const Scene& s, Vec2 p) {
+  const Box& w = s.view.world;
+  return p.x >= w.low.x && p.x <= w.high.x && p.y >= w.low.y && p.y <= w.high.y;
+}
+
+ArrowScale scale_for(double most, double length) {
+  if (!(most > 0.0)) return {};
+  return {length / most, round_below(most)};
+}
+
+template <class ArrowsOf>
+ArrowScale arrow_scale(const std::vector<Scene>& scenes, ArrowsOf arrows_of) {
+  double most = 0.0;
+  for (const Scene& s : scenes) {
+    for (const Arrow& a : arrows_of(s)) {
+      if (is_inside(s, a.at) && std::isfinite(norm(a.vector)))
+        most = std::max(most, norm(a.vector));
+    }
+  }
+  return scale_for(most, longest(scenes.front()));
+}
+
+/// First all casings, then all arrows, so that no arrow is cut by its neighbour.
+void draw_arrows(Canvas& canvas, const Scene& s, const std::vector<Arrow>& arrows,
+                 const ArrowScale& scale, Colour colour, bool ends_at) {
+  if (scale.per_unit == 0.0) return;
+  constexpr double shortest = 0.8;  // pt
+  std::vector<std::pair<Vec2, Vec2>> shafts;
+  for (const Arrow& a : arrows) {
+    const Vec2 p = s.view.at(a.at), v = scale.per_unit * Vec2{a.vector.x, -a.vector.y};
+    if (!is_inside(s, a.at) || !std::isfinite(norm(v)) || norm(v) < shortest) continue;
+    shafts.emplace_back(ends_at ? p - v : p, ends_at ? p : p + v);
+  }
+  canvas.colour(ink::white, 0.75);
+  for (const auto& [from, to] : shafts) {
+    if (norm(to - from) > 3.0 * shaft) canvas.line(from, to, shaft + casing);
+  }
+  canvas.colour(colour);
+  for (const auto& [from, to] : shafts) canvas.arrow(from, to, shaft);
+}
+
+/// Principal stresses of a block: sizes (tension positive) and the direction of the first.
+struct Principal {
+  double first = 0.0, second = 0.0, angle = 0.0;
+};
+
+Principal principal_of(const double* stress) {
+  const double xx = stress[0], yy = stress[1], xy = stress[3];
+  const double mean = 0.5 * (xx + yy), radius = std::hypot(0.5 * (xx - yy), xy);
+  return {mean + radius, mean - radius, 0.5 * std::atan2(2.0 * xy, xx - yy)};
+}
+
+struct StressCross {
+  Vec2 at;
+  Principal stress;
+  double room = 0.0;  ///< side of its block, m
+};
+
+double side_of(const Scene& s, const BlockShape& shape) {
+  double twice = 0.0;
+  for (const auto& [a, b] : shape.outline) {
+    twice += cross(s.points[static_cast<std::size_t>(a)], s.points[static_cast<std::size_t>(b)]);
+  }
+  return std::sqrt(0.5 * std::abs(twice));
+}
+
+/// Value below which `part` of them lie.
+double quantile(std::vector<double> values, double part) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+std::vector<StressCross> stress_crosses(const Scene& s) {
+  std::vector<StressCross> crosses;
+  const Field* stress = s.grid().cell_field("stress");
+  if (stress == nullptr) return crosses;
+  std::vector<Vec2> centres;
+  for (const std::size_t i : shown_shapes(s, centres)) {
+    const std::size_t cell = s.shapes[i].first_cell;
+    if (is_held(s.grid(), cell) || !is_inside(s, centres[i])) continue;
+    crosses.push_back({centres[i], principal_of(stress->values.data() + cell * stress->components),
+                       side_of(s, s.shapes[i])});
+  }
+  return crosses;
+}
+
+double size_of(const StressCross& c) {
+  return std::max(std::abs(c.stress.first), std::abs(c.stress.second));
+}
+
+/// One arm of a cross, `half` pt either way: a plain line in compression, arrows outward in
+/// tension.
+void draw_arm(Canvas& canvas, Vec2 at, Vec2 way, double half, bool tension) {
+  if (!tension) {
+    canvas.colour(ink::compression);
+    canvas.line(at - half * way, at + half * way, 0.8);
+    return;
+  }
+  canvas.colour(ink::tension);
+  canvas.arrow(at, at + half * way, 0.8);
+  canvas.arrow(at, at - half * way, 0.8);
+}
+
+}  // namespace
+
+ArrowScale vector_scale(const std::vector<Scene>& scenes, const std::string& name) {
+  return arrow_scale(scenes, [&](const Scene& s) { return block_arrows(s, name); });
+}
+
+void draw_vectors(Canvas& canvas, const Scene& s, const std::string& name,
+                  const ArrowScale& scale) {
+  draw_arrows(canvas, s, block_arrows(s, name), scale, ink::vector, false);
+}
+
+ArrowScale force_scale(const std::vector<Scene>& scenes) {
+  return arrow_scale(scenes, force_arrows);
+}
+
+void draw_forces(Canvas& canvas, const Scene& s, const ArrowScale& scale) {
+  draw_arrows(canvas, s, force_arrows(s), scale, ink::force, true);
+}
+
+ArrowScale stress_scale(const std::vector<Scene>& scenes) {
+  std::vector<double> sizes, rooms;
+  for (const Scene& s : scenes) {
+    for (const StressCross& c : stress_crosses(s)) {
+      if (!std::isfinite(size_of(c))) continue;
+      sizes.push_back(size_of(c));
+      rooms.push_back(s.view.scale * std::max(c.room, raster(s)));
+    }
+  }
+  if (sizes.empty()) return {};
+  // A few blocks under stress concentrations may have longer crosses than there is room for, else
+  // all others would be dots; but not so long that nothing else is seen.
+  constexpr double usual = 0.6, longest_arm = 1.8;  // of a block's side
+  const double room = quantile(rooms, 0.5), most = quantile(sizes, 1.0);
+  const ArrowScale wanted = scale_for(quantile(sizes, 0.95), usual * room);
+  const ArrowScale least = scale_for(most, longest_arm * room);
+  return wanted.per_unit == 0.0 || least.per_unit < wanted.per_unit ? least : wanted;
+}
+
+void draw_stresses(Canvas& canvas, const Scene& s, const ArrowScale& scale) {
+  if (scale.per_unit == 0.0) return;
+  const std::vector<StressCross> crosses = stress_crosses(s);
+  const auto arms = [&](const StressCross& c, auto&& draw) {
+    const Vec2 at = s.view.at(c.at);
+    const Vec2 way{std::cos(c.stress.angle), -std::sin(c.stress.angle)};
+    for (const auto& [size, along] :
+         {std::pair{c.stress.second, perp(way)}, std::pair{c.stress.first, way}}) {
+      const double half = scale.per_unit * std::abs(size);
+      if (std::isfinite(half) && half >= 0.2) draw(at, along, half, size > 0.0);
+    }
+  };
+  for (const StressCross& c : crosses) {
+    arms(c, [&](Vec2 at, Vec2 way, double half, bool) {
+      canvas.colour(ink::white, 0.75);
+      canvas.line(at - half * way, at + half * way, 0.8 + casing);
+    });
+  }
+  for (const StressCross& c : crosses) {
+    arms(c, [&](Vec2 at, Vec2 way, double half, bool tension) {
+      draw_arm(canvas, at, way, half, tension);
+    });
+  }
+}
+
+}  // namespace edda

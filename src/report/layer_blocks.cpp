@@ -1,0 +1,161 @@
+// Blocks in colour, and their outlines.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "report/scene.hpp"
+
+namespace edda {
+namespace {
+
+void trace(cairo_t* cr, const Scene& s, const BlockShape& shape) {
+  for (const auto& ring : shape.rings) {
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Vec2 p = s.view.at(s.points[static_cast<std::size_t>(ring[k])]);
+      if (k == 0) {
+        cairo_move_to(cr, p.x, p.y);
+      } else {
+        cairo_line_to(cr, p.x, p.y);
+      }
+    }
+    cairo_close_path(cr);
+  }
+}
+
+Box bounds_of(const Scene& s, const BlockShape& shape) {
+  Box b{{1e300, 1e300}, {-1e300, -1e300}};
+  for (const auto& edge : shape.outline) {
+    const Vec2 p = s.view.at(s.points[static_cast<std::size_t>(edge.first)]);
+    b.low = {std::min(b.low.x, p.x), std::min(b.low.y, p.y)};
+    b.high = {std::max(b.high.x, p.x), std::max(b.high.y, p.y)};
+  }
+  return b;
+}
+
+bool is_visible(const Box& b, const Box& frame) {
+  return b.high.x >= frame.low.x && b.low.x <= frame.high.x && b.high.y >= frame.low.y &&
+         b.low.y <= frame.high.y;
+}
+
+void hatch(Canvas& canvas, const Scene& s, const BlockShape& shape) {
+  cairo_t* cr = canvas.cr();
+  Box b = bounds_of(s, shape);
+  b.low = {std::max(b.low.x, s.view.frame.low.x), std::max(b.low.y, s.view.frame.low.y)};
+  b.high = {std::min(b.high.x, s.view.frame.high.x), std::min(b.high.y, s.view.frame.high.y)};
+  cairo_save(cr);
+  trace(cr, s, shape);
+  cairo_clip(cr);
+  canvas.colour(ink::hatch);
+  // On one raster for all blocks, so that neighbours match.
+  const double gap = 0.5 * s.font;
+  for (double c = std::floor((b.low.x + b.low.y) / gap) * gap; c <= b.high.x + b.high.y; c += gap) {
+    cairo_move_to(cr, c - b.low.y, b.low.y);
+    cairo_line_to(cr, c - b.high.y, b.high.y);
+  }
+  cairo_set_line_width(cr, 0.4);
+  cairo_stroke(cr);
+  cairo_restore(cr);
+}
+
+/// Side of a block on paper, about, pt.
+double block_size(const Scene& s, std::size_t blocks) {
+  const double area = s.view.frame.width() * s.view.frame.height();
+  return std::sqrt(area / static_cast<double>(std::max<std::size_t>(blocks, 1)));
+}
+
+/// Thinner where blocks are small, so that they stay visible between their outlines.
+double outline_width(const Scene& s, std::size_t blocks) {
+  return std::clamp(0.025 * block_size(s, blocks), 0.08, 0.45);
+}
+
+constexpr Colour light_line{0.66, 0.66, 0.70};
+
+bool is_dark(Colour c) {
+  return 0.21 * c.r + 0.72 * c.g + 0.07 * c.b < 0.3;
+}
+
+/// One by one, so that an edge between two blocks is drawn twice wherever it is and all weigh the
+/// same.
+template <class Wanted>
+void stroke_outlines(Canvas& canvas, const Scene& s, const std::vector<std::size_t>& visible,
+                     Wanted wanted) {
+  for (const std::size_t i : visible) {
+    if (!wanted(s.shapes[i])) continue;
+    trace(canvas.cr(), s, s.shapes[i]);
+    cairo_stroke(canvas.cr());
+  }
+}
+
+}  // namespace
+
+void draw_blocks(Canvas& canvas, const Scene& s, const ColourScale& scale) {
+  cairo_t* cr = canvas.cr();
+  const ShownField& field = s.shot.field;
+  const bool coloured = field.kind != ScaleKind::plain && !field.of_contacts;
+  std::vector<std::size_t> visible;
+  for (std::size_t i = 0; i < s.shapes.size(); ++i) {
+    if (is_visible(bounds_of(s, s.shapes[i]), s.view.frame)) visible.push_back(i);
+  }
+  const double line = outline_width(s, visible.size());
+  cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
+  for (const std::size_t i : visible) {
+    const BlockShape& shape = s.shapes[i];
+    const bool held = is_held(s.grid(), shape.first_cell);
+    trace(cr, s, shape);
+    canvas.colour(held       ? ink::held
+                  : coloured ? scale.of(field.values[shape.first_cell])
+                             : ink::block);
+    // Its rim too: else the paper would shine through between neighbours.
+    cairo_fill_preserve(cr);
+    cairo_set_line_width(cr, std::max(line, 0.25));
+    cairo_stroke(cr);
+    if (held) hatch(canvas, s, shape);
+  }
+  constexpr double too_small = 1.5;  // pt: outlines alone would be seen
+  if (block_size(s, visible.size()) < too_small) return;
+  canvas.colour(ink::line);
+  cairo_set_line_width(cr, line);
+  stroke_outlines(canvas, s, visible, [](const BlockShape&) { return true; });
+  if (!coloured) return;
+  // Dark lines vanish on dark blocks: those get a light one on top, which leaves their neighbours'
+  // dark rim.
+  cairo_set_line_width(cr, 0.6 * line);
+  canvas.colour(light_line);
+  stroke_outlines(canvas, s, visible, [&](const BlockShape& shape) {
+    return !is_held(s.grid(), shape.first_cell) &&
+           is_dark(scale.of(field.values[shape.first_cell]));
+  });
+}
+
+void draw_contact_field(Canvas& canvas, const Scene& s, const ColourScale& scale) {
+  if (!s.shot.field.of_contacts || !s.shot.contacts) return;
+  cairo_t* cr = canvas.cr();
+  const std::vector<double>& values = s.shot.field.values;
+  const double radius = std::clamp(5.0 * outline_width(s, s.shapes.size()), 0.5, 2.0);
+  const std::vector<Vec2> points = drawn_points(*s.shot.contacts, s.exaggeration);
+  // Contacts of one corner lie on one another: the largest values on top.
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::abs(values[a]) < std::abs(values[b]);
+  });
+  cairo_set_line_width(cr, 0.12 * radius);
+  for (const std::size_t c : order) {
+    const Vec2 p = s.view.at(points[c]);
+    cairo_new_sub_path(cr);
+    cairo_arc(cr, p.x, p.y, radius, 0.0, 6.2831853);
+    canvas.colour(scale.of(values[c]));
+    cairo_fill_preserve(cr);
+    canvas.colour(ink::line);
+    cairo_stroke(cr);
+  }
+}
+
+void draw_joints(Canvas& canvas, const Scene& s, const PlotOptions& options) {
+  canvas.colour(ink::joint);
+  for (const auto& [from, to] : options.joints) {
+    canvas.line(s.view.at(from), s.view.at(to), 1.6);
+  }
+}
+
+}  // namespace edda

@@ -1,0 +1,72 @@
+// Monitors and convergence lines.
+#include <cmath>
+
+#include "report/labels.hpp"
+#include "report/scene.hpp"
+
+namespace edda {
+namespace {
+
+constexpr double radius = 1.8;  // pt
+
+/// Both ends of a line as drawn; nothing where one has left with its block.
+std::optional<std::array<Vec2, 2>> ends_of(const Follower& follow, const PlotLine& line) {
+  const Vec2 way = line.start[1] - line.start[0];
+  // Ends lie on the walls: a hair beyond they are within a block.
+  const auto end = [&](Vec2 at, Vec2 beyond) {
+    const std::optional<Vec2> now = follow(at);
+    return now ? now : follow(at + beyond);
+  };
+  const auto a = end(line.start[0], -1e-3 * way), b = end(line.start[1], 1e-3 * way);
+  if (!a || !b) return {};
+  return std::array<Vec2, 2>{*a, *b};
+}
+
+void draw_dashed(Canvas& canvas, Vec2 a, Vec2 b) {
+  const double dash = 2.5;
+  cairo_set_dash(canvas.cr(), &dash, 1, 0.0);
+  canvas.line(a, b, 0.8);
+  cairo_set_dash(canvas.cr(), nullptr, 0, 0.0);
+}
+
+void draw_point(Canvas& canvas, Vec2 p) {
+  cairo_new_sub_path(canvas.cr());
+  cairo_arc(canvas.cr(), p.x, p.y, radius, 0.0, 6.2831853);
+  canvas.colour(ink::white);
+  cairo_fill_preserve(canvas.cr());
+  canvas.colour(ink::monitor);
+  cairo_set_line_width(canvas.cr(), 0.9);
+  cairo_stroke(canvas.cr());
+}
+
+}  // namespace
+
+void draw_marks(Canvas& canvas, const Scene& s, const PlotOptions& options) {
+  if (options.monitors.empty() && options.lines.empty()) return;
+  const Follower follow(s.grid(), drawn_points(s.grid(), 0.0), s.points);
+  Labels labels(s.view.frame, s.font);
+  std::vector<std::pair<std::string, Vec2>> points, middles;
+  for (const PlotLine& line : options.lines) {
+    const auto ends = ends_of(follow, line);
+    if (!ends) continue;
+    const Vec2 a = s.view.at((*ends)[0]), b = s.view.at((*ends)[1]);
+    canvas.colour(ink::monitor);
+    draw_dashed(canvas, a, b);
+    middles.emplace_back(line.name, 0.5 * (a + b));
+  }
+  for (const PlotMonitor& m : options.monitors) {
+    const auto now = follow(m.start);
+    if (!now) continue;
+    const Vec2 p = s.view.at(*now);
+    const Box& f = s.view.frame;
+    if (p.x < f.low.x || p.x > f.high.x || p.y < f.low.y || p.y > f.high.y) continue;
+    draw_point(canvas, p);
+    labels.avoid(p, radius);
+    points.emplace_back(m.name, p);
+  }
+  canvas.colour(ink::monitor);
+  for (const auto& [name, at] : points) labels.write(canvas, name, at, radius);
+  for (const auto& [name, at] : middles) labels.write(canvas, name, at, 0.0);
+}
+
+}  // namespace edda

@@ -1,0 +1,29 @@
+#include "report/scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace edda {
+
+Scene make_scene(const Snapshot& shot, double exaggeration) {
+  return {shot,         {}, drawn_points(shot.blocks, exaggeration), block_shapes(shot.blocks),
+          exaggeration, 8.0};
+}
+
+bool is_held(const Grid& grid, std::size_t cell) {
+  const Field* fixed = grid.cell_field("fixed");
+  return fixed != nullptr && fixed->values[cell] != 0.0;
+}
+
+double round_below(double largest) {
+  if (!(largest > 0.0) || !std::isfinite(largest)) return 0.0;
+  const double power = std::pow(10.0, std::floor(std::log10(largest)));
+  double round = power;
+  for (const double digit : {2.0, 5.0, 10.0}) {
+    if (digit * power <= largest * (1.0 + 1e-12)) round = digit * power;
+  }
+  return round;
+}
+
+}  // namespace edda

@@ -1,0 +1,79 @@
+// What the layers of a picture share: the blocks of a frame, as they are drawn, and where.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/canvas.hpp"
+#include "report/colour_scale.hpp"
+#include "report/layout.hpp"
+#include "report/plot.hpp"
+#include "report/shapes.hpp"
+
+namespace edda {
+
+namespace ink {
+inline constexpr Colour line{0.12, 0.12, 0.14}, block{0.87, 0.85, 0.80}, white{1.0, 1.0, 1.0};
+inline constexpr Colour held{0.80, 0.80, 0.80}, hatch{0.62, 0.62, 0.62};
+inline constexpr Colour vector{0.05, 0.05, 0.05}, force{0.75, 0.10, 0.10};
+inline constexpr Colour compression{0.05, 0.15, 0.45}, tension{0.85, 0.20, 0.05};
+inline constexpr Colour monitor{0.80, 0.05, 0.45}, bolt{0.05, 0.25, 0.65}, joint{0.85, 0.10, 0.05};
+}  // namespace ink
+
+/// One drawing.
+struct Scene {
+  const Snapshot& shot;
+  View view;
+  std::vector<Vec2> points;  ///< of the grid, as drawn, m
+  std::vector<BlockShape> shapes;
+  double exaggeration = 1.0;  ///< of displacements
+  double font = 8.0;          ///< pt
+
+  const Grid& grid() const { return shot.blocks; }
+};
+
+Scene make_scene(const Snapshot& shot, double exaggeration);
+
+/// Whether the block of that cell is held.
+bool is_held(const Grid& grid, std::size_t cell);
+
+/// How long, on paper, what the layers draw as lines is. Lengths hold for all drawings of a page.
+struct ArrowScale {
+  double per_unit = 0.0;   ///< pt per unit of the quantity; 0: there is nothing to draw
+  double reference = 0.0;  ///< a round value for the legend
+};
+
+/// A round value (1, 2 or 5 times a power of ten) not above `largest`; 0 of 0.
+double round_below(double largest);
+
+// The layers, from the bottom to the top.
+void draw_blocks(Canvas& canvas, const Scene& scene, const ColourScale& scale);
+void draw_contact_field(Canvas& canvas, const Scene& scene, const ColourScale& scale);
+void draw_joints(Canvas& canvas, const Scene& scene, const PlotOptions& options);
+
+/// Principal stresses as crosses.
+ArrowScale stress_scale(const std::vector<Scene>& scenes);
+void draw_stresses(Canvas& canvas, const Scene& scene, const ArrowScale& scale);
+
+/// `name`: "displacement" or "velocity".
+ArrowScale vector_scale(const std::vector<Scene>& scenes, const std::string& name);
+void draw_vectors(Canvas& canvas, const Scene& scene, const std::string& name,
+                  const ArrowScale& scale);
+ArrowScale force_scale(const std::vector<Scene>& scenes);
+void draw_forces(Canvas& canvas, const Scene& scene, const ArrowScale& scale);
+
+/// Bolts, as wide as their force where the scale says how wide.
+ArrowScale bolt_scale(const std::vector<Scene>& scenes);
+void draw_bolts(Canvas& canvas, const Scene& scene, const PlotOptions& options,
+                const ArrowScale& scale);
+
+/// Monitors and convergence lines, with their names beside them.
+void draw_marks(Canvas& canvas, const Scene& scene, const PlotOptions& options);
+
+/// The frame and its ticks. `y_labels`: not on every one of several drawings.
+void draw_axes(Canvas& canvas, const View& view, double font, bool y_labels);
+
+/// Room that the labels of the y axis of such a drawing take, pt.
+double axis_room(const Box& world, double font);
+
+}  // namespace edda

@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "report/history_panels.hpp"
+#include "report/history_plot.hpp"
+#include "report/picture_reading.hpp"
+
+namespace edda {
+namespace {
+
+Table small_history() {
+  return {{{"time", {0.0, 1.0, 2.0, 3.0, 4.0}},
+           {"P.ux", {0.0, 1.0, 4.0, 2.0, 3.0}},
+           {"P.vx", {0.0, 1.0, 0.0, 1.0, 0.0}},
+           {"kinetic", {1.0, 2.0, 3.0, 4.0, 5.0}},
+           {"fracture", {0.0, 0.0, 0.0, 0.0, 0.0}},
+           {"unbalanced", {1.0, 1e-2, 1e-1, 1e-5, 1e-4}}}};
+}
+
+std::string drawn(const HistoryPicture& picture) {
+  const std::string path = testing::TempDir() + "history.svg";
+  EXPECT_FALSE(plot_history(picture, path));
+  const std::string svg = read_file(path).value();
+  std::filesystem::remove(path);
+  return svg;
+}
+
+HistoryPicture picture_of(const Table& table, const std::vector<std::string>& names) {
+  HistoryPicture picture;
+  picture.time = table.columns[0].values;
+  picture.panels = history_panels(table, names).value();
+  return picture;
+}
+
+/// The line drawn with the first colour, 1 pt wide.
+std::vector<Vec2> first_line(const std::string& svg) {
+  for (const std::string& path : stroked(svg, {0.000, 0.447, 0.698})) {
+    if (attribute(path, "style").find("stroke-width:1;") != std::string::npos)
+      return points_of(path);
+  }
+  return {};
+}
+
+TEST(HistoryPanels, OneForEachKindOfQuantity) {
+  const Table table = small_history();
+  const auto panels = history_panels(table, {"P", "unbalanced", "P.ux"});
+  ASSERT_TRUE(panels.ok());
+  ASSERT_EQ(panels.value().size(), 3u);
+  EXPECT_EQ(panels.value()[0].label, "displacement");
+  EXPECT_EQ(panels.value()[0].lines.size(), 1u);  // though named twice
+  EXPECT_EQ(panels.value()[1].unit, "m/s");
+}
+
+TEST(HistoryPanels, EnergyLeavesOutWhatCannotBeSeen) {
+  const Table table = small_history();
+  const auto panels = history_panels(table, {"energy"});
+  ASSERT_TRUE(panels.ok());
+  ASSERT_EQ(panels.value()[0].lines.size(), 1u);
+  EXPECT_EQ(panels.value()[0].lines[0]->name, "kinetic");
+  EXPECT_EQ(history_panels(table, {"fracture"}).value()[0].lines.size(), 1u);  // asked for
+}
+
+TEST(HistoryPanels, UnknownNamesAreAFaultThatListsTheKnown) {
+  for (const char* name : {"Q", "P.", "time", ""}) {
+    const auto panels = history_panels(small_history(), {"P.ux", name});
+    ASSERT_FALSE(panels.ok()) << name;
+    ASSERT_EQ(panels.faults().size(), 1u);
+    EXPECT_NE(panels.faults()[0].remedy.find("kinetic"), std::string::npos);
+  }
+}
+
+TEST(HistoryPlot, TheLineGoesThroughItsValues) {
+  const Table table = small_history();
+  const std::string svg = drawn(picture_of(table, {"P.ux"}));
+  const std::vector<Vec2> line = first_line(svg);
+  ASSERT_EQ(line.size(), 5u);
+  // The ticks say where 0 and 4 are; a tick's label lies a third of its size below its middle.
+  const double x_of_0 = text_of(svg, "0.0")->x, x_of_4 = text_of(svg, "4.0")->x;
+  const double y_of_0 = text_of(svg, "0")->y, y_of_4 = text_of(svg, "4")->y;
+  for (std::size_t r = 0; r < 5; ++r) {
+    const double time = table.columns[0].values[r], value = table.columns[1].values[r];
+    EXPECT_NEAR(line[r].x, x_of_0 + time / 4.0 * (x_of_4 - x_of_0), 0.02);
+    EXPECT_NEAR(line[r].y + 0.36 * 8.0, y_of_0 + value / 4.0 * (y_of_4 - y_of_0), 0.02);
+  }
+  EXPECT_TRUE(text_of(svg, "P.ux"));
+  EXPECT_TRUE(text_of(svg, "time (s)"));
+}
+
+TEST(HistoryPlot, RatiosOverManyPowersOfTenAreLogarithmic) {
+  const Table table = small_history();
+  const std::vector<Vec2> line = first_line(drawn(picture_of(table, {"unbalanced"})));
+  ASSERT_EQ(line.size(), 5u);
+  const double decade = line[1].y - line[2].y;
+  EXPECT_GT(decade, 5.0);
+  EXPECT_NEAR(line[1].y - line[0].y, 2.0 * decade, 0.02);
+  EXPECT_NEAR(line[3].y - line[2].y, 4.0 * decade, 0.02);
+}
+
+TEST(HistoryPlot, NamesOfStagesStandAboveThem) {
+  const Table table = small_history();
+  HistoryPicture picture = picture_of(table, {"P.ux"});
+  picture.stages = {{"early", 0.0, 2.0}, {"late", 2.0, 4.0}};
+  const std::string svg = drawn(picture);
+  ASSERT_TRUE(text_of(svg, "early"));
+  EXPECT_LT(text_of(svg, "early")->x, text_of(svg, "late")->x);
+  picture.stages = {{"short", 0.0, 0.1}, {"long", 0.1, 4.0}};  // no room for the first
+  EXPECT_FALSE(text_of(drawn(picture), "short"));
+}
+
+TEST(HistoryPlot, NamesOfLinesThatEndTogetherStandApart) {
+  Table table = small_history();
+  table.columns[2] = {"P.uy", table.columns[1].values};
+  table.columns.push_back({"Q.ux", table.columns[1].values});
+  const std::string svg = drawn(picture_of(table, {"P.ux", "P.uy", "Q.ux"}));
+  const double a = text_of(svg, "P.ux")->y, b = text_of(svg, "P.uy")->y,
+               c = text_of(svg, "Q.ux")->y;
+  for (const double apart : {a - b, b - c, a - c}) EXPECT_GE(std::abs(apart), 8.0);
+}
+
+TEST(HistoryPlot, LongHistoriesKeepTheirPeaks) {
+  std::vector<double> time, values;
+  for (int k = 0; k < 200000; ++k) {
+    time.push_back(k);
+    values.push_back(k == 123456 ? 7.0 : k == 65432 ? -7.0 : std::sin(0.1 * k));
+  }
+  const auto rows = rows_to_draw(time, values, 300.0);
+  EXPECT_LT(rows.size(), 6000u);
+  EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end()));
+  EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), 123456u));
+  EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), 65432u));
+  EXPECT_EQ(rows.back(), 199999u);
+}
+
+}  // namespace
+}  // namespace edda

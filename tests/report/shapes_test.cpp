@@ -1,0 +1,59 @@
+#include "report/shapes.hpp"
+
+#include <gtest/gtest.h>
+
+#include "report/two_blocks.hpp"
+
+namespace edda {
+namespace {
+
+TEST(Shapes, TrianglesOfOneBlockHaveOneOutline) {
+  const Grid g = two_blocks();
+  const auto shapes = block_shapes(g);
+  ASSERT_EQ(shapes.size(), 2u);
+  for (const BlockShape& shape : shapes) {
+    EXPECT_EQ(shape.outline.size(), 4u);
+    ASSERT_EQ(shape.rings.size(), 1u);
+    EXPECT_EQ(shape.rings[0].size(), 4u);
+  }
+  const Vec2 c = centre_of(g, shapes[0], drawn_points(g, 1.0));
+  EXPECT_NEAR(c.x, 0.5, 1e-12);
+  EXPECT_NEAR(c.y, 0.5, 1e-12);
+}
+
+TEST(Shapes, AHoleIsARingOfItsOwn) {
+  // A square ring of eight triangles round a hole.
+  Grid g;
+  g.points = {0, 0, 0, 3, 0, 0, 3, 3, 0, 0, 3, 0, 1, 1, 0, 2, 1, 0, 2, 2, 0, 1, 2, 0};
+  g.corners = {0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
+  for (int c = 1; c <= 8; ++c) {
+    g.ends.push_back(3 * c);
+    g.types.push_back(cell_type::triangle);
+  }
+  g.cell_fields = {{"id", 1, std::vector<double>(8, 0.0), {}, true}};
+  const auto shapes = block_shapes(g);
+  ASSERT_EQ(shapes.size(), 1u);
+  ASSERT_EQ(shapes[0].rings.size(), 2u);
+  EXPECT_EQ(shapes[0].rings[0].size(), 4u);
+  EXPECT_EQ(shapes[0].rings[1].size(), 4u);
+}
+
+TEST(Shapes, MaterialPointsAreFollowed) {
+  const Grid g = two_blocks();
+  const auto drawn = drawn_points(g, 3.0);
+  const Follower follow(g, drawn_points(g, 0.0), drawn);
+  const auto now = follow({-0.25, 0.75});  // in block 4 as it lay at the start
+  ASSERT_TRUE(now);
+  EXPECT_NEAR(now->x, -0.25 + 1.5, 1e-12);
+  EXPECT_NEAR(now->y, 0.75, 1e-12);
+  EXPECT_FALSE(follow({9.0, 9.0}));
+}
+
+TEST(Shapes, OnePerSquareIsLeftWhenThinned) {
+  const std::vector<Vec2> centres{{0.1, 0.1}, {0.5, 0.6}, {0.9, 0.9}, {1.5, 0.5}};
+  EXPECT_EQ(thinned(centres, 1.0), (std::vector<std::size_t>{1, 3}));
+  EXPECT_EQ(thinned(centres, 0.1).size(), 4u);
+}
+
+}  // namespace
+}  // namespace edda

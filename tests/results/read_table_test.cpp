@@ -1,0 +1,51 @@
+#include "results/read_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "results/csv.hpp"
+#include "results/files.hpp"
+
+namespace edda {
+namespace {
+
+Result<Table> read(const std::string& text) {
+  const std::string path = testing::TempDir() + "table.csv";
+  EXPECT_FALSE(write_file(path, text));
+  Result<Table> table = read_table(path);
+  std::filesystem::remove(path);
+  return table;
+}
+
+TEST(ReadTable, ReadsBackWhatCsvWrites) {
+  Csv csv;
+  csv.header({"t", "name"});
+  csv.add(0.1).add("a, \"b\"\nc").end();
+  csv.add(1e300).add("7").end();
+  const Result<Table> table = read(csv.text());
+  ASSERT_TRUE(table.ok());
+  ASSERT_EQ(table.value().rows(), 2u);
+  EXPECT_EQ(table.value().column("t")->values, (std::vector<double>{0.1, 1e300}));
+  EXPECT_EQ(table.value().column("name")->texts, (std::vector<std::string>{"a, \"b\"\nc", "7"}));
+  EXPECT_TRUE(table.value().column("t")->texts.empty());
+  EXPECT_EQ(table.value().column("x"), nullptr);
+}
+
+TEST(ReadTable, LeavesOutARowThatIsNotComplete) {
+  const Result<Table> table = read("a,b\n1,2\n3,");
+  ASSERT_TRUE(table.ok());
+  EXPECT_EQ(table.value().rows(), 1u);
+  EXPECT_EQ(read("").value().rows(), 0u);
+}
+
+TEST(ReadTable, RefusesRowsOfOtherLengths) {
+  const Result<Table> table = read("a,b\n1,2\n3\n");
+  ASSERT_FALSE(table.ok());
+  EXPECT_EQ(table.faults()[0].where.line, 3);
+  EXPECT_FALSE(read_table(testing::TempDir() + "none.csv").ok());
+}
+
+}  // namespace
+}  // namespace edda
