@@ -18,7 +18,8 @@ class Unpacked {
     for (std::uint32_t r = 0; r < rows; ++r)
       alive.push_back(static_cast<unsigned char>(bytes[20 + r / 8]) >> r % 8 & 1);
     at_ += (rows + 7) / 8;
-    for (const std::size_t columns : {2, 4, 2, 1, 1, 4, 1}) group(columns, count, blocks);
+    for (const std::size_t columns : {2UL, 4UL, 2UL, 1UL, 1UL, 4UL, 1UL})
+      group(columns, count, blocks);
     std::uint64_t i = 0;
     for (std::uint32_t k = 0; k < touching; ++k) contact_i.push_back(i += varint());
     for (std::uint32_t k = 0; k < touching; ++k) contact_vertex.push_back(varint());
@@ -31,7 +32,7 @@ class Unpacked {
     for (std::uint32_t k = 0; k < touching; ++k)
       state.push_back(static_cast<unsigned char>(bytes_[at_++]));
     if (at_ < bytes.size()) {
-      for (const std::size_t columns : {2, 1, 1}) group(columns, touching, contacts);
+      for (const std::size_t columns : {2UL, 1UL, 1UL}) group(columns, touching, contacts);
     }
     EXPECT_EQ(at_, bytes.size());
   }
