@@ -293,13 +293,14 @@ std::string datum_bytes(const ViewDatum& datum) {
 }
 
 Result<ViewBlocks> blocks_in(const ViewMesh& mesh, const Grid& blocks) {
+  const Fault other{{}, "its frames are not of one run", "run the model again"};
+  if (blocks.point_count() != mesh.points) return other;
   ViewBlocks in;
   const Field* id = blocks.cell_field("id");
   for (std::size_t c = 0; id != nullptr && c < blocks.cell_count(); ++c) {
     if (c > 0 && id->values[c] == id->values[c - 1]) continue;
     const std::size_t row = mesh.row_of(static_cast<std::int32_t>(id->values[c]));
-    if (row == mesh.size() || (!in.row.empty() && row <= in.row.back()))
-      return Fault{{}, "its frames are not of one run", "run the model again"};
+    if (row == mesh.size() || (!in.row.empty() && row <= in.row.back())) return other;
     in.row.push_back(row);
     in.cell.push_back(c);
   }

@@ -28,7 +28,7 @@ struct ViewBlocks {
   std::vector<std::size_t> cell;  ///< the first of each; it has all values of its block
 };
 
-/// Faults: a block that the first frame has not.
+/// Faults: a block that the first frame has not, or other vertices.
 Result<ViewBlocks> blocks_in(const ViewMesh& mesh, const Grid& blocks);
 
 /// The datum of a frame where it is another than the one before (null: none yet).

@@ -57,6 +57,7 @@ std::size_t ViewMesh::row_of(std::int32_t block) const {
 
 ViewMesh view_mesh(const Grid& first) {
   ViewMesh mesh;
+  mesh.points = first.point_count();
   mesh.begin.push_back(0);
   mesh.edge_begin.push_back(0);
   const std::vector<Vec2> points = drawn_points(first, 1.0);

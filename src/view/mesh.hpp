@@ -25,6 +25,8 @@ struct ViewMesh {
   std::vector<std::array<std::uint32_t, 2>> edges;      ///< of vertices, counter-clockwise
   std::vector<std::size_t> edge_begin;                  ///< [nb + 1] first edge of each block
 
+  std::size_t points = 0;  ///< of every frame's grid, whoever is gone
+
   std::size_t size() const { return id.size(); }
   std::size_t row_of(std::int32_t block) const;  ///< size() where there is none
 };

@@ -40,7 +40,7 @@ TEST(Bytes, Base64HasTheVectorsOfItsStandard) {
 
 TEST(Bytes, WhatIsDeflatedInflatesToTheSame) {
   std::string text;
-  for (int k = 0; k < 100000; ++k) text += static_cast<char>(k * k % 251);
+  for (unsigned k = 0; k < 100000; ++k) text += static_cast<char>(k * k % 251);
   const std::string packed = deflated(text);
   EXPECT_LT(packed.size(), text.size() / 2);
   std::string back(text.size(), '\0');

@@ -193,8 +193,9 @@ TEST(ViewFrame, WholeNumbersAreRightToHalfAStep) {
 }
 
 TEST(ViewFrame, BlocksTakenOutLeaveTheirRowEmpty) {
-  const Unpacked u =
-      unpacked(frame_of({three[0], three[2]}, stays, nothing), nullptr, ViewPrecision::single);
+  std::vector<TestBlock> two = three;
+  two[1].gone = true;
+  const Unpacked u = unpacked(frame_of(two, stays, nothing), nullptr, ViewPrecision::single);
   EXPECT_EQ(u.rows, 3u);
   EXPECT_EQ(u.count, 2u);
   EXPECT_EQ(u.alive, (std::vector<int>{1, 0, 1}));
@@ -202,8 +203,12 @@ TEST(ViewFrame, BlocksTakenOutLeaveTheirRowEmpty) {
 }
 
 TEST(ViewFrame, ABlockThatTheFirstFrameHasNotIsAFault) {
-  const ViewMesh mesh = view_mesh(frame_of({three[0], three[2]}, stays, nothing));
-  EXPECT_FALSE(blocks_in(mesh, frame_of(three, stays, nothing)).ok());
+  std::vector<TestBlock> two = three;
+  two[1].gone = true;
+  const Grid all = frame_of(three, stays, nothing);
+  EXPECT_FALSE(blocks_in(view_mesh(frame_of(two, stays, nothing)), all).ok());
+  two.erase(two.begin() + 1);
+  EXPECT_FALSE(blocks_in(view_mesh(frame_of(two, stays, nothing)), all).ok());
 }
 
 TEST(ViewFrame, ContactsNameTheVertexThatTheyLieAt) {

@@ -16,6 +16,7 @@ struct TestBlock {
   std::int32_t id = 0;
   std::vector<Vec2> corners;
   bool fixed = false;
+  bool gone = false;  ///< its points are still there, its cell is not
 };
 
 using Moved = std::function<Vec2(const TestBlock&, Vec2)>;
@@ -35,6 +36,10 @@ inline Grid frame_of(const std::vector<TestBlock>& blocks, const Moved& place,
       g.corners.push_back(static_cast<std::int64_t>(g.point_count()));
       g.points.insert(g.points.end(), {x.x, x.y, 0.0});
       u.values.insert(u.values.end(), {d.x, d.y, 0.0});
+    }
+    if (b.gone) {
+      g.corners.resize(g.ends.empty() ? 0 : static_cast<std::size_t>(g.ends.back()));
+      continue;
     }
     g.ends.push_back(static_cast<std::int64_t>(g.corners.size()));
     g.types.push_back(cell_type::polygon);
