@@ -55,7 +55,7 @@ Files files_of(const std::string& type, bool positional) {
   if (type == "DIR|MODEL") return Files::folders_or_models;
   if (type == "DIR") return Files::folders;
   if (type == "FILE") return positional ? Files::models : Files::any;
-  return Files::none;
+  return Files::nothing;
 }
 
 /// What stands for the value in a synopsis.

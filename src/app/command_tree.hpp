@@ -11,14 +11,14 @@
 namespace edda {
 
 /// Files that an argument may name.
-enum class Files { none, any, models, folders, folders_or_models };
+enum class Files { nothing, any, models, folders, folders_or_models };
 
 struct OptionText {
   std::vector<std::string> names;    ///< "-o", "--output"; of what stands alone: "MODEL"
   std::string value;                 ///< "FILE", "displacement|velocity"; empty: a flag
   std::string text;                  ///< what it does
   std::vector<std::string> choices;  ///< where it takes one of a few words
-  Files files = Files::none;
+  Files files = Files::nothing;
   bool required = false;
 };
 

@@ -18,11 +18,11 @@
 namespace edda {
 namespace {
 
-std::atomic<bool> stop_asked{false};
+std::atomic<bool> asked_to_stop{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 void ask_to_stop(int signal) {
-  if (stop_asked.exchange(true)) {
+  if (asked_to_stop.exchange(true)) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }
@@ -33,7 +33,7 @@ void ask_to_stop(int signal) {
 const std::atomic<bool>& stop_on_signals() {
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
-  return stop_asked;
+  return asked_to_stop;
 }
 
 void print(const Faults& faults) {

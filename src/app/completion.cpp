@@ -48,7 +48,7 @@ std::string bash_values(const OptionText& o) {
       return "_edda_folders";
     case Files::folders_or_models:
       return "_edda_models";  // which offers folders on the way
-    case Files::none:
+    case Files::nothing:
       break;
   }
   return ":";
@@ -116,7 +116,7 @@ std::string zsh_values(const OptionText& o) {
     case Files::models:
     case Files::folders_or_models:
       return "_files -g \"*.toml(-.)\" -g \"*(-/)\"";
-    case Files::none:
+    case Files::nothing:
       break;
   }
   return " ";
@@ -209,10 +209,10 @@ std::string fish_completion(const ProgramText& program) {
   std::string text =
       "# fish completion of edda. Made by: edda completion fish\n\n"
       "complete -c edda -f\n";
-  const std::string none = "__fish_use_subcommand";
-  for (const OptionText& o : program.options) text += fish_option(o, none);
+  const std::string no_command = "__fish_use_subcommand";
+  for (const OptionText& o : program.options) text += fish_option(o, no_command);
   for (const CommandText& c : program.commands) {
-    text += fmt::format("complete -c edda -n {} -a {} -d {}\n", none, c.name,
+    text += fmt::format("complete -c edda -n {} -a {} -d {}\n", no_command, c.name,
                         quoted(brief(c.text), "\\'"));
   }
   for (const CommandText& c : program.commands) {

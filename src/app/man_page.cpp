@@ -137,12 +137,12 @@ std::string rest(const std::string& text) {
 
 }  // namespace
 
-std::string man_page(const ProgramText& p, const std::string& version, const std::string& date) {
+std::string man_page(const ProgramText& p, const std::string& of, const std::string& date) {
   std::string title = p.name;
   std::transform(title.begin(), title.end(), title.begin(),
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   std::string text =
-      fmt::format(".TH {} 1 \"{}\" \"{} {}\" \"User Commands\"\n", title, date, p.name, version);
+      fmt::format(".TH {} 1 \"{}\" \"{} {}\" \"User Commands\"\n", title, date, p.name, of);
   text += fmt::format(
       ".SH NAME\n{} \\- explicit discontinuous deformation analysis of jointed "
       "rock\n",

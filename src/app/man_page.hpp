@@ -7,8 +7,7 @@
 
 namespace edda {
 
-/// In troff, with the macros of man(7). `date`: as 2026-01-31.
-std::string man_page(const ProgramText& program, const std::string& version,
-                     const std::string& date);
+/// In troff, with the macros of man(7). `of`: the version; `date`: as 2026-01-31.
+std::string man_page(const ProgramText& program, const std::string& of, const std::string& date);
 
 }  // namespace edda
