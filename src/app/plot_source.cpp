@@ -77,9 +77,8 @@ Result<Snapshot> snapshot_of(const PlotArguments& args, const SeriesEntry& entry
   shot.heading = fmt::format("t = {:.6g} s", entry.time);
   // Contacts take more room than the blocks: only where they are drawn.
   if (args.forces || is_of_contacts(args.field)) {
-    std::string contacts_file = entry.file;
-    contacts_file.replace(contacts_file.find("blocks_"), 6, "contacts");
-    if (Result<Grid> contacts = read_vtu(folder + "/" + contacts_file); contacts.ok()) {
+    if (Result<Grid> contacts = read_vtu(folder + "/" + contacts_beside(entry.file));
+        contacts.ok()) {
       shot.contacts = std::move(contacts.value());
     }
   }

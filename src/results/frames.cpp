@@ -161,6 +161,12 @@ Grid contact_grid(const Picture& picture) {
   return g;
 }
 
+std::string contacts_beside(std::string blocks_file) {
+  const std::size_t at = blocks_file.find("blocks_");
+  if (at != std::string::npos) blocks_file.replace(at, 6, "contacts");
+  return blocks_file;
+}
+
 FrameSeries::FrameSeries(std::string folder, const BlockSet& blocks)
     : folder_(std::move(folder)), cells_(block_cells(blocks)) {}
 
@@ -179,7 +185,7 @@ void FrameSeries::go_on_after(const std::vector<double>& times) {
 void FrameSeries::enter(double time) {
   const std::string number = fmt::format("{:06}", blocks_.size());
   blocks_.push_back({time, "frames/blocks_" + number + ".vtu"});
-  contacts_.push_back({time, "frames/contacts_" + number + ".vtu"});
+  contacts_.push_back({time, contacts_beside(blocks_.back().file)});
 }
 
 Trouble FrameSeries::add(const Picture& picture) {

@@ -30,6 +30,9 @@ Grid block_grid(const BlockCells& cells, const Picture& picture);
 /// the vectors force (on block_i) and displacement (of the vertex).
 Grid contact_grid(const Picture& picture);
 
+/// The file of a frame's contacts, from that of its blocks.
+std::string contacts_beside(std::string blocks_file);
+
 /// Frames in `folder`/frames and the two time series beside it.
 class FrameSeries {
  public:

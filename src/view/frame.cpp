@@ -157,14 +157,6 @@ std::size_t nearest_vertex(const ViewMesh& mesh, std::size_t row, const std::vec
   return best;
 }
 
-double distance_to(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 along = b - a;
-  const double square = dot(along, along);
-  const double s = square > 0.0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0.0;
-  const Vec2 foot = p - (a + s * along);
-  return std::hypot(foot.x, foot.y);
-}
-
 /// What a contact does to block i.
 struct Push {
   Vec2 force;
@@ -186,7 +178,7 @@ std::size_t edge_of(const ViewMesh& mesh, std::size_t row, const std::vector<dou
     const Vec2 a = place(mesh.edges[e][0]), b = place(mesh.edges[e][1]);
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     if (!(length > 0.0)) continue;
-    double misfit = distance_to(at, a, b) / length;
+    double misfit = distance_to_segment(at, a, b) / length;
     if (size > 0.0) {
       const Vec2 t = (b - a) / length;
       const Vec2 off = push.force - (push.normal * outward_normal(t) + push.shear * t);

@@ -9,6 +9,7 @@
 #include "report/colours.hpp"
 #include "report/shown_field.hpp"
 #include "results/files.hpp"
+#include "results/frames.hpp"
 #include "results/json.hpp"
 #include "results/version.hpp"
 
@@ -21,13 +22,6 @@ Fault no_results(const std::string& folder, const std::string& problem) {
   fault.problem = problem;
   fault.remedy = "give a folder that edda run has written";
   return fault;
-}
-
-/// The same folder's contacts at that time.
-std::string contacts_of(std::string blocks_file) {
-  const std::size_t at = blocks_file.find("blocks_");
-  if (at != std::string::npos) blocks_file.replace(at, 6, "contacts");
-  return blocks_file;
 }
 
 void append_hex(std::string& text, Colour c) {
@@ -79,13 +73,15 @@ Result<std::vector<SeriesEntry>> ViewRun::series() const {
   return series;
 }
 
-Result<ViewRun::Grids> ViewRun::read(const SeriesEntry& frame) const {
+Result<ViewRun::Opened> ViewRun::open_frame(const SeriesEntry& frame) const {
   Result<Grid> blocks = read_vtu(folder_ + "/" + frame.file);
   if (!blocks.ok()) return blocks.faults();
+  Result<ViewBlocks> in = blocks_in(mesh_, blocks.value());
+  if (!in.ok()) return no_results(folder_, in.faults().front().problem);
   Grids grids{std::move(blocks.value()), {}};
-  if (Result<Grid> contacts = read_vtu(folder_ + "/" + contacts_of(frame.file)); contacts.ok())
+  if (Result<Grid> contacts = read_vtu(folder_ + "/" + contacts_beside(frame.file)); contacts.ok())
     grids.contacts = std::move(contacts.value());
-  return grids;
+  return Opened{std::move(grids), std::move(in.value())};
 }
 
 void ViewRun::widen_ranges(const Grids& grids) {
@@ -107,39 +103,36 @@ void ViewRun::widen_ranges(const Grids& grids) {
 }
 
 Result<std::string> ViewRun::take(const SeriesEntry& frame, ViewPrecision precision) {
-  const Result<Grids> read_grids = read(frame);
-  if (!read_grids.ok()) return read_grids.faults();
-  const Grids& grids = read_grids.value();
-  const Result<ViewBlocks> in = blocks_in(mesh_, grids.blocks);
-  if (!in.ok()) return no_results(folder_, in.faults().front().problem);
+  const Result<Opened> opened = open_frame(frame);
+  if (!opened.ok()) return opened.faults();
+  const auto& [grids, in] = opened.value();
   ViewDatum datum;
-  if (find_datum(mesh_, grids.blocks, in.value(), datums_.empty() ? nullptr : &datums_.back(),
-                 datum)) {
+  if (find_datum(mesh_, grids.blocks, in, datums_.empty() ? nullptr : &datums_.back(), datum))
     datums_.push_back(std::move(datum));
-  }
   widen_ranges(grids);
   taken_.push_back({frame, datums_.size() - 1});
-  return frame_bytes(mesh_, in.value(), grids.blocks, grids.contacts ? &*grids.contacts : nullptr,
-                     precision, taken_.back().datum);
+  return pack(opened.value(), precision, taken_.back().datum);
 }
 
-Result<std::string> ViewRun::pack(const SeriesEntry& frame, ViewPrecision precision,
-                                  std::size_t datum) const {
-  const Result<Grids> read_grids = read(frame);
-  if (!read_grids.ok()) return read_grids.faults();
-  const Grids& grids = read_grids.value();
-  const Result<ViewBlocks> in = blocks_in(mesh_, grids.blocks);
-  if (!in.ok()) return no_results(folder_, in.faults().front().problem);
-  return frame_bytes(mesh_, in.value(), grids.blocks, grids.contacts ? &*grids.contacts : nullptr,
+std::string ViewRun::pack(const Opened& frame, ViewPrecision precision, std::size_t datum) const {
+  const auto& [grids, in] = frame;
+  return frame_bytes(mesh_, in, grids.blocks, grids.contacts ? &*grids.contacts : nullptr,
                      precision, datum);
 }
 
+Result<std::string> ViewRun::read_and_pack(const SeriesEntry& frame, ViewPrecision precision,
+                                           std::size_t datum) const {
+  const Result<Opened> opened = open_frame(frame);
+  if (!opened.ok()) return opened.faults();
+  return pack(opened.value(), precision, datum);
+}
+
 Result<std::string> ViewRun::again(std::size_t frame, ViewPrecision precision) const {
-  return pack(taken_[frame].entry, precision, taken_[frame].datum);
+  return read_and_pack(taken_[frame].entry, precision, taken_[frame].datum);
 }
 
 Result<std::string> ViewRun::probe(const SeriesEntry& frame, ViewPrecision precision) const {
-  return pack(frame, precision, 0);
+  return read_and_pack(frame, precision, 0);
 }
 
 std::string ViewRun::table(const std::string& name, std::size_t most_rows) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -69,9 +70,15 @@ class ViewRun {
     Grid blocks;
     std::optional<Grid> contacts;
   };
-  Result<Grids> read(const SeriesEntry& frame) const;
-  Result<std::string> pack(const SeriesEntry& frame, ViewPrecision precision,
-                           std::size_t datum) const;
+  /// A frame's grids, and its blocks as rows of the mesh.
+  struct Opened {
+    Grids grids;
+    ViewBlocks in;
+  };
+  Result<Opened> open_frame(const SeriesEntry& frame) const;
+  std::string pack(const Opened& frame, ViewPrecision precision, std::size_t datum) const;
+  Result<std::string> read_and_pack(const SeriesEntry& frame, ViewPrecision precision,
+                                    std::size_t datum) const;
   void widen_ranges(const Grids& grids);
 
   std::string folder_;
