@@ -5,6 +5,7 @@ import { mkdtempSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { launch, open } from '../tests/view/browser.mjs';
+import { wall } from '../tests/view/wall.mjs';
 
 const [edda, packages] = process.argv.slice(2, 4).map((p) => path.resolve(p));
 const sizes = process.argv.length > 4 ? process.argv.slice(4).map(Number) : [2000, 20000, 100000];
@@ -15,25 +16,7 @@ function write(blocks) {
   const rows = Math.round(Math.sqrt(blocks / 2.5));
   const columns = Math.round(blocks / rows);
   const file = path.join(folder, `wall${blocks}.toml`);
-  writeFileSync(file, `
-    [materials.rock]
-    density = 2000.0
-    young = 5e9
-    poisson = 0.2
-    [joints.mortar]
-    friction_angle = 30.0
-    [[block]]
-    fixed = true
-    polygon = [[-5, -1], [${columns + 5}, -1], [${columns + 5}, 0], [-5, 0]]
-    [[brick_wall]]
-    columns = ${columns}
-    rows = ${rows}
-    brick = [1.0, 0.5]
-    [solver]
-    duration = 0.009
-    [output]
-    every = 0.001
-    history_every = 0.001`);
+  writeFileSync(file, wall({ columns, rows, duration: 0.009, every: 0.001, historyEvery: 0.001 }));
   return file;
 }
 

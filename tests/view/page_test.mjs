@@ -7,6 +7,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { launch, open } from './browser.mjs';
+import { wall } from './wall.mjs';
 
 const [edda, packages] = process.argv.slice(2).map((p) => path.resolve(p));
 if (!existsSync('/usr/bin/chromium')) {
@@ -290,25 +291,7 @@ test('follows a run that goes on', async () => {
 });
 
 test('small pages are kept small, and still end with exact values', async () => {
-  writeFileSync(path.join(folder, 'wall.toml'), `
-    [materials.rock]
-    density = 2000.0
-    young = 5e9
-    poisson = 0.2
-    [joints.mortar]
-    friction_angle = 30.0
-    [[block]]
-    fixed = true
-    polygon = [[-5, -1], [65, -1], [65, 0], [-5, 0]]
-    [[brick_wall]]
-    columns = 60
-    rows = 33
-    brick = [1.0, 0.5]
-    [solver]
-    duration = 0.2
-    [output]
-    every = 0.001
-    history_every = 0.01`);
+  writeFileSync(path.join(folder, 'wall.toml'), wall({ columns: 60, rows: 33, duration: 0.2, every: 0.001, historyEvery: 0.01 }));
   run('run', 'wall.toml', '--quiet');
   const said = run('view', 'wall');
   const [, frames, size] = /(\d+) frames, ([\d.]+) MB/.exec(said);
