@@ -2,10 +2,15 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
+# Before 1.0 each minor version may change the interface: programs are linked to one of them, as find_package() asks for one.
+set(edda_abi ${PROJECT_VERSION_MAJOR})
+if(PROJECT_VERSION_MAJOR EQUAL 0)
+  set(edda_abi 0.${PROJECT_VERSION_MINOR})
+endif()
 add_library(edda_shared SHARED $<TARGET_OBJECTS:edda_library>)
 add_library(edda::edda ALIAS edda_shared)
 set_target_properties(edda_shared PROPERTIES OUTPUT_NAME edda EXPORT_NAME edda
-                      VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+                      VERSION ${PROJECT_VERSION} SOVERSION ${edda_abi})
 target_link_libraries(edda_shared PRIVATE $<BUILD_INTERFACE:edda_run>)
 if(NOT EDDA_SANITIZE AND NOT EDDA_TSAN)  # their run-time libraries are in the program alone
   target_link_options(edda_shared PRIVATE -Wl,--exclude-libs,ALL -Wl,-z,defs)

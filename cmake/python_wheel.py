@@ -26,12 +26,16 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     if given:
         return _pack(pathlib.Path(given), pathlib.Path(wheel_directory))
     with tempfile.TemporaryDirectory(prefix="edda_wheel_") as folder:
-        build = pathlib.Path(folder)
-        options = ["-DCMAKE_BUILD_TYPE=Release", "-DEDDA_TESTS=OFF", "-DEDDA_BENCH=OFF", "-DEDDA_PYTHON=ON",
-                   f"-DEDDA_PYTHON_EXECUTABLE={sys.executable}"]
-        options += shlex.split(os.environ.get("CMAKE_ARGS", ""))
-        subprocess.run(["cmake", "-G", "Ninja", "-S", ROOT, "-B", build, *options], check=True)
-        return _pack(build, pathlib.Path(wheel_directory))
+        configure(folder)
+        return _pack(pathlib.Path(folder), pathlib.Path(wheel_directory))
+
+
+def configure(build):
+    """The module alone: no page of edda view, which would want node, and nothing without pybind11."""
+    options = ["-DCMAKE_BUILD_TYPE=Release", "-DEDDA_TESTS=OFF", "-DEDDA_BENCH=OFF", "-DEDDA_VIEW=OFF", "-DEDDA_PYTHON=ON",
+               "-DCMAKE_REQUIRE_FIND_PACKAGE_pybind11=ON", f"-DEDDA_PYTHON_EXECUTABLE={sys.executable}"]
+    options += shlex.split(os.environ.get("CMAKE_ARGS", ""))
+    subprocess.run(["cmake", "-G", "Ninja", "-S", ROOT, "-B", build, *options], check=True)
 
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):

@@ -23,5 +23,12 @@ add_custom_target(edda_shell_files ALL DEPENDS ${shell_files})
 
 install(FILES ${shell_folder}/edda.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${shell_folder}/edda DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-install(FILES ${shell_folder}/_edda DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+# zsh looks into vendor-completions below Debian's /usr alone; the prefix is known only when installing.
+install(CODE "
+  set(folder site-functions)
+  if(CMAKE_INSTALL_PREFIX MATCHES \"^/usr/?\$\")
+    set(folder vendor-completions)
+  endif()
+  file(INSTALL ${shell_folder}/_edda DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/zsh/\${folder}\")
+")
 install(FILES ${shell_folder}/edda.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)

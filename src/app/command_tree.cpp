@@ -54,7 +54,7 @@ std::vector<std::string> choices_of(const std::string& type) {
 Files files_of(const std::string& type, bool positional) {
   if (type == "DIR|MODEL") return Files::folders_or_models;
   if (type == "DIR") return Files::folders;
-  if (type == "FILE") return positional ? Files::models : Files::any;
+  if (type.starts_with("FILE")) return positional ? Files::models : Files::any;
   return Files::nothing;
 }
 

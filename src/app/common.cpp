@@ -22,7 +22,8 @@ std::atomic<bool> asked_to_stop{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 void ask_to_stop(int signal) {
-  if (asked_to_stop.exchange(true)) {
+  // The end of a terminal may be told twice, by it and by its shell.
+  if (asked_to_stop.exchange(true) && signal != SIGHUP) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }
@@ -33,6 +34,9 @@ void ask_to_stop(int signal) {
 const std::atomic<bool>& stop_on_signals() {
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
+  // Under nohup the end of the terminal is nothing to stop for.
+  if (std::signal(SIGHUP, ask_to_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
   return asked_to_stop;
 }
 
@@ -90,6 +94,13 @@ std::string stem_of(const std::string& path) {
   std::filesystem::path p(path);
   if (!p.has_filename()) p = p.parent_path();
   return p.stem().string();
+}
+
+std::string name_of(const std::string& path) {
+  if (!std::filesystem::is_directory(path)) return stem_of(path);
+  std::filesystem::path p = std::filesystem::absolute(path).lexically_normal();
+  if (!p.has_filename()) p = p.parent_path();
+  return p.filename().string();
 }
 
 std::string ending_of(const std::string& path) {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "app/commands.hpp"
@@ -29,9 +30,20 @@ std::optional<Model> read_or_print(const std::string& path,
 /// Adds --json.
 void add_json(CLI::App& command, bool& json, const std::string& description);
 
-/// From now on SIGINT and SIGTERM set what is returned, so that a run ends well; a second one ends
-/// the program at once.
+/// From now on SIGINT, SIGTERM and SIGHUP set what is returned, so that a run ends well; a second
+/// SIGINT or SIGTERM ends the program at once. SIGPIPE is ignored: see say().
 const std::atomic<bool>& stop_on_signals();
+
+/// Says something during a run; that nobody reads it any more (a closed pipe, a terminal that is
+/// gone) ends no run.
+template <class Words>
+void say(const Words& words) {
+  try {
+    words();
+  } catch (const std::system_error&) {
+    return;
+  }
+}
 
 /// Adds --set key=value.
 void add_overrides(CLI::App& command, std::vector<std::string>& overrides);
@@ -41,6 +53,10 @@ void add_threads(CLI::App& command);
 
 /// File name without folder and ending.
 std::string stem_of(const std::string& path);
+
+/// What is made of a file or a folder is called by default: the file's name without its ending, the
+/// folder's own in full.
+std::string name_of(const std::string& path);
 
 /// ".svg" of "a/b.svg", in lower case.
 std::string ending_of(const std::string& path);

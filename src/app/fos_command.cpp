@@ -103,14 +103,14 @@ int fos(const FosArguments& args) {
   options.threads = omp_get_max_threads();
   options.stop = &stop_asked;
   if (!args.quiet && !args.json)
-    options.say = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+    options.say = [](const std::string& line) { say([&] { fmt::print(stderr, "{}\n", line); }); };
   const Result<FosResult> found = find_factor(*model, options);
   if (!found.ok()) {
     print(found.faults(), args.json);
     return exit_code::bad_input;
   }
   const FosResult& r = found.value();
-  if (!args.quiet && !args.json) print_warnings(r.warnings);
+  if (!args.quiet && !args.json) say([&] { print_warnings(r.warnings); });
   FolderLock lock;
   Trouble trouble = make_folder(folder);
   if (!trouble) trouble = lock.take(folder);
@@ -123,9 +123,9 @@ int fos(const FosArguments& args) {
     return exit_code::failed;
   }
   if (args.json) {
-    fmt::print("{}\n", one_line(fos_summary(*model, r, omp_get_max_threads())));
+    say([&] { fmt::print("{}\n", one_line(fos_summary(*model, r, omp_get_max_threads()))); });
   } else if (!args.quiet) {
-    print_end(r, folder);
+    say([&] { print_end(r, folder); });
   }
   return code_of(r.status);
 }

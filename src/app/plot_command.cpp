@@ -1,6 +1,7 @@
 // edda plot
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -57,6 +58,23 @@ Trouble check(const PlotArguments& args) {
   if (!args.output.empty() && !is_picture(ending_of(args.output))) {
     return Fault{{{}, args.output, 0, 0}, "ends in none of .png .svg .pdf", "name the file so"};
   }
+  std::vector<double> numbers = args.compare;
+  numbers.insert(numbers.end(), args.range.begin(), args.range.end());
+  numbers.insert(numbers.end(), args.window.begin(), args.window.end());
+  for (const auto& number : {args.time, args.scale}) numbers.push_back(number.value_or(0.0));
+  if (!std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); }))
+    return fault("edda plot", "was given a number that is none, or has no end", "give another one");
+  const bool has_pixels = args.output.empty() || ending_of(args.output) == ".png";
+  if (args.width_pixels > 0 && !has_pixels)
+    return fault("--width", "is in pixels, which only a .png has", "give mm, as 90mm");
+  if (args.dpi && !has_pixels)
+    return fault("--dpi", "is for a .png: the others have no pixels", "leave it out");
+  if (args.width_pixels > 0 && args.dpi)
+    return fault("--dpi", "has no say where --width is in pixels", "leave it out, or give mm");
+  if (!args.overrides.empty() && std::filesystem::is_directory(args.source))
+    return fault("--set", "changes a model, not its results", "run the model with it");
+  if (!args.history.empty() && (args.scale || !args.range.empty() || !args.window.empty()))
+    return fault("--history", "draws lines over time", "leave out --scale, --range and --window");
   if (!args.range.empty() && !(args.range[0] < args.range[1]))
     return fault("--range", "is empty", "give LO,HI with LO below HI");
   if (const auto& w = args.window; !w.empty() && !(w[0] < w[2] && w[1] < w[3]))
@@ -72,7 +90,7 @@ Trouble check(const PlotArguments& args) {
 
 int draw(const PlotArguments& args) {
   if (const Trouble trouble = check(args)) return refuse(*trouble);
-  const std::string path = args.output.empty() ? stem_of(args.source) + ".png" : args.output;
+  const std::string path = args.output.empty() ? name_of(args.source) + ".png" : args.output;
   return args.history.empty() ? draw_frames(args, path) : draw_histories(args, path);
 }
 

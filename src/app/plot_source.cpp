@@ -56,7 +56,7 @@ std::vector<BoltChain> bolts_at(const Table& table, double time) {
   std::string last;
   for (std::size_t r = 0; r < table.rows(); ++r) {
     if (std::abs(t->values[r] - time) > 1e-9 * std::max(1.0, std::abs(time))) continue;
-    const std::string bolt = name->texts.empty() ? "" : name->texts[r];
+    const std::string bolt = name->text(r);
     if (chains.empty() || bolt != last) chains.emplace_back();
     last = bolt;
     BoltChain& chain = chains.back();
@@ -114,7 +114,7 @@ std::vector<StageSpan> stages_of(const std::string& folder) {
                *end = table.value().column("end");
   if (name == nullptr || start == nullptr || end == nullptr) return stages;
   for (std::size_t r = 0; r < table.value().rows(); ++r) {
-    stages.push_back({name->texts.empty() ? "" : name->texts[r], start->values[r], end->values[r]});
+    stages.push_back({name->text(r), start->values[r], end->values[r]});
   }
   return stages;
 }
@@ -124,8 +124,9 @@ std::vector<StageSpan> stages_of(const std::string& folder) {
 Paper paper_of(const PlotArguments& args) {
   Paper paper;
   paper.font = args.font;
-  paper.pixels_per_point = args.dpi / 72.0;
+  if (args.dpi) paper.pixels_per_point = *args.dpi / 72.0;
   if (args.width > 0.0) paper.width = args.width * points_per_mm;
+  paper.whole = args.width > 0.0 || args.width_pixels > 0;
   if (args.width_pixels > 0) paper.pixels_per_point = args.width_pixels / paper.width;
   return paper;
 }
@@ -157,9 +158,10 @@ Result<PlotSource> from_folder(const PlotArguments& args) {
 }
 
 Result<PlotSource> from_model(const PlotArguments& args) {
-  if (!args.compare.empty() || args.before || args.bolts || args.principal) {
+  if (args.time || !args.compare.empty() || args.before || args.bolts || args.principal ||
+      args.forces || is_of_contacts(args.field)) {
     return Fault{{{}, args.source, 0, 0},
-                 "is a model, which has no times, stresses or loads yet",
+                 "is a model, which has no times, stresses, contacts or loads yet",
                  "run it, and give the folder of its results"};
   }
   const Result<Model> model = read_model(args.source, args.overrides);

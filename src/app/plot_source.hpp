@@ -17,10 +17,10 @@ struct PlotArguments {
   std::vector<std::string> overrides, history;
   std::vector<double> compare;        ///< s
   std::vector<double> range, window;  ///< low, high; x0, y0, x1, y1
-  std::optional<double> time, scale;
+  std::optional<double> time, scale, dpi;
   double width = 0.0;  ///< mm; 0: not given
   int width_pixels = 0;
-  double dpi = 254.0, font = 8.0;
+  double font = 8.0;
   bool forces = false, principal = false, bolts = false, before = false, no_marks = false;
 };
 

@@ -16,7 +16,7 @@ struct RunArguments {
   std::string model, folder;
   std::vector<std::string> overrides;
   bool quiet = false, resume = false, json = false;
-  std::string from;  ///< name or number of a stage
+  std::optional<std::string> from;  ///< name or number of a stage
 };
 
 int code_of(Status status) {
@@ -25,11 +25,12 @@ int code_of(Status status) {
 }
 
 /// The stage of --from; nothing without the option.
-Result<std::optional<std::size_t>> first_stage(const Model& model, const std::string& name) {
-  if (name.empty()) return std::optional<std::size_t>{};
-  if (const auto stage = stage_called(model, name)) return stage;
+Result<std::optional<std::size_t>> first_stage(const Model& model,
+                                               const std::optional<std::string>& name) {
+  if (!name) return std::optional<std::size_t>{};
+  if (const auto stage = stage_called(model, *name)) return stage;
   return Fault{{"--from", {}, 0, 0},
-               '"' + name + "\" is no stage of the model",
+               '"' + *name + "\" is no stage of the model",
                "name one of its [[stage]]s, or give its number from 0"};
 }
 
@@ -37,9 +38,9 @@ RunOptions options_for(const RunArguments& args, const std::string& folder, RunR
   RunOptions options;
   options.folder = folder;
   options.resume = args.resume;
-  options.warn = [&](const std::string& w) { report.warns(w); };
-  options.progress = [&](const Progress& p) { report.goes_on(p); };
-  options.stage_ended = [&](const StageReport& s) { report.stage_ended(s); };
+  options.warn = [&](const std::string& w) { say([&] { report.warns(w); }); };
+  options.progress = [&](const Progress& p) { say([&] { report.goes_on(p); }); };
+  options.stage_ended = [&](const StageReport& s) { say([&] { report.stage_ended(s); }); };
   if (args.json) options.progress_every = 1.0;
   return options;
 }
@@ -51,7 +52,8 @@ Result<Model> usable_model(const RunArguments& args, const std::string& folder) 
   const auto from = first_stage(model.value(), args.from);
   if (!from.ok()) return from.faults();
   // Asked before the cut, which may take minutes, and again when the run starts.
-  if (const Trouble trouble = check_folder(folder, args.model)) return *trouble;
+  const bool goes_on = args.resume || args.from.has_value();
+  if (const Trouble trouble = check_folder(folder, goes_on ? "" : args.model)) return *trouble;
   return model;
 }
 
@@ -59,7 +61,7 @@ int run(const RunArguments& args) {
   const std::unique_ptr<RunReport> report =
       args.json ? report_to_machines(args.quiet) : report_to_people(args.quiet);
   const auto refuse = [&](const Faults& faults) {
-    report->refused(faults);
+    say([&] { report->refused(faults); });
     return exit_code::bad_input;
   };
   const std::string folder = args.folder.empty() ? stem_of(args.model) : args.folder;
@@ -68,14 +70,14 @@ int run(const RunArguments& args) {
   const std::atomic<bool>& stop_asked = stop_on_signals();
   Result<PreparedRun> prepared = prepare_run(model.value());
   if (!prepared.ok()) return refuse(prepared.faults());
-  report->starts(prepared.value(), folder);
+  say([&] { report->starts(prepared.value(), folder); });
   RunOptions options = options_for(args, folder, *report);
   options.stop = &stop_asked;
   options.from_stage = first_stage(model.value(), args.from).value();
   const Result<Outcome> outcome = run_model(prepared.value(), options);
   if (!outcome.ok()) return refuse(outcome.faults());
   const int code = code_of(outcome.value().status);
-  report->ends(outcome.value(), folder, code);
+  say([&] { report->ends(outcome.value(), folder, code); });
   return code;
 }
 
@@ -117,7 +119,8 @@ void add_run(CLI::App& app, int& code) {
       ->excludes("--resume");
   add_threads(*command);
   add_overrides(*command, args->overrides);
-  command->add_flag("--quiet", args->quiet, "No progress, no warnings, no closing words");
+  command->add_flag("--quiet", args->quiet,
+                    "No progress, no closing words, no warnings but of what a run could not write");
   add_json(*command, args->json,
            "Say all that happens as JSON, one object per line on stdout, and nothing on stderr");
   command->callback([args, &code] { code = run(*args); });

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 #include "app/common.hpp"
@@ -35,7 +36,7 @@ ViewNames names_of(const std::string& folder) {
 }
 
 int write(ViewRun& run, const ViewArguments& args) {
-  const std::string path = args.output.empty() ? stem_of(args.folder) + ".html" : args.output;
+  const std::string path = args.output.empty() ? name_of(args.folder) + ".html" : args.output;
   const Result<PageReport> report =
       write_page(run, path, static_cast<std::size_t>(args.most * 1e6));
   if (!report.ok()) {
@@ -50,21 +51,24 @@ int write(ViewRun& run, const ViewArguments& args) {
         "  {} of the run's {} frames were left out, evenly, to stay below {:g} MB: --max-size\n",
         r.of - r.frames, r.of, args.most);
   }
+  if (static_cast<double>(r.bytes) > args.most * 1e6)
+    fmt::print("  that is more than {:g} MB: the first and the last frame alone take it\n",
+               args.most);
   if (r.precision == ViewPrecision::whole16) {
     fmt::print(
-        "  displacements are stored to 1/65534, velocities, rotations and stresses to 1/4094 of "
-        "the\n"
-        "  largest in their frame; the last frame to 7 digits\n");
+        "  displacements are stored to 1/65534, of corners to 1/10000, velocities, rotations and "
+        "stresses\n"
+        "  to 1/4094 of the largest in their frame; the last frame to 7 digits\n");
   }
   return exit_code::done;
 }
 
-int serve(ViewRun& run, const ViewArguments& args) {
+int serve(const std::function<Result<ViewRun>()>& open, const ViewArguments& args) {
   const auto ready = [](const std::string& address) {
     fmt::print("open {} in a browser; Ctrl-C ends it\n", address);
     std::fflush(stdout);
   };
-  if (const Trouble trouble = serve_page(run, args.port, ready, stop_on_signals())) {
+  if (const Trouble trouble = serve_page(open, args.port, ready, stop_on_signals())) {
     print({*trouble});
     return exit_code::bad_input;
   }
@@ -82,12 +86,15 @@ int view(const ViewArguments& args) {
     fmt::print(stderr, "{}: does not end in .html: name the page so\n", args.output);
     return exit_code::bad_input;
   }
-  Result<ViewRun> run = ViewRun::open(args.folder, names_of(args.folder));
-  if (!run.ok()) {
+  const auto open = [&] { return ViewRun::open(args.folder, names_of(args.folder)); };
+  Result<ViewRun> run = open();
+  // A run that has begun will have a first frame: the page waits for it.
+  const bool has_begun = std::filesystem::exists(args.folder + "/model.toml");
+  if (!run.ok() && !(args.serve && has_begun)) {
     print(run.faults());
     return exit_code::bad_input;
   }
-  return args.serve ? serve(run.value(), args) : write(run.value(), args);
+  return args.serve ? serve(open, args) : write(run.value(), args);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ Box model_box(const Model& model, const BlockSet& b) {
   if (model.domain) {
     for (Vec2 p : model.domain->outline) box.add(p - b.origin);
   } else {
-    for (std::size_t v = 0; v < b.vertex_count(); ++v) box.add({b.vertex_x[v], b.vertex_y[v]});
+    for (std::size_t v = 0; v < b.vertex_count(); ++v) box.add(b.vertex(v));
   }
   return box;
 }

@@ -34,7 +34,7 @@ Result<BoundarySprings> attach_boundaries(const Model& model, const BlockSet& b)
       bool on = false;
       across.clear();
       for (const Line& line : lines) {
-        if (distance_to_segment({b.vertex_x[v], b.vertex_y[v]}, line.a, line.b) > snap) continue;
+        if (distance_to_segment(b.vertex(v), line.a, line.b) > snap) continue;
         on = true;
         if (boundary.type != BoundaryType::roller) {
           s.kxx = s.kyy = k;

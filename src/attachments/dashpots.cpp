@@ -13,7 +13,7 @@ namespace {
 void add_points(const BlockSet& b, const Boundary& boundary, Index row, const Piece& piece,
                 std::vector<Dashpot>& points) {
   const Id v = piece.edge, end = b.next[v], i = b.vertex_block[v];
-  const Vec2 a{b.vertex_x[v], b.vertex_y[v]}, u = Vec2{b.vertex_x[end], b.vertex_y[end]} - a;
+  const Vec2 a = b.vertex(v), u = b.vertex(end) - a;
   const Vec2 t = unit(u), n = outward_normal(t);
   const double density = b.mass[i] / b.volume[i];
   const double p_speed = boundary.wave_speeds

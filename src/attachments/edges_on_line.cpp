@@ -6,10 +6,6 @@
 namespace edda {
 namespace {
 
-Vec2 start_of(const BlockSet& b, Id v) {
-  return {b.vertex_x[v], b.vertex_y[v]};
-}
-
 /// A line that turns back or touches an edge twice counts it once.
 void unite(std::vector<Piece>& pieces) {
   std::sort(pieces.begin(), pieces.end(), [](const Piece& x, const Piece& y) {
@@ -29,7 +25,7 @@ void unite(std::vector<Piece>& pieces) {
 }  // namespace
 
 Part on_segment(const BlockSet& b, Id v, Vec2 p, Vec2 q, double snap) {
-  const Vec2 a = start_of(b, v), u = start_of(b, b.next[v]) - a;
+  const Vec2 a = b.vertex(v), u = b.vertex(b.next[v]) - a;
   const double length2 = dot(u, u);
   const double sp = dot(p - a, u) / length2, sq = dot(q - a, u) / length2;
   const Part part{std::clamp(std::min(sp, sq), 0.0, 1.0), std::clamp(std::max(sp, sq), 0.0, 1.0)};
@@ -45,7 +41,7 @@ std::vector<OnLine> edges_on(const BlockSet& b, Vec2 p, Vec2 q, double snap) {
   for (Id v = 0; v < b.vertex_count(); ++v) {
     const Part part = on_segment(b, v, p, q, snap);
     if (part.to <= part.from) continue;
-    const Vec2 a = start_of(b, v), u = start_of(b, b.next[v]) - a;
+    const Vec2 a = b.vertex(v), u = b.vertex(b.next[v]) - a;
     const double s = dot(a + part.from * u - p, t), e = dot(a + part.to * u - p, t);
     found.push_back({v, part, std::min(s, e), std::max(s, e), e > s});
   }

@@ -44,8 +44,8 @@ FaceForces::FaceForces(const BlockSet& blocks, const StressField& field, const L
     : b_(blocks), field_(field), now_(at_start) {}
 
 EndForces FaceForces::on(Id edge, Part part) const {
-  const Vec2 a{b_.vertex_x[edge], b_.vertex_y[edge]};
-  const Vec2 u = Vec2{b_.vertex_x[b_.next[edge]], b_.vertex_y[b_.next[edge]]} - a;
+  const Vec2 a = b_.vertex(edge);
+  const Vec2 u = b_.vertex(b_.next[edge]) - a;
   const Vec2 n = outward_normal(unit(u));
   const double length = (part.to - part.from) * norm(u) * b_.thickness;
   const Vec2 t0 = traction(field_.at(a + part.from * u), n),

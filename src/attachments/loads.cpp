@@ -14,10 +14,6 @@
 namespace edda {
 namespace {
 
-Vec2 start_of(const BlockSet& b, Id v) {
-  return {b.vertex_x[v], b.vertex_y[v]};
-}
-
 void attach_line(const Load& load, Index row, const BlockSet& b, double snap, Loads& loads,
                  Faults& faults) {
   std::vector<Line> lines;
@@ -96,7 +92,7 @@ struct Table {
 /// are dry.
 void wet_edge(const BlockSet& b, Id v, const Table& table, const std::vector<Part>& dry,
               double snap, Index row, std::vector<WetEdge>& wet) {
-  const Vec2 a = start_of(b, v), u = start_of(b, b.next[v]) - a;
+  const Vec2 a = b.vertex(v), u = b.vertex(b.next[v]) - a;
   const auto add = [&](Part piece) {
     for (const Part p : without(piece, dry)) {
       if ((p.to - p.from) * norm(u) <= snap) continue;

@@ -69,6 +69,8 @@ struct BlockSet {
   std::map<Id, std::string> names;  ///< of the blocks that were given one
   MassKind mass_kind = MassKind::matched;
 
+  /// At the start, m.
+  Vec2 vertex(std::size_t v) const { return {vertex_x[v], vertex_y[v]}; }
   /// Empty where none was given.
   std::string_view name(std::size_t i) const {
     const auto found = names.find(static_cast<Id>(i));

@@ -44,12 +44,12 @@ constexpr std::array<DoubleArray, 21> memory = {&ContactSet::tension,
                                                 &ContactSet::damping_work};
 
 /// Filled anew; only their size matters here.
-constexpr std::array<DoubleArray, 5> scratch = {
+constexpr std::array<DoubleArray, 5> scratch_arrays = {
     &ContactSet::before, &ContactSet::beyond, &ContactSet::span, &ContactSet::tx, &ContactSet::ty};
 
 void resize(ContactSet& c, std::size_t n) {
   for (DoubleArray a : memory) (c.*a).assign(n, 0.0);
-  for (DoubleArray a : scratch) (c.*a).assign(n, 0.0);
+  for (DoubleArray a : scratch_arrays) (c.*a).assign(n, 0.0);
   c.force.assign(2 * n, 0.0);
   c.reaction.assign(4 * n, 0.0);
   c.state.assign(n, 0);

@@ -10,6 +10,7 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
+}  // namespace
 /// Orders blocks, not single rows: six times smaller a graph, and the six rows stay together.
 struct BlockOrdering {
   using PermutationType = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
@@ -35,8 +36,6 @@ struct BlockOrdering {
     }
   }
 };
-
-}  // namespace
 
 struct LinearSolver::Factor
     : Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, BlockOrdering> {

@@ -1,10 +1,13 @@
 // Changing a Simulation between two steps.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "library/impl.hpp"
 #include "model/nearest.hpp"
 #include "model/stage_names.hpp"
+#include "run/stages.hpp"
 
 namespace edda::api {
 namespace {
@@ -48,6 +51,38 @@ std::vector<double> strength_factors(const LawTable& laws) {
 }
 
 constexpr double smallest_factor = 1e-6;
+
+// What follows has the wording of model/complete_stages.cpp: a stage is refused for the same.
+
+void check_relaxation(const edda::Simulation& sim, Index row, const std::string& name,
+                      double part) {
+  if (!is_taken_out(sim, row)) {
+    raise("relax", '"' + name + "\" has not been taken out yet", "excavate() it before");
+  }
+  const Hold& hold = sim.loads.held[static_cast<std::size_t>(row)];
+  // Changes of one moment are one change, of which the last counts.
+  const double still = hold.changed == sim.state.time ? hold.before : hold.part;
+  if (1.0 - part <= still) return;
+  raise("relax", "is less than the " + fmt::format("{:.6g}", 1.0 - still) + " let go so far",
+        "give the part let go by then, all changes together");
+}
+
+void check_switches(const edda::Simulation& sim, const std::vector<std::string>& deactivate,
+                    const std::vector<std::string>& activate) {
+  for (const std::string& name : activate) {
+    if (std::find(deactivate.begin(), deactivate.end(), name) == deactivate.end()) continue;
+    raise("switch_over", '"' + name + "\" is in deactivate, too", "name it in one of them");
+  }
+  const auto check = [&](const std::vector<std::string>& names, bool act, const char* problem) {
+    for (const std::string& name : names) {
+      const NamedRows rows = rows_called(sim.model, {name});
+      if (rows_that(act, sim.loads.spells, rows).empty()) continue;
+      raise("switch_over", '"' + name + problem, "leave it out here");
+    }
+  };
+  check(deactivate, false, "\" does not act");
+  check(activate, true, "\" acts already");
+}
 
 }  // namespace
 
@@ -117,6 +152,7 @@ void Simulation::relax(const std::string& opening, double part) {
   const Index row = row_of_opening("relax", impl_->sim(), opening);
   check_number("relax", "part", part, 0.0, 1.0);
   impl_->begin_change("relax");
+  check_relaxation(impl_->sim(), row, opening, part);
   impl_->sim().relax(row, part);
   impl_->end_change();
 }
@@ -135,6 +171,7 @@ void Simulation::switch_over(const std::vector<std::string>& deactivate,
     }
   }
   impl_->begin_change("switch_over");
+  check_switches(impl_->sim(), deactivate, activate);
   impl_->sim().switch_over(rows_called(model, deactivate), rows_called(model, activate));
   impl_->end_change();
 }
@@ -148,6 +185,12 @@ void Simulation::install(const std::vector<std::string>& bolts) {
   const std::vector<Index> rows = bolts_called(model, bolts);
   if (rows.empty()) return;
   impl_->begin_change("install");
+  for (const std::string& name : bolts) {
+    for (const Index row : bolts_called(model, {name})) {
+      if (!is_installed(impl_->sim().bolts, row)) continue;
+      raise("install", '"' + name + "\" has been installed before", "install each once");
+    }
+  }
   if (const auto fault = impl_->sim().install(rows)) raise(Faults{*fault});
   impl_->end_change();
 }

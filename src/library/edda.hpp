@@ -122,7 +122,7 @@ struct Outcome {
   double time = 0.0;    ///< s reached
   std::uint64_t steps = 0;
   std::size_t contacts = 0;  ///< closed at the end
-  double drift = 0.0;        ///< of the energy, largest in size of all rows
+  double drift = 0.0;        ///< of the energy: the largest in size of all rows, not the last one's
   double wall_seconds = 0.0;
 };
 
@@ -130,10 +130,14 @@ struct Progress {
   double fraction = 0.0;  ///< of the duration
   double time = 0.0;      ///< s simulated
   std::uint64_t steps = 0;
-  double rate = 0.0;             ///< steps per second of wall time
-  double seconds_left = 0.0;     ///< wall; -1 while unknown
-  double kinetic = 0.0;          ///< J
-  double largest_overlap = 0.0;  ///< m
+  double rate = 0.0;              ///< steps per second of wall time
+  double seconds_left = 0.0;      ///< wall; -1 while unknown
+  double kinetic = 0.0;           ///< J
+  double largest_overlap = 0.0;   ///< m
+  double largest_velocity = 0.0;  ///< m/s, of the blocks' centroids
+  std::size_t stage = 0;          ///< in hand, from 0
+  std::size_t stages = 1;         ///< of the model; 1 where it has none
+  std::string stage_name{};       ///< empty where it has none
 };
 
 /// Energies since t = 0, J: friction, damping and fracture are dissipated, external is work done on
@@ -196,9 +200,10 @@ struct BlockViews {
 
 struct Options {
   std::string results{};  ///< folder for results, as of `edda run -o`; empty: none
-  bool resume = false;    ///< go on from the checkpoint in it
+  bool resume = false;    ///< go on from the checkpoint in it, with the model of its model.toml
   std::optional<std::size_t> from_stage{};  ///< go on from that of the end of this stage
-  /// Called about every `progress_every` s of wall time; false: as stop(). May be empty.
+  /// Called between two steps, about every `progress_every` s of wall time, and once the run is
+  /// over, when it may look but no longer change; false: as stop(). May be empty.
   std::function<bool(const Progress&)> progress{};
   double progress_every = 0.2;
   std::function<void(const std::string&)> warn{};  ///< of what does not end the run; may be empty
@@ -252,11 +257,13 @@ class EDDA_API Simulation {
   Point origin() const;                         ///< node positions count from here
   Nodes node_x() const;                         ///< m, at step n, relative to origin()
   Nodes node_y() const;
-  /// m/s, half a step before the positions (method "dda": with them). May be written to between two
-  /// steps; the energy that this brings counts as external work.
+  /// m/s, half a step before the positions (method "dda": with them). May be written to before the
+  /// first and between two steps; the energy that this brings counts as external work. The next
+  /// call puts back what was written for blocks that are not free; numbers that are not finite are
+  /// its Error.
   MutableNodes node_vx();
   MutableNodes node_vy();
-  /// The name of a block, empty where it has none, and the block of a name.
+  /// The name of a block (below block_count()), empty where it has none, and the block of a name.
   std::string name(std::size_t block) const;
   std::optional<std::size_t> block_called(std::string_view name) const;
 
@@ -270,12 +277,15 @@ class EDDA_API Simulation {
 
   // -- Monitors
   /// The material point that is at `point` at the start. With a results folder before the first
-  /// step alone: history.csv has a column for each from its first row on.
+  /// step alone: history.csv has a column for each from its first row on. model.toml of the folder
+  /// names it, too: by that model such a run is resumed.
   void add_monitor(const std::string& name, Point point);
   std::vector<std::string> monitors() const;  ///< those of the model first
   MonitorReading read(const std::string& monitor) const;
 
-  // -- Changing it, between two steps. A change before the first step begins the run.
+  // -- Changing it, between two steps. A change before the first step begins the run. What a stage
+  // could not do either (activate what acts, install twice, let go less than before) is an Error; a
+  // later stage leaves out what has been done by hand before it.
   /// Velocity of the centroid and rate of turn of a free block; its strain rate becomes 0.
   void set_velocity(std::size_t block, Point velocity, double omega = 0.0);
   /// Mass-proportional (1/s), local, and of contacts (part of critical).
@@ -297,7 +307,8 @@ class EDDA_API Simulation {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Threads that simulations of this process use; results do not depend on it.
+/// Threads that each simulation of this process uses from its next call on, whichever thread makes
+/// it (default: all cores); results do not depend on it.
 EDDA_API void set_threads(int threads);
 
 }  // namespace edda::api

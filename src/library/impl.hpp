@@ -27,6 +27,9 @@ struct Model::Impl {
 /// An Error where the blocks cannot fit into this machine's memory.
 void check_memory(const edda::Model& model);
 
+/// The calling thread shares its loops among as many threads as set_threads() has said.
+void use_threads();
+
 /// The value, or an Error.
 template <class T>
 T value_or_raise(Result<T> result) {
@@ -77,9 +80,19 @@ struct Simulation::Impl {
   bool after_step();
   bool run_callbacks();
   void report(const edda::Progress& progress);
+  void warn(const std::string& text);
+  /// Lets the caller act between two steps of a run that goes on: it may look and change. What it
+  /// throws is kept.
+  template <class Action>
+  void between_steps(Action action);
+  /// What `part` throws is kept, the first of several, until control is back with the caller.
+  template <class Part>
+  void keep_thrown(Part part);
+  void throw_kept();
   /// The caller gets the simulation back: velocities where the views of them show.
   void hand_over();
-  /// And gives it back: what was written to the velocities is taken up.
+  /// And gives it back: what was written to the velocities is taken up. An Error where that is no
+  /// number, with the velocities as handed over.
   void take_back();
   void refuse_within_step(const char* function) const;
 

@@ -1,6 +1,7 @@
 // Faults, models and their blocks.
 #include <omp.h>
 
+#include <atomic>
 #include <iterator>
 
 #include "library/impl.hpp"
@@ -13,6 +14,9 @@
 
 namespace edda::api {
 namespace {
+
+/// OpenMP keeps such a number for each thread of the caller apart. 0: as OpenMP has it.
+std::atomic<int> threads_wanted{0};
 
 edda::Fault internal(const Fault& f) {
   return {{f.key, f.file, f.line, f.column}, f.problem, f.remedy};
@@ -127,6 +131,7 @@ std::vector<std::string> Model::stages() const {
 }
 
 Cut cut(const Model& model) {
+  use_threads();
   check_memory(model.impl().model);
   const PolygonSet polygons = value_or_raise(build_polygons(model.impl().model));
   const CutReport& r = polygons.report;
@@ -145,7 +150,12 @@ Cut cut(const Model& model) {
 
 void set_threads(int threads) {
   if (threads < 1) raise("set_threads", "less than one thread", "give 1 or more");
-  omp_set_num_threads(threads);
+  threads_wanted = threads;
+  use_threads();
+}
+
+void use_threads() {
+  if (const int threads = threads_wanted; threads > 0) omp_set_num_threads(threads);
 }
 
 }  // namespace edda::api

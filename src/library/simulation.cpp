@@ -1,4 +1,8 @@
 // A Simulation going on: the Driver's run, in parts.
+#include <cmath>
+#include <cstring>
+
+#include "blocks/kinematics.hpp"
 #include "library/impl.hpp"
 #include "results/files.hpp"
 
@@ -20,11 +24,27 @@ class Within {
   bool& flag_;
 };
 
+/// Bits: what is no number is the same as itself.
+bool same(const edda::Nodes& a, const edda::Nodes& b) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (a[k].size() != b[k].size()) return false;
+    if (std::memcmp(a[k].data(), b[k].data(), a[k].size() * sizeof(double)) != 0) return false;
+  }
+  return true;
+}
+
+bool is_finite(const edda::Nodes& v, std::size_t block) {
+  return std::isfinite(v[0][block] + v[1][block] + v[2][block]);
+}
+
 PreparedRun prepare(const Model& model, const Options& options) {
+  use_threads();
   const edda::Model& given = model.impl().model;
+  const bool goes_on = options.resume || options.from_stage;
   if (!options.results.empty()) {
-    if (const Trouble trouble = check_folder(options.results, given.file)) raise(Faults{*trouble});
-  } else if (options.resume || options.from_stage) {
+    const std::string input = goes_on ? "" : given.file;
+    if (const Trouble trouble = check_folder(options.results, input)) raise(Faults{*trouble});
+  } else if (goes_on) {
     raise("results", "names no folder to go on from", "name the folder of the run");
   }
   check_memory(given);
@@ -54,7 +74,7 @@ Simulation::Impl::Impl(const Model& given, Options&& wanted)
   run_options.folder = options.results;
   run_options.resume = options.resume;
   run_options.from_stage = options.from_stage;
-  run_options.warn = options.warn;
+  if (options.warn) run_options.warn = [this](const std::string& text) { warn(text); };
   run_options.stop = &stop;
   run_options.after_step = [this] { return after_step(); };
   if (options.progress) {
@@ -70,10 +90,12 @@ Simulation::Impl::Impl(const Model& given, Options&& wanted)
 
 Simulation::Impl::~Impl() {
   if (!begun || finished || options.results.empty()) return;
-  try {
-    options.progress = {};
-    finish();
-  } catch (...) {  // nobody is left to tell
+  options.progress = {};
+  for (int attempt = 0; attempt < 2 && !finished; ++attempt) {
+    try {
+      finish();
+    } catch (...) {  // nobody is left to tell; velocities that were refused are not there again
+    }
   }
 }
 
@@ -85,6 +107,7 @@ void Simulation::Impl::refuse_within_step(const char* function) const {
 
 void Simulation::Impl::enter() {
   if (begun) return;
+  take_back();
   begun = true;
   driver->begin();  // takes the velocities, as they are now, half a step back
   instant_.reset();
@@ -94,6 +117,7 @@ void Simulation::Impl::enter() {
 
 void Simulation::Impl::go(std::uint64_t to_step, double to_time) {
   refuse_within_step("run");
+  use_threads();
   if (finished) return;
   enter();
   if (finished) return;
@@ -103,16 +127,17 @@ void Simulation::Impl::go(std::uint64_t to_step, double to_time) {
   pause_time_ = to_time;
   {
     const Within within(stepping_);
-    driver->go_on();
+    keep_thrown([&] { driver->go_on(); });
   }
   instant_.reset();
   hand_over();
   if (driver->over()) finish();
-  if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
+  throw_kept();
 }
 
 void Simulation::Impl::finish() {
   refuse_within_step("finish");
+  use_threads();
   if (finished) return;
   enter();
   if (finished) return;
@@ -122,11 +147,33 @@ void Simulation::Impl::finish() {
   last_stage = driver->stage();
   driver.reset();  // and with it the folder
   hand_over();
+  throw_kept();
+}
+
+template <class Part>
+void Simulation::Impl::keep_thrown(Part part) {
+  try {
+    part();
+  } catch (...) {
+    if (!thrown_) thrown_ = std::current_exception();
+  }
+}
+
+void Simulation::Impl::throw_kept() {
+  if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
+}
+
+template <class Action>
+void Simulation::Impl::between_steps(Action action) {
+  instant_.reset();
+  hand_over();
+  keep_thrown(action);
+  keep_thrown([&] { take_back(); });
 }
 
 bool Simulation::Impl::after_step() {
   instant_.reset();
-  if (thrown_ || !run_callbacks()) return true;
+  if (!run_callbacks()) return true;
   const State& state = sim().state;
   return pause || state.steps >= pause_step_ || state.time >= pause_time_;
 }
@@ -137,26 +184,27 @@ bool Simulation::Impl::run_callbacks() {
   for (const Repeated& r : callbacks) {
     if (step % r.steps == 0) due.push_back(r.action);
   }
-  if (due.empty()) return true;
-  hand_over();
-  try {
-    for (const auto& action : due) action();
-  } catch (...) {
-    thrown_ = std::current_exception();
+  if (!due.empty()) {
+    between_steps([&] {
+      for (const auto& action : due) action();
+    });
   }
-  take_back();
   return !thrown_;
 }
 
 void Simulation::Impl::report(const edda::Progress& p) {
   if (!options.progress || thrown_) return;
-  try {
-    const bool go_on = options.progress(
-        {p.fraction, p.time, p.steps, p.rate, p.seconds_left, p.kinetic, p.largest_overlap});
-    if (!go_on) stop = true;
-  } catch (...) {
-    thrown_ = std::current_exception();
-  }
+  const Progress progress{p.fraction,     p.time,    p.steps,           p.rate,
+                          p.seconds_left, p.kinetic, p.largest_overlap, p.largest_velocity,
+                          p.stage,        p.stages,  p.stage_name};
+  between_steps([&] {
+    if (!options.progress(progress)) stop = true;
+  });
+}
+
+void Simulation::Impl::warn(const std::string& text) {
+  if (velocities_ == nullptr) return options.warn(text);  // in the constructor
+  between_steps([&] { options.warn(text); });
 }
 
 void Simulation::Impl::hand_over() {
@@ -168,14 +216,21 @@ void Simulation::Impl::hand_over() {
 
 void Simulation::Impl::take_back() {
   State& state = sim().state;
-  if (!lent_ || (state.vx == lent_vx_ && state.vy == lent_vy_)) return;
+  if (!lent_ || (same(state.vx, lent_vx_) && same(state.vy, lent_vy_))) return;
   const edda::Nodes vx = state.vx, vy = state.vy;
   state.vx = lent_vx_;
   state.vy = lent_vy_;
-  sim().change_velocities(vx, vy);
-  lent_vx_ = vx;
-  lent_vy_ = vy;
   instant_.reset();
+  for (std::size_t i = 0; i < sim().blocks.size(); ++i) {
+    if (!is_free(sim().blocks, state, i) || (is_finite(vx, i) && is_finite(vy, i))) continue;
+    raise("node_vx", "the velocity written for block " + std::to_string(i) + " is no number",
+          "write finite ones; those of before are there again");
+  }
+  const double work = sim().external_work;
+  sim().change_velocities(vx, vy);
+  if (!begun) sim().external_work = work;  // it begins with them
+  lent_vx_ = state.vx;
+  lent_vy_ = state.vy;
 }
 
 void Simulation::Impl::lend_velocities() {
@@ -185,6 +240,7 @@ void Simulation::Impl::lend_velocities() {
 }
 
 void Simulation::Impl::begin_change(const char* function) {
+  use_threads();
   enter();
   if (finished) raise(function, "the run is over", "make a new Simulation");
   take_back();
@@ -199,6 +255,7 @@ void Simulation::Impl::end_change() {
 }
 
 const Instant& Simulation::Impl::look() {
+  use_threads();
   take_back();
   if (!instant_) {
     if (begun && driver) driver->count_turns_now();
@@ -230,6 +287,7 @@ bool Simulation::step(std::uint64_t count) {
 }
 
 bool Simulation::advance_to(double until) {
+  if (std::isnan(until)) raise("advance_to", "the time is no number", "give one in s");
   if (!(time() >= until)) impl_->go(no_step, until);
   return !impl_->finished;
 }
@@ -253,6 +311,7 @@ void Simulation::stop() {
 
 std::size_t Simulation::every(std::uint64_t count, std::function<void()> action) {
   if (count == 0) raise("every", "0 steps", "give 1 or more");
+  if (!action) raise("every", "an empty function", "give one that can be called");
   impl_->callbacks.push_back({impl_->next_callback, count, std::move(action)});
   return impl_->next_callback++;
 }

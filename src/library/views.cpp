@@ -60,7 +60,7 @@ PolygonSet drawn_polygons(const BlockSet& b) {
     bool new_ring = true;
     for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v) {
       if (new_ring) rings.emplace_back();
-      rings.back().push_back({b.vertex_x[v], b.vertex_y[v]});
+      rings.back().push_back(b.vertex(v));
       new_ring = b.next[v] <= v;
     }
   }
@@ -176,6 +176,10 @@ MutableNodes Simulation::node_vy() {
 }
 
 std::string Simulation::name(std::size_t block) const {
+  if (block >= block_count()) {
+    raise("name", "there is no block " + std::to_string(block),
+          "give a number below " + std::to_string(block_count()));
+  }
   return std::string(impl_->sim().blocks.name(block));
 }
 

@@ -11,10 +11,6 @@
 namespace edda {
 namespace {
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// A closed walk along half-edges.
 using Walk = std::vector<int>;
 

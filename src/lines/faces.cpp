@@ -11,10 +11,6 @@
 namespace edda {
 namespace {
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Edges that are not level, by horizontal strips of equal height: item[begin[s] .. begin[s + 1]).
 struct Strips {
   double low = 0.0, height = 1.0;

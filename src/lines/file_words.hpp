@@ -8,9 +8,6 @@
 
 namespace edda {
 
-/// Without blanks, tabs and carriage returns at its ends.
-std::string_view trimmed(std::string_view text);
-
 /// The next line of `rest`, which it is taken off; without its end (LF, CR LF).
 std::string_view next_line(std::string_view& rest);
 

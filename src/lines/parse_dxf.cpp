@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/arc.hpp"
+#include "base/text.hpp"
 #include "lines/drawing.hpp"
 #include "lines/file_words.hpp"
 

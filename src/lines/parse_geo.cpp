@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "lines/drawing.hpp"
 #include "lines/file_words.hpp"
 

@@ -1,6 +1,7 @@
 // Tables of traces: x1,y1,x2,y2[,joint].
 #include <array>
 
+#include "base/text.hpp"
 #include "lines/drawing.hpp"
 #include "lines/file_words.hpp"
 

@@ -11,10 +11,6 @@
 namespace edda {
 namespace {
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Half-edges leaving each node: item[begin[v] .. begin[v + 1]).
 struct Leaving {
   std::vector<int> begin, item;

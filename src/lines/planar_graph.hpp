@@ -35,8 +35,13 @@ struct PlanarGraph {
   std::vector<std::uint8_t> alive;    ///< per edge; others count as removed
 };
 
+/// Nodes, edges and half-edges are counted by int, arrays by std::size_t.
+inline std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
 inline int origin_of(const PlanarGraph& g, int h) {
-  const GraphEdge& e = g.edge[static_cast<std::size_t>(h / 2)];
+  const GraphEdge& e = g.edge[at(h / 2)];
   return h % 2 == 0 ? e.from : e.to;
 }
 

@@ -10,10 +10,6 @@
 namespace edda {
 namespace {
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 Vec2 along(const PlanarGraph& g, int h) {
   return g.node[at(target_of(g, h))] - g.node[at(origin_of(g, h))];
 }

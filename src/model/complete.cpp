@@ -14,7 +14,7 @@ namespace {
 void complete_materials(const Value& root, Reading& reading) {
   const auto keys = find_section("materials")->keys;
   const double gravity = norm(reading.model.gravity);
-  constexpr double standard_gravity = 9.81;  // weighs materials of a model without gravity
+  constexpr double usual_gravity = 9.81;  // weighs materials of a model without gravity
   auto& materials = reading.model.materials;
   for (Material& material : materials) {
     const Value* node = find(find(&root, "materials"), material.name);
@@ -25,7 +25,7 @@ void complete_materials(const Value& root, Reading& reading) {
       if (given(node, "density")) {
         add_fault(reading, weight->place, path, "density is given too", "give only one of them");
       } else if (value) {
-        material.density = fitted(*value / (gravity > 0.0 ? gravity : standard_gravity));
+        material.density = fitted(*value / (gravity > 0.0 ? gravity : usual_gravity));
       }
     } else if (!given(node, "density")) {
       add_fault(reading, node->place, material.where.key + ".density", "is missing",

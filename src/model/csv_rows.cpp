@@ -7,15 +7,10 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/text.hpp"
+
 namespace edda {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blank = " \t\r";
-  const std::size_t first = text.find_first_not_of(blank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blank) - first + 1);
-}
 
 /// What a column may be called: begins with a letter, and is not one of the words for numbers.
 bool is_name(std::string_view text) {

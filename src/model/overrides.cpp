@@ -5,6 +5,7 @@
 #include <charconv>
 #include <optional>
 
+#include "base/text.hpp"
 #include "model/nearest.hpp"
 #include "model/reader.hpp"
 
@@ -12,12 +13,6 @@ namespace edda {
 namespace {
 
 constexpr std::size_t most_parts = 16;
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
-}
 
 /// Parts of a dotted path; a part in quotes may hold dots. Empty where a part is empty.
 std::vector<std::string> split_path(std::string_view path) {

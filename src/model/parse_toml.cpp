@@ -119,8 +119,8 @@ Fault syntax_fault(const std::string& file, int line, int column, std::string pr
 }  // namespace
 
 Result<Value> parse_toml(std::string_view text, const std::string& file) {
-  constexpr int most_parts = 32;
-  if (const int line = overlong_key(text, most_parts); line > 0) {
+  constexpr int most_keys_deep = 32;
+  if (const int line = overlong_key(text, most_keys_deep); line > 0) {
     return syntax_fault(file, line, 1, "a key of more than 32 parts");
   }
   try {

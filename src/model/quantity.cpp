@@ -7,6 +7,7 @@
 #include <numbers>
 #include <system_error>
 
+#include "base/text.hpp"
 #include "model/nearest.hpp"
 
 namespace edda {
@@ -121,8 +122,8 @@ std::optional<Unit> parse_unit(std::string_view text) {
     while (end < text.size() && !is_separator(text[end])) ++end;
     std::string_view word = text.substr(i, end - i);
     i = end;
-    constexpr int most_parts = 8;
-    if (++parts > most_parts) return std::nullopt;
+    constexpr int most_units = 8;
+    if (++parts > most_units) return std::nullopt;
     if (word == "1" && parts == 1) continue;  // "1/s"
     const int power = take_power(word);
     const std::optional<Unit> unit = unit_of(word);
@@ -148,12 +149,6 @@ double scaled(double value, const Unit& unit) {
   value *= unit.factor;
   const double power = std::pow(10.0, std::abs(unit.decimal));
   return unit.decimal < 0 ? value / power : value * power;
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
 }
 
 }  // namespace

@@ -12,6 +12,9 @@ namespace edda {
 /// Rows of the lists of a model.
 struct NamedRows {
   std::vector<Index> loads, waters, boundaries, shakings;
+  bool empty() const {
+    return loads.empty() && waters.empty() && boundaries.empty() && shakings.empty();
+  }
 };
 
 /// All that have one of these names.

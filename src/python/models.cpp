@@ -5,6 +5,7 @@ namespace edda::python {
 namespace {
 
 /// edda.ModelError with the same list of faults.
+// As pybind11 calls it. NOLINTNEXTLINE(performance-unnecessary-value-param)
 void raise_model_error(std::exception_ptr pointer) {
   try {
     if (pointer) std::rethrow_exception(pointer);

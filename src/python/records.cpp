@@ -32,7 +32,8 @@ void add_records(py::module_& m) {
       .def_readonly("time", &api::Outcome::time, "s reached")
       .def_readonly("steps", &api::Outcome::steps, "Steps made.")
       .def_readonly("contacts", &api::Outcome::contacts, "Closed at the end.")
-      .def_readonly("drift", &api::Outcome::drift, "Of the energy, largest in size of all rows.")
+      .def_readonly("drift", &api::Outcome::drift,
+                    "Of the energy: the largest in size of all rows, not the last one's.")
       .def_readonly("wall_seconds", &api::Outcome::wall_seconds, "s");
   add_repr(outcome, {"status", "message", "time", "steps"});
 
@@ -43,7 +44,12 @@ void add_records(py::module_& m) {
       .def_readonly("rate", &api::Progress::rate, "Steps per second of wall time.")
       .def_readonly("seconds_left", &api::Progress::seconds_left, "s of wall time; -1: unknown.")
       .def_readonly("kinetic", &api::Progress::kinetic, "J")
-      .def_readonly("largest_overlap", &api::Progress::largest_overlap, "m");
+      .def_readonly("largest_overlap", &api::Progress::largest_overlap, "m")
+      .def_readonly("largest_velocity", &api::Progress::largest_velocity,
+                    "m/s, of the blocks' centroids.")
+      .def_readonly("stage", &api::Progress::stage, "In hand, from 0.")
+      .def_readonly("stages", &api::Progress::stages, "Of the model; 1 where it has none.")
+      .def_readonly("stage_name", &api::Progress::stage_name, "Empty where it has none.");
   add_repr(progress, {"fraction", "time", "steps"});
 
   py::class_<api::Ledger> ledger(m, "Ledger", "Energies since t = 0, J; drift is a ratio.");

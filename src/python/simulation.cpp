@@ -1,113 +1,10 @@
-// Simulations. While one goes on the GIL is free: callbacks take it, and so does a look at the
-// signals ten times a second, so that Ctrl-C ends a run in good order.
-#include <atomic>
-#include <chrono>
+// Looking at a Simulation and changing it.
 #include <map>
-#include <thread>
 
-#include "python/bindings.hpp"
+#include "python/runner.hpp"
 
 namespace edda::python {
 namespace {
-
-/// A callable that may be copied and dropped without the GIL.
-using Callback = std::shared_ptr<py::object>;
-
-Callback hold(py::object action) {
-  return Callback(new py::object(std::move(action)), [](py::object* held) {
-    const py::gil_scoped_acquire acquire;
-    delete held;
-  });
-}
-
-class Runner {
- public:
-  Runner(const api::Model& model, std::string results, bool resume,
-         std::optional<std::size_t> from_stage, py::object progress, double progress_every,
-         py::object warn)
-      : records_(!results.empty()) {
-    api::Options options;
-    options.results = std::move(results);
-    options.resume = resume;
-    options.from_stage = from_stage;
-    constexpr double look_at_signals = 0.1;  // s
-    options.progress_every = look_at_signals;
-    if (!progress.is_none()) progress_ = hold(std::move(progress));
-    progress_every_ = progress_every;
-    options.progress = [this](const api::Progress& p) { return report(p); };
-    if (!warn.is_none()) {
-      options.warn = [held = hold(std::move(warn))](const std::string& text) {
-        const py::gil_scoped_acquire acquire;
-        (*held)(text);
-      };
-    }
-    const py::gil_scoped_release release;
-    simulation_.emplace(model, std::move(options));
-  }
-
-  ~Runner() {
-    const py::gil_scoped_release release;
-    simulation_.reset();
-  }
-
-  /// The simulation, for the thread that may have it.
-  api::Simulation& get() {
-    if (busy_ && thread_ != std::this_thread::get_id()) {
-      throw std::runtime_error("the simulation goes on in another thread: pause() it first");
-    }
-    return *simulation_;
-  }
-
-  /// Goes on without the GIL. An exception ends a run that writes results as Ctrl-C in the program
-  /// would, so that nothing is lost; without results it is paused.
-  template <class Action>
-  auto go(Action action) {
-    api::Simulation& simulation = get();
-    const bool within = busy_;  // called by a callback: refused there
-    thread_ = std::this_thread::get_id();
-    busy_ = true;
-    const py::gil_scoped_release release;
-    try {
-      const auto result = action(simulation);
-      busy_ = within;
-      return result;
-    } catch (...) {
-      busy_ = within;
-      ending_ = true;
-      if (records_ && !within) simulation.finish();
-      ending_ = false;
-      throw;
-    }
-  }
-
-  bool is_busy() const { return busy_; }
-  const api::Simulation& at_rest() const { return *simulation_; }
-
-  void pause() { simulation_->pause(); }
-  void stop() { simulation_->stop(); }
-
- private:
-  bool report(const api::Progress& p) {
-    if (ending_) return true;
-    const py::gil_scoped_acquire acquire;
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (!progress_) return true;
-    const auto now = std::chrono::steady_clock::now();
-    if (std::chrono::duration<double>(now - reported_).count() < progress_every_) return true;
-    reported_ = now;
-    const py::object answer = (*progress_)(p);
-    return answer.is_none() || answer.cast<bool>();
-  }
-
-  std::optional<api::Simulation> simulation_;
-  Callback progress_;
-  double progress_every_ = 0.0;
-  bool records_;
-  bool ending_ = false;
-  std::atomic<bool> busy_{false};
-  std::atomic<std::thread::id> thread_{};
-  std::chrono::steady_clock::time_point reported_{};
-};
 
 api::Simulation& of(const py::object& self) {
   return self.cast<Runner&>().get();
@@ -143,6 +40,11 @@ Numbers field(Runner& self, const std::string& name, const py::object& out) {
   if (!out.is_none() && !Numbers::check_(out)) {
     throw py::type_error("out is no contiguous array of float64");
   }
+  const py::object needed = py::tuple(py::cast(shape));
+  if (!out.is_none() && !py::object(out.attr("shape")).equal(needed)) {
+    throw py::value_error("out has the shape " + std::string(py::str(out.attr("shape"))) + ", \"" +
+                          name + "\" needs " + std::string(py::str(needed)));
+  }
   Numbers values = out.is_none() ? Numbers(shape) : py::reinterpret_borrow<Numbers>(out);
   double* const data = values.mutable_data();
   simulation.field(field, {data, static_cast<std::size_t>(values.size())});
@@ -170,51 +72,29 @@ py::list polygons(Runner& self) {
   return all;
 }
 
-std::size_t block_number(const api::Simulation& simulation, const py::object& block) {
-  if (!py::isinstance<py::str>(block)) return block.cast<std::size_t>();
-  const auto name = block.cast<std::string>();
+/// IndexError where there is no such block, TypeError where it is no whole number.
+std::size_t checked_number(const api::Simulation& simulation, const py::object& block) {
+  const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(block.ptr()));
+  if (!whole) throw py::error_already_set();
+  const Py_ssize_t number = PyNumber_AsSsize_t(whole.ptr(), PyExc_IndexError);
+  if (number == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
+  const auto count = static_cast<Py_ssize_t>(simulation.block_count());
+  if (number >= 0 && number < count) return static_cast<std::size_t>(number);
+  throw py::index_error("there is no block " + std::to_string(number) +
+                        ": give a number from 0 to " + std::to_string(count - 1));
+}
+
+std::size_t block_called(const api::Simulation& simulation, const std::string& name) {
   if (const auto found = simulation.block_called(name)) return *found;
   throw py::key_error("no block is called \"" + name + "\"");
 }
 
-std::size_t every(const py::object& self, std::uint64_t steps, py::object action) {
-  if (!PyCallable_Check(action.ptr())) throw py::type_error("action cannot be called");
-  // No reference to the simulation, which holds the callback: it would never be let go.
-  return of(self).every(steps, [held = hold(std::move(action)), owner = self.ptr()] {
-    const py::gil_scoped_acquire acquire;
-    (*held)(py::handle(owner));
-  });
+std::size_t number_or_name(const api::Simulation& simulation, const py::object& block) {
+  if (!py::isinstance<py::str>(block)) return checked_number(simulation, block);
+  return block_called(simulation, block.cast<std::string>());
 }
 
 using Names = std::vector<std::string>;
-
-void add_running(py::class_<Runner>& type) {
-  type.def(
-          "run", [](Runner& self) { return self.go([](auto& s) { return s.run(); }); },
-          "To the end, through all stages.")
-      .def(
-          "step",
-          [](Runner& self, std::uint64_t steps) {
-            return self.go([&](auto& s) { return s.step(steps); });
-          },
-          py::arg("steps") = 1, "So many steps; False: the run is over.")
-      .def(
-          "advance_to",
-          [](Runner& self, double time) {
-            return self.go([&](auto& s) { return s.advance_to(time); });
-          },
-          py::arg("time"), "To the first step at or past a time (s); False: the run is over.")
-      .def(
-          "finish", [](Runner& self) { return self.go([](auto& s) { return s.finish(); }); },
-          "Ends the run where it stands and writes what is due.")
-      .def("pause", &Runner::pause, "From any thread: the call in hand returns.")
-      .def("stop", &Runner::stop, "From any thread: the run ends as interrupted.")
-      .def("every", &every, py::arg("steps"), py::arg("action"),
-           "Calls action(simulation) after every so many steps; returns a number for forget().")
-      .def(
-          "forget", [](Runner& self, std::size_t callback) { self.get().forget(callback); },
-          py::arg("callback"), "Drops what every() has returned the number of.");
-}
 
 void add_numbers(py::class_<Runner>& type) {
   const auto add = [&](const char* name, auto get, const char* text) {
@@ -299,13 +179,14 @@ void add_looking(py::class_<Runner>& type) {
           },
           "A structured array, as joints.csv; state: 0 open, 1 stick, 2 slide, 3 bonded.")
       .def(
-          "name", [](Runner& self, std::size_t block) { return self.get().name(block); },
+          "name",
+          [](Runner& self, const py::object& block) {
+            return self.get().name(checked_number(self.get(), block));
+          },
           py::arg("block"), "Of a block, empty where it has none.")
       .def(
           "block_called",
-          [](Runner& self, const std::string& name) {
-            return block_number(self.get(), py::str(name));
-          },
+          [](Runner& self, const std::string& name) { return block_called(self.get(), name); },
           py::arg("name"), "The number of a block.")
       .def(
           "add_monitor",
@@ -324,7 +205,7 @@ void add_changing(py::class_<Runner>& type) {
           "set_velocity",
           [](Runner& self, const py::object& block, std::pair<double, double> v, double omega) {
             api::Simulation& s = self.get();
-            s.set_velocity(block_number(s, block), {v.first, v.second}, omega);
+            s.set_velocity(number_or_name(s, block), {v.first, v.second}, omega);
           },
           py::arg("block"), py::arg("velocity"), py::arg("omega") = 0.0,
           "Of a block by number or name: (vx, vy) of its centroid, m/s, and turn, rad/s.")
@@ -363,12 +244,6 @@ void add_changing(py::class_<Runner>& type) {
           "Displacements count from here.");
 }
 
-/// A model, or what edda.load() makes one of.
-api::Model model_of(const py::object& source) {
-  if (py::isinstance<api::Model>(source)) return source.cast<api::Model>();
-  return py::module_::import("edda").attr("load")(source).cast<api::Model>();
-}
-
 std::string repr(const Runner& self) {
   if (self.is_busy()) return "<edda.Simulation, going on>";
   const api::Simulation& s = self.at_rest();
@@ -377,29 +252,13 @@ std::string repr(const Runner& self) {
          " s, step " + std::to_string(s.steps()) + ">";
 }
 
-std::string path_or_empty(const py::object& path) {
-  return path.is_none() ? "" : py::module_::import("os").attr("fspath")(path).cast<std::string>();
-}
-
 }  // namespace
 
 void add_simulation(py::module_& m) {
   PYBIND11_NUMPY_DTYPE(api::Contact, block_i, block_j, joint, state, x, y, normal_force,
                        shear_force, opening, slip, mobilised, ever_slipped, ever_opened);
-  py::class_<Runner> type(m, "Simulation", "A model in motion.");
-  type.def(py::init([](const py::object& model, const py::object& results, bool resume,
-                       std::optional<std::size_t> from_stage, py::object progress,
-                       double progress_every, py::object warn) {
-             return std::make_unique<Runner>(model_of(model), path_or_empty(results), resume,
-                                             from_stage, std::move(progress), progress_every,
-                                             std::move(warn));
-           }),
-           py::arg("model"), py::arg("results") = py::none(), py::arg("resume") = false,
-           py::arg("from_stage") = py::none(), py::arg("progress") = py::none(),
-           py::arg("progress_every") = 0.2, py::arg("warn") = py::none(),
-           "Cuts, builds and checks; nothing is written before the first step.");
+  py::class_<Runner> type = add_runner(m);
   type.def("__repr__", &repr);
-  add_running(type);
   add_numbers(type);
   add_views(type);
   add_looking(type);

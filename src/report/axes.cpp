@@ -7,7 +7,6 @@
 namespace edda {
 namespace {
 
-constexpr double rule = 0.5;    // pt
 constexpr double digit = 0.64;  // width of a digit, of the size of the font
 
 double widest_label(const std::vector<Tick>& all, double font) {

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "results/utf8.hpp"
+
 namespace edda {
 namespace {
 
@@ -101,11 +103,13 @@ double Canvas::text_width(const std::string& text, double size, bool bold) {
                          bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cr_, size);
   cairo_text_extents_t extents;
-  cairo_text_extents(cr_, text.c_str(), &extents);
+  cairo_text_extents(cr_, printable(text).c_str(), &extents);
   return extents.x_advance;
 }
 
-void Canvas::text(const std::string& text, Vec2 at, const TextStyle& style) {
+void Canvas::text(const std::string& any_text, Vec2 at, const TextStyle& style) {
+  // Cairo draws nothing more once it has met a text that is none.
+  const std::string text = printable(any_text);
   if (format_ == Format::svg) return svg_text(text, at, style);
   const double width = text_width(text, style.size, style.bold);
   const double shift = style.align == Align::left    ? 0.0
@@ -171,15 +175,20 @@ void Canvas::clip(Vec2 low, Vec2 high) {
   cairo_clip(cr_);
 }
 
-Trouble Canvas::finish() {
+cairo_status_t Canvas::end() {
+  if (const cairo_status_t drawing = cairo_status(cr_)) return drawing;
   cairo_surface_flush(surface_);
   if (format_ == Format::png) {
-    cairo_surface_write_to_png_stream(surface_, &Canvas::take, this);
+    const cairo_status_t packing = cairo_surface_write_to_png_stream(surface_, &Canvas::take, this);
+    if (packing != CAIRO_STATUS_SUCCESS) return packing;
   } else {
     cairo_surface_finish(surface_);
   }
-  if (const cairo_status_t status = cairo_surface_status(surface_);
-      status != CAIRO_STATUS_SUCCESS) {
+  return cairo_surface_status(surface_);
+}
+
+Trouble Canvas::finish() {
+  if (const cairo_status_t status = end(); status != CAIRO_STATUS_SUCCESS) {
     Fault fault;
     fault.where.file = path_;
     fault.problem = std::string("cannot be drawn (") + cairo_status_to_string(status) + ")";

@@ -23,6 +23,8 @@ struct TextStyle {
   bool upwards = false;  ///< turned by a quarter, reading upwards
 };
 
+inline constexpr double rule = 0.5;  ///< width of frames, ticks and grids, pt
+
 class Canvas {
  public:
   /// White, `width` x `height` pt. The ending of `path` says what it becomes: .svg, .pdf, else PNG
@@ -50,6 +52,7 @@ class Canvas {
   enum class Format { png, svg, pdf };
   static cairo_status_t take(void* self, const unsigned char* data, unsigned int size);
   cairo_surface_t* surface_for(double width, double height, double pixels_per_point);
+  cairo_status_t end();  ///< the first thing that went wrong
   void svg_text(const std::string& text, Vec2 at, const TextStyle& style);
   std::string path_, bytes_;
   std::string svg_texts_;  ///< cairo would make outlines of them

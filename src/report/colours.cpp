@@ -56,14 +56,14 @@ constexpr std::array<Colour, 17> blue_red{{{0.078, 0.290, 0.583},
                                            {0.615, 0.234, 0.207},
                                            {0.553, 0.104, 0.100}}};
 
-constexpr std::array<Colour, kind_colour_count> kinds{{{0.851, 0.831, 0.776},
-                                                       {0.702, 0.804, 0.890},
-                                                       {0.800, 0.922, 0.773},
-                                                       {0.984, 0.806, 0.682},
-                                                       {0.871, 0.796, 0.894},
-                                                       {0.996, 0.949, 0.682},
-                                                       {0.729, 0.882, 0.867},
-                                                       {0.969, 0.784, 0.831}}};
+constexpr std::array<Colour, kind_colour_count> colour_of_kind{{{0.851, 0.831, 0.776},
+                                                                {0.702, 0.804, 0.890},
+                                                                {0.800, 0.922, 0.773},
+                                                                {0.984, 0.806, 0.682},
+                                                                {0.871, 0.796, 0.894},
+                                                                {0.996, 0.949, 0.682},
+                                                                {0.729, 0.882, 0.867},
+                                                                {0.969, 0.784, 0.831}}};
 
 }  // namespace
 
@@ -74,7 +74,7 @@ Colour diverging(double s) {
   return between(blue_red, s);
 }
 Colour kind_colour(std::size_t k) {
-  return kinds[k % kinds.size()];
+  return colour_of_kind[k % colour_of_kind.size()];
 }
 
 }  // namespace edda

@@ -9,14 +9,15 @@
 
 #include "report/canvas.hpp"
 #include "report/legend.hpp"
+#include "report/peaks.hpp"
 #include "report/scene.hpp"
 #include "report/ticks.hpp"
 
 namespace edda {
 namespace {
 
-constexpr double rule = 0.5, line_width = 1.0;  // pt
-constexpr double panel_height = 13.0;           // in sizes of the font
+constexpr double line_width = 1.0;     // pt
+constexpr double panel_height = 13.0;  // in sizes of the font
 
 // Okabe and Ito's colours, told apart by the colour-blind too, without the yellow; dashes tell
 // lines apart in grey.
@@ -209,8 +210,9 @@ class HistoryPage {
         canvas_->line({to, frame.low.y}, {to, frame.high.y}, rule);
       }
       if (k > 0) continue;
-      std::string name = stage.name;
-      if (canvas_->text_width(name, f_) > to - from - 0.4 * f_) name = fmt::format("{}", i);
+      const std::string number = fmt::format("{}", i + 1);
+      std::string name = stage.name.empty() ? number : stage.name;
+      if (canvas_->text_width(name, f_) > to - from - 0.4 * f_) name = number;
       if (canvas_->text_width(name, f_) > to - from - 0.4 * f_) continue;
       canvas_->colour(ink::line);
       canvas_->text(name, {0.5 * (from + to), frame.low.y - 0.5 * f_},
@@ -240,7 +242,9 @@ class HistoryPage {
     cairo_t* cr = canvas_->cr();
     double end = frame.high.y;
     bool drawing = false;
-    for (const std::size_t r : rows_to_draw(picture_.time, values, right_ - left_)) {
+    constexpr double slivers_per_point = 4.0;
+    const auto slivers = static_cast<std::size_t>(slivers_per_point * (right_ - left_)) + 1;
+    for (const std::size_t r : rows_with_peaks(picture_.time, values, slivers)) {
       if (!axis.has(values[r])) {
         drawing = false;
         continue;
@@ -288,35 +292,6 @@ class HistoryPage {
 };
 
 }  // namespace
-
-std::vector<std::size_t> rows_to_draw(const std::vector<double>& time,
-                                      const std::vector<double>& values, double width) {
-  constexpr double slivers_per_point = 4.0;
-  const auto slivers = static_cast<std::size_t>(std::max(1.0, slivers_per_point * width));
-  std::vector<std::size_t> rows;
-  if (time.size() <= 4 * slivers) {
-    rows.resize(time.size());
-    std::iota(rows.begin(), rows.end(), std::size_t{0});
-    return rows;
-  }
-  const double span = time.back() - time.front();
-  const auto sliver_of = [&](std::size_t r) {
-    return static_cast<std::size_t>((time[r] - time.front()) / span * static_cast<double>(slivers));
-  };
-  for (std::size_t first = 0; first < time.size();) {
-    std::size_t end = first + 1, low = first, high = first;
-    for (; end < time.size() && sliver_of(end) == sliver_of(first); ++end) {
-      if (values[end] < values[low]) low = end;
-      if (values[end] > values[high]) high = end;
-    }
-    const std::array some{first, std::min(low, high), std::max(low, high), end - 1};
-    for (const std::size_t r : some) {
-      if (rows.empty() || rows.back() != r) rows.push_back(r);
-    }
-    first = end;
-  }
-  return rows;
-}
 
 Trouble plot_history(const HistoryPicture& picture, const std::string& path) {
   return HistoryPage(picture, path).draw();

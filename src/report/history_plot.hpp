@@ -27,9 +27,4 @@ struct HistoryPicture {
 /// positive and spans more than three powers of ten has a logarithmic axis.
 Trouble plot_history(const HistoryPicture& picture, const std::string& path);
 
-/// The rows that show in a picture `width` pt wide: all of them, or of each sliver of it the first,
-/// the last, the lowest and the highest. `time` ascends.
-std::vector<std::size_t> rows_to_draw(const std::vector<double>& time,
-                                      const std::vector<double>& values, double width);
-
 }  // namespace edda

@@ -1,5 +1,9 @@
 // Monitors and convergence lines.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "report/labels.hpp"
 #include "report/scene.hpp"
@@ -20,6 +24,22 @@ std::optional<std::array<Vec2, 2>> ends_of(const Follower& follow, const PlotLin
   const auto a = end(line.start[0], -1e-3 * way), b = end(line.start[1], 1e-3 * way);
   if (!a || !b) return {};
   return std::array<Vec2, 2>{*a, *b};
+}
+
+/// The part of a line that lies in the frame, if any.
+std::optional<std::array<Vec2, 2>> part_within(const Box& frame, Vec2 a, Vec2 b) {
+  const Vec2 way = b - a;
+  double from = 0.0, to = 1.0;
+  // Each side leaves what lies before it: at + s way <= 0.
+  for (const auto& [at, by] :
+       {std::pair{frame.low.x - a.x, -way.x}, std::pair{a.x - frame.high.x, way.x},
+        std::pair{frame.low.y - a.y, -way.y}, std::pair{a.y - frame.high.y, way.y}}) {
+    if (by > 0.0) to = std::min(to, -at / by);
+    if (by < 0.0) from = std::max(from, -at / by);
+    if (by == 0.0 && at > 0.0) return {};
+  }
+  if (from > to) return {};
+  return std::array<Vec2, 2>{a + from * way, a + to * way};
 }
 
 void draw_dashed(Canvas& canvas, Vec2 a, Vec2 b) {
@@ -51,8 +71,10 @@ void draw_marks(Canvas& canvas, const Scene& s, const PlotOptions& options) {
     if (!ends) continue;
     const Vec2 a = s.view.at((*ends)[0]), b = s.view.at((*ends)[1]);
     canvas.colour(ink::monitor);
+    const auto seen = part_within(s.view.frame, a, b);
+    if (!seen) continue;
     draw_dashed(canvas, a, b);
-    middles.emplace_back(line.name, 0.5 * (a + b));
+    middles.emplace_back(line.name, 0.5 * ((*seen)[0] + (*seen)[1]));
   }
   for (const PlotMonitor& m : options.monitors) {
     const auto now = follow(m.start);

@@ -30,7 +30,7 @@ Layout lay_out(const Box& world, const Paper& paper, const Surroundings& room) {
   const double wide = scale * world.width(), high = scale * world.height();
   // A slim model gives a narrow page, but the title must still fit.
   const double used = room.left + n * wide + (n - 1.0) * gap + right;
-  l.width = std::max(used, std::min(paper.width, 0.55 * paper.width));
+  l.width = std::max(used, paper.whole ? paper.width : 0.55 * paper.width);
   l.height = room.top + std::max(high + below, room.legend_height) + room.legend_below + edge;
   l.drawings = n * wide + (n - 1.0) * gap;
   double x = room.left + 0.5 * (l.width - used);

@@ -23,6 +23,7 @@ struct Paper {
   double width = 160.0 * 72.0 / 25.4;            ///< pt
   double font = 8.0;                             ///< pt
   double pixels_per_point = 10.0 * 25.4 / 72.0;  ///< of a PNG: 10 per mm
+  bool whole = false;  ///< pages of slim models are as wide, too; else they may be narrower
 };
 
 /// One drawing on the page.

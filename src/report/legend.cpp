@@ -13,7 +13,6 @@ namespace {
 constexpr double columns = 10.0;    // width, in sizes of the font
 constexpr double line_step = 1.25;  // from line to line, in sizes of the font
 constexpr double least_bar = 7.5;   // height, in sizes of the font
-constexpr double rule = 0.5;        // pt
 
 using Sign = LegendKey::Sign;
 

@@ -10,7 +10,6 @@
 namespace edda {
 namespace {
 
-constexpr double rule = 0.5;                         // pt
 constexpr double bar_height = 1.1, bar_room = 4.9;   // in sizes of the font; with heading and ticks
 constexpr double kind_row = 1.6, heading_row = 1.5;  // the same
 

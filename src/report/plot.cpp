@@ -40,9 +40,10 @@ ArrowScale for_legend(ArrowScale scale, double longest) {
   return scale;
 }
 
+using Sign = LegendKey::Sign;
+
 std::vector<LegendKey> keys_of(std::span<const Snapshot> shots, const PlotOptions& options,
                                const Scales& scales) {
-  using Sign = LegendKey::Sign;
   const double longest = 4.5 * options.paper.font;
   std::vector<LegendKey> keys;
   if (!options.vectors.empty()) {

@@ -13,7 +13,7 @@ std::vector<Ring> rings_of(const BlockSet& b, std::size_t i) {
   std::vector<Ring> rings;
   for (Id first = b.vertex_begin[i], v = first; v < b.vertex_begin[i + 1]; ++v) {
     if (v == first) rings.emplace_back();
-    rings.back().push_back({b.vertex_x[v], b.vertex_y[v]});
+    rings.back().push_back(b.vertex(v));
     if (b.next[v] == first) first = v + 1;
   }
   return rings;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "results/utf8.hpp"
+
 namespace edda {
 namespace {
 
@@ -10,17 +12,9 @@ std::string escaped(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
     const auto c = static_cast<unsigned char>(text[i]);
-    const std::size_t length = c < 0x80                ? 1
-                               : c >= 0xc2 && c < 0xe0 ? 2
-                               : c >= 0xe0 && c < 0xf0 ? 3
-                               : c >= 0xf0 && c < 0xf5 ? 4
-                                                       : 0;
-    bool valid = length > 0 && i + length <= text.size();
-    for (std::size_t k = 1; valid && k < length; ++k) {
-      valid = (static_cast<unsigned char>(text[i + k]) & 0xc0u) == 0x80u;
-    }
-    if (!valid) {
-      out += "\xef\xbf\xbd";
+    const std::size_t length = character_size(text, i);
+    if (length == 0) {
+      out += replacement_character;
       ++i;
       continue;
     }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "results/files.hpp"
+#include "results/number.hpp"
 
 namespace edda {
 namespace {
@@ -45,14 +46,21 @@ void put(Column& column, const std::string& cell) {
   const char* const end = cell.data() + cell.size();
   const auto [stop, error] = std::from_chars(cell.data(), end, value);
   const bool is_number = error == std::errc{} && stop == end;
-  const std::size_t row = column.values.size();
+  // A name may look like a number, as that of a bolt without one: where the number reads back to
+  // the cell there is no need to keep it.
+  const bool says_all = is_number && shortest(value) == cell;
+  if (!says_all && column.texts.empty()) {
+    for (const double before : column.values) column.texts.push_back(shortest(before));
+  }
   column.values.push_back(is_number ? value : std::numeric_limits<double>::quiet_NaN());
-  if (is_number && column.texts.empty()) return;
-  column.texts.resize(row);
-  column.texts.push_back(cell);
+  if (!says_all || !column.texts.empty()) column.texts.push_back(cell);
 }
 
 }  // namespace
+
+std::string Column::text(std::size_t row) const {
+  return texts.empty() ? shortest(values[row]) : texts[row];
+}
 
 const Column* Table::column(const std::string& name) const {
   const auto found =
@@ -63,7 +71,10 @@ const Column* Table::column(const std::string& name) const {
 Result<Table> read_table(const std::string& path) {
   const Result<std::string> content = read_file(path);
   if (!content.ok()) return content.faults();
-  std::string_view text = content.value();
+  return table_of(content.value(), path);
+}
+
+Result<Table> table_of(std::string_view text, const std::string& path) {
   Table table;
   std::vector<std::string> cells;
   if (!take_row(text, cells)) return table;

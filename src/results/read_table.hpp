@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/fault.hpp"
@@ -11,7 +12,9 @@ namespace edda {
 struct Column {
   std::string name;
   std::vector<double> values;        ///< one per row; nan where a cell is no number
-  std::vector<std::string> texts{};  ///< one per row where any cell is no number, else empty
+  std::vector<std::string> texts{};  ///< one per row where a number does not say it all, else empty
+  /// The cell as it stands in the file.
+  std::string text(std::size_t row) const;
 };
 
 struct Table {
@@ -24,5 +27,7 @@ struct Table {
 /// Reads what Csv writes. A last row that is not complete, as of a run that goes on, is left out. A
 /// fault where there is no such file, or a row before the last has too few or too many cells.
 Result<Table> read_table(const std::string& path);
+/// The same of a table's text; faults name `path`.
+Result<Table> table_of(std::string_view text, const std::string& path);
 
 }  // namespace edda

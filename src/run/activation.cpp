@@ -37,7 +37,7 @@ Vec2 borne_by(const Model& model, const BlockSet& b, const Boundary& boundary, I
   Vec2 first;
   bool on = false;
   for (const Line& line : boundary_lines(model, b, boundary)) {
-    if (distance_to_segment({b.vertex_x[v], b.vertex_y[v]}, line.a, line.b) > snap) continue;
+    if (distance_to_segment(b.vertex(v), line.a, line.b) > snap) continue;
     if (boundary.type != BoundaryType::roller) return force;
     const Vec2 n = perp(unit(line.b - line.a));
     if (on && std::abs(cross(n, first)) > 1e-9) return force;  // a corner holds both ways

@@ -121,6 +121,9 @@ void Driver::begin() {
     within_memory([&] {
       if (!ended_by(recorder_.begin(sim_, run_.monitors, run_.convergences))) enter_first_stage();
     });
+  } else if (stage_has_ended_) {
+    stage_has_ended_ = false;
+    within_memory([&] { begin_next_stage(); });
   }
   pause();
 }
@@ -141,7 +144,8 @@ Outcome Driver::finish() {
 }
 
 void Driver::aim_again() {
-  sim_.aim_at(event_.time);
+  // At an event itself the next aim comes once it is recorded.
+  if (event_.time > sim_.state.time) sim_.aim_at(event_.time);
 }
 
 template <class Part>
@@ -177,10 +181,6 @@ void Driver::enter_first_stage() {
 }
 
 void Driver::follow_events() {
-  if (stage_has_ended_) {
-    stage_has_ended_ = false;
-    if (!begin_next_stage()) return;
-  }
   while (true) {
     const Went went = step_to(event_.time);
     if (went == Went::over || went == Went::paused) return;

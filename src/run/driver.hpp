@@ -19,7 +19,8 @@ class Driver {
   Driver(PreparedRun& run, const RunOptions& options);
   Outcome run();
   // run() in parts, for a caller that looks on and steps in between.
-  /// Opens the folder, begins the first stage and writes the first row; of a run taken up, nothing.
+  /// Opens the folder, begins the first stage and writes the first row. Of a run taken up at the
+  /// end of a stage, begins the next; else nothing.
   void begin();
   /// Steps until the run is over, or until RunOptions::after_step asks for a pause. After begin().
   void go_on();

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "run/driver.hpp"
 
@@ -18,9 +20,15 @@ void Driver::begin_stage(std::size_t index) {
   const bool glued = stage.joints == StageJoints::glued;
   if (!glued) sim_.glue_joints(false);
   take_out(stage);
-  sim_.switch_over(rows_called(sim_.model, stage.deactivate),
-                   rows_called(sim_.model, stage.activate));
-  const std::vector<Index> bolts = bolts_called(sim_.model, stage.install);
+  NamedRows off = rows_called(sim_.model, stage.deactivate);
+  NamedRows on = rows_called(sim_.model, stage.activate);
+  std::vector<Index> bolts = bolts_called(sim_.model, stage.install);
+  if (index > 0) {  // a change from outside may have done some of it before
+    off = rows_that(true, sim_.loads.spells, off);
+    on = rows_that(false, sim_.loads.spells, on);
+    std::erase_if(bolts, [&](Index row) { return is_installed(sim_.bolts, row); });
+  }
+  sim_.switch_over(off, on);
   if (!bolts.empty()) {
     if (const auto fault = sim_.install(bolts)) {
       return end(Status::failed, stage_label(sim_.model, stage_) + ": " + fault->problem);
@@ -42,10 +50,20 @@ void Driver::take_out(const Stage& stage) {
         std::find_if(all.begin(), all.end(), [&](const Opening& o) { return o.name == name; });
     return static_cast<Index>(found - all.begin());
   };
+  // Where a change from outside has let go more than the stage would, it stays so.
+  const auto let_go = [&](Index row) {
+    const double part = sim_.loads.held[static_cast<std::size_t>(row)].part;
+    return is_taken_out(sim_, row) ? 1.0 - part : 0.0;
+  };
+  std::vector<std::pair<Index, double>> relaxed;
+  for (const auto& [name, part] : stage.relax) {
+    const Index row = row_of(name);
+    if (part >= let_go(row)) relaxed.emplace_back(row, part);
+  }
   std::vector<Index> out;
   for (const std::string& name : stage.excavate) out.push_back(row_of(name));
   if (!out.empty()) sim_.excavate(out);
-  for (const auto& [name, part] : stage.relax) sim_.relax(row_of(name), part);
+  for (const auto& [row, part] : relaxed) sim_.relax(row, part);
 }
 
 bool Driver::is_at_rest() {

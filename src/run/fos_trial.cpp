@@ -14,7 +14,7 @@ namespace {
 constexpr int windows = 20;           // of a trial
 constexpr int increments = 100;       // of what is varied
 constexpr int calm_windows = 3;       // in sequence that say that all is at rest
-constexpr double rest = 1e-4;         // of a block's size: what may still be to come
+constexpr double left_over = 1e-4;    // of a block's size: what may still be to come
 constexpr double decays = 0.5;        // over half a trial: it may yet come to rest
 constexpr double for_pictures = 3.0;  // durations that a slow failure is followed for
 constexpr std::uint64_t look = 32;    // steps
@@ -184,7 +184,7 @@ class Run {
       const double velocity = watch_.velocity(sim_).value;
       if (trial_.end != TrialEnd::fails) trial_.velocity = velocity;
       const double to_come = watch_.prospect(sim_, plan_.criterion.duration);
-      calm = to_come <= rest * plan_.criterion.size ? calm + 1 : 0;
+      calm = to_come <= left_over * plan_.criterion.size ? calm + 1 : 0;
       if (calm == calm_windows && trial_.end != TrialEnd::fails) end(TrialEnd::holds, "at rest");
     }
   }

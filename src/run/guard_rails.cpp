@@ -144,7 +144,7 @@ void warn_of_few(const Simulation& sim, std::vector<std::string>& warnings) {
         std::count_if(sim.inertia.begin(), sim.inertia.end(), [](double f) { return f > 1.0; }));
     const double added = added_mass(sim.blocks, sim.inertia);
     warnings.push_back(fmt::format(
-        "solver.mass_scaling: {} seem heavier to move by {:.3g} kg together, {:.2g} % of all mass",
+        "solver.mass_scaling: {} heavier to move, by {:.3g} kg together, {:.2g} % of all mass",
         counted(scaled, "block"), added, 100.0 * added / all));
     return;
   }

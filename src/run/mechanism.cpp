@@ -15,7 +15,7 @@ namespace edda {
 namespace {
 
 namespace cs = contact_state;
-constexpr double moves = 0.1;    // of the largest displacement
+constexpr double moving = 0.1;   // of the largest displacement
 constexpr double topples = 0.5;  // of turning_part
 
 double turned(const Simulation& before, const Simulation& after, std::size_t i) {
@@ -136,13 +136,13 @@ Mechanism mechanism_of(const Simulation& before, const Simulation& after) {
     m.blocks.push_back(motion_of(before, after, i));
     largest = std::max(largest, m.blocks.back().largest);
   }
-  const std::vector<std::uint8_t> near = next_to_something(after, moves * largest);
+  const std::vector<std::uint8_t> near = next_to_something(after, moving * largest);
   for (MovingBlock& b : m.blocks) {
     b.motion = !near[b.id]                 ? Motion::falls
                : b.turning_part >= topples ? Motion::topples
                                            : Motion::slides;
   }
-  std::erase_if(m.blocks, [&](const MovingBlock& b) { return b.largest < moves * largest; });
+  std::erase_if(m.blocks, [&](const MovingBlock& b) { return b.largest < moving * largest; });
   for (const MovingBlock& b : m.blocks) {
     const double mass = before.blocks.mass[b.id];
     weight += mass;
@@ -151,7 +151,7 @@ Mechanism mechanism_of(const Simulation& before, const Simulation& after) {
                                    : m.falling) += mass;
   }
   for (double* part : {&m.sliding, &m.toppling, &m.falling}) *part /= weight > 0.0 ? weight : 1.0;
-  m.joints = joints_of(before, after, moves * largest);
+  m.joints = joints_of(before, after, moving * largest);
   m.text = sentence(m);
   return m;
 }

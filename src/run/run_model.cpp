@@ -76,7 +76,9 @@ Result<PreparedRun> prepare_run(Model model, BlockOrder order) {
 
 Result<Outcome> run_model(PreparedRun& run, const RunOptions& options) {
   if (!options.folder.empty()) {
-    if (auto trouble = check_folder(options.folder, run.sim.model.file)) return *trouble;
+    const bool goes_on = options.resume || options.from_stage;
+    const std::string input = goes_on ? "" : run.sim.model.file;
+    if (auto trouble = check_folder(options.folder, input)) return *trouble;
   }
   Driver driver(run, options);
   const Faults faults = take_up_folder(driver, options);

@@ -122,8 +122,8 @@ struct Simulation {
   /// Every second step leaves the velocities in other arrays than before. Moves them, contents and
   /// all, into the arrays that the step before had: for views of them that outlive a step.
   void exchange_velocity_arrays();
-  /// Other velocities of the nodes (m/s) from now on, between two steps. The energy that they bring
-  /// counts as external work.
+  /// Other velocities of the nodes (finite, m/s) from now on, between two steps. The energy that
+  /// they bring counts as external work; those of blocks that are not free stay as they are.
   void change_velocities(const Nodes& vx, const Nodes& vy);
   /// One step of the method: forces, motion, gaps, switching, search, contacts.
   std::optional<Failure> step();

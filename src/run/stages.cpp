@@ -33,6 +33,27 @@ std::size_t yielded_bolts(const Bolts& b) {
 
 }  // namespace
 
+NamedRows rows_that(bool act, const Spells& spells, const NamedRows& rows) {
+  const auto some = [act](const std::vector<Spell>& of, std::vector<Index> among) {
+    std::erase_if(among, [&](Index q) { return of[static_cast<std::size_t>(q)].acts() != act; });
+    return among;
+  };
+  return {some(spells.loads, rows.loads), some(spells.waters, rows.waters),
+          some(spells.boundaries, rows.boundaries), some(spells.shakings, rows.shakings)};
+}
+
+bool is_installed(const Bolts& bolts, Index row) {
+  return std::any_of(bolts.rows.begin(), bolts.rows.end(),
+                     [row](const BoltData& bolt) { return bolt.row == row; });
+}
+
+bool is_taken_out(const Simulation& sim, Index opening) {
+  for (std::size_t i = 0; i < sim.blocks.opening.size(); ++i) {
+    if (sim.blocks.opening[i] == opening && sim.state.alive[i] != 0) return false;
+  }
+  return true;
+}
+
 std::vector<std::uint8_t> touching(const Simulation& sim) {
   std::vector<std::uint8_t> touches(sim.blocks.size(), 0);
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {

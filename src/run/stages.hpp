@@ -46,6 +46,15 @@ std::string stages_csv(const Model& model, const std::vector<StageRecord>& recor
 /// The stages of the model, or the one that it is without any.
 std::vector<Stage> stages_of(const Model& model);
 
+/// Those of `rows` that act now, or those that do not.
+NamedRows rows_that(bool act, const Spells& spells, const NamedRows& rows);
+
+/// Whether a bolt (row of all_bolts()) has been put in.
+bool is_installed(const Bolts& bolts, Index row);
+
+/// Whether no block of an opening (row of Model::openings) is left.
+bool is_taken_out(const Simulation& sim, Index opening);
+
 /// "stage 2 (heading)".
 std::string stage_label(const Model& model, std::size_t stage);
 

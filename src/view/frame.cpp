@@ -15,7 +15,8 @@
 //   then the columns of the blocks, n values each:
 //     d.x d.y | A.xx A.xy A.yx A.yy | velocity.x velocity.y | omega | rotation |
 //     stress.xx .yy .zz .xy | overstress
-//   d and A: of the displacement since the datum; where the block was at the datum says that
+//   d and A: of the displacement since the datum; where the block was at the datum says that. With
+//   16 bits A is times the block's reach, m, so that small blocks that turn cost large ones nothing
 //   then the contacts, sorted by the row of block i:
 //     varint [m] row of block i, less that before; varint [m] vertex of it;
 //     zigzag [m] row of block j less that of i; varint [m] edge of it; u8 [m] state; and the
@@ -28,7 +29,7 @@
 // With 16 bits the scale leaves to each value what it needs and no more, since the rest is noise
 // that cannot be packed: motion_steps for a displacement (and for A what moves no vertex by more),
 // value_steps for what is shown as a number or a colour, contact_steps for what is but drawn; and
-// the overlap of closed contacts, which no drawing shows, is left out.
+// the overlap of closed contacts is left out: their opening is 0.
 
 namespace edda {
 namespace {
@@ -100,26 +101,23 @@ std::vector<double> column(const Grid& g, const char* name, std::size_t k,
   return values;
 }
 
-/// Half the largest extent of a block, m.
-double reach_of(const ViewMesh& mesh) {
-  double reach = 0.0;
-  for (const Vec2 r : mesh.vertex) reach = std::max({reach, std::abs(r.x), std::abs(r.y)});
-  return reach;
-}
-
+/// Rounding to steps q of A times the reach moves a vertex by up to q/2 for each of x and y: with
+/// half the step of d it is right to a whole one.
 void add_motions(Bytes& bytes, const std::vector<BlockMotion>& motions, ViewPrecision precision,
-                 double reach) {
+                 const std::vector<double>& reaches) {
   Columns d(2), a(4);
-  for (const BlockMotion& m : motions) {
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    const BlockMotion& m = motions[k];
+    const double reach = precision == ViewPrecision::single ? 1.0 : reaches[k];
     d[0].push_back(m.d.x);
     d[1].push_back(m.d.y);
-    a[0].push_back(m.xx);
-    a[1].push_back(m.xy);
-    a[2].push_back(m.yx);
-    a[3].push_back(m.yy);
+    a[0].push_back(reach * m.xx);
+    a[1].push_back(reach * m.xy);
+    a[2].push_back(reach * m.yx);
+    a[3].push_back(reach * m.yy);
   }
   add_group(bytes, d, precision, motion_steps);
-  add_group(bytes, a, precision, motion_steps, largest_of(d) / motion_steps / reach);
+  add_group(bytes, a, precision, motion_steps, 0.5 * largest_of(d) / motion_steps);
 }
 
 void add_fields(Bytes& bytes, const Grid& g, const std::vector<std::size_t>& cells,
@@ -228,6 +226,7 @@ void add_contacts(Bytes& bytes, const std::vector<Touch>& touches, const Grid& c
     bytes.zigzag(static_cast<std::int64_t>(t.j) - static_cast<std::int64_t>(t.i));
   for (const Touch& t : touches) bytes.varint(t.edge);
   std::vector<std::size_t> cells;
+  cells.reserve(touches.size());
   for (const Touch& t : touches) cells.push_back(t.cell);
   const std::vector<double> state = column(contacts, "state", 0, cells);
   for (const double s : state) bytes.u8(static_cast<std::uint8_t>(s));
@@ -280,7 +279,7 @@ double apart(const ViewMesh& mesh, std::size_t row, const BlockMotion& a, const 
 
 std::string datum_bytes(const ViewDatum& datum) {
   Bytes bytes;
-  add_motions(bytes, datum.motion, ViewPrecision::single, 1.0);
+  add_motions(bytes, datum.motion, ViewPrecision::single, {});
   return bytes.text();
 }
 
@@ -310,10 +309,7 @@ bool find_datum(const ViewMesh& mesh, const Grid& blocks, const ViewBlocks& in,
   bool other = before == nullptr;
   for (const std::size_t row : in.row) {
     const BlockMotion m = datum_of(mesh, row, blocks);
-    double size = 0.0;
-    for (std::size_t v = mesh.begin[row]; v < mesh.begin[row + 1]; ++v)
-      size = std::max({size, std::abs(mesh.vertex[v].x), std::abs(mesh.vertex[v].y)});
-    if (apart(mesh, row, m, found.motion[row]) <= rounding * size) continue;
+    if (apart(mesh, row, m, found.motion[row]) <= rounding * mesh.reach(row)) continue;
     found.motion[row] = m;
     other = true;
   }
@@ -334,8 +330,12 @@ std::string frame_bytes(const ViewMesh& mesh, const ViewBlocks& in, const Grid& 
     alive[row / 8] = static_cast<std::uint8_t>(alive[row / 8] | 1U << row % 8);
   for (const std::uint8_t bits : alive) bytes.u8(bits);
   std::vector<BlockMotion> motions;
-  for (const std::size_t row : in.row) motions.push_back(displacement_of(mesh, row, blocks));
-  add_motions(bytes, motions, precision, reach_of(mesh));
+  std::vector<double> reaches;
+  for (const std::size_t row : in.row) {
+    motions.push_back(displacement_of(mesh, row, blocks));
+    reaches.push_back(mesh.reach(row));
+  }
+  add_motions(bytes, motions, precision, reaches);
   add_fields(bytes, blocks, in.cell, precision);
   if (contacts != nullptr) add_contacts(bytes, touches, *contacts, precision);
   return bytes.text();

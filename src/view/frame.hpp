@@ -13,8 +13,9 @@
 namespace edda {
 
 /// How numbers are stored. single: as they are, to seven digits. whole16: as whole numbers of
-/// steps, so that displacements are right to 1/65534 of the largest in the frame, velocities,
-/// rotations and stresses to 1/4094, forces, openings and slips of contacts to 1/254.
+/// steps, so that displacements of blocks are right to 1/65534 of the largest in the frame and
+/// those of their corners to 1/10000, velocities, rotations and stresses to 1/4094, forces,
+/// openings and slips of contacts to 1/254.
 enum class ViewPrecision : std::uint32_t { whole16 = 16, single = 32 };
 
 /// Displacements count from where the blocks were at a datum: the start, or a reset.

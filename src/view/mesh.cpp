@@ -1,6 +1,7 @@
 #include "view/mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "report/shapes.hpp"
@@ -53,6 +54,13 @@ void add_block(const Grid& g, const BlockShape& shape, const std::vector<Vec2>& 
 std::size_t ViewMesh::row_of(std::int32_t block) const {
   const auto at = std::lower_bound(id.begin(), id.end(), block);
   return at == id.end() || *at != block ? size() : static_cast<std::size_t>(at - id.begin());
+}
+
+double ViewMesh::reach(std::size_t row) const {
+  double reach = 0.0;
+  for (std::size_t v = begin[row]; v < begin[row + 1]; ++v)
+    reach = std::max({reach, std::abs(vertex[v].x), std::abs(vertex[v].y)});
+  return reach;
 }
 
 ViewMesh view_mesh(const Grid& first) {

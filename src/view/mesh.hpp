@@ -29,12 +29,14 @@ struct ViewMesh {
 
   std::size_t size() const { return id.size(); }
   std::size_t row_of(std::int32_t block) const;  ///< size() where there is none
+  double reach(std::size_t row) const;  ///< farthest that a vertex is from the centre in x or y, m
 };
 
 ViewMesh view_mesh(const Grid& first);
 
-/// How the page gets it (view/page/src/mesh.ts reads it): nb, nv, triangles, edges as u32; centres
-/// f64; vertices f32; then by u32 id, material, first vertex; fixed u8; triangles and edges u32.
+/// How the page gets it (view/page/src/data/mesh.ts reads it): nb, nv, triangles, edges as u32;
+/// centres f64; vertices f32; then by u32 id, material, first vertex; fixed u8; triangles and edges
+/// u32.
 std::string mesh_bytes(const ViewMesh& mesh);
 
 /// How an affine vector field goes over a block: u(X) = d + A (X - c), X in the first frame.

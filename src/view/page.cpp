@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "view/bytes.hpp"
 
@@ -25,9 +25,10 @@ std::size_t text_size(std::string_view bytes) {
   return 4 * deflated(bytes).size() / 3;
 }
 
-/// Bytes of one frame in a page: the larger of those of the middle and the last frame.
+/// Bytes of frames in a page: the larger of the middle and the last one.
 struct FrameSizes {
   std::size_t single = 0, whole = 0;
+  std::size_t last = 0;  ///< singly
 };
 Result<FrameSizes> frame_sizes(const ViewRun& run, const std::vector<SeriesEntry>& series) {
   FrameSizes sizes;
@@ -36,10 +37,76 @@ Result<FrameSizes> frame_sizes(const ViewRun& run, const std::vector<SeriesEntry
       const Result<std::string> bytes = run.probe(series[k], precision);
       if (!bytes.ok()) return bytes.faults();
       std::size_t& size = precision == ViewPrecision::single ? sizes.single : sizes.whole;
-      size = std::max(size, text_size(bytes.value()));
+      const std::size_t this_one = text_size(bytes.value());
+      size = std::max(size, this_one);
+      if (precision == ViewPrecision::single) sizes.last = this_one;
     }
   }
   return sizes;
+}
+
+/// What a page is to hold.
+struct Plan {
+  std::size_t frames = 0;
+  ViewPrecision precision = ViewPrecision::single;
+};
+
+/// By what frames seem to take: the page itself, the mesh and the tables come first.
+Result<Plan> plan_of(const ViewRun& run, const std::vector<SeriesEntry>& series,
+                     std::size_t most_bytes) {
+  const Result<FrameSizes> read = frame_sizes(run, series);
+  if (!read.ok()) return read.faults();
+  const FrameSizes& sizes = read.value();
+  std::size_t taken = page_template().head.size() + page_template().tail.size() +
+                      run.header().size() + text_size(mesh_bytes(run.mesh())) + sizes.last;
+  for (const char* table : view_tables) taken += text_size(run.table(table, most_table_rows));
+  const std::size_t room = most_bytes > taken ? most_bytes - taken : 0, all = series.size();
+  if (all * sizes.single <= std::min(small_page, room)) return Plan{all, ViewPrecision::single};
+  const std::size_t fitting = room / std::max<std::size_t>(sizes.whole, 1) + 1;
+  return Plan{std::min(all, std::max<std::size_t>(fitting, 2)), ViewPrecision::whole16};
+}
+
+/// Writes the page into `file`; `frames` are the bytes that its frames take.
+Result<PageReport> fill(WholeFile& file, ViewRun& run, const std::vector<SeriesEntry>& series,
+                        const Plan& plan, std::size_t& frames) {
+  PageReport report;
+  report.of = series.size();
+  report.precision = plan.precision;
+  const auto add = [&](std::string_view text) {
+    report.bytes += text.size();
+    file.add(text);
+  };
+  add(page_template().head);
+  add(chunk("mesh", mesh_bytes(run.mesh())));
+  for (const std::size_t k : evenly(series.size(), plan.frames)) {
+    const bool is_last = k + 1 == series.size();
+    const std::size_t datums = run.datums().size();
+    const Result<std::string> frame =
+        run.take(series[k], is_last ? ViewPrecision::single : plan.precision);
+    if (!frame.ok()) return frame.faults();
+    if (run.datums().size() > datums)
+      add(chunk(fmt::format("datum-{}", datums), datum_bytes(run.datums().back())));
+    const std::string packed = chunk(fmt::format("frame-{}", report.frames++), frame.value());
+    if (!is_last) frames += packed.size();
+    add(packed);
+  }
+  for (const char* table : view_tables) {
+    if (const std::string text = run.table(table, most_table_rows); !text.empty())
+      add(chunk(table, text));
+  }
+  add(header_script(run));
+  add(page_template().tail);
+  return report;
+}
+
+/// What fits, once it has turned out how much `plan` takes.
+Plan with_less(Plan plan, const PageReport& report, std::size_t frames, std::size_t most_bytes) {
+  if (plan.precision == ViewPrecision::single) return {plan.frames, ViewPrecision::whole16};
+  const std::size_t rest = report.bytes - frames;
+  const std::size_t room = most_bytes > rest ? most_bytes - rest : 0;
+  const double part = static_cast<double>(room) / static_cast<double>(frames);
+  const auto fitting = static_cast<std::size_t>(part * static_cast<double>(plan.frames - 1)) + 1;
+  return {std::max<std::size_t>(std::min(fitting, plan.frames - 1), 2), plan.precision};
 }
 
 }  // namespace
@@ -49,10 +116,10 @@ std::string chunk(std::string_view name, std::string_view bytes) {
                      base64(deflated(bytes)));
 }
 
-std::string header_script(const ViewRun& run, bool served) {
+std::string header_script(const ViewRun& run) {
   // "<" only stands in strings; as an escape it cannot end the script.
   std::string safe;
-  for (const char c : run.header(served)) {
+  for (const char c : run.header()) {
     if (c == '<') {
       safe += "\\u003c";
     } else {
@@ -65,41 +132,23 @@ std::string header_script(const ViewRun& run, bool served) {
 Result<PageReport> write_page(ViewRun& run, const std::string& path, std::size_t most_bytes) {
   const Result<std::vector<SeriesEntry>> series = run.series();
   if (!series.ok()) return series.faults();
-  const std::size_t all = series.value().size();
-  const Result<FrameSizes> sizes = frame_sizes(run, series.value());
-  if (!sizes.ok()) return sizes.faults();
-  PageReport report;
-  report.of = all;
-  report.precision =
-      all * sizes.value().single <= small_page ? ViewPrecision::single : ViewPrecision::whole16;
-  const std::size_t each =
-      report.precision == ViewPrecision::single ? sizes.value().single : sizes.value().whole;
-  const std::size_t fitting = std::max<std::size_t>(most_bytes / std::max<std::size_t>(each, 1), 2);
-
-  WholeFile file(path);
-  const auto add = [&](std::string_view text) {
-    report.bytes += text.size();
-    file.add(text);
-  };
-  add(page_template().head);
-  add(chunk("mesh", mesh_bytes(run.mesh())));
-  for (const std::size_t k : evenly(all, fitting)) {
-    const ViewPrecision precision = k + 1 == all ? ViewPrecision::single : report.precision;
-    const std::size_t datums = run.datums().size();
-    const Result<std::string> frame = run.take(series.value()[k], precision);
-    if (!frame.ok()) return frame.faults();
-    if (run.datums().size() > datums)
-      add(chunk(fmt::format("datum-{}", datums), datum_bytes(run.datums().back())));
-    add(chunk(fmt::format("frame-{}", report.frames++), frame.value()));
+  const Result<Plan> planned = plan_of(run, series.value(), most_bytes);
+  if (!planned.ok()) return planned.faults();
+  for (Plan plan = planned.value();;) {
+    ViewRun filled = run;
+    WholeFile file(path);
+    std::size_t frames = 0;
+    Result<PageReport> report = fill(file, filled, series.value(), plan, frames);
+    if (!report.ok()) return report.faults();
+    // Frames between those looked at may have been larger.
+    if (report.value().bytes > most_bytes && plan.frames > 2) {
+      plan = with_less(plan, report.value(), frames, most_bytes);
+      continue;
+    }
+    run = std::move(filled);
+    if (Trouble trouble = file.complete()) return *trouble;
+    return report;
   }
-  for (const char* table : view_tables) {
-    if (const std::string text = run.table(table, most_table_rows); !text.empty())
-      add(chunk(table, text));
-  }
-  add(header_script(run, false));
-  add(page_template().tail);
-  if (Trouble trouble = file.complete()) return *trouble;
-  return report;
 }
 
 }  // namespace edda

@@ -25,8 +25,9 @@ struct PageReport {
 };
 
 /// Writes the run's page to `path`. Frames are left out evenly, never the first nor the last, where
-/// it would be larger than about `most_bytes`. Numbers are stored singly where that takes less than
-/// small_page bytes, else as whole numbers; those of the last frame always singly.
+/// it would be larger than `most_bytes`; with those two alone it may still be. Numbers are stored
+/// singly where all frames then take less than small_page bytes and have room, else as whole
+/// numbers; those of the last frame always singly.
 Result<PageReport> write_page(ViewRun& run, const std::string& path, std::size_t most_bytes);
 inline constexpr std::size_t small_page = std::size_t{12} << 20;
 
@@ -34,9 +35,9 @@ inline constexpr std::size_t small_page = std::size_t{12} << 20;
 std::string chunk(std::string_view name, std::string_view bytes);
 
 /// The header as a script of the page.
-std::string header_script(const ViewRun& run, bool served);
+std::string header_script(const ViewRun& run);
 
-/// Rows of a table that a page takes along.
+/// Rows of a history that a page takes along.
 inline constexpr std::size_t most_table_rows = 20000;
 
 }  // namespace edda

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "view/bytes.hpp"
@@ -16,10 +17,19 @@ namespace {
 
 constexpr const char* this_machine = "127.0.0.1";
 
-/// Answers of one run; one at a time, since taking up a frame changes it.
+/// A page of another place that this machine's name is made to lead to sends that place's name: it
+/// may not read on.
+bool is_this_machine(const std::string& host) {
+  const std::size_t port = host.rfind(':');
+  const bool has_port = port != std::string::npos && !host.ends_with(']');
+  const std::string name = has_port ? host.substr(0, port) : host;
+  return name == this_machine || name == "localhost" || name == "[::1]";
+}
+
+/// Answers one at a time: taking up a frame changes the run.
 class Answers {
  public:
-  explicit Answers(ViewRun& run) : run_(run) {}
+  explicit Answers(const std::function<Result<ViewRun>()>& open) : open_(open) {}
 
   void page(httplib::Response& reply) {
     reply.set_content(std::string(page_template().head) + std::string(page_template().tail),
@@ -29,32 +39,46 @@ class Answers {
   void header(httplib::Response& reply) {
     const std::lock_guard lock(busy_);
     if (const Trouble trouble = take_up_new()) return fail(reply, *trouble);
-    reply.set_content(run_.header(true), "application/json");
+    reply.set_content(run_->header(name_of_run()), "application/json");
   }
 
-  void named(const std::string& name, httplib::Response& reply) {
+  /// `run`: as in the header that the page has.
+  void named(const std::string& name, const std::string& run, httplib::Response& reply) {
     const std::lock_guard lock(busy_);
-    if (name == "mesh") return give(mesh_bytes(run_.mesh()), reply);
-    if (const auto k = number_after("datum-", name, run_.datums().size()))
-      return give(datum_bytes(run_.datums()[*k]), reply);
-    if (const auto k = number_after("frame-", name, run_.frames())) {
-      const Result<std::string> frame = run_.again(*k, ViewPrecision::single);
+    if (!run_ || !run_->is_still_there() || run != name_of_run()) {
+      reply.status = 409;
+      return reply.set_content("the folder holds another run now", "text/plain");
+    }
+    if (name == "mesh") return give(mesh_bytes(run_->mesh()), reply);
+    if (const auto k = number_after("datum-", name, run_->datums().size()))
+      return give(datum_bytes(run_->datums()[*k]), reply);
+    if (const auto k = number_after("frame-", name, run_->frames())) {
+      const Result<std::string> frame = run_->again(*k, ViewPrecision::single);
       return frame.ok() ? give(frame.value(), reply) : fail(reply, frame.faults().front());
     }
     if (std::find(std::begin(view_tables), std::end(view_tables), name) != std::end(view_tables)) {
       // None yet: an empty answer, which is no error of the page's.
-      return give(run_.table(name, most_table_rows), reply);
+      return give(run_->table(name, most_table_rows), reply);
     }
     reply.status = 404;
   }
 
  private:
-  /// Frames that have come since.
+  std::string name_of_run() const { return fmt::format("{}{}", run_->stamp(), opened_); }
+
+  /// Frames that have come since, of the run that is there now.
   Trouble take_up_new() {
-    const Result<std::vector<SeriesEntry>> series = run_.series();
+    if (run_ && !run_->is_still_there()) run_.reset();
+    if (!run_) {
+      Result<ViewRun> run = open_();
+      if (!run.ok()) return run.faults().front();
+      run_ = std::move(run.value());
+      ++opened_;
+    }
+    const Result<std::vector<SeriesEntry>> series = run_->series();
     if (!series.ok()) return series.faults().front();
-    for (std::size_t k = run_.frames(); k < series.value().size(); ++k) {
-      const Result<std::string> frame = run_.take(series.value()[k], ViewPrecision::whole16);
+    for (std::size_t k = run_->frames(); k < series.value().size(); ++k) {
+      const Result<std::string> frame = run_->take(series.value()[k], ViewPrecision::whole16);
       if (!frame.ok()) return frame.faults().front();
     }
     return {};
@@ -80,21 +104,35 @@ class Answers {
     reply.set_content(to_string(fault), "text/plain");
   }
 
-  ViewRun& run_;
+  const std::function<Result<ViewRun>()>& open_;
+  std::optional<ViewRun> run_;
+  std::size_t opened_ = 0;  ///< how often
   std::mutex busy_;
 };
 
 }  // namespace
 
-Trouble serve_page(ViewRun& run, int port, const std::function<void(const std::string&)>& ready,
+Trouble serve_page(const std::function<Result<ViewRun>()>& open, int port,
+                   const std::function<void(const std::string&)>& ready,
                    const std::atomic<bool>& stop) {
-  Answers answers(run);
+  Answers answers(open);
   httplib::Server server;
+  // Without SO_REUSEPORT, with which two servers would share a port and its requests.
+  server.set_socket_options([](socket_t socket) {
+    const int yes = 1;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
+  server.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& reply) {
+    if (is_this_machine(request.get_header_value("Host")))
+      return httplib::Server::HandlerResponse::Unhandled;
+    reply.status = 403;
+    return httplib::Server::HandlerResponse::Handled;
+  });
   server.set_default_headers({{"Cache-Control", "no-store"}});
   server.Get("/", [&](const httplib::Request&, httplib::Response& r) { answers.page(r); });
   server.Get("/run", [&](const httplib::Request&, httplib::Response& r) { answers.header(r); });
   server.Get(R"(/chunk/([\w.-]+))", [&](const httplib::Request& request, httplib::Response& r) {
-    answers.named(request.matches[1], r);
+    answers.named(request.matches[1], request.get_param_value("run"), r);
   });
   const int bound = port == 0 ? server.bind_to_any_port(this_machine)
                     : server.bind_to_port(this_machine, port) ? port

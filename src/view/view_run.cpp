@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
+#include <system_error>
 
 #include "report/colours.hpp"
 #include "report/shown_field.hpp"
@@ -12,6 +14,7 @@
 #include "results/frames.hpp"
 #include "results/json.hpp"
 #include "results/version.hpp"
+#include "view/tables.hpp"
 
 namespace edda {
 namespace {
@@ -46,6 +49,39 @@ void add_marks(Json& json, const char* key, const std::vector<ViewMark>& marks) 
   json.close();
 }
 
+/// Nearly the largest value, so that a few giants do not make dots of all others. Reorders them.
+double usual(std::vector<double>& sizes) {
+  if (sizes.empty()) return 0.0;
+  const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() - 1) * 95 / 100;
+  std::nth_element(sizes.begin(), at, sizes.end());
+  return *at > 0.0 ? *at : *std::max_element(sizes.begin(), sizes.end());
+}
+
+double usual_force(const Grid& contacts) {
+  const Field *normal = contacts.cell_field("normal_force"),
+              *shear = contacts.cell_field("shear_force"), *state = contacts.cell_field("state");
+  if (normal == nullptr || shear == nullptr || state == nullptr) return 0.0;
+  std::vector<double> sizes;
+  for (std::size_t c = 0; c < contacts.cell_count(); ++c) {
+    const double force = std::hypot(normal->values[c], shear->values[c]);
+    if (state->values[c] != 0.0 && force > 0.0 && std::isfinite(force)) sizes.push_back(force);
+  }
+  return usual(sizes);
+}
+
+double usual_stress(const Grid& blocks, const std::vector<std::size_t>& cells) {
+  const Field *stress = blocks.cell_field("stress"), *fixed = blocks.cell_field("fixed");
+  if (stress == nullptr) return 0.0;
+  std::vector<double> sizes;
+  for (const std::size_t c : cells) {
+    if (fixed != nullptr && fixed->values[c] != 0.0) continue;
+    const double* const s = stress->values.data() + c * stress->components;  // xx yy zz xy
+    const double size = std::abs(0.5 * (s[0] + s[1])) + std::hypot(0.5 * (s[0] - s[1]), s[3]);
+    if (std::isfinite(size)) sizes.push_back(size);
+  }
+  return usual(sizes);
+}
+
 void add_strings(Json& json, const char* key, const std::vector<std::string>& strings) {
   json.key(key).open_list();
   for (const std::string& s : strings) json.value(s);
@@ -64,7 +100,30 @@ Result<ViewRun> ViewRun::open(std::string folder, ViewNames names) {
   const Result<Grid> first = read_vtu(run.folder_ + "/" + series.value().front().file);
   if (!first.ok()) return first.faults();
   run.mesh_ = view_mesh(first.value());
+  run.stamp_ = run.stamp_of(series.value().front());
+  for (const char* name : {"omega", "rotation", "overstress"}) {
+    if (first.value().cell_field(name) == nullptr) run.absent_.emplace_back(name);
+  }
   return run;
+}
+
+std::string ViewRun::stamp_of(const SeriesEntry& first) const {
+  std::string stamp;
+  for (const std::string& file : {first.file, std::string("model.toml")}) {
+    std::error_code missing;
+    const auto written = std::filesystem::last_write_time(folder_ + "/" + file, missing);
+    stamp += fmt::format("{:x}.", missing ? 0 : written.time_since_epoch().count());
+  }
+  return stamp;
+}
+
+bool ViewRun::is_still_there() const {
+  const Result<std::vector<SeriesEntry>> series = this->series();
+  if (!series.ok() || series.value().empty()) return false;
+  const std::vector<SeriesEntry>& now = series.value();
+  return now.size() >= taken_.size() && stamp_of(now.front()) == stamp_ &&
+         std::equal(taken_.begin(), taken_.end(), now.begin(),
+                    [](const Taken& t, const SeriesEntry& e) { return t.entry.time == e.time; });
 }
 
 Result<std::vector<SeriesEntry>> ViewRun::series() const {
@@ -84,7 +143,10 @@ Result<ViewRun::Opened> ViewRun::open_frame(const SeriesEntry& frame) const {
   return Opened{std::move(grids), std::move(in.value())};
 }
 
-void ViewRun::widen_ranges(const Grids& grids) {
+void ViewRun::widen_ranges(const Opened& frame) {
+  const Grids& grids = frame.grids;
+  usual_.stress = std::max(usual_.stress, usual_stress(grids.blocks, frame.in.cell));
+  if (grids.contacts) usual_.force = std::max(usual_.force, usual_force(*grids.contacts));
   const Grid* contacts = grids.contacts ? &*grids.contacts : nullptr;
   const Field* fixed = grids.blocks.cell_field("fixed");
   for (const std::string& name : all_fields()) {
@@ -109,7 +171,7 @@ Result<std::string> ViewRun::take(const SeriesEntry& frame, ViewPrecision precis
   ViewDatum datum;
   if (find_datum(mesh_, grids.blocks, in, datums_.empty() ? nullptr : &datums_.back(), datum))
     datums_.push_back(std::move(datum));
-  widen_ranges(grids);
+  widen_ranges(opened.value());
   taken_.push_back({frame, datums_.size() - 1});
   return pack(opened.value(), precision, taken_.back().datum);
 }
@@ -138,27 +200,21 @@ Result<std::string> ViewRun::probe(const SeriesEntry& frame, ViewPrecision preci
 std::string ViewRun::table(const std::string& name, std::size_t most_rows) const {
   const Result<std::string> file = read_file(folder_ + "/" + name);
   if (!file.ok()) return {};
-  const std::string& text = file.value();
-  const auto rows = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-  if (rows <= most_rows + 1) return text;
-  const std::size_t every = (rows + most_rows - 1) / most_rows;
-  std::string thinned;
-  std::size_t row = 0;
-  for (std::size_t at = 0; at < text.size(); ++row) {
-    const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
-    const bool kept = row == 0 || (row - 1) % every == 0 || end == text.size();
-    if (kept) thinned.append(text, at, end - at);
-    at = end;
-  }
-  return thinned;
+  if (name == "history.csv") return with_peaks(file.value(), most_rows);
+  if (name != "bolts.csv") return std::string(complete_rows(file.value()));
+  std::vector<double> times;
+  for (const Taken& t : taken_) times.push_back(t.entry.time);
+  return rows_at(file.value(), times);
 }
 
-std::string ViewRun::header(bool served) const {
+std::string ViewRun::header(const std::string& served_as) const {
   Json json;
-  json.open_object().pair("format", 1).pair("edda", version).pair("served", served);
+  json.open_object().pair("format", 1).pair("edda", version);
+  json.pair("served", !served_as.empty());
+  if (!served_as.empty()) json.pair("run", served_as);
   json.pair("title", names_.title);
   add_strings(json, "materials", names_.materials);
-  add_strings(json, "stages", names_.stages);
+  add_strings(json, "absent", absent_);
   add_marks(json, "monitors", names_.monitors);
   add_marks(json, "convergences", names_.convergences);
   json.key("frames").open_list();
@@ -175,6 +231,8 @@ std::string ViewRun::header(bool served) const {
     json.close();
   }
   json.close();
+  json.key("usual").open_object();
+  json.pair("force", usual_.force).pair("stress", usual_.stress).close();
   std::string kinds;
   for (std::size_t k = 0; k < kind_colour_count; ++k) append_hex(kinds, kind_colour(k));
   json.key("colours").open_object().pair("sequential", colour_map(sequential));

@@ -26,7 +26,6 @@ struct ViewNames {
   std::vector<std::string> materials;
   std::vector<ViewMark> monitors;      ///< one point each
   std::vector<ViewMark> convergences;  ///< two
-  std::vector<std::string> stages;
 };
 
 /// Smallest and largest value of a field of pictures in the frames so far; held blocks do not
@@ -34,6 +33,12 @@ struct ViewNames {
 struct ViewRange {
   double low = 0.0, high = 0.0;
   bool any = false;
+};
+
+/// What a stroke of the usual length stands for in the frames so far.
+struct ViewUsual {
+  double force = 0.0;   ///< of closed contacts, N
+  double stress = 0.0;  ///< principal, of blocks that are not held, Pa
 };
 
 class ViewRun {
@@ -54,12 +59,17 @@ class ViewRun {
   const ViewMesh& mesh() const { return mesh_; }
   const std::vector<ViewDatum>& datums() const { return datums_; }
   std::size_t frames() const { return taken_.size(); }
-  /// A table of the folder, rows left out evenly where it is longer than `most_rows`; empty where
-  /// there is none.
+  /// A table of the folder, of a history about `most_rows` rows with all its peaks, of the bolts
+  /// the rows at the frames taken up; empty where there is none.
   std::string table(const std::string& name, std::size_t most_rows) const;
-  /// What the page is told before anything else, as JSON (view/page/src/run.ts). `served`: chunks
-  /// are to be fetched; else they are in the page.
-  std::string header(bool served) const;
+  /// What the page is told before anything else, as JSON (view/page/src/data/run.ts). `served_as`:
+  /// chunks are to be fetched, and another text than before tells that they are of another run;
+  /// empty: they are in the page.
+  std::string header(const std::string& served_as = {}) const;
+  /// Whether the folder still holds this run: the same files, and the frames taken up so far.
+  bool is_still_there() const;
+  /// When the run's first files were written; another run has other times.
+  const std::string& stamp() const { return stamp_; }
 
  private:
   struct Taken {
@@ -79,14 +89,18 @@ class ViewRun {
   std::string pack(const Opened& frame, ViewPrecision precision, std::size_t datum) const;
   Result<std::string> read_and_pack(const SeriesEntry& frame, ViewPrecision precision,
                                     std::size_t datum) const;
-  void widen_ranges(const Grids& grids);
+  void widen_ranges(const Opened& frame);
+  std::string stamp_of(const SeriesEntry& first) const;
 
   std::string folder_;
   ViewNames names_;
   ViewMesh mesh_;
+  std::string stamp_;
+  std::vector<std::string> absent_;  ///< numbers of blocks that these frames have not
   std::vector<ViewDatum> datums_;
   std::vector<Taken> taken_;
   std::map<std::string, ViewRange> ranges_;  ///< by name of the field
+  ViewUsual usual_;
 };
 
 /// Tables that a page takes along.

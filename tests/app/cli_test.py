@@ -2,17 +2,15 @@
 import csv
 import json
 import os
-import pathlib
 import pty
+import re
 import shutil
 import signal
 import subprocess
-import sys
-import tempfile
 import time
 import unittest
 
-EDDA = pathlib.Path(sys.argv.pop(1)).resolve()
+from program import EDDA, Program, read_rows
 
 RAMP = """title = "Ramp \\"quoted\\""
 [materials.rock]
@@ -44,29 +42,15 @@ SUMMARY = """version title method mass status message blocks contacts time steps
 open_close step_changes step_cuts max_penetration energy wall_seconds block_steps_per_second threads checks inputs""".split()
 
 
-def read_rows(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
-
-
 def read_cells(path):
     with open(path, newline="") as file:
         return list(csv.reader(file))
 
 
-class Cli(unittest.TestCase):
+class Cli(Program):
     def setUp(self):
-        self.dir = pathlib.Path(tempfile.mkdtemp(prefix="edda_cli_"))
-        self.addCleanup(shutil.rmtree, self.dir)
+        super().setUp()
         (self.dir / "m.toml").write_text(RAMP)
-
-    def edda(self, *args, **more):
-        return subprocess.run([str(EDDA), *args], cwd=self.dir, text=True, capture_output=True, timeout=120, **more)
-
-    def expect(self, code, *args):
-        done = self.edda(*args)
-        self.assertEqual(done.returncode, code, f"{args}: {done.stdout}{done.stderr}")
-        return done
 
     def names(self):
         return sorted(p.name for p in self.dir.iterdir())
@@ -206,7 +190,7 @@ class Cli(unittest.TestCase):
         self.expect(2, "run", "model.toml", "-o", ".")
         self.assertEqual((self.dir / "model.toml").read_text(), RAMP)
 
-    def interrupted(self, sent):
+    def interrupted(self, *sent):
         run = subprocess.Popen([str(EDDA), "run", "m.toml", "--set", "solver.duration=100000", "--set", "output.history_every=0.5",
                                 "--set", "output.every=1000"], cwd=self.dir, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         for _ in range(600):
@@ -214,7 +198,9 @@ class Cli(unittest.TestCase):
                 break
             time.sleep(0.05)
         time.sleep(0.3)
-        run.send_signal(sent)
+        for one in sent:
+            run.send_signal(one)
+            time.sleep(0.01)
         run.communicate(timeout=60)
         self.assertEqual(run.returncode, 130)
         self.assertEqual({p.name for p in (self.dir / "m").iterdir()}, RESULTS | {"checkpoint.h5"})
@@ -227,6 +213,27 @@ class Cli(unittest.TestCase):
 
     def test_termination_writes_everything(self):
         self.interrupted(signal.SIGTERM)
+
+    def test_terminal_that_closes_writes_everything(self):
+        self.interrupted(signal.SIGHUP, signal.SIGHUP)  # from the terminal and from its shell
+
+    def test_reader_that_goes_away_stops_no_run(self):
+        (self.dir / "m.toml").write_text(RAMP.replace("duration = 0.01", "duration = 0.5"))
+        for more in (["--json"], []):
+            with self.subTest(more=more):
+                shutil.rmtree(self.dir / "m", ignore_errors=True)
+                read, written = os.pipe()
+                os.close(read)
+                run = subprocess.run([str(EDDA), "run", "m.toml", *more], cwd=self.dir, stdout=written, stderr=written, timeout=120)
+                os.close(written)
+                self.assertEqual(run.returncode, 0)
+                self.assertEqual(json.loads((self.dir / "m/summary.json").read_text())["status"], "completed")
+
+    def test_stage_without_a_name_is_refused(self):
+        self.expect(0, "run", "m.toml")
+        before = (self.dir / "m/summary.json").read_bytes()
+        self.assertIn("--from", self.expect(2, "run", "m.toml", "--from", "").stderr)
+        self.assertEqual((self.dir / "m/summary.json").read_bytes(), before)
 
     def test_divergence_fails_and_keeps_what_was_computed(self):
         (self.dir / "m.toml").write_text(RAMP.replace("duration = 0.01", "duration = 1.0\ntime_step = 2e-3\nallow_unstable = true")
@@ -258,24 +265,6 @@ class Cli(unittest.TestCase):
             results.append([(self.dir / f"t{n}" / f).read_bytes() for f in ("blocks.csv", "joints.csv", "history.csv")])
         self.assertEqual(results[0], results[1])
         self.assertEqual(results[0], results[2])
-
-    def test_implicit_method_runs_the_same_model(self):
-        self.expect(0, "example", "cavern")
-        self.assertNotIn("critical step", self.expect(0, "check", "cavern.toml", "--set", "solver.method=dda").stdout)
-        results = []
-        for n in (1, 2, 7):
-            self.expect(0, "run", "cavern.toml", "--quiet", "-o", f"d{n}", "--threads", str(n), "--set", "solver.method=dda",
-                        "--set", "solver.duration=0.01", "--set", "output.history_every=0.001")
-            results.append([(self.dir / f"d{n}" / f).read_bytes() for f in ("blocks.csv", "joints.csv", "history.csv")])
-        self.assertEqual(results[0], results[1])
-        self.assertEqual(results[0], results[2])
-        summary = json.loads((self.dir / "d1/summary.json").read_text())
-        self.assertEqual((summary["method"], summary["status"]), ("dda", "completed"))
-        self.assertGreater(summary["open_close"]["mean"], 0)
-        static = self.expect(0, "run", "cavern.toml", "--quiet", "-o", "s", "--set", "solver.method=dda",
-                             "--set", "solver.dynamic=false", "--set", "solver.duration=0.05", "--set", "output.history_every=0.05",
-                             "--set", "output.every=0.05")
-        self.assertEqual(json.loads((self.dir / "s/summary.json").read_text())["energy"]["kinetic"], 0)
 
     def test_examples_are_sound_and_never_overwrite(self):
         listed = [line.split()[0] for line in self.expect(0, "example").stdout.splitlines()[1:]]
@@ -341,10 +330,33 @@ class Cli(unittest.TestCase):
         self.expect(0, "plot", "m", "--history", "M", "-o", "h.pdf")
         self.assertEqual((self.dir / "h.pdf").read_bytes()[:5], b"%PDF-")
 
+    def test_plot_keeps_bolts_apart_whatever_their_names(self):
+        self.expect(0, "run", "m.toml", "--quiet")
+        for names in (("1", "2"), ("0", "B"), ("B", "0")):
+            rows = [f"0.01,{name},{x},{y},1e4,0,0" for name, x in zip(names, (0.5, 1.5)) for y in (0.2, 0.8)]
+            head = "time,bolt,x,y,axial_force,yielded,ruptured"
+            (self.dir / "m/bolts.csv").write_text("\n".join([head, *rows, ""]))
+            self.expect(0, "plot", "m", "-o", "p.svg", "--field", "none")
+            lines = re.findall('<path [^>]*stroke:rgb\\(5%,25%,65%\\)[^>]*>', (self.dir / "p.svg").read_text())
+            self.assertEqual(len(lines), 2, names)
+
     def test_plot_takes_its_size_from_paper_and_pixels(self):
         for more, wide in (((), 1600), (("--width", "80mm"), 800), (("--width", "300px"), 300), (("--dpi", "127"), 800)):
             self.expect(0, "plot", "m.toml", "-o", "p.png", "--field", "material", *more)
             self.assertEqual(int.from_bytes((self.dir / "p.png").read_bytes()[16:20], "big"), wide, more)
+
+    def test_plot_keeps_its_width_where_the_model_is_tall(self):
+        tall = RAMP.replace("[-1, -1], [4, -1], [4, 0], [-1, 0]", "[0, -20], [2, -20], [2, 0], [0, 0]")
+        (self.dir / "tall.toml").write_text(tall)
+        for more, wide in ((("--width", "80mm"), 800), (("--width", "300px"), 300)):
+            self.expect(0, "plot", "tall.toml", "-o", "p.png", *more)
+            self.assertEqual(int.from_bytes((self.dir / "p.png").read_bytes()[16:20], "big"), wide, more)
+
+    def test_plot_names_its_picture_after_the_whole_folder(self):
+        self.expect(0, "run", "m.toml", "-o", "slope-1.5", "--quiet")
+        for given in ("slope-1.5", "slope-1.5/", "./slope-1.5/../slope-1.5"):
+            self.expect(0, "plot", given)
+            (self.dir / "slope-1.5.png").unlink()
 
     def test_plot_refuses_with_one_message(self):
         self.expect(0, "run", "m.toml")
@@ -355,6 +367,13 @@ class Cli(unittest.TestCase):
             self.assertEqual(done.stdout, "")
         for more in (("--history", "energy"), ("--before",), ("--principal",), ("--bolts",)):
             self.assertEqual(self.expect(2, "plot", "m.toml", *more).stderr.count("\n"), 1)
+        for more in (("--time", "nan"), ("--compare", "0,inf"), ("--scale", "inf"), ("--range=-inf,1",), ("--window", "0,0,nan,1"),
+                     ("--set", "title='x'"), ("--width", "800px", "--dpi", "100"), ("--width", "800px", "-o", "x.svg"),
+                     ("--history", "M", "--scale", "2"), ("--history", "M", "--set", "title='x'")):
+            done = self.expect(2, "plot", "m", *more)
+            self.assertEqual((done.stderr.count("\n"), done.stdout), (1, ""), done.stderr)
+        for more in (("--time", "0"), ("--forces",), ("--field", "opening")):
+            self.assertIn("is a model", self.expect(2, "plot", "m.toml", *more).stderr)
         for more in (("--range", "1"), ("--width", "9mm"), ("--width", "x"), ("--history", "M", "--forces"), ("--vectors", "up")):
             self.expect(2, "plot", "m", *more)
         self.assertEqual(self.names(), ["m", "m.toml"])

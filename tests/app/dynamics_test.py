@@ -1,17 +1,12 @@
 """Shaking, driven and viscous boundaries and bolts, end to end: what is written, and the same bytes after a stop and with
 any number of threads. Usage: dynamics_test.py EDDA"""
-import csv
 import json
-import pathlib
-import shutil
 import signal
 import subprocess
-import sys
-import tempfile
 import time
 import unittest
 
-EDDA = pathlib.Path(sys.argv.pop(1)).resolve()
+from program import EDDA, Program, content
 
 MODEL = """
 [materials.rock]
@@ -78,31 +73,12 @@ checkpoint_every = 0.0005
 """
 
 
-def content(folder):
-    """Every file but the summary (it tells of wall time) and the checkpoints."""
-    return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*"))
-            if p.is_file() and not p.name.startswith("checkpoint") and p.name != "summary.json"}
-
-
-class Dynamics(unittest.TestCase):
+class Dynamics(Program):
     def setUp(self):
-        self.dir = pathlib.Path(tempfile.mkdtemp(prefix="edda_dynamics_"))
-        self.addCleanup(shutil.rmtree, self.dir)
+        super().setUp()
         (self.dir / "m.toml").write_text(MODEL)
         (self.dir / "push.csv").write_text("time,factor\n0,0\n0.2,1\n0.5,-1\n")
         (self.dir / "quake.csv").write_text("time,ax,ay\n0,0,0\n0.1,1.5,0.4\n0.2,-2,-0.3\n0.3,0,0\n")
-
-    def edda(self, *args):
-        return subprocess.run([str(EDDA), *args], cwd=self.dir, text=True, capture_output=True, timeout=120)
-
-    def expect(self, code, *args):
-        done = self.edda(*args)
-        self.assertEqual(done.returncode, code, f"{args}: {done.stdout}{done.stderr}")
-        return done
-
-    def rows(self, name):
-        with open(self.dir / name, newline="") as file:
-            return list(csv.DictReader(file))
 
     def test_tables_and_books(self):
         self.expect(0, "run", "m.toml", "--quiet", "-o", "r")
@@ -139,6 +115,14 @@ class Dynamics(unittest.TestCase):
         self.assertEqual(process.wait(), 130)
         self.expect(0, "run", "m.toml", "--quiet", "-o", "r", "--resume", "--threads", "2")
         self.assertEqual(content(self.dir / "r"), whole)
+
+    def test_a_run_goes_on_from_the_model_in_its_folder(self):
+        self.expect(0, "run", "m.toml", "--quiet", "-o", "r")
+        history = (self.dir / "r/history.csv").read_bytes()
+        again = ("run", "r/model.toml", "--quiet", "-o", "r")
+        self.assertIn("the model file lies in it", self.expect(2, *again).stderr)
+        self.expect(0, *again, "--resume", "--set", "solver.duration=0.5")
+        self.assertTrue((self.dir / "r/history.csv").read_bytes().startswith(history))
 
     def test_resume_wants_the_same_record(self):
         process = subprocess.Popen([str(EDDA), "run", "m.toml", "--quiet", "-o", "r"], cwd=self.dir)

@@ -3,25 +3,13 @@ Usage: examples_test.py EDDA"""
 import csv
 import json
 import math
-import pathlib
-import shutil
-import subprocess
-import sys
-import tempfile
 import unittest
 
-EDDA = pathlib.Path(sys.argv.pop(1)).resolve()
+from program import Program
 
 
-class Examples(unittest.TestCase):
-    def setUp(self):
-        self.dir = pathlib.Path(tempfile.mkdtemp(prefix="edda-examples-"))
-
-    def tearDown(self):
-        shutil.rmtree(self.dir)
-
-    def edda(self, *args):
-        return subprocess.run([EDDA, *args], cwd=self.dir, capture_output=True, text=True, check=False)
+class Examples(Program):
+    seconds = 300
 
     def ran(self, name, *args, out=None):
         """Writes the model if it is not there yet, runs it; its summary and folder."""

@@ -4,18 +4,16 @@ Usage: faults_test.py EDDA [--kills N]"""
 import ctypes
 import json
 import os
-import pathlib
 import random
 import resource
 import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
-EDDA = pathlib.Path(sys.argv.pop(1)).resolve()
+from program import EDDA, Program
 KILLS = 5
 if "--kills" in sys.argv:
     at = sys.argv.index("--kills")
@@ -86,20 +84,13 @@ def lasting(folder):
     return {k: v for k, v in summary.items() if k not in ("wall_seconds", "block_steps_per_second", "threads")}
 
 
-class Faults(unittest.TestCase):
+class Faults(Program):
+    seconds = 300
+
     def setUp(self):
-        self.dir = pathlib.Path(tempfile.mkdtemp(prefix="edda_faults_"))
-        self.addCleanup(shutil.rmtree, self.dir, True)
+        super().setUp()
         (self.dir / "m.toml").write_text(HEAP)
         (self.dir / "push.csv").write_text("time,factor\n0,0\n0.2,1\n0.5,-1\n")
-
-    def edda(self, *args, **more):
-        return subprocess.run([str(EDDA), *args], cwd=self.dir, text=True, capture_output=True, timeout=300, **more)
-
-    def expect(self, code, *args, **more):
-        done = self.edda(*args, **more)
-        self.assertEqual(done.returncode, code, f"{args}: {done.stdout}{done.stderr}")
-        return done
 
     def start(self, *args):
         return subprocess.Popen([str(EDDA), "run", "m.toml", "--quiet", *args], cwd=self.dir, stderr=subprocess.PIPE)

@@ -4,12 +4,9 @@ import json
 import math
 import pathlib
 import shutil
-import subprocess
-import sys
-import tempfile
 import unittest
 
-EDDA = pathlib.Path(sys.argv.pop(1)).resolve()
+from program import Program
 
 BASE = """[materials.rock]
 density = 2600
@@ -114,13 +111,9 @@ DRAWING = "0\nSECTION\n2\nENTITIES\n" + \
     entity("TEXT", "notes", (1, "hello")) + "0\nENDSEC\n0\nEOF\n"
 
 
-class Geometry(unittest.TestCase):
-    def setUp(self):
-        self.dir = pathlib.Path(tempfile.mkdtemp(prefix="edda_geometry_"))
-        self.addCleanup(shutil.rmtree, self.dir)
-
-    def edda(self, *args, code=0):
-        done = subprocess.run([str(EDDA), *args], cwd=self.dir, capture_output=True, text=True, timeout=120)
+class Geometry(Program):
+    def edda(self, *args, code=0, **more):
+        done = super().edda(*args, **more)
         self.assertEqual(done.returncode, code, " ".join(args) + "\n" + done.stdout + done.stderr)
         return done
 

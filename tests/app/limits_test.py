@@ -1,15 +1,11 @@
 """Models far too large: each ends soon, with exit code 2 and one clear line, and without filling the memory.
 Usage: limits_test.py EDDA"""
 import math
-import pathlib
 import resource
-import shutil
 import subprocess
-import sys
-import tempfile
 import unittest
 
-EDDA = pathlib.Path(sys.argv.pop(1)).resolve()
+from program import EDDA, Program
 MEMORY = 3 << 30  # bytes, of addresses
 
 HEAD = """[materials.rock]
@@ -35,11 +31,7 @@ def ring(n):
     return "[" + ",".join(f"[{100 * math.cos(turn * i)!r},{100 * math.sin(turn * i)!r}]" for i in range(n)) + "]"
 
 
-class Limits(unittest.TestCase):
-    def setUp(self):
-        self.dir = pathlib.Path(tempfile.mkdtemp(prefix="edda_limits_"))
-        self.addCleanup(shutil.rmtree, self.dir, True)
-
+class Limits(Program):
     def run_limited(self, text, *more):
         (self.dir / "m.toml").write_text(text)
 

@@ -1,17 +1,12 @@
 """Stress in the ground at the start, end to end: what is printed and written, and the same bytes after a stop and with
 any number of threads. Usage: stress_test.py EDDA"""
-import csv
 import json
-import pathlib
-import shutil
 import signal
 import subprocess
-import sys
-import tempfile
 import time
 import unittest
 
-EDDA = pathlib.Path(sys.argv.pop(1)).resolve()
+from program import EDDA, Program, content
 
 MODEL = """
 [materials.rock]
@@ -69,26 +64,12 @@ checkpoint_every = 0.0005
 """
 
 
-def content(folder):
-    """Every file but the summary (it tells of wall time) and the checkpoints."""
-    return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*"))
-            if p.is_file() and not p.name.startswith("checkpoint") and p.name != "summary.json"}
+class Stress(Program):
+    seconds = 240
 
-
-class Stress(unittest.TestCase):
     def setUp(self):
-        self.dir = pathlib.Path(tempfile.mkdtemp(prefix="edda_stress_"))
-        self.addCleanup(shutil.rmtree, self.dir)
+        super().setUp()
         (self.dir / "m.toml").write_text(MODEL)
-
-    def expect(self, code, *args):
-        done = subprocess.run([str(EDDA), *args], cwd=self.dir, text=True, capture_output=True, timeout=240)
-        self.assertEqual(done.returncode, code, f"{args}: {done.stdout}{done.stderr}")
-        return done
-
-    def rows(self, name):
-        with open(self.dir / name, newline="") as file:
-            return list(csv.DictReader(file))
 
     def test_check_tells_how_the_stress_goes_with_weight_and_joints(self):
         out = self.expect(0, "check", "m.toml").stdout

@@ -2,19 +2,16 @@
 import fcntl
 import json
 import os
-import pathlib
 import pty
 import re
 import shutil
 import signal
 import struct
 import subprocess
-import sys
-import tempfile
 import termios
 import unittest
 
-EDDA = pathlib.Path(sys.argv.pop(1)).resolve()
+from program import EDDA, Program
 
 STAGED = """title = "Two stages"
 [materials.rock]
@@ -44,19 +41,10 @@ history_every = 0.01
 """
 
 
-class Folder(unittest.TestCase):
+class Folder(Program):
     def setUp(self):
-        self.dir = pathlib.Path(tempfile.mkdtemp(prefix="edda_terminal_"))
-        self.addCleanup(shutil.rmtree, self.dir)
+        super().setUp()
         (self.dir / "m.toml").write_text(STAGED)
-
-    def edda(self, *args):
-        return subprocess.run([str(EDDA), *args], cwd=self.dir, text=True, capture_output=True, timeout=120)
-
-    def expect(self, code, *args):
-        done = self.edda(*args)
-        self.assertEqual(done.returncode, code, f"{args}: {done.stdout}{done.stderr}")
-        return done
 
 
 class Progress(Folder):
@@ -200,6 +188,7 @@ class Shells(Folder):
         self.assertEqual(sorted(self.bash("edda run ")), ["m.toml", "two words"])
         self.assertEqual(self.bash("edda run m.toml -o "), ["two words"])
         self.assertIn("notes.txt", self.bash("edda plot m -o "))
+        self.assertIn("notes.txt", self.bash("edda view m -o "))
 
     @unittest.skipUnless(shutil.which("zsh"), "zsh is not here")
     def test_zsh_reads_its_script(self):

@@ -9,7 +9,7 @@
 #include "attachments/dashpots.hpp"
 #include "attachments/drawn_blocks.hpp"
 
-namespace edda {
+namespace edda::bolts_test {
 namespace {
 
 /// Blocks as given, with the bolts of a model in them.
@@ -166,4 +166,4 @@ TEST(Dashpots, HaveTheImpedanceOfTheRock) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::bolts_test

@@ -4,7 +4,7 @@
 
 #include "blocks/build_blocks.hpp"
 
-namespace edda {
+namespace edda::boundary_springs_test {
 namespace {
 
 /// Four unit squares in a row from x = 0, the last one held; a boundary of the given type and
@@ -114,4 +114,4 @@ TEST(BoundarySprings, EnergyIsTheProductOfTwoSteps) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::boundary_springs_test

@@ -7,7 +7,7 @@
 
 #include "attachments/drawn_blocks.hpp"
 
-namespace edda {
+namespace edda::loads_test {
 namespace {
 
 /// Blocks as given, with the loads and waters of a model on them.
@@ -330,4 +330,4 @@ TEST(Load, RefusesWhatItCannotActOn) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::loads_test

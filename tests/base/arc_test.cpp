@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace edda {
+namespace edda::arc_test {
 namespace {
 
 TEST(Arc, CornersLieOnTheCircleAtEqualAngles) {
@@ -51,4 +51,4 @@ TEST(Arc, BulgeIsTheRiseOverHalfTheChord) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::arc_test

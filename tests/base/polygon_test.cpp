@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-namespace edda {
+namespace edda::polygon_test {
 namespace {
 
 TEST(Moments, FarFromTheOriginKeepsItsDigits) {
@@ -77,4 +77,4 @@ TEST(SelfCrossing, FindsWhatBruteForceFinds) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::polygon_test

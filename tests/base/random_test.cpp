@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-namespace edda {
+namespace edda::random_test {
 namespace {
 
 TEST(Random, IsSplitMix64) {
@@ -79,4 +79,4 @@ TEST(Random, KeysDependOnEverything) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::random_test

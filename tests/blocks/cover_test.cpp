@@ -9,7 +9,7 @@
 #include "blocks/build_blocks.hpp"
 #include "blocks/kinematics.hpp"
 
-namespace edda {
+namespace edda::cover_test {
 namespace {
 
 Ring random_star(std::mt19937& rng, int n) {
@@ -148,4 +148,4 @@ TEST(BuildBlocks, VertexWeightsReproduceTheVertices) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::cover_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace edda {
+namespace edda::initial_stress_test {
 namespace {
 
 constexpr double g = 9.81;
@@ -112,4 +112,4 @@ TEST(InitialStress, OutOfThePlane) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::initial_stress_test

@@ -9,7 +9,7 @@
 #include "checkpoint/envelope.hpp"
 #include "checkpoint/hdf5_image.hpp"
 
-namespace edda {
+namespace edda::checkpoint_test {
 namespace {
 
 enum class Colour : std::uint8_t { red, green };
@@ -136,4 +136,4 @@ TEST(Envelope, KeepsTheOneBefore) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::checkpoint_test

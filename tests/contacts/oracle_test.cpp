@@ -3,7 +3,7 @@
 
 #include "contacts/drifting_heap.hpp"
 
-namespace edda {
+namespace edda::oracle_test {
 namespace {
 
 /// Sizes up to 1 : 10,000, needles, slivers, stars; tools/contact-oracle runs thousands of these.
@@ -19,4 +19,4 @@ TEST(CandidateList, MissesNothingWhileBlocksMove) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::oracle_test

@@ -4,7 +4,7 @@
 #include "contacts/laws.hpp"
 #include "model/read_model.hpp"
 
-namespace edda {
+namespace edda::pairs_test {
 namespace {
 
 const std::string start = R"(
@@ -71,4 +71,4 @@ TEST(ContactPairs, JointsHaveTheirLawAndComeBeforeMaterials) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::pairs_test

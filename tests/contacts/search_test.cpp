@@ -8,7 +8,7 @@
 #include "blocks/build_blocks.hpp"
 #include "contacts/gap.hpp"
 
-namespace edda {
+namespace edda::search_test {
 namespace {
 
 /// Random polygons, overlapping at will, of very different sizes; some held.
@@ -118,4 +118,4 @@ TEST(NearPairs, ThinStripsBesideBlocksOfAnySize) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::search_test

@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace edda {
+namespace edda::switching_test {
 namespace {
 
 /// What alpha is for: the discrete work of alpha p d over the step equals the change of p d d'/2.
@@ -85,4 +85,4 @@ TEST(CutShear, IsTheLimit) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::switching_test

@@ -1,10 +1,12 @@
 """Every model and command of the manual, and of the README, is run. Usage: manual_test.py EDDA [PAGE ...]
 
 A block ```toml that begins with a comment "# NAME.toml" is a model: it is written under that name and must pass
-edda check. Any other is a piece of a model: with tests/docs/around/PAGE.toml, which has what the piece names (or
+edda check. One that begins with "# at the end of NAME.toml" is added to that model. Any other is a piece of a model: with tests/docs/around/PAGE.toml, which has what the piece names (or
 PAGE-N.toml for the N-th piece of the page), it must pass, too. A block ```sh is run line by line, in one folder per page.
 Blocks without a language are shown, not run.
 """
+import csv
+import math
 import pathlib
 import re
 import shlex
@@ -20,6 +22,7 @@ PAGES = [pathlib.Path(p) for p in sys.argv[1:]] or [ROOT / "README.md", *sorted(
 del sys.argv[1:]
 
 FENCE = re.compile(r"^```(\w+)\n(.*?)^```$", re.M | re.S)
+ADDED = re.compile(r"# at the end of (\S+\.toml)\n")
 # What the program is called in the text.
 NAMES = ("edda", "build/edda")
 
@@ -36,6 +39,12 @@ class Manual(unittest.TestCase):
     def check_model(self, folder, text):
         name = re.match(r"# (\S+\.toml)", text).group(1)
         (folder / name).write_text(text, encoding="utf-8")
+        self.expect(folder, "check", name)
+
+    def add_to_model(self, folder, text):
+        name = ADDED.match(text).group(1)
+        with open(folder / name, "a", encoding="utf-8") as model:
+            model.write(text)
         self.expect(folder, "check", name)
 
     def check_piece(self, folder, page, number, text):
@@ -67,12 +76,39 @@ def test_of(page):
                 with self.subTest(block=text.split("\n", 1)[0]):
                     if language == "toml" and re.match(r"# \S+\.toml\n", text):
                         self.check_model(folder, text)
+                    elif language == "toml" and ADDED.match(text):
+                        self.add_to_model(folder, text)
                     elif language == "toml":
                         pieces += 1
                         self.check_piece(folder, page.stem, pieces, text)
                     elif language == "sh":
                         self.run_lines(folder, text)
+            if page.stem in SAID:
+                SAID[page.stem](self, folder, page.read_text(encoding="utf-8"))
     return test
+
+
+def moved(results):
+    """How far each block has moved, m."""
+    with open(results / "blocks.csv", encoding="utf-8") as table:
+        return [math.hypot(float(row["ux"]), float(row["uy"])) for row in csv.DictReader(table)]
+
+
+def first_steps(test, folder, text):
+    test.assertLess(max(moved(folder / "rough")), 1e-3)
+    bare, bolted = moved(folder / "own-tunnel"), moved(folder / "bolted")
+    wedge = bare.index(max(bare))
+    test.assertGreater(bare[wedge], 0.1)
+    test.assertLess(bolted[wedge], 5e-3)
+    test.assertIn("Save it as `own-tunnel.toml`", text)
+    model = (folder / "own-tunnel.toml").read_text(encoding="utf-8")
+    (folder / "own-tunnel.toml").write_text(model.replace("friction_angle = 20", "friction = 20"), encoding="utf-8")
+    test.assertIn(re.search(r"^own-tunnel\.toml:.*$", text, re.M).group(0),
+                  run([EDDA, "check", "own-tunnel.toml"], folder).stderr.splitlines())
+
+
+# What pages say of what they run.
+SAID = {"first-steps": first_steps}
 
 
 for path in PAGES:

@@ -8,7 +8,7 @@
 #include "contacts/gap.hpp"
 #include "forces/elastic.hpp"
 
-namespace edda {
+namespace edda::contact_force_test {
 namespace {
 
 struct Points {
@@ -106,4 +106,4 @@ TEST(Piola, RotationMakesNoStress) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::contact_force_test

@@ -7,7 +7,7 @@
 
 #include "forces/elastic.hpp"
 
-namespace edda {
+namespace edda::initial_stress_test {
 namespace {
 
 constexpr double lambda = 8e9, mu = 6e9, volume = 1.7;
@@ -79,4 +79,4 @@ TEST(InitialStressForce, EnergyIsThatOfTheWholeStress) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::initial_stress_test

@@ -13,7 +13,7 @@
 #include "lines/build_polygons.hpp"
 #include "model/read_model.hpp"
 
-namespace edda {
+namespace edda::assemble_test {
 namespace {
 
 struct Scene {
@@ -147,4 +147,4 @@ TEST(Assemble, FillsThePatternOfWhatMayTouch) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::assemble_test

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace edda {
+namespace edda::linear_solver_test {
 namespace {
 
 /// Blocks in a grid, each coupled to its four neighbours by random springs, with something on the
@@ -114,4 +114,4 @@ TEST(LinearSolver, SaysSoWhereThereIsNoSolution) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::linear_solver_test

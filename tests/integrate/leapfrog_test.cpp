@@ -6,7 +6,7 @@
 
 #include "blocks/build_blocks.hpp"
 
-namespace edda {
+namespace edda::leapfrog_test {
 namespace {
 
 struct OneBlock {
@@ -99,4 +99,4 @@ TEST(Leapfrog, RetreatBringsBackWhereItWas) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::leapfrog_test

@@ -2,6 +2,7 @@
 
   installed_test.py BUILD SOURCE CXX
 """
+import os
 import pathlib
 import re
 import subprocess
@@ -54,6 +55,7 @@ class Installed(unittest.TestCase):
     def test_library_shows_its_interface_alone(self):
         library = next((self.prefix / "lib").rglob("libedda.so"))
         self.assertRegex(library.resolve().name, r"libedda\.so\.\d+\.\d+\.\d+")
+        self.assertRegex(os.readlink(library), r"^libedda\.so\.(0\.\d+|[1-9]\d*)$")
         symbols = run("nm", "-DC", "--defined-only", library)
         self.assertIn("edda::api::Simulation::run()", symbols)
         own = [s for s in symbols.splitlines() if re.match(r"\w+ \w (typeinfo \w+ |vtable )?(for )?edda::", s)]
@@ -63,6 +65,9 @@ class Installed(unittest.TestCase):
     def test_licence_and_models_are_there(self):
         self.assertTrue((self.prefix / "share/doc/edda/LICENSE").is_file())
         self.assertTrue((self.prefix / "share/edda/models/cavern.toml").is_file())
+
+    def test_zsh_finds_its_completion(self):
+        self.assertTrue((self.prefix / "share/zsh/site-functions/_edda").is_file())
 
 
 if __name__ == "__main__":

@@ -3,93 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
-#include "library/edda.hpp"
+#include "library/fixture.hpp"
 
 namespace edda::api {
 namespace {
-
-const std::string examples = EDDA_SOURCE_DIR "/examples/";
-
-/// A block that falls, alone.
-constexpr const char* falling = R"(
-gravity = [0.0, -10.0]
-[materials.rock]
-density = 2000.0
-young = 1e9
-poisson = 0.2
-[joints.j]
-friction_angle = 30.0
-[contact]
-normal_stiffness = 1e8
-joint = "j"
-[[block]]
-name = "stone"
-polygon = [[0, 0], [1, 0], [1, 1], [0, 1]]
-material = "rock"
-[[block]]
-name = "far below"
-polygon = [[-9, -90], [9, -90], [9, -89], [-9, -89]]
-material = "rock"
-fixed = true
-[solver]
-duration = 0.2
-[output]
-every = 0.1
-history_every = 0.01
-)";
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-std::vector<double> positions(const Simulation& simulation) {
-  std::vector<double> all;
-  for (const Nodes& nodes : {simulation.node_x(), simulation.node_y()}) {
-    for (const auto& row : nodes) all.insert(all.end(), row.begin(), row.end());
-  }
-  return all;
-}
 
 double max_difference(const std::vector<double>& a, const std::vector<double>& b) {
   double most = 0.0;
   for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, std::abs(a[k] - b[k]));
   return most;
-}
-
-class Library : public testing::Test {
- protected:
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ =
-        std::filesystem::path(testing::TempDir()) / ("edda_library_" + std::string(test->name()));
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directory(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::string in_folder(const char* name) const { return (folder_ / name).string(); }
-
- private:
-  std::filesystem::path folder_;
-};
-
-Model ramp() {
-  return Model::read(examples + "ramp.toml", {"solver.duration=0.05"});
-}
-
-std::vector<Fault> faults_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.faults();
-  }
-  return {};
 }
 
 TEST_F(Library, FaultsComeAllTogetherWithKeyAndRemedy) {
@@ -222,6 +145,26 @@ TEST_F(Library, MonitorsAddedFromOutsideAreInHistory) {
   EXPECT_NE(text_of(in_folder("out") + "/history.csv").find("centre.uy"), std::string::npos);
   EXPECT_FALSE(faults_of([&] { simulation.add_monitor("late", {0.5, 0.5}); }).empty());
   EXPECT_FALSE(faults_of([&] { simulation.read("nobody"); }).empty());
+}
+
+/// By the model that lies in the folder, which has the monitors that were added.
+TEST_F(Library, ARunWithAddedMonitorsCanBeTakenUp) {
+  const auto begin = [&](const char* folder) {
+    Simulation simulation(ramp(), {.results = in_folder(folder)});
+    simulation.add_monitor("corner", {1.0, 0.3});
+    return simulation;
+  };
+  begin("whole").run();
+  begin("out").step(41);
+  const Model model = Model::read(in_folder("out") + "/model.toml");
+  Simulation resumed(model, {.results = in_folder("out"), .resume = true});
+  EXPECT_EQ(resumed.steps(), 41u);
+  EXPECT_EQ(resumed.monitors().back(), "corner");
+  EXPECT_EQ(resumed.run().status, Status::completed);
+  for (const char* file : {"/history.csv", "/model.toml"}) {
+    EXPECT_EQ(text_of(in_folder("out") + file), text_of(in_folder("whole") + file));
+  }
+  EXPECT_FALSE(faults_of([&] { Simulation(model, {.results = in_folder("out")}); }).empty());
 }
 
 TEST_F(Library, PausesAndGoesOnStopsAndEnds) {

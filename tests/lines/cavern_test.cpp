@@ -2,7 +2,7 @@
 
 #include "lines/line_models.hpp"
 
-namespace edda {
+namespace edda::cavern_test {
 namespace {
 
 using namespace test;
@@ -31,4 +31,4 @@ TEST(Cavern, TurnsAndShiftsWithTheSameBlocks) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::cavern_test

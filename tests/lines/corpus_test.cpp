@@ -8,7 +8,7 @@
 #include "lines/line_models.hpp"
 #include "model/read_model.hpp"
 
-namespace edda {
+namespace edda::corpus_test {
 namespace {
 
 using namespace test;
@@ -110,4 +110,4 @@ TEST(Corpus, DamagedNumbersGiveASoundCutOrFaultsWithAPlace) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::corpus_test

@@ -5,7 +5,7 @@
 
 #include "lines/line_models.hpp"
 
-namespace edda {
+namespace edda::crossings_test {
 namespace {
 
 using namespace test;
@@ -44,4 +44,4 @@ TEST(Crossings, TooManyAreAFaultAndFewAreNot) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::crossings_test

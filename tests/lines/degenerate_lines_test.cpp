@@ -11,7 +11,7 @@
 #include "lines/noding.hpp"
 #include "lines/planar_graph.hpp"
 
-namespace edda {
+namespace edda::degenerate_lines_test {
 namespace {
 
 using namespace test;
@@ -276,4 +276,4 @@ TEST(DegenerateLines, SnapRoundingFindsTheSameFaces) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::degenerate_lines_test

@@ -4,7 +4,7 @@
 #include "lines/checks.hpp"
 #include "lines/line_models.hpp"
 
-namespace edda {
+namespace edda::domain_test {
 namespace {
 
 using namespace test;
@@ -257,4 +257,4 @@ TEST(Domain, DegenerateTablesDoNotCrash) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::domain_test

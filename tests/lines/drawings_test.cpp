@@ -8,7 +8,7 @@
 
 #include "base/polygon.hpp"
 
-namespace edda {
+namespace edda::drawings_test {
 namespace {
 
 std::string dxf(const std::string& entities, const std::string& before = "") {
@@ -289,4 +289,4 @@ TEST(Geo, BadOnesGiveOneFault) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::drawings_test

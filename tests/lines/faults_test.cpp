@@ -4,7 +4,7 @@
 #include "lines/checks.hpp"
 #include "lines/line_models.hpp"
 
-namespace edda {
+namespace edda::faults_test {
 namespace {
 
 using namespace test;
@@ -121,4 +121,4 @@ TEST(Held, CountsFromTheCutBlocksOn) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::faults_test

@@ -12,7 +12,7 @@
 #include "lines/random_lines.hpp"
 #include "lines/rings.hpp"
 
-namespace edda {
+namespace edda::fracture_network_test {
 namespace {
 
 using namespace test;
@@ -220,4 +220,4 @@ TEST(FractureNetwork, CutsSoundBlocks) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::fracture_network_test

@@ -8,7 +8,7 @@
 #include "base/polygon.hpp"
 #include "lines/build_polygons.hpp"
 
-namespace edda {
+namespace edda::given_blocks_test {
 namespace {
 
 Model wall_model(int columns, int rows, Vec2 origin, Vec2 brick) {
@@ -95,4 +95,4 @@ TEST(Walls, SharedCornersHaveTheSameBits) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::given_blocks_test

@@ -11,7 +11,7 @@
 #include "lines/checks.hpp"
 #include "lines/line_models.hpp"
 
-namespace edda {
+namespace edda::imports_test {
 namespace {
 
 using namespace test;
@@ -214,4 +214,4 @@ TEST(Imports, LinesThatEncloseNothingAreAFault) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::imports_test

@@ -13,7 +13,7 @@
 #include "lines/line_models.hpp"
 #include "lines/rings.hpp"
 
-namespace edda {
+namespace edda::joint_sets_test {
 namespace {
 
 using namespace test;
@@ -248,4 +248,4 @@ TEST(JointSets, RandomTracesCutSoundBlocks) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::joint_sets_test

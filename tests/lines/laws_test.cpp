@@ -5,7 +5,7 @@
 #include "lines/line_models.hpp"
 #include "lines/straight_runs.hpp"
 
-namespace edda {
+namespace edda::laws_test {
 namespace {
 
 using namespace test;
@@ -155,4 +155,4 @@ TEST(StraightRuns, WorkFromAnyStartingVertex) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::laws_test

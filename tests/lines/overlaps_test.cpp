@@ -7,7 +7,7 @@
 #include "lines/checks.hpp"
 #include "lines/line_models.hpp"
 
-namespace edda {
+namespace edda::overlaps_test {
 namespace {
 
 using namespace test;
@@ -185,4 +185,4 @@ TEST(Overlaps, AreSoughtFastInALargeWall) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::overlaps_test

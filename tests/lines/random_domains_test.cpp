@@ -8,7 +8,7 @@
 #include "lines/checks.hpp"
 #include "lines/line_models.hpp"
 
-namespace edda {
+namespace edda::random_domains_test {
 namespace {
 
 using namespace test;
@@ -145,4 +145,4 @@ TEST(RandomDomains, SetsCutLikeTheirLinesDrawnOneByOne) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::random_domains_test

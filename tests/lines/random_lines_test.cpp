@@ -7,7 +7,7 @@
 #include "lines/checks.hpp"
 #include "lines/line_models.hpp"
 
-namespace edda {
+namespace edda::random_lines_test {
 namespace {
 
 using namespace test;
@@ -134,4 +134,4 @@ TEST(RandomLines, GiveEveryEdgeItsJoint) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::random_lines_test

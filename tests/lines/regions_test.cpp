@@ -9,7 +9,7 @@
 #include "lines/given_blocks.hpp"
 #include "lines/line_models.hpp"
 
-namespace edda {
+namespace edda::regions_test {
 namespace {
 
 using namespace test;
@@ -151,4 +151,4 @@ TEST(Arches, MayCloseARing) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::regions_test

@@ -6,7 +6,7 @@
 #include "lines/checks.hpp"
 #include "lines/line_models.hpp"
 
-namespace edda {
+namespace edda::slivers_test {
 namespace {
 
 using namespace test;
@@ -181,4 +181,4 @@ TEST(Slivers, CommonJointingIsLeftAlone) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::slivers_test

@@ -17,7 +17,7 @@
 #include <geos/noding/snap/SnappingNoder.h>
 #pragma GCC diagnostic pop
 
-namespace edda {
+namespace edda::snapping_test {
 namespace {
 
 using geos::geom::Coordinate;
@@ -123,4 +123,4 @@ TEST(Snapping, PointsBeyondAllIntegers) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::snapping_test

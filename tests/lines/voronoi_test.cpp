@@ -7,7 +7,7 @@
 #include "lines/checks.hpp"
 #include "lines/line_models.hpp"
 
-namespace edda {
+namespace edda::voronoi_test {
 namespace {
 
 using namespace test;
@@ -122,4 +122,4 @@ TEST(Voronoi, FitsAnOutlineThatIsNotConvexAndOpenings) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::voronoi_test

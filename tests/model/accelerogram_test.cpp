@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace edda {
+namespace edda::accelerogram_test {
 namespace {
 
 constexpr double g = 9.80665;
@@ -96,4 +96,4 @@ TEST(Accelerogram, SaysWhatIsWrongAndWhere) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::accelerogram_test

@@ -7,7 +7,7 @@
 #include "model/base_model.hpp"
 #include "model/read_model.hpp"
 
-namespace edda {
+namespace edda::bad_models_test {
 namespace {
 
 using testing::base_model;
@@ -438,4 +438,4 @@ TEST(BadModel, ColumnsPointAtTheValue) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::bad_models_test

@@ -4,7 +4,7 @@
 #include "model/base_model.hpp"
 #include "model/read_model.hpp"
 
-namespace edda {
+namespace edda::bad_parts_test {
 namespace {
 
 struct Bad {
@@ -270,4 +270,4 @@ TEST(BadModel, Stages) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::bad_parts_test

@@ -4,7 +4,7 @@
 #include "model/base_model.hpp"
 #include "model/read_model.hpp"
 
-namespace edda {
+namespace edda::bad_stress_test {
 namespace {
 
 struct Bad {
@@ -108,4 +108,4 @@ TEST(BadModel, ConvergenceAndStrength) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::bad_stress_test

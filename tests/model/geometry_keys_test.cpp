@@ -8,7 +8,7 @@
 #include "model/read_model.hpp"
 #include "model/write_model.hpp"
 
-namespace edda {
+namespace edda::geometry_keys_test {
 namespace {
 
 using testing::base_model;
@@ -277,4 +277,4 @@ TEST(BadModel, Slopes) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::geometry_keys_test

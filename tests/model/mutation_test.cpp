@@ -11,7 +11,7 @@
 #include "model/read_model.hpp"
 #include "model/write_model.hpp"
 
-namespace edda {
+namespace edda::mutation_test {
 namespace {
 
 constexpr std::array<std::string_view, 24> tokens{
@@ -68,4 +68,4 @@ TEST(Mutation, GivesAModelOrFaultsWithAPlace) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::mutation_test

@@ -7,7 +7,7 @@
 #include "model/base_model.hpp"
 #include "model/read_model.hpp"
 
-namespace edda {
+namespace edda::overrides_test {
 namespace {
 
 using testing::base_model;
@@ -124,4 +124,4 @@ TEST(Override, OfAListThatTheModelHasNot) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::overrides_test

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-namespace edda {
+namespace edda::quantity_test {
 namespace {
 
 using D = Dimension;
@@ -99,4 +99,4 @@ TEST(Quantity, WhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::quantity_test

@@ -10,7 +10,7 @@
 #include "model/base_model.hpp"
 #include "model/complete.hpp"
 
-namespace edda {
+namespace edda::read_model_test {
 namespace {
 
 using testing::base_model;
@@ -226,4 +226,4 @@ TEST_F(ModelFile, CannotBeRead) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::read_model_test

@@ -9,7 +9,7 @@
 
 #include "base/polygon.hpp"
 
-namespace edda {
+namespace edda::shapes_test {
 namespace {
 
 using std::numbers::pi;
@@ -168,4 +168,4 @@ TEST(Slopes, HaveBenches) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::shapes_test

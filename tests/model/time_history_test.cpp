@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace edda {
+namespace edda::time_history_test {
 namespace {
 
 TEST(TimeHistory, IsLinearBetweenRowsAndHeldBeyond) {
@@ -44,4 +44,4 @@ TEST(TimeHistory, SaysWhatIsWrongAndWhere) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::time_history_test

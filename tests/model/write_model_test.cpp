@@ -11,7 +11,7 @@
 #include "model/keys.hpp"
 #include "model/read_model.hpp"
 
-namespace edda {
+namespace edda::write_model_test {
 namespace {
 
 using testing::every_key;
@@ -418,4 +418,4 @@ TEST(Keys, AreWellFormed) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::write_model_test

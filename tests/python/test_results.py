@@ -38,6 +38,31 @@ def test_tables_hold_what_the_files_say_to_the_bit(folder, name):
     assert table.dtype[list(columns)[0]].kind in "fi"
 
 
+@pytest.mark.parametrize("left", ["whole", "1 row", "no line", "amid a number", "amid the header"])
+def test_a_table_that_is_being_written_is_read_as_far_as_it_goes(folder, tmp_path, left):
+    text = (folder / "history.csv").read_bytes()
+    header = text.index(b"\n") + 1
+    second = text.index(b"\n", header) + 1
+    end = {"whole": len(text), "1 row": second, "no line": header, "amid a number": len(text) - 4, "amid the header": 20}
+    (tmp_path / "history.csv").write_bytes(text[: end[left]])
+    results, whole = edda.Results(tmp_path), edda.Results(folder).history
+    if left == "amid the header":
+        with pytest.raises(ValueError, match="no line yet"):
+            results.history
+        return
+    rows = {"whole": len(whole), "1 row": 1, "no line": 0, "amid a number": len(whole) - 1}[left]
+    assert results.history.dtype.names == whole.dtype.names
+    assert results.history.tolist() == whole[:rows].tolist()
+
+
+def test_a_row_that_is_short_is_told(folder, tmp_path):
+    lines = (folder / "history.csv").read_text().splitlines(keepends=True)
+    lines[2] = lines[2].rpartition(",")[0] + "\n"
+    (tmp_path / "history.csv").write_text("".join(lines))
+    with pytest.raises(ValueError, match="row 3"):
+        edda.Results(tmp_path).history
+
+
 def test_summary_and_what_was_not_written(folder, models, tmp_path):
     results = edda.Results(folder)
     assert results.summary["status"] == "interrupted"

@@ -5,9 +5,10 @@
 
 #include "report/history_panels.hpp"
 #include "report/history_plot.hpp"
+#include "report/peaks.hpp"
 #include "report/picture_reading.hpp"
 
-namespace edda {
+namespace edda::history_test {
 namespace {
 
 Table small_history() {
@@ -107,6 +108,10 @@ TEST(HistoryPlot, NamesOfStagesStandAboveThem) {
   EXPECT_LT(text_of(svg, "early")->x, text_of(svg, "late")->x);
   picture.stages = {{"short", 0.0, 0.1}, {"long", 0.1, 4.0}};  // no room for the first
   EXPECT_FALSE(text_of(drawn(picture), "short"));
+  picture.stages = {{"early", 0.0, 2.0}, {"", 2.0, 4.0}};  // those without a name have a number
+  const auto numbers = all_texts(drawn(picture), "2");
+  EXPECT_TRUE(std::any_of(numbers.begin(), numbers.end(),
+                          [&](Vec2 p) { return p.y == text_of(svg, "late")->y; }));
 }
 
 TEST(HistoryPlot, NamesOfLinesThatEndTogetherStandApart) {
@@ -125,13 +130,17 @@ TEST(HistoryPlot, LongHistoriesKeepTheirPeaks) {
     time.push_back(k);
     values.push_back(k == 123456 ? 7.0 : k == 65432 ? -7.0 : std::sin(0.1 * k));
   }
-  const auto rows = rows_to_draw(time, values, 300.0);
+  const auto rows = rows_with_peaks(time, values, 1200);
   EXPECT_LT(rows.size(), 6000u);
   EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end()));
   EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), 123456u));
   EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), 65432u));
   EXPECT_EQ(rows.back(), 199999u);
+  // Nor is one lost behind a value that is none.
+  values[65430] = std::nan("");
+  const auto few = rows_with_peaks(time, values, 20);
+  EXPECT_TRUE(std::binary_search(few.begin(), few.end(), 65432u));
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::history_test

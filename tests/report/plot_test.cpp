@@ -8,7 +8,7 @@
 #include "report/scene.hpp"
 #include "report/two_blocks.hpp"
 
-namespace edda {
+namespace edda::plot_test {
 namespace {
 
 Snapshot snapshot(const std::string& field) {
@@ -91,6 +91,57 @@ TEST(Plot, EveryMillimetreOfPaperCounts) {
   const double half = size_of_svg(drawn({&shot, 1}, options)).x;
   EXPECT_NEAR(half, wide / 2.0, 1e-3 * wide);
   EXPECT_NEAR(wide, 160.0 / 25.4 * 72.0, 0.1);
+}
+
+TEST(Plot, PagesOfTallModelsKeepAWidthThatWasAskedFor) {
+  const Snapshot shot = snapshot("displacement");
+  PlotOptions options;
+  options.window = Box{{0.0, 0.0}, {1.0, 9.0}};
+  const double slim = size_of_svg(drawn({&shot, 1}, options)).x;
+  EXPECT_LT(slim, 0.9 * options.paper.width);
+  options.paper.whole = true;
+  EXPECT_NEAR(size_of_svg(drawn({&shot, 1}, options)).x, options.paper.width, 0.01);
+}
+
+// Cairo stops drawing where it meets what is no text, and XML has no control characters.
+TEST(Plot, TakesAnyTitle) {
+  const Snapshot shot = snapshot("displacement");
+  PlotOptions options;
+  options.title = "A\xff\x01\xed\xa0\x80\xef\xbf\xbe\nB";
+  for (const char* name : {"plot.png", "plot.pdf"}) drawn({&shot, 1}, options, name);
+  const std::string svg = drawn({&shot, 1}, options);
+  const std::string no = "\xef\xbf\xbd";
+  EXPECT_TRUE(text_of(svg, "A" + no + " " + no + no + no + no + " B"));
+  EXPECT_TRUE(text_of(svg, "displacement (mm)"));
+  options.title = "A B";
+  const std::size_t plain = drawn({&shot, 1}, options, "plot.png").size();
+  options.title =
+      "A\x01"
+      "B";
+  EXPECT_EQ(drawn({&shot, 1}, options, "plot.png").size(), plain);
+}
+
+TEST(Plot, TellsOfAPictureThatCannotBeDrawn) {
+  Canvas canvas(testing::TempDir() + "none.png", 10.0, 10.0, 1.0);
+  cairo_restore(canvas.cr());  // nothing was saved
+  EXPECT_TRUE(canvas.finish());
+  EXPECT_FALSE(std::filesystem::exists(testing::TempDir() + "none.png"));
+}
+
+TEST(Plot, NamesOfLinesStayInTheDrawing) {
+  const Snapshot shot = snapshot("none");
+  PlotOptions options;
+  options.window = Box{{-1.0, 0.0}, {4.0, 1.0}};
+  // The blocks have moved by 0.5.
+  options.lines = {{"seen", {{{-0.4, 0.5}, {2.4, 0.5}}}},
+                   {"not seen", {{{-0.4, 0.2}, {0.4, 0.2}}}}};
+  std::string svg = drawn({&shot, 1}, options);
+  EXPECT_TRUE(text_of(svg, "not seen"));
+  options.window = Box{{2.5, 0.0}, {4.0, 1.0}};
+  svg = drawn({&shot, 1}, options);
+  EXPECT_FALSE(text_of(svg, "not seen"));
+  ASSERT_TRUE(text_of(svg, "seen"));
+  EXPECT_GT(text_of(svg, "seen")->x, text_of(svg, "2.5")->x - 20.0);
 }
 
 TEST(Plot, LegendsOfNarrowPagesStandBelow) {
@@ -195,4 +246,4 @@ TEST(Plot, BoltsAreAsWideAsTheirForce) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::plot_test

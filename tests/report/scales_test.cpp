@@ -8,7 +8,7 @@
 #include "report/scene.hpp"
 #include "report/ticks.hpp"
 
-namespace edda {
+namespace edda::scales_test {
 namespace {
 
 TEST(Ticks, AreRoundAndInside) {
@@ -79,4 +79,4 @@ TEST(Colours, StepsOfTheDivergingMapLookEven) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::scales_test

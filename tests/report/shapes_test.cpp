@@ -4,7 +4,7 @@
 
 #include "report/two_blocks.hpp"
 
-namespace edda {
+namespace edda::shapes_test {
 namespace {
 
 TEST(Shapes, TrianglesOfOneBlockHaveOneOutline) {
@@ -56,4 +56,4 @@ TEST(Shapes, OnePerSquareIsLeftWhenThinned) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::shapes_test

@@ -8,7 +8,7 @@
 
 #include "results/vtu.hpp"
 
-namespace edda {
+namespace edda::files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -133,4 +133,4 @@ TEST_F(Folder, SeriesComeBackAsTheyWere) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::files_test

@@ -8,7 +8,7 @@
 #include "results/csv.hpp"
 #include "results/files.hpp"
 
-namespace edda {
+namespace edda::read_table_test {
 namespace {
 
 Result<Table> read(const std::string& text) {
@@ -33,6 +33,22 @@ TEST(ReadTable, ReadsBackWhatCsvWrites) {
   EXPECT_EQ(table.value().column("x"), nullptr);
 }
 
+// Bolts without a name are written as 0, 1, ...
+TEST(ReadTable, NamesThatLookLikeNumbersAreTextsToo) {
+  const Result<Table> numbers = read("n\n1\n2\n10\n");
+  EXPECT_EQ(numbers.value().column("n")->text(2), "10");
+  const Result<Table> mixed = read("n\n1\n2\na\n3\n");
+  const Result<Table> zeros = read("n\n7\n07\n1\n");
+  const auto texts = [](const Result<Table>& table) {
+    std::vector<std::string> all;
+    for (std::size_t r = 0; r < table.value().rows(); ++r)
+      all.push_back(table.value().column("n")->text(r));
+    return all;
+  };
+  EXPECT_EQ(texts(mixed), (std::vector<std::string>{"1", "2", "a", "3"}));
+  EXPECT_EQ(texts(zeros), (std::vector<std::string>{"7", "07", "1"}));
+}
+
 TEST(ReadTable, LeavesOutARowThatIsNotComplete) {
   const Result<Table> table = read("a,b\n1,2\n3,");
   ASSERT_TRUE(table.ok());
@@ -48,4 +64,4 @@ TEST(ReadTable, RefusesRowsOfOtherLengths) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::read_table_test

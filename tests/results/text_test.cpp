@@ -11,7 +11,7 @@
 #include "results/json.hpp"
 #include "results/sha256.hpp"
 
-namespace edda {
+namespace edda::text_test {
 namespace {
 
 TEST(Numbers, ReadBackToTheSameBits) {
@@ -66,4 +66,4 @@ TEST(Sha256, KnowsTheStandardsVectors) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::text_test

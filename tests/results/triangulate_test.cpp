@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-namespace edda {
+namespace edda::triangulate_test {
 namespace {
 
 std::vector<Vec2> corners_of(const std::vector<Ring>& rings) {
@@ -86,4 +86,4 @@ TEST(Triangulate, KnowsConvexRings) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::triangulate_test

@@ -4,7 +4,7 @@
 #include "model/read_model.hpp"
 #include "run/simulation.hpp"
 
-namespace edda {
+namespace edda::divergence_test {
 namespace {
 
 std::optional<Failure> run_until_failure(const std::string& toml, double duration) {
@@ -56,4 +56,4 @@ TEST(Divergence, SoundRunsAreLeftAlone) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::divergence_test

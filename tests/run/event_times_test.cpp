@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace edda {
+namespace edda::event_times_test {
 namespace {
 
 TEST(EventTimes, RowsFramesAndTheEndInOrder) {
@@ -81,4 +81,4 @@ TEST(EventTimes, MultiplesReadAsDecimals) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::event_times_test

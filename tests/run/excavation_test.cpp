@@ -3,11 +3,14 @@
 
 #include <cmath>
 
-#include "model/read_model.hpp"
-#include "run/run_model.hpp"
+#include "run/prepared.hpp"
 
-namespace edda {
+namespace edda::excavation_test {
 namespace {
+
+using testing::prepared;
+using testing::Ran;
+using testing::ran;
 
 /// A column on a held foot; a stage takes out its middle.
 std::string column(const std::string& stages, const std::string& solver = "") {
@@ -40,27 +43,6 @@ until = "equilibrium"
 ratio = 1e-6
 )" + stages +
          "[solver]\n" + solver;
-}
-
-PreparedRun prepared(const std::string& toml) {
-  Result<Model> model = read_model_text(toml, "m.toml", {});
-  if (!model.ok()) ADD_FAILURE() << to_string(model.faults()[0]);
-  Result<PreparedRun> run = prepare_run(std::move(model.value()));
-  if (!run.ok()) ADD_FAILURE() << to_string(run.faults()[0]);
-  return std::move(run.value());
-}
-
-struct Ran {
-  PreparedRun ready;
-  Outcome outcome;
-};
-
-Ran ran(const std::string& toml) {
-  Ran r{prepared(toml), {}};
-  const Result<Outcome> outcome = run_model(r.ready, RunOptions{});
-  EXPECT_TRUE(outcome.ok());
-  r.outcome = outcome.value();
-  return r;
 }
 
 /// How far the two blocks above the opening have risen together: nothing but outer forces moves
@@ -170,4 +152,4 @@ action = ")";
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::excavation_test

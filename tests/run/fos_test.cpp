@@ -10,11 +10,13 @@
 #include "checkpoint/record.hpp"
 #include "model/read_model.hpp"
 #include "run/fos_bracket.hpp"
-#include "run/run_model.hpp"
+#include "run/prepared.hpp"
 #include "run/simulation_memory.hpp"
 
-namespace edda {
+namespace edda::fos_test {
 namespace {
+
+using testing::prepared;
 
 /// What a search asks for until it ends, if everything below `limit` holds.
 std::vector<double> asked(FosBracket bracket, double limit) {
@@ -187,12 +189,6 @@ TEST(Fos, RefusesWhatItCannotDo) {
   }
 }
 
-PreparedRun prepared(const std::string& toml) {
-  Result<PreparedRun> run = prepare_run(model_of(toml));
-  if (!run.ok()) ADD_FAILURE() << to_string(run.faults()[0]);
-  return std::move(run.value());
-}
-
 /// A stage's factor: a block that holds at one below its limit goes at one above it, in both
 /// methods.
 TEST(StrengthFactor, ActsFromTheStartOfItsStage) {
@@ -275,4 +271,4 @@ TEST(Fos, DividesLawsThatChange) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::fos_test

@@ -9,7 +9,7 @@
 #include "model/read_model.hpp"
 #include "run/simulation.hpp"
 
-namespace edda {
+namespace edda::initial_strength_test {
 namespace {
 
 /// Two blocks of 4 m x 2 m pressed together by 2 MPa, sheared along their joint by `shear` Pa.
@@ -89,4 +89,4 @@ TEST(InitialStrength, ThatOfTheFirstStage) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::initial_strength_test

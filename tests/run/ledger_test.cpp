@@ -4,7 +4,7 @@
 #include "model/read_model.hpp"
 #include "run/simulation.hpp"
 
-namespace edda {
+namespace edda::ledger_test {
 namespace {
 
 TEST(Ledger, DoesNotKnowTheNextStep) {
@@ -33,4 +33,4 @@ TEST(Ledger, DoesNotKnowTheNextStep) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::ledger_test

@@ -7,7 +7,7 @@
 #include "model/read_model.hpp"
 #include "run/simulation.hpp"
 
-namespace edda {
+namespace edda::mass_scaling_test {
 namespace {
 
 /// A cube on a floor, and a pebble on the cube, `height` above it.
@@ -126,4 +126,4 @@ TEST(MassScaling, InMotionKeepsMomentumAndTheLedger) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::mass_scaling_test

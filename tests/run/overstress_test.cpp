@@ -8,7 +8,7 @@
 #include "run/run_model.hpp"
 #include "run/summary.hpp"
 
-namespace edda {
+namespace edda::overstress_test {
 namespace {
 
 constexpr RockStrength rock{90e6, 6e6};
@@ -87,4 +87,4 @@ duration = 1e-5
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::overstress_test

@@ -13,7 +13,7 @@
 #include "model/read_model.hpp"
 #include "results/files.hpp"
 
-namespace edda {
+namespace edda::run_model_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -205,4 +205,4 @@ TEST(RunModel, TwoInOneProcessDoNotMeet) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::run_model_test

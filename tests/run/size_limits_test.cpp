@@ -8,7 +8,7 @@
 #include "model/read_model.hpp"
 #include "run/run_model.hpp"
 
-namespace edda {
+namespace edda::size_limits_test {
 namespace {
 
 const std::string head = R"([materials.rock]
@@ -68,4 +68,4 @@ TEST(SizeLimits, FilesWithoutEndAreRefused) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::size_limits_test

@@ -7,21 +7,14 @@
 #include <fstream>
 #include <sstream>
 
-#include "model/read_model.hpp"
-#include "run/run_model.hpp"
+#include "run/prepared.hpp"
 
-namespace edda {
+namespace edda::stage_resume_test {
 namespace {
 
-namespace fs = std::filesystem;
+using testing::prepared;
 
-PreparedRun prepared(const std::string& toml) {
-  Result<Model> model = read_model_text(toml, "m.toml", {});
-  if (!model.ok()) ADD_FAILURE() << to_string(model.faults()[0]);
-  Result<PreparedRun> run = prepare_run(std::move(model.value()));
-  if (!run.ok()) ADD_FAILURE() << to_string(run.faults()[0]);
-  return std::move(run.value());
-}
+namespace fs = std::filesystem;
 
 const char* const everything = R"(
 [materials.rock]
@@ -189,4 +182,4 @@ TEST(StageResume, GoesOnFromAStageWithOtherStagesBehindIt) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::stage_resume_test

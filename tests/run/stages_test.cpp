@@ -3,19 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include "model/read_model.hpp"
-#include "run/run_model.hpp"
+#include "run/prepared.hpp"
 
-namespace edda {
+namespace edda::stages_test {
 namespace {
 
-PreparedRun prepared(const std::string& toml) {
-  Result<Model> model = read_model_text(toml, "m.toml", {});
-  if (!model.ok()) ADD_FAILURE() << to_string(model.faults()[0]);
-  Result<PreparedRun> run = prepare_run(std::move(model.value()));
-  if (!run.ok()) ADD_FAILURE() << to_string(run.faults()[0]);
-  return std::move(run.value());
-}
+using testing::prepared;
 
 Outcome run(PreparedRun& ready) {
   const Result<Outcome> outcome = run_model(ready, RunOptions{});
@@ -153,4 +146,4 @@ TEST(Stages, OneByTimeChangesNothing) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::stages_test

@@ -9,7 +9,7 @@
 #include "model/read_model.hpp"
 #include "run/simulation.hpp"
 
-namespace edda {
+namespace edda::step_bound_test {
 namespace {
 
 Simulation glued(const std::string& geometry) {
@@ -110,4 +110,4 @@ TEST(StepBound, SafeAndSharp) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::step_bound_test

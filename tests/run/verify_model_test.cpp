@@ -4,7 +4,7 @@
 
 #include "model/read_model.hpp"
 
-namespace edda {
+namespace edda::verify_model_test {
 namespace {
 
 /// A block sliding on a floor that is pushed into the rock by its weight: an answer that depends on
@@ -77,4 +77,4 @@ TEST(VerifyModel, LeavesTheRocksOwnStiffness) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::verify_model_test

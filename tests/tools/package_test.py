@@ -32,11 +32,11 @@ class Package(unittest.TestCase):
     def test_everything_is_in_its_place_and_nothing_else(self):
         listed = [line.split()[5].lstrip(".") for line in run("dpkg", "-c", self.package).splitlines()]
         files = [f for f in listed if not f.endswith("/")]
-        for wanted in [r"/usr/bin/edda", r"/usr/include/edda/edda\.hpp", r"/usr/lib/[^/]+-linux-gnu[^/]*/libedda\.so\.0",
+        for wanted in [r"/usr/bin/edda", r"/usr/include/edda/edda\.hpp", r"/usr/lib/[^/]+-linux-gnu[^/]*/libedda\.so\.0\.\d+",
                        r"/usr/lib/[^/]+/cmake/edda/edda-config\.cmake", r"/usr/lib/python3/dist-packages/edda/_edda\..*\.so",
                        r"/usr/lib/python3/dist-packages/edda/py\.typed", r"/usr/share/doc/edda/copyright",
                        r"/usr/share/doc/edda/changelog\.Debian\.gz", r"/usr/share/edda/models/cavern\.toml",
-                       r"/usr/share/edda/examples/python/cavern_sweep\.py"]:
+                       r"/usr/share/edda/examples/python/cavern_sweep\.py", r"/usr/share/zsh/vendor-completions/_edda"]:
             self.assertTrue(any(re.fullmatch(wanted, f) for f in files), wanted)
         for file in files:
             self.assertRegex(file, r"^/usr/(bin/|include/edda/|lib/|share/(edda|doc/edda|lintian|man|bash-completion|zsh|fish)/)")
@@ -46,6 +46,14 @@ class Package(unittest.TestCase):
         needs = run("dpkg-deb", "-f", self.package, "Depends")
         for library in ("libc6", "libstdc++6", "libgeos", "libcairo2", "libhdf5", "libfmt9"):
             self.assertIn(library, needs)
+
+    def test_what_links_to_the_library_will_need_this_minor_version(self):
+        run("dpkg-deb", "-e", self.package, self.top / "control")
+        name, version, needed = (self.top / "control/shlibs").read_text().split(maxsplit=2)
+        self.assertRegex(version, r"^0\.\d+$")
+        self.assertEqual(needed.strip(), f"edda (>= {version}.0)")
+        (library,) = [f for f in self.root.rglob(f"{name}.so.*") if not f.is_symlink()]
+        self.assertIn(f"[{name}.so.{version}]", run("readelf", "-d", library))
 
     def test_program_and_module_run_from_there(self):
         model = self.root / "usr/share/edda/models/ramp.toml"

@@ -5,7 +5,7 @@
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
 
-namespace edda {
+namespace edda::bolt_bar_test {
 namespace {
 
 // Rock so stiff that the bolt is all that gives; 2 m of bolt on either side of the joint at y = 0.
@@ -289,4 +289,4 @@ TEST(Bolt, LedgerClosesWhileBoltsYield) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::bolt_bar_test

@@ -4,7 +4,7 @@
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
 
-namespace edda {
+namespace edda::bond_test {
 namespace {
 
 std::string rock = R"(
@@ -273,4 +273,4 @@ TEST(SoftBond, KeepsItsEnergyWhenCornersSlidePastEachOther) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::bond_test

@@ -2,7 +2,7 @@
 #include "run/attachment_rows.hpp"
 #include "verification/models.hpp"
 
-namespace edda {
+namespace edda::boundary_test {
 namespace {
 
 std::string square(const std::string& more) {
@@ -58,4 +58,4 @@ TEST(VelocityBoundary, MovesItsSide) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::boundary_test

@@ -5,7 +5,7 @@
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
 
-namespace edda {
+namespace edda::contact_test {
 namespace {
 
 constexpr const char* materials = R"(
@@ -318,4 +318,4 @@ TEST(Dissipation, NeverFalls) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::contact_test

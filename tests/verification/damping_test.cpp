@@ -3,7 +3,7 @@
 
 #include "verification/scene.hpp"
 
-namespace edda {
+namespace edda::damping_test {
 namespace {
 
 std::string stack(int blocks, const std::string& solver, const std::string& contact = "") {
@@ -75,4 +75,4 @@ TEST(GivenStep, FollowsTheBoundWhenItFalls) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::damping_test

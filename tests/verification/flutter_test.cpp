@@ -6,7 +6,7 @@
 
 #include "verification/models.hpp"
 
-namespace edda {
+namespace edda::flutter_test {
 namespace {
 
 /// Growth (1/s) of the worst vibration of the 2 x 1 block of row 1 in steady sliding: eigenvalues
@@ -101,4 +101,4 @@ TEST(Flutter, DampedSlabsComeToRest) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::flutter_test

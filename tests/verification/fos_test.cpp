@@ -6,7 +6,7 @@
 #include "verification/models.hpp"
 #include "verification/record.hpp"
 
-namespace edda {
+namespace edda::fos_test {
 namespace {
 
 FosResult factor_of(const std::string& toml, const std::string& fos = {}) {
@@ -262,4 +262,4 @@ TEST(FactorOfSafety, WaterThatGrows) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::fos_test

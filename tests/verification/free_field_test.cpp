@@ -6,7 +6,7 @@
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
 
-namespace edda {
+namespace edda::free_field_test {
 namespace {
 
 constexpr double density = 2500.0, young = 1e9, poisson = 0.25, height = 24.0, frequency = 6.0;
@@ -105,4 +105,4 @@ TEST(FreeField, ColumnAlone) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::free_field_test

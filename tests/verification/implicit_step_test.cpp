@@ -5,7 +5,7 @@
 #include "run/observe.hpp"
 #include "verification/models.hpp"
 
-namespace edda {
+namespace edda::implicit_step_test {
 namespace {
 
 std::string on_floor(const std::string& blocks, const std::string& solver) {
@@ -170,4 +170,4 @@ TEST(ImplicitMass, MatchedIsConsistentAndCoveringIsHeavier) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::implicit_step_test

@@ -6,7 +6,7 @@
 #include "run/observe.hpp"
 #include "verification/models.hpp"
 
-namespace edda {
+namespace edda::implicit_test {
 namespace {
 
 std::string dda(double step) {
@@ -363,4 +363,4 @@ TEST(ImplicitStep, CornerLandsOnTheTopItHasCrossed) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::implicit_test

@@ -5,7 +5,7 @@
 #include "run/observe.hpp"
 #include "verification/models.hpp"
 
-namespace edda {
+namespace edda::initial_stress_test {
 namespace {
 
 constexpr double density = 2700.0, gravity = 9.81, young = 20e9;
@@ -208,4 +208,4 @@ TEST(InitialStress, WhatDoesNotMatchMoves) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::initial_stress_test

@@ -6,7 +6,7 @@
 #include "verification/models.hpp"
 #include "verification/record.hpp"
 
-namespace edda {
+namespace edda::joint_law_test {
 namespace {
 
 constexpr double length = 2.0, height = 0.2, density = 2500.0, gravity = 10.0, start = 0.5;
@@ -230,4 +230,4 @@ TEST(BartonBandis, Formulas) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::joint_law_test

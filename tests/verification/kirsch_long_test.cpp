@@ -3,7 +3,7 @@
 
 #include "verification/kirsch.hpp"
 
-namespace edda {
+namespace edda::kirsch_long_test {
 namespace {
 
 TEST(KirschLong, CloserWithSmallerBlocks) {
@@ -22,4 +22,4 @@ TEST(KirschLong, CloserWithSmallerBlocks) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::kirsch_long_test

@@ -1,7 +1,7 @@
 // validation.md row 38 at its fast size; kirsch_long_test.cpp has the others.
 #include "verification/kirsch.hpp"
 
-namespace edda {
+namespace edda::kirsch_test {
 namespace {
 
 TEST(Kirsch, OpeningInAMassOfBlocks) {
@@ -15,4 +15,4 @@ TEST(Kirsch, OpeningInAMassOfBlocks) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::kirsch_test

@@ -4,7 +4,7 @@
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
 
-namespace edda {
+namespace edda::motion_test {
 namespace {
 
 /// Row 6: a unit square spinning freely; only the true centrifugal strain may appear.
@@ -328,4 +328,4 @@ INSTANTIATE_TEST_SUITE_P(Masses, Rocking,
                          [](const auto& test) { return std::string(test.param.first); });
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::motion_test

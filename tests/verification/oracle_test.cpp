@@ -5,7 +5,7 @@
 #include "verification/heap_watch.hpp"
 #include "verification/random_heap.hpp"
 
-namespace edda {
+namespace edda::oracle_test {
 namespace {
 
 Simulation thrown(const std::vector<ThrownBlock>& heap, double friction, double duration) {
@@ -93,4 +93,4 @@ TEST(ThrownHeap, MirroredAndRenumberedMoveAlike) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::oracle_test

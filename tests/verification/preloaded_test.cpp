@@ -4,7 +4,7 @@
 
 #include "verification/models.hpp"
 
-namespace edda {
+namespace edda::preloaded_test {
 namespace {
 
 /// Damping near the critical one of the block's own vibrations settles it soonest.
@@ -134,4 +134,4 @@ TEST(StickThreshold, ATenthOfADegreeMoreHolds) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::preloaded_test

@@ -4,7 +4,7 @@
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
 
-namespace edda {
+namespace edda::pulse_test {
 namespace {
 
 constexpr int blocks = 200;
@@ -99,4 +99,4 @@ TEST(Pulse, SpeedAndFreeEnd) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::pulse_test

@@ -1,7 +1,7 @@
 // A long time at rest: validation.md row 18, shortened; tools/rest-study runs the million steps.
 #include "verification/wall_at_rest.hpp"
 
-namespace edda {
+namespace edda::rest_test {
 namespace {
 
 constexpr std::uint64_t steps = 40000;
@@ -23,4 +23,4 @@ TEST(WallAtRest, StaysSettled) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::rest_test

@@ -4,7 +4,7 @@
 #include "verification/models.hpp"
 #include "verification/record.hpp"
 
-namespace edda {
+namespace edda::shaking_test {
 namespace {
 
 constexpr double slope = 20.0;
@@ -134,4 +134,4 @@ TEST(Shaking, RecordDrivesAFreeBlock) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::shaking_test

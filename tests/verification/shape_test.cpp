@@ -4,7 +4,7 @@
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
 
-namespace edda {
+namespace edda::shape_test {
 namespace {
 
 std::string header(double duration, double damping, double friction = 30.0) {
@@ -155,4 +155,4 @@ TEST(Hinge, SnapThrough) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::shape_test

@@ -1,6 +1,6 @@
 #include "verification/models.hpp"
 
-namespace edda {
+namespace edda::sliding_test {
 namespace {
 
 class Ramp : public testing::TestWithParam<std::pair<double, double>> {};
@@ -54,4 +54,4 @@ TEST(RampInTenPieces, SlidesAsOne) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::sliding_test

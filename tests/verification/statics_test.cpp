@@ -4,7 +4,7 @@
 
 #include "verification/models.hpp"
 
-namespace edda {
+namespace edda::statics_test {
 namespace {
 
 /// Row 9: a column of ten blocks under its own weight.
@@ -117,4 +117,4 @@ history_every = 0.001
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::statics_test

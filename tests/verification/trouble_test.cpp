@@ -4,7 +4,7 @@
 #include "verification/heap_watch.hpp"
 #include "verification/random_heap.hpp"
 
-namespace edda {
+namespace edda::trouble_test {
 namespace {
 
 constexpr const char* rock = R"(
@@ -183,4 +183,4 @@ TEST(NonConvex, HangsOnAPeg) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::trouble_test

@@ -4,7 +4,7 @@
 #include "verification/models.hpp"
 #include "verification/record.hpp"
 
-namespace edda {
+namespace edda::water_test {
 namespace {
 
 constexpr double width = 2.0, height = 8.0, heavy = 24e3, water = 9810.0;
@@ -144,4 +144,4 @@ TEST(Load, PressureTurnsWithItsFace) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::water_test

@@ -4,7 +4,7 @@
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
 
-namespace edda {
+namespace edda::wave_test {
 namespace {
 
 constexpr int blocks = 120;
@@ -149,4 +149,4 @@ TEST(Upgoing, ArrivesDoubledAtAFreeSurface) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::wave_test

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace edda {
+namespace edda::bytes_test {
 namespace {
 
 TEST(Bytes, NumbersLieLittleEnd) {
@@ -52,4 +52,4 @@ TEST(Bytes, WhatIsDeflatedInflatesToTheSame) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::bytes_test

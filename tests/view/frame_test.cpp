@@ -7,7 +7,7 @@
 
 #include "view/frames_of.hpp"
 
-namespace edda {
+namespace edda::frame_test {
 namespace {
 
 /// Reads a frame as the page does (view/page/src/data/frame.ts), written from the layout alone.
@@ -132,8 +132,9 @@ Unpacked unpacked(const Grid& g, const Grid* contacts, ViewPrecision precision) 
   return Unpacked(frame_bytes(mesh, in.value(), g, contacts, precision, 3));
 }
 
-/// `x` from what the page makes of the motion of block k.
-Vec2 placed(const Unpacked& u, std::size_t k, Vec2 r) {
+/// `x` from what the page makes of the motion of block k, whose A is times `reach`.
+Vec2 placed(const Unpacked& u, std::size_t k, Vec2 r, double reach = 1.0) {
+  r = r / reach;
   return {u.blocks[0][k] + u.blocks[2][k] * r.x + u.blocks[3][k] * r.y,
           u.blocks[1][k] + u.blocks[4][k] * r.x + u.blocks[5][k] * r.y};
 }
@@ -174,21 +175,60 @@ TEST(ViewFrame, WholeNumbersAreRightToHalfAStep) {
     std::size_t first, end;
     double steps;
   };
-  for (const Group& group : {Group{0, 2, 32767},
-                             {2, 6, 32767},
-                             {6, 8, 2047},
-                             {8, 9, 2047},
-                             {9, 10, 2047},
-                             {10, 14, 2047}}) {
+  for (const Group& group :
+       {Group{0, 2, 32767}, {6, 8, 2047}, {8, 9, 2047}, {9, 10, 2047}, {10, 14, 2047}}) {
     const double half = 0.501 * largest_in(exact, group.first, group.end) / group.steps;
     double most = 0.0;
     for (std::size_t c = group.first; c < group.end; ++c) {
       for (std::size_t k = 0; k < 3; ++k)
         most = std::max(most, std::abs(u.blocks[c][k] - exact.blocks[c][k]));
     }
-    // A of blocks that move far is as coarse as their displacement makes the place of a vertex.
-    EXPECT_LE(most, group.first == 2 ? 0.501 * largest_in(exact, 0, 2) / 32767 / 1.0 : half)
-        << "columns from " << group.first;
+    EXPECT_LE(most, half) << "columns from " << group.first;
+  }
+}
+
+/// How far 16 bits put a corner from its place, over the largest displacement of any.
+double worst_corner(const std::vector<TestBlock>& blocks, const Moved& move) {
+  const ViewMesh mesh = view_mesh(frame_of(blocks, stays, nothing));
+  const Grid g = frame_of(
+      blocks, [&](const TestBlock& b, Vec2 p) { return p + move(b, p); }, move);
+  const Unpacked u(
+      frame_bytes(mesh, blocks_in(mesh, g).value(), g, nullptr, ViewPrecision::whole16, 0));
+  double most = 0.0, largest = 0.0;
+  for (std::size_t row = 0; row < mesh.size(); ++row) {
+    for (std::size_t v = mesh.begin[row]; v < mesh.begin[row + 1]; ++v) {
+      const Vec2 moved = move(blocks[row], mesh.centre[row] + mesh.vertex[v]);
+      largest = std::max(largest, norm(moved));
+      most = std::max(most, norm(placed(u, row, mesh.vertex[v], mesh.reach(row)) - moved));
+    }
+  }
+  return most / largest;
+}
+
+/// What turns a block about its centre.
+Moved turning(const std::function<double(const TestBlock&)>& angle) {
+  return [angle](const TestBlock& b, Vec2 p) {
+    Vec2 centre;
+    for (const Vec2 c : b.corners) centre += c / static_cast<double>(b.corners.size());
+    const double a = angle(b);
+    const Vec2 r = p - centre;
+    return Vec2{std::cos(a) * r.x - std::sin(a) * r.y, std::sin(a) * r.x + std::cos(a) * r.y} - r;
+  };
+}
+
+TEST(ViewFrame, CornersAreRightToATenThousandthOfTheLargestDisplacement) {
+  const std::vector<TestBlock> unlike{{0, {{0, 0}, {0.1, 0}, {0.1, 0.1}, {0, 0.1}}, false},
+                                      {1, {{1, 0}, {41, 0}, {41, 30}, {1, 30}}, false},
+                                      {2, {{50, 0}, {60, 0.3}, {53, 9}}, false}};
+  for (const double angle : {0.001, 0.3, 1.5, 3.1}) {
+    EXPECT_LT(worst_corner(unlike, turning([&](const TestBlock&) { return angle; })), 1e-4);
+    // A small block that turns far among large ones that hardly do.
+    const auto one = [&](const TestBlock& b) { return b.id == 0 ? angle : 1.37e-5 * angle * b.id; };
+    EXPECT_LT(worst_corner(unlike, turning(one)), 1e-4) << angle;
+    // Far away, where the displacement says little of the turn.
+    const Moved turn = turning([&](const TestBlock& b) { return angle / (b.id + 1.0); });
+    const auto both = [&](const TestBlock& b, Vec2 p) { return turn(b, p) + Vec2{7.3, -100.1}; };
+    EXPECT_LT(worst_corner(unlike, both), 1e-4) << angle;
   }
 }
 
@@ -253,4 +293,4 @@ TEST(ViewFrame, TheDatumChangesWhereDisplacementsAreReset) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::frame_test

@@ -4,7 +4,7 @@
 
 #include "view/frames_of.hpp"
 
-namespace edda {
+namespace edda::mesh_test {
 namespace {
 
 const std::vector<TestBlock> two{{0, {{0, 0}, {2, 0}, {2, 1}, {0, 1}}, false},
@@ -61,4 +61,4 @@ TEST(ViewMesh, AnAffineFieldComesBackExactly) {
 }
 
 }  // namespace
-}  // namespace edda
+}  // namespace edda::mesh_test

@@ -4,12 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <filesystem>
+#include <functional>
+#include <random>
 
 #include "results/vtu.hpp"
 #include "view/frames_of.hpp"
 
-namespace edda {
+namespace edda::page_test {
 namespace {
 
 const std::vector<TestBlock> two{{0, {{0, 0}, {2, 0}, {2, 1}, {0, 1}}, false},
@@ -26,15 +30,27 @@ class ViewPage : public testing::Test {
   }
   ~ViewPage() override { std::filesystem::remove_all(folder_); }
 
-  void write_frames(std::size_t frames) {
+  /// With `more` blocks beside them, which move at random in frames that are `restless`.
+  void write_frames(
+      std::size_t frames, int more = 0,
+      const std::function<bool(std::size_t)>& restless = [](std::size_t) { return true; }) {
+    std::vector<TestBlock> blocks = two;
+    for (int i = 0; i < more; ++i) {
+      const double x = 3.0 + 2.0 * i;
+      blocks.push_back({2 + i, {{x, 0}, {x + 1, 0}, {x + 1, 1}, {x, 1}}, false});
+    }
+    std::mt19937 random(7);
     for (std::size_t k = series_.size(); k < frames; ++k) {
+      std::vector<double> noise(blocks.size());
+      for (double& n : noise) n = restless(k) ? 1e-12 * static_cast<double>(random()) : 0.0;
       const auto sink = [&](const TestBlock& b, Vec2) {
+        if (b.id > 1) return Vec2{noise[static_cast<std::size_t>(b.id)], 0.0};
         return b.fixed ? Vec2{0.0, -9.0} : Vec2{0.0, -1e-3 * static_cast<double>(k)};
       };
       const auto place = [&](const TestBlock& b, Vec2 p) { return p + sink(b, p); };
-      Grid g = frame_of(two, place, sink);
+      Grid g = frame_of(blocks, place, sink);
       Field u{"displacement", 3, {}, {}, false};
-      for (const TestBlock& b : two) {
+      for (const TestBlock& b : blocks) {
         const Vec2 d = sink(b, {});
         u.values.insert(u.values.end(), {d.x, d.y, 0.0});
       }
@@ -82,18 +98,57 @@ TEST_F(ViewPage, HoldsAllFramesAndStandsAlone) {
 
 TEST_F(ViewPage, LeavesOutFramesEvenlyButNeverTheEnds) {
   write_frames(50);
-  Result<ViewRun> run = ViewRun::open(folder_, {});
-  ASSERT_TRUE(run.ok());
-  const Result<PageReport> report = write_page(run.value(), folder_ + "/page.html", 3000);
-  ASSERT_TRUE(report.ok());
-  const std::size_t kept = report.value().frames;
-  EXPECT_GE(kept, 2u);
-  EXPECT_LT(kept, 40u);
-  const std::string header = run.value().header(false);
+  const auto written = [&](std::size_t most, std::string& header) {
+    Result<ViewRun> run = ViewRun::open(folder_, {});
+    EXPECT_TRUE(run.ok());
+    const Result<PageReport> report = write_page(run.value(), folder_ + "/page.html", most);
+    EXPECT_TRUE(report.ok());
+    header = run.value().header();
+    EXPECT_EQ(report.value().bytes, page().size());
+    EXPECT_EQ(report.value().of, 50u);
+    return report.value();
+  };
+  std::string header;
+  const PageReport all = written(1 << 20, header);
+  EXPECT_EQ(all.frames, 50u);
+  // The page itself is not counted as frames.
+  const PageReport some = written(all.bytes - 6000, header);
+  EXPECT_LE(some.bytes, all.bytes - 6000);
+  EXPECT_GT(some.frames, 10u);
+  EXPECT_LT(some.frames, 50u);
   const std::size_t at = header.find("\"frames\"");
   const std::string times = header.substr(at, header.find(']', at) - at);
   EXPECT_NE(times.find(" 0,"), std::string::npos) << times;
   EXPECT_NE(times.find("4.9"), std::string::npos) << times;
+  EXPECT_EQ(written(1000, header).frames, 2u);
+}
+
+// Seven digits are for pages with room to spare.
+TEST_F(ViewPage, NumbersAreRoundedBeforeFramesAreLeftOut) {
+  write_frames(50, 200);
+  Result<ViewRun> run = ViewRun::open(folder_, {});
+  ASSERT_TRUE(run.ok());
+  ViewRun other = run.value();
+  const PageReport all = write_page(run.value(), folder_ + "/page.html", 10 << 20).value();
+  EXPECT_EQ(all.precision, ViewPrecision::single);
+  const PageReport tight = write_page(other, folder_ + "/page.html", all.bytes - 20000).value();
+  EXPECT_EQ(tight.precision, ViewPrecision::whole16);
+  EXPECT_EQ(tight.frames, 50u);
+  EXPECT_LE(tight.bytes, all.bytes - 20000);
+}
+
+// Frames that are larger than those looked at first.
+TEST_F(ViewPage, KeepsToItsSizeWhereFramesDiffer) {
+  write_frames(40, 400, [](std::size_t k) { return k > 4 && k < 18; });
+  Result<ViewRun> run = ViewRun::open(folder_, {});
+  ASSERT_TRUE(run.ok());
+  ViewRun other = run.value();
+  const PageReport all = write_page(run.value(), folder_ + "/page.html", 10 << 20).value();
+  const std::size_t most =
+      all.bytes - (all.bytes - page_template().head.size() - page_template().tail.size()) * 3 / 4;
+  const PageReport some = write_page(other, folder_ + "/page.html", most).value();
+  EXPECT_LE(some.bytes, most);
+  EXPECT_GE(some.frames, 3u);
 }
 
 TEST_F(ViewPage, RangesLeaveOutHeldBlocks) {
@@ -101,13 +156,30 @@ TEST_F(ViewPage, RangesLeaveOutHeldBlocks) {
   Result<ViewRun> run = ViewRun::open(folder_, {});
   ASSERT_TRUE(run.ok());
   take_new(run.value());
-  std::string header = run.value().header(false);
+  std::string header = run.value().header();
   std::erase_if(header, [](char c) { return c == ' ' || c == '\n'; });
   EXPECT_NE(
       header.find("\"name\":\"displacement.y\",\"label\":\"displacementupwards\",\"unit\":\"m\","
                   "\"kind\":\"numbers\",\"of\":\"blocks\",\"range\":[-0.002,0]"),
       std::string::npos)
       << header;
+}
+
+TEST_F(ViewPage, TellsUsualStrokesAndWhatFramesHaveNot) {
+  write_frames(2);
+  Result<ViewRun> run = ViewRun::open(folder_, {});
+  ASSERT_TRUE(run.ok());
+  take_new(run.value());
+  std::string header = run.value().header("1");
+  std::erase_if(header, [](char c) { return c == ' ' || c == '\n'; });
+  EXPECT_NE(header.find("\"served\":true,\"run\":\"1\","), std::string::npos) << header;
+  EXPECT_NE(header.find("\"absent\":[\"overstress\"],"), std::string::npos) << header;
+  // Of block 0 alone: (-1 + 2)/2 MPa in the middle, a circle of hypot(1.5, 0.4) MPa.
+  const std::size_t at = header.find("\"usual\":{\"force\":0,\"stress\":");
+  ASSERT_NE(at, std::string::npos) << header;
+  EXPECT_NEAR(
+      std::stod(header.substr(at + std::string("\"usual\":{\"force\":0,\"stress\":").size())),
+      1e6 * (0.5 + std::hypot(1.5, 0.4)), 1.0);
 }
 
 // A title may not end the script that it stands in.
@@ -121,20 +193,50 @@ TEST_F(ViewPage, NamesCannotBreakOutOfThePage) {
   EXPECT_EQ(count(page(), "<script>alert"), 0u);
 }
 
-TEST_F(ViewPage, LongTablesLoseRowsEvenly) {
+TEST_F(ViewPage, LongHistoriesKeepTheirPeaks) {
   write_frames(2);
-  std::string csv = "time,a\n";
-  for (int k = 0; k <= 1000; ++k) csv += fmt::format("{},{}\n", k, k * k);
-  ASSERT_FALSE(write_file(folder_ + "/history.csv", csv));
+  std::string csv = "time,a,b\n";
+  for (int k = 0; k <= 1000; ++k)
+    csv += fmt::format("{},{},{}\n", k, k == 333 ? 9 : k % 2, k == 666 ? -9 : 0.001 * k);
+  ASSERT_FALSE(write_file(folder_ + "/history.csv", csv + "1001,0"));  // still being written
   const Result<ViewRun> run = ViewRun::open(folder_, {});
   ASSERT_TRUE(run.ok());
   EXPECT_EQ(run.value().table("history.csv", 2000), csv);
   const std::string thin = run.value().table("history.csv", 100);
-  EXPECT_LE(count(thin, "\n"), 102u);
-  EXPECT_GE(count(thin, "\n"), 90u);
-  EXPECT_TRUE(thin.starts_with("time,a\n0,0\n"));
-  EXPECT_TRUE(thin.ends_with("1000,1000000\n"));
+  EXPECT_LE(count(thin, "\n"), 101u);
+  EXPECT_GE(count(thin, "\n"), 30u);
+  EXPECT_TRUE(thin.starts_with("time,a,b\n0,0,0\n"));
+  EXPECT_TRUE(thin.ends_with("\n1000,0,1\n"));
+  EXPECT_EQ(count(thin, "\n333,9,0.333\n"), 1u);
+  EXPECT_EQ(count(thin, "\n666,0,-9\n"), 1u);
   EXPECT_EQ(run.value().table("bolts.csv", 100), "");
+}
+
+// A bolt without some of its nodes would be another one.
+TEST_F(ViewPage, BoltsStayWholeAtTheFramesOfThePage) {
+  write_frames(4);
+  const auto rows = [](double time) {
+    std::string text;
+    for (int node = 0; node < 50; ++node) text += fmt::format("{},\"B\n1\",{}\n", time, node);
+    return text;
+  };
+  const std::string head = "time,bolt,distance\n";
+  ASSERT_FALSE(write_file(folder_ + "/bolts.csv", head + rows(0.0) + rows(0.1) + rows(0.15) +
+                                                      rows(0.1 + 0.1 + 1e-13) + "0.3,\"B\n"));
+  Result<ViewRun> run = ViewRun::open(folder_, {});
+  ASSERT_TRUE(run.ok());
+  for (const std::size_t k : {0U, 2U, 3U})
+    ASSERT_TRUE(run.value().take(series_[k], ViewPrecision::single).ok());
+  EXPECT_EQ(run.value().table("bolts.csv", 10), head + rows(0.0) + rows(0.1 + 0.1 + 1e-13));
+}
+
+TEST_F(ViewPage, StagesAreTakenAlongWhole) {
+  write_frames(2);
+  const std::string csv = "name,end\n\"a, b\",1\n,2\n";
+  ASSERT_FALSE(write_file(folder_ + "/stages.csv", csv + "\"c"));
+  const Result<ViewRun> run = ViewRun::open(folder_, {});
+  ASSERT_TRUE(run.ok());
+  EXPECT_EQ(run.value().table("stages.csv", 1), csv);
 }
 
 TEST_F(ViewPage, FoldersWithoutARunAreFaults) {
@@ -163,5 +265,30 @@ TEST_F(ViewPage, TakesUpFramesAsTheyCome) {
   EXPECT_NE(run.value().again(3, ViewPrecision::single).value(), before);
 }
 
+// The model run again in the same folder is another run, whatever its frames.
+TEST_F(ViewPage, KnowsWhenTheFolderHoldsAnotherRun) {
+  write_frames(4);
+  ASSERT_FALSE(write_file(folder_ + "/model.toml", "title = \"1\""));
+  Result<ViewRun> run = ViewRun::open(folder_, {});
+  ASSERT_TRUE(run.ok());
+  take_new(run.value());
+  write_frames(5);
+  EXPECT_TRUE(run.value().is_still_there());
+  const std::vector<SeriesEntry> all = series_;
+  ASSERT_FALSE(write_pvd(folder_ + "/blocks.pvd", {all[0], all[1]}));
+  EXPECT_FALSE(run.value().is_still_there()) << "shorter";
+  series_[2].time = 0.25;
+  ASSERT_FALSE(write_pvd(folder_ + "/blocks.pvd", series_));
+  EXPECT_FALSE(run.value().is_still_there()) << "other times";
+  ASSERT_FALSE(write_pvd(folder_ + "/blocks.pvd", all));
+  EXPECT_TRUE(run.value().is_still_there());
+  for (const char* file : {"/model.toml", "/frames/blocks_000000.vtu"}) {
+    const auto written = std::filesystem::last_write_time(folder_ + file);
+    std::filesystem::last_write_time(folder_ + file, written + std::chrono::seconds(3));
+    EXPECT_FALSE(run.value().is_still_there()) << file;
+    std::filesystem::last_write_time(folder_ + file, written);
+  }
+}
+
 }  // namespace
-}  // namespace edda
+}  // namespace edda::page_test

@@ -102,7 +102,8 @@ class Outcome:
     def contacts(self) -> int:
         """Closed at the end."""
     @property
-    def drift(self) -> float: ...
+    def drift(self) -> float:
+        """Of the energy: the largest in size of all rows of the history, not the last one's."""
     @property
     def wall_seconds(self) -> float: ...
 
@@ -128,6 +129,18 @@ class Progress:
     @property
     def largest_overlap(self) -> float:
         """m"""
+    @property
+    def largest_velocity(self) -> float:
+        """m/s, of the blocks' centroids."""
+    @property
+    def stage(self) -> int:
+        """In hand, from 0."""
+    @property
+    def stages(self) -> int:
+        """Of the model; 1 where it has none."""
+    @property
+    def stage_name(self) -> str:
+        """Empty where it has none."""
 
 class Ledger:
     """Energies since t = 0, J; drift is a ratio."""
@@ -186,8 +199,10 @@ class Simulation:
     ) -> None:
         """Cuts, builds and checks; nothing is written before the first step.
 
-        model: a Model, or what edda.load() takes. results: folder, as of `edda run -o`. resume, from_stage: go on from its checkpoint.
-        progress: called about every progress_every s of wall time; False stops the run.
+        model: a Model, or what edda.load() takes. results: folder, as of `edda run -o`.
+        resume, from_stage: go on from its checkpoint, or from that of the end of a stage.
+        progress: called about every progress_every s of wall time and at the end, when the run is
+        over and can no longer be changed; False stops the run.
         """
     def run(self) -> Outcome:
         """To the end, through all stages."""
@@ -264,7 +279,10 @@ class Simulation:
         """Three views (nb,), m from origin, not to be written to."""
     @property
     def node_vx(self) -> _Nodes:
-        """Three views (nb,) to read and write, m/s, half a step before the positions."""
+        """Three views (nb,) to read and write, m/s, half a step before the positions.
+
+        What is written for blocks that are not free is put back by the next call.
+        """
     @property
     def node_vy(self) -> _Nodes:
         """Three views (nb,) to read and write, m/s, half a step before the positions."""
@@ -283,7 +301,8 @@ class Simulation:
         3 bonded), x, y (m), normal_force, shear_force (N), opening, slip (m), mobilised,
         ever_slipped, ever_opened.
         """
-    def name(self, block: int) -> str: ...
+    def name(self, block: int) -> str:
+        """Empty where it has none; IndexError where there is no such block."""
     def block_called(self, name: str) -> int: ...
     def add_monitor(self, name: str, point: _Point) -> None:
         """Follows the material point at (x, y) of the start, m."""

@@ -97,7 +97,7 @@ def _outlines(source: Any) -> tuple[list[Any], NDArray[np.int64]]:
 def _values(source: Any, field: str | NDArray[Any], ids: NDArray[np.int64]) -> NDArray[Any]:
     """A number per path."""
     if not isinstance(field, str):
-        return np.asarray(field)[ids]
+        return _per_block(source, np.asarray(field), ids)
     name, _, component = field.partition(".")
     if isinstance(source, Results):
         source = source.frames[-1]
@@ -119,3 +119,16 @@ def _values(source: Any, field: str | NDArray[Any], ids: NDArray[np.int64]) -> N
     if name in ("displacement", "velocity"):
         return np.hypot(values[:, 0], values[:, 1])
     raise ValueError(f'"{name}" has components: give "{name}.{_COMPONENTS.get(name, ("0",))[0]}"')
+
+
+def _per_block(source: Any, given: NDArray[Any], ids: NDArray[np.int64]) -> NDArray[Any]:
+    """Of an array with a number per block those of the paths."""
+    least = int(ids.max(initial=-1)) + 1
+    if isinstance(source, (Results, Frame)):  # which know the blocks that are left alone
+        fits = given.ndim == 1 and len(given) >= least
+    else:
+        least = source.block_count if hasattr(source, "block_count") else len(source.blocks)
+        fits = given.shape == (least,)
+    if not fits:
+        raise ValueError(f"the array has the shape {given.shape}: give one number per block, ({least},)")
+    return given[ids]

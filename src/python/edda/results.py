@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 import os
 import pathlib
@@ -156,11 +157,20 @@ class Frames(Sequence[Frame]):
 
 
 def read_table(path: str | os.PathLike[str]) -> Table:
-    """A .csv file of a results folder: whole numbers as int64, others as float64, the rest as str."""
+    """A .csv file of a results folder: whole numbers as int64, others as float64, the rest as str.
+
+    A last line that a run is still writing, or has not finished, is left out.
+    """
     with open(path, newline="", encoding="utf-8") as file:
-        rows = csv.reader(file)
-        names = next(rows)
-        columns = list(zip(*rows)) or [()] * len(names)
+        text = file.read()
+    rows = list(csv.reader(io.StringIO(text[: text.rfind("\n") + 1], newline="")))
+    if not rows:
+        raise ValueError(f"{path}: has no line yet")
+    names = rows.pop(0)
+    for number, row in enumerate(rows, 2):
+        if len(row) != len(names):
+            raise ValueError(f"{path}: row {number} has {len(row)} columns, the first has {len(names)}")
+    columns = list(zip(*rows)) or [()] * len(names)
     arrays = [_column(name, column) for name, column in zip(names, columns)]
     table = np.empty(len(columns[0]), dtype=[(n, a.dtype) for n, a in zip(names, arrays)])
     for name, array in zip(names, arrays):

@@ -8,7 +8,6 @@ import type { Field } from './data/run';
 import { Scale } from './data/scale';
 import type { Source } from './data/source';
 import { brief, quantity } from './data/units';
-import { usualForce, usualStress } from './scene/layers';
 import { Overlay } from './scene/overlay';
 import { View } from './scene/view';
 import { Controls } from './ui/controls';
@@ -36,12 +35,11 @@ export class App {
   private theme: ThemeName = themeAtStart();
   private scale: Scale;
   private frame?: Frame;
+  /** Number of `frame`; the player may be ahead of it. */
+  private shown = 0;
   private fitted = false;
   selected = -1;
   private monitor = '';
-  /** Usual values so far of frames shown, to which strokes are drawn. */
-  private force = 0;
-  private stress = 0;
   private stale = true;
   private overlayStale = true;
   /** Of the last frames drawn: ms of script each. */
@@ -57,7 +55,7 @@ export class App {
     document.documentElement.dataset.theme = this.theme;
     const { run, mesh } = results;
     this.values = new Float32Array(mesh.blocks);
-    this.frames = new Frames(source, mesh);
+    this.frames = new Frames(source, mesh, run.absent);
     this.player = new Player(run.frames, this.frames, () => this.wake());
     this.view = new View(byId<HTMLCanvasElement>('blocks'), mesh, themes[this.theme]);
     this.overlay = new Overlay(byId<HTMLCanvasElement>('overlay'), mesh, run.monitors, run.convergences);
@@ -109,6 +107,7 @@ export class App {
       return;
     }
     this.frame = frame;
+    this.shown = index;
     this.show(frame);
     this.plots.setTime(this.player.time);
   }
@@ -117,8 +116,6 @@ export class App {
     const { controls, view, results } = this;
     const field = controls.field;
     blockValues(field?.of === 'blocks' ? field.name : 'none', frame, results.mesh, this.values);
-    this.force = Math.max(this.force, controls.forces ? usualForce(frame) : 0);
-    this.stress = Math.max(this.stress, controls.crosses ? usualStress(frame, results.mesh) : 0);
     this.scale = new Scale(results.run, field, controls.rangeOf(frame, this.values));
     view.show({
       frame,
@@ -129,11 +126,12 @@ export class App {
       edges: controls.edges,
       contacts: controls.contacts || field?.of === 'contacts',
       forces: controls.forces,
-      usualForce: this.force,
+      usualForce: results.run.usual.force,
       crosses: controls.crosses,
-      usualStress: this.stress,
+      usualStress: results.run.usual.stress,
       vectors: controls.vectors,
-      bolts: controls.bolts ? results.bolts.at(this.player.time) : [],
+      largestVector: results.run.fields.find((f) => f.name === controls.vectors)?.range?.[1] ?? 0,
+      bolts: controls.bolts ? results.bolts.at(results.run.frames[this.shown]) : [],
     });
     if (!this.fitted) this.fit();
     this.showSelection();
@@ -225,12 +223,19 @@ export class App {
 
   private save(): void {
     const style = overlayStyle();
-    const title = [this.results.run.title, `t = ${brief(this.player.time, 6)} s`].filter((t) => t !== '').join('    ');
     const ratio = Math.max(2, devicePixelRatio);
-    savePicture(`${this.results.run.title || 'edda'}-${this.player.index}.png`.replaceAll(/[^\w.-]+/g, '_'), this.view, ratio, title, style.halo, style.ink, (g) => {
+    savePicture(`${this.results.run.title || 'edda'}-${this.shown}.png`.replaceAll(/[^\w.-]+/g, '_'), this.view, ratio, this.pictureTitle(), style.halo, style.ink, (g) => {
       this.overlay.paint(g, this.view.camera, this.view.pose, style, this.overlayOptions());
       this.paintLegend(g);
     });
+  }
+
+  /** Of the frame that is drawn. */
+  private pictureTitle(): string {
+    const { title, frames } = this.results.run;
+    const { magnification } = this.controls;
+    const drawn = magnification > 1 ? `displacements \u00d7 ${brief(magnification, 3)}` : '';
+    return [title, `t = ${brief(frames[this.shown], 6)} s`, drawn].filter((t) => t !== '').join('    ');
   }
 
   private listen(): void {
@@ -284,10 +289,16 @@ export class App {
     try {
       const run = await this.source.run();
       const before = this.results.run;
+      if (run.run !== before.run) {
+        location.reload();
+        return;
+      }
       if (run.frames.length !== before.frames.length || run.summary !== before.summary) {
         const atEnd = this.player.index === this.player.end && !this.player.playing;
-        Object.assign(this.results, { run });
-        await refresh(this.source, this.results);
+        // All at once: where a part does not come, it is asked for again.
+        const results = { ...this.results, run };
+        await refresh(this.source, results);
+        Object.assign(this.results, results);
         this.player.setTimes(run.frames);
         this.plots.refresh();
         this.describe();
@@ -295,8 +306,10 @@ export class App {
         this.wake();
       }
       byId('fault').hidden = true;
-    } catch {
-      this.fail(new Error('the program that serves this page does not answer: start edda view --serve again'));
+    } catch (error) {
+      // What fetch() makes of no answer at all is a TypeError.
+      const silent = error instanceof TypeError;
+      this.fail(silent ? new Error('the program that serves this page does not answer: start edda view --serve again') : (error as Error));
     }
     setTimeout(() => this.ask(), ASK_EVERY);
   }

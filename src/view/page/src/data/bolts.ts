@@ -5,7 +5,7 @@ export interface BoltNode {
   bolt: string;
   x: number;
   y: number;
-  /** Axial force after the node, N per bolt, tension positive. */
+  /** Axial force at the node, N per bolt, tension positive. */
   force: number;
   utilisation: number;
   yielded: boolean;

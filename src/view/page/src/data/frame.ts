@@ -61,10 +61,11 @@ export function readMotion(bytes: Uint8Array, blocks: number): Motion {
   return [...columns.group(2, blocks), ...columns.group(4, blocks)];
 }
 
-/** Where the vertices and edges of each block begin, [nb + 1]. */
+/** Of the mesh: where the vertices and edges of each block begin, [nb + 1], and its reach. */
 export interface Beginnings {
   begin: Uint32Array;
   edgeBegin: Uint32Array;
+  reach: Float64Array;
 }
 
 export function readFrame(bytes: Uint8Array, mesh: Beginnings): Frame {
@@ -77,6 +78,8 @@ export function readFrame(bytes: Uint8Array, mesh: Beginnings): Frame {
   const columns = new Columns(r, bits);
   const group = (n: number) => columns.group(n, count).map((c) => spread(c, alive));
   const motion = [...group(2), ...group(4)];
+  // With 16 bits A is times the block's reach.
+  if (bits === 16) for (const a of motion.slice(2)) for (let b = 0; b < blocks; ++b) a[b] /= mesh.reach[b];
   const [vx, vy] = group(2);
   const [omega] = group(1);
   const [rotation] = group(1);

@@ -1,6 +1,7 @@
 // Frames by number: unpacked beside, ahead of the play, and forgotten when there are too many.
 import type { Frame } from './frame';
 import type { Mesh } from './mesh';
+import type { Run } from './run';
 import type { Source } from './source';
 import type { Done, Job, Setup } from './worker';
 import workerCode from 'worker:./worker.ts';
@@ -14,10 +15,11 @@ export class Frames {
   private queue: number[] = [];
   private busy = 0;
 
-  constructor(private readonly source: Source, private readonly mesh: Mesh) {
+  /** `absent`: numbers that the run's frames have not, zeros as they were packed. */
+  constructor(private readonly source: Source, private readonly mesh: Mesh, private readonly absent: Run['absent']) {
     this.worker = new Worker(URL.createObjectURL(new Blob([workerCode], { type: 'text/javascript' })));
     this.worker.onmessage = ({ data }: MessageEvent<Done>) => this.done(data);
-    this.worker.postMessage({ begin: mesh.begin, edgeBegin: mesh.edgeBegin } satisfies Setup);
+    this.worker.postMessage({ begin: mesh.begin, edgeBegin: mesh.edgeBegin, reach: mesh.reach } satisfies Setup);
   }
 
   /** Frames that may be kept. */
@@ -68,6 +70,7 @@ export class Frames {
     const waiting = this.waiting.get(done.index) ?? [];
     this.waiting.delete(done.index);
     if (done.frame !== undefined) {
+      for (const name of this.absent) done.frame[name].fill(NaN);
       this.kept.set(done.index, done.frame);
       for (const oldest of this.kept.keys()) {
         if (this.kept.size <= this.room) break;

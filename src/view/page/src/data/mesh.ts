@@ -24,6 +24,8 @@ export interface Mesh {
   edgeBegin: Uint32Array;
   /** [nb] 1: held. */
   fixed: Uint8Array;
+  /** [nb] farthest that a vertex is from the centre in x or y, m. */
+  reach: Float64Array;
 }
 
 export function readMesh(bytes: Uint8Array): Mesh {
@@ -41,8 +43,13 @@ export function readMesh(bytes: Uint8Array): Mesh {
     edges: r.u32s(2 * edges),
     edgeBegin: new Uint32Array(blocks + 1),
     fixed: r.take(blocks).slice(),
+    reach: new Float64Array(blocks),
   };
   for (let b = 0; b < blocks; ++b) mesh.row.fill(b, begin[b], begin[b + 1]);
+  for (let v = 0; v < vertices; ++v) {
+    const b = mesh.row[v];
+    mesh.reach[b] = Math.max(mesh.reach[b], Math.abs(vertex[2 * v]), Math.abs(vertex[2 * v + 1]));
+  }
   for (let e = 0; e < edges; ++e) ++mesh.edgeBegin[mesh.row[mesh.edges[2 * e]] + 1];
   for (let b = 0; b < blocks; ++b) mesh.edgeBegin[b + 1] += mesh.edgeBegin[b];
   return mesh;

@@ -19,15 +19,20 @@ export interface Run {
   format: number;
   edda: string;
   served: boolean;
+  /** Of a served run: another text than before tells that the folder holds another run. */
+  run?: string;
   title: string;
   materials: string[];
-  stages: string[];
   monitors: Mark[];
   convergences: Mark[];
   /** Times in s. */
   frames: number[];
   datums: number;
   fields: Field[];
+  /** Numbers of blocks that the frames have not. */
+  absent: ('omega' | 'rotation' | 'overstress')[];
+  /** What strokes of the usual length stand for, in all frames: N, Pa. */
+  usual: { force: number; stress: number };
   colours: { sequential: string; diverging: string; kinds: string };
   /** summary.json as text; absent until the run has ended. */
   summary?: string;

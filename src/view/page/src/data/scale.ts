@@ -25,7 +25,6 @@ export class Scale {
         high = Math.max(high, 0);
       }
       const twoSided = low < -1e-3 * size && high > 1e-3 * size;
-      if (twoSided && range === undefined) [low, high] = [-size, size];
       this.palette = twoSided ? 'diverging' : 'sequential';
     }
     this.low = low;
@@ -33,6 +32,15 @@ export class Scale {
     this.colours = this.palette === 'plain' ? new Uint8Array([200, 200, 200]) : coloursOf(run.colours[this.palette]);
   }
 
+  // Steps of a value: evenly from end to end; or, where it has two sides, from the middle at nothing to
+  // the end of the larger one, as dark on either side at the same distance (src/report/colour_scale.cpp).
+  private get perUnit(): number {
+    const last = this.steps - 1;
+    return this.palette === 'diverging' ? (0.5 * last) / Math.max(-this.low, this.high) : last / (this.high - this.low);
+  }
+  private get from(): number {
+    return this.palette === 'diverging' ? 0.5 * (this.steps - 1) : -this.perUnit * this.low;
+  }
   get steps(): number {
     return this.colours.length / 3;
   }
@@ -40,8 +48,8 @@ export class Scale {
   step(value: number): number {
     if (this.palette === 'kinds') return ((Math.round(value) % this.steps) + this.steps) % this.steps;
     if (!(this.high > this.low)) return 0;
-    const s = (value - this.low) / (this.high - this.low);
-    return Math.max(0, Math.min(this.steps - 1, Math.round(s * (this.steps - 1))));
+    const at = this.from + this.perUnit * Math.max(this.low, Math.min(this.high, value));
+    return Math.floor(at + 0.5);
   }
   /** Colours of all blocks, 65536 red + 256 green + blue; held ones and those without a value have their own. */
   paint(values: Float32Array, fixed: Uint8Array, held: number[], none: number[], colours: Float32Array): void {
@@ -49,19 +57,17 @@ export class Scale {
     const steps = Array.from({ length: this.steps }, (_, step) => packed(this.colours, 3 * step));
     const [heldColour, noColour] = [packed(held), packed(none)];
     // As step() does, without a call per block.
-    const last = this.steps - 1;
-    const perStep = this.high > this.low ? last / (this.high - this.low) : 0;
-    const { low } = this;
+    const { low, high, perUnit } = this;
+    const from = this.from + 0.5;
+    const flat = !(high > low);
     const kinds = this.palette === 'kinds';
     for (let b = 0; b < values.length; ++b) {
       const value = values[b];
       if (fixed[b]) colours[b] = heldColour;
       else if (value !== value) colours[b] = noColour;
       else if (kinds) colours[b] = steps[this.step(value)];
-      else {
-        const at = (value - low) * perStep + 0.5;
-        colours[b] = steps[at < 0 ? 0 : at > last ? last : at | 0];
-      }
+      else if (flat) colours[b] = steps[0];
+      else colours[b] = steps[(from + perUnit * (value < low ? low : value > high ? high : value)) | 0];
     }
   }
   css(step: number): string {

@@ -28,18 +28,26 @@ export class PageSource implements Source {
 }
 
 export class ServedSource implements Source {
+  /** Of the run that was asked for first: the page shows no other. */
+  private name?: string;
+
   async run(): Promise<Run> {
     const reply = await fetch('run');
     if (!reply.ok) throw new Error(await reply.text());
-    return (await reply.json()) as Run;
+    const run = (await reply.json()) as Run;
+    this.name ??= run.run;
+    return run;
   }
   async chunk(name: string): Promise<Uint8Array | undefined> {
-    const reply = await fetch(`chunk/${name}`);
+    const reply = await fetch(this.address(name));
     if (reply.status === 404) return undefined;
     if (!reply.ok) throw new Error(await reply.text());
     return inflate(new Uint8Array(await reply.arrayBuffer()));
   }
   job(frame: number): Job {
-    return { index: frame, url: new URL(`chunk/frame-${frame}`, location.href).href };
+    return { index: frame, url: this.address(`frame-${frame}`) };
+  }
+  private address(name: string): string {
+    return new URL(`chunk/${name}?run=${encodeURIComponent(this.name ?? '')}`, location.href).href;
   }
 }

@@ -2,7 +2,7 @@
 
 export interface Table {
   names: string[];
-  /** By column; text where it is no number. */
+  /** By column; text where it is no number, and in columns of names, which may look like some. */
   columns: (number | string)[][];
 }
 
@@ -23,10 +23,11 @@ export function readTable(text: string): Table {
   const lines = text.split('\n').filter((line) => line !== '');
   const names = cells(lines[0] ?? '');
   const columns: (number | string)[][] = names.map(() => []);
+  const isText = names.map((name) => name === 'bolt' || name === 'name');
   for (const line of lines.slice(1)) {
     const row = cells(line);
     if (row.length !== names.length) continue; // a row that is being written
-    row.forEach((cell, k) => columns[k].push(cell === '' || Number.isNaN(Number(cell)) ? cell : Number(cell)));
+    row.forEach((cell, k) => columns[k].push(isText[k] || cell === '' || Number.isNaN(Number(cell)) ? cell : Number(cell)));
   }
   return { names, columns };
 }

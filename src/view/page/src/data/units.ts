@@ -37,19 +37,21 @@ export function short(value: number, digits = 4): string {
   if (!Number.isFinite(value)) return '\u2013';
   if (value === 0) return '0';
   const size = Math.abs(value);
-  const text = size >= 1e-3 && size < 1e6 ? value.toPrecision(digits) : value.toExponential(digits - 1);
+  const text = size >= 1e-4 && size < 1e6 ? value.toPrecision(digits) : value.toExponential(digits - 1);
   // 1000 to three digits is 1.00e+3, which nobody writes.
   return (text.includes('e+') ? String(Number(text)) : text).replaceAll('-', '\u2212');
 }
 
 /** The same without trailing zeros. */
 export function brief(value: number, digits = 4): string {
-  const text = short(value, digits);
-  return text.includes('.') && !text.includes('e') ? text.replace(/\.?0+$/, '') : text;
+  const [number, power] = short(value, digits).split('e');
+  const text = number.includes('.') ? number.replace(/\.?0+$/, '') : number;
+  return power === undefined ? text : `${text}e${power}`;
 }
 
 /** With the unit's own prefix: "12.5 mm". */
 export function quantity(value: number, unit: string, digits = 4): string {
+  if (!Number.isFinite(value)) return '\u2013';
   const scaled = scaledUnit(unit, Math.abs(value));
   const number = short(value * scaled.factor, digits);
   return scaled.unit === '' ? number : `${number} ${scaled.unit}`;

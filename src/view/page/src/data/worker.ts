@@ -16,7 +16,7 @@ export interface Done {
   error?: string;
 }
 
-let mesh: Beginnings = { begin: new Uint32Array(), edgeBegin: new Uint32Array() };
+let mesh: Beginnings = { begin: new Uint32Array(), edgeBegin: new Uint32Array(), reach: new Float64Array() };
 
 async function unpack(job: Job): Promise<Frame> {
   if (job.text !== undefined) return readFrame(await inflate(fromBase64(job.text)), mesh);

@@ -15,30 +15,8 @@ export interface Palette {
   bolt: number[];
 }
 
-/** What a stroke of the usual length stands for: nearly the largest value, so that a few giants do not
- * make dots of all others. */
-function usual(sizes: Float32Array): number {
-  if (sizes.length === 0) return 0;
-  const sorted = sizes.slice().sort();
-  return sorted[Math.floor(0.95 * (sorted.length - 1))] || sorted[sorted.length - 1];
-}
 /** Strokes are never longer than so many usual ones. */
 const LONGEST = 4;
-
-/** N */
-export function usualForce(frame: Frame): number {
-  const { normal, shear, state } = frame.contacts;
-  return usual(normal.map((n, k) => lengthOf(n, shear[k])).filter((f, k) => state[k] !== 0 && f > 0));
-}
-/** Pa */
-export function usualStress(frame: Frame, mesh: Mesh): number {
-  const sizes = new Float32Array(mesh.blocks);
-  for (let b = 0; b < mesh.blocks; ++b) {
-    const { major, minor } = principal(frame, b);
-    sizes[b] = Math.max(Math.abs(major), Math.abs(minor));
-  }
-  return usual(sizes.filter((_, b) => frame.alive[b] && !mesh.fixed[b]));
-}
 
 /** A stroke with a rim that sets it off from what lies below. */
 function stroke(layer: Strokes, x0: number, y0: number, x1: number, y1: number, width: number, ink: number[], c: Palette): void {
@@ -103,10 +81,8 @@ export function drawCrosses(layer: Strokes, frame: Frame, pose: Pose, mesh: Mesh
   layer.upload();
 }
 
-/** An arrow from each block's centre; `length`: m of the largest. Returns the largest value. */
-export function drawArrows(layer: Strokes, x: Float32Array, y: Float32Array, pose: Pose, mesh: Mesh, length: number, c: Palette): number {
-  let largest = 0;
-  for (let b = 0; b < mesh.blocks; ++b) largest = Math.max(largest, lengthOf(x[b], y[b]));
+/** An arrow from each block's centre; `length`: m of one of `largest`. */
+export function drawArrows(layer: Strokes, x: Float32Array, y: Float32Array, pose: Pose, mesh: Mesh, largest: number, length: number, c: Palette): void {
   layer.clear(2 * mesh.blocks);
   for (let b = 0; b < mesh.blocks && largest > 0; ++b) {
     if (!pose.isAlive(b) || lengthOf(x[b], y[b]) < 1e-3 * largest) continue;
@@ -115,11 +91,10 @@ export function drawArrows(layer: Strokes, x: Float32Array, y: Float32Array, pos
     stroke(layer, px, py, px + s * x[b], py + s * y[b], 1.6, c.ink, c);
   }
   layer.upload();
-  return largest;
 }
 
-/** Bars of the bolts, thicker and warmer where they bear more. */
-export function drawBolts(layer: Strokes, nodes: BoltNode[], origin: [number, number], c: Palette): void {
+/** Bars of the bolts, thicker and warmer where they bear more; `places`: x and y of each node. */
+export function drawBolts(layer: Strokes, nodes: BoltNode[], places: Float64Array, c: Palette): void {
   layer.clear(nodes.length);
   for (let k = 0; k + 1 < nodes.length; ++k) {
     const [a, b] = [nodes[k], nodes[k + 1]];
@@ -127,7 +102,7 @@ export function drawBolts(layer: Strokes, nodes: BoltNode[], origin: [number, nu
     const used = Math.min(1, Math.max(a.utilisation, b.utilisation));
     const mixed = c.bolt.map((v, i) => v + used * (c.tension[i] - v));
     const alpha = a.ruptured && b.ruptured ? 70 : 255;
-    layer.add(a.x - origin[0], a.y - origin[1], b.x - origin[0], b.y - origin[1], 2 + 4 * used, mixed[0], mixed[1], mixed[2], alpha);
+    layer.add(places[2 * k], places[2 * k + 1], places[2 * k + 2], places[2 * k + 3], 2 + 4 * used, mixed[0], mixed[1], mixed[2], alpha);
   }
   layer.upload();
 }

@@ -53,6 +53,20 @@ export class Pose {
       place[k + 1] + rest[k] * rx + rest[k + 1] * ry,
     ];
   }
+  /** The point from the centre of block b that is drawn at (x, y). */
+  inverse(b: number, x: number, y: number): [number, number] {
+    const { place, rest } = this;
+    const k = 4 * b;
+    const [dx, dy] = [x - place[k], y - place[k + 1]];
+    const det = place[k + 2] * rest[k + 1] - place[k + 3] * rest[k];
+    return [(rest[k + 1] * dx - place[k + 3] * dy) / det, (place[k + 2] * dy - rest[k] * dx) / det];
+  }
+  /** Not less than half of what M makes of a length in x or y. */
+  private stretch(b: number): number {
+    const { place, rest } = this;
+    const k = 4 * b;
+    return Math.max(Math.abs(place[k + 2]), Math.abs(place[k + 3]), Math.abs(rest[k]), Math.abs(rest[k + 1]));
+  }
   vertex(v: number): [number, number] {
     const { vertex, row } = this.mesh;
     return this.point(row[v], vertex[2 * v], vertex[2 * v + 1]);
@@ -75,16 +89,36 @@ export class Pose {
     return box.x0 <= box.x1 ? box : { x0: -1, y0: -1, x1: 1, y1: 1 };
   }
 
-  /** The block that is drawn at (x, y), or -1: the one whose outline goes round it. */
-  blockAt(x: number, y: number): number {
+  /** The block that is drawn at (x, y), or -1: the one whose outline goes round it. `first` is tried before the others. */
+  blockAt(x: number, y: number, first = -1): number {
     const { mesh } = this;
+    if (first >= 0 && this.isAlive(first)) {
+      for (let t = this.trianglesFrom(first); t < mesh.triangles.length && mesh.row[mesh.triangles[t]] === first; t += 3) {
+        if (this.covers(t, x, y)) return first;
+      }
+    }
     for (let t = 0; t < mesh.triangles.length; t += 3) {
       const b = mesh.row[mesh.triangles[t]];
       if (this.isAlive(b) && this.covers(t, x, y)) return b;
     }
     return -1;
   }
+  /** Where the triangles of a block begin: they are in the order of the blocks. */
+  private trianglesFrom(b: number): number {
+    const { row, triangles } = this.mesh;
+    let [low, high] = [0, triangles.length / 3];
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (row[triangles[3 * middle]] < b) low = middle + 1;
+      else high = middle;
+    }
+    return 3 * low;
+  }
   private covers(t: number, x: number, y: number): boolean {
+    // Most are far away.
+    const row = this.mesh.row[this.mesh.triangles[t]];
+    const far = 2 * this.mesh.reach[row] * Math.max(1, this.stretch(row));
+    if (Math.abs(x - this.place[4 * row]) > far || Math.abs(y - this.place[4 * row + 1]) > far) return false;
     const [a, b, c] = [0, 1, 2].map((k) => this.vertex(this.mesh.triangles[t + k]));
     const side = (p: number[], q: number[]) => (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
     const [s0, s1, s2] = [side(a, b), side(b, c), side(c, a)];

@@ -4,6 +4,7 @@ import type { Frame, Motion } from '../data/frame';
 import type { Mesh } from '../data/mesh';
 import type { Scale } from '../data/scale';
 import { Blocks, WIDTH } from './blocks';
+import { BoltPlaces } from './bolt_places';
 import { Camera } from './camera';
 import * as layers from './layers';
 import { Pose } from './pose';
@@ -27,6 +28,8 @@ export interface Shown {
   /** Pa, the same for stresses. */
   usualStress: number;
   vectors: Vectors;
+  /** Value of the longest arrow. */
+  largestVector: number;
   bolts: BoltNode[];
 }
 
@@ -57,9 +60,8 @@ export class View {
   private readonly boltStrokes: Strokes;
   private readonly blockSize: number;
   private readonly colours: Float32Array;
+  private readonly boltPlaces: BoltPlaces;
   private shown?: Shown;
-  /** Value of the longest arrow. */
-  largestVector = 0;
 
   constructor(readonly canvas: HTMLCanvasElement, private readonly mesh: Mesh, private theme: Theme) {
     this.software = isSoftware();
@@ -74,6 +76,7 @@ export class View {
     this.crossStrokes = new Strokes(gl);
     this.arrowStrokes = new Strokes(gl, 4);
     this.boltStrokes = new Strokes(gl);
+    this.boltPlaces = new BoltPlaces(mesh);
     this.blockSize = typicalSize(mesh);
     gl.enable(gl.BLEND);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
@@ -96,9 +99,10 @@ export class View {
     if (shown.crosses) layers.drawCrosses(this.crossStrokes, frame, this.pose, this.mesh, shown.usualStress, CROSS * size, theme);
     if (shown.vectors !== 'none') {
       const [x, y] = shown.vectors === 'velocity' ? [frame.vx, frame.vy] : frame.motion;
-      this.largestVector = layers.drawArrows(this.arrowStrokes, x, y, this.pose, this.mesh, ARROW * size, theme);
+      layers.drawArrows(this.arrowStrokes, x, y, this.pose, this.mesh, shown.largestVector, ARROW * size, theme);
     }
-    layers.drawBolts(this.boltStrokes, shown.bolts, this.pose.origin, theme);
+    const places = this.boltPlaces.of(shown.bolts, frame, shown.datum, shown.magnification, this.pose);
+    layers.drawBolts(this.boltStrokes, shown.bolts, places, theme);
   }
 
   draw(): void {
@@ -132,13 +136,18 @@ export class View {
     const px = this.blockSize * this.camera.scale;
     if (of === 'forces') return (this.shown?.usualForce ?? 0) / (FORCE * px);
     if (of === 'crosses') return (this.shown?.usualStress ?? 0) / (CROSS * px);
-    return this.largestVector / (ARROW * px);
+    return (this.shown?.largestVector ?? 0) / (ARROW * px);
   }
 
-  /** The drawing, as it is now, over `g`. */
-  copyTo(g: CanvasRenderingContext2D, x: number, y: number, width: number, height: number): void {
-    this.draw(); // what was drawn before may be gone from the buffer
-    g.drawImage(this.canvas, x, y, width, height);
+  /** The drawing, as it is now, over `g`; drawn anew with so many pixels for each of the screen's. */
+  copyTo(g: CanvasRenderingContext2D, x: number, y: number, width: number, height: number, ratio = 1): void {
+    const { canvas, camera } = this;
+    const [before, after] = [[canvas.width, canvas.height], [camera.width, camera.height].map((n) => Math.round(n * ratio))];
+    [canvas.width, canvas.height] = after;
+    this.draw();
+    g.drawImage(canvas, x, y, width, height);
+    [canvas.width, canvas.height] = before;
+    this.draw();
   }
 
   resize(width: number, height: number, ratio: number): void {

@@ -1,5 +1,5 @@
 // What is to be shown and how: the panel's upper part, and the line below the drawing.
-import { isKnown } from '../data/fields';
+import { contactValues, isKnown } from '../data/fields';
 import type { Frame } from '../data/frame';
 import type { Results } from '../data/results';
 import type { Field } from '../data/run';
@@ -11,11 +11,9 @@ import type { Player } from './player';
 const checkbox = (id: string) => byId<HTMLInputElement>(id).checked;
 
 export class Controls {
-  private readonly fields: Map<string, Field>;
-
-  constructor(results: Results, private readonly changed: () => void) {
-    const known = results.run.fields.filter((f) => isKnown(f.name) && f.name !== 'id');
-    this.fields = new Map(known.map((f) => [f.name, f]));
+  constructor(private readonly results: Results, private readonly changed: () => void) {
+    const absent: string[] = results.run.absent;
+    const known = results.run.fields.filter((f) => isKnown(f.name) && f.name !== 'id' && !absent.includes(f.name));
     const select = byId<HTMLSelectElement>('field');
     const group = (label: string, of: Field['of']) => {
       const element = make('optgroup', '', { label });
@@ -33,7 +31,9 @@ export class Controls {
   }
 
   get field(): Field | undefined {
-    return this.fields.get(byId<HTMLSelectElement>('field').value);
+    // Of the run as it is now: the ranges of one that goes on grow.
+    const { value } = byId<HTMLSelectElement>('field');
+    return this.results.run.fields.find((f) => f.name === value);
   }
   get edges(): boolean {
     return checkbox('edges');
@@ -98,12 +98,14 @@ export class Controls {
       const [low, high] = ['low', 'high'].map((id) => Number(byId<HTMLInputElement>(id).value) / scaled.factor);
       return high > low ? [low, high] : undefined;
     }
-    if (how === 'run' || this.field.of === 'contacts') return undefined;
+    if (how === 'run') return undefined;
+    const ofContacts = this.field.of === 'contacts' ? (contactValues(this.field.name, frame.contacts) ?? []) : undefined;
+    const shown = ofContacts ?? values;
     let [low, high] = [Infinity, -Infinity];
-    for (let b = 0; b < values.length; ++b) {
-      if (!frame.alive[b] || this.held[b] || Number.isNaN(values[b])) continue;
-      low = Math.min(low, values[b]);
-      high = Math.max(high, values[b]);
+    for (let k = 0; k < shown.length; ++k) {
+      if (Number.isNaN(shown[k]) || (ofContacts === undefined && (!frame.alive[k] || this.held[k]))) continue;
+      low = Math.min(low, shown[k]);
+      high = Math.max(high, shown[k]);
     }
     return high > low ? [low, high] : undefined;
   }

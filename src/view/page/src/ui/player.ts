@@ -29,6 +29,7 @@ export class Player {
 
   go(index: number): void {
     this.index = Math.max(0, Math.min(this.end, index));
+    if (this.index === this.end) this.playing = false;
     this.clock = this.time;
     this.changed();
   }

@@ -19,6 +19,8 @@ const MONITOR: [string, string[], string][] = [
 export class Plots {
   private readonly plot: Plot;
   private readonly select_ = byId<HTMLSelectElement>('plot-of');
+  /** What draws each entry of the list, by its value. */
+  private readonly drawn = new Map<string, () => void>();
   private block = -1;
   private field?: Field;
   /** Of the block's history that is being read; an older one gives up. */
@@ -38,7 +40,7 @@ export class Plots {
     this.show();
   }
   setField(field: Field | undefined): void {
-    if (field === this.field) return;
+    if (field?.name === this.field?.name) return;
     this.field = field;
     this.offer();
     if (this.select_.value === 'block') this.show();
@@ -57,11 +59,22 @@ export class Plots {
   private offer(): void {
     const { run, history } = this.results;
     const pairs: [string, string][] = [];
-    if (this.block >= 0) pairs.push(['block', `block ${this.results.mesh.id[this.block]}: ${this.blockField().label}`]);
+    this.drawn.clear();
+    const add = (value: string, text: string, show: () => void) => {
+      pairs.push([value, text]);
+      this.drawn.set(value, show);
+    };
+    if (this.block >= 0) add('block', `block ${this.results.mesh.id[this.block]}: ${this.blockField().label}`, () => void this.showBlock(this.reading));
     if (history !== undefined) {
-      pairs.push(['energy', 'energies'], ['drift', 'drift of the energy ledger'], ['unbalanced', 'unbalanced force']);
-      for (const m of run.monitors) for (const [what] of MONITOR) pairs.push([`monitor:${m.name}:${what}`, `${m.name}: ${what}`]);
-      for (const c of run.convergences) pairs.push([`convergence:${c.name}`, `${c.name}: convergence`]);
+      add('energy', 'energies', () => this.showColumns(ENERGIES.map((e) => [e, e]), 'J'));
+      add('drift', 'drift of the energy ledger', () => this.showColumns([['drift', 'drift']], ''));
+      add('unbalanced', 'unbalanced force', () => this.showColumns([['unbalanced', 'unbalanced']], ''));
+      for (const { name } of run.monitors) {
+        for (const [what, columns, unit] of MONITOR) {
+          add(`monitor:${name}:${what}`, `${name}: ${what}`, () => this.showColumns(columns.map((c) => [`${name}.${c}`, c]), unit));
+        }
+      }
+      for (const { name } of run.convergences) add(`convergence:${name}`, `${name}: convergence`, () => this.showColumns([[`${name}.convergence`, name]], 'm'));
     }
     const first = this.select_.options.length === 0;
     options(this.select_, pairs);
@@ -77,21 +90,9 @@ export class Plots {
 
   private show(): void {
     ++this.reading;
-    const [kind, name, what] = this.select_.value.split(':');
-    if (kind === 'block') {
-      void this.showBlock(this.reading);
-    } else if (kind === 'energy') {
-      this.showColumns(ENERGIES.map((e) => [e, e]), 'J');
-    } else if (kind === 'monitor') {
-      const [, columns, unit] = MONITOR.find(([w]) => w === what)!;
-      this.showColumns(columns.map((c) => [`${name}.${c}`, c]), unit);
-    } else if (kind === 'convergence') {
-      this.showColumns([[`${name}.convergence`, name]], 'm');
-    } else if (kind !== '') {
-      this.showColumns([[kind, kind]], '');
-    } else {
-      this.plot.hide();
-    }
+    const show = this.drawn.get(this.select_.value);
+    if (show !== undefined) show();
+    else this.plot.hide();
   }
 
   private showColumns(columns: [string, string][], unit: string): void {

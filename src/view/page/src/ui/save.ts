@@ -1,4 +1,4 @@
-// The drawing as a picture file: title, blocks, marks and legend, at the screen's resolution.
+// The drawing as a picture file: title, blocks, marks and legend.
 import type { View } from '../scene/view';
 
 export function savePicture(name: string, view: View, ratio: number, title: string, paper: string, ink: string,
@@ -16,7 +16,7 @@ export function savePicture(name: string, view: View, ratio: number, title: stri
   g.font = '600 15px system-ui, "DejaVu Sans", sans-serif';
   g.fillText(title, 12, 22, width - 24);
   g.translate(0, head);
-  view.copyTo(g, 0, 0, width, height);
+  view.copyTo(g, 0, 0, width, height, ratio);
   paint(g);
   canvas.toBlob((blob) => {
     const link = document.createElement('a');

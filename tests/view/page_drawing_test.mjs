@@ -1,0 +1,239 @@
+// What the replay page draws, in a real browser: colours, places, strokes, and the picture that it saves.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { test } from 'node:test';
+import { choose, clickAt, faults, page, settled, shownValues, table } from './page_tools.mjs';
+
+const ink = (p, x, y) =>
+  p.evaluate(([a, b]) => {
+    const [px, py] = edda.pixelOf(a, b);
+    const copy = document.createElement('canvas');
+    [copy.width, copy.height] = [edda.view.camera.width, edda.view.camera.height];
+    const g = copy.getContext('2d');
+    edda.view.copyTo(g, 0, 0, copy.width, copy.height);
+    return [...g.getImageData(Math.round(px), Math.round(py), 1, 1).data].slice(0, 3);
+  }, [x, y]);
+
+test('paints blocks in the colour of their value', async () => {
+  const p = await page('cavern.html');
+  await p.locator('#edges').uncheck();
+  await p.locator('#marks').uncheck();
+  for (const field of ['displacement', 'principal_stress.minor', 'rotation', 'velocity.y', 'stress.xx']) {
+    await choose(p, 'field', field);
+    for (const row of table('cavern/blocks.csv').filter((_, k) => k % 37 === 5)) {
+      await clickAt(p, Number(row.x), Number(row.y));
+      const expected = await p.evaluate((f) => {
+        const { scale } = edda;
+        const step = scale.step(edda.valueOf(f));
+        return [...scale.colours.subarray(3 * step, 3 * step + 3)];
+      }, field);
+      assert.deepEqual(await ink(p, Number(row.x), Number(row.y)), expected, `${field} of block ${row.id}`);
+    }
+  }
+  await p.close();
+});
+
+test('has white at nothing, whatever the range', async () => {
+  const p = await page('cavern.html');
+  await choose(p, 'field', 'displacement.y');
+  const scaleOf = () => p.evaluate(() => {
+    const { scale } = edda;
+    const colours = new Float32Array(1);
+    scale.paint(Float32Array.of(0), Uint8Array.of(0), [1, 2, 3], [1, 2, 3], colours);
+    return { palette: scale.palette, low: scale.low, high: scale.high, zero: scale.step(0), painted: colours[0], middle: [...scale.colours.subarray(384, 387)], steps: [scale.step(scale.low), scale.step(scale.high)] };
+  });
+  for (const range of ['run', 'frame', 'own']) {
+    await choose(p, 'range', range);
+    if (range === 'own') {
+      await p.locator('#low').fill('-30');
+      await p.locator('#high').fill('10');
+      await p.locator('#high').blur();
+    }
+    await p.waitForFunction(() => !edda.stale);
+    const s = await scaleOf();
+    assert.equal(s.palette, 'diverging', range);
+    assert.ok(s.low < 0 && s.high > 0 && Math.abs(s.low + s.high) > 0.01 * s.high, `${range}: ${s.low} to ${s.high}`);
+    assert.equal(s.zero, 128, range);
+    const [r, g, b] = s.middle;
+    assert.equal(s.painted, 65536 * r + 256 * g + b, range);
+    const larger = Math.max(-s.low, s.high);
+    [s.low, s.high].forEach((v, k) => assert.equal(s.steps[k], Math.floor(128 + (127.5 * v) / larger), `${range}: ${v}`));
+  }
+  await p.close();
+});
+
+test('magnifies displacements about the start', async () => {
+  const p = await page('cavern.html');
+  const row = table('cavern/blocks.csv').reduce((a, b) => (Math.hypot(a.ux, a.uy) > Math.hypot(b.ux, b.uy) ? a : b));
+  await p.evaluate(() => edda.controls.setMagnification(50));
+  const m = await p.evaluate(() => edda.controls.magnification);
+  assert.ok(Math.abs(m - 50) < 0.5, String(m));
+  await p.waitForFunction(() => !edda.stale);
+  await clickAt(p, Number(row.x) + (m - 1) * Number(row.ux), Number(row.y) + (m - 1) * Number(row.uy));
+  const shown = await shownValues(p);
+  assert.equal(shown.id.text, row.id);
+  assert.ok(Math.abs(shown.x.value - Number(row.x)) < 1e-6 * 30, 'positions stay what they are');
+  await p.close();
+});
+
+test('takes bolts along with magnified displacements', async () => {
+  const p = await page('tunnel.html');
+  const shift = () => p.evaluate(() => {
+    const { view, results, frame, controls } = edda;
+    const nodes = view.shown.bolts;
+    const at = view.boltPlaces.of(nodes, frame, results.datums[frame.datum], controls.magnification, view.pose);
+    return nodes.map((n, k) => ({ bolt: n.bolt, x: at[2 * k], y: at[2 * k + 1], row: view.pose.blockAt(at[2 * k], at[2 * k + 1]) }));
+  });
+  const plain = await shift();
+  assert.ok(plain.length > 10 && plain.filter((n) => n.row >= 0).length > 0.8 * plain.length);
+  const motion = await p.evaluate(() => edda.frame.motion.map((c) => Array.from(c)));
+  await p.evaluate(() => edda.controls.setMagnification(100));
+  await p.waitForFunction(() => !edda.stale);
+  const magnified = await shift();
+  const m = await p.evaluate(() => edda.controls.magnification);
+  let seen = 0;
+  plain.forEach((n, k) => {
+    if (n.row < 0) return;
+    const [dx, dy] = [motion[0][n.row], motion[1][n.row]].map((d) => (m - 1) * d);
+    const apart = Math.hypot(magnified[k].x - n.x - dx, magnified[k].y - n.y - dy);
+    assert.ok(apart < 0.3 * Math.hypot(dx, dy) + 0.05, `${n.bolt}: ${apart} of ${dx}, ${dy}`);
+    if (Math.hypot(dx, dy) > 0.1) ++seen;
+  });
+  assert.ok(seen > 5);
+  await p.close();
+});
+
+test('draws strokes along what they stand for', async () => {
+  const p = await page('cavern.html');
+  for (const id of ['forces', 'crosses']) await p.locator(`#${id}`).check();
+  await choose(p, 'vectors', 'displacement');
+  await p.waitForFunction(() => !edda.stale && !edda.overlayStale);
+  const found = await p.evaluate(() => {
+    const { view, frame, results: { mesh, run } } = edda;
+    // Each stroke is drawn twice, the second time with its colour.
+    const strokes = (layer) => Array.from({ length: layer.count / 2 }, (_, k) => ({ ends: [...layer.ends.subarray(8 * k + 4, 8 * k + 8)], colour: [...layer.colours.subarray(8 * k + 4, 8 * k + 7)] }));
+    const nearest = (x, y) => {
+      let best = 0;
+      for (let b = 0; b < mesh.blocks; ++b) {
+        const of = (i) => Math.hypot(view.pose.place[4 * i] - x, view.pose.place[4 * i + 1] - y);
+        if (of(b) < of(best)) best = b;
+      }
+      return { b: best, ux: frame.motion[0][best], uy: frame.motion[1][best], sxx: frame.sxx[best], syy: frame.syy[best], sxy: frame.sxy[best] };
+    };
+    const arrows = strokes(view.arrowStrokes).map((s) => ({ ...s, of: nearest(s.ends[0], s.ends[1]) }));
+    const crosses = strokes(view.crossStrokes).map((s) => ({ ...s, of: nearest(0.5 * (s.ends[0] + s.ends[2]), 0.5 * (s.ends[1] + s.ends[3])) }));
+    // The resultant of each block's contacts, as its strokes have it: on block i along the stroke, on j against it.
+    const forces = strokes(view.forceStrokes);
+    return { arrows, crosses, forces: forces.length, largest: run.fields.find((f) => f.name === 'displacement').range[1], usual: run.usual, tension: view.theme.tension, compression: view.theme.compression, size: view.blockSize };
+  });
+  assert.ok(found.arrows.length > 50 && found.crosses.length > 100 && found.forces > 100);
+  for (const { ends: [x0, y0, x1, y1], of } of found.arrows) {
+    const length = (2.5 * found.size) / found.largest;
+    for (const [drawn, u] of [[x1 - x0, of.ux], [y1 - y0, of.uy]]) assert.ok(Math.abs(drawn - length * u) < 1e-3 * found.size, `${drawn}, not ${length * u}`);
+  }
+  for (const { ends: [x0, y0, x1, y1], colour, of } of found.crosses) {
+    const size = Math.hypot(x1 - x0, y1 - y0);
+    if (size < 0.05 * found.size) continue;
+    const [nx, ny] = [(x1 - x0) / size, (y1 - y0) / size];
+    const across = of.sxx * nx * nx + 2 * of.sxy * nx * ny + of.syy * ny * ny;
+    const wanted = (0.8 * found.size * Math.min(Math.abs(across) / found.usual.stress, 4));
+    assert.ok(Math.abs(size - wanted) < 0.02 * found.size, `cross of ${size}, not ${wanted}`);
+    assert.deepEqual(colour, across > 0 ? found.tension : found.compression);
+  }
+  // Forces along the strokes must hold each block against its weight, or nearly: Newton's second law.
+  const law = await p.evaluate(() => {
+    const { view, frame, results: { mesh } } = edda;
+    const c = frame.contacts;
+    const sum = new Float64Array(2 * mesh.blocks);
+    const size = new Float64Array(mesh.blocks);
+    const layer = view.forceStrokes;
+    let stroke = 0;
+    const usual = edda.results.run.usual.force;
+    let against = 0;
+    for (let k = 0; k < c.normal.length; ++k) {
+      const force = Math.hypot(c.normal[k], c.shear[k]);
+      if (c.state[k] === 0 || force / usual <= 1e-3) continue;
+      const at = 8 * stroke++ + 4;
+      const [dx, dy] = [layer.ends[at + 2] - layer.ends[at], layer.ends[at + 3] - layer.ends[at + 1]];
+      const drawn = Math.hypot(dx, dy);
+      const [fx, fy] = [(force * dx) / drawn, (force * dy) / drawn];
+      const { i, j } = { i: c.i[k], j: c.j[k] };
+      for (const [b, sign] of [[i, 1], [j, -1]]) {
+        sum[2 * b] += sign * fx;
+        sum[2 * b + 1] += sign * fy;
+        size[b] += force;
+      }
+      // Compression pushes block i away from block j, or across the edge at least.
+      const [cx, cy] = [view.pose.place[4 * i] - view.pose.place[4 * j], view.pose.place[4 * i + 1] - view.pose.place[4 * j + 1]];
+      if (c.normal[k] > 0 && cx * dx + cy * dy < 0) ++against;
+    }
+    const rest = [];
+    for (let b = 0; b < mesh.blocks; ++b) if (!mesh.fixed[b] && size[b] > usual) rest.push(Math.hypot(sum[2 * b], sum[2 * b + 1]) / size[b]);
+    rest.sort((a, b) => a - b);
+    return { strokes: stroke, against, median: rest[rest.length >> 1], blocks: rest.length };
+  });
+  assert.ok(law.strokes > 100 && law.against < 0.05 * law.strokes, JSON.stringify(law));
+  assert.ok(law.blocks > 30 && law.median < 0.15, JSON.stringify(law));
+  // One scale for all frames: what moved less has shorter arrows.
+  const longest = () => p.evaluate(() => {
+    const { count, ends } = edda.view.arrowStrokes;
+    return Math.max(0, ...Array.from({ length: count }, (_, k) => Math.hypot(ends[4 * k + 2] - ends[4 * k], ends[4 * k + 3] - ends[4 * k + 1])));
+  });
+  const end = await longest();
+  await p.locator('#scrub').fill('1');
+  await settled(p);
+  await p.waitForFunction(() => !edda.stale && edda.shown === 1);
+  assert.ok(await longest() < 0.9 * end);
+  await p.close();
+});
+
+test('moves and zooms under the pointer', async () => {
+  const p = await page('cavern.html');
+  const box = await p.locator('#overlay').boundingBox();
+  const at = () => p.evaluate(() => edda.view.camera.at(300, 200));
+  const held = await at();
+  await p.mouse.move(box.x + 300, box.y + 200);
+  const far = await p.evaluate(() => edda.view.camera.scale);
+  await p.mouse.wheel(0, -400);
+  await p.waitForFunction((s) => edda.view.camera.scale > 1.5 * s, far);
+  // The page may lie between pixels, and a wheel's place is a whole one.
+  (await at()).forEach((v, k) => assert.ok(Math.abs(v - held[k]) < 1 / far));
+  const before_ = await at();
+  await p.mouse.down();
+  await p.mouse.move(box.x + 350, box.y + 260);
+  await p.mouse.up();
+  const scale = await p.evaluate(() => edda.view.camera.scale);
+  const now = await p.evaluate(() => edda.view.camera.at(350, 260));
+  now.forEach((v, k) => assert.ok(Math.abs(v - before_[k]) < 0.1 / scale));
+  assert.equal(await p.evaluate(() => edda.selected), -1, 'a drag selects nothing');
+  await p.close();
+});
+
+test('saves a picture', async () => {
+  const p = await page('cavern.html');
+  // What is drawn counts, not what is still to come.
+  await p.evaluate(() => {
+    edda.controls.setMagnification(50);
+    const { draw } = edda.view;
+    Object.assign(window, { widths: [] });
+    edda.view.draw = () => {
+      window.widths.push(edda.view.canvas.width);
+      draw.call(edda.view);
+    };
+  });
+  await p.waitForFunction(() => !edda.stale);
+  assert.match(await p.evaluate(() => ((edda.player.index = 3), edda.pictureTitle())), /t = 0\.05 s +displacements \u00d7 49\.9$/);
+  const [download] = await Promise.all([p.waitForEvent('download'), p.click('#save')]);
+  assert.match(download.suggestedFilename(), /^Cavern.*-10\.png$/);
+  assert.ok((await p.evaluate(() => window.widths)).includes(2 * (await p.evaluate(() => edda.view.camera.width))), 'blocks are drawn as fine as the picture');
+  const bytes = readFileSync(await download.path());
+  assert.deepEqual([...bytes.subarray(1, 4)], [...Buffer.from('PNG')]);
+  const [width, height] = await p.evaluate(() => [edda.view.camera.width, edda.view.camera.height]);
+  assert.equal(bytes.readUInt32BE(16), 2 * width);
+  assert.equal(bytes.readUInt32BE(20), 2 * (height + 34));
+  await p.close();
+});
+
+test('nothing was said to the console, nothing asked of the network', () => {
+  assert.deepEqual(faults, []);
+});
