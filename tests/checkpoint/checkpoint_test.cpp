@@ -8,6 +8,7 @@
 #include "checkpoint/archive.hpp"
 #include "checkpoint/envelope.hpp"
 #include "checkpoint/hdf5_image.hpp"
+#include "scratch_folder.hpp"
 
 namespace edda::checkpoint_test {
 namespace {
@@ -115,9 +116,8 @@ TEST(Envelope, FindsEveryFlippedBitAndEveryLostByte) {
 }
 
 TEST(Envelope, KeepsTheOneBefore) {
-  const std::string folder = testing::TempDir() + "edda_checkpoint";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  const ScratchFolder scratch;
+  const std::string folder = scratch.path().string();
   std::string warning;
   EXPECT_FALSE(read_checkpoint(folder, warning).ok());
   for (const char* image : {"first", "second", "third"}) {
@@ -132,7 +132,6 @@ TEST(Envelope, KeepsTheOneBefore) {
   EXPECT_EQ(read_checkpoint(folder, warning).value(), "second");
   EXPECT_NE(warning.find("is damaged"), std::string::npos);
   EXPECT_TRUE(write_checkpoint(folder + "/not/there", "x"));
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "library/edda.hpp"
+#include "scratch_folder.hpp"
 
 namespace edda::api {
 
@@ -61,18 +62,10 @@ inline std::vector<double> positions(const Simulation& simulation) {
 
 class Library : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ =
-        std::filesystem::path(testing::TempDir()) / ("edda_library_" + std::string(test->name()));
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directory(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::string in_folder(const char* name) const { return (folder_ / name).string(); }
+  std::string in_folder(const char* name) const { return folder_.at(name); }
 
  private:
-  std::filesystem::path folder_;
+  ScratchFolder folder_;
 };
 
 inline Model ramp() {

@@ -3,13 +3,12 @@
 #include "lines/imports.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdio>
-#include <filesystem>
 
 #include "lines/checks.hpp"
 #include "lines/line_models.hpp"
+#include "scratch_folder.hpp"
 
 namespace edda::imports_test {
 namespace {
@@ -19,20 +18,15 @@ using namespace test;
 /// A file that is gone with the test.
 class File {
  public:
-  File(const std::string& name, const std::string& text)
-      : path_((std::filesystem::temp_directory_path() /
-               ("edda-" + std::to_string(getpid()) + '-' + name))
-                  .string()) {
+  File(const std::string& name, const std::string& text) : path_(folder_.at(name)) {
     std::FILE* file = std::fopen(path_.c_str(), "wb");
     std::fwrite(text.data(), 1, text.size(), file);
     std::fclose(file);
   }
-  ~File() { std::filesystem::remove(path_); }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
   const std::string& path() const { return path_; }
 
  private:
+  ScratchFolder folder_;
   std::string path_;
 };
 

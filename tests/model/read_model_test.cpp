@@ -9,6 +9,7 @@
 
 #include "model/base_model.hpp"
 #include "model/complete.hpp"
+#include "scratch_folder.hpp"
 
 namespace edda::read_model_test {
 namespace {
@@ -182,18 +183,9 @@ TEST(ReadModel, BlockEstimateCountsCellsOfAGrid) {
 
 class ModelFile : public ::testing::Test {
  protected:
-  ModelFile() {
-    folder = std::filesystem::path(::testing::TempDir()) /
-             ("edda_model_" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
-              "_" + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(folder);
-  }
-  ~ModelFile() override { std::filesystem::remove_all(folder); }
-
   std::string write(const std::string& name, const std::string& text) const {
-    const std::filesystem::path path = folder / name;
-    std::ofstream(path, std::ios::binary) << text;
-    return path.string();
+    std::ofstream(folder.path() / name, std::ios::binary) << text;
+    return folder.at(name);
   }
   static Fault only_fault(const std::string& path) {
     const Result<Model> result = read_model(path);
@@ -205,7 +197,7 @@ class ModelFile : public ::testing::Test {
     return result.faults()[0];
   }
 
-  std::filesystem::path folder;
+  ScratchFolder folder;
 };
 
 TEST_F(ModelFile, IsRead) {
@@ -217,9 +209,9 @@ TEST_F(ModelFile, IsRead) {
 }
 
 TEST_F(ModelFile, CannotBeRead) {
-  EXPECT_EQ(only_fault((folder / "none.toml").string()).problem, "no such file");
+  EXPECT_EQ(only_fault(folder.at("none.toml")).problem, "no such file");
   EXPECT_EQ(only_fault("").problem, "no such file");
-  EXPECT_EQ(only_fault(folder.string()).problem, "is a folder, not a file");
+  EXPECT_EQ(only_fault(folder.path().string()).problem, "is a folder, not a file");
   EXPECT_EQ(only_fault(write("empty.toml", "")).problem, "is empty");
   EXPECT_EQ(only_fault(write("large.toml", std::string((64U << 20U) + 1, '\n'))).problem,
             "is larger than 64 MiB");

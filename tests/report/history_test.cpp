@@ -7,6 +7,7 @@
 #include "report/history_plot.hpp"
 #include "report/peaks.hpp"
 #include "report/picture_reading.hpp"
+#include "scratch_folder.hpp"
 
 namespace edda::history_test {
 namespace {
@@ -21,11 +22,9 @@ Table small_history() {
 }
 
 std::string drawn(const HistoryPicture& picture) {
-  const std::string path = testing::TempDir() + "history.svg";
-  EXPECT_FALSE(plot_history(picture, path));
-  const std::string svg = read_file(path).value();
-  std::filesystem::remove(path);
-  return svg;
+  const ScratchFolder folder;
+  EXPECT_FALSE(plot_history(picture, folder.at("history.svg")));
+  return read_file(folder.at("history.svg")).value();
 }
 
 HistoryPicture picture_of(const Table& table, const std::vector<std::string>& names) {

@@ -7,6 +7,7 @@
 #include "report/picture_reading.hpp"
 #include "report/scene.hpp"
 #include "report/two_blocks.hpp"
+#include "scratch_folder.hpp"
 
 namespace edda::plot_test {
 namespace {
@@ -19,12 +20,9 @@ Snapshot snapshot(const std::string& field) {
 
 std::string drawn(std::span<const Snapshot> shots, const PlotOptions& options,
                   const std::string& name = "plot.svg") {
-  const std::string path = testing::TempDir() + name;
-  std::filesystem::remove(path);
-  EXPECT_FALSE(plot(shots, options, path));
-  const std::string bytes = read_file(path).value();
-  std::filesystem::remove(path);
-  return bytes;
+  const ScratchFolder folder;
+  EXPECT_FALSE(plot(shots, options, folder.at(name)));
+  return read_file(folder.at(name)).value();
 }
 
 TEST(Plot, DrawsAllFormatsWithTextAsText) {
@@ -45,7 +43,7 @@ TEST(Plot, DrawsAllFormatsWithTextAsText) {
 
 TEST(Plot, TellsOfAFileThatCannotBeWritten) {
   const Snapshot shot = snapshot("none");
-  EXPECT_TRUE(plot({&shot, 1}, {}, testing::TempDir() + "none/x.png"));
+  EXPECT_TRUE(plot({&shot, 1}, {}, ScratchFolder().at("none/x.png")));
 }
 
 TEST(Plot, UnknownFieldsNameTheKnown) {
@@ -122,10 +120,11 @@ TEST(Plot, TakesAnyTitle) {
 }
 
 TEST(Plot, TellsOfAPictureThatCannotBeDrawn) {
-  Canvas canvas(testing::TempDir() + "none.png", 10.0, 10.0, 1.0);
+  const ScratchFolder folder;
+  Canvas canvas(folder.at("none.png"), 10.0, 10.0, 1.0);
   cairo_restore(canvas.cr());  // nothing was saved
   EXPECT_TRUE(canvas.finish());
-  EXPECT_FALSE(std::filesystem::exists(testing::TempDir() + "none.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder.at("none.png")));
 }
 
 TEST(Plot, NamesOfLinesStayInTheDrawing) {

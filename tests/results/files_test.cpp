@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "results/vtu.hpp"
+#include "scratch_folder.hpp"
 
 namespace edda::files_test {
 namespace {
@@ -15,19 +16,12 @@ namespace fs = std::filesystem;
 
 class Folder : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    root = fs::path(testing::TempDir()) / (std::string("edda_") + info->name());
-    fs::remove_all(root);
-    fs::create_directories(root);
-  }
-  void TearDown() override { fs::remove_all(root); }
-  std::string at(const std::string& name) const { return (root / name).string(); }
+  std::string at(const std::string& name) const { return root.at(name); }
   void touch(const std::string& name) const {
-    fs::create_directories((root / name).parent_path());
-    std::ofstream(root / name) << "x";
+    fs::create_directories(fs::path(at(name)).parent_path());
+    std::ofstream(at(name)) << "x";
   }
-  fs::path root;
+  ScratchFolder root;
 };
 
 TEST_F(Folder, TakesAnEarlierRunsFilesAndNothingElse) {
@@ -47,7 +41,7 @@ TEST_F(Folder, TakesAnEarlierRunsFilesAndNothingElse) {
 
 TEST_F(Folder, NeverTakesTheOneThatHoldsTheModel) {
   touch("model.toml");
-  EXPECT_TRUE(check_folder(root.string(), at("model.toml")));
+  EXPECT_TRUE(check_folder(root.path().string(), at("model.toml")));
 }
 
 TEST_F(Folder, ClearingLeavesAnEmptyFrames) {

@@ -7,16 +7,15 @@
 
 #include "results/csv.hpp"
 #include "results/files.hpp"
+#include "scratch_folder.hpp"
 
 namespace edda::read_table_test {
 namespace {
 
 Result<Table> read(const std::string& text) {
-  const std::string path = testing::TempDir() + "table.csv";
-  EXPECT_FALSE(write_file(path, text));
-  Result<Table> table = read_table(path);
-  std::filesystem::remove(path);
-  return table;
+  const ScratchFolder folder;
+  EXPECT_FALSE(write_file(folder.at("table.csv"), text));
+  return read_table(folder.at("table.csv"));
 }
 
 TEST(ReadTable, ReadsBackWhatCsvWrites) {
@@ -60,7 +59,7 @@ TEST(ReadTable, RefusesRowsOfOtherLengths) {
   const Result<Table> table = read("a,b\n1,2\n3\n");
   ASSERT_FALSE(table.ok());
   EXPECT_EQ(table.faults()[0].where.line, 3);
-  EXPECT_FALSE(read_table(testing::TempDir() + "none.csv").ok());
+  EXPECT_FALSE(read_table(ScratchFolder().at("none.csv")).ok());
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "model/read_model.hpp"
 #include "results/files.hpp"
+#include "scratch_folder.hpp"
 
 namespace edda::run_model_test {
 namespace {
@@ -47,13 +48,6 @@ Result<PreparedRun> prepared(const std::string& toml, const std::vector<std::str
   return prepare_run(std::move(model.value()));
 }
 
-std::string folder_of_test() {
-  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  const std::string folder = testing::TempDir() + "edda_run_" + info->name();
-  fs::remove_all(folder);
-  return folder;
-}
-
 std::vector<std::vector<std::string>> table(const std::string& path) {
   std::ifstream in(path);
   std::vector<std::vector<std::string>> rows;
@@ -66,7 +60,8 @@ std::vector<std::vector<std::string>> table(const std::string& path) {
 }
 
 TEST(RunModel, RowsAtEveryMultipleWithVelocitiesOfTheirTime) {
-  const std::string folder = folder_of_test();
+  const ScratchFolder scratch;
+  const std::string folder = scratch.at("out");
   Result<PreparedRun> run = prepared(falling);
   ASSERT_TRUE(run.ok());
   const Result<Outcome> outcome = run_model(run.value(), {.folder = folder, .progress = {}});
@@ -93,11 +88,11 @@ TEST(RunModel, RowsAtEveryMultipleWithVelocitiesOfTheirTime) {
     frames += entry.path().filename().string().starts_with("blocks_");
   }
   EXPECT_EQ(frames, 3);
-  fs::remove_all(folder);
 }
 
 TEST(RunModel, StopFlagEndsItWithEverythingWritten) {
-  const std::string folder = folder_of_test();
+  const ScratchFolder scratch;
+  const std::string folder = scratch.at("out");
   Result<PreparedRun> run = prepared(falling);
   ASSERT_TRUE(run.ok());
   std::atomic<bool> stop{false};
@@ -116,7 +111,6 @@ TEST(RunModel, StopFlagEndsItWithEverythingWritten) {
   }
   const auto rows = table(folder + "/history.csv");
   EXPECT_EQ(std::stod(rows.back()[0]), outcome.value().time);
-  fs::remove_all(folder);
 }
 
 TEST(RunModel, GivenStepAboveTheBoundIsRefusedWithTheBound) {
@@ -129,7 +123,8 @@ TEST(RunModel, GivenStepAboveTheBoundIsRefusedWithTheBound) {
 }
 
 TEST(RunModel, UnstableStepFailsWithBlockPlaceTimeAndCause) {
-  const std::string folder = folder_of_test();
+  const ScratchFolder scratch;
+  const std::string folder = scratch.at("out");
   const Result<PreparedRun> stable = prepared(falling);
   ASSERT_TRUE(stable.ok());
   const std::string step = fmt::format("{}", 3.0 * stable.value().sim.bound.critical_step);
@@ -146,7 +141,6 @@ TEST(RunModel, UnstableStepFailsWithBlockPlaceTimeAndCause) {
   EXPECT_NE(message.find("above the critical step"), std::string::npos) << message;
   EXPECT_TRUE(fs::exists(folder + "/summary.json"));
   EXPECT_GE(table(folder + "/history.csv").size(), 2u);
-  fs::remove_all(folder);
 }
 
 TEST(RunModel, MonitorsOutsideEveryBlockAreFaults) {

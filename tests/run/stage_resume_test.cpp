@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "run/prepared.hpp"
+#include "scratch_folder.hpp"
 
 namespace edda::stage_resume_test {
 namespace {
@@ -100,14 +101,6 @@ std::string text_of(const fs::path& path) {
   return text.str();
 }
 
-struct Folder {
-  explicit Folder(const char* name) : path(fs::temp_directory_path() / name) {
-    fs::remove_all(path);
-  }
-  ~Folder() { fs::remove_all(path); }
-  fs::path path;
-};
-
 void expect_same_results(const fs::path& a, const fs::path& b) {
   for (const char* file : {"history.csv", "blocks.csv", "joints.csv", "stages.csv", "bolts.csv",
                            "reactions.csv", "joints_0.csv", "joints_1.csv"}) {
@@ -118,25 +111,25 @@ void expect_same_results(const fs::path& a, const fs::path& b) {
 
 /// From the end of each stage, and from the middle of one.
 TEST(StageResume, ResumesToTheSameBits) {
-  const Folder whole("edda_stages_whole"), broken("edda_stages_broken");
+  const ScratchFolder whole, broken;
   RunOptions options;
-  options.folder = whole.path.string();
+  options.folder = whole.path().string();
   PreparedRun first = prepared(everything);
   const Result<Outcome> outcome = run_model(first, options);
   ASSERT_TRUE(outcome.ok());
   ASSERT_EQ(outcome.value().status, Status::completed) << outcome.value().message;
   for (const std::size_t stage : {0u, 1u}) {
-    fs::remove_all(broken.path);
-    fs::copy(whole.path, broken.path, fs::copy_options::recursive);
-    options.folder = broken.path.string();
+    fs::remove_all(broken.path());
+    fs::copy(whole.path(), broken.path(), fs::copy_options::recursive);
+    options.folder = broken.path().string();
     options.from_stage = stage;
     PreparedRun again = prepared(everything);
     const Result<Outcome> resumed = run_model(again, options);
     ASSERT_TRUE(resumed.ok()) << to_string(resumed.faults()[0]);
-    expect_same_results(whole.path, broken.path);
+    expect_same_results(whole.path(), broken.path());
   }
   options.from_stage.reset();
-  fs::remove_all(broken.path);
+  fs::remove_all(broken.path());
   std::atomic<bool> stop{false};
   options.stop = &stop;
   options.progress_every = 0.0;
@@ -153,14 +146,14 @@ TEST(StageResume, ResumesToTheSameBits) {
   PreparedRun again = prepared(everything);
   const Result<Outcome> resumed = run_model(again, options);
   ASSERT_TRUE(resumed.ok()) << to_string(resumed.faults()[0]);
-  expect_same_results(whole.path, broken.path);
+  expect_same_results(whole.path(), broken.path());
 }
 
 /// Later stages may change; what came before may not.
 TEST(StageResume, GoesOnFromAStageWithOtherStagesBehindIt) {
-  const Folder folder("edda_stages_other");
+  const ScratchFolder folder;
   RunOptions options;
-  options.folder = folder.path.string();
+  options.folder = folder.path().string();
   PreparedRun first = prepared(everything);
   ASSERT_TRUE(run_model(first, options).ok());
   options.from_stage = 1;

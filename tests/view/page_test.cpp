@@ -11,6 +11,7 @@
 #include <random>
 
 #include "results/vtu.hpp"
+#include "scratch_folder.hpp"
 #include "view/frames_of.hpp"
 
 namespace edda::page_test {
@@ -22,13 +23,7 @@ const std::vector<TestBlock> two{{0, {{0, 0}, {2, 0}, {2, 1}, {0, 1}}, false},
 /// A results folder of its own, with `frames` frames of blocks that sink by 1 mm each.
 class ViewPage : public testing::Test {
  protected:
-  ViewPage()
-      : folder_(testing::TempDir() + "view_page_" +
-                testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_ + "/frames");
-  }
-  ~ViewPage() override { std::filesystem::remove_all(folder_); }
+  ViewPage() { std::filesystem::create_directories(folder_ + "/frames"); }
 
   /// With `more` blocks beside them, which move at random in frames that are `restless`.
   void write_frames(
@@ -76,7 +71,8 @@ class ViewPage : public testing::Test {
     return n;
   }
 
-  std::string folder_;
+  const ScratchFolder scratch_;
+  const std::string folder_ = scratch_.path().string();
   std::vector<SeriesEntry> series_;
 };
 
