@@ -1,5 +1,6 @@
 // edda check
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <chrono>
@@ -7,11 +8,13 @@
 #include <memory>
 
 #include "app/common.hpp"
+#include "base/threads.hpp"
 #include "results/json.hpp"
 #include "run/initial_stress_report.hpp"
 #include "run/labels.hpp"
 #include "run/load_report.hpp"
 #include "run/run_model.hpp"
+#include "run/stages.hpp"
 
 namespace edda {
 namespace {
@@ -25,7 +28,11 @@ struct CheckArguments {
 /// What a check finds out.
 struct Check {
   std::vector<std::string> loads, initial_stress;
-  double step = 0.0, steps = 0.0;                 ///< s; to expect
+  double step = 0.0;           ///< s: the first
+  double step_as_given = 0.0;  ///< s: in stages without static masses, where there are any
+  double static_step = 0.0;    ///< s: in stages with static masses, where there are any
+  double steps = 0.0;          ///< to expect; at most, where stages end at an equilibrium
+  bool at_most = false;
   double rate = 0.0;                              ///< steps per second of wall time
   std::size_t closed = 0, within_reach = 0;       ///< contacts, at the start
   double critical_step = 0.0, likely_step = 0.0;  ///< s, at the start
@@ -37,11 +44,16 @@ double step_rate(Simulation& sim, double seconds) {
   const auto start = Clock::now();
   double wall = 0.0;
   std::uint64_t steps = 0;
+  const SameThreads afterwards;
+  ThreadChoice threads(threads_are_said() ? 1 : omp_get_max_threads());
   while (steps < 2 || (wall < seconds && steps < 2000)) {
     if (sim.state.time >= sim.model.solver.duration) break;
+    if (!threads_are_said()) omp_set_num_threads(threads.now());
     if (sim.step()) break;
     ++steps;
+    const double before = wall;
     wall = std::chrono::duration<double>(Clock::now() - start).count();
+    threads.stepped(wall - before);
   }
   return wall > 0.0 ? static_cast<double>(steps) / wall : 0.0;
 }
@@ -60,9 +72,23 @@ Check look_at(Simulation& sim) {
   found.likely_step = sim.bound.likely_step;
   found.loads = load_report(sim);
   found.initial_stress = initial_stress_report(sim);
+  const std::vector<Stage> stages = stages_of(sim.model);
+  const auto is_static = [](const Stage& s) { return s.masses == StageMasses::uniform_step; };
+  if (!std::all_of(stages.begin(), stages.end(), is_static)) found.step_as_given = sim.step_limit;
+  if (std::any_of(stages.begin(), stages.end(), is_static))
+    found.static_step = sim.model.solver.safety * sim.uniform_step();
+  sim.scale_masses(stages.front().masses);
+  sim.change_damping(stages.front().damping,
+                     sim.model.solver.dynamic && stages.front().until != StageEnd::equilibrium);
   sim.start(std::min(sim.model.output.history_every, sim.model.solver.duration));
   found.step = sim.state.step;
-  found.steps = std::max(1.0, std::ceil(sim.model.solver.duration / found.step - 1e-9));
+  for (const Stage& stage : stages) {
+    const double step = &stage == &stages.front() ? found.step
+                        : is_static(stage)        ? found.static_step
+                                                  : found.step_as_given;
+    found.steps += std::max(1.0, std::ceil(stage.duration / step - 1e-9));
+    found.at_most = found.at_most || stage.until == StageEnd::equilibrium;
+  }
   found.rate = step_rate(sim, 0.5);
   return found;
 }
@@ -96,9 +122,19 @@ void print_step(const Simulation& sim, const Check& found) {
       : !sim.explicit_method()
           ? "as long as nothing moves too far in it; it is cut where needed"
           : fmt::format("{:.2g} of the smaller, or a little less", sim.model.solver.safety);
-  fmt::print("step            {:.6g} s ({}), so about {:.0f} steps for {:.6g} s\n", found.step,
-             of_what, found.steps, sim.model.solver.duration);
-  fmt::print("time to expect  {} at {:.3g} steps per second\n",
+  if (found.static_step > 0.0) {
+    fmt::print(
+        "step            about {:.3g} s in stages with static masses, which all blocks allow{}\n",
+        found.static_step,
+        found.step_as_given > 0.0 ? fmt::format("; {:.3g} s in others", found.step_as_given)
+                                  : std::string{});
+  } else {
+    fmt::print("step            {:.6g} s ({})\n", found.step, of_what);
+  }
+  fmt::print("steps           {} {:.0f} for {:.6g} s{}\n", found.at_most ? "at most" : "about",
+             found.steps, sim.model.solver.duration,
+             found.at_most ? ": stages end as soon as all is at rest" : "");
+  fmt::print("time to expect  {}{} at {:.3g} steps per second\n", found.at_most ? "at most " : "",
              duration_text(found.steps / found.rate), found.rate);
 }
 
@@ -158,7 +194,10 @@ void print_object(const PreparedRun& run, const Check& found) {
   add_texts(json, "loads", found.loads);
   add_texts(json, "initial_stress", found.initial_stress);
   json.pair("duration", sim.model.solver.duration).pair("time_step", found.step);
-  json.pair("steps", found.steps).pair("steps_per_second", found.rate);
+  if (found.static_step > 0.0) json.pair("static_time_step", found.static_step);
+  json.pair("at_most", found.at_most)
+      .pair("steps", found.steps)
+      .pair("steps_per_second", found.rate);
   json.pair("seconds", found.steps / found.rate);
   add_texts(json, "warnings", run.warnings);
   fmt::print("{}\n", json.close().line());

@@ -1,7 +1,6 @@
 #include "app/common.hpp"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cctype>
@@ -11,6 +10,7 @@
 #include <filesystem>
 
 #include "app/json_lines.hpp"
+#include "base/threads.hpp"
 #include "model/read_model.hpp"
 #include "results/machine.hpp"
 #include "run/size_limits.hpp"
@@ -83,9 +83,10 @@ void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
 
 void add_threads(CLI::App& command) {
   command
-      .add_option_function<int>(
-          "--threads", [](int n) { omp_set_num_threads(n); },
-          "Threads to use (default: all cores); results do not depend on it")
+      .add_option_function<int>("--threads", say_threads,
+                                "Threads to use (default: up to all cores, as many as are "
+                                "quickest); results do not depend on "
+                                "it")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
 }

@@ -42,7 +42,7 @@ std::string stage_text(const Progress& p) {
 /// Its parts in the order of their importance.
 std::vector<std::string> parts_of(const Progress& p) {
   return {percent(p),
-          duration_text(p.seconds_left) + " left",
+          duration_text(p.seconds_left) + (p.at_most ? " left at most" : " left"),
           stage_text(p),
           fmt::format("t {:.4g} s", p.time),
           fmt::format("{:.3g} steps/s", p.rate),

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <filesystem>
+
 #include "app/common.hpp"
 #include "app/json_lines.hpp"
 #include "app/progress.hpp"
@@ -58,8 +60,13 @@ class ForPeople : public RunReport {
     fmt::print("{}: {}\n", status_name(o.status), o.message);
     fmt::print("  {:.6g} s in {} steps, {} of wall time; {} contacts closed at the end\n", o.time,
                o.steps, duration_text(o.wall.total), o.contacts);
-    fmt::print("  energy drift {:.2g}; results in {}/ (summary.json says it all)\n", o.ledger.drift,
-               folder);
+    for (const std::string& check : o.failed_checks) {
+      fmt::print("  a check does not hold: {}\n", check);
+    }
+    fmt::print("  energy drift {:.2g}{}\n", o.ledger.drift,
+               std::filesystem::is_directory(folder)
+                   ? fmt::format("; results in {}/ (summary.json says it all)", folder)
+                   : std::string{});
   }
 
  private:
@@ -102,7 +109,9 @@ class ForMachines : public RunReport {
       json.null();
     }
     json.pair("stage", p.stage).pair("stages", p.stages).pair("stage_name", p.stage_name);
-    json.pair("kinetic", p.kinetic).pair("largest_velocity", p.largest_velocity);
+    json.pair("at_most", p.at_most)
+        .pair("kinetic", p.kinetic)
+        .pair("largest_velocity", p.largest_velocity);
     json.pair("largest_overlap", p.largest_overlap);
     print_line(json);
   }
@@ -120,7 +129,12 @@ class ForMachines : public RunReport {
     Json json = event("end");
     json.pair("status", status_name(o.status)).pair("exit_code", code).pair("message", o.message);
     json.pair("folder", folder).pair("time", o.time).pair("steps", o.steps);
-    json.pair("contacts", o.contacts).pair("drift", o.ledger.drift);
+    json.pair("contacts", o.contacts)
+        .pair("drift", o.ledger.drift)
+        .key("failed_checks")
+        .open_list();
+    for (const std::string& check : o.failed_checks) json.value(check);
+    json.close();
     json.pair("wall_seconds", o.wall.total);
     print_line(json);
   }

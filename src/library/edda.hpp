@@ -308,7 +308,8 @@ class EDDA_API Simulation {
 };
 
 /// Threads that each simulation of this process uses from its next call on, whichever thread makes
-/// it (default: all cores); results do not depend on it.
+/// it (default: up to all cores, as many as are quickest); results do not depend on it. Error: less
+/// than 1.
 EDDA_API void set_threads(int threads);
 
 }  // namespace edda::api

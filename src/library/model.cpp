@@ -4,6 +4,7 @@
 #include <atomic>
 #include <iterator>
 
+#include "base/threads.hpp"
 #include "library/impl.hpp"
 #include "lines/build_polygons.hpp"
 #include "model/read_model.hpp"
@@ -151,7 +152,7 @@ Cut cut(const Model& model) {
 void set_threads(int threads) {
   if (threads < 1) raise("set_threads", "less than one thread", "give 1 or more");
   threads_wanted = threads;
-  use_threads();
+  say_threads(threads);
 }
 
 void use_threads() {

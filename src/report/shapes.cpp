@@ -7,16 +7,12 @@
 namespace edda {
 namespace {
 
-std::size_t begin_of(const Grid& g, std::size_t cell) {
-  return cell == 0 ? 0 : static_cast<std::size_t>(g.ends[cell - 1]);
-}
-
 using Edge = std::pair<std::int64_t, std::int64_t>;
 
 std::vector<Edge> outline_of(const Grid& g, std::size_t first, std::size_t end) {
   std::vector<Edge> edges;
   for (std::size_t c = first; c < end; ++c) {
-    const std::size_t from = begin_of(g, c), to = static_cast<std::size_t>(g.ends[c]);
+    const std::size_t from = g.begin(c), to = static_cast<std::size_t>(g.ends[c]);
     for (std::size_t k = from; k < to; ++k) {
       edges.emplace_back(g.corners[k], g.corners[k + 1 == to ? from : k + 1]);
     }
@@ -36,7 +32,7 @@ std::vector<std::vector<std::int64_t>> rings_of(const std::vector<Edge>& edges) 
   std::multimap<std::int64_t, std::int64_t> next(edges.begin(), edges.end());
   std::vector<std::vector<std::int64_t>> rings;
   while (!next.empty()) {
-    std::vector<std::int64_t>& ring = rings.emplace_back();
+    std::vector<std::int64_t> ring;
     auto at = next.begin();
     while (at != next.end()) {
       ring.push_back(at->first);
@@ -44,6 +40,7 @@ std::vector<std::vector<std::int64_t>> rings_of(const std::vector<Edge>& edges) 
       next.erase(at);
       at = next.find(to);
     }
+    rings.push_back(std::move(ring));
   }
   return rings;
 }
@@ -83,7 +80,7 @@ std::vector<Vec2> drawn_points(const Grid& g, double scale) {
 }
 
 Vec2 centre_of(const Grid& g, const BlockShape& shape, const std::vector<Vec2>& points) {
-  const Vec2 base = points[static_cast<std::size_t>(g.corners[begin_of(g, shape.first_cell)])];
+  const Vec2 base = points[static_cast<std::size_t>(g.corners[g.begin(shape.first_cell)])];
   Vec2 moment;
   double twice = 0.0;
   for (const auto& [a, b] : shape.outline) {
@@ -100,7 +97,7 @@ Follower::Follower(const Grid& grid, std::vector<Vec2> from, const std::vector<V
   bounds_.reserve(grid.cell_count());
   for (std::size_t c = 0; c < grid.cell_count(); ++c) {
     Bounds b{{1e300, 1e300}, {-1e300, -1e300}};
-    for (std::size_t k = begin_of(grid, c); k < static_cast<std::size_t>(grid.ends[c]); ++k) {
+    for (std::size_t k = grid.begin(c); k < static_cast<std::size_t>(grid.ends[c]); ++k) {
       const Vec2 p = from_[static_cast<std::size_t>(grid.corners[k])];
       b.low = {std::min(b.low.x, p.x), std::min(b.low.y, p.y)};
       b.high = {std::max(b.high.x, p.x), std::max(b.high.y, p.y)};
@@ -111,7 +108,7 @@ Follower::Follower(const Grid& grid, std::vector<Vec2> from, const std::vector<V
 }
 
 std::optional<Vec2> Follower::within(std::size_t cell, Vec2 start) const {
-  const std::size_t from = begin_of(grid_, cell), to = static_cast<std::size_t>(grid_.ends[cell]);
+  const std::size_t from = grid_.begin(cell), to = static_cast<std::size_t>(grid_.ends[cell]);
   const auto a = static_cast<std::size_t>(grid_.corners[from]);
   for (std::size_t k = from + 1; k + 1 < to; ++k) {
     const auto b = static_cast<std::size_t>(grid_.corners[k]),

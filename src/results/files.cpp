@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -36,14 +37,11 @@ Fault cannot_write(const std::string& path, int error) {
 
 namespace {
 
-constexpr std::array known_files{"summary.json",  "stages.csv",
-                                 "history.csv",   "blocks.csv",
-                                 "joints.csv",    "blocks.pvd",
-                                 "contacts.pvd",  "model.toml",
-                                 "checkpoint.h5", "checkpoint.previous.h5",
-                                 "stages.csv",    "bolts.csv",
-                                 "reactions.csv", "fos.csv",
-                                 "mechanism.csv", "mechanism_joints.csv",
+constexpr std::array known_files{"summary.json",  "history.csv",   "blocks.csv",
+                                 "joints.csv",    "blocks.pvd",    "contacts.pvd",
+                                 "model.toml",    "checkpoint.h5", "checkpoint.previous.h5",
+                                 "stages.csv",    "bolts.csv",     "reactions.csv",
+                                 "fos.csv",       "mechanism.csv", "mechanism_joints.csv",
                                  "mechanism.png", "mechanism.svg"};
 
 bool starts_with_and_is(const std::string& name, std::string_view start, std::string_view end) {
@@ -62,11 +60,23 @@ bool is_result(const fs::directory_entry& entry) {
          starts_with_and_is(name, "checkpoint_", ".h5");
 }
 
+/// The number of a frame's file, such as 12 of contacts_000012.vtu.
+std::optional<std::size_t> number_of_frame(const std::string& name) {
+  constexpr std::string_view end = ".vtu";
+  for (const std::string_view start : {"blocks_", "contacts_"}) {
+    if (!starts_with_and_is(name, start, end)) continue;
+    std::size_t number = 0;
+    const char* const last = name.data() + name.size() - end.size();
+    const auto [stop, error] = std::from_chars(name.data() + start.size(), last, number);
+    if (error == std::errc{} && stop == last) return number;
+  }
+  return {};
+}
+
 bool is_frame(const fs::directory_entry& entry) {
   std::string name = entry.path().filename().string();
   if (name.ends_with(".part")) name.resize(name.size() - 5);
-  return entry.is_regular_file() && (starts_with_and_is(name, "blocks_", ".vtu") ||
-                                     starts_with_and_is(name, "contacts_", ".vtu"));
+  return entry.is_regular_file() && number_of_frame(name);
 }
 
 /// All that is in the folder, or the first entry that no run has written.
@@ -206,7 +216,13 @@ Trouble RowFile::close() {
 
 Trouble check_folder(const std::string& folder, const std::string& input) {
   std::error_code error;
-  if (!fs::exists(folder, error)) return {};
+  if (!fs::exists(folder, error)) {
+    fs::path above = fs::absolute(folder, error).lexically_normal();
+    while (above.has_relative_path() && !fs::exists(above, error)) above = above.parent_path();
+    if (::access(above.c_str(), W_OK | X_OK) == 0 && fs::is_directory(above, error)) return {};
+    return cannot("made", folder, above.string() + " is no folder that may be written to",
+                  "name another folder with -o");
+  }
   if (!fs::is_directory(folder, error)) {
     return cannot("used for results", folder, "it is no folder", "name another with -o");
   }
@@ -261,9 +277,7 @@ Trouble forget_end(const std::string& folder, std::size_t frames) {
   for (const fs::path& file : content.files) {
     const std::string name = file.filename().string();
     if (name.ends_with(".part")) fs::remove(file, error);
-    const auto digits = name.find_first_of("0123456789");
-    if (file.extension() != ".vtu" || digits == std::string::npos) continue;
-    if (std::stoull(name.substr(digits)) >= frames) fs::remove(file, error);
+    if (number_of_frame(name).value_or(0) >= frames) fs::remove(file, error);
   }
   return {};
 }

@@ -32,6 +32,10 @@ struct Grid {
 
   std::size_t point_count() const { return points.size() / 3; }
   std::size_t cell_count() const { return ends.size(); }
+  /// Where the points of a cell begin in `corners`.
+  std::size_t begin(std::size_t cell) const {
+    return cell == 0 ? 0 : static_cast<std::size_t>(ends[cell - 1]);
+  }
   /// The cell field of that name, or null.
   const Field* cell_field(const std::string& name) const;
   const Field* point_field(const std::string& name) const;

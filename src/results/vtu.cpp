@@ -1,5 +1,7 @@
 #include "results/vtu.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cstring>
@@ -147,12 +149,37 @@ bool read_array(std::string_view section, std::string_view tag, std::string_view
   return values_of(tag, bytes, g.types);
 }
 
+/// What readers of frames take for granted of the fields they know.
+struct KnownField {
+  std::string_view name;
+  std::size_t components;
+  bool whole;
+};
+constexpr std::array known_fields{
+    KnownField{"id", 1, true},           KnownField{"material", 1, true},
+    KnownField{"fixed", 1, true},        KnownField{"displacement", 3, false},
+    KnownField{"velocity", 3, false},    KnownField{"rotation", 1, false},
+    KnownField{"omega", 1, false},       KnownField{"stress", 6, false},
+    KnownField{"overstress", 1, false},  KnownField{"principal_stress", 3, false},
+    KnownField{"block_i", 1, true},      KnownField{"block_j", 1, true},
+    KnownField{"state", 1, true},        KnownField{"normal_force", 1, false},
+    KnownField{"shear_force", 1, false}, KnownField{"opening", 1, false},
+    KnownField{"slip", 1, false},        KnownField{"force", 3, false}};
+
+bool fits(const Field& f, std::size_t count) {
+  if (f.components == 0 || f.values.size() % f.components != 0) return false;
+  if (f.values.size() / f.components != count) return false;
+  return std::all_of(known_fields.begin(), known_fields.end(), [&](const KnownField& known) {
+    return f.name != known.name || (f.components == known.components && f.whole == known.whole);
+  });
+}
+
 /// Whether all that the arrays say of one another holds, so that users of the grid need not ask.
 bool consistent(const Grid& g) {
   if (g.points.size() % 3 != 0 || g.types.size() != g.ends.size()) return false;
   std::int64_t before = 0;
   for (const std::int64_t end : g.ends) {
-    if (end < before) return false;
+    if (end <= before) return false;
     before = end;
   }
   if (before != static_cast<std::int64_t>(g.corners.size())) return false;
@@ -160,10 +187,10 @@ bool consistent(const Grid& g) {
     if (c < 0 || c >= static_cast<std::int64_t>(g.point_count())) return false;
   }
   for (const Field& f : g.cell_fields) {
-    if (f.values.size() != f.components * g.cell_count()) return false;
+    if (!fits(f, g.cell_count())) return false;
   }
   for (const Field& f : g.point_fields) {
-    if (f.values.size() != f.components * g.point_count()) return false;
+    if (!fits(f, g.point_count())) return false;
   }
   return true;
 }

@@ -151,6 +151,15 @@ void Simulation::glue_joints(bool glued) {
   }
 }
 
+double Simulation::uniform_step() const {
+  double longest = 0.0;
+  for (const double own :
+       steps_of_blocks(blocks, state, pose, contacts, springs, laws, damping, never, &bolts)) {
+    if (std::isfinite(own)) longest = std::max(longest, own);
+  }
+  return longest;
+}
+
 void Simulation::scale_masses(StageMasses masses) {
   const bool uniform = masses == StageMasses::uniform_step;
   if (!uniform && scaled_step_ == 0.0) return;
@@ -160,12 +169,7 @@ void Simulation::scale_masses(StageMasses masses) {
   fill_point_masses(blocks);
   inertia.clear();
   scaled_step_ = 0.0;
-  if (uniform) {
-    for (const double own :
-         steps_of_blocks(blocks, state, pose, contacts, springs, laws, damping, never, &bolts)) {
-      if (std::isfinite(own)) scaled_step_ = std::max(scaled_step_, own);
-    }
-  }
+  if (uniform) scaled_step_ = uniform_step();
   step_change_energy += ledger_now().balance() - energy;
 }
 

@@ -1,12 +1,14 @@
 #include "run/driver.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
 #include <new>
 
 #include "run/labels.hpp"
+#include "run/summary.hpp"
 
 namespace edda {
 namespace {
@@ -106,7 +108,9 @@ Driver::Driver(PreparedRun& run, const RunOptions& options)
       options_(options),
       recorder_(options.folder),
       stages_(stages_of(run.sim.model)),
-      times_(run.sim.model.output.history_every, run.sim.model.output.every) {}
+      times_(run.sim.model.output.history_every, run.sim.model.output.every) {
+  if (!threads_are_said()) threads_.emplace(omp_get_max_threads());
+}
 
 Outcome Driver::run() {
   begin();
@@ -130,6 +134,7 @@ void Driver::begin() {
 
 void Driver::go_on() {
   if (over_) return;
+  const SameThreads afterwards;
   started_ = Clock::now();
   paused_ = pause_asked_ = false;
   within_memory([&] { follow_events(); });
@@ -204,6 +209,16 @@ void Driver::write_checkpoint_if_due() {
   if (since(saved_) >= 60.0 * sim_.model.output.checkpoint_every) save_checkpoint();
 }
 
+std::optional<Failure> Driver::timed_step() {
+  if (threads_) omp_set_num_threads(threads_->now());
+  const auto start = Clock::now();
+  std::optional<Failure> failure = sim_.step();
+  const double seconds = since(start);
+  if (threads_) threads_->stepped(seconds);
+  outcome_.wall.stepping += seconds;
+  return failure;
+}
+
 Driver::Went Driver::step_to(double time) {
   while (sim_.state.time < time) {
     if (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed)) {
@@ -211,9 +226,7 @@ Driver::Went Driver::step_to(double time) {
       return Went::over;
     }
     if (pause_asked_) return Went::paused;
-    const auto start = Clock::now();
-    const std::optional<Failure> failure = sim_.step();
-    outcome_.wall.stepping += since(start);
+    const std::optional<Failure> failure = timed_step();
     outcome_.critical_step = std::min(outcome_.critical_step, sim_.bound.critical_step);
     outcome_.step_over_critical = sim_.steps.over_critical;
     if (failure) {
@@ -335,6 +348,11 @@ void Driver::write_end() {
   outcome_.wall.cut = run_.cut_seconds;
   share_out_time();
   outcome_.wall.total = wall_before_ + since(started_) + run_.cut_seconds;
+  for (const Check& c : checks_of(sim_, outcome_)) {
+    if (c.pass) continue;
+    outcome_.failed_checks.push_back(
+        fmt::format("{} is {:.3g}, more than {:.3g}", c.name, c.value, c.limit.value_or(0.0)));
+  }
   const Trouble trouble = recorder_.summary(sim_, outcome_, run_.governed_by);
   if (trouble && !disk_trouble_) {  // else the first file that could not be written says why
     outcome_.status = Status::failed;
@@ -382,6 +400,8 @@ void Driver::report(bool last) {
       p.largest_overlap = std::max(p.largest_overlap, sim_.contacts.effective(k));
     }
   }
+  p.at_most = std::any_of(stages_.begin() + static_cast<std::ptrdiff_t>(stage_), stages_.end(),
+                          [](const Stage& stage) { return stage.until == StageEnd::equilibrium; });
   p.stage = stage_;
   p.stages = stages_.size();
   if (!sim_.model.stages.empty()) p.stage_name = stages_[stage_].name;

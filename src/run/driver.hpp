@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/threads.hpp"
 #include "checkpoint/record.hpp"
 #include "run/event_times.hpp"
 #include "run/recorder.hpp"
@@ -74,6 +75,8 @@ class Driver {
   StageReport report_of_stage() const;
   /// And steps towards its first event. False: the run is over.
   bool begin_next_stage();
+  /// Timed, and shared among as many threads as are quickest.
+  std::optional<Failure> timed_step();
   bool record(const Event& event);
   void measure_overlaps();
   bool energy_is_out_of_bounds();
@@ -91,12 +94,13 @@ class Driver {
   Recorder recorder_;
   Outcome outcome_;
   std::vector<Stage> stages_;
-  std::size_t stage_ = 0;          ///< in hand
-  double stage_start_ = 0.0;       ///< s
-  std::uint64_t stage_steps_ = 0;  ///< steps before it
-  std::uint64_t calm_ = 0;         ///< looks in sequence that have found an equilibrium
-  bool stage_has_ended_ = false;   ///< the next one is yet to begin
-  std::vector<StageRecord> ends_;  ///< of the stages before
+  std::size_t stage_ = 0;                ///< in hand
+  double stage_start_ = 0.0;             ///< s
+  std::uint64_t stage_steps_ = 0;        ///< steps before it
+  std::uint64_t calm_ = 0;               ///< looks in sequence that have found an equilibrium
+  std::optional<ThreadChoice> threads_;  ///< of the steps; none: somebody has said how many
+  bool stage_has_ended_ = false;         ///< the next one is yet to begin
+  std::vector<StageRecord> ends_;        ///< of the stages before
   EventTimes times_;
   Event event_;  ///< stepped towards
   bool resumed_ = false;

@@ -47,8 +47,12 @@ class Search {
  public:
   Search(const Model& model, const Fos& fos, FosStart& start, const FosOptions& options,
          FosResult& result)
-      : model_(model), fos_(fos), start_(start), options_(options), result_(result) {
-    first_ = {fos.bracket.x, fos.bracket.y, fos.tolerance};
+      : model_(model),
+        fos_(fos),
+        start_(start),
+        options_(options),
+        result_(result),
+        first_{fos.bracket.x, fos.bracket.y, fos.tolerance} {
     for (const Trial& trial : start.seen) {
       say(trial);
       first_.take(trial.factor, trial.end == TrialEnd::holds);

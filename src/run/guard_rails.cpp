@@ -99,7 +99,8 @@ void warn_of_springs(const Simulation& sim, std::vector<std::string>& warnings) 
     if (!sim.contacts.is(k, cs::closed)) continue;
     const double ratio = spring_ratio(sim, k);
     if (!(ratio > 0.0)) continue;
-    if (ratio < low.ratio) low = {ratio, k};
+    // A stiffness that was given for the joint has been measured, and is what it is.
+    if (!(sim.laws.rows[sim.contacts.law[k]].kn > 0.0) && ratio < low.ratio) low = {ratio, k};
     if (ratio > high.ratio) high = {ratio, k};
   }
   auto where = [&](const Extreme& e) {
@@ -110,9 +111,8 @@ void warn_of_springs(const Simulation& sim, std::vector<std::string>& warnings) 
                        place_label(model_place(sim, e.contact)), e.ratio);
   };
   if (low.ratio < soft) {
-    warnings.push_back(
-        "contact springs so soft that the joints give far more than the blocks: " + where(low) +
-        "; raise contact.normal_stiffness or the joint's kn, unless the joints are so");
+    warnings.push_back("contact springs so soft that the joints give far more than the blocks: " +
+                       where(low) + "; raise contact.normal_stiffness");
   }
   if (high.ratio > stiff) {
     warnings.push_back(
@@ -148,6 +148,10 @@ void warn_of_few(const Simulation& sim, std::vector<std::string>& warnings) {
         counted(scaled, "block"), added, 100.0 * added / all));
     return;
   }
+  const std::vector<Stage> stages = stages_of(sim.model);
+  if (std::all_of(stages.begin(), stages.end(),
+                  [](const Stage& s) { return s.masses == StageMasses::uniform_step; }))
+    return;  // all blocks are
   constexpr double few = 0.01, worth = 2.0;
   constexpr std::size_t least = 20;  // blocks, for "few" to mean something
   std::vector<double> steps = steps_of_blocks(sim.blocks, sim.state, sim.pose, sim.contacts,

@@ -91,7 +91,7 @@ std::vector<MovingJoint> joints_of(const Simulation& before, const Simulation& a
     const Gap was = gap(before.pose), is = gap(after.pose);
     const double slip = std::abs(is.foot - was.foot), opening = was.depth - is.depth;
     if (std::max(slip, opening) < least) continue;
-    const auto [i, j] = std::minmax(c.block_i[k], c.block_j[k]);
+    const Id i = std::min(c.block_i[k], c.block_j[k]), j = std::max(c.block_i[k], c.block_j[k]);
     MovingJoint& joint = joints[{i, j, c.law[k]}];
     if (std::max(slip, opening) > std::max(joint.slip, joint.opening)) {
       joint.place = at(before.pose.x, before.pose.y, c.vertex[k]) + before.blocks.origin;

@@ -47,6 +47,33 @@ void add_cut_warnings(const CutReport& report, std::vector<std::string>& warning
   }
 }
 
+/// Material points that end with their block.
+void warn_of_lost_points(const PreparedRun& run, std::vector<std::string>& warnings) {
+  const Model& model = run.sim.model;
+  const auto look = [&](const char* what, const std::string& name, std::size_t block) {
+    const Index row = run.sim.blocks.opening.empty() ? none : run.sim.blocks.opening[block];
+    if (row == none) return;
+    const std::string& opening = model.openings[static_cast<std::size_t>(row)].name;
+    for (const Stage& stage : model.stages) {
+      if (std::find(stage.excavate.begin(), stage.excavate.end(), opening) == stage.excavate.end())
+        continue;
+      warnings.push_back(fmt::format(
+          "{} {} is in rock that stage \"{}\" takes out: from then on it shows nothing; put it "
+          "into rock that stays, at the wall for instance",
+          what, name, stage.name));
+    }
+  };
+  for (const MonitorPoint& m : run.monitors) look("monitor", m.name, m.block);
+  for (const ConvergenceLine& line : run.convergences) {
+    look("an end of convergence", line.name, line.ends[0].block);
+    look("an end of convergence", line.name, line.ends[1].block);
+    if (line.ends[0].block == line.ends[1].block) {
+      warnings.push_back(fmt::format(
+          "both ends of convergence {} are in one block: it shows no joint opening", line.name));
+    }
+  }
+}
+
 }  // namespace
 
 Result<PreparedRun> prepare_run(Model model, BlockOrder order) {
@@ -71,6 +98,7 @@ Result<PreparedRun> prepare_run(Model model, BlockOrder order) {
   run.governed_by = governed_by(run.sim);
   run.warnings = guard_rails(run.sim);
   add_cut_warnings(run.sim.polygons.report, run.warnings);
+  warn_of_lost_points(run, run.warnings);
   return run;
 }
 

@@ -21,9 +21,11 @@ struct Progress {
   double kinetic = 0.0;           ///< J
   double largest_overlap = 0.0;   ///< m, of contacts that carry
   double largest_velocity = 0.0;  ///< m/s, of the blocks' centroids
-  std::size_t stage = 0;          ///< in hand, from 0
-  std::size_t stages = 1;         ///< of the model; 1 where it has none
-  std::string stage_name{};       ///< empty where it has none
+  bool at_most =
+      false;  ///< seconds_left: this stage or a later one ends where an equilibrium is found
+  std::size_t stage = 0;     ///< in hand, from 0
+  std::size_t stages = 1;    ///< of the model; 1 where it has none
+  std::string stage_name{};  ///< empty where it has none
 };
 
 /// The end of a stage of the model.

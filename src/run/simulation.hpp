@@ -115,6 +115,8 @@ struct Simulation {
   std::optional<Fault> install(const std::vector<Index>& bolts);
   /// What is closed neither opens nor slides from now on; or does again.
   void glue_joints(bool glued);
+  /// What the block that allows the longest step allows, s: that of masses raised so that all do.
+  double uniform_step() const;
   /// Masses as given, or raised so that all blocks allow one time step.
   void scale_masses(StageMasses masses);
   /// Displacements count from here.

@@ -134,6 +134,11 @@ void add_fields(Bytes& bytes, const Grid& g, const std::vector<std::size_t>& cel
   group("overstress", {0});
 }
 
+Vec2 point_value(const std::vector<double>& values, std::int64_t point) {
+  const auto at = 3 * static_cast<std::size_t>(point);
+  return {values[at], values[at + 1]};
+}
+
 /// A contact of the frame by rows of the mesh.
 struct Touch {
   std::size_t cell = 0, i = 0, j = 0, vertex = 0, edge = 0;
@@ -202,7 +207,7 @@ std::vector<Touch> touches_of(const ViewMesh& mesh, const Grid& blocks, const Gr
     Touch t{c, mesh.row_of(static_cast<std::int32_t>(i->values[c])),
             mesh.row_of(static_cast<std::int32_t>(j->values[c])), 0, 0};
     if (t.i == mesh.size() || t.j == mesh.size()) continue;
-    const Vec2 at{contacts.points[3 * c], contacts.points[3 * c + 1]};
+    const Vec2 at = point_value(contacts.points, contacts.corners[contacts.begin(c)]);
     t.vertex = nearest_vertex(mesh, t.i, blocks.points, at);
     t.edge = edge_of(
         mesh, t.j, blocks.points, at,
@@ -239,11 +244,6 @@ void add_contacts(Bytes& bytes, const std::vector<Touch>& touches, const Grid& c
             precision, contact_steps);
   add_group(bytes, {opening}, precision, contact_steps);
   add_group(bytes, {column(contacts, "slip", 0, cells)}, precision, contact_steps);
-}
-
-Vec2 point_value(const std::vector<double>& values, std::int64_t point) {
-  const auto at = 3 * static_cast<std::size_t>(point);
-  return {values[at], values[at + 1]};
 }
 
 /// The displacement since the datum.

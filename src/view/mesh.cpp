@@ -10,10 +10,6 @@
 namespace edda {
 namespace {
 
-std::size_t begin_of(const Grid& g, std::size_t cell) {
-  return cell == 0 ? 0 : static_cast<std::size_t>(g.ends[cell - 1]);
-}
-
 double whole(const Grid& g, const char* name, std::size_t cell) {
   const Field* field = g.cell_field(name);
   return field == nullptr ? 0.0 : field->values[cell];
@@ -38,7 +34,7 @@ void add_block(const Grid& g, const BlockShape& shape, const std::vector<Vec2>& 
     return at->second;
   };
   for (std::size_t c = shape.first_cell; c < shape.end_cell; ++c) {
-    const std::size_t from = begin_of(g, c), to = static_cast<std::size_t>(g.ends[c]);
+    const std::size_t from = g.begin(c), to = static_cast<std::size_t>(g.ends[c]);
     for (std::size_t k = from + 1; k + 1 < to; ++k) {
       mesh.triangles.push_back(
           {vertex(g.corners[from]), vertex(g.corners[k]), vertex(g.corners[k + 1])});
