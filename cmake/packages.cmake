@@ -17,6 +17,8 @@ the Python module edda, and models to start from.")
 set(CPACK_SET_DESTDIR ON)
 set(CPACK_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
+# Whatever the umask of who packs it: everybody may look into its folders.
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_INSTALL_CMAKE_PROJECTS "${CMAKE_CURRENT_BINARY_DIR};edda;Unspecified;/;${CMAKE_CURRENT_BINARY_DIR};edda;debian;/")
 
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)

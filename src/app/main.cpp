@@ -1,5 +1,7 @@
 // The program: reads the command line and hands over to one command.
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <new>
 
 #include "app/commands.hpp"
@@ -45,11 +47,19 @@ int run_command(int argc, char** argv) {
   return code;
 }
 
+/// What was said last may have been lost: on a full disk, say. A reader that has gone wants no
+/// more.
+int after_output(int code) {
+  if (std::fflush(stdout) == 0 || errno == EPIPE) return code;
+  std::fprintf(stderr, "edda: standard output cannot be written: %s\n", std::strerror(errno));
+  return code == edda::exit_code::done ? edda::exit_code::failed : code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return run_command(argc, argv);
+    return after_output(run_command(argc, argv));
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "edda: out of memory: close other programs, or make the model smaller\n");
   } catch (const std::exception& error) {

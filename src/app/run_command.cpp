@@ -57,9 +57,7 @@ Result<Model> usable_model(const RunArguments& args, const std::string& folder) 
   return model;
 }
 
-int run(const RunArguments& args) {
-  const std::unique_ptr<RunReport> report =
-      args.json ? report_to_machines(args.quiet) : report_to_people(args.quiet);
+int run(const RunArguments& args, RunReport* report) {
   const auto refuse = [&](const Faults& faults) {
     say([&] { report->refused(faults); });
     return exit_code::bad_input;
@@ -79,6 +77,21 @@ int run(const RunArguments& args) {
   const int code = code_of(outcome.value().status);
   say([&] { report->ends(outcome.value(), folder, code); });
   return code;
+}
+
+int run(const RunArguments& args) {
+  const std::unique_ptr<RunReport> report =
+      args.json ? report_to_machines(args.quiet) : report_to_people(args.quiet);
+  std::string why;
+  try {
+    return run(args, report.get());
+  } catch (const std::bad_alloc&) {
+    why = "out of memory: close other programs, or make the model smaller";
+  } catch (const std::exception& error) {
+    why = error.what();
+  }
+  say([&] { report->breaks(why); });
+  return exit_code::failed;
 }
 
 }  // namespace

@@ -53,6 +53,8 @@ class ForPeople : public RunReport {
     fmt::print(stderr, "edda: {}\n", message);
   }
 
+  void breaks(const std::string& why) override { warns(why); }
+
   void ends(const Outcome& o, const std::string& folder, int) override {
     bar_.finish();
     if (o.status == Status::failed) fmt::print(stderr, "edda: {}\n", o.message);
@@ -124,6 +126,12 @@ class ForMachines : public RunReport {
   }
 
   void warns(const std::string& message) override { print_json_warning(message); }
+
+  void breaks(const std::string& why) override {
+    Json json = event("end");
+    json.pair("status", "failed").pair("exit_code", exit_code::failed).pair("message", why);
+    print_line(json);
+  }
 
   void ends(const Outcome& o, const std::string& folder, int code) override {
     Json json = event("end");

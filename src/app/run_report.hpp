@@ -18,6 +18,8 @@ class RunReport {
   virtual void goes_on(const Progress& progress) = 0;
   virtual void stage_ended(const StageReport& stage) = 0;
   virtual void warns(const std::string& message) = 0;
+  /// The run broke off before it could end.
+  virtual void breaks(const std::string& why) = 0;
   virtual void ends(const Outcome& outcome, const std::string& folder, int code) = 0;
 };
 

@@ -193,7 +193,9 @@ struct BlockViews {
   std::span<const std::int32_t> material;       ///< [nb] row of Model::materials(), -1: none
   std::span<const std::uint8_t> fixed;          ///< [nb] 1: held
   std::span<const std::uint32_t> vertex_begin;  ///< [nb + 1] first vertex of each block
-  std::span<const std::uint32_t> next;          ///< [nv] the vertex behind this one along its ring
+  /// [nv] the vertex behind this one, with the block on the left; behind the last of a ring its
+  /// first.
+  std::span<const std::uint32_t> next;
 };
 
 // ---- Simulations
@@ -225,14 +227,14 @@ class EDDA_API Simulation {
   // through; going on is possible.
   Outcome run();  ///< to the end, or to a pause (then outcome says interrupted)
   bool step(std::uint64_t steps = 1);  ///< so many, fewer at the end; false: the run is over
-  bool advance_to(double time);        ///< the first step at or past it (s); false: over
+  bool advance_to(double time);  ///< the first step at or past it (s); false: over. Error: NaN
   bool over() const;
   Outcome finish();  ///< ends the run where it stands and writes what is due
-  void pause();      ///< from any thread: the call in hand returns
+  void pause();      ///< from any thread: the call in hand returns; without one nothing happens
   void stop();       ///< from any thread: the run ends as interrupted
 
   /// Calls `action` after every `steps`-th step; what it does to the simulation is between two
-  /// steps. Returns a number for forget().
+  /// steps. Returns a number for forget(). Error: 0 steps, an empty function.
   std::size_t every(std::uint64_t steps, std::function<void()> action);
   void forget(std::size_t callback);
 
@@ -269,31 +271,37 @@ class EDDA_API Simulation {
 
   // Worked out on request.
   /// Into `out`, block by block, nb * components_of(field) numbers; of blocks taken out as they
-  /// went.
+  /// went. Error: room for another number of them; the same of vertices().
   void field(Field field, std::span<double> out) const;
   std::vector<double> field(Field field) const;
-  void vertices(std::span<double> out) const;  ///< nv times x, y, m
+  void vertices(std::span<double> out) const;  ///< nv times x, y, m; of blocks taken out, too
   std::vector<Contact> contacts() const;       ///< closed now or before, as in joints.csv
 
   // -- Monitors
   /// The material point that is at `point` at the start. With a results folder before the first
   /// step alone: history.csv has a column for each from its first row on. model.toml of the folder
-  /// names it, too: by that model such a run is resumed.
+  /// names it, too: by that model such a run is resumed. Error: in no block, a name that is taken
+  /// or cannot head a column.
   void add_monitor(const std::string& name, Point point);
-  std::vector<std::string> monitors() const;  ///< those of the model first
-  MonitorReading read(const std::string& monitor) const;
+  std::vector<std::string> monitors() const;              ///< those of the model first
+  MonitorReading read(const std::string& monitor) const;  ///< Error: none of that name
 
   // -- Changing it, between two steps. A change before the first step begins the run. What a stage
   // could not do either (activate what acts, install twice, let go less than before) is an Error; a
   // later stage leaves out what has been done by hand before it.
   /// Velocity of the centroid and rate of turn of a free block; its strain rate becomes 0.
   void set_velocity(std::size_t block, Point velocity, double omega = 0.0);
-  /// Mass-proportional (1/s), local, and of contacts (part of critical).
+  /// Mass-proportional (1/s, from 0), local (0 to 1), and of contacts (part of critical, 0 to 10).
+  /// Error: beyond these.
   void set_damping(double mass, double local = 0.0, double contact = 0.0);
-  void set_strength_factor(double factor);  ///< of all joints
+  /// Divides cohesion, tensile strength and the tangent of the friction angle as the model gives
+  /// them (1e-6 or more), of all joints or of one; whatever it was before. Error: less.
+  void set_strength_factor(double factor);
   void set_strength_factor(const std::string& joint, double factor);
   /// Names as in a stage. Rock of an opening is there to be taken out where a stage names it.
   void excavate(const std::vector<std::string>& openings);
+  /// `part`, 0 to 1, of the forces that the rock had on the walls has been let go from now on, all
+  /// calls and stages together.
   void relax(const std::string& opening, double part);
   /// What has the first names acts no more (loads, water, boundaries, shaking), what has the second
   /// does. A boundary bears from now on what one that goes has borne.

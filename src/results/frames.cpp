@@ -199,6 +199,13 @@ Trouble FrameSeries::add(const Picture& picture) {
     contacts_.pop_back();
     return trouble;
   }
+  constexpr std::size_t few = 1000;
+  return blocks_.size() > in_series_ + in_series_ / few ? write_series() : Trouble{};
+}
+
+Trouble FrameSeries::write_series() {
+  if (in_series_ == blocks_.size()) return {};
+  in_series_ = blocks_.size();
   if (auto t = write_pvd(folder_ + "/blocks.pvd", blocks_)) return t;
   return write_pvd(folder_ + "/contacts.pvd", contacts_);
 }

@@ -37,7 +37,11 @@ std::string contacts_beside(std::string blocks_file);
 class FrameSeries {
  public:
   FrameSeries(std::string folder, const BlockSet& blocks);
+  /// Writes the frame. The time series names it at once while there are few; later they grow by a
+  /// thousandth at a time, so that many frames do not take the square of their number to write.
   Trouble add(const Picture& picture);
+  /// Brings the time series up to the last frame.
+  Trouble write_series();
   /// Times of the frames so far, s; and to go on after frames that are there.
   std::vector<double> times() const;
   void go_on_after(const std::vector<double>& times);
@@ -47,6 +51,7 @@ class FrameSeries {
   std::string folder_;
   BlockCells cells_;
   std::vector<SeriesEntry> blocks_, contacts_;
+  std::size_t in_series_ = 0;  ///< frames that the written series name
 };
 
 }  // namespace edda

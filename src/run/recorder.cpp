@@ -66,7 +66,8 @@ RecorderMemory Recorder::memory() const {
 Trouble Recorder::sync() {
   if (auto t = history_.sync()) return t;
   if (auto t = reactions_.sync()) return t;
-  return bolts_.sync();
+  if (auto t = bolts_.sync()) return t;
+  return frames_ ? frames_->write_series() : Trouble{};
 }
 
 Trouble Recorder::resume(const Simulation& sim, const RecorderMemory& memory) {
@@ -130,6 +131,9 @@ Trouble Recorder::tables(const Picture& picture) {
   for (RowFile* file : {&reactions_, &bolts_}) {
     const Trouble t = file->close();
     if (!history) history = t;
+  }
+  if (frames_) {
+    if (auto t = frames_->write_series()) return t;
   }
   if (auto t = write_blocks_csv(path("blocks.csv"), picture.blocks)) return t;
   if (auto t = write_joints_csv(path("joints.csv"), picture.contacts)) return t;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "results/frames.hpp"
 #include "results/vtu.hpp"
 #include "scratch_folder.hpp"
 
@@ -115,6 +116,57 @@ TEST_F(Folder, FramesCutShortAreFaultsAndNeverCrash) {
     ASSERT_FALSE(write_file(at("bad.vtu"), damaged));
     (void)read_vtu(at("bad.vtu")).ok();
   }
+}
+
+// Readers index by what they know of a field.
+TEST_F(Folder, FramesWithOtherFieldsThanReadersKnowAreFaults) {
+  const auto is_read = [&](const auto& change) {
+    Grid g = small_grid();
+    change(g);
+    EXPECT_FALSE(write_vtu(at("g.vtu"), g));
+    return read_vtu(at("g.vtu")).ok();
+  };
+  EXPECT_TRUE(is_read([](Grid&) {}));
+  EXPECT_FALSE(is_read([](Grid& g) { g.cell_fields[1] = {"velocity", 1, {1, 2}, {}, false}; }));
+  EXPECT_FALSE(is_read([](Grid& g) { g.cell_fields[1] = {"stress", 1, {1, 2}, {}, false}; }));
+  EXPECT_TRUE(is_read([](Grid& g) { g.cell_fields[1] = {"mine", 1, {1, 2}, {}, false}; }));
+  EXPECT_FALSE(is_read([](Grid& g) { g.cell_fields[0].whole = false; }));
+  EXPECT_FALSE(is_read([](Grid& g) { g.cell_fields[1].components = 0; }));
+  EXPECT_FALSE(is_read([](Grid& g) { g.ends = {6, 6}; }));
+  EXPECT_FALSE(is_read([](Grid& g) {
+    g.point_fields[0] = {"displacement", 1, {1, 2, 3, 4}, {}, false};
+  }));
+}
+
+TEST_F(Folder, FramesHaveNumbers) {
+  for (const char* name : {"blocks_.vtu", "blocks_1a.vtu", "blocks_99999999999999999999999.vtu"}) {
+    touch(std::string("old/frames/") + name);
+    EXPECT_TRUE(check_folder(at("old"), at("m.toml"))) << name;
+    fs::remove_all(at("old"));
+  }
+}
+
+TEST_F(Folder, OneThatCannotBeMadeIsAFault) {
+  touch("file");
+  EXPECT_TRUE(check_folder(at("file/below/it"), at("m.toml")));
+  EXPECT_FALSE(check_folder(at("new/below/it"), at("m.toml")));
+}
+
+TEST_F(Folder, ManyFramesAreInTheSeriesInTheEnd) {
+  fs::create_directories(at("run/frames"));
+  FrameSeries frames(at("run"), BlockSet{});
+  frames.go_on_after(std::vector<double>(5000, 0.0));
+  const auto named = [&] { return read_pvd(at("run/blocks.pvd")).value().size(); };
+  std::size_t before = 0, written = 0;
+  for (std::size_t n = 5001; n <= 5016; ++n) {
+    ASSERT_FALSE(frames.add({}));
+    written += named() != before;
+    before = named();
+    EXPECT_GE(before + 5, n);
+  }
+  EXPECT_EQ(written, 3u);  // of 5001, 5007 and 5013
+  ASSERT_FALSE(frames.write_series());
+  EXPECT_EQ(named(), 5016u);
 }
 
 TEST_F(Folder, SeriesComeBackAsTheyWere) {

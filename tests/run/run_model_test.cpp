@@ -184,6 +184,8 @@ polygon = [[-9, -1], [9, -1], [9, 0], [-9, 0]]
   EXPECT_FALSE(warned({"solver.damping.local=0.8"}, "gravity acts at once"));
   EXPECT_FALSE(warned({}, "springs so"));
   EXPECT_TRUE(warned({"contact.normal_stiffness=1e6"}, "so soft"));
+  // A stiffness that was given for the joint is what it is.
+  EXPECT_FALSE(warned({"joints.j.kn=1e5"}, "so soft"));
   EXPECT_TRUE(warned({"contact.normal_stiffness=1e12"}, "so stiff"));
   EXPECT_FALSE(warned({}, "overlap at the start"));
   EXPECT_TRUE(warned({"block.flyer.polygon=[[0, -5e-4], [1, -5e-4], [1, 1], [0, 1]]"},

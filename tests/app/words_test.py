@@ -1,0 +1,124 @@
+"""What check and run say in words: of stages, of points that go with the rock, of checks that do not hold.
+
+  words_test.py EDDA
+"""
+import json
+import subprocess
+import unittest
+
+from program import EDDA, Program
+
+TUNNEL = """
+[materials.rock]
+density = 2700
+young = "10 GPa"
+poisson = 0.25
+[joints.bedding]
+friction_angle = 35
+[domain]
+outline = [[-8, -8], [8, -8], [8, 8], [-8, 8]]
+[[joint_set]]
+name = "bedding"
+angle = 90
+spacing = 2.0
+origin = [1, 0]
+[[opening]]
+name = "heading"
+shape = { kind = "rectangle", at = [0, 0], width = 3, height = 3 }
+[initial_stress]
+stress = ["-2 MPa", "-2 MPa", 0.0]
+at_y = 0.0
+[[boundary]]
+name = "rim"
+sides = ["left", "right", "top", "bottom"]
+type = "fixed"
+[[monitor]]
+name = "wall"
+point = [%s, 0.1]
+[[convergence]]
+name = "H"
+between = [[-%s, 0.1], [1.7, 0.1]]
+[[stage]]
+name = "in situ"
+until = "equilibrium"
+[[stage]]
+name = "heading"
+until = "equilibrium"
+excavate = ["heading"]
+%s
+"""
+
+BLOCK = """
+[materials.rock]
+density = 2500
+young = "1 GPa"
+poisson = 0.2
+[joints.bed]
+friction_angle = 30
+[contact]
+normal_stiffness = %s
+[[block]]
+polygon = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[block]]
+fixed = true
+polygon = [[-1, -1], [2, -1], [2, 0], [-1, 0]]
+[solver]
+duration = 0.5
+damping = { local = 0.8 }
+"""
+
+
+class Words(Program):
+    def write(self, name, text):
+        (self.dir / name).write_text(text, encoding="utf-8")
+        return name
+
+    def check(self, model):
+        return json.loads(self.expect(0, "check", model, "--json").stdout)
+
+    def test_check_counts_the_steps_of_static_masses(self):
+        found = self.check(self.write("static.toml", TUNNEL % (1.7, 1.7, "")))
+        self.assertTrue(found["at_most"])
+        self.assertAlmostEqual(found["steps"] * found["static_time_step"] / found["duration"], 1.0, delta=0.02)
+        self.expect(0, "run", "static.toml", "--quiet")
+        summary = json.loads((self.dir / "static/summary.json").read_text())
+        self.assertLess(summary["steps"], found["steps"])
+        text = self.expect(0, "check", "static.toml").stdout
+        self.assertIn("at most", text)
+        mixed = self.check(self.write("mixed.toml", TUNNEL % (1.7, 1.7, 'mass_scaling = "as given"')))
+        self.assertGreater(mixed["steps"], 1.2 * found["steps"])
+        timed = self.check(self.write("block.toml", BLOCK % 1e10))
+        self.assertFalse(timed["at_most"])
+        self.assertNotIn("static_time_step", timed)
+
+    def test_points_in_rock_that_goes_are_told(self):
+        model = self.write("lost.toml", TUNNEL % (1.4, 1.4, ""))
+        warnings = self.check(model)["warnings"]
+        for what in ("monitor wall", "an end of convergence H"):
+            self.assertTrue(any(what in w and '"heading" takes out' in w for w in warnings), warnings)
+        self.assertIn("monitor wall", self.expect(0, "run", model).stderr)
+        kept = self.check(self.write("kept.toml", TUNNEL % (1.7, 1.7, "")))["warnings"]
+        self.assertFalse(any("takes out" in w for w in kept), kept)
+
+    def test_checks_that_do_not_hold_are_said_at_the_end(self):
+        said = self.expect(0, "run", self.write("soft.toml", BLOCK % 1e6))
+        self.assertRegex(said.stdout, r"check does not hold: largest overlap over smallest edge is 0\.0\d+, more than 0\.01")
+        lines = self.expect(0, "run", "soft.toml", "-o", "again", "--json").stdout.splitlines()
+        self.assertEqual(len(json.loads(lines[-1])["failed_checks"]), 1)
+        firm = self.expect(0, "run", self.write("firm.toml", BLOCK % 1e10))
+        self.assertNotIn("does not hold", firm.stdout)
+
+    def test_folders_that_cannot_be_made_are_refused(self):
+        model = self.write("block.toml", BLOCK % 1e10)
+        self.assertIn("cannot be made", self.expect(2, "run", model, "-o", "block.toml/below").stderr)
+
+    def test_words_that_are_lost_are_a_failure(self):
+        model = self.write("block.toml", BLOCK % 1e10)
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            for command in (["check", model], ["example"], ["keys"]):
+                done = subprocess.run([str(EDDA), *command], cwd=self.dir, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+                self.assertEqual((done.returncode, "No space left" in done.stderr), (1, True), command)
+
+
+if __name__ == "__main__":
+    unittest.main()
