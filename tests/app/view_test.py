@@ -43,11 +43,9 @@ class View(Program):
 
     def serve(self, *args):
         """The port of a server that answers, and the server."""
-        server = subprocess.Popen([str(EDDA), "view", *args, "--serve", "--port", "0"], cwd=self.dir, stdout=subprocess.PIPE, text=True)
-        self.addCleanup(server.stdout.close)
-        self.addCleanup(server.wait)
-        self.addCleanup(server.kill)
-        return int(re.search(r"127\.0\.0\.1:(\d+)/", server.stdout.readline()).group(1)), server
+        server = self.start("view", *args, "--serve", "--port", "0", stdout=subprocess.PIPE, text=True)
+        with self.soon("the server's address"):
+            return int(re.search(r"127\.0\.0\.1:(\d+)/", server.stdout.readline()).group(1)), server
 
     def ask(self, port, path, host=None):
         connection = http.client.HTTPConnection("127.0.0.1", port, timeout=30)
@@ -99,7 +97,7 @@ class View(Program):
         self.assertIn(f"port {port} is taken", done.stderr)
         self.assertEqual(done.stdout, "")
         server.send_signal(signal.SIGINT)
-        self.assertEqual(server.wait(20), 0)
+        self.assertEqual(server.wait(self.seconds), 0)
 
     def test_answers_this_machine_alone(self):
         self.expect(0, "run", "m.toml", "--quiet")
