@@ -1,6 +1,6 @@
 """The same model gives the same bits: with any number of threads, after a stop and --resume, at any optimisation.
 Nothing is compared with a stored value, only builds of the same sources with each other. Compared are hashes of
-  blocks.csv, joints.csv, history.csv, the last frames, and summary.json without what tells of the machine (MACHINE of program.py).
+  blocks.csv, joints.csv, history.csv, the last frames, and summary.json without what tells of the machine (program.py).
 Usage: determinism_test.py EDDA [EDDA_O1]
 EDDA_O1 is the same sources at -O1 with every loop shared among the threads (CMake's EDDA_O1_TWIN), so that small scenes
 meet all of the threads' work; EDDA itself shares only long loops, which the last scene has."""

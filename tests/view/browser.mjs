@@ -20,6 +20,7 @@ export async function launch(packages) {
 /** A page with nothing in it yet. What goes wrong on it is added to `faults`. */
 export async function blank(browser, faults) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+  page.setDefaultTimeout(60000); // a busy machine may need half of it
   page.on('console', (message) => {
     // What reading pixels back costs is the tests' own doing.
     if (['error', 'warning'].includes(message.type()) && !message.text().includes('ReadPixels')) faults.push(message.text());

@@ -15,7 +15,7 @@ if (!existsSync('/usr/bin/chromium')) {
 }
 
 export const folder = mkdtempSync(path.join(os.tmpdir(), 'edda-page-'));
-export const run = (...args) => execFileSync(edda, args, { cwd: folder, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'], env: { ...process.env, OMP_NUM_THREADS: '1' } });
+export const run = (...args) => execFileSync(edda, args, { cwd: folder, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'], timeout: 120000, env: { ...process.env, OMP_NUM_THREADS: '1' } });
 /** edda, beside the test `t`, and never longer. */
 export function start(t, args, stdout = 'ignore') {
   const child = spawn(edda, args, { cwd: folder, stdio: ['ignore', stdout, 'inherit'] });
