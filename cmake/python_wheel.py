@@ -1,8 +1,8 @@
 """What `pip install .` calls (PEP 517): the module built by CMake, for the Python that asks, packed as a wheel.
 
 It needs a compiler, CMake, Ninja, pybind11 and the libraries of docs/dependencies.md, and nothing that would have to be
-downloaded. Options for CMake come from the environment variable CMAKE_ARGS; the setting build-dir names a build folder to
-use as it is (pip wheel --config-settings build-dir=build .).
+downloaded. Options for CMake come from the environment variable CMAKE_ARGS; the setting build-dir names a build folder whose
+module is packed as it is, not built (pip wheel --config-settings build-dir=build .).
 """
 import base64
 import hashlib
@@ -27,6 +27,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         return _pack(pathlib.Path(given), pathlib.Path(wheel_directory))
     with tempfile.TemporaryDirectory(prefix="edda_wheel_") as folder:
         configure(folder)
+        subprocess.run(["cmake", "--build", folder, "--target", "edda_python"], check=True)
         return _pack(pathlib.Path(folder), pathlib.Path(wheel_directory))
 
 
@@ -86,8 +87,9 @@ def _wheel_file():
 
 
 def _pack(build, wheel_directory):
-    subprocess.run(["cmake", "--build", build, "--target", "edda_python"], check=True)
     information = f"edda-{_version()}.dist-info"
+    if not (build / "python/edda").is_dir():
+        raise FileNotFoundError(f"{build} holds no Python module: build its target edda_python")
     contents = {f"edda/{file.name}": file.read_bytes() for file in sorted((build / "python/edda").iterdir()) if file.is_file()}
     contents[f"{information}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
     contents[f"{information}/METADATA"] = _metadata().encode()

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <thread>
 
+#include "results/json.hpp"
 #include "view/bytes.hpp"
 #include "view/page.hpp"
 
@@ -38,23 +40,27 @@ class Answers {
 
   void header(httplib::Response& reply) {
     const std::lock_guard lock(busy_);
-    if (const Trouble trouble = take_up_new()) return fail(reply, *trouble);
+    if (const Trouble trouble = take_up_new()) {
+      if (!is_for_now(*trouble)) return fail(reply, *trouble);
+      const std::string waiting = to_string(*trouble);
+      return reply.set_content(Json().open_object().pair("waiting", waiting).close().text(),
+                               "application/json");
+    }
     reply.set_content(run_->header(name_of_run()), "application/json");
   }
 
-  /// `run`: as in the header that the page has.
+  /// `run`: as in the header that the page has; nothing where that run has gone.
   void named(const std::string& name, const std::string& run, httplib::Response& reply) {
     const std::lock_guard lock(busy_);
-    if (!run_ || !run_->is_still_there() || run != name_of_run()) {
-      reply.status = 409;
-      return reply.set_content("the folder holds another run now", "text/plain");
-    }
+    if (!run_ || !run_->is_still_there() || run != name_of_run()) return gone(reply);
     if (name == "mesh") return give(mesh_bytes(run_->mesh()), reply);
     if (const auto k = number_after("datum-", name, run_->datums().size()))
       return give(datum_bytes(run_->datums()[*k]), reply);
     if (const auto k = number_after("frame-", name, run_->frames())) {
       const Result<std::string> frame = run_->again(*k, ViewPrecision::single);
-      return frame.ok() ? give(frame.value(), reply) : fail(reply, frame.faults().front());
+      if (frame.ok()) return give(frame.value(), reply);
+      const Fault& fault = frame.faults().front();
+      return is_for_now(fault) ? gone(reply) : fail(reply, fault);
     }
     if (std::find(std::begin(view_tables), std::end(view_tables), name) != std::end(view_tables)) {
       // None yet: an empty answer, which is no error of the page's.
@@ -84,6 +90,12 @@ class Answers {
     return {};
   }
 
+  /// While a run begins or is cleared, file by file, there is nothing to show. That is no error,
+  /// which browsers would log each time.
+  bool is_for_now(const Fault& fault) const {
+    return !run_ || !run_->is_still_there() || !std::filesystem::exists(fault.where.file);
+  }
+
   static std::optional<std::size_t> number_after(const std::string& prefix, const std::string& name,
                                                  std::size_t end) {
     if (!name.starts_with(prefix)) return {};
@@ -99,6 +111,7 @@ class Answers {
   static void give(const std::string& bytes, httplib::Response& reply) {
     reply.set_content(deflated(bytes), "application/octet-stream");
   }
+  static void gone(httplib::Response& reply) { reply.status = 204; }
   static void fail(httplib::Response& reply, const Fault& fault) {
     reply.status = 500;
     reply.set_content(to_string(fault), "text/plain");

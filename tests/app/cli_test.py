@@ -2,7 +2,6 @@
 import csv
 import json
 import os
-import pty
 import re
 import shutil
 import signal
@@ -10,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from program import EDDA, Program, read_rows
+from program import Program, read_rows
 
 RAMP = """title = "Ramp \\"quoted\\""
 [materials.rock]
@@ -171,7 +170,7 @@ class Cli(Program):
         (self.dir / "sub/h.toml").write_text(RAMP + '[[load]]\npoint = [1.0, 0.5]\nforce = ["1 kN", 0]\nhistory = "push.csv"\n')
         self.expect(0, "run", "sub/h.toml", "--quiet", "-o", "r")
         (self.dir / "else").mkdir()
-        subprocess.run([str(EDDA), "run", "../r/model.toml", "--quiet", "-o", "r"], cwd=self.dir / "else", check=True, timeout=60)
+        self.expect(0, "run", "../r/model.toml", "--quiet", "-o", "r", cwd=self.dir / "else")
         self.assertEqual((self.dir / "r/blocks.csv").read_bytes(), (self.dir / "else/r/blocks.csv").read_bytes())
         self.assertRegex(self.expect(0, "check", "sub/h.toml").stdout, r"load 0 on block \d+ .*: \(1000, 0\) N, times 0 to 1 over 0.01 s")
         inputs = json.loads((self.dir / "r/summary.json").read_text())["inputs"]
@@ -191,12 +190,9 @@ class Cli(Program):
         self.assertEqual((self.dir / "model.toml").read_text(), RAMP)
 
     def interrupted(self, *sent):
-        run = subprocess.Popen([str(EDDA), "run", "m.toml", "--set", "solver.duration=100000", "--set", "output.history_every=0.5",
-                                "--set", "output.every=1000"], cwd=self.dir, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        for _ in range(600):
-            if (self.dir / "m/frames/contacts_000000.vtu").exists():
-                break
-            time.sleep(0.05)
+        run = self.start("run", "m.toml", "--set", "solver.duration=100000", "--set", "output.history_every=0.5",
+                         "--set", "output.every=1000", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.wait_for("m/frames/contacts_000000.vtu", run)
         time.sleep(0.3)
         for one in sent:
             run.send_signal(one)
@@ -224,7 +220,7 @@ class Cli(Program):
                 shutil.rmtree(self.dir / "m", ignore_errors=True)
                 read, written = os.pipe()
                 os.close(read)
-                run = subprocess.run([str(EDDA), "run", "m.toml", *more], cwd=self.dir, stdout=written, stderr=written, timeout=120)
+                run = self.edda("run", "m.toml", *more, stdout=written, stderr=written)
                 os.close(written)
                 self.assertEqual(run.returncode, 0)
                 self.assertEqual(json.loads((self.dir / "m/summary.json").read_text())["status"], "completed")
@@ -244,7 +240,6 @@ class Cli(Program):
         self.assertEqual(summary["status"], "failed")
         self.assertGreater(len((self.dir / "m/history.csv").read_text().splitlines()), 1)
 
-    @unittest.skipUnless(hasattr(os, "geteuid") and os.path.exists("/dev/shm"), "needs a small file system")
     def test_full_disk_exits_1_and_keeps_earlier_files(self):
         import resource
         def limit():
@@ -392,9 +387,10 @@ class Cli(Program):
         self.assertIn("diverged", lost.stderr)
 
     def test_verify_can_be_interrupted(self):
-        run = subprocess.Popen([str(EDDA), "verify", "m.toml", "--set", "solver.duration=1000", "--set", "output.history_every=1",
-                                "--set", "output.every=100"], cwd=self.dir, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        self.assertIn(b"run: ", run.stderr.readline())
+        run = self.start("verify", "m.toml", "--set", "solver.duration=100000", "--set", "output.history_every=100",
+                         "--set", "output.every=10000", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        with self.soon("the first run of edda verify"):
+            self.assertIn(b"run: ", run.stderr.readline())
         run.send_signal(signal.SIGINT)
         run.communicate(timeout=60)
         self.assertEqual(run.returncode, 130)
@@ -417,19 +413,9 @@ class Cli(Program):
     def test_progress_is_a_bar_on_a_terminal_and_silent_when_quiet(self):
         self.assertEqual(self.expect(0, "run", "m.toml", "--quiet").stderr, "")
         self.assertNotIn("\r", self.expect(0, "run", "m.toml").stderr)
-        main, other = pty.openpty()
-        run = subprocess.Popen([str(EDDA), "run", "m.toml"], cwd=self.dir, stdout=subprocess.DEVNULL, stderr=other)
-        os.close(other)
-        text = b""
-        try:
-            while chunk := os.read(main, 4096):
-                text += chunk
-        except OSError:
-            pass
-        run.wait(60)
-        os.close(main)
-        self.assertIn(b"100 %", text)
-        self.assertIn(b"steps/s", text)
+        text = self.on_terminal("run", "m.toml")
+        self.assertIn("100 %", text)
+        self.assertIn("steps/s", text)
 
 
 if __name__ == "__main__":

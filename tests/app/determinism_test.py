@@ -1,6 +1,6 @@
 """The same model gives the same bits: with any number of threads, after a stop and --resume, at any optimisation.
 Nothing is compared with a stored value, only builds of the same sources with each other. Compared are hashes of
-  blocks.csv, joints.csv, history.csv, the last frames, and summary.json without what tells of the machine (MACHINE).
+  blocks.csv, joints.csv, history.csv, the last frames, and summary.json without what tells of the machine (program.py).
 Usage: determinism_test.py EDDA [EDDA_O1]
 EDDA_O1 is the same sources at -O1 with every loop shared among the threads (CMake's EDDA_O1_TWIN), so that small scenes
 meet all of the threads' work; EDDA itself shares only long loops, which the last scene has."""
@@ -8,19 +8,14 @@ import hashlib
 import json
 import os
 import pathlib
-import shutil
-import signal
-import subprocess
 import sys
-import tempfile
-import time
 import unittest
 
-EDDA = pathlib.Path(sys.argv.pop(1)).resolve()
-TWIN = pathlib.Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else None
+from program import EDDA, Program, lasting
 
-# What of the summary tells of the machine and the threads, not of the model.
-MACHINE = ("wall_seconds", "block_steps_per_second", "threads")
+# The name of a test may follow the program, too.
+TWIN = pathlib.Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 and os.path.isfile(sys.argv[1]) else None
+
 STEPS = 10_000
 THREADS = (1, 2, 3, 8, 16)
 
@@ -44,29 +39,27 @@ LARGE_WALL = ("wall", {"brick_wall.0.columns": 45, "brick_wall.0.rows": 60,
                        "block.floor.polygon": "[[-4, -0.5], [26, -0.5], [26, 0], [-4, 0]]", **steps_of(1.2e-5, 150)})
 
 
-class Determinism(unittest.TestCase):
-    def setUp(self):
-        self.dir = pathlib.Path(tempfile.mkdtemp(prefix="edda_determinism_"))
-        self.addCleanup(shutil.rmtree, self.dir, True)
+# More threads than cores must not spin while they wait for each other.
+ENVIRONMENT = {**os.environ, "OMP_WAIT_POLICY": "passive", "OMP_DYNAMIC": "false"}
 
-    def command(self, program, folder, settings, threads, *more):
-        given = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
-        return [str(program), "run", "m.toml", "--quiet", "-o", folder, "--threads", str(threads), *more, *given]
 
-    def environment(self):
-        # More threads than cores must not spin while they wait for each other.
-        return {**os.environ, "OMP_WAIT_POLICY": "passive", "OMP_DYNAMIC": "false"}
+def given(settings, threads):
+    return ["--threads", str(threads), *(word for key, value in settings.items() for word in ("--set", f"{key}={value}"))]
+
+
+class Determinism(Program):
+    seconds = 250
 
     def take(self, scene):
         name, settings = scene
-        subprocess.run([str(EDDA), "example", name], cwd=self.dir, check=True, capture_output=True)
+        self.expect(0, "example", name)
         (self.dir / (name + ".toml")).rename(self.dir / "m.toml")
         return settings
 
     def prints(self, folder, steps):
         """Hash by file, and the summary."""
         folder = self.dir / folder
-        summary = {k: v for k, v in json.loads((folder / "summary.json").read_text()).items() if k not in MACHINE}
+        summary = lasting(folder)
         self.assertEqual(summary["status"], "completed", summary["message"])
         self.assertGreaterEqual(summary["steps"], steps)
         files = [folder / name for name in ("blocks.csv", "joints.csv", "history.csv")]
@@ -77,29 +70,15 @@ class Determinism(unittest.TestCase):
         return result, summary
 
     def whole(self, program, folder, settings, threads, steps):
-        done = subprocess.run(self.command(program, folder, settings, threads), cwd=self.dir, text=True, timeout=250,
-                              capture_output=True, env=self.environment())
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.expect(0, "run", "m.toml", "--quiet", "-o", folder, *given(settings, threads), program=program, env=ENVIRONMENT)
         return self.prints(folder, steps)
 
     def resumed(self, first, second, settings, threads, steps):
         """Stopped once its first checkpoint is there, and gone on with by the other program."""
         often = {**settings, "output.checkpoint_every": 1e-4}
-        for _ in range(20):
-            shutil.rmtree(self.dir / "stopped", ignore_errors=True)
-            process = subprocess.Popen(self.command(first, "stopped", often, threads[0]), cwd=self.dir,
-                                       stderr=subprocess.PIPE, env=self.environment())
-            while not (self.dir / "stopped/checkpoint.h5").exists() and process.poll() is None:
-                time.sleep(0.002)
-            process.send_signal(signal.SIGINT)
-            process.communicate()
-            if process.returncode == 130:
-                break
-        self.assertEqual(process.returncode, 130, "the run is over before it can be stopped")
-        done = subprocess.run(self.command(second, "stopped", often, threads[1], "--resume"), cwd=self.dir, text=True,
-                              capture_output=True, timeout=250, env=self.environment())
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return self.prints("stopped", steps)
+        self.assertEqual(self.stop_early(*given(often, threads[0]), program=first, env=ENVIRONMENT), 130)
+        self.expect(0, "run", "m.toml", "--quiet", "-o", "r", "--resume", *given(often, threads[1]), program=second, env=ENVIRONMENT)
+        return self.prints("r", steps)
 
     def hold(self, scene, steps=STEPS, threads=THREADS, twin_threads=(1, 2)):
         settings = self.take(scene)

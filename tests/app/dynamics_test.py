@@ -1,12 +1,9 @@
 """Shaking, driven and viscous boundaries and bolts, end to end: what is written, and the same bytes after a stop and with
 any number of threads. Usage: dynamics_test.py EDDA"""
 import json
-import signal
-import subprocess
-import time
 import unittest
 
-from program import EDDA, Program, content
+from program import Program, content
 
 MODEL = """
 [materials.rock]
@@ -108,11 +105,7 @@ class Dynamics(Program):
         whole = content(self.dir / "one")
         self.expect(0, "run", "m.toml", "--quiet", "-o", "three", "--threads", "3")
         self.assertEqual(content(self.dir / "three"), whole)
-        process = subprocess.Popen([str(EDDA), "run", "m.toml", "--quiet", "-o", "r"], cwd=self.dir)
-        while process.poll() is None and not (self.dir / "r/checkpoint.h5").exists():
-            time.sleep(0.005)
-        process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(), 130)
+        self.assertEqual(self.stop_early(), 130)
         self.expect(0, "run", "m.toml", "--quiet", "-o", "r", "--resume", "--threads", "2")
         self.assertEqual(content(self.dir / "r"), whole)
 
@@ -125,11 +118,7 @@ class Dynamics(Program):
         self.assertTrue((self.dir / "r/history.csv").read_bytes().startswith(history))
 
     def test_resume_wants_the_same_record(self):
-        process = subprocess.Popen([str(EDDA), "run", "m.toml", "--quiet", "-o", "r"], cwd=self.dir)
-        while process.poll() is None and not (self.dir / "r/checkpoint.h5").exists():
-            time.sleep(0.005)
-        process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(), 130)
+        self.assertEqual(self.stop_early(), 130)
         (self.dir / "quake.csv").write_text("time,ax,ay\n0,0,0\n0.1,1.5,0.5\n0.2,-2,-0.3\n0.3,0,0\n")
         self.assertIn("the model is not the one", self.expect(2, "run", "m.toml", "-o", "r", "--resume").stderr)
 

@@ -2,10 +2,9 @@
 Usage: limits_test.py EDDA"""
 import math
 import resource
-import subprocess
 import unittest
 
-from program import EDDA, Program
+from program import Program
 MEMORY = 3 << 30  # bytes, of addresses
 
 HEAD = """[materials.rock]
@@ -37,8 +36,7 @@ class Limits(Program):
 
         def limit():
             resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-        return subprocess.run([str(EDDA), "run", "m.toml", "--threads", "1", *more], cwd=self.dir, text=True,
-                              capture_output=True, timeout=120, preexec_fn=limit)
+        return self.edda("run", "m.toml", "--threads", "1", *more, preexec_fn=limit)
 
     def refused(self, text, *words):
         done = self.run_limited(text)
@@ -103,8 +101,7 @@ class Limits(Program):
     def test_what_is_large_but_sound_is_taken(self):
         for text in (BLOCK + WALL + "origin = [5, 0]\ncolumns = 60\nrows = 50\n", f"[[block]]\npolygon = {ring(9_000)}\n"):
             (self.dir / "m.toml").write_text(HEAD + text)
-            done = subprocess.run([str(EDDA), "check", "m.toml"], cwd=self.dir, capture_output=True, text=True, timeout=60)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.expect(0, "check", "m.toml")
 
 
 if __name__ == "__main__":

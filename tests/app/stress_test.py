@@ -1,12 +1,9 @@
 """Stress in the ground at the start, end to end: what is printed and written, and the same bytes after a stop and with
 any number of threads. Usage: stress_test.py EDDA"""
 import json
-import signal
-import subprocess
-import time
 import unittest
 
-from program import EDDA, Program, content
+from program import Program, content
 
 MODEL = """
 [materials.rock]
@@ -115,11 +112,7 @@ class Stress(Program):
         whole = content(self.dir / "one")
         self.expect(0, "run", "m.toml", "--quiet", "-o", "three", "--threads", "3")
         self.assertEqual(content(self.dir / "three"), whole)
-        process = subprocess.Popen([str(EDDA), "run", "m.toml", "--quiet", "-o", "r"], cwd=self.dir)
-        while process.poll() is None and not (self.dir / "r/checkpoint.h5").exists():
-            time.sleep(0.002)
-        process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(60), 130)
+        self.assertEqual(self.stop_early(), 130)
         self.expect(0, "run", "m.toml", "--quiet", "-o", "r", "--resume", "--threads", "2")
         self.assertEqual(content(self.dir / "r"), whole)
 

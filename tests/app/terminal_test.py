@@ -1,14 +1,10 @@
 """What edda says to terminals, machines and shells: progress, JSON, completions, the manual page. Usage: terminal_test.py EDDA"""
-import fcntl
 import json
 import os
-import pty
 import re
 import shutil
 import signal
-import struct
 import subprocess
-import termios
 import unittest
 
 from program import EDDA, Program
@@ -48,25 +44,9 @@ class Folder(Program):
 
 
 class Progress(Folder):
-    def on_terminal(self, columns, *args):
-        """What a terminal of that width sees on stderr."""
-        main, other = pty.openpty()
-        fcntl.ioctl(other, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
-        run = subprocess.Popen([str(EDDA), "run", "m.toml", *args], cwd=self.dir, stdout=subprocess.DEVNULL, stderr=other)
-        os.close(other)
-        text = b""
-        try:
-            while chunk := os.read(main, 4096):
-                text += chunk
-        except OSError:
-            pass
-        self.assertEqual(run.wait(60), 0)
-        os.close(main)
-        return text.decode()
-
     def test_bar_fits_the_terminal(self):
         for columns in (20, 40, 80, 200):
-            text = self.on_terminal(columns)
+            text = self.on_terminal("run", "m.toml", columns=columns)
             bars = re.findall(r"\r\x1b\[K([^\r\n]*)", text)
             self.assertTrue(bars, text)
             for bar in bars:
@@ -77,7 +57,7 @@ class Progress(Folder):
             self.assertIn(words, bars[-1])
 
     def test_quiet_says_nothing(self):
-        self.assertEqual(self.on_terminal(80, "--quiet"), "")
+        self.assertEqual(self.on_terminal("run", "m.toml", "--quiet"), "")
 
     def test_no_bar_elsewhere(self):
         self.assertNotIn("\r", self.expect(0, "run", "m.toml").stderr)
@@ -120,15 +100,16 @@ class Lines(Folder):
         self.assertEqual((end["event"], end["status"], end["exit_code"]), ("end", "refused", 2))
 
     def test_an_interrupted_run_says_so(self):
-        run = subprocess.Popen([str(EDDA), "run", "m.toml", "--json", "--set", "stage.wait.duration=1e6", "--set", "output.every=1e5",
-                                "--set", "output.history_every=1e4"], cwd=self.dir, stdout=subprocess.PIPE)
-        for line in run.stdout:
-            if json.loads(line)["event"] == "stage_end":
-                break
+        run = self.start("run", "m.toml", "--json", "--set", "stage.wait.duration=1e6", "--set", "output.every=1e5",
+                         "--set", "output.history_every=1e4", stdout=subprocess.PIPE)
+        with self.soon("the end of the first stage"):
+            for line in run.stdout:
+                if json.loads(line)["event"] == "stage_end":
+                    break
         run.send_signal(signal.SIGINT)
-        end = json.loads(run.stdout.read().splitlines()[-1])
-        self.assertEqual(run.wait(60), 130)
-        run.stdout.close()
+        with self.soon("the end of the run"):
+            end = json.loads(run.stdout.read().splitlines()[-1])
+        self.assertEqual(run.wait(self.seconds), 130)
         self.assertEqual((end["event"], end["status"], end["exit_code"]), ("end", "interrupted", 130))
 
     def test_check_is_one_object(self):
@@ -153,15 +134,20 @@ class Lines(Folder):
 
 
 class Shells(Folder):
+    def shell(self, *command):
+        """What a shell says that complains of nothing, not even of the locale that the test was given."""
+        done = subprocess.run(command, cwd=self.dir, text=True, capture_output=True, timeout=self.seconds,
+                              env={**os.environ, "LC_ALL": "C.UTF-8", "HOME": str(self.dir)})
+        self.assertEqual(done.stderr, "")
+        return done.stdout.splitlines()
+
     def bash(self, line):
         """What bash offers for the last word of the line."""
         words = line.split(" ")
         quoted = " ".join(f"'{w}'" for w in words)
         script = (f'source <("{EDDA}" completion bash); COMP_WORDS=({quoted}); COMP_CWORD={len(words) - 1}; _edda; '
                   'printf "%s\\n" "${COMPREPLY[@]}"')
-        done = subprocess.run(["bash", "--norc", "-c", script], cwd=self.dir, text=True, capture_output=True, timeout=60)
-        self.assertEqual(done.stderr, "")
-        return [word for word in done.stdout.splitlines() if word]
+        return [word for word in self.shell("bash", "--norc", "-c", script) if word]
 
     def commands(self):
         listed = self.expect(0, "--help").stdout.split("Subcommands:")[1]
@@ -194,18 +180,15 @@ class Shells(Folder):
     def test_zsh_reads_its_script(self):
         (self.dir / "_edda").write_text(self.expect(0, "completion", "zsh").stdout)
         script = "autoload -U compinit; compinit -D -u; fpath=(. $fpath); source ./_edda; print $_comps[edda]"
-        done = subprocess.run(["zsh", "-f", "-c", script], cwd=self.dir, text=True, capture_output=True, timeout=60)
-        self.assertEqual((done.stderr, done.stdout.strip()), ("", "_edda"))
+        self.assertEqual(self.shell("zsh", "-f", "-c", script), ["_edda"])
 
     @unittest.skipUnless(shutil.which("fish"), "fish is not here")
     def test_fish_completes(self):
         (self.dir / "edda.fish").write_text(self.expect(0, "completion", "fish").stdout)
 
         def offered(line):
-            done = subprocess.run(["fish", "--no-config", "-c", f"source edda.fish; complete -C '{line}'"], cwd=self.dir, text=True,
-                                  capture_output=True, timeout=60, env={**os.environ, "HOME": str(self.dir)})
-            self.assertEqual(done.stderr, "")
-            return [word.split("\t")[0] for word in done.stdout.splitlines()]
+            said = self.shell("fish", "--no-config", "-c", f"source edda.fish; complete -C '{line}'")
+            return [word.split("\t")[0] for word in said]
 
         self.assertGreaterEqual(set(offered("edda ")), set(self.commands()))
         self.assertEqual(offered("edda plot m --vectors "), ["displacement", "velocity"])

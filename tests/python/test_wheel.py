@@ -1,4 +1,4 @@
-"""The wheel that pip would get, of the build at hand."""
+"""The wheel that pip would get, of the build at hand, which stays as it is."""
 import base64
 import hashlib
 import os

@@ -5,6 +5,7 @@
 import os
 import pathlib
 import re
+import shutil
 import sys
 import tempfile
 import unittest
@@ -44,7 +45,7 @@ class Package(unittest.TestCase):
 
     def test_it_needs_what_it_links_to(self):
         needs = run("dpkg-deb", "-f", self.package, "Depends")
-        for library in ("libc6", "libstdc++6", "libgeos", "libcairo2", "libhdf5", "libfmt9"):
+        for library in ("libc6", "libstdc++6", "libgeos", "libcairo2", "libhdf5", "libfmt"):
             self.assertIn(library, needs)
 
     def test_what_links_to_the_library_will_need_this_minor_version(self):
@@ -72,4 +73,8 @@ class Package(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    missing = [tool for tool in ("cpack", "dpkg-deb", "dpkg-shlibdeps") if not shutil.which(tool)]
+    if missing:
+        print(f"{', '.join(missing)}: not here, skipped")
+        sys.exit(77)
     unittest.main(argv=[sys.argv[0]])

@@ -17,14 +17,21 @@ export async function launch(packages) {
   });
 }
 
-/** Opens a page and waits for its first drawing. What goes wrong on it is added to `faults`. */
-export async function open(browser, address, faults) {
+/** A page with nothing in it yet. What goes wrong on it is added to `faults`. */
+export async function blank(browser, faults) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+  page.setDefaultTimeout(60000); // a busy machine may need half of it
   page.on('console', (message) => {
     // What reading pixels back costs is the tests' own doing.
     if (['error', 'warning'].includes(message.type()) && !message.text().includes('ReadPixels')) faults.push(message.text());
   });
   page.on('pageerror', (error) => faults.push(error.message));
+  return page;
+}
+
+/** Opens a page and waits for its first drawing. */
+export async function open(browser, address, faults) {
+  const page = await blank(browser, faults);
   page.on('request', (request) => {
     if (address.startsWith('file:') && !/^(file|blob|data):/.test(request.url())) faults.push(`asks for ${request.url()}`);
   });

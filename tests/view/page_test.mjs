@@ -1,10 +1,9 @@
 // The replay page in a real browser, used as a person does.
 import assert from 'node:assert/strict';
-import { spawn } from 'node:child_process';
-import { existsSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, readdirSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { test } from 'node:test';
-import { choose, clickAt, edda, faults, folder, page, run, settled, shownValues, table } from './page_tools.mjs';
+import { blank, choose, clickAt, faults, folder, page, run, serve, settled, shownValues, start, table, until, within } from './page_tools.mjs';
 import { wall } from './wall.mjs';
 
 test('shows the values that blocks.csv has, of any block', async () => {
@@ -190,18 +189,16 @@ test('shows stages, bolts and rock that is taken out', async () => {
   await p.close();
 });
 
-test('follows a run that goes on', async () => {
+test('follows a run that goes on', async (t) => {
   run('example', 'rockfall');
-  const going = spawn(edda, ['run', 'rockfall.toml', '--quiet', '--set', 'solver.safety=0.05', '--set', 'output.every=0.05'], { cwd: folder, stdio: 'ignore' });
-  const ended = new Promise((resolve) => going.on('exit', resolve));
-  while (!existsSync(path.join(folder, 'rockfall/blocks.pvd'))) await new Promise((r) => setTimeout(r, 20));
-  const server = spawn(edda, ['view', 'rockfall', '--serve', '--port', '0'], { cwd: folder, stdio: ['ignore', 'pipe', 'inherit'] });
-  const address = await new Promise((resolve) => server.stdout.on('data', (text) => resolve(/http:\S+/.exec(String(text))[0])));
+  const going = start(t, ['run', 'rockfall.toml', '--quiet', '--set', 'solver.safety=0.05', '--set', 'output.every=0.05']);
+  await until(() => existsSync(path.join(folder, 'rockfall/blocks.pvd')), 'the first frame');
+  const { server, ended, address } = await serve(t, 'rockfall');
   const p = await page(address);
   const first = await p.evaluate(() => edda.results.run.frames.length);
-  await p.waitForFunction((n) => edda.results.run.frames.length > n, first, { timeout: 30000 });
-  await ended;
-  await p.waitForFunction(() => !document.getElementById('status').textContent.startsWith('going on'), null, { timeout: 30000 });
+  await p.waitForFunction((n) => edda.results.run.frames.length > n, first, { timeout: 60000 });
+  assert.equal(await within(going.ended, 'the end of the run', 120), 0);
+  await p.waitForFunction(() => !document.getElementById('status').textContent.startsWith('going on'), null, { timeout: 60000 });
   const rows = table('rockfall/blocks.csv');
   await settled(p);
   assert.equal(await p.evaluate(() => edda.player.index === edda.player.end), true, 'stays at the end');
@@ -218,11 +215,37 @@ test('follows a run that goes on', async () => {
   // The same model once more, shorter, in the same folder.
   await p.evaluate(() => Object.assign(window, { earlier: true }));
   run('run', 'rockfall.toml', '--quiet', '--set', 'solver.duration=0.2', '--set', 'output.every=0.1');
-  await p.waitForFunction(() => window.earlier === undefined && window.edda?.drawn > 0, null, { timeout: 30000 });
+  await p.waitForFunction(() => window.earlier === undefined && window.edda?.drawn > 0, null, { timeout: 60000 });
   assert.equal(await p.evaluate(() => edda.results.run.frames.length), 3);
   await p.close();
   server.kill('SIGINT');
-  assert.equal(await new Promise((resolve) => server.on('exit', resolve)), 0);
+  assert.equal(await within(ended, 'the end of the server'), 0);
+});
+
+test('waits quietly while the folder has nothing to show', async (t) => {
+  run('run', 'cavern.toml', '--quiet', '-o', 'served');
+  const { address } = await serve(t, 'served');
+  const p = await page(address);
+  await p.evaluate(() => Object.assign(window, { earlier: true }));
+  const [here, away] = ['served/blocks.pvd', 'away'].map((name) => path.join(folder, name));
+  const waits = (q) => q.waitForFunction(() => document.getElementById('status').textContent.startsWith('waiting: '));
+  renameSync(here, away);
+  await waits(p);
+  // Frames and tables that are asked for meanwhile: they come later, and nobody is told of an error.
+  await p.keyboard.press('End');
+  assert.equal(await p.evaluate(() => edda.source.chunk('mesh').catch((error) => error.message)), 'the folder holds another run now');
+  assert.ok(await p.locator('#fault').isHidden());
+  const other = await blank();
+  await other.goto(address);
+  await waits(other);
+  await other.waitForTimeout(1500);
+  assert.ok(await other.locator('#fault').isHidden());
+  renameSync(away, here);
+  await p.waitForFunction(() => window.earlier === undefined && window.edda?.drawn > 0);
+  await other.waitForFunction(() => window.edda?.drawn > 0);
+  assert.doesNotMatch(await p.textContent('#status'), /waiting/);
+  await p.close();
+  await other.close();
 });
 
 test('small pages are kept small, and still end with exact values', async () => {

@@ -3,10 +3,10 @@ import uPlotStyle from 'uplot/dist/uPlot.min.css';
 import { blockValue, blockValues } from './data/fields';
 import type { Frame } from './data/frame';
 import { Frames } from './data/frames';
-import { readResults, refresh, type Results } from './data/results';
+import { refresh, type Results } from './data/results';
 import type { Field } from './data/run';
 import { Scale } from './data/scale';
-import type { Source } from './data/source';
+import { Absent, type Source } from './data/source';
 import { brief, quantity } from './data/units';
 import { Overlay } from './scene/overlay';
 import { View } from './scene/view';
@@ -20,9 +20,10 @@ import { listenToPointer } from './ui/pointer';
 import { savePicture } from './ui/save';
 import { digitsOf, showValues, valuesOf } from './ui/selection';
 import { css, overlayStyle, themeAtStart, type ThemeName, themes } from './ui/theme';
+import { showWaiting } from './ui/waiting';
 
 /** How often a served run is asked for more, ms. */
-const ASK_EVERY = 1000;
+export const ASK_EVERY = 1000;
 
 export class App {
   readonly frames: Frames;
@@ -46,11 +47,7 @@ export class App {
   readonly scriptTimes: number[] = [];
   drawn = 0;
 
-  static async open(source: Source): Promise<App> {
-    return new App(source, await readResults(source));
-  }
-
-  private constructor(private readonly source: Source, readonly results: Results) {
+  constructor(private readonly source: Source, readonly results: Results) {
     document.head.append(Object.assign(document.createElement('style'), { textContent: uPlotStyle }));
     document.documentElement.dataset.theme = this.theme;
     const { run, mesh } = results;
@@ -103,7 +100,10 @@ export class App {
     const frame = this.frames.ready(index);
     byId('busy').hidden = frame !== undefined;
     if (frame === undefined) {
-      this.frames.want(index).then(() => this.wake(), (error: Error) => this.fail(error));
+      this.frames.want(index).then(() => this.wake(), (error: Error) => {
+        if (error instanceof Absent) setTimeout(() => this.wake(), ASK_EVERY);
+        else this.fail(error);
+      });
       return;
     }
     this.frame = frame;
@@ -301,15 +301,16 @@ export class App {
         Object.assign(this.results, results);
         this.player.setTimes(run.frames);
         this.plots.refresh();
-        this.describe();
         if (atEnd) this.player.go(this.player.end);
         this.wake();
       }
+      this.describe();
       byId('fault').hidden = true;
     } catch (error) {
       // What fetch() makes of no answer at all is a TypeError.
       const silent = error instanceof TypeError;
-      this.fail(silent ? new Error('the program that serves this page does not answer: start edda view --serve again') : (error as Error));
+      if (error instanceof Absent) showWaiting(error);
+      else this.fail(silent ? new Error('the program that serves this page does not answer: start edda view --serve again') : (error as Error));
     }
     setTimeout(() => this.ask(), ASK_EVERY);
   }

@@ -1,26 +1,36 @@
-import { App } from './app';
-import { PageSource, ServedSource } from './data/source';
+import { App, ASK_EVERY } from './app';
+import { readResults, type Results } from './data/results';
+import { Absent, PageSource, ServedSource, type Source } from './data/source';
 import { byId } from './ui/dom';
+import { showWaiting } from './ui/waiting';
 
-/** A run that is served may have no frame yet. */
-async function begin(source: ServedSource): Promise<void> {
+/** A run that is served may have no frame yet, or go while it is read. */
+async function served(): Promise<[Source, Results]> {
   const fault = byId('fault');
   for (;;) {
-    const answer = await source.run().catch((error: Error) => error);
-    fault.hidden = !(answer instanceof Error);
-    if (!(answer instanceof Error)) return;
-    fault.textContent = answer.message;
-    await new Promise((resolve) => setTimeout(resolve, 1000));
+    const source = new ServedSource();
+    const results = await readResults(source).catch((error: Error) => error);
+    fault.hidden = true;
+    if (!(results instanceof Error)) return [source, results];
+    if (results instanceof Absent) {
+      showWaiting(results);
+    } else {
+      fault.hidden = false;
+      fault.textContent = results.message;
+    }
+    await new Promise((resolve) => setTimeout(resolve, ASK_EVERY));
   }
 }
 
+async function inside(): Promise<[Source, Results]> {
+  const source = new PageSource();
+  return [source, await readResults(source)];
+}
+
 async function start(): Promise<void> {
-  const served = document.getElementById('edda-run') === null;
-  const source = served ? new ServedSource() : new PageSource();
-  if (source instanceof ServedSource) await begin(source);
-  const app = await App.open(source);
+  const [source, results] = await (document.getElementById('edda-run') === null ? served() : inside());
   // For tests and for the curious.
-  Object.assign(window, { edda: app });
+  Object.assign(window, { edda: new App(source, results) });
 }
 
 start().catch((error: unknown) => {

@@ -2,7 +2,7 @@
 import type { Frame } from './frame';
 import type { Mesh } from './mesh';
 import type { Run } from './run';
-import type { Source } from './source';
+import { Absent, type Source } from './source';
 import type { Done, Job, Setup } from './worker';
 import workerCode from 'worker:./worker.ts';
 
@@ -78,7 +78,8 @@ export class Frames {
       }
       for (const w of waiting) w.resolve(done.frame);
     } else {
-      for (const w of waiting) w.reject(new Error(done.error));
+      const error = done.absent ? new Absent(done.error) : new Error(done.error);
+      for (const w of waiting) w.reject(error);
     }
     this.next();
   }

@@ -3,6 +3,9 @@ import { fromBase64, inflate } from './inflate';
 import type { Run } from './run';
 import type { Job } from './worker';
 
+/** A run that has no frame yet, or that is being cleared for another: it is asked for again. */
+export class Absent extends Error {}
+
 export interface Source {
   run(): Promise<Run>;
   /** A chunk's bytes, inflated; undefined where there is none. */
@@ -10,6 +13,9 @@ export interface Source {
   /** How the worker gets a frame. */
   job(frame: number): Job;
 }
+
+/** What a served chunk's status is where its run has gone. */
+export const GONE = 204;
 
 export class PageSource implements Source {
   async run(): Promise<Run> {
@@ -34,12 +40,14 @@ export class ServedSource implements Source {
   async run(): Promise<Run> {
     const reply = await fetch('run');
     if (!reply.ok) throw new Error(await reply.text());
-    const run = (await reply.json()) as Run;
-    this.name ??= run.run;
-    return run;
+    const answer = (await reply.json()) as Run | { waiting: string };
+    if ('waiting' in answer) throw new Absent(answer.waiting);
+    this.name ??= answer.run;
+    return answer;
   }
   async chunk(name: string): Promise<Uint8Array | undefined> {
     const reply = await fetch(this.address(name));
+    if (reply.status === GONE) throw new Absent('the folder holds another run now');
     if (reply.status === 404) return undefined;
     if (!reply.ok) throw new Error(await reply.text());
     return inflate(new Uint8Array(await reply.arrayBuffer()));

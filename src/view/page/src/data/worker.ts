@@ -1,6 +1,7 @@
 // Unpacks frames beside the page's own thread.
 import { type Beginnings, buffersOf, type Frame, readFrame } from './frame';
 import { fromBase64, inflate } from './inflate';
+import { Absent, GONE } from './source';
 
 /** First: where the blocks' vertices and edges begin. */
 export type Setup = Beginnings;
@@ -14,6 +15,8 @@ export interface Done {
   index: number;
   frame?: Frame;
   error?: string;
+  /** Its run has gone. */
+  absent?: boolean;
 }
 
 let mesh: Beginnings = { begin: new Uint32Array(), edgeBegin: new Uint32Array(), reach: new Float64Array() };
@@ -21,6 +24,7 @@ let mesh: Beginnings = { begin: new Uint32Array(), edgeBegin: new Uint32Array(),
 async function unpack(job: Job): Promise<Frame> {
   if (job.text !== undefined) return readFrame(await inflate(fromBase64(job.text)), mesh);
   const reply = await fetch(job.url!);
+  if (reply.status === GONE) throw new Absent(`frame ${job.index} has gone`);
   if (!reply.ok) throw new Error(`frame ${job.index}: ${await reply.text()}`);
   return readFrame(await inflate(new Uint8Array(await reply.arrayBuffer())), mesh);
 }
@@ -40,6 +44,6 @@ self_.onmessage = async ({ data }) => {
     const frame = await unpack(data);
     self_.postMessage({ index: data.index, frame }, buffersOf(frame));
   } catch (error) {
-    self_.postMessage({ index: data.index, error: String(error) });
+    self_.postMessage({ index: data.index, error: String(error), absent: error instanceof Absent });
   }
 };
