@@ -303,6 +303,10 @@ void complete(const Value& root, Reading& reading) {
   complete_fos(root, reading);
   complete_interval(root, "every", model.output.every, 20.0, 1e5, reading);
   complete_interval(root, "history_every", model.output.history_every, 200.0, 1e7, reading);
+  const Value* output = find(&root, "output");
+  if (find(output, "settling") == nullptr)
+    model.output.settling =
+        find(output, "every") == nullptr && find(output, "history_every") == nullptr;
 }
 
 }  // namespace edda

@@ -220,6 +220,7 @@ constexpr std::array solver_keys{
 constexpr std::array output_keys{
     Key{"every", at<&Output::every>, number(D::time, above(0)), otherwise("solver.duration / 20"), "Time between pictures of all blocks."},
     Key{"history_every", at<&Output::history_every>, number(D::time, above(0)), otherwise("solver.duration / 200"), "Time between rows of history.csv."},
+    Key{"settling", at<&Output::settling>, flag, otherwise("true where neither every nor history_every is given"), "In stages until equilibrium, whose time nobody knows before: rows and frames beside those, the closer the less time has passed."},
     Key{"checkpoint_every", at<&Output::checkpoint_every>, number(D::plain, above(0)), initial, "Minutes of wall time between checkpoints."},
     Key{"stages", at<&Output::stages>, flag, initial, "With stages: whether contacts and a checkpoint are kept of the end of each, under stages/."},
 };

@@ -276,8 +276,10 @@ struct Stage {
 };
 
 struct Output {
-  double every = 0.0;             ///< s; default: duration / 20
-  double history_every = 0.0;     ///< s; default: duration / 200
+  double every = 0.0;          ///< s; default: duration / 20
+  double history_every = 0.0;  ///< s; default: duration / 200
+  bool settling =
+      true;  ///< more rows and frames until an equilibrium; default: without the two above
   double checkpoint_every = 5.0;  ///< minutes of wall time
   bool stages = true;             ///< contacts and a checkpoint at the end of each stage
 };

@@ -238,6 +238,9 @@ Driver::Went Driver::step_to(double time) {
       measure_overlaps();
     }
     const bool at_rest = is_at_rest();
+    if (!at_rest && sim_.state.time < time) {
+      if (const Event event = settling_event(); event.row && !record(event)) return Went::over;
+    }
     if (!at_rest) write_checkpoint_if_due();  // after the look, which a resumed run must not miss
     if (options_.progress && since(reported_) >= options_.progress_every) report(false);
     if (options_.after_step && options_.after_step()) pause_asked_ = true;

@@ -67,6 +67,10 @@ class Driver {
   void take_out(const Stage& stage);
   /// Whether the stage in hand waits for an equilibrium and has found it.
   bool is_at_rest();
+  /// The row and the frame that are due at this step of a stage until equilibrium: 32 rows 64 steps
+  /// apart, 32 of twice that, and so on, a frame with every eighth. Of the steps alone, so that a
+  /// resumed run has them, too.
+  Event settling_event() const;
   /// The event in hand becomes one at the present time.
   void rest_before(Event& event);
   /// Writes down the end of the stage. False: the run is over.

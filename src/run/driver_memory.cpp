@@ -45,6 +45,7 @@ std::string identity(const Model& model, std::size_t stages) {
   m.title.clear();
   if (stages < m.stages.size()) m.stages.resize(stages);
   m.output.every = m.output.history_every = 1.0;
+  m.output.settling = true;
   m.solver.duration = 1.0;
   m.output.checkpoint_every = 1.0;
   m.fos.reset();
@@ -55,8 +56,8 @@ std::string identity(const Model& model, std::size_t stages) {
   for (Shaking& shaking : m.shakings) shaking.acceleration.file.clear();
   std::string text = to_toml(m) + first_states(model);
   if (stages == all_stages) {
-    text += fmt::format("output.every = {}\noutput.history_every = {}\n", model.output.every,
-                        model.output.history_every);
+    text += fmt::format("output.every = {}\noutput.history_every = {}\noutput.settling = {}\n",
+                        model.output.every, model.output.history_every, model.output.settling);
   }
   auto add = [&](const std::string& key, const TimeHistory& curve) {
     for (std::size_t k = 0; k < curve.time.size(); ++k)

@@ -79,6 +79,19 @@ bool Driver::is_at_rest() {
   return calm_ >= enough;
 }
 
+Event Driver::settling_event() const {
+  constexpr std::uint64_t first = 64, rows = 32, rows_a_frame = 8;
+  const std::uint64_t n = sim_.state.steps - stage_steps_;
+  std::uint64_t interval = first;
+  for (std::uint64_t end = rows * first; n > end; end += rows * interval) interval *= 2;
+  const bool settles = sim_.model.output.settling && stages_[stage_].until == StageEnd::equilibrium;
+  Event e;
+  e.time = sim_.state.time;
+  e.row = settles && n % interval == 0;
+  e.frame = e.row && n % (rows_a_frame * interval) == 0;
+  return e;
+}
+
 void Driver::rest_before(Event& event) {
   if (event.time > sim_.state.time) times_.put_back(event);
   event = {sim_.state.time, true, true, true, false, false};

@@ -158,11 +158,16 @@ Trouble serve_page(const std::function<Result<ViewRun>()>& open, int port,
     return fault;
   }
   ready(fmt::format("http://{}:{}/", this_machine, bound));
+  std::atomic<bool> over{false};
+  // A server that does not listen yet is not stopped by being told to.
   std::thread watch([&] {
-    while (!stop) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    server.stop();
+    while (!over) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      if (stop) server.stop();
+    }
   });
   server.listen_after_bind();
+  over = true;
   watch.join();
   return {};
 }

@@ -260,6 +260,7 @@ damping = { mass = "2 1/s", local = 0.1, contact = 0.3 }
 [output]
 every = 0.3
 history_every = 0.07
+settling = true
 checkpoint_every = 2.5
 stages = false
 [fos]
