@@ -49,6 +49,7 @@ Trouble draw_mechanism(const Model& model, const FosResult& r, const std::string
   constexpr double shown = 0.5;  // of a block's size
   options.scale = round_scale(shown * r.criterion.size / largest);
   options.vectors = "displacement";
+  options.whole_range = true;  // what moves may be little, and is what there is to see
   for (const MovingJoint& j : r.mechanism->joints) {
     options.joints.push_back(
         {j.from + options.scale * j.from_moved, j.to + options.scale * j.to_moved});

@@ -165,10 +165,15 @@ void add_what(CLI::App& command, PlotArguments& args) {
 void add_how(CLI::App& command, PlotArguments& args) {
   command.add_option("--scale", args.scale, "Draw displacements this many times as large")
       ->type_name("FACTOR");
-  command.add_option("--range", args.range, "Values of the ends of the colours, in SI units")
-      ->type_name("LO,HI")
-      ->delimiter(',')
-      ->expected(2);
+  CLI::Option* const range =
+      command.add_option("--range", args.range, "Values of the ends of the colours, in SI units")
+          ->type_name("LO,HI")
+          ->delimiter(',')
+          ->expected(2);
+  command
+      .add_flag("--whole-range", args.whole_range,
+                "Colours and vectors up to the largest value, even where few blocks come near it")
+      ->excludes(range);
   command.add_option("--window", args.window, "The part of the model to show, m")
       ->type_name("X0,Y0,X1,Y1")
       ->delimiter(',')

@@ -97,6 +97,7 @@ void add_wishes(const PlotArguments& args, PlotOptions& options) {
   options.principal = args.principal;
   options.bolt_forces = args.bolts;
   options.marks = !args.no_marks;
+  options.whole_range = args.whole_range;
   options.scale = args.scale.value_or(1.0);
   options.paper = paper_of(args);
   if (!args.title.empty()) options.title = args.title;

@@ -22,6 +22,7 @@ struct PlotArguments {
   int width_pixels = 0;
   double font = 8.0;
   bool forces = false, principal = false, bolts = false, before = false, no_marks = false;
+  bool whole_range = false;
 };
 
 /// Everything of a picture.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "report/scene.hpp"
+#include "report/shapes.hpp"
 
 namespace edda {
 namespace {
@@ -14,9 +15,11 @@ template <class Visit>
 void each_value(std::span<const Snapshot> shots, Visit visit) {
   for (const Snapshot& shot : shots) {
     const ShownField& field = shot.field;
+    const std::vector<double> areas =
+        field.of_contacts ? std::vector<double>{} : cell_areas(shot.blocks);
     for (std::size_t c = 0; c < field.values.size(); ++c) {
       if (!field.of_contacts && is_held(shot.blocks, c)) continue;
-      if (std::isfinite(field.values[c])) visit(field.values[c]);
+      if (std::isfinite(field.values[c])) visit(field.values[c], areas.empty() ? 1.0 : areas[c]);
     }
   }
 }
@@ -24,9 +27,9 @@ void each_value(std::span<const Snapshot> shots, Visit visit) {
 }  // namespace
 
 ColourScale::ColourScale(std::span<const Snapshot> shots,
-                         std::optional<std::pair<double, double>> range)
+                         std::optional<std::pair<double, double>> range, bool whole)
     : kind_(shots.front().field.kind) {
-  take_values(shots);
+  take_values(shots, whole || shots.front().field.of_contacts);
   if (kind_ != ScaleKind::numbers) return;
   if (range) {
     take_range(range->first, range->second);
@@ -35,21 +38,23 @@ ColourScale::ColourScale(std::span<const Snapshot> shots,
   }
 }
 
-void ColourScale::take_values(std::span<const Snapshot> shots) {
-  bool any = false;
-  each_value(shots, [&](double v) {
-    low_ = any ? std::min(low_, v) : v;
-    high_ = any ? std::max(high_, v) : v;
-    any = true;
+void ColourScale::take_values(std::span<const Snapshot> shots, bool whole) {
+  std::vector<Weighed> values;
+  each_value(shots, [&](double v, double weight) {
+    all_.low = values.empty() ? v : std::min(all_.low, v);
+    all_.high = values.empty() ? v : std::max(all_.high, v);
+    values.push_back({v, weight});
     if (kind_ == ScaleKind::kinds && v >= 0.0) kinds_.push_back(static_cast<std::size_t>(v));
   });
+  const Ends drawn = whole ? all_ : drawn_ends(all_, inner_ends(values));
+  take_range(drawn.low, drawn.high);
   std::sort(kinds_.begin(), kinds_.end());
   kinds_.erase(std::unique(kinds_.begin(), kinds_.end()), kinds_.end());
 }
 
 void ColourScale::take_range(double low, double high) {
-  values_below_ = low_ < low;
-  values_above_ = high_ > high;
+  values_below_ = all_.low < low;
+  values_above_ = all_.high > high;
   low_ = low;
   high_ = high;
   two_sided_ = low < 0.0 && high > 0.0;

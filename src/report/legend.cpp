@@ -64,6 +64,9 @@ Legend::Legend(const ColourScale& scale, const ShownField& field,
       const bool has_brackets = label_.find('(') != std::string::npos;
       label_ += has_brackets ? ", " + unit.name : " (" + unit.name + ")";
     }
+    const auto number = [&](double v) { return typeset(fmt::format("{:.3g}", v * factor_ + 0.0)); };
+    if (scale_.values_below()) label_ += ", from " + number(scale_.all().low);
+    if (scale_.values_above()) label_ += ", up to " + number(scale_.all().high);
   }
   Canvas measure("", 1.0, 1.0, 1.0);
   heading_ = wrapped(measure, label_, font_, width());

@@ -18,7 +18,7 @@ struct Scales {
 
 Scales scales_of(const std::vector<Scene>& scenes, const PlotOptions& options) {
   Scales scales;
-  if (!options.vectors.empty()) scales.vectors = vector_scale(scenes, options.vectors);
+  if (!options.vectors.empty()) scales.vectors = vector_scale(scenes, options);
   if (options.forces) scales.forces = force_scale(scenes);
   if (options.principal) scales.stresses = stress_scale(scenes);
   if (options.bolt_forces) scales.bolts = bolt_scale(scenes);
@@ -133,7 +133,7 @@ void draw_scene(Canvas& canvas, const Scene& s, const PlotOptions& options,
 class Page {
  public:
   Page(std::span<const Snapshot> shots, const PlotOptions& options)
-      : shots_(shots), options_(options), colours_(shots, options.range) {
+      : shots_(shots), options_(options), colours_(shots, options.range, options.whole_range) {
     for (const Snapshot& shot : shots) scenes_.push_back(make_scene(shot, options.scale));
   }
 

@@ -60,7 +60,8 @@ struct PlotOptions {
   bool bolt_forces = false;  ///< bolts as wide as their axial force
   bool marks = true;         ///< monitors and convergence lines
   std::optional<std::pair<double, double>> range{};  ///< of the colours, SI units
-  std::optional<Box> window{};                       ///< what is shown, m; default: everything
+  bool whole_range = false;     ///< else a few blocks may lie beyond colours and arrows
+  std::optional<Box> window{};  ///< what is shown, m; default: everything
   Paper paper{};
 };
 

@@ -41,6 +41,7 @@ bool is_held(const Grid& grid, std::size_t cell);
 struct ArrowScale {
   double per_unit = 0.0;   ///< pt per unit of the quantity; 0: there is nothing to draw
   double reference = 0.0;  ///< a round value for the legend
+  double longest = 0.0;    ///< pt; what would be longer has two heads; 0: nothing is
 };
 
 /// A round value (1, 2 or 5 times a power of ten) not above `largest`; 0 of 0.
@@ -55,8 +56,8 @@ void draw_joints(Canvas& canvas, const Scene& scene, const PlotOptions& options)
 ArrowScale stress_scale(const std::vector<Scene>& scenes);
 void draw_stresses(Canvas& canvas, const Scene& scene, const ArrowScale& scale);
 
-/// `name`: "displacement" or "velocity".
-ArrowScale vector_scale(const std::vector<Scene>& scenes, const std::string& name);
+/// Of options.vectors.
+ArrowScale vector_scale(const std::vector<Scene>& scenes, const PlotOptions& options);
 void draw_vectors(Canvas& canvas, const Scene& scene, const std::string& name,
                   const ArrowScale& scale);
 ArrowScale force_scale(const std::vector<Scene>& scenes);

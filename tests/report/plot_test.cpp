@@ -70,6 +70,45 @@ TEST(Plot, BlocksHaveTheColoursOfTheirValues) {
   EXPECT_TRUE(looks_like(clipped[1], sequential(1.0)));
 }
 
+/// A row of 60 squares that move by up to 6 mm, beside them a crumb that has fallen by 167 mm.
+Snapshot crumb() {
+  Grid g;
+  Field id{"id", 1, {}, {}, true}, u{"displacement", 3, {}, {}, false};
+  for (int k = 0; k <= 60; ++k) {
+    const double x = k < 60 ? k : 66.0, size = k < 60 ? 1.0 : 0.1;
+    for (const Vec2 p : {Vec2{0, 0}, Vec2{size, 0}, Vec2{size, size}, Vec2{0, size}}) {
+      g.corners.push_back(static_cast<std::int64_t>(g.point_count()));
+      g.points.insert(g.points.end(), {x + p.x, p.y, 0.0});
+    }
+    g.ends.push_back(static_cast<std::int64_t>(g.corners.size()));
+    g.types.push_back(cell_type::polygon);
+    id.values.push_back(k);
+    u.values.insert(u.values.end(), {0.0, k < 60 ? 1e-4 * (k + 1) : -0.167, 0.0});
+  }
+  g.cell_fields = {id, u};
+  Snapshot shot{g};
+  shot.field = shown_field("displacement", shot.blocks, nullptr).value();
+  return shot;
+}
+
+TEST(Plot, ACrumbDoesNotDarkenAllOthers) {
+  const Snapshot shot = crumb();
+  PlotOptions options;
+  options.vectors = "displacement";
+  const std::string svg = drawn({&shot, 1}, options);
+  const auto fills = block_fills(svg, 61);
+  // 98 % of the area reach 5.9 mm; the bar is half as long again.
+  EXPECT_TRUE(looks_like(fills[59], sequential((6.0 - 0.1) / (1.5 * 5.9 - 0.1))));
+  EXPECT_TRUE(looks_like(fills[60], sequential(1.0)));
+  EXPECT_TRUE(text_of(svg, "(mm), up to 167"));
+  EXPECT_TRUE(text_of(svg, "5 mm"));  // of the arrows
+  options.whole_range = true;
+  const std::string whole = drawn({&shot, 1}, options);
+  EXPECT_FALSE(text_of(whole, "(mm), up to 167"));
+  EXPECT_TRUE(text_of(whole, "100 mm"));
+  EXPECT_FALSE(looks_like(block_fills(whole, 61)[59], fills[59]));
+}
+
 TEST(Plot, ColoursOfBothSignsAreWhiteAtNothing) {
   Snapshot shot = snapshot("displacement.x");
   shot.blocks.cell_fields[1].values = {0, 0, 0};

@@ -1,10 +1,12 @@
 // Ticks, units and colours.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "report/colours.hpp"
+#include "report/drawn_range.hpp"
 #include "report/scene.hpp"
 #include "report/ticks.hpp"
 
@@ -58,6 +60,48 @@ std::array<double, 3> lab(Colour c) {
 double difference(Colour a, Colour b) {
   const auto p = lab(a), q = lab(b);
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+}
+
+Ends drawn(std::vector<Weighed> values) {
+  Ends all{values.front().value, values.front().value};
+  for (const Weighed& v : values) all = {std::min(all.low, v.value), std::max(all.high, v.value)};
+  return drawn_ends(all, inner_ends(values));
+}
+
+/// 0.01 to 1.00, 1 m2 each.
+std::vector<Weighed> hundred() {
+  std::vector<Weighed> values;
+  for (int k = 1; k <= 100; ++k) values.push_back({0.01 * ((37 * k) % 101), 1.0});
+  return values;
+}
+
+TEST(DrawnRange, LeavesOutWhatLiesFarBeyondNearlyAllOfTheArea) {
+  std::vector<Weighed> values = hundred();
+  EXPECT_NEAR(inner_ends(values).low, 0.03, 1e-12);
+  EXPECT_NEAR(inner_ends(values).high, 0.98, 1e-12);
+  EXPECT_DOUBLE_EQ(drawn(values).low, 0.01);
+  EXPECT_DOUBLE_EQ(drawn(values).high, 1.0);
+  values.push_back({167.0, 0.01});
+  EXPECT_DOUBLE_EQ(drawn(values).high, 1.5 * 0.99);
+  // By area, not by number: five crumbs are as good as one, a large block is not left out.
+  for (int k = 0; k < 5; ++k) values.push_back({100.0 + k, 0.01});
+  EXPECT_LE(drawn(values).high, 1.5);
+  values.push_back({50.0, 3.0});
+  EXPECT_DOUBLE_EQ(drawn(values).high, 75.0);
+  // On the other side, too.
+  values = hundred();
+  values.push_back({-20.0, 0.5});
+  EXPECT_DOUBLE_EQ(drawn(values).high, 1.0);
+  EXPECT_NEAR(drawn(values).low, 0.02 - 0.5 * 0.98, 1e-12);
+}
+
+TEST(DrawnRange, IsWholeWhereAllButAFewLieStill) {
+  std::vector<Weighed> values(99, {1e-9, 1.0});
+  values.push_back({0.5, 1.0});
+  EXPECT_DOUBLE_EQ(drawn(values).high, 0.5);
+  values = {{3.0, 0.0}, {2.0, 0.0}};
+  EXPECT_DOUBLE_EQ(inner_ends(values).low, 2.0);
+  EXPECT_DOUBLE_EQ(inner_ends(values).high, 3.0);
 }
 
 TEST(Colours, LightnessOfTheSequentialMapOnlyRises) {

@@ -206,7 +206,7 @@ test('follows a run that goes on', async () => {
   await settled(p);
   assert.equal(await p.evaluate(() => edda.player.index === edda.player.end), true, 'stays at the end');
   await p.waitForFunction(() => !edda.stale);
-  const [high, range] = await p.evaluate(async () => [edda.scale.high, (await edda.source.run()).fields.find((f) => f.name === 'displacement').range]);
+  const [high, range] = await p.evaluate(async () => [edda.scale.high, (await edda.source.run()).fields.find((f) => f.name === 'displacement').drawn]);
   assert.equal(high, range[1], 'the colours reach as far as the values of all frames');
   const row = rows[rows.length - 1];
   await p.keyboard.press('f');

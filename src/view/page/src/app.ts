@@ -130,12 +130,17 @@ export class App {
       crosses: controls.crosses,
       usualStress: results.run.usual.stress,
       vectors: controls.vectors,
-      largestVector: results.run.fields.find((f) => f.name === controls.vectors)?.range?.[1] ?? 0,
+      largestVector: this.largestVector(),
       bolts: controls.bolts ? results.bolts.at(results.run.frames[this.shown]) : [],
     });
     if (!this.fitted) this.fit();
     this.showSelection();
     this.overlayStale = true;
+  }
+
+  private largestVector(): number {
+    const field = this.results.run.fields.find((f) => f.name === this.controls.vectors);
+    return (this.controls.wholeRange ? field?.range : field?.drawn)?.[1] ?? 0;
   }
 
   private showSelection(): void {

@@ -8,6 +8,8 @@ export interface Field {
   of: 'blocks' | 'contacts';
   /** Smallest and largest value in all frames; held blocks do not count. */
   range?: [number, number];
+  /** What colours and arrows are drawn by: the same, or without a few blocks that lie far beyond. */
+  drawn?: [number, number];
 }
 
 export interface Mark {

@@ -1,4 +1,5 @@
 // Values to colours.
+import type { Ends } from './ends';
 import { coloursOf, type Field, type Run } from './run';
 
 export type Palette = 'sequential' | 'diverging' | 'kinds' | 'plain';
@@ -10,9 +11,12 @@ export class Scale {
   /** Red, green, blue of each step. */
   readonly colours: Uint8Array;
 
-  /** `range`: given by hand, or the field's own. */
-  constructor(run: Run, readonly field: Field | undefined, range?: [number, number]) {
-    let [low, high] = range ?? field?.range ?? [0, 0];
+  /** Smallest and largest value, which may lie beyond. */
+  readonly all: Ends;
+
+  /** `range`: other ends than the field's own, and all values of which they leave some out. */
+  constructor(run: Run, readonly field: Field | undefined, range?: { ends: Ends; all: Ends }) {
+    let [low, high] = range?.ends ?? field?.drawn ?? field?.range ?? [0, 0];
     if (field === undefined) {
       this.palette = 'plain';
     } else if (field.kind === 'kinds') {
@@ -27,6 +31,7 @@ export class Scale {
       const twoSided = low < -1e-3 * size && high > 1e-3 * size;
       this.palette = twoSided ? 'diverging' : 'sequential';
     }
+    this.all = range?.all ?? field?.range ?? [low, high];
     this.low = low;
     this.high = high;
     this.colours = this.palette === 'plain' ? new Uint8Array([200, 200, 200]) : coloursOf(run.colours[this.palette]);

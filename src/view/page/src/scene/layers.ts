@@ -1,5 +1,6 @@
 // What is drawn over the blocks: strokes of contacts, stresses, motions and bolts.
 import type { BoltNode } from '../data/bolts';
+import { LONGEST_BEYOND } from '../data/ends';
 import { contactValues, length as lengthOf, principal } from '../data/fields';
 import type { Contacts, Frame } from '../data/frame';
 import type { Mesh } from '../data/mesh';
@@ -81,13 +82,13 @@ export function drawCrosses(layer: Strokes, frame: Frame, pose: Pose, mesh: Mesh
   layer.upload();
 }
 
-/** An arrow from each block's centre; `length`: m of one of `largest`. */
+/** An arrow from each block's centre; `length`: m of one of `largest`, a few may be longer. */
 export function drawArrows(layer: Strokes, x: Float32Array, y: Float32Array, pose: Pose, mesh: Mesh, largest: number, length: number, c: Palette): void {
   layer.clear(2 * mesh.blocks);
   for (let b = 0; b < mesh.blocks && largest > 0; ++b) {
     if (!pose.isAlive(b) || lengthOf(x[b], y[b]) < 1e-3 * largest) continue;
     const [px, py] = [pose.place[4 * b], pose.place[4 * b + 1]];
-    const s = length / largest;
+    const s = length / Math.max(largest, lengthOf(x[b], y[b]) / LONGEST_BEYOND);
     stroke(layer, px, py, px + s * x[b], py + s * y[b], 1.6, c.ink, c);
   }
   layer.upload();

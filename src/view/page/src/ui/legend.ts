@@ -18,8 +18,8 @@ const BAR = 190;
 
 /** Paints it with its upper right corner at (right, top). */
 export function paintLegend(g: CanvasRenderingContext2D, right: number, top: number, style: OverlayStyle, e: LegendEntries): void {
-  const lines = e.scale.field === undefined ? [] : wrap(g, e.scale.field.label, style);
   const bar = e.scale.palette === 'sequential' || e.scale.palette === 'diverging';
+  const lines = e.scale.field === undefined ? [] : wrap(g, e.scale.field.label + (bar ? beyond(e.scale) : ''), style);
   const kinds = e.scale.palette === 'kinds' && e.kinds.length <= 12 ? e.kinds : [];
   const measured = e.strokes.filter((stroke) => stroke.perPixel !== undefined);
   const rows = kinds.length + (e.states ? 4 : 0) + e.strokes.length + measured.length;
@@ -71,6 +71,12 @@ export function paintLegend(g: CanvasRenderingContext2D, right: number, top: num
   g.restore();
 }
 
+/** What the values reach that lie beyond the colours' ends. */
+function beyond({ field, low, high, all }: Scale): string {
+  const far = (v: number) => quantity(v, field!.unit, 3);
+  return (all[0] < low ? `, from ${far(all[0])}` : '') + (all[1] > high ? `, up to ${far(all[1])}` : '');
+}
+
 function paintBar(g: CanvasRenderingContext2D, left: number, top: number, style: OverlayStyle, scale: Scale): void {
   const { low, high } = scale;
   const largest = Math.max(Math.abs(low), Math.abs(high));
@@ -91,6 +97,17 @@ function paintBar(g: CanvasRenderingContext2D, left: number, top: number, style:
     g.fillStyle = scale.css(scale.step(low + ((high - low) * (k + 0.5)) / BAR));
     g.fillRect(left, y0 + BAR - 1 - k, 18, 1.5);
   }
+  // Points where values lie beyond, as in pictures.
+  const tip = (base: number, peak: number, value: number) => {
+    g.fillStyle = scale.css(scale.step(value));
+    g.beginPath();
+    g.moveTo(left, base);
+    g.lineTo(left + 9, peak);
+    g.lineTo(left + 18, base);
+    g.fill();
+  };
+  if (scale.all[1] > high) tip(y0 + 0.5, y0 - 9, high);
+  if (scale.all[0] < low) tip(y0 + BAR - 0.5, y0 + BAR + 9, low);
   const t = ticks(low * unit.factor, high * unit.factor, 6);
   g.strokeStyle = style.ink;
   g.fillStyle = style.ink;
