@@ -154,7 +154,7 @@ void draw_contact_field(Canvas& canvas, const Scene& s, const ColourScale& scale
 void draw_joints(Canvas& canvas, const Scene& s, const PlotOptions& options) {
   canvas.colour(ink::joint);
   for (const auto& [from, to] : options.joints) {
-    canvas.line(s.view.at(from), s.view.at(to), 1.6);
+    canvas.line(s.view.at(from), s.view.at(to), joint_width);
   }
 }
 

@@ -207,7 +207,8 @@ void Legend::draw_key(Canvas& canvas, const LegendKey& key, double left, double 
   canvas.text(key.name, {left, y}, {.size = font_});
   const double reference = key.scale.reference, length = key.scale.per_unit * reference;
   const bool load = key.sign == Sign::bolt_load;
-  const double sample = load || key.sign == Sign::bolt ? 2.4 * font_ : length;
+  const bool plain = key.sign == Sign::bolt || key.sign == Sign::joint;
+  const double sample = load || plain ? 2.4 * font_ : length;
   const auto next = [&](const std::string& text, auto&& draw) {
     y += line_step * font_;
     const double middle = y - 0.35 * font_;
@@ -233,6 +234,12 @@ void Legend::draw_key(Canvas& canvas, const LegendKey& key, double left, double 
         canvas.colour(ink::tension);
         canvas.arrow(0.5 * (a + b), a, 0.8);
         canvas.arrow(0.5 * (a + b), b, 0.8);
+      });
+      break;
+    case Sign::joint:
+      next("slip or open", [&](Vec2 a, Vec2 b) {
+        canvas.colour(ink::joint);
+        canvas.line(a, b, joint_width);
       });
       break;
     case Sign::bolt:

@@ -58,6 +58,7 @@ std::vector<LegendKey> keys_of(std::span<const Snapshot> shots, const PlotOption
     whole.per_unit *= 2.0;
     keys.push_back({Sign::stress, "principal stress", "Pa", for_legend(whole, longest)});
   }
+  if (!options.joints.empty()) keys.push_back({Sign::joint, "joints", "", {}});
   if (options.bolt_forces) {
     keys.push_back({Sign::bolt_load, "force of bolts", "N", scales.bolts, any_yielded(shots)});
   } else if (any_yielded(shots)) {

@@ -20,6 +20,8 @@ inline constexpr Colour compression{0.05, 0.15, 0.45}, tension{0.85, 0.20, 0.05}
 inline constexpr Colour monitor{0.80, 0.05, 0.45}, bolt{0.05, 0.25, 0.65}, joint{0.85, 0.10, 0.05};
 }  // namespace ink
 
+inline constexpr double joint_width = 1.6;  ///< of PlotOptions::joints, pt
+
 /// One drawing.
 struct Scene {
   const Snapshot& shot;

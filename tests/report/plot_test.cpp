@@ -253,6 +253,16 @@ TEST(Plot, LegendHasAnArrowOfARoundLength) {
   EXPECT_TRUE(text_of(drawn({&shot, 1}, options), "200 mm"));
 }
 
+TEST(Plot, TheLegendSaysWhatThickJointsAre) {
+  const Snapshot shot = snapshot("none");
+  PlotOptions options;
+  EXPECT_FALSE(text_of(drawn({&shot, 1}, options), "slip or open"));
+  options.joints = {{{{1.0, 0.0}, {1.0, 1.0}}}};
+  const std::string svg = drawn({&shot, 1}, options);
+  EXPECT_TRUE(text_of(svg, "slip or open"));
+  EXPECT_EQ(stroked(svg, ink::joint).size(), 2u);  // with that of the legend
+}
+
 TEST(Plot, TensionAndCompressionAreToldApart) {
   Snapshot shot = snapshot("none");
   shot.blocks.cell_fields[1].values = {0, 0, 0};
