@@ -47,7 +47,10 @@ int draw_frames(const PlotArguments& args, const std::string& path) {
     print(read.faults());
     return exit_code::bad_input;
   }
-  return finish(plot(read.value().shots, read.value().options, path), path);
+  const PlotSource& source = read.value();
+  if (const Trouble trouble = check_window(source.shots, source.options)) return refuse(*trouble);
+  for (const std::string& note : source.notes) fmt::print(stderr, "note: {}\n", note);
+  return finish(plot(source.shots, source.options, path), path);
 }
 
 /// What one option alone cannot say.

@@ -38,6 +38,23 @@ std::vector<SeriesEntry> chosen(const std::vector<SeriesEntry>& series, const Pl
   return entries;
 }
 
+/// Says where a time that was asked for is none of the run's.
+std::vector<std::string> notes_on(const std::vector<SeriesEntry>& series,
+                                  const PlotArguments& args) {
+  std::vector<double> asked = args.compare;
+  if (args.time) asked.push_back(*args.time);
+  std::vector<std::string> notes;
+  const double first = series.front().time, last = series.back().time;
+  for (const double time : asked) {
+    const double slack = 1e-9 * std::max(std::abs(first), std::abs(last));
+    if (time >= first - slack && time <= last + slack) continue;
+    notes.push_back(fmt::format(
+        "{:.6g} s lies beyond the frames, which go from {:.6g} to {:.6g} s: drawn is {:.6g} s",
+        time, first, last, nearest(series, time).time));
+  }
+  return notes;
+}
+
 /// A field where none is asked for: crosses of stresses want plain ground below them.
 std::string field_of(const PlotArguments& args, const std::string& otherwise) {
   if (!args.field.empty()) return args.field;
@@ -144,6 +161,7 @@ Result<PlotSource> from_folder(const PlotArguments& args) {
                  "leave it out: the model has no bolts"};
   }
   PlotSource source;
+  source.notes = notes_on(series.value(), args);
   for (const SeriesEntry& entry : chosen(series.value(), args)) {
     Result<Snapshot> shot = snapshot_of(args, entry, bolts.ok() ? &bolts.value() : nullptr);
     if (!shot.ok()) return shot.faults();

@@ -29,6 +29,7 @@ struct PlotArguments {
 struct PlotSource {
   std::vector<Snapshot> shots;
   PlotOptions options;
+  std::vector<std::string> notes;  ///< what is drawn otherwise than asked for
 };
 
 Result<PlotSource> from_folder(const PlotArguments& args);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "report/canvas.hpp"
 #include "report/legend.hpp"
@@ -130,6 +131,14 @@ void draw_scene(Canvas& canvas, const Scene& s, const PlotOptions& options,
   cairo_restore(canvas.cr());
 }
 
+/// Whether it has a size, as it has not where the world is next to a point.
+bool is_sound(const Layout& l) {
+  const View& view = l.views.front();
+  return std::isfinite(l.width) && std::isfinite(l.height) && std::isfinite(view.scale) &&
+         view.scale > 0.0 && view.world.low.x < view.world.high.x &&
+         view.world.low.y < view.world.high.y;
+}
+
 /// One page: what is drawn first decides how large the page is.
 class Page {
  public:
@@ -147,6 +156,8 @@ class Page {
     // lists: laid out once without the lengths, then with the legend.
     make_room(legend_with({}), world, room);
     const Layout layout = lay_out(world, options_.paper, room);
+    if (!is_sound(layout))
+      return Fault{{{}, path, 0, 0}, "would have no size", "show another part of the model"};
     for (std::size_t k = 0; k < scenes_.size(); ++k) {
       scenes_[k].view = layout.views[k];
       scenes_[k].font = f;
@@ -205,6 +216,29 @@ class Page {
 };
 
 }  // namespace
+
+Trouble check_window(std::span<const Snapshot> shots, const PlotOptions& options) {
+  if (!options.window) return {};
+  std::vector<Vec2> points;
+  for (const Snapshot& shot : shots) {
+    const std::vector<Vec2> drawn = drawn_points(shot.blocks, options.scale);
+    points.insert(points.end(), drawn.begin(), drawn.end());
+  }
+  const Box &w = *options.window, all = box_around(points);
+  constexpr double most = 1e6;  // times as large, or as small
+  const double size = std::max(all.width(), all.height());
+  const char* problem =
+      !(std::min(w.width(), w.height()) * most >= size)   ? "is tiny beside the model"
+      : !(std::max(w.width(), w.height()) <= most * size) ? "is huge beside the model"
+      : w.high.x < all.low.x || w.low.x > all.high.x || w.high.y < all.low.y || w.low.y > all.high.y
+          ? "lies beyond the model"
+          : nullptr;
+  if (problem == nullptr) return {};
+  return Fault{{"--window", {}, 0, 0},
+               problem,
+               fmt::format("give a part of {:.4g},{:.4g},{:.4g},{:.4g}, where the blocks are",
+                           all.low.x, all.low.y, all.high.x, all.high.y)};
+}
 
 Trouble plot(std::span<const Snapshot> shots, const PlotOptions& options, const std::string& path) {
   return Page(shots, options).draw(path);

@@ -65,6 +65,9 @@ struct PlotOptions {
   Paper paper{};
 };
 
+/// A fault where the window shows nothing of what is drawn, or is tiny or huge beside it.
+Trouble check_window(std::span<const Snapshot> shots, const PlotOptions& options);
+
 /// Draws into `path` (.png, .svg or .pdf), at least one snapshot, side by side, with one scale and
 /// one legend for all.
 Trouble plot(std::span<const Snapshot> shots, const PlotOptions& options, const std::string& path);

@@ -182,6 +182,23 @@ TEST(Plot, NamesOfLinesStayInTheDrawing) {
   EXPECT_GT(text_of(svg, "seen")->x, text_of(svg, "2.5")->x - 20.0);
 }
 
+TEST(Plot, WindowsWithNothingInThemAreRefused) {
+  const Snapshot shot = snapshot("none");
+  PlotOptions options;
+  EXPECT_FALSE(check_window({&shot, 1}, options));
+  for (const Box& window :
+       {Box{{0.0, 0.0}, {1e-310, 1e-310}}, Box{{5.0, 0.0}, {6.0, 1.0}}, Box{{0, 0}, {1e9, 1e9}}}) {
+    options.window = window;
+    EXPECT_TRUE(check_window({&shot, 1}, options)) << window.high.x;
+  }
+  options.window = Box{{0.0, 0.0}, {1e-310, 1e-310}};
+  const ScratchFolder folder;
+  EXPECT_TRUE(plot({&shot, 1}, options, folder.at("plot.svg")));
+  EXPECT_FALSE(std::filesystem::exists(folder.at("plot.svg")));
+  options.window = Box{{1.9, 0.0}, {6.0, 1.0}};
+  EXPECT_FALSE(check_window({&shot, 1}, options));
+}
+
 TEST(Plot, LegendsOfNarrowPagesStandBelow) {
   Snapshot shot = snapshot("displacement");
   PlotOptions options;
