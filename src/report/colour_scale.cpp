@@ -28,8 +28,8 @@ void each_value(std::span<const Snapshot> shots, Visit visit) {
 
 ColourScale::ColourScale(std::span<const Snapshot> shots,
                          std::optional<std::pair<double, double>> range, bool whole)
-    : kind_(shots.front().field.kind) {
-  take_values(shots, whole || shots.front().field.of_contacts);
+    : kind_(shots.front().field.kind), of_contacts_(shots.front().field.of_contacts) {
+  take_values(shots, whole || of_contacts_);
   if (kind_ != ScaleKind::numbers) return;
   if (range) {
     take_range(range->first, range->second);
@@ -72,7 +72,10 @@ void ColourScale::judge_values() {
 
 Colour ColourScale::of(double value) const {
   if (kind_ == ScaleKind::plain || !std::isfinite(value)) return ink::block;
-  if (kind_ == ScaleKind::kinds) return kind_colour(static_cast<std::size_t>(std::max(value, 0.0)));
+  if (kind_ == ScaleKind::kinds) {
+    const auto kind = static_cast<std::size_t>(std::max(value, 0.0));
+    return of_contacts_ ? state_colour(kind) : kind_colour(kind);
+  }
   if (!(high_ > low_)) return sequential(0.0);
   const double v = std::clamp(value, low_, high_);
   if (!two_sided_) return sequential((v - low_) / (high_ - low_));

@@ -37,6 +37,7 @@ class ColourScale {
   void take_range(double low, double high);
   void judge_values();
   ScaleKind kind_;
+  bool of_contacts_;
   bool two_sided_ = false;
   double low_ = 0.0, high_ = 0.0;
   Ends all_;

@@ -133,12 +133,16 @@ void draw_contact_field(Canvas& canvas, const Scene& s, const ColourScale& scale
   const std::vector<double>& values = s.shot.field.values;
   const double radius = std::clamp(5.0 * outline_width(s, s.shapes.size()), 0.5, 2.0);
   const std::vector<Vec2> points = drawn_points(*s.shot.contacts, s.exaggeration);
-  // Contacts of one corner lie on one another: the largest values on top.
+  // Contacts of one corner lie on one another: the largest values on top, or those that slide.
+  const bool states = s.shot.field.kind == ScaleKind::kinds;
+  const auto weight = [&](std::size_t c) {
+    constexpr double slides = 2.0, foremost = 9.0;
+    return states && values[c] == slides ? foremost : std::abs(values[c]);
+  };
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::abs(values[a]) < std::abs(values[b]);
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return weight(a) < weight(b); });
   cairo_set_line_width(cr, 0.12 * radius);
   for (const std::size_t c : order) {
     const Vec2 p = s.view.at(points[c]);

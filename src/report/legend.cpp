@@ -135,7 +135,7 @@ void Legend::draw_kinds(Canvas& canvas, double left, double top) const {
 
 void Legend::draw_kind(Canvas& canvas, std::size_t kind, Vec2 at) const {
   cairo_rectangle(canvas.cr(), at.x, at.y - 0.8 * font_, font_, font_);
-  canvas.colour(kind_colour(kind));
+  canvas.colour(scale_.of(static_cast<double>(kind)));
   cairo_fill_preserve(canvas.cr());
   canvas.colour(ink::line);
   cairo_set_line_width(canvas.cr(), rule);

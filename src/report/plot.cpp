@@ -174,7 +174,7 @@ class Page {
  private:
   Legend legend_with(const Scales& scales) const {
     const ShownField& field = shots_.front().field;
-    const std::vector<std::string> states{"open", "stick", "slide", "bonded"};
+    const std::vector<std::string> states(contact_states.begin(), contact_states.end());
     return {colours_, field, field.of_contacts ? states : options_.materials,
             keys_of(shots_, options_, scales), options_.paper.font};
   }

@@ -251,8 +251,12 @@ std::string ViewRun::header(const std::string& served_as) const {
   json.pair("force", usual_.force).pair("stress", usual_.stress).close();
   std::string kinds;
   for (std::size_t k = 0; k < kind_colour_count; ++k) append_hex(kinds, kind_colour(k));
+  std::string states;
+  for (std::size_t k = 0; k < contact_states.size(); ++k) append_hex(states, state_colour(k));
   json.key("colours").open_object().pair("sequential", colour_map(sequential));
-  json.pair("diverging", colour_map(diverging)).pair("kinds", kinds).close();
+  json.pair("diverging", colour_map(diverging)).pair("kinds", kinds);
+  json.pair("states", states).close();
+  add_strings(json, "states", {contact_states.begin(), contact_states.end()});
   if (const Result<std::string> summary = read_file(folder_ + "/summary.json"); summary.ok())
     json.pair("summary", summary.value());
   return json.close().text();

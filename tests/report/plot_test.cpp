@@ -262,6 +262,31 @@ TEST(Plot, SnapshotsStandSideBySideWithOneScale) {
   EXPECT_EQ(all_texts(svg, "displacement (m)").size(), 1u);
 }
 
+TEST(Plot, StatesOfContactsHaveTheirOwnColours) {
+  Snapshot shot = snapshot("none");
+  Grid contacts;
+  for (const double state : {2.0, 0.0, 3.0, 1.0}) {
+    contacts.points.insert(contacts.points.end(), {1.0 + 0.1 * state, 0.5, 0.0});
+    contacts.corners.push_back(static_cast<std::int64_t>(contacts.ends.size()));
+    contacts.ends.push_back(static_cast<std::int64_t>(contacts.corners.size()));
+    contacts.types.push_back(cell_type::vertex);
+  }
+  contacts.cell_fields = {{"state", 1, {2, 0, 3, 1}, {}, true}};
+  shot.contacts = contacts;
+  shot.field = shown_field("state", shot.blocks, &*shot.contacts).value();
+  const std::string svg = drawn({&shot, 1}, {});
+  std::vector<std::size_t> order;
+  for (const std::string& path : elements(svg, "path")) {
+    const auto fill = colour_of(path, "fill");
+    for (std::size_t k = 0; fill && k < 4; ++k) {
+      if (looks_like(*fill, state_colour(k)) && attribute(path, "d").find('C') != std::string::npos)
+        order.push_back(k);
+    }
+  }
+  EXPECT_EQ(order, (std::vector<std::size_t>{0, 1, 3, 2}));  // those that slide on top
+  for (const char* state : contact_states) EXPECT_TRUE(text_of(svg, state)) << state;
+}
+
 TEST(Plot, LegendHasAnArrowOfARoundLength) {
   Snapshot shot = snapshot("none");
   for (double& v : shot.blocks.cell_fields[2].values) v *= 0.74;  // 0.37 m

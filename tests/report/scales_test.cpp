@@ -122,5 +122,41 @@ TEST(Colours, StepsOfTheDivergingMapLookEven) {
   EXPECT_GT(lab(diverging(0.5))[0], 96.0);
 }
 
+using Matrix = std::array<std::array<double, 3>, 3>;
+
+/// As eyes see it that have only two kinds of cones (Machado, Oliveira and Fernandes 2009).
+Colour seen_by(const Matrix& m, Colour c) {
+  const auto to = [](double v) {
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+  };
+  const auto back = [](double v) {
+    v = std::clamp(v, 0.0, 1.0);
+    return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
+  };
+  const std::array<double, 3> l{to(c.r), to(c.g), to(c.b)};
+  std::array<double, 3> seen{};
+  for (std::size_t i = 0; i < 3; ++i)
+    seen[i] = back(m[i][0] * l[0] + m[i][1] * l[1] + m[i][2] * l[2]);
+  return {seen[0], seen[1], seen[2]};
+}
+
+TEST(Colours, StatesOfContactsAreToldApartByTheColourBlind) {
+  const std::array<Matrix, 4> eyes{
+      {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+       {{{0.367, 0.861, -0.228}, {0.280, 0.673, 0.047}, {-0.012, 0.043, 0.969}}},
+       {{{0.152, 1.053, -0.205}, {0.115, 0.786, 0.099}, {-0.004, -0.048, 1.052}}},
+       {{{1.256, -0.077, -0.179}, {-0.078, 0.931, 0.148}, {0.005, 0.691, 0.304}}}}};
+  for (const Matrix& eye : eyes) {
+    for (std::size_t a = 0; a < 4; ++a) {
+      const Colour one = seen_by(eye, state_colour(a));
+      for (std::size_t b = 0; b < a; ++b)
+        EXPECT_GT(difference(one, seen_by(eye, state_colour(b))), 35.0) << a << ' ' << b;
+      // An open one is white, and has a dark rim.
+      if (a == 0) continue;
+      EXPECT_GT(difference(one, seen_by(eye, ink::block)), 45.0) << a;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace edda::scales_test

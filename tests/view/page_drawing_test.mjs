@@ -222,6 +222,23 @@ test('draws strokes along what they stand for', async () => {
   await p.close();
 });
 
+test('names and colours states of contacts as edda plot does', async () => {
+  const p = await page('cavern.html');
+  await choose(p, 'field', 'state');
+  await p.waitForFunction(() => !edda.stale && !edda.overlayStale);
+  const { states, colours, drawn, asked } = await p.evaluate(() => {
+    const { view, frame, scale, results: { run } } = edda;
+    const layer = view.contactDots;
+    const of = (k) => [...layer.colours.subarray(4 * k, 4 * k + 3)].join();
+    return { states: run.states, colours: [0, 1, 2, 3].map((k) => [...scale.states.subarray(3 * k, 3 * k + 3)].join()), drawn: Array.from({ length: layer.count }, (_, k) => of(k)), asked: [...frame.contacts.state] };
+  });
+  assert.deepEqual(states, ['open', 'stick', 'slide', 'bonded']);
+  colours.forEach((c, k) => assert.equal(drawn.filter((d) => d === c).length, asked.filter((s) => s === k).length, states[k]));
+  const slide = drawn.indexOf(colours[2]);
+  assert.ok(slide < 0 || drawn.slice(slide).every((d) => d === colours[2]), 'those that slide lie on top');
+  await p.close();
+});
+
 test('moves and zooms under the pointer', async () => {
   const p = await page('cavern.html');
   const box = await p.locator('#overlay').boundingBox();

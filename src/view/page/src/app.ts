@@ -209,7 +209,7 @@ export class App {
     }
     if (controls.bolts && results.bolts.any) strokes.push({ colour: css(theme.bolt), text: `bolt, up to ${quantity(results.bolts.largest, 'N', 3)}` });
     const states = controls.field?.of === 'contacts' ? controls.field.name === 'state' : controls.contacts;
-    return { scale: this.scale, kinds: this.kinds(controls.field), states, strokes };
+    return { scale: this.scale, kinds: this.kinds(controls.field), states: states ? results.run.states : [], strokes };
   }
 
   private kinds(field: Field | undefined): [number, string][] {

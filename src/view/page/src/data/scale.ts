@@ -10,6 +10,8 @@ export class Scale {
   readonly high: number;
   /** Red, green, blue of each step. */
   readonly colours: Uint8Array;
+  /** The same of each state of contacts. */
+  readonly states: Uint8Array;
 
   /** Smallest and largest value, which may lie beyond. */
   readonly all: Ends;
@@ -34,6 +36,7 @@ export class Scale {
     this.all = range?.all ?? field?.range ?? [low, high];
     this.low = low;
     this.high = high;
+    this.states = coloursOf(run.colours.states);
     this.colours = this.palette === 'plain' ? new Uint8Array([200, 200, 200]) : coloursOf(run.colours[this.palette]);
   }
 
@@ -80,6 +83,3 @@ export class Scale {
     return `rgb(${r},${g},${b})`;
   }
 }
-
-/** Of contacts: open, sticking, sliding, bonded. Told apart by lightness, too. */
-export const stateColours = new Uint8Array([150, 160, 172, 38, 132, 92, 226, 118, 20, 110, 74, 190]);

@@ -4,7 +4,7 @@ import { LONGEST_BEYOND } from '../data/ends';
 import { contactValues, length as lengthOf, principal } from '../data/fields';
 import type { Contacts, Frame } from '../data/frame';
 import type { Mesh } from '../data/mesh';
-import { type Scale, stateColours } from '../data/scale';
+import type { Scale } from '../data/scale';
 import type { Pose } from './pose';
 import type { Strokes } from './strokes';
 
@@ -18,6 +18,8 @@ export interface Palette {
 
 /** Strokes are never longer than so many usual ones. */
 const LONGEST = 4;
+/** States of contacts, by number. */
+const FROM_BELOW = [0, 1, 3, 2];
 
 /** A stroke with a rim that sets it off from what lies below. */
 function stroke(layer: Strokes, x0: number, y0: number, x1: number, y1: number, width: number, ink: number[], c: Palette): void {
@@ -55,13 +57,17 @@ export function drawContacts(layer: Strokes, frame: Frame, pose: Pose, scale: Sc
   const name = scale.field?.name ?? 'state';
   const values = contactValues(name, contacts) ?? contacts.state;
   const byState = name === 'state' || contactValues(name, contacts) === undefined;
-  layer.clear(contacts.count);
-  for (let k = 0; k < contacts.count; ++k) {
-    if (!byState && contacts.state[k] === 0 && name.endsWith('force')) continue;
-    const [x, y] = pose.vertex(contacts.vertex[k]);
-    const from = byState ? stateColours : scale.colours;
-    const step = byState ? contacts.state[k] : scale.step(values[k]);
-    layer.add(x, y, x, y, size, from[3 * step], from[3 * step + 1], from[3 * step + 2]);
+  layer.clear(2 * contacts.count);
+  const from = byState ? scale.states : scale.colours;
+  // Contacts of one corner lie on one another: as in pictures open ones below, those that slide on top.
+  for (const state of byState ? FROM_BELOW : [undefined]) {
+    for (let k = 0; k < contacts.count; ++k) {
+      if (byState ? contacts.state[k] !== state : contacts.state[k] === 0 && name.endsWith('force')) continue;
+      const [x, y] = pose.vertex(contacts.vertex[k]);
+      const step = state ?? scale.step(values[k]);
+      if (state === 0) layer.add(x, y, x, y, size, 27, 31, 39);
+      layer.add(x, y, x, y, state === 0 ? size - 2 : size, from[3 * step], from[3 * step + 1], from[3 * step + 2]);
+    }
   }
   layer.upload();
 }

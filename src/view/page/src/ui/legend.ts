@@ -1,6 +1,5 @@
 // What the colours and strokes mean.
-import { stateNames } from '../data/fields';
-import { type Scale, stateColours } from '../data/scale';
+import type { Scale } from '../data/scale';
 import { quantity, scaledUnit, ticks } from '../data/units';
 import type { OverlayStyle } from '../scene/overlay';
 
@@ -8,7 +7,8 @@ export interface LegendEntries {
   scale: Scale;
   /** Names of kinds, by number; those that occur. */
   kinds: [number, string][];
-  states: boolean;
+  /** Names of the states of contacts; empty where they are not shown. */
+  states: string[];
   /** Strokes; where their length means something, what a pixel of it stands for. */
   strokes: { colour: string; text: string; perPixel?: number; unit?: string }[];
 }
@@ -22,7 +22,7 @@ export function paintLegend(g: CanvasRenderingContext2D, right: number, top: num
   const lines = e.scale.field === undefined ? [] : wrap(g, e.scale.field.label + (bar ? beyond(e.scale) : ''), style);
   const kinds = e.scale.palette === 'kinds' && e.kinds.length <= 12 ? e.kinds : [];
   const measured = e.strokes.filter((stroke) => stroke.perPixel !== undefined);
-  const rows = kinds.length + (e.states ? 4 : 0) + e.strokes.length + measured.length;
+  const rows = kinds.length + e.states.length + e.strokes.length + measured.length;
   const height = 14 + 16 * lines.length + (bar ? BAR + 36 : 0) + 18 * rows;
   if (height <= 14) return;
   const left = right - WIDTH;
@@ -53,12 +53,11 @@ export function paintLegend(g: CanvasRenderingContext2D, right: number, top: num
     y += 18;
   };
   for (const [k, name] of kinds) entry(name, () => square(g, left + 12, y - 9, e.scale.css(e.scale.step(k)), style));
-  if (e.states) {
-    stateNames.forEach((name, k) => entry(name, () => {
-      const [r, gr, b] = stateColours.subarray(3 * k, 3 * k + 3);
-      dot(g, left + 19, y - 3, `rgb(${r},${gr},${b})`);
-    }));
-  }
+  e.states.forEach((name, k) => entry(name, () => {
+    if (k === 0) dot(g, left + 19, y - 3, style.ink);
+    const [r, gr, b] = e.scale.states.subarray(3 * k, 3 * k + 3);
+    dot(g, left + 19, y - 3, `rgb(${r},${gr},${b})`, k === 0 ? 3.5 : 4.5);
+  }));
   for (const stroke of e.strokes) {
     entry(stroke.text, () => line(g, left + 12, y - 3, 16, stroke.colour));
     if (stroke.perPixel === undefined) continue;
@@ -136,10 +135,10 @@ function square(g: CanvasRenderingContext2D, x: number, y: number, colour: strin
   g.strokeRect(x, y, 14, 12);
 }
 
-function dot(g: CanvasRenderingContext2D, x: number, y: number, colour: string): void {
+function dot(g: CanvasRenderingContext2D, x: number, y: number, colour: string, radius = 4.5): void {
   g.fillStyle = colour;
   g.beginPath();
-  g.arc(x, y, 4.5, 0, 2 * Math.PI);
+  g.arc(x, y, radius, 0, 2 * Math.PI);
   g.fill();
 }
 
