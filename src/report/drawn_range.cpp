@@ -47,8 +47,9 @@ Ends drawn_ends(Ends all, Ends inner) {
   const double size = std::max(std::abs(inner.low), std::abs(inner.high));
   // Where all but a few lie still, those few are what there is to see.
   if (size <= 1e-6 * std::max(std::abs(all.low), std::abs(all.high))) return all;
-  const double margin = 0.5 * size;
-  return {std::max(all.low, inner.low - margin), std::min(all.high, inner.high + margin)};
+  const double far = size, kept = 0.5 * size;
+  return {all.low < inner.low - far ? inner.low - kept : all.low,
+          all.high > inner.high + far ? inner.high + kept : all.high};
 }
 
 }  // namespace edda

@@ -18,8 +18,8 @@ struct Ends {
 /// Such that 2 % of the weight lie beyond either at most. Reorders the values, which are finite.
 Ends inner_ends(std::vector<Weighed>& values);
 
-/// The ends to draw by: `all`, but no further out than `inner` by half of its larger end. So
-/// ordinary values are all within.
+/// The ends to draw by: `all`; but one that lies further out than `inner` by more than the larger
+/// of `inner` is put where it lies further out by half of that.
 Ends drawn_ends(Ends all, Ends inner);
 
 /// An arrow that is longer than the ends that arrows are drawn by is drawn so many times as long as

@@ -8,8 +8,8 @@
 namespace edda {
 namespace {
 
-constexpr double shaft = 0.6;   // pt
-constexpr double casing = 0.7;  // pt of white on either side, so that lines show on any colour
+constexpr double shaft = 0.6;          // pt
+constexpr double widest_casing = 0.7;  // pt of white about lines, so that they show on any colour
 
 struct Arrow {
   Vec2 at, vector;
@@ -97,7 +97,7 @@ ArrowScale arrow_scale(const std::vector<Scene>& scenes, bool whole, ArrowsOf ar
 
 /// First all casings, then all arrows, so that no arrow is cut by its neighbour.
 void draw_arrows(Canvas& canvas, const Scene& s, const std::vector<Arrow>& arrows,
-                 const ArrowScale& scale, Colour colour, bool ends_at) {
+                 const ArrowScale& scale, Colour colour, bool ends_at, double casing) {
   if (scale.per_unit == 0.0) return;
   constexpr double shortest = 0.8;  // pt
   std::vector<std::pair<Vec2, Vec2>> shafts;
@@ -189,7 +189,7 @@ ArrowScale vector_scale(const std::vector<Scene>& scenes, const PlotOptions& opt
 
 void draw_vectors(Canvas& canvas, const Scene& s, const std::string& name,
                   const ArrowScale& scale) {
-  draw_arrows(canvas, s, block_arrows(s, name), scale, ink::vector, false);
+  draw_arrows(canvas, s, block_arrows(s, name), scale, ink::vector, false, widest_casing);
 }
 
 ArrowScale force_scale(const std::vector<Scene>& scenes) {
@@ -197,7 +197,9 @@ ArrowScale force_scale(const std::vector<Scene>& scenes) {
 }
 
 void draw_forces(Canvas& canvas, const Scene& s, const ArrowScale& scale) {
-  draw_arrows(canvas, s, force_arrows(s), scale, ink::force, true);
+  // There are more of them, and closer, the smaller the blocks.
+  const double casing = std::min(widest_casing, 0.015 * block_size(s, s.shapes.size()));
+  draw_arrows(canvas, s, force_arrows(s), scale, ink::force, true, casing);
 }
 
 ArrowScale stress_scale(const std::vector<Scene>& scenes) {
@@ -234,7 +236,7 @@ void draw_stresses(Canvas& canvas, const Scene& s, const ArrowScale& scale) {
   for (const StressCross& c : crosses) {
     arms(c, [&](Vec2 at, Vec2 way, double half, bool) {
       canvas.colour(ink::white, 0.75);
-      canvas.line(at - half * way, at + half * way, 0.8 + casing);
+      canvas.line(at - half * way, at + half * way, 0.8 + widest_casing);
     });
   }
   for (const StressCross& c : crosses) {

@@ -57,21 +57,28 @@ void hatch(Canvas& canvas, const Scene& s, const BlockShape& shape) {
   cairo_restore(cr);
 }
 
-/// Side of a block on paper, about, pt.
-double block_size(const Scene& s, std::size_t blocks) {
-  const double area = s.view.frame.width() * s.view.frame.height();
-  return std::sqrt(area / static_cast<double>(std::max<std::size_t>(blocks, 1)));
-}
-
 /// Thinner where blocks are small, so that they stay visible between their outlines.
 double outline_width(const Scene& s, std::size_t blocks) {
   return std::clamp(0.025 * block_size(s, blocks), 0.08, 0.45);
 }
 
-constexpr Colour light_line{0.66, 0.66, 0.70};
+double lightness(Colour c) {
+  return 0.21 * c.r + 0.72 * c.g + 0.07 * c.b;
+}
 
-bool is_dark(Colour c) {
-  return 0.21 * c.r + 0.72 * c.g + 0.07 * c.b < 0.3;
+/// One colour of outlines for all coloured blocks: dark, or light where more of their area is so
+/// dark that dark lines would vanish than so light that light ones would.
+Colour outline_colour(const Scene& s, const ColourScale& scale) {
+  constexpr double dark = 0.3, light = 0.6;
+  const std::vector<double> areas = cell_areas(s.grid());
+  double of_dark = 0.0, of_light = 0.0;
+  for (std::size_t c = 0; c < areas.size(); ++c) {
+    if (is_held(s.grid(), c)) continue;
+    const double fill = lightness(scale.of(s.shot.field.values[c]));
+    if (fill < dark) of_dark += areas[c];
+    if (fill > light) of_light += areas[c];
+  }
+  return of_dark > of_light ? ink::light_line : ink::line;
 }
 
 /// One by one, so that an edge between two blocks is drawn twice wherever it is and all weigh the
@@ -113,18 +120,13 @@ void draw_blocks(Canvas& canvas, const Scene& s, const ColourScale& scale) {
   }
   constexpr double too_small = 1.5;  // pt: outlines alone would be seen
   if (block_size(s, visible.size()) < too_small) return;
-  canvas.colour(ink::line);
   cairo_set_line_width(cr, line);
-  stroke_outlines(canvas, s, visible, [](const BlockShape&) { return true; });
-  if (!coloured) return;
-  // Dark lines vanish on dark blocks: those get a light one on top, which leaves their neighbours'
-  // dark rim.
-  cairo_set_line_width(cr, 0.6 * line);
-  canvas.colour(light_line);
-  stroke_outlines(canvas, s, visible, [&](const BlockShape& shape) {
-    return !is_held(s.grid(), shape.first_cell) &&
-           is_dark(scale.of(field.values[shape.first_cell]));
-  });
+  for (const bool held : {false, true}) {
+    canvas.colour(coloured && !held ? outline_colour(s, scale) : ink::line);
+    stroke_outlines(canvas, s, visible, [&](const BlockShape& shape) {
+      return is_held(s.grid(), shape.first_cell) == held;
+    });
+  }
 }
 
 void draw_contact_field(Canvas& canvas, const Scene& s, const ColourScale& scale) {

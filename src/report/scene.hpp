@@ -14,6 +14,7 @@ namespace edda {
 
 namespace ink {
 inline constexpr Colour line{0.12, 0.12, 0.14}, block{0.87, 0.85, 0.80}, white{1.0, 1.0, 1.0};
+inline constexpr Colour light_line{0.80, 0.80, 0.83};
 inline constexpr Colour held{0.80, 0.80, 0.80}, hatch{0.62, 0.62, 0.62};
 inline constexpr Colour vector{0.05, 0.05, 0.05}, force{0.75, 0.10, 0.10};
 inline constexpr Colour compression{0.05, 0.15, 0.45}, tension{0.85, 0.20, 0.05};
@@ -38,6 +39,9 @@ Scene make_scene(const Snapshot& shot, double exaggeration);
 
 /// Whether the block of that cell is held.
 bool is_held(const Grid& grid, std::size_t cell);
+
+/// Side of a block on paper where so many are seen, about, pt.
+double block_size(const Scene& scene, std::size_t blocks);
 
 /// How long, on paper, what the layers draw as lines is. Lengths hold for all drawings of a page.
 struct ArrowScale {

@@ -182,6 +182,57 @@ TEST(Plot, NamesOfLinesStayInTheDrawing) {
   EXPECT_GT(text_of(svg, "seen")->x, text_of(svg, "2.5")->x - 20.0);
 }
 
+TEST(Plot, NamesOfCrossingLinesStandApart) {
+  const Snapshot shot = snapshot("none");
+  PlotOptions options;
+  options.lines = {{"V", {{{0.5, 0.0}, {0.5, 1.0}}}}, {"H", {{{0.01, 0.5}, {0.99, 0.5}}}}};
+  const std::string svg = drawn({&shot, 1}, options);
+  const double metre = text_of(svg, "1.0")->x - text_of(svg, "0.0")->x;
+  const Vec2 v = *text_of(svg, "V"), h = *text_of(svg, "H");
+  EXPECT_GT(norm(v - h), 0.2 * metre);
+  // And each beside its own line: V right of x = 1.0, where the blocks have gone, H above y = 0.5.
+  const double x = text_of(svg, "1.0")->x;
+  EXPECT_LT(std::abs(v.x - x), 16.0);
+  EXPECT_GT(std::abs(h.x - x), 12.0);
+}
+
+TEST(Plot, OutlinesOfAPictureHaveOneColour) {
+  Snapshot shot = snapshot("displacement");
+  shot.blocks.cell_fields[1].values = {0, 0, 0};
+  const auto light_lines = [&](double first, double second) {
+    shot.field.values = {first, first, second};
+    PlotOptions options;
+    options.range = {0.0, 1.0};
+    return stroked(drawn({&shot, 1}, options), ink::light_line).size();
+  };
+  EXPECT_EQ(light_lines(0.0, 0.5), 2u);  // both, as dark lines would vanish on one
+  EXPECT_EQ(light_lines(1.0, 0.5), 0u);
+  EXPECT_EQ(light_lines(0.4, 0.5), 0u);
+}
+
+TEST(Plot, CasingsOfForcesAreThinWhereBlocksAreSmall) {
+  Snapshot shot = crumb();
+  shot.field = ShownField{};
+  Grid contacts;
+  Field force{"force", 3, {}, {}, false};
+  for (int k = 0; k < 60; ++k) {
+    contacts.points.insert(contacts.points.end(), {1.0 * k, 0.5, 0.0});
+    contacts.corners.push_back(k);
+    contacts.ends.push_back(k + 1);
+    contacts.types.push_back(cell_type::vertex);
+    force.values.insert(force.values.end(), {0.0, 1e5, 0.0});
+  }
+  contacts.cell_fields = {force};
+  shot.contacts = contacts;
+  PlotOptions options;
+  options.forces = true;
+  const std::vector<double> many = stroke_widths(drawn({&shot, 1}, options), ink::white);
+  shot.blocks = two_blocks();
+  const std::vector<double> few = stroke_widths(drawn({&shot, 1}, options), ink::white);
+  ASSERT_FALSE(many.empty() || few.empty());
+  EXPECT_LT(many[0] - 0.6, 0.6 * (few[0] - 0.6));  // the shaft has 0.6
+}
+
 TEST(Plot, WindowsWithNothingInThemAreRefused) {
   const Snapshot shot = snapshot("none");
   PlotOptions options;

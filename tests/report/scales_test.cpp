@@ -81,6 +81,8 @@ TEST(DrawnRange, LeavesOutWhatLiesFarBeyondNearlyAllOfTheArea) {
   EXPECT_NEAR(inner_ends(values).high, 0.98, 1e-12);
   EXPECT_DOUBLE_EQ(drawn(values).low, 0.01);
   EXPECT_DOUBLE_EQ(drawn(values).high, 1.0);
+  values.push_back({1.9, 0.01});
+  EXPECT_DOUBLE_EQ(drawn(values).high, 1.9);
   values.push_back({167.0, 0.01});
   EXPECT_DOUBLE_EQ(drawn(values).high, 1.5 * 0.99);
   // By area, not by number: five crumbs are as good as one, a large block is not left out.

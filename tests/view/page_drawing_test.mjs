@@ -239,6 +239,46 @@ test('names and colours states of contacts as edda plot does', async () => {
   await p.close();
 });
 
+test('has all of its legend in small windows, with strokes as long as they are drawn', async () => {
+  const p = await page('tunnel.html');
+  for (const id of ['forces', 'crosses']) await p.locator(`#${id}`).check();
+  await choose(p, 'vectors', 'displacement');
+  const legend = () => p.evaluate(async () => {
+    const { prototype } = CanvasRenderingContext2D;
+    const { roundRect, lineTo, moveTo } = prototype;
+    const seen = { lengths: [] };
+    let from = 0;
+    prototype.roundRect = function (x, y, w, h, r) {
+      const m = this.getTransform();
+      seen.box = [m.a * x + m.e, m.d * y + m.f, m.a * (x + w) + m.e, m.d * (y + h) + m.f].map((v) => v / devicePixelRatio);
+      roundRect.call(this, x, y, w, h, r);
+    };
+    prototype.moveTo = function (x, y) {
+      from = x;
+      moveTo.call(this, x, y);
+    };
+    prototype.lineTo = function (x, y) {
+      if (seen.box !== undefined && this.lineWidth === 3) seen.lengths.push(((x - from) * this.getTransform().a) / devicePixelRatio);
+      lineTo.call(this, x, y);
+    };
+    edda.paintLegend(document.getElementById('overlay').getContext('2d'));
+    Object.assign(prototype, { roundRect, lineTo, moveTo });
+    const { width, height } = edda.view.camera;
+    return { ...seen, width, height, per: edda.view.valuePerPixel('forces') };
+  });
+  for (const [width, height] of [[1280, 800], [700, 500], [320, 300]]) {
+    await p.setViewportSize({ width, height });
+    await p.waitForFunction(() => edda.view.camera.height === document.getElementById('stage').clientHeight && !edda.stale && !edda.overlayStale);
+    const { box: [x0, y0, x1, y1], lengths, per, ...stage } = await legend();
+    assert.ok(x0 >= 0 && y0 >= 0 && x1 <= stage.width && y1 <= stage.height, `${width} x ${height}: ${[x0, y0, x1, y1]} in ${stage.width} x ${stage.height}`);
+    // The second line is as long as a round force, the first is the sample of its colour.
+    const force = lengths[1] * per;
+    const round = Number(force.toPrecision(1));
+    assert.ok(Math.abs(force - round) < 1e-2 * force && '125'.includes(String(round)[0]), `${force} N`);
+  }
+  await p.close();
+});
+
 test('moves and zooms under the pointer', async () => {
   const p = await page('cavern.html');
   const box = await p.locator('#overlay').boundingBox();

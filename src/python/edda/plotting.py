@@ -124,8 +124,7 @@ def _area(ring: NDArray[np.float64]) -> float:
 def _limit_colours(drawn: Any, values: NDArray[np.float64], weights: NDArray[np.float64]) -> str:
     """Ends the colours where nearly all values do; where values lie beyond, in the words of a colorbar.
 
-    The rule of the program's pictures (src/report/drawn_range.cpp): no further out than the values beyond which
-    2 % of the area lie, by half of the larger of these.
+    The rule of the program's pictures (src/report/drawn_range.cpp), from the values beyond which 2 % of the area lie.
     """
     counts = np.isfinite(values) & (weights > 0.0)
     if not counts.any():
@@ -138,11 +137,10 @@ def _limit_colours(drawn: Any, values: NDArray[np.float64], weights: NDArray[np.
     size = max(abs(inner_low), abs(inner_high))
     if size <= 1e-6 * max(abs(v[0]), abs(v[-1])):
         return "neither"
-    low, high = max(v[0], inner_low - 0.5 * size), min(v[-1], inner_high + 0.5 * size)
-    below, above = bool(v[0] < low), bool(v[-1] > high)
+    below, above = bool(v[0] < inner_low - size), bool(v[-1] > inner_high + size)
     if not below and not above:
         return "neither"
-    drawn.set_clim(low, high)
+    drawn.set_clim(inner_low - 0.5 * size if below else v[0], inner_high + 0.5 * size if above else v[-1])
     return "both" if below and above else "min" if below else "max"
 
 

@@ -190,7 +190,8 @@ export class App {
   }
 
   private paintLegend(g: CanvasRenderingContext2D): void {
-    paintLegend(g, this.view.camera.width - 10, 10, overlayStyle(), this.legend());
+    const { width, height } = this.view.camera;
+    paintLegend(g, width - 10, 10, height - 10, overlayStyle(), this.legend());
   }
 
   private legend(): LegendEntries {

@@ -50,6 +50,6 @@ export function drawnEnds(values: ArrayLike<number>, weights: ArrayLike<number>)
   const size = Math.max(Math.abs(low), Math.abs(high));
   // Where all but a few lie still, those few are what there is to see.
   if (size <= 1e-6 * Math.max(Math.abs(all[0]), Math.abs(all[1]))) return all;
-  const margin = 0.5 * size;
-  return [Math.max(all[0], low - margin), Math.min(all[1], high + margin)];
+  const [far, kept] = [size, 0.5 * size];
+  return [all[0] < low - far ? low - kept : all[0], all[1] > high + far ? high + kept : all[1]];
 }

@@ -14,19 +14,27 @@ export interface LegendEntries {
 }
 
 export const WIDTH = 168;
+/** Length of the colours, where there is room and where there is none. */
 const BAR = 190;
+const LEAST_BAR = 70;
 
-/** Paints it with its upper right corner at (right, top). */
-export function paintLegend(g: CanvasRenderingContext2D, right: number, top: number, style: OverlayStyle, e: LegendEntries): void {
+/** Paints it with its upper right corner at (right, top), not below `bottom`: with a shorter bar, then smaller. */
+export function paintLegend(g: CanvasRenderingContext2D, right: number, top: number, bottom: number, style: OverlayStyle, e: LegendEntries): void {
   const bar = e.scale.palette === 'sequential' || e.scale.palette === 'diverging';
   const lines = e.scale.field === undefined ? [] : wrap(g, e.scale.field.label + (bar ? beyond(e.scale) : ''), style);
   const kinds = e.scale.palette === 'kinds' && e.kinds.length <= 12 ? e.kinds : [];
   const measured = e.strokes.filter((stroke) => stroke.perPixel !== undefined);
   const rows = kinds.length + e.states.length + e.strokes.length + measured.length;
-  const height = 14 + 16 * lines.length + (bar ? BAR + 36 : 0) + 18 * rows;
+  const others = 14 + 16 * lines.length + (bar ? 36 : 0) + 18 * rows;
+  const length = bar ? Math.max(LEAST_BAR, Math.min(BAR, bottom - top - others)) : 0;
+  const height = others + length;
   if (height <= 14) return;
   const left = right - WIDTH;
   g.save();
+  const shrunk = Math.min(1, Math.max(bottom - top, 1) / height);
+  g.translate(right, top);
+  g.scale(shrunk, shrunk);
+  g.translate(-right, -top);
   g.globalAlpha = 0.88;
   g.fillStyle = style.halo;
   g.beginPath();
@@ -43,8 +51,8 @@ export function paintLegend(g: CanvasRenderingContext2D, right: number, top: num
   }
   g.font = `12px ${style.font}`;
   if (bar) {
-    paintBar(g, left + 12, y, style, e.scale);
-    y += BAR + 36;
+    paintBar(g, left + 12, y, length, style, e.scale);
+    y += length + 36;
   }
   const entry = (text: string, swatch: () => void) => {
     swatch();
@@ -61,8 +69,10 @@ export function paintLegend(g: CanvasRenderingContext2D, right: number, top: num
   for (const stroke of e.strokes) {
     entry(stroke.text, () => line(g, left + 12, y - 3, 16, stroke.colour));
     if (stroke.perPixel === undefined) continue;
-    const value = roundBelow(72 * stroke.perPixel);
-    line(g, left + 12, y - 3, value / stroke.perPixel || 0, stroke.colour);
+    // As long as in the drawing, however small the legend.
+    const perPixel = shrunk * stroke.perPixel;
+    const value = roundBelow(72 * perPixel);
+    line(g, left + 12, y - 3, value / perPixel || 0, stroke.colour);
     g.fillStyle = style.ink;
     g.fillText(quantity(value, stroke.unit ?? '', 1), left + 92, y + 1, WIDTH - 98);
     y += 18;
@@ -76,7 +86,7 @@ function beyond({ field, low, high, all }: Scale): string {
   return (all[0] < low ? `, from ${far(all[0])}` : '') + (all[1] > high ? `, up to ${far(all[1])}` : '');
 }
 
-function paintBar(g: CanvasRenderingContext2D, left: number, top: number, style: OverlayStyle, scale: Scale): void {
+function paintBar(g: CanvasRenderingContext2D, left: number, top: number, length: number, style: OverlayStyle, scale: Scale): void {
   const { low, high } = scale;
   const largest = Math.max(Math.abs(low), Math.abs(high));
   const unit = scaledUnit(scale.field!.unit, largest);
@@ -87,14 +97,14 @@ function paintBar(g: CanvasRenderingContext2D, left: number, top: number, style:
   const y0 = top + 12;
   if (!(high > low)) {
     g.fillStyle = scale.css(scale.step(low));
-    g.fillRect(left, y0, 18, BAR);
+    g.fillRect(left, y0, 18, length);
     g.fillStyle = style.ink;
-    g.fillText(quantity(low, '', 3), left + 26, y0 + BAR);
+    g.fillText(quantity(low, '', 3), left + 26, y0 + length);
     return;
   }
-  for (let k = 0; k < BAR; ++k) {
-    g.fillStyle = scale.css(scale.step(low + ((high - low) * (k + 0.5)) / BAR));
-    g.fillRect(left, y0 + BAR - 1 - k, 18, 1.5);
+  for (let k = 0; k < length; ++k) {
+    g.fillStyle = scale.css(scale.step(low + ((high - low) * (k + 0.5)) / length));
+    g.fillRect(left, y0 + length - 1 - k, 18, Math.min(3, k + 1));
   }
   // Points where values lie beyond, as in pictures.
   const tip = (base: number, peak: number, value: number) => {
@@ -106,13 +116,13 @@ function paintBar(g: CanvasRenderingContext2D, left: number, top: number, style:
     g.fill();
   };
   if (scale.all[1] > high) tip(y0 + 0.5, y0 - 9, high);
-  if (scale.all[0] < low) tip(y0 + BAR - 0.5, y0 + BAR + 9, low);
-  const t = ticks(low * unit.factor, high * unit.factor, 6);
+  if (scale.all[0] < low) tip(y0 + length - 0.5, y0 + length + 9, low);
+  const t = ticks(low * unit.factor, high * unit.factor, Math.max(2, length / 32));
   g.strokeStyle = style.ink;
   g.fillStyle = style.ink;
   g.lineWidth = 1;
   for (const at of t.at) {
-    const y = y0 + BAR * (1 - (at / unit.factor - low) / (high - low));
+    const y = y0 + length * (1 - (at / unit.factor - low) / (high - low));
     g.beginPath();
     g.moveTo(left + 18, y);
     g.lineTo(left + 22, y);
