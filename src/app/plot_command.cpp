@@ -152,6 +152,11 @@ void add_what(CLI::App& command, PlotArguments& args) {
                        "Principal stresses: crosses at the blocks' centres, tension as arrows");
   CLI::Option* const bolts =
       command.add_flag("--bolts", args.bolts, "Bolts as wide as their axial force");
+  CLI::Option* const relative =
+      command
+          .add_option("--relative-to", args.relative_to,
+                      "Displacements relative to that of a monitor, which stays where it was")
+          ->type_name("MONITOR");
   CLI::Option* const history =
       command
           .add_option("--history", args.history,
@@ -160,7 +165,8 @@ void add_what(CLI::App& command, PlotArguments& args) {
           ->type_name("NAME[,NAME...]")
           ->delimiter(',')
           ->allow_extra_args(false);
-  for (CLI::Option* other : {field, time, compare, before, vectors, forces, principal, bolts}) {
+  for (CLI::Option* other :
+       {field, time, compare, before, vectors, forces, principal, bolts, relative}) {
     history->excludes(other);
   }
 }

@@ -13,7 +13,7 @@
 namespace edda {
 
 struct PlotArguments {
-  std::string source, output, field, vectors, title;
+  std::string source, output, field, vectors, title, relative_to;
   std::vector<std::string> overrides, history;
   std::vector<double> compare;        ///< s
   std::vector<double> range, window;  ///< low, high; x0, y0, x1, y1

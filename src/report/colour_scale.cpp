@@ -39,14 +39,27 @@ ColourScale::ColourScale(std::span<const Snapshot> shots,
 }
 
 void ColourScale::take_values(std::span<const Snapshot> shots, bool whole) {
-  std::vector<Weighed> values;
-  each_value(shots, [&](double v, double weight) {
-    all_.low = values.empty() ? v : std::min(all_.low, v);
-    all_.high = values.empty() ? v : std::max(all_.high, v);
-    values.push_back({v, weight});
-    if (kind_ == ScaleKind::kinds && v >= 0.0) kinds_.push_back(static_cast<std::size_t>(v));
-  });
-  const Ends drawn = whole ? all_ : drawn_ends(all_, inner_ends(values));
+  Ends inner;
+  bool any = false;
+  for (std::size_t k = 0; k < shots.size(); ++k) {
+    std::vector<Weighed> values;
+    each_value(shots.subspan(k, 1), [&](double v, double weight) {
+      values.push_back({v, weight});
+      if (kind_ == ScaleKind::kinds && v >= 0.0) kinds_.push_back(static_cast<std::size_t>(v));
+    });
+    if (values.empty()) continue;
+    // Of each drawing by itself: what is quiet in one hides nothing in another.
+    const auto widen = [&](Ends& ends, Ends by) {
+      ends = any ? Ends{std::min(ends.low, by.low), std::max(ends.high, by.high)} : by;
+    };
+    const auto [least, most] =
+        std::minmax_element(values.begin(), values.end(),
+                            [](const Weighed& a, const Weighed& b) { return a.value < b.value; });
+    widen(all_, {least->value, most->value});
+    widen(inner, inner_ends(values));
+    any = true;
+  }
+  const Ends drawn = whole ? all_ : drawn_ends(all_, inner);
   take_range(drawn.low, drawn.high);
   std::sort(kinds_.begin(), kinds_.end());
   kinds_.erase(std::unique(kinds_.begin(), kinds_.end()), kinds_.end());

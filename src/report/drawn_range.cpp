@@ -7,7 +7,7 @@
 namespace edda {
 namespace {
 
-constexpr double beyond = 0.02;  // part of the weight
+constexpr double beyond = 0.01;  // part of the weight
 
 /// The least value that no more than `rest` of the weight comes after, in the order of `before`.
 template <class Before>

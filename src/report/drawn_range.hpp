@@ -15,7 +15,7 @@ struct Ends {
   double low = 0.0, high = 0.0;
 };
 
-/// Such that 2 % of the weight lie beyond either at most. Reorders the values, which are finite.
+/// Such that 1 % of the weight lie beyond either at most. Reorders the values, which are finite.
 Ends inner_ends(std::vector<Weighed>& values);
 
 /// The ends to draw by: `all`; but one that lies further out than `inner` by more than the larger

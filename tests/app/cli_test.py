@@ -388,6 +388,7 @@ class Cli(Program):
         self.assertEqual(self.expect(0, "plot", "m", "--window=3.9,-1,9,1", "-o", "w.svg").stderr, "")
         late = self.expect(0, "plot", "m", "--time", "99", "-o", "w.svg")
         self.assertEqual(late.stderr, "note: 99 s lies beyond the frames, which go from 0 to 0.01 s: drawn is 0.01 s\n")
+        self.assertIn("use one of M", self.expect(2, "plot", "m", "--relative-to", "N").stderr)
         self.assertEqual(self.expect(0, "plot", "m", "--compare=-1,0.003,2", "-o", "w.svg").stderr.count("note: "), 2)
 
     def test_verify_puts_bars_on_every_monitor(self):

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "report/picture_reading.hpp"
+#include "report/relative.hpp"
 #include "report/scene.hpp"
 #include "report/two_blocks.hpp"
 #include "scratch_folder.hpp"
@@ -97,8 +98,8 @@ TEST(Plot, ACrumbDoesNotDarkenAllOthers) {
   options.vectors = "displacement";
   const std::string svg = drawn({&shot, 1}, options);
   const auto fills = block_fills(svg, 61);
-  // 98 % of the area reach 5.9 mm; the bar is half as long again.
-  EXPECT_TRUE(looks_like(fills[59], sequential((6.0 - 0.1) / (1.5 * 5.9 - 0.1))));
+  // 99 % of the area reach 6 mm; the bar is half as long again.
+  EXPECT_TRUE(looks_like(fills[59], sequential((6.0 - 0.1) / (1.5 * 6.0 - 0.1))));
   EXPECT_TRUE(looks_like(fills[60], sequential(1.0)));
   EXPECT_TRUE(text_of(svg, "(mm), up to 167"));
   EXPECT_TRUE(text_of(svg, "5 mm"));  // of the arrows
@@ -277,6 +278,19 @@ TEST(Plot, MonitorsStandWhereTheirBlockHasGone) {
   ASSERT_EQ(marks.size(), 1u);
   constexpr double radius = 1.8;  // a circle's path starts at its right
   EXPECT_NEAR((points_of(marks[0])[0].x - radius - x2) / (x4 - x2), -0.75, 1e-3);
+}
+
+TEST(Plot, DisplacementsMayBeRelativeToAMonitor) {
+  Snapshot shot = snapshot("none");
+  shot.bolts = std::vector<BoltChain>{{{{0.9, 0.5}}, {0.0}}};
+  const std::vector<double> before = shot.blocks.points;
+  // All blocks have moved by 0.5: none has, as seen from any of them.
+  ASSERT_TRUE(move_with(shot, {0.25, 0.5}));
+  for (const double u : shot.blocks.cell_field("displacement")->values) EXPECT_NEAR(u, 0.0, 1e-12);
+  for (const double u : shot.blocks.point_field("displacement")->values) EXPECT_NEAR(u, 0.0, 1e-12);
+  EXPECT_NEAR(shot.blocks.points[0], before[0] - 0.5, 1e-12);
+  EXPECT_NEAR((*shot.bolts)[0].points[0].x, 0.4, 1e-12);
+  EXPECT_FALSE(move_with(shot, {77.0, 0.5}));
 }
 
 TEST(Plot, NamesOfMonitorsDoNotOverlap) {

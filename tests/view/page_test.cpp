@@ -163,7 +163,7 @@ TEST_F(ViewPage, RangesLeaveOutHeldBlocks) {
 
 TEST_F(ViewPage, WhatFewBlocksReachIsNotDrawnBy) {
   std::vector<TestBlock> blocks;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 300; ++i) {
     const double x = 2.0 * i;
     blocks.push_back({i, {{x, 0}, {x + 1, 0}, {x + 1, 1}, {x, 1}}, false});
   }

@@ -124,14 +124,14 @@ def _area(ring: NDArray[np.float64]) -> float:
 def _limit_colours(drawn: Any, values: NDArray[np.float64], weights: NDArray[np.float64]) -> str:
     """Ends the colours where nearly all values do; where values lie beyond, in the words of a colorbar.
 
-    The rule of the program's pictures (src/report/drawn_range.cpp), from the values beyond which 2 % of the area lie.
+    The rule of the program's pictures (src/report/drawn_range.cpp), from the values beyond which 1 % of the area lie.
     """
     counts = np.isfinite(values) & (weights > 0.0)
     if not counts.any():
         return "neither"
     order = np.argsort(values[counts])
     v, w = values[counts][order], weights[counts][order]
-    rest = 0.02 * w.sum()
+    rest = 0.01 * w.sum()
     inner_high = v[np.searchsorted(-(np.cumsum(w[::-1])[::-1] - w), -rest)]
     inner_low = v[len(v) - 1 - np.searchsorted(-(np.cumsum(w) - w)[::-1], -rest)]
     size = max(abs(inner_low), abs(inner_high))

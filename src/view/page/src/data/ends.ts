@@ -4,7 +4,7 @@
 export type Ends = [number, number];
 
 /** Part of the weight that may lie beyond either end. */
-const BEYOND = 0.02;
+const BEYOND = 0.01;
 /** An arrow that is longer than the longest meant is drawn so many times as long as that at most. */
 export const LONGEST_BEYOND = 1.5;
 
