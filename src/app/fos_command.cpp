@@ -49,9 +49,11 @@ Trouble draw_mechanism(const Model& model, const FosResult& r, const std::string
   constexpr double shown = 0.5;  // of a block's size
   options.scale = round_scale(shown * r.criterion.size / largest);
   options.vectors = "displacement";
+  options.whole_range = true;  // what moves may be little, and is what there is to see
   for (const MovingJoint& j : r.mechanism->joints) {
-    options.joints.push_back(
-        {j.from + options.scale * j.from_moved, j.to + options.scale * j.to_moved});
+    for (const Stretch& s : j.stretches)
+      options.joints.push_back(
+          {s.from + options.scale * s.from_moved, s.to + options.scale * s.to_moved});
   }
   for (const char* name : {"/mechanism.png", "/mechanism.svg"}) {
     if (Trouble trouble = plot({&shot, 1}, options, folder + name)) {
@@ -79,6 +81,8 @@ void print_end(const FosResult& r, const std::string& folder) {
   const FosCriterion& c = r.criterion;
   fmt::print("{}\n", r.message);
   if (r.mechanism) fmt::print("  mechanism at {:.6g}: {}\n", *r.fails, r.mechanism->text);
+  const std::string lost = r.mechanism ? lost_cohesion_text(*r.mechanism) : std::string();
+  if (!lost.empty()) fmt::print("  {}\n", lost);
   fmt::print(
       "  a trial fails where a corner goes {:.3g} m, or still moves at {:.3g} m/s after {:.3g} s\n",
       c.displacement, c.velocity, c.duration + (c.shaking > 0.0 ? c.shaking : c.ramp));

@@ -47,7 +47,10 @@ int draw_frames(const PlotArguments& args, const std::string& path) {
     print(read.faults());
     return exit_code::bad_input;
   }
-  return finish(plot(read.value().shots, read.value().options, path), path);
+  const PlotSource& source = read.value();
+  if (const Trouble trouble = check_window(source.shots, source.options)) return refuse(*trouble);
+  for (const std::string& note : source.notes) fmt::print(stderr, "note: {}\n", note);
+  return finish(plot(source.shots, source.options, path), path);
 }
 
 /// What one option alone cannot say.
@@ -149,6 +152,11 @@ void add_what(CLI::App& command, PlotArguments& args) {
                        "Principal stresses: crosses at the blocks' centres, tension as arrows");
   CLI::Option* const bolts =
       command.add_flag("--bolts", args.bolts, "Bolts as wide as their axial force");
+  CLI::Option* const relative =
+      command
+          .add_option("--relative-to", args.relative_to,
+                      "Displacements relative to that of a monitor, which stays where it was")
+          ->type_name("MONITOR");
   CLI::Option* const history =
       command
           .add_option("--history", args.history,
@@ -157,7 +165,8 @@ void add_what(CLI::App& command, PlotArguments& args) {
           ->type_name("NAME[,NAME...]")
           ->delimiter(',')
           ->allow_extra_args(false);
-  for (CLI::Option* other : {field, time, compare, before, vectors, forces, principal, bolts}) {
+  for (CLI::Option* other :
+       {field, time, compare, before, vectors, forces, principal, bolts, relative}) {
     history->excludes(other);
   }
 }
@@ -165,10 +174,15 @@ void add_what(CLI::App& command, PlotArguments& args) {
 void add_how(CLI::App& command, PlotArguments& args) {
   command.add_option("--scale", args.scale, "Draw displacements this many times as large")
       ->type_name("FACTOR");
-  command.add_option("--range", args.range, "Values of the ends of the colours, in SI units")
-      ->type_name("LO,HI")
-      ->delimiter(',')
-      ->expected(2);
+  CLI::Option* const range =
+      command.add_option("--range", args.range, "Values of the ends of the colours, in SI units")
+          ->type_name("LO,HI")
+          ->delimiter(',')
+          ->expected(2);
+  command
+      .add_flag("--whole-range", args.whole_range,
+                "Colours and vectors up to the largest value, even where few blocks come near it")
+      ->excludes(range);
   command.add_option("--window", args.window, "The part of the model to show, m")
       ->type_name("X0,Y0,X1,Y1")
       ->delimiter(',')

@@ -9,6 +9,7 @@
 #include "blocks/build_blocks.hpp"
 #include "lines/build_polygons.hpp"
 #include "model/read_model.hpp"
+#include "report/relative.hpp"
 #include "results/frames.hpp"
 #include "run/start_picture.hpp"
 
@@ -36,6 +37,23 @@ std::vector<SeriesEntry> chosen(const std::vector<SeriesEntry>& series, const Pl
   std::vector<SeriesEntry> entries;
   for (const double time : args.compare) entries.push_back(nearest(series, time));
   return entries;
+}
+
+/// Says where a time that was asked for is none of the run's.
+std::vector<std::string> notes_on(const std::vector<SeriesEntry>& series,
+                                  const PlotArguments& args) {
+  std::vector<double> asked = args.compare;
+  if (args.time) asked.push_back(*args.time);
+  std::vector<std::string> notes;
+  const double first = series.front().time, last = series.back().time;
+  for (const double time : asked) {
+    const double slack = 1e-9 * std::max(std::abs(first), std::abs(last));
+    if (time >= first - slack && time <= last + slack) continue;
+    notes.push_back(fmt::format(
+        "{:.6g} s lies beyond the frames, which go from {:.6g} to {:.6g} s: drawn is {:.6g} s",
+        time, first, last, nearest(series, time).time));
+  }
+  return notes;
 }
 
 /// A field where none is asked for: crosses of stresses want plain ground below them.
@@ -68,8 +86,16 @@ std::vector<BoltChain> bolts_at(const Table& table, double time) {
   return chains;
 }
 
+Fault no_monitor(const PlotArguments& args, const std::vector<PlotMonitor>& monitors) {
+  std::string names;
+  for (const PlotMonitor& m : monitors) names += (names.empty() ? "" : ", ") + m.name;
+  return {{"--relative-to", {}, 0, 0},
+          "there is no monitor \"" + args.relative_to + "\"",
+          names.empty() ? "give the model a [[monitor]]" : "use one of " + names};
+}
+
 Result<Snapshot> snapshot_of(const PlotArguments& args, const SeriesEntry& entry,
-                             const Table* bolts) {
+                             const Table* bolts, const PlotMonitor* from) {
   const std::string& folder = args.source;
   Result<Grid> blocks = read_vtu(folder + "/" + entry.file);
   if (!blocks.ok()) return blocks.faults();
@@ -82,11 +108,18 @@ Result<Snapshot> snapshot_of(const PlotArguments& args, const SeriesEntry& entry
       shot.contacts = std::move(contacts.value());
     }
   }
+  if (bolts != nullptr) shot.bolts = bolts_at(*bolts, entry.time);
+  if (from != nullptr && !move_with(shot, from->start)) {
+    return Fault{{"--relative-to", {}, 0, 0},
+                 fmt::format("the block of {} is gone at {:.6g} s", from->name, entry.time),
+                 "use another monitor, or an earlier time"};
+  }
   const Result<ShownField> field = shown_field(field_of(args, "displacement"), shot.blocks,
                                                shot.contacts ? &*shot.contacts : nullptr);
   if (!field.ok()) return field.faults();
   shot.field = field.value();
-  if (bolts != nullptr) shot.bolts = bolts_at(*bolts, entry.time);
+  if (from != nullptr && shot.field.label.starts_with("displacement"))
+    shot.field.label += " relative to " + from->name;
   return shot;
 }
 
@@ -97,6 +130,7 @@ void add_wishes(const PlotArguments& args, PlotOptions& options) {
   options.principal = args.principal;
   options.bolt_forces = args.bolts;
   options.marks = !args.no_marks;
+  options.whole_range = args.whole_range;
   options.scale = args.scale.value_or(1.0);
   options.paper = paper_of(args);
   if (!args.title.empty()) options.title = args.title;
@@ -143,14 +177,20 @@ Result<PlotSource> from_folder(const PlotArguments& args) {
                  "leave it out: the model has no bolts"};
   }
   PlotSource source;
-  for (const SeriesEntry& entry : chosen(series.value(), args)) {
-    Result<Snapshot> shot = snapshot_of(args, entry, bolts.ok() ? &bolts.value() : nullptr);
-    if (!shot.ok()) return shot.faults();
-    source.shots.push_back(std::move(shot.value()));
-  }
+  source.notes = notes_on(series.value(), args);
   // The title, names and monitors; a picture does without them where the model is gone.
   if (const Result<Model> model = read_model(folder + "/model.toml"); model.ok()) {
     source.options = options_of(model.value(), 0);
+  }
+  const std::vector<PlotMonitor>& monitors = source.options.monitors;
+  const auto from = std::find_if(monitors.begin(), monitors.end(),
+                                 [&](const PlotMonitor& m) { return m.name == args.relative_to; });
+  if (!args.relative_to.empty() && from == monitors.end()) return no_monitor(args, monitors);
+  for (const SeriesEntry& entry : chosen(series.value(), args)) {
+    Result<Snapshot> shot = snapshot_of(args, entry, bolts.ok() ? &bolts.value() : nullptr,
+                                        args.relative_to.empty() ? nullptr : &*from);
+    if (!shot.ok()) return shot.faults();
+    source.shots.push_back(std::move(shot.value()));
   }
   source.options.subtitle = source.shots.size() == 1 ? source.shots.front().heading : "";
   add_wishes(args, source.options);
@@ -159,7 +199,7 @@ Result<PlotSource> from_folder(const PlotArguments& args) {
 
 Result<PlotSource> from_model(const PlotArguments& args) {
   if (args.time || !args.compare.empty() || args.before || args.bolts || args.principal ||
-      args.forces || is_of_contacts(args.field)) {
+      args.forces || !args.relative_to.empty() || is_of_contacts(args.field)) {
     return Fault{{{}, args.source, 0, 0},
                  "is a model, which has no times, stresses, contacts or loads yet",
                  "run it, and give the folder of its results"};

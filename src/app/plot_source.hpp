@@ -13,7 +13,7 @@
 namespace edda {
 
 struct PlotArguments {
-  std::string source, output, field, vectors, title;
+  std::string source, output, field, vectors, title, relative_to;
   std::vector<std::string> overrides, history;
   std::vector<double> compare;        ///< s
   std::vector<double> range, window;  ///< low, high; x0, y0, x1, y1
@@ -22,12 +22,14 @@ struct PlotArguments {
   int width_pixels = 0;
   double font = 8.0;
   bool forces = false, principal = false, bolts = false, before = false, no_marks = false;
+  bool whole_range = false;
 };
 
 /// Everything of a picture.
 struct PlotSource {
   std::vector<Snapshot> shots;
   PlotOptions options;
+  std::vector<std::string> notes;  ///< what is drawn otherwise than asked for
 };
 
 Result<PlotSource> from_folder(const PlotArguments& args);

@@ -122,7 +122,7 @@ constexpr std::array shaking_keys{
 
 constexpr std::array acceleration_keys{
     Key{"amplitude", at<&Acceleration::amplitude>, number(D::acceleration), required, "Amplitude of the sine."},
-    Key{"frequency", at<&Acceleration::frequency>, number(D::frequency, above(0)), required, "Frequency of the sine, which begins at zero."},
+    Key{"frequency", at<&Acceleration::frequency>, number(D::frequency, above(0)), required, "Frequency of the sine, which begins at zero: the ground then has a mean velocity of amplitude/(2 pi frequency) and is carried away by it; docs/pictures.md says how to see past that."},
     Key{"direction", at<&Acceleration::direction>, shape(Kind::point, D::plain), initial, "Direction of the sine."},
 };
 

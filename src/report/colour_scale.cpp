@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "report/scene.hpp"
+#include "report/shapes.hpp"
 
 namespace edda {
 namespace {
@@ -14,9 +15,11 @@ template <class Visit>
 void each_value(std::span<const Snapshot> shots, Visit visit) {
   for (const Snapshot& shot : shots) {
     const ShownField& field = shot.field;
+    const std::vector<double> areas =
+        field.of_contacts ? std::vector<double>{} : cell_areas(shot.blocks);
     for (std::size_t c = 0; c < field.values.size(); ++c) {
       if (!field.of_contacts && is_held(shot.blocks, c)) continue;
-      if (std::isfinite(field.values[c])) visit(field.values[c]);
+      if (std::isfinite(field.values[c])) visit(field.values[c], areas.empty() ? 1.0 : areas[c]);
     }
   }
 }
@@ -24,9 +27,9 @@ void each_value(std::span<const Snapshot> shots, Visit visit) {
 }  // namespace
 
 ColourScale::ColourScale(std::span<const Snapshot> shots,
-                         std::optional<std::pair<double, double>> range)
-    : kind_(shots.front().field.kind) {
-  take_values(shots);
+                         std::optional<std::pair<double, double>> range, bool whole)
+    : kind_(shots.front().field.kind), of_contacts_(shots.front().field.of_contacts) {
+  take_values(shots, whole || of_contacts_);
   if (kind_ != ScaleKind::numbers) return;
   if (range) {
     take_range(range->first, range->second);
@@ -35,21 +38,36 @@ ColourScale::ColourScale(std::span<const Snapshot> shots,
   }
 }
 
-void ColourScale::take_values(std::span<const Snapshot> shots) {
+void ColourScale::take_values(std::span<const Snapshot> shots, bool whole) {
+  Ends inner;
   bool any = false;
-  each_value(shots, [&](double v) {
-    low_ = any ? std::min(low_, v) : v;
-    high_ = any ? std::max(high_, v) : v;
+  for (std::size_t k = 0; k < shots.size(); ++k) {
+    std::vector<Weighed> values;
+    each_value(shots.subspan(k, 1), [&](double v, double weight) {
+      values.push_back({v, weight});
+      if (kind_ == ScaleKind::kinds && v >= 0.0) kinds_.push_back(static_cast<std::size_t>(v));
+    });
+    if (values.empty()) continue;
+    // Of each drawing by itself: what is quiet in one hides nothing in another.
+    const auto widen = [&](Ends& ends, Ends by) {
+      ends = any ? Ends{std::min(ends.low, by.low), std::max(ends.high, by.high)} : by;
+    };
+    const auto [least, most] =
+        std::minmax_element(values.begin(), values.end(),
+                            [](const Weighed& a, const Weighed& b) { return a.value < b.value; });
+    widen(all_, {least->value, most->value});
+    widen(inner, inner_ends(values));
     any = true;
-    if (kind_ == ScaleKind::kinds && v >= 0.0) kinds_.push_back(static_cast<std::size_t>(v));
-  });
+  }
+  const Ends drawn = whole ? all_ : drawn_ends(all_, inner);
+  take_range(drawn.low, drawn.high);
   std::sort(kinds_.begin(), kinds_.end());
   kinds_.erase(std::unique(kinds_.begin(), kinds_.end()), kinds_.end());
 }
 
 void ColourScale::take_range(double low, double high) {
-  values_below_ = low_ < low;
-  values_above_ = high_ > high;
+  values_below_ = all_.low < low;
+  values_above_ = all_.high > high;
   low_ = low;
   high_ = high;
   two_sided_ = low < 0.0 && high > 0.0;
@@ -67,7 +85,10 @@ void ColourScale::judge_values() {
 
 Colour ColourScale::of(double value) const {
   if (kind_ == ScaleKind::plain || !std::isfinite(value)) return ink::block;
-  if (kind_ == ScaleKind::kinds) return kind_colour(static_cast<std::size_t>(std::max(value, 0.0)));
+  if (kind_ == ScaleKind::kinds) {
+    const auto kind = static_cast<std::size_t>(std::max(value, 0.0));
+    return of_contacts_ ? state_colour(kind) : kind_colour(kind);
+  }
   if (!(high_ > low_)) return sequential(0.0);
   const double v = std::clamp(value, low_, high_);
   if (!two_sided_) return sequential((v - low_) / (high_ - low_));

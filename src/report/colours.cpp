@@ -65,6 +65,9 @@ constexpr std::array<Colour, kind_colour_count> colour_of_kind{{{0.851, 0.831, 0
                                                                 {0.729, 0.882, 0.867},
                                                                 {0.969, 0.784, 0.831}}};
 
+constexpr std::array<Colour, 4> colour_of_state{
+    {{1.0, 1.0, 1.0}, {0.184, 0.525, 0.784}, {0.878, 0.200, 0.039}, {0.227, 0.102, 0.361}}};
+
 }  // namespace
 
 Colour sequential(double s) {
@@ -75,6 +78,9 @@ Colour diverging(double s) {
 }
 Colour kind_colour(std::size_t k) {
   return colour_of_kind[k % colour_of_kind.size()];
+}
+Colour state_colour(std::size_t state) {
+  return colour_of_state[std::min(state, colour_of_state.size() - 1)];
 }
 
 }  // namespace edda

@@ -20,4 +20,8 @@ Colour diverging(double s);
 Colour kind_colour(std::size_t k);
 inline constexpr std::size_t kind_colour_count = 8;
 
+/// Of a contact's state (contact_states): told apart from each other and from plain blocks by the
+/// colour-blind, too; open ones have a rim.
+Colour state_colour(std::size_t state);
+
 }  // namespace edda

@@ -28,27 +28,34 @@ double Labels::crowding(const Box& box) const {
   return sum;
 }
 
-void Labels::write(Canvas& canvas, const std::string& text, Vec2 at, double radius) {
+void Labels::write(Canvas& canvas, const std::string& text, const std::vector<Vec2>& places,
+                   double radius) {
   const double wide = canvas.text_width(text, font_, true), high = 0.85 * font_,
                off = radius + 0.15 * font_;
-  // Low left corners, best sides first; then further away.
-  std::vector<Vec2> corners;
-  for (const double d : {off, off + 1.1 * font_, off + 2.2 * font_}) {
-    corners.insert(corners.end(), {{d, -d}, {-d - wide, -d}, {d, d + high}, {-d - wide, d + high}});
-    corners.insert(
-        corners.end(),
-        {{d, 0.5 * high}, {-d - wide, 0.5 * high}, {-0.5 * wide, -d}, {-0.5 * wide, d + high}});
-  }
   Box best;
   double least = 1e300;
-  for (const Vec2 corner : corners) {
-    const Vec2 p = at + corner;
+  const auto try_at = [&](Vec2 p) {
     const Box box{{p.x, p.y - high}, {p.x + wide, p.y}};
     if (const double crowded = crowding(box); crowded < least) {
       least = crowded;
       best = box;
     }
-    if (least <= 0.0) break;
+  };
+  for (const double d : {off, off + 1.1 * font_, off + 2.2 * font_}) {
+    // Low left corners, best sides first; then further away.
+    const std::array<Vec2, 8> corners{{{d, -d},
+                                       {-d - wide, -d},
+                                       {d, d + high},
+                                       {-d - wide, d + high},
+                                       {d, 0.5 * high},
+                                       {-d - wide, 0.5 * high},
+                                       {-0.5 * wide, -d},
+                                       {-0.5 * wide, d + high}}};
+    for (const Vec2 at : places) {
+      for (const Vec2 corner : corners) {
+        if (least > 0.0) try_at(at + corner);
+      }
+    }
   }
   taken_.push_back(best);
   canvas.text(text, {best.low.x, best.high.y},

@@ -15,8 +15,10 @@ class Labels {
   Labels(Box frame, double font) : frame_(frame), font_(font) {}
   /// Keeps names off a mark of that radius.
   void avoid(Vec2 at, double radius);
-  /// Writes `text` beside the mark at `at`, on whichever side it is most in the clear.
-  void write(Canvas& canvas, const std::string& text, Vec2 at, double radius);
+  /// Writes `text` beside the mark at the first of `places` where it is in the clear on a side;
+  /// else where it is most so.
+  void write(Canvas& canvas, const std::string& text, const std::vector<Vec2>& places,
+             double radius);
 
  private:
   double crowding(const Box& box) const;

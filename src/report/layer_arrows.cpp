@@ -2,16 +2,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/drawn_range.hpp"
 #include "report/scene.hpp"
 
 namespace edda {
 namespace {
 
-constexpr double shaft = 0.6;   // pt
-constexpr double casing = 0.7;  // pt of white on either side, so that lines show on any colour
+constexpr double shaft = 0.6;          // pt
+constexpr double widest_casing = 0.7;  // pt of white about lines, so that they show on any colour
 
 struct Arrow {
   Vec2 at, vector;
+  double weight = 1.0;  ///< area of its block, m2; of a held one none
 };
 
 /// Between the marks of neighbouring blocks on paper: closer ones are left out.
@@ -31,6 +33,14 @@ double longest(const Scene& s) {
   return 0.08 * std::min(s.view.frame.width(), 1.4 * s.view.frame.height());
 }
 
+double side_of(const Scene& s, const BlockShape& shape) {
+  double twice = 0.0;
+  for (const auto& [a, b] : shape.outline) {
+    twice += cross(s.points[static_cast<std::size_t>(a)], s.points[static_cast<std::size_t>(b)]);
+  }
+  return std::sqrt(0.5 * std::abs(twice));
+}
+
 std::vector<Arrow> block_arrows(const Scene& s, const std::string& name) {
   std::vector<Arrow> arrows;
   const Field* field = s.grid().cell_field(name);
@@ -38,7 +48,9 @@ std::vector<Arrow> block_arrows(const Scene& s, const std::string& name) {
   std::vector<Vec2> centres;
   for (const std::size_t i : shown_shapes(s, centres)) {
     const double* v = field->values.data() + s.shapes[i].first_cell * field->components;
-    arrows.push_back({centres[i], {v[0], v[1]}});
+    const bool held = is_held(s.grid(), s.shapes[i].first_cell);
+    const double side = held ? 0.0 : side_of(s, s.shapes[i]);
+    arrows.push_back({centres[i], {v[0], v[1]}, side * side});
   }
   return arrows;
 }
@@ -65,27 +77,39 @@ ArrowScale scale_for(double most, double length) {
   return {length / most, round_below(most)};
 }
 
+/// `whole`: no arrow is longer than longest(); else a few may be, by longest_beyond.
 template <class ArrowsOf>
-ArrowScale arrow_scale(const std::vector<Scene>& scenes, ArrowsOf arrows_of) {
+ArrowScale arrow_scale(const std::vector<Scene>& scenes, bool whole, ArrowsOf arrows_of) {
+  std::vector<Weighed> sizes;
   double most = 0.0;
   for (const Scene& s : scenes) {
     for (const Arrow& a : arrows_of(s)) {
-      if (is_inside(s, a.at) && std::isfinite(norm(a.vector)))
-        most = std::max(most, norm(a.vector));
+      if (!is_inside(s, a.at) || !std::isfinite(norm(a.vector))) continue;
+      sizes.push_back({norm(a.vector), a.weight});
+      most = std::max(most, norm(a.vector));
     }
   }
-  return scale_for(most, longest(scenes.front()));
+  const double drawn = whole ? most : drawn_ends({0.0, most}, inner_ends(sizes)).high;
+  ArrowScale scale = scale_for(drawn, longest(scenes.front()));
+  if (drawn < most) scale.longest = longest_beyond * longest(scenes.front());
+  return scale;
 }
 
 /// First all casings, then all arrows, so that no arrow is cut by its neighbour.
 void draw_arrows(Canvas& canvas, const Scene& s, const std::vector<Arrow>& arrows,
-                 const ArrowScale& scale, Colour colour, bool ends_at) {
+                 const ArrowScale& scale, Colour colour, bool ends_at, double casing) {
   if (scale.per_unit == 0.0) return;
   constexpr double shortest = 0.8;  // pt
   std::vector<std::pair<Vec2, Vec2>> shafts;
+  std::vector<std::size_t> beyond;
   for (const Arrow& a : arrows) {
-    const Vec2 p = s.view.at(a.at), v = scale.per_unit * Vec2{a.vector.x, -a.vector.y};
+    const Vec2 p = s.view.at(a.at);
+    Vec2 v = scale.per_unit * Vec2{a.vector.x, -a.vector.y};
     if (!is_inside(s, a.at) || !std::isfinite(norm(v)) || norm(v) < shortest) continue;
+    if (scale.longest > 0.0 && norm(v) > scale.longest) {
+      v = scale.longest / norm(v) * v;
+      beyond.push_back(shafts.size());
+    }
     shafts.emplace_back(ends_at ? p - v : p, ends_at ? p : p + v);
   }
   canvas.colour(ink::white, 0.75);
@@ -94,6 +118,10 @@ void draw_arrows(Canvas& canvas, const Scene& s, const std::vector<Arrow>& arrow
   }
   canvas.colour(colour);
   for (const auto& [from, to] : shafts) canvas.arrow(from, to, shaft);
+  for (const std::size_t k : beyond) {
+    const auto& [from, to] = shafts[k];
+    canvas.arrow(from, to - 0.12 * (to - from), shaft);
+  }
 }
 
 /// Principal stresses of a block: sizes (tension positive) and the direction of the first.
@@ -112,14 +140,6 @@ struct StressCross {
   Principal stress;
   double room = 0.0;  ///< side of its block, m
 };
-
-double side_of(const Scene& s, const BlockShape& shape) {
-  double twice = 0.0;
-  for (const auto& [a, b] : shape.outline) {
-    twice += cross(s.points[static_cast<std::size_t>(a)], s.points[static_cast<std::size_t>(b)]);
-  }
-  return std::sqrt(0.5 * std::abs(twice));
-}
 
 /// Value below which `part` of them lie.
 double quantile(std::vector<double> values, double part) {
@@ -162,21 +182,24 @@ void draw_arm(Canvas& canvas, Vec2 at, Vec2 way, double half, bool tension) {
 
 }  // namespace
 
-ArrowScale vector_scale(const std::vector<Scene>& scenes, const std::string& name) {
-  return arrow_scale(scenes, [&](const Scene& s) { return block_arrows(s, name); });
+ArrowScale vector_scale(const std::vector<Scene>& scenes, const PlotOptions& options) {
+  return arrow_scale(scenes, options.whole_range,
+                     [&](const Scene& s) { return block_arrows(s, options.vectors); });
 }
 
 void draw_vectors(Canvas& canvas, const Scene& s, const std::string& name,
                   const ArrowScale& scale) {
-  draw_arrows(canvas, s, block_arrows(s, name), scale, ink::vector, false);
+  draw_arrows(canvas, s, block_arrows(s, name), scale, ink::vector, false, widest_casing);
 }
 
 ArrowScale force_scale(const std::vector<Scene>& scenes) {
-  return arrow_scale(scenes, force_arrows);
+  return arrow_scale(scenes, true, force_arrows);
 }
 
 void draw_forces(Canvas& canvas, const Scene& s, const ArrowScale& scale) {
-  draw_arrows(canvas, s, force_arrows(s), scale, ink::force, true);
+  // There are more of them, and closer, the smaller the blocks.
+  const double casing = std::min(widest_casing, 0.015 * block_size(s, s.shapes.size()));
+  draw_arrows(canvas, s, force_arrows(s), scale, ink::force, true, casing);
 }
 
 ArrowScale stress_scale(const std::vector<Scene>& scenes) {
@@ -213,7 +236,7 @@ void draw_stresses(Canvas& canvas, const Scene& s, const ArrowScale& scale) {
   for (const StressCross& c : crosses) {
     arms(c, [&](Vec2 at, Vec2 way, double half, bool) {
       canvas.colour(ink::white, 0.75);
-      canvas.line(at - half * way, at + half * way, 0.8 + casing);
+      canvas.line(at - half * way, at + half * way, 0.8 + widest_casing);
     });
   }
   for (const StressCross& c : crosses) {

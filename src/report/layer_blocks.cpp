@@ -57,21 +57,28 @@ void hatch(Canvas& canvas, const Scene& s, const BlockShape& shape) {
   cairo_restore(cr);
 }
 
-/// Side of a block on paper, about, pt.
-double block_size(const Scene& s, std::size_t blocks) {
-  const double area = s.view.frame.width() * s.view.frame.height();
-  return std::sqrt(area / static_cast<double>(std::max<std::size_t>(blocks, 1)));
-}
-
 /// Thinner where blocks are small, so that they stay visible between their outlines.
 double outline_width(const Scene& s, std::size_t blocks) {
   return std::clamp(0.025 * block_size(s, blocks), 0.08, 0.45);
 }
 
-constexpr Colour light_line{0.66, 0.66, 0.70};
+double lightness(Colour c) {
+  return 0.21 * c.r + 0.72 * c.g + 0.07 * c.b;
+}
 
-bool is_dark(Colour c) {
-  return 0.21 * c.r + 0.72 * c.g + 0.07 * c.b < 0.3;
+/// One colour of outlines for all coloured blocks: dark, or light where more of their area is so
+/// dark that dark lines would vanish than so light that light ones would.
+Colour outline_colour(const Scene& s, const ColourScale& scale) {
+  constexpr double dark = 0.3, light = 0.6;
+  const std::vector<double> areas = cell_areas(s.grid());
+  double of_dark = 0.0, of_light = 0.0;
+  for (std::size_t c = 0; c < areas.size(); ++c) {
+    if (is_held(s.grid(), c)) continue;
+    const double fill = lightness(scale.of(s.shot.field.values[c]));
+    if (fill < dark) of_dark += areas[c];
+    if (fill > light) of_light += areas[c];
+  }
+  return of_dark > of_light ? ink::light_line : ink::line;
 }
 
 /// One by one, so that an edge between two blocks is drawn twice wherever it is and all weigh the
@@ -113,18 +120,13 @@ void draw_blocks(Canvas& canvas, const Scene& s, const ColourScale& scale) {
   }
   constexpr double too_small = 1.5;  // pt: outlines alone would be seen
   if (block_size(s, visible.size()) < too_small) return;
-  canvas.colour(ink::line);
   cairo_set_line_width(cr, line);
-  stroke_outlines(canvas, s, visible, [](const BlockShape&) { return true; });
-  if (!coloured) return;
-  // Dark lines vanish on dark blocks: those get a light one on top, which leaves their neighbours'
-  // dark rim.
-  cairo_set_line_width(cr, 0.6 * line);
-  canvas.colour(light_line);
-  stroke_outlines(canvas, s, visible, [&](const BlockShape& shape) {
-    return !is_held(s.grid(), shape.first_cell) &&
-           is_dark(scale.of(field.values[shape.first_cell]));
-  });
+  for (const bool held : {false, true}) {
+    canvas.colour(coloured && !held ? outline_colour(s, scale) : ink::line);
+    stroke_outlines(canvas, s, visible, [&](const BlockShape& shape) {
+      return is_held(s.grid(), shape.first_cell) == held;
+    });
+  }
 }
 
 void draw_contact_field(Canvas& canvas, const Scene& s, const ColourScale& scale) {
@@ -133,12 +135,16 @@ void draw_contact_field(Canvas& canvas, const Scene& s, const ColourScale& scale
   const std::vector<double>& values = s.shot.field.values;
   const double radius = std::clamp(5.0 * outline_width(s, s.shapes.size()), 0.5, 2.0);
   const std::vector<Vec2> points = drawn_points(*s.shot.contacts, s.exaggeration);
-  // Contacts of one corner lie on one another: the largest values on top.
+  // Contacts of one corner lie on one another: the largest values on top, or those that slide.
+  const bool states = s.shot.field.kind == ScaleKind::kinds;
+  const auto weight = [&](std::size_t c) {
+    constexpr double slides = 2.0, foremost = 9.0;
+    return states && values[c] == slides ? foremost : std::abs(values[c]);
+  };
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::abs(values[a]) < std::abs(values[b]);
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return weight(a) < weight(b); });
   cairo_set_line_width(cr, 0.12 * radius);
   for (const std::size_t c : order) {
     const Vec2 p = s.view.at(points[c]);
@@ -154,7 +160,7 @@ void draw_contact_field(Canvas& canvas, const Scene& s, const ColourScale& scale
 void draw_joints(Canvas& canvas, const Scene& s, const PlotOptions& options) {
   canvas.colour(ink::joint);
   for (const auto& [from, to] : options.joints) {
-    canvas.line(s.view.at(from), s.view.at(to), 1.6);
+    canvas.line(s.view.at(from), s.view.at(to), joint_width);
   }
 }
 

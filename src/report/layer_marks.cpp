@@ -42,6 +42,15 @@ std::optional<std::array<Vec2, 2>> part_within(const Box& frame, Vec2 a, Vec2 b)
   return std::array<Vec2, 2>{a + from * way, a + to * way};
 }
 
+/// Where two lines cross, if they do.
+std::optional<Vec2> crossing(const std::array<Vec2, 2>& a, const std::array<Vec2, 2>& b) {
+  const Vec2 u = a[1] - a[0], v = b[1] - b[0], w = b[0] - a[0];
+  const double det = cross(u, v), along_a = cross(w, v), along_b = cross(w, u);
+  const auto is_part = [&](double t) { return t / det >= 0.0 && t / det <= 1.0; };
+  if (det == 0.0 || !is_part(along_a) || !is_part(along_b)) return {};
+  return a[0] + along_a / det * u;
+}
+
 void draw_dashed(Canvas& canvas, Vec2 a, Vec2 b) {
   const double dash = 2.5;
   cairo_set_dash(canvas.cr(), &dash, 1, 0.0);
@@ -65,7 +74,8 @@ void draw_marks(Canvas& canvas, const Scene& s, const PlotOptions& options) {
   if (options.monitors.empty() && options.lines.empty()) return;
   const Follower follow(s.grid(), drawn_points(s.grid(), 0.0), s.points);
   Labels labels(s.view.frame, s.font);
-  std::vector<std::pair<std::string, Vec2>> points, middles;
+  std::vector<std::pair<std::string, Vec2>> points;
+  std::vector<std::pair<std::string, std::array<Vec2, 2>>> lines;
   for (const PlotLine& line : options.lines) {
     const auto ends = ends_of(follow, line);
     if (!ends) continue;
@@ -74,7 +84,7 @@ void draw_marks(Canvas& canvas, const Scene& s, const PlotOptions& options) {
     const auto seen = part_within(s.view.frame, a, b);
     if (!seen) continue;
     draw_dashed(canvas, a, b);
-    middles.emplace_back(line.name, 0.5 * ((*seen)[0] + (*seen)[1]));
+    lines.emplace_back(line.name, *seen);
   }
   for (const PlotMonitor& m : options.monitors) {
     const auto now = follow(m.start);
@@ -87,8 +97,20 @@ void draw_marks(Canvas& canvas, const Scene& s, const PlotOptions& options) {
     points.emplace_back(m.name, p);
   }
   canvas.colour(ink::monitor);
-  for (const auto& [name, at] : points) labels.write(canvas, name, at, radius);
-  for (const auto& [name, at] : middles) labels.write(canvas, name, at, 0.0);
+  for (const auto& [name, at] : points) labels.write(canvas, name, {at}, radius);
+  // Names of lines stand off their crossings, where it would not be plain whose they are.
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (const auto at = crossing(lines[i].second, lines[j].second))
+        labels.avoid(*at, 1.5 * s.font);
+    }
+  }
+  for (const auto& [name, ends] : lines) {
+    std::vector<Vec2> places;
+    for (const double part : {0.5, 0.3, 0.7, 0.15, 0.85})
+      places.push_back(ends[0] + part * (ends[1] - ends[0]));
+    labels.write(canvas, name, places, 0.0);
+  }
 }
 
 }  // namespace edda

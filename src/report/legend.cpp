@@ -64,6 +64,9 @@ Legend::Legend(const ColourScale& scale, const ShownField& field,
       const bool has_brackets = label_.find('(') != std::string::npos;
       label_ += has_brackets ? ", " + unit.name : " (" + unit.name + ")";
     }
+    const auto number = [&](double v) { return typeset(fmt::format("{:.3g}", v * factor_ + 0.0)); };
+    if (scale_.values_below()) label_ += ", from " + number(scale_.all().low);
+    if (scale_.values_above()) label_ += ", up to " + number(scale_.all().high);
   }
   Canvas measure("", 1.0, 1.0, 1.0);
   heading_ = wrapped(measure, label_, font_, width());
@@ -132,7 +135,7 @@ void Legend::draw_kinds(Canvas& canvas, double left, double top) const {
 
 void Legend::draw_kind(Canvas& canvas, std::size_t kind, Vec2 at) const {
   cairo_rectangle(canvas.cr(), at.x, at.y - 0.8 * font_, font_, font_);
-  canvas.colour(kind_colour(kind));
+  canvas.colour(scale_.of(static_cast<double>(kind)));
   cairo_fill_preserve(canvas.cr());
   canvas.colour(ink::line);
   cairo_set_line_width(canvas.cr(), rule);
@@ -204,7 +207,8 @@ void Legend::draw_key(Canvas& canvas, const LegendKey& key, double left, double 
   canvas.text(key.name, {left, y}, {.size = font_});
   const double reference = key.scale.reference, length = key.scale.per_unit * reference;
   const bool load = key.sign == Sign::bolt_load;
-  const double sample = load || key.sign == Sign::bolt ? 2.4 * font_ : length;
+  const bool plain = key.sign == Sign::bolt || key.sign == Sign::joint;
+  const double sample = load || plain ? 2.4 * font_ : length;
   const auto next = [&](const std::string& text, auto&& draw) {
     y += line_step * font_;
     const double middle = y - 0.35 * font_;
@@ -230,6 +234,12 @@ void Legend::draw_key(Canvas& canvas, const LegendKey& key, double left, double 
         canvas.colour(ink::tension);
         canvas.arrow(0.5 * (a + b), a, 0.8);
         canvas.arrow(0.5 * (a + b), b, 0.8);
+      });
+      break;
+    case Sign::joint:
+      next("slip or open", [&](Vec2 a, Vec2 b) {
+        canvas.colour(ink::joint);
+        canvas.line(a, b, joint_width);
       });
       break;
     case Sign::bolt:

@@ -13,7 +13,7 @@ namespace edda {
 
 /// A sample line with what it stands for.
 struct LegendKey {
-  enum class Sign { vector, force, stress, bolt, bolt_load };
+  enum class Sign { vector, force, stress, bolt, bolt_load, joint };
   Sign sign = Sign::vector;
   std::string name;  ///< "velocity"
   std::string unit;  ///< "m/s"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "report/canvas.hpp"
 #include "report/legend.hpp"
@@ -18,7 +19,7 @@ struct Scales {
 
 Scales scales_of(const std::vector<Scene>& scenes, const PlotOptions& options) {
   Scales scales;
-  if (!options.vectors.empty()) scales.vectors = vector_scale(scenes, options.vectors);
+  if (!options.vectors.empty()) scales.vectors = vector_scale(scenes, options);
   if (options.forces) scales.forces = force_scale(scenes);
   if (options.principal) scales.stresses = stress_scale(scenes);
   if (options.bolt_forces) scales.bolts = bolt_scale(scenes);
@@ -58,6 +59,7 @@ std::vector<LegendKey> keys_of(std::span<const Snapshot> shots, const PlotOption
     whole.per_unit *= 2.0;
     keys.push_back({Sign::stress, "principal stress", "Pa", for_legend(whole, longest)});
   }
+  if (!options.joints.empty()) keys.push_back({Sign::joint, "joints", "", {}});
   if (options.bolt_forces) {
     keys.push_back({Sign::bolt_load, "force of bolts", "N", scales.bolts, any_yielded(shots)});
   } else if (any_yielded(shots)) {
@@ -129,11 +131,19 @@ void draw_scene(Canvas& canvas, const Scene& s, const PlotOptions& options,
   cairo_restore(canvas.cr());
 }
 
+/// Whether it has a size, as it has not where the world is next to a point.
+bool is_sound(const Layout& l) {
+  const View& view = l.views.front();
+  return std::isfinite(l.width) && std::isfinite(l.height) && std::isfinite(view.scale) &&
+         view.scale > 0.0 && view.world.low.x < view.world.high.x &&
+         view.world.low.y < view.world.high.y;
+}
+
 /// One page: what is drawn first decides how large the page is.
 class Page {
  public:
   Page(std::span<const Snapshot> shots, const PlotOptions& options)
-      : shots_(shots), options_(options), colours_(shots, options.range) {
+      : shots_(shots), options_(options), colours_(shots, options.range, options.whole_range) {
     for (const Snapshot& shot : shots) scenes_.push_back(make_scene(shot, options.scale));
   }
 
@@ -146,6 +156,8 @@ class Page {
     // lists: laid out once without the lengths, then with the legend.
     make_room(legend_with({}), world, room);
     const Layout layout = lay_out(world, options_.paper, room);
+    if (!is_sound(layout))
+      return Fault{{{}, path, 0, 0}, "would have no size", "show another part of the model"};
     for (std::size_t k = 0; k < scenes_.size(); ++k) {
       scenes_[k].view = layout.views[k];
       scenes_[k].font = f;
@@ -162,7 +174,7 @@ class Page {
  private:
   Legend legend_with(const Scales& scales) const {
     const ShownField& field = shots_.front().field;
-    const std::vector<std::string> states{"open", "stick", "slide", "bonded"};
+    const std::vector<std::string> states(contact_states.begin(), contact_states.end());
     return {colours_, field, field.of_contacts ? states : options_.materials,
             keys_of(shots_, options_, scales), options_.paper.font};
   }
@@ -204,6 +216,29 @@ class Page {
 };
 
 }  // namespace
+
+Trouble check_window(std::span<const Snapshot> shots, const PlotOptions& options) {
+  if (!options.window) return {};
+  std::vector<Vec2> points;
+  for (const Snapshot& shot : shots) {
+    const std::vector<Vec2> drawn = drawn_points(shot.blocks, options.scale);
+    points.insert(points.end(), drawn.begin(), drawn.end());
+  }
+  const Box &w = *options.window, all = box_around(points);
+  constexpr double most = 1e6;  // times as large, or as small
+  const double size = std::max(all.width(), all.height());
+  const char* problem =
+      !(std::min(w.width(), w.height()) * most >= size)   ? "is tiny beside the model"
+      : !(std::max(w.width(), w.height()) <= most * size) ? "is huge beside the model"
+      : w.high.x < all.low.x || w.low.x > all.high.x || w.high.y < all.low.y || w.low.y > all.high.y
+          ? "lies beyond the model"
+          : nullptr;
+  if (problem == nullptr) return {};
+  return Fault{{"--window", {}, 0, 0},
+               problem,
+               fmt::format("give a part of {:.4g},{:.4g},{:.4g},{:.4g}, where the blocks are",
+                           all.low.x, all.low.y, all.high.x, all.high.y)};
+}
 
 Trouble plot(std::span<const Snapshot> shots, const PlotOptions& options, const std::string& path) {
   return Page(shots, options).draw(path);

@@ -60,9 +60,13 @@ struct PlotOptions {
   bool bolt_forces = false;  ///< bolts as wide as their axial force
   bool marks = true;         ///< monitors and convergence lines
   std::optional<std::pair<double, double>> range{};  ///< of the colours, SI units
-  std::optional<Box> window{};                       ///< what is shown, m; default: everything
+  bool whole_range = false;     ///< else a few blocks may lie beyond colours and arrows
+  std::optional<Box> window{};  ///< what is shown, m; default: everything
   Paper paper{};
 };
+
+/// A fault where the window shows nothing of what is drawn, or is tiny or huge beside it.
+Trouble check_window(std::span<const Snapshot> shots, const PlotOptions& options);
 
 /// Draws into `path` (.png, .svg or .pdf), at least one snapshot, side by side, with one scale and
 /// one legend for all.

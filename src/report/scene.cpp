@@ -16,6 +16,11 @@ bool is_held(const Grid& grid, std::size_t cell) {
   return fixed != nullptr && fixed->values[cell] != 0.0;
 }
 
+double block_size(const Scene& s, std::size_t blocks) {
+  const double area = s.view.frame.width() * s.view.frame.height();
+  return std::sqrt(area / static_cast<double>(std::max<std::size_t>(blocks, 1)));
+}
+
 double round_below(double largest) {
   if (!(largest > 0.0) || !std::isfinite(largest)) return 0.0;
   const double power = std::pow(10.0, std::floor(std::log10(largest)));

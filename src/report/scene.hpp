@@ -14,11 +14,14 @@ namespace edda {
 
 namespace ink {
 inline constexpr Colour line{0.12, 0.12, 0.14}, block{0.87, 0.85, 0.80}, white{1.0, 1.0, 1.0};
+inline constexpr Colour light_line{0.80, 0.80, 0.83};
 inline constexpr Colour held{0.80, 0.80, 0.80}, hatch{0.62, 0.62, 0.62};
 inline constexpr Colour vector{0.05, 0.05, 0.05}, force{0.75, 0.10, 0.10};
 inline constexpr Colour compression{0.05, 0.15, 0.45}, tension{0.85, 0.20, 0.05};
 inline constexpr Colour monitor{0.80, 0.05, 0.45}, bolt{0.05, 0.25, 0.65}, joint{0.85, 0.10, 0.05};
 }  // namespace ink
+
+inline constexpr double joint_width = 1.6;  ///< of PlotOptions::joints, pt
 
 /// One drawing.
 struct Scene {
@@ -37,10 +40,14 @@ Scene make_scene(const Snapshot& shot, double exaggeration);
 /// Whether the block of that cell is held.
 bool is_held(const Grid& grid, std::size_t cell);
 
+/// Side of a block on paper where so many are seen, about, pt.
+double block_size(const Scene& scene, std::size_t blocks);
+
 /// How long, on paper, what the layers draw as lines is. Lengths hold for all drawings of a page.
 struct ArrowScale {
   double per_unit = 0.0;   ///< pt per unit of the quantity; 0: there is nothing to draw
   double reference = 0.0;  ///< a round value for the legend
+  double longest = 0.0;    ///< pt; what would be longer has two heads; 0: nothing is
 };
 
 /// A round value (1, 2 or 5 times a power of ten) not above `largest`; 0 of 0.
@@ -55,8 +62,8 @@ void draw_joints(Canvas& canvas, const Scene& scene, const PlotOptions& options)
 ArrowScale stress_scale(const std::vector<Scene>& scenes);
 void draw_stresses(Canvas& canvas, const Scene& scene, const ArrowScale& scale);
 
-/// `name`: "displacement" or "velocity".
-ArrowScale vector_scale(const std::vector<Scene>& scenes, const std::string& name);
+/// Of options.vectors.
+ArrowScale vector_scale(const std::vector<Scene>& scenes, const PlotOptions& options);
 void draw_vectors(Canvas& canvas, const Scene& scene, const std::string& name,
                   const ArrowScale& scale);
 ArrowScale force_scale(const std::vector<Scene>& scenes);

@@ -79,6 +79,22 @@ std::vector<Vec2> drawn_points(const Grid& g, double scale) {
   return points;
 }
 
+std::vector<double> cell_areas(const Grid& g) {
+  std::vector<double> areas(g.cell_count());
+  const auto point = [&](std::size_t corner) {
+    const auto p = static_cast<std::size_t>(g.corners[corner]);
+    return Vec2{g.points[3 * p], g.points[3 * p + 1]};
+  };
+  for (std::size_t c = 0; c < areas.size(); ++c) {
+    const std::size_t from = g.begin(c), to = static_cast<std::size_t>(g.ends[c]);
+    double twice = 0.0;
+    for (std::size_t k = from + 1; k + 1 < to; ++k)
+      twice += cross(point(k) - point(from), point(k + 1) - point(from));
+    areas[c] = 0.5 * std::abs(twice);
+  }
+  return areas;
+}
+
 Vec2 centre_of(const Grid& g, const BlockShape& shape, const std::vector<Vec2>& points) {
   const Vec2 base = points[static_cast<std::size_t>(g.corners[g.begin(shape.first_cell)])];
   Vec2 moment;

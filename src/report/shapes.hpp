@@ -24,6 +24,9 @@ std::vector<BlockShape> block_shapes(const Grid& grid);
 /// Every point drawn with its displacement `scale` times as large, m.
 std::vector<Vec2> drawn_points(const Grid& grid, double scale);
 
+/// Of every cell, m2.
+std::vector<double> cell_areas(const Grid& grid);
+
 /// Area-weighted centre of a shape at the given points.
 Vec2 centre_of(const Grid& grid, const BlockShape& shape, const std::vector<Vec2>& points);
 

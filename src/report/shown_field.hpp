@@ -1,6 +1,7 @@
 // What a picture colours: one number per cell of a frame, with its name, unit and kind of scale.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,9 @@
 namespace edda {
 
 enum class ScaleKind { plain, kinds, numbers };
+
+/// The field `state` by its number: the words of joints.csv.
+inline constexpr std::array<const char*, 4> contact_states{"open", "stick", "slide", "bonded"};
 
 struct ShownField {
   ScaleKind kind = ScaleKind::plain;

@@ -37,10 +37,10 @@ std::vector<double> likely_next(const FosBracket& bracket, std::size_t most) {
   return factors;
 }
 
-/// A trial that has been made.
+/// A trial that has been made, with its end while that may be one of the two nearest to the factor.
 struct Made {
   Trial trial;
-  std::optional<Simulation> failed;
+  std::optional<Simulation> end;
 };
 
 class Search {
@@ -58,6 +58,7 @@ class Search {
       first_.take(trial.factor, trial.end == TrialEnd::holds);
       result_.trials.push_back(trial);
     }
+    told_ = first_;
   }
 
   /// Goes on until the bracket is narrow enough. What is known then.
@@ -70,16 +71,20 @@ class Search {
       const Trial& trial = found->second.trial;
       result_.trials.push_back(trial);
       bracket.take(trial.factor, trial.end == TrialEnd::holds);
-      drop_above(bracket);
+      drop_ends(bracket);
     }
-    const auto lowest = made_.find(bracket.high);
+    const auto lowest = made_.find(bracket.high), highest = made_.find(bracket.low);
     if (bracket.fails && lowest != made_.end()) {
-      result_.failed = std::move(lowest->second.failed);
+      result_.failed = std::move(lowest->second.end);
     } else if (bracket.fails && start_.failed) {
       result_.failed = std::move(start_.failed);
     }
+    if (bracket.holds && highest != made_.end()) held_ = std::move(highest->second.end);
     return bracket;
   }
+
+  /// The state nearest to failure that holds; else that from which the trials begin.
+  const Simulation& held() const { return held_ ? *held_ : start_.sim; }
 
  private:
   void say(const Trial& trial) const {
@@ -120,17 +125,27 @@ class Search {
 
   void try_one(double factor, const FosBracket& bracket) {
     Made made;
-    made.failed = start_.sim;
+    made.end = start_.sim;
     const Loading to = loading_of(fos_, model_, start_.given, factor);
-    made.trial = run_trial(*made.failed, start_.plan, start_.loading, to, false,
+    made.trial = run_trial(*made.end, start_.plan, start_.loading, to, false,
                            [&] { return stopped() || given_up_ || !is_wanted(factor, bracket); });
     made.trial.factor = factor;
-    if (made.trial.end == TrialEnd::holds) made.failed.reset();
     if (made.trial.end == TrialEnd::stopped) return;
 #pragma omp critical(fos_search)
     {
-      say(made.trial);
       made_.emplace(factor, std::move(made));
+      tell_known();
+    }
+  }
+
+  /// Says of the trials what one thread would say: not of those that turn out not to be needed.
+  void tell_known() {
+    for (auto needed = told_.next(); needed; needed = told_.next()) {
+      const auto found = made_.find(*needed);
+      if (found == made_.end()) return;
+      const Trial& trial = found->second.trial;
+      say(trial);
+      told_.take(trial.factor, trial.end == TrialEnd::holds);
     }
   }
 
@@ -149,10 +164,11 @@ class Search {
     return wanted;
   }
 
-  /// States of trials that cannot be the lowest that fails any more.
-  void drop_above(const FosBracket& bracket) {
+  /// States of trials that cannot be the lowest that fails or the highest that holds any more.
+  void drop_ends(const FosBracket& bracket) {
     for (auto& [factor, made] : made_) {
-      if (bracket.fails && factor > bracket.high) made.failed.reset();
+      if (bracket.fails && factor > bracket.high) made.end.reset();
+      if (bracket.holds && factor < bracket.low) made.end.reset();
     }
   }
 
@@ -161,7 +177,8 @@ class Search {
   FosStart& start_;
   const FosOptions& options_;
   FosResult& result_;
-  FosBracket first_{};
+  FosBracket first_{}, told_{};
+  std::optional<Simulation> held_;
   std::map<double, Made> made_;
   std::atomic<bool> given_up_{false};
 };
@@ -221,7 +238,10 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
     conclude(bracket, fos, stopped, r);
     const bool sound = r.failed && std::isfinite(r.failed->last_displacement) &&
                        r.failed->last_displacement < 1e100;
-    if (sound) r.mechanism = mechanism_of(start.sim, *r.failed);
+    if (sound) {
+      r.mechanism = mechanism_of(start.sim, *r.failed);
+      find_lost_cohesion(*r.mechanism, search.held());
+    }
   }
   for (const Trial& trial : r.trials) {
     if (!trial.reason.starts_with("diverged")) continue;

@@ -30,7 +30,9 @@ void add_criterion(Json& j, const FosCriterion& c) {
 void add_mechanism(Json& j, const Mechanism& m) {
   j.key("mechanism").open_object().pair("text", m.text);
   j.pair("blocks", m.blocks.size()).pair("joints", m.joints.size());
-  j.pair("sliding", m.sliding).pair("toppling", m.toppling).pair("falling", m.falling).close();
+  j.pair("sliding", m.sliding).pair("toppling", m.toppling).pair("falling", m.falling);
+  j.pair("brittle_length", m.brittle_length);
+  j.pair("cohesion_lost_length", m.cohesion_lost_length).close();
 }
 
 }  // namespace

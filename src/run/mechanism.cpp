@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "contacts/gap.hpp"
 #include "results/csv.hpp"
@@ -52,15 +53,13 @@ MovingBlock motion_of(const Simulation& before, const Simulation& after, std::si
   return m;
 }
 
-/// Fills in the stretch of edge e that the edges of the vertex's block lie along, and where its
-/// block has carried it.
-void place_stretch(const Simulation& before, const Simulation& after, std::size_t k,
-                   MovingJoint& joint) {
+/// The stretch of edge e that the edges of the vertex's block lie along, and where its block has
+/// carried it.
+Stretch stretch_of(const Simulation& before, const Simulation& after, std::size_t k, Id f) {
   const ContactSet& c = before.contacts;
   const Pose &was = before.pose, &is = after.pose;
-  const Id v = c.vertex[k], e = c.edge[k], end = c.edge_end[k];
+  const Id e = c.edge[k], end = c.edge_end[k];
   const EdgeFrame frame = edge_frame(at(was.x, was.y, e), at(was.x, was.y, end));
-  const Id f = facing_edge(before.blocks, was.x, was.y, v, frame.normal());
   const double l = frame.length;
   const double z0 = gap_to(frame, at(was.x, was.y, f)).foot;
   const double z1 = gap_to(frame, at(was.x, was.y, before.blocks.next[f])).foot;
@@ -71,8 +70,18 @@ void place_stretch(const Simulation& before, const Simulation& after, std::size_
     moved = start + xi * (at(is.x, is.y, end) - start) - point;
     point += before.blocks.origin;
   };
-  place(std::min(z0, z1), joint.from, joint.from_moved);
-  place(std::max(z0, z1), joint.to, joint.to_moved);
+  Stretch s;
+  place(std::min(z0, z1), s.from, s.from_moved);
+  place(std::max(z0, z1), s.to, s.to_moved);
+  return s;
+}
+
+/// The edge of the vertex's block that lies against the contact's edge.
+Id facing(const Simulation& sim, std::size_t k) {
+  const ContactSet& c = sim.contacts;
+  const Pose& p = sim.pose;
+  const EdgeFrame frame = edge_frame(at(p.x, p.y, c.edge[k]), at(p.x, p.y, c.edge_end[k]));
+  return facing_edge(sim.blocks, p.x, p.y, c.vertex[k], frame.normal());
 }
 
 /// What has become of the joints that carried before.
@@ -80,6 +89,7 @@ std::vector<MovingJoint> joints_of(const Simulation& before, const Simulation& a
                                    double least) {
   const ContactSet& c = before.contacts;
   std::map<std::tuple<Id, Id, std::uint16_t>, MovingJoint> joints;
+  std::set<std::pair<Id, Id>> drawn;  // edges, once for the contacts at either end
   for (std::size_t k = 0; k < c.size(); ++k) {
     const bool touches = c.is(k, cs::closed) || (c.depth[k] > -least && c.on_edge(k));
     if (!touches || c.share[k] <= 0.0 || c.why[k] != Blocked::no) continue;
@@ -95,10 +105,19 @@ std::vector<MovingJoint> joints_of(const Simulation& before, const Simulation& a
     MovingJoint& joint = joints[{i, j, c.law[k]}];
     if (std::max(slip, opening) > std::max(joint.slip, joint.opening)) {
       joint.place = at(before.pose.x, before.pose.y, c.vertex[k]) + before.blocks.origin;
-      place_stretch(before, after, k, joint);
     }
+    // Where the corner that moves most touches an edge at its end, as at the toe of a slope,
+    // nothing of the joint lies along it; but along those of others.
+    const Id f = facing(before, k);
+    const Stretch stretch = stretch_of(before, after, k, f);
+    const double shortest =
+        1e-3 * std::min(before.blocks.edge_length[c.edge[k]], before.blocks.edge_length[f]);
+    if (norm(stretch.to - stretch.from) > shortest &&
+        drawn.insert(std::minmax(c.edge[k], f)).second)
+      joint.stretches.push_back(stretch);
     joint.block_i = i;
     joint.block_j = j;
+    joint.law = c.law[k];
     joint.joint = c.law[k] < before.model.joints.size()
                       ? std::string_view(before.model.joints[c.law[k]].name)
                       : std::string_view("glued");
@@ -154,6 +173,37 @@ Mechanism mechanism_of(const Simulation& before, const Simulation& after) {
   m.joints = joints_of(before, after, moving * largest);
   m.text = sentence(m);
   return m;
+}
+
+void find_lost_cohesion(Mechanism& m, const Simulation& held) {
+  const ContactSet& c = held.contacts;
+  std::set<std::tuple<Id, Id, std::uint16_t>> brittle;
+  for (const MovingJoint& j : m.joints) {
+    const Law& law = held.laws.rows[j.law];
+    if (!law.glued && !law.changes && law.residual_cohesion < law.peak_cohesion)
+      brittle.insert({j.block_i, j.block_j, j.law});
+  }
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const auto [i, j] = std::minmax(c.block_i[k], c.block_j[k]);
+    if (c.why[k] != Blocked::no || !brittle.contains({i, j, c.law[k]})) continue;
+    const bool lost = !c.is(k, cs::bonded);
+    if (lost && !c.is(k, cs::closed | cs::opened)) continue;  // was never bonded
+    const double length = c.share[k] * c.length[k];
+    m.brittle_length += length;
+    if (lost) m.cohesion_lost_length += length;
+  }
+  if (!lost_cohesion_text(m).empty())
+    m.text += fmt::format("; cohesion lost before on {:.3g} of {:.3g} m", m.cohesion_lost_length,
+                          m.brittle_length);
+}
+
+std::string lost_cohesion_text(const Mechanism& m) {
+  constexpr double little = 0.01;
+  if (!(m.cohesion_lost_length > little * m.brittle_length)) return {};
+  return fmt::format(
+      "cohesion had been lost on {:.3g} m of {:.3g} m of the mechanism's joints before it moved "
+      "(residual.cohesion is lower): with residual.cohesion = cohesion the factor may be higher",
+      m.cohesion_lost_length, m.brittle_length);
 }
 
 std::string mechanism_csv(const Simulation& sim, const Mechanism& mechanism) {

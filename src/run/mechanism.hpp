@@ -28,22 +28,30 @@ struct MovingBlock {
   Motion motion = Motion::slides;
 };
 
+/// A straight part of a joint.
+struct Stretch {
+  Vec2 from, to;              ///< m, its ends
+  Vec2 from_moved, to_moved;  ///< m, how far the block beside it has carried them
+};
+
 /// A joint between two blocks that slips or opens by more than a tenth of that displacement.
 struct MovingJoint {
   Id block_i = 0, block_j = 0;
   std::string joint;
-  Vec2 place;                 ///< m, of the contact that moves most
-  Vec2 from, to;              ///< m, ends of the stretch of joint between the two
-  Vec2 from_moved, to_moved;  ///< m, how far the block beside it has carried them
-  double slip = 0.0;          ///< m, largest along the joint, either way
-  double opening = 0.0;       ///< m, largest across it
+  std::uint16_t law = 0;           ///< row of the law table
+  Vec2 place;                      ///< m, of the contact that moves most
+  std::vector<Stretch> stretches;  ///< where the two lie against each other and move
+  double slip = 0.0;               ///< m, largest along the joint, either way
+  double opening = 0.0;            ///< m, largest across it
 };
 
 struct Mechanism {
   std::vector<MovingBlock> blocks;                      ///< by id
   std::vector<MovingJoint> joints;                      ///< by blocks
   double sliding = 0.0, toppling = 0.0, falling = 0.0;  ///< parts of the weight that moves
-  std::string text;                                     ///< one sentence
+  double brittle_length = 0.0;        ///< m of its joints whose cohesion goes down as they break
+  double cohesion_lost_length = 0.0;  ///< m of that on which it had before anything moved
+  std::string text;                   ///< one sentence
 };
 
 /// From `before`, at rest, to `after`, the same model later.
@@ -53,6 +61,11 @@ struct Mechanism {
 /// that slides 0). One that is next to nothing any more, but for a tenth of that displacement,
 /// falls.
 Mechanism mechanism_of(const Simulation& before, const Simulation& after);
+
+/// Finds out how much cohesion the mechanism's joints had lost in a state that still `held`.
+void find_lost_cohesion(Mechanism& mechanism, const Simulation& held);
+/// What it means; nothing where little was lost.
+std::string lost_cohesion_text(const Mechanism& mechanism);
 
 std::string mechanism_csv(const Simulation& sim, const Mechanism& mechanism);
 std::string mechanism_joints_csv(const Mechanism& mechanism);

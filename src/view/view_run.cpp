@@ -9,6 +9,8 @@
 #include <system_error>
 
 #include "report/colours.hpp"
+#include "report/drawn_range.hpp"
+#include "report/shapes.hpp"
 #include "report/shown_field.hpp"
 #include "results/files.hpp"
 #include "results/frames.hpp"
@@ -149,10 +151,13 @@ void ViewRun::widen_ranges(const Opened& frame) {
   if (grids.contacts) usual_.force = std::max(usual_.force, usual_force(*grids.contacts));
   const Grid* contacts = grids.contacts ? &*grids.contacts : nullptr;
   const Field* fixed = grids.blocks.cell_field("fixed");
+  const std::vector<double> areas = cell_areas(grids.blocks);
   for (const std::string& name : all_fields()) {
     const Result<ShownField> field = shown_field(name, grids.blocks, contacts);
     if (!field.ok() || field.value().kind != ScaleKind::numbers) continue;
     ViewRange& range = ranges_[name];
+    const bool first = !range.any;
+    std::vector<Weighed> values;
     for (std::size_t c = 0; c < field.value().values.size(); ++c) {
       const double v = field.value().values[c];
       const bool held = !field.value().of_contacts && fixed != nullptr && fixed->values[c] != 0.0;
@@ -160,7 +165,12 @@ void ViewRun::widen_ranges(const Opened& frame) {
       range.low = range.any ? std::min(range.low, v) : v;
       range.high = range.any ? std::max(range.high, v) : v;
       range.any = true;
+      values.push_back({v, field.value().of_contacts ? 1.0 : areas[c]});
     }
+    if (values.empty()) continue;
+    const Ends inner = inner_ends(values);
+    range.inner_low = first ? inner.low : std::min(range.inner_low, inner.low);
+    range.inner_high = first ? inner.high : std::max(range.inner_high, inner.high);
   }
 }
 
@@ -226,8 +236,14 @@ std::string ViewRun::header(const std::string& served_as) const {
     json.open_object().pair("name", name).pair("label", about.label).pair("unit", about.unit);
     json.pair("kind", about.kind == ScaleKind::kinds ? "kinds" : "numbers");
     json.pair("of", about.of_contacts ? "contacts" : "blocks");
-    if (const auto r = ranges_.find(name); r != ranges_.end() && r->second.any)
-      json.key("range").open_list().value(r->second.low).value(r->second.high).close();
+    if (const auto r = ranges_.find(name); r != ranges_.end() && r->second.any) {
+      const ViewRange& range = r->second;
+      const Ends all{range.low, range.high};
+      const Ends drawn =
+          about.of_contacts ? all : drawn_ends(all, {range.inner_low, range.inner_high});
+      json.key("range").open_list().value(all.low).value(all.high).close();
+      json.key("drawn").open_list().value(drawn.low).value(drawn.high).close();
+    }
     json.close();
   }
   json.close();
@@ -235,8 +251,12 @@ std::string ViewRun::header(const std::string& served_as) const {
   json.pair("force", usual_.force).pair("stress", usual_.stress).close();
   std::string kinds;
   for (std::size_t k = 0; k < kind_colour_count; ++k) append_hex(kinds, kind_colour(k));
+  std::string states;
+  for (std::size_t k = 0; k < contact_states.size(); ++k) append_hex(states, state_colour(k));
   json.key("colours").open_object().pair("sequential", colour_map(sequential));
-  json.pair("diverging", colour_map(diverging)).pair("kinds", kinds).close();
+  json.pair("diverging", colour_map(diverging)).pair("kinds", kinds);
+  json.pair("states", states).close();
+  add_strings(json, "states", {contact_states.begin(), contact_states.end()});
   if (const Result<std::string> summary = read_file(folder_ + "/summary.json"); summary.ok())
     json.pair("summary", summary.value());
   return json.close().text();

@@ -33,6 +33,8 @@ struct ViewNames {
 struct ViewRange {
   double low = 0.0, high = 0.0;
   bool any = false;
+  /// But for a few blocks that lie far beyond, of each frame (report/drawn_range.hpp).
+  double inner_low = 0.0, inner_high = 0.0;
 };
 
 /// What a stroke of the usual length stands for in the frames so far.

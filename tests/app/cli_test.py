@@ -373,6 +373,19 @@ class Cli(Program):
             self.expect(2, "plot", "m", *more)
         self.assertEqual(self.names(), ["m", "m.toml"])
 
+    def test_plot_says_which_window_and_time_it_cannot_show(self):
+        self.expect(0, "run", "m.toml", "--quiet")
+        for window in ("0,0,1e-310,1e-310", "0,0,1e-9,1", "100,100,120,120", "-1e12,-1e12,1e12,1e12"):
+            for source in ("m", "m.toml"):
+                done = self.expect(2, "plot", source, "--window=" + window, "-o", "w.svg")
+                self.assertRegex(done.stderr, "^--window: .* the model: give a part of -1.15,-1.*,4.15,", window)
+        self.assertEqual(self.names(), ["m", "m.toml"])
+        self.assertEqual(self.expect(0, "plot", "m", "--window=3.9,-1,9,1", "-o", "w.svg").stderr, "")
+        late = self.expect(0, "plot", "m", "--time", "99", "-o", "w.svg")
+        self.assertEqual(late.stderr, "note: 99 s lies beyond the frames, which go from 0 to 0.01 s: drawn is 0.01 s\n")
+        self.assertIn("use one of M", self.expect(2, "plot", "m", "--relative-to", "N").stderr)
+        self.assertEqual(self.expect(0, "plot", "m", "--compare=-1,0.003,2", "-o", "w.svg").stderr.count("note: "), 2)
+
     def test_verify_puts_bars_on_every_monitor(self):
         done = self.expect(0, "verify", "m.toml")
         for words in ("after 0.01 s", "M  ", " step, +- ", " stiffness, +- ", " order", "energy drift"):

@@ -149,6 +149,31 @@ def test_pictures(folder, models, tmp_path):
     plt.close("all")
 
 
+def test_a_crumb_does_not_darken_all_others(models):
+    import matplotlib.pyplot as plt
+
+    cut = edda.load(models / "cavern.toml").cut()
+    free = np.array([not block.fixed for block in cut.blocks])
+    area = np.array([block.area for block in cut.blocks])
+    values = np.linspace(1e-3, 6e-3, len(area))
+    values[~free] = 99.0  # held blocks do not count
+    crumb = np.flatnonzero(free)[np.argmin(area[free])]
+
+    def drawn(**options):
+        ax = edda.plot_blocks(cut, values, **options)
+        limits, bar = ax.collections[0].get_clim(), ax.figure.axes[-1]._colorbar
+        plt.close(ax.figure)
+        return limits[1], bar.extend
+
+    values[crumb] = 0.167
+    high, extend = drawn()
+    assert extend == "max" and 6e-3 < high <= 9e-3
+    assert drawn(clim=(0.0, 0.01)) == (0.01, "neither")
+    assert drawn(whole_range=True) == (values.max(), "neither")
+    values[~free] = values[crumb] = 5e-3
+    assert drawn() == (values.max(), "neither")
+
+
 def test_matplotlib_is_imported_only_for_pictures():
     code = "import edda, sys; sys.exit('matplotlib' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

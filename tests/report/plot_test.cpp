@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "report/picture_reading.hpp"
+#include "report/relative.hpp"
 #include "report/scene.hpp"
 #include "report/two_blocks.hpp"
 #include "scratch_folder.hpp"
@@ -68,6 +69,45 @@ TEST(Plot, BlocksHaveTheColoursOfTheirValues) {
   const auto clipped = block_fills(drawn({&shot, 1}, options), 2);
   EXPECT_TRUE(looks_like(clipped[0], sequential(0.0)));
   EXPECT_TRUE(looks_like(clipped[1], sequential(1.0)));
+}
+
+/// A row of 60 squares that move by up to 6 mm, beside them a crumb that has fallen by 167 mm.
+Snapshot crumb() {
+  Grid g;
+  Field id{"id", 1, {}, {}, true}, u{"displacement", 3, {}, {}, false};
+  for (int k = 0; k <= 60; ++k) {
+    const double x = k < 60 ? k : 66.0, size = k < 60 ? 1.0 : 0.1;
+    for (const Vec2 p : {Vec2{0, 0}, Vec2{size, 0}, Vec2{size, size}, Vec2{0, size}}) {
+      g.corners.push_back(static_cast<std::int64_t>(g.point_count()));
+      g.points.insert(g.points.end(), {x + p.x, p.y, 0.0});
+    }
+    g.ends.push_back(static_cast<std::int64_t>(g.corners.size()));
+    g.types.push_back(cell_type::polygon);
+    id.values.push_back(k);
+    u.values.insert(u.values.end(), {0.0, k < 60 ? 1e-4 * (k + 1) : -0.167, 0.0});
+  }
+  g.cell_fields = {id, u};
+  Snapshot shot{g};
+  shot.field = shown_field("displacement", shot.blocks, nullptr).value();
+  return shot;
+}
+
+TEST(Plot, ACrumbDoesNotDarkenAllOthers) {
+  const Snapshot shot = crumb();
+  PlotOptions options;
+  options.vectors = "displacement";
+  const std::string svg = drawn({&shot, 1}, options);
+  const auto fills = block_fills(svg, 61);
+  // 99 % of the area reach 6 mm; the bar is half as long again.
+  EXPECT_TRUE(looks_like(fills[59], sequential((6.0 - 0.1) / (1.5 * 6.0 - 0.1))));
+  EXPECT_TRUE(looks_like(fills[60], sequential(1.0)));
+  EXPECT_TRUE(text_of(svg, "(mm), up to 167"));
+  EXPECT_TRUE(text_of(svg, "5 mm"));  // of the arrows
+  options.whole_range = true;
+  const std::string whole = drawn({&shot, 1}, options);
+  EXPECT_FALSE(text_of(whole, "(mm), up to 167"));
+  EXPECT_TRUE(text_of(whole, "100 mm"));
+  EXPECT_FALSE(looks_like(block_fills(whole, 61)[59], fills[59]));
 }
 
 TEST(Plot, ColoursOfBothSignsAreWhiteAtNothing) {
@@ -143,6 +183,74 @@ TEST(Plot, NamesOfLinesStayInTheDrawing) {
   EXPECT_GT(text_of(svg, "seen")->x, text_of(svg, "2.5")->x - 20.0);
 }
 
+TEST(Plot, NamesOfCrossingLinesStandApart) {
+  const Snapshot shot = snapshot("none");
+  PlotOptions options;
+  options.lines = {{"V", {{{0.5, 0.0}, {0.5, 1.0}}}}, {"H", {{{0.01, 0.5}, {0.99, 0.5}}}}};
+  const std::string svg = drawn({&shot, 1}, options);
+  const double metre = text_of(svg, "1.0")->x - text_of(svg, "0.0")->x;
+  const Vec2 v = *text_of(svg, "V"), h = *text_of(svg, "H");
+  EXPECT_GT(norm(v - h), 0.2 * metre);
+  // And each beside its own line: V right of x = 1.0, where the blocks have gone, H above y = 0.5.
+  const double x = text_of(svg, "1.0")->x;
+  EXPECT_LT(std::abs(v.x - x), 16.0);
+  EXPECT_GT(std::abs(h.x - x), 12.0);
+}
+
+TEST(Plot, OutlinesOfAPictureHaveOneColour) {
+  Snapshot shot = snapshot("displacement");
+  shot.blocks.cell_fields[1].values = {0, 0, 0};
+  const auto light_lines = [&](double first, double second) {
+    shot.field.values = {first, first, second};
+    PlotOptions options;
+    options.range = {0.0, 1.0};
+    return stroked(drawn({&shot, 1}, options), ink::light_line).size();
+  };
+  EXPECT_EQ(light_lines(0.0, 0.5), 2u);  // both, as dark lines would vanish on one
+  EXPECT_EQ(light_lines(1.0, 0.5), 0u);
+  EXPECT_EQ(light_lines(0.4, 0.5), 0u);
+}
+
+TEST(Plot, CasingsOfForcesAreThinWhereBlocksAreSmall) {
+  Snapshot shot = crumb();
+  shot.field = ShownField{};
+  Grid contacts;
+  Field force{"force", 3, {}, {}, false};
+  for (int k = 0; k < 60; ++k) {
+    contacts.points.insert(contacts.points.end(), {1.0 * k, 0.5, 0.0});
+    contacts.corners.push_back(k);
+    contacts.ends.push_back(k + 1);
+    contacts.types.push_back(cell_type::vertex);
+    force.values.insert(force.values.end(), {0.0, 1e5, 0.0});
+  }
+  contacts.cell_fields = {force};
+  shot.contacts = contacts;
+  PlotOptions options;
+  options.forces = true;
+  const std::vector<double> many = stroke_widths(drawn({&shot, 1}, options), ink::white);
+  shot.blocks = two_blocks();
+  const std::vector<double> few = stroke_widths(drawn({&shot, 1}, options), ink::white);
+  ASSERT_FALSE(many.empty() || few.empty());
+  EXPECT_LT(many[0] - 0.6, 0.6 * (few[0] - 0.6));  // the shaft has 0.6
+}
+
+TEST(Plot, WindowsWithNothingInThemAreRefused) {
+  const Snapshot shot = snapshot("none");
+  PlotOptions options;
+  EXPECT_FALSE(check_window({&shot, 1}, options));
+  for (const Box& window :
+       {Box{{0.0, 0.0}, {1e-310, 1e-310}}, Box{{5.0, 0.0}, {6.0, 1.0}}, Box{{0, 0}, {1e9, 1e9}}}) {
+    options.window = window;
+    EXPECT_TRUE(check_window({&shot, 1}, options)) << window.high.x;
+  }
+  options.window = Box{{0.0, 0.0}, {1e-310, 1e-310}};
+  const ScratchFolder folder;
+  EXPECT_TRUE(plot({&shot, 1}, options, folder.at("plot.svg")));
+  EXPECT_FALSE(std::filesystem::exists(folder.at("plot.svg")));
+  options.window = Box{{1.9, 0.0}, {6.0, 1.0}};
+  EXPECT_FALSE(check_window({&shot, 1}, options));
+}
+
 TEST(Plot, LegendsOfNarrowPagesStandBelow) {
   Snapshot shot = snapshot("displacement");
   PlotOptions options;
@@ -170,6 +278,19 @@ TEST(Plot, MonitorsStandWhereTheirBlockHasGone) {
   ASSERT_EQ(marks.size(), 1u);
   constexpr double radius = 1.8;  // a circle's path starts at its right
   EXPECT_NEAR((points_of(marks[0])[0].x - radius - x2) / (x4 - x2), -0.75, 1e-3);
+}
+
+TEST(Plot, DisplacementsMayBeRelativeToAMonitor) {
+  Snapshot shot = snapshot("none");
+  shot.bolts = std::vector<BoltChain>{{{{0.9, 0.5}}, {0.0}}};
+  const std::vector<double> before = shot.blocks.points;
+  // All blocks have moved by 0.5: none has, as seen from any of them.
+  ASSERT_TRUE(move_with(shot, {0.25, 0.5}));
+  for (const double u : shot.blocks.cell_field("displacement")->values) EXPECT_NEAR(u, 0.0, 1e-12);
+  for (const double u : shot.blocks.point_field("displacement")->values) EXPECT_NEAR(u, 0.0, 1e-12);
+  EXPECT_NEAR(shot.blocks.points[0], before[0] - 0.5, 1e-12);
+  EXPECT_NEAR((*shot.bolts)[0].points[0].x, 0.4, 1e-12);
+  EXPECT_FALSE(move_with(shot, {77.0, 0.5}));
 }
 
 TEST(Plot, NamesOfMonitorsDoNotOverlap) {
@@ -206,12 +327,47 @@ TEST(Plot, SnapshotsStandSideBySideWithOneScale) {
   EXPECT_EQ(all_texts(svg, "displacement (m)").size(), 1u);
 }
 
+TEST(Plot, StatesOfContactsHaveTheirOwnColours) {
+  Snapshot shot = snapshot("none");
+  Grid contacts;
+  for (const double state : {2.0, 0.0, 3.0, 1.0}) {
+    contacts.points.insert(contacts.points.end(), {1.0 + 0.1 * state, 0.5, 0.0});
+    contacts.corners.push_back(static_cast<std::int64_t>(contacts.ends.size()));
+    contacts.ends.push_back(static_cast<std::int64_t>(contacts.corners.size()));
+    contacts.types.push_back(cell_type::vertex);
+  }
+  contacts.cell_fields = {{"state", 1, {2, 0, 3, 1}, {}, true}};
+  shot.contacts = contacts;
+  shot.field = shown_field("state", shot.blocks, &*shot.contacts).value();
+  const std::string svg = drawn({&shot, 1}, {});
+  std::vector<std::size_t> order;
+  for (const std::string& path : elements(svg, "path")) {
+    const auto fill = colour_of(path, "fill");
+    for (std::size_t k = 0; fill && k < 4; ++k) {
+      if (looks_like(*fill, state_colour(k)) && attribute(path, "d").find('C') != std::string::npos)
+        order.push_back(k);
+    }
+  }
+  EXPECT_EQ(order, (std::vector<std::size_t>{0, 1, 3, 2}));  // those that slide on top
+  for (const char* state : contact_states) EXPECT_TRUE(text_of(svg, state)) << state;
+}
+
 TEST(Plot, LegendHasAnArrowOfARoundLength) {
   Snapshot shot = snapshot("none");
   for (double& v : shot.blocks.cell_fields[2].values) v *= 0.74;  // 0.37 m
   PlotOptions options;
   options.vectors = "displacement";
   EXPECT_TRUE(text_of(drawn({&shot, 1}, options), "200 mm"));
+}
+
+TEST(Plot, TheLegendSaysWhatThickJointsAre) {
+  const Snapshot shot = snapshot("none");
+  PlotOptions options;
+  EXPECT_FALSE(text_of(drawn({&shot, 1}, options), "slip or open"));
+  options.joints = {{{{1.0, 0.0}, {1.0, 1.0}}}};
+  const std::string svg = drawn({&shot, 1}, options);
+  EXPECT_TRUE(text_of(svg, "slip or open"));
+  EXPECT_EQ(stroked(svg, ink::joint).size(), 2u);  // with that of the legend
 }
 
 TEST(Plot, TensionAndCompressionAreToldApart) {

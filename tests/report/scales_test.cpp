@@ -1,10 +1,12 @@
 // Ticks, units and colours.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "report/colours.hpp"
+#include "report/drawn_range.hpp"
 #include "report/scene.hpp"
 #include "report/ticks.hpp"
 
@@ -60,6 +62,50 @@ double difference(Colour a, Colour b) {
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
 
+Ends drawn(std::vector<Weighed> values) {
+  Ends all{values.front().value, values.front().value};
+  for (const Weighed& v : values) all = {std::min(all.low, v.value), std::max(all.high, v.value)};
+  return drawn_ends(all, inner_ends(values));
+}
+
+/// 0.01 to 1.00, 1 m2 each.
+std::vector<Weighed> hundred() {
+  std::vector<Weighed> values;
+  for (int k = 1; k <= 100; ++k) values.push_back({0.01 * ((37 * k) % 101), 1.0});
+  return values;
+}
+
+TEST(DrawnRange, LeavesOutWhatLiesFarBeyondNearlyAllOfTheArea) {
+  std::vector<Weighed> values = hundred();
+  EXPECT_NEAR(inner_ends(values).low, 0.02, 1e-12);
+  EXPECT_NEAR(inner_ends(values).high, 0.99, 1e-12);
+  EXPECT_DOUBLE_EQ(drawn(values).low, 0.01);
+  EXPECT_DOUBLE_EQ(drawn(values).high, 1.0);
+  values.push_back({1.9, 0.01});
+  EXPECT_DOUBLE_EQ(drawn(values).high, 1.9);
+  values.push_back({167.0, 0.01});
+  EXPECT_LE(drawn(values).high, 1.5);
+  // By area, not by number: five crumbs are as good as one, a large block is not left out.
+  for (int k = 0; k < 5; ++k) values.push_back({100.0 + k, 0.01});
+  EXPECT_LE(drawn(values).high, 1.5);
+  values.push_back({50.0, 3.0});
+  EXPECT_DOUBLE_EQ(drawn(values).high, 75.0);
+  // On the other side, too.
+  values = hundred();
+  values.push_back({-20.0, 0.5});
+  EXPECT_DOUBLE_EQ(drawn(values).high, 1.0);
+  EXPECT_NEAR(drawn(values).low, 0.01 - 0.5 * 0.99, 1e-12);
+}
+
+TEST(DrawnRange, IsWholeWhereAllButAFewLieStill) {
+  std::vector<Weighed> values(99, {1e-9, 1.0});
+  values.push_back({0.5, 1.0});
+  EXPECT_DOUBLE_EQ(drawn(values).high, 0.5);
+  values = {{3.0, 0.0}, {2.0, 0.0}};
+  EXPECT_DOUBLE_EQ(inner_ends(values).low, 2.0);
+  EXPECT_DOUBLE_EQ(inner_ends(values).high, 3.0);
+}
+
 TEST(Colours, LightnessOfTheSequentialMapOnlyRises) {
   for (int k = 1; k <= 100; ++k) {
     EXPECT_GT(lab(sequential(k / 100.0))[0], lab(sequential((k - 1) / 100.0))[0]) << k;
@@ -76,6 +122,42 @@ TEST(Colours, StepsOfTheDivergingMapLookEven) {
   EXPECT_LT(most, 1.3 * least);
   EXPECT_NEAR(lab(diverging(0.0))[0], lab(diverging(1.0))[0], 2.0);
   EXPECT_GT(lab(diverging(0.5))[0], 96.0);
+}
+
+using Matrix = std::array<std::array<double, 3>, 3>;
+
+/// As eyes see it that have only two kinds of cones (Machado, Oliveira and Fernandes 2009).
+Colour seen_by(const Matrix& m, Colour c) {
+  const auto to = [](double v) {
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+  };
+  const auto back = [](double v) {
+    v = std::clamp(v, 0.0, 1.0);
+    return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
+  };
+  const std::array<double, 3> l{to(c.r), to(c.g), to(c.b)};
+  std::array<double, 3> seen{};
+  for (std::size_t i = 0; i < 3; ++i)
+    seen[i] = back(m[i][0] * l[0] + m[i][1] * l[1] + m[i][2] * l[2]);
+  return {seen[0], seen[1], seen[2]};
+}
+
+TEST(Colours, StatesOfContactsAreToldApartByTheColourBlind) {
+  const std::array<Matrix, 4> eyes{
+      {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+       {{{0.367, 0.861, -0.228}, {0.280, 0.673, 0.047}, {-0.012, 0.043, 0.969}}},
+       {{{0.152, 1.053, -0.205}, {0.115, 0.786, 0.099}, {-0.004, -0.048, 1.052}}},
+       {{{1.256, -0.077, -0.179}, {-0.078, 0.931, 0.148}, {0.005, 0.691, 0.304}}}}};
+  for (const Matrix& eye : eyes) {
+    for (std::size_t a = 0; a < 4; ++a) {
+      const Colour one = seen_by(eye, state_colour(a));
+      for (std::size_t b = 0; b < a; ++b)
+        EXPECT_GT(difference(one, seen_by(eye, state_colour(b))), 35.0) << a << ' ' << b;
+      // An open one is white, and has a dark rim.
+      if (a == 0) continue;
+      EXPECT_GT(difference(one, seen_by(eye, ink::block)), 45.0) << a;
+    }
+  }
 }
 
 }  // namespace

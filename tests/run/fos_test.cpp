@@ -2,8 +2,10 @@
 // interruptions change nothing else.
 #include "run/fos.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -102,6 +104,65 @@ TEST(Fos, DoesNotDependOnThreads) {
   EXPECT_EQ(one.failed->state.x, three.failed->state.x);
   EXPECT_EQ(mechanism_csv(*one.failed, *one.mechanism),
             mechanism_csv(*three.failed, *three.mechanism));
+}
+
+/// What is said while it goes on is what counts in the end, in its order.
+TEST(Fos, SaysTheTrialsThatCount) {
+  for (const int threads : {1, 3}) {
+    std::vector<std::string> said;
+    FosOptions options;
+    options.threads = threads;
+    options.say = [&](const std::string& line) { said.push_back(line); };
+    const Result<FosResult> r = find_factor(model_of(ramp(rough, coarse)), options);
+    ASSERT_TRUE(r.ok());
+    const std::vector<Trial>& trials = r.value().trials;
+    ASSERT_EQ(said.size(), trials.size()) << threads;
+    for (std::size_t k = 0; k < said.size(); ++k)
+      EXPECT_TRUE(said[k].starts_with(fmt::format("factor {:.6g} ", trials[k].factor))) << said[k];
+  }
+}
+
+/// Between the strength at which cohesion breaks and that at which friction gives way.
+TEST(Fos, TellsOfCohesionThatWasLostBefore) {
+  const std::string law = "friction_angle = 40\ncohesion = 100\n";
+  const FosResult brittle = found(ramp(law + "residual = { friction_angle = 45 }\n", coarse));
+  EXPECT_NEAR(*brittle.factor, exact, 0.05);
+  ASSERT_TRUE(brittle.mechanism);
+  EXPECT_NEAR(brittle.mechanism->brittle_length, 2.0, 0.01);
+  EXPECT_NEAR(brittle.mechanism->cohesion_lost_length, 2.0, 0.01);
+  EXPECT_NE(brittle.mechanism->text.find("cohesion lost before on 2 of 2 m"), std::string::npos)
+      << brittle.mechanism->text;
+  EXPECT_NE(lost_cohesion_text(*brittle.mechanism).find("lost on 2 m of 2 m"), std::string::npos);
+  EXPECT_NE(fos_summary(model_of(ramp(law)), brittle, 1).find("\"cohesion_lost_length\""),
+            std::string::npos);
+  // Cohesion that is there until it fails, and cohesion that stays.
+  const FosResult whole = found(ramp("friction_angle = 45\ncohesion = 3000\n", coarse));
+  EXPECT_NEAR(whole.mechanism->brittle_length, 2.0, 0.01);
+  EXPECT_EQ(whole.mechanism->cohesion_lost_length, 0.0);
+  EXPECT_EQ(lost_cohesion_text(*whole.mechanism), "");
+  const FosResult kept =
+      found(ramp(law + "residual = { friction_angle = 45, cohesion = 100 }\n", coarse));
+  EXPECT_EQ(kept.mechanism->brittle_length, 0.0);
+}
+
+/// The corner that moves most lies at the toe of the slope, where nothing lies along its edge: the
+/// plane is found all the same.
+TEST(Fos, TheMechanismHasTheWholePlane) {
+  const FosResult r = found(
+      "[materials.rock]\ndensity = 2600\nyoung = 1e10\npoisson = 0.25\n"
+      "[joints.plane]\nfriction_angle = 30\nkn = 1e10\nks = 4e9\n[joints.crack]\n"
+      "friction_angle = 30\n[domain]\njoint = 'crack'\n"
+      "outline = [[-20, -10], [60, -10], [60, 20], [7.2794, 20], [0, 0]]\n"
+      "[[trace]]\npoints = [[0, 0], [20, 11]]\njoint = 'plane'\n"
+      "[[trace]]\npoints = [[20, 11], [20, 20]]\njoint = 'crack'\n[[held]]\npoint = [30, -5]\n"
+      "[solver]\nduration = 1\n[fos]\nbracket = [1, 3]\ntolerance = 2\n");
+  ASSERT_TRUE(r.mechanism) << r.message;
+  const auto plane = std::find_if(r.mechanism->joints.begin(), r.mechanism->joints.end(),
+                                  [](const MovingJoint& j) { return j.joint == "plane"; });
+  ASSERT_NE(plane, r.mechanism->joints.end());
+  double length = 0.0;
+  for (const Stretch& s : plane->stretches) length += norm(s.to - s.from);
+  EXPECT_NEAR(length, std::hypot(20.0, 11.0), 0.01);
 }
 
 /// Joints that keep their strength cannot fail; the search ends all the same.

@@ -2,7 +2,9 @@
 // a stage and from the middle of one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -92,6 +94,7 @@ activate = ["far", "surcharge", "wet", "quake"]
 [output]
 history_every = 0.01
 every = 0.05
+settling = true
 )";
 
 std::string text_of(const fs::path& path) {
@@ -147,6 +150,36 @@ TEST(StageResume, ResumesToTheSameBits) {
   const Result<Outcome> resumed = run_model(again, options);
   ASSERT_TRUE(resumed.ok()) << to_string(resumed.faults()[0]);
   expect_same_results(whole.path(), broken.path());
+}
+
+/// Rows and frames of a stage until equilibrium come by its steps.
+TEST(StageResume, RowsOfAStageThatSettlesAreThoseOfTheUnbrokenRun) {
+  std::string settling = everything;
+  for (const char* interval : {"history_every = 0.01", "every = 0.05"}) {
+    settling.replace(settling.rfind(interval), std::strlen(interval),
+                     *interval == 'h' ? "history_every = 1.0" : "every = 1.0");
+  }
+  const ScratchFolder whole, broken;
+  RunOptions options;
+  options.folder = whole.path().string();
+  PreparedRun first = prepared(settling);
+  ASSERT_TRUE(run_model(first, options).ok());
+  const std::string rows = text_of(whole.path() / "history.csv");
+  EXPECT_GT(std::count(rows.begin(), rows.end(), '\n'), 20);
+  options.folder = broken.path().string();
+  std::atomic<bool> stop{false};
+  options.stop = &stop;
+  options.progress_every = 0.0;
+  options.progress = [&](const Progress& p) { stop = p.stage == 0 && p.steps >= 200; };
+  PreparedRun halted = prepared(settling);
+  ASSERT_EQ(run_model(halted, options).value().status, Status::interrupted);
+  options.stop = nullptr;
+  options.progress = nullptr;
+  options.resume = true;
+  PreparedRun again = prepared(settling);
+  ASSERT_TRUE(run_model(again, options).ok());
+  EXPECT_EQ(text_of(broken.path() / "history.csv"), rows);
+  EXPECT_EQ(text_of(broken.path() / "blocks.pvd"), text_of(whole.path() / "blocks.pvd"));
 }
 
 /// Later stages may change; what came before may not.

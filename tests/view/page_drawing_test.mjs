@@ -62,6 +62,41 @@ test('has white at nothing, whatever the range', async () => {
   await p.close();
 });
 
+test('draws by what nearly all blocks reach, or by all of them', async () => {
+  const p = await page('cavern.html');
+  const found = await p.evaluate(async () => {
+    const { run, mesh } = edda.results;
+    const field = run.fields.find((f) => f.name === 'displacement');
+    // A crumb far below, of the smallest block there is.
+    let crumb = -1;
+    for (let b = 0; b < mesh.blocks; ++b) if (!mesh.fixed[b] && edda.frame.alive[b] && (crumb < 0 || mesh.area[b] < mesh.area[crumb])) crumb = b;
+    const [ux, uy] = [edda.frame.motion[0][crumb], edda.frame.motion[1][crumb]];
+    edda.controls.flipMagnification(edda.results, edda.frame);
+    const plain = edda.controls.magnification;
+    edda.controls.setMagnification(1);
+    edda.frame.motion[1][crumb] = -90;
+    edda.controls.flipMagnification(edda.results, edda.frame);
+    const magnified = edda.controls.magnification;
+    edda.controls.setMagnification(1);
+    field.range = [field.range[0], 90];
+    edda.controls.changed();
+    return { plain, magnified, drawn: field.drawn, crumb, ux, uy };
+  });
+  assert.ok(found.magnified > 0.6 * found.plain && found.magnified <= 1.7 * found.plain, `${found.magnified}, not ${found.plain}`);
+  const highOf = async (range) => {
+    await choose(p, 'range', range);
+    await p.waitForFunction(() => !edda.stale);
+    return p.evaluate(() => [edda.scale.high, edda.scale.all[1]]);
+  };
+  assert.deepEqual(await highOf('run'), [found.drawn[1], 90]);
+  assert.deepEqual(await highOf('whole'), [90, 90]);
+  assert.deepEqual(await highOf('whole-frame'), [90, 90]);
+  const [high, all] = await highOf('frame');
+  assert.equal(all, 90);
+  assert.ok(high > 0.3 * found.drawn[1] && high < 3 * found.drawn[1], `${high}, not ${found.drawn[1]}`);
+  await p.close();
+});
+
 test('magnifies displacements about the start', async () => {
   const p = await page('cavern.html');
   const row = table('cavern/blocks.csv').reduce((a, b) => (Math.hypot(a.ux, a.uy) > Math.hypot(b.ux, b.uy) ? a : b));
@@ -124,11 +159,11 @@ test('draws strokes along what they stand for', async () => {
     const crosses = strokes(view.crossStrokes).map((s) => ({ ...s, of: nearest(0.5 * (s.ends[0] + s.ends[2]), 0.5 * (s.ends[1] + s.ends[3])) }));
     // The resultant of each block's contacts, as its strokes have it: on block i along the stroke, on j against it.
     const forces = strokes(view.forceStrokes);
-    return { arrows, crosses, forces: forces.length, largest: run.fields.find((f) => f.name === 'displacement').range[1], usual: run.usual, tension: view.theme.tension, compression: view.theme.compression, size: view.blockSize };
+    return { arrows, crosses, forces: forces.length, largest: run.fields.find((f) => f.name === 'displacement').drawn[1], usual: run.usual, tension: view.theme.tension, compression: view.theme.compression, size: view.blockSize };
   });
   assert.ok(found.arrows.length > 50 && found.crosses.length > 100 && found.forces > 100);
   for (const { ends: [x0, y0, x1, y1], of } of found.arrows) {
-    const length = (2.5 * found.size) / found.largest;
+    const length = (2.5 * found.size) / Math.max(found.largest, Math.hypot(of.ux, of.uy) / 1.5);
     for (const [drawn, u] of [[x1 - x0, of.ux], [y1 - y0, of.uy]]) assert.ok(Math.abs(drawn - length * u) < 1e-3 * found.size, `${drawn}, not ${length * u}`);
   }
   for (const { ends: [x0, y0, x1, y1], colour, of } of found.crosses) {
@@ -184,6 +219,63 @@ test('draws strokes along what they stand for', async () => {
   await settled(p);
   await p.waitForFunction(() => !edda.stale && edda.shown === 1);
   assert.ok(await longest() < 0.9 * end);
+  await p.close();
+});
+
+test('names and colours states of contacts as edda plot does', async () => {
+  const p = await page('cavern.html');
+  await choose(p, 'field', 'state');
+  await p.waitForFunction(() => !edda.stale && !edda.overlayStale);
+  const { states, colours, drawn, asked } = await p.evaluate(() => {
+    const { view, frame, scale, results: { run } } = edda;
+    const layer = view.contactDots;
+    const of = (k) => [...layer.colours.subarray(4 * k, 4 * k + 3)].join();
+    return { states: run.states, colours: [0, 1, 2, 3].map((k) => [...scale.states.subarray(3 * k, 3 * k + 3)].join()), drawn: Array.from({ length: layer.count }, (_, k) => of(k)), asked: [...frame.contacts.state] };
+  });
+  assert.deepEqual(states, ['open', 'stick', 'slide', 'bonded']);
+  colours.forEach((c, k) => assert.equal(drawn.filter((d) => d === c).length, asked.filter((s) => s === k).length, states[k]));
+  const slide = drawn.indexOf(colours[2]);
+  assert.ok(slide < 0 || drawn.slice(slide).every((d) => d === colours[2]), 'those that slide lie on top');
+  await p.close();
+});
+
+test('has all of its legend in small windows, with strokes as long as they are drawn', async () => {
+  const p = await page('tunnel.html');
+  for (const id of ['forces', 'crosses']) await p.locator(`#${id}`).check();
+  await choose(p, 'vectors', 'displacement');
+  const legend = () => p.evaluate(async () => {
+    const { prototype } = CanvasRenderingContext2D;
+    const { roundRect, lineTo, moveTo } = prototype;
+    const seen = { lengths: [] };
+    let from = 0;
+    prototype.roundRect = function (x, y, w, h, r) {
+      const m = this.getTransform();
+      seen.box = [m.a * x + m.e, m.d * y + m.f, m.a * (x + w) + m.e, m.d * (y + h) + m.f].map((v) => v / devicePixelRatio);
+      roundRect.call(this, x, y, w, h, r);
+    };
+    prototype.moveTo = function (x, y) {
+      from = x;
+      moveTo.call(this, x, y);
+    };
+    prototype.lineTo = function (x, y) {
+      if (seen.box !== undefined && this.lineWidth === 3) seen.lengths.push(((x - from) * this.getTransform().a) / devicePixelRatio);
+      lineTo.call(this, x, y);
+    };
+    edda.paintLegend(document.getElementById('overlay').getContext('2d'));
+    Object.assign(prototype, { roundRect, lineTo, moveTo });
+    const { width, height } = edda.view.camera;
+    return { ...seen, width, height, per: edda.view.valuePerPixel('forces') };
+  });
+  for (const [width, height] of [[1280, 800], [700, 500], [320, 300]]) {
+    await p.setViewportSize({ width, height });
+    await p.waitForFunction(() => edda.view.camera.height === document.getElementById('stage').clientHeight && !edda.stale && !edda.overlayStale);
+    const { box: [x0, y0, x1, y1], lengths, per, ...stage } = await legend();
+    assert.ok(x0 >= 0 && y0 >= 0 && x1 <= stage.width && y1 <= stage.height, `${width} x ${height}: ${[x0, y0, x1, y1]} in ${stage.width} x ${stage.height}`);
+    // The second line is as long as a round force, the first is the sample of its colour.
+    const force = lengths[1] * per;
+    const round = Number(force.toPrecision(1));
+    assert.ok(Math.abs(force - round) < 1e-2 * force && '125'.includes(String(round)[0]), `${force} N`);
+  }
   await p.close();
 });
 

@@ -161,6 +161,29 @@ TEST_F(ViewPage, RangesLeaveOutHeldBlocks) {
       << header;
 }
 
+TEST_F(ViewPage, WhatFewBlocksReachIsNotDrawnBy) {
+  std::vector<TestBlock> blocks;
+  for (int i = 0; i < 300; ++i) {
+    const double x = 2.0 * i;
+    blocks.push_back({i, {{x, 0}, {x + 1, 0}, {x + 1, 1}, {x, 1}}, false});
+  }
+  const auto sink = [](const TestBlock& b, Vec2) { return Vec2{0.0, b.id == 7 ? -0.5 : -2e-3}; };
+  Grid g = frame_of(
+      blocks, [&](const TestBlock& b, Vec2 p) { return p + sink(b, p); }, sink);
+  Field u{"displacement", 3, {}, {}, false};
+  for (const TestBlock& b : blocks) u.values.insert(u.values.end(), {0.0, sink(b, {}).y, 0.0});
+  g.cell_fields.push_back(u);
+  ASSERT_FALSE(write_vtu(folder_ + "/frames/blocks_000000.vtu", g));
+  ASSERT_FALSE(write_pvd(folder_ + "/blocks.pvd", {{0.0, "frames/blocks_000000.vtu"}}));
+  Result<ViewRun> run = ViewRun::open(folder_, {});
+  ASSERT_TRUE(run.ok());
+  take_new(run.value());
+  std::string header = run.value().header();
+  std::erase_if(header, [](char c) { return c == ' ' || c == '\n'; });
+  EXPECT_NE(header.find("\"range\":[0.002,0.5],\"drawn\":[0.002,0.003]"), std::string::npos)
+      << header;
+}
+
 TEST_F(ViewPage, TellsUsualStrokesAndWhatFramesHaveNot) {
   write_frames(2);
   Result<ViewRun> run = ViewRun::open(folder_, {});

@@ -189,6 +189,43 @@ test('shows stages, bolts and rock that is taken out', async () => {
   await p.close();
 });
 
+test('reads names in quotes, whatever they hold', async () => {
+  const file = path.join(folder, 'tunnel/stages.csv');
+  const kept = readFileSync(file, 'utf8');
+  const [head, first, ...others] = kept.split('\n');
+  const cells = first.split(',');
+  const name = head.split(',').indexOf('name');
+  cells[name] = '"top, ""heading""\nand more"';
+  writeFileSync(file, [head, cells.join(','), ...others].join('\n'));
+  run('view', 'tunnel', '-o', 'quoted.html');
+  writeFileSync(file, kept);
+  const p = await page('quoted.html');
+  const stages = await p.evaluate(() => edda.results.stages);
+  assert.equal(stages.length, others.length);
+  assert.equal(stages[0].name, 'top, "heading"\nand more');
+  assert.ok(stages.every((s) => s.end > s.start));
+  await p.close();
+});
+
+test('plots every energy that history.csv has', async () => {
+  const p = await page('cavern.html');
+  await p.evaluate(() => {
+    const { history } = edda.results;
+    history.columns[history.names.indexOf('step_change')].fill(7e3);
+    edda.plots.refresh();
+  });
+  await choose(p, 'plot-of', 'energy');
+  const shown = await p.evaluate(() => edda.plots.plot.plot.series.map((s) => s.label));
+  const columns = await p.evaluate(() => {
+    const { names, columns: all } = edda.results.history;
+    const energies = names.slice(names.indexOf('kinetic'), names.indexOf('drift'));
+    return energies.filter((n) => all[names.indexOf(n)].some((v) => v !== 0));
+  });
+  assert.deepEqual(shown.slice(1), columns);
+  assert.ok(columns.includes('step_change'));
+  await p.close();
+});
+
 test('follows a run that goes on', async (t) => {
   run('example', 'rockfall');
   const going = start(t, ['run', 'rockfall.toml', '--quiet', '--set', 'solver.safety=0.05', '--set', 'output.every=0.05']);
@@ -203,7 +240,7 @@ test('follows a run that goes on', async (t) => {
   await settled(p);
   assert.equal(await p.evaluate(() => edda.player.index === edda.player.end), true, 'stays at the end');
   await p.waitForFunction(() => !edda.stale);
-  const [high, range] = await p.evaluate(async () => [edda.scale.high, (await edda.source.run()).fields.find((f) => f.name === 'displacement').range]);
+  const [high, range] = await p.evaluate(async () => [edda.scale.high, (await edda.source.run()).fields.find((f) => f.name === 'displacement').drawn]);
   assert.equal(high, range[1], 'the colours reach as far as the values of all frames');
   const row = rows[rows.length - 1];
   await p.keyboard.press('f');

@@ -28,6 +28,8 @@ def plot_blocks(
     source: Simulation | Results | Frame | Cut,
     field: str | NDArray[Any] | None = None,
     ax: Axes | None = None,
+    *,
+    whole_range: bool = False,
     **options: Any,
 ) -> Axes:
     """Draws the blocks, coloured by a field.
@@ -35,7 +37,9 @@ def plot_blocks(
     source: a Simulation as it stands, a Frame, Results (their last frame) or a Cut. field: a name
     as of Simulation.field() or of a frame ("displacement" and "velocity" give sizes,
     "displacement.x" and "stress.yy" components), or an array (nb,) with a number per block.
-    options go to Matplotlib's PathCollection.
+    whole_range: the colours reach as far as the values, even where few blocks come near; else a few that lie
+    far beyond have the colour of the bar's end, which is then a point (as in edda plot). options go to
+    Matplotlib's PathCollection; clim or norm among them says what the colours are.
     """
     import matplotlib.pyplot as plt
     from matplotlib.collections import PathCollection
@@ -48,10 +52,14 @@ def plot_blocks(
         del style["facecolors"]
     drawn = PathCollection(paths, **{**style, **options})
     if field is not None:
-        drawn.set_array(_values(source, field, ids))
+        values = np.asarray(_values(source, field, ids), dtype=np.float64)
+        drawn.set_array(values)
+        extend = "neither"
+        if not whole_range and not {"clim", "norm"} & set(options):
+            extend = _limit_colours(drawn, values, _weights(source, paths, ids))
         label = field if isinstance(field, str) else ""
         unit = _UNITS.get(label.split(".")[0])
-        ax.figure.colorbar(drawn, ax=ax, label=f"{label} ({unit})" if unit else label)
+        ax.figure.colorbar(drawn, ax=ax, extend=extend, label=f"{label} ({unit})" if unit else label)
     ax.add_collection(drawn)
     ax.set_aspect("equal")
     ax.autoscale_view()
@@ -92,6 +100,48 @@ def _outlines(source: Any) -> tuple[list[Any], NDArray[np.int64]]:
         polygons = source.polygons()
         return [path_of(polygons[i]) for i in alive], alive
     return [path_of(block.rings) for block in source.blocks], np.arange(len(source.blocks))
+
+
+def _weights(source: Any, paths: list[Any], ids: NDArray[np.int64]) -> NDArray[np.float64]:
+    """How much each path counts where a few may lie beyond the colours: its area, of held blocks nothing."""
+    areas = np.array([abs(sum(_area(ring) for ring in path.to_polygons(closed_only=False))) for path in paths])
+    if isinstance(source, Results):
+        source = source.frames[-1]
+    if isinstance(source, Frame):
+        fixed = source["fixed"] if "fixed" in source.cell_fields else np.zeros(len(areas))
+    elif hasattr(source, "fixed"):
+        fixed = source.fixed[ids]
+    else:
+        fixed = np.array([block.fixed for block in source.blocks])
+    return np.where(np.asarray(fixed) != 0, 0.0, areas)
+
+
+def _area(ring: NDArray[np.float64]) -> float:
+    x, y = ring[:, 0] - ring[0, 0], ring[:, 1] - ring[0, 1]
+    return 0.5 * float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
+
+
+def _limit_colours(drawn: Any, values: NDArray[np.float64], weights: NDArray[np.float64]) -> str:
+    """Ends the colours where nearly all values do; where values lie beyond, in the words of a colorbar.
+
+    The rule of the program's pictures (src/report/drawn_range.cpp), from the values beyond which 1 % of the area lie.
+    """
+    counts = np.isfinite(values) & (weights > 0.0)
+    if not counts.any():
+        return "neither"
+    order = np.argsort(values[counts])
+    v, w = values[counts][order], weights[counts][order]
+    rest = 0.01 * w.sum()
+    inner_high = v[np.searchsorted(-(np.cumsum(w[::-1])[::-1] - w), -rest)]
+    inner_low = v[len(v) - 1 - np.searchsorted(-(np.cumsum(w) - w)[::-1], -rest)]
+    size = max(abs(inner_low), abs(inner_high))
+    if size <= 1e-6 * max(abs(v[0]), abs(v[-1])):
+        return "neither"
+    below, above = bool(v[0] < inner_low - size), bool(v[-1] > inner_high + size)
+    if not below and not above:
+        return "neither"
+    drawn.set_clim(inner_low - 0.5 * size if below else v[0], inner_high + 0.5 * size if above else v[-1])
+    return "both" if below and above else "min" if below else "max"
 
 
 def _values(source: Any, field: str | NDArray[Any], ids: NDArray[np.int64]) -> NDArray[Any]:

@@ -130,12 +130,17 @@ export class App {
       crosses: controls.crosses,
       usualStress: results.run.usual.stress,
       vectors: controls.vectors,
-      largestVector: results.run.fields.find((f) => f.name === controls.vectors)?.range?.[1] ?? 0,
+      largestVector: this.largestVector(),
       bolts: controls.bolts ? results.bolts.at(results.run.frames[this.shown]) : [],
     });
     if (!this.fitted) this.fit();
     this.showSelection();
     this.overlayStale = true;
+  }
+
+  private largestVector(): number {
+    const field = this.results.run.fields.find((f) => f.name === this.controls.vectors);
+    return (this.controls.wholeRange ? field?.range : field?.drawn)?.[1] ?? 0;
   }
 
   private showSelection(): void {
@@ -185,7 +190,8 @@ export class App {
   }
 
   private paintLegend(g: CanvasRenderingContext2D): void {
-    paintLegend(g, this.view.camera.width - 10, 10, overlayStyle(), this.legend());
+    const { width, height } = this.view.camera;
+    paintLegend(g, width - 10, 10, height - 10, overlayStyle(), this.legend());
   }
 
   private legend(): LegendEntries {
@@ -204,7 +210,7 @@ export class App {
     }
     if (controls.bolts && results.bolts.any) strokes.push({ colour: css(theme.bolt), text: `bolt, up to ${quantity(results.bolts.largest, 'N', 3)}` });
     const states = controls.field?.of === 'contacts' ? controls.field.name === 'state' : controls.contacts;
-    return { scale: this.scale, kinds: this.kinds(controls.field), states, strokes };
+    return { scale: this.scale, kinds: this.kinds(controls.field), states: states ? results.run.states : [], strokes };
   }
 
   private kinds(field: Field | undefined): [number, string][] {

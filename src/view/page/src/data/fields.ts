@@ -52,8 +52,6 @@ const ofContacts: Record<string, (c: Contacts) => ArrayLike<number>> = {
   state: (c) => c.state,
 };
 
-export const stateNames = ['open', 'sticking', 'sliding', 'bonded'];
-
 export function isKnown(name: string): boolean {
   return name in ofBlocks || name in ofContacts;
 }

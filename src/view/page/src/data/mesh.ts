@@ -26,6 +26,8 @@ export interface Mesh {
   fixed: Uint8Array;
   /** [nb] farthest that a vertex is from the centre in x or y, m. */
   reach: Float64Array;
+  /** [nb] m2 */
+  area: Float64Array;
 }
 
 export function readMesh(bytes: Uint8Array): Mesh {
@@ -44,11 +46,18 @@ export function readMesh(bytes: Uint8Array): Mesh {
     edgeBegin: new Uint32Array(blocks + 1),
     fixed: r.take(blocks).slice(),
     reach: new Float64Array(blocks),
+    area: new Float64Array(blocks),
   };
   for (let b = 0; b < blocks; ++b) mesh.row.fill(b, begin[b], begin[b + 1]);
   for (let v = 0; v < vertices; ++v) {
     const b = mesh.row[v];
     mesh.reach[b] = Math.max(mesh.reach[b], Math.abs(vertex[2 * v]), Math.abs(vertex[2 * v + 1]));
+  }
+  const corner = (k: number) => 2 * mesh.triangles[k];
+  for (let t = 0; t < mesh.triangles.length; t += 3) {
+    const [p, q, s] = [corner(t), corner(t + 1), corner(t + 2)];
+    const twice = (vertex[q] - vertex[p]) * (vertex[s + 1] - vertex[p + 1]) - (vertex[s] - vertex[p]) * (vertex[q + 1] - vertex[p + 1]);
+    mesh.area[mesh.row[mesh.triangles[t]]] += 0.5 * Math.abs(twice);
   }
   for (let e = 0; e < edges; ++e) ++mesh.edgeBegin[mesh.row[mesh.edges[2 * e]] + 1];
   for (let b = 0; b < blocks; ++b) mesh.edgeBegin[b + 1] += mesh.edgeBegin[b];

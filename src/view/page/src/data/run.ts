@@ -8,6 +8,8 @@ export interface Field {
   of: 'blocks' | 'contacts';
   /** Smallest and largest value in all frames; held blocks do not count. */
   range?: [number, number];
+  /** What colours and arrows are drawn by: the same, or without a few blocks that lie far beyond. */
+  drawn?: [number, number];
 }
 
 export interface Mark {
@@ -33,7 +35,9 @@ export interface Run {
   absent: ('omega' | 'rotation' | 'overstress')[];
   /** What strokes of the usual length stand for, in all frames: N, Pa. */
   usual: { force: number; stress: number };
-  colours: { sequential: string; diverging: string; kinds: string };
+  colours: { sequential: string; diverging: string; kinds: string; states: string };
+  /** Of contacts, by number. */
+  states: string[];
   /** summary.json as text; absent until the run has ended. */
   summary?: string;
 }

@@ -1,4 +1,5 @@
 // Values to colours.
+import type { Ends } from './ends';
 import { coloursOf, type Field, type Run } from './run';
 
 export type Palette = 'sequential' | 'diverging' | 'kinds' | 'plain';
@@ -9,10 +10,15 @@ export class Scale {
   readonly high: number;
   /** Red, green, blue of each step. */
   readonly colours: Uint8Array;
+  /** The same of each state of contacts. */
+  readonly states: Uint8Array;
 
-  /** `range`: given by hand, or the field's own. */
-  constructor(run: Run, readonly field: Field | undefined, range?: [number, number]) {
-    let [low, high] = range ?? field?.range ?? [0, 0];
+  /** Smallest and largest value, which may lie beyond. */
+  readonly all: Ends;
+
+  /** `range`: other ends than the field's own, and all values of which they leave some out. */
+  constructor(run: Run, readonly field: Field | undefined, range?: { ends: Ends; all: Ends }) {
+    let [low, high] = range?.ends ?? field?.drawn ?? field?.range ?? [0, 0];
     if (field === undefined) {
       this.palette = 'plain';
     } else if (field.kind === 'kinds') {
@@ -27,8 +33,10 @@ export class Scale {
       const twoSided = low < -1e-3 * size && high > 1e-3 * size;
       this.palette = twoSided ? 'diverging' : 'sequential';
     }
+    this.all = range?.all ?? field?.range ?? [low, high];
     this.low = low;
     this.high = high;
+    this.states = coloursOf(run.colours.states);
     this.colours = this.palette === 'plain' ? new Uint8Array([200, 200, 200]) : coloursOf(run.colours[this.palette]);
   }
 
@@ -75,6 +83,3 @@ export class Scale {
     return `rgb(${r},${g},${b})`;
   }
 }
-
-/** Of contacts: open, sticking, sliding, bonded. Told apart by lightness, too. */
-export const stateColours = new Uint8Array([150, 160, 172, 38, 132, 92, 226, 118, 20, 110, 74, 190]);

@@ -19,8 +19,20 @@ function cells(line: string): string[] {
   return found;
 }
 
+/** Lines of a table; one within quotes goes on in the next. */
+function linesOf(text: string): string[] {
+  const lines: string[] = [];
+  let open = false;
+  for (const part of text.split('\n')) {
+    if (open) lines[lines.length - 1] += `\n${part}`;
+    else lines.push(part);
+    if (part.split('"').length % 2 === 0) open = !open;
+  }
+  return lines.filter((line) => line !== '');
+}
+
 export function readTable(text: string): Table {
-  const lines = text.split('\n').filter((line) => line !== '');
+  const lines = linesOf(text);
   const names = cells(lines[0] ?? '');
   const columns: (number | string)[][] = names.map(() => []);
   const isText = names.map((name) => name === 'bolt' || name === 'name');

@@ -1,9 +1,10 @@
 // What is drawn over the blocks: strokes of contacts, stresses, motions and bolts.
 import type { BoltNode } from '../data/bolts';
+import { LONGEST_BEYOND } from '../data/ends';
 import { contactValues, length as lengthOf, principal } from '../data/fields';
 import type { Contacts, Frame } from '../data/frame';
 import type { Mesh } from '../data/mesh';
-import { type Scale, stateColours } from '../data/scale';
+import type { Scale } from '../data/scale';
 import type { Pose } from './pose';
 import type { Strokes } from './strokes';
 
@@ -17,6 +18,8 @@ export interface Palette {
 
 /** Strokes are never longer than so many usual ones. */
 const LONGEST = 4;
+/** States of contacts, by number. */
+const FROM_BELOW = [0, 1, 3, 2];
 
 /** A stroke with a rim that sets it off from what lies below. */
 function stroke(layer: Strokes, x0: number, y0: number, x1: number, y1: number, width: number, ink: number[], c: Palette): void {
@@ -54,13 +57,17 @@ export function drawContacts(layer: Strokes, frame: Frame, pose: Pose, scale: Sc
   const name = scale.field?.name ?? 'state';
   const values = contactValues(name, contacts) ?? contacts.state;
   const byState = name === 'state' || contactValues(name, contacts) === undefined;
-  layer.clear(contacts.count);
-  for (let k = 0; k < contacts.count; ++k) {
-    if (!byState && contacts.state[k] === 0 && name.endsWith('force')) continue;
-    const [x, y] = pose.vertex(contacts.vertex[k]);
-    const from = byState ? stateColours : scale.colours;
-    const step = byState ? contacts.state[k] : scale.step(values[k]);
-    layer.add(x, y, x, y, size, from[3 * step], from[3 * step + 1], from[3 * step + 2]);
+  layer.clear(2 * contacts.count);
+  const from = byState ? scale.states : scale.colours;
+  // Contacts of one corner lie on one another: as in pictures open ones below, those that slide on top.
+  for (const state of byState ? FROM_BELOW : [undefined]) {
+    for (let k = 0; k < contacts.count; ++k) {
+      if (byState ? contacts.state[k] !== state : contacts.state[k] === 0 && name.endsWith('force')) continue;
+      const [x, y] = pose.vertex(contacts.vertex[k]);
+      const step = state ?? scale.step(values[k]);
+      if (state === 0) layer.add(x, y, x, y, size, 27, 31, 39);
+      layer.add(x, y, x, y, state === 0 ? size - 2 : size, from[3 * step], from[3 * step + 1], from[3 * step + 2]);
+    }
   }
   layer.upload();
 }
@@ -81,13 +88,13 @@ export function drawCrosses(layer: Strokes, frame: Frame, pose: Pose, mesh: Mesh
   layer.upload();
 }
 
-/** An arrow from each block's centre; `length`: m of one of `largest`. */
+/** An arrow from each block's centre; `length`: m of one of `largest`, a few may be longer. */
 export function drawArrows(layer: Strokes, x: Float32Array, y: Float32Array, pose: Pose, mesh: Mesh, largest: number, length: number, c: Palette): void {
   layer.clear(2 * mesh.blocks);
   for (let b = 0; b < mesh.blocks && largest > 0; ++b) {
     if (!pose.isAlive(b) || lengthOf(x[b], y[b]) < 1e-3 * largest) continue;
     const [px, py] = [pose.place[4 * b], pose.place[4 * b + 1]];
-    const s = length / largest;
+    const s = length / Math.max(largest, lengthOf(x[b], y[b]) / LONGEST_BEYOND);
     stroke(layer, px, py, px + s * x[b], py + s * y[b], 1.6, c.ink, c);
   }
   layer.upload();

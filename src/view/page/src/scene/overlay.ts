@@ -67,12 +67,11 @@ export class Overlay {
   }
 
   private outline(g: CanvasRenderingContext2D, camera: Camera, pose: Pose, row: number, style: OverlayStyle): void {
-    const { edges } = this.mesh;
+    const { edges, edgeBegin } = this.mesh;
     g.beginPath();
-    for (let e = 0; e < edges.length; e += 2) {
-      if (this.mesh.row[edges[e]] !== row) continue;
-      g.moveTo(...camera.px(...pose.vertex(edges[e])));
-      g.lineTo(...camera.px(...pose.vertex(edges[e + 1])));
+    for (let e = edgeBegin[row]; e < edgeBegin[row + 1]; ++e) {
+      g.moveTo(...camera.px(...pose.vertex(edges[2 * e])));
+      g.lineTo(...camera.px(...pose.vertex(edges[2 * e + 1])));
     }
     g.lineCap = 'round';
     for (const [width, colour] of [[6, style.halo], [3, style.accent]] as const) {

@@ -159,15 +159,9 @@ export class View {
 
 /** Median over the free blocks of the root of their area, m. */
 function typicalSize(mesh: Mesh): number {
-  const area = new Float64Array(mesh.blocks);
-  const { vertex, triangles, row } = mesh;
-  for (let t = 0; t < triangles.length; t += 3) {
-    const [a, b, c] = [2 * triangles[t], 2 * triangles[t + 1], 2 * triangles[t + 2]];
-    area[row[triangles[t]]] +=
-      0.5 * Math.abs((vertex[b] - vertex[a]) * (vertex[c + 1] - vertex[a + 1]) - (vertex[c] - vertex[a]) * (vertex[b + 1] - vertex[a + 1]));
-  }
+  const { area } = mesh;
   const free = area.filter((_, b) => !mesh.fixed[b]);
-  const sorted = (free.length > 0 ? free : area).sort();
+  const sorted = (free.length > 0 ? free : area.slice()).sort();
   return Math.sqrt(sorted[sorted.length >> 1] ?? 1);
 }
 

@@ -1,4 +1,5 @@
 // What is to be shown and how: the panel's upper part, and the line below the drawing.
+import { drawnEnds, type Ends, endsOf } from '../data/ends';
 import { contactValues, isKnown } from '../data/fields';
 import type { Frame } from '../data/frame';
 import type { Results } from '../data/results';
@@ -70,16 +71,18 @@ export class Controls {
     this.showMagnification();
     this.changed();
   }
-  /** True, or a round factor that makes the largest displacement about a fortieth of the model. */
+  /** True, or a round factor that makes the largest displacement, but for a few blocks far beyond, about a fortieth of
+   * the model. */
   flipMagnification(results: Results, frame: Frame | undefined): void {
     if (this.magnification > 1 || frame === undefined) {
       this.setMagnification(1);
       return;
     }
     const { mesh } = results;
-    let [largest, x0, x1, y0, y1] = [0, Infinity, -Infinity, Infinity, -Infinity];
+    const sizes = frame.motion[0].map((ux, b) => Math.hypot(ux, frame.motion[1][b]));
+    const largest = drawnEnds(sizes, this.weights(frame))[1];
+    let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
     for (let b = 0; b < mesh.blocks; ++b) {
-      largest = Math.max(largest, Math.hypot(frame.motion[0][b], frame.motion[1][b]));
       x0 = Math.min(x0, mesh.centre[2 * b]);
       x1 = Math.max(x1, mesh.centre[2 * b]);
       y0 = Math.min(y0, mesh.centre[2 * b + 1]);
@@ -89,25 +92,33 @@ export class Controls {
     this.setMagnification(Math.max(1, Number(wanted.toPrecision(1))));
   }
 
-  /** Ends of the colours; undefined: the field's own over all frames. */
-  rangeOf(frame: Frame, values: Float32Array): [number, number] | undefined {
+  /** Whether colours and arrows reach as far as the values. */
+  get wholeRange(): boolean {
+    return byId<HTMLSelectElement>('range').value.startsWith('whole');
+  }
+  /** How much each block counts where a few may be left out. */
+  private weights(frame: Frame): Float64Array {
+    return this.results.mesh.area.map((area, b) => (frame.alive[b] && !this.held[b] ? area : 0));
+  }
+
+  /** Ends of the colours, and of all values; undefined: the field's own over all frames. */
+  rangeOf(frame: Frame, values: Float32Array): { ends: Ends; all: Ends } | undefined {
     const how = byId<HTMLSelectElement>('range').value;
     if (this.field === undefined || this.field.kind === 'kinds') return undefined;
     if (how === 'own') {
       const scaled = this.ownUnit();
       const [low, high] = ['low', 'high'].map((id) => Number(byId<HTMLInputElement>(id).value) / scaled.factor);
-      return high > low ? [low, high] : undefined;
+      return high > low ? { ends: [low, high], all: this.field.range ?? [low, high] } : undefined;
     }
     if (how === 'run') return undefined;
+    const { range } = this.field;
+    if (how === 'whole') return range === undefined ? undefined : { ends: range, all: range };
     const ofContacts = this.field.of === 'contacts' ? (contactValues(this.field.name, frame.contacts) ?? []) : undefined;
     const shown = ofContacts ?? values;
-    let [low, high] = [Infinity, -Infinity];
-    for (let k = 0; k < shown.length; ++k) {
-      if (Number.isNaN(shown[k]) || (ofContacts === undefined && (!frame.alive[k] || this.held[k]))) continue;
-      low = Math.min(low, shown[k]);
-      high = Math.max(high, shown[k]);
-    }
-    return high > low ? [low, high] : undefined;
+    const weights = ofContacts === undefined ? this.weights(frame) : new Uint8Array(shown.length).fill(1);
+    const all = endsOf(shown, weights);
+    const ends = ofContacts !== undefined || this.wholeRange ? all : drawnEnds(shown, weights);
+    return all[1] > all[0] ? { ends, all } : undefined;
   }
   held: Uint8Array = new Uint8Array(0);
 

@@ -1,6 +1,5 @@
 // What the colours and strokes mean.
-import { stateNames } from '../data/fields';
-import { type Scale, stateColours } from '../data/scale';
+import type { Scale } from '../data/scale';
 import { quantity, scaledUnit, ticks } from '../data/units';
 import type { OverlayStyle } from '../scene/overlay';
 
@@ -8,25 +7,34 @@ export interface LegendEntries {
   scale: Scale;
   /** Names of kinds, by number; those that occur. */
   kinds: [number, string][];
-  states: boolean;
+  /** Names of the states of contacts; empty where they are not shown. */
+  states: string[];
   /** Strokes; where their length means something, what a pixel of it stands for. */
   strokes: { colour: string; text: string; perPixel?: number; unit?: string }[];
 }
 
 export const WIDTH = 168;
+/** Length of the colours, where there is room and where there is none. */
 const BAR = 190;
+const LEAST_BAR = 70;
 
-/** Paints it with its upper right corner at (right, top). */
-export function paintLegend(g: CanvasRenderingContext2D, right: number, top: number, style: OverlayStyle, e: LegendEntries): void {
-  const lines = e.scale.field === undefined ? [] : wrap(g, e.scale.field.label, style);
+/** Paints it with its upper right corner at (right, top), not below `bottom`: with a shorter bar, then smaller. */
+export function paintLegend(g: CanvasRenderingContext2D, right: number, top: number, bottom: number, style: OverlayStyle, e: LegendEntries): void {
   const bar = e.scale.palette === 'sequential' || e.scale.palette === 'diverging';
+  const lines = e.scale.field === undefined ? [] : wrap(g, e.scale.field.label + (bar ? beyond(e.scale) : ''), style);
   const kinds = e.scale.palette === 'kinds' && e.kinds.length <= 12 ? e.kinds : [];
   const measured = e.strokes.filter((stroke) => stroke.perPixel !== undefined);
-  const rows = kinds.length + (e.states ? 4 : 0) + e.strokes.length + measured.length;
-  const height = 14 + 16 * lines.length + (bar ? BAR + 36 : 0) + 18 * rows;
+  const rows = kinds.length + e.states.length + e.strokes.length + measured.length;
+  const others = 14 + 16 * lines.length + (bar ? 36 : 0) + 18 * rows;
+  const length = bar ? Math.max(LEAST_BAR, Math.min(BAR, bottom - top - others)) : 0;
+  const height = others + length;
   if (height <= 14) return;
   const left = right - WIDTH;
   g.save();
+  const shrunk = Math.min(1, Math.max(bottom - top, 1) / height);
+  g.translate(right, top);
+  g.scale(shrunk, shrunk);
+  g.translate(-right, -top);
   g.globalAlpha = 0.88;
   g.fillStyle = style.halo;
   g.beginPath();
@@ -43,8 +51,8 @@ export function paintLegend(g: CanvasRenderingContext2D, right: number, top: num
   }
   g.font = `12px ${style.font}`;
   if (bar) {
-    paintBar(g, left + 12, y, style, e.scale);
-    y += BAR + 36;
+    paintBar(g, left + 12, y, length, style, e.scale);
+    y += length + 36;
   }
   const entry = (text: string, swatch: () => void) => {
     swatch();
@@ -53,17 +61,18 @@ export function paintLegend(g: CanvasRenderingContext2D, right: number, top: num
     y += 18;
   };
   for (const [k, name] of kinds) entry(name, () => square(g, left + 12, y - 9, e.scale.css(e.scale.step(k)), style));
-  if (e.states) {
-    stateNames.forEach((name, k) => entry(name, () => {
-      const [r, gr, b] = stateColours.subarray(3 * k, 3 * k + 3);
-      dot(g, left + 19, y - 3, `rgb(${r},${gr},${b})`);
-    }));
-  }
+  e.states.forEach((name, k) => entry(name, () => {
+    if (k === 0) dot(g, left + 19, y - 3, style.ink);
+    const [r, gr, b] = e.scale.states.subarray(3 * k, 3 * k + 3);
+    dot(g, left + 19, y - 3, `rgb(${r},${gr},${b})`, k === 0 ? 3.5 : 4.5);
+  }));
   for (const stroke of e.strokes) {
     entry(stroke.text, () => line(g, left + 12, y - 3, 16, stroke.colour));
     if (stroke.perPixel === undefined) continue;
-    const value = roundBelow(72 * stroke.perPixel);
-    line(g, left + 12, y - 3, value / stroke.perPixel || 0, stroke.colour);
+    // As long as in the drawing, however small the legend.
+    const perPixel = shrunk * stroke.perPixel;
+    const value = roundBelow(72 * perPixel);
+    line(g, left + 12, y - 3, value / perPixel || 0, stroke.colour);
     g.fillStyle = style.ink;
     g.fillText(quantity(value, stroke.unit ?? '', 1), left + 92, y + 1, WIDTH - 98);
     y += 18;
@@ -71,7 +80,13 @@ export function paintLegend(g: CanvasRenderingContext2D, right: number, top: num
   g.restore();
 }
 
-function paintBar(g: CanvasRenderingContext2D, left: number, top: number, style: OverlayStyle, scale: Scale): void {
+/** What the values reach that lie beyond the colours' ends. */
+function beyond({ field, low, high, all }: Scale): string {
+  const far = (v: number) => quantity(v, field!.unit, 3);
+  return (all[0] < low ? `, from ${far(all[0])}` : '') + (all[1] > high ? `, up to ${far(all[1])}` : '');
+}
+
+function paintBar(g: CanvasRenderingContext2D, left: number, top: number, length: number, style: OverlayStyle, scale: Scale): void {
   const { low, high } = scale;
   const largest = Math.max(Math.abs(low), Math.abs(high));
   const unit = scaledUnit(scale.field!.unit, largest);
@@ -82,21 +97,32 @@ function paintBar(g: CanvasRenderingContext2D, left: number, top: number, style:
   const y0 = top + 12;
   if (!(high > low)) {
     g.fillStyle = scale.css(scale.step(low));
-    g.fillRect(left, y0, 18, BAR);
+    g.fillRect(left, y0, 18, length);
     g.fillStyle = style.ink;
-    g.fillText(quantity(low, '', 3), left + 26, y0 + BAR);
+    g.fillText(quantity(low, '', 3), left + 26, y0 + length);
     return;
   }
-  for (let k = 0; k < BAR; ++k) {
-    g.fillStyle = scale.css(scale.step(low + ((high - low) * (k + 0.5)) / BAR));
-    g.fillRect(left, y0 + BAR - 1 - k, 18, 1.5);
+  for (let k = 0; k < length; ++k) {
+    g.fillStyle = scale.css(scale.step(low + ((high - low) * (k + 0.5)) / length));
+    g.fillRect(left, y0 + length - 1 - k, 18, Math.min(3, k + 1));
   }
-  const t = ticks(low * unit.factor, high * unit.factor, 6);
+  // Points where values lie beyond, as in pictures.
+  const tip = (base: number, peak: number, value: number) => {
+    g.fillStyle = scale.css(scale.step(value));
+    g.beginPath();
+    g.moveTo(left, base);
+    g.lineTo(left + 9, peak);
+    g.lineTo(left + 18, base);
+    g.fill();
+  };
+  if (scale.all[1] > high) tip(y0 + 0.5, y0 - 9, high);
+  if (scale.all[0] < low) tip(y0 + length - 0.5, y0 + length + 9, low);
+  const t = ticks(low * unit.factor, high * unit.factor, Math.max(2, length / 32));
   g.strokeStyle = style.ink;
   g.fillStyle = style.ink;
   g.lineWidth = 1;
   for (const at of t.at) {
-    const y = y0 + BAR * (1 - (at / unit.factor - low) / (high - low));
+    const y = y0 + length * (1 - (at / unit.factor - low) / (high - low));
     g.beginPath();
     g.moveTo(left + 18, y);
     g.lineTo(left + 22, y);
@@ -119,10 +145,10 @@ function square(g: CanvasRenderingContext2D, x: number, y: number, colour: strin
   g.strokeRect(x, y, 14, 12);
 }
 
-function dot(g: CanvasRenderingContext2D, x: number, y: number, colour: string): void {
+function dot(g: CanvasRenderingContext2D, x: number, y: number, colour: string, radius = 4.5): void {
   g.fillStyle = colour;
   g.beginPath();
-  g.arc(x, y, 4.5, 0, 2 * Math.PI);
+  g.arc(x, y, radius, 0, 2 * Math.PI);
   g.fill();
 }
 

@@ -8,7 +8,7 @@ import { scaledUnit } from '../data/units';
 import { byId, options } from './dom';
 import { Plot, type Series } from './plot';
 
-const ENERGIES = ['kinetic', 'strain', 'contact', 'gravity', 'friction', 'damping', 'fracture', 'external'];
+const ENERGIES = ['kinetic', 'strain', 'contact', 'gravity', 'friction', 'damping', 'fracture', 'external', 'step_change'];
 /** Columns of a monitor, and the unit of each. */
 const MONITOR: [string, string[], string][] = [
   ['displacement', ['ux', 'uy'], 'm'],

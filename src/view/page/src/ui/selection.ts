@@ -22,7 +22,7 @@ export function valuesOf(run: Run, mesh: Mesh, frame: Frame, datum: Motion, b: n
     ['material', run.materials[mesh.material[b]] ?? '', ''],
     ['x', mesh.centre[2 * b] + m[0], 'm'],
     ['y', mesh.centre[2 * b + 1] + m[1], 'm'],
-    ['area', areaOf(mesh, b) * ((1 + m[2]) * (1 + m[5]) - m[3] * m[4]), 'm\u00b2'],
+    ['area', mesh.area[b] * ((1 + m[2]) * (1 + m[5]) - m[3] * m[4]), 'm\u00b2'],
     ['ux', ux, 'm'],
     ['uy', uy, 'm'],
     ['rotation', frame.rotation[b], 'rad'],
@@ -38,16 +38,6 @@ export function valuesOf(run: Run, mesh: Mesh, frame: Frame, datum: Motion, b: n
     ['overstress', frame.overstress[b], ''],
   ];
   return rows.map(([name, value, unit]) => ({ name, value, unit }));
-}
-
-function areaOf(mesh: Mesh, b: number): number {
-  const { edges, row, vertex } = mesh;
-  let twice = 0;
-  for (let e = 0; e < edges.length; e += 2) {
-    const [p, q] = [edges[e], edges[e + 1]];
-    if (row[p] === b) twice += vertex[2 * p] * vertex[2 * q + 1] - vertex[2 * q] * vertex[2 * p + 1];
-  }
-  return 0.5 * twice;
 }
 
 /** Digits that a number of the frame has. */

@@ -1,0 +1,43 @@
+#include "report/relative.hpp"
+
+#include "report/shapes.hpp"
+
+namespace edda {
+namespace {
+
+/// Points have three coordinates, and so have displacements.
+void shift(std::vector<double>& values, Vec2 by) {
+  for (std::size_t k = 0; k + 1 < values.size(); k += 3) {
+    values[k] -= by.x;
+    values[k + 1] -= by.y;
+  }
+}
+
+void shift(Grid& grid, Vec2 by) {
+  shift(grid.points, by);
+  for (auto* fields : {&grid.point_fields, &grid.cell_fields}) {
+    for (Field& field : *fields) {
+      if (field.name == "displacement" && field.components == 3) shift(field.values, by);
+    }
+  }
+}
+
+}  // namespace
+
+bool move_with(Snapshot& shot, Vec2 start) {
+  const std::vector<Vec2> now = drawn_points(shot.blocks, 1.0);
+  const std::optional<Vec2> place =
+      Follower(shot.blocks, drawn_points(shot.blocks, 0.0), now)(start);
+  if (!place) return false;
+  const Vec2 moved = *place - start;
+  shift(shot.blocks, moved);
+  if (shot.contacts) shift(*shot.contacts, moved);
+  if (shot.bolts) {
+    for (BoltChain& bolt : *shot.bolts) {
+      for (Vec2& p : bolt.points) p = p - moved;
+    }
+  }
+  return true;
+}
+
+}  // namespace edda
