@@ -57,6 +57,7 @@ void print_report(const Model& model, const PolygonSet& polygons) {
   fmt::print("smallest edge    {:.4g} m at {}\n", r.smallest_edge, place_label(r.smallest_edge_at));
   fmt::print("smallest angle   {:.4g} degrees at {}\n", r.smallest_angle,
              place_label(r.smallest_angle_at));
+  for (const std::string& w : r.warnings) fmt::print("warning          {}\n", w);
 }
 
 Trouble write_cut(const Model& model, const PolygonSet& polygons, const std::string& path) {

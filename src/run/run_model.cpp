@@ -45,6 +45,7 @@ void add_cut_warnings(const CutReport& report, std::vector<std::string>& warning
   for (const std::string& note : report.notes) {
     if (note.find("left out") != std::string::npos) warnings.push_back(note);
   }
+  warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
 }
 
 /// Material points that end with their block.
