@@ -53,7 +53,9 @@ std::optional<Fault> not_simple(const Model& model, const LineWork& work) {
   };
   if (self_crossing(work.outline)) return fault(model.domain->where, "outline");
   for (std::size_t i = 0; i < work.openings.size(); ++i) {
-    if (self_crossing(work.openings[i])) return fault(model.openings[i].where, "polygon");
+    if (self_crossing(work.openings[i])) {
+      return fault(model.openings[i].where, model.openings[i].shape ? "shape" : "polygon");
+    }
   }
   return std::nullopt;
 }
