@@ -45,7 +45,8 @@ double wet_length(const Simulation& sim, std::size_t water) {
     const double first = e.level_from + rise - (y + e.from * up),
                  last = e.level_to + rise - (y + e.to * up);
     const double high = std::max(first, last), low = std::min(first, last);
-    const double part = low >= 0.0 ? 1.0 : high <= 0.0 ? 0.0 : high / (high - low);
+    const double rounding = 1e-9 * b.edge_length[e.edge];
+    const double part = high <= rounding ? 0.0 : low >= 0.0 ? 1.0 : high / (high - low);
     sum += part * (e.to - e.from) * b.edge_length[e.edge];
   }
   return sum;

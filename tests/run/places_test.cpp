@@ -1,6 +1,8 @@
 // Faults that only the cut blocks show stand at the line of their key; loads say what they act on.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "model/read_model.hpp"
 #include "run/load_report.hpp"
 #include "run/run_model.hpp"
@@ -71,6 +73,21 @@ TEST(Places, OfOverridesAreTheirs) {
   EXPECT_EQ(fault.where.line, 2);
 }
 
+TEST(Warnings, OfIdleJointsAndSlipsOfUnitsReachTheRun) {
+  Result<Model> model = read_model_text(square + "[[trace]]\npoints = [[30, 30], [40, 40]]\n",
+                                        "m.toml", {"materials.rock.young=20"});
+  ASSERT_TRUE(model.ok());
+  const Result<PreparedRun> run = prepare_run(std::move(model.value()));
+  ASSERT_TRUE(run.ok());
+  const auto said = [&](const std::string& begin) {
+    const auto& warnings = run.value().warnings;
+    return std::count_if(warnings.begin(), warnings.end(),
+                         [&](const std::string& w) { return w.starts_with(begin); });
+  };
+  EXPECT_EQ(said("trace.0 cuts nothing"), 1);
+  EXPECT_EQ(said("materials.rock.young: 20 Pa"), 1);
+}
+
 std::string first_load_of(const std::string& more) {
   Result<Model> model = read_model_text(square + more, "m.toml");
   EXPECT_TRUE(model.ok());
@@ -84,6 +101,9 @@ TEST(LoadReport, SaysTheWetLength) {
   // joint at 2.5 and both faces, 40 m, of that at 7.5.
   const std::string line = first_load_of("[[water]]\ntable = [[0, 10], [20, 10]]\n");
   EXPECT_NE(line.find("over 75 m of faces, 0 of 0 openings full"), std::string::npos) << line;
+  // At the level of a joint its faces are dry.
+  const std::string at_joint = first_load_of("[[water]]\ntable = [[0, 12.5], [20, 12.5]]\n");
+  EXPECT_NE(at_joint.find("over 80 m of faces"), std::string::npos) << at_joint;
 }
 
 TEST(LoadReport, CountsInTheSingular) {
