@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/common.hpp"
+#include "base/text.hpp"
 #include "blocks/build_blocks.hpp"
 #include "lines/build_polygons.hpp"
 #include "report/plot.hpp"
@@ -20,6 +21,10 @@ struct CutArguments {
   std::vector<std::string> overrides;
 };
 
+std::string number_of(int n, const char* one) {
+  return counted(static_cast<std::size_t>(n), one);
+}
+
 void print_report(const Model& model, const PolygonSet& polygons) {
   const CutReport& r = polygons.report;
   std::size_t held = 0;
@@ -30,19 +35,20 @@ void print_report(const Model& model, const PolygonSet& polygons) {
   }
   fmt::print("blocks           {} ({} held), {:.6g} m2\n", polygons.blocks.size(), held, area);
   if (!polygons.removed.empty()) {
-    fmt::print("inside openings  {} blocks, not part of the model\n", polygons.removed.size());
+    fmt::print("inside openings  {}, not part of the model\n",
+               counted(polygons.removed.size(), "block"));
   }
   if (r.area_in > 0.0) {
     fmt::print("cut area         {:.9g} m2 of {:.9g} m2 (difference {:.1e} of it)\n", r.area_out,
                r.area_in, (r.area_out - r.area_in) / r.area_in);
   }
-  fmt::print(
-      "trimmed          {} ends of joints inside a block, {} pieces with one block on both sides\n",
-      r.dangling, r.bridging);
-  fmt::print("merged           {} slivers thinner than twice domain.snap\n", r.merged);
+  fmt::print("trimmed          {} of joints inside a block, {} with one block on both sides\n",
+             number_of(r.dangling, "end"), number_of(r.bridging, "piece"));
+  fmt::print("merged           {} thinner than twice domain.snap\n", number_of(r.merged, "sliver"));
   const Quality& q = model.quality;
-  fmt::print("quality          {} slivers joined to a neighbour, {:.4g} m2 in all; {} stay\n",
-             r.quality_merged, r.quality_area, r.slivers);
+  fmt::print("quality          {} joined to a neighbour, {:.4g} m2 in all; {} {}\n",
+             number_of(r.quality_merged, "sliver"), r.quality_area, r.slivers,
+             r.slivers == 1 ? "stays" : "stay");
   if (r.short_edges > 0) {
     fmt::print("short edges      {} below {:.4g} m\n", r.short_edges, q.min_edge);
   }
@@ -57,6 +63,7 @@ void print_report(const Model& model, const PolygonSet& polygons) {
   fmt::print("smallest edge    {:.4g} m at {}\n", r.smallest_edge, place_label(r.smallest_edge_at));
   fmt::print("smallest angle   {:.4g} degrees at {}\n", r.smallest_angle,
              place_label(r.smallest_angle_at));
+  for (const std::string& w : r.warnings) fmt::print("warning          {}\n", w);
 }
 
 Trouble write_cut(const Model& model, const PolygonSet& polygons, const std::string& path) {
@@ -100,7 +107,7 @@ int cut(const CutArguments& args) {
 PlotOptions options_of(const Model& model, std::size_t blocks) {
   PlotOptions options;
   options.title = model.title.empty() ? stem_of(model.file) : model.title;
-  options.subtitle = fmt::format("{} block{} as cut", blocks, blocks == 1 ? "" : "s");
+  options.subtitle = counted(blocks, "block") + " as cut";
   for (const Material& m : model.materials) options.materials.push_back(m.name);
   for (const Monitor& m : model.monitors) options.monitors.push_back({m.name, m.point});
   for (const Convergence& c : model.convergences) {

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "app/common.hpp"
+#include "base/text.hpp"
 #include "model/write_model.hpp"
 #include "report/plot.hpp"
 #include "results/files.hpp"
@@ -86,8 +87,8 @@ void print_end(const FosResult& r, const std::string& folder) {
   fmt::print(
       "  a trial fails where a corner goes {:.3g} m, or still moves at {:.3g} m/s after {:.3g} s\n",
       c.displacement, c.velocity, c.duration + (c.shaking > 0.0 ? c.shaking : c.ramp));
-  fmt::print("  {} trials, {} of wall time; results in {}/ (fos.csv, mechanism.png)\n",
-             r.trials.size(), duration_text(r.seconds), folder);
+  fmt::print("  {}, {} of wall time; results in {}/ (fos.csv, mechanism.png)\n",
+             counted(r.trials.size(), "trial"), duration_text(r.seconds), folder);
 }
 
 int code_of(FosStatus status) {

@@ -8,6 +8,7 @@
 #include "app/common.hpp"
 #include "app/json_lines.hpp"
 #include "app/progress.hpp"
+#include "base/text.hpp"
 #include "results/version.hpp"
 #include "run/initial_stress_report.hpp"
 
@@ -28,12 +29,12 @@ class ForPeople : public RunReport {
     const Simulation& sim = run.sim;
     if (sim.explicit_method()) {
       fmt::print(stderr,
-                 "{} blocks; step {:.4g} s; critical {:.4g} s ({:.4g} s if every bare corner "
+                 "{}; step {:.4g} s; critical {:.4g} s ({:.4g} s if every bare corner "
                  "touched something), held by {}\n",
-                 sim.blocks.size(), sim.step_limit, sim.bound.critical_step, sim.bound.likely_step,
-                 run.governed_by);
+                 counted(sim.blocks.size(), "block"), sim.step_limit, sim.bound.critical_step,
+                 sim.bound.likely_step, run.governed_by);
     } else {
-      fmt::print(stderr, "{} blocks; step {:.4g} s, held by {}\n", sim.blocks.size(),
+      fmt::print(stderr, "{}; step {:.4g} s, held by {}\n", counted(sim.blocks.size(), "block"),
                  sim.step_limit, run.governed_by);
     }
     for (const std::string& line : initial_stress_report(sim)) {

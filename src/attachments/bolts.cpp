@@ -117,6 +117,13 @@ void add_spring(BoltSprings& s, double stiffness, double strength) {
   s.broken.push_back(0);
 }
 
+/// Of a pattern, the table: it gives no ends.
+Where at_key(const Bolt& bolt, const char* key) {
+  Where where = bolt.where;
+  if (where.key.starts_with("bolt.")) where.key += key;
+  return where;
+}
+
 /// Builds one bolt after the other.
 class Builder {
  public:
@@ -133,7 +140,7 @@ class Builder {
     const bool any_free = std::any_of(stays.begin(), stays.end(),
                                       [&](const Stay& s) { return o_.b.fixed[s.block] == 0; });
     if (!any_free) {
-      return Fault{bolt.where, "bolt " + data.name + " goes through no free block",
+      return Fault{at_key(bolt, ".from"), "bolt " + data.name + " goes through no free block",
                    "move it into the rock (edda cut draws the blocks)"};
     }
     if (data.grouted) {
@@ -142,7 +149,7 @@ class Builder {
       const double near = slack_ * length;
       const bool ends = stays.front().from <= near && stays.back().to >= length - near;
       if (!ends) {
-        return Fault{bolt.where, "an end of bolt " + data.name + " lies in no block",
+        return Fault{at_key(bolt, ".to"), "an end of bolt " + data.name + " lies in no block",
                      "let both ends of an end-anchored bolt lie in blocks, or on their faces"};
       }
       add_node(stays.front().block, head, t, 0.0, 0.0, data);

@@ -1,6 +1,8 @@
 // What readers of text share.
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace edda {
@@ -11,6 +13,11 @@ inline std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(blanks);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// "1 block", "2 blocks".
+inline std::string counted(std::size_t n, const char* one) {
+  return std::to_string(n) + ' ' + one + (n == 1 ? "" : "s");
 }
 
 }  // namespace edda

@@ -105,6 +105,7 @@ struct Cut {
   double smallest_area = 0.0;    ///< m2
   double smallest_edge = 0.0;    ///< m
   double smallest_angle = 0.0;   ///< degrees
+  /// what was imported, drawn at random, left out, and which joints cut nothing
   std::vector<std::string> notes;
 };
 

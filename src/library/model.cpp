@@ -146,6 +146,7 @@ Cut cut(const Model& model) {
   result.smallest_edge = r.smallest_edge;
   result.smallest_angle = r.smallest_angle;
   result.notes = r.notes;
+  result.notes.insert(result.notes.end(), r.warnings.begin(), r.warnings.end());
   return result;
 }
 

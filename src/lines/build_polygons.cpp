@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text.hpp"
 #include "lines/cut_domain.hpp"
 #include "lines/given_blocks.hpp"
 #include "lines/held.hpp"
@@ -88,19 +89,22 @@ Faults poor_blocks(const Model& model, const CutReport& r) {
                    "change what cuts there, give a smaller limit, or action = \"merge\""}};
   };
   if (r.slivers > 0) {
-    return fault("min_area", std::to_string(r.slivers) +
-                                 " blocks are smaller than it, or thinner than min_edge; the "
-                                 "smallest lies at " +
+    return fault("min_area", counted(static_cast<std::size_t>(r.slivers), "block") +
+                                 (r.slivers == 1 ? " is" : " are") +
+                                 " smaller than it, or thinner than min_edge; the smallest lies "
+                                 "at " +
                                  place_text(r.smallest_area_at));
   }
   if (r.short_edges > 0) {
-    return fault("min_edge", std::to_string(r.short_edges) +
-                                 " edges are shorter; the shortest lies at " +
+    return fault("min_edge", counted(static_cast<std::size_t>(r.short_edges), "edge") +
+                                 (r.short_edges == 1 ? " is" : " are") +
+                                 " shorter; the shortest lies at " +
                                  place_text(r.smallest_edge_at));
   }
   if (r.sharp_corners > 0) {
-    return fault("min_angle", std::to_string(r.sharp_corners) +
-                                  " corners are sharper; the sharpest lies at " +
+    return fault("min_angle", counted(static_cast<std::size_t>(r.sharp_corners), "corner") +
+                                  (r.sharp_corners == 1 ? " is" : " are") +
+                                  " sharper; the sharpest lies at " +
                                   place_text(r.smallest_angle_at));
   }
   return {};
@@ -151,9 +155,7 @@ Result<PolygonSet> all_blocks(const Model& model, const Imports& imports, bool f
   return set;
 }
 
-}  // namespace
-
-Result<PolygonSet> build_polygons(const Model& model) {
+Result<PolygonSet> cut_or_given(const Model& model) {
   if (model.imports.empty()) return all_blocks(model, {}, false);
   const Result<Imports> imports = read_imports(model);
   if (!imports.ok()) return imports.faults();
@@ -163,6 +165,14 @@ Result<PolygonSet> build_polygons(const Model& model) {
   Model framed = model;
   framed.domain = std::move(frame.value());
   return all_blocks(framed, imports.value(), true);
+}
+
+}  // namespace
+
+Result<PolygonSet> build_polygons(const Model& model) {
+  Result<PolygonSet> made = cut_or_given(model);
+  if (!made.ok()) return at_their_keys(model.key_places, made.faults());
+  return made;
 }
 
 }  // namespace edda

@@ -11,6 +11,8 @@
 
 #include "lines/crossings.hpp"
 #include "lines/face_polygons.hpp"
+#include "lines/idle_lines.hpp"
+#include "lines/import_units.hpp"
 #include "lines/line_work.hpp"
 #include "lines/noding.hpp"
 #include "lines/partition.hpp"
@@ -51,7 +53,9 @@ std::optional<Fault> not_simple(const Model& model, const LineWork& work) {
   };
   if (self_crossing(work.outline)) return fault(model.domain->where, "outline");
   for (std::size_t i = 0; i < work.openings.size(); ++i) {
-    if (self_crossing(work.openings[i])) return fault(model.openings[i].where, "polygon");
+    if (self_crossing(work.openings[i])) {
+      return fault(model.openings[i].where, model.openings[i].shape ? "shape" : "polygon");
+    }
   }
   return std::nullopt;
 }
@@ -243,6 +247,22 @@ std::vector<Vec2> held_points(const Model& model, const Imports& imports, Vec2 o
   return points;
 }
 
+/// Joints that cut nothing, but imports in doubtful units, which may explain it.
+std::vector<std::string> cut_warnings(const Model& model, const Imports& imports,
+                                      const Arrangement& a, const LineWork& work, bool framed,
+                                      double snap) {
+  std::vector<std::string> warnings = idle_lines(model, work, a.graph, a.parts, framed,
+                                                 [&](Vec2 p) { return in_rock(work, p, snap); });
+  for (std::size_t i = 0; i < model.imports.size(); ++i) {
+    const auto doubt = unit_doubt(model, imports, i);
+    if (!doubt) continue;
+    const std::string idle = model.imports[i].where.key + " cuts nothing";
+    std::erase_if(warnings, [&](const std::string& w) { return w.starts_with(idle); });
+    warnings.push_back(*doubt);
+  }
+  return warnings;
+}
+
 }  // namespace
 
 double snap_of(const Model& model) {
@@ -278,6 +298,7 @@ Result<DomainCut> cut_domain(const Model& model, Vec2 origin, const Imports& imp
   cut.report.notes = imports.notes;
   cut.report.notes.insert(cut.report.notes.end(), work.notes.begin(), work.notes.end());
   cut.report.area_in = *area_in;
+  cut.report.warnings = cut_warnings(model, imports, a, work, framed, snap);
   const auto merge_thin = [&] { return merge_slivers(a.graph, a.parts.faces, a.parts.rock, snap); };
   if (auto faults = merge_all(model, a, work, framed, cut.report.merged, merge_thin)) {
     return *faults;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "base/fault.hpp"
 #include "base/vec2.hpp"
+#include "model/geometry_inputs.hpp"
 
 namespace edda {
 
@@ -21,6 +23,7 @@ struct DrawnLine {
 struct Drawing {
   std::vector<DrawnLine> lines;
   std::vector<std::pair<Vec2, Vec2>> held;  ///< fixed lines and points
+  std::optional<LengthUnit> units;          ///< as the file says
   std::map<std::string, int> skipped;       ///< what was left out: how many of each kind
 };
 

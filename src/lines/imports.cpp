@@ -9,30 +9,13 @@
 #include <variant>
 
 #include "lines/drawing.hpp"
+#include "lines/import_units.hpp"
 #include "lines/place.hpp"
 #include "model/file_text.hpp"
 #include "model/nearest.hpp"
 
 namespace edda {
 namespace {
-
-double metres(LengthUnit unit) {
-  switch (unit) {
-    case LengthUnit::m:
-      return 1.0;
-    case LengthUnit::mm:
-      return 1e-3;
-    case LengthUnit::cm:
-      return 1e-2;
-    case LengthUnit::km:
-      return 1e3;
-    case LengthUnit::ft:
-      return 0.3048;
-    case LengthUnit::in:
-      return 0.0254;
-  }
-  return 1.0;
-}
 
 std::string ending_of(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
@@ -166,6 +149,7 @@ std::optional<Fault> take(const Model& model, Index number, Drawing& drawing, Im
     imports.held_import.push_back(number);
   }
   const std::size_t lines = imports.lines.size() - before;
+  imports.drawn_in.push_back(drawing.units);
   imports.notes.push_back(note_of(import, lines, drawing, taken));
   if (lines > 0) return std::nullopt;
   return Fault{member_of(import.where, "file"), imports.notes.back(),

@@ -1,6 +1,7 @@
 // [[import]]: lines from drawings, tables and other programs' models.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,10 +20,11 @@ struct ImportedLine {
 };
 
 struct Imports {
-  std::vector<ImportedLine> lines;                ///< in the order of the files
-  std::vector<std::pair<Vec2, Vec2>> held_lines;  ///< blocks on them are fixed; points are lines
-                                                  ///< without length; m, model coordinates
-  std::vector<Index> held_import;                 ///< import of each
+  std::vector<ImportedLine> lines;                  ///< in the order of the files
+  std::vector<std::pair<Vec2, Vec2>> held_lines;    ///< blocks on them are fixed; points are lines
+                                                    ///< without length; m, model coordinates
+  std::vector<Index> held_import;                   ///< import of each
+  std::vector<std::optional<LengthUnit>> drawn_in;  ///< per import the unit that the file says
   std::vector<std::string> notes;  ///< per import what was read and what was left out
 };
 

@@ -303,6 +303,26 @@ void read_entities(Groups& file, Lines& lines) {
   file.fail(file.line(), "breaks off within its entities");
 }
 
+/// Of the header variable $INSUNITS; nothing of the units that [[import]] does not know.
+std::optional<LengthUnit> drawing_unit(std::optional<int> number) {
+  switch (number.value_or(0)) {
+    case 1:
+      return LengthUnit::in;
+    case 2:
+      return LengthUnit::ft;
+    case 4:
+      return LengthUnit::mm;
+    case 5:
+      return LengthUnit::cm;
+    case 6:
+      return LengthUnit::m;
+    case 7:
+      return LengthUnit::km;
+    default:
+      return std::nullopt;
+  }
+}
+
 }  // namespace
 
 Result<Drawing> parse_dxf(std::string_view text, const std::string& path) {
@@ -310,15 +330,19 @@ Result<Drawing> parse_dxf(std::string_view text, const std::string& path) {
   Groups file(text, path);
   if (text.starts_with("AutoCAD Binary DXF")) file.fail(1, "is a binary drawing");
   Lines lines(file);
-  bool section = false, entities = false;
+  bool section = false, entities = false, says_units = false;
+  std::optional<LengthUnit> units;
   for (auto group = file.next(); group && !file.fault(); group = file.next()) {
     const bool names_it = section && group->code == 2;
     section = group->code == 0 && group->value == "SECTION";
+    if (says_units && group->code == 70) units = drawing_unit(whole_number(group->value));
+    says_units = group->code == 9 && group->value == "$INSUNITS";
     if (!names_it || group->value != "ENTITIES") continue;
     entities = true;
     read_entities(file, lines);
   }
   Drawing drawing = lines.finish();
+  drawing.units = units;
   if (!file.fault() && !entities) file.fail(0, "has no section of entities");
   if (file.fault()) return *file.fault();
   return drawing;

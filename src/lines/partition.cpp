@@ -52,7 +52,8 @@ Result<Partition> partition(const Model& model, const PlanarGraph& graph, Cycles
       p.zone[f] = Zone::opening;
     }
     if (!any) {
-      return Fault{member_of(opening.where, "polygon"), "lies wholly outside domain.outline",
+      return Fault{member_of(opening.where, opening.shape ? "shape" : "polygon"),
+                   "lies wholly outside domain.outline",
                    "move it into the outline or leave it out"};
     }
   }

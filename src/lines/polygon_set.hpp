@@ -37,13 +37,14 @@ struct CutReport {
   int slivers = 0;            ///< cut blocks that are still below min_area or thinner than min_edge
   int short_edges = 0;        ///< edges of cut blocks below min_edge
   int sharp_corners = 0;      ///< corners of cut blocks below min_angle
-  std::vector<std::string> notes;  ///< what was imported and drawn at random, and what left out
-  double area_in = 0.0;            ///< of the outline without its openings, m2
-  double area_out = 0.0;           ///< sum over the cut blocks, m2
-  int snap_rounded = 0;            ///< 1 where the line work had to be snap-rounded
-  double smallest_area = 0.0;      ///< m2, over all blocks
-  double smallest_edge = 0.0;      ///< m
-  double smallest_angle = 0.0;     ///< degrees
+  std::vector<std::string> notes;     ///< what was imported and drawn at random, and what left out
+  std::vector<std::string> warnings;  ///< joints that cut nothing, drawings in doubtful units
+  double area_in = 0.0;               ///< of the outline without its openings, m2
+  double area_out = 0.0;              ///< sum over the cut blocks, m2
+  int snap_rounded = 0;               ///< 1 where the line work had to be snap-rounded
+  double smallest_area = 0.0;         ///< m2, over all blocks
+  double smallest_edge = 0.0;         ///< m
+  double smallest_angle = 0.0;        ///< degrees
   Vec2 smallest_area_at, smallest_edge_at, smallest_angle_at;  ///< model coordinates (origin added)
 };
 

@@ -149,6 +149,7 @@ void complete_network(const Value* node, const FractureNetwork& network, Reading
 }
 
 void complete_import(const Value* node, Import& import, Reading& reading) {
+  import.size_given = given(node, "units") || given(node, "scale");
   if (import.file.empty()) return;
   std::string ending = std::filesystem::path(import.file).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) {

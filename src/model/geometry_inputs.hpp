@@ -129,6 +129,7 @@ struct Import {
   std::string file;  ///< path
   LengthUnit units = LengthUnit::m;
   double scale = 1.0;
+  bool size_given = false;                            ///< the model gives units or scale
   Vec2 shift;                                         ///< m, after scaling
   std::vector<std::pair<std::string, Index>> layers;  ///< layer -> joint; empty: all layers
   Index joint = none;                                 ///< law of lines whose layer names none

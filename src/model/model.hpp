@@ -13,6 +13,7 @@
 #include "base/polygon.hpp"
 #include "base/vec2.hpp"
 #include "model/geometry_inputs.hpp"
+#include "model/key_places.hpp"
 
 namespace edda {
 
@@ -342,6 +343,8 @@ struct Model {
   Solver solver;
   Output output;
   std::optional<Fos> fos;
+
+  KeyPlaces key_places;  ///< of what was given; empty of a model that was not read
 };
 
 }  // namespace edda

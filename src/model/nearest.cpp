@@ -27,7 +27,7 @@ std::string clipped(std::string_view text) {
   }
   std::string line(text.substr(0, end));
   for (char& c : line) {
-    if (static_cast<unsigned char>(c) < 0x20U || c == 0x7F) c = '?';
+    if (is_control(c)) c = '?';
   }
   return end < text.size() ? line + "..." : line;
 }
@@ -94,6 +94,7 @@ bool is_likely(std::string_view word, std::span<const std::string_view> known) {
 }
 
 std::string suggestion(std::string_view word, std::span<const std::string_view> known) {
+  if (known.empty()) return "the model has none";
   const std::string best = '"' + clipped(nearest(word, known)) + '"';
   if (is_likely(word, known)) return "did you mean " + best + "?";
   if (known.size() == 1) return "the only known one is " + best;

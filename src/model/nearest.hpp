@@ -12,6 +12,11 @@ namespace edda {
 /// bytes between characters.
 std::string clipped(std::string_view text);
 
+/// A line break, an escape and their like.
+inline bool is_control(char c) {
+  return static_cast<unsigned char>(c) < 0x20U || c == 0x7F;
+}
+
 /// Up to so many edits a word is taken for a slip of another.
 inline constexpr int likely_edits = 2;
 

@@ -173,6 +173,14 @@ std::vector<std::string> read_words(const Spot& spot) {
   return words;
 }
 
+/// Names stand in tables, messages and pictures, a line each.
+void check_name(const std::string& name, Place place, const std::string& path, Reading& reading) {
+  if (std::none_of(name.begin(), name.end(), is_control)) return;
+  add_fault(reading, place, path,
+            fmt::format("\"{}\" has a line break or another control character", clipped(name)),
+            "give a name of letters, digits and signs on one line");
+}
+
 void read_keys(std::span<const Key> keys, void* object, const Value& table,
                const std::string& prefix, Reading& reading);
 
@@ -225,6 +233,8 @@ struct ReadInto {
       add_fault(spot.reading, spot.value.place, spot.path, "is empty",
                 spot.key.rule.kind == Kind::name ? "give a name" : "give the path of a file");
     }
+    if (spot.key.rule.kind == Kind::name)
+      check_name(*value, spot.value.place, spot.path, spot.reading);
     *field = *value;
   }
   void operator()(JointMap* field) const {
@@ -308,6 +318,11 @@ void unknown_key(const Entry& entry, std::span<const std::string_view> known,
             unknown_key_hint(entry.key, known));
 }
 
+void note_place(const Key& key, Place table, Place value, Reading& reading) {
+  const auto at = [](Place p) { return WrittenAt{p.line, p.from_set ? 1 : p.column, p.from_set}; };
+  reading.model.key_places.push_back({key.name, at(table), at(value)});
+}
+
 void read_keys(std::span<const Key> keys, void* object, const Value& table,
                const std::string& prefix, Reading& reading) {
   const Table* entries = as<Table>(table);
@@ -324,7 +339,9 @@ void read_keys(std::span<const Key> keys, void* object, const Value& table,
         }
       }
       unknown_key(entry, known, prefix, reading);
-    } else if (key->slot != nullptr) {
+    } else {
+      note_place(*key, table.place, entry.value.place, reading);
+      if (key->slot == nullptr) continue;
       const std::string path = prefix + entry.key;
       std::visit(ReadInto{{*key, entry.value, path, reading}}, key->slot(object));
     }
@@ -383,6 +400,7 @@ void read_named(const Section& section, const Value& value, Reading& reading) {
     if (entry.key.empty()) {
       add_fault(reading, entry.place, std::string(section.name), "an empty name", "give a name");
     }
+    check_name(entry.key, entry.place, path, reading);
     read_object(section, entry.value, path, entry.key, reading);
   }
 }
@@ -397,7 +415,7 @@ Where where_of(const Reading& reading, Place place, std::string key) {
 void add_fault(Reading& reading, Place place, std::string key, std::string problem,
                std::string remedy) {
   for (char& c : key) {
-    if (static_cast<unsigned char>(c) < 0x20U) c = '?';  // a quoted key may hold a line break
+    if (is_control(c)) c = '?';  // a quoted key may hold a line break
   }
   reading.faults.push_back(
       {where_of(reading, place, std::move(key)), std::move(problem), std::move(remedy)});

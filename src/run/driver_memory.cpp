@@ -93,16 +93,49 @@ std::vector<InputFile> input_files(std::string_view text) {
   return files;
 }
 
-/// The first line in which two texts differ.
+/// Takes the first line off.
+std::string_view take_line(std::string_view& text) {
+  const std::string_view line = text.substr(0, text.find('\n'));
+  text.remove_prefix(std::min(text.size(), line.size() + 1));
+  return line;
+}
+
+/// "safety" of "safety = 0.5"; empty of other lines.
+std::string_view key_of(std::string_view line) {
+  const std::size_t equals = line.find(" = ");
+  return equals == std::string_view::npos ? std::string_view{} : line.substr(0, equals);
+}
+
+/// The first line in which two models differ: what it was in the checkpoint, "there", and is
+/// "here".
 std::string difference(std::string_view now, std::string_view then) {
-  while (!now.empty()) {
-    const auto line = now.substr(0, now.find('\n'));
-    if (!then.starts_with(line) || then.substr(0, then.find('\n')) != line)
-      return std::string(line);
-    now.remove_prefix(std::min(now.size(), line.size() + 1));
-    then.remove_prefix(std::min(then.size(), line.size() + 1));
+  std::string table, element;
+  std::size_t number = 0;
+  std::string_view a, b;
+  do {
+    a = take_line(now);
+    b = take_line(then);
+    if (a != b) break;
+    if (a.starts_with('[')) {
+      const bool is_list = a.starts_with("[[");
+      const std::string_view name = a.substr(is_list ? 2 : 1, a.size() - (is_list ? 4 : 2));
+      number = is_list && name == table ? number + 1 : 0;
+      table = name;
+      element = is_list ? std::to_string(number) + '.' : "";
+    } else if (key_of(a) == "name") {
+      element = std::string(a.substr(8, a.size() - 9)) + '.';  // name = "..."
+    }
+  } while (!now.empty() || !then.empty());
+  const std::string_view key = key_of(a);
+  if (key.empty() || key != key_of(b)) {
+    const auto line = [](std::string_view text) {
+      return text.empty() ? std::string("nothing") : std::string(text);
+    };
+    return line(b) + " there, " + line(a) + " here";
   }
-  return std::string(then.substr(0, then.find('\n')));
+  const auto value = [&](std::string_view text) { return text.substr(key.size() + 3); };
+  return fmt::format("{}{}{}{}: {} there, {} here", table, table.empty() ? "" : ".", element, key,
+                     value(b), value(a));
 }
 
 template <class Archive>

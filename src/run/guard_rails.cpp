@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/parallel.hpp"
+#include "base/text.hpp"
 #include "blocks/point_mass.hpp"
 #include "contacts/gap.hpp"
 #include "forces/mass_scaling.hpp"
@@ -130,10 +131,6 @@ void warn_of_boundary(const Simulation& sim, std::vector<std::string>& warnings)
       1.0 / std::sqrt(std::max(1.0 - sim.bound.boundary_part, 1e-12))));
 }
 
-std::string counted(std::size_t n, const char* one) {
-  return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s");
-}
-
 /// A few small blocks that hold back all the others; or what was done about it.
 void warn_of_few(const Simulation& sim, std::vector<std::string>& warnings) {
   const double all = ordered_sum(sim.blocks.size(), [&](std::size_t i) {
@@ -174,11 +171,11 @@ void warn_of_few(const Simulation& sim, std::vector<std::string>& warnings) {
     added += (others * others / (steps[i] * steps[i]) - 1.0) * sim.blocks.mass[i];
   }
   warnings.push_back(fmt::format(
-      "{} of {} hold the step to 1/{:.2g} of what the others need: solver.mass_scaling = {:.3g} "
-      "makes them slower to move, by {:.3g} kg together, {:.2g} % of all mass, and changes "
+      "{} of {} {} the step to 1/{:.2g} of what the others need: solver.mass_scaling = {:.3g} "
+      "makes {} slower to move, by {:.3g} kg together, {:.2g} % of all mass, and changes "
       "nothing at rest",
-      counted(count, "block"), sorted.size(), others / smallest, sim.model.solver.safety * others,
-      added, 100.0 * added / all));
+      counted(count, "block"), sorted.size(), count == 1 ? "holds" : "hold", others / smallest,
+      sim.model.solver.safety * others, count == 1 ? "it" : "them", added, 100.0 * added / all));
 }
 
 /// Slivers of the cut: they hold the step and carry nothing.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "model/accelerogram.hpp"
 #include "run/labels.hpp"
 
@@ -33,6 +34,24 @@ Vec2 alone(const Simulation& sim, std::size_t load, std::size_t water) {
   return sum;
 }
 
+/// Length of the faces under one water at the start, m.
+double wet_length(const Simulation& sim, std::size_t water) {
+  const BlockSet& b = sim.blocks;
+  const double rise = loads_at(sim.model, sim.loads, 0.0).rise[water];
+  double sum = 0.0;
+  for (const WetEdge& e : sim.loads.wet) {
+    if (static_cast<std::size_t>(e.water) != water) continue;
+    const double y = sim.pose.y[e.edge], up = sim.pose.y[b.next[e.edge]] - y;
+    const double first = e.level_from + rise - (y + e.from * up),
+                 last = e.level_to + rise - (y + e.to * up);
+    const double high = std::max(first, last), low = std::min(first, last);
+    const double rounding = 1e-9 * b.edge_length[e.edge];
+    const double part = high <= rounding ? 0.0 : low >= 0.0 ? 1.0 : high / (high - low);
+    sum += part * (e.to - e.from) * b.edge_length[e.edge];
+  }
+  return sum;
+}
+
 /// Peak and length of a shaking, and what its integral ends in: a record that is not corrected for
 /// its base line goes on for ever.
 std::string shaking_line(const Shaking& s, std::size_t row) {
@@ -45,15 +64,16 @@ std::string shaking_line(const Shaking& s, std::size_t row) {
   for (const Vec2 a : s.record.acceleration) peak = std::max(peak, std::abs(s.scale) * norm(a));
   const Vec2 end = velocity_at(s, s.record.time.back());
   return fmt::format(
-      "{}: {} rows to {:.4g} s, peak {:.4g} m/s2; its velocity ends at ({:.4g}, {:.4g}) m/s", name,
-      s.record.time.size(), s.record.time.back(), peak, end.x, end.y);
+      "{}: {} to {:.4g} s, peak {:.4g} m/s2; its velocity ends at ({:.4g}, {:.4g}) m/s", name,
+      counted(s.record.time.size(), "row"), s.record.time.back(), peak, end.x, end.y);
 }
 
 std::string bolts_line(const Bolts& bolts) {
   std::size_t joints = 0;
   for (std::size_t k = 0; k < bolts.size(); ++k) joints += bolts.crossing[k];
-  return fmt::format("{} bolts of {} nodes cross {} joints", bolts.rows.size(), bolts.size(),
-                     joints);
+  return fmt::format("{} of {} {} {}", counted(bolts.rows.size(), "bolt"),
+                     counted(bolts.size(), "node"), bolts.rows.size() == 1 ? "crosses" : "cross",
+                     counted(joints, "joint"));
 }
 
 }  // namespace
@@ -75,22 +95,20 @@ std::vector<std::string> load_report(const Simulation& sim) {
       ++faces;
       length += (e.to - e.from) * b.edge_length[e.edge];
     }
-    if (!load.point) on = fmt::format("{:.4g} m of {} faces", length, faces);
+    if (!load.point) on = fmt::format("{:.4g} m of {}", length, counted(faces, "face"));
     const Vec2 f = alone(sim, q, no_row);
     lines.push_back(fmt::format("{} on {}: ({:.4g}, {:.4g}) N{}", called("load", load.name, q), on,
                                 f.x, f.y, range_of(load.factor, "times", "")));
   }
   for (std::size_t q = 0; q < sim.model.waters.size(); ++q) {
     const Water& water = sim.model.waters[q];
-    double length = 0.0;
-    for (const WetEdge& e : sim.loads.wet) {
-      if (static_cast<std::size_t>(e.water) == q) length += (e.to - e.from) * b.edge_length[e.edge];
-    }
+    const double length = wet_length(sim, q);
     const Vec2 f = alone(sim, no_row, q);
-    lines.push_back(fmt::format(
-        "{} over {:.4g} m of faces, {} of {} openings full: ({:.4g}, {:.4g}) N at the start{}",
-        called("water", water.name, q), length, water.flooded.size(), sim.model.openings.size(),
-        f.x, f.y, range_of(water.rise, "rising", " m")));
+    lines.push_back(
+        fmt::format("{} over {:.4g} m of faces, {} of {} full: ({:.4g}, {:.4g}) N at the start{}",
+                    called("water", water.name, q), length, water.flooded.size(),
+                    counted(sim.model.openings.size(), "opening"), f.x, f.y,
+                    range_of(water.rise, "rising", " m")));
   }
   for (std::size_t q = 0; q < sim.model.shakings.size(); ++q) {
     lines.push_back(shaking_line(sim.model.shakings[q], q));

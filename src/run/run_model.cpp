@@ -6,8 +6,10 @@
 #include <chrono>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "checkpoint/envelope.hpp"
 #include "checkpoint/hdf5_image.hpp"
+#include "model/plausible.hpp"
 #include "run/driver.hpp"
 #include "run/guard_rails.hpp"
 #include "run/size_limits.hpp"
@@ -39,12 +41,14 @@ std::optional<Fault> unstable_step(const Simulation& sim) {
 void add_cut_warnings(const CutReport& report, std::vector<std::string>& warnings) {
   if (report.quality_merged > 0) {
     warnings.push_back(
-        fmt::format("{} slivers, {:.3g} m2 in all, were joined to a neighbour ([quality])",
-                    report.quality_merged, report.quality_area));
+        fmt::format("{}, {:.3g} m2 in all, {} joined to a neighbour ([quality])",
+                    counted(static_cast<std::size_t>(report.quality_merged), "sliver"),
+                    report.quality_area, report.quality_merged == 1 ? "was" : "were"));
   }
   for (const std::string& note : report.notes) {
     if (note.find("left out") != std::string::npos) warnings.push_back(note);
   }
+  warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
 }
 
 /// Material points that end with their block.
@@ -74,9 +78,7 @@ void warn_of_lost_points(const PreparedRun& run, std::vector<std::string>& warni
   }
 }
 
-}  // namespace
-
-Result<PreparedRun> prepare_run(Model model, BlockOrder order) {
+Result<PreparedRun> prepared(Model model, BlockOrder order) {
   const auto start = std::chrono::steady_clock::now();
   Result<Simulation> made = Simulation::create(std::move(model), order);
   if (!made.ok()) return made.faults();
@@ -96,10 +98,20 @@ Result<PreparedRun> prepare_run(Model model, BlockOrder order) {
   run.sim.polygons.blocks = {};
   run.sim.polygons.removed = {};
   run.governed_by = governed_by(run.sim);
-  run.warnings = guard_rails(run.sim);
+  run.warnings = implausible(run.sim.model);
+  for (std::string& warning : guard_rails(run.sim)) run.warnings.push_back(std::move(warning));
   add_cut_warnings(run.sim.polygons.report, run.warnings);
   warn_of_lost_points(run, run.warnings);
   return run;
+}
+
+}  // namespace
+
+Result<PreparedRun> prepare_run(Model model, BlockOrder order) {
+  const KeyPlaces places = model.key_places;
+  Result<PreparedRun> made = prepared(std::move(model), order);
+  if (!made.ok()) return at_their_keys(places, made.faults());
+  return made;
 }
 
 Result<Outcome> run_model(PreparedRun& run, const RunOptions& options) {

@@ -207,5 +207,45 @@ TEST(Imports, LinesThatEncloseNothingAreAFault) {
   EXPECT_NE(fault_of(model).find("the lines enclose nothing"), std::string::npos);
 }
 
+std::string only_warning(const Model& model) {
+  const auto result = build_polygons(model);
+  EXPECT_TRUE(result.ok());
+  if (!result.ok()) return reason(result);
+  const auto& warnings = result.value().report.warnings;
+  EXPECT_LE(warnings.size(), 1U);
+  return warnings.empty() ? "" : warnings[0];
+}
+
+TEST(Imports, DrawingsFarLargerThanTheDomainAreDoubted) {
+  const File file("t.csv", "-40000,-34000,40000,34000\n-40000,20000,40000,34000\n");
+  Model model = with_joints(domain_model(box(0, 0, 50, 50), 1e-8));
+  model.imports.push_back(import_of(file));
+  EXPECT_EQ(only_warning(model),
+            "import.0: the drawing spans 80000 x 68000 m, the domain 50 x 50 m: units = \"mm\"?");
+  model.imports[0].units = LengthUnit::mm;
+  model.imports[0].size_given = true;
+  EXPECT_EQ(only_warning(model), "");
+  model.imports[0].shift = {500, 0};
+  EXPECT_EQ(only_warning(model).substr(0, 23), "import.0 cuts nothing: ");
+}
+
+TEST(Imports, UnitsThatADrawingSaysAreComparedAndNotTaken) {
+  const auto drawing = [](const char* unit) {
+    return std::string("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n") + unit +
+           "\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nLINE\n8\n0\n10\n-1\n20\n5\n11\n11\n21\n5\n"
+           "0\nENDSEC\n0\nEOF\n";
+  };
+  const File file("t.dxf", drawing("4")), silent("u.dxf", drawing("0"));
+  Model model = with_joints(domain_model(box(0, 0, 10, 10), 1e-8));
+  model.imports.push_back(import_of(file));
+  EXPECT_EQ(only_warning(model).substr(0, 72),
+            "import.0.units: t.dxf says that it is drawn in mm ($INSUNITS), and is re");
+  EXPECT_EQ(build_polygons(model).value().blocks.size(), 2U);
+  model.imports[0].size_given = true;
+  EXPECT_EQ(only_warning(model), "");
+  model.imports[0] = import_of(silent);
+  EXPECT_EQ(only_warning(model), "");
+}
+
 }  // namespace
 }  // namespace edda::imports_test

@@ -128,7 +128,7 @@ TEST(Slivers, ReportLeavesThemAndErrorRefusesThem) {
   model.quality.action = QualityAction::error;
   const auto result = build_polygons(model);
   ASSERT_FALSE(result.ok());
-  EXPECT_NE(reason(result).find("quality.min_area: 1 blocks are smaller"), std::string::npos)
+  EXPECT_NE(reason(result).find("quality.min_area: 1 block is smaller"), std::string::npos)
       << reason(result);
 }
 

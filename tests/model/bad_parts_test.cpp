@@ -49,6 +49,21 @@ TEST(BadModel, Loads) {
   }
 }
 
+TEST(BadModel, NamesWithControlCharacters) {
+  for (const Bad& bad : {
+           Bad{"[[block]]\nname = \"a\\nb\"\npolygon = [[30, 0], [31, 0], [31, 1]]\n", 43,
+               "block.a?b.name", "\"a?b\" has a line break or another control character"},
+           Bad{"[[boundary]]\nname = \"\\u001b[31m\"\nsides = [\"top\"]\n", 43,
+               "boundary.?[31m.name", "give a name of"},
+           Bad{"[[monitor]]\nname = \"a\\u007f\"\npoint = [15, 9]\n", 43, "monitor.a?.name",
+               "control"},
+           Bad{"[joints.\"a\\tb\"]\nfriction_angle = 30\n[contact]\njoint = \"rough\"\n", 42,
+               "joints.a?b", "control"},
+       }) {
+    expect_fault(bad);
+  }
+}
+
 TEST(BadModel, Waters) {
   for (const Bad& bad : {
            Bad{"[[water]]\n", 42, "water.0.table", "is missing"},

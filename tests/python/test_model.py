@@ -72,6 +72,9 @@ def test_faults_of_files_and_overrides_say_where(tmp_path, models):
     assert caught.value.faults[0].file == str(path) and caught.value.faults[0].line > 0
     with pytest.raises(edda.ModelError) as caught:
         edda.load(models / "ramp.toml", {"solver.duration": -1})
+    assert str(caught.value).startswith('overrides["solver.duration"]: solver.duration: ')
+    with pytest.raises(edda.ModelError) as caught:
+        edda.load(models / "ramp.toml", ["solver.duration=-1"])
     assert caught.value.faults[0].file == "--set"
     with pytest.raises(edda.ModelError):
         edda.load(tmp_path / "nothing.toml")

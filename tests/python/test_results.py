@@ -63,6 +63,34 @@ def test_a_row_that_is_short_is_told(folder, tmp_path):
         edda.Results(tmp_path).history
 
 
+def test_names_that_look_like_numbers_stay_names(tmp_path):
+    (tmp_path / "history.csv").write_text("time\n0\n")
+    (tmp_path / "bolts.csv").write_text("time,bolt,axial_force\n0.5,007,1.5\n0.5,1e3,2\n")
+    bolts = edda.Results(tmp_path).bolts
+    assert bolts["bolt"].tolist() == ["007", "1e3"]
+    assert bolts["axial_force"].tolist() == [1.5, 2.0]
+
+
+def test_a_row_that_breaks_off_inside_quotes_is_left_out(tmp_path):
+    (tmp_path / "history.csv").write_text("time\n0\n")
+    (tmp_path / "blocks.csv").write_text('id,name\n0,"a ""b"",\nc"\n1,"d\ne')
+    blocks = edda.Results(tmp_path).blocks
+    assert blocks["name"].tolist() == ['a "b",\nc']
+
+
+def test_unknown_names_are_told_with_the_known_ones(folder):
+    results = edda.Results(folder)
+    for error in (KeyError, ValueError):
+        with pytest.raises(error, match="no column is called 'tme': did you mean 'time'. known are time, "):
+            results.history["tme"]
+        with pytest.raises(error, match="no cell field is called 'stres': did you mean 'stress'. known are "):
+            results.frames[-1]["stres"]
+    history = results.history
+    assert type(history["time"]) is np.ndarray
+    assert history[:2]["time"].tolist() == history["time"][:2].tolist()
+    assert history[["time"]].dtype.names == ("time",)
+
+
 def test_summary_and_what_was_not_written(folder, models, tmp_path):
     results = edda.Results(folder)
     assert results.summary["status"] == "interrupted"

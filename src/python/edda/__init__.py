@@ -13,8 +13,9 @@ Units are SI, angles in rad, stresses positive in tension; nb is the number of b
 
 from __future__ import annotations
 
+import contextlib
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Union
 
 from . import _toml
@@ -72,18 +73,21 @@ def load(source: Source, overrides: Overrides = None) -> Model:
     ModelError with all faults at once.
     """
     settings = _settings(overrides)
-    if not isinstance(source, Mapping):
-        return Model.read(source, settings)
-    text = _toml.dumps(source)
-    try:
-        return Model.parse(text, "dict", settings)
-    except ModelError as error:
-        raise ModelError([_placeless(fault) for fault in error.faults]) from None
+    with _keys_named(overrides):
+        if not isinstance(source, Mapping):
+            return Model.read(source, settings)
+        text = _toml.dumps(source)
+        try:
+            return Model.parse(text, "dict", settings)
+        except ModelError as error:
+            raise ModelError([_placeless(fault) for fault in error.faults]) from None
 
 
 def parse(toml: str, overrides: Overrides = None, name: str = "model") -> Model:
     """A model from TOML text; faults call it `name`."""
-    return Model.parse(toml, name, _settings(overrides))
+    settings = _settings(overrides)
+    with _keys_named(overrides):
+        return Model.parse(toml, name, settings)
 
 
 def run(
@@ -96,7 +100,9 @@ def run(
         model = load(model, overrides)
     elif overrides:
         raise TypeError("overrides change a model when it is loaded: give them to edda.load()")
-    return Simulation(model, results=results).run()
+    with _keys_named(overrides):
+        simulation = Simulation(model, results=results)
+    return simulation.run()
 
 
 def _settings(overrides: Overrides) -> list[str]:
@@ -107,6 +113,24 @@ def _settings(overrides: Overrides) -> list[str]:
     if isinstance(overrides, Mapping):
         return [_toml.setting(key, value) for key, value in overrides.items()]
     return list(overrides)
+
+
+@contextlib.contextmanager
+def _keys_named(overrides: Overrides) -> Iterator[None]:
+    """Faults of overrides that are a dict name its key: nobody has numbered them."""
+    try:
+        yield
+    except ModelError as error:
+        if not isinstance(overrides, Mapping):
+            raise
+        keys = list(overrides)
+        faults = [
+            fault._replace(file=f'overrides["{keys[fault.line - 1]}"]', line=0, column=0)
+            if fault.file == "--set" and 0 < fault.line <= len(keys)
+            else fault
+            for fault in error.faults
+        ]
+        raise ModelError(faults) from None
 
 
 def _placeless(fault: Fault) -> Fault:

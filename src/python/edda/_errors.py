@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import difflib
+from collections.abc import Iterable
 from typing import NamedTuple
 
 
@@ -11,7 +13,7 @@ class Fault(NamedTuple):
     key: str  #: dotted path in the model ("block.slider.polygon"), or the function called
     problem: str  #: what is wrong
     remedy: str  #: what to do
-    file: str = ""  #: "--set" for an override (line = its number, from 1); empty for a dict
+    file: str = ""  #: "--set" for an override (line = its number, from 1), overrides["KEY"] of a dict; empty for a dict
     line: int = 0  #: from 1; 0 where unknown
     column: int = 0
 
@@ -22,6 +24,19 @@ class Fault(NamedTuple):
             if self.column > 0 and self.file != "--set":
                 place += f":{self.column}"
         return ": ".join(part for part in (place, self.key, self.problem, self.remedy) if part)
+
+
+class UnknownName(KeyError, ValueError):
+    """No column, field or array of that name."""
+
+    def __init__(self, what: str, name: str, known: Iterable[str]) -> None:
+        super().__init__(what, name, list(known))
+
+    def __str__(self) -> str:
+        what, name, known = self.args
+        near = difflib.get_close_matches(name, known, 1)
+        hint = f"did you mean {near[0]!r}? " if near else ""
+        return f"no {what} is called {name!r}: {hint}known are {', '.join(known) or 'none'}"
 
 
 class ModelError(ValueError):

@@ -15,7 +15,20 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-Table = np.ndarray[Any, np.dtype[np.void]]  #: structured, a field per column
+from ._errors import UnknownName
+
+
+class Table(np.ndarray[Any, np.dtype[Any]]):
+    """Structured, a field per column: table["time"] is a plain array."""
+
+    def __getitem__(self, key: Any) -> Any:
+        names = self.dtype.names
+        if isinstance(key, str) and names is not None and key not in names:
+            raise UnknownName("column", key, names)
+        found = super().__getitem__(key)
+        if isinstance(found, np.ndarray) and found.dtype.names is None:
+            return found.view(np.ndarray)
+        return found
 
 
 class Results:
@@ -115,6 +128,8 @@ class Frame:
         self.cell_fields: dict[str, NDArray[Any]] = arrays["CellData"]
 
     def __getitem__(self, name: str) -> NDArray[Any]:
+        if name not in self.cell_fields:
+            raise UnknownName("cell field", name, self.cell_fields)
         return self.cell_fields[name]
 
     def __repr__(self) -> str:
@@ -163,7 +178,7 @@ def read_table(path: str | os.PathLike[str]) -> Table:
     """
     with open(path, newline="", encoding="utf-8") as file:
         text = file.read()
-    rows = list(csv.reader(io.StringIO(text[: text.rfind("\n") + 1], newline="")))
+    rows = list(csv.reader(io.StringIO(text[: _end_of_rows(text)], newline="")))
     if not rows:
         raise ValueError(f"{path}: has no line yet")
     names = rows.pop(0)
@@ -175,11 +190,19 @@ def read_table(path: str | os.PathLike[str]) -> Table:
     table = np.empty(len(columns[0]), dtype=[(n, a.dtype) for n, a in zip(names, arrays)])
     for name, array in zip(names, arrays):
         table[name] = array
-    return table
+    return table.view(Table)
+
+
+def _end_of_rows(text: str) -> int:
+    """Where the last whole row ends: behind a line break that is not inside quotes."""
+    end = text.rfind("\n") + 1
+    while end > 0 and text.count('"', 0, end) % 2:
+        end = text.rfind("\n", 0, end - 1) + 1
+    return end
 
 
 _WHOLE = {"id", "block_i", "block_j", "ever_slipped", "ever_opened", "steps", "block"}
-_TEXT = {"name", "material", "joint", "state"}
+_TEXT = {"name", "material", "joint", "state", "bolt", "until", "motion", "outcome", "reason"}
 
 
 def _column(name: str, texts: Sequence[str]) -> NDArray[Any]:

@@ -1,0 +1,94 @@
+// Slips of units and of signs that no range refuses.
+#include "model/plausible.hpp"
+
+#include <gtest/gtest.h>
+
+#include "model/base_model.hpp"
+#include "model/nearest.hpp"
+#include "model/read_model.hpp"
+
+namespace edda::plausible_test {
+namespace {
+
+std::vector<std::string> warnings_of(const std::string& text) {
+  const Result<Model> model = read_model_text(text, "m.toml");
+  EXPECT_TRUE(model.ok()) << (model.ok() ? "" : to_string(model.faults()[0]));
+  return model.ok() ? implausible(model.value()) : std::vector<std::string>{};
+}
+
+void expect_warning(const std::string& text, const std::string& key, const std::string& part) {
+  const auto warnings = warnings_of(text);
+  ASSERT_EQ(warnings.size(), 1U) << part;
+  EXPECT_EQ(warnings[0].substr(0, key.size() + 2), key + ": ");
+  EXPECT_NE(warnings[0].find(part), std::string::npos) << warnings[0];
+}
+
+using testing::base_model;
+using testing::base_with;
+
+TEST(Plausible, NothingIsSaidOfASoundModel) {
+  EXPECT_TRUE(warnings_of(base_model).empty());
+  EXPECT_TRUE(warnings_of(base_with("density = 2700.0", "unit_weight = \"26 kN/m3\"")).empty());
+}
+
+TEST(Plausible, Materials) {
+  expect_warning(base_with("20e9", "20"), "materials.rock.young", "write \"20 GPa\"");
+  expect_warning(base_with("20e9", "20000"), "materials.rock.young", "write \"20000 MPa\"");
+  expect_warning(base_with("2700.0", "2.7"), "materials.rock.density", "write \"2.7 t/m3\"");
+  expect_warning(base_with("2700.0", "26000"), "materials.rock.density",
+                 "unit_weight = \"26 kN/m3\"");
+  expect_warning(base_with("density = 2700.0", "unit_weight = 26"), "materials.rock.unit_weight",
+                 "write \"26 kN/m3\"");
+  expect_warning(
+      base_with("poisson = 0.25", "poisson = 0.25\nstrength = { ucs = 80, tension = 4 }"),
+      "materials.rock.strength.ucs", "write \"80 MPa\"");
+}
+
+TEST(Plausible, OneWarningPerQuantity) {
+  Model model;
+  for (const char* name : {"a", "b", "c"}) {
+    Material m{name, 2700.0, 20.0, 0.25, {}};
+    m.where.key = std::string("materials.") + name;
+    model.materials.push_back(m);
+  }
+  const auto warnings = implausible(model);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_TRUE(warnings[0].starts_with("materials.a.young: 20 Pa"));
+  EXPECT_TRUE(warnings[0].ends_with("(and 2 others like it)"));
+}
+
+TEST(Plausible, Joints) {
+  expect_warning(base_with("friction_angle = 30.0", "friction_angle = 30.0\nkn = 50"),
+                 "joints.rough.kn", "write \"50 GPa/m\"");
+  expect_warning(base_with("friction_angle = 30.0", "friction_angle = 30.0\ncohesion = 0.1"),
+                 "joints.rough.cohesion", "write \"0.1 MPa\"");
+}
+
+TEST(Plausible, BoltsAndWater) {
+  const std::string bolt =
+      "[[bolt]]\nname = \"b\"\nfrom = [11, 5]\nto = [13, 9]\n"
+      "bond = { stiffness = 1e9, strength = 1e5 }\n";
+  expect_warning(base_model + bolt + "diameter = 25\n", "bolt.b.diameter", "write \"25 mm\"");
+  expect_warning(base_model + bolt + "diameter = 0.025\nyield_stress = 500\n",
+                 "bolt.b.yield_stress", "write \"500 MPa\"");
+  expect_warning(base_model + "[[water]]\ntable = [[10, 5], [20, 5]]\nunit_weight = 9.81\n",
+                 "water.0.unit_weight", "write \"9.81 kN/m3\"");
+}
+
+TEST(Plausible, InitialStressWithCompressionAsPositive) {
+  const auto with = [](const std::string& stress) {
+    return base_model + "[initial_stress]\nstress = " + stress + "\n";
+  };
+  expect_warning(with("[5e6, 8e6, 1e6]"), "initial_stress.stress",
+                 "write [-5e+06, -8e+06, -1e+06]");
+  EXPECT_TRUE(warnings_of(with("[-5e6, -8e6, 1e6]")).empty());
+  EXPECT_TRUE(warnings_of(with("[5e6, -8e6, 1e6]")).empty());
+  EXPECT_TRUE(warnings_of(with("[1.0, 1.0, 0.0]\ngradient = [2e4, 2e4, 0]\nat_y = 20")).empty());
+}
+
+TEST(Nearest, OfNoneSaysSo) {
+  EXPECT_EQ(suggestion("a", {}), "the model has none");
+}
+
+}  // namespace
+}  // namespace edda::plausible_test
