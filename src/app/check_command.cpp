@@ -134,7 +134,8 @@ void print_step(const Simulation& sim, const Check& found) {
   fmt::print("steps           {} {:.0f} for {:.6g} s{}\n", found.at_most ? "at most" : "about",
              found.steps, sim.model.solver.duration,
              found.at_most ? ": stages end as soon as all is at rest" : "");
-  fmt::print("time to expect  {}{} at {:.3g} steps per second\n", found.at_most ? "at most " : "",
+  fmt::print("time to expect  {}{} at {:.3g} steps per second\n",
+             found.at_most && found.steps > found.rate ? "at most " : "",
              duration_text(found.steps / found.rate), found.rate);
 }
 

@@ -21,6 +21,8 @@ namespace {
 std::atomic<bool> asked_to_stop{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
+int lost_for = 0;
+
 void ask_to_stop(int signal) {
   // The end of a terminal may be told twice, by it and by its shell.
   if (asked_to_stop.exchange(true) && signal != SIGHUP) {
@@ -38,6 +40,14 @@ const std::atomic<bool>& stop_on_signals() {
   if (std::signal(SIGHUP, ask_to_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   return asked_to_stop;
+}
+
+void output_was_lost(int error) {
+  if (lost_for == 0) lost_for = error;
+}
+
+int why_output_was_lost() {
+  return lost_for;
 }
 
 void print(const Faults& faults) {

@@ -34,6 +34,10 @@ void add_json(CLI::App& command, bool& json, const std::string& description);
 /// SIGINT or SIGTERM ends the program at once. SIGPIPE is ignored: see say().
 const std::atomic<bool>& stop_on_signals();
 
+/// Words on standard output were lost, for the first reason of errno that this was told; 0: none.
+void output_was_lost(int error);
+int why_output_was_lost();
+
 /// Says something during a run; that nobody reads it any more (a closed pipe, a terminal that is
 /// gone) ends no run.
 template <class Words>

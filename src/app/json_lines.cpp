@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdio>
+
+#include "app/common.hpp"
 
 namespace edda {
 
@@ -15,7 +18,7 @@ Json event(std::string_view name) {
 void print_line(Json& object) {
   object.close();
   fmt::print("{}\n", object.line());
-  std::fflush(stdout);
+  if (std::fflush(stdout) != 0) output_was_lost(errno);
 }
 
 void print_json(const Faults& faults) {

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "app/commands.hpp"
+#include "app/common.hpp"
 #include "results/version.hpp"
 
 namespace {
@@ -50,8 +51,11 @@ int run_command(int argc, char** argv) {
 /// What was said last may have been lost: on a full disk, say. A reader that has gone wants no
 /// more.
 int after_output(int code) {
-  if (std::fflush(stdout) == 0 || errno == EPIPE) return code;
-  std::fprintf(stderr, "edda: standard output cannot be written: %s\n", std::strerror(errno));
+  if (std::fflush(stdout) != 0) edda::output_was_lost(errno);
+  if (std::ferror(stdout) != 0) edda::output_was_lost(EIO);  // by one who did not say why
+  const int why = edda::why_output_was_lost();
+  if (why == 0 || why == EPIPE) return code;
+  std::fprintf(stderr, "edda: standard output cannot be written: %s\n", std::strerror(why));
   return code == edda::exit_code::done ? edda::exit_code::failed : code;
 }
 

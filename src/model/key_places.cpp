@@ -10,17 +10,17 @@ WrittenAt written_at(const Where& where) {
   return {where.line, from_set ? 1 : where.column, from_set};
 }
 
-/// Whether the dotted path names `key` of a table: its last part, or followed by a number or by
-/// keys of its own.
-bool names(std::string_view path, std::string_view key) {
+/// Where the dotted path names `key` of a table: as its last part, or followed by a number or by
+/// keys of its own; 0: nowhere.
+std::size_t place_in(std::string_view path, std::string_view key) {
   for (std::size_t at = path.rfind(key); at != std::string_view::npos && at > 0;
        at = path.rfind(key, at - 1)) {
     const std::size_t end = at + key.size();
     if (path[at - 1] == '.' && (end == path.size() || path[end] == '.' || path[end] == '[')) {
-      return true;
+      return at;
     }
   }
-  return false;
+  return 0;
 }
 
 }  // namespace
@@ -36,13 +36,19 @@ Faults at_their_keys(const KeyPlaces& places, Faults faults) {
   for (Fault& fault : faults) {
     if (fault.where.line == 0) continue;
     const WrittenAt at = written_at(fault.where);
+    // The last of them: before it comes the name of the table, which may be that of a key.
+    const KeyPlace* found = nullptr;
+    std::size_t last = 0;
     for (const KeyPlace& p : places) {
-      if (p.table != at || !names(fault.where.key, p.key)) continue;
-      fault.where.line = p.value.line;
-      fault.where.column = p.value.column;
-      if (p.value.from_set) fault.where.file = "--set";
-      break;
+      const std::size_t place = p.table == at ? place_in(fault.where.key, p.key) : 0;
+      if (place <= last) continue;
+      last = place;
+      found = &p;
     }
+    if (found == nullptr) continue;
+    fault.where.line = found->value.line;
+    fault.where.column = found->value.column;
+    if (found->value.from_set) fault.where.file = "--set";
   }
   return faults;
 }

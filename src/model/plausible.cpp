@@ -93,7 +93,7 @@ void check_joints(const Model& model, std::vector<std::string>& warnings) {
       walls.add(low(key + ".jcs", *law.jcs, "Pa", "rock", "Pa", 1e6));
     }
     if (law.peak.cohesion > 0.0 && law.peak.cohesion < 10.0) {
-      cohesion.add(low(key + ".cohesion", law.peak.cohesion, "Pa", "a cohesion", "Pa", 1e4));
+      cohesion.add(low(key + ".cohesion", law.peak.cohesion, "Pa", "a cohesion", "Pa", 1e3));
     }
   }
   for (const Doubts* doubts : {&stiffness, &walls, &cohesion}) doubts->report(warnings);

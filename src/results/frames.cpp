@@ -205,9 +205,10 @@ Trouble FrameSeries::add(const Picture& picture) {
 
 Trouble FrameSeries::write_series() {
   if (in_series_ == blocks_.size()) return {};
-  in_series_ = blocks_.size();
   if (auto t = write_pvd(folder_ + "/blocks.pvd", blocks_)) return t;
-  return write_pvd(folder_ + "/contacts.pvd", contacts_);
+  if (auto t = write_pvd(folder_ + "/contacts.pvd", contacts_)) return t;
+  in_series_ = blocks_.size();
+  return {};
 }
 
 }  // namespace edda

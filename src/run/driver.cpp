@@ -108,9 +108,7 @@ Driver::Driver(PreparedRun& run, const RunOptions& options)
       options_(options),
       recorder_(options.folder),
       stages_(stages_of(run.sim.model)),
-      times_(run.sim.model.output.history_every, run.sim.model.output.every) {
-  if (!threads_are_said()) threads_.emplace(omp_get_max_threads());
-}
+      times_(run.sim.model.output.history_every, run.sim.model.output.every) {}
 
 Outcome Driver::run() {
   begin();
@@ -135,6 +133,11 @@ void Driver::begin() {
 void Driver::go_on() {
   if (over_) return;
   const SameThreads afterwards;
+  if (threads_are_said()) {
+    threads_.reset();
+  } else if (!threads_) {
+    threads_.emplace(omp_get_num_procs());
+  }
   started_ = Clock::now();
   paused_ = pause_asked_ = false;
   within_memory([&] { follow_events(); });

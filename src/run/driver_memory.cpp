@@ -56,7 +56,7 @@ std::string identity(const Model& model, std::size_t stages) {
   for (Shaking& shaking : m.shakings) shaking.acceleration.file.clear();
   std::string text = to_toml(m) + first_states(model);
   if (stages == all_stages) {
-    text += fmt::format("output.every = {}\noutput.history_every = {}\noutput.settling = {}\n",
+    text += fmt::format("[output]\nevery = {}\nhistory_every = {}\nsettling = {}\n",
                         model.output.every, model.output.history_every, model.output.settling);
   }
   auto add = [&](const std::string& key, const TimeHistory& curve) {

@@ -193,7 +193,7 @@ void find_lost_cohesion(Mechanism& m, const Simulation& held) {
     if (lost) m.cohesion_lost_length += length;
   }
   if (!lost_cohesion_text(m).empty())
-    m.text += fmt::format("; cohesion lost before on {:.3g} of {:.3g} m", m.cohesion_lost_length,
+    m.text += fmt::format("; without cohesion before on {:.3g} of {:.3g} m", m.cohesion_lost_length,
                           m.brittle_length);
 }
 
@@ -201,8 +201,10 @@ std::string lost_cohesion_text(const Mechanism& m) {
   constexpr double little = 0.01;
   if (!(m.cohesion_lost_length > little * m.brittle_length)) return {};
   return fmt::format(
-      "cohesion had been lost on {:.3g} m of {:.3g} m of the mechanism's joints before it moved "
-      "(residual.cohesion is lower): with residual.cohesion = cohesion the factor may be higher",
+      "{:.3g} m of {:.3g} m of the mechanism's joints had no cohesion before it moved (it was "
+      "lost, "
+      "or they have closed since; residual.cohesion is lower): with residual.cohesion = cohesion "
+      "the factor may be higher",
       m.cohesion_lost_length, m.brittle_length);
 }
 

@@ -49,9 +49,10 @@ struct Mechanism {
   std::vector<MovingBlock> blocks;                      ///< by id
   std::vector<MovingJoint> joints;                      ///< by blocks
   double sliding = 0.0, toppling = 0.0, falling = 0.0;  ///< parts of the weight that moves
-  double brittle_length = 0.0;        ///< m of its joints whose cohesion goes down as they break
-  double cohesion_lost_length = 0.0;  ///< m of that on which it had before anything moved
-  std::string text;                   ///< one sentence
+  double brittle_length = 0.0;  ///< m of its joints whose cohesion goes down as they break
+  double cohesion_lost_length =
+      0.0;  ///< m of that without it before anything moved: lost, or closed since the start
+  std::string text;  ///< one sentence
 };
 
 /// From `before`, at rest, to `after`, the same model later.

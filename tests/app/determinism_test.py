@@ -44,7 +44,8 @@ ENVIRONMENT = {**os.environ, "OMP_WAIT_POLICY": "passive", "OMP_DYNAMIC": "false
 
 
 def given(settings, threads):
-    return ["--threads", str(threads), *(word for key, value in settings.items() for word in ("--set", f"{key}={value}"))]
+    told = [] if threads is None else ["--threads", str(threads)]  # None: as many as are quickest, now these, now those
+    return [*told, *(word for key, value in settings.items() for word in ("--set", f"{key}={value}"))]
 
 
 class Determinism(Program):
@@ -86,8 +87,9 @@ class Determinism(Program):
         for n in threads[1:]:
             self.assertEqual(self.whole(EDDA, f"t{n}", settings, n, steps)[0], expected, f"{n} threads")
         self.assertEqual(self.resumed(EDDA, EDDA, settings, (3, 2), steps)[0], expected, "resumed")
+        self.assertEqual(self.whole(EDDA, "chosen", settings, None, steps)[0], expected, "threads by choice")
         if TWIN:
-            for n in twin_threads:
+            for n in (*twin_threads, None):
                 self.assertEqual(self.whole(TWIN, f"o1_{n}", settings, n, steps)[0], expected, f"-O1, {n} threads")
             self.assertEqual(self.resumed(EDDA, TWIN, settings, (2, 1), steps)[0], expected, "resumed at -O1")
         return summary

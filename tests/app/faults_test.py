@@ -173,6 +173,8 @@ duration = 2.0
         done = self.expect(2, "run", "m.toml", "-o", "r", "--resume", "--set", "joints.j.friction_angle=26")
         self.assertRegex(done.stderr, r"joints\.j\.friction_angle: \S+ there, 26(\.0)? here")
         self.assertIn("not the one of the checkpoint", done.stderr)
+        done = self.expect(2, "run", "m.toml", "-o", "r", "--resume", "--set", "output.every=0.123")
+        self.assertRegex(done.stderr, r": output\.every: \S+ there, 0\.123 here")
         done = self.expect(2, "run", "m.toml", "-o", "r", "--resume", "--set", "solver.duration=1e-3")
         self.assertIn("longer solver.duration", done.stderr)
         push = (self.dir / "push.csv").read_text()

@@ -115,9 +115,11 @@ class Words(Program):
     def test_words_that_are_lost_are_a_failure(self):
         model = self.write("block.toml", BLOCK % 1e10)
         with open("/dev/full", "w", encoding="utf-8") as full:
-            for command in (["check", model], ["example"], ["keys"]):
+            for command in (["check", model], ["example"], ["keys"], ["run", model, "--json"]):
                 done = subprocess.run([str(EDDA), *command], cwd=self.dir, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
                 self.assertEqual((done.returncode, "No space left" in done.stderr), (1, True), command)
+            done = subprocess.run([str(EDDA), "--version"], cwd=self.dir, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+            self.assertEqual(done.returncode, 1)
 
 
 if __name__ == "__main__":

@@ -273,6 +273,9 @@ TEST_F(Library, ThreadsAreSetForAllThreadsOfTheCaller) {
     simulation.step();
   }).join();
   EXPECT_EQ(stepping, 3);
+  set_threads(4);  // of a simulation that is there, too
+  simulation.step(200);
+  EXPECT_EQ(stepping, 4);
   set_threads(before);
   EXPECT_FALSE(faults_of([] { set_threads(0); }).empty());
 }

@@ -62,6 +62,8 @@ TEST(Plausible, Joints) {
                  "joints.rough.kn", "write \"50 GPa/m\"");
   expect_warning(base_with("friction_angle = 30.0", "friction_angle = 30.0\ncohesion = 0.1"),
                  "joints.rough.cohesion", "write \"0.1 MPa\"");
+  expect_warning(base_with("friction_angle = 30.0", "friction_angle = 30.0\ncohesion = 5"),
+                 "joints.rough.cohesion", "write \"5 kPa\"");
 }
 
 TEST(Plausible, BoltsAndWater) {

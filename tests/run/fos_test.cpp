@@ -130,9 +130,9 @@ TEST(Fos, TellsOfCohesionThatWasLostBefore) {
   ASSERT_TRUE(brittle.mechanism);
   EXPECT_NEAR(brittle.mechanism->brittle_length, 2.0, 0.01);
   EXPECT_NEAR(brittle.mechanism->cohesion_lost_length, 2.0, 0.01);
-  EXPECT_NE(brittle.mechanism->text.find("cohesion lost before on 2 of 2 m"), std::string::npos)
+  EXPECT_NE(brittle.mechanism->text.find("without cohesion before on 2 of 2 m"), std::string::npos)
       << brittle.mechanism->text;
-  EXPECT_NE(lost_cohesion_text(*brittle.mechanism).find("lost on 2 m of 2 m"), std::string::npos);
+  EXPECT_NE(lost_cohesion_text(*brittle.mechanism).find("2 m of 2 m"), std::string::npos);
   EXPECT_NE(fos_summary(model_of(ramp(law)), brittle, 1).find("\"cohesion_lost_length\""),
             std::string::npos);
   // Cohesion that is there until it fails, and cohesion that stays.

@@ -58,6 +58,10 @@ TEST(Places, AreThoseOfTheKeys) {
   expect_place(fault_of("[[bolt]]\nname = \"b\"\ndiameter = 0.025\nfrom = [50, 50]\nto = [51, 50]\n"
                         "bond = { stiffness = 1e9, strength = 1e5 }\n"),
                "bolt.b.from", 21, 8);
+  expect_place(
+      fault_of("[[bolt]]\nname = \"name\"\ndiameter = 0.025\nfrom = [50, 50]\nto = [51, 50]\n"
+               "bond = { stiffness = 1e9, strength = 1e5 }\n"),
+      "bolt.name.from", 21, 8);
 }
 
 TEST(Places, OfAnOpeningByShapeNameTheShape) {

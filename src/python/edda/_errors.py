@@ -34,7 +34,7 @@ class UnknownName(KeyError, ValueError):
 
     def __str__(self) -> str:
         what, name, known = self.args
-        near = difflib.get_close_matches(name, known, 1)
+        near = difflib.get_close_matches(str(name), known, 1)
         hint = f"did you mean {near[0]!r}? " if near else ""
         return f"no {what} is called {name!r}: {hint}known are {', '.join(known) or 'none'}"
 

@@ -55,7 +55,8 @@ def plot_blocks(
         values = np.asarray(_values(source, field, ids), dtype=np.float64)
         drawn.set_array(values)
         extend = "neither"
-        if not whole_range and not {"clim", "norm"} & set(options):
+        is_kind = isinstance(field, str) and field in ("id", "material", "fixed")
+        if not is_kind and not whole_range and not {"clim", "norm"} & set(options):
             extend = _limit_colours(drawn, values, _weights(source, paths, ids))
         label = field if isinstance(field, str) else ""
         unit = _UNITS.get(label.split(".")[0])

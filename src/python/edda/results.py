@@ -132,6 +132,12 @@ class Frame:
             raise UnknownName("cell field", name, self.cell_fields)
         return self.cell_fields[name]
 
+    def __contains__(self, name: object) -> bool:
+        return name in self.cell_fields
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.cell_fields)
+
     def __repr__(self) -> str:
         return f"<edda.Frame at {self.time:g} s, {len(self.cells)} cells>"
 
