@@ -20,6 +20,7 @@
 #include <cstdlib>
 #include <new>
 
+// This is where memory comes from. NOLINTBEGIN(cppcoreguidelines-no-malloc)
 namespace {
 
 constexpr std::size_t page = std::size_t{2} << 20;
@@ -52,4 +53,5 @@ void operator delete(void* memory) noexcept {
 void operator delete(void* memory, std::size_t) noexcept {
   std::free(memory);
 }
+// NOLINTEND(cppcoreguidelines-no-malloc)
 #endif

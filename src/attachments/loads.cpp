@@ -153,6 +153,7 @@ template <class Item>
 std::vector<Spell> first_spells(const Model& model, const std::vector<Item>& items) {
   constexpr double never = std::numeric_limits<double>::infinity();
   std::vector<Spell> spells;
+  spells.reserve(items.size());
   for (const Item& item : items) spells.push_back({acts_at_first(model, item.name) ? 0.0 : never});
   return spells;
 }

@@ -26,7 +26,8 @@ std::string upper(std::string_view text) {
 /// Takes the next word off the front; words are separated by blanks, and by what `also` holds.
 std::string_view next_word(std::string_view& text, std::string_view also = {}) {
   const auto between = [&](char c) {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\n' || also.find(c) != also.npos;
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n' ||
+           also.find(c) != std::string_view::npos;
   };
   while (!text.empty() && between(text.front())) text.remove_prefix(1);
   std::size_t n = 0;
@@ -125,11 +126,11 @@ Result<Accelerogram> parse_at2(std::string_view text, Vec2 direction, const std:
     const std::string head = upper(next_line(text));
     ++line;
     const std::size_t units = head.find("UNITS OF ");
-    if (units != head.npos && head.substr(units + 9, 1) != "G") {
+    if (units != std::string::npos && head.substr(units + 9, 1) != "G") {
       return fault_in(path, key, line, "is not in units of g",
                       "give a CSV file of time,ax,ay in m/s2");
     }
-    if (head.find("NPTS") == head.npos) continue;
+    if (head.find("NPTS") == std::string::npos) continue;
     header = header_of(head);
     if (!header) {
       return fault_in(path, key, line, "gives no NPTS and DT",

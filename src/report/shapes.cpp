@@ -49,6 +49,7 @@ std::vector<std::vector<std::int64_t>> rings_of_shape(const std::vector<Edge>& o
                                                       bool one_cell) {
   if (!one_cell) return rings_of(outline);
   std::vector<std::int64_t> ring;
+  ring.reserve(outline.size());
   for (const Edge& e : outline) ring.push_back(e.first);
   return {ring};
 }

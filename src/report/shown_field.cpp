@@ -120,6 +120,7 @@ std::string field_names() {
 
 std::vector<std::string> all_fields() {
   std::vector<std::string> names;
+  names.reserve(recipes.size());
   for (const Recipe& r : recipes) names.emplace_back(r.name);
   return names;
 }

@@ -125,6 +125,7 @@ std::vector<MovingJoint> joints_of(const Simulation& before, const Simulation& a
     joint.opening = std::max(joint.opening, opening);
   }
   std::vector<MovingJoint> list;
+  list.reserve(joints.size());
   for (const auto& entry : joints) list.push_back(entry.second);
   return list;
 }
