@@ -22,10 +22,12 @@ void append(Ring& ring, const std::vector<Vec2>& points) {
 
 /// The right half of a curve through the crown, given from the floor up, and its mirror image.
 Ring mirrored(const std::vector<Vec2>& right, double axis) {
-  Ring ring = right;
-  for (auto p = right.rbegin(); p != right.rend(); ++p) {
-    if (p->x != axis) ring.push_back({2.0 * axis - p->x, p->y});
+  Ring left;
+  for (const Vec2 p : right) {
+    if (p.x != axis) left.push_back({2.0 * axis - p.x, p.y});
   }
+  Ring ring = right;
+  ring.insert(ring.end(), left.rbegin(), left.rend());
   return ring;
 }
 

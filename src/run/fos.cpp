@@ -52,13 +52,14 @@ class Search {
         start_(start),
         options_(options),
         result_(result),
-        first_{fos.bracket.x, fos.bracket.y, fos.tolerance} {
+        first_{fos.bracket.x, fos.bracket.y, fos.tolerance},
+        told_{first_} {
     for (const Trial& trial : start.seen) {
       say(trial);
       first_.take(trial.factor, trial.end == TrialEnd::holds);
+      told_ = first_;
       result_.trials.push_back(trial);
     }
-    told_ = first_;
   }
 
   /// Goes on until the bracket is narrow enough. What is known then.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "run/fos_watch.hpp"
 #include "run/stages.hpp"
@@ -39,11 +40,11 @@ TimeHistory scaled(const TimeHistory& given, double by) {
 /// A trial under way.
 class Run {
  public:
-  Run(Simulation& sim, const TrialPlan& plan, const Loading& from, const Loading& to, bool settles,
+  Run(Simulation& sim, const TrialPlan& plan, Loading from, const Loading& to, bool settles,
       const std::function<bool()>& stops)
       : sim_(sim),
         plan_(plan),
-        from_(from),
+        from_(std::move(from)),
         to_(to),
         stops_(stops),
         settles_(settles),

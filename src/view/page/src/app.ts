@@ -208,7 +208,10 @@ export class App {
       const unit = controls.vectors === 'velocity' ? 'm/s' : 'm';
       strokes.push({ colour: css(theme.ink), text: controls.vectors, perPixel: per('arrows'), unit });
     }
-    if (controls.bolts && results.bolts.any) strokes.push({ colour: css(theme.bolt), text: `bolt, up to ${quantity(results.bolts.largest, 'N', 3)}` });
+    if (controls.bolts && results.bolts.any) {
+      strokes.push({ colour: css(theme.ink), text: `bolt, up to ${quantity(results.bolts.largest, 'N', 3)}` });
+      strokes.push({ colour: css(theme.tension), text: 'bolt at its strength' });
+    }
     const states = controls.field?.of === 'contacts' ? controls.field.name === 'state' : controls.contacts;
     return { scale: this.scale, kinds: this.kinds(controls.field), states: states ? results.run.states : [], strokes };
   }

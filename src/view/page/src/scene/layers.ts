@@ -13,7 +13,6 @@ export interface Palette {
   ink: number[];
   tension: number[];
   compression: number[];
-  bolt: number[];
 }
 
 /** Strokes are never longer than so many usual ones. */
@@ -100,16 +99,18 @@ export function drawArrows(layer: Strokes, x: Float32Array, y: Float32Array, pos
   layer.upload();
 }
 
-/** Bars of the bolts, thicker and warmer where they bear more; `places`: x and y of each node. */
+/** Bars of the bolts, thicker and redder where they bear more; `places`: x and y of each node. */
 export function drawBolts(layer: Strokes, nodes: BoltNode[], places: Float64Array, c: Palette): void {
-  layer.clear(nodes.length);
+  layer.clear(2 * nodes.length);
   for (let k = 0; k + 1 < nodes.length; ++k) {
     const [a, b] = [nodes[k], nodes[k + 1]];
     if (a.bolt !== b.bolt) continue;
     const used = Math.min(1, Math.max(a.utilisation, b.utilisation));
-    const mixed = c.bolt.map((v, i) => v + used * (c.tension[i] - v));
-    const alpha = a.ruptured && b.ruptured ? 70 : 255;
-    layer.add(places[2 * k], places[2 * k + 1], places[2 * k + 2], places[2 * k + 3], 2 + 4 * used, mixed[0], mixed[1], mixed[2], alpha);
+    const [r, g, blue] = c.ink.map((v, i) => v + used * (c.tension[i] - v));
+    const at = [places[2 * k], places[2 * k + 1], places[2 * k + 2], places[2 * k + 3]] as const;
+    const width = 2 + 4 * used;
+    layer.add(...at, width + 1.8, c.paper[0], c.paper[1], c.paper[2], 170);
+    layer.add(...at, width, r, g, blue, a.ruptured && b.ruptured ? 70 : 255);
   }
   layer.upload();
 }

@@ -7,11 +7,11 @@ export type ThemeName = 'light' | 'dark';
 export const themes: Record<ThemeName, Theme> = {
   light: {
     paper: [255, 255, 255], edge: [27, 31, 39], held: [190, 194, 201], none: [222, 217, 204],
-    ink: [20, 24, 32], tension: [196, 30, 30], compression: [22, 78, 168], bolt: [20, 110, 180],
+    ink: [20, 24, 32], tension: [196, 30, 30], compression: [22, 78, 168],
   },
   dark: {
     paper: [20, 23, 28], edge: [10, 12, 15], held: [74, 80, 90], none: [96, 99, 104],
-    ink: [240, 242, 246], tension: [255, 110, 96], compression: [122, 178, 255], bolt: [110, 190, 255],
+    ink: [240, 242, 246], tension: [255, 110, 96], compression: [122, 178, 255],
   },
 };
 
