@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "model/time_history.hpp"
 #include "model/write_model.hpp"
 #include "results/csv.hpp"
@@ -27,19 +29,29 @@ std::string history_header(const std::vector<MonitorPoint>& monitors,
   return csv.text();
 }
 
+/// What the model was read from; a model built in memory has no file to name.
+std::vector<InputFile> inputs_of(const Model& model) {
+  std::vector<InputFile> inputs;
+  std::vector<std::string> files = files_beside(model);
+  files.insert(files.begin(), model.file);
+  for (const std::string& name : files) {
+    const Result<std::string> text = read_file(name);
+    if (text.ok()) inputs.push_back({name, sha256(text.value())});
+  }
+  return inputs;
+}
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  return std::filesystem::equivalent(a, b, error) && !error;
+}
+
 }  // namespace
 
 Trouble Recorder::begin(const Simulation& sim, const std::vector<MonitorPoint>& monitors,
                         const std::vector<ConvergenceLine>& lines) {
   if (!writes()) return {};
-  // What the model was read from; a model built in memory has no file to name.
-  inputs_.clear();
-  std::vector<std::string> files = files_beside(sim.model);
-  files.insert(files.begin(), sim.model.file);
-  for (const std::string& name : files) {
-    const Result<std::string> text = read_file(name);
-    if (text.ok()) inputs_.push_back({name, sha256(text.value())});
-  }
+  inputs_ = inputs_of(sim.model);
   if (auto t = make_folder(folder_)) return t;
   if (auto t = lock_.take(folder_)) return t;
   if (auto t = clear_folder(folder_)) return t;
@@ -83,7 +95,17 @@ Trouble Recorder::resume(const Simulation& sim, const RecorderMemory& memory) {
   }
   frames_.emplace(folder_, sim.blocks);
   frames_->go_on_after(memory.frame_times);
-  return forget_end(folder_, memory.frame_times.size());
+  if (auto t = forget_end(folder_, memory.frame_times.size())) return t;
+  return tell_model(sim.model);
+}
+
+/// A resumed run may have another duration, one from a stage other stages after it.
+Trouble Recorder::tell_model(const Model& model) {
+  const std::string file = path("model.toml"), text = to_toml(model);
+  const Result<std::string> told = read_file(file);
+  if (told.ok() && told.value() == text) return {};
+  if (!is_same_file(model.file, file)) inputs_ = inputs_of(model);
+  return write_file(file, text);
 }
 
 Trouble Recorder::row(const Simulation& sim, const Instant& at,

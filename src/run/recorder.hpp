@@ -31,7 +31,7 @@ class Recorder {
   Trouble begin(const Simulation& sim, const std::vector<MonitorPoint>& monitors,
                 const std::vector<ConvergenceLine>& lines);
   /// Goes on with a folder as it was when a checkpoint was written: tables that grow cut to their
-  /// length then, frames that came later forgotten.
+  /// length then, frames that came later forgotten, model.toml that of the model now.
   Trouble resume(const Simulation& sim, const RecorderMemory& memory);
   RecorderMemory memory() const;
   /// Brings to the disk what a checkpoint relies on.
@@ -51,6 +51,7 @@ class Recorder {
 
  private:
   std::string path(const char* name) const { return folder_ + "/" + name; }
+  Trouble tell_model(const Model& model);
   std::string folder_;
   std::vector<InputFile> inputs_;  ///< as they were at the start
   FolderLock lock_;

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "model/write_model.hpp"
 #include "run/prepared.hpp"
 #include "scratch_folder.hpp"
 
@@ -199,6 +200,7 @@ TEST(StageResume, GoesOnFromAStageWithOtherStagesBehindIt) {
   const Result<Outcome> outcome = run_model(changed, options);
   ASSERT_TRUE(outcome.ok()) << to_string(outcome.faults()[0]);
   EXPECT_LT(outcome.value().time, first.sim.state.time);
+  EXPECT_EQ(text_of(folder.path() / "model.toml"), to_toml(changed.sim.model));
   std::string earlier = text;
   earlier.replace(earlier.find("hole = 0.5"), 10, "hole = 0.4");
   PreparedRun wrong = prepared(earlier);
