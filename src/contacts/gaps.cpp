@@ -122,6 +122,27 @@ void look_at_previous_gaps(ContactSet& c, const Pose& pose) {
   });
 }
 
+std::vector<double> previous_slips(const ContactSet& c, const Pose& pose) {
+  std::vector<double> slips(c.size());
+  parallel_for(c.size(), [&](std::size_t k) {
+    const EdgeFrame e =
+        edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
+    slips[k] = gap_to(e, at(pose.x1, pose.y1, c.vertex[k])).foot - c.anchor[k] * e.length;
+  });
+  return slips;
+}
+
+void move_previous_slips(ContactSet& c, const Pose& pose, const std::vector<double>& before) {
+  const std::vector<double> now = previous_slips(c, pose);
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (!c.is(k, contact_state::closed) || now[k] == before[k]) continue;
+    const bool was_cut = c.cut(k);
+    c.keep_slips(k);
+    c.shear[k] -= c.ks[k] * (now[k] - before[k]);
+    c.slip_trial[k] = was_cut ? c.slip_trial[k] + (now[k] - before[k]) : -c.shear[k] / c.ks[k];
+  }
+}
+
 void book_dashpots(ContactSet& c) {
   parallel_chunks(c.size(), ContactSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
     book_dashpots(c.view(), c.alpha.data(), c.damping_work.data(), begin, end);

@@ -23,6 +23,12 @@ void stand_still(ContactSet& contacts);
 /// Gaps a step ago from pose.x1, y1, at the start of a run.
 void look_at_previous_gaps(ContactSet& contacts, const Pose& pose);
 
+/// Slips against the present anchors with the vertices at pose.x1, y1, [contacts] m.
+std::vector<double> previous_slips(const ContactSet& contacts, const Pose& pose);
+/// s_{n-1} of closed contacts goes with them, from what previous_slips() was `before`: the ledger
+/// then counts what springs store, and what friction takes, along the step that pose.x1 begins.
+void move_previous_slips(ContactSet& contacts, const Pose& pose, const std::vector<double>& before);
+
 /// Books what the dashpots of the last step took: what the springs gave off, less what the
 /// contacts' forces did on the blocks, p e_n (e_{n-1} - e_{n+1})/2 + alpha N (d_{n+1} - d_{n-1})/2.
 void book_dashpots(ContactSet& contacts);

@@ -51,8 +51,23 @@ std::vector<double> strength_factors(const LawTable& laws) {
 }
 
 constexpr double smallest_factor = 1e-6;
+/// Local damping of 1 holds what it damps for ever.
+const double below_one = std::nextafter(1.0, 0.0);
 
 // What follows has the wording of model/complete_stages.cpp: a stage is refused for the same.
+
+void check_excavation(const edda::Simulation& sim, const std::vector<std::string>& names,
+                      const std::vector<Index>& rows) {
+  const auto& of_block = sim.blocks.opening;
+  for (std::size_t q = 0; q < rows.size(); ++q) {
+    const auto here = rows.begin() + static_cast<std::ptrdiff_t>(q);
+    const bool has_rock = std::find(of_block.begin(), of_block.end(), rows[q]) != of_block.end();
+    const bool again = std::find(rows.begin(), here, rows[q]) != here;
+    if (!again && !(has_rock && is_taken_out(sim, rows[q]))) continue;
+    raise("excavate", '"' + names[q] + "\" has been taken out before",
+          "take each opening out once");
+  }
+}
 
 void check_relaxation(const edda::Simulation& sim, Index row, const std::string& name,
                       double part) {
@@ -87,7 +102,12 @@ void check_switches(const edda::Simulation& sim, const std::vector<std::string>&
 }  // namespace
 
 void Simulation::set_velocity(std::size_t block, Point velocity, double omega) {
-  impl_->begin_change("set_velocity");
+  const bool begun = impl_->begun;
+  if (begun) {
+    impl_->begin_change("set_velocity");
+  } else {
+    impl_->take_back();
+  }
   edda::Simulation& sim = impl_->sim();
   if (block >= sim.blocks.size() || !is_free(sim.blocks, sim.state, block)) {
     raise("set_velocity", "block " + std::to_string(block) + " is not free to move",
@@ -101,13 +121,13 @@ void Simulation::set_velocity(std::size_t block, Point velocity, double omega) {
     vx[k][block] = velocity.x - omega * (sim.state.y[k][block] - middle.y);
     vy[k][block] = velocity.y + omega * (sim.state.x[k][block] - middle.x);
   }
-  sim.change_velocities(vx, vy);
-  impl_->end_change();
+  impl_->change_velocities(vx, vy);
+  if (begun) impl_->end_change();
 }
 
 void Simulation::set_damping(double mass, double local, double contact) {
   check_number("set_damping", "mass", mass, 0.0);
-  check_number("set_damping", "local", local, 0.0, 1.0);
+  check_number("set_damping", "local", local, 0.0, below_one);
   check_number("set_damping", "contact", contact, 0.0, 10.0);
   impl_->begin_change("set_damping");
   impl_->sim().change_damping({mass, local, contact}, impl_->sim().dynamic);
@@ -144,6 +164,7 @@ void Simulation::excavate(const std::vector<std::string>& openings) {
   }
   if (rows.empty()) return;
   impl_->begin_change("excavate");
+  check_excavation(impl_->sim(), openings, rows);
   impl_->sim().excavate(rows);
   impl_->end_change();
 }

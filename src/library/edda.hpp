@@ -287,10 +287,13 @@ class EDDA_API Simulation {
   std::vector<std::string> monitors() const;              ///< those of the model first
   MonitorReading read(const std::string& monitor) const;  ///< Error: none of that name
 
-  // -- Changing it, between two steps. A change before the first step begins the run. What a stage
+  // -- Changing it, between two steps. A change before the first step begins the run, but for
+  // velocities, which the run then begins with. What a stage
   // could not do either (activate what acts, install twice, let go less than before) is an Error; a
   // later stage leaves out what has been done by hand before it.
-  /// Velocity of the centroid and rate of turn of a free block; its strain rate becomes 0.
+  /// Velocity of the centroid and rate of turn of a free block; its strain rate becomes 0. In an
+  /// explicit run velocities are those half a step ago; field() tells their mean over the step's
+  /// two halves, which differs by what half a step's acceleration brings.
   void set_velocity(std::size_t block, Point velocity, double omega = 0.0);
   /// Mass-proportional (1/s, from 0), local (0 to 1), and of contacts (part of critical, 0 to 10).
   /// Error: beyond these.

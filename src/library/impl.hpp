@@ -49,6 +49,11 @@ struct Simulation::Impl {
   /// Steps until step `to_step` or the time `to_time` (s), the end or a pause.
   void go(std::uint64_t to_step, double to_time);
   void finish();
+  /// Other velocities; before the first step those that the run begins with.
+  void change_velocities(const edda::Nodes& vx, const edda::Nodes& vy);
+  /// Takes the simulation back from the caller: what was written to the velocities is taken up. An
+  /// Error where that is no number, with the velocities as handed over.
+  void take_back();
   /// Makes the simulation fit for a change, or refuses it on behalf of `function`.
   void begin_change(const char* function);
   void end_change();
@@ -91,9 +96,6 @@ struct Simulation::Impl {
   void throw_kept();
   /// The caller gets the simulation back: velocities where the views of them show.
   void hand_over();
-  /// And gives it back: what was written to the velocities is taken up. An Error where that is no
-  /// number, with the velocities as handed over.
-  void take_back();
   void refuse_within_step(const char* function) const;
 
   std::uint64_t pause_step_ = 0;

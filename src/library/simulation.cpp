@@ -226,11 +226,16 @@ void Simulation::Impl::take_back() {
     raise("node_vx", "the velocity written for block " + std::to_string(i) + " is no number",
           "write finite ones; those of before are there again");
   }
+  change_velocities(vx, vy);
+}
+
+void Simulation::Impl::change_velocities(const edda::Nodes& vx, const edda::Nodes& vy) {
   const double work = sim().external_work;
   sim().change_velocities(vx, vy);
   if (!begun) sim().external_work = work;  // it begins with them
-  lent_vx_ = state.vx;
-  lent_vy_ = state.vy;
+  instant_.reset();
+  lent_vx_ = sim().state.vx;
+  lent_vy_ = sim().state.vy;
 }
 
 void Simulation::Impl::lend_velocities() {

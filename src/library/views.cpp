@@ -126,8 +126,7 @@ Ledger Simulation::ledger() const {
   const edda::Simulation& sim = impl_->sim();
   const edda::Ledger l = sim.ledger_now();
   const double start = sim.start_energy.value_or(l.balance());
-  const double largest = std::max(sim.largest_energy, l.scale());
-  const double drift = largest > 0.0 ? (l.balance() - start) / largest : 0.0;
+  const double drift = (l.balance() - start) / sim.energy_scale(l);
   return {l.kinetic, l.strain,   l.contact,  l.gravity,     l.friction,
           l.damping, l.fracture, l.external, l.step_change, drift};
 }

@@ -1,5 +1,9 @@
 #include "run/ledger.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "base/parallel.hpp"
 #include "contacts/stored_energy.hpp"
 #include "forces/elastic.hpp"
@@ -29,6 +33,19 @@ double block_gravity_energy(const BlockSet& b, const State& s, double h, Vec2 gr
 }
 
 }  // namespace
+
+double rounding_energy(const BlockSet& b, const ContactSet& c) {
+  double size = 0.0, stiffness = 0.0;
+  for (const double x : b.vertex_x) size = std::max(size, std::abs(x));
+  for (const double y : b.vertex_y) size = std::max(size, std::abs(y));
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    stiffness =
+        std::max(stiffness, (b.lame_lambda[i] + 2.0 * b.lame_mu[i]) * b.volume[i] / b.area[i]);
+  }
+  for (const double kn : c.kn) stiffness = std::max(stiffness, kn);
+  const double stretch = 1e4 * std::numeric_limits<double>::epsilon() * size;
+  return 0.5 * static_cast<double>(b.size()) * stiffness * stretch * stretch;
+}
 
 Ledger sum_ledger(const BlockSet& b, const State& s, double h, const Pose& pose,
                   const ContactSet& c, const BoundarySprings& springs, const DampingWork& work,

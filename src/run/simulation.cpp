@@ -11,6 +11,7 @@
 #include "contacts/candidates.hpp"
 #include "contacts/gaps.hpp"
 #include "contacts/joint_laws.hpp"
+#include "contacts/settling.hpp"
 #include "contacts/shares.hpp"
 #include "contacts/strength.hpp"
 #include "contacts/transitions.hpp"
@@ -341,6 +342,9 @@ std::optional<Failure> Simulation::step() {
   search_if_due();
   const TransitionCounts counts =
       settle_contacts(contacts, blocks, pose, laws, state.steps, false, transitions_);
+  if (state.steps % settles_every == 0) {
+    settle_rests(contacts, blocks, pose, static_cast<double>(settles_every));
+  }
   constexpr std::uint64_t look_every = 64;
   const bool grown = state.steps % look_every == 0 && grow_springs(contacts, blocks, pose, laws);
   if (counts.unshielded > 0 || grown) set_limit();
@@ -427,11 +431,15 @@ Ledger Simulation::ledger_now() const {
   return l;
 }
 
+double Simulation::energy_scale(const Ledger& l) const {
+  return std::max({largest_energy, l.scale(), rounding_energy(blocks, contacts)});
+}
+
 Ledger Simulation::ledger() {
   Ledger l = ledger_now();
   if (!start_energy) start_energy = l.balance();
-  largest_energy = std::max(largest_energy, l.scale());
-  l.drift = largest_energy > 0.0 ? (l.balance() - *start_energy) / largest_energy : 0.0;
+  largest_energy = energy_scale(l);
+  l.drift = (l.balance() - *start_energy) / largest_energy;
   return l;
 }
 

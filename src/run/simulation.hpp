@@ -132,6 +132,8 @@ struct Simulation {
   Ledger ledger();
   /// The same without its drift, and without remembering that it was looked at.
   Ledger ledger_now() const;
+  /// What its drift is measured against: the largest so far, not less than rounding may make, J.
+  double energy_scale(const Ledger& ledger) const;
 
   /// Loads and bolts as they act at n.
   LoadsNow acting() const;
@@ -157,6 +159,8 @@ struct Simulation {
   friend void list_memory(Archive& archive, Simulation& sim);
 
   void place_all();
+  /// Vertices at n - 1 by the velocities, x_{n-1} = x_n - h v_{n-1/2}.
+  void place_a_step_back();
   void hold_boundaries();
   void close_contacts();
   void keep(const std::vector<KeptForce>& forces);

@@ -1,11 +1,31 @@
 // Velocities as seen and changed from outside, between two steps.
 #include <algorithm>
+#include <array>
+#include <vector>
 
 #include "base/parallel.hpp"
 #include "contacts/gaps.hpp"
 #include "run/simulation.hpp"
 
 namespace edda {
+namespace {
+
+/// Of the bolts' forces at n on the blocks, W.
+double bolt_power(const Simulation& sim) {
+  if (sim.bolts.place.empty()) return 0.0;
+  return ordered_sum(sim.blocks.size(), [&](std::size_t i) {
+    if (!is_free(sim.blocks, sim.state, i)) return 0.0;
+    std::array<Vec2, 3> f{};
+    add_bolts(f, sim.bolts, i);
+    double power = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      power += dot(f[k], {sim.state.vx[k][i], sim.state.vy[k][i]});
+    }
+    return power;
+  });
+}
+
+}  // namespace
 
 void Simulation::exchange_velocity_arrays() {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -16,8 +36,28 @@ void Simulation::exchange_velocity_arrays() {
   std::swap(old_vy_, state.vy);
 }
 
+void Simulation::place_a_step_back() {
+  parallel_for(blocks.size(), [&](std::size_t i) {
+    if (!is_free(blocks, state, i)) return;
+    place_vertices(blocks, state.vx, state.vy, i, pose.x1, pose.y1);
+    for (Id v = blocks.vertex_begin[i]; v < blocks.vertex_begin[i + 1]; ++v) {
+      pose.x1[v] = pose.x[v] - step_before_ * pose.x1[v];
+      pose.y1[v] = pose.y[v] - step_before_ * pose.y1[v];
+    }
+  });
+}
+
 void Simulation::change_velocities(const Nodes& vx, const Nodes& vy) {
   const double energy = ledger_now().balance();
+  const bool leaps = explicit_method();
+  // The step behind is taken to have been made at the new ones: gaps and slips before it, and the
+  // work of bolts, F_n . (u'_n - u_n)/2.
+  std::vector<double> slips;
+  if (leaps) {
+    place_a_step_back();
+    slips = previous_slips(contacts, pose);
+  }
+  const double bolts_before = leaps ? bolt_power(*this) : 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t i = 0; i < blocks.size(); ++i) {
       if (!is_free(blocks, state, i)) continue;
@@ -25,17 +65,11 @@ void Simulation::change_velocities(const Nodes& vx, const Nodes& vy) {
       state.vy[k][i] = vy[k][i];
     }
   }
-  if (explicit_method()) {
-    // The step behind is taken to have been made at them.
-    parallel_for(blocks.size(), [&](std::size_t i) {
-      if (!is_free(blocks, state, i)) return;
-      place_vertices(blocks, state.vx, state.vy, i, pose.x1, pose.y1);
-      for (Id v = blocks.vertex_begin[i]; v < blocks.vertex_begin[i + 1]; ++v) {
-        pose.x1[v] = pose.x[v] - step_before_ * pose.x1[v];
-        pose.y1[v] = pose.y[v] - step_before_ * pose.y1[v];
-      }
-    });
+  if (leaps) {
+    place_a_step_back();
     look_at_previous_gaps(contacts, pose);
+    move_previous_slips(contacts, pose, slips);
+    external_work += 0.5 * step_before_ * (bolt_power(*this) - bolts_before);
   }
   external_work += ledger_now().balance() - energy;
 }
