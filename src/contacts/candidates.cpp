@@ -177,26 +177,38 @@ void set_spring(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTab
 }
 
 bool grow_springs(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws) {
-  constexpr double worth = 1.25;
+  constexpr double worth = 1.02;
   bool grown = false;
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Law& law = laws.rows[c.law[k]];
     if (law.kn == 0.0 && law.ks == 0.0 && law.residual_cohesion == 0.0) continue;
     if (!c.is(k, contact_state::closed) || c.is(k, contact_state::bonded)) continue;
-    if (contact_length(b, pose, c.vertex[k], c.edge[k]) <= worth * c.length[k]) continue;
+    const double length = contact_length(b, pose, c.vertex[k], c.edge[k]);
+    if (length == 0.0 || (length <= worth * c.length[k] && c.length[k] <= worth * length)) continue;
+    const bool grows = length > c.length[k];
     const double energy = stored_energy(c, k), e = c.effective(k), slip = trial_slip(c, k);
     const double kn = c.kn[k], ks = c.ks[k], friction = c.friction[k];
+    const bool was_cut = c.cut(k);
     set_spring(c, b, pose, laws, k);
     c.friction[k] = friction;
-    // A lone corner was stiffer: it stays so, or energy would be made.
-    c.kn[k] = std::max(c.kn[k], kn);
-    c.ks[k] = std::max(c.ks[k], ks);
-    c.rest[k] = c.depth[k] - e * kn / c.kn[k];
-    c.anchor[k] = (c.foot[k] - slip * ks / c.ks[k]) / c.span[k];
-    c.forget_cut(k);
+    if (grows) {
+      // A lone corner was stiffer: it stays so, or energy would be made.
+      c.kn[k] = std::max(c.kn[k], kn);
+      c.ks[k] = std::max(c.ks[k], ks);
+      c.rest[k] = c.depth[k] - e * kn / c.kn[k];
+      c.anchor[k] = (c.foot[k] - slip * ks / c.ks[k]) / c.span[k];
+      c.forget_cut(k);
+    } else {
+      // As deep as before, and of the same slip: what has gone takes its force and energy along.
+      c.kn[k] = std::min(c.kn[k], kn);
+      c.ks[k] = std::min(c.ks[k], ks);
+      c.shear[k] *= c.ks[k] / ks;
+      c.shear_1[k] *= c.ks[k] / ks;
+      if (!was_cut) c.forget_cut(k);
+    }
     c.friction_work[k] += energy - stored_energy(c, k);
     c.stir(k);
-    grown = true;
+    grown |= c.kn[k] > kn || c.ks[k] > ks;
   }
   return grown;
 }

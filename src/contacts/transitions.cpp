@@ -139,6 +139,19 @@ Id collinear_heir(const ContactSet& c, std::size_t k) {
   return no_id;
 }
 
+/// Whether the vertex comes onto edge q along one that goes on in it: over a seam, not against what
+/// lies behind it.
+bool comes_along(const ContactSet& c, Id vertex, Id q) {
+  for (Id p = c.begin_of_vertex[vertex]; p < c.begin_of_vertex[vertex + 1]; ++p) {
+    if (p != q && c.is(p, cs::closed) && c.share[p] > 0.0 &&
+        std::abs(c.depth[p] - c.depth[q]) <= slack_of(c, p) &&
+        dot(tangent_of(c, p), tangent_of(c, q)) > opposite) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// The corner that k passes, against one of the vertex's own edges; it may carry already.
 Id corner_heir(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   const Id vertex = c.vertex[k];
@@ -345,7 +358,10 @@ Blocked hindrance(const ContactSet& c, const BlockSet& b, const Pose& pose, std:
     if (q == k || c.block_j[q] != j || !rivals(b, c.edge[k], c.edge[q])) continue;
     if (c.is(q, cs::closed) && c.share[q] > 0.0) return Blocked::conflict;
     // Within the rival's line a step ago already: it is k that the vertex has crossed.
-    if (long_step && c.effective_1(k) <= tie && c.depth_1[q] > tie) continue;
+    if (long_step && c.depth_1[k] <= tie && c.depth_1[q] > tie) {
+      if (comes_along(c, vertex, q)) return Blocked::conflict;
+      continue;
+    }
     if (c.depth[q] <= -tie && c.share[k] == 1.0) return Blocked::conflict;
     if (c.depth[q] < c.depth[k] - tie && c.share[q] > 0.0 &&
         facing(b, pose.x, pose.y, vertex, normal_of(c, q))) {
