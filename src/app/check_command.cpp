@@ -74,7 +74,7 @@ Check look_at(Simulation& sim) {
   found.initial_stress = initial_stress_report(sim);
   const std::vector<Stage> stages = stages_of(sim.model);
   const auto is_static = [](const Stage& s) { return s.masses == StageMasses::uniform_step; };
-  if (!std::all_of(stages.begin(), stages.end(), is_static)) found.step_as_given = sim.step_limit;
+  if (!std::all_of(stages.begin(), stages.end(), is_static)) found.step_as_given = sim.usual_step();
   if (std::any_of(stages.begin(), stages.end(), is_static))
     found.static_step = sim.model.solver.safety * sim.uniform_step();
   sim.scale_masses(stages.front().masses);

@@ -35,7 +35,7 @@ class ForPeople : public RunReport {
                  sim.bound.likely_step, run.governed_by);
     } else {
       fmt::print(stderr, "{}; step {:.4g} s, held by {}\n", counted(sim.blocks.size(), "block"),
-                 sim.step_limit, run.governed_by);
+                 sim.usual_step(), run.governed_by);
     }
     for (const std::string& line : initial_stress_report(sim)) {
       fmt::print(stderr, "initial stress: {}\n", line);
@@ -95,7 +95,7 @@ class ForMachines : public RunReport {
     json.pair("folder", folder).pair("blocks", sim.blocks.size());
     json.pair("duration", sim.model.solver.duration).key("stages").open_list();
     for (const Stage& stage : sim.model.stages) json.value(stage.name);
-    json.close().pair("step", sim.step_limit).pair("governed_by", run.governed_by);
+    json.close().pair("step", sim.usual_step()).pair("governed_by", run.governed_by);
     json.pair("threads", omp_get_max_threads());
     print_line(json);
     for (const std::string& warning : run.warnings) warns(warning);

@@ -136,10 +136,12 @@ void move_previous_slips(ContactSet& c, const Pose& pose, const std::vector<doub
   const std::vector<double> now = previous_slips(c, pose);
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (!c.is(k, contact_state::closed) || now[k] == before[k]) continue;
-    const bool was_cut = c.cut(k);
-    c.keep_slips(k);
-    c.shear[k] -= c.ks[k] * (now[k] - before[k]);
-    c.slip_trial[k] = was_cut ? c.slip_trial[k] + (now[k] - before[k]) : -c.shear[k] / c.ks[k];
+    if (c.cut(k)) {
+      c.anchor[k] += (now[k] - before[k]) / c.span[k];
+    } else {
+      c.shear[k] -= c.ks[k] * (now[k] - before[k]);
+      c.forget_cut(k);
+    }
   }
 }
 

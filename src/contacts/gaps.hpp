@@ -25,8 +25,9 @@ void look_at_previous_gaps(ContactSet& contacts, const Pose& pose);
 
 /// Slips against the present anchors with the vertices at pose.x1, y1, [contacts] m.
 std::vector<double> previous_slips(const ContactSet& contacts, const Pose& pose);
-/// s_{n-1} of closed contacts goes with them, from what previous_slips() was `before`: the ledger
-/// then counts what springs store, and what friction takes, along the step that pose.x1 begins.
+/// The slip s_n - s_{n-1} of closed contacts becomes that of the step from pose.x1, y1, from what
+/// previous_slips() was `before`: s_{n-1} moves where they hold, where they slide the anchor. The
+/// ledger then counts what springs store, and what friction takes, along that step.
 void move_previous_slips(ContactSet& contacts, const Pose& pose, const std::vector<double>& before);
 
 /// Books what the dashpots of the last step took: what the springs gave off, less what the

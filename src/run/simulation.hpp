@@ -152,6 +152,8 @@ struct Simulation {
   Vec2 ground_velocity() const;
 
   bool explicit_method() const { return model.solver.method == Method::edda; }
+  /// Largest step allowed, s: of the implicit method once its short first ones are over.
+  double usual_step() const { return explicit_method() ? step_limit : nominal_step_; }
 
  private:
   /// Names every field that a checkpoint holds (run/simulation_memory.cpp).

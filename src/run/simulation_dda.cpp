@@ -79,6 +79,9 @@ void Simulation::set_implicit_limit() {
                    : std::min(step_within(blocks, state, model.gravity, displacement_limit),
                               std::min(model.output.history_every, model.output.every));
   nominal_step_ = step_limit;
+  // Friction in a step has its limit from the forces before it: the first has none, and is short.
+  constexpr double first_part = 1e-3;
+  if (state.steps == 0 && !model.solver.time_step) step_limit *= first_part;
   // What the explicit method could take, for whoever compares.
   bound = step_bound(blocks, state, pose, contacts, springs, laws, damping);
 }
