@@ -142,66 +142,6 @@ def test_stages_and_bolts(models, tmp_path):
         results.stage_joints(1)
 
 
-def test_pictures(folder, models, tmp_path):
-    import matplotlib.pyplot as plt
-
-    results = edda.Results(folder)
-    model = edda.load(models / "cavern.toml")
-    simulation = edda.Simulation(model)
-    simulation.step(5)
-    for source, field in [
-        (results, "displacement"),
-        (results.frames[0], "stress.yy"),
-        (simulation, "velocity.x"),
-        (simulation, np.arange(simulation.block_count)),
-        (model.cut(), "area"),
-        (model.cut(), None),
-    ]:
-        ax = edda.plot_blocks(source, field, linewidths=0.2)
-        drawn = ax.collections[0]
-        if field is None:
-            assert drawn.get_array() is None
-        else:
-            assert len(drawn.get_array()) == len(drawn.get_paths()) > 100
-        plt.close(ax.figure)
-    ax = edda.plot_history(results, ["kinetic", "strain"])
-    assert np.array_equal(ax.lines[1].get_ydata(), results.history["strain"])
-    ax.figure.savefig(tmp_path / "history.png")
-    plt.close(ax.figure)
-    with pytest.raises(ValueError, match="no column"):
-        edda.plot_history(results, "speed")
-    with pytest.raises(ValueError, match="no component"):
-        edda.plot_blocks(results, "stress.up")
-    with pytest.raises(ValueError, match="has components"):
-        edda.plot_blocks(results, "stress")
-    plt.close("all")
-
-
-def test_a_crumb_does_not_darken_all_others(models):
-    import matplotlib.pyplot as plt
-
-    cut = edda.load(models / "cavern.toml").cut()
-    free = np.array([not block.fixed for block in cut.blocks])
-    area = np.array([block.area for block in cut.blocks])
-    values = np.linspace(1e-3, 6e-3, len(area))
-    values[~free] = 99.0  # held blocks do not count
-    crumb = np.flatnonzero(free)[np.argmin(area[free])]
-
-    def drawn(**options):
-        ax = edda.plot_blocks(cut, values, **options)
-        limits, bar = ax.collections[0].get_clim(), ax.figure.axes[-1]._colorbar
-        plt.close(ax.figure)
-        return limits[1], bar.extend
-
-    values[crumb] = 0.167
-    high, extend = drawn()
-    assert extend == "max" and 6e-3 < high <= 9e-3
-    assert drawn(clim=(0.0, 0.01)) == (0.01, "neither")
-    assert drawn(whole_range=True) == (values.max(), "neither")
-    values[~free] = values[crumb] = 5e-3
-    assert drawn() == (values.max(), "neither")
-
-
 def test_matplotlib_is_imported_only_for_pictures():
     code = "import edda, sys; sys.exit('matplotlib' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
