@@ -93,7 +93,8 @@ def plot_history(
     else:
         axes = list(np.ravel(np.asarray(ax, dtype=object)))
     if len(axes) != len(panels):
-        raise ValueError(f"{len(axes)} axes for columns in {', '.join(panels)}: give {len(panels)}, one for each, or none")
+        units = ", ".join(panels)
+        raise ValueError(f"{len(axes)} axes for columns in {units}: give {len(panels)}, one for each, or none")
     for one, named in zip(axes, panels.values()):
         for column in named:
             one.plot(history["time"], history[column], **{"label": column, **options})
