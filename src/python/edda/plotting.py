@@ -202,17 +202,17 @@ def _set_colours(
     """Colours the paths; where values lie beyond the colours, in the words of a colorbar."""
     is_held = held(source, ids)
     if is_of_motion(source, field) and is_held.any():
-        values = np.ma.masked_array(values, is_held)
+        values = np.where(is_held, np.nan, values)
         if drawn.get_cmap().get_bad()[3] == 0.0:
             drawn.set_cmap(drawn.get_cmap().with_extremes(bad=_HELD))
     drawn.set_array(values)
-    shown = np.ma.compressed(np.ma.masked_invalid(values))
+    shown = values[np.isfinite(values)]
     if is_given:
         return "neither"
     if isinstance(field, str) and field in KINDS or whole_range:
         low, high = (shown.min(), shown.max()) if len(shown) else (0.0, 1.0)
     else:
-        low, high = _drawn_range(np.asarray(values), np.where(is_held, 0.0, _areas(drawn.get_paths())), shown)
+        low, high = _drawn_range(values, np.where(is_held, 0.0, _areas(drawn.get_paths())), shown)
     drawn.set_clim(low, high)
     below, above = bool(np.any(shown < low)), bool(np.any(shown > high))
     return "both" if below and above else "min" if below else "max" if above else "neither"
