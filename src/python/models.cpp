@@ -56,7 +56,8 @@ api::CutBlock block_of(const py::tuple& state) {
   block.fixed = state[2].cast<bool>();
   block.area = state[3].cast<double>();
   for (const py::handle& ring : state[4]) {
-    const auto points = ring.cast<py::array_t<double>>().unchecked<2>();
+    const auto array = ring.cast<py::array_t<double>>();
+    const auto points = array.unchecked<2>();
     auto& made = block.rings.emplace_back();
     for (py::ssize_t i = 0; i < points.shape(0); ++i) made.push_back({points(i, 0), points(i, 1)});
   }
