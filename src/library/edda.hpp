@@ -225,7 +225,8 @@ class EDDA_API Simulation {
   Simulation& operator=(Simulation&&) noexcept;
 
   // -- Going on. An exception out of a callback leaves the simulation between two steps, and comes
-  // through; going on is possible.
+  // through; going on is possible. Error of the first call: a folder that cannot be made, or that
+  // another run is writing to.
   Outcome run();  ///< to the end, or to a pause (then outcome says interrupted)
   bool step(std::uint64_t steps = 1);  ///< so many, fewer at the end; false: the run is over
   bool advance_to(double time);  ///< the first step at or past it (s); false: over. Error: NaN
@@ -263,7 +264,7 @@ class EDDA_API Simulation {
   /// m/s, half a step before the positions (method "dda": with them). May be written to before the
   /// first and between two steps; the energy that this brings counts as external work. The next
   /// call puts back what was written for blocks that are not free; numbers that are not finite are
-  /// its Error.
+  /// its Error, and so is any change once the run is over.
   MutableNodes node_vx();
   MutableNodes node_vy();
   /// The name of a block (below block_count()), empty where it has none, and the block of a name.

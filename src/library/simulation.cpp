@@ -51,6 +51,14 @@ PreparedRun prepare(const Model& model, const Options& options) {
   return value_or_raise(prepare_run(given));
 }
 
+/// The folder is there, and nobody else is writing to it: an Error, where a run that finds out by
+/// itself would merely have failed.
+void check_for_writing(const std::string& folder) {
+  FolderLock lock;  // free again behind this: the run takes it itself
+  if (const Trouble trouble = make_folder(folder)) raise(Faults{*trouble});
+  if (const Trouble trouble = lock.take(folder)) raise(Faults{*trouble});
+}
+
 Outcome outcome_of(const edda::Outcome& o) {
   Outcome outcome;
   outcome.status = static_cast<Status>(o.status);
@@ -108,6 +116,8 @@ void Simulation::Impl::refuse_within_step(const char* function) const {
 void Simulation::Impl::enter() {
   if (begun) return;
   take_back();
+  const bool goes_on = options.resume || options.from_stage;
+  if (!options.results.empty() && !goes_on) check_for_writing(options.results);
   begun = true;
   driver->begin();  // takes the velocities, as they are now, half a step back
   instant_.reset();
@@ -118,7 +128,7 @@ void Simulation::Impl::enter() {
 void Simulation::Impl::go(std::uint64_t to_step, double to_time) {
   refuse_within_step("run");
   use_threads();
-  if (finished) return;
+  if (finished) return take_back();
   enter();
   if (finished) return;
   take_back();
@@ -138,7 +148,7 @@ void Simulation::Impl::go(std::uint64_t to_step, double to_time) {
 void Simulation::Impl::finish() {
   refuse_within_step("finish");
   use_threads();
-  if (finished) return;
+  if (finished) return take_back();
   enter();
   if (finished) return;
   take_back();
@@ -221,6 +231,10 @@ void Simulation::Impl::take_back() {
   state.vx = lent_vx_;
   state.vy = lent_vy_;
   instant_.reset();
+  if (finished) {
+    raise("node_vx", "velocities were written, but the run is over",
+          "make a new Simulation; those of the end are there again");
+  }
   for (std::size_t i = 0; i < sim().blocks.size(); ++i) {
     if (!is_free(sim().blocks, state, i) || (is_finite(vx, i) && is_finite(vy, i))) continue;
     raise("node_vx", "the velocity written for block " + std::to_string(i) + " is no number",

@@ -38,6 +38,33 @@ api::Cut cut(const api::Model& model) {
   return api::cut(model);
 }
 
+py::list rings_of(const api::CutBlock& block) {
+  py::list rings;
+  for (const auto& ring : block.rings) rings.append(array_of(ring));
+  return rings;
+}
+
+py::tuple state_of(const api::CutBlock& block) {
+  return py::make_tuple(block.name, block.material, block.fixed, block.area, rings_of(block),
+                        block.joints);
+}
+
+api::CutBlock block_of(const py::tuple& state) {
+  api::CutBlock block;
+  block.name = state[0].cast<std::string>();
+  block.material = state[1].cast<int>();
+  block.fixed = state[2].cast<bool>();
+  block.area = state[3].cast<double>();
+  for (const py::handle& ring : state[4]) {
+    const auto array = ring.cast<py::array_t<double>>();
+    const auto points = array.unchecked<2>();
+    auto& made = block.rings.emplace_back();
+    for (py::ssize_t i = 0; i < points.shape(0); ++i) made.push_back({points(i, 0), points(i, 1)});
+  }
+  block.joints = state[5].cast<std::vector<std::vector<int>>>();
+  return block;
+}
+
 }  // namespace
 
 py::array_t<double> array_of(const std::vector<api::Point>& points) {
@@ -61,10 +88,12 @@ void add_models(py::module_& m) {
   py::class_<api::Model>(m, "Model", "A checked model; never changes.")
       .def_static("read", &read, py::arg("path"), py::arg("overrides") = Overrides{},
                   "Reads a TOML file; overrides as of --set, \"solver.duration=0.2\".")
-      .def_static("parse", &parse, py::arg("toml"), py::arg("name") = "model",
-                  py::arg("overrides") = Overrides{}, "The same of a text.")
+      .def_static(
+          "parse", &parse, py::arg("toml"), py::arg("name") = "model",
+          py::arg("overrides") = Overrides{},
+          "The same of a text; faults call it `name`, and paths in it count from that file.")
       .def_property_readonly("title", &api::Model::title, "As the model says.")
-      .def_property_readonly("file", &api::Model::file, "Path or name it was read from.")
+      .def_property_readonly("file", &api::Model::file, "Path or name that it was read from.")
       .def_property_readonly("duration", &api::Model::duration, "s")
       .def_property_readonly("materials", &api::Model::materials, "Names, in order.")
       .def_property_readonly("joints", &api::Model::joints, "Names of the laws, in order.")
@@ -72,20 +101,25 @@ void add_models(py::module_& m) {
       .def_property_readonly("stages", &api::Model::stages, "Names, in order.")
       .def("to_toml", &api::Model::to_toml, "The model with every key and default filled in.")
       .def("cut", &cut, "Its blocks as polygons.")
+      // It never changes.
+      .def("__copy__", [](const py::object& self) { return self; })
+      .def("__deepcopy__", [](const py::object& self, const py::object&) { return self; })
+      .def("__reduce__",
+           [](const api::Model&) -> py::object {
+             throw py::type_error(
+                 "a Model cannot be pickled: give another process its path, its dict or its "
+                 "to_toml()");
+           })
       .def("__repr__", [](const api::Model& model) { return "<edda.Model " + model.file() + ">"; });
 
   py::class_<api::CutBlock>(m, "CutBlock", "One block as cut.")
+      .def(py::pickle(&state_of, &block_of))
       .def_readonly("name", &api::CutBlock::name, "Of a [[block]], else empty.")
       .def_readonly("material", &api::CutBlock::material, "Row of Model.materials, -1: none.")
       .def_readonly("fixed", &api::CutBlock::fixed, "Whether it is held.")
       .def_readonly("area", &api::CutBlock::area, "m2")
       .def_property_readonly(
-          "rings",
-          [](const api::CutBlock& block) {
-            py::list rings;
-            for (const auto& ring : block.rings) rings.append(array_of(ring));
-            return rings;
-          },
+          "rings", &rings_of,
           "Arrays (n, 2), m: the outer ring counter-clockwise, then holes, clockwise.")
       .def_property_readonly(
           "joints",
@@ -100,13 +134,28 @@ void add_models(py::module_& m) {
           "Arrays (n,): row of Model.joints of the edge from each vertex to the next, -1: none.");
 
   py::class_<api::Cut>(m, "Cut", "The model's blocks, and what the cut did to its lines.")
+      .def(py::pickle(
+          [](const api::Cut& c) {
+            return py::make_tuple(c.blocks, c.trimmed, c.merged, c.smallest_area, c.smallest_edge,
+                                  c.smallest_angle, c.notes);
+          },
+          [](const py::tuple& state) {
+            return api::Cut{state[0].cast<std::vector<api::CutBlock>>(),
+                            state[1].cast<int>(),
+                            state[2].cast<int>(),
+                            state[3].cast<double>(),
+                            state[4].cast<double>(),
+                            state[5].cast<double>(),
+                            state[6].cast<std::vector<std::string>>()};
+          }))
       .def_readonly("blocks", &api::Cut::blocks, "In the order of their ids.")
       .def_readonly("trimmed", &api::Cut::trimmed, "Ends of joints inside a block.")
       .def_readonly("merged", &api::Cut::merged, "Slivers joined to a neighbour.")
       .def_readonly("smallest_area", &api::Cut::smallest_area, "m2")
       .def_readonly("smallest_edge", &api::Cut::smallest_edge, "m")
       .def_readonly("smallest_angle", &api::Cut::smallest_angle, "degrees")
-      .def_readonly("notes", &api::Cut::notes, "What was imported, drawn at random, left out.");
+      .def_readonly("notes", &api::Cut::notes,
+                    "What was imported, drawn at random, left out, and which joints cut nothing.");
 }
 
 }  // namespace edda::python

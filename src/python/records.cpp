@@ -1,5 +1,5 @@
 // Small records that a simulation returns.
-#include <sstream>
+#include <type_traits>
 
 #include "python/bindings.hpp"
 
@@ -20,6 +20,40 @@ void add_repr(py::class_<T>& type, std::vector<std::string> names) {
   });
 }
 
+template <class F>
+py::object packed(const F& value) {
+  if constexpr (std::is_enum_v<F>) {
+    return py::int_(static_cast<int>(value));
+  } else {
+    return py::cast(value);
+  }
+}
+
+template <class F>
+F unpacked(const py::handle& value) {
+  if constexpr (std::is_enum_v<F>) {
+    return static_cast<F>(value.cast<int>());
+  } else {
+    return value.cast<F>();
+  }
+}
+
+/// Pickling and copying of a record with these fields.
+template <class T, class... F>
+void add_pickling(py::class_<T>& type, F T::*... fields) {
+  type.def(
+      py::pickle([fields...](const T& record) { return py::make_tuple(packed(record.*fields)...); },
+                 [fields...](const py::tuple& state) {
+                   if (state.size() != sizeof...(F)) {
+                     throw py::value_error("pickled by another version of edda");
+                   }
+                   T record;
+                   std::size_t k = 0;
+                   ((record.*fields = unpacked<F>(state[k++])), ...);
+                   return record;
+                 }));
+}
+
 }  // namespace
 
 void add_records(py::module_& m) {
@@ -29,20 +63,26 @@ void add_records(py::module_& m) {
           "status", [](const api::Outcome& o) { return std::string(name_of(o.status)); },
           "completed, equilibrium, collapsed, interrupted or failed.")
       .def_readonly("message", &api::Outcome::message, "One sentence.")
-      .def_readonly("time", &api::Outcome::time, "s reached")
+      .def_readonly("time", &api::Outcome::time, "s, reached.")
       .def_readonly("steps", &api::Outcome::steps, "Steps made.")
       .def_readonly("contacts", &api::Outcome::contacts, "Closed at the end.")
-      .def_readonly("drift", &api::Outcome::drift,
-                    "Of the energy: the largest in size of all rows, not the last one's.")
+      .def_readonly(
+          "drift", &api::Outcome::drift,
+          "Of the energy, a ratio: the largest in size of all rows of the history, not the "
+          "last one's.")
       .def_readonly("wall_seconds", &api::Outcome::wall_seconds, "s");
+  add_pickling(outcome, &api::Outcome::status, &api::Outcome::message, &api::Outcome::time,
+               &api::Outcome::steps, &api::Outcome::contacts, &api::Outcome::drift,
+               &api::Outcome::wall_seconds);
   add_repr(outcome, {"status", "message", "time", "steps"});
 
   py::class_<api::Progress> progress(m, "Progress", "How far a run has come.");
   progress.def_readonly("fraction", &api::Progress::fraction, "Of the duration.")
-      .def_readonly("time", &api::Progress::time, "s simulated")
+      .def_readonly("time", &api::Progress::time, "s, simulated.")
       .def_readonly("steps", &api::Progress::steps, "Steps made.")
       .def_readonly("rate", &api::Progress::rate, "Steps per second of wall time.")
-      .def_readonly("seconds_left", &api::Progress::seconds_left, "s of wall time; -1: unknown.")
+      .def_readonly("seconds_left", &api::Progress::seconds_left,
+                    "s of wall time; -1 while unknown.")
       .def_readonly("kinetic", &api::Progress::kinetic, "J")
       .def_readonly("largest_overlap", &api::Progress::largest_overlap, "m")
       .def_readonly("largest_velocity", &api::Progress::largest_velocity,
@@ -50,6 +90,10 @@ void add_records(py::module_& m) {
       .def_readonly("stage", &api::Progress::stage, "In hand, from 0.")
       .def_readonly("stages", &api::Progress::stages, "Of the model; 1 where it has none.")
       .def_readonly("stage_name", &api::Progress::stage_name, "Empty where it has none.");
+  add_pickling(progress, &api::Progress::fraction, &api::Progress::time, &api::Progress::steps,
+               &api::Progress::rate, &api::Progress::seconds_left, &api::Progress::kinetic,
+               &api::Progress::largest_overlap, &api::Progress::largest_velocity,
+               &api::Progress::stage, &api::Progress::stages, &api::Progress::stage_name);
   add_repr(progress, {"fraction", "time", "steps"});
 
   py::class_<api::Ledger> ledger(m, "Ledger", "Energies since t = 0, J; drift is a ratio.");
@@ -57,16 +101,21 @@ void add_records(py::module_& m) {
       .def_readonly("strain", &api::Ledger::strain, "J")
       .def_readonly("contact", &api::Ledger::contact, "J")
       .def_readonly("gravity", &api::Ledger::gravity, "J")
-      .def_readonly("friction", &api::Ledger::friction, "J, dissipated")
-      .def_readonly("damping", &api::Ledger::damping, "J, dissipated")
-      .def_readonly("fracture", &api::Ledger::fracture, "J, dissipated")
-      .def_readonly("external", &api::Ledger::external, "J, work done on the blocks")
-      .def_readonly("step_change", &api::Ledger::step_change, "J, taken out by changed steps")
+      .def_readonly("friction", &api::Ledger::friction, "J, dissipated.")
+      .def_readonly("damping", &api::Ledger::damping, "J, dissipated.")
+      .def_readonly("fracture", &api::Ledger::fracture, "J, dissipated.")
+      .def_readonly("external", &api::Ledger::external, "J, work done on the blocks.")
+      .def_readonly("step_change", &api::Ledger::step_change, "J, taken out by changed steps.")
       .def_readonly("drift", &api::Ledger::drift, "What does not add up, over the largest energy.");
+  add_pickling(ledger, &api::Ledger::kinetic, &api::Ledger::strain, &api::Ledger::contact,
+               &api::Ledger::gravity, &api::Ledger::friction, &api::Ledger::damping,
+               &api::Ledger::fracture, &api::Ledger::external, &api::Ledger::step_change,
+               &api::Ledger::drift);
   add_repr(ledger, {"kinetic", "strain", "contact", "gravity", "friction", "damping", "fracture",
                     "external", "step_change", "drift"});
 
-  py::class_<api::MonitorReading> reading(m, "MonitorReading", "A material point and its block.");
+  py::class_<api::MonitorReading> reading(
+      m, "MonitorReading", "A material point and its block: m, m/s, Pa (tension positive).");
   reading.def_readonly("ux", &api::MonitorReading::ux, "m")
       .def_readonly("uy", &api::MonitorReading::uy, "m")
       .def_readonly("vx", &api::MonitorReading::vx, "m/s")
@@ -74,6 +123,9 @@ void add_records(py::module_& m) {
       .def_readonly("sxx", &api::MonitorReading::sxx, "Pa")
       .def_readonly("syy", &api::MonitorReading::syy, "Pa")
       .def_readonly("sxy", &api::MonitorReading::sxy, "Pa");
+  add_pickling(reading, &api::MonitorReading::ux, &api::MonitorReading::uy,
+               &api::MonitorReading::vx, &api::MonitorReading::vy, &api::MonitorReading::sxx,
+               &api::MonitorReading::syy, &api::MonitorReading::sxy);
   add_repr(reading, {"ux", "uy", "vx", "vy", "sxx", "syy", "sxy"});
 }
 

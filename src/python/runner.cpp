@@ -76,6 +76,10 @@ Runner::Runner(const py::object& model, const py::object& results, bool resume,
       progress_every_(progress_every) {
   api::Options options;
   options.results = path_or_empty(results);
+  if (!results.is_none() && options.results.empty()) {
+    throw api::Error(
+        {{"results", {}, 0, 0, "names no folder", "name one, or give None for no results"}});
+  }
   options.resume = resume;
   options.from_stage = from_stage;
   constexpr double look_at_signals = 0.1;  // s
@@ -193,22 +197,34 @@ void Runner::end_all() {
 
 py::class_<Runner> add_runner(py::module_& m) {
   py::class_<Runner> type(m, "Simulation", py::custom_type_setup(&take_part_in_collection),
-                          "A model in motion.");
+                          "A model in motion. run(), step() and advance_to() are one run, in parts "
+                          "or at once.");
   type.def(py::init<const py::object&, const py::object&, bool, std::optional<std::size_t>,
                     const py::object&, double, const py::object&>(),
            py::arg("model"), py::arg("results") = py::none(), py::arg("resume") = false,
            py::arg("from_stage") = py::none(), py::arg("progress") = py::none(),
            py::arg("progress_every") = 0.2, py::arg("warn") = py::none(),
-           "Cuts, builds and checks; nothing is written before the first step.")
+           R"(Cuts, builds and checks; nothing is written before the first step.
+
+model: a Model, or what edda.load() takes.
+results: folder for results, as of `edda run -o`; None: none are written.
+resume: go on from the checkpoint in that folder.
+from_stage: go on from the checkpoint of the end of this stage (from 0).
+progress: called with a Progress about every progress_every s, and at the end, when the
+    run is over and can no longer be changed; False stops the run.
+progress_every: s of wall time.
+warn: called with a text for what does not end the run, such as a damaged checkpoint.
+
+Raises ModelError for what cannot be computed, and for a folder that cannot be used.)")
       .def(
           "run", [](Runner& self) { return self.go([](auto& s) { return s.run(); }); },
-          "To the end, through all stages.")
+          "To the end, through all stages, or to a pause().")
       .def(
           "step",
           [](Runner& self, std::uint64_t steps) {
             return self.go([&](auto& s) { return s.step(steps); });
           },
-          py::arg("steps") = 1, "So many steps; False: the run is over.")
+          py::arg("steps") = 1, "So many steps, fewer at the end; False: the run is over.")
       .def(
           "advance_to",
           [](Runner& self, double time) {
@@ -230,7 +246,7 @@ py::class_<Runner> add_runner(py::module_& m) {
           py::arg("steps"), py::arg("action"),
           "Calls action(simulation) after every so many steps; returns a number for forget().")
       .def("forget", &Runner::forget, py::arg("callback"),
-           "Drops what every() has returned the number of.");
+           "Drops what every() has returned this number for.");
   py::module_::import("atexit").attr("register")(py::cpp_function(&Runner::end_all));
   return type;
 }

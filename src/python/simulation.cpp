@@ -108,9 +108,10 @@ void add_numbers(py::class_<Runner>& type) {
   add(
       "steps", [](auto& s) { return s.steps(); }, "Steps made.");
   add(
-      "time_step", [](auto& s) { return s.time_step(); }, "s, in force; 0 before the first.");
+      "time_step", [](auto& s) { return s.time_step(); }, "s, in force; 0 before the first step.");
   add(
-      "critical_step", [](auto& s) { return s.critical_step(); }, "s");
+      "critical_step", [](auto& s) { return s.critical_step(); },
+      "s, the largest that is stable now.");
   add(
       "governed_by", [](auto& s) { return s.governed_by(); }, "What holds the step.");
   add(
@@ -120,14 +121,14 @@ void add_numbers(py::class_<Runner>& type) {
   add(
       "over", [](auto& s) { return s.over(); }, "Whether the run has ended.");
   add(
-      "ledger", [](auto& s) { return s.ledger(); }, "Energies now.");
+      "ledger", [](auto& s) { return s.ledger(); }, "Energies now, J.");
   add(
       "unbalanced", [](auto& s) { return s.unbalanced(); },
       "Mean resultant over mean contact force.");
   add(
-      "block_count", [](auto& s) { return s.block_count(); }, "nb");
+      "block_count", [](auto& s) { return s.block_count(); }, "nb, those taken out among them.");
   add(
-      "vertex_count", [](auto& s) { return s.vertex_count(); }, "nv");
+      "vertex_count", [](auto& s) { return s.vertex_count(); }, "nv, of all blocks.");
   add(
       "monitors", [](auto& s) { return s.monitors(); }, "Names, those of the model first.");
   add(
@@ -141,35 +142,47 @@ void add_views(py::class_<Runner>& type) {
         name, [get](const py::object& self) { return view_of(get(of(self)), self); }, text);
   };
   add(
-      "area", [](auto& s) { return s.blocks().area; }, "(nb,) m2 at the start; a view.");
+      "area", [](auto& s) { return s.blocks().area; },
+      "(nb,) m2 at the start; a view, not to be written to.");
   add(
-      "mass", [](auto& s) { return s.blocks().mass; }, "(nb,) kg; a view.");
+      "mass", [](auto& s) { return s.blocks().mass; }, "(nb,) kg; a view, not to be written to.");
   add(
       "material", [](auto& s) { return s.blocks().material; },
-      "(nb,) row of Model.materials; a view.");
+      "(nb,) row of Model.materials, -1: none; a view, not to be written to.");
   add(
-      "fixed", [](auto& s) { return s.blocks().fixed; }, "(nb,) 1: held; a view.");
+      "fixed", [](auto& s) { return s.blocks().fixed; },
+      "(nb,) 1: held; a view, not to be written to.");
   add(
-      "alive", [](auto& s) { return s.alive(); }, "(nb,) 0: taken out; a view.");
+      "alive", [](auto& s) { return s.alive(); },
+      "(nb,) 0: taken out; a view, not to be written to.");
+  constexpr const char* velocities =
+      "Three views (nb,) to read and write, m/s, half a step before the positions.\n\n"
+      "What is written for blocks that are not free is put back by the next call; what is no "
+      "finite "
+      "number, or written once the run is over, is its ModelError.";
   const auto add_nodes = [&](const char* name, auto get, const char* text) {
     type.def_property_readonly(
         name, [get](const py::object& self) { return node_views(get(of(self)), self); }, text);
   };
   add_nodes(
-      "node_x", [](auto& s) { return s.node_x(); }, "3 views (nb,), m from origin.");
+      "node_x", [](auto& s) { return s.node_x(); },
+      "Three views (nb,), m from origin, not to be written to.");
   add_nodes(
-      "node_y", [](auto& s) { return s.node_y(); }, "3 views (nb,), m from origin.");
+      "node_y", [](auto& s) { return s.node_y(); },
+      "Three views (nb,), m from origin, not to be written to.");
   add_nodes(
-      "node_vx", [](auto& s) { return s.node_vx(); }, "3 views (nb,) to read and write, m/s.");
+      "node_vx", [](auto& s) { return s.node_vx(); }, velocities);
   add_nodes(
-      "node_vy", [](auto& s) { return s.node_vy(); }, "3 views (nb,) to read and write, m/s.");
+      "node_vy", [](auto& s) { return s.node_vy(); }, velocities);
 }
 
 void add_looking(py::class_<Runner>& type) {
-  type.def(
-          "field", &field, py::arg("name"), py::arg("out") = py::none(),
-          "centroid, displacement, velocity (nb, 2), stress (nb, 4: xx yy zz xy), rotation, omega, "
-          "overstress (nb,).")
+  type.def("field", &field, py::arg("name"), py::arg("out") = py::none(),
+           R"(Of all blocks, into `out` where one is given.
+
+centroid, displacement (m), velocity (m/s): (nb, 2), x y; stress (Pa, tension positive):
+(nb, 4), xx yy zz xy; rotation (rad), omega (rad/s), overstress (part of the strength used):
+(nb,). Of blocks taken out as they went.)")
       .def("polygons", &polygons, "Per block its rings, arrays (n, 2), m, as they are now.")
       .def(
           "contacts",
@@ -177,17 +190,24 @@ void add_looking(py::class_<Runner>& type) {
             const std::vector<api::Contact> found = self.get().contacts();
             return py::array_t<api::Contact>(static_cast<py::ssize_t>(found.size()), found.data());
           },
-          "A structured array, as joints.csv; state: 0 open, 1 stick, 2 slide, 3 bonded.")
+          R"(A structured array (n,) of contacts that are closed or were before, as joints.csv.
+
+block_i (of the vertex), block_j (of the edge), joint (row of Model.joints, -1: glued),
+state (0 open, 1 stick, 2 slide, 3 bonded); x, y (m), of the vertex; normal_force (N,
+compression positive), shear_force (N, positive where it drives block i along the edge);
+opening (m, negative: overlap), slip (m); mobilised (shear over shear strength);
+ever_slipped, ever_opened (0 or 1). Forces are those of the model's thickness.)")
       .def(
           "name",
           [](Runner& self, const py::object& block) {
             return self.get().name(checked_number(self.get(), block));
           },
-          py::arg("block"), "Of a block, empty where it has none.")
+          py::arg("block"),
+          "Of a block by its number, empty where it has none; IndexError: no such block.")
       .def(
           "block_called",
           [](Runner& self, const std::string& name) { return block_called(self.get(), name); },
-          py::arg("name"), "The number of a block.")
+          py::arg("name"), "The number of a block; KeyError: no such name.")
       .def(
           "add_monitor",
           [](Runner& self, const std::string& name, std::pair<double, double> point) {
@@ -208,14 +228,18 @@ void add_changing(py::class_<Runner>& type) {
             s.set_velocity(number_or_name(s, block), {v.first, v.second}, omega);
           },
           py::arg("block"), py::arg("velocity"), py::arg("omega") = 0.0,
-          "Of a block by number or name: (vx, vy) of its centroid, m/s, and turn, rad/s.")
+          "Of a free block by number or name: (vx, vy) of its centroid, m/s, and rate of turn, "
+          "rad/s.")
       .def(
           "set_damping",
           [](Runner& self, double mass, double local, double contact) {
             self.get().set_damping(mass, local, contact);
           },
           py::arg("mass") = 0.0, py::arg("local") = 0.0, py::arg("contact") = 0.0,
-          "1/s; a fraction; a fraction of critical.")
+          R"(From now on.
+
+mass: mass-proportional, 1/s. local: part of the unbalanced force, 0 to 1. contact: part of
+critical, 0 to 10.)")
       .def(
           "set_strength_factor",
           [](Runner& self, double factor, const std::optional<std::string>& joint) {
@@ -226,19 +250,20 @@ void add_changing(py::class_<Runner>& type) {
           "Strength of all joints, or of one, as the model gives it, divided by the factor.")
       .def(
           "excavate", [](Runner& self, const Names& names) { self.get().excavate(names); },
-          py::arg("openings"), "Takes out rock that a stage of the model names.")
+          py::arg("openings"), "Takes out the rock of openings that a stage of the model names.")
       .def(
           "relax",
           [](Runner& self, const std::string& name, double part) { self.get().relax(name, part); },
-          py::arg("opening"), py::arg("part"), "Lets go a part (0 to 1) of the excavated forces.")
+          py::arg("opening"), py::arg("part"),
+          "Lets go a part (0 to 1, all calls and stages together) of the forces of rock taken out.")
       .def(
           "switch_over",
           [](Runner& self, const Names& off, const Names& on) { self.get().switch_over(off, on); },
           py::arg("deactivate") = Names{}, py::arg("activate") = Names{},
-          "Loads, water, boundaries, shaking, as in a stage.")
+          "Loads, water, boundaries and shaking by name, as in a stage.")
       .def(
           "install", [](Runner& self, const Names& names) { self.get().install(names); },
-          py::arg("bolts"), "Puts in bolts and patterns.")
+          py::arg("bolts"), "Puts in bolts and patterns by name.")
       .def(
           "reset_displacements", [](Runner& self) { self.get().reset_displacements(); },
           "Displacements count from here.");

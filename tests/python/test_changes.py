@@ -135,3 +135,32 @@ def test_a_run_with_added_monitors_is_resumed_by_the_model_of_its_folder(models,
     second = edda.Simulation(tmp_path / "out/model.toml", results=tmp_path / "out", resume=True)
     assert second.monitors[-1] == "corner" and second.run().status == "completed"
     assert second.read("corner").ux == edda.Results(tmp_path / "out").history["corner.ux"][-1]
+
+
+def test_a_change_after_the_end_is_an_error(models, tmp_path):
+    simulation = edda.Simulation(edda.load(models / "ramp.toml", {"solver.duration": 0.02}), results=tmp_path / "out")
+    vx, vy = simulation.node_vx[1], simulation.node_vy[2]
+    outcome = simulation.run()
+    slider = simulation.block_called("slider")
+    with pytest.raises(edda.ModelError, match="the run is over"):
+        simulation.set_velocity("slider", (0.0, 0.0))
+    for look in (simulation.step, simulation.run, simulation.finish, lambda: simulation.advance_to(9.0),
+                 lambda: simulation.field("velocity"), lambda: simulation.ledger):
+        before = vx[slider], vy[slider]
+        vx[slider], vy[slider] = 5.0, np.nan
+        with pytest.raises(edda.ModelError, match="the run is over"):
+            look()
+        assert (vx[slider], vy[slider]) == before
+        look()
+    assert simulation.step() is False and simulation.run().steps == outcome.steps
+    assert edda.Results(tmp_path / "out").summary["status"] == "completed"
+
+
+def test_a_change_in_the_last_progress_is_an_error(models):
+    simulation = edda.Simulation(
+        edda.load(models / "ramp.toml", {"solver.duration": 0.02}),
+        progress=lambda p: simulation.over and simulation.node_vx[0].fill(1.0),
+    )
+    with pytest.raises(edda.ModelError, match="the run is over"):
+        simulation.run()
+    assert simulation.over and simulation.run().status == "completed"

@@ -1,4 +1,5 @@
 """Models: the same keys, checks and messages from a dict, a text or a file."""
+import enum
 import pickle
 import tomllib
 
@@ -105,3 +106,29 @@ def test_cut_is_what_the_program_writes(models, program, tmp_path):
     cut = edda.load(models / "cavern.toml").cut()
     corners = np.vstack([ring for block in cut.blocks for ring in block.rings])
     assert np.array_equal(corners[:, 0], table["x"]) and np.array_equal(corners[:, 1], table["y"])
+
+
+def test_numbers_of_enums_are_numbers():
+    class Seed(enum.IntEnum):
+        FIRST = 7
+
+    class Ratio(float, enum.Enum):
+        HALF = 0.5
+
+    class Law(str, enum.Enum):
+        DRY = "dry"
+
+    read = tomllib.loads(edda._toml.dumps({"seed": Seed.FIRST, "ratio": Ratio.HALF, Law.DRY: Law.DRY}))
+    assert read == {"seed": 7, "ratio": 0.5, "dry": "dry"}
+    assert edda._toml.setting("a.b", Seed.FIRST) == "a.b=7"
+
+
+def test_whole_numbers_beyond_64_bits_are_faults_with_their_key(models):
+    assert tomllib.loads(edda._toml.dumps({"x": [2**63 - 1, -(2**63)]}))["x"] == [2**63 - 1, -(2**63)]
+    for number in (2**63, -(2**63) - 1, np.uint64(2**63)):
+        with pytest.raises(edda.ModelError) as caught:
+            edda.load({"network": [{"name": "fine", "seed": number}], "title": number})
+        assert [fault.key for fault in caught.value.faults] == ["network.fine.seed", "title"]
+        assert "beyond 64 bits" in str(caught.value)
+    with pytest.raises(edda.ModelError, match="solver.duration: is a whole number beyond 64 bits"):
+        edda.load(models / "ramp.toml", {"solver.duration": 10**30})

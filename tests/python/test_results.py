@@ -142,66 +142,67 @@ def test_stages_and_bolts(models, tmp_path):
         results.stage_joints(1)
 
 
-def test_pictures(folder, models, tmp_path):
-    import matplotlib.pyplot as plt
-
-    results = edda.Results(folder)
-    model = edda.load(models / "cavern.toml")
-    simulation = edda.Simulation(model)
-    simulation.step(5)
-    for source, field in [
-        (results, "displacement"),
-        (results.frames[0], "stress.yy"),
-        (simulation, "velocity.x"),
-        (simulation, np.arange(simulation.block_count)),
-        (model.cut(), "area"),
-        (model.cut(), None),
-    ]:
-        ax = edda.plot_blocks(source, field, linewidths=0.2)
-        drawn = ax.collections[0]
-        if field is None:
-            assert drawn.get_array() is None
-        else:
-            assert len(drawn.get_array()) == len(drawn.get_paths()) > 100
-        plt.close(ax.figure)
-    ax = edda.plot_history(results, ["kinetic", "strain"])
-    assert np.array_equal(ax.lines[1].get_ydata(), results.history["strain"])
-    ax.figure.savefig(tmp_path / "history.png")
-    plt.close(ax.figure)
-    with pytest.raises(ValueError, match="no column"):
-        edda.plot_history(results, "speed")
-    with pytest.raises(ValueError, match="no component"):
-        edda.plot_blocks(results, "stress.up")
-    with pytest.raises(ValueError, match="has components"):
-        edda.plot_blocks(results, "stress")
-    plt.close("all")
-
-
-def test_a_crumb_does_not_darken_all_others(models):
-    import matplotlib.pyplot as plt
-
-    cut = edda.load(models / "cavern.toml").cut()
-    free = np.array([not block.fixed for block in cut.blocks])
-    area = np.array([block.area for block in cut.blocks])
-    values = np.linspace(1e-3, 6e-3, len(area))
-    values[~free] = 99.0  # held blocks do not count
-    crumb = np.flatnonzero(free)[np.argmin(area[free])]
-
-    def drawn(**options):
-        ax = edda.plot_blocks(cut, values, **options)
-        limits, bar = ax.collections[0].get_clim(), ax.figure.axes[-1]._colorbar
-        plt.close(ax.figure)
-        return limits[1], bar.extend
-
-    values[crumb] = 0.167
-    high, extend = drawn()
-    assert extend == "max" and 6e-3 < high <= 9e-3
-    assert drawn(clim=(0.0, 0.01)) == (0.01, "neither")
-    assert drawn(whole_range=True) == (values.max(), "neither")
-    values[~free] = values[crumb] = 5e-3
-    assert drawn() == (values.max(), "neither")
-
-
 def test_matplotlib_is_imported_only_for_pictures():
     code = "import edda, sys; sys.exit('matplotlib' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+WHOLE = {
+    "blocks.csv": ["id"],
+    "joints.csv": ["block_i", "block_j", "ever_slipped", "ever_opened"],
+    "stages.csv": ["stage", "reached", "steps", "largest_block", "contacts", "sliding", "bonded", "detached", "open",
+                   "broken", "yielded_bolts"],
+    "bolts.csv": ["yielded", "ruptured"],
+    "cut.csv": ["block", "ring"],
+}
+
+
+@pytest.fixture(scope="module")
+def bolted(models, program, tmp_path_factory):
+    """A run with bolts and stages to the end of the second."""
+    path = tmp_path_factory.mktemp("bolted") / "tunnel"
+    model = edda.load(models / "tunnel.toml", ["output.every=10", "output.history_every=1"])
+    simulation = edda.Simulation(model, results=path)
+    while simulation.stage < 2 and simulation.step(50):
+        pass
+    simulation.finish()
+    program("cut", models / "tunnel.toml", "-o", path / "cut.csv")
+    return path
+
+
+@pytest.mark.parametrize("name", list(WHOLE))
+def test_whole_numbers_are_whole_and_others_are_not(bolted, name):
+    table = edda.results.read_table(bolted / name)
+    columns = columns_of(bolted / name)
+    assert len(table) > 0
+    kinds = {column: table.dtype[column].kind for column in columns}
+    assert [column for column in columns if kinds[column] == "i"] == WHOLE[name]
+    for column in WHOLE[name]:
+        assert table[column].dtype == np.int64 and table[column].tolist() == [int(t) for t in columns[column]]
+
+
+def test_whole_numbers_that_are_left_blank_are_minus_one(tmp_path):
+    (tmp_path / "fos.csv").write_text("factor,outcome,displacement,block,time,steps,reason\n1,holds,,,0.5,7,\n2,fails,0.1,3,1,9,x\n")
+    fos = edda.Results(tmp_path).fos
+    assert fos["block"].dtype == np.int64 and fos["block"].tolist() == [-1, 3]
+    assert np.isnan(fos["displacement"][0]) and fos["reason"].tolist() == ["", "x"]
+
+
+def test_energies_of_the_history_stay_as_they_are(folder):
+    history = edda.Results(folder).history
+    assert {history.dtype[name].kind for name in history.dtype.names} == {"f"}
+
+
+def test_docstrings_say_columns_and_units(folder, bolted):
+    for name, path in [("history", folder), ("reactions", folder), ("blocks", bolted), ("joints", bolted),
+                       ("stages", bolted), ("bolts", bolted)]:
+        text = " ".join(getattr(edda.Results, name).__doc__.split())
+        for column in getattr(edda.Results(path), name).dtype.names:
+            ending = column.rpartition(".")[2]
+            assert ending in text, (name, column)
+        assert "(s)" in text or "(m)" in text
+    frames = edda.Results(folder)
+    for frame in (frames.frames[0], frames.contact_frames[0]):
+        for field in frame:
+            assert field in edda.Frame.__doc__, field
+    assert "xx yy zz xy yz xz" in edda.Frame.__doc__

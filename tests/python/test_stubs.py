@@ -5,6 +5,8 @@ import pathlib
 import re
 
 import edda
+import numpy as np
+import pytest
 from edda import _edda
 
 STUB = ast.parse((pathlib.Path(edda.__file__).resolve().parent / "_edda.pyi").read_text())
@@ -70,6 +72,71 @@ def test_everything_public_is_documented():
         if inspect.isclass(kind):
             for attribute in public(vars(kind)):
                 assert getattr(kind, attribute).__doc__, f"{name}.{attribute}"
+
+
+def words(text):
+    return " ".join((text or "").split())
+
+
+def test_docstrings_of_stubs_are_those_at_run_time():
+    """Which help() shows; behind the line with the signature, which pybind11 writes."""
+    checked = 0
+    for node in [STUB, *[n for n in STUB.body if isinstance(n, ast.ClassDef)]]:
+        owner = _edda if node is STUB else getattr(_edda, node.name)
+        if node is not STUB:
+            assert words(ast.get_docstring(node)) == words(owner.__doc__)
+        for name, member in members(node).items():
+            text = getattr(owner, name).__doc__
+            if not isinstance(inspect.getattr_static(owner, name), property):
+                text = text.partition("\n")[2]
+            assert words(ast.get_docstring(member)) == words(text) != "", f"{node}.{name}"
+            checked += 1
+    assert checked > 100
+
+
+def test_docstrings_say_arguments_columns_and_units():
+    for name in ("model", "results", "resume", "from_stage", "progress", "progress_every", "warn"):
+        assert f"\n{name}: " in inspect.cleandoc(edda.Simulation.__init__.__doc__), name
+    for name in edda.Simulation({**LONE}).contacts().dtype.names:
+        assert name in edda.Simulation.contacts.__doc__, name
+    for unit in ("(m)", "(N", "(m/s)", "(Pa", "rad/s"):
+        assert unit in edda.Simulation.contacts.__doc__ + edda.Simulation.field.__doc__
+
+
+LONE = {
+    "materials": {"rock": {"density": 2500, "young": 10e9, "poisson": 0.2}},
+    "block": [{"name": "b", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]]}],
+    "solver": {"duration": 0.01},
+}
+
+
+def annotation(function, argument):
+    node = members(next(n for n in STUB.body if isinstance(n, ast.ClassDef) and n.name == "Simulation"))[function]
+    return ast.unparse(next(a.annotation for a in node.args.args if a.arg == argument))
+
+
+def test_stubs_take_what_runs(models):
+    """Whole numbers of NumPy, points as lists and arrays, names as tuples."""
+    for function, argument in [("name", "block"), ("set_velocity", "block"), ("step", "steps"), ("every", "steps")]:
+        assert "SupportsIndex" in annotation(function, argument)
+    for function, argument in [("excavate", "openings"), ("install", "bolts"), ("switch_over", "activate")]:
+        assert annotation(function, argument) == "Sequence[str]"
+    assert annotation("set_velocity", "velocity") == annotation("add_monitor", "point") == "_Point"
+    simulation = edda.Simulation({**LONE})
+    one = np.int64(1)
+    for k, point in enumerate([(0.5, 0.5), [0.5, 0.5], np.array([0.5, 0.5]), np.array([0, 1]), np.float32([0.5, 0.5])]):
+        simulation.add_monitor(f"m{k}", point)
+        simulation.set_velocity(np.int64(0), point)
+    assert simulation.name(np.int32(0)) == "b"
+    assert simulation.step(one) and simulation.forget(np.int64(simulation.every(one, print))) is None
+    edda.set_threads(one)
+    tunnel = edda.Simulation(models / "tunnel.toml")
+    tunnel.excavate(("heading",))
+    tunnel.install(())
+    tunnel.switch_over((), ())
+    with pytest.raises(TypeError):
+        tunnel.excavate("heading")
+    assert edda.Model.read(str(models / "ramp.toml"), ("solver.duration=0.5",)).duration == 0.5
 
 
 def test_names_are_exported_and_typed():

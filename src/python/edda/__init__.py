@@ -95,7 +95,12 @@ def run(
     results: str | os.PathLike[str] | None = None,
     overrides: Overrides = None,
 ) -> Outcome:
-    """Runs a model to its end; with `results`, into that folder, as `edda run` does."""
+    """Runs a model to its end.
+
+    model: a Model, or what load() takes, with overrides as there. results: folder, as of `edda run -o`; None: no
+    results are written. Raises ModelError for a model that cannot be computed and a folder that cannot be used; a run
+    that ends badly is no error: Outcome.status tells.
+    """
     if not isinstance(model, Model):
         model = load(model, overrides)
     elif overrides:

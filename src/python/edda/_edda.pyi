@@ -1,44 +1,52 @@
 """The compiled part of edda. nb: number of blocks, nv: number of their vertices; SI units."""
 
 import os
-from collections.abc import Callable, Mapping
-from typing import Any, Literal, Optional, Union
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal, Optional, SupportsIndex, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 _Floats = NDArray[np.float64]
 _Nodes = tuple[_Floats, _Floats, _Floats]
-_Point = tuple[float, float]
+_Point = Union[Sequence[float], NDArray[np.floating[Any]], NDArray[np.integer[Any]]]  # x, y
 _Field = Literal["centroid", "displacement", "rotation", "velocity", "omega", "stress", "overstress"]
 
-def version() -> str: ...
-def set_threads(threads: int) -> None: ...
+def version() -> str:
+    """The version, "0.1.0"."""
+def set_threads(threads: SupportsIndex) -> None:
+    """Threads that simulations of this process use; results do not depend on it."""
 
 class Model:
     """A checked model; never changes."""
 
     @staticmethod
-    def read(path: Union[str, os.PathLike[str]], overrides: list[str] = []) -> Model:
+    def read(path: Union[str, os.PathLike[str]], overrides: Sequence[str] = []) -> Model:
         """Reads a TOML file; overrides as of --set, "solver.duration=0.2"."""
     @staticmethod
-    def parse(toml: str, name: str = "model", overrides: list[str] = []) -> Model:
-        """The same of a text; faults call it `name`."""
+    def parse(toml: str, name: str = "model", overrides: Sequence[str] = []) -> Model:
+        """The same of a text; faults call it `name`, and paths in it count from that file."""
     @property
-    def title(self) -> str: ...
+    def title(self) -> str:
+        """As the model says."""
     @property
-    def file(self) -> str: ...
+    def file(self) -> str:
+        """Path or name that it was read from."""
     @property
     def duration(self) -> float:
         """s"""
     @property
-    def materials(self) -> list[str]: ...
+    def materials(self) -> list[str]:
+        """Names, in order."""
     @property
-    def joints(self) -> list[str]: ...
+    def joints(self) -> list[str]:
+        """Names of the laws, in order."""
     @property
-    def openings(self) -> list[str]: ...
+    def openings(self) -> list[str]:
+        """Names, in order."""
     @property
-    def stages(self) -> list[str]: ...
+    def stages(self) -> list[str]:
+        """Names, in order."""
     def to_toml(self) -> str:
         """The model with every key and default filled in."""
     def cut(self) -> Cut:
@@ -48,12 +56,14 @@ class CutBlock:
     """One block as cut."""
 
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """Of a [[block]], else empty."""
     @property
     def material(self) -> int:
         """Row of Model.materials, -1: none."""
     @property
-    def fixed(self) -> bool: ...
+    def fixed(self) -> bool:
+        """Whether it is held."""
     @property
     def area(self) -> float:
         """m2"""
@@ -68,11 +78,14 @@ class Cut:
     """The model's blocks, and what the cut did to its lines."""
 
     @property
-    def blocks(self) -> list[CutBlock]: ...
+    def blocks(self) -> list[CutBlock]:
+        """In the order of their ids."""
     @property
-    def trimmed(self) -> int: ...
+    def trimmed(self) -> int:
+        """Ends of joints inside a block."""
     @property
-    def merged(self) -> int: ...
+    def merged(self) -> int:
+        """Slivers joined to a neighbour."""
     @property
     def smallest_area(self) -> float:
         """m2"""
@@ -83,7 +96,8 @@ class Cut:
     def smallest_angle(self) -> float:
         """degrees"""
     @property
-    def notes(self) -> list[str]: ...
+    def notes(self) -> list[str]:
+        """What was imported, drawn at random, left out, and which joints cut nothing."""
 
 class Outcome:
     """How a run ended."""
@@ -92,31 +106,36 @@ class Outcome:
     def status(self) -> str:
         """completed, equilibrium, collapsed, interrupted or failed."""
     @property
-    def message(self) -> str: ...
+    def message(self) -> str:
+        """One sentence."""
     @property
     def time(self) -> float:
-        """s"""
+        """s, reached."""
     @property
-    def steps(self) -> int: ...
+    def steps(self) -> int:
+        """Steps made."""
     @property
     def contacts(self) -> int:
         """Closed at the end."""
     @property
     def drift(self) -> float:
-        """Of the energy: the largest in size of all rows of the history, not the last one's."""
+        """Of the energy, a ratio: the largest in size of all rows of the history, not the last one's."""
     @property
-    def wall_seconds(self) -> float: ...
+    def wall_seconds(self) -> float:
+        """s"""
 
 class Progress:
     """How far a run has come."""
 
     @property
-    def fraction(self) -> float: ...
+    def fraction(self) -> float:
+        """Of the duration."""
     @property
     def time(self) -> float:
-        """s"""
+        """s, simulated."""
     @property
-    def steps(self) -> int: ...
+    def steps(self) -> int:
+        """Steps made."""
     @property
     def rate(self) -> float:
         """Steps per second of wall time."""
@@ -146,43 +165,60 @@ class Ledger:
     """Energies since t = 0, J; drift is a ratio."""
 
     @property
-    def kinetic(self) -> float: ...
+    def kinetic(self) -> float:
+        """J"""
     @property
-    def strain(self) -> float: ...
+    def strain(self) -> float:
+        """J"""
     @property
-    def contact(self) -> float: ...
+    def contact(self) -> float:
+        """J"""
     @property
-    def gravity(self) -> float: ...
+    def gravity(self) -> float:
+        """J"""
     @property
-    def friction(self) -> float: ...
+    def friction(self) -> float:
+        """J, dissipated."""
     @property
-    def damping(self) -> float: ...
+    def damping(self) -> float:
+        """J, dissipated."""
     @property
-    def fracture(self) -> float: ...
+    def fracture(self) -> float:
+        """J, dissipated."""
     @property
-    def external(self) -> float: ...
+    def external(self) -> float:
+        """J, work done on the blocks."""
     @property
-    def step_change(self) -> float: ...
+    def step_change(self) -> float:
+        """J, taken out by changed steps."""
     @property
-    def drift(self) -> float: ...
+    def drift(self) -> float:
+        """What does not add up, over the largest energy."""
 
 class MonitorReading:
-    """A material point and its block: m, m/s, Pa."""
+    """A material point and its block: m, m/s, Pa (tension positive)."""
 
     @property
-    def ux(self) -> float: ...
+    def ux(self) -> float:
+        """m"""
     @property
-    def uy(self) -> float: ...
+    def uy(self) -> float:
+        """m"""
     @property
-    def vx(self) -> float: ...
+    def vx(self) -> float:
+        """m/s"""
     @property
-    def vy(self) -> float: ...
+    def vy(self) -> float:
+        """m/s"""
     @property
-    def sxx(self) -> float: ...
+    def sxx(self) -> float:
+        """Pa"""
     @property
-    def syy(self) -> float: ...
+    def syy(self) -> float:
+        """Pa"""
     @property
-    def sxy(self) -> float: ...
+    def sxy(self) -> float:
+        """Pa"""
 
 class Simulation:
     """A model in motion. run(), step() and advance_to() are one run, in parts or at once."""
@@ -192,22 +228,28 @@ class Simulation:
         model: Union[Model, str, os.PathLike[str], Mapping[str, Any]],
         results: Union[str, os.PathLike[str], None] = None,
         resume: bool = False,
-        from_stage: Optional[int] = None,
-        progress: Optional[Callable[[Progress], Optional[bool]]] = None,
+        from_stage: Optional[SupportsIndex] = None,
+        progress: Optional[Callable[[Progress], object]] = None,
         progress_every: float = 0.2,
-        warn: Optional[Callable[[str], None]] = None,
+        warn: Optional[Callable[[str], object]] = None,
     ) -> None:
         """Cuts, builds and checks; nothing is written before the first step.
 
-        model: a Model, or what edda.load() takes. results: folder, as of `edda run -o`.
-        resume, from_stage: go on from its checkpoint, or from that of the end of a stage.
-        progress: called about every progress_every s of wall time and at the end, when the run is
-        over and can no longer be changed; False stops the run.
+        model: a Model, or what edda.load() takes.
+        results: folder for results, as of `edda run -o`; None: none are written.
+        resume: go on from the checkpoint in that folder.
+        from_stage: go on from the checkpoint of the end of this stage (from 0).
+        progress: called with a Progress about every progress_every s, and at the end, when the
+            run is over and can no longer be changed; False stops the run.
+        progress_every: s of wall time.
+        warn: called with a text for what does not end the run, such as a damaged checkpoint.
+
+        Raises ModelError for what cannot be computed, and for a folder that cannot be used.
         """
     def run(self) -> Outcome:
-        """To the end, through all stages."""
-    def step(self, steps: int = 1) -> bool:
-        """So many steps; False: the run is over."""
+        """To the end, through all stages, or to a pause()."""
+    def step(self, steps: SupportsIndex = 1) -> bool:
+        """So many steps, fewer at the end; False: the run is over."""
     def advance_to(self, time: float) -> bool:
         """To the first step at or past a time (s); False: the run is over."""
     def finish(self) -> Outcome:
@@ -216,46 +258,55 @@ class Simulation:
         """From any thread: the call in hand returns."""
     def stop(self) -> None:
         """From any thread: the run ends as interrupted."""
-    def every(self, steps: int, action: Callable[[Simulation], object]) -> int:
+    def every(self, steps: SupportsIndex, action: Callable[[Simulation], object]) -> int:
         """Calls action(simulation) after every so many steps; returns a number for forget()."""
-    def forget(self, callback: int) -> None: ...
+    def forget(self, callback: SupportsIndex) -> None:
+        """Drops what every() has returned this number for."""
     @property
-    def model(self) -> Model: ...
+    def model(self) -> Model:
+        """The model."""
     @property
     def time(self) -> float:
         """s"""
     @property
-    def steps(self) -> int: ...
+    def steps(self) -> int:
+        """Steps made."""
     @property
     def time_step(self) -> float:
         """s, in force; 0 before the first step."""
     @property
     def critical_step(self) -> float:
-        """s"""
+        """s, the largest that is stable now."""
     @property
-    def governed_by(self) -> str: ...
+    def governed_by(self) -> str:
+        """What holds the step."""
     @property
-    def warnings(self) -> list[str]: ...
+    def warnings(self) -> list[str]:
+        """What to look at before running."""
     @property
     def stage(self) -> int:
         """In hand, from 0."""
     @property
-    def over(self) -> bool: ...
+    def over(self) -> bool:
+        """Whether the run has ended."""
     @property
-    def ledger(self) -> Ledger: ...
+    def ledger(self) -> Ledger:
+        """Energies now, J."""
     @property
-    def unbalanced(self) -> float: ...
+    def unbalanced(self) -> float:
+        """Mean resultant over mean contact force."""
     @property
     def block_count(self) -> int:
-        """nb"""
+        """nb, those taken out among them."""
     @property
     def vertex_count(self) -> int:
-        """nv"""
+        """nv, of all blocks."""
     @property
-    def monitors(self) -> list[str]: ...
+    def monitors(self) -> list[str]:
+        """Names, those of the model first."""
     @property
-    def origin(self) -> _Point:
-        """m: node positions count from here."""
+    def origin(self) -> tuple[float, float]:
+        """(x, y), m: node positions count from here."""
     @property
     def area(self) -> _Floats:
         """(nb,) m2 at the start; a view, not to be written to."""
@@ -281,40 +332,59 @@ class Simulation:
     def node_vx(self) -> _Nodes:
         """Three views (nb,) to read and write, m/s, half a step before the positions.
 
-        What is written for blocks that are not free is put back by the next call.
+        What is written for blocks that are not free is put back by the next call; what is no finite
+        number, or written once the run is over, is its ModelError.
         """
     @property
     def node_vy(self) -> _Nodes:
-        """Three views (nb,) to read and write, m/s, half a step before the positions."""
+        """Three views (nb,) to read and write, m/s, half a step before the positions.
+
+        What is written for blocks that are not free is put back by the next call; what is no finite
+        number, or written once the run is over, is its ModelError.
+        """
     def field(self, name: _Field, out: Optional[_Floats] = None) -> _Floats:
         """Of all blocks, into `out` where one is given.
 
-        centroid, displacement (m), velocity (m/s): (nb, 2); stress (Pa): (nb, 4), xx yy zz xy;
-        rotation (rad), omega (rad/s), overstress: (nb,).
+        centroid, displacement (m), velocity (m/s): (nb, 2), x y; stress (Pa, tension positive):
+        (nb, 4), xx yy zz xy; rotation (rad), omega (rad/s), overstress (part of the strength used):
+        (nb,). Of blocks taken out as they went.
         """
     def polygons(self) -> list[list[_Floats]]:
         """Per block its rings, arrays (n, 2), m, as they are now."""
     def contacts(self) -> np.ndarray[Any, np.dtype[np.void]]:
-        """A structured array, as joints.csv.
+        """A structured array (n,) of contacts that are closed or were before, as joints.csv.
 
-        block_i, block_j, joint (row of Model.joints, -1: glued), state (0 open, 1 stick, 2 slide,
-        3 bonded), x, y (m), normal_force, shear_force (N), opening, slip (m), mobilised,
-        ever_slipped, ever_opened.
+        block_i (of the vertex), block_j (of the edge), joint (row of Model.joints, -1: glued),
+        state (0 open, 1 stick, 2 slide, 3 bonded); x, y (m), of the vertex; normal_force (N,
+        compression positive), shear_force (N, positive where it drives block i along the edge);
+        opening (m, negative: overlap), slip (m); mobilised (shear over shear strength);
+        ever_slipped, ever_opened (0 or 1). Forces are those of the model's thickness.
         """
-    def name(self, block: int) -> str:
-        """Empty where it has none; IndexError where there is no such block."""
-    def block_called(self, name: str) -> int: ...
+    def name(self, block: SupportsIndex) -> str:
+        """Of a block by its number, empty where it has none; IndexError: no such block."""
+    def block_called(self, name: str) -> int:
+        """The number of a block; KeyError: no such name."""
     def add_monitor(self, name: str, point: _Point) -> None:
         """Follows the material point at (x, y) of the start, m."""
-    def read(self, monitor: str) -> MonitorReading: ...
-    def set_velocity(self, block: Union[int, str], velocity: _Point, omega: float = 0.0) -> None:
-        """(vx, vy) of its centroid, m/s, and rate of turn, rad/s."""
+    def read(self, monitor: str) -> MonitorReading:
+        """What a monitor tells now."""
+    def set_velocity(self, block: Union[SupportsIndex, str], velocity: _Point, omega: float = 0.0) -> None:
+        """Of a free block by number or name: (vx, vy) of its centroid, m/s, and rate of turn, rad/s."""
     def set_damping(self, mass: float = 0.0, local: float = 0.0, contact: float = 0.0) -> None:
-        """1/s; a fraction; a fraction of critical."""
+        """From now on.
+
+        mass: mass-proportional, 1/s. local: part of the unbalanced force, 0 to 1. contact: part of
+        critical, 0 to 10.
+        """
     def set_strength_factor(self, factor: float, joint: Optional[str] = None) -> None:
         """Strength of all joints, or of one, as the model gives it, divided by the factor."""
-    def excavate(self, openings: list[str]) -> None: ...
-    def relax(self, opening: str, part: float) -> None: ...
-    def switch_over(self, deactivate: list[str] = [], activate: list[str] = []) -> None: ...
-    def install(self, bolts: list[str]) -> None: ...
-    def reset_displacements(self) -> None: ...
+    def excavate(self, openings: Sequence[str]) -> None:
+        """Takes out the rock of openings that a stage of the model names."""
+    def relax(self, opening: str, part: float) -> None:
+        """Lets go a part (0 to 1, all calls and stages together) of the forces of rock taken out."""
+    def switch_over(self, deactivate: Sequence[str] = [], activate: Sequence[str] = []) -> None:
+        """Loads, water, boundaries and shaking by name, as in a stage."""
+    def install(self, bolts: Sequence[str]) -> None:
+        """Puts in bolts and patterns by name."""
+    def reset_displacements(self) -> None:
+        """Displacements count from here."""

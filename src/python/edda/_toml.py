@@ -23,7 +23,7 @@ def dumps(model: Mapping[str, Any]) -> str:
 
 
 def _key(name: Any) -> str:
-    return _string(str(name))
+    return _string(name if isinstance(name, str) else str(name))
 
 
 def _string(text: str) -> str:
@@ -46,8 +46,13 @@ def _value(value: Any, key: str, faults: list[Fault]) -> str:
         return _string(value)
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, (int, float)):
-        return repr(value)  # nan and inf are TOML's words, too
+    if isinstance(value, int):
+        if not -(2**63) <= value < 2**63:
+            faults.append(Fault(key, "is a whole number beyond 64 bits", "give a smaller one, or a float"))
+            return "0"
+        return int.__repr__(value)  # of an IntEnum, too
+    if isinstance(value, float):
+        return float.__repr__(value)  # nan and inf are TOML's words, too
     if isinstance(value, (list, tuple)):
         items = [_value(item, f"{key}.{_label(item, n)}", faults) for n, item in enumerate(value)]
         return "[" + ", ".join(items) + "]"

@@ -6,8 +6,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from ._errors import UnknownName
+from ._fields import KINDS, first_cells, held, is_of_motion, label_of, values_of
 from .results import Frame, Results
 
 if TYPE_CHECKING:
@@ -15,52 +17,47 @@ if TYPE_CHECKING:
 
     from ._edda import Cut, Simulation
 
-_COMPONENTS = {
-    "displacement": ("x", "y"),
-    "velocity": ("x", "y"),
-    "centroid": ("x", "y"),
-    "stress": ("xx", "yy", "zz", "xy"),
-}
-_UNITS = {"displacement": "m", "velocity": "m/s", "centroid": "m", "stress": "Pa", "rotation": "rad", "omega": "rad/s"}
+_HELD = (0.8, 0.8, 0.8)
 
 
 def plot_blocks(
     source: Simulation | Results | Frame | Cut,
-    field: str | NDArray[Any] | None = None,
+    field: ArrayLike | None = None,
     ax: Axes | None = None,
     *,
     whole_range: bool = False,
     **options: Any,
 ) -> Axes:
-    """Draws the blocks, coloured by a field.
+    """Draws the blocks with their outlines, coloured by a field.
 
-    source: a Simulation as it stands, a Frame, Results (their last frame) or a Cut. field: a name
-    as of Simulation.field() or of a frame ("displacement" and "velocity" give sizes,
-    "displacement.x" and "stress.yy" components), or an array (nb,) with a number per block.
+    source: a Simulation as it stands, a Frame, Results (their last frame) or a Cut.
+    field: a name as of `edda plot`, or an array (nb,) with a number per block. Of a Simulation or a frame
+    "displacement" (m) and "velocity" (m/s), which are sizes, or their ".x" and ".y"; "stress" (Pa),
+    the mean in the plane, or its ".xx", ".yy", ".zz", ".xy"; "principal_stress.major" (most tensile), ".minor"
+    (most compressive, also without a component) and ".out_of_plane"; "rotation" (rad), "omega" (rad/s),
+    "overstress"; "id", "material", "fixed". Of a Simulation also "area" (m2) and "mass" (kg), of a Cut "area",
+    "id", "material" and "fixed".
     whole_range: the colours reach as far as the values, even where few blocks come near; else a few that lie
-    far beyond have the colour of the bar's end, which is then a point (as in edda plot). options go to
-    Matplotlib's PathCollection; clim or norm among them says what the colours are.
+    far beyond have the colour of the bar's end, which is then a point. Held blocks do not count: by name they are
+    grey (as in edda plot), by an array, and of a Cut, they have the colour of the nearest end.
+    options go to Matplotlib's PathCollection; clim or norm among them says what the colours are.
     """
     import matplotlib.pyplot as plt
     from matplotlib.collections import PathCollection
 
+    if isinstance(source, Results):
+        source = source.frames[-1]
     paths, ids = _outlines(source)
+    values = None if field is None else values_of(source, field, ids)
     if ax is None:
         ax = plt.subplots()[1]
     style: dict[str, Any] = {"edgecolors": "black", "linewidths": 0.4, "facecolors": "0.85"}
     if field is not None:
         del style["facecolors"]
     drawn = PathCollection(paths, **{**style, **options})
-    if field is not None:
-        values = np.asarray(_values(source, field, ids), dtype=np.float64)
-        drawn.set_array(values)
-        extend = "neither"
-        is_kind = isinstance(field, str) and field in ("id", "material", "fixed")
-        if not is_kind and not whole_range and not {"clim", "norm"} & set(options):
-            extend = _limit_colours(drawn, values, _weights(source, paths, ids))
-        label = field if isinstance(field, str) else ""
-        unit = _UNITS.get(label.split(".")[0])
-        ax.figure.colorbar(drawn, ax=ax, extend=extend, label=f"{label} ({unit})" if unit else label)
+    if field is not None and values is not None:
+        extend = _set_colours(drawn, source, field, values, ids, whole_range, {"clim", "norm"} & set(options))
+        ax.figure.colorbar(drawn, ax=ax, extend=extend, label=label_of(field))
     ax.add_collection(drawn)
     ax.set_aspect("equal")
     ax.autoscale_view()
@@ -69,33 +66,95 @@ def plot_blocks(
     return ax
 
 
-def plot_history(results: Results, columns: str | Sequence[str], ax: Axes | None = None, **options: Any) -> Axes:
-    """Draws columns of history.csv over time, one or several; options go to Axes.plot()."""
+def plot_history(
+    results: Results, columns: str | Sequence[str], ax: Axes | Sequence[Axes] | None = None, **options: Any
+) -> Axes:
+    """Draws columns of history.csv over time (s), one or several, named with their units.
+
+    Columns of one unit share an axes; where there are several units each has one of its own, below each other in the
+    order in which they are first named. ax: the axes to draw in, one for each unit. options go to Axes.plot().
+    Returns the first axes; all of them are in its figure.axes.
+    """
     import matplotlib.pyplot as plt
 
-    if ax is None:
-        ax = plt.subplots()[1]
     history = results.history
+    panels: dict[str, list[str]] = {}
     for column in [columns] if isinstance(columns, str) else columns:
         if column not in (history.dtype.names or ()):
-            raise ValueError(f'history.csv has no column "{column}": it has {", ".join(history.dtype.names or ())}')
-        ax.plot(history["time"], history[column], **{"label": column, **options})
-    ax.set_xlabel("time (s)")
-    ax.legend()
-    return ax
+            raise UnknownName("column of history.csv", column, history.dtype.names or ())
+        label, unit = _kind_of(column)
+        panels.setdefault(unit or label, []).append(column)
+    if not panels:
+        raise ValueError("no column is named: give one or more")
+    if ax is None:
+        width, height = plt.rcParams["figure.figsize"]
+        several = {"figsize": (width, 0.6 * height * len(panels)), "layout": "constrained"} if len(panels) > 1 else {}
+        axes = list(plt.subplots(len(panels), sharex=True, squeeze=False, **several)[1][:, 0])
+    else:
+        axes = list(np.ravel(np.asarray(ax, dtype=object)))
+    if len(axes) != len(panels):
+        units = ", ".join(panels)
+        raise ValueError(f"{len(axes)} axes for columns in {units}: give {len(panels)}, one for each, or none")
+    for one, named in zip(axes, panels.values()):
+        for column in named:
+            one.plot(history["time"], history[column], **{"label": column, **options})
+        one.set_ylabel(_history_label(named))
+        one.legend()
+    axes[-1].set_xlabel("time (s)")
+    return axes[0]
+
+
+_ENERGIES = (
+    "kinetic",
+    "strain",
+    "contact",
+    "gravity",
+    "friction",
+    "damping",
+    "fracture",
+    "external",
+    "step_change",
+)
+_ENDINGS = {
+    "ux": ("displacement", "m"),
+    "uy": ("displacement", "m"),
+    "vx": ("velocity", "m/s"),
+    "vy": ("velocity", "m/s"),
+    "sxx": ("stress", "Pa"),
+    "syy": ("stress", "Pa"),
+    "sxy": ("stress", "Pa"),
+    "convergence": ("convergence", "m"),
+}
+
+
+def _kind_of(column: str) -> tuple[str, str]:
+    """What a column of history.csv holds, and its unit."""
+    if column in _ENERGIES:
+        return "energy", "J"
+    own = {"time": ("time", "s"), "drift": ("drift of the energy", ""), "unbalanced": ("unbalanced force ratio", "")}
+    name, _, ending = column.rpartition(".")
+    return own.get(column) or (name and _ENDINGS.get(ending)) or (column, "")
+
+
+def _history_label(columns: Sequence[str]) -> str:
+    """"displacement (m)"; of one column its name."""
+    kinds = [_kind_of(column) for column in columns]
+    names = ", ".join(dict.fromkeys(label for label, _ in kinds)) if len(columns) > 1 else columns[0]
+    return f"{names} ({kinds[0][1]})" if kinds[0][1] else names
 
 
 def _outlines(source: Any) -> tuple[list[Any], NDArray[np.int64]]:
-    """Closed paths, and the block that each belongs to."""
+    """A closed path per block, and the number of each."""
     from matplotlib.path import Path
 
     def path_of(rings: Sequence[NDArray[np.float64]]) -> Path:
         return Path.make_compound_path(*(Path(np.vstack([r, r[:1]]), closed=True) for r in rings))
 
-    if isinstance(source, Results):
-        source = source.frames[-1]
     if isinstance(source, Frame):
-        return [path_of([p]) for p in source.polygons()], np.asarray(source["id"], dtype=np.int64)
+        if "id" not in source:
+            raise ValueError("this frame holds no blocks: give one of Results.frames")
+        first = first_cells(source)
+        return [path_of(rings) for rings in _rings(source, first)], np.asarray(source["id"][first], dtype=np.int64)
     if hasattr(source, "polygons"):
         alive = np.flatnonzero(source.alive)
         polygons = source.polygons()
@@ -103,18 +162,64 @@ def _outlines(source: Any) -> tuple[list[Any], NDArray[np.int64]]:
     return [path_of(block.rings) for block in source.blocks], np.arange(len(source.blocks))
 
 
-def _weights(source: Any, paths: list[Any], ids: NDArray[np.int64]) -> NDArray[np.float64]:
-    """How much each path counts where a few may lie beyond the colours: its area, of held blocks nothing."""
-    areas = np.array([abs(sum(_area(ring) for ring in path.to_polygons(closed_only=False))) for path in paths])
-    if isinstance(source, Results):
-        source = source.frames[-1]
-    if isinstance(source, Frame):
-        fixed = source["fixed"] if "fixed" in source.cell_fields else np.zeros(len(areas))
-    elif hasattr(source, "fixed"):
-        fixed = source.fixed[ids]
+def _rings(frame: Frame, first: NDArray[np.int64]) -> list[list[NDArray[np.float64]]]:
+    """Per block its closed rings, of cells together: edges between two cells of a block are no outline."""
+    blocks = []
+    for begin, end in zip(first, [*first[1:], len(frame.cells)]):
+        if end - begin == 1:
+            blocks.append([frame.points[frame.cells[begin]]])
+            continue
+        cells = [cell.tolist() for cell in frame.cells[begin:end]]
+        edges = dict.fromkeys(edge for cell in cells for edge in zip(cell, cell[1:] + cell[:1]))
+        leaving: dict[int, list[int]] = {}
+        for a, b in edges:
+            if (b, a) not in edges:
+                leaving.setdefault(a, []).append(b)
+        rings = []
+        while leaving:
+            ring = []
+            at = next(iter(leaving))
+            while at in leaving:  # at a point that several edges leave, any will do
+                ring.append(at)
+                to = leaving[at].pop()
+                if not leaving[at]:
+                    del leaving[at]
+                at = to
+            rings.append(frame.points[ring])
+        blocks.append(rings)
+    return blocks
+
+
+def _set_colours(
+    drawn: Any,
+    source: Any,
+    field: ArrayLike,
+    values: NDArray[np.float64],
+    ids: NDArray[np.int64],
+    whole_range: bool,
+    is_given: set[str],
+) -> str:
+    """Colours the paths; where values lie beyond the colours, in the words of a colorbar."""
+    is_held = held(source, ids)
+    if is_of_motion(source, field) and is_held.any():
+        values = np.where(is_held, np.nan, values)
+        if drawn.get_cmap().get_bad()[3] == 0.0:
+            drawn.set_cmap(drawn.get_cmap().with_extremes(bad=_HELD))
+    drawn.set_array(values)
+    shown = values[np.isfinite(values)]
+    if is_given:
+        return "neither"
+    if isinstance(field, str) and field in KINDS or whole_range:
+        low, high = (shown.min(), shown.max()) if len(shown) else (0.0, 1.0)
     else:
-        fixed = np.array([block.fixed for block in source.blocks])
-    return np.where(np.asarray(fixed) != 0, 0.0, areas)
+        low, high = _drawn_range(values, np.where(is_held, 0.0, _areas(drawn.get_paths())), shown)
+    drawn.set_clim(low, high)
+    below, above = bool(np.any(shown < low)), bool(np.any(shown > high))
+    return "both" if below and above else "min" if below else "max" if above else "neither"
+
+
+def _areas(paths: Sequence[Any]) -> NDArray[np.float64]:
+    return np.array([abs(sum(_area(ring) for ring in path.to_polygons(closed_only=False))) for path in paths])
 
 
 def _area(ring: NDArray[np.float64]) -> float:
@@ -122,64 +227,26 @@ def _area(ring: NDArray[np.float64]) -> float:
     return 0.5 * float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
 
 
-def _limit_colours(drawn: Any, values: NDArray[np.float64], weights: NDArray[np.float64]) -> str:
-    """Ends the colours where nearly all values do; where values lie beyond, in the words of a colorbar.
+def _drawn_range(
+    values: NDArray[np.float64], weights: NDArray[np.float64], shown: NDArray[np.float64]
+) -> tuple[float, float]:
+    """From where to where the colours go: where nearly all values do that weigh something.
 
     The rule of the program's pictures (src/report/drawn_range.cpp), from the values beyond which 1 % of the area lie.
     """
     counts = np.isfinite(values) & (weights > 0.0)
     if not counts.any():
-        return "neither"
+        return (float(shown.min()), float(shown.max())) if len(shown) else (0.0, 1.0)
     order = np.argsort(values[counts])
     v, w = values[counts][order], weights[counts][order]
     rest = 0.01 * w.sum()
     inner_high = v[np.searchsorted(-(np.cumsum(w[::-1])[::-1] - w), -rest)]
     inner_low = v[len(v) - 1 - np.searchsorted(-(np.cumsum(w) - w)[::-1], -rest)]
     size = max(abs(inner_low), abs(inner_high))
-    if size <= 1e-6 * max(abs(v[0]), abs(v[-1])):
-        return "neither"
-    below, above = bool(v[0] < inner_low - size), bool(v[-1] > inner_high + size)
-    if not below and not above:
-        return "neither"
-    drawn.set_clim(inner_low - 0.5 * size if below else v[0], inner_high + 0.5 * size if above else v[-1])
-    return "both" if below and above else "min" if below else "max"
-
-
-def _values(source: Any, field: str | NDArray[Any], ids: NDArray[np.int64]) -> NDArray[Any]:
-    """A number per path."""
-    if not isinstance(field, str):
-        return _per_block(source, np.asarray(field), ids)
-    name, _, component = field.partition(".")
-    if isinstance(source, Results):
-        source = source.frames[-1]
-    if isinstance(source, Frame):
-        if name not in source.cell_fields:
-            raise ValueError(f'frames have no field "{name}": they have {", ".join(source.cell_fields)}')
-        values = source[name]
-    elif hasattr(source, "field"):
-        values = source.field(name)[ids]
-    else:
-        values = np.array([getattr(block, name) for block in source.blocks])
-    if values.ndim == 1:
-        return values
-    if component:
-        known = _COMPONENTS.get(name, ())
-        if component not in known:
-            raise ValueError(f'"{name}" has no component "{component}": it has {", ".join(known)}')
-        return values[:, known.index(component)]
-    if name in ("displacement", "velocity"):
-        return np.hypot(values[:, 0], values[:, 1])
-    raise ValueError(f'"{name}" has components: give "{name}.{_COMPONENTS.get(name, ("0",))[0]}"')
-
-
-def _per_block(source: Any, given: NDArray[Any], ids: NDArray[np.int64]) -> NDArray[Any]:
-    """Of an array with a number per block those of the paths."""
-    least = int(ids.max(initial=-1)) + 1
-    if isinstance(source, (Results, Frame)):  # which know the blocks that are left alone
-        fits = given.ndim == 1 and len(given) >= least
-    else:
-        least = source.block_count if hasattr(source, "block_count") else len(source.blocks)
-        fits = given.shape == (least,)
-    if not fits:
-        raise ValueError(f"the array has the shape {given.shape}: give one number per block, ({least},)")
-    return given[ids]
+    low, high = float(v[0]), float(v[-1])
+    if size > 1e-6 * max(abs(low), abs(high)):
+        low = float(inner_low - 0.5 * size) if low < inner_low - size else low
+        high = float(inner_high + 0.5 * size) if high > inner_high + size else high
+    if high - low <= 1e-9 * max(abs(low), abs(high)):  # rounding is no range to paint
+        low, high = min(low, 0.0), max(high, 0.0)
+    return low, high

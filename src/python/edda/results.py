@@ -56,51 +56,84 @@ class Results:
 
     @property
     def history(self) -> Table:
-        """A row per output.history_every: time (s), monitors, energies (J)."""
+        """A row per output.history_every.
+
+        time (s); of each monitor NAME.ux, .uy (m), .vx, .vy (m/s), .sxx, .syy, .sxy (Pa), of each convergence line
+        NAME.convergence (m); kinetic, strain, contact, gravity, friction, damping, fracture, external, step_change
+        (J, as Ledger); drift, unbalanced (ratios).
+        """
         return read_table(self._file("history.csv"))
 
     @property
     def blocks(self) -> Table:
-        """The blocks at the end: id, name, material, x, y, ux, uy, ..."""
+        """A row per block that is there at the end.
+
+        id, name, material (its name); x, y (m) of the centroid, area (m2), ux, uy (m), rotation (rad), vx, vy (m/s),
+        omega (rad/s), sxx, syy, szz, sxy (Pa, tension positive), overstress (part of the strength used).
+        """
         return read_table(self._file("blocks.csv"))
 
     @property
     def joints(self) -> Table:
-        """The contacts at the end: block_i, block_j, joint, normal_force, ..."""
+        """A row per contact at the end, open ones that were closed before among them.
+
+        block_i (of the vertex), block_j (of the edge), joint (name of its law); x, y (m), normal_force (N,
+        compression positive), shear_force (N, positive where it drives block i along the edge), opening (m,
+        negative: overlap), slip (m); state (open, stick, slide, bonded), ever_slipped, ever_opened (0 or 1),
+        mobilised (shear over shear strength). Forces are those of the model's thickness.
+        """
         return read_table(self._file("joints.csv"))
 
     @property
     def stages(self) -> Table:
-        """A row per stage; of a model with stages."""
+        """A row per stage that has ended; of a model with stages.
+
+        stage (from 0), name, until, reached (0 or 1), start, end (s), steps; ratio, largest_ratio (resultant of
+        blocks over contact force), largest_block (its id, -1: none); kinetic, strain, contact, gravity, friction,
+        damping, fracture, external (J), drift as in history; how many contacts are closed (contacts), sliding, bonded,
+        open, broken, how many blocks detached, yielded_bolts; NAME.convergence (m).
+        """
         return read_table(self._file("stages.csv"))
 
     def stage_joints(self, stage: int) -> Table:
-        """The contacts at the end of a stage, by its number from 0."""
+        """The contacts at the end of a stage, by its number from 0; columns as of joints."""
         return read_table(self._file(f"joints_{stage}.csv"))
 
     @property
     def fos(self) -> Table:
-        """The trials of `edda fos`."""
+        """The trials of `edda fos`.
+
+        factor, outcome (holds, fails), displacement (m), block (its id, -1: none), time (s), velocity (m/s),
+        unbalanced (ratio), steps, reason.
+        """
         return read_table(self._file("fos.csv"))
 
     @property
     def reactions(self) -> Table:
-        """Forces of the boundaries over time; of a model with boundaries."""
+        """A row per row of history; of a model with boundaries.
+
+        time (s); NAME.fx, NAME.fy (N, of the model's thickness) of each boundary on the blocks, its number where it
+        has no name.
+        """
         return read_table(self._file("reactions.csv"))
 
     @property
     def bolts(self) -> Table:
-        """Forces along the bolts at each frame; of a model with bolts."""
+        """A row per node of each bolt and frame; of a model with bolts.
+
+        time (s), bolt (name), distance (m along it), x, y (m); axial_force (N, tension positive), bond_force (N/m),
+        dowel_force (N), each of one bolt; utilisation (largest part of a strength), yielded, ruptured (0 or 1).
+        """
         return read_table(self._file("bolts.csv"))
 
     @property
     def frames(self) -> Frames:
-        """The blocks at each output.every; read when asked for."""
+        """The blocks at each output.every, a Frame each; read when asked for."""
         return Frames(self.folder, "blocks.pvd")
 
     @property
     def contact_frames(self) -> Frames:
-        """The contacts at each output.every."""
+        """The contacts at each output.every, a Frame each; read when asked for."""
         return Frames(self.folder, "contacts.pvd")
 
     def _file(self, name: str) -> pathlib.Path:
@@ -113,9 +146,17 @@ class Results:
 class Frame:
     """All blocks, or all contacts, at one time.
 
-    time: s. points: (n, 2) corners, m. cells: per cell the rows of its corners. point_fields and
-    cell_fields: arrays by name; frame["stress"] is a cell field, (cells, 6). A block that is not
-    convex has several cells, all with its id.
+    time: s. points: (n, 2) corners, m. cells: per cell the rows of its corners. point_fields and cell_fields: arrays
+    by name; frame["stress"] is a cell field. A block that is not convex has several cells, one after the other, all
+    with its id.
+
+    Cell fields of blocks: id, material (row of Model.materials, -1: none), fixed (0 or 1), rotation (rad), omega
+    (rad/s), overstress: (cells,); displacement (m), velocity (m/s): (cells, 3), x y z, of the centroid; stress (Pa,
+    tension positive): (cells, 6), xx yy zz xy yz xz; principal_stress (Pa): (cells, 3), major (most tensile) and minor
+    (most compressive) in the plane, and out of it. Point fields: displacement (m), velocity (m/s): (n, 3).
+
+    Cell fields of contacts: block_i, block_j, state (0 open, 1 stick, 2 slide, 3 bonded), normal_force,
+    shear_force (N), opening, slip (m): (cells,); force (N, on block i), displacement (m): (cells, 3).
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
@@ -178,9 +219,10 @@ class Frames(Sequence[Frame]):
 
 
 def read_table(path: str | os.PathLike[str]) -> Table:
-    """A .csv file of a results folder: whole numbers as int64, others as float64, the rest as str.
+    """A .csv file of a results folder: numbers, counts and flags as int64, what is measured as float64, names as str.
 
-    A last line that a run is still writing, or has not finished, is left out.
+    Where a cell is empty (largest_block of a stage in which no block rests) whole numbers are -1, others nan. A last
+    line that a run is still writing, or has not finished, is left out.
     """
     with open(path, newline="", encoding="utf-8") as file:
         text = file.read()
@@ -207,7 +249,11 @@ def _end_of_rows(text: str) -> int:
     return end
 
 
-_WHOLE = {"id", "block_i", "block_j", "ever_slipped", "ever_opened", "steps", "block"}
+_WHOLE = {
+    *("id", "block", "block_i", "block_j", "ring", "ever_slipped", "ever_opened", "yielded", "ruptured"),
+    *("stage", "reached", "steps", "largest_block", "contacts", "sliding", "bonded", "detached", "open", "broken"),
+    "yielded_bolts",
+}
 _TEXT = {"name", "material", "joint", "state", "bolt", "until", "motion", "outcome", "reason"}
 
 
@@ -216,7 +262,7 @@ def _column(name: str, texts: Sequence[str]) -> NDArray[Any]:
         return np.array(texts, dtype=str) if texts else np.empty(0, dtype="U1")
     if name in _WHOLE:
         try:
-            return np.array([int(text) for text in texts], dtype=np.int64)
+            return np.array([int(text) if text else -1 for text in texts], dtype=np.int64)
         except ValueError:
             pass
     try:
