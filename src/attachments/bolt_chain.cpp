@@ -261,7 +261,7 @@ void update_bolts(Bolts& b, const State& state) {
   });
   b.slipped += b.will_slip;
   b.fractured += b.will_fracture;
-  b.will_slip = b.will_fracture = 0.0;
+  b.will_slip = b.will_fracture = b.owed = 0.0;
   for (const Spent& s : spent) {
     b.slipped += s.slipped;
     b.fractured += s.fractured;
@@ -278,7 +278,7 @@ void add_bolts(std::array<Vec2, 3>& f, const Bolts& b, std::size_t i) {
 }
 
 double bolt_energy(const Bolts& b) {
-  double sum = 0.0;
+  double sum = b.owed;
   for (const BoltSprings* s : {&b.bonds, &b.bars, &b.dowels}) {
     for (std::size_t k = 0; k < s->force.size(); ++k) {
       if (s->stiffness[k] > 0.0) sum += 0.5 * s->force_1[k] * s->force[k] / s->stiffness[k];

@@ -317,7 +317,7 @@ Result<Bolts> attach_bolts(const Model& model, const BlockSet& b, const State& s
   complete_bolts(bolts, model, b.size());
   update_bolts(bolts, state);
   // What letting pretension settle made slip is no part of the run.
-  bolts.slipped = bolts.fractured = bolts.will_slip = bolts.will_fracture = 0.0;
+  bolts.slipped = bolts.fractured = bolts.will_slip = bolts.will_fracture = bolts.owed = 0.0;
   for (BoltSprings* s : {&bolts.bonds, &bolts.bars, &bolts.dowels}) s->force_1 = s->force;
   return bolts;
 }

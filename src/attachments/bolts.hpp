@@ -84,7 +84,8 @@ struct Bolts {
   double slipped = 0.0;                         ///< J, dissipated by yield and slip
   double fractured = 0.0;                       ///< J, by rupture
   double will_slip = 0.0, will_fracture = 0.0;  ///< J: what the forces at n will add to them
-  std::vector<std::array<Vec2, 3>> on_host;     ///< [nn] what node, bar and dowel do to its host, N
+  double owed = 0.0;  ///< J: what the step in hand brings more, by velocities changed since n
+  std::vector<std::array<Vec2, 3>> on_host;  ///< [nn] what node, bar and dowel do to its host, N
 
   std::vector<Id> place;        ///< [nb] index into `block_begin`, or no_id; empty without bolts
   std::vector<Id> block_begin;  ///< [blocks with nodes + 1]
@@ -134,7 +135,7 @@ void update_bolts(Bolts& bolts, const State& state);
 /// Adds what the bolts do to block i.
 void add_bolts(std::array<Vec2, 3>& on_nodes, const Bolts& bolts, std::size_t i);
 
-/// Their stored energy in the ledger's terms, sum of F_{n-1} F_n / 2k, J.
+/// Their stored energy in the ledger's terms, sum of F_{n-1} F_n / 2k, and what is owed, J.
 double bolt_energy(const Bolts& bolts);
 
 }  // namespace edda

@@ -139,6 +139,11 @@ Trouble WholeFile::complete() {
   return cannot_write(path_, error_);
 }
 
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  return fs::equivalent(a, b, error) && !error;
+}
+
 Trouble write_file(const std::string& path, std::string_view content) {
   WholeFile file(path);
   file.add(content);

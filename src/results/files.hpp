@@ -35,6 +35,9 @@ class WholeFile {
   int error_ = 0;
 };
 
+/// Whether both paths lead to one file that there is.
+bool is_same_file(const std::string& a, const std::string& b);
+
 /// A whole file at once.
 Trouble write_file(const std::string& path, std::string_view content);
 

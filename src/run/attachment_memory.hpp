@@ -89,6 +89,7 @@ void list_bolts(Archive& a, Simulation& s) {
   list_bolt_springs(a, "bolts.dowels.", b.dowels);
   a("bolts.slipped", b.slipped);
   a("bolts.fractured", b.fractured);
+  a("bolts.owed", b.owed);
   a("bolts.will_slip", b.will_slip);
   a("bolts.will_fracture", b.will_fracture);
   list_points(a, "bolts.on_host", pushes);

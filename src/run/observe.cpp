@@ -148,7 +148,8 @@ void observe(const Simulation& sim, Instant& at) {
     at.state = sim.state;
     return;
   }
-  evaluate_contacts(at.contacts, sim.blocks, sim.laws, h, damping.contact);
+  // Before the first step nothing has moved yet, and there is no rate.
+  evaluate_contacts(at.contacts, sim.blocks, sim.laws, h, h > 0.0 ? damping.contact : 0.0);
   at.forces = sim.forces;
   gather_forces(at.forces, sim.blocks, sim.state, sim.pose, at.contacts, sim.springs,
                 sim.model.gravity, acting);

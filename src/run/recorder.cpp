@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "model/time_history.hpp"
 #include "model/write_model.hpp"
 #include "results/csv.hpp"
@@ -39,11 +37,6 @@ std::vector<InputFile> inputs_of(const Model& model) {
     if (text.ok()) inputs.push_back({name, sha256(text.value())});
   }
   return inputs;
-}
-
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code error;
-  return std::filesystem::equivalent(a, b, error) && !error;
 }
 
 }  // namespace

@@ -50,8 +50,8 @@ void Simulation::place_a_step_back() {
 void Simulation::change_velocities(const Nodes& vx, const Nodes& vy) {
   const double energy = ledger_now().balance();
   const bool leaps = explicit_method();
-  // The step behind is taken to have been made at the new ones: gaps and slips before it, and the
-  // work of bolts, F_n . (u'_n - u_n)/2.
+  // The step behind is taken to have been made at the new ones: gaps and slips before it. Chains of
+  // bolts are not gone back; their forces will do F_n . (u'_n - u_n)/2 more than they give off.
   std::vector<double> slips;
   if (leaps) {
     place_a_step_back();
@@ -69,7 +69,7 @@ void Simulation::change_velocities(const Nodes& vx, const Nodes& vy) {
     place_a_step_back();
     look_at_previous_gaps(contacts, pose);
     move_previous_slips(contacts, pose, slips);
-    external_work += 0.5 * step_before_ * (bolt_power(*this) - bolts_before);
+    bolts.owed += 0.5 * step_before_ * (bolt_power(*this) - bolts_before);
   }
   external_work += ledger_now().balance() - energy;
 }

@@ -119,6 +119,53 @@ activate = ["quake"]
   EXPECT_NEAR(moved(simulation), 3.0 / w * (t - std::sin(w * t) / w), 1e-5);
 }
 
+/// The ledger holds to rounding whatever is written, also where blocks slide and are bolted; what
+/// slides slips at the new velocity, not at that of the step behind.
+TEST_F(Library, VelocitiesOfWhatSlidesChangeWithoutDrift) {
+  Simulation sliding(ramp()), untouched(ramp());
+  sliding.step(300);
+  untouched.step(301);
+  const double drift = sliding.ledger().drift, friction = sliding.ledger().friction;
+  const double in_a_step = untouched.ledger().friction - friction;
+  const std::size_t slider = *sliding.block_called("slider");
+  const MutableNodes vx = sliding.node_vx(), vy = sliding.node_vy();
+  for (std::size_t k = 0; k < 3; ++k) {
+    vx[k][slider] *= 2.0;
+    vy[k][slider] *= 2.0;
+  }
+  sliding.step(1);
+  EXPECT_NEAR(sliding.ledger().drift, drift, 1e-10);
+  EXPECT_NEAR(sliding.ledger().friction - friction, 2.0 * in_a_step, 0.05 * in_a_step);
+
+  Simulation held(lone(bolted + std::string("[solver]\nduration = 0.1\n")));
+  held.step(50);
+  const std::size_t lid = *held.block_called("lid");
+  for (int q = 0; q < 20; ++q) {
+    held.set_velocity(lid, {0.02 * (q % 3), 0.05 - 0.01 * q}, 0.1);
+    held.step(3);
+  }
+  EXPECT_LT(std::abs(held.ledger().drift), 1e-4);  // corners close and open, too
+}
+
+/// As the key `velocity`: no work, and not half a step of weight less.
+TEST_F(Library, AVelocitySetBeforeTheFirstStepIsTheFirst) {
+  Simulation thrown(Model::parse(falling));
+  const std::size_t stone = *thrown.block_called("stone");
+  thrown.set_velocity(stone, {2.0, 1.0});
+  EXPECT_NEAR(thrown.field(Field::velocity)[2 * stone], 2.0, 1e-12);
+  EXPECT_NEAR(thrown.field(Field::velocity)[2 * stone + 1], 1.0, 1e-12);
+  EXPECT_EQ(thrown.ledger().external, 0.0);
+  thrown.run();
+  const double t = thrown.time();
+  EXPECT_NEAR(thrown.field(Field::displacement)[2 * stone], 2.0 * t, 1e-9);
+}
+
+TEST_F(Library, DampingIsThatOfItsKeys) {
+  Simulation simulation(ramp());
+  EXPECT_FALSE(faults_of([&] { simulation.set_damping(0.0, 1.0); }).empty());
+  EXPECT_TRUE(faults_of([&] { simulation.set_damping(0.0, 0.99); }).empty());
+}
+
 TEST_F(Library, ABoltIsInstalledOnce) {
   const std::string stages =
       "[[stage]]\nduration = 0.01\n[[stage]]\nduration = 0.01\ninstall = [\"pin\"]\n";

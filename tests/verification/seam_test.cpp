@@ -1,0 +1,144 @@
+// Blocks that slide from block to block, and off the last: no seam may stop, lift or sink them.
+#include "verification/scene.hpp"
+
+namespace edda {
+namespace {
+
+/// A held floor cut at `seams`, from the first to the last.
+std::string floor_in_pieces(const std::vector<double>& seams) {
+  std::string toml;
+  for (std::size_t q = 0; q + 1 < seams.size(); ++q) {
+    const std::string a = number(seams[q]), b = number(seams[q + 1]);
+    toml += "[[block]]\nfixed = true\npolygon = [[" + a + ",-1], [" + b + ",-1], [" + b + ",0], [" +
+            a + ",0]]\n";
+  }
+  return toml;
+}
+
+std::vector<double> every(double from, double to, double length) {
+  std::vector<double> seams;
+  for (double x = from; x < to + 0.5 * length; x += length) seams.push_back(x);
+  return seams;
+}
+
+std::string slider(double width, double height, double speed) {
+  const std::string w = number(width), h = number(height);
+  return "[[block]]\npolygon = [[0,0], [" + w + ",0], [" + w + "," + h + "], [0," + h +
+         "]]\nvelocity = [" + number(speed) + ", 0]\n";
+}
+
+std::string joint(const std::string& rest) {
+  return "[joints.j]\nfriction_angle = 0\n" + rest;
+}
+
+std::string rock(double young) {
+  return "[materials.rock]\ndensity = 2500\nyoung = " + number(young) + "\npoisson = 0.2\n";
+}
+
+/// Without friction the speed stays; at the end it lies no deeper than at rest on one piece.
+void expect_passes(const std::string& toml, double speed, double deepest, const char* which) {
+  SCOPED_TRACE(which);
+  Simulation sim = scene(toml);
+  run(sim, [](Simulation&) {});
+  const Vec2 u = displacement(sim, 0);
+  const double far = speed * sim.model.solver.duration;
+  EXPECT_NEAR(u.x, far, 1e-4 * far);
+  EXPECT_LE(u.y, 0.0);
+  EXPECT_GE(u.y, -deepest);
+  EXPECT_LT(std::abs(sim.ledger().drift), 1e-6);
+}
+
+/// At rest on kn A the block would lie W/(kn A) = 3.07e-5 m deep; 8 seams pass its front. With
+/// springs of a number each, W/2p.
+TEST(SeamCrossing, ALongSlideGoesOnAsOnOnePiece) {
+  const std::string solver =
+      "[solver]\nduration = 1.0\ndamping = { contact = 0.1 }\n[output]\nhistory_every = 0.1\n";
+  const double weight = 2500.0 * 9.81 * 1.3 * 0.5;
+  const std::string by_area = joint("kn = 4e8\nks = 4e8\n");
+  expect_passes(rock(2e10) + by_area + slider(1.3, 0.5, 4.0) +
+                    floor_in_pieces(every(-1.0, 7.0, 0.5)) + solver,
+                4.0, 1.1 * weight / (4e8 * 1.3), "kn");
+  expect_passes(rock(2e8) + joint("") + slider(1.3, 0.5, 4.0) +
+                    floor_in_pieces(every(-1.0, 7.0, 0.2)) + solver +
+                    "[contact]\nnormal_stiffness = 2e9\n",
+                4.0, 1.2 * weight / 4e9 + 1e-5, "p");
+}
+
+/// Also in long steps, in which a corner goes further than it lies deep.
+TEST(SeamCrossing, AnImplicitSlideMeetsNoWall) {
+  for (const char* step : {"", "time_step = 1e-3\n", "time_step = 1e-4\n"}) {
+    expect_passes(rock(2e10) + joint("") + slider(2.0, 1.0, 4.0) +
+                      floor_in_pieces({-1.0, 2.5, 20.0}) + "[solver]\nmethod = \"dda\"\n" + step +
+                      "duration = 0.5\n[output]\nhistory_every = 0.005\n",
+                  4.0, 1e-6, step);
+  }
+}
+
+/// Halfway over a seam the four contacts bear a quarter of the weight each; of a joint with kn by
+/// leaps of a fiftieth.
+TEST(SeamCrossing, TheLoadIsSharedByWhatOverlaps) {
+  struct Case {
+    const char* law;
+    double off;
+  };
+  for (const Case& c : {Case{"kn = 1e9\nks = 1e9\n", 0.05}, Case{"", 1e-3}}) {
+    SCOPED_TRACE(c.law);
+    Simulation sim = scene(rock(1e10) + joint(c.law) + slider(2.0, 1.0, 1.0) +
+                           floor_in_pieces({-1.0, 2.3, 6.0}) +
+                           "[solver]\nduration = 1.3\ndamping = { contact = 0.2 }\n"
+                           "[output]\nhistory_every = 0.1\n");
+    run(sim, [](Simulation&) {});
+    const double quarter = 2500.0 * 9.81 * 2.0 / 4.0;
+    std::size_t carrying = 0;
+    for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
+      if (!sim.contacts.is(k, contact_state::closed) || sim.contacts.share[k] == 0.0) continue;
+      ++carrying;
+      EXPECT_NEAR(sim.contacts.share[k] * sim.contacts.normal[k], quarter, c.off * quarter);
+    }
+    EXPECT_EQ(carrying, 4u);
+  }
+}
+
+/// Off the edge of a table, held back by c times what still overlaps: m x'' = -c (L - x), so
+/// x = L - L cosh(w t) + (v/w) sinh(w t) with w^2 = c/m while it slides.
+TEST(SeamCrossing, CohesionIsThatOfWhatStillOverlaps) {
+  Simulation sim = scene(
+      rock(2e9) + joint("cohesion = 2000\nresidual = { friction_angle = 0, cohesion = 2000 }\n") +
+      "[contact]\nnormal_stiffness = 2e9\n" +
+      "[[block]]\npolygon = [[-2,0], [0,0], [0,0.2], [-2,0.2]]\nvelocity = [2.2, 0]\n" +
+      floor_in_pieces({-5.0, 0.0}) +
+      "[solver]\nduration = 0.5\ndamping = { contact = 0.1 }\n[output]\nhistory_every = 0.1\n");
+  run(sim, [](Simulation&) {});
+  const double w = std::sqrt(2000.0 / (2500.0 * 0.4)), t = 0.5, length = 2.0;
+  const double exact = length - length * std::cosh(w * t) + 2.2 / w * std::sinh(w * t);
+  EXPECT_NEAR(displacement(sim, 0).x, exact, 0.01 * exact);
+}
+
+/// Nothing acts yet: what rounding shakes loose is no energy out of nothing.
+TEST(SeamCrossing, BlocksThatTouchWithoutLoadStayQuiet) {
+  for (const char* method : {"edda", "dda"}) {
+    Simulation sim = scene("gravity = [0, 0]\n" + rock(2e10) + joint("") +
+                           "[[block]]\npolygon = [[0,0], [1,0], [1,1], [0,1]]\n" +
+                           floor_in_pieces({0.0, 1.0}) + "[solver]\nmethod = \"" + method +
+                           "\"\nduration = 0.02\n[output]\nhistory_every = 1e-4\n");
+    run(sim, [](Simulation& s) { EXPECT_LT(std::abs(s.ledger().drift), 1e-3); });
+    EXPECT_LT(norm(displacement(sim, 0)), 1e-12);
+  }
+}
+
+/// Friction's limit comes from the forces before a step, of which the first has none: it is short.
+TEST(SeamCrossing, AnImplicitBlockDoesNotSlipBeforeItsWeightActs) {
+  const double a = radians(30.0);
+  Simulation sim =
+      scene("gravity = [" + number(9.81 * std::sin(a)) + ", " + number(-9.81 * std::cos(a)) +
+            "]\n" + rock(2e10) + "[joints.j]\nfriction_angle = 40\n" + slider(2.0, 1.0, 0.0) +
+            floor_in_pieces({-1.0, 10.0}) + "[contact]\nnormal_stiffness = 2e11\n" +
+            "[solver]\nmethod = \"dda\"\ndynamic = false\nduration = 0.5\n"
+            "[output]\nhistory_every = 0.05\n");
+  run(sim, [](Simulation&) {});
+  // 4.4e-7 m of springs and rock; a whole step without friction would be 1.5e-3 m.
+  EXPECT_LT(displacement(sim, 0).x, 1e-6);
+}
+
+}  // namespace
+}  // namespace edda
