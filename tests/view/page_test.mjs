@@ -37,8 +37,13 @@ test('plays from the first frame to the last, and pauses', async () => {
   const p = await page('cavern.html');
   // A frame lasts two and a half seconds, then one, so that a busy machine sees each.
   await choose(p, 'speed', '0.1');
+  const icon = () => p.$$eval('#play svg', (icons) => icons.filter((i) => i.getBoundingClientRect().width > 0).map((i) => i.getAttribute('class')));
+  assert.deepEqual(await icon(), ['playing-not']);
   await p.click('#play');
   await p.waitForFunction(() => document.getElementById('time').textContent === 't = 0 s');
+  assert.deepEqual(await icon(), ['playing-only']);
+  // Not every font has the signs of a player.
+  assert.equal((await p.$$eval('footer button', (buttons) => buttons.map((b) => b.textContent).join(''))).trim(), '');
   await choose(p, 'speed', '0.25');
   await p.waitForFunction(() => edda.player.index === 2);
   await p.click('#play');
@@ -115,6 +120,55 @@ test('follows a monitor and plots its history', async () => {
   assert.deepEqual(await p.evaluate(() => edda.plots.plot.plot.data.slice(1).map((c) => c[0])), [7, 8]);
   await choose(p, 'plot-of', 'energy');
   assert.ok(await p.locator('#plot canvas').isVisible());
+  await p.close();
+});
+
+test('tells the times of a plot apart, however short the run, however far it is zoomed', async () => {
+  run('run', 'cavern.toml', '--quiet', '--set', 'solver.duration=0.001', '--set', 'output.every=0.0005', '-o', 'blink');
+  run('view', 'blink');
+  const p = await page('blink.html');
+  await choose(p, 'plot-of', 'energy');
+  const times = () => p.evaluate(() => edda.plots.plot.plot.axes[0]._values.filter((v) => v !== null));
+  for (const [low, high, least] of [[0, 0.001, 3], [0.0004, 0.0005, 2], [0.00049999, 0.00050001, 2], [900, 900.001, 2]]) {
+    await p.evaluate(([min, max]) => new Promise((drawn) => {
+      const { plot } = edda.plots.plot;
+      plot.setScale('x', { min, max });
+      setTimeout(drawn, 100);
+    }), [low, high]);
+    const texts = await times();
+    const read = texts.map((text) => Number(text.replaceAll('\u2212', '-')));
+    assert.ok(texts.length >= least && new Set(texts).size === texts.length, texts.join(' '));
+    const step = read[1] - read[0];
+    read.forEach((t, k) => {
+      assert.ok(t > low - 0.01 * step && t < high + 0.01 * step, texts.join(' '));
+      if (k > 0) assert.ok(Math.abs(t - read[k - 1] - step) < 0.01 * step, `even steps: ${texts.join(' ')}`);
+    });
+  }
+  await p.close();
+});
+
+test('has the values at the shown time below a plot, else those under the mouse', async () => {
+  const p = await page('cavern.html');
+  const history = table('cavern/history.csv');
+  await choose(p, 'plot-of', 'drift');
+  const below = () => p.$$eval('#plot .u-value', (cells) => cells.map((c) => c.textContent));
+  const wanted = (row) => [`${Number(Number(row.time).toPrecision(7))} s`, Number(row.drift)];
+  const holds = async (row) => {
+    const [time, drift] = await below();
+    const [t, d] = wanted(row);
+    assert.equal(time, t);
+    assert.ok(Math.abs(Number(drift.replaceAll('\u2212', '-')) - d) <= 1e-4 * Math.abs(d), `${drift}, not ${d}`);
+  };
+  await holds(history[history.length - 1]);
+  await p.locator('#scrub').fill('4');
+  await settled(p);
+  const shown = history.find((row) => Math.abs(Number(row.time) - 0.02) < 1e-9);
+  await holds(shown);
+  const over = await p.locator('#plot .u-over').boundingBox();
+  await p.mouse.move(over.x + 1, over.y + 20);
+  await holds(history[0]);
+  await p.mouse.move(over.x + 1, over.y - 300);
+  await holds(shown);
   await p.close();
 });
 

@@ -8,6 +8,7 @@ import type { Field } from './data/run';
 import { Scale } from './data/scale';
 import { Absent, type Source } from './data/source';
 import { brief, quantity } from './data/units';
+import { LONGEST } from './scene/layers';
 import { Overlay } from './scene/overlay';
 import { View } from './scene/view';
 import { Controls } from './ui/controls';
@@ -199,10 +200,12 @@ export class App {
     const theme = themes[this.theme];
     const strokes: LegendEntries['strokes'] = [];
     const per = (of: 'forces' | 'crosses' | 'arrows') => this.view.valuePerPixel(of);
-    if (controls.forces) strokes.push({ colour: css(theme.ink), text: 'force', perPixel: per('forces'), unit: 'N' });
+    const { usual, largest } = results.run;
+    const cut = (of: 'force' | 'stress') => (largest[of] > LONGEST * usual[of] ? LONGEST * usual[of] : undefined);
+    if (controls.forces) strokes.push({ colour: css(theme.ink), text: `force, up to ${quantity(largest.force, 'N', 3)}`, perPixel: per('forces'), unit: 'N', cutAt: cut('force') });
     if (controls.crosses) {
       strokes.push({ colour: css(theme.compression), text: 'compression', perPixel: per('crosses'), unit: 'Pa' });
-      strokes.push({ colour: css(theme.tension), text: 'tension' });
+      strokes.push({ colour: css(theme.tension), text: 'tension', unit: 'Pa', cutAt: cut('stress') });
     }
     if (controls.vectors !== 'none') {
       const unit = controls.vectors === 'velocity' ? 'm/s' : 'm';
@@ -233,18 +236,18 @@ export class App {
   private save(): void {
     const style = overlayStyle();
     const ratio = Math.max(2, devicePixelRatio);
-    savePicture(`${this.results.run.title || 'edda'}-${this.shown}.png`.replaceAll(/[^\w.-]+/g, '_'), this.view, ratio, this.pictureTitle(), style.halo, style.ink, (g) => {
+    savePicture(`${this.results.run.title || 'edda'}-${this.shown}.png`.replaceAll(/[^\w.-]+/g, '_'), this.view, ratio, this.results.run.title, this.pictureTime(), style.halo, style.ink, (g) => {
       this.overlay.paint(g, this.view.camera, this.view.pose, style, this.overlayOptions());
       this.paintLegend(g);
     });
   }
 
   /** Of the frame that is drawn. */
-  private pictureTitle(): string {
-    const { title, frames } = this.results.run;
+  private pictureTime(): string {
+    const { frames } = this.results.run;
     const { magnification } = this.controls;
     const drawn = magnification > 1 ? `displacements \u00d7 ${brief(magnification, 3)}` : '';
-    return [title, `t = ${brief(frames[this.shown], 6)} s`, drawn].filter((t) => t !== '').join('    ');
+    return [`t = ${brief(frames[this.shown], 6)} s`, drawn].filter((t) => t !== '').join('    ');
   }
 
   private listen(): void {

@@ -35,6 +35,8 @@ export interface Run {
   absent: ('omega' | 'rotation' | 'overstress')[];
   /** What strokes of the usual length stand for, in all frames: N, Pa. */
   usual: { force: number; stress: number };
+  /** The largest in all frames. */
+  largest: { force: number; stress: number };
   colours: { sequential: string; diverging: string; kinds: string; states: string };
   /** Of contacts, by number. */
   states: string[];
