@@ -109,6 +109,8 @@ Result<ViewRun> ViewRun::open(std::string folder, ViewNames names) {
   for (const char* name : {"omega", "rotation", "overstress"}) {
     if (first.value().cell_field(name) == nullptr) run.absent_.emplace_back(name);
   }
+  if (!run.names_.judges_rock && !std::count(run.absent_.begin(), run.absent_.end(), "overstress"))
+    run.absent_.emplace_back("overstress");
   return run;
 }
 
@@ -253,7 +255,8 @@ std::string ViewRun::header(const std::string& served_as) const {
   }
   json.close();
   json.key("usual").open_object();
-  json.pair("force", forces_.usual).pair("stress", stresses_.usual).close();
+  const bool any_stress = stresses_.largest >= names_.least_stress;
+  json.pair("force", forces_.usual).pair("stress", any_stress ? stresses_.usual : 0.0).close();
   json.key("largest").open_object();
   json.pair("force", forces_.largest).pair("stress", stresses_.largest).close();
   std::string kinds;

@@ -26,6 +26,8 @@ struct ViewNames {
   std::vector<std::string> materials;
   std::vector<ViewMark> monitors;      ///< one point each
   std::vector<ViewMark> convergences;  ///< two
+  double least_stress = 0.0;           ///< Pa; where none is larger they are rounding
+  bool judges_rock = true;             ///< a material has a strength: overstress means something
 };
 
 /// Smallest and largest value of a field of pictures in the frames so far; held blocks do not
@@ -102,8 +104,8 @@ class ViewRun {
   std::vector<ViewDatum> datums_;
   std::vector<Taken> taken_;
   std::map<std::string, ViewRange> ranges_;  ///< by name of the field
-  ViewSizes forces_;    ///< of closed contacts, N
-  ViewSizes stresses_;  ///< principal, of blocks that are not held, Pa
+  ViewSizes forces_;                         ///< of closed contacts, N
+  ViewSizes stresses_;                       ///< principal, of blocks that are not held, Pa
 };
 
 /// Tables that a page takes along.

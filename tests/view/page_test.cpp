@@ -199,6 +199,19 @@ TEST_F(ViewPage, TellsUsualStrokesAndWhatFramesHaveNot) {
   EXPECT_NEAR(
       std::stod(header.substr(at + std::string("\"usual\":{\"force\":0,\"stress\":").size())),
       1e6 * (0.5 + std::hypot(1.5, 0.4)), 1.0);
+  EXPECT_NE(header.find("\"largest\":{\"force\":0,\"stress\":2052"), std::string::npos) << header;
+}
+
+TEST_F(ViewPage, StressesThatAreRoundingAreNotDrawn) {
+  write_frames(2);
+  ViewNames names;
+  names.least_stress = 1e7;
+  Result<ViewRun> run = ViewRun::open(folder_, names);
+  ASSERT_TRUE(run.ok());
+  take_new(run.value());
+  std::string header = run.value().header();
+  std::erase_if(header, [](char c) { return c == ' ' || c == '\n'; });
+  EXPECT_NE(header.find("\"usual\":{\"force\":0,\"stress\":0}"), std::string::npos) << header;
 }
 
 // A title may not end the script that it stands in.

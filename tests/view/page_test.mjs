@@ -86,12 +86,27 @@ test('knows every field that edda plot knows', async () => {
   const p = await page('cavern.html');
   const offered = await p.$$eval('#field option', (options) => options.map((o) => o.value));
   const named = await p.evaluate(() => edda.results.run.fields.map((f) => f.name));
-  for (const name of named.filter((n) => !['id', 'principal_stress'].includes(n))) assert.ok(offered.includes(name), name);
+  for (const name of named.filter((n) => !['id', 'principal_stress', 'overstress'].includes(n))) assert.ok(offered.includes(name), name);
   for (const name of offered) {
     await choose(p, 'field', name);
     await p.waitForFunction(() => !edda.stale && !edda.overlayStale);
   }
   await p.close();
+});
+
+test('has no overstress of rock without a strength', async () => {
+  const p = await page('cavern.html');
+  assert.ok(!(await p.$$eval('#field option', (options) => options.map((o) => o.value))).includes('overstress'));
+  await p.close();
+  const strength = ['--set', 'materials.rock.strength={ucs = 9e7, tension = 6e6}', '--set', 'solver.duration=0.001'];
+  run('run', 'cavern.toml', '--quiet', ...strength, '-o', 'judged');
+  run('view', 'judged');
+  const judged = await page('judged.html');
+  await choose(judged, 'field', 'overstress');
+  await judged.close();
+  run('plot', 'judged', '--field', 'overstress', '-o', 'judged.png');
+  assert.throws(() => run('plot', 'cavern', '--field', 'overstress', '-o', 'none.png'), (e) => e.status === 2);
+  assert.throws(() => run('plot', 'cavern.toml', '--field', 'overstress', '-o', 'none.png'), (e) => e.status === 2);
 });
 
 test('follows a monitor and plots its history', async () => {
