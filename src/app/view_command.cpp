@@ -96,7 +96,9 @@ int view(const ViewArguments& args) {
   // A run that has begun will have a first frame: the page waits for it.
   const bool has_begun = std::filesystem::exists(args.folder + "/model.toml");
   if (!run.ok() && !(args.serve && has_begun)) {
-    print(run.faults());
+    std::vector<Fault> faults = run.faults();
+    if (args.serve) faults.front().remedy = "start edda run first, then serve its folder";
+    print(faults);
     return exit_code::bad_input;
   }
   return args.serve ? serve(open, args) : write(run.value(), args);

@@ -135,8 +135,12 @@ bool ViewRun::is_still_there() const {
 
 Result<std::vector<SeriesEntry>> ViewRun::series() const {
   Result<std::vector<SeriesEntry>> series = read_pvd(folder_ + "/blocks.pvd");
-  if (!series.ok()) return no_results(folder_, "holds no blocks.pvd");
-  return series;
+  if (series.ok()) return series;
+  std::error_code unknown;
+  if (std::filesystem::is_directory(folder_, unknown))
+    return no_results(folder_, "holds no blocks.pvd");
+  const bool there = std::filesystem::exists(folder_, unknown);
+  return no_results(folder_, there ? "is no folder" : "there is no such folder");
 }
 
 Result<ViewRun::Opened> ViewRun::open_frame(const SeriesEntry& frame) const {

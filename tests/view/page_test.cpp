@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <random>
 
@@ -200,6 +201,17 @@ TEST_F(ViewPage, TellsUsualStrokesAndWhatFramesHaveNot) {
       std::stod(header.substr(at + std::string("\"usual\":{\"force\":0,\"stress\":").size())),
       1e6 * (0.5 + std::hypot(1.5, 0.4)), 1.0);
   EXPECT_NE(header.find("\"largest\":{\"force\":0,\"stress\":2052"), std::string::npos) << header;
+}
+
+TEST_F(ViewPage, SaysWhatIsNoFolder) {
+  const auto problem = [](const std::string& folder) {
+    const Result<ViewRun> run = ViewRun::open(folder, {});
+    return run.ok() ? std::string() : run.faults().front().problem;
+  };
+  EXPECT_EQ(problem(folder_), "holds no blocks.pvd");
+  EXPECT_EQ(problem(folder_ + "/nowhere"), "there is no such folder");
+  std::ofstream(folder_ + "/file") << "text";
+  EXPECT_EQ(problem(folder_ + "/file"), "is no folder");
 }
 
 TEST_F(ViewPage, StressesThatAreRoundingAreNotDrawn) {

@@ -187,6 +187,54 @@ test('has the values at the shown time below a plot, else those under the mouse'
   await p.close();
 });
 
+test('plots the unbalanced force over its powers of ten', async () => {
+  const p = await page('tunnel.html');
+  await choose(p, 'plot-of', 'unbalanced');
+  const { marks, log, values } = await p.evaluate(() => {
+    const { plot } = edda.plots.plot;
+    return { marks: plot.axes[1]._values, log: plot.scales.y.distr, values: Array.from(plot.data[1]) };
+  });
+  assert.equal(log, 3);
+  assert.ok(values.every((v) => v === null || v > 0) && values.some((v) => v !== null));
+  assert.ok(marks.length >= 3 && marks.length <= 11, marks.join(' '));
+  for (const text of marks) assert.match(text, /^(10*|0\.0*1|1e[\u2212+]?\d+)$/);
+  await choose(p, 'plot-of', 'energy');
+  assert.equal(await p.evaluate(() => edda.plots.plot.plot.scales.y.distr), 1);
+  await p.close();
+});
+
+test('names monitors where nothing is hidden, or not at all', async () => {
+  const p = await page('cavern.html');
+  const found = await p.evaluate(() => {
+    const { overlay, view } = edda;
+    const box = view.pose.box();
+    const place = (x, y) => [{ row: -1, rx: x + view.pose.origin[0], ry: y + view.pose.origin[1] }];
+    overlay.monitors.splice(0);
+    // A dozen close together, and one beside the legend.
+    for (let k = 0; k < 12; ++k) overlay.monitors.push({ name: `monitor ${k}`, at: place(0.5 * (box.x0 + box.x1) + (k % 4) * 12 / view.camera.scale, 0.5 * (box.y0 + box.y1) + (k >> 2) * 9 / view.camera.scale) });
+    overlay.monitors.push({ name: 'beside the legend', at: place(...view.camera.at(view.camera.width - 190, 60)) });
+    const options = edda.overlayOptions();
+    const g = document.createElement('canvas').getContext('2d');
+    const texts = [];
+    g.fillText = (text, x, y) => g.font.includes('600') && texts.push({ text, x0: x, x1: x + g.measureText(text).width, y0: y - 9, y1: y + 2 });
+    const style = { ink: '#000', faint: '#000', halo: '#fff', accent: '#000', font: 'sans-serif' };
+    const drawn = (monitor) => {
+      texts.length = 0;
+      overlay.paint(g, view.camera, view.pose, style, { ...options, axes: false, monitor });
+      return [...texts];
+    };
+    return { plain: drawn(''), selected: drawn('monitor 6'), legend: options.legend };
+  });
+  for (const texts of [found.plain, found.selected]) {
+    assert.ok(texts.length > 3 && texts.length < 13, String(texts.length));
+    [...texts, found.legend].forEach((a, i, all) => all.slice(0, i).forEach((b) =>
+      assert.ok(a.x1 <= b.x0 || b.x1 <= a.x0 || a.y1 <= b.y0 || b.y1 <= a.y0, `${a.text} over ${b.text}`)));
+  }
+  assert.ok(found.plain.some((t) => t.text === 'beside the legend'));
+  assert.equal(found.selected[0].text, 'monitor 6');
+  await p.close();
+});
+
 test('plots a block over the frames', async () => {
   const p = await page('cavern.html');
   const row = table('cavern/blocks.csv')[120];

@@ -14,7 +14,7 @@ import { View } from './scene/view';
 import { Controls } from './ui/controls';
 import { byId } from './ui/dom';
 import { listenToKeys } from './ui/keys';
-import { type LegendEntries, paintLegend, WIDTH as LEGEND_WIDTH } from './ui/legend';
+import { legendBox, type LegendEntries, paintLegend, WIDTH as LEGEND_WIDTH } from './ui/legend';
 import { Player } from './ui/player';
 import { Plots } from './ui/plots';
 import { listenToPointer } from './ui/pointer';
@@ -187,7 +187,10 @@ export class App {
 
   private overlayOptions() {
     const { axes, marks } = this.controls;
-    return { axes, marks, selected: this.selected, monitor: this.monitor };
+    const { width, height } = this.view.camera;
+    const g = byId<HTMLCanvasElement>('overlay').getContext('2d')!;
+    const legend = legendBox(g, width - 10, 10, height - 10, overlayStyle(), this.legend());
+    return { axes, marks, selected: this.selected, monitor: this.monitor, legend };
   }
 
   private paintLegend(g: CanvasRenderingContext2D): void {

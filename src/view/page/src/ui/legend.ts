@@ -1,6 +1,7 @@
 // What the colours and strokes mean.
 import type { Scale } from '../data/scale';
 import { quantity, scaledUnit, ticks } from '../data/units';
+import type { Rectangle } from '../scene/labels';
 import type { OverlayStyle } from '../scene/overlay';
 import { wrap } from './text';
 
@@ -28,8 +29,8 @@ export const WIDTH = 168;
 const BAR = 190;
 const LEAST_BAR = 70;
 
-/** Paints it with its upper right corner at (right, top), not below `bottom`: with a shorter bar, then smaller. */
-export function paintLegend(g: CanvasRenderingContext2D, right: number, top: number, bottom: number, style: OverlayStyle, e: LegendEntries): void {
+/** What it takes below `top`: with a shorter bar, then smaller, so that it ends above `bottom`. */
+function layOut(g: CanvasRenderingContext2D, top: number, bottom: number, style: OverlayStyle, e: LegendEntries) {
   const bar = e.scale.palette === 'sequential' || e.scale.palette === 'diverging';
   g.font = `600 12px ${style.font}`;
   const lines = e.scale.field === undefined ? [] : wrap((t) => g.measureText(t).width, e.scale.field.label + (bar ? beyond(e.scale) : ''), WIDTH - 24);
@@ -40,10 +41,21 @@ export function paintLegend(g: CanvasRenderingContext2D, right: number, top: num
   const others = 14 + 16 * lines.length + (bar ? 36 : 0) + 18 * rows;
   const length = bar ? Math.max(LEAST_BAR, Math.min(BAR, bottom - top - others)) : 0;
   const height = others + length;
+  return { bar, lines, kinds, length, height, shrunk: Math.min(1, Math.max(bottom - top, 1) / height) };
+}
+
+/** Where paintLegend() will paint it. */
+export function legendBox(g: CanvasRenderingContext2D, right: number, top: number, bottom: number, style: OverlayStyle, e: LegendEntries): Rectangle {
+  const { height, shrunk } = layOut(g, top, bottom, style, e);
+  return height <= 14 ? { x0: right, y0: top, x1: right, y1: top } : { x0: right - shrunk * WIDTH, y0: top, x1: right, y1: top + shrunk * height };
+}
+
+/** Paints it with its upper right corner at (right, top), not below `bottom`. */
+export function paintLegend(g: CanvasRenderingContext2D, right: number, top: number, bottom: number, style: OverlayStyle, e: LegendEntries): void {
+  const { bar, lines, kinds, length, height, shrunk } = layOut(g, top, bottom, style, e);
   if (height <= 14) return;
   const left = right - WIDTH;
   g.save();
-  const shrunk = Math.min(1, Math.max(bottom - top, 1) / height);
   g.translate(right, top);
   g.scale(shrunk, shrunk);
   g.translate(-right, -top);

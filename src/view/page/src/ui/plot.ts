@@ -20,10 +20,11 @@ export class Plot {
     new ResizeObserver(() => this.plot?.setSize(this.size())).observe(holder);
   }
 
-  /** `times` rising, s. */
-  show(unit: string, times: number[], series: Series[], colours: { ink: string; line: string }): void {
-    const key = JSON.stringify([unit, series.map((s) => s.label), colours]);
-    const data = [times, ...series.map((s) => s.values)] as uPlot.AlignedData;
+  /** `times` rising, s. Logarithmic: of values above nothing; others are left out. */
+  show(unit: string, times: number[], series: Series[], colours: { ink: string; line: string }, logarithmic = false): void {
+    const key = JSON.stringify([unit, series.map((s) => s.label), colours, logarithmic]);
+    const drawn = (v: number | null) => (logarithmic && !(v! > 0) ? null : v);
+    const data = [times, ...series.map((s) => s.values.map(drawn))] as uPlot.AlignedData;
     if (this.plot !== undefined && this.key === key) {
       this.times = times;
       this.plot.setData(data);
@@ -38,12 +39,12 @@ export class Plot {
     this.plot = new uPlot(
       {
         ...this.size(),
-        scales: { x: { time: false } },
+        scales: { x: { time: false }, y: logarithmic ? { distr: 3, log: 10 } : {} },
         legend: { live: true },
         cursor: { drag: { x: true, y: false } },
         axes: [
           { ...axis, label: 'time in s', size: 34, space: roomOfTime },
-          { ...axis, label: unit, size: 62 },
+          { ...axis, label: unit, size: 62, ...(logarithmic ? powers : {}) },
         ],
         series: [
           { label: 't', value: (_u, v) => (v == null ? '\u2013' : `${brief(v, 7)} s`) },
@@ -109,6 +110,17 @@ export class Plot {
     ctx.restore();
   }
 }
+
+/** Marks of a logarithmic axis: powers of ten, ten at most. */
+const powers: Partial<uPlot.Axis> = {
+  splits: (_u, _axis, low, high) => {
+    const [first, last] = [Math.ceil(Math.log10(low) - 1e-9), Math.floor(Math.log10(high) + 1e-9)];
+    const every = Math.max(1, Math.ceil((last - first) / 10));
+    return Array.from({ length: Math.floor((last - first) / every) + 1 }, (_, k) => 10 ** (first + every * k));
+  },
+  filter: (_u, at) => at,
+  values: (_u, at) => at.map((v) => brief(v, 1)),
+};
 
 /** The index of the one next to `time`; `times` rising. */
 function nearest(times: number[], time: number): number {
