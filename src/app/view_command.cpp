@@ -97,7 +97,8 @@ int view(const ViewArguments& args) {
   const bool has_begun = std::filesystem::exists(args.folder + "/model.toml");
   if (!run.ok() && !(args.serve && has_begun)) {
     std::vector<Fault> faults = run.faults();
-    if (args.serve) faults.front().remedy = "start edda run first, then serve its folder";
+    if (args.serve)
+      faults.front().remedy = "give a folder that edda run has written, or start the run first";
     print(faults);
     return exit_code::bad_input;
   }
