@@ -123,6 +123,16 @@ Result<Snapshot> snapshot_of(const PlotArguments& args, const SeriesEntry& entry
   return shot;
 }
 
+/// Of rock without a strength the numbers are nothing, not small.
+Trouble judged(const PlotArguments& args, const Model& model) {
+  const auto has_strength = [](const Material& m) { return m.strength.has_value(); };
+  const std::vector<Material>& all = model.materials;
+  if (args.field != "overstress" || std::any_of(all.begin(), all.end(), has_strength)) return {};
+  return Fault{{"--field", {}, 0, 0},
+               "overstress is not judged: no material of the model has a strength",
+               "give one, as strength = { ucs = \"90 MPa\", tension = \"6 MPa\" }, and run it"};
+}
+
 /// What holds for either source.
 void add_wishes(const PlotArguments& args, PlotOptions& options) {
   options.vectors = args.vectors;
@@ -155,6 +165,14 @@ std::vector<StageSpan> stages_of(const std::string& folder) {
 
 }  // namespace
 
+double least_stress_of(const Model& model) {
+  constexpr double least_strain = 1e-11;
+  double least = 0.0;
+  for (const Material& m : model.materials)
+    least = least == 0.0 ? m.young : std::min(least, m.young);
+  return least_strain * least;
+}
+
 Paper paper_of(const PlotArguments& args) {
   Paper paper;
   paper.font = args.font;
@@ -180,7 +198,9 @@ Result<PlotSource> from_folder(const PlotArguments& args) {
   source.notes = notes_on(series.value(), args);
   // The title, names and monitors; a picture does without them where the model is gone.
   if (const Result<Model> model = read_model(folder + "/model.toml"); model.ok()) {
+    if (const Trouble trouble = judged(args, model.value())) return *trouble;
     source.options = options_of(model.value(), 0);
+    source.options.least_stress = least_stress_of(model.value());
   }
   const std::vector<PlotMonitor>& monitors = source.options.monitors;
   const auto from = std::find_if(monitors.begin(), monitors.end(),
@@ -206,6 +226,7 @@ Result<PlotSource> from_model(const PlotArguments& args) {
   }
   const Result<Model> model = read_model(args.source, args.overrides);
   if (!model.ok()) return model.faults();
+  if (const Trouble trouble = judged(args, model.value())) return *trouble;
   const Result<PolygonSet> polygons = build_polygons(model.value());
   if (!polygons.ok()) return polygons.faults();
   const BlockSet blocks = build_blocks(model.value(), polygons.value());

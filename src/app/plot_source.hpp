@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/fault.hpp"
+#include "model/model.hpp"
 #include "report/history_plot.hpp"
 #include "report/plot.hpp"
 #include "results/read_table.hpp"
@@ -44,5 +45,8 @@ struct HistorySource {
 Trouble read_histories(const PlotArguments& args, HistorySource& source);
 
 Paper paper_of(const PlotArguments& args);
+
+/// Stresses below it are rounding of the strains, Pa.
+double least_stress_of(const Model& model);
 
 }  // namespace edda

@@ -1,12 +1,14 @@
 // edda view
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <memory>
 
 #include "app/common.hpp"
+#include "app/plot_source.hpp"
 #include "model/read_model.hpp"
 #include "view/page.hpp"
 #include "view/server.hpp"
@@ -28,6 +30,9 @@ ViewNames names_of(const std::string& folder) {
   if (!read.ok()) return names;
   const Model& model = read.value();
   names.title = model.title;
+  names.least_stress = least_stress_of(model);
+  names.judges_rock = std::any_of(model.materials.begin(), model.materials.end(),
+                                  [](const Material& m) { return m.strength.has_value(); });
   for (const Material& m : model.materials) names.materials.push_back(m.name);
   for (const Monitor& m : model.monitors) names.monitors.push_back({m.name, {m.point}});
   for (const Convergence& c : model.convergences)
@@ -91,7 +96,10 @@ int view(const ViewArguments& args) {
   // A run that has begun will have a first frame: the page waits for it.
   const bool has_begun = std::filesystem::exists(args.folder + "/model.toml");
   if (!run.ok() && !(args.serve && has_begun)) {
-    print(run.faults());
+    std::vector<Fault> faults = run.faults();
+    if (args.serve)
+      faults.front().remedy = "give a folder that edda run has written, or start the run first";
+    print(faults);
     return exit_code::bad_input;
   }
   return args.serve ? serve(open, args) : write(run.value(), args);

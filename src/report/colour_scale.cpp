@@ -74,9 +74,9 @@ void ColourScale::take_range(double low, double high) {
 }
 
 void ColourScale::judge_values() {
-  // Rounding about zero, as before anything moves, is no range to paint.
+  // Rounding is no range to paint: a bar from nothing to the one value there is.
   const double size = std::max(std::abs(low_), std::abs(high_));
-  if (high_ - low_ <= 1e-9 * size) {
+  if (high_ - low_ <= one_value * size) {
     if (low_ > 0.0) low_ = 0.0;
     if (high_ < 0.0) high_ = 0.0;
   }

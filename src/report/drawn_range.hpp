@@ -22,6 +22,9 @@ Ends inner_ends(std::vector<Weighed>& values);
 /// of `inner` is put where it lies further out by half of that.
 Ends drawn_ends(Ends all, Ends inner);
 
+/// Values that differ by less than so much of the largest are one value and rounding.
+inline constexpr double one_value = 1e-7;
+
 /// An arrow that is longer than the ends that arrows are drawn by is drawn so many times as long as
 /// those at most.
 inline constexpr double longest_beyond = 1.5;

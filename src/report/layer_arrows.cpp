@@ -202,7 +202,7 @@ void draw_forces(Canvas& canvas, const Scene& s, const ArrowScale& scale) {
   draw_arrows(canvas, s, force_arrows(s), scale, ink::force, true, casing);
 }
 
-ArrowScale stress_scale(const std::vector<Scene>& scenes) {
+ArrowScale stress_scale(const std::vector<Scene>& scenes, double least) {
   std::vector<double> sizes, rooms;
   for (const Scene& s : scenes) {
     for (const StressCross& c : stress_crosses(s)) {
@@ -211,14 +211,14 @@ ArrowScale stress_scale(const std::vector<Scene>& scenes) {
       rooms.push_back(s.view.scale * std::max(c.room, raster(s)));
     }
   }
-  if (sizes.empty()) return {};
+  if (sizes.empty() || quantile(sizes, 1.0) < least) return {};
   // A few blocks under stress concentrations may have longer crosses than there is room for, else
   // all others would be dots; but not so long that nothing else is seen.
   constexpr double usual = 0.6, longest_arm = 1.8;  // of a block's side
   const double room = quantile(rooms, 0.5), most = quantile(sizes, 1.0);
   const ArrowScale wanted = scale_for(quantile(sizes, 0.95), usual * room);
-  const ArrowScale least = scale_for(most, longest_arm * room);
-  return wanted.per_unit == 0.0 || least.per_unit < wanted.per_unit ? least : wanted;
+  const ArrowScale shortest = scale_for(most, longest_arm * room);
+  return wanted.per_unit == 0.0 || shortest.per_unit < wanted.per_unit ? shortest : wanted;
 }
 
 void draw_stresses(Canvas& canvas, const Scene& s, const ArrowScale& scale) {

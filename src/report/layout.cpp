@@ -32,14 +32,17 @@ Layout lay_out(const Box& world, const Paper& paper, const Surroundings& room) {
   const double used = room.left + n * wide + (n - 1.0) * gap + right;
   l.width = std::max(used, paper.whole ? paper.width : 0.55 * paper.width);
   l.height = room.top + std::max(high + below, room.legend_height) + room.legend_below + edge;
-  l.drawings = n * wide + (n - 1.0) * gap;
+  const double drawings = n * wide + (n - 1.0) * gap;
+  const bool drawings_are_wide = drawings >= 20.0 * f;
+  l.below = drawings_are_wide ? drawings : l.width - 2.0 * edge;
   double x = room.left + 0.5 * (l.width - used);
   for (std::size_t k = 0; k < room.drawings; ++k) {
     l.views.push_back({{{x, room.top}, {x + wide, room.top + high}}, world, scale});
     x += wide + gap;
   }
-  l.legend = room.legend_below > 0.0 ? Vec2{l.views.front().frame.low.x, room.top + high + below}
-                                     : Vec2{x, room.top};
+  l.legend = {x, room.top};
+  if (room.legend_below > 0.0)
+    l.legend = {drawings_are_wide ? l.views.front().frame.low.x : edge, room.top + high + below};
   return l;
 }
 

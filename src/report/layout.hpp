@@ -39,8 +39,8 @@ struct View {
 struct Layout {
   double width = 0.0, height = 0.0, font = 8.0;
   std::vector<View> views;
-  Vec2 legend;            ///< its upper left corner
-  double drawings = 0.0;  ///< width of all drawings together
+  Vec2 legend;         ///< its upper left corner
+  double below = 0.0;  ///< width of a legend below: of all drawings together, or of the page
 };
 
 /// What has to find room beside the drawings.

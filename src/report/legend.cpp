@@ -226,6 +226,10 @@ void Legend::draw_key(Canvas& canvas, const LegendKey& key, double left, double 
       });
       break;
     case Sign::stress:
+      if (!(reference > 0.0)) {
+        next(value, [](Vec2, Vec2) {});
+        break;
+      }
       next("\u2212" + value, [&](Vec2 a, Vec2 b) {
         canvas.colour(ink::compression);
         canvas.line(a, b, 0.8);

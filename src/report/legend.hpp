@@ -42,6 +42,8 @@ class Legend {
   };
   Rows rows_below(double width) const;
   double colours_height_below(double width) const;
+  /// The heading in lines of that width, pt.
+  std::vector<std::string> heading_below(double width) const;
   void draw_kinds_across(Canvas& canvas, double left, double top, double width) const;
   void draw_bar_across(Canvas& canvas, double left, double top, double width) const;
   void draw_kind(Canvas& canvas, std::size_t kind, Vec2 at) const;

@@ -10,8 +10,8 @@
 namespace edda {
 namespace {
 
-constexpr double bar_height = 1.1, bar_room = 4.9;   // in sizes of the font; with heading and ticks
-constexpr double kind_row = 1.6, heading_row = 1.5;  // the same
+constexpr double bar_height = 1.1, bar_room = 4.9;  // in sizes of the font; with heading and ticks
+constexpr double kind_row = 1.6, heading_row = 1.5, heading_line = 1.25;  // the same
 
 }  // namespace
 
@@ -34,10 +34,17 @@ Legend::Rows Legend::rows_below(double width) const {
 
 double Legend::colours_height_below(double width) const {
   if (!scale_.has_legend()) return 0.0;
-  if (scale_.kind() == ScaleKind::numbers) return bar_room * font_;
+  const double further =
+      heading_line * font_ * (static_cast<double>(heading_below(width).size()) - 1.0);
+  if (scale_.kind() == ScaleKind::numbers) return bar_room * font_ + further;
   const double in_a_row = std::max(1.0, std::floor(width / (0.5 * this->width())));
   const double rows = std::ceil(static_cast<double>(scale_.kinds().size()) / in_a_row);
-  return (heading_row + rows * kind_row) * font_;
+  return (heading_row + rows * kind_row) * font_ + further;
+}
+
+std::vector<std::string> Legend::heading_below(double width) const {
+  Canvas measure("", 1.0, 1.0, 1.0);
+  return wrapped(measure, label_, font_, width);
 }
 
 double Legend::height_below(double width) const {
@@ -47,8 +54,12 @@ double Legend::height_below(double width) const {
 void Legend::draw_below(Canvas& canvas, double left, double top, double width) const {
   if (scale_.has_legend()) {
     canvas.colour(ink::line);
-    canvas.text(label_, {left, top + 0.8 * font_}, {.size = font_});
-    const double below = top + heading_row * font_;
+    double y = top + 0.8 * font_;
+    for (const std::string& line : heading_below(width)) {
+      canvas.text(line, {left, y}, {.size = font_});
+      y += heading_line * font_;
+    }
+    const double below = y + (heading_row - 0.8 - heading_line) * font_;
     if (scale_.kind() == ScaleKind::numbers) {
       draw_bar_across(canvas, left, below, width);
     } else {

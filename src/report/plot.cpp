@@ -21,7 +21,7 @@ Scales scales_of(const std::vector<Scene>& scenes, const PlotOptions& options) {
   Scales scales;
   if (!options.vectors.empty()) scales.vectors = vector_scale(scenes, options);
   if (options.forces) scales.forces = force_scale(scenes);
-  if (options.principal) scales.stresses = stress_scale(scenes);
+  if (options.principal) scales.stresses = stress_scale(scenes, options.least_stress);
   if (options.bolt_forces) scales.bolts = bolt_scale(scenes);
   return scales;
 }
@@ -186,7 +186,7 @@ class Page {
       room.legend_width = legend.width();
       room.legend_height = legend.height();
     } else {
-      room.legend_below = legend.height_below(lay_out(world, options_.paper, room).drawings);
+      room.legend_below = legend.height_below(lay_out(world, options_.paper, room).below);
     }
   }
 
@@ -194,7 +194,7 @@ class Page {
                           const Surroundings& room) {
     if (legend.is_empty()) return;
     if (room.legend_below > 0.0)
-      return legend.draw_below(canvas, layout.legend.x, layout.legend.y, layout.drawings);
+      return legend.draw_below(canvas, layout.legend.x, layout.legend.y, layout.below);
     legend.draw(canvas, layout.legend.x, layout.legend.y,
                 std::max(layout.views.front().frame.high.y, layout.legend.y + room.legend_height));
   }

@@ -54,11 +54,12 @@ struct PlotOptions {
   std::vector<std::array<Vec2, 2>> bolts;   ///< from where to where they were at the start, m
   std::vector<std::array<Vec2, 2>> joints;  ///< drawn thick, where they are drawn, m
   double scale = 1.0;                       ///< of the displacements drawn
-  std::string vectors;       ///< "displacement" or "velocity": arrows at block centres; empty: none
-  bool forces = false;       ///< contact forces as arrows
-  bool principal = false;    ///< principal stresses as crosses at block centres
-  bool bolt_forces = false;  ///< bolts as wide as their axial force
-  bool marks = true;         ///< monitors and convergence lines
+  std::string vectors;     ///< "displacement" or "velocity": arrows at block centres; empty: none
+  bool forces = false;     ///< contact forces as arrows
+  bool principal = false;  ///< principal stresses as crosses at block centres
+  double least_stress = 0.0;  ///< Pa; where none is larger they are rounding, and not drawn
+  bool bolt_forces = false;   ///< bolts as wide as their axial force
+  bool marks = true;          ///< monitors and convergence lines
   std::optional<std::pair<double, double>> range{};  ///< of the colours, SI units
   bool whole_range = false;     ///< else a few blocks may lie beyond colours and arrows
   std::optional<Box> window{};  ///< what is shown, m; default: everything

@@ -58,8 +58,8 @@ void draw_blocks(Canvas& canvas, const Scene& scene, const ColourScale& scale);
 void draw_contact_field(Canvas& canvas, const Scene& scene, const ColourScale& scale);
 void draw_joints(Canvas& canvas, const Scene& scene, const PlotOptions& options);
 
-/// Principal stresses as crosses.
-ArrowScale stress_scale(const std::vector<Scene>& scenes);
+/// Principal stresses as crosses; none where all are below `least`, Pa.
+ArrowScale stress_scale(const std::vector<Scene>& scenes, double least);
 void draw_stresses(Canvas& canvas, const Scene& scene, const ArrowScale& scale);
 
 /// Of options.vectors.

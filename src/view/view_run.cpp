@@ -51,37 +51,40 @@ void add_marks(Json& json, const char* key, const std::vector<ViewMark>& marks) 
   json.close();
 }
 
-/// Nearly the largest value, so that a few giants do not make dots of all others. Reorders them.
-double usual(std::vector<double>& sizes) {
-  if (sizes.empty()) return 0.0;
-  const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() - 1) * 95 / 100;
-  std::nth_element(sizes.begin(), at, sizes.end());
-  return *at > 0.0 ? *at : *std::max_element(sizes.begin(), sizes.end());
+/// The usual one is nearly the largest, so that a few giants do not make dots of all others.
+/// Reorders those of the frame.
+void widen(ViewSizes& sizes, std::vector<double>& of_frame) {
+  if (of_frame.empty()) return;
+  const auto at = of_frame.begin() + static_cast<std::ptrdiff_t>(of_frame.size() - 1) * 95 / 100;
+  std::nth_element(of_frame.begin(), at, of_frame.end());
+  const double largest = *std::max_element(at, of_frame.end());
+  sizes.usual = std::max(sizes.usual, *at > 0.0 ? *at : largest);
+  sizes.largest = std::max(sizes.largest, largest);
 }
 
-double usual_force(const Grid& contacts) {
+std::vector<double> force_sizes(const Grid& contacts) {
   const Field *normal = contacts.cell_field("normal_force"),
               *shear = contacts.cell_field("shear_force"), *state = contacts.cell_field("state");
-  if (normal == nullptr || shear == nullptr || state == nullptr) return 0.0;
   std::vector<double> sizes;
+  if (normal == nullptr || shear == nullptr || state == nullptr) return sizes;
   for (std::size_t c = 0; c < contacts.cell_count(); ++c) {
     const double force = std::hypot(normal->values[c], shear->values[c]);
     if (state->values[c] != 0.0 && force > 0.0 && std::isfinite(force)) sizes.push_back(force);
   }
-  return usual(sizes);
+  return sizes;
 }
 
-double usual_stress(const Grid& blocks, const std::vector<std::size_t>& cells) {
+std::vector<double> stress_sizes(const Grid& blocks, const std::vector<std::size_t>& cells) {
   const Field *stress = blocks.cell_field("stress"), *fixed = blocks.cell_field("fixed");
-  if (stress == nullptr) return 0.0;
   std::vector<double> sizes;
+  if (stress == nullptr) return sizes;
   for (const std::size_t c : cells) {
     if (fixed != nullptr && fixed->values[c] != 0.0) continue;
     const double* const s = stress->values.data() + c * stress->components;  // xx yy zz xy
     const double size = std::abs(0.5 * (s[0] + s[1])) + std::hypot(0.5 * (s[0] - s[1]), s[3]);
     if (std::isfinite(size)) sizes.push_back(size);
   }
-  return usual(sizes);
+  return sizes;
 }
 
 void add_strings(Json& json, const char* key, const std::vector<std::string>& strings) {
@@ -106,6 +109,8 @@ Result<ViewRun> ViewRun::open(std::string folder, ViewNames names) {
   for (const char* name : {"omega", "rotation", "overstress"}) {
     if (first.value().cell_field(name) == nullptr) run.absent_.emplace_back(name);
   }
+  if (!run.names_.judges_rock && !std::count(run.absent_.begin(), run.absent_.end(), "overstress"))
+    run.absent_.emplace_back("overstress");
   return run;
 }
 
@@ -130,8 +135,12 @@ bool ViewRun::is_still_there() const {
 
 Result<std::vector<SeriesEntry>> ViewRun::series() const {
   Result<std::vector<SeriesEntry>> series = read_pvd(folder_ + "/blocks.pvd");
-  if (!series.ok()) return no_results(folder_, "holds no blocks.pvd");
-  return series;
+  if (series.ok()) return series;
+  std::error_code unknown;
+  if (std::filesystem::is_directory(folder_, unknown))
+    return no_results(folder_, "holds no blocks.pvd");
+  const bool there = std::filesystem::exists(folder_, unknown);
+  return no_results(folder_, there ? "is no folder" : "there is no such folder");
 }
 
 Result<ViewRun::Opened> ViewRun::open_frame(const SeriesEntry& frame) const {
@@ -147,8 +156,10 @@ Result<ViewRun::Opened> ViewRun::open_frame(const SeriesEntry& frame) const {
 
 void ViewRun::widen_ranges(const Opened& frame) {
   const Grids& grids = frame.grids;
-  usual_.stress = std::max(usual_.stress, usual_stress(grids.blocks, frame.in.cell));
-  if (grids.contacts) usual_.force = std::max(usual_.force, usual_force(*grids.contacts));
+  std::vector<double> stresses = stress_sizes(grids.blocks, frame.in.cell), forces;
+  if (grids.contacts) forces = force_sizes(*grids.contacts);
+  widen(stresses_, stresses);
+  widen(forces_, forces);
   const Grid* contacts = grids.contacts ? &*grids.contacts : nullptr;
   const Field* fixed = grids.blocks.cell_field("fixed");
   const std::vector<double> areas = cell_areas(grids.blocks);
@@ -248,7 +259,10 @@ std::string ViewRun::header(const std::string& served_as) const {
   }
   json.close();
   json.key("usual").open_object();
-  json.pair("force", usual_.force).pair("stress", usual_.stress).close();
+  const bool any_stress = stresses_.largest >= names_.least_stress;
+  json.pair("force", forces_.usual).pair("stress", any_stress ? stresses_.usual : 0.0).close();
+  json.key("largest").open_object();
+  json.pair("force", forces_.largest).pair("stress", stresses_.largest).close();
   std::string kinds;
   for (std::size_t k = 0; k < kind_colour_count; ++k) append_hex(kinds, kind_colour(k));
   std::string states;

@@ -26,6 +26,8 @@ struct ViewNames {
   std::vector<std::string> materials;
   std::vector<ViewMark> monitors;      ///< one point each
   std::vector<ViewMark> convergences;  ///< two
+  double least_stress = 0.0;           ///< Pa; where none is larger they are rounding
+  bool judges_rock = true;             ///< a material has a strength: overstress means something
 };
 
 /// Smallest and largest value of a field of pictures in the frames so far; held blocks do not
@@ -37,10 +39,10 @@ struct ViewRange {
   double inner_low = 0.0, inner_high = 0.0;
 };
 
-/// What a stroke of the usual length stands for in the frames so far.
-struct ViewUsual {
-  double force = 0.0;   ///< of closed contacts, N
-  double stress = 0.0;  ///< principal, of blocks that are not held, Pa
+/// Of what strokes stand for in the frames so far.
+struct ViewSizes {
+  double usual = 0.0;  ///< of a stroke of the usual length
+  double largest = 0.0;
 };
 
 class ViewRun {
@@ -102,7 +104,8 @@ class ViewRun {
   std::vector<ViewDatum> datums_;
   std::vector<Taken> taken_;
   std::map<std::string, ViewRange> ranges_;  ///< by name of the field
-  ViewUsual usual_;
+  ViewSizes forces_;                         ///< of closed contacts, N
+  ViewSizes stresses_;                       ///< principal, of blocks that are not held, Pa
 };
 
 /// Tables that a page takes along.

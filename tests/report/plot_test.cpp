@@ -392,6 +392,43 @@ TEST(Plot, TensionAndCompressionAreToldApart) {
             stroked(with(-1e6), ink::compression).size());
 }
 
+TEST(Plot, StressesThatAreRoundingAreNotDrawn) {
+  Snapshot shot = snapshot("none");
+  shot.blocks.cell_fields[1].values = {0, 0, 0};
+  Field stress{"stress", 6, std::vector<double>(18, 1e-4), {}, false};
+  shot.blocks.cell_fields.push_back(stress);
+  PlotOptions options;
+  options.principal = true;
+  EXPECT_FALSE(stroked(drawn({&shot, 1}, options), ink::tension).empty());
+  options.least_stress = 1e-3;
+  const std::string svg = drawn({&shot, 1}, options);
+  EXPECT_TRUE(stroked(svg, ink::tension).empty());
+  EXPECT_TRUE(text_of(svg, "none"));
+  EXPECT_FALSE(text_of(svg, "+none"));
+}
+
+TEST(Plot, ValuesThatDifferByRoundingAreOne) {
+  Snapshot shot = snapshot("displacement");
+  shot.blocks.cell_fields[1].values = {0, 0, 0};
+  const std::vector<double> values{1.2533864465827382e-06, 1.253386444295216e-06};
+  shot.field.values = {values[0], values[0], values[1]};
+  const ColourScale scale({&shot, 1}, {}, false);
+  EXPECT_EQ(scale.low(), 0.0);
+  EXPECT_EQ(scale.high(), values[0]);
+}
+
+TEST(Plot, HeadingsOfLegendsBelowStayOnThePage) {
+  const Snapshot shot = snapshot("displacement");
+  PlotOptions options;
+  options.paper.font = 40.0;
+  Snapshot long_one = shot;
+  long_one.field.label = "most compressive stress of all (tension positive)";
+  const std::string svg = drawn({&long_one, 1}, options);
+  ASSERT_TRUE(text_of(svg, "most compressive")) << svg;
+  EXPECT_LT(text_of(svg, "most compressive")->x, 40.0);
+  EXPECT_GT(text_of(svg, "stress of all")->y, text_of(svg, "most compressive")->y);
+}
+
 TEST(Plot, BoltsAreAsWideAsTheirForce) {
   Snapshot shot = snapshot("none");
   shot.bolts = std::vector<BoltChain>{{{{0.1, 0.5}, {0.5, 0.5}, {0.9, 0.5}}, {1e5, 1e5, 0.0}}};

@@ -222,6 +222,87 @@ test('draws strokes along what they stand for', async () => {
   await p.close();
 });
 
+test('sets arrows off by an even rim', async () => {
+  const p = await page('cavern.html');
+  await choose(p, 'vectors', 'displacement');
+  await p.locator('#edges').uncheck();
+  await p.waitForFunction(() => !edda.stale && !edda.overlayStale);
+  const found = await p.evaluate(() => {
+    const ratio = 4;
+    const { view } = edda;
+    // One arrow alone, by what all are drawn with.
+    const layer = view.arrowStrokes;
+    const [x0, y0, x1, y1] = [[-40, 0], [40, 25]].flatMap(([x, y]) => [view.camera.x + x / view.camera.scale, view.camera.y + y / view.camera.scale]);
+    const drawn = (count) => {
+      layer.count = Math.min(count, layer.count);
+      layer.ends.set([x0, y0, x1, y1, x0, y0, x1, y1]);
+      layer.colours.set([255, 0, 255, 255], 0); // the rim, where the ground is as white
+      layer.upload();
+      const [width, height] = [view.camera.width, view.camera.height];
+      const copy = document.createElement('canvas');
+      [copy.width, copy.height] = [120 * ratio, 80 * ratio];
+      const g = copy.getContext('2d');
+      g.translate(-(width / 2 - 60) * ratio, -(height / 2 - 40) * ratio);
+      view.copyTo(g, 0, 0, width * ratio, height * ratio, ratio);
+      return g.getImageData(0, 0, copy.width, copy.height).data;
+    };
+    const size = 120 * ratio * 80 * ratio;
+    const [both, rim, none] = [2, 1, 0].map(drawn);
+    const differs = (a, b, k) => [0, 1, 2].some((c) => a[4 * k + c] !== b[4 * k + c]);
+    const [inked, rimmed] = [[], []];
+    for (let k = 0; k < size; ++k) {
+      const at = [k % (120 * ratio), Math.floor(k / (120 * ratio))];
+      if (differs(both, rim, k)) inked.push(at);
+      if (differs(rim, none, k)) rimmed.push(at);
+    }
+    const covered = new Set(rimmed.map(([x, y]) => 1000 * x + y));
+    const bare = inked.filter(([x, y]) => !covered.has(1000 * x + y)).length;
+    const far = rimmed.map(([x, y]) => Math.min(...inked.map(([u, v]) => Math.hypot(x - u, y - v))) / ratio).sort((a, b) => a - b);
+    return { ink: inked.length, rim: rimmed.length, bare, farthest: far[far.length - 1], usual: far[Math.floor(0.99 * far.length)] };
+  });
+  assert.ok(found.ink > 1000 && found.bare === 0, JSON.stringify(found));
+  // At the head's point, where the rim is mitred, it reaches 2 px.
+  assert.ok(found.farthest > 0.8 && found.farthest < 2.3 && found.usual < 1.6, JSON.stringify(found));
+  await p.close();
+});
+
+test('says where strokes are cut', async () => {
+  for (const [name, cut] of [['tunnel.html', true], ['cavern.html', undefined]]) {
+    const p = await page(name);
+    for (const id of ['forces', 'crosses']) await p.locator(`#${id}`).check();
+    await p.waitForFunction(() => !edda.stale && !edda.overlayStale);
+    const { strokes, run: { usual, largest } } = await p.evaluate(() => ({ strokes: edda.legend().strokes, run: edda.results.run }));
+    const at = (text) => strokes.find((s) => s.text.startsWith(text)).cutAt;
+    const wanted = (of) => (largest[of] > 4 * usual[of] ? 4 * usual[of] : undefined);
+    assert.equal(at('force'), wanted('force'));
+    assert.equal(at('tension'), wanted('stress'));
+    if (cut) assert.ok(at('force') > 0 && largest.force > at('force'), 'the tunnel has forces that are cut');
+    await p.close();
+  }
+});
+
+test('says so of ends of the colours that are none', async () => {
+  const p = await page('cavern.html');
+  await choose(p, 'range', 'own');
+  const invalid = () => p.$$eval('#low, #high', (inputs) => inputs.map((i) => i.getAttribute('aria-invalid')));
+  const give = async (low, high) => {
+    await p.locator('#low').fill(low);
+    await p.locator('#high').fill(high);
+    await p.locator('#high').blur();
+    await p.waitForFunction(() => !edda.stale);
+  };
+  await give('5', '5');
+  assert.deepEqual(await invalid(), ['true', 'true']);
+  assert.match(await p.textContent('#own-fault'), /^the lower end must be below/);
+  await give('', '5');
+  assert.match(await p.textContent('#own-fault'), /^give two numbers/);
+  await give('1', '5');
+  assert.deepEqual(await invalid(), ['false', 'false']);
+  assert.ok(await p.locator('#own-fault').isHidden());
+  await choose(p, 'range', 'run');
+  await p.close();
+});
+
 test('names and colours states of contacts as edda plot does', async () => {
   const p = await page('cavern.html');
   await choose(p, 'field', 'state');
@@ -314,7 +395,7 @@ test('saves a picture', async () => {
     };
   });
   await p.waitForFunction(() => !edda.stale);
-  assert.match(await p.evaluate(() => ((edda.player.index = 3), edda.pictureTitle())), /t = 0\.05 s +displacements \u00d7 49\.9$/);
+  assert.match(await p.evaluate(() => ((edda.player.index = 3), edda.pictureTime())), /t = 0\.05 s +displacements \u00d7 49\.9$/);
   const [download] = await Promise.all([p.waitForEvent('download'), p.click('#save')]);
   assert.match(download.suggestedFilename(), /^Cavern.*-10\.png$/);
   assert.ok((await p.evaluate(() => window.widths)).includes(2 * (await p.evaluate(() => edda.view.camera.width))), 'blocks are drawn as fine as the picture');
@@ -323,6 +404,27 @@ test('saves a picture', async () => {
   const [width, height] = await p.evaluate(() => [edda.view.camera.width, edda.view.camera.height]);
   assert.equal(bytes.readUInt32BE(16), 2 * width);
   assert.equal(bytes.readUInt32BE(20), 2 * (height + 34));
+  // A long title goes on in further lines, and no line is squeezed.
+  const long = await p.evaluate(async () => {
+    const { fillText } = CanvasRenderingContext2D.prototype;
+    const lines = [];
+    CanvasRenderingContext2D.prototype.fillText = function (text, x, y, most) {
+      if (this.font.includes('15px')) lines.push([text, this.measureText(text).width / most]);
+      fillText.call(this, text, x, y, most);
+    };
+    const of = (title) => {
+      lines.length = 0;
+      edda.results.run.title = title;
+      edda.save();
+      return [...lines];
+    };
+    const found = [of('cavern in jointed rock '.repeat(8).trim()), of('cavern '.repeat(300)), of('x'.repeat(2000))];
+    CanvasRenderingContext2D.prototype.fillText = fillText;
+    return found;
+  });
+  assert.deepEqual(long.map((lines) => lines.length <= 3 && lines.length > 1 && lines.every(([, part]) => part <= 1)), [true, true, true], JSON.stringify(long));
+  assert.ok(!JSON.stringify(long[0]).includes('\u2026') && long[1][2][0].includes('\u2026'));
+  for (const lines of long) assert.match(lines.map(([text]) => text).join(' '), /t\s=\s0\.05\ss\s+displacements\s\u00d7\s49\.9$/);
   await p.close();
 });
 

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <random>
 
@@ -199,6 +200,30 @@ TEST_F(ViewPage, TellsUsualStrokesAndWhatFramesHaveNot) {
   EXPECT_NEAR(
       std::stod(header.substr(at + std::string("\"usual\":{\"force\":0,\"stress\":").size())),
       1e6 * (0.5 + std::hypot(1.5, 0.4)), 1.0);
+  EXPECT_NE(header.find("\"largest\":{\"force\":0,\"stress\":2052"), std::string::npos) << header;
+}
+
+TEST_F(ViewPage, SaysWhatIsNoFolder) {
+  const auto problem = [](const std::string& folder) {
+    const Result<ViewRun> run = ViewRun::open(folder, {});
+    return run.ok() ? std::string() : run.faults().front().problem;
+  };
+  EXPECT_EQ(problem(folder_), "holds no blocks.pvd");
+  EXPECT_EQ(problem(folder_ + "/nowhere"), "there is no such folder");
+  std::ofstream(folder_ + "/file") << "text";
+  EXPECT_EQ(problem(folder_ + "/file"), "is no folder");
+}
+
+TEST_F(ViewPage, StressesThatAreRoundingAreNotDrawn) {
+  write_frames(2);
+  ViewNames names;
+  names.least_stress = 1e7;
+  Result<ViewRun> run = ViewRun::open(folder_, names);
+  ASSERT_TRUE(run.ok());
+  take_new(run.value());
+  std::string header = run.value().header();
+  std::erase_if(header, [](char c) { return c == ' ' || c == '\n'; });
+  EXPECT_NE(header.find("\"usual\":{\"force\":0,\"stress\":0}"), std::string::npos) << header;
 }
 
 // A title may not end the script that it stands in.

@@ -37,8 +37,13 @@ test('plays from the first frame to the last, and pauses', async () => {
   const p = await page('cavern.html');
   // A frame lasts two and a half seconds, then one, so that a busy machine sees each.
   await choose(p, 'speed', '0.1');
+  const icon = () => p.$$eval('#play svg', (icons) => icons.filter((i) => i.getBoundingClientRect().width > 0).map((i) => i.getAttribute('class')));
+  assert.deepEqual(await icon(), ['playing-not']);
   await p.click('#play');
   await p.waitForFunction(() => document.getElementById('time').textContent === 't = 0 s');
+  assert.deepEqual(await icon(), ['playing-only']);
+  // Not every font has the signs of a player.
+  assert.equal((await p.$$eval('footer button', (buttons) => buttons.map((b) => b.textContent).join(''))).trim(), '');
   await choose(p, 'speed', '0.25');
   await p.waitForFunction(() => edda.player.index === 2);
   await p.click('#play');
@@ -81,12 +86,27 @@ test('knows every field that edda plot knows', async () => {
   const p = await page('cavern.html');
   const offered = await p.$$eval('#field option', (options) => options.map((o) => o.value));
   const named = await p.evaluate(() => edda.results.run.fields.map((f) => f.name));
-  for (const name of named.filter((n) => !['id', 'principal_stress'].includes(n))) assert.ok(offered.includes(name), name);
+  for (const name of named.filter((n) => !['id', 'principal_stress', 'overstress'].includes(n))) assert.ok(offered.includes(name), name);
   for (const name of offered) {
     await choose(p, 'field', name);
     await p.waitForFunction(() => !edda.stale && !edda.overlayStale);
   }
   await p.close();
+});
+
+test('has no overstress of rock without a strength', async () => {
+  const p = await page('cavern.html');
+  assert.ok(!(await p.$$eval('#field option', (options) => options.map((o) => o.value))).includes('overstress'));
+  await p.close();
+  const strength = ['--set', 'materials.rock.strength={ucs = 9e7, tension = 6e6}', '--set', 'solver.duration=0.001'];
+  run('run', 'cavern.toml', '--quiet', ...strength, '-o', 'judged');
+  run('view', 'judged');
+  const judged = await page('judged.html');
+  await choose(judged, 'field', 'overstress');
+  await judged.close();
+  run('plot', 'judged', '--field', 'overstress', '-o', 'judged.png');
+  assert.throws(() => run('plot', 'cavern', '--field', 'overstress', '-o', 'none.png'), (e) => e.status === 2);
+  assert.throws(() => run('plot', 'cavern.toml', '--field', 'overstress', '-o', 'none.png'), (e) => e.status === 2);
 });
 
 test('follows a monitor and plots its history', async () => {
@@ -115,6 +135,103 @@ test('follows a monitor and plots its history', async () => {
   assert.deepEqual(await p.evaluate(() => edda.plots.plot.plot.data.slice(1).map((c) => c[0])), [7, 8]);
   await choose(p, 'plot-of', 'energy');
   assert.ok(await p.locator('#plot canvas').isVisible());
+  await p.close();
+});
+
+test('tells the times of a plot apart, however short the run, however far it is zoomed', async () => {
+  run('run', 'cavern.toml', '--quiet', '--set', 'solver.duration=0.001', '--set', 'output.every=0.0005', '-o', 'blink');
+  run('view', 'blink');
+  const p = await page('blink.html');
+  await choose(p, 'plot-of', 'energy');
+  const times = () => p.evaluate(() => edda.plots.plot.plot.axes[0]._values.filter((v) => v !== null));
+  for (const [low, high, least] of [[0, 0.001, 3], [0.0004, 0.0005, 2], [0.00049999, 0.00050001, 2], [900, 900.001, 2]]) {
+    await p.evaluate(([min, max]) => new Promise((drawn) => {
+      const { plot } = edda.plots.plot;
+      plot.setScale('x', { min, max });
+      setTimeout(drawn, 100);
+    }), [low, high]);
+    const texts = await times();
+    const read = texts.map((text) => Number(text.replaceAll('\u2212', '-')));
+    assert.ok(texts.length >= least && new Set(texts).size === texts.length, texts.join(' '));
+    const step = read[1] - read[0];
+    read.forEach((t, k) => {
+      assert.ok(t > low - 0.01 * step && t < high + 0.01 * step, texts.join(' '));
+      if (k > 0) assert.ok(Math.abs(t - read[k - 1] - step) < 0.01 * step, `even steps: ${texts.join(' ')}`);
+    });
+  }
+  await p.close();
+});
+
+test('has the values at the shown time below a plot, else those under the mouse', async () => {
+  const p = await page('cavern.html');
+  const history = table('cavern/history.csv');
+  await choose(p, 'plot-of', 'drift');
+  const below = () => p.$$eval('#plot .u-value', (cells) => cells.map((c) => c.textContent));
+  const wanted = (row) => [`${Number(Number(row.time).toPrecision(7))} s`, Number(row.drift)];
+  const holds = async (row) => {
+    const [time, drift] = await below();
+    const [t, d] = wanted(row);
+    assert.equal(time, t);
+    assert.ok(Math.abs(Number(drift.replaceAll('\u2212', '-')) - d) <= 1e-4 * Math.abs(d), `${drift}, not ${d}`);
+  };
+  await holds(history[history.length - 1]);
+  await p.locator('#scrub').fill('4');
+  await settled(p);
+  const shown = history.find((row) => Math.abs(Number(row.time) - 0.02) < 1e-9);
+  await holds(shown);
+  const over = await p.locator('#plot .u-over').boundingBox();
+  await p.mouse.move(over.x + 1, over.y + 20);
+  await holds(history[0]);
+  await p.mouse.move(over.x + 1, over.y - 300);
+  await holds(shown);
+  await p.close();
+});
+
+test('plots the unbalanced force over its powers of ten', async () => {
+  const p = await page('tunnel.html');
+  await choose(p, 'plot-of', 'unbalanced');
+  const { marks, log, values } = await p.evaluate(() => {
+    const { plot } = edda.plots.plot;
+    return { marks: plot.axes[1]._values, log: plot.scales.y.distr, values: Array.from(plot.data[1]) };
+  });
+  assert.equal(log, 3);
+  assert.ok(values.every((v) => v === null || v > 0) && values.some((v) => v !== null));
+  assert.ok(marks.length >= 3 && marks.length <= 11, marks.join(' '));
+  for (const text of marks) assert.match(text, /^(10*|0\.0*1|1e[\u2212+]?\d+)$/);
+  await choose(p, 'plot-of', 'energy');
+  assert.equal(await p.evaluate(() => edda.plots.plot.plot.scales.y.distr), 1);
+  await p.close();
+});
+
+test('names monitors where nothing is hidden, or not at all', async () => {
+  const p = await page('cavern.html');
+  const found = await p.evaluate(() => {
+    const { overlay, view } = edda;
+    const box = view.pose.box();
+    const place = (x, y) => [{ row: -1, rx: x + view.pose.origin[0], ry: y + view.pose.origin[1] }];
+    overlay.monitors.splice(0);
+    // A dozen close together, and one beside the legend.
+    for (let k = 0; k < 12; ++k) overlay.monitors.push({ name: `monitor ${k}`, at: place(0.5 * (box.x0 + box.x1) + (k % 4) * 12 / view.camera.scale, 0.5 * (box.y0 + box.y1) + (k >> 2) * 9 / view.camera.scale) });
+    overlay.monitors.push({ name: 'beside the legend', at: place(...view.camera.at(view.camera.width - 190, 60)) });
+    const options = edda.overlayOptions();
+    const g = document.createElement('canvas').getContext('2d');
+    const texts = [];
+    g.fillText = (text, x, y) => g.font.includes('600') && texts.push({ text, x0: x, x1: x + g.measureText(text).width, y0: y - 9, y1: y + 2 });
+    const style = { ink: '#000', faint: '#000', halo: '#fff', accent: '#000', font: 'sans-serif' };
+    const drawn = (monitor) => {
+      texts.length = 0;
+      overlay.paint(g, view.camera, view.pose, style, { ...options, axes: false, monitor });
+      return [...texts];
+    };
+    return { plain: drawn(''), selected: drawn('monitor 6'), legend: options.legend };
+  });
+  for (const texts of [found.plain, found.selected]) {
+    assert.ok(texts.length > 3 && texts.length < 13, String(texts.length));
+    [...texts, found.legend].forEach((a, i, all) => all.slice(0, i).forEach((b) =>
+      assert.ok(a.x1 <= b.x0 || b.x1 <= a.x0 || a.y1 <= b.y0 || b.y1 <= a.y0, `${a.text} over ${b.text}`)));
+  }
+  assert.ok(found.plain.some((t) => t.text === 'beside the legend'));
+  assert.equal(found.selected[0].text, 'monitor 6');
   await p.close();
 });
 

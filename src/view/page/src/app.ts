@@ -8,12 +8,13 @@ import type { Field } from './data/run';
 import { Scale } from './data/scale';
 import { Absent, type Source } from './data/source';
 import { brief, quantity } from './data/units';
+import { LONGEST } from './scene/layers';
 import { Overlay } from './scene/overlay';
 import { View } from './scene/view';
 import { Controls } from './ui/controls';
 import { byId } from './ui/dom';
 import { listenToKeys } from './ui/keys';
-import { type LegendEntries, paintLegend, WIDTH as LEGEND_WIDTH } from './ui/legend';
+import { legendBox, type LegendEntries, paintLegend, WIDTH as LEGEND_WIDTH } from './ui/legend';
 import { Player } from './ui/player';
 import { Plots } from './ui/plots';
 import { listenToPointer } from './ui/pointer';
@@ -186,7 +187,10 @@ export class App {
 
   private overlayOptions() {
     const { axes, marks } = this.controls;
-    return { axes, marks, selected: this.selected, monitor: this.monitor };
+    const { width, height } = this.view.camera;
+    const g = byId<HTMLCanvasElement>('overlay').getContext('2d')!;
+    const legend = legendBox(g, width - 10, 10, height - 10, overlayStyle(), this.legend());
+    return { axes, marks, selected: this.selected, monitor: this.monitor, legend };
   }
 
   private paintLegend(g: CanvasRenderingContext2D): void {
@@ -199,10 +203,12 @@ export class App {
     const theme = themes[this.theme];
     const strokes: LegendEntries['strokes'] = [];
     const per = (of: 'forces' | 'crosses' | 'arrows') => this.view.valuePerPixel(of);
-    if (controls.forces) strokes.push({ colour: css(theme.ink), text: 'force', perPixel: per('forces'), unit: 'N' });
+    const { usual, largest } = results.run;
+    const cut = (of: 'force' | 'stress') => (largest[of] > LONGEST * usual[of] ? LONGEST * usual[of] : undefined);
+    if (controls.forces) strokes.push({ colour: css(theme.ink), text: `force, up to ${quantity(largest.force, 'N', 3)}`, perPixel: per('forces'), unit: 'N', cutAt: cut('force') });
     if (controls.crosses) {
       strokes.push({ colour: css(theme.compression), text: 'compression', perPixel: per('crosses'), unit: 'Pa' });
-      strokes.push({ colour: css(theme.tension), text: 'tension' });
+      strokes.push({ colour: css(theme.tension), text: 'tension', unit: 'Pa', cutAt: cut('stress') });
     }
     if (controls.vectors !== 'none') {
       const unit = controls.vectors === 'velocity' ? 'm/s' : 'm';
@@ -233,18 +239,18 @@ export class App {
   private save(): void {
     const style = overlayStyle();
     const ratio = Math.max(2, devicePixelRatio);
-    savePicture(`${this.results.run.title || 'edda'}-${this.shown}.png`.replaceAll(/[^\w.-]+/g, '_'), this.view, ratio, this.pictureTitle(), style.halo, style.ink, (g) => {
+    savePicture(`${this.results.run.title || 'edda'}-${this.shown}.png`.replaceAll(/[^\w.-]+/g, '_'), this.view, ratio, this.results.run.title, this.pictureTime(), style.halo, style.ink, (g) => {
       this.overlay.paint(g, this.view.camera, this.view.pose, style, this.overlayOptions());
       this.paintLegend(g);
     });
   }
 
   /** Of the frame that is drawn. */
-  private pictureTitle(): string {
-    const { title, frames } = this.results.run;
+  private pictureTime(): string {
+    const { frames } = this.results.run;
     const { magnification } = this.controls;
     const drawn = magnification > 1 ? `displacements \u00d7 ${brief(magnification, 3)}` : '';
-    return [title, `t = ${brief(frames[this.shown], 6)} s`, drawn].filter((t) => t !== '').join('    ');
+    return [`t = ${brief(frames[this.shown], 6)} s`, drawn].filter((t) => t !== '').join('    ');
   }
 
   private listen(): void {

@@ -31,10 +31,12 @@ export interface Run {
   frames: number[];
   datums: number;
   fields: Field[];
-  /** Numbers of blocks that the frames have not. */
+  /** Numbers of blocks that the frames have not, or that mean nothing in this run. */
   absent: ('omega' | 'rotation' | 'overstress')[];
   /** What strokes of the usual length stand for, in all frames: N, Pa. */
   usual: { force: number; stress: number };
+  /** The largest in all frames. */
+  largest: { force: number; stress: number };
   colours: { sequential: string; diverging: string; kinds: string; states: string };
   /** Of contacts, by number. */
   states: string[];

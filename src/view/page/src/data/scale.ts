@@ -24,9 +24,9 @@ export class Scale {
     } else if (field.kind === 'kinds') {
       this.palette = 'kinds';
     } else {
-      // Rounding about zero, as before anything moves, is no range to paint.
+      // Rounding is no range to paint: a bar from nothing to the one value there is (src/report/drawn_range.hpp).
       const size = Math.max(Math.abs(low), Math.abs(high));
-      if (high - low <= 1e-9 * size) {
+      if (high - low <= 1e-7 * size) {
         low = Math.min(low, 0);
         high = Math.max(high, 0);
       }

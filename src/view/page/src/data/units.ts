@@ -56,3 +56,11 @@ export function quantity(value: number, unit: string, digits = 4): string {
   const number = short(value * scaled.factor, digits);
   return scaled.unit === '' ? number : `${number} ${scaled.unit}`;
 }
+
+/** Of an axis with marks so far apart: as many digits as tell them apart. */
+export function tickText(value: number, step: number): string {
+  if (!(Math.abs(value) > 1e-6 * step)) return '0';
+  // One more than the step's first digit, which may be that of 2.5.
+  const digits = Math.floor(Math.log10(Math.abs(value))) - Math.floor(Math.log10(step)) + 2;
+  return brief(value, Math.max(1, Math.min(digits, 15)));
+}

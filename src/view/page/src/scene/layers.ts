@@ -15,15 +15,17 @@ export interface Palette {
   compression: number[];
 }
 
-/** Strokes are never longer than so many usual ones. */
-const LONGEST = 4;
+/** Strokes of forces and crosses are never longer than so many usual ones: one blow would cover all others. */
+export const LONGEST = 4;
+/** Of what sets a stroke off from what lies below, px. */
+const RIM = 0.9;
 /** States of contacts, by number. */
 const FROM_BELOW = [0, 1, 3, 2];
 
 /** A stroke with a rim that sets it off from what lies below. */
 function stroke(layer: Strokes, x0: number, y0: number, x1: number, y1: number, width: number, ink: number[], c: Palette): void {
   const [r, g, b] = c.paper;
-  layer.add(x0, y0, x1, y1, width + 1.8, r, g, b, 170);
+  layer.add(x0, y0, x1, y1, width, r, g, b, 170, RIM);
   layer.add(x0, y0, x1, y1, width, ink[0], ink[1], ink[2]);
 }
 
@@ -109,7 +111,7 @@ export function drawBolts(layer: Strokes, nodes: BoltNode[], places: Float64Arra
     const [r, g, blue] = c.ink.map((v, i) => v + used * (c.tension[i] - v));
     const at = [places[2 * k], places[2 * k + 1], places[2 * k + 2], places[2 * k + 3]] as const;
     const width = 2 + 4 * used;
-    layer.add(...at, width + 1.8, c.paper[0], c.paper[1], c.paper[2], 170);
+    layer.add(...at, width, c.paper[0], c.paper[1], c.paper[2], 170, RIM);
     layer.add(...at, width, r, g, blue, a.ruptured && b.ruptured ? 70 : 255);
   }
   layer.upload();

@@ -3,6 +3,7 @@ import type { Mark } from '../data/run';
 import type { Mesh } from '../data/mesh';
 import { ticks } from '../data/units';
 import type { Camera } from './camera';
+import { along, beside, Labels, type Rectangle } from './labels';
 import type { Pose } from './pose';
 
 export interface OverlayStyle {
@@ -11,6 +12,15 @@ export interface OverlayStyle {
   halo: string;
   accent: string;
   font: string;
+}
+
+export interface OverlayOptions {
+  axes: boolean;
+  marks: boolean;
+  selected: number;
+  monitor: string;
+  /** Where the legend will stand. */
+  legend: Rectangle;
 }
 
 /** A mark's points as they move with their blocks. */
@@ -34,7 +44,7 @@ export class Overlay {
     this.canvas.height = Math.round(height * ratio);
   }
 
-  draw(camera: Camera, pose: Pose, style: OverlayStyle, options: { axes: boolean; marks: boolean; selected: number; monitor: string }): void {
+  draw(camera: Camera, pose: Pose, style: OverlayStyle, options: OverlayOptions): void {
     const g = this.canvas.getContext('2d')!;
     const ratio = this.canvas.width / camera.width;
     g.setTransform(ratio, 0, 0, ratio, 0, 0);
@@ -43,13 +53,26 @@ export class Overlay {
   }
 
   /** On any canvas whose units are pixels of the screen. */
-  paint(g: CanvasRenderingContext2D, camera: Camera, pose: Pose, style: OverlayStyle, options: { axes: boolean; marks: boolean; selected: number; monitor: string }): void {
+  paint(g: CanvasRenderingContext2D, camera: Camera, pose: Pose, style: OverlayStyle, options: OverlayOptions): void {
     if (options.axes) drawAxes(g, camera, pose.origin, style);
     if (options.selected >= 0 && pose.isAlive(options.selected)) this.outline(g, camera, pose, options.selected, style);
     if (!options.marks) return;
     g.font = `600 12px ${style.font}`;
-    for (const line of this.lines) this.drawLine(g, camera, pose, line, style);
-    for (const m of this.monitors) this.drawMonitor(g, camera, pose, m, style, m.name === options.monitor);
+    this.paintMarks(g, camera, pose, style, options);
+  }
+
+  private paintMarks(g: CanvasRenderingContext2D, camera: Camera, pose: Pose, style: OverlayStyle, { monitor, legend }: OverlayOptions): void {
+    const there = this.monitors.filter((m) => m.at[0].row < 0 || pose.isAlive(m.at[0].row));
+    const dots = there.map((m) => ({ name: m.name, at: this.place(camera, pose, m, 0), selected: m.name === monitor }));
+    const lines = this.lines.map((l) => ({ name: l.name, from: this.place(camera, pose, l, 0), to: this.place(camera, pose, l, 1) }));
+    for (const { from, to } of lines) drawLine(g, from, to, style);
+    for (const { at, selected } of dots) drawDot(g, at, style, selected);
+    const labels = new Labels(g, camera.width, camera.height, [legend, ...dots.map(({ at: [x, y] }) => ({ x0: x - 6, y0: y - 6, x1: x + 6, y1: y + 6 }))]);
+    const write = (text: string, at: [number, number] | undefined) => at && label(g, text, ...at, style);
+    // What was clicked comes first.
+    dots.sort((a, b) => Number(b.selected) - Number(a.selected));
+    for (const { name, at, selected } of dots) write(name, labels.place(name, beside(...at), selected));
+    for (const { name, from, to } of lines) write(name, labels.place(name, along(from, to)));
   }
 
   /** The monitor within reach of the pixel, or undefined. */
@@ -80,33 +103,27 @@ export class Overlay {
       g.stroke();
     }
   }
+}
 
-  private drawMonitor(g: CanvasRenderingContext2D, camera: Camera, pose: Pose, m: Follower, style: OverlayStyle, selected: boolean): void {
-    if (m.at[0].row >= 0 && !pose.isAlive(m.at[0].row)) return;
-    const [x, y] = this.place(camera, pose, m, 0);
-    g.beginPath();
-    g.arc(x, y, 5, 0, 2 * Math.PI);
-    g.fillStyle = selected ? style.accent : style.halo;
-    g.fill();
-    g.lineWidth = 2;
-    g.strokeStyle = selected ? style.halo : style.ink;
-    g.stroke();
-    label(g, m.name, x + 9, y - 8, style);
-  }
+function drawDot(g: CanvasRenderingContext2D, [x, y]: [number, number], style: OverlayStyle, selected: boolean): void {
+  g.beginPath();
+  g.arc(x, y, 5, 0, 2 * Math.PI);
+  g.fillStyle = selected ? style.accent : style.halo;
+  g.fill();
+  g.lineWidth = 2;
+  g.strokeStyle = selected ? style.halo : style.ink;
+  g.stroke();
+}
 
-  private drawLine(g: CanvasRenderingContext2D, camera: Camera, pose: Pose, line: Follower, style: OverlayStyle): void {
-    const [a, b] = [this.place(camera, pose, line, 0), this.place(camera, pose, line, 1)];
-    g.setLineDash([6, 4]);
-    g.beginPath();
-    g.moveTo(...a);
-    g.lineTo(...b);
-    g.lineWidth = 1.5;
-    g.strokeStyle = style.ink;
-    g.stroke();
-    g.setLineDash([]);
-    // Off the middle, where others may cross.
-    label(g, line.name, a[0] + 0.3 * (b[0] - a[0]) + 6, a[1] + 0.3 * (b[1] - a[1]) - 6, style);
-  }
+function drawLine(g: CanvasRenderingContext2D, from: [number, number], to: [number, number], style: OverlayStyle): void {
+  g.setLineDash([6, 4]);
+  g.beginPath();
+  g.moveTo(...from);
+  g.lineTo(...to);
+  g.lineWidth = 1.5;
+  g.strokeStyle = style.ink;
+  g.stroke();
+  g.setLineDash([]);
 }
 
 function label(g: CanvasRenderingContext2D, text: string, x: number, y: number, style: OverlayStyle): void {

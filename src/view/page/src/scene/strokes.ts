@@ -9,7 +9,7 @@ precision highp float;
 in vec3 a_corner;
 in vec4 a_ends;      // from and to, m
 in vec4 a_colour;
-in float a_width;    // px
+in vec2 a_width;     // and how far a rim goes beyond it, px
 uniform vec2 u_centre, u_zoom, u_pixel;
 uniform float u_head;  // length of a head over the stroke's width; 0: none
 out vec4 v_colour;
@@ -22,14 +22,20 @@ void main() {
   bool dot_only = length_px < 1e-6;
   vec2 t = dot_only ? vec2(1.0, 0.0) : along / length_px;
   vec2 n = vec2(-t.y, t.x);
-  float half_width = 0.5 * a_width;
-  float head = min(u_head * a_width, length_px);
+  float rim = a_width.y;
+  float half_width = 0.5 * a_width.x + rim;
+  float head = min(u_head * a_width.x, length_px);
+  // A head is as long as it is wide: moved out by the rim, its tip goes ahead by rim / sin(atan(1 / 2)).
+  float tip = u_head > 0.0 ? sqrt(5.0) * rim : 0.0;
+  float back = u_head > 0.0 ? rim : 0.0;
+  float shaft = max(length_px - head - back, 0.0);
   vec2 at;
   if (a_corner.z == 0.0) {
-    at = mix(from, to - t * head, a_corner.x) + n * half_width * a_corner.y;
+    at = from + t * shaft * a_corner.x + n * half_width * a_corner.y;
     if (dot_only) at = from + t * half_width * (2.0 * a_corner.x - 1.0) + n * half_width * a_corner.y;
   } else {
-    at = to - t * head * (1.0 - a_corner.x) + n * head * 0.5 * a_corner.y * (1.0 - a_corner.x);
+    float base = 1.0 - a_corner.x;
+    at = to + t * tip + (n * 0.5 * a_corner.y - t) * (head + back + tip) * base;
   }
   gl_Position = vec4(at * u_pixel, 0.0, 1.0);
   v_colour = a_colour;
@@ -68,7 +74,7 @@ export class Strokes {
       a_corner: { numComponents: 3, data: CORNERS },
       a_ends: { numComponents: 4, data: new Float32Array(4), ...each },
       a_colour: { numComponents: 4, data: new Uint8Array(4), normalize: true, ...each },
-      a_width: { numComponents: 1, data: new Float32Array(1), ...each },
+      a_width: { numComponents: 2, data: new Float32Array(2), ...each },
     });
     this.arrays = twgl.createVertexArrayInfo(gl, this.program, this.buffers);
   }
@@ -76,16 +82,16 @@ export class Strokes {
   /** Empties the layer; there will be at most `most` strokes. */
   clear(most: number): void {
     this.count = 0;
-    if (most <= this.widths.length) return;
+    if (2 * most <= this.widths.length) return;
     this.ends = new Float32Array(4 * most);
     this.colours = new Uint8Array(4 * most);
-    this.widths = new Float32Array(most);
+    this.widths = new Float32Array(2 * most);
   }
-  add(x0: number, y0: number, x1: number, y1: number, width: number, r: number, g: number, b: number, a = 255): void {
+  add(x0: number, y0: number, x1: number, y1: number, width: number, r: number, g: number, b: number, a = 255, rim = 0): void {
     const k = this.count++;
     this.ends.set([x0, y0, x1, y1], 4 * k);
     this.colours.set([r, g, b, a], 4 * k);
-    this.widths[k] = width;
+    this.widths.set([width, rim], 2 * k);
   }
   /** After the last add(). */
   upload(): void {
@@ -93,7 +99,7 @@ export class Strokes {
     const parts: [string, ArrayBufferView][] = [
       ['a_ends', this.ends.subarray(0, 4 * this.count)],
       ['a_colour', this.colours.subarray(0, 4 * this.count)],
-      ['a_width', this.widths.subarray(0, this.count)],
+      ['a_width', this.widths.subarray(0, 2 * this.count)],
     ];
     for (const [name, data] of parts) {
       gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers.attribs![name].buffer);

@@ -106,9 +106,8 @@ export class Controls {
     const how = byId<HTMLSelectElement>('range').value;
     if (this.field === undefined || this.field.kind === 'kinds') return undefined;
     if (how === 'own') {
-      const scaled = this.ownUnit();
-      const [low, high] = ['low', 'high'].map((id) => Number(byId<HTMLInputElement>(id).value) / scaled.factor);
-      return high > low ? { ends: [low, high], all: this.field.range ?? [low, high] } : undefined;
+      const ends = this.ownEnds();
+      return ends && { ends, all: this.field.range ?? ends };
     }
     if (how === 'run') return undefined;
     const { range } = this.field;
@@ -132,7 +131,7 @@ export class Controls {
     byId('time').textContent = results.stages.length > 1 && stage !== undefined ? `${stage.name} \u00b7 ${text}` : text;
     scrub.setAttribute('aria-valuetext', text);
     const play = byId('play');
-    play.textContent = player.playing ? '\u23f8' : '\u25b6';
+    play.classList.toggle('playing', player.playing);
     play.setAttribute('aria-label', player.playing ? 'Pause' : 'Play');
     this.markStages(player, results);
   }
@@ -165,9 +164,20 @@ export class Controls {
     const range = this.field?.range ?? [0, 0];
     return scaledUnit(this.field?.unit ?? '', Math.max(Math.abs(range[0]), Math.abs(range[1])));
   }
+  /** The ends that were given; undefined, and said so, where they are none. */
+  private ownEnds(): Ends | undefined {
+    const inputs = ['low', 'high'].map((id) => byId<HTMLInputElement>(id));
+    const [low, high] = inputs.map((i) => (i.value === '' ? NaN : Number(i.value)) / this.ownUnit().factor);
+    const fault = Number.isNaN(low + high) ? 'give two numbers' : low >= high ? 'the lower end must be below the upper one' : '';
+    inputs.forEach((i) => i.setAttribute('aria-invalid', String(fault !== '')));
+    byId('own-fault').hidden = fault === '';
+    byId('own-fault').textContent = fault && `${fault}; till then as for all frames`;
+    return fault === '' ? [low, high] : undefined;
+  }
   private offerOwnRange(): void {
     const own = byId<HTMLSelectElement>('range').value === 'own';
     byId('own').hidden = !own;
+    byId('own-fault').hidden = true;
     if (!own || this.field === undefined) return;
     const scaled = this.ownUnit();
     const [low, high] = this.field.range ?? [0, 1];

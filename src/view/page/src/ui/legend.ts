@@ -1,7 +1,18 @@
 // What the colours and strokes mean.
 import type { Scale } from '../data/scale';
 import { quantity, scaledUnit, ticks } from '../data/units';
+import type { Rectangle } from '../scene/labels';
 import type { OverlayStyle } from '../scene/overlay';
+import { wrap } from './text';
+
+export interface StrokeEntry {
+  colour: string;
+  text: string;
+  perPixel?: number;
+  unit?: string;
+  /** The value of the longest stroke, where some of the run are cut. */
+  cutAt?: number;
+}
 
 export interface LegendEntries {
   scale: Scale;
@@ -10,7 +21,7 @@ export interface LegendEntries {
   /** Names of the states of contacts; empty where they are not shown. */
   states: string[];
   /** Strokes; where their length means something, what a pixel of it stands for. */
-  strokes: { colour: string; text: string; perPixel?: number; unit?: string }[];
+  strokes: StrokeEntry[];
 }
 
 export const WIDTH = 168;
@@ -18,20 +29,33 @@ export const WIDTH = 168;
 const BAR = 190;
 const LEAST_BAR = 70;
 
-/** Paints it with its upper right corner at (right, top), not below `bottom`: with a shorter bar, then smaller. */
-export function paintLegend(g: CanvasRenderingContext2D, right: number, top: number, bottom: number, style: OverlayStyle, e: LegendEntries): void {
+/** What it takes below `top`: with a shorter bar, then smaller, so that it ends above `bottom`. */
+function layOut(g: CanvasRenderingContext2D, top: number, bottom: number, style: OverlayStyle, e: LegendEntries) {
   const bar = e.scale.palette === 'sequential' || e.scale.palette === 'diverging';
-  const lines = e.scale.field === undefined ? [] : wrap(g, e.scale.field.label + (bar ? beyond(e.scale) : ''), style);
+  g.font = `600 12px ${style.font}`;
+  const lines = e.scale.field === undefined ? [] : wrap((t) => g.measureText(t).width, e.scale.field.label + (bar ? beyond(e.scale) : ''), WIDTH - 24);
   const kinds = e.scale.palette === 'kinds' && e.kinds.length <= 12 ? e.kinds : [];
   const measured = e.strokes.filter((stroke) => stroke.perPixel !== undefined);
-  const rows = kinds.length + e.states.length + e.strokes.length + measured.length;
+  const cut = e.strokes.filter((stroke) => stroke.cutAt !== undefined);
+  const rows = kinds.length + e.states.length + e.strokes.length + measured.length + cut.length;
   const others = 14 + 16 * lines.length + (bar ? 36 : 0) + 18 * rows;
   const length = bar ? Math.max(LEAST_BAR, Math.min(BAR, bottom - top - others)) : 0;
   const height = others + length;
+  return { bar, lines, kinds, length, height, shrunk: Math.min(1, Math.max(bottom - top, 1) / height) };
+}
+
+/** Where paintLegend() will paint it. */
+export function legendBox(g: CanvasRenderingContext2D, right: number, top: number, bottom: number, style: OverlayStyle, e: LegendEntries): Rectangle {
+  const { height, shrunk } = layOut(g, top, bottom, style, e);
+  return height <= 14 ? { x0: right, y0: top, x1: right, y1: top } : { x0: right - shrunk * WIDTH, y0: top, x1: right, y1: top + shrunk * height };
+}
+
+/** Paints it with its upper right corner at (right, top), not below `bottom`. */
+export function paintLegend(g: CanvasRenderingContext2D, right: number, top: number, bottom: number, style: OverlayStyle, e: LegendEntries): void {
+  const { bar, lines, kinds, length, height, shrunk } = layOut(g, top, bottom, style, e);
   if (height <= 14) return;
   const left = right - WIDTH;
   g.save();
-  const shrunk = Math.min(1, Math.max(bottom - top, 1) / height);
   g.translate(right, top);
   g.scale(shrunk, shrunk);
   g.translate(-right, -top);
@@ -68,13 +92,17 @@ export function paintLegend(g: CanvasRenderingContext2D, right: number, top: num
   }));
   for (const stroke of e.strokes) {
     entry(stroke.text, () => line(g, left + 12, y - 3, 16, stroke.colour));
-    if (stroke.perPixel === undefined) continue;
-    // As long as in the drawing, however small the legend.
-    const perPixel = shrunk * stroke.perPixel;
-    const value = roundBelow(72 * perPixel);
-    line(g, left + 12, y - 3, value / perPixel || 0, stroke.colour);
-    g.fillStyle = style.ink;
-    g.fillText(quantity(value, stroke.unit ?? '', 1), left + 92, y + 1, WIDTH - 98);
+    if (stroke.perPixel !== undefined) {
+      // As long as in the drawing, however small the legend.
+      const perPixel = shrunk * stroke.perPixel;
+      const value = roundBelow(72 * perPixel);
+      line(g, left + 12, y - 3, value / perPixel || 0, stroke.colour);
+      g.fillStyle = style.ink;
+      g.fillText(quantity(value, stroke.unit ?? '', 1), left + 92, y + 1, WIDTH - 98);
+      y += 18;
+    }
+    if (stroke.cutAt === undefined) continue;
+    g.fillText(`longer: cut at ${quantity(stroke.cutAt, stroke.unit ?? '', 3)}`, left + 12, y + 1, WIDTH - 18);
     y += 18;
   }
   g.restore();
@@ -159,15 +187,4 @@ function line(g: CanvasRenderingContext2D, x: number, y: number, length: number,
   g.moveTo(x, y);
   g.lineTo(x + length, y);
   g.stroke();
-}
-
-function wrap(g: CanvasRenderingContext2D, text: string, style: OverlayStyle): string[] {
-  g.font = `600 12px ${style.font}`;
-  const lines = [''];
-  for (const word of text.split(' ')) {
-    const longer = lines[lines.length - 1] === '' ? word : `${lines[lines.length - 1]} ${word}`;
-    if (g.measureText(longer).width <= WIDTH - 24) lines[lines.length - 1] = longer;
-    else lines.push(word);
-  }
-  return lines;
 }

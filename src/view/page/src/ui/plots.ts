@@ -124,6 +124,20 @@ export class Plots {
     this.plot.show(scaled.unit, times, series.map((s) => ({ label: s.label, values: s.values.map((v) => (v === null ? null : v * scaled.factor)) })), {
       ink: style.getPropertyValue('--ink').trim(),
       line: style.getPropertyValue('--line').trim(),
-    });
+    }, isLogarithmic(unit, series));
   }
+}
+
+/** Ratios over many powers of ten are, as in pictures (src/report/history_plot.cpp). */
+function isLogarithmic(unit: string, series: Series[]): boolean {
+  let [least, most, leastPositive] = [Infinity, -Infinity, Infinity];
+  for (const { values } of series) {
+    for (const v of values) {
+      if (v === null || !Number.isFinite(v)) continue;
+      least = Math.min(least, v);
+      most = Math.max(most, v);
+      if (v > 0) leastPositive = Math.min(leastPositive, v);
+    }
+  }
+  return unit === '' && least >= 0 && most > 1e3 * leastPositive;
 }
