@@ -18,7 +18,7 @@ bool dilates(const Law& law) {
 
 bool may_settle(const ContactSet& c, const LawTable& laws, std::size_t k) {
   return c.rest[k] != 0.0 && c.is(k, cs::closed) && !c.is(k, cs::bonded | cs::pulls) &&
-         c.share[k] > 0.0 && c.cut(k) && !dilates(laws.rows[c.law[k]]);
+         c.share[k] > 0.0 && (c.cut(k) || c.is(k, cs::sliding)) && !dilates(laws.rows[c.law[k]]);
 }
 
 /// In the last step, m: by parts of the edge, so that no end of it counts for more.

@@ -152,6 +152,18 @@ bool comes_along(const ContactSet& c, Id vertex, Id q) {
   return false;
 }
 
+/// The same of the corner between the edges of k and q: it may come along onto one of the vertex's
+/// own edges, whose end the vertex is.
+bool comes_along_own(const ContactSet& c, const BlockSet& b, std::size_t k, Id q) {
+  const Id vertex = c.vertex[k], e = c.edge[k], f = c.edge[q];
+  const Id corner = b.next[e] == f ? f : e;
+  for (Id r = c.begin_of_vertex[corner]; r < c.begin_of_vertex[corner + 1]; ++r) {
+    const bool own = c.edge[r] == vertex || c.edge[r] == b.previous[vertex];
+    if (own && comes_along(c, corner, r)) return true;
+  }
+  return false;
+}
+
 /// The corner that k passes, against one of the vertex's own edges; it may carry already.
 Id corner_heir(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   const Id vertex = c.vertex[k];
@@ -359,7 +371,7 @@ Blocked hindrance(const ContactSet& c, const BlockSet& b, const Pose& pose, std:
     if (c.is(q, cs::closed) && c.share[q] > 0.0) return Blocked::conflict;
     // Within the rival's line a step ago already: it is k that the vertex has crossed.
     if (long_step && c.depth_1[k] <= tie && c.depth_1[q] > tie) {
-      if (comes_along(c, vertex, q)) return Blocked::conflict;
+      if (comes_along(c, vertex, q) || comes_along_own(c, b, k, q)) return Blocked::conflict;
       continue;
     }
     if (c.depth[q] <= -tie && c.share[k] == 1.0) return Blocked::conflict;

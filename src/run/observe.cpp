@@ -94,7 +94,8 @@ ContactRecord contact_record(const Simulation& sim, const ContactSet& c, std::si
   return r;
 }
 
-/// Where the vertices were before the last step, as x1, y1: the dashpots act on what it moved.
+}  // namespace
+
 Pose a_step_ago(const Simulation& sim) {
   Pose pose = sim.pose;
   const Nodes &vx = sim.implicit.drift_x, &vy = sim.implicit.drift_y;
@@ -108,6 +109,8 @@ Pose a_step_ago(const Simulation& sim) {
   }
   return pose;
 }
+
+namespace {
 
 void place_points(const BlockSet& b, const State& s, Picture& p) {
   const std::size_t nv = b.vertex_count();

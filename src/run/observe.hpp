@@ -58,4 +58,7 @@ std::size_t closed_contacts(const ContactSet& contacts);
 /// between two calls; `angle` keeps the polar angles of the last call (rad, empty at first).
 void count_turns(Simulation& sim, std::vector<double>& angle);
 
+/// The pose of an implicit run with the vertices before its last step as x1, y1.
+Pose a_step_ago(const Simulation& sim);
+
 }  // namespace edda

@@ -8,9 +8,11 @@
 #include "base/parallel.hpp"
 #include "contacts/candidates.hpp"
 #include "contacts/gaps.hpp"
+#include "contacts/settling.hpp"
 #include "contacts/shares.hpp"
 #include "run/labels.hpp"
 #include "run/load_work.hpp"
+#include "run/observe.hpp"
 #include "run/simulation.hpp"
 
 namespace edda {
@@ -138,6 +140,7 @@ std::optional<Failure> Simulation::step_implicit() {
   search_if_due();
   settle_contacts(contacts, blocks, pose, laws, state.steps, false, transitions_);
   constexpr std::uint64_t look_every = 64;
+  settle_rests(contacts, blocks, a_step_ago(*this), laws, 1.0);
   if (state.steps % look_every == 0) grow_springs(contacts, blocks, pose, laws);
   penetration = deepest(contacts);
   max_penetration = std::max(max_penetration, penetration);

@@ -71,6 +71,10 @@ TEST(SeamCrossing, AnImplicitSlideMeetsNoWall) {
                       floor_in_pieces({-1.0, 2.5, 20.0}) + "[solver]\nmethod = \"dda\"\n" + step +
                       "duration = 0.5\n[output]\nhistory_every = 0.005\n",
                   4.0, 1e-6, step);
+    expect_passes(rock(2e10) + joint("kn = 4e8\nks = 4e8\n") + slider(1.3, 0.5, 4.0) +
+                      floor_in_pieces(every(-1.0, 7.0, 0.5)) + "[solver]\nmethod = \"dda\"\n" +
+                      step + "duration = 0.5\n[output]\nhistory_every = 0.005\n",
+                  4.0, 8e-5, step);
   }
 }
 
