@@ -34,9 +34,9 @@ Ledger sum_ledger(const BlockSet& blocks, const State& state, double behind, con
                   const ContactSet& contacts, const BoundarySprings& springs,
                   const DampingWork& work, Vec2 gravity);
 
-/// What rounding alone may store in springs and rock, and shake loose over a long run, J: all blocks
-/// with the stiffest spring drawn out by 1e4 roundings of a coordinate. Changes of energy below
-/// some part of it mean nothing.
+/// What rounding alone may store in springs and rock, and shake loose over a long run, J: all
+/// blocks with the stiffest spring drawn out by 1e4 roundings of a coordinate. Changes of energy
+/// below some part of it mean nothing.
 double rounding_energy(const BlockSet& blocks, const ContactSet& contacts);
 
 }  // namespace edda
