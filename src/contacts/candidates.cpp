@@ -177,15 +177,18 @@ void set_spring(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTab
 }
 
 bool grow_springs(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws) {
-  constexpr double worth = 1.02;
+  // A stiffer spring may cost a new bound of the step.
+  constexpr double worth = 1.02, worth_bound = 1.1;
   bool grown = false;
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Law& law = laws.rows[c.law[k]];
     if (law.kn == 0.0 && law.ks == 0.0 && law.residual_cohesion == 0.0) continue;
     if (!c.is(k, contact_state::closed) || c.is(k, contact_state::bonded)) continue;
     const double length = contact_length(b, pose, c.vertex[k], c.edge[k]);
-    if (length == 0.0 || (length <= worth * c.length[k] && c.length[k] <= worth * length)) continue;
+    const double more = law.kn > 0.0 || law.ks > 0.0 ? worth_bound : worth;
+    if (length == 0.0 || (length <= more * c.length[k] && c.length[k] <= worth * length)) continue;
     const bool grows = length > c.length[k];
+    const double part = length / c.length[k];
     const double energy = stored_energy(c, k), e = c.effective(k), slip = trial_slip(c, k);
     const double kn = c.kn[k], ks = c.ks[k], friction = c.friction[k];
     const bool was_cut = c.cut(k);
@@ -200,8 +203,12 @@ bool grow_springs(ContactSet& c, const BlockSet& b, const Pose& pose, const LawT
       c.forget_cut(k);
     } else {
       // As deep as before, and of the same slip: what has gone takes its force and energy along.
+      // (What once was a lone corner's spring stays out of proportion to its law.)
+      if (law.kn > 0.0) c.kn[k] = std::max(c.kn[k], part * kn);
+      if (law.ks > 0.0) c.ks[k] = std::max(c.ks[k], part * ks);
       c.kn[k] = std::min(c.kn[k], kn);
       c.ks[k] = std::min(c.ks[k], ks);
+      c.tension[k] *= part;
       c.shear[k] *= c.ks[k] / ks;
       c.shear_1[k] *= c.ks[k] / ks;
       if (!was_cut) c.forget_cut(k);

@@ -195,7 +195,7 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::vector<double> rest;         ///< d0, m; +infinity while blocked
   std::vector<double> anchor;       ///< xi0
   std::vector<double> kn,
-      ks;  ///< p_n, p_t, N/m, frozen when it closes (before: what they would be)
+      ks;  ///< p_n, p_t, N/m; grow_springs() keeps them up (before it closes: what they would be)
   std::vector<double> length;    ///< L it stands for, m; 0 for a lone corner
   std::vector<double> friction;  ///< tan(phi) in force
   std::vector<double> cohesion;  ///< c L in force, N

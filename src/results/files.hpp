@@ -69,7 +69,7 @@ class RowFile {
 
 /// Whether `folder` may take results: it does not exist, is empty, or holds nothing but an earlier
 /// run's files. `input` is the model file; a folder in which it would be overwritten is refused.
-/// Empty where a run goes on, which leaves model.toml as it is and may have been read from it.
+/// Empty where a run goes on, which may have been read from its model.toml.
 Trouble check_folder(const std::string& folder, const std::string& input);
 
 /// Holds a folder for one run, from opening to the end of this object, whatever ends the program.

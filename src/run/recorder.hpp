@@ -53,7 +53,7 @@ class Recorder {
   std::string path(const char* name) const { return folder_ + "/" + name; }
   Trouble tell_model(const Model& model);
   std::string folder_;
-  std::vector<InputFile> inputs_;  ///< as they were at the start
+  std::vector<InputFile> inputs_;  ///< as they were when they were read
   FolderLock lock_;
   RowFile history_, reactions_, bolts_;
   std::optional<FrameSeries> frames_;

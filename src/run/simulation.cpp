@@ -343,7 +343,7 @@ std::optional<Failure> Simulation::step() {
   const TransitionCounts counts =
       settle_contacts(contacts, blocks, pose, laws, state.steps, false, transitions_);
   if (state.steps % settles_every == 0) {
-    settle_rests(contacts, blocks, pose, laws, static_cast<double>(settles_every));
+    settle_rests(contacts, blocks, pose, laws, static_cast<double>(settles_every), true);
   }
   constexpr std::uint64_t look_every = 64;
   const bool grown = state.steps % look_every == 0 && grow_springs(contacts, blocks, pose, laws);

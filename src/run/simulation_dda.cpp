@@ -140,7 +140,7 @@ std::optional<Failure> Simulation::step_implicit() {
   search_if_due();
   settle_contacts(contacts, blocks, pose, laws, state.steps, false, transitions_);
   constexpr std::uint64_t look_every = 64;
-  settle_rests(contacts, blocks, a_step_ago(*this), laws, 1.0);
+  settle_rests(contacts, blocks, a_step_ago(*this), laws, 1.0, false);
   if (state.steps % look_every == 0) grow_springs(contacts, blocks, pose, laws);
   penetration = deepest(contacts);
   max_penetration = std::max(max_penetration, penetration);
