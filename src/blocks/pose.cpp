@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/parallel.hpp"
+
 namespace edda {
 namespace {
 
@@ -37,6 +39,18 @@ double place_next(const BlockSet& b, const Nodes& x, const Nodes& y, Pose& pose,
   const VertexView view{values_of(b.weight), b.vertex_block.data(), pose.x.data(),
                         pose.y.data(),       pose.x1.data(),        pose.y1.data()};
   return place(view, values_of(x), values_of(y), b.vertex_begin[begin], b.vertex_begin[end]);
+}
+
+void place_a_step_back(const BlockSet& b, const State& state, const Nodes& vx, const Nodes& vy,
+                       double h, Pose& pose) {
+  parallel_for(b.size(), [&](std::size_t i) {
+    if (!is_free(b, state, i)) return;
+    place_vertices(b, vx, vy, i, pose.x1, pose.y1);
+    for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v) {
+      pose.x1[v] = pose.x[v] - h * pose.x1[v];
+      pose.y1[v] = pose.y[v] - h * pose.y1[v];
+    }
+  });
 }
 
 }  // namespace edda

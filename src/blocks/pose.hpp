@@ -28,4 +28,9 @@ inline void place_vertices(const BlockSet& b, const Nodes& x, const Nodes& y, st
 double place_next(const BlockSet& blocks, const Nodes& x, const Nodes& y, Pose& pose,
                   std::size_t begin, std::size_t end);
 
+/// Vertices of the free blocks a step of h (s) earlier, by these velocities of the nodes (m/s),
+/// x_{n-1} = x_n - h v: into pose.x1, y1.
+void place_a_step_back(const BlockSet& blocks, const State& state, const Nodes& vx, const Nodes& vy,
+                       double h, Pose& pose);
+
 }  // namespace edda

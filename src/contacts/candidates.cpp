@@ -80,10 +80,7 @@ std::vector<NearPair> wanted(const ContactSet& old, const BlockSet& b, const Sta
 /// A candidate seen for the first time.
 void start_candidate(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
                      std::size_t k) {
-  const EdgeFrame before =
-      edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
-  c.depth_1[k] = gap_to(before, at(pose.x1, pose.y1, c.vertex[k])).depth;
-  c.depth_2[k] = c.depth_1[k];
+  c.depth_1[k] = c.depth_2[k] = previous_gap(c, pose, k).depth;
   c.share[k] = 1.0;
   c.alpha[k] = 1.0;
   set_spring(c, b, pose, laws, k);

@@ -48,12 +48,12 @@ double carried_length(const ContactSet& contacts, const BlockSet& blocks, std::s
 void set_spring(ContactSet& contacts, const BlockSet& blocks, const Pose& pose,
                 const LawTable& laws, std::size_t c);
 
-/// Springs go with their overlap, in leaps of a fiftieth, or
-/// of a tenth where a stiffer spring may cost a new bound of the step. Where it grows the force
-/// does not jump (the rest penetration and the anchor move, until settle_rests()), and what the
-/// stiffer spring stores less is booked as dissipated; where it shrinks, what has gone takes its
-/// part of force and energy along. Only contacts whose law gives stiffness or residual cohesion by
-/// length, and no bonds. True if any became stiffer.
+/// Springs go with their overlap, in leaps of a fiftieth, or of a tenth where a stiffer spring may
+/// cost a new bound of the step. Where it grows the force does not jump (the rest penetration and
+/// the anchor move, until settle_rests()), and what the stiffer spring stores less is booked as
+/// dissipated; where it shrinks, what has gone takes its part of force and energy along. Only
+/// contacts whose law gives stiffness or residual cohesion by length, and no bonds. True if any
+/// became stiffer.
 bool grow_springs(ContactSet& contacts, const BlockSet& blocks, const Pose& pose,
                   const LawTable& laws);
 

@@ -116,18 +116,15 @@ void stand_still(ContactSet& c) {
 
 void look_at_previous_gaps(ContactSet& c, const Pose& pose) {
   parallel_for(c.size(), [&](std::size_t k) {
-    const EdgeFrame e =
-        edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
-    c.depth_1[k] = c.depth_2[k] = gap_to(e, at(pose.x1, pose.y1, c.vertex[k])).depth;
+    c.depth_1[k] = c.depth_2[k] = previous_gap(c, pose, k).depth;
   });
 }
 
 std::vector<double> previous_slips(const ContactSet& c, const Pose& pose) {
   std::vector<double> slips(c.size());
   parallel_for(c.size(), [&](std::size_t k) {
-    const EdgeFrame e =
-        edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
-    slips[k] = gap_to(e, at(pose.x1, pose.y1, c.vertex[k])).foot - c.anchor[k] * e.length;
+    const double length = previous_edge(c, pose, k).length;
+    slips[k] = previous_gap(c, pose, k).foot - c.anchor[k] * length;
   });
   return slips;
 }

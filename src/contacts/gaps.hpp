@@ -3,6 +3,7 @@
 
 #include "blocks/pose.hpp"
 #include "contacts/contact_set.hpp"
+#include "contacts/gap.hpp"
 
 namespace edda {
 
@@ -19,6 +20,14 @@ void remeasure_gaps(ContactSet& contacts, const Pose& pose);
 /// store what springs at rest do, p d^2/2: for a method whose positions and velocities belong to
 /// one instant.
 void stand_still(ContactSet& contacts);
+
+/// The edge of candidate k as pose.x1, y1 have it, and where its vertex was against it.
+inline EdgeFrame previous_edge(const ContactSet& c, const Pose& pose, std::size_t k) {
+  return edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
+}
+inline Gap previous_gap(const ContactSet& c, const Pose& pose, std::size_t k) {
+  return gap_to(previous_edge(c, pose, k), at(pose.x1, pose.y1, c.vertex[k]));
+}
 
 /// Gaps a step ago from pose.x1, y1, at the start of a run.
 void look_at_previous_gaps(ContactSet& contacts, const Pose& pose);

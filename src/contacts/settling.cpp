@@ -6,6 +6,7 @@
 
 #include "contacts/candidates.hpp"
 #include "contacts/gap.hpp"
+#include "contacts/gaps.hpp"
 #include "contacts/stored_energy.hpp"
 
 namespace edda {
@@ -27,10 +28,8 @@ bool may_settle(const ContactSet& c, const LawTable& laws, std::size_t k, bool l
 
 /// In the last step, m: by parts of the edge, so that no end of it counts for more.
 double slid(const ContactSet& c, const Pose& pose, std::size_t k) {
-  const EdgeFrame before =
-      edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
-  const double foot = gap_to(before, at(pose.x1, pose.y1, c.vertex[k])).foot;
-  return std::abs(c.foot[k] - foot / before.length * c.span[k]);
+  const double part = previous_gap(c, pose, k).foot / previous_edge(c, pose, k).length;
+  return std::abs(c.foot[k] - part * c.span[k]);
 }
 
 /// An edge that lies against another.

@@ -6,6 +6,7 @@
 
 #include "contacts/candidates.hpp"
 #include "contacts/gap.hpp"
+#include "contacts/gaps.hpp"
 #include "contacts/shares.hpp"
 #include "contacts/shield.hpp"
 #include "contacts/stored_energy.hpp"
@@ -22,9 +23,7 @@ constexpr double rounding = 1e-12;
 /// force acts from x_{n-1} to x_{n+1}. (Starting from s = 0 at step n would leave the first force
 /// of every impact without friction, and a stiff contact may last no longer.)
 void start_shear(ContactSet& c, const Pose& pose, std::size_t k) {
-  const EdgeFrame before =
-      edge_frame(at(pose.x1, pose.y1, c.edge[k]), at(pose.x1, pose.y1, c.edge_end[k]));
-  c.anchor[k] = gap_to(before, at(pose.x1, pose.y1, c.vertex[k])).foot / before.length;
+  c.anchor[k] = previous_gap(c, pose, k).foot / previous_edge(c, pose, k).length;
   c.shear[k] = c.shear_1[k] = c.slip_trial[k] = 0.0;
 }
 

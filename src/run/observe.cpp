@@ -98,15 +98,8 @@ ContactRecord contact_record(const Simulation& sim, const ContactSet& c, std::si
 
 Pose a_step_ago(const Simulation& sim) {
   Pose pose = sim.pose;
-  const Nodes &vx = sim.implicit.drift_x, &vy = sim.implicit.drift_y;
-  parallel_for(sim.blocks.size(), [&](std::size_t i) {
-    if (moves(sim, i)) place_vertices(sim.blocks, vx, vy, i, pose.x1, pose.y1);
-  });
-  for (std::size_t v = 0; v < pose.x.size(); ++v) {
-    if (!moves(sim, sim.blocks.vertex_block[v])) continue;
-    pose.x1[v] = pose.x[v] - sim.state.step * pose.x1[v];
-    pose.y1[v] = pose.y[v] - sim.state.step * pose.y1[v];
-  }
+  place_a_step_back(sim.blocks, sim.state, sim.implicit.drift_x, sim.implicit.drift_y,
+                    sim.state.step, pose);
   return pose;
 }
 

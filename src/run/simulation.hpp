@@ -161,8 +161,6 @@ struct Simulation {
   friend void list_memory(Archive& archive, Simulation& sim);
 
   void place_all();
-  /// Vertices at n - 1 by the velocities, x_{n-1} = x_n - h v_{n-1/2}.
-  void place_a_step_back();
   void hold_boundaries();
   void close_contacts();
   void keep(const std::vector<KeptForce>& forces);

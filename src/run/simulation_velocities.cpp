@@ -36,17 +36,6 @@ void Simulation::exchange_velocity_arrays() {
   std::swap(old_vy_, state.vy);
 }
 
-void Simulation::place_a_step_back() {
-  parallel_for(blocks.size(), [&](std::size_t i) {
-    if (!is_free(blocks, state, i)) return;
-    place_vertices(blocks, state.vx, state.vy, i, pose.x1, pose.y1);
-    for (Id v = blocks.vertex_begin[i]; v < blocks.vertex_begin[i + 1]; ++v) {
-      pose.x1[v] = pose.x[v] - step_before_ * pose.x1[v];
-      pose.y1[v] = pose.y[v] - step_before_ * pose.y1[v];
-    }
-  });
-}
-
 void Simulation::change_velocities(const Nodes& vx, const Nodes& vy) {
   const double energy = ledger_now().balance();
   const bool leaps = explicit_method();
@@ -54,7 +43,7 @@ void Simulation::change_velocities(const Nodes& vx, const Nodes& vy) {
   // bolts are not gone back; their forces will do F_n . (u'_n - u_n)/2 more than they give off.
   std::vector<double> slips;
   if (leaps) {
-    place_a_step_back();
+    place_a_step_back(blocks, state, state.vx, state.vy, step_before_, pose);
     slips = previous_slips(contacts, pose);
   }
   const double bolts_before = leaps ? bolt_power(*this) : 0.0;
@@ -66,7 +55,7 @@ void Simulation::change_velocities(const Nodes& vx, const Nodes& vy) {
     }
   }
   if (leaps) {
-    place_a_step_back();
+    place_a_step_back(blocks, state, state.vx, state.vy, step_before_, pose);
     look_at_previous_gaps(contacts, pose);
     move_previous_slips(contacts, pose, slips);
     bolts.owed += 0.5 * step_before_ * (bolt_power(*this) - bolts_before);
