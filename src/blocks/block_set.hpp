@@ -36,6 +36,8 @@ struct BlockSet {
       edge_inverse;  ///< [nv] w_v^T M^-1 w_v and w_v^T M^-1 w_next, 1/kg (blocks/point_mass.hpp)
   std::vector<double> volume;                ///< [nb] area times thickness, m3
   std::vector<double> lame_lambda, lame_mu;  ///< [nb] Pa, for the model's plane
+  std::vector<double> viscosity;  ///< [nb] eta: viscous stress over elastic stress rate, s; empty
+                                  ///< where none has any. Filled by fill_viscosity()
   std::vector<std::uint8_t> fixed;           ///< [nb] 1: all nodes held
 
   std::vector<double> initial_xx, initial_yy,
@@ -60,6 +62,7 @@ struct BlockSet {
   std::vector<double> area;                    ///< [nb] m2
   std::vector<double> initial_zz;              ///< [nb] out of plane, Pa; as initial_xx
   std::vector<double> mass;                    ///< [nb] kg
+  std::vector<double> damping;  ///< [nb] of the block's softest own mode, a fraction of critical
   std::vector<double> centroid_x, centroid_y;  ///< [nb] at the start, m
   std::vector<double> smallest_edge;           ///< [nb] m
   std::vector<double> radius;       ///< [nb] largest distance of a vertex from the centroid, m

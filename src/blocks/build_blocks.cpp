@@ -88,7 +88,7 @@ void reserve(BlockSet& b, const std::vector<BlockPolygon>& polygons) {
   for (auto* nodes : {&b.grad_x, &b.grad_y, &b.node_x, &b.node_y, &b.node_mass}) {
     for (auto& values : *nodes) values.reserve(nb);
   }
-  for (auto* values : {&b.volume, &b.lame_lambda, &b.lame_mu, &b.area, &b.mass, &b.centroid_x,
+  for (auto* values : {&b.volume, &b.lame_lambda, &b.lame_mu, &b.area, &b.mass, &b.damping, &b.centroid_x,
                        &b.centroid_y, &b.smallest_edge, &b.radius, &b.inradius}) {
     values->reserve(nb);
   }
@@ -138,6 +138,7 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
     b.fixed.push_back(polygon.fixed ? 1 : 0);
     b.area.push_back(m.area);
     b.mass.push_back(mass);
+    b.damping.push_back(material.damping);
     b.centroid_x.push_back(m.centroid.x);
     b.centroid_y.push_back(m.centroid.y);
     b.inradius.push_back(half_width(polygon.rings[0]));

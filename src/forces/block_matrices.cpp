@@ -12,17 +12,31 @@ Vector6 along(const std::array<double, 3>& w, Vec2 direction) {
   return h;
 }
 
-Matrix6 elastic_matrix(const BlockSet& b, std::size_t i) {
+Eigen::Matrix<double, 3, 6> strain_matrix(const BlockSet& b, std::size_t i) {
   Eigen::Matrix<double, 3, 6> strain;
   for (int k = 0; k < 3; ++k) {
     const auto u = static_cast<std::size_t>(k);
     const double gx = b.grad_x[u][i], gy = b.grad_y[u][i];
     strain.block<3, 2>(0, 2 * k) << gx, 0.0, 0.0, gy, gy, gx;
   }
+  return strain;
+}
+
+Eigen::Matrix3d stiffness_of_rock(const BlockSet& b, std::size_t i) {
   const double lambda = b.lame_lambda[i], mu = b.lame_mu[i];
   Eigen::Matrix3d c;
   c << lambda + 2.0 * mu, lambda, 0.0, lambda, lambda + 2.0 * mu, 0.0, 0.0, 0.0, mu;
-  return b.volume[i] * strain.transpose() * c * strain;
+  return c;
+}
+
+Matrix6 elastic_matrix(const BlockSet& b, std::size_t i) {
+  const Eigen::Matrix<double, 3, 6> strain = strain_matrix(b, i);
+  return b.volume[i] * strain.transpose() * stiffness_of_rock(b, i) * strain;
+}
+
+Matrix6 viscous_matrix(const BlockSet& b, std::size_t i) {
+  if (b.viscosity.empty()) return Matrix6::Zero();
+  return b.viscosity[i] * elastic_matrix(b, i);
 }
 
 Matrix6 mass_matrix(const BlockSet& b, std::size_t i) {

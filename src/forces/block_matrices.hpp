@@ -26,8 +26,17 @@ inline std::array<double, 3> vertex_weights(const BlockSet& b, Id v) {
   return {b.weight[0][v], b.weight[1][v], b.weight[2][v]};
 }
 
+/// B: rates of the strains xx, yy and twice xy of the undeformed block, 1/m.
+Eigen::Matrix<double, 3, 6> strain_matrix(const BlockSet& blocks, std::size_t i);
+
+/// C: stress per strain of its rock, Pa.
+Eigen::Matrix3d stiffness_of_rock(const BlockSet& blocks, std::size_t i);
+
 /// Elastic stiffness of the undeformed block, V B^T C B, in its own frame, N/m.
 Matrix6 elastic_matrix(const BlockSet& blocks, std::size_t i);
+
+/// D = eta V B^T C B of the block's viscosity, in its own frame, N s/m.
+Matrix6 viscous_matrix(const BlockSet& blocks, std::size_t i);
 
 /// Mass (Eq. 23; lumped but for `consistent`), kg. The same in every frame.
 Matrix6 mass_matrix(const BlockSet& blocks, std::size_t i);

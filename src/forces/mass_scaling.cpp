@@ -11,6 +11,7 @@ namespace {
 /// Multiplies the masses of the nodes of block i, its weight left as it is.
 void multiply_inertia(BlockSet& b, std::size_t i, double factor) {
   for (std::vector<double>& mass : b.node_mass) mass[i] *= factor;
+  if (!b.viscosity.empty()) b.viscosity[i] *= std::sqrt(factor);  // the same part of critical
   if (b.mass_kind != MassKind::consistent) return;
   for (std::vector<double>& entry : b.inverse_mass) entry[i] /= factor;
 }

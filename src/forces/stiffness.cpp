@@ -17,7 +17,7 @@ namespace {
 struct Part {
   Id contact;
   Vector6 normal, tangent;  ///< h, k in the block's frame
-  double kn, ks;            ///< with the factor 1 or 2
+  double kn, ks, dashpot;   ///< with the factor 1 or 2
 };
 
 /// May carry before the list is made anew.
@@ -27,60 +27,6 @@ bool counts(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_
   if (c.why[k] == Blocked::shield) return false;
   return c.on_edge(k, c.reach) && facing(b, pose.x, pose.y, c.vertex[k], e.normal(), 0.5 * c.reach);
 }
-
-std::vector<Part> parts_of(const BlockSet& b, const State& s, const Pose& pose, const ContactSet& c,
-                           std::size_t i) {
-  const Rotation r = rotation(deformation(b, s.x, s.y, i));
-  auto back = [&](Vec2 u) { return Vec2{r.c * u.x + r.s * u.y, -r.s * u.x + r.c * u.y}; };
-  std::vector<Part> parts;
-  c.for_contacts(b, i, [&](Id k, bool has_vertex) {
-    const EdgeFrame e =
-        edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
-    if (!counts(c, b, pose, k, e)) return;
-    const Id partner = has_vertex ? c.block_j[k] : c.block_i[k];
-    // One that is letting go past the end of its edge may come back.
-    const double share = c.pair_of[k] == no_id ? 1.0 : c.share[k];
-    const double factor = (b.fixed[partner] ? 1.0 : 2.0) * share;
-    std::array<double, 3> w = vertex_weights(b, c.vertex[k]);
-    if (!has_vertex) {
-      const double xi = std::clamp(c.foot[k] / e.length, 0.0, 1.0);
-      const auto w2 = vertex_weights(b, c.edge[k]), w3 = vertex_weights(b, c.edge_end[k]);
-      for (std::size_t n = 0; n < 3; ++n) w[n] = (1.0 - xi) * w2[n] + xi * w3[n];
-    }
-    parts.push_back(
-        {k, along(w, back(e.normal())), along(w, back(e.t)), factor * c.kn[k], factor * c.ks[k]});
-  });
-  return parts;
-}
-
-/// Contacts that bare corners would make: a block in motion meets its neighbours corner first, and
-/// a step chosen with that in mind need not change when it does.
-Matrix6 bare_corners(const BlockSet& b, const ContactSet& c, const LawTable& laws,
-                     const std::vector<Part>& parts, std::size_t i) {
-  Matrix6 k = Matrix6::Zero();
-  for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v) {
-    const bool touches = std::any_of(parts.begin(), parts.end(),
-                                     [&](const Part& p) { return c.vertex[p.contact] == v; });
-    if (touches || b.corner[v] > 3.0) continue;
-    const Law& law = laws.rows[laws.resolve(b.edge_joint[v], b.edge_joint[b.previous[v]])];
-    const double length = 0.5 * std::max(b.edge_length[v], b.edge_length[b.previous[v]]);
-    const double kn = laws.thickness * (law.kn > 0.0 ? law.kn * length : laws.default_kn);
-    const double ks = laws.thickness * (law.ks > 0.0 ? law.ks * length : laws.default_ks);
-    for (const Vec2 n : {Vec2{1.0, 0.0}, Vec2{0.0, 1.0}}) {
-      const Vector6 h = along(vertex_weights(b, v), n);
-      k += std::max(kn, ks) * 2.0 * h * h.transpose();
-    }
-  }
-  return k;
-}
-
-/// Stiffness of one block with all that may act on it.
-struct BlockStiffness {
-  std::vector<Part> parts;
-  Matrix6 elastic, boundary, bolts;
-  Matrix6 all;                                               ///< with the contacts
-  double lowest2 = std::numeric_limits<double>::infinity();  ///< contact frequency^2, with damping
-};
 
 /// What a step bound looks at.
 struct Scene {
@@ -94,35 +40,92 @@ struct Scene {
   const Bolts* bolts;
 };
 
-BlockStiffness stiffness_of(const Scene& w, std::size_t i) {
-  BlockStiffness k;
-  k.parts = parts_of(w.b, w.s, w.pose, w.c, i);
+/// What decides the step of one block: that of its equations M a + (C + D) v + K x = f, seen from
+/// its own frame.
+struct BlockEquations {
+  Matrix6 mass;
+  Matrix6 viscous;  ///< D, taken with the new velocity
+  Matrix6 dashpots = Matrix6::Zero();  ///< C of contacts, taken with the old one
+  Matrix6 elastic, boundary, bolts;    ///< parts of K
+  Matrix6 contacts = Matrix6::Zero();
+  std::vector<Part> parts;             ///< of that of contacts
+
+  Matrix6 stiffness() const { return elastic + boundary + bolts + contacts; }
+  void add(const Part& p) {
+    contacts += p.kn * p.normal * p.normal.transpose() + p.ks * p.tangent * p.tangent.transpose();
+    if (p.dashpot > 0.0) dashpots += p.dashpot * p.normal * p.normal.transpose();
+  }
+};
+
+std::vector<Part> parts_of(const Scene& w, std::size_t i) {
+  const BlockSet& b = w.b;
+  const ContactSet& c = w.c;
+  const Rotation r = rotation(deformation(b, w.s.x, w.s.y, i));
+  auto back = [&](Vec2 u) { return Vec2{r.c * u.x + r.s * u.y, -r.s * u.x + r.c * u.y}; };
+  std::vector<Part> parts;
+  c.for_contacts(b, i, [&](Id k, bool has_vertex) {
+    const EdgeFrame e =
+        edge_frame(at(w.pose.x, w.pose.y, c.edge[k]), at(w.pose.x, w.pose.y, c.edge_end[k]));
+    if (!counts(c, b, w.pose, k, e)) return;
+    const Id partner = has_vertex ? c.block_j[k] : c.block_i[k];
+    // One that is letting go past the end of its edge may come back.
+    const double share = c.pair_of[k] == no_id ? 1.0 : c.share[k];
+    const double factor = (b.fixed[partner] ? 1.0 : 2.0) * share;
+    const double xi = std::clamp(c.foot[k] / e.length, 0.0, 1.0);
+    std::array<double, 3> weight = vertex_weights(b, c.vertex[k]);
+    if (!has_vertex) {
+      const auto w2 = vertex_weights(b, c.edge[k]), w3 = vertex_weights(b, c.edge_end[k]);
+      for (std::size_t n = 0; n < 3; ++n) weight[n] = (1.0 - xi) * w2[n] + xi * w3[n];
+    }
+    const double zeta = w.damping.contact;
+    const double dashpot =
+        zeta > 0.0 ? 2.0 * zeta * std::sqrt(c.kn[k] / inverse_contact_mass(b, c, k, xi)) : 0.0;
+    parts.push_back({k, along(weight, back(e.normal())), along(weight, back(e.t)), factor * c.kn[k],
+                     factor * c.ks[k], factor * dashpot});
+  });
+  return parts;
+}
+
+/// Contacts that bare corners would make: a block in motion meets its neighbours corner first, and
+/// a step chosen with that in mind need not change when it does.
+void add_bare_corners(BlockEquations& k, const Scene& w, std::size_t i) {
+  const BlockSet& b = w.b;
+  for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v) {
+    const bool touches = std::any_of(k.parts.begin(), k.parts.end(),
+                                     [&](const Part& p) { return w.c.vertex[p.contact] == v; });
+    if (touches || b.corner[v] > 3.0) continue;
+    const LawTable& laws = w.laws;
+    const Law& law = laws.rows[laws.resolve(b.edge_joint[v], b.edge_joint[b.previous[v]])];
+    const double length = 0.5 * std::max(b.edge_length[v], b.edge_length[b.previous[v]]);
+    const double kn = laws.thickness * (law.kn > 0.0 ? law.kn * length : laws.default_kn);
+    const double ks = laws.thickness * (law.ks > 0.0 ? law.ks * length : laws.default_ks);
+    // Against a block so heavy that it stands still, as the spring of another as light feels it.
+    const double zeta = w.damping.contact;
+    const double dashpot = 2.0 * zeta * std::sqrt(kn / b.point_inverse[v]);
+    for (const Vec2 n : {Vec2{1.0, 0.0}, Vec2{0.0, 1.0}}) {
+      const Vector6 h = along(vertex_weights(b, v), n);
+      k.contacts += std::max(kn, ks) * 2.0 * h * h.transpose();
+      if (zeta > 0.0) k.dashpots += 2.0 * dashpot * h * h.transpose();
+    }
+  }
+}
+
+BlockEquations equations_of(const Scene& w, std::size_t i, bool with_bare_corners) {
+  BlockEquations k;
+  k.mass = mass_matrix(w.b, i);
+  k.viscous = viscous_matrix(w.b, i);
+  k.parts = parts_of(w, i);
   k.elastic = elastic_matrix(w.b, i);
   k.boundary = boundary_matrix(w.b, w.springs, rotation(deformation(w.b, w.s.x, w.s.y, i)), i);
   k.bolts = w.bolts == nullptr ? Matrix6::Zero().eval() : bolt_matrix(*w.bolts, w.b, w.s, i);
-  k.all = k.elastic + k.boundary + k.bolts;
-  for (const Part& p : k.parts) {
-    k.all += p.kn * p.normal * p.normal.transpose() + p.ks * p.tangent * p.tangent.transpose();
-    if (w.damping.contact > 0.0) {
-      const double xi = 0.5;
-      k.lowest2 =
-          std::min(k.lowest2, w.c.kn[p.contact] * inverse_contact_mass(w.b, w.c, p.contact, xi));
-    }
-  }
+  for (const Part& p : k.parts) k.add(p);
+  if (with_bare_corners) add_bare_corners(k, w, i);
   return k;
 }
 
-/// (2/w)(sqrt(1 + x^2) - x), x = zeta w / (lowest contact frequency of the block).
-double damped_step(double omega2, const Damping& damping, double lowest2) {
-  const double omega = std::sqrt((1.0 + damping.local) * omega2);
-  const double x = damping.contact > 0.0 ? damping.contact * omega / std::sqrt(lowest2) : 0.0;
-  const double step = 2.0 / omega * (std::sqrt(1.0 + x * x) - x);
-  return damping.mass > 0.0 ? std::min(step, 1.0 / damping.mass) : step;
-}
-
-double largest_eigenvalue(const Matrix6& k, const Matrix6& mass) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(k, mass, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[5];
+double not_beyond_drag(double step, const Damping& damping) {
+  const double drag = damping.drag();
+  return drag > 0.0 ? std::min(step, 1.0 / drag) : step;
 }
 
 /// Not below the largest eigenvalue of M^-1 K, and at most 6^(1/16) times it: with A = L^-1 K L^-T,
@@ -131,55 +134,85 @@ double eigenvalue_bound(const Matrix6& k, const Eigen::LLT<Matrix6>& mass) {
   Matrix6 a = mass.matrixL().solve(k);
   a = mass.matrixL().solve(a.transpose().eval()).eval();
   const double size = a.trace();
-  if (!(size > 0.0) || !std::isfinite(size)) return std::numeric_limits<double>::infinity();
+  if (!std::isfinite(size)) return std::numeric_limits<double>::infinity();
+  if (!(size > 0.0)) return 0.0;
   a /= size;
   for (int square = 0; square < 3; ++square) a = (a * a).eval();
   constexpr double rounding = 1e-9;
   return (1.0 + rounding) * size * std::pow(a.squaredNorm(), 1.0 / 16.0);
 }
 
-/// The step of one block, and what it would be with bare corners; from below, or exact.
-struct BlockSteps {
-  double step = std::numeric_limits<double>::infinity();
-  double likely = std::numeric_limits<double>::infinity();
-};
-
-BlockSteps estimate(const Scene& w, std::size_t i) {
-  const BlockStiffness k = stiffness_of(w, i);
-  const Eigen::LLT<Matrix6> mass(mass_matrix(w.b, i));
-  const Matrix6 bare = bare_corners(w.b, w.c, w.laws, k.parts, i);
-  return {damped_step(eigenvalue_bound(k.all, mass), w.damping, k.lowest2),
-          damped_step(eigenvalue_bound(k.all + bare, mass), w.damping, k.lowest2)};
+/// The h > 0 with h^2 k/4 + h (c - d)/2 = m.
+double root_of_step(double k, double c, double d, double m) {
+  const double b = 0.5 * (c - d), root = std::sqrt(b * b + k * m);
+  return b > 0.0 ? 2.0 * m / (b + root) : 2.0 * (root - b) / k;
 }
 
-double exact_step(const Scene& w, std::size_t i, bool with_bare_corners) {
-  BlockStiffness k = stiffness_of(w, i);
-  if (with_bare_corners) k.all += bare_corners(w.b, w.c, w.laws, k.parts, i);
-  const double omega2 = largest_eigenvalue(k.all, mass_matrix(w.b, i));
-  return omega2 > 0.0 ? damped_step(omega2, w.damping, k.lowest2)
-                      : std::numeric_limits<double>::infinity();
+/// A step not above the critical one, at little cost: a first one without D; then D of that step
+/// counts as mass.
+double lower_estimate(const BlockEquations& q, const Damping& damping) {
+  const Matrix6 stiffness = (1.0 + damping.local) * q.stiffness();
+  const bool viscous = q.viscous.trace() > 0.0, dashpots = q.dashpots.trace() > 0.0;
+  double h = 0.0;
+  for (int round = 0; round < (viscous ? 2 : 1); ++round) {
+    const Eigen::LLT<Matrix6> mass(q.mass + (0.5 * h) * q.viscous);
+    const double k = eigenvalue_bound(stiffness, mass);
+    if (!(k > 0.0)) return std::numeric_limits<double>::infinity();
+    const double c = dashpots ? eigenvalue_bound(q.dashpots, mass) : 0.0;
+    h = std::max(h, root_of_step(k, c, 0.0, 1.0));
+  }
+  return not_beyond_drag(h, damping);
 }
 
+/// The largest h for which M + h D/2 - h C/2 - h^2 K/4 has no negative eigenvalue: as long as it
+/// has none, what a leapfrog with C of the old velocity and D of the new one keeps as its energy,
+/// v (M + h D/2 - h C/2 - h^2 K/4) v/2 + x K x/2 (x halfway between two steps), can only fall. Each
+/// vector v has one h at which it reaches zero; from any vector the worst is found by taking the
+/// eigenvector of the least eigenvalue at the step that it allows, again and again.
+double critical_step_of(const BlockEquations& q, const Damping& damping) {
+  const Matrix6 k = (1.0 + damping.local) * q.stiffness();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> first(k, q.mass);
+  if (!(first.eigenvalues()[5] > 0.0)) return std::numeric_limits<double>::infinity();
+  const auto allowed = [&](const Vector6& v) {
+    return root_of_step(v.dot(k * v), v.dot(q.dashpots * v), v.dot(q.viscous * v),
+                        v.dot(q.mass * v));
+  };
+  double h = allowed(first.eigenvectors().col(5));
+  if (q.viscous.trace() > 0.0 || q.dashpots.trace() > 0.0) {
+    constexpr int most_rounds = 30;
+    for (int round = 0; round < most_rounds; ++round) {
+      const Matrix6 left = q.mass + (0.5 * h) * (q.viscous - q.dashpots) - (0.25 * h * h) * k;
+      const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(left, q.mass);
+      const double next = allowed(solver.eigenvectors().col(0));
+      const bool settled = !(next < h * (1.0 - 1e-12));
+      h = std::min(h, next);
+      if (settled) break;
+    }
+  }
+  return not_beyond_drag(h, damping);
+}
+
+/// The smallest exact step, and the first block that has it: worked out only for blocks whose
+/// `estimates` from below leave it open.
 struct Smallest {
   double step = std::numeric_limits<double>::infinity();
   Id block = no_id;
 };
 
-/// The smallest exact step, and the first block that has it: worked out only for blocks whose
-/// `estimates` from below leave it open.
 Smallest smallest_step(const Scene& w, const std::vector<double>& estimates,
                        bool with_bare_corners) {
+  const auto exact_step = [&](std::size_t i) {
+    return critical_step_of(equations_of(w, i, with_bare_corners), w.damping);
+  };
   const auto first = std::min_element(estimates.begin(), estimates.end());
   if (first == estimates.end() || !(*first < std::numeric_limits<double>::infinity())) return {};
-  const double known =
-      exact_step(w, static_cast<std::size_t>(first - estimates.begin()), with_bare_corners);
+  const double known = exact_step(static_cast<std::size_t>(first - estimates.begin()));
   std::vector<Id> open;
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     if (estimates[i] <= known) open.push_back(static_cast<Id>(i));
   }
   std::vector<double> exact(open.size());
-  parallel_for(open.size(),
-               [&](std::size_t q) { exact[q] = exact_step(w, open[q], with_bare_corners); });
+  parallel_for(open.size(), [&](std::size_t q) { exact[q] = exact_step(open[q]); });
   Smallest found;
   for (std::size_t q = 0; q < open.size(); ++q) {
     if (exact[q] < found.step) found = {exact[q], open[q]};
@@ -189,10 +222,12 @@ Smallest smallest_step(const Scene& w, const std::vector<double>& estimates,
 
 /// Whose stiffness it is that holds block i's step.
 void explain(StepBound& bound, const Scene& w, std::size_t i) {
-  const BlockStiffness k = stiffness_of(w, i);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(k.all, mass_matrix(w.b, i));
+  const BlockEquations k = equations_of(w, i, false);
+  const double h = bound.critical_step;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(
+      k.stiffness(), k.mass + (0.5 * h) * k.viscous);
   const Vector6 mode = solver.eigenvectors().col(5);
-  const double total = mode.dot(k.all * mode);
+  const double total = mode.dot(k.stiffness() * mode);
   bound.elastic_part = mode.dot(k.elastic * mode) / total;
   bound.boundary_part = mode.dot(k.boundary * mode) / total;
   bound.bolt_part = mode.dot(k.bolts * mode) / total;
@@ -217,9 +252,10 @@ StepBound step_bound(const BlockSet& b, const State& s, const Pose& pose, const 
   std::vector<double> step(b.size(), std::numeric_limits<double>::infinity()), likely = step;
   parallel_for(b.size(), [&](std::size_t i) {
     if (b.fixed[i] || !s.alive[i]) return;
-    const BlockSteps e = estimate(scene, i);
-    step[i] = e.step;
-    likely[i] = e.likely;
+    BlockEquations q = equations_of(scene, i, false);
+    step[i] = lower_estimate(q, damping);
+    add_bare_corners(q, scene, i);
+    likely[i] = lower_estimate(q, damping);
   });
   const Smallest critical = smallest_step(scene, step, false);
   StepBound bound;
@@ -238,8 +274,9 @@ std::vector<double> steps_of_blocks(const BlockSet& b, const State& s, const Pos
   std::vector<double> step(b.size(), std::numeric_limits<double>::infinity());
   parallel_for(b.size(), [&](std::size_t i) {
     if (b.fixed[i] || !s.alive[i]) return;
-    step[i] = estimate(scene, i).likely;
-    if (step[i] < limit) step[i] = exact_step(scene, i, true);
+    const BlockEquations q = equations_of(scene, i, true);
+    step[i] = lower_estimate(q, damping);
+    if (step[i] < limit) step[i] = critical_step_of(q, damping);
   });
   return step;
 }

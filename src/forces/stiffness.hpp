@@ -14,10 +14,13 @@ namespace edda {
 /// omega_max^2 <= max_i lambda_max{ M_i^-1 [K_i + boundary springs + bolts + 2 sum_c (p_n h h^T +
 /// p_t k k^T)] }, h and k the weights of the contact along its normal and tangent, factor 1 against
 /// a held block. Every candidate that may come to carry counts, closed or not. Bolts count by
-/// bolt_matrix(). Dashpots at boundaries do not: they are centred (dashpot_forces.hpp).
+/// bolt_matrix(). Dashpots at boundaries do not: they are centred (dashpot_forces.hpp). With
+/// dashpots at contacts, C, and viscous blocks, D, the step h is the largest for which M + h D/2 - h
+/// C/2 - h^2 K/4 of every block is positive: contact dashpots shorten it, viscous blocks make it
+/// longer.
 struct StepBound {
   double critical_step =
-      0.0;  ///< 2/omega_max, less what contact damping takes, s; +inf if no block is free
+      0.0;  ///< s; +inf if no block is free
   double likely_step = 0.0;   ///< the same if every bare corner of a block touched something, s
   Id block = no_id;           ///< whose eigenvalue it is
   Id contact = no_id;         ///< candidate with the largest part in it, no_id if none has
@@ -27,8 +30,7 @@ struct StepBound {
   double bolt_part = 0.0;
 };
 
-/// Damping shortens the step: contacts of zeta to (2/w)(sqrt(1 + x^2) - x), x = zeta w/w_c; local
-/// damping beta makes a node that moves against its force see (1 + beta) of it, so w^2 grows by
+/// Local damping beta makes a node that moves against its force see (1 + beta) of it, so w^2 grows by
 /// that; and mass-proportional damping a turns velocities round beyond 2/a, so 1/a is the limit.
 StepBound step_bound(const BlockSet& blocks, const State& state, const Pose& pose,
                      const ContactSet& contacts, const BoundarySprings& springs,

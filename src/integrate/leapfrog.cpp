@@ -93,7 +93,8 @@ void advance(State& s, const BlockSet& b, const Nodes& force_x, const Nodes& for
              const StepDamping& damping, std::size_t begin, std::size_t end) {
   if (damping.local > 0.0 && damping.spared != nullptr) {
     const std::vector<Id>& spared = *damping.spared;
-    const StepDamping others{damping.mass, damping.local}, these{damping.mass};
+    const StepDamping others{damping.mass, damping.local, nullptr, damping.strain},
+        these{damping.mass, 0.0, nullptr, damping.strain};
     auto next = std::lower_bound(spared.begin(), spared.end(), static_cast<Id>(begin));
     for (; next != spared.end() && *next < end; ++next) {
       advance(s, b, force_x, force_y, old_vx, old_vy, h_old, h_new, others, begin, *next);
@@ -102,7 +103,9 @@ void advance(State& s, const BlockSet& b, const Nodes& force_x, const Nodes& for
     }
   }
   const double h = 0.5 * (h_old + h_new);
-  const Kick kick{h, h_new, 0.5 * damping.mass * h, damping.local};
+  // With viscous strain the nodes of a block go on together, once all have their kick.
+  const bool strains = damping.strain != nullptr;
+  const Kick kick{h, strains ? 0.0 : h_new, 0.5 * damping.mass * h, damping.local};
   if (b.mass_kind != MassKind::consistent) {
     for (std::size_t k = 0; k < 3; ++k) {
       const NodeView node{b.node_mass[k].data(), force_x[k].data(), force_y[k].data(),
@@ -110,6 +113,7 @@ void advance(State& s, const BlockSet& b, const Nodes& force_x, const Nodes& for
                           s.vy[k].data(),        s.x[k].data(),     s.y[k].data()};
       advance_nodes(node, kick, begin, end);
     }
+    if (strains) damp_strain_and_move(*damping.strain, b, s, h_new, begin, end);
     return;
   }
   for (std::size_t i = begin; i < end; ++i) {
@@ -122,10 +126,11 @@ void advance(State& s, const BlockSet& b, const Nodes& force_x, const Nodes& for
       const Vec2 after = kicked(v[k], a[k], kick);
       s.vx[k][i] = after.x;
       s.vy[k][i] = after.y;
-      s.x[k][i] += h_new * after.x;
-      s.y[k][i] += h_new * after.y;
+      s.x[k][i] += kick.h_new * after.x;
+      s.y[k][i] += kick.h_new * after.y;
     }
   }
+  if (strains) damp_strain_and_move(*damping.strain, b, s, h_new, begin, end);
 }
 
 void advance(State& s, const BlockSet& b, const Nodes& force_x, const Nodes& force_y, double h_old,
@@ -138,7 +143,7 @@ void advance(State& s, const BlockSet& b, const Nodes& force_x, const Nodes& for
 void book_damping(const State& s, const BlockSet& b, const Nodes& force_x, const Nodes& force_y,
                   const Nodes& old_vx, const Nodes& old_vy, double h_old, double h_new,
                   const StepDamping& damping, DampingWork& work) {
-  if (damping.mass == 0.0 && damping.local == 0.0) return;
+  if (damping.mass == 0.0 && damping.local == 0.0 && damping.strain == nullptr) return;
   const auto is_spared = [&](std::size_t i) {
     return damping.spared != nullptr &&
            std::binary_search(damping.spared->begin(), damping.spared->end(), static_cast<Id>(i));
@@ -147,6 +152,9 @@ void book_damping(const State& s, const BlockSet& b, const Nodes& force_x, const
     if (b.fixed[i] || !s.alive[i]) return;
     const std::array<Vec2, 3> f = node_vectors(force_x, force_y, i);
     double dissipated = 0.0;
+    if (damping.strain != nullptr) {
+      dissipated = strain_dissipation(*damping.strain, b, s, old_vx, old_vy, h_old, h_new, i);
+    }
     const double local = damping.local > 0.0 && !is_spared(i) ? damping.local : 0.0;
     std::array<Vec2, 3> moved, mean;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "blocks/kinematics.hpp"
+#include "integrate/strain_damping.hpp"
 
 namespace edda {
 
@@ -14,6 +15,8 @@ struct StepDamping {
   /// Blocks that local damping spares, ascending: those on dashpots, which damp them already, and
   /// would grow where beta of their own force came on top. Null: none.
   const std::vector<Id>* spared = nullptr;
+  /// Of the blocks' strain, prepared for this step; null: none.
+  StrainDamping* strain = nullptr;
 };
 
 /// Work dissipated by damping at the nodes, per block.

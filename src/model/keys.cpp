@@ -27,6 +27,7 @@ constexpr std::array material_keys{
     Key{"unit_weight", nullptr, number(D::unit_weight, above(0)), otherwise("density * |gravity|"), "Weight per volume, in place of density; divided by |gravity|, or by 9.81 m/s2 where that is zero."},
     Key{"young", at<&Material::young>, number(D::stress, above(0)), required, "Young's modulus."},
     Key{"poisson", at<&Material::poisson>, number(D::plain, between(-1, 0.5)), required, "Poisson's ratio."},
+    Key{"damping", at<&Material::damping>, number(D::plain, from(0)), initial, "Viscous damping of the strain of a block, a fraction of critical of its softest own vibration; far below that frequency it hardly shows. 0: none."},
     Key{"strength", at<&Material::strength>, table, otherwise("none: blocks are not judged"), "Strength of the intact rock; blocks stay elastic, over-stressed ones are reported."},
 };
 
@@ -179,10 +180,16 @@ constexpr std::array convergence_keys{
     Key{"between", at<&Convergence::between>, polyline, required, "Two material points; that they come nearer counts positive."},
 };
 
+constexpr std::array rayleigh_keys{
+    Key{"fraction", at<&Rayleigh::fraction>, number(D::plain, from(0)), required, "Part of critical at the frequency, where it is least."},
+    Key{"frequency", at<&Rayleigh::frequency>, number(D::frequency, above(0)), required, "The frequency."},
+};
+
 constexpr std::array damping_keys{
     Key{"mass", at<&Damping::mass>, number(D::rate, from(0)), initial, "Mass-proportional damping."},
     Key{"local", at<&Damping::local>, number(D::plain, from_below(0, 1)), initial, "Local damping (Cundall), a fraction of the unbalanced force."},
     Key{"contact", at<&Damping::contact>, number(D::plain, from(0)), initial, "Viscous damping at contacts, a fraction of critical."},
+    Key{"rayleigh", at<&Damping::rayleigh>, table, otherwise("none: materials.X.damping"), "Damping in proportion to mass and to the stiffness of the blocks, least at one frequency (Rayleigh), in place of materials.X.damping."},
 };
 
 constexpr std::array stage_keys{
@@ -290,6 +297,9 @@ std::span<const Key> keys_of(const RockStrength&) {
 }
 std::span<const Key> keys_of(const Damping&) {
   return damping_keys;
+}
+std::span<const Key> keys_of(const Rayleigh&) {
+  return rayleigh_keys;
 }
 std::span<const Key> keys_of(const Deviation&) {
   return deviation_keys;

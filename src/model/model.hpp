@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -48,6 +49,7 @@ struct Material {
   double poisson = 0.0;
   Where where;
   std::optional<RockStrength> strength{};
+  double damping = 0.5;  ///< viscous, of a block's strain: of critical in its softest own mode
 };
 
 /// Shear and tensile strength of a joint.
@@ -234,10 +236,22 @@ struct Convergence {
   Where where;
 };
 
+/// Damping in proportion to mass and stiffness, least at one frequency.
+struct Rayleigh {
+  double fraction = 0.0;   ///< of critical there
+  double frequency = 0.0;  ///< Hz
+  /// Part of the mass, 1/s, and of the stiffness of the blocks, s.
+  double mass() const { return fraction * 2.0 * std::numbers::pi * frequency; }
+  double stiffness() const { return fraction / (2.0 * std::numbers::pi * frequency); }
+};
+
 struct Damping {
   double mass = 0.0;     ///< 1/s
   double local = 0.0;    ///< fraction of the unbalanced force (Cundall)
   double contact = 0.0;  ///< fraction of critical
+  std::optional<Rayleigh> rayleigh{};  ///< in place of the materials' damping
+  /// In proportion to mass, Rayleigh's part with it, 1/s.
+  double drag() const { return mass + (rayleigh ? rayleigh->mass() : 0.0); }
 };
 
 struct Solver {

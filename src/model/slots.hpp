@@ -93,6 +93,7 @@ constexpr std::span<const std::string_view> names_of(SurfaceKind) {
 std::span<const Key> keys_of(const RockStrength&);
 std::span<const Key> keys_of(const Strength&);
 std::span<const Key> keys_of(const Damping&);
+std::span<const Key> keys_of(const Rayleigh&);
 std::span<const Key> keys_of(const Deviation&);
 std::span<const Key> keys_of(const AngleSpread&);
 std::span<const Key> keys_of(const LengthSpread&);

@@ -167,6 +167,7 @@ void Simulation::scale_masses(StageMasses masses) {
   blocks.node_mass = given_mass_.node_mass;
   blocks.inverse_mass = given_mass_.inverse_mass;
   fill_point_masses(blocks);
+  set_viscosity();
   inertia.clear();
   scaled_step_ = 0.0;
   if (uniform) scaled_step_ = uniform_step();

@@ -103,15 +103,16 @@ ForceChange reset_force(ContactSet& c, const BlockSet& b, const Switcher& s, dou
 
 /// Moves block i by a changed impulse.
 void push(const BlockSet& b, State& s, Pose& pose, Id i, const std::array<Vec2, 3>& force,
-          double dv_per_force, double h_new) {
+          double dv_per_force, double h_new, StrainDamping* strain) {
   if (b.fixed[i]) return;
-  const std::array<Vec2, 3> a = accelerations(b, i, force);
+  std::array<Vec2, 3> dv = accelerations(b, i, force);
+  for (Vec2& v : dv) v = dv_per_force * v;
+  if (strain != nullptr) dv = damped_change(*strain, b, s, h_new, i, dv);
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec2 dv = dv_per_force * a[k];
-    s.vx[k][i] += dv.x;
-    s.vy[k][i] += dv.y;
-    s.x[k][i] += h_new * dv.x;
-    s.y[k][i] += h_new * dv.y;
+    s.vx[k][i] += dv[k].x;
+    s.vy[k][i] += dv[k].y;
+    s.x[k][i] += h_new * dv[k].x;
+    s.y[k][i] += h_new * dv[k].y;
   }
   place_vertices(b, s.x, s.y, i, pose.x, pose.y);
 }
@@ -139,6 +140,7 @@ class Correction {
         scratch_(scratch),
         h_new_(taken.h_new),
         dv_per_force_(kick_of(taken)),
+        strain_(taken.strain),
         settled_(std::max(tolerance * largest, contacts.noise)) {
     scratch_.moved.resize(b_.size(), 0);
     scratch_.set.clear();
@@ -224,8 +226,8 @@ class Correction {
     s.seen = ++scratch_.tick;
     s.done = same_part && change.size * s.moved_per_force <= let_be * settled_;
     if (change.size == 0.0) return same_part;
-    push(b_, s_, pose_, i, change.on_i, dv_per_force_, h_new_);
-    push(b_, s_, pose_, j, change.on_j, dv_per_force_, h_new_);
+    push(b_, s_, pose_, i, change.on_i, dv_per_force_, h_new_, strain_);
+    push(b_, s_, pose_, j, change.on_j, dv_per_force_, h_new_, strain_);
     scratch_.pushed.push_back(i);
     scratch_.pushed.push_back(j);
     if (!s.done) scratch_.moved[i] = scratch_.moved[j] = s.seen;
@@ -238,6 +240,7 @@ class Correction {
   Pose& pose_;
   SwitchingScratch& scratch_;
   double h_new_, dv_per_force_;
+  StrainDamping* strain_;
   double settled_;  ///< m
 };
 

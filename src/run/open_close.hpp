@@ -9,6 +9,7 @@
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
 #include "contacts/contact_set.hpp"
+#include "integrate/strain_damping.hpp"
 
 namespace edda {
 
@@ -20,9 +21,10 @@ struct OpenCloseCounts {
   std::uint64_t unsettled = 0;  ///< steps that had not settled after the last pass
 };
 
-/// Steps behind and ahead of the force, and mass damping, as advance() used them.
+/// Steps behind and ahead of the force, and damping, as advance() used them.
 struct StepTaken {
   double h_old = 0.0, h_new = 0.0, mass_damping = 0.0;
+  StrainDamping* strain = nullptr;
 };
 
 /// A contact that opened, closed or turned its shear round in the step in hand.

@@ -18,6 +18,7 @@
 #include "forces/contact_forces.hpp"
 #include "forces/dashpot_forces.hpp"
 #include "forces/mass_scaling.hpp"
+#include "forces/viscosity.hpp"
 #include "lines/build_polygons.hpp"
 #include "run/load_work.hpp"
 
@@ -41,10 +42,6 @@ double largest_displacement(const BlockSet& b, double ratio) {
   const auto [low, high] = std::minmax_element(b.vertex_y.begin(), b.vertex_y.end());
   const double edge = *std::min_element(b.smallest_edge.begin(), b.smallest_edge.end());
   return std::min(ratio * 0.5 * (*high - *low), 0.1 * edge);
-}
-
-StepDamping step_damping(const Damping& damping, const Dashpots& dashpots) {
-  return {damping.mass, damping.local, dashpots.damped.empty() ? nullptr : &dashpots.damped};
 }
 
 /// Energy that a change of the step creates: sum of m |v+ - v-|^2 (h_old - h_new)/(4 h_mean) with
@@ -79,6 +76,7 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
     s.polygons.reversed = true;
   }
   s.blocks = build_blocks(s.model, s.polygons);
+  s.set_viscosity();
   s.laws = build_laws(s.model);
   // What the first stage finds at the start is judged by its strength.
   const double factor = s.model.stages.empty() ? 1.0 : s.model.stages.front().strength_factor;
@@ -167,7 +165,7 @@ void Simulation::start(double first_event) {
   hold_ = dashpot_hold({}, free_field.columns);
   add_dashpots(forces, on_dashpots, dashpots, blocks, state, state.vx, state.vy,
                {0.0, 0.0, hold_.reference, hold_.push}, 0, blocks.size());
-  start_velocities(state, blocks, forces.x, forces.y, h, damping.mass);
+  start_velocities(state, blocks, forces.x, forces.y, h, damping.drag());
   look_back();
 }
 
@@ -188,6 +186,7 @@ void Simulation::raise_masses() {
   const std::vector<double> factor =
       raise_inertia(blocks, state, pose, contacts, springs, laws, damping, step, &bolts);
   if (factor.empty()) return;
+  set_viscosity();
   if (inertia.empty()) inertia.assign(blocks.size(), 1.0);
   for (std::size_t i = 0; i < blocks.size(); ++i) inertia[i] *= factor[i];
   if (!moving) return;
@@ -223,9 +222,21 @@ void Simulation::set_limit() {
   }
 }
 
+/// After a change of masses or damping.
+void Simulation::set_viscosity() {
+  fill_viscosity(blocks, damping);
+  strain_damping_.step = 0.0;
+}
+
+StepDamping Simulation::step_damping() {
+  return {damping.drag(), damping.local, dashpots.damped.empty() ? nullptr : &dashpots.damped,
+          blocks.viscosity.empty() ? nullptr : &strain_damping_};
+}
+
 void Simulation::change_damping(const Damping& now, bool carry_velocities) {
   damping = now;
   dynamic = carry_velocities;
+  set_viscosity();
   step_limit = std::numeric_limits<double>::infinity();
   set_limit();
 }
@@ -263,7 +274,10 @@ bool Simulation::move(double h_old, double h_new, const LoadsNow* not_yet_gather
   drive_ground(h_old, h_new);
   if (not_yet_gathered == nullptr) remove_dashpots(forces, on_dashpots, dashpots);
   const double h = 0.5 * (h_old + h_new);
-  const DashpotStep dashing{h, 0.5 * damping.mass * h, hold_.reference, hold_.push};
+  const double drag = 0.5 * damping.drag() * h;
+  const StepDamping damps = step_damping();
+  if (damps.strain != nullptr) prepare(*damps.strain, blocks, h / (1.0 + drag));
+  const DashpotStep dashing{h, drag, hold_.reference, hold_.push};
   largest_.assign((blocks.size() + blocks_at_once - 1) / blocks_at_once, 0.0);
   parallel_chunks(blocks.size(), blocks_at_once,
                   [&](std::size_t c, std::size_t begin, std::size_t end) {
@@ -274,7 +288,7 @@ bool Simulation::move(double h_old, double h_new, const LoadsNow* not_yet_gather
                     add_dashpots(forces, on_dashpots, dashpots, blocks, state, old_vx_, old_vy_,
                                  dashing, begin, end);
                     advance(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h_new,
-                            step_damping(damping, dashpots), begin, end);
+                            damps, begin, end);
                     largest_[c] = place_next(blocks, state.x, state.y, pose, begin, end);
                   });
   std::swap(pose.x, pose.x1);
@@ -319,7 +333,7 @@ std::optional<Failure> Simulation::step() {
   update_gaps(contacts, pose);
   clock.lap(seconds.search);
   if (model.solver.switching == Switching::exact) {
-    const StepTaken taken{h_old, h, damping.mass};
+    const StepTaken taken{h_old, h, damping.drag(), step_damping().strain};
     penetration = correct_switching(contacts, blocks, state, pose, taken, open_close, switching_);
   } else {
     penetration = largest_penetration(contacts);
@@ -330,7 +344,7 @@ std::optional<Failure> Simulation::step() {
     ++steps.changes;
   }
   book_damping(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h,
-               step_damping(damping, dashpots), damping_work);
+               step_damping(), damping_work);
   if (damping.contact > 0.0) book_dashpots(contacts);
   book_loads(h_old, h, at_work);
   book_boundaries(h_old, h);

@@ -176,6 +176,8 @@ struct Simulation {
   void drive_ground(double h_old, double h_new);
   void hold_ground();
   void book_boundaries(double h_old, double h_new);
+  void set_viscosity();
+  StepDamping step_damping();
   void finish_step();
   void book_implicit_loads(const LoadsNow& now);
   void book_loads(double h_old, double h_new, const LoadsNow& now);
@@ -197,6 +199,7 @@ struct Simulation {
   double nominal_step_ = 0.0;       ///< s: of method "dda", before any cut
   double step_before_ = 0.0;        ///< s: step behind v_{n-1/2}
   std::uint64_t steps_left_ = 0;
+  StrainDamping strain_damping_;
 
   // Of one step, kept so that it allocates nothing.
   Nodes old_vx_, old_vy_;  ///< velocities before it, and where the next ones will be

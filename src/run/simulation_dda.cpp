@@ -107,7 +107,7 @@ std::optional<Failure> Simulation::step_implicit() {
   ImplicitScene scene{blocks, laws, springs, model.gravity};
   ImplicitSettings settings;
   settings.dynamic = dynamic;
-  settings.mass_damping = damping.mass;
+  settings.mass_damping = damping.drag();
   settings.contact_damping = damping.contact;
   settings.displacement_limit = displacement_limit;
   constexpr int most_cuts = 40;

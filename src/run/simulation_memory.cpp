@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "blocks/point_mass.hpp"
+#include "forces/viscosity.hpp"
 #include "checkpoint/archive.hpp"
 #include "contacts/candidates.hpp"
 #include "contacts/shares.hpp"
@@ -130,6 +131,14 @@ void list_state(Archive& a, Simulation& s) {
   a("damping.mass", s.damping.mass);
   a("damping.local", s.damping.local);
   a("damping.contact", s.damping.contact);
+  double fraction = s.damping.rayleigh ? s.damping.rayleigh->fraction : 0.0;
+  double frequency = s.damping.rayleigh ? s.damping.rayleigh->frequency : 0.0;
+  a("damping.rayleigh.fraction", fraction);
+  a("damping.rayleigh.frequency", frequency);
+  if constexpr (Archive::loads) {
+    s.damping.rayleigh.reset();
+    if (frequency > 0.0) s.damping.rayleigh = {fraction, frequency};
+  }
   a("dynamic", s.dynamic);
   a("laws.divided_by", s.laws.divided_by);
   a("state.alive", s.state.alive);
@@ -367,6 +376,7 @@ std::string recall(Simulation& sim, const Record& record) {
   if (!j.flaw().empty()) return j.flaw();
   sim.contacts.look_everywhere();
   fill_point_masses(sim.blocks);
+  fill_viscosity(sim.blocks, sim.damping);
   list_by_corner(sim.contacts, sim.blocks.vertex_count());
   list_run_ons(sim.contacts, sim.blocks);
   list_pairs(sim.contacts);

@@ -1,0 +1,188 @@
+#include "integrate/strain_damping.hpp"
+
+#include "base/parallel.hpp"
+#include "blocks/cover.hpp"
+#include "integrate/leapfrog.hpp"
+
+namespace edda {
+namespace {
+
+/// B M^-1 B^T of the undeformed block, entries 11 12 13 22 23 33, 1/(kg m2).
+std::array<double, 6> compliance_of_inertia(const BlockSet& b, std::size_t i) {
+  const auto rate = [&](const std::array<Vec2, 3>& v) {
+    StrainTerms d{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
+      d.xx += v[k].x * gx;
+      d.yy += v[k].y * gy;
+      d.xy += v[k].x * gy + v[k].y * gx;
+    }
+    return d;
+  };
+  std::array<Vec2, 3> xx, yy, xy;  // columns of B^T
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
+    xx[k] = {gx, 0.0};
+    yy[k] = {0.0, gy};
+    xy[k] = {gy, gx};
+  }
+  const StrainTerms p = rate(accelerations(b, i, xx)), q = rate(accelerations(b, i, yy)),
+                    r = rate(accelerations(b, i, xy));
+  return {p.xx, p.yy, p.xy, q.yy, q.xy, r.xy};
+}
+
+/// W of block i.
+std::array<double, 6> response(const BlockSet& b, std::size_t i, double h) {
+  const double lambda = b.lame_lambda[i], mu = b.lame_mu[i];
+  const double per = 1.0 / (b.viscosity[i] * b.volume[i] * 4.0 * mu * (lambda + mu));
+  std::array<double, 6> a = compliance_of_inertia(b, i);
+  for (double& entry : a) entry *= h;
+  a[0] += per * (lambda + 2.0 * mu);
+  a[1] -= per * lambda;
+  a[3] += per * (lambda + 2.0 * mu);
+  a[5] += per * 4.0 * (lambda + mu);
+  return inverse_symmetric(a);
+}
+
+/// s = W d.
+template <class Matrix>
+EDDA_INLINE StrainTerms times(const Matrix& w, std::size_t i, const StrainTerms& d) {
+  return {w[0][i] * d.xx + w[1][i] * d.yy + w[2][i] * d.xy,
+          w[1][i] * d.xx + w[3][i] * d.yy + w[4][i] * d.xy,
+          w[2][i] * d.xx + w[4][i] * d.yy + w[5][i] * d.xy};
+}
+
+Deformation frame_of_step(const BlockSet& b, const State& s, double h_new, std::size_t i) {
+  const Deformation f = deformation(b, s.x, s.y, i), l = deformation(b, s.vx, s.vy, i);
+  return {f.xx - h_new * l.xx, f.xy - h_new * l.xy, f.yx - h_new * l.yx, f.yy - h_new * l.yy};
+}
+
+/// Velocities v of block i that forces without viscosity would have given it (or changed by).
+std::array<Vec2, 3> damped(StrainDamping& damping, const BlockSet& b, const StrainFrame& frame,
+                           std::size_t i, std::array<Vec2, 3> v, bool adds) {
+  Deformation l{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
+    l.xx += v[k].x * gx;
+    l.xy += v[k].x * gy;
+    l.yx += v[k].y * gx;
+    l.yy += v[k].y * gy;
+  }
+  const StrainTerms s = times(damping.matrix, i, strain_rate(frame, l));
+  const Deformation p = stress_on_rate(frame, s);
+  std::array<Vec2, 3> f;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
+    f[k] = {p.xx * gx + p.xy * gy, p.yx * gx + p.yy * gy};
+  }
+  const std::array<Vec2, 3> a = accelerations(b, i, f);
+  for (std::size_t k = 0; k < 3; ++k) v[k] -= damping.step * a[k];
+  auto& stress = damping.stress;
+  stress[0][i] = s.xx + (adds ? stress[0][i] : 0.0);
+  stress[1][i] = s.yy + (adds ? stress[1][i] : 0.0);
+  stress[2][i] = s.xy + (adds ? stress[2][i] : 0.0);
+  return v;
+}
+
+/// What the loop over blocks of lumped mass reads and writes.
+struct BlocksView {
+  ConstNodeValues grad_x, grad_y, mass;
+  std::array<const double*, 6> w;
+  std::array<double*, 3> stress;
+  NodeValues x, y, vx, vy;
+};
+
+EDDA_INLINE void damp_and_move(const BlocksView& b, double h, double h_new, std::size_t i) {
+  const StrainFrame frame = strain_frame(deformation(b, b.x, b.y, i));
+  const StrainTerms s = times(b.w, i, strain_rate(frame, deformation(b, b.vx, b.vy, i)));
+  const Deformation p = stress_on_rate(frame, s);
+  b.stress[0][i] = s.xx;
+  b.stress[1][i] = s.yy;
+  b.stress[2][i] = s.xy;
+  const auto node = [&](std::size_t k) __attribute__((always_inline)) {
+    const double per = b.mass[k][i] > 0.0 ? h / b.mass[k][i] : 0.0;
+    const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
+    const double vx = b.vx[k][i] - per * (p.xx * gx + p.xy * gy);
+    const double vy = b.vy[k][i] - per * (p.yx * gx + p.yy * gy);
+    b.vx[k][i] = vx;
+    b.vy[k][i] = vy;
+    b.x[k][i] += h_new * vx;
+    b.y[k][i] += h_new * vy;
+  };
+  node(0);
+  node(1);
+  node(2);
+}
+
+EDDA_VECTOR void damp_and_move_all(BlocksView b, double h, double h_new, std::size_t begin,
+                                   std::size_t end) {
+#pragma omp simd
+  for (std::size_t i = begin; i < end; ++i) damp_and_move(b, h, h_new, i);
+}
+
+}  // namespace
+
+void prepare(StrainDamping& d, const BlockSet& b, double h, bool afresh) {
+  if (!afresh && d.step == h && d.matrix[0].size() == b.size()) return;
+  d.step = h;
+  for (auto& entry : d.matrix) entry.assign(b.size(), 0.0);
+  for (auto& stress : d.stress) stress.resize(b.size(), 0.0);
+  parallel_for(b.size(), [&](std::size_t i) {
+    if (b.fixed[i] != 0 || !(b.viscosity[i] > 0.0)) return;
+    const std::array<double, 6> w = response(b, i, h);
+    for (std::size_t e = 0; e < 6; ++e) d.matrix[e][i] = w[e];
+  });
+}
+
+void damp_strain_and_move(StrainDamping& d, const BlockSet& b, State& s, double h_new,
+                          std::size_t begin, std::size_t end) {
+  if (b.mass_kind != MassKind::consistent) {
+    const BlocksView view{values_of(b.grad_x),
+                          values_of(b.grad_y),
+                          values_of(b.node_mass),
+                          {d.matrix[0].data(), d.matrix[1].data(), d.matrix[2].data(),
+                           d.matrix[3].data(), d.matrix[4].data(), d.matrix[5].data()},
+                          {d.stress[0].data(), d.stress[1].data(), d.stress[2].data()},
+                          values_of(s.x),
+                          values_of(s.y),
+                          values_of(s.vx),
+                          values_of(s.vy)};
+    damp_and_move_all(view, d.step, h_new, begin, end);
+    return;
+  }
+  for (std::size_t i = begin; i < end; ++i) {
+    if (is_free(b, s, i)) {
+      const StrainFrame frame = strain_frame(deformation(b, s.x, s.y, i));
+      const std::array<Vec2, 3> v = damped(d, b, frame, i,
+                                           {Vec2{s.vx[0][i], s.vy[0][i]}, Vec2{s.vx[1][i], s.vy[1][i]},
+                                            Vec2{s.vx[2][i], s.vy[2][i]}},
+                                           false);
+      for (std::size_t k = 0; k < 3; ++k) {
+        s.vx[k][i] = v[k].x;
+        s.vy[k][i] = v[k].y;
+      }
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      s.x[k][i] += h_new * s.vx[k][i];
+      s.y[k][i] += h_new * s.vy[k][i];
+    }
+  }
+}
+
+std::array<Vec2, 3> damped_change(StrainDamping& d, const BlockSet& b, const State& s, double h_new,
+                                  std::size_t i, const std::array<Vec2, 3>& change) {
+  return damped(d, b, strain_frame(frame_of_step(b, s, h_new, i)), i, change, true);
+}
+
+double strain_dissipation(const StrainDamping& d, const BlockSet& b, const State& s,
+                          const Nodes& old_vx, const Nodes& old_vy, double h_old, double h_new,
+                          std::size_t i) {
+  const StrainFrame frame = strain_frame(frame_of_step(b, s, h_new, i));
+  const StrainTerms before = strain_rate(frame, deformation(b, old_vx, old_vy, i)),
+                    after = strain_rate(frame, deformation(b, s.vx, s.vy, i));
+  return 0.5 * (d.stress[0][i] * (h_old * before.xx + h_new * after.xx) +
+                d.stress[1][i] * (h_old * before.yy + h_new * after.yy) +
+                d.stress[2][i] * (h_old * before.xy + h_new * after.xy));
+}
+
+}  // namespace edda
