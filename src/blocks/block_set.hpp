@@ -36,9 +36,9 @@ struct BlockSet {
       edge_inverse;  ///< [nv] w_v^T M^-1 w_v and w_v^T M^-1 w_next, 1/kg (blocks/point_mass.hpp)
   std::vector<double> volume;                ///< [nb] area times thickness, m3
   std::vector<double> lame_lambda, lame_mu;  ///< [nb] Pa, for the model's plane
-  std::vector<double> viscosity;  ///< [nb] eta: viscous stress over elastic stress rate, s; empty
-                                  ///< where none has any. Filled by fill_viscosity()
-  std::vector<std::uint8_t> fixed;           ///< [nb] 1: all nodes held
+  std::vector<double> viscosity;    ///< [nb] eta: viscous stress over elastic stress rate, s; empty
+                                    ///< where none has any. Filled by fill_viscosity()
+  std::vector<std::uint8_t> fixed;  ///< [nb] 1: all nodes held
 
   std::vector<double> initial_xx, initial_yy,
       initial_xy;  ///< [nb] stress at the start, Pa; all empty without an [initial_stress]
@@ -58,10 +58,10 @@ struct BlockSet {
       node_y;  ///< [3][nb] the cover's nodes X_k at the start, m
   std::array<std::vector<double>, 6>
       inverse_mass;  ///< [6][nb] xx order 11 12 13 22 23 33, 1/kg; `consistent` only
-  std::vector<double> vertex_x, vertex_y;      ///< [nv] vertices at the start, m
-  std::vector<double> area;                    ///< [nb] m2
-  std::vector<double> initial_zz;              ///< [nb] out of plane, Pa; as initial_xx
-  std::vector<double> mass;                    ///< [nb] kg
+  std::vector<double> vertex_x, vertex_y;  ///< [nv] vertices at the start, m
+  std::vector<double> area;                ///< [nb] m2
+  std::vector<double> initial_zz;          ///< [nb] out of plane, Pa; as initial_xx
+  std::vector<double> mass;                ///< [nb] kg
   std::vector<double> damping;  ///< [nb] of the block's softest own mode, a fraction of critical
   std::vector<double> centroid_x, centroid_y;  ///< [nb] at the start, m
   std::vector<double> smallest_edge;           ///< [nb] m

@@ -88,8 +88,8 @@ void reserve(BlockSet& b, const std::vector<BlockPolygon>& polygons) {
   for (auto* nodes : {&b.grad_x, &b.grad_y, &b.node_x, &b.node_y, &b.node_mass}) {
     for (auto& values : *nodes) values.reserve(nb);
   }
-  for (auto* values : {&b.volume, &b.lame_lambda, &b.lame_mu, &b.area, &b.mass, &b.damping, &b.centroid_x,
-                       &b.centroid_y, &b.smallest_edge, &b.radius, &b.inradius}) {
+  for (auto* values : {&b.volume, &b.lame_lambda, &b.lame_mu, &b.area, &b.mass, &b.damping,
+                       &b.centroid_x, &b.centroid_y, &b.smallest_edge, &b.radius, &b.inradius}) {
     values->reserve(nb);
   }
   b.fixed.reserve(nb);

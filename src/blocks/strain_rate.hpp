@@ -1,6 +1,7 @@
 // The rate of a block's corotated strain, and the forces that do work on it alone.
 //
-// Notation: F = R U (kinematics.hpp), L = sum v_k G_k^T the rate of F, A = R^T L. As U stays symmetric,
+// Notation: F = R U (kinematics.hpp), L = sum v_k G_k^T the rate of F, A = R^T L. As U stays
+// symmetric,
 //   dU/dt = A - w J U,  w = (A21 - A12)/(U11 + U22), J the turn by a right angle,
 // so that dU/dt is 0, to the last digit, in any rigid motion of the strained block.
 #pragma once
@@ -9,36 +10,55 @@
 
 namespace edda {
 
-/// U11, U22 and 2 U12, or their rates; of stresses 11, 22 and 12, so that the products add up to work.
+/// U11, U22 and 2 U12, or their rates; of stresses 11, 22 and 12, so that the products add up to
+/// work.
 struct StrainTerms {
   double xx, yy, xy;
 };
 
-/// What of a block's deformation decides its rate of strain.
+/// F = R U of a block, R = [c -s; s c].
 struct StrainFrame {
-  double c, s;         ///< R = [c -s; s c]
-  double shear, skew;  ///< U12 and U22 - U11, both over U11 + U22
+  double c, s, u11, u22, u12, trace;
 };
 
 EDDA_INLINE StrainFrame strain_frame(const Deformation& f) {
   const Rotation r = rotation(f);
-  const double u11 = r.c * f.xx + r.s * f.yx, u22 = r.c * f.yy - r.s * f.xy,
-               u12 = r.c * f.xy + r.s * f.yy;
-  return {r.c, r.s, u12 / r.strength, (u22 - u11) / r.strength};
+  return {r.c,       r.s, r.c * f.xx + r.s * f.yx, r.c * f.yy - r.s * f.xy, r.c * f.xy + r.s * f.yy,
+          r.strength};
+}
+
+/// A = R^T L.
+EDDA_INLINE Deformation turned_back(const StrainFrame& q, const Deformation& l) {
+  return {q.c * l.xx + q.s * l.yx, q.c * l.xy + q.s * l.yy, q.c * l.yx - q.s * l.xx,
+          q.c * l.yy - q.s * l.xy};
 }
 
 /// dU/dt for the rate L of F.
 EDDA_INLINE StrainTerms strain_rate(const StrainFrame& q, const Deformation& l) {
-  const double a11 = q.c * l.xx + q.s * l.yx, a12 = q.c * l.xy + q.s * l.yy,
-               a21 = q.c * l.yx - q.s * l.xx, a22 = q.c * l.yy - q.s * l.xy;
-  const double spin = a21 - a12;
-  return {a11 + spin * q.shear, a22 - spin * q.shear, a12 + a21 + spin * q.skew};
+  const Deformation a = turned_back(q, l);
+  const double spin = (a.yx - a.xy) / q.trace;
+  return {a.xx + spin * q.u12, a.yy - spin * q.u12, a.xy + a.yx + spin * (q.u22 - q.u11)};
+}
+
+/// What U gains in a step h in which F gains h L, over h: 0 for a block that turns as a whole, of
+/// which L is the chord. With the step's own turn, tan(theta) = h (A21 - A12)/(tr U + h tr A), it
+/// is (R_theta^T (U + h A) - U)/h, written so that nothing cancels.
+EDDA_INLINE StrainTerms strain_rate_over(const StrainFrame& q, const Deformation& l, double h) {
+  const Deformation a = turned_back(q, l);
+  const double turn = a.yx - a.xy, along = q.trace + h * (a.xx + a.yy);
+  const double r = std::sqrt(along * along + h * h * turn * turn);
+  const double cosine = along / r, spin = turn / r;         // sin(theta) = h spin
+  const double shrink = -h * spin * spin / (1.0 + cosine);  // (cos(theta) - 1)/h
+  return {
+      cosine * a.xx + shrink * q.u11 + spin * (q.u12 + h * a.yx),
+      cosine * a.yy + shrink * q.u22 - spin * (q.u12 + h * a.xy),
+      cosine * (a.xy + a.yx) + 2.0 * shrink * q.u12 + spin * (q.u22 - q.u11 + h * (a.yy - a.xx))};
 }
 
 /// P of node forces -V P G_k whose power is -V s : dU/dt in every motion. Where s and U have other
 /// principal axes it is not R s: that would make a torque.
 EDDA_INLINE Deformation stress_on_rate(const StrainFrame& q, const StrainTerms& s) {
-  const double turn = (s.xx - s.yy) * q.shear + s.xy * q.skew;
+  const double turn = ((s.xx - s.yy) * q.u12 + s.xy * (q.u22 - q.u11)) / q.trace;
   const double s12 = s.xy - turn, s21 = s.xy + turn;
   return {q.c * s.xx - q.s * s21, q.c * s12 - q.s * s.yy, q.s * s.xx + q.c * s21,
           q.s * s12 + q.c * s.yy};

@@ -1,5 +1,7 @@
 #include "forces/block_matrices.hpp"
 
+#include "blocks/strain_rate.hpp"
+
 namespace edda {
 
 Vector6 along(const std::array<double, 3>& w, Vec2 direction) {
@@ -37,6 +39,21 @@ Matrix6 elastic_matrix(const BlockSet& b, std::size_t i) {
 Matrix6 viscous_matrix(const BlockSet& b, std::size_t i) {
   if (b.viscosity.empty()) return Matrix6::Zero();
   return b.viscosity[i] * elastic_matrix(b, i);
+}
+
+Matrix6 viscous_matrix(const BlockSet& b, std::size_t i, const Deformation& f) {
+  if (b.viscosity.empty()) return Matrix6::Zero();
+  const StrainFrame frame = strain_frame(f);
+  Eigen::Matrix<double, 3, 6> rates;
+  for (int k = 0; k < 3; ++k) {
+    const auto u = static_cast<std::size_t>(k);
+    const double gx = b.grad_x[u][i], gy = b.grad_y[u][i];
+    const StrainTerms along_x = strain_rate(frame, {gx, gy, 0.0, 0.0}),
+                      along_y = strain_rate(frame, {0.0, 0.0, gx, gy});
+    rates.col(2 * k) << along_x.xx, along_x.yy, along_x.xy;
+    rates.col(2 * k + 1) << along_y.xx, along_y.yy, along_y.xy;
+  }
+  return b.viscosity[i] * b.volume[i] * rates.transpose() * stiffness_of_rock(b, i) * rates;
 }
 
 Matrix6 mass_matrix(const BlockSet& b, std::size_t i) {

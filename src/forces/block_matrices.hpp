@@ -35,8 +35,10 @@ Eigen::Matrix3d stiffness_of_rock(const BlockSet& blocks, std::size_t i);
 /// Elastic stiffness of the undeformed block, V B^T C B, in its own frame, N/m.
 Matrix6 elastic_matrix(const BlockSet& blocks, std::size_t i);
 
-/// D = eta V B^T C B of the block's viscosity, in its own frame, N s/m.
+/// D = eta V B^T C B of the block's viscosity, undeformed and in its own frame, N s/m.
 Matrix6 viscous_matrix(const BlockSet& blocks, std::size_t i);
+/// The same at the deformation f, dU/dt = B v (blocks/strain_rate.hpp).
+Matrix6 viscous_matrix(const BlockSet& blocks, std::size_t i, const Deformation& f);
 
 /// Mass (Eq. 23; lumped but for `consistent`), kg. The same in every frame.
 Matrix6 mass_matrix(const BlockSet& blocks, std::size_t i);

@@ -66,7 +66,7 @@ void add_dashpots(NodalForces& forces, std::vector<Vec2>& on_point, const Dashpo
       push += along(d.points[p].weight, times(d.points[p], step.reference[p]) + push_of(step, p));
     }
     const Vector6 right = (1.0 - step.drag) * (mass * before) + step.h * (push - 0.5 * c * before);
-    const Matrix6 strain = turned(viscous_matrix(b, i), rotation(deformation(b, state.x, state.y, i)));
+    const Matrix6 strain = viscous_matrix(b, i, deformation(b, state.x, state.y, i));
     const Matrix6 left = (1.0 + step.drag) * mass + (0.5 * step.h) * c + step.h * strain;
     const Vector6 mean = 0.5 * (before + Eigen::LLT<Matrix6>(left).solve(right));
     for (Id p = d.begin[q]; p < d.begin[q + 1]; ++p) {

@@ -21,8 +21,9 @@ struct DashpotStep {
 /// [begin, end) to their nodal forces, with the v_{n+1/2} that these then lead to: per block six
 /// equations
 /// ((1 + a h/2) M + h C/2 + h D) v+ = ((1 - a h/2) M - h C/2) v- + h (f + C r), D of the block's
-/// viscosity, whose force is left to advance(). So they take energy out at every step, whatever its length, and the critical step is what it is without them. vx, vy:
-/// v_{n-1/2}. on_point: [points] N, filled.
+/// viscosity, whose force is left to advance(). So they take energy out at every step, whatever its
+/// length, and the critical step is what it is without them. vx, vy: v_{n-1/2}. on_point: [points]
+/// N, filled.
 void add_dashpots(NodalForces& forces, std::vector<Vec2>& on_point, const Dashpots& dashpots,
                   const BlockSet& blocks, const State& state, const Nodes& vx, const Nodes& vy,
                   const DashpotStep& step, std::size_t begin, std::size_t end);

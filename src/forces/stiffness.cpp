@@ -44,11 +44,11 @@ struct Scene {
 /// its own frame.
 struct BlockEquations {
   Matrix6 mass;
-  Matrix6 viscous;  ///< D, taken with the new velocity
+  Matrix6 viscous;                     ///< D, taken with the new velocity
   Matrix6 dashpots = Matrix6::Zero();  ///< C of contacts, taken with the old one
   Matrix6 elastic, boundary, bolts;    ///< parts of K
   Matrix6 contacts = Matrix6::Zero();
-  std::vector<Part> parts;             ///< of that of contacts
+  std::vector<Part> parts;  ///< of that of contacts
 
   Matrix6 stiffness() const { return elastic + boundary + bolts + contacts; }
   void add(const Part& p) {
@@ -224,8 +224,8 @@ Smallest smallest_step(const Scene& w, const std::vector<double>& estimates,
 void explain(StepBound& bound, const Scene& w, std::size_t i) {
   const BlockEquations k = equations_of(w, i, false);
   const double h = bound.critical_step;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(
-      k.stiffness(), k.mass + (0.5 * h) * k.viscous);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(k.stiffness(),
+                                                                 k.mass + (0.5 * h) * k.viscous);
   const Vector6 mode = solver.eigenvectors().col(5);
   const double total = mode.dot(k.stiffness() * mode);
   bound.elastic_part = mode.dot(k.elastic * mode) / total;

@@ -26,7 +26,8 @@ double lowest_frequency(const BlockSet& b, std::size_t i) {
 }
 
 void fill_viscosity(BlockSet& b, const Damping& damping) {
-  const bool elastic = std::all_of(b.damping.begin(), b.damping.end(), [](double zeta) { return zeta == 0.0; });
+  const bool elastic =
+      std::all_of(b.damping.begin(), b.damping.end(), [](double zeta) { return zeta == 0.0; });
   b.viscosity.clear();
   if (damping.rayleigh ? damping.rayleigh->fraction == 0.0 : elastic) return;
   b.viscosity.assign(b.size(), 0.0);

@@ -6,6 +6,7 @@
 #include "base/parallel.hpp"
 #include "contacts/gap.hpp"
 #include "forces/contact_forces.hpp"
+#include "forces/elastic.hpp"
 
 namespace edda {
 namespace {
@@ -57,6 +58,8 @@ bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitS
   const Rotation r = rotation(deformation(b, state.x, state.y, i));
   const Rotation none{1.0, 0.0, 2.0};
   Matrix6 own = turned(s.elastic[i], r);
+  if (settings.dynamic)
+    own += (2.0 / h) * viscous_matrix(b, i, deformation(b, state.x, state.y, i));
   if (scene.springs.block_begin[i] != scene.springs.block_begin[i + 1]) {
     own += boundary_matrix(b, scene.springs, none, i);
   }
@@ -142,6 +145,29 @@ void lay_out(ImplicitSolver& s, const ImplicitScene& scene,
   });
 }
 
+Vector6 viscous_force(const ImplicitSolver& s, const BlockSet& b, const ImplicitSettings& settings,
+                      const State& state, std::size_t row) {
+  const Id i = s.block_of[row];
+  Vector6 force = Vector6::Zero();
+  if (!settings.dynamic || b.viscosity.empty()) return force;
+  const Vector6 step = s.moved.segment<6>(static_cast<Eigen::Index>(6 * row));
+  const Vector6 velocity = 2.0 / settings.step * step - nodal(state.vx, state.vy, i);
+  Deformation rate{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto at = static_cast<Eigen::Index>(2 * k);
+    rate.xx += velocity[at] * b.grad_x[k][i];
+    rate.xy += velocity[at] * b.grad_y[k][i];
+    rate.yx += velocity[at + 1] * b.grad_x[k][i];
+    rate.yy += velocity[at + 1] * b.grad_y[k][i];
+  }
+  const PiolaStress p = viscous_stress_in(b, i, deformation(b, state.x, state.y, i), rate);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec2 f = elastic_force(p, b.volume[i], b.grad_x[k][i], b.grad_y[k][i]);
+    force.segment<2>(static_cast<Eigen::Index>(2 * k)) << f.x, f.y;
+  }
+  return force;
+}
+
 bool assemble(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings& settings,
               const State& state, const ContactSet& c) {
   std::vector<std::uint8_t> known(s.block_of.size());
@@ -166,7 +192,7 @@ double measure_residual(ImplicitSolver& s, const ImplicitScene& scene,
         (2.0 / (h * h) + 2.0 * a / h) * s.moved.segment<6>(static_cast<Eigen::Index>(6 * row));
     if (settings.dynamic) moved -= (2.0 / h + a) * nodal(state.vx, state.vy, i);
     const Vector6 force = nodal(forces.x, forces.y, i), inertia = s.mass[i] * moved;
-    const Vector6 left = force - inertia;
+    const Vector6 left = force + viscous_force(s, b, settings, state, row) - inertia;
     s.residual.segment<6>(static_cast<Eigen::Index>(6 * row)) = left;
     double carried = b.mass[i] * gravity + force.norm() + inertia.norm();
     c.for_contacts(b, i, [&](Id k, bool) {

@@ -131,7 +131,7 @@ bool solve(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings
 
 /// Work that the step dissipated in block i other than at its contacts: by the implicit scheme in
 /// its strain and its boundary springs (-f(x_{n+1}).D less the change of the stored energy), by
-/// mass damping, and, without dynamics, all of its motion.
+/// mass damping and viscosity, and, without dynamics, all of its motion.
 double dissipated(const ImplicitSolver& s, const ImplicitScene& scene,
                   const ImplicitSettings& settings, const State& state, const Pose& pose, Id row) {
   const Id i = s.block_of[row];
@@ -146,6 +146,7 @@ double dissipated(const ImplicitSolver& s, const ImplicitScene& scene,
     const Vec2 d{step[at], step[at + 1]};
     sum -= dot(elastic_force(p, b.volume[i], b.grad_x[k][i], b.grad_y[k][i]), d);
   }
+  sum -= viscous_force(s, b, settings, state, row).dot(step);
   const BoundarySprings& springs = scene.springs;
   for (Id q = springs.block_begin[i]; q < springs.block_begin[i + 1]; ++q) {
     const Id v = springs.vertex[q];

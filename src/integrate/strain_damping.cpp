@@ -52,14 +52,14 @@ EDDA_INLINE StrainTerms times(const Matrix& w, std::size_t i, const StrainTerms&
           w[2][i] * d.xx + w[4][i] * d.yy + w[5][i] * d.xy};
 }
 
-Deformation frame_of_step(const BlockSet& b, const State& s, double h_new, std::size_t i) {
+/// F at step n, once x_{n+1} = x_n + h_new v_{n+1/2} is there.
+Deformation deformation_before(const BlockSet& b, const State& s, double h_new, std::size_t i) {
   const Deformation f = deformation(b, s.x, s.y, i), l = deformation(b, s.vx, s.vy, i);
   return {f.xx - h_new * l.xx, f.xy - h_new * l.xy, f.yx - h_new * l.yx, f.yy - h_new * l.yy};
 }
 
-/// Velocities v of block i that forces without viscosity would have given it (or changed by).
-std::array<Vec2, 3> damped(StrainDamping& damping, const BlockSet& b, const StrainFrame& frame,
-                           std::size_t i, std::array<Vec2, 3> v, bool adds) {
+/// Rate of F that the velocities v of the nodes make.
+Deformation rate_of(const BlockSet& b, std::size_t i, const std::array<Vec2, 3>& v) {
   Deformation l{};
   for (std::size_t k = 0; k < 3; ++k) {
     const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
@@ -68,7 +68,12 @@ std::array<Vec2, 3> damped(StrainDamping& damping, const BlockSet& b, const Stra
     l.yx += v[k].y * gx;
     l.yy += v[k].y * gy;
   }
-  const StrainTerms s = times(damping.matrix, i, strain_rate(frame, l));
+  return l;
+}
+
+/// v less h M^-1 B^T s.
+std::array<Vec2, 3> slowed(const BlockSet& b, std::size_t i, const StrainFrame& frame, double h,
+                           const StrainTerms& s, std::array<Vec2, 3> v) {
   const Deformation p = stress_on_rate(frame, s);
   std::array<Vec2, 3> f;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -76,11 +81,7 @@ std::array<Vec2, 3> damped(StrainDamping& damping, const BlockSet& b, const Stra
     f[k] = {p.xx * gx + p.xy * gy, p.yx * gx + p.yy * gy};
   }
   const std::array<Vec2, 3> a = accelerations(b, i, f);
-  for (std::size_t k = 0; k < 3; ++k) v[k] -= damping.step * a[k];
-  auto& stress = damping.stress;
-  stress[0][i] = s.xx + (adds ? stress[0][i] : 0.0);
-  stress[1][i] = s.yy + (adds ? stress[1][i] : 0.0);
-  stress[2][i] = s.xy + (adds ? stress[2][i] : 0.0);
+  for (std::size_t k = 0; k < 3; ++k) v[k] -= h * a[k];
   return v;
 }
 
@@ -94,7 +95,8 @@ struct BlocksView {
 
 EDDA_INLINE void damp_and_move(const BlocksView& b, double h, double h_new, std::size_t i) {
   const StrainFrame frame = strain_frame(deformation(b, b.x, b.y, i));
-  const StrainTerms s = times(b.w, i, strain_rate(frame, deformation(b, b.vx, b.vy, i)));
+  const StrainTerms s =
+      times(b.w, i, strain_rate_over(frame, deformation(b, b.vx, b.vy, i), h_new));
   const Deformation p = stress_on_rate(frame, s);
   b.stress[0][i] = s.xx;
   b.stress[1][i] = s.yy;
@@ -153,10 +155,14 @@ void damp_strain_and_move(StrainDamping& d, const BlockSet& b, State& s, double 
   for (std::size_t i = begin; i < end; ++i) {
     if (is_free(b, s, i)) {
       const StrainFrame frame = strain_frame(deformation(b, s.x, s.y, i));
-      const std::array<Vec2, 3> v = damped(d, b, frame, i,
-                                           {Vec2{s.vx[0][i], s.vy[0][i]}, Vec2{s.vx[1][i], s.vy[1][i]},
-                                            Vec2{s.vx[2][i], s.vy[2][i]}},
-                                           false);
+      const StrainTerms stress =
+          times(d.matrix, i, strain_rate_over(frame, deformation(b, s.vx, s.vy, i), h_new));
+      d.stress[0][i] = stress.xx;
+      d.stress[1][i] = stress.yy;
+      d.stress[2][i] = stress.xy;
+      std::array<Vec2, 3> v;
+      for (std::size_t k = 0; k < 3; ++k) v[k] = {s.vx[k][i], s.vy[k][i]};
+      v = slowed(b, i, frame, d.step, stress, v);
       for (std::size_t k = 0; k < 3; ++k) {
         s.vx[k][i] = v[k].x;
         s.vy[k][i] = v[k].y;
@@ -171,13 +177,18 @@ void damp_strain_and_move(StrainDamping& d, const BlockSet& b, State& s, double 
 
 std::array<Vec2, 3> damped_change(StrainDamping& d, const BlockSet& b, const State& s, double h_new,
                                   std::size_t i, const std::array<Vec2, 3>& change) {
-  return damped(d, b, strain_frame(frame_of_step(b, s, h_new, i)), i, change, true);
+  const StrainFrame frame = strain_frame(deformation_before(b, s, h_new, i));
+  const StrainTerms stress = times(d.matrix, i, strain_rate(frame, rate_of(b, i, change)));
+  d.stress[0][i] += stress.xx;
+  d.stress[1][i] += stress.yy;
+  d.stress[2][i] += stress.xy;
+  return slowed(b, i, frame, d.step, stress, change);
 }
 
 double strain_dissipation(const StrainDamping& d, const BlockSet& b, const State& s,
                           const Nodes& old_vx, const Nodes& old_vy, double h_old, double h_new,
                           std::size_t i) {
-  const StrainFrame frame = strain_frame(frame_of_step(b, s, h_new, i));
+  const StrainFrame frame = strain_frame(deformation_before(b, s, h_new, i));
   const StrainTerms before = strain_rate(frame, deformation(b, old_vx, old_vy, i)),
                     after = strain_rate(frame, deformation(b, s.vx, s.vy, i));
   return 0.5 * (d.stress[0][i] * (h_old * before.xx + h_new * after.xx) +

@@ -2,7 +2,8 @@
 //
 // sigma_v = eta C : dU/dt (blocks/strain_rate.hpp), with the velocity that the step leads to:
 //   (M/h + D) v_{n+1/2} = M v_{n-1/2}/h + f_n,   D = eta V B^T C B,   dU/dt = B v.
-// With v* = v_{n-1/2} + h M^-1 f_n that is, in the three rates of strain alone,
+// The rate is what the step changes U by (strain_rate_over), so that a block that turns feels
+// nothing. With v* = v_{n-1/2} + h M^-1 f_n that is, in the three rates of strain alone,
 //   s = W B v*,   W = (C^-1/(eta V) + h B M^-1 B^T)^-1,   v_{n+1/2} = v* - h M^-1 B^T s.
 // W is taken for the undeformed block, a difference in the order of the strain that leaves the
 // forces dissipative and without moment. Rigid motion feels nothing; the critical step is not

@@ -246,9 +246,9 @@ struct Rayleigh {
 };
 
 struct Damping {
-  double mass = 0.0;     ///< 1/s
-  double local = 0.0;    ///< fraction of the unbalanced force (Cundall)
-  double contact = 0.0;  ///< fraction of critical
+  double mass = 0.0;                   ///< 1/s
+  double local = 0.0;                  ///< fraction of the unbalanced force (Cundall)
+  double contact = 0.0;                ///< fraction of critical
   std::optional<Rayleigh> rayleigh{};  ///< in place of the materials' damping
   /// In proportion to mass, Rayleigh's part with it, 1/s.
   double drag() const { return mass + (rayleigh ? rayleigh->mass() : 0.0); }

@@ -156,8 +156,7 @@ void observe(const Simulation& sim, Instant& at) {
   const Vec2 ground = sim.ground_velocity();
   const Simulation::DashpotHold hold = sim.dashpot_hold(ground, sim.next_free_field(ground, h, h));
   add_dashpots(at.forces, at.on_dashpots, sim.dashpots, sim.blocks, sim.state, sim.state.vx,
-               sim.state.vy, {h, drag, hold.reference, hold.push}, 0,
-               sim.blocks.size());
+               sim.state.vy, {h, drag, hold.reference, hold.push}, 0, sim.blocks.size());
   at.state = sim.state;
   advance(at.state, sim.blocks, at.forces.x, at.forces.y, h, h,
           {damping.drag(), damping.local, &sim.dashpots.damped,

@@ -343,8 +343,8 @@ std::optional<Failure> Simulation::step() {
     step_change_energy += energy_of_step_change(blocks, state, old_vx_, old_vy_, h_old, h);
     ++steps.changes;
   }
-  book_damping(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h,
-               step_damping(), damping_work);
+  book_damping(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h, step_damping(),
+               damping_work);
   if (damping.contact > 0.0) book_dashpots(contacts);
   book_loads(h_old, h, at_work);
   book_boundaries(h_old, h);

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "blocks/point_mass.hpp"
-#include "forces/viscosity.hpp"
 #include "checkpoint/archive.hpp"
 #include "contacts/candidates.hpp"
 #include "contacts/shares.hpp"
 #include "contacts/strength.hpp"
+#include "forces/viscosity.hpp"
 #include "run/attachment_memory.hpp"
 #include "run/implicit_memory.hpp"
 

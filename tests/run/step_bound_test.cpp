@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <random>
 
 #include "contacts/gaps.hpp"
@@ -12,10 +13,12 @@
 namespace edda::step_bound_test {
 namespace {
 
-Simulation glued(const std::string& geometry) {
+/// Bonds that never open or slide, rock without damping unless `damping` says so.
+Simulation glued(const std::string& geometry, double damping = 0.0) {
   Result<Model> model = read_model_text(
       "gravity = [0, 0]\n[materials.rock]\ndensity = 2600\nyoung = 20e9\npoisson = 0.2\n"
-      "[joints.j]\ntype = 'glued'\n[solver]\nduration = 1\n" +
+      "damping = " +
+          std::to_string(damping) + "\n[joints.j]\ntype = 'glued'\n[solver]\nduration = 1\n" +
           geometry,
       "t.toml", {});
   if (!model.ok()) ADD_FAILURE() << to_string(model.faults()[0]);
@@ -83,8 +86,8 @@ double true_critical_step(Simulation& s) {
   return 2.0 / std::sqrt(lambda);
 }
 
-TEST(StepBound, SafeAndSharp) {
-  const std::vector<std::string> scenes = {
+const std::vector<std::string>& scenes() {
+  static const std::vector<std::string> all = {
       // Two joint sets through a rectangle, boundary springs at the base.
       "[domain]\noutline = [[0,0],[6,0],[6,4],[0,4]]\n[[joint_set]]\nname = 'a'\nangle = 65\n"
       "spacing = 1.3\n[[joint_set]]\nname = 'b'\nangle = -15\nspacing = 0.9\n"
@@ -97,7 +100,11 @@ TEST(StepBound, SafeAndSharp) {
       "[[block]]\npolygon = [[0,0.5],[1,0.5],[1,1.5],[0,1.5]]\n"
       "[[block]]\npolygon = [[0,1.5],[1,1.5],[1,4],[0,4]]\n",
   };
-  for (const std::string& geometry : scenes) {
+  return all;
+}
+
+TEST(StepBound, SafeAndSharp) {
+  for (const std::string& geometry : scenes()) {
     for (const char* stiffness : {"2e9", "2e11"}) {
       Simulation s = glued(geometry + "[contact]\nnormal_stiffness = " + stiffness + "\n");
       const double exact = true_critical_step(s);
@@ -105,6 +112,58 @@ TEST(StepBound, SafeAndSharp) {
       EXPECT_LE(s.bound.critical_step, exact * (1.0 + 1e-4));
       EXPECT_GE(s.bound.critical_step, 0.7 * exact);
       EXPECT_LE(s.bound.likely_step, s.bound.critical_step);
+    }
+  }
+}
+
+/// Whether a small disturbance of all nodes grows at this step.
+bool grows(const std::string& model, double damping, double step) {
+  char given[80];
+  std::snprintf(given, sizeof given, "time_step = %.17g\nallow_unstable = true\n", step);
+  Simulation s = glued(given + model, damping);
+  std::mt19937 rng(7);
+  std::uniform_real_distribution<double> u(-1e-9, 1e-9);
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < s.blocks.size(); ++i) {
+      if (s.blocks.fixed[i]) continue;
+      s.state.vx[k][i] = u(rng);
+      s.state.vy[k][i] = u(rng);
+    }
+  }
+  constexpr int steps = 4000;
+  s.start(steps * step);
+  for (int n = 0; n < steps; ++n) {
+    if (s.step()) return true;
+    for (std::size_t i = 0; i < s.blocks.size(); ++i) {
+      if (!(std::abs(s.state.vx[0][i]) < 1e-4)) return true;
+    }
+  }
+  return false;
+}
+
+/// With viscous blocks and dashpots at contacts: the step at which a disturbance begins to grow.
+TEST(StepBound, SafeAndSharpWithDamping) {
+  struct Case {
+    double strain, contact;
+    const char* stiffness;
+  };
+  for (const std::string& geometry : scenes()) {
+    for (const Case& q : {Case{0.5, 0.0, "normal_stiffness = 2e11"},
+                          {0.5, 0.3, "normal_stiffness = 2e11"},
+                          {0.0, 0.3, "normal_stiffness = 2e11"},
+                          {0.0, 0.5, "normal_stiffness = 2e8"},
+                          {0.5, 0.3, "normal_stiffness = 2e8"}}) {
+      const std::string model = "damping = { contact = " + std::to_string(q.contact) + " }\n" +
+                                geometry + "[contact]\n" + q.stiffness + "\n";
+      const double bound = glued(model, q.strain).bound.critical_step;
+      double stable = bound, unstable = 2.0 * bound;
+      EXPECT_FALSE(grows(model, q.strain, 0.9999 * bound)) << q.stiffness << ' ' << q.contact;
+      ASSERT_TRUE(grows(model, q.strain, unstable)) << q.stiffness << ' ' << q.contact;
+      for (int round = 0; round < 7; ++round) {
+        const double middle = 0.5 * (stable + unstable);
+        (grows(model, q.strain, middle) ? unstable : stable) = middle;
+      }
+      EXPECT_GT(bound / unstable, 0.7) << q.stiffness << ' ' << q.strain << ' ' << q.contact;
     }
   }
 }

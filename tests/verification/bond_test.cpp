@@ -253,14 +253,14 @@ TEST(JointStiffness, GoesOnOverASeam) {
 /// has it, and no energy out of nothing.
 TEST(SoftBond, KeepsItsEnergyWhenCornersSlidePastEachOther) {
   for (const double velocity : {0.2, -0.2}) {
-    Simulation sim =
-        scene("gravity = [0.0, 0.0]\n" + rock +
-              "[joints.j]\nfriction_angle = 0\ncohesion = 1e9\ntensile_strength = 1e9\nkn = "
-              "4e6\nks = 1e6\n"
-              "[solver]\nduration = 2.0\n[output]\nhistory_every = 0.05\n"
-              "[[block]]\nfixed = true\npolygon = [[0,-1],[1,-1],[1,0],[0,0]]\n"
-              "[[block]]\npolygon = [[0,0],[1,0],[1,1],[0,1]]\nvelocity = [" +
-              number(velocity) + ", 0.0]\n[[block]]\npolygon = [[0,1],[1,1],[1,2],[0,2]]\n");
+    Simulation sim = scene(
+        "gravity = [0.0, 0.0]\n" + rock +
+        "damping = 0\n[joints.j]\nfriction_angle = 0\ncohesion = 1e9\ntensile_strength = 1e9\nkn = "
+        "4e6\nks = 1e6\n"
+        "[solver]\nduration = 2.0\n[output]\nhistory_every = 0.05\n"
+        "[[block]]\nfixed = true\npolygon = [[0,-1],[1,-1],[1,0],[0,0]]\n"
+        "[[block]]\npolygon = [[0,0],[1,0],[1,1],[0,1]]\nvelocity = [" +
+        number(velocity) + ", 0.0]\n[[block]]\npolygon = [[0,1],[1,1],[1,2],[0,2]]\n");
     double drift = 0.0, furthest = 0.0;
     run(sim, [&](Simulation& now) {
       keep_largest(drift, now.ledger().drift);

@@ -62,7 +62,7 @@ TEST(Stack, AtRestWithoutDampingKeepsItsEnergy) {
 /// A step given by hand is kept below the critical one when blocks land.
 TEST(GivenStep, FollowsTheBoundWhenItFalls) {
   Simulation sim = scene(
-      "[materials.rock]\ndensity = 2600\nyoung = 1e8\npoisson = 0.2\n[joints.j]\n"
+      "[materials.rock]\ndensity = 2600\nyoung = 1e8\ndamping = 0\npoisson = 0.2\n[joints.j]\n"
       "friction_angle = 30\n[contact]\nnormal_stiffness = 2e10\n[solver]\n"
       "duration = 0.6\ntime_step = 2e-3\n[output]\nhistory_every = 0.01\n[[block]]\n"
       "fixed = true\npolygon = [[-3,-1],[4,-1],[4,0],[-3,0]]\n[[block]]\n"

@@ -14,7 +14,7 @@ constexpr double length = 2.0, height = 0.2, density = 2500.0, gravity = 10.0, s
 /// `pressure` on top, Pa. Springs as stiff as the rock and a little damping: no flutter.
 std::string thrown(const std::string& law, double pressure = 0.0, double duration = 0.15) {
   std::string text =
-      "gravity = [0, -10]\n[materials.rock]\ndensity = 2500\nyoung = 2e8\npoisson = "
+      "gravity = [0, -10]\n[materials.rock]\ndensity = 2500\nyoung = 2e8\ndamping = 0\npoisson = "
       "0\n[joints.j]\n" +
       law +
       "[contact]\nnormal_stiffness = 2e8\n[[block]]\nfixed = true\npolygon = [[-3, -1], [9, -1], "

@@ -155,7 +155,7 @@ TEST(FreeBlock, NaturalFrequencies) {
       {"shear", 12 * mu * (a * a + b * b) / (density * a * a * b * b), {0.0, 0.0, 1.0}});
   for (const Mode& mode : modes) {
     Simulation sim = scene(
-        "gravity = [0, 0]\n[materials.rock]\ndensity = 2500.0\nyoung = 1e9\n"
+        "gravity = [0, 0]\n[materials.rock]\ndensity = 2500.0\nyoung = 1e9\ndamping = 0\n"
         "poisson = 0.25\n[solver]\nduration = 0.05\nsafety = 0.02\n[output]\n"
         "history_every = 0.01\n[[block]]\npolygon = [[0,0],[2,0],[2,1],[0,1]]\n");
     const double size = std::max({std::abs(mode.rate.xx), std::abs(mode.rate.yy), mode.rate.xy});
@@ -199,7 +199,7 @@ TEST(FreeBlock, NaturalFrequencies) {
 /// Six squares, each turned 0.1 rad more than the one below, fall on each other and on a held base.
 std::string falling_squares(double safety, const char* switching) {
   std::string toml =
-      "[materials.rock]\ndensity = 2600.0\nyoung = 200e9\npoisson = 0.2\n[joints.j]\n"
+      "[materials.rock]\ndensity = 2600.0\nyoung = 200e9\ndamping = 0\npoisson = 0.2\n[joints.j]\n"
       "friction_angle = 0.0\n[contact]\nnormal_stiffness = 2e9\n[solver]\nduration = 2.5\n"
       "switching = '" +
       std::string(switching) + "'\nsafety = " + number(safety) +

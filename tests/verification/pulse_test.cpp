@@ -14,7 +14,8 @@ constexpr double width = 10.0, middle = 40.5;  // of the hump, m
 /// Unit blocks end to end, without gravity, whose joints pull as well as push.
 std::string free_column(double spring) {
   std::string toml =
-      "plane = 'stress'\ngravity = [0, 0]\n[materials.rock]\ndensity = 2500.0\nyoung = 1e10\n"
+      "plane = 'stress'\ngravity = [0, 0]\n[materials.rock]\ndensity = 2500.0\nyoung = "
+      "1e10\ndamping = 0\n"
       "poisson = 0.0\n[joints.j]\nfriction_angle = 30\ncohesion = 1e9\ntensile_strength = "
       "1e9\n[contact]\n"
       "normal_stiffness = " +

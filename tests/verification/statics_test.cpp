@@ -28,7 +28,7 @@ TEST(Column, CriticalStep) {
   }
   for (const double p : {1e8, 1e9, 1e10, 1e11, 1e12}) {
     std::string toml =
-        "plane = 'stress'\n[materials.rock]\ndensity = 2500.0\nyoung = 1e10\n"
+        "plane = 'stress'\n[materials.rock]\ndensity = 2500.0\nyoung = 1e10\ndamping = 0\n"
         "poisson = 0.0\n[joints.j]\nfriction_angle = 30\n[contact]\n"
         "normal_stiffness = " +
         number(p) + "\n[solver]\nduration = 1.0\n";

@@ -62,8 +62,8 @@ TEST(ThinPlate, IsNotPassedWithSoftContactsEither) {
         for (Vec2 p : {Vec2{-0.1, 0}, Vec2{0.1, 0}, Vec2{0.02, 0.002}})
           ring.push_back(rotated(p, radians(tilt)) + Vec2{0.03, 0.2});
         const double duration = 0.6 / speed;
-        Simulation sim = scene("gravity = [0, 0]\n" + std::string(rock) + joint(20) +
-                               "[contact]\nnormal_stiffness = " + number(stiffness) +
+        Simulation sim = scene("gravity = [0, 0]\n" + std::string(rock) + "damping = 0\n" +
+                               joint(20) + "[contact]\nnormal_stiffness = " + number(stiffness) +
                                "\n[solver]\nduration = " + number(duration) + "\n" +
                                held(rectangle(-1, -0.005, 1, 0)) +
                                block_text(ring, "velocity = [0, " + number(-speed) + "]\n"));

@@ -32,7 +32,8 @@ Speeds in_bar(double spring) {
 /// held by rollers, at the sides for P, along every joint for S.
 std::string bar(bool shear, double spring, const std::string& more) {
   std::string toml =
-      "gravity = [0, 0]\n[materials.rock]\ndensity = 2500.0\nyoung = 1e10\npoisson = 0.2\n"
+      "gravity = [0, 0]\n[materials.rock]\ndensity = 2500.0\nyoung = 1e10\ndamping = 0\npoisson = "
+      "0.2\n"
       "[joints.j]\ntype = 'glued'\n[contact]\nnormal_stiffness = " +
       number(spring) + "\n";
   for (int i = 0; i < blocks; ++i) {
