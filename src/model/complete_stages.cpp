@@ -22,6 +22,7 @@ void complete_stage_damping(const Value* node, const Solver& solver, Stage& stag
                        solver.mass != MassKind::consistent;
   if (!given(own, "mass")) stage.damping.mass = solver.damping.mass;
   if (!given(own, "contact")) stage.damping.contact = solver.damping.contact;
+  if (!given(own, "adaptive")) stage.damping.adaptive = solver.damping.adaptive;
   if (!given(own, "rayleigh")) stage.damping.rayleigh = solver.damping.rayleigh;
   if (!given(own, "local")) stage.damping.local = settles ? at_rest : solver.damping.local;
 }

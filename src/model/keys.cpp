@@ -189,6 +189,7 @@ constexpr std::array damping_keys{
     Key{"mass", at<&Damping::mass>, number(D::rate, from(0)), initial, "Mass-proportional damping."},
     Key{"local", at<&Damping::local>, number(D::plain, from_below(0, 1)), initial, "Local damping (Cundall), a fraction of the unbalanced force."},
     Key{"contact", at<&Damping::contact>, number(D::plain, from(0)), initial, "Viscous damping at contacts, a fraction of critical."},
+    Key{"adaptive", at<&Damping::adaptive>, number(D::plain, from_to(0, 1)), initial, "Method edda: viscous damping in proportion to mass, a fraction of critical at the frequency with which the model moves at present (Rayleigh's quotient); it brings a model to rest, and falsifies what is to move."},
     Key{"rayleigh", at<&Damping::rayleigh>, table, otherwise("none: materials.X.damping"), "Damping in proportion to mass and to the stiffness of the blocks, least at one frequency (Rayleigh), in place of materials.X.damping."},
 };
 

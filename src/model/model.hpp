@@ -249,6 +249,8 @@ struct Damping {
   double mass = 0.0;                   ///< 1/s
   double local = 0.0;                  ///< fraction of the unbalanced force (Cundall)
   double contact = 0.0;                ///< fraction of critical
+  /// Fraction of critical, in proportion to mass, at the frequency with which all moves at present.
+  double adaptive = 0.0;
   std::optional<Rayleigh> rayleigh{};  ///< in place of the materials' damping
   /// In proportion to mass, Rayleigh's part with it, 1/s.
   double drag() const { return mass + (rayleigh ? rayleigh->mass() : 0.0); }

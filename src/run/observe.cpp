@@ -150,16 +150,16 @@ void observe(const Simulation& sim, Instant& at) {
   gather_forces(at.forces, sim.blocks, sim.state, sim.pose, at.contacts, sim.springs,
                 sim.model.gravity, acting);
   at.on_dashpots = sim.on_dashpots;
-  const double drag = 0.5 * damping.drag() * h;
+  const double drag = 0.5 * sim.drag() * h;
   StrainDamping strain;
-  if (!sim.blocks.viscosity.empty()) prepare(strain, sim.blocks, h / (1.0 + drag));
+  if (!sim.blocks.viscosity.empty()) prepare(strain, sim.blocks, h, drag);
   const Vec2 ground = sim.ground_velocity();
   const Simulation::DashpotHold hold = sim.dashpot_hold(ground, sim.next_free_field(ground, h, h));
   add_dashpots(at.forces, at.on_dashpots, sim.dashpots, sim.blocks, sim.state, sim.state.vx,
                sim.state.vy, {h, drag, hold.reference, hold.push}, 0, sim.blocks.size());
   at.state = sim.state;
   advance(at.state, sim.blocks, at.forces.x, at.forces.y, h, h,
-          {damping.drag(), damping.local, &sim.dashpots.damped,
+          {sim.drag(), damping.local, &sim.dashpots.damped,
            sim.blocks.viscosity.empty() ? nullptr : &strain});
   at.state.x = sim.state.x;
   at.state.y = sim.state.y;

@@ -44,6 +44,11 @@ double largest_displacement(const BlockSet& b, double ratio) {
   return std::min(ratio * 0.5 * (*high - *low), 0.1 * edge);
 }
 
+/// Mass of a node; of `consistent`, a third of the block's.
+double inertia_of_node(const BlockSet& b, std::size_t k, std::size_t i) {
+  return b.mass_kind == MassKind::consistent ? b.mass[i] / 3.0 : b.node_mass[k][i];
+}
+
 /// Energy that a change of the step creates: sum of m |v+ - v-|^2 (h_old - h_new)/(4 h_mean) with
 /// the ledger's definition of work.
 double energy_of_step_change(const BlockSet& b, const State& s, const Nodes& old_vx,
@@ -225,11 +230,17 @@ void Simulation::set_limit() {
 /// After a change of masses or damping.
 void Simulation::set_viscosity() {
   fill_viscosity(blocks, damping);
-  strain_damping_.step = 0.0;
+  strain_damping_.made_for = 0.0;
+}
+
+double Simulation::drag() const {
+  if (damping.adaptive == 0.0 || !explicit_method()) return damping.drag();
+  // Beyond 1/h velocities would turn round.
+  return std::min(damping.drag() + 2.0 * damping.adaptive * pace.frequency, 1.0 / state.step);
 }
 
 StepDamping Simulation::step_damping() {
-  return {damping.drag(), damping.local, dashpots.damped.empty() ? nullptr : &dashpots.damped,
+  return {drag(), damping.local, dashpots.damped.empty() ? nullptr : &dashpots.damped,
           blocks.viscosity.empty() ? nullptr : &strain_damping_};
 }
 
@@ -270,14 +281,66 @@ void Simulation::aim_at(double time) {
   state.step = h;
 }
 
+/// Looks at the frequency of the motion again, where it is time to.
+void Simulation::take_pace() {
+  constexpr std::uint64_t least = 8, most = 512;  // steps
+  constexpr double radians = 0.25;
+  const double h = state.step;
+  const double wanted = pace.frequency > 0.0 ? radians / (pace.frequency * h) : 0.0;
+  const auto length = static_cast<std::uint64_t>(
+      std::clamp(wanted, static_cast<double>(least), static_cast<double>(most)));
+  const bool first = pace.x[0].empty();
+  if (!first && state.steps < pace.since + length) return;
+  struct Sums {
+    double stiffness = 0.0, inertia = 0.0;
+  };
+  std::vector<Sums> sums((blocks.size() + blocks_at_once - 1) / blocks_at_once);
+  if (first) {
+    for (auto* nodes : {&pace.x, &pace.y, &pace.fx, &pace.fy}) {
+      for (auto& values : *nodes) values.assign(blocks.size(), 0.0);
+    }
+  }
+  parallel_chunks(blocks.size(), blocks_at_once, [&](std::size_t c, std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      const bool counts = is_free(blocks, state, i) && (aloof.empty() || aloof[i] == 0);
+      for (std::size_t k = 0; k < 3; ++k) {
+        // The forces are those of the positions before the step.
+        const Vec2 x{state.x[k][i] - h * state.vx[k][i], state.y[k][i] - h * state.vy[k][i]};
+        const Vec2 f{forces.x[k][i], forces.y[k][i]};
+        const Vec2 dx = x - Vec2{pace.x[k][i], pace.y[k][i]},
+                   df = f - Vec2{pace.fx[k][i], pace.fy[k][i]};
+        if (counts) {
+          sums[c].stiffness -= dot(dx, df);
+          sums[c].inertia += inertia_of_node(blocks, k, i) * dot(dx, dx);
+        }
+        pace.x[k][i] = x.x;
+        pace.y[k][i] = x.y;
+        pace.fx[k][i] = f.x;
+        pace.fy[k][i] = f.y;
+      }
+    }
+  });
+  pace.since = state.steps;
+  if (first) return;
+  Sums all;
+  for (const Sums& s : sums) {
+    all.stiffness += s.stiffness;
+    all.inertia += s.inertia;
+  }
+  if (!(all.inertia > 0.0)) return;
+  // Where what moves has no stiffness (all of it slides) half of what there was is left.
+  const double now = std::max(all.stiffness / all.inertia, 0.0), was = pace.frequency;
+  pace.frequency = was > 0.0 ? std::sqrt(0.5 * (was * was + now)) : std::sqrt(now);
+}
+
 bool Simulation::move(double h_old, double h_new, const LoadsNow* not_yet_gathered) {
   drive_ground(h_old, h_new);
   if (not_yet_gathered == nullptr) remove_dashpots(forces, on_dashpots, dashpots);
   const double h = 0.5 * (h_old + h_new);
-  const double drag = 0.5 * damping.drag() * h;
-  const StepDamping damps = step_damping();
-  if (damps.strain != nullptr) prepare(*damps.strain, blocks, h / (1.0 + drag));
-  const DashpotStep dashing{h, drag, hold_.reference, hold_.push};
+  damps_ = step_damping();
+  const double half_drag = 0.5 * damps_.mass * h;
+  if (damps_.strain != nullptr) prepare(*damps_.strain, blocks, h, half_drag);
+  const DashpotStep dashing{h, half_drag, hold_.reference, hold_.push};
   largest_.assign((blocks.size() + blocks_at_once - 1) / blocks_at_once, 0.0);
   parallel_chunks(blocks.size(), blocks_at_once,
                   [&](std::size_t c, std::size_t begin, std::size_t end) {
@@ -288,7 +351,7 @@ bool Simulation::move(double h_old, double h_new, const LoadsNow* not_yet_gather
                     add_dashpots(forces, on_dashpots, dashpots, blocks, state, old_vx_, old_vy_,
                                  dashing, begin, end);
                     advance(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h_new,
-                            damps, begin, end);
+                            damps_, begin, end);
                     largest_[c] = place_next(blocks, state.x, state.y, pose, begin, end);
                   });
   std::swap(pose.x, pose.x1);
@@ -333,7 +396,7 @@ std::optional<Failure> Simulation::step() {
   update_gaps(contacts, pose);
   clock.lap(seconds.search);
   if (model.solver.switching == Switching::exact) {
-    const StepTaken taken{h_old, h, damping.drag(), step_damping().strain};
+    const StepTaken taken{h_old, h, damps_.mass, damps_.strain};
     penetration = correct_switching(contacts, blocks, state, pose, taken, open_close, switching_);
   } else {
     penetration = largest_penetration(contacts);
@@ -343,13 +406,14 @@ std::optional<Failure> Simulation::step() {
     step_change_energy += energy_of_step_change(blocks, state, old_vx_, old_vy_, h_old, h);
     ++steps.changes;
   }
-  book_damping(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h, step_damping(),
+  book_damping(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h, damps_,
                damping_work);
   if (damping.contact > 0.0) book_dashpots(contacts);
   book_loads(h_old, h, at_work);
   book_boundaries(h_old, h);
   update_bolts(bolts, state);
   finish_step();
+  if (damping.adaptive > 0.0) take_pace();
   clock.lap(seconds.integrate);
 
   update_shares(contacts);

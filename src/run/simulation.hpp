@@ -2,6 +2,7 @@
 // stage.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -33,6 +34,17 @@
 #include "run/stage_clock.hpp"
 
 namespace edda {
+
+/// The frequency with which a model moves at present (Rayleigh's quotient; Underwood 1983):
+/// -dx . df / dx . M dx with dx and df what positions and forces have changed by over some steps, a
+/// quarter of a radian of it. Over so many steps what shakes fast hardly counts: step by step it
+/// would drown the slow motion that has furthest to go.
+struct Pace {
+  double frequency = 0.0;                   ///< 1/s; 0: not known yet
+  std::uint64_t since = 0;                  ///< step of what follows
+  std::array<std::vector<double>, 3> x, y;  ///< [3][nb] positions then, m; empty: none kept
+  std::array<std::vector<double>, 3> fx, fy;  ///< [3][nb] forces then, N
+};
 
 struct StepStatistics {
   double smallest = 0.0, largest = 0.0, sum = 0.0;  ///< s
@@ -76,6 +88,9 @@ struct Simulation {
   double penetration = 0.0;         ///< m: largest at the last step
   double max_penetration = 0.0;     ///< m, over the run
   double smallest_half_width = 0.0;  ///< m, of all blocks
+  Pace pace;                         ///< while adaptive damping acts
+  std::vector<std::uint8_t>
+      aloof;  ///< [nb] 1: does not count in it, falls or slides away; empty: none
   double step_change_energy = 0.0;   ///< J, created by changes of the step
   double external_work = 0.0;        ///< J, of loads, shaking and driven boundaries so far
   StepStatistics steps;
@@ -152,6 +167,8 @@ struct Simulation {
   Vec2 ground_velocity() const;
 
   bool explicit_method() const { return model.solver.method == Method::edda; }
+  /// Damping in proportion to mass that acts at present, 1/s.
+  double drag() const;
   /// Largest step allowed, s: of the implicit method once its short first ones are over.
   double usual_step() const { return explicit_method() ? step_limit : nominal_step_; }
 
@@ -200,6 +217,9 @@ struct Simulation {
   double step_before_ = 0.0;        ///< s: step behind v_{n-1/2}
   std::uint64_t steps_left_ = 0;
   StrainDamping strain_damping_;
+  StepDamping damps_;  ///< of the step in hand
+
+  void take_pace();
 
   // Of one step, kept so that it allocates nothing.
   Nodes old_vx_, old_vy_;  ///< velocities before it, and where the next ones will be

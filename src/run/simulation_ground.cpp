@@ -68,7 +68,7 @@ std::vector<FreeFieldColumn> Simulation::next_free_field(Vec2 of_ground, double 
   drive.twice_incoming = twice_incoming(none);
   drive.ground = of_ground;
   drive.frame = loads_at(model, loads, state.time).frame;
-  drive.mass_damping = damping.drag();
+  drive.mass_damping = drag();
   drive.local_damping = damping.local;
   return next_columns(free_field.columns, drive, h_old, h_new);
 }

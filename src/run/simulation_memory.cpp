@@ -131,6 +131,14 @@ void list_state(Archive& a, Simulation& s) {
   a("damping.mass", s.damping.mass);
   a("damping.local", s.damping.local);
   a("damping.contact", s.damping.contact);
+  a("damping.adaptive", s.damping.adaptive);
+  a("pace.frequency", s.pace.frequency);
+  a("pace.since", s.pace.since);
+  a("pace.x", s.pace.x);
+  a("pace.y", s.pace.y);
+  a("pace.fx", s.pace.fx);
+  a("pace.fy", s.pace.fy);
+  a("aloof", s.aloof);
   double fraction = s.damping.rayleigh ? s.damping.rayleigh->fraction : 0.0;
   double frequency = s.damping.rayleigh ? s.damping.rayleigh->frequency : 0.0;
   a("damping.rayleigh.fraction", fraction);
