@@ -283,6 +283,8 @@ void drop_forces(const Model& model, const BlockSet& b, Index keeper, Loads& loa
 
 LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
   LoadsNow now;
+  const GentleChange& gentle = loads.gentle;
+  if (gentle.weight) now.frame += (1.0 - gentle.part) * model.gravity;
   for (std::size_t q = 0; q < model.shakings.size(); ++q) {
     const Shaking& shaking = model.shakings[q];
     const Spell& spell = loads.spells.shakings[q];
@@ -294,18 +296,18 @@ LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
   now.loads = &loads;
   const auto add_factors = [&](const auto& items, const std::vector<Spell>& spells) {
     for (std::size_t q = 0; q < items.size(); ++q) {
-      const double part = spells[q].part(time);
+      const double part = spells[q].part(time, gentle);
       now.factor.push_back(part > 0.0 ? part * items[q].factor.at(time - spells[q].since, 1.0)
                                       : 0.0);
     }
   };
   add_factors(model.loads, loads.spells.loads);
   add_factors(model.boundaries, loads.spells.boundaries);
-  for (const Hold& hold : loads.held) now.factor.push_back(hold.at(time));
+  for (const Hold& hold : loads.held) now.factor.push_back(hold.at(time, gentle));
   for (std::size_t q = 0; q < model.waters.size(); ++q) {
     const Water& water = model.waters[q];
     const Spell& spell = loads.spells.waters[q];
-    const double part = spell.part(time);
+    const double part = spell.part(time, gentle);
     now.rise.push_back(part > 0.0 ? water.rise.at(time - spell.since, 0.0) : 0.0);
     now.weight.push_back(part * water.unit_weight * model.thickness);
   }

@@ -49,6 +49,14 @@ struct WetEdge {
   Index water;                  ///< row of Model::waters
 };
 
+/// What comes and goes little by little in a stage until equilibrium, in place of at once: whatever
+/// begins or ends to act at one time.
+struct GentleChange {
+  double at = -1.0;     ///< s: that time
+  double part = 1.0;    ///< of it that has come; 1: all
+  bool weight = false;  ///< gravity itself comes so
+};
+
 /// When something acts, s. At the instant of a jump its part is the mean of both sides, so that a
 /// leapfrog that has this instant amid its step begins and ends where it should.
 struct Spell {
@@ -58,6 +66,10 @@ struct Spell {
   double part(double time) const {
     if (time < since || time > until) return 0.0;
     return (time == since && since > 0.0) || time == until ? 0.5 : 1.0;
+  }
+  double part(double time, const GentleChange& gentle) const {
+    if (gentle.part < 1.0 && until == gentle.at) return 1.0 - gentle.part;
+    return gentle.part < 1.0 && since == gentle.at && time <= until ? gentle.part : part(time);
   }
 };
 
@@ -75,6 +87,10 @@ struct Hold {
   double part = 0.0, before = 0.0;
   double changed = -1.0;  ///< s
   double at(double time) const { return time == changed ? 0.5 * (before + part) : part; }
+  double at(double time, const GentleChange& gentle) const {
+    return gentle.part < 1.0 && changed == gentle.at ? before + gentle.part * (part - before)
+                                                     : at(time);
+  }
   void change(double to, double time) { *this = {to, time == changed ? before : part, time}; }
 };
 
@@ -91,6 +107,7 @@ struct Loads {
   std::vector<Id> place;     ///< [nb] index into `blocks`, or no_id; empty where there are none
   Spells spells;
   std::vector<Hold> held;  ///< [keepers]
+  GentleChange gentle;
 };
 
 /// Loads as they act at one time.

@@ -13,18 +13,21 @@
 namespace edda {
 namespace {
 
-/// Damping of a stage: what it does not give is the solver's, but for local damping, which brings a
-/// model to rest.
+/// Damping of a stage: what it does not give is the solver's; until equilibrium adaptive damping
+/// brings a model to rest.
 void complete_stage_damping(const Value* node, const Solver& solver, Stage& stage) {
   const Value* own = find(node, "damping");
-  constexpr double at_rest = 0.8;
-  const bool settles = stage.until == StageEnd::equilibrium && solver.method == Method::edda &&
-                       solver.mass != MassKind::consistent;
+  constexpr double at_rest = 0.8;  // of critical: a little above or below takes longer
+  const bool settles = stage.until == StageEnd::equilibrium && solver.method == Method::edda;
   if (!given(own, "mass")) stage.damping.mass = solver.damping.mass;
   if (!given(own, "contact")) stage.damping.contact = solver.damping.contact;
-  if (!given(own, "adaptive")) stage.damping.adaptive = solver.damping.adaptive;
   if (!given(own, "rayleigh")) stage.damping.rayleigh = solver.damping.rayleigh;
-  if (!given(own, "local")) stage.damping.local = settles ? at_rest : solver.damping.local;
+  // Who damps a stage locally has chosen how it comes to rest.
+  if (!given(own, "local")) stage.damping.local = settles ? 0.0 : solver.damping.local;
+  if (!given(own, "adaptive")) {
+    const bool chosen = given(own, "local") || given(own, "mass");
+    stage.damping.adaptive = settles && !chosen ? at_rest : solver.damping.adaptive;
+  }
 }
 
 /// Small blocks must not cost a model at rest its time step.

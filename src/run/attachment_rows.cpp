@@ -58,7 +58,7 @@ std::vector<Vec2> reactions(const Simulation& sim, const Instant& at) {
     }
     const auto row = static_cast<std::size_t>(f.keeper);
     sum[row - static_cast<std::size_t>(openings)] +=
-        sim.loads.held[row].at(sim.state.time) * f.force;
+        sim.loads.held[row].at(sim.state.time, sim.loads.gentle) * f.force;
   }
   return sum;
 }

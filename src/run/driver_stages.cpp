@@ -38,7 +38,12 @@ void Driver::begin_stage(std::size_t index) {
   sim_.scale_masses(stage.masses);
   const bool settles = stage.until == StageEnd::equilibrium;
   sim_.change_damping(stage.damping, sim_.model.solver.dynamic && !settles);
-  sim_.set_strength_factor(stage.strength_factor);
+  const std::vector<double> strength(sim_.laws.rows.size(), stage.strength_factor);
+  if (settles && stage.damping.adaptive > 0.0) {
+    sim_.begin_gently(strength);
+  } else {
+    sim_.set_strength_factors(strength);
+  }
   if (stage.reset_displacements) sim_.reset_displacements();
 }
 
@@ -72,6 +77,7 @@ bool Driver::is_at_rest() {
   const Stage& stage = stages_[stage_];
   const std::uint64_t every = sim_.explicit_method() ? look : 1;
   if (stage.until != StageEnd::equilibrium || sim_.state.steps % every != 0) return false;
+  if (!sim_.all_on()) return false;
   const Balance balance = balance_of(sim_);
   const bool waits = stage.falling == FallingBlocks::wait && balance.detached > 0;
   const bool calm = !waits && balance.resting > 0 && balance.mean <= stage.ratio;

@@ -114,6 +114,12 @@ struct Simulation {
   /// the LawTable, above zero): cohesion, tangent of the friction angle and tensile strength, peak
   /// and residual. Between two steps.
   void set_strength_factors(const std::vector<double>& factors);
+  /// What begins or ends to act now, and this change of strength, comes little by little from here
+  /// on, over some periods of the motion; at the very start weight does, too, where the ground has
+  /// no stress of its own. With adaptive damping.
+  void begin_gently(const std::vector<double>& strength_factors);
+  /// Whether all that was to come has come.
+  bool all_on() const { return loads.gentle.part >= 1.0; }
   /// The same factor for all laws.
   void set_strength_factor(double factor);
   /// Takes out the rock of these openings (rows of Model::openings), between two steps. What it did
@@ -219,7 +225,9 @@ struct Simulation {
   StrainDamping strain_damping_;
   StepDamping damps_;  ///< of the step in hand
 
-  void take_pace();
+  void take_pace(const LoadsNow& at_work);
+  void bring_on();
+  std::vector<double> strength_from_, strength_to_;  ///< [laws] while strength changes gently
 
   // Of one step, kept so that it allocates nothing.
   Nodes old_vx_, old_vy_;  ///< velocities before it, and where the next ones will be

@@ -139,6 +139,9 @@ void list_state(Archive& a, Simulation& s) {
   a("pace.fx", s.pace.fx);
   a("pace.fy", s.pace.fy);
   a("aloof", s.aloof);
+  a("gentle.at", s.loads.gentle.at);
+  a("gentle.part", s.loads.gentle.part);
+  a("gentle.weight", s.loads.gentle.weight);
   double fraction = s.damping.rayleigh ? s.damping.rayleigh->fraction : 0.0;
   double frequency = s.damping.rayleigh ? s.damping.rayleigh->frequency : 0.0;
   a("damping.rayleigh.fraction", fraction);
@@ -344,6 +347,8 @@ void list_memory(Archive& a, Simulation& s) {
   list_ground(a, s);
   list_bolts(a, s);
   a("displacement_cap", s.displacement_cap_);
+  a("strength_from", s.strength_from_);
+  a("strength_to", s.strength_to_);
   a("larger_since", s.larger_since_);
   a("target", s.target_);
   a("nominal_step", s.nominal_step_);
