@@ -11,6 +11,7 @@
 #include "run/event_times.hpp"
 #include "run/recorder.hpp"
 #include "run/run_model.hpp"
+#include "run/settling.hpp"
 #include "run/stages.hpp"
 
 namespace edda {
@@ -101,7 +102,7 @@ class Driver {
   std::size_t stage_ = 0;                ///< in hand
   double stage_start_ = 0.0;             ///< s
   std::uint64_t stage_steps_ = 0;        ///< steps before it
-  std::uint64_t calm_ = 0;               ///< looks in sequence that have found an equilibrium
+  Settling settling_;                    ///< of a stage until equilibrium
   std::optional<ThreadChoice> threads_;  ///< of the steps; none: somebody has said how many
   bool stage_has_ended_ = false;         ///< the next one is yet to begin
   std::vector<StageRecord> ends_;        ///< of the stages before

@@ -165,7 +165,14 @@ void Driver::list_stages(Archive& a) {
   a("stage.index", stage_);
   a("stage.start", stage_start_);
   a("stage.steps", stage_steps_);
-  a("stage.calm", calm_);
+  a("stage.calm", settling_.calm);
+  a("settling.window_began", settling_.window_began);
+  a("settling.window", settling_.window);
+  a("settling.from_x", settling_.from_x);
+  a("settling.from_y", settling_.from_y);
+  a("settling.moved_x", settling_.moved_x);
+  a("settling.moved_y", settling_.moved_y);
+  a("settling.going", settling_.going);
   a("stage.has_ended", stage_has_ended_);
   if constexpr (Archive::loads) {
     if (stage_ >= stages_.size()) {
@@ -187,6 +194,7 @@ void Driver::list_stages(Archive& a) {
     a(of + "block", r.balance.block);
     a(of + "resting", r.balance.resting);
     a(of + "detached", r.balance.detached);
+    a(of + "loose", r.balance.loose);
     list_ledger(a, of, r.ledger);
     a(of + "closed", r.closed);
     a(of + "sliding", r.sliding);

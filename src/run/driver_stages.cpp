@@ -13,8 +13,8 @@ void Driver::begin_stage(std::size_t index) {
   stage_ = index;
   stage_start_ = sim_.state.time;
   stage_steps_ = sim_.state.steps;
-  calm_ = 0;
   const Stage& stage = stages_[index];
+  begin_settling(settling_, sim_, stage.until == StageEnd::equilibrium);
   times_.end_at(stage_start_ + stage.duration);
   if (sim_.model.stages.empty()) return;
   const bool glued = stage.joints == StageJoints::glued;
@@ -72,17 +72,8 @@ void Driver::take_out(const Stage& stage) {
 }
 
 bool Driver::is_at_rest() {
-  constexpr std::uint64_t look = 64;   // steps between looks
-  constexpr std::uint64_t enough = 4;  // looks: forces may vanish for a moment while all moves
   const Stage& stage = stages_[stage_];
-  const std::uint64_t every = sim_.explicit_method() ? look : 1;
-  if (stage.until != StageEnd::equilibrium || sim_.state.steps % every != 0) return false;
-  if (!sim_.all_on()) return false;
-  const Balance balance = balance_of(sim_);
-  const bool waits = stage.falling == FallingBlocks::wait && balance.detached > 0;
-  const bool calm = !waits && balance.resting > 0 && balance.mean <= stage.ratio;
-  calm_ = calm ? calm_ + 1 : 0;
-  return calm_ >= enough;
+  return stage.until == StageEnd::equilibrium && has_come_to_rest(settling_, sim_, stage);
 }
 
 Event Driver::settling_event() const {
@@ -125,8 +116,10 @@ bool Driver::end_stage(bool at_rest) {
   }
   if (stage_ + 1 == stages_.size() || options_.last_stage == stage_) {
     if (at_rest) {
+      const std::string loose = loose_blocks(settling_, sim_);
       end(Status::equilibrium,
-          fmt::format("at rest after {:.6g} s", sim_.state.time - stage_start_));
+          fmt::format("at rest after {:.6g} s{}{}", sim_.state.time - stage_start_,
+                      loose.empty() ? "" : ", but for what has come loose: ", loose));
     } else {
       end(Status::completed, "the run has reached its duration");
     }

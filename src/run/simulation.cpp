@@ -464,7 +464,7 @@ std::optional<Failure> Simulation::step() {
   book_boundaries(h_old, h);
   update_bolts(bolts, state);
   finish_step();
-  if (damping.adaptive > 0.0) {
+  if (settles) {
     take_pace(at_work);
     bring_on();
   }

@@ -88,7 +88,8 @@ struct Simulation {
   double penetration = 0.0;         ///< m: largest at the last step
   double max_penetration = 0.0;     ///< m, over the run
   double smallest_half_width = 0.0;  ///< m, of all blocks
-  Pace pace;                         ///< while adaptive damping acts
+  bool settles = false;  ///< is to come to rest: its pace is looked at, what changes may come gently
+  Pace pace;             ///< while it settles
   std::vector<std::uint8_t>
       aloof;  ///< [nb] 1: does not count in it, falls or slides away; empty: none
   double step_change_energy = 0.0;   ///< J, created by changes of the step

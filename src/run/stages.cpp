@@ -85,6 +85,10 @@ Balance balance_of(const Simulation& sim) {
       ++balance.detached;
       continue;
     }
+    if (!sim.aloof.empty() && sim.aloof[i] != 0) {
+      ++balance.loose;
+      continue;
+    }
     resting.push_back(static_cast<Id>(i));
     const double force = 3.0 * norm(centroid(sim.forces.x, sim.forces.y, i));
     sum += force;
@@ -129,7 +133,7 @@ std::string stages_csv(const Model& model, const std::vector<StageRecord>& recor
         "steps",   "ratio",        "largest_ratio", "largest_block", "kinetic",  "strain",
         "contact", "gravity",      "friction",      "damping",       "fracture", "external",
         "drift",   "contacts",     "sliding",       "bonded",        "detached", "open",
-        "broken",  "yielded_bolts"}) {
+        "broken",  "yielded_bolts", "loose"}) {
     csv.add(name);
   }
   for (const Convergence& c : model.convergences) csv.add(c.name + ".convergence");
@@ -151,7 +155,7 @@ std::string stages_csv(const Model& model, const std::vector<StageRecord>& recor
       csv.add(v);
     }
     csv.add(r.closed).add(r.sliding).add(r.bonded).add(r.balance.detached);
-    csv.add(r.open).add(r.broken).add(r.yielded);
+    csv.add(r.open).add(r.broken).add(r.yielded).add(r.balance.loose);
     for (const double closed : r.convergences) csv.add(closed);
     csv.end();
   }

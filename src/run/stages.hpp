@@ -9,7 +9,7 @@
 namespace edda {
 
 /// How far from equilibrium the forces of the last step are. Blocks that touch nothing do not
-/// count: they fall, whatever the others do.
+/// count: they fall, whatever the others do; nor do those that have come loose.
 struct Balance {
   double mean = 0.0;        ///< resultant of a block, mean, over the mean contact normal force (the
                             ///< mean weight where no contact carries)
@@ -17,6 +17,7 @@ struct Balance {
   Id block = no_id;         ///< that block
   std::size_t resting = 0;  ///< blocks that count
   std::size_t detached = 0;  ///< free blocks that touch nothing
+  std::size_t loose = 0;     ///< blocks that slide or fall away for good (Simulation::aloof)
 };
 
 Balance balance_of(const Simulation& sim);

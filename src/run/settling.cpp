@@ -1,0 +1,144 @@
+#include "run/settling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "run/labels.hpp"
+#include "run/observe.hpp"
+
+namespace edda {
+namespace {
+
+constexpr std::uint64_t look_every = 16;  // steps
+constexpr std::uint64_t enough = 3;       // looks
+constexpr double left_over = 1e-4;        // of a block's size
+constexpr std::uint8_t windows = 4;       // in which a block that has come loose goes on
+
+double size_of(const Simulation& sim, std::size_t i) {
+  return std::sqrt(sim.blocks.area[i]);
+}
+
+double inertia_of(const BlockSet& b, std::size_t i) {
+  return b.mass_kind == MassKind::consistent
+             ? b.mass[i]
+             : b.node_mass[0][i] + b.node_mass[1][i] + b.node_mass[2][i];
+}
+
+/// About a period of the motion, in steps.
+std::uint64_t window_of(const Simulation& sim) {
+  constexpr double least = 128.0, most = 2048.0;
+  const double turn = sim.pace.frequency * sim.state.step;
+  return static_cast<std::uint64_t>(
+      turn > 0.0 ? std::clamp(2.0 * std::numbers::pi / turn, least, most) : least);
+}
+
+void begin_window(Settling& s, const Simulation& sim) {
+  s.window_began = sim.state.steps;
+  s.window = window_of(sim);
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    const Vec2 at = centroid(sim.state.x, sim.state.y, i);
+    s.from_x[i] = at.x;
+    s.from_y[i] = at.y;
+  }
+}
+
+/// At the end of a window: who has gone on.
+void see_who_goes(Settling& s, Simulation& sim) {
+  constexpr double lasting = 0.5;  // what comes to rest has moved far less than that
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    const Vec2 at = centroid(sim.state.x, sim.state.y, i);
+    const Vec2 now = at - Vec2{s.from_x[i], s.from_y[i]}, was{s.moved_x[i], s.moved_y[i]};
+    const bool goes = is_free(sim.blocks, sim.state, i) &&
+                      norm(now) > left_over * size_of(sim, i) &&
+                      dot(now, was) >= lasting * dot(was, was) && norm(was) > 0.0;
+    s.going[i] = goes ? static_cast<std::uint8_t>(std::min<int>(s.going[i] + 1, windows)) : 0;
+    s.moved_x[i] = now.x;
+    s.moved_y[i] = now.y;
+    if (s.going[i] >= windows) {
+      sim.aloof.resize(sim.blocks.size(), 0);
+      sim.aloof[i] = 1;
+    } else if (!sim.aloof.empty() && s.going[i] == 0) {
+      sim.aloof[i] = 0;
+    }
+  }
+}
+
+bool all_would_stay(const Simulation& sim) {
+  const std::vector<std::uint8_t> touches = touching(sim);
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    if (!is_free(sim.blocks, sim.state, i) || touches[i] == 0) continue;
+    if (!sim.aloof.empty() && sim.aloof[i] != 0) continue;
+    if (prospect(sim, i) > left_over * size_of(sim, i)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void begin_settling(Settling& s, Simulation& sim, bool settles) {
+  const std::size_t nb = sim.blocks.size();
+  s = {};
+  for (auto* values : {&s.from_x, &s.from_y, &s.moved_x, &s.moved_y}) values->assign(nb, 0.0);
+  s.going.assign(nb, 0);
+  sim.aloof.clear();
+  sim.settles = settles;
+  if (!settles) sim.pace = {};
+  begin_window(s, sim);
+}
+
+double prospect(const Simulation& sim, std::size_t i) {
+  if (!sim.explicit_method()) {
+    if (sim.implicit.drift_x[0].empty()) return std::numeric_limits<double>::infinity();
+    return sim.state.step * norm(centroid(sim.implicit.drift_x, sim.implicit.drift_y, i));
+  }
+  const double w = sim.pace.frequency;
+  if (w == 0.0) return std::numeric_limits<double>::infinity();
+  const double speed = norm(centroid(sim.state.vx, sim.state.vy, i)),
+               force = 3.0 * norm(centroid(sim.forces.x, sim.forces.y, i));
+  return speed / w + force / (inertia_of(sim.blocks, i) * w * w);
+}
+
+bool has_come_to_rest(Settling& s, Simulation& sim, const Stage& stage) {
+  if (!sim.all_on()) {
+    begin_window(s, sim);
+    return false;
+  }
+  if (sim.state.steps >= s.window_began + s.window) {
+    see_who_goes(s, sim);
+    begin_window(s, sim);
+  }
+  if (sim.explicit_method() && sim.state.steps % look_every != 0) return false;
+  const Balance balance = balance_of(sim);
+  const bool waits = stage.falling == FallingBlocks::wait && balance.detached > 0;
+  const bool calm = !waits && balance.resting > 0 && balance.mean <= stage.ratio &&
+                    (balance.mean == 0.0 || all_would_stay(sim));
+  s.calm = calm ? s.calm + 1 : 0;
+  return s.calm >= enough;
+}
+
+std::string loose_blocks(const Settling& s, const Simulation& sim) {
+  std::vector<std::pair<double, Id>> loose;
+  for (std::size_t i = 0; i < sim.aloof.size(); ++i) {
+    if (sim.aloof[i] == 0) continue;
+    loose.emplace_back(norm(Vec2{s.moved_x[i], s.moved_y[i]}), static_cast<Id>(i));
+  }
+  std::sort(loose.begin(), loose.end(), [](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first > b.first : a.second < b.second;
+  });
+  constexpr std::size_t named = 5;
+  std::string text;
+  for (std::size_t q = 0; q < std::min(named, loose.size()); ++q) {
+    const Id i = loose[q].second;
+    const Vec2 gone = displacement_of(sim.state, i, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0});
+    text += fmt::format("{}{} ({:.3g} mm so far)", q == 0 ? "" : ", ", block_label(sim.blocks, i),
+                        1e3 * norm(gone));
+  }
+  if (loose.size() > named) text += fmt::format(" and {} more", loose.size() - named);
+  return text;
+}
+
+}  // namespace edda
