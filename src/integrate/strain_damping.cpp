@@ -124,10 +124,9 @@ EDDA_VECTOR void damp_and_move_all(BlocksView b, double h, double h_new, std::si
 
 }  // namespace
 
-void prepare(StrainDamping& d, const BlockSet& b, double h, double half_drag) {
-  d.step = h / (1.0 + half_drag);
-  if (d.made_for == h) return;
-  d.made_for = h;
+void prepare(StrainDamping& d, const BlockSet& b, double h) {
+  if (d.step == h) return;
+  d.step = h;
   for (auto& entry : d.matrix) entry.assign(b.size(), 0.0);
   for (auto& stress : d.stress) stress.resize(b.size(), 0.0);
   parallel_for(b.size(), [&](std::size_t i) {

@@ -22,14 +22,12 @@ struct StrainDamping {
   std::array<std::vector<double>, 6>
       matrix;  ///< [6][nb] W, entries 11 12 13 22 23 33, J s; 0 where nothing is damped
   std::array<std::vector<double>, 3> stress;  ///< [3][nb] s = V sigma_v of the last step, J
-  double made_for = 0.0;                      ///< s: the h that W is of; 0: none
-  double step = 0.0;                          ///< s: what a force is multiplied by in this step
+  double step = 0.0;                          ///< s: h that W was made for; 0: none
 };
 
-/// Makes W for the step h where it was made for another one (after a change of masses or
-/// viscosities set made_for to 0). half_drag: a h/2 of mass damping, with which a force counts by
-/// h/(1 + a h/2); W stays that of h, a little less than it might be.
-void prepare(StrainDamping& damping, const BlockSet& blocks, double h, double half_drag);
+/// Makes W for the step h (with mass damping a it is h/(1 + a h/2)) where it was made for another
+/// one. After a change of masses or viscosities set StrainDamping::step to 0.
+void prepare(StrainDamping& damping, const BlockSet& blocks, double h);
 
 /// From v* to v_{n+1/2} at the positions of step n, which then go on by h_new v_{n+1/2}, for blocks
 /// [begin, end). Keeps s.

@@ -152,7 +152,7 @@ void observe(const Simulation& sim, Instant& at) {
   at.on_dashpots = sim.on_dashpots;
   const double drag = 0.5 * sim.drag() * h;
   StrainDamping strain;
-  if (!sim.blocks.viscosity.empty()) prepare(strain, sim.blocks, h, drag);
+  if (!sim.blocks.viscosity.empty()) prepare(strain, sim.blocks, h / (1.0 + drag));
   const Vec2 ground = sim.ground_velocity();
   const Simulation::DashpotHold hold = sim.dashpot_hold(ground, sim.next_free_field(ground, h, h));
   add_dashpots(at.forces, at.on_dashpots, sim.dashpots, sim.blocks, sim.state, sim.state.vx,

@@ -231,7 +231,7 @@ void Simulation::set_limit() {
 /// After a change of masses or damping.
 void Simulation::set_viscosity() {
   fill_viscosity(blocks, damping);
-  strain_damping_.made_for = 0.0;
+  strain_damping_.step = 0.0;
 }
 
 double Simulation::drag() const {
@@ -390,7 +390,7 @@ bool Simulation::move(double h_old, double h_new, const LoadsNow* not_yet_gather
   const double h = 0.5 * (h_old + h_new);
   damps_ = step_damping();
   const double half_drag = 0.5 * damps_.mass * h;
-  if (damps_.strain != nullptr) prepare(*damps_.strain, blocks, h, half_drag);
+  if (damps_.strain != nullptr) prepare(*damps_.strain, blocks, h / (1.0 + half_drag));
   const DashpotStep dashing{h, half_drag, hold_.reference, hold_.push};
   largest_.assign((blocks.size() + blocks_at_once - 1) / blocks_at_once, 0.0);
   parallel_chunks(blocks.size(), blocks_at_once,
@@ -417,7 +417,7 @@ std::optional<Failure> Simulation::step() {
   StageClock clock(state.steps);
   const double h_old = step_before_;
   if (laws.any_changes) update_joint_laws(contacts, blocks, laws);
-  evaluate_contacts(contacts, blocks, laws, state.step, damping.contact);
+  evaluate_contacts(contacts, blocks, laws, h_old, damping.contact);
   const LoadsNow at_work = acting();
   clock.lap(seconds.forces);
 
