@@ -15,6 +15,49 @@ struct Spring {
   double kxx, kyy, kxy;
 };
 
+/// What a boundary without a stiffness of its own has per vertex, Pa: as stiff as the joints of the
+/// vertex's block, so that it neither holds the step nor gives more than they do.
+class AsJoints {
+ public:
+  AsJoints(const Model& model, const BlockSet& blocks, const std::vector<Line>& lines, double snap)
+      : model_(model), b_(blocks), lines_(lines), snap_(snap) {}
+
+  double at(Id v) const {
+    const double kn = stiffest(b_.vertex_block[v]);
+    if (kn == 0.0) return model_.contact.normal_stiffness;
+    const Id edges[] = {v, b_.previous[v]};
+    double length = 0.0, shortest = b_.edge_length[v];
+    for (const Id e : edges) {
+      if (on_line(e)) length += 0.5 * b_.edge_length[e];
+      shortest = std::min(shortest, b_.edge_length[e]);
+    }
+    return kn * (length > 0.0 ? length : 0.5 * shortest);
+  }
+
+ private:
+  double stiffest(Id block) const {
+    double most = 0.0;
+    for (Id e = b_.vertex_begin[block]; e < b_.vertex_begin[block + 1]; ++e) {
+      const Index named = b_.edge_joint[e];
+      const Index law = named != none ? named : model_.contact.joint;
+      if (law != none && static_cast<std::size_t>(law) < model_.joints.size()) {
+        most = std::max(most, model_.joints[static_cast<std::size_t>(law)].kn.value_or(0.0));
+      }
+    }
+    return most;
+  }
+  bool on_line(Id e) const {
+    return std::any_of(lines_.begin(), lines_.end(), [&](const Line& line) {
+      return distance_to_segment(b_.vertex(e), line.a, line.b) <= snap_ &&
+             distance_to_segment(b_.vertex(b_.next[e]), line.a, line.b) <= snap_;
+    });
+  }
+  const Model& model_;
+  const BlockSet& b_;
+  const std::vector<Line>& lines_;
+  double snap_;
+};
+
 }  // namespace
 
 Result<BoundarySprings> attach_boundaries(const Model& model, const BlockSet& b) {
@@ -25,7 +68,7 @@ Result<BoundarySprings> attach_boundaries(const Model& model, const BlockSet& b)
     const Boundary& boundary = model.boundaries[q];
     if (!has_springs(boundary.type)) continue;
     const std::vector<Line> lines = boundary_lines(model, b, boundary);
-    const double k = boundary.stiffness * b.thickness;
+    const AsJoints as_joints(model, b, lines, snap);
     std::size_t hits = 0;
     std::vector<Vec2> across;  // normals that hold the vertex
     for (Id v = 0; v < b.vertex_count(); ++v) {
@@ -33,9 +76,11 @@ Result<BoundarySprings> attach_boundaries(const Model& model, const BlockSet& b)
       Spring s{v, static_cast<Index>(q), 0.0, 0.0, 0.0};
       bool on = false;
       across.clear();
+      double k = 0.0;
       for (const Line& line : lines) {
         if (distance_to_segment(b.vertex(v), line.a, line.b) > snap) continue;
         on = true;
+        k = b.thickness * (boundary.stiffness ? *boundary.stiffness : as_joints.at(v));
         if (boundary.type != BoundaryType::roller) {
           s.kxx = s.kyy = k;
           break;

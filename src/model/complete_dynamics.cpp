@@ -221,7 +221,6 @@ void complete_boundaries(const Value& root, Reading& reading) {
     Boundary& boundary = boundaries[i];
     const Value* node = element(root, "boundary", i);
     if (!is_table(node)) continue;
-    if (!given(node, "stiffness")) boundary.stiffness = reading.model.contact.normal_stiffness;
     check_place(node, boundary, reading);
     check_upright(node, boundary, reading);
     check_type(node, boundary, reading);

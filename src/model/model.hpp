@@ -108,7 +108,8 @@ struct Boundary {
   std::vector<std::string>
       sides;                ///< of "left", "right", "bottom", "top"; empty where `along` is given
   std::vector<Vec2> along;  ///< polyline
-  double stiffness = 0.0;   ///< Pa: spring per block vertex on it; fixed, roller, velocity
+  /// Pa: spring per block vertex on it; fixed, roller, velocity; empty: as the joints of its block
+  std::optional<double> stiffness;
   std::optional<Vec2>
       traction;  ///< Pa, on the edges along it; stress; empty: that of the initial stress
   std::optional<Vec2> velocity;     ///< m/s; velocity
@@ -246,9 +247,9 @@ struct Rayleigh {
 };
 
 struct Damping {
-  double mass = 0.0;                   ///< 1/s
-  double local = 0.0;                  ///< fraction of the unbalanced force (Cundall)
-  double contact = 0.0;                ///< fraction of critical
+  double mass = 0.0;     ///< 1/s
+  double local = 0.0;    ///< fraction of the unbalanced force (Cundall)
+  double contact = 0.0;  ///< fraction of critical
   /// Fraction of critical, in proportion to mass, at the frequency with which all moves at present.
   double adaptive = 0.0;
   std::optional<Rayleigh> rayleigh{};  ///< in place of the materials' damping

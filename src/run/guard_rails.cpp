@@ -124,11 +124,12 @@ void warn_of_springs(const Simulation& sim, std::vector<std::string>& warnings) 
 
 void warn_of_boundary(const Simulation& sim, std::vector<std::string>& warnings) {
   if (!(sim.bound.boundary_part > 0.5)) return;
-  warnings.push_back(fmt::format(
-      "boundary springs hold the step: {:.0f} % of what governs it; boundary.stiffness of about "
-      "contact.normal_stiffness would allow up to {:.2g} times the step",
-      100.0 * sim.bound.boundary_part,
-      1.0 / std::sqrt(std::max(1.0 - sim.bound.boundary_part, 1e-12))));
+  warnings.push_back(
+      fmt::format("boundary springs hold the step: {:.0f} % of what governs it; without a "
+                  "boundary.stiffness of their own they are as stiff as the joints, which would "
+                  "allow up to {:.2g} times the step",
+                  100.0 * sim.bound.boundary_part,
+                  1.0 / std::sqrt(std::max(1.0 - sim.bound.boundary_part, 1e-12))));
 }
 
 /// A few small blocks that hold back all the others; or what was done about it.

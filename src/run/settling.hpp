@@ -12,9 +12,9 @@ namespace edda {
 
 /// What is remembered from look to look, of one stage until equilibrium.
 struct Settling {
-  std::uint64_t calm = 0;          ///< looks in sequence that have found rest
-  std::uint64_t window_began = 0;  ///< step
-  std::uint64_t window = 0;        ///< steps
+  std::uint64_t calm = 0;                ///< looks in sequence that have found rest
+  std::uint64_t window_began = 0;        ///< step
+  std::uint64_t window = 0;              ///< steps
   std::vector<double> from_x, from_y;    ///< [nb] m, centroids when the window began
   std::vector<double> moved_x, moved_y;  ///< [nb] m, in the window before
   std::vector<std::uint8_t> going;  ///< [nb] windows in sequence in which it has gone on as before

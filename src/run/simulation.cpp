@@ -302,30 +302,32 @@ void Simulation::take_pace(const LoadsNow& at_work) {
       for (auto& values : *nodes) values.assign(blocks.size(), 0.0);
     }
   }
-  parallel_chunks(blocks.size(), blocks_at_once, [&](std::size_t c, std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) {
-      const bool counts = is_free(blocks, state, i) && (aloof.empty() || aloof[i] == 0);
-      std::array<Vec2, 3> load{};  // that comes or goes is no answer to motion
-      if (at_work.loads != nullptr && at_work.loads->place[i] != no_id) {
-        add_loads(load, blocks, at_work, pose.x1, pose.y1, i);
-      }
-      for (std::size_t k = 0; k < 3; ++k) {
-        // The forces are those of the positions before the step.
-        const Vec2 x{state.x[k][i] - h * state.vx[k][i], state.y[k][i] - h * state.vy[k][i]};
-        const Vec2 f = Vec2{forces.x[k][i], forces.y[k][i]} - load[k] - (blocks.mass[i] / 3.0) * gravity;
-        const Vec2 dx = x - Vec2{pace.x[k][i], pace.y[k][i]},
-                   df = f - Vec2{pace.fx[k][i], pace.fy[k][i]};
-        if (counts) {
-          sums[c].stiffness -= dot(dx, df);
-          sums[c].inertia += inertia_of_node(blocks, k, i) * dot(dx, dx);
+  parallel_chunks(
+      blocks.size(), blocks_at_once, [&](std::size_t c, std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i < to; ++i) {
+          const bool counts = is_free(blocks, state, i) && (aloof.empty() || aloof[i] == 0);
+          std::array<Vec2, 3> load{};  // that comes or goes is no answer to motion
+          if (at_work.loads != nullptr && at_work.loads->place[i] != no_id) {
+            add_loads(load, blocks, at_work, pose.x1, pose.y1, i);
+          }
+          for (std::size_t k = 0; k < 3; ++k) {
+            // The forces are those of the positions before the step.
+            const Vec2 x{state.x[k][i] - h * state.vx[k][i], state.y[k][i] - h * state.vy[k][i]};
+            const Vec2 f =
+                Vec2{forces.x[k][i], forces.y[k][i]} - load[k] - (blocks.mass[i] / 3.0) * gravity;
+            const Vec2 dx = x - Vec2{pace.x[k][i], pace.y[k][i]},
+                       df = f - Vec2{pace.fx[k][i], pace.fy[k][i]};
+            if (counts) {
+              sums[c].stiffness -= dot(dx, df);
+              sums[c].inertia += inertia_of_node(blocks, k, i) * dot(dx, dx);
+            }
+            pace.x[k][i] = x.x;
+            pace.y[k][i] = x.y;
+            pace.fx[k][i] = f.x;
+            pace.fy[k][i] = f.y;
+          }
         }
-        pace.x[k][i] = x.x;
-        pace.y[k][i] = x.y;
-        pace.fx[k][i] = f.x;
-        pace.fy[k][i] = f.y;
-      }
-    }
-  });
+      });
   pace.since = state.steps;
   if (first) return;
   Sums all;
@@ -365,17 +367,17 @@ void Simulation::bring_on() {
   if (all_on()) return;
   constexpr double periods = 1.0, increments = 100.0;
   // Before anything has moved: a wave through a square of all blocks.
-  const double frequency =
-      pace.frequency > 0.0
-          ? pace.frequency
-          : 0.5 / (state.step * std::sqrt(static_cast<double>(blocks.size())));
+  const double frequency = pace.frequency > 0.0
+                               ? pace.frequency
+                               : 0.5 / (state.step * std::sqrt(static_cast<double>(blocks.size())));
   GentleChange& gentle = loads.gentle;
   const double before = gentle.part;
   gentle.part += state.step * frequency / (2.0 * std::numbers::pi * periods);
   if (gentle.part >= 1.0) {
     gentle = {};
     if (!strength_to_.empty()) set_strength_factors(strength_to_);
-  } else if (!strength_to_.empty() && std::floor(increments * gentle.part) > std::floor(increments * before)) {
+  } else if (!strength_to_.empty() &&
+             std::floor(increments * gentle.part) > std::floor(increments * before)) {
     std::vector<double> now = strength_to_;
     for (std::size_t r = 0; r < now.size(); ++r) {
       now[r] = strength_from_[r] * std::pow(strength_to_[r] / strength_from_[r], gentle.part);
@@ -457,8 +459,7 @@ std::optional<Failure> Simulation::step() {
     step_change_energy += energy_of_step_change(blocks, state, old_vx_, old_vy_, h_old, h);
     ++steps.changes;
   }
-  book_damping(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h, damps_,
-               damping_work);
+  book_damping(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h, damps_, damping_work);
   if (damping.contact > 0.0) book_dashpots(contacts);
   book_loads(h_old, h, at_work);
   book_boundaries(h_old, h);

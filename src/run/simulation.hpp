@@ -40,9 +40,9 @@ namespace edda {
 /// quarter of a radian of it. Over so many steps what shakes fast hardly counts: step by step it
 /// would drown the slow motion that has furthest to go.
 struct Pace {
-  double frequency = 0.0;                   ///< 1/s; 0: not known yet
-  std::uint64_t since = 0;                  ///< step of what follows
-  std::array<std::vector<double>, 3> x, y;  ///< [3][nb] positions then, m; empty: none kept
+  double frequency = 0.0;                     ///< 1/s; 0: not known yet
+  std::uint64_t since = 0;                    ///< step of what follows
+  std::array<std::vector<double>, 3> x, y;    ///< [3][nb] positions then, m; empty: none kept
   std::array<std::vector<double>, 3> fx, fy;  ///< [3][nb] forces then, N
 };
 
@@ -88,12 +88,13 @@ struct Simulation {
   double penetration = 0.0;         ///< m: largest at the last step
   double max_penetration = 0.0;     ///< m, over the run
   double smallest_half_width = 0.0;  ///< m, of all blocks
-  bool settles = false;  ///< is to come to rest: its pace is looked at, what changes may come gently
-  Pace pace;             ///< while it settles
+  bool settles =
+      false;  ///< is to come to rest: its pace is looked at, what changes may come gently
+  Pace pace;  ///< while it settles
   std::vector<std::uint8_t>
       aloof;  ///< [nb] 1: does not count in it, falls or slides away; empty: none
-  double step_change_energy = 0.0;   ///< J, created by changes of the step
-  double external_work = 0.0;        ///< J, of loads, shaking and driven boundaries so far
+  double step_change_energy = 0.0;  ///< J, created by changes of the step
+  double external_work = 0.0;       ///< J, of loads, shaking and driven boundaries so far
   StepStatistics steps;
   OpenCloseCounts open_close;          ///< rounds of an implicit step count as passes
   ImplicitSolver implicit;             ///< of method "dda"

@@ -129,10 +129,10 @@ StageRecord stage_record(const Simulation& sim, const Ledger& ledger, double sta
 std::string stages_csv(const Model& model, const std::vector<StageRecord>& records) {
   Csv csv;
   for (const char* name :
-       {"stage",   "name",         "until",         "reached",       "start",    "end",
-        "steps",   "ratio",        "largest_ratio", "largest_block", "kinetic",  "strain",
-        "contact", "gravity",      "friction",      "damping",       "fracture", "external",
-        "drift",   "contacts",     "sliding",       "bonded",        "detached", "open",
+       {"stage",   "name",          "until",         "reached",       "start",    "end",
+        "steps",   "ratio",         "largest_ratio", "largest_block", "kinetic",  "strain",
+        "contact", "gravity",       "friction",      "damping",       "fracture", "external",
+        "drift",   "contacts",      "sliding",       "bonded",        "detached", "open",
         "broken",  "yielded_bolts", "loose"}) {
     csv.add(name);
   }

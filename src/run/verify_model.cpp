@@ -61,7 +61,9 @@ Model with_finer_step(Model model, double step) {
 Model with_stiffer_springs(Model model) {
   model.contact.normal_stiffness *= stiffer;
   model.contact.shear_stiffness *= stiffer;
-  for (Boundary& b : model.boundaries) b.stiffness *= stiffer;
+  for (Boundary& b : model.boundaries) {
+    if (b.stiffness) *b.stiffness *= stiffer;
+  }
   // A step given by hand may be too large for them.
   if (model.solver.time_step) *model.solver.time_step *= finer;
   return model;

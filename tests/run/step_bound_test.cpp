@@ -164,7 +164,8 @@ TEST(StepBound, SafeAndSharpWithDamping) {
         (grows(model, q.strain, middle) ? unstable : stable) = middle;
       }
       // The dashpots of a light block against heavy ones count twice, where once would do.
-      EXPECT_GT(bound / unstable, q.contact > 0.0 ? 0.5 : 0.7) << q.stiffness << ' ' << q.strain << ' ' << q.contact;
+      EXPECT_GT(bound / unstable, q.contact > 0.0 ? 0.5 : 0.7)
+          << q.stiffness << ' ' << q.strain << ' ' << q.contact;
     }
   }
 }
