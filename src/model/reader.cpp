@@ -10,6 +10,7 @@
 
 #include "model/nearest.hpp"
 #include "model/polygon_check.hpp"
+#include "model/synonyms.hpp"
 
 namespace edda {
 namespace {
@@ -299,17 +300,32 @@ struct ReadInto {
   }
 };
 
-/// Hint for a key that this table does not know: the one it may mean, or the table it belongs to.
-std::string unknown_key_hint(std::string_view name, std::span<const std::string_view> known) {
-  if (!is_likely(name, known)) {
-    for (const Section& section : sections()) {
-      if (section.shape != Shape::root && find_key(section.keys, name) != nullptr) {
-        return fmt::format("it belongs to [{}]; the nearest here is \"{}\"", section.name,
-                           nearest(name, known));
-      }
-    }
+/// The table that a key which is written elsewhere belongs to; empty where none has it, or too
+/// many.
+std::string place_of_key(std::string_view name) {
+  constexpr std::size_t most = 3;
+  std::vector<std::string> tables;
+  for (const Section& section : sections()) {
+    if (section.shape != Shape::root && find_key(section.keys, name) != nullptr)
+      tables.push_back(named_in_file(section.name));
   }
-  return suggestion(name, known);
+  if (tables.empty() || tables.size() > most) return {};
+  std::string list = tables[0];
+  for (std::size_t i = 1; i < tables.size(); ++i) {
+    list += (i + 1 == tables.size() ? " or " : ", ") + tables[i];
+  }
+  return fmt::format("{} belongs to {}", name, list);
+}
+
+/// Hint for a key that this table does not know: where it belongs, what it is called here, or what
+/// it may be a slip of.
+std::string unknown_key_hint(std::string_view name, std::span<const std::string_view> known) {
+  if (find_key(sections().front().keys, name) != nullptr)
+    return fmt::format("{} belongs at the top of the file, before the first [table]", name);
+  if (const std::string hint = synonym_hint(name); !hint.empty()) return hint;
+  if (is_likely(name, known)) return suggestion(name, known);
+  const std::string place = place_of_key(name);
+  return place.empty() ? suggestion(name, known) : place;
 }
 
 void unknown_key(const Entry& entry, std::span<const std::string_view> known,
@@ -318,9 +334,10 @@ void unknown_key(const Entry& entry, std::span<const std::string_view> known,
             unknown_key_hint(entry.key, known));
 }
 
-void note_place(const Key& key, Place table, Place value, Reading& reading) {
+void note_place(const Key& key, Place table, const Value& value, Reading& reading) {
   const auto at = [](Place p) { return WrittenAt{p.line, p.from_set ? 1 : p.column, p.from_set}; };
-  reading.model.key_places.push_back({key.name, at(table), at(value)});
+  reading.model.key_places.push_back(
+      {key.name, at(table), at(value.place), as<std::string>(value) != nullptr});
 }
 
 void read_keys(std::span<const Key> keys, void* object, const Value& table,
@@ -340,7 +357,7 @@ void read_keys(std::span<const Key> keys, void* object, const Value& table,
       }
       unknown_key(entry, known, prefix, reading);
     } else {
-      note_place(*key, table.place, entry.value.place, reading);
+      note_place(*key, table.place, entry.value, reading);
       if (key->slot == nullptr) continue;
       const std::string path = prefix + entry.key;
       std::visit(ReadInto{{*key, entry.value, path, reading}}, key->slot(object));

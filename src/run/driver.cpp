@@ -112,7 +112,9 @@ Driver::Driver(PreparedRun& run, const RunOptions& options)
       options_(options),
       recorder_(options.folder),
       stages_(stages_of(run.sim.model)),
-      times_(run.sim.model.output.history_every, run.sim.model.output.every) {}
+      times_(run.sim.model.output.history_every, run.sim.model.output.every) {
+  outcome_.on_nothing = run.on_nothing;
+}
 
 Outcome Driver::run() {
   begin();

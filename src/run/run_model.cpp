@@ -12,6 +12,8 @@
 #include "model/plausible.hpp"
 #include "run/driver.hpp"
 #include "run/guard_rails.hpp"
+#include "run/idle_names.hpp"
+#include "run/resting.hpp"
 #include "run/size_limits.hpp"
 
 namespace edda {
@@ -94,12 +96,19 @@ Result<PreparedRun> prepared(Model model, BlockOrder order) {
   if (!faults.empty()) return faults;
   run.monitors = std::move(monitors.value());
   run.convergences = std::move(lines.value());
+  std::vector<std::string> on_borders = border_points(run.sim);
   // The blocks have their shapes by now, and nothing looks for places among the polygons any more.
   run.sim.polygons.blocks = {};
   run.sim.polygons.removed = {};
   run.governed_by = governed_by(run.sim);
   run.warnings = implausible(run.sim.model);
+  for (std::string& warning : idle_names(run.sim)) run.warnings.push_back(std::move(warning));
   for (std::string& warning : guard_rails(run.sim)) run.warnings.push_back(std::move(warning));
+  for (std::string& warning : on_borders) run.warnings.push_back(std::move(warning));
+  const std::vector<BlockGroup> falling = resting_on_nothing(run.sim);
+  for (const BlockGroup& group : falling) run.on_nothing += group.size();
+  for (std::string& warning : warnings_of(run.sim, falling))
+    run.warnings.push_back(std::move(warning));
   add_cut_warnings(run.sim.polygons.report, run.warnings);
   warn_of_lost_points(run, run.warnings);
   return run;

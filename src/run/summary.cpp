@@ -102,6 +102,7 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
   std::vector<Check> checks{
       limited("largest overlap over smallest edge", o.overlap_over_edge, 0.01),
       limited("largest drift of the energy", o.largest_drift, 0.05),
+      limited("blocks that rest on nothing at the start", static_cast<double>(o.on_nothing), 0.0),
   };
   if (sim.explicit_method()) {
     checks.insert(checks.begin() + 1,
