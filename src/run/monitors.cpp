@@ -53,17 +53,17 @@ std::vector<std::string> border_points(const Simulation& sim) {
   std::vector<std::string> warnings;
   const BlockSet& b = sim.blocks;
   const auto look = [&](const std::string& what, Vec2 point, Among among) {
-    const std::vector<Id> blocks =
-        blocks_at(sim.model, sim.polygons, b, point - b.origin, among);
+    const std::vector<Id> blocks = blocks_at(sim.model, sim.polygons, b, point - b.origin, among);
     if (blocks.size() < 2) return;
     std::string others;
     for (std::size_t k = 1; k < blocks.size(); ++k) {
       others += (k == 1 ? "" : k + 1 == blocks.size() ? " and " : ", ") + block_label(b, blocks[k]);
     }
-    warnings.push_back(fmt::format(
-        "{} at {} lies on the border between blocks: it goes with {}, not with {}; move it into the "
-        "one that is meant",
-        what, place_label(point), block_label(b, blocks[0]), others));
+    warnings.push_back(
+        fmt::format("{} at {} lies on the border between blocks: it goes with {}, not with {}; "
+                    "move it into the "
+                    "one that is meant",
+                    what, place_label(point), block_label(b, blocks[0]), others));
   };
   for (const Monitor& m : sim.model.monitors) {
     look("monitor " + m.name, m.point, Among::all_blocks);

@@ -39,7 +39,7 @@ struct Outcome {
   double step_over_critical = 0.0;  ///< largest step over the bound then in force
   double reaction_error =
       0.0;  ///< |boundary reactions + weight| over weight at the last row; 0 without either
-  std::size_t on_nothing = 0;  ///< blocks that rested on nothing at the start
+  std::size_t on_nothing = 0;              ///< blocks that rested on nothing at the start
   std::vector<std::string> failed_checks;  ///< of summary.json, a sentence each
   WallSeconds wall;
 };

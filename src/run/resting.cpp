@@ -92,9 +92,9 @@ Extent extent_of(const BlockSet& b, Id i, Vec2 down) {
 }
 
 /// How deep the lowest held ground reaches, by strips across gravity.
-class Ground {
+class Footing {
  public:
-  Ground(double from, double to) : from_(from), width_((to - from) / strips) {}
+  Footing(double from, double to) : from_(from), width_((to - from) / strips) {}
   void add(const Extent& e) {
     for (std::size_t k = strip(e.from); k <= strip(e.to); ++k)
       bottom_[k] = std::max(bottom_[k], e.bottom);
@@ -119,10 +119,9 @@ class Ground {
 
 std::string group_label(const Simulation& sim, const BlockGroup& group) {
   const Id i = group.front();
-  const std::string first =
-      fmt::format("{} at {}", block_label(sim.blocks, i),
-                  place_label(Vec2{sim.blocks.centroid_x[i], sim.blocks.centroid_y[i]} +
-                              sim.blocks.origin));
+  const std::string first = fmt::format(
+      "{} at {}", block_label(sim.blocks, i),
+      place_label(Vec2{sim.blocks.centroid_x[i], sim.blocks.centroid_y[i]} + sim.blocks.origin));
   return group.size() == 1 ? first
                            : fmt::format("{} that touch each other, {} among them,",
                                          counted(group.size(), "block"), first);
@@ -147,13 +146,13 @@ std::vector<BlockGroup> resting_on_nothing(const Simulation& sim) {
     all.add(extents[i].from, extents[i].top);
     all.add(extents[i].to, extents[i].bottom);
   }
-  Ground ground(all.from, all.to);
+  Footing footing(all.from, all.to);
   for (Id i = 0; i < nb; ++i) {
-    if (stays[sets.find(i)]) ground.add(extents[i]);
+    if (stays[sets.find(i)]) footing.add(extents[i]);
   }
   std::vector<std::uint8_t> lands(nb, 0);
   for (Id i = 0; i < nb; ++i) {
-    if (ground.lies_below(extents[i])) lands[sets.find(i)] = 1;
+    if (footing.lies_below(extents[i])) lands[sets.find(i)] = 1;
   }
   std::vector<BlockGroup> groups;
   std::vector<std::size_t> row(nb, nb);
@@ -169,8 +168,7 @@ std::vector<BlockGroup> resting_on_nothing(const Simulation& sim) {
   return groups;
 }
 
-std::vector<std::string> warnings_of(const Simulation& sim,
-                                     const std::vector<BlockGroup>& groups) {
+std::vector<std::string> warnings_of(const Simulation& sim, const std::vector<BlockGroup>& groups) {
   constexpr std::size_t most = 3;
   std::size_t count = 0;
   for (const BlockGroup& group : groups) count += group.size();
@@ -179,10 +177,9 @@ std::vector<std::string> warnings_of(const Simulation& sim,
       "give a [[boundary]], fixed = true of a [[block]], or a [[held]] point; where the fall is "
       "meant, there is nothing to do";
   if (count == sim.blocks.size()) {
-    return {fmt::format("no block is fixed and no boundary holds them: {} will fall freely; {}",
-                        count == 1 ? std::string("the only block")
-                                   : fmt::format("all {} blocks", count),
-                        remedy)};
+    return {fmt::format(
+        "no block is fixed and no boundary holds them: {} will fall freely; {}",
+        count == 1 ? std::string("the only block") : fmt::format("all {} blocks", count), remedy)};
   }
   std::vector<std::string> warnings;
   for (std::size_t q = 0; q < std::min(most, groups.size()); ++q) {
