@@ -56,6 +56,31 @@ std::size_t fastest_block(const Simulation& sim) {
   return best;
 }
 
+/// Speed of the fastest corner of block i, m/s.
+double corner_speed(const BlockSet& b, const State& s, std::size_t i) {
+  double speed = 0.0;
+  for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v) {
+    speed = std::max(speed, norm(vertex_at(b, s.vx, s.vy, v)));
+  }
+  return speed;
+}
+
+/// Whether it is at rest, and what is fastest.
+void look_at_motion(const Simulation& sim, const Instant& at, Outcome& o) {
+  o.fastest = no_id;
+  o.speed = 0.0;
+  o.at_rest = o.unbalanced <= rest_limit;
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    if (!is_free(sim.blocks, sim.state, i)) continue;
+    const double speed = corner_speed(sim.blocks, at.state, i);
+    const double slow = rest_limit * sim.blocks.inradius[i];
+    if (speed * sim.state.time > slow) o.at_rest = false;
+    if (o.fastest != no_id && speed <= o.speed) continue;
+    o.fastest = static_cast<Id>(i);
+    o.speed = speed;
+  }
+}
+
 /// Sum of boundary springs and of contacts with held blocks, plus the weight of the blocks that
 /// move and the loads on them: 0 at rest. Over the size of weights and loads; 0 where there are
 /// none.
@@ -124,6 +149,7 @@ Outcome Driver::run() {
 
 void Driver::begin() {
   started_ = reported_ = saved_ = Clock::now();
+  reported_steps_ = sim_.state.steps;  // of a run taken up, those made before
   if (!resumed_) {
     outcome_.critical_step = sim_.bound.critical_step;
     within_memory([&] {
@@ -145,6 +171,7 @@ void Driver::go_on() {
     threads_.emplace(omp_get_num_procs());
   }
   started_ = Clock::now();
+  if (paused_) reported_ += started_ - paused_at_;
   paused_ = pause_asked_ = false;
   within_memory([&] { follow_events(); });
   if (!over_) pause();
@@ -174,6 +201,7 @@ void Driver::within_memory(Part part) {
 
 void Driver::pause() {
   wall_before_ += since(started_);
+  paused_at_ = Clock::now();
   paused_ = true;
 }
 
@@ -271,6 +299,7 @@ bool Driver::record(const Event& event) {
     outcome_.largest_drift = std::max(outcome_.largest_drift, std::abs(ledger.drift));
     outcome_.unbalanced = unbalanced_ratio(sim_, instant);
     outcome_.reaction_error = reaction_error(sim_, instant);
+    look_at_motion(sim_, instant, outcome_);
     last_row_ = sim_.state.time;
     fine = !ended_by(recorder_.row(sim_, instant, run_.monitors, run_.convergences, ledger,
                                    outcome_.unbalanced));
@@ -305,12 +334,24 @@ bool Driver::energy_is_out_of_bounds() {
 
 void Driver::measure_overlaps() {
   const ContactSet& c = sim_.contacts;
+  const std::vector<double>& half_width = sim_.blocks.inradius;
+  double ratio = 0.0;
+  std::size_t deepest = c.size();
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (!c.is(k, cs::closed)) continue;
-    const double edge =
-        std::min(sim_.blocks.smallest_edge[c.block_i[k]], sim_.blocks.smallest_edge[c.block_j[k]]);
-    outcome_.overlap_over_edge = std::max(outcome_.overlap_over_edge, c.effective(k) / edge);
+    const double size = std::min(half_width[c.block_i[k]], half_width[c.block_j[k]]);
+    if (!(c.depth[k] > ratio * size)) continue;
+    ratio = c.depth[k] / size;
+    deepest = k;
   }
+  outcome_.overlap_now = ratio;
+  if (!(ratio > outcome_.overlap.ratio)) return;
+  outcome_.overlap = {ratio,
+                      c.depth[deepest],
+                      at(sim_.pose.x, sim_.pose.y, c.vertex[deepest]) + sim_.blocks.origin,
+                      c.block_i[deepest],
+                      c.block_j[deepest],
+                      sim_.state.time};
 }
 
 void Driver::end(Status status, std::string message) {
@@ -362,8 +403,7 @@ void Driver::write_end() {
   outcome_.wall.total = wall_before_ + since(started_) + run_.cut_seconds;
   for (const Check& c : checks_of(sim_, outcome_)) {
     if (c.pass) continue;
-    outcome_.failed_checks.push_back(
-        fmt::format("{} is {:.3g}, more than {:.3g}", c.name, c.value, c.limit.value_or(0.0)));
+    outcome_.failed_checks.push_back(sentence_of(c, sim_, outcome_));
   }
   const Trouble trouble = recorder_.summary(sim_, outcome_, run_.governed_by);
   if (trouble && !disk_trouble_) {  // else the first file that could not be written says why

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "run/driver.hpp"
+#include "run/labels.hpp"
 
 namespace edda {
 
@@ -120,13 +121,22 @@ bool Driver::end_stage(bool at_rest) {
   if (stage_ + 1 == stages_.size() || options_.last_stage == stage_) {
     if (at_rest) {
       end(Status::equilibrium,
-          fmt::format("at rest after {:.6g} s", sim_.state.time - stage_start_));
+          stage_ == 0 ? fmt::format("at rest after {:.6g} s", sim_.state.time)
+                      : fmt::format("at rest at {:.6g} s, {:.6g} s after the start of {}",
+                                    sim_.state.time, sim_.state.time - stage_start_, label));
     } else {
-      end(Status::completed, "the run has reached its duration");
+      end(Status::completed, "the run has reached its duration, " + motion_at_end());
     }
     return false;
   }
   return true;
+}
+
+std::string Driver::motion_at_end() const {
+  if (outcome_.fastest == no_id) return "no block is free to move";
+  if (outcome_.at_rest) return "at rest";
+  return fmt::format("still moving: fastest is {}, at {:.3g} m/s",
+                     block_label(sim_.blocks, outcome_.fastest), outcome_.speed);
 }
 
 StageReport Driver::report_of_stage() const {
