@@ -41,16 +41,13 @@ std::optional<Fault> unstable_step(const Simulation& sim) {
           solver.safety * sim.bound.likely_step));
 }
 
-bool scales_all_masses(const Stage& stage) {
-  return stage.masses == StageMasses::uniform_step;
-}
-
-/// So much mass that the motion is no longer that of the rock. Stages that look for an equilibrium
-/// scale by themselves.
+/// So much mass that the motion is no longer that of the rock. Where all stages look for an
+/// equilibrium, the way there means nothing.
 std::optional<Fault> heavy_scaling(const Simulation& sim) {
   const std::vector<Stage> stages = stages_of(sim.model);
   if (!sim.explicit_method() || sim.inertia.empty() ||
-      std::all_of(stages.begin(), stages.end(), scales_all_masses))
+      std::all_of(stages.begin(), stages.end(),
+                  [](const Stage& s) { return s.until == StageEnd::equilibrium; }))
     return {};
   const double all = free_mass(sim.blocks), added = added_mass(sim.blocks, sim.inertia);
   if (added <= most_added * all) return {};

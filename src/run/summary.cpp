@@ -21,7 +21,7 @@ constexpr std::string_view overlap_check = "largest overlap over half width of a
 /// lasts for a moment; deeper, and the shape of the block no longer says which way it is pushed.
 constexpr double overlap_limit = 0.2;
 /// And of what stays.
-constexpr double overlap_limit_at_rest = 0.01;
+constexpr double overlap_limit_at_end = 0.01;
 
 Check limited(std::string name, double value, double limit) {
   return {std::move(name), value, limit, value <= limit};
@@ -119,18 +119,15 @@ static void add_overstress(const Simulation& sim, std::vector<Check>& checks) {
 std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
   std::vector<Check> checks{
       limited(std::string(overlap_check), o.overlap.ratio, overlap_limit),
+      limited("overlap over half width at the end", o.overlap_now, overlap_limit_at_end),
       limited("largest drift of the energy", o.largest_drift, 0.05),
       limited("blocks that rest on nothing at the start", static_cast<double>(o.on_nothing), 0.0),
   };
   if (sim.explicit_method()) {
-    checks.insert(checks.begin() + 1,
+    checks.insert(checks.begin() + 2,
                   limited("largest step over critical step", o.step_over_critical, 1.0));
   }
   const bool rest = o.unbalanced <= rest_limit;
-  checks.insert(
-      checks.begin() + 1,
-      rest ? limited("overlap over half width at rest", o.overlap_now, overlap_limit_at_rest)
-           : informed("overlap over half width (still moving)", o.overlap_now));
   // While blocks still move, reactions carry their inertia, too: nothing to judge.
   checks.push_back(
       rest ? limited("boundary reactions against weight", o.reaction_error, rest_limit)
