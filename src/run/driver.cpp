@@ -432,14 +432,17 @@ void Driver::report(bool last) {
   reported_steps_ = sim_.state.steps;
   Progress p;
   p.time = sim_.state.time;
-  p.fraction = sim_.state.time / sim_.model.solver.duration;
+  // Stages before may have ended early, those to come may, too.
+  double end = stage_start_ + stages_[stage_].duration;
+  for (std::size_t q = stage_ + 1; q < stages_.size(); ++q) end += stages_[q].duration;
+  p.fraction = sim_.state.time / end;
   // Equilibria come before their longest time.
   const bool arrived =
       outcome_.status == Status::completed || outcome_.status == Status::equilibrium;
   if (last && arrived) p.fraction = 1.0;
   p.steps = sim_.state.steps;
   p.rate = rate_;
-  const double left = (sim_.model.solver.duration - sim_.state.time) / sim_.state.step;
+  const double left = std::max(end - sim_.state.time, 0.0) / sim_.state.step;
   p.seconds_left = last ? 0.0 : rate_ > 0.0 ? left / rate_ : -1.0;
   for (std::size_t i = 0; i < sim_.blocks.size(); ++i) {
     if (sim_.blocks.fixed[i] || !sim_.state.alive[i]) continue;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text.hpp"
 #include "run/driver.hpp"
 #include "run/labels.hpp"
 
@@ -120,16 +121,26 @@ bool Driver::end_stage(bool at_rest) {
   }
   if (stage_ + 1 == stages_.size() || options_.last_stage == stage_) {
     if (at_rest) {
-      end(Status::equilibrium,
-          stage_ == 0 ? fmt::format("at rest after {:.6g} s", sim_.state.time)
-                      : fmt::format("at rest at {:.6g} s, {:.6g} s after the start of {}",
-                                    sim_.state.time, sim_.state.time - stage_start_, label));
+      end(Status::equilibrium, rest_at_end());
     } else {
       end(Status::completed, "the run has reached its duration, " + motion_at_end());
     }
     return false;
   }
   return true;
+}
+
+std::string Driver::rest_at_end() const {
+  const double time = sim_.state.time;
+  const std::string rest =
+      stage_ == 0 ? fmt::format("at rest after {:.6g} s", time)
+                  : fmt::format("at rest at {:.6g} s, {:.6g} s after the start of {}", time,
+                                time - stage_start_, stage_label(sim_.model, stage_));
+  const std::size_t falling = balance_of(sim_).detached;
+  if (falling == 0) return rest;
+  return fmt::format("{}, but for {} that {} freely: fastest is {}, at {:.3g} m/s", rest,
+                     counted(falling, "block"), falling == 1 ? "falls" : "fall",
+                     block_label(sim_.blocks, outcome_.fastest), outcome_.speed);
 }
 
 std::string Driver::motion_at_end() const {

@@ -53,7 +53,10 @@ std::vector<std::string> border_points(const Simulation& sim) {
   std::vector<std::string> warnings;
   const BlockSet& b = sim.blocks;
   const auto look = [&](const std::string& what, Vec2 point, Among among) {
-    const std::vector<Id> blocks = blocks_at(sim.model, sim.polygons, b, point - b.origin, among);
+    std::vector<Id> blocks = blocks_at(sim.model, sim.polygons, b, point - b.origin, among);
+    // At the wall of rock that a stage takes out there is no doubt.
+    const auto leaves = [&](Id i) { return !b.opening.empty() && b.opening[i] != none; };
+    if (!blocks.empty() && !leaves(blocks.front())) std::erase_if(blocks, leaves);
     if (blocks.size() < 2) return;
     std::string others;
     for (std::size_t k = 1; k < blocks.size(); ++k) {

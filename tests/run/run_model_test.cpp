@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -280,6 +281,50 @@ TEST(RunModel, ARateIsThatOfTheStepsMadeSinceTheRunWasTakenUp) {
   ASSERT_GE(said.front().steps, 100000u);
   const double mean = static_cast<double>(said.back().steps - said.front().steps) / wall;
   EXPECT_LT(said.front().rate, 100.0 * mean) << "the 100,000 steps before were not made now";
+}
+
+TEST(RunModel, AnEquilibriumSaysWhenAndWhatFallsAllTheSame) {
+  const std::string stages =
+      "[[stage]]\nname = \"settle\"\nuntil = \"equilibrium\"\n[[stage]]\nname = \"wait\"\n"
+      "until = \"equilibrium\"\n";
+  const auto model = [&](const std::string& more) {
+    std::string text = dropped("");
+    text.replace(text.find("[0, -2]"), 7, "[0, 0]");
+    return text.substr(0, text.rfind("[solver]")) + more + stages;
+  };
+  const auto message = [](const std::string& text) {
+    Result<PreparedRun> run = prepared(text);
+    EXPECT_TRUE(run.ok());
+    return run_model(run.value(), {}).value().message;
+  };
+  const std::string rest = message(model(""));
+  EXPECT_EQ(rest.substr(0, 11), "at rest at ");
+  EXPECT_NE(rest.find(" s after the start of stage 1 (wait)"), std::string::npos) << rest;
+  const std::string loose =
+      message(model("[[block]]\nname = \"loose\"\npolygon = [[9, 0], [9.5, 0], [9, 0.5]]\n"));
+  EXPECT_NE(
+      loose.find("(wait), but for 1 block that falls freely: fastest is block 2 (loose), at "),
+      std::string::npos)
+      << loose;
+}
+
+TEST(RunModel, ProgressCountsFromWhereStagesBeforeHaveEnded) {
+  std::string text = dropped("");
+  text = text.substr(0, text.rfind("[solver]")) +
+         "[[stage]]\nuntil = \"equilibrium\"\nduration = 100\n[[stage]]\nduration = 0.05\n";
+  Result<PreparedRun> run = prepared(text);
+  ASSERT_TRUE(run.ok());
+  std::vector<Progress> said;
+  RunOptions options{.folder = {}, .progress = [&](const Progress& p) { said.push_back(p); }};
+  options.progress_every = 0.0;
+  ASSERT_EQ(run_model(run.value(), options).value().status, Status::completed);
+  const auto second = std::find_if(said.begin(), said.end(), [](auto& p) { return p.stage == 1; });
+  ASSERT_NE(second, said.end());
+  const double start = second->time;
+  EXPECT_LT(start, 10.0);
+  EXPECT_NEAR(second->fraction, start / (start + 0.05), 0.05);
+  EXPECT_LT(second->seconds_left, 100.0);
+  for (std::size_t k = 1; k < said.size(); ++k) EXPECT_GE(said[k].fraction, said[k - 1].fraction);
 }
 
 }  // namespace
