@@ -11,6 +11,7 @@
 #include "results/version.hpp"
 #include "run/initial_stress_report.hpp"
 #include "run/labels.hpp"
+#include "run/motion.hpp"
 #include "run/overstress.hpp"
 
 namespace edda {
@@ -121,7 +122,8 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
       limited(std::string(overlap_check), o.overlap.ratio, overlap_limit),
       limited("overlap over half width at the end", o.overlap_now, overlap_limit_at_end),
       limited("largest drift of the energy", o.largest_drift, 0.05),
-      limited("number of blocks that rest on nothing at the start", static_cast<double>(o.on_nothing), 0.0),
+      limited("number of blocks that rest on nothing at the start",
+              static_cast<double>(o.on_nothing), 0.0),
   };
   if (sim.explicit_method()) {
     checks.insert(checks.begin() + 2,

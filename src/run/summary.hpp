@@ -22,10 +22,6 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& outcome);
 /// What a check says that does not hold.
 std::string sentence_of(const Check& check, const Simulation& sim, const Outcome& outcome);
 
-/// A model counts as at rest when forces balance to this part of a contact force, and when no
-/// corner would move by a hundredth of its block's half width in as long again as the run took.
-inline constexpr double rest_limit = 1e-2;
-
 /// A file that the run was made from.
 struct InputFile {
   std::string file, sha256;

@@ -65,10 +65,10 @@ TEST(Resting, GroupsThatTouchNothingHeld) {
 
 TEST(Resting, IsACheckThatDoesNotPass) {
   const auto failed = [](const testing::Ran& r) {
-    return std::count_if(r.outcome.failed_checks.begin(), r.outcome.failed_checks.end(),
-                         [](const std::string& s) {
-                           return s.starts_with("number of blocks that rest on nothing at the start is 1");
-                         });
+    return std::count_if(
+        r.outcome.failed_checks.begin(), r.outcome.failed_checks.end(), [](const std::string& s) {
+          return s.starts_with("number of blocks that rest on nothing at the start is 1");
+        });
   };
   EXPECT_EQ(failed(ran(head + block(0, 0))), 1);
   EXPECT_EQ(failed(ran(head + block(0, 0, "velocity = [1, 0]\n"))), 0);
