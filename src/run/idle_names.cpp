@@ -35,7 +35,7 @@ template <class Item>
 void warn_of_idle(const std::vector<Item>& items, const std::vector<bool>& used, const char* what,
                   const char* who, std::vector<std::string>& warnings) {
   for (std::size_t i = 0; i < items.size(); ++i) {
-    if (used[i]) continue;
+    if (used[i] || items[i].where.line == 0) continue;  // or one that nobody has written
     warnings.push_back(
         fmt::format("{}: {} \"{}\" is used by nothing: {}; name it where it belongs, "
                     "or leave it out",
