@@ -1,20 +1,15 @@
 // edda check
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
 #include "app/common.hpp"
-#include "base/threads.hpp"
 #include "results/json.hpp"
-#include "run/initial_stress_report.hpp"
+#include "run/check_model.hpp"
 #include "run/labels.hpp"
-#include "run/load_report.hpp"
 #include "run/run_model.hpp"
-#include "run/stages.hpp"
 
 namespace edda {
 namespace {
@@ -25,79 +20,10 @@ struct CheckArguments {
   bool json = false;
 };
 
-/// What a check finds out.
-struct Check {
-  std::vector<std::string> loads, initial_stress;
-  double step = 0.0;           ///< s: the first
-  double step_as_given = 0.0;  ///< s: in stages without static masses, where there are any
-  double static_step = 0.0;    ///< s: in stages with static masses, where there are any
-  double steps = 0.0;          ///< to expect; at most, where stages end at an equilibrium
-  bool at_most = false;
-  double rate = 0.0;                              ///< steps per second of wall time
-  std::size_t closed = 0, within_reach = 0;       ///< contacts, at the start
-  double critical_step = 0.0, likely_step = 0.0;  ///< s, at the start
-};
-
-/// Steps per second of wall time, from a few steps made and thrown away.
-double step_rate(Simulation& sim, double seconds) {
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
-  double wall = 0.0;
-  std::uint64_t steps = 0;
-  const SameThreads afterwards;
-  ThreadChoice threads(threads_are_said() ? 1 : omp_get_max_threads());
-  while (steps < 2 || (wall < seconds && steps < 2000)) {
-    if (sim.state.time >= sim.model.solver.duration) break;
-    if (!threads_are_said()) omp_set_num_threads(threads.now());
-    if (sim.step()) break;
-    ++steps;
-    const double before = wall;
-    wall = std::chrono::duration<double>(Clock::now() - start).count();
-    threads.stepped(wall - before);
-  }
-  return wall > 0.0 ? static_cast<double>(steps) / wall : 0.0;
-}
-
-std::size_t held_blocks(const Simulation& sim) {
-  return static_cast<std::size_t>(std::count_if(sim.blocks.fixed.begin(), sim.blocks.fixed.end(),
-                                                [](auto fixed) { return fixed != 0; }));
-}
-
-/// Makes a few steps.
-Check look_at(Simulation& sim) {
-  Check found;
-  found.closed = closed_contacts(sim.contacts);
-  found.within_reach = sim.contacts.size();
-  found.critical_step = sim.bound.critical_step;
-  found.likely_step = sim.bound.likely_step;
-  found.loads = load_report(sim);
-  found.initial_stress = initial_stress_report(sim);
-  const std::vector<Stage> stages = stages_of(sim.model);
-  const auto is_static = [](const Stage& s) { return s.masses == StageMasses::uniform_step; };
-  if (!std::all_of(stages.begin(), stages.end(), is_static)) found.step_as_given = sim.usual_step();
-  if (std::any_of(stages.begin(), stages.end(), is_static))
-    found.static_step = sim.model.solver.safety * sim.uniform_step();
-  sim.scale_masses(stages.front().masses);
-  sim.change_damping(stages.front().damping,
-                     sim.model.solver.dynamic && stages.front().until != StageEnd::equilibrium);
-  sim.start(std::min(sim.model.output.history_every, sim.model.solver.duration));
-  found.step = sim.state.step;
-  for (const Stage& stage : stages) {
-    const double step = &stage == &stages.front() ? found.step
-                        : is_static(stage)        ? found.static_step
-                                                  : found.step_as_given;
-    found.steps += std::max(1.0, std::ceil(stage.duration / step - 1e-9));
-    found.at_most = found.at_most || stage.until == StageEnd::equilibrium;
-  }
-  found.rate = step_rate(sim, 0.5);
-  return found;
-}
-
-void print_blocks(const Simulation& sim) {
+void print_blocks(const Simulation& sim, const ModelCheck& found) {
   const BlockSet& b = sim.blocks;
   const CutReport& r = sim.polygons.report;
-  fmt::print("blocks          {} ({} held), {} vertices\n", b.size(), held_blocks(sim),
-             b.vertex_count());
+  fmt::print("blocks          {} ({} held), {} vertices\n", b.size(), found.held, b.vertex_count());
   fmt::print(
       "smallest        area {:.4g} m2 at {}, edge {:.4g} m at {}, angle {:.3g} degrees at {}\n",
       r.smallest_area, place_label(r.smallest_area_at), r.smallest_edge,
@@ -116,7 +42,7 @@ void print_places(const PreparedRun& run) {
   }
 }
 
-void print_step(const Simulation& sim, const Check& found) {
+void print_step(const Simulation& sim, const ModelCheck& found) {
   const std::string of_what =
       sim.model.solver.time_step ? "as given"
       : !sim.explicit_method()
@@ -139,9 +65,9 @@ void print_step(const Simulation& sim, const Check& found) {
              duration_text(found.steps / found.rate), found.rate);
 }
 
-void print_text(const PreparedRun& run, const Check& found) {
+void print_text(const PreparedRun& run, const ModelCheck& found) {
   const Simulation& sim = run.sim;
-  print_blocks(sim);
+  print_blocks(sim, found);
   fmt::print("contacts        {} closed, {} within reach\n", found.closed, found.within_reach);
   if (sim.explicit_method()) {
     fmt::print("critical step   {:.6g} s; {:.6g} s if every bare corner touched something\n",
@@ -168,12 +94,12 @@ void add_place(Json& json, const char* name, double value, Vec2 at) {
   json.value(at.x).value(at.y).close().close();
 }
 
-void print_object(const PreparedRun& run, const Check& found) {
+void print_object(const PreparedRun& run, const ModelCheck& found) {
   const Simulation& sim = run.sim;
   const CutReport& r = sim.polygons.report;
   Json json;
   json.open_object().pair("model", sim.model.file).pair("title", sim.model.title);
-  json.pair("blocks", sim.blocks.size()).pair("held", held_blocks(sim));
+  json.pair("blocks", sim.blocks.size()).pair("held", found.held);
   json.pair("vertices", sim.blocks.vertex_count());
   json.key("smallest").open_object();
   add_place(json, "area", r.smallest_area, r.smallest_area_at);
@@ -213,7 +139,7 @@ int check(const CheckArguments& args) {
     return exit_code::bad_input;
   }
   PreparedRun& run = prepared.value();
-  const Check found = look_at(run.sim);
+  const ModelCheck found = check_model(run.sim);
   args.json ? print_object(run, found) : print_text(run, found);
   return exit_code::done;
 }

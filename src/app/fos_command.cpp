@@ -140,7 +140,7 @@ int fos(const FosArguments& args) {
 void add_fos(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand("fos", "Find a model's factor of safety");
   command->footer(
-      "Example:\n  edda fos slope.toml\n  edda fos dam.toml --set fos.vary=water:lake\n\n"
+      "Example:\n  edda fos slope.toml\n  edda fos dam.toml --set fos.vary=water:reservoir\n\n"
       "Brings the model to rest, then tries factors: the strength of the joints divided by it\n"
       "(cohesion, tangent of the friction angle, tensile strength), or a load, a water or a "
       "shaking\n"

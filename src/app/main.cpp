@@ -6,6 +6,7 @@
 
 #include "app/commands.hpp"
 #include "app/common.hpp"
+#include "app/first_word.hpp"
 #include "results/version.hpp"
 
 namespace {
@@ -40,6 +41,10 @@ int run_command(int argc, char** argv) {
   edda::add_keys(app, code);
   edda::add_completion(app, code);
   edda::add_man(app, code);
+  if (const auto problem = edda::not_a_command(app, argc, argv)) {
+    std::fprintf(stderr, "edda: %s\n", problem->c_str());
+    return edda::exit_code::bad_input;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -64,6 +64,7 @@ Trouble check(const PlotArguments& args) {
   std::vector<double> numbers = args.compare;
   numbers.insert(numbers.end(), args.range.begin(), args.range.end());
   numbers.insert(numbers.end(), args.window.begin(), args.window.end());
+  numbers.insert(numbers.end(), args.times.begin(), args.times.end());
   for (const auto& number : {args.time, args.scale}) numbers.push_back(number.value_or(0.0));
   if (!std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); }))
     return fault("edda plot", "was given a number that is none, or has no end", "give another one");
@@ -76,8 +77,13 @@ Trouble check(const PlotArguments& args) {
     return fault("--dpi", "has no say where --width is in pixels", "leave it out, or give mm");
   if (!args.overrides.empty() && std::filesystem::is_directory(args.source))
     return fault("--set", "changes a model, not its results", "run the model with it");
-  if (!args.history.empty() && (args.scale || !args.range.empty() || !args.window.empty()))
-    return fault("--history", "draws lines over time", "leave out --scale, --range and --window");
+  if (!args.history.empty() && (args.scale || !args.window.empty()))
+    return fault("--history", "draws lines over time",
+                 "leave out --scale and --window; --times and --range say which part is shown");
+  if (args.history.empty() && !args.times.empty())
+    return fault("--times", "is for the lines of --history", "give --time or --compare for frames");
+  if (!args.times.empty() && !(args.times[0] < args.times[1]))
+    return fault("--times", "is empty", "give T0,T1 with T0 below T1");
   if (!args.range.empty() && !(args.range[0] < args.range[1]))
     return fault("--range", "is empty", "give LO,HI with LO below HI");
   if (const auto& w = args.window; !w.empty() && !(w[0] < w[2] && w[1] < w[3]))
@@ -175,7 +181,10 @@ void add_how(CLI::App& command, PlotArguments& args) {
   command.add_option("--scale", args.scale, "Draw displacements this many times as large")
       ->type_name("FACTOR");
   CLI::Option* const range =
-      command.add_option("--range", args.range, "Values of the ends of the colours, in SI units")
+      command
+          .add_option("--range", args.range,
+                      "Values of the ends of the colours, in SI units; of --history: "
+                      "of the values")
           ->type_name("LO,HI")
           ->delimiter(',')
           ->expected(2);
@@ -187,6 +196,10 @@ void add_how(CLI::App& command, PlotArguments& args) {
       ->type_name("X0,Y0,X1,Y1")
       ->delimiter(',')
       ->expected(4);
+  command.add_option("--times", args.times, "The part of the time that --history shows, s")
+      ->type_name("T0,T1")
+      ->delimiter(',')
+      ->expected(2);
   command.add_flag("--no-marks", args.no_marks, "Leave out monitors and convergence lines");
   command.add_option("--title", args.title, "In place of the model's")->type_name("TEXT");
   command
@@ -220,6 +233,7 @@ void add_plot(CLI::App& app, int& code) {
       "  edda plot tunnel --principal --bolts -o tunnel.pdf\n"
       "  edda plot slope --before --range 0,0.5       before and after, one scale\n"
       "  edda plot slope --history energy,drift       lines over time\n"
+      "  edda plot slope --history crest.ux --times 0,0.5 --range 0,0.1\n"
       "  edda plot slope.toml                         the blocks before the run\n\n"
       "Fields: " +
       field_names() +

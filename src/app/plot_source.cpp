@@ -253,6 +253,19 @@ Trouble read_histories(const PlotArguments& args, HistorySource& source) {
   picture.panels = std::move(panels.value());
   picture.time = source.table.column("time")->values;
   picture.stages = stages_of(args.source);
+  if (!args.range.empty()) picture.range = Vec2{args.range[0], args.range[1]};
+  if (!args.times.empty()) {
+    const Vec2 span{args.times[0], args.times[1]};
+    picture.span = span;
+    const auto& t = picture.time;
+    if (std::none_of(t.begin(), t.end(), [&](double v) { return v >= span.x && v <= span.y; })) {
+      return Fault{
+          {"--times", {}, 0, 0},
+          fmt::format("no row of history.csv lies between {:.6g} and {:.6g} s", span.x, span.y),
+          t.empty() ? std::string("it has none yet")
+                    : fmt::format("its rows go from {:.6g} to {:.6g} s", t.front(), t.back())};
+    }
+  }
   picture.paper = paper_of(args);
   picture.title = args.title;
   if (!args.title.empty()) return {};

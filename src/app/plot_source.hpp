@@ -18,6 +18,7 @@ struct PlotArguments {
   std::vector<std::string> overrides, history;
   std::vector<double> compare;        ///< s
   std::vector<double> range, window;  ///< low, high; x0, y0, x1, y1
+  std::vector<double> times;          ///< s, first and last of a history
   std::optional<double> time, scale, dpi;
   double width = 0.0;  ///< mm; 0: not given
   int width_pixels = 0;

@@ -99,7 +99,7 @@ int run(const RunArguments& args) {
 void add_run(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand("run", "Run a model and write its results into a folder");
   command->footer(
-      "Example:\n  edda run slope.toml -o steep --set joints.rock.friction_angle=20\n\n"
+      "Example:\n  edda run slope.toml -o smooth --set joints.bedding.friction_angle=20\n\n"
       "The folder (default: the model's name without .toml, here) then holds\n"
       "  summary.json   how the run ended, the energy ledger, checks to look at; written last\n"
       "  history.csv    monitors and energies over time\n"

@@ -27,6 +27,11 @@ double distance_to_rings(const std::vector<Ring>& rings, Vec2 p) {
   return least;
 }
 
+/// How far off an edge a point on it may lie by rounding alone, m.
+double rounding_at(const BlockSet& b, Vec2 p, double snap) {
+  return std::min(snap, 1e-13 * (extent(b) + norm(p + b.origin)));
+}
+
 }  // namespace
 
 double snap_distance(const Model& model, const BlockSet& b) {
@@ -34,30 +39,42 @@ double snap_distance(const Model& model, const BlockSet& b) {
   return std::max(model.domain ? snap_of(model) : 1e-9 * extent(b), rounding);
 }
 
-std::optional<Id> block_at(const Model& model, const PolygonSet& polygons, const BlockSet& b,
-                           Vec2 p, Among among) {
-  const double snap = snap_distance(model, b);
-  const double edge = std::min(snap, 1e-13 * (extent(b) + norm(p + b.origin)));  // rounding only
-  std::optional<Id> nearest, leaving;
-  double least = snap;
+std::vector<Id> blocks_at(const Model& model, const PolygonSet& polygons, const BlockSet& b, Vec2 p,
+                          Among among) {
+  const double edge = rounding_at(b, p, snap_distance(model, b));
+  std::vector<Id> found;
   for (std::size_t q = 0; q < b.size(); ++q) {
     const std::size_t i = polygons.reversed ? b.size() - 1 - q : q;
     if (among == Among::free_blocks && b.fixed[i]) continue;
     const Vec2 arm = p - Vec2{b.centroid_x[i], b.centroid_y[i]};
-    if (norm(arm) > b.radius[i] + snap + edge) continue;
-    const std::vector<Ring>& rings = polygons.blocks[i].rings;
-    if (side_of(rings, p, edge) >= 0) {
-      const bool stays = b.opening.empty() || b.opening[i] == none;
-      if (stays) return static_cast<Id>(i);
-      if (!leaving) leaving = static_cast<Id>(i);
-      continue;
-    }
-    const double d = distance_to_rings(rings, p);
+    if (norm(arm) > b.radius[i] + edge) continue;
+    if (side_of(polygons.blocks[i].rings, p, edge) >= 0) found.push_back(static_cast<Id>(i));
+  }
+  const auto rank = [&](Id i) {
+    const bool leaves = !b.opening.empty() && b.opening[i] != none;
+    return 2 * int{leaves} + int{b.fixed[i] != 0};
+  };
+  std::stable_sort(found.begin(), found.end(), [&](Id i, Id j) { return rank(i) < rank(j); });
+  return found;
+}
+
+std::optional<Id> block_at(const Model& model, const PolygonSet& polygons, const BlockSet& b,
+                           Vec2 p, Among among) {
+  const std::vector<Id> holding = blocks_at(model, polygons, b, p, among);
+  if (!holding.empty()) return holding.front();
+  std::optional<Id> nearest;
+  double least = snap_distance(model, b);
+  for (std::size_t q = 0; q < b.size(); ++q) {
+    const std::size_t i = polygons.reversed ? b.size() - 1 - q : q;
+    if (among == Among::free_blocks && b.fixed[i]) continue;
+    const Vec2 arm = p - Vec2{b.centroid_x[i], b.centroid_y[i]};
+    if (norm(arm) > b.radius[i] + least) continue;
+    const double d = distance_to_rings(polygons.blocks[i].rings, p);
     if (d > least || (nearest && d == least)) continue;
     least = d;
     nearest = static_cast<Id>(i);
   }
-  return leaving ? leaving : nearest;
+  return nearest;
 }
 
 }  // namespace edda

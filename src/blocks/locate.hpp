@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "blocks/block_set.hpp"
 #include "lines/polygon_set.hpp"
@@ -11,11 +12,16 @@ namespace edda {
 /// Which blocks may be found.
 enum class Among { all_blocks, free_blocks };
 
-/// The block of lowest number, as cut, that holds p (local coordinates) or has it on its edge: one
-/// that stays before one that a stage takes out. Else the nearest within the snap distance:
+/// The block that holds p (local coordinates) or has it on its edge. Of several that share a border
+/// there, one that stays before one that a stage takes out, then one that is free before one that
+/// is held, then the one of lowest number, as cut. Else the nearest within the snap distance:
 /// `domain.snap`, or 1e-9 of the model's size.
 std::optional<Id> block_at(const Model& model, const PolygonSet& polygons, const BlockSet& blocks,
                            Vec2 p, Among among = Among::all_blocks);
+
+/// All blocks that hold p or have it on their edges, in the order in which block_at() prefers them.
+std::vector<Id> blocks_at(const Model& model, const PolygonSet& polygons, const BlockSet& blocks,
+                          Vec2 p, Among among = Among::all_blocks);
 
 /// Points closer than this are one point, m.
 double snap_distance(const Model& model, const BlockSet& blocks);

@@ -1,6 +1,8 @@
 #include "forces/mass_scaling.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/parallel.hpp"
 #include "blocks/point_mass.hpp"
@@ -43,6 +45,34 @@ std::vector<double> raise_inertia(BlockSet& b, const State& state, const Pose& p
     fill_point_masses(b);
   }
   return factors;
+}
+
+double step_that_adds(const BlockSet& b, const std::vector<double>& own, double mass) {
+  double low = std::numeric_limits<double>::infinity(), high = 0.0;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    if (!std::isfinite(own[i]) || b.fixed[i]) continue;
+    low = std::min(low, own[i]);
+    high = std::max(high, own[i]);
+  }
+  if (!(low < high)) return low;
+  const auto added = [&](double step) {
+    return ordered_sum(own.size(), [&](std::size_t i) {
+      if (b.fixed[i] || !(own[i] < step)) return 0.0;
+      const double ratio = step / own[i];
+      return (ratio * ratio - 1.0) * b.mass[i];
+    });
+  };
+  constexpr int halvings = 60;
+  if (added(high) <= mass) return high;
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = 0.5 * (low + high);
+    (added(middle) <= mass ? low : high) = middle;
+  }
+  return low;
+}
+
+double free_mass(const BlockSet& b) {
+  return ordered_sum(b.size(), [&](std::size_t i) { return b.fixed[i] ? 0.0 : b.mass[i]; });
 }
 
 double added_mass(const BlockSet& b, const std::vector<double>& inertia) {

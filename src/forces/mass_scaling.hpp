@@ -19,4 +19,16 @@ std::vector<double> raise_inertia(BlockSet& blocks, const State& state, const Po
 /// Mass that the blocks only seem to have, kg. inertia: [nb] factors on their masses, or none.
 double added_mass(const BlockSet& blocks, const std::vector<double>& inertia);
 
+/// The most of it that leaves motion what it is, of the mass of all free blocks: accelerations and
+/// the squares of frequencies are then off by a tenth on the whole, which is about what else is
+/// known of them. The blocks that it is meant for are few and small, and stay far below.
+inline constexpr double most_added = 0.1;
+
+/// The largest step (s) that masses can be raised for by `mass` (kg) in all, where block i alone
+/// needs steps below own[i] (s).
+double step_that_adds(const BlockSet& blocks, const std::vector<double>& own, double mass);
+
+/// Mass of the blocks that are not held, kg.
+double free_mass(const BlockSet& blocks);
+
 }  // namespace edda

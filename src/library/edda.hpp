@@ -17,6 +17,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -77,6 +78,10 @@ class EDDA_API Model {
   // Names, in the order of the model. Numbers of materials and joints below are rows of these.
   std::vector<std::string> materials() const, joints() const, openings() const, stages() const;
 
+  /// What looks right in it and is not, as `edda check` says it, a sentence each. The model is cut
+  /// for that, the first time that it is asked. Error: it cannot be computed.
+  const std::vector<std::string>& warnings() const;
+
   struct Impl;
   explicit Model(std::shared_ptr<const Impl> impl);
   const Impl& impl() const { return *impl_; }
@@ -111,6 +116,72 @@ struct Cut {
 
 EDDA_API Cut cut(const Model& model);
 
+// ---- Studies of a model
+
+/// What `edda check` says.
+struct ModelCheck {
+  std::size_t blocks = 0, held = 0;                ///< held: of the blocks
+  std::size_t contacts = 0;                        ///< closed at the start
+  double critical_step = 0.0;                      ///< s
+  double time_step = 0.0;                          ///< s: the first
+  double steps = 0.0;                              ///< to expect
+  bool at_most = false;                            ///< stages may end before
+  double steps_per_second = 0.0;                   ///< of wall time
+  std::string governed_by;                         ///< what holds the step
+  std::vector<std::string> loads, initial_stress;  ///< a sentence each
+  std::vector<std::string> warnings;               ///< those of the model
+};
+
+/// Makes a few steps, of which nothing is kept. Error: the model cannot be computed.
+EDDA_API ModelCheck check(const Model& model);
+
+/// One factor that was tried.
+struct FosTrial {
+  double factor = 0.0;
+  bool holds = false;
+  std::string reason;         ///< a few words
+  double displacement = 0.0;  ///< m, largest of a corner since the start of the trial
+  std::int32_t block = -1;    ///< whose corner that is; -1: none
+  double velocity = 0.0;      ///< m/s, at its end
+  double time = 0.0;          ///< s that it took
+};
+
+/// What `edda fos` finds.
+struct FactorOfSafety {
+  std::string status;                  ///< found, below, above, unstable or interrupted
+  std::string message;                 ///< one sentence
+  std::optional<double> factor;        ///< middle of the bracket; none where there is no bracket
+  std::optional<double> holds, fails;  ///< the largest that holds, the smallest that fails
+  std::string mechanism;               ///< a sentence; empty where nothing failed
+  std::vector<FosTrial> trials;        ///< in the order in which one thread makes them
+  std::vector<std::string> warnings;
+  double wall_seconds = 0.0;
+};
+
+/// By what [fos] of the model says. `stop`, set from anywhere, ends it as interrupted. Error: the
+/// model cannot be computed, or has nothing to search for.
+EDDA_API FactorOfSafety fos(const Model& model, const std::atomic<bool>* stop = nullptr);
+
+/// A monitor's displacement at the end, and how far other runs end from it, m.
+struct ErrorBar {
+  std::string monitor;
+  double ux = 0.0, uy = 0.0;
+  double step = 0.0, stiffness = 0.0, order = 0.0;
+};
+
+/// What `edda verify` finds.
+struct Verification {
+  std::vector<ErrorBar> monitors;
+  double time = 0.0;           ///< s, of the model
+  double largest_drift = 0.0;  ///< of the energy, over all runs
+  std::string failed;          ///< which run did not reach its end, and why; empty: none
+};
+
+/// Runs the model four times: as it is, at half the step, with springs three times as stiff, and
+/// with its blocks in the other order. `stop` as of fos(). Error: the model cannot be computed, or
+/// has no monitors.
+EDDA_API Verification verify(const Model& model, const std::atomic<bool>* stop = nullptr);
+
 // ---- What a simulation tells
 
 enum class Status { completed, equilibrium, collapsed, interrupted, failed };
@@ -124,6 +195,10 @@ struct Outcome {
   std::uint64_t steps = 0;
   std::size_t contacts = 0;  ///< closed at the end
   double drift = 0.0;        ///< of the energy: the largest in size of all rows, not the last one's
+  bool at_rest = true;       ///< at the end; false: something still moves
+  std::int32_t fastest = -1;  ///< block with the fastest corner at the end; -1: none is free
+  double speed = 0.0;         ///< m/s, of that corner
+  std::vector<std::string> failed_checks;  ///< those of summary.json, a sentence each
   double wall_seconds = 0.0;
 };
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +18,11 @@
 namespace edda::api {
 
 struct Model::Impl {
+  explicit Impl(edda::Model given) : model(std::move(given)) {}
   edda::Model model;
+  // Found out when they are first asked for.
+  mutable std::mutex asking;
+  mutable std::optional<std::vector<std::string>> warnings;
 };
 
 [[noreturn]] void raise(const Faults& faults);

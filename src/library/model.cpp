@@ -30,7 +30,7 @@ std::string text_of(const std::vector<Fault>& faults) {
 }
 
 Model model_of(Result<edda::Model> result) {
-  return Model(std::make_shared<Model::Impl>(Model::Impl{value_or_raise(std::move(result))}));
+  return Model(std::make_shared<Model::Impl>(value_or_raise(std::move(result))));
 }
 
 template <class Items>

@@ -68,6 +68,10 @@ Outcome outcome_of(const edda::Outcome& o) {
   outcome.contacts = o.contacts;
   outcome.drift = o.largest_drift;
   outcome.wall_seconds = o.wall.total;
+  outcome.at_rest = o.at_rest;
+  outcome.fastest = o.fastest == no_id ? -1 : static_cast<std::int32_t>(o.fastest);
+  outcome.speed = o.speed;
+  outcome.failed_checks = o.failed_checks;
   return outcome;
 }
 

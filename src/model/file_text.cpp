@@ -15,10 +15,14 @@ std::variant<std::string, Fault> file_text(const std::string& path) {
   };
   std::error_code error;
   if (path.empty() || !std::filesystem::exists(path, error)) {
-    return fault("no such file", "check the name of the file");
+    const bool ending_lacks = !path.empty() && std::filesystem::exists(path + ".toml", error);
+    return fault("no such file", ending_lacks ? "did you mean " + path + ".toml?"
+                                              : std::string("check the name of the file"));
   }
   if (std::filesystem::is_directory(path, error)) {
-    return fault("is a folder, not a file", "give a file in it");
+    const bool ending_lacks = std::filesystem::exists(path + ".toml", error);
+    return fault("is a folder, not a file", ending_lacks ? "did you mean " + path + ".toml?"
+                                                         : std::string("give a file in it"));
   }
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);

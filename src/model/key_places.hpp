@@ -19,6 +19,7 @@ struct WrittenAt {
 struct KeyPlace {
   std::string_view key;  ///< of the table of keys, which lasts
   WrittenAt table, value;
+  bool in_words = false;  ///< a text, such as a number with its unit
 };
 
 using KeyPlaces = std::vector<KeyPlace>;

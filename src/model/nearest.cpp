@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace edda {
 namespace {
@@ -75,6 +76,19 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
     best = candidate;
   }
   return best;
+}
+
+std::vector<std::string_view> nearest_first(std::string_view word,
+                                            std::span<const std::string_view> known) {
+  std::vector<std::pair<int, std::string_view>> by_edits;
+  for (const std::string_view candidate : known) {
+    by_edits.emplace_back(distance(word, candidate), candidate);
+  }
+  std::stable_sort(by_edits.begin(), by_edits.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string_view> words;
+  for (const auto& [edits, candidate] : by_edits) words.push_back(candidate);
+  return words;
 }
 
 std::string quoted_list(std::span<const std::string_view> words) {

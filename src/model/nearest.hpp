@@ -27,6 +27,10 @@ int edit_distance(std::string_view a, std::string_view b);
 /// word that holds the other as a part ("friction", "friction_angle") counts as likely_edits away.
 std::string_view nearest(std::string_view word, std::span<const std::string_view> known);
 
+/// The words of `known`, those with the fewest edits from `word` first.
+std::vector<std::string_view> nearest_first(std::string_view word,
+                                            std::span<const std::string_view> known);
+
 /// `"a", "b", "c"`, cut off after a dozen.
 std::string quoted_list(std::span<const std::string_view> words);
 

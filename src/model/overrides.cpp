@@ -102,6 +102,20 @@ Fault no_such_element(int number, const List& list, const std::string& path,
                   suggestion(part, known));
 }
 
+/// An element of a named table that the model does not have. Made by one of its keys, it would be
+/// one that nothing names.
+Fault no_such_name(int number, const Table& table, const std::string& section,
+                   const std::string& part) {
+  std::vector<std::string_view> known;
+  for (const Entry& entry : table) known.push_back(entry.key);
+  const std::string path = section + '.' + clipped(part);
+  return fault_at(number, path, fmt::format("the model has no [{}]", path),
+                  fmt::format("{}; a whole table, {} = {{ ... }}, adds one",
+                              known.empty() ? fmt::format("it has no [{}.NAME] at all", section)
+                                            : "it has " + quoted_list(nearest_first(part, known)),
+                              path));
+}
+
 /// The entry of a table, made where it is missing.
 Value& entry_of(Table& table, const std::string& key, const Place& place) {
   for (Entry& entry : table) {
@@ -109,6 +123,10 @@ Value& entry_of(Table& table, const std::string& key, const Place& place) {
   }
   table.push_back({key, place, {Table{}, place}});
   return table.back().value;
+}
+
+auto is_named(std::string_view name) {
+  return [name](const Entry& entry) { return entry.key == name; };
 }
 
 std::optional<Fault> apply(Value& root, const std::string& override_text, int number) {
@@ -127,6 +145,7 @@ std::optional<Fault> apply(Value& root, const std::string& override_text, int nu
   }
   Value* node = &root;
   std::string path;
+  const Section* named = nullptr;  // the table whose names `node` holds
   for (const std::string& part : parts) {
     if (Table* table = std::get_if<Table>(&node->content)) {
       path += (path.empty() ? "" : ".") + part;
@@ -140,6 +159,13 @@ std::optional<Fault> apply(Value& root, const std::string& override_text, int nu
         return fault_at(number, path, fmt::format("the model has no [[{}]]", part),
                         fmt::format("add one to the model, or set {} to a whole list", part));
       }
+      if (is_made && &part != &parts.back() && named != nullptr) {
+        table->pop_back();
+        const Fault fault = no_such_name(number, *table, std::string(named->name), part);
+        if (table->empty()) std::erase_if(std::get<Table>(root.content), is_named(named->name));
+        return fault;
+      }
+      named = section != nullptr && section->shape == Shape::named ? section : nullptr;
       node = &next;
     } else if (List* list = std::get_if<List>(&node->content)) {
       const bool of_tables = !list->empty() && std::holds_alternative<Table>(list->front().content);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 namespace edda {
@@ -50,6 +51,102 @@ bool gives(const Model& model, const Where& table, const char* key) {
   return find_key_place(model.key_places, table, key) != nullptr;
 }
 
+/// Whether the key was written with a unit: then it is what is meant.
+bool has_unit(const Model& model, const Where& table, const char* key) {
+  const KeyPlace* place = find_key_place(model.key_places, table, key);
+  return place != nullptr && place->in_words;
+}
+
+double degrees_of(double radians) {
+  return radians * 180.0 / std::numbers::pi;
+}
+
+/// A direction as one who thinks in radians writes it: some multiple of 5 degrees, rounded.
+bool looks_like_radians(double value) {
+  constexpr double round = 5.0;  // degrees
+  const double size = std::abs(value);
+  if (!(size > 0.0) || size > 2.0 * std::numbers::pi) return false;
+  double unit = 1.0;  // of its last decimal
+  while (unit > 1e-6 && std::abs(size / unit - std::round(size / unit)) > 1e-6) unit /= 10.0;
+  if (unit > 0.05) return false;  // 2 and 2.5 degrees are what they are
+  const double degrees = degrees_of(size);
+  return std::abs(degrees - round * std::round(degrees / round)) <=
+         1.05 * degrees_of(0.5 * unit) + 1e-3;
+}
+
+std::string radians(const std::string& key, double value) {
+  const double meant = degrees_of(value);
+  return fmt::format(
+      "{}: {:g} degrees looks like radians: write {:g}, or \"{:g} deg\" if it is meant", key, value,
+      std::abs(meant) > 1.0 ? std::round(2.0 * meant) / 2.0 : meant, value);
+}
+
+/// Directions, of which small ones may be meant.
+void check_directions(const Model& model, std::vector<std::string>& warnings) {
+  Doubts doubts;
+  const auto look = [&](const Where& where, const char* key, double value) {
+    if (!gives(model, where, key) || has_unit(model, where, key)) return;
+    if (looks_like_radians(value)) doubts.add(radians(where.key + '.' + key, value));
+  };
+  for (const JointSet& set : model.joint_sets) {
+    look(set.where, "angle", set.given_angle.value_or(0.0));
+    look(set.where, "dip", set.dip.value_or(0.0));
+    look(set.where, "dip_direction", set.dip_direction.value_or(0.0));
+  }
+  for (const FractureNetwork& network : model.networks) {
+    if (looks_like_radians(network.angle.mean))
+      doubts.add(radians(network.where.key + ".angle.mean", network.angle.mean));
+  }
+  for (const Arch& arch : model.arches) {
+    look(arch.where, "from_angle", arch.from_angle);
+    look(arch.where, "to_angle", arch.to_angle);
+  }
+  for (const BoltPattern& pattern : model.bolt_patterns) {
+    look(pattern.where, "from_angle", pattern.from_angle);
+    look(pattern.where, "to_angle", pattern.to_angle);
+  }
+  if (model.slope) look(model.slope->where, "face_angle", model.slope->face_angle);
+  if (model.section) look(model.section->where, "azimuth", model.section->azimuth);
+  doubts.report(warnings);
+}
+
+/// Gravity that lifts, and shaking given in units of it.
+void check_accelerations(const Model& model, std::vector<std::string>& warnings) {
+  constexpr double g = 9.81, weak = 1.0;  // m/s2
+  const Vec2 down = model.gravity;
+  if (down.y > 0.0) {
+    warnings.push_back(
+        fmt::format("gravity: [{:g}, {:g}] points upwards: y runs upwards: write [{:g}, {:g}]",
+                    down.x, down.y, down.x, -down.y));
+  }
+  Doubts doubts;
+  const bool in_words =
+      std::any_of(model.key_places.begin(), model.key_places.end(),
+                  [](const KeyPlace& place) { return place.key == "amplitude" && place.in_words; });
+  for (const Shaking& shaking : model.shakings) {
+    const std::string key = shaking.where.key;
+    const Acceleration& a = shaking.acceleration;
+    const double scale = std::abs(shaking.scale);
+    if (a.amplitude && !in_words && std::abs(*a.amplitude) > 0.0 &&
+        std::abs(*a.amplitude) * scale < weak) {
+      doubts.add(
+          fmt::format("{}.acceleration.amplitude: {:g} m/s2 is {:.2g} g, hardly to be felt: "
+                      "if {:g} g is meant, write {:g}, else \"{:g} m/s2\"",
+                      key, *a.amplitude, std::abs(*a.amplitude) / g, *a.amplitude, *a.amplitude * g,
+                      *a.amplitude));
+    }
+    double peak = 0.0;
+    for (const Vec2 row : shaking.record.acceleration) peak = std::max(peak, norm(row));
+    if (peak > 0.0 && shaking.scale == 1.0 && peak < weak && a.file.ends_with(".csv")) {
+      doubts.add(
+          fmt::format("{}.acceleration: the largest of {} is {:.3g} m/s2, hardly to be felt: "
+                      "if the file is in g, write scale = {:g}",
+                      key, a.file, peak, g));
+    }
+  }
+  doubts.report(warnings);
+}
+
 void check_weight(const Model& model, const Material& m, Doubts& doubts) {
   constexpr double least = 100.0, most = 20000.0;  // kg/m3
   if (m.density >= least && m.density <= most) return;
@@ -83,7 +180,9 @@ void check_materials(const Model& model, std::vector<std::string>& warnings) {
 }
 
 void check_joints(const Model& model, std::vector<std::string>& warnings) {
-  Doubts stiffness, walls, cohesion;
+  constexpr double least_strength = 1e3;  // Pa
+  constexpr double right_angle = 0.5 * std::numbers::pi;
+  Doubts stiffness, walls, strength, angle;
   for (const JointLaw& law : model.joints) {
     const std::string& key = law.where.key;
     if (law.kn && *law.kn < 1e6) {
@@ -92,11 +191,22 @@ void check_joints(const Model& model, std::vector<std::string>& warnings) {
     if (law.jcs && *law.jcs < 1e4) {
       walls.add(low(key + ".jcs", *law.jcs, "Pa", "rock", "Pa", 1e6));
     }
-    if (law.peak.cohesion > 0.0 && law.peak.cohesion < 10.0) {
-      cohesion.add(low(key + ".cohesion", law.peak.cohesion, "Pa", "a cohesion", "Pa", 1e3));
-    }
+    const auto look_at_strength = [&](const char* name, double value, const char* what) {
+      if (!(value > 0.0) || value >= least_strength || has_unit(model, law.where, name)) return;
+      strength.add(low(key + '.' + name, value, "Pa", what, "Pa", least_strength));
+    };
+    look_at_strength("cohesion", law.peak.cohesion, "a cohesion");
+    look_at_strength("tensile_strength", law.peak.tensile_strength, "a strength");
+    look_at_strength("residual.cohesion", law.residual.cohesion, "a cohesion");
+    const auto look_at_angle = [&](const char* name, double value) {
+      if (!(value > 0.0) || value > right_angle || value == 1.0) return;
+      if (gives(model, law.where, name) && !has_unit(model, law.where, name))
+        angle.add(radians(key + '.' + name, value));
+    };
+    look_at_angle("friction_angle", law.peak.friction_angle);
+    look_at_angle("residual_angle", law.residual_angle.value_or(0.0));
   }
-  for (const Doubts* doubts : {&stiffness, &walls, &cohesion}) doubts->report(warnings);
+  for (const Doubts* doubts : {&stiffness, &walls, &strength, &angle}) doubts->report(warnings);
 }
 
 void check_bolts(const Model& model, std::vector<std::string>& warnings) {
@@ -168,8 +278,10 @@ void check_initial_stress(const Model& model, std::vector<std::string>& warnings
 
 std::vector<std::string> implausible(const Model& model) {
   std::vector<std::string> warnings;
+  check_accelerations(model, warnings);
   check_materials(model, warnings);
   check_joints(model, warnings);
+  check_directions(model, warnings);
   check_bolts(model, warnings);
   check_water(model, warnings);
   check_initial_stress(model, warnings);

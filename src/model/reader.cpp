@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "model/key_hints.hpp"
 #include "model/nearest.hpp"
 #include "model/polygon_check.hpp"
 
@@ -299,28 +300,16 @@ struct ReadInto {
   }
 };
 
-/// Hint for a key that this table does not know: the one it may mean, or the table it belongs to.
-std::string unknown_key_hint(std::string_view name, std::span<const std::string_view> known) {
-  if (!is_likely(name, known)) {
-    for (const Section& section : sections()) {
-      if (section.shape != Shape::root && find_key(section.keys, name) != nullptr) {
-        return fmt::format("it belongs to [{}]; the nearest here is \"{}\"", section.name,
-                           nearest(name, known));
-      }
-    }
-  }
-  return suggestion(name, known);
-}
-
 void unknown_key(const Entry& entry, std::span<const std::string_view> known,
                  const std::string& prefix, Reading& reading) {
   add_fault(reading, entry.place, prefix + entry.key, "unknown key",
             unknown_key_hint(entry.key, known));
 }
 
-void note_place(const Key& key, Place table, Place value, Reading& reading) {
+void note_place(const Key& key, Place table, const Value& value, Reading& reading) {
   const auto at = [](Place p) { return WrittenAt{p.line, p.from_set ? 1 : p.column, p.from_set}; };
-  reading.model.key_places.push_back({key.name, at(table), at(value)});
+  reading.model.key_places.push_back(
+      {key.name, at(table), at(value.place), as<std::string>(value) != nullptr});
 }
 
 void read_keys(std::span<const Key> keys, void* object, const Value& table,
@@ -340,7 +329,7 @@ void read_keys(std::span<const Key> keys, void* object, const Value& table,
       }
       unknown_key(entry, known, prefix, reading);
     } else {
-      note_place(*key, table.place, entry.value.place, reading);
+      note_place(*key, table.place, entry.value, reading);
       if (key->slot == nullptr) continue;
       const std::string path = prefix + entry.key;
       std::visit(ReadInto{{*key, entry.value, path, reading}}, key->slot(object));

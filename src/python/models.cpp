@@ -1,4 +1,8 @@
 // Faults, models and their blocks.
+#include <atomic>
+#include <chrono>
+#include <future>
+
 #include "python/bindings.hpp"
 
 namespace edda::python {
@@ -36,6 +40,48 @@ api::Model parse(const std::string& toml, const std::string& name, const Overrid
 api::Cut cut(const api::Model& model) {
   const py::gil_scoped_release release;
   return api::cut(model);
+}
+
+/// Works without the GIL in a thread of its own, so that Ctrl-C is seen meanwhile and ends it.
+template <class Work>
+auto interruptible(Work work) {
+  std::atomic<bool> stop{false};
+  auto result = [&] {
+    const py::gil_scoped_release release;
+    return std::async(std::launch::async, [&] { return work(&stop); });
+  }();
+  constexpr auto look_at_signals = std::chrono::milliseconds(50);
+  bool interrupted = false;
+  while (true) {
+    {
+      const py::gil_scoped_release release;
+      if (result.wait_for(look_at_signals) == std::future_status::ready) break;
+    }
+    if (!interrupted && PyErr_CheckSignals() != 0) {
+      interrupted = true;
+      stop = true;
+    }
+  }
+  if (interrupted) throw py::error_already_set();
+  return result.get();
+}
+
+api::FactorOfSafety fos(const api::Model& model) {
+  return interruptible([&](const std::atomic<bool>* stop) { return api::fos(model, stop); });
+}
+
+api::Verification verify(const api::Model& model) {
+  return interruptible([&](const std::atomic<bool>* stop) { return api::verify(model, stop); });
+}
+
+api::ModelCheck check(const api::Model& model) {
+  const py::gil_scoped_release release;
+  return api::check(model);
+}
+
+std::vector<std::string> warnings(const api::Model& model) {
+  const py::gil_scoped_release release;
+  return model.warnings();
 }
 
 py::list rings_of(const api::CutBlock& block) {
@@ -84,7 +130,6 @@ void add_models(py::module_& m) {
       "version", [] { return std::string(api::version()); }, "The version, \"0.1.0\".");
   m.def("set_threads", &api::set_threads, py::arg("threads"),
         "Threads that simulations of this process use; results do not depend on it.");
-
   py::class_<api::Model>(m, "Model", "A checked model; never changes.")
       .def_static("read", &read, py::arg("path"), py::arg("overrides") = Overrides{},
                   "Reads a TOML file; overrides as of --set, \"solver.duration=0.2\".")
@@ -99,6 +144,10 @@ void add_models(py::module_& m) {
       .def_property_readonly("joints", &api::Model::joints, "Names of the laws, in order.")
       .def_property_readonly("openings", &api::Model::openings, "Names, in order.")
       .def_property_readonly("stages", &api::Model::stages, "Names, in order.")
+      .def_property_readonly(
+          "warnings", &warnings,
+          "What looks right in it and is not, as edda check says it, a sentence each; cuts the "
+          "model when it is first asked for.")
       .def("to_toml", &api::Model::to_toml, "The model with every key and default filled in.")
       .def("cut", &cut, "Its blocks as polygons.")
       // It never changes.
@@ -111,6 +160,9 @@ void add_models(py::module_& m) {
                  "to_toml()");
            })
       .def("__repr__", [](const api::Model& model) { return "<edda.Model " + model.file() + ">"; });
+  m.def("check", &check, py::arg("model"), "What edda check says of a model.");
+  m.def("fos", &fos, py::arg("model"), "The factor of safety, by what [fos] of the model says.");
+  m.def("verify", &verify, py::arg("model"), "The error bars of the model's monitors.");
 
   py::class_<api::CutBlock>(m, "CutBlock", "One block as cut.")
       .def(py::pickle(&state_of, &block_of))

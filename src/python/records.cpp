@@ -70,11 +70,99 @@ void add_records(py::module_& m) {
           "drift", &api::Outcome::drift,
           "Of the energy, a ratio: the largest in size of all rows of the history, not the "
           "last one's.")
-      .def_readonly("wall_seconds", &api::Outcome::wall_seconds, "s");
+      .def_readonly("wall_seconds", &api::Outcome::wall_seconds, "s")
+      .def_readonly("at_rest", &api::Outcome::at_rest,
+                    "Whether all is at rest at the end; of a run that has completed, too.")
+      .def_readonly("fastest", &api::Outcome::fastest,
+                    "Block with the fastest corner at the end, -1: none is free.")
+      .def_readonly("speed", &api::Outcome::speed, "m/s, of that corner.")
+      .def_readonly("failed_checks", &api::Outcome::failed_checks,
+                    "Checks of summary.json that do not hold, a sentence each.");
   add_pickling(outcome, &api::Outcome::status, &api::Outcome::message, &api::Outcome::time,
                &api::Outcome::steps, &api::Outcome::contacts, &api::Outcome::drift,
-               &api::Outcome::wall_seconds);
+               &api::Outcome::wall_seconds, &api::Outcome::at_rest, &api::Outcome::fastest,
+               &api::Outcome::speed, &api::Outcome::failed_checks);
   add_repr(outcome, {"status", "message", "time", "steps"});
+
+  py::class_<api::ModelCheck> check(m, "ModelCheck", "What edda.check() finds.");
+  check.def_readonly("blocks", &api::ModelCheck::blocks, "How many there are.")
+      .def_readonly("held", &api::ModelCheck::held, "How many of them do not move.")
+      .def_readonly("contacts", &api::ModelCheck::contacts, "Closed at the start.")
+      .def_readonly("critical_step", &api::ModelCheck::critical_step, "s")
+      .def_readonly("time_step", &api::ModelCheck::time_step, "s, the first.")
+      .def_readonly("steps", &api::ModelCheck::steps, "To expect.")
+      .def_readonly("at_most", &api::ModelCheck::at_most, "Whether stages may end before.")
+      .def_readonly("steps_per_second", &api::ModelCheck::steps_per_second, "Of wall time.")
+      .def_readonly("governed_by", &api::ModelCheck::governed_by, "What holds the step.")
+      .def_readonly("loads", &api::ModelCheck::loads, "A sentence each.")
+      .def_readonly("initial_stress", &api::ModelCheck::initial_stress, "A sentence each.")
+      .def_readonly("warnings", &api::ModelCheck::warnings,
+                    "What looks right in the model and is not, a sentence each.");
+  add_pickling(
+      check, &api::ModelCheck::blocks, &api::ModelCheck::held, &api::ModelCheck::contacts,
+      &api::ModelCheck::critical_step, &api::ModelCheck::time_step, &api::ModelCheck::steps,
+      &api::ModelCheck::at_most, &api::ModelCheck::steps_per_second, &api::ModelCheck::governed_by,
+      &api::ModelCheck::loads, &api::ModelCheck::initial_stress, &api::ModelCheck::warnings);
+  add_repr(check, {"blocks", "held", "time_step", "steps", "warnings"});
+
+  py::class_<api::FosTrial> trial(m, "FosTrial", "One factor that was tried.");
+  trial.def_readonly("factor", &api::FosTrial::factor, "What was tried.")
+      .def_readonly("holds", &api::FosTrial::holds, "Whether all came to rest.")
+      .def_readonly("reason", &api::FosTrial::reason, "A few words.")
+      .def_readonly("displacement", &api::FosTrial::displacement,
+                    "m, largest of a corner since the start of the trial.")
+      .def_readonly("block", &api::FosTrial::block, "Whose corner that is, -1: none.")
+      .def_readonly("velocity", &api::FosTrial::velocity, "m/s, at its end.")
+      .def_readonly("time", &api::FosTrial::time, "s that it took.");
+  add_pickling(trial, &api::FosTrial::factor, &api::FosTrial::holds, &api::FosTrial::reason,
+               &api::FosTrial::displacement, &api::FosTrial::block, &api::FosTrial::velocity,
+               &api::FosTrial::time);
+  add_repr(trial, {"factor", "holds", "reason"});
+
+  py::class_<api::FactorOfSafety> fos(m, "FactorOfSafety", "What edda.fos() finds.");
+  fos.def_readonly("status", &api::FactorOfSafety::status,
+                   "found, below, above, unstable or interrupted.")
+      .def_readonly("message", &api::FactorOfSafety::message, "One sentence.")
+      .def_readonly("factor", &api::FactorOfSafety::factor,
+                    "The middle of the bracket; None where there is no bracket.")
+      .def_readonly("holds", &api::FactorOfSafety::holds, "The largest factor that holds, or None.")
+      .def_readonly("fails", &api::FactorOfSafety::fails,
+                    "The smallest factor that fails, or None.")
+      .def_readonly("mechanism", &api::FactorOfSafety::mechanism,
+                    "What moves at it, a sentence; empty where nothing failed.")
+      .def_readonly("trials", &api::FactorOfSafety::trials, "Every factor that was tried.")
+      .def_readonly("warnings", &api::FactorOfSafety::warnings, "A sentence each.")
+      .def_readonly("wall_seconds", &api::FactorOfSafety::wall_seconds, "s");
+  add_pickling(fos, &api::FactorOfSafety::status, &api::FactorOfSafety::message,
+               &api::FactorOfSafety::factor, &api::FactorOfSafety::holds,
+               &api::FactorOfSafety::fails, &api::FactorOfSafety::mechanism,
+               &api::FactorOfSafety::trials, &api::FactorOfSafety::warnings,
+               &api::FactorOfSafety::wall_seconds);
+  add_repr(fos, {"status", "factor", "holds", "fails"});
+
+  py::class_<api::ErrorBar> bar(
+      m, "ErrorBar", "A monitor's displacement at the end, and how far other runs end from it, m.");
+  bar.def_readonly("monitor", &api::ErrorBar::monitor, "Its name.")
+      .def_readonly("ux", &api::ErrorBar::ux, "m")
+      .def_readonly("uy", &api::ErrorBar::uy, "m")
+      .def_readonly("step", &api::ErrorBar::step, "m, at half the step.")
+      .def_readonly("stiffness", &api::ErrorBar::stiffness, "m, with springs three times as stiff.")
+      .def_readonly("order", &api::ErrorBar::order, "m, with the blocks in the other order.");
+  add_pickling(bar, &api::ErrorBar::monitor, &api::ErrorBar::ux, &api::ErrorBar::uy,
+               &api::ErrorBar::step, &api::ErrorBar::stiffness, &api::ErrorBar::order);
+  add_repr(bar, {"monitor", "ux", "uy", "step", "stiffness", "order"});
+
+  py::class_<api::Verification> verification(m, "Verification", "What edda.verify() finds.");
+  verification
+      .def_readonly("monitors", &api::Verification::monitors, "An ErrorBar for each monitor.")
+      .def_readonly("time", &api::Verification::time, "s, of the model.")
+      .def_readonly("largest_drift", &api::Verification::largest_drift,
+                    "Of the energy, over all runs.")
+      .def_readonly("failed", &api::Verification::failed,
+                    "Which run did not reach its end, and why; empty: none.");
+  add_pickling(verification, &api::Verification::monitors, &api::Verification::time,
+               &api::Verification::largest_drift, &api::Verification::failed);
+  add_repr(verification, {"time", "monitors", "failed"});
 
   py::class_<api::Progress> progress(m, "Progress", "How far a run has come.");
   progress.def_readonly("fraction", &api::Progress::fraction, "Of the duration.")

@@ -42,11 +42,15 @@ struct Axis {
   bool has(double value) const { return std::isfinite(value) && (!logarithmic || value > 0.0); }
 };
 
-Axis axis_of(const HistoryPanel& panel) {
+/// Of the rows that are shown, or of the range that is asked for.
+Axis axis_of(const HistoryPanel& panel, const std::vector<double>& time,
+             const std::optional<Vec2>& span, const std::optional<Vec2>& range) {
   double least = 1e300, most = -1e300, least_positive = 1e300;
   for (const Column* line : panel.lines) {
-    for (const double v : line->values) {
+    for (std::size_t r = 0; r < line->values.size(); ++r) {
+      const double v = line->values[r];
       if (!std::isfinite(v)) continue;
+      if (span && r < time.size() && (time[r] < span->x || time[r] > span->y)) continue;
       least = std::min(least, v);
       most = std::max(most, v);
       if (v > 0.0) least_positive = std::min(least_positive, v);
@@ -54,10 +58,21 @@ Axis axis_of(const HistoryPanel& panel) {
   }
   Axis axis;
   axis.label = panel.label;
+  if (range) {
+    least = range->x;
+    most = range->y;
+  }
   if (!(most >= least)) return axis;
   const ScaledUnit unit = scaled_unit(panel.unit, std::max(std::abs(least), std::abs(most)));
   if (!unit.name.empty()) axis.label += " (" + unit.name + ")";
-  axis.logarithmic = panel.unit.empty() && least >= 0.0 && most > 1e3 * least_positive;
+  axis.logarithmic =
+      panel.unit.empty() && least >= 0.0 && most > 1e3 * least_positive && (!range || least > 0.0);
+  if (range) {
+    axis.factor = axis.logarithmic ? 1.0 : unit.factor;
+    axis.low = axis.logarithmic ? std::log10(least) : least * unit.factor;
+    axis.high = axis.logarithmic ? std::log10(most) : most * unit.factor;
+    return axis;
+  }
   if (axis.logarithmic) {
     axis.low = std::floor(std::log10(least_positive));
     axis.high = std::ceil(std::log10(most));
@@ -77,7 +92,8 @@ std::vector<Tick> ticks_of(const Axis& axis, double count) {
   if (!axis.logarithmic) return ticks(axis.low, axis.high, count);
   std::vector<Tick> all;
   const int every = std::max(1, static_cast<int>(std::ceil((axis.high - axis.low) / count)));
-  for (int p = static_cast<int>(axis.low); p <= static_cast<int>(axis.high); p += every) {
+  const int first = static_cast<int>(std::ceil(axis.low - 1e-9));
+  for (int p = first; p <= axis.high + 1e-9; p += every) {
     all.push_back({static_cast<double>(p), fmt::format("1e{}", p)});
   }
   return all;
@@ -111,7 +127,7 @@ class HistoryPage {
   HistoryPage(const HistoryPicture& picture, const std::string& path)
       : picture_(picture), f_(picture.paper.font) {
     for (const HistoryPanel& panel : picture.panels) {
-      axes_.push_back(axis_of(panel));
+      axes_.push_back(axis_of(panel, picture.time, picture.span, picture.range));
       panel_heights_.push_back(
           f_ * std::max(panel_height, 1.2 * static_cast<double>(panel.lines.size()) + 2.0));
     }
@@ -158,7 +174,17 @@ class HistoryPage {
       first_ = picture_.time.front();
       last_ = picture_.time.back();
     }
+    if (picture_.span) {
+      first_ = picture_.span->x;
+      last_ = picture_.span->y;
+    }
     if (!(last_ > first_)) last_ = first_ + 1.0;
+    // Rows that are shown, and one on each side where the lines come from and go to.
+    const auto& time = picture_.time;
+    const auto from = std::lower_bound(time.begin(), time.end(), first_);
+    const auto to = std::upper_bound(from, time.end(), last_);
+    row_begin_ = from == time.begin() ? from : from - 1;
+    row_end_ = to == time.end() ? to : to + 1;
   }
 
   double tick_count(std::size_t k) const { return panel_heights_[k] / (2.2 * f_); }
@@ -204,8 +230,10 @@ class HistoryPage {
   void draw_stages(std::size_t k, const Box& frame) {
     for (std::size_t i = 0; i < picture_.stages.size(); ++i) {
       const StageSpan& stage = picture_.stages[i];
-      const double from = x_of(stage.start), to = x_of(stage.end);
-      if (i + 1 < picture_.stages.size()) {
+      const double from = std::max(x_of(stage.start), left_),
+                   to = std::min(x_of(stage.end), right_);
+      if (!(from < to)) continue;
+      if (i + 1 < picture_.stages.size() && to < right_) {
         canvas_->colour(stage_colour);
         canvas_->line({to, frame.low.y}, {to, frame.high.y}, rule);
       }
@@ -223,10 +251,15 @@ class HistoryPage {
   void draw_lines(std::size_t k, const Box& frame) {
     const std::vector<const Column*>& lines = picture_.panels[k].lines;
     std::vector<double> ends;
+    cairo_save(canvas_->cr());
+    cairo_rectangle(canvas_->cr(), frame.low.x, frame.low.y - line_width, frame.width(),
+                    frame.height() + 2.0 * line_width);
+    cairo_clip(canvas_->cr());
     for (std::size_t i = 0; i < lines.size(); ++i) {
       canvas_->colour(line_colours[i % line_colours.size()]);
       ends.push_back(draw_line(lines[i]->values, axes_[k], frame, i / line_colours.size()));
     }
+    cairo_restore(canvas_->cr());
     const std::vector<double> heights = spread(ends, 1.15 * f_, frame.low.y, frame.high.y);
     for (std::size_t i = 0; i < lines.size(); ++i) {
       canvas_->colour(line_colours[i % line_colours.size()]);
@@ -240,21 +273,25 @@ class HistoryPage {
   double draw_line(const std::vector<double>& values, const Axis& axis, const Box& frame,
                    std::size_t round) {
     cairo_t* cr = canvas_->cr();
+    const std::vector<double> time(row_begin_, row_end_);
+    const auto first = row_begin_ - picture_.time.begin();
+    const std::vector<double> shown(values.begin() + first,
+                                    values.begin() + first + std::ssize(time));
     double end = frame.high.y;
     bool drawing = false;
     constexpr double slivers_per_point = 4.0;
     const auto slivers = static_cast<std::size_t>(slivers_per_point * (right_ - left_)) + 1;
-    for (const std::size_t r : rows_with_peaks(picture_.time, values, slivers)) {
-      if (!axis.has(values[r])) {
+    for (const std::size_t r : rows_with_peaks(time, shown, slivers)) {
+      if (!axis.has(shown[r])) {
         drawing = false;
         continue;
       }
-      const double x = x_of(picture_.time[r]);
-      end = frame.high.y - frame.height() * axis.position(values[r]);
+      const double x = x_of(time[r]), y = frame.high.y - frame.height() * axis.position(shown[r]);
+      if (time[r] <= last_) end = std::clamp(y, frame.low.y, frame.high.y);
       if (drawing) {
-        cairo_line_to(cr, x, end);
+        cairo_line_to(cr, x, y);
       } else {
-        cairo_move_to(cr, x, end);
+        cairo_move_to(cr, x, y);
       }
       drawing = true;
     }
@@ -288,6 +325,7 @@ class HistoryPage {
   std::vector<std::string> title_;
   double left_ = 0.0, right_ = 0.0, top_ = 0.0, height_ = 0.0;  ///< pt
   double first_ = 0.0, last_ = 1.0;                             ///< s
+  std::vector<double>::const_iterator row_begin_, row_end_;     ///< of the picture's times
   std::optional<Canvas> canvas_;
 };
 

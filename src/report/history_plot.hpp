@@ -1,9 +1,11 @@
 // Lines over time: one panel above another for each kind of quantity, stages marked.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/vec2.hpp"
 #include "report/history_panels.hpp"
 #include "report/layout.hpp"
 #include "results/files.hpp"
@@ -20,6 +22,8 @@ struct HistoryPicture {
   std::vector<double> time;  ///< s, of the rows
   std::vector<HistoryPanel> panels;
   std::vector<StageSpan> stages;  ///< may be empty
+  std::optional<Vec2> span{};     ///< s, first and last that are shown; empty: all
+  std::optional<Vec2> range{};    ///< values that are shown, lowest and highest; empty: all
   Paper paper{};
 };
 

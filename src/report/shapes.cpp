@@ -141,13 +141,18 @@ std::optional<Vec2> Follower::within(std::size_t cell, Vec2 start) const {
 }
 
 std::optional<Vec2> Follower::operator()(Vec2 start) const {
+  const Field* const fixed = grid_.cell_field("fixed");
+  std::optional<Vec2> with_held;
   for (std::size_t c = 0; c < bounds_.size(); ++c) {
     const Bounds& b = bounds_[c];
     if (start.x < b.low.x || start.x > b.high.x || start.y < b.low.y || start.y > b.high.y)
       continue;
-    if (const std::optional<Vec2> now = within(c, start)) return now;
+    const std::optional<Vec2> now = within(c, start);
+    if (!now) continue;
+    if (fixed == nullptr || fixed->values[c] == 0.0) return now;
+    if (!with_held) with_held = now;
   }
-  return {};
+  return with_held;
 }
 
 std::vector<std::size_t> thinned(const std::vector<Vec2>& centres, double raster) {

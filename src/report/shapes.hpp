@@ -35,7 +35,8 @@ Vec2 centre_of(const Grid& grid, const BlockShape& shape, const std::vector<Vec2
 class Follower {
  public:
   Follower(const Grid& grid, std::vector<Vec2> from, const std::vector<Vec2>& to);
-  /// Where `start` has gone; nothing where it lies in no cell.
+  /// Where `start` has gone; nothing where it lies in no cell. On a border it goes with a block
+  /// that is free before one that is held, then with that of lowest number, as in the program.
   std::optional<Vec2> operator()(Vec2 start) const;
 
  private:

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <new>
 
+#include "contacts/gap.hpp"
 #include "run/labels.hpp"
+#include "run/motion.hpp"
 #include "run/summary.hpp"
 
 namespace edda {
@@ -112,7 +114,9 @@ Driver::Driver(PreparedRun& run, const RunOptions& options)
       options_(options),
       recorder_(options.folder),
       stages_(stages_of(run.sim.model)),
-      times_(run.sim.model.output.history_every, run.sim.model.output.every) {}
+      times_(run.sim.model.output.history_every, run.sim.model.output.every) {
+  outcome_.on_nothing = run.on_nothing;
+}
 
 Outcome Driver::run() {
   begin();
@@ -122,6 +126,7 @@ Outcome Driver::run() {
 
 void Driver::begin() {
   started_ = reported_ = saved_ = Clock::now();
+  reported_steps_ = sim_.state.steps;  // of a run taken up, those made before
   if (!resumed_) {
     outcome_.critical_step = sim_.bound.critical_step;
     within_memory([&] {
@@ -143,6 +148,7 @@ void Driver::go_on() {
     threads_.emplace(omp_get_num_procs());
   }
   started_ = Clock::now();
+  if (paused_) reported_ += started_ - paused_at_;
   paused_ = pause_asked_ = false;
   within_memory([&] { follow_events(); });
   if (!over_) pause();
@@ -172,6 +178,7 @@ void Driver::within_memory(Part part) {
 
 void Driver::pause() {
   wall_before_ += since(started_);
+  paused_at_ = Clock::now();
   paused_ = true;
 }
 
@@ -269,6 +276,7 @@ bool Driver::record(const Event& event) {
     outcome_.largest_drift = std::max(outcome_.largest_drift, std::abs(ledger.drift));
     outcome_.unbalanced = unbalanced_ratio(sim_, instant);
     outcome_.reaction_error = reaction_error(sim_, instant);
+    look_at_motion(sim_, instant, outcome_);
     last_row_ = sim_.state.time;
     fine = !ended_by(recorder_.row(sim_, instant, run_.monitors, run_.convergences, ledger,
                                    outcome_.unbalanced));
@@ -303,12 +311,24 @@ bool Driver::energy_is_out_of_bounds() {
 
 void Driver::measure_overlaps() {
   const ContactSet& c = sim_.contacts;
+  const std::vector<double>& half_width = sim_.blocks.inradius;
+  double ratio = 0.0;
+  std::size_t deepest = c.size();
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (!c.is(k, cs::closed)) continue;
-    const double edge =
-        std::min(sim_.blocks.smallest_edge[c.block_i[k]], sim_.blocks.smallest_edge[c.block_j[k]]);
-    outcome_.overlap_over_edge = std::max(outcome_.overlap_over_edge, c.effective(k) / edge);
+    const double size = std::min(half_width[c.block_i[k]], half_width[c.block_j[k]]);
+    if (!(c.depth[k] > ratio * size)) continue;
+    ratio = c.depth[k] / size;
+    deepest = k;
   }
+  outcome_.overlap_now = ratio;
+  if (!(ratio > outcome_.overlap.ratio)) return;
+  outcome_.overlap = {ratio,
+                      c.depth[deepest],
+                      at(sim_.pose.x, sim_.pose.y, c.vertex[deepest]) + sim_.blocks.origin,
+                      c.block_i[deepest],
+                      c.block_j[deepest],
+                      sim_.state.time};
 }
 
 void Driver::end(Status status, std::string message) {
@@ -360,8 +380,7 @@ void Driver::write_end() {
   outcome_.wall.total = wall_before_ + since(started_) + run_.cut_seconds;
   for (const Check& c : checks_of(sim_, outcome_)) {
     if (c.pass) continue;
-    outcome_.failed_checks.push_back(
-        fmt::format("{} is {:.3g}, more than {:.3g}", c.name, c.value, c.limit.value_or(0.0)));
+    outcome_.failed_checks.push_back(sentence_of(c, sim_, outcome_));
   }
   const Trouble trouble = recorder_.summary(sim_, outcome_, run_.governed_by);
   if (trouble && !disk_trouble_) {  // else the first file that could not be written says why
@@ -390,14 +409,17 @@ void Driver::report(bool last) {
   reported_steps_ = sim_.state.steps;
   Progress p;
   p.time = sim_.state.time;
-  p.fraction = sim_.state.time / sim_.model.solver.duration;
+  // Stages before may have ended early, those to come may, too.
+  double end = stage_start_ + stages_[stage_].duration;
+  for (std::size_t q = stage_ + 1; q < stages_.size(); ++q) end += stages_[q].duration;
+  p.fraction = sim_.state.time / end;
   // Equilibria come before their longest time.
   const bool arrived =
       outcome_.status == Status::completed || outcome_.status == Status::equilibrium;
   if (last && arrived) p.fraction = 1.0;
   p.steps = sim_.state.steps;
   p.rate = rate_;
-  const double left = (sim_.model.solver.duration - sim_.state.time) / sim_.state.step;
+  const double left = std::max(end - sim_.state.time, 0.0) / sim_.state.step;
   p.seconds_left = last ? 0.0 : rate_ > 0.0 ? left / rate_ : -1.0;
   for (std::size_t i = 0; i < sim_.blocks.size(); ++i) {
     if (sim_.blocks.fixed[i] || !sim_.state.alive[i]) continue;

@@ -76,6 +76,10 @@ class Driver {
   void rest_before(Event& event);
   /// Writes down the end of the stage. False: the run is over.
   bool end_stage(bool at_rest);
+  /// When an equilibrium was found, and what falls all the same.
+  std::string rest_at_end() const;
+  /// "at rest", or what still moves, and how fast.
+  std::string motion_at_end() const;
   /// Of the stage that has just ended.
   StageReport report_of_stage() const;
   /// And steps towards its first event. False: the run is over.
@@ -115,7 +119,7 @@ class Driver {
   bool disk_trouble_ = false;
   std::optional<double> last_row_, last_frame_;  ///< s
 
-  Clock::time_point started_, reported_, saved_;
+  Clock::time_point started_, reported_, saved_, paused_at_;
   RecorderMemory files_;      ///< of the checkpoint taken up
   double wall_before_ = 0.0;  ///< s, of the runs that this one goes on from
   std::uint64_t reported_steps_ = 0;

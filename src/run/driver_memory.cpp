@@ -238,7 +238,13 @@ void Driver::list(Archive& a) {
   a("driver.last_frame", last_frame_);
   a("outcome.largest_drift", outcome_.largest_drift);
   a("outcome.unbalanced", outcome_.unbalanced);
-  a("outcome.overlap_over_edge", outcome_.overlap_over_edge);
+  a("outcome.overlap.ratio", outcome_.overlap.ratio);
+  a("outcome.overlap.depth", outcome_.overlap.depth);
+  a("outcome.overlap.x", outcome_.overlap.place.x);
+  a("outcome.overlap.y", outcome_.overlap.place.y);
+  a("outcome.overlap.block_i", outcome_.overlap.block_i);
+  a("outcome.overlap.block_j", outcome_.overlap.block_j);
+  a("outcome.overlap.time", outcome_.overlap.time);
   a("outcome.critical_step", outcome_.critical_step);
   a("outcome.step_over_critical", outcome_.step_over_critical);
   a("outcome.reaction_error", outcome_.reaction_error);

@@ -5,7 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/text.hpp"
 #include "run/driver.hpp"
+#include "run/labels.hpp"
 
 namespace edda {
 
@@ -116,16 +118,35 @@ bool Driver::end_stage(bool at_rest) {
   }
   if (stage_ + 1 == stages_.size() || options_.last_stage == stage_) {
     if (at_rest) {
-      const std::string loose = loose_blocks(settling_, sim_);
-      end(Status::equilibrium,
-          fmt::format("at rest after {:.6g} s{}{}", sim_.state.time - stage_start_,
-                      loose.empty() ? "" : ", but for what has come loose: ", loose));
+      end(Status::equilibrium, rest_at_end());
     } else {
-      end(Status::completed, "the run has reached its duration");
+      end(Status::completed, "the run has reached its duration, " + motion_at_end());
     }
     return false;
   }
   return true;
+}
+
+std::string Driver::rest_at_end() const {
+  const double time = sim_.state.time;
+  const std::string rest =
+      stage_ == 0 ? fmt::format("at rest after {:.6g} s", time)
+                  : fmt::format("at rest at {:.6g} s, {:.6g} s after the start of {}", time,
+                                time - stage_start_, stage_label(sim_.model, stage_));
+  const std::string loose = loose_blocks(settling_, sim_);
+  const std::string apart = loose.empty() ? "" : ", but for what has come loose: " + loose;
+  const std::size_t falling = balance_of(sim_).detached;
+  if (falling == 0) return rest + apart;
+  return fmt::format("{}{}, but for {} that {} freely: fastest is {}, at {:.3g} m/s", rest, apart,
+                     counted(falling, "block"), falling == 1 ? "falls" : "fall",
+                     block_label(sim_.blocks, outcome_.fastest), outcome_.speed);
+}
+
+std::string Driver::motion_at_end() const {
+  if (outcome_.fastest == no_id) return "no block is free to move";
+  if (outcome_.at_rest) return "at rest";
+  return fmt::format("still moving: fastest is {}, at {:.3g} m/s",
+                     block_label(sim_.blocks, outcome_.fastest), outcome_.speed);
 }
 
 StageReport Driver::report_of_stage() const {

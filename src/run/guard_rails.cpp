@@ -161,7 +161,8 @@ void warn_of_few(const Simulation& sim, std::vector<std::string>& warnings) {
   const std::size_t place = static_cast<std::size_t>(few * static_cast<double>(sorted.size())) + 1;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(place),
                    sorted.end());
-  const double others = sorted[place];
+  const double others =
+      std::min(sorted[place], step_that_adds(sim.blocks, steps, most_added * all));
   const double smallest = *std::min_element(sorted.begin(), sorted.end());
   if (!(others > worth * smallest)) return;
   std::size_t count = 0;

@@ -1,6 +1,9 @@
 #include "run/monitors.hpp"
 
+#include <fmt/format.h>
+
 #include "blocks/locate.hpp"
+#include "run/labels.hpp"
 
 namespace edda {
 
@@ -44,6 +47,39 @@ Result<std::vector<ConvergenceLine>> place_convergences(const Simulation& sim) {
   }
   if (!faults.empty()) return faults;
   return lines;
+}
+
+std::vector<std::string> border_points(const Simulation& sim) {
+  std::vector<std::string> warnings;
+  const BlockSet& b = sim.blocks;
+  const auto look = [&](const std::string& what, Vec2 point, Among among) {
+    std::vector<Id> blocks = blocks_at(sim.model, sim.polygons, b, point - b.origin, among);
+    // At the wall of rock that a stage takes out there is no doubt.
+    const auto leaves = [&](Id i) { return !b.opening.empty() && b.opening[i] != none; };
+    if (!blocks.empty() && !leaves(blocks.front())) std::erase_if(blocks, leaves);
+    if (blocks.size() < 2) return;
+    std::string others;
+    for (std::size_t k = 1; k < blocks.size(); ++k) {
+      others += (k == 1 ? "" : k + 1 == blocks.size() ? " and " : ", ") + block_label(b, blocks[k]);
+    }
+    warnings.push_back(
+        fmt::format("{} at {} lies on the border between blocks: it goes with {}, not with {}; "
+                    "move it into the "
+                    "one that is meant",
+                    what, place_label(point), block_label(b, blocks[0]), others));
+  };
+  for (const Monitor& m : sim.model.monitors) {
+    look("monitor " + m.name, m.point, Among::all_blocks);
+  }
+  for (const Convergence& c : sim.model.convergences) {
+    for (const Vec2 end : c.between) {
+      look("an end of convergence " + c.name, end, Among::all_blocks);
+    }
+  }
+  for (const Load& load : sim.model.loads) {
+    if (load.point) look(load.where.key, *load.point, Among::free_blocks);
+  }
+  return warnings;
 }
 
 double convergence(const State& s, const ConvergenceLine& line) {

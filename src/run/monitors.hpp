@@ -16,8 +16,7 @@ struct MonitorPoint {
   std::array<double, 3> weight{};  ///< area coordinates in the block
 };
 
-/// The block of every monitor: of those that cover it (edges included), the one of lowest id;
-/// within domain.snap outside, the nearest. A fault for each that lies in no block.
+/// The block of every monitor (block_at()). A fault for each that lies in no block.
 Result<std::vector<MonitorPoint>> place_monitors(const Simulation& sim);
 
 /// A [[convergence]]: two material points.
@@ -28,6 +27,10 @@ struct ConvergenceLine {
 
 /// The blocks of both ends, found as those of monitors.
 Result<std::vector<ConvergenceLine>> place_convergences(const Simulation& sim);
+
+/// A warning per monitor, end of a convergence and load at a point that lies on the border of
+/// several blocks: which of them it goes with.
+std::vector<std::string> border_points(const Simulation& sim);
 
 /// How much shorter the line has become since the start or the last reset of displacements, m.
 double convergence(const State& state, const ConvergenceLine& line);

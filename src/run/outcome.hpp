@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/vec2.hpp"
+#include "blocks/block_set.hpp"
 #include "run/ledger.hpp"
 
 namespace edda {
@@ -25,6 +27,18 @@ struct WallSeconds {
   double stepping = 0.0;  ///< all steps together
 };
 
+/// How far two blocks have gone into each other, by the smaller of their half widths
+/// (BlockSet::inradius): as deep as that, a corner is as near to the far side of the block as to
+/// the one that it came in by, and nothing says which way out is. Short edges do not matter: a
+/// corner meets the faces beside them, too.
+struct Overlap {
+  double ratio = 0.0;  ///< depth over half width
+  double depth = 0.0;  ///< m
+  Vec2 place;          ///< model coordinates
+  Id block_i = no_id, block_j = no_id;
+  double time = 0.0;  ///< s
+};
+
 struct Outcome {
   Status status = Status::completed;
   std::string message;  ///< one sentence; of a failure: block, place, time, likely cause
@@ -34,11 +48,16 @@ struct Outcome {
   Ledger ledger;                    ///< at the last row
   double largest_drift = 0.0;       ///< of all rows, in size
   double unbalanced = 0.0;          ///< at the last row
-  double overlap_over_edge = 0.0;   ///< largest, over the smallest edge of the two blocks
+  Overlap overlap;                  ///< the largest of the run
+  double overlap_now = 0.0;         ///< ratio of the largest at the last row
+  Id fastest = no_id;               ///< block with the fastest corner at the last row; none is free
+  double speed = 0.0;               ///< m/s, of that corner
+  bool at_rest = true;              ///< at the last row
   double critical_step = 0.0;       ///< s: the smallest bound of the run
   double step_over_critical = 0.0;  ///< largest step over the bound then in force
   double reaction_error =
       0.0;  ///< |boundary reactions + weight| over weight at the last row; 0 without either
+  std::size_t on_nothing = 0;              ///< blocks that rested on nothing at the start
   std::vector<std::string> failed_checks;  ///< of summary.json, a sentence each
   WallSeconds wall;
 };

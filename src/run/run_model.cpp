@@ -9,10 +9,14 @@
 #include "base/text.hpp"
 #include "checkpoint/envelope.hpp"
 #include "checkpoint/hdf5_image.hpp"
+#include "forces/mass_scaling.hpp"
 #include "model/plausible.hpp"
 #include "run/driver.hpp"
 #include "run/guard_rails.hpp"
+#include "run/idle_names.hpp"
+#include "run/resting.hpp"
 #include "run/size_limits.hpp"
+#include "run/stages.hpp"
 
 namespace edda {
 namespace {
@@ -35,6 +39,34 @@ std::optional<Fault> unstable_step(const Simulation& sim) {
       fmt::format(
           "give at most that, or \"auto\" (now {:.6g} s); allow_unstable = true takes it as it is",
           solver.safety * sim.bound.likely_step));
+}
+
+/// So much mass that the motion is no longer that of the rock. Where all stages look for an
+/// equilibrium, the way there means nothing.
+std::optional<Fault> heavy_scaling(const Simulation& sim) {
+  const std::vector<Stage> stages = stages_of(sim.model);
+  if (!sim.explicit_method() || sim.inertia.empty() ||
+      std::all_of(stages.begin(), stages.end(),
+                  [](const Stage& s) { return s.until == StageEnd::equilibrium; }))
+    return {};
+  const double all = free_mass(sim.blocks), added = added_mass(sim.blocks, sim.inertia);
+  if (added <= most_added * all) return {};
+  const Solver& solver = sim.model.solver;
+  // Before the masses were raised, each block needed a step smaller by the root of its factor.
+  std::vector<double> own = steps_of_blocks(sim.blocks, sim.state, sim.pose, sim.contacts,
+                                            sim.springs, sim.laws, sim.damping, 0.0, &sim.bolts);
+  for (std::size_t i = 0; i < own.size(); ++i) own[i] /= std::sqrt(sim.inertia[i]);
+  const double step = step_that_adds(sim.blocks, own, most_added * all);
+  const double largest = solver.time_step ? step : solver.safety * step;
+  const double unit = std::pow(10.0, std::floor(std::log10(largest)) - 1.0);
+  return solver_fault(
+      sim.model, "mass_scaling",
+      fmt::format("{:.3g} s adds {:.3g} kg of inertia, {:.3g} % of the mass of all free blocks, "
+                  "more than {:.0f} %: this would no longer be the motion of this rock",
+                  solver.mass_scaling, added, 100.0 * added / all, 100.0 * most_added),
+      fmt::format("give at most {:.2g} s; where only the state at rest is wanted, leave it out and "
+                  "give a [[stage]] until = \"equilibrium\", which scales masses by itself",
+                  std::floor(largest / unit) * unit));
 }
 
 /// What the cut changed or left out of what the model asks for.
@@ -90,16 +122,24 @@ Result<PreparedRun> prepared(Model model, BlockOrder order) {
   Result<std::vector<ConvergenceLine>> lines = place_convergences(run.sim);
   if (!lines.ok()) faults.insert(faults.end(), lines.faults().begin(), lines.faults().end());
   if (auto fault = unstable_step(run.sim)) faults.push_back(*fault);
+  if (auto fault = heavy_scaling(run.sim)) faults.push_back(*fault);
   if (auto fault = beyond_disks(run.sim)) faults.push_back(*fault);
   if (!faults.empty()) return faults;
   run.monitors = std::move(monitors.value());
   run.convergences = std::move(lines.value());
+  std::vector<std::string> on_borders = border_points(run.sim);
   // The blocks have their shapes by now, and nothing looks for places among the polygons any more.
   run.sim.polygons.blocks = {};
   run.sim.polygons.removed = {};
   run.governed_by = governed_by(run.sim);
   run.warnings = implausible(run.sim.model);
+  for (std::string& warning : idle_names(run.sim)) run.warnings.push_back(std::move(warning));
   for (std::string& warning : guard_rails(run.sim)) run.warnings.push_back(std::move(warning));
+  for (std::string& warning : on_borders) run.warnings.push_back(std::move(warning));
+  const std::vector<BlockGroup> falling = resting_on_nothing(run.sim);
+  for (const BlockGroup& group : falling) run.on_nothing += group.size();
+  for (std::string& warning : warnings_of(run.sim, falling))
+    run.warnings.push_back(std::move(warning));
   add_cut_warnings(run.sim.polygons.report, run.warnings);
   warn_of_lost_points(run, run.warnings);
   return run;

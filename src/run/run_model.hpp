@@ -59,6 +59,7 @@ struct PreparedRun {
   std::string governed_by;            ///< what holds the step
   std::vector<std::string> warnings;  ///< guard rails
   double cut_seconds = 0.0;           ///< wall time of cutting and building
+  std::size_t on_nothing = 0;         ///< blocks that rest on nothing at the start (resting.hpp)
 };
 
 /// Cuts, builds and checks. Faults: geometry, monitors and convergence lines outside every block, a

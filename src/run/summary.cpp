@@ -1,5 +1,6 @@
 #include "run/summary.hpp"
 
+#include <fmt/format.h>
 #include <omp.h>
 
 #include <algorithm>
@@ -9,13 +10,19 @@
 #include "results/json.hpp"
 #include "results/version.hpp"
 #include "run/initial_stress_report.hpp"
+#include "run/labels.hpp"
+#include "run/motion.hpp"
 #include "run/overstress.hpp"
 
 namespace edda {
 namespace {
 
-/// A model counts as at rest when forces balance to this part of a contact force.
-constexpr double at_rest = 1e-2;
+constexpr std::string_view overlap_check = "largest overlap over half width of a block";
+/// Forces act as far from where they should as blocks overlap. Of an impact on soft ground that
+/// lasts for a moment; deeper, and the shape of the block no longer says which way it is pushed.
+constexpr double overlap_limit = 0.2;
+/// And of what stays.
+constexpr double overlap_limit_at_end = 0.01;
 
 Check limited(std::string name, double value, double limit) {
   return {std::move(name), value, limit, value <= limit};
@@ -55,6 +62,18 @@ void add_energy(Json& j, const Ledger& l) {
   j.pair("contact", l.contact).pair("gravity", l.gravity).pair("friction", l.friction);
   j.pair("damping", l.damping).pair("fracture", l.fracture).pair("external", l.external);
   j.pair("step_change", l.step_change).pair("drift", l.drift).close();
+}
+
+void add_overlap(Json& j, const Overlap& o) {
+  j.key("largest_overlap");
+  if (o.block_i == no_id) {
+    j.null();
+    return;
+  }
+  j.open_object().pair("over_half_width", o.ratio).pair("depth", o.depth);
+  j.key("at").open_list().value(o.place.x).value(o.place.y).close();
+  j.key("blocks").open_list().value(std::size_t{o.block_i}).value(std::size_t{o.block_j}).close();
+  j.pair("time", o.time).close();
 }
 
 void add_wall(Json& j, const WallSeconds& w) {
@@ -100,19 +119,22 @@ static void add_overstress(const Simulation& sim, std::vector<Check>& checks) {
 
 std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
   std::vector<Check> checks{
-      limited("largest overlap over smallest edge", o.overlap_over_edge, 0.01),
+      limited(std::string(overlap_check), o.overlap.ratio, overlap_limit),
+      limited("overlap over half width at the end", o.overlap_now, overlap_limit_at_end),
       limited("largest drift of the energy", o.largest_drift, 0.05),
+      limited("number of blocks that rest on nothing at the start",
+              static_cast<double>(o.on_nothing), 0.0),
   };
   if (sim.explicit_method()) {
-    checks.insert(checks.begin() + 1,
+    checks.insert(checks.begin() + 2,
                   limited("largest step over critical step", o.step_over_critical, 1.0));
   }
-  const bool rest = o.unbalanced <= at_rest;
+  const bool rest = o.unbalanced <= rest_limit;
   // While blocks still move, reactions carry their inertia, too: nothing to judge.
   checks.push_back(
-      rest ? limited("boundary reactions against weight", o.reaction_error, at_rest)
+      rest ? limited("boundary reactions against weight", o.reaction_error, rest_limit)
            : informed("boundary reactions against weight (still moving)", o.reaction_error));
-  checks.push_back(rest ? limited("unbalanced contact forces at rest", o.unbalanced, at_rest)
+  checks.push_back(rest ? limited("unbalanced contact forces at rest", o.unbalanced, rest_limit)
                         : informed("unbalanced contact forces (still moving)", o.unbalanced));
   checks.push_back(informed("faces merged by the cut", sim.polygons.report.merged));
   checks.push_back(informed("slivers joined by [quality]", sim.polygons.report.quality_merged));
@@ -120,6 +142,18 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
   add_initial_checks(sim, checks);
   add_overstress(sim, checks);
   return checks;
+}
+
+std::string sentence_of(const Check& check, const Simulation& sim, const Outcome& o) {
+  std::string text = fmt::format("{} is {:.3g}, more than {:.3g}", check.name, check.value,
+                                 check.limit.value_or(0.0));
+  if (check.name == overlap_check && o.overlap.block_i != no_id) {
+    text += fmt::format(": {:.3g} m between {} and {} at {}, t = {:.6g} s", o.overlap.depth,
+                        block_label(sim.blocks, o.overlap.block_i),
+                        block_label(sim.blocks, o.overlap.block_j), place_label(o.overlap.place),
+                        o.overlap.time);
+  }
+  return text;
 }
 
 std::string summary_json(const Simulation& sim, const Outcome& o, const std::string& governed_by,
@@ -135,6 +169,7 @@ std::string summary_json(const Simulation& sim, const Outcome& o, const std::str
   j.pair("step_changes", sim.steps.changes)
       .pair("step_cuts", sim.steps.redone)
       .pair("max_penetration", sim.max_penetration);
+  add_overlap(j, o.overlap);
   add_energy(j, o.ledger);
   add_wall(j, o.wall);
   const double work = static_cast<double>(sim.blocks.size()) * static_cast<double>(o.steps);

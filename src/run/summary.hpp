@@ -19,6 +19,9 @@ struct Check {
 
 std::vector<Check> checks_of(const Simulation& sim, const Outcome& outcome);
 
+/// What a check says that does not hold.
+std::string sentence_of(const Check& check, const Simulation& sim, const Outcome& outcome);
+
 /// A file that the run was made from.
 struct InputFile {
   std::string file, sha256;

@@ -169,6 +169,7 @@ void ViewRun::widen_ranges(const Opened& frame) {
     ViewRange& range = ranges_[name];
     const bool first = !range.any;
     std::vector<Weighed> values;
+    Ends all;
     for (std::size_t c = 0; c < field.value().values.size(); ++c) {
       const double v = field.value().values[c];
       const bool held = !field.value().of_contacts && fixed != nullptr && fixed->values[c] != 0.0;
@@ -176,10 +177,14 @@ void ViewRun::widen_ranges(const Opened& frame) {
       range.low = range.any ? std::min(range.low, v) : v;
       range.high = range.any ? std::max(range.high, v) : v;
       range.any = true;
+      all.low = values.empty() ? v : std::min(all.low, v);
+      all.high = values.empty() ? v : std::max(all.high, v);
       values.push_back({v, field.value().of_contacts ? 1.0 : areas[c]});
     }
     if (values.empty()) continue;
     const Ends inner = inner_ends(values);
+    range.last = all;
+    range.last_inner = inner;
     range.inner_low = first ? inner.low : std::min(range.inner_low, inner.low);
     range.inner_high = first ? inner.high : std::max(range.inner_high, inner.high);
   }
@@ -252,8 +257,10 @@ std::string ViewRun::header(const std::string& served_as) const {
       const Ends all{range.low, range.high};
       const Ends drawn =
           about.of_contacts ? all : drawn_ends(all, {range.inner_low, range.inner_high});
+      const Ends last = about.of_contacts ? range.last : drawn_ends(range.last, range.last_inner);
       json.key("range").open_list().value(all.low).value(all.high).close();
       json.key("drawn").open_list().value(drawn.low).value(drawn.high).close();
+      json.key("last").open_list().value(last.low).value(last.high).close();
     }
     json.close();
   }

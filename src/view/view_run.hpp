@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/fault.hpp"
+#include "report/drawn_range.hpp"
 #include "results/vtu.hpp"
 #include "view/frame.hpp"
 
@@ -37,6 +38,7 @@ struct ViewRange {
   bool any = false;
   /// But for a few blocks that lie far beyond, of each frame (report/drawn_range.hpp).
   double inner_low = 0.0, inner_high = 0.0;
+  Ends last, last_inner;  ///< the same of the last frame that has any
 };
 
 /// Of what strokes stand for in the frames so far.

@@ -133,6 +133,38 @@ class Cli(Program):
         self.expect(2, "fos", "m.toml", "--set", "fos.vary=load:pull")
         self.expect(2, "fos", "m.toml", "--set", "solver.method=dda")
 
+    def test_words_that_are_no_commands_get_a_hint(self):
+        for args, hint in ((("runn", "m"), '"runn" is no command: did you mean: edda run?'),
+                           (("m.toml",), '"m.toml" is a model, not a command: to run it: edda run m.toml'),
+                           (("m",), "to run the model m.toml: edda run m.toml"), (("help",), "write: edda --help"),
+                           (("solve", "m.toml"), "write: edda run"), (("PLOT", "m"), "did you mean: edda plot?"),
+                           (("nonsense",), "commands are "), (("run", "m"), "did you mean m.toml?")):
+            done = self.expect(2, *args)
+            self.assertEqual((hint in done.stderr, done.stdout), (True, ""), done.stderr)
+            self.assertEqual(len(done.stderr.splitlines()), 1)
+        self.expect(0, "run", "m.toml", "--quiet")
+        self.assertIn("to see them: edda plot m, or edda view m", self.expect(2, "m").stderr)
+        self.assertIn("did you mean m.toml?", self.expect(2, "check", "m").stderr)
+
+    def test_joints_and_materials_that_nothing_uses_are_told(self):
+        (self.dir / "m.toml").write_text(RAMP.replace("[[block]]", """[joints.rock]
+friction_angle = 5
+[materials.clay]
+density = 2000
+young = 1e8
+poisson = 0.3
+[contact]
+joint = "ramp"
+[[block]]
+material = "rock"
+""", 1).replace('"slider"', '"slider"\nmaterial = "rock"'))
+        warnings = json.loads(self.expect(0, "check", "m.toml", "--json").stdout)["warnings"]
+        said = [w.split(":")[1] for w in warnings if "used by nothing" in w or "by nothing" in w]
+        self.assertEqual(said, [' joint "rock" is used by nothing', ' material "clay" is used by nothing'])
+        used = self.expect(0, "check", "m.toml", "--json", "--set", "contact.joint=rock", "--set", "block.ramp.material=clay")
+        said = [w for w in json.loads(used.stdout)["warnings"] if "by nothing" in w]
+        self.assertEqual([w.split(":")[0] for w in said], ["joints.ramp"])
+
     def test_bad_usage_exits_2(self):
         for args in ((), ("nonsense",), ("run",), ("run", "m.toml", "--nonsense"), ("run", "m.toml", "--threads", "0"),
                      ("cut", "m.toml", "-o", "x.doc"), ("plot", "m.toml", "-o", "x.doc"), ("plot", "none"),

@@ -18,7 +18,9 @@ class Examples(Program):
             self.assertEqual(self.edda("example", name).returncode, 0)
         done = self.edda("run", f"{name}.toml", "-o", out, "--quiet", *args)
         self.assertEqual(done.returncode, 0, done.stderr)
-        return json.loads((self.dir / out / "summary.json").read_text()), self.dir / out
+        summary = json.loads((self.dir / out / "summary.json").read_text())
+        self.assertEqual([c for c in summary["checks"] if "overlap" in c["name"] and not c["pass"]], [])
+        return summary, self.dir / out
 
     def rows(self, path):
         with open(path, newline="") as file:

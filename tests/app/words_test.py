@@ -3,6 +3,7 @@
   words_test.py EDDA
 """
 import json
+import re
 import subprocess
 import unittest
 
@@ -91,6 +92,19 @@ class Words(Program):
         self.assertFalse(timed["at_most"])
         self.assertNotIn("static_time_step", timed)
 
+    def test_mass_scaling_that_changes_the_motion_is_refused(self):
+        pebble = "[[block]]\npolygon = [[0.4, 1], [0.45, 1], [0.45, 1.05], [0.4, 1.05]]\n"
+        model = self.write("pebble.toml", BLOCK % 1e10 + pebble)
+        said = self.expect(2, "check", model, "--set", "solver.mass_scaling=0.1").stderr
+        self.assertRegex(said, r"mass_scaling: 0\.1 s adds .* kg of inertia, .* % of the mass of all free blocks, more than 10 %")
+        most = float(re.search(r"give at most ([\d.e-]+) s", said).group(1))
+        found = json.loads(self.expect(0, "check", model, "--json", "--set", f"solver.mass_scaling={most}").stdout)
+        self.assertTrue(any("solver.mass_scaling: " in w for w in found["warnings"]), found["warnings"])
+        self.expect(2, "check", model, "--set", f"solver.mass_scaling={1.3 * most}")
+        rest = '[[stage]]\nuntil = "equilibrium"\n'
+        static = self.write("rest.toml", rest + (BLOCK % 1e10).replace("duration = 0.5\n", "") + pebble)
+        self.expect(0, "check", static, "--set", "solver.mass_scaling=0.1")
+
     def test_points_in_rock_that_goes_are_told(self):
         model = self.write("lost.toml", TUNNEL % (1.4, 1.4, ""))
         warnings = self.check(model)["warnings"]
@@ -102,7 +116,7 @@ class Words(Program):
 
     def test_checks_that_do_not_hold_are_said_at_the_end(self):
         said = self.expect(0, "run", self.write("soft.toml", BLOCK % 1e6))
-        self.assertRegex(said.stdout, r"check does not hold: largest overlap over smallest edge is 0\.0\d+, more than 0\.01")
+        self.assertRegex(said.stdout, r"check does not hold: overlap over half width at the end is 0\.0\d+, more than 0\.01")
         lines = self.expect(0, "run", "soft.toml", "-o", "again", "--json").stdout.splitlines()
         self.assertEqual(len(json.loads(lines[-1])["failed_checks"]), 1)
         firm = self.expect(0, "run", self.write("firm.toml", BLOCK % 1e10))

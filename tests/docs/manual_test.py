@@ -6,6 +6,7 @@ PAGE-N.toml for the N-th piece of the page), it must pass, too. A block ```sh is
 Blocks without a language are shown, not run.
 """
 import csv
+import json
 import math
 import pathlib
 import re
@@ -99,7 +100,14 @@ def first_steps(test, folder, text):
     bare, bolted = moved(folder / "own-tunnel"), moved(folder / "bolted")
     wedge = bare.index(max(bare))
     test.assertGreater(bare[wedge], 0.1)
-    test.assertLess(bolted[wedge], 5e-3)
+    test.assertLess(bolted[wedge], 5e-4)
+    for name in ("own-tunnel", "rest"):
+        summary = json.loads((folder / name / "summary.json").read_text(encoding="utf-8"))
+        said = re.search(rf"^{summary['status']}: (.*)$", text, re.M).group(1)
+        numbers = [re.findall(r"[\d.]+", line) for line in (said, summary["message"])]
+        test.assertEqual(re.sub(r"[\d.]+", "", said), re.sub(r"[\d.]+", "", summary["message"]))
+        for here, there in zip(*numbers):
+            test.assertLess(abs(float(here.strip(".")) - float(there.strip("."))), 0.02 * float(there.strip(".")) + 1e-9)
     test.assertIn("Save it as `own-tunnel.toml`", text)
     model = (folder / "own-tunnel.toml").read_text(encoding="utf-8")
     (folder / "own-tunnel.toml").write_text(model.replace("friction_angle = 20", "friction = 20"), encoding="utf-8")

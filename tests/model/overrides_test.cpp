@@ -63,7 +63,7 @@ TEST(Override, MakesWhatIsMissing) {
   EXPECT_EQ(
       read({"solver.duration=3"}, base_with("[solver]\nduration = 0.1\n", "")).solver.duration,
       3.0);
-  const Model m = read({"joints.new.friction_angle=1", "contact.joint=new"});
+  const Model m = read({"joints.new={friction_angle=1}", "contact.joint=new"});
   ASSERT_EQ(m.joints.size(), 2U);
   EXPECT_EQ(m.joints[1].name, "new");
   EXPECT_EQ(m.contact.joint, 1);
@@ -94,8 +94,6 @@ TEST(Override, Faults) {
             Lines{"--set:1:1: \"duration\" has no \"=\": write key=value, such as "
                   "solver.duration=0.2"});
   EXPECT_EQ(faults({"=1", "a..b=1", ".=1", "\"a=1"}).size(), 4U);
-  EXPECT_EQ(faults({"materials.new.young=1"}).size(), 6U)
-      << "two keys missing, four must now choose";
   EXPECT_EQ(
       faults({"block.0.polygon=[[0, 0], [1, 1], [1, nan]]"}),
       Lines{"--set:1:1: block.floor.polygon[2][1]: is not a finite number: expects a length such "
@@ -103,6 +101,28 @@ TEST(Override, Faults) {
   std::string deep = "a";
   for (int i = 0; i < 1000; ++i) deep += ".a";
   EXPECT_EQ(faults({deep + "=1"}).size(), 1U);
+}
+
+TEST(Override, OfANameThatTheModelHasNot) {
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(
+      faults({"joints.rock.friction_angle=5"}),
+      Lines{"--set:1:1: joints.rock: the model has no [joints.rock]: it has \"rough\"; a whole "
+            "table, joints.rock = { ... }, adds one"});
+  EXPECT_EQ(faults({"joints.b={friction_angle=5}", "contact.joint=b", "joints.roufh.cohesion=5"}),
+            Lines{"--set:3:1: joints.roufh: the model has no [joints.roufh]: it has \"rough\", "
+                  "\"b\"; a whole table, joints.roufh = { ... }, adds one"});
+  EXPECT_EQ(faults({"materials.new.young=1"}),
+            Lines{"--set:1:1: materials.new: the model has no [materials.new]: it has \"rock\"; a "
+                  "whole table, materials.new = { ... }, adds one"});
+  const std::string single =
+      "[materials.rock]\ndensity = 2700\nyoung = 1e9\npoisson = 0.2\n[[block]]\n"
+      "polygon = [[0, 0], [1, 0], [1, 1]]\n[solver]\nduration = 1\n";
+  const auto none = read_model_text(single, "m.toml", {"joints.rock.friction_angle=5"});
+  ASSERT_FALSE(none.ok());
+  ASSERT_EQ(none.faults().size(), 1U);
+  EXPECT_EQ(none.faults()[0].remedy,
+            "it has no [joints.NAME] at all; a whole table, joints.rock = { ... }, adds one");
 }
 
 TEST(Override, FaultsComeAfterThoseOfTheFile) {

@@ -66,6 +66,62 @@ TEST(Plausible, Joints) {
                  "joints.rough.cohesion", "write \"5 kPa\"");
 }
 
+TEST(Plausible, StrengthsThatAreMeantAsKilopascals) {
+  const auto joint = [](const std::string& keys) {
+    return base_with("friction_angle = 30.0", "friction_angle = 30.0\n" + keys);
+  };
+  expect_warning(joint("cohesion = 50"), "joints.rough.cohesion", "write \"50 kPa\"");
+  expect_warning(joint("tensile_strength = 200"), "joints.rough.tensile_strength",
+                 "write \"200 kPa\"");
+  expect_warning(joint("residual = { cohesion = 20 }"), "joints.rough.residual.cohesion",
+                 "write \"20 kPa\"");
+  EXPECT_TRUE(warnings_of(joint("cohesion = \"50 Pa\"")).empty()) << "the unit says it";
+  EXPECT_TRUE(warnings_of(joint("cohesion = 5000")).empty());
+}
+
+TEST(Plausible, AnglesInRadians) {
+  const auto friction = [](const std::string& angle) {
+    return base_with("friction_angle = 30.0", "friction_angle = " + angle);
+  };
+  expect_warning(friction("0.349"), "joints.rough.friction_angle", "write 20,");
+  expect_warning(friction("0.6"), "joints.rough.friction_angle", "write 34.5,");
+  EXPECT_TRUE(warnings_of(friction("\"0.349 deg\"")).empty());
+  EXPECT_TRUE(warnings_of(friction("\"0.349 rad\"")).empty());
+  for (const char* angle : {"0.0", "1.0", "5.0"}) {
+    EXPECT_TRUE(warnings_of(friction(angle)).empty()) << angle;
+  }
+  const auto set = [](const std::string& angle) {
+    return base_with("angle = 45.0", "angle = " + angle);
+  };
+  expect_warning(set("2.094"), "joint_set.bedding.angle", "write 120,");
+  expect_warning(set("-0.785398"), "joint_set.bedding.angle", "write -45,");
+  expect_warning(set("1.05"), "joint_set.bedding.angle", "write 60,");
+  EXPECT_TRUE(warnings_of(set("\"2.094 deg\"")).empty());
+  for (const char* angle : {"0.0", "1", "2.0", "2.5", "3.3", "5.0", "-4.1", "2.35", "31.4159"}) {
+    EXPECT_TRUE(warnings_of(set(angle)).empty()) << angle;
+  }
+  expect_warning(base_model +
+                     "[[arch]]\ncentre = [50, 0]\nradius = 5\nthickness = 1\ncount = 9\n"
+                     "to_angle = 3.14159\n",
+                 "arch.0.to_angle", "write 180,");
+}
+
+TEST(Plausible, AccelerationsInUnitsOfGravity) {
+  const auto shaken = [](const std::string& amplitude) {
+    return base_model + "[[shaking]]\nacceleration = { frequency = 2, amplitude = " + amplitude +
+           " }\n";
+  };
+  expect_warning(shaken("0.3"), "shaking.0.acceleration.amplitude", "write 2.943,");
+  EXPECT_TRUE(warnings_of(shaken("\"0.3 m/s2\"")).empty());
+  EXPECT_TRUE(warnings_of(shaken("3.0")).empty());
+}
+
+TEST(Plausible, GravityThatPointsUpwards) {
+  const std::string up = base_with("[0.0, -9.81]", "[0.0, 9.81]");
+  expect_warning(up, "gravity", "write [0, -9.81]");
+  EXPECT_TRUE(warnings_of(base_with("[0.0, -9.81]", "[9.81, 0.0]")).empty());
+}
+
 TEST(Plausible, BoltsAndWater) {
   const std::string bolt =
       "[[bolt]]\nname = \"b\"\nfrom = [11, 5]\nto = [13, 9]\n"

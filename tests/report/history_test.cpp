@@ -141,5 +141,29 @@ TEST(HistoryPlot, LongHistoriesKeepTheirPeaks) {
   EXPECT_TRUE(std::binary_search(few.begin(), few.end(), 65432u));
 }
 
+TEST(HistoryPlot, ShowsTheWindowThatIsAskedFor) {
+  const Table table = small_history();
+  HistoryPicture picture = picture_of(table, {"P.ux"});
+  picture.span = Vec2{1.5, 3.5};
+  picture.range = Vec2{0.0, 8.0};
+  const std::string svg = drawn(picture);
+  const std::vector<Vec2> line = first_line(svg);
+  ASSERT_EQ(line.size(), 4u) << "two rows, and one on each side";
+  const double x_of_2 = text_of(svg, "2.0")->x, x_of_3 = text_of(svg, "3.0")->x;
+  EXPECT_NEAR(line[1].x, x_of_2, 0.6);
+  EXPECT_NEAR(line[2].x, x_of_3, 0.6);
+  // From 4 m at 2 s to 2 m at 3 s is a quarter of the range.
+  const std::string whole = drawn(picture_of(table, {"P.ux"}));
+  const double down = line[2].y - line[1].y;
+  const std::vector<Vec2> all = first_line(whole);
+  EXPECT_GT(down, 0.0);
+  EXPECT_NEAR(down, 0.55 * (all[3].y - all[2].y), 0.05 * (all[3].y - all[2].y))
+      << "its range went to 4.2 with a margin";
+  EXPECT_FALSE(text_of(svg, "0.5")) << "no tick before the window";
+  picture.range.reset();
+  picture.span = Vec2{2.5, 3.5};
+  EXPECT_LT(first_line(drawn(picture))[0].y, first_line(drawn(picture))[1].y);
+}
+
 }  // namespace
 }  // namespace edda::history_test

@@ -55,5 +55,18 @@ TEST(Shapes, OnePerSquareIsLeftWhenThinned) {
   EXPECT_EQ(thinned(centres, 0.1).size(), 4u);
 }
 
+TEST(Follower, OnABorderGoesWithTheBlockThatIsFree) {
+  Grid g = two_blocks();
+  for (std::size_t k = 12; k < g.points.size(); k += 3) g.points[k] -= 1.0;  // beside each other
+  g.cell_fields[1].values = {1, 1, 0};
+  const std::vector<Vec2> from = drawn_points(g, 0.0);
+  std::vector<Vec2> to = from;
+  for (std::size_t k = 4; k < to.size(); ++k) to[k] += Vec2{0.0, 0.25};
+  const Vec2 border{0.5, 0.5};
+  EXPECT_NEAR(Follower(g, from, to)(border)->y, 0.75, 1e-12);
+  g.cell_fields[1].values = {0, 0, 1};
+  EXPECT_NEAR(Follower(g, from, to)(border)->y, 0.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace edda::shapes_test

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -198,6 +201,130 @@ TEST(RunModel, TwoInOneProcessDoNotMeet) {
   const Result<Outcome> first = run_model(a.value(), {}), second = run_model(b.value(), {});
   EXPECT_EQ(a.value().sim.state.x, b.value().sim.state.x);
   EXPECT_EQ(first.value().steps, second.value().steps);
+}
+
+/// A slab with a short edge at one corner, dropped on a floor.
+std::string dropped(const std::string& solver) {
+  return "[materials.rock]\ndensity = 2000\nyoung = 1e8\npoisson = 0.2\n[joints.j]\n"
+         "friction_angle = 30\n[contact]\nnormal_stiffness = 2e7\n"
+         "[[block]]\nname = \"floor\"\nfixed = true\n"
+         "polygon = [[-2, -1], [3, -1], [3, 0], [-2, 0]]\n"
+         "[[block]]\nname = \"slab\"\nvelocity = [0, -2]\n"
+         "polygon = [[0, 0.1], [0.999, 0.1], [1, 0.101], [1, 0.5], [0, 0.5]]\n[solver]\n" +
+         solver;
+}
+
+TEST(RunModel, OverlapsAreMeasuredByTheBlocksThatOverlap) {
+  Result<PreparedRun> run = prepared(dropped("duration = 0.3\ndamping = { contact = 0.3 }\n"));
+  ASSERT_TRUE(run.ok());
+  const Outcome o = run_model(run.value(), {}).value();
+  EXPECT_NEAR(run.value().sim.blocks.inradius[1], 0.2, 1e-9);
+  EXPECT_DOUBLE_EQ(o.overlap.ratio, o.overlap.depth / run.value().sim.blocks.inradius[1]);
+  EXPECT_LE(o.overlap.depth, run.value().sim.max_penetration * (1 + 1e-9));
+  EXPECT_GT(o.overlap.depth, 0.9 * run.value().sim.max_penetration);
+  EXPECT_GT(o.overlap.depth, 1e-3) << "deeper than the shortest edge is long";
+  EXPECT_EQ(std::minmax(o.overlap.block_i, o.overlap.block_j), std::minmax(Id{0}, Id{1}));
+  EXPECT_NEAR(o.overlap.place.y, -o.overlap.depth, 1e-3);
+  EXPECT_NEAR(o.overlap.time, 0.05, 0.03);
+  EXPECT_LT(o.overlap_now, 0.3 * o.overlap.ratio);
+  for (const std::string& check : o.failed_checks)
+    EXPECT_EQ(check.find("overlap"), check.npos) << check;
+}
+
+TEST(RunModel, DeepOverlapsSayWhereAndWhen) {
+  Result<PreparedRun> run = prepared(dropped("duration = 0.3\n"), {"contact.normal_stiffness=1e6"});
+  ASSERT_TRUE(run.ok());
+  const Outcome o = run_model(run.value(), {}).value();
+  ASSERT_FALSE(o.failed_checks.empty());
+  EXPECT_EQ(o.failed_checks[0].substr(0, 46), "largest overlap over half width of a block is ");
+  EXPECT_NE(o.failed_checks[0].find("m between block "), std::string::npos) << o.failed_checks[0];
+  EXPECT_NE(o.failed_checks[0].find("(slab)"), std::string::npos);
+  EXPECT_NE(o.failed_checks[0].find(", t = 0."), std::string::npos);
+}
+
+TEST(RunModel, TheEndSaysWhetherAllIsAtRest) {
+  const auto message = [](const std::string& solver) {
+    Result<PreparedRun> run = prepared(dropped(solver));
+    EXPECT_TRUE(run.ok());
+    return run_model(run.value(), {}).value().message;
+  };
+  EXPECT_EQ(message("duration = 1.5\ndamping = { contact = 0.3, local = 0.5 }\n"),
+            "the run has reached its duration, at rest");
+  EXPECT_EQ(message("duration = 0.02\n").substr(0, 83),
+            "the run has reached its duration, still moving: fastest is block 1 (slab), at 2.2 m");
+}
+
+TEST(RunModel, ARateIsThatOfTheStepsMadeSinceTheRunWasTakenUp) {
+  const ScratchFolder scratch;
+  const std::string folder = scratch.at("out");
+  Result<PreparedRun> first = prepared(falling, {"solver.time_step=2e-5"});
+  ASSERT_TRUE(first.ok());
+  std::atomic<bool> stop{false};
+  RunOptions options{.folder = folder, .progress = {}};
+  options.stop = &stop;
+  options.after_step = [&] {
+    if (first.value().sim.state.steps >= 100000) stop = true;
+    return false;
+  };
+  ASSERT_EQ(run_model(first.value(), options).value().status, Status::interrupted);
+  Result<PreparedRun> second = prepared(falling, {"solver.time_step=2e-5"});
+  ASSERT_TRUE(second.ok());
+  std::vector<Progress> said;
+  RunOptions again{.folder = folder, .progress = [&](const Progress& p) { said.push_back(p); }};
+  again.resume = true;
+  again.progress_every = 0.0;
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_EQ(run_model(second.value(), again).value().status, Status::completed);
+  const double wall =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  ASSERT_GT(said.size(), 1000u);
+  ASSERT_GE(said.front().steps, 100000u);
+  const double mean = static_cast<double>(said.back().steps - said.front().steps) / wall;
+  EXPECT_LT(said.front().rate, 100.0 * mean) << "the 100,000 steps before were not made now";
+}
+
+TEST(RunModel, AnEquilibriumSaysWhenAndWhatFallsAllTheSame) {
+  const std::string stages =
+      "[[stage]]\nname = \"settle\"\nuntil = \"equilibrium\"\n[[stage]]\nname = \"wait\"\n"
+      "until = \"equilibrium\"\n";
+  const auto model = [&](const std::string& more) {
+    std::string text = dropped("");
+    text.replace(text.find("[0, -2]"), 7, "[0, 0]");
+    return text.substr(0, text.rfind("[solver]")) + more + stages;
+  };
+  const auto message = [](const std::string& text) {
+    Result<PreparedRun> run = prepared(text);
+    EXPECT_TRUE(run.ok());
+    return run_model(run.value(), {}).value().message;
+  };
+  const std::string rest = message(model(""));
+  EXPECT_EQ(rest.substr(0, 11), "at rest at ");
+  EXPECT_NE(rest.find(" s after the start of stage 1 (wait)"), std::string::npos) << rest;
+  const std::string loose =
+      message(model("[[block]]\nname = \"loose\"\npolygon = [[9, 0], [9.5, 0], [9, 0.5]]\n"));
+  EXPECT_NE(
+      loose.find("(wait), but for 1 block that falls freely: fastest is block 2 (loose), at "),
+      std::string::npos)
+      << loose;
+}
+
+TEST(RunModel, ProgressCountsFromWhereStagesBeforeHaveEnded) {
+  std::string text = dropped("");
+  text = text.substr(0, text.rfind("[solver]")) +
+         "[[stage]]\nuntil = \"equilibrium\"\nduration = 100\n[[stage]]\nduration = 0.05\n";
+  Result<PreparedRun> run = prepared(text);
+  ASSERT_TRUE(run.ok());
+  std::vector<Progress> said;
+  RunOptions options{.folder = {}, .progress = [&](const Progress& p) { said.push_back(p); }};
+  options.progress_every = 0.0;
+  ASSERT_EQ(run_model(run.value(), options).value().status, Status::completed);
+  const auto second = std::find_if(said.begin(), said.end(), [](auto& p) { return p.stage == 1; });
+  ASSERT_NE(second, said.end());
+  const double start = second->time;
+  EXPECT_LT(start, 10.0);
+  EXPECT_NEAR(second->fraction, start / (start + 0.05), 0.05);
+  EXPECT_LT(second->seconds_left, 100.0);
+  for (std::size_t k = 1; k < said.size(); ++k) EXPECT_GE(said[k].fraction, said[k - 1].fraction);
 }
 
 }  // namespace

@@ -426,6 +426,103 @@ test('small pages are kept small, and still end with exact values', async () => 
   await thin.close();
 });
 
+/** A slab that is thrown up from soft ground and comes back, with a pebble on it, and a block that nothing holds. */
+const thrown = (pebble, loose) => `
+  title = "thrown"
+  [materials.rock]
+  density = 2500.0
+  young = 1e9
+  poisson = 0.2
+  [joints.bed]
+  friction_angle = 30.0
+  [contact]
+  normal_stiffness = 1e7
+  [[block]]
+  name = "ground"
+  fixed = true
+  polygon = [[-1, -1], [12, -1], [12, 0], [-1, 0]]
+  [[block]]
+  name = "slab"
+  velocity = [0, 2.5]
+  polygon = [[0, 0], [10, 0], [10, 4], [0, 4]]
+  [[block]]
+  name = "pebble"
+  velocity = [0, ${pebble}]
+  polygon = [[11, 0], [11.1, 0], [11.1, 0.1], [11, 0.1]]
+  ${loose}
+  [[monitor]]
+  name = "pebble"
+  point = [11.05, 0.05]
+  [[monitor]]
+  name = "border"
+  point = [5, 0]
+  [solver]
+  duration = 1.2
+  damping = { contact = 0.7, local = 0.1 }
+  [output]
+  every = 0.05`;
+
+test('opens with colours in which the last frame can be read', async () => {
+  writeFileSync(path.join(folder, 'thrown.toml'), thrown(0, ''));
+  run('run', 'thrown.toml', '--quiet');
+  run('view', 'thrown');
+  const p = await page('thrown.html');
+  const field = await p.evaluate(() => edda.controls.field);
+  const rows = table('thrown/blocks.csv').filter((row) => row.name !== 'ground').map((row) => Math.hypot(row.ux, row.uy));
+  assert.ok(field.range[1] > 0.25, 'thrown by more than 0.2 m');
+  assert.ok(Math.abs(field.last[1] - Math.max(...rows)) < 1e-6 && field.last[1] < 0.1);
+  assert.equal(await p.inputValue('#range'), 'last');
+  assert.equal(await p.evaluate(() => edda.scale.high), field.last[1]);
+  // Of velocities nothing stays that would be looked at; what somebody has chosen stays.
+  await choose(p, 'field', 'velocity');
+  assert.equal(await p.inputValue('#range'), 'run');
+  await choose(p, 'range', 'frame');
+  await choose(p, 'field', 'displacement');
+  assert.equal(await p.inputValue('#range'), 'frame');
+  await p.close();
+  const calm = await page('cavern.html');
+  assert.equal(await calm.inputValue('#range'), 'run');
+  await calm.close();
+});
+
+test('rings small blocks and does not hide them', async () => {
+  const p = await page('thrown.html');
+  const place = await p.evaluate(() => edda.pixelOf(11.05, 0.05));
+  const painted = await p.evaluate(([x, y]) => {
+    const canvas = document.getElementById('overlay');
+    const ratio = canvas.width / edda.view.camera.width;
+    const { data } = canvas.getContext('2d').getImageData(Math.round(x * ratio), Math.round(y * ratio), Math.round(14 * ratio), 1);
+    return Array.from({ length: 14 }, (_, dx) => data[4 * Math.round(dx * ratio) + 3]);
+  }, place);
+  const size = 0.1 * (await p.evaluate(() => edda.view.camera.scale));
+  for (let dx = 0; dx < 0.5 * size; ++dx) assert.equal(painted[dx], 0, `${dx} px from its middle`);
+  assert.ok(Math.max(...painted) === 255, 'the ring');
+  // On a border the monitor goes with the block that moves, as in the program.
+  assert.equal(await p.evaluate(() => edda.results.mesh.id[edda.overlay.monitors.find((m) => m.name === 'border').at[0].row]), 1);
+  await p.close();
+});
+
+test('shows the checks that do not hold', async () => {
+  writeFileSync(path.join(folder, 'loose.toml'), thrown(0, '[[block]]\n  name = "loose"\n  polygon = [[20, 0], [21, 0], [21, 1]]'));
+  const summary = () => JSON.parse(readFileSync(path.join(folder, 'loose/summary.json'), 'utf8'));
+  run('run', 'loose.toml', '--quiet');
+  run('view', 'loose');
+  const p = await page('loose.html');
+  const failed = summary().checks.filter((c) => !c.pass);
+  assert.ok(failed.some((c) => c.name === 'number of blocks that rest on nothing at the start'));
+  const said = await p.$$eval('#failed-checks li', (items) => items.map((li) => li.textContent));
+  assert.equal(said.length, failed.length);
+  failed.forEach((c, k) => assert.ok(said[k].startsWith(`${c.name} is `), said[k]));
+  assert.match(await p.textContent('#status'), failed.length === 1 ? /a check does not hold/ : /checks do not hold/);
+  assert.ok(await p.isVisible('#failed'));
+  assert.equal(await p.getAttribute('#status', 'title'), summary().message);
+  await p.close();
+  const fine = await page('tunnel.html');
+  assert.ok(!(await fine.isVisible('#failed')));
+  assert.match(await fine.getAttribute('#status', 'title'), /^at rest at [\d.]+ s, [\d.]+ s after the start of stage 4/);
+  await fine.close();
+});
+
 test('nothing was said to the console, nothing asked of the network', () => {
   assert.deepEqual(faults, []);
 });

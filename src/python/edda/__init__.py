@@ -15,45 +15,60 @@ from __future__ import annotations
 
 import contextlib
 import os
+import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Union
 
-from . import _toml
+from . import _edda, _toml
 from ._edda import (
     Cut,
     CutBlock,
+    ErrorBar,
+    FactorOfSafety,
+    FosTrial,
     Ledger,
     Model,
+    ModelCheck,
     MonitorReading,
     Outcome,
     Progress,
     Simulation,
+    Verification,
     set_threads,
     version,
 )
-from ._errors import Fault, ModelError
+from ._errors import Fault, ModelError, ModelWarning
 from .plotting import plot_blocks, plot_history
 from .results import Frame, Results
 
 __all__ = [
     "Cut",
     "CutBlock",
+    "ErrorBar",
+    "FactorOfSafety",
     "Fault",
+    "FosTrial",
     "Frame",
     "Ledger",
     "Model",
+    "ModelCheck",
     "ModelError",
+    "ModelWarning",
     "MonitorReading",
     "Outcome",
     "Progress",
     "Results",
     "Simulation",
+    "Verification",
+    "check",
+    "fos",
     "load",
     "parse",
     "plot_blocks",
     "plot_history",
     "run",
     "set_threads",
+    "verify",
     "version",
 ]
 __version__ = version()
@@ -99,15 +114,56 @@ def run(
 
     model: a Model, or what load() takes, with overrides as there. results: folder, as of `edda run -o`; None: no
     results are written. Raises ModelError for a model that cannot be computed and a folder that cannot be used; a run
-    that ends badly is no error: Outcome.status tells.
+    that ends badly is no error: Outcome.status tells, and Outcome.at_rest whether anything still moves. What looks right
+    in the model and is not is a ModelWarning of Python's module warnings, which shows each once.
     """
-    if not isinstance(model, Model):
-        model = load(model, overrides)
-    elif overrides:
-        raise TypeError("overrides change a model when it is loaded: give them to edda.load()")
+    model = _loaded(model, overrides)
     with _keys_named(overrides):
         simulation = Simulation(model, results=results)
+    for text in simulation.warnings:
+        warnings.warn(text, ModelWarning, stacklevel=2)
     return simulation.run()
+
+
+def check(model: Model | Source, overrides: Overrides = None) -> ModelCheck:
+    """What `edda check` says of a model: blocks, steps to expect, warnings.
+
+    model and overrides: as of run(). It makes a few steps, of which nothing is kept. Raises ModelError for a model that
+    cannot be computed. The warnings alone are Model.warnings.
+    """
+    model = _loaded(model, overrides)
+    with _keys_named(overrides):
+        return _edda.check(model)
+
+
+def fos(model: Model | Source, overrides: Overrides = None) -> FactorOfSafety:
+    """The factor of safety, as `edda fos` finds it, by what [fos] of the model says.
+
+    model and overrides: as of run(). Nothing is written. FactorOfSafety.factor is None where all factors tried hold, or
+    all fail: status tells. Ctrl-C ends it. Raises ModelError for a model that cannot be computed.
+    """
+    model = _loaded(model, overrides)
+    with _keys_named(overrides):
+        return _edda.fos(model)
+
+
+def verify(model: Model | Source, overrides: Overrides = None) -> Verification:
+    """Error bars of the model's monitors, as `edda verify` finds them, by four runs.
+
+    model and overrides: as of run(). Ctrl-C ends it. Raises ModelError for a model that cannot be computed or has no
+    monitors.
+    """
+    model = _loaded(model, overrides)
+    with _keys_named(overrides):
+        return _edda.verify(model)
+
+
+def _loaded(model: Model | Source, overrides: Overrides) -> Model:
+    if not isinstance(model, Model):
+        return load(model, overrides)
+    if overrides:
+        raise TypeError("overrides change a model when it is loaded: give them to edda.load()")
+    return model
 
 
 def _settings(overrides: Overrides) -> list[str]:

@@ -17,6 +17,13 @@ def version() -> str:
 def set_threads(threads: SupportsIndex) -> None:
     """Threads that simulations of this process use; results do not depend on it."""
 
+def check(model: Model) -> ModelCheck:
+    """What edda check says of a model."""
+def fos(model: Model) -> FactorOfSafety:
+    """The factor of safety, by what [fos] of the model says."""
+def verify(model: Model) -> Verification:
+    """The error bars of the model's monitors."""
+
 class Model:
     """A checked model; never changes."""
 
@@ -47,6 +54,10 @@ class Model:
     @property
     def stages(self) -> list[str]:
         """Names, in order."""
+    @property
+    def warnings(self) -> list[str]:
+        """What looks right in it and is not, as edda check says it, a sentence each; cuts the model when it is first
+        asked for."""
     def to_toml(self) -> str:
         """The model with every key and default filled in."""
     def cut(self) -> Cut:
@@ -123,6 +134,152 @@ class Outcome:
     @property
     def wall_seconds(self) -> float:
         """s"""
+    @property
+    def at_rest(self) -> bool:
+        """Whether all is at rest at the end; of a run that has completed, too."""
+    @property
+    def fastest(self) -> int:
+        """Block with the fastest corner at the end, -1: none is free."""
+    @property
+    def speed(self) -> float:
+        """m/s, of that corner."""
+    @property
+    def failed_checks(self) -> list[str]:
+        """Checks of summary.json that do not hold, a sentence each."""
+
+class ModelCheck:
+    """What edda.check() finds."""
+
+    @property
+    def blocks(self) -> int:
+        """How many there are."""
+    @property
+    def held(self) -> int:
+        """How many of them do not move."""
+    @property
+    def contacts(self) -> int:
+        """Closed at the start."""
+    @property
+    def critical_step(self) -> float:
+        """s"""
+    @property
+    def time_step(self) -> float:
+        """s, the first."""
+    @property
+    def steps(self) -> float:
+        """To expect."""
+    @property
+    def at_most(self) -> bool:
+        """Whether stages may end before."""
+    @property
+    def steps_per_second(self) -> float:
+        """Of wall time."""
+    @property
+    def governed_by(self) -> str:
+        """What holds the step."""
+    @property
+    def loads(self) -> list[str]:
+        """A sentence each."""
+    @property
+    def initial_stress(self) -> list[str]:
+        """A sentence each."""
+    @property
+    def warnings(self) -> list[str]:
+        """What looks right in the model and is not, a sentence each."""
+
+class FosTrial:
+    """One factor that was tried."""
+
+    @property
+    def factor(self) -> float:
+        """What was tried."""
+    @property
+    def holds(self) -> bool:
+        """Whether all came to rest."""
+    @property
+    def reason(self) -> str:
+        """A few words."""
+    @property
+    def displacement(self) -> float:
+        """m, largest of a corner since the start of the trial."""
+    @property
+    def block(self) -> int:
+        """Whose corner that is, -1: none."""
+    @property
+    def velocity(self) -> float:
+        """m/s, at its end."""
+    @property
+    def time(self) -> float:
+        """s that it took."""
+
+class FactorOfSafety:
+    """What edda.fos() finds."""
+
+    @property
+    def status(self) -> str:
+        """found, below, above, unstable or interrupted."""
+    @property
+    def message(self) -> str:
+        """One sentence."""
+    @property
+    def factor(self) -> Optional[float]:
+        """The middle of the bracket; None where there is no bracket."""
+    @property
+    def holds(self) -> Optional[float]:
+        """The largest factor that holds, or None."""
+    @property
+    def fails(self) -> Optional[float]:
+        """The smallest factor that fails, or None."""
+    @property
+    def mechanism(self) -> str:
+        """What moves at it, a sentence; empty where nothing failed."""
+    @property
+    def trials(self) -> list[FosTrial]:
+        """Every factor that was tried."""
+    @property
+    def warnings(self) -> list[str]:
+        """A sentence each."""
+    @property
+    def wall_seconds(self) -> float:
+        """s"""
+
+class ErrorBar:
+    """A monitor's displacement at the end, and how far other runs end from it, m."""
+
+    @property
+    def monitor(self) -> str:
+        """Its name."""
+    @property
+    def ux(self) -> float:
+        """m"""
+    @property
+    def uy(self) -> float:
+        """m"""
+    @property
+    def step(self) -> float:
+        """m, at half the step."""
+    @property
+    def stiffness(self) -> float:
+        """m, with springs three times as stiff."""
+    @property
+    def order(self) -> float:
+        """m, with the blocks in the other order."""
+
+class Verification:
+    """What edda.verify() finds."""
+
+    @property
+    def monitors(self) -> list[ErrorBar]:
+        """An ErrorBar for each monitor."""
+    @property
+    def time(self) -> float:
+        """s, of the model."""
+    @property
+    def largest_drift(self) -> float:
+        """Of the energy, over all runs."""
+    @property
+    def failed(self) -> str:
+        """Which run did not reach its end, and why; empty: none."""
 
 class Progress:
     """How far a run has come."""

@@ -48,3 +48,7 @@ class ModelError(ValueError):
 
     def __reduce__(self) -> tuple[type[ModelError], tuple[list[Fault]]]:
         return type(self), (self.faults,)
+
+
+class ModelWarning(UserWarning):
+    """What looks right in a model and is not, as edda check says it."""

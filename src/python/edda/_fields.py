@@ -50,7 +50,7 @@ def is_of_motion(source: Any, field: ArrayLike) -> bool:
 
 
 def values_of(source: Any, field: ArrayLike, ids: NDArray[np.int64]) -> NDArray[np.float64]:
-    """A number per block of `ids`. source: a Frame as drawn (a row of its cell fields for each), a
+    """A number per block of `ids`. source: a Frame, a
     Simulation or a Cut; field: a name as of edda plot, or an array with a number per block."""
     if not isinstance(field, str):
         return _per_block(source, np.asarray(field, dtype=np.float64), ids)
@@ -83,7 +83,7 @@ def _array(source: Any, name: str, ids: NDArray[np.int64]) -> NDArray[Any]:
     if isinstance(source, Frame):
         if name not in source.cell_fields:
             raise UnknownName("field of frames", name, source.cell_fields)
-        return source[name][first_cells(source)]
+        return source[name]
     if name == "id" and name in _OF_CUTS:
         return ids
     if hasattr(source, "blocks"):
@@ -106,18 +106,12 @@ def _principal(stress: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.column_stack([mean + radius, mean - radius, zz])
 
 
-def first_cells(frame: Frame) -> NDArray[np.int64]:
-    """Of each block its first cell: cells that follow each other and have one id are one block."""
-    ids = frame["id"]
-    return np.flatnonzero(np.r_[True, ids[1:] != ids[:-1]]) if len(ids) else np.empty(0, dtype=np.int64)
-
-
 def held(source: Any, ids: NDArray[np.int64]) -> NDArray[np.bool_]:
     """Which of the drawn blocks are held."""
     if isinstance(source, Frame):
         if "fixed" not in source:
             return np.zeros(len(ids), dtype=bool)
-        return np.asarray(source["fixed"][first_cells(source)] != 0)
+        return np.asarray(source["fixed"] != 0)
     if hasattr(source, "blocks"):
         return np.array([block.fixed for block in source.blocks], dtype=bool)
     return np.asarray(source.fixed[ids] != 0)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._errors import UnknownName
-from ._fields import KINDS, first_cells, held, is_of_motion, label_of, values_of
+from ._fields import KINDS, held, is_of_motion, label_of, values_of
 from .results import Frame, Results
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from ._edda import Cut, Simulation
 
 _HELD = (0.8, 0.8, 0.8)
+_places_of_bars: WeakKeyDictionary[Axes, Axes] = WeakKeyDictionary()  # of axes that hold blocks
 
 
 def plot_blocks(
@@ -41,6 +43,7 @@ def plot_blocks(
     far beyond have the colour of the bar's end, which is then a point. Held blocks do not count: by name they are
     grey (as in edda plot), by an array, and of a Cut, they have the colour of the nearest end.
     options go to Matplotlib's PathCollection; clim or norm among them says what the colours are.
+    ax: the axes to draw in. Axes that are drawn in again (after ax.clear(), for a film) keep their one colour bar.
     """
     import matplotlib.pyplot as plt
     from matplotlib.collections import PathCollection
@@ -57,7 +60,7 @@ def plot_blocks(
     drawn = PathCollection(paths, **{**style, **options})
     if field is not None and values is not None:
         extend = _set_colours(drawn, source, field, values, ids, whole_range, {"clim", "norm"} & set(options))
-        ax.figure.colorbar(drawn, ax=ax, extend=extend, label=label_of(field))
+        _add_colorbar(ax, drawn, extend, label_of(field))
     ax.add_collection(drawn)
     ax.set_aspect("equal")
     ax.autoscale_view()
@@ -153,8 +156,7 @@ def _outlines(source: Any) -> tuple[list[Any], NDArray[np.int64]]:
     if isinstance(source, Frame):
         if "id" not in source:
             raise ValueError("this frame holds no blocks: give one of Results.frames")
-        first = first_cells(source)
-        return [path_of(rings) for rings in _rings(source, first)], np.asarray(source["id"][first], dtype=np.int64)
+        return [path_of(rings) for rings in source.rings()], np.asarray(source["id"], dtype=np.int64)
     if hasattr(source, "polygons"):
         alive = np.flatnonzero(source.alive)
         polygons = source.polygons()
@@ -162,32 +164,14 @@ def _outlines(source: Any) -> tuple[list[Any], NDArray[np.int64]]:
     return [path_of(block.rings) for block in source.blocks], np.arange(len(source.blocks))
 
 
-def _rings(frame: Frame, first: NDArray[np.int64]) -> list[list[NDArray[np.float64]]]:
-    """Per block its closed rings, of cells together: edges between two cells of a block are no outline."""
-    blocks = []
-    for begin, end in zip(first, [*first[1:], len(frame.cells)]):
-        if end - begin == 1:
-            blocks.append([frame.points[frame.cells[begin]]])
-            continue
-        cells = [cell.tolist() for cell in frame.cells[begin:end]]
-        edges = dict.fromkeys(edge for cell in cells for edge in zip(cell, cell[1:] + cell[:1]))
-        leaving: dict[int, list[int]] = {}
-        for a, b in edges:
-            if (b, a) not in edges:
-                leaving.setdefault(a, []).append(b)
-        rings = []
-        while leaving:
-            ring = []
-            at = next(iter(leaving))
-            while at in leaving:  # at a point that several edges leave, any will do
-                ring.append(at)
-                to = leaving[at].pop()
-                if not leaving[at]:
-                    del leaving[at]
-                at = to
-            rings.append(frame.points[ring])
-        blocks.append(rings)
-    return blocks
+def _add_colorbar(ax: Axes, drawn: Any, extend: str, label: str) -> None:
+    """In the place of the one that an earlier picture in these axes has left there."""
+    place = _places_of_bars.get(ax)
+    if place is None or place.figure is not ax.figure or place not in ax.figure.axes:
+        _places_of_bars[ax] = ax.figure.colorbar(drawn, ax=ax, extend=extend, label=label).ax
+    else:
+        place.clear()
+        ax.figure.colorbar(drawn, cax=place, extend=extend, label=label)
 
 
 def _set_colours(

@@ -146,17 +146,17 @@ class Results:
 class Frame:
     """All blocks, or all contacts, at one time.
 
-    time: s. points: (n, 2) corners, m. cells: per cell the rows of its corners. point_fields and cell_fields: arrays
-    by name; frame["stress"] is a cell field. A block that is not convex has several cells, one after the other, all
-    with its id.
+    time: s. points: (n, 2) corners, m. cells: per block the rows of the corners of its outer ring. point_fields and
+    cell_fields: arrays by name; frame["stress"] is a cell field. There is one row per block, or per contact, in the
+    order of frame["id"]: blocks that have been taken out have none.
 
     Cell fields of blocks: id, material (row of Model.materials, -1: none), fixed (0 or 1), rotation (rad), omega
-    (rad/s), overstress: (cells,); displacement (m), velocity (m/s): (cells, 3), x y z, of the centroid; stress (Pa,
-    tension positive): (cells, 6), xx yy zz xy yz xz; principal_stress (Pa): (cells, 3), major (most tensile) and minor
+    (rad/s), overstress: (rows,); displacement (m), velocity (m/s): (rows, 3), x y z, of the centroid; stress (Pa,
+    tension positive): (rows, 6), xx yy zz xy yz xz; principal_stress (Pa): (rows, 3), major (most tensile) and minor
     (most compressive) in the plane, and out of it. Point fields: displacement (m), velocity (m/s): (n, 3).
 
     Cell fields of contacts: block_i, block_j, state (0 open, 1 stick, 2 slide, 3 bonded), normal_force,
-    shear_force (N), opening, slip (m): (cells,); force (N, on block i), displacement (m): (cells, 3).
+    shear_force (N), opening, slip (m): (rows,); force (N, on block i), displacement (m): (rows, 3).
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
@@ -164,9 +164,13 @@ class Frame:
         self.time = float(arrays["FieldData"]["TimeValue"][0])
         self.points: NDArray[np.float64] = arrays["Points"]["Points"][:, :2]
         cells = arrays["Cells"]
-        self.cells: list[NDArray[np.int64]] = np.split(cells["connectivity"], cells["offsets"][:-1])
+        pieces: list[NDArray[np.int64]] = np.split(cells["connectivity"], cells["offsets"][:-1])
+        fields: dict[str, NDArray[Any]] = arrays["CellData"]
+        first = _first_pieces(fields["id"]) if "id" in fields else np.arange(len(pieces))
+        self._rings = [_rings_of(pieces[a:b]) for a, b in zip(first, [*first[1:], len(pieces)])]
+        self.cells: list[NDArray[np.int64]] = [max(rings, key=self._area) for rings in self._rings]
         self.point_fields: dict[str, NDArray[Any]] = arrays["PointData"]
-        self.cell_fields: dict[str, NDArray[Any]] = arrays["CellData"]
+        self.cell_fields: dict[str, NDArray[Any]] = {name: values[first] for name, values in fields.items()}
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         if name not in self.cell_fields:
@@ -180,11 +184,49 @@ class Frame:
         return iter(self.cell_fields)
 
     def __repr__(self) -> str:
-        return f"<edda.Frame at {self.time:g} s, {len(self.cells)} cells>"
+        return f"<edda.Frame at {self.time:g} s, {len(self.cells)} rows>"
 
     def polygons(self) -> list[NDArray[np.float64]]:
-        """Per cell its corners, (n, 2), m."""
+        """Per block the corners of its outer ring, (n, 2), m."""
         return [self.points[corners] for corners in self.cells]
+
+    def rings(self) -> list[list[NDArray[np.float64]]]:
+        """Per block its rings, (n, 2) each, m: those of a block with holes are several, in no order."""
+        return [[self.points[corners] for corners in rings] for rings in self._rings]
+
+    def _area(self, ring: NDArray[np.int64]) -> float:
+        """Twice the area inside it, m2."""
+        x, y = (self.points[ring] - self.points[ring[:1]]).T
+        return abs(float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))))
+
+
+def _first_pieces(ids: NDArray[Any]) -> NDArray[np.int64]:
+    """A block that is not convex stands in the file as several pieces, one after the other, all with its id."""
+    return np.flatnonzero(np.r_[True, ids[1:] != ids[:-1]]) if len(ids) else np.empty(0, dtype=np.int64)
+
+
+def _rings_of(pieces: list[NDArray[np.int64]]) -> list[NDArray[np.int64]]:
+    """The rings round pieces together: edges between two pieces are no outline."""
+    if len(pieces) == 1:
+        return list(pieces)
+    cells = [piece.tolist() for piece in pieces]
+    edges = dict.fromkeys(edge for cell in cells for edge in zip(cell, cell[1:] + cell[:1]))
+    leaving: dict[int, list[int]] = {}
+    for a, b in edges:
+        if (b, a) not in edges:
+            leaving.setdefault(a, []).append(b)
+    rings = []
+    while leaving:
+        ring = []
+        at = next(iter(leaving))
+        while at in leaving:  # at a point that several edges leave, any will do
+            ring.append(at)
+            to = leaving[at].pop()
+            if not leaving[at]:
+                del leaving[at]
+            at = to
+        rings.append(np.array(ring, dtype=np.int64))
+    return rings
 
 
 class Frames(Sequence[Frame]):

@@ -4,7 +4,7 @@ import { blockValue, blockValues } from './data/fields';
 import type { Frame } from './data/frame';
 import { Frames } from './data/frames';
 import { refresh, type Results } from './data/results';
-import type { Field } from './data/run';
+import { failedChecks, type Field, summaryOf } from './data/run';
 import { Scale } from './data/scale';
 import { Absent, type Source } from './data/source';
 import { brief, quantity } from './data/units';
@@ -12,7 +12,7 @@ import { LONGEST } from './scene/layers';
 import { Overlay } from './scene/overlay';
 import { View } from './scene/view';
 import { Controls } from './ui/controls';
-import { byId } from './ui/dom';
+import { byId, make } from './ui/dom';
 import { listenToKeys } from './ui/keys';
 import { legendBox, type LegendEntries, paintLegend, WIDTH as LEGEND_WIDTH } from './ui/legend';
 import { Player } from './ui/player';
@@ -291,12 +291,16 @@ export class App {
     const { run, mesh } = this.results;
     byId('title').textContent = run.title || 'edda';
     document.title = run.title ? `${run.title} \u2013 edda` : 'edda';
-    const summary = run.summary === undefined ? undefined : (JSON.parse(run.summary) as { status: string; message?: string });
+    const summary = summaryOf(run);
+    const failed = summary === undefined ? [] : failedChecks(summary);
     const status = summary?.status ?? (run.served ? 'going on' : 'not ended');
     const chip = byId('status');
-    chip.textContent = `${status} \u00b7 ${mesh.blocks.toLocaleString('en')} blocks`;
+    const doubts = failed.length === 0 ? '' : failed.length === 1 ? ' \u00b7 a check does not hold' : ` \u00b7 ${failed.length} checks do not hold`;
+    chip.textContent = `${status} \u00b7 ${mesh.blocks.toLocaleString('en')} blocks${doubts}`;
     chip.title = summary?.message ?? '';
-    chip.classList.toggle('bad', status === 'failed' || status === 'collapsed');
+    chip.classList.toggle('bad', status === 'failed' || status === 'collapsed' || failed.length > 0);
+    byId('failed').hidden = failed.length === 0;
+    byId('failed-checks').replaceChildren(...failed.map((said) => make('li', said)));
   }
 
   /** A served run: what has come since. */

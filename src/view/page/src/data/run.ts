@@ -10,6 +10,31 @@ export interface Field {
   range?: [number, number];
   /** What colours and arrows are drawn by: the same, or without a few blocks that lie far beyond. */
   drawn?: [number, number];
+  /** The same of the last frame alone. */
+  last?: [number, number];
+}
+
+/** What the page looks at of summary.json. */
+export interface Summary {
+  status: string;
+  message?: string;
+  checks?: { name: string; value: number; limit: number | null; pass: boolean }[];
+  largest_overlap?: { depth: number; at: [number, number]; blocks: [number, number]; time: number } | null;
+}
+
+export function summaryOf(run: Run): Summary | undefined {
+  return run.summary === undefined ? undefined : (JSON.parse(run.summary) as Summary);
+}
+
+/** A sentence for each check that does not hold. */
+export function failedChecks({ checks, largest_overlap: overlap }: Summary): string[] {
+  const brief = (x: number) => String(Number(x.toPrecision(3))).replace('-', '\u2212');
+  return (checks ?? []).filter((c) => !c.pass).map(({ name, value, limit }) => {
+    const said = `${name} is ${brief(value)}, more than ${brief(limit ?? 0)}`;
+    if (!name.startsWith('largest overlap') || !overlap) return said;
+    const [i, j] = overlap.blocks;
+    return `${said}: ${brief(overlap.depth)} m between blocks ${i} and ${j} at (${overlap.at.map(brief).join(', ')}), t = ${brief(overlap.time)} s`;
+  });
 }
 
 export interface Mark {

@@ -63,11 +63,11 @@ export class Overlay {
 
   private paintMarks(g: CanvasRenderingContext2D, camera: Camera, pose: Pose, style: OverlayStyle, { monitor, legend }: OverlayOptions): void {
     const there = this.monitors.filter((m) => m.at[0].row < 0 || pose.isAlive(m.at[0].row));
-    const dots = there.map((m) => ({ name: m.name, at: this.place(camera, pose, m, 0), selected: m.name === monitor }));
+    const dots = there.map((m) => ({ name: m.name, at: this.place(camera, pose, m, 0), radius: this.ringRadius(camera, pose, m), selected: m.name === monitor }));
     const lines = this.lines.map((l) => ({ name: l.name, from: this.place(camera, pose, l, 0), to: this.place(camera, pose, l, 1) }));
     for (const { from, to } of lines) drawLine(g, from, to, style);
-    for (const { at, selected } of dots) drawDot(g, at, style, selected);
-    const labels = new Labels(g, camera.width, camera.height, [legend, ...dots.map(({ at: [x, y] }) => ({ x0: x - 6, y0: y - 6, x1: x + 6, y1: y + 6 }))]);
+    for (const { at, radius, selected } of dots) drawRing(g, at, radius, style, selected);
+    const labels = new Labels(g, camera.width, camera.height, [legend, ...dots.map(({ at: [x, y], radius: r }) => ({ x0: x - r - 1, y0: y - r - 1, x1: x + r + 1, y1: y + r + 1 }))]);
     const write = (text: string, at: [number, number] | undefined) => at && label(g, text, ...at, style);
     // What was clicked comes first.
     dots.sort((a, b) => Number(b.selected) - Number(a.selected));
@@ -81,6 +81,16 @@ export class Overlay {
       const [x, y] = this.place(camera, pose, m, 0);
       return Math.hypot(x - px, y - py) < 9;
     });
+  }
+
+  /** As wide as shows the block inside it, where that is small. */
+  private ringRadius(camera: Camera, pose: Pose, follower: Follower): number {
+    const { row } = follower.at[0];
+    const [least, most, rim] = [5, 16, 4];
+    if (row < 0 || this.mesh.reach[row] * camera.scale > most) return least;
+    const [x, y] = this.place(camera, pose, follower, 0);
+    const [cx, cy] = camera.px(...pose.point(row, 0, 0));
+    return Math.max(least, Math.hypot(x - cx, y - cy) + Math.SQRT2 * this.mesh.reach[row] * camera.scale + rim);
   }
 
   private place(camera: Camera, pose: Pose, f: Follower, k: number): [number, number] {
@@ -105,14 +115,15 @@ export class Overlay {
   }
 }
 
-function drawDot(g: CanvasRenderingContext2D, [x, y]: [number, number], style: OverlayStyle, selected: boolean): void {
+/** Open, so that it hides no block. */
+function drawRing(g: CanvasRenderingContext2D, [x, y]: [number, number], radius: number, style: OverlayStyle, selected: boolean): void {
   g.beginPath();
-  g.arc(x, y, 5, 0, 2 * Math.PI);
-  g.fillStyle = selected ? style.accent : style.halo;
-  g.fill();
-  g.lineWidth = 2;
-  g.strokeStyle = selected ? style.halo : style.ink;
-  g.stroke();
+  g.arc(x, y, radius, 0, 2 * Math.PI);
+  for (const [width, colour] of [[4.5, style.halo], [2.5, selected ? style.accent : style.ink]] as const) {
+    g.lineWidth = width;
+    g.strokeStyle = colour;
+    g.stroke();
+  }
 }
 
 function drawLine(g: CanvasRenderingContext2D, from: [number, number], to: [number, number], style: OverlayStyle): void {
@@ -135,7 +146,8 @@ function label(g: CanvasRenderingContext2D, text: string, x: number, y: number, 
   g.fillText(text, x, y);
 }
 
-/** The block of lowest id round each point, in the first frame; a point a rounding outside still counts. */
+/** The block round each point, in the first frame; a point a rounding outside still counts. On a border it is one that
+ * is free before one that is held, then that of lowest id: as in the program. */
 function follow(mesh: Mesh, mark: Mark): Follower {
   const at = mark.points.map(([x, y]) => {
     const row = blockRound(mesh, x, y);
@@ -146,7 +158,8 @@ function follow(mesh: Mesh, mark: Mark): Follower {
 }
 
 function blockRound(mesh: Mesh, x: number, y: number): number {
-  const { triangles, vertex, row, centre } = mesh;
+  const { triangles, vertex, row, centre, fixed } = mesh;
+  let held = -1;
   for (let t = 0; t < triangles.length; t += 3) {
     const b = row[triangles[t]];
     const [px, py] = [x - centre[2 * b], y - centre[2 * b + 1]];
@@ -155,9 +168,12 @@ function blockRound(mesh: Mesh, x: number, y: number): number {
     const side = (u: number[], v: number[]) => (v[0] - u[0]) * (py - u[1]) - (v[1] - u[1]) * (px - u[0]);
     const area = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
     const least = -1e-5 * Math.abs(area);
-    if (side(p, q) >= least && side(q, r) >= least && side(r, p) >= least) return b;
+    if (side(p, q) >= least && side(q, r) >= least && side(r, p) >= least) {
+      if (!fixed[b]) return b;
+      if (held < 0) held = b;
+    }
   }
-  return -1;
+  return held;
 }
 
 function drawAxes(g: CanvasRenderingContext2D, camera: Camera, origin: [number, number], style: OverlayStyle): void {

@@ -25,6 +25,7 @@ export class Controls {
     };
     select.replaceChildren(make('option', 'nothing', { value: 'none' }), group('blocks', 'blocks'), group('contacts', 'contacts'));
     select.value = 'displacement';
+    this.chooseRange();
     byId('bolts').parentElement!.hidden = !results.bolts.any && !results.run.served;
     byId('marks').parentElement!.hidden = results.run.monitors.length + results.run.convergences.length === 0;
     this.listen();
@@ -101,6 +102,19 @@ export class Controls {
     return this.results.mesh.area.map((area, b) => (frame.alive[b] && !this.held[b] ? area : 0));
   }
 
+  /** Where what stays is little beside what has passed (a run that was shaken), the colours are those that show what
+   * stays: all frames' would make the last one flat. As long as nobody has chosen otherwise. */
+  private chooseRange(): void {
+    const range = byId<HTMLSelectElement>('range');
+    if (this.rangeIsChosen) return;
+    const stays = ['displacement', 'rotation', 'opening', 'slip'].some((name) => this.field?.name.startsWith(name));
+    const span = ([low, high]: Ends) => high - low;
+    const { last, drawn, frames } = { ...this.field, frames: this.results.run.frames.length };
+    const little = last !== undefined && drawn !== undefined && frames > 1 && span(last) > 1e-6 * span(drawn) && span(last) < 0.25 * span(drawn);
+    range.value = stays && little ? 'last' : 'run';
+  }
+  private rangeIsChosen = false;
+
   /** Ends of the colours, and of all values; undefined: the field's own over all frames. */
   rangeOf(frame: Frame, values: Float32Array): { ends: Ends; all: Ends } | undefined {
     const how = byId<HTMLSelectElement>('range').value;
@@ -110,6 +124,7 @@ export class Controls {
       return ends && { ends, all: this.field.range ?? ends };
     }
     if (how === 'run') return undefined;
+    if (how === 'last') return this.field.last && { ends: this.field.last, all: this.field.range ?? this.field.last };
     const { range } = this.field;
     if (how === 'whole') return range === undefined ? undefined : { ends: range, all: range };
     const ofContacts = this.field.of === 'contacts' ? (contactValues(this.field.name, frame.contacts) ?? []) : undefined;
@@ -150,6 +165,8 @@ export class Controls {
   private listen(): void {
     for (const id of ['field', 'range', 'vectors', 'edges', 'contacts', 'forces', 'crosses', 'bolts', 'marks', 'axes', 'low', 'high']) {
       byId(id).addEventListener('change', () => {
+        if (id === 'range') this.rangeIsChosen = true;
+        if (id === 'field') this.chooseRange();
         if (id === 'range' || id === 'field') this.offerOwnRange();
         this.changed();
       });

@@ -1,0 +1,75 @@
+#include "run/check_model.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "base/threads.hpp"
+#include "run/initial_stress_report.hpp"
+#include "run/load_report.hpp"
+#include "run/observe.hpp"
+#include "run/stages.hpp"
+
+namespace edda {
+namespace {
+
+/// Steps per second of wall time, from a few steps made and thrown away.
+double step_rate(Simulation& sim, double seconds) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  double wall = 0.0;
+  std::uint64_t steps = 0;
+  const SameThreads afterwards;
+  ThreadChoice threads(threads_are_said() ? 1 : omp_get_max_threads());
+  while (steps < 2 || (wall < seconds && steps < 2000)) {
+    if (sim.state.time >= sim.model.solver.duration) break;
+    if (!threads_are_said()) omp_set_num_threads(threads.now());
+    if (sim.step()) break;
+    ++steps;
+    const double before = wall;
+    wall = std::chrono::duration<double>(Clock::now() - start).count();
+    threads.stepped(wall - before);
+  }
+  return wall > 0.0 ? static_cast<double>(steps) / wall : 0.0;
+}
+
+std::size_t held_blocks(const Simulation& sim) {
+  return static_cast<std::size_t>(std::count_if(sim.blocks.fixed.begin(), sim.blocks.fixed.end(),
+                                                [](auto fixed) { return fixed != 0; }));
+}
+
+}  // namespace
+
+ModelCheck check_model(Simulation& sim) {
+  ModelCheck found;
+  found.held = held_blocks(sim);
+  found.closed = closed_contacts(sim.contacts);
+  found.within_reach = sim.contacts.size();
+  found.critical_step = sim.bound.critical_step;
+  found.likely_step = sim.bound.likely_step;
+  found.loads = load_report(sim);
+  found.initial_stress = initial_stress_report(sim);
+  const std::vector<Stage> stages = stages_of(sim.model);
+  const auto is_static = [](const Stage& s) { return s.masses == StageMasses::uniform_step; };
+  if (!std::all_of(stages.begin(), stages.end(), is_static)) found.step_as_given = sim.usual_step();
+  if (std::any_of(stages.begin(), stages.end(), is_static))
+    found.static_step = sim.model.solver.safety * sim.uniform_step();
+  sim.scale_masses(stages.front().masses);
+  sim.change_damping(stages.front().damping,
+                     sim.model.solver.dynamic && stages.front().until != StageEnd::equilibrium);
+  sim.start(std::min(sim.model.output.history_every, sim.model.solver.duration));
+  found.step = sim.state.step;
+  for (const Stage& stage : stages) {
+    const double step = &stage == &stages.front() ? found.step
+                        : is_static(stage)        ? found.static_step
+                                                  : found.step_as_given;
+    found.steps += std::max(1.0, std::ceil(stage.duration / step - 1e-9));
+    found.at_most = found.at_most || stage.until == StageEnd::equilibrium;
+  }
+  found.rate = step_rate(sim, 0.5);
+  return found;
+}
+
+}  // namespace edda
