@@ -1,6 +1,7 @@
 #include "contacts/transitions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -69,6 +70,21 @@ bool convex(const BlockSet& b, Id vertex) {
 /// Edges of one block that meet in a convex corner explain one penetration in two ways.
 bool rivals(const BlockSet& b, Id e, Id f) {
   return (b.next[e] == f && convex(b, f)) || (b.next[f] == e && convex(b, e));
+}
+
+/// Whether the vertex, though below the edge by more than `tolerance` (m), does not lie in the
+/// block by more than that, or in it, but nearer to its far side, which is then what it touches.
+/// Beyond the ends of the edge, where a shared or reentrant one runs on, nobody asks.
+bool lies_outside(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k,
+                  double tolerance) {
+  if (c.depth[k] <= tolerance || c.foot[k] < 0.0 || c.foot[k] > c.span[k]) return false;
+  const Vec2 p = at(pose.x, pose.y, c.vertex[k]);
+  const Inside in = inside_of(b, pose.x, pose.y, p, c.block_j[k]);
+  if (in.depth <= tolerance) return true;
+  const Id e = c.edge[k], f = in.edge;
+  if (in.depth >= c.depth[k] - tolerance || b.next[e] == f || b.next[f] == e) return false;
+  const Vec2 along = at(pose.x, pose.y, b.next[f]) - at(pose.x, pose.y, f);
+  return dot(along, tangent_of(c, k)) < 0.0;
 }
 
 /// Takes the contact k over into `heir`: the same stored energy, and so (stiffness being equal) the
@@ -362,9 +378,12 @@ Blocked hindrance(const ContactSet& c, const BlockSet& b, const Pose& pose, std:
   if (c.depth[k] > 0.5 * std::min(b.inradius[i], b.inradius[j])) return Blocked::depth;
   if (!facing(b, pose.x, pose.y, vertex, normal_of(c, k))) return Blocked::facing;
   if (shielded(c, b, pose, k)) return Blocked::shield;
+  const double tie = rounding * b.radius[j];
+  // What was above the edge a step ago has come in through it.
+  if (c.depth_1[k] > tie && lies_outside(c, b, pose, k, std::max(tie, c.noise)))
+    return Blocked::outside;
   // Edges that meet in a convex corner: a vertex within the block is inside both, and touches the
   // one that is closed, else the one least penetrated.
-  const double tie = rounding * b.radius[j];
   for (Id q = c.begin_of_vertex[vertex]; q < c.begin_of_vertex[vertex + 1]; ++q) {
     if (q == k || c.block_j[q] != j || !rivals(b, c.edge[k], c.edge[q])) continue;
     if (c.is(q, cs::closed) && c.share[q] > 0.0) return Blocked::conflict;
@@ -386,6 +405,17 @@ void block_shielded(ContactSet& c, const BlockSet& b, const Pose& pose) {
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (c.is(k, cs::closed | cs::blocked) || !shielded(c, b, pose, k)) continue;
     block_contact(c, k, Blocked::shield);
+  }
+  std::sort(c.blocked.begin(), c.blocked.end());
+}
+
+void block_far_sides(ContactSet& c, const BlockSet& b, const Pose& pose) {
+  // As near as bonds hold: blocks of one cut lie this deep in each other by its rounding.
+  constexpr double touch = 1e-6;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (c.is(k, cs::closed | cs::blocked)) continue;
+    const double size = std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
+    if (lies_outside(c, b, pose, k, touch * size)) block_contact(c, k, Blocked::outside);
   }
   std::sort(c.blocked.begin(), c.blocked.end());
 }

@@ -38,7 +38,7 @@ inline constexpr std::array deviation_keys{
     Key{"spacing", at<&Deviation::spacing>, number(D::length, from(0)), initial, "Of the spacing."},
     Key{"trace_length", at<&Deviation::trace_length>, number(D::length, from(0)), initial, "Of the length of the traces."},
     Key{"gap", at<&Deviation::gap>, number(D::length, from(0)), initial, "Of the gap between traces."},
-    Key{"distribution", at<&Deviation::distribution>, choice, initial, "Uniform within these of the mean, or normal with these as standard deviations, cut off at three of them."},
+    Key{"distribution", at<&Deviation::distribution>, choice, initial, "Uniform within these of the mean; normal with these as standard deviations, cut off at three of them; or exponential, as far as lengths go (angles are then normal): these are the standard deviations again, and a deviation as large as the mean puts joints at random."},
 };
 
 inline constexpr std::array joint_set_keys{

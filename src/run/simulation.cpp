@@ -131,6 +131,7 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   }
   s.search(s.base_reach);
   update_shares(s.contacts);
+  block_far_sides(s.contacts, s.blocks, s.pose);
   bond_contacts(s.contacts, s.blocks, s.state, s.pose, s.laws);
   s.close_contacts();
   s.set_limit();
