@@ -68,10 +68,10 @@ bool is_sliver(double area, double perimeter, std::span<const Vec2> ring, const 
   return false;
 }
 
-void count_poor_blocks(std::span<const BlockPolygon> cut, const Quality& quality,
-                       CutReport& report) {
-  for (const BlockPolygon& block : cut) {
-    const double area = moments(block.rings).area;
+void judge_blocks(std::span<BlockPolygon> cut, const Quality& quality, Vec2 origin,
+                  CutReport& report) {
+  for (BlockPolygon& block : cut) {
+    const Moments m = moments(block.rings);
     double perimeter = 0.0;
     for (const Ring& ring : block.rings) {
       const std::size_t n = ring.size();
@@ -82,7 +82,11 @@ void count_poor_blocks(std::span<const BlockPolygon> cut, const Quality& quality
         report.sharp_corners += inner_angle(a, b, c) < quality.min_angle;
       }
     }
-    report.slivers += is_sliver(area, perimeter, block.rings[0], quality);
+    if (!is_sliver(m.area, perimeter, block.rings[0], quality)) continue;
+    ++report.slivers;
+    if (quality.action != QualityAction::merge || block.fixed) continue;
+    block.slow = true;
+    report.kept.push_back({origin + m.centroid, m.area});
   }
 }
 
