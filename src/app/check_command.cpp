@@ -14,6 +14,7 @@
 #include "run/labels.hpp"
 #include "run/load_report.hpp"
 #include "run/run_model.hpp"
+#include "run/sliver_report.hpp"
 #include "run/stages.hpp"
 
 namespace edda {
@@ -102,6 +103,7 @@ void print_blocks(const Simulation& sim) {
       "smallest        area {:.4g} m2 at {}, edge {:.4g} m at {}, angle {:.3g} degrees at {}\n",
       r.smallest_area, place_label(r.smallest_area_at), r.smallest_edge,
       place_label(r.smallest_edge_at), r.smallest_angle, place_label(r.smallest_angle_at));
+  for (const std::string& line : sliver_lines(r)) fmt::print("sliver          {}\n", line);
   for (const std::string& note : r.notes) fmt::print("lines           {}\n", note);
 }
 
@@ -191,6 +193,7 @@ void print_object(const PreparedRun& run, const Check& found) {
     json.pair(m.name, block_label(sim.blocks, m.block));
   }
   json.close();
+  add_slivers(json, r);
   add_texts(json, "lines", r.notes);
   add_texts(json, "loads", found.loads);
   add_texts(json, "initial_stress", found.initial_stress);

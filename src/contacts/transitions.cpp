@@ -72,19 +72,35 @@ bool rivals(const BlockSet& b, Id e, Id f) {
   return (b.next[e] == f && convex(b, f)) || (b.next[f] == e && convex(b, e));
 }
 
+/// Whether p lies on a side of block j (within `tolerance`, m) that makes a wedge of less than 60
+/// degrees with an edge of tangent t.
+bool on_far_side(const BlockSet& b, const Pose& pose, Vec2 p, Id j, Vec2 t, double tolerance) {
+  constexpr double sharp = -0.5;
+  for (Id f = b.vertex_begin[j]; f < b.vertex_begin[j + 1]; ++f) {
+    const Vec2 from = at(pose.x, pose.y, f), to = at(pose.x, pose.y, b.next[f]);
+    if (distance_to_segment(p, from, to) <= tolerance && dot(unit(to - from), t) < sharp)
+      return true;
+  }
+  return false;
+}
+
 /// Whether the vertex, though below the edge by more than `tolerance` (m), does not lie in the
-/// block by more than that, or in it, but nearer to its far side, which is then what it touches.
-/// Beyond the ends of the edge, where a shared or reentrant one runs on, nobody asks.
+/// block: outside it, on its far side, or nearer to that, which is then what it touches. Beyond the
+/// ends of the edge, where a shared or reentrant one runs on, what lies below its end must be near
+/// the block: below the tip of a wedge it is not.
 bool lies_outside(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k,
                   double tolerance) {
-  if (c.depth[k] <= tolerance || c.foot[k] < 0.0 || c.foot[k] > c.span[k]) return false;
-  const Vec2 p = at(pose.x, pose.y, c.vertex[k]);
+  const double depth = c.depth[k];
+  if (depth <= tolerance) return false;
+  const double past = c.foot[k] - std::clamp(c.foot[k], 0.0, c.span[k]);
+  const Vec2 t = c.tangent(k), p = at(pose.x, pose.y, c.vertex[k]) - past * t;
   const Inside in = inside_of(b, pose.x, pose.y, p, c.block_j[k]);
-  if (in.depth <= tolerance) return true;
+  if (past != 0.0) return in.depth < -0.5 * depth;
+  if (in.depth < -tolerance) return true;
+  if (in.depth <= tolerance) return on_far_side(b, pose, p, c.block_j[k], t, tolerance);
   const Id e = c.edge[k], f = in.edge;
-  if (in.depth >= c.depth[k] - tolerance || b.next[e] == f || b.next[f] == e) return false;
-  const Vec2 along = at(pose.x, pose.y, b.next[f]) - at(pose.x, pose.y, f);
-  return dot(along, tangent_of(c, k)) < 0.0;
+  if (in.depth >= depth - tolerance || b.next[e] == f || b.next[f] == e) return false;
+  return dot(at(pose.x, pose.y, b.next[f]) - at(pose.x, pose.y, f), t) < 0.0;
 }
 
 /// Takes the contact k over into `heir`: the same stored energy, and so (stiffness being equal) the
@@ -413,7 +429,7 @@ void block_far_sides(ContactSet& c, const BlockSet& b, const Pose& pose) {
   // As near as bonds hold: blocks of one cut lie this deep in each other by its rounding.
   constexpr double touch = 1e-6;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if (c.is(k, cs::closed | cs::blocked)) continue;
+    if (c.is(k, cs::closed | cs::blocked) || !c.on_edge(k)) continue;
     const double size = std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
     if (lies_outside(c, b, pose, k, touch * size)) block_contact(c, k, Blocked::outside);
   }

@@ -154,7 +154,7 @@ inline constexpr std::array quality_keys{
     Key{"min_area", at<&Quality::min_area>, number(D::area, from(0)), otherwise("4 min_edge^2"), "A cut block smaller than this is a sliver."},
     Key{"min_edge", at<&Quality::min_edge>, number(D::length, from(0)), otherwise("2 % of the smallest spacing, size or 1 / p21"), "A cut block thinner than this is a sliver; shorter edges are reported."},
     Key{"min_angle", at<&Quality::min_angle>, number(D::angle, from_to(0, 60)), initial, "A cut block with a corner sharper than this is merged if that takes the corner away."},
-    Key{"action", at<&Quality::action>, choice, initial, "Merge slivers into the neighbour across their longest edge, only report them, or refuse the model."},
+    Key{"action", at<&Quality::action>, choice, initial, "Merge slivers into the neighbour across their shortest face that ends a joint (what lies between joints that run through stays, and is made slower to move), only report them, or refuse the model."},
 };
 
 inline constexpr std::array pair_keys{

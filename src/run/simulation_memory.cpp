@@ -334,7 +334,7 @@ void list_memory(Archive& a, Simulation& s) {
   a("steps_left", s.steps_left_);
   if (!s.explicit_method()) list_implicit(a, s);
   a("scaled_step", s.scaled_step_);
-  if (s.model.solver.mass_scaling > 0.0 || s.scaled_step_ > 0.0) {
+  if (s.model.solver.mass_scaling > 0.0 || s.scaled_step_ > 0.0 || s.sliver_step_ > 0.0) {
     // Masses by their bits, not by their factors.
     a("inertia", s.inertia);
     a("node_mass", s.blocks.node_mass);

@@ -154,15 +154,13 @@ inline double false_depth(const Simulation& sim, const std::vector<Outline>& blo
   return worst;
 }
 
-/// The largest part of its weight by which a free block is pushed by others before anything has
-/// moved.
+/// The largest force between two blocks before anything has moved, over the weight of the heavier
+/// one.
 inline double largest_push(const Simulation& sim) {
   double largest = 0.0;
   for (const Pressing& p : pressing(sim)) {
-    for (const Id i : {p.block, p.other}) {
-      if (sim.blocks.fixed[i]) continue;
-      largest = std::max(largest, p.force / (9.81 * sim.blocks.mass[i]));
-    }
+    const double mass = std::max(sim.blocks.mass[p.block], sim.blocks.mass[p.other]);
+    largest = std::max(largest, p.force / (9.81 * mass));
   }
   return largest;
 }
