@@ -158,14 +158,17 @@ double slack_of(const ContactSet& c, std::size_t k) {
 
 /// The same vertex on a collinear edge, of the same block or the next, which takes all of k's
 /// spring over at once.
-Id collinear_heir(const ContactSet& c, std::size_t k) {
+Id collinear_heir(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   const Id vertex = c.vertex[k];
   for (Id q = c.begin_of_vertex[vertex]; q < c.begin_of_vertex[vertex + 1]; ++q) {
     if (q == k || c.is(q, cs::closed) || c.depth[q] <= 0.0 || !c.on_edge(q, slack_of(c, k)) ||
         c.why[q] == Blocked::shield) {
       continue;
     }
-    if (dot(tangent_of(c, q), tangent_of(c, k)) > opposite) return q;
+    if (dot(tangent_of(c, q), tangent_of(c, k)) > opposite &&
+        !lies_outside(c, b, pose, q, c.noise)) {
+      return q;
+    }
   }
   return no_id;
 }
@@ -202,7 +205,8 @@ Id corner_heir(const ContactSet& c, const BlockSet& b, const Pose& pose, std::si
   for (Id q = c.begin_of_vertex[corner]; q < c.begin_of_vertex[corner + 1]; ++q) {
     const bool mine = c.edge[q] == vertex || c.edge[q] == b.previous[vertex];
     if (mine && c.depth[q] > 0.0 && c.on_edge(q, slack_of(c, k)) && c.why[q] != Blocked::shield &&
-        facing(b, pose.x, pose.y, corner, normal_of(c, q))) {
+        facing(b, pose.x, pose.y, corner, normal_of(c, q)) &&
+        !lies_outside(c, b, pose, q, c.noise)) {
       return q;
     }
   }
@@ -244,7 +248,7 @@ double kept_past_end(const ContactSet& c, const BlockSet& b, std::size_t k) {
 /// little; what the normal spring gives off goes to the corner that it passes, if that carries.
 void leave(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws, std::size_t k,
            TransitionCounts& counts) {
-  const Id heir = c.share[k] > 0.0 ? collinear_heir(c, k) : no_id;
+  const Id heir = c.share[k] > 0.0 ? collinear_heir(c, b, pose, k) : no_id;
   if (heir != no_id) {
     if (c.is(heir, cs::blocked)) unblock(c, heir, 0.0);
     hand_over(c, b, pose, laws, k, heir);
@@ -336,7 +340,8 @@ void review_blocked(ContactSet& c, const BlockSet& b, const Pose& pose, std::uin
         continue;
       }
       ++counts.unshielded;
-    } else if (c.depth[k] > 0.0 && c.on_edge(k)) {
+    }
+    if (c.depth[k] > 0.0 && c.on_edge(k)) {
       c.why[k] = hindrance(c, b, pose, k);
       if (c.why[k] != Blocked::no) {
         still.push_back(k);

@@ -31,10 +31,15 @@ class Merger {
  public:
   Merger(const PlanarGraph& graph, const Partition& parts, const Quality& quality,
          const FaceGroups& groups)
-      : g_(graph), parts_(parts), quality_(quality), groups_(groups) {}
+      : g_(graph),
+        parts_(parts),
+        quality_(quality),
+        groups_(groups),
+        held_(parts.zone.size(), unknown),
+        region_(parts.zone.size(), unknown) {}
 
   /// The face that `face` ought to be merged into; -1 if it is good as it is, or has none.
-  int target(int face) const {
+  int target(int face) {
     const bool sliver = is_poor(face), sharp = !sliver && is_sharp(face);
     if ((!sliver && !sharp) || is_held(face)) return -1;
     return best_neighbour(face, sliver);
@@ -73,10 +78,15 @@ class Merger {
     return cured;
   }
 
-  bool is_held(int face) const {
+  // Asked of a long face by every sliver beside it: found once.
+  bool is_held(int face) {
     if (groups_.held.empty()) return false;
-    return std::any_of(groups_.held.begin(), groups_.held.end(),
-                       [&](Vec2 p) { return holds(face, p); });
+    int& held = held_[at(face)];
+    if (held == unknown) {
+      held = std::any_of(groups_.held.begin(), groups_.held.end(),
+                         [&](Vec2 p) { return holds(face, p); });
+    }
+    return held != 0;
   }
 
   /// Whether p lies in the face or on its boundary: by how often a ray from it crosses.
@@ -92,11 +102,15 @@ class Merger {
     return inside || on_edge;
   }
 
-  Index region(int face) const { return region_of(g_, faces(), face, groups_.region_of_half_edge); }
+  Index region(int face) {
+    int& region = region_[at(face)];
+    if (region == unknown) region = region_of(g_, faces(), face, groups_.region_of_half_edge);
+    return region;
+  }
 
   /// The neighbour with the shortest common boundary that it does no harm to lose, of lowest number
   /// among equals. `any`: whether sharp corners may stay.
-  int best_neighbour(int face, bool any) const {
+  int best_neighbour(int face, bool any) {
     std::map<int, double> shared;
     const Index own = region(face);
     for_each_half_edge(faces(), face, [&](int h) {
@@ -180,6 +194,8 @@ class Merger {
   const Partition& parts_;
   const Quality& quality_;
   const FaceGroups& groups_;
+  static constexpr int unknown = -2;
+  std::vector<int> held_, region_;
 };
 
 }  // namespace
@@ -215,7 +231,7 @@ FaceMerge merge_of(const PlanarGraph& graph, const Faces& faces, int face, int i
 
 int merge_poor_faces(PlanarGraph& graph, const Partition& parts, const Quality& quality,
                      const FaceGroups& groups, std::vector<FaceMerge>& merges) {
-  const Merger merger(graph, parts, quality, groups);
+  Merger merger(graph, parts, quality, groups);
   struct Poor {
     double area;
     int face, into;
@@ -228,12 +244,22 @@ int merge_poor_faces(PlanarGraph& graph, const Partition& parts, const Quality& 
   }
   std::stable_sort(poor.begin(), poor.end(),
                    [](const Poor& a, const Poor& b) { return a.area < b.area; });
-  std::vector<int> partner(parts.zone.size(), -1);
+  // Of two that are both poor each joins only the other. One that is not takes any number, or a
+  // long face would have to be cut anew for each sliver beside it; but of two neighbours one.
+  const std::size_t n = parts.zone.size();
+  std::vector<std::uint8_t> is_poor(n, 0), taken(n, 0);
+  for (const Poor& p : poor) is_poor[at(p.face)] = 1;
+  std::vector<int> joins(n, -1);
   int merged = 0;
   for (const Poor& p : poor) {
-    if (partner[at(p.face)] >= 0 || partner[at(p.into)] >= 0) continue;
-    partner[at(p.face)] = p.into;
-    partner[at(p.into)] = p.face;
+    bool wait = taken[at(p.face)] || taken[at(p.into)];
+    for_each_half_edge(parts.faces, p.face, [&](int h) {
+      wait = wait || joins[at(face_of(parts.faces, h ^ 1))] == p.into;
+    });
+    if (wait) continue;
+    joins[at(p.face)] = p.into;
+    taken[at(p.face)] = 1;
+    taken[at(p.into)] = is_poor[at(p.into)];
     merges.push_back(merge_of(graph, parts.faces, p.face, p.into));
     ++merged;
   }
@@ -242,7 +268,7 @@ int merge_poor_faces(PlanarGraph& graph, const Partition& parts, const Quality& 
     if (!graph.alive[e]) continue;
     const int h = static_cast<int>(2 * e), a = face_of(parts.faces, h),
               b = face_of(parts.faces, h + 1);
-    if (a == b || partner[at(a)] == b) graph.alive[e] = 0;
+    if (a == b || joins[at(a)] == b || joins[at(b)] == a) graph.alive[e] = 0;
   }
   return merged;
 }

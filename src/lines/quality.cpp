@@ -53,19 +53,7 @@ bool is_sliver(double area, double perimeter, std::span<const Vec2> ring, const 
   if (area < quality.min_area) return true;
   if (2.0 * area >= quality.min_edge * perimeter) return false;
   if (4.0 * area < quality.min_edge * perimeter) return true;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vec2 edge = ring[(i + 1) % ring.size()] - ring[i];
-    const double length = norm(edge);
-    if (length == 0.0) continue;
-    double low = 0.0, high = 0.0;
-    for (const Vec2 p : ring) {
-      const double h = cross(edge, p - ring[i]) / length;
-      low = std::min(low, h);
-      high = std::max(high, h);
-    }
-    if (high - low < quality.min_edge) return true;
-  }
-  return false;
+  return least_width(ring) < quality.min_edge;
 }
 
 void judge_blocks(std::span<BlockPolygon> cut, const Quality& quality, Vec2 origin,

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/parallel.hpp"
+#include "base/polygon.hpp"
 #include "blocks/build_blocks.hpp"
 #include "contacts/candidates.hpp"
 #include "contacts/gaps.hpp"
@@ -35,12 +36,14 @@ double median_edge(const BlockSet& b) {
   return *middle;
 }
 
-/// method.md section 5: a part of the model's half-height, never more than a tenth of the smallest
-/// edge.
+/// method.md section 5: a part of the model's half-width where it is narrowest (of a slope, its
+/// half-height), however it is turned; never more than a tenth of the smallest edge.
 double largest_displacement(const BlockSet& b, double ratio) {
-  const auto [low, high] = std::minmax_element(b.vertex_y.begin(), b.vertex_y.end());
+  std::vector<Vec2> points;
+  points.reserve(b.vertex_count());
+  for (std::size_t v = 0; v < b.vertex_count(); ++v) points.push_back(b.vertex(v));
   const double edge = *std::min_element(b.smallest_edge.begin(), b.smallest_edge.end());
-  return std::min(ratio * 0.5 * (*high - *low), 0.1 * edge);
+  return std::min(ratio * 0.5 * least_width(points), 0.1 * edge);
 }
 
 StepDamping step_damping(const Damping& damping, const Dashpots& dashpots) {

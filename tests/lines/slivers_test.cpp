@@ -136,6 +136,23 @@ TEST(Slivers, ManyStripsGrowStepByStep) {
   for (const BlockPolygon& block : set.blocks) EXPECT_LT(moments(block.rings).area, 20.1);
 }
 
+/// Each tooth has but one face that it may lose, that to the long block above.
+TEST(Slivers, ManyBesideOneLongFaceGoAtOnce) {
+  constexpr int n = 3000;
+  Model model = domain_model(box(0, 0, n, 4), snap);
+  add_trace(model, {{-1, 2}, {n + 1, 2}});
+  for (int i = 0; i < n; ++i) add_trace(model, {{i + 0.1, 2}, {i + 0.5, 2.05}, {i + 0.9, 2}});
+  model.quality = limits(0.0, 0.1);
+  model.held.push_back({{1, 1}, {"held.0", "test.toml", 1, 1}});
+  const PolygonSet set = cut(model);
+  EXPECT_EQ(set.report.merges.size(), static_cast<std::size_t>(n));
+  ASSERT_EQ(set.blocks.size(), 2U);
+  for (const BlockPolygon& block : set.blocks) {
+    EXPECT_NEAR(moments(block.rings).area, 2.0 * n, 1e-6);
+    EXPECT_EQ(block.rings[0].size(), 4U);
+  }
+}
+
 /// How far a block reaches beyond a line on both of its sides, the lesser, m.
 double reach_across(const BlockPolygon& block, Vec2 a, Vec2 b) {
   const Vec2 t = unit(b - a);
