@@ -3,6 +3,7 @@ import csv
 import json
 import math
 import pathlib
+import re
 import shutil
 import unittest
 
