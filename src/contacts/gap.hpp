@@ -1,10 +1,6 @@
 // A vertex against an edge: the formulas of method.md section 4, once.
 #pragma once
 
-#include <algorithm>
-#include <limits>
-#include <vector>
-
 #include "base/vector_loop.hpp"
 #include "blocks/block_set.hpp"
 #include "blocks/pose.hpp"
@@ -83,28 +79,6 @@ inline Id facing_edge(const BlockSet& b, const std::vector<double>& x, const std
   const Vec2 n_out = outward_normal(unit(at(x, y, b.next[vertex]) - a));
   const Vec2 n_in = outward_normal(unit(a - at(x, y, in)));
   return dot(n_out, n) < dot(n_in, n) ? vertex : in;
-}
-
-/// How a point lies to a block.
-struct Inside {
-  double depth;  ///< distance from its boundary, m; below zero outside
-  Id edge;       ///< the nearest
-};
-
-/// How p lies to block j as that lies. O(its edges).
-inline Inside inside_of(const BlockSet& b, const std::vector<double>& x,
-                        const std::vector<double>& y, Vec2 p, std::size_t j) {
-  bool in = false;
-  Inside found{std::numeric_limits<double>::infinity(), no_id};
-  for (Id e = b.vertex_begin[j]; e < b.vertex_begin[j + 1]; ++e) {
-    const Vec2 s = at(x, y, e), t = at(x, y, b.next[e]);
-    const double distance = distance_to_segment(p, s, t);
-    if (distance < found.depth) found = {distance, e};
-    if ((s.y > p.y) == (t.y > p.y)) continue;
-    if ((cross(t - s, p - s) > 0.0) == (t.y > s.y)) in = !in;
-  }
-  if (!in) found.depth = -found.depth;
-  return found;
 }
 
 }  // namespace edda

@@ -8,6 +8,8 @@
 #include "contacts/candidates.hpp"
 #include "contacts/gap.hpp"
 #include "contacts/gaps.hpp"
+#include "contacts/inside.hpp"
+#include "contacts/settling.hpp"
 #include "contacts/shares.hpp"
 #include "contacts/shield.hpp"
 #include "contacts/stored_energy.hpp"
@@ -37,10 +39,6 @@ void close(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& l
            std::size_t k) {
   set_spring(c, b, pose, laws, k);
   c.set(k, cs::closed);
-  if (!c.lent.empty()) {
-    c.lent[k] = cs::closed;
-    c.set(k, cs::glued | cs::bonded | cs::pulls);
-  }
   c.alpha[k] = 1.0;
   c.normal[k] = 0.0;
   start_shear(c, pose, k);
@@ -70,37 +68,6 @@ bool convex(const BlockSet& b, Id vertex) {
 /// Edges of one block that meet in a convex corner explain one penetration in two ways.
 bool rivals(const BlockSet& b, Id e, Id f) {
   return (b.next[e] == f && convex(b, f)) || (b.next[f] == e && convex(b, e));
-}
-
-/// Whether p lies on a side of block j (within `tolerance`, m) that makes a wedge of less than 60
-/// degrees with an edge of tangent t.
-bool on_far_side(const BlockSet& b, const Pose& pose, Vec2 p, Id j, Vec2 t, double tolerance) {
-  constexpr double sharp = -0.5;
-  for (Id f = b.vertex_begin[j]; f < b.vertex_begin[j + 1]; ++f) {
-    const Vec2 from = at(pose.x, pose.y, f), to = at(pose.x, pose.y, b.next[f]);
-    if (distance_to_segment(p, from, to) <= tolerance && dot(unit(to - from), t) < sharp)
-      return true;
-  }
-  return false;
-}
-
-/// Whether the vertex, though below the edge by more than `tolerance` (m), does not lie in the
-/// block: outside it, on its far side, or nearer to that, which is then what it touches. Beyond the
-/// ends of the edge, where a shared or reentrant one runs on, what lies below its end must be near
-/// the block: below the tip of a wedge it is not.
-bool lies_outside(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k,
-                  double tolerance) {
-  const double depth = c.depth[k];
-  if (depth <= tolerance) return false;
-  const double past = c.foot[k] - std::clamp(c.foot[k], 0.0, c.span[k]);
-  const Vec2 t = c.tangent(k), p = at(pose.x, pose.y, c.vertex[k]) - past * t;
-  const Inside in = inside_of(b, pose.x, pose.y, p, c.block_j[k]);
-  if (past != 0.0) return in.depth < -0.5 * depth;
-  if (in.depth < -tolerance) return true;
-  if (in.depth <= tolerance) return on_far_side(b, pose, p, c.block_j[k], t, tolerance);
-  const Id e = c.edge[k], f = in.edge;
-  if (in.depth >= depth - tolerance || b.next[e] == f || b.next[f] == e) return false;
-  return dot(at(pose.x, pose.y, b.next[f]) - at(pose.x, pose.y, f), t) < 0.0;
 }
 
 /// Takes the contact k over into `heir`: the same stored energy, and so (stiffness being equal) the
@@ -471,6 +438,7 @@ TransitionCounts settle_contacts(ContactSet& c, const BlockSet& b, const Pose& p
   review_blocked(c, b, pose, step, counts, scratch.still_blocked);
 
   close_touching(c, b, pose, laws, start, scratch, counts);
+  if (!c.lent.empty()) glue_pressed(c);
   return counts;
 }
 

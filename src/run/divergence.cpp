@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "contacts/gap.hpp"
+#include "contacts/inside.hpp"
 #include "run/labels.hpp"
 
 namespace edda {
@@ -62,7 +63,7 @@ std::optional<Failure> deep_overlap(const ContactSet& c, const BlockSet& b, cons
   for (const Id k : c.blocked) {
     if (worst != no_id || c.why[k] != Blocked::depth) continue;
     const Vec2 p = at(pose.x, pose.y, c.vertex[k]);
-    if (inside_of(b, pose.x, pose.y, p, c.block_j[k]).depth > 0.5 * limit(k)) worst = k;
+    if (inside_of(b, pose, p, c.block_j[k]).depth > 0.5 * limit(k)) worst = k;
   }
   if (worst == no_id) return std::nullopt;
   Failure f;

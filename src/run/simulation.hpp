@@ -61,6 +61,7 @@ struct Simulation {
   ContactSet contacts;
   Ground ground;
   NodalForces forces;
+  NodalForces jump;  ///< by which forces at n have jumped since the last step; or empty
   std::vector<Vec2> on_dashpots;  ///< [points of dashpots] their forces in the last step, N
   std::vector<KeptForce> kept;    ///< of rock taken out, and of boundaries taken over from
   DampingWork damping_work;
@@ -184,6 +185,9 @@ struct Simulation {
   StepInUse step_in_use() const;
   void set_limit();
   void raise_masses();
+  NodalForces forces_now() const;
+  void note_jump(const NodalForces& before);
+  void split_jump();
   void plan_slivers();
   /// Masses of the nodes as the model gives them.
   struct GivenMass {
