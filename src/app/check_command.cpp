@@ -10,6 +10,7 @@
 #include "run/check_model.hpp"
 #include "run/labels.hpp"
 #include "run/run_model.hpp"
+#include "run/sliver_report.hpp"
 
 namespace edda {
 namespace {
@@ -28,6 +29,7 @@ void print_blocks(const Simulation& sim, const ModelCheck& found) {
       "smallest        area {:.4g} m2 at {}, edge {:.4g} m at {}, angle {:.3g} degrees at {}\n",
       r.smallest_area, place_label(r.smallest_area_at), r.smallest_edge,
       place_label(r.smallest_edge_at), r.smallest_angle, place_label(r.smallest_angle_at));
+  for (const std::string& line : sliver_lines(r)) fmt::print("sliver          {}\n", line);
   for (const std::string& note : r.notes) fmt::print("lines           {}\n", note);
 }
 
@@ -117,6 +119,7 @@ void print_object(const PreparedRun& run, const ModelCheck& found) {
     json.pair(m.name, block_label(sim.blocks, m.block));
   }
   json.close();
+  add_slivers(json, r);
   add_texts(json, "lines", r.notes);
   add_texts(json, "loads", found.loads);
   add_texts(json, "initial_stress", found.initial_stress);

@@ -11,6 +11,7 @@
 #include "results/cut_table.hpp"
 #include "results/frames.hpp"
 #include "run/labels.hpp"
+#include "run/sliver_report.hpp"
 #include "run/start_picture.hpp"
 
 namespace edda {
@@ -49,6 +50,7 @@ void print_report(const Model& model, const PolygonSet& polygons) {
   fmt::print("quality          {} joined to a neighbour, {:.4g} m2 in all; {} {}\n",
              number_of(r.quality_merged, "sliver"), r.quality_area, r.slivers,
              r.slivers == 1 ? "stays" : "stay");
+  for (const std::string& line : sliver_lines(r)) fmt::print("sliver           {}\n", line);
   if (r.short_edges > 0) {
     fmt::print("short edges      {} below {:.4g} m\n", r.short_edges, q.min_edge);
   }

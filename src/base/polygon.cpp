@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 
 namespace edda {
@@ -94,6 +95,38 @@ int side_of(std::span<const Ring> rings, Vec2 point, double tolerance) {
     }
   }
   return inside ? 1 : -1;
+}
+
+/// Andrew's monotone chain, then calipers that turn round the hull: the farthest corner from an
+/// edge only moves on as the edges turn.
+double least_width(std::span<const Vec2> points) {
+  std::vector<Vec2> p(points.begin(), points.end());
+  const auto before = [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
+  std::sort(p.begin(), p.end(), before);
+  p.erase(std::unique(p.begin(), p.end()), p.end());
+  if (p.size() < 3) return 0.0;
+  std::vector<Vec2> hull;
+  const auto half = [&hull](auto first, auto last) {
+    const std::size_t floor = hull.size();
+    for (auto i = first; i != last; ++i) {
+      while (hull.size() >= floor + 2 && orient(hull[hull.size() - 2], hull.back(), *i) <= 0.0)
+        hull.pop_back();
+      hull.push_back(*i);
+    }
+    hull.pop_back();
+  };
+  half(p.begin(), p.end());
+  half(p.rbegin(), p.rend());
+  const std::size_t n = hull.size();
+  if (n < 3) return 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t far = 1;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 a = hull[i], b = hull[(i + 1) % n];
+    while (orient(a, b, hull[(far + 1) % n]) > orient(a, b, hull[far])) far = (far + 1) % n;
+    least = std::min(least, orient(a, b, hull[far]) / norm(b - a));
+  }
+  return least;
 }
 
 bool self_crossing(std::span<const Vec2> ring) {

@@ -32,6 +32,10 @@ double signed_area(std::span<const Vec2> ring);
 /// +1 inside, 0 on an edge (within `tolerance`), -1 outside the region bounded by `rings`.
 int side_of(std::span<const Ring> rings, Vec2 point, double tolerance);
 
+/// Distance between the closest two parallel lines that hold all points between them: the width of
+/// their convex hull, whichever way it is turned. 0 for fewer than three. O(n log n).
+double least_width(std::span<const Vec2> points);
+
 /// Whether the closed ring touches or crosses itself (edges that are not neighbours meet, or
 /// neighbours fold back on each other). O(n log n) on average by a sweep over x.
 bool self_crossing(std::span<const Vec2> ring);

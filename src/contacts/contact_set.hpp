@@ -79,7 +79,7 @@ struct Segment {
 };
 
 /// Why a penetrated candidate carries nothing.
-enum class Blocked : std::uint8_t { no, conflict, shield, depth, facing };
+enum class Blocked : std::uint8_t { no, conflict, shield, depth, facing, outside };
 
 /// What of its state decides the force of a contact, as a number for the loops over many of them: 0
 /// where it is open; else 1, and 1 more where it is bonded, 2 more where it may pull, and a quarter

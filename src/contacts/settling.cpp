@@ -130,4 +130,16 @@ void settle_rests(ContactSet& c, const BlockSet& b, const Pose& pose, const LawT
   }
 }
 
+void glue_pressed(ContactSet& c) {
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (!c.is(k, contact_state::closed) || c.is(k, contact_state::bonded | contact_state::pulls))
+      continue;
+    if (!(c.effective(k) > 0.0 && c.effective_1(k) > 0.0)) continue;
+    c.keep_slips(k);
+    c.lent[k] = contact_state::closed;
+    c.set(k, contact_state::glued | contact_state::bonded | contact_state::pulls);
+    c.forget_cut(k);
+  }
+}
+
 }  // namespace edda

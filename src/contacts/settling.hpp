@@ -20,4 +20,9 @@ constexpr std::uint64_t settles_every = 16;
 void settle_rests(ContactSet& contacts, const BlockSet& blocks, const Pose& pose,
                   const LawTable& laws, double steps, bool leaps);
 
+/// While joints are glued, what has come to touch is glued once it has been pressed for a whole
+/// step: the step in which it closes is corrected as any other, and both ways its spring then
+/// stores the same.
+void glue_pressed(ContactSet& contacts);
+
 }  // namespace edda

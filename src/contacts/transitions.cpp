@@ -1,12 +1,15 @@
 #include "contacts/transitions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "contacts/candidates.hpp"
 #include "contacts/gap.hpp"
 #include "contacts/gaps.hpp"
+#include "contacts/inside.hpp"
+#include "contacts/settling.hpp"
 #include "contacts/shares.hpp"
 #include "contacts/shield.hpp"
 #include "contacts/stored_energy.hpp"
@@ -36,10 +39,6 @@ void close(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& l
            std::size_t k) {
   set_spring(c, b, pose, laws, k);
   c.set(k, cs::closed);
-  if (!c.lent.empty()) {
-    c.lent[k] = cs::closed;
-    c.set(k, cs::glued | cs::bonded | cs::pulls);
-  }
   c.alpha[k] = 1.0;
   c.normal[k] = 0.0;
   start_shear(c, pose, k);
@@ -126,14 +125,17 @@ double slack_of(const ContactSet& c, std::size_t k) {
 
 /// The same vertex on a collinear edge, of the same block or the next, which takes all of k's
 /// spring over at once.
-Id collinear_heir(const ContactSet& c, std::size_t k) {
+Id collinear_heir(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   const Id vertex = c.vertex[k];
   for (Id q = c.begin_of_vertex[vertex]; q < c.begin_of_vertex[vertex + 1]; ++q) {
     if (q == k || c.is(q, cs::closed) || c.depth[q] <= 0.0 || !c.on_edge(q, slack_of(c, k)) ||
         c.why[q] == Blocked::shield) {
       continue;
     }
-    if (dot(tangent_of(c, q), tangent_of(c, k)) > opposite) return q;
+    if (dot(tangent_of(c, q), tangent_of(c, k)) > opposite &&
+        !lies_outside(c, b, pose, q, c.noise)) {
+      return q;
+    }
   }
   return no_id;
 }
@@ -170,7 +172,8 @@ Id corner_heir(const ContactSet& c, const BlockSet& b, const Pose& pose, std::si
   for (Id q = c.begin_of_vertex[corner]; q < c.begin_of_vertex[corner + 1]; ++q) {
     const bool mine = c.edge[q] == vertex || c.edge[q] == b.previous[vertex];
     if (mine && c.depth[q] > 0.0 && c.on_edge(q, slack_of(c, k)) && c.why[q] != Blocked::shield &&
-        facing(b, pose.x, pose.y, corner, normal_of(c, q))) {
+        facing(b, pose.x, pose.y, corner, normal_of(c, q)) &&
+        !lies_outside(c, b, pose, q, c.noise)) {
       return q;
     }
   }
@@ -212,7 +215,7 @@ double kept_past_end(const ContactSet& c, const BlockSet& b, std::size_t k) {
 /// little; what the normal spring gives off goes to the corner that it passes, if that carries.
 void leave(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws, std::size_t k,
            TransitionCounts& counts) {
-  const Id heir = c.share[k] > 0.0 ? collinear_heir(c, k) : no_id;
+  const Id heir = c.share[k] > 0.0 ? collinear_heir(c, b, pose, k) : no_id;
   if (heir != no_id) {
     if (c.is(heir, cs::blocked)) unblock(c, heir, 0.0);
     hand_over(c, b, pose, laws, k, heir);
@@ -304,7 +307,8 @@ void review_blocked(ContactSet& c, const BlockSet& b, const Pose& pose, std::uin
         continue;
       }
       ++counts.unshielded;
-    } else if (c.depth[k] > 0.0 && c.on_edge(k)) {
+    }
+    if (c.depth[k] > 0.0 && c.on_edge(k)) {
       c.why[k] = hindrance(c, b, pose, k);
       if (c.why[k] != Blocked::no) {
         still.push_back(k);
@@ -362,9 +366,12 @@ Blocked hindrance(const ContactSet& c, const BlockSet& b, const Pose& pose, std:
   if (c.depth[k] > 0.5 * std::min(b.inradius[i], b.inradius[j])) return Blocked::depth;
   if (!facing(b, pose.x, pose.y, vertex, normal_of(c, k))) return Blocked::facing;
   if (shielded(c, b, pose, k)) return Blocked::shield;
+  const double tie = rounding * b.radius[j];
+  // What was above the edge a step ago has come in through it.
+  if (c.depth_1[k] > tie && lies_outside(c, b, pose, k, std::max(tie, c.noise)))
+    return Blocked::outside;
   // Edges that meet in a convex corner: a vertex within the block is inside both, and touches the
   // one that is closed, else the one least penetrated.
-  const double tie = rounding * b.radius[j];
   for (Id q = c.begin_of_vertex[vertex]; q < c.begin_of_vertex[vertex + 1]; ++q) {
     if (q == k || c.block_j[q] != j || !rivals(b, c.edge[k], c.edge[q])) continue;
     if (c.is(q, cs::closed) && c.share[q] > 0.0) return Blocked::conflict;
@@ -386,6 +393,17 @@ void block_shielded(ContactSet& c, const BlockSet& b, const Pose& pose) {
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (c.is(k, cs::closed | cs::blocked) || !shielded(c, b, pose, k)) continue;
     block_contact(c, k, Blocked::shield);
+  }
+  std::sort(c.blocked.begin(), c.blocked.end());
+}
+
+void block_far_sides(ContactSet& c, const BlockSet& b, const Pose& pose) {
+  // As near as bonds hold: blocks of one cut lie this deep in each other by its rounding.
+  constexpr double touch = 1e-6;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (c.is(k, cs::closed | cs::blocked) || !c.on_edge(k)) continue;
+    const double size = std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
+    if (lies_outside(c, b, pose, k, touch * size)) block_contact(c, k, Blocked::outside);
   }
   std::sort(c.blocked.begin(), c.blocked.end());
 }
@@ -420,6 +438,7 @@ TransitionCounts settle_contacts(ContactSet& c, const BlockSet& b, const Pose& p
   review_blocked(c, b, pose, step, counts, scratch.still_blocked);
 
   close_touching(c, b, pose, laws, start, scratch, counts);
+  if (!c.lent.empty()) glue_pressed(c);
   return counts;
 }
 

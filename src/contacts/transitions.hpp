@@ -40,6 +40,11 @@ std::uint64_t close_in_step(ContactSet& contacts, const BlockSet& blocks, const 
 /// touch.
 void block_shielded(ContactSet& contacts, const BlockSet& blocks, const Pose& pose);
 
+/// Blocks what only seems to be penetrated as drawn: the vertex lies below the line of an edge, but
+/// not in the block, as where it touches the near side of a thin wedge, and the edge is the far
+/// one. Before anything is bonded or closed.
+void block_far_sides(ContactSet& contacts, const BlockSet& blocks, const Pose& pose);
+
 /// Whether candidate k may close now, and why not. `long_step`: a vertex may have gone deeper in
 /// one step than it lies from the next edge, so the edge that it has crossed counts and not the one
 /// least penetrated. Public for the tests.

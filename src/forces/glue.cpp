@@ -24,9 +24,13 @@ void unglue(ContactSet& c) {
     c.clear(k, cs::glued);
     if (!c.is(k, cs::closed)) continue;
     const bool bonded = (c.lent[k] & cs::bonded) != 0, pulls = (c.lent[k] & cs::pulls) != 0;
+    // While it still pulls, so that what its spring stores is known to have gone.
+    if (!bonded && !pulls && c.effective(k) <= 0.0) {
+      tear(c, k);
+      continue;
+    }
     if (!bonded) c.clear(k, cs::bonded);
     if (!pulls) c.clear(k, cs::pulls);
-    if (!bonded && !pulls && c.effective(k) <= 0.0) tear(c, k);
   }
   c.lent.clear();
 }

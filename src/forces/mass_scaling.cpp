@@ -23,7 +23,7 @@ void multiply_inertia(BlockSet& b, std::size_t i, double factor) {
 std::vector<double> raise_inertia(BlockSet& b, const State& state, const Pose& pose,
                                   const ContactSet& contacts, const BoundarySprings& springs,
                                   const LawTable& laws, const Damping& damping, double step,
-                                  const Bolts* bolts) {
+                                  const Bolts* bolts, const std::vector<double>* most) {
   // Frequencies fall as the root of the mass; damping makes the step fall a little faster than
   // that.
   constexpr int most_rounds = 20;
@@ -35,9 +35,12 @@ std::vector<double> raise_inertia(BlockSet& b, const State& state, const Pose& p
     bool enough = true;
     for (std::size_t i = 0; i < b.size(); ++i) {
       if (!(own[i] < step) || !(own[i] > 0.0)) continue;
+      const double ratio = step / own[i], wanted = ratio * ratio * (1.0 + rounding);
+      const double so_far = factors.empty() ? 1.0 : factors[i];
+      const double factor = most == nullptr ? wanted : std::min(wanted, (*most)[i] / so_far);
+      if (!(factor > 1.0)) continue;
       enough = false;
       if (factors.empty()) factors.assign(b.size(), 1.0);
-      const double ratio = step / own[i], factor = ratio * ratio * (1.0 + rounding);
       multiply_inertia(b, i, factor);
       factors[i] *= factor;
     }

@@ -162,7 +162,45 @@ double dissipated(const ImplicitSolver& s, const ImplicitScene& scene,
   return sum;
 }
 
-/// Eqs. 7 and 8: v_{n+1} = 2 D/h - v_n; without dynamics every step starts and ends at rest.
+/// Spin that the scheme takes from a block as it turns: forces act at the end of the step, and so
+/// do their moments, x_{n+1} x f, but momentum is carried on by v_n as it stood at x_n. What is
+/// missing of the moment of momentum about the centre of mass, -sum D x M v_n, is given back as a
+/// turning of the whole block; of a free block that is all that would slow its spin. Returns the
+/// energy that it brings, J.
+double give_spin_back(const ImplicitSolver& s, const Vector6& before, State& state, Id row) {
+  const Id i = s.block_of[row];
+  const Matrix6& mass = s.mass[i];
+  const Vector6 x = nodal(state.x, state.y, i), v = nodal(state.vx, state.vy, i),
+                step = s.moved.segment<6>(static_cast<Eigen::Index>(6 * row));
+  const auto sum = [](const Vector6& of) {
+    return Vec2{of[0] + of[2] + of[4], of[1] + of[3] + of[5]};
+  };
+  const auto moment = [](const Vector6& arm, const Vector6& of) {
+    return arm[0] * of[1] - arm[1] * of[0] + arm[2] * of[3] - arm[3] * of[2] + arm[4] * of[5] -
+           arm[5] * of[4];
+  };
+  Vector6 shift;
+  shift << 1.0, 0.0, 1.0, 0.0, 1.0, 0.0;
+  const double total = shift.dot(mass * shift);
+  const Vec2 centre = 1.0 / total * sum(mass * x), moved = 1.0 / total * sum(mass * step);
+  const Vector6 momentum = mass * before;
+  const double missing = cross(moved, sum(momentum)) - moment(step, momentum);
+  Vector6 spin;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    spin[2 * k] = -(x[2 * k + 1] - centre.y);
+    spin[2 * k + 1] = x[2 * k] - centre.x;
+  }
+  const double inertia = spin.dot(mass * spin), rate = missing / inertia;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto at = static_cast<Eigen::Index>(2 * k);
+    state.vx[k][i] += rate * spin[at];
+    state.vy[k][i] += rate * spin[at + 1];
+  }
+  return rate * spin.dot(mass * v) + 0.5 * rate * rate * inertia;
+}
+
+/// Eqs. 7 and 8: v_{n+1} = 2 D/h - v_n, and the spin that this loses; without dynamics every step
+/// starts and ends at rest.
 void finish(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings& settings,
             State& state, const Pose& pose, ContactSet& c, const std::vector<Id>& broken,
             std::vector<double>& damping_work) {
@@ -170,12 +208,16 @@ void finish(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSetting
   parallel_for(s.block_of.size(), [&](std::size_t row) {
     const Id i = s.block_of[row];
     damping_work[i] += dissipated(s, scene, settings, state, pose, static_cast<Id>(row));
+    const Vector6 before = nodal(state.vx, state.vy, i);
     for (std::size_t k = 0; k < 3; ++k) {
       const auto at = static_cast<Eigen::Index>(6 * row + 2 * k);
       s.drift_x[k][i] = s.moved[at] / h;
       s.drift_y[k][i] = s.moved[at + 1] / h;
       state.vx[k][i] = settings.dynamic ? 2.0 * s.moved[at] / h - state.vx[k][i] : 0.0;
       state.vy[k][i] = settings.dynamic ? 2.0 * s.moved[at + 1] / h - state.vy[k][i] : 0.0;
+    }
+    if (settings.dynamic) {
+      damping_work[i] -= give_spin_back(s, before, state, static_cast<Id>(row));
     }
   });
   book_springs(s.springs, c, pose, broken);

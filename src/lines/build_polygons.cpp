@@ -149,7 +149,7 @@ Result<PolygonSet> all_blocks(const Model& model, const Imports& imports, bool f
   faults = find_overlaps(set.blocks, first_cut);
   if (!faults.empty()) return faults;
   measure_quality(set.blocks, set.origin, set.report);
-  count_poor_blocks(std::span(set.blocks).subspan(first_cut), model.quality, set.report);
+  judge_blocks(std::span(set.blocks).subspan(first_cut), model.quality, set.origin, set.report);
   faults = poor_blocks(model, set.report);
   if (!faults.empty()) return faults;
   return set;

@@ -307,12 +307,18 @@ Result<DomainCut> cut_domain(const Model& model, Vec2 origin, const Imports& imp
   const bool asks = q.min_area > 0.0 || q.min_edge > 0.0 || q.min_angle > 0.0;
   if (asks && q.action == QualityAction::merge) {
     const std::vector<Vec2> held = held_points(model, imports, origin);
+    std::vector<FaceMerge> merges;
     const auto merge_poor = [&] {
-      return merge_poor_faces(a.graph, a.parts, q, {a.region_of_half_edge, held, snap},
-                              cut.report.quality_area);
+      return merge_poor_faces(a.graph, a.parts, q,
+                              {a.region_of_half_edge, held, work.sources, snap}, merges);
     };
     if (auto faults = merge_all(model, a, work, framed, cut.report.quality_merged, merge_poor)) {
       return *faults;
+    }
+    for (const FaceMerge& m : merges) {
+      const LineSource& source = work.sources[static_cast<std::size_t>(m.source)];
+      cut.report.quality_area += m.area;
+      cut.report.merges.push_back({m.at + origin, m.area, table_of(model, source), m.lost});
     }
   }
   if (auto fault = wrong_count(model, a.parts, framed)) return *fault;

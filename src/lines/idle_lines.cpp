@@ -47,6 +47,12 @@ const Where& where_of(const Model& model, LineKind kind, std::size_t i) {
       return model.joint_sets[i].where;
     case LineKind::network:
       return model.networks[i].where;
+    case LineKind::region:
+      return model.regions[i].where;
+    case LineKind::opening:
+      return model.openings[i].where;
+    case LineKind::outline:
+      return model.domain->where;
     default:
       return model.voronoi->where;
   }
@@ -81,6 +87,10 @@ std::string warning_of(const Model& model, LineKind kind, std::size_t i, Fate fa
 }
 
 }  // namespace
+
+std::string table_of(const Model& model, const LineSource& source) {
+  return where_of(model, source.kind, static_cast<std::size_t>(source.index)).key;
+}
 
 std::vector<std::string> idle_lines(const Model& model, const LineWork& work,
                                     const PlanarGraph& graph, const Partition& parts, bool framed,

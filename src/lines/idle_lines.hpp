@@ -10,6 +10,9 @@
 
 namespace edda {
 
+/// The model's table that gave a line: "joint_set.bedding".
+std::string table_of(const Model& model, const LineSource& source);
+
 /// A warning per trace, import, set, network or [voronoi] none of whose lines parts two blocks (of
 /// blocks between the lines of imports, `framed`: bounds one), with why and what to do; none where
 /// its lines lie on others that do. `work`: lines as noded. `in_rock`: whether a point, m, local,

@@ -19,9 +19,9 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Draws are started afresh where the origin is as many steps away.
 constexpr double far_away = 1000.0;
 
-double drawn_value(Random& random, double mean, double deviation, Spread spread) {
+double drawn_value(Random& random, double mean, double deviation, JointSpread spread) {
   if (deviation == 0.0) return mean;
-  if (spread == Spread::uniform) return mean + deviation * (2.0 * random.uniform() - 1.0);
+  if (spread == JointSpread::uniform) return mean + deviation * (2.0 * random.uniform() - 1.0);
   constexpr double cut_off = 3.0;
   for (;;) {
     const double z = random.normal();
@@ -30,9 +30,12 @@ double drawn_value(Random& random, double mean, double deviation, Spread spread)
 }
 
 /// As above, of what must not fall below `least`: drawn again where it does.
-double drawn_length(Random& random, double mean, double deviation, Spread spread, double least) {
+double drawn_length(Random& random, double mean, double deviation, JointSpread spread,
+                    double least) {
   for (;;) {
-    const double value = drawn_value(random, mean, deviation, spread);
+    const double value = spread == JointSpread::exponential && deviation > 0.0
+                             ? mean - deviation - deviation * portable_log(1.0 - random.uniform())
+                             : drawn_value(random, mean, deviation, spread);
     if (value >= least) return value;
   }
 }
@@ -55,7 +58,7 @@ struct Drawn {
 
 Drawn drawn_set(const JointSet& set, Vec2 origin) {
   const Vec2 direction = direction_of(set.angle);
-  const double widest = set.deviation.distribution == Spread::normal ? 3.0 : 1.0;
+  const double widest = set.deviation.distribution == JointSpread::uniform ? 1.0 : 3.0;
   return {set,
           set.origin - origin,
           direction,
@@ -187,8 +190,10 @@ bool add_joint_set(LineWork& work, const JointSet& set, Index source, Vec2 origi
                    double limit) {
   const Drawn d = drawn_set(set, origin);
   const double before = static_cast<double>(work.lines.size());
+  // Of an exponential length: -log of the smallest number drawn.
+  const double widest = set.deviation.distribution == JointSpread::exponential ? 37.0 : 3.0;
   const double longest =
-      set.trace_length ? *set.trace_length + 3.0 * set.deviation.trace_length : infinite;
+      set.trace_length ? *set.trace_length + widest * set.deviation.trace_length : infinite;
   const double reach =
       d.largest_turn == 0.0
           ? snap

@@ -24,6 +24,22 @@ struct BlockPolygon {
   std::string name;               ///< of a [[block]], else empty
   Where where;                    ///< the table it came from
   Index opening = none;           ///< the opening it lies in; of rock that is taken out
+  bool slow = false;  ///< a sliver that [quality] would have merged, and could not: its inertia is
+                      ///< raised so that it does not hold the step
+};
+
+/// A sliver that was merged. Model coordinates.
+struct MergedSliver {
+  Vec2 at;            ///< its centroid
+  double area = 0.0;  ///< m2
+  std::string joint;  ///< table whose joint lost the face between it and its neighbour
+  double face = 0.0;  ///< m, of that face
+};
+
+/// A sliver that stays. Model coordinates.
+struct KeptSliver {
+  Vec2 at;
+  double area = 0.0;  ///< m2
 };
 
 /// What the cut did, for the user to read.
@@ -34,9 +50,11 @@ struct CutReport {
   int merged = 0;             ///< faces thinner than twice `domain.snap`, joined to a neighbour
   int quality_merged = 0;     ///< blocks below [quality], joined to a neighbour
   double quality_area = 0.0;  ///< theirs, m2
-  int slivers = 0;            ///< cut blocks that are still below min_area or thinner than min_edge
-  int short_edges = 0;        ///< edges of cut blocks below min_edge
-  int sharp_corners = 0;      ///< corners of cut blocks below min_angle
+  std::vector<MergedSliver> merges;  ///< each of them
+  std::vector<KeptSliver> kept;      ///< slivers with no neighbour to join, their inertia raised
+  int slivers = 0;        ///< cut blocks that are still below min_area or thinner than min_edge
+  int short_edges = 0;    ///< edges of cut blocks below min_edge
+  int sharp_corners = 0;  ///< corners of cut blocks below min_angle
   std::vector<std::string> notes;     ///< what was imported and drawn at random, and what left out
   std::vector<std::string> warnings;  ///< joints that cut nothing, drawings in doubtful units
   double area_in = 0.0;               ///< of the outline without its openings, m2

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "base/polygon.hpp"
 #include "lines/quality.hpp"
 
 namespace edda {
@@ -30,14 +31,18 @@ class Merger {
  public:
   Merger(const PlanarGraph& graph, const Partition& parts, const Quality& quality,
          const FaceGroups& groups)
-      : g_(graph), parts_(parts), quality_(quality), groups_(groups) {}
+      : g_(graph),
+        parts_(parts),
+        quality_(quality),
+        groups_(groups),
+        held_(parts.zone.size(), unknown),
+        region_(parts.zone.size(), unknown) {}
 
   /// The face that `face` ought to be merged into; -1 if it is good as it is, or has none.
-  int target(int face) const {
+  int target(int face) {
     const bool sliver = is_poor(face), sharp = !sliver && is_sharp(face);
     if ((!sliver && !sharp) || is_held(face)) return -1;
-    const int into = longest_neighbour(face);
-    return into >= 0 && (sliver || cures_corners(face, into)) ? into : -1;
+    return best_neighbour(face, sliver);
   }
 
  private:
@@ -73,10 +78,15 @@ class Merger {
     return cured;
   }
 
-  bool is_held(int face) const {
+  // Asked of a long face by every sliver beside it: found once.
+  bool is_held(int face) {
     if (groups_.held.empty()) return false;
-    return std::any_of(groups_.held.begin(), groups_.held.end(),
-                       [&](Vec2 p) { return holds(face, p); });
+    int& held = held_[at(face)];
+    if (held == unknown) {
+      held = std::any_of(groups_.held.begin(), groups_.held.end(),
+                         [&](Vec2 p) { return holds(face, p); });
+    }
+    return held != 0;
   }
 
   /// Whether p lies in the face or on its boundary: by how often a ray from it crosses.
@@ -92,36 +102,136 @@ class Merger {
     return inside || on_edge;
   }
 
-  Index region(int face) const { return region_of(g_, faces(), face, groups_.region_of_half_edge); }
+  Index region(int face) {
+    int& region = region_[at(face)];
+    if (region == unknown) region = region_of(g_, faces(), face, groups_.region_of_half_edge);
+    return region;
+  }
 
-  /// The neighbour with the longest common boundary, of lowest number among equals.
-  int longest_neighbour(int face) const {
+  /// The neighbour with the shortest common boundary that it does no harm to lose, of lowest number
+  /// among equals. `any`: whether sharp corners may stay.
+  int best_neighbour(int face, bool any) {
     std::map<int, double> shared;
     const Index own = region(face);
     for_each_half_edge(faces(), face, [&](int h) {
       const int other = face_of(faces(), h ^ 1);
-      if (other == face || parts_.rock[at(other)] != parts_.rock[at(face)]) return;
-      shared[other] += norm(along(g_, h));
+      if (other != face && rock(other) == rock(face)) shared[other] += norm(along(g_, h));
     });
     int best = -1;
     for (const auto& [other, length] : shared) {
-      if ((best >= 0 && length <= shared[best]) || region(other) != own || is_held(other)) continue;
-      best = other;
+      if (best >= 0 && length >= shared[best]) continue;
+      if (region(other) != own || is_held(other) || parts_a_joint(face, other)) continue;
+      if (any || cures_corners(face, other)) best = other;
     }
     return best;
+  }
+
+  int rock(int face) const { return parts_.rock[at(face)]; }
+
+  /// Whether merging the two would put rock across a joint that runs through.
+  bool parts_a_joint(int face, int into) const {
+    bool harm = false;
+    for_each_half_edge(faces(), face, [&](int h) {
+      if (harm || face_of(faces(), h ^ 1) != into) return;
+      harm = at_surface(h) || at_surface(h ^ 1) || (goes_on(h) && goes_on(h ^ 1));
+    });
+    return harm;
+  }
+
+  /// Calls visit(k) for every half-edge that leaves the target of h, but h's twin.
+  template <class Visit>
+  void for_each_beyond(int h, Visit visit) const {
+    for (int k = faces().cycles.next[at(h)]; k != (h ^ 1); k = faces().cycles.next[at(k ^ 1)]) {
+      visit(k);
+    }
+  }
+
+  /// Whether h ends where the rock does.
+  bool at_surface(int h) const {
+    const int own = rock(face_of(faces(), h));
+    bool ends = false;
+    for_each_beyond(h, [&](int k) {
+      ends = ends || rock(face_of(faces(), k)) != own || rock(face_of(faces(), k ^ 1)) != own;
+    });
+    return ends;
+  }
+
+  /// Whether the joint of h goes on beyond its target: past further faces between the same two,
+  /// too.
+  bool goes_on(int h) const {
+    const int face = face_of(faces(), h), into = face_of(faces(), h ^ 1);
+    for (;;) {
+      int next = -1;
+      for_each_beyond(h, [&](int k) {
+        if (straight_on(h, k) && (next < 0 || turn(h, k) < turn(h, next))) next = k;
+      });
+      if (next < 0) return false;
+      if (face_of(faces(), next) != face || face_of(faces(), next ^ 1) != into) return true;
+      h = next;
+    }
+  }
+
+  double turn(int h, int k) const {
+    const Vec2 u = along(g_, h), v = along(g_, k);
+    return std::abs(std::atan2(cross(u, v), dot(u, v)));
+  }
+
+  /// Whether k, which leaves where h ends, goes on in its direction: within 3 degrees or the
+  /// rounding of the line work; as one polyline, within 30.
+  bool straight_on(int h, int k) const {
+    constexpr double straight = 0.05, bend = 0.5;
+    const Vec2 u = along(g_, h), v = along(g_, k);
+    if (!(dot(u, v) > 0.0)) return false;
+    const Index source = g_.edge[at(h / 2)].source;
+    const LineKind kind = groups_.sources[at(source)].kind;
+    const bool polyline = (kind == LineKind::trace || kind == LineKind::import) &&
+                          g_.edge[at(k / 2)].source == source;
+    return turn(h, k) <= (polyline ? bend : straight) ||
+           std::abs(cross(u, v)) <= 4.0 * groups_.snap * std::max(norm(u), norm(v));
   }
 
   const PlanarGraph& g_;
   const Partition& parts_;
   const Quality& quality_;
   const FaceGroups& groups_;
+  static constexpr int unknown = -2;
+  std::vector<int> held_, region_;
 };
 
 }  // namespace
 
+namespace {
+
+FaceMerge merge_of(const PlanarGraph& graph, const Faces& faces, int face, int into) {
+  Ring ring;
+  FaceMerge merge;
+  std::map<Index, double> lost;
+  for_each_half_edge(faces, face, [&](int h) {
+    if (face_of(faces, h ^ 1) != into) return;
+    const double length = norm(along(graph, h));
+    merge.lost += length;
+    lost[graph.edge[at(h / 2)].source] += length;
+  });
+  const int start = faces.cycles.start[at(faces.outer[at(face)])];
+  int h = start;
+  do {
+    ring.push_back(graph.node[at(origin_of(graph, h))]);
+    h = faces.cycles.next[at(h)];
+  } while (h != start);
+  const Moments m = moments({&ring, 1});
+  merge.at = m.centroid;
+  merge.area = face_area(graph, faces, face);
+  merge.source = std::max_element(lost.begin(), lost.end(), [](const auto& a, const auto& b) {
+                   return a.second < b.second;
+                 })->first;
+  return merge;
+}
+
+}  // namespace
+
 int merge_poor_faces(PlanarGraph& graph, const Partition& parts, const Quality& quality,
-                     const FaceGroups& groups, double& area) {
-  const Merger merger(graph, parts, quality, groups);
+                     const FaceGroups& groups, std::vector<FaceMerge>& merges) {
+  Merger merger(graph, parts, quality, groups);
   struct Poor {
     double area;
     int face, into;
@@ -134,13 +244,23 @@ int merge_poor_faces(PlanarGraph& graph, const Partition& parts, const Quality& 
   }
   std::stable_sort(poor.begin(), poor.end(),
                    [](const Poor& a, const Poor& b) { return a.area < b.area; });
-  std::vector<int> partner(parts.zone.size(), -1);
+  // Of two that are both poor each joins only the other. One that is not takes any number, or a
+  // long face would have to be cut anew for each sliver beside it; but of two neighbours one.
+  const std::size_t n = parts.zone.size();
+  std::vector<std::uint8_t> is_poor(n, 0), taken(n, 0);
+  for (const Poor& p : poor) is_poor[at(p.face)] = 1;
+  std::vector<int> joins(n, -1);
   int merged = 0;
   for (const Poor& p : poor) {
-    if (partner[at(p.face)] >= 0 || partner[at(p.into)] >= 0) continue;
-    partner[at(p.face)] = p.into;
-    partner[at(p.into)] = p.face;
-    area += p.area;
+    bool wait = taken[at(p.face)] || taken[at(p.into)];
+    for_each_half_edge(parts.faces, p.face, [&](int h) {
+      wait = wait || joins[at(face_of(parts.faces, h ^ 1))] == p.into;
+    });
+    if (wait) continue;
+    joins[at(p.face)] = p.into;
+    taken[at(p.face)] = 1;
+    taken[at(p.into)] = is_poor[at(p.into)];
+    merges.push_back(merge_of(graph, parts.faces, p.face, p.into));
     ++merged;
   }
   if (merged == 0) return 0;
@@ -148,7 +268,7 @@ int merge_poor_faces(PlanarGraph& graph, const Partition& parts, const Quality& 
     if (!graph.alive[e]) continue;
     const int h = static_cast<int>(2 * e), a = face_of(parts.faces, h),
               b = face_of(parts.faces, h + 1);
-    if (a == b || partner[at(a)] == b) graph.alive[e] = 0;
+    if (a == b || joins[at(a)] == b || joins[at(b)] == a) graph.alive[e] = 0;
   }
   return merged;
 }

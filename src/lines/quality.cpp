@@ -53,25 +53,13 @@ bool is_sliver(double area, double perimeter, std::span<const Vec2> ring, const 
   if (area < quality.min_area) return true;
   if (2.0 * area >= quality.min_edge * perimeter) return false;
   if (4.0 * area < quality.min_edge * perimeter) return true;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vec2 edge = ring[(i + 1) % ring.size()] - ring[i];
-    const double length = norm(edge);
-    if (length == 0.0) continue;
-    double low = 0.0, high = 0.0;
-    for (const Vec2 p : ring) {
-      const double h = cross(edge, p - ring[i]) / length;
-      low = std::min(low, h);
-      high = std::max(high, h);
-    }
-    if (high - low < quality.min_edge) return true;
-  }
-  return false;
+  return least_width(ring) < quality.min_edge;
 }
 
-void count_poor_blocks(std::span<const BlockPolygon> cut, const Quality& quality,
-                       CutReport& report) {
-  for (const BlockPolygon& block : cut) {
-    const double area = moments(block.rings).area;
+void judge_blocks(std::span<BlockPolygon> cut, const Quality& quality, Vec2 origin,
+                  CutReport& report) {
+  for (BlockPolygon& block : cut) {
+    const Moments m = moments(block.rings);
     double perimeter = 0.0;
     for (const Ring& ring : block.rings) {
       const std::size_t n = ring.size();
@@ -82,7 +70,11 @@ void count_poor_blocks(std::span<const BlockPolygon> cut, const Quality& quality
         report.sharp_corners += inner_angle(a, b, c) < quality.min_angle;
       }
     }
-    report.slivers += is_sliver(area, perimeter, block.rings[0], quality);
+    if (!is_sliver(m.area, perimeter, block.rings[0], quality)) continue;
+    ++report.slivers;
+    if (quality.action != QualityAction::merge || block.fixed) continue;
+    block.slow = true;
+    report.kept.push_back({origin + m.centroid, m.area});
   }
 }
 

@@ -13,14 +13,14 @@ namespace edda {
 void measure_quality(std::span<const BlockPolygon> blocks, Vec2 origin, CutReport& report);
 
 /// Whether a block is smaller than min_area or thinner than min_edge. Its thickness is the least
-/// distance between two parallel lines along one of its edges that hold it between them, or, where
-/// it is bent, 4 area / perimeter (of a square, and of a circle, the width). O(corners^2) for the
-/// few that are nearly so thin.
+/// distance between two parallel lines that hold it between them, or, where it is bent,
+/// 4 area / perimeter (of a square, and of a circle, the width). O(n log n) in its corners.
 bool is_sliver(double area, double perimeter, std::span<const Vec2> ring, const Quality& quality);
 
 /// Counts what is still below the limits of [quality] among the cut blocks, edges between two
-/// blocks once for each. Fills slivers, short_edges and sharp_corners.
-void count_poor_blocks(std::span<const BlockPolygon> cut, const Quality& quality,
-                       CutReport& report);
+/// blocks once for each. Fills slivers, short_edges and sharp_corners; and where slivers were to be
+/// merged, lists those that stay in kept, and marks them as slow. Places are moved by `origin`.
+void judge_blocks(std::span<BlockPolygon> cut, const Quality& quality, Vec2 origin,
+                  CutReport& report);
 
 }  // namespace edda

@@ -44,14 +44,16 @@ void project(const Value* node, double azimuth, JointSet& set, Reading& reading)
   set.spacing = set.given_spacing * set.apparent;
 }
 
-bool smaller_than(const Value* node, const std::string& path, const char* key, double deviation,
-                  double mean, Reading& reading) {
+void check_length(const Value* node, const std::string& path, const char* key, double deviation,
+                  double mean, JointSpread spread, Reading& reading) {
   const Value* value = find(node, key);
-  if (value == nullptr || deviation < mean || deviation == 0.0) return true;
-  add_fault(reading, value->place, path + '.' + key,
-            fmt::format("{} is not below the mean of {}", deviation, mean),
-            "give less, so that none comes out at zero or below");
-  return false;
+  if (value == nullptr || deviation < mean || deviation == 0.0) return;
+  const bool exponential = spread == JointSpread::exponential;
+  if (exponential && deviation == mean) return;
+  add_fault(
+      reading, value->place, path + '.' + key,
+      fmt::format("{} is {} the mean of {}", deviation, exponential ? "above" : "not below", mean),
+      "give less, so that none comes out at zero or below");
 }
 
 void check_deviation(const Value* node, const JointSet& set, Reading& reading) {
@@ -59,7 +61,7 @@ void check_deviation(const Value* node, const JointSet& set, Reading& reading) {
   const std::string path = set.where.key + ".deviation";
   const Deviation& d = set.deviation;
   if (set.given_spacing > 0.0) {
-    smaller_than(deviation, path, "spacing", d.spacing, set.given_spacing, reading);
+    check_length(deviation, path, "spacing", d.spacing, set.given_spacing, d.distribution, reading);
   }
   for (const char* key : {"trace_length", "gap"}) {
     const double value = *key == 'g' ? d.gap : d.trace_length;
@@ -68,7 +70,8 @@ void check_deviation(const Value* node, const JointSet& set, Reading& reading) {
               "the joints run right through", "give trace_length, or leave it out");
   }
   if (set.trace_length) {
-    smaller_than(deviation, path, "trace_length", d.trace_length, *set.trace_length, reading);
+    check_length(deviation, path, "trace_length", d.trace_length, *set.trace_length, d.distribution,
+                 reading);
     if (d.gap > set.gap) {
       add_fault(reading, find(deviation, "gap")->place, path + ".gap",
                 fmt::format("{} is above the mean of {}", d.gap, set.gap), "give at most the gap");

@@ -18,6 +18,7 @@ using Index = int;
 inline constexpr Index none = -1;
 
 enum class Spread { uniform, normal };
+enum class JointSpread { uniform, normal, exponential };
 enum class LengthKind { lognormal, power, constant };
 enum class ShapeKind { arch, circle, rectangle, horseshoe };
 enum class LengthUnit { m, mm, cm, km, ft, in };
@@ -53,13 +54,14 @@ struct CrossSection {
 };
 
 /// How far the joints of a set depart from its means: half the width of a uniform distribution, or
-/// a standard deviation.
+/// a standard deviation. Exponential are lengths alone, from the mean less the deviation upwards;
+/// angles are then normal.
 struct Deviation {
   double angle = 0.0;         ///< degrees
   double spacing = 0.0;       ///< m
   double trace_length = 0.0;  ///< m
   double gap = 0.0;           ///< m
-  Spread distribution = Spread::uniform;
+  JointSpread distribution = JointSpread::uniform;
 };
 
 struct JointSet {

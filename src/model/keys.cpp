@@ -220,7 +220,7 @@ constexpr std::array solver_keys{
     Key{"allow_unstable", at<&Solver::allow_unstable>, flag, initial, "Method edda: whether a time step above the critical one is run all the same."},
     Key{"safety", at<&Solver::safety>, number(D::plain, above_to(0, 1)), initial, "Method edda: part of the critical step that is taken when time_step is \"auto\"."},
     Key{"dynamic", at<&Solver::dynamic>, flag, initial, "Method dda: whether velocities carry over from step to step, or are dropped (for the state at rest)."},
-    Key{"max_displacement_ratio", at<&Solver::max_displacement_ratio>, number(D::plain, above_to(0, 1)), initial, "Largest displacement in one step, of the model's half-height."},
+    Key{"max_displacement_ratio", at<&Solver::max_displacement_ratio>, number(D::plain, above_to(0, 1)), initial, "Largest displacement in one step, of half the model's width where it is narrowest (of a slope, its height)."},
     Key{"mass_scaling", at<&Solver::mass_scaling>, number(D::time, from(0)), initial, "Method edda: the inertia of the few blocks that hold the step below this is raised until they do not (their weight stays); 0: off."},
     Key{"damping", at<&Solver::damping>, table, initial, "Damping of the motion."},
 };

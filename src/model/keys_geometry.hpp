@@ -38,7 +38,7 @@ inline constexpr std::array deviation_keys{
     Key{"spacing", at<&Deviation::spacing>, number(D::length, from(0)), initial, "Of the spacing."},
     Key{"trace_length", at<&Deviation::trace_length>, number(D::length, from(0)), initial, "Of the length of the traces."},
     Key{"gap", at<&Deviation::gap>, number(D::length, from(0)), initial, "Of the gap between traces."},
-    Key{"distribution", at<&Deviation::distribution>, choice, initial, "Uniform within these of the mean, or normal with these as standard deviations, cut off at three of them."},
+    Key{"distribution", at<&Deviation::distribution>, choice, initial, "Uniform within these of the mean; normal with these as standard deviations, cut off at three of them; or exponential, as far as lengths go (angles are then normal): these are the standard deviations again, and a deviation as large as the mean puts joints at random."},
 };
 
 inline constexpr std::array joint_set_keys{
@@ -154,7 +154,7 @@ inline constexpr std::array quality_keys{
     Key{"min_area", at<&Quality::min_area>, number(D::area, from(0)), otherwise("4 min_edge^2"), "A cut block smaller than this is a sliver."},
     Key{"min_edge", at<&Quality::min_edge>, number(D::length, from(0)), otherwise("2 % of the smallest spacing, size or 1 / p21"), "A cut block thinner than this is a sliver; shorter edges are reported."},
     Key{"min_angle", at<&Quality::min_angle>, number(D::angle, from_to(0, 60)), initial, "A cut block with a corner sharper than this is merged if that takes the corner away."},
-    Key{"action", at<&Quality::action>, choice, initial, "Merge slivers into the neighbour across their longest edge, only report them, or refuse the model."},
+    Key{"action", at<&Quality::action>, choice, initial, "Merge slivers into the neighbour across their shortest face that ends a joint (what lies between joints that run through stays, and is made slower to move), only report them, or refuse the model."},
 };
 
 inline constexpr std::array pair_keys{

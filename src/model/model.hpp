@@ -266,7 +266,7 @@ struct Solver {
   bool allow_unstable = false;
   double safety = 0.7;                   ///< of the critical step
   bool dynamic = true;                   ///< dda: false drops velocities at each step
-  double max_displacement_ratio = 0.01;  ///< of the model's half-height in one step
+  double max_displacement_ratio = 0.01;  ///< of half the model's least width, in a step
   double mass_scaling = 0.0;             ///< s; edda: the step that inertia is raised for; 0: off
   Damping damping;
   Where where;

@@ -22,6 +22,8 @@ inline constexpr std::array<std::string_view, 2> stage_joint_names{"as given", "
 inline constexpr std::array<std::string_view, 2> stage_mass_names{"as given", "static"};
 inline constexpr std::array<std::string_view, 2> falling_names{"report", "wait"};
 inline constexpr std::array<std::string_view, 2> spread_names{"uniform", "normal"};
+inline constexpr std::array<std::string_view, 3> joint_spread_names{"uniform", "normal",
+                                                                    "exponential"};
 inline constexpr std::array<std::string_view, 3> length_names{"lognormal", "power", "constant"};
 inline constexpr std::array<std::string_view, 4> shape_names{"arch", "circle", "rectangle",
                                                              "horseshoe"};
@@ -66,6 +68,9 @@ constexpr std::span<const std::string_view> names_of(BoundaryType) {
 }
 constexpr std::span<const std::string_view> names_of(Spread) {
   return spread_names;
+}
+constexpr std::span<const std::string_view> names_of(JointSpread) {
+  return joint_spread_names;
 }
 constexpr std::span<const std::string_view> names_of(LengthKind) {
   return length_names;

@@ -98,6 +98,7 @@ std::optional<Fault> Simulation::install(const std::vector<Index>& which) {
 
 void Simulation::switch_over(const NamedRows& off, const NamedRows& on) {
   const double energy = ledger_now().balance();
+  const NodalForces before_it = off.boundaries.empty() ? NodalForces{} : forces_now();
   std::vector<KeptForce> borne = release_boundaries(off.boundaries);
   for (const Index q : off.shakings) {
     const auto row = static_cast<std::size_t>(q);
@@ -106,8 +107,6 @@ void Simulation::switch_over(const NamedRows& off, const NamedRows& on) {
     ground.velocity -= velocity_at(shaking, state.time - loads.spells.shakings[row].since);
   }
   Spells& spells = loads.spells;
-  set_all(spells.loads, off.loads, on.loads, state.time);
-  set_all(spells.waters, off.waters, on.waters, state.time);
   set_all(spells.boundaries, off.boundaries, on.boundaries, state.time);
   // Springs and what is kept go and come at once; so does a traction that takes over or is taken
   // over from, or half of it would be there twice, or not at all, in this step.
@@ -118,10 +117,6 @@ void Simulation::switch_over(const NamedRows& off, const NamedRows& on) {
   for (const Index q : on.boundaries) {
     if (!off.boundaries.empty()) spells.boundaries[static_cast<std::size_t>(q)].since = before;
   }
-  set_all(spells.shakings, off.shakings, on.shakings, state.time);
-  const bool shakes = std::any_of(spells.shakings.begin(), spells.shakings.end(),
-                                  [](const Spell& spell) { return spell.acts(); });
-  if (!shakes) ground.velocity = {};
   std::vector<KeptForce> inherited;
   for (const Index row : on.boundaries) {
     const Boundary& boundary = model.boundaries[static_cast<std::size_t>(row)];
@@ -138,6 +133,13 @@ void Simulation::switch_over(const NamedRows& off, const NamedRows& on) {
   }
   keep(inherited);
   dashpots.set_acting(spells.boundaries);
+  note_jump(before_it);
+  set_all(spells.loads, off.loads, on.loads, state.time);
+  set_all(spells.waters, off.waters, on.waters, state.time);
+  set_all(spells.shakings, off.shakings, on.shakings, state.time);
+  const bool shakes = std::any_of(spells.shakings.begin(), spells.shakings.end(),
+                                  [](const Spell& spell) { return spell.acts(); });
+  if (!shakes) ground.velocity = {};
   external_work += ledger_now().balance() - energy;
 }
 
@@ -146,8 +148,10 @@ void Simulation::glue_joints(bool glued) {
   if (glued) {
     glue(contacts);
   } else {
+    const NodalForces before = forces_now();
     unglue(contacts);
     update_shares(contacts);
+    note_jump(before);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "contacts/gap.hpp"
+#include "contacts/inside.hpp"
 #include "run/labels.hpp"
 
 namespace edda {
@@ -18,19 +19,6 @@ std::string cause(const StepInUse& step, const char* otherwise) {
                        step.step, step.step / step.critical);
   }
   return otherwise;
-}
-
-/// Distance of p from the boundary of block j as it is now if p lies inside it, else 0.
-double depth_inside(const BlockSet& b, const Pose& pose, Vec2 p, std::size_t j) {
-  bool in = false;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (Id e = b.vertex_begin[j]; e < b.vertex_begin[j + 1]; ++e) {
-    const Vec2 s = at(pose.x, pose.y, e), t = at(pose.x, pose.y, b.next[e]);
-    nearest = std::min(nearest, distance_to_segment(p, s, t));
-    if ((s.y > p.y) == (t.y > p.y)) continue;
-    if ((cross(t - s, p - s) > 0.0) == (t.y > s.y)) in = !in;
-  }
-  return in ? nearest : 0.0;
 }
 
 }  // namespace
@@ -75,7 +63,7 @@ std::optional<Failure> deep_overlap(const ContactSet& c, const BlockSet& b, cons
   for (const Id k : c.blocked) {
     if (worst != no_id || c.why[k] != Blocked::depth) continue;
     const Vec2 p = at(pose.x, pose.y, c.vertex[k]);
-    if (depth_inside(b, pose, p, c.block_j[k]) > 0.5 * limit(k)) worst = k;
+    if (inside_of(b, pose, p, c.block_j[k]).depth > 0.5 * limit(k)) worst = k;
   }
   if (worst == no_id) return std::nullopt;
   Failure f;

@@ -14,6 +14,7 @@
 #include "forces/mass_scaling.hpp"
 #include "run/initial_stress_report.hpp"
 #include "run/labels.hpp"
+#include "run/sliver_report.hpp"
 #include "run/stages.hpp"
 
 namespace edda {
@@ -137,7 +138,7 @@ void warn_of_few(const Simulation& sim, std::vector<std::string>& warnings) {
   const double all = ordered_sum(sim.blocks.size(), [&](std::size_t i) {
     return free_block(sim, i) ? sim.blocks.mass[i] : 0.0;
   });
-  if (!sim.inertia.empty()) {
+  if (!sim.inertia.empty() && sim.model.solver.mass_scaling > 0.0) {
     const auto scaled = static_cast<std::size_t>(
         std::count_if(sim.inertia.begin(), sim.inertia.end(), [](double f) { return f > 1.0; }));
     const double added = added_mass(sim.blocks, sim.inertia);
@@ -256,6 +257,7 @@ std::vector<std::string> guard_rails(const Simulation& sim) {
   }
   warn_of_springs(sim, warnings);
   warn_of_slivers(sim, warnings);
+  warn_of_kept_slivers(sim, warnings);
   warn_of_overlaps(sim, warnings);
   warn_of_initial_stress(sim, warnings);
   return warnings;

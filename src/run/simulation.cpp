@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "base/parallel.hpp"
+#include "base/polygon.hpp"
 #include "blocks/build_blocks.hpp"
 #include "contacts/candidates.hpp"
 #include "contacts/gaps.hpp"
@@ -37,12 +38,14 @@ double median_edge(const BlockSet& b) {
   return *middle;
 }
 
-/// method.md section 5: a part of the model's half-height, never more than a tenth of the smallest
-/// edge.
+/// method.md section 5: a part of the model's half-width where it is narrowest (of a slope, its
+/// half-height), however it is turned; never more than a tenth of the smallest edge.
 double largest_displacement(const BlockSet& b, double ratio) {
-  const auto [low, high] = std::minmax_element(b.vertex_y.begin(), b.vertex_y.end());
+  std::vector<Vec2> points;
+  points.reserve(b.vertex_count());
+  for (std::size_t v = 0; v < b.vertex_count(); ++v) points.push_back(b.vertex(v));
   const double edge = *std::min_element(b.smallest_edge.begin(), b.smallest_edge.end());
-  return std::min(ratio * 0.5 * (*high - *low), 0.1 * edge);
+  return std::min(ratio * 0.5 * least_width(points), 0.1 * edge);
 }
 
 /// Mass of a node; of `consistent`, a third of the block's.
@@ -135,8 +138,10 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   }
   s.search(s.base_reach);
   update_shares(s.contacts);
+  block_far_sides(s.contacts, s.blocks, s.pose);
   bond_contacts(s.contacts, s.blocks, s.state, s.pose, s.laws);
   s.close_contacts();
+  s.plan_slivers();
   s.set_limit();
   s.free_field = attach_free_field(s.model, s.blocks, s.dashpots, s.step_limit);
   return s;
@@ -180,34 +185,9 @@ void Simulation::search(double reach) {
   block_shielded(contacts, blocks, pose);
 }
 
-/// Blocks that would hold the step below what was asked for are made slower. One in motion keeps
-/// its momentum, and the energy that it loses by that is booked with that of changed steps.
-void Simulation::raise_masses() {
-  const Solver& solver = model.solver;
-  const double step = scaled_step_ > 0.0 ? scaled_step_
-                      : solver.time_step ? solver.mass_scaling
-                                         : solver.mass_scaling / solver.safety;
-  const bool moving = state.steps > 0;
-  const double energy = moving ? ledger_now().balance() : 0.0;
-  const std::vector<double> factor =
-      raise_inertia(blocks, state, pose, contacts, springs, laws, damping, step, &bolts);
-  if (factor.empty()) return;
-  set_viscosity();
-  if (inertia.empty()) inertia.assign(blocks.size(), 1.0);
-  for (std::size_t i = 0; i < blocks.size(); ++i) inertia[i] *= factor[i];
-  if (!moving) return;
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < blocks.size(); ++i) {
-      state.vx[k][i] /= factor[i];
-      state.vy[k][i] /= factor[i];
-    }
-  }
-  step_change_energy += ledger_now().balance() - energy;
-}
-
 void Simulation::set_limit() {
   if (!explicit_method()) return set_implicit_limit();
-  if (model.solver.mass_scaling > 0.0 || scaled_step_ > 0.0) raise_masses();
+  if (model.solver.mass_scaling > 0.0 || scaled_step_ > 0.0 || sliver_step_ > 0.0) raise_masses();
   bound = step_bound(blocks, state, pose, contacts, springs, laws, damping, &bolts);
   if (model.solver.time_step) {
     const double most = model.solver.allow_unstable
@@ -255,9 +235,11 @@ void Simulation::change_damping(const Damping& now, bool carry_velocities) {
 
 void Simulation::set_strength_factors(const std::vector<double>& factors) {
   if (factors == laws.divided_by) return;
+  const NodalForces before = forces_now();
   LawTable divided = divided_laws(model, factors);
   take_strength(contacts, laws, divided);
   laws = std::move(divided);
+  note_jump(before);
 }
 
 void Simulation::set_strength_factor(double factor) {
@@ -417,6 +399,7 @@ bool Simulation::move(double h_old, double h_new, const LoadsNow* not_yet_gather
 std::optional<Failure> Simulation::step() {
   if (!explicit_method()) return step_implicit();
   StageClock clock(state.steps);
+  split_jump();
   const double h_old = step_before_;
   if (laws.any_changes) update_joint_laws(contacts, blocks, laws);
   evaluate_contacts(contacts, blocks, laws, h_old, damping.contact);

@@ -73,6 +73,7 @@ struct Simulation {
   ContactSet contacts;
   Ground ground;
   NodalForces forces;
+  NodalForces jump;  ///< by which forces at n have jumped since the last step; or empty
   std::vector<Vec2> on_dashpots;  ///< [points of dashpots] their forces in the last step, N
   std::vector<KeptForce> kept;    ///< of rock taken out, and of boundaries taken over from
   DampingWork damping_work;
@@ -211,6 +212,10 @@ struct Simulation {
   StepInUse step_in_use() const;
   void set_limit();
   void raise_masses();
+  NodalForces forces_now() const;
+  void note_jump(const NodalForces& before);
+  void split_jump();
+  void plan_slivers();
   /// Masses of the nodes as the model gives them.
   struct GivenMass {
     decltype(BlockSet::node_mass) node_mass;
@@ -218,6 +223,9 @@ struct Simulation {
   };
   GivenMass given_mass_;      ///< kept where a stage scales them
   double scaled_step_ = 0.0;  ///< s: step that a stage raises inertia for; 0: none does
+  double sliver_step_ =
+      0.0;  ///< s: step that the inertia of slivers is raised for; 0: there are none
+  std::vector<double> sliver_most_;  ///< [nb] factor on masses that they may have at most for it
   double displacement_cap_ = std::numeric_limits<double>::infinity();  ///< s: after halvings
   std::uint64_t larger_since_ = 0;  ///< step from which a much larger one would have been allowed
   double target_ = 0.0;             ///< s: the event aimed at

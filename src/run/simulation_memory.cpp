@@ -315,6 +315,11 @@ void judge(Judge& j, const Simulation& s) {
       j.sized("state", (*nodes)[k], nb);
     }
   }
+  for (const auto* jump : {&s.jump.x, &s.jump.y}) {
+    for (const auto& values : *jump) {
+      if (!s.jump.x[0].empty() || !values.empty()) j.sized("jump", values, nb);
+    }
+  }
   j.sized("state.alive", s.state.alive, nb);
   j.sized("state.turns", s.state.turns, nb);
   j.sized("damping_work", s.damping_work.joules, nb);
@@ -357,7 +362,9 @@ void list_memory(Archive& a, Simulation& s) {
   a("steps_left", s.steps_left_);
   if (!s.explicit_method()) list_implicit(a, s);
   a("scaled_step", s.scaled_step_);
-  if (s.model.solver.mass_scaling > 0.0 || s.scaled_step_ > 0.0) {
+  a("jump_x", s.jump.x);
+  a("jump_y", s.jump.y);
+  if (s.model.solver.mass_scaling > 0.0 || s.scaled_step_ > 0.0 || s.sliver_step_ > 0.0) {
     // Masses by their bits, not by their factors.
     a("inertia", s.inertia);
     a("node_mass", s.blocks.node_mass);

@@ -13,6 +13,7 @@
 #include "run/labels.hpp"
 #include "run/motion.hpp"
 #include "run/overstress.hpp"
+#include "run/sliver_report.hpp"
 
 namespace edda {
 namespace {
@@ -138,6 +139,8 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
                         : informed("unbalanced contact forces (still moving)", o.unbalanced));
   checks.push_back(informed("faces merged by the cut", sim.polygons.report.merged));
   checks.push_back(informed("slivers joined by [quality]", sim.polygons.report.quality_merged));
+  checks.push_back(
+      informed("slivers that stay", static_cast<double>(sim.polygons.report.kept.size())));
   checks.push_back(informed("mass added by scaling (kg)", added_mass(sim.blocks, sim.inertia)));
   add_initial_checks(sim, checks);
   add_overstress(sim, checks);
@@ -176,6 +179,7 @@ std::string summary_json(const Simulation& sim, const Outcome& o, const std::str
   j.pair("block_steps_per_second", o.wall.stepping > 0.0 ? work / o.wall.stepping : 0.0);
   j.pair("threads", omp_get_max_threads());
   add_checks(j, checks_of(sim, o));
+  add_slivers(j, sim.polygons.report);
   j.key("inputs").open_list();
   for (const InputFile& input : inputs) {
     j.open_object().pair("file", input.file).pair("sha256", input.sha256).close();

@@ -3,6 +3,7 @@ import csv
 import json
 import math
 import pathlib
+import re
 import shutil
 import unittest
 
@@ -213,11 +214,23 @@ class Geometry(Program):
         self.write(text)
         slivers = ["--set", "quality.min_edge=0.1", "--set", "quality.min_area=0.05"]
         first = self.edda("cut", "m.toml", *slivers, "--set", "quality.action=report").stdout
-        merged = self.edda("cut", "m.toml", *slivers).stdout
         stay = int(first.split("; ")[-1].split()[0]) if "; " in first else 0
         self.assertGreater(stay, 3)
-        self.assertRegex(merged, r"quality +[1-9]\d* slivers joined to a neighbour, .* m2 in all; 0 stay")
+        # All joints run through: nothing is merged.
+        kept = self.edda("cut", "m.toml", *slivers).stdout
+        self.assertRegex(kept, rf"quality +0 slivers joined to a neighbour, 0 m2 in all; {stay} stay")
+        self.assertEqual(len(re.findall(r"(?m)^sliver +stays: [\d.e-]+ m2 at \(", kept)), stay)
+        # Traces that end on one another: what one may lose is merged.
+        self.write(text.replace("spacing = 2.1\n", "spacing = 2.1\ntrace_length = 7\ngap = 1\n"))
+        merged = self.edda("cut", "m.toml", *slivers).stdout
+        count = int(re.search(r"quality +(\d+) sliver", merged)[1])
+        self.assertGreater(count, 0)
+        line = r"(?m)^sliver +merged: [\d.e-]+ m2 at \(.*\); joint_set\.\d lost a face of [\d.e-]+ m$"
+        self.assertEqual(len(re.findall(line, merged)), count)
         self.assertEqual(self.area(first), self.area(merged))
+        checked = json.loads(self.edda("check", "m.toml", "--json", *slivers).stdout)
+        self.assertEqual(len(checked["merged_slivers"]), count)
+        self.write(text)
         fault = self.edda("cut", "m.toml", *slivers, "--set", "quality.action=error", code=2).stderr
         self.assertEqual(len(fault.strip().splitlines()), 1)
         self.assertIn("quality.min_area", fault)

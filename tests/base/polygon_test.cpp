@@ -9,6 +9,37 @@
 namespace edda::polygon_test {
 namespace {
 
+TEST(LeastWidth, IsThatBetweenTheClosestParallelLines) {
+  EXPECT_EQ(least_width(Ring{{0, 0}, {1, 0}}), 0.0);
+  EXPECT_EQ(least_width(Ring{{0, 0}, {1, 1}, {2, 2}, {3, 3}}), 0.0);
+  EXPECT_DOUBLE_EQ(least_width(Ring{{0, 0}, {3, 0}, {3, 2}, {0, 2}}), 2.0);
+  EXPECT_NEAR(least_width(Ring{{0, 0}, {4, 0}, {0, 3}}), 12.0 / 5.0, 1e-15);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (int n = 3; n < 60; ++n) {
+    Ring points;
+    for (int i = 0; i < n; ++i) points.push_back({u(random), 0.3 * u(random)});
+    // Along the line of some two of them: all others lie between it and its parallel.
+    double least = 1e9;
+    for (const Vec2 a : points) {
+      for (const Vec2 b : points) {
+        if (a == b) continue;
+        double low = 0.0, high = 0.0;
+        for (const Vec2 p : points) {
+          const double h = cross(b - a, p - a) / norm(b - a);
+          low = std::min(low, h);
+          high = std::max(high, h);
+        }
+        least = std::min(least, high - low);
+      }
+    }
+    EXPECT_NEAR(least_width(points), least, 1e-12);
+    Ring turned;
+    for (const Vec2 p : points) turned.push_back(rotated(p, 0.7) + Vec2{5, -3});
+    EXPECT_NEAR(least_width(turned), least, 1e-12);
+  }
+}
+
 TEST(Moments, FarFromTheOriginKeepsItsDigits) {
   const Vec2 far{3e6, -5e6};
   Ring near_ring, far_ring;

@@ -68,7 +68,8 @@ TEST(JointSets, WithoutDeviationsTracesAndGapsAlternate) {
 
 /// The part of the length that is joint is L/(L + g), whatever the deviations.
 TEST(JointSets, LengthPerAreaIsThatOfTheMeans) {
-  for (const Spread spread : {Spread::uniform, Spread::normal}) {
+  for (const JointSpread spread :
+       {JointSpread::uniform, JointSpread::normal, JointSpread::exponential}) {
     double sum = 0.0;
     for (long long seed = 0; seed < 20; ++seed) {
       JointSet set = set_of(25.0, 1.0);
@@ -79,7 +80,7 @@ TEST(JointSets, LengthPerAreaIsThatOfTheMeans) {
       sum += length_inside(drawn_set(set, square(40.0)), box(0, 0, 40, 40), snap);
     }
     const double per_area = sum / 20.0 / 1600.0;
-    EXPECT_NEAR(per_area, 4.0 / 6.0, 0.01) << (spread == Spread::uniform);
+    EXPECT_NEAR(per_area, 4.0 / 6.0, 0.01) << static_cast<int>(spread);
   }
 }
 
@@ -87,7 +88,7 @@ TEST(JointSets, DeviationsHaveTheirMeanAndSpread) {
   JointSet set = set_of(30.0, 1.0);
   set.trace_length = 2.0;
   set.gap = 1.0;
-  set.deviation = {6.0, 0.0, 0.5, 0.5, Spread::uniform};
+  set.deviation = {6.0, 0.0, 0.5, 0.5, JointSpread::uniform};
   const LineWork work = drawn_set(set, square(60.0));
   double angle = 0.0, angle2 = 0.0, length = 0.0, longest = 0.0, shortest = 9.0;
   double n = 0.0;
@@ -135,6 +136,31 @@ TEST(JointSets, SpacingDeviatesAboutItsMeanAndOneJointPassesTheOrigin) {
   EXPECT_NEAR(*through, 101.0, 1e-9);
 }
 
+TEST(JointSets, ExponentialSpacingsBeginAtTheMeanLessTheDeviation) {
+  for (const double deviation : {2.0, 0.5}) {
+    JointSet set = set_of(90.0, 2.0);
+    set.deviation.spacing = deviation;
+    set.deviation.distribution = JointSpread::exponential;
+    const LineWork work = drawn_set(set, square(8000.0));
+    std::vector<double> x;
+    for (const LineString& line : work.lines) x.push_back(line.points[0].x);
+    std::sort(x.begin(), x.end());
+    ASSERT_GT(x.size(), 3500U);
+    const double n = static_cast<double>(x.size() - 1), mean = (x.back() - x.front()) / n;
+    double smallest = 9.0, squares = 0.0, wide = 0.0;
+    for (std::size_t i = 1; i < x.size(); ++i) {
+      const double spacing = x[i] - x[i - 1];
+      smallest = std::min(smallest, spacing);
+      squares += (spacing - mean) * (spacing - mean);
+      wide += spacing > 2.0 ? 1.0 : 0.0;
+    }
+    EXPECT_NEAR(mean, 2.0, 0.04 * deviation);
+    EXPECT_NEAR(std::sqrt(squares / n), deviation, 0.06 * deviation);
+    EXPECT_NEAR(smallest, 2.0 - deviation, 0.004);
+    EXPECT_NEAR(wide / n, std::exp(-1.0), 0.02);  // of an exponential, above its mean
+  }
+}
+
 /// Lines that both pictures hold whole, rounded so that they can be compared.
 std::vector<std::array<long, 4>> whole_lines(const LineWork& work, double low, double high) {
   std::vector<std::array<long, 4>> lines;
@@ -158,7 +184,7 @@ TEST(JointSets, AreTheSameWhateverTheDomainAndTheOtherSets) {
   set.origin = {3.0, 4.0};
   set.trace_length = 2.0;
   set.gap = 1.0;
-  set.deviation = {5.0, 0.4, 0.7, 0.5, Spread::normal};
+  set.deviation = {5.0, 0.4, 0.7, 0.5, JointSpread::normal};
   set.seed = 3;
   const auto small = whole_lines(drawn_set(set, square(12.0)), 0.5, 11.5);
   const auto large = whole_lines(drawn_set(set, square(40.0, {-15.0, -9.0})), 0.5, 11.5);
@@ -194,7 +220,7 @@ TEST(JointSets, FarFromTheirOriginTheyAreDrawnAllTheSame) {
   set.origin = {-3e6, 5e6};
   set.trace_length = 2.0;
   set.gap = 2.0;
-  set.deviation = {2.0, 0.2, 0.2, 0.2, Spread::uniform};
+  set.deviation = {2.0, 0.2, 0.2, 0.2, JointSpread::uniform};
   const LineWork work = drawn_set(set, square(30.0));
   EXPECT_NEAR(length_inside(work, box(0, 0, 30, 30), snap) / 900.0, 0.5, 0.1);
 }
@@ -204,7 +230,7 @@ TEST(JointSets, StayInTheirRegion) {
   set.region = {{2, 2}, {15, 3}, {8, 8}, {14, 16}, {3, 15}};
   set.trace_length = 3.0;
   set.gap = 0.5;
-  set.deviation = {15.0, 0.2, 1.0, 0.3, Spread::uniform};
+  set.deviation = {15.0, 0.2, 1.0, 0.3, JointSpread::uniform};
   const LineWork work = drawn_set(set, square(20.0));
   ASSERT_GT(work.lines.size(), 30U);
   for (const LineString& line : work.lines) {
@@ -234,7 +260,7 @@ TEST(JointSets, RandomTracesCutSoundBlocks) {
       JointSet set = set_of(angle, 1.2);
       set.trace_length = 8.0;
       set.gap = 1.0;
-      set.deviation = {8.0, 0.4, 3.0, 0.5, Spread::uniform};
+      set.deviation = {8.0, 0.4, 3.0, 0.5, JointSpread::uniform};
       set.seed = seed;
       set.where = {"joint_set.0", "test.toml", 9, 1};
       model.joint_sets.push_back(set);

@@ -243,6 +243,9 @@ TEST(BadModel, MappedJoints) {
                "joint_set.bedding.deviation.spacing", "not below the mean"},
            Bad{"spacing = 2\nangle = 3\ntrace_length = 1\ndeviation = { trace_length = 1.5 }\n", 22,
                "joint_set.bedding.deviation.trace_length", "not below the mean"},
+           Bad{"spacing = 2\nangle = 3\ndeviation = { spacing = 2.1, distribution = "
+               "\"exponential\" }\n",
+               21, "joint_set.bedding.deviation.spacing", "above the mean"},
            Bad{"spacing = 2\nangle = 3\ntrace_length = 1\ngap = 1\ndeviation = { gap = 1.5 }\n", 23,
                "joint_set.bedding.deviation.gap", "above the mean"},
            Bad{"spacing = 2\nangle = 3\ndeviation = { angel = 2 }\n", 21,

@@ -126,7 +126,7 @@ void expect_every_geometry_key(const Model& m) {
   EXPECT_EQ(set.deviation.spacing, 0.1);
   EXPECT_EQ(set.deviation.trace_length, 1.0);
   EXPECT_EQ(set.deviation.gap, 0.2);
-  EXPECT_EQ(set.deviation.distribution, Spread::normal);
+  EXPECT_EQ(set.deviation.distribution, JointSpread::normal);
   EXPECT_EQ(set.seed, 7);
   EXPECT_EQ(m.joint_sets[1].dip, 60.0);
   EXPECT_EQ(m.joint_sets[1].dip_direction, 300.0);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "run/attachment_rows.hpp"
 #include "run/prepared.hpp"
@@ -215,6 +216,98 @@ TEST(Activation, GluedJointsHold) {
   EXPECT_LT(r.outcome.largest_drift, 1e-6);
   EXPECT_GE(r.outcome.ledger.friction, -1e-9);
   EXPECT_GE(r.outcome.ledger.fracture, -1e-9);
+}
+
+/// How far block b has gone, over a t^2/2, when `change` has been made at rest and `steps` have
+/// been since.
+double gone_ahead(const std::string& toml, bool glued, double a, int steps,
+                  const std::function<void(Simulation&)>& change) {
+  PreparedRun ready = prepared(toml + "[solver]\nduration = 10\ntime_step = 2e-5\n");
+  Simulation& sim = ready.sim;
+  if (glued) sim.glue_joints(true);
+  Damping damping;
+  damping.local = 0.8;
+  sim.change_damping(damping, true);
+  sim.start(10.0);
+  while (sim.state.steps < 20000) EXPECT_FALSE(sim.step().has_value());
+  damping.local = 0.0;
+  sim.change_damping(damping, true);
+  const std::size_t b = sim.blocks.size() - 1;
+  const Vec2 from = centroid(sim.state.x, sim.state.y, b);
+  const double balance = sim.ledger_now().balance(), time = sim.state.time;
+  change(sim);
+  for (int k = 0; k < steps; ++k) EXPECT_FALSE(sim.step().has_value());
+  const Ledger after = sim.ledger_now();
+  EXPECT_NEAR(after.balance(), balance, 1e-6 * after.scale()) << toml.substr(toml.size() - 40);
+  const double t = sim.state.time - time;
+  return norm(centroid(sim.state.x, sim.state.y, b) - from) / (0.5 * a * t * t);
+}
+
+/// Half of what forces jump by counts in the step amid which they do: k steps later a block that
+/// was at rest has gone a (k h)^2/2, not a k (k + 1) h^2/2.
+TEST(Activation, JumpsOfContactsAndSpringsLeaveNobodyHalfAStepAhead) {
+  const std::string hung = R"(
+[materials.rock]
+density = 2500.0
+young = 10e9
+poisson = 0.2
+[joints.j]
+friction_angle = 30
+[[block]]
+fixed = true
+polygon = [[0, 1], [1, 1], [1, 2], [0, 2]]
+[[block]]
+polygon = [[0, 0], [1, 0], [1, 1.00000001], [0, 1.00000001]]
+)";
+  EXPECT_NEAR(gone_ahead(hung, true, 9.81, 20, [](Simulation& s) { s.glue_joints(false); }), 1.0,
+              2e-3);
+  const std::string on_springs =
+      lone("[[boundary]]\nname = \"floor\"\nsides = [\"bottom\"]\n", "[0, -9.81]");
+  EXPECT_NEAR(gone_ahead(on_springs, false, 9.81, 20,
+                         [](Simulation& s) {
+                           s.switch_over(rows_called(s.model, {"floor"}), NamedRows{});
+                         }),
+              1.0, 2e-3);
+  const std::string on_slope = R"(
+[materials.rock]
+density = 2500.0
+young = 10e9
+poisson = 0.2
+[joints.j]
+friction_angle = 45
+[[block]]
+fixed = true
+polygon = [[-8, -6], [8, 6], [8, -6]]
+[[block]]
+polygon = [[0, 0], [1.6, 1.2], [1.0, 2.0], [-0.6, 0.8]]
+)";
+  EXPECT_NEAR(gone_ahead(on_slope, false, 9.81 * (0.6 - 0.8 / 2.0), 10,
+                         [](Simulation& s) { s.set_strength_factor(2.0); }),
+              1.0, 0.03);
+}
+
+/// Blocks that fall on the floor, and on one another, while their joints are glued.
+TEST(Activation, WhatClosesWhileGluedKeepsItsEnergy) {
+  std::string toml = R"(
+[materials.rock]
+density = 2500.0
+young = 1e9
+poisson = 0.2
+[joints.j]
+friction_angle = 30
+[[block]]
+fixed = true
+polygon = [[-5, -1], [5, -1], [5, 0], [-5, 0]]
+)";
+  for (int i = 0; i < 5; ++i) {
+    const double x = 0.3 * (i % 2), y = 0.02 + 1.05 * i;
+    toml += "[[block]]\npolygon = [[" + std::to_string(x) + "," + std::to_string(y) + "],[" +
+            std::to_string(x + 1.0) + "," + std::to_string(y + 0.01 * i) + "],[" +
+            std::to_string(x + 1.0) + "," + std::to_string(y + 1.0) + "],[" + std::to_string(x) +
+            "," + std::to_string(y + 1.0) + "]]\n";
+  }
+  const Ran r = ran(toml + "[[stage]]\nduration = 0.4\njoints = \"glued\"\n");
+  EXPECT_LT(r.outcome.largest_drift, 1e-4);
 }
 
 /// What hangs on glue goes on hanging in a second stage that glues, and falls in one that does not.

@@ -170,6 +170,65 @@ max_displacement_ratio = 1.0
   });
 }
 
+/// Ten turns of a free block that spins as it flies, at the step that is chosen by default.
+TEST(ImplicitSpin, IsKeptFromTurnToTurn) {
+  for (const char* mass : {"matched", "covering", "consistent"}) {
+    for (const double rate : {1.0, 10.0, 100.0}) {
+      const double turn = 2.0 * std::numbers::pi / rate;
+      Simulation sim = scene(R"(
+gravity = [0.0, 0.0]
+[materials.rock]
+density = 2600.0
+young = 20e9
+poisson = 0.2
+[joints.j]
+friction_angle = 30.0
+[[block]]
+polygon = [[0, 0], [1.2, 0], [1, 1], [0, 0.8]]
+velocity = [0.3, -0.2]
+angular_velocity = )" + number(rate) +
+                             "\n[solver]\nmethod = 'dda'\nmass = '" + mass +
+                             "'\nduration = " + number(10.0 * turn) +
+                             "\n[output]\nhistory_every = " + number(turn) + "\n");
+      std::vector<double> energy, balance;
+      run(sim, [&](Simulation& s) {
+        const Ledger l = s.ledger();
+        energy.push_back(l.kinetic + l.strain);
+        balance.push_back(l.balance());
+      });
+      ASSERT_EQ(energy.size(), 11U);
+      for (std::size_t k = 1; k < energy.size(); ++k) {
+        EXPECT_NEAR(energy[k], energy[k - 1], 1e-3 * energy[0]) << mass << ' ' << rate << ' ' << k;
+        EXPECT_NEAR(balance[k], balance[0], 1e-4 * energy[0]) << mass << ' ' << rate << ' ' << k;
+      }
+      const Vec2 u = displacement(sim, 0);
+      EXPECT_NEAR(u.x, 0.3 * 10.0 * turn, 1e-6 * 10.0 * turn);
+      EXPECT_NEAR(u.y, -0.2 * 10.0 * turn, 1e-6 * 10.0 * turn);
+    }
+  }
+}
+
+/// A limit of displacements is one of the model, however it is turned: a wide low wall upright
+/// takes the same steps.
+TEST(DisplacementLimit, DoesNotDependOnHowTheModelIsTurned) {
+  for (const char* method : {"edda", "dda"}) {
+    const auto limit = [&](double angle) {
+      std::string toml =
+          "[materials.rock]\ndensity = 2600.0\nyoung = 20e9\npoisson = 0.2\n[joints.j]\n"
+          "friction_angle = 30.0\n[solver]\nduration = 1\nmax_displacement_ratio = 0.001\nmethod = "
+          "'" +
+          std::string(method) + "'\n";
+      for (int i = 0; i < 12; ++i) {
+        toml += "[[block]]\npolygon = [" + on_slope(angle, i, 0) + "," + on_slope(angle, i + 1, 0) +
+                "," + on_slope(angle, i + 1, 2) + "," + on_slope(angle, i, 2) + "]\n";
+      }
+      return scene(toml).displacement_limit;
+    };
+    EXPECT_NEAR(limit(0.0), 1e-3, 1e-15);
+    for (const double angle : {30.0, 90.0, 137.0}) EXPECT_NEAR(limit(angle), 1e-3, 1e-12) << method;
+  }
+}
+
 std::string heap(const std::string& solver) {
   std::string toml = R"(
 [materials.rock]

@@ -49,7 +49,9 @@ struct Watched {
   double unbalanced = 0.0;  ///< largest
   double moved = 0.0;       ///< largest of a vertex over that which the stress would have made
   double stress = 0.0;      ///< furthest off its value at the start, over the largest stress
-  double reactions = 0.0;   ///< with weight, water and loads, over the weight
+  double in_slivers =
+      0.0;                 ///< the same of slivers that stay: a gap is a larger part of their width
+  double reactions = 0.0;  ///< with weight, water and loads, over the weight
   double drift = 0.0, slid = 0.0;
 };
 
@@ -77,7 +79,7 @@ Watched watch(Simulation& sim) {
       const Tensor start = initial_stress(b, i);
       for (const double off :
            {t.xx - start.xx, t.yy - start.yy, t.xy - start.xy, t.zz - b.initial_zz[i]}) {
-        keep_largest(w.stress, off / largest);
+        keep_largest(s.polygons.blocks[i].slow ? w.in_slivers : w.stress, off / largest);
       }
       if (b.fixed[i]) {
         sum -= contact_resultant(b, at.contacts, i);
@@ -112,6 +114,8 @@ void expect_stays(const std::string& label, const std::string& toml, double boun
   expect_at_most({37, label, "largest unbalanced ratio", ""}, w.unbalanced, bound);
   expect_at_most({37, label, "largest displacement over sigma L/E", ""}, w.moved, 1e-2);
   expect_at_most({37, label, "change of stress in a block over the largest", ""}, w.stress, bound);
+  // A millimetre that joints give is a tenth of the width of a sliver.
+  EXPECT_LT(w.in_slivers, bound < 1e-3 ? 10.0 * bound : 0.1);
   expect_at_most({37, label, "reactions with weight, over the weight", ""}, w.reactions,
                  10.0 * bound);
   EXPECT_LT(w.drift, 1e-8);
