@@ -284,7 +284,7 @@ void drop_forces(const Model& model, const BlockSet& b, Index keeper, Loads& loa
 LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
   LoadsNow now;
   const GentleChange& gentle = loads.gentle;
-  if (gentle.weight) now.frame += (1.0 - gentle.part) * model.gravity;
+  if (gentle.weight) now.to_come = (1.0 - gentle.part) * model.gravity;
   for (std::size_t q = 0; q < model.shakings.size(); ++q) {
     const Shaking& shaking = model.shakings[q];
     const Spell& spell = loads.spells.shakings[q];

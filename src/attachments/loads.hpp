@@ -117,7 +117,10 @@ struct LoadsNow {
   std::vector<double> rise;      ///< [rows of Model::waters] m
   std::vector<double> weight;    ///< [rows of Model::waters] N/m3 times thickness
   const Bolts* bolts = nullptr;  ///< with their forces at this time; null: there are none
-  Vec2 frame;  ///< m/s2: acceleration of the ground that all blocks feel backwards
+  Vec2 frame;    ///< m/s2: acceleration of the ground that all blocks feel backwards
+  Vec2 to_come;  ///< m/s2: what of gravity has not come yet (GentleChange::weight)
+  /// What gravity is less by.
+  Vec2 less_gravity() const { return frame + to_come; }
 };
 
 /// Finds what the loads, waters and boundaries of type stress act on. One that finds nothing is a

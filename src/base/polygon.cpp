@@ -98,18 +98,25 @@ int side_of(std::span<const Ring> rings, Vec2 point, double tolerance) {
 }
 
 /// Andrew's monotone chain, then calipers that turn round the hull: the farthest corner from an
-/// edge only moves on as the edges turn.
+/// edge only moves on as the edges turn. Points that lie straight but for rounding are none of its
+/// corners: between them that corner could not be told.
 double least_width(std::span<const Vec2> points) {
   std::vector<Vec2> p(points.begin(), points.end());
   const auto before = [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
   std::sort(p.begin(), p.end(), before);
   p.erase(std::unique(p.begin(), p.end()), p.end());
   if (p.size() < 3) return 0.0;
+  Vec2 low = p.front(), high = p.back();
+  for (const Vec2 q : p) {
+    low.y = std::min(low.y, q.y);
+    high.y = std::max(high.y, q.y);
+  }
+  const double straight = 1e-12 * dot(high - low, high - low);
   std::vector<Vec2> hull;
-  const auto half = [&hull](auto first, auto last) {
+  const auto half = [&hull, straight](auto first, auto last) {
     const std::size_t floor = hull.size();
     for (auto i = first; i != last; ++i) {
-      while (hull.size() >= floor + 2 && orient(hull[hull.size() - 2], hull.back(), *i) <= 0.0)
+      while (hull.size() >= floor + 2 && orient(hull[hull.size() - 2], hull.back(), *i) <= straight)
         hull.pop_back();
       hull.push_back(*i);
     }

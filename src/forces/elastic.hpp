@@ -43,17 +43,14 @@ EDDA_INLINE Vec2 elastic_force(const PiolaStress& p, double volume, double gx, d
   return {-volume * (p.xx * gx + p.xy * gy), -volume * (p.yx * gx + p.yy * gy)};
 }
 
-/// P of the viscous stress eta C : dU/dt of block i at the deformation f and its rate; none where
-/// the block has no viscosity (blocks/strain_rate.hpp).
-inline PiolaStress viscous_stress_in(const BlockSet& b, std::size_t i, const Deformation& f,
-                                     const Deformation& rate) {
-  if (b.viscosity.empty()) return {0.0, 0.0, 0.0, 0.0};
-  const StrainFrame frame = strain_frame(f);
-  const StrainTerms d = strain_rate(frame, rate);
+/// P of the viscous stress eta C : dU/dt of block i, F = R U in `frame` (blocks/strain_rate.hpp).
+/// The block must have a viscosity.
+inline PiolaStress viscous_stress(const BlockSet& b, std::size_t i, const StrainFrame& frame,
+                                  const StrainTerms& rate) {
   const double eta = b.viscosity[i], mu = eta * b.lame_mu[i],
-               pressure = eta * b.lame_lambda[i] * (d.xx + d.yy);
-  const Deformation p =
-      stress_on_rate(frame, {pressure + 2.0 * mu * d.xx, pressure + 2.0 * mu * d.yy, mu * d.xy});
+               pressure = eta * b.lame_lambda[i] * (rate.xx + rate.yy);
+  const Deformation p = stress_on_rate(
+      frame, {pressure + 2.0 * mu * rate.xx, pressure + 2.0 * mu * rate.yy, mu * rate.xy});
   return {p.xx, p.xy, p.yx, p.yy};
 }
 

@@ -166,7 +166,7 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
                    const LoadsNow& loads, std::size_t begin, std::size_t end) {
   const BodyView body{values_of(b.grad_x),  values_of(b.grad_y), b.volume.data(),
                       b.lame_lambda.data(), b.lame_mu.data(),    b.mass.data()};
-  body_forces(body, values_of(state.x), values_of(state.y), gravity - loads.frame,
+  body_forces(body, values_of(state.x), values_of(state.y), gravity - loads.less_gravity(),
               values_of(forces.x), values_of(forces.y), begin, end);
   if (!b.initial_xx.empty()) {
     const InitialView initial{values_of(b.grad_x), values_of(b.grad_y), b.volume.data(),

@@ -151,16 +151,21 @@ Vector6 viscous_force(const ImplicitSolver& s, const BlockSet& b, const Implicit
   Vector6 force = Vector6::Zero();
   if (!settings.dynamic || b.viscosity.empty()) return force;
   const Vector6 step = s.moved.segment<6>(static_cast<Eigen::Index>(6 * row));
-  const Vector6 velocity = 2.0 / settings.step * step - nodal(state.vx, state.vy, i);
-  Deformation rate{};
+  Deformation gain{};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto at = static_cast<Eigen::Index>(2 * k);
-    rate.xx += velocity[at] * b.grad_x[k][i];
-    rate.xy += velocity[at] * b.grad_y[k][i];
-    rate.yx += velocity[at + 1] * b.grad_x[k][i];
-    rate.yy += velocity[at + 1] * b.grad_y[k][i];
+    gain.xx += step[at] * b.grad_x[k][i] / settings.step;
+    gain.xy += step[at] * b.grad_y[k][i] / settings.step;
+    gain.yx += step[at + 1] * b.grad_x[k][i] / settings.step;
+    gain.yy += step[at + 1] * b.grad_y[k][i] / settings.step;
   }
-  const PiolaStress p = viscous_stress_in(b, i, deformation(b, state.x, state.y, i), rate);
+  // As v_{n+1} = 2 D/h - v_n: twice what U gains in the step, less its rate before it.
+  const StrainFrame before = strain_frame(deformation(b, s.start_x, s.start_y, i));
+  const StrainTerms mean = strain_rate_over(before, gain, settings.step),
+                    was = strain_rate(before, deformation(b, state.vx, state.vy, i));
+  const PiolaStress p =
+      viscous_stress(b, i, strain_frame(deformation(b, state.x, state.y, i)),
+                     {2.0 * mean.xx - was.xx, 2.0 * mean.yy - was.yy, 2.0 * mean.xy - was.xy});
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec2 f = elastic_force(p, b.volume[i], b.grad_x[k][i], b.grad_y[k][i]);
     force.segment<2>(static_cast<Eigen::Index>(2 * k)) << f.x, f.y;

@@ -18,8 +18,8 @@ void lay_out(ImplicitSolver& solver, const ImplicitScene& scene,
 bool assemble(ImplicitSolver& solver, const ImplicitScene& scene, const ImplicitSettings& settings,
               const State& state, const ContactSet& contacts);
 
-/// Forces of the viscous strain of the block in that row at its trial velocity 2 D/h - v_n, N; none
-/// without dynamics.
+/// Forces of the viscous strain of the block in that row at its trial position, N; none without
+/// dynamics.
 Vector6 viscous_force(const ImplicitSolver& solver, const BlockSet& blocks,
                       const ImplicitSettings& settings, const State& state, std::size_t row);
 

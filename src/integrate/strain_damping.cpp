@@ -125,7 +125,7 @@ EDDA_VECTOR void damp_and_move_all(BlocksView b, double h, double h_new, std::si
 }  // namespace
 
 void prepare(StrainDamping& d, const BlockSet& b, double h) {
-  if (d.step == h) return;
+  if (d.step == h && d.matrix[0].size() == b.size()) return;
   d.step = h;
   for (auto& entry : d.matrix) entry.assign(b.size(), 0.0);
   for (auto& stress : d.stress) stress.resize(b.size(), 0.0);

@@ -26,15 +26,17 @@ double load_work(const Simulation& sim, const LoadsNow& now, const std::vector<d
   });
 }
 
-/// The same of the inertia that all blocks feel on a ground that shakes: -m a_n . u.
+/// The same of the inertia that all blocks feel on a ground that shakes, -m a_n . u, and of the
+/// weight that has not come yet.
 template <class Moved>
 double frame_work(const Simulation& sim, const LoadsNow& now, Moved moved) {
-  if (now.frame == Vec2{}) return 0.0;
+  const Vec2 felt = now.less_gravity();
+  if (felt == Vec2{}) return 0.0;
   return ordered_sum(sim.blocks.size(), [&](std::size_t i) {
     if (!is_free(sim.blocks, sim.state, i)) return 0.0;
     Vec2 sum;
     for (std::size_t k = 0; k < 3; ++k) sum += moved(static_cast<Id>(i), k);
-    return -sim.blocks.mass[i] / 3.0 * dot(now.frame, sum);
+    return -sim.blocks.mass[i] / 3.0 * dot(felt, sum);
   });
 }
 

@@ -40,6 +40,17 @@ TEST(LeastWidth, IsThatBetweenTheClosestParallelLines) {
   }
 }
 
+/// Corners on straight sides, not quite in line once turned.
+TEST(LeastWidth, StraightSidesInPieces) {
+  for (int turn = 0; turn < 90; ++turn) {
+    Ring points;
+    for (int i = 0; i <= 10; ++i) {
+      for (const double y : {0.0, 1.0}) points.push_back(rotated({i - 4.0, y}, turn * 0.0174533));
+    }
+    EXPECT_NEAR(least_width(points), 1.0, 1e-9) << turn;
+  }
+}
+
 TEST(Moments, FarFromTheOriginKeepsItsDigits) {
   const Vec2 far{3e6, -5e6};
   Ring near_ring, far_ring;

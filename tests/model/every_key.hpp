@@ -14,6 +14,7 @@ thickness = "50 cm"
 density = 2750
 young = "20 GPa"
 poisson = 0.25
+damping = 0.2
 strength = { ucs = "90 MPa", tension = 6e6 }
 [materials."soft clay"]
 unit_weight = "20 kN/m3"
@@ -256,7 +257,7 @@ safety = 0.7
 dynamic = true
 max_displacement_ratio = "2 %"
 mass_scaling = "3 us"
-damping = { mass = "2 1/s", local = 0.1, contact = 0.3 }
+damping = { mass = "2 1/s", local = 0.1, contact = 0.3, adaptive = 0.4, rayleigh = { fraction = "5 %", frequency = "3 Hz" } }
 [output]
 every = 0.3
 history_every = 0.07

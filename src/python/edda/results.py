@@ -91,7 +91,7 @@ class Results:
         stage (from 0), name, until, reached (0 or 1), start, end (s), steps; ratio, largest_ratio (resultant of
         blocks over contact force), largest_block (its id, -1: none); kinetic, strain, contact, gravity, friction,
         damping, fracture, external (J), drift as in history; how many contacts are closed (contacts), sliding, bonded,
-        open, broken, how many blocks detached, yielded_bolts; NAME.convergence (m).
+        open, broken, how many blocks detached, yielded_bolts, how many blocks have come loose (loose); NAME.convergence (m).
         """
         return read_table(self._file("stages.csv"))
 
@@ -294,7 +294,7 @@ def _end_of_rows(text: str) -> int:
 _WHOLE = {
     *("id", "block", "block_i", "block_j", "ring", "ever_slipped", "ever_opened", "yielded", "ruptured"),
     *("stage", "reached", "steps", "largest_block", "contacts", "sliding", "bonded", "detached", "open", "broken"),
-    "yielded_bolts",
+    *("yielded_bolts", "loose"),
 }
 _TEXT = {"name", "material", "joint", "state", "bolt", "until", "motion", "outcome", "reason"}
 

@@ -1,0 +1,131 @@
+// How a simulation comes to rest: the frequency with which it moves, by which adaptive damping
+// goes, and what a stage changes, brought on little by little.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel.hpp"
+#include "run/simulation.hpp"
+
+namespace edda {
+namespace {
+
+/// Mass of a node; of `consistent`, a third of the block's.
+double inertia_of_node(const BlockSet& b, std::size_t k, std::size_t i) {
+  return b.mass_kind == MassKind::consistent ? b.mass[i] / 3.0 : b.node_mass[k][i];
+}
+
+}  // namespace
+
+double Simulation::drag() const {
+  if (damping.adaptive == 0.0 || !explicit_method()) return damping.drag();
+  // Beyond 1/h velocities would turn round.
+  return std::min(damping.drag() + 2.0 * damping.adaptive * pace.frequency, 1.0 / state.step);
+}
+
+/// Looks at the frequency of the motion again, where it is time to.
+void Simulation::take_pace(const LoadsNow& at_work) {
+  constexpr std::uint64_t least = 8, most = 512;  // steps
+  constexpr double radians = 0.25;
+  const double h = state.step;
+  const double wanted = pace.frequency > 0.0 ? radians / (pace.frequency * h) : 0.0;
+  const Vec2 gravity = model.gravity - at_work.less_gravity();
+  const auto length = static_cast<std::uint64_t>(
+      std::clamp(wanted, static_cast<double>(least), static_cast<double>(most)));
+  const bool first = pace.x[0].empty();
+  if (!first && state.steps < pace.since + length) return;
+  struct Sums {
+    double stiffness = 0.0, inertia = 0.0;
+  };
+  std::vector<Sums> sums((blocks.size() + blocks_at_once - 1) / blocks_at_once);
+  if (first) {
+    for (auto* nodes : {&pace.x, &pace.y, &pace.fx, &pace.fy}) {
+      for (auto& values : *nodes) values.assign(blocks.size(), 0.0);
+    }
+  }
+  parallel_chunks(
+      blocks.size(), blocks_at_once, [&](std::size_t c, std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i < to; ++i) {
+          const bool counts = is_free(blocks, state, i) && (aloof.empty() || aloof[i] == 0);
+          std::array<Vec2, 3> load{};  // that comes or goes is no answer to motion
+          if (at_work.loads != nullptr && at_work.loads->place[i] != no_id) {
+            add_loads(load, blocks, at_work, pose.x1, pose.y1, i);
+          }
+          for (std::size_t k = 0; k < 3; ++k) {
+            // The forces are those of the positions before the step.
+            const Vec2 x{state.x[k][i] - h * state.vx[k][i], state.y[k][i] - h * state.vy[k][i]};
+            const Vec2 f =
+                Vec2{forces.x[k][i], forces.y[k][i]} - load[k] - (blocks.mass[i] / 3.0) * gravity;
+            const Vec2 dx = x - Vec2{pace.x[k][i], pace.y[k][i]},
+                       df = f - Vec2{pace.fx[k][i], pace.fy[k][i]};
+            if (counts) {
+              sums[c].stiffness -= dot(dx, df);
+              sums[c].inertia += inertia_of_node(blocks, k, i) * dot(dx, dx);
+            }
+            pace.x[k][i] = x.x;
+            pace.y[k][i] = x.y;
+            pace.fx[k][i] = f.x;
+            pace.fy[k][i] = f.y;
+          }
+        }
+      });
+  pace.since = state.steps;
+  if (first) return;
+  Sums all;
+  for (const Sums& s : sums) {
+    all.stiffness += s.stiffness;
+    all.inertia += s.inertia;
+  }
+  if (!(all.inertia > 0.0)) return;
+  // Where what moves has no stiffness (all of it slides) half of what there was is left.
+  const double now = std::max(all.stiffness / all.inertia, 0.0), was = pace.frequency;
+  pace.frequency = was > 0.0 ? std::sqrt(0.5 * (was * was + now)) : std::sqrt(now);
+}
+
+void Simulation::begin_gently(const std::vector<double>& strength_factors) {
+  if (state.steps == 0) {  // what the ground is in balance with is there already
+    set_strength_factors(strength_factors);
+    if (!initial) loads.gentle = {state.time, 0.0, true};
+    return;
+  }
+  const Spells& spells = loads.spells;
+  const auto now = [&](double time) { return time == state.time; };
+  bool changes = strength_factors != laws.divided_by ||
+                 std::any_of(loads.held.begin(), loads.held.end(),
+                             [&](const Hold& hold) { return now(hold.changed); });
+  for (const auto* of : {&spells.loads, &spells.waters, &spells.boundaries}) {
+    changes = changes || std::any_of(of->begin(), of->end(), [&](const Spell& spell) {
+                return now(spell.since) || now(spell.until);
+              });
+  }
+  if (changes) loads.gentle = {state.time, 0.0, false};
+  strength_from_ = laws.divided_by;
+  strength_to_ = strength_factors;
+}
+
+/// A little more, in time with the motion: all of it within some of its periods.
+void Simulation::bring_on() {
+  if (all_on()) return;
+  constexpr double periods = 1.0, increments = 100.0;
+  // Before anything has moved: a wave through a square of all blocks.
+  const double frequency = pace.frequency > 0.0
+                               ? pace.frequency
+                               : 0.5 / (state.step * std::sqrt(static_cast<double>(blocks.size())));
+  GentleChange& gentle = loads.gentle;
+  const double before = gentle.part;
+  gentle.part += state.step * frequency / (2.0 * std::numbers::pi * periods);
+  if (gentle.part >= 1.0) {
+    gentle = {};
+    if (!strength_to_.empty()) set_strength_factors(strength_to_);
+  } else if (!strength_to_.empty() &&
+             std::floor(increments * gentle.part) > std::floor(increments * before)) {
+    std::vector<double> now = strength_to_;
+    for (std::size_t r = 0; r < now.size(); ++r) {
+      now[r] = strength_from_[r] * std::pow(strength_to_[r] / strength_from_[r], gentle.part);
+    }
+    set_strength_factors(now);
+  }
+}
+
+}  // namespace edda
