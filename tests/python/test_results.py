@@ -151,7 +151,7 @@ WHOLE = {
     "blocks.csv": ["id"],
     "joints.csv": ["block_i", "block_j", "ever_slipped", "ever_opened"],
     "stages.csv": ["stage", "reached", "steps", "largest_block", "contacts", "sliding", "bonded", "detached", "open",
-                   "broken", "yielded_bolts"],
+                   "broken", "yielded_bolts", "loose"],
     "bolts.csv": ["yielded", "ruptured"],
     "cut.csv": ["block", "ring"],
 }
