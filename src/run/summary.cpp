@@ -23,7 +23,7 @@ constexpr std::string_view overlap_check = "largest overlap over half width of a
 /// lasts for a moment; deeper, and the shape of the block no longer says which way it is pushed.
 constexpr double overlap_limit = 0.2;
 /// And of what stays.
-constexpr double overlap_limit_at_end = 0.01;
+constexpr double overlap_limit_at_end = 0.02;
 
 Check limited(std::string name, double value, double limit) {
   return {std::move(name), value, limit, value <= limit};
