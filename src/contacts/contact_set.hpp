@@ -120,9 +120,10 @@ struct ContactTerms {
   [[gnu::always_inline]] double trial_slip(std::size_t c) const {
     return self().foot[c] - self().anchor[c] * self().span[c];
   }
-  /// Coulomb's limit of the shear force under a normal force N, c L + tan(phi) max(N, 0).
+  /// Coulomb's limit of the shear force under a normal force N, c L + tan(phi) N; none is below
+  /// zero.
   [[gnu::always_inline]] double shear_limit(std::size_t c, double n) const {
-    return self().cohesion[c] + self().friction[c] * larger(n, 0.0);
+    return larger(self().cohesion[c] + self().friction[c] * n, 0.0);
   }
   /// Foot within the stretch of the edge that carries.
   [[gnu::always_inline]] bool on_edge(std::size_t c, double slack = 0.0) const {

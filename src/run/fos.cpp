@@ -216,6 +216,17 @@ void conclude(const FosBracket& bracket, const Fos& fos, bool stopped, FosResult
   }
 }
 
+/// A model at rest as it stood where displacements of `later` count from.
+Simulation at_start(const Simulation& rest, const Simulation& later) {
+  Simulation start = rest;
+  start.state.x = later.state.from_x;
+  start.state.y = later.state.from_y;
+  for (std::size_t i = 0; i < start.blocks.size(); ++i) {
+    place_vertices(start.blocks, start.state.x, start.state.y, i, start.pose.x, start.pose.y);
+  }
+  return start;
+}
+
 }  // namespace
 
 Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
@@ -240,7 +251,7 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
     const bool sound = r.failed && std::isfinite(r.failed->last_displacement) &&
                        r.failed->last_displacement < 1e100;
     if (sound) {
-      r.mechanism = mechanism_of(start.sim, *r.failed);
+      r.mechanism = mechanism_of(at_start(start.sim, *r.failed), *r.failed);
       find_lost_cohesion(*r.mechanism, search.held());
     }
   }

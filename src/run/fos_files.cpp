@@ -19,11 +19,12 @@ void add_optional(Json& j, std::string_view name, const std::optional<double>& v
 void add_criterion(Json& j, const FosCriterion& c) {
   j.key("criterion").open_object();
   j.pair("fails_displacement", c.displacement).pair("fails_velocity", c.velocity);
-  j.pair("block_size", c.size).pair("acceleration", c.acceleration).pair("ramp", c.ramp);
+  j.pair("block_size", c.size).pair("acceleration", c.acceleration);
   j.pair("trial", c.duration).pair("shaking", c.shaking);
   j.pair("text",
-         "a trial fails where a corner has moved further than fails_displacement, or moves faster "
-         "than fails_velocity when its time is up; it holds where all comes to rest before");
+         "a trial fails where a corner has moved further than fails_displacement, or keeps moving "
+         "without becoming slower; it holds where no block would go further than a ten-thousandth "
+         "of block_size within the time trial");
   j.close();
 }
 
@@ -31,6 +32,7 @@ void add_mechanism(Json& j, const Mechanism& m) {
   j.key("mechanism").open_object().pair("text", m.text);
   j.pair("blocks", m.blocks.size()).pair("joints", m.joints.size());
   j.pair("sliding", m.sliding).pair("toppling", m.toppling).pair("falling", m.falling);
+  j.pair("hinging", m.hinging);
   j.pair("brittle_length", m.brittle_length);
   j.pair("cohesion_lost_length", m.cohesion_lost_length).close();
 }

@@ -11,7 +11,7 @@ namespace edda {
 namespace {
 
 constexpr double strong = 1e-3;  // what strength is divided by where nothing is to slip or break
-constexpr double local_damping = 0.8, contact_damping = 0.1;
+constexpr double damping_to_rest = 0.8;    // of critical, at the frequency with which all moves
 constexpr double standard_gravity = 9.81;  // of a model on which nothing acts at all
 
 /// The model with what is varied multiplied by `multiplier` and strength divided by `divided` once
@@ -51,9 +51,8 @@ FosCriterion criterion_of(const Simulation& sim, const Model& model, const Fos& 
   c.size /= std::max(count, 1.0);
   c.acceleration = norm(model.gravity);
   if (c.acceleration == 0.0) c.acceleration = force > 0.0 ? force / mass : standard_gravity;
-  constexpr double part_of_size = 0.01, times = 5.0, ramp = 0.2, slower = 10.0;
+  constexpr double part_of_size = 0.01, times = 5.0, slower = 10.0;
   c.duration = times * std::sqrt(c.size / c.acceleration);
-  c.ramp = ramp * c.duration;
   c.shaking = shaking_time(model, fos);
   c.displacement = fos.fails.displacement.value_or(part_of_size * c.size);
   c.velocity = fos.fails.velocity.value_or(c.displacement / (slower * c.duration));
@@ -67,8 +66,9 @@ TrialPlan plan_of(const Simulation& sim, const Model& model, const Fos& fos) {
   plan.varied = fos.varied;
   plan.target = static_cast<std::size_t>(std::max(fos.target, 0));
   plan.criterion = criterion_of(sim, model, fos);
-  plan.quiet = {0.0, local_damping, own.contact};
-  plan.released = {0.0, 0.0, std::max(own.contact, contact_damping)};
+  plan.quiet.contact = own.contact;
+  plan.quiet.adaptive = damping_to_rest;
+  plan.quiet.rayleigh = own.rayleigh;
   plan.shaken = own;
   return plan;
 }
@@ -110,7 +110,6 @@ bool stopped(const FosOptions& options) {
 Result<FosStart> settled(const Model& model, const Fos& fos, const FosOptions& options) {
   const double at_first = fos.varied == Varied::strength ? 1.0 : 0.0;
   Model drawn = before_trials(model, fos, at_first, 1.0);
-  drawn.solver.damping.local = local_damping;  // as it will be
   Result<PreparedRun> prepared = prepare_run(std::move(drawn));
   if (!prepared.ok()) return prepared.faults();
   if (auto fault = nothing_moves(model, prepared.value().sim)) return *fault;

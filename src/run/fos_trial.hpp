@@ -18,9 +18,8 @@ struct FosCriterion {
   double size = 0.0;          ///< L, m: mean of the square roots of their areas
   double acceleration = 0.0;  ///< g, or the mean load over mass where there is no gravity, m/s2
   double displacement = 0.0;  ///< m: a corner that has gone further has failed
-  double velocity = 0.0;      ///< m/s: a corner still faster at the end has failed
-  double ramp = 0.0;          ///< s in which what is varied comes to its value
-  double duration = 0.0;      ///< s that a trial lasts at most, after the ramp or the shaking
+  double velocity = 0.0;      ///< m/s: a corner still faster has failed where a trial finds no end
+  double duration = 0.0;      ///< s, T: at rest is what would not go on within it
   double shaking = 0.0;       ///< s of shaking before that; 0 without
 };
 
@@ -36,9 +35,8 @@ struct TrialPlan {
   Varied varied = Varied::strength;
   std::size_t target = 0;  ///< row of loads, shakings or waters
   FosCriterion criterion;
-  Damping quiet;     ///< in which a model comes to rest
-  Damping released;  ///< of what has found no rest: nothing holds it up but its joints
-  Damping shaken;    ///< while the ground shakes
+  Damping quiet;   ///< in which a model comes to rest
+  Damping shaken;  ///< while the ground shakes
 };
 
 enum class TrialEnd { holds, fails, stopped };
@@ -58,6 +56,8 @@ struct Trial {
 
 /// Puts the loading in force.
 void apply(Simulation& sim, const TrialPlan& plan, const Loading& loading);
+/// The same of what is varied besides strength.
+void apply_multiplier(Simulation& sim, const TrialPlan& plan, double multiplier);
 
 /// Runs `sim`, at rest under `from`, to the end of a trial under `to`. Displacements count from its
 /// start. A trial that fails without having gone far goes on a little, so that its mechanism shows;

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <numbers>
+#include <numeric>
 #include <set>
 
 #include "contacts/gap.hpp"
 #include "results/csv.hpp"
+#include "run/labels.hpp"
 #include "run/stages.hpp"
 
 namespace edda {
@@ -84,11 +86,29 @@ Id facing(const Simulation& sim, std::size_t k) {
   return facing_edge(sim.blocks, p.x, p.y, c.vertex[k], frame.normal());
 }
 
-/// What has become of the joints that carried before.
+/// Of the edges that lie against each other at a contact, the shorter one, m.
+double length_of(const Simulation& sim, std::size_t k, Id facing_edge) {
+  return std::min(sim.blocks.edge_length[sim.contacts.edge[k]],
+                  sim.blocks.edge_length[facing_edge]);
+}
+
+JointMotion motion_of(const MovingJoint& joint, double least_opening) {
+  constexpr double twice = 2.0, closed = 0.5;  // of the turning
+  if (joint.turning >= twice * joint.slip && least_opening < closed * joint.turning)
+    return JointMotion::hinges;
+  return joint.slip >= joint.opening ? JointMotion::slips : JointMotion::opens;
+}
+
+/// What has become of the joints that carried before. `rotation`: [nb] of the blocks, rad.
 std::vector<MovingJoint> joints_of(const Simulation& before, const Simulation& after,
-                                   double least) {
+                                   const std::vector<double>& rotation, double least) {
   const ContactSet& c = before.contacts;
-  std::map<std::tuple<Id, Id, std::uint16_t>, MovingJoint> joints;
+  struct Seen {
+    MovingJoint joint;
+    double least_opening = std::numeric_limits<double>::infinity();
+    Vec2 hinge;  ///< m: where it opens least
+  };
+  std::map<std::tuple<Id, Id, std::uint16_t>, Seen> joints;
   std::set<std::pair<Id, Id>> drawn;  // edges, once for the contacts at either end
   for (std::size_t k = 0; k < c.size(); ++k) {
     const bool touches = c.is(k, cs::closed) || (c.depth[k] > -least && c.on_edge(k));
@@ -100,19 +120,22 @@ std::vector<MovingJoint> joints_of(const Simulation& before, const Simulation& a
     };
     const Gap was = gap(before.pose), is = gap(after.pose);
     const double slip = std::abs(is.foot - was.foot), opening = was.depth - is.depth;
-    if (std::max(slip, opening) < least) continue;
     const Id i = std::min(c.block_i[k], c.block_j[k]), j = std::max(c.block_i[k], c.block_j[k]);
-    MovingJoint& joint = joints[{i, j, c.law[k]}];
-    if (std::max(slip, opening) > std::max(joint.slip, joint.opening)) {
-      joint.place = at(before.pose.x, before.pose.y, c.vertex[k]) + before.blocks.origin;
-    }
     // Where the corner that moves most touches an edge at its end, as at the toe of a slope,
     // nothing of the joint lies along it; but along those of others.
     const Id f = facing(before, k);
+    const double turning = std::abs(rotation[i] - rotation[j]) * length_of(before, k, f);
+    if (std::max({slip, opening, turning}) < least) continue;
+    Seen& seen = joints[{i, j, c.law[k]}];
+    MovingJoint& joint = seen.joint;
+    const Vec2 place = at(before.pose.x, before.pose.y, c.vertex[k]) + before.blocks.origin;
+    if (std::max(slip, opening) >= std::max(joint.slip, joint.opening)) joint.place = place;
+    if (opening < seen.least_opening) {
+      seen.least_opening = opening;
+      seen.hinge = place;
+    }
     const Stretch stretch = stretch_of(before, after, k, f);
-    const double shortest =
-        1e-3 * std::min(before.blocks.edge_length[c.edge[k]], before.blocks.edge_length[f]);
-    if (norm(stretch.to - stretch.from) > shortest &&
+    if (norm(stretch.to - stretch.from) > 1e-3 * length_of(before, k, f) &&
         drawn.insert(std::minmax(c.edge[k], f)).second)
       joint.stretches.push_back(stretch);
     joint.block_i = i;
@@ -123,27 +146,128 @@ std::vector<MovingJoint> joints_of(const Simulation& before, const Simulation& a
                       : std::string_view("glued");
     joint.slip = std::max(joint.slip, slip);
     joint.opening = std::max(joint.opening, opening);
+    joint.turning = std::max(joint.turning, turning);
   }
   std::vector<MovingJoint> list;
   list.reserve(joints.size());
-  for (const auto& entry : joints) list.push_back(entry.second);
+  for (auto& entry : joints) {
+    MovingJoint& joint = entry.second.joint;
+    joint.motion = motion_of(joint, entry.second.least_opening);
+    if (joint.motion == JointMotion::hinges) joint.place = entry.second.hinge;
+    list.push_back(std::move(joint));
+  }
   return list;
 }
 
-std::string sentence(const Mechanism& m) {
-  std::size_t count[3] = {0, 0, 0};
-  for (const MovingBlock& b : m.blocks) ++count[static_cast<int>(b.motion)];
-  const double largest = std::max({m.sliding, m.toppling, m.falling});
-  constexpr double most = 0.75;
-  const char* kind = largest < most          ? "mixed"
-                     : largest == m.sliding  ? "sliding"
-                     : largest == m.toppling ? "toppling"
-                                             : "falling";
-  const auto some = [](std::size_t n, const char* one, const char* many) {
-    return fmt::format("{} {}", n, n == 1 ? one : many);
+/// Blocks that move as one piece: [nb] the first of them. Only blocks of which `moves` is set.
+std::vector<Id> pieces(const Simulation& sim, const std::vector<std::uint8_t>& moves,
+                       const std::vector<MovingJoint>& joints) {
+  std::vector<Id> first(sim.blocks.size());
+  std::iota(first.begin(), first.end(), Id{0});
+  const auto root = [&](Id i) {
+    while (first[i] != i) i = first[i] = first[first[i]];
+    return i;
   };
-  return fmt::format("{}: {}, {}, {}", kind, some(count[0], "block slides", "blocks slide"),
-                     some(count[1], "topples", "topple"), some(count[2], "falls", "fall"));
+  std::set<std::pair<Id, Id>> apart;
+  for (const MovingJoint& joint : joints) apart.insert({joint.block_i, joint.block_j});
+  const ContactSet& c = sim.contacts;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const auto [i, j] = std::minmax(c.block_i[k], c.block_j[k]);
+    if (!c.is(k, cs::closed) || !moves[i] || !moves[j] || apart.contains({i, j})) continue;
+    const auto [low, high] = std::minmax({root(i), root(j)});
+    first[high] = low;
+  }
+  for (Id i = 0; i < first.size(); ++i) first[i] = root(i);
+  return first;
+}
+
+/// [nb] 1: between two hinges or more, and along nothing that slips.
+std::vector<std::uint8_t> between_hinges(const std::vector<Id>& piece,
+                                         const std::vector<MovingJoint>& joints) {
+  std::vector<int> hinges(piece.size(), 0), slips(piece.size(), 0);
+  for (const MovingJoint& joint : joints) {
+    const Id i = piece[joint.block_i], j = piece[joint.block_j];
+    if (i == j || joint.motion == JointMotion::opens) continue;
+    auto& count = joint.motion == JointMotion::hinges ? hinges : slips;
+    ++count[i];
+    ++count[j];
+  }
+  std::vector<std::uint8_t> between(piece.size(), 0);
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    between[i] = hinges[piece[i]] >= 2 && slips[piece[i]] == 0 ? 1 : 0;
+  }
+  return between;
+}
+
+std::string some(std::size_t n, const char* one, const char* many) {
+  return fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
+/// "bedding", "bedding and cross": the joints on which most of the slip is.
+std::string slipping_joints(const Mechanism& m) {
+  std::map<std::string, double> slip;  // slip times length
+  double all = 0.0;
+  for (const MovingJoint& joint : m.joints) {
+    if (joint.motion != JointMotion::slips) continue;
+    for (const Stretch& s : joint.stretches) {
+      slip[joint.joint] += joint.slip * norm(s.to - s.from);
+      all += joint.slip * norm(s.to - s.from);
+    }
+  }
+  constexpr double counts = 0.2;
+  std::string names;
+  for (const auto& [name, part] : slip) {
+    if (part >= counts * all) names += (names.empty() ? "" : " and ") + name;
+  }
+  return names;
+}
+
+/// "4 hinges at (1, 2), (3, 4), ..."
+std::string hinges_of(const Mechanism& m) {
+  constexpr std::size_t named = 6;
+  std::vector<Vec2> places;
+  for (const MovingJoint& joint : m.joints) {
+    if (joint.motion == JointMotion::hinges) places.push_back(joint.place);
+  }
+  std::sort(places.begin(), places.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
+  std::string text = some(places.size(), "hinge", "hinges") + " at ";
+  for (std::size_t q = 0; q < std::min(named, places.size()); ++q)
+    text += (q == 0 ? "" : ", ") + place_label(places[q]);
+  if (places.size() > named) text += fmt::format(" and {} more", places.size() - named);
+  return text;
+}
+
+std::string sentence(const Mechanism& m) {
+  std::size_t count[4] = {0, 0, 0, 0};
+  for (const MovingBlock& b : m.blocks) ++count[static_cast<int>(b.motion)];
+  const double parts[] = {m.sliding, m.toppling, m.falling, m.hinging};
+  constexpr double most = 0.75;
+  const auto largest = std::max_element(std::begin(parts), std::end(parts));
+  const bool mixed = *largest < most;
+  const auto kind = static_cast<Motion>(largest - std::begin(parts));
+  const std::string along = slipping_joints(m);
+  constexpr const char* kinds[] = {"sliding", "toppling", "falling", "hinging"};
+  std::string text = mixed ? "mixed" : kinds[static_cast<int>(kind)];
+  if (!mixed && kind == Motion::slides && !along.empty()) text += " along " + along;
+  text += ": ";
+  if (!mixed && kind == Motion::hinges) text += hinges_of(m) + ", ";
+  if (!mixed) text += some(count[static_cast<int>(kind)], "block", "blocks");
+  bool first = mixed;
+  constexpr const char* verbs[][2] = {
+      {"slides", "slide"}, {"topples", "topple"}, {"falls", "fall"}, {"hinges", "hinge"}};
+  for (const Motion other : {Motion::slides, Motion::topples, Motion::falls, Motion::hinges}) {
+    const std::size_t n = count[static_cast<int>(other)];
+    if (n == 0 || (!mixed && other == kind)) continue;
+    const auto& verb = verbs[static_cast<int>(other)];
+    if (first) {
+      text += some(n, "block ", "blocks ") + verb[n == 1 ? 0 : 1];
+    } else {
+      text += ", " + some(n, verb[0], verb[1]);
+    }
+    if (other == Motion::slides && !along.empty()) text += " along " + along;
+    first = false;
+  }
+  return text;
 }
 
 }  // namespace
@@ -151,27 +275,31 @@ std::string sentence(const Mechanism& m) {
 Mechanism mechanism_of(const Simulation& before, const Simulation& after) {
   Mechanism m;
   double largest = 0.0, weight = 0.0;
+  std::vector<double> rotation(before.blocks.size(), 0.0);
   for (std::size_t i = 0; i < before.blocks.size(); ++i) {
     if (!is_free(before.blocks, before.state, i)) continue;
     m.blocks.push_back(motion_of(before, after, i));
+    rotation[i] = m.blocks.back().rotation;
     largest = std::max(largest, m.blocks.back().largest);
   }
+  std::erase_if(m.blocks, [&](const MovingBlock& b) { return b.largest < moving * largest; });
+  m.joints = joints_of(before, after, rotation, moving * largest);
   const std::vector<std::uint8_t> near = next_to_something(after, moving * largest);
+  std::vector<std::uint8_t> moves(before.blocks.size(), 0);
+  for (const MovingBlock& b : m.blocks) moves[b.id] = 1;
+  const std::vector<std::uint8_t> hinged =
+      between_hinges(pieces(before, moves, m.joints), m.joints);
+  double* const parts[] = {&m.sliding, &m.toppling, &m.falling, &m.hinging};
   for (MovingBlock& b : m.blocks) {
     b.motion = !near[b.id]                 ? Motion::falls
+               : hinged[b.id]              ? Motion::hinges
                : b.turning_part >= topples ? Motion::topples
                                            : Motion::slides;
-  }
-  std::erase_if(m.blocks, [&](const MovingBlock& b) { return b.largest < moving * largest; });
-  for (const MovingBlock& b : m.blocks) {
     const double mass = before.blocks.mass[b.id];
     weight += mass;
-    (b.motion == Motion::slides    ? m.sliding
-     : b.motion == Motion::topples ? m.toppling
-                                   : m.falling) += mass;
+    *parts[static_cast<int>(b.motion)] += mass;
   }
-  for (double* part : {&m.sliding, &m.toppling, &m.falling}) *part /= weight > 0.0 ? weight : 1.0;
-  m.joints = joints_of(before, after, moving * largest);
+  for (double* part : parts) *part /= weight > 0.0 ? weight : 1.0;
   m.text = sentence(m);
   return m;
 }
@@ -223,10 +351,10 @@ std::string mechanism_csv(const Simulation& sim, const Mechanism& mechanism) {
 
 std::string mechanism_joints_csv(const Mechanism& mechanism) {
   Csv csv;
-  csv.header({"block_i", "block_j", "joint", "x", "y", "slip", "opening"});
+  csv.header({"block_i", "block_j", "joint", "x", "y", "slip", "opening", "turning", "motion"});
   for (const MovingJoint& j : mechanism.joints) {
     csv.add(j.block_i).add(j.block_j).add(j.joint).add(j.place.x).add(j.place.y);
-    csv.add(j.slip).add(j.opening).end();
+    csv.add(j.slip).add(j.opening).add(j.turning).add(motion_name(j.motion)).end();
   }
   return csv.text();
 }

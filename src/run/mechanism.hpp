@@ -10,10 +10,18 @@
 
 namespace edda {
 
-enum class Motion { slides, topples, falls };
+enum class Motion { slides, topples, falls, hinges };
 
 constexpr std::string_view motion_name(Motion m) {
-  constexpr std::string_view names[] = {"slides", "topples", "falls"};
+  constexpr std::string_view names[] = {"slides", "topples", "falls", "hinges"};
+  return names[static_cast<int>(m)];
+}
+
+/// What the two sides of a joint do to each other.
+enum class JointMotion { slips, opens, hinges };
+
+constexpr std::string_view motion_name(JointMotion m) {
+  constexpr std::string_view names[] = {"slips", "opens", "hinges"};
   return names[static_cast<int>(m)];
 }
 
@@ -34,7 +42,9 @@ struct Stretch {
   Vec2 from_moved, to_moved;  ///< m, how far the block beside it has carried them
 };
 
-/// A joint between two blocks that slips or opens by more than a tenth of that displacement.
+/// A joint between two blocks that slips, opens, or gapes at one end by turning, by more than a tenth
+/// of that displacement. It hinges where it turns at least twice as far as it slips and one of its
+/// ends stays closed.
 struct MovingJoint {
   Id block_i = 0, block_j = 0;
   std::string joint;
@@ -43,12 +53,15 @@ struct MovingJoint {
   std::vector<Stretch> stretches;  ///< where the two lie against each other and move
   double slip = 0.0;               ///< m, largest along the joint, either way
   double opening = 0.0;            ///< m, largest across it
+  double turning = 0.0;            ///< m: relative rotation times the length of the joint
+  JointMotion motion = JointMotion::slips;
 };
 
 struct Mechanism {
   std::vector<MovingBlock> blocks;                      ///< by id
   std::vector<MovingJoint> joints;                      ///< by blocks
-  double sliding = 0.0, toppling = 0.0, falling = 0.0;  ///< parts of the weight that moves
+  double sliding = 0.0, toppling = 0.0, falling = 0.0, hinging = 0.0;  ///< parts of the weight
+                                                                      ///< that moves
   double brittle_length = 0.0;  ///< m of its joints whose cohesion goes down as they break
   double cohesion_lost_length =
       0.0;  ///< m of that without it before anything moved: lost, or closed since the start
@@ -57,10 +70,11 @@ struct Mechanism {
 
 /// From `before`, at rest, to `after`, the same model later.
 ///
-/// A block topples where turning moves its furthest corner by at least half of what the block
-/// itself moves: turning_part >= 1/2 (a block that turns about one of its corners has about 1, one
-/// that slides 0). One that is next to nothing any more, but for a tenth of that displacement,
-/// falls.
+/// Blocks hinge where they move as one piece (no joint between them moves) between two hinges or
+/// more, and nothing slips along that piece: parts of an arch. Of the others a block topples where
+/// turning moves its furthest corner by at least half of what the block itself moves: turning_part
+/// >= 1/2 (a block that turns about one of its corners has about 1, one that slides 0); else it
+/// slides. One that is next to nothing any more, but for a tenth of that displacement, falls.
 Mechanism mechanism_of(const Simulation& before, const Simulation& after);
 
 /// Finds out how much cohesion the mechanism's joints had lost in a state that still `held`.

@@ -125,11 +125,7 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   s.smallest_half_width = *std::min_element(s.blocks.inradius.begin(), s.blocks.inradius.end());
   s.step_limit = std::numeric_limits<double>::infinity();
 
-  const auto& stages = s.model.stages;
-  if (std::any_of(stages.begin(), stages.end(),
-                  [](const Stage& q) { return q.masses == StageMasses::uniform_step; })) {
-    s.given_mass_ = {s.blocks.node_mass, s.blocks.inverse_mass};
-  }
+  if (s.explicit_method()) s.given_mass_ = {s.blocks.node_mass, s.blocks.inverse_mass};
   s.search(s.base_reach);
   update_shares(s.contacts);
   block_far_sides(s.contacts, s.blocks, s.pose);

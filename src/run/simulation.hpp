@@ -119,8 +119,9 @@ struct Simulation {
   void set_strength_factors(const std::vector<double>& factors);
   /// What begins or ends to act now, and this change of strength, comes little by little from here
   /// on, over some periods of the motion; at the very start weight does, too, where the ground has
-  /// no stress of its own. With adaptive damping.
-  void begin_gently(const std::vector<double>& strength_factors);
+  /// no stress of its own. With adaptive damping. `more`: so does something else, that goes by
+  /// Loads::gentle.
+  void begin_gently(const std::vector<double>& strength_factors, bool more = false);
   /// Whether all that was to come has come.
   bool all_on() const { return loads.gentle.part >= 1.0; }
   /// The same factor for all laws.

@@ -83,7 +83,7 @@ void Simulation::take_pace(const LoadsNow& at_work) {
   pace.frequency = was > 0.0 ? std::sqrt(0.5 * (was * was + now)) : std::sqrt(now);
 }
 
-void Simulation::begin_gently(const std::vector<double>& strength_factors) {
+void Simulation::begin_gently(const std::vector<double>& strength_factors, bool more) {
   if (state.steps == 0) {  // what the ground is in balance with is there already
     set_strength_factors(strength_factors);
     if (!initial) loads.gentle = {state.time, 0.0, true};
@@ -91,7 +91,7 @@ void Simulation::begin_gently(const std::vector<double>& strength_factors) {
   }
   const Spells& spells = loads.spells;
   const auto now = [&](double time) { return time == state.time; };
-  bool changes = strength_factors != laws.divided_by ||
+  bool changes = more || strength_factors != laws.divided_by ||
                  std::any_of(loads.held.begin(), loads.held.end(),
                              [&](const Hold& hold) { return now(hold.changed); });
   for (const auto* of : {&spells.loads, &spells.waters, &spells.boundaries}) {

@@ -2,7 +2,9 @@
 #include "run/fos.hpp"
 
 #include <array>
+#include <limits>
 
+#include "verification/exact_slopes.hpp"
 #include "verification/models.hpp"
 #include "verification/record.hpp"
 
@@ -145,72 +147,7 @@ TEST(FactorOfSafety, LoadThatGrows) {
   EXPECT_LT(moving(tips, 1)->rotation, 0.0);
 }
 
-/// Row 43: the slope of sixteen blocks of Goodman and Bray (1976), in the numbers of Hoek and
-/// Bray's example.
-struct TopplingSlope {
-  static constexpr int count = 16, crest = 10;
-  static constexpr double width = 10.0, a1 = 5.0, a2 = 5.2, b = 1.0, unit_weight = 25e3;
-  static constexpr double dip = 30.0;  ///< of the bases, degrees
-
-  std::array<double, count + 1> height{};  ///< [1..count] from the toe
-
-  TopplingSlope() {
-    for (int n = 1; n <= count; ++n) {
-      height[static_cast<std::size_t>(n)] =
-          n <= crest ? n * (a1 - b) : height[static_cast<std::size_t>(n - 1)] - a2 - b;
-    }
-  }
-  double y(int n) const { return height[static_cast<std::size_t>(n)]; }
-
-  /// Force that keeps block 1 from going, from block to block down the slope: each passes on what
-  /// it needs not to topple, or not to slide, whichever is more (Goodman and Bray's equations).
-  double tie(double phi) const {
-    const double t = std::tan(radians(phi)), s = std::sin(radians(dip)), c = std::cos(radians(dip));
-    double p = 0.0;
-    for (int n = count; n >= 1; --n) {
-      const double w = unit_weight * width * y(n);
-      const double m = n < crest ? y(n) : y(n) - a2, l = n <= crest ? y(n) - a1 : y(n);
-      const double topples =
-          l > 0.0 ? (p * (m - width * t) + 0.5 * w * (y(n) * s - width * c)) / l : 0.0;
-      const double slides = p - w * (c * t - s) / (1.0 - t * t);
-      p = std::max(topples, slides);
-      if (n > 1) p = std::max(p, 0.0);
-    }
-    return p;
-  }
-  /// The friction angle at which no tie is needed.
-  double limit() const {
-    double low = 30.0, high = 44.0;
-    while (high - low > 1e-6) {
-      const double middle = 0.5 * (low + high);
-      (tie(middle) > 0.0 ? low : high) = middle;
-    }
-    return low;
-  }
-
-  std::string toml(double phi) const {
-    const double c = std::cos(radians(dip)), s = std::sin(radians(dip));
-    const auto point = [&](double u, double v) {
-      return "[" + number(u * c - v * s) + "," + number(u * s + v * c) + "]";
-    };
-    std::string text =
-        "[materials.rock]\nunit_weight = 25e3\nyoung = 5e9\npoisson = 0.25\n[joints.j]\n"
-        "friction_angle = " +
-        number(phi) + "\n[solver]\nduration = 1\n[[block]]\nfixed = true\npolygon = [" +
-        point(-40, -20) + "," + point(190, -20) + "," + point(190, b * (count - 1));
-    for (int n = count - 1; n >= 1; --n) {
-      text += "," + point(n * width, n * b) + "," + point(n * width, (n - 1) * b);
-    }
-    text += "," + point(-40, 0) + "]\n";
-    for (int n = 1; n <= count; ++n) {
-      const double u = (n - 1) * width, v = (n - 1) * b;
-      text += "[[block]]\npolygon = [" + point(u, v) + "," + point(u + width, v) + "," +
-              point(u + width, v + y(n)) + "," + point(u, v + y(n)) + "]\n";
-    }
-    return text;
-  }
-};
-
+/// Row 43: the slope of sixteen blocks of Goodman and Bray (1976).
 TEST(FactorOfSafety, GoodmanAndBraysSlope) {
   const TopplingSlope slope;
   EXPECT_NEAR(slope.limit(), 38.15, 0.05);  // as the book has it
@@ -259,6 +196,100 @@ TEST(FactorOfSafety, WaterThatGrows) {
   expect_factor(r, 45, "", 3.0 * 24e3 * 4.0 * 8.0 / (9810.0 * depth * depth * depth), 1e-2);
   ASSERT_NE(moving(r, 1), nullptr);
   EXPECT_EQ(moving(r, 1)->motion, Motion::topples);
+}
+
+/// Row 55: slopes of several blocks (tools/study-fos tries all of them).
+class Slopes : public testing::TestWithParam<const char*> {};
+
+TEST_P(Slopes, LimitEquilibrium) {
+  for (const ExactSlope& slope : exact_slopes()) {
+    if (slope.name != GetParam()) continue;
+    const FosResult r = factor_of(
+        slope.model, slope.exclude.empty() ? "" : "exclude = [" + slope.exclude + "]\n");
+    expect_factor(r, 55, slope.name, slope.factor, 1e-2);
+    ASSERT_TRUE(r.mechanism);
+    EXPECT_TRUE(r.mechanism->text.starts_with(slope.motion)) << r.mechanism->text;
+    return;
+  }
+  FAIL() << "no such slope";
+}
+
+INSTANTIATE_TEST_SUITE_P(FactorOfSafety, Slopes,
+                         testing::Values("slab on a plane", "plane with cohesion",
+                                         "plane with cohesion and water", "step-path",
+                                         "active and passive wedge", "six slices",
+                                         "six slices with water"));
+
+/// Row 56: the arch of row 13 under a load on its haunch. What it bears is the least of all
+/// mechanisms of four hinges, alternately at the outer and the inner edge (Heyman 1966).
+struct LoadedArch {
+  static constexpr int n = 16, loaded = 11;  ///< voussoirs, and the one with the load
+  static constexpr double ratio = 0.2, radius = 5.0, load = 10e3;
+  static constexpr double inner = radius * (1.0 - ratio / 2.0), outer = radius * (1.0 + ratio / 2.0);
+
+  static Vec2 at(double r, double joint) {
+    const double a = std::numbers::pi * joint / n;
+    return {r * std::cos(a), r * std::sin(a)};
+  }
+  static Vec2 point() { return at(outer * std::cos(std::numbers::pi / (2 * n)), loaded + 0.5); }
+  static std::string toml() {
+    const Vec2 p = point();
+    return arch(ratio, "duration = 1\n") + "[[load]]\nname = 'crowd'\npoint = [" + number(p.x) +
+           ", " + number(p.y - 1e-6) + "]\nforce = [0, " + number(-load) + "]\n";
+  }
+
+  /// Power of forces downward through a point of a part that turns with `w` about `pivot`.
+  static double power(double force, double w, Vec2 from, Vec2 pivot) {
+    return -force * w * (from.x - pivot.x);
+  }
+  static double exact() {
+    double least = std::numeric_limits<double>::infinity();
+    std::array<Vec2, n> middle;
+    std::array<double, n> weight{};
+    for (int i = 0; i < n; ++i) {
+      const Ring ring{at(inner, i), at(outer, i), at(outer, i + 1), at(inner, i + 1)};
+      const Moments m = moments(std::span<const Ring>(&ring, 1));
+      middle[static_cast<std::size_t>(i)] = m.centroid;
+      weight[static_cast<std::size_t>(i)] = 2400.0 * 9.81 * m.area;
+    }
+    for (int a = 0; a <= n; ++a)
+      for (int b = a + 1; b <= n; ++b)
+        for (int c = b + 1; c <= n; ++c)
+          for (int d = c + 1; d <= n; ++d)
+            for (const bool first_outside : {true, false}) {
+              const double r1 = first_outside ? outer : inner, r2 = first_outside ? inner : outer;
+              const Vec2 h1 = at(r1, a), h2 = at(r2, b), h3 = at(r1, c), h4 = at(r2, d);
+              const Vec2 e = h2 - h1, f = h3 - h4;
+              const double across = cross(e, f);
+              if (std::abs(across) < 1e-9) continue;
+              const Vec2 centre = h1 + cross(h4 - h1, f) / across * e;
+              // An outer hinge opens inside: what lies beyond turns clockwise against it.
+              const double sign = first_outside ? -1.0 : 1.0;
+              const double wa = sign;
+              const double wb = wa * dot(e, e) / dot(h2 - centre, e);
+              const double wc = wb * dot(h3 - centre, f) / dot(f, f);
+              if (!((wb - wa) * sign < 0.0 && (wc - wb) * sign > 0.0 && wc * sign > 0.0)) continue;
+              double dead = 0.0, live = 0.0;
+              for (int i = a; i < d; ++i) {
+                const auto q = static_cast<std::size_t>(i);
+                const double w = i < b ? wa : i < c ? wb : wc;
+                const Vec2 pivot = i < b ? h1 : i < c ? centre : h4;
+                dead += power(weight[q], w, middle[q], pivot);
+                if (i == loaded) live = power(load, w, point(), pivot);
+              }
+              if (live > 0.0) least = std::min(least, -dead / live);
+            }
+    return least;
+  }
+};
+
+TEST(FactorOfSafety, ArchHinges) {
+  const FosResult r = factor_of(
+      LoadedArch::toml(), "vary = 'load:crowd'\nbracket = [1.0, 20.0]\ntolerance = 0.02\n");
+  expect_factor(r, 56, "", LoadedArch::exact(), 1e-2);
+  ASSERT_TRUE(r.mechanism);
+  EXPECT_TRUE(r.mechanism->text.starts_with("hinging: 4 hinges at (")) << r.mechanism->text;
+  EXPECT_GT(r.mechanism->hinging, 0.9);
 }
 
 }  // namespace
