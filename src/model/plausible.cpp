@@ -127,7 +127,7 @@ void check_accelerations(const Model& model, std::vector<std::string>& warnings)
     const std::string key = shaking.where.key;
     const Acceleration& a = shaking.acceleration;
     const double scale = std::abs(shaking.scale);
-    if (a.amplitude && !in_words && std::abs(*a.amplitude) > 0.0 &&
+    if (a.amplitude && !in_words && std::abs(*a.amplitude) * scale > 0.0 &&
         std::abs(*a.amplitude) * scale < weak) {
       doubts.add(
           fmt::format("{}.acceleration.amplitude: {:g} m/s2 is {:.2g} g, hardly to be felt: "

@@ -33,9 +33,19 @@ Watch::Watch(const Simulation& sim, bool all)
       speed_(sim.blocks.size(), 0.0),
       last_time_(sim.state.time),
       ground_(sim.ground.shift) {
+  constexpr double pebble = 1e-3;  // of the mean mass
   const std::vector<std::uint8_t> touches = touching(sim);
+  double mass = 0.0, count = 0.0;
   for (std::size_t i = 0; i < counted_.size(); ++i) {
-    counted_[i] = is_free(sim.blocks, sim.state, i) && (all || touches[i]) ? 1 : 0;
+    if (!is_free(sim.blocks, sim.state, i)) continue;
+    mass += sim.blocks.mass[i];
+    count += 1.0;
+  }
+  for (std::size_t i = 0; i < counted_.size(); ++i) {
+    counted_[i] = is_free(sim.blocks, sim.state, i) && (all || touches[i]) &&
+                          sim.blocks.mass[i] * count > pebble * mass
+                      ? 1
+                      : 0;
   }
   for (std::size_t v = 0; v < sim.blocks.vertex_count(); ++v) start_.push_back(place(sim, v));
   last_ = start_;
