@@ -137,9 +137,10 @@ std::string Driver::rest_at_end() const {
   const std::string apart = loose.empty() ? "" : ", but for what has come loose: " + loose;
   const std::size_t falling = balance_of(sim_).detached;
   if (falling == 0) return rest + apart;
-  return fmt::format("{}{}, but for {} that {} freely: fastest is {}, at {:.3g} m/s", rest, apart,
-                     counted(falling, "block"), falling == 1 ? "falls" : "fall",
-                     block_label(sim_.blocks, outcome_.fastest), outcome_.speed);
+  return fmt::format("{}{}, {} for {} that {} freely: fastest is {}, at {:.3g} m/s", rest, apart,
+                     loose.empty() ? "but" : "and", counted(falling, "block"),
+                     falling == 1 ? "falls" : "fall", block_label(sim_.blocks, outcome_.fastest),
+                     outcome_.speed);
 }
 
 std::string Driver::motion_at_end() const {
