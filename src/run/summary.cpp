@@ -23,8 +23,8 @@ constexpr std::string_view fall_check = "number of blocks that fell freely under
 constexpr std::string_view overlap_check = "largest overlap over half width of a block";
 constexpr std::string_view chatter_check =
     "number of times that contacts opened or closed while they chattered";
-/// What comes to rest knocks a little first.
-constexpr double chatter_limit = 200.0;
+/// What lands or is shaken knocks a little: in all, and for each free block.
+constexpr double chatter_limit = 100.0, chatter_limit_of_block = 2.0;
 /// Forces act as far from where they should as blocks overlap. Of an impact on soft ground that
 /// lasts for a moment; deeper, and the shape of the block no longer says which way it is pushed.
 constexpr double overlap_limit = 0.2;
@@ -133,8 +133,10 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
               static_cast<double>(o.on_nothing), 0.0),
   };
   if (sim.explicit_method()) {
-    checks.push_back(
-        limited(std::string(chatter_check), static_cast<double>(o.chatter.count), chatter_limit));
+    const auto free = static_cast<double>(
+        std::count(sim.blocks.fixed.begin(), sim.blocks.fixed.end(), std::uint8_t{0}));
+    checks.push_back(limited(std::string(chatter_check), static_cast<double>(o.chatter.count),
+                             chatter_limit + chatter_limit_of_block * free));
   }
   if (o.held_back > 0) {
     checks.push_back(limited(std::string(fall_check), static_cast<double>(o.held_back), 0.0));
