@@ -120,7 +120,7 @@ EDDA_INLINE double drag_of(const ContactView& c, const ContactDashpots& d, std::
   const double limit = c.shear_limit(k, normal);
   const double within = larger(-limit - cut.kept, smaller(limit - cut.kept, drag));
   const double acting = is_bonded(c.hold[k]) ? drag : within;
-  return cut.slid | !carries(c.hold[k]) ? 0.0 : acting;
+  return (cut.slid | !carries(c.hold[k])) ? 0.0 : acting;
 }
 
 /// T of the spring and the forces under the normal force N and a drag that acts along with T; the

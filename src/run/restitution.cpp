@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "run/simulation.hpp"
 
@@ -115,6 +116,22 @@ Fault out_of_reach(const JointLaw& law, const Reference& reference, bool more, d
   return fault;
 }
 
+/// A corner stays where it strikes only on springs well below the stiffness of its block.
+std::optional<Fault> too_stiff(const JointLaw& law, const Reference& reference) {
+  constexpr double factor = 10.0;
+  const double most = reference.rock.young / factor / (0.5 * reference.size);
+  if (!law.kn || *law.kn <= most) return std::nullopt;
+  Fault fault{law.where, {}, {}};
+  fault.where.key += ".restitution";
+  fault.problem = fmt::format(
+      "\"housner\" asks for springs well below the stiffness of the blocks, and kn = {:.3g} Pa/m "
+      "is "
+      "not",
+      *law.kn);
+  fault.remedy = fmt::format("leave out kn, or give at most {:.2g} Pa/m", most);
+  return fault;
+}
+
 /// Dashpot and spring for a flat impact that leaves the part `wanted`, or why there are none.
 Result<LawDashpots> fit_part(const Model& model, const Reference& reference, const JointLaw& law,
                              double wanted) {
@@ -153,6 +170,7 @@ std::vector<Fault> fit_restitution(Model& model, const BlockSet& blocks) {
   for (JointLaw& law : model.joints) {
     if (!law.restitution) continue;
     if (law.restitution->housner) {
+      if (auto fault = too_stiff(law, *reference)) faults.push_back(*fault);
       law.dashpots = LawDashpots{
           plastic, plastic,
           std::min(model.contact.normal_stiffness, reference->rock.young / housners_factor)};

@@ -115,6 +115,9 @@ TEST(Restitution, PartsOutOfReachAreRefused) {
     EXPECT_NE(stiff.find(part), std::string::npos) << stiff;
   }
   EXPECT_EQ(faults_of("kn = 1e9\nrestitution = 0.9", ""), "");
+  EXPECT_NE(faults_of("kn = 1e11\nrestitution = 'housner'", "").find("give at most 4e+09 Pa/m"),
+            std::string::npos);
+  EXPECT_EQ(faults_of("kn = 3e9\nrestitution = 'housner'", ""), "");
   EXPECT_NE(faults_of("kn = 1e12\nrestitution = 0.1", "").find("is less than the 0."),
             std::string::npos);
 }
