@@ -93,7 +93,7 @@ TEST(Restitution, FlatImpactsLeaveThePartAskedFor) {
       expect_at_most({55, which, "part left, off by", ""}, std::abs(left - part),
                      part == 0.0 ? 0.06
                      : w == h    ? 0.015
-                                 : 0.06);
+                                 : 0.03);
     }
   }
   EXPECT_LT(left_of_drop(1.0, 1.0, "", ""), 0.5) << "what the rock's own damping leaves";

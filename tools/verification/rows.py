@@ -115,9 +115,8 @@ ROWS = (
         "The ramp of row 1 with the ramp itself cut into ten held blocks, so that the slider passes seams.",
         "It slides as on one piece. No seam may kick: the sum of normal forces stays under 2.1 W cos a, which a block that"
         " meets gravity unstressed nearly reaches by itself.",
-        "Undamped, the stiff vibrations of so many contacts may feed on the slide"
-        " ([method-notes.md](method-notes.md)); with 10 degrees of friction they do, and the sum passes its bound (figure)."
-        " It is held to it at these angles with contact damping of 0.02. The way slid does not notice."),
+        "Without damping of the rock the stiff vibrations of so many contacts may feed on the slide"
+        " ([method-notes.md](method-notes.md)); with it contact damping of 0.02 makes no difference."),
     Row(18, "A wall at rest",
         "Eight rows of eight bricks, 1 x 0.5 m, undamped; met by gravity at once (\"as drawn\"), or settled first.",
         "Energy does not change: as drawn, kinetic energy after the first second is no larger than in it. Settled, it is at"
