@@ -79,6 +79,7 @@ void print_text(const PreparedRun& run, const ModelCheck& found) {
   print_places(run);
   for (const std::string& line : found.loads) fmt::print("load            {}\n", line);
   for (const std::string& line : found.initial_stress) fmt::print("initial stress  {}\n", line);
+  for (const std::string& line : found.strain_damping) fmt::print("strain damping  {}\n", line);
   print_step(sim, found);
   fmt::print("warnings        {}\n",
              run.warnings.empty() ? "none" : fmt::format("{}", run.warnings.size()));
@@ -123,6 +124,7 @@ void print_object(const PreparedRun& run, const ModelCheck& found) {
   add_texts(json, "lines", r.notes);
   add_texts(json, "loads", found.loads);
   add_texts(json, "initial_stress", found.initial_stress);
+  add_texts(json, "strain_damping", found.strain_damping);
   json.pair("duration", sim.model.solver.duration).pair("time_step", found.step);
   if (found.static_step > 0.0) json.pair("static_time_step", found.static_step);
   json.pair("at_most", found.at_most)

@@ -167,10 +167,21 @@ void set_spring(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTab
   c.length[k] = length;
   const double stands_for = carried_length(c, b, k);
   const bool lone_corner = length == 0.0;
-  c.kn[k] = laws.thickness * (law.kn > 0.0 && !lone_corner ? law.kn * stands_for : laws.default_kn);
-  c.ks[k] = laws.thickness * (law.ks > 0.0 && !lone_corner ? law.ks * stands_for : laws.default_ks);
+  c.kn[k] = laws.normal_spring(law, lone_corner ? 0.0 : stands_for);
+  c.ks[k] = laws.shear_spring(law, lone_corner ? 0.0 : stands_for);
   c.friction[k] = law.residual_friction;
   c.cohesion[k] = law.residual_cohesion * length * laws.thickness;
+}
+
+void set_dashpots(ContactSet& c, const LawTable& laws) {
+  constexpr double as_others = -1.0;
+  const std::size_t n = laws.any_dashpots ? c.size() : 0;
+  for (auto* values : {&c.zeta, &c.shear_zeta, &c.drag}) values->assign(n, 0.0);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Law& law = laws.rows[c.law[k]];
+    c.zeta[k] = laws.damping_of(law, as_others);
+    c.shear_zeta[k] = law.dashpots ? law.shear_damping : 0.0;
+  }
 }
 
 bool grow_springs(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws) {
@@ -270,6 +281,7 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
       if (laws.any_changes) next.slid[k] = first_slip(laws.rows[next.law[k]]);
     }
   }
+  set_dashpots(next, laws);
   next.broken = contacts.broken;
   next.retired_friction = contacts.retired_friction;
   next.retired_damping = contacts.retired_damping;

@@ -48,6 +48,10 @@ double carried_length(const ContactSet& contacts, const BlockSet& blocks, std::s
 void set_spring(ContactSet& contacts, const BlockSet& blocks, const Pose& pose,
                 const LawTable& laws, std::size_t c);
 
+/// Sizes what belongs to laws that have dashpots of their own, and fills their fractions of
+/// critical.
+void set_dashpots(ContactSet& contacts, const LawTable& laws);
+
 /// Springs go with their overlap, in leaps of a fiftieth, or of a tenth where a stiffer spring may
 /// cost a new bound of the step. Where it grows the force does not jump (the rest penetration and
 /// the anchor move, until settle_rests()), and what the stiffer spring stores less is booked as

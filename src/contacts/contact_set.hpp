@@ -144,7 +144,8 @@ struct ContactView : ContactTerms<ContactView> {
   const Id *vertex, *edge, *edge_end, *slot;
   double *depth, *depth_1, *depth_2, *foot, *span, *tx, *ty, *share, *before, *beyond, *hold, *rest,
       *anchor, *kn, *ks, *friction, *cohesion, *normal, *shear, *shear_1, *slip_trial,
-      *friction_work, *force, *reaction;
+      *friction_work, *force, *reaction, *drag;
+  const double *zeta, *shear_zeta;
 };
 
 struct ContactSet : ContactTerms<ContactSet> {
@@ -206,6 +207,9 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::vector<double> normal;    ///< N at n - 1 of the whole spring (before share and alpha), N
   std::vector<double> shear, shear_1;  ///< T at n - 1 and n - 2 of the whole spring, N
   std::vector<double> slip_trial;  ///< s before the return map at n - 1, m; see slip_before_cut()
+  // Dashpots of laws that have their own; empty where no law has.
+  std::vector<double> zeta, shear_zeta;  ///< fractions of critical; zeta < 0: that of all contacts
+  std::vector<double> drag;              ///< N along the tangent, of the shear dashpot at n
   std::vector<double> slid;  ///< slip so far, m; infinite: has its residual strength; empty where
                              ///< no law asks for it
   std::vector<double> friction_work, damping_work, fracture_work;  ///< dissipated so far, J
@@ -271,6 +275,8 @@ struct ContactSet : ContactTerms<ContactSet> {
     const std::size_t q = slot[c];
     return {reaction[4 * q + 2], reaction[4 * q + 3]};
   }
+
+  double drag_of(std::size_t c) const { return drag.empty() ? 0.0 : drag[c]; }
 
   void set_alpha(std::size_t c, double value) {
     if (value < 1.0) reduced.push_back(static_cast<Id>(c));
@@ -338,6 +344,9 @@ inline ContactView ContactSet::view() {
   v.slip_trial = slip_trial.data();
   v.friction_work = friction_work.data();
   v.slot = slot.data();
+  v.drag = drag.data();
+  v.zeta = zeta.data();
+  v.shear_zeta = shear_zeta.data();
   v.force = force.data();
   v.reaction = reaction.data();
   return v;

@@ -82,10 +82,20 @@ EDDA_INLINE double taken_by_dashpot(const ContactView& c, const double* alpha, s
   return carries(hold) ? work : 0.0;
 }
 
+/// As above, of the dashpot along the tangent: its force over (s_{n+1} - s_{n-1})/2.
+EDDA_INLINE double taken_by_drag(const ContactView& c, std::size_t k) {
+  const double slid = c.trial_slip(k) + c.shear_1[k] / c.ks[k];
+  return c.drag[k] != 0.0 ? -0.5 * c.share[k] * c.drag[k] * slid : 0.0;
+}
+
 EDDA_VECTOR void book_dashpots(ContactView c, const double* alpha, double* taken, std::size_t begin,
                                std::size_t end) {
 #pragma omp simd
   for (std::size_t k = begin; k < end; ++k) taken[k] += taken_by_dashpot(c, alpha, k);
+}
+
+void book_drags(ContactView c, double* taken, std::size_t begin, std::size_t end) {
+  for (std::size_t k = begin; k < end; ++k) taken[k] += taken_by_drag(c, k);
 }
 
 }  // namespace
@@ -145,6 +155,7 @@ void move_previous_slips(ContactSet& c, const Pose& pose, const std::vector<doub
 void book_dashpots(ContactSet& c) {
   parallel_chunks(c.size(), ContactSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
     book_dashpots(c.view(), c.alpha.data(), c.damping_work.data(), begin, end);
+    if (!c.drag.empty()) book_drags(c.view(), c.damping_work.data(), begin, end);
   });
 }
 

@@ -54,6 +54,13 @@ LawTable build_laws(const Model& model) {
                           j.residual.tensile_strength, j.kn.value_or(0.0),
                           j.ks.value_or(0.4 * j.kn.value_or(0.0)), j.type == LawType::glued});
     add_slip(j, table.rows.back());
+    if (j.dashpots) {
+      Law& law = table.rows.back();
+      law.dashpots = table.any_dashpots = true;
+      law.damping = j.dashpots->damping;
+      law.shear_damping = j.dashpots->shear_damping;
+      law.spring = j.dashpots->spring;
+    }
     table.any_changes = table.any_changes || table.rows.back().changes;
   }
   std::vector<std::uint16_t> order(table.rows.size());
@@ -85,6 +92,16 @@ LawTable build_laws(const Model& model) {
   }
   table.divided_by.assign(table.rows.size(), 1.0);
   return table;
+}
+
+double LawTable::normal_spring(const Law& law, double length) const {
+  if (law.kn > 0.0 && length > 0.0) return thickness * (law.kn * length);
+  return thickness * (law.spring > 0.0 ? law.spring : default_kn);
+}
+
+double LawTable::shear_spring(const Law& law, double length) const {
+  if (law.ks > 0.0 && length > 0.0) return thickness * (law.ks * length);
+  return thickness * default_ks * (law.spring > 0.0 ? law.spring / default_kn : 1.0);
 }
 
 std::uint16_t LawTable::resolve(Index struck, Index facing) const {

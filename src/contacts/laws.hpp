@@ -15,6 +15,10 @@ struct Law {
   double residual_friction, residual_cohesion, residual_tension;
   double kn, ks;  ///< each 0: the contact default applies
   bool glued;
+  // Dashpots and springs of its own, where it asks for a restitution (run/restitution.hpp).
+  bool dashpots = false;
+  double damping = 0.0, shear_damping = 0.0;  ///< fractions of critical
+  double spring = 0.0;  ///< N/m per metre of thickness, where there is no kn; 0: the default
   // What goes with slip (contacts/joint_laws.hpp).
   bool changes = false;  ///< its strength or opening does
   LawType type = LawType::coulomb;
@@ -30,6 +34,7 @@ struct LawTable {
   std::vector<double>
       divided_by;  ///< [rows] what the strength in `rows` was divided by (contacts/strength.hpp)
   bool any_changes = false;                   ///< a row has `changes`
+  bool any_dashpots = false;                  ///< a row has `dashpots`
   double default_kn = 0.0, default_ks = 0.0;  ///< N/m per metre of thickness
   double thickness = 1.0;
   Index default_law = none;
@@ -51,6 +56,14 @@ struct LawTable {
   /// facing edge of the vertex's block; else contact.joint. Where both name one and they differ,
   /// the one of lower friction angle, then cohesion, then tension, then name.
   std::uint16_t resolve(Index struck, Index facing) const;
+
+  /// Springs of a contact that stands for `length`, 0 for a lone corner, N/m.
+  double normal_spring(const Law& law, double length) const;
+  double shear_spring(const Law& law, double length) const;
+  /// Dashpots of its contacts, where all others have `damping`.
+  double damping_of(const Law& law, double damping) const {
+    return law.dashpots ? law.damping : damping;
+  }
 };
 
 LawTable build_laws(const Model& model);

@@ -30,6 +30,7 @@ void tear(ContactSet& c, std::size_t k) {
   c.fracture_work[k] += std::max(stored, 0.0);
   let_go(c, k);
   c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = 0.0;
+  if (!c.drag.empty()) c.drag[k] = 0.0;
   c.rest[k] = std::max(0.0, std::min(c.rest[k], c.depth[k]));
   clear_contact_force(c, k);
 }
@@ -46,11 +47,14 @@ EDDA_INLINE double spring_normal(const Contacts& c, std::size_t k) {
 /// Dashpots of all contacts; what of the blocks decides them.
 struct ContactDashpots {
   double damping, step;  ///< zeta; s
+  bool by_law;           ///< laws have their own
   const double *point_inverse, *edge_inverse;
 };
 
-ContactDashpots dashpots_of(const BlockSet& b, double damping, double step) {
-  return {damping, step, b.point_inverse.data(), b.edge_inverse.data()};
+/// Without a step there is no rate.
+ContactDashpots dashpots_of(const ContactSet& c, const BlockSet& b, double damping, double step) {
+  return {damping, step, !c.zeta.empty() && step > 0.0, b.point_inverse.data(),
+          b.edge_inverse.data()};
 }
 
 /// 1/m_c at the foot of k.
@@ -66,13 +70,13 @@ EDDA_INLINE double coefficient(const Blocks& b, const Contacts& c, std::size_t k
   return 2.0 * damping * std::sqrt(c.kn[k] / inverse_mass_at(b, c, k, xi));
 }
 
-/// N with what the dashpot does.
+/// N with what the dashpot does; `damping` zeta.
 template <class Contacts>
 EDDA_INLINE double damped_normal(const Contacts& c, std::size_t k, double spring,
-                                 const ContactDashpots& d) {
+                                 const ContactDashpots& d, double damping) {
   const double hold = c.hold[k];
   const double rate = (c.depth[k] - c.depth_1[k]) / d.step;
-  const double damped = spring + coefficient(d, c, k, d.damping) * rate;
+  const double damped = spring + coefficient(d, c, k, damping) * rate;
   const double pushing = larger(damped, 0.0);
   const bool carrying = carries(hold), pulling = may_pull(hold), inside = c.effective(k) > 0.0;
   const bool acts = carrying & (pulling | inside);
@@ -105,15 +109,30 @@ struct Reactions {
       end_y[ContactSet::chunk];
 };
 
-/// T and the forces under the normal force N; the reaction as entry q. Whether T was cut.
-EDDA_INLINE bool push(const ContactView& c, std::size_t k, double normal, Reactions& on,
-                      std::size_t q) {
-  const Cut cut = cut_of(c, k, normal);
+/// What the shear dashpot adds to the T of the spring: so much that both together stay within the
+/// limit of friction.
+EDDA_INLINE double drag_of(const ContactView& c, const ContactDashpots& d, std::size_t k,
+                           double normal, const Cut& cut) {
+  const double xi = c.foot[k] / c.span[k];
+  const double mass = 1.0 / inverse_mass_at(d, c, k, xi);
+  const double rate = (cut.trial_slip + c.shear_1[k] / c.ks[k]) / d.step;
+  const double drag = -2.0 * c.shear_zeta[k] * std::sqrt(c.ks[k] * mass) * rate;
+  const double limit = c.shear_limit(k, normal);
+  const double within = larger(-limit - cut.kept, smaller(limit - cut.kept, drag));
+  const double acting = is_bonded(c.hold[k]) ? drag : within;
+  return (cut.slid | !carries(c.hold[k])) ? 0.0 : acting;
+}
+
+/// T of the spring and the forces under the normal force N and a drag that acts along with T; the
+/// reaction as entry q. Whether T was cut.
+EDDA_INLINE bool push_with(const ContactView& c, std::size_t k, double normal, const Cut& cut,
+                           double drag, Reactions& on, std::size_t q) {
   const double followed = anchor_of(c, k, cut.kept), anchor = c.anchor[k], w = c.share[k];
   c.normal[k] = normal;
   c.shear[k] = cut.kept;
-  const ContactForce f = contact_force(c.tangent(k), c.span[k], c.foot[k], c.depth[k],
-                                       cut.slid ? followed : anchor, w * normal, w * cut.kept);
+  const ContactForce f =
+      contact_force(c.tangent(k), c.span[k], c.foot[k], c.depth[k], cut.slid ? followed : anchor,
+                    w * normal, w * (cut.kept + drag));
   c.force[2 * k] = f.f1.x;
   c.force[2 * k + 1] = f.f1.y;
   on.start_x[q] = f.f2.x;
@@ -123,9 +142,25 @@ EDDA_INLINE bool push(const ContactView& c, std::size_t k, double normal, Reacti
   return cut.slid;
 }
 
+EDDA_INLINE bool push(const ContactView& c, std::size_t k, double normal, Reactions& on,
+                      std::size_t q) {
+  return push_with(c, k, normal, cut_of(c, k, normal), 0.0, on, q);
+}
+
 EDDA_INLINE bool push_damped(const ContactView& c, const ContactDashpots& d, std::size_t k,
                              Reactions& on, std::size_t q) {
-  return push(c, k, damped_normal(c, k, spring_normal(c, k), d), on, q);
+  return push(c, k, damped_normal(c, k, spring_normal(c, k), d, d.damping), on, q);
+}
+
+/// Where laws have dashpots of their own.
+EDDA_INLINE bool push_by_law(const ContactView& c, const ContactDashpots& d, std::size_t k,
+                             Reactions& on, std::size_t q) {
+  const double own = c.zeta[k], zeta = own >= 0.0 ? own : d.damping;
+  const double normal = damped_normal(c, k, spring_normal(c, k), d, zeta);
+  const Cut cut = cut_of(c, k, normal);
+  const double drag = drag_of(c, d, k, normal, cut);
+  c.drag[k] = drag;
+  return push_with(c, k, normal, cut, drag, on, q);
 }
 
 /// Where T was cut the anchor follows and the slip is booked, p_t (s_tr - s)(s + s_{n-1})/2
@@ -154,7 +189,12 @@ EDDA_VECTOR Found push_chunk(ContactView c, ContactDashpots d, std::size_t first
                              std::size_t last) {
   double cut = 0.0, fresh = 0.0, hold = 0.0;
   Reactions on;
-  if (d.damping > 0.0) {
+  if (d.by_law) {
+    for (std::size_t k = first; k < last; ++k) {
+      cut = larger(cut, push_by_law(c, d, k, on, k - first) ? 1.0 : 0.0);
+      hold = larger(hold, c.hold[k]);
+    }
+  } else if (d.damping > 0.0) {
 #pragma omp simd reduction(max : cut, hold)
     for (std::size_t k = first; k < last; ++k) {
       cut = larger(cut, push_damped(c, d, k, on, k - first) ? 1.0 : 0.0);
@@ -181,7 +221,7 @@ EDDA_VECTOR Found push_chunk(ContactView c, ContactDashpots d, std::size_t first
 
 void evaluate_one(ContactSet& c, const BlockSet& b, std::size_t k, double step, double damping) {
   c.keep_slips(k);
-  const Found found = push_chunk(c.view(), dashpots_of(b, damping, step), k, k + 1);
+  const Found found = push_chunk(c.view(), dashpots_of(c, b, damping, step), k, k + 1);
   if (found.fresh) c.set(k, cs::slipped);
   if (!found.cut) c.slip_trial[k] = -c.shear[k] / c.ks[k];
   if (c.is(k, cs::pulls) && !c.is(k, cs::bonded) && c.normal[k] < -c.tension[k]) tear(c, k);
@@ -191,7 +231,7 @@ void evaluate_one(ContactSet& c, const BlockSet& b, std::size_t k, double step, 
 void evaluate(ContactSet& c, const BlockSet& b, std::size_t begin, std::size_t end, double step,
               double damping) {
   const ContactView view = c.view();
-  const ContactDashpots dashpots = dashpots_of(b, damping, step);
+  const ContactDashpots dashpots = dashpots_of(c, b, damping, step);
   for (std::size_t first = begin; first < end; first += ContactSet::chunk) {
     const std::size_t last = std::min(end, first + ContactSet::chunk);
     const Found found = push_chunk(view, dashpots, first, last);
@@ -282,7 +322,9 @@ void set_normal_force(ContactSet& c, const BlockSet& b, std::size_t k, double st
                       double damping) {
   c.alpha[k] = 1.0;
   const double spring = spring_normal(c, k);
-  c.normal[k] = damping > 0.0 ? damped_normal(c, k, spring, dashpots_of(b, damping, step)) : spring;
+  c.normal[k] = damping > 0.0
+                    ? damped_normal(c, k, spring, dashpots_of(c, b, damping, step), damping)
+                    : spring;
 }
 
 void evaluate_contacts(ContactSet& c, const BlockSet& b, const LawTable& laws, double step,

@@ -76,9 +76,9 @@ inline void keep_contact_force(ContactSet& c, std::size_t k, const ContactForce&
 inline void set_contact_force(ContactSet& c, std::size_t k, Vec2 t, double l, double foot,
                               double depth) {
   const double w = c.share[k];
-  keep_contact_force(
-      c, k,
-      contact_force(t, l, foot, depth, c.anchor[k], w * c.alpha[k] * c.normal[k], w * c.shear[k]));
+  keep_contact_force(c, k,
+                     contact_force(t, l, foot, depth, c.anchor[k], w * c.alpha[k] * c.normal[k],
+                                   w * (c.shear[k] + c.drag_of(k))));
 }
 
 inline void clear_contact_force(ContactSet& c, std::size_t k) {

@@ -16,8 +16,8 @@ namespace {
 /// Contribution of one contact to one block.
 struct Part {
   Id contact;
-  Vector6 normal, tangent;  ///< h, k in the block's frame
-  double kn, ks, dashpot;   ///< with the factor 1 or 2
+  Vector6 normal, tangent;       ///< h, k in the block's frame
+  double kn, ks, dashpot, drag;  ///< with the factor 1 or 2
 };
 
 /// May carry before the list is made anew.
@@ -54,6 +54,7 @@ struct BlockEquations {
   void add(const Part& p) {
     contacts += p.kn * p.normal * p.normal.transpose() + p.ks * p.tangent * p.tangent.transpose();
     if (p.dashpot > 0.0) dashpots += p.dashpot * p.normal * p.normal.transpose();
+    if (p.drag > 0.0) dashpots += p.drag * p.tangent * p.tangent.transpose();
   }
 };
 
@@ -77,11 +78,12 @@ std::vector<Part> parts_of(const Scene& w, std::size_t i) {
       const auto w2 = vertex_weights(b, c.edge[k]), w3 = vertex_weights(b, c.edge_end[k]);
       for (std::size_t n = 0; n < 3; ++n) weight[n] = (1.0 - xi) * w2[n] + xi * w3[n];
     }
-    const double zeta = w.damping.contact;
-    const double dashpot =
-        zeta > 0.0 ? 2.0 * zeta * std::sqrt(c.kn[k] / inverse_contact_mass(b, c, k, xi)) : 0.0;
+    const Law& law = w.laws.rows[c.law[k]];
+    const double zeta = w.laws.damping_of(law, w.damping.contact), drag = law.shear_damping;
+    const double inverse = zeta > 0.0 || drag > 0.0 ? inverse_contact_mass(b, c, k, xi) : 1.0;
     parts.push_back({k, along(weight, back(e.normal())), along(weight, back(e.t)), factor * c.kn[k],
-                     factor * c.ks[k], factor * dashpot});
+                     factor * c.ks[k], factor * (2.0 * zeta * std::sqrt(c.kn[k] / inverse)),
+                     factor * (2.0 * drag * std::sqrt(c.ks[k] / inverse))});
   });
   return parts;
 }
@@ -97,15 +99,15 @@ void add_bare_corners(BlockEquations& k, const Scene& w, std::size_t i) {
     const LawTable& laws = w.laws;
     const Law& law = laws.rows[laws.resolve(b.edge_joint[v], b.edge_joint[b.previous[v]])];
     const double length = 0.5 * std::max(b.edge_length[v], b.edge_length[b.previous[v]]);
-    const double kn = laws.thickness * (law.kn > 0.0 ? law.kn * length : laws.default_kn);
-    const double ks = laws.thickness * (law.ks > 0.0 ? law.ks * length : laws.default_ks);
+    const double kn = laws.normal_spring(law, length), ks = laws.shear_spring(law, length);
     // Against a block so heavy that it stands still, as the spring of another as light feels it.
-    const double zeta = w.damping.contact;
-    const double dashpot = 2.0 * zeta * std::sqrt(kn / b.point_inverse[v]);
+    const double zeta = laws.damping_of(law, w.damping.contact);
+    const double dashpot = 2.0 * std::max(zeta * std::sqrt(kn / b.point_inverse[v]),
+                                          law.shear_damping * std::sqrt(ks / b.point_inverse[v]));
     for (const Vec2 n : {Vec2{1.0, 0.0}, Vec2{0.0, 1.0}}) {
       const Vector6 h = along(vertex_weights(b, v), n);
       k.contacts += std::max(kn, ks) * 2.0 * h * h.transpose();
-      if (zeta > 0.0) k.dashpots += 2.0 * dashpot * h * h.transpose();
+      if (dashpot > 0.0) k.dashpots += 2.0 * dashpot * h * h.transpose();
     }
   }
 }

@@ -120,16 +120,16 @@ EDDA_API Cut cut(const Model& model);
 
 /// What `edda check` says.
 struct ModelCheck {
-  std::size_t blocks = 0, held = 0;                ///< held: of the blocks
-  std::size_t contacts = 0;                        ///< closed at the start
-  double critical_step = 0.0;                      ///< s
-  double time_step = 0.0;                          ///< s: the first
-  double steps = 0.0;                              ///< to expect
-  bool at_most = false;                            ///< stages may end before
-  double steps_per_second = 0.0;                   ///< of wall time
-  std::string governed_by;                         ///< what holds the step
-  std::vector<std::string> loads, initial_stress;  ///< a sentence each
-  std::vector<std::string> warnings;               ///< those of the model
+  std::size_t blocks = 0, held = 0;                                ///< held: of the blocks
+  std::size_t contacts = 0;                                        ///< closed at the start
+  double critical_step = 0.0;                                      ///< s
+  double time_step = 0.0;                                          ///< s: the first
+  double steps = 0.0;                                              ///< to expect
+  bool at_most = false;                                            ///< stages may end before
+  double steps_per_second = 0.0;                                   ///< of wall time
+  std::string governed_by;                                         ///< what holds the step
+  std::vector<std::string> loads, initial_stress, strain_damping;  ///< a sentence each
+  std::vector<std::string> warnings;                               ///< those of the model
 };
 
 /// Makes a few steps, of which nothing is kept. Error: the model cannot be computed.

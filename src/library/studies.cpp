@@ -48,6 +48,7 @@ ModelCheck check(const Model& model) {
   result.governed_by = run.governed_by;
   result.loads = found.loads;
   result.initial_stress = found.initial_stress;
+  result.strain_damping = found.strain_damping;
   result.warnings = run.warnings;
   return result;
 }

@@ -224,7 +224,8 @@ void check_solver(const Value& root, Reading& reading) {
   if (solver.method == Method::edda && !solver.dynamic) {
     add_fault(reading, find(node, "dynamic")->place, "solver.dynamic",
               "false belongs to method = \"dda\"",
-              "give method = \"dda\", or leave it out and give damping.local = 0.8");
+              "give method = \"dda\", or leave it out and end with a [[stage]] with "
+              "until = \"equilibrium\"");
   }
   constexpr double most_steps = 1e12;
   if (solver.time_step && solver.duration / *solver.time_step > most_steps) {

@@ -72,6 +72,22 @@ void check_no_strength(const Value* node, const JointLaw& law, Reading& reading)
   if (!same || after.cohesion != 0.0 || after.tensile_strength != 0.0) refuse("residual");
 }
 
+/// Impacts are those of the explicit method's dashpots, between blocks that come apart.
+void check_restitution(const Value* node, const JointLaw& law, Reading& reading) {
+  if (!law.restitution) return;
+  const auto refuse = [&](std::string problem, std::string remedy) {
+    add_fault(reading, place_of(node, "restitution"), law.where.key + ".restitution",
+              std::move(problem), std::move(remedy));
+  };
+  if (reading.model.solver.method == Method::dda) {
+    refuse("belongs to method = \"edda\": the implicit scheme takes its own part of every impact",
+           "use method = \"edda\", or leave it out");
+  } else if (law.type == LawType::glued) {
+    refuse("means nothing to type \"glued\": these contacts never open",
+           "leave it out, or give another type");
+  }
+}
+
 void complete_strength(const Value* node, JointLaw& law, Reading& reading) {
   const Value* type = find(node, "type");
   const bool known = type == nullptr || std::holds_alternative<std::string>(type->content);
@@ -105,6 +121,7 @@ void complete_joints(const Value& root, Reading& reading) {
   for (JointLaw& law : joints) {
     const Value* node = find(find(&root, "joints"), law.name);
     complete_strength(node, law, reading);
+    check_restitution(node, law, reading);
     constexpr double shear_over_normal = 0.4;
     if (law.kn && !law.ks && !given(node, "ks")) law.ks = fitted(shear_over_normal * *law.kn);
   }

@@ -209,6 +209,11 @@ void complete_stages(const Value& root, Reading& reading) {
       add_fault(reading, own->place, stage.where.key + ".duration", "is missing",
                 "give a time such as 0.1, or until = \"equilibrium\"");
     }
+    if (stage.until == StageEnd::time && stage.otherwise == LooseBlocks::stop) {
+      add_fault(reading, find(own, "otherwise")->place, stage.where.key + ".otherwise",
+                "\"stop\" belongs to a stage with until = \"equilibrium\"",
+                "leave it out, or give until = \"equilibrium\"");
+    }
     if (stage.damping.local > 0.0) {
       check_local_damping(find(own, "damping"), stage.where.key, solver,
                           "leave it out: until equilibrium this method drops velocities at each "

@@ -55,6 +55,7 @@ constexpr std::array joint_keys{
     Key{"residual_angle", at<&JointLaw::residual_angle>, number(D::angle, friction), otherwise("required of barton-bandis"), "Residual friction angle of barton-bandis."},
     Key{"kn", at<&JointLaw::kn>, number(D::joint_stiffness, above(0)), otherwise("contact.normal_stiffness, as a spring per contact"), "Normal stiffness of the joint; the spring is kn times the length the contact stands for."},
     Key{"ks", at<&JointLaw::ks>, number(D::joint_stiffness, above(0)), otherwise("0.4 kn"), "Shear stiffness of the joint."},
+    Key{"restitution", at<&JointLaw::restitution>, number_or("housner", D::plain, from_to(0, 1)), otherwise("what the damping of blocks and contacts leaves"), "Method edda: the part of its velocity with which a block leaves after a flat impact, or \"housner\": a block that rocks loses what Housner's assumption takes at each impact. Dashpots in these contacts do it, and unless kn is given their springs are soft: a thirtieth of the smallest young (below 0.1 a hundredth, housner a fifteenth)."},
 };
 
 constexpr std::array contact_keys{
@@ -187,7 +188,7 @@ constexpr std::array rayleigh_keys{
 
 constexpr std::array damping_keys{
     Key{"mass", at<&Damping::mass>, number(D::rate, from(0)), initial, "Mass-proportional damping."},
-    Key{"local", at<&Damping::local>, number(D::plain, from_below(0, 1)), initial, "Local damping (Cundall), a fraction of the unbalanced force."},
+    Key{"local", at<&Damping::local>, number(D::plain, from_below(0, 1)), initial, "Local damping (Cundall), a fraction of the unbalanced force: for the way to rest alone, since it slows down free fall and all other motion."},
     Key{"contact", at<&Damping::contact>, number(D::plain, from(0)), initial, "Viscous damping at contacts, a fraction of critical."},
     Key{"adaptive", at<&Damping::adaptive>, number(D::plain, from_to(0, 1)), initial, "Method edda: viscous damping in proportion to mass, a fraction of critical at the frequency with which the model moves at present (Rayleigh's quotient); it brings a model to rest, and falsifies what is to move."},
     Key{"rayleigh", at<&Damping::rayleigh>, table, otherwise("none: materials.X.damping"), "Damping in proportion to mass and to the stiffness of the blocks, least at one frequency (Rayleigh), in place of materials.X.damping."},
@@ -205,9 +206,10 @@ constexpr std::array stage_keys{
     Key{"deactivate", at<&Stage::deactivate>, name_list, otherwise("none"), "Those that act no more. Where a boundary takes over from one, it bears what that bore."},
     Key{"reset_displacements", at<&Stage::reset_displacements>, flag, initial, "Whether displacements count from the start of this stage."},
     Key{"strength_factor", at<&Stage::strength_factor>, number(D::plain, above(0)), initial, "What cohesion, tangent of the friction angle and tensile strength of all joints are divided by while the stage lasts."},
-    Key{"damping", at<&Stage::damping>, table, otherwise("solver.damping; until equilibrium local = 0.8"), "Damping while the stage lasts."},
+    Key{"damping", at<&Stage::damping>, table, otherwise("solver.damping; until equilibrium adaptive = 0.8 (method edda)"), "Damping while the stage lasts."},
     Key{"joints", at<&Stage::joints>, choice, initial, "Joints as given, or glued: what touches neither opens nor slides while the stage lasts."},
     Key{"mass_scaling", at<&Stage::masses>, choice, otherwise("\"static\" until equilibrium (method edda), else \"as given\""), "Masses as given, or static: inertia raised so that all blocks allow one time step, weights unchanged."},
+    Key{"otherwise", at<&Stage::otherwise>, choice, initial, "Until equilibrium: where blocks have come loose or fall freely while all others are at rest, the run goes on without them, or ends there as collapsed."},
     Key{"detached", at<&Stage::falling>, choice, initial, "Blocks that fall freely do not hold up an equilibrium (report), or do (wait)."},
 };
 

@@ -87,10 +87,11 @@ struct SubTable {
 using JointMap = std::vector<std::pair<std::string, Index>>;
 
 /// Typed access to the field that a key fills.
-using Slot = std::variant<bool*, int*, long long*, double*, std::optional<double>*,
-                          std::optional<long long>*, std::string*, JointMap*, NumberMap*, Vec2*,
-                          std::optional<Vec2>*, Triple*, std::optional<Triple>*, std::vector<Vec2>*,
-                          std::vector<std::string>*, Choice, SubTable>;
+using Slot =
+    std::variant<bool*, int*, long long*, double*, std::optional<double>*,
+                 std::optional<long long>*, std::optional<Restitution>*, std::string*, JointMap*,
+                 NumberMap*, Vec2*, std::optional<Vec2>*, Triple*, std::optional<Triple>*,
+                 std::vector<Vec2>*, std::vector<std::string>*, Choice, SubTable>;
 
 struct Key {
   std::string_view name;

@@ -27,6 +27,7 @@ enum class StageEnd { time, equilibrium };
 enum class StageJoints { as_given, glued };
 enum class StageMasses { as_given, uniform_step };
 enum class FallingBlocks { report, wait };
+enum class LooseBlocks { go_on, stop };
 enum class BoundaryType { fixed, roller, viscous, stress, velocity, free_field };
 enum class ShakingKind { base, inertia, upgoing };
 enum class BoltType { grouted, end };
@@ -59,6 +60,19 @@ struct Strength {
   double tensile_strength = 0.0;  ///< Pa
 };
 
+/// What is left of the velocity after an impact: a part of it, or, of a block that rocks, what
+/// Housner's assumption leaves (the corner that strikes stays on the ground).
+struct Restitution {
+  bool housner = false;
+  double part = 0.0;  ///< of the normal velocity of a flat impact
+};
+
+/// Springs and dashpots that give a contact law its restitution (run/restitution.hpp).
+struct LawDashpots {
+  double damping = 0.0, shear_damping = 0.0;  ///< fractions of critical of a contact
+  double spring = 0.0;  ///< N/m per metre of thickness, of contacts without kn
+};
+
 /// The contact law of a joint (method.md section 4).
 struct JointLaw {
   std::string name;
@@ -71,6 +85,8 @@ struct JointLaw {
   std::optional<double> residual_angle;  ///< degrees; barton-bandis
   std::optional<double> kn;              ///< Pa/m; without it contact.normal_stiffness
   std::optional<double> ks;  ///< Pa/m; filled with 0.4 kn where kn is given and ks is not
+  std::optional<Restitution> restitution;
+  std::optional<LawDashpots> dashpots{};  ///< no key: what `restitution` comes to
   Where where;
 };
 
@@ -290,6 +306,7 @@ struct Stage {
   StageJoints joints = StageJoints::as_given;     ///< while it lasts
   StageMasses masses = StageMasses::as_given;     ///< while it lasts
   FallingBlocks falling = FallingBlocks::report;  ///< whether an equilibrium waits for them
+  LooseBlocks otherwise = LooseBlocks::go_on;     ///< what comes where some do not come to rest
   Where where;
 };
 

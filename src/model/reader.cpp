@@ -227,6 +227,14 @@ struct ReadInto {
     }
   }
   void operator()(std::optional<long long>* field) const { *field = read_integer(spot); }
+  void operator()(std::optional<Restitution>* field) const {
+    const std::string* word = as<std::string>(spot.value);
+    if (word != nullptr && *word == spot.key.rule.word) {
+      *field = Restitution{true, 0.0};
+    } else if (const auto value = number()) {
+      *field = Restitution{false, *value};
+    }
+  }
   void operator()(std::string* field) const {
     const std::string* value = as<std::string>(spot.value);
     if (value == nullptr) return type_fault(spot);

@@ -21,6 +21,7 @@ inline constexpr std::array<std::string_view, 2> stage_end_names{"time", "equili
 inline constexpr std::array<std::string_view, 2> stage_joint_names{"as given", "glued"};
 inline constexpr std::array<std::string_view, 2> stage_mass_names{"as given", "static"};
 inline constexpr std::array<std::string_view, 2> falling_names{"report", "wait"};
+inline constexpr std::array<std::string_view, 2> loose_names{"go on", "stop"};
 inline constexpr std::array<std::string_view, 2> spread_names{"uniform", "normal"};
 inline constexpr std::array<std::string_view, 3> joint_spread_names{"uniform", "normal",
                                                                     "exponential"};
@@ -62,6 +63,9 @@ constexpr std::span<const std::string_view> names_of(StageMasses) {
 }
 constexpr std::span<const std::string_view> names_of(FallingBlocks) {
   return falling_names;
+}
+constexpr std::span<const std::string_view> names_of(LooseBlocks) {
+  return loose_names;
 }
 constexpr std::span<const std::string_view> names_of(BoundaryType) {
   return boundary_names;

@@ -72,6 +72,10 @@ struct Write {
   std::string operator()(const std::optional<long long>* field) const {
     return *field ? std::to_string(**field) : std::string{};
   }
+  std::string operator()(const std::optional<Restitution>* field) const {
+    if (!*field) return {};
+    return (*field)->housner ? written(std::string(key.rule.word)) : written((*field)->part);
+  }
   std::string operator()(const JointMap* field) const {
     std::string text;
     for (const auto& [name, joint] : *field) {

@@ -96,13 +96,15 @@ void add_records(py::module_& m) {
       .def_readonly("governed_by", &api::ModelCheck::governed_by, "What holds the step.")
       .def_readonly("loads", &api::ModelCheck::loads, "A sentence each.")
       .def_readonly("initial_stress", &api::ModelCheck::initial_stress, "A sentence each.")
+      .def_readonly("strain_damping", &api::ModelCheck::strain_damping, "A sentence each.")
       .def_readonly("warnings", &api::ModelCheck::warnings,
                     "What looks right in the model and is not, a sentence each.");
-  add_pickling(
-      check, &api::ModelCheck::blocks, &api::ModelCheck::held, &api::ModelCheck::contacts,
-      &api::ModelCheck::critical_step, &api::ModelCheck::time_step, &api::ModelCheck::steps,
-      &api::ModelCheck::at_most, &api::ModelCheck::steps_per_second, &api::ModelCheck::governed_by,
-      &api::ModelCheck::loads, &api::ModelCheck::initial_stress, &api::ModelCheck::warnings);
+  add_pickling(check, &api::ModelCheck::blocks, &api::ModelCheck::held, &api::ModelCheck::contacts,
+               &api::ModelCheck::critical_step, &api::ModelCheck::time_step,
+               &api::ModelCheck::steps, &api::ModelCheck::at_most,
+               &api::ModelCheck::steps_per_second, &api::ModelCheck::governed_by,
+               &api::ModelCheck::loads, &api::ModelCheck::initial_stress,
+               &api::ModelCheck::strain_damping, &api::ModelCheck::warnings);
   add_repr(check, {"blocks", "held", "time_step", "steps", "warnings"});
 
   py::class_<api::FosTrial> trial(m, "FosTrial", "One factor that was tried.");

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/threads.hpp"
+#include "run/damping_report.hpp"
 #include "run/initial_stress_report.hpp"
 #include "run/load_report.hpp"
 #include "run/observe.hpp"
@@ -51,6 +52,7 @@ ModelCheck check_model(Simulation& sim) {
   found.likely_step = sim.bound.likely_step;
   found.loads = load_report(sim);
   found.initial_stress = initial_stress_report(sim);
+  found.strain_damping = strain_damping_report(sim);
   const std::vector<Stage> stages = stages_of(sim.model);
   const auto is_static = [](const Stage& s) { return s.masses == StageMasses::uniform_step; };
   if (!std::all_of(stages.begin(), stages.end(), is_static)) found.step_as_given = sim.usual_step();

@@ -11,7 +11,7 @@ namespace edda {
 /// What is found out about a model before it is run.
 struct ModelCheck {
   std::size_t held = 0;  ///< blocks
-  std::vector<std::string> loads, initial_stress;
+  std::vector<std::string> loads, initial_stress, strain_damping;
   double step = 0.0;           ///< s: the first
   double step_as_given = 0.0;  ///< s: in stages without static masses, where there are any
   double static_step = 0.0;    ///< s: in stages with static masses, where there are any

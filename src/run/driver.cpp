@@ -250,6 +250,7 @@ Driver::Went Driver::step_to(double time) {
     if (sim_.state.steps % look_every == 0) {
       count_turns(sim_, angle_);
       measure_overlaps();
+      look_for_chatter(outcome_.chatter, sim_);
     }
     const bool at_rest = is_at_rest();
     if (!at_rest && sim_.state.time < time) {
@@ -277,6 +278,7 @@ bool Driver::record(const Event& event) {
     outcome_.unbalanced = unbalanced_ratio(sim_, instant);
     outcome_.reaction_error = reaction_error(sim_, instant);
     look_at_motion(sim_, instant, outcome_);
+    outcome_.held_back = std::max(outcome_.held_back, held_back_in_fall(sim_));
     last_row_ = sim_.state.time;
     fine = !ended_by(recorder_.row(sim_, instant, run_.monitors, run_.convergences, ledger,
                                    outcome_.unbalanced));

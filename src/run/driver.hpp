@@ -77,7 +77,8 @@ class Driver {
   /// Writes down the end of the stage. False: the run is over.
   bool end_stage(bool at_rest);
   /// When an equilibrium was found, and what falls all the same.
-  std::string rest_at_end() const;
+  std::string rest_of_stage() const;
+  std::string not_at_rest() const;
   /// "at rest", or what still moves, and how fast.
   std::string motion_at_end() const;
   /// Of the stage that has just ended.

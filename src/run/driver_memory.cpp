@@ -212,6 +212,20 @@ void Driver::list_stages(Archive& a) {
 }
 
 template <class Archive>
+static void list_chatter(Archive& a, Chatter& c) {
+  a("chatter.sum", c.sum);
+  a("chatter.squares", c.squares);
+  a("chatter.before", c.before);
+  a("chatter.looks", c.looks);
+  a("chatter.rebuilds", c.rebuilds);
+  a("chatter.count", c.count);
+  a("chatter.worst", c.worst);
+  a("chatter.block_i", c.block_i);
+  a("chatter.block_j", c.block_j);
+  a("chatter.time", c.time);
+}
+
+template <class Archive>
 void Driver::list(Archive& a) {
   RecorderMemory files = recorder_.memory();
   a("files.history_bytes", files.history_bytes);
@@ -248,6 +262,8 @@ void Driver::list(Archive& a) {
   a("outcome.critical_step", outcome_.critical_step);
   a("outcome.step_over_critical", outcome_.step_over_critical);
   a("outcome.reaction_error", outcome_.reaction_error);
+  a("outcome.held_back", outcome_.held_back);
+  list_chatter(a, outcome_.chatter);
   a("outcome.stepping", outcome_.wall.stepping);
   a("outcome.output", outcome_.wall.output);
   list_ledger(a, "ledger.", outcome_.ledger);

@@ -116,9 +116,16 @@ bool Driver::end_stage(bool at_rest) {
                     label, stage.duration, still_moving(sim_, ends_.back().balance)));
     return false;
   }
+  if (at_rest && stage.otherwise == LooseBlocks::stop) {
+    if (const std::string loose = not_at_rest(); !loose.empty()) {
+      end(Status::collapsed, fmt::format("{}{}; otherwise = \"stop\" of {} ends the run here",
+                                         rest_of_stage(), loose, label));
+      return false;
+    }
+  }
   if (stage_ + 1 == stages_.size() || options_.last_stage == stage_) {
     if (at_rest) {
-      end(Status::equilibrium, rest_at_end());
+      end(Status::equilibrium, rest_of_stage() + not_at_rest());
     } else {
       end(Status::completed, "the run has reached its duration, " + motion_at_end());
     }
@@ -127,19 +134,23 @@ bool Driver::end_stage(bool at_rest) {
   return true;
 }
 
-std::string Driver::rest_at_end() const {
+std::string Driver::rest_of_stage() const {
   const double time = sim_.state.time;
-  const std::string rest =
-      stage_ == 0 ? fmt::format("at rest after {:.6g} s", time)
-                  : fmt::format("at rest at {:.6g} s, {:.6g} s after the start of {}", time,
-                                time - stage_start_, stage_label(sim_.model, stage_));
+  return stage_ == 0 ? fmt::format("at rest after {:.6g} s", time)
+                     : fmt::format("at rest at {:.6g} s, {:.6g} s after the start of {}", time,
+                                   time - stage_start_, stage_label(sim_.model, stage_));
+}
+
+/// What a stage that has come to rest leaves out, beginning with a comma; else empty.
+std::string Driver::not_at_rest() const {
   const std::string loose = loose_blocks(settling_, sim_);
   const std::string apart = loose.empty() ? "" : ", but for what has come loose: " + loose;
   const std::size_t falling = balance_of(sim_).detached;
-  if (falling == 0) return rest + apart;
-  return fmt::format("{}{}, but for {} that {} freely: fastest is {}, at {:.3g} m/s", rest, apart,
-                     counted(falling, "block"), falling == 1 ? "falls" : "fall",
-                     block_label(sim_.blocks, outcome_.fastest), outcome_.speed);
+  if (falling == 0) return apart;
+  return fmt::format("{}, {} for {} that {} freely: fastest is {}, at {:.3g} m/s", apart,
+                     loose.empty() ? "but" : "and", counted(falling, "block"),
+                     falling == 1 ? "falls" : "fall", block_label(sim_.blocks, outcome_.fastest),
+                     outcome_.speed);
 }
 
 std::string Driver::motion_at_end() const {

@@ -12,6 +12,7 @@
 #include "blocks/point_mass.hpp"
 #include "contacts/gap.hpp"
 #include "forces/mass_scaling.hpp"
+#include "run/damping_report.hpp"
 #include "run/initial_stress_report.hpp"
 #include "run/labels.hpp"
 #include "run/sliver_report.hpp"
@@ -60,7 +61,7 @@ void warn_of_sudden_gravity(const Simulation& sim, std::vector<std::string>& war
   const Stage first = stages_of(sim.model).front();
   const Damping& d = first.damping;
   if (first.until == StageEnd::equilibrium || sim.model.gravity == Vec2{} || d.mass > 0.0 ||
-      d.local > 0.0 || d.contact > 0.0)
+      d.local > 0.0 || d.contact > 0.0 || d.adaptive > 0.0)
     return;
   bool carried = sim.springs.size() > 0;
   for (std::size_t k = 0; k < sim.contacts.size() && !carried; ++k) {
@@ -69,11 +70,9 @@ void warn_of_sudden_gravity(const Simulation& sim, std::vector<std::string>& war
   }
   if (!carried) return;
   warnings.emplace_back(
-      "gravity acts at once on blocks that carry no stress yet, and nothing damps them: forces "
-      "will swing "
-      "between nothing and about twice their value at rest; where the state at rest is wanted, "
-      "give "
-      "solver.damping (for instance local = 0.8)");
+      "gravity acts at once on blocks that carry no stress yet: forces will swing to about twice "
+      "their value at rest before damping calms them; where the state at rest is wanted, begin "
+      "with a [[stage]] with until = \"equilibrium\", or give [initial_stress]");
 }
 
 struct Extreme {
@@ -101,8 +100,10 @@ void warn_of_springs(const Simulation& sim, std::vector<std::string>& warnings) 
     if (!sim.contacts.is(k, cs::closed)) continue;
     const double ratio = spring_ratio(sim, k);
     if (!(ratio > 0.0)) continue;
-    // A stiffness that was given for the joint has been measured, and is what it is.
-    if (!(sim.laws.rows[sim.contacts.law[k]].kn > 0.0) && ratio < low.ratio) low = {ratio, k};
+    // A stiffness that was given for the joint has been measured, and is what it is; one that
+    // belongs to a restitution is meant to be soft.
+    const Law& law = sim.laws.rows[sim.contacts.law[k]];
+    if (!(law.kn > 0.0) && !law.dashpots && ratio < low.ratio) low = {ratio, k};
     if (ratio > high.ratio) high = {ratio, k};
   }
   auto where = [&](const Extreme& e) {
@@ -220,6 +221,18 @@ void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings)
                   place_label(model_place(sim, deepest.contact)), energy));
 }
 
+/// Rock in an earthquake loses a few hundredths of critical.
+void warn_of_strain_damping(const Simulation& sim, std::vector<std::string>& warnings) {
+  constexpr double much = 0.05;
+  for (const StrainDampingAt& at : strain_damping_at(sim)) {
+    if (!(at.fraction > much)) continue;
+    warnings.push_back(fmt::format(
+        "the damping of the blocks' strain takes up to {:.2g} of critical at {:.3g} Hz, the "
+        "frequency of {} ({}): give a lower damping of the material, or smaller blocks",
+        at.fraction, at.frequency, at.of, block_label(sim.blocks, at.block)));
+  }
+}
+
 }  // namespace
 
 std::string governed_by(const Simulation& sim) {
@@ -255,6 +268,7 @@ std::vector<std::string> guard_rails(const Simulation& sim) {
     warn_of_boundary(sim, warnings);
     warn_of_few(sim, warnings);
   }
+  warn_of_strain_damping(sim, warnings);
   warn_of_springs(sim, warnings);
   warn_of_slivers(sim, warnings);
   warn_of_kept_slivers(sim, warnings);

@@ -13,4 +13,7 @@ inline constexpr double rest_limit = 1e-2;
 /// Fills in what the outcome says of it; Outcome::unbalanced is known.
 void look_at_motion(const Simulation& sim, const Instant& at, Outcome& outcome);
 
+/// Blocks that fall, touching nothing, while local damping holds them back.
+std::size_t held_back_in_fall(const Simulation& sim);
+
 }  // namespace edda

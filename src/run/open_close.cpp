@@ -88,6 +88,11 @@ ForceChange reset_force(ContactSet& c, const BlockSet& b, const Switcher& s, dou
     c.shear[k] = shear;
     if (shear != -c.ks[k] * trial) c.set(k, cs::slipped);
   }
+  // The dashpot along the tangent keeps within what friction may still carry.
+  if (!c.drag.empty() && !c.is(k, cs::bonded)) {
+    const double left = larger(limit - std::abs(shear), 0.0);
+    c.drag[k] = std::clamp(c.drag[k], -left, left);
+  }
   c.set_alpha(k, alpha);
   const Vec2 old1 = c.on_vertex(k), old2 = c.on_start(k), old3 = c.on_end(k);
   set_contact_force(c, k, s.t, s.length, s.foot, s.depth);
@@ -269,6 +274,11 @@ double correct_switching(ContactSet& c, const BlockSet& b, State& s, Pose& pose,
   counts.passes += passes;
   counts.most = std::max(counts.most, passes);
   counts.switched += scratch.set.size();
+  if (counts.of_list != c.rebuilds || counts.of_contact.size() != c.size()) {
+    counts.of_contact.assign(c.size(), 0);
+    counts.of_list = c.rebuilds;
+  }
+  for (const Switcher& one : scratch.set) ++counts.of_contact[one.contact];
   if (!settled) ++counts.unsettled;
   return largest;
 }

@@ -19,6 +19,8 @@ struct OpenCloseCounts {
   std::uint64_t most = 0;       ///< passes in one step
   std::uint64_t switched = 0;   ///< contacts that opened or closed
   std::uint64_t unsettled = 0;  ///< steps that had not settled after the last pass
+  std::vector<Id> of_contact;   ///< [nc] those of each, since the list of contacts was made
+  std::uint64_t of_list = 0;    ///< ContactSet::rebuilds
 };
 
 /// Steps behind and ahead of the force, and damping, as advance() used them.

@@ -8,6 +8,7 @@
 
 #include "base/vec2.hpp"
 #include "blocks/block_set.hpp"
+#include "run/chatter.hpp"
 #include "run/ledger.hpp"
 
 namespace edda {
@@ -57,7 +58,10 @@ struct Outcome {
   double step_over_critical = 0.0;  ///< largest step over the bound then in force
   double reaction_error =
       0.0;  ///< |boundary reactions + weight| over weight at the last row; 0 without either
+  Chatter chatter;
   std::size_t on_nothing = 0;              ///< blocks that rested on nothing at the start
+  std::size_t held_back = 0;               ///< most blocks at one row that fell freely while local
+                                           ///< damping held them back
   std::vector<std::string> failed_checks;  ///< of summary.json, a sentence each
   WallSeconds wall;
 };

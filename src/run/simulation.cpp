@@ -1,4 +1,5 @@
 #include "run/simulation.hpp"
+#include "run/restitution.hpp"
 
 #include <fmt/format.h>
 
@@ -80,6 +81,8 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   }
   s.blocks = build_blocks(s.model, s.polygons);
   s.set_viscosity();
+  if (std::vector<Fault> faults = fit_restitution(s.model, s.blocks); !faults.empty())
+    return faults;
   s.laws = build_laws(s.model);
   // What the first stage finds at the start is judged by its strength.
   const double factor = s.model.stages.empty() ? 1.0 : s.model.stages.front().strength_factor;
@@ -323,7 +326,7 @@ std::optional<Failure> Simulation::step() {
     ++steps.changes;
   }
   book_damping(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h, damps_, damping_work);
-  if (damping.contact > 0.0) book_dashpots(contacts);
+  if (damping.contact > 0.0 || laws.any_dashpots) book_dashpots(contacts);
   book_loads(h_old, h, at_work);
   book_boundaries(h_old, h);
   update_bolts(bolts, state);

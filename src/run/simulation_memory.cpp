@@ -191,6 +191,8 @@ void list_counts(Archive& a, Simulation& s) {
   a("steps.redone", s.steps.redone);
   a("open_close.steps", s.open_close.steps);
   a("open_close.passes", s.open_close.passes);
+  a("open_close.of_contact", s.open_close.of_contact);
+  a("open_close.of_list", s.open_close.of_list);
   a("open_close.most", s.open_close.most);
   a("open_close.switched", s.open_close.switched);
   a("open_close.unsettled", s.open_close.unsettled);
@@ -396,6 +398,7 @@ std::string recall(Simulation& sim, const Record& record) {
   judge(j, sim);
   if (!j.flaw().empty()) return j.flaw();
   sim.contacts.look_everywhere();
+  set_dashpots(sim.contacts, sim.laws);
   fill_point_masses(sim.blocks);
   fill_viscosity(sim.blocks, sim.damping);
   list_by_corner(sim.contacts, sim.blocks.vertex_count());

@@ -9,6 +9,7 @@
 #include "forces/mass_scaling.hpp"
 #include "results/json.hpp"
 #include "results/version.hpp"
+#include "run/damping_report.hpp"
 #include "run/initial_stress_report.hpp"
 #include "run/labels.hpp"
 #include "run/motion.hpp"
@@ -18,7 +19,12 @@
 namespace edda {
 namespace {
 
+constexpr std::string_view fall_check = "number of blocks that fell freely under local damping";
 constexpr std::string_view overlap_check = "largest overlap over half width of a block";
+constexpr std::string_view chatter_check =
+    "number of times that contacts opened or closed while they chattered";
+/// What lands or is shaken knocks a little: in all, and for each free block.
+constexpr double chatter_limit = 100.0, chatter_limit_of_block = 2.0;
 /// Forces act as far from where they should as blocks overlap. Of an impact on soft ground that
 /// lasts for a moment; deeper, and the shape of the block no longer says which way it is pushed.
 constexpr double overlap_limit = 0.2;
@@ -127,6 +133,15 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
               static_cast<double>(o.on_nothing), 0.0),
   };
   if (sim.explicit_method()) {
+    const auto free = static_cast<double>(
+        std::count(sim.blocks.fixed.begin(), sim.blocks.fixed.end(), std::uint8_t{0}));
+    checks.push_back(limited(std::string(chatter_check), static_cast<double>(o.chatter.count),
+                             chatter_limit + chatter_limit_of_block * free));
+  }
+  if (o.held_back > 0) {
+    checks.push_back(limited(std::string(fall_check), static_cast<double>(o.held_back), 0.0));
+  }
+  if (sim.explicit_method()) {
     checks.insert(checks.begin() + 2,
                   limited("largest step over critical step", o.step_over_critical, 1.0));
   }
@@ -156,6 +171,19 @@ std::string sentence_of(const Check& check, const Simulation& sim, const Outcome
                         block_label(sim.blocks, o.overlap.block_j), place_label(o.overlap.place),
                         o.overlap.time);
   }
+  if (check.name == chatter_check && o.chatter.block_i != no_id) {
+    text += fmt::format(
+        ": most between {} and {}, t = {:.6g} s; what friction should hold may creep, and what "
+        "slides may fly: give the rock its damping (materials.NAME.damping, 0.5 unless told "
+        "otherwise), or solver.damping.contact = 0.1",
+        block_label(sim.blocks, o.chatter.block_i), block_label(sim.blocks, o.chatter.block_j),
+        o.chatter.time);
+  }
+  if (check.name == fall_check) {
+    text +=
+        ": local damping slows down their fall; leave it out, or end with a [[stage]] with "
+        "until = \"equilibrium\"";
+  }
   return text;
 }
 
@@ -180,6 +208,7 @@ std::string summary_json(const Simulation& sim, const Outcome& o, const std::str
   j.pair("threads", omp_get_max_threads());
   add_checks(j, checks_of(sim, o));
   add_slivers(j, sim.polygons.report);
+  add_strain_damping(j, sim);
   j.key("inputs").open_list();
   for (const InputFile& input : inputs) {
     j.open_object().pair("file", input.file).pair("sha256", input.sha256).close();

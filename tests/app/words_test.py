@@ -116,11 +116,35 @@ class Words(Program):
 
     def test_checks_that_do_not_hold_are_said_at_the_end(self):
         said = self.expect(0, "run", self.write("soft.toml", BLOCK % 1e6))
-        self.assertRegex(said.stdout, r"check does not hold: overlap over half width at the end is 0\.0\d+, more than 0\.01")
+        self.assertRegex(said.stdout, r"check does not hold: overlap over half width at the end is 0\.0\d+, more than 0\.02")
         lines = self.expect(0, "run", "soft.toml", "-o", "again", "--json").stdout.splitlines()
         self.assertEqual(len(json.loads(lines[-1])["failed_checks"]), 1)
         firm = self.expect(0, "run", self.write("firm.toml", BLOCK % 1e10))
         self.assertNotIn("does not hold", firm.stdout)
+
+    def test_check_and_summary_say_what_the_damping_of_strain_takes(self):
+        shaken = (BLOCK % 1e10).replace("damping = { local = 0.8 }\n", "") + (
+            '[[shaking]]\nname = "quake"\nacceleration = { amplitude = 1.0, frequency = 2.5 }\napply = "inertia"\n')
+        text = self.expect(0, "check", self.write("shaken.toml", shaken)).stdout
+        line = r"strain damping  ([\d.e-]+) of critical at 2\.5 Hz, the frequency of shaking quake \(in block 0"
+        self.assertRegex(text, line)
+        self.assertEqual(len(self.check("shaken.toml")["strain_damping"]), 1)
+        self.expect(0, "run", "shaken.toml", "--quiet")
+        found = json.loads((self.dir / "shaken/summary.json").read_text())["strain_damping"]
+        self.assertEqual((found[0]["of"], found[0]["frequency"]), ("shaking quake", 2.5))
+        self.assertAlmostEqual(found[0]["fraction"] / float(re.search(line, text).group(1)), 1.0, delta=0.05)
+        self.assertNotIn("strain damping", self.expect(0, "check", self.write("still.toml", BLOCK % 1e10)).stdout)
+
+    def test_loose_blocks_may_end_a_run(self):
+        stages = '[[stage]]\nuntil = "equilibrium"\n%s[[stage]]\nduration = 0.01\n'
+        falls = "[[block]]\npolygon = [[9, 0], [9.5, 0], [9, 0.5]]\n"
+        model = (BLOCK % 1e10).replace("duration = 0.5\n", "").replace("damping = { local = 0.8 }\n", "") + falls + stages
+        goes_on = self.expect(0, "run", self.write("on.toml", model % ""))
+        self.assertIn("completed:", goes_on.stdout)
+        stops = self.edda("run", self.write("stop.toml", model % 'otherwise = "stop"\n'))
+        failed = self.edda("run", self.write("fails.toml", model.replace('until = "equilibrium"', 'until = "equilibrium"\nratio = 1e-30\nduration = 0.01') % ""))
+        self.assertEqual(stops.returncode, failed.returncode)
+        self.assertRegex(stops.stdout, r"collapsed: at rest after [\d.e-]+ s, but for 1 block that falls freely: .*\"stop\" of stage 0")
 
     def test_folders_that_cannot_be_made_are_refused(self):
         model = self.write("block.toml", BLOCK % 1e10)

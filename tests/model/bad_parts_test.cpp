@@ -249,6 +249,8 @@ TEST(BadModel, Stages) {
   for (const Bad& bad : {
            Bad{stage + "joints = \"loose\"\n", 44, "stage.0.joints", "not known"},
            Bad{stage + "mass_scaling = \"none\"\n", 44, "stage.0.mass_scaling", "not known"},
+           Bad{stage + "otherwise = \"stop\"\n", 44, "stage.0.otherwise",
+               "belongs to a stage with until"},
            Bad{stage + "detached = 3\n", 44, "stage.0.detached", "expects one of"},
            Bad{stage + "excavate = [\"cave\"]\n", 44, "stage.0.excavate[0]", "names no opening"},
            Bad{stage + "relax = { cave = 0.5 }\n", 44, "stage.0.relax.cave", "names no opening"},

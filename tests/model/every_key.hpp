@@ -29,6 +29,7 @@ tensile_strength = 1e3
 residual = { friction_angle = 12, cohesion = "1 kPa", tensile_strength = 2.5 }
 kn = "20 GPa/m"
 ks = 9e9
+restitution = 0.4
 [joints.weak]
 type = "slip-weakening"
 friction_angle = 35
@@ -236,6 +237,7 @@ duration = "1 min"
 damping = { contact = 0.2 }
 joints = "glued"
 detached = "wait"
+otherwise = "stop"
 deactivate = ["wet"]
 [[stage]]
 duration = 60.0

@@ -122,6 +122,39 @@ TEST(Stages, NoEquilibriumIsACollapse) {
   }
 }
 
+/// What has come loose is left behind, or ends the run.
+TEST(Stages, LooseBlocksMayEndTheRun) {
+  const auto ends = [](const std::string& otherwise) {
+    PreparedRun ready =
+        prepared(tower("[[stage]]\nname = 'settle'\nuntil = 'equilibrium'\n" + otherwise +
+                       "[[stage]]\nname = 'wait'\nduration = 0.01\n[solver]\n"));
+    return run(ready);
+  };
+  EXPECT_EQ(ends("").status, Status::completed);
+  EXPECT_EQ(ends("otherwise = 'go on'\n").status, Status::completed);
+  const Outcome stopped = ends("otherwise = 'stop'\n");
+  EXPECT_EQ(stopped.status, Status::collapsed);
+  EXPECT_LT(stopped.time, 2.0);
+  for (const char* part : {"at rest after ", "but for 1 block that falls freely: fastest is ",
+                           "(falling)", "\"stop\" of stage 0 (settle) ends the run here"}) {
+    EXPECT_NE(stopped.message.find(part), std::string::npos) << stopped.message;
+  }
+}
+
+/// Local damping takes its part of gravity, too, and a run that falls says so.
+TEST(Stages, LocalDampingOfAFallIsTold) {
+  const auto failed = [](const std::string& damping) {
+    PreparedRun ready = prepared(tower("[solver]\nduration = 0.2\n" + damping));
+    const Outcome o = run(ready);
+    std::string all;
+    for (const std::string& check : o.failed_checks) all += check + "\n";
+    return all;
+  };
+  const char* const told = "number of blocks that fell freely under local damping is 1, more";
+  EXPECT_NE(failed("damping = { local = 0.5 }\n").find(told), std::string::npos);
+  EXPECT_EQ(failed("damping = { contact = 0.1 }\n").find(told), std::string::npos);
+}
+
 /// Displacements count from the stage that resets them; damping is the stage's.
 TEST(Stages, ResetAndDampingHoldForTheirStage) {
   PreparedRun ready =

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <random>
 
 #include "contacts/gaps.hpp"
@@ -14,7 +15,9 @@ namespace edda::step_bound_test {
 namespace {
 
 /// Bonds that never open or slide, rock without damping unless `damping` says so.
-Simulation glued(const std::string& geometry, double damping = 0.0) {
+/// `own`: springs and dashpots of the joint.
+Simulation glued(const std::string& geometry, double damping = 0.0,
+                 const std::optional<LawDashpots>& own = {}) {
   Result<Model> model = read_model_text(
       "gravity = [0, 0]\n[materials.rock]\ndensity = 2600\nyoung = 20e9\npoisson = 0.2\n"
       "damping = " +
@@ -22,6 +25,7 @@ Simulation glued(const std::string& geometry, double damping = 0.0) {
           geometry,
       "t.toml", {});
   if (!model.ok()) ADD_FAILURE() << to_string(model.faults()[0]);
+  model.value().joints[0].dashpots = own;
   Result<Simulation> sim = Simulation::create(std::move(model.value()));
   if (!sim.ok()) ADD_FAILURE() << to_string(sim.faults()[0]);
   return std::move(sim.value());
@@ -117,10 +121,11 @@ TEST(StepBound, SafeAndSharp) {
 }
 
 /// Whether a small disturbance of all nodes grows at this step.
-bool grows(const std::string& model, double damping, double step) {
+bool grows(const std::string& model, double damping, double step,
+           const std::optional<LawDashpots>& own = {}) {
   char given[80];
   std::snprintf(given, sizeof given, "time_step = %.17g\nallow_unstable = true\n", step);
-  Simulation s = glued(given + model, damping);
+  Simulation s = glued(given + model, damping, own);
   std::mt19937 rng(7);
   std::uniform_real_distribution<double> u(-1e-9, 1e-9);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -166,6 +171,24 @@ TEST(StepBound, SafeAndSharpWithDamping) {
       // The dashpots of a light block against heavy ones count twice, where once would do.
       EXPECT_GT(bound / unstable, q.contact > 0.0 ? 0.5 : 0.7)
           << q.stiffness << ' ' << q.strain << ' ' << q.contact;
+    }
+  }
+}
+
+/// With the dashpots of a restitution, along the tangent, too.
+TEST(StepBound, SafeWithDashpotsOfAJoint) {
+  for (const std::string& geometry : scenes()) {
+    for (const LawDashpots& own :
+         {LawDashpots{4.0, 4.0, 20e9 / 15.0}, {2.5, 0.0, 20e9 / 30.0}, {0.0, 3.0, 20e9 / 30.0}}) {
+      for (const double strain : {0.0, 0.5}) {
+        const double bound = glued(geometry, strain, own).bound.critical_step;
+        EXPECT_LT(bound,
+                  glued(geometry, strain, LawDashpots{0.0, 0.0, own.spring}).bound.critical_step);
+        EXPECT_FALSE(grows(geometry, strain, 0.9999 * bound, own))
+            << own.damping << ' ' << own.shear_damping << ' ' << strain;
+        EXPECT_TRUE(grows(geometry, strain, 2.5 * bound, own))
+            << own.damping << ' ' << own.shear_damping << ' ' << strain;
+      }
     }
   }
 }

@@ -1,6 +1,7 @@
 // Cohesion, tension and glue: validation.md row 4 and what a bond stands for (method.md section 4).
 #include <algorithm>
 
+#include "run/prepared.hpp"
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
 
@@ -85,6 +86,36 @@ TEST(CohesiveRamp, HoldsAboveAndGoesBelowTheCriticalCohesion) {
     }
     expect_relative({4, stiffness, "critical cohesion, by bisection", "Pa"},
                     0.5 * (low + high) * critical_cohesion, critical_cohesion, 1e-2);
+  }
+}
+
+/// The same with friction of rough joints, and nothing said of damping: a stage until equilibrium
+/// loads it gently.
+TEST(CohesiveRamp, TheCriticalCohesionIsThatOfRoughJointsToo) {
+  for (const auto& [alpha, phi] :
+       {std::pair{30.0, 20.0}, {30.0, 25.0}, {45.0, 30.0}, {45.0, 40.0}}) {
+    const double a = radians(alpha),
+                 critical = 2750.0 * 9.81 * (std::sin(a) - std::tan(radians(phi)) * std::cos(a));
+    for (const double factor : {1.01, 0.99}) {
+      const testing::Ran r = testing::ran(
+          rock + "[joints.ramp]\nfriction_angle = " + number(phi) +
+          "\ncohesion = " + number(factor * critical) +
+          "\n[[stage]]\nuntil = 'equilibrium'\nduration = 1\n[[stage]]\nduration = 0.2\n"
+          "[[block]]\nfixed = true\npolygon = " +
+          slope_box(alpha, -1, 9, -1, 0) +
+          "\n[[block]]\nname = 'slider'\npolygon = " + slope_box(alpha, 0, 2, 0, 1) + "\n");
+      const Vec2 u = r.moved("slider");
+      const double way = u.x * std::cos(a) - u.y * std::sin(a);
+      const std::string which =
+          brief(alpha) + "/" + brief(phi) + ", " + brief(factor) + " of the critical cohesion";
+      if (factor > 1.0) {
+        EXPECT_EQ(r.outcome.status, Status::completed) << which << ": " << r.outcome.message;
+        expect_at_most({4, which, "displacement", "m"}, way, 1e-5);
+      } else {
+        EXPECT_TRUE(r.ready.sim.contacts.segments.empty()) << which;
+        expect_at_least({4, which, "displacement", "m"}, way, 1e-2);
+      }
+    }
   }
 }
 

@@ -9,7 +9,8 @@ from verification import figures_rest as rest
 from verification.rows import ROWS
 
 FIGURES = {
-    1: (motion.ramp, "Distance slid, large markers for E 200 MPa, small ones for 20 GPa, and its relative error."),
+    1: (motion.ramp, "Distance slid at friction of 10 and 15 degrees, large markers for E 200 MPa, small ones for 20 GPa,"
+        " and its relative error."),
     2: (motion.preloaded, "Distance slid less v0 t, large markers for E 200 MPa, small ones for 20 GPa, and its relative"
         " error."),
     3: (motion.threshold, "A tenth of a degree either side of the threshold."),

@@ -184,6 +184,9 @@ class ModelCheck:
     def initial_stress(self) -> list[str]:
         """A sentence each."""
     @property
+    def strain_damping(self) -> list[str]:
+        """A sentence each."""
+    @property
     def warnings(self) -> list[str]:
         """What looks right in the model and is not, a sentence each."""
 

@@ -1,0 +1,15 @@
+// The frequency that a record shakes with most.
+#pragma once
+
+#include <vector>
+
+#include "base/vec2.hpp"
+
+namespace edda {
+
+/// Frequency of the largest Fourier amplitude of a curve in the plane, about its mean, Hz. `time`
+/// ascends, the curve is straight between its points. 0 where there is none: fewer than three
+/// points, or nothing that changes.
+double dominant_frequency(const std::vector<double>& time, const std::vector<Vec2>& value);
+
+}  // namespace edda

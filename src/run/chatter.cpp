@@ -1,0 +1,64 @@
+#include "run/chatter.hpp"
+
+namespace edda {
+namespace {
+
+constexpr std::uint64_t window = 64;  // looks
+constexpr Id again = 16;              // switches
+constexpr double above_mean = 2.0;    // of the stored energy
+
+/// Switches of contact k since its list was made.
+Id switches(const Simulation& sim, std::size_t k) {
+  const OpenCloseCounts& counts = sim.open_close;
+  const bool known = counts.of_list == sim.contacts.rebuilds && k < counts.of_contact.size();
+  return known ? counts.of_contact[k] : 0;
+}
+
+void begin_window(Chatter& w, const Simulation& sim) {
+  const std::size_t n = sim.contacts.size();
+  w.sum.assign(n, 0.0);
+  w.squares.assign(n, 0.0);
+  w.before.resize(n);
+  for (std::size_t k = 0; k < n; ++k) w.before[k] = switches(sim, k);
+  w.looks = 0;
+  w.rebuilds = sim.contacts.rebuilds;
+}
+
+void judge(Chatter& w, const Simulation& sim) {
+  const ContactSet& c = sim.contacts;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const Id count = switches(sim, k) - w.before[k];
+    if (count < again) continue;
+    const auto looks = static_cast<double>(w.looks);
+    if (w.squares[k] * looks < above_mean * w.sum[k] * w.sum[k]) continue;
+    w.count += count;
+    if (count <= w.worst) continue;
+    w.worst = count;
+    w.block_i = c.block_i[k];
+    w.block_j = c.block_j[k];
+    w.time = sim.state.time;
+  }
+}
+
+}  // namespace
+
+void look_for_chatter(Chatter& w, const Simulation& sim) {
+  if (!sim.explicit_method() || sim.settles) {
+    w.looks = 0;
+    return;
+  }
+  const ContactSet& c = sim.contacts;
+  const bool fits = w.rebuilds == c.rebuilds && w.sum.size() == c.size() &&
+                    w.squares.size() == c.size() && w.before.size() == c.size();
+  if (w.looks == 0 || !fits) begin_window(w, sim);
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const double normal = c.is(k, contact_state::closed) ? c.share[k] * c.normal[k] : 0.0;
+    w.sum[k] += normal;
+    w.squares[k] += normal * normal;
+  }
+  if (++w.looks < window) return;
+  judge(w, sim);
+  w.looks = 0;
+}
+
+}  // namespace edda

@@ -1,0 +1,62 @@
+// Contacts that open and close without end are told; those of ordinary runs are not.
+#include "run/chatter.hpp"
+
+#include <gtest/gtest.h>
+
+#include "run/prepared.hpp"
+#include "verification/scene.hpp"
+
+namespace edda::chatter_test {
+namespace {
+
+/// Blocks of width x height on a slope of 20 degrees, which friction of 30 degrees holds.
+std::string slope(double width, double height, int count, const std::string& material,
+                  const std::string& more = "") {
+  const auto box = [](double u0, double v0, double u1, double v1) {
+    return "[" + on_slope(20.0, u0, v0) + "," + on_slope(20.0, u1, v0) + "," +
+           on_slope(20.0, u1, v1) + "," + on_slope(20.0, u0, v1) + "]";
+  };
+  std::string text = "[materials.rock]\ndensity = 2700\nyoung = 20e9\npoisson = 0.25\n" + material +
+                     "[joints.j]\nfriction_angle = 30\n[[block]]\nfixed = true\npolygon = " +
+                     box(-60.0, -2.0, 60.0, 0.0) + "\n";
+  for (int i = 0; i < count; ++i) {
+    text += "[[block]]\npolygon = " + box(i * width, 0.0, (i + 1) * width, height) + "\n";
+  }
+  return text + "[solver]\nduration = 1\n" + more;
+}
+
+std::string chatter_of(const std::string& text) {
+  const Outcome o = testing::ran(text).outcome;
+  for (const std::string& check : o.failed_checks) {
+    if (check.find("chattered") != std::string::npos) return check;
+  }
+  return {};
+}
+
+TEST(Chatter, IsToldWithItsRemedy) {
+  for (const auto& [width, height, count] :
+       {std::tuple{2.0, 1.0, 1}, {3.0, 3.0, 1}, {1.0, 1.0, 4}}) {
+    const std::string said = chatter_of(slope(width, height, count, "damping = 0\n"));
+    for (const char* part : {"number of times that contacts opened or closed while they chattered",
+                             "most between block", "materials.NAME.damping"}) {
+      EXPECT_NE(said.find(part), std::string::npos) << width << " x " << height << ": " << said;
+    }
+  }
+}
+
+TEST(Chatter, OrdinaryRunsHaveNone) {
+  for (const auto& [width, height, count] :
+       {std::tuple{2.0, 1.0, 1}, {3.0, 3.0, 1}, {1.0, 1.0, 4}}) {
+    EXPECT_EQ(chatter_of(slope(width, height, count, "")), "") << width << " x " << height;
+  }
+  // Dropped, and dropped without any damping: it strikes and bounces.
+  for (const char* damping : {"", "damping = 0\n"}) {
+    std::string text = slope(1.0, 1.0, 0, damping);
+    text.insert(text.find("[solver]"),
+                "[[block]]\npolygon = [[0, 1], [1, 1.1], [1.1, 2.2], [0, 2]]\n");
+    EXPECT_EQ(chatter_of(text), "") << damping;
+  }
+}
+
+}  // namespace
+}  // namespace edda::chatter_test
