@@ -147,6 +147,26 @@ TEST(FactorOfSafety, LoadThatGrows) {
   EXPECT_LT(moving(tips, 1)->rotation, 0.0);
 }
 
+/// Row 42: lifted by one and a half times its weight it hangs on its joint, which bears
+/// c b - W/2 tan(phi) of shear.
+TEST(FactorOfSafety, JointThatPulls) {
+  const double weight = 26e3, c = 30e3, phi = 40.0;
+  const std::string strength = "cohesion = " + number(c) + "\ntensile_strength = " + number(c) + "\n";
+  const std::string toml =
+      "[materials.rock]\nunit_weight = 26e3\nyoung = 2e9\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = " +
+      number(phi) + "\n" + strength + "[joints.j.residual]\n" + strength +
+      "[solver]\nduration = 1\n[[block]]\nfixed = true\npolygon = [[-9, -1], [9, -1], [9, 0], "
+      "[-9, 0]]\n[[block]]\npolygon = " +
+      rectangle(0, 0, 1, 1) + "\n[[load]]\npoint = [0.5, 0.5]\nforce = [0, " +
+      number(1.5 * weight) + "]\n[[load]]\nname = 'push'\npoint = [0.5, 0.001]\nforce = [" +
+      number(0.1 * weight) + ", 0]\n";
+  const FosResult r =
+      factor_of(toml, "vary = 'load:push'\nbracket = [1.0, 20.0]\ntolerance = 0.02\n");
+  expect_factor(r, 42, "hangs on its joint",
+                (c - 0.5 * weight * std::tan(radians(phi))) / (0.1 * weight), 1e-2);
+}
+
 /// Row 43: the slope of sixteen blocks of Goodman and Bray (1976).
 TEST(FactorOfSafety, GoodmanAndBraysSlope) {
   const TopplingSlope slope;
@@ -198,7 +218,7 @@ TEST(FactorOfSafety, WaterThatGrows) {
   EXPECT_EQ(moving(r, 1)->motion, Motion::topples);
 }
 
-/// Row 55: slopes of several blocks (tools/study-fos tries all of them).
+/// Row 56: slopes of several blocks (tools/study-fos tries all of them).
 class Slopes : public testing::TestWithParam<const char*> {};
 
 TEST_P(Slopes, LimitEquilibrium) {
@@ -206,7 +226,7 @@ TEST_P(Slopes, LimitEquilibrium) {
     if (slope.name != GetParam()) continue;
     const FosResult r = factor_of(
         slope.model, slope.exclude.empty() ? "" : "exclude = [" + slope.exclude + "]\n");
-    expect_factor(r, 55, slope.name, slope.factor, 1e-2);
+    expect_factor(r, 56, slope.name, slope.factor, 1e-2);
     ASSERT_TRUE(r.mechanism);
     EXPECT_TRUE(r.mechanism->text.starts_with(slope.motion)) << r.mechanism->text;
     return;
@@ -220,7 +240,7 @@ INSTANTIATE_TEST_SUITE_P(FactorOfSafety, Slopes,
                                          "active and passive wedge", "six slices",
                                          "six slices with water"));
 
-/// Row 56: the arch of row 13 under a load on its haunch. What it bears is the least of all
+/// Row 57: the arch of row 13 under a load on its haunch. What it bears is the least of all
 /// mechanisms of four hinges, alternately at the outer and the inner edge (Heyman 1966).
 struct LoadedArch {
   static constexpr int n = 16, loaded = 11;  ///< voussoirs, and the one with the load
@@ -286,7 +306,7 @@ struct LoadedArch {
 TEST(FactorOfSafety, ArchHinges) {
   const FosResult r = factor_of(
       LoadedArch::toml(), "vary = 'load:crowd'\nbracket = [1.0, 20.0]\ntolerance = 0.02\n");
-  expect_factor(r, 56, "", LoadedArch::exact(), 1e-2);
+  expect_factor(r, 57, "", LoadedArch::exact(), 1e-2);
   ASSERT_TRUE(r.mechanism);
   EXPECT_TRUE(r.mechanism->text.starts_with("hinging: 4 hinges at (")) << r.mechanism->text;
   EXPECT_GT(r.mechanism->hinging, 0.9);
