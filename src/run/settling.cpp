@@ -22,12 +22,6 @@ double size_of(const Simulation& sim, std::size_t i) {
   return std::sqrt(sim.blocks.area[i]);
 }
 
-double inertia_of(const BlockSet& b, std::size_t i) {
-  return b.mass_kind == MassKind::consistent
-             ? b.mass[i]
-             : b.node_mass[0][i] + b.node_mass[1][i] + b.node_mass[2][i];
-}
-
 /// About a period of the motion, in steps.
 std::uint64_t window_of(const Simulation& sim) {
   constexpr double least = 128.0, most = 2048.0;

@@ -237,6 +237,7 @@ struct Simulation {
 
   void take_pace(const LoadsNow& at_work);
   void bring_on();
+  void take_strength_factors(const std::vector<double>& factors);
   std::vector<double> strength_from_, strength_to_;  ///< [laws] while strength changes gently
 
   // Of one step, kept so that it allocates nothing.

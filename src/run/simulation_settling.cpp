@@ -11,9 +11,9 @@
 namespace edda {
 namespace {
 
-/// Mass of a node; of `consistent`, a third of the block's.
+/// Of a node; of `consistent`, a third of the block's.
 double inertia_of_node(const BlockSet& b, std::size_t k, std::size_t i) {
-  return b.mass_kind == MassKind::consistent ? b.mass[i] / 3.0 : b.node_mass[k][i];
+  return b.mass_kind == MassKind::consistent ? inertia_of(b, i) / 3.0 : b.node_mass[k][i];
 }
 
 }  // namespace
@@ -46,17 +46,14 @@ void Simulation::take_pace(const LoadsNow& at_work) {
   }
   parallel_chunks(
       blocks.size(), blocks_at_once, [&](std::size_t c, std::size_t from, std::size_t to) {
-        for (std::size_t i = from; i < to; ++i) {
+        // `load`: what comes or goes is no answer to motion; null: none.
+        const auto look = [&](std::size_t i, const std::array<Vec2, 3>* load) {
           const bool counts = is_free(blocks, state, i) && (aloof.empty() || aloof[i] == 0);
-          std::array<Vec2, 3> load{};  // that comes or goes is no answer to motion
-          if (at_work.loads != nullptr && at_work.loads->place[i] != no_id) {
-            add_loads(load, blocks, at_work, pose.x1, pose.y1, i);
-          }
           for (std::size_t k = 0; k < 3; ++k) {
             // The forces are those of the positions before the step.
             const Vec2 x{state.x[k][i] - h * state.vx[k][i], state.y[k][i] - h * state.vy[k][i]};
-            const Vec2 f =
-                Vec2{forces.x[k][i], forces.y[k][i]} - load[k] - (blocks.mass[i] / 3.0) * gravity;
+            Vec2 f = Vec2{forces.x[k][i], forces.y[k][i]} - (blocks.mass[i] / 3.0) * gravity;
+            if (load != nullptr) f -= (*load)[k];
             const Vec2 dx = x - Vec2{pace.x[k][i], pace.y[k][i]},
                        df = f - Vec2{pace.fx[k][i], pace.fy[k][i]};
             if (counts) {
@@ -68,6 +65,15 @@ void Simulation::take_pace(const LoadsNow& at_work) {
             pace.fx[k][i] = f.x;
             pace.fy[k][i] = f.y;
           }
+        };
+        for (std::size_t i = from; i < to; ++i) {
+          if (at_work.loads == nullptr || at_work.loads->place[i] == no_id) {
+            look(i, nullptr);
+            continue;
+          }
+          std::array<Vec2, 3> load{};
+          add_loads(load, blocks, at_work, pose.x1, pose.y1, i);
+          look(i, &load);
         }
       });
   pace.since = state.steps;
@@ -117,14 +123,14 @@ void Simulation::bring_on() {
   gentle.part += state.step * frequency / (2.0 * std::numbers::pi * periods);
   if (gentle.part >= 1.0) {
     gentle = {};
-    if (!strength_to_.empty()) set_strength_factors(strength_to_);
+    if (!strength_to_.empty()) take_strength_factors(strength_to_);
   } else if (!strength_to_.empty() &&
              std::floor(increments * gentle.part) > std::floor(increments * before)) {
     std::vector<double> now = strength_to_;
     for (std::size_t r = 0; r < now.size(); ++r) {
       now[r] = strength_from_[r] * std::pow(strength_to_[r] / strength_from_[r], gentle.part);
     }
-    set_strength_factors(now);
+    take_strength_factors(now);
   }
 }
 
