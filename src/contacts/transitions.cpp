@@ -262,7 +262,9 @@ bool inherit_from_partner(ContactSet& c, std::size_t k) {
   return true;
 }
 
-void find_events(ContactSet& c, TransitionScratch& events) {
+/// `start`: what lies in each other by rounding alone touches, and is closed once it is pressed.
+void find_events(ContactSet& c, bool start, TransitionScratch& events) {
+  const double closes_beyond = start ? c.noise : 0.0;
   events.opens.clear();
   events.leaves.clear();
   events.returns.clear();
@@ -283,7 +285,7 @@ void find_events(ContactSet& c, TransitionScratch& events) {
           events.returns.push_back(static_cast<Id>(k));
         }
       } else if (!c.is(k, cs::blocked)) {
-        if (c.effective(k) > 0.0) {
+        if (c.effective(k) > closes_beyond) {
           if (c.on_edge(k)) events.closes.push_back(static_cast<Id>(k));
         } else if (c.rest[k] != 0.0) {
           c.rest[k] = std::max(0.0, std::min(c.rest[k], c.depth[k]));
@@ -426,7 +428,7 @@ TransitionCounts settle_contacts(ContactSet& c, const BlockSet& b, const Pose& p
                                  const LawTable& laws, std::uint64_t step, bool start,
                                  TransitionScratch& scratch) {
   TransitionCounts counts;
-  find_events(c, scratch);
+  find_events(c, start, scratch);
   for (const Id k : scratch.opens) {
     // What the shear spring still holds goes with the contact.
     c.friction_work[k] += stored_energy(c, k);

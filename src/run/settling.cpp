@@ -73,14 +73,15 @@ bool all_would_stay(const Simulation& sim) {
 
 }  // namespace
 
-void begin_settling(Settling& s, Simulation& sim, bool settles) {
+void begin_settling(Settling& s, Simulation& sim, const Stage& stage) {
   const std::size_t nb = sim.blocks.size();
   s = {};
   for (auto* values : {&s.from_x, &s.from_y, &s.moved_x, &s.moved_y}) values->assign(nb, 0.0);
   s.going.assign(nb, 0);
   sim.aloof.clear();
-  sim.settles = settles;
-  if (!settles) sim.pace = {};
+  sim.settles = stage.until == StageEnd::equilibrium;
+  sim.rest_ratio = stage.ratio;
+  if (!sim.settles) sim.pace = {};
   begin_window(s, sim);
 }
 

@@ -20,8 +20,9 @@ struct Settling {
   std::vector<std::uint8_t> going;  ///< [nb] windows in sequence in which it has gone on as before
 };
 
-/// Begins anew: no block is known to go its own way. `settles`: it is to come to rest from now on.
-void begin_settling(Settling& settling, Simulation& sim, bool settles);
+/// Begins anew: no block is known to go its own way. A stage until equilibrium is to come to rest
+/// from now on.
+void begin_settling(Settling& settling, Simulation& sim, const Stage& stage);
 
 /// How far block i would still go, m: |v|/w + |R|/(m w^2) with its velocity v, the resultant R of
 /// the forces on it, and w the frequency with which the model moves (Pace). Of a static implicit

@@ -7,6 +7,7 @@
 
 #include "base/parallel.hpp"
 #include "run/simulation.hpp"
+#include "run/stages.hpp"
 
 namespace edda {
 namespace {
@@ -44,11 +45,14 @@ void Simulation::take_pace(const LoadsNow& at_work) {
       for (auto& values : *nodes) values.assign(blocks.size(), 0.0);
     }
   }
+  // What falls has no stiffness, and goes further than all else together.
+  const std::vector<std::uint8_t> touches = touching(*this);
   parallel_chunks(
       blocks.size(), blocks_at_once, [&](std::size_t c, std::size_t from, std::size_t to) {
         // `load`: what comes or goes is no answer to motion; null: none.
         const auto look = [&](std::size_t i, const std::array<Vec2, 3>* load) {
-          const bool counts = is_free(blocks, state, i) && (aloof.empty() || aloof[i] == 0);
+          const bool counts = is_free(blocks, state, i) && touches[i] != 0 &&
+                              (aloof.empty() || aloof[i] == 0);
           for (std::size_t k = 0; k < 3; ++k) {
             // The forces are those of the positions before the step.
             const Vec2 x{state.x[k][i] - h * state.vx[k][i], state.y[k][i] - h * state.vy[k][i]};
@@ -84,9 +88,17 @@ void Simulation::take_pace(const LoadsNow& at_work) {
     all.inertia += s.inertia;
   }
   if (!(all.inertia > 0.0)) return;
-  // Where what moves has no stiffness (all of it slides) half of what there was is left.
+  // Where what moves has no stiffness (all of it slides) half of what there was is left; nothing
+  // that is held moves a hundred times slower than the wave.
+  constexpr double slowest = 0.01;
   const double now = std::max(all.stiffness / all.inertia, 0.0), was = pace.frequency;
-  pace.frequency = was > 0.0 ? std::sqrt(0.5 * (was * was + now)) : std::sqrt(now);
+  pace.frequency = std::max(was > 0.0 ? std::sqrt(0.5 * (was * was + now)) : std::sqrt(now),
+                            slowest * wave_frequency());
+}
+
+/// Of a wave through a square of all blocks, 1/s.
+double Simulation::wave_frequency() const {
+  return 0.5 / (state.step * std::sqrt(static_cast<double>(blocks.size())));
 }
 
 void Simulation::begin_gently(const std::vector<double>& strength_factors) {
@@ -114,10 +126,8 @@ void Simulation::begin_gently(const std::vector<double>& strength_factors) {
 void Simulation::bring_on() {
   if (all_on()) return;
   constexpr double periods = 1.0, increments = 100.0;
-  // Before anything has moved: a wave through a square of all blocks.
-  const double frequency = pace.frequency > 0.0
-                               ? pace.frequency
-                               : 0.5 / (state.step * std::sqrt(static_cast<double>(blocks.size())));
+  // Before anything has moved: the wave's.
+  const double frequency = pace.frequency > 0.0 ? pace.frequency : wave_frequency();
   GentleChange& gentle = loads.gentle;
   const double before = gentle.part;
   gentle.part += state.step * frequency / (2.0 * std::numbers::pi * periods);

@@ -67,6 +67,7 @@ struct Case {
 
 std::vector<Case> cases() {
   CutSlope slope = cut_slope(4);
+  slope.cohesion = 5e4;
   slope.more = until_rest;
   const std::string tunnel = example("tunnel"), dam = example("dam");
   return {
@@ -129,7 +130,8 @@ Answer answer_of(const Case& c, Way way) {
     if (way == Way::local) stage.damping.local = 0.8;
   }
   // What comes behind the last equilibrium is no way to rest.
-  while (m.stages.back().until != StageEnd::equilibrium) m.stages.pop_back();
+  std::size_t last = m.stages.size() - 1;
+  while (m.stages[last].until != StageEnd::equilibrium) --last;
   m.output.settling = false;
   m.output.every = m.output.history_every = 1e3;
   Result<PreparedRun> run = prepare_run(std::move(m));
@@ -140,6 +142,7 @@ Answer answer_of(const Case& c, Way way) {
   Simulation& sim = run.value().sim;
   answer.blocks = sim.blocks.size();
   RunOptions options;
+  options.last_stage = last;
   double before = 0.0;
   const Nodes none = [&] {
     Nodes zero;
