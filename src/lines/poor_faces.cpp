@@ -132,7 +132,8 @@ class Merger {
   bool parts_a_joint(int face, int into) const {
     bool harm = false;
     for_each_half_edge(faces(), face, [&](int h) {
-      // Borders of Voronoi cells are no planes: each ends where three cells meet, at the surface, too.
+      // Borders of Voronoi cells are no planes: each ends where three cells meet, at the surface,
+      // too.
       if (harm || face_of(faces(), h ^ 1) != into || kind_of(h) == LineKind::voronoi) return;
       harm = at_surface(h) || at_surface(h ^ 1) || (goes_on(h) && goes_on(h ^ 1));
     });

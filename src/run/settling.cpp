@@ -22,17 +22,20 @@ double size_of(const Simulation& sim, std::size_t i) {
   return std::sqrt(sim.blocks.area[i]);
 }
 
-/// About a period of the motion, in steps.
+/// About half a period of the motion, in steps: what comes to rest has come a good way by then.
 std::uint64_t window_of(const Simulation& sim) {
   constexpr double least = 128.0, most = 2048.0;
   const double turn = sim.pace.frequency * sim.state.step;
   return static_cast<std::uint64_t>(
-      turn > 0.0 ? std::clamp(2.0 * std::numbers::pi / turn, least, most) : least);
+      turn > 0.0 ? std::clamp(std::numbers::pi / turn, least, most) : least);
 }
 
 void begin_window(Settling& s, const Simulation& sim) {
   s.window_began = sim.state.steps;
   s.window = window_of(sim);
+  const double length = static_cast<double>(s.window) * sim.state.step;
+  s.pull_before = s.pull;
+  s.pull = (sim.pace.frequency > 0.0 ? sim.pace.frequency : 1.0 / length) / length;
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
     const Vec2 at = centroid(sim.state.x, sim.state.y, i);
     s.from_x[i] = at.x;
@@ -43,12 +46,13 @@ void begin_window(Settling& s, const Simulation& sim) {
 /// At the end of a window: who has gone on.
 void see_who_goes(Settling& s, Simulation& sim) {
   constexpr double lasting = 0.5;  // what comes to rest has moved far less than that
+  const double like_before = s.pull_before > 0.0 ? s.pull / s.pull_before : 1.0;
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
     const Vec2 at = centroid(sim.state.x, sim.state.y, i);
     const Vec2 now = at - Vec2{s.from_x[i], s.from_y[i]}, was{s.moved_x[i], s.moved_y[i]};
     const bool goes = is_free(sim.blocks, sim.state, i) &&
                       norm(now) > left_over * size_of(sim, i) &&
-                      dot(now, was) >= lasting * dot(was, was) && norm(was) > 0.0;
+                      like_before * dot(now, was) >= lasting * dot(was, was) && norm(was) > 0.0;
     s.going[i] = goes ? static_cast<std::uint8_t>(std::min<int>(s.going[i] + 1, windows)) : 0;
     s.moved_x[i] = now.x;
     s.moved_y[i] = now.y;
@@ -99,7 +103,8 @@ double prospect(const Simulation& sim, std::size_t i) {
 
 bool has_come_to_rest(Settling& s, Simulation& sim, const Stage& stage) {
   if (!sim.all_on()) {
-    begin_window(s, sim);
+    s.window_began = sim.state.steps;
+    s.window = 0;
     return false;
   }
   if (sim.state.steps >= s.window_began + s.window) {

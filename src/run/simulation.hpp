@@ -92,7 +92,7 @@ struct Simulation {
   bool settles =
       false;  ///< is to come to rest: its pace is looked at, what changes may come gently
   double rest_ratio = 0.0;  ///< of unbalanced forces at which it rests (Stage::ratio)
-  Pace pace;  ///< while it settles
+  Pace pace;                ///< while it settles
   std::vector<std::uint8_t>
       aloof;  ///< [nb] 1: does not count in it, falls or slides away; empty: none
   double step_change_energy = 0.0;  ///< J, created by changes of the step

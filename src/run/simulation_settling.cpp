@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/parallel.hpp"
@@ -15,6 +16,26 @@ namespace {
 /// Of a node; of `consistent`, a third of the block's.
 double inertia_of_node(const BlockSet& b, std::size_t k, std::size_t i) {
   return b.mass_kind == MassKind::consistent ? inertia_of(b, i) / 3.0 : b.node_mass[k][i];
+}
+
+/// What a value may count for at most, so that none is more than a sixteenth of all (of few values,
+/// than four times their mean): one block that slides alone would drown the motion of all that
+/// is to come to rest.
+double largest_part(const std::vector<double>& values) {
+  constexpr double part = 1.0 / 16.0, few = 4.0;
+  constexpr int rounds = 30;
+  const auto counting =
+      std::count_if(values.begin(), values.end(), [](double v) { return v > 0.0; });
+  const double share = std::max(part, few / std::max(1.0, static_cast<double>(counting)));
+  double most = std::numeric_limits<double>::infinity();
+  if (share >= 1.0) return most;
+  for (int round = 0; round < rounds; ++round) {
+    double sum = 0.0;
+    for (const double v : values) sum += std::min(v, most);
+    if (share * sum >= most) break;
+    most = share * sum;
+  }
+  return most;
 }
 
 }  // namespace
@@ -36,10 +57,7 @@ void Simulation::take_pace(const LoadsNow& at_work) {
       std::clamp(wanted, static_cast<double>(least), static_cast<double>(most)));
   const bool first = pace.x[0].empty();
   if (!first && state.steps < pace.since + length) return;
-  struct Sums {
-    double stiffness = 0.0, inertia = 0.0;
-  };
-  std::vector<Sums> sums((blocks.size() + blocks_at_once - 1) / blocks_at_once);
+  std::vector<double> stiffness(blocks.size(), 0.0), inertia_moved(blocks.size(), 0.0);
   if (first) {
     for (auto* nodes : {&pace.x, &pace.y, &pace.fx, &pace.fy}) {
       for (auto& values : *nodes) values.assign(blocks.size(), 0.0);
@@ -48,11 +66,11 @@ void Simulation::take_pace(const LoadsNow& at_work) {
   // What falls has no stiffness, and goes further than all else together.
   const std::vector<std::uint8_t> touches = touching(*this);
   parallel_chunks(
-      blocks.size(), blocks_at_once, [&](std::size_t c, std::size_t from, std::size_t to) {
+      blocks.size(), blocks_at_once, [&](std::size_t, std::size_t from, std::size_t to) {
         // `load`: what comes or goes is no answer to motion; null: none.
         const auto look = [&](std::size_t i, const std::array<Vec2, 3>* load) {
-          const bool counts = is_free(blocks, state, i) && touches[i] != 0 &&
-                              (aloof.empty() || aloof[i] == 0);
+          const bool counts =
+              is_free(blocks, state, i) && touches[i] != 0 && (aloof.empty() || aloof[i] == 0);
           for (std::size_t k = 0; k < 3; ++k) {
             // The forces are those of the positions before the step.
             const Vec2 x{state.x[k][i] - h * state.vx[k][i], state.y[k][i] - h * state.vy[k][i]};
@@ -61,8 +79,8 @@ void Simulation::take_pace(const LoadsNow& at_work) {
             const Vec2 dx = x - Vec2{pace.x[k][i], pace.y[k][i]},
                        df = f - Vec2{pace.fx[k][i], pace.fy[k][i]};
             if (counts) {
-              sums[c].stiffness -= dot(dx, df);
-              sums[c].inertia += inertia_of_node(blocks, k, i) * dot(dx, dx);
+              stiffness[i] -= dot(dx, df);
+              inertia_moved[i] += inertia_of_node(blocks, k, i) * dot(dx, dx);
             }
             pace.x[k][i] = x.x;
             pace.y[k][i] = x.y;
@@ -82,16 +100,18 @@ void Simulation::take_pace(const LoadsNow& at_work) {
       });
   pace.since = state.steps;
   if (first) return;
-  Sums all;
-  for (const Sums& s : sums) {
-    all.stiffness += s.stiffness;
-    all.inertia += s.inertia;
+  const double most_of_one = largest_part(inertia_moved);
+  double all_stiffness = 0.0, all_inertia = 0.0;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const double part = inertia_moved[i] > most_of_one ? most_of_one / inertia_moved[i] : 1.0;
+    all_stiffness += part * stiffness[i];
+    all_inertia += part * inertia_moved[i];
   }
-  if (!(all.inertia > 0.0)) return;
+  if (!(all_inertia > 0.0)) return;
   // Where what moves has no stiffness (all of it slides) half of what there was is left; nothing
   // that is held moves a hundred times slower than the wave.
   constexpr double slowest = 0.01;
-  const double now = std::max(all.stiffness / all.inertia, 0.0), was = pace.frequency;
+  const double now = std::max(all_stiffness / all_inertia, 0.0), was = pace.frequency;
   pace.frequency = std::max(was > 0.0 ? std::sqrt(0.5 * (was * was + now)) : std::sqrt(now),
                             slowest * wave_frequency());
 }

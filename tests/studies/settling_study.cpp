@@ -71,9 +71,9 @@ std::vector<Case> cases() {
   slope.more = until_rest;
   const std::string tunnel = example("tunnel"), dam = example("dam");
   return {
-      {"cavern", replaced(replaced(at_rest("cavern"), "friction_angle = 5.0",
-                                   "friction_angle = 45.0"),
-                          "stiffness = \"19 TPa\"", "")},
+      {"cavern",
+       replaced(replaced(at_rest("cavern"), "friction_angle = 5.0", "friction_angle = 45.0"),
+                "stiffness = \"19 TPa\"", "")},
       {"slope", replaced(at_rest("slope"), "friction_angle = 20.0", "friction_angle = 38.0")},
       {"tunnel", tunnel},
       {"dam", replaced(replaced(replaced(replaced(replaced(dam, "history = \"dam-level.csv\"", ""),
@@ -101,8 +101,8 @@ struct Answer {
   std::size_t blocks = 0;
   std::uint64_t steps = 0;
   double seconds = 0.0;
-  std::vector<Vec2> moved;      ///< [nb] m, of the centroids
-  std::vector<Tensor> stress;   ///< [nb] Pa
+  std::vector<Vec2> moved;     ///< [nb] m, of the centroids
+  std::vector<Tensor> stress;  ///< [nb] Pa
 };
 
 double kinetic_energy_of(const Simulation& sim) {
@@ -165,8 +165,7 @@ Answer answer_of(const Case& c, Way way) {
   answer.message = outcome.value().message;
   answer.steps = outcome.value().steps;
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
-    answer.moved.push_back(
-        displacement_of(sim.state, i, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}));
+    answer.moved.push_back(displacement_of(sim.state, i, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}));
     const BlockStress s = block_stress(sim, sim.state, i);
     answer.stress.push_back({s.xx, s.yy, s.xy});
   }
@@ -209,10 +208,12 @@ int main(int argc, char** argv) {
   using namespace edda;
   omp_set_num_threads(1);
   bool all_rest = true;
-  std::printf("Steps and CPU seconds to rest; in brackets how far displacements and stresses are "
-              "from the first, %%.\n\n");
-  std::printf("| model | blocks | adaptive | local 0.8 | kinetic | implicit, static |\n"
-              "|---|---|---|---|---|---|\n");
+  std::printf(
+      "Steps and CPU seconds to rest; in brackets how far displacements and stresses are "
+      "from the first, %%.\n\n");
+  std::printf(
+      "| model | blocks | adaptive | local 0.8 | kinetic | implicit, static |\n"
+      "|---|---|---|---|---|---|\n");
   for (const Case& c : cases()) {
     if (!wanted(argc, argv, c.name)) continue;
     const Answer first = answer_of(c, Way::adaptive);
