@@ -362,43 +362,36 @@ void close_touching(ContactSet& c, const BlockSet& b, const Pose& pose, const La
 
 }  // namespace
 
-/// Edges that meet in a convex corner: a vertex within the block is inside both, and touches the
-/// one that is closed, else the one least penetrated. Whether that is another than the edge of k.
-static bool touches_rival(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k,
-                          double tie, bool long_step) {
-  const Id j = c.block_j[k], vertex = c.vertex[k];
-  for (Id q = c.begin_of_vertex[vertex]; q < c.begin_of_vertex[vertex + 1]; ++q) {
-    if (q == k || c.block_j[q] != j || !rivals(b, c.edge[k], c.edge[q])) continue;
-    if (c.is(q, cs::closed) && c.share[q] > 0.0) return true;
-    // Within the rival's line a step ago already: it is k that the vertex has crossed.
-    if (long_step && c.depth_1[k] <= tie && c.depth_1[q] > tie) {
-      if (comes_along(c, vertex, q) || comes_along_own(c, b, k, q)) return true;
-      continue;
-    }
-    if (c.depth[q] <= -tie && c.share[k] == 1.0) return true;
-    if (c.depth[q] < c.depth[k] - tie && c.share[q] > 0.0 &&
-        facing(b, pose.x, pose.y, vertex, normal_of(c, q))) {
-      return true;
-    }
-  }
-  return false;
-}
-
 Blocked hindrance(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k,
                   bool long_step) {
   const Id i = c.block_i[k], j = c.block_j[k], vertex = c.vertex[k];
   if (c.depth[k] > 0.5 * std::min(b.inradius[i], b.inradius[j])) return Blocked::depth;
   if (!facing(b, pose.x, pose.y, vertex, normal_of(c, k))) return Blocked::facing;
   const double tie = rounding * b.radius[j];
-  // What a rival has kept out so far mostly stays out, which is quickly seen.
-  const bool had_rival = c.why[k] == Blocked::conflict;
-  if (had_rival && touches_rival(c, b, pose, k, tie, long_step)) return Blocked::conflict;
+  // Where edges meet in a convex corner a vertex is inside both; the closed or shallower one has
+  // it.
+  const auto rival_has_it = [&](Id q) {
+    if (q == k || c.block_j[q] != j || !rivals(b, c.edge[k], c.edge[q])) return false;
+    if (c.is(q, cs::closed) && c.share[q] > 0.0) return true;
+    // Within the rival's line a step ago already: it is k that the vertex has crossed.
+    if (long_step && c.depth_1[k] <= tie && c.depth_1[q] > tie)
+      return comes_along(c, vertex, q) || comes_along_own(c, b, k, q);
+    if (c.depth[q] <= -tie && c.share[k] == 1.0) return true;
+    return c.depth[q] < c.depth[k] - tie && c.share[q] > 0.0 &&
+           facing(b, pose.x, pose.y, vertex, normal_of(c, q));
+  };
+  const auto has_rival = [&] {
+    Id q = c.begin_of_vertex[vertex];
+    while (q < c.begin_of_vertex[vertex + 1] && !rival_has_it(q)) ++q;
+    return q < c.begin_of_vertex[vertex + 1];
+  };
+  const bool had_rival = c.why[k] == Blocked::conflict;  // mostly it still has, quickly seen
+  if (had_rival && has_rival()) return Blocked::conflict;
   if (shielded(c, b, pose, k)) return Blocked::shield;
   // What was above the edge a step ago has come in through it.
   if (c.depth_1[k] > tie && lies_outside(c, b, pose, k, std::max(tie, c.noise)))
     return Blocked::outside;
-  if (!had_rival && touches_rival(c, b, pose, k, tie, long_step)) return Blocked::conflict;
-  return Blocked::no;
+  return !had_rival && has_rival() ? Blocked::conflict : Blocked::no;
 }
 
 void block_shielded(ContactSet& c, const BlockSet& b, const Pose& pose) {

@@ -26,8 +26,8 @@ double size_of(const Simulation& sim, std::size_t i) {
 std::uint64_t window_of(const Simulation& sim) {
   constexpr double least = 128.0, most = 2048.0;
   const double turn = sim.pace.frequency * sim.state.step;
-  return static_cast<std::uint64_t>(
-      turn > 0.0 ? std::clamp(std::numbers::pi / turn, least, most) : least);
+  return static_cast<std::uint64_t>(turn > 0.0 ? std::clamp(std::numbers::pi / turn, least, most)
+                                               : least);
 }
 
 void begin_window(Settling& s, const Simulation& sim) {
@@ -51,7 +51,7 @@ void see_who_goes(Settling& s, Simulation& sim) {
     const Vec2 at = centroid(sim.state.x, sim.state.y, i);
     const Vec2 now = at - Vec2{s.from_x[i], s.from_y[i]}, was{s.moved_x[i], s.moved_y[i]};
     const bool goes = is_free(sim.blocks, sim.state, i) &&
-                      norm(now) > left_over * size_of(sim, i) &&
+                      windows * norm(now) > left_over * size_of(sim, i) &&
                       like_before * dot(now, was) >= lasting * dot(was, was) && norm(was) > 0.0;
     s.going[i] = goes ? static_cast<std::uint8_t>(std::min<int>(s.going[i] + 1, windows)) : 0;
     s.moved_x[i] = now.x;

@@ -228,14 +228,6 @@ void Simulation::set_strength_factors(const std::vector<double>& factors) {
   note_jump(before);
 }
 
-/// Without a look at what that makes forces jump by.
-void Simulation::take_strength_factors(const std::vector<double>& factors) {
-  if (factors == laws.divided_by) return;
-  LawTable divided = divided_laws(model, factors);
-  take_strength(contacts, laws, divided);
-  laws = std::move(divided);
-}
-
 void Simulation::set_strength_factor(double factor) {
   set_strength_factors(std::vector<double>(laws.rows.size(), factor));
 }

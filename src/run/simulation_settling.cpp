@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/parallel.hpp"
+#include "contacts/strength.hpp"
 #include "run/simulation.hpp"
 #include "run/stages.hpp"
 
@@ -65,12 +66,13 @@ void Simulation::take_pace(const LoadsNow& at_work) {
   }
   // What falls has no stiffness, and goes further than all else together.
   const std::vector<std::uint8_t> touches = touching(*this);
+  const bool all_fall = std::find(touches.begin(), touches.end(), 1) == touches.end();
   parallel_chunks(
       blocks.size(), blocks_at_once, [&](std::size_t, std::size_t from, std::size_t to) {
         // `load`: what comes or goes is no answer to motion; null: none.
         const auto look = [&](std::size_t i, const std::array<Vec2, 3>* load) {
-          const bool counts =
-              is_free(blocks, state, i) && touches[i] != 0 && (aloof.empty() || aloof[i] == 0);
+          const bool counts = is_free(blocks, state, i) && (touches[i] != 0 || all_fall) &&
+                              (aloof.empty() || aloof[i] == 0);
           for (std::size_t k = 0; k < 3; ++k) {
             // The forces are those of the positions before the step.
             const Vec2 x{state.x[k][i] - h * state.vx[k][i], state.y[k][i] - h * state.vy[k][i]};
@@ -140,6 +142,14 @@ void Simulation::begin_gently(const std::vector<double>& strength_factors) {
   if (changes) loads.gentle = {state.time, 0.0, false};
   strength_from_ = laws.divided_by;
   strength_to_ = strength_factors;
+}
+
+/// Without a look at what that makes forces jump by.
+void Simulation::take_strength_factors(const std::vector<double>& factors) {
+  if (factors == laws.divided_by) return;
+  LawTable divided = divided_laws(model, factors);
+  take_strength(contacts, laws, divided);
+  laws = std::move(divided);
 }
 
 /// A little more, in time with the motion: all of it within some of its periods.

@@ -116,7 +116,7 @@ class Words(Program):
 
     def test_checks_that_do_not_hold_are_said_at_the_end(self):
         said = self.expect(0, "run", self.write("soft.toml", BLOCK % 1e6))
-        self.assertRegex(said.stdout, r"check does not hold: overlap over half width at the end is 0\.0\d+, more than 0\.01")
+        self.assertRegex(said.stdout, r"check does not hold: overlap over half width at the end is 0\.0\d+, more than 0\.02")
         lines = self.expect(0, "run", "soft.toml", "-o", "again", "--json").stdout.splitlines()
         self.assertEqual(len(json.loads(lines[-1])["failed_checks"]), 1)
         firm = self.expect(0, "run", self.write("firm.toml", BLOCK % 1e10))
