@@ -19,11 +19,11 @@ double inertia_of_node(const BlockSet& b, std::size_t k, std::size_t i) {
   return b.mass_kind == MassKind::consistent ? inertia_of(b, i) / 3.0 : b.node_mass[k][i];
 }
 
-/// What a value may count for at most, so that none is more than a sixteenth of all (of few values,
+/// What a value may count for at most, so that none is more than a quarter of all (of few values,
 /// than four times their mean): one block that slides alone would drown the motion of all that
 /// is to come to rest.
 double largest_part(const std::vector<double>& values) {
-  constexpr double part = 1.0 / 16.0, few = 4.0;
+  constexpr double part = 1.0 / 4.0, few = 4.0;
   constexpr int rounds = 30;
   const auto counting =
       std::count_if(values.begin(), values.end(), [](double v) { return v > 0.0; });
