@@ -143,7 +143,8 @@ void list_run_ons(ContactSet& c, const BlockSet& b) {
 }
 
 double contact_length(const BlockSet& b, const Pose& pose, Id vertex, Id edge) {
-  // Corners that only meet, as at every crossing of two joints, overlap by rounding at most.
+  // Corners that only meet, as at every crossing of two joints, overlap by rounding or by nothing:
+  // both are an overlap that begins.
   constexpr double rounding = 1e-9;
   const EdgeFrame e = edge_frame(at(pose.x, pose.y, edge), at(pose.x, pose.y, b.next[edge]));
   double length = 0.0;
@@ -152,7 +153,8 @@ double contact_length(const BlockSet& b, const Pose& pose, Id vertex, Id edge) {
     if (dot(unit(q - p), e.t) > -opposite) continue;
     const double z0 = dot(q - e.start, e.t), z1 = dot(p - e.start, e.t);
     const double overlap = std::min(z1, e.length) - std::max(z0, 0.0);
-    if (overlap > rounding * std::min(e.length, norm(q - p))) length += 0.5 * overlap;
+    const double least = rounding * std::min(e.length, norm(q - p));
+    if (overlap > -least) length += 0.5 * std::max(overlap, least);
   }
   return length;
 }
