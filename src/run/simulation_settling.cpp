@@ -112,7 +112,7 @@ void Simulation::take_pace(const LoadsNow& at_work) {
   if (!(all_inertia > 0.0)) return;
   // Where what moves has no stiffness (all of it slides) half of what there was is left; nothing
   // that is held moves a hundred times slower than the wave.
-  constexpr double slowest = 0.01;
+  const double slowest = all_fall ? 0.0 : 0.01;
   const double now = std::max(all_stiffness / all_inertia, 0.0), was = pace.frequency;
   pace.frequency = std::max(was > 0.0 ? std::sqrt(0.5 * (was * was + now)) : std::sqrt(now),
                             slowest * wave_frequency());
