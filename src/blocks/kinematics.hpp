@@ -30,6 +30,16 @@ inline bool is_free(const BlockSet& b, const State& s, std::size_t i) {
   return b.fixed[i] == 0 && s.alive[i] != 0;
 }
 
+/// Mass that moves block i as a whole, kg: more than its weight says where inertia has been raised.
+/// (Of `consistent`, M^-1 of a uniform acceleration: the cover is centred on the centroid.)
+inline double inertia_of(const BlockSet& b, std::size_t i) {
+  if (b.mass_kind != MassKind::consistent) {
+    return b.node_mass[0][i] + b.node_mass[1][i] + b.node_mass[2][i];
+  }
+  const auto& m = b.inverse_mass;
+  return 9.0 / (m[0][i] + m[3][i] + m[5][i] + 2.0 * (m[1][i] + m[2][i] + m[4][i]));
+}
+
 /// Deformation gradient F = sum x_k G_k^T.
 struct Deformation {
   double xx, xy, yx, yy;

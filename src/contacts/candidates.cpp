@@ -143,13 +143,18 @@ void list_run_ons(ContactSet& c, const BlockSet& b) {
 }
 
 double contact_length(const BlockSet& b, const Pose& pose, Id vertex, Id edge) {
+  // Corners that only meet, as at every crossing of two joints, overlap by rounding or by nothing:
+  // both are an overlap that begins.
+  constexpr double rounding = 1e-9;
   const EdgeFrame e = edge_frame(at(pose.x, pose.y, edge), at(pose.x, pose.y, b.next[edge]));
   double length = 0.0;
   for (Id f : {b.previous[vertex], vertex}) {
     const Vec2 p = at(pose.x, pose.y, f), q = at(pose.x, pose.y, b.next[f]);
     if (dot(unit(q - p), e.t) > -opposite) continue;
     const double z0 = dot(q - e.start, e.t), z1 = dot(p - e.start, e.t);
-    length += 0.5 * std::max(0.0, std::min(z1, e.length) - std::max(z0, 0.0));
+    const double overlap = std::min(z1, e.length) - std::max(z0, 0.0);
+    const double least = rounding * std::min(e.length, norm(q - p));
+    if (overlap > -least) length += 0.5 * std::max(overlap, least);
   }
   return length;
 }

@@ -262,7 +262,9 @@ bool inherit_from_partner(ContactSet& c, std::size_t k) {
   return true;
 }
 
-void find_events(ContactSet& c, TransitionScratch& events) {
+/// `start`: what lies in each other by rounding alone touches, and is closed once it is pressed.
+void find_events(ContactSet& c, bool start, TransitionScratch& events) {
+  const double closes_beyond = start ? c.noise : 0.0;
   events.opens.clear();
   events.leaves.clear();
   events.returns.clear();
@@ -283,7 +285,7 @@ void find_events(ContactSet& c, TransitionScratch& events) {
           events.returns.push_back(static_cast<Id>(k));
         }
       } else if (!c.is(k, cs::blocked)) {
-        if (c.effective(k) > 0.0) {
+        if (c.effective(k) > closes_beyond) {
           if (c.on_edge(k)) events.closes.push_back(static_cast<Id>(k));
         } else if (c.rest[k] != 0.0) {
           c.rest[k] = std::max(0.0, std::min(c.rest[k], c.depth[k]));
@@ -365,28 +367,31 @@ Blocked hindrance(const ContactSet& c, const BlockSet& b, const Pose& pose, std:
   const Id i = c.block_i[k], j = c.block_j[k], vertex = c.vertex[k];
   if (c.depth[k] > 0.5 * std::min(b.inradius[i], b.inradius[j])) return Blocked::depth;
   if (!facing(b, pose.x, pose.y, vertex, normal_of(c, k))) return Blocked::facing;
-  if (shielded(c, b, pose, k)) return Blocked::shield;
   const double tie = rounding * b.radius[j];
+  // Where edges meet in a convex corner a vertex is inside both; the closed or shallower one has
+  // it.
+  const auto rival_has_it = [&](Id q) {
+    if (q == k || c.block_j[q] != j || !rivals(b, c.edge[k], c.edge[q])) return false;
+    if (c.is(q, cs::closed) && c.share[q] > 0.0) return true;
+    // Within the rival's line a step ago already: it is k that the vertex has crossed.
+    if (long_step && c.depth_1[k] <= tie && c.depth_1[q] > tie)
+      return comes_along(c, vertex, q) || comes_along_own(c, b, k, q);
+    if (c.depth[q] <= -tie && c.share[k] == 1.0) return true;
+    return c.depth[q] < c.depth[k] - tie && c.share[q] > 0.0 &&
+           facing(b, pose.x, pose.y, vertex, normal_of(c, q));
+  };
+  const auto has_rival = [&] {
+    Id q = c.begin_of_vertex[vertex];
+    while (q < c.begin_of_vertex[vertex + 1] && !rival_has_it(q)) ++q;
+    return q < c.begin_of_vertex[vertex + 1];
+  };
+  const bool had_rival = c.why[k] == Blocked::conflict;  // mostly it still has, quickly seen
+  if (had_rival && has_rival()) return Blocked::conflict;
+  if (shielded(c, b, pose, k)) return Blocked::shield;
   // What was above the edge a step ago has come in through it.
   if (c.depth_1[k] > tie && lies_outside(c, b, pose, k, std::max(tie, c.noise)))
     return Blocked::outside;
-  // Edges that meet in a convex corner: a vertex within the block is inside both, and touches the
-  // one that is closed, else the one least penetrated.
-  for (Id q = c.begin_of_vertex[vertex]; q < c.begin_of_vertex[vertex + 1]; ++q) {
-    if (q == k || c.block_j[q] != j || !rivals(b, c.edge[k], c.edge[q])) continue;
-    if (c.is(q, cs::closed) && c.share[q] > 0.0) return Blocked::conflict;
-    // Within the rival's line a step ago already: it is k that the vertex has crossed.
-    if (long_step && c.depth_1[k] <= tie && c.depth_1[q] > tie) {
-      if (comes_along(c, vertex, q) || comes_along_own(c, b, k, q)) return Blocked::conflict;
-      continue;
-    }
-    if (c.depth[q] <= -tie && c.share[k] == 1.0) return Blocked::conflict;
-    if (c.depth[q] < c.depth[k] - tie && c.share[q] > 0.0 &&
-        facing(b, pose.x, pose.y, vertex, normal_of(c, q))) {
-      return Blocked::conflict;
-    }
-  }
-  return Blocked::no;
+  return !had_rival && has_rival() ? Blocked::conflict : Blocked::no;
 }
 
 void block_shielded(ContactSet& c, const BlockSet& b, const Pose& pose) {
@@ -426,7 +431,7 @@ TransitionCounts settle_contacts(ContactSet& c, const BlockSet& b, const Pose& p
                                  const LawTable& laws, std::uint64_t step, bool start,
                                  TransitionScratch& scratch) {
   TransitionCounts counts;
-  find_events(c, scratch);
+  find_events(c, start, scratch);
   for (const Id k : scratch.opens) {
     // What the shear spring still holds goes with the contact.
     c.friction_work[k] += stored_energy(c, k);

@@ -89,13 +89,15 @@ std::vector<Part> parts_of(const Scene& w, std::size_t i) {
 }
 
 /// Contacts that bare corners would make: a block in motion meets its neighbours corner first, and
-/// a step chosen with that in mind need not change when it does.
-void add_bare_corners(BlockEquations& k, const Scene& w, std::size_t i) {
+/// a step chosen with that in mind need not change when it does. Whether there are any.
+bool add_bare_corners(BlockEquations& k, const Scene& w, std::size_t i) {
   const BlockSet& b = w.b;
+  bool any = false;
   for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v) {
     const bool touches = std::any_of(k.parts.begin(), k.parts.end(),
                                      [&](const Part& p) { return w.c.vertex[p.contact] == v; });
     if (touches || b.corner[v] > 3.0) continue;
+    any = true;
     const LawTable& laws = w.laws;
     const Law& law = laws.rows[laws.resolve(b.edge_joint[v], b.edge_joint[b.previous[v]])];
     const double length = 0.5 * std::max(b.edge_length[v], b.edge_length[b.previous[v]]);
@@ -110,6 +112,7 @@ void add_bare_corners(BlockEquations& k, const Scene& w, std::size_t i) {
       if (dashpot > 0.0) k.dashpots += 2.0 * dashpot * h * h.transpose();
     }
   }
+  return any;
 }
 
 BlockEquations equations_of(const Scene& w, std::size_t i, bool with_bare_corners) {
@@ -130,8 +133,8 @@ double not_beyond_drag(double step, const Damping& damping) {
   return drag > 0.0 ? std::min(step, 1.0 / drag) : step;
 }
 
-/// Not below the largest eigenvalue of M^-1 K, and at most 6^(1/16) times it: with A = L^-1 K L^-T,
-/// M = L L^T, the root (tr A^16)^(1/16).
+/// Not below the largest eigenvalue of M^-1 K, and at most 6^(1/64) times it: with A = L^-1 K L^-T,
+/// M = L L^T, the root (tr A^64)^(1/64).
 double eigenvalue_bound(const Matrix6& k, const Eigen::LLT<Matrix6>& mass) {
   Matrix6 a = mass.matrixL().solve(k);
   a = mass.matrixL().solve(a.transpose().eval()).eval();
@@ -139,9 +142,12 @@ double eigenvalue_bound(const Matrix6& k, const Eigen::LLT<Matrix6>& mass) {
   if (!std::isfinite(size)) return std::numeric_limits<double>::infinity();
   if (!(size > 0.0)) return 0.0;
   a /= size;
-  for (int square = 0; square < 3; ++square) a = (a * a).eval();
+  constexpr int squares = 5;
+  for (int square = 0; square < squares; ++square) a = Matrix6(a.lazyProduct(a));
+  double root = a.squaredNorm();
+  for (int square = 0; square <= squares; ++square) root = std::sqrt(root);
   constexpr double rounding = 1e-9;
-  return (1.0 + rounding) * size * std::pow(a.squaredNorm(), 1.0 / 16.0);
+  return (1.0 + rounding) * size * root;
 }
 
 /// The h > 0 with h^2 k/4 + h (c - d)/2 = m.
@@ -201,10 +207,13 @@ struct Smallest {
   Id block = no_id;
 };
 
-Smallest smallest_step(const Scene& w, const std::vector<double>& estimates,
-                       bool with_bare_corners) {
+/// `known_exact`: [nb] below zero where it is not known yet.
+Smallest smallest_step(const Scene& w, const std::vector<double>& estimates, bool with_bare_corners,
+                       std::vector<double>& known_exact) {
   const auto exact_step = [&](std::size_t i) {
-    return critical_step_of(equations_of(w, i, with_bare_corners), w.damping);
+    double& exact = known_exact[i];
+    if (exact < 0.0) exact = critical_step_of(equations_of(w, i, with_bare_corners), w.damping);
+    return exact;
   };
   const auto first = std::min_element(estimates.begin(), estimates.end());
   if (first == estimates.end() || !(*first < std::numeric_limits<double>::infinity())) return {};
@@ -252,17 +261,23 @@ StepBound step_bound(const BlockSet& b, const State& s, const Pose& pose, const 
                      const Bolts* bolts) {
   const Scene scene{b, s, pose, c, springs, laws, damping, bolts};
   std::vector<double> step(b.size(), std::numeric_limits<double>::infinity()), likely = step;
+  std::vector<std::uint8_t> bare(b.size(), 0);
   parallel_for(b.size(), [&](std::size_t i) {
     if (b.fixed[i] || !s.alive[i]) return;
     BlockEquations q = equations_of(scene, i, false);
-    step[i] = lower_estimate(q, damping);
-    add_bare_corners(q, scene, i);
+    likely[i] = step[i] = lower_estimate(q, damping);
+    if (!add_bare_corners(q, scene, i)) return;
+    bare[i] = 1;
     likely[i] = lower_estimate(q, damping);
   });
-  const Smallest critical = smallest_step(scene, step, false);
+  std::vector<double> exact(b.size(), -1.0);
+  const Smallest critical = smallest_step(scene, step, false, exact);
   StepBound bound;
   bound.critical_step = critical.step;
-  bound.likely_step = smallest_step(scene, likely, true).step;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (bare[i] != 0) exact[i] = -1.0;
+  }
+  bound.likely_step = smallest_step(scene, likely, true, exact).step;
   bound.block = critical.block;
   if (bound.block != no_id) explain(bound, scene, bound.block);
   return bound;

@@ -13,7 +13,7 @@ namespace {
 
 /// What is out of balance may be this part of the forces on a single block, and this of all
 /// blocks together (root of the sum of squares).
-constexpr double single_balance = 1e-2, balance = 1e-3;
+constexpr double single = 10.0;  // times what may be left of all forces together
 
 /// Generalised directions of one contact on the block at hand and on its partner: a spring of
 /// stiffness p adds p u u^T and p u w^T to the row of the former.
@@ -186,7 +186,7 @@ double measure_residual(ImplicitSolver& s, const ImplicitScene& scene,
                         const ImplicitSettings& settings, const State& state, const ContactSet& c,
                         const NodalForces& forces) {
   const BlockSet& b = scene.blocks;
-  const double h = settings.step, a = settings.mass_damping;
+  const double h = settings.step, a = settings.mass_damping, balance = settings.balance;
   const double gravity = norm(scene.gravity);
   s.residual.resize(static_cast<Eigen::Index>(6 * s.block_of.size()));
   s.error.assign(s.block_of.size(), 0.0);
@@ -205,7 +205,7 @@ double measure_residual(ImplicitSolver& s, const ImplicitScene& scene,
     });
     const double place = norm(centroid(state.x, state.y, i)) + b.radius[i];
     const double rounding = 1e-14 * place * s.stiffest[row];
-    s.error[row] = left.norm() / (single_balance * carried + rounding + 1e-300);
+    s.error[row] = left.norm() / (single * balance * carried + rounding + 1e-300);
     s.carried[row] = carried + rounding / balance;
   });
   double squares = 0.0;

@@ -31,6 +31,8 @@ struct ImplicitSettings {
   double mass_damping = 0.0;        ///< a of C = a M, 1/s
   double contact_damping = 0.0;     ///< zeta
   double displacement_limit = 0.0;  ///< m, of any vertex in one step
+  double balance = 1e-3;  ///< of the forces, that the last round may leave; of those on one block
+                          ///< ten times that
 };
 
 /// How an attempt at a step ended.

@@ -7,17 +7,24 @@
 namespace edda {
 namespace {
 
+/// Rate of F that the velocities v of the nodes make.
+Deformation rate_of(const BlockSet& b, std::size_t i, const std::array<Vec2, 3>& v) {
+  Deformation l{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
+    l.xx += v[k].x * gx;
+    l.xy += v[k].x * gy;
+    l.yx += v[k].y * gx;
+    l.yy += v[k].y * gy;
+  }
+  return l;
+}
+
 /// B M^-1 B^T of the undeformed block, entries 11 12 13 22 23 33, 1/(kg m2).
 std::array<double, 6> compliance_of_inertia(const BlockSet& b, std::size_t i) {
   const auto rate = [&](const std::array<Vec2, 3>& v) {
-    StrainTerms d{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
-      d.xx += v[k].x * gx;
-      d.yy += v[k].y * gy;
-      d.xy += v[k].x * gy + v[k].y * gx;
-    }
-    return d;
+    const Deformation l = rate_of(b, i, v);
+    return StrainTerms{l.xx, l.yy, l.xy + l.yx};
   };
   std::array<Vec2, 3> xx, yy, xy;  // columns of B^T
   for (std::size_t k = 0; k < 3; ++k) {
@@ -58,22 +65,14 @@ Deformation deformation_before(const BlockSet& b, const State& s, double h_new, 
   return {f.xx - h_new * l.xx, f.xy - h_new * l.xy, f.yx - h_new * l.yx, f.yy - h_new * l.yy};
 }
 
-/// Rate of F that the velocities v of the nodes make.
-Deformation rate_of(const BlockSet& b, std::size_t i, const std::array<Vec2, 3>& v) {
-  Deformation l{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
-    l.xx += v[k].x * gx;
-    l.xy += v[k].x * gy;
-    l.yx += v[k].y * gx;
-    l.yy += v[k].y * gy;
-  }
-  return l;
-}
-
-/// v less h M^-1 B^T s.
-std::array<Vec2, 3> slowed(const BlockSet& b, std::size_t i, const StrainFrame& frame, double h,
-                           const StrainTerms& s, std::array<Vec2, 3> v) {
+/// v less h M^-1 B^T W d, d the rate of strain to be damped; s grows by W d.
+std::array<Vec2, 3> slowed(StrainDamping& damping, const BlockSet& b, std::size_t i,
+                           const StrainFrame& frame, const StrainTerms& rate,
+                           std::array<Vec2, 3> v) {
+  const StrainTerms s = times(damping.matrix, i, rate);
+  damping.stress[0][i] += s.xx;
+  damping.stress[1][i] += s.yy;
+  damping.stress[2][i] += s.xy;
   const Deformation p = stress_on_rate(frame, s);
   std::array<Vec2, 3> f;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -81,7 +80,7 @@ std::array<Vec2, 3> slowed(const BlockSet& b, std::size_t i, const StrainFrame& 
     f[k] = {p.xx * gx + p.xy * gy, p.yx * gx + p.yy * gy};
   }
   const std::array<Vec2, 3> a = accelerations(b, i, f);
-  for (std::size_t k = 0; k < 3; ++k) v[k] -= h * a[k];
+  for (std::size_t k = 0; k < 3; ++k) v[k] -= damping.step * a[k];
   return v;
 }
 
@@ -155,14 +154,12 @@ void damp_strain_and_move(StrainDamping& d, const BlockSet& b, State& s, double 
   for (std::size_t i = begin; i < end; ++i) {
     if (is_free(b, s, i)) {
       const StrainFrame frame = strain_frame(deformation(b, s.x, s.y, i));
-      const StrainTerms stress =
-          times(d.matrix, i, strain_rate_over(frame, deformation(b, s.vx, s.vy, i), h_new));
-      d.stress[0][i] = stress.xx;
-      d.stress[1][i] = stress.yy;
-      d.stress[2][i] = stress.xy;
       std::array<Vec2, 3> v;
-      for (std::size_t k = 0; k < 3; ++k) v[k] = {s.vx[k][i], s.vy[k][i]};
-      v = slowed(b, i, frame, d.step, stress, v);
+      for (std::size_t k = 0; k < 3; ++k) {
+        v[k] = {s.vx[k][i], s.vy[k][i]};
+        d.stress[k][i] = 0.0;
+      }
+      v = slowed(d, b, i, frame, strain_rate_over(frame, deformation(b, s.vx, s.vy, i), h_new), v);
       for (std::size_t k = 0; k < 3; ++k) {
         s.vx[k][i] = v[k].x;
         s.vy[k][i] = v[k].y;
@@ -178,11 +175,7 @@ void damp_strain_and_move(StrainDamping& d, const BlockSet& b, State& s, double 
 std::array<Vec2, 3> damped_change(StrainDamping& d, const BlockSet& b, const State& s, double h_new,
                                   std::size_t i, const std::array<Vec2, 3>& change) {
   const StrainFrame frame = strain_frame(deformation_before(b, s, h_new, i));
-  const StrainTerms stress = times(d.matrix, i, strain_rate(frame, rate_of(b, i, change)));
-  d.stress[0][i] += stress.xx;
-  d.stress[1][i] += stress.yy;
-  d.stress[2][i] += stress.xy;
-  return slowed(b, i, frame, d.step, stress, change);
+  return slowed(d, b, i, frame, strain_rate(frame, rate_of(b, i, change)), change);
 }
 
 double strain_dissipation(const StrainDamping& d, const BlockSet& b, const State& s,

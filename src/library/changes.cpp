@@ -130,7 +130,11 @@ void Simulation::set_damping(double mass, double local, double contact) {
   check_number("set_damping", "local", local, 0.0, below_one);
   check_number("set_damping", "contact", contact, 0.0, 10.0);
   impl_->begin_change("set_damping");
-  impl_->sim().change_damping({mass, local, contact}, impl_->sim().dynamic);
+  Damping damping = impl_->sim().damping;  // adaptive and Rayleigh's stay
+  damping.mass = mass;
+  damping.local = local;
+  damping.contact = contact;
+  impl_->sim().change_damping(damping, impl_->sim().dynamic);
   impl_->end_change();
 }
 

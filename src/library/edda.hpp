@@ -372,7 +372,7 @@ class EDDA_API Simulation {
   /// two halves, which differs by what half a step's acceleration brings.
   void set_velocity(std::size_t block, Point velocity, double omega = 0.0);
   /// Mass-proportional (1/s, from 0), local (0 to 1), and of contacts (part of critical, 0 to 10).
-  /// Error: beyond these.
+  /// Adaptive damping and Rayleigh's stay as the model or the stage has them. Error: beyond these.
   void set_damping(double mass, double local = 0.0, double contact = 0.0);
   /// Divides cohesion, tensile strength and the tangent of the friction angle as the model gives
   /// them (1e-6 or more), of all joints or of one; whatever it was before. Error: less.

@@ -132,7 +132,9 @@ class Merger {
   bool parts_a_joint(int face, int into) const {
     bool harm = false;
     for_each_half_edge(faces(), face, [&](int h) {
-      if (harm || face_of(faces(), h ^ 1) != into) return;
+      // Borders of Voronoi cells are no planes: each ends where three cells meet, at the surface,
+      // too.
+      if (harm || face_of(faces(), h ^ 1) != into || kind_of(h) == LineKind::voronoi) return;
       harm = at_surface(h) || at_surface(h ^ 1) || (goes_on(h) && goes_on(h ^ 1));
     });
     return harm;
@@ -171,6 +173,8 @@ class Merger {
     }
   }
 
+  LineKind kind_of(int h) const { return groups_.sources[at(g_.edge[at(h / 2)].source)].kind; }
+
   double turn(int h, int k) const {
     const Vec2 u = along(g_, h), v = along(g_, k);
     return std::abs(std::atan2(cross(u, v), dot(u, v)));
@@ -183,7 +187,7 @@ class Merger {
     const Vec2 u = along(g_, h), v = along(g_, k);
     if (!(dot(u, v) > 0.0)) return false;
     const Index source = g_.edge[at(h / 2)].source;
-    const LineKind kind = groups_.sources[at(source)].kind;
+    const LineKind kind = kind_of(h);
     const bool polyline = (kind == LineKind::trace || kind == LineKind::import) &&
                           g_.edge[at(k / 2)].source == source;
     return turn(h, k) <= (polyline ? bend : straight) ||

@@ -28,10 +28,10 @@ struct FaceMerge {
 /// min_angle that vanish with it, into a rock face of the same region and staged opening: that with
 /// which it shares the shortest boundary, of those that put no rock across a joint that runs
 /// through. A joint runs through a boundary if it goes on beyond both ends of it, or ends at the
-/// surface: at the outline, or at an opening. What is lost is then the tip of a joint that ends on
-/// another one. Smallest first, and no poor face twice, so that strips grow step by step. Faces
-/// that hold a held point stay as they are. Returns how many were merged, and adds them to
-/// `merges`; if any, faces must be found anew.
+/// surface: at the outline, or at an opening; borders of Voronoi cells never do. What is lost is
+/// then the tip of a joint that ends on another one. Smallest first, and no poor face twice, so
+/// that strips grow step by step. Faces that hold a held point stay as they are. Returns how many
+/// were merged, and adds them to `merges`; if any, faces must be found anew.
 int merge_poor_faces(PlanarGraph& graph, const Partition& parts, const Quality& quality,
                      const FaceGroups& groups, std::vector<FaceMerge>& merges);
 

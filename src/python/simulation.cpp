@@ -239,7 +239,7 @@ void add_changing(py::class_<Runner>& type) {
           R"(From now on.
 
 mass: mass-proportional, 1/s. local: part of the unbalanced force, 0 to 1. contact: part of
-critical, 0 to 10.)")
+critical, 0 to 10. Adaptive damping and Rayleigh's stay as they are.)")
       .def(
           "set_strength_factor",
           [](Runner& self, double factor, const std::optional<std::string>& joint) {

@@ -46,7 +46,9 @@ std::size_t held_blocks(const Simulation& sim) {
 ModelCheck check_model(Simulation& sim) {
   ModelCheck found;
   found.held = held_blocks(sim);
-  found.closed = closed_contacts(sim.contacts);
+  for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
+    found.closed += meet(sim.contacts, k) && sim.contacts.share[k] > 0.0;
+  }
   found.within_reach = sim.contacts.size();
   found.critical_step = sim.bound.critical_step;
   found.likely_step = sim.bound.likely_step;

@@ -168,6 +168,8 @@ void Driver::list_stages(Archive& a) {
   a("stage.calm", settling_.calm);
   a("settling.window_began", settling_.window_began);
   a("settling.window", settling_.window);
+  a("settling.pull", settling_.pull);
+  a("settling.pull_before", settling_.pull_before);
   a("settling.from_x", settling_.from_x);
   a("settling.from_y", settling_.from_y);
   a("settling.moved_x", settling_.moved_x);

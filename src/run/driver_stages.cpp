@@ -16,7 +16,7 @@ void Driver::begin_stage(std::size_t index) {
   stage_start_ = sim_.state.time;
   stage_steps_ = sim_.state.steps;
   const Stage& stage = stages_[index];
-  begin_settling(settling_, sim_, stage.until == StageEnd::equilibrium);
+  begin_settling(settling_, sim_, stage);
   times_.end_at(stage_start_ + stage.duration);
   if (sim_.model.stages.empty()) return;
   const bool glued = stage.joints == StageJoints::glued;

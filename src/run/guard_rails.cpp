@@ -65,8 +65,8 @@ void warn_of_sudden_gravity(const Simulation& sim, std::vector<std::string>& war
     return;
   bool carried = sim.springs.size() > 0;
   for (std::size_t k = 0; k < sim.contacts.size() && !carried; ++k) {
-    carried = sim.contacts.is(k, cs::closed) && (free_block(sim, sim.contacts.block_i[k]) ||
-                                                 free_block(sim, sim.contacts.block_j[k]));
+    carried = meet(sim.contacts, k) && (free_block(sim, sim.contacts.block_i[k]) ||
+                                        free_block(sim, sim.contacts.block_j[k]));
   }
   if (!carried) return;
   warnings.emplace_back(
@@ -97,7 +97,7 @@ double spring_ratio(const Simulation& sim, std::size_t k) {
 void warn_of_springs(const Simulation& sim, std::vector<std::string>& warnings) {
   Extreme low{std::numeric_limits<double>::infinity()}, high{0.0};
   for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
-    if (!sim.contacts.is(k, cs::closed)) continue;
+    if (!meet(sim.contacts, k)) continue;
     const double ratio = spring_ratio(sim, k);
     if (!(ratio > 0.0)) continue;
     // A stiffness that was given for the joint has been measured, and is what it is; one that

@@ -283,6 +283,10 @@ bool slides(const Simulation& sim, const ContactSet& c, std::size_t k) {
   return sim.explicit_method() ? c.cut(k) : c.is(k, cs::sliding);
 }
 
+bool meet(const ContactSet& c, std::size_t k) {
+  return c.is(k, cs::closed) || (!c.is(k, cs::blocked) && c.on_edge(k) && c.depth[k] >= -c.noise);
+}
+
 std::size_t closed_contacts(const ContactSet& c) {
   std::size_t count = 0;
   for (std::size_t k = 0; k < c.size(); ++k) count += c.is(k, cs::closed) && c.share[k] > 0.0;

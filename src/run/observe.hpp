@@ -51,6 +51,9 @@ double unbalanced_ratio(const Simulation& sim, const Instant& at);
 /// Whether the shear of contact k was cut at the last step (or round, of method "dda").
 bool slides(const Simulation& sim, const ContactSet& contacts, std::size_t k);
 
+/// Whether vertex and edge of candidate k are closed, or meet but for rounding.
+bool meet(const ContactSet& contacts, std::size_t k);
+
 /// Candidates that are closed and have a share of their spring.
 std::size_t closed_contacts(const ContactSet& contacts);
 

@@ -8,11 +8,10 @@
 
 #include "base/text.hpp"
 #include "run/labels.hpp"
+#include "run/observe.hpp"
 
 namespace edda {
 namespace {
-
-namespace cs = contact_state;
 
 /// Sets that are joined two by two; the name of a set is its lowest member.
 class Sets {
@@ -35,7 +34,7 @@ Sets groups_of(const Simulation& sim) {
   Sets sets(sim.blocks.size());
   const ContactSet& c = sim.contacts;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if (c.is(k, cs::closed)) sets.join(c.block_i[k], c.block_j[k]);
+    if (meet(c, k)) sets.join(c.block_i[k], c.block_j[k]);
   }
   const Bolts& bolts = sim.bolts;
   for (std::size_t r = 0; r < bolts.rows.size(); ++r) {

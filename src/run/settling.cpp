@@ -22,23 +22,20 @@ double size_of(const Simulation& sim, std::size_t i) {
   return std::sqrt(sim.blocks.area[i]);
 }
 
-double inertia_of(const BlockSet& b, std::size_t i) {
-  return b.mass_kind == MassKind::consistent
-             ? b.mass[i]
-             : b.node_mass[0][i] + b.node_mass[1][i] + b.node_mass[2][i];
-}
-
-/// About a period of the motion, in steps.
+/// About half a period of the motion, in steps: what comes to rest has come a good way by then.
 std::uint64_t window_of(const Simulation& sim) {
   constexpr double least = 128.0, most = 2048.0;
   const double turn = sim.pace.frequency * sim.state.step;
-  return static_cast<std::uint64_t>(
-      turn > 0.0 ? std::clamp(2.0 * std::numbers::pi / turn, least, most) : least);
+  return static_cast<std::uint64_t>(turn > 0.0 ? std::clamp(std::numbers::pi / turn, least, most)
+                                               : least);
 }
 
 void begin_window(Settling& s, const Simulation& sim) {
   s.window_began = sim.state.steps;
   s.window = window_of(sim);
+  const double length = static_cast<double>(s.window) * sim.state.step;
+  s.pull_before = s.pull;
+  s.pull = (sim.pace.frequency > 0.0 ? sim.pace.frequency : 1.0 / length) / length;
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
     const Vec2 at = centroid(sim.state.x, sim.state.y, i);
     s.from_x[i] = at.x;
@@ -49,12 +46,13 @@ void begin_window(Settling& s, const Simulation& sim) {
 /// At the end of a window: who has gone on.
 void see_who_goes(Settling& s, Simulation& sim) {
   constexpr double lasting = 0.5;  // what comes to rest has moved far less than that
+  const double like_before = s.pull_before > 0.0 ? s.pull / s.pull_before : 1.0;
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
     const Vec2 at = centroid(sim.state.x, sim.state.y, i);
     const Vec2 now = at - Vec2{s.from_x[i], s.from_y[i]}, was{s.moved_x[i], s.moved_y[i]};
     const bool goes = is_free(sim.blocks, sim.state, i) &&
-                      norm(now) > left_over * size_of(sim, i) &&
-                      dot(now, was) >= lasting * dot(was, was) && norm(was) > 0.0;
+                      windows * norm(now) > left_over * size_of(sim, i) &&
+                      like_before * dot(now, was) >= lasting * dot(was, was) && norm(was) > 0.0;
     s.going[i] = goes ? static_cast<std::uint8_t>(std::min<int>(s.going[i] + 1, windows)) : 0;
     s.moved_x[i] = now.x;
     s.moved_y[i] = now.y;
@@ -79,14 +77,15 @@ bool all_would_stay(const Simulation& sim) {
 
 }  // namespace
 
-void begin_settling(Settling& s, Simulation& sim, bool settles) {
+void begin_settling(Settling& s, Simulation& sim, const Stage& stage) {
   const std::size_t nb = sim.blocks.size();
   s = {};
   for (auto* values : {&s.from_x, &s.from_y, &s.moved_x, &s.moved_y}) values->assign(nb, 0.0);
   s.going.assign(nb, 0);
   sim.aloof.clear();
-  sim.settles = settles;
-  if (!settles) sim.pace = {};
+  sim.settles = stage.until == StageEnd::equilibrium;
+  sim.rest_ratio = stage.ratio;
+  if (!sim.settles) sim.pace = {};
   begin_window(s, sim);
 }
 
@@ -104,7 +103,8 @@ double prospect(const Simulation& sim, std::size_t i) {
 
 bool has_come_to_rest(Settling& s, Simulation& sim, const Stage& stage) {
   if (!sim.all_on()) {
-    begin_window(s, sim);
+    s.window_began = sim.state.steps;
+    s.window = 0;
     return false;
   }
   if (sim.state.steps >= s.window_began + s.window) {

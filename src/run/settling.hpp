@@ -15,13 +15,17 @@ struct Settling {
   std::uint64_t calm = 0;                ///< looks in sequence that have found rest
   std::uint64_t window_began = 0;        ///< step
   std::uint64_t window = 0;              ///< steps
+  double pull = 0.0, pull_before = 0.0;  ///< 1/s2, of this window and the one before: its
+                                         ///< displacements times this are what drives a block on
+                                         ///< which nothing but drag acts, m/s2
   std::vector<double> from_x, from_y;    ///< [nb] m, centroids when the window began
   std::vector<double> moved_x, moved_y;  ///< [nb] m, in the window before
   std::vector<std::uint8_t> going;  ///< [nb] windows in sequence in which it has gone on as before
 };
 
-/// Begins anew: no block is known to go its own way. `settles`: it is to come to rest from now on.
-void begin_settling(Settling& settling, Simulation& sim, bool settles);
+/// Begins anew: no block is known to go its own way. A stage until equilibrium is to come to rest
+/// from now on.
+void begin_settling(Settling& settling, Simulation& sim, const Stage& stage);
 
 /// How far block i would still go, m: |v|/w + |R|/(m w^2) with its velocity v, the resultant R of
 /// the forces on it, and w the frequency with which the model moves (Pace). Of a static implicit
@@ -31,8 +35,8 @@ double prospect(const Simulation& sim, std::size_t i);
 /// To be called after every step. True once all that is to come has come (Simulation::all_on), the
 /// mean unbalanced force is within the stage's ratio, and no block would go further than a
 /// ten-thousandth of its size. Marks blocks that keep going where others come to rest as aloof: in
-/// each of several windows, about a period of the motion long, they have gone on in the same
-/// direction by at least half as much as in the one before.
+/// each of several windows, about half a period of the motion long, they have gone on in the same
+/// direction by at least half as much as in the one before, as drag and window then were.
 bool has_come_to_rest(Settling& settling, Simulation& sim, const Stage& stage);
 
 /// "block 25 (moves on by 3.1 mm in 0.02 s), block 7 (...)"; empty: none.

@@ -223,9 +223,7 @@ void Simulation::change_damping(const Damping& now, bool carry_velocities) {
 void Simulation::set_strength_factors(const std::vector<double>& factors) {
   if (factors == laws.divided_by) return;
   const NodalForces before = forces_now();
-  LawTable divided = divided_laws(model, factors);
-  take_strength(contacts, laws, divided);
-  laws = std::move(divided);
+  take_strength_factors(factors);
   note_jump(before);
 }
 

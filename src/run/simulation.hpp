@@ -91,7 +91,8 @@ struct Simulation {
   double smallest_half_width = 0.0;  ///< m, of all blocks
   bool settles =
       false;  ///< is to come to rest: its pace is looked at, what changes may come gently
-  Pace pace;  ///< while it settles
+  double rest_ratio = 0.0;  ///< of unbalanced forces at which it rests (Stage::ratio)
+  Pace pace;                ///< while it settles
   std::vector<std::uint8_t>
       aloof;  ///< [nb] 1: does not count in it, falls or slides away; empty: none
   double step_change_energy = 0.0;  ///< J, created by changes of the step
@@ -237,7 +238,9 @@ struct Simulation {
   StepDamping damps_;  ///< of the step in hand
 
   void take_pace(const LoadsNow& at_work);
+  double wave_frequency() const;
   void bring_on();
+  void take_strength_factors(const std::vector<double>& factors);
   std::vector<double> strength_from_, strength_to_;  ///< [laws] while strength changes gently
 
   // Of one step, kept so that it allocates nothing.

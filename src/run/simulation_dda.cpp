@@ -110,6 +110,9 @@ std::optional<Failure> Simulation::step_implicit() {
   settings.mass_damping = damping.drag();
   settings.contact_damping = damping.contact;
   settings.displacement_limit = displacement_limit;
+  // What is to be seen at rest must not hide behind what rounds leave.
+  constexpr double finer = 0.1;
+  if (settles) settings.balance = std::min(settings.balance, finer * rest_ratio);
   constexpr int most_cuts = 40;
   for (int cuts = 0;; ++cuts) {
     settings.step = state.step;

@@ -140,6 +140,7 @@ void list_state(Archive& a, Simulation& s) {
   a("pace.fy", s.pace.fy);
   a("aloof", s.aloof);
   a("settles", s.settles);
+  a("rest_ratio", s.rest_ratio);
   a("gentle.at", s.loads.gentle.at);
   a("gentle.part", s.loads.gentle.part);
   a("gentle.weight", s.loads.gentle.weight);

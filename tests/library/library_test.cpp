@@ -255,6 +255,16 @@ damping = { mass = 2.0 }
   EXPECT_LT(apart, 1e-9);
 }
 
+/// What brings a stage to rest is not among what set_damping sets.
+TEST_F(Library, DampingByHandLeavesAdaptiveDamping) {
+  Simulation untouched(Model::read(examples + "roof-wedge.toml")),
+      set(Model::read(examples + "roof-wedge.toml"));
+  set.set_damping(0.0);
+  EXPECT_EQ(untouched.run().status, Status::equilibrium);
+  EXPECT_EQ(set.run().status, Status::equilibrium);
+  EXPECT_EQ(set.time(), untouched.time());
+}
+
 TEST_F(Library, RockTakenOutByHandIsGone) {
   const Model model = Model::read(examples + "tunnel.toml");
   ASSERT_FALSE(model.stages().empty());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "lines/checks.hpp"
 #include "lines/line_models.hpp"
@@ -119,6 +120,27 @@ TEST(Voronoi, FitsAnOutlineThatIsNotConvexAndOpenings) {
   add_opening(model, box(2, 2, 6, 6));
   const PolygonSet set = cut(model);
   EXPECT_NEAR(set.report.area_out, 240.0 + 120.0 - 16.0, 1e-6);
+}
+
+/// Tips of cells that walls cut off join a cell beside them: borders of cells are no joints that
+/// run through.
+TEST(Voronoi, WallsLeaveNoSlivers) {
+  std::size_t merged = 0;
+  for (long long seed = 1; seed <= 8; ++seed) {
+    Model model = voronoi_model(20, 20, 1.0, 5, seed);
+    Ring round;
+    for (int k = 0; k < 48; ++k) {
+      round.push_back(Vec2{10, 10} + rotated({4.0, 0.0}, 2.0 * std::numbers::pi * k / 48));
+    }
+    add_opening(model, round);
+    model.quality.min_edge = 0.1;
+    model.quality.min_area = 0.04;
+    const PolygonSet set = cut(model);
+    EXPECT_EQ(set.report.slivers, 0) << seed;
+    EXPECT_TRUE(set.report.kept.empty()) << seed;
+    merged += set.report.merges.size();
+  }
+  EXPECT_GT(merged, 8U);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// A long time at rest: validation.md row 18, shortened; tools/rest-study runs the million steps.
+// A long time at rest: validation.md row 18, shortened; tools/rest-study wall runs the million
+// steps.
 #include "verification/wall_at_rest.hpp"
 
 namespace edda::rest_test {

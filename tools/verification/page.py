@@ -158,7 +158,7 @@ def _tests(checks):
     """Where the numbers come from."""
     files = {}
     for check in checks:
-        files.setdefault(check.file or "tools/rest-study", set()).add(check.test)
+        files.setdefault(check.file or "tools/rest-study wall", set()).add(check.test)
     parts = [f"`{file}`" + (f" ({', '.join(sorted(tests))})" if file.startswith("tests/") else "")
              for file, tests in sorted(files.items())]
     return wrapped("Recorded by " + ", ".join(parts) + ".")

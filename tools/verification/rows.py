@@ -121,7 +121,7 @@ ROWS = (
         "Eight rows of eight bricks, 1 x 0.5 m, undamped; met by gravity at once (\"as drawn\"), or settled first.",
         "Energy does not change: as drawn, kinetic energy after the first second is no larger than in it. Settled, it is at"
         " the level of rounding, and no contact that carries more than 1e-9 of a brick's weight opens or closes.",
-        "Tests watch 40,000 steps, `tools/rest-study` a million."),
+        "Tests watch 40,000 steps, `tools/rest-study wall` a million."),
     Row(19, "Momentum and indifference",
         "Twenty polygons of three to six corners, thrown at each other without gravity; and the same turned by 0.7 rad,"
         " mirrored, and with the blocks in another order.",

@@ -534,7 +534,7 @@ class Simulation:
         """From now on.
 
         mass: mass-proportional, 1/s. local: part of the unbalanced force, 0 to 1. contact: part of
-        critical, 0 to 10.
+        critical, 0 to 10. Adaptive damping and Rayleigh's stay as they are.
         """
     def set_strength_factor(self, factor: float, joint: Optional[str] = None) -> None:
         """Strength of all joints, or of one, as the model gives it, divided by the factor."""
