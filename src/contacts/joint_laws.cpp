@@ -14,6 +14,7 @@ namespace {
 
 namespace cs = contact_state;
 constexpr double whole_gap = 1e-6;  // of the smaller block: what gapes by more is whole no more
+constexpr double apart = 1e-4;
 constexpr double steepest = 70.0;   // degrees
 
 double radians(double degrees) {
@@ -23,6 +24,10 @@ double radians(double degrees) {
 /// Plastic slip of contact k in the last step, m.
 double slip_of_step(const ContactSet& c, std::size_t k) {
   return c.is(k, cs::bonded) ? 0.0 : std::abs(c.slip_before_cut(k) + c.shear[k] / c.ks[k]);
+}
+
+double size_of(const BlockSet& b, const ContactSet& c, std::size_t k) {
+  return std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
 }
 
 /// What of a law holds at contact k after the slip so far.
@@ -90,6 +95,20 @@ void take_slip(ContactSet& c, const BlockSet& b, const LawTable& laws, std::size
   c.slid[k] += slip;
 }
 
+/// A joint that has come apart by a hair goes on opening as it slips: its asperities are where they
+/// are. It does not close by that.
+void take_slip_while_open(ContactSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
+  const Law& law = laws.rows[c.law[k]];
+  const double slip = std::abs(c.foot[k] - c.anchor[k] * c.span[k]);
+  c.anchor[k] = c.foot[k] / c.span[k];
+  const double left = law.slip_distance > 0.0 ? std::max(law.slip_distance - c.slid[k], 0.0) : slip;
+  const double counts = law.type == LawType::barton_bandis ? slip : std::min(slip, left);
+  const double rise = in_force(c, b, laws, k).dilation * counts;
+  c.rest[k] = std::max(c.rest[k] - rise, std::min(c.rest[k], c.depth[k]));
+  c.slid[k] += slip;
+  c.stir(k);
+}
+
 void put_in_force(ContactSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
   if (laws.rows[c.law[k]].type == LawType::coulomb) return;
   const InForce now = in_force(c, b, laws, k);
@@ -139,9 +158,10 @@ void update_joint_laws(ContactSet& c, const BlockSet& b, const LawTable& laws) {
     if (c.is(k, cs::closed)) {
       take_slip(c, b, laws, k);
       put_in_force(c, b, laws, k);
+    } else if (dilates(law) && c.is(k, cs::opened) && c.on_edge(k) && c.rest[k] - c.depth[k] < apart * size_of(b,c,k)) {
+      take_slip_while_open(c, b, laws, k);
     } else if (law.type == LawType::slip_weakening && c.slid[k] < law.slip_distance) {
-      const double size = std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
-      if (c.depth[k] < -whole_gap * size) c.slid[k] = first_slip(law);
+      if (c.depth[k] < -whole_gap * size_of(b, c, k)) c.slid[k] = first_slip(law);
     }
   }
 }

@@ -27,6 +27,12 @@ struct Law {
   double jrc = 0.0, jcs = 0.0, residual_angle = 0.0;  ///< -, Pa, degrees
 };
 
+/// Whether a joint of this law opens as it slips. How far it has opened is kept in the rest
+/// penetration of its contacts.
+inline bool dilates(const Law& law) {
+  return law.dilation > 0.0 || law.type == LawType::barton_bandis;
+}
+
 struct LawTable {
   std::vector<Law> rows;  ///< in the order of Model::joints, then the built-in glued law
   std::vector<std::uint16_t>

@@ -14,11 +14,6 @@ namespace {
 
 namespace cs = contact_state;
 
-/// Dilation keeps its memory in the rest penetration.
-bool dilates(const Law& law) {
-  return law.dilation > 0.0 || law.type == LawType::barton_bandis;
-}
-
 /// What is preloaded has a negative rest penetration, and keeps it.
 bool may_settle(const ContactSet& c, const LawTable& laws, std::size_t k, bool leaps) {
   return c.rest[k] > 0.0 && c.is(k, cs::closed) && !c.is(k, cs::bonded | cs::pulls) &&

@@ -45,12 +45,14 @@ void close(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTable& l
   watch_part(c, k);
 }
 
-void open(ContactSet& c, std::size_t k) {
+/// `keeps`: its rest penetration, where that is below zero, for when it closes again.
+void open(ContactSet& c, std::size_t k, bool keeps = false) {
   c.clear(k, cs::closed | cs::bonded | cs::pulls | cs::sliding);
   c.set(k, cs::opened);
   c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = 0.0;
   c.alpha[k] = 1.0;
-  c.rest[k] = std::max(0.0, std::min(c.rest[k], c.depth[k]));
+  c.rest[k] = std::min(c.rest[k], std::max(c.depth[k], 0.0));
+  if (!keeps) c.rest[k] = std::max(c.rest[k], 0.0);
   if (c.pair_of[k] == no_id) c.share[k] = 1.0;
 }
 
@@ -288,7 +290,7 @@ void find_events(ContactSet& c, bool start, TransitionScratch& events) {
         if (c.effective(k) > closes_beyond) {
           if (c.on_edge(k)) events.closes.push_back(static_cast<Id>(k));
         } else if (c.rest[k] != 0.0) {
-          c.rest[k] = std::max(0.0, std::min(c.rest[k], c.depth[k]));
+          c.rest[k] = std::min(c.rest[k], std::max(c.depth[k], 0.0));
         }
       }
     }
@@ -435,7 +437,7 @@ TransitionCounts settle_contacts(ContactSet& c, const BlockSet& b, const Pose& p
   for (const Id k : scratch.opens) {
     // What the shear spring still holds goes with the contact.
     c.friction_work[k] += stored_energy(c, k);
-    open(c, k);
+    open(c, k, dilates(laws.rows[c.law[k]]));
     ++counts.opened;
   }
   for (const Id k : scratch.leaves) leave(c, b, pose, laws, k, counts);

@@ -1,4 +1,5 @@
 #include "lines/cut_domain.hpp"
+#include "base/number_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,12 +25,6 @@
 
 namespace edda {
 namespace {
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
 
 double perimeter_of(const Ring& ring) {
   double sum = 0.0;
@@ -91,8 +86,8 @@ std::optional<Fault> too_many_crossings(const Model& model, const LineWork& work
   const auto most = static_cast<double>(model.domain->max_blocks);
   if (crossings <= allowance * most) return std::nullopt;
   return Fault{member_of(model.domain->where, "max_blocks"),
-               "the lines cross about " + number(crossings) + " times, too often for " +
-                   number(most) + " blocks",
+               "the lines cross about " + number_text(crossings) + " times, too often for " +
+                   number_text(most) + " blocks",
                "raise max_blocks, or give fewer lines or wider spacings"};
 }
 
@@ -169,7 +164,7 @@ std::optional<Fault> lost_area(const Model& model, const Arrangement& a, const L
   }
   if (std::abs(sum - area_in) <= 1e-9 * area_in + 4.0 * snap * perimeter) return std::nullopt;
   return Fault{member_of(model.domain->where, "snap"),
-               "the blocks fill " + number(sum) + " m2 of the " + number(area_in) +
+               "the blocks fill " + number_text(sum) + " m2 of the " + number_text(area_in) +
                    " m2 that the outline encloses",
                "change domain.snap tenfold, or move apart lines that nearly coincide"};
 }

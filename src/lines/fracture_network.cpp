@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/number_text.hpp"
 #include "base/random.hpp"
 #include "lines/place.hpp"
 #include "lines/random_lines.hpp"
@@ -12,12 +13,6 @@
 
 namespace edda {
 namespace {
-
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
 
 /// Lengths: constant; lognormal, log length normal with s^2 = ln(1 + (d/m)^2) and mean ln m -
 /// s^2/2; or a power law, density ~ l^-a from min to max.
@@ -165,10 +160,10 @@ Faults add_network(LineWork& work, const FractureNetwork& network, Index source,
     drawn_so_far += 1.0;
     if (drawn_so_far > most_drawn) {
       return fault(key,
-                   "takes more than " + short_number(most_drawn) +
+                   "takes more than " + number_text(most_drawn, 4) +
                        " fractures to be drawn, of "
                        "which " +
-                       short_number(shown) + " show in the domain",
+                       number_text(shown, 4) + " show in the domain",
                    "give fewer or shorter fractures; the longest are much longer than the domain");
     }
     if (f.length_inside <= snap) continue;
@@ -178,13 +173,13 @@ Faults add_network(LineWork& work, const FractureNetwork& network, Index source,
     shown += 1.0;
     if (shown > limit) {
       return fault(key,
-                   "makes more lines than domain.max_blocks = " + short_number(limit) + " blocks",
+                   "makes more lines than domain.max_blocks = " + number_text(limit, 4) + " blocks",
                    "give fewer fractures, or raise domain.max_blocks");
     }
     add_fracture(work, f, place, source, snap);
   }
-  work.notes.push_back(name_of(network) + ": " + short_number(shown) + " fractures, " +
-                       short_number(reached) + " m, " + short_number(reached / place.area) +
+  work.notes.push_back(name_of(network) + ": " + number_text(shown, 4) + " fractures, " +
+                       number_text(reached, 4) + " m, " + number_text(reached / place.area, 4) +
                        " m of them per m2");
   return {};
 }

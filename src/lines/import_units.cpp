@@ -1,4 +1,5 @@
 #include "lines/import_units.hpp"
+#include "base/number_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -27,19 +28,13 @@ std::string name_of(LengthUnit unit) {
   return "m";
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
 Vec2 spans(const Ring& points) {
   const Stretch x = extent_along(points, {1, 0}), y = extent_along(points, {0, 1});
   return {x.second - x.first, y.second - y.first};
 }
 
 std::string by(Vec2 size) {
-  return number(size.x) + " x " + number(size.y) + " m";
+  return number_text(size.x) + " x " + number_text(size.y) + " m";
 }
 
 /// The unit that would bring the drawing nearest to the size of the domain, by a factor of `ratio`.

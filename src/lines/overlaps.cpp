@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/number_text.hpp"
 #include "base/polygon.hpp"
 #include "lines/geos.hpp"
 
@@ -118,12 +119,6 @@ std::string name_of(const BlockPolygon& block, std::size_t id) {
   return block.name.empty() ? "block " + std::to_string(id) : "block \"" + block.name + "\"";
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
 /// Laid at the later of the two that was given as it is: a cut block has only the domain's place.
 Fault overlap_fault(std::span<const BlockPolygon> blocks, std::size_t first_cut, std::size_t i,
                     std::size_t j, double depth, double allowed) {
@@ -131,8 +126,8 @@ Fault overlap_fault(std::span<const BlockPolygon> blocks, std::size_t first_cut,
   const std::size_t other = placed == j ? i : j;
   return {blocks[placed].where,
           name_of(blocks[placed], placed) + " overlaps " + (other >= first_cut ? "cut " : "") +
-              name_of(blocks[other], other) + " by " + number(depth) + " m, more than " +
-              number(allowed) + " m (1e-3 of the smaller's size)",
+              name_of(blocks[other], other) + " by " + number_text(depth, 4) + " m, more than " +
+              number_text(allowed, 4) + " m (1e-3 of the smaller's size)",
           "move them apart, or hold both"};
 }
 

@@ -110,6 +110,7 @@ bool stopped(const FosOptions& options) {
 Result<FosStart> settled(const Model& model, const Fos& fos, const FosOptions& options) {
   const double at_first = fos.varied == Varied::strength ? 1.0 : 0.0;
   Model drawn = before_trials(model, fos, at_first, 1.0);
+  drawn.solver.damping.adaptive = damping_to_rest;              // as it will be
   for (Shaking& shaking : drawn.shakings) shaking.scale = 0.0;  // one that is varied comes later
   Result<PreparedRun> prepared = prepare_run(std::move(drawn));
   if (!prepared.ok()) return prepared.faults();

@@ -99,7 +99,8 @@ class Run {
   /// alone that moves.
   void see_what_goes_on() {
     const double gone = watch_.displacement(sim_).value;
-    if (settles_ || watch_.windows_gone_on(sim_) < goes_on || gone < visible * plan_.criterion.size) return;
+    if (settles_ || watch_.windows_gone_on(sim_) < goes_on || gone < visible * plan_.criterion.size)
+      return;
     watch_.count_from_since(sim_.state);
     end(TrialEnd::fails, "keeps moving");
   }

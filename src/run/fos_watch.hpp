@@ -18,8 +18,8 @@ struct Furthest {
 class Watch {
  public:
   /// From the simulation as it stands. Blocks that touch nothing then fall by themselves and are
-  /// left out, unless `all`; so are those lighter than a thousandth of the mean: no slope fails by a
-  /// pebble, and heavier to move for the sake of the step, they take long to find their place.
+  /// left out, unless `all`; so are those lighter than a thousandth of the mean: no slope fails by
+  /// a pebble, and heavier to move for the sake of the step, they take long to find their place.
   Watch(const Simulation& sim, bool all);
 
   /// Largest displacement of a corner since the start, m.

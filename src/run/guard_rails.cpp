@@ -15,6 +15,7 @@
 #include "run/damping_report.hpp"
 #include "run/initial_stress_report.hpp"
 #include "run/labels.hpp"
+#include "run/observe.hpp"
 #include "run/sliver_report.hpp"
 #include "run/stages.hpp"
 

@@ -42,9 +42,9 @@ struct Stretch {
   Vec2 from_moved, to_moved;  ///< m, how far the block beside it has carried them
 };
 
-/// A joint between two blocks that slips, opens, or gapes at one end by turning, by more than a tenth
-/// of that displacement. It hinges where it turns at least twice as far as it slips and one of its
-/// ends stays closed.
+/// A joint between two blocks that slips, opens, or gapes at one end by turning, by more than a
+/// tenth of that displacement. It hinges where it turns at least twice as far as it slips and one
+/// of its ends stays closed.
 struct MovingJoint {
   Id block_i = 0, block_j = 0;
   std::string joint;
@@ -58,10 +58,10 @@ struct MovingJoint {
 };
 
 struct Mechanism {
-  std::vector<MovingBlock> blocks;                      ///< by id
-  std::vector<MovingJoint> joints;                      ///< by blocks
+  std::vector<MovingBlock> blocks;                                     ///< by id
+  std::vector<MovingJoint> joints;                                     ///< by blocks
   double sliding = 0.0, toppling = 0.0, falling = 0.0, hinging = 0.0;  ///< parts of the weight
-                                                                      ///< that moves
+                                                                       ///< that moves
   double brittle_length = 0.0;  ///< m of its joints whose cohesion goes down as they break
   double cohesion_lost_length =
       0.0;  ///< m of that without it before anything moved: lost, or closed since the start

@@ -168,7 +168,7 @@ void Simulation::bring_on() {
              std::floor(increments * gentle.part) > std::floor(increments * before)) {
     std::vector<double> now = strength_to_;
     for (std::size_t r = 0; r < now.size(); ++r) {
-      now[r] = strength_from_[r] * std::pow(strength_to_[r] / strength_from_[r], gentle.part);
+      now[r] = strength_from_[r] + gentle.part * (strength_to_[r] - strength_from_[r]);
     }
     take_strength_factors(now);
   }

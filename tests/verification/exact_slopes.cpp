@@ -436,8 +436,8 @@ std::vector<ExactSlope> exact_slopes() {
   // Toppling.
   const TopplingSlope toppling;
   const double phi = 38.15;
-  all.push_back({"toppling", toppling.toml(phi), "", "toppling:",
-                 std::tan(radians(phi)) / std::tan(radians(toppling.limit()))});
+  all.push_back({"toppling", toppling.toml(phi), "",
+                 "toppling:", std::tan(radians(phi)) / std::tan(radians(toppling.limit()))});
   // Many blocks.
   const double h = 30.0, x = h / std::tan(radians(38.0));
   BeddedSlope large{38.0, 0.7, 0.9,  52.0,

@@ -151,7 +151,8 @@ TEST(FactorOfSafety, LoadThatGrows) {
 /// c b - W/2 tan(phi) of shear.
 TEST(FactorOfSafety, JointThatPulls) {
   const double weight = 26e3, c = 30e3, phi = 40.0;
-  const std::string strength = "cohesion = " + number(c) + "\ntensile_strength = " + number(c) + "\n";
+  const std::string strength =
+      "cohesion = " + number(c) + "\ntensile_strength = " + number(c) + "\n";
   const std::string toml =
       "[materials.rock]\nunit_weight = 26e3\nyoung = 2e9\npoisson = 0.2\n[joints.j]\n"
       "friction_angle = " +
@@ -224,8 +225,8 @@ class Slopes : public testing::TestWithParam<const char*> {};
 TEST_P(Slopes, LimitEquilibrium) {
   for (const ExactSlope& slope : exact_slopes()) {
     if (slope.name != GetParam()) continue;
-    const FosResult r = factor_of(
-        slope.model, slope.exclude.empty() ? "" : "exclude = [" + slope.exclude + "]\n");
+    const FosResult r =
+        factor_of(slope.model, slope.exclude.empty() ? "" : "exclude = [" + slope.exclude + "]\n");
     expect_factor(r, 56, slope.name, slope.factor, 1e-2);
     ASSERT_TRUE(r.mechanism);
     EXPECT_TRUE(r.mechanism->text.starts_with(slope.motion)) << r.mechanism->text;
@@ -245,7 +246,8 @@ INSTANTIATE_TEST_SUITE_P(FactorOfSafety, Slopes,
 struct LoadedArch {
   static constexpr int n = 16, loaded = 11;  ///< voussoirs, and the one with the load
   static constexpr double ratio = 0.2, radius = 5.0, load = 10e3;
-  static constexpr double inner = radius * (1.0 - ratio / 2.0), outer = radius * (1.0 + ratio / 2.0);
+  static constexpr double inner = radius * (1.0 - ratio / 2.0),
+                          outer = radius * (1.0 + ratio / 2.0);
 
   static Vec2 at(double r, double joint) {
     const double a = std::numbers::pi * joint / n;
@@ -304,8 +306,8 @@ struct LoadedArch {
 };
 
 TEST(FactorOfSafety, ArchHinges) {
-  const FosResult r = factor_of(
-      LoadedArch::toml(), "vary = 'load:crowd'\nbracket = [1.0, 20.0]\ntolerance = 0.02\n");
+  const FosResult r = factor_of(LoadedArch::toml(),
+                                "vary = 'load:crowd'\nbracket = [1.0, 20.0]\ntolerance = 0.02\n");
   expect_factor(r, 57, "", LoadedArch::exact(), 1e-2);
   ASSERT_TRUE(r.mechanism);
   EXPECT_TRUE(r.mechanism->text.starts_with("hinging: 4 hinges at (")) << r.mechanism->text;
