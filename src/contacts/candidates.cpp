@@ -250,7 +250,10 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
   resize(next, list.size());
   next.reach = reach;
   next.noise = rounding_of(pose);
-  if (laws.any_changes) next.slid.resize(list.size());
+  if (laws.any_changes) {
+    next.slid.resize(list.size());
+    next.owed.assign(list.size(), 0.0);
+  }
   next.vertex.reserve(list.size());
   next.edge.reserve(list.size());
   std::vector<Id> new_of_old(contacts.size(), no_id), old_of_new(list.size(), no_id);
@@ -270,7 +273,10 @@ void rebuild_candidates(ContactSet& contacts, const BlockSet& b, const State& st
     if (old < contacts.size() && NearPair{contacts.vertex[old], contacts.edge[old]} == pair) {
       for (DoubleArray a : memory) (next.*a)[k] = (contacts.*a)[old];
       next.slip_trial[k] = contacts.slip_before_cut(old);
-      if (laws.any_changes) next.slid[k] = contacts.slid[old];
+      if (laws.any_changes) {
+        next.slid[k] = contacts.slid[old];
+        next.owed[k] = contacts.owed[old];
+      }
       for (std::size_t e = 0; e < 2; ++e) next.force[2 * k + e] = contacts.force[2 * old + e];
       next.state[k] = contacts.state[old];
       next.why[k] = contacts.why[old];

@@ -212,6 +212,12 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::vector<double> drag;              ///< N along the tangent, of the shear dashpot at n
   std::vector<double> slid;  ///< slip so far, m; infinite: has its residual strength; empty where
                              ///< no law asks for it
+  std::vector<double> owed;  ///< m that the joint has still to open by its dilation; as `slid`
+  void take_slip_of(std::size_t c, std::size_t other) {
+    if (slid.empty()) return;
+    slid[c] = slid[other];
+    owed[c] = owed[other];
+  }
   std::vector<double> friction_work, damping_work, fracture_work;  ///< dissipated so far, J
 
   // Forces of the last evaluation, N.

@@ -14,7 +14,7 @@ namespace {
 
 namespace cs = contact_state;
 constexpr double whole_gap = 1e-6;  // of the smaller block: what gapes by more is whole no more
-constexpr double apart = 1e-4;
+constexpr double apart = 1e-4;      // of the smaller block: what is further apart opens no more
 constexpr double steepest = 70.0;   // degrees
 
 double radians(double degrees) {
@@ -28,6 +28,10 @@ double slip_of_step(const ContactSet& c, std::size_t k) {
 
 double size_of(const BlockSet& b, const ContactSet& c, std::size_t k) {
   return std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
+}
+
+bool hardly_apart(const ContactSet& c, const BlockSet& b, std::size_t k) {
+  return c.is(k, cs::opened) && c.on_edge(k) && c.rest[k] - c.depth[k] < apart * size_of(b, c, k);
 }
 
 /// What of a law holds at contact k after the slip so far.
@@ -71,41 +75,37 @@ double taken_by_friction(const ContactSet& c, std::size_t k) {
   return 0.5 * c.share[k] * c.ks[k] * (c.slip_before_cut(k) - s) * (s + s_1);
 }
 
-/// Lifts the faces off each other by `rise` m, or as far as what friction has taken goes: the
+/// Lifts the faces off each other by what is owed, or as far as what friction has taken goes: the
 /// spring gains w p (r (e_n + e_{n-1}) + r^2)/2 by a rise r.
-void lift(ContactSet& c, std::size_t k, double rise) {
+void lift(ContactSet& c, std::size_t k) {
   const double sum = c.effective(k) + c.effective_1(k);
   if (c.effective(k) <= 0.0 || c.effective_1(k) <= 0.0 || c.share[k] <= 0.0) return;
   const double most = 2.0 * std::max(taken_by_friction(c, k), 0.0) / (c.share[k] * c.kn[k]);
-  rise = std::min(rise, 0.5 * (std::sqrt(sum * sum + 4.0 * most) - sum));
+  const double rise = std::min(c.owed[k], 0.5 * (std::sqrt(sum * sum + 4.0 * most) - sum));
   const double before = stored_energy(c, k);
   c.rest[k] -= rise;
+  c.owed[k] -= rise;
   c.friction_work[k] += before - stored_energy(c, k);
   c.stir(k);
 }
 
-void take_slip(ContactSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
-  const double slip = slip_of_step(c, k);
-  if (slip <= 0.0) return;
+/// Of a joint that has slipped: what it is to open by.
+void take_slip(ContactSet& c, const BlockSet& b, const LawTable& laws, std::size_t k, double slip) {
   const Law& law = laws.rows[c.law[k]];
-  const double dilation = in_force(c, b, laws, k).dilation;
   const double left = law.slip_distance > 0.0 ? std::max(law.slip_distance - c.slid[k], 0.0) : slip;
-  const bool ends = law.type != LawType::barton_bandis;
-  if (dilation > 0.0) lift(c, k, dilation * (ends ? std::min(slip, left) : slip));
+  const double counts = law.type == LawType::barton_bandis ? slip : std::min(slip, left);
+  c.owed[k] += in_force(c, b, laws, k).dilation * counts;
   c.slid[k] += slip;
 }
 
-/// A joint that has come apart by a hair goes on opening as it slips: its asperities are where they
-/// are. It does not close by that.
+/// A joint that has come apart by a hair goes on opening as it slips, its asperities are where they
+/// are; but it does not close by that.
 void take_slip_while_open(ContactSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
-  const Law& law = laws.rows[c.law[k]];
-  const double slip = std::abs(c.foot[k] - c.anchor[k] * c.span[k]);
+  take_slip(c, b, laws, k, std::abs(c.foot[k] - c.anchor[k] * c.span[k]));
   c.anchor[k] = c.foot[k] / c.span[k];
-  const double left = law.slip_distance > 0.0 ? std::max(law.slip_distance - c.slid[k], 0.0) : slip;
-  const double counts = law.type == LawType::barton_bandis ? slip : std::min(slip, left);
-  const double rise = in_force(c, b, laws, k).dilation * counts;
-  c.rest[k] = std::max(c.rest[k] - rise, std::min(c.rest[k], c.depth[k]));
-  c.slid[k] += slip;
+  const double rise = std::clamp(c.rest[k] - c.depth[k], 0.0, c.owed[k]);
+  c.rest[k] -= rise;
+  c.owed[k] -= rise;
   c.stir(k);
 }
 
@@ -156,9 +156,10 @@ void update_joint_laws(ContactSet& c, const BlockSet& b, const LawTable& laws) {
     const Law& law = laws.rows[c.law[k]];
     if (!law.changes) continue;
     if (c.is(k, cs::closed)) {
-      take_slip(c, b, laws, k);
+      take_slip(c, b, laws, k, slip_of_step(c, k));
+      if (c.owed[k] > 0.0) lift(c, k);
       put_in_force(c, b, laws, k);
-    } else if (dilates(law) && c.is(k, cs::opened) && c.on_edge(k) && c.rest[k] - c.depth[k] < apart * size_of(b,c,k)) {
+    } else if (dilates(law) && hardly_apart(c, b, k)) {
       take_slip_while_open(c, b, laws, k);
     } else if (law.type == LawType::slip_weakening && c.slid[k] < law.slip_distance) {
       if (c.depth[k] < -whole_gap * size_of(b, c, k)) c.slid[k] = first_slip(law);

@@ -51,8 +51,8 @@ void open(ContactSet& c, std::size_t k, bool keeps = false) {
   c.set(k, cs::opened);
   c.normal[k] = c.shear[k] = c.shear_1[k] = c.slip_trial[k] = 0.0;
   c.alpha[k] = 1.0;
-  c.rest[k] = std::min(c.rest[k], std::max(c.depth[k], 0.0));
-  if (!keeps) c.rest[k] = std::max(c.rest[k], 0.0);
+  const double least = keeps ? -std::numeric_limits<double>::infinity() : 0.0;
+  c.rest[k] = std::max(least, std::min(c.rest[k], std::max(c.depth[k], 0.0)));
   if (c.pair_of[k] == no_id) c.share[k] = 1.0;
 }
 
@@ -102,7 +102,7 @@ void hand_over(ContactSet& c, const BlockSet& b, const Pose& pose, const LawTabl
   c.slip_trial[heir] = slip_before_cut;
   c.normal[heir] = c.normal[k] * c.kn[heir] / c.kn[k];
   c.set_alpha(heir, c.alpha[k]);
-  if (!c.slid.empty()) c.slid[heir] = c.slid[k];
+  c.take_slip_of(heir, k);
   if (c.is(k, cs::bonded)) {
     c.friction[heir] = c.friction[k];
     c.cohesion[heir] = c.cohesion[k];
@@ -260,7 +260,7 @@ bool inherit_from_partner(ContactSet& c, std::size_t k) {
   c.shear[k] = c.shear[other] * c.ks[k] / c.ks[other];
   c.shear_1[k] = c.shear_1[other] * c.ks[k] / c.ks[other];
   c.forget_cut(k);
-  if (!c.slid.empty()) c.slid[k] = c.slid[other];
+  c.take_slip_of(k, other);
   return true;
 }
 
@@ -277,8 +277,7 @@ void find_events(ContactSet& c, bool start, TransitionScratch& events) {
     for (std::size_t k = q * ContactSet::chunk; k < c.chunk_end(q); ++k) {
       if (c.is(k, cs::closed)) {
         if (c.is(k, cs::bonded)) continue;
-        // Within the rounding of coordinates a contact stays what it is, or joints that just touch
-        // would open and close in every step.
+        // Rounding alone must not open and close joints that just touch.
         if (c.effective(k) <= -c.noise && !c.is(k, cs::pulls)) {
           events.opens.push_back(static_cast<Id>(k));
         } else if (!c.on_edge(k)) {
@@ -443,7 +442,6 @@ TransitionCounts settle_contacts(ContactSet& c, const BlockSet& b, const Pose& p
   for (const Id k : scratch.leaves) leave(c, b, pose, laws, k, counts);
   for (const Id k : scratch.returns) change_share(c, k, 1.0, false);
   review_blocked(c, b, pose, step, counts, scratch.still_blocked);
-
   close_touching(c, b, pose, laws, start, scratch, counts);
   if (!c.lent.empty()) glue_pressed(c);
   return counts;

@@ -52,6 +52,7 @@ void list_contacts(Archive& a, ContactSet& c) {
   a("contacts.shear_1", c.shear_1);
   a("contacts.slip_trial", c.slip_trial);
   a("contacts.slid", c.slid);
+  a("contacts.owed", c.owed);
   a("contacts.friction_work", c.friction_work);
   a("contacts.damping_work", c.damping_work);
   a("contacts.fracture_work", c.fracture_work);
@@ -257,6 +258,7 @@ void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawT
     j.sized("contacts", *values, nc);
   }
   j.sized("contacts.slid", c.slid, laws.any_changes ? nc : 0);
+  j.sized("contacts.owed", c.owed, laws.any_changes ? nc : 0);
   j.sized("contacts.force", c.force, 2 * nc);
   j.sized("contacts.reaction", c.reaction, 4 * nc);
   j.sized("contacts.law", c.law, nc);

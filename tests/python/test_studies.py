@@ -63,7 +63,7 @@ def test_a_factor_of_safety():
     exact = math.tan(math.radians(33)) / math.tan(TILT)
     assert found.status == "found" and found.factor == pytest.approx(exact, abs=0.005)
     assert found.holds < exact < found.fails
-    assert found.mechanism.startswith("sliding: 1 block slides")
+    assert found.mechanism == "sliding along plane: 1 block"
     assert {trial.holds for trial in found.trials} == {True, False}
     assert max(t.factor for t in found.trials if t.holds) == found.holds
     assert pickle.loads(pickle.dumps(found)).trials[0].reason == found.trials[0].reason

@@ -113,7 +113,8 @@ TEST(CohesiveRamp, TheCriticalCohesionIsThatOfRoughJointsToo) {
         expect_at_most({4, which, "displacement", "m"}, way, 1e-5);
       } else {
         EXPECT_TRUE(r.ready.sim.contacts.segments.empty()) << which;
-        expect_at_least({4, which, "displacement", "m"}, way, 1e-2);
+        // A stage until equilibrium drags what slides.
+        expect_at_least({4, which, "displacement", "m"}, way, 5e-3);
       }
     }
   }

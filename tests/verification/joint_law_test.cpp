@@ -158,20 +158,26 @@ Ways drive(Simulation& sim, double gx, const std::function<double(double)>& slip
 
 /// Row 47: a joint of 30 degrees that opens at 5 degrees over 10 mm of slip. Pulled by m gx,
 /// pressed by N = m (g + a tan(psi)): a = (gx - g tan(phi))/(1 + tan(phi) tan(psi)), and it rises
-/// by tan(psi) u.
-TEST(DirectShear, Dilation) {
+/// by tan(psi) u. On stiff contacts the block hops, and the joint opens as much all the same.
+void expect_dilation(bool soft, double bound) {
   const std::string law = "friction_angle = 30\ndilation_angle = 5\nslip_distance = 0.01\n";
   const double t = std::tan(radians(30)), psi = std::tan(radians(5)), g = 10.0, excess = 1.0;
-  Simulation sim = driven(law, g, 0.17, true);
+  Simulation sim = driven(law, g, 0.17, soft);
   const double a = excess / (1.0 + t * psi);
-  Series series(47, "", {"slip", "exact", "computed"});
+  const std::string label = soft ? "" : "stiff contacts";
+  Series series(47, label, {"slip", "exact", "computed"});
   const Ways ways = drive(
       sim, g * t + excess, [&](double time) { return 0.5 * a * time * time; },
       [&](double u) { return psi * u; }, 0.0098, series);
-  ways.slip.expect({47, "", "way slid, furthest off", "m"}, 2e-2);
-  ways.opening.expect({47, "", "opening, furthest off", "m"}, 1e-2);
+  ways.slip.expect({47, label, "way slid, furthest off", "m"}, 2e-2);
+  ways.opening.expect({47, label, "opening, furthest off", "m"}, bound);
   EXPECT_GT(ways.end, 0.01);
-  record_model(47, "", sim);
+  record_model(47, label, sim);
+}
+
+TEST(DirectShear, Dilation) {
+  expect_dilation(true, 1e-2);
+  expect_dilation(false, 4e-2);
 }
 
 /// Row 48: Barton and Bandis at three normal stresses. Pulled in so thick a fluid that it creeps,
