@@ -191,8 +191,9 @@ ROWS = (
         "Limit equilibrium (Hoek and Bray 1981): resistance [c A + (W cos p - U - V sin p) tan(phi)] over drive"
         " (W sin p + V cos p)."),
     Row(42, "A load that grows",
-        "A block on level ground is pushed by a tenth of its weight times a factor, low down or high up.",
-        "It slides at P = W tan(phi), or tips at P h = W b/2."),
+        "A block on level ground is pushed by a tenth of its weight times a factor, low down or high up; one is lifted by half more"
+        " than its weight, hangs on its joint, and is pushed along it.",
+        "It slides at P = W tan(phi), or tips at P h = W b/2; the joint that pulls bears c b - N tan(phi)."),
     Row(43, "Toppling slope of Goodman and Bray",
         "Sixteen columns 10 m wide on a stepped base of 30 degrees, 4 to 40 m high, crest at the tenth; the numbers of Hoek and"
         " Bray's example.",
@@ -242,4 +243,14 @@ ROWS = (
         "With the striking corner at rest and impulses there alone, an impact leaves (1 - 3/2 sin^2 alpha)^2 of the energy, tan alpha"
         " width over height (Housner 1963). A flat fall leaves the part of the velocity that was asked for.",
         "The dashpot of a number is fitted for a square block; blocks of other shapes come near it."),
+    Row(56, "Slopes of several blocks",
+        "A slab of twenty blocks on a plane; a jointed mass on a plane with cohesion, dry and with water; one on a base in steps; an"
+        " active and a passive wedge; six slices on a curved base, dry and with water. Strength is divided by a factor.",
+        "Beds and cross joints: the least of [c L + (W cos a - U - V') tan phi]/(W sin a + V) over all paths that only ever step up."
+        " Wedges and slices: all bases and joints between them at their limit together (Sarma 1979), from the top slice down.",
+        "Where the base bends there is a small hollow: the corner of a slice would stand on the rock below. `tools/study-fos` tries"
+        " these and larger ones."),
+    Row(57, "An arch of four hinges",
+        "The arch of row 13, thickness a fifth of its radius, under a load on its haunch that grows.",
+        "The least load of all mechanisms of four hinges, alternately at the outer and the inner edge of the joints (Heyman 1966)."),
 )
