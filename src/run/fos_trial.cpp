@@ -17,7 +17,7 @@ constexpr int calm_looks = 3;         // in sequence that say that all is at res
 constexpr double left_over = 1e-4;    // of a block's size: what may still be to come
 constexpr std::uint64_t look = 32;    // steps
 constexpr double longest = 300000.0;  // steps
-constexpr int goes_on = 3;            // windows in sequence that say that it does not come to rest
+constexpr int windows_enough = 3;     // windows in sequence that say that it does not come to rest
 constexpr double visible = 1e-3;      // of a block's size: what must have moved for that
 
 TimeHistory scaled(const TimeHistory& given, double by) {
@@ -99,7 +99,8 @@ class Run {
   /// alone that moves.
   void see_what_goes_on() {
     const double gone = watch_.displacement(sim_).value;
-    if (settles_ || watch_.windows_gone_on(sim_) < goes_on || gone < visible * plan_.criterion.size)
+    if (settles_ || watch_.windows_gone_on(sim_) < windows_enough ||
+        gone < visible * plan_.criterion.size)
       return;
     watch_.count_from_since(sim_.state);
     end(TrialEnd::fails, "keeps moving");

@@ -342,8 +342,8 @@ std::optional<Failure> Simulation::step() {
   if (state.steps % settles_every == 0) {
     settle_rests(contacts, blocks, pose, laws, static_cast<double>(settles_every), true);
   }
-  constexpr std::uint64_t look_every = 64;
-  const bool grown = state.steps % look_every == 0 && grow_springs(contacts, blocks, pose, laws);
+  constexpr std::uint64_t grow_every = 64;
+  const bool grown = state.steps % grow_every == 0 && grow_springs(contacts, blocks, pose, laws);
   if (counts.unshielded > 0 || grown) set_limit();
   if (step_limit < state.step * (1.0 - 1e-12) ||
       (steps_left_ > 0 && step_limit > 1.25 * state.step)) {

@@ -142,9 +142,9 @@ std::optional<Failure> Simulation::step_implicit() {
   update_shares(contacts);
   search_if_due();
   settle_contacts(contacts, blocks, pose, laws, state.steps, false, transitions_);
-  constexpr std::uint64_t look_every = 64;
+  constexpr std::uint64_t grow_every = 64;
   settle_rests(contacts, blocks, a_step_ago(*this), laws, 1.0, false);
-  if (state.steps % look_every == 0) grow_springs(contacts, blocks, pose, laws);
+  if (state.steps % grow_every == 0) grow_springs(contacts, blocks, pose, laws);
   penetration = deepest(contacts);
   max_penetration = std::max(max_penetration, penetration);
 
