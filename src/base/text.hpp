@@ -1,7 +1,8 @@
-// What readers of text share.
+// What readers of text and writers of messages share.
 #pragma once
 
 #include <cstddef>
+#include <cstdio>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,13 @@ inline std::string_view trimmed(std::string_view text) {
 /// "1 block", "2 blocks".
 inline std::string counted(std::size_t n, const char* one) {
   return std::to_string(n) + ' ' + one + (n == 1 ? "" : "s");
+}
+
+/// With so many digits at most, as %g has it.
+inline std::string number_text(double value, int digits = 6) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
 }
 
 }  // namespace edda

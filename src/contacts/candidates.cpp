@@ -159,6 +159,10 @@ double contact_length(const BlockSet& b, const Pose& pose, Id vertex, Id edge) {
   return length;
 }
 
+double smaller_size(const ContactSet& c, const BlockSet& b, std::size_t k) {
+  return std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
+}
+
 double carried_length(const ContactSet& c, const BlockSet& b, std::size_t k) {
   const double least = 0.01 * std::min({b.edge_length[c.edge[k]], b.edge_length[c.vertex[k]],
                                         b.edge_length[b.previous[c.vertex[k]]]});
@@ -330,7 +334,7 @@ void bond_contacts(ContactSet& c, const BlockSet& b, const State& state, const P
     const bool weakens = law.type == LawType::slip_weakening;
     const bool has_bond = weakens || law.glued || law.peak_cohesion > 0.0 ||
                           law.peak_tension > 0.0 || law.peak_friction > law.residual_friction;
-    const double size = std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
+    const double size = smaller_size(c, b, k);
     const bool near_edge = c.on_edge(k) && c.share[k] > 0.0;
     if (!has_bond || !near_edge || c.length[k] <= 0.0 || c.depth[k] < -1e-6 * size ||
         c.is(k, contact_state::blocked) || !state.alive[c.block_i[k]]) {

@@ -44,6 +44,9 @@ double contact_length(const BlockSet& blocks, const Pose& pose, Id vertex, Id ed
 /// of the shortest edge), or it would carry nothing.
 double carried_length(const ContactSet& contacts, const BlockSet& blocks, std::size_t k);
 
+/// Of the smaller block at contact k, the root of its area, m.
+double smaller_size(const ContactSet& contacts, const BlockSet& blocks, std::size_t k);
+
 /// Takes the spring of the contact from its law and its present length (method.md section 4).
 void set_spring(ContactSet& contacts, const BlockSet& blocks, const Pose& pose,
                 const LawTable& laws, std::size_t c);

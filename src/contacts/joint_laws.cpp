@@ -26,12 +26,9 @@ double slip_of_step(const ContactSet& c, std::size_t k) {
   return c.is(k, cs::bonded) ? 0.0 : std::abs(c.slip_before_cut(k) + c.shear[k] / c.ks[k]);
 }
 
-double size_of(const BlockSet& b, const ContactSet& c, std::size_t k) {
-  return std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
-}
-
 bool hardly_apart(const ContactSet& c, const BlockSet& b, std::size_t k) {
-  return c.is(k, cs::opened) && c.on_edge(k) && c.rest[k] - c.depth[k] < apart * size_of(b, c, k);
+  return c.is(k, cs::opened) && c.on_edge(k) &&
+         c.rest[k] - c.depth[k] < apart * smaller_size(c, b, k);
 }
 
 /// What of a law holds at contact k after the slip so far.
@@ -162,7 +159,7 @@ void update_joint_laws(ContactSet& c, const BlockSet& b, const LawTable& laws) {
     } else if (dilates(law) && hardly_apart(c, b, k)) {
       take_slip_while_open(c, b, laws, k);
     } else if (law.type == LawType::slip_weakening && c.slid[k] < law.slip_distance) {
-      if (c.depth[k] < -whole_gap * size_of(b, c, k)) c.slid[k] = first_slip(law);
+      if (c.depth[k] < -whole_gap * smaller_size(c, b, k)) c.slid[k] = first_slip(law);
     }
   }
 }

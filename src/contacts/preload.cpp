@@ -17,7 +17,7 @@ namespace cs = contact_state;
 constexpr double touch = 1e-6;
 
 bool touches(const ContactSet& c, const BlockSet& b, std::size_t k) {
-  const double size = std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
+  const double size = smaller_size(c, b, k);
   return c.length[k] > 0.0 && c.share[k] > 0.0 && c.on_edge(k) && c.depth[k] >= -touch * size &&
          !c.is(k, cs::blocked);
 }

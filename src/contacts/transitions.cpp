@@ -408,7 +408,7 @@ void block_far_sides(ContactSet& c, const BlockSet& b, const Pose& pose) {
   constexpr double touch = 1e-6;
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (c.is(k, cs::closed | cs::blocked) || !c.on_edge(k)) continue;
-    const double size = std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
+    const double size = smaller_size(c, b, k);
     if (lies_outside(c, b, pose, k, touch * size)) block_contact(c, k, Blocked::outside);
   }
   std::sort(c.blocked.begin(), c.blocked.end());

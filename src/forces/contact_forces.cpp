@@ -6,6 +6,7 @@
 #include "base/parallel.hpp"
 #include "base/vector_loop.hpp"
 #include "blocks/point_mass.hpp"
+#include "contacts/candidates.hpp"
 #include "contacts/gap.hpp"
 #include "contacts/stored_energy.hpp"
 #include "contacts/switching.hpp"
@@ -262,7 +263,7 @@ bool fails(const ContactSet& c, const BlockSet& b, const Segment& segment) {
     if (c.is(k, cs::pulls)) {
       if (c.normal[k] < -c.tension[k]) return true;
     } else {
-      const double size = std::sqrt(std::min(b.area[c.block_i[k]], b.area[c.block_j[k]]));
+      const double size = smaller_size(c, b, k);
       if (c.effective(k) < -1e-6 * size) return true;
     }
   }

@@ -1,5 +1,5 @@
 #include "lines/cut_domain.hpp"
-#include "base/number_text.hpp"
+#include "base/text.hpp"
 
 #include <algorithm>
 #include <cmath>

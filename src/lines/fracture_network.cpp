@@ -4,8 +4,8 @@
 #include <numbers>
 #include <string>
 
-#include "base/number_text.hpp"
 #include "base/random.hpp"
+#include "base/text.hpp"
 #include "lines/place.hpp"
 #include "lines/random_lines.hpp"
 #include "lines/rings.hpp"

@@ -1,5 +1,5 @@
 #include "lines/import_units.hpp"
-#include "base/number_text.hpp"
+#include "base/text.hpp"
 
 #include <algorithm>
 #include <array>

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/number_text.hpp"
 #include "base/polygon.hpp"
+#include "base/text.hpp"
 #include "lines/geos.hpp"
 
 namespace edda {

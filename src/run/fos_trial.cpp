@@ -87,9 +87,10 @@ class Run {
   void see() {
     trial_.velocity = watch_.velocity(sim_).value;
     const double most = settles_ ? 10.0 * plan_.criterion.size : plan_.criterion.displacement;
-    if (watch_.displacement(sim_).value > most) return end(TrialEnd::fails, "moved too far");
+    const double gone = watch_.displacement(sim_).value;
+    if (gone > most) return end(TrialEnd::fails, "moved too far");
     if (!sim_.settles || !sim_.all_on()) return;
-    see_what_goes_on();
+    see_what_goes_on(gone);
     const double to_come = watch_.prospect(sim_, plan_.criterion.duration);
     calm_ = to_come <= left_over * plan_.criterion.size ? calm_ + 1 : 0;
     if (calm_ == calm_looks) end(TrialEnd::holds, "at rest");
@@ -97,8 +98,7 @@ class Run {
 
   /// Before it has gone far: what rest would slow down does not. From there on it is the mechanism
   /// alone that moves.
-  void see_what_goes_on() {
-    const double gone = watch_.displacement(sim_).value;
+  void see_what_goes_on(double gone) {
     if (settles_ || watch_.windows_gone_on(sim_) < windows_enough ||
         gone < visible * plan_.criterion.size)
       return;

@@ -13,12 +13,9 @@ namespace {
 /// [nb] N: what the springs at a block make of the rounding of coordinates. Nothing small that is
 /// wedged tight between large blocks is in balance to less.
 std::vector<double> rounding_of_forces(const Simulation& sim) {
-  double size = 0.0;
-  for (const double x : sim.pose.x) size = std::max(size, std::abs(x));
-  for (const double y : sim.pose.y) size = std::max(size, std::abs(y));
-  const double stretch = 4.0 * std::numeric_limits<double>::epsilon() * size;
   std::vector<double> force(sim.blocks.size(), 0.0);
   const ContactSet& c = sim.contacts;
+  const double stretch = 0.5 * c.noise;
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (!c.is(k, contact_state::closed)) continue;
     for (const Id i : {c.block_i[k], c.block_j[k]}) force[i] += stretch * c.kn[k];

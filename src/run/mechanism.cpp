@@ -9,6 +9,7 @@
 #include <numeric>
 #include <set>
 
+#include "base/text.hpp"
 #include "contacts/gap.hpp"
 #include "results/csv.hpp"
 #include "run/labels.hpp"
@@ -199,10 +200,6 @@ std::vector<std::uint8_t> between_hinges(const std::vector<Id>& piece,
   return between;
 }
 
-std::string some(std::size_t n, const char* one, const char* many) {
-  return fmt::format("{} {}", n, n == 1 ? one : many);
-}
-
 /// "bedding", "bedding and cross": the joints on which most of the slip is.
 std::string slipping_joints(const Mechanism& m) {
   std::map<std::string, double> slip;  // slip times length
@@ -230,7 +227,7 @@ std::string hinges_of(const Mechanism& m) {
     if (joint.motion == JointMotion::hinges) places.push_back(joint.place);
   }
   std::sort(places.begin(), places.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
-  std::string text = some(places.size(), "hinge", "hinges") + " at ";
+  std::string text = counted(places.size(), "hinge") + " at ";
   for (std::size_t q = 0; q < std::min(named, places.size()); ++q)
     text += (q == 0 ? "" : ", ") + place_label(places[q]);
   if (places.size() > named) text += fmt::format(" and {} more", places.size() - named);
@@ -251,19 +248,15 @@ std::string sentence(const Mechanism& m) {
   if (!mixed && kind == Motion::slides && !along.empty()) text += " along " + along;
   text += ": ";
   if (!mixed && kind == Motion::hinges) text += hinges_of(m) + ", ";
-  if (!mixed) text += some(count[static_cast<int>(kind)], "block", "blocks");
+  if (!mixed) text += counted(count[static_cast<int>(kind)], "block");
   bool first = mixed;
   constexpr const char* verbs[][2] = {
       {"slides", "slide"}, {"topples", "topple"}, {"falls", "fall"}, {"hinges", "hinge"}};
   for (const Motion other : {Motion::slides, Motion::topples, Motion::falls, Motion::hinges}) {
     const std::size_t n = count[static_cast<int>(other)];
     if (n == 0 || (!mixed && other == kind)) continue;
-    const auto& verb = verbs[static_cast<int>(other)];
-    if (first) {
-      text += some(n, "block ", "blocks ") + verb[n == 1 ? 0 : 1];
-    } else {
-      text += ", " + some(n, verb[0], verb[1]);
-    }
+    text += first ? counted(n, "block") : fmt::format(", {}", n);
+    text += fmt::format(" {}", verbs[static_cast<int>(other)][n == 1 ? 0 : 1]);
     if (other == Motion::slides && !along.empty()) text += " along " + along;
     first = false;
   }

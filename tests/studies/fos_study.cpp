@@ -3,7 +3,6 @@
 // by more than a hundredth.
 #include <omp.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
