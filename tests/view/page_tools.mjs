@@ -71,7 +71,11 @@ export const shownValues = (p) =>
     Object.fromEntries(rows.map((r) => [r.dataset.name, { text: r.cells[1].textContent, value: Number(r.cells[1].dataset.value) }])));
 /** Until the frame that was asked for is drawn. */
 export const settled = (p) => p.waitForFunction(() => !edda.stale && !edda.overlayStale && edda.shown === edda.player.index);
-export const choose = (p, id, value) => p.locator(`#${id}`).selectOption(value);
+/** Chooses, and waits until what is drawn follows. */
+export async function choose(p, id, value) {
+  await p.locator(`#${id}`).selectOption(value);
+  await settled(p);
+}
 before(async () => {
   run('example', 'cavern');
   run('run', 'cavern.toml', '--quiet');
