@@ -203,12 +203,14 @@ void Driver::follow_events() {
   while (true) {
     const Went went = step_to(event_.time);
     if (went == Went::over || went == Went::paused) return;
-    const bool at_rest = went == Went::at_rest;
-    if (at_rest) rest_before(event_);
+    const Rest rest = went == Went::at_rest   ? Rest::found
+                      : went == Went::nowhere ? Rest::never
+                                              : Rest::not_yet;
+    if (rest != Rest::not_yet) rest_before(event_);
     if (!record(event_)) return;
-    const bool next_stage = event_.end || at_rest;
+    const bool next_stage = event_.end || rest != Rest::not_yet;
     if (next_stage) {
-      if (!end_stage(at_rest) || !begin_next_stage()) return;
+      if (!end_stage(rest) || !begin_next_stage()) return;
     } else {
       event_ = times_.next();
       sim_.aim_at(event_.time);
@@ -252,14 +254,15 @@ Driver::Went Driver::step_to(double time) {
       measure_overlaps();
       look_for_chatter(outcome_.chatter, sim_);
     }
-    const bool at_rest = is_at_rest();
-    if (!at_rest && sim_.state.time < time) {
+    const Rest rest = look_for_rest();
+    const bool goes_on = rest == Rest::not_yet;
+    if (goes_on && sim_.state.time < time) {
       if (const Event event = settling_event(); event.row && !record(event)) return Went::over;
     }
-    if (!at_rest) write_checkpoint_if_due();  // after the look, which a resumed run must not miss
+    if (goes_on) write_checkpoint_if_due();  // after the look, which a resumed run must not miss
     if (options_.progress && since(reported_) >= options_.progress_every) report(false);
     if (options_.after_step && options_.after_step()) pause_asked_ = true;
-    if (at_rest) return Went::at_rest;
+    if (!goes_on) return rest == Rest::found ? Went::at_rest : Went::nowhere;
   }
   return Went::there;
 }

@@ -60,14 +60,14 @@ class Driver {
   void list(Archive& archive);
   template <class Archive>
   void list_stages(Archive& archive);
-  enum class Went { there, at_rest, paused, over };
+  enum class Went { there, at_rest, nowhere, paused, over };
   /// Steps to the event, or until the stage has found its equilibrium. Over: outcome_ says why.
   Went step_to(double time);
   // Stages (run/driver_stages.cpp).
   void begin_stage(std::size_t index);
   void take_out(const Stage& stage);
   /// Whether the stage in hand waits for an equilibrium and has found it.
-  bool is_at_rest();
+  Rest look_for_rest();
   /// The row and the frame that are due at this step of a stage until equilibrium: 32 rows 64 steps
   /// apart, 32 of twice that, and so on, a frame with every eighth. Of the steps alone, so that a
   /// resumed run has them, too.
@@ -75,7 +75,7 @@ class Driver {
   /// The event in hand becomes one at the present time.
   void rest_before(Event& event);
   /// Writes down the end of the stage. False: the run is over.
-  bool end_stage(bool at_rest);
+  bool end_stage(Rest rest);
   /// When an equilibrium was found, and what falls all the same.
   std::string rest_of_stage() const;
   std::string not_at_rest() const;

@@ -73,9 +73,10 @@ void Driver::take_out(const Stage& stage) {
   for (const auto& [row, part] : relaxed) sim_.relax(row, part);
 }
 
-bool Driver::is_at_rest() {
+Rest Driver::look_for_rest() {
   const Stage& stage = stages_[stage_];
-  return stage.until == StageEnd::equilibrium && has_come_to_rest(settling_, sim_, stage);
+  if (stage.until != StageEnd::equilibrium) return Rest::not_yet;
+  return edda::look_for_rest(settling_, sim_, stage);
 }
 
 Event Driver::settling_event() const {
@@ -96,8 +97,9 @@ void Driver::rest_before(Event& event) {
   event = {sim_.state.time, true, true, true, false, false};
 }
 
-bool Driver::end_stage(bool at_rest) {
+bool Driver::end_stage(Rest rest) {
   const Stage& stage = stages_[stage_];
+  const bool at_rest = rest == Rest::found;
   const bool reached = at_rest || stage.until == StageEnd::time;
   if (!sim_.model.stages.empty()) {
     ends_.push_back(stage_record(sim_, outcome_.ledger, stage_start_, stage_steps_, reached));
@@ -109,6 +111,13 @@ bool Driver::end_stage(bool at_rest) {
     save_stage();
   }
   const std::string label = stage_label(sim_.model, stage_);
+  if (rest == Rest::never) {
+    end(Status::collapsed,
+        fmt::format("{} finds no equilibrium: each block slides or falls, and has "
+                    "gone further than its own size: {}",
+                    label, still_moving(sim_, ends_.back().balance)));
+    return false;
+  }
   if (!reached) {
     end(Status::collapsed,
         fmt::format("{} found no equilibrium in {:.6g} s: {}; give it a longer duration, more "

@@ -128,7 +128,7 @@ class Search {
     Made made;
     made.end = start_.sim;
     const Loading to = loading_of(fos_, model_, start_.given, factor);
-    made.trial = run_trial(*made.end, start_.plan, start_.loading, to, false,
+    made.trial = run_trial(*made.end, start_.plan, start_.loading, to,
                            [&] { return stopped() || given_up_ || !is_wanted(factor, bracket); });
     made.trial.factor = factor;
     if (made.trial.end == TrialEnd::stopped) return;

@@ -11,7 +11,6 @@ namespace edda {
 namespace {
 
 constexpr double strong = 1e-3;  // what strength is divided by where nothing is to slip or break
-constexpr double damping_to_rest = 0.8;    // of critical, at the frequency with which all moves
 constexpr double standard_gravity = 9.81;  // of a model on which nothing acts at all
 
 /// The model with what is varied multiplied by `multiplier` and strength divided by `divided` once
@@ -59,6 +58,16 @@ FosCriterion criterion_of(const Simulation& sim, const Model& model, const Fos& 
   return c;
 }
 
+/// In which a model comes to rest.
+Damping damping_to_rest(const Damping& own) {
+  constexpr double adaptive = 0.8;  // of critical, at the frequency with which all moves
+  Damping damping;
+  damping.contact = own.contact;
+  damping.adaptive = adaptive;
+  damping.rayleigh = own.rayleigh;
+  return damping;
+}
+
 TrialPlan plan_of(const Simulation& sim, const Model& model, const Fos& fos) {
   const Damping& own = model.solver.damping;
   TrialPlan plan;
@@ -66,9 +75,7 @@ TrialPlan plan_of(const Simulation& sim, const Model& model, const Fos& fos) {
   plan.varied = fos.varied;
   plan.target = static_cast<std::size_t>(std::max(fos.target, 0));
   plan.criterion = criterion_of(sim, model, fos);
-  plan.quiet.contact = own.contact;
-  plan.quiet.adaptive = damping_to_rest;
-  plan.quiet.rayleigh = own.rayleigh;
+  plan.quiet = damping_to_rest(own);
   plan.shaken = own;
   return plan;
 }
@@ -106,79 +113,90 @@ bool stopped(const FosOptions& options) {
   return options.stop != nullptr && options.stop->load(std::memory_order_relaxed);
 }
 
-/// Without stages: the model as drawn, its joints strong.
-Result<FosStart> settled(const Model& model, const Fos& fos, const FosOptions& options) {
-  const double at_first = fos.varied == Varied::strength ? 1.0 : 0.0;
-  Model drawn = before_trials(model, fos, at_first, 1.0);
-  drawn.solver.damping.adaptive = damping_to_rest;              // as it will be
-  for (Shaking& shaking : drawn.shakings) shaking.scale = 0.0;  // one that is varied comes later
-  Result<PreparedRun> prepared = prepare_run(std::move(drawn));
-  if (!prepared.ok()) return prepared.faults();
-  if (auto fault = nothing_moves(model, prepared.value().sim)) return *fault;
-  FosStart s{std::move(prepared.value().sim), {}, {}, {}, {}, {}, {}, {}, {}};
-  s.warnings = std::move(prepared.value().warnings);
-  s.given = {std::vector<double>(s.sim.laws.rows.size(), 1.0), 1.0};
-  s.loading = {std::vector<double>(s.sim.laws.rows.size(), strong), at_first};
-  s.plan = plan_of(s.sim, model, fos);
-  const Trial settling =
-      run_trial(s.sim, s.plan, s.loading, s.loading, true, [&] { return stopped(options); });
-  if (settling.end == TrialEnd::stopped) {
-    s.status = FosStatus::interrupted;
-  } else if (settling.end == TrialEnd::fails) {
-    s.status = FosStatus::unstable;
-    s.message = fmt::format(
-        "the model finds no rest however strong its joints are ({}): {}; hold what falls, or see "
-        "what it stands on",
-        settling.reason, still_moving(s.sim, balance_of(s.sim)));
-  }
-  return s;
+/// The model with one stage in which it comes to rest as drawn; nothing shakes yet.
+Model with_rest(Model model) {
+  Stage rest;
+  rest.until = StageEnd::equilibrium;
+  rest.damping = damping_to_rest(model.solver.damping);
+  rest.masses = StageMasses::uniform_step;
+  model.stages.push_back(std::move(rest));
+  for (Shaking& shaking : model.shakings) shaking.scale = 0.0;
+  return model;
 }
 
-/// With stages: as they run. Nothing where they find no rest.
-Result<std::optional<FosStart>> staged(const Model& model, const Fos& fos,
-                                       const FosOptions& options, double multiplier,
-                                       double divided) {
-  Model whole = before_trials(model, fos, multiplier, divided);
-  Result<PreparedRun> prepared = prepare_run(std::move(whole));
+/// The steps that the rest of a model as drawn may take.
+void limit_rest(Simulation& sim) {
+  constexpr double longest = 300000.0;
+  sim.model.stages.back().duration = longest * sim.model.solver.safety * sim.uniform_step();
+  sim.model.solver.duration = sim.model.stages.back().duration;
+}
+
+/// Whether something has come loose in a stage.
+bool any_loose(const Simulation& sim) {
+  return std::find(sim.aloof.begin(), sim.aloof.end(), 1) != sim.aloof.end();
+}
+
+/// How trials of the model start: as its stages leave it.
+struct Staged {
+  FosStart start;
+  bool rests = true;
+  std::string says;  ///< of the end of that run
+};
+
+/// After its stages, or at rest as drawn, with what is varied multiplied and strength divided.
+Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& options,
+                      double multiplier, double divided) {
+  const bool as_drawn = model.stages.empty();
+  Result<PreparedRun> prepared =
+      prepare_run(before_trials(as_drawn ? with_rest(model) : model, fos, multiplier, divided));
   if (!prepared.ok()) return prepared.faults();
+  if (auto fault = nothing_moves(model, prepared.value().sim)) return *fault;
+  if (as_drawn) limit_rest(prepared.value().sim);
   RunOptions how;
   how.stop = options.stop;
   if (!fos.stage.empty()) how.last_stage = stage_called(model, fos.stage);
   const Result<Outcome> outcome = run_model(prepared.value(), how);
   if (!outcome.ok()) return outcome.faults();
   const Status status = outcome.value().status;
-  if (status == Status::collapsed || status == Status::failed) return std::optional<FosStart>{};
-  if (auto fault = nothing_moves(model, prepared.value().sim)) return *fault;
-  FosStart s{std::move(prepared.value().sim), {}, {}, {}, {}, {}, {}, {}, {}};
+  Staged made{{std::move(prepared.value().sim), {}, {}, {}, {}, {}, {}, {}, {}}, true, {}};
+  FosStart& s = made.start;
+  made.rests = status != Status::collapsed && status != Status::failed;
+  made.says = outcome.value().message;
+  if (auto fault = nothing_moves(model, s.sim); made.rests && fault) return *fault;
   s.warnings = std::move(prepared.value().warnings);
   if (status == Status::interrupted) s.status = FosStatus::interrupted;
   s.loading = {s.sim.laws.divided_by, multiplier};
   s.given = {s.sim.laws.divided_by, 1.0};
   for (double& factor : s.given.strength) factor /= divided;
   s.plan = plan_of(s.sim, model, fos);
-  return std::optional<FosStart>(std::move(s));
+  return made;
 }
 
-Result<FosStart> after_stages(const Model& model, const Fos& fos, const FosOptions& options) {
-  const bool shaken = fos.varied == Varied::shaking;
-  const double as_given = shaken ? 0.0 : 1.0;
-  const double weak = fos.varied == Varied::strength ? 1.0 : 0.0;
-  for (const auto& [multiplier, divided] : {std::pair{as_given, 1.0}, std::pair{weak, strong}}) {
-    Result<std::optional<FosStart>> run = staged(model, fos, options, multiplier, divided);
+Result<FosStart> at_rest(const Model& model, const Fos& fos, const FosOptions& options) {
+  const bool strength = fos.varied == Varied::strength;
+  if (!model.stages.empty()) {
+    Result<Staged> run =
+        staged(model, fos, options, fos.varied == Varied::shaking ? 0.0 : 1.0, 1.0);
     if (!run.ok()) return run.faults();
-    if (run.value()) return std::move(*run.value());
-    if (options.say && divided == 1.0) {
+    if (run.value().rests && !any_loose(run.value().start.sim)) return std::move(run.value().start);
+    if (options.say) {
       options.say("the stages find no rest as they are: again with joints that do not give way");
     }
   }
-  Result<FosStart> none = settled(model, fos, options);
-  if (!none.ok()) return none.faults();
-  none.value().status = FosStatus::unstable;
-  none.value().message =
-      "the stages find no rest even with joints that do not give way: edda run says which, and "
-      "what "
-      "still moves";
-  return none;
+  Result<Staged> run = staged(model, fos, options, strength ? 1.0 : 0.0, strong);
+  if (!run.ok()) return run.faults();
+  FosStart& s = run.value().start;
+  if (!run.value().rests) {
+    s.status = FosStatus::unstable;
+    s.message = fmt::format(
+        "the model finds no rest however strong its joints are: {}; hold what falls, or see what "
+        "it stands on",
+        run.value().says);
+  } else if (any_loose(s.sim)) {
+    s.warnings.push_back("with joints that do not give way, " + run.value().says +
+                         "; the factor is that of all others");
+  }
+  return std::move(s);
 }
 
 }  // namespace
@@ -200,15 +218,14 @@ Loading loading_of(const Fos& fos, const Model& model, const Loading& given, dou
 
 Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptions& options) {
   if (auto fault = refused(model)) return *fault;
-  Result<FosStart> made =
-      model.stages.empty() ? settled(model, fos, options) : after_stages(model, fos, options);
+  Result<FosStart> made = at_rest(model, fos, options);
   if (!made.ok()) return made;
   FosStart& s = made.value();
   if (s.status != FosStatus::found) return made;
   const bool shaken = fos.varied == Varied::shaking;
   const Loading to = loading_of(fos, model, s.given, shaken ? 0.0 : 1.0);
   Simulation as_given = s.sim;
-  Trial trial = run_trial(as_given, s.plan, s.loading, to, false, [&] { return stopped(options); });
+  Trial trial = run_trial(as_given, s.plan, s.loading, to, [&] { return stopped(options); });
   trial.factor = 1.0;
   if (trial.end == TrialEnd::stopped) {
     s.status = FosStatus::interrupted;

@@ -17,8 +17,8 @@ constexpr int calm_looks = 3;         // in sequence that say that all is at res
 constexpr double left_over = 1e-4;    // of a block's size: what may still be to come
 constexpr std::uint64_t look = 32;    // steps
 constexpr double longest = 300000.0;  // steps
-constexpr int windows_enough = 3;     // windows in sequence that say that it does not come to rest
-constexpr double visible = 1e-3;      // of a block's size: what must have moved for that
+constexpr double visible =
+    0.3;  // of the displacement that fails: what must have gone for its trend to count
 
 TimeHistory scaled(const TimeHistory& given, double by) {
   TimeHistory history = given;
@@ -30,15 +30,14 @@ TimeHistory scaled(const TimeHistory& given, double by) {
 /// A trial under way.
 class Run {
  public:
-  Run(Simulation& sim, const TrialPlan& plan, const Loading& from, const Loading& to, bool settles,
+  Run(Simulation& sim, const TrialPlan& plan, const Loading& from, const Loading& to,
       const std::function<bool()>& stops)
       : sim_(sim),
         plan_(plan),
         from_(from.multiplier),
         to_(to),
         stops_(stops),
-        settles_(settles),
-        watch_(sim, settles),
+        watch_(sim),
         start_(sim.state.time),
         steps_(sim.state.steps) {}
 
@@ -86,24 +85,18 @@ class Run {
 
   void see() {
     trial_.velocity = watch_.velocity(sim_).value;
-    const double most = settles_ ? 10.0 * plan_.criterion.size : plan_.criterion.displacement;
     const double gone = watch_.displacement(sim_).value;
-    if (gone > most) return end(TrialEnd::fails, "moved too far");
-    if (!sim_.settles || !sim_.all_on()) return;
-    see_what_goes_on(gone);
+    if (gone > plan_.criterion.displacement) return end(TrialEnd::fails, "moved too far");
+    if (!sim_.settles) return;
+    if (!sim_.all_on()) return watch_.begin(sim_);
+    const double foreseen = watch_.foreseen(sim_, visible * plan_.criterion.displacement).value;
+    if (foreseen > plan_.criterion.displacement) {
+      watch_.count_from_trend(sim_.state);
+      return end(TrialEnd::fails, "keeps moving");
+    }
     const double to_come = watch_.prospect(sim_, plan_.criterion.duration);
     calm_ = to_come <= left_over * plan_.criterion.size ? calm_ + 1 : 0;
     if (calm_ == calm_looks) end(TrialEnd::holds, "at rest");
-  }
-
-  /// Before it has gone far: what rest would slow down does not. From there on it is the mechanism
-  /// alone that moves.
-  void see_what_goes_on(double gone) {
-    if (settles_ || watch_.windows_gone_on(sim_) < windows_enough ||
-        gone < visible * plan_.criterion.size)
-      return;
-    watch_.count_from_since(sim_.state);
-    end(TrialEnd::fails, "keeps moving");
   }
 
   /// What is varied besides strength, as far as that has come.
@@ -134,7 +127,7 @@ class Run {
     sim_.change_damping(plan_.quiet, sim_.dynamic);
     sim_.settles = true;
     sim_.begin_gently(to_.strength, true);
-    watch_.begin_window(sim_, true);
+    watch_.begin(sim_);
   }
 
   void shake() {
@@ -152,7 +145,7 @@ class Run {
   void follow() {
     step_to(sim_.state.time + longest * sim_.step_limit);
     if (over_) return;
-    const bool fails = settles_ || trial_.velocity > plan_.criterion.velocity;
+    const bool fails = trial_.velocity > plan_.criterion.velocity;
     end(fails ? TrialEnd::fails : TrialEnd::holds,
         fails ? "still moving" : "slower than what fails");
   }
@@ -162,7 +155,6 @@ class Run {
   double from_;  ///< multiplier
   const Loading& to_;
   const std::function<bool()>& stops_;
-  const bool settles_;
   Watch watch_;
   Trial trial_;
   const double start_;  ///< s
@@ -197,10 +189,10 @@ void apply(Simulation& sim, const TrialPlan& plan, const Loading& loading) {
 }
 
 Trial run_trial(Simulation& sim, const TrialPlan& plan, const Loading& from, const Loading& to,
-                bool settles, const std::function<bool()>& stops) {
+                const std::function<bool()>& stops) {
   sim.reset_displacements();
   sim.glue_joints(false);
-  return Run(sim, plan, from, to, settles, stops).go();
+  return Run(sim, plan, from, to, stops).go();
 }
 
 }  // namespace edda

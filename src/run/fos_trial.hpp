@@ -61,9 +61,8 @@ void apply_multiplier(Simulation& sim, const TrialPlan& plan, double multiplier)
 
 /// Runs `sim`, at rest under `from`, to the end of a trial under `to`. Displacements count from its
 /// start. A trial that fails without having gone far goes on a little, so that its mechanism shows;
-/// what it returns is of before. `settles`: it comes to rest from the model as drawn, however far
-/// it has to go. `stops` is asked now and then; true ends it.
+/// what it returns is of before. `stops` is asked now and then; true ends it.
 Trial run_trial(Simulation& sim, const TrialPlan& plan, const Loading& from, const Loading& to,
-                bool settles, const std::function<bool()>& stops);
+                const std::function<bool()>& stops);
 
 }  // namespace edda

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "run/stages.hpp"
 
@@ -25,24 +24,20 @@ std::vector<double> rounding_of_forces(const Simulation& sim) {
 
 }  // namespace
 
-Watch::Watch(const Simulation& sim, bool all)
-    : counted_(sim.blocks.size(), 0),
-      speed_(sim.blocks.size(), 0.0),
-      last_time_(sim.state.time),
-      ground_(sim.ground.shift) {
-  constexpr double pebble = 1e-3;  // of the mean mass
+Watch::Watch(const Simulation& sim)
+    : counted_(sim.blocks.size(), 0), speed_(sim.blocks.size(), 0.0), last_time_(sim.state.time) {
+  constexpr double pebble = 0.1;  // of the mean size
   const std::vector<std::uint8_t> touches = touching(sim);
-  double mass = 0.0, count = 0.0;
+  double size = 0.0, count = 0.0;
   for (std::size_t i = 0; i < counted_.size(); ++i) {
     if (!is_free(sim.blocks, sim.state, i)) continue;
-    mass += sim.blocks.mass[i];
+    size += std::sqrt(sim.blocks.area[i]);
     count += 1.0;
   }
   for (std::size_t i = 0; i < counted_.size(); ++i) {
-    counted_[i] = is_free(sim.blocks, sim.state, i) && (all || touches[i]) &&
-                          sim.blocks.mass[i] * count > pebble * mass
-                      ? 1
-                      : 0;
+    const bool loose = !sim.aloof.empty() && sim.aloof[i] != 0;
+    const bool large = std::sqrt(sim.blocks.area[i]) * count > pebble * size;
+    counted_[i] = is_free(sim.blocks, sim.state, i) && touches[i] && !loose && large ? 1 : 0;
   }
   for (std::size_t v = 0; v < sim.blocks.vertex_count(); ++v) start_.push_back(place(sim, v));
   last_ = start_;
@@ -53,17 +48,19 @@ Vec2 Watch::place(const Simulation& sim, std::size_t v) const {
 }
 
 Furthest Watch::displacement(const Simulation& sim) const {
-  return furthest_from(sim, start_);
-}
-
-Furthest Watch::furthest_from(const Simulation& sim, const std::vector<Vec2>& places) const {
   Furthest most;
   for (std::size_t i = 0; i < counted_.size(); ++i) {
     if (!counted_[i]) continue;
-    for (Id v = sim.blocks.vertex_begin[i]; v < sim.blocks.vertex_begin[i + 1]; ++v) {
-      const double u = norm(place(sim, v) - places[v]);
-      if (u > most.value) most = {u, static_cast<Id>(i)};
-    }
+    const double u = gone(sim, i);
+    if (u > most.value) most = {u, static_cast<Id>(i)};
+  }
+  return most;
+}
+
+double Watch::gone(const Simulation& sim, std::size_t i) const {
+  double most = 0.0;
+  for (Id v = sim.blocks.vertex_begin[i]; v < sim.blocks.vertex_begin[i + 1]; ++v) {
+    most = std::max(most, norm(place(sim, v) - start_[v]));
   }
   return most;
 }
@@ -85,36 +82,22 @@ Furthest Watch::velocity(const Simulation& sim) {
   return most;
 }
 
-int Watch::windows_gone_on(const Simulation& sim) {
-  phase_ += sim.pace.frequency * (sim.state.time - looked_);
-  looked_ = sim.state.time;
-  if (phase_ < std::numbers::pi) return gone_on_;
-  constexpr double undiminished = 0.5;
-  const double pace = furthest_from(sim, window_).value / (looked_ - window_time_);
-  const bool goes_on = pace_ >= 0.0 && pace >= undiminished * pace_;
-  gone_on_ = goes_on ? gone_on_ + 1 : 0;
-  pace_ = pace;
-  begin_window(sim, !goes_on);
-  return gone_on_;
-}
-
-void Watch::begin_window(const Simulation& sim, bool first) {
-  phase_ = 0.0;
-  window_time_ = looked_ = sim.state.time;
-  window_.clear();
-  for (std::size_t v = 0; v < start_.size(); ++v) window_.push_back(place(sim, v));
-  if (!first) return;
-  since_x_ = sim.state.x;
-  since_y_ = sim.state.y;
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (double& x : since_x_[k]) x -= sim.ground.shift.x - ground_.x;
-    for (double& y : since_y_[k]) y -= sim.ground.shift.y - ground_.y;
+Furthest Watch::foreseen(const Simulation& sim, double visible) {
+  Furthest most;
+  if (!trend_.look(sim)) return most;
+  for (std::size_t i = 0; i < counted_.size(); ++i) {
+    if (!counted_[i]) continue;
+    const double so_far = gone(sim, i), to_come = trend_.to_come(i);
+    if (so_far > visible && so_far + to_come > most.value)
+      most = {so_far + to_come, static_cast<Id>(i)};
   }
+  return most;
 }
 
-void Watch::count_from_since(State& state) const {
-  state.from_x = since_x_;
-  state.from_y = since_y_;
+void Watch::count_from_trend(State& state) const {
+  if (!trend_.known()) return;
+  state.from_x = trend_.then()[0];
+  state.from_y = trend_.then()[1];
 }
 
 double Watch::prospect(const Simulation& sim, double t) const {

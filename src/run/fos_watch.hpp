@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "run/simulation.hpp"
+#include "run/trend.hpp"
 
 namespace edda {
 
@@ -18,9 +18,10 @@ struct Furthest {
 class Watch {
  public:
   /// From the simulation as it stands. Blocks that touch nothing then fall by themselves and are
-  /// left out, unless `all`; so are those lighter than a thousandth of the mean: no slope fails by
-  /// a pebble, and heavier to move for the sake of the step, they take long to find their place.
-  Watch(const Simulation& sim, bool all);
+  /// left out; so are those that had come loose before, and pebbles, smaller than a tenth of the
+  /// mean: no slope fails by one, and heavier to move for the sake of the step, they take long to
+  /// find their place.
+  explicit Watch(const Simulation& sim);
 
   /// Largest displacement of a corner since the start, m.
   Furthest displacement(const Simulation& sim) const;
@@ -32,29 +33,23 @@ class Watch {
   /// true mass. Of blocks that touch something now; infinite where none does.
   double prospect(const Simulation& sim, double t) const;
 
-  /// Windows in sequence in which the furthest corner has gone on with at least half the velocity
-  /// of the window before. Each is half a period of the motion (Simulation::pace): damped near
-  /// critical, what comes to rest has less than a tenth left. To be called every few steps.
-  int windows_gone_on(const Simulation& sim);
-  /// A window begins; `first`: of a new sequence.
-  void begin_window(const Simulation& sim, bool first);
-  /// Displacements count from where the sequence began, and from the ground as it was at the start.
-  void count_from_since(State& state) const;
+  /// From here on the trend of the motion is followed.
+  void begin(const Simulation& sim) { trend_.begin(sim); }
+  /// Largest displacement since the start of a corner, with what is still to come by the trend
+  /// (Trend), where that has just become known anew: of those that have gone further than `visible`
+  /// (m) and do not come to rest before. To be called every few steps.
+  Furthest foreseen(const Simulation& sim, double visible);
+  /// Displacements count from where the spans of time began in which the trend was seen.
+  void count_from_trend(State& state) const;
 
  private:
   Vec2 place(const Simulation& sim, std::size_t v) const;
-  Furthest furthest_from(const Simulation& sim, const std::vector<Vec2>& places) const;
-  std::vector<std::uint8_t> counted_;        ///< [nb]
-  std::vector<Vec2> start_, last_;           ///< [nv]
-  std::vector<double> speed_;                ///< [nb] over the last window, m/s
-  double last_time_;                         ///< s
-  std::vector<Vec2> window_;                 ///< [nv] where the window began
-  Nodes since_x_, since_y_;                  ///< of the nodes, where the sequence of windows began
-  Vec2 ground_;                              ///< its shift at the start, m
-  double window_time_ = 0.0, looked_ = 0.0;  ///< s
-  double phase_ = 0.0;                       ///< of the window, so far
-  double pace_ = -1.0;                       ///< m/s, in the window before
-  int gone_on_ = 0;
+  double gone(const Simulation& sim, std::size_t i) const;
+  std::vector<std::uint8_t> counted_;  ///< [nb]
+  std::vector<Vec2> start_, last_;     ///< [nv]
+  std::vector<double> speed_;          ///< [nb] over the last window, m/s
+  double last_time_;                   ///< s
+  Trend trend_;
 };
 
 }  // namespace edda

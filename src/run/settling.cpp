@@ -75,6 +75,16 @@ bool all_would_stay(const Simulation& sim) {
   return true;
 }
 
+bool all_go_away(const Simulation& sim) {
+  if (sim.aloof.empty()) return false;
+  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
+    if (!is_free(sim.blocks, sim.state, i)) continue;
+    const Vec2 gone = displacement_of(sim.state, i, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0});
+    if (sim.aloof[i] == 0 || norm(gone) < size_of(sim, i)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void begin_settling(Settling& s, Simulation& sim, const Stage& stage) {
@@ -101,23 +111,24 @@ double prospect(const Simulation& sim, std::size_t i) {
   return speed / w + force / (inertia_of(sim.blocks, i) * w * w);
 }
 
-bool has_come_to_rest(Settling& s, Simulation& sim, const Stage& stage) {
+Rest look_for_rest(Settling& s, Simulation& sim, const Stage& stage) {
   if (!sim.all_on()) {
     s.window_began = sim.state.steps;
     s.window = 0;
-    return false;
+    return Rest::not_yet;
   }
   if (sim.state.steps >= s.window_began + s.window) {
     see_who_goes(s, sim);
     begin_window(s, sim);
+    if (all_go_away(sim)) return Rest::never;
   }
-  if (sim.explicit_method() && sim.state.steps % look_every != 0) return false;
+  if (sim.explicit_method() && sim.state.steps % look_every != 0) return Rest::not_yet;
   const Balance balance = balance_of(sim);
   const bool waits = stage.falling == FallingBlocks::wait && balance.detached > 0;
   const bool calm = !waits && balance.resting > 0 && balance.mean <= stage.ratio &&
                     (balance.mean == 0.0 || all_would_stay(sim));
   s.calm = calm ? s.calm + 1 : 0;
-  return s.calm >= enough;
+  return s.calm >= enough ? Rest::found : Rest::not_yet;
 }
 
 std::string loose_blocks(const Settling& s, const Simulation& sim) {

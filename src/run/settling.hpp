@@ -32,12 +32,19 @@ void begin_settling(Settling& settling, Simulation& sim, const Stage& stage);
 /// step, what that has moved it by.
 double prospect(const Simulation& sim, std::size_t i);
 
-/// To be called after every step. True once all that is to come has come (Simulation::all_on), the
-/// mean unbalanced force is within the stage's ratio, and no block would go further than a
-/// ten-thousandth of its size. Marks blocks that keep going where others come to rest as aloof: in
-/// each of several windows, about half a period of the motion long, they have gone on in the same
-/// direction by at least half as much as in the one before, as drag and window then were.
-bool has_come_to_rest(Settling& settling, Simulation& sim, const Stage& stage);
+enum class Rest {
+  not_yet,
+  found,
+  never,  ///< whatever is free has come loose, and each such block has gone further than its size
+};
+
+/// To be called after every step. Rest is found once all that is to come has come
+/// (Simulation::all_on), the mean unbalanced force is within the stage's ratio, and no block would
+/// go further than a ten-thousandth of its size. Marks blocks that keep going where others come to
+/// rest as aloof: in each of several windows, about half a period of the motion long, they have
+/// gone on in the same direction by at least half as much as in the one before, as drag and window
+/// then were.
+Rest look_for_rest(Settling& settling, Simulation& sim, const Stage& stage);
 
 /// "block 25 (moves on by 3.1 mm in 0.02 s), block 7 (...)"; empty: none.
 std::string loose_blocks(const Settling& settling, const Simulation& sim);

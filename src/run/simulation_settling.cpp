@@ -64,15 +64,20 @@ void Simulation::take_pace(const LoadsNow& at_work) {
       for (auto& values : *nodes) values.assign(blocks.size(), 0.0);
     }
   }
-  // What falls has no stiffness, and goes further than all else together.
-  const std::vector<std::uint8_t> touches = touching(*this);
-  const bool all_fall = std::find(touches.begin(), touches.end(), 1) == touches.end();
+  // What falls or slides away has no stiffness, and goes further than all else together.
+  std::vector<std::uint8_t> stays = touching(*this);
+  for (std::size_t i = 0; i < aloof.size(); ++i) {
+    if (aloof[i] != 0) stays[i] = 0;
+  }
+  bool none_stays = true;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    none_stays = none_stays && !(is_free(blocks, state, i) && stays[i] != 0);
+  }
   parallel_chunks(
       blocks.size(), blocks_at_once, [&](std::size_t, std::size_t from, std::size_t to) {
         // `load`: what comes or goes is no answer to motion; null: none.
         const auto look = [&](std::size_t i, const std::array<Vec2, 3>* load) {
-          const bool counts = is_free(blocks, state, i) && (touches[i] != 0 || all_fall) &&
-                              (aloof.empty() || aloof[i] == 0);
+          const bool counts = is_free(blocks, state, i) && (stays[i] != 0 || none_stays);
           for (std::size_t k = 0; k < 3; ++k) {
             // The forces are those of the positions before the step.
             const Vec2 x{state.x[k][i] - h * state.vx[k][i], state.y[k][i] - h * state.vy[k][i]};
@@ -112,7 +117,7 @@ void Simulation::take_pace(const LoadsNow& at_work) {
   if (!(all_inertia > 0.0)) return;
   // Where what moves has no stiffness (all of it slides) half of what there was is left; nothing
   // that is held moves a hundred times slower than the wave.
-  const double slowest = all_fall ? 0.0 : 0.01;
+  const double slowest = none_stays ? 0.0 : 0.01;
   const double now = std::max(all_stiffness / all_inertia, 0.0), was = pace.frequency;
   pace.frequency = std::max(was > 0.0 ? std::sqrt(0.5 * (was * was + now)) : std::sqrt(now),
                             slowest * wave_frequency());

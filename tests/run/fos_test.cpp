@@ -64,18 +64,22 @@ std::string number(double v) {
   return std::to_string(v);
 }
 
-/// A block of 2 x 1 m on a slope of 30 degrees, its joint with `law`.
-std::string ramp(const std::string& law, const std::string& more = {}) {
+/// A block from u0 to u1 down a slope of 30 degrees and from v0 to v1 out of it, m.
+std::string on_ramp(double u0, double u1, double v0, double v1, const std::string& keys) {
   const double c = std::cos(std::numbers::pi / 6.0), s = std::sin(std::numbers::pi / 6.0);
-  const auto box = [&](double u0, double u1, double v0, double v1) {
-    const auto p = [&](double u, double v) {
-      return "[" + number(u * c + v * s) + "," + number(v * c - u * s) + "]";
-    };
-    return "[" + p(u0, v0) + "," + p(u1, v0) + "," + p(u1, v1) + "," + p(u0, v1) + "]";
+  const auto p = [&](double u, double v) {
+    return "[" + number(u * c + v * s) + "," + number(v * c - u * s) + "]";
   };
+  return "[[block]]\n" + keys + "\npolygon = [" + p(u0, v0) + "," + p(u1, v0) + "," + p(u1, v1) +
+         "," + p(u0, v1) + "]\n";
+}
+
+/// A block of 2 x 1 m on a slope of 30 degrees, its joint with `law`.
+std::string ramp(const std::string& law, const std::string& more = {},
+                 const std::string& solver = "[solver]\nduration = 0.5\n") {
   return "[materials.rock]\ndensity = 2500\nyoung = 2e8\npoisson = 0.2\n[joints.j]\n" + law +
-         "[solver]\nduration = 0.5\n[[block]]\nfixed = true\npolygon = " + box(-4, 6, -1, 0) +
-         "\n[[block]]\nname = 'slider'\npolygon = " + box(0, 2, 0, 1) + "\n" + more;
+         solver + on_ramp(-4, 6, -1, 0, "fixed = true") + on_ramp(0, 2, 0, 1, "name = 'slider'") +
+         more;
 }
 
 Model model_of(const std::string& toml) {
@@ -175,6 +179,35 @@ TEST(Fos, ExcludedJointsHold) {
 }
 
 /// A model that does not stand as given has a factor below 1.
+/// What slides a little until it finds a hold has not failed.
+TEST(Fos, StopsBeforeWhatFails) {
+  const FosResult r = found(ramp(rough, on_ramp(2.003, 3.0, 0.0, 1.0, "fixed = true") + coarse));
+  ASSERT_GE(r.trials.size(), 2u);
+  EXPECT_EQ(r.trials[1].factor, 3.0);
+  EXPECT_EQ(r.trials[1].end, TrialEnd::holds) << r.trials[1].reason;
+  EXPECT_NEAR(r.trials[1].displacement, 0.003, 3e-4);
+}
+
+/// What no strength of joints would hold is set aside, and named.
+TEST(Fos, LooseHoweverStrong) {
+  const FosResult r =
+      found(ramp(rough, on_ramp(-4.3, -3.8, 0.0, 0.3, "name = 'overhang'") + coarse));
+  EXPECT_EQ(r.status, FosStatus::found) << r.message;
+  EXPECT_NEAR(*r.factor, exact, 0.05);
+}
+
+/// But what joints would hold if they were stronger decides the factor.
+TEST(Fos, LooseInAStage) {
+  const std::string resting = on_ramp(-3.0, -2.0, 0.0, 1.0, "joint = 'held'"),
+                    stage = "[[stage]]\nuntil = 'equilibrium'\n";
+  const std::string law =
+      "friction_angle = 25\n[joints.held]\nfriction_angle = 60\n[contact]\njoint = 'j'\n";
+  const FosResult r = found(ramp(law, resting + stage + coarse, ""));
+  EXPECT_EQ(r.status, FosStatus::found) << r.message;
+  EXPECT_NEAR(*r.factor,
+              std::tan(25.0 * std::numbers::pi / 180.0) / std::tan(std::numbers::pi / 6.0), 0.03);
+}
+
 TEST(Fos, BelowOne) {
   const FosResult r = found(ramp("friction_angle = 20\n", coarse));
   EXPECT_EQ(r.status, FosStatus::found);

@@ -122,6 +122,18 @@ TEST(Stages, NoEquilibriumIsACollapse) {
   }
 }
 
+/// Where all slides or falls away there is nothing to wait for.
+TEST(Stages, AllThatGoesAwayIsACollapse) {
+  PreparedRun ready = prepared(tower(
+      "[[stage]]\nname = 'settle'\nuntil = 'equilibrium'\nduration = 1000\n[solver]\n", 0.5, 10.0));
+  const Outcome o = run(ready);
+  EXPECT_EQ(o.status, Status::collapsed);
+  EXPECT_LT(o.time, 10.0);
+  EXPECT_NE(o.message.find("stage 0 (settle) finds no equilibrium: each block slides or falls"),
+            std::string::npos)
+      << o.message;
+}
+
 /// What has come loose is left behind, or ends the run.
 TEST(Stages, LooseBlocksMayEndTheRun) {
   const auto ends = [](const std::string& otherwise) {

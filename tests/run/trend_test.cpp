@@ -1,0 +1,72 @@
+#include "run/trend.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "run/prepared.hpp"
+
+namespace edda {
+namespace {
+
+const char* block = R"([materials.rock]
+density = 2500
+young = 1e9
+poisson = 0.2
+[solver]
+duration = 1
+[[block]]
+polygon = [[0, 0], [1, 0], [1, 1], [0, 1]]
+)";
+
+/// The trend of a block that is at `place` m (over time, s) along the x axis, in a model that moves
+/// with `frequency` (1/s, over time), when it is known for the n-th time.
+double to_come(const std::function<double(double)>& place,
+               const std::function<double(double)>& frequency, int n) {
+  Simulation sim = testing::prepared(block).sim;
+  const State start = sim.state;
+  Trend trend;
+  trend.begin(sim);
+  while (n > 0) {
+    sim.state.time += 1e-3;
+    sim.pace.frequency = frequency(sim.state.time);
+    for (std::size_t k = 0; k < 3; ++k) sim.state.x[k][0] = start.x[k][0] + place(sim.state.time);
+    if (trend.look(sim)) --n;
+  }
+  return trend.to_come(0);
+}
+
+double steady(double) {
+  return 20.0;
+}
+
+/// x = 1 - exp(-t/3 s): exp(-t/3 s) is left.
+TEST(Trend, OfWhatComesToRest) {
+  const auto slows = [](double t) { return 1.0 - std::exp(-t / 3.0); };
+  const double pi = std::acos(-1.0);
+  for (const auto& [n, half_periods] :
+       {std::pair{1, 12.0}, std::pair{2, 16.0}, std::pair{5, 48.0}}) {
+    const double left = std::exp(-half_periods * pi / 20.0 / 3.0);
+    EXPECT_NEAR(to_come(slows, steady, n), left, 0.1 * left) << half_periods;
+  }
+}
+
+TEST(Trend, OfWhatGoesOn) {
+  const double endless = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(to_come([](double t) { return 0.1 * t; }, steady, 1), endless);
+  EXPECT_EQ(to_come([](double t) { return 0.1 * t * t; }, steady, 4), endless);
+  EXPECT_EQ(to_come([](double t) { return std::sin(1.5 * t); }, steady, 1), 0.0) << "turns round";
+}
+
+/// Twice the drag is half the velocity under the same force.
+TEST(Trend, CountsByTheDrag) {
+  const auto heavier = [](double t) { return t < 2.2 ? 20.0 : 40.0; };
+  const auto driven = [](double t) { return t < 2.2 ? 0.1 * t : 0.22 + 0.049 * (t - 2.2); };
+  const double left = to_come(driven, heavier, 2);
+  EXPECT_GT(left, 2.0) << "slower by two parts of a hundred, not by half";
+}
+
+}  // namespace
+}  // namespace edda
