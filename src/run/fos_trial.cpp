@@ -17,8 +17,9 @@ constexpr int calm_looks = 3;         // in sequence that say that all is at res
 constexpr double left_over = 1e-4;    // of a block's size: what may still be to come
 constexpr std::uint64_t look = 32;    // steps
 constexpr double longest = 300000.0;  // steps
-constexpr double visible =
-    0.3;  // of the displacement that fails: what must have gone for its trend to count
+// Of the displacement that fails: what a corner must have gone for its trend to count, on the way
+// and at the very end.
+constexpr double visible = 0.3, barely = 0.01;
 
 TimeHistory scaled(const TimeHistory& given, double by) {
   TimeHistory history = given;
@@ -89,14 +90,18 @@ class Run {
     if (gone > plan_.criterion.displacement) return end(TrialEnd::fails, "moved too far");
     if (!sim_.settles) return;
     if (!sim_.all_on()) return watch_.begin(sim_);
-    const double foreseen = watch_.foreseen(sim_, visible * plan_.criterion.displacement).value;
-    if (foreseen > plan_.criterion.displacement) {
-      watch_.count_from_trend(sim_.state);
-      return end(TrialEnd::fails, "keeps moving");
-    }
+    if (watch_.look_at_trend(sim_)) fail_by_trend(visible);
     const double to_come = watch_.prospect(sim_, plan_.criterion.duration);
     calm_ = to_come <= left_over * plan_.criterion.size ? calm_ + 1 : 0;
     if (calm_ == calm_looks) end(TrialEnd::holds, "at rest");
+  }
+
+  /// Where a corner goes further than it may by the trend, and has gone this part of it already.
+  void fail_by_trend(double part) {
+    const double most = plan_.criterion.displacement;
+    if (watch_.foreseen(sim_, part * most).value <= most) return;
+    watch_.count_from_trend(sim_.state);
+    end(TrialEnd::fails, "keeps moving");
   }
 
   /// What is varied besides strength, as far as that has come.
@@ -144,6 +149,7 @@ class Run {
 
   void follow() {
     step_to(sim_.state.time + longest * sim_.step_limit);
+    if (!over_) fail_by_trend(barely);
     if (over_) return;
     const bool fails = trial_.velocity > plan_.criterion.velocity;
     end(fails ? TrialEnd::fails : TrialEnd::holds,

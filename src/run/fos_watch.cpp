@@ -82,9 +82,9 @@ Furthest Watch::velocity(const Simulation& sim) {
   return most;
 }
 
-Furthest Watch::foreseen(const Simulation& sim, double visible) {
+Furthest Watch::foreseen(const Simulation& sim, double visible) const {
   Furthest most;
-  if (!trend_.look(sim)) return most;
+  if (!trend_.known()) return most;
   for (std::size_t i = 0; i < counted_.size(); ++i) {
     if (!counted_[i]) continue;
     const double so_far = gone(sim, i), to_come = trend_.to_come(i);

@@ -35,10 +35,11 @@ class Watch {
 
   /// From here on the trend of the motion is followed.
   void begin(const Simulation& sim) { trend_.begin(sim); }
-  /// Largest displacement since the start of a corner, with what is still to come by the trend
-  /// (Trend), where that has just become known anew: of those that have gone further than `visible`
-  /// (m) and do not come to rest before. To be called every few steps.
-  Furthest foreseen(const Simulation& sim, double visible);
+  /// To be called every few steps. Whether the trend has just become known anew.
+  bool look_at_trend(const Simulation& sim) { return trend_.look(sim); }
+  /// Largest displacement since the start of a corner, with what is still to come by the trend, of
+  /// those that have gone further than `visible` (m).
+  Furthest foreseen(const Simulation& sim, double visible) const;
   /// Displacements count from where the spans of time began in which the trend was seen.
   void count_from_trend(State& state) const;
 
