@@ -82,13 +82,13 @@ Furthest Watch::velocity(const Simulation& sim) {
   return most;
 }
 
-Furthest Watch::foreseen(const Simulation& sim, double visible) const {
+Furthest Watch::foreseen(const Simulation& sim, double beyond) const {
   Furthest most;
   if (!trend_.known()) return most;
   for (std::size_t i = 0; i < counted_.size(); ++i) {
     if (!counted_[i]) continue;
     const double so_far = gone(sim, i), to_come = trend_.to_come(i);
-    if (so_far > visible && so_far + to_come > most.value)
+    if (so_far > beyond && so_far + to_come > most.value)
       most = {so_far + to_come, static_cast<Id>(i)};
   }
   return most;

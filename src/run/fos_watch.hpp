@@ -38,8 +38,8 @@ class Watch {
   /// To be called every few steps. Whether the trend has just become known anew.
   bool look_at_trend(const Simulation& sim) { return trend_.look(sim); }
   /// Largest displacement since the start of a corner, with what is still to come by the trend, of
-  /// those that have gone further than `visible` (m).
-  Furthest foreseen(const Simulation& sim, double visible) const;
+  /// those that have gone further than `beyond` (m).
+  Furthest foreseen(const Simulation& sim, double beyond) const;
   /// Displacements count from where the spans of time began in which the trend was seen.
   void count_from_trend(State& state) const;
 
