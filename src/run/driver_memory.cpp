@@ -174,6 +174,7 @@ void Driver::list_stages(Archive& a) {
   a("settling.from_y", settling_.from_y);
   a("settling.moved_x", settling_.moved_x);
   a("settling.moved_y", settling_.moved_y);
+  a("settling.to_come", settling_.to_come);
   a("settling.going", settling_.going);
   a("stage.has_ended", stage_has_ended_);
   if constexpr (Archive::loads) {

@@ -53,6 +53,7 @@ FosCriterion criterion_of(const Simulation& sim, const Model& model, const Fos& 
   constexpr double part_of_size = 0.01, times = 5.0, slower = 10.0;
   c.duration = times * std::sqrt(c.size / c.acceleration);
   c.shaking = shaking_time(model, fos);
+  c.slows = !fos.fails.displacement && fos.varied != Varied::shaking;
   c.displacement = fos.fails.displacement.value_or(part_of_size * c.size);
   c.velocity = fos.fails.velocity.value_or(c.displacement / (slower * c.duration));
   return c;

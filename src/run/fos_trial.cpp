@@ -20,6 +20,8 @@ constexpr double longest = 300000.0;  // steps
 // Of the displacement that fails: what a corner must have gone for its trend to count, on the way
 // and at the very end.
 constexpr double visible = 0.3, barely = 0.01;
+constexpr double periods_enough = 6.0;  // of the motion, for that
+constexpr double far_enough = 100.0;    // displacements that fail: no block deforms by its own size
 
 TimeHistory scaled(const TimeHistory& given, double by) {
   TimeHistory history = given;
@@ -86,11 +88,16 @@ class Run {
 
   void see() {
     trial_.velocity = watch_.velocity(sim_).value;
+    const double most = plan_.criterion.displacement;
     const double gone = watch_.displacement(sim_).value;
-    if (gone > plan_.criterion.displacement) return end(TrialEnd::fails, "moved too far");
+    if (gone > (plan_.criterion.slows ? far_enough : 1.0) * most)
+      return end(TrialEnd::fails, "moved too far");
     if (!sim_.settles) return;
     if (!sim_.all_on()) return watch_.begin(sim_);
-    if (watch_.look_at_trend(sim_)) fail_by_trend(visible);
+    const bool anew = watch_.look_at_trend(sim_);
+    if (gone > most && watch_.still_goes(sim_, most, visible * most))
+      return end(TrialEnd::fails, "moved too far");
+    if (anew && watch_.periods() >= periods_enough) fail_by_trend(visible);
     const double to_come = watch_.prospect(sim_, plan_.criterion.duration);
     calm_ = to_come <= left_over * plan_.criterion.size ? calm_ + 1 : 0;
     if (calm_ == calm_looks) end(TrialEnd::holds, "at rest");

@@ -18,9 +18,10 @@ struct FosCriterion {
   double size = 0.0;          ///< L, m: mean of the square roots of their areas
   double acceleration = 0.0;  ///< g, or the mean load over mass where there is no gravity, m/s2
   double displacement = 0.0;  ///< m: a corner that has gone further has failed
-  double velocity = 0.0;      ///< m/s: a corner still faster has failed where a trial finds no end
-  double duration = 0.0;      ///< s, T: at rest is what would not go on within it
-  double shaking = 0.0;       ///< s of shaking before that; 0 without
+  bool slows = false;     ///< unless it slows down to rest, and has not gone a hundred times as far
+  double velocity = 0.0;  ///< m/s: a corner still faster has failed where a trial finds no end
+  double duration = 0.0;  ///< s, T: at rest is what would not go on within it
+  double shaking = 0.0;   ///< s of shaking before that; 0 without
 };
 
 /// What is varied, at one time.

@@ -4,40 +4,17 @@
 #include <cmath>
 #include <limits>
 
+#include "run/settling.hpp"
 #include "run/stages.hpp"
 
 namespace edda {
-namespace {
-
-/// [nb] N: what the springs at a block make of the rounding of coordinates. Nothing small that is
-/// wedged tight between large blocks is in balance to less.
-std::vector<double> rounding_of_forces(const Simulation& sim) {
-  std::vector<double> force(sim.blocks.size(), 0.0);
-  const ContactSet& c = sim.contacts;
-  const double stretch = 0.5 * c.noise;
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (!c.is(k, contact_state::closed)) continue;
-    for (const Id i : {c.block_i[k], c.block_j[k]}) force[i] += stretch * c.kn[k];
-  }
-  return force;
-}
-
-}  // namespace
 
 Watch::Watch(const Simulation& sim)
     : counted_(sim.blocks.size(), 0), speed_(sim.blocks.size(), 0.0), last_time_(sim.state.time) {
-  constexpr double pebble = 0.1;  // of the mean size
-  const std::vector<std::uint8_t> touches = touching(sim);
-  double size = 0.0, count = 0.0;
-  for (std::size_t i = 0; i < counted_.size(); ++i) {
-    if (!is_free(sim.blocks, sim.state, i)) continue;
-    size += std::sqrt(sim.blocks.area[i]);
-    count += 1.0;
-  }
+  const std::vector<std::uint8_t> touches = touching(sim), small = pebbles(sim);
   for (std::size_t i = 0; i < counted_.size(); ++i) {
     const bool loose = !sim.aloof.empty() && sim.aloof[i] != 0;
-    const bool large = std::sqrt(sim.blocks.area[i]) * count > pebble * size;
-    counted_[i] = is_free(sim.blocks, sim.state, i) && touches[i] && !loose && large ? 1 : 0;
+    counted_[i] = is_free(sim.blocks, sim.state, i) && touches[i] && !loose && !small[i] ? 1 : 0;
   }
   for (std::size_t v = 0; v < sim.blocks.vertex_count(); ++v) start_.push_back(place(sim, v));
   last_ = start_;
@@ -92,6 +69,14 @@ Furthest Watch::foreseen(const Simulation& sim, double beyond) const {
       most = {so_far + to_come, static_cast<Id>(i)};
   }
   return most;
+}
+
+bool Watch::still_goes(const Simulation& sim, double far, double to_come) const {
+  if (!trend_.known()) return false;
+  for (std::size_t i = 0; i < counted_.size(); ++i) {
+    if (counted_[i] && gone(sim, i) > far && trend_.to_come(i) > to_come) return true;
+  }
+  return false;
 }
 
 void Watch::count_from_trend(State& state) const {

@@ -18,9 +18,8 @@ struct Furthest {
 class Watch {
  public:
   /// From the simulation as it stands. Blocks that touch nothing then fall by themselves and are
-  /// left out; so are those that had come loose before, and pebbles, smaller than a tenth of the
-  /// mean: no slope fails by one, and heavier to move for the sake of the step, they take long to
-  /// find their place.
+  /// left out; so are those that had come loose before, and pebbles:
+  /// no slope fails by one.
   explicit Watch(const Simulation& sim);
 
   /// Largest displacement of a corner since the start, m.
@@ -37,6 +36,11 @@ class Watch {
   void begin(const Simulation& sim) { trend_.begin(sim); }
   /// To be called every few steps. Whether the trend has just become known anew.
   bool look_at_trend(const Simulation& sim) { return trend_.look(sim); }
+  /// Periods of the motion that it has been followed for.
+  double periods() const { return trend_.periods(); }
+  /// Whether a block of which a corner has gone further than `far` (m) goes on by `to_come` (m) at
+  /// least, by the trend.
+  bool still_goes(const Simulation& sim, double far, double to_come) const;
   /// Largest displacement since the start of a corner, with what is still to come by the trend, of
   /// those that have gone further than `beyond` (m).
   Furthest foreseen(const Simulation& sim, double beyond) const;

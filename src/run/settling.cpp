@@ -22,6 +22,15 @@ double size_of(const Simulation& sim, std::size_t i) {
   return std::sqrt(sim.blocks.area[i]);
 }
 
+constexpr double from_loose = 0.01;  // of a block's size: how far what is loose would go
+
+/// Long enough for a block to go as far as five of its size if nothing held it, s.
+double time_of(const Simulation& sim, std::size_t i) {
+  constexpr double times = 5.0, standard_gravity = 9.81;
+  const double g = norm(sim.model.gravity);
+  return times * std::sqrt(size_of(sim, i) / (g > 0.0 ? g : standard_gravity));
+}
+
 /// About half a period of the motion, in steps: what comes to rest has come a good way by then.
 std::uint64_t window_of(const Simulation& sim) {
   constexpr double least = 128.0, most = 2048.0;
@@ -50,9 +59,18 @@ void see_who_goes(Settling& s, Simulation& sim) {
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
     const Vec2 at = centroid(sim.state.x, sim.state.y, i);
     const Vec2 now = at - Vec2{s.from_x[i], s.from_y[i]}, was{s.moved_x[i], s.moved_y[i]};
-    const bool goes = is_free(sim.blocks, sim.state, i) &&
-                      windows * norm(now) > left_over * size_of(sim, i) &&
-                      like_before * dot(now, was) >= lasting * dot(was, was) && norm(was) > 0.0;
+    const double size = size_of(sim, i), time = time_of(sim, i);
+    // The drag on it is what drives it, were it not for its inertia, raised as it may be.
+    const double driven = 2.0 * sim.damping.adaptive * s.pull * norm(now) *
+                          inertia_of(sim.blocks, i) / sim.blocks.mass[i];
+    const bool far =
+        windows * norm(now) > left_over * size || 0.5 * driven * time * time > from_loose * size;
+    const double ratio = dot(was, was) > 0.0 ? like_before * dot(now, was) / dot(was, was) : 1.0;
+    const bool goes =
+        is_free(sim.blocks, sim.state, i) && norm(was) > 0.0 && far && ratio >= lasting;
+    s.to_come[i] = ratio <= 0.0  ? 0.0
+                   : ratio < 1.0 ? norm(now) * ratio / (1.0 - ratio)
+                                 : std::numeric_limits<double>::infinity();
     s.going[i] = goes ? static_cast<std::uint8_t>(std::min<int>(s.going[i] + 1, windows)) : 0;
     s.moved_x[i] = now.x;
     s.moved_y[i] = now.y;
@@ -65,12 +83,19 @@ void see_who_goes(Settling& s, Simulation& sim) {
   }
 }
 
-bool all_would_stay(const Simulation& sim) {
-  const std::vector<std::uint8_t> touches = touching(sim);
+bool all_would_stay(const Settling& s, const Simulation& sim) {
+  const std::vector<std::uint8_t> touches = touching(sim), small = pebbles(sim);
+  const std::vector<double> rounding = rounding_of_forces(sim);
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
-    if (!is_free(sim.blocks, sim.state, i) || touches[i] == 0) continue;
+    if (!is_free(sim.blocks, sim.state, i) || touches[i] == 0 || small[i] != 0) continue;
     if (!sim.aloof.empty() && sim.aloof[i] != 0) continue;
-    if (prospect(sim, i) > left_over * size_of(sim, i)) return false;
+    const double most = left_over * size_of(sim, i);
+    if (prospect(sim, i) > most) return false;
+    if (!sim.explicit_method() || s.to_come[i] <= most) continue;
+    const double speed = norm(centroid(sim.state.vx, sim.state.vy, i)), time = time_of(sim, i),
+                 force = 3.0 * norm(centroid(sim.forces.x, sim.forces.y, i));
+    const double acceleration = std::max(force - rounding[i], 0.0) / sim.blocks.mass[i];
+    if (speed * time + 0.5 * acceleration * time * time > most) return false;
   }
   return true;
 }
@@ -92,6 +117,7 @@ void begin_settling(Settling& s, Simulation& sim, const Stage& stage) {
   s = {};
   for (auto* values : {&s.from_x, &s.from_y, &s.moved_x, &s.moved_y}) values->assign(nb, 0.0);
   s.going.assign(nb, 0);
+  s.to_come.assign(nb, std::numeric_limits<double>::infinity());
   sim.aloof.clear();
   sim.settles = stage.until == StageEnd::equilibrium;
   sim.rest_ratio = stage.ratio;
@@ -126,15 +152,27 @@ Rest look_for_rest(Settling& s, Simulation& sim, const Stage& stage) {
   const Balance balance = balance_of(sim);
   const bool waits = stage.falling == FallingBlocks::wait && balance.detached > 0;
   const bool calm = !waits && balance.resting > 0 && balance.mean <= stage.ratio &&
-                    (balance.mean == 0.0 || all_would_stay(sim));
+                    (balance.mean == 0.0 || all_would_stay(s, sim));
   s.calm = calm ? s.calm + 1 : 0;
   return s.calm >= enough ? Rest::found : Rest::not_yet;
 }
 
+std::vector<double> rounding_of_forces(const Simulation& sim) {
+  std::vector<double> force(sim.blocks.size(), 0.0);
+  const ContactSet& c = sim.contacts;
+  const double stretch = 0.5 * c.noise;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (!c.is(k, contact_state::closed)) continue;
+    for (const Id i : {c.block_i[k], c.block_j[k]}) force[i] += stretch * c.kn[k];
+  }
+  return force;
+}
+
 std::string loose_blocks(const Settling& s, const Simulation& sim) {
   std::vector<std::pair<double, Id>> loose;
+  const std::vector<std::uint8_t> small = pebbles(sim);
   for (std::size_t i = 0; i < sim.aloof.size(); ++i) {
-    if (sim.aloof[i] == 0) continue;
+    if (sim.aloof[i] == 0 || small[i] != 0) continue;
     loose.emplace_back(norm(Vec2{s.moved_x[i], s.moved_y[i]}), static_cast<Id>(i));
   }
   std::sort(loose.begin(), loose.end(), [](const auto& a, const auto& b) {

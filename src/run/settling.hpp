@@ -20,6 +20,9 @@ struct Settling {
                                          ///< which nothing but drag acts, m/s2
   std::vector<double> from_x, from_y;    ///< [nb] m, centroids when the window began
   std::vector<double> moved_x, moved_y;  ///< [nb] m, in the window before
+  std::vector<double> to_come;      ///< [nb] m: how far it still goes if it slows down from window
+                                    ///< to window by the ratio of the last two; infinite: it does
+                                    ///< not, or that is not known yet
   std::vector<std::uint8_t> going;  ///< [nb] windows in sequence in which it has gone on as before
 };
 
@@ -40,11 +43,19 @@ enum class Rest {
 
 /// To be called after every step. Rest is found once all that is to come has come
 /// (Simulation::all_on), the mean unbalanced force is within the stage's ratio, and no block would
-/// go further than a ten-thousandth of its size. Marks blocks that keep going where others come to
-/// rest as aloof: in each of several windows, about half a period of the motion long, they have
-/// gone on in the same direction by at least half as much as in the one before, as drag and window
-/// then were.
+/// go further than a ten-thousandth of its size: neither with the stiffness that the model moves
+/// with (prospect), nor without any, where it keeps its velocity and the resultant R on it for T =
+/// 5 sqrt(size/g), v T + R/m T^2/2 with its true mass, unless it is seen to slow down before that.
+/// Pebbles do not count. Marks blocks that keep going where others come to rest as aloof: in each
+/// of several windows, about half a period of the motion long, they have gone on in the same
+/// direction by at least half as much as in the one before, as drag and window then were; and over
+/// these they have gone a ten-thousandth of their size, or what drives them would take them a
+/// hundredth of it within T.
 Rest look_for_rest(Settling& settling, Simulation& sim, const Stage& stage);
+
+/// What the springs at each block make of the rounding of coordinates, [nb] N. Nothing small that
+/// is wedged tight between large blocks is in balance to less.
+std::vector<double> rounding_of_forces(const Simulation& sim);
 
 /// "block 25 (moves on by 3.1 mm in 0.02 s), block 7 (...)"; empty: none.
 std::string loose_blocks(const Settling& settling, const Simulation& sim);

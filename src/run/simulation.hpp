@@ -41,9 +41,14 @@ namespace edda {
 /// would drown the slow motion that has furthest to go.
 struct Pace {
   double frequency = 0.0;                     ///< 1/s; 0: not known yet
+  double least = 0.0;                         ///< 1/s: half of it when the last change began
   std::uint64_t since = 0;                    ///< step of what follows
   std::array<std::vector<double>, 3> x, y;    ///< [3][nb] positions then, m; empty: none kept
   std::array<std::vector<double>, 3> fx, fy;  ///< [3][nb] forces then, N
+
+  /// By which time is counted, 1/s: what slides away, and takes the frequency with it, stops no
+  /// clock.
+  double clock() const { return frequency > least ? frequency : least; }
 };
 
 struct StepStatistics {

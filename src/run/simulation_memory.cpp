@@ -134,6 +134,7 @@ void list_state(Archive& a, Simulation& s) {
   a("damping.contact", s.damping.contact);
   a("damping.adaptive", s.damping.adaptive);
   a("pace.frequency", s.pace.frequency);
+  a("pace.least", s.pace.least);
   a("pace.since", s.pace.since);
   a("pace.x", s.pace.x);
   a("pace.y", s.pace.y);

@@ -145,6 +145,7 @@ void Simulation::begin_gently(const std::vector<double>& strength_factors, bool 
               });
   }
   if (changes) loads.gentle = {state.time, 0.0, false};
+  pace.least = 0.5 * pace.frequency;
   strength_from_ = laws.divided_by;
   strength_to_ = strength_factors;
 }
@@ -162,7 +163,7 @@ void Simulation::bring_on() {
   if (all_on()) return;
   constexpr double periods = 1.0, increments = 100.0;
   // Before anything has moved: the wave's.
-  const double frequency = pace.frequency > 0.0 ? pace.frequency : wave_frequency();
+  const double frequency = pace.frequency > 0.0 ? pace.clock() : wave_frequency();
   GentleChange& gentle = loads.gentle;
   const double before = gentle.part;
   gentle.part += state.step * frequency / (2.0 * std::numbers::pi * periods);

@@ -74,13 +74,29 @@ std::vector<std::uint8_t> touching(const Simulation& sim) {
   return touches;
 }
 
+std::vector<std::uint8_t> pebbles(const Simulation& sim) {
+  constexpr double small = 0.1;  // of the mean
+  std::vector<std::uint8_t> are(sim.blocks.size(), 0);
+  double size = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < are.size(); ++i) {
+    if (!is_free(sim.blocks, sim.state, i)) continue;
+    size += std::sqrt(sim.blocks.area[i]);
+    count += 1.0;
+  }
+  for (std::size_t i = 0; i < are.size(); ++i) {
+    are[i] =
+        is_free(sim.blocks, sim.state, i) && std::sqrt(sim.blocks.area[i]) * count < small * size;
+  }
+  return are;
+}
+
 Balance balance_of(const Simulation& sim) {
   Balance balance;
-  const std::vector<std::uint8_t> touches = touching(sim);
+  const std::vector<std::uint8_t> touches = touching(sim), small = pebbles(sim);
   double sum = 0.0;
   std::vector<Id> resting;
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
-    if (!is_free(sim.blocks, sim.state, i)) continue;
+    if (!is_free(sim.blocks, sim.state, i) || small[i] != 0) continue;
     if (!touches[i]) {
       ++balance.detached;
       continue;

@@ -9,7 +9,7 @@
 namespace edda {
 
 /// How far from equilibrium the forces of the last step are. Blocks that touch nothing do not
-/// count: they fall, whatever the others do; nor do those that have come loose.
+/// count: they fall, whatever the others do; nor do those that have come loose, nor pebbles.
 struct Balance {
   double mean = 0.0;        ///< resultant of a block, mean, over the mean contact normal force (the
                             ///< mean weight where no contact carries)
@@ -21,6 +21,11 @@ struct Balance {
 };
 
 Balance balance_of(const Simulation& sim);
+
+/// [nb] 1: a free block smaller (square root of the area) than a tenth of the mean of all free
+/// ones. Its inertia raised for the sake of the step, it takes long to find its place, and nothing
+/// hangs on that.
+std::vector<std::uint8_t> pebbles(const Simulation& sim);
 
 /// [nb] 1: touches something, or is held by a boundary or a bolt.
 std::vector<std::uint8_t> touching(const Simulation& sim);

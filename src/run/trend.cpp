@@ -10,7 +10,7 @@ void Trend::begin(const Simulation& sim) {
   *this = {};
   looked_ = sim.state.time;
   ground_ = sim.ground.shift;
-  half_periods_ = 8;
+  half_periods_ = 2;
   remember(sim);
 }
 
@@ -28,10 +28,11 @@ bool Trend::look(const Simulation& sim) {
   const double w = sim.pace.frequency, dt = sim.state.time - looked_;
   looked_ = sim.state.time;
   if (w == 0.0) return false;
-  phase_ += w * dt;
+  phase_ += sim.pace.clock() * dt;
   effort_ += dt / w;
   if (phase_ < half_periods_ * std::numbers::pi) return false;
   remember(sim);
+  periods_ = 0.5 * half_periods_;
   // 2, 3, 4, 6, 8, 12 ...
   half_periods_ += half_periods_ % 3 == 0 ? half_periods_ / 3 : half_periods_ / 2;
   return known();

@@ -27,6 +27,8 @@ class Trend {
   /// Positions of the nodes two spans ago, x and y.
   const std::array<Nodes, 2>& then() const { return moments_.front().nodes; }
   bool known() const { return moments_.size() == 3; }
+  /// Periods of the motion that it has followed.
+  double periods() const { return periods_; }
 
  private:
   struct Moment {
@@ -38,6 +40,7 @@ class Trend {
   Vec2 ground_;                  ///< its shift at the beginning, m
   double looked_ = 0.0;          ///< s
   double phase_ = 0.0;           ///< of w dt, so far
+  double periods_ = 0.0;         ///< up to the last moment
   int half_periods_ = 0;         ///< up to the next moment
   double effort_ = 0.0;          ///< s2, so far
 };

@@ -134,6 +134,32 @@ TEST(Stages, AllThatGoesAwayIsACollapse) {
       << o.message;
 }
 
+/// A block that friction does not hold by four hundredths, beside a wall with whose stiffness all
+/// else moves: it creeps under the wall's drag, and is not at rest.
+TEST(Stages, WhatCreepsBesideAWallIsLoose) {
+  const auto ends = [](double friction) {
+    PreparedRun ready = prepared(
+        "[materials.rock]\ndensity = 2500\nyoung = 5e9\npoisson = 0.2\n[joints.j]\n"
+        "friction_angle = " +
+        std::to_string(friction) +
+        "\n[joints.dry]\nfriction_angle = 35\n"
+        "[contact]\njoint = 'dry'\n[[block]]\nfixed = true\n"
+        "polygon = [[-1, -1], [9, -1], [9, 0], [-1, 0]]\n[[brick_wall]]\ncolumns = 12\nrows = 12\n"
+        "brick = [0.5, 0.25]\n[[block]]\nfixed = true\njoint = 'j'\n"
+        "polygon = [[20, 0], [30, 0], [30, 5.7735026919]]\n[[block]]\nname = 'slider'\njoint = "
+        "'j'\n"
+        "polygon = [[24, 2.3094010768], [25.7320508076, 3.3094010768], [25.2320508076, "
+        "4.1754264805], [23.5, 3.1754264805]]\n[[stage]]\nuntil = 'equilibrium'\n");
+    return run(ready);
+  };
+  const Outcome creeps = ends(29.0);
+  EXPECT_NE(creeps.message.find("come loose: block"), std::string::npos) << creeps.message;
+  EXPECT_NE(creeps.message.find("(slider)"), std::string::npos) << creeps.message;
+  const Outcome stands = ends(31.0);
+  EXPECT_EQ(stands.status, Status::equilibrium);
+  EXPECT_EQ(stands.message.find("loose"), std::string::npos) << stands.message;
+}
+
 /// What has come loose is left behind, or ends the run.
 TEST(Stages, LooseBlocksMayEndTheRun) {
   const auto ends = [](const std::string& otherwise) {
