@@ -28,12 +28,24 @@ Model before_trials(Model model, const Fos& fos, double multiplier, double divid
   return model;
 }
 
-/// Length of the shaking that is varied: of its record, or for a sine of the stage named, or all.
+/// Length of the shaking that is varied: of its record; of a sine, of the stages by time from the
+/// one that activates it, or of all.
 double shaking_time(const Model& model, const Fos& fos) {
   if (fos.varied != Varied::shaking) return 0.0;
   const Shaking& shaking = model.shakings[static_cast<std::size_t>(fos.target)];
   if (!shaking.record.time.empty()) return shaking.record.time.back();
-  return model.solver.duration;
+  if (model.stages.empty()) return model.solver.duration;
+  const auto activates = [&](const Stage& stage) {
+    return std::find(stage.activate.begin(), stage.activate.end(), shaking.name) !=
+           stage.activate.end();
+  };
+  const auto first = std::find_if(model.stages.begin(), model.stages.end(), activates);
+  double time = 0.0;
+  for (auto stage = first == model.stages.end() ? model.stages.begin() : first;
+       stage != model.stages.end(); ++stage) {
+    if (stage->until == StageEnd::time) time += stage->duration;
+  }
+  return time;
 }
 
 FosCriterion criterion_of(const Simulation& sim, const Model& model, const Fos& fos) {
@@ -89,15 +101,19 @@ Fault cannot(const Model& model, const char* key, std::string problem, std::stri
 }
 
 /// What a search cannot do.
-std::optional<Fault> refused(const Model& model) {
+std::optional<Fault> refused(const Model& model, const Fos& fos) {
   if (model.solver.method == Method::dda) {
     return cannot(model, "solver.method", "the factor of safety is not sought by \"dda\"",
                   "use method = \"edda\" (--set solver.method=edda)");
   }
   if (model.solver.mass == MassKind::consistent) {
     return cannot(model, "solver.mass",
-                  "trials are damped locally, which does not go with \"consistent\"",
+                  "masses that are raised for trials do not go with \"consistent\"",
                   "use mass = \"matched\", which moves the same way");
+  }
+  if (fos.varied == Varied::shaking && shaking_time(model, fos) == 0.0) {
+    return cannot(model, "fos.vary", "nothing says for how long the ground shakes",
+                  "give the shaking a record, or a stage with a duration that activates it");
   }
   return {};
 }
@@ -218,7 +234,7 @@ Loading loading_of(const Fos& fos, const Model& model, const Loading& given, dou
 }
 
 Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptions& options) {
-  if (auto fault = refused(model)) return *fault;
+  if (auto fault = refused(model, fos)) return *fault;
   Result<FosStart> made = at_rest(model, fos, options);
   if (!made.ok()) return made;
   FosStart& s = made.value();

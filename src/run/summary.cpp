@@ -174,10 +174,12 @@ std::string sentence_of(const Check& check, const Simulation& sim, const Outcome
   if (check.name == chatter_check && o.chatter.block_i != no_id) {
     text += fmt::format(
         ": most between {} and {}, t = {:.6g} s; what friction should hold may creep, and what "
-        "slides may fly: give the rock its damping (materials.NAME.damping, 0.5 unless told "
-        "otherwise), or solver.damping.contact = 0.1",
+        "slides may fly, unless a block rocks there: {}give solver.damping.contact = 0.1",
         block_label(sim.blocks, o.chatter.block_i), block_label(sim.blocks, o.chatter.block_j),
-        o.chatter.time);
+        o.chatter.time,
+        sim.blocks.viscosity.empty()
+            ? "give the rock its damping (materials.NAME.damping = 0.5), or "
+            : "");
   }
   if (check.name == fall_check) {
     text +=

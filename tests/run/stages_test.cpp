@@ -139,17 +139,15 @@ TEST(Stages, AllThatGoesAwayIsACollapse) {
 TEST(Stages, WhatCreepsBesideAWallIsLoose) {
   const auto ends = [](double friction) {
     PreparedRun ready = prepared(
-        "[materials.rock]\ndensity = 2500\nyoung = 5e9\npoisson = 0.2\n[joints.j]\n"
+        "[materials.rock]\ndensity = 2600\nyoung = 2e10\npoisson = 0.25\n[joints.j]\n"
         "friction_angle = " +
         std::to_string(friction) +
-        "\n[joints.dry]\nfriction_angle = 35\n"
-        "[contact]\njoint = 'dry'\n[[block]]\nfixed = true\n"
-        "polygon = [[-1, -1], [9, -1], [9, 0], [-1, 0]]\n[[brick_wall]]\ncolumns = 12\nrows = 12\n"
-        "brick = [0.5, 0.25]\n[[block]]\nfixed = true\njoint = 'j'\n"
-        "polygon = [[20, 0], [30, 0], [30, 5.7735026919]]\n[[block]]\nname = 'slider'\njoint = "
-        "'j'\n"
-        "polygon = [[24, 2.3094010768], [25.7320508076, 3.3094010768], [25.2320508076, "
-        "4.1754264805], [23.5, 3.1754264805]]\n[[stage]]\nuntil = 'equilibrium'\n");
+        "\n[joints.dry]\nfriction_angle = 40\n[contact]\njoint = 'dry'\n[[block]]\nfixed = true\n"
+        "polygon = [[-5, -1], [60, -1], [60, 0], [-5, 0]]\n[[brick_wall]]\ncolumns = 6\nrows = 8\n"
+        "brick = [2, 1]\n[[block]]\nfixed = true\njoint = 'j'\npolygon = [[40.5, 9.133974596], "
+        "[49.160254038, 14.133974596], [48.660254038, 15], [40, 10]]\n[[block]]\nname = 'slider'\n"
+        "joint = 'j'\npolygon = [[44.330127019, 12.5], [45.196152423, 13], [44.696152423, "
+        "13.866025404], [43.830127019, 13.366025404]]\n[[stage]]\nuntil = 'equilibrium'\n");
     return run(ready);
   };
   const Outcome creeps = ends(29.0);
