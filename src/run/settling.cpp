@@ -22,8 +22,6 @@ double size_of(const Simulation& sim, std::size_t i) {
   return std::sqrt(sim.blocks.area[i]);
 }
 
-constexpr double from_loose = 0.01;  // of a block's size: how far what is loose would go
-
 /// Long enough for a block to go as far as five of its size if nothing held it, s.
 double time_of(const Simulation& sim, std::size_t i) {
   constexpr double times = 5.0, standard_gravity = 9.81;
@@ -59,12 +57,7 @@ void see_who_goes(Settling& s, Simulation& sim) {
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
     const Vec2 at = centroid(sim.state.x, sim.state.y, i);
     const Vec2 now = at - Vec2{s.from_x[i], s.from_y[i]}, was{s.moved_x[i], s.moved_y[i]};
-    const double size = size_of(sim, i), time = time_of(sim, i);
-    // The drag on it is what drives it, were it not for its inertia, raised as it may be.
-    const double driven = 2.0 * sim.damping.adaptive * s.pull * norm(now) *
-                          inertia_of(sim.blocks, i) / sim.blocks.mass[i];
-    const bool far =
-        windows * norm(now) > left_over * size || 0.5 * driven * time * time > from_loose * size;
+    const bool far = windows * norm(now) > left_over * size_of(sim, i);
     const double ratio = dot(was, was) > 0.0 ? like_before * dot(now, was) / dot(was, was) : 1.0;
     const bool goes =
         is_free(sim.blocks, sim.state, i) && norm(was) > 0.0 && far && ratio >= lasting;
@@ -119,6 +112,7 @@ void begin_settling(Settling& s, Simulation& sim, const Stage& stage) {
   s.going.assign(nb, 0);
   s.to_come.assign(nb, std::numeric_limits<double>::infinity());
   sim.aloof.clear();
+  sim.balanced = false;
   sim.settles = stage.until == StageEnd::equilibrium;
   sim.rest_ratio = stage.ratio;
   if (!sim.settles) sim.pace = {};
@@ -151,6 +145,7 @@ Rest look_for_rest(Settling& s, Simulation& sim, const Stage& stage) {
   if (sim.explicit_method() && sim.state.steps % look_every != 0) return Rest::not_yet;
   const Balance balance = balance_of(sim);
   const bool waits = stage.falling == FallingBlocks::wait && balance.detached > 0;
+  sim.balanced = balance.resting > 0 && balance.of_most <= stage.ratio;
   const bool calm = !waits && balance.resting > 0 && balance.mean <= stage.ratio &&
                     (balance.mean == 0.0 || all_would_stay(s, sim));
   s.calm = calm ? s.calm + 1 : 0;

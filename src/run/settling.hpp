@@ -44,13 +44,11 @@ enum class Rest {
 /// To be called after every step. Rest is found once all that is to come has come
 /// (Simulation::all_on), the mean unbalanced force is within the stage's ratio, and no block would
 /// go further than a ten-thousandth of its size: neither with the stiffness that the model moves
-/// with (prospect), nor without any, where it keeps its velocity and the resultant R on it for T =
-/// 5 sqrt(size/g), v T + R/m T^2/2 with its true mass, unless it is seen to slow down before that.
-/// Pebbles do not count. Marks blocks that keep going where others come to rest as aloof: in each
-/// of several windows, about half a period of the motion long, they have gone on in the same
-/// direction by at least half as much as in the one before, as drag and window then were; and over
-/// these they have gone a ten-thousandth of their size, or what drives them would take them a
-/// hundredth of it within T.
+/// with (prospect), nor without any, where it keeps its velocity and the resultant R on it for
+/// T = 5 sqrt(size/g), v T + R/m T^2/2 with its true mass, unless it is seen to slow down before
+/// that. Pebbles do not count. Marks blocks that keep going where others come to rest as aloof: in
+/// each of several windows, about half a period of the motion long, they have gone on in the same
+/// direction by at least half as much as in the one before, as drag and window then were.
 Rest look_for_rest(Settling& settling, Simulation& sim, const Stage& stage);
 
 /// What the springs at each block make of the rounding of coordinates, [nb] N. Nothing small that

@@ -96,6 +96,7 @@ struct Simulation {
   double smallest_half_width = 0.0;  ///< m, of all blocks
   bool settles =
       false;  ///< is to come to rest: its pace is looked at, what changes may come gently
+  bool balanced = false;    ///< while it settles: all but single blocks is in balance
   double rest_ratio = 0.0;  ///< of unbalanced forces at which it rests (Stage::ratio)
   Pace pace;                ///< while it settles
   std::vector<std::uint8_t>

@@ -142,6 +142,7 @@ void list_state(Archive& a, Simulation& s) {
   a("pace.fy", s.pace.fy);
   a("aloof", s.aloof);
   a("settles", s.settles);
+  a("balanced", s.balanced);
   a("rest_ratio", s.rest_ratio);
   a("gentle.at", s.loads.gentle.at);
   a("gentle.part", s.loads.gentle.part);

@@ -107,7 +107,9 @@ void Simulation::take_pace(const LoadsNow& at_work) {
       });
   pace.since = state.steps;
   if (first) return;
-  const double most_of_one = largest_part(inertia_moved);
+  // Once all else is in balance, what still moves sets the pace.
+  const double most_of_one =
+      balanced ? std::numeric_limits<double>::infinity() : largest_part(inertia_moved);
   double all_stiffness = 0.0, all_inertia = 0.0;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const double part = inertia_moved[i] > most_of_one ? most_of_one / inertia_moved[i] : 1.0;

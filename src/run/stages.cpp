@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include "results/csv.hpp"
 #include "run/labels.hpp"
@@ -95,6 +97,7 @@ Balance balance_of(const Simulation& sim) {
   const std::vector<std::uint8_t> touches = touching(sim), small = pebbles(sim);
   double sum = 0.0;
   std::vector<Id> resting;
+  std::vector<double> all;
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
     if (!is_free(sim.blocks, sim.state, i) || small[i] != 0) continue;
     if (!touches[i]) {
@@ -108,6 +111,7 @@ Balance balance_of(const Simulation& sim) {
     resting.push_back(static_cast<Id>(i));
     const double force = 3.0 * norm(centroid(sim.forces.x, sim.forces.y, i));
     sum += force;
+    all.push_back(force);
     if (balance.block == no_id || force > balance.largest) {
       balance.largest = force;
       balance.block = static_cast<Id>(i);
@@ -116,6 +120,12 @@ Balance balance_of(const Simulation& sim) {
   balance.resting = resting.size();
   if (sum == 0.0) return balance;
   const double scale = force_scale(sim, sim.contacts, resting);
+  constexpr std::size_t parts = 20;
+  const auto most = all.end() - static_cast<std::ptrdiff_t>(all.size() / parts);
+  std::nth_element(all.begin(), most - 1, all.end());
+  const double sum_of_most = std::accumulate(all.begin(), most, 0.0);
+  balance.of_most =
+      scale > 0.0 ? sum_of_most / static_cast<double>(most - all.begin()) / scale : 1.0;
   balance.mean = scale > 0.0 ? sum / static_cast<double>(resting.size()) / scale : 1.0;
   balance.largest = scale > 0.0 ? balance.largest / scale : 1.0;
   return balance;

@@ -11,11 +11,12 @@ namespace edda {
 /// How far from equilibrium the forces of the last step are. Blocks that touch nothing do not
 /// count: they fall, whatever the others do; nor do those that have come loose, nor pebbles.
 struct Balance {
-  double mean = 0.0;        ///< resultant of a block, mean, over the mean contact normal force (the
-                            ///< mean weight where no contact carries)
-  double largest = 0.0;     ///< the same of the block furthest from rest
-  Id block = no_id;         ///< that block
-  std::size_t resting = 0;  ///< blocks that count
+  double mean = 0.0;     ///< resultant of a block, mean, over the mean contact normal force (the
+                         ///< mean weight where no contact carries)
+  double of_most = 0.0;  ///< the same mean without the twentieth of the blocks furthest from rest
+  double largest = 0.0;  ///< the same of the block furthest from rest
+  Id block = no_id;      ///< that block
+  std::size_t resting = 0;   ///< blocks that count
   std::size_t detached = 0;  ///< free blocks that touch nothing
   std::size_t loose = 0;     ///< blocks that slide or fall away for good (Simulation::aloof)
 };

@@ -110,7 +110,7 @@ def first_steps(test, folder, text):
             test.assertLess(abs(float(here.strip(".")) - float(there.strip("."))), 0.02 * float(there.strip(".")) + 1e-9)
     test.assertIn("Save it as `own-tunnel.toml`", text)
     model = (folder / "own-tunnel.toml").read_text(encoding="utf-8")
-    (folder / "own-tunnel.toml").write_text(model.replace("friction_angle = 20", "friction = 20"), encoding="utf-8")
+    (folder / "own-tunnel.toml").write_text(model.replace("friction_angle = 22", "friction = 22"), encoding="utf-8")
     test.assertIn(re.search(r"^own-tunnel\.toml:.*$", text, re.M).group(0),
                   run([EDDA, "check", "own-tunnel.toml"], folder).stderr.splitlines())
 
