@@ -31,7 +31,7 @@ double time_of(const Simulation& sim, std::size_t i) {
 
 /// About half a period of the motion, in steps: what comes to rest has come a good way by then.
 std::uint64_t window_of(const Simulation& sim) {
-  constexpr double least = 128.0, most = 2048.0;
+  constexpr double least = 128.0, most = 512.0;
   const double turn = sim.pace.frequency * sim.state.step;
   return static_cast<std::uint64_t>(turn > 0.0 ? std::clamp(std::numbers::pi / turn, least, most)
                                                : least);
