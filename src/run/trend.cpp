@@ -10,7 +10,6 @@ void Trend::begin(const Simulation& sim) {
   *this = {};
   looked_ = sim.state.time;
   ground_ = sim.ground.shift;
-  half_periods_ = 2;
   remember(sim);
 }
 

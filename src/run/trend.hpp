@@ -41,7 +41,7 @@ class Trend {
   double looked_ = 0.0;          ///< s
   double phase_ = 0.0;           ///< of w dt, so far
   double periods_ = 0.0;         ///< up to the last moment
-  int half_periods_ = 0;         ///< up to the next moment
+  int half_periods_ = 2;         ///< up to the next moment
   double effort_ = 0.0;          ///< s2, so far
 };
 
