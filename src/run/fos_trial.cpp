@@ -95,18 +95,21 @@ class Run {
     if (!sim_.settles) return;
     if (!sim_.all_on()) return watch_.begin(sim_);
     const bool anew = watch_.look_at_trend(sim_);
-    if (gone > most && watch_.still_goes(sim_, most, visible * most))
-      return end(TrialEnd::fails, "moved too far");
+    if (gone > most && goes_beyond(1.0)) return end(TrialEnd::fails, "moved too far");
     if (anew && watch_.periods() >= periods_enough) fail_by_trend(visible);
     const double to_come = watch_.prospect(sim_, plan_.criterion.duration);
     calm_ = to_come <= left_over * plan_.criterion.size ? calm_ + 1 : 0;
     if (calm_ == calm_looks) end(TrialEnd::holds, "at rest");
   }
 
-  /// Where a corner goes further than it may by the trend, and has gone this part of it already.
-  void fail_by_trend(double part) {
+  /// Whether a corner goes further than it may by its trend, and has gone this part of it already.
+  bool goes_beyond(double part) const {
     const double most = plan_.criterion.displacement;
-    if (watch_.foreseen(sim_, part * most).value <= most) return;
+    return watch_.goes_beyond(sim_, part * most, most, visible * most);
+  }
+
+  void fail_by_trend(double part) {
+    if (!goes_beyond(part)) return;
     watch_.count_from_trend(sim_.state);
     end(TrialEnd::fails, "keeps moving");
   }

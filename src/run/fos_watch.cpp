@@ -59,22 +59,12 @@ Furthest Watch::velocity(const Simulation& sim) {
   return most;
 }
 
-Furthest Watch::foreseen(const Simulation& sim, double beyond) const {
-  Furthest most;
-  if (!trend_.known()) return most;
-  for (std::size_t i = 0; i < counted_.size(); ++i) {
-    if (!counted_[i]) continue;
-    const double so_far = gone(sim, i), to_come = trend_.to_come(i);
-    if (so_far > beyond && so_far + to_come > most.value)
-      most = {so_far + to_come, static_cast<Id>(i)};
-  }
-  return most;
-}
-
-bool Watch::still_goes(const Simulation& sim, double far, double to_come) const {
+bool Watch::goes_beyond(const Simulation& sim, double far, double most, double more) const {
   if (!trend_.known()) return false;
   for (std::size_t i = 0; i < counted_.size(); ++i) {
-    if (counted_[i] && gone(sim, i) > far && trend_.to_come(i) > to_come) return true;
+    if (!counted_[i]) continue;
+    const double so_far = gone(sim, i);
+    if (so_far > far && trend_.to_come(i) > (so_far > most ? more : most - so_far)) return true;
   }
   return false;
 }

@@ -38,12 +38,9 @@ class Watch {
   bool look_at_trend(const Simulation& sim) { return trend_.look(sim); }
   /// Periods of the motion that it has been followed for.
   double periods() const { return trend_.periods(); }
-  /// Whether a block of which a corner has gone further than `far` (m) goes on by `to_come` (m) at
-  /// least, by the trend.
-  bool still_goes(const Simulation& sim, double far, double to_come) const;
-  /// Largest displacement since the start of a corner, with what is still to come by the trend, of
-  /// those that have gone further than `beyond` (m).
-  Furthest foreseen(const Simulation& sim, double beyond) const;
+  /// Whether a block of which a corner has gone further than `far` (m) since the start goes beyond
+  /// `most` (m) by its trend; one that has done so already, by `more` (m) at least.
+  bool goes_beyond(const Simulation& sim, double far, double most, double more) const;
   /// Displacements count from where the spans of time began in which the trend was seen.
   void count_from_trend(State& state) const;
 
