@@ -203,14 +203,11 @@ void Driver::follow_events() {
   while (true) {
     const Went went = step_to(event_.time);
     if (went == Went::over || went == Went::paused) return;
-    const Rest rest = went == Went::at_rest   ? Rest::found
-                      : went == Went::nowhere ? Rest::never
-                                              : Rest::not_yet;
-    if (rest != Rest::not_yet) rest_before(event_);
+    if (went != Went::there) rest_before(event_);
     if (!record(event_)) return;
-    const bool next_stage = event_.end || rest != Rest::not_yet;
+    const bool next_stage = event_.end || went != Went::there;
     if (next_stage) {
-      if (!end_stage(rest) || !begin_next_stage()) return;
+      if (!end_stage(went) || !begin_next_stage()) return;
     } else {
       event_ = times_.next();
       sim_.aim_at(event_.time);

@@ -66,7 +66,7 @@ class Driver {
   // Stages (run/driver_stages.cpp).
   void begin_stage(std::size_t index);
   void take_out(const Stage& stage);
-  /// Whether the stage in hand waits for an equilibrium and has found it.
+  /// Of the stage in hand; not yet, where it does not wait for an equilibrium.
   Rest look_for_rest();
   /// The row and the frame that are due at this step of a stage until equilibrium: 32 rows 64 steps
   /// apart, 32 of twice that, and so on, a frame with every eighth. Of the steps alone, so that a
@@ -75,7 +75,7 @@ class Driver {
   /// The event in hand becomes one at the present time.
   void rest_before(Event& event);
   /// Writes down the end of the stage. False: the run is over.
-  bool end_stage(Rest rest);
+  bool end_stage(Went went);
   /// When an equilibrium was found, and what falls all the same.
   std::string rest_of_stage() const;
   std::string not_at_rest() const;

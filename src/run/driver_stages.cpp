@@ -97,9 +97,9 @@ void Driver::rest_before(Event& event) {
   event = {sim_.state.time, true, true, true, false, false};
 }
 
-bool Driver::end_stage(Rest rest) {
+bool Driver::end_stage(Went went) {
   const Stage& stage = stages_[stage_];
-  const bool at_rest = rest == Rest::found;
+  const bool at_rest = went == Went::at_rest;
   const bool reached = at_rest || stage.until == StageEnd::time;
   if (!sim_.model.stages.empty()) {
     ends_.push_back(stage_record(sim_, outcome_.ledger, stage_start_, stage_steps_, reached));
@@ -111,7 +111,7 @@ bool Driver::end_stage(Rest rest) {
     save_stage();
   }
   const std::string label = stage_label(sim_.model, stage_);
-  if (rest == Rest::never) {
+  if (went == Went::nowhere) {
     end(Status::collapsed,
         fmt::format("{} finds no equilibrium: each block slides or falls, and has "
                     "gone further than its own size: {}",
