@@ -81,9 +81,7 @@ double Watch::prospect(const Simulation& sim, double t) const {
   double furthest = -1.0;
   for (std::size_t i = 0; i < counted_.size(); ++i) {
     if (!counted_[i] || !touches[i]) continue;
-    const double resultant = 3.0 * norm(centroid(sim.forces.x, sim.forces.y, i));
-    const double acceleration = std::max(resultant - rounding[i], 0.0) / sim.blocks.mass[i];
-    furthest = std::max(furthest, speed_[i] * t + 0.5 * acceleration * t * t);
+    furthest = std::max(furthest, way_unheld(sim, i, speed_[i], t, rounding[i]));
   }
   return furthest < 0.0 ? std::numeric_limits<double>::infinity() : furthest;
 }

@@ -85,10 +85,8 @@ bool all_would_stay(const Settling& s, const Simulation& sim) {
     const double most = left_over * size_of(sim, i);
     if (prospect(sim, i) > most) return false;
     if (!sim.explicit_method() || s.to_come[i] <= most) continue;
-    const double speed = norm(centroid(sim.state.vx, sim.state.vy, i)), time = time_of(sim, i),
-                 force = 3.0 * norm(centroid(sim.forces.x, sim.forces.y, i));
-    const double acceleration = std::max(force - rounding[i], 0.0) / sim.blocks.mass[i];
-    if (speed * time + 0.5 * acceleration * time * time > most) return false;
+    const double speed = norm(centroid(sim.state.vx, sim.state.vy, i));
+    if (way_unheld(sim, i, speed, time_of(sim, i), rounding[i]) > most) return false;
   }
   return true;
 }
@@ -161,6 +159,12 @@ std::vector<double> rounding_of_forces(const Simulation& sim) {
     for (const Id i : {c.block_i[k], c.block_j[k]}) force[i] += stretch * c.kn[k];
   }
   return force;
+}
+
+double way_unheld(const Simulation& sim, std::size_t i, double v, double t, double rounding) {
+  const double resultant = 3.0 * norm(centroid(sim.forces.x, sim.forces.y, i));
+  const double acceleration = std::max(resultant - rounding, 0.0) / sim.blocks.mass[i];
+  return v * t + 0.5 * acceleration * t * t;
 }
 
 std::string loose_blocks(const Settling& s, const Simulation& sim) {

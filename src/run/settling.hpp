@@ -55,6 +55,11 @@ Rest look_for_rest(Settling& settling, Simulation& sim, const Stage& stage);
 /// is wedged tight between large blocks is in balance to less.
 std::vector<double> rounding_of_forces(const Simulation& sim);
 
+/// How far block i would go within t (s) if nothing held it, m: v t + R/m t^2/2, with its velocity
+/// v (m/s), the resultant R of the forces on it less what `rounding` (N) makes, and its true mass
+/// m.
+double way_unheld(const Simulation& sim, std::size_t i, double v, double t, double rounding);
+
 /// "block 25 (moves on by 3.1 mm in 0.02 s), block 7 (...)"; empty: none.
 std::string loose_blocks(const Settling& settling, const Simulation& sim);
 
