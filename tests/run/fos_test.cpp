@@ -166,8 +166,8 @@ TEST(Fos, TheMechanismHasTheWholePlane) {
   ASSERT_NE(plane, r.mechanism->joints.end());
   double length = 0.0;
   for (const Stretch& s : plane->stretches) length += norm(s.to - s.from);
-  // By as much as it has slid it lies on the plane no more.
-  EXPECT_NEAR(length, std::hypot(20.0, 11.0), 0.05);
+  // What has slid past the toe lies on the plane no more.
+  EXPECT_NEAR(length, std::hypot(20.0, 11.0), plane->slip);
 }
 
 /// Joints that keep their strength cannot fail; the search ends all the same.
