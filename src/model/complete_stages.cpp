@@ -17,7 +17,6 @@ namespace {
 /// brings a model to rest.
 void complete_stage_damping(const Value* node, const Solver& solver, Stage& stage) {
   const Value* own = find(node, "damping");
-  constexpr double at_rest = 0.8;  // of critical: a little above or below takes longer
   const bool settles = stage.until == StageEnd::equilibrium && solver.method == Method::edda;
   if (!given(own, "mass")) stage.damping.mass = solver.damping.mass;
   if (!given(own, "contact")) stage.damping.contact = solver.damping.contact;
@@ -26,7 +25,7 @@ void complete_stage_damping(const Value* node, const Solver& solver, Stage& stag
   if (!given(own, "local")) stage.damping.local = settles ? 0.0 : solver.damping.local;
   if (!given(own, "adaptive")) {
     const bool chosen = given(own, "local") || given(own, "mass");
-    stage.damping.adaptive = settles && !chosen ? at_rest : solver.damping.adaptive;
+    stage.damping.adaptive = settles && !chosen ? Damping::to_rest : solver.damping.adaptive;
   }
 }
 

@@ -268,6 +268,8 @@ struct Damping {
   double contact = 0.0;  ///< fraction of critical
   /// Fraction of critical, in proportion to mass, at the frequency with which all moves at present.
   double adaptive = 0.0;
+  /// Of `adaptive`, in which a model comes to rest soonest: a little more or less takes longer.
+  static constexpr double to_rest = 0.8;
   std::optional<Rayleigh> rayleigh{};  ///< in place of the materials' damping
   /// In proportion to mass, Rayleigh's part with it, 1/s.
   double drag() const { return mass + (rayleigh ? rayleigh->mass() : 0.0); }

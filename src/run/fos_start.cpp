@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "run/stages.hpp"
+#include "run/settling.hpp"
 
 namespace edda {
 namespace {
 
 constexpr double strong = 1e-3;  // what strength is divided by where nothing is to slip or break
-constexpr double standard_gravity = 9.81;  // of a model on which nothing acts at all
 
 /// The model with what is varied multiplied by `multiplier` and strength divided by `divided` once
 /// more.
@@ -61,9 +60,9 @@ FosCriterion criterion_of(const Simulation& sim, const Model& model, const Fos& 
   }
   c.size /= std::max(count, 1.0);
   c.acceleration = norm(model.gravity);
-  if (c.acceleration == 0.0) c.acceleration = force > 0.0 ? force / mass : standard_gravity;
-  constexpr double part_of_size = 0.01, times = 5.0, slower = 10.0;
-  c.duration = times * std::sqrt(c.size / c.acceleration);
+  if (c.acceleration == 0.0 && force > 0.0) c.acceleration = force / mass;
+  constexpr double part_of_size = 0.01, slower = 10.0;
+  c.duration = time_to_stay(c.size, c.acceleration);
   c.shaking = shaking_time(model, fos);
   c.slows = !fos.fails.displacement && fos.varied != Varied::shaking;
   c.displacement = fos.fails.displacement.value_or(part_of_size * c.size);
@@ -73,10 +72,9 @@ FosCriterion criterion_of(const Simulation& sim, const Model& model, const Fos& 
 
 /// In which a model comes to rest.
 Damping damping_to_rest(const Damping& own) {
-  constexpr double adaptive = 0.8;  // of critical, at the frequency with which all moves
   Damping damping;
   damping.contact = own.contact;
-  damping.adaptive = adaptive;
+  damping.adaptive = Damping::to_rest;
   damping.rayleigh = own.rayleigh;
   return damping;
 }
@@ -143,14 +141,17 @@ Model with_rest(Model model) {
 
 /// The steps that the rest of a model as drawn may take.
 void limit_rest(Simulation& sim) {
-  constexpr double longest = 300000.0;
-  sim.model.stages.back().duration = longest * sim.model.solver.safety * sim.uniform_step();
+  sim.model.stages.back().duration = most_steps * sim.model.solver.safety * sim.uniform_step();
   sim.model.solver.duration = sim.model.stages.back().duration;
 }
 
-/// Whether something has come loose in a stage.
+/// Whether something has come loose in a stage, but for pebbles.
 bool any_loose(const Simulation& sim) {
-  return std::find(sim.aloof.begin(), sim.aloof.end(), 1) != sim.aloof.end();
+  const std::vector<std::uint8_t> small = pebbles(sim);
+  for (std::size_t i = 0; i < sim.aloof.size(); ++i) {
+    if (sim.aloof[i] != 0 && small[i] == 0) return true;
+  }
+  return false;
 }
 
 /// How trials of the model start: as its stages leave it.

@@ -7,16 +7,14 @@
 #include <utility>
 
 #include "run/fos_watch.hpp"
+#include "run/settling.hpp"
 #include "run/stages.hpp"
 
 namespace edda {
 namespace {
 
 constexpr double increments = 100.0;  // of what is varied
-constexpr int calm_looks = 3;         // in sequence that say that all is at rest
-constexpr double left_over = 1e-4;    // of a block's size: what may still be to come
 constexpr std::uint64_t look = 32;    // steps
-constexpr double longest = 300000.0;  // steps
 // Of the displacement that fails: what a corner must have gone for its trend to count, on the way
 // and at the very end.
 constexpr double visible = 0.3, barely = 0.01;
@@ -99,7 +97,7 @@ class Run {
     if (anew && watch_.periods() >= periods_enough) fail_by_trend(visible);
     const double to_come = watch_.prospect(sim_, plan_.criterion.duration);
     calm_ = to_come <= left_over * plan_.criterion.size ? calm_ + 1 : 0;
-    if (calm_ == calm_looks) end(TrialEnd::holds, "at rest");
+    if (calm_ == looks_at_rest) end(TrialEnd::holds, "at rest");
   }
 
   /// Whether a corner goes further than it may by its trend, and has gone this part of it already.
@@ -158,7 +156,7 @@ class Run {
   }
 
   void follow() {
-    step_to(sim_.state.time + longest * sim_.step_limit);
+    step_to(sim_.state.time + most_steps * sim_.step_limit);
     if (!over_) fail_by_trend(barely);
     if (over_) return;
     const bool fails = trial_.velocity > plan_.criterion.velocity;

@@ -40,6 +40,9 @@ struct TrialPlan {
   Damping shaken;  ///< while the ground shakes
 };
 
+/// That a model may take to come to rest, and a trial to find its end.
+constexpr double most_steps = 300000.0;
+
 enum class TrialEnd { holds, fails, stopped };
 
 /// What came of one factor: a row of fos.csv.

@@ -14,19 +14,10 @@ namespace edda {
 namespace {
 
 constexpr std::uint64_t look_every = 16;  // steps
-constexpr std::uint64_t enough = 3;       // looks
-constexpr double left_over = 1e-4;        // of a block's size
 constexpr std::uint8_t windows = 4;       // in which a block that has come loose goes on
 
 double size_of(const Simulation& sim, std::size_t i) {
   return std::sqrt(sim.blocks.area[i]);
-}
-
-/// Long enough for a block to go as far as five of its size if nothing held it, s.
-double time_of(const Simulation& sim, std::size_t i) {
-  constexpr double times = 5.0, standard_gravity = 9.81;
-  const double g = norm(sim.model.gravity);
-  return times * std::sqrt(size_of(sim, i) / (g > 0.0 ? g : standard_gravity));
 }
 
 /// About half a period of the motion, in steps: what comes to rest has come a good way by then.
@@ -85,8 +76,9 @@ bool all_would_stay(const Settling& s, const Simulation& sim) {
     const double most = left_over * size_of(sim, i);
     if (prospect(sim, i) > most) return false;
     if (!sim.explicit_method() || s.to_come[i] <= most) continue;
-    const double speed = norm(centroid(sim.state.vx, sim.state.vy, i));
-    if (way_unheld(sim, i, speed, time_of(sim, i), rounding[i]) > most) return false;
+    const double speed = norm(centroid(sim.state.vx, sim.state.vy, i)),
+                 time = time_to_stay(size_of(sim, i), norm(sim.model.gravity));
+    if (way_unheld(sim, i, speed, time, rounding[i]) > most) return false;
   }
   return true;
 }
@@ -115,6 +107,11 @@ void begin_settling(Settling& s, Simulation& sim, const Stage& stage) {
   sim.rest_ratio = stage.ratio;
   if (!sim.settles) sim.pace = {};
   begin_window(s, sim);
+}
+
+double time_to_stay(double size, double acceleration) {
+  constexpr double times = 5.0, standard_gravity = 9.81;
+  return times * std::sqrt(size / (acceleration > 0.0 ? acceleration : standard_gravity));
 }
 
 double prospect(const Simulation& sim, std::size_t i) {
@@ -147,7 +144,7 @@ Rest look_for_rest(Settling& s, Simulation& sim, const Stage& stage) {
   const bool calm = !waits && balance.resting > 0 && balance.mean <= stage.ratio &&
                     (balance.mean == 0.0 || all_would_stay(s, sim));
   s.calm = calm ? s.calm + 1 : 0;
-  return s.calm >= enough ? Rest::found : Rest::not_yet;
+  return s.calm >= looks_at_rest ? Rest::found : Rest::not_yet;
 }
 
 std::vector<double> rounding_of_forces(const Simulation& sim) {

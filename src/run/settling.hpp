@@ -10,9 +10,18 @@
 
 namespace edda {
 
+/// At rest, in stages and in trials, is what would not go on by more than this part of a block's
+/// size, so many looks in sequence.
+constexpr double left_over = 1e-4;
+constexpr int looks_at_rest = 3;
+
+/// For how long it would have to stay, s: T = 5 sqrt(size/g), in which a block that nothing held
+/// would fall by twelve of its size (m); g: acceleration of what acts, m/s2, or 0.
+double time_to_stay(double size, double acceleration);
+
 /// What is remembered from look to look, of one stage until equilibrium.
 struct Settling {
-  std::uint64_t calm = 0;                ///< looks in sequence that have found rest
+  int calm = 0;                          ///< looks in sequence that have found rest
   std::uint64_t window_began = 0;        ///< step
   std::uint64_t window = 0;              ///< steps
   double pull = 0.0, pull_before = 0.0;  ///< 1/s2, of this window and the one before: its
@@ -45,7 +54,7 @@ enum class Rest {
 /// (Simulation::all_on), the mean unbalanced force is within the stage's ratio, and no block would
 /// go further than a ten-thousandth of its size: neither with the stiffness that the model moves
 /// with (prospect), nor without any, where it keeps its velocity and the resultant R on it for
-/// T = 5 sqrt(size/g), v T + R/m T^2/2 with its true mass, unless it is seen to slow down before
+/// T (time_to_stay), v T + R/m T^2/2 with its true mass, unless it is seen to slow down before
 /// that. Pebbles do not count. Marks blocks that keep going where others come to rest as aloof: in
 /// each of several windows, about half a period of the motion long, they have gone on in the same
 /// direction by at least half as much as in the one before, as drag and window then were.
