@@ -330,7 +330,7 @@ struct Fos {
   std::string stage;                 ///< whose end the trials begin from; empty: the last
   std::string vary = "strength";     ///< as written
   Vec2 bracket{0.5, 3.0};            ///< factors to begin with, lower and upper
-  double tolerance = 0.01;           ///< width of the bracket at the end
+  double tolerance = 0.01;           ///< width of the bracket at the end, over its lower factor
   std::vector<std::string> exclude;  ///< joints that keep their strength
   FosFails fails;
   Varied varied = Varied::strength;  ///< what `vary` says

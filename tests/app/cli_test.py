@@ -103,7 +103,7 @@ class Cli(Program):
             .replace("velocity = [1.0, 0.0]\n", "")
         push = '[[load]]\nname = "push"\npoint = [0, 0.1]\nforce = [2000, 0]\n'
         (self.dir / "m.toml").write_text(model + push)
-        args = ["fos", "m.toml", "--set", "fos.vary=load:push", "--set", "fos.tolerance=0.1", "--set", "fos.bracket=[5, 9]"]
+        args = ["fos", "m.toml", "--set", "fos.vary=load:push", "--set", "fos.tolerance=0.01", "--set", "fos.bracket=[5, 9]"]
         done = self.expect(0, *args)
         files = "summary.json fos.csv mechanism.csv mechanism_joints.csv mechanism.png mechanism.svg model.toml".split()
         self.assertEqual(sorted(p.name for p in (self.dir / "m-fos").iterdir()), sorted(files))

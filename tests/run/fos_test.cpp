@@ -37,8 +37,19 @@ TEST(FosBracket, Bisects) {
 
 TEST(FosBracket, MovesAnEndThatDoesNotHold) {
   FosBracket b{1.0, 2.0, 0.5};
-  EXPECT_EQ(asked(b, 0.3), (std::vector<double>{1.0, 0.5, 0.25}));
-  EXPECT_EQ(asked(b, 5.0), (std::vector<double>{1.0, 2.0, 4.0, 8.0, 6.0, 5.0, 4.5}));
+  EXPECT_EQ(asked(b, 0.3), (std::vector<double>{1.0, 0.5, 0.25, 0.375}));
+  EXPECT_EQ(asked(b, 5.0), (std::vector<double>{1.0, 2.0, 4.0, 8.0, 6.0}));
+}
+
+/// A factor of 21 takes as many trials as one of 1.05, and one of 0.0525.
+TEST(FosBracket, ToleranceIsAPartOfTheFactor) {
+  const std::vector<double> near_one = asked({1.0, 2.0, 0.01}, 1.05);
+  for (const double times : {0.05, 20.0}) {
+    std::vector<double> factors = asked({times, 2.0 * times, 0.01}, 1.05 * times);
+    ASSERT_EQ(factors.size(), near_one.size());
+    for (std::size_t i = 0; i < factors.size(); ++i)
+      EXPECT_NEAR(factors[i], times * near_one[i], 1e-12 * times);
+  }
 }
 
 TEST(FosBracket, GivesUp) {
