@@ -181,6 +181,23 @@ TEST(Fos, TheMechanismHasTheWholePlane) {
   EXPECT_NEAR(length, std::hypot(20.0, 11.0), 0.05);
 }
 
+/// A block that tilts back where it slides out over the toe of a plane does not topple.
+TEST(Fos, WhatTiltsBackAtTheToeSlides) {
+  const FosResult r = found(
+      "[materials.rock]\nunit_weight = '26 kN/m3'\nyoung = '1 GPa'\npoisson = 0.25\n"
+      "[joints.bedding]\nfriction_angle = 20\n[joints.cross]\nfriction_angle = 35\n"
+      "[domain]\njoint = 'bedding'\n"
+      "outline = [[0, 0], [44, 0], [44, 22], [24.4, 22], [20, 10], [0, 10]]\n"
+      "[[trace]]\npoints = [[20, 10], [34.301, 22]]\njoint = 'bedding'\n"
+      "[[joint_set]]\nangle = -50\nspacing = 8\norigin = [25.6, 10]\njoint = 'cross'\n"
+      "region = [[20, 10], [34.301, 22], [24.4, 22]]\n[[held]]\npoint = [5, 5]\n" +
+      coarse);
+  ASSERT_TRUE(r.mechanism) << r.message;
+  EXPECT_EQ(r.mechanism->text, "sliding along bedding: 3 blocks");
+  const auto tilts = [](const MovingBlock& b) { return b.turning_part >= 0.5; };
+  EXPECT_TRUE(std::any_of(r.mechanism->blocks.begin(), r.mechanism->blocks.end(), tilts));
+}
+
 /// Joints that keep their strength cannot fail; the search ends all the same.
 TEST(Fos, ExcludedJointsHold) {
   const FosResult r = found(ramp(rough, coarse + "exclude = ['j']\n"));
