@@ -277,7 +277,7 @@ struct Solver {
   Method method = Method::edda;
   MassKind mass = MassKind::matched;
   Switching switching = Switching::exact;
-  double duration = 0.0;            ///< s
+  double duration = 0.0;            ///< s; 0: not given
   std::optional<double> time_step;  ///< s; empty: "auto"
   bool allow_unstable = false;
   double safety = 0.7;                   ///< of the critical step

@@ -94,7 +94,7 @@ std::string ramp(const std::string& law, const std::string& more = {},
 }
 
 Model model_of(const std::string& toml) {
-  Result<Model> model = read_model_text(toml, "m.toml", {});
+  Result<Model> model = read_model_text(toml, "m.toml", {}, ReadFor::anything);
   if (!model.ok()) ADD_FAILURE() << to_string(model.faults()[0]);
   return model.value();
 }
@@ -196,6 +196,40 @@ TEST(Fos, WhatTiltsBackAtTheToeSlides) {
   EXPECT_EQ(r.mechanism->text, "sliding along bedding: 3 blocks");
   const auto tilts = [](const MovingBlock& b) { return b.turning_part >= 0.5; };
   EXPECT_TRUE(std::any_of(r.mechanism->blocks.begin(), r.mechanism->blocks.end(), tilts));
+}
+
+/// A search needs no duration, and does not look at one that is given.
+TEST(Fos, NeedsNoDuration) {
+  const FosResult none = found(ramp(rough, coarse, ""));
+  EXPECT_NEAR(*none.factor, exact, 0.05);
+  for (const char* duration : {"0.5", "500"}) {
+    const FosResult given =
+        found(ramp(rough, coarse, "[solver]\nduration = " + std::string(duration) + "\n"));
+    EXPECT_EQ(fos_csv(given.trials), fos_csv(none.trials));
+  }
+}
+
+/// But the length of a sine is that of the run.
+TEST(Fos, ASineNeedsADuration) {
+  const Result<FosResult> r = find_factor(
+      model_of(
+          ramp(rough,
+               "[[shaking]]\nname = 'push'\nacceleration = { amplitude = 1, frequency = 5 }\n" +
+                   coarse + "vary = 'shaking:push'\n",
+               "")),
+      {});
+  ASSERT_FALSE(r.ok());
+  EXPECT_EQ(to_string(r.faults()[0]),
+            "m.toml:18:8: fos.vary: nothing says for how long the ground shakes: give "
+            "solver.duration, or the shaking a record");
+}
+
+/// A run does need one.
+TEST(Fos, ARunNeedsADuration) {
+  const Result<PreparedRun> run = prepare_run(model_of(ramp(rough, "", "")));
+  ASSERT_FALSE(run.ok());
+  EXPECT_EQ(run.faults()[0].where.key, "solver.duration");
+  EXPECT_EQ(run.faults()[0].where.file, "m.toml");
 }
 
 /// Joints that keep their strength cannot fail; the search ends all the same.
