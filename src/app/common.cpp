@@ -63,16 +63,18 @@ void print(const Faults& faults, bool json) {
   print(faults);
 }
 
-Result<Model> read_for_run(const std::string& path, const std::vector<std::string>& overrides) {
-  Result<Model> model = read_model(path, overrides);
+Result<Model> read_within_memory(const std::string& path, const std::vector<std::string>& overrides,
+                                 ReadFor what_for) {
+  Result<Model> model = read_model(path, overrides, what_for);
   if (!model.ok()) return model;
   if (const std::optional<Fault> fault = beyond_memory(model.value(), memory_here())) return *fault;
   return model;
 }
 
 std::optional<Model> read_or_print(const std::string& path,
-                                   const std::vector<std::string>& overrides, bool json) {
-  Result<Model> model = read_for_run(path, overrides);
+                                   const std::vector<std::string>& overrides, bool json,
+                                   ReadFor what_for) {
+  Result<Model> model = read_within_memory(path, overrides, what_for);
   if (model.ok()) return std::move(model.value());
   print(model.faults(), json);
   return {};

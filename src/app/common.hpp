@@ -10,6 +10,7 @@
 #include "app/commands.hpp"
 #include "base/fault.hpp"
 #include "model/model.hpp"
+#include "model/read_model.hpp"
 #include "report/plot.hpp"
 
 namespace edda {
@@ -21,11 +22,13 @@ void print(const Faults& faults, bool json);
 void print_warnings(const std::vector<std::string>& warnings);
 
 /// Reads MODEL with its overrides. A model that does not fit into memory is a fault, too.
-Result<Model> read_for_run(const std::string& path, const std::vector<std::string>& overrides);
+Result<Model> read_within_memory(const std::string& path, const std::vector<std::string>& overrides,
+                                 ReadFor what_for = ReadFor::run);
 
 /// The same; prints the faults and returns nothing if there are any.
 std::optional<Model> read_or_print(const std::string& path,
-                                   const std::vector<std::string>& overrides, bool json = false);
+                                   const std::vector<std::string>& overrides, bool json = false,
+                                   ReadFor what_for = ReadFor::run);
 
 /// Adds --json.
 void add_json(CLI::App& command, bool& json, const std::string& description);

@@ -87,7 +87,8 @@ int cut(const CutArguments& args) {
                args.output);
     return exit_code::bad_input;
   }
-  const std::optional<Model> model = read_or_print(args.model, args.overrides);
+  const std::optional<Model> model =
+      read_or_print(args.model, args.overrides, false, ReadFor::anything);
   if (!model) return exit_code::bad_input;
   const Result<PolygonSet> polygons = build_polygons(*model);
   if (!polygons.ok()) {

@@ -95,7 +95,8 @@ int code_of(FosStatus status) {
 }
 
 int fos(const FosArguments& args) {
-  const std::optional<Model> model = read_or_print(args.model, args.overrides, args.json);
+  const std::optional<Model> model =
+      read_or_print(args.model, args.overrides, args.json, ReadFor::anything);
   if (!model) return exit_code::bad_input;
   const std::string folder = args.folder.empty() ? stem_of(args.model) + "-fos" : args.folder;
   if (const Trouble trouble = check_folder(folder, args.model)) {
@@ -143,7 +144,8 @@ void add_fos(CLI::App& app, int& code) {
       "Brings the model to rest, then tries factors: the strength of the joints divided by it\n"
       "(cohesion, tangent of the friction angle, tensile strength), or a load, a water or a "
       "shaking\n"
-      "multiplied by it, until one that holds and one that fails are as near as fos.tolerance.\n"
+      "multiplied by it, until one that fails is above one that holds by no more than\n"
+      "fos.tolerance of it.\n"
       "The folder (default: the model's name without .toml and with -fos, here) then holds\n"
       "  summary.json          the factor, its bracket, the criterion, the mechanism; written "
       "last\n"

@@ -197,7 +197,8 @@ Result<PlotSource> from_folder(const PlotArguments& args) {
   PlotSource source;
   source.notes = notes_on(series.value(), args);
   // The title, names and monitors; a picture does without them where the model is gone.
-  if (const Result<Model> model = read_model(folder + "/model.toml"); model.ok()) {
+  if (const Result<Model> model = read_model(folder + "/model.toml", {}, ReadFor::anything);
+      model.ok()) {
     if (const Trouble trouble = judged(args, model.value())) return *trouble;
     source.options = options_of(model.value(), 0);
     source.options.least_stress = least_stress_of(model.value());
@@ -224,7 +225,7 @@ Result<PlotSource> from_model(const PlotArguments& args) {
                  "is a model, which has no times, stresses, contacts or loads yet",
                  "run it, and give the folder of its results"};
   }
-  const Result<Model> model = read_model(args.source, args.overrides);
+  const Result<Model> model = read_model(args.source, args.overrides, ReadFor::anything);
   if (!model.ok()) return model.faults();
   if (const Trouble trouble = judged(args, model.value())) return *trouble;
   const Result<PolygonSet> polygons = build_polygons(model.value());
@@ -269,7 +270,8 @@ Trouble read_histories(const PlotArguments& args, HistorySource& source) {
   picture.paper = paper_of(args);
   picture.title = args.title;
   if (!args.title.empty()) return {};
-  if (const Result<Model> model = read_model(args.source + "/model.toml"); model.ok()) {
+  if (const Result<Model> model = read_model(args.source + "/model.toml", {}, ReadFor::anything);
+      model.ok()) {
     picture.title = options_of(model.value(), 0).title;
   }
   return {};

@@ -47,7 +47,7 @@ RunOptions options_for(const RunArguments& args, const std::string& folder, RunR
 
 /// The model of the command line, where it, its stage to start from and its folder can be used.
 Result<Model> usable_model(const RunArguments& args, const std::string& folder) {
-  Result<Model> model = read_for_run(args.model, args.overrides);
+  Result<Model> model = read_within_memory(args.model, args.overrides);
   if (!model.ok()) return model;
   const auto from = first_stage(model.value(), args.from);
   if (!from.ok()) return from.faults();

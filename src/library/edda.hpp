@@ -64,7 +64,8 @@ class EDDA_API Error : public std::runtime_error {
 /// A checked model; never changes. Copies share it.
 class EDDA_API Model {
  public:
-  /// Reads a TOML file and applies `overrides` ("solver.duration=0.2"), as --set does.
+  /// Reads a TOML file and applies `overrides` ("solver.duration=0.2"), as --set does. A model
+  /// without stages may lack solver.duration: cut() and fos() need none, all else refuses it.
   static Model read(const std::string& path, const std::vector<std::string>& overrides = {});
   /// The same of a text; `name` is what faults call it, and paths in it count from that file.
   static Model parse(std::string_view toml, const std::string& name = "model",
@@ -72,7 +73,7 @@ class EDDA_API Model {
 
   std::string title() const;
   std::string file() const;
-  double duration() const;      ///< s
+  double duration() const;      ///< s; 0: none is given
   std::string to_toml() const;  ///< every key and default filled in; reads back to the same bits
 
   // Names, in the order of the model. Numbers of materials and joints below are rows of these.

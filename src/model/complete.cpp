@@ -235,13 +235,14 @@ void check_solver(const Value& root, Reading& reading) {
   }
 }
 
-/// A default of duration / `parts`, and a fault where there would be more than `most` rows.
+/// A default of duration / `parts` (0 where no duration is given), and a fault where there would be
+/// more than `most` rows.
 void complete_interval(const Value& root, const char* key, double& interval, double parts,
                        double most, Reading& reading) {
   const Value* value = find(find(&root, "output"), key);
   const double duration = reading.model.solver.duration;
   if (value == nullptr) {
-    interval = fitted(duration / parts);
+    interval = duration > 0.0 ? fitted(duration / parts) : 0.0;
   } else if (interval > 0.0 && duration / interval > most) {
     add_fault(reading, value->place, std::string("output.") + key,
               fmt::format("would write {:.1e} times, more than {:.0e}", duration / interval, most),

@@ -167,17 +167,9 @@ void check_switches(const Value* own, const Stage& stage, std::set<std::string>&
 }  // namespace
 
 void complete_stages(const Value& root, Reading& reading) {
+  if (reading.model.stages.empty()) return;
   Solver& solver = reading.model.solver;
-  const Value* node = find(&root, "solver");
-  const Value* duration = find(node, "duration");
-  if (reading.model.stages.empty()) {
-    if (duration == nullptr && !given(&root, "stage")) {
-      add_fault(reading, node == nullptr ? Place{1, 1, false} : node->place, "solver.duration",
-                "is missing",
-                "give " + expected(*find_key(find_section("solver")->keys, "duration")));
-    }
-    return;
-  }
+  const Value* duration = find(find(&root, "solver"), "duration");
   const Model& model = reading.model;
   std::vector<std::string_view> known;
   for (const auto& names : {names_in(model.loads), names_in(model.waters),

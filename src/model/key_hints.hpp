@@ -4,11 +4,40 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "model/keys.hpp"
+#include "model/value.hpp"
 
 namespace edda {
 
-/// Where it belongs, what it is called here, or which of the keys that the table knows it may be a
-/// slip of.
-std::string unknown_key_hint(std::string_view name, std::span<const std::string_view> known);
+/// A key of a table that is itself a key: the spacing of deviation.
+struct InnerKey {
+  std::string_view table, key;
+
+  std::string example() const;  ///< deviation = { spacing = ... }
+};
+
+/// Those of all tables among the keys of an object.
+std::vector<InnerKey> inner_keys(std::span<const Key> keys, void* object);
+
+struct UnknownKey {
+  /// Where it belongs, what it is called here, or which of the keys that the table knows it may be
+  /// a slip of.
+  std::string hint;
+  const Key* stands_for = nullptr;  ///< one that is required and missing, of which the hint tells
+};
+
+/// `table` has the `keys`, and tables inside with `inner`; `is_root`: it is the whole file, which
+/// has sections, too.
+UnknownKey unknown_key(const Entry& entry, const Value& table, std::span<const Key> keys,
+                       const std::vector<InnerKey>& inner, bool is_root);
+
+/// What a key asks for that got a table in place of a number, where a table beside it has more to
+/// say of it; empty: nothing of the kind.
+std::string number_remedy(const Key& key, const Value& value, const std::vector<InnerKey>& inner);
+
+/// What a key asks for whose value is a table, with the keys in it.
+std::string table_remedy(const SubTable& table);
 
 }  // namespace edda

@@ -279,7 +279,7 @@ struct Solver {
   Method method = Method::edda;
   MassKind mass = MassKind::matched;
   Switching switching = Switching::exact;
-  double duration = 0.0;            ///< s
+  double duration = 0.0;            ///< s; 0: not given
   std::optional<double> time_step;  ///< s; empty: "auto"
   bool allow_unstable = false;
   double safety = 0.7;                   ///< of the critical step
@@ -332,7 +332,7 @@ struct Fos {
   std::string stage;                 ///< whose end the trials begin from; empty: the last
   std::string vary = "strength";     ///< as written
   Vec2 bracket{0.5, 3.0};            ///< factors to begin with, lower and upper
-  double tolerance = 0.01;           ///< width of the bracket at the end
+  double tolerance = 0.01;           ///< width of the bracket at the end, over its lower factor
   std::vector<std::string> exclude;  ///< joints that keep their strength
   FosFails fails;
   Varied varied = Varied::strength;  ///< what `vary` says

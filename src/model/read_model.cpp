@@ -61,7 +61,7 @@ void sort_by_place(Faults& faults) {
 }  // namespace
 
 Result<Model> read_model_text(std::string_view text, const std::string& file_name,
-                              const std::vector<std::string>& overrides) {
+                              const std::vector<std::string>& overrides, ReadFor what_for) {
   if (const int line = not_utf8(text); line > 0) {
     return file_fault(file_name, line, "is not UTF-8 text",
                       "save it as UTF-8, if it is a model file");
@@ -78,15 +78,31 @@ Result<Model> read_model_text(std::string_view text, const std::string& file_nam
   reading.faults = apply_overrides(root, overrides);
   read_sections(root, reading);
   complete(root, reading);
+  const bool says = find(find(&root, "solver"), "duration") != nullptr ||  // if wrongly
+                    find(&root, "stage") != nullptr;
+  if (what_for == ReadFor::run && !says) {
+    if (auto fault = missing_duration(reading.model)) reading.faults.push_back(std::move(*fault));
+  }
   if (reading.faults.empty()) return std::move(reading.model);
   sort_by_place(reading.faults);
   return std::move(reading.faults);
 }
 
-Result<Model> read_model(const std::string& path, const std::vector<std::string>& overrides) {
+Result<Model> read_model(const std::string& path, const std::vector<std::string>& overrides,
+                         ReadFor what_for) {
   const std::variant<std::string, Fault> text = file_text(path);
   if (const Fault* fault = std::get_if<Fault>(&text)) return *fault;
-  return read_model_text(std::get<std::string>(text), path, overrides);
+  return read_model_text(std::get<std::string>(text), path, overrides, what_for);
+}
+
+std::optional<Fault> missing_duration(const Model& model) {
+  if (!model.stages.empty() || model.solver.duration > 0.0) return {};
+  Where where = model.solver.where;
+  if (where.file.empty()) where.file = model.file;
+  where.key = "solver.duration";
+  return Fault{where, "is missing",
+               "give " + expected(*find_key(find_section("solver")->keys, "duration")) +
+                   (model.fos ? " for a run; edda fos needs none" : "")};
 }
 
 }  // namespace edda

@@ -298,7 +298,10 @@ struct ReadInto {
     if (table.file != nullptr && as<std::string>(spot.value) != nullptr) {
       return (*this)(table.file);
     }
-    if (as<Table>(spot.value) == nullptr) return type_fault(spot);
+    if (as<Table>(spot.value) == nullptr) {
+      return add_fault(spot.reading, spot.value.place, spot.path, "is " + shown(spot.value),
+                       table_remedy(table));
+    }
     void* object = table.object != nullptr ? table.object : table.make(table.owner);
     read_keys(table.keys, object, spot.value, spot.path + '.', spot.reading);
   }
@@ -307,12 +310,6 @@ struct ReadInto {
     return read_number(spot.value, spot.key, spot.path, spot.reading);
   }
 };
-
-void unknown_key(const Entry& entry, std::span<const std::string_view> known,
-                 const std::string& prefix, Reading& reading) {
-  add_fault(reading, entry.place, prefix + entry.key, "unknown key",
-            unknown_key_hint(entry.key, known));
-}
 
 void note_place(const Key& key, Place table, const Value& value, Reading& reading) {
   const auto at = [](Place p) { return WrittenAt{p.line, p.from_set ? 1 : p.column, p.from_set}; };
@@ -325,26 +322,30 @@ void read_keys(std::span<const Key> keys, void* object, const Value& table,
   const Table* entries = as<Table>(table);
   if (entries == nullptr) return;
   const bool is_root = prefix.empty();
+  const std::vector<InnerKey> inner = inner_keys(keys, object);
+  std::vector<const Key*> meant;  // by keys that are unknown
   for (const Entry& entry : *entries) {
     if (is_root && find_section(entry.key) != nullptr) continue;
     const Key* key = find_key(keys, entry.key);
     if (key == nullptr) {
-      std::vector<std::string_view> known = key_names(keys);
-      if (is_root) {
-        for (const Section& s : sections()) {
-          if (s.shape != Shape::root) known.push_back(s.name);
-        }
-      }
-      unknown_key(entry, known, prefix, reading);
+      const UnknownKey unknown = unknown_key(entry, table, keys, inner, is_root);
+      add_fault(reading, entry.place, prefix + entry.key, "unknown key", unknown.hint);
+      meant.push_back(unknown.stands_for);
     } else {
       note_place(*key, table.place, entry.value, reading);
       if (key->slot == nullptr) continue;
       const std::string path = prefix + entry.key;
-      std::visit(ReadInto{{*key, entry.value, path, reading}}, key->slot(object));
+      const std::string beside = number_remedy(*key, entry.value, inner);
+      if (beside.empty()) {
+        std::visit(ReadInto{{*key, entry.value, path, reading}}, key->slot(object));
+      } else {
+        add_fault(reading, entry.value.place, path, "is " + shown(entry.value), beside);
+      }
     }
   }
   for (const Key& key : keys) {
     if (!key.otherwise.required || find(&table, key.name) != nullptr) continue;
+    if (std::find(meant.begin(), meant.end(), &key) != meant.end()) continue;  // that says it
     add_fault(reading, table.place, prefix + std::string(key.name), "is missing",
               "give " + expected(key));
   }

@@ -64,7 +64,9 @@ struct Write {
                                                    : model.joints[i].name);
   }
   std::string operator()(const long long* field) const { return std::to_string(*field); }
-  std::string operator()(const double* field) const { return written(*field); }
+  std::string operator()(const double* field) const {
+    return key.rule.range.holds(*field) ? written(*field) : std::string{};  // else not given
+  }
   std::string operator()(const std::optional<double>* field) const {
     if (*field) return written(**field);
     return key.rule.word.empty() ? std::string{} : written(std::string(key.rule.word));

@@ -139,7 +139,7 @@ void add_models(py::module_& m) {
           "The same of a text; faults call it `name`, and paths in it count from that file.")
       .def_property_readonly("title", &api::Model::title, "As the model says.")
       .def_property_readonly("file", &api::Model::file, "Path or name that it was read from.")
-      .def_property_readonly("duration", &api::Model::duration, "s")
+      .def_property_readonly("duration", &api::Model::duration, "s; 0: none is given")
       .def_property_readonly("materials", &api::Model::materials, "Names, in order.")
       .def_property_readonly("joints", &api::Model::joints, "Names of the laws, in order.")
       .def_property_readonly("openings", &api::Model::openings, "Names, in order.")

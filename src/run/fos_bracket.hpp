@@ -9,7 +9,8 @@ namespace edda {
 /// trial has shown it. An end that turns out otherwise becomes the other end, and a new one is put
 /// as far out again by a factor of two.
 struct FosBracket {
-  double low, high, tolerance;
+  double low, high;
+  double tolerance;                   ///< width at which the search ends, as a part of `low`
   bool holds = false, fails = false;  ///< low is known to hold, high is known to fail
   int widened = 0;
 
@@ -22,7 +23,7 @@ struct FosBracket {
     if (gave_up()) return {};
     if (!holds) return low;
     if (!fails) return high;
-    if (high - low <= tolerance) return {};
+    if (high - low <= tolerance * low) return {};
     return 0.5 * (low + high);
   }
 

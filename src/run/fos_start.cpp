@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/key_places.hpp"
 #include "run/settling.hpp"
 
 namespace edda {
@@ -91,27 +92,31 @@ TrialPlan plan_of(const Simulation& sim, const Model& model, const Fos& fos) {
   return plan;
 }
 
-Fault cannot(const Model& model, const char* key, std::string problem, std::string remedy) {
-  Fault fault{model.solver.where, std::move(problem), std::move(remedy)};
+Fault cannot(const Model& model, const Where& table, const char* key, std::string problem,
+             std::string remedy) {
+  Fault fault{table, std::move(problem), std::move(remedy)};
   if (fault.where.file.empty()) fault.where.file = model.file;
   fault.where.key = key;
-  return fault;
+  return at_their_keys(model.key_places, {fault}).front();
 }
 
 /// What a search cannot do.
 std::optional<Fault> refused(const Model& model, const Fos& fos) {
   if (model.solver.method == Method::dda) {
-    return cannot(model, "solver.method", "the factor of safety is not sought by \"dda\"",
+    return cannot(model, model.solver.where, "solver.method",
+                  "the factor of safety is not sought by \"dda\"",
                   "use method = \"edda\" (--set solver.method=edda)");
   }
   if (model.solver.mass == MassKind::consistent) {
-    return cannot(model, "solver.mass",
+    return cannot(model, model.solver.where, "solver.mass",
                   "masses that are raised for trials do not go with \"consistent\"",
                   "use mass = \"matched\", which moves the same way");
   }
   if (fos.varied == Varied::shaking && shaking_time(model, fos) == 0.0) {
-    return cannot(model, "fos.vary", "nothing says for how long the ground shakes",
-                  "give the shaking a record, or a stage with a duration that activates it");
+    return cannot(model, fos.where, "fos.vary", "nothing says for how long the ground shakes",
+                  model.stages.empty()
+                      ? "give solver.duration, or the shaking a record"
+                      : "give the shaking a record, or a stage with a duration that activates it");
   }
   return {};
 }
@@ -120,7 +125,7 @@ std::optional<Fault> nothing_moves(const Model& model, const Simulation& sim) {
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
     if (is_free(sim.blocks, sim.state, i)) return {};
   }
-  return cannot(model, "block", "no block is free to move, so nothing can fail",
+  return cannot(model, model.solver.where, "block", "no block is free to move, so nothing can fail",
                 "leave some blocks neither fixed nor held, nor taken out");
 }
 
@@ -134,6 +139,10 @@ Model with_rest(Model model) {
   rest.until = StageEnd::equilibrium;
   rest.damping = damping_to_rest(model.solver.damping);
   rest.masses = StageMasses::uniform_step;
+  // Nothing is written of it, and where it ends does not hang on how long a run would go on.
+  model.solver.duration = rest.duration;
+  model.output.every = model.output.history_every = rest.duration;
+  model.output.settling = false;
   model.stages.push_back(std::move(rest));
   for (Shaking& shaking : model.shakings) shaking.scale = 0.0;
   return model;
@@ -141,8 +150,9 @@ Model with_rest(Model model) {
 
 /// The steps that the rest of a model as drawn may take.
 void limit_rest(Simulation& sim) {
-  sim.model.stages.back().duration = most_steps * sim.model.solver.safety * sim.uniform_step();
-  sim.model.solver.duration = sim.model.stages.back().duration;
+  const double time = most_steps * sim.model.solver.safety * sim.uniform_step();
+  sim.model.stages.back().duration = sim.model.solver.duration = time;
+  sim.model.output.every = sim.model.output.history_every = time;
 }
 
 /// Whether something has come loose in a stage, but for pebbles.

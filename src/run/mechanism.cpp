@@ -19,13 +19,21 @@ namespace edda {
 namespace {
 
 namespace cs = contact_state;
-constexpr double moving = 0.1;   // of the largest displacement
-constexpr double topples = 0.5;  // of turning_part
+constexpr double moving = 0.1;        // of the largest displacement
+constexpr double much_turning = 0.5;  // of turning_part
 
 double turned(const Simulation& before, const Simulation& after, std::size_t i) {
   const Rotation a = rotation(deformation(before.blocks, before.state.x, before.state.y, i));
   const Rotation b = rotation(deformation(after.blocks, after.state.x, after.state.y, i));
   return std::atan2(a.c * b.s - a.s * b.c, a.c * b.c + a.s * b.s);
+}
+
+/// Whether it turns about a point below its centroid, as what overturns does: towards where it
+/// goes. What slides along a floor that bends upwards turns the other way.
+bool overturns(const MovingBlock& m, Vec2 gravity) {
+  // From that point to the centroid: displacement turned back by a right angle, over rotation.
+  const Vec2 arm = m.rotation * Vec2{m.displacement.y, -m.displacement.x};
+  return dot(arm, gravity) <= 0.0;
 }
 
 /// [nb] 1: a corner of it is at an edge, or one of another block at its own, but for `gap`.
@@ -284,10 +292,11 @@ Mechanism mechanism_of(const Simulation& before, const Simulation& after) {
       between_hinges(pieces(before, moves, m.joints), m.joints);
   double* const parts[] = {&m.sliding, &m.toppling, &m.falling, &m.hinging};
   for (MovingBlock& b : m.blocks) {
-    b.motion = !near[b.id]                 ? Motion::falls
-               : hinged[b.id]              ? Motion::hinges
-               : b.turning_part >= topples ? Motion::topples
-                                           : Motion::slides;
+    const bool topples = b.turning_part >= much_turning && overturns(b, before.model.gravity);
+    b.motion = !near[b.id]    ? Motion::falls
+               : hinged[b.id] ? Motion::hinges
+               : topples      ? Motion::topples
+                              : Motion::slides;
     const double mass = before.blocks.mass[b.id];
     weight += mass;
     *parts[static_cast<int>(b.motion)] += mass;

@@ -72,9 +72,10 @@ struct Mechanism {
 ///
 /// Blocks hinge where they move as one piece (no joint between them moves) between two hinges or
 /// more, and nothing slips along that piece: parts of an arch. Of the others a block topples where
-/// turning moves its furthest corner by at least half of what the block itself moves: turning_part
-/// >= 1/2 (a block that turns about one of its corners has about 1, one that slides 0); else it
-/// slides. One that is next to nothing any more, but for a tenth of that displacement, falls.
+/// it turns about a point below its centroid (as gravity has it) and turning moves its furthest
+/// corner by at least half of what the block itself moves: turning_part >= 1/2 (a block that turns
+/// about one of its corners has about 1, one that slides 0); else it slides. One that is next to
+/// nothing any more, but for a tenth of that displacement, falls.
 Mechanism mechanism_of(const Simulation& before, const Simulation& after);
 
 /// Finds out how much cohesion the mechanism's joints had lost in a state that still `held`.

@@ -11,6 +11,7 @@
 #include "checkpoint/hdf5_image.hpp"
 #include "forces/mass_scaling.hpp"
 #include "model/plausible.hpp"
+#include "model/read_model.hpp"
 #include "run/driver.hpp"
 #include "run/guard_rails.hpp"
 #include "run/idle_names.hpp"
@@ -112,6 +113,7 @@ void warn_of_lost_points(const PreparedRun& run, std::vector<std::string>& warni
 
 Result<PreparedRun> prepared(Model model, BlockOrder order) {
   const auto start = std::chrono::steady_clock::now();
+  if (const auto fault = missing_duration(model)) return *fault;
   Result<Simulation> made = Simulation::create(std::move(model), order);
   if (!made.ok()) return made.faults();
   PreparedRun run{std::move(made.value()), {}, {}, {}, {}, 0.0};

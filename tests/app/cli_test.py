@@ -103,7 +103,7 @@ class Cli(Program):
             .replace("velocity = [1.0, 0.0]\n", "")
         push = '[[load]]\nname = "push"\npoint = [0, 0.1]\nforce = [2000, 0]\n'
         (self.dir / "m.toml").write_text(model + push)
-        args = ["fos", "m.toml", "--set", "fos.vary=load:push", "--set", "fos.tolerance=0.1", "--set", "fos.bracket=[5, 9]"]
+        args = ["fos", "m.toml", "--set", "fos.vary=load:push", "--set", "fos.tolerance=0.01", "--set", "fos.bracket=[5, 9]"]
         done = self.expect(0, *args)
         files = "summary.json fos.csv mechanism.csv mechanism_joints.csv mechanism.png mechanism.svg model.toml".split()
         self.assertEqual(sorted(p.name for p in (self.dir / "m-fos").iterdir()), sorted(files))
@@ -132,6 +132,21 @@ class Cli(Program):
         self.expect(2, *args)
         self.expect(2, "fos", "m.toml", "--set", "fos.vary=load:pull")
         self.expect(2, "fos", "m.toml", "--set", "solver.method=dda")
+
+    def test_only_what_runs_needs_a_duration(self):
+        model = RAMP.replace("[-1, -1], [4, -1], [4, 0], [-1, 0]", "[-9, -1], [9, -1], [9, 0], [-9, 0]") \
+            .replace("velocity = [1.0, 0.0]\n", "").replace("[solver]\nduration = 0.01\n", "")
+        push = '[[load]]\nname = "push"\npoint = [0, 0.1]\nforce = [2000, 0]\n[fos]\nvary = "load:push"\n'
+        (self.dir / "m.toml").write_text(model + push)
+        for command in ("check", "run", "verify"):
+            self.assertEqual(self.expect(2, command, "m.toml").stderr,
+                             'm.toml:1:1: solver.duration: is missing: give a time above 0 such as 0.1 or "100 ms" for a '
+                             'run; edda fos needs none\n')
+        self.expect(0, "cut", "m.toml")
+        self.expect(0, "fos", "m.toml", "--quiet", "--set", "fos.tolerance=0.1", "--set", "fos.bracket=[5, 9]")
+        self.assertNotIn("duration", (self.dir / "m-fos/model.toml").read_text())
+        self.expect(0, "fos", "m-fos/model.toml", "-o", "again", "--quiet", "--set", "fos.tolerance=0.1")
+        self.assertEqual((self.dir / "again/fos.csv").read_bytes(), (self.dir / "m-fos/fos.csv").read_bytes())
 
     def test_words_that_are_no_commands_get_a_hint(self):
         for args, hint in ((("runn", "m"), '"runn" is no command: did you mean: edda run?'),

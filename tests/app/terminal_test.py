@@ -124,7 +124,7 @@ class Lines(Folder):
     def test_fos_is_its_summary(self):
         push = '[[load]]\nname = "push"\npoint = [0, 0.1]\nforce = [5000, 0]\n[solver]\nduration = 0.1\n'
         (self.dir / "m.toml").write_text(STAGED.split("[[stage]]")[0] + push)
-        done = self.expect(0, "fos", "m.toml", "--json", "--set", "fos.vary=load:push", "--set", "fos.tolerance=0.5", "--set",
+        done = self.expect(0, "fos", "m.toml", "--json", "--set", "fos.vary=load:push", "--set", "fos.tolerance=0.08", "--set",
                            "fos.bracket=[5, 8]")
         self.assertEqual(done.stderr, "")
         self.assertEqual(done.stdout.count("\n"), 1)

@@ -67,6 +67,11 @@ def test_a_factor_of_safety():
     assert {trial.holds for trial in found.trials} == {True, False}
     assert max(t.factor for t in found.trials if t.holds) == found.holds
     assert pickle.loads(pickle.dumps(found)).trials[0].reason == found.trials[0].reason
+    without = {key: value for key, value in PLANE.items() if key != "solver"}
+    assert edda.fos({**without, "fos": {"tolerance": 0.005}}).trials[-1].factor == found.trials[-1].factor
+    assert edda.load(without).duration == 0
+    with pytest.raises(edda.ModelError, match="solver.duration: is missing"):
+        edda.check(without)
     assert edda.fos(PLANE, {"joints.plane.type": "glued", "joints.plane.friction_angle": 0}).factor is None
 
 

@@ -37,8 +37,19 @@ TEST(FosBracket, Bisects) {
 
 TEST(FosBracket, MovesAnEndThatDoesNotHold) {
   FosBracket b{1.0, 2.0, 0.5};
-  EXPECT_EQ(asked(b, 0.3), (std::vector<double>{1.0, 0.5, 0.25}));
-  EXPECT_EQ(asked(b, 5.0), (std::vector<double>{1.0, 2.0, 4.0, 8.0, 6.0, 5.0, 4.5}));
+  EXPECT_EQ(asked(b, 0.3), (std::vector<double>{1.0, 0.5, 0.25, 0.375}));
+  EXPECT_EQ(asked(b, 5.0), (std::vector<double>{1.0, 2.0, 4.0, 8.0, 6.0}));
+}
+
+/// A factor of 21 takes as many trials as one of 1.05, and one of 0.0525.
+TEST(FosBracket, ToleranceIsAPartOfTheFactor) {
+  const std::vector<double> near_one = asked({1.0, 2.0, 0.01}, 1.05);
+  for (const double times : {0.05, 20.0}) {
+    std::vector<double> factors = asked({times, 2.0 * times, 0.01}, 1.05 * times);
+    ASSERT_EQ(factors.size(), near_one.size());
+    for (std::size_t i = 0; i < factors.size(); ++i)
+      EXPECT_NEAR(factors[i], times * near_one[i], 1e-12 * times);
+  }
 }
 
 TEST(FosBracket, GivesUp) {
@@ -83,7 +94,7 @@ std::string ramp(const std::string& law, const std::string& more = {},
 }
 
 Model model_of(const std::string& toml) {
-  Result<Model> model = read_model_text(toml, "m.toml", {});
+  Result<Model> model = read_model_text(toml, "m.toml", {}, ReadFor::anything);
   if (!model.ok()) ADD_FAILURE() << to_string(model.faults()[0]);
   return model.value();
 }
@@ -168,6 +179,57 @@ TEST(Fos, TheMechanismHasTheWholePlane) {
   for (const Stretch& s : plane->stretches) length += norm(s.to - s.from);
   // What has slid past the toe lies on the plane no more.
   EXPECT_NEAR(length, std::hypot(20.0, 11.0), plane->slip);
+}
+
+/// A block that tilts back where it slides out over the toe of a plane does not topple.
+TEST(Fos, WhatTiltsBackAtTheToeSlides) {
+  const FosResult r = found(
+      "[materials.rock]\nunit_weight = '26 kN/m3'\nyoung = '1 GPa'\npoisson = 0.25\n"
+      "[joints.bedding]\nfriction_angle = 20\n[joints.cross]\nfriction_angle = 35\n"
+      "[domain]\njoint = 'bedding'\n"
+      "outline = [[0, 0], [44, 0], [44, 22], [24.4, 22], [20, 10], [0, 10]]\n"
+      "[[trace]]\npoints = [[20, 10], [34.301, 22]]\njoint = 'bedding'\n"
+      "[[joint_set]]\nangle = -50\nspacing = 8\norigin = [25.6, 10]\njoint = 'cross'\n"
+      "region = [[20, 10], [34.301, 22], [24.4, 22]]\n[[held]]\npoint = [5, 5]\n" +
+      coarse);
+  ASSERT_TRUE(r.mechanism) << r.message;
+  EXPECT_EQ(r.mechanism->text, "sliding along bedding: 3 blocks");
+  const auto tilts = [](const MovingBlock& b) { return b.turning_part >= 0.5; };
+  EXPECT_TRUE(std::any_of(r.mechanism->blocks.begin(), r.mechanism->blocks.end(), tilts));
+}
+
+/// A search needs no duration, and does not look at one that is given.
+TEST(Fos, NeedsNoDuration) {
+  const FosResult none = found(ramp(rough, coarse, ""));
+  EXPECT_NEAR(*none.factor, exact, 0.05);
+  for (const char* duration : {"0.5", "500"}) {
+    const FosResult given =
+        found(ramp(rough, coarse, "[solver]\nduration = " + std::string(duration) + "\n"));
+    EXPECT_EQ(fos_csv(given.trials), fos_csv(none.trials));
+  }
+}
+
+/// But the length of a sine is that of the run.
+TEST(Fos, ASineNeedsADuration) {
+  const Result<FosResult> r = find_factor(
+      model_of(
+          ramp(rough,
+               "[[shaking]]\nname = 'push'\nacceleration = { amplitude = 1, frequency = 5 }\n" +
+                   coarse + "vary = 'shaking:push'\n",
+               "")),
+      {});
+  ASSERT_FALSE(r.ok());
+  EXPECT_EQ(to_string(r.faults()[0]),
+            "m.toml:18:8: fos.vary: nothing says for how long the ground shakes: give "
+            "solver.duration, or the shaking a record");
+}
+
+/// A run does need one.
+TEST(Fos, ARunNeedsADuration) {
+  const Result<PreparedRun> run = prepare_run(model_of(ramp(rough, "", "")));
+  ASSERT_FALSE(run.ok());
+  EXPECT_EQ(run.faults()[0].where.key, "solver.duration");
+  EXPECT_EQ(run.faults()[0].where.file, "m.toml");
 }
 
 /// Joints that keep their strength cannot fail; the search ends all the same.

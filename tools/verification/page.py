@@ -40,7 +40,7 @@ STUDIES = {
     "fos_study": (
         "Study: factors of safety",
         "`tools/study-fos`: ten slopes with an exact factor: the least over all paths along joints (dynamic programming),"
-        " Sarma's slices, Goodman and Bray's columns. The search ends within 0.01; time is of one thread."),
+        " Sarma's slices, Goodman and Bray's columns. The search ends within 0.01 of the factor; time is of one thread."),
     "slope_study": (
         "Study: slopes as joint statistics cut them",
         "`tools/study-slopes`: slopes of 30 m at 60 degrees, bedding 38 degrees, spacing 2.0 m ± 0.8 m, cross joints"

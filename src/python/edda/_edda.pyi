@@ -41,7 +41,7 @@ class Model:
         """Path or name that it was read from."""
     @property
     def duration(self) -> float:
-        """s"""
+        """s; 0: none is given"""
     @property
     def materials(self) -> list[str]:
         """Names, in order."""
