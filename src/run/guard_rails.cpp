@@ -15,6 +15,7 @@
 #include "run/damping_report.hpp"
 #include "run/initial_stress_report.hpp"
 #include "run/labels.hpp"
+#include "run/locked_toes.hpp"
 #include "run/observe.hpp"
 #include "run/sliver_report.hpp"
 #include "run/stages.hpp"
@@ -274,6 +275,7 @@ std::vector<std::string> guard_rails(const Simulation& sim) {
   warn_of_slivers(sim, warnings);
   warn_of_kept_slivers(sim, warnings);
   warn_of_overlaps(sim, warnings);
+  warn_of_locked_toes(sim, warnings);
   warn_of_initial_stress(sim, warnings);
   return warnings;
 }

@@ -1,0 +1,141 @@
+#include "run/locked_toes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "run/labels.hpp"
+
+namespace edda {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double flat = pi / 180.0;      // less is one line
+constexpr double open_air = 5.0 * flat;  // less is a joint that gapes
+constexpr double one_point = 1e-6;       // of the shorter edge
+
+double angle_of(Vec2 u) {
+  return std::atan2(u.y, u.x);
+}
+
+/// An angle as it is counted counter-clockwise from another, 0 to 2 pi.
+double from(double start, double angle) {
+  const double turn = std::fmod(angle - start, 2.0 * pi);
+  return turn < 0.0 ? turn + 2.0 * pi : turn;
+}
+
+/// Rock about a point: of one block, from the direction of the edge that starts there round to that
+/// of the edge that ends there.
+struct Sector {
+  Id vertex;
+  double start, end;  ///< rad, end counter-clockwise of start
+};
+
+/// Vertices at one point, counter-clockwise by where their rock begins.
+std::vector<Sector> sectors_at(const BlockSet& b, const std::vector<Id>& vertices) {
+  std::vector<Sector> sectors;
+  for (const Id v : vertices) {
+    const Vec2 p = b.vertex(v);
+    const double start = angle_of(b.vertex(b.next[v]) - p);
+    sectors.push_back({v, start, start + from(start, angle_of(b.vertex(b.previous[v]) - p))});
+  }
+  std::sort(sectors.begin(), sectors.end(),
+            [](const Sector& p, const Sector& q) { return p.start < q.start; });
+  return sectors;
+}
+
+/// The tip of a block beside the gap from `at` to `at + width` round a point. It lies on its joint
+/// with the edge in direction `along`; `far`: side of the gap on which the rock in front lies.
+void look_at_tip(const Simulation& sim, const Sector& tip, double along, double at, double width,
+                 bool far_end, Id edge, std::vector<LockedToe>& found) {
+  const BlockSet& b = sim.blocks;
+  const Id i = b.vertex_block[tip.vertex];
+  if (b.fixed[i] != 0 || b.corner[tip.vertex] > pi - flat) return;
+  const double ahead = from(at, along + pi);  // where it would slide to
+  const Vec2 slide{std::cos(along + pi), std::sin(along + pi)};
+  if (dot(slide, sim.model.gravity) <= std::sin(flat) * norm(sim.model.gravity)) return;
+  // Past the far side of the gap, and less than straight through the rock there.
+  const double into = far_end ? ahead - width : 2.0 * pi - ahead;
+  if (into > flat && into < pi - flat) found.push_back({i, tip.vertex, b.edge_joint[edge], into});
+}
+
+void look_at_point(const Simulation& sim, const std::vector<Id>& vertices,
+                   std::vector<LockedToe>& found) {
+  if (vertices.size() < 2) return;
+  const BlockSet& b = sim.blocks;
+  const std::vector<Sector> sectors = sectors_at(b, vertices);
+  const std::size_t n = sectors.size();
+  const auto gap_after = [&](std::size_t q) {
+    const double next = sectors[(q + 1) % n].start + (q + 1 == n ? 2.0 * pi : 0.0);
+    return next - sectors[q].end;
+  };
+  for (std::size_t q = 0; q < n; ++q) {
+    const double width = gap_after(q);
+    if (width < open_air) continue;
+    const Sector &before = sectors[q], &after = sectors[(q + 1) % n];
+    // Each lies on a joint where no gap is on its other side.
+    if (gap_after((q + n - 1) % n) < flat) {
+      look_at_tip(sim, before, before.start, before.end, width, true, before.vertex, found);
+    }
+    if (gap_after((q + 1) % n) < flat) {
+      look_at_tip(sim, after, after.end, before.end, width, false, b.previous[after.vertex], found);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<LockedToe> locked_toes(const Simulation& sim) {
+  const BlockSet& b = sim.blocks;
+  std::vector<Id> order(b.vertex_count());
+  std::iota(order.begin(), order.end(), Id{0});
+  std::sort(order.begin(), order.end(), [&](Id p, Id q) {
+    const Vec2 a = b.vertex(p), c = b.vertex(q);
+    return a.x != c.x ? a.x < c.x : a.y != c.y ? a.y < c.y : p < q;
+  });
+  const auto near = [&](Id v) {
+    return one_point * std::min(b.edge_length[v], b.edge_length[b.previous[v]]);
+  };
+  std::vector<LockedToe> found;
+  std::vector<std::uint8_t> seen(b.vertex_count(), 0);
+  std::vector<Id> here;
+  for (std::size_t q = 0; q < order.size(); ++q) {
+    if (seen[order[q]] != 0) continue;
+    const Vec2 p = b.vertex(order[q]);
+    here.clear();
+    for (std::size_t r = q; r < order.size(); ++r) {
+      const double tolerance = std::min(near(order[q]), near(order[r]));
+      const Vec2 apart = b.vertex(order[r]) - p;
+      if (apart.x > near(order[q])) break;
+      if (seen[order[r]] != 0 || norm(apart) > tolerance) continue;
+      seen[order[r]] = 1;
+      here.push_back(order[r]);
+    }
+    look_at_point(sim, here, found);
+  }
+  std::sort(found.begin(), found.end(),
+            [](const LockedToe& p, const LockedToe& q) { return p.vertex < q.vertex; });
+  return found;
+}
+
+void warn_of_locked_toes(const Simulation& sim, std::vector<std::string>& warnings) {
+  const std::vector<LockedToe> toes = locked_toes(sim);
+  if (toes.empty()) return;
+  const LockedToe& toe = toes.front();
+  const BlockSet& b = sim.blocks;
+  const std::string joint = toe.joint == none
+                                ? std::string("joint")
+                                : sim.model.joints[static_cast<std::size_t>(toe.joint)].name;
+  warnings.push_back(fmt::format(
+      "the {} under {} comes out at {} in an inner corner of the ground: the rock in front holds "
+      "the tip of what slides down it, and a factor of safety counts that{}; if it is to slide "
+      "out, "
+      "let the ground in front lie a few centimetres lower, or the {} come out above the corner",
+      joint, block_label(b, toe.block), place_label(b.vertex(toe.vertex) + b.origin),
+      toes.size() == 1 ? std::string{} : fmt::format(" ({} such places)", toes.size()), joint));
+}
+
+}  // namespace edda
