@@ -96,7 +96,7 @@ int code_of(FosStatus status) {
 
 int fos(const FosArguments& args) {
   const std::optional<Model> model =
-      read_or_print(args.model, args.overrides, args.json, ReadFor::anything);
+      read_or_print(args.model, args.overrides, args.json, ReadFor::no_run);
   if (!model) return exit_code::bad_input;
   const std::string folder = args.folder.empty() ? stem_of(args.model) + "-fos" : args.folder;
   if (const Trouble trouble = check_folder(folder, args.model)) {

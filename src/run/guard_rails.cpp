@@ -58,7 +58,7 @@ bool free_block(const Simulation& sim, std::size_t i) {
 }
 
 void warn_of_sudden_gravity(const Simulation& sim, std::vector<std::string>& warnings) {
-  if (sim.initial) return;
+  if (sim.initial || sim.model.solver.duration == 0.0) return;
   const Stage first = stages_of(sim.model).front();
   const Damping& d = first.damping;
   if (first.until == StageEnd::equilibrium || sim.model.gravity == Vec2{} || d.mass > 0.0 ||

@@ -138,11 +138,22 @@ class Cli(Program):
             .replace("velocity = [1.0, 0.0]\n", "").replace("[solver]\nduration = 0.01\n", "")
         push = '[[load]]\nname = "push"\npoint = [0, 0.1]\nforce = [2000, 0]\n[fos]\nvary = "load:push"\n'
         (self.dir / "m.toml").write_text(model + push)
-        for command in ("check", "run", "verify"):
+        for command in ("run", "verify"):
             self.assertEqual(self.expect(2, command, "m.toml").stderr,
                              'm.toml:1:1: solver.duration: is missing: give a time above 0 such as 0.1 or "100 ms" for a '
                              'run; edda fos needs none\n')
+        checked = self.expect(0, "check", "m.toml").stdout
+        for line in ("blocks          2 (1 held)", "contacts        2 closed", "step            ",
+                     "duration        no solver.duration is given: edda run needs one, edda fos does not", "warnings        none"):
+            self.assertIn("\n" + line, "\n" + checked)
+        self.assertNotIn("\nsteps", checked)
+        found = json.loads(self.expect(0, "check", "m.toml", "--json").stdout)
+        self.assertEqual([found[key] for key in ("duration", "steps", "seconds")], [None] * 3)
+        self.assertGreater(found["steps_per_second"], 0)
+        self.expect(0, "check", "m.toml", "--set", "solver.method=dda")
         self.expect(0, "cut", "m.toml")
+        self.expect(0, "plot", "m.toml", "-o", "drawn.png")
+        self.assertEqual((self.dir / "drawn.png").read_bytes()[:4], b"\x89PNG")
         self.expect(0, "fos", "m.toml", "--quiet", "--set", "fos.tolerance=0.1", "--set", "fos.bracket=[5, 9]")
         self.assertNotIn("duration", (self.dir / "m-fos/model.toml").read_text())
         self.expect(0, "fos", "m-fos/model.toml", "-o", "again", "--quiet", "--set", "fos.tolerance=0.1")
