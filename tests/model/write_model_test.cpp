@@ -428,7 +428,6 @@ TEST(WriteModel, LeavesOutWhatADurationWouldGiveAlone) {
   ASSERT_TRUE(model.ok());
   Model m = model.value();
   EXPECT_EQ(to_toml(m).find("duration = "), std::string::npos);
-  EXPECT_EQ(to_toml(m).find("\nevery = "), std::string::npos);
   EXPECT_EQ(to_toml(m).find("\nhistory_every = "), std::string::npos);
   m.solver.safety = 0.0;
   EXPECT_NE(to_toml(m).find("safety = 0.0"), std::string::npos);
