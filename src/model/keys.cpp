@@ -244,7 +244,7 @@ constexpr std::array fos_keys{
     Key{"stage", at<&Fos::stage>, naming, otherwise("the last one, or the model at rest where there are no stages"), "The stage whose end the trials begin from."},
     Key{"vary", at<&Fos::vary>, naming, initial, "What the factor acts on: \"strength\" (divided by it), \"load:NAME\", \"shaking:NAME\" or \"water:NAME\" (the pressure of that water), multiplied by it."},
     Key{"bracket", at<&Fos::bracket>, shape(Kind::point, D::plain, above(0)), initial, "Two factors, the lower one expected to hold and the upper one to fail; widened where they do not."},
-    Key{"tolerance", at<&Fos::tolerance>, number(D::plain, above(0)), initial, "The search ends where a factor that fails is above one that holds by no more than this part of it."},
+    Key{"tolerance", at<&Fos::tolerance>, number(D::plain, above_to(0, 0.5)), initial, "The search ends when the bracket is no wider than this part of its lower factor."},
     Key{"exclude", at<&Fos::exclude>, name_list, initial, "Joints that keep their strength."},
     Key{"fails", at<&Fos::fails>, table, otherwise("by the size of the blocks and gravity"), "When a trial counts as failed."},
 };

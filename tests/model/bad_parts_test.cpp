@@ -221,6 +221,7 @@ TEST(BadModel, FactorOfSafety) {
            Bad{"[fos]\nbracket = [2, 1]\n", 43, "fos.bracket", "not below"},
            Bad{"[fos]\nbracket = [0, 1]\n", 43, "fos.bracket[0]", "above 0"},
            Bad{"[fos]\ntolerance = 0\n", 43, "fos.tolerance", "out of range"},
+           Bad{"[fos]\ntolerance = 0.6\n", 43, "fos.tolerance", "above 0 and at most 0.5"},
            Bad{"[fos]\nfails = { displacement = -1 }\n", 43, "fos.fails.displacement",
                "out of range"},
        }) {
