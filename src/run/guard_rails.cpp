@@ -213,13 +213,14 @@ void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings)
   const double size = std::sqrt(std::min(sim.blocks.area[c.block_i[deepest.contact]],
                                          sim.blocks.area[c.block_j[deepest.contact]]));
   if (deepest.ratio < 1e-9 * size) return;
-  warnings.push_back(
-      fmt::format("blocks overlap at the start, most {} and {} by {:.3g} m at {}: their contacts "
-                  "start out pressed and "
-                  "store {:.3g} J",
-                  block_label(sim.blocks, c.block_i[deepest.contact]),
-                  block_label(sim.blocks, c.block_j[deepest.contact]), deepest.ratio,
-                  place_label(model_place(sim, deepest.contact)), energy));
+  warnings.push_back(fmt::format(
+      "blocks overlap at the start, most {} and {} by {:.3g} m at {}: their contacts "
+      "start out pressed and store {:.3g} J: draw the block so that it touches, or cut both "
+      "from one [domain] with a [[trace]], or begin with a [[stage]] "
+      "until = \"equilibrium\"",
+      block_label(sim.blocks, c.block_i[deepest.contact]),
+      block_label(sim.blocks, c.block_j[deepest.contact]), deepest.ratio,
+      place_label(model_place(sim, deepest.contact)), energy));
 }
 
 /// Rock in an earthquake loses a few hundredths of critical.
