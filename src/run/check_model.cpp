@@ -59,9 +59,10 @@ ModelCheck check_model(Simulation& sim) {
   found.strain_damping = strain_damping_report(sim);
   const std::vector<Stage> stages = stages_of(sim.model);
   const auto is_static = [](const Stage& s) { return s.masses == StageMasses::uniform_step; };
-  if (!std::all_of(stages.begin(), stages.end(), is_static)) found.step_as_given = sim.usual_step();
+  if (!std::all_of(stages.begin(), stages.end(), is_static))
+    found.step_as_given = first_step(sim, StageMasses::as_given);
   if (std::any_of(stages.begin(), stages.end(), is_static))
-    found.static_step = sim.model.solver.safety * sim.uniform_step();
+    found.static_step = first_step(sim, StageMasses::uniform_step);
   sim.scale_masses(stages.front().masses);
   sim.change_damping(stages.front().damping,
                      sim.model.solver.dynamic && stages.front().until != StageEnd::equilibrium);
