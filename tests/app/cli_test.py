@@ -127,7 +127,10 @@ class Cli(Program):
         before = (self.dir / "m-fos/fos.csv").read_bytes()
         quiet = self.expect(0, *args, "--threads", "2", "--quiet")
         self.assertEqual((self.dir / "m-fos/fos.csv").read_bytes(), before)
-        self.assertEqual(quiet.stdout + quiet.stderr, "")
+        self.assertEqual(quiet.stderr, "")
+        self.assertEqual(quiet.stdout.count("\n"), 1)
+        self.assertEqual(quiet.stdout, f"{summary['message']}\n")
+        self.assertTrue(quiet.stdout.startswith("factor of safety "))
         (self.dir / "m-fos/notes.txt").write_text("mine")
         self.expect(2, *args)
         self.expect(2, "fos", "m.toml", "--set", "fos.vary=load:pull")
@@ -348,6 +351,17 @@ material = "rock"
         for word in ("blocks", "contacts", "critical step", "governed by", "steps", "time to expect", "warnings"):
             self.assertIn(word, out)
         self.assertEqual(self.names(), before)
+
+    def test_check_and_run_name_the_step_of_the_first_stage(self):
+        stages = '[[stage]]\nuntil = "equilibrium"\n[[stage]]\nduration = 0.001\n'
+        chip = "[[block]]\npolygon = [[0.5, 1], [0.6, 1], [0.6, 1.1], [0.5, 1.1]]\n"
+        (self.dir / "s.toml").write_text(RAMP[:RAMP.index("[solver]")].replace("velocity = [1.0, 0.0]\n", "") + chip + stages)
+        checked = re.search(r"step +about (\S+) s in stages with static masses.*; (\S+) s in others", self.expect(0, "check", "s.toml").stdout)
+        run = self.expect(0, "run", "s.toml").stderr
+        self.assertIn(f"; step about {checked[1]} s with static masses; with those as given critical ", run)
+        self.assertGreater(float(checked[1]), 2 * float(checked[2]))
+        longest = json.loads((self.dir / "s/summary.json").read_text())["time_step"]["max"]
+        self.assertAlmostEqual(longest / float(checked[1]), 1, delta=0.05)
 
     def test_cut_in_every_format(self):
         for ending in ("svg", "png", "vtu", "csv"):
