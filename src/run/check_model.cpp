@@ -67,7 +67,8 @@ ModelCheck check_model(Simulation& sim) {
   sim.change_damping(stages.front().damping,
                      sim.model.solver.dynamic && stages.front().until != StageEnd::equilibrium);
   const double duration = sim.model.solver.duration;
-  const double end = duration > 0.0 ? duration : most_tried * sim.usual_step();
+  const double tried = most_tried * sim.usual_step();
+  const double end = duration > 0.0 ? duration : std::isfinite(tried) ? tried : 1.0;
   sim.start(duration > 0.0 ? std::min(sim.model.output.history_every, duration) : end);
   found.step = sim.state.step;
   for (const Stage& stage : stages) {

@@ -154,6 +154,7 @@ class Cli(Program):
         self.assertEqual([found[key] for key in ("duration", "steps", "seconds")], [None] * 3)
         self.assertGreater(found["steps_per_second"], 0)
         self.expect(0, "check", "m.toml", "--set", "solver.method=dda")
+        self.assertIn("\nstep            1 s ", self.expect(0, "check", "m.toml", "--set", "block.slider.fixed=true").stdout)
         self.expect(0, "cut", "m.toml")
         self.expect(0, "plot", "m.toml", "-o", "drawn.png")
         self.assertEqual((self.dir / "drawn.png").read_bytes()[:4], b"\x89PNG")
