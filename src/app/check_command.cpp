@@ -59,6 +59,11 @@ void print_step(const Simulation& sim, const ModelCheck& found) {
   } else {
     fmt::print("step            {:.6g} s ({})\n", found.step, of_what);
   }
+  if (found.steps == 0.0) {
+    fmt::print(
+        "duration        no solver.duration is given: edda run needs one, edda fos does not\n");
+    return fmt::print("speed           {:.3g} steps per second\n", found.rate);
+  }
   fmt::print("steps           {} {:.0f} for {:.6g} s{}\n", found.at_most ? "at most" : "about",
              found.steps, sim.model.solver.duration,
              found.at_most ? ": stages end as soon as all is at rest" : "");
@@ -125,20 +130,27 @@ void print_object(const PreparedRun& run, const ModelCheck& found) {
   add_texts(json, "loads", found.loads);
   add_texts(json, "initial_stress", found.initial_stress);
   add_texts(json, "strain_damping", found.strain_damping);
-  json.pair("duration", sim.model.solver.duration).pair("time_step", found.step);
+  const bool timed = found.steps > 0.0;
+  const auto add_if_timed = [&](const char* name, double value) {
+    json.key(name);
+    timed ? json.value(value) : json.null();
+  };
+  add_if_timed("duration", sim.model.solver.duration);
+  json.pair("time_step", found.step);
   if (found.static_step > 0.0) json.pair("static_time_step", found.static_step);
-  json.pair("at_most", found.at_most)
-      .pair("steps", found.steps)
-      .pair("steps_per_second", found.rate);
-  json.pair("seconds", found.steps / found.rate);
+  json.pair("at_most", found.at_most);
+  add_if_timed("steps", found.steps);
+  json.pair("steps_per_second", found.rate);
+  add_if_timed("seconds", found.steps / found.rate);
   add_texts(json, "warnings", run.warnings);
   fmt::print("{}\n", json.close().line());
 }
 
 int check(const CheckArguments& args) {
-  const std::optional<Model> model = read_or_print(args.model, args.overrides, args.json);
+  const std::optional<Model> model =
+      read_or_print(args.model, args.overrides, args.json, ReadFor::no_run);
   if (!model) return exit_code::bad_input;
-  Result<PreparedRun> prepared = prepare_run(*model);
+  Result<PreparedRun> prepared = prepare_run(*model, BlockOrder::as_cut, ReadFor::no_run);
   if (!prepared.ok()) {
     print(prepared.faults(), args.json);
     return exit_code::bad_input;

@@ -88,7 +88,7 @@ int cut(const CutArguments& args) {
     return exit_code::bad_input;
   }
   const std::optional<Model> model =
-      read_or_print(args.model, args.overrides, false, ReadFor::anything);
+      read_or_print(args.model, args.overrides, false, ReadFor::no_run);
   if (!model) return exit_code::bad_input;
   const Result<PolygonSet> polygons = build_polygons(*model);
   if (!polygons.ok()) {

@@ -84,7 +84,7 @@ void print_end(const FosResult& r, const std::string& folder) {
   if (r.mechanism) fmt::print("  mechanism at {:.6g}: {}\n", *r.fails, r.mechanism->text);
   const std::string lost = r.mechanism ? lost_cohesion_text(*r.mechanism) : std::string();
   if (!lost.empty()) fmt::print("  {}\n", lost);
-  fmt::print("  a trial fails where a corner goes {:.3g} m, or keeps moving without slowing down\n",
+  fmt::print("  a trial fails where a corner goes beyond {:.3g} m by the trend of its motion\n",
              c.displacement);
   fmt::print("  {}, {} of wall time; results in {}/ (fos.csv, mechanism.png)\n",
              counted(r.trials.size(), "trial"), duration_text(r.seconds), folder);
@@ -96,7 +96,7 @@ int code_of(FosStatus status) {
 
 int fos(const FosArguments& args) {
   const std::optional<Model> model =
-      read_or_print(args.model, args.overrides, args.json, ReadFor::anything);
+      read_or_print(args.model, args.overrides, args.json, ReadFor::no_run);
   if (!model) return exit_code::bad_input;
   const std::string folder = args.folder.empty() ? stem_of(args.model) + "-fos" : args.folder;
   if (const Trouble trouble = check_folder(folder, args.model)) {
@@ -129,7 +129,9 @@ int fos(const FosArguments& args) {
   }
   if (args.json) {
     say([&] { fmt::print("{}\n", one_line(fos_summary(*model, r, omp_get_max_threads()))); });
-  } else if (!args.quiet) {
+  } else if (args.quiet) {
+    say([&] { fmt::print("{}\n", r.message); });
+  } else {
     say([&] { print_end(r, folder); });
   }
   return code_of(r.status);
@@ -144,8 +146,8 @@ void add_fos(CLI::App& app, int& code) {
       "Brings the model to rest, then tries factors: the strength of the joints divided by it\n"
       "(cohesion, tangent of the friction angle, tensile strength), or a load, a water or a "
       "shaking\n"
-      "multiplied by it, until one that fails is above one that holds by no more than\n"
-      "fos.tolerance of it.\n"
+      "multiplied by it, until the bracket of one that holds and one that fails is no wider than\n"
+      "the part fos.tolerance of its lower factor.\n"
       "The folder (default: the model's name without .toml and with -fos, here) then holds\n"
       "  summary.json          the factor, its bracket, the criterion, the mechanism; written "
       "last\n"
@@ -162,7 +164,8 @@ void add_fos(CLI::App& app, int& code) {
       ->type_name("DIR");
   add_threads(*command);
   add_overrides(*command, args->overrides);
-  command->add_flag("--quiet", args->quiet, "No progress, no warnings, no closing words");
+  command->add_flag("--quiet", args->quiet,
+                    "The line with the factor alone: no progress, no warnings");
   add_json(*command, args->json,
            "Print the summary as one JSON object on stdout, and nothing on stderr");
   command->callback([args, &code] { code = fos(*args); });

@@ -197,7 +197,7 @@ Result<PlotSource> from_folder(const PlotArguments& args) {
   PlotSource source;
   source.notes = notes_on(series.value(), args);
   // The title, names and monitors; a picture does without them where the model is gone.
-  if (const Result<Model> model = read_model(folder + "/model.toml", {}, ReadFor::anything);
+  if (const Result<Model> model = read_model(folder + "/model.toml", {}, ReadFor::no_run);
       model.ok()) {
     if (const Trouble trouble = judged(args, model.value())) return *trouble;
     source.options = options_of(model.value(), 0);
@@ -225,7 +225,7 @@ Result<PlotSource> from_model(const PlotArguments& args) {
                  "is a model, which has no times, stresses, contacts or loads yet",
                  "run it, and give the folder of its results"};
   }
-  const Result<Model> model = read_model(args.source, args.overrides, ReadFor::anything);
+  const Result<Model> model = read_model(args.source, args.overrides, ReadFor::no_run);
   if (!model.ok()) return model.faults();
   if (const Trouble trouble = judged(args, model.value())) return *trouble;
   const Result<PolygonSet> polygons = build_polygons(model.value());
@@ -270,7 +270,7 @@ Trouble read_histories(const PlotArguments& args, HistorySource& source) {
   picture.paper = paper_of(args);
   picture.title = args.title;
   if (!args.title.empty()) return {};
-  if (const Result<Model> model = read_model(args.source + "/model.toml", {}, ReadFor::anything);
+  if (const Result<Model> model = read_model(args.source + "/model.toml", {}, ReadFor::no_run);
       model.ok()) {
     picture.title = options_of(model.value(), 0).title;
   }

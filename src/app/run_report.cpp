@@ -11,6 +11,7 @@
 #include "base/text.hpp"
 #include "results/version.hpp"
 #include "run/initial_stress_report.hpp"
+#include "run/stages.hpp"
 
 namespace edda {
 namespace {
@@ -27,15 +28,21 @@ class ForPeople : public RunReport {
   void starts(const PreparedRun& run, const std::string&) override {
     if (quiet_) return;
     const Simulation& sim = run.sim;
+    const StageMasses masses = stages_of(sim.model).front().masses;
+    const double step = first_step(sim, masses);
     if (sim.explicit_method()) {
+      const std::string begins =
+          masses == StageMasses::uniform_step
+              ? fmt::format("step about {:.3g} s with static masses; with those as given", step)
+              : fmt::format("step {:.4g} s;", step);
       fmt::print(stderr,
-                 "{}; step {:.4g} s; critical {:.4g} s ({:.4g} s if every bare corner "
+                 "{}; {} critical {:.4g} s ({:.4g} s if every bare corner "
                  "touched something), held by {}\n",
-                 counted(sim.blocks.size(), "block"), sim.step_limit, sim.bound.critical_step,
+                 counted(sim.blocks.size(), "block"), begins, sim.bound.critical_step,
                  sim.bound.likely_step, run.governed_by);
     } else {
       fmt::print(stderr, "{}; step {:.4g} s, held by {}\n", counted(sim.blocks.size(), "block"),
-                 sim.usual_step(), run.governed_by);
+                 step, run.governed_by);
     }
     for (const std::string& line : initial_stress_report(sim)) {
       fmt::print(stderr, "initial stress: {}\n", line);
@@ -95,7 +102,8 @@ class ForMachines : public RunReport {
     json.pair("folder", folder).pair("blocks", sim.blocks.size());
     json.pair("duration", sim.model.solver.duration).key("stages").open_list();
     for (const Stage& stage : sim.model.stages) json.value(stage.name);
-    json.close().pair("step", sim.usual_step()).pair("governed_by", run.governed_by);
+    json.close().pair("step", first_step(sim, stages_of(sim.model).front().masses));
+    json.pair("governed_by", run.governed_by);
     json.pair("threads", omp_get_max_threads());
     print_line(json);
     for (const std::string& warning : run.warnings) warns(warning);

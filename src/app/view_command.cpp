@@ -26,7 +26,7 @@ struct ViewArguments {
 /// What the model knows; a page does without it where the model is gone.
 ViewNames names_of(const std::string& folder) {
   ViewNames names;
-  const Result<Model> read = read_model(folder + "/model.toml", {}, ReadFor::anything);
+  const Result<Model> read = read_model(folder + "/model.toml", {}, ReadFor::no_run);
   if (!read.ok()) return names;
   const Model& model = read.value();
   names.title = model.title;

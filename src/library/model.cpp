@@ -91,12 +91,12 @@ void check_memory(const edda::Model& model) {
 Model::Model(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 
 Model Model::read(const std::string& path, const std::vector<std::string>& overrides) {
-  return model_of(read_model(path, overrides, ReadFor::anything));
+  return model_of(read_model(path, overrides, ReadFor::no_run));
 }
 
 Model Model::parse(std::string_view toml, const std::string& name,
                    const std::vector<std::string>& overrides) {
-  return model_of(read_model_text(toml, name, overrides, ReadFor::anything));
+  return model_of(read_model_text(toml, name, overrides, ReadFor::no_run));
 }
 
 std::string Model::title() const {

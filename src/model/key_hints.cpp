@@ -11,37 +11,62 @@
 namespace edda {
 namespace {
 
-/// The table that a key which is written elsewhere belongs to; empty where none has it, or too
-/// many.
-std::string place_of_key(std::string_view name) {
-  constexpr std::size_t most = 3;
+/// Tables that have a key of this name.
+std::vector<std::string> tables_with(std::string_view name) {
   std::vector<std::string> tables;
   for (const Section& section : sections()) {
     if (section.shape != Shape::root && find_key(section.keys, name) != nullptr)
       tables.push_back(named_in_file(section.name));
   }
-  if (tables.empty() || tables.size() > most) return {};
-  std::string list = tables[0];
-  for (std::size_t i = 1; i < tables.size(); ++i) {
-    list += (i + 1 == tables.size() ? " or " : ", ") + tables[i];
+  return tables;
+}
+
+/// "a", "a or b", "a, b or c"; empty where there are none, or too many.
+std::string either(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 3;
+  if (names.empty() || names.size() > most) return {};
+  std::string list = names[0];
+  for (std::size_t i = 1; i < names.size(); ++i) {
+    list += (i + 1 == names.size() ? " or " : ", ") + names[i];
   }
-  return fmt::format("{} belongs to {}", name, list);
+  return list;
 }
 
-/// Where it belongs, what it is called here, or what it may be a slip of.
-std::string hint_of(std::string_view name, std::span<const std::string_view> known) {
-  if (find_key(sections().front().keys, name) != nullptr)
-    return fmt::format("{} belongs at the top of the file, before the first [table]", name);
-  if (const std::string hint = synonym_hint(name); !hint.empty()) return hint;
-  if (is_likely(name, known)) return suggestion(name, known);
-  const std::string place = place_of_key(name);
-  return place.empty() ? suggestion(name, known) : place;
+/// Whether the word is the key's name, or what other programs call it.
+bool means(std::string_view word, std::string_view name, std::span<const Key> keys) {
+  const std::vector<const Key*> called = keys_called(word, keys);
+  return word == name || std::any_of(called.begin(), called.end(),
+                                     [&](const Key* key) { return key->name == name; });
 }
 
-/// Whether the name is made of those of a table and of a key inside: "angle_deviation".
-bool joins(std::string_view name, const InnerKey& inner) {
-  return name == fmt::format("{}_{}", inner.key, inner.table) ||
-         name == fmt::format("{}_{}", inner.table, inner.key);
+/// Whether the name is made of what a table is called and of a key inside, or of what may be a slip
+/// of that: "angle_deviation", "length_std".
+bool joins(std::string_view name, const InnerKey& asked, std::span<const Key> keys,
+           const std::vector<InnerKey>& inner) {
+  std::vector<std::string_view> beside;
+  for (const InnerKey& k : inner) {
+    if (k.table == asked.table) beside.push_back(k.key);
+  }
+  const auto is_key = [&](std::string_view word) {
+    return is_likely(word, beside) && nearest(word, beside) == asked.key;
+  };
+  for (std::size_t at = name.find('_'); at != std::string_view::npos; at = name.find('_', at + 1)) {
+    const std::string_view first = name.substr(0, at), last = name.substr(at + 1);
+    if (means(last, asked.table, keys) && is_key(first)) return true;
+    if (means(first, asked.table, keys) && is_key(last)) return true;
+  }
+  return false;
+}
+
+/// The keys of tables inside that the name is one of, or is joined from.
+std::string inside(std::string_view name, std::span<const Key> keys,
+                   const std::vector<InnerKey>& inner) {
+  std::vector<std::string> examples;
+  for (const InnerKey& k : inner) {
+    if (name == k.key || joins(name, k, keys, inner)) examples.push_back(k.example());
+  }
+  const std::string text = either(examples);
+  return text.empty() ? text : fmt::format("did you mean {}?", text);
 }
 
 /// How deep numbers stand in lists: 1 in a point, 2 in a list of points; 0 where it is no list.
@@ -59,20 +84,37 @@ bool looks_like(const Value& value, const Key& key) {
   return (kind == Kind::polyline || kind == Kind::polygon) && depth_of(value) == 2;
 }
 
-/// The key that is required and missing for which another was written in its place: one that is a
-/// slip of it, or else has the only value that would do. Null: none.
-const Key* written_for(const Entry& entry, const Value& table, std::span<const Key> keys,
-                       std::span<const std::string_view> known) {
-  if (find_key(sections().front().keys, entry.key) != nullptr) return nullptr;  // belongs there
-  const bool slip = synonym_hint(entry.key).empty() && is_likely(entry.key, known);
+bool is_missing(const Key& key, const Value& table) {
+  return key.otherwise.required && find(&table, key.name) == nullptr;
+}
+
+/// The only key that is required and missing, and has not been `meant` by another, for which the
+/// value would do; null: none.
+const Key* only_fit(const Entry& entry, const Value& table, std::span<const Key> keys,
+                    const std::vector<const Key*>& meant) {
   const Key* only = nullptr;
   for (const Key& key : keys) {
-    if (!key.otherwise.required || find(&table, key.name) != nullptr) continue;
-    if (slip ? nearest(entry.key, known) != key.name : !looks_like(entry.value, key)) continue;
+    if (!is_missing(key, table) || !looks_like(entry.value, key)) continue;
+    if (std::find(meant.begin(), meant.end(), &key) != meant.end()) continue;
     if (only != nullptr) return nullptr;
     only = &key;
   }
   return only;
+}
+
+UnknownKey called_here(std::string_view name, const Value& table, std::span<const Key> keys) {
+  UnknownKey unknown{synonym_hint(name, keys)};
+  for (const Key* key : keys_called(name, keys)) {
+    if (is_missing(*key, table)) unknown.stands_for = key;
+  }
+  return unknown;
+}
+
+/// A slip of a key of the table itself.
+UnknownKey slip_of(std::string_view name, const Value& table, std::span<const Key> keys,
+                   std::span<const std::string_view> known) {
+  const Key* key = find_key(keys, nearest(name, known));
+  return {suggestion(name, known), key != nullptr && is_missing(*key, table) ? key : nullptr};
 }
 
 }  // namespace
@@ -94,25 +136,42 @@ std::vector<InnerKey> inner_keys(std::span<const Key> keys, void* object) {
 }
 
 UnknownKey unknown_key(const Entry& entry, const Value& table, std::span<const Key> keys,
-                       const std::vector<InnerKey>& inner, bool is_root) {
-  const auto joined = std::find_if(inner.begin(), inner.end(),
-                                   [&](const InnerKey& k) { return joins(entry.key, k); });
-  if (joined != inner.end()) return {fmt::format("did you mean {}?", joined->example()), nullptr};
+                       const std::vector<InnerKey>& inner, const std::vector<const Key*>& meant,
+                       bool is_root) {
+  const std::string& name = entry.key;
+  if (!keys_called(name, keys).empty()) return called_here(name, table, keys);
+  if (const std::string hint = inside(name, keys, inner); !hint.empty()) return {hint};
+  if (find_key(sections().front().keys, name) != nullptr)
+    return {fmt::format("{} belongs at the top of the file, before the first [table]", name)};
   std::vector<std::string_view> known = key_names(keys);
   for (const Section& s : sections()) {
     if (is_root && s.shape != Shape::root) known.push_back(s.name);
   }
-  if (const Key* key = written_for(entry, table, keys, known))
-    return {fmt::format("did you mean \"{}\"?", key->name), key};
-  return {hint_of(entry.key, known), nullptr};
+  const std::vector<std::string> elsewhere = tables_with(name);
+  const std::string other_word = synonym_hint(name);
+  if (elsewhere.empty() && !other_word.empty()) return {other_word};
+  if (is_likely(name, known)) return slip_of(name, table, keys, known);
+  if (const std::string places = either(elsewhere); !places.empty())
+    return {fmt::format("{} belongs to {}", name, places)};
+  const Key* fit = elsewhere.empty() ? only_fit(entry, table, keys, meant) : nullptr;
+  if (fit != nullptr) return {fmt::format("did you mean \"{}\"?", fit->name), fit};
+  return {suggestion(name, known)};
 }
 
 std::string number_remedy(const Key& key, const Value& value, const std::vector<InnerKey>& inner) {
-  if (key.rule.kind != Kind::number || !std::holds_alternative<Table>(value.content)) return {};
+  const Table* table = std::get_if<Table>(&value.content);
+  if (key.rule.kind != Kind::number || table == nullptr) return {};
   const auto found = std::find_if(inner.begin(), inner.end(),
                                   [&](const InnerKey& k) { return k.key == key.name; });
   if (found == inner.end()) return {};
-  return fmt::format("expects {}; its {} stands beside it: {}", expected(key), found->table,
+  std::string number;
+  for (const Entry& entry : *table) {
+    const bool is_number = std::holds_alternative<double>(entry.value.content) ||
+                           std::holds_alternative<long long>(entry.value.content);
+    if (number.empty() && is_number && entry.key != found->table)
+      number = fmt::format("{} = {}, ", key.name, shown(entry.value));
+  }
+  return fmt::format("give {}{}, and its {} as {}", number, expected(key), found->table,
                      found->example());
 }
 

@@ -29,9 +29,10 @@ struct UnknownKey {
 };
 
 /// `table` has the `keys`, and tables inside with `inner`; `is_root`: it is the whole file, which
-/// has sections, too.
+/// has sections, too; `meant`: keys that are missing and that others stand for.
 UnknownKey unknown_key(const Entry& entry, const Value& table, std::span<const Key> keys,
-                       const std::vector<InnerKey>& inner, bool is_root);
+                       const std::vector<InnerKey>& inner, const std::vector<const Key*>& meant,
+                       bool is_root);
 
 /// What a key asks for that got a table in place of a number, where a table beside it has more to
 /// say of it; empty: nothing of the kind.

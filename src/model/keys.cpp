@@ -217,7 +217,7 @@ constexpr std::array solver_keys{
     Key{"method", at<&Solver::method>, choice, initial, "Explicit (edda), or implicit with one global solve (dda)."},
     Key{"mass", at<&Solver::mass>, choice, initial, "How a block's mass sits on its nodes."},
     Key{"switching", at<&Solver::switching>, choice, initial, "Method edda: how contacts open and close, keeping the energy (exact) or as in the paper (plain)."},
-    Key{"duration", at<&Solver::duration>, number(D::time, above(0)), otherwise("required of a run unless there are stages: their durations together"), "Time to simulate."},
+    Key{"duration", at<&Solver::duration>, number(D::time, above(0)), or_none("required of a run unless there are stages: their durations together"), "Time to simulate."},
     Key{"time_step", at<&Solver::time_step>, number_or("auto", D::time, above(0)), otherwise("\"auto\""), "Time step; above the critical step it is refused."},
     Key{"allow_unstable", at<&Solver::allow_unstable>, flag, initial, "Method edda: whether a time step above the critical one is run all the same."},
     Key{"safety", at<&Solver::safety>, number(D::plain, above_to(0, 1)), initial, "Method edda: part of the critical step that is taken when time_step is \"auto\"."},
@@ -228,8 +228,8 @@ constexpr std::array solver_keys{
 };
 
 constexpr std::array output_keys{
-    Key{"every", at<&Output::every>, number(D::time, above(0)), otherwise("solver.duration / 20"), "Time between pictures of all blocks."},
-    Key{"history_every", at<&Output::history_every>, number(D::time, above(0)), otherwise("solver.duration / 200"), "Time between rows of history.csv."},
+    Key{"every", at<&Output::every>, number(D::time, above(0)), or_none("solver.duration / 20"), "Time between pictures of all blocks."},
+    Key{"history_every", at<&Output::history_every>, number(D::time, above(0)), or_none("solver.duration / 200"), "Time between rows of history.csv."},
     Key{"settling", at<&Output::settling>, flag, otherwise("true where neither every nor history_every is given"), "In stages until equilibrium, whose time nobody knows before: rows and frames beside those, the closer the less time has passed."},
     Key{"checkpoint_every", at<&Output::checkpoint_every>, number(D::plain, above(0)), initial, "Minutes of wall time between checkpoints."},
     Key{"stages", at<&Output::stages>, flag, initial, "With stages: whether contacts and a checkpoint are kept of the end of each, under stages/."},
@@ -244,7 +244,7 @@ constexpr std::array fos_keys{
     Key{"stage", at<&Fos::stage>, naming, otherwise("the last one, or the model at rest where there are no stages"), "The stage whose end the trials begin from."},
     Key{"vary", at<&Fos::vary>, naming, initial, "What the factor acts on: \"strength\" (divided by it), \"load:NAME\", \"shaking:NAME\" or \"water:NAME\" (the pressure of that water), multiplied by it."},
     Key{"bracket", at<&Fos::bracket>, shape(Kind::point, D::plain, above(0)), initial, "Two factors, the lower one expected to hold and the upper one to fail; widened where they do not."},
-    Key{"tolerance", at<&Fos::tolerance>, number(D::plain, above(0)), initial, "The search ends where a factor that fails is above one that holds by no more than this part of it."},
+    Key{"tolerance", at<&Fos::tolerance>, number(D::plain, above_to(0, 0.5)), initial, "The search ends when the bracket is no wider than this part of its lower factor."},
     Key{"exclude", at<&Fos::exclude>, name_list, initial, "Joints that keep their strength."},
     Key{"fails", at<&Fos::fails>, table, otherwise("by the size of the blocks and gravity"), "When a trial counts as failed."},
 };

@@ -65,6 +65,7 @@ struct Rule {
 struct Default {
   bool required = false;
   std::string_view text;
+  bool zero_is_none = false;  ///< a number that is not written where it is 0, out of its range
 };
 
 /// A field of an enumeration type, as a number and the names of its values.

@@ -112,7 +112,7 @@ std::string suggestion(std::string_view word, std::span<const std::string_view> 
   const std::string best = '"' + clipped(nearest(word, known)) + '"';
   if (is_likely(word, known)) return "did you mean " + best + "?";
   if (known.size() == 1) return "the only known one is " + best;
-  return "the nearest is " + best + ", known are " + quoted_list(known);
+  return "known are " + quoted_list(nearest_first(word, known));
 }
 
 }  // namespace edda

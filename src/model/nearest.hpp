@@ -37,7 +37,7 @@ std::string quoted_list(std::span<const std::string_view> words);
 /// Whether `word` may be a slip of the nearest of `known`.
 bool is_likely(std::string_view word, std::span<const std::string_view> known);
 
-/// `did you mean "rock"?`, or which is the nearest and which are known.
+/// `did you mean "rock"?`, or which are known, the nearest first.
 std::string suggestion(std::string_view word, std::span<const std::string_view> known);
 
 }  // namespace edda

@@ -102,7 +102,7 @@ std::optional<Fault> missing_duration(const Model& model) {
   where.key = "solver.duration";
   return Fault{where, "is missing",
                "give " + expected(*find_key(find_section("solver")->keys, "duration")) +
-                   (model.fos ? " for a run; edda fos needs none" : "")};
+                   " for a run; edda fos needs none"};
 }
 
 }  // namespace edda

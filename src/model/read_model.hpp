@@ -13,7 +13,7 @@ namespace edda {
 
 /// What a model is read for. One that runs in time needs its duration; one that is drawn, cut into
 /// blocks or searched for a factor of safety does without.
-enum class ReadFor { run, anything };
+enum class ReadFor { run, no_run };
 
 /// Reads the TOML file `path`, applies `overrides` ("solver.duration=0.2") in order, fills in every
 /// default and checks all that needs no geometry to be cut. All faults come together, in the order
@@ -27,7 +27,7 @@ Result<Model> read_model_text(std::string_view text, const std::string& file_nam
                               const std::vector<std::string>& overrides = {},
                               ReadFor what_for = ReadFor::run);
 
-/// What keeps a model read for anything from running in time: neither stages nor a duration.
+/// What keeps a model that was read for no run from running in time: neither stages nor a duration.
 std::optional<Fault> missing_duration(const Model& model);
 
 }  // namespace edda

@@ -328,7 +328,7 @@ void read_keys(std::span<const Key> keys, void* object, const Value& table,
     if (is_root && find_section(entry.key) != nullptr) continue;
     const Key* key = find_key(keys, entry.key);
     if (key == nullptr) {
-      const UnknownKey unknown = unknown_key(entry, table, keys, inner, is_root);
+      const UnknownKey unknown = unknown_key(entry, table, keys, inner, meant, is_root);
       add_fault(reading, entry.place, prefix + entry.key, "unknown key", unknown.hint);
       meant.push_back(unknown.stands_for);
     } else {

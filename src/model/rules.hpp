@@ -60,6 +60,10 @@ constexpr Default initial{};  // the field's initial value in model.hpp
 constexpr Default otherwise(std::string_view words) {
   return {false, words};
 }
+/// Of a number whose field is 0 where there is none.
+constexpr Default or_none(std::string_view words) {
+  return {false, words, true};
+}
 constexpr std::string_view if_one = "may be left out where one is defined";
 
 }  // namespace edda::rules

@@ -6,14 +6,13 @@
 #include <array>
 #include <cctype>
 
-#include "model/keys.hpp"
-
 namespace edda {
 namespace {
 
 // clang-format off
 constexpr std::array other_words{
     // What holds a model.
+    Synonym{"held", "block.fixed", ""},
     Synonym{"fix", "block.fixed held boundary", ""},
     Synonym{"fixity", "block.fixed held boundary", ""},
     Synonym{"fixed_block", "block.fixed held", ""},
@@ -40,6 +39,8 @@ constexpr std::array other_words{
     Synonym{"rockbolt", "bolt", ""},
     Synonym{"rock_bolt", "bolt", ""},
     Synonym{"anchors", "bolt", ""},
+    Synonym{"head", "bolt.from", ""},
+    Synonym{"toe", "bolt.to", ""},
     Synonym{"dowels", "bolt", "with a dowel and no pretension"},
     Synonym{"reinforcement", "bolt", ""},
     Synonym{"struct", "bolt bolt_pattern", "there are no beams and liners"},
@@ -60,6 +61,7 @@ constexpr std::array other_words{
     Synonym{"initial", "initial_stress block.velocity", ""},
     Synonym{"grav", "gravity", ""},
     Synonym{"apply", "load boundary", ""},
+    Synonym{"at", "load.point monitor.point held.point", ""},
     Synonym{"surcharge", "load.pressure", ""},
     Synonym{"pore_pressure", "water", ""},
     Synonym{"pp", "water", ""},
@@ -95,7 +97,12 @@ constexpr std::array other_words{
     Synonym{"round", "", "corners are sharp and need no rounding: leave it out"},
     Synonym{"rounding", "", "corners are sharp and need no rounding: leave it out"},
     Synonym{"vertices", "block.polygon domain.outline", ""},
-    Synonym{"spacing_std", "joint_set.deviation", ""},
+    Synonym{"std", "joint_set.deviation", ""},
+    Synonym{"stdev", "joint_set.deviation", ""},
+    Synonym{"std_dev", "joint_set.deviation", ""},
+    Synonym{"standard_deviation", "joint_set.deviation", ""},
+    Synonym{"scatter", "joint_set.deviation", ""},
+    Synonym{"dip", "joint_set.deviation.angle", ""},
     Synonym{"dipdir", "joint_set.dip_direction", ""},
     Synonym{"dd", "joint_set.dip_direction", ""},
     // Materials.
@@ -170,6 +177,7 @@ constexpr std::array other_words{
     Synonym{"histories", "monitor output.history_every", ""},
     Synonym{"measure", "monitor convergence", ""},
     Synonym{"extensometer", "convergence", ""},
+    Synonym{"points", "convergence.between", ""},
     Synonym{"plot", "", "pictures are drawn of results: edda plot"},
     Synonym{"save", "output.checkpoint_every output.stages", ""},
     Synonym{"restore", "", "edda run --resume or --from STAGE goes on from a checkpoint"},
@@ -186,6 +194,42 @@ std::string plain(std::string_view word) {
     c = c == '-' || c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   return text;
+}
+
+const Synonym* find_synonym(std::string_view word) {
+  const std::string asked = plain(word);
+  const auto found = std::find_if(other_words.begin(), other_words.end(),
+                                  [&](const Synonym& s) { return s.word == asked; });
+  return found == other_words.end() ? nullptr : &*found;
+}
+
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> words;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    words.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(text.size(), end + 1));
+  }
+  return words;
+}
+
+/// The key of that dotted name; null where it names a table.
+const Key* key_at(std::string_view dotted) {
+  const std::size_t dot = dotted.find('.');
+  const Section* section = find_section(dotted.substr(0, dot));
+  if (section == nullptr || dot == std::string_view::npos) return nullptr;
+  const std::string_view rest = dotted.substr(dot + 1);
+  const std::size_t inner = rest.find('.');
+  const Key* key = find_key(section->keys, rest.substr(0, inner));
+  if (key == nullptr || inner == std::string_view::npos) return key;
+  Model model;
+  const Slot slot = key->slot(section->add(model));
+  const SubTable* table = std::get_if<SubTable>(&slot);
+  return table == nullptr ? nullptr : find_key(table->keys, rest.substr(inner + 1));
+}
+
+bool is_among(const Key* key, std::span<const Key> keys) {
+  return std::any_of(keys.begin(), keys.end(), [&](const Key& k) { return &k == key; });
 }
 
 }  // namespace
@@ -206,16 +250,24 @@ std::string named_in_file(std::string_view dotted_key) {
   return fmt::format("{} of {}", dotted_key.substr(dot + 1), name);
 }
 
-std::string synonym_hint(std::string_view word) {
-  const std::string asked = plain(word);
-  const auto found = std::find_if(other_words.begin(), other_words.end(),
-                                  [&](const Synonym& s) { return s.word == asked; });
-  if (found == other_words.end()) return {};
+std::vector<const Key*> keys_called(std::string_view word, std::span<const Key> keys) {
+  const Synonym* found = find_synonym(word);
+  std::vector<const Key*> called;
+  if (found == nullptr) return called;
+  for (const std::string_view dotted : words_of(found->keys)) {
+    const Key* key = key_at(dotted);
+    if (is_among(key, keys)) called.push_back(key);
+  }
+  return called;
+}
+
+std::string synonym_hint(std::string_view word, std::span<const Key> keys) {
+  const Synonym* found = find_synonym(word);
+  if (found == nullptr) return {};
+  const bool here = !keys_called(word, keys).empty();
   std::vector<std::string> names;
-  for (std::string_view keys = found->keys; !keys.empty();) {
-    const std::size_t end = std::min(keys.find(' '), keys.size());
-    names.push_back(named_in_file(keys.substr(0, end)));
-    keys.remove_prefix(std::min(keys.size(), end + 1));
+  for (const std::string_view dotted : words_of(found->keys)) {
+    if (!here || is_among(key_at(dotted), keys)) names.push_back(named_in_file(dotted));
   }
   if (names.empty()) return std::string(found->note);
   std::string text = "here that is ";

@@ -4,6 +4,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "model/keys.hpp"
 
 namespace edda {
 
@@ -19,9 +22,12 @@ struct Synonym {
 /// All that are known, in no order.
 std::span<const Synonym> synonyms();
 
-/// "here that is kn of [joints.NAME]", or empty where the word is not known. Case, "-" and blanks
-/// do not matter.
-std::string synonym_hint(std::string_view word);
+/// Those of `keys`, the keys of one table, that the word stands for.
+std::vector<const Key*> keys_called(std::string_view word, std::span<const Key> keys);
+
+/// "here that is kn of [joints.NAME]", or empty where the word is not known. Where some of the
+/// `keys` of a table are meant, these alone. Case, "-" and blanks do not matter.
+std::string synonym_hint(std::string_view word, std::span<const Key> keys = {});
 
 /// As a message names a table or a key: "[[boundary]]", "kn of [joints.NAME]", "gravity".
 std::string named_in_file(std::string_view dotted_key);

@@ -65,7 +65,7 @@ struct Write {
   }
   std::string operator()(const long long* field) const { return std::to_string(*field); }
   std::string operator()(const double* field) const {
-    return key.rule.range.holds(*field) ? written(*field) : std::string{};  // else not given
+    return *field == 0.0 && key.otherwise.zero_is_none ? std::string{} : written(*field);
   }
   std::string operator()(const std::optional<double>* field) const {
     if (*field) return written(**field);

@@ -16,16 +16,18 @@
 namespace edda {
 namespace {
 
-/// Steps per second of wall time, from a few steps made and thrown away.
-double step_rate(Simulation& sim, double seconds) {
+constexpr int most_tried = 2000;  // steps
+
+/// Steps per second of wall time, from a few steps made and thrown away, none of them after `end`.
+double step_rate(Simulation& sim, double end, double seconds) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   double wall = 0.0;
-  std::uint64_t steps = 0;
+  int steps = 0;
   const SameThreads afterwards;
   ThreadChoice threads(threads_are_said() ? 1 : omp_get_max_threads());
-  while (steps < 2 || (wall < seconds && steps < 2000)) {
-    if (sim.state.time >= sim.model.solver.duration) break;
+  while (steps < 2 || (wall < seconds && steps < most_tried)) {
+    if (sim.state.time >= end) break;
     if (!threads_are_said()) omp_set_num_threads(threads.now());
     if (sim.step()) break;
     ++steps;
@@ -57,22 +59,26 @@ ModelCheck check_model(Simulation& sim) {
   found.strain_damping = strain_damping_report(sim);
   const std::vector<Stage> stages = stages_of(sim.model);
   const auto is_static = [](const Stage& s) { return s.masses == StageMasses::uniform_step; };
-  if (!std::all_of(stages.begin(), stages.end(), is_static)) found.step_as_given = sim.usual_step();
+  if (!std::all_of(stages.begin(), stages.end(), is_static))
+    found.step_as_given = first_step(sim, StageMasses::as_given);
   if (std::any_of(stages.begin(), stages.end(), is_static))
-    found.static_step = sim.model.solver.safety * sim.uniform_step();
+    found.static_step = first_step(sim, StageMasses::uniform_step);
   sim.scale_masses(stages.front().masses);
   sim.change_damping(stages.front().damping,
                      sim.model.solver.dynamic && stages.front().until != StageEnd::equilibrium);
-  sim.start(std::min(sim.model.output.history_every, sim.model.solver.duration));
+  const double duration = sim.model.solver.duration;
+  const double tried = most_tried * sim.usual_step();
+  const double end = duration > 0.0 ? duration : std::isfinite(tried) ? tried : 1.0;
+  sim.start(duration > 0.0 ? std::min(sim.model.output.history_every, duration) : end);
   found.step = sim.state.step;
   for (const Stage& stage : stages) {
     const double step = &stage == &stages.front() ? found.step
                         : is_static(stage)        ? found.static_step
                                                   : found.step_as_given;
-    found.steps += std::max(1.0, std::ceil(stage.duration / step - 1e-9));
+    if (duration > 0.0) found.steps += std::max(1.0, std::ceil(stage.duration / step - 1e-9));
     found.at_most = found.at_most || stage.until == StageEnd::equilibrium;
   }
-  found.rate = step_rate(sim, 0.5);
+  found.rate = step_rate(sim, end, 0.5);
   return found;
 }
 

@@ -15,7 +15,8 @@ struct ModelCheck {
   double step = 0.0;           ///< s: the first
   double step_as_given = 0.0;  ///< s: in stages without static masses, where there are any
   double static_step = 0.0;    ///< s: in stages with static masses, where there are any
-  double steps = 0.0;          ///< to expect; at most, where stages end at an equilibrium
+  double steps = 0.0;          ///< to expect; at most, where stages end at an equilibrium; 0
+                               ///< where no duration is given
   bool at_most = false;
   double rate = 0.0;                              ///< steps per second of wall time
   std::size_t closed = 0, within_reach = 0;       ///< contacts, at the start

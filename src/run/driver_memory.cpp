@@ -266,6 +266,7 @@ void Driver::list(Archive& a) {
   a("outcome.step_over_critical", outcome_.step_over_critical);
   a("outcome.reaction_error", outcome_.reaction_error);
   a("outcome.held_back", outcome_.held_back);
+  a("outcome.loose", outcome_.loose);
   list_chatter(a, outcome_.chatter);
   a("outcome.stepping", outcome_.wall.stepping);
   a("outcome.output", outcome_.wall.output);

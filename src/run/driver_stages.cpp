@@ -110,6 +110,8 @@ bool Driver::end_stage(Went went) {
     if (ended_by(recorder_.stages(stages_csv(sim_.model, ends_)))) return false;
     save_stage();
   }
+  if (stage.until == StageEnd::equilibrium)
+    outcome_.loose = std::max(outcome_.loose, count_loose(sim_));
   const std::string label = stage_label(sim_.model, stage_);
   if (went == Went::nowhere) {
     end(Status::collapsed,

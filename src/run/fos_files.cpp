@@ -22,8 +22,8 @@ void add_criterion(Json& j, const FosCriterion& c) {
   j.pair("block_size", c.size).pair("acceleration", c.acceleration);
   j.pair("trial", c.duration).pair("shaking", c.shaking);
   j.pair("text",
-         "a trial fails where a corner has moved further than fails_displacement, or keeps moving "
-         "without becoming slower; it holds where no block would go further than a ten-thousandth "
+         "a trial fails where a corner goes beyond fails_displacement by the trend of its motion; "
+         "it holds where no block would go further than a ten-thousandth "
          "of block_size within the time trial");
   j.close();
 }

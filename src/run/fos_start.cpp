@@ -61,7 +61,7 @@ FosCriterion criterion_of(const Simulation& sim, const Model& model, const Fos& 
   }
   c.size /= std::max(count, 1.0);
   c.acceleration = norm(model.gravity);
-  if (c.acceleration == 0.0 && force > 0.0) c.acceleration = force / mass;
+  if (c.acceleration == 0.0) c.acceleration = force > 0.0 ? force / mass : usual_acceleration;
   constexpr double part_of_size = 0.01, slower = 10.0;
   c.duration = time_to_stay(c.size, c.acceleration);
   c.shaking = shaking_time(model, fos);
@@ -155,20 +155,12 @@ void limit_rest(Simulation& sim) {
   sim.model.output.every = sim.model.output.history_every = time;
 }
 
-/// Whether something has come loose in a stage, but for pebbles.
-bool any_loose(const Simulation& sim) {
-  const std::vector<std::uint8_t> small = pebbles(sim);
-  for (std::size_t i = 0; i < sim.aloof.size(); ++i) {
-    if (sim.aloof[i] != 0 && small[i] == 0) return true;
-  }
-  return false;
-}
-
 /// How trials of the model start: as its stages leave it.
 struct Staged {
   FosStart start;
   bool rests = true;
-  std::string says;  ///< of the end of that run
+  std::string says;       ///< of the end of that run
+  std::size_t stage = 0;  ///< in which it ended
 };
 
 /// After its stages, or at rest as drawn, with what is varied multiplied and strength divided.
@@ -183,10 +175,13 @@ Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& opti
   RunOptions how;
   how.stop = options.stop;
   if (!fos.stage.empty()) how.last_stage = stage_called(model, fos.stage);
+  std::optional<std::size_t> ended;
+  how.stage_ended = [&](const StageReport& report) { ended = report.stage; };
   const Result<Outcome> outcome = run_model(prepared.value(), how);
   if (!outcome.ok()) return outcome.faults();
   const Status status = outcome.value().status;
-  Staged made{{std::move(prepared.value().sim), {}, {}, {}, {}, {}, {}, {}, {}}, true, {}};
+  Staged made{{std::move(prepared.value().sim), {}, {}, {}, {}, {}, {}, {}, {}}, true, {}, 0};
+  if (ended) made.stage = *ended + (status == Status::failed ? 1 : 0);  // amid the next one
   FosStart& s = made.start;
   made.rests = status != Status::collapsed && status != Status::failed;
   made.says = outcome.value().message;
@@ -200,16 +195,23 @@ Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& opti
   return made;
 }
 
+/// Why the stages are run a second time.
+std::string run_again(const Model& model, const Staged& first) {
+  const std::string stage = stage_label(model, first.stage);
+  return fmt::format("{} with the strength given; {} run again with a thousand times the strength",
+                     first.rests ? "blocks come loose in " + stage : stage + " comes to no rest",
+                     model.stages.size() == 1 ? "it is" : "the stages are");
+}
+
 Result<FosStart> at_rest(const Model& model, const Fos& fos, const FosOptions& options) {
   const bool strength = fos.varied == Varied::strength;
   if (!model.stages.empty()) {
     Result<Staged> run =
         staged(model, fos, options, fos.varied == Varied::shaking ? 0.0 : 1.0, 1.0);
     if (!run.ok()) return run.faults();
-    if (run.value().rests && !any_loose(run.value().start.sim)) return std::move(run.value().start);
-    if (options.say) {
-      options.say("the stages find no rest as they are: again with joints that do not give way");
-    }
+    if (run.value().rests && count_loose(run.value().start.sim) == 0)
+      return std::move(run.value().start);
+    if (options.say) options.say(run_again(model, run.value()));
   }
   Result<Staged> run = staged(model, fos, options, strength ? 1.0 : 0.0, strong);
   if (!run.ok()) return run.faults();
@@ -220,7 +222,7 @@ Result<FosStart> at_rest(const Model& model, const Fos& fos, const FosOptions& o
         "the model finds no rest however strong its joints are: {}; hold what falls, or see what "
         "it stands on",
         run.value().says);
-  } else if (any_loose(s.sim)) {
+  } else if (count_loose(s.sim) > 0) {
     s.warnings.push_back("with joints that do not give way, " + run.value().says +
                          "; the factor is that of all others");
   }

@@ -16,7 +16,8 @@ namespace edda {
 /// gravity g unless given (docs/fos.md).
 struct FosCriterion {
   double size = 0.0;          ///< L, m: mean of the square roots of their areas
-  double acceleration = 0.0;  ///< g, or the mean load over mass where there is no gravity, m/s2
+  double acceleration = 0.0;  ///< g, m/s2: where there is no gravity the mean load over mass, and
+                              ///< without loads usual_acceleration
   double displacement = 0.0;  ///< m: a corner that has gone further has failed
   bool slows = false;     ///< unless it slows down to rest, and has not gone a hundred times as far
   double velocity = 0.0;  ///< m/s: a corner still faster has failed where a trial finds no end
@@ -40,7 +41,7 @@ struct TrialPlan {
   Damping shaken;  ///< while the ground shakes
 };
 
-/// That a model may take to come to rest, and a trial to find its end.
+/// Steps that a model may take to come to rest, and a trial to find its end.
 constexpr double most_steps = 300000.0;
 
 enum class TrialEnd { holds, fails, stopped };

@@ -59,7 +59,7 @@ bool free_block(const Simulation& sim, std::size_t i) {
 }
 
 void warn_of_sudden_gravity(const Simulation& sim, std::vector<std::string>& warnings) {
-  if (sim.initial) return;
+  if (sim.initial || sim.model.solver.duration == 0.0) return;
   const Stage first = stages_of(sim.model).front();
   const Damping& d = first.damping;
   if (first.until == StageEnd::equilibrium || sim.model.gravity == Vec2{} || d.mass > 0.0 ||
@@ -214,13 +214,14 @@ void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings)
   const double size = std::sqrt(std::min(sim.blocks.area[c.block_i[deepest.contact]],
                                          sim.blocks.area[c.block_j[deepest.contact]]));
   if (deepest.ratio < 1e-9 * size) return;
-  warnings.push_back(
-      fmt::format("blocks overlap at the start, most {} and {} by {:.3g} m at {}: their contacts "
-                  "start out pressed and "
-                  "store {:.3g} J",
-                  block_label(sim.blocks, c.block_i[deepest.contact]),
-                  block_label(sim.blocks, c.block_j[deepest.contact]), deepest.ratio,
-                  place_label(model_place(sim, deepest.contact)), energy));
+  warnings.push_back(fmt::format(
+      "blocks overlap at the start, most {} and {} by {:.3g} m at {}: their contacts "
+      "start out pressed and store {:.3g} J: draw the block so that it touches, or cut both "
+      "from one [domain] with a [[trace]], or begin with a [[stage]] "
+      "until = \"equilibrium\"",
+      block_label(sim.blocks, c.block_i[deepest.contact]),
+      block_label(sim.blocks, c.block_j[deepest.contact]), deepest.ratio,
+      place_label(model_place(sim, deepest.contact)), energy));
 }
 
 /// Rock in an earthquake loses a few hundredths of critical.

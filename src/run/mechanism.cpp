@@ -324,8 +324,8 @@ void find_lost_cohesion(Mechanism& m, const Simulation& held) {
     if (lost) m.cohesion_lost_length += length;
   }
   if (!lost_cohesion_text(m).empty())
-    m.text += fmt::format("; without cohesion before on {:.3g} of {:.3g} m", m.cohesion_lost_length,
-                          m.brittle_length);
+    m.text += fmt::format("; {:.3g} m of its {:.3g} m had lost their cohesion before it moved",
+                          m.cohesion_lost_length, m.brittle_length);
 }
 
 std::string lost_cohesion_text(const Mechanism& m) {
@@ -334,7 +334,8 @@ std::string lost_cohesion_text(const Mechanism& m) {
   return fmt::format(
       "{:.3g} m of {:.3g} m of the mechanism's joints had no cohesion before it moved (it was "
       "lost, "
-      "or they have closed since; residual.cohesion is lower): with residual.cohesion = cohesion "
+      "or they opened and closed again; residual.cohesion is lower): with residual.cohesion = "
+      "cohesion "
       "the factor may be higher",
       m.cohesion_lost_length, m.brittle_length);
 }

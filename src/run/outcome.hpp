@@ -62,6 +62,8 @@ struct Outcome {
   std::size_t on_nothing = 0;              ///< blocks that rested on nothing at the start
   std::size_t held_back = 0;               ///< most blocks at one row that fell freely while local
                                            ///< damping held them back
+  std::size_t loose = 0;                   ///< most blocks that had come loose at the end of a
+                                           ///< stage until equilibrium, but for pebbles
   std::vector<std::string> failed_checks;  ///< of summary.json, a sentence each
   WallSeconds wall;
 };

@@ -111,9 +111,10 @@ void warn_of_lost_points(const PreparedRun& run, std::vector<std::string>& warni
   }
 }
 
-Result<PreparedRun> prepared(Model model, BlockOrder order) {
+Result<PreparedRun> prepared(Model model, BlockOrder order, ReadFor what_for) {
   const auto start = std::chrono::steady_clock::now();
-  if (const auto fault = missing_duration(model)) return *fault;
+  const auto timeless = missing_duration(model);
+  if (timeless && what_for == ReadFor::run) return *timeless;
   Result<Simulation> made = Simulation::create(std::move(model), order);
   if (!made.ok()) return made.faults();
   PreparedRun run{std::move(made.value()), {}, {}, {}, {}, 0.0};
@@ -149,9 +150,9 @@ Result<PreparedRun> prepared(Model model, BlockOrder order) {
 
 }  // namespace
 
-Result<PreparedRun> prepare_run(Model model, BlockOrder order) {
+Result<PreparedRun> prepare_run(Model model, BlockOrder order, ReadFor what_for) {
   const KeyPlaces places = model.key_places;
-  Result<PreparedRun> made = prepared(std::move(model), order);
+  Result<PreparedRun> made = prepared(std::move(model), order, what_for);
   if (!made.ok()) return at_their_keys(places, made.faults());
   return made;
 }

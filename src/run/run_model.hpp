@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "model/read_model.hpp"
 #include "run/monitors.hpp"
 #include "run/outcome.hpp"
 #include "run/simulation.hpp"
@@ -63,8 +64,10 @@ struct PreparedRun {
 };
 
 /// Cuts, builds and checks. Faults: geometry, monitors and convergence lines outside every block, a
-/// time_step above the critical step (unless allow_unstable).
-Result<PreparedRun> prepare_run(Model model, BlockOrder order = BlockOrder::as_cut);
+/// time_step above the critical step (unless allow_unstable); no duration, unless it is looked at
+/// alone.
+Result<PreparedRun> prepare_run(Model model, BlockOrder order = BlockOrder::as_cut,
+                                ReadFor what_for = ReadFor::run);
 
 /// Runs it to its end. Faults only where the folder cannot be used; whatever happens later is an
 /// Outcome, with what had been computed kept.

@@ -110,8 +110,8 @@ void begin_settling(Settling& s, Simulation& sim, const Stage& stage) {
 }
 
 double time_to_stay(double size, double acceleration) {
-  constexpr double times = 5.0, standard_gravity = 9.81;
-  return times * std::sqrt(size / (acceleration > 0.0 ? acceleration : standard_gravity));
+  constexpr double times = 5.0;
+  return times * std::sqrt(size / (acceleration > 0.0 ? acceleration : usual_acceleration));
 }
 
 double prospect(const Simulation& sim, std::size_t i) {
@@ -162,6 +162,13 @@ double way_unheld(const Simulation& sim, std::size_t i, double v, double t, doub
   const double resultant = 3.0 * norm(centroid(sim.forces.x, sim.forces.y, i));
   const double acceleration = std::max(resultant - rounding, 0.0) / sim.blocks.mass[i];
   return v * t + 0.5 * acceleration * t * t;
+}
+
+std::size_t count_loose(const Simulation& sim) {
+  const std::vector<std::uint8_t> small = pebbles(sim);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < sim.aloof.size(); ++i) count += sim.aloof[i] != 0 && small[i] == 0;
+  return count;
 }
 
 std::string loose_blocks(const Settling& s, const Simulation& sim) {

@@ -15,6 +15,9 @@ namespace edda {
 constexpr double left_over = 1e-4;
 constexpr int looks_at_rest = 3;
 
+/// What counts for gravity where nothing acts, m/s2.
+constexpr double usual_acceleration = 9.81;
+
 /// For how long it would have to stay, s: T = 5 sqrt(size/g), in which a block that nothing held
 /// would fall by twelve of its size (m); g: acceleration of what acts, m/s2, or 0.
 double time_to_stay(double size, double acceleration);
@@ -68,6 +71,9 @@ std::vector<double> rounding_of_forces(const Simulation& sim);
 /// v (m/s), the resultant R of the forces on it less what `rounding` (N) makes, and its true mass
 /// m.
 double way_unheld(const Simulation& sim, std::size_t i, double v, double t, double rounding);
+
+/// Blocks that have come loose in the stage in hand, but for pebbles.
+std::size_t count_loose(const Simulation& sim);
 
 /// "block 25 (moves on by 3.1 mm in 0.02 s), block 7 (...)"; empty: none.
 std::string loose_blocks(const Settling& settling, const Simulation& sim);

@@ -44,6 +44,7 @@ std::optional<Fault> beyond_disks(const Simulation& sim) {
   constexpr double per_vertex = 100.0, per_column = 10.0;  // bytes, at least
   const Output& output = sim.model.output;
   const double duration = sim.model.solver.duration;
+  if (duration == 0.0) return {};
   const double frames =
       duration / output.every * static_cast<double>(sim.blocks.vertex_count()) * per_vertex;
   const double columns = 12.0 + 7.0 * static_cast<double>(sim.model.monitors.size());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "results/csv.hpp"
@@ -194,6 +195,13 @@ std::vector<Stage> stages_of(const Model& model) {
   only.duration = model.solver.duration;
   only.damping = model.solver.damping;
   return {only};
+}
+
+double first_step(const Simulation& sim, StageMasses masses) {
+  if (masses != StageMasses::uniform_step || !sim.explicit_method()) return sim.usual_step();
+  const Solver& solver = sim.model.solver;
+  return std::min(solver.safety * sim.uniform_step(),
+                  solver.time_step.value_or(std::numeric_limits<double>::infinity()));
 }
 
 std::string stage_label(const Model& model, std::size_t stage) {

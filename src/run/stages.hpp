@@ -53,6 +53,9 @@ std::string stages_csv(const Model& model, const std::vector<StageRecord>& recor
 /// The stages of the model, or the one that it is without any.
 std::vector<Stage> stages_of(const Model& model);
 
+/// The step that a stage with such masses begins with, s; that of an implicit method as usual.
+double first_step(const Simulation& sim, StageMasses masses);
+
 /// Those of `rows` that act now, or those that do not.
 NamedRows rows_that(bool act, const Spells& spells, const NamedRows& rows);
 

@@ -15,11 +15,13 @@
 #include "run/motion.hpp"
 #include "run/overstress.hpp"
 #include "run/sliver_report.hpp"
+#include "run/stages.hpp"
 
 namespace edda {
 namespace {
 
 constexpr std::string_view fall_check = "number of blocks that fell freely under local damping";
+constexpr std::string_view loose_check = "number of blocks that have come loose";
 constexpr std::string_view overlap_check = "largest overlap over half width of a block";
 constexpr std::string_view chatter_check =
     "number of times that contacts opened or closed while they chattered";
@@ -141,6 +143,11 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
   if (o.held_back > 0) {
     checks.push_back(limited(std::string(fall_check), static_cast<double>(o.held_back), 0.0));
   }
+  const std::vector<Stage> stages = stages_of(sim.model);
+  if (std::any_of(stages.begin(), stages.end(),
+                  [](const Stage& s) { return s.until == StageEnd::equilibrium; })) {
+    checks.push_back(limited(std::string(loose_check), static_cast<double>(o.loose), 0.0));
+  }
   if (sim.explicit_method()) {
     checks.insert(checks.begin() + 2,
                   limited("largest step over critical step", o.step_over_critical, 1.0));
@@ -180,6 +187,9 @@ std::string sentence_of(const Check& check, const Simulation& sim, const Outcome
         sim.blocks.viscosity.empty()
             ? "give the rock its damping (materials.NAME.damping = 0.5), or "
             : "");
+  }
+  if (check.name == loose_check) {
+    text += ": the strength given does not hold them; edda fos finds the factor of safety";
   }
   if (check.name == fall_check) {
     text +=

@@ -127,7 +127,10 @@ class Cli(Program):
         before = (self.dir / "m-fos/fos.csv").read_bytes()
         quiet = self.expect(0, *args, "--threads", "2", "--quiet")
         self.assertEqual((self.dir / "m-fos/fos.csv").read_bytes(), before)
-        self.assertEqual(quiet.stdout + quiet.stderr, "")
+        self.assertEqual(quiet.stderr, "")
+        self.assertEqual(quiet.stdout.count("\n"), 1)
+        self.assertEqual(quiet.stdout, f"{summary['message']}\n")
+        self.assertTrue(quiet.stdout.startswith("factor of safety "))
         (self.dir / "m-fos/notes.txt").write_text("mine")
         self.expect(2, *args)
         self.expect(2, "fos", "m.toml", "--set", "fos.vary=load:pull")
@@ -138,11 +141,24 @@ class Cli(Program):
             .replace("velocity = [1.0, 0.0]\n", "").replace("[solver]\nduration = 0.01\n", "")
         push = '[[load]]\nname = "push"\npoint = [0, 0.1]\nforce = [2000, 0]\n[fos]\nvary = "load:push"\n'
         (self.dir / "m.toml").write_text(model + push)
-        for command in ("check", "run", "verify"):
+        for command in ("run", "verify"):
             self.assertEqual(self.expect(2, command, "m.toml").stderr,
                              'm.toml:1:1: solver.duration: is missing: give a time above 0 such as 0.1 or "100 ms" for a '
                              'run; edda fos needs none\n')
+        checked = self.expect(0, "check", "m.toml").stdout
+        for line in ("blocks          2 (1 held)", "contacts        2 closed", "step            ",
+                     "duration        no solver.duration is given: edda run needs one, edda fos does not", "warnings        none"):
+            self.assertIn("\n" + line, "\n" + checked)
+        self.assertNotIn("\nsteps", checked)
+        found = json.loads(self.expect(0, "check", "m.toml", "--json").stdout)
+        self.assertEqual([found[key] for key in ("duration", "steps", "seconds")], [None] * 3)
+        self.assertGreater(found["steps_per_second"], 0)
+        self.expect(0, "check", "m.toml", "--set", "solver.method=dda")
+        held = self.expect(0, "check", "m.toml", "--set", "block.slider.fixed=true", "--set", "load=[]", "--set", "fos.vary=strength")
+        self.assertIn("\nstep            1 s ", held.stdout)
         self.expect(0, "cut", "m.toml")
+        self.expect(0, "plot", "m.toml", "-o", "drawn.png")
+        self.assertEqual((self.dir / "drawn.png").read_bytes()[:4], b"\x89PNG")
         self.expect(0, "fos", "m.toml", "--quiet", "--set", "fos.tolerance=0.1", "--set", "fos.bracket=[5, 9]")
         self.assertNotIn("duration", (self.dir / "m-fos/model.toml").read_text())
         self.expect(0, "fos", "m-fos/model.toml", "-o", "again", "--quiet", "--set", "fos.tolerance=0.1")
@@ -337,6 +353,17 @@ material = "rock"
         for word in ("blocks", "contacts", "critical step", "governed by", "steps", "time to expect", "warnings"):
             self.assertIn(word, out)
         self.assertEqual(self.names(), before)
+
+    def test_check_and_run_name_the_step_of_the_first_stage(self):
+        stages = '[[stage]]\nuntil = "equilibrium"\n[[stage]]\nduration = 0.001\n'
+        chip = "[[block]]\npolygon = [[0.5, 1], [0.6, 1], [0.6, 1.1], [0.5, 1.1]]\n"
+        (self.dir / "s.toml").write_text(RAMP[:RAMP.index("[solver]")].replace("velocity = [1.0, 0.0]\n", "") + chip + stages)
+        checked = re.search(r"step +about (\S+) s in stages with static masses.*; (\S+) s in others", self.expect(0, "check", "s.toml").stdout)
+        run = self.expect(0, "run", "s.toml").stderr
+        self.assertIn(f"; step about {checked[1]} s with static masses; with those as given critical ", run)
+        self.assertGreater(float(checked[1]), 2 * float(checked[2]))
+        longest = json.loads((self.dir / "s/summary.json").read_text())["time_step"]["max"]
+        self.assertAlmostEqual(longest / float(checked[1]), 1, delta=0.05)
 
     def test_cut_in_every_format(self):
         for ending in ("svg", "png", "vtu", "csv"):

@@ -121,7 +121,7 @@ TEST(BadModel, UnknownKeys) {
       broken("key of a few other tables", "[output]\n", "[output]\nscale = 1\n", 41, "output.scale",
              "scale belongs to [[import]] or [[shaking]]"),
       broken("nothing near", "title = \"base\"", "qwertyuiop = 1", 1, "qwertyuiop",
-             "the nearest is \""),
+             "unknown key: known are \""),
       broken("a key that is not due yet", "spacing = 2.0", "spacing = 2.0\nstrength = 3.0", 21,
              "joint_set.bedding.strength", "unknown key"),
   });

@@ -178,7 +178,7 @@ TEST(BadModel, Geometry) {
            Bad{"[[import]]\nfile = \"a.dxf\"\nlayers = \"A\"\n", 44, "import.0.layers",
                "a table such as"},
            Bad{"[[import]]\nfile = \"a.dxf\"\nunits = \"yd\"\n", 44, "import.0.units",
-               "the nearest"},
+               "is not known: known are"},
            Bad{"[[import]]\nfile = \"a.dxf\"\nmaterial = \"rock\"\n", 44, "import.0.material",
                "those of the domain"},
            Bad{"[[opening]]\n", 42, "opening.1", "neither polygon nor shape"},

@@ -37,7 +37,8 @@ TEST(Synonyms, NameKeysThatThereAre) {
   std::set<std::string_view> seen;
   for (const Synonym& s : synonyms()) {
     EXPECT_TRUE(seen.insert(s.word).second) << s.word << " stands twice";
-    EXPECT_TRUE(find_section(s.word) == nullptr) << s.word << " is a table";
+    EXPECT_TRUE(find_section(s.word) == nullptr || s.keys.find('.') != std::string_view::npos)
+        << s.word << " is a table";
     EXPECT_FALSE(s.keys.empty() && s.note.empty()) << s.word;
     for (std::string_view keys = s.keys; !keys.empty();) {
       const std::size_t end = std::min(keys.find(' '), keys.size());

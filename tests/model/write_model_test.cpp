@@ -421,5 +421,17 @@ TEST(Keys, AreWellFormed) {
   }
 }
 
+/// Only what follows from a duration is left out where there is none; a number that is wrong shows.
+TEST(WriteModel, LeavesOutWhatADurationWouldGiveAlone) {
+  const auto text = testing::base_with("duration = 0.1\n", "");
+  auto model = read_model_text(text, "m.toml", {}, ReadFor::no_run);
+  ASSERT_TRUE(model.ok());
+  Model m = model.value();
+  EXPECT_EQ(to_toml(m).find("duration = "), std::string::npos);
+  EXPECT_EQ(to_toml(m).find("\nhistory_every = "), std::string::npos);
+  m.solver.safety = 0.0;
+  EXPECT_NE(to_toml(m).find("safety = 0.0"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace edda::write_model_test

@@ -192,7 +192,8 @@ polygon = [[-9, -1], [9, -1], [9, 0], [-9, 0]]
   EXPECT_TRUE(warned({"contact.normal_stiffness=1e12"}, "so stiff"));
   EXPECT_FALSE(warned({}, "overlap at the start"));
   EXPECT_TRUE(warned({"block.flyer.polygon=[[0, -5e-4], [1, -5e-4], [1, 1], [0, 1]]"},
-                     "overlap at the start"));
+                     "draw the block so that it touches, or cut both from one [domain] with a "
+                     "[[trace]], or begin with a [[stage]] until = \"equilibrium\""));
 }
 
 TEST(RunModel, TwoInOneProcessDoNotMeet) {

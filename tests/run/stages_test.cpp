@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "run/prepared.hpp"
 
 namespace edda::stages_test {
@@ -153,7 +155,17 @@ TEST(Stages, WhatCreepsBesideAWallIsLoose) {
   const Outcome creeps = ends(29.0);
   EXPECT_NE(creeps.message.find("come loose: block"), std::string::npos) << creeps.message;
   EXPECT_NE(creeps.message.find("(slider)"), std::string::npos) << creeps.message;
+  const auto loose_check = [](const Outcome& o) {
+    const auto found =
+        std::find_if(o.failed_checks.begin(), o.failed_checks.end(),
+                     [](const std::string& s) { return s.find("loose") < s.size(); });
+    return found == o.failed_checks.end() ? std::string() : *found;
+  };
+  EXPECT_EQ(loose_check(creeps),
+            "number of blocks that have come loose is 1, more than 0: the strength given does not "
+            "hold them; edda fos finds the factor of safety");
   const Outcome stands = ends(31.0);
+  EXPECT_EQ(loose_check(stands), "");
   EXPECT_EQ(stands.status, Status::equilibrium);
   EXPECT_EQ(stands.message.find("loose"), std::string::npos) << stands.message;
 }
