@@ -32,7 +32,7 @@ TEST(WaysToRest, StaticImplicitStepsSeeTheirRest) {
   text << file.rdbuf();
   std::string slope = text.str();
   slope.resize(slope.find("[solver]"));
-  slope.replace(slope.find("friction_angle = 20.0"), 21, "friction_angle = 38.0");
+  slope.replace(slope.find("friction_angle = 20.0"), 21, "friction_angle = 45.0");
   const Rested implicit =
       at_rest(slope + "[solver]\nmethod = 'dda'\ndynamic = false\n" + until_rest);
   EXPECT_LT(implicit.outcome.unbalanced, 2e-5);
