@@ -11,6 +11,26 @@
 namespace edda {
 namespace {
 
+/// A key of a table that is itself a key: the spacing of deviation.
+struct InnerKey {
+  std::string_view table, key;
+
+  std::string example() const { return fmt::format("{} = {{ {} = ... }}", table, key); }
+};
+
+/// Those of all tables among the keys of an object.
+std::vector<InnerKey> inner_keys(std::span<const Key> keys, void* object) {
+  std::vector<InnerKey> list;
+  for (const Key& key : keys) {
+    if (key.slot == nullptr || key.rule.kind != Kind::table) continue;
+    const Slot slot = key.slot(object);
+    const SubTable* table = std::get_if<SubTable>(&slot);
+    if (table == nullptr) continue;
+    for (const Key& inner : table->keys) list.push_back({key.name, inner.name});
+  }
+  return list;
+}
+
 /// Tables that have a key of this name.
 std::vector<std::string> tables_with(std::string_view name) {
   std::vector<std::string> tables;
@@ -119,28 +139,12 @@ UnknownKey slip_of(std::string_view name, const Value& table, std::span<const Ke
 
 }  // namespace
 
-std::string InnerKey::example() const {
-  return fmt::format("{} = {{ {} = ... }}", table, key);
-}
-
-std::vector<InnerKey> inner_keys(std::span<const Key> keys, void* object) {
-  std::vector<InnerKey> list;
-  for (const Key& key : keys) {
-    if (key.slot == nullptr || key.rule.kind != Kind::table) continue;
-    const Slot slot = key.slot(object);
-    const SubTable* table = std::get_if<SubTable>(&slot);
-    if (table == nullptr) continue;
-    for (const Key& inner : table->keys) list.push_back({key.name, inner.name});
-  }
-  return list;
-}
-
 UnknownKey unknown_key(const Entry& entry, const Value& table, std::span<const Key> keys,
-                       const std::vector<InnerKey>& inner, const std::vector<const Key*>& meant,
-                       bool is_root) {
+                       void* object, const std::vector<const Key*>& meant, bool is_root) {
   const std::string& name = entry.key;
   if (!keys_called(name, keys).empty()) return called_here(name, table, keys);
-  if (const std::string hint = inside(name, keys, inner); !hint.empty()) return {hint};
+  if (const std::string hint = inside(name, keys, inner_keys(keys, object)); !hint.empty())
+    return {hint};
   if (find_key(sections().front().keys, name) != nullptr)
     return {fmt::format("{} belongs at the top of the file, before the first [table]", name)};
   std::vector<std::string_view> known = key_names(keys);
@@ -158,9 +162,11 @@ UnknownKey unknown_key(const Entry& entry, const Value& table, std::span<const K
   return {suggestion(name, known)};
 }
 
-std::string number_remedy(const Key& key, const Value& value, const std::vector<InnerKey>& inner) {
+std::string number_remedy(const Key& key, const Value& value, std::span<const Key> keys,
+                          void* object) {
   const Table* table = std::get_if<Table>(&value.content);
   if (key.rule.kind != Kind::number || table == nullptr) return {};
+  const std::vector<InnerKey> inner = inner_keys(keys, object);
   const auto found = std::find_if(inner.begin(), inner.end(),
                                   [&](const InnerKey& k) { return k.key == key.name; });
   if (found == inner.end()) return {};

@@ -11,16 +11,6 @@
 
 namespace edda {
 
-/// A key of a table that is itself a key: the spacing of deviation.
-struct InnerKey {
-  std::string_view table, key;
-
-  std::string example() const;  ///< deviation = { spacing = ... }
-};
-
-/// Those of all tables among the keys of an object.
-std::vector<InnerKey> inner_keys(std::span<const Key> keys, void* object);
-
 struct UnknownKey {
   /// Where it belongs, what it is called here, or which of the keys that the table knows it may be
   /// a slip of.
@@ -28,15 +18,15 @@ struct UnknownKey {
   const Key* stands_for = nullptr;  ///< one that is required and missing, of which the hint tells
 };
 
-/// `table` has the `keys`, and tables inside with `inner`; `is_root`: it is the whole file, which
-/// has sections, too; `meant`: keys that are missing and that others stand for.
+/// `table` has the `keys` and is read into `object`; `is_root`: it is the whole file, which has
+/// sections, too; `meant`: keys that are missing and that others stand for.
 UnknownKey unknown_key(const Entry& entry, const Value& table, std::span<const Key> keys,
-                       const std::vector<InnerKey>& inner, const std::vector<const Key*>& meant,
-                       bool is_root);
+                       void* object, const std::vector<const Key*>& meant, bool is_root);
 
 /// What a key asks for that got a table in place of a number, where a table beside it has more to
-/// say of it; empty: nothing of the kind.
-std::string number_remedy(const Key& key, const Value& value, const std::vector<InnerKey>& inner);
+/// say of it; empty: nothing of the kind. `keys`, `object`: as above.
+std::string number_remedy(const Key& key, const Value& value, std::span<const Key> keys,
+                          void* object);
 
 /// What a key asks for whose value is a table, with the keys in it.
 std::string table_remedy(const SubTable& table);

@@ -322,20 +322,19 @@ void read_keys(std::span<const Key> keys, void* object, const Value& table,
   const Table* entries = as<Table>(table);
   if (entries == nullptr) return;
   const bool is_root = prefix.empty();
-  const std::vector<InnerKey> inner = inner_keys(keys, object);
   std::vector<const Key*> meant;  // by keys that are unknown
   for (const Entry& entry : *entries) {
     if (is_root && find_section(entry.key) != nullptr) continue;
     const Key* key = find_key(keys, entry.key);
     if (key == nullptr) {
-      const UnknownKey unknown = unknown_key(entry, table, keys, inner, meant, is_root);
+      const UnknownKey unknown = unknown_key(entry, table, keys, object, meant, is_root);
       add_fault(reading, entry.place, prefix + entry.key, "unknown key", unknown.hint);
       meant.push_back(unknown.stands_for);
     } else {
       note_place(*key, table.place, entry.value, reading);
       if (key->slot == nullptr) continue;
       const std::string path = prefix + entry.key;
-      const std::string beside = number_remedy(*key, entry.value, inner);
+      const std::string beside = number_remedy(*key, entry.value, keys, object);
       if (beside.empty()) {
         std::visit(ReadInto{{*key, entry.value, path, reading}}, key->slot(object));
       } else {

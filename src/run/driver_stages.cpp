@@ -111,7 +111,7 @@ bool Driver::end_stage(Went went) {
     save_stage();
   }
   if (stage.until == StageEnd::equilibrium)
-    outcome_.loose = std::max(outcome_.loose, count_loose(sim_));
+    outcome_.loose = std::max(outcome_.loose, loose_ones(sim_).size());
   const std::string label = stage_label(sim_.model, stage_);
   if (went == Went::nowhere) {
     end(Status::collapsed,

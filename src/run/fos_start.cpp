@@ -133,26 +133,24 @@ bool stopped(const FosOptions& options) {
   return options.stop != nullptr && options.stop->load(std::memory_order_relaxed);
 }
 
+/// A model of one stage goes on for so long (s) at most, and writes nothing on the way.
+void last_at_most(Model& model, double time) {
+  model.stages.back().duration = model.solver.duration = time;
+  model.output.every = model.output.history_every = time;
+}
+
 /// The model with one stage in which it comes to rest as drawn; nothing shakes yet.
 Model with_rest(Model model) {
   Stage rest;
   rest.until = StageEnd::equilibrium;
   rest.damping = damping_to_rest(model.solver.damping);
   rest.masses = StageMasses::uniform_step;
-  // Nothing is written of it, and where it ends does not hang on how long a run would go on.
-  model.solver.duration = rest.duration;
-  model.output.every = model.output.history_every = rest.duration;
-  model.output.settling = false;
   model.stages.push_back(std::move(rest));
+  // Where it ends does not hang on how long a run would go on.
+  last_at_most(model, model.stages.back().duration);
+  model.output.settling = false;
   for (Shaking& shaking : model.shakings) shaking.scale = 0.0;
   return model;
-}
-
-/// The steps that the rest of a model as drawn may take.
-void limit_rest(Simulation& sim) {
-  const double time = most_steps * sim.model.solver.safety * sim.uniform_step();
-  sim.model.stages.back().duration = sim.model.solver.duration = time;
-  sim.model.output.every = sim.model.output.history_every = time;
 }
 
 /// How trials of the model start: as its stages leave it.
@@ -171,7 +169,10 @@ Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& opti
       prepare_run(before_trials(as_drawn ? with_rest(model) : model, fos, multiplier, divided));
   if (!prepared.ok()) return prepared.faults();
   if (auto fault = nothing_moves(model, prepared.value().sim)) return *fault;
-  if (as_drawn) limit_rest(prepared.value().sim);
+  if (as_drawn) {
+    Simulation& sim = prepared.value().sim;
+    last_at_most(sim.model, most_steps * sim.model.solver.safety * sim.uniform_step());
+  }
   RunOptions how;
   how.stop = options.stop;
   if (!fos.stage.empty()) how.last_stage = stage_called(model, fos.stage);
@@ -209,7 +210,7 @@ Result<FosStart> at_rest(const Model& model, const Fos& fos, const FosOptions& o
     Result<Staged> run =
         staged(model, fos, options, fos.varied == Varied::shaking ? 0.0 : 1.0, 1.0);
     if (!run.ok()) return run.faults();
-    if (run.value().rests && count_loose(run.value().start.sim) == 0)
+    if (run.value().rests && loose_ones(run.value().start.sim).empty())
       return std::move(run.value().start);
     if (options.say) options.say(run_again(model, run.value()));
   }
@@ -222,7 +223,7 @@ Result<FosStart> at_rest(const Model& model, const Fos& fos, const FosOptions& o
         "the model finds no rest however strong its joints are: {}; hold what falls, or see what "
         "it stands on",
         run.value().says);
-  } else if (count_loose(s.sim) > 0) {
+  } else if (!loose_ones(s.sim).empty()) {
     s.warnings.push_back("with joints that do not give way, " + run.value().says +
                          "; the factor is that of all others");
   }

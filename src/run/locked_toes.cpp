@@ -17,49 +17,38 @@ constexpr double flat = pi / 180.0;      // less is one line
 constexpr double open_air = 5.0 * flat;  // less is a joint that gapes
 constexpr double one_point = 1e-6;       // of the shorter edge
 
-double angle_of(Vec2 u) {
-  return std::atan2(u.y, u.x);
-}
-
-/// An angle as it is counted counter-clockwise from another, 0 to 2 pi.
-double from(double start, double angle) {
-  const double turn = std::fmod(angle - start, 2.0 * pi);
-  return turn < 0.0 ? turn + 2.0 * pi : turn;
-}
-
-/// Rock about a point: of one block, from the direction of the edge that starts there round to that
-/// of the edge that ends there.
+/// Rock of one block about a point: from the direction of the edge that starts there,
+/// counter-clockwise by its interior angle.
 struct Sector {
   Id vertex;
-  double start, end;  ///< rad, end counter-clockwise of start
+  double start, end;  ///< rad
 };
 
-/// Vertices at one point, counter-clockwise by where their rock begins.
+/// Of the vertices at one point, counter-clockwise by where their rock begins.
 std::vector<Sector> sectors_at(const BlockSet& b, const std::vector<Id>& vertices) {
   std::vector<Sector> sectors;
   for (const Id v : vertices) {
-    const Vec2 p = b.vertex(v);
-    const double start = angle_of(b.vertex(b.next[v]) - p);
-    sectors.push_back({v, start, start + from(start, angle_of(b.vertex(b.previous[v]) - p))});
+    const Vec2 along = b.vertex(b.next[v]) - b.vertex(v);
+    const double start = std::atan2(along.y, along.x);
+    sectors.push_back({v, start, start + b.corner[v]});
   }
   std::sort(sectors.begin(), sectors.end(),
             [](const Sector& p, const Sector& q) { return p.start < q.start; });
   return sectors;
 }
 
-/// The tip of a block beside the gap from `at` to `at + width` round a point. It lies on its joint
-/// with the edge in direction `along`; `far`: side of the gap on which the rock in front lies.
-void look_at_tip(const Simulation& sim, const Sector& tip, double along, double at, double width,
-                 bool far_end, Id edge, std::vector<LockedToe>& found) {
+/// The tip `v` of a block between its joint, along `edge` to the vertex `other`, and a gap of so
+/// many rad. Straight on, the tip would turn by its exterior angle from the side that is free, and
+/// beyond the gap there is rock.
+void look_at_tip(const Simulation& sim, Id v, Id edge, Id other, double gap,
+                 std::vector<LockedToe>& found) {
   const BlockSet& b = sim.blocks;
-  const Id i = b.vertex_block[tip.vertex];
-  if (b.fixed[i] != 0 || b.corner[tip.vertex] > pi - flat) return;
-  const double ahead = from(at, along + pi);  // where it would slide to
-  const Vec2 slide{std::cos(along + pi), std::sin(along + pi)};
-  if (dot(slide, sim.model.gravity) <= std::sin(flat) * norm(sim.model.gravity)) return;
-  // Past the far side of the gap, and less than straight through the rock there.
-  const double into = far_end ? ahead - width : 2.0 * pi - ahead;
-  if (into > flat && into < pi - flat) found.push_back({i, tip.vertex, b.edge_joint[edge], into});
+  const Id i = b.vertex_block[v];
+  const double into = pi - b.corner[v] - gap;
+  if (b.fixed[i] != 0 || into <= flat) return;
+  const Vec2 ahead = unit(b.vertex(v) - b.vertex(other));
+  if (dot(ahead, sim.model.gravity) <= std::sin(flat) * norm(sim.model.gravity)) return;
+  found.push_back({i, v, b.edge_joint[edge], into});
 }
 
 void look_at_point(const Simulation& sim, const std::vector<Id>& vertices,
@@ -73,16 +62,14 @@ void look_at_point(const Simulation& sim, const std::vector<Id>& vertices,
     return next - sectors[q].end;
   };
   for (std::size_t q = 0; q < n; ++q) {
-    const double width = gap_after(q);
-    if (width < open_air) continue;
-    const Sector &before = sectors[q], &after = sectors[(q + 1) % n];
-    // Each lies on a joint where no gap is on its other side.
-    if (gap_after((q + n - 1) % n) < flat) {
-      look_at_tip(sim, before, before.start, before.end, width, true, before.vertex, found);
-    }
-    if (gap_after((q + 1) % n) < flat) {
-      look_at_tip(sim, after, after.end, before.end, width, false, b.previous[after.vertex], found);
-    }
+    const double gap = gap_after(q);
+    if (gap < open_air) continue;
+    // Each of the two beside it lies on a joint where no gap is on its other side.
+    const Id before = sectors[q].vertex, after = sectors[(q + 1) % n].vertex;
+    if (gap_after((q + n - 1) % n) < flat)
+      look_at_tip(sim, before, before, b.next[before], gap, found);
+    if (gap_after((q + 1) % n) < flat)
+      look_at_tip(sim, after, b.previous[after], b.previous[after], gap, found);
   }
 }
 
@@ -132,8 +119,8 @@ void warn_of_locked_toes(const Simulation& sim, std::vector<std::string>& warnin
   warnings.push_back(fmt::format(
       "the {} under {} comes out at {} in an inner corner of the ground: the rock in front holds "
       "the tip of what slides down it, and a factor of safety counts that{}; if it is to slide "
-      "out, "
-      "let the ground in front lie a few centimetres lower, or the {} come out above the corner",
+      "out, let the ground in front lie a few centimetres lower, or the {} come out above the "
+      "corner",
       joint, block_label(b, toe.block), place_label(b.vertex(toe.vertex) + b.origin),
       toes.size() == 1 ? std::string{} : fmt::format(" ({} such places)", toes.size()), joint));
 }

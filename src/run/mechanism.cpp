@@ -31,7 +31,8 @@ double turned(const Simulation& before, const Simulation& after, std::size_t i) 
 /// Whether it turns about a point below its centroid, as what overturns does: towards where it
 /// goes. What slides along a floor that bends upwards turns the other way.
 bool overturns(const MovingBlock& m, Vec2 gravity) {
-  // From that point to the centroid: displacement turned back by a right angle, over rotation.
+  // From that point to the centroid: displacement turned back by a right angle, over
+  // rotation; times it here, which has the same direction.
   const Vec2 arm = m.rotation * Vec2{m.displacement.y, -m.displacement.x};
   return dot(arm, gravity) <= 0.0;
 }

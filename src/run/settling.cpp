@@ -164,19 +164,19 @@ double way_unheld(const Simulation& sim, std::size_t i, double v, double t, doub
   return v * t + 0.5 * acceleration * t * t;
 }
 
-std::size_t count_loose(const Simulation& sim) {
+std::vector<Id> loose_ones(const Simulation& sim) {
   const std::vector<std::uint8_t> small = pebbles(sim);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < sim.aloof.size(); ++i) count += sim.aloof[i] != 0 && small[i] == 0;
-  return count;
+  std::vector<Id> loose;
+  for (std::size_t i = 0; i < sim.aloof.size(); ++i) {
+    if (sim.aloof[i] != 0 && small[i] == 0) loose.push_back(static_cast<Id>(i));
+  }
+  return loose;
 }
 
 std::string loose_blocks(const Settling& s, const Simulation& sim) {
   std::vector<std::pair<double, Id>> loose;
-  const std::vector<std::uint8_t> small = pebbles(sim);
-  for (std::size_t i = 0; i < sim.aloof.size(); ++i) {
-    if (sim.aloof[i] == 0 || small[i] != 0) continue;
-    loose.emplace_back(norm(Vec2{s.moved_x[i], s.moved_y[i]}), static_cast<Id>(i));
+  for (const Id i : loose_ones(sim)) {
+    loose.emplace_back(norm(Vec2{s.moved_x[i], s.moved_y[i]}), i);
   }
   std::sort(loose.begin(), loose.end(), [](const auto& a, const auto& b) {
     return a.first != b.first ? a.first > b.first : a.second < b.second;

@@ -72,10 +72,10 @@ std::vector<double> rounding_of_forces(const Simulation& sim);
 /// m.
 double way_unheld(const Simulation& sim, std::size_t i, double v, double t, double rounding);
 
-/// Blocks that have come loose in the stage in hand, but for pebbles.
-std::size_t count_loose(const Simulation& sim);
+/// Blocks that have come loose in the stage in hand, but for pebbles, ascending.
+std::vector<Id> loose_ones(const Simulation& sim);
 
-/// "block 25 (moves on by 3.1 mm in 0.02 s), block 7 (...)"; empty: none.
+/// "block 25 (3.1 mm so far), block 7 (...)", the fastest first; empty: none.
 std::string loose_blocks(const Settling& settling, const Simulation& sim);
 
 }  // namespace edda

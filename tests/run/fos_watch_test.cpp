@@ -5,22 +5,14 @@
 #include <cmath>
 #include <functional>
 
-#include "run/prepared.hpp"
+#include "run/moved_block.hpp"
 
 namespace edda {
 namespace {
 
-/// A block that something holds, so that it is watched.
-const char* held_block = R"([materials.rock]
-density = 2500
-young = 1e9
-poisson = 0.2
-[joints.j]
+/// Something holds the block, so that it is watched.
+const char* const held = R"([joints.j]
 friction_angle = 30
-[solver]
-duration = 1
-[[block]]
-polygon = [[0, 0], [1, 0], [1, 1], [0, 1]]
 [[boundary]]
 along = [[0, 0], [1, 0]]
 )";
@@ -28,14 +20,13 @@ along = [[0, 0], [1, 0]]
 /// Whether the block, which has gone `place` m (over time, s) along the x axis by 4 s, goes beyond
 /// 0.1 m: asked from 0.03 m on, and past 0.1 m for 0.03 m more.
 bool goes_beyond(const std::function<double(double)>& place) {
-  Simulation sim = testing::prepared(held_block).sim;
+  Simulation sim = testing::one_block(held);
   const State start = sim.state;
   Watch watch(sim);
   watch.begin(sim);
   sim.pace.frequency = 20.0;
   while (sim.state.time < 4.0) {
-    sim.state.time += 1e-3;
-    for (std::size_t k = 0; k < 3; ++k) sim.state.x[k][0] = start.x[k][0] + place(sim.state.time);
+    testing::move_on(sim, start, place);
     watch.look_at_trend(sim);
   }
   place_vertices(sim.blocks, sim.state.x, sim.state.y, 0, sim.pose.x, sim.pose.y);

@@ -6,33 +6,22 @@
 #include <functional>
 #include <limits>
 
-#include "run/prepared.hpp"
+#include "run/moved_block.hpp"
 
 namespace edda {
 namespace {
-
-const char* block = R"([materials.rock]
-density = 2500
-young = 1e9
-poisson = 0.2
-[solver]
-duration = 1
-[[block]]
-polygon = [[0, 0], [1, 0], [1, 1], [0, 1]]
-)";
 
 /// The trend of a block that is at `place` m (over time, s) along the x axis, in a model that moves
 /// with `frequency` (1/s, over time), when it is known for the n-th time.
 double to_come(const std::function<double(double)>& place,
                const std::function<double(double)>& frequency, int n) {
-  Simulation sim = testing::prepared(block).sim;
+  Simulation sim = testing::one_block();
   const State start = sim.state;
   Trend trend;
   trend.begin(sim);
   while (n > 0) {
-    sim.state.time += 1e-3;
+    testing::move_on(sim, start, place);
     sim.pace.frequency = frequency(sim.state.time);
-    for (std::size_t k = 0; k < 3; ++k) sim.state.x[k][0] = start.x[k][0] + place(sim.state.time);
     if (trend.look(sim)) --n;
   }
   return trend.to_come(0);
