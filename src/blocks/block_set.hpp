@@ -52,6 +52,8 @@ struct BlockSet {
   std::vector<double> edge_length;  ///< [nv] at the start, m
   std::vector<double>
       corner;  ///< [nv] interior angle at vertex v at the start, rad (> pi: reentrant)
+  std::vector<double> turn_cosine,
+      turn_sine;  ///< [nv] of the exterior angle there; of a right angle where it is reentrant
 
   // Cold: building, output.
   std::array<std::vector<double>, 3> node_x,

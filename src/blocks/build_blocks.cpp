@@ -68,6 +68,9 @@ void add_vertices(BlockSet& b, const BlockPolygon& polygon, const Moments& m,
       b.edge_joint.push_back(polygon.joint[r][i]);
       b.edge_length.push_back(norm(after - p));
       b.corner.push_back(interior_angle(before, p, after));
+      const bool reentrant = b.corner.back() > std::numbers::pi * 1.001;
+      b.turn_cosine.push_back(reentrant ? 0.0 : -std::cos(b.corner.back()));
+      b.turn_sine.push_back(reentrant ? 1.0 : std::sin(b.corner.back()));
       b.vertex_x.push_back(p.x);
       b.vertex_y.push_back(p.y);
       smallest_edge = std::min(smallest_edge, norm(after - p));
@@ -96,7 +99,7 @@ void reserve(BlockSet& b, const std::vector<BlockPolygon>& polygons) {
   b.material.reserve(nb);
   b.vertex_begin.reserve(nb + 1);
   for (auto& values : b.weight) values.reserve(nv);
-  for (auto* values : {&b.edge_length, &b.corner, &b.vertex_x, &b.vertex_y}) values->reserve(nv);
+  for (auto* values : {&b.edge_length, &b.corner, &b.turn_cosine, &b.turn_sine, &b.vertex_x, &b.vertex_y}) values->reserve(nv);
   for (auto* ids : {&b.vertex_block, &b.next, &b.previous}) ids->reserve(nv);
   b.edge_joint.reserve(nv);
 }

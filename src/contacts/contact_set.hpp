@@ -12,6 +12,7 @@
 #include "base/vec2.hpp"
 #include "base/vector_loop.hpp"
 #include "blocks/block_set.hpp"
+#include "contacts/face_set.hpp"
 #include "contacts/laws.hpp"
 
 namespace edda {
@@ -246,6 +247,9 @@ struct ContactSet : ContactTerms<ContactSet> {
   std::vector<Id> begin_of_edge;  ///< [nv + 1] slots of an edge
   std::vector<Id> of_slot;        ///< [nc] its candidate
   std::vector<Id> slot;           ///< [nc] of a candidate
+
+  FaceSet faces;          ///< of contact.model = "faces": in place of all the rest
+  bool on_faces = false;  ///< contact.model
 
   // When the list was made, and how long it lives.
   std::vector<double> built_x, built_y;  ///< [nv] vertices then, m

@@ -59,6 +59,46 @@ EDDA_INLINE bool has_contacts(const ListView& c, Id first, Id end) {
          c.begin_of_edge[first] < c.begin_of_edge[end];
 }
 
+/// What the loops over the faces of a block read.
+struct FaceListView {
+  const Id *begin_of_edge, *next;
+  const double* force;
+  ConstNodeValues weight;
+};
+FaceListView faces_of(const BlockSet& b, const FaceSet& c) {
+  return {c.begin_of_edge.data(), b.next.data(), c.force.data(), values_of(b.weight)};
+}
+
+/// Forces of faces on the nodes of the block with the edges [first, end): summed on each edge, then
+/// spread from its two corners (Eq. 15).
+EDDA_INLINE void add_faces(NodeForce& f, const FaceListView& c, Id first, Id end) {
+  for (Id e = first; e < end; ++e) {
+    Four sum{};
+    for (std::size_t q = c.begin_of_edge[e]; q < c.begin_of_edge[e + 1]; ++q) {
+      add_from(sum, c.force + 4 * q);
+    }
+    const Vec2 on_start{sum[0], sum[1]}, on_end{sum[2], sum[3]};
+    const Id to = c.next[e];
+    for (std::size_t k = 0; k < 3; ++k)
+      f[k] += c.weight[k][e] * on_start + c.weight[k][to] * on_end;
+  }
+}
+
+EDDA_VECTOR void add_faces_of_blocks(FaceListView c, const Id* vertex_begin,
+                                     const std::uint8_t* is_free, NodeValues fx, NodeValues fy,
+                                     std::size_t begin, std::size_t end) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const Id first = vertex_begin[i], last = vertex_begin[i + 1];
+    if (is_free[i - begin] == 0 || c.begin_of_edge[first] == c.begin_of_edge[last]) continue;
+    NodeForce f{Vec2{fx[0][i], fy[0][i]}, Vec2{fx[1][i], fy[1][i]}, Vec2{fx[2][i], fy[2][i]}};
+    add_faces(f, c, first, last);
+    for (std::size_t k = 0; k < 3; ++k) {
+      fx[k][i] = f[k].x;
+      fy[k][i] = f[k].y;
+    }
+  }
+}
+
 ListView list_of(const BlockSet& b, const ContactSet& c) {
   return {c.begin_of_vertex.data(), c.begin_of_edge.data(), b.next.data(),
           c.force.data(),           c.reaction.data(),      values_of(b.weight)};
@@ -190,15 +230,20 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
       add_springs(f, b, springs, pose, i);
       if (loads.loads != nullptr) add_loads(f, b, loads, pose.x, pose.y, i);
       if (loads.bolts != nullptr) add_bolts(f, *loads.bolts, i);
-      if (many_corners) add_contacts(f, b, contacts, i);
+      if (many_corners && !contacts.on_faces) add_contacts(f, b, contacts, i);
     }
     for (std::size_t k = 0; k < 3; ++k) {
       forces.x[k][i] = f[k].x;
       forces.y[k][i] = f[k].y;
     }
   }
-  add_contacts_of_blocks(list_of(b, contacts), b.vertex_begin.data(), moves.data(),
-                         values_of(forces.x), values_of(forces.y), begin, end);
+  if (contacts.on_faces) {
+    add_faces_of_blocks(faces_of(b, contacts.faces), b.vertex_begin.data(), moves.data(),
+                        values_of(forces.x), values_of(forces.y), begin, end);
+  } else {
+    add_contacts_of_blocks(list_of(b, contacts), b.vertex_begin.data(), moves.data(),
+                           values_of(forces.x), values_of(forces.y), begin, end);
+  }
 }
 
 void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
@@ -211,7 +256,11 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
 
 Vec2 contact_resultant(const BlockSet& b, const ContactSet& c, std::size_t i) {
   NodeForce f{};
-  add_contacts(f, b, c, i);
+  if (c.on_faces) {
+    add_faces(f, faces_of(b, c.faces), b.vertex_begin[i], b.vertex_begin[i + 1]);
+  } else {
+    add_contacts(f, b, c, i);
+  }
   return f[0] + f[1] + f[2];
 }
 

@@ -58,7 +58,10 @@ struct BlockEquations {
   }
 };
 
+std::vector<Part> faces_all_round(const Scene& w, std::size_t i);
+
 std::vector<Part> parts_of(const Scene& w, std::size_t i) {
+  if (w.c.on_faces) return faces_all_round(w, i);
   const BlockSet& b = w.b;
   const ContactSet& c = w.c;
   const Rotation r = rotation(deformation(b, w.s.x, w.s.y, i));
@@ -88,10 +91,68 @@ std::vector<Part> parts_of(const Scene& w, std::size_t i) {
   return parts;
 }
 
+/// A spring that lies along a part of an edge.
+struct Bedded {
+  double stiffness, length;  ///< N/m per m, with the factor 1 or 2; m
+  Id face;
+};
+
+/// What springs along an edge of length l make of the stiffness at each of its corners, at most:
+/// they cannot lie over each other, and each is least favourable nearest to the corner, the
+/// stiffest first. Int k(s) (1 - s/l) ds.
+double at_each_corner(std::vector<Bedded>& beds, double l) {
+  std::stable_sort(beds.begin(), beds.end(),
+                   [](const Bedded& p, const Bedded& q) { return p.stiffness > q.stiffness; });
+  double sum = 0.0, from = 0.0;
+  for (const Bedded& bed : beds) {
+    const double to = std::min(from + bed.length / l, 1.0);
+    sum += bed.stiffness * l * ((to - 0.5 * to * to) - (from - 0.5 * from * from));
+    from = to;
+  }
+  return sum;
+}
+
+/// Faces of block i as if they touched all round: those in the list, and others as itself where
+/// there is none. From the shape of the blocks alone, so that the step does not change with the
+/// state.
+std::vector<Part> faces_all_round(const Scene& w, std::size_t i) {
+  const BlockSet& b = w.b;
+  const FaceSet& c = w.c.faces;
+  const bool alone = std::count(b.fixed.begin(), b.fixed.end(), 0) == 1;
+  std::vector<Part> parts;
+  std::vector<Bedded> normal, shear;
+  for (Id e = b.vertex_begin[i]; e < b.vertex_begin[i + 1]; ++e) {
+    const double l = b.edge_length[e];
+    const Law& own = w.laws.rows[w.laws.resolve(b.edge_joint[e], b.edge_joint[e])];
+    const double bare = alone ? 1.0 : 2.0;
+    const double kn =
+        own.kn > 0.0 ? own.kn * w.laws.thickness : 2.0 * w.laws.normal_spring(own, 0.0) / l;
+    const double ks =
+        own.ks > 0.0 ? own.ks * w.laws.thickness : 2.0 * w.laws.shear_spring(own, 0.0) / l;
+    normal.assign(1, {bare * kn, l, no_id});
+    shear.assign(1, {bare * ks, l, no_id});
+    c.for_faces(e, e + 1, [&](Id k, bool of_edge) {
+      const Id f = of_edge ? c.facing[k] : c.edge[k];
+      const double factor = b.fixed[b.vertex_block[f]] != 0 ? 1.0 : 2.0;
+      normal.push_back({factor * c.stiffness[k], b.edge_length[f], k});
+      shear.push_back({factor * c.shear_stiffness[k], b.edge_length[f], k});
+    });
+    const double of_normal = at_each_corner(normal, l), of_shear = at_each_corner(shear, l);
+    const Vec2 t = unit(b.vertex(b.next[e]) - b.vertex(e));
+    for (const Id v : {e, b.next[e]}) {
+      const auto weights = vertex_weights(b, v);
+      parts.push_back({normal.front().face, along(weights, outward_normal(t)), along(weights, t),
+                       of_normal, of_shear, 0.0, 0.0});
+    }
+  }
+  return parts;
+}
+
 /// Contacts that bare corners would make: a block in motion meets its neighbours corner first, and
 /// a step chosen with that in mind need not change when it does. Whether there are any.
 bool add_bare_corners(BlockEquations& k, const Scene& w, std::size_t i) {
   const BlockSet& b = w.b;
+  if (w.c.on_faces) return false;
   bool any = false;
   for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v) {
     const bool touches = std::any_of(k.parts.begin(), k.parts.end(),

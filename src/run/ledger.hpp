@@ -17,12 +17,13 @@ struct Ledger {
   double gravity = 0.0;                                  ///< since t = 0
   double friction = 0.0, damping = 0.0, fracture = 0.0;  ///< dissipated, >= 0
   double external = 0.0;                                 ///< work done on the blocks
+  double transfer = 0.0;                                 ///< taken by rules that are no physics
   double step_change = 0.0;                              ///< what changes of the step took out
   double drift = 0.0;  ///< balance, less that at the start, over the largest scale so far
 
   double balance() const {
-    return kinetic + strain + contact + gravity + friction + damping + fracture + step_change -
-           external;
+    return kinetic + strain + contact + gravity + friction + damping + fracture + transfer +
+           step_change - external;
   }
   /// What the drift is measured against.
   double scale() const { return kinetic + strain + contact + friction + damping + fracture; }

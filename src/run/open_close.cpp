@@ -9,7 +9,7 @@
 #include "contacts/stored_energy.hpp"
 #include "contacts/switching.hpp"
 #include "forces/contact_forces.hpp"
-#include "integrate/leapfrog.hpp"
+#include "run/push_block.hpp"
 
 namespace edda {
 namespace {
@@ -106,31 +106,9 @@ ForceChange reset_force(ContactSet& c, const BlockSet& b, const Switcher& s, dou
   return change;
 }
 
-/// Moves block i by a changed impulse.
-void push(const BlockSet& b, State& s, Pose& pose, Id i, const std::array<Vec2, 3>& force,
-          double dv_per_force, double h_new, StrainDamping* strain) {
-  if (b.fixed[i]) return;
-  std::array<Vec2, 3> dv = accelerations(b, i, force);
-  for (Vec2& v : dv) v = dv_per_force * v;
-  if (strain != nullptr) dv = damped_change(*strain, b, s, h_new, i, dv);
-  for (std::size_t k = 0; k < 3; ++k) {
-    s.vx[k][i] += dv[k].x;
-    s.vy[k][i] += dv[k].y;
-    s.x[k][i] += h_new * dv[k].x;
-    s.y[k][i] += h_new * dv[k].y;
-  }
-  place_vertices(b, s.x, s.y, i, pose.x, pose.y);
-}
-
 void keep_once(std::vector<Id>& list) {
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
-}
-
-/// Change of velocity per change of acceleration, as advance() makes it, s.
-double kick_of(const StepTaken& taken) {
-  const double h_mean = 0.5 * (taken.h_old + taken.h_new);
-  return h_mean / (1.0 + 0.5 * taken.mass_damping * h_mean);
 }
 
 /// One step's correction: what it works on.
@@ -231,8 +209,8 @@ class Correction {
     s.seen = ++scratch_.tick;
     s.done = same_part && change.size * s.moved_per_force <= let_be * settled_;
     if (change.size == 0.0) return same_part;
-    push(b_, s_, pose_, i, change.on_i, dv_per_force_, h_new_, strain_);
-    push(b_, s_, pose_, j, change.on_j, dv_per_force_, h_new_, strain_);
+    push_block(b_, s_, pose_, i, change.on_i, dv_per_force_, h_new_, strain_);
+    push_block(b_, s_, pose_, j, change.on_j, dv_per_force_, h_new_, strain_);
     scratch_.pushed.push_back(i);
     scratch_.pushed.push_back(j);
     if (!s.done) scratch_.moved[i] = scratch_.moved[j] = s.seen;

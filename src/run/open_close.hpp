@@ -9,7 +9,7 @@
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
 #include "contacts/contact_set.hpp"
-#include "integrate/strain_damping.hpp"
+#include "run/push_block.hpp"
 
 namespace edda {
 
@@ -21,12 +21,6 @@ struct OpenCloseCounts {
   std::uint64_t unsettled = 0;  ///< steps that had not settled after the last pass
   std::vector<Id> of_contact;   ///< [nc] those of each, since the list of contacts was made
   std::uint64_t of_list = 0;    ///< ContactSet::rebuilds
-};
-
-/// Steps behind and ahead of the force, and damping, as advance() used them.
-struct StepTaken {
-  double h_old = 0.0, h_new = 0.0, mass_damping = 0.0;
-  StrainDamping* strain = nullptr;
 };
 
 /// A contact that opened, closed or turned its shear round in the step in hand.

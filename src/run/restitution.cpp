@@ -63,7 +63,8 @@ Model flat_impact(const Model& model, const Reference& reference, const JointLaw
   joint.kn = law.kn;
   joint.ks = law.ks;
   m.joints = {joint};
-  m.contact = {spring, spring, 0};
+  m.contact.normal_stiffness = m.contact.shear_stiffness = spring;
+  m.contact.joint = 0;
   m.solver.mass = model.solver.mass;
   m.solver.damping.rayleigh = model.solver.damping.rayleigh;
   m.solver.damping.contact = damping;

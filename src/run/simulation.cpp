@@ -11,6 +11,7 @@
 #include "base/polygon.hpp"
 #include "blocks/build_blocks.hpp"
 #include "contacts/candidates.hpp"
+#include "contacts/find_faces.hpp"
 #include "contacts/gaps.hpp"
 #include "contacts/joint_laws.hpp"
 #include "contacts/settling.hpp"
@@ -128,12 +129,17 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   s.smallest_half_width = *std::min_element(s.blocks.inradius.begin(), s.blocks.inradius.end());
   s.step_limit = std::numeric_limits<double>::infinity();
 
+  s.pose.x2 = s.pose.x;
+  s.pose.y2 = s.pose.y;
+  s.contacts.on_faces = s.explicit_method() && s.model.contact.model == ContactModel::faces;
   if (s.explicit_method()) s.given_mass_ = {s.blocks.node_mass, s.blocks.inverse_mass};
   s.search(s.base_reach);
-  update_shares(s.contacts);
-  block_far_sides(s.contacts, s.blocks, s.pose);
-  bond_contacts(s.contacts, s.blocks, s.state, s.pose, s.laws);
-  s.close_contacts();
+  if (!s.on_faces()) {
+    update_shares(s.contacts);
+    block_far_sides(s.contacts, s.blocks, s.pose);
+    bond_contacts(s.contacts, s.blocks, s.state, s.pose, s.laws);
+    s.close_contacts();
+  }
   s.plan_slivers();
   s.set_limit();
   s.free_field = attach_free_field(s.model, s.blocks, s.dashpots, s.step_limit);
@@ -160,11 +166,15 @@ void Simulation::start(double first_event) {
       pose.y1[v] = pose.y[v] - h * pose.y1[v];
     });
     start_ground(h);
-    look_at_previous_gaps(contacts, pose);
+    if (on_faces()) {
+      place_faces(contacts.faces, blocks, pose);
+    } else {
+      look_at_previous_gaps(contacts, pose);
+    }
   };
   look_back();
   if (laws.any_changes) update_joint_laws(contacts, blocks, laws);
-  evaluate_contacts(contacts, blocks, laws, h, damping.contact);
+  if (!on_faces()) evaluate_contacts(contacts, blocks, laws, h, damping.contact);
   gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity, acting());
   hold_ = dashpot_hold({}, free_field.columns);
   add_dashpots(forces, on_dashpots, dashpots, blocks, state, state.vx, state.vy,
@@ -174,6 +184,7 @@ void Simulation::start(double first_event) {
 }
 
 void Simulation::search(double reach) {
+  if (on_faces()) return find_faces(contacts.faces, blocks, state, pose, laws, reach);
   rebuild_candidates(contacts, blocks, state, pose, laws, reach);
   block_shielded(contacts, blocks, pose);
 }
@@ -283,7 +294,12 @@ std::optional<Failure> Simulation::step() {
   split_jump();
   const double h_old = step_before_;
   if (laws.any_changes) update_joint_laws(contacts, blocks, laws);
-  evaluate_contacts(contacts, blocks, laws, h_old, damping.contact);
+  if (on_faces()) {
+    std::swap(pose.x1, pose.x2);
+    std::swap(pose.y1, pose.y2);
+  } else {
+    evaluate_contacts(contacts, blocks, laws, h_old, damping.contact);
+  }
   const LoadsNow at_work = acting();
   clock.lap(seconds.forces);
 
@@ -310,9 +326,20 @@ std::optional<Failure> Simulation::step() {
   const double h = state.step;
   clock.lap(seconds.integrate);
 
-  update_gaps(contacts, pose);
+  if (on_faces()) {
+    next_step(contacts.faces);
+    place_faces(contacts.faces, blocks, pose);
+  } else {
+    update_gaps(contacts, pose);
+  }
   clock.lap(seconds.search);
-  if (model.solver.switching == Switching::exact) {
+  if (on_faces()) {
+    const StepTaken taken{h_old, h, damps_.mass, damps_.strain};
+    if (model.solver.switching == Switching::exact) {
+      correct_switching(contacts.faces, blocks, state, pose, taken, open_close, face_switching_);
+    }
+    penetration = largest_closure(contacts.faces);
+  } else if (model.solver.switching == Switching::exact) {
     const StepTaken taken{h_old, h, damps_.mass, damps_.strain};
     penetration = correct_switching(contacts, blocks, state, pose, taken, open_close, switching_);
   } else {
@@ -324,7 +351,7 @@ std::optional<Failure> Simulation::step() {
     ++steps.changes;
   }
   book_damping(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h, damps_, damping_work);
-  if (damping.contact > 0.0 || laws.any_dashpots) book_dashpots(contacts);
+  if (!on_faces() && (damping.contact > 0.0 || laws.any_dashpots)) book_dashpots(contacts);
   book_loads(h_old, h, at_work);
   book_boundaries(h_old, h);
   update_bolts(bolts, state);
@@ -335,6 +362,15 @@ std::optional<Failure> Simulation::step() {
   }
   clock.lap(seconds.integrate);
 
+  if (on_faces()) {
+    search_if_due();
+    if (step_limit < state.step * (1.0 - 1e-12) ||
+        (steps_left_ > 0 && step_limit > 1.25 * state.step)) {
+      if (steps_left_ > 0) aim_at(target_);
+    }
+    clock.lap(seconds.search);
+    return inspect();
+  }
   update_shares(contacts);
   search_if_due();
   const TransitionCounts counts =
@@ -376,28 +412,33 @@ void Simulation::finish_step() {
   }
 }
 
-void Simulation::search_if_due() {
-  contacts.travel += last_displacement;
+template <class List>
+bool Simulation::list_is_due(List& list) {
+  list.travel += last_displacement;
   // How far any vertex may go before this is asked again.
   const double ahead = explicit_method() ? 2.0 * last_displacement : displacement_limit;
-  if (contacts.travel + ahead <= 0.5 * contacts.reach) return;
+  if (list.travel + ahead <= 0.5 * list.reach) return false;
   // The sum of displacements is a bound; what counts is how far any vertex is from where it was.
   const std::size_t nv = blocks.vertex_count();
   double moved2 = 0.0;
   for (std::size_t v = 0; v < nv; ++v) {
-    const double dx = pose.x[v] - contacts.built_x[v], dy = pose.y[v] - contacts.built_y[v];
+    const double dx = pose.x[v] - list.built_x[v], dy = pose.y[v] - list.built_y[v];
     const double d2 = dx * dx + dy * dy;
     if (!(d2 <= moved2)) moved2 = d2;
   }
-  contacts.travel = std::sqrt(moved2);
-  if (!(contacts.travel <= 100.0 * (contacts.reach + displacement_limit))) {
+  list.travel = std::sqrt(moved2);
+  if (!(list.travel <= 100.0 * (list.reach + displacement_limit))) {
     last_displacement = std::numeric_limits<double>::infinity();  // inspect() ends the run
-    return;
+    return false;
   }
   const double margin = explicit_method() ? 2.0 * ahead : ahead;
-  if (contacts.travel + margin <= 0.5 * contacts.reach) return;
+  return list.travel + margin > 0.5 * list.reach;
+}
+
+void Simulation::search_if_due() {
+  if (!(on_faces() ? list_is_due(contacts.faces) : list_is_due(contacts))) return;
   search(std::max(base_reach, 20.0 * last_displacement));
-  update_shares(contacts);
+  if (!on_faces()) update_shares(contacts);
   set_limit();
 }
 

@@ -28,6 +28,7 @@
 #include "model/model.hpp"
 #include "model/stage_names.hpp"
 #include "run/divergence.hpp"
+#include "run/face_switching.hpp"
 #include "run/initial_balance.hpp"
 #include "run/ledger.hpp"
 #include "run/open_close.hpp"
@@ -184,6 +185,7 @@ struct Simulation {
   Vec2 ground_velocity() const;
 
   bool explicit_method() const { return model.solver.method == Method::edda; }
+  bool on_faces() const { return contacts.on_faces; }
   /// Damping in proportion to mass that acts at present, 1/s.
   double drag() const;
   /// Largest step allowed, s: of the implicit method once its short first ones are over.
@@ -204,6 +206,8 @@ struct Simulation {
   void set_implicit_limit();
   void search(double reach);
   void search_if_due();
+  template <class List>
+  bool list_is_due(List& list);
   bool move(double h_old, double h_new, const LoadsNow* not_yet_gathered);
   Vec2 twice_incoming(Index boundary) const;
   void start_ground(double h);
@@ -256,6 +260,7 @@ struct Simulation {
   std::vector<FreeFieldColumn> next_columns_;
   std::vector<double> largest_;
   SwitchingScratch switching_;
+  FaceSwitchingScratch face_switching_;
   TransitionScratch transitions_;
 };
 

@@ -1,0 +1,253 @@
+// The contact of two blocks: a face, an edge of one against an opposed edge of another (Goodman's
+// joint element, Goodman, Taylor & Brekke 1968, with large displacements). docs/contacts.md.
+//
+// Notation. Edge e = p1p2 of the one block and edge f = q1q2 of the other, both interiors on the
+// left.
+//   E = p2 - p1, F = q2 - q1; frame t = (E - F)/|E - F|, n = (t.y, -t.x), out of the first block.
+//   s, y: coordinates along t and n from p1. Overlap [sa, sb], length L = sb - sa; at each of its
+//   ends one corner bounds it, which lies over the parts xi of e (from p1 to p2) and eta of f
+//   (from q2 to q1). Closures da and db there (m, > 0: pressed together), linear in between.
+// Stored energy  U = w W k L phi(da, db),  phi = phi_exact + b (phi_ends - phi_exact):
+//   phi_exact = 1/(2 L) Int max(d, 0)^2 ds        the joint's own law;
+//   phi_ends  = (max(da, 0)^2 + max(db, 0)^2)/4   the integral taken at the ends: a corner that
+//                                                 leans on an edge keeps its whole spring;
+//   b  share of a leaning corner: 1 where it lies flat, 0 where its other edge lies flat;
+//   w  fades what is deeper than long, W what stands across.
+// Forces are the exact gradient of U: they sum to zero and have no moment.
+#pragma once
+
+#include <cmath>
+
+#include "base/vec2.hpp"
+#include "base/vector_loop.hpp"
+
+namespace edda {
+
+/// Corners of the two edges, m.
+struct FacePoints {
+  Vec2 p1, p2, q1, q2;
+};
+
+/// What a face keeps while its blocks move.
+struct FacePair {
+  double stiffness = 0.0;  ///< k times the thickness, N/m per metre of overlap
+  double offset = 0.0;     ///< o, closure of the surfaces as drawn, m: initial stress, dilation
+  double ends = 0.0;       ///< 1: the integral is taken at the ends; 0: exact
+  double pulls = 0.0;      ///< 1: bears tension
+  double inverse_lengths = 0.0;  ///< 1/(l_e l_f) at the start, 1/m2
+  double gate_from = 0.0;        ///< cosine of the angle between the edges from which W > 0
+  double gate_scale = 1.0;       ///< 1/(cosine from which W = 1, less gate_from)
+  double passing = 1.0;          ///< m: corners nearer than this have one share between them
+  Vec2 p1_turn, p2_turn, q1_turn, q2_turn;  ///< cosine and sine of the exterior angles
+};
+
+/// A force or a weight at each end of the overlap.
+struct FaceEnds {
+  double a = 0.0, b = 0.0;
+};
+
+/// Forces on the corners, N.
+struct CornerForces {
+  Vec2 p1, p2, q1, q2;
+};
+
+/// A face as it stands.
+struct Face {
+  Vec2 t;
+  double base = 1.0;    ///< |E - F|, m
+  double length = 0.0;  ///< L, m; <= 0: no overlap
+  FaceEnds closure;     ///< d, m
+  FaceEnds xi, eta;
+  double gate = 0.0;        ///< w W
+  double angle_gate = 0.0;  ///< W
+  double energy = 0.0;      ///< U, J
+  FaceEnds normal;          ///< w W dU/dd of each end: the normal force there, N
+  CornerForces force;         ///< of the normal pressure
+};
+
+/// A choice that loops over several faces can make.
+EDDA_INLINE Vec2 chosen(bool first, Vec2 a, Vec2 b) {
+  return {first ? a.x : b.x, first ? a.y : b.y};
+}
+
+/// S(x) = x^2 (3 - 2 x) on [0, 1], 0 before and 1 beyond.
+struct SmoothStep {
+  double value, slope;
+};
+EDDA_INLINE SmoothStep smooth_step(double x) {
+  const double u = smaller(larger(x, 0.0), 1.0);
+  return {u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u)};
+}
+
+/// Closures deeper than this part of the overlap begin to fade, and are gone at four times that.
+inline constexpr double aspect_from = 0.5, aspect_range = 1.5;
+
+/// phi and its derivatives by da and db.
+struct ClosurePotential {
+  double value, by_a, by_b;
+};
+
+/// 1/(2 L) Int max(d, 0)^2 ds: (da^2 + da db + db^2)/6 where both ends are closed; else, of the
+/// closed end d, d^3/(6 |da - db|).
+EDDA_INLINE ClosurePotential exact_potential(double da, double db, bool pulls) {
+  const double pa = larger(da, 0.0), pb = larger(db, 0.0);
+  const bool whole = pulls | ((da >= 0.0) & (db >= 0.0));
+  const double closed = pa + pb, difference = std::abs(da - db);
+  const double part = closed / (difference > 0.0 ? difference : 1.0);
+  const double far = closed * part * part / 6.0;  // by the open end
+  const double near = closed * part / 2.0 - far;  // by the closed end
+  return {whole ? (da * da + da * db + db * db) / 6.0 : closed * closed * part / 6.0,
+          whole ? (2.0 * da + db) / 6.0 : (pa > 0.0 ? near : far),
+          whole ? (da + 2.0 * db) / 6.0 : (pb > 0.0 ? near : far)};
+}
+
+EDDA_INLINE ClosurePotential potential_at_ends(double da, double db, bool pulls) {
+  const double pa = pulls ? da : larger(da, 0.0), pb = pulls ? db : larger(db, 0.0);
+  return {(pa * pa + pb * pb) / 4.0, pa / 2.0, pb / 2.0};
+}
+
+/// Part of a leaning corner, sin^2(eps - theta)/(sin^2 theta + sin^2(eps - theta)): its two edges
+/// make theta and eps - theta with the edge that it leans on, so that their parts sum to one.
+/// c and s: cosine and sine of theta >= 0, both times the same length. With its derivatives.
+struct CornerShare {
+  double value, by_c, by_s;
+};
+EDDA_INLINE CornerShare corner_share(Vec2 turn, double c, double s) {
+  const double x = larger(turn.y * c - turn.x * s, 0.0);
+  const double a = x * x, b = s * s, sum = a + b;
+  const double inverse = 1.0 / (sum > 0.0 ? sum : 1.0), twice = 2.0 * inverse * inverse;
+  return {a * inverse, twice * b * x * turn.y, -twice * (b * x * turn.x + a * s)};
+}
+
+/// Adds force `f` along the frame at a point of each edge, f on the second, -f on the first.
+EDDA_INLINE void add_at(CornerForces& on, double xi, double eta, Vec2 f) {
+  on.p1 -= (1.0 - xi) * f;
+  on.p2 -= xi * f;
+  on.q1 += eta * f;
+  on.q2 += (1.0 - eta) * f;
+}
+
+/// The frame goes with both edges: their couples, which leave no moment.
+EDDA_INLINE void add_couple_of_frame(CornerForces& on, const FacePoints& at, Vec2 t, double base) {
+  const Vec2 p = at.p1;
+  const double moment = cross(at.p2 - p, on.p2) + cross(at.q1 - p, on.q1) + cross(at.q2 - p, on.q2);
+  const Vec2 f = (moment / base) * perp(t);
+  on.p1 += f;
+  on.p2 -= f;
+  on.q1 -= f;
+  on.q2 += f;
+}
+
+EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
+  Face face;
+  const Vec2 e = at.p2 - at.p1, f = at.q2 - at.q1, g = e - f;
+  const double apart = norm(g), base = apart > 0.0 ? apart : 1.0;
+  const Vec2 t = g / base, n = outward_normal(t);
+  const Vec2 to_q1 = at.q1 - at.p1, to_q2 = at.q2 - at.p1;
+  const double s2 = dot(e, t), y2 = dot(e, n);
+  const double r1 = dot(to_q1, t), z1 = dot(to_q1, n), r2 = dot(to_q2, t), z2 = dot(to_q2, n);
+  const bool opposed = (s2 > 0.0) & (r1 > r2);
+  const double per_e = 1.0 / (opposed ? s2 : 1.0), per_f = 1.0 / (opposed ? r1 - r2 : 1.0);
+  const double slope_e = y2 * per_e, slope_f = (z1 - z2) * per_f;
+  const bool a_by_p = r2 <= 0.0, b_by_p = s2 <= r1;  // p1 and p2 bound the overlap
+  const double sa = a_by_p ? 0.0 : r2, sb = b_by_p ? s2 : r1;
+  face.t = t;
+  face.base = base;
+  face.length = sb - sa;
+  face.xi = {sa * per_e, sb * per_e};
+  face.eta = {(sa - r2) * per_f, (sb - r2) * per_f};
+  const double da = slope_e * sa - (z2 + slope_f * (sa - r2)) + pair.offset;
+  const double db = slope_e * sb - (z2 + slope_f * (sb - r2)) + pair.offset;
+  face.closure = {da, db};
+
+  // W, of the angle theta between the edges; c and s: its cosine and sine, times both lengths.
+  const double c = -dot(e, f), s = cross(f, e);
+  const SmoothStep by_angle =
+      smooth_step((c * pair.inverse_lengths - pair.gate_from) * pair.gate_scale);
+  const bool on = (face.length > 0.0) & (c * pair.inverse_lengths > pair.gate_from) & opposed;
+
+  // w, of the deeper end's closure as the edges are drawn
+  const bool deep_b = db >= da, pulls = pair.pulls != 0.0;
+  const double deepest = larger(da, db) - pair.offset;
+  const bool fades = (deepest > 0.0) & !pulls;
+  const double per_deepest = 1.0 / (fades ? deepest : 1.0);
+  const SmoothStep by_aspect =
+      smooth_step(fades ? (face.length * per_deepest - aspect_from) / aspect_range : 1.0);
+  const double aspect_slope = by_aspect.slope / aspect_range * per_deepest;  // dw/dL
+
+  // b, of the corner that bounds the deeper end; one that is about to pass it counts, too
+  const Vec2 a_turn = chosen(a_by_p, pair.p1_turn, pair.q2_turn),
+             a_other = chosen(a_by_p, pair.q2_turn, pair.p1_turn);
+  const Vec2 b_turn = chosen(b_by_p, pair.p2_turn, pair.q1_turn),
+             b_other = chosen(b_by_p, pair.q1_turn, pair.p2_turn);
+  const double tilt = std::abs(s);
+  const CornerShare own = corner_share(chosen(deep_b, b_turn, a_turn), c, tilt);
+  const CornerShare other = corner_share(chosen(deep_b, b_other, a_other), c, tilt);
+  const double past = deep_b ? s2 - r1 : -r2;  // of the first block's corner beyond the second's
+  const SmoothStep passing = smooth_step(1.0 - std::abs(past) / pair.passing);
+  const bool more = other.value > own.value;
+  const double mixed = more ? passing.value : 0.0;
+  const double share = pair.ends * (own.value + mixed * (other.value - own.value));
+  const double share_by_c = pair.ends * (own.by_c + mixed * (other.by_c - own.by_c));
+  const double share_by_tilt = pair.ends * (own.by_s + mixed * (other.by_s - own.by_s));
+  const double share_by_past =
+      pair.ends * (more ? (other.value - own.value) * passing.slope / pair.passing : 0.0);
+
+  const ClosurePotential exact = exact_potential(da, db, pulls),
+                         ends = potential_at_ends(da, db, pulls);
+  const double gain = ends.value - exact.value;
+  const double gate = on ? by_aspect.value * by_angle.value : 0.0;
+  const double whole = on ? pair.stiffness * face.length : 0.0;
+  const double phi = exact.value + share * gain;
+  face.gate = gate;
+  face.angle_gate = on ? by_angle.value : 0.0;
+  face.energy = gate * whole * phi;
+  face.normal = {gate * whole * (exact.by_a + share * (ends.by_a - exact.by_a)),
+                 gate * whole * (exact.by_b + share * (ends.by_b - exact.by_b))};
+
+  // dU/dL, dU/dd, dU/dc, dU/ds and dU/d(past)
+  const double stored = whole * phi, angle_gate = face.angle_gate;
+  const double by_length =
+      gate * (on ? pair.stiffness : 0.0) * phi + angle_gate * stored * aspect_slope;
+  const double by_deepest = -angle_gate * stored * aspect_slope * face.length * per_deepest;
+  const double by_a = face.normal.a + (deep_b ? 0.0 : by_deepest);
+  const double by_b = face.normal.b + (deep_b ? by_deepest : 0.0);
+  const double by_share = gate * whole * gain;
+  const double by_c = (on ? by_aspect.value : 0.0) * stored * by_angle.slope * pair.gate_scale *
+                          pair.inverse_lengths +
+                      by_share * share_by_c;
+  const double by_s = by_share * (s < 0.0 ? -share_by_tilt : share_by_tilt);
+  const double by_past = by_share * (past < 0.0 ? share_by_past : -share_by_past);
+
+  CornerForces& force = face.force;
+  add_at(force, face.xi.a, face.eta.a, by_a * (n - (a_by_p ? slope_f : slope_e) * t));
+  add_at(force, face.xi.b, face.eta.b, by_b * (n - (b_by_p ? slope_f : slope_e) * t));
+  const Vec2 stretch = by_length * t;
+  force.p1 += (a_by_p ? 1.0 : 0.0) * stretch;
+  force.q2 += (a_by_p ? 0.0 : 1.0) * stretch;
+  force.p2 -= (b_by_p ? 1.0 : 0.0) * stretch;
+  force.q1 -= (b_by_p ? 0.0 : 1.0) * stretch;
+  const Vec2 beside = by_past * t;  // past = (p2 - q1).t or (p1 - q2).t
+  force.p2 -= (deep_b ? 1.0 : 0.0) * beside;
+  force.q1 += (deep_b ? 1.0 : 0.0) * beside;
+  force.p1 -= (deep_b ? 0.0 : 1.0) * beside;
+  force.q2 += (deep_b ? 0.0 : 1.0) * beside;
+  add_couple_of_frame(force, at, t, base);
+  const Vec2 turn_e = by_c * f - by_s * perp(f), turn_f = by_c * e + by_s * perp(e);
+  force.p2 += turn_e;
+  force.p1 -= turn_e;
+  force.q2 += turn_f;
+  force.q1 -= turn_f;
+  return face;
+}
+
+/// Forces of shear forces T at the ends (N, along t on the second edge, against it on the first).
+EDDA_INLINE CornerForces shear_forces(const FacePoints& at, const Face& face, FaceEnds shear) {
+  CornerForces force;
+  add_at(force, face.xi.a, face.eta.a, shear.a * face.t);
+  add_at(force, face.xi.b, face.eta.b, shear.b * face.t);
+  add_couple_of_frame(force, at, face.t, face.base);
+  return force;
+}
+
+}  // namespace edda

@@ -1,0 +1,186 @@
+#include "contacts/find_faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "contacts/gap.hpp"
+#include "contacts/search.hpp"
+
+namespace edda {
+namespace {
+
+using EdgePair = std::pair<Id, Id>;
+using FaceArray = std::vector<double> FaceSet::*;
+
+/// Kept over a search, beside FaceMemory.
+constexpr FaceArray kept_faces[] = {&FaceSet::lives,    &FaceSet::acts,          &FaceSet::leans,
+                                &FaceSet::friction, &FaceSet::cohesion,      &FaceSet::offset,
+                                &FaceSet::pulls,    &FaceSet::friction_work, &FaceSet::transfer};
+/// Filled for every list.
+constexpr FaceArray constants[] = {
+    &FaceSet::stiffness,  &FaceSet::shear_stiffness, &FaceSet::inverse_lengths, &FaceSet::gate_from,
+    &FaceSet::gate_scale, &FaceSet::passing,         &FaceSet::at_ends};
+
+/// Cosine of the angle up to which a face acts wholly, and of that at which it is gone: 60 and 85
+/// degrees, and for a needle of alpha < 90 degrees, whose two edges stand across it at 90 -
+/// alpha/2, (90 - alpha)/2 more.
+struct AngleGate {
+  double whole, none;
+};
+AngleGate angle_gate(const BlockSet& b, Id e, Id f) {
+  constexpr double pi = std::numbers::pi;
+  const double sharpest =
+      std::min({b.corner[e], b.corner[b.next[e]], b.corner[f], b.corner[b.next[f]]});
+  const double more = std::max(0.0, 0.5 * (0.5 * pi - sharpest));
+  return {std::cos(pi / 3.0 + more), std::cos(85.0 / 180.0 * pi + more)};
+}
+
+/// Whether the edges may come to be opposed before a vertex has moved by half of `reach`.
+bool may_oppose(const BlockSet& b, const Pose& pose, Id e, Id f, double reach) {
+  const Vec2 u = at(pose.x, pose.y, b.next[e]) - at(pose.x, pose.y, e);
+  const Vec2 v = at(pose.x, pose.y, b.next[f]) - at(pose.x, pose.y, f);
+  const double le = norm(u), lf = norm(v);
+  const double turn = reach / le + reach / lf;  // of the one against the other, at most, rad
+  return -dot(u, v) / (le * lf) > angle_gate(b, e, f).none - turn;
+}
+
+std::vector<EdgePair> wanted_faces(const FaceSet& old, const BlockSet& b, const State& state,
+                             const Pose& pose, double reach) {
+  std::vector<EdgePair> list;
+  const auto add = [&](Id e, Id f) {
+    if (may_oppose(b, pose, e, f, reach)) list.push_back(std::minmax(e, f));
+  };
+  for (const NearPair& near : near_pairs(b, state.alive, pose.x, pose.y, reach)) {
+    add(near.vertex, near.edge);
+    add(b.previous[near.vertex], near.edge);
+  }
+  for (std::size_t k = 0; k < old.size(); ++k) {
+    const bool stays = state.alive[b.vertex_block[old.edge[k]]] != 0 &&
+                       state.alive[b.vertex_block[old.facing[k]]] != 0;
+    if (stays && old.now.energy[k] > 0.0) list.push_back({old.edge[k], old.facing[k]});
+  }
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  return list;
+}
+
+/// Corners nearer than this part of the shorter edge have one share between them (face.hpp).
+constexpr double passing_part = 0.15;
+
+void fill_constants(FaceSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
+  const Id e = c.edge[k], f = c.facing[k];
+  const double shorter = std::min(b.edge_length[e], b.edge_length[f]);
+  const Law& law = laws.rows[c.law[k]];
+  c.inverse_lengths[k] = 1.0 / (b.edge_length[e] * b.edge_length[f]);
+  const AngleGate gate = angle_gate(b, e, f);
+  c.gate_from[k] = gate.none;
+  c.gate_scale[k] = 1.0 / (gate.whole - gate.none);
+  c.passing[k] = passing_part * shorter;
+  c.at_ends[k] = law.kn > 0.0 ? 0.0 : 1.0;
+  // A penalty is a spring at each end of the shorter edge.
+  c.stiffness[k] =
+      law.kn > 0.0 ? laws.thickness * law.kn : 2.0 * laws.normal_spring(law, 0.0) / shorter;
+  c.shear_stiffness[k] =
+      law.ks > 0.0 ? laws.thickness * law.ks : 2.0 * laws.shear_spring(law, 0.0) / shorter;
+}
+
+double rounding_of_closures(const Pose& pose) {
+  double largest = 0.0;
+  for (const auto* values : {&pose.x, &pose.y}) {
+    for (const double u : *values) largest = std::max(largest, std::abs(u));
+  }
+  constexpr double digits = 8.0;
+  return digits * std::numeric_limits<double>::epsilon() * largest;
+}
+
+/// Fills begin_of_edge, the slots and of_slot.
+void list_by_edge(FaceSet& c, std::size_t edges) {
+  c.begin_of_edge.assign(edges + 1, 0);
+  for (const auto* of : {&c.edge, &c.facing}) {
+    for (const Id e : *of) ++c.begin_of_edge[e + 1];
+  }
+  for (std::size_t e = 0; e < edges; ++e) c.begin_of_edge[e + 1] += c.begin_of_edge[e];
+  std::vector<Id> fill(c.begin_of_edge.begin(), c.begin_of_edge.end() - 1);
+  c.of_slot.resize(2 * c.size());
+  c.slot.resize(c.size());
+  c.facing_slot.resize(c.size());
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    c.slot[k] = fill[c.edge[k]]++;
+    c.facing_slot[k] = fill[c.facing[k]]++;
+    c.of_slot[c.slot[k]] = c.of_slot[c.facing_slot[k]] = static_cast<Id>(k);
+  }
+}
+
+}  // namespace
+
+void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
+                const LawTable& laws, double reach) {
+  const std::vector<EdgePair> list = wanted_faces(faces, b, state, pose, reach);
+  const std::size_t n = list.size();
+  FaceSet next;
+  for (const FaceArray a : kept_faces) (next.*a).assign(n, 0.0);
+  for (const FaceArray a : constants) (next.*a).assign(n, 0.0);
+  for (const FaceColumn& column : face_columns) {
+    (next.now.*column.values).assign(n, 0.0);
+    (next.before.*column.values).assign(n, 0.0);
+  }
+  next.law.resize(n);
+  next.force.assign(8 * n, 0.0);
+  for (auto* ids : {&next.edge, &next.facing, &next.edge_end, &next.facing_end}) ids->resize(n);
+  std::vector<Id> old_of_new(n, no_id);
+  std::size_t old = 0;
+  next.retired_friction = faces.retired_friction;
+  next.retired_transfer = faces.retired_transfer;
+  const auto retire = [&](std::size_t k) {
+    next.retired_friction += faces.friction_work[k];
+    next.retired_transfer += faces.transfer[k];
+  };
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto [e, f] = list[k];
+    next.edge[k] = e;
+    next.facing[k] = f;
+    next.edge_end[k] = b.next[e];
+    next.facing_end[k] = b.next[f];
+    for (; old < faces.size() && EdgePair{faces.edge[old], faces.facing[old]} < list[k]; ++old)
+      retire(old);
+    if (old < faces.size() && EdgePair{faces.edge[old], faces.facing[old]} == list[k]) {
+      old_of_new[k] = static_cast<Id>(old);
+      for (const FaceArray a : kept_faces) (next.*a)[k] = (faces.*a)[old];
+      for (const FaceColumn& column : face_columns) {
+        (next.now.*column.values)[k] = (faces.now.*column.values)[old];
+        (next.before.*column.values)[k] = (faces.before.*column.values)[old];
+      }
+      next.law[k] = faces.law[old++];
+    } else {
+      next.law[k] = laws.resolve(b.edge_joint[e], b.edge_joint[f], b.material[b.vertex_block[e]],
+                                 b.material[b.vertex_block[f]]);
+      const Law& law = laws.rows[next.law[k]];
+      next.friction[k] = law.residual_friction;
+      next.cohesion[k] = law.residual_cohesion * laws.thickness;
+    }
+    fill_constants(next, b, laws, k);
+  }
+  for (; old < faces.size(); ++old) retire(old);
+  list_by_edge(next, b.vertex_count());
+  for (std::size_t k = 0; k < n; ++k) {
+    if (old_of_new[k] == no_id) continue;
+    const auto copy = [&](Id from, Id to) {
+      std::copy_n(faces.force.begin() + 4 * std::ptrdiff_t{from}, 4,
+                  next.force.begin() + 4 * std::ptrdiff_t{to});
+    };
+    copy(faces.slot[old_of_new[k]], next.slot[k]);
+    copy(faces.facing_slot[old_of_new[k]], next.facing_slot[k]);
+  }
+  next.stirs.assign(next.chunks(), 0);
+  next.noise = rounding_of_closures(pose);
+  next.reach = reach;
+  next.built_x = pose.x;
+  next.built_y = pose.y;
+  next.rebuilds = faces.rebuilds + 1;
+  faces = std::move(next);
+}
+
+}  // namespace edda

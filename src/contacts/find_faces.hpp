@@ -1,0 +1,17 @@
+// The list of faces: made anew when an edge may have come within reach of another, its memory
+// carried over.
+#pragma once
+
+#include "blocks/pose.hpp"
+#include "blocks/state.hpp"
+#include "contacts/face_set.hpp"
+#include "contacts/laws.hpp"
+
+namespace edda {
+
+/// Makes the list of all pairs of edges of two blocks that may act before any vertex has moved by
+/// half of `reach` (m), and carries over the memory of those that were in it.
+void find_faces(FaceSet& faces, const BlockSet& blocks, const State& state, const Pose& pose,
+                const LawTable& laws, double reach);
+
+}  // namespace edda

@@ -1,0 +1,413 @@
+#include "contacts/place_faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "contacts/inside.hpp"
+
+namespace edda {
+namespace {
+
+/// Columns of FaceMemory as the loops over faces see them.
+struct MemoryView {
+  double *closure_a, *closure_b, *energy, *normal_a, *normal_b, *shear_a, *shear_b, *slip_a,
+      *slip_b, *trial_a, *trial_b, *spring, *overlap, *gate, *xi_a, *xi_b, *eta_a, *eta_b,
+      *switched, *friction_work, *transfer;
+};
+MemoryView faces_view(FaceMemory& m) {
+  return {m.closure_a.data(), m.closure_b.data(), m.energy.data(),   m.normal_a.data(),
+          m.normal_b.data(),  m.shear_a.data(),   m.shear_b.data(),  m.slip_a.data(),
+          m.slip_b.data(),    m.trial_a.data(),   m.trial_b.data(),  m.spring.data(),
+          m.overlap.data(),   m.gate.data(),      m.xi_a.data(),     m.xi_b.data(),
+          m.eta_a.data(),     m.eta_b.data(),     m.switched.data(), m.friction_work.data(),
+          m.transfer.data()};
+}
+
+/// What a loop over faces reads and writes.
+struct FaceView {
+  const Id *edge, *edge_end, *facing, *facing_end;
+  const double *stiffness, *shear_stiffness, *inverse_lengths, *gate_from, *gate_scale, *passing,
+      *at_ends, *lives, *acts, *leans, *friction, *cohesion, *offset, *pulls;
+  const double *turn_cosine, *turn_sine;
+  const double *x, *y, *x1, *y1;
+  double noise;
+  MemoryView now, before;
+};
+FaceView faces_view(FaceSet& c, const BlockSet& b, const Pose& pose) {
+  return {c.edge.data(),
+          c.edge_end.data(),
+          c.facing.data(),
+          c.facing_end.data(),
+          c.stiffness.data(),
+          c.shear_stiffness.data(),
+          c.inverse_lengths.data(),
+          c.gate_from.data(),
+          c.gate_scale.data(),
+          c.passing.data(),
+          c.at_ends.data(),
+          c.lives.data(),
+          c.acts.data(),
+          c.leans.data(),
+          c.friction.data(),
+          c.cohesion.data(),
+          c.offset.data(),
+          c.pulls.data(),
+          b.turn_cosine.data(),
+          b.turn_sine.data(),
+          pose.x.data(),
+          pose.y.data(),
+          pose.x1.data(),
+          pose.y1.data(),
+          c.noise,
+          faces_view(c.now),
+          faces_view(c.before)};
+}
+
+/// Of two material points, the one of f at eta from q2 and that of e at xi from p1: how far the
+/// first lies from the second.
+EDDA_INLINE Vec2 from_point_of_e(const FacePoints& p, double xi, double eta) {
+  return eta * p.q1 + (1.0 - eta) * p.q2 - ((1.0 - xi) * p.p1 + xi * p.p2);
+}
+
+EDDA_INLINE Vec2 frame_of(const FacePoints& p) {
+  return unit((p.p2 - p.p1) - (p.q2 - p.q1));
+}
+
+/// Slip in the last step, rho_n - rho_{n-1}, m: of the points that are at the ends now (rho_n = 0).
+EDDA_INLINE FaceEnds slip_to(const Face& face, const FacePoints& then, Vec2 t_then) {
+  return {-dot(from_point_of_e(then, face.xi.a, face.eta.a), t_then),
+          -dot(from_point_of_e(then, face.xi.b, face.eta.b), t_then)};
+}
+
+/// Shear of one end under Coulomb's limit (N): T = -spring u.
+struct Shear {
+  double force, slip;
+};
+EDDA_INLINE Shear cut(double trial, double spring, double limit) {
+  const double whole = -spring * trial;
+  const double force = smaller(larger(whole, -limit), limit);
+  return {force, force == whole ? trial : -force / (spring > 0.0 ? spring : 1.0)};
+}
+
+/// What an end's shear spring has lost in the last step: in the leapfrog's terms T_n and T_{n-1}
+/// each work over half of it, on the points at their ends, which are not quite the same.
+struct SlipOfStep {
+  double here;         ///< of the points at the end now, m
+  double there;        ///< of those that were there at n - 1, m
+  double force, slip;  ///< T and u at n - 1
+  double kept;         ///< part of u that is left once the spring has grown
+};
+struct Lost {
+  double friction, transfer;
+};
+/// (u_tr - u_n) (T_n + T_{n-1})/2 is Coulomb's, what else is missing is no physics. A face that has
+/// opened lets go what it stored by sliding.
+EDDA_INLINE Lost lost(const Shear& now, double trial, double spring, const SlipOfStep& s,
+                      bool touches) {
+  const double all = -0.5 * (now.force * (s.here - now.slip) + s.force * (s.slip + s.there));
+  const double slid = 0.5 * spring * (trial - now.slip) * (now.slip + s.kept * s.slip);
+  const double friction = larger(touches ? slid : all, 0.0);
+  return {friction, all - friction};
+}
+
+/// The shear springs go with the overlap: what they gain in length is free of stress, what they
+/// lose takes its part of the force along. Not for every breath: L must change by this part.
+constexpr double worth = 1e-4;
+
+/// What asks for a decision (see judge()).
+EDDA_INLINE bool asks(const FaceView& c, const Face& face, std::size_t k) {
+  const double lives = c.lives[k], acts = c.acts[k];
+  const bool on = face.angle_gate > 0.0;
+  const double closure = larger(face.closure.a, face.closure.b) - c.offset[k];
+  const bool born = on != (lives > 0.0), faded = on & (face.gate == 0.0);
+  const bool frees = on & (acts == 0.0) & (closure <= 0.0);
+  const bool first = (face.energy > 0.0) & (c.before.energy[k] == 0.0);
+  return born | faded | frees | first;
+}
+
+/// Which ends are closed: 0 to 3.
+EDDA_INLINE double ends_closed(double da, double db, double noise) {
+  return (da > noise ? 1.0 : 0.0) + (db > noise ? 2.0 : 0.0);
+}
+
+struct Placed {
+  CornerForces force;
+  bool asks, stirs;
+};
+
+EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
+  const MemoryView &m = c.now, &old = c.before;
+  const FacePoints at = face_points(c, c.x, c.y, k), then = face_points(c, c.x1, c.y1, k);
+  const Face face = face_between(at, face_pair(c, c.turn_cosine, c.turn_sine, k));
+  const bool touches = face.energy > 0.0;
+
+  // overlap and springs
+  const double length = larger(face.length, 0.0), length_1 = old.overlap[k];
+  const bool same = std::abs(length - length_1) <= worth * length_1;
+  const double overlap = same ? length_1 : length;
+  const double kept = overlap > length_1 ? length_1 / (overlap > 0.0 ? overlap : 1.0) : 1.0;
+  const double spring = touches ? 0.5 * c.shear_stiffness[k] * overlap * face.gate : 0.0;
+
+  // slip, and Coulomb's limit at each end
+  const FaceEnds here = slip_to(face, then, frame_of(then));
+  const double xi_a = old.xi_a[k], xi_b = old.xi_b[k], eta_a = old.eta_a[k], eta_b = old.eta_b[k];
+  const FaceEnds there{dot(from_point_of_e(at, xi_a, eta_a), face.t),
+                       dot(from_point_of_e(at, xi_b, eta_b), face.t)};
+  const double slip_1a = old.slip_a[k], slip_1b = old.slip_b[k];
+  const double trial_a = touches ? kept * slip_1a + here.a : 0.0;
+  const double trial_b = touches ? kept * slip_1b + here.b : 0.0;
+  const double cohesion = touches ? 0.5 * c.cohesion[k] * face.length * face.gate : 0.0;
+  const double friction = c.friction[k];
+  const Shear a = cut(trial_a, spring, larger(cohesion + friction * face.normal.a, 0.0));
+  const Shear b = cut(trial_b, spring, larger(cohesion + friction * face.normal.b, 0.0));
+  const Lost lost_a =
+      lost(a, trial_a, spring, {here.a, there.a, old.shear_a[k], slip_1a, kept}, touches);
+  const Lost lost_b =
+      lost(b, trial_b, spring, {here.b, there.b, old.shear_b[k], slip_1b, kept}, touches);
+
+  const double da = face.closure.a, db = face.closure.b;
+  const double closed = touches ? ends_closed(da, db, c.noise) : 0.0;
+  const double closed_1 =
+      old.energy[k] > 0.0 ? ends_closed(old.closure_a[k], old.closure_b[k], c.noise) : 0.0;
+  const double switched = closed != closed_1 ? 1.0 : 0.0;
+  const bool stirs = (old.energy[k] > 0.0) & ((switched > 0.0) | (old.switched[k] > 0.0));
+
+  m.closure_a[k] = da;
+  m.closure_b[k] = db;
+  m.energy[k] = face.energy;
+  m.normal_a[k] = face.normal.a;
+  m.normal_b[k] = face.normal.b;
+  m.shear_a[k] = a.force;
+  m.shear_b[k] = b.force;
+  m.slip_a[k] = touches ? a.slip : 0.0;
+  m.slip_b[k] = touches ? b.slip : 0.0;
+  m.trial_a[k] = trial_a;
+  m.trial_b[k] = trial_b;
+  m.spring[k] = spring;
+  m.overlap[k] = touches ? overlap : length;
+  m.gate[k] = face.gate;
+  m.xi_a[k] = face.xi.a;
+  m.xi_b[k] = face.xi.b;
+  m.eta_a[k] = face.eta.a;
+  m.eta_b[k] = face.eta.b;
+  m.switched[k] = switched;
+  m.friction_work[k] = lost_a.friction + lost_b.friction;
+  m.transfer[k] = lost_a.transfer + lost_b.transfer;
+
+  Placed placed;
+  placed.force = shear_forces(at, face, {a.force, b.force});
+  placed.force.p1 += face.force.p1;
+  placed.force.p2 += face.force.p2;
+  placed.force.q1 += face.force.q1;
+  placed.force.q2 += face.force.q2;
+  placed.asks = asks(c, face, k);
+  placed.stirs = stirs;
+  return placed;
+}
+
+/// Forces of a chunk, by corner.
+struct ChunkForces {
+  double p1x[FaceSet::chunk], p1y[FaceSet::chunk], p2x[FaceSet::chunk], p2y[FaceSet::chunk],
+      q1x[FaceSet::chunk], q1y[FaceSet::chunk], q2x[FaceSet::chunk], q2y[FaceSet::chunk];
+};
+
+struct FoundInChunk {
+  bool asks, stirs;
+};
+
+EDDA_INLINE void place_into(const FaceView& c, ChunkForces& on, std::size_t k, std::size_t q,
+                            double& asking, double& stirring) {
+  const Placed placed = place(c, k);
+  on.p1x[q] = placed.force.p1.x;
+  on.p1y[q] = placed.force.p1.y;
+  on.p2x[q] = placed.force.p2.x;
+  on.p2y[q] = placed.force.p2.y;
+  on.q1x[q] = placed.force.q1.x;
+  on.q1y[q] = placed.force.q1.y;
+  on.q2x[q] = placed.force.q2.x;
+  on.q2y[q] = placed.force.q2.y;
+  asking = larger(asking, placed.asks ? 1.0 : 0.0);
+  stirring = larger(stirring, placed.stirs ? 1.0 : 0.0);
+}
+
+EDDA_VECTOR FoundInChunk place_chunk(FaceView c, ChunkForces* on, std::size_t first, std::size_t last) {
+  double asking = 0.0, stirring = 0.0;
+#pragma omp simd reduction(max : asking, stirring)
+  for (std::size_t k = first; k < last; ++k) place_into(c, *on, k, k - first, asking, stirring);
+  return {asking > 0.0, stirring > 0.0};
+}
+
+void keep_forces(FaceSet& c, const ChunkForces& on, std::size_t first, std::size_t last) {
+  for (std::size_t k = first; k < last; ++k) {
+    const std::size_t q = k - first;
+    double* const e = c.force.data() + 4 * std::size_t{c.slot[k]};
+    double* const f = c.force.data() + 4 * std::size_t{c.facing_slot[k]};
+    e[0] = on.p1x[q];
+    e[1] = on.p1y[q];
+    e[2] = on.p2x[q];
+    e[3] = on.p2y[q];
+    f[0] = on.q1x[q];
+    f[1] = on.q1y[q];
+    f[2] = on.q2x[q];
+    f[3] = on.q2y[q];
+  }
+}
+
+/// The points of both edges at the part x of the overlap.
+struct Opposite {
+  Vec2 on_edge, on_facing;
+};
+Opposite opposite_at(const FacePoints& p, const Face& face, double x) {
+  const double xi = face.xi.a + x * (face.xi.b - face.xi.a);
+  const double eta = face.eta.a + x * (face.eta.b - face.eta.a);
+  return {(1.0 - xi) * p.p1 + xi * p.p2, eta * p.q1 + (1.0 - eta) * p.q2};
+}
+
+/// Where the pressure would act, as a part of the overlap; at least one end is closed.
+double centre_of_pressure(double da, double db) {
+  if (da >= 0.0 && db >= 0.0) return da + db > 0.0 ? (da + 2.0 * db) / (3.0 * (da + db)) : 0.5;
+  return da > 0.0 ? da / (da - db) / 3.0 : 1.0 - db / (db - da) / 3.0;
+}
+
+bool lies_in(const BlockSet& b, const Pose& pose, Vec2 p, Id block) {
+  return inside_of(b, pose, p, block).depth > 0.0;
+}
+
+/// Whether the corner that bounds the deeper end leans on the other edge: beside it, between the
+/// two edges, lies no third block. Where one does, as at a point where five wedges meet, what lies
+/// across carries as much as its closure says and no corner's spring.
+bool corner_leans(const FaceSet& c, const BlockSet& b, const Pose& pose, const FacePoints& at,
+                  const Face& face, std::size_t k) {
+  constexpr double beside = 0.1;  // of the overlap
+  const Opposite points =
+      opposite_at(at, face, face.closure.b >= face.closure.a ? 1.0 - beside : beside);
+  const Vec2 between = 0.5 * (points.on_edge + points.on_facing);
+  const Id own[2] = {b.vertex_block[c.edge[k]], b.vertex_block[c.facing[k]]};
+  for (const Id j : own) {
+    bool third = false;
+    c.for_faces(b.vertex_begin[j], b.vertex_begin[j + 1], [&](Id q, bool of_edge) {
+      const Id i = b.vertex_block[of_edge ? c.facing[q] : c.edge[q]];
+      third = third || (i != own[0] && i != own[1] && lies_in(b, pose, between, i));
+    });
+    if (third) return false;
+  }
+  return true;
+}
+
+/// Decides what of face k may change while it stores nothing. It lives while the edges overlap and
+/// are opposed. It acts if it comes to life open, or if the points where it would press lie in both
+/// blocks: the far sides of two thin ones are opposed, too. Later it does once it is open. A face
+/// that has faded is judged anew.
+void judge(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
+  const FacePoints at = face_points(c, pose.x, pose.y, k);
+  const double acted = c.acts[k];
+  c.acts[k] = 1.0;
+  const Face face = face_between(at, face_pair(c, b.turn_cosine.data(), b.turn_sine.data(), k));
+  c.acts[k] = acted;
+  const bool on = face.angle_gate > 0.0;
+  if (!on) {
+    c.lives[k] = c.acts[k] = c.leans[k] = 0.0;
+    return;
+  }
+  const double closure = std::max(face.closure.a, face.closure.b) - c.offset[k];
+  if (c.lives[k] == 0.0 || face.gate == 0.0) {
+    bool acts = closure <= c.noise;
+    if (!acts && std::max(face.closure.a, face.closure.b) > 0.0) {
+      const Opposite p = opposite_at(at, face, centre_of_pressure(face.closure.a, face.closure.b));
+      acts = lies_in(b, pose, p.on_facing, b.vertex_block[c.edge[k]]) &&
+             lies_in(b, pose, p.on_edge, b.vertex_block[c.facing[k]]);
+    }
+    c.lives[k] = 1.0;
+    c.acts[k] = acts ? 1.0 : 0.0;
+  } else if (c.acts[k] == 0.0 && closure <= 0.0) {
+    c.acts[k] = 1.0;
+  }
+  if (c.before.energy[k] == 0.0) c.leans[k] = corner_leans(c, b, pose, at, face, k) ? 1.0 : 0.0;
+}
+
+void place_chunks(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t begin,
+                  std::size_t end) {
+  const FaceView view = faces_view(c, b, pose);
+  ChunkForces on;
+  for (std::size_t first = begin; first < end; first += FaceSet::chunk) {
+    const std::size_t last = std::min(end, first + FaceSet::chunk);
+    FoundInChunk found = place_chunk(view, &on, first, last);
+    if (found.asks) {
+      for (std::size_t k = first; k < last; ++k) {
+        const Face face = face_at(c, b, pose.x, pose.y, k);
+        if (asks(view, face, k)) judge(c, b, pose, k);
+      }
+      found = place_chunk(view, &on, first, last);
+    }
+    c.stirs[first / FaceSet::chunk] = found.stirs ? 1 : 0;
+    keep_forces(c, on, first, last);
+  }
+}
+
+}  // namespace
+
+void place_faces(FaceSet& c, const BlockSet& b, const Pose& pose) {
+  parallel_chunks(c.size(), FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
+    place_chunks(c, b, pose, begin, end);
+  });
+}
+
+void place_face(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
+  const FaceView view = faces_view(c, b, pose);
+  ChunkForces on;
+  FoundInChunk found = place_chunk(view, &on, k, k + 1);
+  if (found.asks) {
+    judge(c, b, pose, k);
+    found = place_chunk(view, &on, k, k + 1);
+  }
+  if (found.stirs) c.stirs[k / FaceSet::chunk] = 1;
+  keep_forces(c, on, k, k + 1);
+}
+
+void next_step(FaceSet& c) {
+  parallel_for(c.size(), [&](std::size_t k) {
+    c.friction_work[k] += c.now.friction_work[k];
+    c.transfer[k] += c.now.transfer[k];
+  });
+  std::swap(c.now, c.before);
+}
+
+Face face_at(const FaceSet& c, const BlockSet& b, const std::vector<double>& x,
+             const std::vector<double>& y, std::size_t k) {
+  return face_between(face_points(c, x, y, k),
+                      face_pair(c, b.turn_cosine.data(), b.turn_sine.data(), k));
+}
+
+CornerForces cut_again(FaceSet& c, const Face& face, const FacePoints& at, const FacePoints& then,
+                     double alpha, std::size_t k) {
+  FaceMemory& m = c.before;
+  const FaceEnds here = slip_to(face, then, frame_of(then));
+  const double spring = m.spring[k], cohesion = 0.5 * c.cohesion[k] * face.length * face.gate;
+  const auto again = [&](double normal, double trial, double slipped, double& force, double& slip) {
+    const Shear next = cut(trial, spring, std::max(cohesion + c.friction[k] * alpha * normal, 0.0));
+    // As lost(), of which all that T_{n-1} does stays as it was; kept u_{n-1} = u_tr - slipped.
+    const auto taken = [&](const Shear& s) {
+      const double all = -0.5 * s.force * (slipped - s.slip);
+      const double slid = 0.5 * spring * (trial - s.slip) * (s.slip + trial - slipped);
+      const double friction = std::max(slid, 0.0);
+      return Lost{friction, all - friction};
+    };
+    const Lost was = taken({force, slip}), is = taken(next);
+    c.friction_work[k] += is.friction - was.friction;
+    c.transfer[k] += is.transfer - was.transfer;
+    force = next.force;
+    slip = next.slip;
+  };
+  again(face.normal.a, m.trial_a[k], here.a, m.shear_a[k], m.slip_a[k]);
+  again(face.normal.b, m.trial_b[k], here.b, m.shear_b[k], m.slip_b[k]);
+  CornerForces force = shear_forces(at, face, {m.shear_a[k], m.shear_b[k]});
+  force.p1 += alpha * face.force.p1;
+  force.p2 += alpha * face.force.p2;
+  force.q1 += alpha * face.force.q1;
+  force.q2 += alpha * face.force.q2;
+  return force;
+}
+
+}  // namespace edda

@@ -1,0 +1,31 @@
+// Faces from where the blocks are: forces, slip, and which of them act.
+#pragma once
+
+#include "blocks/pose.hpp"
+#include "contacts/face_set.hpp"
+
+namespace edda {
+
+/// Works out every face at the positions pose.x, y of step n, from its memory at n - 1 in `before`
+/// and the positions then, pose.x1, y1: fills `now` and the forces. May be called again for other
+/// positions of the same step.
+void place_faces(FaceSet& faces, const BlockSet& blocks, const Pose& pose);
+
+/// The same for one face.
+void place_face(FaceSet& faces, const BlockSet& blocks, const Pose& pose, std::size_t k);
+
+/// What has been worked out is final; `before` is ready to be written. Before the next step's
+/// place_faces().
+void next_step(FaceSet& faces);
+
+/// The face at other positions, as it acts now.
+Face face_at(const FaceSet& faces, const BlockSet& blocks, const std::vector<double>& x,
+             const std::vector<double>& y, std::size_t k);
+
+/// The part alpha of the normal forces of face k is all that friction feels at step n - 1 (in
+/// `before`): its shear forces are cut again. at, then: the corners then and a step earlier.
+/// Returns the forces of the face. The work of the step is set right.
+CornerForces cut_again(FaceSet& faces, const Face& face, const FacePoints& at, const FacePoints& then,
+                     double alpha, std::size_t k);
+
+}  // namespace edda

@@ -1,0 +1,261 @@
+#include "run/face_switching.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "integrate/leapfrog.hpp"
+
+namespace edda {
+namespace {
+
+constexpr std::uint64_t most_passes = 30;
+constexpr std::uint64_t passes_to_look = 4;  // before the neighbours are looked at again
+constexpr double settled = 1e-9;             // change of alpha
+
+std::array<Vec2, 4> list(const FacePoints& p) {
+  return {p.p1, p.p2, p.q1, p.q2};
+}
+std::array<Vec2, 4> list(const CornerForces& f) {
+  return {f.p1, f.p2, f.q1, f.q2};
+}
+
+/// sum of f . (x - y) over the corners.
+double work_of(const CornerForces& force, const FacePoints& to, const FacePoints& from) {
+  const auto f = list(force), x = list(to), y = list(from);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) sum += dot(f[k], x[k] - y[k]);
+  return sum;
+}
+
+/// Energy between two steps in the leapfrog's terms, (U_0 + U_1)/2 - (F_0 - F_1).(x_1 - x_0)/4: of
+/// a linear spring p d_0 d_1/2. Nothing where it is open at one of them.
+double stored_between(const Face& face0, const FacePoints& at0, const Face& face1,
+                      const FacePoints& at1) {
+  if (face0.energy == 0.0 || face1.energy == 0.0) return 0.0;
+  const double both = 0.5 * (face0.energy + face1.energy) -
+                      0.25 * (work_of(face0.force, at1, at0) - work_of(face1.force, at1, at0));
+  return std::max(both, 0.0);
+}
+
+/// The forces of a face on the nodes of its two blocks.
+struct OnBlocks {
+  std::array<Vec2, 3> first{}, second{};
+};
+OnBlocks on_blocks(const FaceSet& c, const BlockSet& b, const CornerForces& f, std::size_t k) {
+  OnBlocks on;
+  spread(on.first, b, c.edge[k], f.p1);
+  spread(on.first, b, c.edge_end[k], f.p2);
+  spread(on.second, b, c.facing[k], f.q1);
+  spread(on.second, b, c.facing_end[k], f.q2);
+  return on;
+}
+
+CornerForces difference(const CornerForces& f, const CornerForces& g) {
+  return {f.p1 - g.p1, f.p2 - g.p2, f.q1 - g.q1, f.q2 - g.q2};
+}
+
+bool any(const CornerForces& f) {
+  for (const Vec2 v : list(f)) {
+    if (v.x != 0.0 || v.y != 0.0) return true;
+  }
+  return false;
+}
+
+/// f . M^-1 f of one block.
+double mobility(const BlockSet& b, Id i, const std::array<Vec2, 3>& force) {
+  if (b.fixed[i]) return 0.0;
+  const std::array<Vec2, 3> a = accelerations(b, i, force);
+  return dot(a[0], force[0]) + dot(a[1], force[1]) + dot(a[2], force[2]);
+}
+
+class Correction {
+ public:
+  Correction(FaceSet& faces, const BlockSet& blocks, State& state, Pose& pose,
+             const StepTaken& taken, FaceSwitchingScratch& scratch)
+      : c_(faces),
+        b_(blocks),
+        s_(state),
+        pose_(pose),
+        scratch_(scratch),
+        taken_(taken),
+        kick_(kick_of(taken)) {
+    scratch_.moved.resize(b_.size(), 0);
+    scratch_.set.clear();
+    scratch_.pushed.clear();
+  }
+
+  bool find() {
+    for (std::size_t q = 0; q < c_.stirs.size(); ++q) {
+      if (c_.stirs[q] == 0) continue;
+      const std::size_t end = std::min(c_.size(), (q + 1) * FaceSet::chunk);
+      for (std::size_t k = q * FaceSet::chunk; k < end; ++k) {
+        if (switches(k)) add(static_cast<Id>(k));
+      }
+    }
+    return !scratch_.set.empty();
+  }
+
+  /// Goes once through the faces that switch, but not through those that feel nothing new. Whether
+  /// all have settled.
+  bool pass() {
+    bool all = true;
+    for (SwitchingFace& f : scratch_.set) {
+      const Id i = b_.vertex_block[c_.edge[f.face]], j = b_.vertex_block[c_.facing[f.face]];
+      if (f.done && scratch_.moved[i] <= f.seen && scratch_.moved[j] <= f.seen) continue;
+      all = correct(f, i, j) && all;
+    }
+    return all;
+  }
+
+  /// Works out the faces of the blocks that were pushed once more; takes those that switch now.
+  /// Whether any does.
+  bool refresh() {
+    auto& pushed = scratch_.pushed;
+    std::sort(pushed.begin(), pushed.end());
+    pushed.erase(std::unique(pushed.begin(), pushed.end()), pushed.end());
+    const std::size_t known = scratch_.set.size();
+    for (const Id i : pushed) {
+      c_.for_faces(b_.vertex_begin[i], b_.vertex_begin[i + 1], [&](Id k, bool) {
+        place_face(c_, b_, pose_, k);
+        if (switches(k) && !is_known(k)) add(k);
+      });
+    }
+    pushed.clear();
+    return scratch_.set.size() > known;
+  }
+
+  /// What the last pass has left undone.
+  void book() {
+    for (const SwitchingFace& f : scratch_.set) {
+      const Face next = face_at(c_, b_, pose_.x, pose_.y, f.face);
+      const double stored_next =
+          stored_between(f.placed, f.at, next, face_points(c_, pose_.x, pose_.y, f.face));
+      c_.transfer[f.face] += f.stored - stored_next - f.alpha * work(f);
+    }
+  }
+
+ private:
+  bool switches(std::size_t k) const {
+    return c_.before.energy[k] > 0.0 && c_.pulls[k] == 0.0 &&
+           (c_.now.switched[k] > 0.0 || c_.before.switched[k] > 0.0);
+  }
+  bool is_known(Id k) const {
+    return std::any_of(scratch_.set.begin(), scratch_.set.end(),
+                       [&](const SwitchingFace& f) { return f.face == k; });
+  }
+
+  void add(Id k) {
+    SwitchingFace f{};
+    f.face = k;
+    f.then = face_points(c_, pose_.x2, pose_.y2, k);
+    f.at = face_points(c_, pose_.x1, pose_.y1, k);
+    f.placed = face_at(c_, b_, pose_.x1, pose_.y1, k);
+    const Face before = face_at(c_, b_, pose_.x2, pose_.y2, k);
+    f.was_closed = before.energy > 0.0;
+    f.stored = stored_between(before, f.then, f.placed, f.at);
+    const OnBlocks on = on_blocks(c_, b_, f.placed.force, k);
+    f.pushes = kick_ * taken_.h_new *
+               (mobility(b_, b_.vertex_block[c_.edge[k]], on.first) +
+                mobility(b_, b_.vertex_block[c_.facing[k]], on.second));
+    f.alpha = 1.0;
+    f.force = f.placed.force;
+    const CornerForces shear =
+        shear_forces(f.at, f.placed, {c_.before.shear_a[k], c_.before.shear_b[k]});
+    f.force = {f.force.p1 + shear.p1, f.force.p2 + shear.p2, f.force.q1 + shear.q1,
+               f.force.q2 + shear.q2};
+    scratch_.set.push_back(f);
+  }
+
+  /// Of the whole normal force, over (x_{n+1} - x_{n-1})/2.
+  double work(const SwitchingFace& f) const {
+    return 0.5 * work_of(f.placed.force, face_points(c_, pose_.x, pose_.y, f.face), f.then);
+  }
+
+  /// One Newton step of alpha F_n.(x_{n+1} - x_{n-1})/2 + U_{n+1/2} - U_{n-1/2} = 0.
+  bool correct(SwitchingFace& f, Id i, Id j) {
+    const Id k = f.face;
+    const FacePoints next_at = face_points(c_, pose_.x, pose_.y, k);
+    const Face next = face_at(c_, b_, pose_.x, pose_.y, k);
+    const bool closes = next.energy > 0.0;
+    f.stored_next = stored_between(f.placed, f.at, next, next_at);
+    const double whole = work(f);
+    const double left = f.alpha * whole + f.stored_next - f.stored;
+    const double slope = whole + 0.5 * (f.alpha - (closes ? 1.0 : 0.0)) * f.pushes;
+    double alpha = slope != 0.0 ? f.alpha - left / slope : 1.0;
+    constexpr double most = 1.5;  // of a face that is closed before and after
+    alpha = std::clamp(alpha, 0.0, f.was_closed && closes ? most : 1.0);
+    const double change = std::abs(alpha - f.alpha);
+    f.alpha = alpha;
+    const CornerForces force = cut_again(c_, f.placed, f.at, f.then, alpha, k);
+    const CornerForces more = difference(force, f.force);
+    f.force = force;
+    f.seen = ++scratch_.tick;
+    f.done = change <= settled;
+    if (!any(more)) return f.done;
+    const OnBlocks on = on_blocks(c_, b_, more, k);
+    push_block(b_, s_, pose_, i, on.first, kick_, taken_.h_new, taken_.strain);
+    push_block(b_, s_, pose_, j, on.second, kick_, taken_.h_new, taken_.strain);
+    scratch_.pushed.push_back(i);
+    scratch_.pushed.push_back(j);
+    if (!f.done) scratch_.moved[i] = scratch_.moved[j] = f.seen;
+    return f.done;
+  }
+
+  FaceSet& c_;
+  const BlockSet& b_;
+  State& s_;
+  Pose& pose_;
+  FaceSwitchingScratch& scratch_;
+  StepTaken taken_;
+  double kick_;
+};
+
+}  // namespace
+
+void correct_switching(FaceSet& c, const BlockSet& b, State& s, Pose& pose, const StepTaken& taken,
+                       OpenCloseCounts& counts, FaceSwitchingScratch& scratch) {
+  Correction correction(c, b, s, pose, taken, scratch);
+  if (!correction.find()) return;
+  std::uint64_t passes = 0;
+  bool all = false, more = true;
+  while (more) {
+    do {
+      all = correction.pass();
+      ++passes;
+    } while (!all && passes % passes_to_look != 0);
+    more = (correction.refresh() || !all) && passes < most_passes;
+  }
+  correction.book();
+  ++counts.steps;
+  counts.passes += passes;
+  counts.most = std::max(counts.most, passes);
+  counts.switched += scratch.set.size();
+  if (!all) ++counts.unsettled;
+}
+
+double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
+  const FacePoints at = face_points(c, pose.x, pose.y, k),
+                   then = face_points(c, pose.x1, pose.y1, k);
+  const Face now = face_at(c, b, pose.x, pose.y, k), before = face_at(c, b, pose.x1, pose.y1, k);
+  const auto slid = [&](double xi, double eta) {
+    return dot(eta * at.q1 + (1.0 - eta) * at.q2 - (1.0 - xi) * at.p1 - xi * at.p2, now.t);
+  };
+  const FaceMemory& m = c.before;
+  const double shear = m.shear_a[k] * (m.slip_a[k] + slid(m.xi_a[k], m.eta_a[k])) +
+                       m.shear_b[k] * (m.slip_b[k] + slid(m.xi_b[k], m.eta_b[k]));
+  return stored_between(before, then, now, at) - 0.5 * shear;
+}
+
+double largest_closure(const FaceSet& c) {
+  double depth = 0.0;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (c.now.energy[k] > 0.0 && c.now.gate[k] > 0.5) {
+      depth = std::max({depth, c.now.closure_a[k], c.now.closure_b[k]});
+    }
+  }
+  return depth;
+}
+
+}  // namespace edda

@@ -1,0 +1,51 @@
+// Open-close iteration of faces: corrects the step just made where ends of faces opened or closed
+// in it, so that what a face does to the blocks is what it stores less (docs/contacts.md).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "blocks/pose.hpp"
+#include "blocks/state.hpp"
+#include "contacts/place_faces.hpp"
+#include "run/open_close.hpp"
+#include "run/push_block.hpp"
+
+namespace edda {
+
+/// A face of which an end opened or closed in the last two steps.
+struct SwitchingFace {
+  Id face;
+  FacePoints then, at;  ///< corners at n - 1 and n
+  Face placed;          ///< at n
+  CornerForces force;     ///< of it at n, as it is now
+  double stored;        ///< U_{n-1/2}, J
+  double stored_next;   ///< U_{n+1/2}, J
+  bool was_closed;      ///< at n - 1
+  double pushes;        ///< work of the normal force on what it moves in a step, J
+  double alpha;         ///< part of the normal force that acts
+  std::uint64_t seen;   ///< tick at which it was last corrected
+  bool done;            ///< it changed by next to nothing then
+};
+
+/// Lists of one step, kept so that a step allocates nothing once they have grown.
+struct FaceSwitchingScratch {
+  std::vector<SwitchingFace> set;
+  std::vector<Id> pushed;            ///< blocks that have moved since the faces were looked at
+  std::vector<std::uint64_t> moved;  ///< [nb] tick at which a face last moved the block
+  std::uint64_t tick = 0;
+};
+
+/// At entry: positions and faces of step n + 1, made with all of the forces of step n; at return
+/// both are final, and `before` of the faces holds what acted at n.
+void correct_switching(FaceSet& faces, const BlockSet& blocks, State& state, Pose& pose,
+                       const StepTaken& taken, OpenCloseCounts& counts,
+                       FaceSwitchingScratch& scratch);
+
+/// What face k stores between steps n - 1 and n, in the leapfrog's terms, J.
+double face_energy(const FaceSet& faces, const BlockSet& blocks, const Pose& pose, std::size_t k);
+
+/// Largest closure of a face that acts, m.
+double largest_closure(const FaceSet& faces);
+
+}  // namespace edda

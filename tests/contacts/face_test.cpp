@@ -1,0 +1,237 @@
+#include "contacts/face.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace edda {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Vec2 turn_of(double exterior) {
+  return {std::cos(exterior), std::sin(exterior)};
+}
+
+struct RandomFace {
+  FacePoints at;
+  FacePair pair;
+};
+
+/// Edges of 0.2 to 1 m, every second one nearly parallel; every law that a face may have.
+class Faces {
+ public:
+  RandomFace next() {
+    ++count_;
+    RandomFace r;
+    const double tilt = count_ % 3 == 0 ? uniform(-1.5, 1.5) : uniform(-0.02, 0.02);
+    const double le = uniform(0.2, 1.0), lf = uniform(0.2, 1.0);
+    const double shift = count_ % 5 == 0 ? uniform(-0.02, 0.06) : uniform(-0.6, 1.2);
+    const double depth = count_ % 2 == 0 ? uniform(-0.1, 0.3) : uniform(-0.02, 0.05);
+    r.at = {{0.0, 0.0},
+            {le, 0.0},
+            {shift, depth},
+            {shift - lf * std::cos(tilt), depth + lf * std::sin(tilt)}};
+    const double way = uniform(0.0, 2.0 * pi);
+    for (Vec2* p : {&r.at.p1, &r.at.p2, &r.at.q1, &r.at.q2}) *p = rotated(*p, way) + Vec2{2.0, 1.0};
+    r.pair.stiffness = 1.0;
+    r.pair.ends = count_ % 4 == 1 ? 0.0 : 1.0;
+    r.pair.pulls = count_ % 11 == 0 ? 1.0 : 0.0;
+    r.pair.offset = count_ % 7 == 0 ? 0.01 : 0.0;
+    r.pair.inverse_lengths = 1.0 / (le * lf);
+    r.pair.gate_from = std::cos(85.0 * pi / 180.0);
+    r.pair.gate_scale = 1.0 / (0.5 - r.pair.gate_from);
+    r.pair.passing = 0.15 * std::min(le, lf);
+    for (Vec2* turn : {&r.pair.p1_turn, &r.pair.p2_turn, &r.pair.q1_turn, &r.pair.q2_turn}) {
+      *turn = turn_of(uniform(0.1, 2.8));
+    }
+    return r;
+  }
+
+ private:
+  double uniform(double a, double b) { return std::uniform_real_distribution<>(a, b)(random_); }
+  std::mt19937 random_{7};
+  int count_ = 0;
+};
+
+std::array<Vec2, 4> forces_of(const Face& face) {
+  return {face.force.p1, face.force.p2, face.force.q1, face.force.q2};
+}
+
+double largest(const std::array<Vec2, 4>& forces) {
+  double size = 0.0;
+  for (const Vec2 f : forces) size = std::max(size, norm(f));
+  return size;
+}
+
+/// No corner, no end and no deepest end changes within the stencil.
+bool is_smooth(const RandomFace& r, const Face& f) {
+  constexpr double clear = 1e-5;
+  const Vec2 e = r.at.p2 - r.at.p1;
+  const double s2 = dot(e, f.t), r1 = dot(r.at.q1 - r.at.p1, f.t), r2 = dot(r.at.q2 - r.at.p1, f.t);
+  return std::abs(s2 - r1) > clear && std::abs(r2) > clear && f.length > clear &&
+         std::abs(f.closure.a) > clear && std::abs(f.closure.b) > clear &&
+         std::abs(f.closure.a - f.closure.b) > clear;
+}
+
+TEST(Face, ForcesAreTheGradientOfTheStoredEnergy) {
+  Faces faces;
+  double worst = 0.0;
+  int tried = 0, faded = 0, turned = 0, partial = 0;
+  while (tried < 20000) {
+    RandomFace r = faces.next();
+    const Face face = face_between(r.at, r.pair);
+    if (!(face.energy > 1e-9) || !is_smooth(r, face)) continue;
+    ++tried;
+    faded += face.gate < face.angle_gate ? 1 : 0;
+    turned += face.angle_gate < 1.0 ? 1 : 0;
+    partial += std::min(face.closure.a, face.closure.b) < 0.0 ? 1 : 0;
+    const std::array<Vec2, 4> forces = forces_of(face);
+    const double scale = std::max(largest(forces), 1e-3 * std::sqrt(face.energy));
+    const std::array<Vec2*, 4> points{&r.at.p1, &r.at.p2, &r.at.q1, &r.at.q2};
+    for (std::size_t k = 0; k < 4; ++k) {
+      for (const bool along_y : {false, true}) {
+        double& u = along_y ? points[k]->y : points[k]->x;
+        const double here = u, force = along_y ? forces[k].y : forces[k].x;
+        const auto energy = [&](double by) {
+          u = here + by;
+          const double value = face_between(r.at, r.pair).energy;
+          u = here;
+          return value;
+        };
+        double error = 1.0;  // a stencil may lie across a change of curvature: not both
+        for (const double h : {1e-6, 1e-7}) {
+          const double slope =
+              (8.0 * (energy(h) - energy(-h)) - (energy(2.0 * h) - energy(-2.0 * h))) / (12.0 * h);
+          error = std::min(error, std::abs(slope + force) / scale);
+        }
+        worst = std::max(worst, error);
+      }
+    }
+  }
+  EXPECT_LT(worst, 1e-7);
+  EXPECT_GT(faded, 100);
+  EXPECT_GT(turned, 100);
+  EXPECT_GT(partial, 1000);
+}
+
+TEST(Face, ForcesSumToZeroAndHaveNoMoment) {
+  Faces faces;
+  for (int k = 0; k < 20000; ++k) {
+    const RandomFace r = faces.next();
+    const Face face = face_between(r.at, r.pair);
+    const CornerForces shear = shear_forces(r.at, face, {0.3, -0.8});
+    for (const CornerForces& f : {face.force, shear}) {
+      const double size = norm(f.p1) + norm(f.p2) + norm(f.q1) + norm(f.q2) + 1e-12;
+      EXPECT_LT(norm(f.p1 + f.p2 + f.q1 + f.q2), 1e-12 * size);
+      const double moment =
+          cross(r.at.p1, f.p1) + cross(r.at.p2, f.p2) + cross(r.at.q1, f.q1) + cross(r.at.q2, f.q2);
+      EXPECT_LT(std::abs(moment), 1e-11 * size);
+    }
+  }
+}
+
+TEST(Face, IsTheSameSeenFromTheOtherBlock) {
+  Faces faces;
+  for (int k = 0; k < 20000; ++k) {
+    const RandomFace r = faces.next();
+    RandomFace other = r;
+    other.at = {r.at.q1, r.at.q2, r.at.p1, r.at.p2};
+    std::swap(other.pair.p1_turn, other.pair.q1_turn);
+    std::swap(other.pair.p2_turn, other.pair.q2_turn);
+    const Face one = face_between(r.at, r.pair), two = face_between(other.at, other.pair);
+    if (std::abs(one.closure.a - one.closure.b) < 1e-9) continue;
+    EXPECT_NEAR(one.energy, two.energy, 1e-12 * (1e-3 + one.energy));
+    const std::array<Vec2, 4> f = forces_of(one), g = forces_of(two);
+    for (std::size_t p = 0; p < 4; ++p) EXPECT_LT(norm(f[p] - g[(p + 2) % 4]), 1e-10);
+  }
+}
+
+/// Two edges of 1 m, the second `depth` into the first and tilted by `tilt`.
+RandomFace flat(double depth, double tilt) {
+  RandomFace r;
+  r.at = {{0.0, 0.0}, {1.0, 0.0}, {1.0, depth}, {1.0 - std::cos(tilt), depth + std::sin(tilt)}};
+  r.pair.stiffness = 3e9;
+  r.pair.inverse_lengths = 1.0;
+  r.pair.gate_from = std::cos(85.0 * pi / 180.0);
+  r.pair.gate_scale = 1.0 / (0.5 - r.pair.gate_from);
+  r.pair.passing = 0.15;
+  for (Vec2* turn : {&r.pair.p1_turn, &r.pair.p2_turn, &r.pair.q1_turn, &r.pair.q2_turn}) {
+    *turn = turn_of(pi / 2.0);
+  }
+  return r;
+}
+
+TEST(Face, StoresWhatABedOfSpringsStores) {
+  for (const double tilt : {-2e-3, -1e-4, 0.0, 3e-4, 4e-3}) {
+    const RandomFace r = flat(1e-3, tilt);
+    const Face face = face_between(r.at, r.pair);
+    constexpr int springs = 200000;
+    const double step = face.length / springs;
+    double energy = 0.0, force = 0.0, moment = 0.0;
+    for (int q = 0; q < springs; ++q) {
+      const double part = (q + 0.5) / springs;
+      const double d = std::max(0.0, face.closure.a + part * (face.closure.b - face.closure.a));
+      energy += 0.5 * r.pair.stiffness * d * d * step;
+      force += r.pair.stiffness * d * step;
+      moment += r.pair.stiffness * d * step * part * face.length;
+    }
+    EXPECT_NEAR(face.energy / energy, 1.0, 1e-8);
+    EXPECT_NEAR((face.normal.a + face.normal.b) / force, 1.0, 1e-8);
+    EXPECT_NEAR(face.normal.b * face.length / moment, 1.0, 1e-8);
+  }
+}
+
+TEST(Face, ACornerThatLeansKeepsTheSpringOfItsEnd) {
+  for (const double tilt : {1e-3, 0.02, 0.2}) {
+    RandomFace r = flat(1e-5, -tilt);
+    r.pair.ends = 1.0;
+    const Face face = face_between(r.at, r.pair);
+    const double deepest = std::max(face.closure.a, face.closure.b);
+    const double share = std::pow(std::cos(tilt), 2);  // the other edge makes 90 degrees less tilt
+    EXPECT_NEAR(face.energy / (0.25 * share * r.pair.stiffness * face.length * deepest * deepest),
+                1.0, 2e-2);
+  }
+}
+
+TEST(Face, TheTwoEdgesOfACornerShareItsSpring) {
+  for (const double exterior : {0.5, pi / 2.0, 2.0}) {
+    for (const double part : {0.0, 0.2, 0.5, 0.9, 1.0}) {
+      const double theta = part * exterior;
+      const CornerShare one = corner_share(turn_of(exterior), std::cos(theta), std::sin(theta));
+      const CornerShare two =
+          corner_share(turn_of(exterior), std::cos(exterior - theta), std::sin(exterior - theta));
+      EXPECT_NEAR(one.value + two.value, 1.0, 1e-12);
+    }
+    EXPECT_EQ(
+        corner_share(turn_of(exterior), std::cos(1.1 * exterior), std::sin(1.1 * exterior)).value,
+        0.0);
+  }
+}
+
+TEST(Face, ExistsOnlyWhileEdgesOverlapAndAreOpposed) {
+  RandomFace r = flat(1e-3, 0.0);
+  for (Vec2* q : {&r.at.q1, &r.at.q2}) *q += Vec2{1.01, 0.0};
+  EXPECT_EQ(face_between(r.at, r.pair).energy, 0.0);  // beside each other
+  r = flat(1e-3, 0.0);
+  std::swap(r.at.q1, r.at.q2);
+  EXPECT_EQ(face_between(r.at, r.pair).energy, 0.0);  // the same way round
+  r = flat(-1e-3, 0.0);
+  EXPECT_EQ(face_between(r.at, r.pair).energy, 0.0);  // apart
+  r.pair.pulls = 1.0;
+  EXPECT_NEAR(face_between(r.at, r.pair).energy, 0.5 * 3e9 * 1e-6, 1e-6);
+}
+
+TEST(Face, WhatIsDeeperThanLongCarriesNothing) {
+  RandomFace r = flat(0.02, 0.0);
+  for (Vec2* q : {&r.at.q1, &r.at.q2}) *q += Vec2{0.995, 0.0};  // overlaps by 5 mm, 20 mm deep
+  const Face face = face_between(r.at, r.pair);
+  EXPECT_GT(face.length, 0.0);
+  EXPECT_EQ(face.energy, 0.0);
+}
+
+}  // namespace
+}  // namespace edda
