@@ -85,6 +85,7 @@ struct FaceSet {
   static constexpr std::size_t run = 16 * chunk;  ///< what a thread takes at once
   std::size_t chunks() const { return (size() + chunk - 1) / chunk; }
   std::vector<std::uint8_t> stirs;  ///< [chunks] 1: ends of a face in it open or close
+  std::vector<double> deepest;      ///< [chunks] largest closure of a face that carries, m
 
   // When the list was made, and how long it lives.
   std::vector<double> built_x, built_y;  ///< [nv] vertices then, m

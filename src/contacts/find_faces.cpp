@@ -175,6 +175,7 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
     copy(faces.facing_slot[old_of_new[k]], next.facing_slot[k]);
   }
   next.stirs.assign(next.chunks(), 0);
+  next.deepest.assign(next.chunks(), 0.0);
   next.noise = rounding_of_closures(pose);
   next.reach = reach;
   next.built_x = pose.x;

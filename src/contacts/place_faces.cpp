@@ -135,6 +135,7 @@ EDDA_INLINE double ends_closed(double da, double db, double noise) {
 struct Placed {
   CornerForces force;
   bool asks, stirs;
+  double depth;
 };
 
 EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
@@ -171,7 +172,7 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const double closed = touches ? ends_closed(da, db, c.noise) : 0.0;
   const double closed_1 =
       old.energy[k] > 0.0 ? ends_closed(old.closure_a[k], old.closure_b[k], c.noise) : 0.0;
-  const double switched = closed != closed_1 ? 1.0 : 0.0;
+  const double switched = (closed != closed_1) | ((closed > 0.0) & (closed < 3.0)) ? 1.0 : 0.0;
   const bool stirs = (old.energy[k] > 0.0) & ((switched > 0.0) | (old.switched[k] > 0.0));
 
   m.closure_a[k] = da;
@@ -204,6 +205,7 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   placed.force.q2 += face.force.q2;
   placed.asks = asks(c, face, k);
   placed.stirs = stirs;
+  placed.depth = touches ? larger(da, db) - c.offset[k] : 0.0;
   return placed;
 }
 
@@ -215,10 +217,11 @@ struct ChunkForces {
 
 struct FoundInChunk {
   bool asks, stirs;
+  double deepest;
 };
 
 EDDA_INLINE void place_into(const FaceView& c, ChunkForces& on, std::size_t k, std::size_t q,
-                            double& asking, double& stirring) {
+                            double& asking, double& stirring, double& deepest) {
   const Placed placed = place(c, k);
   on.p1x[q] = placed.force.p1.x;
   on.p1y[q] = placed.force.p1.y;
@@ -230,13 +233,17 @@ EDDA_INLINE void place_into(const FaceView& c, ChunkForces& on, std::size_t k, s
   on.q2y[q] = placed.force.q2.y;
   asking = larger(asking, placed.asks ? 1.0 : 0.0);
   stirring = larger(stirring, placed.stirs ? 1.0 : 0.0);
+  deepest = larger(deepest, placed.depth);
 }
 
-EDDA_VECTOR FoundInChunk place_chunk(FaceView c, ChunkForces* on, std::size_t first, std::size_t last) {
-  double asking = 0.0, stirring = 0.0;
-#pragma omp simd reduction(max : asking, stirring)
-  for (std::size_t k = first; k < last; ++k) place_into(c, *on, k, k - first, asking, stirring);
-  return {asking > 0.0, stirring > 0.0};
+EDDA_VECTOR FoundInChunk place_chunk(FaceView c, ChunkForces* on, std::size_t first,
+                                     std::size_t last) {
+  double asking = 0.0, stirring = 0.0, deepest = 0.0;
+#pragma omp simd reduction(max : asking, stirring, deepest)
+  for (std::size_t k = first; k < last; ++k) {
+    place_into(c, *on, k, k - first, asking, stirring, deepest);
+  }
+  return {asking > 0.0, stirring > 0.0, deepest};
 }
 
 void keep_forces(FaceSet& c, const ChunkForces& on, std::size_t first, std::size_t last) {
@@ -342,6 +349,7 @@ void place_chunks(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t b
       found = place_chunk(view, &on, first, last);
     }
     c.stirs[first / FaceSet::chunk] = found.stirs ? 1 : 0;
+    c.deepest[first / FaceSet::chunk] = found.deepest;
     keep_forces(c, on, first, last);
   }
 }
@@ -381,7 +389,7 @@ Face face_at(const FaceSet& c, const BlockSet& b, const std::vector<double>& x,
 }
 
 CornerForces cut_again(FaceSet& c, const Face& face, const FacePoints& at, const FacePoints& then,
-                     double alpha, std::size_t k) {
+                       double alpha, std::size_t k) {
   FaceMemory& m = c.before;
   const FaceEnds here = slip_to(face, then, frame_of(then));
   const double spring = m.spring[k], cohesion = 0.5 * c.cohesion[k] * face.length * face.gate;

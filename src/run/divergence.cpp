@@ -45,9 +45,40 @@ Failure lost_block(const BlockSet& b, const State& s, const Pose& pose, const No
   return f;
 }
 
+namespace {
+
+std::optional<Failure> deep_face(const FaceSet& c, const BlockSet& b, const State& s,
+                                 const Pose& pose, const StepInUse& step) {
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const Id i = b.vertex_block[c.edge[k]], j = b.vertex_block[c.facing[k]];
+    const double depth = std::max(c.now.closure_a[k], c.now.closure_b[k]) - c.offset[k];
+    if (!(c.now.energy[k] > 0.0) || depth <= std::min(b.inradius[i], b.inradius[j])) continue;
+    Failure f;
+    f.time = s.time;
+    f.block = i;
+    const double xi = c.now.closure_b[k] >= c.now.closure_a[k] ? c.now.xi_b[k] : c.now.xi_a[k];
+    f.place = (1.0 - xi) * at(pose.x, pose.y, c.edge[k]) + xi * at(pose.x, pose.y, c.edge_end[k]) +
+              b.origin;
+    f.message = fmt::format(
+        "{} is {:.3g} m inside {}, more than half the size of the smaller: {}", block_label(b, i),
+        depth, block_label(b, j),
+        cause(step,
+              "contacts are too soft for these loads or speeds: raise contact.normal_stiffness "
+              "(or the joint's kn), or lower solver.max_displacement_ratio"));
+    return f;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::optional<Failure> deep_overlap(const ContactSet& c, const BlockSet& b, const State& s,
                                     const Pose& pose, double largest, double smallest_half_width,
                                     const StepInUse& step) {
+  if (c.on_faces) {
+    if (largest <= smallest_half_width) return std::nullopt;
+    return deep_face(c.faces, b, s, pose, step);
+  }
   auto limit = [&](std::size_t k) {
     return std::min(b.inradius[c.block_i[k]], b.inradius[c.block_j[k]]);
   };

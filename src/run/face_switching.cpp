@@ -13,6 +13,7 @@ namespace {
 constexpr std::uint64_t most_passes = 30;
 constexpr std::uint64_t passes_to_look = 4;  // before the neighbours are looked at again
 constexpr double settled = 1e-9;             // change of alpha
+constexpr double negligible = 1e-10;         // energy that is missing, of what is stored
 
 std::array<Vec2, 4> list(const FacePoints& p) {
   return {p.p1, p.p2, p.q1, p.q2};
@@ -186,6 +187,7 @@ class Correction {
     double alpha = slope != 0.0 ? f.alpha - left / slope : 1.0;
     constexpr double most = 1.5;  // of a face that is closed before and after
     alpha = std::clamp(alpha, 0.0, f.was_closed && closes ? most : 1.0);
+    if (std::abs(left) <= negligible * (f.stored + f.stored_next)) alpha = f.alpha;
     const double change = std::abs(alpha - f.alpha);
     f.alpha = alpha;
     const CornerForces force = cut_again(c_, f.placed, f.at, f.then, alpha, k);
@@ -234,6 +236,7 @@ void correct_switching(FaceSet& c, const BlockSet& b, State& s, Pose& pose, cons
   counts.switched += scratch.set.size();
   if (!all) ++counts.unsettled;
 }
+}
 
 double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   const FacePoints at = face_points(c, pose.x, pose.y, k),
@@ -250,11 +253,7 @@ double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::s
 
 double largest_closure(const FaceSet& c) {
   double depth = 0.0;
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (c.now.energy[k] > 0.0 && c.now.gate[k] > 0.5) {
-      depth = std::max({depth, c.now.closure_a[k], c.now.closure_b[k]});
-    }
-  }
+  for (const double d : c.deepest) depth = std::max(depth, d);
   return depth;
 }
 
