@@ -62,7 +62,8 @@ struct Face {
   double angle_gate = 0.0;  ///< W
   double energy = 0.0;      ///< U, J
   FaceEnds normal;          ///< w W dU/dd of each end: the normal force there, N
-  CornerForces force;         ///< of the normal pressure
+  FaceEnds slope;           ///< of the edge that the corner at each end is pressed against
+  CornerForces force;       ///< of the normal pressure
 };
 
 /// A choice that loops over several faces can make.
@@ -220,8 +221,9 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const double by_past = by_share * (past < 0.0 ? share_by_past : -share_by_past);
 
   CornerForces& force = face.force;
-  add_at(force, face.xi.a, face.eta.a, by_a * (n - (a_by_p ? slope_f : slope_e) * t));
-  add_at(force, face.xi.b, face.eta.b, by_b * (n - (b_by_p ? slope_f : slope_e) * t));
+  face.slope = {a_by_p ? slope_f : slope_e, b_by_p ? slope_f : slope_e};
+  add_at(force, face.xi.a, face.eta.a, by_a * (n - face.slope.a * t));
+  add_at(force, face.xi.b, face.eta.b, by_b * (n - face.slope.b * t));
   const Vec2 stretch = by_length * t;
   force.p1 += (a_by_p ? 1.0 : 0.0) * stretch;
   force.q2 += (a_by_p ? 0.0 : 1.0) * stretch;
@@ -241,12 +243,15 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   return face;
 }
 
-/// Forces of shear forces T at the ends (N, along t on the second edge, against it on the first).
-EDDA_INLINE CornerForces shear_forces(const FacePoints& at, const Face& face, FaceEnds shear) {
+/// Forces of others than its pressure that act at the ends, N: T along t on the second edge,
+/// against it on the first, and N across the edge that the corner there is pressed against.
+EDDA_INLINE CornerForces end_forces(const FacePoints& at, const Face& face, FaceEnds normal,
+                                    FaceEnds shear) {
+  const Vec2 t = face.t, n = outward_normal(t);
   CornerForces force;
-  add_at(force, face.xi.a, face.eta.a, shear.a * face.t);
-  add_at(force, face.xi.b, face.eta.b, shear.b * face.t);
-  add_couple_of_frame(force, at, face.t, face.base);
+  add_at(force, face.xi.a, face.eta.a, normal.a * (n - face.slope.a * t) + shear.a * t);
+  add_at(force, face.xi.b, face.eta.b, normal.b * (n - face.slope.b * t) + shear.b * t);
+  add_couple_of_frame(force, at, t, face.base);
   return force;
 }
 

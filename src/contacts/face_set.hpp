@@ -16,14 +16,18 @@ struct FaceMemory {
   std::vector<double> energy;                    ///< U of the normal pressure, J
   std::vector<double> normal_a, normal_b;        ///< normal force at the ends, N
   std::vector<double> shear_a, shear_b;          ///< T at the ends, N
+  std::vector<double> damping_a, damping_b;      ///< of the dashpots across the face, N
+  std::vector<double> drag_a, drag_b;            ///< of those along it, N
   std::vector<double> slip_a, slip_b;            ///< elastic slip u, m: T = -spring u
   std::vector<double> trial_a, trial_b;          ///< the same before Coulomb's limit, m
   std::vector<double> spring;                    ///< shear spring of each end, N/m
+  std::vector<double> length;                    ///< L, m; 0: no overlap
   std::vector<double> overlap;                   ///< length that the shear springs stand for, m
   std::vector<double> gate;                      ///< w W
   std::vector<double> xi_a, xi_b, eta_a, eta_b;  ///< where the ends are on the edges
   std::vector<double> switched;       ///< 1: other ends are closed than at the step before
   std::vector<double> friction_work;  ///< taken by friction in the step before, J
+  std::vector<double> damping_work;   ///< by dashpots
   std::vector<double>
       transfer;  ///< taken in it by what is no physics: overlaps and ends that move on, J
 };
@@ -34,18 +38,34 @@ struct FaceColumn {
   const char* unit;
   std::vector<double> FaceMemory::*values;
 };
-inline constexpr FaceColumn face_columns[] = {
-    {"closure_a", "m", &FaceMemory::closure_a}, {"closure_b", "m", &FaceMemory::closure_b},
-    {"energy", "J", &FaceMemory::energy},       {"normal_a", "N", &FaceMemory::normal_a},
-    {"normal_b", "N", &FaceMemory::normal_b},   {"shear_a", "N", &FaceMemory::shear_a},
-    {"shear_b", "N", &FaceMemory::shear_b},     {"slip_a", "m", &FaceMemory::slip_a},
-    {"slip_b", "m", &FaceMemory::slip_b},       {"trial_a", "m", &FaceMemory::trial_a},
-    {"trial_b", "m", &FaceMemory::trial_b},     {"spring", "N/m", &FaceMemory::spring},
-    {"overlap", "m", &FaceMemory::overlap},     {"gate", "1", &FaceMemory::gate},
-    {"xi_a", "1", &FaceMemory::xi_a},           {"xi_b", "1", &FaceMemory::xi_b},
-    {"eta_a", "1", &FaceMemory::eta_a},         {"eta_b", "1", &FaceMemory::eta_b},
-    {"switched", "1", &FaceMemory::switched},   {"friction_work", "J", &FaceMemory::friction_work},
-    {"transfer", "J", &FaceMemory::transfer}};
+inline constexpr FaceColumn face_columns[] = {{"closure_a", "m", &FaceMemory::closure_a},
+                                              {"closure_b", "m", &FaceMemory::closure_b},
+                                              {"energy", "J", &FaceMemory::energy},
+                                              {"normal_a", "N", &FaceMemory::normal_a},
+                                              {"normal_b", "N", &FaceMemory::normal_b},
+                                              {"shear_a", "N", &FaceMemory::shear_a},
+                                              {"shear_b", "N", &FaceMemory::shear_b},
+                                              {"slip_a", "m", &FaceMemory::slip_a},
+                                              {"slip_b", "m", &FaceMemory::slip_b},
+                                              {"trial_a", "m", &FaceMemory::trial_a},
+                                              {"trial_b", "m", &FaceMemory::trial_b},
+                                              {"spring", "N/m", &FaceMemory::spring},
+                                              {"length", "m", &FaceMemory::length},
+                                              {"length", "m", &FaceMemory::length},
+                                              {"overlap", "m", &FaceMemory::overlap},
+                                              {"gate", "1", &FaceMemory::gate},
+                                              {"xi_a", "1", &FaceMemory::xi_a},
+                                              {"xi_b", "1", &FaceMemory::xi_b},
+                                              {"eta_a", "1", &FaceMemory::eta_a},
+                                              {"eta_b", "1", &FaceMemory::eta_b},
+                                              {"damping_a", "N", &FaceMemory::damping_a},
+                                              {"damping_b", "N", &FaceMemory::damping_b},
+                                              {"drag_a", "N", &FaceMemory::drag_a},
+                                              {"drag_b", "N", &FaceMemory::drag_b},
+                                              {"damping_work", "J", &FaceMemory::damping_work},
+                                              {"switched", "1", &FaceMemory::switched},
+                                              {"friction_work", "J", &FaceMemory::friction_work},
+                                              {"transfer", "J", &FaceMemory::transfer}};
 
 struct FaceSet {
   std::size_t size() const { return edge.size(); }
@@ -67,13 +87,23 @@ struct FaceSet {
   // Strength in force.
   std::vector<double> friction;  ///< tan(phi)
   std::vector<double> cohesion;  ///< c times thickness, N per m of overlap
-  std::vector<double> offset;    ///< closure of the surfaces as drawn, m
+  std::vector<double> tension;   ///< tensile strength times thickness, N per m; of those that pull
   std::vector<double> pulls;     ///< 1: bears tension
+  std::vector<double> bonded;    ///< 1: has its peak strength: its shear is not cut
+  std::vector<double> glued;     ///< 1: never opens or slides
+  std::vector<double> offset;    ///< closure of the surfaces as drawn, m
+  std::vector<double> lent;      ///< what a glued face had before, 1 + bonded + 2 pulls; else 0
+  std::vector<double>
+      breaks;  ///< 1: torn in the step in hand, 2: its bond breaks: what goes is fracture energy
+  std::vector<double> opened;  ///< 1: has opened after having been closed
+
+  // Dashpots, as fractions of critical; empty where there are none. Filled by set_face_dashpots().
+  std::vector<double> zeta, shear_zeta;
 
   FaceMemory now;     ///< at step n
   FaceMemory before;  ///< at n - 1; while n + 1 is tried: at n
 
-  std::vector<double> friction_work, transfer;  ///< so far, J
+  std::vector<double> friction_work, damping_work, fracture_work, transfer;  ///< so far, J
 
   /// Forces on the corners of both edges at n, N: by slot, x and y on the edge's start, on its end.
   std::vector<double> force;
@@ -86,6 +116,7 @@ struct FaceSet {
   std::size_t chunks() const { return (size() + chunk - 1) / chunk; }
   std::vector<std::uint8_t> stirs;  ///< [chunks] 1: ends of a face in it open or close
   std::vector<double> deepest;      ///< [chunks] largest closure of a face that carries, m
+  std::vector<std::uint8_t> bonds;  ///< [chunks] 1: a face in it is bonded or pulls
 
   // When the list was made, and how long it lives.
   std::vector<double> built_x, built_y;  ///< [nv] vertices then, m
@@ -93,7 +124,10 @@ struct FaceSet {
   double reach = 0.0;                    ///< m: edges nearer than this are in the list
   double travel = 0.0;                   ///< m: bound of what any vertex has moved since
   std::uint64_t rebuilds = 0;
-  double retired_friction = 0.0, retired_transfer = 0.0;  ///< J, of faces let go
+  double retired_friction = 0.0, retired_damping = 0.0, retired_fracture = 0.0,
+         retired_transfer = 0.0;  ///< J, of faces let go
+
+  std::uint64_t broken = 0;  ///< bonded faces that have gone to their residual law so far
 
   /// Calls visit(k, of_edge) for the faces of the edges [first, end): of_edge where it is `edge`.
   template <class Visit>

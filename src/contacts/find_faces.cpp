@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "contacts/face_bonds.hpp"
 #include "contacts/gap.hpp"
 #include "contacts/search.hpp"
 
@@ -16,9 +17,12 @@ using EdgePair = std::pair<Id, Id>;
 using FaceArray = std::vector<double> FaceSet::*;
 
 /// Kept over a search, beside FaceMemory.
-constexpr FaceArray kept_faces[] = {&FaceSet::lives,    &FaceSet::acts,          &FaceSet::leans,
-                                &FaceSet::friction, &FaceSet::cohesion,      &FaceSet::offset,
-                                &FaceSet::pulls,    &FaceSet::friction_work, &FaceSet::transfer};
+constexpr FaceArray kept_faces[] = {
+    &FaceSet::lives,        &FaceSet::acts,          &FaceSet::leans,    &FaceSet::friction,
+    &FaceSet::cohesion,     &FaceSet::tension,       &FaceSet::pulls,    &FaceSet::bonded,
+    &FaceSet::glued,        &FaceSet::lent,          &FaceSet::opened,   &FaceSet::breaks,
+    &FaceSet::offset,       &FaceSet::friction_work, &FaceSet::transfer, &FaceSet::damping_work,
+    &FaceSet::fracture_work};
 /// Filled for every list.
 constexpr FaceArray constants[] = {
     &FaceSet::stiffness,  &FaceSet::shear_stiffness, &FaceSet::inverse_lengths, &FaceSet::gate_from,
@@ -48,7 +52,7 @@ bool may_oppose(const BlockSet& b, const Pose& pose, Id e, Id f, double reach) {
 }
 
 std::vector<EdgePair> wanted_faces(const FaceSet& old, const BlockSet& b, const State& state,
-                             const Pose& pose, double reach) {
+                                   const Pose& pose, double reach) {
   std::vector<EdgePair> list;
   const auto add = [&](Id e, Id f) {
     if (may_oppose(b, pose, e, f, reach)) list.push_back(std::minmax(e, f));
@@ -60,7 +64,8 @@ std::vector<EdgePair> wanted_faces(const FaceSet& old, const BlockSet& b, const 
   for (std::size_t k = 0; k < old.size(); ++k) {
     const bool stays = state.alive[b.vertex_block[old.edge[k]]] != 0 &&
                        state.alive[b.vertex_block[old.facing[k]]] != 0;
-    if (stays && old.now.energy[k] > 0.0) list.push_back({old.edge[k], old.facing[k]});
+    if (stays && (old.now.energy[k] > 0.0 || old.bonded[k] > 0.0))
+      list.push_back({old.edge[k], old.facing[k]});
   }
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -133,9 +138,14 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
   std::vector<Id> old_of_new(n, no_id);
   std::size_t old = 0;
   next.retired_friction = faces.retired_friction;
+  next.retired_damping = faces.retired_damping;
+  next.retired_fracture = faces.retired_fracture;
   next.retired_transfer = faces.retired_transfer;
+  next.broken = faces.broken;
   const auto retire = [&](std::size_t k) {
     next.retired_friction += faces.friction_work[k];
+    next.retired_damping += faces.damping_work[k];
+    next.retired_fracture += faces.fracture_work[k];
     next.retired_transfer += faces.transfer[k];
   };
   for (std::size_t k = 0; k < n; ++k) {
@@ -157,9 +167,8 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
     } else {
       next.law[k] = laws.resolve(b.edge_joint[e], b.edge_joint[f], b.material[b.vertex_block[e]],
                                  b.material[b.vertex_block[f]]);
-      const Law& law = laws.rows[next.law[k]];
-      next.friction[k] = law.residual_friction;
-      next.cohesion[k] = law.residual_cohesion * laws.thickness;
+      take_residual(next, laws, k);
+      next.pulls[k] = 0.0;  // what comes to touch has no tensile strength
     }
     fill_constants(next, b, laws, k);
   }
@@ -176,6 +185,7 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
   }
   next.stirs.assign(next.chunks(), 0);
   next.deepest.assign(next.chunks(), 0.0);
+  note_bonds(next);
   next.noise = rounding_of_closures(pose);
   next.reach = reach;
   next.built_x = pose.x;

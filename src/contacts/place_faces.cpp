@@ -5,6 +5,9 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "blocks/point_mass.hpp"
+#include "contacts/face_bonds.hpp"
+#include "contacts/face_energy.hpp"
 #include "contacts/inside.hpp"
 
 namespace edda {
@@ -12,30 +15,36 @@ namespace {
 
 /// Columns of FaceMemory as the loops over faces see them.
 struct MemoryView {
-  double *closure_a, *closure_b, *energy, *normal_a, *normal_b, *shear_a, *shear_b, *slip_a,
-      *slip_b, *trial_a, *trial_b, *spring, *overlap, *gate, *xi_a, *xi_b, *eta_a, *eta_b,
-      *switched, *friction_work, *transfer;
+  double *closure_a, *closure_b, *energy, *normal_a, *normal_b, *shear_a, *shear_b, *damping_a,
+      *damping_b, *drag_a, *drag_b, *slip_a, *slip_b, *trial_a, *trial_b, *spring, *length,
+      *overlap, *gate, *xi_a, *xi_b, *eta_a, *eta_b, *switched, *friction_work, *damping_work,
+      *transfer;
 };
 MemoryView faces_view(FaceMemory& m) {
-  return {m.closure_a.data(), m.closure_b.data(), m.energy.data(),   m.normal_a.data(),
-          m.normal_b.data(),  m.shear_a.data(),   m.shear_b.data(),  m.slip_a.data(),
-          m.slip_b.data(),    m.trial_a.data(),   m.trial_b.data(),  m.spring.data(),
-          m.overlap.data(),   m.gate.data(),      m.xi_a.data(),     m.xi_b.data(),
-          m.eta_a.data(),     m.eta_b.data(),     m.switched.data(), m.friction_work.data(),
-          m.transfer.data()};
+  return {m.closure_a.data(),     m.closure_b.data(),    m.energy.data(),  m.normal_a.data(),
+          m.normal_b.data(),      m.shear_a.data(),      m.shear_b.data(), m.damping_a.data(),
+          m.damping_b.data(),     m.drag_a.data(),       m.drag_b.data(),  m.slip_a.data(),
+          m.slip_b.data(),        m.trial_a.data(),      m.trial_b.data(), m.spring.data(),
+          m.length.data(),        m.overlap.data(),      m.gate.data(),    m.xi_a.data(),
+          m.xi_b.data(),          m.eta_a.data(),        m.eta_b.data(),   m.switched.data(),
+          m.friction_work.data(), m.damping_work.data(), m.transfer.data()};
 }
 
 /// What a loop over faces reads and writes.
 struct FaceView {
   const Id *edge, *edge_end, *facing, *facing_end;
   const double *stiffness, *shear_stiffness, *inverse_lengths, *gate_from, *gate_scale, *passing,
-      *at_ends, *lives, *acts, *leans, *friction, *cohesion, *offset, *pulls;
+      *at_ends, *lives, *acts, *leans, *friction, *cohesion, *offset, *pulls, *bonded;
   const double *turn_cosine, *turn_sine;
   const double *x, *y, *x1, *y1;
   double noise;
+  // of dashpots
+  const double *zeta, *shear_zeta, *point_inverse, *edge_inverse;
+  double step;
+  bool damped;
   MemoryView now, before;
 };
-FaceView faces_view(FaceSet& c, const BlockSet& b, const Pose& pose) {
+FaceView faces_view(FaceSet& c, const BlockSet& b, const Pose& pose, double step) {
   return {c.edge.data(),
           c.edge_end.data(),
           c.facing.data(),
@@ -54,6 +63,7 @@ FaceView faces_view(FaceSet& c, const BlockSet& b, const Pose& pose) {
           c.cohesion.data(),
           c.offset.data(),
           c.pulls.data(),
+          c.bonded.data(),
           b.turn_cosine.data(),
           b.turn_sine.data(),
           pose.x.data(),
@@ -61,6 +71,12 @@ FaceView faces_view(FaceSet& c, const BlockSet& b, const Pose& pose) {
           pose.x1.data(),
           pose.y1.data(),
           c.noise,
+          c.zeta.data(),
+          c.shear_zeta.data(),
+          b.point_inverse.data(),
+          b.edge_inverse.data(),
+          step,
+          !c.zeta.empty(),
           faces_view(c.now),
           faces_view(c.before)};
 }
@@ -75,10 +91,20 @@ EDDA_INLINE Vec2 frame_of(const FacePoints& p) {
   return unit((p.p2 - p.p1) - (p.q2 - p.q1));
 }
 
-/// Slip in the last step, rho_n - rho_{n-1}, m: of the points that are at the ends now (rho_n = 0).
-EDDA_INLINE FaceEnds slip_to(const Face& face, const FacePoints& then, Vec2 t_then) {
-  return {-dot(from_point_of_e(then, face.xi.a, face.eta.a), t_then),
-          -dot(from_point_of_e(then, face.xi.b, face.eta.b), t_then)};
+/// What the points that are at the ends now have moved by in the last step, one against the other,
+/// m: slip along the frame, rho_n - rho_{n-1} with rho_n = 0, and closure across the edge that the
+/// corner there is pressed against.
+struct EndMotion {
+  FaceEnds slip, closure;
+};
+EDDA_INLINE EndMotion motion_of(const Face& face, double offset, const FacePoints& then) {
+  const Vec2 t = frame_of(then), n = outward_normal(t);
+  const Vec2 a = from_point_of_e(then, face.xi.a, face.eta.a);
+  const Vec2 b = from_point_of_e(then, face.xi.b, face.eta.b);
+  const FaceEnds slip{-dot(a, t), -dot(b, t)};
+  return {slip,
+          {face.closure.a - offset + dot(a, n) + face.slope.a * slip.a,
+           face.closure.b - offset + dot(b, n) + face.slope.b * slip.b}};
 }
 
 /// Shear of one end under Coulomb's limit (N): T = -spring u.
@@ -116,6 +142,8 @@ EDDA_INLINE Lost lost(const Shear& now, double trial, double spring, const SlipO
 /// lose takes its part of the force along. Not for every breath: L must change by this part.
 constexpr double worth = 1e-4;
 
+constexpr double unlimited = 1e300;  // N
+
 /// What asks for a decision (see judge()).
 EDDA_INLINE bool asks(const FaceView& c, const Face& face, std::size_t k) {
   const double lives = c.lives[k], acts = c.acts[k];
@@ -138,11 +166,53 @@ struct Placed {
   double depth;
 };
 
+/// One end of a face: its normal force, slip before Coulomb's limit, what its points have moved by.
+struct EndOfFace {
+  double normal, trial, closing, slipping, xi, eta;
+};
+/// What acts there besides the pressure.
+struct EndActs {
+  Shear shear;
+  double damping, drag;  ///< of the dashpots across and along the face, N
+};
+
+/// Dashpots c = 2 zeta sqrt(p m), p the spring of the end and m the mass that it moves. The one
+/// across lets no end pull that could not, and counts in Coulomb's limit; the one along keeps
+/// within it.
+template <bool dashpots>
+EDDA_INLINE EndActs act(const FaceView& c, const Face& face, const EndOfFace& end, double spring,
+                        double cohesion, bool touches, std::size_t k) {
+  const double friction = c.friction[k];
+  const bool bonded = c.bonded[k] > 0.0;
+  if constexpr (!dashpots) {
+    const double limit = larger(cohesion + friction * end.normal, 0.0);
+    return {cut(end.trial, spring, bonded ? unlimited : limit), 0.0, 0.0};
+  } else {
+    const double inverse = inverse_mass_on_edge(c, c.edge[k], c.edge_end[k], end.xi) +
+                           inverse_mass_on_edge(c, c.facing[k], c.facing_end[k], 1.0 - end.eta);
+    const double mass = 1.0 / (inverse > 0.0 ? inverse : 1.0);
+    const double across = 0.5 * c.stiffness[k] * c.acts[k] * larger(face.length, 0.0) * face.gate;
+    const double whole =
+        end.normal + 2.0 * c.zeta[k] * std::sqrt(across * mass) * end.closing / c.step;
+    const double pushing = larger(whole, 0.0);
+    const bool pulls = c.pulls[k] > 0.0, carries = end.normal != 0.0;
+    const double normal = carries ? (pulls ? whole : pushing) : 0.0;
+    const double limit = bonded ? unlimited : larger(cohesion + friction * normal, 0.0);
+    const Shear shear = cut(end.trial, spring, limit);
+    const double drag = -2.0 * c.shear_zeta[k] * std::sqrt(spring * mass) * end.slipping / c.step;
+    const double within = larger(-limit - shear.force, smaller(limit - shear.force, drag));
+    const bool holds = touches & (shear.slip == end.trial);
+    return {shear, normal - end.normal, holds ? within : 0.0};
+  }
+}
+
+template <bool dashpots>
 EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const MemoryView &m = c.now, &old = c.before;
   const FacePoints at = face_points(c, c.x, c.y, k), then = face_points(c, c.x1, c.y1, k);
   const Face face = face_between(at, face_pair(c, c.turn_cosine, c.turn_sine, k));
-  const bool touches = face.energy > 0.0;
+  const bool bonded = c.bonded[k] > 0.0;
+  const bool touches = (face.energy > 0.0) | (bonded & (face.gate > 0.0));
 
   // overlap and springs
   const double length = larger(face.length, 0.0), length_1 = old.overlap[k];
@@ -152,7 +222,8 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const double spring = touches ? 0.5 * c.shear_stiffness[k] * overlap * face.gate : 0.0;
 
   // slip, and Coulomb's limit at each end
-  const FaceEnds here = slip_to(face, then, frame_of(then));
+  const EndMotion moved = motion_of(face, c.offset[k], then);
+  const FaceEnds here = moved.slip;
   const double xi_a = old.xi_a[k], xi_b = old.xi_b[k], eta_a = old.eta_a[k], eta_b = old.eta_b[k];
   const FaceEnds there{dot(from_point_of_e(at, xi_a, eta_a), face.t),
                        dot(from_point_of_e(at, xi_b, eta_b), face.t)};
@@ -160,9 +231,11 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const double trial_a = touches ? kept * slip_1a + here.a : 0.0;
   const double trial_b = touches ? kept * slip_1b + here.b : 0.0;
   const double cohesion = touches ? 0.5 * c.cohesion[k] * face.length * face.gate : 0.0;
-  const double friction = c.friction[k];
-  const Shear a = cut(trial_a, spring, larger(cohesion + friction * face.normal.a, 0.0));
-  const Shear b = cut(trial_b, spring, larger(cohesion + friction * face.normal.b, 0.0));
+  const EndOfFace end_a{face.normal.a, trial_a, moved.closure.a, here.a, face.xi.a, face.eta.a};
+  const EndOfFace end_b{face.normal.b, trial_b, moved.closure.b, here.b, face.xi.b, face.eta.b};
+  const EndActs acts_a = act<dashpots>(c, face, end_a, spring, cohesion, touches, k);
+  const EndActs acts_b = act<dashpots>(c, face, end_b, spring, cohesion, touches, k);
+  const Shear a = acts_a.shear, b = acts_b.shear;
   const Lost lost_a =
       lost(a, trial_a, spring, {here.a, there.a, old.shear_a[k], slip_1a, kept}, touches);
   const Lost lost_b =
@@ -172,7 +245,7 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const double closed = touches ? ends_closed(da, db, c.noise) : 0.0;
   const double closed_1 =
       old.energy[k] > 0.0 ? ends_closed(old.closure_a[k], old.closure_b[k], c.noise) : 0.0;
-  const double switched = (closed != closed_1) | ((closed > 0.0) & (closed < 3.0)) ? 1.0 : 0.0;
+  const double switched = closed != closed_1 ? 1.0 : 0.0;
   const bool stirs = (old.energy[k] > 0.0) & ((switched > 0.0) | (old.switched[k] > 0.0));
 
   m.closure_a[k] = da;
@@ -182,11 +255,16 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   m.normal_b[k] = face.normal.b;
   m.shear_a[k] = a.force;
   m.shear_b[k] = b.force;
+  m.damping_a[k] = acts_a.damping;
+  m.damping_b[k] = acts_b.damping;
+  m.drag_a[k] = acts_a.drag;
+  m.drag_b[k] = acts_b.drag;
   m.slip_a[k] = touches ? a.slip : 0.0;
   m.slip_b[k] = touches ? b.slip : 0.0;
   m.trial_a[k] = trial_a;
   m.trial_b[k] = trial_b;
   m.spring[k] = spring;
+  m.length[k] = length;
   m.overlap[k] = touches ? overlap : length;
   m.gate[k] = face.gate;
   m.xi_a[k] = face.xi.a;
@@ -195,10 +273,15 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   m.eta_b[k] = face.eta.b;
   m.switched[k] = switched;
   m.friction_work[k] = lost_a.friction + lost_b.friction;
+  m.damping_work[k] =
+      0.5 * ((acts_a.damping + old.damping_a[k]) * moved.closure.a +
+             (acts_b.damping + old.damping_b[k]) * moved.closure.b -
+             (acts_a.drag + old.drag_a[k]) * here.a - (acts_b.drag + old.drag_b[k]) * here.b);
   m.transfer[k] = lost_a.transfer + lost_b.transfer;
 
   Placed placed;
-  placed.force = shear_forces(at, face, {a.force, b.force});
+  placed.force = end_forces(at, face, {acts_a.damping, acts_b.damping},
+                            {a.force + acts_a.drag, b.force + acts_b.drag});
   placed.force.p1 += face.force.p1;
   placed.force.p2 += face.force.p2;
   placed.force.q1 += face.force.q1;
@@ -220,9 +303,10 @@ struct FoundInChunk {
   double deepest;
 };
 
+template <bool dashpots>
 EDDA_INLINE void place_into(const FaceView& c, ChunkForces& on, std::size_t k, std::size_t q,
                             double& asking, double& stirring, double& deepest) {
-  const Placed placed = place(c, k);
+  const Placed placed = place<dashpots>(c, k);
   on.p1x[q] = placed.force.p1.x;
   on.p1y[q] = placed.force.p1.y;
   on.p2x[q] = placed.force.p2.x;
@@ -236,14 +320,28 @@ EDDA_INLINE void place_into(const FaceView& c, ChunkForces& on, std::size_t k, s
   deepest = larger(deepest, placed.depth);
 }
 
-EDDA_VECTOR FoundInChunk place_chunk(FaceView c, ChunkForces* on, std::size_t first,
-                                     std::size_t last) {
+EDDA_VECTOR FoundInChunk place_undamped(FaceView c, ChunkForces* on, std::size_t first,
+                                        std::size_t last) {
   double asking = 0.0, stirring = 0.0, deepest = 0.0;
 #pragma omp simd reduction(max : asking, stirring, deepest)
   for (std::size_t k = first; k < last; ++k) {
-    place_into(c, *on, k, k - first, asking, stirring, deepest);
+    place_into<false>(c, *on, k, k - first, asking, stirring, deepest);
   }
   return {asking > 0.0, stirring > 0.0, deepest};
+}
+
+EDDA_VECTOR FoundInChunk place_damped(FaceView c, ChunkForces* on, std::size_t first,
+                                      std::size_t last) {
+  double asking = 0.0, stirring = 0.0, deepest = 0.0;
+#pragma omp simd reduction(max : asking, stirring, deepest)
+  for (std::size_t k = first; k < last; ++k) {
+    place_into<true>(c, *on, k, k - first, asking, stirring, deepest);
+  }
+  return {asking > 0.0, stirring > 0.0, deepest};
+}
+
+FoundInChunk place_chunk(const FaceView& c, ChunkForces* on, std::size_t first, std::size_t last) {
+  return c.damped ? place_damped(c, on, first, last) : place_undamped(c, on, first, last);
 }
 
 void keep_forces(FaceSet& c, const ChunkForces& on, std::size_t first, std::size_t last) {
@@ -334,9 +432,23 @@ void judge(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   if (c.before.energy[k] == 0.0) c.leans[k] = corner_leans(c, b, pose, at, face, k) ? 1.0 : 0.0;
 }
 
-void place_chunks(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t begin,
-                  std::size_t end) {
-  const FaceView view = faces_view(c, b, pose);
+/// Breaks what gives way of the faces [first, last). Whether anything does.
+bool break_bonds(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
+                 std::size_t first, std::size_t last) {
+  bool any = false;
+  for (std::size_t k = first; k < last; ++k) {
+    if ((c.bonded[k] == 0.0 && c.pulls[k] == 0.0) || !gives_way(c, b, k)) continue;
+    const double stored = normal_energy(c, b, pose, k);
+    break_bond(c, laws, k);
+    c.fracture_work[k] += std::max(stored - normal_energy(c, b, pose, k), 0.0);
+    any = true;
+  }
+  return any;
+}
+
+void place_chunks(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
+                  double step, std::size_t begin, std::size_t end) {
+  const FaceView view = faces_view(c, b, pose, step);
   ChunkForces on;
   for (std::size_t first = begin; first < end; first += FaceSet::chunk) {
     const std::size_t last = std::min(end, first + FaceSet::chunk);
@@ -348,6 +460,9 @@ void place_chunks(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t b
       }
       found = place_chunk(view, &on, first, last);
     }
+    if (c.bonds[first / FaceSet::chunk] != 0 && break_bonds(c, b, pose, laws, first, last)) {
+      found = place_chunk(view, &on, first, last);
+    }
     c.stirs[first / FaceSet::chunk] = found.stirs ? 1 : 0;
     c.deepest[first / FaceSet::chunk] = found.deepest;
     keep_forces(c, on, first, last);
@@ -356,29 +471,41 @@ void place_chunks(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t b
 
 }  // namespace
 
-void place_faces(FaceSet& c, const BlockSet& b, const Pose& pose) {
+void place_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
+                 double step) {
   parallel_chunks(c.size(), FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
-    place_chunks(c, b, pose, begin, end);
+    place_chunks(c, b, pose, laws, step, begin, end);
   });
 }
 
-void place_face(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
-  const FaceView view = faces_view(c, b, pose);
+void place_face(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws, double step,
+                std::size_t k) {
+  const FaceView view = faces_view(c, b, pose, step);
   ChunkForces on;
   FoundInChunk found = place_chunk(view, &on, k, k + 1);
   if (found.asks) {
     judge(c, b, pose, k);
     found = place_chunk(view, &on, k, k + 1);
   }
+  if (break_bonds(c, b, pose, laws, k, k + 1)) found = place_chunk(view, &on, k, k + 1);
   if (found.stirs) c.stirs[k / FaceSet::chunk] = 1;
   keep_forces(c, on, k, k + 1);
 }
 
 void next_step(FaceSet& c) {
   parallel_for(c.size(), [&](std::size_t k) {
-    c.friction_work[k] += c.now.friction_work[k];
+    (c.breaks[k] > 0.0 ? c.fracture_work : c.friction_work)[k] += c.now.friction_work[k];
+    c.damping_work[k] += c.now.damping_work[k];
     c.transfer[k] += c.now.transfer[k];
   });
+  for (std::size_t q = 0; q < c.bonds.size(); ++q) {
+    if (c.bonds[q] == 0) continue;
+    for (std::size_t k = q * FaceSet::chunk; k < std::min(c.size(), (q + 1) * FaceSet::chunk);
+         ++k) {
+      c.broken += c.breaks[k] == 2.0 ? 1 : 0;
+      c.breaks[k] = 0.0;
+    }
+  }
   std::swap(c.now, c.before);
 }
 
@@ -391,7 +518,7 @@ Face face_at(const FaceSet& c, const BlockSet& b, const std::vector<double>& x,
 CornerForces cut_again(FaceSet& c, const Face& face, const FacePoints& at, const FacePoints& then,
                        double alpha, std::size_t k) {
   FaceMemory& m = c.before;
-  const FaceEnds here = slip_to(face, then, frame_of(then));
+  const FaceEnds here = motion_of(face, c.offset[k], then).slip;
   const double spring = m.spring[k], cohesion = 0.5 * c.cohesion[k] * face.length * face.gate;
   const auto again = [&](double normal, double trial, double slipped, double& force, double& slip) {
     const Shear next = cut(trial, spring, std::max(cohesion + c.friction[k] * alpha * normal, 0.0));
@@ -408,9 +535,9 @@ CornerForces cut_again(FaceSet& c, const Face& face, const FacePoints& at, const
     force = next.force;
     slip = next.slip;
   };
-  again(face.normal.a, m.trial_a[k], here.a, m.shear_a[k], m.slip_a[k]);
-  again(face.normal.b, m.trial_b[k], here.b, m.shear_b[k], m.slip_b[k]);
-  CornerForces force = shear_forces(at, face, {m.shear_a[k], m.shear_b[k]});
+  again(alpha * face.normal.a + m.damping_a[k], m.trial_a[k], here.a, m.shear_a[k], m.slip_a[k]);
+  again(alpha * face.normal.b + m.damping_b[k], m.trial_b[k], here.b, m.shear_b[k], m.slip_b[k]);
+  CornerForces force = end_forces(at, face, {}, {m.shear_a[k], m.shear_b[k]});
   force.p1 += alpha * face.force.p1;
   force.p2 += alpha * face.force.p2;
   force.q1 += alpha * face.force.q1;

@@ -3,16 +3,20 @@
 
 #include "blocks/pose.hpp"
 #include "contacts/face_set.hpp"
+#include "contacts/laws.hpp"
 
 namespace edda {
 
 /// Works out every face at the positions pose.x, y of step n, from its memory at n - 1 in `before`
 /// and the positions then, pose.x1, y1: fills `now` and the forces. May be called again for other
-/// positions of the same step.
-void place_faces(FaceSet& faces, const BlockSet& blocks, const Pose& pose);
+/// positions of the same step. Bonds that give way break. step: from n - 1
+/// to n, s, for dashpots.
+void place_faces(FaceSet& faces, const BlockSet& blocks, const Pose& pose, const LawTable& laws,
+                 double step);
 
 /// The same for one face.
-void place_face(FaceSet& faces, const BlockSet& blocks, const Pose& pose, std::size_t k);
+void place_face(FaceSet& faces, const BlockSet& blocks, const Pose& pose, const LawTable& laws,
+                double step, std::size_t k);
 
 /// What has been worked out is final; `before` is ready to be written. Before the next step's
 /// place_faces().
@@ -25,7 +29,7 @@ Face face_at(const FaceSet& faces, const BlockSet& blocks, const std::vector<dou
 /// The part alpha of the normal forces of face k is all that friction feels at step n - 1 (in
 /// `before`): its shear forces are cut again. at, then: the corners then and a step earlier.
 /// Returns the forces of the face. The work of the step is set right.
-CornerForces cut_again(FaceSet& faces, const Face& face, const FacePoints& at, const FacePoints& then,
-                     double alpha, std::size_t k);
+CornerForces cut_again(FaceSet& faces, const Face& face, const FacePoints& at,
+                       const FacePoints& then, double alpha, std::size_t k);
 
 }  // namespace edda

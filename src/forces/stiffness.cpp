@@ -100,12 +100,13 @@ struct Bedded {
 /// What springs along an edge of length l make of the stiffness at each of its corners, at most:
 /// they cannot lie over each other, and each is least favourable nearest to the corner, the
 /// stiffest first. Int k(s) (1 - s/l) ds.
-double at_each_corner(std::vector<Bedded>& beds, double l) {
+double at_each_corner(std::vector<Bedded>& beds, double l, double* count = nullptr) {
   std::stable_sort(beds.begin(), beds.end(),
                    [](const Bedded& p, const Bedded& q) { return p.stiffness > q.stiffness; });
   double sum = 0.0, from = 0.0;
   for (const Bedded& bed : beds) {
     const double to = std::min(from + bed.length / l, 1.0);
+    if (count != nullptr && to > from) *count += 1.0;
     sum += bed.stiffness * l * ((to - 0.5 * to * to) - (from - 0.5 * from * from));
     from = to;
   }
@@ -131,18 +132,27 @@ std::vector<Part> faces_all_round(const Scene& w, std::size_t i) {
         own.ks > 0.0 ? own.ks * w.laws.thickness : 2.0 * w.laws.shear_spring(own, 0.0) / l;
     normal.assign(1, {bare * kn, l, no_id});
     shear.assign(1, {bare * ks, l, no_id});
+    double zeta = w.laws.damping_of(own, w.damping.contact), drag = own.shear_damping;
     c.for_faces(e, e + 1, [&](Id k, bool of_edge) {
       const Id f = of_edge ? c.facing[k] : c.edge[k];
       const double factor = b.fixed[b.vertex_block[f]] != 0 ? 1.0 : 2.0;
+      const Law& law = w.laws.rows[c.law[k]];
+      zeta = std::max(zeta, w.laws.damping_of(law, w.damping.contact));
+      drag = std::max(drag, law.shear_damping);
       normal.push_back({factor * c.stiffness[k], b.edge_length[f], k});
       shear.push_back({factor * c.shear_stiffness[k], b.edge_length[f], k});
     });
-    const double of_normal = at_each_corner(normal, l), of_shear = at_each_corner(shear, l);
+    double count = 0.0;
+    const double of_normal = at_each_corner(normal, l, &count), of_shear = at_each_corner(shear, l);
     const Vec2 t = unit(b.vertex(b.next[e]) - b.vertex(e));
     for (const Id v : {e, b.next[e]}) {
       const auto weights = vertex_weights(b, v);
+      // n dashpots side by side, each of the mass that the corner feels, are sqrt(n) times one of
+      // all.
+      const double factor = 2.0 * std::sqrt(bare * count / b.point_inverse[v]);
       parts.push_back({normal.front().face, along(weights, outward_normal(t)), along(weights, t),
-                       of_normal, of_shear, 0.0, 0.0});
+                       of_normal, of_shear, factor * zeta * std::sqrt(of_normal),
+                       factor * drag * std::sqrt(of_shear)});
     }
   }
   return parts;

@@ -15,31 +15,6 @@ constexpr std::uint64_t passes_to_look = 4;  // before the neighbours are looked
 constexpr double settled = 1e-9;             // change of alpha
 constexpr double negligible = 1e-10;         // energy that is missing, of what is stored
 
-std::array<Vec2, 4> list(const FacePoints& p) {
-  return {p.p1, p.p2, p.q1, p.q2};
-}
-std::array<Vec2, 4> list(const CornerForces& f) {
-  return {f.p1, f.p2, f.q1, f.q2};
-}
-
-/// sum of f . (x - y) over the corners.
-double work_of(const CornerForces& force, const FacePoints& to, const FacePoints& from) {
-  const auto f = list(force), x = list(to), y = list(from);
-  double sum = 0.0;
-  for (std::size_t k = 0; k < 4; ++k) sum += dot(f[k], x[k] - y[k]);
-  return sum;
-}
-
-/// Energy between two steps in the leapfrog's terms, (U_0 + U_1)/2 - (F_0 - F_1).(x_1 - x_0)/4: of
-/// a linear spring p d_0 d_1/2. Nothing where it is open at one of them.
-double stored_between(const Face& face0, const FacePoints& at0, const Face& face1,
-                      const FacePoints& at1) {
-  if (face0.energy == 0.0 || face1.energy == 0.0) return 0.0;
-  const double both = 0.5 * (face0.energy + face1.energy) -
-                      0.25 * (work_of(face0.force, at1, at0) - work_of(face1.force, at1, at0));
-  return std::max(both, 0.0);
-}
-
 /// The forces of a face on the nodes of its two blocks.
 struct OnBlocks {
   std::array<Vec2, 3> first{}, second{};
@@ -58,7 +33,7 @@ CornerForces difference(const CornerForces& f, const CornerForces& g) {
 }
 
 bool any(const CornerForces& f) {
-  for (const Vec2 v : list(f)) {
+  for (const Vec2 v : {f.p1, f.p2, f.q1, f.q2}) {
     if (v.x != 0.0 || v.y != 0.0) return true;
   }
   return false;
@@ -73,10 +48,11 @@ double mobility(const BlockSet& b, Id i, const std::array<Vec2, 3>& force) {
 
 class Correction {
  public:
-  Correction(FaceSet& faces, const BlockSet& blocks, State& state, Pose& pose,
+  Correction(FaceSet& faces, const BlockSet& blocks, const LawTable& laws, State& state, Pose& pose,
              const StepTaken& taken, FaceSwitchingScratch& scratch)
       : c_(faces),
         b_(blocks),
+        laws_(laws),
         s_(state),
         pose_(pose),
         scratch_(scratch),
@@ -119,7 +95,7 @@ class Correction {
     const std::size_t known = scratch_.set.size();
     for (const Id i : pushed) {
       c_.for_faces(b_.vertex_begin[i], b_.vertex_begin[i + 1], [&](Id k, bool) {
-        place_face(c_, b_, pose_, k);
+        place_face(c_, b_, pose_, laws_, taken_.h_new, k);
         if (switches(k) && !is_known(k)) add(k);
       });
     }
@@ -163,7 +139,7 @@ class Correction {
     f.alpha = 1.0;
     f.force = f.placed.force;
     const CornerForces shear =
-        shear_forces(f.at, f.placed, {c_.before.shear_a[k], c_.before.shear_b[k]});
+        end_forces(f.at, f.placed, {}, {c_.before.shear_a[k], c_.before.shear_b[k]});
     f.force = {f.force.p1 + shear.p1, f.force.p2 + shear.p2, f.force.q1 + shear.q1,
                f.force.q2 + shear.q2};
     scratch_.set.push_back(f);
@@ -207,6 +183,7 @@ class Correction {
 
   FaceSet& c_;
   const BlockSet& b_;
+  const LawTable& laws_;
   State& s_;
   Pose& pose_;
   FaceSwitchingScratch& scratch_;
@@ -216,9 +193,10 @@ class Correction {
 
 }  // namespace
 
-void correct_switching(FaceSet& c, const BlockSet& b, State& s, Pose& pose, const StepTaken& taken,
-                       OpenCloseCounts& counts, FaceSwitchingScratch& scratch) {
-  Correction correction(c, b, s, pose, taken, scratch);
+void correct_switching(FaceSet& c, const BlockSet& b, const LawTable& laws, State& s, Pose& pose,
+                       const StepTaken& taken, OpenCloseCounts& counts,
+                       FaceSwitchingScratch& scratch) {
+  Correction correction(c, b, laws, s, pose, taken, scratch);
   if (!correction.find()) return;
   std::uint64_t passes = 0;
   bool all = false, more = true;
@@ -235,20 +213,6 @@ void correct_switching(FaceSet& c, const BlockSet& b, State& s, Pose& pose, cons
   counts.most = std::max(counts.most, passes);
   counts.switched += scratch.set.size();
   if (!all) ++counts.unsettled;
-}
-}
-
-double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
-  const FacePoints at = face_points(c, pose.x, pose.y, k),
-                   then = face_points(c, pose.x1, pose.y1, k);
-  const Face now = face_at(c, b, pose.x, pose.y, k), before = face_at(c, b, pose.x1, pose.y1, k);
-  const auto slid = [&](double xi, double eta) {
-    return dot(eta * at.q1 + (1.0 - eta) * at.q2 - (1.0 - xi) * at.p1 - xi * at.p2, now.t);
-  };
-  const FaceMemory& m = c.before;
-  const double shear = m.shear_a[k] * (m.slip_a[k] + slid(m.xi_a[k], m.eta_a[k])) +
-                       m.shear_b[k] * (m.slip_b[k] + slid(m.xi_b[k], m.eta_b[k]));
-  return stored_between(before, then, now, at) - 0.5 * shear;
 }
 
 double largest_closure(const FaceSet& c) {

@@ -7,6 +7,7 @@
 
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
+#include "contacts/face_energy.hpp"
 #include "contacts/place_faces.hpp"
 #include "run/open_close.hpp"
 #include "run/push_block.hpp"
@@ -18,7 +19,7 @@ struct SwitchingFace {
   Id face;
   FacePoints then, at;  ///< corners at n - 1 and n
   Face placed;          ///< at n
-  CornerForces force;     ///< of it at n, as it is now
+  CornerForces force;   ///< of it at n, as it is now
   double stored;        ///< U_{n-1/2}, J
   double stored_next;   ///< U_{n+1/2}, J
   bool was_closed;      ///< at n - 1
@@ -38,12 +39,9 @@ struct FaceSwitchingScratch {
 
 /// At entry: positions and faces of step n + 1, made with all of the forces of step n; at return
 /// both are final, and `before` of the faces holds what acted at n.
-void correct_switching(FaceSet& faces, const BlockSet& blocks, State& state, Pose& pose,
-                       const StepTaken& taken, OpenCloseCounts& counts,
+void correct_switching(FaceSet& faces, const BlockSet& blocks, const LawTable& laws, State& state,
+                       Pose& pose, const StepTaken& taken, OpenCloseCounts& counts,
                        FaceSwitchingScratch& scratch);
-
-/// What face k stores between steps n - 1 and n, in the leapfrog's terms, J.
-double face_energy(const FaceSet& faces, const BlockSet& blocks, const Pose& pose, std::size_t k);
 
 /// Largest closure of a face that acts, m.
 double largest_closure(const FaceSet& faces);

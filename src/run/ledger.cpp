@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "base/parallel.hpp"
+#include "contacts/face_energy.hpp"
 #include "contacts/stored_energy.hpp"
 #include "forces/elastic.hpp"
-#include "run/face_switching.hpp"
 
 namespace edda {
 namespace {
@@ -68,17 +68,21 @@ Ledger sum_ledger(const BlockSet& b, const State& s, double h, const Pose& pose,
       c.retired_friction + ordered_sum(c.size(), [&](std::size_t k) { return c.friction_work[k]; });
   l.fracture =
       c.retired_fracture + ordered_sum(c.size(), [&](std::size_t k) { return c.fracture_work[k]; });
-  if (c.on_faces) {
-    const FaceSet& f = c.faces;
-    l.contact += ordered_sum(f.size(), [&](std::size_t k) { return face_energy(f, b, pose, k); });
-    l.friction = f.retired_friction +
-                 ordered_sum(f.size(), [&](std::size_t k) { return f.friction_work[k]; });
-    l.transfer =
-        f.retired_transfer + ordered_sum(f.size(), [&](std::size_t k) { return f.transfer[k]; });
-  }
   l.damping = c.retired_damping +
               ordered_sum(c.size(), [&](std::size_t k) { return c.damping_work[k]; }) +
               ordered_sum(work.joules.size(), [&](std::size_t i) { return work.joules[i]; });
+  if (c.on_faces) {
+    const FaceSet& f = c.faces;
+    l.damping +=
+        f.retired_damping + ordered_sum(f.size(), [&](std::size_t k) { return f.damping_work[k]; });
+    l.contact += ordered_sum(f.size(), [&](std::size_t k) { return face_energy(f, b, pose, k); });
+    l.friction = f.retired_friction +
+                 ordered_sum(f.size(), [&](std::size_t k) { return f.friction_work[k]; });
+    l.fracture = f.retired_fracture +
+                 ordered_sum(f.size(), [&](std::size_t k) { return f.fracture_work[k]; });
+    l.transfer =
+        f.retired_transfer + ordered_sum(f.size(), [&](std::size_t k) { return f.transfer[k]; });
+  }
   return l;
 }
 

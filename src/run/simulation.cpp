@@ -11,6 +11,7 @@
 #include "base/polygon.hpp"
 #include "blocks/build_blocks.hpp"
 #include "contacts/candidates.hpp"
+#include "contacts/face_bonds.hpp"
 #include "contacts/find_faces.hpp"
 #include "contacts/gaps.hpp"
 #include "contacts/joint_laws.hpp"
@@ -134,7 +135,9 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   s.contacts.on_faces = s.explicit_method() && s.model.contact.model == ContactModel::faces;
   if (s.explicit_method()) s.given_mass_ = {s.blocks.node_mass, s.blocks.inverse_mass};
   s.search(s.base_reach);
-  if (!s.on_faces()) {
+  if (s.on_faces()) {
+    bond_faces(s.contacts.faces, s.blocks, s.pose, s.laws);
+  } else {
     update_shares(s.contacts);
     block_far_sides(s.contacts, s.blocks, s.pose);
     bond_contacts(s.contacts, s.blocks, s.state, s.pose, s.laws);
@@ -167,7 +170,7 @@ void Simulation::start(double first_event) {
     });
     start_ground(h);
     if (on_faces()) {
-      place_faces(contacts.faces, blocks, pose);
+      place_faces(contacts.faces, blocks, pose, laws, h);
     } else {
       look_at_previous_gaps(contacts, pose);
     }
@@ -184,7 +187,11 @@ void Simulation::start(double first_event) {
 }
 
 void Simulation::search(double reach) {
-  if (on_faces()) return find_faces(contacts.faces, blocks, state, pose, laws, reach);
+  if (on_faces()) {
+    find_faces(contacts.faces, blocks, state, pose, laws, reach);
+    set_face_dashpots(contacts.faces, laws, damping.contact);
+    return;
+  }
   rebuild_candidates(contacts, blocks, state, pose, laws, reach);
   block_shielded(contacts, blocks, pose);
 }
@@ -227,6 +234,7 @@ void Simulation::change_damping(const Damping& now, bool carry_velocities) {
   damping = now;
   dynamic = carry_velocities;
   set_viscosity();
+  if (on_faces()) set_face_dashpots(contacts.faces, laws, damping.contact);
   step_limit = std::numeric_limits<double>::infinity();
   set_limit();
 }
@@ -328,7 +336,7 @@ std::optional<Failure> Simulation::step() {
 
   if (on_faces()) {
     next_step(contacts.faces);
-    place_faces(contacts.faces, blocks, pose);
+    place_faces(contacts.faces, blocks, pose, laws, h);
   } else {
     update_gaps(contacts, pose);
   }
@@ -336,7 +344,8 @@ std::optional<Failure> Simulation::step() {
   if (on_faces()) {
     const StepTaken taken{h_old, h, damps_.mass, damps_.strain};
     if (model.solver.switching == Switching::exact) {
-      correct_switching(contacts.faces, blocks, state, pose, taken, open_close, face_switching_);
+      correct_switching(contacts.faces, blocks, laws, state, pose, taken, open_close,
+                        face_switching_);
     }
     penetration = largest_closure(contacts.faces);
   } else if (model.solver.switching == Switching::exact) {

@@ -123,7 +123,7 @@ TEST(Face, ForcesSumToZeroAndHaveNoMoment) {
   for (int k = 0; k < 20000; ++k) {
     const RandomFace r = faces.next();
     const Face face = face_between(r.at, r.pair);
-    const CornerForces shear = shear_forces(r.at, face, {0.3, -0.8});
+    const CornerForces shear = end_forces(r.at, face, {1.1, 0.2}, {0.3, -0.8});
     for (const CornerForces& f : {face.force, shear}) {
       const double size = norm(f.p1) + norm(f.p2) + norm(f.q1) + norm(f.q2) + 1e-12;
       EXPECT_LT(norm(f.p1 + f.p2 + f.q1 + f.q2), 1e-12 * size);

@@ -1,0 +1,122 @@
+#include "contacts/face_bonds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contacts/place_faces.hpp"
+
+namespace edda {
+namespace {
+
+/// Gap within which blocks touch, of the smaller block's size.
+constexpr double touch = 1e-6;
+
+double size_at(const FaceSet& c, const BlockSet& b, std::size_t k) {
+  return std::sqrt(
+      std::min(b.area[b.vertex_block[c.edge[k]]], b.area[b.vertex_block[c.facing[k]]]));
+}
+
+/// Edges whose directions satisfy this cosine lie along each other.
+constexpr double along = 0.99;
+
+}  // namespace
+
+void take_residual(FaceSet& c, const LawTable& laws, std::size_t k) {
+  const Law& law = laws.rows[c.law[k]];
+  c.friction[k] = law.residual_friction;
+  c.cohesion[k] = law.residual_cohesion * laws.thickness;
+  c.tension[k] = law.residual_tension * laws.thickness;
+  c.pulls[k] = law.residual_tension > 0.0 ? 1.0 : 0.0;
+}
+
+void bond_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws) {
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const Law& law = laws.rows[c.law[k]];
+    const bool weakens = law.type == LawType::slip_weakening;
+    const bool has_bond = weakens || law.glued || law.peak_cohesion > 0.0 ||
+                          law.peak_tension > 0.0 || law.peak_friction > law.residual_friction;
+    if (!has_bond) continue;
+    const FacePoints at = face_points(c, pose.x, pose.y, k);
+    const Face face = face_at(c, b, pose.x, pose.y, k);
+    const double cosine = -dot(at.p2 - at.p1, at.q2 - at.q1) * c.inverse_lengths[k];
+    const double size = size_at(c, b, k), closure = std::max(face.closure.a, face.closure.b);
+    if (!(face.length > touch * size) || cosine < along || std::abs(closure) > touch * size) {
+      continue;
+    }
+    c.lives[k] = c.acts[k] = c.leans[k] = 1.0;
+    if (weakens && law.peak_tension == 0.0) continue;
+    c.bonded[k] = weakens ? 0.0 : 1.0;
+    c.glued[k] = law.glued ? 1.0 : 0.0;
+    c.pulls[k] = law.glued || law.peak_tension > 0.0 ? 1.0 : 0.0;
+    c.friction[k] = law.peak_friction;
+    c.cohesion[k] = law.peak_cohesion * laws.thickness;
+    c.tension[k] = law.peak_tension * laws.thickness;
+  }
+  note_bonds(c);
+}
+
+bool gives_way(const FaceSet& c, const BlockSet& b, std::size_t k) {
+  if (c.glued[k] > 0.0) return false;
+  const FaceMemory& m = c.now;
+  const double least = std::min(m.closure_a[k], m.closure_b[k]) - c.offset[k];
+  const double largest = std::max(m.closure_a[k], m.closure_b[k]);
+  if (c.pulls[k] > 0.0 && -c.stiffness[k] * (least + c.offset[k]) > c.tension[k]) return true;
+  if (c.bonded[k] == 0.0) return false;
+  if (c.pulls[k] == 0.0 && largest < -touch * size_at(c, b, k)) return true;
+  const double shear = std::abs(m.shear_a[k] + m.shear_b[k]);
+  return shear >
+         c.cohesion[k] * m.length[k] * m.gate[k] + c.friction[k] * (m.normal_a[k] + m.normal_b[k]);
+}
+
+void break_bond(FaceSet& c, const LawTable& laws, std::size_t k) {
+  const bool was_bonded = c.bonded[k] > 0.0;
+  c.bonded[k] = 0.0;
+  if (was_bonded) take_residual(c, laws, k);
+  c.breaks[k] = was_bonded ? 2.0 : 1.0;
+  // Torn by more than what is left, too.
+  const double least = std::min(c.now.closure_a[k], c.now.closure_b[k]);
+  if (-c.stiffness[k] * least > c.tension[k]) c.pulls[k] = 0.0;
+  c.opened[k] = 1.0;
+}
+
+void glue_faces(FaceSet& c) {
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const bool touches = c.now.energy[k] > 0.0 || c.bonded[k] > 0.0;
+    if (!touches || c.glued[k] > 0.0) continue;
+    c.lent[k] = 1.0 + c.bonded[k] + 2.0 * c.pulls[k];
+    c.glued[k] = c.bonded[k] = c.pulls[k] = 1.0;
+  }
+  note_bonds(c);
+}
+
+void unglue_faces(FaceSet& c) {
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (c.lent[k] == 0.0) continue;
+    const double had = c.lent[k] - 1.0;
+    c.glued[k] = 0.0;
+    c.pulls[k] = had >= 2.0 ? 1.0 : 0.0;
+    c.bonded[k] = had == 1.0 || had == 3.0 ? 1.0 : 0.0;
+    c.lent[k] = 0.0;
+  }
+  note_bonds(c);
+}
+
+void set_face_dashpots(FaceSet& c, const LawTable& laws, double damping) {
+  const std::size_t n = damping > 0.0 || laws.any_dashpots ? c.size() : 0;
+  c.zeta.assign(n, 0.0);
+  c.shear_zeta.assign(n, 0.0);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Law& law = laws.rows[c.law[k]];
+    c.zeta[k] = laws.damping_of(law, damping);
+    c.shear_zeta[k] = law.dashpots ? law.shear_damping : 0.0;
+  }
+}
+
+void note_bonds(FaceSet& c) {
+  c.bonds.assign(c.chunks(), 0);
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (c.bonded[k] > 0.0 || c.pulls[k] > 0.0) c.bonds[k / FaceSet::chunk] = 1;
+  }
+}
+
+}  // namespace edda

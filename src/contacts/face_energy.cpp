@@ -1,0 +1,54 @@
+#include "contacts/face_energy.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "contacts/place_faces.hpp"
+
+namespace edda {
+namespace {
+
+std::array<Vec2, 4> list(const FacePoints& p) {
+  return {p.p1, p.p2, p.q1, p.q2};
+}
+std::array<Vec2, 4> list(const CornerForces& f) {
+  return {f.p1, f.p2, f.q1, f.q2};
+}
+
+}  // namespace
+
+double work_of(const CornerForces& force, const FacePoints& to, const FacePoints& from) {
+  const auto f = list(force), x = list(to), y = list(from);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) sum += dot(f[k], x[k] - y[k]);
+  return sum;
+}
+
+double stored_between(const Face& face0, const FacePoints& at0, const Face& face1,
+                      const FacePoints& at1) {
+  if (face0.energy == 0.0 || face1.energy == 0.0) return 0.0;
+  const double both = 0.5 * (face0.energy + face1.energy) -
+                      0.25 * (work_of(face0.force, at1, at0) - work_of(face1.force, at1, at0));
+  return std::max(both, 0.0);
+}
+
+double normal_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
+  return stored_between(face_at(c, b, pose.x1, pose.y1, k), face_points(c, pose.x1, pose.y1, k),
+                        face_at(c, b, pose.x, pose.y, k), face_points(c, pose.x, pose.y, k));
+}
+
+double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
+  const FacePoints at = face_points(c, pose.x, pose.y, k);
+  const Vec2 t = c.before.shear_a[k] == 0.0 && c.before.shear_b[k] == 0.0
+                     ? Vec2{}
+                     : unit((at.p2 - at.p1) - (at.q2 - at.q1));
+  const auto slid = [&](double xi, double eta) {
+    return dot(eta * at.q1 + (1.0 - eta) * at.q2 - (1.0 - xi) * at.p1 - xi * at.p2, t);
+  };
+  const FaceMemory& m = c.before;
+  const double shear = m.shear_a[k] * (m.slip_a[k] + slid(m.xi_a[k], m.eta_a[k])) +
+                       m.shear_b[k] * (m.slip_b[k] + slid(m.xi_b[k], m.eta_b[k]));
+  return normal_energy(c, b, pose, k) - 0.5 * shear;
+}
+
+}  // namespace edda
