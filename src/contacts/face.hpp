@@ -197,11 +197,12 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const ClosurePotential exact = exact_potential(da, db, pulls),
                          ends = potential_at_ends(da, db, pulls);
   const double gain = ends.value - exact.value;
-  const double gate = on ? by_aspect.value * by_angle.value : 0.0;
-  const double whole = on ? pair.stiffness * face.length : 0.0;
+  const double exists = on ? 1.0 : 0.0;
+  const double gate = exists * by_aspect.value * by_angle.value;
+  const double whole = exists * pair.stiffness * face.length;
   const double phi = exact.value + share * gain;
   face.gate = gate;
-  face.angle_gate = on ? by_angle.value : 0.0;
+  face.angle_gate = exists * by_angle.value;
   face.energy = gate * whole * phi;
   face.normal = {gate * whole * (exact.by_a + share * (ends.by_a - exact.by_a)),
                  gate * whole * (exact.by_b + share * (ends.by_b - exact.by_b))};
@@ -209,12 +210,12 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   // dU/dL, dU/dd, dU/dc, dU/ds and dU/d(past)
   const double stored = whole * phi, angle_gate = face.angle_gate;
   const double by_length =
-      gate * (on ? pair.stiffness : 0.0) * phi + angle_gate * stored * aspect_slope;
+      gate * pair.stiffness * phi + angle_gate * stored * aspect_slope;
   const double by_deepest = -angle_gate * stored * aspect_slope * face.length * per_deepest;
   const double by_a = face.normal.a + (deep_b ? 0.0 : by_deepest);
   const double by_b = face.normal.b + (deep_b ? by_deepest : 0.0);
   const double by_share = gate * whole * gain;
-  const double by_c = (on ? by_aspect.value : 0.0) * stored * by_angle.slope * pair.gate_scale *
+  const double by_c = by_aspect.value * stored * by_angle.slope * pair.gate_scale *
                           pair.inverse_lengths +
                       by_share * share_by_c;
   const double by_s = by_share * (s < 0.0 ? -share_by_tilt : share_by_tilt);

@@ -43,7 +43,7 @@ void bond_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable&
     if (!(face.length > touch * size) || cosine < along || std::abs(closure) > touch * size) {
       continue;
     }
-    c.lives[k] = c.acts[k] = c.leans[k] = 1.0;
+    c.acts[k] = c.leans[k] = 1.0;
     if (weakens && law.peak_tension == 0.0) continue;
     c.bonded[k] = weakens ? 0.0 : 1.0;
     c.glued[k] = law.glued ? 1.0 : 0.0;

@@ -80,7 +80,6 @@ struct FaceSet {
       at_ends;  ///< 1: the stiffness is a penalty: the integral is taken at the ends
 
   // What holds for a face until it dies, decided while it stores nothing.
-  std::vector<double> lives;  ///< 1: the edges overlap and are opposed
   std::vector<double> acts;   ///< 1: the blocks meet there; 0: their far sides do
   std::vector<double> leans;  ///< 1: beside the corner that leans there is no third block
 

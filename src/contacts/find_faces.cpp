@@ -18,11 +18,10 @@ using FaceArray = std::vector<double> FaceSet::*;
 
 /// Kept over a search, beside FaceMemory.
 constexpr FaceArray kept_faces[] = {
-    &FaceSet::lives,        &FaceSet::acts,          &FaceSet::leans,    &FaceSet::friction,
-    &FaceSet::cohesion,     &FaceSet::tension,       &FaceSet::pulls,    &FaceSet::bonded,
-    &FaceSet::glued,        &FaceSet::lent,          &FaceSet::opened,   &FaceSet::breaks,
-    &FaceSet::offset,       &FaceSet::friction_work, &FaceSet::transfer, &FaceSet::damping_work,
-    &FaceSet::fracture_work};
+    &FaceSet::acts,          &FaceSet::leans,    &FaceSet::friction,     &FaceSet::cohesion,
+    &FaceSet::tension,       &FaceSet::pulls,    &FaceSet::bonded,       &FaceSet::glued,
+    &FaceSet::lent,          &FaceSet::opened,   &FaceSet::breaks,       &FaceSet::offset,
+    &FaceSet::friction_work, &FaceSet::transfer, &FaceSet::damping_work, &FaceSet::fracture_work};
 /// Filled for every list.
 constexpr FaceArray constants[] = {
     &FaceSet::stiffness,  &FaceSet::shear_stiffness, &FaceSet::inverse_lengths, &FaceSet::gate_from,

@@ -34,7 +34,7 @@ MemoryView faces_view(FaceMemory& m) {
 struct FaceView {
   const Id *edge, *edge_end, *facing, *facing_end;
   const double *stiffness, *shear_stiffness, *inverse_lengths, *gate_from, *gate_scale, *passing,
-      *at_ends, *lives, *acts, *leans, *friction, *cohesion, *offset, *pulls, *bonded;
+      *at_ends, *acts, *leans, *friction, *cohesion, *offset, *pulls, *bonded;
   const double *turn_cosine, *turn_sine;
   const double *x, *y, *x1, *y1;
   double noise;
@@ -56,7 +56,6 @@ FaceView faces_view(FaceSet& c, const BlockSet& b, const Pose& pose, double step
           c.gate_scale.data(),
           c.passing.data(),
           c.at_ends.data(),
-          c.lives.data(),
           c.acts.data(),
           c.leans.data(),
           c.friction.data(),
@@ -146,18 +145,25 @@ constexpr double unlimited = 1e300;  // N
 
 /// What asks for a decision (see judge()).
 EDDA_INLINE bool asks(const FaceView& c, const Face& face, std::size_t k) {
-  const double lives = c.lives[k], acts = c.acts[k];
-  const bool on = face.angle_gate > 0.0;
   const double closure = larger(face.closure.a, face.closure.b) - c.offset[k];
-  const bool born = on != (lives > 0.0), faded = on & (face.gate == 0.0);
-  const bool frees = on & (acts == 0.0) & (closure <= 0.0);
+  const bool on = face.gate > 0.0;
+  const bool born = on & (c.before.gate[k] == 0.0);
+  const bool frees = on & (c.acts[k] == 0.0) & (closure <= 0.0);
   const bool first = (face.energy > 0.0) & (c.before.energy[k] == 0.0);
-  return born | faded | frees | first;
+  return born | frees | first;
 }
 
 /// Which ends are closed: 0 to 3.
 EDDA_INLINE double ends_closed(double da, double db, double noise) {
   return (da > noise ? 1.0 : 0.0) + (db > noise ? 2.0 : 0.0);
+}
+
+/// Whether at an end one corner has passed the other, by which the force along the face jumps by
+/// k d^2/2: the part of its edge by which the one bounds the overlap and no longer the other, now
+/// and before.
+EDDA_INLINE bool passes(double now, double before) {
+  constexpr double worth_it = 1e-7;
+  return (now * before < 0.0) & (larger(std::abs(now), std::abs(before)) > worth_it);
 }
 
 struct Placed {
@@ -245,7 +251,9 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const double closed = touches ? ends_closed(da, db, c.noise) : 0.0;
   const double closed_1 =
       old.energy[k] > 0.0 ? ends_closed(old.closure_a[k], old.closure_b[k], c.noise) : 0.0;
-  const double switched = closed != closed_1 ? 1.0 : 0.0;
+  const bool passed =
+      passes(face.eta.a - face.xi.a, eta_a - xi_a) | passes(face.xi.b - face.eta.b, xi_b - eta_b);
+  const double switched = (closed != closed_1) | passed ? 1.0 : 0.0;
   const bool stirs = (old.energy[k] > 0.0) & ((switched > 0.0) | (old.switched[k] > 0.0));
 
   m.closure_a[k] = da;
@@ -401,33 +409,21 @@ bool corner_leans(const FaceSet& c, const BlockSet& b, const Pose& pose, const F
   return true;
 }
 
-/// Decides what of face k may change while it stores nothing. It lives while the edges overlap and
-/// are opposed. It acts if it comes to life open, or if the points where it would press lie in both
-/// blocks: the far sides of two thin ones are opposed, too. Later it does once it is open. A face
-/// that has faded is judged anew.
+/// Decides what of face k may change while it stores nothing. It acts if it comes to life open, or
+/// if the points where it would press lie in both blocks: the far sides of two thin ones are
+/// opposed, too. Later it does once it is open.
 void judge(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   const FacePoints at = face_points(c, pose.x, pose.y, k);
-  const double acted = c.acts[k];
-  c.acts[k] = 1.0;
-  const Face face = face_between(at, face_pair(c, b.turn_cosine.data(), b.turn_sine.data(), k));
-  c.acts[k] = acted;
-  const bool on = face.angle_gate > 0.0;
-  if (!on) {
-    c.lives[k] = c.acts[k] = c.leans[k] = 0.0;
-    return;
-  }
+  const Face face = face_at(c, b, pose.x, pose.y, k);
   const double closure = std::max(face.closure.a, face.closure.b) - c.offset[k];
-  if (c.lives[k] == 0.0 || face.gate == 0.0) {
-    bool acts = closure <= c.noise;
-    if (!acts && std::max(face.closure.a, face.closure.b) > 0.0) {
-      const Opposite p = opposite_at(at, face, centre_of_pressure(face.closure.a, face.closure.b));
-      acts = lies_in(b, pose, p.on_facing, b.vertex_block[c.edge[k]]) &&
-             lies_in(b, pose, p.on_edge, b.vertex_block[c.facing[k]]);
-    }
-    c.lives[k] = 1.0;
-    c.acts[k] = acts ? 1.0 : 0.0;
-  } else if (c.acts[k] == 0.0 && closure <= 0.0) {
+  if (closure <= c.noise) {
     c.acts[k] = 1.0;
+  } else if (c.before.gate[k] == 0.0) {
+    const Opposite p = opposite_at(at, face, centre_of_pressure(face.closure.a, face.closure.b));
+    const bool inside = std::max(face.closure.a, face.closure.b) > 0.0 &&
+                        lies_in(b, pose, p.on_facing, b.vertex_block[c.edge[k]]) &&
+                        lies_in(b, pose, p.on_edge, b.vertex_block[c.facing[k]]);
+    c.acts[k] = inside ? 1.0 : 0.0;
   }
   if (c.before.energy[k] == 0.0) c.leans[k] = corner_leans(c, b, pose, at, face, k) ? 1.0 : 0.0;
 }
