@@ -209,15 +209,14 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
 
   // dU/dL, dU/dd, dU/dc, dU/ds and dU/d(past)
   const double stored = whole * phi, angle_gate = face.angle_gate;
-  const double by_length =
-      gate * pair.stiffness * phi + angle_gate * stored * aspect_slope;
+  const double by_length = gate * pair.stiffness * phi + angle_gate * stored * aspect_slope;
   const double by_deepest = -angle_gate * stored * aspect_slope * face.length * per_deepest;
   const double by_a = face.normal.a + (deep_b ? 0.0 : by_deepest);
   const double by_b = face.normal.b + (deep_b ? by_deepest : 0.0);
   const double by_share = gate * whole * gain;
-  const double by_c = by_aspect.value * stored * by_angle.slope * pair.gate_scale *
-                          pair.inverse_lengths +
-                      by_share * share_by_c;
+  const double by_c =
+      by_aspect.value * stored * by_angle.slope * pair.gate_scale * pair.inverse_lengths +
+      by_share * share_by_c;
   const double by_s = by_share * (s < 0.0 ? -share_by_tilt : share_by_tilt);
   const double by_past = by_share * (past < 0.0 ? share_by_past : -share_by_past);
 

@@ -94,7 +94,8 @@ struct FaceSet {
   std::vector<double> lent;      ///< what a glued face had before, 1 + bonded + 2 pulls; else 0
   std::vector<double>
       breaks;  ///< 1: torn in the step in hand, 2: its bond breaks: what goes is fracture energy
-  std::vector<double> opened;  ///< 1: has opened after having been closed
+  std::vector<double> opened;   ///< 1: has opened after having been closed
+  std::vector<double> slipped;  ///< 1: has slid at least once
 
   // Dashpots, as fractions of critical; empty where there are none. Filled by set_face_dashpots().
   std::vector<double> zeta, shear_zeta;
@@ -136,6 +137,31 @@ struct FaceSet {
     }
   }
 };
+
+/// The arrays of FaceSet that are kept over a search and in a checkpoint, once: name and unit.
+struct FaceStateColumn {
+  const char* name;
+  const char* unit;
+  std::vector<double> FaceSet::*values;
+};
+inline constexpr FaceStateColumn face_state_columns[] = {
+    {"acts", "1", &FaceSet::acts},
+    {"leans", "1", &FaceSet::leans},
+    {"friction", "1", &FaceSet::friction},
+    {"cohesion", "N/m", &FaceSet::cohesion},
+    {"tension", "N/m", &FaceSet::tension},
+    {"pulls", "1", &FaceSet::pulls},
+    {"bonded", "1", &FaceSet::bonded},
+    {"glued", "1", &FaceSet::glued},
+    {"lent", "1", &FaceSet::lent},
+    {"opened", "1", &FaceSet::opened},
+    {"slipped", "1", &FaceSet::slipped},
+    {"breaks", "1", &FaceSet::breaks},
+    {"offset", "m", &FaceSet::offset},
+    {"friction_work", "J", &FaceSet::friction_work},
+    {"damping_work", "J", &FaceSet::damping_work},
+    {"fracture_work", "J", &FaceSet::fracture_work},
+    {"transfer", "J", &FaceSet::transfer}};
 
 /// The pair of face k, as it is now.
 template <class Faces>

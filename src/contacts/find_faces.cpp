@@ -14,16 +14,9 @@ namespace edda {
 namespace {
 
 using EdgePair = std::pair<Id, Id>;
-using FaceArray = std::vector<double> FaceSet::*;
 
-/// Kept over a search, beside FaceMemory.
-constexpr FaceArray kept_faces[] = {
-    &FaceSet::acts,          &FaceSet::leans,    &FaceSet::friction,     &FaceSet::cohesion,
-    &FaceSet::tension,       &FaceSet::pulls,    &FaceSet::bonded,       &FaceSet::glued,
-    &FaceSet::lent,          &FaceSet::opened,   &FaceSet::breaks,       &FaceSet::offset,
-    &FaceSet::friction_work, &FaceSet::transfer, &FaceSet::damping_work, &FaceSet::fracture_work};
 /// Filled for every list.
-constexpr FaceArray constants[] = {
+constexpr std::vector<double> FaceSet::*constants[] = {
     &FaceSet::stiffness,  &FaceSet::shear_stiffness, &FaceSet::inverse_lengths, &FaceSet::gate_from,
     &FaceSet::gate_scale, &FaceSet::passing,         &FaceSet::at_ends};
 
@@ -120,20 +113,36 @@ void list_by_edge(FaceSet& c, std::size_t edges) {
 
 }  // namespace
 
+void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
+  const std::size_t n = c.size();
+  for (const auto array : constants) (c.*array).assign(n, 0.0);
+  c.edge_end.resize(n);
+  c.facing_end.resize(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    c.edge_end[k] = b.next[c.edge[k]];
+    c.facing_end[k] = b.next[c.facing[k]];
+    fill_constants(c, b, laws, k);
+  }
+  list_by_edge(c, b.vertex_count());
+  c.stirs.assign(c.chunks(), 0);
+  c.deepest.assign(c.chunks(), 0.0);
+  note_bonds(c);
+}
+
 void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
                 const LawTable& laws, double reach) {
   const std::vector<EdgePair> list = wanted_faces(faces, b, state, pose, reach);
   const std::size_t n = list.size();
   FaceSet next;
-  for (const FaceArray a : kept_faces) (next.*a).assign(n, 0.0);
-  for (const FaceArray a : constants) (next.*a).assign(n, 0.0);
+  for (const FaceStateColumn& column : face_state_columns) (next.*column.values).assign(n, 0.0);
   for (const FaceColumn& column : face_columns) {
     (next.now.*column.values).assign(n, 0.0);
     (next.before.*column.values).assign(n, 0.0);
   }
   next.law.resize(n);
   next.force.assign(8 * n, 0.0);
-  for (auto* ids : {&next.edge, &next.facing, &next.edge_end, &next.facing_end}) ids->resize(n);
+  next.edge.resize(n);
+  next.facing.resize(n);
   std::vector<Id> old_of_new(n, no_id);
   std::size_t old = 0;
   next.retired_friction = faces.retired_friction;
@@ -151,13 +160,13 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
     const auto [e, f] = list[k];
     next.edge[k] = e;
     next.facing[k] = f;
-    next.edge_end[k] = b.next[e];
-    next.facing_end[k] = b.next[f];
     for (; old < faces.size() && EdgePair{faces.edge[old], faces.facing[old]} < list[k]; ++old)
       retire(old);
     if (old < faces.size() && EdgePair{faces.edge[old], faces.facing[old]} == list[k]) {
       old_of_new[k] = static_cast<Id>(old);
-      for (const FaceArray a : kept_faces) (next.*a)[k] = (faces.*a)[old];
+      for (const FaceStateColumn& column : face_state_columns) {
+        (next.*column.values)[k] = (faces.*column.values)[old];
+      }
       for (const FaceColumn& column : face_columns) {
         (next.now.*column.values)[k] = (faces.now.*column.values)[old];
         (next.before.*column.values)[k] = (faces.before.*column.values)[old];
@@ -169,10 +178,9 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
       take_residual(next, laws, k);
       next.pulls[k] = 0.0;  // what comes to touch has no tensile strength
     }
-    fill_constants(next, b, laws, k);
   }
   for (; old < faces.size(); ++old) retire(old);
-  list_by_edge(next, b.vertex_count());
+  complete_faces(next, b, laws);
   for (std::size_t k = 0; k < n; ++k) {
     if (old_of_new[k] == no_id) continue;
     const auto copy = [&](Id from, Id to) {
@@ -182,9 +190,6 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
     copy(faces.slot[old_of_new[k]], next.slot[k]);
     copy(faces.facing_slot[old_of_new[k]], next.facing_slot[k]);
   }
-  next.stirs.assign(next.chunks(), 0);
-  next.deepest.assign(next.chunks(), 0.0);
-  note_bonds(next);
   next.noise = rounding_of_closures(pose);
   next.reach = reach;
   next.built_x = pose.x;

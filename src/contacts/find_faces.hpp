@@ -14,4 +14,7 @@ namespace edda {
 void find_faces(FaceSet& faces, const BlockSet& blocks, const State& state, const Pose& pose,
                 const LawTable& laws, double reach);
 
+/// Fills all that follows from the edges and laws of the faces.
+void complete_faces(FaceSet& faces, const BlockSet& blocks, const LawTable& laws);
+
 }  // namespace edda

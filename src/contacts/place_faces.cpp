@@ -488,10 +488,29 @@ void place_face(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable&
   keep_forces(c, on, k, k + 1);
 }
 
+void change_step_behind(FaceSet& c, const BlockSet& b, const Pose& pose,
+                        const std::vector<double>& old_x1, const std::vector<double>& old_y1) {
+  FaceMemory& m = c.before;
+  parallel_for(c.size(), [&](std::size_t k) {
+    const Face now = face_at(c, b, pose.x, pose.y, k), then = face_at(c, b, pose.x1, pose.y1, k);
+    const FaceEnds was = motion_of(now, c.offset[k], face_points(c, old_x1, old_y1, k)).slip;
+    const FaceEnds is = motion_of(now, c.offset[k], face_points(c, pose.x1, pose.y1, k)).slip;
+    m.slip_a[k] += was.a - is.a;
+    m.slip_b[k] += was.b - is.b;
+    m.closure_a[k] = then.closure.a;
+    m.closure_b[k] = then.closure.b;
+    m.energy[k] = then.energy;
+    m.gate[k] = std::max(m.gate[k], then.gate);
+  });
+}
+
 void next_step(FaceSet& c) {
   parallel_for(c.size(), [&](std::size_t k) {
     (c.breaks[k] > 0.0 ? c.fracture_work : c.friction_work)[k] += c.now.friction_work[k];
     c.damping_work[k] += c.now.damping_work[k];
+    const bool cut = c.now.slip_a[k] != c.now.trial_a[k] || c.now.slip_b[k] != c.now.trial_b[k];
+    if (cut) c.slipped[k] = 1.0;
+    if (c.before.energy[k] > 0.0 && c.now.energy[k] == 0.0) c.opened[k] = 1.0;
     c.transfer[k] += c.now.transfer[k];
   });
   for (std::size_t q = 0; q < c.bonds.size(); ++q) {

@@ -18,6 +18,11 @@ void place_faces(FaceSet& faces, const BlockSet& blocks, const Pose& pose, const
 void place_face(FaceSet& faces, const BlockSet& blocks, const Pose& pose, const LawTable& laws,
                 double step, std::size_t k);
 
+/// The step behind is taken to have been made from pose.x1, y1 and no longer from old_x1, old_y1:
+/// what the faces remember of it is set right, their forces stay. `now` is to be placed again.
+void change_step_behind(FaceSet& faces, const BlockSet& blocks, const Pose& pose,
+                        const std::vector<double>& old_x1, const std::vector<double>& old_y1);
+
 /// What has been worked out is final; `before` is ready to be written. Before the next step's
 /// place_faces().
 void next_step(FaceSet& faces);

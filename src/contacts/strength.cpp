@@ -25,6 +25,15 @@ void take_strength(ContactSet& c, const LawTable& before, const LawTable& now) {
     c.cohesion[k] *= ratio;
     c.tension[k] *= ratio;
   }
+  FaceSet& f = c.faces;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    const std::size_t row = f.law[k];
+    const double ratio = before.divided_by[row] / now.divided_by[row];
+    if (ratio == 1.0) continue;
+    f.friction[k] *= ratio;
+    f.cohesion[k] *= ratio;
+    f.tension[k] *= ratio;
+  }
   // A shear force that was held may slide from here on.
   std::fill(c.stirs.begin(), c.stirs.end(), std::uint8_t{1});
 }

@@ -5,6 +5,7 @@
 
 #include "attachments/boundary_lines.hpp"
 #include "blocks/point_mass.hpp"
+#include "contacts/face_bonds.hpp"
 #include "contacts/shares.hpp"
 #include "forces/glue.hpp"
 #include "model/accelerogram.hpp"
@@ -144,6 +145,16 @@ void Simulation::switch_over(const NamedRows& off, const NamedRows& on) {
 }
 
 void Simulation::glue_joints(bool glued) {
+  if (on_faces()) {
+    const NodalForces before = forces_now();
+    if (glued)
+      glue_faces(contacts.faces);
+    else
+      unglue_faces(contacts.faces);
+    place_again();
+    note_jump(before);
+    return;
+  }
   if (glued == !contacts.lent.empty()) return;
   if (glued) {
     glue(contacts);

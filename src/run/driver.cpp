@@ -7,6 +7,7 @@
 #include <cmath>
 #include <new>
 
+#include "contacts/face_reading.hpp"
 #include "contacts/gap.hpp"
 #include "run/labels.hpp"
 #include "run/motion.hpp"
@@ -73,6 +74,8 @@ double reaction_error(const Simulation& sim, const Instant& at) {
   }
   // Without weight, or with loads that cancel, there are only contacts to measure by.
   double pressed = 0.0;
+  const FaceSet& f = at.contacts.faces;
+  for (std::size_t k = 0; k < f.size(); ++k) pressed += std::abs(normal_force(f, k));
   for (std::size_t k = 0; k < at.contacts.size(); ++k) pressed += std::abs(at.contacts.normal[k]);
   if (weight < 1e-6 * pressed) weight = pressed;
   return weight > 0.0 ? norm(sum) / weight : 0.0;
@@ -315,6 +318,27 @@ void Driver::measure_overlaps() {
   const ContactSet& c = sim_.contacts;
   const std::vector<double>& half_width = sim_.blocks.inradius;
   double ratio = 0.0;
+  if (c.on_faces) {
+    const FaceSet& f = c.faces;
+    std::size_t worst = f.size();
+    for (std::size_t k = 0; k < f.size(); ++k) {
+      if (!(f.now.energy[k] > 0.0)) continue;
+      const double size = std::min(half_width[block_of_edge(sim_.blocks, f, k)],
+                                   half_width[block_of_facing(sim_.blocks, f, k)]);
+      if (!(closure_of(f, k) > ratio * size)) continue;
+      ratio = closure_of(f, k) / size;
+      worst = k;
+    }
+    outcome_.overlap_now = ratio;
+    if (!(ratio > outcome_.overlap.ratio)) return;
+    outcome_.overlap = {ratio,
+                        closure_of(f, worst),
+                        middle_of(f, sim_.pose, worst) + sim_.blocks.origin,
+                        block_of_facing(sim_.blocks, f, worst),
+                        block_of_edge(sim_.blocks, f, worst),
+                        sim_.state.time};
+    return;
+  }
   std::size_t deepest = c.size();
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (!c.is(k, cs::closed)) continue;
@@ -428,6 +452,11 @@ void Driver::report(bool last) {
     p.kinetic += kinetic_energy(sim_.blocks, sim_.state.vx, sim_.state.vy, i);
     p.largest_velocity =
         std::max(p.largest_velocity, norm(centroid(sim_.state.vx, sim_.state.vy, i)));
+  }
+  for (std::size_t k = 0; k < sim_.contacts.faces.size(); ++k) {
+    if (sim_.contacts.faces.now.energy[k] > 0.0) {
+      p.largest_overlap = std::max(p.largest_overlap, closure_of(sim_.contacts.faces, k));
+    }
   }
   for (std::size_t k = 0; k < sim_.contacts.size(); ++k) {
     if (sim_.contacts.is(k, cs::closed)) {

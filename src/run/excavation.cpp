@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "contacts/face_reading.hpp"
 #include "contacts/shares.hpp"
 #include "run/observe.hpp"
 #include "run/simulation.hpp"
@@ -13,6 +14,18 @@ namespace {
 std::vector<KeptForce> wall_forces(const BlockSet& b, const ContactSet& c,
                                    const std::vector<std::uint8_t>& goes) {
   std::vector<KeptForce> walls;
+  const FaceSet& f = c.faces;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    const Id i = block_of_edge(b, f, k), j = block_of_facing(b, f, k);
+    if (goes[i] == goes[j] || !is_closed(f, k)) continue;
+    const auto keep = [&](Id edge, Id slot, Id of) {
+      const double* const on = f.force.data() + 4 * std::size_t{slot};
+      walls.push_back({edge, {on[0], on[1]}, b.opening[of]});
+      walls.push_back({b.next[edge], {on[2], on[3]}, b.opening[of]});
+    };
+    if (goes[j] != 0 && !b.fixed[i]) keep(f.edge[k], f.slot[k], j);
+    if (goes[i] != 0 && !b.fixed[j]) keep(f.facing[k], f.facing_slot[k], i);
+  }
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Id i = c.block_i[k], j = c.block_j[k];
     if (goes[i] == goes[j] || !c.is(k, contact_state::closed)) continue;
@@ -48,8 +61,8 @@ void Simulation::excavate(const std::vector<Index>& openings) {
   }
   for (const Index o : going) loads.held[static_cast<std::size_t>(o)] = {0.0, 1.0, state.time};
   keep(on_walls);
-  search(contacts.reach);
-  update_shares(contacts);
+  search(on_faces() ? contacts.faces.reach : contacts.reach);
+  if (!on_faces()) update_shares(contacts);
   external_work += ledger_now().balance() - energy;
 }
 

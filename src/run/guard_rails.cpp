@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "base/text.hpp"
 #include "blocks/point_mass.hpp"
+#include "contacts/face_reading.hpp"
 #include "contacts/gap.hpp"
 #include "forces/mass_scaling.hpp"
 #include "run/damping_report.hpp"
@@ -70,6 +71,11 @@ void warn_of_sudden_gravity(const Simulation& sim, std::vector<std::string>& war
     carried = meet(sim.contacts, k) && (free_block(sim, sim.contacts.block_i[k]) ||
                                         free_block(sim, sim.contacts.block_j[k]));
   }
+  const FaceSet& f = sim.contacts.faces;
+  for (std::size_t k = 0; k < f.size() && !carried; ++k) {
+    carried = meets(f, k) && (free_block(sim, block_of_edge(sim.blocks, f, k)) ||
+                              free_block(sim, block_of_facing(sim.blocks, f, k)));
+  }
   if (!carried) return;
   warnings.emplace_back(
       "gravity acts at once on blocks that carry no stress yet: forces will swing to about twice "
@@ -96,7 +102,54 @@ double spring_ratio(const Simulation& sim, std::size_t k) {
   return sim.contacts.kn[k] / (young * sim.blocks.thickness);
 }
 
+/// What two corners of a face have of its stiffness, over that of the softer block.
+double face_ratio(const Simulation& sim, std::size_t k) {
+  const FaceSet& f = sim.contacts.faces;
+  double young = std::numeric_limits<double>::infinity();
+  for (const Id i : {block_of_edge(sim.blocks, f, k), block_of_facing(sim.blocks, f, k)}) {
+    if (free_block(sim, i)) young = std::min(young, young_of(sim, i));
+  }
+  const double shorter =
+      std::min(sim.blocks.edge_length[f.edge[k]], sim.blocks.edge_length[f.facing[k]]);
+  return 0.5 * f.stiffness[k] * shorter / (young * sim.blocks.thickness);
+}
+
+void warn_of_faces(const Simulation& sim, std::vector<std::string>& warnings) {
+  const FaceSet& f = sim.contacts.faces;
+  Extreme low{std::numeric_limits<double>::infinity()}, high{0.0};
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    if (!meets(f, k)) continue;
+    const double ratio = face_ratio(sim, k);
+    if (!(ratio > 0.0)) continue;
+    // A stiffness that was given for the joint has been measured, and is what it is; one that
+    // belongs to a restitution is meant to be soft.
+    const Law& law = sim.laws.rows[f.law[k]];
+    if (!(law.kn > 0.0) && !law.dashpots && ratio < low.ratio) low = {ratio, k};
+    if (ratio > high.ratio) high = {ratio, k};
+  }
+  auto where = [&](const Extreme& e) {
+    const std::size_t k = e.contact;
+    return fmt::format(
+        "k = {:.3g} Pa/m between {} and {} at {}, half of which times the length of the joint is "
+        "{:.2g} times young of the rock",
+        f.stiffness[k] / sim.blocks.thickness,
+        block_label(sim.blocks, block_of_facing(sim.blocks, f, k)),
+        block_label(sim.blocks, block_of_edge(sim.blocks, f, k)),
+        place_label(middle_of(f, sim.pose, k) + sim.blocks.origin), e.ratio);
+  };
+  if (low.ratio < soft) {
+    warnings.push_back("contacts so soft that the joints give far more than the blocks: " +
+                       where(low) + "; raise contact.normal_stiffness");
+  }
+  if (high.ratio > stiff) {
+    warnings.push_back(
+        "contacts so stiff that the joints give nothing and only shorten the step: " + where(high) +
+        "; contact.normal_stiffness of 10 times young is enough");
+  }
+}
+
 void warn_of_springs(const Simulation& sim, std::vector<std::string>& warnings) {
+  if (sim.on_faces()) return warn_of_faces(sim, warnings);
   Extreme low{std::numeric_limits<double>::infinity()}, high{0.0};
   for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
     if (!meet(sim.contacts, k)) continue;
@@ -199,6 +252,29 @@ void warn_of_slivers(const Simulation& sim, std::vector<std::string>& warnings) 
                   report.smallest_edge, place_label(report.smallest_edge_at), *middle));
 }
 
+void warn_of_deep_faces(const Simulation& sim, std::vector<std::string>& warnings) {
+  const FaceSet& f = sim.contacts.faces;
+  double energy = 0.0;
+  Extreme deepest{0.0};
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    const double d = closure_of(f, k);
+    if (!(f.now.energy[k] > 0.0) || !(d > 0.0)) continue;
+    energy += f.now.energy[k];
+    if (d > deepest.ratio) deepest = {d, k};
+  }
+  const std::size_t k = deepest.contact;
+  if (deepest.ratio == 0.0) return;
+  const Id i = block_of_edge(sim.blocks, f, k), j = block_of_facing(sim.blocks, f, k);
+  if (deepest.ratio < 1e-9 * std::sqrt(std::min(sim.blocks.area[i], sim.blocks.area[j]))) return;
+  warnings.push_back(fmt::format(
+      "blocks overlap at the start, most {} and {} by {:.3g} m at {}: their contacts "
+      "start out pressed and store {:.3g} J: draw the block so that it touches, or cut both "
+      "from one [domain] with a [[trace]], or begin with a [[stage]] "
+      "until = \"equilibrium\"",
+      block_label(sim.blocks, j), block_label(sim.blocks, i), deepest.ratio,
+      place_label(middle_of(f, sim.pose, k) + sim.blocks.origin), energy));
+}
+
 void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings) {
   const ContactSet& c = sim.contacts;
   double energy = 0.0;
@@ -210,6 +286,7 @@ void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings)
     energy += 0.5 * c.share[k] * c.kn[k] * d * d;
     if (d > deepest.ratio) deepest = {d, k};
   }
+  if (c.on_faces) return warn_of_deep_faces(sim, warnings);
   if (deepest.ratio == 0.0) return;
   const double size = std::sqrt(std::min(sim.blocks.area[c.block_i[deepest.contact]],
                                          sim.blocks.area[c.block_j[deepest.contact]]));
@@ -255,7 +332,14 @@ std::string governed_by(const Simulation& sim) {
     text += fmt::format(", {:.0f} % boundary springs", 100.0 * bound.boundary_part);
   }
   if (bound.bolt_part > 0.0) text += fmt::format(", {:.0f} % bolts", 100.0 * bound.bolt_part);
-  if (bound.contact != no_id && bound.contact < sim.contacts.size()) {
+  const FaceSet& f = sim.contacts.faces;
+  if (bound.contact != no_id && bound.contact < f.size()) {
+    const Id k = bound.contact, i = block_of_edge(sim.blocks, f, k),
+             j = block_of_facing(sim.blocks, f, k);
+    text += fmt::format("; most of it by the contact with {} at {}",
+                        block_label(sim.blocks, i == bound.block ? j : i),
+                        place_label(middle_of(f, sim.pose, k) + sim.blocks.origin));
+  } else if (bound.contact != no_id && bound.contact < sim.contacts.size()) {
     const Id k = bound.contact, i = sim.contacts.block_i[k], j = sim.contacts.block_j[k];
     text += fmt::format("; most of it by the contact with {} at {}",
                         block_label(sim.blocks, i == bound.block ? j : i),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contacts/face_reading.hpp"
 #include "contacts/gap.hpp"
 #include "forces/contact_forces.hpp"
 #include "run/labels.hpp"
@@ -54,6 +55,12 @@ std::vector<Vec2> resultants(const Simulation& sim) {
     for (Id q = sim.springs.block_begin[i]; q < sim.springs.block_begin[i + 1]; ++q) {
       sum[i] += spring_force(sim.springs, q, sim.pose.x, sim.pose.y);
     }
+  }
+  for (std::size_t k = 0; k < c.faces.size(); ++k) {
+    if (!is_closed(c.faces, k)) continue;
+    const Vec2 on = force_on_facing(c.faces, k);
+    sum[block_of_facing(b, c.faces, k)] += on;
+    sum[block_of_edge(b, c.faces, k)] -= on;
   }
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (!c.is(k, contact_state::closed)) continue;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/parallel.hpp"
+#include "contacts/face_reading.hpp"
 #include "contacts/gap.hpp"
 #include "contacts/gaps.hpp"
 #include "forces/contact_forces.hpp"
@@ -94,6 +95,47 @@ ContactRecord contact_record(const Simulation& sim, const ContactSet& c, std::si
   return r;
 }
 
+/// How far the middle of the overlap has gone along the edge since the start: of the same two
+/// material points, where they lie now and as drawn.
+double slip_since_start(const BlockSet& b, const FaceSet& f, std::size_t k) {
+  const double xi = 0.5 * (f.now.xi_a[k] + f.now.xi_b[k]);
+  const double eta = 0.5 * (f.now.eta_a[k] + f.now.eta_b[k]);
+  const Vec2 p1 = b.vertex(f.edge[k]), p2 = b.vertex(f.edge_end[k]);
+  const Vec2 q1 = b.vertex(f.facing[k]), q2 = b.vertex(f.facing_end[k]);
+  const Vec2 apart = eta * q1 + (1.0 - eta) * q2 - ((1.0 - xi) * p1 + xi * p2);
+  return -dot(apart, unit((p2 - p1) - (q2 - q1)));
+}
+
+ContactRecord face_record(const Simulation& sim, const FaceSet& f, std::size_t k) {
+  const BlockSet& b = sim.blocks;
+  ContactRecord r;
+  r.block_i = block_of_facing(b, f, k);
+  r.block_j = block_of_edge(b, f, k);
+  const std::size_t law = f.law[k];
+  r.joint = law < sim.model.joints.size() ? sim.model.joints[law].name : "glued";
+  r.position = middle_of(f, sim.pose, k) + b.origin;
+  const double eta = 0.5 * (f.now.eta_a[k] + f.now.eta_b[k]);
+  std::array<double, 3> weight;
+  for (std::size_t n = 0; n < 3; ++n) {
+    weight[n] = eta * b.weight[n][f.facing[k]] + (1.0 - eta) * b.weight[n][f.facing_end[k]];
+  }
+  r.displacement = displacement_of(sim.state, r.block_i, weight);
+  r.opening = -closure_of(f, k);
+  r.slip = slip_since_start(b, f, k);
+  r.ever_slipped = f.slipped[k] > 0.0;
+  r.ever_opened = f.opened[k] > 0.0;
+  if (!is_closed(f, k)) return r;
+  r.state = f.bonded[k] > 0.0 ? ContactState::bonded
+            : slides(f, k)    ? ContactState::slide
+                              : ContactState::stick;
+  r.force = force_on_facing(f, k);
+  r.normal_force = normal_force(f, k);
+  r.shear_force = shear_force(f, k);
+  const double strength = shear_strength(f, k);
+  r.mobilised = f.glued[k] > 0.0 || r.shear_force == 0.0 ? 0.0 : std::abs(r.shear_force) / strength;
+  return r;
+}
+
 }  // namespace
 
 Pose a_step_ago(const Simulation& sim) {
@@ -145,7 +187,9 @@ void observe(const Simulation& sim, Instant& at) {
     return;
   }
   // Before the first step nothing has moved yet, and there is no rate.
-  evaluate_contacts(at.contacts, sim.blocks, sim.laws, h, h > 0.0 ? damping.contact : 0.0);
+  if (!sim.on_faces()) {
+    evaluate_contacts(at.contacts, sim.blocks, sim.laws, h, h > 0.0 ? damping.contact : 0.0);
+  }
   at.forces = sim.forces;
   gather_forces(at.forces, sim.blocks, sim.state, sim.pose, at.contacts, sim.springs,
                 sim.model.gravity, acting);
@@ -181,6 +225,14 @@ Picture picture_of(const Simulation& sim, const Instant& at) {
   p.blocks.reserve(sim.blocks.size());
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
     if (at.state.alive[i]) p.blocks.push_back(block_record(sim, at.state, i));
+  }
+  if (at.contacts.on_faces) {
+    const FaceSet& f = at.contacts.faces;
+    for (std::size_t k = 0; k < f.size(); ++k) {
+      if (is_closed(f, k) || f.opened[k] > 0.0) p.contacts.push_back(face_record(sim, f, k));
+    }
+    place_points(sim.blocks, at.state, p);
+    return p;
   }
   const ContactSet& c = at.contacts;
   // Of two candidates that share one spring, the one without a share has nothing to tell.
@@ -254,6 +306,13 @@ double force_scale(const Simulation& sim, const ContactSet& c, const std::vector
   }
   double normal = 0.0;
   std::size_t carrying = 0;
+  const FaceSet& f = c.faces;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    const double n = normal_force(f, k);
+    if (!is_closed(f, k) || !(n > 0.0)) continue;
+    normal += n;
+    ++carrying;
+  }
   for (std::size_t k = 0; k < c.size(); ++k) {
     const double n = c.share[k] * c.normal[k];
     if (!c.is(k, cs::closed) || !(n > 0.0)) continue;
@@ -289,6 +348,7 @@ bool meet(const ContactSet& c, std::size_t k) {
 
 std::size_t closed_contacts(const ContactSet& c) {
   std::size_t count = 0;
+  for (std::size_t k = 0; k < c.faces.size(); ++k) count += is_closed(c.faces, k);
   for (std::size_t k = 0; k < c.size(); ++k) count += c.is(k, cs::closed) && c.share[k] > 0.0;
   return count;
 }

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/text.hpp"
+#include "contacts/face_reading.hpp"
 #include "run/labels.hpp"
 #include "run/observe.hpp"
 
@@ -32,6 +33,10 @@ class Sets {
 
 Sets groups_of(const Simulation& sim) {
   Sets sets(sim.blocks.size());
+  const FaceSet& f = sim.contacts.faces;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    if (meets(f, k)) sets.join(block_of_edge(sim.blocks, f, k), block_of_facing(sim.blocks, f, k));
+  }
   const ContactSet& c = sim.contacts;
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (meet(c, k)) sets.join(c.block_i[k], c.block_j[k]);

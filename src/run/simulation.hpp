@@ -197,6 +197,7 @@ struct Simulation {
   friend void list_memory(Archive& archive, Simulation& sim);
 
   void place_all();
+  void place_again();
   void hold_boundaries();
   void close_contacts();
   void keep(const std::vector<KeptForce>& forces);

@@ -11,6 +11,11 @@ namespace edda {
 /// Those of step n on the nodes, found on a copy of the contacts; none before the first step.
 NodalForces Simulation::forces_now() const {
   if (!explicit_method() || step_before_ == 0.0) return {};
+  if (on_faces()) {
+    NodalForces found = forces;
+    gather_forces(found, blocks, state, pose, contacts, springs, model.gravity, acting());
+    return found;
+  }
   ContactSet evaluated = contacts;
   if (laws.any_changes) update_joint_laws(evaluated, blocks, laws);
   evaluate_contacts(evaluated, blocks, laws, step_before_, damping.contact);

@@ -8,6 +8,8 @@
 #include "blocks/point_mass.hpp"
 #include "checkpoint/archive.hpp"
 #include "contacts/candidates.hpp"
+#include "contacts/face_bonds.hpp"
+#include "contacts/find_faces.hpp"
 #include "contacts/shares.hpp"
 #include "contacts/strength.hpp"
 #include "forces/viscosity.hpp"
@@ -16,6 +18,32 @@
 
 namespace edda {
 namespace {
+
+template <class Archive>
+void list_faces(Archive& a, FaceSet& c) {
+  a("faces.edge", c.edge);
+  a("faces.facing", c.facing);
+  a("faces.law", c.law);
+  for (const FaceStateColumn& column : face_state_columns) {
+    a(std::string("faces.") + column.name, c.*column.values);
+  }
+  for (const FaceColumn& column : face_columns) {
+    a(std::string("faces.now.") + column.name, c.now.*column.values);
+    a(std::string("faces.before.") + column.name, c.before.*column.values);
+  }
+  a("faces.force", c.force);
+  a("faces.built_x", c.built_x);
+  a("faces.built_y", c.built_y);
+  a("faces.noise", c.noise);
+  a("faces.reach", c.reach);
+  a("faces.travel", c.travel);
+  a("faces.rebuilds", c.rebuilds);
+  a("faces.broken", c.broken);
+  a("faces.retired_friction", c.retired_friction);
+  a("faces.retired_damping", c.retired_damping);
+  a("faces.retired_fracture", c.retired_fracture);
+  a("faces.retired_transfer", c.retired_transfer);
+}
 
 template <class Archive>
 void list_contacts(Archive& a, ContactSet& c) {
@@ -268,8 +296,10 @@ void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawT
   j.sized("contacts.why", c.why, nc);
   if (!c.lent.empty()) j.sized("contacts.lent", c.lent, nc);
   j.sized("contacts.deepest", c.deepest, c.chunks());
-  j.sized("contacts.built_x", c.built_x, nv);
-  j.sized("contacts.built_y", c.built_y, nv);
+  if (!c.on_faces) {
+    j.sized("contacts.built_x", c.built_x, nv);
+    j.sized("contacts.built_y", c.built_y, nv);
+  }
   j.below("contacts.vertex", c.vertex, nv);
   j.below("contacts.edge", c.edge, nv);
   j.below("contacts.edge_end", c.edge_end, nv);
@@ -286,6 +316,31 @@ void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawT
   }
   for (const CornerPair& p : c.pairs) j.below("pairs", {p.first, p.second}, nc);
   for (const Segment& s : c.segments) j.below("segments", s.members, nc);
+}
+
+void judge_faces(Judge& j, const FaceSet& c, const BlockSet& b, const LawTable& laws) {
+  const std::size_t n = c.size(), nv = b.vertex_count();
+  for (const FaceStateColumn& column : face_state_columns) j.sized("faces", c.*column.values, n);
+  for (const FaceColumn& column : face_columns) {
+    j.sized("faces", c.now.*column.values, n);
+    j.sized("faces", c.before.*column.values, n);
+  }
+  j.sized("faces.facing", c.facing, n);
+  j.sized("faces.law", c.law, n);
+  j.sized("faces.force", c.force, 8 * n);
+  for (const auto* values : {&c.built_x, &c.built_y}) {
+    if (n > 0 || !values->empty()) j.sized("faces.built", *values, nv);
+  }
+  j.below("faces.edge", c.edge, nv);
+  j.below("faces.facing", c.facing, nv);
+  j.below("faces.law", {c.law.begin(), c.law.end()}, laws.rows.size());
+  for (std::size_t k = 0; j.flaw().empty() && k < n; ++k) {
+    const bool ascend =
+        k == 0 || std::pair(c.edge[k - 1], c.facing[k - 1]) < std::pair(c.edge[k], c.facing[k]);
+    if (!ascend || b.vertex_block[c.edge[k]] == b.vertex_block[c.facing[k]]) {
+      j.refuse("faces do not belong together");
+    }
+  }
 }
 
 /// Blocks in one piece and not at the end of the world: the search for contacts counts cells.
@@ -305,6 +360,7 @@ void judge_places(Judge& j, const Simulation& s) {
     if (!near(s.pose.x, s.pose.y, v) || !near(s.pose.x1, s.pose.y1, v)) {
       return j.refuse("pose is not that of these blocks");
     }
+    if (s.on_faces()) continue;
     if (!(std::abs(s.contacts.built_x[v]) <= far && std::abs(s.contacts.built_y[v]) <= far)) {
       return j.refuse("contacts.built is not of these blocks");
     }
@@ -345,6 +401,7 @@ void judge(Judge& j, const Simulation& s) {
     for (std::size_t k = 0; k < 3; ++k) j.positive("node_mass", s.blocks.node_mass[k][i]);
   }
   judge_contacts(j, s.contacts, s.blocks, s.laws);
+  judge_faces(j, s.contacts.faces, s.blocks, s.laws);
   if (j.flaw().empty()) judge_places(j, s);
 }
 
@@ -354,6 +411,7 @@ template <class Archive>
 void list_memory(Archive& a, Simulation& s) {
   list_state(a, s);
   list_contacts(a, s.contacts);
+  list_faces(a, s.contacts.faces);
   list_groups(a, s.contacts);
   list_counts(a, s);
   list_kept(a, s);
@@ -404,6 +462,8 @@ std::string recall(Simulation& sim, const Record& record) {
   if (!j.flaw().empty()) return j.flaw();
   sim.contacts.look_everywhere();
   set_dashpots(sim.contacts, sim.laws);
+  complete_faces(sim.contacts.faces, sim.blocks, sim.laws);
+  set_face_dashpots(sim.contacts.faces, sim.laws, sim.damping.contact);
   fill_point_masses(sim.blocks);
   fill_viscosity(sim.blocks, sim.damping);
   list_by_corner(sim.contacts, sim.blocks.vertex_count());

@@ -158,6 +158,7 @@ void Simulation::take_strength_factors(const std::vector<double>& factors) {
   LawTable divided = divided_laws(model, factors);
   take_strength(contacts, laws, divided);
   laws = std::move(divided);
+  place_again();
 }
 
 /// A little more, in time with the motion: all of it within some of its periods.

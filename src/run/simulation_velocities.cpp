@@ -44,8 +44,9 @@ void Simulation::change_velocities(const Nodes& vx, const Nodes& vy) {
   std::vector<double> slips;
   if (leaps) {
     place_a_step_back(blocks, state, state.vx, state.vy, step_before_, pose);
-    slips = previous_slips(contacts, pose);
+    if (!on_faces()) slips = previous_slips(contacts, pose);
   }
+  const std::vector<double> old_x1 = pose.x1, old_y1 = pose.y1;
   const double bolts_before = leaps ? bolt_power(*this) : 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -56,8 +57,13 @@ void Simulation::change_velocities(const Nodes& vx, const Nodes& vy) {
   }
   if (leaps) {
     place_a_step_back(blocks, state, state.vx, state.vy, step_before_, pose);
-    look_at_previous_gaps(contacts, pose);
-    move_previous_slips(contacts, pose, slips);
+    if (on_faces()) {
+      change_step_behind(contacts.faces, blocks, pose, old_x1, old_y1);
+      place_faces(contacts.faces, blocks, pose, laws, step_before_);
+    } else {
+      look_at_previous_gaps(contacts, pose);
+      move_previous_slips(contacts, pose, slips);
+    }
     bolts.owed += 0.5 * step_before_ * (bolt_power(*this) - bolts_before);
   }
   external_work += ledger_now().balance() - energy;

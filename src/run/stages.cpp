@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "contacts/face_reading.hpp"
 #include "results/csv.hpp"
 #include "run/labels.hpp"
 #include "run/observe.hpp"
@@ -68,6 +69,11 @@ std::vector<std::uint8_t> touching(const Simulation& sim) {
   for (std::size_t r = 0; r < bolts.rows.size(); ++r) {
     if (!bolts.rows[r].grouted && bolts.bars.broken[bolts.begin[r]] != 0) continue;
     for (Id k = bolts.begin[r]; k < bolts.begin[r + 1]; ++k) touches[bolts.host[k]] = 1;
+  }
+  const FaceSet& f = sim.contacts.faces;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    if (!is_closed(f, k)) continue;
+    touches[block_of_edge(sim.blocks, f, k)] = touches[block_of_facing(sim.blocks, f, k)] = 1;
   }
   for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
     if (carries(sim.contacts, k)) {
@@ -141,8 +147,17 @@ StageRecord stage_record(const Simulation& sim, const Ledger& ledger, double sta
   r.steps = sim.state.steps - first_step;
   r.balance = balance_of(sim);
   r.ledger = ledger;
-  r.broken = sim.contacts.broken;
+  r.broken = sim.contacts.broken + sim.contacts.faces.broken;
   r.yielded = yielded_bolts(sim.bolts);
+  const FaceSet& f = sim.contacts.faces;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    const bool closed = is_closed(f, k);
+    r.open += f.opened[k] > 0.0 && !closed;
+    if (!closed) continue;
+    ++r.closed;
+    r.sliding += slides(f, k);
+    r.bonded += f.bonded[k] > 0.0;
+  }
   for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
     r.open += sim.contacts.is(k, cs::opened) && !sim.contacts.is(k, cs::closed);
     if (!carries(sim.contacts, k)) continue;

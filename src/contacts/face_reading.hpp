@@ -1,0 +1,79 @@
+// What faces say to those who only read them.
+#pragma once
+
+#include <algorithm>
+
+#include "blocks/pose.hpp"
+#include "contacts/face_set.hpp"
+
+namespace edda {
+
+/// Block of the edge, and of the one that faces it.
+inline Id block_of_edge(const BlockSet& b, const FaceSet& f, std::size_t k) {
+  return b.vertex_block[f.edge[k]];
+}
+inline Id block_of_facing(const BlockSet& b, const FaceSet& f, std::size_t k) {
+  return b.vertex_block[f.facing[k]];
+}
+
+/// Whether face k carries force, or would at the least shear.
+inline bool is_closed(const FaceSet& f, std::size_t k) {
+  return f.now.energy[k] > 0.0 || (f.bonded[k] > 0.0 && f.now.gate[k] > 0.0);
+}
+
+/// The larger closure of its two ends, as the surfaces are drawn, m.
+inline double closure_of(const FaceSet& f, std::size_t k) {
+  return std::max(f.now.closure_a[k], f.now.closure_b[k]) - f.offset[k];
+}
+
+/// Whether it is closed, or the edges meet but for rounding.
+inline bool meets(const FaceSet& f, std::size_t k) {
+  return is_closed(f, k) ||
+         (f.acts[k] > 0.0 && f.now.gate[k] > 0.0 && closure_of(f, k) >= -f.noise);
+}
+
+/// N, positive in compression; T, positive where it drives the block of `facing` along the edge.
+inline double normal_force(const FaceSet& f, std::size_t k) {
+  const FaceMemory& m = f.now;
+  return m.normal_a[k] + m.normal_b[k] + m.damping_a[k] + m.damping_b[k];
+}
+inline double shear_force(const FaceSet& f, std::size_t k) {
+  const FaceMemory& m = f.now;
+  return m.shear_a[k] + m.shear_b[k] + m.drag_a[k] + m.drag_b[k];
+}
+
+/// What it can bear in shear, N.
+inline double shear_strength(const FaceSet& f, std::size_t k) {
+  return std::max(
+      f.cohesion[k] * f.now.length[k] * f.now.gate[k] + f.friction[k] * normal_force(f, k), 0.0);
+}
+
+/// Whether Coulomb's limit cut the shear of one of its ends at the last step.
+inline bool slides(const FaceSet& f, std::size_t k) {
+  const FaceMemory& m = f.now;
+  return is_closed(f, k) && f.bonded[k] == 0.0 &&
+         (m.slip_a[k] != m.trial_a[k] || m.slip_b[k] != m.trial_b[k]);
+}
+
+/// Force on the block of `facing`; that of `edge` has the opposite.
+inline Vec2 force_on_facing(const FaceSet& f, std::size_t k) {
+  const double* const on = f.force.data() + 4 * std::size_t{f.facing_slot[k]};
+  return {on[0] + on[2], on[1] + on[3]};
+}
+
+/// Ends of the overlap, on the edge.
+struct FaceSpan {
+  Vec2 a, b;
+};
+inline FaceSpan span_of(const FaceSet& f, const Pose& pose, std::size_t k) {
+  const Vec2 p1{pose.x[f.edge[k]], pose.y[f.edge[k]]},
+      p2{pose.x[f.edge_end[k]], pose.y[f.edge_end[k]]};
+  const auto at = [&](double xi) { return (1.0 - xi) * p1 + xi * p2; };
+  return {at(f.now.xi_a[k]), at(f.now.xi_b[k])};
+}
+inline Vec2 middle_of(const FaceSet& f, const Pose& pose, std::size_t k) {
+  const FaceSpan span = span_of(f, pose, k);
+  return 0.5 * (span.a + span.b);
+}
+
+}  // namespace edda
