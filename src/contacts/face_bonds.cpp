@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contacts/face_energy.hpp"
+#include "contacts/face_reading.hpp"
 #include "contacts/place_faces.hpp"
 
 namespace edda {
@@ -14,6 +16,16 @@ constexpr double touch = 1e-6;
 double size_at(const FaceSet& c, const BlockSet& b, std::size_t k) {
   return std::sqrt(
       std::min(b.area[b.vertex_block[c.edge[k]]], b.area[b.vertex_block[c.facing[k]]]));
+}
+
+/// Glues face k for a while. Only where both ends lie against each other does it pull: a corner that
+/// leans holds along the edge alone.
+void lend_glue(FaceSet& c, std::size_t k) {
+  constexpr double flush = 1e-3;  // of the overlap
+  const double least = std::min(c.now.closure_a[k], c.now.closure_b[k]) - c.offset[k];
+  c.lent[k] = 1.0 + c.bonded[k] + 2.0 * c.pulls[k];
+  c.glued[k] = c.bonded[k] = 1.0;
+  if (least > -flush * c.now.length[k]) c.pulls[k] = 1.0;
 }
 
 /// Edges whose directions satisfy this cosine lie along each other.
@@ -40,6 +52,7 @@ void bond_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable&
     const Face face = face_at(c, b, pose.x, pose.y, k);
     const double cosine = -dot(at.p2 - at.p1, at.q2 - at.q1) * c.inverse_lengths[k];
     const double size = size_at(c, b, k), closure = std::max(face.closure.a, face.closure.b);
+    const bool flush = std::min(face.closure.a, face.closure.b) >= -touch * size;
     if (!(face.length > touch * size) || cosine < along || std::abs(closure) > touch * size) {
       continue;
     }
@@ -47,7 +60,7 @@ void bond_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable&
     if (weakens && law.peak_tension == 0.0) continue;
     c.bonded[k] = weakens ? 0.0 : 1.0;
     c.glued[k] = law.glued ? 1.0 : 0.0;
-    c.pulls[k] = law.glued || law.peak_tension > 0.0 ? 1.0 : 0.0;
+    c.pulls[k] = flush && (law.glued || law.peak_tension > 0.0) ? 1.0 : 0.0;
     c.friction[k] = law.peak_friction;
     c.cohesion[k] = law.peak_cohesion * laws.thickness;
     c.tension[k] = law.peak_tension * laws.thickness;
@@ -72,7 +85,7 @@ void break_bond(FaceSet& c, const LawTable& laws, std::size_t k) {
   const bool was_bonded = c.bonded[k] > 0.0;
   c.bonded[k] = 0.0;
   if (was_bonded) take_residual(c, laws, k);
-  c.breaks[k] = was_bonded ? 2.0 : 1.0;
+  c.breaks[k] = was_bonded ? bond_breaks : 1.0;
   // Torn by more than what is left, too.
   const double least = std::min(c.now.closure_a[k], c.now.closure_b[k]);
   if (-c.stiffness[k] * least > c.tension[k]) c.pulls[k] = 0.0;
@@ -80,23 +93,34 @@ void break_bond(FaceSet& c, const LawTable& laws, std::size_t k) {
 }
 
 void glue_faces(FaceSet& c) {
+  c.gluing = true;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    const bool touches = c.now.energy[k] > 0.0 || c.bonded[k] > 0.0;
-    if (!touches || c.glued[k] > 0.0) continue;
-    c.lent[k] = 1.0 + c.bonded[k] + 2.0 * c.pulls[k];
-    c.glued[k] = c.bonded[k] = c.pulls[k] = 1.0;
+    if (meets(c, k) && c.glued[k] == 0.0) lend_glue(c, k);
   }
   note_bonds(c);
 }
 
-void unglue_faces(FaceSet& c) {
+void glue_pressed(FaceSet& c) {
+  bool any = false;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (c.glued[k] > 0.0 || c.before.energy[k] == 0.0 || c.now.energy[k] == 0.0) continue;
+    lend_glue(c, k);
+    any = true;
+  }
+  if (any) note_bonds(c);
+}
+
+void unglue_faces(FaceSet& c, const BlockSet& b, const Pose& pose) {
+  c.gluing = false;
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (c.lent[k] == 0.0) continue;
-    const double had = c.lent[k] - 1.0;
+    const double had = c.lent[k] - 1.0, stored = normal_energy(c, b, pose, k);
     c.glued[k] = 0.0;
     c.pulls[k] = had >= 2.0 ? 1.0 : 0.0;
     c.bonded[k] = had == 1.0 || had == 3.0 ? 1.0 : 0.0;
     c.lent[k] = 0.0;
+    c.fracture_work[k] += std::max(stored - normal_energy(c, b, pose, k), 0.0);
+    c.breaks[k] = 1.0;
   }
   note_bonds(c);
 }

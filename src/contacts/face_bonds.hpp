@@ -24,9 +24,12 @@ bool gives_way(const FaceSet& faces, const BlockSet& blocks, std::size_t k);
 /// Face k breaks: it has its residual strength from now on, or none where that is spent, too.
 void break_bond(FaceSet& faces, const LawTable& laws, std::size_t k);
 
-/// Joints that touch neither open nor slide from now on; and do again, with what they had before.
+/// Joints that touch neither open nor slide from now on; and do again, with what they had before:
+/// what is in tension then lets go, which is booked as fracture energy.
 void glue_faces(FaceSet& faces);
-void unglue_faces(FaceSet& faces);
+void unglue_faces(FaceSet& faces, const BlockSet& blocks, const Pose& pose);
+/// Meanwhile, what has come to touch is glued once it has been pressed for a whole step.
+void glue_pressed(FaceSet& faces);
 
 /// Fills `bonds`.
 void note_bonds(FaceSet& faces);

@@ -67,6 +67,9 @@ inline constexpr FaceColumn face_columns[] = {{"closure_a", "m", &FaceMemory::cl
                                               {"friction_work", "J", &FaceMemory::friction_work},
                                               {"transfer", "J", &FaceMemory::transfer}};
 
+/// FaceSet::breaks of a bond.
+inline constexpr double bond_breaks = 2.0;
+
 struct FaceSet {
   std::size_t size() const { return edge.size(); }
 
@@ -127,6 +130,7 @@ struct FaceSet {
   double retired_friction = 0.0, retired_damping = 0.0, retired_fracture = 0.0,
          retired_transfer = 0.0;  ///< J, of faces let go
 
+  bool gluing = false;       ///< a stage glues its joints: what comes to touch, too
   std::uint64_t broken = 0;  ///< bonded faces that have gone to their residual law so far
 
   /// Calls visit(k, of_edge) for the faces of the edges [first, end): of_edge where it is `edge`.

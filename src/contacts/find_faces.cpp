@@ -150,6 +150,7 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
   next.retired_fracture = faces.retired_fracture;
   next.retired_transfer = faces.retired_transfer;
   next.broken = faces.broken;
+  next.gluing = faces.gluing;
   const auto retire = [&](std::size_t k) {
     next.retired_friction += faces.friction_work[k];
     next.retired_damping += faces.damping_work[k];

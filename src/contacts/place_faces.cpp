@@ -505,6 +505,7 @@ void change_step_behind(FaceSet& c, const BlockSet& b, const Pose& pose,
 }
 
 void next_step(FaceSet& c) {
+  if (c.gluing) glue_pressed(c);
   parallel_for(c.size(), [&](std::size_t k) {
     (c.breaks[k] > 0.0 ? c.fracture_work : c.friction_work)[k] += c.now.friction_work[k];
     c.damping_work[k] += c.now.damping_work[k];
@@ -513,13 +514,10 @@ void next_step(FaceSet& c) {
     if (c.before.energy[k] > 0.0 && c.now.energy[k] == 0.0) c.opened[k] = 1.0;
     c.transfer[k] += c.now.transfer[k];
   });
-  for (std::size_t q = 0; q < c.bonds.size(); ++q) {
-    if (c.bonds[q] == 0) continue;
-    for (std::size_t k = q * FaceSet::chunk; k < std::min(c.size(), (q + 1) * FaceSet::chunk);
-         ++k) {
-      c.broken += c.breaks[k] == 2.0 ? 1 : 0;
-      c.breaks[k] = 0.0;
-    }
+  for (double& breaks : c.breaks) {
+    if (breaks == 0.0) continue;
+    if (breaks == bond_breaks) ++c.broken;
+    breaks = 0.0;
   }
   std::swap(c.now, c.before);
 }

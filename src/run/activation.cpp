@@ -146,11 +146,12 @@ void Simulation::switch_over(const NamedRows& off, const NamedRows& on) {
 
 void Simulation::glue_joints(bool glued) {
   if (on_faces()) {
+    if (glued == contacts.faces.gluing) return;
     const NodalForces before = forces_now();
     if (glued)
       glue_faces(contacts.faces);
     else
-      unglue_faces(contacts.faces);
+      unglue_faces(contacts.faces, blocks, pose);
     place_again();
     note_jump(before);
     return;

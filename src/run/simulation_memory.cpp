@@ -38,6 +38,7 @@ void list_faces(Archive& a, FaceSet& c) {
   a("faces.reach", c.reach);
   a("faces.travel", c.travel);
   a("faces.rebuilds", c.rebuilds);
+  a("faces.gluing", c.gluing);
   a("faces.broken", c.broken);
   a("faces.retired_friction", c.retired_friction);
   a("faces.retired_damping", c.retired_damping);
