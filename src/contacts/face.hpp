@@ -28,22 +28,22 @@ struct FacePoints {
   Vec2 p1, p2, q1, q2;
 };
 
+/// A value at each end of the overlap.
+struct FaceEnds {
+  double a = 0.0, b = 0.0;
+};
+
 /// What a face keeps while its blocks move.
 struct FacePair {
-  double stiffness = 0.0;  ///< k times the thickness, N/m per metre of overlap
-  double offset = 0.0;     ///< o, closure of the surfaces as drawn, m: initial stress, dilation
-  double ends = 0.0;       ///< 1: the integral is taken at the ends; 0: exact
-  double pulls = 0.0;      ///< 1: bears tension
+  double stiffness = 0.0;        ///< k times the thickness, N/m per metre of overlap
+  double ends = 0.0;             ///< 1: the integral is taken at the ends; 0: exact
+  double pulls = 0.0;            ///< 1: bears tension
   double inverse_lengths = 0.0;  ///< 1/(l_e l_f) at the start, 1/m2
   double gate_from = 0.0;        ///< cosine of the angle between the edges from which W > 0
   double gate_scale = 1.0;       ///< 1/(cosine from which W = 1, less gate_from)
   double passing = 1.0;          ///< m: corners nearer than this have one share between them
+  FaceEnds offset;  ///< o, closure of the surfaces as drawn, m: initial stress, dilation
   Vec2 p1_turn, p2_turn, q1_turn, q2_turn;  ///< cosine and sine of the exterior angles
-};
-
-/// A force or a weight at each end of the overlap.
-struct FaceEnds {
-  double a = 0.0, b = 0.0;
 };
 
 /// Forces on the corners, N.
@@ -157,8 +157,9 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   face.length = sb - sa;
   face.xi = {sa * per_e, sb * per_e};
   face.eta = {(sa - r2) * per_f, (sb - r2) * per_f};
-  const double da = slope_e * sa - (z2 + slope_f * (sa - r2)) + pair.offset;
-  const double db = slope_e * sb - (z2 + slope_f * (sb - r2)) + pair.offset;
+  const double drawn_a = slope_e * sa - (z2 + slope_f * (sa - r2));
+  const double drawn_b = slope_e * sb - (z2 + slope_f * (sb - r2));
+  const double da = drawn_a + pair.offset.a, db = drawn_b + pair.offset.b;
   face.closure = {da, db};
 
   // W, of the angle theta between the edges; c and s: its cosine and sine, times both lengths.
@@ -169,7 +170,8 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
 
   // w, of the deeper end's closure as the edges are drawn
   const bool deep_b = db >= da, pulls = pair.pulls != 0.0;
-  const double deepest = larger(da, db) - pair.offset;
+  const double deepest = larger(drawn_a, drawn_b);
+  const bool drawn_deep_b = drawn_b >= drawn_a;
   const bool fades = (deepest > 0.0) & !pulls;
   const double per_deepest = 1.0 / (fades ? deepest : 1.0);
   const SmoothStep by_aspect =
@@ -211,8 +213,8 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const double stored = whole * phi, angle_gate = face.angle_gate;
   const double by_length = gate * pair.stiffness * phi + angle_gate * stored * aspect_slope;
   const double by_deepest = -angle_gate * stored * aspect_slope * face.length * per_deepest;
-  const double by_a = face.normal.a + (deep_b ? 0.0 : by_deepest);
-  const double by_b = face.normal.b + (deep_b ? by_deepest : 0.0);
+  const double by_a = face.normal.a + (drawn_deep_b ? 0.0 : by_deepest);
+  const double by_b = face.normal.b + (drawn_deep_b ? by_deepest : 0.0);
   const double by_share = gate * whole * gain;
   const double by_c =
       by_aspect.value * stored * by_angle.slope * pair.gate_scale * pair.inverse_lengths +

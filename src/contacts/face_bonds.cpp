@@ -18,11 +18,12 @@ double size_at(const FaceSet& c, const BlockSet& b, std::size_t k) {
       std::min(b.area[b.vertex_block[c.edge[k]]], b.area[b.vertex_block[c.facing[k]]]));
 }
 
-/// Glues face k for a while. Only where both ends lie against each other does it pull: a corner that
-/// leans holds along the edge alone.
+/// Glues face k for a while. Only where both ends lie against each other does it pull: a corner
+/// that leans holds along the edge alone.
 void lend_glue(FaceSet& c, std::size_t k) {
   constexpr double flush = 1e-3;  // of the overlap
-  const double least = std::min(c.now.closure_a[k], c.now.closure_b[k]) - c.offset[k];
+  const double least =
+      std::min(c.now.closure_a[k] - c.offset_a[k], c.now.closure_b[k] - c.offset_b[k]);
   c.lent[k] = 1.0 + c.bonded[k] + 2.0 * c.pulls[k];
   c.glued[k] = c.bonded[k] = 1.0;
   if (least > -flush * c.now.length[k]) c.pulls[k] = 1.0;
@@ -32,6 +33,15 @@ void lend_glue(FaceSet& c, std::size_t k) {
 constexpr double along = 0.99;
 
 }  // namespace
+
+bool touch_as_drawn(const FaceSet& c, const BlockSet& b, const Pose& pose, const Face& face,
+                    std::size_t k) {
+  const FacePoints at = face_points(c, pose.x, pose.y, k);
+  const double cosine = -dot(at.p2 - at.p1, at.q2 - at.q1) * c.inverse_lengths[k];
+  const double near = touch * size_at(c, b, k);
+  return face.length > near && cosine >= along &&
+         std::abs(std::max(face.closure.a, face.closure.b)) <= near;
+}
 
 void take_residual(FaceSet& c, const LawTable& laws, std::size_t k) {
   const Law& law = laws.rows[c.law[k]];
@@ -48,14 +58,9 @@ void bond_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable&
     const bool has_bond = weakens || law.glued || law.peak_cohesion > 0.0 ||
                           law.peak_tension > 0.0 || law.peak_friction > law.residual_friction;
     if (!has_bond) continue;
-    const FacePoints at = face_points(c, pose.x, pose.y, k);
     const Face face = face_at(c, b, pose.x, pose.y, k);
-    const double cosine = -dot(at.p2 - at.p1, at.q2 - at.q1) * c.inverse_lengths[k];
-    const double size = size_at(c, b, k), closure = std::max(face.closure.a, face.closure.b);
-    const bool flush = std::min(face.closure.a, face.closure.b) >= -touch * size;
-    if (!(face.length > touch * size) || cosine < along || std::abs(closure) > touch * size) {
-      continue;
-    }
+    if (!touch_as_drawn(c, b, pose, face, k)) continue;
+    const bool flush = std::min(face.closure.a, face.closure.b) >= -touch * size_at(c, b, k);
     c.acts[k] = c.leans[k] = 1.0;
     if (weakens && law.peak_tension == 0.0) continue;
     c.bonded[k] = weakens ? 0.0 : 1.0;
@@ -71,9 +76,9 @@ void bond_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable&
 bool gives_way(const FaceSet& c, const BlockSet& b, std::size_t k) {
   if (c.glued[k] > 0.0) return false;
   const FaceMemory& m = c.now;
-  const double least = std::min(m.closure_a[k], m.closure_b[k]) - c.offset[k];
+  const double least = std::min(m.closure_a[k], m.closure_b[k]);
   const double largest = std::max(m.closure_a[k], m.closure_b[k]);
-  if (c.pulls[k] > 0.0 && -c.stiffness[k] * (least + c.offset[k]) > c.tension[k]) return true;
+  if (c.pulls[k] > 0.0 && -c.stiffness[k] * least > c.tension[k]) return true;
   if (c.bonded[k] == 0.0) return false;
   if (c.pulls[k] == 0.0 && largest < -touch * size_at(c, b, k)) return true;
   const double shear = std::abs(m.shear_a[k] + m.shear_b[k]);

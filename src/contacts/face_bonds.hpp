@@ -7,6 +7,11 @@
 
 namespace edda {
 
+/// Whether the edges of face k lie along each other and touch as drawn: within 8 degrees, and at
+/// one end at least within 1e-6 of the smaller block's size.
+bool touch_as_drawn(const FaceSet& faces, const BlockSet& blocks, const Pose& pose,
+                    const Face& face, std::size_t k);
+
 /// Bonds the faces that touch at the start (their gap is within 1e-6 of the smaller block's size)
 /// and whose law has cohesion, tension, glue or a peak friction above the residual. Those with
 /// tensile strength, or glue, pull. A face is bonded as a whole, and breaks as a whole.

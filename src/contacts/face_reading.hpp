@@ -23,7 +23,7 @@ inline bool is_closed(const FaceSet& f, std::size_t k) {
 
 /// The larger closure of its two ends, as the surfaces are drawn, m.
 inline double closure_of(const FaceSet& f, std::size_t k) {
-  return std::max(f.now.closure_a[k], f.now.closure_b[k]) - f.offset[k];
+  return std::max(f.now.closure_a[k] - f.offset_a[k], f.now.closure_b[k] - f.offset_b[k]);
 }
 
 /// Whether it is closed, or the edges meet but for rounding.

@@ -93,8 +93,9 @@ struct FaceSet {
   std::vector<double> pulls;     ///< 1: bears tension
   std::vector<double> bonded;    ///< 1: has its peak strength: its shear is not cut
   std::vector<double> glued;     ///< 1: never opens or slides
-  std::vector<double> offset;    ///< closure of the surfaces as drawn, m
-  std::vector<double> lent;      ///< what a glued face had before, 1 + bonded + 2 pulls; else 0
+  std::vector<double> offset_a,
+      offset_b;              ///< o, closure at the ends of the surfaces as drawn, m
+  std::vector<double> lent;  ///< what a glued face had before, 1 + bonded + 2 pulls; else 0
   std::vector<double>
       breaks;  ///< 1: torn in the step in hand, 2: its bond breaks: what goes is fracture energy
   std::vector<double> opened;   ///< 1: has opened after having been closed
@@ -120,6 +121,9 @@ struct FaceSet {
   std::vector<std::uint8_t> stirs;  ///< [chunks] 1: ends of a face in it open or close
   std::vector<double> deepest;      ///< [chunks] largest closure of a face that carries, m
   std::vector<std::uint8_t> bonds;  ///< [chunks] 1: a face in it is bonded or pulls
+
+  std::vector<double> locked_start, locked_end;  ///< [nv] of an edge, at its two corners: pressure
+                                                 ///< of the initial stress, N per m; empty: none
 
   // When the list was made, and how long it lives.
   std::vector<double> built_x, built_y;  ///< [nv] vertices then, m
@@ -161,7 +165,8 @@ inline constexpr FaceStateColumn face_state_columns[] = {
     {"opened", "1", &FaceSet::opened},
     {"slipped", "1", &FaceSet::slipped},
     {"breaks", "1", &FaceSet::breaks},
-    {"offset", "m", &FaceSet::offset},
+    {"offset_a", "m", &FaceSet::offset_a},
+    {"offset_b", "m", &FaceSet::offset_b},
     {"friction_work", "J", &FaceSet::friction_work},
     {"damping_work", "J", &FaceSet::damping_work},
     {"fracture_work", "J", &FaceSet::fracture_work},
@@ -173,7 +178,7 @@ EDDA_INLINE FacePair face_pair(const Faces& c, const double* turn_cosine, const 
                                std::size_t k) {
   FacePair p;
   p.stiffness = c.stiffness[k] * c.acts[k];
-  p.offset = c.offset[k];
+  p.offset = {c.offset_a[k], c.offset_b[k]};
   p.ends = c.at_ends[k] * c.leans[k];
   p.pulls = c.pulls[k];
   p.inverse_lengths = c.inverse_lengths[k];

@@ -151,6 +151,8 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
   next.retired_transfer = faces.retired_transfer;
   next.broken = faces.broken;
   next.gluing = faces.gluing;
+  next.locked_start = std::move(faces.locked_start);
+  next.locked_end = std::move(faces.locked_end);
   const auto retire = [&](std::size_t k) {
     next.retired_friction += faces.friction_work[k];
     next.retired_damping += faces.damping_work[k];

@@ -8,6 +8,7 @@
 #include "blocks/point_mass.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/face_energy.hpp"
+#include "contacts/face_preload.hpp"
 #include "contacts/inside.hpp"
 
 namespace edda {
@@ -34,7 +35,7 @@ MemoryView faces_view(FaceMemory& m) {
 struct FaceView {
   const Id *edge, *edge_end, *facing, *facing_end;
   const double *stiffness, *shear_stiffness, *inverse_lengths, *gate_from, *gate_scale, *passing,
-      *at_ends, *acts, *leans, *friction, *cohesion, *offset, *pulls, *bonded;
+      *at_ends, *acts, *leans, *friction, *cohesion, *offset_a, *offset_b, *pulls, *bonded;
   const double *turn_cosine, *turn_sine;
   const double *x, *y, *x1, *y1;
   double noise;
@@ -60,7 +61,8 @@ FaceView faces_view(FaceSet& c, const BlockSet& b, const Pose& pose, double step
           c.leans.data(),
           c.friction.data(),
           c.cohesion.data(),
-          c.offset.data(),
+          c.offset_a.data(),
+          c.offset_b.data(),
           c.pulls.data(),
           c.bonded.data(),
           b.turn_cosine.data(),
@@ -96,14 +98,14 @@ EDDA_INLINE Vec2 frame_of(const FacePoints& p) {
 struct EndMotion {
   FaceEnds slip, closure;
 };
-EDDA_INLINE EndMotion motion_of(const Face& face, double offset, const FacePoints& then) {
+EDDA_INLINE EndMotion motion_of(const Face& face, FaceEnds offset, const FacePoints& then) {
   const Vec2 t = frame_of(then), n = outward_normal(t);
   const Vec2 a = from_point_of_e(then, face.xi.a, face.eta.a);
   const Vec2 b = from_point_of_e(then, face.xi.b, face.eta.b);
   const FaceEnds slip{-dot(a, t), -dot(b, t)};
   return {slip,
-          {face.closure.a - offset + dot(a, n) + face.slope.a * slip.a,
-           face.closure.b - offset + dot(b, n) + face.slope.b * slip.b}};
+          {face.closure.a - offset.a + dot(a, n) + face.slope.a * slip.a,
+           face.closure.b - offset.b + dot(b, n) + face.slope.b * slip.b}};
 }
 
 /// Shear of one end under Coulomb's limit (N): T = -spring u.
@@ -145,7 +147,7 @@ constexpr double unlimited = 1e300;  // N
 
 /// What asks for a decision (see judge()).
 EDDA_INLINE bool asks(const FaceView& c, const Face& face, std::size_t k) {
-  const double closure = larger(face.closure.a, face.closure.b) - c.offset[k];
+  const double closure = larger(face.closure.a - c.offset_a[k], face.closure.b - c.offset_b[k]);
   const bool on = face.gate > 0.0;
   const bool born = on & (c.before.gate[k] == 0.0);
   const bool frees = on & (c.acts[k] == 0.0) & (closure <= 0.0);
@@ -228,7 +230,7 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const double spring = touches ? 0.5 * c.shear_stiffness[k] * overlap * face.gate : 0.0;
 
   // slip, and Coulomb's limit at each end
-  const EndMotion moved = motion_of(face, c.offset[k], then);
+  const EndMotion moved = motion_of(face, {c.offset_a[k], c.offset_b[k]}, then);
   const FaceEnds here = moved.slip;
   const double xi_a = old.xi_a[k], xi_b = old.xi_b[k], eta_a = old.eta_a[k], eta_b = old.eta_b[k];
   const FaceEnds there{dot(from_point_of_e(at, xi_a, eta_a), face.t),
@@ -296,7 +298,7 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   placed.force.q2 += face.force.q2;
   placed.asks = asks(c, face, k);
   placed.stirs = stirs;
-  placed.depth = touches ? larger(da, db) - c.offset[k] : 0.0;
+  placed.depth = touches ? larger(da - c.offset_a[k], db - c.offset_b[k]) : 0.0;
   return placed;
 }
 
@@ -415,7 +417,12 @@ bool corner_leans(const FaceSet& c, const BlockSet& b, const Pose& pose, const F
 void judge(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   const FacePoints at = face_points(c, pose.x, pose.y, k);
   const Face face = face_at(c, b, pose.x, pose.y, k);
-  const double closure = std::max(face.closure.a, face.closure.b) - c.offset[k];
+  const double closure = std::max(face.closure.a - c.offset_a[k], face.closure.b - c.offset_b[k]);
+  if (c.before.gate[k] == 0.0) {
+    const FaceEnds locked = locked_closure(c, face, k);
+    c.offset_a[k] = locked.a;
+    c.offset_b[k] = locked.b;
+  }
   if (closure <= c.noise) {
     c.acts[k] = 1.0;
   } else if (c.before.gate[k] == 0.0) {
@@ -492,9 +499,10 @@ void change_step_behind(FaceSet& c, const BlockSet& b, const Pose& pose,
                         const std::vector<double>& old_x1, const std::vector<double>& old_y1) {
   FaceMemory& m = c.before;
   parallel_for(c.size(), [&](std::size_t k) {
+    const FaceEnds offset{c.offset_a[k], c.offset_b[k]};
     const Face now = face_at(c, b, pose.x, pose.y, k), then = face_at(c, b, pose.x1, pose.y1, k);
-    const FaceEnds was = motion_of(now, c.offset[k], face_points(c, old_x1, old_y1, k)).slip;
-    const FaceEnds is = motion_of(now, c.offset[k], face_points(c, pose.x1, pose.y1, k)).slip;
+    const FaceEnds was = motion_of(now, offset, face_points(c, old_x1, old_y1, k)).slip;
+    const FaceEnds is = motion_of(now, offset, face_points(c, pose.x1, pose.y1, k)).slip;
     m.slip_a[k] += was.a - is.a;
     m.slip_b[k] += was.b - is.b;
     m.closure_a[k] = then.closure.a;
@@ -531,7 +539,7 @@ Face face_at(const FaceSet& c, const BlockSet& b, const std::vector<double>& x,
 CornerForces cut_again(FaceSet& c, const Face& face, const FacePoints& at, const FacePoints& then,
                        double alpha, std::size_t k) {
   FaceMemory& m = c.before;
-  const FaceEnds here = motion_of(face, c.offset[k], then).slip;
+  const FaceEnds here = motion_of(face, {c.offset_a[k], c.offset_b[k]}, then).slip;
   const double spring = m.spring[k], cohesion = 0.5 * c.cohesion[k] * face.length * face.gate;
   const auto again = [&](double normal, double trial, double slipped, double& force, double& slip) {
     const Shear next = cut(trial, spring, std::max(cohesion + c.friction[k] * alpha * normal, 0.0));

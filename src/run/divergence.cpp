@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contacts/face_reading.hpp"
 #include "contacts/gap.hpp"
 #include "contacts/inside.hpp"
 #include "run/labels.hpp"
@@ -51,7 +52,7 @@ std::optional<Failure> deep_face(const FaceSet& c, const BlockSet& b, const Stat
                                  const Pose& pose, const StepInUse& step) {
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Id i = b.vertex_block[c.edge[k]], j = b.vertex_block[c.facing[k]];
-    const double depth = std::max(c.now.closure_a[k], c.now.closure_b[k]) - c.offset[k];
+    const double depth = closure_of(c, k);
     if (!(c.now.energy[k] > 0.0) || depth <= std::min(b.inradius[i], b.inradius[j])) continue;
     Failure f;
     f.time = s.time;

@@ -135,11 +135,12 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   s.contacts.on_faces = s.explicit_method() && s.model.contact.model == ContactModel::faces;
   if (__builtin_strlen("x") == 1 && ::getenv("EDDA_FACES") != nullptr)
     if (__builtin_strlen("x") == 1 && ::getenv("EDDA_FACES") != nullptr)
+      if (__builtin_strlen("x") == 1 && ::getenv("EDDA_FACES") != nullptr)
   if (s.explicit_method()) s.given_mass_ = {s.blocks.node_mass, s.blocks.inverse_mass};
   s.search(s.base_reach);
   if (s.on_faces()) {
     bond_faces(s.contacts.faces, s.blocks, s.pose, s.laws);
-    place_faces(s.contacts.faces, s.blocks, s.pose, s.laws, 1.0);
+    s.close_contacts();
   } else {
     update_shares(s.contacts);
     block_far_sides(s.contacts, s.blocks, s.pose);

@@ -1,5 +1,8 @@
 // How a simulation takes up the stress that is in the ground at the start.
 #include "attachments/initial_forces.hpp"
+#include "contacts/face_bonds.hpp"
+#include "contacts/face_preload.hpp"
+#include "contacts/place_faces.hpp"
 #include "contacts/preload.hpp"
 #include "forces/contact_forces.hpp"
 #include "run/initial_stress_report.hpp"
@@ -22,6 +25,10 @@ void Simulation::hold_boundaries() {
 
 /// What touches carries from the start: the initial stress of the blocks, where there is one.
 void Simulation::close_contacts() {
+  if (!model.initial_stress && on_faces()) {
+    place_faces(contacts.faces, blocks, pose, laws, 1.0);
+    return;
+  }
   if (!model.initial_stress) {
     settle_contacts(contacts, blocks, pose, laws, 0, true, transitions_);
     return;
@@ -31,9 +38,16 @@ void Simulation::close_contacts() {
   const FaceForces faces(blocks, field, at_start);
   const auto traction = [&](Id edge, double from, double to) { return faces.on(edge, {from, to}); };
   initial.emplace();
-  initial->joints = preload_contacts(contacts, blocks, pose, laws, traction, transitions_);
   // What a first stage glues has its say when it is unglued.
   const bool glued = !model.stages.empty() && model.stages.front().joints == StageJoints::glued;
+  if (on_faces()) {
+    initial->joints = preload_faces(contacts.faces, blocks, pose, laws, traction);
+    if (glued) glue_faces(contacts.faces);
+    place_faces(contacts.faces, blocks, pose, laws, 1.0);
+    judge_initial_stress(*this);
+    return;
+  }
+  initial->joints = preload_contacts(contacts, blocks, pose, laws, traction, transitions_);
   if (!glued) {
     break_overloaded(contacts, blocks, laws);
     cut_preload(contacts);

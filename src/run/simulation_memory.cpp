@@ -32,6 +32,8 @@ void list_faces(Archive& a, FaceSet& c) {
     a(std::string("faces.before.") + column.name, c.before.*column.values);
   }
   a("faces.force", c.force);
+  a("faces.locked_start", c.locked_start);
+  a("faces.locked_end", c.locked_end);
   a("faces.built_x", c.built_x);
   a("faces.built_y", c.built_y);
   a("faces.noise", c.noise);
@@ -332,6 +334,8 @@ void judge_faces(Judge& j, const FaceSet& c, const BlockSet& b, const LawTable& 
   for (const auto* values : {&c.built_x, &c.built_y}) {
     if (n > 0 || !values->empty()) j.sized("faces.built", *values, nv);
   }
+  if (!c.locked_start.empty()) j.sized("faces.locked", c.locked_start, nv);
+  j.sized("faces.locked", c.locked_end, c.locked_start.size());
   j.below("faces.edge", c.edge, nv);
   j.below("faces.facing", c.facing, nv);
   j.below("faces.law", {c.law.begin(), c.law.end()}, laws.rows.size());

@@ -40,7 +40,7 @@ class Faces {
     r.pair.stiffness = 1.0;
     r.pair.ends = count_ % 4 == 1 ? 0.0 : 1.0;
     r.pair.pulls = count_ % 11 == 0 ? 1.0 : 0.0;
-    r.pair.offset = count_ % 7 == 0 ? 0.01 : 0.0;
+    if (count_ % 7 == 0) r.pair.offset = {0.01, uniform(0.0, 0.02)};
     r.pair.inverse_lengths = 1.0 / (le * lf);
     r.pair.gate_from = std::cos(85.0 * pi / 180.0);
     r.pair.gate_scale = 1.0 / (0.5 - r.pair.gate_from);
@@ -142,6 +142,7 @@ TEST(Face, IsTheSameSeenFromTheOtherBlock) {
     other.at = {r.at.q1, r.at.q2, r.at.p1, r.at.p2};
     std::swap(other.pair.p1_turn, other.pair.q1_turn);
     std::swap(other.pair.p2_turn, other.pair.q2_turn);
+    std::swap(other.pair.offset.a, other.pair.offset.b);
     const Face one = face_between(r.at, r.pair), two = face_between(other.at, other.pair);
     if (std::abs(one.closure.a - one.closure.b) < 1e-9) continue;
     EXPECT_NEAR(one.energy, two.energy, 1e-12 * (1e-3 + one.energy));

@@ -1,0 +1,106 @@
+#include "contacts/face_preload.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contacts/face_bonds.hpp"
+#include "contacts/place_faces.hpp"
+
+namespace edda {
+namespace {
+
+/// Closures whose pressure has these normal forces at the ends: N = k L d/2 where it is taken
+/// there, N_a = k L (2 d_a + d_b)/6 where it is not.
+FaceEnds closures_of(FaceEnds normal, double stiffness, bool at_ends) {
+  if (at_ends) return {2.0 * normal.a / stiffness, 2.0 * normal.b / stiffness};
+  return {(4.0 * normal.a - 2.0 * normal.b) / stiffness,
+          (4.0 * normal.b - 2.0 * normal.a) / stiffness};
+}
+
+void judge_joint(JointStress& joint, const FaceSet& c, std::size_t k, double length,
+                 FaceEnds normals, FaceEnds shears) {
+  joint.length += length;
+  if (c.glued[k] > 0.0) return;
+  const double tension = c.pulls[k] > 0.0 ? c.tension[k] * length : 0.0;
+  const double normal = normals.a + normals.b, shear = std::abs(shears.a + shears.b);
+  if (normal < -tension) joint.torn += length;
+  constexpr double rounding = 1e-9;
+  const double strength = std::max(c.cohesion[k] * length + c.friction[k] * normal, 0.0);
+  const double size = shear > rounding * std::abs(normal) ? shear : 0.0;
+  if (normal > 0.0) {
+    joint.ratio = std::max(joint.ratio, size / normal);
+    if (size > 0.0) joint.mobilised = std::max(joint.mobilised, size / strength);
+  }
+  if (normal >= -tension && size > (1.0 + rounding) * strength) joint.over += length;
+}
+
+void lock_pressures(FaceSet& c, const BlockSet& b, const FaceTraction& traction) {
+  const std::size_t nv = b.vertex_count();
+  c.locked_start.resize(nv);
+  c.locked_end.resize(nv);
+  for (std::size_t e = 0; e < nv; ++e) {
+    const EndForces on = traction(static_cast<Id>(e), 0.0, 1.0);
+    const Vec2 n = outward_normal(unit(b.vertex(b.next[e]) - b.vertex(e)));
+    const double from = -dot(on.at_from, n), to = -dot(on.at_to, n);
+    c.locked_start[e] = (4.0 * from - 2.0 * to) / b.edge_length[e];
+    c.locked_end[e] = (4.0 * to - 2.0 * from) / b.edge_length[e];
+  }
+}
+
+}  // namespace
+
+FaceEnds locked_closure(const FaceSet& c, const Face& face, std::size_t k) {
+  if (c.locked_start.empty()) return {};
+  const Id e = c.edge[k], f = c.facing[k];
+  const auto pressure = [&](double xi, double eta) {
+    return 0.5 * ((1.0 - xi) * c.locked_start[e] + xi * c.locked_end[e] + eta * c.locked_start[f] +
+                  (1.0 - eta) * c.locked_end[f]);
+  };
+  const auto closure = [&](double xi, double eta) {
+    return std::max(pressure(xi, eta), 0.0) / c.stiffness[k];
+  };
+  return {closure(face.xi.a, face.eta.a), closure(face.xi.b, face.eta.b)};
+}
+
+std::vector<JointStress> preload_faces(FaceSet& c, const BlockSet& b, const Pose& pose,
+                                       const LawTable& laws, const FaceTraction& traction) {
+  std::vector<JointStress> joints(laws.rows.size());
+  lock_pressures(c, b, traction);
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const Face drawn = face_at(c, b, pose.x, pose.y, k);
+    if (!touch_as_drawn(c, b, pose, drawn, k)) continue;
+    const Vec2 n = outward_normal(drawn.t);
+    // Along the facing edge from its first corner: end b comes first.
+    const EndForces on = traction(c.facing[k], 1.0 - drawn.eta.b, 1.0 - drawn.eta.a);
+    const FaceEnds normal{dot(on.at_to, n), dot(on.at_from, n)};
+    const FaceEnds shear{dot(on.at_to, drawn.t), dot(on.at_from, drawn.t)};
+    c.acts[k] = c.leans[k] = 1.0;
+    judge_joint(joints[c.law[k]], c, k, drawn.length, normal, shear);
+    const bool bears = normal.a + normal.b > 0.0 || c.pulls[k] > 0.0;
+    if (!bears) continue;
+    const FaceEnds closure =
+        closures_of(normal, c.stiffness[k] * drawn.length * drawn.gate, c.at_ends[k] > 0.0);
+    c.offset_a[k] = closure.a - drawn.closure.a;
+    c.offset_b[k] = closure.b - drawn.closure.b;
+    const Face face = face_at(c, b, pose.x, pose.y, k);
+    FaceMemory& m = c.before;
+    m.closure_a[k] = face.closure.a;
+    m.closure_b[k] = face.closure.b;
+    m.energy[k] = face.energy;
+    m.gate[k] = face.gate;
+    m.length[k] = m.overlap[k] = face.length;
+    m.xi_a[k] = face.xi.a;
+    m.xi_b[k] = face.xi.b;
+    m.eta_a[k] = face.eta.a;
+    m.eta_b[k] = face.eta.b;
+    m.spring[k] = 0.5 * c.shear_stiffness[k] * face.length * face.gate;
+    m.shear_a[k] = shear.a;
+    m.shear_b[k] = shear.b;
+    m.slip_a[k] = -shear.a / m.spring[k];
+    m.slip_b[k] = -shear.b / m.spring[k];
+  }
+  c.now = c.before;
+  return joints;
+}
+
+}  // namespace edda
