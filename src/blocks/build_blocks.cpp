@@ -99,7 +99,9 @@ void reserve(BlockSet& b, const std::vector<BlockPolygon>& polygons) {
   b.material.reserve(nb);
   b.vertex_begin.reserve(nb + 1);
   for (auto& values : b.weight) values.reserve(nv);
-  for (auto* values : {&b.edge_length, &b.corner, &b.turn_cosine, &b.turn_sine, &b.vertex_x, &b.vertex_y}) values->reserve(nv);
+  for (auto* values :
+       {&b.edge_length, &b.corner, &b.turn_cosine, &b.turn_sine, &b.vertex_x, &b.vertex_y})
+    values->reserve(nv);
   for (auto* ids : {&b.vertex_block, &b.next, &b.previous}) ids->reserve(nv);
   b.edge_joint.reserve(nv);
 }

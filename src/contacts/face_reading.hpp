@@ -32,6 +32,23 @@ inline bool meets(const FaceSet& f, std::size_t k) {
          (f.acts[k] > 0.0 && f.now.gate[k] > 0.0 && closure_of(f, k) >= -f.noise);
 }
 
+/// The face whose closure is the largest part of the half-width of the narrower block; ratio 0:
+/// none.
+struct DeepestFace {
+  std::size_t face = 0;
+  double ratio = 0.0;
+};
+inline DeepestFace deepest_face(const FaceSet& f, const BlockSet& b) {
+  DeepestFace deepest;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    if (!(f.now.energy[k] > 0.0)) continue;
+    const double size =
+        std::min(b.inradius[block_of_edge(b, f, k)], b.inradius[block_of_facing(b, f, k)]);
+    if (closure_of(f, k) > deepest.ratio * size) deepest = {k, closure_of(f, k) / size};
+  }
+  return deepest;
+}
+
 /// N, positive in compression; T, positive where it drives the block of `facing` along the edge.
 inline double normal_force(const FaceSet& f, std::size_t k) {
   const FaceMemory& m = f.now;

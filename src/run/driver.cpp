@@ -314,49 +314,6 @@ bool Driver::energy_is_out_of_bounds() {
   return true;
 }
 
-void Driver::measure_overlaps() {
-  const ContactSet& c = sim_.contacts;
-  const std::vector<double>& half_width = sim_.blocks.inradius;
-  double ratio = 0.0;
-  if (c.on_faces) {
-    const FaceSet& f = c.faces;
-    std::size_t worst = f.size();
-    for (std::size_t k = 0; k < f.size(); ++k) {
-      if (!(f.now.energy[k] > 0.0)) continue;
-      const double size = std::min(half_width[block_of_edge(sim_.blocks, f, k)],
-                                   half_width[block_of_facing(sim_.blocks, f, k)]);
-      if (!(closure_of(f, k) > ratio * size)) continue;
-      ratio = closure_of(f, k) / size;
-      worst = k;
-    }
-    outcome_.overlap_now = ratio;
-    if (!(ratio > outcome_.overlap.ratio)) return;
-    outcome_.overlap = {ratio,
-                        closure_of(f, worst),
-                        middle_of(f, sim_.pose, worst) + sim_.blocks.origin,
-                        block_of_facing(sim_.blocks, f, worst),
-                        block_of_edge(sim_.blocks, f, worst),
-                        sim_.state.time};
-    return;
-  }
-  std::size_t deepest = c.size();
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (!c.is(k, cs::closed)) continue;
-    const double size = std::min(half_width[c.block_i[k]], half_width[c.block_j[k]]);
-    if (!(c.depth[k] > ratio * size)) continue;
-    ratio = c.depth[k] / size;
-    deepest = k;
-  }
-  outcome_.overlap_now = ratio;
-  if (!(ratio > outcome_.overlap.ratio)) return;
-  outcome_.overlap = {ratio,
-                      c.depth[deepest],
-                      at(sim_.pose.x, sim_.pose.y, c.vertex[deepest]) + sim_.blocks.origin,
-                      c.block_i[deepest],
-                      c.block_j[deepest],
-                      sim_.state.time};
-}
-
 void Driver::end(Status status, std::string message) {
   if (over_) return;
   over_ = true;
@@ -453,10 +410,8 @@ void Driver::report(bool last) {
     p.largest_velocity =
         std::max(p.largest_velocity, norm(centroid(sim_.state.vx, sim_.state.vy, i)));
   }
-  for (std::size_t k = 0; k < sim_.contacts.faces.size(); ++k) {
-    if (sim_.contacts.faces.now.energy[k] > 0.0) {
-      p.largest_overlap = std::max(p.largest_overlap, closure_of(sim_.contacts.faces, k));
-    }
+  for (const double depth : sim_.contacts.faces.deepest) {
+    p.largest_overlap = std::max(p.largest_overlap, depth);
   }
   for (std::size_t k = 0; k < sim_.contacts.size(); ++k) {
     if (sim_.contacts.is(k, cs::closed)) {

@@ -14,6 +14,7 @@
 #include "contacts/gap.hpp"
 #include "results/csv.hpp"
 #include "run/labels.hpp"
+#include "run/moving_faces.hpp"
 #include "run/stages.hpp"
 
 namespace edda {
@@ -113,83 +114,6 @@ JointMotion motion_of(const MovingJoint& joint, double least_opening) {
   if (joint.turning >= twice * joint.slip && least_opening < closed * joint.turning)
     return JointMotion::hinges;
   return joint.slip >= joint.opening ? JointMotion::slips : JointMotion::opens;
-}
-
-/// A joint while its faces are gone through.
-struct Seen {
-  MovingJoint joint;
-  double least_opening = std::numeric_limits<double>::infinity();
-  Vec2 hinge;  ///< m: where it opens least
-};
-using SeenJoints = std::map<std::tuple<Id, Id, std::uint16_t>, Seen>;
-
-/// One end of a face: where it was, and what its two points have moved by since.
-struct EndMoved {
-  Vec2 place;
-  double slip, opening;
-};
-EndMoved end_moved(const Simulation& before, const Simulation& after, std::size_t k, double xi,
-                   double eta) {
-  const FaceSet& f = before.contacts.faces;
-  const auto apart = [&](const Pose& pose, Vec2& t) {
-    const FacePoints p = face_points(f, pose.x, pose.y, k);
-    t = unit((p.p2 - p.p1) - (p.q2 - p.q1));
-    return eta * p.q1 + (1.0 - eta) * p.q2 - ((1.0 - xi) * p.p1 + xi * p.p2);
-  };
-  Vec2 t_was, t_is;
-  const Vec2 was = apart(before.pose, t_was), is = apart(after.pose, t_is);
-  const FacePoints p = face_points(f, before.pose.x, before.pose.y, k);
-  return {(1.0 - xi) * p.p1 + xi * p.p2 + before.blocks.origin,
-          std::abs(dot(is, t_is) - dot(was, t_was)),
-          dot(is, outward_normal(t_is)) - dot(was, outward_normal(t_was))};
-}
-
-/// Faces that carried before.
-void see_faces(SeenJoints& joints, const Simulation& before, const Simulation& after,
-               const std::vector<double>& rotation, double least) {
-  const FaceSet& f = before.contacts.faces;
-  const BlockSet& b = before.blocks;
-  for (std::size_t k = 0; k < f.size(); ++k) {
-    const bool near = f.acts[k] > 0.0 && f.now.gate[k] > 0.0 && closure_of(f, k) > -least;
-    if (!is_closed(f, k) && !near) continue;
-    const auto [i, j] = std::minmax(block_of_edge(b, f, k), block_of_facing(b, f, k));
-    const double length = std::min(b.edge_length[f.edge[k]], b.edge_length[f.facing[k]]);
-    const double turning = std::abs(rotation[i] - rotation[j]) * length;
-    const EndMoved ends[2] = {end_moved(before, after, k, f.now.xi_a[k], f.now.eta_a[k]),
-                              end_moved(before, after, k, f.now.xi_b[k], f.now.eta_b[k])};
-    const double slip = std::max(ends[0].slip, ends[1].slip);
-    const double opening = std::max(ends[0].opening, ends[1].opening);
-    if (std::max({slip, opening, turning}) < least) continue;
-    Seen& seen = joints[{i, j, f.law[k]}];
-    MovingJoint& joint = seen.joint;
-    for (const EndMoved& end : ends) {
-      if (std::max(end.slip, end.opening) >= std::max(joint.slip, joint.opening)) {
-        joint.place = end.place;
-      }
-      joint.slip = std::max(joint.slip, end.slip);
-      joint.opening = std::max(joint.opening, end.opening);
-      if (end.opening < seen.least_opening) {
-        seen.least_opening = end.opening;
-        seen.hinge = end.place;
-      }
-    }
-    const FacePoints was = face_points(f, before.pose.x, before.pose.y, k);
-    const FacePoints is = face_points(f, after.pose.x, after.pose.y, k);
-    const auto carried = [&](double xi) {
-      return (1.0 - xi) * (is.p1 - was.p1) + xi * (is.p2 - was.p2);
-    };
-    if (norm(ends[1].place - ends[0].place) > 1e-3 * length) {
-      joint.stretches.push_back(
-          {ends[0].place, ends[1].place, carried(f.now.xi_a[k]), carried(f.now.xi_b[k])});
-    }
-    joint.block_i = i;
-    joint.block_j = j;
-    joint.law = f.law[k];
-    joint.joint = f.law[k] < before.model.joints.size()
-                      ? std::string_view(before.model.joints[f.law[k]].name)
-                      : std::string_view("glued");
-    joint.turning = std::max(joint.turning, turning);
-  }
 }
 
 /// What has become of the joints that carried before. `rotation`: [nb] of the blocks, rad.

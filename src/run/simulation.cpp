@@ -133,9 +133,6 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   s.pose.x2 = s.pose.x;
   s.pose.y2 = s.pose.y;
   s.contacts.on_faces = s.explicit_method() && s.model.contact.model == ContactModel::faces;
-  if (__builtin_strlen("x") == 1 && ::getenv("EDDA_FACES") != nullptr)
-    if (__builtin_strlen("x") == 1 && ::getenv("EDDA_FACES") != nullptr)
-      if (__builtin_strlen("x") == 1 && ::getenv("EDDA_FACES") != nullptr)
   if (s.explicit_method()) s.given_mass_ = {s.blocks.node_mass, s.blocks.inverse_mass};
   s.search(s.base_reach);
   if (s.on_faces()) {
@@ -151,19 +148,6 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   s.set_limit();
   s.free_field = attach_free_field(s.model, s.blocks, s.dashpots, s.step_limit);
   return s;
-}
-
-void Simulation::place_all() {
-  parallel_for(blocks.size(), [&](std::size_t i) {
-    if (state.alive[i]) place_vertices(blocks, state.x, state.y, i, pose.x, pose.y);
-  });
-}
-
-/// The faces at n, whose strength has changed.
-void Simulation::place_again() {
-  if (on_faces() && step_before_ > 0.0) {
-    place_faces(contacts.faces, blocks, pose, laws, step_before_);
-  }
 }
 
 void Simulation::start(double first_event) {
@@ -195,18 +179,6 @@ void Simulation::start(double first_event) {
                {0.0, 0.0, hold_.reference, hold_.push}, 0, blocks.size());
   start_velocities(state, blocks, forces.x, forces.y, h, damping.drag());
   look_back();
-}
-
-void Simulation::search(double reach) {
-  if (on_faces()) {
-    find_faces(contacts.faces, blocks, state, pose, laws, reach);
-    set_face_dashpots(contacts.faces, laws, damping.contact);
-    contacts.begin_of_vertex.assign(blocks.vertex_count() + 1, 0);
-    contacts.begin_of_edge.assign(blocks.vertex_count() + 1, 0);
-    return;
-  }
-  rebuild_candidates(contacts, blocks, state, pose, laws, reach);
-  block_shielded(contacts, blocks, pose);
 }
 
 void Simulation::set_limit() {
@@ -432,36 +404,6 @@ void Simulation::finish_step() {
   if (explicit_method()) {
     steps.over_critical = std::max(steps.over_critical, h / bound.critical_step);
   }
-}
-
-template <class List>
-bool Simulation::list_is_due(List& list) {
-  list.travel += last_displacement;
-  // How far any vertex may go before this is asked again.
-  const double ahead = explicit_method() ? 2.0 * last_displacement : displacement_limit;
-  if (list.travel + ahead <= 0.5 * list.reach) return false;
-  // The sum of displacements is a bound; what counts is how far any vertex is from where it was.
-  const std::size_t nv = blocks.vertex_count();
-  double moved2 = 0.0;
-  for (std::size_t v = 0; v < nv; ++v) {
-    const double dx = pose.x[v] - list.built_x[v], dy = pose.y[v] - list.built_y[v];
-    const double d2 = dx * dx + dy * dy;
-    if (!(d2 <= moved2)) moved2 = d2;
-  }
-  list.travel = std::sqrt(moved2);
-  if (!(list.travel <= 100.0 * (list.reach + displacement_limit))) {
-    last_displacement = std::numeric_limits<double>::infinity();  // inspect() ends the run
-    return false;
-  }
-  const double margin = explicit_method() ? 2.0 * ahead : ahead;
-  return list.travel + margin > 0.5 * list.reach;
-}
-
-void Simulation::search_if_due() {
-  if (!(on_faces() ? list_is_due(contacts.faces) : list_is_due(contacts))) return;
-  search(std::max(base_reach, 20.0 * last_displacement));
-  if (!on_faces()) update_shares(contacts);
-  set_limit();
 }
 
 std::optional<Failure> Simulation::inspect() const {

@@ -42,6 +42,7 @@ jrc = 9
 jcs = "80 MPa"
 residual_angle = 28
 [contact]
+model = "faces"
 normal_stiffness = "200 MN/m"
 shear_stiffness = 1e8
 joint = "rough"

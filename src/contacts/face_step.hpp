@@ -1,0 +1,257 @@
+// What a face is at a step, from its corners then and a step before: the formulas of the loops over
+// all faces (base/vector_loop.hpp). They choose and never branch, or no processor would take
+// several faces at a time.
+#pragma once
+
+#include <cmath>
+
+#include "base/vector_loop.hpp"
+#include "blocks/point_mass.hpp"
+#include "contacts/face_set.hpp"
+
+namespace edda {
+
+/// Columns of FaceMemory as the loops over faces see them.
+struct MemoryView {
+  double *closure_a, *closure_b, *energy, *normal_a, *normal_b, *shear_a, *shear_b, *damping_a,
+      *damping_b, *drag_a, *drag_b, *slip_a, *slip_b, *trial_a, *trial_b, *spring, *length,
+      *overlap, *gate, *xi_a, *xi_b, *eta_a, *eta_b, *switched, *friction_work, *damping_work,
+      *transfer;
+};
+
+/// What a loop over faces reads and writes.
+struct FaceView {
+  const Id *edge, *edge_end, *facing, *facing_end;
+  const double *stiffness, *shear_stiffness, *inverse_lengths, *gate_from, *gate_scale, *passing,
+      *at_ends, *acts, *leans, *friction, *cohesion, *offset_a, *offset_b, *pulls, *bonded;
+  const double *turn_cosine, *turn_sine;
+  const double *x, *y, *x1, *y1;
+  double noise;
+  // of dashpots
+  const double *zeta, *shear_zeta, *point_inverse, *edge_inverse;
+  double step;
+  bool damped;
+  MemoryView now, before;
+};
+
+/// Of two material points, the one of f at eta from q2 and that of e at xi from p1: how far the
+/// first lies from the second.
+EDDA_INLINE Vec2 from_point_of_e(const FacePoints& p, double xi, double eta) {
+  return eta * p.q1 + (1.0 - eta) * p.q2 - ((1.0 - xi) * p.p1 + xi * p.p2);
+}
+
+EDDA_INLINE Vec2 frame_of(const FacePoints& p) {
+  return unit((p.p2 - p.p1) - (p.q2 - p.q1));
+}
+
+/// What the points that are at the ends now have moved by in the last step, one against the other,
+/// m: slip along the frame, rho_n - rho_{n-1} with rho_n = 0, and closure across the edge that the
+/// corner there is pressed against.
+struct EndMotion {
+  FaceEnds slip, closure;
+};
+EDDA_INLINE EndMotion motion_of(const Face& face, FaceEnds offset, const FacePoints& then) {
+  const Vec2 t = frame_of(then), n = outward_normal(t);
+  const Vec2 a = from_point_of_e(then, face.xi.a, face.eta.a);
+  const Vec2 b = from_point_of_e(then, face.xi.b, face.eta.b);
+  const FaceEnds slip{-dot(a, t), -dot(b, t)};
+  return {slip,
+          {face.closure.a - offset.a + dot(a, n) + face.slope.a * slip.a,
+           face.closure.b - offset.b + dot(b, n) + face.slope.b * slip.b}};
+}
+
+/// Shear of one end under Coulomb's limit (N): T = -spring u.
+struct Shear {
+  double force, slip;
+};
+EDDA_INLINE Shear cut(double trial, double spring, double limit) {
+  const double whole = -spring * trial;
+  const double force = smaller(larger(whole, -limit), limit);
+  return {force, force == whole ? trial : -force / (spring > 0.0 ? spring : 1.0)};
+}
+
+/// What an end's shear spring has lost in the last step: in the leapfrog's terms T_n and T_{n-1}
+/// each work over half of it, on the points at their ends, which are not quite the same.
+struct SlipOfStep {
+  double here;         ///< of the points at the end now, m
+  double there;        ///< of those that were there at n - 1, m
+  double force, slip;  ///< T and u at n - 1
+  double kept;         ///< part of u that is left once the spring has grown
+};
+struct Lost {
+  double friction, transfer;
+};
+/// (u_tr - u_n) (T_n + T_{n-1})/2 is Coulomb's, what else is missing is no physics. A face that has
+/// opened lets go what it stored by sliding.
+EDDA_INLINE Lost lost(const Shear& now, double trial, double spring, const SlipOfStep& s,
+                      bool touches) {
+  const double all = -0.5 * (now.force * (s.here - now.slip) + s.force * (s.slip + s.there));
+  const double slid = 0.5 * spring * (trial - now.slip) * (now.slip + s.kept * s.slip);
+  const double friction = larger(touches ? slid : all, 0.0);
+  return {friction, all - friction};
+}
+
+/// The shear springs go with the overlap: what they gain in length is free of stress, what they
+/// lose takes its part of the force along. Not for every breath: L must change by this part.
+constexpr double worth = 1e-4;
+
+constexpr double unlimited = 1e300;  // N
+
+/// What asks for a decision (see judge_face()).
+EDDA_INLINE bool asks(const FaceView& c, const Face& face, std::size_t k) {
+  const double closure = larger(face.closure.a - c.offset_a[k], face.closure.b - c.offset_b[k]);
+  const bool on = face.gate > 0.0;
+  const bool born = on & (c.before.gate[k] == 0.0);
+  const bool frees = on & (c.acts[k] == 0.0) & (closure <= 0.0);
+  const bool first = (face.energy > 0.0) & (c.before.energy[k] == 0.0);
+  return born | frees | first;
+}
+
+/// Which ends are closed: 0 to 3.
+EDDA_INLINE double ends_closed(double da, double db, double noise) {
+  return (da > noise ? 1.0 : 0.0) + (db > noise ? 2.0 : 0.0);
+}
+
+/// Whether at an end one corner has passed the other, by which the force along the face jumps by
+/// k d^2/2: the part of its edge by which the one bounds the overlap and no longer the other, now
+/// and before.
+EDDA_INLINE bool passes(double now, double before) {
+  constexpr double worth_it = 1e-7;
+  return (now * before < 0.0) & (larger(std::abs(now), std::abs(before)) > worth_it);
+}
+
+struct Placed {
+  CornerForces force;
+  bool asks, stirs;
+  double depth;
+};
+
+/// One end of a face: its normal force, slip before Coulomb's limit, what its points have moved by.
+struct EndOfFace {
+  double normal, trial, closing, slipping, xi, eta;
+};
+/// What acts there besides the pressure.
+struct EndActs {
+  Shear shear;
+  double damping, drag;  ///< of the dashpots across and along the face, N
+};
+
+/// Dashpots c = 2 zeta sqrt(p m), p the spring of the end and m the mass that it moves. The one
+/// across lets no end pull that could not, and counts in Coulomb's limit; the one along keeps
+/// within it.
+template <bool dashpots>
+EDDA_INLINE EndActs act(const FaceView& c, const Face& face, const EndOfFace& end, double spring,
+                        double cohesion, bool touches, std::size_t k) {
+  const double friction = c.friction[k];
+  const bool bonded = c.bonded[k] > 0.0;
+  if constexpr (!dashpots) {
+    const double limit = larger(cohesion + friction * end.normal, 0.0);
+    return {cut(end.trial, spring, bonded ? unlimited : limit), 0.0, 0.0};
+  } else {
+    const double inverse = inverse_mass_on_edge(c, c.edge[k], c.edge_end[k], end.xi) +
+                           inverse_mass_on_edge(c, c.facing[k], c.facing_end[k], 1.0 - end.eta);
+    const double mass = 1.0 / (inverse > 0.0 ? inverse : 1.0);
+    const double across = 0.5 * c.stiffness[k] * c.acts[k] * larger(face.length, 0.0) * face.gate;
+    const double whole =
+        end.normal + 2.0 * c.zeta[k] * std::sqrt(across * mass) * end.closing / c.step;
+    const double pushing = larger(whole, 0.0);
+    const bool pulls = c.pulls[k] > 0.0, carries = end.normal != 0.0;
+    const double normal = carries ? (pulls ? whole : pushing) : 0.0;
+    const double limit = bonded ? unlimited : larger(cohesion + friction * normal, 0.0);
+    const Shear shear = cut(end.trial, spring, limit);
+    const double drag = -2.0 * c.shear_zeta[k] * std::sqrt(spring * mass) * end.slipping / c.step;
+    const double within = larger(-limit - shear.force, smaller(limit - shear.force, drag));
+    const bool holds = touches & (shear.slip == end.trial);
+    return {shear, normal - end.normal, holds ? within : 0.0};
+  }
+}
+
+template <bool dashpots>
+EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
+  const MemoryView &m = c.now, &old = c.before;
+  const FacePoints at = face_points(c, c.x, c.y, k), then = face_points(c, c.x1, c.y1, k);
+  const Face face = face_between(at, face_pair(c, c.turn_cosine, c.turn_sine, k));
+  const bool bonded = c.bonded[k] > 0.0;
+  const bool touches = (face.energy > 0.0) | (bonded & (face.gate > 0.0));
+
+  // overlap and springs
+  const double length = larger(face.length, 0.0), length_1 = old.overlap[k];
+  const bool same = std::abs(length - length_1) <= worth * length_1;
+  const double overlap = same ? length_1 : length;
+  const double kept = overlap > length_1 ? length_1 / (overlap > 0.0 ? overlap : 1.0) : 1.0;
+  const double spring = touches ? 0.5 * c.shear_stiffness[k] * overlap * face.gate : 0.0;
+
+  // slip, and Coulomb's limit at each end
+  const EndMotion moved = motion_of(face, {c.offset_a[k], c.offset_b[k]}, then);
+  const FaceEnds here = moved.slip;
+  const double xi_a = old.xi_a[k], xi_b = old.xi_b[k], eta_a = old.eta_a[k], eta_b = old.eta_b[k];
+  const FaceEnds there{dot(from_point_of_e(at, xi_a, eta_a), face.t),
+                       dot(from_point_of_e(at, xi_b, eta_b), face.t)};
+  const double slip_1a = old.slip_a[k], slip_1b = old.slip_b[k];
+  const double trial_a = touches ? kept * slip_1a + here.a : 0.0;
+  const double trial_b = touches ? kept * slip_1b + here.b : 0.0;
+  const double cohesion = touches ? 0.5 * c.cohesion[k] * face.length * face.gate : 0.0;
+  const EndOfFace end_a{face.normal.a, trial_a, moved.closure.a, here.a, face.xi.a, face.eta.a};
+  const EndOfFace end_b{face.normal.b, trial_b, moved.closure.b, here.b, face.xi.b, face.eta.b};
+  const EndActs acts_a = act<dashpots>(c, face, end_a, spring, cohesion, touches, k);
+  const EndActs acts_b = act<dashpots>(c, face, end_b, spring, cohesion, touches, k);
+  const Shear a = acts_a.shear, b = acts_b.shear;
+  const Lost lost_a =
+      lost(a, trial_a, spring, {here.a, there.a, old.shear_a[k], slip_1a, kept}, touches);
+  const Lost lost_b =
+      lost(b, trial_b, spring, {here.b, there.b, old.shear_b[k], slip_1b, kept}, touches);
+
+  const double da = face.closure.a, db = face.closure.b;
+  const double closed = touches ? ends_closed(da, db, c.noise) : 0.0;
+  const double closed_1 =
+      old.energy[k] > 0.0 ? ends_closed(old.closure_a[k], old.closure_b[k], c.noise) : 0.0;
+  const bool passed =
+      passes(face.eta.a - face.xi.a, eta_a - xi_a) | passes(face.xi.b - face.eta.b, xi_b - eta_b);
+  const double switched = (closed != closed_1) | passed ? 1.0 : 0.0;
+  const bool stirs = (old.energy[k] > 0.0) & ((switched > 0.0) | (old.switched[k] > 0.0));
+
+  m.closure_a[k] = da;
+  m.closure_b[k] = db;
+  m.energy[k] = face.energy;
+  m.normal_a[k] = face.normal.a;
+  m.normal_b[k] = face.normal.b;
+  m.shear_a[k] = a.force;
+  m.shear_b[k] = b.force;
+  m.damping_a[k] = acts_a.damping;
+  m.damping_b[k] = acts_b.damping;
+  m.drag_a[k] = acts_a.drag;
+  m.drag_b[k] = acts_b.drag;
+  m.slip_a[k] = touches ? a.slip : 0.0;
+  m.slip_b[k] = touches ? b.slip : 0.0;
+  m.trial_a[k] = trial_a;
+  m.trial_b[k] = trial_b;
+  m.spring[k] = spring;
+  m.length[k] = length;
+  m.overlap[k] = touches ? overlap : length;
+  m.gate[k] = face.gate;
+  m.xi_a[k] = face.xi.a;
+  m.xi_b[k] = face.xi.b;
+  m.eta_a[k] = face.eta.a;
+  m.eta_b[k] = face.eta.b;
+  m.switched[k] = switched;
+  m.friction_work[k] = lost_a.friction + lost_b.friction;
+  m.damping_work[k] =
+      0.5 * ((acts_a.damping + old.damping_a[k]) * moved.closure.a +
+             (acts_b.damping + old.damping_b[k]) * moved.closure.b -
+             (acts_a.drag + old.drag_a[k]) * here.a - (acts_b.drag + old.drag_b[k]) * here.b);
+  m.transfer[k] = lost_a.transfer + lost_b.transfer;
+
+  Placed placed;
+  placed.force = end_forces(at, face, {acts_a.damping, acts_b.damping},
+                            {a.force + acts_a.drag, b.force + acts_b.drag});
+  placed.force.p1 += face.force.p1;
+  placed.force.p2 += face.force.p2;
+  placed.force.q1 += face.force.q1;
+  placed.force.q2 += face.force.q2;
+  placed.asks = asks(c, face, k);
+  placed.stirs = stirs;
+  placed.depth = touches ? larger(da - c.offset_a[k], db - c.offset_b[k]) : 0.0;
+  return placed;
+}
+
+}  // namespace edda

@@ -1,0 +1,71 @@
+// What a checkpoint holds of the faces, and how it is judged.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "contacts/face_set.hpp"
+#include "contacts/laws.hpp"
+
+namespace edda {
+
+template <class Archive>
+void list_faces(Archive& a, FaceSet& c) {
+  a("faces.edge", c.edge);
+  a("faces.facing", c.facing);
+  a("faces.law", c.law);
+  for (const FaceStateColumn& column : face_state_columns) {
+    a(std::string("faces.") + column.name, c.*column.values);
+  }
+  for (const FaceColumn& column : face_columns) {
+    a(std::string("faces.now.") + column.name, c.now.*column.values);
+    a(std::string("faces.before.") + column.name, c.before.*column.values);
+  }
+  a("faces.force", c.force);
+  a("faces.locked_start", c.locked_start);
+  a("faces.locked_end", c.locked_end);
+  a("faces.built_x", c.built_x);
+  a("faces.built_y", c.built_y);
+  a("faces.noise", c.noise);
+  a("faces.reach", c.reach);
+  a("faces.travel", c.travel);
+  a("faces.rebuilds", c.rebuilds);
+  a("faces.gluing", c.gluing);
+  a("faces.broken", c.broken);
+  a("faces.retired_friction", c.retired_friction);
+  a("faces.retired_damping", c.retired_damping);
+  a("faces.retired_fracture", c.retired_fracture);
+  a("faces.retired_transfer", c.retired_transfer);
+}
+
+/// Sizes and indices: what complete_faces() and the step take for granted. Judge: of
+/// simulation_memory.cpp.
+template <class Judge>
+void judge_faces(Judge& j, const FaceSet& c, const BlockSet& b, const LawTable& laws) {
+  const std::size_t n = c.size(), nv = b.vertex_count();
+  for (const FaceStateColumn& column : face_state_columns) j.sized("faces", c.*column.values, n);
+  for (const FaceColumn& column : face_columns) {
+    j.sized("faces", c.now.*column.values, n);
+    j.sized("faces", c.before.*column.values, n);
+  }
+  j.sized("faces.facing", c.facing, n);
+  j.sized("faces.law", c.law, n);
+  j.sized("faces.force", c.force, 8 * n);
+  for (const auto* values : {&c.built_x, &c.built_y}) {
+    if (n > 0 || !values->empty()) j.sized("faces.built", *values, nv);
+  }
+  if (!c.locked_start.empty()) j.sized("faces.locked", c.locked_start, nv);
+  j.sized("faces.locked", c.locked_end, c.locked_start.size());
+  j.below("faces.edge", c.edge, nv);
+  j.below("faces.facing", c.facing, nv);
+  j.below("faces.law", {c.law.begin(), c.law.end()}, laws.rows.size());
+  for (std::size_t k = 0; j.flaw().empty() && k < n; ++k) {
+    const bool ascend =
+        k == 0 || std::pair(c.edge[k - 1], c.facing[k - 1]) < std::pair(c.edge[k], c.facing[k]);
+    if (!ascend || b.vertex_block[c.edge[k]] == b.vertex_block[c.facing[k]]) {
+      j.refuse("faces do not belong together");
+    }
+  }
+}
+
+}  // namespace edda
