@@ -8,8 +8,8 @@
 namespace edda {
 
 struct Pose {
-  std::vector<double> x, y;    ///< [nv] at step n, m
-  std::vector<double> x1, y1;  ///< [nv] at step n - 1, m
+  std::vector<double> x, y;              ///< [nv] at step n, m
+  std::vector<double> x1, y1;            ///< [nv] at step n - 1, m
   std::vector<double> x2 = {}, y2 = {};  ///< [nv] at step n - 2, m
 };
 
