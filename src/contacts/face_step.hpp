@@ -205,9 +205,10 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const double closed = touches ? ends_closed(da, db, c.noise) : 0.0;
   const double closed_1 =
       old.energy[k] > 0.0 ? ends_closed(old.closure_a[k], old.closure_b[k], c.noise) : 0.0;
-  const bool passed =
-      passes(face.eta.a - face.xi.a, eta_a - xi_a) | passes(face.xi.b - face.eta.b, xi_b - eta_b);
-  const double switched = (closed != closed_1) | passed ? 1.0 : 0.0;
+  const bool passed_a = passes(face.eta.a - face.xi.a, eta_a - xi_a);
+  const bool passed_b = passes(face.xi.b - face.eta.b, xi_b - eta_b),
+             other_ends = closed != closed_1;
+  const double switched = (other_ends | passed_a | passed_b) ? 1.0 : 0.0;
   const bool stirs = (old.energy[k] > 0.0) & ((switched > 0.0) | (old.switched[k] > 0.0));
 
   m.closure_a[k] = da;
