@@ -66,6 +66,17 @@ struct Face {
   CornerForces force;       ///< of the normal pressure
 };
 
+/// Of two material points, the one of f at eta from q2 and that of e at xi from p1: how far the
+/// first lies from the second.
+EDDA_INLINE Vec2 from_point_of_e(const FacePoints& p, double xi, double eta) {
+  return eta * p.q1 + (1.0 - eta) * p.q2 - ((1.0 - xi) * p.p1 + xi * p.p2);
+}
+
+/// Unit tangent t of the frame.
+EDDA_INLINE Vec2 frame_of(const FacePoints& p) {
+  return unit((p.p2 - p.p1) - (p.q2 - p.q1));
+}
+
 /// A choice that loops over several faces can make.
 EDDA_INLINE Vec2 chosen(bool first, Vec2 a, Vec2 b) {
   return {first ? a.x : b.x, first ? a.y : b.y};

@@ -39,12 +39,9 @@ double normal_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std:
 
 double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   const FacePoints at = face_points(c, pose.x, pose.y, k);
-  const Vec2 t = c.before.shear_a[k] == 0.0 && c.before.shear_b[k] == 0.0
-                     ? Vec2{}
-                     : unit((at.p2 - at.p1) - (at.q2 - at.q1));
-  const auto slid = [&](double xi, double eta) {
-    return dot(eta * at.q1 + (1.0 - eta) * at.q2 - (1.0 - xi) * at.p1 - xi * at.p2, t);
-  };
+  const bool sheared = c.before.shear_a[k] != 0.0 || c.before.shear_b[k] != 0.0;
+  const Vec2 t = sheared ? frame_of(at) : Vec2{};
+  const auto slid = [&](double xi, double eta) { return dot(from_point_of_e(at, xi, eta), t); };
   const FaceMemory& m = c.before;
   const double shear = m.shear_a[k] * (m.slip_a[k] + slid(m.xi_a[k], m.eta_a[k])) +
                        m.shear_b[k] * (m.slip_b[k] + slid(m.xi_b[k], m.eta_b[k]));

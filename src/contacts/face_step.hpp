@@ -34,16 +34,6 @@ struct FaceView {
   MemoryView now, before;
 };
 
-/// Of two material points, the one of f at eta from q2 and that of e at xi from p1: how far the
-/// first lies from the second.
-EDDA_INLINE Vec2 from_point_of_e(const FacePoints& p, double xi, double eta) {
-  return eta * p.q1 + (1.0 - eta) * p.q2 - ((1.0 - xi) * p.p1 + xi * p.p2);
-}
-
-EDDA_INLINE Vec2 frame_of(const FacePoints& p) {
-  return unit((p.p2 - p.p1) - (p.q2 - p.q1));
-}
-
 /// What the points that are at the ends now have moved by in the last step, one against the other,
 /// m: slip along the frame, rho_n - rho_{n-1} with rho_n = 0, and closure across the edge that the
 /// corner there is pressed against.

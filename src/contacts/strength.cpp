@@ -16,7 +16,10 @@ LawTable divided_laws(const Model& model, const std::vector<double>& factors) {
   return laws;
 }
 
-void take_strength(ContactSet& c, const LawTable& before, const LawTable& now) {
+namespace {
+
+template <class Contacts>
+void divide(Contacts& c, const LawTable& before, const LawTable& now) {
   for (std::size_t k = 0; k < c.size(); ++k) {
     const std::size_t row = c.law[k];
     const double ratio = before.divided_by[row] / now.divided_by[row];
@@ -25,15 +28,13 @@ void take_strength(ContactSet& c, const LawTable& before, const LawTable& now) {
     c.cohesion[k] *= ratio;
     c.tension[k] *= ratio;
   }
-  FaceSet& f = c.faces;
-  for (std::size_t k = 0; k < f.size(); ++k) {
-    const std::size_t row = f.law[k];
-    const double ratio = before.divided_by[row] / now.divided_by[row];
-    if (ratio == 1.0) continue;
-    f.friction[k] *= ratio;
-    f.cohesion[k] *= ratio;
-    f.tension[k] *= ratio;
-  }
+}
+
+}  // namespace
+
+void take_strength(ContactSet& c, const LawTable& before, const LawTable& now) {
+  divide(c, before, now);
+  divide(c.faces, before, now);
   // A shear force that was held may slide from here on.
   std::fill(c.stirs.begin(), c.stirs.end(), std::uint8_t{1});
 }

@@ -16,14 +16,10 @@ struct EndMoved {
 EndMoved end_moved(const Simulation& before, const Simulation& after, std::size_t k, double xi,
                    double eta) {
   const FaceSet& f = before.contacts.faces;
-  const auto apart = [&](const Pose& pose, Vec2& t) {
-    const FacePoints p = face_points(f, pose.x, pose.y, k);
-    t = unit((p.p2 - p.p1) - (p.q2 - p.q1));
-    return eta * p.q1 + (1.0 - eta) * p.q2 - ((1.0 - xi) * p.p1 + xi * p.p2);
-  };
-  Vec2 t_was, t_is;
-  const Vec2 was = apart(before.pose, t_was), is = apart(after.pose, t_is);
   const FacePoints p = face_points(f, before.pose.x, before.pose.y, k);
+  const FacePoints q = face_points(f, after.pose.x, after.pose.y, k);
+  const Vec2 t_was = frame_of(p), t_is = frame_of(q);
+  const Vec2 was = from_point_of_e(p, xi, eta), is = from_point_of_e(q, xi, eta);
   return {(1.0 - xi) * p.p1 + xi * p.p2 + before.blocks.origin,
           std::abs(dot(is, t_is) - dot(was, t_was)),
           dot(is, outward_normal(t_is)) - dot(was, outward_normal(t_was))};

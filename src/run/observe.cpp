@@ -100,10 +100,8 @@ ContactRecord contact_record(const Simulation& sim, const ContactSet& c, std::si
 double slip_since_start(const BlockSet& b, const FaceSet& f, std::size_t k) {
   const double xi = 0.5 * (f.now.xi_a[k] + f.now.xi_b[k]);
   const double eta = 0.5 * (f.now.eta_a[k] + f.now.eta_b[k]);
-  const Vec2 p1 = b.vertex(f.edge[k]), p2 = b.vertex(f.edge_end[k]);
-  const Vec2 q1 = b.vertex(f.facing[k]), q2 = b.vertex(f.facing_end[k]);
-  const Vec2 apart = eta * q1 + (1.0 - eta) * q2 - ((1.0 - xi) * p1 + xi * p2);
-  return -dot(apart, unit((p2 - p1) - (q2 - q1)));
+  const FacePoints drawn = face_points(f, b.vertex_x, b.vertex_y, k);
+  return -dot(from_point_of_e(drawn, xi, eta), frame_of(drawn));
 }
 
 ContactRecord face_record(const Simulation& sim, const FaceSet& f, std::size_t k) {
