@@ -235,7 +235,8 @@ CornerForces cut_again(FaceSet& c, const Face& face, const FacePoints& at, const
   const FaceEnds here = motion_of(face, {c.offset_a[k], c.offset_b[k]}, then).slip;
   const double spring = m.spring[k], cohesion = 0.5 * c.cohesion[k] * face.length * face.gate;
   const auto again = [&](double normal, double trial, double slipped, double& force, double& slip) {
-    const Shear next = cut(trial, spring, std::max(cohesion + c.friction[k] * alpha * normal, 0.0));
+    const double limit = std::max(cohesion + c.friction[k] * normal, 0.0);
+    const Shear next = cut(trial, spring, c.bonded[k] > 0.0 ? unlimited : limit);
     // As lost(), of which all that T_{n-1} does stays as it was; kept u_{n-1} = u_tr - slipped.
     const auto taken = [&](const Shear& s) {
       const double all = -0.5 * s.force * (slipped - s.slip);
