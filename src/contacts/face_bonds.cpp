@@ -5,6 +5,7 @@
 
 #include "contacts/face_energy.hpp"
 #include "contacts/face_reading.hpp"
+#include "contacts/joint_laws.hpp"
 #include "contacts/place_faces.hpp"
 
 namespace edda {
@@ -12,11 +13,6 @@ namespace {
 
 /// Gap within which blocks touch, of the smaller block's size.
 constexpr double touch = 1e-6;
-
-double size_at(const FaceSet& c, const BlockSet& b, std::size_t k) {
-  return std::sqrt(
-      std::min(b.area[b.vertex_block[c.edge[k]]], b.area[b.vertex_block[c.facing[k]]]));
-}
 
 /// Glues face k for a while. Only where both ends lie against each other does it pull: a corner
 /// that leans holds along the edge alone.
@@ -38,7 +34,7 @@ bool touch_as_drawn(const FaceSet& c, const BlockSet& b, const Pose& pose, const
                     std::size_t k) {
   const FacePoints at = face_points(c, pose.x, pose.y, k);
   const double cosine = -dot(at.p2 - at.p1, at.q2 - at.q1) * c.inverse_lengths[k];
-  const double near = touch * size_at(c, b, k);
+  const double near = touch * smaller_size(c, b, k);
   return face.length > near && cosine >= along &&
          std::abs(std::max(face.closure.a, face.closure.b)) <= near;
 }
@@ -49,6 +45,7 @@ void take_residual(FaceSet& c, const LawTable& laws, std::size_t k) {
   c.cohesion[k] = law.residual_cohesion * laws.thickness;
   c.tension[k] = law.residual_tension * laws.thickness;
   c.pulls[k] = law.residual_tension > 0.0 ? 1.0 : 0.0;
+  c.slid[k] = first_slip(law);
 }
 
 void bond_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws) {
@@ -60,9 +57,9 @@ void bond_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable&
     if (!has_bond) continue;
     const Face face = face_at(c, b, pose.x, pose.y, k);
     if (!touch_as_drawn(c, b, pose, face, k)) continue;
-    const bool flush = std::min(face.closure.a, face.closure.b) >= -touch * size_at(c, b, k);
+    const bool flush = std::min(face.closure.a, face.closure.b) >= -touch * smaller_size(c, b, k);
     c.acts[k] = c.leans[k] = 1.0;
-    if (weakens && law.peak_tension == 0.0) continue;
+    if (weakens) c.slid[k] = 0.0;
     c.bonded[k] = weakens ? 0.0 : 1.0;
     c.glued[k] = law.glued ? 1.0 : 0.0;
     c.pulls[k] = flush && (law.glued || law.peak_tension > 0.0) ? 1.0 : 0.0;
@@ -80,7 +77,7 @@ bool gives_way(const FaceSet& c, const BlockSet& b, std::size_t k) {
   const double largest = std::max(m.closure_a[k], m.closure_b[k]);
   if (c.pulls[k] > 0.0 && -c.stiffness[k] * least > c.tension[k]) return true;
   if (c.bonded[k] == 0.0) return false;
-  if (c.pulls[k] == 0.0 && largest < -touch * size_at(c, b, k)) return true;
+  if (c.pulls[k] == 0.0 && largest < -touch * smaller_size(c, b, k)) return true;
   const double shear = std::abs(m.shear_a[k] + m.shear_b[k]);
   return shear >
          c.cohesion[k] * m.length[k] * m.gate[k] + c.friction[k] * (m.normal_a[k] + m.normal_b[k]);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contacts/face_bonds.hpp"
+#include "contacts/joint_laws.hpp"
 #include "contacts/place_faces.hpp"
 
 namespace edda {
@@ -17,12 +18,21 @@ FaceEnds closures_of(FaceEnds normal, double stiffness, bool at_ends) {
           (4.0 * normal.b - 2.0 * normal.a) / stiffness};
 }
 
-void judge_joint(JointStress& joint, const FaceSet& c, std::size_t k, double length,
-                 FaceEnds normals, FaceEnds shears) {
+/// What the initial stress asks of a face, N at its ends.
+struct Asked {
+  Id face;
+  double length;
+  FaceEnds normal, shear;
+};
+
+void judge_joint(JointStress& joint, const FaceSet& c, const Asked& asked) {
+  const Id k = asked.face;
+  const double length = asked.length;
   joint.length += length;
   if (c.glued[k] > 0.0) return;
   const double tension = c.pulls[k] > 0.0 ? c.tension[k] * length : 0.0;
-  const double normal = normals.a + normals.b, shear = std::abs(shears.a + shears.b);
+  const double normal = asked.normal.a + asked.normal.b;
+  const double shear = std::abs(asked.shear.a + asked.shear.b);
   if (normal < -tension) joint.torn += length;
   constexpr double rounding = 1e-9;
   const double strength = std::max(c.cohesion[k] * length + c.friction[k] * normal, 0.0);
@@ -65,6 +75,7 @@ FaceEnds locked_closure(const FaceSet& c, const Face& face, std::size_t k) {
 std::vector<JointStress> preload_faces(FaceSet& c, const BlockSet& b, const Pose& pose,
                                        const LawTable& laws, const FaceTraction& traction) {
   std::vector<JointStress> joints(laws.rows.size());
+  std::vector<Asked> asked;
   lock_pressures(c, b, traction);
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Face drawn = face_at(c, b, pose.x, pose.y, k);
@@ -75,7 +86,7 @@ std::vector<JointStress> preload_faces(FaceSet& c, const BlockSet& b, const Pose
     const FaceEnds normal{dot(on.at_to, n), dot(on.at_from, n)};
     const FaceEnds shear{dot(on.at_to, drawn.t), dot(on.at_from, drawn.t)};
     c.acts[k] = c.leans[k] = 1.0;
-    judge_joint(joints[c.law[k]], c, k, drawn.length, normal, shear);
+    asked.push_back({static_cast<Id>(k), drawn.length, normal, shear});
     const bool bears = normal.a + normal.b > 0.0 || c.pulls[k] > 0.0;
     if (!bears) continue;
     const FaceEnds closure =
@@ -87,6 +98,8 @@ std::vector<JointStress> preload_faces(FaceSet& c, const BlockSet& b, const Pose
     m.closure_a[k] = face.closure.a;
     m.closure_b[k] = face.closure.b;
     m.energy[k] = face.energy;
+    m.normal_a[k] = face.normal.a;
+    m.normal_b[k] = face.normal.b;
     m.gate[k] = face.gate;
     m.length[k] = m.overlap[k] = face.length;
     m.xi_a[k] = face.xi.a;
@@ -99,6 +112,8 @@ std::vector<JointStress> preload_faces(FaceSet& c, const BlockSet& b, const Pose
     m.slip_a[k] = -shear.a / m.spring[k];
     m.slip_b[k] = -shear.b / m.spring[k];
   }
+  put_strengths_in_force(c, laws);
+  for (const Asked& a : asked) judge_joint(joints[c.law[a.face]], c, a);
   c.now = c.before;
   return joints;
 }

@@ -2,6 +2,8 @@
 // (edge, facing). Elements and notation: contacts/face.hpp; docs/contacts.md.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -95,6 +97,9 @@ struct FaceSet {
   std::vector<double> glued;     ///< 1: never opens or slides
   std::vector<double> offset_a,
       offset_b;              ///< o, closure at the ends of the surfaces as drawn, m
+  std::vector<double> slid;  ///< m: slip so far; infinite: has its residual strength; of laws that
+                             ///< change with it
+  std::vector<double> owed;  ///< m that the joint has still to open by its dilation
   std::vector<double> lent;  ///< what a glued face had before, 1 + bonded + 2 pulls; else 0
   std::vector<double>
       breaks;  ///< 1: torn in the step in hand, 2: its bond breaks: what goes is fracture energy
@@ -167,6 +172,8 @@ inline constexpr FaceStateColumn face_state_columns[] = {
     {"breaks", "1", &FaceSet::breaks},
     {"offset_a", "m", &FaceSet::offset_a},
     {"offset_b", "m", &FaceSet::offset_b},
+    {"slid", "m", &FaceSet::slid},
+    {"owed", "m", &FaceSet::owed},
     {"friction_work", "J", &FaceSet::friction_work},
     {"damping_work", "J", &FaceSet::damping_work},
     {"fracture_work", "J", &FaceSet::fracture_work},
@@ -191,6 +198,12 @@ EDDA_INLINE FacePair face_pair(const Faces& c, const double* turn_cosine, const 
   p.q1_turn = {turn_cosine[q1], turn_sine[q1]};
   p.q2_turn = {turn_cosine[q2], turn_sine[q2]};
   return p;
+}
+
+/// Size of the smaller of the two blocks: the square root of its area, m.
+inline double smaller_size(const FaceSet& c, const BlockSet& b, std::size_t k) {
+  return std::sqrt(
+      std::min(b.area[b.vertex_block[c.edge[k]]], b.area[b.vertex_block[c.facing[k]]]));
 }
 
 template <class Faces, class Values>

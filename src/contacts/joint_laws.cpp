@@ -7,6 +7,9 @@
 #include <numbers>
 
 #include "contacts/candidates.hpp"
+#include "contacts/face_energy.hpp"
+#include "contacts/face_step.hpp"
+#include "contacts/place_faces.hpp"
 #include "contacts/stored_energy.hpp"
 
 namespace edda {
@@ -64,6 +67,67 @@ InForce in_force(const ContactSet& c, const BlockSet& b, const LawTable& laws, s
     return rough(law, c.slid[k], length, sigma, laws.divided_by[c.law[k]]);
   }
   return {c.friction[k], 0.0, 0.0, c.slid[k] < law.slip_distance ? law.dilation : 0.0};
+}
+
+InForce in_force(const FaceSet& c, const LawTable& laws, std::size_t k) {
+  const Law& law = laws.rows[c.law[k]];
+  const FaceMemory& m = c.before;
+  if (law.type == LawType::slip_weakening) return weakened(law, c.slid[k]);
+  if (law.type == LawType::barton_bandis && m.length[k] > 0.0) {
+    const double sigma =
+        std::max(m.normal_a[k] + m.normal_b[k], 0.0) / (m.length[k] * laws.thickness);
+    return rough(law, c.slid[k], m.length[k], sigma, laws.divided_by[c.law[k]]);
+  }
+  return {c.friction[k], 0.0, 0.0, c.slid[k] < law.slip_distance ? law.dilation : 0.0};
+}
+
+/// Opens the face by what is owed, or as far as what friction took in the step goes.
+void lift(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
+  const FaceMemory& m = c.before;
+  const double normal = m.normal_a[k] + m.normal_b[k];
+  const double spring = c.stiffness[k] * m.length[k] * m.gate[k];
+  if (!(m.energy[k] > 0.0) || !(spring > 0.0)) return;
+  // A rise r stores N r + k L r^2/2 at most: as much where the face is closed all over.
+  const double most = std::max(m.friction_work[k], 0.0);
+  const double rise =
+      std::min(c.owed[k], (std::sqrt(normal * normal + 2.0 * spring * most) - normal) / spring);
+  const double before = normal_energy(c, b, pose, k);
+  c.offset_a[k] += rise;
+  c.offset_b[k] += rise;
+  c.owed[k] -= rise;
+  c.friction_work[k] -= normal_energy(c, b, pose, k) - before;
+}
+
+/// Of a joint that has slipped: what it is to open by.
+void take_slip(FaceSet& c, const LawTable& laws, std::size_t k, double slip) {
+  const Law& law = laws.rows[c.law[k]];
+  const double left = law.slip_distance > 0.0 ? std::max(law.slip_distance - c.slid[k], 0.0) : slip;
+  const double counts = law.type == LawType::barton_bandis ? slip : std::min(slip, left);
+  c.owed[k] += in_force(c, laws, k).dilation * counts;
+  c.slid[k] += slip;
+}
+
+/// A joint that has come apart by a hair goes on opening as it slips, its asperities are where they
+/// are; but it does not close by that.
+void take_slip_while_open(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
+                          std::size_t k) {
+  const FacePoints then = face_points(c, pose.x1, pose.y1, k);
+  const Face face = face_at(c, b, pose.x, pose.y, k);
+  const FaceEnds slip = motion_of(face, {c.offset_a[k], c.offset_b[k]}, then).slip;
+  take_slip(c, laws, k, 0.5 * std::abs(slip.a + slip.b));
+  const double gap = -std::max(face.closure.a, face.closure.b);
+  const double rise = std::clamp(gap, 0.0, c.owed[k]);
+  c.offset_a[k] += rise;
+  c.offset_b[k] += rise;
+  c.owed[k] -= rise;
+}
+
+void put_in_force(FaceSet& c, const LawTable& laws, std::size_t k) {
+  if (laws.rows[c.law[k]].type == LawType::coulomb) return;
+  const InForce now = in_force(c, laws, k);
+  c.friction[k] = now.friction;
+  c.cohesion[k] = now.cohesion * laws.thickness;
+  c.tension[k] = now.tension * laws.thickness;
 }
 
 /// What friction has taken in the last step, in the ledger's terms (method.md section 4), J.
@@ -145,6 +209,33 @@ double barton_angle(const Law& law, double roughness, double sigma) {
 void put_strengths_in_force(ContactSet& c, const BlockSet& b, const LawTable& laws) {
   for (std::size_t k = 0; laws.any_changes && k < c.size(); ++k) {
     if (laws.rows[c.law[k]].changes && c.is(k, cs::closed)) put_in_force(c, b, laws, k);
+  }
+}
+
+void put_strengths_in_force(FaceSet& c, const LawTable& laws) {
+  for (std::size_t k = 0; laws.any_changes && k < c.size(); ++k) {
+    if (laws.rows[c.law[k]].changes && c.before.gate[k] > 0.0) put_in_force(c, laws, k);
+  }
+}
+
+void update_joint_laws(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws) {
+  const FaceMemory& m = c.before;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const Law& law = laws.rows[c.law[k]];
+    if (!law.changes) continue;
+    const double closure = std::max(m.closure_a[k], m.closure_b[k]);
+    if (m.energy[k] > 0.0 || c.pulls[k] > 0.0) {
+      const double cut =
+          std::abs(m.trial_a[k] - m.slip_a[k]) + std::abs(m.trial_b[k] - m.slip_b[k]);
+      take_slip(c, laws, k, c.bonded[k] > 0.0 ? 0.0 : 0.5 * cut);
+      if (c.owed[k] > 0.0) lift(c, b, pose, k);
+      put_in_force(c, laws, k);
+    } else if (dilates(law) && c.opened[k] > 0.0 && m.gate[k] > 0.0 &&
+               -closure < apart * smaller_size(c, b, k)) {
+      take_slip_while_open(c, b, pose, laws, k);
+    } else if (law.type == LawType::slip_weakening && c.slid[k] < law.slip_distance) {
+      if (closure < -whole_gap * smaller_size(c, b, k)) c.slid[k] = first_slip(law);
+    }
   }
 }
 

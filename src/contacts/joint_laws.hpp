@@ -13,6 +13,7 @@
 //     |du|.
 #pragma once
 
+#include "blocks/pose.hpp"
 #include "contacts/contact_set.hpp"
 
 namespace edda {
@@ -26,6 +27,14 @@ double roughness_left(double slip, double peak);
 
 /// Barton and Bandis' angle of friction, degrees, at the normal stress sigma (Pa); at most 70.
 double barton_angle(const Law& law, double roughness, double sigma);
+
+/// Adds the slip of the step before, opens what dilates, and puts in force the strength that
+/// follows. With pose.x1 at n, of which FaceSet::before is the memory, and pose.x at n + 1 or, with
+/// the implicit method, at n.
+void update_joint_laws(FaceSet& faces, const BlockSet& blocks, const Pose& pose,
+                       const LawTable& laws);
+/// The strength alone, by the slip so far and the normal force as it is.
+void put_strengths_in_force(FaceSet& faces, const LawTable& laws);
 
 /// Puts the strength in force that follows from the slip so far and the normal force as it is.
 void put_strengths_in_force(ContactSet& contacts, const BlockSet& blocks, const LawTable& laws);

@@ -171,7 +171,7 @@ void Simulation::start(double first_event) {
     }
   };
   look_back();
-  if (laws.any_changes) update_joint_laws(contacts, blocks, laws);
+  if (laws.any_changes && !on_faces()) update_joint_laws(contacts, blocks, laws);
   if (!on_faces()) evaluate_contacts(contacts, blocks, laws, h, damping.contact);
   gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity, acting());
   hold_ = dashpot_hold({}, free_field.columns);
@@ -286,7 +286,7 @@ std::optional<Failure> Simulation::step() {
   StageClock clock(state.steps);
   split_jump();
   const double h_old = step_before_;
-  if (laws.any_changes) update_joint_laws(contacts, blocks, laws);
+  if (laws.any_changes && !on_faces()) update_joint_laws(contacts, blocks, laws);
   if (on_faces()) {
     std::swap(pose.x1, pose.x2);
     std::swap(pose.y1, pose.y2);
@@ -321,6 +321,7 @@ std::optional<Failure> Simulation::step() {
 
   if (on_faces()) {
     next_step(contacts.faces);
+    if (laws.any_changes) update_joint_laws(contacts.faces, blocks, pose, laws);
     place_faces(contacts.faces, blocks, pose, laws, h);
   } else {
     update_gaps(contacts, pose);
