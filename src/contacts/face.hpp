@@ -60,6 +60,7 @@ struct Face {
   FaceEnds xi, eta;
   double gate = 0.0;        ///< w W
   double angle_gate = 0.0;  ///< W
+  double share = 0.0;       ///< b
   double energy = 0.0;      ///< U, J
   FaceEnds normal;          ///< w W dU/dd of each end: the normal force there, N
   FaceEnds slope;           ///< of the edge that the corner at each end is pressed against
@@ -216,6 +217,7 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const double phi = exact.value + share * gain;
   face.gate = gate;
   face.angle_gate = exists * by_angle.value;
+  face.share = share;
   face.energy = gate * whole * phi;
   face.normal = {gate * whole * (exact.by_a + share * (ends.by_a - exact.by_a)),
                  gate * whole * (exact.by_b + share * (ends.by_b - exact.by_b))};

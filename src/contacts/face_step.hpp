@@ -11,6 +11,8 @@
 
 namespace edda {
 
+inline constexpr double unlimited_shear = 1e300;  ///< N, of a bond
+
 /// Columns of FaceMemory as the loops over faces see them.
 struct MemoryView {
   double *closure_a, *closure_b, *energy, *normal_a, *normal_b, *shear_a, *shear_b, *damping_a,
@@ -31,6 +33,7 @@ struct FaceView {
   const double *zeta, *shear_zeta, *point_inverse, *edge_inverse;
   double step;
   bool damped;
+  const double *limit_a, *limit_b;  ///< N, of shear: those of ShearLimits, if any
   MemoryView now, before;
 };
 
@@ -85,7 +88,6 @@ EDDA_INLINE Lost lost(const Shear& now, double trial, double spring, const SlipO
 /// lose takes its part of the force along. Not for every breath: L must change by this part.
 constexpr double worth = 1e-4;
 
-constexpr double unlimited = 1e300;  // N
 
 /// What asks for a decision (see judge_face()).
 EDDA_INLINE bool asks(const FaceView& c, const Face& face, std::size_t k) {
@@ -128,15 +130,18 @@ struct EndActs {
 
 /// Dashpots c = 2 zeta sqrt(p m), p the spring of the end and m the mass that it moves. The one
 /// across lets no end pull that could not, and counts in Coulomb's limit; the one along keeps
-/// within it.
-template <bool dashpots>
+/// within it. `held`: the limit does not go with the normal force (ShearLimits).
+template <bool dashpots, bool held>
 EDDA_INLINE EndActs act(const FaceView& c, const Face& face, const EndOfFace& end, double spring,
-                        double cohesion, bool touches, std::size_t k) {
+                        double cohesion, bool touches, const double* limits, std::size_t k) {
   const double friction = c.friction[k];
   const bool bonded = c.bonded[k] > 0.0;
+  const auto limit_under = [&](double normal) {
+    if constexpr (held) return limits[k];
+    return bonded ? unlimited_shear : larger(cohesion + friction * normal, 0.0);
+  };
   if constexpr (!dashpots) {
-    const double limit = larger(cohesion + friction * end.normal, 0.0);
-    return {cut(end.trial, spring, bonded ? unlimited : limit), 0.0, 0.0};
+    return {cut(end.trial, spring, limit_under(end.normal)), 0.0, 0.0};
   } else {
     const double inverse = inverse_mass_on_edge(c, c.edge[k], c.edge_end[k], end.xi) +
                            inverse_mass_on_edge(c, c.facing[k], c.facing_end[k], 1.0 - end.eta);
@@ -147,7 +152,7 @@ EDDA_INLINE EndActs act(const FaceView& c, const Face& face, const EndOfFace& en
     const double pushing = larger(whole, 0.0);
     const bool pulls = c.pulls[k] > 0.0, carries = end.normal != 0.0;
     const double normal = carries ? (pulls ? whole : pushing) : 0.0;
-    const double limit = bonded ? unlimited : larger(cohesion + friction * normal, 0.0);
+    const double limit = limit_under(normal);
     const Shear shear = cut(end.trial, spring, limit);
     const double drag = -2.0 * c.shear_zeta[k] * std::sqrt(spring * mass) * end.slipping / c.step;
     const double within = larger(-limit - shear.force, smaller(limit - shear.force, drag));
@@ -156,7 +161,7 @@ EDDA_INLINE EndActs act(const FaceView& c, const Face& face, const EndOfFace& en
   }
 }
 
-template <bool dashpots>
+template <bool dashpots, bool held>
 EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const MemoryView &m = c.now, &old = c.before;
   const FacePoints at = face_points(c, c.x, c.y, k), then = face_points(c, c.x1, c.y1, k);
@@ -183,8 +188,8 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const double cohesion = touches ? 0.5 * c.cohesion[k] * face.length * face.gate : 0.0;
   const EndOfFace end_a{face.normal.a, trial_a, moved.closure.a, here.a, face.xi.a, face.eta.a};
   const EndOfFace end_b{face.normal.b, trial_b, moved.closure.b, here.b, face.xi.b, face.eta.b};
-  const EndActs acts_a = act<dashpots>(c, face, end_a, spring, cohesion, touches, k);
-  const EndActs acts_b = act<dashpots>(c, face, end_b, spring, cohesion, touches, k);
+  const EndActs acts_a = act<dashpots, held>(c, face, end_a, spring, cohesion, touches, c.limit_a, k);
+  const EndActs acts_b = act<dashpots, held>(c, face, end_b, spring, cohesion, touches, c.limit_b, k);
   const Shear a = acts_a.shear, b = acts_b.shear;
   const Lost lost_a =
       lost(a, trial_a, spring, {here.a, there.a, old.shear_a[k], slip_1a, kept}, touches);

@@ -17,7 +17,7 @@ namespace {
 
 namespace cs = contact_state;
 constexpr double whole_gap = 1e-6;  // of the smaller block: what gapes by more is whole no more
-constexpr double apart = 1e-4;      // of the smaller block: what is further apart opens no more
+constexpr double hair = 1e-4;      // of the smaller block: what is further apart opens no more
 constexpr double steepest = 70.0;   // degrees
 
 double radians(double degrees) {
@@ -31,7 +31,7 @@ double slip_of_step(const ContactSet& c, std::size_t k) {
 
 bool hardly_apart(const ContactSet& c, const BlockSet& b, std::size_t k) {
   return c.is(k, cs::opened) && c.on_edge(k) &&
-         c.rest[k] - c.depth[k] < apart * smaller_size(c, b, k);
+         c.rest[k] - c.depth[k] < hair * smaller_size(c, b, k);
 }
 
 /// What of a law holds at contact k after the slip so far.
@@ -231,7 +231,7 @@ void update_joint_laws(FaceSet& c, const BlockSet& b, const Pose& pose, const La
       if (c.owed[k] > 0.0) lift(c, b, pose, k);
       put_in_force(c, laws, k);
     } else if (dilates(law) && c.opened[k] > 0.0 && m.gate[k] > 0.0 &&
-               -closure < apart * smaller_size(c, b, k)) {
+               -closure < hair * smaller_size(c, b, k)) {
       take_slip_while_open(c, b, pose, laws, k);
     } else if (law.type == LawType::slip_weakening && c.slid[k] < law.slip_distance) {
       if (closure < -whole_gap * smaller_size(c, b, k)) c.slid[k] = first_slip(law);

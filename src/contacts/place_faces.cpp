@@ -23,7 +23,8 @@ MemoryView faces_view(FaceMemory& m) {
           m.friction_work.data(), m.damping_work.data(), m.transfer.data()};
 }
 
-FaceView faces_view(FaceSet& c, const BlockSet& b, const Pose& pose, double step) {
+FaceView faces_view(FaceSet& c, const BlockSet& b, const Pose& pose, double step,
+                    const ShearLimits* limits = nullptr) {
   return {c.edge.data(),
           c.edge_end.data(),
           c.facing.data(),
@@ -56,6 +57,8 @@ FaceView faces_view(FaceSet& c, const BlockSet& b, const Pose& pose, double step
           b.edge_inverse.data(),
           step,
           !c.zeta.empty(),
+          limits == nullptr ? nullptr : limits->a.data(),
+          limits == nullptr ? nullptr : limits->b.data(),
           faces_view(c.now),
           faces_view(c.before)};
 }
@@ -71,10 +74,10 @@ struct FoundInChunk {
   double deepest;
 };
 
-template <bool dashpots>
+template <bool dashpots, bool held = false>
 EDDA_INLINE void place_into(const FaceView& c, ChunkForces& on, std::size_t k, std::size_t q,
                             double& asking, double& stirring, double& deepest) {
-  const Placed placed = place<dashpots>(c, k);
+  const Placed placed = place<dashpots, held>(c, k);
   on.p1x[q] = placed.force.p1.x;
   on.p1y[q] = placed.force.p1.y;
   on.p2x[q] = placed.force.p2.x;
@@ -108,7 +111,19 @@ EDDA_VECTOR FoundInChunk place_damped(FaceView c, ChunkForces* on, std::size_t f
   return {asking > 0.0, stirring > 0.0, deepest};
 }
 
+template <bool dashpots>
+FoundInChunk place_held(const FaceView& c, ChunkForces* on, std::size_t first, std::size_t last) {
+  double asking = 0.0, stirring = 0.0, deepest = 0.0;
+  for (std::size_t k = first; k < last; ++k) {
+    place_into<dashpots, true>(c, *on, k, k - first, asking, stirring, deepest);
+  }
+  return {asking > 0.0, stirring > 0.0, deepest};
+}
+
 FoundInChunk place_chunk(const FaceView& c, ChunkForces* on, std::size_t first, std::size_t last) {
+  if (c.limit_a != nullptr) {
+    return c.damped ? place_held<true>(c, on, first, last) : place_held<false>(c, on, first, last);
+  }
   return c.damped ? place_damped(c, on, first, last) : place_undamped(c, on, first, last);
 }
 
@@ -142,9 +157,9 @@ bool break_bonds(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable
   return any;
 }
 
-void place_chunks(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
-                  double step, std::size_t begin, std::size_t end) {
-  const FaceView view = faces_view(c, b, pose, step);
+/// laws: of the bonds that may break, if any.
+void place_chunks(FaceSet& c, const FaceView& view, const BlockSet& b, const Pose& pose,
+                  const LawTable* laws, std::size_t begin, std::size_t end) {
   ChunkForces on;
   for (std::size_t first = begin; first < end; first += FaceSet::chunk) {
     const std::size_t last = std::min(end, first + FaceSet::chunk);
@@ -156,7 +171,8 @@ void place_chunks(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTabl
       }
       found = place_chunk(view, &on, first, last);
     }
-    if (c.bonds[first / FaceSet::chunk] != 0 && break_bonds(c, b, pose, laws, first, last)) {
+    if (laws != nullptr && c.bonds[first / FaceSet::chunk] != 0 &&
+        break_bonds(c, b, pose, *laws, first, last)) {
       found = place_chunk(view, &on, first, last);
     }
     c.stirs[first / FaceSet::chunk] = found.stirs ? 1 : 0;
@@ -169,8 +185,17 @@ void place_chunks(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTabl
 
 void place_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
                  double step) {
+  const FaceView view = faces_view(c, b, pose, step);
   parallel_chunks(c.size(), FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
-    place_chunks(c, b, pose, laws, step, begin, end);
+    place_chunks(c, view, b, pose, &laws, begin, end);
+  });
+}
+
+void try_faces(FaceSet& c, const BlockSet& b, const Pose& pose, double step,
+               const ShearLimits& limits) {
+  const FaceView view = faces_view(c, b, pose, step, &limits);
+  parallel_chunks(c.size(), FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
+    place_chunks(c, view, b, pose, nullptr, begin, end);
   });
 }
 
@@ -223,6 +248,14 @@ void next_step(FaceSet& c) {
   std::swap(c.now, c.before);
 }
 
+void stand_still(FaceSet& c) {
+  next_step(c);
+  c.now = c.before;
+  for (auto* work : {&c.now.friction_work, &c.now.damping_work, &c.now.transfer}) {
+    std::fill(work->begin(), work->end(), 0.0);
+  }
+}
+
 Face face_at(const FaceSet& c, const BlockSet& b, const std::vector<double>& x,
              const std::vector<double>& y, std::size_t k) {
   return face_between(face_points(c, x, y, k),
@@ -236,7 +269,7 @@ CornerForces cut_again(FaceSet& c, const Face& face, const FacePoints& at, const
   const double spring = m.spring[k], cohesion = 0.5 * c.cohesion[k] * face.length * face.gate;
   const auto again = [&](double normal, double trial, double slipped, double& force, double& slip) {
     const double limit = std::max(cohesion + c.friction[k] * normal, 0.0);
-    const Shear next = cut(trial, spring, c.bonded[k] > 0.0 ? unlimited : limit);
+    const Shear next = cut(trial, spring, c.bonded[k] > 0.0 ? unlimited_shear : limit);
     // As lost(), of which all that T_{n-1} does stays as it was; kept u_{n-1} = u_tr - slipped.
     const auto taken = [&](const Shear& s) {
       const double all = -0.5 * s.force * (slipped - s.slip);

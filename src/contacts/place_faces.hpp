@@ -18,6 +18,15 @@ void place_faces(FaceSet& faces, const BlockSet& blocks, const Pose& pose, const
 void place_face(FaceSet& faces, const BlockSet& blocks, const Pose& pose, const LawTable& laws,
                 double step, std::size_t k);
 
+/// Limits of the shear forces at the ends of the faces for a whole step of the implicit method, N.
+struct ShearLimits {
+  std::vector<double> a, b;
+};
+
+/// As place_faces(), under these limits whatever the normal forces are; no bond breaks.
+void try_faces(FaceSet& faces, const BlockSet& blocks, const Pose& pose, double step,
+               const ShearLimits& limits);
+
 /// The step behind is taken to have been made from pose.x1, y1 and no longer from old_x1, old_y1:
 /// what the faces remember of it is set right, their forces stay. `now` is to be placed again.
 void change_step_behind(FaceSet& faces, const BlockSet& blocks, const Pose& pose,
@@ -26,6 +35,10 @@ void change_step_behind(FaceSet& faces, const BlockSet& blocks, const Pose& pose
 /// What has been worked out is final; `before` is ready to be written. Before the next step's
 /// place_faces().
 void next_step(FaceSet& faces);
+
+/// As next_step(), for a method that starts every step from the end of the one before: `now` and
+/// `before` are those of step n.
+void stand_still(FaceSet& faces);
 
 /// The face at other positions, as it acts now.
 Face face_at(const FaceSet& faces, const BlockSet& blocks, const std::vector<double>& x,

@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
-#include "contacts/gap.hpp"
-#include "forces/contact_forces.hpp"
+#include "contacts/face_reading.hpp"
 #include "forces/elastic.hpp"
 
 namespace edda {
@@ -15,26 +14,26 @@ namespace {
 /// blocks together (root of the sum of squares).
 constexpr double single = 10.0;  // times what may be left of all forces together
 
-/// Generalised directions of one contact on the block at hand and on its partner: a spring of
-/// stiffness p adds p u u^T and p u w^T to the row of the former.
+/// Forces on the corners of a face as generalised forces on the block at hand and on its partner: a
+/// spring of stiffness p adds p u u^T and p u w^T to the row of the former.
 struct Directions {
   Vector6 own, other;
 };
 
-Directions on_both(const BlockSet& b, const ContactSet& c, std::size_t k, const ContactForce& f,
-                   bool has_vertex) {
-  const Vector6 vertex = along(vertex_weights(b, c.vertex[k]), f.f1);
-  const Vector6 edge =
-      along(vertex_weights(b, c.edge[k]), f.f2) + along(vertex_weights(b, c.edge_end[k]), f.f3);
-  return has_vertex ? Directions{vertex, edge} : Directions{edge, vertex};
+Directions on_both(const BlockSet& b, const FaceSet& c, std::size_t k, const CornerForces& f,
+                   bool of_edge) {
+  const Vector6 edge = along(vertex_weights(b, c.edge[k]), f.p1) +
+                       along(vertex_weights(b, c.edge_end[k]), f.p2);
+  const Vector6 facing = along(vertex_weights(b, c.facing[k]), f.q1) +
+                         along(vertex_weights(b, c.facing_end[k]), f.q2);
+  return of_edge ? Directions{edge, facing} : Directions{facing, edge};
 }
 
 /// Closed, or so near that it may well be before the list is made anew. What comes from further off
 /// costs a new pattern.
-bool may_carry(const ContactSet& c, std::size_t k) {
+bool may_carry(const FaceSet& c, std::size_t k) {
   const double near = c.reach / 6.0;
-  return c.is(k, contact_state::closed) ||
-         (c.why[k] != Blocked::shield && c.depth[k] > -near && c.on_edge(k, near));
+  return is_closed(c, k) || (c.now.length[k] > 0.0 && closure_of(c, k) > -near);
 }
 
 /// Whether the matrix has a place for all of `columns`, and few more than that.
@@ -51,7 +50,7 @@ bool serves(const BlockMatrix& matrix, const std::vector<std::vector<Id>>& colum
 }
 
 bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings& settings,
-                  const State& state, const ContactSet& c, Id row) {
+                  const State& state, const Pose& pose, const FaceSet& c, Id row) {
   const BlockSet& b = scene.blocks;
   const Id i = s.block_of[row];
   const double h = settings.step;
@@ -66,34 +65,30 @@ bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitS
   s.matrix.clear_row(row);
   bool known = true;
   Id partner = no_id, slot = no_id;
-  c.for_contacts(b, i, [&](Id k, bool has_vertex) {
-    const SpringState spring = s.springs.state[k];
-    if (spring == SpringState::open || c.share[k] == 0.0) return;
-    const Id other = has_vertex ? c.block_j[k] : c.block_i[k];
+  c.for_faces(b.vertex_begin[i], b.vertex_begin[i + 1], [&](Id k, bool of_edge) {
+    const FaceStiffness spring = springs_of(s.springs, c, b, pose, h, k);
+    if (!spring.any()) return;
+    const Id other = b.vertex_block[of_edge ? c.facing[k] : c.edge[k]];
     if (other != partner) {
       partner = other;
       slot = s.row_of[other] == no_id ? no_id : s.matrix.slot(row, s.row_of[other]);
     }
     known = known && (s.row_of[other] == no_id || slot != no_id);
-    auto add = [&](double stiffness, const ContactForce& f) {
-      const Directions d = on_both(b, c, k, f, has_vertex);
-      own += c.share[k] * stiffness * d.own * d.own.transpose();
-      if (slot != no_id) {
-        s.matrix.at(row, slot) += c.share[k] * stiffness * d.own * d.other.transpose();
-      }
+    const Directions na = on_both(b, c, k, spring.normal_a, of_edge),
+                     nb = on_both(b, c, k, spring.normal_b, of_edge),
+                     sa = on_both(b, c, k, spring.along_a, of_edge),
+                     sb = on_both(b, c, k, spring.along_b, of_edge);
+    const auto add = [&](const Directions& u, const Directions& v, double stiffness) {
+      if (stiffness == 0.0) return;
+      own += stiffness * u.own * v.own.transpose();
+      if (slot != no_id) s.matrix.at(row, slot) += stiffness * u.own * v.other.transpose();
     };
-    const Vec2 t = tangent_of(c, k);
-    const double l = c.span[k], foot = c.foot[k], depth = c.depth[k], anchor = c.anchor[k];
-    if (spring != SpringState::shear) {
-      double kn = c.kn[k];
-      if (settings.contact_damping > 0.0) {
-        kn += dashpot_coefficient(c, b, k, settings.contact_damping) / h;
-      }
-      add(kn, contact_force(t, l, foot, depth, anchor, 1.0, 0.0));
-    }
-    if (spring != SpringState::slide) {
-      add(c.ks[k], contact_force(t, l, foot, depth, anchor, 0.0, 1.0));
-    }
+    add(na, na, spring.normal.aa);
+    add(na, nb, spring.normal.ab);
+    add(nb, na, spring.normal.ab);
+    add(nb, nb, spring.normal.bb);
+    add(sa, sa, spring.shear_a);
+    add(sb, sb, spring.shear_b);
   });
   s.stiffest[row] = own.diagonal().maxCoeff();
   own += (2.0 / (h * h) + 2.0 * settings.mass_damping / h) * s.mass[i];
@@ -104,7 +99,7 @@ bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitS
 }  // namespace
 
 void set_pattern(ImplicitSolver& s, const ImplicitScene& scene, const State& state,
-                 const ContactSet& c) {
+                 const FaceSet& c) {
   const BlockSet& b = scene.blocks;
   const std::vector<Id> rows_before = std::move(s.block_of);
   s.row_of.assign(b.size(), no_id);
@@ -119,8 +114,8 @@ void set_pattern(ImplicitSolver& s, const ImplicitScene& scene, const State& sta
     const Id i = s.block_of[row];
     std::vector<Id>& list = columns[row];
     list.push_back(static_cast<Id>(row));
-    c.for_contacts(b, i, [&](Id k, bool has_vertex) {
-      const Id other = s.row_of[has_vertex ? c.block_j[k] : c.block_i[k]];
+    c.for_faces(b.vertex_begin[i], b.vertex_begin[i + 1], [&](Id k, bool of_edge) {
+      const Id other = s.row_of[b.vertex_block[of_edge ? c.facing[k] : c.edge[k]]];
       if (other != no_id && may_carry(c, k)) list.push_back(other);
     });
     std::sort(list.begin(), list.end());
@@ -174,16 +169,16 @@ Vector6 viscous_force(const ImplicitSolver& s, const BlockSet& b, const Implicit
 }
 
 bool assemble(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings& settings,
-              const State& state, const ContactSet& c) {
+              const State& state, const Pose& pose, const FaceSet& c) {
   std::vector<std::uint8_t> known(s.block_of.size());
   parallel_for(known.size(), [&](std::size_t row) {
-    known[row] = assemble_row(s, scene, settings, state, c, static_cast<Id>(row)) ? 1 : 0;
+    known[row] = assemble_row(s, scene, settings, state, pose, c, static_cast<Id>(row)) ? 1 : 0;
   });
   return std::all_of(known.begin(), known.end(), [](std::uint8_t k) { return k != 0; });
 }
 
 double measure_residual(ImplicitSolver& s, const ImplicitScene& scene,
-                        const ImplicitSettings& settings, const State& state, const ContactSet& c,
+                        const ImplicitSettings& settings, const State& state, const FaceSet& c,
                         const NodalForces& forces) {
   const BlockSet& b = scene.blocks;
   const double h = settings.step, a = settings.mass_damping, balance = settings.balance;
@@ -200,8 +195,9 @@ double measure_residual(ImplicitSolver& s, const ImplicitScene& scene,
     const Vector6 left = force + viscous_force(s, b, settings, state, row) - inertia;
     s.residual.segment<6>(static_cast<Eigen::Index>(6 * row)) = left;
     double carried = b.mass[i] * gravity + force.norm() + inertia.norm();
-    c.for_contacts(b, i, [&](Id k, bool) {
-      carried += std::abs(c.on_vertex(k).x) + std::abs(c.on_vertex(k).y);
+    c.for_faces(b.vertex_begin[i], b.vertex_begin[i + 1], [&](Id k, bool) {
+      const Vec2 on = force_on_facing(c, k);
+      carried += std::abs(on.x) + std::abs(on.y);
     });
     const double place = norm(centroid(state.x, state.y, i)) + b.radius[i];
     const double rounding = 1e-14 * place * s.stiffest[row];

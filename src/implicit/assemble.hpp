@@ -6,17 +6,17 @@
 
 namespace edda {
 
-/// Rows for the free blocks; pattern of the matrix from the candidates that may carry.
+/// Rows for the free blocks; pattern of the matrix from the faces that may carry.
 void set_pattern(ImplicitSolver& solver, const ImplicitScene& scene, const State& state,
-                 const ContactSet& contacts);
+                 const FaceSet& faces);
 
 /// The same for a pattern and rows that are known.
 void lay_out(ImplicitSolver& solver, const ImplicitScene& scene,
              const std::vector<std::vector<Id>>& columns);
 
-/// Fills the matrix. False if a contact has come to carry that the pattern does not know.
+/// Fills the matrix. False if a face has come to carry that the pattern does not know.
 bool assemble(ImplicitSolver& solver, const ImplicitScene& scene, const ImplicitSettings& settings,
-              const State& state, const ContactSet& contacts);
+              const State& state, const Pose& pose, const FaceSet& faces);
 
 /// Forces of the viscous strain of the block in that row at its trial position, N; none without
 /// dynamics.
@@ -28,6 +28,6 @@ Vector6 viscous_force(const ImplicitSolver& solver, const BlockSet& blocks,
 /// block over what it may be: 1 and less is in balance; NaN where a block has lost its shape.
 double measure_residual(ImplicitSolver& solver, const ImplicitScene& scene,
                         const ImplicitSettings& settings, const State& state,
-                        const ContactSet& contacts, const NodalForces& forces);
+                        const FaceSet& faces, const NodalForces& forces);
 
 }  // namespace edda

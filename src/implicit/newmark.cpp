@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
-#include "contacts/gaps.hpp"
-#include "forces/contact_forces.hpp"
 #include "forces/elastic.hpp"
 #include "implicit/assemble.hpp"
 
@@ -44,15 +42,14 @@ double largest_move(const Pose& pose) {
 void begin(ImplicitSolver& s, const ImplicitScene& scene, const State& state, Pose& pose,
            ContactSet& c) {
   const BlockSet& b = scene.blocks;
-  stand_still(c);
-  s.contacts_before = c;
+  s.faces_before = c.faces;
   s.start_x = state.x;
   s.start_y = state.y;
   pose.x1 = pose.x;
   pose.y1 = pose.y;
-  begin_springs(s.springs, c);
-  if (s.pattern_of != c.rebuilds) set_pattern(s, scene, state, c);
-  s.pattern_of = c.rebuilds;
+  begin_springs(s.springs, c.faces);
+  if (s.pattern_of != c.faces.rebuilds) set_pattern(s, scene, state, c.faces);
+  s.pattern_of = c.faces.rebuilds;
   s.moved = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(6 * s.block_of.size()));
   if (s.drift_x[0].empty()) {
     s.drift_x = state.vx;
@@ -62,34 +59,13 @@ void begin(ImplicitSolver& s, const ImplicitScene& scene, const State& state, Po
   parallel_for(b.size(), [&](std::size_t i) {
     s.energy[i] = is_free(b, state, i) ? strain_energy_of(b, state, i) : 0.0;
   });
-  s.closed_in_step.clear();
   s.rounds = 0;
   s.switched = 0;
   s.last_displacement = 0.0;
 }
 
-/// Takes back what earlier trial positions of this step have closed or blocked and this one may
-/// see otherwise.
-void forget_verdicts(ImplicitSolver& s, ContactSet& c) {
-  const ContactSet& before = s.contacts_before;
-  for (const Id k : c.blocked) {
-    if (before.is(k, contact_state::blocked)) continue;
-    c.clear(k, contact_state::blocked);
-    c.why[k] = Blocked::no;
-    c.rest[k] = before.rest[k];
-  }
-  c.blocked = before.blocked;
-  for (const Id k : s.closed_in_step) {
-    if (!c.is(k, contact_state::closed) || c.effective(k) > 0.0) continue;
-    c.clear(k, contact_state::closed);
-    s.springs.known[k] = 0;
-  }
-  std::erase_if(s.closed_in_step, [&](Id k) { return !c.is(k, contact_state::closed); });
-}
-
 /// D = base + part correction, and everything that follows from where the blocks then are.
-void move(ImplicitSolver& s, const ImplicitScene& scene, double part, State& state, Pose& pose,
-          ContactSet& c) {
+void move(ImplicitSolver& s, const ImplicitScene& scene, double part, State& state, Pose& pose) {
   s.moved = s.base + part * s.correction;
   parallel_for(s.block_of.size(), [&](std::size_t row) {
     const Id i = s.block_of[row];
@@ -101,12 +77,6 @@ void move(ImplicitSolver& s, const ImplicitScene& scene, double part, State& sta
   });
   place_all(scene.blocks, state, pose);
   s.last_displacement = largest_move(pose);
-  remeasure_gaps(c, pose);
-  forget_verdicts(s, c);
-  s.switched += close_in_step(c, scene.blocks, pose, scene.laws, s.transitions);
-  for (const Id k : s.transitions.closes) {
-    if (c.is(k, contact_state::closed)) s.closed_in_step.push_back(k);
-  }
 }
 
 void go_back(const ImplicitSolver& s, State& state, Pose& pose, ContactSet& c) {
@@ -114,15 +84,15 @@ void go_back(const ImplicitSolver& s, State& state, Pose& pose, ContactSet& c) {
   state.y = s.start_y;
   pose.x = pose.x1;
   pose.y = pose.y1;
-  c = s.contacts_before;
+  c.faces = s.faces_before;
 }
 
 /// One solve: K^ correction = residual (Eq. 10).
 bool solve(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings& settings,
-           double error, const State& state, const ContactSet& c) {
-  if (!assemble(s, scene, settings, state, c)) {
+           double error, const State& state, const Pose& pose, const FaceSet& c) {
+  if (!assemble(s, scene, settings, state, pose, c)) {
     set_pattern(s, scene, state, c);
-    assemble(s, scene, settings, state, c);
+    assemble(s, scene, settings, state, pose, c);
   }
   s.correction = Eigen::VectorXd::Zero(s.residual.size());
   return s.linear.solve(s.matrix, s.residual, std::clamp(margin / error, tightest, loosest),
@@ -220,7 +190,7 @@ void finish(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSetting
       damping_work[i] -= give_spin_back(s, before, state, static_cast<Id>(row));
     }
   });
-  book_springs(s.springs, c, pose, broken);
+  book_springs(s.springs, c.faces, pose, broken);
 }
 
 /// One attempt at a step: the pieces above, in order.
@@ -245,7 +215,7 @@ class Rounds {
     while (s_.rounds == 0 || !(error <= 1.0) || !bonds_hold(broken, most, error)) {
       if (std::isnan(error)) return Attempt::no_solution;
       if (s_.rounds == most) return Attempt::unsettled;
-      if (!solve(s_, scene_, settings_, error, state_, c_)) return Attempt::no_solution;
+      if (!solve(s_, scene_, settings_, error, state_, pose_, c_.faces)) return Attempt::no_solution;
       ++s_.rounds;
       error = search();
       if (far()) return Attempt::too_far;
@@ -260,16 +230,13 @@ class Rounds {
   bool far() const { return !(s_.last_displacement <= 4.0 * settings_.displacement_limit); }
 
   double balance() {
-    const std::size_t changed = evaluate_springs(s_.springs, c_, scene_.blocks, settings_.step,
-                                                 settings_.contact_damping, s_.rounds == 0);
-    if (s_.rounds > 0) {
-      s_.switched += changed;
-    } else {
-      assume_touching(s_.springs, c_, scene_.blocks, pose_);
-    }
+    const bool first = s_.rounds == 0;
+    const std::size_t changed =
+        evaluate_springs(s_.springs, c_.faces, scene_.blocks, pose_, settings_.step, first);
+    if (!first) s_.switched += changed;
     gather_forces(forces_, scene_.blocks, state_, pose_, c_, scene_.springs, scene_.gravity,
                   scene_.loads);
-    return measure_residual(s_, scene_, settings_, state_, c_, forces_);
+    return measure_residual(s_, scene_, settings_, state_, c_.faces, forces_);
   }
 
   /// The first guess of a dynamic step: once more the displacement of the step before. (Not h v_n:
@@ -286,17 +253,14 @@ class Rounds {
         s_.correction[at + 1] = settings_.step * s_.drift_y[k][i];
       }
     });
-    move(s_, scene_, 1.0, state_, pose_, c_);
+    move(s_, scene_, 1.0, state_, pose_);
   }
 
   /// Whether bonded contacts bear what they have come to carry. Those that do not break, and rounds
   /// begin anew.
   bool bonds_hold(std::vector<Id>& broken, int& most, double& error) {
-    const std::vector<Id> now = break_overloaded(c_, scene_.blocks, scene_.laws);
+    const std::vector<Id> now = break_overloaded(s_.springs, c_.faces, scene_.blocks, scene_.laws);
     if (now.empty()) return true;
-    for (const Id k : now) {
-      s_.springs.limit[k] = c_.shear_limit(k, c_.normal[k]);
-    }
     broken.insert(broken.end(), now.begin(), now.end());
     most = s_.rounds + most_rounds;
     error = balance();
@@ -304,7 +268,7 @@ class Rounds {
   }
 
   double slope_at(double part, double& error) {
-    move(s_, scene_, part, state_, pose_, c_);
+    move(s_, scene_, part, state_, pose_);
     error = balance();
     return s_.residual.dot(s_.correction);
   }

@@ -7,11 +7,9 @@
 #include <vector>
 
 #include "attachments/boundary_springs.hpp"
-#include "contacts/contact_set.hpp"
-#include "contacts/transitions.hpp"
 #include "forces/nodal_forces.hpp"
 #include "implicit/block_matrix.hpp"
-#include "implicit/contact_springs.hpp"
+#include "implicit/face_springs.hpp"
 #include "implicit/linear_solver.hpp"
 
 namespace edda {
@@ -47,14 +45,14 @@ enum class Attempt {
 struct ImplicitSolver {
   BlockMatrix matrix;  ///< K^ of Eq. 11
   LinearSolver linear;
-  ContactSprings springs;
+  FaceSprings springs;
   std::vector<Id> row_of;                        ///< [nb] row of a free block, or no_id
   std::vector<Id> block_of;                      ///< [rows]
   std::vector<Matrix6> elastic, mass;            ///< [nb] in the block's own frame
-  std::uint64_t pattern_of = ~std::uint64_t{0};  ///< rebuild of the candidate list it was made for
+  std::uint64_t pattern_of = ~std::uint64_t{0};  ///< rebuild of the list of faces it was made for
   Nodes start_x, start_y;                        ///< [3][nb] positions at its start, m
   Nodes drift_x, drift_y;            ///< [3][nb] mean velocity over the step before, m/s
-  ContactSet contacts_before;        ///< to go back to where the step is cut
+  FaceSet faces_before;              ///< to go back to where the step is cut
   Eigen::VectorXd moved;             ///< [6 rows] displacement of the step D, m
   Eigen::VectorXd residual;          ///< [6 rows] what is out of balance, N
   Eigen::VectorXd base, correction;  ///< [6 rows] D of the round before, and what it adds
@@ -62,10 +60,8 @@ struct ImplicitSolver {
   std::vector<double> carried;       ///< [rows] scratch of measure_residual(), N
   std::vector<double> error;         ///< [rows] scratch of measure_residual()
   std::vector<double> energy;        ///< [nb] strain at the start of the step, J
-  std::vector<Id> closed_in_step;    ///< contacts that the step in hand has closed
-  TransitionScratch transitions;
   int rounds = 0;                  ///< solves of the last attempt
-  std::uint64_t switched = 0;      ///< changes of contact states in it
+  std::uint64_t switched = 0;      ///< changes of states of faces in it
   double last_displacement = 0.0;  ///< m: largest of a vertex
 };
 

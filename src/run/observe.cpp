@@ -169,15 +169,6 @@ void observe(const Simulation& sim, Instant& at) {
   at.contacts = sim.contacts;
   const LoadsNow acting = sim.acting();
   if (!sim.explicit_method()) {  // everything belongs to one instant already
-    if (damping.contact > 0.0 && !sim.implicit.drift_x[0].empty()) {
-      look_at_previous_gaps(at.contacts, a_step_ago(sim));
-    }
-    ContactSprings springs;
-    begin_springs(springs, at.contacts);
-    for (std::size_t k = 0; k < at.contacts.size(); ++k) {
-      springs.limit[k] = std::max(springs.limit[k], std::abs(at.contacts.shear[k]));
-    }
-    evaluate_springs(springs, at.contacts, sim.blocks, h, damping.contact, true);
     at.forces = sim.forces;
     gather_forces(at.forces, sim.blocks, sim.state, sim.pose, at.contacts, sim.springs,
                   sim.model.gravity, acting);

@@ -132,7 +132,7 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
 
   s.pose.x2 = s.pose.x;
   s.pose.y2 = s.pose.y;
-  s.contacts.on_faces = s.explicit_method() && s.model.contact.model == ContactModel::faces;
+  s.contacts.on_faces = true;
   if (s.explicit_method()) s.given_mass_ = {s.blocks.node_mass, s.blocks.inverse_mass};
   s.search(s.base_reach);
   if (s.on_faces()) {

@@ -6,10 +6,9 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
-#include "contacts/candidates.hpp"
-#include "contacts/gaps.hpp"
-#include "contacts/settling.hpp"
-#include "contacts/shares.hpp"
+#include "contacts/joint_laws.hpp"
+#include "contacts/place_faces.hpp"
+#include "run/face_switching.hpp"
 #include "run/labels.hpp"
 #include "run/load_work.hpp"
 #include "run/observe.hpp"
@@ -17,15 +16,6 @@
 
 namespace edda {
 namespace {
-
-/// Effective penetration of the closed contacts, the largest, m.
-double deepest(const ContactSet& c) {
-  double most = 0.0;
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (c.is(k, contact_state::closed)) most = std::max(most, c.effective(k));
-  }
-  return most;
-}
 
 /// Step in which nothing that starts at its present velocity and falls freely goes beyond `limit`.
 double step_within(const BlockSet& b, const State& s, Vec2 gravity, double limit) {
@@ -90,7 +80,10 @@ void Simulation::set_implicit_limit() {
 
 void Simulation::start_implicit() {
   step_before_ = state.step;
-  stand_still(contacts);
+  pose.x1 = pose.x;
+  pose.y1 = pose.y;
+  place_faces(contacts.faces, blocks, pose, laws, state.step);
+  stand_still(contacts.faces);
 }
 
 /// Work of the loads as the scheme sees it: f_{n+1} . D.
@@ -104,6 +97,7 @@ void Simulation::book_implicit_loads(const LoadsNow& now) {
 
 std::optional<Failure> Simulation::step_implicit() {
   StageClock clock(state.steps);
+  if (laws.any_changes) update_joint_laws(contacts.faces, blocks, pose, laws);
   ImplicitScene scene{blocks, laws, springs, model.gravity};
   ImplicitSettings settings;
   settings.dynamic = dynamic;
@@ -136,17 +130,11 @@ std::optional<Failure> Simulation::step_implicit() {
   book_implicit_loads(scene.loads);
   if (state.step != step_before_) ++steps.changes;
   finish_step();
-  stand_still(contacts);
+  penetration = largest_closure(contacts.faces);
+  max_penetration = std::max(max_penetration, penetration);
   pose.x1 = pose.x;
   pose.y1 = pose.y;
-  update_shares(contacts);
   search_if_due();
-  settle_contacts(contacts, blocks, pose, laws, state.steps, false, transitions_);
-  constexpr std::uint64_t grow_every = 64;
-  settle_rests(contacts, blocks, a_step_ago(*this), laws, 1.0, false);
-  if (state.steps % grow_every == 0) grow_springs(contacts, blocks, pose, laws);
-  penetration = deepest(contacts);
-  max_penetration = std::max(max_penetration, penetration);
 
   // A step that had been cut grows again once it is easy.
   constexpr int easy = 3;  // rounds
