@@ -39,7 +39,7 @@ class ForPeople : public RunReport {
                  "{}; {} critical {:.4g} s ({:.4g} s if every bare corner "
                  "touched something), held by {}\n",
                  counted(sim.blocks.size(), "block"), begins, sim.bound.critical_step,
-                 sim.bound.likely_step, run.governed_by);
+                 sim.bound.critical_step, run.governed_by);
     } else {
       fmt::print(stderr, "{}; step {:.4g} s, held by {}\n", counted(sim.blocks.size(), "block"),
                  step, run.governed_by);

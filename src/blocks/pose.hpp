@@ -13,6 +13,11 @@ struct Pose {
   std::vector<double> x2 = {}, y2 = {};  ///< [nv] at step n - 2, m
 };
 
+/// Vertex v.
+inline Vec2 at(const std::vector<double>& x, const std::vector<double>& y, Id v) {
+  return {x[v], y[v]};
+}
+
 /// Vertices of block i from its nodes (Eq. 19).
 inline void place_vertices(const BlockSet& b, const Nodes& x, const Nodes& y, std::size_t i,
                            std::vector<double>& px, std::vector<double>& py) {

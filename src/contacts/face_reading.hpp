@@ -88,6 +88,15 @@ inline FaceSpan span_of(const FaceSet& f, const Pose& pose, std::size_t k) {
   const auto at = [&](double xi) { return (1.0 - xi) * p1 + xi * p2; };
   return {at(f.now.xi_a[k]), at(f.now.xi_b[k])};
 }
+/// The corner that bounds the overlap at the deeper end: of the edge, or of the one that faces it.
+inline Vec2 deeper_end(const FaceSet& f, const Pose& pose, std::size_t k) {
+  const bool b_is = f.now.closure_b[k] >= f.now.closure_a[k];
+  const double xi = b_is ? f.now.xi_b[k] : f.now.xi_a[k];
+  const double eta = b_is ? f.now.eta_b[k] : f.now.eta_a[k];
+  const FacePoints p = face_points(f, pose.x, pose.y, k);
+  const bool of_edge = xi == 0.0 || xi == 1.0;
+  return of_edge ? (1.0 - xi) * p.p1 + xi * p.p2 : eta * p.q1 + (1.0 - eta) * p.q2;
+}
 inline Vec2 middle_of(const FaceSet& f, const Pose& pose, std::size_t k) {
   const FaceSpan span = span_of(f, pose, k);
   return 0.5 * (span.a + span.b);

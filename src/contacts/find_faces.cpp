@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "contacts/face_bonds.hpp"
-#include "contacts/gap.hpp"
 #include "contacts/search.hpp"
 
 namespace edda {

@@ -6,32 +6,19 @@
 #include <limits>
 #include <numbers>
 
-#include "contacts/candidates.hpp"
 #include "contacts/face_energy.hpp"
 #include "contacts/face_step.hpp"
 #include "contacts/place_faces.hpp"
-#include "contacts/stored_energy.hpp"
 
 namespace edda {
 namespace {
 
-namespace cs = contact_state;
 constexpr double whole_gap = 1e-6;  // of the smaller block: what gapes by more is whole no more
 constexpr double hair = 1e-4;      // of the smaller block: what is further apart opens no more
 constexpr double steepest = 70.0;   // degrees
 
 double radians(double degrees) {
   return degrees * std::numbers::pi / 180.0;
-}
-
-/// Plastic slip of contact k in the last step, m.
-double slip_of_step(const ContactSet& c, std::size_t k) {
-  return c.is(k, cs::bonded) ? 0.0 : std::abs(c.slip_before_cut(k) + c.shear[k] / c.ks[k]);
-}
-
-bool hardly_apart(const ContactSet& c, const BlockSet& b, std::size_t k) {
-  return c.is(k, cs::opened) && c.on_edge(k) &&
-         c.rest[k] - c.depth[k] < hair * smaller_size(c, b, k);
 }
 
 /// What of a law holds at contact k after the slip so far.
@@ -50,23 +37,11 @@ InForce weakened(const Law& law, double slip) {
 
 InForce rough(const Law& law, double slip, double length, double sigma, double divided_by) {
   constexpr double sizes = 500.0, power = 0.33;
-  const double wall = 2.0 * length;
-  const double peak = law.jrc > 0.0 ? wall / sizes * std::pow(law.jrc / wall, power) : 0.0;
+  const double peak = law.jrc > 0.0 ? length / sizes * std::pow(law.jrc / length, power) : 0.0;
   const double left = roughness_left(slip, peak);
   const double angle = barton_angle(law, left, sigma);
   return {std::tan(radians(angle)) / divided_by, 0.0, 0.0,
           std::tan(radians(0.5 * (angle - law.residual_angle)))};
-}
-
-InForce in_force(const ContactSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
-  const Law& law = laws.rows[c.law[k]];
-  if (law.type == LawType::slip_weakening) return weakened(law, c.slid[k]);
-  if (law.type == LawType::barton_bandis) {
-    const double length = carried_length(c, b, k);
-    const double sigma = c.kn[k] * std::max(c.effective(k), 0.0) / (length * laws.thickness);
-    return rough(law, c.slid[k], length, sigma, laws.divided_by[c.law[k]]);
-  }
-  return {c.friction[k], 0.0, 0.0, c.slid[k] < law.slip_distance ? law.dilation : 0.0};
 }
 
 InForce in_force(const FaceSet& c, const LawTable& laws, std::size_t k) {
@@ -130,55 +105,6 @@ void put_in_force(FaceSet& c, const LawTable& laws, std::size_t k) {
   c.tension[k] = now.tension * laws.thickness;
 }
 
-/// What friction has taken in the last step, in the ledger's terms (method.md section 4), J.
-double taken_by_friction(const ContactSet& c, std::size_t k) {
-  const double s = -c.shear[k] / c.ks[k], s_1 = -c.shear_1[k] / c.ks[k];
-  return 0.5 * c.share[k] * c.ks[k] * (c.slip_before_cut(k) - s) * (s + s_1);
-}
-
-/// Lifts the faces off each other by what is owed, or as far as what friction has taken goes: the
-/// spring gains w p (r (e_n + e_{n-1}) + r^2)/2 by a rise r.
-void lift(ContactSet& c, std::size_t k) {
-  const double sum = c.effective(k) + c.effective_1(k);
-  if (c.effective(k) <= 0.0 || c.effective_1(k) <= 0.0 || c.share[k] <= 0.0) return;
-  const double most = 2.0 * std::max(taken_by_friction(c, k), 0.0) / (c.share[k] * c.kn[k]);
-  const double rise = std::min(c.owed[k], 0.5 * (std::sqrt(sum * sum + 4.0 * most) - sum));
-  const double before = stored_energy(c, k);
-  c.rest[k] -= rise;
-  c.owed[k] -= rise;
-  c.friction_work[k] += before - stored_energy(c, k);
-  c.stir(k);
-}
-
-/// Of a joint that has slipped: what it is to open by.
-void take_slip(ContactSet& c, const BlockSet& b, const LawTable& laws, std::size_t k, double slip) {
-  const Law& law = laws.rows[c.law[k]];
-  const double left = law.slip_distance > 0.0 ? std::max(law.slip_distance - c.slid[k], 0.0) : slip;
-  const double counts = law.type == LawType::barton_bandis ? slip : std::min(slip, left);
-  c.owed[k] += in_force(c, b, laws, k).dilation * counts;
-  c.slid[k] += slip;
-}
-
-/// A joint that has come apart by a hair goes on opening as it slips, its asperities are where they
-/// are; but it does not close by that.
-void take_slip_while_open(ContactSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
-  take_slip(c, b, laws, k, std::abs(c.foot[k] - c.anchor[k] * c.span[k]));
-  c.anchor[k] = c.foot[k] / c.span[k];
-  const double rise = std::clamp(c.rest[k] - c.depth[k], 0.0, c.owed[k]);
-  c.rest[k] -= rise;
-  c.owed[k] -= rise;
-  c.stir(k);
-}
-
-void put_in_force(ContactSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
-  if (laws.rows[c.law[k]].type == LawType::coulomb) return;
-  const InForce now = in_force(c, b, laws, k);
-  const double stands_for = c.length[k] * laws.thickness;
-  c.friction[k] = now.friction;
-  c.cohesion[k] = now.cohesion * stands_for;
-  c.tension[k] = now.tension * stands_for;
-}
-
 }  // namespace
 
 double first_slip(const Law& law) {
@@ -206,12 +132,6 @@ double barton_angle(const Law& law, double roughness, double sigma) {
   return std::max(law.residual_angle, std::min(angle, steepest));
 }
 
-void put_strengths_in_force(ContactSet& c, const BlockSet& b, const LawTable& laws) {
-  for (std::size_t k = 0; laws.any_changes && k < c.size(); ++k) {
-    if (laws.rows[c.law[k]].changes && c.is(k, cs::closed)) put_in_force(c, b, laws, k);
-  }
-}
-
 void put_strengths_in_force(FaceSet& c, const LawTable& laws) {
   for (std::size_t k = 0; laws.any_changes && k < c.size(); ++k) {
     if (laws.rows[c.law[k]].changes && c.before.gate[k] > 0.0) put_in_force(c, laws, k);
@@ -235,22 +155,6 @@ void update_joint_laws(FaceSet& c, const BlockSet& b, const Pose& pose, const La
       take_slip_while_open(c, b, pose, laws, k);
     } else if (law.type == LawType::slip_weakening && c.slid[k] < law.slip_distance) {
       if (closure < -whole_gap * smaller_size(c, b, k)) c.slid[k] = first_slip(law);
-    }
-  }
-}
-
-void update_joint_laws(ContactSet& c, const BlockSet& b, const LawTable& laws) {
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    const Law& law = laws.rows[c.law[k]];
-    if (!law.changes) continue;
-    if (c.is(k, cs::closed)) {
-      take_slip(c, b, laws, k, slip_of_step(c, k));
-      if (c.owed[k] > 0.0) lift(c, k);
-      put_in_force(c, b, laws, k);
-    } else if (dilates(law) && hardly_apart(c, b, k)) {
-      take_slip_while_open(c, b, laws, k);
-    } else if (law.type == LawType::slip_weakening && c.slid[k] < law.slip_distance) {
-      if (c.depth[k] < -whole_gap * smaller_size(c, b, k)) c.slid[k] = first_slip(law);
     }
   }
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
-#include "contacts/gap.hpp"
+#include "blocks/pose.hpp"
 
 namespace edda {
 namespace {
@@ -149,8 +149,7 @@ std::vector<NearPair> near_pairs(const BlockSet& b, const std::vector<std::uint8
           if (other == block || (b.fixed[block] && b.fixed[other])) continue;
           const Vec2 start = at(x, y, e), end = at(x, y, b.next[e]);
           if (off_line(p, start, end, reach)) continue;
-          if (distance_to_segment(p, start, end) >= reach) continue;
-          if (may_face(b, x, y, vertex, edge_frame(start, end), reach)) edges.push_back(e);
+          if (distance_to_segment(p, start, end) < reach) edges.push_back(e);
         }
       }
       std::sort(edges.begin(), edges.end());

@@ -1,7 +1,5 @@
 #include "contacts/strength.hpp"
 
-#include <algorithm>
-
 namespace edda {
 
 LawTable divided_laws(const Model& model, const std::vector<double>& factors) {
@@ -16,10 +14,7 @@ LawTable divided_laws(const Model& model, const std::vector<double>& factors) {
   return laws;
 }
 
-namespace {
-
-template <class Contacts>
-void divide(Contacts& c, const LawTable& before, const LawTable& now) {
+void take_strength(FaceSet& c, const LawTable& before, const LawTable& now) {
   for (std::size_t k = 0; k < c.size(); ++k) {
     const std::size_t row = c.law[k];
     const double ratio = before.divided_by[row] / now.divided_by[row];
@@ -28,15 +23,6 @@ void divide(Contacts& c, const LawTable& before, const LawTable& now) {
     c.cohesion[k] *= ratio;
     c.tension[k] *= ratio;
   }
-}
-
-}  // namespace
-
-void take_strength(ContactSet& c, const LawTable& before, const LawTable& now) {
-  divide(c, before, now);
-  divide(c.faces, before, now);
-  // A shear force that was held may slide from here on.
-  std::fill(c.stirs.begin(), c.stirs.end(), std::uint8_t{1});
 }
 
 }  // namespace edda

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "contacts/contact_set.hpp"
+#include "contacts/face_set.hpp"
 #include "contacts/laws.hpp"
 
 namespace edda {
@@ -15,6 +15,6 @@ namespace edda {
 LawTable divided_laws(const Model& model, const std::vector<double>& factors);
 
 /// Brings contacts that have their strength from `before` to that of `now`.
-void take_strength(ContactSet& contacts, const LawTable& before, const LawTable& now);
+void take_strength(FaceSet& contacts, const LawTable& before, const LawTable& now);
 
 }  // namespace edda

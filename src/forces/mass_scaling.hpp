@@ -8,12 +8,12 @@
 
 namespace edda {
 
-/// Raises the inertia of every free block that alone, every bare corner of it touching, would need
+/// Raises the inertia of every free block that alone would need
 /// a step below `step` (s), until it does not; or, where `most` is given, until its mass has been
 /// multiplied by that, [nb]. Returns what the masses were multiplied by, [nb], or nothing where all
 /// stayed as they were.
-std::vector<double> raise_inertia(BlockSet& blocks, const State& state, const Pose& pose,
-                                  const ContactSet& contacts, const BoundarySprings& springs,
+std::vector<double> raise_inertia(BlockSet& blocks, const State& state,
+                                  const FaceSet& contacts, const BoundarySprings& springs,
                                   const LawTable& laws, const Damping& damping, double step,
                                   const Bolts* bolts = nullptr,
                                   const std::vector<double>* most = nullptr);

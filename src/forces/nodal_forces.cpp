@@ -13,52 +13,6 @@ namespace {
 
 using NodeForce = std::array<Vec2, 3>;
 
-/// Blocks with no more corners than this need no memory of their own.
-constexpr Id few_corners = 64;
-
-/// Contact forces on one vertex: of the edge that starts there, and of the one that ends there.
-struct OfEdges {
-  double start_x, start_y, end_x, end_y;
-};
-
-/// What the loops over the contacts of a block read.
-struct ListView {
-  const Id *begin_of_vertex, *begin_of_edge, *next;
-  const double *force, *reaction;
-  ConstNodeValues weight;
-};
-
-/// Contact forces on the nodes of the block with the vertices [first, end): summed on each vertex,
-/// those of its own contacts and of those of its edges, then spread to the nodes (Eq. 15). `of`:
-/// scratch, [vertices].
-EDDA_INLINE void add_contacts(NodeForce& f, const ListView& c, Id first, Id end, OfEdges* of) {
-  for (Id v = first; v < end; ++v) {
-    Four sum{};
-    for (std::size_t q = c.begin_of_edge[v]; q < c.begin_of_edge[v + 1]; ++q) {
-      add_from(sum, c.reaction + 4 * q);
-    }
-    OfEdges &from = of[v - first], &to = of[c.next[v] - first];
-    from.start_x = sum[0];
-    from.start_y = sum[1];
-    to.end_x = sum[2];
-    to.end_y = sum[3];
-  }
-  for (Id v = first; v < end; ++v) {
-    Two sum{};
-    for (std::size_t k = c.begin_of_vertex[v]; k < c.begin_of_vertex[v + 1]; ++k) {
-      add_from(sum, c.force + 2 * k);
-    }
-    const OfEdges& edges = of[v - first];
-    const Vec2 on{sum[0] + edges.start_x + edges.end_x, sum[1] + edges.start_y + edges.end_y};
-    for (std::size_t k = 0; k < 3; ++k) f[k] += c.weight[k][v] * on;
-  }
-}
-
-EDDA_INLINE bool has_contacts(const ListView& c, Id first, Id end) {
-  return c.begin_of_vertex[first] < c.begin_of_vertex[end] ||
-         c.begin_of_edge[first] < c.begin_of_edge[end];
-}
-
 /// What the loops over the faces of a block read.
 struct FaceListView {
   const Id *begin_of_edge, *next;
@@ -97,38 +51,6 @@ EDDA_VECTOR void add_faces_of_blocks(FaceListView c, const Id* vertex_begin,
       fy[k][i] = f[k].y;
     }
   }
-}
-
-ListView list_of(const BlockSet& b, const ContactSet& c) {
-  return {c.begin_of_vertex.data(), c.begin_of_edge.data(), b.next.data(),
-          c.force.data(),           c.reaction.data(),      values_of(b.weight)};
-}
-
-/// The same for the blocks [begin, end) that are free, on top of their forces; not for those with
-/// many corners.
-EDDA_VECTOR void add_contacts_of_blocks(ListView c, const Id* vertex_begin,
-                                        const std::uint8_t* is_free, NodeValues fx, NodeValues fy,
-                                        std::size_t begin, std::size_t end) {
-  OfEdges of[few_corners];
-  for (std::size_t i = begin; i < end; ++i) {
-    const Id first = vertex_begin[i], last = vertex_begin[i + 1];
-    if (is_free[i - begin] == 0 || last - first > few_corners || !has_contacts(c, first, last)) {
-      continue;
-    }
-    NodeForce f{Vec2{fx[0][i], fy[0][i]}, Vec2{fx[1][i], fy[1][i]}, Vec2{fx[2][i], fy[2][i]}};
-    add_contacts(f, c, first, last, of);
-    for (std::size_t k = 0; k < 3; ++k) {
-      fx[k][i] = f[k].x;
-      fy[k][i] = f[k].y;
-    }
-  }
-}
-
-/// The same for one block.
-void add_contacts(NodeForce& f, const BlockSet& b, const ContactSet& c, std::size_t i) {
-  const Id first = b.vertex_begin[i], end = b.vertex_begin[i + 1];
-  std::vector<OfEdges> of(end - first);
-  add_contacts(f, list_of(b, c), first, end, of.data());
 }
 
 void add_springs(NodeForce& f, const BlockSet& b, const BoundarySprings& s, const Pose& pose,
@@ -202,7 +124,7 @@ EDDA_VECTOR void add_initial_forces(InitialView b, ConstNodeValues x, ConstNodeV
 }  // namespace
 
 void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
-                   const ContactSet& contacts, const BoundarySprings& springs, Vec2 gravity,
+                   const FaceSet& contacts, const BoundarySprings& springs, Vec2 gravity,
                    const LoadsNow& loads, std::size_t begin, std::size_t end) {
   const BodyView body{values_of(b.grad_x),  values_of(b.grad_y), b.volume.data(),
                       b.lame_lambda.data(), b.lame_mu.data(),    b.mass.data()};
@@ -217,12 +139,10 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
   assert(end - begin <= blocks_at_once);
   std::array<std::uint8_t, blocks_at_once> moves;
   for (std::size_t i = begin; i < end; ++i) {
-    const bool many_corners = b.vertex_begin[i + 1] - b.vertex_begin[i] > few_corners;
     moves[i - begin] = is_free(b, state, i) ? 1 : 0;
     const bool acted_on = springs.block_begin[i] < springs.block_begin[i + 1] ||
                           (loads.loads != nullptr && loads.loads->place[i] != no_id) ||
-                          (loads.bolts != nullptr && loads.bolts->place[i] != no_id) ||
-                          many_corners;
+                          (loads.bolts != nullptr && loads.bolts->place[i] != no_id);
     if (moves[i - begin] != 0 && !acted_on) continue;
     NodeForce f{};
     if (moves[i - begin] != 0) {
@@ -230,37 +150,27 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
       add_springs(f, b, springs, pose, i);
       if (loads.loads != nullptr) add_loads(f, b, loads, pose.x, pose.y, i);
       if (loads.bolts != nullptr) add_bolts(f, *loads.bolts, i);
-      if (many_corners && !contacts.on_faces) add_contacts(f, b, contacts, i);
     }
     for (std::size_t k = 0; k < 3; ++k) {
       forces.x[k][i] = f[k].x;
       forces.y[k][i] = f[k].y;
     }
   }
-  if (contacts.on_faces) {
-    add_faces_of_blocks(faces_of(b, contacts.faces), b.vertex_begin.data(), moves.data(),
-                        values_of(forces.x), values_of(forces.y), begin, end);
-  } else {
-    add_contacts_of_blocks(list_of(b, contacts), b.vertex_begin.data(), moves.data(),
-                           values_of(forces.x), values_of(forces.y), begin, end);
-  }
+  add_faces_of_blocks(faces_of(b, contacts), b.vertex_begin.data(), moves.data(),
+                      values_of(forces.x), values_of(forces.y), begin, end);
 }
 
 void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
-                   const ContactSet& contacts, const BoundarySprings& springs, Vec2 gravity,
+                   const FaceSet& contacts, const BoundarySprings& springs, Vec2 gravity,
                    const LoadsNow& loads) {
   parallel_chunks(b.size(), blocks_at_once, [&](std::size_t, std::size_t begin, std::size_t end) {
     gather_forces(forces, b, state, pose, contacts, springs, gravity, loads, begin, end);
   });
 }
 
-Vec2 contact_resultant(const BlockSet& b, const ContactSet& c, std::size_t i) {
+Vec2 contact_resultant(const BlockSet& b, const FaceSet& c, std::size_t i) {
   NodeForce f{};
-  if (c.on_faces) {
-    add_faces(f, faces_of(b, c.faces), b.vertex_begin[i], b.vertex_begin[i + 1]);
-  } else {
-    add_contacts(f, b, c, i);
-  }
+  add_faces(f, faces_of(b, c), b.vertex_begin[i], b.vertex_begin[i + 1]);
   return f[0] + f[1] + f[2];
 }
 

@@ -5,35 +5,24 @@
 #include <limits>
 
 #include "base/parallel.hpp"
-#include "contacts/gap.hpp"
 #include "forces/block_matrices.hpp"
 #include "forces/bolt_matrix.hpp"
-#include "forces/contact_forces.hpp"
 
 namespace edda {
 namespace {
 
 /// Contribution of one contact to one block.
 struct Part {
-  Id contact;
+  Id face;
   Vector6 normal, tangent;       ///< h, k in the block's frame
   double kn, ks, dashpot, drag;  ///< with the factor 1 or 2
 };
-
-/// May carry before the list is made anew.
-bool counts(const ContactSet& c, const BlockSet& b, const Pose& pose, std::size_t k,
-            const EdgeFrame& e) {
-  if (c.is(k, contact_state::closed)) return true;
-  if (c.why[k] == Blocked::shield) return false;
-  return c.on_edge(k, c.reach) && facing(b, pose.x, pose.y, c.vertex[k], e.normal(), 0.5 * c.reach);
-}
 
 /// What a step bound looks at.
 struct Scene {
   const BlockSet& b;
   const State& s;
-  const Pose& pose;
-  const ContactSet& c;
+  const FaceSet& c;
   const BoundarySprings& springs;
   const LawTable& laws;
   const Damping& damping;
@@ -57,39 +46,6 @@ struct BlockEquations {
     if (p.drag > 0.0) dashpots += p.drag * p.tangent * p.tangent.transpose();
   }
 };
-
-std::vector<Part> faces_all_round(const Scene& w, std::size_t i);
-
-std::vector<Part> parts_of(const Scene& w, std::size_t i) {
-  if (w.c.on_faces) return faces_all_round(w, i);
-  const BlockSet& b = w.b;
-  const ContactSet& c = w.c;
-  const Rotation r = rotation(deformation(b, w.s.x, w.s.y, i));
-  auto back = [&](Vec2 u) { return Vec2{r.c * u.x + r.s * u.y, -r.s * u.x + r.c * u.y}; };
-  std::vector<Part> parts;
-  c.for_contacts(b, i, [&](Id k, bool has_vertex) {
-    const EdgeFrame e =
-        edge_frame(at(w.pose.x, w.pose.y, c.edge[k]), at(w.pose.x, w.pose.y, c.edge_end[k]));
-    if (!counts(c, b, w.pose, k, e)) return;
-    const Id partner = has_vertex ? c.block_j[k] : c.block_i[k];
-    // One that is letting go past the end of its edge may come back.
-    const double share = c.pair_of[k] == no_id ? 1.0 : c.share[k];
-    const double factor = (b.fixed[partner] ? 1.0 : 2.0) * share;
-    const double xi = std::clamp(c.foot[k] / e.length, 0.0, 1.0);
-    std::array<double, 3> weight = vertex_weights(b, c.vertex[k]);
-    if (!has_vertex) {
-      const auto w2 = vertex_weights(b, c.edge[k]), w3 = vertex_weights(b, c.edge_end[k]);
-      for (std::size_t n = 0; n < 3; ++n) weight[n] = (1.0 - xi) * w2[n] + xi * w3[n];
-    }
-    const Law& law = w.laws.rows[c.law[k]];
-    const double zeta = w.laws.damping_of(law, w.damping.contact), drag = law.shear_damping;
-    const double inverse = zeta > 0.0 || drag > 0.0 ? inverse_contact_mass(b, c, k, xi) : 1.0;
-    parts.push_back({k, along(weight, back(e.normal())), along(weight, back(e.t)), factor * c.kn[k],
-                     factor * c.ks[k], factor * (2.0 * zeta * std::sqrt(c.kn[k] / inverse)),
-                     factor * (2.0 * drag * std::sqrt(c.ks[k] / inverse))});
-  });
-  return parts;
-}
 
 /// A spring that lies along a part of an edge.
 struct Bedded {
@@ -118,7 +74,7 @@ double at_each_corner(std::vector<Bedded>& beds, double l, double* count = nullp
 /// state.
 std::vector<Part> faces_all_round(const Scene& w, std::size_t i) {
   const BlockSet& b = w.b;
-  const FaceSet& c = w.c.faces;
+  const FaceSet& c = w.c;
   const bool alone = std::count(b.fixed.begin(), b.fixed.end(), 0) == 1;
   std::vector<Part> parts;
   std::vector<Bedded> normal, shear;
@@ -158,44 +114,15 @@ std::vector<Part> faces_all_round(const Scene& w, std::size_t i) {
   return parts;
 }
 
-/// Contacts that bare corners would make: a block in motion meets its neighbours corner first, and
-/// a step chosen with that in mind need not change when it does. Whether there are any.
-bool add_bare_corners(BlockEquations& k, const Scene& w, std::size_t i) {
-  const BlockSet& b = w.b;
-  if (w.c.on_faces) return false;
-  bool any = false;
-  for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v) {
-    const bool touches = std::any_of(k.parts.begin(), k.parts.end(),
-                                     [&](const Part& p) { return w.c.vertex[p.contact] == v; });
-    if (touches || b.corner[v] > 3.0) continue;
-    any = true;
-    const LawTable& laws = w.laws;
-    const Law& law = laws.rows[laws.resolve(b.edge_joint[v], b.edge_joint[b.previous[v]])];
-    const double length = 0.5 * std::max(b.edge_length[v], b.edge_length[b.previous[v]]);
-    const double kn = laws.normal_spring(law, length), ks = laws.shear_spring(law, length);
-    // Against a block so heavy that it stands still, as the spring of another as light feels it.
-    const double zeta = laws.damping_of(law, w.damping.contact);
-    const double dashpot = 2.0 * std::max(zeta * std::sqrt(kn / b.point_inverse[v]),
-                                          law.shear_damping * std::sqrt(ks / b.point_inverse[v]));
-    for (const Vec2 n : {Vec2{1.0, 0.0}, Vec2{0.0, 1.0}}) {
-      const Vector6 h = along(vertex_weights(b, v), n);
-      k.contacts += std::max(kn, ks) * 2.0 * h * h.transpose();
-      if (dashpot > 0.0) k.dashpots += 2.0 * dashpot * h * h.transpose();
-    }
-  }
-  return any;
-}
-
-BlockEquations equations_of(const Scene& w, std::size_t i, bool with_bare_corners) {
+BlockEquations equations_of(const Scene& w, std::size_t i) {
   BlockEquations k;
   k.mass = mass_matrix(w.b, i);
   k.viscous = viscous_matrix(w.b, i);
-  k.parts = parts_of(w, i);
+  k.parts = faces_all_round(w, i);
   k.elastic = elastic_matrix(w.b, i);
   k.boundary = boundary_matrix(w.b, w.springs, rotation(deformation(w.b, w.s.x, w.s.y, i)), i);
   k.bolts = w.bolts == nullptr ? Matrix6::Zero().eval() : bolt_matrix(*w.bolts, w.b, w.s, i);
   for (const Part& p : k.parts) k.add(p);
-  if (with_bare_corners) add_bare_corners(k, w, i);
   return k;
 }
 
@@ -278,13 +205,9 @@ struct Smallest {
   Id block = no_id;
 };
 
-/// `known_exact`: [nb] below zero where it is not known yet.
-Smallest smallest_step(const Scene& w, const std::vector<double>& estimates, bool with_bare_corners,
-                       std::vector<double>& known_exact) {
+Smallest smallest_step(const Scene& w, const std::vector<double>& estimates) {
   const auto exact_step = [&](std::size_t i) {
-    double& exact = known_exact[i];
-    if (exact < 0.0) exact = critical_step_of(equations_of(w, i, with_bare_corners), w.damping);
-    return exact;
+    return critical_step_of(equations_of(w, i), w.damping);
   };
   const auto first = std::min_element(estimates.begin(), estimates.end());
   if (first == estimates.end() || !(*first < std::numeric_limits<double>::infinity())) return {};
@@ -304,7 +227,7 @@ Smallest smallest_step(const Scene& w, const std::vector<double>& estimates, boo
 
 /// Whose stiffness it is that holds block i's step.
 void explain(StepBound& bound, const Scene& w, std::size_t i) {
-  const BlockEquations k = equations_of(w, i, false);
+  const BlockEquations k = equations_of(w, i);
   const double h = bound.critical_step;
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(k.stiffness(),
                                                                  k.mass + (0.5 * h) * k.viscous);
@@ -320,49 +243,38 @@ void explain(StepBound& bound, const Scene& w, std::size_t i) {
     const double part = p.kn * hn * hn + p.ks * ht * ht;
     if (part > largest) {
       largest = part;
-      bound.contact = p.contact;
+      bound.contact = p.face;
     }
   }
 }
 
 }  // namespace
 
-StepBound step_bound(const BlockSet& b, const State& s, const Pose& pose, const ContactSet& c,
+StepBound step_bound(const BlockSet& b, const State& s, const FaceSet& c,
                      const BoundarySprings& springs, const LawTable& laws, const Damping& damping,
                      const Bolts* bolts) {
-  const Scene scene{b, s, pose, c, springs, laws, damping, bolts};
-  std::vector<double> step(b.size(), std::numeric_limits<double>::infinity()), likely = step;
-  std::vector<std::uint8_t> bare(b.size(), 0);
+  const Scene scene{b, s, c, springs, laws, damping, bolts};
+  std::vector<double> step(b.size(), std::numeric_limits<double>::infinity());
   parallel_for(b.size(), [&](std::size_t i) {
-    if (b.fixed[i] || !s.alive[i]) return;
-    BlockEquations q = equations_of(scene, i, false);
-    likely[i] = step[i] = lower_estimate(q, damping);
-    if (!add_bare_corners(q, scene, i)) return;
-    bare[i] = 1;
-    likely[i] = lower_estimate(q, damping);
+    if (!b.fixed[i] && s.alive[i]) step[i] = lower_estimate(equations_of(scene, i), damping);
   });
-  std::vector<double> exact(b.size(), -1.0);
-  const Smallest critical = smallest_step(scene, step, false, exact);
+  const Smallest critical = smallest_step(scene, step);
   StepBound bound;
   bound.critical_step = critical.step;
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    if (bare[i] != 0) exact[i] = -1.0;
-  }
-  bound.likely_step = smallest_step(scene, likely, true, exact).step;
   bound.block = critical.block;
   if (bound.block != no_id) explain(bound, scene, bound.block);
   return bound;
 }
 
-std::vector<double> steps_of_blocks(const BlockSet& b, const State& s, const Pose& pose,
-                                    const ContactSet& c, const BoundarySprings& springs,
+std::vector<double> steps_of_blocks(const BlockSet& b, const State& s, const FaceSet& c,
+                                    const BoundarySprings& springs,
                                     const LawTable& laws, const Damping& damping, double limit,
                                     const Bolts* bolts) {
-  const Scene scene{b, s, pose, c, springs, laws, damping, bolts};
+  const Scene scene{b, s, c, springs, laws, damping, bolts};
   std::vector<double> step(b.size(), std::numeric_limits<double>::infinity());
   parallel_for(b.size(), [&](std::size_t i) {
     if (b.fixed[i] || !s.alive[i]) return;
-    const BlockEquations q = equations_of(scene, i, true);
+    const BlockEquations q = equations_of(scene, i);
     step[i] = lower_estimate(q, damping);
     if (step[i] < limit) step[i] = critical_step_of(q, damping);
   });

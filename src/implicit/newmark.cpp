@@ -40,16 +40,16 @@ double largest_move(const Pose& pose) {
 }
 
 void begin(ImplicitSolver& s, const ImplicitScene& scene, const State& state, Pose& pose,
-           ContactSet& c) {
+           FaceSet& c) {
   const BlockSet& b = scene.blocks;
-  s.faces_before = c.faces;
+  s.faces_before = c;
   s.start_x = state.x;
   s.start_y = state.y;
   pose.x1 = pose.x;
   pose.y1 = pose.y;
-  begin_springs(s.springs, c.faces);
-  if (s.pattern_of != c.faces.rebuilds) set_pattern(s, scene, state, c.faces);
-  s.pattern_of = c.faces.rebuilds;
+  begin_springs(s.springs, c);
+  if (s.pattern_of != c.rebuilds) set_pattern(s, scene, state, c);
+  s.pattern_of = c.rebuilds;
   s.moved = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(6 * s.block_of.size()));
   if (s.drift_x[0].empty()) {
     s.drift_x = state.vx;
@@ -79,12 +79,12 @@ void move(ImplicitSolver& s, const ImplicitScene& scene, double part, State& sta
   s.last_displacement = largest_move(pose);
 }
 
-void go_back(const ImplicitSolver& s, State& state, Pose& pose, ContactSet& c) {
+void go_back(const ImplicitSolver& s, State& state, Pose& pose, FaceSet& c) {
   state.x = s.start_x;
   state.y = s.start_y;
   pose.x = pose.x1;
   pose.y = pose.y1;
-  c.faces = s.faces_before;
+  c = s.faces_before;
 }
 
 /// One solve: K^ correction = residual (Eq. 10).
@@ -172,7 +172,7 @@ double give_spin_back(const ImplicitSolver& s, const Vector6& before, State& sta
 /// Eqs. 7 and 8: v_{n+1} = 2 D/h - v_n, and the spin that this loses; without dynamics every step
 /// starts and ends at rest.
 void finish(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings& settings,
-            State& state, const Pose& pose, ContactSet& c, const std::vector<Id>& broken,
+            State& state, const Pose& pose, FaceSet& c, const std::vector<Id>& broken,
             std::vector<double>& damping_work) {
   const double h = settings.step;
   parallel_for(s.block_of.size(), [&](std::size_t row) {
@@ -190,14 +190,14 @@ void finish(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSetting
       damping_work[i] -= give_spin_back(s, before, state, static_cast<Id>(row));
     }
   });
-  book_springs(s.springs, c.faces, pose, broken);
+  book_springs(s.springs, c, pose, broken);
 }
 
 /// One attempt at a step: the pieces above, in order.
 class Rounds {
  public:
   Rounds(ImplicitSolver& solver, const ImplicitScene& scene, const ImplicitSettings& settings,
-         State& state, Pose& pose, ContactSet& contacts, NodalForces& forces)
+         State& state, Pose& pose, FaceSet& contacts, NodalForces& forces)
       : s_(solver),
         scene_(scene),
         settings_(settings),
@@ -215,7 +215,7 @@ class Rounds {
     while (s_.rounds == 0 || !(error <= 1.0) || !bonds_hold(broken, most, error)) {
       if (std::isnan(error)) return Attempt::no_solution;
       if (s_.rounds == most) return Attempt::unsettled;
-      if (!solve(s_, scene_, settings_, error, state_, pose_, c_.faces)) return Attempt::no_solution;
+      if (!solve(s_, scene_, settings_, error, state_, pose_, c_)) return Attempt::no_solution;
       ++s_.rounds;
       error = search();
       if (far()) return Attempt::too_far;
@@ -232,11 +232,11 @@ class Rounds {
   double balance() {
     const bool first = s_.rounds == 0;
     const std::size_t changed =
-        evaluate_springs(s_.springs, c_.faces, scene_.blocks, pose_, settings_.step, first);
+        evaluate_springs(s_.springs, c_, scene_.blocks, pose_, settings_.step, first);
     if (!first) s_.switched += changed;
     gather_forces(forces_, scene_.blocks, state_, pose_, c_, scene_.springs, scene_.gravity,
                   scene_.loads);
-    return measure_residual(s_, scene_, settings_, state_, c_.faces, forces_);
+    return measure_residual(s_, scene_, settings_, state_, c_, forces_);
   }
 
   /// The first guess of a dynamic step: once more the displacement of the step before. (Not h v_n:
@@ -259,7 +259,7 @@ class Rounds {
   /// Whether bonded contacts bear what they have come to carry. Those that do not break, and rounds
   /// begin anew.
   bool bonds_hold(std::vector<Id>& broken, int& most, double& error) {
-    const std::vector<Id> now = break_overloaded(s_.springs, c_.faces, scene_.blocks, scene_.laws);
+    const std::vector<Id> now = break_overloaded(s_.springs, c_, scene_.blocks, scene_.laws);
     if (now.empty()) return true;
     broken.insert(broken.end(), now.begin(), now.end());
     most = s_.rounds + most_rounds;
@@ -310,14 +310,14 @@ class Rounds {
   const ImplicitSettings& settings_;
   State& state_;
   Pose& pose_;
-  ContactSet& c_;
+  FaceSet& c_;
   NodalForces& forces_;
 };
 
 }  // namespace
 
 Attempt newmark_step(ImplicitSolver& s, const ImplicitScene& scene,
-                     const ImplicitSettings& settings, State& state, Pose& pose, ContactSet& c,
+                     const ImplicitSettings& settings, State& state, Pose& pose, FaceSet& c,
                      NodalForces& forces, std::vector<double>& damping_work) {
   std::vector<Id> broken;
   const Attempt attempt = Rounds(s, scene, settings, state, pose, c, forces).run(broken);

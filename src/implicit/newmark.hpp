@@ -70,6 +70,6 @@ struct ImplicitSolver {
 /// are, bit for bit, what they were; `forces` are those of the last trial position.
 Attempt newmark_step(ImplicitSolver& solver, const ImplicitScene& scene,
                      const ImplicitSettings& settings, State& state, Pose& pose,
-                     ContactSet& contacts, NodalForces& forces, std::vector<double>& damping_work);
+                     FaceSet& contacts, NodalForces& forces, std::vector<double>& damping_work);
 
 }  // namespace edda

@@ -6,8 +6,6 @@
 #include "attachments/boundary_lines.hpp"
 #include "blocks/point_mass.hpp"
 #include "contacts/face_bonds.hpp"
-#include "contacts/shares.hpp"
-#include "forces/glue.hpp"
 #include "model/accelerogram.hpp"
 #include "run/simulation.hpp"
 
@@ -145,32 +143,21 @@ void Simulation::switch_over(const NamedRows& off, const NamedRows& on) {
 }
 
 void Simulation::glue_joints(bool glued) {
-  if (on_faces()) {
-    if (glued == contacts.faces.gluing) return;
-    const NodalForces before = forces_now();
-    if (glued)
-      glue_faces(contacts.faces);
-    else
-      unglue_faces(contacts.faces, blocks, pose);
-    place_again();
-    note_jump(before);
-    return;
-  }
-  if (glued == !contacts.lent.empty()) return;
+  if (glued == contacts.gluing) return;
+  const NodalForces before = forces_now();
   if (glued) {
-    glue(contacts);
+    glue_faces(contacts);
   } else {
-    const NodalForces before = forces_now();
-    unglue(contacts);
-    update_shares(contacts);
-    note_jump(before);
+    unglue_faces(contacts, blocks, pose);
   }
+  place_again();
+  note_jump(before);
 }
 
 double Simulation::uniform_step() const {
   double longest = 0.0;
   for (const double own :
-       steps_of_blocks(blocks, state, pose, contacts, springs, laws, damping, never, &bolts)) {
+       steps_of_blocks(blocks, state, contacts, springs, laws, damping, never, &bolts)) {
     if (std::isfinite(own)) longest = std::max(longest, own);
   }
   return longest;

@@ -1,5 +1,7 @@
 #include "run/chatter.hpp"
 
+#include "contacts/face_reading.hpp"
+
 namespace edda {
 namespace {
 
@@ -7,11 +9,11 @@ constexpr std::uint64_t window = 64;  // looks
 constexpr Id again = 16;              // switches
 constexpr double above_mean = 2.0;    // of the stored energy
 
-/// Switches of contact k since its list was made.
+/// Switches of face k since its list was made.
 Id switches(const Simulation& sim, std::size_t k) {
   const OpenCloseCounts& counts = sim.open_close;
-  const bool known = counts.of_list == sim.contacts.rebuilds && k < counts.of_contact.size();
-  return known ? counts.of_contact[k] : 0;
+  const bool known = counts.of_list == sim.contacts.rebuilds && k < counts.of_face.size();
+  return known ? counts.of_face[k] : 0;
 }
 
 void begin_window(Chatter& w, const Simulation& sim) {
@@ -25,7 +27,7 @@ void begin_window(Chatter& w, const Simulation& sim) {
 }
 
 void judge(Chatter& w, const Simulation& sim) {
-  const ContactSet& c = sim.contacts;
+  const FaceSet& c = sim.contacts;
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Id count = switches(sim, k) - w.before[k];
     if (count < again) continue;
@@ -34,8 +36,8 @@ void judge(Chatter& w, const Simulation& sim) {
     w.count += count;
     if (count <= w.worst) continue;
     w.worst = count;
-    w.block_i = c.block_i[k];
-    w.block_j = c.block_j[k];
+    w.block_i = block_of_facing(sim.blocks, c, k);
+    w.block_j = block_of_edge(sim.blocks, c, k);
     w.time = sim.state.time;
   }
 }
@@ -47,12 +49,12 @@ void look_for_chatter(Chatter& w, const Simulation& sim) {
     w.looks = 0;
     return;
   }
-  const ContactSet& c = sim.contacts;
+  const FaceSet& c = sim.contacts;
   const bool fits = w.rebuilds == c.rebuilds && w.sum.size() == c.size() &&
                     w.squares.size() == c.size() && w.before.size() == c.size();
   if (w.looks == 0 || !fits) begin_window(w, sim);
   for (std::size_t k = 0; k < c.size(); ++k) {
-    const double normal = c.is(k, contact_state::closed) ? c.share[k] * c.normal[k] : 0.0;
+    const double normal = is_closed(c, k) ? normal_force(c, k) : 0.0;
     w.sum[k] += normal;
     w.squares[k] += normal * normal;
   }

@@ -49,11 +49,11 @@ ModelCheck check_model(Simulation& sim) {
   ModelCheck found;
   found.held = held_blocks(sim);
   for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
-    found.closed += meet(sim.contacts, k) && sim.contacts.share[k] > 0.0;
+    found.closed += meets(sim.contacts, k);
   }
   found.within_reach = sim.contacts.size();
   found.critical_step = sim.bound.critical_step;
-  found.likely_step = sim.bound.likely_step;
+  found.likely_step = sim.bound.critical_step;
   found.loads = load_report(sim);
   found.initial_stress = initial_stress_report(sim);
   found.strain_damping = strain_damping_report(sim);

@@ -7,8 +7,6 @@
 #include <limits>
 
 #include "contacts/face_reading.hpp"
-#include "contacts/gap.hpp"
-#include "contacts/inside.hpp"
 #include "run/labels.hpp"
 
 namespace edda {
@@ -46,20 +44,25 @@ Failure lost_block(const BlockSet& b, const State& s, const Pose& pose, const No
   return f;
 }
 
-namespace {
-
-std::optional<Failure> deep_face(const FaceSet& c, const BlockSet& b, const State& s,
-                                 const Pose& pose, const StepInUse& step) {
+std::optional<Failure> deep_overlap(const FaceSet& c, const BlockSet& b, const State& s,
+                                    const Pose& pose, double largest, double smallest_half_width,
+                                    const StepInUse& step) {
+  if (largest <= smallest_half_width) return std::nullopt;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    const Id i = b.vertex_block[c.edge[k]], j = b.vertex_block[c.facing[k]];
+    const Id edges[2] = {c.edge[k], c.facing[k]};
+    const Id of[2] = {b.vertex_block[edges[0]], b.vertex_block[edges[1]]};
     const double depth = closure_of(c, k);
-    if (!(c.now.energy[k] > 0.0) || depth <= std::min(b.inradius[i], b.inradius[j])) continue;
+    if (!(c.now.energy[k] > 0.0) || depth <= std::min(b.inradius[of[0]], b.inradius[of[1]]))
+      continue;
+    // The one that moves, or the smaller, is inside the other.
+    const auto weight = [&](Id i) {
+      return b.fixed[i] != 0 ? std::numeric_limits<double>::infinity() : b.area[i];
+    };
+    const Id i = weight(of[0]) <= weight(of[1]) ? of[0] : of[1], j = i == of[0] ? of[1] : of[0];
     Failure f;
     f.time = s.time;
     f.block = i;
-    const double xi = c.now.closure_b[k] >= c.now.closure_a[k] ? c.now.xi_b[k] : c.now.xi_a[k];
-    f.place = (1.0 - xi) * at(pose.x, pose.y, c.edge[k]) + xi * at(pose.x, pose.y, c.edge_end[k]) +
-              b.origin;
+    f.place = deeper_end(c, pose, k) + b.origin;
     f.message = fmt::format(
         "{} is {:.3g} m inside {}, more than half the size of the smaller: {}", block_label(b, i),
         depth, block_label(b, j),
@@ -69,46 +72,6 @@ std::optional<Failure> deep_face(const FaceSet& c, const BlockSet& b, const Stat
     return f;
   }
   return std::nullopt;
-}
-
-}  // namespace
-
-std::optional<Failure> deep_overlap(const ContactSet& c, const BlockSet& b, const State& s,
-                                    const Pose& pose, double largest, double smallest_half_width,
-                                    const StepInUse& step) {
-  if (c.on_faces) {
-    if (largest <= smallest_half_width) return std::nullopt;
-    return deep_face(c.faces, b, s, pose, step);
-  }
-  auto limit = [&](std::size_t k) {
-    return std::min(b.inradius[c.block_i[k]], b.inradius[c.block_j[k]]);
-  };
-  Id worst = no_id;
-  constexpr std::uint64_t look_every = 64;
-  if (largest > smallest_half_width || s.steps % look_every == 0) {
-    for (std::size_t k = 0; k < c.size() && worst == no_id; ++k) {
-      if (c.is(k, contact_state::closed) && c.depth[k] > limit(k)) worst = static_cast<Id>(k);
-    }
-  }
-  // Blocked for its depth below the line of an edge: only where it is truly inside does that
-  // matter.
-  for (const Id k : c.blocked) {
-    if (worst != no_id || c.why[k] != Blocked::depth) continue;
-    const Vec2 p = at(pose.x, pose.y, c.vertex[k]);
-    if (inside_of(b, pose, p, c.block_j[k]).depth > 0.5 * limit(k)) worst = k;
-  }
-  if (worst == no_id) return std::nullopt;
-  Failure f;
-  f.time = s.time;
-  f.block = c.block_i[worst];
-  f.place = at(pose.x, pose.y, c.vertex[worst]) + b.origin;
-  f.message = fmt::format(
-      "{} is {:.3g} m inside {}, more than half the size of the smaller: {}",
-      block_label(b, c.block_i[worst]), c.depth[worst], block_label(b, c.block_j[worst]),
-      cause(step,
-            "contacts are too soft for these loads or speeds: raise contact.normal_stiffness "
-            "(or the joint's kn), or lower solver.max_displacement_ratio"));
-  return f;
 }
 
 }  // namespace edda

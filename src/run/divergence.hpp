@@ -8,7 +8,7 @@
 #include "blocks/block_set.hpp"
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
-#include "contacts/contact_set.hpp"
+#include "contacts/face_set.hpp"
 #include "forces/nodal_forces.hpp"
 #include "model/model.hpp"
 
@@ -35,7 +35,7 @@ Failure lost_block(const BlockSet& blocks, const State& state, const Pose& pose,
 /// if there is one: closed contacts, and those blocked for their depth whose vertex truly lies
 /// inside. `largest`: largest effective penetration at present, m; blocks are looked at only where
 /// it, or a blocked contact, gives cause.
-std::optional<Failure> deep_overlap(const ContactSet& contacts, const BlockSet& blocks,
+std::optional<Failure> deep_overlap(const FaceSet& contacts, const BlockSet& blocks,
                                     const State& state, const Pose& pose, double largest,
                                     double smallest_half_width, const StepInUse& step);
 

@@ -8,7 +8,6 @@
 #include <new>
 
 #include "contacts/face_reading.hpp"
-#include "contacts/gap.hpp"
 #include "run/labels.hpp"
 #include "run/motion.hpp"
 #include "run/summary.hpp"
@@ -16,7 +15,6 @@
 namespace edda {
 namespace {
 
-namespace cs = contact_state;
 
 /// Blocks turn by less than half a turn in so many steps: none moves by more than a tenth of an
 /// edge in one.
@@ -74,9 +72,8 @@ double reaction_error(const Simulation& sim, const Instant& at) {
   }
   // Without weight, or with loads that cancel, there are only contacts to measure by.
   double pressed = 0.0;
-  const FaceSet& f = at.contacts.faces;
+  const FaceSet& f = at.contacts;
   for (std::size_t k = 0; k < f.size(); ++k) pressed += std::abs(normal_force(f, k));
-  for (std::size_t k = 0; k < at.contacts.size(); ++k) pressed += std::abs(at.contacts.normal[k]);
   if (weight < 1e-6 * pressed) weight = pressed;
   return weight > 0.0 ? norm(sum) / weight : 0.0;
 }
@@ -410,13 +407,8 @@ void Driver::report(bool last) {
     p.largest_velocity =
         std::max(p.largest_velocity, norm(centroid(sim_.state.vx, sim_.state.vy, i)));
   }
-  for (const double depth : sim_.contacts.faces.deepest) {
+  for (const double depth : sim_.contacts.deepest) {
     p.largest_overlap = std::max(p.largest_overlap, depth);
-  }
-  for (std::size_t k = 0; k < sim_.contacts.size(); ++k) {
-    if (sim_.contacts.is(k, cs::closed)) {
-      p.largest_overlap = std::max(p.largest_overlap, sim_.contacts.effective(k));
-    }
   }
   p.at_most = std::any_of(stages_.begin() + static_cast<std::ptrdiff_t>(stage_), stages_.end(),
                           [](const Stage& stage) { return stage.until == StageEnd::equilibrium; });

@@ -7,7 +7,6 @@
 
 #include "base/text.hpp"
 #include "contacts/face_reading.hpp"
-#include "contacts/gap.hpp"
 #include "run/driver.hpp"
 #include "run/labels.hpp"
 
@@ -190,37 +189,15 @@ bool Driver::begin_next_stage() {
 }
 
 void Driver::measure_overlaps() {
-  const ContactSet& c = sim_.contacts;
-  const std::vector<double>& half_width = sim_.blocks.inradius;
-  double ratio = 0.0;
-  if (c.on_faces) {
-    const FaceSet& f = c.faces;
-    const DeepestFace deepest = deepest_face(f, sim_.blocks);
-    outcome_.overlap_now = deepest.ratio;
-    if (!(deepest.ratio > outcome_.overlap.ratio)) return;
-    outcome_.overlap = {deepest.ratio,
-                        closure_of(f, deepest.face),
-                        middle_of(f, sim_.pose, deepest.face) + sim_.blocks.origin,
-                        block_of_facing(sim_.blocks, f, deepest.face),
-                        block_of_edge(sim_.blocks, f, deepest.face),
-                        sim_.state.time};
-    return;
-  }
-  std::size_t deepest = c.size();
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (!c.is(k, contact_state::closed)) continue;
-    const double size = std::min(half_width[c.block_i[k]], half_width[c.block_j[k]]);
-    if (!(c.depth[k] > ratio * size)) continue;
-    ratio = c.depth[k] / size;
-    deepest = k;
-  }
-  outcome_.overlap_now = ratio;
-  if (!(ratio > outcome_.overlap.ratio)) return;
-  outcome_.overlap = {ratio,
-                      c.depth[deepest],
-                      at(sim_.pose.x, sim_.pose.y, c.vertex[deepest]) + sim_.blocks.origin,
-                      c.block_i[deepest],
-                      c.block_j[deepest],
+  const FaceSet& f = sim_.contacts;
+  const DeepestFace deepest = deepest_face(f, sim_.blocks);
+  outcome_.overlap_now = deepest.ratio;
+  if (!(deepest.ratio > outcome_.overlap.ratio)) return;
+  outcome_.overlap = {deepest.ratio,
+                      closure_of(f, deepest.face),
+                      deeper_end(f, sim_.pose, deepest.face) + sim_.blocks.origin,
+                      block_of_facing(sim_.blocks, f, deepest.face),
+                      block_of_edge(sim_.blocks, f, deepest.face),
                       sim_.state.time};
 }
 

@@ -3,7 +3,6 @@
 #include <set>
 
 #include "contacts/face_reading.hpp"
-#include "contacts/shares.hpp"
 #include "run/observe.hpp"
 #include "run/simulation.hpp"
 
@@ -11,10 +10,9 @@ namespace edda {
 namespace {
 
 /// What rock that goes does to rock that stays, by the contacts as they are now.
-std::vector<KeptForce> wall_forces(const BlockSet& b, const ContactSet& c,
+std::vector<KeptForce> wall_forces(const BlockSet& b, const FaceSet& f,
                                    const std::vector<std::uint8_t>& goes) {
   std::vector<KeptForce> walls;
-  const FaceSet& f = c.faces;
   for (std::size_t k = 0; k < f.size(); ++k) {
     const Id i = block_of_edge(b, f, k), j = block_of_facing(b, f, k);
     if (goes[i] == goes[j] || !is_closed(f, k)) continue;
@@ -25,16 +23,6 @@ std::vector<KeptForce> wall_forces(const BlockSet& b, const ContactSet& c,
     };
     if (goes[j] != 0 && !b.fixed[i]) keep(f.edge[k], f.slot[k], j);
     if (goes[i] != 0 && !b.fixed[j]) keep(f.facing[k], f.facing_slot[k], i);
-  }
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    const Id i = c.block_i[k], j = c.block_j[k];
-    if (goes[i] == goes[j] || !c.is(k, contact_state::closed)) continue;
-    if (goes[j] != 0 && !b.fixed[i]) {
-      walls.push_back({c.vertex[k], c.on_vertex(k), b.opening[j]});
-    } else if (goes[i] != 0 && !b.fixed[j]) {
-      walls.push_back({c.edge[k], c.on_start(k), b.opening[i]});
-      walls.push_back({c.edge_end[k], c.on_end(k), b.opening[i]});
-    }
   }
   return walls;
 }
@@ -61,8 +49,7 @@ void Simulation::excavate(const std::vector<Index>& openings) {
   }
   for (const Index o : going) loads.held[static_cast<std::size_t>(o)] = {0.0, 1.0, state.time};
   keep(on_walls);
-  search(on_faces() ? contacts.faces.reach : contacts.reach);
-  if (!on_faces()) update_shares(contacts);
+  search(contacts.reach);
   external_work += ledger_now().balance() - energy;
 }
 

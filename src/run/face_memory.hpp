@@ -51,9 +51,7 @@ void judge_faces(Judge& j, const FaceSet& c, const BlockSet& b, const LawTable& 
   j.sized("faces.facing", c.facing, n);
   j.sized("faces.law", c.law, n);
   j.sized("faces.force", c.force, 8 * n);
-  for (const auto* values : {&c.built_x, &c.built_y}) {
-    if (n > 0 || !values->empty()) j.sized("faces.built", *values, nv);
-  }
+  for (const auto* values : {&c.built_x, &c.built_y}) j.sized("faces.built", *values, nv);
   if (!c.locked_start.empty()) j.sized("faces.locked", c.locked_start, nv);
   j.sized("faces.locked", c.locked_end, c.locked_start.size());
   j.below("faces.edge", c.edge, nv);

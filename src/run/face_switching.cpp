@@ -212,6 +212,11 @@ void correct_switching(FaceSet& c, const BlockSet& b, const LawTable& laws, Stat
   counts.passes += passes;
   counts.most = std::max(counts.most, passes);
   counts.switched += scratch.set.size();
+  if (counts.of_list != c.rebuilds || counts.of_face.size() != c.size()) {
+    counts.of_face.assign(c.size(), 0);
+    counts.of_list = c.rebuilds;
+  }
+  for (const SwitchingFace& f : scratch.set) ++counts.of_face[f.face];
   if (!all) ++counts.unsettled;
 }
 

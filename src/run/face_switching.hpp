@@ -9,10 +9,19 @@
 #include "blocks/state.hpp"
 #include "contacts/face_energy.hpp"
 #include "contacts/place_faces.hpp"
-#include "run/open_close.hpp"
 #include "run/push_block.hpp"
 
 namespace edda {
+
+struct OpenCloseCounts {
+  std::uint64_t steps = 0;      ///< with at least one pass
+  std::uint64_t passes = 0;     ///< over all steps
+  std::uint64_t most = 0;       ///< passes in one step
+  std::uint64_t switched = 0;   ///< faces of which an end opened or closed
+  std::uint64_t unsettled = 0;  ///< steps that had not settled after the last pass
+  std::vector<Id> of_face;      ///< [nf] those of each, since the list of faces was made
+  std::uint64_t of_list = 0;    ///< FaceSet::rebuilds
+};
 
 /// A face of which an end opened or closed in the last two steps.
 struct SwitchingFace {

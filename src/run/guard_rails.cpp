@@ -11,7 +11,6 @@
 #include "base/text.hpp"
 #include "blocks/point_mass.hpp"
 #include "contacts/face_reading.hpp"
-#include "contacts/gap.hpp"
 #include "forces/mass_scaling.hpp"
 #include "run/damping_report.hpp"
 #include "run/initial_stress_report.hpp"
@@ -24,16 +23,11 @@
 namespace edda {
 namespace {
 
-namespace cs = contact_state;
 
 // Spring of a contact over young times thickness. An edge has two such springs, so at 10 a joint
 // gives about 5 % of what its blocks give; at 0.1 five times as much.
 constexpr double soft = 0.1, stiff = 300.0;
 constexpr double sliver = 1e-3;  // of the median edge
-
-Vec2 model_place(const Simulation& sim, std::size_t k) {
-  return at(sim.pose.x, sim.pose.y, sim.contacts.vertex[k]) + sim.blocks.origin;
-}
 
 /// The governing block held, so that the bound is that of the others (but for the factor of
 /// contacts with it).
@@ -41,7 +35,7 @@ double step_without(const Simulation& sim, Id block) {
   BlockSet others = sim.blocks;
   others.fixed[block] = 1;
   fill_point_masses(others);
-  return step_bound(others, sim.state, sim.pose, sim.contacts, sim.springs, sim.laws, sim.damping,
+  return step_bound(others, sim.state, sim.contacts, sim.springs, sim.laws, sim.damping,
                     &sim.bolts)
       .critical_step;
 }
@@ -67,11 +61,7 @@ void warn_of_sudden_gravity(const Simulation& sim, std::vector<std::string>& war
       d.local > 0.0 || d.contact > 0.0 || d.adaptive > 0.0)
     return;
   bool carried = sim.springs.size() > 0;
-  for (std::size_t k = 0; k < sim.contacts.size() && !carried; ++k) {
-    carried = meet(sim.contacts, k) && (free_block(sim, sim.contacts.block_i[k]) ||
-                                        free_block(sim, sim.contacts.block_j[k]));
-  }
-  const FaceSet& f = sim.contacts.faces;
+  const FaceSet& f = sim.contacts;
   for (std::size_t k = 0; k < f.size() && !carried; ++k) {
     carried = meets(f, k) && (free_block(sim, block_of_edge(sim.blocks, f, k)) ||
                               free_block(sim, block_of_facing(sim.blocks, f, k)));
@@ -93,18 +83,9 @@ double young_of(const Simulation& sim, std::size_t i) {
   return m == none ? 0.0 : sim.model.materials[static_cast<std::size_t>(m)].young;
 }
 
-/// Spring over the stiffness of the softer block.
-double spring_ratio(const Simulation& sim, std::size_t k) {
-  double young = std::numeric_limits<double>::infinity();
-  for (const Id i : {sim.contacts.block_i[k], sim.contacts.block_j[k]}) {
-    if (free_block(sim, i)) young = std::min(young, young_of(sim, i));
-  }
-  return sim.contacts.kn[k] / (young * sim.blocks.thickness);
-}
-
 /// What two corners of a face have of its stiffness, over that of the softer block.
 double face_ratio(const Simulation& sim, std::size_t k) {
-  const FaceSet& f = sim.contacts.faces;
+  const FaceSet& f = sim.contacts;
   double young = std::numeric_limits<double>::infinity();
   for (const Id i : {block_of_edge(sim.blocks, f, k), block_of_facing(sim.blocks, f, k)}) {
     if (free_block(sim, i)) young = std::min(young, young_of(sim, i));
@@ -114,8 +95,8 @@ double face_ratio(const Simulation& sim, std::size_t k) {
   return 0.5 * f.stiffness[k] * shorter / (young * sim.blocks.thickness);
 }
 
-void warn_of_faces(const Simulation& sim, std::vector<std::string>& warnings) {
-  const FaceSet& f = sim.contacts.faces;
+void warn_of_springs(const Simulation& sim, std::vector<std::string>& warnings) {
+  const FaceSet& f = sim.contacts;
   Extreme low{std::numeric_limits<double>::infinity()}, high{0.0};
   for (std::size_t k = 0; k < f.size(); ++k) {
     if (!meets(f, k)) continue;
@@ -145,37 +126,6 @@ void warn_of_faces(const Simulation& sim, std::vector<std::string>& warnings) {
     warnings.push_back(
         "contacts so stiff that the joints give nothing and only shorten the step: " + where(high) +
         "; contact.normal_stiffness of 10 times young is enough");
-  }
-}
-
-void warn_of_springs(const Simulation& sim, std::vector<std::string>& warnings) {
-  if (sim.on_faces()) return warn_of_faces(sim, warnings);
-  Extreme low{std::numeric_limits<double>::infinity()}, high{0.0};
-  for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
-    if (!meet(sim.contacts, k)) continue;
-    const double ratio = spring_ratio(sim, k);
-    if (!(ratio > 0.0)) continue;
-    // A stiffness that was given for the joint has been measured, and is what it is; one that
-    // belongs to a restitution is meant to be soft.
-    const Law& law = sim.laws.rows[sim.contacts.law[k]];
-    if (!(law.kn > 0.0) && !law.dashpots && ratio < low.ratio) low = {ratio, k};
-    if (ratio > high.ratio) high = {ratio, k};
-  }
-  auto where = [&](const Extreme& e) {
-    return fmt::format("p_n = {:.3g} N/m between {} and {} at {} is {:.2g} times young of the rock",
-                       sim.contacts.kn[e.contact],
-                       block_label(sim.blocks, sim.contacts.block_i[e.contact]),
-                       block_label(sim.blocks, sim.contacts.block_j[e.contact]),
-                       place_label(model_place(sim, e.contact)), e.ratio);
-  };
-  if (low.ratio < soft) {
-    warnings.push_back("contact springs so soft that the joints give far more than the blocks: " +
-                       where(low) + "; raise contact.normal_stiffness");
-  }
-  if (high.ratio > stiff) {
-    warnings.push_back(
-        "contact springs so stiff that the joints give nothing and only shorten the step: " +
-        where(high) + "; contact.normal_stiffness of 10 times young is enough");
   }
 }
 
@@ -209,7 +159,7 @@ void warn_of_few(const Simulation& sim, std::vector<std::string>& warnings) {
     return;  // all blocks are
   constexpr double few = 0.01, worth = 2.0;
   constexpr std::size_t least = 20;  // blocks, for "few" to mean something
-  std::vector<double> steps = steps_of_blocks(sim.blocks, sim.state, sim.pose, sim.contacts,
+  std::vector<double> steps = steps_of_blocks(sim.blocks, sim.state, sim.contacts,
                                               sim.springs, sim.laws, sim.damping, 0.0, &sim.bolts);
   std::vector<double> sorted;
   std::copy_if(steps.begin(), steps.end(), std::back_inserter(sorted),
@@ -252,8 +202,8 @@ void warn_of_slivers(const Simulation& sim, std::vector<std::string>& warnings) 
                   report.smallest_edge, place_label(report.smallest_edge_at), *middle));
 }
 
-void warn_of_deep_faces(const Simulation& sim, std::vector<std::string>& warnings) {
-  const FaceSet& f = sim.contacts.faces;
+void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings) {
+  const FaceSet& f = sim.contacts;
   double energy = 0.0;
   Extreme deepest{0.0};
   for (std::size_t k = 0; k < f.size(); ++k) {
@@ -273,32 +223,6 @@ void warn_of_deep_faces(const Simulation& sim, std::vector<std::string>& warning
       "until = \"equilibrium\"",
       block_label(sim.blocks, j), block_label(sim.blocks, i), deepest.ratio,
       place_label(middle_of(f, sim.pose, k) + sim.blocks.origin), energy));
-}
-
-void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings) {
-  const ContactSet& c = sim.contacts;
-  double energy = 0.0;
-  Extreme deepest{0.0};
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    // A contact that carries the initial stress is strained, and does not overlap for it.
-    const double d = sim.initial ? std::min(c.effective(k), c.depth[k]) : c.effective(k);
-    if (!c.is(k, cs::closed) || !(d > 0.0)) continue;
-    energy += 0.5 * c.share[k] * c.kn[k] * d * d;
-    if (d > deepest.ratio) deepest = {d, k};
-  }
-  if (c.on_faces) return warn_of_deep_faces(sim, warnings);
-  if (deepest.ratio == 0.0) return;
-  const double size = std::sqrt(std::min(sim.blocks.area[c.block_i[deepest.contact]],
-                                         sim.blocks.area[c.block_j[deepest.contact]]));
-  if (deepest.ratio < 1e-9 * size) return;
-  warnings.push_back(fmt::format(
-      "blocks overlap at the start, most {} and {} by {:.3g} m at {}: their contacts "
-      "start out pressed and store {:.3g} J: draw the block so that it touches, or cut both "
-      "from one [domain] with a [[trace]], or begin with a [[stage]] "
-      "until = \"equilibrium\"",
-      block_label(sim.blocks, c.block_i[deepest.contact]),
-      block_label(sim.blocks, c.block_j[deepest.contact]), deepest.ratio,
-      place_label(model_place(sim, deepest.contact)), energy));
 }
 
 /// Rock in an earthquake loses a few hundredths of critical.
@@ -332,18 +256,13 @@ std::string governed_by(const Simulation& sim) {
     text += fmt::format(", {:.0f} % boundary springs", 100.0 * bound.boundary_part);
   }
   if (bound.bolt_part > 0.0) text += fmt::format(", {:.0f} % bolts", 100.0 * bound.bolt_part);
-  const FaceSet& f = sim.contacts.faces;
-  if (bound.contact != no_id && bound.contact < f.size()) {
+  const FaceSet& f = sim.contacts;
+  if (bound.contact != no_id) {
     const Id k = bound.contact, i = block_of_edge(sim.blocks, f, k),
              j = block_of_facing(sim.blocks, f, k);
     text += fmt::format("; most of it by the contact with {} at {}",
                         block_label(sim.blocks, i == bound.block ? j : i),
                         place_label(middle_of(f, sim.pose, k) + sim.blocks.origin));
-  } else if (bound.contact != no_id && bound.contact < sim.contacts.size()) {
-    const Id k = bound.contact, i = sim.contacts.block_i[k], j = sim.contacts.block_j[k];
-    text += fmt::format("; most of it by the contact with {} at {}",
-                        block_label(sim.blocks, i == bound.block ? j : i),
-                        place_label(model_place(sim, k)));
   }
   return text + by_how_much(sim);
 }

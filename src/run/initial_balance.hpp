@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "contacts/preload.hpp"
+#include "contacts/face_preload.hpp"
 
 namespace edda {
 

@@ -6,8 +6,6 @@
 #include <cmath>
 
 #include "contacts/face_reading.hpp"
-#include "contacts/gap.hpp"
-#include "forces/contact_forces.hpp"
 #include "run/labels.hpp"
 #include "run/observe.hpp"
 
@@ -47,7 +45,7 @@ void judge_gradient(const Simulation& sim, InitialBalance& balance) {
 /// Resultant of weight, contacts, boundary springs and loads on every block, N.
 std::vector<Vec2> resultants(const Simulation& sim) {
   const BlockSet& b = sim.blocks;
-  const ContactSet& c = sim.contacts;
+  const FaceSet& c = sim.contacts;
   std::vector<Vec2> sum(b.size());
   const LoadsNow now = loads_at(sim.model, sim.loads, 0.0);
   for (std::size_t i = 0; i < b.size(); ++i) {
@@ -56,17 +54,11 @@ std::vector<Vec2> resultants(const Simulation& sim) {
       sum[i] += spring_force(sim.springs, q, sim.pose.x, sim.pose.y);
     }
   }
-  for (std::size_t k = 0; k < c.faces.size(); ++k) {
-    if (!is_closed(c.faces, k)) continue;
-    const Vec2 on = force_on_facing(c.faces, k);
-    sum[block_of_facing(b, c.faces, k)] += on;
-    sum[block_of_edge(b, c.faces, k)] -= on;
-  }
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if (!c.is(k, contact_state::closed)) continue;
-    const Vec2 f = c.share[k] * (c.normal[k] * normal_of(c, k) + c.shear[k] * tangent_of(c, k));
-    sum[c.block_i[k]] += f;
-    sum[c.block_j[k]] -= f;
+    if (!is_closed(c, k)) continue;
+    const Vec2 on = force_on_facing(c, k);
+    sum[block_of_facing(b, c, k)] += on;
+    sum[block_of_edge(b, c, k)] -= on;
   }
   return sum;
 }

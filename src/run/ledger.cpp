@@ -6,7 +6,6 @@
 
 #include "base/parallel.hpp"
 #include "contacts/face_energy.hpp"
-#include "contacts/stored_energy.hpp"
 #include "forces/elastic.hpp"
 
 namespace edda {
@@ -35,7 +34,7 @@ double block_gravity_energy(const BlockSet& b, const State& s, double h, Vec2 gr
 
 }  // namespace
 
-double rounding_energy(const BlockSet& b, const ContactSet& c) {
+double rounding_energy(const BlockSet& b, const FaceSet& c) {
   double size = 0.0, stiffness = 0.0;
   for (const double x : b.vertex_x) size = std::max(size, std::abs(x));
   for (const double y : b.vertex_y) size = std::max(size, std::abs(y));
@@ -43,13 +42,16 @@ double rounding_energy(const BlockSet& b, const ContactSet& c) {
     stiffness =
         std::max(stiffness, (b.lame_lambda[i] + 2.0 * b.lame_mu[i]) * b.volume[i] / b.area[i]);
   }
-  for (const double kn : c.kn) stiffness = std::max(stiffness, kn);
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const double shorter = std::min(b.edge_length[c.edge[k]], b.edge_length[c.facing[k]]);
+    stiffness = std::max(stiffness, 0.5 * c.stiffness[k] * shorter);
+  }
   const double stretch = 1e4 * std::numeric_limits<double>::epsilon() * size;
   return 0.5 * static_cast<double>(b.size()) * stiffness * stretch * stretch;
 }
 
 Ledger sum_ledger(const BlockSet& b, const State& s, double h, const Pose& pose,
-                  const ContactSet& c, const BoundarySprings& springs, const DampingWork& work,
+                  const FaceSet& c, const BoundarySprings& springs, const DampingWork& work,
                   Vec2 gravity) {
   auto over_free = [&](auto&& term) {
     return ordered_sum(b.size(),
@@ -59,30 +61,16 @@ Ledger sum_ledger(const BlockSet& b, const State& s, double h, const Pose& pose,
   l.kinetic = over_free([&](std::size_t i) { return kinetic_energy(b, s.vx, s.vy, i); });
   l.strain = over_free([&](std::size_t i) { return block_strain_energy(b, s, h, i); });
   l.gravity = over_free([&](std::size_t i) { return block_gravity_energy(b, s, h, gravity, i); });
-  l.contact = ordered_sum(c.size(),
-                          [&](std::size_t k) {
-                            return c.is(k, contact_state::closed) ? stored_energy(c, k) : 0.0;
-                          }) +
+  const auto over_faces = [&](const std::vector<double>& taken) {
+    return ordered_sum(c.size(), [&](std::size_t k) { return taken[k]; });
+  };
+  l.contact = ordered_sum(c.size(), [&](std::size_t k) { return face_energy(c, b, pose, k); }) +
               boundary_energy(springs, pose);
-  l.friction =
-      c.retired_friction + ordered_sum(c.size(), [&](std::size_t k) { return c.friction_work[k]; });
-  l.fracture =
-      c.retired_fracture + ordered_sum(c.size(), [&](std::size_t k) { return c.fracture_work[k]; });
-  l.damping = c.retired_damping +
-              ordered_sum(c.size(), [&](std::size_t k) { return c.damping_work[k]; }) +
+  l.friction = c.retired_friction + over_faces(c.friction_work);
+  l.fracture = c.retired_fracture + over_faces(c.fracture_work);
+  l.damping = c.retired_damping + over_faces(c.damping_work) +
               ordered_sum(work.joules.size(), [&](std::size_t i) { return work.joules[i]; });
-  if (c.on_faces) {
-    const FaceSet& f = c.faces;
-    l.damping +=
-        f.retired_damping + ordered_sum(f.size(), [&](std::size_t k) { return f.damping_work[k]; });
-    l.contact += ordered_sum(f.size(), [&](std::size_t k) { return face_energy(f, b, pose, k); });
-    l.friction = f.retired_friction +
-                 ordered_sum(f.size(), [&](std::size_t k) { return f.friction_work[k]; });
-    l.fracture = f.retired_fracture +
-                 ordered_sum(f.size(), [&](std::size_t k) { return f.fracture_work[k]; });
-    l.transfer =
-        f.retired_transfer + ordered_sum(f.size(), [&](std::size_t k) { return f.transfer[k]; });
-  }
+  l.transfer = c.retired_transfer + over_faces(c.transfer);
   return l;
 }
 

@@ -6,7 +6,7 @@
 #include "attachments/boundary_springs.hpp"
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
-#include "contacts/contact_set.hpp"
+#include "contacts/face_set.hpp"
 #include "integrate/leapfrog.hpp"
 
 namespace edda {
@@ -32,12 +32,12 @@ struct Ledger {
 /// Every line but step_change and drift, from positions at step n and velocities half of `behind` s
 /// earlier: the step for the leapfrog, 0 where both belong to one instant (and pose.x1 = pose.x).
 Ledger sum_ledger(const BlockSet& blocks, const State& state, double behind, const Pose& pose,
-                  const ContactSet& contacts, const BoundarySprings& springs,
+                  const FaceSet& contacts, const BoundarySprings& springs,
                   const DampingWork& work, Vec2 gravity);
 
 /// What rounding alone may store in springs and rock, and shake loose over a long run, J: all
 /// blocks with the stiffest spring drawn out by 1e4 roundings of a coordinate. Changes of energy
 /// below some part of it mean nothing.
-double rounding_energy(const BlockSet& blocks, const ContactSet& contacts);
+double rounding_energy(const BlockSet& blocks, const FaceSet& contacts);
 
 }  // namespace edda

@@ -11,7 +11,6 @@
 
 #include "base/text.hpp"
 #include "contacts/face_reading.hpp"
-#include "contacts/gap.hpp"
 #include "results/csv.hpp"
 #include "run/labels.hpp"
 #include "run/moving_faces.hpp"
@@ -20,7 +19,6 @@
 namespace edda {
 namespace {
 
-namespace cs = contact_state;
 constexpr double moving = 0.1;        // of the largest displacement
 constexpr double much_turning = 0.5;  // of turning_part
 
@@ -42,14 +40,10 @@ bool overturns(const MovingBlock& m, Vec2 gravity) {
 /// [nb] 1: a corner of it is at an edge, or one of another block at its own, but for `gap`.
 std::vector<std::uint8_t> next_to_something(const Simulation& s, double gap) {
   std::vector<std::uint8_t> near = touching(s);
-  const FaceSet& f = s.contacts.faces;
+  const FaceSet& f = s.contacts;
   for (std::size_t k = 0; k < f.size(); ++k) {
     if (f.now.gate[k] == 0.0 || closure_of(f, k) <= -gap) continue;
     near[block_of_edge(s.blocks, f, k)] = near[block_of_facing(s.blocks, f, k)] = 1;
-  }
-  const ContactSet& c = s.contacts;
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (c.depth[k] > -gap && c.on_edge(k)) near[c.block_i[k]] = near[c.block_j[k]] = 1;
   }
   return near;
 }
@@ -72,43 +66,6 @@ MovingBlock motion_of(const Simulation& before, const Simulation& after, std::si
   return m;
 }
 
-/// The stretch of edge e that the edges of the vertex's block lie along, and where its block has
-/// carried it.
-Stretch stretch_of(const Simulation& before, const Simulation& after, std::size_t k, Id f) {
-  const ContactSet& c = before.contacts;
-  const Pose &was = before.pose, &is = after.pose;
-  const Id e = c.edge[k], end = c.edge_end[k];
-  const EdgeFrame frame = edge_frame(at(was.x, was.y, e), at(was.x, was.y, end));
-  const double l = frame.length;
-  const double z0 = gap_to(frame, at(was.x, was.y, f)).foot;
-  const double z1 = gap_to(frame, at(was.x, was.y, before.blocks.next[f])).foot;
-  const auto place = [&](double z, Vec2& point, Vec2& moved) {
-    const double xi = std::clamp(z / l, 0.0, 1.0);
-    point = frame.start + xi * l * frame.t;
-    const Vec2 start = at(is.x, is.y, e);
-    moved = start + xi * (at(is.x, is.y, end) - start) - point;
-    point += before.blocks.origin;
-  };
-  Stretch s;
-  place(std::min(z0, z1), s.from, s.from_moved);
-  place(std::max(z0, z1), s.to, s.to_moved);
-  return s;
-}
-
-/// The edge of the vertex's block that lies against the contact's edge.
-Id facing(const Simulation& sim, std::size_t k) {
-  const ContactSet& c = sim.contacts;
-  const Pose& p = sim.pose;
-  const EdgeFrame frame = edge_frame(at(p.x, p.y, c.edge[k]), at(p.x, p.y, c.edge_end[k]));
-  return facing_edge(sim.blocks, p.x, p.y, c.vertex[k], frame.normal());
-}
-
-/// Of the edges that lie against each other at a contact, the shorter one, m.
-double length_of(const Simulation& sim, std::size_t k, Id facing_edge) {
-  return std::min(sim.blocks.edge_length[sim.contacts.edge[k]],
-                  sim.blocks.edge_length[facing_edge]);
-}
-
 JointMotion motion_of(const MovingJoint& joint, double least_opening) {
   constexpr double twice = 2.0, closed = 0.5;  // of the turning
   if (joint.turning >= twice * joint.slip && least_opening < closed * joint.turning)
@@ -119,48 +76,8 @@ JointMotion motion_of(const MovingJoint& joint, double least_opening) {
 /// What has become of the joints that carried before. `rotation`: [nb] of the blocks, rad.
 std::vector<MovingJoint> joints_of(const Simulation& before, const Simulation& after,
                                    const std::vector<double>& rotation, double least) {
-  const ContactSet& c = before.contacts;
   SeenJoints joints;
   see_faces(joints, before, after, rotation, least);
-  std::set<std::pair<Id, Id>> drawn;  // edges, once for the contacts at either end
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    const bool touches = c.is(k, cs::closed) || (c.depth[k] > -least && c.on_edge(k));
-    if (!touches || c.share[k] <= 0.0 || c.why[k] != Blocked::no) continue;
-    const auto gap = [&](const Pose& pose) {
-      const EdgeFrame e =
-          edge_frame(at(pose.x, pose.y, c.edge[k]), at(pose.x, pose.y, c.edge_end[k]));
-      return gap_to(e, at(pose.x, pose.y, c.vertex[k]));
-    };
-    const Gap was = gap(before.pose), is = gap(after.pose);
-    const double slip = std::abs(is.foot - was.foot), opening = was.depth - is.depth;
-    const Id i = std::min(c.block_i[k], c.block_j[k]), j = std::max(c.block_i[k], c.block_j[k]);
-    // Where the corner that moves most touches an edge at its end, as at the toe of a slope,
-    // nothing of the joint lies along it; but along those of others.
-    const Id f = facing(before, k);
-    const double turning = std::abs(rotation[i] - rotation[j]) * length_of(before, k, f);
-    if (std::max({slip, opening, turning}) < least) continue;
-    Seen& seen = joints[{i, j, c.law[k]}];
-    MovingJoint& joint = seen.joint;
-    const Vec2 place = at(before.pose.x, before.pose.y, c.vertex[k]) + before.blocks.origin;
-    if (std::max(slip, opening) >= std::max(joint.slip, joint.opening)) joint.place = place;
-    if (opening < seen.least_opening) {
-      seen.least_opening = opening;
-      seen.hinge = place;
-    }
-    const Stretch stretch = stretch_of(before, after, k, f);
-    if (norm(stretch.to - stretch.from) > 1e-3 * length_of(before, k, f) &&
-        drawn.insert(std::minmax(c.edge[k], f)).second)
-      joint.stretches.push_back(stretch);
-    joint.block_i = i;
-    joint.block_j = j;
-    joint.law = c.law[k];
-    joint.joint = c.law[k] < before.model.joints.size()
-                      ? std::string_view(before.model.joints[c.law[k]].name)
-                      : std::string_view("glued");
-    joint.slip = std::max(joint.slip, slip);
-    joint.opening = std::max(joint.opening, opening);
-    joint.turning = std::max(joint.turning, turning);
-  }
   std::vector<MovingJoint> list;
   list.reserve(joints.size());
   for (auto& entry : joints) {
@@ -183,18 +100,11 @@ std::vector<Id> pieces(const Simulation& sim, const std::vector<std::uint8_t>& m
   };
   std::set<std::pair<Id, Id>> apart;
   for (const MovingJoint& joint : joints) apart.insert({joint.block_i, joint.block_j});
-  const FaceSet& f = sim.contacts.faces;
+  const FaceSet& f = sim.contacts;
   for (std::size_t k = 0; k < f.size(); ++k) {
     const auto [i, j] =
         std::minmax(block_of_edge(sim.blocks, f, k), block_of_facing(sim.blocks, f, k));
     if (!is_closed(f, k) || !moves[i] || !moves[j] || apart.contains({i, j})) continue;
-    const auto [low, high] = std::minmax({root(i), root(j)});
-    first[high] = low;
-  }
-  const ContactSet& c = sim.contacts;
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    const auto [i, j] = std::minmax(c.block_i[k], c.block_j[k]);
-    if (!c.is(k, cs::closed) || !moves[i] || !moves[j] || apart.contains({i, j})) continue;
     const auto [low, high] = std::minmax({root(i), root(j)});
     first[high] = low;
   }
@@ -319,14 +229,13 @@ Mechanism mechanism_of(const Simulation& before, const Simulation& after) {
 }
 
 void find_lost_cohesion(Mechanism& m, const Simulation& held) {
-  const ContactSet& c = held.contacts;
+  const FaceSet& f = held.contacts;
   std::set<std::tuple<Id, Id, std::uint16_t>> brittle;
   for (const MovingJoint& j : m.joints) {
     const Law& law = held.laws.rows[j.law];
     if (!law.glued && !law.changes && law.residual_cohesion < law.peak_cohesion)
       brittle.insert({j.block_i, j.block_j, j.law});
   }
-  const FaceSet& f = c.faces;
   for (std::size_t k = 0; k < f.size(); ++k) {
     const auto [i, j] =
         std::minmax(block_of_edge(held.blocks, f, k), block_of_facing(held.blocks, f, k));
@@ -336,18 +245,6 @@ void find_lost_cohesion(Mechanism& m, const Simulation& held) {
     m.brittle_length += f.now.length[k];
     if (lost) m.cohesion_lost_length += f.now.length[k];
   }
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    const auto [i, j] = std::minmax(c.block_i[k], c.block_j[k]);
-    if (c.why[k] != Blocked::no || !brittle.contains({i, j, c.law[k]})) continue;
-    const bool lost = !c.is(k, cs::bonded);
-    if (lost && !c.is(k, cs::closed | cs::opened)) continue;  // was never bonded
-    const double length = c.share[k] * c.length[k];
-    m.brittle_length += length;
-    if (lost) m.cohesion_lost_length += length;
-  }
-  if (!lost_cohesion_text(m).empty())
-    m.text += fmt::format("; {:.3g} m of its {:.3g} m had lost their cohesion before it moved",
-                          m.cohesion_lost_length, m.brittle_length);
 }
 
 std::string lost_cohesion_text(const Mechanism& m) {

@@ -15,7 +15,7 @@ struct EndMoved {
 };
 EndMoved end_moved(const Simulation& before, const Simulation& after, std::size_t k, double xi,
                    double eta) {
-  const FaceSet& f = before.contacts.faces;
+  const FaceSet& f = before.contacts;
   const FacePoints p = face_points(f, before.pose.x, before.pose.y, k);
   const FacePoints q = face_points(f, after.pose.x, after.pose.y, k);
   const Vec2 t_was = frame_of(p), t_is = frame_of(q);
@@ -29,7 +29,7 @@ EndMoved end_moved(const Simulation& before, const Simulation& after, std::size_
 
 void see_faces(SeenJoints& joints, const Simulation& before, const Simulation& after,
                const std::vector<double>& rotation, double least) {
-  const FaceSet& f = before.contacts.faces;
+  const FaceSet& f = before.contacts;
   const BlockSet& b = before.blocks;
   for (std::size_t k = 0; k < f.size(); ++k) {
     const bool near = f.acts[k] > 0.0 && f.now.gate[k] > 0.0 && closure_of(f, k) > -least;

@@ -6,9 +6,6 @@
 
 #include "base/parallel.hpp"
 #include "contacts/face_reading.hpp"
-#include "contacts/gap.hpp"
-#include "contacts/gaps.hpp"
-#include "forces/contact_forces.hpp"
 #include "forces/dashpot_forces.hpp"
 #include "forces/elastic.hpp"
 #include "run/overstress.hpp"
@@ -16,7 +13,6 @@
 namespace edda {
 namespace {
 
-namespace cs = contact_state;
 
 bool moves(const Simulation& sim, std::size_t i) {
   return is_free(sim.blocks, sim.state, i);
@@ -48,51 +44,6 @@ double spin(const BlockSet& b, const State& s, std::size_t i) {
 double polar_angle(const BlockSet& b, const State& s, std::size_t i) {
   const Deformation f = deformation_of(b, s, i);
   return std::atan2(f.yx - f.xy, f.xx + f.yy);
-}
-
-/// How far the vertex has gone along the edge since the start: of the same two material points,
-/// where they lie now and as drawn.
-double slip_since_start(const BlockSet& b, const ContactSet& c, std::size_t k) {
-  const EdgeFrame e =
-      edge_frame(at(b.vertex_x, b.vertex_y, c.edge[k]), at(b.vertex_x, b.vertex_y, c.edge_end[k]));
-  return c.foot[k] - gap_to(e, at(b.vertex_x, b.vertex_y, c.vertex[k])).foot;
-}
-
-ContactState state_of(const Simulation& sim, const ContactSet& c, std::size_t k) {
-  if (!c.is(k, cs::closed)) return ContactState::open;
-  if (c.is(k, cs::bonded | cs::glued)) return ContactState::bonded;
-  return slides(sim, c, k) ? ContactState::slide : ContactState::stick;
-}
-
-double mobilised(const ContactSet& c, std::size_t k) {
-  if (!c.is(k, cs::closed) || c.is(k, cs::glued)) return 0.0;
-  const double strength = c.shear_limit(k, c.normal[k]);
-  return c.shear[k] == 0.0 ? 0.0 : std::abs(c.shear[k]) / strength;
-}
-
-ContactRecord contact_record(const Simulation& sim, const ContactSet& c, std::size_t k) {
-  ContactRecord r;
-  r.block_i = c.block_i[k];
-  r.block_j = c.block_j[k];
-  const std::size_t law = c.law[k];
-  r.joint = "glued";
-  if (law < sim.model.joints.size()) r.joint = sim.model.joints[law].name;
-  r.position = at(sim.pose.x, sim.pose.y, c.vertex[k]) + sim.blocks.origin;
-  const Id v = c.vertex[k];
-  r.displacement =
-      displacement_of(sim.state, c.block_i[k],
-                      {sim.blocks.weight[0][v], sim.blocks.weight[1][v], sim.blocks.weight[2][v]});
-  r.opening = -c.depth[k];
-  r.slip = slip_since_start(sim.blocks, c, k);
-  r.state = state_of(sim, c, k);
-  r.ever_slipped = c.is(k, cs::slipped);
-  r.ever_opened = c.is(k, cs::opened);
-  if (r.state == ContactState::open) return r;
-  r.force = c.on_vertex(k);
-  r.normal_force = c.share[k] * c.normal[k];
-  r.shear_force = c.share[k] * c.shear[k];
-  r.mobilised = mobilised(c, k);
-  return r;
 }
 
 /// How far the middle of the overlap has gone along the edge since the start: of the same two
@@ -134,17 +85,6 @@ ContactRecord face_record(const Simulation& sim, const FaceSet& f, std::size_t k
   return r;
 }
 
-}  // namespace
-
-Pose a_step_ago(const Simulation& sim) {
-  Pose pose = sim.pose;
-  place_a_step_back(sim.blocks, sim.state, sim.implicit.drift_x, sim.implicit.drift_y,
-                    sim.state.step, pose);
-  return pose;
-}
-
-namespace {
-
 void place_points(const BlockSet& b, const State& s, Picture& p) {
   const std::size_t nv = b.vertex_count();
   for (auto* values : {&p.x, &p.y, &p.ux, &p.uy, &p.vx, &p.vy}) values->resize(nv);
@@ -174,10 +114,6 @@ void observe(const Simulation& sim, Instant& at) {
                   sim.model.gravity, acting);
     at.state = sim.state;
     return;
-  }
-  // Before the first step nothing has moved yet, and there is no rate.
-  if (!sim.on_faces()) {
-    evaluate_contacts(at.contacts, sim.blocks, sim.laws, h, h > 0.0 ? damping.contact : 0.0);
   }
   at.forces = sim.forces;
   gather_forces(at.forces, sim.blocks, sim.state, sim.pose, at.contacts, sim.springs,
@@ -215,24 +151,9 @@ Picture picture_of(const Simulation& sim, const Instant& at) {
   for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
     if (at.state.alive[i]) p.blocks.push_back(block_record(sim, at.state, i));
   }
-  if (at.contacts.on_faces) {
-    const FaceSet& f = at.contacts.faces;
-    for (std::size_t k = 0; k < f.size(); ++k) {
-      if (is_closed(f, k) || f.opened[k] > 0.0) p.contacts.push_back(face_record(sim, f, k));
-    }
-    place_points(sim.blocks, at.state, p);
-    return p;
-  }
-  const ContactSet& c = at.contacts;
-  // Of two candidates that share one spring, the one without a share has nothing to tell.
-  const auto tells = [&](std::size_t k) {
-    return c.share[k] > 0.0 && c.is(k, cs::closed | cs::opened);
-  };
-  std::size_t telling = 0;
-  for (std::size_t k = 0; k < c.size(); ++k) telling += tells(k);
-  p.contacts.reserve(telling);
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (tells(k)) p.contacts.push_back(contact_record(sim, c, k));
+  const FaceSet& f = at.contacts;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    if (is_closed(f, k) || f.opened[k] > 0.0) p.contacts.push_back(face_record(sim, f, k));
   }
   place_points(sim.blocks, at.state, p);
   return p;
@@ -286,7 +207,7 @@ BlockStress block_stress(const Simulation& sim, const State& s, std::size_t i) {
   return stress;
 }
 
-double force_scale(const Simulation& sim, const ContactSet& c, const std::vector<Id>& blocks) {
+double force_scale(const Simulation& sim, const FaceSet& f, const std::vector<Id>& blocks) {
   const LoadsNow acting = loads_at(sim.model, sim.loads, sim.state.time);
   double loads = 0.0;
   for (const Id i : blocks) {
@@ -295,16 +216,9 @@ double force_scale(const Simulation& sim, const ContactSet& c, const std::vector
   }
   double normal = 0.0;
   std::size_t carrying = 0;
-  const FaceSet& f = c.faces;
   for (std::size_t k = 0; k < f.size(); ++k) {
     const double n = normal_force(f, k);
     if (!is_closed(f, k) || !(n > 0.0)) continue;
-    normal += n;
-    ++carrying;
-  }
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    const double n = c.share[k] * c.normal[k];
-    if (!c.is(k, cs::closed) || !(n > 0.0)) continue;
     normal += n;
     ++carrying;
   }
@@ -327,18 +241,9 @@ double unbalanced_ratio(const Simulation& sim, const Instant& at) {
   return scale > 0.0 ? force / static_cast<double>(free_blocks.size()) / scale : 1.0;
 }
 
-bool slides(const Simulation& sim, const ContactSet& c, std::size_t k) {
-  return sim.explicit_method() ? c.cut(k) : c.is(k, cs::sliding);
-}
-
-bool meet(const ContactSet& c, std::size_t k) {
-  return c.is(k, cs::closed) || (!c.is(k, cs::blocked) && c.on_edge(k) && c.depth[k] >= -c.noise);
-}
-
-std::size_t closed_contacts(const ContactSet& c) {
+std::size_t closed_contacts(const FaceSet& f) {
   std::size_t count = 0;
-  for (std::size_t k = 0; k < c.faces.size(); ++k) count += is_closed(c.faces, k);
-  for (std::size_t k = 0; k < c.size(); ++k) count += c.is(k, cs::closed) && c.share[k] > 0.0;
+  for (std::size_t k = 0; k < f.size(); ++k) count += is_closed(f, k);
   return count;
 }
 

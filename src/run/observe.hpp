@@ -14,7 +14,7 @@ namespace edda {
 /// section 5). They are large: not to be kept from row to row.
 struct Instant {
   State state;                    ///< x, y and v at n
-  ContactSet contacts;            ///< with the forces at n
+  FaceSet contacts;            ///< with the forces at n
   NodalForces forces;             ///< at n, N
   std::vector<Vec2> on_dashpots;  ///< at n, N
 };
@@ -41,27 +41,18 @@ BlockStress block_stress(const Simulation& sim, const State& state, std::size_t 
 
 /// The mean contact normal force, N; where no contact carries, the mean over `blocks` of weight and
 /// loads.
-double force_scale(const Simulation& sim, const ContactSet& contacts,
+double force_scale(const Simulation& sim, const FaceSet& contacts,
                    const std::vector<Id>& blocks);
 
 /// The mean over blocks not held of the resultant force, over force_scale(); 0 where no force is, 1
 /// where there is nothing to measure it by.
 double unbalanced_ratio(const Simulation& sim, const Instant& at);
 
-/// Whether the shear of contact k was cut at the last step (or round, of method "dda").
-bool slides(const Simulation& sim, const ContactSet& contacts, std::size_t k);
-
-/// Whether vertex and edge of candidate k are closed, or meet but for rounding.
-bool meet(const ContactSet& contacts, std::size_t k);
-
-/// Candidates that are closed and have a share of their spring.
-std::size_t closed_contacts(const ContactSet& contacts);
+/// Faces that carry.
+std::size_t closed_contacts(const FaceSet& contacts);
 
 /// Brings State::turns up to date. To be called often enough that no block turns by half a turn
 /// between two calls; `angle` keeps the polar angles of the last call (rad, empty at first).
 void count_turns(Simulation& sim, std::vector<double>& angle);
-
-/// The pose of an implicit run with the vertices before its last step as x1, y1.
-Pose a_step_ago(const Simulation& sim);
 
 }  // namespace edda

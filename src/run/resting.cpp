@@ -33,13 +33,9 @@ class Sets {
 
 Sets groups_of(const Simulation& sim) {
   Sets sets(sim.blocks.size());
-  const FaceSet& f = sim.contacts.faces;
+  const FaceSet& f = sim.contacts;
   for (std::size_t k = 0; k < f.size(); ++k) {
     if (meets(f, k)) sets.join(block_of_edge(sim.blocks, f, k), block_of_facing(sim.blocks, f, k));
-  }
-  const ContactSet& c = sim.contacts;
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (meet(c, k)) sets.join(c.block_i[k], c.block_j[k]);
   }
   const Bolts& bolts = sim.bolts;
   for (std::size_t r = 0; r < bolts.rows.size(); ++r) {

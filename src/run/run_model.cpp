@@ -39,7 +39,7 @@ std::optional<Fault> unstable_step(const Simulation& sim) {
                   sim.bound.critical_step),
       fmt::format(
           "give at most that, or \"auto\" (now {:.6g} s); allow_unstable = true takes it as it is",
-          solver.safety * sim.bound.likely_step));
+          solver.safety * sim.bound.critical_step));
 }
 
 /// So much mass that the motion is no longer that of the rock. Where all stages look for an
@@ -54,7 +54,7 @@ std::optional<Fault> heavy_scaling(const Simulation& sim) {
   if (added <= most_added * all) return {};
   const Solver& solver = sim.model.solver;
   // Before the masses were raised, each block needed a step smaller by the root of its factor.
-  std::vector<double> own = steps_of_blocks(sim.blocks, sim.state, sim.pose, sim.contacts,
+  std::vector<double> own = steps_of_blocks(sim.blocks, sim.state, sim.contacts,
                                             sim.springs, sim.laws, sim.damping, 0.0, &sim.bolts);
   for (std::size_t i = 0; i < own.size(); ++i) own[i] /= std::sqrt(sim.inertia[i]);
   const double step = step_that_adds(sim.blocks, own, most_added * all);

@@ -150,19 +150,13 @@ Rest look_for_rest(Settling& s, Simulation& sim, const Stage& stage) {
 
 std::vector<double> rounding_of_forces(const Simulation& sim) {
   std::vector<double> force(sim.blocks.size(), 0.0);
-  const FaceSet& f = sim.contacts.faces;
+  const FaceSet& f = sim.contacts;
   for (std::size_t k = 0; k < f.size(); ++k) {
     if (!is_closed(f, k)) continue;
     const double spring = f.stiffness[k] * f.now.length[k] * f.now.gate[k];
     for (const Id i : {block_of_edge(sim.blocks, f, k), block_of_facing(sim.blocks, f, k)}) {
       force[i] += 0.5 * f.noise * spring;
     }
-  }
-  const ContactSet& c = sim.contacts;
-  const double stretch = 0.5 * c.noise;
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (!c.is(k, contact_state::closed)) continue;
-    for (const Id i : {c.block_i[k], c.block_j[k]}) force[i] += stretch * c.kn[k];
   }
   return force;
 }

@@ -10,16 +10,10 @@
 #include "base/parallel.hpp"
 #include "base/polygon.hpp"
 #include "blocks/build_blocks.hpp"
-#include "contacts/candidates.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/find_faces.hpp"
-#include "contacts/gaps.hpp"
 #include "contacts/joint_laws.hpp"
-#include "contacts/settling.hpp"
-#include "contacts/shares.hpp"
 #include "contacts/strength.hpp"
-#include "contacts/transitions.hpp"
-#include "forces/contact_forces.hpp"
 #include "forces/dashpot_forces.hpp"
 #include "forces/mass_scaling.hpp"
 #include "forces/viscosity.hpp"
@@ -132,18 +126,10 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
 
   s.pose.x2 = s.pose.x;
   s.pose.y2 = s.pose.y;
-  s.contacts.on_faces = true;
   if (s.explicit_method()) s.given_mass_ = {s.blocks.node_mass, s.blocks.inverse_mass};
   s.search(s.base_reach);
-  if (s.on_faces()) {
-    bond_faces(s.contacts.faces, s.blocks, s.pose, s.laws);
-    s.close_contacts();
-  } else {
-    update_shares(s.contacts);
-    block_far_sides(s.contacts, s.blocks, s.pose);
-    bond_contacts(s.contacts, s.blocks, s.state, s.pose, s.laws);
-    s.close_contacts();
-  }
+  bond_faces(s.contacts, s.blocks, s.pose, s.laws);
+  s.close_contacts();
   s.plan_slivers();
   s.set_limit();
   s.free_field = attach_free_field(s.model, s.blocks, s.dashpots, s.step_limit);
@@ -164,15 +150,9 @@ void Simulation::start(double first_event) {
       pose.y1[v] = pose.y[v] - h * pose.y1[v];
     });
     start_ground(h);
-    if (on_faces()) {
-      place_faces(contacts.faces, blocks, pose, laws, h);
-    } else {
-      look_at_previous_gaps(contacts, pose);
-    }
+    place_faces(contacts, blocks, pose, laws, h);
   };
   look_back();
-  if (laws.any_changes && !on_faces()) update_joint_laws(contacts, blocks, laws);
-  if (!on_faces()) evaluate_contacts(contacts, blocks, laws, h, damping.contact);
   gather_forces(forces, blocks, state, pose, contacts, springs, model.gravity, acting());
   hold_ = dashpot_hold({}, free_field.columns);
   add_dashpots(forces, on_dashpots, dashpots, blocks, state, state.vx, state.vy,
@@ -184,7 +164,7 @@ void Simulation::start(double first_event) {
 void Simulation::set_limit() {
   if (!explicit_method()) return set_implicit_limit();
   if (model.solver.mass_scaling > 0.0 || scaled_step_ > 0.0 || sliver_step_ > 0.0) raise_masses();
-  bound = step_bound(blocks, state, pose, contacts, springs, laws, damping, &bolts);
+  bound = step_bound(blocks, state, contacts, springs, laws, damping, &bolts);
   if (model.solver.time_step) {
     const double most = model.solver.allow_unstable
                             ? displacement_cap_
@@ -196,7 +176,7 @@ void Simulation::set_limit() {
   constexpr double worth = 1.25;
   constexpr std::uint64_t lasting = 20000;  // steps
   const double allowed = std::min(
-      {model.solver.safety * bound.likely_step, displacement_cap_, free_field.largest_step()});
+      {model.solver.safety * bound.critical_step, displacement_cap_, free_field.largest_step()});
   if (allowed <= worth * step_limit) larger_since_ = state.steps;
   if (allowed < step_limit || state.steps >= larger_since_ + lasting || state.steps == 0) {
     step_limit = allowed;
@@ -219,7 +199,7 @@ void Simulation::change_damping(const Damping& now, bool carry_velocities) {
   damping = now;
   dynamic = carry_velocities;
   set_viscosity();
-  if (on_faces()) set_face_dashpots(contacts.faces, laws, damping.contact);
+  set_face_dashpots(contacts, laws, damping.contact);
   step_limit = std::numeric_limits<double>::infinity();
   set_limit();
 }
@@ -286,13 +266,8 @@ std::optional<Failure> Simulation::step() {
   StageClock clock(state.steps);
   split_jump();
   const double h_old = step_before_;
-  if (laws.any_changes && !on_faces()) update_joint_laws(contacts, blocks, laws);
-  if (on_faces()) {
-    std::swap(pose.x1, pose.x2);
-    std::swap(pose.y1, pose.y2);
-  } else {
-    evaluate_contacts(contacts, blocks, laws, h_old, damping.contact);
-  }
+  std::swap(pose.x1, pose.x2);
+  std::swap(pose.y1, pose.y2);
   const LoadsNow at_work = acting();
   clock.lap(seconds.forces);
 
@@ -319,34 +294,21 @@ std::optional<Failure> Simulation::step() {
   const double h = state.step;
   clock.lap(seconds.integrate);
 
-  if (on_faces()) {
-    next_step(contacts.faces);
-    if (laws.any_changes) update_joint_laws(contacts.faces, blocks, pose, laws);
-    place_faces(contacts.faces, blocks, pose, laws, h);
-  } else {
-    update_gaps(contacts, pose);
-  }
+  next_step(contacts);
+  if (laws.any_changes) update_joint_laws(contacts, blocks, pose, laws);
+  place_faces(contacts, blocks, pose, laws, h);
   clock.lap(seconds.search);
-  if (on_faces()) {
+  if (model.solver.switching == Switching::exact) {
     const StepTaken taken{h_old, h, damps_.mass, damps_.strain};
-    if (model.solver.switching == Switching::exact) {
-      correct_switching(contacts.faces, blocks, laws, state, pose, taken, open_close,
-                        face_switching_);
-    }
-    penetration = largest_closure(contacts.faces);
-  } else if (model.solver.switching == Switching::exact) {
-    const StepTaken taken{h_old, h, damps_.mass, damps_.strain};
-    penetration = correct_switching(contacts, blocks, state, pose, taken, open_close, switching_);
-  } else {
-    penetration = largest_penetration(contacts);
+    correct_switching(contacts, blocks, laws, state, pose, taken, open_close, switching_);
   }
+  penetration = largest_closure(contacts);
   max_penetration = std::max(max_penetration, penetration);
   if (h != h_old) {
     step_change_energy += energy_of_step_change(blocks, state, old_vx_, old_vy_, h_old, h);
     ++steps.changes;
   }
   book_damping(state, blocks, forces.x, forces.y, old_vx_, old_vy_, h_old, h, damps_, damping_work);
-  if (!on_faces() && (damping.contact > 0.0 || laws.any_dashpots)) book_dashpots(contacts);
   book_loads(h_old, h, at_work);
   book_boundaries(h_old, h);
   update_bolts(bolts, state);
@@ -357,25 +319,7 @@ std::optional<Failure> Simulation::step() {
   }
   clock.lap(seconds.integrate);
 
-  if (on_faces()) {
-    search_if_due();
-    if (step_limit < state.step * (1.0 - 1e-12) ||
-        (steps_left_ > 0 && step_limit > 1.25 * state.step)) {
-      if (steps_left_ > 0) aim_at(target_);
-    }
-    clock.lap(seconds.search);
-    return inspect();
-  }
-  update_shares(contacts);
   search_if_due();
-  const TransitionCounts counts =
-      settle_contacts(contacts, blocks, pose, laws, state.steps, false, transitions_);
-  if (state.steps % settles_every == 0) {
-    settle_rests(contacts, blocks, pose, laws, static_cast<double>(settles_every), true);
-  }
-  constexpr std::uint64_t grow_every = 64;
-  const bool grown = state.steps % grow_every == 0 && grow_springs(contacts, blocks, pose, laws);
-  if (counts.unshielded > 0 || grown) set_limit();
   if (step_limit < state.step * (1.0 - 1e-12) ||
       (steps_left_ > 0 && step_limit > 1.25 * state.step)) {
     if (steps_left_ > 0) aim_at(target_);

@@ -18,8 +18,7 @@
 #include "blocks/block_set.hpp"
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
-#include "contacts/contact_set.hpp"
-#include "contacts/transitions.hpp"
+#include "contacts/face_set.hpp"
 #include "forces/nodal_forces.hpp"
 #include "forces/stiffness.hpp"
 #include "implicit/newmark.hpp"
@@ -31,7 +30,6 @@
 #include "run/face_switching.hpp"
 #include "run/initial_balance.hpp"
 #include "run/ledger.hpp"
-#include "run/open_close.hpp"
 #include "run/stage_clock.hpp"
 
 namespace edda {
@@ -76,7 +74,7 @@ struct Simulation {
   Bolts bolts;
   State state;
   Pose pose;
-  ContactSet contacts;
+  FaceSet contacts;
   Ground ground;
   NodalForces forces;
   NodalForces jump;  ///< by which forces at n have jumped since the last step; or empty
@@ -185,7 +183,6 @@ struct Simulation {
   Vec2 ground_velocity() const;
 
   bool explicit_method() const { return model.solver.method == Method::edda; }
-  bool on_faces() const { return contacts.on_faces; }
   /// Damping in proportion to mass that acts at present, 1/s.
   double drag() const;
   /// Largest step allowed, s: of the implicit method once its short first ones are over.
@@ -207,8 +204,7 @@ struct Simulation {
   void set_implicit_limit();
   void search(double reach);
   void search_if_due();
-  template <class List>
-  bool list_is_due(List& list);
+  bool list_is_due();
   bool move(double h_old, double h_new, const LoadsNow* not_yet_gathered);
   Vec2 twice_incoming(Index boundary) const;
   void start_ground(double h);
@@ -260,9 +256,7 @@ struct Simulation {
   DashpotHold hold_;
   std::vector<FreeFieldColumn> next_columns_;
   std::vector<double> largest_;
-  SwitchingScratch switching_;
-  FaceSwitchingScratch face_switching_;
-  TransitionScratch transitions_;
+  FaceSwitchingScratch switching_;
 };
 
 }  // namespace edda

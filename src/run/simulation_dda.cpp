@@ -75,15 +75,15 @@ void Simulation::set_implicit_limit() {
   constexpr double first_part = 1e-3;
   if (state.steps == 0 && !model.solver.time_step) step_limit *= first_part;
   // What the explicit method could take, for whoever compares.
-  bound = step_bound(blocks, state, pose, contacts, springs, laws, damping);
+  bound = step_bound(blocks, state, contacts, springs, laws, damping);
 }
 
 void Simulation::start_implicit() {
   step_before_ = state.step;
   pose.x1 = pose.x;
   pose.y1 = pose.y;
-  place_faces(contacts.faces, blocks, pose, laws, state.step);
-  stand_still(contacts.faces);
+  place_faces(contacts, blocks, pose, laws, state.step);
+  stand_still(contacts);
 }
 
 /// Work of the loads as the scheme sees it: f_{n+1} . D.
@@ -97,7 +97,7 @@ void Simulation::book_implicit_loads(const LoadsNow& now) {
 
 std::optional<Failure> Simulation::step_implicit() {
   StageClock clock(state.steps);
-  if (laws.any_changes) update_joint_laws(contacts.faces, blocks, pose, laws);
+  if (laws.any_changes) update_joint_laws(contacts, blocks, pose, laws);
   ImplicitScene scene{blocks, laws, springs, model.gravity};
   ImplicitSettings settings;
   settings.dynamic = dynamic;
@@ -130,7 +130,7 @@ std::optional<Failure> Simulation::step_implicit() {
   book_implicit_loads(scene.loads);
   if (state.step != step_before_) ++steps.changes;
   finish_step();
-  penetration = largest_closure(contacts.faces);
+  penetration = largest_closure(contacts);
   max_penetration = std::max(max_penetration, penetration);
   pose.x1 = pose.x;
   pose.y1 = pose.y;

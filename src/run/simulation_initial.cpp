@@ -3,8 +3,6 @@
 #include "contacts/face_bonds.hpp"
 #include "contacts/face_preload.hpp"
 #include "contacts/place_faces.hpp"
-#include "contacts/preload.hpp"
-#include "forces/contact_forces.hpp"
 #include "run/initial_stress_report.hpp"
 
 namespace edda {
@@ -25,14 +23,7 @@ void Simulation::hold_boundaries() {
 
 /// What touches carries from the start: the initial stress of the blocks, where there is one.
 void Simulation::close_contacts() {
-  if (!model.initial_stress && on_faces()) {
-    place_faces(contacts.faces, blocks, pose, laws, 1.0);
-    return;
-  }
-  if (!model.initial_stress) {
-    settle_contacts(contacts, blocks, pose, laws, 0, true, transitions_);
-    return;
-  }
+  if (!model.initial_stress) return place_faces(contacts, blocks, pose, laws, 1.0);
   const StressField field(model, blocks.origin);
   const LoadsNow at_start = loads_at(model, loads, 0.0);
   const FaceForces faces(blocks, field, at_start);
@@ -40,19 +31,9 @@ void Simulation::close_contacts() {
   initial.emplace();
   // What a first stage glues has its say when it is unglued.
   const bool glued = !model.stages.empty() && model.stages.front().joints == StageJoints::glued;
-  if (on_faces()) {
-    initial->joints = preload_faces(contacts.faces, blocks, pose, laws, traction);
-    if (glued) glue_faces(contacts.faces);
-    place_faces(contacts.faces, blocks, pose, laws, 1.0);
-    judge_initial_stress(*this);
-    return;
-  }
-  initial->joints = preload_contacts(contacts, blocks, pose, laws, traction, transitions_);
-  if (!glued) {
-    break_overloaded(contacts, blocks, laws);
-    cut_preload(contacts);
-  }
-  contacts.look_everywhere();
+  initial->joints = preload_faces(contacts, blocks, pose, laws, traction);
+  if (glued) glue_faces(contacts);
+  place_faces(contacts, blocks, pose, laws, 1.0);
   judge_initial_stress(*this);
 }
 

@@ -2,25 +2,16 @@
 // (attachments/loads.hpp); contacts and springs do so at once, and the velocities half a step ago
 // make up for it.
 #include "contacts/joint_laws.hpp"
-#include "forces/contact_forces.hpp"
 #include "integrate/leapfrog.hpp"
 #include "run/simulation.hpp"
 
 namespace edda {
 
-/// Those of step n on the nodes, found on a copy of the contacts; none before the first step.
+/// Those of step n on the nodes; none before the first step.
 NodalForces Simulation::forces_now() const {
   if (!explicit_method() || step_before_ == 0.0) return {};
-  if (on_faces()) {
-    NodalForces found = forces;
-    gather_forces(found, blocks, state, pose, contacts, springs, model.gravity, acting());
-    return found;
-  }
-  ContactSet evaluated = contacts;
-  if (laws.any_changes) update_joint_laws(evaluated, blocks, laws);
-  evaluate_contacts(evaluated, blocks, laws, step_before_, damping.contact);
   NodalForces found = forces;
-  gather_forces(found, blocks, state, pose, evaluated, springs, model.gravity, acting());
+  gather_forces(found, blocks, state, pose, contacts, springs, model.gravity, acting());
   return found;
 }
 

@@ -16,7 +16,7 @@ void Simulation::plan_slivers() {
   if (!explicit_method() || std::none_of(cut.begin(), cut.end(), slow)) return;
   const double whole = std::numeric_limits<double>::infinity();
   const std::vector<double> own =
-      steps_of_blocks(blocks, state, pose, contacts, springs, laws, damping, whole, &bolts);
+      steps_of_blocks(blocks, state, contacts, springs, laws, damping, whole, &bolts);
   double others = whole;
   std::vector<double> masses;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -51,7 +51,7 @@ void Simulation::raise_masses() {
     for (std::size_t i = 0; i < inertia.size(); ++i) most[i] /= inertia[i];
   }
   const std::vector<double> factor =
-      raise_inertia(blocks, state, pose, contacts, springs, laws, damping, step, &bolts,
+      raise_inertia(blocks, state, contacts, springs, laws, damping, step, &bolts,
                     slivers ? &most : nullptr);
   if (factor.empty()) return;
   set_viscosity();

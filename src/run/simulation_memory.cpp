@@ -7,10 +7,8 @@
 
 #include "blocks/point_mass.hpp"
 #include "checkpoint/archive.hpp"
-#include "contacts/candidates.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/find_faces.hpp"
-#include "contacts/shares.hpp"
 #include "contacts/strength.hpp"
 #include "forces/viscosity.hpp"
 #include "run/attachment_memory.hpp"
@@ -19,110 +17,6 @@
 
 namespace edda {
 namespace {
-
-template <class Archive>
-void list_contacts(Archive& a, ContactSet& c) {
-  a("contacts.vertex", c.vertex);
-  a("contacts.edge", c.edge);
-  a("contacts.edge_end", c.edge_end);
-  a("contacts.block_i", c.block_i);
-  a("contacts.block_j", c.block_j);
-  a("contacts.law", c.law);
-  a("contacts.depth", c.depth);
-  a("contacts.depth_1", c.depth_1);
-  a("contacts.depth_2", c.depth_2);
-  a("contacts.foot", c.foot);
-  a("contacts.span", c.span);
-  a("contacts.tx", c.tx);
-  a("contacts.ty", c.ty);
-  a("contacts.share", c.share);
-  a("contacts.before", c.before);
-  a("contacts.beyond", c.beyond);
-  a("contacts.deepest", c.deepest);
-  a("contacts.state", c.state);
-  a("contacts.rest", c.rest);
-  a("contacts.anchor", c.anchor);
-  a("contacts.kn", c.kn);
-  a("contacts.ks", c.ks);
-  a("contacts.length", c.length);
-  a("contacts.lent", c.lent);
-  a("contacts.friction", c.friction);
-  a("contacts.cohesion", c.cohesion);
-  a("contacts.tension", c.tension);
-  a("contacts.alpha", c.alpha);
-  a("contacts.normal", c.normal);
-  a("contacts.shear", c.shear);
-  a("contacts.shear_1", c.shear_1);
-  a("contacts.slip_trial", c.slip_trial);
-  a("contacts.slid", c.slid);
-  a("contacts.owed", c.owed);
-  a("contacts.friction_work", c.friction_work);
-  a("contacts.damping_work", c.damping_work);
-  a("contacts.fracture_work", c.fracture_work);
-  a("contacts.force", c.force);
-  a("contacts.reaction", c.reaction);
-  a("contacts.why", c.why);
-  a("contacts.blocked", c.blocked);
-  a("contacts.lone_pairs", c.lone_pairs);
-  a("contacts.pair_of", c.pair_of);
-  a("contacts.built_x", c.built_x);
-  a("contacts.built_y", c.built_y);
-  a("contacts.noise", c.noise);
-  a("contacts.reach", c.reach);
-  a("contacts.travel", c.travel);
-  a("contacts.built_at", c.built_at);
-  a("contacts.rebuilds", c.rebuilds);
-  a("contacts.broken", c.broken);
-  a("contacts.retired_friction", c.retired_friction);
-  a("contacts.retired_damping", c.retired_damping);
-  a("contacts.retired_fracture", c.retired_fracture);
-}
-
-/// Pairs and segments as flat arrays.
-template <class Archive>
-void list_groups(Archive& a, ContactSet& c) {
-  std::vector<Id> first, second, members, ends;
-  std::vector<bool> first_at_start, second_at_start;
-  std::vector<double> reach;
-  for (const CornerPair& p : c.pairs) {
-    first.push_back(p.first);
-    second.push_back(p.second);
-    first_at_start.push_back(p.first_at_start);
-    second_at_start.push_back(p.second_at_start);
-    reach.push_back(p.reach);
-  }
-  for (const Segment& s : c.segments) {
-    members.insert(members.end(), s.members.begin(), s.members.end());
-    ends.push_back(static_cast<Id>(members.size()));
-  }
-  a("pairs.first", first);
-  a("pairs.second", second);
-  a("pairs.first_at_start", first_at_start);
-  a("pairs.second_at_start", second_at_start);
-  a("pairs.reach", reach);
-  PairMemory& m = c.pair_memory;
-  a("pairs.first_seen", m.first_seen);
-  a("pairs.second_seen", m.second_seen);
-  a("pairs.against", m.against);
-  a("segments.members", members);
-  a("segments.ends", ends);
-  if constexpr (Archive::loads) {
-    c.pairs.clear();
-    const std::size_t n = std::min(
-        {first.size(), second.size(), first_at_start.size(), second_at_start.size(), reach.size()});
-    for (std::size_t k = 0; k < n; ++k) {
-      c.pairs.push_back({first[k], second[k], first_at_start[k], second_at_start[k], reach[k]});
-    }
-    c.segments.clear();
-    std::size_t begin = 0;
-    for (const Id end : ends) {
-      if (end < begin || end > members.size()) break;
-      const auto from = members.begin() + static_cast<std::ptrdiff_t>(begin);
-      c.segments.push_back({{from, members.begin() + static_cast<std::ptrdiff_t>(end)}});
-      begin = end;
-    }
-  }
-}
 
 template <class Archive>
 void list_state(Archive& a, Simulation& s) {
@@ -177,7 +71,7 @@ void list_state(Archive& a, Simulation& s) {
 template <class Archive>
 void list_counts(Archive& a, Simulation& s) {
   a("bound.critical_step", s.bound.critical_step);
-  a("bound.likely_step", s.bound.likely_step);
+  a("bound.critical_step", s.bound.critical_step);
   a("bound.block", s.bound.block);
   a("bound.contact", s.bound.contact);
   a("bound.elastic_part", s.bound.elastic_part);
@@ -198,7 +92,7 @@ void list_counts(Archive& a, Simulation& s) {
   a("steps.redone", s.steps.redone);
   a("open_close.steps", s.open_close.steps);
   a("open_close.passes", s.open_close.passes);
-  a("open_close.of_contact", s.open_close.of_contact);
+  a("open_close.of_face", s.open_close.of_face);
   a("open_close.of_list", s.open_close.of_list);
   a("open_close.most", s.open_close.most);
   a("open_close.switched", s.open_close.switched);
@@ -235,64 +129,6 @@ class Judge {
   std::string flaw_;
 };
 
-/// Vertices and edges are those of their blocks, and stand in order.
-bool belong_together(const ContactSet& c, const BlockSet& b) {
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (b.vertex_block[c.vertex[k]] != c.block_i[k] || b.vertex_block[c.edge[k]] != c.block_j[k] ||
-        b.next[c.edge[k]] != c.edge_end[k] || c.block_i[k] == c.block_j[k]) {
-      return false;
-    }
-    if (k > 0 && std::pair(c.vertex[k - 1], c.edge[k - 1]) >= std::pair(c.vertex[k], c.edge[k])) {
-      return false;
-    }
-  }
-  return true;
-}
-
-void judge_contacts(Judge& j, const ContactSet& c, const BlockSet& b, const LawTable& laws) {
-  const std::size_t nc = c.size(), nv = b.vertex_count();
-  for (const auto* ids : {&c.edge, &c.edge_end, &c.block_i, &c.block_j, &c.pair_of}) {
-    j.sized("contacts", *ids, nc);
-  }
-  for (const auto* values :
-       {&c.depth,        &c.depth_1,      &c.depth_2, &c.foot,     &c.span,       &c.tx,
-        &c.ty,           &c.share,        &c.before,  &c.beyond,   &c.rest,       &c.anchor,
-        &c.kn,           &c.ks,           &c.length,  &c.friction, &c.cohesion,   &c.tension,
-        &c.alpha,        &c.normal,       &c.shear,   &c.shear_1,  &c.slip_trial, &c.friction_work,
-        &c.damping_work, &c.fracture_work}) {
-    j.sized("contacts", *values, nc);
-  }
-  j.sized("contacts.slid", c.slid, laws.any_changes ? nc : 0);
-  j.sized("contacts.owed", c.owed, laws.any_changes ? nc : 0);
-  j.sized("contacts.force", c.force, 2 * nc);
-  j.sized("contacts.reaction", c.reaction, 4 * nc);
-  j.sized("contacts.law", c.law, nc);
-  j.sized("contacts.state", c.state, nc);
-  j.sized("contacts.why", c.why, nc);
-  if (!c.lent.empty()) j.sized("contacts.lent", c.lent, nc);
-  j.sized("contacts.deepest", c.deepest, c.chunks());
-  if (!c.on_faces) {
-    j.sized("contacts.built_x", c.built_x, nv);
-    j.sized("contacts.built_y", c.built_y, nv);
-  }
-  j.below("contacts.vertex", c.vertex, nv);
-  j.below("contacts.edge", c.edge, nv);
-  j.below("contacts.edge_end", c.edge_end, nv);
-  j.below("contacts.block_i", c.block_i, b.size());
-  j.below("contacts.block_j", c.block_j, b.size());
-  j.below("contacts.law", {c.law.begin(), c.law.end()}, laws.rows.size());
-  j.below("contacts.blocked", c.blocked, nc);
-  j.below("contacts.pair_of", c.pair_of, c.pairs.size(), true);
-  if (j.flaw().empty() && !belong_together(c, b)) j.refuse("contacts do not belong together");
-  if (c.lone_pairs > c.pairs.size()) j.refuse("contacts.lone_pairs is too large");
-  const PairMemory& m = c.pair_memory;
-  for (const auto* values : {&m.first_seen, &m.second_seen, &m.against}) {
-    j.sized("pairs", *values, c.pairs.size());
-  }
-  for (const CornerPair& p : c.pairs) j.below("pairs", {p.first, p.second}, nc);
-  for (const Segment& s : c.segments) j.below("segments", s.members, nc);
-}
-
 /// Blocks in one piece and not at the end of the world: the search for contacts counts cells.
 void judge_places(Judge& j, const Simulation& s) {
   const BlockSet& b = s.blocks;
@@ -310,7 +146,6 @@ void judge_places(Judge& j, const Simulation& s) {
     if (!near(s.pose.x, s.pose.y, v) || !near(s.pose.x1, s.pose.y1, v)) {
       return j.refuse("pose is not that of these blocks");
     }
-    if (s.on_faces()) continue;
     if (!(std::abs(s.contacts.built_x[v]) <= far && std::abs(s.contacts.built_y[v]) <= far)) {
       return j.refuse("contacts.built is not of these blocks");
     }
@@ -350,8 +185,7 @@ void judge(Judge& j, const Simulation& s) {
   for (std::size_t i = 0; i < s.inertia.size() && j.flaw().empty(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) j.positive("node_mass", s.blocks.node_mass[k][i]);
   }
-  judge_contacts(j, s.contacts, s.blocks, s.laws);
-  judge_faces(j, s.contacts.faces, s.blocks, s.laws);
+  judge_faces(j, s.contacts, s.blocks, s.laws);
   if (j.flaw().empty()) judge_places(j, s);
 }
 
@@ -360,9 +194,7 @@ void judge(Judge& j, const Simulation& s) {
 template <class Archive>
 void list_memory(Archive& a, Simulation& s) {
   list_state(a, s);
-  list_contacts(a, s.contacts);
-  list_faces(a, s.contacts.faces);
-  list_groups(a, s.contacts);
+  list_faces(a, s.contacts);
   list_counts(a, s);
   list_kept(a, s);
   list_ground(a, s);
@@ -389,11 +221,9 @@ void list_memory(Archive& a, Simulation& s) {
 
 void remember(const Simulation& sim, Record& record) {
   Saver saver(record);
-  // Saver only reads, and the slips that are filled in are those that were taken for granted.
+  // Saver only reads.
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
-  Simulation& listed = const_cast<Simulation&>(sim);
-  for (std::size_t k = 0; k < sim.contacts.size(); ++k) listed.contacts.keep_slips(k);
-  list_memory(saver, listed);
+  list_memory(saver, const_cast<Simulation&>(sim));
 }
 
 std::string recall(Simulation& sim, const Record& record) {
@@ -410,15 +240,10 @@ std::string recall(Simulation& sim, const Record& record) {
   Judge j;
   judge(j, sim);
   if (!j.flaw().empty()) return j.flaw();
-  sim.contacts.look_everywhere();
-  set_dashpots(sim.contacts, sim.laws);
-  complete_faces(sim.contacts.faces, sim.blocks, sim.laws);
-  set_face_dashpots(sim.contacts.faces, sim.laws, sim.damping.contact);
+  complete_faces(sim.contacts, sim.blocks, sim.laws);
+  set_face_dashpots(sim.contacts, sim.laws, sim.damping.contact);
   fill_point_masses(sim.blocks);
   fill_viscosity(sim.blocks, sim.damping);
-  list_by_corner(sim.contacts, sim.blocks.vertex_count());
-  list_run_ons(sim.contacts, sim.blocks);
-  list_pairs(sim.contacts);
   return j.flaw();
 }
 

@@ -4,11 +4,9 @@
 #include <limits>
 
 #include "base/parallel.hpp"
-#include "contacts/candidates.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/find_faces.hpp"
 #include "contacts/place_faces.hpp"
-#include "contacts/shares.hpp"
 #include "run/simulation.hpp"
 
 namespace edda {
@@ -20,51 +18,42 @@ void Simulation::place_all() {
 }
 
 void Simulation::search(double reach) {
-  if (on_faces()) {
-    find_faces(contacts.faces, blocks, state, pose, laws, reach);
-    set_face_dashpots(contacts.faces, laws, damping.contact);
-    contacts.begin_of_vertex.assign(blocks.vertex_count() + 1, 0);
-    contacts.begin_of_edge.assign(blocks.vertex_count() + 1, 0);
-    return;
-  }
-  rebuild_candidates(contacts, blocks, state, pose, laws, reach);
-  block_shielded(contacts, blocks, pose);
+  find_faces(contacts, blocks, state, pose, laws, reach);
+  set_face_dashpots(contacts, laws, damping.contact);
 }
 
 /// The faces at n, whose strength has changed.
 void Simulation::place_again() {
-  if (on_faces() && step_before_ > 0.0) {
-    place_faces(contacts.faces, blocks, pose, laws, step_before_);
+  if (step_before_ > 0.0) {
+    place_faces(contacts, blocks, pose, laws, step_before_);
   }
 }
 
-template <class List>
-bool Simulation::list_is_due(List& list) {
-  list.travel += last_displacement;
+bool Simulation::list_is_due() {
+  contacts.travel += last_displacement;
   // How far any vertex may go before this is asked again.
   const double ahead = explicit_method() ? 2.0 * last_displacement : displacement_limit;
-  if (list.travel + ahead <= 0.5 * list.reach) return false;
+  if (contacts.travel + ahead <= 0.5 * contacts.reach) return false;
   // The sum of displacements is a bound; what counts is how far any vertex is from where it was.
   const std::size_t nv = blocks.vertex_count();
   double moved2 = 0.0;
   for (std::size_t v = 0; v < nv; ++v) {
-    const double dx = pose.x[v] - list.built_x[v], dy = pose.y[v] - list.built_y[v];
+    const double dx = pose.x[v] - contacts.built_x[v], dy = pose.y[v] - contacts.built_y[v];
     const double d2 = dx * dx + dy * dy;
     if (!(d2 <= moved2)) moved2 = d2;
   }
-  list.travel = std::sqrt(moved2);
-  if (!(list.travel <= 100.0 * (list.reach + displacement_limit))) {
+  contacts.travel = std::sqrt(moved2);
+  if (!(contacts.travel <= 100.0 * (contacts.reach + displacement_limit))) {
     last_displacement = std::numeric_limits<double>::infinity();  // inspect() ends the run
     return false;
   }
   const double margin = explicit_method() ? 2.0 * ahead : ahead;
-  return list.travel + margin > 0.5 * list.reach;
+  return contacts.travel + margin > 0.5 * contacts.reach;
 }
 
 void Simulation::search_if_due() {
-  if (!(on_faces() ? list_is_due(contacts.faces) : list_is_due(contacts))) return;
+  if (!list_is_due()) return;
   search(std::max(base_reach, 20.0 * last_displacement));
-  if (!on_faces()) update_shares(contacts);
   set_limit();
 }
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "contacts/gaps.hpp"
 #include "run/simulation.hpp"
 
 namespace edda {
@@ -41,10 +40,8 @@ void Simulation::change_velocities(const Nodes& vx, const Nodes& vy) {
   const bool leaps = explicit_method();
   // The step behind is taken to have been made at the new ones: gaps and slips before it. Chains of
   // bolts are not gone back; their forces will do F_n . (u'_n - u_n)/2 more than they give off.
-  std::vector<double> slips;
   if (leaps) {
     place_a_step_back(blocks, state, state.vx, state.vy, step_before_, pose);
-    if (!on_faces()) slips = previous_slips(contacts, pose);
   }
   const std::vector<double> old_x1 = pose.x1, old_y1 = pose.y1;
   const double bolts_before = leaps ? bolt_power(*this) : 0.0;
@@ -57,13 +54,8 @@ void Simulation::change_velocities(const Nodes& vx, const Nodes& vy) {
   }
   if (leaps) {
     place_a_step_back(blocks, state, state.vx, state.vy, step_before_, pose);
-    if (on_faces()) {
-      change_step_behind(contacts.faces, blocks, pose, old_x1, old_y1);
-      place_faces(contacts.faces, blocks, pose, laws, step_before_);
-    } else {
-      look_at_previous_gaps(contacts, pose);
-      move_previous_slips(contacts, pose, slips);
-    }
+    change_step_behind(contacts, blocks, pose, old_x1, old_y1);
+    place_faces(contacts, blocks, pose, laws, step_before_);
     bolts.owed += 0.5 * step_before_ * (bolt_power(*this) - bolts_before);
   }
   external_work += ledger_now().balance() - energy;

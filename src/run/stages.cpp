@@ -15,12 +15,6 @@
 namespace edda {
 namespace {
 
-namespace cs = contact_state;
-
-bool carries(const ContactSet& c, std::size_t k) {
-  return c.is(k, cs::closed) && c.share[k] > 0.0;
-}
-
 std::size_t yielded_bolts(const Bolts& b) {
   std::size_t count = 0;
   for (std::size_t r = 0; r < b.rows.size(); ++r) {
@@ -70,15 +64,10 @@ std::vector<std::uint8_t> touching(const Simulation& sim) {
     if (!bolts.rows[r].grouted && bolts.bars.broken[bolts.begin[r]] != 0) continue;
     for (Id k = bolts.begin[r]; k < bolts.begin[r + 1]; ++k) touches[bolts.host[k]] = 1;
   }
-  const FaceSet& f = sim.contacts.faces;
+  const FaceSet& f = sim.contacts;
   for (std::size_t k = 0; k < f.size(); ++k) {
     if (!is_closed(f, k)) continue;
     touches[block_of_edge(sim.blocks, f, k)] = touches[block_of_facing(sim.blocks, f, k)] = 1;
-  }
-  for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
-    if (carries(sim.contacts, k)) {
-      touches[sim.contacts.block_i[k]] = touches[sim.contacts.block_j[k]] = 1;
-    }
   }
   return touches;
 }
@@ -147,9 +136,9 @@ StageRecord stage_record(const Simulation& sim, const Ledger& ledger, double sta
   r.steps = sim.state.steps - first_step;
   r.balance = balance_of(sim);
   r.ledger = ledger;
-  r.broken = sim.contacts.broken + sim.contacts.faces.broken;
+  r.broken = sim.contacts.broken;
   r.yielded = yielded_bolts(sim.bolts);
-  const FaceSet& f = sim.contacts.faces;
+  const FaceSet& f = sim.contacts;
   for (std::size_t k = 0; k < f.size(); ++k) {
     const bool closed = is_closed(f, k);
     r.open += f.opened[k] > 0.0 && !closed;
@@ -157,13 +146,6 @@ StageRecord stage_record(const Simulation& sim, const Ledger& ledger, double sta
     ++r.closed;
     r.sliding += slides(f, k);
     r.bonded += f.bonded[k] > 0.0;
-  }
-  for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
-    r.open += sim.contacts.is(k, cs::opened) && !sim.contacts.is(k, cs::closed);
-    if (!carries(sim.contacts, k)) continue;
-    ++r.closed;
-    r.sliding += slides(sim, sim.contacts, k);
-    r.bonded += sim.contacts.is(k, cs::bonded | cs::glued);
   }
   return r;
 }
