@@ -7,11 +7,9 @@
 #include <map>
 #include <utility>
 
-#include "contacts/gaps.hpp"
+#include "contacts/place_faces.hpp"
 #include "contacts/search.hpp"
-#include "contacts/shares.hpp"
-#include "contacts/transitions.hpp"
-#include "forces/contact_forces.hpp"
+#include "forces/stiffness.hpp"
 #include "wall.hpp"
 
 namespace edda {
@@ -37,40 +35,12 @@ void sizes(benchmark::internal::Benchmark* bench) {
   bench->Args({20, 10})->Args({50, 40})->Args({200, 100})->Unit(benchmark::kMicrosecond);
 }
 
-void UpdateGaps(benchmark::State& bench) {
+void PlaceFaces(benchmark::State& bench) {
   Simulation sim = settled(bench);
-  for (auto _ : bench) update_gaps(sim.contacts, sim.pose);
+  for (auto _ : bench) place_faces(sim.contacts, sim.blocks, sim.pose, sim.laws, sim.state.step);
   count(bench, sim);
 }
-BENCHMARK(UpdateGaps)->Apply(sizes);
-
-void UpdateShares(benchmark::State& bench) {
-  Simulation sim = settled(bench);
-  for (auto _ : bench) update_shares(sim.contacts);
-  count(bench, sim);
-}
-BENCHMARK(UpdateShares)->Apply(sizes);
-
-void SettleContacts(benchmark::State& bench) {
-  Simulation sim = settled(bench);
-  TransitionScratch scratch;
-  for (auto _ : bench) {
-    const TransitionCounts counts = settle_contacts(sim.contacts, sim.blocks, sim.pose, sim.laws,
-                                                    sim.state.steps, false, scratch);
-    benchmark::DoNotOptimize(counts);
-  }
-  count(bench, sim);
-}
-BENCHMARK(SettleContacts)->Apply(sizes);
-
-void EvaluateContacts(benchmark::State& bench) {
-  Simulation sim = settled(bench);
-  for (auto _ : bench) {
-    evaluate_contacts(sim.contacts, sim.blocks, sim.laws, sim.state.step, 0.0);
-  }
-  count(bench, sim);
-}
-BENCHMARK(EvaluateContacts)->Apply(sizes);
+BENCHMARK(PlaceFaces)->Apply(sizes);
 
 void GatherForces(benchmark::State& bench) {
   Simulation sim = settled(bench);
@@ -96,7 +66,7 @@ void CriticalStep(benchmark::State& bench) {
   Simulation sim = settled(bench);
   for (auto _ : bench) {
     const StepBound bound =
-        step_bound(sim.blocks, sim.state, sim.pose, sim.contacts, sim.springs, sim.laws, {});
+        step_bound(sim.blocks, sim.state, sim.contacts, sim.springs, sim.laws, {});
     benchmark::DoNotOptimize(bound);
   }
   count(bench, sim);

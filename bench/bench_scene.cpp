@@ -18,6 +18,7 @@
 #include <string>
 #include <utility>
 
+#include "contacts/face_reading.hpp"
 #include "memory.hpp"
 #include "scenes.hpp"
 #include "stopwatch.hpp"
@@ -61,7 +62,7 @@ void describe(const edda::Scene& scene, double made_in) {
   const Simulation& s = scene.sim;
   std::size_t closed = 0;
   for (std::size_t c = 0; c < s.contacts.size(); ++c) {
-    if (s.contacts.is(c, edda::contact_state::closed)) ++closed;
+    if (edda::is_closed(s.contacts, c)) ++closed;
   }
   std::printf(
       "{\"blocks\": %zu, \"candidates\": %zu, \"closed\": %zu, \"step\": %.6g, "

@@ -11,25 +11,21 @@
 #include <unordered_map>
 
 #include "blocks/kinematics.hpp"
-#include "contacts/gaps.hpp"
-#include "contacts/shares.hpp"
-#include "contacts/transitions.hpp"
+#include "contacts/face_reading.hpp"
+#include "contacts/place_faces.hpp"
 #include "wall.hpp"
 
 namespace edda {
 namespace {
-
-namespace cs = contact_state;
 
 /// Of a brick: by how far its centroid has gone, m, and its deformation.
 struct Placed {
   double ux, uy, xx, xy, yx, yy;
 };
 
-/// Of a contact, m.
+/// Elastic slip of a face at its two ends, m.
 struct Touch {
-  double slip, rest;
-  bool closed;
+  double slip_a, slip_b;
 };
 
 /// A brick by where it was drawn, in quarters of a brick from the left, and rows from below; the
@@ -56,12 +52,23 @@ std::uint64_t key_of(Place p) {
   return static_cast<std::uint64_t>(p.row + 1) << 32 | static_cast<std::uint32_t>(p.quarter);
 }
 
-/// Of a contact whose vertex belongs to the brick at `from`: the other one by where it lies from
-/// there, so that it is found again wherever the brick is put. The base lies beneath all.
-std::uint64_t key_of(const BlockSet& b, const ContactSet& c, std::size_t k, Place from) {
-  const Place i = place_of(b, c.block_i[k]), j = place_of(b, c.block_j[k]);
+/// The bricks on either side of a face; the base comes second.
+struct Sides {
+  Place first, second;
+  int corner_of_first, corner_of_second;
+};
+Sides sides_of(const BlockSet& b, const FaceSet& c, std::size_t k) {
+  const Place e = place_of(b, block_of_edge(b, c, k)), f = place_of(b, block_of_facing(b, c, k));
+  const int of_e = corner_of(b, c.edge[k]), of_f = corner_of(b, c.facing[k]);
+  return e.is_brick() ? Sides{e, f, of_e, of_f} : Sides{f, e, of_f, of_e};
+}
+
+/// Of a face by where its other side lies from the first, so that it is found again wherever the
+/// brick is put. The base lies beneath all.
+std::uint64_t key_of(const Sides& s, Place from) {
+  const Place i = s.first, j = s.second;
   const int aside = j.is_brick() ? j.quarter - i.quarter + 8 : 0, up = j.row - i.row + 1;
-  const int corners = 4 * corner_of(b, c.vertex[k]) + corner_of(b, c.edge[k]);
+  const int corners = 4 * s.corner_of_first + s.corner_of_second;
   return key_of(from) << 12 | static_cast<std::uint64_t>((aside * 3 + up) * 16 + corners);
 }
 
@@ -72,15 +79,15 @@ struct Rest {
   std::unordered_map<std::uint64_t, Touch> touches;
 };
 
-bool between_neighbours(const BlockSet& b, const ContactSet& c, std::size_t k) {
-  const Place i = place_of(b, c.block_i[k]), j = place_of(b, c.block_j[k]);
+bool between_neighbours(const Sides& s) {
+  const Place i = s.first, j = s.second;
   return i.is_brick() && std::abs(j.row - i.row) <= 1 &&
          (!j.is_brick() || std::abs(j.quarter - i.quarter) <= 8);
 }
 
 Rest rest_of(const Simulation& s, int columns) {
   const BlockSet& b = s.blocks;
-  const ContactSet& c = s.contacts;
+  const FaceSet& c = s.contacts;
   Rest rest;
   rest.columns = columns;
   for (std::size_t i = 0; i < b.size(); ++i) {
@@ -91,9 +98,9 @@ Rest rest_of(const Simulation& s, int columns) {
     rest.bricks[key_of(place)] = {u.x, u.y, f.xx, f.xy, f.yx, f.yy};
   }
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if (!between_neighbours(b, c, k) || c.is(k, cs::blocked) || !(c.depth[k] > 0.0)) continue;
-    rest.touches[key_of(b, c, k, place_of(b, c.block_i[k]))] = {c.trial_slip(k), c.rest[k],
-                                                                c.is(k, cs::closed)};
+    const Sides sides = sides_of(b, c, k);
+    if (!between_neighbours(sides) || !is_closed(c, k)) continue;
+    rest.touches[key_of(sides, sides.first)] = {c.now.slip_a[k], c.now.slip_b[k]};
   }
   return rest;
 }
@@ -133,25 +140,21 @@ void put(Simulation& s, const Rest& rest, int columns) {
   s.pose.y1 = s.pose.y;
 }
 
-/// As at the start of a run, and then what the contacts of the short wall remember.
+/// As at the start of a run, and then what the faces of the short wall remember.
 void touch(Simulation& s, const Rest& rest, int columns) {
   const BlockSet& b = s.blocks;
-  ContactSet& c = s.contacts;
-  update_gaps(c, s.pose);
-  update_shares(c);
-  TransitionScratch scratch;
-  settle_contacts(c, b, s.pose, s.laws, 0, true, scratch);
+  FaceSet& c = s.contacts;
+  place_faces(c, b, s.pose, s.laws, 1.0);
+  stand_still(c);
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if (!between_neighbours(b, c, k)) continue;
-    const Source from = stands_for(place_of(b, c.block_i[k]), rest.columns, columns);
-    const auto found = rest.touches.find(key_of(b, c, k, from.place));
+    const Sides sides = sides_of(b, c, k);
+    if (!between_neighbours(sides)) continue;
+    const Source from = stands_for(sides.first, rest.columns, columns);
+    const auto found = rest.touches.find(key_of(sides, from.place));
     if (found == rest.touches.end()) continue;
-    const Touch& t = found->second;
-    c.rest[k] = t.rest;
-    c.anchor[k] = (c.foot[k] - t.slip) / c.span[k];
-    if (!t.closed) c.clear(k, cs::closed);
+    c.before.slip_a[k] = found->second.slip_a;
+    c.before.slip_b[k] = found->second.slip_b;
   }
-  c.look_everywhere();
 }
 
 /// So many steps under `damping`, with the step that it allows.
@@ -206,7 +209,7 @@ bool read_map(std::ifstream& in, Map& map) {
 
 /// Begins a file: another model, or another way to its rest, does not fit.
 std::string title_of(int columns, int rows) {
-  return "at rest, 2" + wall_model(columns, rows);
+  return "at rest, 3" + wall_model(columns, rows);
 }
 
 bool read_rest(const std::filesystem::path& path, const std::string& title, Rest& rest) {
@@ -268,15 +271,16 @@ Simulation settled_wall(int columns, int rows, const std::string& cache) {
 
 double error_of_row_forces(const Simulation& s) {
   const BlockSet& b = s.blocks;
-  const ContactSet& c = s.contacts;
+  const FaceSet& c = s.contacts;
   std::map<int, double, std::greater<>> weight;  // by row, from above
   std::map<int, double> force;                   // of the joint beneath the row
   for (std::size_t i = 0; i < b.size(); ++i) {
     if (!b.fixed[i]) weight[place_of(b, i).row] += b.mass[i] * -s.model.gravity.y;
   }
   for (std::size_t k = 0; k < c.size(); ++k) {
-    const int i = place_of(b, c.block_i[k]).row, j = place_of(b, c.block_j[k]).row;
-    if (i != j && c.is(k, cs::closed)) force[std::max(i, j)] += c.share[k] * c.normal[k];
+    const Sides sides = sides_of(b, c, k);
+    const int i = sides.first.row, j = sides.second.row;
+    if (i != j) force[std::max(i, j)] += normal_force(c, k);
   }
   double above = 0.0, error = 0.0;
   for (const auto& [row, of_row] : weight) {

@@ -5,13 +5,12 @@
 #include <random>
 #include <utility>
 
-#include "contacts/gaps.hpp"
-#include "forces/contact_forces.hpp"
+#include "contacts/face_bonds.hpp"
+#include "contacts/face_reading.hpp"
+#include "contacts/place_faces.hpp"
 
 namespace edda {
 namespace {
-
-namespace cs = contact_state;
 
 struct Field {
   Nodes x, y;
@@ -31,8 +30,7 @@ Field accelerations_of(Simulation& s) {
   for (std::size_t i = 0; i < s.blocks.size(); ++i) {
     if (s.state.alive[i]) place_vertices(s.blocks, s.state.x, s.state.y, i, s.pose.x, s.pose.y);
   }
-  remeasure_gaps(s.contacts, s.pose);
-  evaluate_contacts(s.contacts, s.blocks, s.laws, s.state.step, 0.0);
+  place_faces(s.contacts, s.blocks, s.pose, s.laws, s.state.step);
   gather_forces(s.forces, s.blocks, s.state, s.pose, s.contacts, s.springs, s.model.gravity);
   Field a{s.forces.x, s.forces.y};
   for_each_node(s, [&](std::size_t k, std::size_t i) {
@@ -43,20 +41,16 @@ Field accelerations_of(Simulation& s) {
 }
 
 /// Springs that neither open nor slide.
-void hold_contacts(ContactSet& c, Carrying which) {
+void hold_contacts(FaceSet& c, Carrying which) {
   constexpr double enough = 1e300;  // N
-  c.segments.clear();
   for (std::size_t k = 0; k < c.size(); ++k) {
-    const bool closed = c.is(k, cs::closed);
-    if (!closed && (which == Carrying::now || c.is(k, cs::blocked) || !c.on_edge(k))) continue;
-    if (!closed) {
-      c.rest[k] = c.depth[k];
-      c.anchor[k] = c.foot[k] / c.span[k];
-    }
-    c.set(k, cs::closed | cs::bonded | cs::pulls | cs::glued);
+    const bool closed = is_closed(c, k);
+    const bool aside = c.acts[k] == 0.0 || c.now.gate[k] == 0.0;
+    if (!closed && (which == Carrying::now || aside)) continue;
+    c.pulls[k] = c.bonded[k] = c.glued[k] = 1.0;
     c.tension[k] = enough;
   }
-  c.look_everywhere();
+  note_bonds(c);
 }
 
 }  // namespace

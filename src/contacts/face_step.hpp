@@ -88,7 +88,6 @@ EDDA_INLINE Lost lost(const Shear& now, double trial, double spring, const SlipO
 /// lose takes its part of the force along. Not for every breath: L must change by this part.
 constexpr double worth = 1e-4;
 
-
 /// What asks for a decision (see judge_face()).
 EDDA_INLINE bool asks(const FaceView& c, const Face& face, std::size_t k) {
   const double closure = larger(face.closure.a - c.offset_a[k], face.closure.b - c.offset_b[k]);
@@ -188,8 +187,10 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const double cohesion = touches ? 0.5 * c.cohesion[k] * face.length * face.gate : 0.0;
   const EndOfFace end_a{face.normal.a, trial_a, moved.closure.a, here.a, face.xi.a, face.eta.a};
   const EndOfFace end_b{face.normal.b, trial_b, moved.closure.b, here.b, face.xi.b, face.eta.b};
-  const EndActs acts_a = act<dashpots, held>(c, face, end_a, spring, cohesion, touches, c.limit_a, k);
-  const EndActs acts_b = act<dashpots, held>(c, face, end_b, spring, cohesion, touches, c.limit_b, k);
+  const EndActs acts_a =
+      act<dashpots, held>(c, face, end_a, spring, cohesion, touches, c.limit_a, k);
+  const EndActs acts_b =
+      act<dashpots, held>(c, face, end_b, spring, cohesion, touches, c.limit_b, k);
   const Shear a = acts_a.shear, b = acts_b.shear;
   const Lost lost_a =
       lost(a, trial_a, spring, {here.a, there.a, old.shear_a[k], slip_1a, kept}, touches);

@@ -2,7 +2,6 @@
 
 #include <limits>
 
-
 namespace edda {
 Inside inside_of(const BlockSet& b, const Pose& pose, Vec2 p, std::size_t j) {
   bool in = false;

@@ -14,7 +14,7 @@ namespace edda {
 namespace {
 
 constexpr double whole_gap = 1e-6;  // of the smaller block: what gapes by more is whole no more
-constexpr double hair = 1e-4;      // of the smaller block: what is further apart opens no more
+constexpr double hair = 1e-4;       // of the smaller block: what is further apart opens no more
 constexpr double steepest = 70.0;   // degrees
 
 double radians(double degrees) {

@@ -2,8 +2,8 @@
 // Such faces are few; the loops over all faces know nothing of them. They see the friction and
 // cohesion in force, which are brought up to date here between two steps.
 //
-// Notation: u slip made so far, both ways added up (m); sigma = N/(L t) mean normal stress on the length
-// L of the face; psi dilation angle.
+// Notation: u slip made so far, both ways added up (m); sigma = N/(L t) mean normal stress on the
+// length L of the face; psi dilation angle.
 //   slip weakening: strength = peak + (residual - peak) min(u/slip_distance, 1)
 //   Barton and Bandis (Barton and Choubey 1977; Barton, Bandis and Bakhtar 1985):
 //     tan(phi_r + JRC(u) log10(JCS/sigma)),  psi = JRC(u) log10(JCS/sigma)/2 degrees,

@@ -20,10 +20,10 @@ void multiply_inertia(BlockSet& b, std::size_t i, double factor) {
 
 }  // namespace
 
-std::vector<double> raise_inertia(BlockSet& b, const State& state,
-                                  const FaceSet& contacts, const BoundarySprings& springs,
-                                  const LawTable& laws, const Damping& damping, double step,
-                                  const Bolts* bolts, const std::vector<double>* most) {
+std::vector<double> raise_inertia(BlockSet& b, const State& state, const FaceSet& contacts,
+                                  const BoundarySprings& springs, const LawTable& laws,
+                                  const Damping& damping, double step, const Bolts* bolts,
+                                  const std::vector<double>* most) {
   // Frequencies fall as the root of the mass; damping makes the step fall a little faster than
   // that.
   constexpr int most_rounds = 20;

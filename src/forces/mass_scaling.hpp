@@ -12,10 +12,9 @@ namespace edda {
 /// a step below `step` (s), until it does not; or, where `most` is given, until its mass has been
 /// multiplied by that, [nb]. Returns what the masses were multiplied by, [nb], or nothing where all
 /// stayed as they were.
-std::vector<double> raise_inertia(BlockSet& blocks, const State& state,
-                                  const FaceSet& contacts, const BoundarySprings& springs,
-                                  const LawTable& laws, const Damping& damping, double step,
-                                  const Bolts* bolts = nullptr,
+std::vector<double> raise_inertia(BlockSet& blocks, const State& state, const FaceSet& contacts,
+                                  const BoundarySprings& springs, const LawTable& laws,
+                                  const Damping& damping, double step, const Bolts* bolts = nullptr,
                                   const std::vector<double>* most = nullptr);
 
 /// Mass that the blocks only seem to have, kg. inertia: [nb] factors on their masses, or none.

@@ -267,9 +267,8 @@ StepBound step_bound(const BlockSet& b, const State& s, const FaceSet& c,
 }
 
 std::vector<double> steps_of_blocks(const BlockSet& b, const State& s, const FaceSet& c,
-                                    const BoundarySprings& springs,
-                                    const LawTable& laws, const Damping& damping, double limit,
-                                    const Bolts* bolts) {
+                                    const BoundarySprings& springs, const LawTable& laws,
+                                    const Damping& damping, double limit, const Bolts* bolts) {
   const Scene scene{b, s, c, springs, laws, damping, bolts};
   std::vector<double> step(b.size(), std::numeric_limits<double>::infinity());
   parallel_for(b.size(), [&](std::size_t i) {

@@ -32,14 +32,14 @@ struct StepBound {
 /// Local damping beta makes a node that moves against its force see (1 + beta) of it, so w^2 grows
 /// by that; and mass-proportional damping a turns velocities round beyond 2/a, so 1/a is the limit.
 StepBound step_bound(const BlockSet& blocks, const State& state, const FaceSet& contacts,
-                     const BoundarySprings& springs, const LawTable& laws,
-                     const Damping& damping, const Bolts* bolts = nullptr);
+                     const BoundarySprings& springs, const LawTable& laws, const Damping& damping,
+                     const Bolts* bolts = nullptr);
 
 /// The step that each block would allow alone, [nb] s: exact
 /// where it is below `limit`, elsewhere not below `limit` and perhaps too small; infinite for held
 /// ones.
-std::vector<double> steps_of_blocks(const BlockSet& blocks, const State& state, const FaceSet& contacts,
-                                    const BoundarySprings& springs,
+std::vector<double> steps_of_blocks(const BlockSet& blocks, const State& state,
+                                    const FaceSet& contacts, const BoundarySprings& springs,
                                     const LawTable& laws, const Damping& damping, double limit,
                                     const Bolts* bolts = nullptr);
 

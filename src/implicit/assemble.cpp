@@ -22,10 +22,10 @@ struct Directions {
 
 Directions on_both(const BlockSet& b, const FaceSet& c, std::size_t k, const CornerForces& f,
                    bool of_edge) {
-  const Vector6 edge = along(vertex_weights(b, c.edge[k]), f.p1) +
-                       along(vertex_weights(b, c.edge_end[k]), f.p2);
-  const Vector6 facing = along(vertex_weights(b, c.facing[k]), f.q1) +
-                         along(vertex_weights(b, c.facing_end[k]), f.q2);
+  const Vector6 edge =
+      along(vertex_weights(b, c.edge[k]), f.p1) + along(vertex_weights(b, c.edge_end[k]), f.p2);
+  const Vector6 facing =
+      along(vertex_weights(b, c.facing[k]), f.q1) + along(vertex_weights(b, c.facing_end[k]), f.q2);
   return of_edge ? Directions{edge, facing} : Directions{facing, edge};
 }
 

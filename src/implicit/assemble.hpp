@@ -27,7 +27,7 @@ Vector6 viscous_force(const ImplicitSolver& solver, const BlockSet& blocks,
 /// strain. Returns the largest of a
 /// block over what it may be: 1 and less is in balance; NaN where a block has lost its shape.
 double measure_residual(ImplicitSolver& solver, const ImplicitScene& scene,
-                        const ImplicitSettings& settings, const State& state,
-                        const FaceSet& faces, const NodalForces& forces);
+                        const ImplicitSettings& settings, const State& state, const FaceSet& faces,
+                        const NodalForces& forces);
 
 }  // namespace edda

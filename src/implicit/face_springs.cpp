@@ -18,8 +18,7 @@ constexpr double touch = 1e-9;
 
 /// Spring energies at one instant, U and p_t u^2/2 of each end, J.
 double energy_of(const FaceMemory& m, std::size_t k) {
-  return m.energy[k] +
-         0.5 * m.spring[k] * (m.slip_a[k] * m.slip_a[k] + m.slip_b[k] * m.slip_b[k]);
+  return m.energy[k] + 0.5 * m.spring[k] * (m.slip_a[k] * m.slip_a[k] + m.slip_b[k] * m.slip_b[k]);
 }
 
 double limit_of(const FaceSet& c, double normal, std::size_t k) {

@@ -13,8 +13,8 @@ namespace edda {
 
 /// Memory of one step, [nf] each.
 struct FaceSprings {
-  ShearLimits limits;          ///< by the normal forces at the start of the step
-  std::vector<double> stored;  ///< J at the start of the step
+  ShearLimits limits;               ///< by the normal forces at the start of the step
+  std::vector<double> stored;       ///< J at the start of the step
   std::vector<std::uint8_t> state;  ///< at the last evaluation: 1 and 2: end a, b is closed; 4 and
                                     ///< 8: it slides
   std::vector<double> acts, leans, offset_a, offset_b;  ///< verdicts at the start of the step

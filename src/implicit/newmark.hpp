@@ -60,16 +60,16 @@ struct ImplicitSolver {
   std::vector<double> carried;       ///< [rows] scratch of measure_residual(), N
   std::vector<double> error;         ///< [rows] scratch of measure_residual()
   std::vector<double> energy;        ///< [nb] strain at the start of the step, J
-  int rounds = 0;                  ///< solves of the last attempt
-  std::uint64_t switched = 0;      ///< changes of states of faces in it
-  double last_displacement = 0.0;  ///< m: largest of a vertex
+  int rounds = 0;                    ///< solves of the last attempt
+  std::uint64_t switched = 0;        ///< changes of states of faces in it
+  double last_displacement = 0.0;    ///< m: largest of a vertex
 };
 
 /// Tries one step of `settings.step` s. Accepted: positions, velocities (of the same instant), pose
 /// (x1, y1 the positions before), contacts and damping work are those of its end. Otherwise they
 /// are, bit for bit, what they were; `forces` are those of the last trial position.
 Attempt newmark_step(ImplicitSolver& solver, const ImplicitScene& scene,
-                     const ImplicitSettings& settings, State& state, Pose& pose,
-                     FaceSet& contacts, NodalForces& forces, std::vector<double>& damping_work);
+                     const ImplicitSettings& settings, State& state, Pose& pose, FaceSet& contacts,
+                     NodalForces& forces, std::vector<double>& damping_work);
 
 }  // namespace edda

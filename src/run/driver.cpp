@@ -15,7 +15,6 @@
 namespace edda {
 namespace {
 
-
 /// Blocks turn by less than half a turn in so many steps: none moves by more than a tenth of an
 /// edge in one.
 constexpr std::uint64_t look_every = 8;

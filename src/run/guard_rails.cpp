@@ -23,7 +23,6 @@
 namespace edda {
 namespace {
 
-
 // Spring of a contact over young times thickness. An edge has two such springs, so at 10 a joint
 // gives about 5 % of what its blocks give; at 0.1 five times as much.
 constexpr double soft = 0.1, stiff = 300.0;
@@ -35,8 +34,7 @@ double step_without(const Simulation& sim, Id block) {
   BlockSet others = sim.blocks;
   others.fixed[block] = 1;
   fill_point_masses(others);
-  return step_bound(others, sim.state, sim.contacts, sim.springs, sim.laws, sim.damping,
-                    &sim.bolts)
+  return step_bound(others, sim.state, sim.contacts, sim.springs, sim.laws, sim.damping, &sim.bolts)
       .critical_step;
 }
 
@@ -159,8 +157,8 @@ void warn_of_few(const Simulation& sim, std::vector<std::string>& warnings) {
     return;  // all blocks are
   constexpr double few = 0.01, worth = 2.0;
   constexpr std::size_t least = 20;  // blocks, for "few" to mean something
-  std::vector<double> steps = steps_of_blocks(sim.blocks, sim.state, sim.contacts,
-                                              sim.springs, sim.laws, sim.damping, 0.0, &sim.bolts);
+  std::vector<double> steps = steps_of_blocks(sim.blocks, sim.state, sim.contacts, sim.springs,
+                                              sim.laws, sim.damping, 0.0, &sim.bolts);
   std::vector<double> sorted;
   std::copy_if(steps.begin(), steps.end(), std::back_inserter(sorted),
                [](double h) { return std::isfinite(h); });

@@ -50,9 +50,8 @@ double rounding_energy(const BlockSet& b, const FaceSet& c) {
   return 0.5 * static_cast<double>(b.size()) * stiffness * stretch * stretch;
 }
 
-Ledger sum_ledger(const BlockSet& b, const State& s, double h, const Pose& pose,
-                  const FaceSet& c, const BoundarySprings& springs, const DampingWork& work,
-                  Vec2 gravity) {
+Ledger sum_ledger(const BlockSet& b, const State& s, double h, const Pose& pose, const FaceSet& c,
+                  const BoundarySprings& springs, const DampingWork& work, Vec2 gravity) {
   auto over_free = [&](auto&& term) {
     return ordered_sum(b.size(),
                        [&](std::size_t i) { return b.fixed[i] || !s.alive[i] ? 0.0 : term(i); });

@@ -32,8 +32,8 @@ struct Ledger {
 /// Every line but step_change and drift, from positions at step n and velocities half of `behind` s
 /// earlier: the step for the leapfrog, 0 where both belong to one instant (and pose.x1 = pose.x).
 Ledger sum_ledger(const BlockSet& blocks, const State& state, double behind, const Pose& pose,
-                  const FaceSet& contacts, const BoundarySprings& springs,
-                  const DampingWork& work, Vec2 gravity);
+                  const FaceSet& contacts, const BoundarySprings& springs, const DampingWork& work,
+                  Vec2 gravity);
 
 /// What rounding alone may store in springs and rock, and shake loose over a long run, J: all
 /// blocks with the stiffest spring drawn out by 1e4 roundings of a coordinate. Changes of energy

@@ -13,7 +13,6 @@
 namespace edda {
 namespace {
 
-
 bool moves(const Simulation& sim, std::size_t i) {
   return is_free(sim.blocks, sim.state, i);
 }

@@ -14,7 +14,7 @@ namespace edda {
 /// section 5). They are large: not to be kept from row to row.
 struct Instant {
   State state;                    ///< x, y and v at n
-  FaceSet contacts;            ///< with the forces at n
+  FaceSet contacts;               ///< with the forces at n
   NodalForces forces;             ///< at n, N
   std::vector<Vec2> on_dashpots;  ///< at n, N
 };
@@ -41,8 +41,7 @@ BlockStress block_stress(const Simulation& sim, const State& state, std::size_t 
 
 /// The mean contact normal force, N; where no contact carries, the mean over `blocks` of weight and
 /// loads.
-double force_scale(const Simulation& sim, const FaceSet& contacts,
-                   const std::vector<Id>& blocks);
+double force_scale(const Simulation& sim, const FaceSet& contacts, const std::vector<Id>& blocks);
 
 /// The mean over blocks not held of the resultant force, over force_scale(); 0 where no force is, 1
 /// where there is nothing to measure it by.

@@ -54,8 +54,8 @@ std::optional<Fault> heavy_scaling(const Simulation& sim) {
   if (added <= most_added * all) return {};
   const Solver& solver = sim.model.solver;
   // Before the masses were raised, each block needed a step smaller by the root of its factor.
-  std::vector<double> own = steps_of_blocks(sim.blocks, sim.state, sim.contacts,
-                                            sim.springs, sim.laws, sim.damping, 0.0, &sim.bolts);
+  std::vector<double> own = steps_of_blocks(sim.blocks, sim.state, sim.contacts, sim.springs,
+                                            sim.laws, sim.damping, 0.0, &sim.bolts);
   for (std::size_t i = 0; i < own.size(); ++i) own[i] /= std::sqrt(sim.inertia[i]);
   const double step = step_that_adds(sim.blocks, own, most_added * all);
   const double largest = solver.time_step ? step : solver.safety * step;

@@ -1,10 +1,10 @@
-// A random heap whose blocks drift about, its candidate list held to the oracle at every move.
+// A random heap whose blocks drift about, its list of faces held to the oracle at every move.
 #pragma once
 
 #include <limits>
 
 #include "blocks/build_blocks.hpp"
-#include "contacts/candidates.hpp"
+#include "contacts/find_faces.hpp"
 #include "contacts/oracle.hpp"
 #include "contacts/random_shapes.hpp"
 
@@ -38,7 +38,7 @@ struct DriftingHeap {
   State state;
   Pose pose;
   LawTable laws;
-  ContactSet contacts;
+  FaceSet contacts;
 
   DriftingHeap(std::mt19937& rng, int n, double decades) {
     Model model;
@@ -79,7 +79,7 @@ struct DriftingHeap {
   ListFaults check() const { return check_list(contacts, blocks, state.alive, pose.x, pose.y); }
 };
 
-/// One heap through `lists` lists and `moves` moves under each; closed contacts must survive every
+/// One heap through `lists` lists and `moves` moves under each; faces that carry must survive every
 /// new list.
 inline ListFaults drifting_heap(unsigned seed, int blocks, int lists, int moves) {
   std::mt19937 rng(seed);
@@ -93,17 +93,17 @@ inline ListFaults drifting_heap(unsigned seed, int blocks, int lists, int moves)
   };
   for (int list = 0; list < lists; ++list) {
     const double reach = 0.3 * std::pow(10.0, -3.0 * u(rng));
-    std::vector<NearPair> closed;
-    ContactSet& c = heap.contacts;
+    std::vector<std::pair<EdgePair, double>> carry;
+    FaceSet& c = heap.contacts;
     for (std::size_t k = 0; k < c.size(); ++k) {
-      if (c.is(k, contact_state::closed)) closed.push_back({c.vertex[k], c.edge[k]});
+      if (c.now.energy[k] > 0.0) carry.push_back({{c.edge[k], c.facing[k]}, c.now.energy[k]});
     }
-    rebuild_candidates(c, heap.blocks, heap.state, heap.pose, heap.laws, reach);
+    find_faces(c, heap.blocks, heap.state, heap.pose, heap.laws, reach);
     for (std::size_t k = 0, q = 0; k < c.size(); ++k) {
-      const bool was = q < closed.size() && NearPair{c.vertex[k], c.edge[k]} == closed[q];
-      q += was ? 1 : 0;
-      sum.missed += was != c.is(k, contact_state::closed) ? 1 : 0;
-      if (u(rng) < 0.1) c.set(k, contact_state::closed);
+      const bool did = q < carry.size() && EdgePair{c.edge[k], c.facing[k]} == carry[q].first;
+      const double had = did ? carry[q++].second : 0.0;
+      sum.missed += c.now.energy[k] == had ? 0 : 1;
+      if (u(rng) < 0.1) c.now.energy[k] = 1.0 + u(rng);
     }
     add(heap.check());
     for (int move = 0; move < moves; ++move) {

@@ -1,37 +1,58 @@
-// What a candidate list must hold, by looking at every vertex and every edge.
+// What the list of faces must hold, by looking at every two edges.
 #pragma once
 
 #include <algorithm>
+#include <numbers>
+#include <utility>
 #include <vector>
 
-#include "contacts/contact_set.hpp"
-#include "contacts/gap.hpp"
-#include "contacts/search.hpp"
+#include "contacts/face_set.hpp"
 
 namespace edda {
 
-/// Every vertex nearer than `near` (m) to an edge of another block that it faces, in order.
-/// O(n^2): nothing is shared with the search but the meaning of "near" and "faces".
-inline std::vector<NearPair> all_near(const BlockSet& b, const std::vector<std::uint8_t>& alive,
+using EdgePair = std::pair<Id, Id>;
+
+/// Whether the edges e and f are within the angle of each other in which a face may act: 85
+/// degrees, and where one of their ends is a needle of alpha < 90 degrees (90 - alpha)/2 more.
+inline bool oppose(const BlockSet& b, const std::vector<double>& x, const std::vector<double>& y,
+                   Id e, Id f) {
+  const auto direction = [&](Id edge) {
+    const Id end = b.next[edge];
+    return unit(Vec2{x[end] - x[edge], y[end] - y[edge]});
+  };
+  double sharpest = 0.5 * std::numbers::pi;
+  for (const Id v : {e, b.next[e], f, b.next[f]}) sharpest = std::min(sharpest, b.corner[v]);
+  const double most = 85.0 / 180.0 * std::numbers::pi + 0.5 * (0.5 * std::numbers::pi - sharpest);
+  return -dot(direction(e), direction(f)) > std::cos(most);
+}
+
+/// Every two opposed edges of different blocks of which a corner of one is nearer than `near` (m)
+/// to the other, in order. O(n^2): nothing is shared with the search but the meaning of "near".
+inline std::vector<EdgePair> all_near(const BlockSet& b, const std::vector<std::uint8_t>& alive,
                                       const std::vector<double>& x, const std::vector<double>& y,
                                       double near) {
-  std::vector<NearPair> pairs;
-  for (Id v = 0; v < b.vertex_count(); ++v) {
-    const Id i = b.vertex_block[v];
+  const auto corner = [&](Id v) { return Vec2{x[v], y[v]}; };
+  const auto distance = [&](Id v, Id edge) {
+    return distance_to_segment(corner(v), corner(edge), corner(b.next[edge]));
+  };
+  const auto low = [&](const std::vector<double>& u, Id e) { return std::min(u[e], u[b.next[e]]); };
+  const auto high = [&](const std::vector<double>& u, Id e) {
+    return std::max(u[e], u[b.next[e]]);
+  };
+  std::vector<EdgePair> pairs;
+  for (Id e = 0; e < b.vertex_count(); ++e) {
+    const Id i = b.vertex_block[e];
     if (!alive[i]) continue;
-    const Vec2 p{x[v], y[v]};
-    for (Id e = 0; e < b.vertex_count(); ++e) {
-      const Id j = b.vertex_block[e];
+    for (Id f = e + 1; f < b.vertex_count(); ++f) {
+      const Id j = b.vertex_block[f];
       if (i == j || !alive[j] || (b.fixed[i] && b.fixed[j])) continue;
-      const Vec2 q{x[e], y[e]}, r{x[b.next[e]], y[b.next[e]]};
-      if (std::max(q.x, r.x) < p.x - near || std::min(q.x, r.x) > p.x + near ||
-          std::max(q.y, r.y) < p.y - near || std::min(q.y, r.y) > p.y + near) {
+      if (low(x, e) > high(x, f) + near || low(x, f) > high(x, e) + near ||
+          low(y, e) > high(y, f) + near || low(y, f) > high(y, e) + near) {
         continue;
       }
-      const Vec2 u = r - q;
-      const double s = std::clamp(dot(p - q, u) / dot(u, u), 0.0, 1.0);
-      if (norm(p - (q + s * u)) >= near) continue;
-      if (facing(b, x, y, v, outward_normal(unit(u)))) pairs.push_back({v, e});
+      const double least = std::min(
+          {distance(e, f), distance(b.next[e], f), distance(f, e), distance(b.next[f], e)});
+      if (least < near && oppose(b, x, y, e, f)) pairs.push_back({e, f});
     }
   }
   return pairs;
@@ -44,7 +65,7 @@ struct ListFaults {
 };
 
 /// Farthest that any vertex has moved since the list was made, m.
-inline double moved_since_built(const ContactSet& c, const std::vector<double>& x,
+inline double moved_since_built(const FaceSet& c, const std::vector<double>& x,
                                 const std::vector<double>& y) {
   double most = 0.0;
   for (std::size_t v = 0; v < x.size(); ++v) {
@@ -54,16 +75,16 @@ inline double moved_since_built(const ContactSet& c, const std::vector<double>& 
 }
 
 /// Holds the list to everything nearer than its reach less twice what a vertex has moved since.
-inline ListFaults check_list(const ContactSet& c, const BlockSet& b,
+inline ListFaults check_list(const FaceSet& c, const BlockSet& b,
                              const std::vector<std::uint8_t>& alive, const std::vector<double>& x,
                              const std::vector<double>& y) {
   ListFaults faults;
-  std::vector<NearPair> list;
-  for (std::size_t k = 0; k < c.size(); ++k) list.push_back({c.vertex[k], c.edge[k]});
+  std::vector<EdgePair> list;
+  for (std::size_t k = 0; k < c.size(); ++k) list.push_back({c.edge[k], c.facing[k]});
   for (std::size_t k = 1; k < list.size(); ++k) faults.repeated += list[k - 1] < list[k] ? 0 : 1;
   const double near = c.reach - 2.0 * moved_since_built(c, x, y);
   if (near <= 0.0) return faults;
-  for (const NearPair& pair : all_near(b, alive, x, y, near)) {
+  for (const EdgePair& pair : all_near(b, alive, x, y, near)) {
     ++faults.wanted;
     faults.missed += std::binary_search(list.begin(), list.end(), pair) ? 0 : 1;
   }

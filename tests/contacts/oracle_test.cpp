@@ -1,4 +1,4 @@
-// The candidate list against brute force, while blocks move under it.
+// The list of faces against brute force, while blocks move under it.
 #include <gtest/gtest.h>
 
 #include "contacts/drifting_heap.hpp"
@@ -7,7 +7,7 @@ namespace edda::oracle_test {
 namespace {
 
 /// Sizes up to 1 : 10,000, needles, slivers, stars; tools/contact-oracle runs thousands of these.
-TEST(CandidateList, MissesNothingWhileBlocksMove) {
+TEST(ListOfFaces, MissesNothingWhileBlocksMove) {
   std::size_t wanted = 0;
   for (unsigned seed = 0; seed < 150; ++seed) {
     const ListFaults faults = drifting_heap(seed, 30, 2, 3);

@@ -23,7 +23,7 @@ struct Scene {
   BoundarySprings springs;
   State state;
   Pose pose;
-  ContactSet contacts;
+  FaceSet contacts;
   NodalForces forces;
   ImplicitSolver solver;
   ImplicitSettings settings;
@@ -44,14 +44,13 @@ struct Scene {
     place();
     pose.x1 = pose.x;
     pose.y1 = pose.y;
-    find_faces(contacts.faces, blocks, state, pose, laws, 0.05);
-    place_faces(contacts.faces, blocks, pose, laws, 1.0);
-    stand_still(contacts.faces);  // limits of friction
-    contacts.on_faces = true;
+    find_faces(contacts, blocks, state, pose, laws, 0.05);
+    place_faces(contacts, blocks, pose, laws, 1.0);
+    stand_still(contacts);  // limits of friction
     settings.step = 2e-3;
     settings.mass_damping = 3.0;
     settings.contact_damping = 0.1;
-    set_face_dashpots(contacts.faces, laws, settings.contact_damping);
+    set_face_dashpots(contacts, laws, settings.contact_damping);
   }
 
   ImplicitScene scene() const { return {blocks, laws, springs, {0.0, -9.81}}; }
@@ -73,9 +72,9 @@ struct Scene {
       }
     }
     place();
-    evaluate_springs(solver.springs, contacts.faces, blocks, pose, settings.step, false);
+    evaluate_springs(solver.springs, contacts, blocks, pose, settings.step, false);
     gather_forces(forces, blocks, state, pose, contacts, springs, {0.0, -9.81});
-    measure_residual(solver, scene(), settings, state, contacts.faces, forces);
+    measure_residual(solver, scene(), settings, state, contacts, forces);
     return solver.residual;
   }
 };
@@ -107,15 +106,15 @@ duration = 1.0
 TEST(Assemble, MatrixIsTheDerivativeOfTheResidual) {
   Scene s(pressed);
   const Nodes x0 = s.state.x, y0 = s.state.y;
-  set_pattern(s.solver, s.scene(), s.state, s.contacts.faces);
-  begin_springs(s.solver.springs, s.contacts.faces);
+  set_pattern(s.solver, s.scene(), s.state, s.contacts);
+  begin_springs(s.solver.springs, s.contacts);
   const auto n = static_cast<Eigen::Index>(6 * s.solver.block_of.size());
   ASSERT_EQ(n, 12);
   s.solver.moved = Eigen::VectorXd::Zero(n);
   const Eigen::VectorXd at_rest = s.residual(x0, y0);
   const std::vector<std::uint8_t>& states = s.solver.springs.state;
   ASSERT_GE(std::count_if(states.begin(), states.end(), [](int state) { return state != 0; }), 3);
-  ASSERT_TRUE(assemble(s.solver, s.scene(), s.settings, s.state, s.pose, s.contacts.faces));
+  ASSERT_TRUE(assemble(s.solver, s.scene(), s.settings, s.state, s.pose, s.contacts));
   const Eigen::MatrixXd matrix(s.solver.matrix.scalar());
   EXPECT_LE((matrix - matrix.transpose()).norm(), 1e-12 * matrix.norm());
   Eigen::MatrixXd slopes(n, n);
@@ -134,7 +133,7 @@ TEST(Assemble, MatrixIsTheDerivativeOfTheResidual) {
 
 TEST(Assemble, FillsThePatternOfWhatMayTouch) {
   Scene s(pressed);
-  set_pattern(s.solver, s.scene(), s.state, s.contacts.faces);
+  set_pattern(s.solver, s.scene(), s.state, s.contacts);
   EXPECT_EQ(s.solver.row_of[0], no_id);
   EXPECT_EQ(s.solver.matrix.rows(), 2u);
   EXPECT_NE(s.solver.matrix.slot(0, 1), no_id);

@@ -369,7 +369,7 @@ TEST(StrengthFactor, DividesAllStrength) {
       prepared(ramp("friction_angle = 40\ncohesion = 1e5\ntensile_strength = 2e4\nresidual = { "
                     "friction_angle = 30 }\n"));
   Simulation& sim = run.sim;
-  const ContactSet before = sim.contacts;
+  const FaceSet before = sim.contacts;
   const Law law = sim.laws.rows[0];
   sim.set_strength_factor(2.0);
   EXPECT_EQ(sim.laws.rows[0].peak_friction, law.peak_friction / 2.0);

@@ -43,7 +43,7 @@ stress = [-3e6, -2e6, )" + std::to_string(shear) +
 
 bool slipped(const Simulation& sim) {
   for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
-    if (sim.contacts.is(k, contact_state::slipped)) return true;
+    if (sim.contacts.slipped[k] > 0.0) return true;
   }
   return false;
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "contacts/face_reading.hpp"
 #include "forces/mass_scaling.hpp"
 #include "model/read_model.hpp"
 #include "run/simulation.hpp"
@@ -89,8 +90,9 @@ TEST(MassScaling, LeavesTheStateAtRestAsItIs) {
     while (sim.state.time < 0.03) ASSERT_FALSE(sim.step());
     double on_floor = 0.0, on_cube = 0.0;
     for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
-      const double n = sim.contacts.share[k] * sim.contacts.normal[k];
-      const Id low = std::min(sim.contacts.block_i[k], sim.contacts.block_j[k]);
+      const double n = normal_force(sim.contacts, k);
+      const Id low = std::min(block_of_edge(sim.blocks, sim.contacts, k),
+                              block_of_facing(sim.blocks, sim.contacts, k));
       (low == 0 ? on_floor : on_cube) += n;
     }
     EXPECT_NEAR(on_cube, 2600 * 0.05 * 0.05 * 9.81, 1e-3 * on_cube) << solver;

@@ -131,16 +131,17 @@ struct Pressing {
 
 /// The one place that knows how contacts are kept.
 inline std::vector<Pressing> pressing(const Simulation& sim) {
-  const ContactSet& c = sim.contacts;
+  const FaceSet& c = sim.contacts;
   std::vector<Pressing> list;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    const double force = c.kn[k] * c.share[k] * c.effective(k);
-    if (!c.is(k, contact_state::closed) || force <= 0.0) continue;
-    list.push_back({c.block_i[k],
-                    c.block_j[k],
-                    {sim.pose.x[c.vertex[k]], sim.pose.y[c.vertex[k]]},
-                    c.depth[k],
-                    force});
+    const double force = normal_force(c, k);
+    if (!is_closed(c, k) || force <= 0.0) continue;
+    // The corner that bounds the deeper end lies in the other block.
+    const Vec2 point = deeper_end(c, sim.pose, k);
+    const double xi = c.now.closure_b[k] >= c.now.closure_a[k] ? c.now.xi_b[k] : c.now.xi_a[k];
+    const bool of_edge = xi == 0.0 || xi == 1.0;
+    const Id e = block_of_edge(sim.blocks, c, k), f = block_of_facing(sim.blocks, c, k);
+    list.push_back({of_edge ? e : f, of_edge ? f : e, point, closure_of(c, k), force});
   }
   return list;
 }

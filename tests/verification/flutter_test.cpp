@@ -56,7 +56,7 @@ double measured_growth(double phi, double spring, double safety, double duration
   const auto normal = [&] {
     double largest = 0.0;
     for (std::size_t k = 0; k < sim.contacts.size(); ++k)
-      largest = std::max(largest, sim.contacts.normal[k]);
+      largest = std::max({largest, sim.contacts.now.normal_a[k], sim.contacts.now.normal_b[k]});
     return largest;
   };
   const double still = normal();

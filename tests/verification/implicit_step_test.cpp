@@ -43,7 +43,7 @@ TEST(ImplicitAttempt, LeavesEverythingAsItWas) {
   run(sim, [](Simulation&) {});
   const State state = sim.state;
   const Pose pose = sim.pose;
-  const ContactSet c = sim.contacts;
+  const FaceSet c = sim.contacts;
   const std::vector<double> damping = sim.damping_work.joules;
   ImplicitSettings settings;
   settings.step = 1e-2;
@@ -58,14 +58,13 @@ TEST(ImplicitAttempt, LeavesEverythingAsItWas) {
   EXPECT_EQ(sim.state.vy, state.vy);
   EXPECT_EQ(sim.pose.x, pose.x);
   EXPECT_EQ(sim.pose.y, pose.y);
-  EXPECT_EQ(sim.contacts.state, c.state);
-  EXPECT_EQ(sim.contacts.anchor, c.anchor);
-  EXPECT_EQ(sim.contacts.rest, c.rest);
-  EXPECT_EQ(sim.contacts.depth, c.depth);
-  EXPECT_EQ(sim.contacts.normal, c.normal);
-  EXPECT_EQ(sim.contacts.shear, c.shear);
-  EXPECT_EQ(sim.contacts.blocked, c.blocked);
-  EXPECT_EQ(sim.contacts.friction_work, c.friction_work);
+  for (const FaceStateColumn& column : face_state_columns)
+    EXPECT_EQ(sim.contacts.*column.values, c.*column.values) << column.name;
+  for (const FaceColumn& column : face_columns) {
+    EXPECT_EQ(sim.contacts.now.*column.values, c.now.*column.values) << column.name;
+    EXPECT_EQ(sim.contacts.before.*column.values, c.before.*column.values) << column.name;
+  }
+  EXPECT_EQ(sim.contacts.force, c.force);
   EXPECT_EQ(sim.damping_work.joules, damping);
 }
 
@@ -126,8 +125,7 @@ Bounce bounce(const std::string& method) {
     observe(s, now);
     double normal = 0.0;
     for (std::size_t k = 0; k < now.contacts.size(); ++k) {
-      if (now.contacts.is(k, contact_state::closed))
-        normal += now.contacts.share[k] * now.contacts.normal[k];
+      normal += normal_force(now.contacts, k);
     }
     b.largest = std::max(b.largest, normal);
     b.up = centroid(s.state.vx, s.state.vy, 1).y;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "contacts/gap.hpp"
+#include "blocks/pose.hpp"
 
 namespace edda {
 
@@ -38,10 +38,10 @@ inline Overlap deepest_overlap(const BlockSet& b, const Pose& pose) {
   auto along_normals = [&](std::size_t i, std::size_t j) {
     double least = std::numeric_limits<double>::infinity();
     for (Id e = b.vertex_begin[i]; e < b.vertex_begin[i + 1]; ++e) {
-      const EdgeFrame f = edge_frame(at(pose.x, pose.y, e), at(pose.x, pose.y, b.next[e]));
+      const Vec2 start = at(pose.x, pose.y, e), t = unit(at(pose.x, pose.y, b.next[e]) - start);
       double deepest = -std::numeric_limits<double>::infinity();
       for (Id v = b.vertex_begin[j]; v < b.vertex_begin[j + 1]; ++v)
-        deepest = std::max(deepest, gap_to(f, at(pose.x, pose.y, v)).depth);
+        deepest = std::max(deepest, cross(t, at(pose.x, pose.y, v) - start));
       least = std::min(least, deepest);
     }
     return least;

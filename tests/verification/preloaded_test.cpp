@@ -57,8 +57,7 @@ Slide slide(int row, double alpha, double phi, const std::string& young, double 
       ways.add({t, sliding(alpha, phi, t), slid(sim, alpha) - start - speed * t});
     }
     double sum = 0.0;
-    for (std::size_t k = 0; k < sim.contacts.size(); ++k)
-      sum += sim.contacts.share[k] * sim.contacts.normal[k];
+    for (std::size_t k = 0; k < sim.contacts.size(); ++k) sum += normal_force(sim.contacts, k);
     result.largest = std::max(result.largest, sum / normal);
   }
   const double speed = v0.x * std::cos(a) - v0.y * std::sin(a);

@@ -139,10 +139,10 @@ TEST(Restitution, ForcesStayWithinFriction) {
         damping = l.damping;
       },
       [&](Simulation& s) {
-        const ContactSet& c = s.contacts;
+        const FaceSet& c = s.contacts;
         for (std::size_t k = 0; k < c.size(); ++k) {
-          const double limit = c.shear_limit(k, c.normal[k]);
-          over = std::max(over, std::abs(c.shear[k] + c.drag_of(k)) - limit * (1.0 + 1e-9));
+          const double limit = shear_strength(c, k);
+          over = std::max(over, std::abs(shear_force(c, k)) - limit * (1.0 + 1e-9));
         }
       });
   EXPECT_GT(damping, 100.0);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "blocks/kinematics.hpp"
+#include "contacts/face_reading.hpp"
 #include "forces/elastic.hpp"
 #include "model/read_model.hpp"
 #include "run/simulation.hpp"
@@ -91,6 +92,13 @@ inline std::string brief(double v) {
 inline std::string rectangle(double x0, double y0, double x1, double y1) {
   return "[[" + number(x0) + "," + number(y0) + "],[" + number(x1) + "," + number(y0) + "],[" +
          number(x1) + "," + number(y1) + "],[" + number(x0) + "," + number(y1) + "]]";
+}
+
+/// Faces that still have their peak strength.
+inline std::size_t bonded_faces(const Simulation& sim) {
+  std::size_t count = 0;
+  for (const double bonded : sim.contacts.bonded) count += bonded > 0.0;
+  return count;
 }
 
 }  // namespace edda

@@ -39,9 +39,7 @@ double press_in_ten_pieces(double alpha, double phi, const std::string& label,
   const double bound = 2e-3 * more_for_friction(alpha, phi);
   const double drift = expect_slides(sim, 17, label, alpha, phi, bound, [&](Simulation& s) {
     double sum = 0.0;
-    for (std::size_t k = 0; k < s.contacts.size(); ++k) {
-      sum += s.contacts.share[k] * s.contacts.alpha[k] * s.contacts.normal[k];
-    }
+    for (std::size_t k = 0; k < s.contacts.size(); ++k) sum += normal_force(s.contacts, k);
     pressing.add({s.state.time, sum / weight});
     largest = std::max(largest, sum / weight);
   });

@@ -101,9 +101,11 @@ history_every = 0.001
   double diagonal = 0.0;
   std::map<std::pair<Id, Id>, int> carrying;
   for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
-    const Id i = std::min(sim.contacts.block_i[k], sim.contacts.block_j[k]);
-    const Id j = std::max(sim.contacts.block_i[k], sim.contacts.block_j[k]);
-    const double force = sim.contacts.share[k] * sim.contacts.normal[k];
+    const Id i = std::min(block_of_edge(sim.blocks, sim.contacts, k),
+                          block_of_facing(sim.blocks, sim.contacts, k));
+    const Id j = std::max(block_of_edge(sim.blocks, sim.contacts, k),
+                          block_of_facing(sim.blocks, sim.contacts, k));
+    const double force = normal_force(sim.contacts, k);
     if ((i == 4 && j == 7) || (i == 5 && j == 6)) diagonal = std::max(diagonal, std::abs(force));
     if (i >= 4 && force > 0.0) ++carrying[{i, j}];
   }

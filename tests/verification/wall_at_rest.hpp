@@ -57,14 +57,14 @@ inline Rest watch_rest(Simulation& sim, std::uint64_t steps, bool settled) {
   std::vector<Vec2> home;
   for (std::size_t i = 0; i < sim.blocks.size(); ++i)
     home.push_back(centroid(sim.state.x, sim.state.y, i));
-  std::vector<std::uint8_t> closed;
+  std::vector<double> closed;
   double early = 0.0, late = 0.0;
   std::uint64_t early_rows = 0, late_rows = 0;
   sim.start_energy = {};
   sim.largest_energy = 0.0;
   while (sim.state.steps < first + steps) {
     const std::uint64_t rebuilds = sim.contacts.rebuilds;
-    closed = sim.contacts.state;
+    closed = sim.contacts.now.energy;
     const auto failure = sim.step();
     if (failure) {
       ADD_FAILURE() << failure->message;
@@ -75,8 +75,9 @@ inline Rest watch_rest(Simulation& sim, std::uint64_t steps, bool settled) {
     if (later) ++rest.later_steps;
     if (later && rebuilds == sim.contacts.rebuilds) {
       for (std::size_t k = 0; k < closed.size(); ++k) {
-        const bool flipped = ((closed[k] ^ sim.contacts.state[k]) & contact_state::closed) != 0;
-        const double force = sim.contacts.kn[k] * std::abs(sim.contacts.effective_1(k));
+        const FaceMemory& now = sim.contacts.now;
+        const bool flipped = (closed[k] > 0.0) != (now.energy[k] > 0.0);
+        const double force = normal_force(sim.contacts, k);
         if (flipped && force > 1e-9 * weight) ++rest.flips;
       }
     }

@@ -42,9 +42,10 @@ inline void expect_borne(const Rested& rested, double bound) {
     if (sim.blocks.fixed[i] == 0) weight += 9.81 * sim.blocks.mass[i];
   }
   for (std::size_t k = 0; k < at.contacts.size(); ++k) {
-    const Id i = at.contacts.block_i[k], j = at.contacts.block_j[k];
+    const Id i = block_of_facing(sim.blocks, at.contacts, k),
+             j = block_of_edge(sim.blocks, at.contacts, k);
     if (sim.blocks.fixed[i] == sim.blocks.fixed[j]) continue;
-    borne += (sim.blocks.fixed[j] != 0 ? 1.0 : -1.0) * at.contacts.on_vertex(k).y;
+    borne += (sim.blocks.fixed[j] != 0 ? 1.0 : -1.0) * force_on_facing(at.contacts, k).y;
   }
   EXPECT_NEAR(borne / weight, 1.0, bound);
 }
