@@ -3,10 +3,13 @@
 //
 // Notation. Edge e = p1p2 of the one block and edge f = q1q2 of the other, both interiors on the
 // left.
-//   E = p2 - p1, F = q2 - q1; frame t = (E - F)/|E - F|, n = (t.y, -t.x), out of the first block.
+//   E = p2 - p1, F = q2 - q1, over their lengths at the start; frame t = (E - F)/|E - F|, between
+//   the two edges, n = (t.y, -t.x), out of the first block.
 //   s, y: coordinates along t and n from p1. Overlap [sa, sb], length L = sb - sa; at each of its
-//   ends one corner bounds it, which lies over the parts xi of e (from p1 to p2) and eta of f
-//   (from q2 to q1). Closures da and db there (m, > 0: pressed together), linear in between.
+//   ends one corner bounds it. Where two corners pass each other within r of the closure's size the
+//   bound goes over from the one to the other smoothly: min(s, s') - (r - |s - s'|)^2/(4 r). The
+//   ends lie over the parts xi of e (from p1 to p2) and eta of f (from q2 to q1). Closures da and
+//   db there (m, > 0: pressed together), linear in between.
 // Stored energy  U = w W k L phi(da, db),  phi = phi_exact + b (phi_ends - phi_exact):
 //   phi_exact = 1/(2 L) Int max(d, 0)^2 ds        the joint's own law;
 //   phi_ends  = (max(da, 0)^2 + max(db, 0)^2)/4   the integral taken at the ends: a corner that
@@ -35,14 +38,14 @@ struct FaceEnds {
 
 /// What a face keeps while its blocks move.
 struct FacePair {
-  double stiffness = 0.0;        ///< k times the thickness, N/m per metre of overlap
-  double ends = 0.0;             ///< 1: the integral is taken at the ends; 0: exact
-  double pulls = 0.0;            ///< 1: bears tension
-  double inverse_lengths = 0.0;  ///< 1/(l_e l_f) at the start, 1/m2
-  double gate_from = 0.0;        ///< cosine of the angle between the edges from which W > 0
-  double gate_scale = 1.0;       ///< 1/(cosine from which W = 1, less gate_from)
-  double passing = 1.0;          ///< m: corners nearer than this have one share between them
-  FaceEnds offset;  ///< o, closure of the surfaces as drawn, m: initial stress, dilation
+  double stiffness = 0.0;                   ///< k times the thickness, N/m per metre of overlap
+  double ends = 0.0;                        ///< 1: the integral is taken at the ends; 0: exact
+  double pulls = 0.0;                       ///< 1: bears tension
+  double inverse_e = 0.0, inverse_f = 0.0;  ///< 1/l of the edges at the start, 1/m
+  double gate_from = 0.0;   ///< cosine of the angle between the edges from which W > 0
+  double gate_scale = 1.0;  ///< 1/(cosine from which W = 1, less gate_from)
+  double passing = 1.0;     ///< m: corners nearer than this have one share between them
+  FaceEnds offset;          ///< o, closure of the surfaces as drawn, m: initial stress, dilation
   Vec2 p1_turn, p2_turn, q1_turn, q2_turn;  ///< cosine and sine of the exterior angles
 };
 
@@ -54,9 +57,9 @@ struct CornerForces {
 /// A face as it stands.
 struct Face {
   Vec2 t;
-  double base = 1.0;    ///< |E - F|, m
-  double length = 0.0;  ///< L, m; <= 0: no overlap
-  FaceEnds closure;     ///< d, m
+  double inverse_e = 0.0, inverse_f = 0.0;  ///< what turns t as e and f turn: 1/(l |E - F|), 1/m
+  double length = 0.0;                      ///< L, m; <= 0: no overlap
+  FaceEnds closure;                         ///< d, m
   FaceEnds xi, eta;
   double gate = 0.0;        ///< w W
   double angle_gate = 0.0;  ///< W
@@ -64,6 +67,8 @@ struct Face {
   double energy = 0.0;      ///< U, J
   FaceEnds normal;          ///< w W dU/dd of each end: the normal force there, N
   FaceEnds slope;           ///< of the edge that the corner at each end is pressed against
+  FaceEnds along;           ///< dU/dsa and dU/dsb, N
+  FaceEnds of_first;        ///< part by which each end follows the first block's corner
   CornerForces force;       ///< of the normal pressure
 };
 
@@ -73,9 +78,9 @@ EDDA_INLINE Vec2 from_point_of_e(const FacePoints& p, double xi, double eta) {
   return eta * p.q1 + (1.0 - eta) * p.q2 - ((1.0 - xi) * p.p1 + xi * p.p2);
 }
 
-/// Unit tangent t of the frame.
-EDDA_INLINE Vec2 frame_of(const FacePoints& p) {
-  return unit((p.p2 - p.p1) - (p.q2 - p.q1));
+/// Unit tangent t of the frame; inverse_e, inverse_f as in FacePair.
+EDDA_INLINE Vec2 frame_of(const FacePoints& p, double inverse_e, double inverse_f) {
+  return unit(inverse_e * (p.p2 - p.p1) - inverse_f * (p.q2 - p.q1));
 }
 
 /// A choice that loops over several faces can make.
@@ -94,6 +99,24 @@ EDDA_INLINE SmoothStep smooth_step(double x) {
 
 /// Closures deeper than this part of the overlap begin to fade, and are gone at four times that.
 inline constexpr double aspect_from = 0.5, aspect_range = 1.5;
+/// Part of the initial stress's closure that counts there.
+inline constexpr double locked_part = 0.25;
+
+/// What bounds an end of the overlap where two corners are x apart along the face and pass each
+/// other within `reach` (m): how far it is drawn in, and by which part it follows the corner that
+/// would not bound it alone. Without it the force along the face would jump by k d^2/2.
+struct CornersPassing {
+  double drawn_in, by_other;
+  double by_reach;  ///< derivative of drawn_in
+};
+EDDA_INLINE CornersPassing corners_passing(double x, double reach) {
+  const double near = larger(reach - std::abs(x), 0.0);
+  const double part = near / (reach > 0.0 ? reach : 1.0);
+  return {0.25 * near * part, 0.5 * part, 0.25 * part * (2.0 - part)};
+}
+
+/// That reach, of the larger closure.
+inline constexpr double passing_reach = 0.5;
 
 /// phi and its derivatives by da and db.
 struct ClosurePotential {
@@ -132,28 +155,41 @@ EDDA_INLINE CornerShare corner_share(Vec2 turn, double c, double s) {
   return {a * inverse, twice * b * x * turn.y, -twice * (b * x * turn.x + a * s)};
 }
 
-/// Adds force `f` along the frame at a point of each edge, f on the second, -f on the first.
-EDDA_INLINE void add_at(CornerForces& on, double xi, double eta, Vec2 f) {
-  on.p1 -= (1.0 - xi) * f;
-  on.p2 -= xi * f;
+/// Adds -e at the part xi of the first edge, and f at the part eta of the second.
+EDDA_INLINE void add_pressures(CornerForces& on, double xi, double eta, Vec2 e, Vec2 f) {
+  on.p1 -= (1.0 - xi) * e;
+  on.p2 -= xi * e;
   on.q1 += eta * f;
   on.q2 += (1.0 - eta) * f;
 }
+EDDA_INLINE void add_at(CornerForces& on, double xi, double eta, Vec2 f) {
+  add_pressures(on, xi, eta, f, f);
+}
+
+/// Adds forces along t on what bounds the ends.
+EDDA_INLINE void push_bounds(CornerForces& on, const Face& face, FaceEnds f) {
+  on.p1 += face.of_first.a * f.a * face.t;
+  on.q2 += (1.0 - face.of_first.a) * f.a * face.t;
+  on.p2 += face.of_first.b * f.b * face.t;
+  on.q1 += (1.0 - face.of_first.b) * f.b * face.t;
+}
 
 /// The frame goes with both edges: their couples, which leave no moment.
-EDDA_INLINE void add_couple_of_frame(CornerForces& on, const FacePoints& at, Vec2 t, double base) {
+EDDA_INLINE void add_couple_of_frame(CornerForces& on, const FacePoints& at, const Face& face) {
   const Vec2 p = at.p1;
   const double moment = cross(at.p2 - p, on.p2) + cross(at.q1 - p, on.q1) + cross(at.q2 - p, on.q2);
-  const Vec2 f = (moment / base) * perp(t);
-  on.p1 += f;
-  on.p2 -= f;
+  const Vec2 e = (moment * face.inverse_e) * perp(face.t);
+  const Vec2 f = (moment * face.inverse_f) * perp(face.t);
+  on.p1 += e;
+  on.p2 -= e;
   on.q1 -= f;
   on.q2 += f;
 }
 
 EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   Face face;
-  const Vec2 e = at.p2 - at.p1, f = at.q2 - at.q1, g = e - f;
+  const Vec2 e = at.p2 - at.p1, f = at.q2 - at.q1;
+  const Vec2 g = pair.inverse_e * e - pair.inverse_f * f;
   const double apart = norm(g), base = apart > 0.0 ? apart : 1.0;
   const Vec2 t = g / base, n = outward_normal(t);
   const Vec2 to_q1 = at.q1 - at.p1, to_q2 = at.q2 - at.p1;
@@ -162,28 +198,43 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const bool opposed = (s2 > 0.0) & (r1 > r2);
   const double per_e = 1.0 / (opposed ? s2 : 1.0), per_f = 1.0 / (opposed ? r1 - r2 : 1.0);
   const double slope_e = y2 * per_e, slope_f = (z1 - z2) * per_f;
-  const bool a_by_p = r2 <= 0.0, b_by_p = s2 <= r1;  // p1 and p2 bound the overlap
-  const double sa = a_by_p ? 0.0 : r2, sb = b_by_p ? s2 : r1;
+  const bool a_by_p = r2 <= 0.0, b_by_p = s2 <= r1;            // p1 and p2 bound the overlap
+  const double ma = a_by_p ? 0.0 : r2, mb = b_by_p ? s2 : r1;  // of the corners that bound it
+  const double steeper = slope_e - slope_f, apart_0 = -(z2 - slope_f * r2);
+  const double corner_a = apart_0 + steeper * ma + pair.offset.a;
+  const double corner_b = apart_0 + steeper * mb + pair.offset.b;
+  const bool pulls = pair.pulls != 0.0;
+  const bool corner_deep_b =
+      pulls ? std::abs(corner_b) >= std::abs(corner_a) : corner_b >= corner_a;
+  const double corner_deepest = corner_deep_b ? corner_b : corner_a;
+  const bool pushed = corner_deepest > 0.0;
+  const double reach = passing_reach * (pushed ? corner_deepest : pulls ? -corner_deepest : 0.0);
+  const CornersPassing pass_a = corners_passing(-r2, reach),
+                       pass_b = corners_passing(s2 - r1, reach);
+  const double sa = ma + pass_a.drawn_in, sb = mb - pass_b.drawn_in;
   face.t = t;
-  face.base = base;
+  face.inverse_e = pair.inverse_e / base;
+  face.inverse_f = pair.inverse_f / base;
   face.length = sb - sa;
   face.xi = {sa * per_e, sb * per_e};
   face.eta = {(sa - r2) * per_f, (sb - r2) * per_f};
-  const double drawn_a = slope_e * sa - (z2 + slope_f * (sa - r2));
-  const double drawn_b = slope_e * sb - (z2 + slope_f * (sb - r2));
+  const double drawn_a = apart_0 + steeper * sa, drawn_b = apart_0 + steeper * sb;
   const double da = drawn_a + pair.offset.a, db = drawn_b + pair.offset.b;
   face.closure = {da, db};
 
   // W, of the angle theta between the edges; c and s: its cosine and sine, times both lengths.
   const double c = -dot(e, f), s = cross(f, e);
-  const SmoothStep by_angle =
-      smooth_step((c * pair.inverse_lengths - pair.gate_from) * pair.gate_scale);
-  const bool on = (face.length > 0.0) & (c * pair.inverse_lengths > pair.gate_from) & opposed;
+  const double inverse_lengths = pair.inverse_e * pair.inverse_f;
+  const SmoothStep by_angle = smooth_step((c * inverse_lengths - pair.gate_from) * pair.gate_scale);
+  const bool on = (face.length > 0.0) & (c * inverse_lengths > pair.gate_from) & opposed;
 
-  // w, of the deeper end's closure as the edges are drawn
-  const bool deep_b = db >= da, pulls = pair.pulls != 0.0;
-  const double deepest = larger(drawn_a, drawn_b);
-  const bool drawn_deep_b = drawn_b >= drawn_a;
+  // w, of the deeper end's closure as the edges are drawn and a part of what is locked in: a face
+  // that comes to be begins with nothing
+  const bool deep_b = db >= da;
+  const double gated_a = drawn_a + locked_part * pair.offset.a,
+               gated_b = drawn_b + locked_part * pair.offset.b;
+  const double deepest = larger(gated_a, gated_b);
+  const bool gated_deep_b = gated_b >= gated_a;
   const bool fades = (deepest > 0.0) & !pulls;
   const double per_deepest = 1.0 / (fades ? deepest : 1.0);
   const SmoothStep by_aspect =
@@ -226,30 +277,37 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const double stored = whole * phi, angle_gate = face.angle_gate;
   const double by_length = gate * pair.stiffness * phi + angle_gate * stored * aspect_slope;
   const double by_deepest = -angle_gate * stored * aspect_slope * face.length * per_deepest;
-  const double by_a = face.normal.a + (drawn_deep_b ? 0.0 : by_deepest);
-  const double by_b = face.normal.b + (drawn_deep_b ? by_deepest : 0.0);
+  const double by_a = face.normal.a + (gated_deep_b ? 0.0 : by_deepest);
+  const double by_b = face.normal.b + (gated_deep_b ? by_deepest : 0.0);
   const double by_share = gate * whole * gain;
   const double by_c =
-      by_aspect.value * stored * by_angle.slope * pair.gate_scale * pair.inverse_lengths +
+      by_aspect.value * stored * by_angle.slope * pair.gate_scale * inverse_lengths +
       by_share * share_by_c;
   const double by_s = by_share * (s < 0.0 ? -share_by_tilt : share_by_tilt);
   const double by_past = by_share * (past < 0.0 ? share_by_past : -share_by_past);
 
+  // dU/dsa and dU/dsb, and dU/dd of the corner that the reach goes by
+  const double by_sa = by_a * steeper - by_length, by_sb = by_b * steeper + by_length;
+  const double by_reach = by_sa * pass_a.by_reach - by_sb * pass_b.by_reach;
+  const double by_corner = passing_reach * (pushed ? by_reach : pulls ? -by_reach : 0.0);
+
   CornerForces& force = face.force;
   face.slope = {a_by_p ? slope_f : slope_e, b_by_p ? slope_f : slope_e};
-  add_at(force, face.xi.a, face.eta.a, by_a * (n - face.slope.a * t));
-  add_at(force, face.xi.b, face.eta.b, by_b * (n - face.slope.b * t));
-  const Vec2 stretch = by_length * t;
-  force.p1 += (a_by_p ? 1.0 : 0.0) * stretch;
-  force.q2 += (a_by_p ? 0.0 : 1.0) * stretch;
-  force.p2 -= (b_by_p ? 1.0 : 0.0) * stretch;
-  force.q1 -= (b_by_p ? 0.0 : 1.0) * stretch;
+  const double m = corner_deep_b ? mb : ma;
+  add_at(force, m * per_e, (m - r2) * per_f,
+         by_corner * (n - (corner_deep_b ? face.slope.b : face.slope.a) * t));
+  add_pressures(force, face.xi.a, face.eta.a, by_a * (n - slope_e * t), by_a * (n - slope_f * t));
+  add_pressures(force, face.xi.b, face.eta.b, by_b * (n - slope_e * t), by_b * (n - slope_f * t));
+  face.along = {by_sa, by_sb};
+  face.of_first = {a_by_p ? 1.0 - pass_a.by_other : pass_a.by_other,
+                   b_by_p ? 1.0 - pass_b.by_other : pass_b.by_other};
+  push_bounds(force, face, {-by_sa, -by_sb});
   const Vec2 beside = by_past * t;  // past = (p2 - q1).t or (p1 - q2).t
   force.p2 -= (deep_b ? 1.0 : 0.0) * beside;
   force.q1 += (deep_b ? 1.0 : 0.0) * beside;
   force.p1 -= (deep_b ? 0.0 : 1.0) * beside;
   force.q2 += (deep_b ? 0.0 : 1.0) * beside;
-  add_couple_of_frame(force, at, t, base);
+  add_couple_of_frame(force, at, face);
   const Vec2 turn_e = by_c * f - by_s * perp(f), turn_f = by_c * e + by_s * perp(e);
   force.p2 += turn_e;
   force.p1 -= turn_e;
@@ -258,15 +316,27 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   return face;
 }
 
-/// Forces of others than its pressure that act at the ends, N: T along t on the second edge,
-/// against it on the first, and N across the edge that the corner there is pressed against.
+/// Along the face an initial stress does nothing at the start, though the closure that it locks in
+/// stores energy by the length of the overlap: the forces on what bounds the ends (N, along t) that
+/// take so much away from those of the gradient, k o^2/2, or all that there is.
+EDDA_INLINE FaceEnds held_at_bounds(const Face& face, const FacePair& pair) {
+  const double half = 0.5 * face.gate * pair.stiffness;
+  const FaceEnds locked{half * pair.offset.a * pair.offset.a, half * pair.offset.b * pair.offset.b};
+  return {-smaller(locked.a, larger(-face.along.a, 0.0)),
+          smaller(locked.b, larger(face.along.b, 0.0))};
+}
+
+/// What acts at the ends beside the pressure, N: T along t on the second edge, against it on the
+/// first, N across the edge that the corner there is pressed against, and forces along t on what
+/// bounds the ends.
 EDDA_INLINE CornerForces end_forces(const FacePoints& at, const Face& face, FaceEnds normal,
-                                    FaceEnds shear) {
+                                    FaceEnds shear, FaceEnds bounds = {}) {
   const Vec2 t = face.t, n = outward_normal(t);
   CornerForces force;
   add_at(force, face.xi.a, face.eta.a, normal.a * (n - face.slope.a * t) + shear.a * t);
   add_at(force, face.xi.b, face.eta.b, normal.b * (n - face.slope.b * t) + shear.b * t);
-  add_couple_of_frame(force, at, t, face.base);
+  push_bounds(force, face, bounds);
+  add_couple_of_frame(force, at, face);
   return force;
 }
 

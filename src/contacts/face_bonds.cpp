@@ -33,7 +33,7 @@ constexpr double along = 0.99;
 bool touch_as_drawn(const FaceSet& c, const BlockSet& b, const Pose& pose, const Face& face,
                     std::size_t k) {
   const FacePoints at = face_points(c, pose.x, pose.y, k);
-  const double cosine = -dot(at.p2 - at.p1, at.q2 - at.q1) * c.inverse_lengths[k];
+  const double cosine = -dot(at.p2 - at.p1, at.q2 - at.q1) * c.inverse_e[k] * c.inverse_f[k];
   const double near = touch * smaller_size(c, b, k);
   return face.length > near && cosine >= along &&
          std::abs(std::max(face.closure.a, face.closure.b)) <= near;

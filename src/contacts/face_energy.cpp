@@ -40,7 +40,7 @@ double normal_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std:
 double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   const FacePoints at = face_points(c, pose.x, pose.y, k);
   const bool sheared = c.before.shear_a[k] != 0.0 || c.before.shear_b[k] != 0.0;
-  const Vec2 t = sheared ? frame_of(at) : Vec2{};
+  const Vec2 t = sheared ? frame_of(at, c.inverse_e[k], c.inverse_f[k]) : Vec2{};
   const auto slid = [&](double xi, double eta) { return dot(from_point_of_e(at, xi, eta), t); };
   const FaceMemory& m = c.before;
   const double shear = m.shear_a[k] * (m.slip_a[k] + slid(m.xi_a[k], m.eta_a[k])) +

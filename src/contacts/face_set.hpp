@@ -80,7 +80,7 @@ struct FaceSet {
   std::vector<Id> edge_end, facing_end;            ///< their second corners
   std::vector<std::uint16_t> law;                  ///< row of the LawTable
   std::vector<double> stiffness, shear_stiffness;  ///< k, ks times thickness, N/m per m of overlap
-  std::vector<double> inverse_lengths, gate_from, gate_scale, passing;  ///< as in FacePair
+  std::vector<double> inverse_e, inverse_f, gate_from, gate_scale, passing;  ///< as in FacePair
   std::vector<double>
       at_ends;  ///< 1: the stiffness is a penalty: the integral is taken at the ends
 
@@ -188,7 +188,8 @@ EDDA_INLINE FacePair face_pair(const Faces& c, const double* turn_cosine, const 
   p.offset = {c.offset_a[k], c.offset_b[k]};
   p.ends = c.at_ends[k] * c.leans[k];
   p.pulls = c.pulls[k];
-  p.inverse_lengths = c.inverse_lengths[k];
+  p.inverse_e = c.inverse_e[k];
+  p.inverse_f = c.inverse_f[k];
   p.gate_from = c.gate_from[k];
   p.gate_scale = c.gate_scale[k];
   p.passing = c.passing[k];

@@ -24,8 +24,9 @@ struct MemoryView {
 /// What a loop over faces reads and writes.
 struct FaceView {
   const Id *edge, *edge_end, *facing, *facing_end;
-  const double *stiffness, *shear_stiffness, *inverse_lengths, *gate_from, *gate_scale, *passing,
-      *at_ends, *acts, *leans, *friction, *cohesion, *offset_a, *offset_b, *pulls, *bonded;
+  const double *stiffness, *shear_stiffness, *inverse_e, *inverse_f, *gate_from, *gate_scale,
+      *passing, *at_ends, *acts, *leans, *friction, *cohesion, *offset_a, *offset_b, *pulls,
+      *bonded;
   const double *turn_cosine, *turn_sine;
   const double *x, *y, *x1, *y1;
   double noise;
@@ -44,7 +45,8 @@ struct EndMotion {
   FaceEnds slip, closure;
 };
 EDDA_INLINE EndMotion motion_of(const Face& face, FaceEnds offset, const FacePoints& then) {
-  const Vec2 t = frame_of(then), n = outward_normal(t);
+  // The frame then: its own scale of length does not matter.
+  const Vec2 t = frame_of(then, face.inverse_e, face.inverse_f), n = outward_normal(t);
   const Vec2 a = from_point_of_e(then, face.xi.a, face.eta.a);
   const Vec2 b = from_point_of_e(then, face.xi.b, face.eta.b);
   const FaceEnds slip{-dot(a, t), -dot(b, t)};
@@ -103,14 +105,6 @@ EDDA_INLINE double ends_closed(double da, double db, double noise) {
   return (da > noise ? 1.0 : 0.0) + (db > noise ? 2.0 : 0.0);
 }
 
-/// Whether at an end one corner has passed the other, by which the force along the face jumps by
-/// k d^2/2: the part of its edge by which the one bounds the overlap and no longer the other, now
-/// and before.
-EDDA_INLINE bool passes(double now, double before) {
-  constexpr double worth_it = 1e-7;
-  return (now * before < 0.0) & (larger(std::abs(now), std::abs(before)) > worth_it);
-}
-
 struct Placed {
   CornerForces force;
   bool asks, stirs;
@@ -164,7 +158,8 @@ template <bool dashpots, bool held>
 EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const MemoryView &m = c.now, &old = c.before;
   const FacePoints at = face_points(c, c.x, c.y, k), then = face_points(c, c.x1, c.y1, k);
-  const Face face = face_between(at, face_pair(c, c.turn_cosine, c.turn_sine, k));
+  const FacePair pair = face_pair(c, c.turn_cosine, c.turn_sine, k);
+  const Face face = face_between(at, pair);
   const bool bonded = c.bonded[k] > 0.0;
   const bool touches = (face.energy > 0.0) | (bonded & (face.gate > 0.0));
 
@@ -201,10 +196,7 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const double closed = touches ? ends_closed(da, db, c.noise) : 0.0;
   const double closed_1 =
       old.energy[k] > 0.0 ? ends_closed(old.closure_a[k], old.closure_b[k], c.noise) : 0.0;
-  const bool passed_a = passes(face.eta.a - face.xi.a, eta_a - xi_a);
-  const bool passed_b = passes(face.xi.b - face.eta.b, xi_b - eta_b),
-             other_ends = closed != closed_1;
-  const double switched = (other_ends | passed_a | passed_b) ? 1.0 : 0.0;
+  const double switched = closed != closed_1 ? 1.0 : 0.0;
   const bool stirs = (old.energy[k] > 0.0) & ((switched > 0.0) | (old.switched[k] > 0.0));
 
   m.closure_a[k] = da;
@@ -236,11 +228,16 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
       0.5 * ((acts_a.damping + old.damping_a[k]) * moved.closure.a +
              (acts_b.damping + old.damping_b[k]) * moved.closure.b -
              (acts_a.drag + old.drag_a[k]) * here.a - (acts_b.drag + old.drag_b[k]) * here.b);
-  m.transfer[k] = lost_a.transfer + lost_b.transfer;
+  const FaceEnds bounds = held_at_bounds(face, pair);
+  CornerForces holds;
+  push_bounds(holds, face, bounds);
+  const double given = dot(holds.p1, at.p1 - then.p1) + dot(holds.p2, at.p2 - then.p2) +
+                       dot(holds.q1, at.q1 - then.q1) + dot(holds.q2, at.q2 - then.q2);
+  m.transfer[k] = lost_a.transfer + lost_b.transfer - given;
 
   Placed placed;
   placed.force = end_forces(at, face, {acts_a.damping, acts_b.damping},
-                            {a.force + acts_a.drag, b.force + acts_b.drag});
+                            {a.force + acts_a.drag, b.force + acts_b.drag}, bounds);
   placed.force.p1 += face.force.p1;
   placed.force.p2 += face.force.p2;
   placed.force.q1 += face.force.q1;

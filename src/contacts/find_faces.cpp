@@ -16,8 +16,8 @@ using EdgePair = std::pair<Id, Id>;
 
 /// Filled for every list.
 constexpr std::vector<double> FaceSet::*constants[] = {
-    &FaceSet::stiffness,  &FaceSet::shear_stiffness, &FaceSet::inverse_lengths, &FaceSet::gate_from,
-    &FaceSet::gate_scale, &FaceSet::passing,         &FaceSet::at_ends};
+    &FaceSet::stiffness, &FaceSet::shear_stiffness, &FaceSet::inverse_e, &FaceSet::inverse_f,
+    &FaceSet::gate_from, &FaceSet::gate_scale,      &FaceSet::passing,   &FaceSet::at_ends};
 
 /// Cosine of the angle up to which a face acts wholly, and of that at which it is gone: 60 and 85
 /// degrees, and for a needle of alpha < 90 degrees, whose two edges stand across it at 90 -
@@ -70,7 +70,8 @@ void fill_constants(FaceSet& c, const BlockSet& b, const LawTable& laws, std::si
   const Id e = c.edge[k], f = c.facing[k];
   const double shorter = std::min(b.edge_length[e], b.edge_length[f]);
   const Law& law = laws.rows[c.law[k]];
-  c.inverse_lengths[k] = 1.0 / (b.edge_length[e] * b.edge_length[f]);
+  c.inverse_e[k] = 1.0 / b.edge_length[e];
+  c.inverse_f[k] = 1.0 / b.edge_length[f];
   const AngleGate gate = angle_gate(b, e, f);
   c.gate_from[k] = gate.none;
   c.gate_scale[k] = 1.0 / (gate.whole - gate.none);

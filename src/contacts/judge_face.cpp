@@ -56,8 +56,9 @@ void judge_face(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) 
   const FacePoints at = face_points(c, pose.x, pose.y, k);
   const Face face = face_at(c, b, pose.x, pose.y, k);
   const double closure = std::max(face.closure.a - c.offset_a[k], face.closure.b - c.offset_b[k]);
+  if (c.before.energy[k] == 0.0) c.leans[k] = corner_leans(c, b, pose, at, face, k) ? 1.0 : 0.0;
   if (c.before.gate[k] == 0.0) {
-    const FaceEnds locked = locked_closure(c, face, k);
+    const FaceEnds locked = c.leans[k] > 0.0 ? locked_closure(c, face, k) : FaceEnds{};
     c.offset_a[k] = locked.a;
     c.offset_b[k] = locked.b;
   }
@@ -70,7 +71,6 @@ void judge_face(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) 
                         lies_in(b, pose, p.on_edge, b.vertex_block[c.facing[k]]);
     c.acts[k] = inside ? 1.0 : 0.0;
   }
-  if (c.before.energy[k] == 0.0) c.leans[k] = corner_leans(c, b, pose, at, face, k) ? 1.0 : 0.0;
 }
 
 }  // namespace edda

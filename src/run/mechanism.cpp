@@ -103,7 +103,7 @@ std::vector<Id> pieces(const Simulation& sim, const std::vector<std::uint8_t>& m
   const FaceSet& f = sim.contacts;
   for (std::size_t k = 0; k < f.size(); ++k) {
     const auto [i, j] =
-        std::minmax(block_of_edge(sim.blocks, f, k), block_of_facing(sim.blocks, f, k));
+        std::minmax({block_of_edge(sim.blocks, f, k), block_of_facing(sim.blocks, f, k)});
     if (!is_closed(f, k) || !moves[i] || !moves[j] || apart.contains({i, j})) continue;
     const auto [low, high] = std::minmax({root(i), root(j)});
     first[high] = low;
@@ -238,7 +238,7 @@ void find_lost_cohesion(Mechanism& m, const Simulation& held) {
   }
   for (std::size_t k = 0; k < f.size(); ++k) {
     const auto [i, j] =
-        std::minmax(block_of_edge(held.blocks, f, k), block_of_facing(held.blocks, f, k));
+        std::minmax({block_of_edge(held.blocks, f, k), block_of_facing(held.blocks, f, k)});
     if (!brittle.contains({i, j, f.law[k]})) continue;
     const bool lost = f.bonded[k] == 0.0;
     if (lost && !is_closed(f, k) && f.opened[k] == 0.0) continue;  // was never bonded

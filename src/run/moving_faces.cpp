@@ -18,7 +18,8 @@ EndMoved end_moved(const Simulation& before, const Simulation& after, std::size_
   const FaceSet& f = before.contacts;
   const FacePoints p = face_points(f, before.pose.x, before.pose.y, k);
   const FacePoints q = face_points(f, after.pose.x, after.pose.y, k);
-  const Vec2 t_was = frame_of(p), t_is = frame_of(q);
+  const Vec2 t_was = frame_of(p, f.inverse_e[k], f.inverse_f[k]),
+             t_is = frame_of(q, f.inverse_e[k], f.inverse_f[k]);
   const Vec2 was = from_point_of_e(p, xi, eta), is = from_point_of_e(q, xi, eta);
   return {(1.0 - xi) * p.p1 + xi * p.p2 + before.blocks.origin,
           std::abs(dot(is, t_is) - dot(was, t_was)),
@@ -34,7 +35,7 @@ void see_faces(SeenJoints& joints, const Simulation& before, const Simulation& a
   for (std::size_t k = 0; k < f.size(); ++k) {
     const bool near = f.acts[k] > 0.0 && f.now.gate[k] > 0.0 && closure_of(f, k) > -least;
     if (!is_closed(f, k) && !near) continue;
-    const auto [i, j] = std::minmax(block_of_edge(b, f, k), block_of_facing(b, f, k));
+    const auto [i, j] = std::minmax({block_of_edge(b, f, k), block_of_facing(b, f, k)});
     const double length = std::min(b.edge_length[f.edge[k]], b.edge_length[f.facing[k]]);
     const double turning = std::abs(rotation[i] - rotation[j]) * length;
     const EndMoved ends[2] = {end_moved(before, after, k, f.now.xi_a[k], f.now.eta_a[k]),

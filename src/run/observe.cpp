@@ -51,7 +51,7 @@ double slip_since_start(const BlockSet& b, const FaceSet& f, std::size_t k) {
   const double xi = 0.5 * (f.now.xi_a[k] + f.now.xi_b[k]);
   const double eta = 0.5 * (f.now.eta_a[k] + f.now.eta_b[k]);
   const FacePoints drawn = face_points(f, b.vertex_x, b.vertex_y, k);
-  return -dot(from_point_of_e(drawn, xi, eta), frame_of(drawn));
+  return -dot(from_point_of_e(drawn, xi, eta), frame_of(drawn, f.inverse_e[k], f.inverse_f[k]));
 }
 
 ContactRecord face_record(const Simulation& sim, const FaceSet& f, std::size_t k) {

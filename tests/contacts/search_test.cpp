@@ -88,7 +88,7 @@ TEST(NearPairs, FarOutlierIsFound) {
   const std::vector<std::uint8_t> alive(3, 1);
   const auto pairs = near_pairs(b, alive, b.vertex_x, b.vertex_y, 0.01);
   EXPECT_EQ(pairs, brute_force(b, alive, 0.01));
-  EXPECT_EQ(pairs.size(), 12u);
+  EXPECT_EQ(pairs.size(), 8u);
 }
 
 TEST(NearPairs, ThinStripsBesideBlocksOfAnySize) {
