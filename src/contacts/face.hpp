@@ -6,10 +6,10 @@
 //   E = p2 - p1, F = q2 - q1, over their lengths at the start; frame t = (E - F)/|E - F|, between
 //   the two edges, n = (t.y, -t.x), out of the first block.
 //   s, y: coordinates along t and n from p1. Overlap [sa, sb], length L = sb - sa; at each of its
-//   ends one corner bounds it. Where two corners pass each other within r of the closure's size the
-//   bound goes over from the one to the other smoothly: min(s, s') - (r - |s - s'|)^2/(4 r). The
-//   ends lie over the parts xi of e (from p1 to p2) and eta of f (from q2 to q1). Closures da and
-//   db there (m, > 0: pressed together), linear in between.
+//   ends one corner bounds it. Where two corners pass each other within r, half of the mean
+//   closure, the bound goes over from the one to the other smoothly: min(s, s') - (r - |s -
+//   s'|)^2/(4 r). The ends lie over the parts xi of e (from p1 to p2) and eta of f (from q2 to q1).
+//   Closures da and db there (m, > 0: pressed together), linear in between.
 // Stored energy  U = w W k L phi(da, db),  phi = phi_exact + b (phi_ends - phi_exact):
 //   phi_exact = 1/(2 L) Int max(d, 0)^2 ds        the joint's own law;
 //   phi_ends  = (max(da, 0)^2 + max(db, 0)^2)/4   the integral taken at the ends: a corner that
@@ -115,8 +115,8 @@ EDDA_INLINE CornersPassing corners_passing(double x, double reach) {
   return {0.25 * near * part, 0.5 * part, 0.25 * part * (2.0 - part)};
 }
 
-/// That reach, of the larger closure.
-inline constexpr double passing_reach = 0.5;
+/// That reach, of the closures of both ends together.
+inline constexpr double passing_reach = 0.25;
 
 /// phi and its derivatives by da and db.
 struct ClosurePotential {
@@ -204,11 +204,8 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const double corner_a = apart_0 + steeper * ma + pair.offset.a;
   const double corner_b = apart_0 + steeper * mb + pair.offset.b;
   const bool pulls = pair.pulls != 0.0;
-  const bool corner_deep_b =
-      pulls ? std::abs(corner_b) >= std::abs(corner_a) : corner_b >= corner_a;
-  const double corner_deepest = corner_deep_b ? corner_b : corner_a;
-  const bool pushed = corner_deepest > 0.0;
-  const double reach = passing_reach * (pushed ? corner_deepest : pulls ? -corner_deepest : 0.0);
+  const double reach = passing_reach * (pulls ? std::abs(corner_a) + std::abs(corner_b)
+                                              : larger(corner_a, 0.0) + larger(corner_b, 0.0));
   const CornersPassing pass_a = corners_passing(-r2, reach),
                        pass_b = corners_passing(s2 - r1, reach);
   const double sa = ma + pass_a.drawn_in, sb = mb - pass_b.drawn_in;
@@ -286,16 +283,17 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const double by_s = by_share * (s < 0.0 ? -share_by_tilt : share_by_tilt);
   const double by_past = by_share * (past < 0.0 ? share_by_past : -share_by_past);
 
-  // dU/dsa and dU/dsb, and dU/dd of the corner that the reach goes by
+  // dU/dsa and dU/dsb, and dU/dd of the corners that the reach goes by
   const double by_sa = by_a * steeper - by_length, by_sb = by_b * steeper + by_length;
-  const double by_reach = by_sa * pass_a.by_reach - by_sb * pass_b.by_reach;
-  const double by_corner = passing_reach * (pushed ? by_reach : pulls ? -by_reach : 0.0);
+  const double by_reach = passing_reach * (by_sa * pass_a.by_reach - by_sb * pass_b.by_reach);
+  const double opens = pulls ? -by_reach : 0.0;
+  const double by_corner_a = corner_a > 0.0 ? by_reach : opens;
+  const double by_corner_b = corner_b > 0.0 ? by_reach : opens;
 
   CornerForces& force = face.force;
   face.slope = {a_by_p ? slope_f : slope_e, b_by_p ? slope_f : slope_e};
-  const double m = corner_deep_b ? mb : ma;
-  add_at(force, m * per_e, (m - r2) * per_f,
-         by_corner * (n - (corner_deep_b ? face.slope.b : face.slope.a) * t));
+  add_at(force, ma * per_e, (ma - r2) * per_f, by_corner_a * (n - face.slope.a * t));
+  add_at(force, mb * per_e, (mb - r2) * per_f, by_corner_b * (n - face.slope.b * t));
   add_pressures(force, face.xi.a, face.eta.a, by_a * (n - slope_e * t), by_a * (n - slope_f * t));
   add_pressures(force, face.xi.b, face.eta.b, by_b * (n - slope_e * t), by_b * (n - slope_f * t));
   face.along = {by_sa, by_sb};
