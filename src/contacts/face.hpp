@@ -78,9 +78,11 @@ EDDA_INLINE Vec2 from_point_of_e(const FacePoints& p, double xi, double eta) {
   return eta * p.q1 + (1.0 - eta) * p.q2 - ((1.0 - xi) * p.p1 + xi * p.p2);
 }
 
-/// Unit tangent t of the frame; inverse_e, inverse_f as in FacePair.
+/// Unit tangent t of the frame, or zero where both edges run the same way; inverse_e, inverse_f as in FacePair.
 EDDA_INLINE Vec2 frame_of(const FacePoints& p, double inverse_e, double inverse_f) {
-  return unit(inverse_e * (p.p2 - p.p1) - inverse_f * (p.q2 - p.q1));
+  const Vec2 g = inverse_e * (p.p2 - p.p1) - inverse_f * (p.q2 - p.q1);
+  const double size = norm(g);
+  return g / (size > 0.0 ? size : 1.0);
 }
 
 /// A choice that loops over several faces can make.

@@ -173,6 +173,8 @@ class Correction {
     f.done = change <= settled;
     if (!any(more)) return f.done;
     const OnBlocks on = on_blocks(c_, b_, more, k);
+    if (b_.fixed[i]) scratch_.on_held += on.first[0] + on.first[1] + on.first[2];
+    if (b_.fixed[j]) scratch_.on_held += on.second[0] + on.second[1] + on.second[2];
     push_block(b_, s_, pose_, i, on.first, kick_, taken_.h_new, taken_.strain);
     push_block(b_, s_, pose_, j, on.second, kick_, taken_.h_new, taken_.strain);
     scratch_.pushed.push_back(i);

@@ -44,6 +44,7 @@ struct FaceSwitchingScratch {
   std::vector<Id> pushed;            ///< blocks that have moved since the faces were looked at
   std::vector<std::uint64_t> moved;  ///< [nb] tick at which a face last moved the block
   std::uint64_t tick = 0;
+  Vec2 on_held;  ///< N: what the forces on blocks that are held have changed by
 };
 
 /// At entry: positions and faces of step n + 1, made with all of the forces of step n; at return

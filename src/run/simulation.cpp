@@ -294,10 +294,12 @@ std::optional<Failure> Simulation::step() {
   const double h = state.step;
   clock.lap(seconds.integrate);
 
+  if (ground.moves) on_held_ = force_on_held();
   next_step(contacts);
   if (laws.any_changes) update_joint_laws(contacts, blocks, pose, laws);
   place_faces(contacts, blocks, pose, laws, h);
   clock.lap(seconds.search);
+  switching_.on_held = {};
   if (model.solver.switching == Switching::exact) {
     const StepTaken taken{h_old, h, damps_.mass, damps_.strain};
     correct_switching(contacts, blocks, laws, state, pose, taken, open_close, switching_);

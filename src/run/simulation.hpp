@@ -210,6 +210,7 @@ struct Simulation {
   void start_ground(double h);
   void drive_ground(double h_old, double h_new);
   void hold_ground();
+  Vec2 force_on_held() const;
   void book_boundaries(double h_old, double h_new);
   void set_viscosity();
   StepDamping step_damping();
@@ -253,6 +254,7 @@ struct Simulation {
   // Of one step, kept so that it allocates nothing.
   Nodes old_vx_, old_vy_;  ///< velocities before it, and where the next ones will be
   GroundStep next_ground_;
+  Vec2 on_held_;  ///< N at n: force_on_held() before the open-close iteration
   DashpotHold hold_;
   std::vector<FreeFieldColumn> next_columns_;
   std::vector<double> largest_;

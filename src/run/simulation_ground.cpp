@@ -104,6 +104,17 @@ void Simulation::hold_ground() {
   if (ground.moves) place_held(blocks, ground, ground.shift, state.x, state.y);
 }
 
+/// Of faces and bolts at n, on the blocks that the ground moves.
+Vec2 Simulation::force_on_held() const {
+  Vec2 on_held;
+  for (const Id i : ground.held) {
+    std::array<Vec2, 3> f{};
+    add_bolts(f, bolts, i);
+    on_held += contact_resultant(blocks, contacts, i) + f[0] + f[1] + f[2];
+  }
+  return on_held;
+}
+
 /// Work in the leapfrog's terms, f_n . (x_{n+1} - x_{n-1})/2. A dashpot between a block that moves
 /// by u and a ground that moves by r dissipates -f . (u - r), and is given f . r. Held blocks and
 /// springs that are moved by r against the force f that they bear are given -f . r. What columns
@@ -131,13 +142,7 @@ void Simulation::book_boundaries(double h_old, double h_new) {
     const Vec2 carried = 0.5 * (next_ground_.shifts[row] - springs.shift_1[row]);
     external_work += dot(spring_force(springs, q, pose.x1, pose.y1), carried);
   }
-  Vec2 on_held;
-  for (const Id i : ground.held) {
-    std::array<Vec2, 3> f{};
-    add_bolts(f, bolts, i);
-    on_held += contact_resultant(blocks, contacts, i) + f[0] + f[1] + f[2];
-  }
-  external_work -= dot(on_held, 0.5 * (next_ground_.shift - ground.shift_1));
+  external_work -= dot(on_held_ + switching_.on_held, 0.5 * (next_ground_.shift - ground.shift_1));
   springs.shift_1 = springs.shift;
   springs.shift = next_ground_.shifts;
   ground.shift_1 = ground.shift;
