@@ -78,7 +78,8 @@ EDDA_INLINE Vec2 from_point_of_e(const FacePoints& p, double xi, double eta) {
   return eta * p.q1 + (1.0 - eta) * p.q2 - ((1.0 - xi) * p.p1 + xi * p.p2);
 }
 
-/// Unit tangent t of the frame, or zero where both edges run the same way; inverse_e, inverse_f as in FacePair.
+/// Unit tangent t of the frame, or zero where both edges run the same way; inverse_e, inverse_f as
+/// in FacePair.
 EDDA_INLINE Vec2 frame_of(const FacePoints& p, double inverse_e, double inverse_f) {
   const Vec2 g = inverse_e * (p.p2 - p.p1) - inverse_f * (p.q2 - p.q1);
   const double size = norm(g);
@@ -119,6 +120,8 @@ EDDA_INLINE CornersPassing corners_passing(double x, double reach) {
 
 /// That reach, of the closures of both ends together.
 inline constexpr double passing_reach = 0.25;
+/// At most, of FacePair::passing: edges may be shorter than what an initial stress locks in.
+inline constexpr double furthest_reach = 0.5;
 
 /// phi and its derivatives by da and db.
 struct ClosurePotential {
@@ -206,8 +209,11 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const double corner_a = apart_0 + steeper * ma + pair.offset.a;
   const double corner_b = apart_0 + steeper * mb + pair.offset.b;
   const bool pulls = pair.pulls != 0.0;
-  const double reach = passing_reach * (pulls ? std::abs(corner_a) + std::abs(corner_b)
-                                              : larger(corner_a, 0.0) + larger(corner_b, 0.0));
+  const double closures = pulls ? std::abs(corner_a) + std::abs(corner_b)
+                                : larger(corner_a, 0.0) + larger(corner_b, 0.0);
+  const double furthest = furthest_reach * pair.passing;
+  const bool far = passing_reach * closures > furthest;
+  const double reach = far ? furthest : passing_reach * closures;
   const CornersPassing pass_a = corners_passing(-r2, reach),
                        pass_b = corners_passing(s2 - r1, reach);
   const double sa = ma + pass_a.drawn_in, sb = mb - pass_b.drawn_in;
@@ -230,8 +236,8 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   // w, of the deeper end's closure as the edges are drawn and a part of what is locked in: a face
   // that comes to be begins with nothing
   const bool deep_b = db >= da;
-  const double gated_a = drawn_a + locked_part * pair.offset.a,
-               gated_b = drawn_b + locked_part * pair.offset.b;
+  const double gated_a = drawn_a + smaller(locked_part * pair.offset.a, pair.passing),
+               gated_b = drawn_b + smaller(locked_part * pair.offset.b, pair.passing);
   const double deepest = larger(gated_a, gated_b);
   const bool gated_deep_b = gated_b >= gated_a;
   const bool fades = (deepest > 0.0) & !pulls;
@@ -287,7 +293,8 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
 
   // dU/dsa and dU/dsb, and dU/dd of the corners that the reach goes by
   const double by_sa = by_a * steeper - by_length, by_sb = by_b * steeper + by_length;
-  const double by_reach = passing_reach * (by_sa * pass_a.by_reach - by_sb * pass_b.by_reach);
+  const double by_reach =
+      far ? 0.0 : passing_reach * (by_sa * pass_a.by_reach - by_sb * pass_b.by_reach);
   const double opens = pulls ? -by_reach : 0.0;
   const double by_corner_a = corner_a > 0.0 ? by_reach : opens;
   const double by_corner_b = corner_b > 0.0 ? by_reach : opens;

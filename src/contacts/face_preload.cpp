@@ -100,7 +100,7 @@ std::vector<JointStress> preload_faces(FaceSet& c, const BlockSet& b, const Pose
       c.offset_b[k] = more * closure.b - drawn.closure.b;
       face = face_at(c, b, pose.x, pose.y, k);
       const double pressing = dot(face.force.q1 + face.force.q2, n);
-      if (pressing != 0.0) more *= (normal.a + normal.b) / pressing;
+      if (pressing != 0.0) more *= std::clamp((normal.a + normal.b) / pressing, 0.5, 2.0);
     }
     FaceMemory& m = c.before;
     m.closure_a[k] = face.closure.a;

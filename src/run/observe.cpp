@@ -219,7 +219,7 @@ double force_scale(const Simulation& sim, const FaceSet& f, const std::vector<Id
     const double n = normal_force(f, k);
     if (!is_closed(f, k) || !(n > 0.0)) continue;
     normal += n;
-    ++carrying;
+    carrying += 2;  // its two ends
   }
   // Contacts that only just touch, as at the start, carry rounding and no measure.
   const double mean_load = blocks.empty() ? 0.0 : loads / static_cast<double>(blocks.size());

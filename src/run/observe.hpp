@@ -39,7 +39,7 @@ struct BlockStress {
 };
 BlockStress block_stress(const Simulation& sim, const State& state, std::size_t i);
 
-/// The mean contact normal force, N; where no contact carries, the mean over `blocks` of weight and
+/// The mean normal force of an end of a face that carries, N; where none does, the mean over `blocks` of weight and
 /// loads.
 double force_scale(const Simulation& sim, const FaceSet& contacts, const std::vector<Id>& blocks);
 
