@@ -29,7 +29,8 @@ struct FaceMemory {
   std::vector<double> xi_a, xi_b, eta_a, eta_b;  ///< where the ends are on the edges
   std::vector<double> switched;       ///< 1: other ends are closed than at the step before
   std::vector<double> friction_work;  ///< taken by friction in the step before, J
-  std::vector<double> damping_work;   ///< by dashpots
+  std::vector<double> damping_work;   ///< by dashpots at n in the step behind
+  std::vector<double> damping_due;    ///< by those at n - 1 in it: they have done with the blocks
   std::vector<double>
       transfer;  ///< taken in it by what is no physics: overlaps and ends that move on, J
 };
@@ -65,6 +66,7 @@ inline constexpr FaceColumn face_columns[] = {{"closure_a", "m", &FaceMemory::cl
                                               {"drag_a", "N", &FaceMemory::drag_a},
                                               {"drag_b", "N", &FaceMemory::drag_b},
                                               {"damping_work", "J", &FaceMemory::damping_work},
+                                              {"damping_due", "J", &FaceMemory::damping_due},
                                               {"switched", "1", &FaceMemory::switched},
                                               {"friction_work", "J", &FaceMemory::friction_work},
                                               {"transfer", "J", &FaceMemory::transfer}};

@@ -18,7 +18,7 @@ struct MemoryView {
   double *closure_a, *closure_b, *energy, *normal_a, *normal_b, *shear_a, *shear_b, *damping_a,
       *damping_b, *drag_a, *drag_b, *slip_a, *slip_b, *trial_a, *trial_b, *spring, *length,
       *overlap, *gate, *xi_a, *xi_b, *eta_a, *eta_b, *switched, *friction_work, *damping_work,
-      *transfer;
+      *damping_due, *transfer;
 };
 
 /// What a loop over faces reads and writes.
@@ -224,10 +224,13 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   m.eta_b[k] = face.eta.b;
   m.switched[k] = switched;
   m.friction_work[k] = lost_a.friction + lost_b.friction;
-  m.damping_work[k] =
-      0.5 * ((acts_a.damping + old.damping_a[k]) * moved.closure.a +
-             (acts_b.damping + old.damping_b[k]) * moved.closure.b -
-             (acts_a.drag + old.drag_a[k]) * here.a - (acts_b.drag + old.drag_b[k]) * here.b);
+  // D_n works over (x_{n+1} - x_{n-1})/2: half of it in the step behind, half in the next one.
+  const auto taken = [&](double a_across, double b_across, double a_along, double b_along) {
+    return 0.5 * (a_across * moved.closure.a + b_across * moved.closure.b - a_along * here.a -
+                  b_along * here.b);
+  };
+  m.damping_work[k] = taken(acts_a.damping, acts_b.damping, acts_a.drag, acts_b.drag);
+  m.damping_due[k] = taken(old.damping_a[k], old.damping_b[k], old.drag_a[k], old.drag_b[k]);
   const FaceEnds bounds = held_at_bounds(face, pair);
   CornerForces holds;
   push_bounds(holds, face, bounds);

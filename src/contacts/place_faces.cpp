@@ -14,13 +14,13 @@ namespace edda {
 namespace {
 
 MemoryView faces_view(FaceMemory& m) {
-  return {m.closure_a.data(),     m.closure_b.data(),    m.energy.data(),  m.normal_a.data(),
-          m.normal_b.data(),      m.shear_a.data(),      m.shear_b.data(), m.damping_a.data(),
-          m.damping_b.data(),     m.drag_a.data(),       m.drag_b.data(),  m.slip_a.data(),
-          m.slip_b.data(),        m.trial_a.data(),      m.trial_b.data(), m.spring.data(),
-          m.length.data(),        m.overlap.data(),      m.gate.data(),    m.xi_a.data(),
-          m.xi_b.data(),          m.eta_a.data(),        m.eta_b.data(),   m.switched.data(),
-          m.friction_work.data(), m.damping_work.data(), m.transfer.data()};
+  return {m.closure_a.data(),     m.closure_b.data(),    m.energy.data(),      m.normal_a.data(),
+          m.normal_b.data(),      m.shear_a.data(),      m.shear_b.data(),     m.damping_a.data(),
+          m.damping_b.data(),     m.drag_a.data(),       m.drag_b.data(),      m.slip_a.data(),
+          m.slip_b.data(),        m.trial_a.data(),      m.trial_b.data(),     m.spring.data(),
+          m.length.data(),        m.overlap.data(),      m.gate.data(),        m.xi_a.data(),
+          m.xi_b.data(),          m.eta_a.data(),        m.eta_b.data(),       m.switched.data(),
+          m.friction_work.data(), m.damping_work.data(), m.damping_due.data(), m.transfer.data()};
 }
 
 FaceView faces_view(FaceSet& c, const BlockSet& b, const Pose& pose, double step,
@@ -235,7 +235,7 @@ void next_step(FaceSet& c) {
   if (c.gluing) glue_pressed(c);
   parallel_for(c.size(), [&](std::size_t k) {
     (c.breaks[k] > 0.0 ? c.fracture_work : c.friction_work)[k] += c.now.friction_work[k];
-    c.damping_work[k] += c.now.damping_work[k];
+    c.damping_work[k] += c.now.damping_work[k] + c.now.damping_due[k];
     const bool cut = c.now.slip_a[k] != c.now.trial_a[k] || c.now.slip_b[k] != c.now.trial_b[k];
     if (cut) c.slipped[k] = 1.0;
     if (c.before.energy[k] > 0.0 && c.now.energy[k] == 0.0) c.opened[k] = 1.0;
@@ -252,7 +252,8 @@ void next_step(FaceSet& c) {
 void stand_still(FaceSet& c) {
   next_step(c);
   c.now = c.before;
-  for (auto* work : {&c.now.friction_work, &c.now.damping_work, &c.now.transfer}) {
+  for (auto* work :
+       {&c.now.friction_work, &c.now.damping_work, &c.now.damping_due, &c.now.transfer}) {
     std::fill(work->begin(), work->end(), 0.0);
   }
 }

@@ -141,7 +141,7 @@ void book_springs(const FaceSprings& springs, FaceSet& c, const Pose& pose,
     if (broke) c.friction_work[k] += friction;
     m.friction_work[k] = broke ? fracture : friction;  // next_step() knows which of them it is
     m.damping_work[k] = rest - fracture;
-    m.transfer[k] = 0.0;
+    m.damping_due[k] = m.transfer[k] = 0.0;
   });
   stand_still(c);
 }

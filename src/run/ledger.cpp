@@ -67,7 +67,7 @@ Ledger sum_ledger(const BlockSet& b, const State& s, double h, const Pose& pose,
               boundary_energy(springs, pose);
   l.friction = c.retired_friction + over_faces(c.friction_work);
   l.fracture = c.retired_fracture + over_faces(c.fracture_work);
-  l.damping = c.retired_damping + over_faces(c.damping_work) +
+  l.damping = c.retired_damping + over_faces(c.damping_work) + over_faces(c.now.damping_due) +
               ordered_sum(work.joules.size(), [&](std::size_t i) { return work.joules[i]; });
   l.transfer = c.retired_transfer + over_faces(c.transfer);
   return l;

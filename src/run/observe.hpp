@@ -39,8 +39,8 @@ struct BlockStress {
 };
 BlockStress block_stress(const Simulation& sim, const State& state, std::size_t i);
 
-/// The mean normal force of an end of a face that carries, N; where none does, the mean over `blocks` of weight and
-/// loads.
+/// The mean normal force of an end of a face that carries, N; where none does, the mean over
+/// `blocks` of weight and loads.
 double force_scale(const Simulation& sim, const FaceSet& contacts, const std::vector<Id>& blocks);
 
 /// The mean over blocks not held of the resultant force, over force_scale(); 0 where no force is, 1
