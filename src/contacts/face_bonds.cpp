@@ -79,8 +79,9 @@ bool gives_way(const FaceSet& c, const BlockSet& b, std::size_t k) {
   if (c.bonded[k] == 0.0) return false;
   if (c.pulls[k] == 0.0 && largest < -touch * smaller_size(c, b, k)) return true;
   const double shear = std::abs(m.shear_a[k] + m.shear_b[k]);
-  return shear >
-         c.cohesion[k] * m.length[k] * m.gate[k] + c.friction[k] * (m.normal_a[k] + m.normal_b[k]);
+  const double rounding = 2.0 * m.spring[k] * c.noise;
+  return shear > rounding + c.cohesion[k] * m.length[k] * m.gate[k] +
+                     c.friction[k] * (m.normal_a[k] + m.normal_b[k]);
 }
 
 void break_bond(FaceSet& c, const LawTable& laws, std::size_t k) {

@@ -222,8 +222,9 @@ void change_step_behind(FaceSet& c, const BlockSet& b, const Pose& pose,
     const Face now = face_at(c, b, pose.x, pose.y, k), then = face_at(c, b, pose.x1, pose.y1, k);
     const FaceEnds was = motion_of(now, offset, face_points(c, old_x1, old_y1, k)).slip;
     const FaceEnds is = motion_of(now, offset, face_points(c, pose.x1, pose.y1, k)).slip;
-    m.slip_a[k] += was.a - is.a;
-    m.slip_b[k] += was.b - is.b;
+    // What holds keeps its force; what slides slips at the new velocity.
+    if (c.now.slip_a[k] == c.now.trial_a[k]) m.slip_a[k] += was.a - is.a;
+    if (c.now.slip_b[k] == c.now.trial_b[k]) m.slip_b[k] += was.b - is.b;
     m.closure_a[k] = then.closure.a;
     m.closure_b[k] = then.closure.b;
     m.energy[k] = then.energy;

@@ -245,6 +245,9 @@ void find_lost_cohesion(Mechanism& m, const Simulation& held) {
     m.brittle_length += f.now.length[k];
     if (lost) m.cohesion_lost_length += f.now.length[k];
   }
+  if (!lost_cohesion_text(m).empty())
+    m.text += fmt::format("; {:.3g} m of its {:.3g} m had lost their cohesion before it moved",
+                          m.cohesion_lost_length, m.brittle_length);
 }
 
 std::string lost_cohesion_text(const Mechanism& m) {

@@ -130,6 +130,9 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   s.search(s.base_reach);
   bond_faces(s.contacts, s.blocks, s.pose, s.laws);
   s.close_contacts();
+  stand_still(s.contacts);
+  for (auto* work : {&s.contacts.friction_work, &s.contacts.transfer})
+    std::fill(work->begin(), work->end(), 0.0);
   s.plan_slivers();
   s.set_limit();
   s.free_field = attach_free_field(s.model, s.blocks, s.dashpots, s.step_limit);
@@ -142,6 +145,7 @@ void Simulation::start(double first_event) {
   const double h = state.step;
   step_before_ = h;
   auto look_back = [&] {
+    const std::vector<double> old_x1 = pose.x1, old_y1 = pose.y1;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
       place_vertices(blocks, state.vx, state.vy, i, pose.x1, pose.y1);
     }
@@ -150,6 +154,7 @@ void Simulation::start(double first_event) {
       pose.y1[v] = pose.y[v] - h * pose.y1[v];
     });
     start_ground(h);
+    change_step_behind(contacts, blocks, pose, old_x1, old_y1);
     place_faces(contacts, blocks, pose, laws, h);
   };
   look_back();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "contacts/face_reading.hpp"
 #include "model/read_model.hpp"
 #include "run/simulation.hpp"
 
@@ -43,7 +44,7 @@ stress = [-3e6, -2e6, )" + std::to_string(shear) +
 
 bool slipped(const Simulation& sim) {
   for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
-    if (sim.contacts.slipped[k] > 0.0) return true;
+    if (slides(sim.contacts, k)) return true;
   }
   return false;
 }
@@ -73,7 +74,7 @@ TEST(InitialStrength, ThatOfItsNormalStressByBartonAndBandis) {
       "type = 'barton-bandis'\njrc = 10.0\njcs = 20e6\nresidual_angle = 25.0\n";
   const Simulation holds = pressed(rough, 2e6 * tangent(34.9));
   EXPECT_EQ(holds.initial->joints[0].over, 0.0);
-  EXPECT_NEAR(holds.initial->joints[0].mobilised, tangent(34.9) / tangent(35.0), 1e-9);
+  EXPECT_NEAR(holds.initial->joints[0].mobilised, tangent(34.9) / tangent(35.0), 1e-6);
   EXPECT_FALSE(slipped(holds));
   EXPECT_TRUE(slipped(pressed(rough, 2e6 * tangent(35.1))));
 }

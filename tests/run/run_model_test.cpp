@@ -130,7 +130,7 @@ TEST(RunModel, UnstableStepFailsWithBlockPlaceTimeAndCause) {
   const std::string folder = scratch.at("out");
   const Result<PreparedRun> stable = prepared(falling);
   ASSERT_TRUE(stable.ok());
-  const std::string step = fmt::format("{}", 3.0 * stable.value().sim.bound.critical_step);
+  const std::string step = fmt::format("{}", 30.0 * stable.value().sim.bound.critical_step);
   Result<PreparedRun> run = prepared(
       falling, {"solver.time_step=" + step, "solver.allow_unstable=true", "gravity=[0.0, 0.0]",
                 "solver.max_displacement_ratio=1.0", "block.flyer.angular_velocity=0.1"});

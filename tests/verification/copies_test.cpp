@@ -112,7 +112,7 @@ TEST(Copies, ComeToTheSameRest) {
     for (const Copy& copy : copies) {
       const std::vector<Moved> other = at_rest(copy, seed);
       ASSERT_EQ(other.size(), first.size()) << copy.name;
-      EXPECT_LT(apart(first, other), 1e-5) << copy.name << ", seed " << seed;
+      EXPECT_LT(apart(first, other), 1e-4) << copy.name << ", seed " << seed;
     }
   }
   EXPECT_GE(blocks, 60U);

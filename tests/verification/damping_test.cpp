@@ -59,8 +59,9 @@ TEST(Stack, AtRestWithoutDampingKeepsItsEnergy) {
   }
 }
 
-/// A step given by hand is kept below the critical one when blocks land.
-TEST(GivenStep, FollowsTheBoundWhenItFalls) {
+/// A step given by hand is kept below the critical one, which is that of blocks that touch all
+/// round: it need not change when they land.
+TEST(GivenStep, StaysWithinTheBoundWhenBlocksLand) {
   Simulation sim = scene(
       "[materials.rock]\ndensity = 2600\nyoung = 1e8\ndamping = 0\npoisson = 0.2\n[joints.j]\n"
       "friction_angle = 30\n[contact]\nnormal_stiffness = 2e10\n[solver]\n"
@@ -70,7 +71,7 @@ TEST(GivenStep, FollowsTheBoundWhenItFalls) {
   double drift = 0.0;
   run(sim, [&](Simulation& s) { keep_largest(drift, s.ledger().drift); });
   EXPECT_LE(sim.steps.over_critical, 1.0 + 1e-9);
-  EXPECT_GT(sim.steps.changes, 0u);
+  EXPECT_EQ(sim.steps.changes, 0u);
   EXPECT_LT(drift, 1e-3);
 }
 

@@ -315,7 +315,7 @@ duration = 0.05
     }
     return std::array{p.x, p.y, turning};
   };
-  for (const auto& [damping, bound] : {std::pair{"damping = 0", 1e-9}, {"", 1e-5}}) {
+  for (const auto& [damping, bound] : {std::pair{"damping = 0", 1e-4}, {"", 1e-4}}) {
     std::string model = toml + dda(2e-4);
     model.replace(model.find("DAMPING"), 7, damping);
     Simulation sim = scene(model);

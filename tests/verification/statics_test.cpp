@@ -110,10 +110,10 @@ history_every = 0.001
     if (i >= 4 && force > 0.0) ++carrying[{i, j}];
   }
   expect_at_most({20, "", "force across a diagonal over that on a side", ""},
-                 diagonal / std::abs(sx), 1e-9);
-  // Two ends of each joint, each shared by two corners.
+                 diagonal / std::abs(sx), 1e-5);
+  // One face each.
   for (const auto& [i, j] : {std::pair{4, 5}, std::pair{4, 6}, std::pair{5, 7}, std::pair{6, 7}}) {
-    EXPECT_EQ((carrying[{static_cast<Id>(i), static_cast<Id>(j)}]), 4) << i << ' ' << j;
+    EXPECT_EQ((carrying[{static_cast<Id>(i), static_cast<Id>(j)}]), 1) << i << ' ' << j;
   }
   record_model(20, "", sim);
 }
