@@ -77,7 +77,7 @@ void print_text(const PreparedRun& run, const ModelCheck& found) {
   print_blocks(sim, found);
   fmt::print("contacts        {} closed, {} within reach\n", found.closed, found.within_reach);
   if (sim.explicit_method()) {
-    fmt::print("critical step   {:.6g} s; {:.6g} s if every bare corner touched something\n",
+    fmt::print("critical step   {:.6g} s; {:.6g} s if every block touched something all round\n",
                found.critical_step, found.likely_step);
   }
   fmt::print("governed by     {}\n", run.governed_by);

@@ -59,7 +59,7 @@ constexpr std::array joint_keys{
 };
 
 constexpr std::array contact_keys{
-    Key{"model", at<&ContactDefaults::model>, choice, initial, "Contacts as points, vertices on edges, or as faces, edges on edges."},
+    Key{"model", at<&ContactDefaults::model>, choice, initial, "Contacts are faces: an edge of one block against an opposed edge of another."},
     Key{"normal_stiffness", at<&ContactDefaults::normal_stiffness>, number(D::stiffness, above(0)), otherwise("10 x the largest young"), "Normal spring per contact where the joint has no kn."},
     Key{"shear_stiffness", at<&ContactDefaults::shear_stiffness>, number(D::stiffness, above(0)), otherwise("normal_stiffness"), "Shear spring per contact where the joint has no ks."},
     Key{"joint", at<&ContactDefaults::joint>, joint, otherwise(if_one), "Law of contacts whose edges name none."},

@@ -60,7 +60,8 @@ ContactRecord face_record(const Simulation& sim, const FaceSet& f, std::size_t k
   r.block_i = block_of_facing(b, f, k);
   r.block_j = block_of_edge(b, f, k);
   const std::size_t law = f.law[k];
-  r.joint = law < sim.model.joints.size() ? sim.model.joints[law].name : "glued";
+  r.joint = "glued";
+  if (law < sim.model.joints.size()) r.joint = sim.model.joints[law].name;
   r.position = middle_of(f, sim.pose, k) + b.origin;
   const double eta = 0.5 * (f.now.eta_a[k] + f.now.eta_b[k]);
   std::array<double, 3> weight;
