@@ -36,8 +36,8 @@ class ForPeople : public RunReport {
               ? fmt::format("step about {:.3g} s with static masses; with those as given", step)
               : fmt::format("step {:.4g} s;", step);
       fmt::print(stderr,
-                 "{}; {} critical {:.4g} s ({:.4g} s if every bare corner "
-                 "touched something), held by {}\n",
+                 "{}; {} critical {:.4g} s ({:.4g} s if every block "
+                 "touched something all round), held by {}\n",
                  counted(sim.blocks.size(), "block"), begins, sim.bound.critical_step,
                  sim.bound.critical_step, run.governed_by);
     } else {
