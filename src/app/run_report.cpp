@@ -36,10 +36,9 @@ class ForPeople : public RunReport {
               ? fmt::format("step about {:.3g} s with static masses; with those as given", step)
               : fmt::format("step {:.4g} s;", step);
       fmt::print(stderr,
-                 "{}; {} critical {:.4g} s ({:.4g} s if every block "
-                 "touched something all round), held by {}\n",
+                 "{}; {} critical {:.4g} s, held by {}\n",
                  counted(sim.blocks.size(), "block"), begins, sim.bound.critical_step,
-                 sim.bound.critical_step, run.governed_by);
+                 run.governed_by);
     } else {
       fmt::print(stderr, "{}; step {:.4g} s, held by {}\n", counted(sim.blocks.size(), "block"),
                  step, run.governed_by);

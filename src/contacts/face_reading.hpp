@@ -72,10 +72,17 @@ inline bool slides(const FaceSet& f, std::size_t k) {
          (m.slip_a[k] != m.trial_a[k] || m.slip_b[k] != m.trial_b[k]);
 }
 
+/// Forces of face k on its corners, N.
+inline CornerForces corner_forces(const FaceSet& f, std::size_t k) {
+  const double* const e = f.force.data() + 4 * std::size_t{f.slot[k]};
+  const double* const q = f.force.data() + 4 * std::size_t{f.facing_slot[k]};
+  return {{e[0], e[1]}, {e[2], e[3]}, {q[0], q[1]}, {q[2], q[3]}};
+}
+
 /// Force on the block of `facing`; that of `edge` has the opposite.
 inline Vec2 force_on_facing(const FaceSet& f, std::size_t k) {
-  const double* const on = f.force.data() + 4 * std::size_t{f.facing_slot[k]};
-  return {on[0] + on[2], on[1] + on[3]};
+  const CornerForces on = corner_forces(f, k);
+  return on.q1 + on.q2;
 }
 
 /// Ends of the overlap, on the edge.

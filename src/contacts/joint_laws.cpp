@@ -56,6 +56,12 @@ InForce in_force(const FaceSet& c, const LawTable& laws, std::size_t k) {
   return {c.friction[k], 0.0, 0.0, c.slid[k] < law.slip_distance ? law.dilation : 0.0};
 }
 
+void open_by(FaceSet& c, std::size_t k, double rise) {
+  c.offset_a[k] += rise;
+  c.offset_b[k] += rise;
+  c.owed[k] -= rise;
+}
+
 /// Opens the face by what is owed, or as far as what friction took in the step goes.
 void lift(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   const FaceMemory& m = c.before;
@@ -67,9 +73,7 @@ void lift(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   const double rise =
       std::min(c.owed[k], (std::sqrt(normal * normal + 2.0 * spring * most) - normal) / spring);
   const double before = normal_energy(c, b, pose, k);
-  c.offset_a[k] += rise;
-  c.offset_b[k] += rise;
-  c.owed[k] -= rise;
+  open_by(c, k, rise);
   c.friction_work[k] -= normal_energy(c, b, pose, k) - before;
 }
 
@@ -92,9 +96,7 @@ void take_slip_while_open(FaceSet& c, const BlockSet& b, const Pose& pose, const
   take_slip(c, laws, k, 0.5 * std::abs(slip.a + slip.b));
   const double gap = -std::max(face.closure.a, face.closure.b);
   const double rise = std::clamp(gap, 0.0, c.owed[k]);
-  c.offset_a[k] += rise;
-  c.offset_b[k] += rise;
-  c.owed[k] -= rise;
+  open_by(c, k, rise);
 }
 
 void put_in_force(FaceSet& c, const LawTable& laws, std::size_t k) {

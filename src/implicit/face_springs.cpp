@@ -6,6 +6,7 @@
 #include "base/parallel.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/face_energy.hpp"
+#include "contacts/face_reading.hpp"
 #include "contacts/face_step.hpp"
 
 namespace edda {
@@ -57,10 +58,8 @@ std::uint8_t slides_on(const FaceSprings& springs, const FaceMemory& m, std::siz
 
 /// -sum f . (x - x_1) over the corners of face k, J.
 double taken_from_blocks(const FaceSet& c, const Pose& pose, std::size_t k) {
-  const double* const e = c.force.data() + 4 * std::size_t{c.slot[k]};
-  const double* const f = c.force.data() + 4 * std::size_t{c.facing_slot[k]};
-  const CornerForces on{{e[0], e[1]}, {e[2], e[3]}, {f[0], f[1]}, {f[2], f[3]}};
-  return -work_of(on, face_points(c, pose.x, pose.y, k), face_points(c, pose.x1, pose.y1, k));
+  return -work_of(corner_forces(c, k), face_points(c, pose.x, pose.y, k),
+                  face_points(c, pose.x1, pose.y1, k));
 }
 
 }  // namespace

@@ -53,7 +53,6 @@ ModelCheck check_model(Simulation& sim) {
   }
   found.within_reach = sim.contacts.size();
   found.critical_step = sim.bound.critical_step;
-  found.likely_step = sim.bound.critical_step;
   found.loads = load_report(sim);
   found.initial_stress = initial_stress_report(sim);
   found.strain_damping = strain_damping_report(sim);

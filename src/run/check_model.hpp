@@ -18,9 +18,9 @@ struct ModelCheck {
   double steps = 0.0;          ///< to expect; at most, where stages end at an equilibrium; 0
                                ///< where no duration is given
   bool at_most = false;
-  double rate = 0.0;                              ///< steps per second of wall time
-  std::size_t closed = 0, within_reach = 0;       ///< contacts, at the start
-  double critical_step = 0.0, likely_step = 0.0;  ///< s, at the start
+  double rate = 0.0;                         ///< steps per second of wall time
+  std::size_t closed = 0, within_reach = 0;  ///< contacts, at the start
+  double critical_step = 0.0;                ///< s, at the start
 };
 
 /// Of a simulation as created; it makes a few steps with it, of which nothing is kept.

@@ -49,8 +49,7 @@ std::optional<Failure> deep_overlap(const FaceSet& c, const BlockSet& b, const S
                                     const StepInUse& step) {
   if (largest <= smallest_half_width) return std::nullopt;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    const Id edges[2] = {c.edge[k], c.facing[k]};
-    const Id of[2] = {b.vertex_block[edges[0]], b.vertex_block[edges[1]]};
+    const Id of[2] = {block_of_edge(b, c, k), block_of_facing(b, c, k)};
     const double depth = closure_of(c, k);
     if (!(c.now.energy[k] > 0.0) || depth <= std::min(b.inradius[of[0]], b.inradius[of[1]]))
       continue;

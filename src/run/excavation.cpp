@@ -16,13 +16,13 @@ std::vector<KeptForce> wall_forces(const BlockSet& b, const FaceSet& f,
   for (std::size_t k = 0; k < f.size(); ++k) {
     const Id i = block_of_edge(b, f, k), j = block_of_facing(b, f, k);
     if (goes[i] == goes[j] || !is_closed(f, k)) continue;
-    const auto keep = [&](Id edge, Id slot, Id of) {
-      const double* const on = f.force.data() + 4 * std::size_t{slot};
-      walls.push_back({edge, {on[0], on[1]}, b.opening[of]});
-      walls.push_back({b.next[edge], {on[2], on[3]}, b.opening[of]});
+    const CornerForces on = corner_forces(f, k);
+    const auto keep = [&](Id edge, Vec2 start, Vec2 end, Id of) {
+      walls.push_back({edge, start, b.opening[of]});
+      walls.push_back({b.next[edge], end, b.opening[of]});
     };
-    if (goes[j] != 0 && !b.fixed[i]) keep(f.edge[k], f.slot[k], j);
-    if (goes[i] != 0 && !b.fixed[j]) keep(f.facing[k], f.facing_slot[k], i);
+    if (goes[j] != 0 && !b.fixed[i]) keep(f.edge[k], on.p1, on.p2, j);
+    if (goes[i] != 0 && !b.fixed[j]) keep(f.facing[k], on.q1, on.q2, i);
   }
   return walls;
 }
