@@ -35,8 +35,7 @@ class ForPeople : public RunReport {
           masses == StageMasses::uniform_step
               ? fmt::format("step about {:.3g} s with static masses; with those as given", step)
               : fmt::format("step {:.4g} s;", step);
-      fmt::print(stderr,
-                 "{}; {} critical {:.4g} s, held by {}\n",
+      fmt::print(stderr, "{}; {} critical {:.4g} s, held by {}\n",
                  counted(sim.blocks.size(), "block"), begins, sim.bound.critical_step,
                  run.governed_by);
     } else {

@@ -59,6 +59,7 @@ struct Face {
   Vec2 t;
   double inverse_e = 0.0, inverse_f = 0.0;  ///< what turns t as e and f turn: 1/(l |E - F|), 1/m
   double length = 0.0;                      ///< L, m; <= 0: no overlap
+  double cohesive = 0.0;                    ///< length along which cohesion acts, m
   FaceEnds closure;                         ///< d, m
   FaceEnds xi, eta;
   double gate = 0.0;        ///< w W
@@ -104,6 +105,11 @@ EDDA_INLINE SmoothStep smooth_step(double x) {
 inline constexpr double aspect_from = 0.5, aspect_range = 1.5;
 /// Part of the initial stress's closure that counts there.
 inline constexpr double locked_part = 0.25;
+
+/// Cosine of the angle between edges that lie along each other: 8 degrees. Cohesion needs surfaces
+/// that do; a corner that leans on an edge has friction alone. It goes over up to `flush`, 4
+/// degrees.
+inline constexpr double lies_along = 0.99, lies_flush = 0.9976;
 
 /// What bounds an end of the overlap where two corners are x apart along the face and pass each
 /// other within `reach` (m): how far it is drawn in, and by which part it follows the corner that
@@ -273,6 +279,9 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const double phi = exact.value + share * gain;
   face.gate = gate;
   face.angle_gate = exists * by_angle.value;
+  face.cohesive =
+      gate * larger(face.length, 0.0) *
+      smooth_step((c * inverse_lengths - lies_along) * (1.0 / (lies_flush - lies_along))).value;
   face.share = share;
   face.energy = gate * whole * phi;
   face.normal = {gate * whole * (exact.by_a + share * (ends.by_a - exact.by_a)),

@@ -25,9 +25,6 @@ void lend_glue(FaceSet& c, std::size_t k) {
   if (least > -flush * c.now.length[k]) c.pulls[k] = 1.0;
 }
 
-/// Edges whose directions satisfy this cosine lie along each other.
-constexpr double along = 0.99;
-
 }  // namespace
 
 bool touch_as_drawn(const FaceSet& c, const BlockSet& b, const Pose& pose, const Face& face,
@@ -35,7 +32,7 @@ bool touch_as_drawn(const FaceSet& c, const BlockSet& b, const Pose& pose, const
   const FacePoints at = face_points(c, pose.x, pose.y, k);
   const double cosine = -dot(at.p2 - at.p1, at.q2 - at.q1) * c.inverse_e[k] * c.inverse_f[k];
   const double near = touch * smaller_size(c, b, k);
-  return face.length > near && cosine >= along &&
+  return face.length > near && cosine >= lies_along &&
          std::abs(std::max(face.closure.a, face.closure.b)) <= near;
 }
 
@@ -80,8 +77,8 @@ bool gives_way(const FaceSet& c, const BlockSet& b, std::size_t k) {
   if (c.pulls[k] == 0.0 && largest < -touch * smaller_size(c, b, k)) return true;
   const double shear = std::abs(m.shear_a[k] + m.shear_b[k]);
   const double rounding = 2.0 * m.spring[k] * c.noise;
-  return shear > rounding + c.cohesion[k] * m.length[k] * m.gate[k] +
-                     c.friction[k] * (m.normal_a[k] + m.normal_b[k]);
+  return shear >
+         rounding + c.cohesion[k] * m.cohesive[k] + c.friction[k] * (m.normal_a[k] + m.normal_b[k]);
 }
 
 void break_bond(FaceSet& c, const LawTable& laws, std::size_t k) {

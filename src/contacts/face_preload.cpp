@@ -110,6 +110,7 @@ std::vector<JointStress> preload_faces(FaceSet& c, const BlockSet& b, const Pose
     m.normal_b[k] = face.normal.b;
     m.gate[k] = face.gate;
     m.length[k] = m.overlap[k] = face.length;
+    m.cohesive[k] = face.cohesive;
     m.xi_a[k] = face.xi.a;
     m.xi_b[k] = face.xi.b;
     m.eta_a[k] = face.eta.a;

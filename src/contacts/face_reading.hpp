@@ -61,8 +61,7 @@ inline double shear_force(const FaceSet& f, std::size_t k) {
 
 /// What it can bear in shear, N.
 inline double shear_strength(const FaceSet& f, std::size_t k) {
-  return std::max(
-      f.cohesion[k] * f.now.length[k] * f.now.gate[k] + f.friction[k] * normal_force(f, k), 0.0);
+  return std::max(f.cohesion[k] * f.now.cohesive[k] + f.friction[k] * normal_force(f, k), 0.0);
 }
 
 /// Whether Coulomb's limit cut the shear of one of its ends at the last step.

@@ -25,6 +25,7 @@ struct FaceMemory {
   std::vector<double> spring;                    ///< shear spring of each end, N/m
   std::vector<double> length;                    ///< L, m; 0: no overlap
   std::vector<double> overlap;                   ///< length that the shear springs stand for, m
+  std::vector<double> cohesive;                  ///< length along which cohesion acts, m
   std::vector<double> gate;                      ///< w W
   std::vector<double> xi_a, xi_b, eta_a, eta_b;  ///< where the ends are on the edges
   std::vector<double> switched;       ///< 1: other ends are closed than at the step before
@@ -54,8 +55,8 @@ inline constexpr FaceColumn face_columns[] = {{"closure_a", "m", &FaceMemory::cl
                                               {"trial_b", "m", &FaceMemory::trial_b},
                                               {"spring", "N/m", &FaceMemory::spring},
                                               {"length", "m", &FaceMemory::length},
-                                              {"length", "m", &FaceMemory::length},
                                               {"overlap", "m", &FaceMemory::overlap},
+                                              {"cohesive", "m", &FaceMemory::cohesive},
                                               {"gate", "1", &FaceMemory::gate},
                                               {"xi_a", "1", &FaceMemory::xi_a},
                                               {"xi_b", "1", &FaceMemory::xi_b},

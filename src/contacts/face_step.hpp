@@ -17,8 +17,8 @@ inline constexpr double unlimited_shear = 1e300;  ///< N, of a bond
 struct MemoryView {
   double *closure_a, *closure_b, *energy, *normal_a, *normal_b, *shear_a, *shear_b, *damping_a,
       *damping_b, *drag_a, *drag_b, *slip_a, *slip_b, *trial_a, *trial_b, *spring, *length,
-      *overlap, *gate, *xi_a, *xi_b, *eta_a, *eta_b, *switched, *friction_work, *damping_work,
-      *damping_due, *transfer;
+      *overlap, *cohesive, *gate, *xi_a, *xi_b, *eta_a, *eta_b, *switched, *friction_work,
+      *damping_work, *damping_due, *transfer;
 };
 
 /// What a loop over faces reads and writes.
@@ -179,7 +179,7 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const double slip_1a = old.slip_a[k], slip_1b = old.slip_b[k];
   const double trial_a = touches ? kept * slip_1a + here.a : 0.0;
   const double trial_b = touches ? kept * slip_1b + here.b : 0.0;
-  const double cohesion = touches ? 0.5 * c.cohesion[k] * face.length * face.gate : 0.0;
+  const double cohesion = touches ? 0.5 * c.cohesion[k] * face.cohesive : 0.0;
   const EndOfFace end_a{face.normal.a, trial_a, moved.closure.a, here.a, face.xi.a, face.eta.a};
   const EndOfFace end_b{face.normal.b, trial_b, moved.closure.b, here.b, face.xi.b, face.eta.b};
   const EndActs acts_a =
@@ -216,6 +216,7 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   m.trial_b[k] = trial_b;
   m.spring[k] = spring;
   m.length[k] = length;
+  m.cohesive[k] = face.cohesive;
   m.overlap[k] = touches ? overlap : length;
   m.gate[k] = face.gate;
   m.xi_a[k] = face.xi.a;

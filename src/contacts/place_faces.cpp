@@ -14,13 +14,14 @@ namespace edda {
 namespace {
 
 MemoryView faces_view(FaceMemory& m) {
-  return {m.closure_a.data(),     m.closure_b.data(),    m.energy.data(),      m.normal_a.data(),
-          m.normal_b.data(),      m.shear_a.data(),      m.shear_b.data(),     m.damping_a.data(),
-          m.damping_b.data(),     m.drag_a.data(),       m.drag_b.data(),      m.slip_a.data(),
-          m.slip_b.data(),        m.trial_a.data(),      m.trial_b.data(),     m.spring.data(),
-          m.length.data(),        m.overlap.data(),      m.gate.data(),        m.xi_a.data(),
-          m.xi_b.data(),          m.eta_a.data(),        m.eta_b.data(),       m.switched.data(),
-          m.friction_work.data(), m.damping_work.data(), m.damping_due.data(), m.transfer.data()};
+  return {m.closure_a.data(), m.closure_b.data(),     m.energy.data(),       m.normal_a.data(),
+          m.normal_b.data(),  m.shear_a.data(),       m.shear_b.data(),      m.damping_a.data(),
+          m.damping_b.data(), m.drag_a.data(),        m.drag_b.data(),       m.slip_a.data(),
+          m.slip_b.data(),    m.trial_a.data(),       m.trial_b.data(),      m.spring.data(),
+          m.length.data(),    m.overlap.data(),       m.cohesive.data(),     m.gate.data(),
+          m.xi_a.data(),      m.xi_b.data(),          m.eta_a.data(),        m.eta_b.data(),
+          m.switched.data(),  m.friction_work.data(), m.damping_work.data(), m.damping_due.data(),
+          m.transfer.data()};
 }
 
 FaceView faces_view(FaceSet& c, const BlockSet& b, const Pose& pose, double step,
@@ -269,7 +270,7 @@ CornerForces cut_again(FaceSet& c, const Face& face, const FacePoints& at, const
                        double alpha, std::size_t k) {
   FaceMemory& m = c.before;
   const FaceEnds here = motion_of(face, {c.offset_a[k], c.offset_b[k]}, then).slip;
-  const double spring = m.spring[k], cohesion = 0.5 * c.cohesion[k] * face.length * face.gate;
+  const double spring = m.spring[k], cohesion = 0.5 * c.cohesion[k] * face.cohesive;
   const auto again = [&](double normal, double trial, double slipped, double& force, double& slip) {
     const double limit = std::max(cohesion + c.friction[k] * normal, 0.0);
     const Shear next = cut(trial, spring, c.bonded[k] > 0.0 ? unlimited_shear : limit);

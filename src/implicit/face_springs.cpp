@@ -25,7 +25,7 @@ double energy_of(const FaceMemory& m, std::size_t k) {
 double limit_of(const FaceSet& c, double normal, std::size_t k) {
   if (c.bonded[k] > 0.0) return unlimited_shear;
   const FaceMemory& m = c.before;
-  return std::max(0.5 * c.cohesion[k] * m.length[k] * m.gate[k] + c.friction[k] * normal, 0.0);
+  return std::max(0.5 * c.cohesion[k] * m.cohesive[k] + c.friction[k] * normal, 0.0);
 }
 
 void set_limits(FaceSprings& springs, const FaceSet& c, std::size_t k) {
