@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/threads.hpp"
+#include "contacts/face_reading.hpp"
 #include "run/damping_report.hpp"
 #include "run/initial_stress_report.hpp"
 #include "run/load_report.hpp"
