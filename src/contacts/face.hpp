@@ -6,7 +6,7 @@
 //   E = p2 - p1, F = q2 - q1, over their lengths at the start; frame t = (E - F)/|E - F|, between
 //   the two edges, n = (t.y, -t.x), out of the first block.
 //   s, y: coordinates along t and n from p1. Overlap [sa, sb], length L = sb - sa; at each of its
-//   ends one corner bounds it. Where two corners pass each other within r, half of the mean
+//   ends one corner bounds it. Where two corners pass each other within r, about half of the
 //   closure, the bound goes over from the one to the other smoothly: min(s, s') - (r - |s -
 //   s'|)^2/(4 r). The ends lie over the parts xi of e (from p1 to p2) and eta of f (from q2 to q1).
 //   Closures da and db there (m, > 0: pressed together), linear in between.
@@ -124,10 +124,25 @@ EDDA_INLINE CornersPassing corners_passing(double x, double reach) {
   return {0.25 * near * part, 0.5 * part, 0.25 * part * (2.0 - part)};
 }
 
-/// That reach, of the closures of both ends together.
-inline constexpr double passing_reach = 0.25;
-/// At most, of FacePair::passing: edges may be shorter than what an initial stress locks in.
-inline constexpr double furthest_reach = 0.5;
+/// Part by which each end follows the first block's corner.
+EDDA_INLINE FaceEnds of_first(const CornersPassing& a, const CornersPassing& b, bool a_by_first,
+                              bool b_by_first) {
+  return {a_by_first ? 1.0 - a.by_other : a.by_other, b_by_first ? 1.0 - b.by_other : b.by_other};
+}
+
+/// That reach, of the closures at both ends, (da^2 + db^2)^(1/2)/3, towards a furthest one: edges
+/// may be shorter than what an initial stress locks in. The closure of corners that pass each other
+/// is taken halfway between the two, or it would go on at another rate where one takes over.
+inline constexpr double furthest_reach = 0.5;  ///< of FacePair::passing
+struct PassingReach {
+  double reach, by_a, by_b;
+};
+EDDA_INLINE PassingReach passing_reach(double da, double db, double furthest) {
+  const double both = std::sqrt(da * da + db * db), part = 1.0 / 3.0;
+  const double u = smaller(0.5 * part * both / furthest, 1.0);
+  const double slope = part * (1.0 - u) / (both > 0.0 ? both : 1.0);
+  return {furthest * u * (2.0 - u), slope * da, slope * db};
+}
 
 /// phi and its derivatives by da and db.
 struct ClosurePotential {
@@ -178,11 +193,11 @@ EDDA_INLINE void add_at(CornerForces& on, double xi, double eta, Vec2 f) {
 }
 
 /// Adds forces along t on what bounds the ends.
-EDDA_INLINE void push_bounds(CornerForces& on, const Face& face, FaceEnds f) {
-  on.p1 += face.of_first.a * f.a * face.t;
-  on.q2 += (1.0 - face.of_first.a) * f.a * face.t;
-  on.p2 += face.of_first.b * f.b * face.t;
-  on.q1 += (1.0 - face.of_first.b) * f.b * face.t;
+EDDA_INLINE void push_bounds(CornerForces& on, FaceEnds of_first, Vec2 t, FaceEnds f) {
+  on.p1 += of_first.a * f.a * t;
+  on.q2 += (1.0 - of_first.a) * f.a * t;
+  on.p2 += of_first.b * f.b * t;
+  on.q1 += (1.0 - of_first.b) * f.b * t;
 }
 
 /// The frame goes with both edges: their couples, which leave no moment.
@@ -212,16 +227,18 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const bool a_by_p = r2 <= 0.0, b_by_p = s2 <= r1;            // p1 and p2 bound the overlap
   const double ma = a_by_p ? 0.0 : r2, mb = b_by_p ? s2 : r1;  // of the corners that bound it
   const double steeper = slope_e - slope_f, apart_0 = -(z2 - slope_f * r2);
-  const double corner_a = apart_0 + steeper * ma + pair.offset.a;
-  const double corner_b = apart_0 + steeper * mb + pair.offset.b;
-  const bool pulls = pair.pulls != 0.0;
-  const double closures = pulls ? std::abs(corner_a) + std::abs(corner_b)
-                                : larger(corner_a, 0.0) + larger(corner_b, 0.0);
   const double furthest = furthest_reach * pair.passing;
-  const bool far = passing_reach * closures > furthest;
-  const double reach = far ? furthest : passing_reach * closures;
-  const CornersPassing pass_a = corners_passing(-r2, reach),
-                       pass_b = corners_passing(s2 - r1, reach);
+  const CornersPassing near_a = corners_passing(-r2, furthest),
+                       near_b = corners_passing(s2 - r1, furthest);
+  const double beyond = 0.25 * furthest;
+  const double la = ma + near_a.drawn_in - beyond, lb = mb - near_b.drawn_in + beyond;
+  const double corner_a = apart_0 + steeper * la + pair.offset.a;
+  const double corner_b = apart_0 + steeper * lb + pair.offset.b;
+  const bool pulls = pair.pulls != 0.0;
+  const PassingReach wide = passing_reach(pulls ? corner_a : larger(corner_a, 0.0),
+                                          pulls ? corner_b : larger(corner_b, 0.0), furthest);
+  const CornersPassing pass_a = corners_passing(-r2, wide.reach),
+                       pass_b = corners_passing(s2 - r1, wide.reach);
   const double sa = ma + pass_a.drawn_in, sb = mb - pass_b.drawn_in;
   face.t = t;
   face.inverse_e = pair.inverse_e / base;
@@ -302,22 +319,22 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
 
   // dU/dsa and dU/dsb, and dU/dd of the corners that the reach goes by
   const double by_sa = by_a * steeper - by_length, by_sb = by_b * steeper + by_length;
-  const double by_reach =
-      far ? 0.0 : passing_reach * (by_sa * pass_a.by_reach - by_sb * pass_b.by_reach);
-  const double opens = pulls ? -by_reach : 0.0;
-  const double by_corner_a = corner_a > 0.0 ? by_reach : opens;
-  const double by_corner_b = corner_b > 0.0 ? by_reach : opens;
+  const double by_reach = by_sa * pass_a.by_reach - by_sb * pass_b.by_reach;
+  const double by_corner_a = by_reach * wide.by_a, by_corner_b = by_reach * wide.by_b;
 
   CornerForces& force = face.force;
   face.slope = {a_by_p ? slope_f : slope_e, b_by_p ? slope_f : slope_e};
-  add_at(force, ma * per_e, (ma - r2) * per_f, by_corner_a * (n - face.slope.a * t));
-  add_at(force, mb * per_e, (mb - r2) * per_f, by_corner_b * (n - face.slope.b * t));
+  add_pressures(force, la * per_e, (la - r2) * per_f, by_corner_a * (n - slope_e * t),
+                by_corner_a * (n - slope_f * t));
+  add_pressures(force, lb * per_e, (lb - r2) * per_f, by_corner_b * (n - slope_e * t),
+                by_corner_b * (n - slope_f * t));
+  push_bounds(force, of_first(near_a, near_b, a_by_p, b_by_p), t,
+              {-steeper * by_corner_a, -steeper * by_corner_b});
   add_pressures(force, face.xi.a, face.eta.a, by_a * (n - slope_e * t), by_a * (n - slope_f * t));
   add_pressures(force, face.xi.b, face.eta.b, by_b * (n - slope_e * t), by_b * (n - slope_f * t));
   face.along = {by_sa, by_sb};
-  face.of_first = {a_by_p ? 1.0 - pass_a.by_other : pass_a.by_other,
-                   b_by_p ? 1.0 - pass_b.by_other : pass_b.by_other};
-  push_bounds(force, face, {-by_sa, -by_sb});
+  face.of_first = of_first(pass_a, pass_b, a_by_p, b_by_p);
+  push_bounds(force, face.of_first, t, {-by_sa, -by_sb});
   const Vec2 beside = by_past * t;  // past = (p2 - q1).t or (p1 - q2).t
   force.p2 -= (deep_b ? 1.0 : 0.0) * beside;
   force.q1 += (deep_b ? 1.0 : 0.0) * beside;
@@ -351,7 +368,7 @@ EDDA_INLINE CornerForces end_forces(const FacePoints& at, const Face& face, Face
   CornerForces force;
   add_at(force, face.xi.a, face.eta.a, normal.a * (n - face.slope.a * t) + shear.a * t);
   add_at(force, face.xi.b, face.eta.b, normal.b * (n - face.slope.b * t) + shear.b * t);
-  push_bounds(force, face, bounds);
+  push_bounds(force, face.of_first, face.t, bounds);
   add_couple_of_frame(force, at, face);
   return force;
 }

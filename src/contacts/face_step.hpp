@@ -234,7 +234,7 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   m.damping_due[k] = taken(old.damping_a[k], old.damping_b[k], old.drag_a[k], old.drag_b[k]);
   const FaceEnds bounds = held_at_bounds(face, pair);
   CornerForces holds;
-  push_bounds(holds, face, bounds);
+  push_bounds(holds, face.of_first, face.t, bounds);
   const double given = dot(holds.p1, at.p1 - then.p1) + dot(holds.p2, at.p2 - then.p2) +
                        dot(holds.q1, at.q1 - then.q1) + dot(holds.q2, at.q2 - then.q2);
   m.transfer[k] = lost_a.transfer + lost_b.transfer - given;

@@ -119,6 +119,48 @@ TEST(Face, ForcesAreTheGradientOfTheStoredEnergy) {
   EXPECT_GT(partial, 1000);
 }
 
+/// Moves the second edge along the first, past the corners at one end, by `x` from where they meet.
+RandomFace passing_by(RandomFace r, bool first_end, double x) {
+  const Vec2 along = unit(r.at.p2 - r.at.p1);
+  const Vec2 meet = first_end ? r.at.p1 - r.at.q2 : r.at.p2 - r.at.q1;
+  const Vec2 by = (dot(meet, along) + x) * along;
+  r.at.q1 += by;
+  r.at.q2 += by;
+  return r;
+}
+
+/// Corners that pass each other, an end or the deepest end that changes: no force jumps.
+TEST(Face, ForcesAreContinuous) {
+  Faces faces;
+  double worst = 0.0;
+  int tried = 0, passed = 0;
+  while (tried < 500) {
+    const RandomFace r = faces.next();
+    const bool first_end = tried % 2 == 0;
+    std::array<std::array<Vec2, 4>, 3> last{};
+    double largest_force = 0.0, jump = 0.0;
+    bool before = false, after = false;
+    constexpr int steps = 4000;
+    constexpr double reach = 0.002;
+    for (int i = 0; i <= steps; ++i) {
+      const RandomFace here = passing_by(r, first_end, reach * (2.0 * i / steps - 1.0));
+      const Face face = face_between(here.at, here.pair);
+      (2 * i < steps ? before : after) |= face.energy > 0.0;
+      last = {last[1], last[2], forces_of(face)};
+      largest_force = std::max(largest_force, largest(last[2]));
+      for (std::size_t k = 0; i >= 2 && k < 4; ++k) {
+        jump = std::max(jump, norm(last[0][k] - 2.0 * last[1][k] + last[2][k]));
+      }
+    }
+    if (!(largest_force > 1e-6)) continue;
+    ++tried;
+    passed += before && after ? 1 : 0;
+    worst = std::max(worst, jump / largest_force);
+  }
+  EXPECT_LT(worst, 1e-3);
+  EXPECT_GT(passed, 300);
+}
+
 TEST(Face, ForcesSumToZeroAndHaveNoMoment) {
   Faces faces;
   for (int k = 0; k < 20000; ++k) {
@@ -226,7 +268,9 @@ TEST(Face, ExistsOnlyWhileEdgesOverlapAndAreOpposed) {
   EXPECT_EQ(face_between(r.at, r.pair).energy, 0.0);  // apart
   r.pair.pulls = 1.0;
   // its corners pass each other: the ends are drawn in by r/4
-  EXPECT_NEAR(face_between(r.at, r.pair).energy, 0.5 * 3e9 * 1e-6 * (1.0 - 0.5 * 0.5e-3), 1e-6);
+  const double furthest = 0.5 * r.pair.passing, u = std::sqrt(2.0) * 1e-3 / 6.0 / furthest;
+  const double length = 1.0 - 0.5 * furthest * u * (2.0 - u);
+  EXPECT_NEAR(face_between(r.at, r.pair).energy, 0.5 * 3e9 * 1e-6 * length, 1e-6);
 }
 
 TEST(Face, WhatIsDeeperThanLongCarriesNothing) {
