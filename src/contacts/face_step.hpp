@@ -111,7 +111,8 @@ struct Placed {
   double depth;
 };
 
-/// One end of a face: its normal force, slip before Coulomb's limit, what its points have moved by.
+/// One end of a face: its normal force, slip before Coulomb's limit, what its points have moved by
+/// in the last step, across the face no more than since they touched.
 struct EndOfFace {
   double normal, trial, closing, slipping, xi, eta;
 };
@@ -180,8 +181,12 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const double trial_a = touches ? kept * slip_1a + here.a : 0.0;
   const double trial_b = touches ? kept * slip_1b + here.b : 0.0;
   const double cohesion = touches ? 0.5 * c.cohesion[k] * face.cohesive : 0.0;
-  const EndOfFace end_a{face.normal.a, trial_a, moved.closure.a, here.a, face.xi.a, face.eta.a};
-  const EndOfFace end_b{face.normal.b, trial_b, moved.closure.b, here.b, face.xi.b, face.eta.b};
+  const double da = face.closure.a, db = face.closure.b;
+  const bool pulls = c.pulls[k] > 0.0;
+  const FaceEnds closing{pulls ? moved.closure.a : smaller(moved.closure.a, larger(da, 0.0)),
+                         pulls ? moved.closure.b : smaller(moved.closure.b, larger(db, 0.0))};
+  const EndOfFace end_a{face.normal.a, trial_a, closing.a, here.a, face.xi.a, face.eta.a};
+  const EndOfFace end_b{face.normal.b, trial_b, closing.b, here.b, face.xi.b, face.eta.b};
   const EndActs acts_a =
       act<dashpots, held>(c, face, end_a, spring, cohesion, touches, c.limit_a, k);
   const EndActs acts_b =
@@ -192,7 +197,6 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const Lost lost_b =
       lost(b, trial_b, spring, {here.b, there.b, old.shear_b[k], slip_1b, kept}, touches);
 
-  const double da = face.closure.a, db = face.closure.b;
   const double closed = touches ? ends_closed(da, db, c.noise) : 0.0;
   const double closed_1 =
       old.energy[k] > 0.0 ? ends_closed(old.closure_a[k], old.closure_b[k], c.noise) : 0.0;

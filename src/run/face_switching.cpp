@@ -15,6 +15,14 @@ constexpr std::uint64_t passes_to_look = 4;  // before the neighbours are looked
 constexpr double settled = 1e-9;             // change of alpha
 constexpr double negligible = 1e-10;         // energy that is missing, of what is stored
 
+/// The root x of a + b x + c x^2/2 nearest to 0, c > 0; where there is none, its lowest point: a
+/// force does no work where its blocks turn back.
+double nearest_root(double a, double b, double c) {
+  const double square = b * b - 2.0 * a * c;
+  if (square <= 0.0) return c > 0.0 ? -b / c : 0.0;
+  return -2.0 * a / (b + std::copysign(std::sqrt(square), b));
+}
+
 /// The forces of a face on the nodes of its two blocks.
 struct OnBlocks {
   std::array<Vec2, 3> first{}, second{};
@@ -150,7 +158,7 @@ class Correction {
     return 0.5 * work_of(f.placed.force, face_points(c_, pose_.x, pose_.y, f.face), f.then);
   }
 
-  /// One Newton step of alpha F_n.(x_{n+1} - x_{n-1})/2 + U_{n+1/2} - U_{n-1/2} = 0.
+  /// One step towards alpha F_n.(x_{n+1} - x_{n-1})/2 + U_{n+1/2} - U_{n-1/2} = 0.
   bool correct(SwitchingFace& f, Id i, Id j) {
     const Id k = f.face;
     const FacePoints next_at = face_points(c_, pose_.x, pose_.y, k);
@@ -160,7 +168,7 @@ class Correction {
     const double whole = work(f);
     const double left = f.alpha * whole + f.stored_next - f.stored;
     const double slope = whole + 0.5 * (f.alpha - (closes ? 1.0 : 0.0)) * f.pushes;
-    double alpha = slope != 0.0 ? f.alpha - left / slope : 1.0;
+    double alpha = f.alpha + nearest_root(left, slope, f.pushes);
     constexpr double most = 1.5;  // of a face that is closed before and after
     alpha = std::clamp(alpha, 0.0, f.was_closed && closes ? most : 1.0);
     if (std::abs(left) <= negligible * (f.stored + f.stored_next)) alpha = f.alpha;

@@ -159,12 +159,13 @@ WHOLE = {
 
 @pytest.fixture(scope="module")
 def bolted(models, program, tmp_path_factory):
-    """A run with bolts and stages to the end of the second."""
+    """A run with bolts and stages, some steps into the third."""
     path = tmp_path_factory.mktemp("bolted") / "tunnel"
     model = edda.load(models / "tunnel.toml", ["output.every=10", "output.history_every=1"])
     simulation = edda.Simulation(model, results=path)
     while simulation.stage < 2 and simulation.step(50):
         pass
+    simulation.step(50)
     simulation.finish()
     program("cut", models / "tunnel.toml", "-o", path / "cut.csv")
     return path

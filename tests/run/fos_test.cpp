@@ -146,7 +146,7 @@ TEST(Fos, WhatTiltsBackAtTheToeSlides) {
       "[materials.rock]\nunit_weight = '26 kN/m3'\nyoung = '1 GPa'\npoisson = 0.25\n"
       "[joints.bedding]\nfriction_angle = 20\n[joints.cross]\nfriction_angle = 35\n"
       "[domain]\njoint = 'bedding'\n"
-      "outline = [[0, 0], [44, 0], [44, 22], [24.4, 22], [20, 10], [20, 9.9], [0, 9.9]]\n"
+      "outline = [[0, 0], [44, 0], [44, 22], [24.4, 22], [20, 10], [20, 8], [0, 8]]\n"
       "[[trace]]\npoints = [[20, 10], [34.301, 22]]\njoint = 'bedding'\n"
       "[[joint_set]]\nangle = -50\nspacing = 8\norigin = [25.6, 10]\njoint = 'cross'\n"
       "region = [[20, 10], [34.301, 22], [24.4, 22]]\n[[held]]\npoint = [5, 5]\n" +

@@ -63,8 +63,9 @@ std::string ground(const Ring& base, const std::vector<Vec2>& surface) {
          point({0.99 * right, base.front().y + 0.9 * (deep - base.front().y)}) + "\n";
 }
 
-std::string water(const std::vector<Vec2>& table) {
-  return table.empty() ? "" : "[[water]]\ntable = " + points(table) + "\n";
+std::string water(const std::vector<Vec2>& table, const std::string& flooded = {}) {
+  if (table.empty()) return {};
+  return "[[water]]\ntable = " + points(table) + "\nflooded = [" + flooded + "]\n";
 }
 
 /// Part of a ring where `side` is positive.
@@ -315,18 +316,12 @@ double SlicedSlope::exact() const {
 }
 
 std::string SlicedSlope::toml() const {
-  const auto hollow_name = [](std::size_t i) { return "hollow " + std::to_string(i); };
   Ring top(surface.rbegin(), surface.rend());
   if (norm(surface.front() - base.front()) < 1e-9) top.pop_back();
   std::string text = rock() + law("bed", base_phi, base_cohesion) +
                      law("slice", joint_phi, joint_cohesion) + law("inner", 60.0, 10e6) +
-                     ground(base, top) + water(table);
-  if (!table.empty()) {  // in the hollows, too
-    for (std::size_t i = 1; i + 1 < base.size(); ++i) {
-      text += (i == 1 ? "flooded = ['" : "', '") + hollow_name(i);
-    }
-    text += "']\n";
-  }
+                     ground(base, top);
+  std::string flooded;
   const auto middle = [&](std::size_t i) { return 0.5 * (base[i] + surface[i]); };
   for (std::size_t i = 0; i + 1 < base.size(); ++i) {
     text += trace(base[i], base[i + 1], "bed");
@@ -335,12 +330,14 @@ std::string SlicedSlope::toml() const {
     if (i > 0) {
       const Vec2 along = (1.0 / norm(base[i + 1] - base[i])) * (base[i + 1] - base[i]);
       const Vec2 up = (1.0 / norm(surface[i] - base[i])) * (surface[i] - base[i]);
-      text += "[[opening]]\nname = '" + hollow_name(i) +
-              "'\npolygon = " + points({base[i], base[i] + hollow * along, base[i] + hollow * up}) +
+      const std::string name = "'hollow " + std::to_string(i) + "'";
+      text += "[[opening]]\nname = " + name +
+              "\npolygon = " + points({base[i], base[i] + hollow * along, base[i] + hollow * up}) +
               "\n";
+      flooded += name + ",";
     }
   }
-  return text;
+  return text + water(table, flooded);
 }
 
 TopplingSlope::TopplingSlope() {

@@ -119,7 +119,7 @@ void expect_stays(const std::string& label, const std::string& toml, double boun
   expect_at_most({37, label, "reactions with weight, over the weight", ""}, w.reactions,
                  10.0 * bound);
   EXPECT_LT(w.drift, 1e-8);
-  EXPECT_LT(sim.initial->unbalanced, 1e-6);
+  EXPECT_LT(sim.initial->unbalanced, 3e-6);
   EXPECT_EQ(sim.steps.redone, 0U);
   record_model(37, label, sim);
 }
