@@ -176,8 +176,8 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
       }
       next.law[k] = faces.law[old++];
     } else {
-      next.law[k] = laws.resolve(b.edge_joint[e], b.edge_joint[f], b.material[b.vertex_block[e]],
-                                 b.material[b.vertex_block[f]]);
+      next.law[k] = laws.resolve_met(b.edge_joint[e], b.edge_joint[f],
+                                     b.material[b.vertex_block[e]], b.material[b.vertex_block[f]]);
       take_residual(next, laws, k);
       next.pulls[k] = 0.0;  // what comes to touch has no tensile strength
     }

@@ -104,28 +104,36 @@ double LawTable::shear_spring(const Law& law, double length) const {
   return thickness * default_ks * (law.spring > 0.0 ? law.spring / default_kn : 1.0);
 }
 
-std::uint16_t LawTable::resolve(Index struck, Index facing) const {
-  if (struck == none && facing == none) {
+std::uint16_t LawTable::resolve(Index edge, Index facing) const {
+  if (edge == none && facing == none) {
     return static_cast<std::uint16_t>(default_law == none ? 0 : default_law);
   }
-  if (struck == none) return static_cast<std::uint16_t>(facing);
-  if (facing == none || facing == struck) return static_cast<std::uint16_t>(struck);
-  const auto a = static_cast<std::uint16_t>(struck), b = static_cast<std::uint16_t>(facing);
+  if (edge == none) return static_cast<std::uint16_t>(facing);
+  if (facing == none || facing == edge) return static_cast<std::uint16_t>(edge);
+  const auto a = static_cast<std::uint16_t>(edge), b = static_cast<std::uint16_t>(facing);
   return rank[a] < rank[b] ? a : b;
 }
 
-std::uint16_t LawTable::resolve(Index struck, Index facing, Index struck_material,
+std::uint16_t LawTable::resolve(Index edge, Index facing, Index edge_material,
                                 Index facing_material) const {
   if (!joint_pairs.empty()) {
-    const Index law = law_of(joint_pairs, struck == none ? default_law : struck,
+    const Index law = law_of(joint_pairs, edge == none ? default_law : edge,
                              facing == none ? default_law : facing);
     if (law != none) return static_cast<std::uint16_t>(law);
   }
   if (!material_pairs.empty()) {
-    const Index law = law_of(material_pairs, struck_material, facing_material);
+    const Index law = law_of(material_pairs, edge_material, facing_material);
     if (law != none) return static_cast<std::uint16_t>(law);
   }
-  return resolve(struck, facing);
+  return resolve(edge, facing);
+}
+
+std::uint16_t LawTable::resolve_met(Index edge, Index facing, Index edge_material,
+                                    Index facing_material) const {
+  const auto unglued = [&](Index joint) {
+    return joint != none && rows[static_cast<std::size_t>(joint)].glued ? none : joint;
+  };
+  return resolve(unglued(edge), unglued(facing), edge_material, facing_material);
 }
 
 }  // namespace edda

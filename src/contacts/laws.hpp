@@ -52,16 +52,19 @@ struct LawTable {
   };
   std::vector<Pair> joint_pairs, material_pairs;
 
-  /// Law of a contact between an edge of joint `struck` and material `struck_material` and a vertex
-  /// whose facing edge has the others: that of their pair of joints (an edge that names none counts
-  /// as contact.joint), else of their pair of materials, else resolve() of the joints alone.
-  std::uint16_t resolve(Index struck, Index facing, Index struck_material,
-                        Index facing_material) const;
+  /// Law of a face between edges of these joints and materials: that of their pair of joints (an
+  /// edge that names none counts as contact.joint), else of their pair of materials, else resolve()
+  /// of the joints alone.
+  std::uint16_t resolve(Index edge, Index facing, Index edge_material, Index facing_material) const;
+  /// The same of edges that did not lie against each other as drawn: glue holds what was one rock,
+  /// an edge of it that meets another counts as one that names no joint.
+  std::uint16_t resolve_met(Index edge, Index facing, Index edge_material,
+                            Index facing_material) const;
 
-  /// Law of a contact (method.md section 4): that of the edge struck; if it names none, of the
-  /// facing edge of the vertex's block; else contact.joint. Where both name one and they differ,
-  /// the one of lower friction angle, then cohesion, then tension, then name.
-  std::uint16_t resolve(Index struck, Index facing) const;
+  /// Law of a face (method.md section 4): that of the edge that names one; else contact.joint.
+  /// Where both name one and they differ, the one of lower friction angle, then cohesion, then
+  /// tension, then name.
+  std::uint16_t resolve(Index edge, Index facing) const;
 
   /// Springs of a contact that stands for `length`, 0 for a lone corner, N/m.
   double normal_spring(const Law& law, double length) const;

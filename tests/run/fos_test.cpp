@@ -140,8 +140,8 @@ TEST(Fos, TheMechanismHasTheWholePlane) {
   EXPECT_LE(length, whole + rounding);
 }
 
-/// A block that tilts back where it slides out over the toe of a plane does not topple.
-TEST(Fos, WhatTiltsBackAtTheToeSlides) {
+/// What slides out over the toe of a plane does not topple.
+TEST(Fos, WhatGoesOutOverTheToeSlides) {
   const FosResult r = found(
       "[materials.rock]\nunit_weight = '26 kN/m3'\nyoung = '1 GPa'\npoisson = 0.25\n"
       "[joints.bedding]\nfriction_angle = 20\n[joints.cross]\nfriction_angle = 35\n"
@@ -153,8 +153,6 @@ TEST(Fos, WhatTiltsBackAtTheToeSlides) {
       coarse);
   ASSERT_TRUE(r.mechanism) << r.message;
   EXPECT_EQ(r.mechanism->text, "sliding along bedding: 3 blocks");
-  const auto tilts = [](const MovingBlock& b) { return b.turning_part >= 0.5; };
-  EXPECT_TRUE(std::any_of(r.mechanism->blocks.begin(), r.mechanism->blocks.end(), tilts));
 }
 
 /// A search needs no duration, and does not look at one that is given.

@@ -426,7 +426,6 @@ std::vector<ExactSlope> exact_slopes() {
   wet_path.cohesion = 12e3;
   wet_path.table = {{0.0, 0.0}, {10.0, 8.0}, {30.0, up(36, 25, 3.0).y - 1.0}};
   bedded("step-path with cohesion and water", wet_path);
-  // Wedges.
   SlicedSlope two{{{0, 0}, {12, 3.2}, {20, 14}}, {{0, 0}, {9, 14}, {20, 14}}, 0.0, 35.0, 0.0, 30.0};
   sliced("active and passive wedge", two);
   SlicedSlope six{{{0, 0}, {5, 0.4}, {10, 1.9}, {14.5, 4.6}, {18.5, 8.6}, {21.5, 13.2}, {23.5, 18}},
@@ -438,12 +437,9 @@ std::vector<ExactSlope> exact_slopes() {
   sliced("six slices", six);
   six.table = {{0, 0}, {12, 7}, {20, 11.5}, {40, 13}};
   sliced("six slices with water", six);
-  // Toppling.
   const TopplingSlope toppling;
-  const double phi = 38.15;
-  all.push_back({"toppling", toppling.toml(phi), "",
-                 "toppling:", std::tan(radians(phi)) / std::tan(radians(toppling.limit()))});
-  // Many blocks.
+  all.push_back({"toppling", toppling.toml(38.15), "",
+                 "toppling:", std::tan(radians(38.15)) / std::tan(radians(toppling.limit()))});
   const double h = 30.0, x = h / std::tan(radians(38.0));
   BeddedSlope large{38.0, 0.7, 0.9,  52.0,
                     0.3,  8e3, 40.0, {{x, h}, {h / std::tan(radians(60.0)), h}, {}}};
