@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "run/prepared.hpp"
+#include "verification/models.hpp"
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
 
@@ -175,6 +176,22 @@ TEST(Hanging, GlueNeverOpensNorSlides) {
   run(sim, [](Simulation&) {});
   EXPECT_EQ(bonded_faces(sim), 1u);
   EXPECT_LT(norm(displacement(sim, 1)), 1e-5);
+}
+
+/// A block whose edges are glued, a little above a slope: it slides, or stays, by contact.joint.
+TEST(Glue, EdgesThatMeetLaterRubAsOthers) {
+  for (const double phi : {15.0, 40.0}) {
+    Simulation sim = scene(
+        "gravity = [0.0, -9.8]\n" + rock + "[joints.rough]\nfriction_angle = " + number(phi) +
+        "\n[joints.one]\ntype = 'glued'\n[contact]\njoint = 'rough'\n[solver]\nduration = 0.5\n"
+        "damping = { contact = 0.1 }\n[output]\nhistory_every = 0.1\n[[block]]\nfixed = true\n"
+        "polygon = " +
+        slope_box(30.0, -1, 6, -1, 0) +
+        "\n[[block]]\njoint = 'one'\npolygon = " + slope_box(30.0, 0, 2, 1e-4, 1.0001) + "\n");
+    run(sim, [](Simulation&) {});
+    const double exact = phi > 30.0 ? 0.0 : sliding(30.0, phi, 0.5);
+    EXPECT_NEAR(slid(sim), exact, 5e-3 + 1e-2 * exact) << phi;
+  }
 }
 
 TEST(Hanging, BreaksWhereItTearsAndKeepsTheLedger) {
