@@ -226,18 +226,23 @@ struct Ledger {
 
 enum class ContactState : std::int32_t { open = 0, stick = 1, slide = 2, bonded = 3 };
 
-/// A vertex of block i at an edge of block j, as in joints.csv.
+/// A face: an edge of block i against one of block j, as in joints.csv.
 struct Contact {
   std::int32_t block_i = 0, block_j = 0;
   std::int32_t joint = 0;  ///< row of Model::joints(), -1: glued
   ContactState state = ContactState::open;
-  double x = 0.0, y = 0.0;    ///< of the vertex, m
+  double x = 0.0, y = 0.0;    ///< middle of the overlap, m
   double normal_force = 0.0;  ///< N, positive in compression
-  double shear_force = 0.0;   ///< N, positive where it drives block i along the edge
-  double opening = 0.0;       ///< m, negative: penetrated
-  double slip = 0.0;          ///< m along the edge since the start
+  double shear_force = 0.0;   ///< N, positive where it drives block i from end a to end b
+  double opening = 0.0;       ///< m, of the end that is open less, negative: pressed together
+  double slip = 0.0;          ///< m from end a to end b since the start
   double mobilised = 0.0;     ///< |shear| over shear strength
   bool ever_slipped = false, ever_opened = false;
+  double length = 0.0, closed_length = 0.0;           ///< of the overlap, of what of it bears, m
+  double x_a = 0.0, y_a = 0.0, x_b = 0.0, y_b = 0.0;  ///< ends of the overlap, m
+  double normal_stress = 0.0;  ///< Pa, positive in tension: the mean over the overlap
+  double normal_stress_a = 0.0, normal_stress_b = 0.0;  ///< at its ends
+  double shear_stress = 0.0;  ///< Pa: the mean over the overlap, signed as shear_force
 };
 
 /// What blocks are asked for, and how many numbers a block has of it.

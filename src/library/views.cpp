@@ -227,10 +227,29 @@ std::vector<Contact> Simulation::contacts() const {
   std::vector<Contact> contacts;
   contacts.reserve(picture.contacts.size());
   for (const ContactRecord& r : picture.contacts) {
-    contacts.push_back({static_cast<std::int32_t>(r.block_i), static_cast<std::int32_t>(r.block_j),
-                        row_of(r.joint), static_cast<ContactState>(r.state), r.position.x,
-                        r.position.y, r.normal_force, r.shear_force, r.opening, r.slip, r.mobilised,
-                        r.ever_slipped, r.ever_opened});
+    contacts.push_back({static_cast<std::int32_t>(r.block_i),
+                        static_cast<std::int32_t>(r.block_j),
+                        row_of(r.joint),
+                        static_cast<ContactState>(r.state),
+                        r.position.x,
+                        r.position.y,
+                        r.normal_force,
+                        r.shear_force,
+                        r.opening,
+                        r.slip,
+                        r.mobilised,
+                        r.ever_slipped,
+                        r.ever_opened,
+                        r.length,
+                        r.closed_length,
+                        r.a.x,
+                        r.a.y,
+                        r.b.x,
+                        r.b.y,
+                        r.normal_stress,
+                        r.normal_stress_a,
+                        r.normal_stress_b,
+                        r.shear_stress});
   }
   return contacts;
 }

@@ -192,11 +192,14 @@ centroid, displacement (m), velocity (m/s): (nb, 2), x y; stress (Pa, tension po
           },
           R"(A structured array (n,) of contacts that are closed or were before, as joints.csv.
 
-block_i (of the vertex), block_j (of the edge), joint (row of Model.joints, -1: glued),
-state (0 open, 1 stick, 2 slide, 3 bonded); x, y (m), of the vertex; normal_force (N,
-compression positive), shear_force (N, positive where it drives block i along the edge);
-opening (m, negative: overlap), slip (m); mobilised (shear over shear strength);
-ever_slipped, ever_opened (0 or 1). Forces are those of the model's thickness.)")
+A row is a face, an edge of block_i against one of block_j; joint (row of Model.joints,
+-1: glued), state (0 open, 1 stick, 2 slide, 3 bonded); x, y (m), middle of the overlap;
+normal_force (N, compression positive), shear_force (N, positive where it drives block i
+from end a to end b); opening (m, negative: pressed together), slip (m, from a to b);
+mobilised (shear over shear strength); ever_slipped, ever_opened (0 or 1); length of the
+overlap, closed_length of what bears, its ends x_a, y_a, x_b, y_b (m); normal_stress (Pa,
+tension positive), the mean over the overlap, normal_stress_a and normal_stress_b at its
+ends, shear_stress (Pa). Forces are those of the model's thickness.)")
       .def(
           "name",
           [](Runner& self, const py::object& block) {
@@ -281,7 +284,9 @@ std::string repr(const Runner& self) {
 
 void add_simulation(py::module_& m) {
   PYBIND11_NUMPY_DTYPE(api::Contact, block_i, block_j, joint, state, x, y, normal_force,
-                       shear_force, opening, slip, mobilised, ever_slipped, ever_opened);
+                       shear_force, opening, slip, mobilised, ever_slipped, ever_opened, length,
+                       closed_length, x_a, y_a, x_b, y_b, normal_stress, normal_stress_a,
+                       normal_stress_b, shear_stress);
   py::class_<Runner> type = add_runner(m);
   type.def("__repr__", &repr);
   add_numbers(type);

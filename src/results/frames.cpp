@@ -139,6 +139,9 @@ Grid contact_grid(const Picture& picture) {
   Field i = numbers("block_i", n), j = numbers("block_j", n), state = numbers("state", n);
   Field normal = field_of("normal_force", 1, n), shear = field_of("shear_force", 1, n);
   Field opening = field_of("opening", 1, n), slip = field_of("slip", 1, n);
+  Field length = field_of("length", 1, n), closed = field_of("closed_length", 1, n);
+  Field normal_stress = field_of("normal_stress", 1, n),
+        shear_stress = field_of("shear_stress", 1, n);
   Field force = field_of("force", 3, n), displacement = field_of("displacement", 3, n);
   for (const ContactRecord& c : picture.contacts) {
     g.corners.push_back(static_cast<std::int64_t>(g.point_count()));
@@ -151,13 +154,18 @@ Grid contact_grid(const Picture& picture) {
     push(shear, {c.shear_force});
     push(opening, {c.opening});
     push(slip, {c.slip});
+    push(length, {c.length});
+    push(closed, {c.closed_length});
+    push(normal_stress, {c.normal_stress});
+    push(shear_stress, {c.shear_stress});
     push(state, {static_cast<double>(c.state)});
     push(force, {c.force.x, c.force.y, 0.0});
     push(displacement, {c.displacement.x, c.displacement.y, 0.0});
   }
   // Both as point and as cell fields: glyphs want points, thresholds and tables cells.
   g.cells_are_points = true;
-  take(g.cell_fields, normal, shear, opening, slip, state, i, j, force, displacement);
+  take(g.cell_fields, normal, shear, opening, slip, state, i, j, force, displacement, length,
+       closed, normal_stress, shear_stress);
   return g;
 }
 

@@ -29,19 +29,26 @@ struct BlockRecord {
 /// Numbers as in the frames.
 enum class ContactState : std::int32_t { open = 0, stick = 1, slide = 2, bonded = 3 };
 
+/// A face: an edge of block i against one of block j. Forces are of the model's thickness.
 struct ContactRecord {
-  std::uint32_t block_i = 0, block_j = 0;  ///< of the vertex, of the edge
-  std::string_view joint;                  ///< its law
-  Vec2 position;                           ///< of the vertex, m
-  Vec2 displacement;                       ///< of the vertex since the start, m
-  Vec2 force;                              ///< on block i, N
-  double normal_force = 0.0;               ///< N, positive in compression
-  double shear_force = 0.0;                ///< N, positive where it drives block i along the edge
-  double opening = 0.0;                    ///< m, negative: penetrated
-  double slip = 0.0;                       ///< m along the edge since the start
+  std::uint32_t block_i = 0, block_j = 0;
+  std::string_view joint;     ///< its law
+  Vec2 position;              ///< middle of the overlap, m
+  Vec2 displacement;          ///< of block i there since the start, m
+  Vec2 force;                 ///< on block i, N
+  double normal_force = 0.0;  ///< N, positive in compression
+  double shear_force = 0.0;   ///< N, positive where it drives block i from end a to end b
+  double opening = 0.0;       ///< m, of the end that is open less, negative: pressed together
+  double slip = 0.0;          ///< m from end a to end b since the start
   ContactState state = ContactState::open;
   bool ever_slipped = false, ever_opened = false;
   double mobilised = 0.0;  ///< |shear| over shear strength, 0 where none is called on
+  Vec2 a, b;               ///< ends of the overlap, block j on the left on the way from a to b, m
+  double length = 0.0, closed_length = 0.0;  ///< of the overlap, of what of it bears, m
+  double normal_stress = 0.0;                ///< Pa, positive in tension: the mean over the overlap
+  double normal_stress_a = 0.0,
+         normal_stress_b = 0.0;  ///< at the ends: linear along what bears, 0 elsewhere
+  double shear_stress = 0.0;     ///< Pa: the mean over the overlap, signed as shear_force
 };
 
 /// Everything at one time.

@@ -23,14 +23,38 @@ Trouble write_blocks_csv(const std::string& path, std::span<const BlockRecord> b
 Trouble write_joints_csv(const std::string& path, std::span<const ContactRecord> contacts) {
   constexpr std::array state_names{"open", "stick", "slide", "bonded"};
   Csv csv;
-  csv.header({"block_i", "block_j", "joint", "x", "y", "normal_force", "shear_force", "opening",
-              "slip", "state", "ever_slipped", "ever_opened", "mobilised"});
+  csv.header({"block_i",
+              "block_j",
+              "joint",
+              "x",
+              "y",
+              "normal_force",
+              "shear_force",
+              "opening",
+              "slip",
+              "state",
+              "ever_slipped",
+              "ever_opened",
+              "mobilised",
+              "length",
+              "closed_length",
+              "x_a",
+              "y_a",
+              "x_b",
+              "y_b",
+              "normal_stress",
+              "normal_stress_a",
+              "normal_stress_b",
+              "shear_stress"});
   return write_rows(path, csv, contacts.size(), [&](std::size_t k) {
     const ContactRecord& c = contacts[k];
     csv.add(c.block_i).add(c.block_j).add(c.joint).add(c.position.x).add(c.position.y);
     csv.add(c.normal_force).add(c.shear_force).add(c.opening).add(c.slip);
     csv.add(state_names[static_cast<std::size_t>(c.state)]);
-    csv.add(int{c.ever_slipped}).add(int{c.ever_opened}).add(c.mobilised).end();
+    csv.add(int{c.ever_slipped}).add(int{c.ever_opened}).add(c.mobilised);
+    csv.add(c.length).add(c.closed_length).add(c.a.x).add(c.a.y).add(c.b.x).add(c.b.y);
+    csv.add(c.normal_stress).add(c.normal_stress_a).add(c.normal_stress_b);
+    csv.add(c.shear_stress).end();
   });
 }
 

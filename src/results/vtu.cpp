@@ -155,16 +155,28 @@ struct KnownField {
   std::size_t components;
   bool whole;
 };
-constexpr std::array known_fields{
-    KnownField{"id", 1, true},           KnownField{"material", 1, true},
-    KnownField{"fixed", 1, true},        KnownField{"displacement", 3, false},
-    KnownField{"velocity", 3, false},    KnownField{"rotation", 1, false},
-    KnownField{"omega", 1, false},       KnownField{"stress", 6, false},
-    KnownField{"overstress", 1, false},  KnownField{"principal_stress", 3, false},
-    KnownField{"block_i", 1, true},      KnownField{"block_j", 1, true},
-    KnownField{"state", 1, true},        KnownField{"normal_force", 1, false},
-    KnownField{"shear_force", 1, false}, KnownField{"opening", 1, false},
-    KnownField{"slip", 1, false},        KnownField{"force", 3, false}};
+constexpr std::array known_fields{KnownField{"id", 1, true},
+                                  KnownField{"material", 1, true},
+                                  KnownField{"fixed", 1, true},
+                                  KnownField{"displacement", 3, false},
+                                  KnownField{"velocity", 3, false},
+                                  KnownField{"rotation", 1, false},
+                                  KnownField{"omega", 1, false},
+                                  KnownField{"stress", 6, false},
+                                  KnownField{"overstress", 1, false},
+                                  KnownField{"principal_stress", 3, false},
+                                  KnownField{"block_i", 1, true},
+                                  KnownField{"block_j", 1, true},
+                                  KnownField{"state", 1, true},
+                                  KnownField{"normal_force", 1, false},
+                                  KnownField{"shear_force", 1, false},
+                                  KnownField{"opening", 1, false},
+                                  KnownField{"slip", 1, false},
+                                  KnownField{"force", 3, false},
+                                  KnownField{"length", 1, false},
+                                  KnownField{"closed_length", 1, false},
+                                  KnownField{"normal_stress", 1, false},
+                                  KnownField{"shear_stress", 1, false}};
 
 bool fits(const Field& f, std::size_t count) {
   if (f.components == 0 || f.values.size() % f.components != 0) return false;

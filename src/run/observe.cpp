@@ -54,6 +54,23 @@ double slip_since_start(const BlockSet& b, const FaceSet& f, std::size_t k) {
   return -dot(from_point_of_e(drawn, xi, eta), frame_of(drawn, f.inverse_e[k], f.inverse_f[k]));
 }
 
+/// Length of the overlap that bears, and the stresses on it: k d at the ends.
+void add_stresses(ContactRecord& r, const Simulation& sim, const FaceSet& f, std::size_t k) {
+  const FaceMemory& m = f.now;
+  const bool pulls = f.pulls[k] > 0.0;
+  const double a = pulls ? m.closure_a[k] : std::max(m.closure_a[k], 0.0);
+  const double b = pulls ? m.closure_b[k] : std::max(m.closure_b[k], 0.0);
+  const double apart = std::abs(m.closure_a[k] - m.closure_b[k]);
+  const bool whole = pulls || std::min(m.closure_a[k], m.closure_b[k]) >= 0.0;
+  r.closed_length = whole ? r.length : r.length * (a + b) / apart;
+  const double area = r.length * sim.laws.thickness;
+  const double stiffness = m.gate[k] * f.stiffness[k] / sim.laws.thickness;
+  r.normal_stress_a = -stiffness * a;
+  r.normal_stress_b = -stiffness * b;
+  r.normal_stress = area > 0.0 ? -r.normal_force / area : 0.0;
+  r.shear_stress = area > 0.0 ? r.shear_force / area : 0.0;
+}
+
 ContactRecord face_record(const Simulation& sim, const FaceSet& f, std::size_t k) {
   const BlockSet& b = sim.blocks;
   ContactRecord r;
@@ -63,6 +80,11 @@ ContactRecord face_record(const Simulation& sim, const FaceSet& f, std::size_t k
   r.joint = "glued";
   if (law < sim.model.joints.size()) r.joint = sim.model.joints[law].name;
   r.position = middle_of(f, sim.pose, k) + b.origin;
+  const FacePoints at = face_points(f, sim.pose.x, sim.pose.y, k);
+  const auto on_edge = [&](double xi) { return (1.0 - xi) * at.p1 + xi * at.p2 + b.origin; };
+  r.a = on_edge(f.now.xi_a[k]);
+  r.b = on_edge(f.now.xi_b[k]);
+  r.length = f.now.length[k];
   const double eta = 0.5 * (f.now.eta_a[k] + f.now.eta_b[k]);
   std::array<double, 3> weight;
   for (std::size_t n = 0; n < 3; ++n) {
@@ -80,6 +102,7 @@ ContactRecord face_record(const Simulation& sim, const FaceSet& f, std::size_t k
   r.force = force_on_facing(f, k);
   r.normal_force = normal_force(f, k);
   r.shear_force = shear_force(f, k);
+  add_stresses(r, sim, f, k);
   const double strength = shear_strength(f, k);
   r.mobilised = f.glued[k] > 0.0 || r.shear_force == 0.0 ? 0.0 : std::abs(r.shear_force) / strength;
   return r;

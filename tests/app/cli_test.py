@@ -76,7 +76,8 @@ class Cli(Program):
         self.assertEqual([b[1] for b in blocks[1:]], ["ramp", "slider"])
         joints = read_cells(self.dir / "m/joints.csv")
         self.assertEqual(" ".join(joints[0]),
-                         "block_i block_j joint x y normal_force shear_force opening slip state ever_slipped ever_opened mobilised")
+                         "block_i block_j joint x y normal_force shear_force opening slip state ever_slipped ever_opened mobilised "
+                         "length closed_length x_a y_a x_b y_b normal_stress normal_stress_a normal_stress_b shear_stress")
         self.assertEqual(done.stdout.splitlines()[0][:9], "completed")
 
     def test_input_hash_is_that_of_the_file(self):

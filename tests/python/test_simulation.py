@@ -385,7 +385,8 @@ def test_monitors_contacts_and_ledger_agree_with_the_tables(ramp, tmp_path):
     assert simulation.unbalanced == last["unbalanced"]
     contacts = simulation.contacts()
     assert len(contacts) == len(results.joints) > 0
-    for name in ("x", "y", "normal_force", "shear_force", "opening", "slip", "mobilised", "block_i"):
+    for name in ("x", "y", "normal_force", "shear_force", "opening", "slip", "mobilised", "block_i", "length",
+                 "closed_length", "x_a", "y_b", "normal_stress", "normal_stress_a", "normal_stress_b", "shear_stress"):
         assert np.array_equal(contacts[name], results.joints[name])
     words = np.array(["open", "stick", "slide", "bonded"])
     assert np.array_equal(words[contacts["state"]], results.joints["state"])

@@ -116,7 +116,7 @@ def check_contacts(folder):
     states = ["open", "stick", "slide", "bonded"]
     data = grid.GetCellData()
     for c, row in enumerate(rows):
-        for name in ("normal_force", "shear_force", "opening", "slip"):
+        for name in ("normal_force", "shear_force", "opening", "slip", "length", "closed_length", "normal_stress", "shear_stress"):
             assert data.GetArray(name).GetTuple1(c) == float(row[name]), name
         assert states[int(data.GetArray("state").GetTuple1(c))] == row["state"]
         close(grid.GetPoint(c)[0], float(row["x"]))

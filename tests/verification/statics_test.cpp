@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <map>
 
+#include "run/observe.hpp"
+#include "run/run_model.hpp"
 #include "verification/models.hpp"
 
 namespace edda::statics_test {
@@ -116,6 +118,46 @@ history_every = 0.001
     EXPECT_EQ((carrying[{static_cast<Id>(i), static_cast<Id>(j)}]), 1) << i << ' ' << j;
   }
   record_model(20, "", sim);
+}
+
+/// A block on a joint that bears no tension, pressed on e off its middle. Stresses are linear:
+/// P/L (1 +- 6 e/L) while all of it is closed, e < L/6; else P over the closed part 3 (L/2 - e),
+/// where they rise from nothing to 2 P/closed.
+TEST(EccentricLoad, StressesOfAJoint) {
+  const double load = 1e3, length = 2.0;
+  for (const double part : {0.0, 0.05, 0.15, 0.2, 0.3, 0.4, 0.45}) {
+    const double e = part * length;
+    const Result<Model> model = read_model_text(
+        "gravity = [0, 0]\n[materials.rock]\ndensity = 2500\nyoung = 2e10\npoisson = 0.2\n"
+        "[joints.j]\nfriction_angle = 30\nkn = 1e9\nks = 1e9\n[[block]]\nfixed = true\n"
+        "polygon = " +
+            rectangle(-3, -1, 3, 0) + "\n[[block]]\npolygon = " + rectangle(-1, 0, 1, 0.5) +
+            "\n[[load]]\npoint = [" + number(e) + ", 0.01]\nforce = [0, " + number(-load) +
+            "]\n[[stage]]\nuntil = 'equilibrium'\nratio = 1e-7\n",
+        EDDA_SOURCE_DIR "/scene.toml", {});
+    ASSERT_TRUE(model.ok()) << to_string(model.faults().front());
+    PreparedRun ready = prepare_run(model.value()).value();
+    ASSERT_EQ(run_model(ready, {}).value().status, Status::equilibrium);
+    Instant at;
+    observe(ready.sim, at);
+    const Picture picture = picture_of(ready.sim, at);
+    const auto pressed = std::find_if(picture.contacts.begin(), picture.contacts.end(),
+                                      [](const ContactRecord& c) { return c.normal_force > 0.0; });
+    ASSERT_NE(pressed, picture.contacts.end());
+    const ContactRecord& c = *pressed;
+    const double mean = load / length;
+    const bool whole = part < 1.0 / 6.0;
+    const double closed = whole ? length : 3.0 * (0.5 * length - e);
+    const double most = whole ? mean * (1.0 + 6.0 * part) : 2.0 * load / closed;
+    const double least = whole ? mean * (1.0 - 6.0 * part) : 0.0;
+    const bool a_deeper = c.normal_stress_a < c.normal_stress_b;
+    EXPECT_NEAR((a_deeper ? c.a : c.b).x, 1.0, 1e-3) << "the load is on this side";
+    EXPECT_NEAR(c.length, length, 1e-4);
+    EXPECT_NEAR(c.closed_length, closed, 2e-4 * length) << part;
+    EXPECT_NEAR(c.normal_stress, -mean, 1e-6 * mean);
+    EXPECT_NEAR(std::min(c.normal_stress_a, c.normal_stress_b), -most, 2e-4 * most) << part;
+    EXPECT_NEAR(std::max(c.normal_stress_a, c.normal_stress_b), -least, 2e-4 * most) << part;
+  }
 }
 
 }  // namespace

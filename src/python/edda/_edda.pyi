@@ -514,11 +514,14 @@ class Simulation:
     def contacts(self) -> np.ndarray[Any, np.dtype[np.void]]:
         """A structured array (n,) of contacts that are closed or were before, as joints.csv.
 
-        block_i (of the vertex), block_j (of the edge), joint (row of Model.joints, -1: glued),
-        state (0 open, 1 stick, 2 slide, 3 bonded); x, y (m), of the vertex; normal_force (N,
-        compression positive), shear_force (N, positive where it drives block i along the edge);
-        opening (m, negative: overlap), slip (m); mobilised (shear over shear strength);
-        ever_slipped, ever_opened (0 or 1). Forces are those of the model's thickness.
+        A row is a face, an edge of block_i against one of block_j; joint (row of Model.joints,
+        -1: glued), state (0 open, 1 stick, 2 slide, 3 bonded); x, y (m), middle of the overlap;
+        normal_force (N, compression positive), shear_force (N, positive where it drives block i
+        from end a to end b); opening (m, negative: pressed together), slip (m, from a to b);
+        mobilised (shear over shear strength); ever_slipped, ever_opened (0 or 1); length of the
+        overlap, closed_length of what bears, its ends x_a, y_a, x_b, y_b (m); normal_stress (Pa,
+        tension positive), the mean over the overlap, normal_stress_a and normal_stress_b at its
+        ends, shear_stress (Pa). Forces are those of the model's thickness.
         """
     def name(self, block: SupportsIndex) -> str:
         """Of a block by its number, empty where it has none; IndexError: no such block."""

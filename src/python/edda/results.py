@@ -77,10 +77,13 @@ class Results:
     def joints(self) -> Table:
         """A row per contact at the end, open ones that were closed before among them.
 
-        block_i (of the vertex), block_j (of the edge), joint (name of its law); x, y (m), normal_force (N,
-        compression positive), shear_force (N, positive where it drives block i along the edge), opening (m,
-        negative: overlap), slip (m); state (open, stick, slide, bonded), ever_slipped, ever_opened (0 or 1),
-        mobilised (shear over shear strength). Forces are those of the model's thickness.
+        A row is a face, an edge of block_i against one of block_j; joint (name of its law); x, y (m, middle of
+        the overlap), normal_force (N, compression positive), shear_force (N, positive where it drives block i from
+        end a to end b), opening (m, negative: pressed together), slip (m, from a to b); state (open, stick, slide,
+        bonded), ever_slipped, ever_opened (0 or 1), mobilised (shear over shear strength); length of the overlap,
+        closed_length of what bears, its ends x_a, y_a, x_b, y_b (m); normal_stress (Pa, tension positive; the mean
+        over the overlap), normal_stress_a, normal_stress_b (at its ends), shear_stress (Pa). Forces are those of
+        the model's thickness.
         """
         return read_table(self._file("joints.csv"))
 
@@ -156,7 +159,8 @@ class Frame:
     (most compressive) in the plane, and out of it. Point fields: displacement (m), velocity (m/s): (n, 3).
 
     Cell fields of contacts: block_i, block_j, state (0 open, 1 stick, 2 slide, 3 bonded), normal_force,
-    shear_force (N), opening, slip (m): (rows,); force (N, on block i), displacement (m): (rows, 3).
+    shear_force (N), opening, slip, length, closed_length (m), normal_stress (tension positive), shear_stress
+    (Pa): (rows,); force (N, on block i), displacement (m): (rows, 3).
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
