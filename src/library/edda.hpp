@@ -218,10 +218,11 @@ struct Progress {
 };
 
 /// Energies since t = 0, J: friction, damping and fracture are dissipated, external is work done on
-/// the blocks; drift is what does not add up, over the largest energy so far.
+/// the blocks, transfer taken by rules that are no physics; drift is what does not add up, over the
+/// largest energy so far.
 struct Ledger {
   double kinetic = 0.0, strain = 0.0, contact = 0.0, gravity = 0.0, friction = 0.0, damping = 0.0,
-         fracture = 0.0, external = 0.0, step_change = 0.0, drift = 0.0;
+         fracture = 0.0, external = 0.0, step_change = 0.0, drift = 0.0, transfer = 0.0;
 };
 
 enum class ContactState : std::int32_t { open = 0, stick = 1, slide = 2, bonded = 3 };

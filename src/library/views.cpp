@@ -127,8 +127,8 @@ Ledger Simulation::ledger() const {
   const edda::Ledger l = sim.ledger_now();
   const double start = sim.start_energy.value_or(l.balance());
   const double drift = (l.balance() - start) / sim.energy_scale(l);
-  return {l.kinetic, l.strain,   l.contact,  l.gravity,     l.friction,
-          l.damping, l.fracture, l.external, l.step_change, drift};
+  return {l.kinetic,  l.strain,   l.contact,     l.gravity, l.friction, l.damping,
+          l.fracture, l.external, l.step_change, drift,     l.transfer};
 }
 
 double Simulation::unbalanced() const {

@@ -196,13 +196,15 @@ void add_records(py::module_& m) {
       .def_readonly("fracture", &api::Ledger::fracture, "J, dissipated.")
       .def_readonly("external", &api::Ledger::external, "J, work done on the blocks.")
       .def_readonly("step_change", &api::Ledger::step_change, "J, taken out by changed steps.")
-      .def_readonly("drift", &api::Ledger::drift, "What does not add up, over the largest energy.");
+      .def_readonly("drift", &api::Ledger::drift, "What does not add up, over the largest energy.")
+      .def_readonly("transfer", &api::Ledger::transfer,
+                    "J, taken by rules that are no physics; negative: given.");
   add_pickling(ledger, &api::Ledger::kinetic, &api::Ledger::strain, &api::Ledger::contact,
                &api::Ledger::gravity, &api::Ledger::friction, &api::Ledger::damping,
                &api::Ledger::fracture, &api::Ledger::external, &api::Ledger::step_change,
-               &api::Ledger::drift);
+               &api::Ledger::drift, &api::Ledger::transfer);
   add_repr(ledger, {"kinetic", "strain", "contact", "gravity", "friction", "damping", "fracture",
-                    "external", "step_change", "drift"});
+                    "external", "step_change", "drift", "transfer"});
 
   py::class_<api::MonitorReading> reading(
       m, "MonitorReading", "A material point and its block: m, m/s, Pa (tension positive).");

@@ -8,9 +8,9 @@
 namespace edda {
 namespace {
 
-constexpr std::array<std::string_view, 9> energies{"kinetic",  "strain",   "contact",
-                                                   "gravity",  "friction", "damping",
-                                                   "fracture", "external", "step_change"};
+constexpr std::array<std::string_view, 10> energies{
+    "kinetic", "strain",   "contact",  "gravity",     "friction",
+    "damping", "fracture", "external", "step_change", "transfer"};
 
 struct Kind {
   std::string_view ending, label, unit;

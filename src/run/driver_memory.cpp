@@ -149,6 +149,7 @@ void list_ledger(Archive& a, const std::string& of, Ledger& l) {
                                     {"fracture", &l.fracture},
                                     {"external", &l.external},
                                     {"step_change", &l.step_change},
+                                    {"transfer", &l.transfer},
                                     {"drift", &l.drift}}) {
     a(of + name, *value);
   }
@@ -254,6 +255,7 @@ void Driver::list(Archive& a) {
   a("driver.last_row", last_row_);
   a("driver.last_frame", last_frame_);
   a("outcome.largest_drift", outcome_.largest_drift);
+  a("outcome.largest_transfer", outcome_.largest_transfer);
   a("outcome.unbalanced", outcome_.unbalanced);
   a("outcome.overlap.ratio", outcome_.overlap.ratio);
   a("outcome.overlap.depth", outcome_.overlap.depth);

@@ -48,6 +48,7 @@ struct Outcome {
   std::size_t contacts = 0;         ///< closed at the end
   Ledger ledger;                    ///< at the last row
   double largest_drift = 0.0;       ///< of all rows, in size
+  double largest_transfer = 0.0;    ///< of all rows, in size, of the largest energy
   double unbalanced = 0.0;          ///< at the last row
   Overlap overlap;                  ///< the largest of the run
   double overlap_now = 0.0;         ///< ratio of the largest at the last row

@@ -23,7 +23,7 @@ std::string history_header(const std::vector<MonitorPoint>& monitors,
   }
   for (const ConvergenceLine& line : lines) csv.add(line.name + ".convergence");
   csv.header({"kinetic", "strain", "contact", "gravity", "friction", "damping", "fracture",
-              "external", "step_change", "drift", "unbalanced"});
+              "external", "step_change", "drift", "unbalanced", "transfer"});
   return csv.text();
 }
 
@@ -115,7 +115,7 @@ Trouble Recorder::row(const Simulation& sim, const Instant& at,
   }
   for (const ConvergenceLine& line : lines) csv.add(convergence(at.state, line));
   for (const double v : {l.kinetic, l.strain, l.contact, l.gravity, l.friction, l.damping,
-                         l.fracture, l.external, l.step_change, l.drift, unbalanced}) {
+                         l.fracture, l.external, l.step_change, l.drift, unbalanced, l.transfer}) {
     csv.add(v);
   }
   if (!sim.model.boundaries.empty()) {

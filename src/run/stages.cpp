@@ -157,7 +157,7 @@ std::string stages_csv(const Model& model, const std::vector<StageRecord>& recor
         "steps",   "ratio",         "largest_ratio", "largest_block", "kinetic",  "strain",
         "contact", "gravity",       "friction",      "damping",       "fracture", "external",
         "drift",   "contacts",      "sliding",       "bonded",        "detached", "open",
-        "broken",  "yielded_bolts", "loose"}) {
+        "broken",  "yielded_bolts", "loose",         "transfer"}) {
     csv.add(name);
   }
   for (const Convergence& c : model.convergences) csv.add(c.name + ".convergence");
@@ -179,7 +179,7 @@ std::string stages_csv(const Model& model, const std::vector<StageRecord>& recor
       csv.add(v);
     }
     csv.add(r.closed).add(r.sliding).add(r.bonded).add(r.balance.detached);
-    csv.add(r.open).add(r.broken).add(r.yielded).add(r.balance.loose);
+    csv.add(r.open).add(r.broken).add(r.yielded).add(r.balance.loose).add(l.transfer);
     for (const double closed : r.convergences) csv.add(closed);
     csv.end();
   }

@@ -70,7 +70,7 @@ void add_energy(Json& j, const Ledger& l) {
   j.key("energy").open_object().pair("kinetic", l.kinetic).pair("strain", l.strain);
   j.pair("contact", l.contact).pair("gravity", l.gravity).pair("friction", l.friction);
   j.pair("damping", l.damping).pair("fracture", l.fracture).pair("external", l.external);
-  j.pair("step_change", l.step_change).pair("drift", l.drift).close();
+  j.pair("step_change", l.step_change).pair("transfer", l.transfer).pair("drift", l.drift).close();
 }
 
 void add_overlap(Json& j, const Overlap& o) {
@@ -131,6 +131,7 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
       limited(std::string(overlap_check), o.overlap.ratio, overlap_limit),
       limited("overlap over half width at the end", o.overlap_now, overlap_limit_at_end),
       limited("largest drift of the energy", o.largest_drift, 0.05),
+      limited("energy that no physics gave or took, of the largest", o.largest_transfer, 1e-3),
       limited("number of blocks that rest on nothing at the start",
               static_cast<double>(o.on_nothing), 0.0),
   };

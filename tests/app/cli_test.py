@@ -70,7 +70,7 @@ class Cli(Program):
         self.assertEqual(list(rows[0])[1:8], ["M." + n for n in "ux uy vx vy sxx syy sxy".split()])
         self.assertEqual(
             list(rows[0])[8:],
-            "kinetic strain contact gravity friction damping fracture external step_change drift unbalanced".split())
+            "kinetic strain contact gravity friction damping fracture external step_change drift unbalanced transfer".split())
         blocks = read_cells(self.dir / "m/blocks.csv")
         self.assertEqual(" ".join(blocks[0]), "id name material x y area ux uy rotation vx vy omega sxx syy szz sxy overstress")
         self.assertEqual([b[1] for b in blocks[1:]], ["ramp", "slider"])

@@ -354,6 +354,9 @@ class Ledger:
     @property
     def drift(self) -> float:
         """What does not add up, over the largest energy."""
+    @property
+    def transfer(self) -> float:
+        """J, taken by rules that are no physics; negative: given."""
 
 class MonitorReading:
     """A material point and its block: m, m/s, Pa (tension positive)."""

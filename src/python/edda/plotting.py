@@ -117,6 +117,7 @@ _ENERGIES = (
     "fracture",
     "external",
     "step_change",
+    "transfer",
 )
 _ENDINGS = {
     "ux": ("displacement", "m"),

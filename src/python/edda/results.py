@@ -60,7 +60,7 @@ class Results:
 
         time (s); of each monitor NAME.ux, .uy (m), .vx, .vy (m/s), .sxx, .syy, .sxy (Pa), of each convergence line
         NAME.convergence (m); kinetic, strain, contact, gravity, friction, damping, fracture, external, step_change
-        (J, as Ledger); drift, unbalanced (ratios).
+        (J, as Ledger); drift, unbalanced (ratios); transfer (J, as Ledger).
         """
         return read_table(self._file("history.csv"))
 
@@ -94,7 +94,8 @@ class Results:
         stage (from 0), name, until, reached (0 or 1), start, end (s), steps; ratio, largest_ratio (resultant of
         blocks over contact force), largest_block (its id, -1: none); kinetic, strain, contact, gravity, friction,
         damping, fracture, external (J), drift as in history; how many contacts are closed (contacts), sliding, bonded,
-        open, broken, how many blocks detached, yielded_bolts, how many blocks have come loose (loose); NAME.convergence (m).
+        open, broken, how many blocks detached, yielded_bolts, how many blocks have come loose (loose);
+        transfer (J, as in history); NAME.convergence (m).
         """
         return read_table(self._file("stages.csv"))
 
