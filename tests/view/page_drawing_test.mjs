@@ -277,7 +277,7 @@ test('says where strokes are cut', async () => {
   writeFileSync(path.join(folder, 'pressed.toml'), pressed);
   run('run', 'pressed.toml', '--quiet');
   run('view', 'pressed');
-  for (const [name, cut] of [['pressed.html', true], ['tunnel.html', false], ['cavern.html', false]]) {
+  for (const [name, cut] of [['pressed.html', true], ['cavern.html', false]]) {
     const p = await page(name);
     for (const id of ['forces', 'crosses']) await p.locator(`#${id}`).check();
     await p.waitForFunction(() => !edda.stale && !edda.overlayStale);
