@@ -107,7 +107,7 @@ inline constexpr double aspect_from = 0.5, aspect_range = 1.5;
 inline constexpr double locked_part = 0.25;
 
 /// Cosine of the angle between edges that lie along each other: 8 degrees. Cohesion needs surfaces
-/// that do; a corner that leans on an edge has friction alone. It goes over up to `flush`, 4
+/// that do; a corner that leans on an edge has friction alone. It goes over up to 4
 /// degrees.
 inline constexpr double lies_along = 0.99, lies_flush = 0.9976;
 

@@ -47,18 +47,26 @@ void take_residual(FaceSet& c, const LawTable& laws, std::size_t k) {
 }
 
 void bond_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws) {
+  bool changes = false;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    const Face face = face_at(c, b, pose.x, pose.y, k);
-    if (!touch_as_drawn(c, b, pose, face, k)) continue;
     const Id e = c.edge[k], f = c.facing[k];
-    c.law[k] = laws.resolve(b.edge_joint[e], b.edge_joint[f], b.material[b.vertex_block[e]],
-                            b.material[b.vertex_block[f]]);
-    take_residual(c, laws, k);
-    c.pulls[k] = 0.0;
-    const Law& law = laws.rows[c.law[k]];
+    const std::uint16_t drawn =
+        laws.resolve(b.edge_joint[e], b.edge_joint[f], b.material[b.vertex_block[e]],
+                     b.material[b.vertex_block[f]]);
+    const Law& law = laws.rows[drawn];
     const bool weakens = law.type == LawType::slip_weakening;
     const bool has_bond = weakens || law.glued || law.peak_cohesion > 0.0 ||
                           law.peak_tension > 0.0 || law.peak_friction > law.residual_friction;
+    const bool other = drawn != c.law[k];
+    if (!has_bond && !other) continue;
+    const Face face = face_at(c, b, pose.x, pose.y, k);
+    if (!touch_as_drawn(c, b, pose, face, k)) continue;
+    if (other) {
+      c.law[k] = drawn;
+      take_residual(c, laws, k);
+      c.pulls[k] = 0.0;
+      changes = true;
+    }
     if (!has_bond) continue;
     const bool flush = std::min(face.closure.a, face.closure.b) >= -touch * smaller_size(c, b, k);
     c.acts[k] = c.leans[k] = 1.0;
@@ -70,7 +78,7 @@ void bond_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable&
     c.cohesion[k] = law.peak_cohesion * laws.thickness;
     c.tension[k] = law.peak_tension * laws.thickness;
   }
-  complete_faces(c, b, laws);
+  if (changes) complete_faces(c, b, laws);
   note_bonds(c);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 
 #include "blocks/pose.hpp"
 #include "contacts/face_set.hpp"
@@ -14,6 +15,11 @@ inline Id block_of_edge(const BlockSet& b, const FaceSet& f, std::size_t k) {
 }
 inline Id block_of_facing(const BlockSet& b, const FaceSet& f, std::size_t k) {
   return b.vertex_block[f.facing[k]];
+}
+
+/// Both, the lower number first.
+inline std::pair<Id, Id> blocks_of_face(const BlockSet& b, const FaceSet& f, std::size_t k) {
+  return std::minmax({block_of_edge(b, f, k), block_of_facing(b, f, k)});
 }
 
 /// Whether face k carries force, or would at the least shear.

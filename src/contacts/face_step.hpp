@@ -183,8 +183,10 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const double cohesion = touches ? 0.5 * c.cohesion[k] * face.cohesive : 0.0;
   const double da = face.closure.a, db = face.closure.b;
   const bool pulls = c.pulls[k] > 0.0;
-  const FaceEnds closing{pulls ? moved.closure.a : smaller(moved.closure.a, larger(da, 0.0)),
-                         pulls ? moved.closure.b : smaller(moved.closure.b, larger(db, 0.0))};
+  const auto since_touch = [pulls](double closing, double d) {
+    return pulls ? closing : smaller(closing, larger(d, 0.0));
+  };
+  const FaceEnds closing{since_touch(moved.closure.a, da), since_touch(moved.closure.b, db)};
   const EndOfFace end_a{face.normal.a, trial_a, closing.a, here.a, face.xi.a, face.eta.a};
   const EndOfFace end_b{face.normal.b, trial_b, closing.b, here.b, face.xi.b, face.eta.b};
   const EndActs acts_a =

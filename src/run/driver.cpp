@@ -275,7 +275,7 @@ bool Driver::record(const Event& event) {
     outcome_.ledger = ledger;
     outcome_.largest_drift = std::max(outcome_.largest_drift, std::abs(ledger.drift));
     outcome_.largest_transfer =
-        std::max(outcome_.largest_transfer, std::abs(ledger.transfer) / sim_.energy_scale(ledger));
+        std::max(outcome_.largest_transfer, std::abs(ledger.transfer) / sim_.largest_energy);
     outcome_.unbalanced = unbalanced_ratio(sim_, instant);
     outcome_.reaction_error = reaction_error(sim_, instant);
     look_at_motion(sim_, instant, outcome_);

@@ -102,8 +102,7 @@ std::vector<Id> pieces(const Simulation& sim, const std::vector<std::uint8_t>& m
   for (const MovingJoint& joint : joints) apart.insert({joint.block_i, joint.block_j});
   const FaceSet& f = sim.contacts;
   for (std::size_t k = 0; k < f.size(); ++k) {
-    const auto [i, j] =
-        std::minmax({block_of_edge(sim.blocks, f, k), block_of_facing(sim.blocks, f, k)});
+    const auto [i, j] = blocks_of_face(sim.blocks, f, k);
     if (!is_closed(f, k) || !moves[i] || !moves[j] || apart.contains({i, j})) continue;
     const auto [low, high] = std::minmax({root(i), root(j)});
     first[high] = low;
@@ -228,6 +227,11 @@ Mechanism mechanism_of(const Simulation& before, const Simulation& after) {
   return m;
 }
 
+static bool has_lost_cohesion(const Mechanism& m) {
+  constexpr double little = 0.01;
+  return m.cohesion_lost_length > little * m.brittle_length;
+}
+
 void find_lost_cohesion(Mechanism& m, const Simulation& held) {
   const FaceSet& f = held.contacts;
   std::set<std::tuple<Id, Id, std::uint16_t>> brittle;
@@ -237,22 +241,20 @@ void find_lost_cohesion(Mechanism& m, const Simulation& held) {
       brittle.insert({j.block_i, j.block_j, j.law});
   }
   for (std::size_t k = 0; k < f.size(); ++k) {
-    const auto [i, j] =
-        std::minmax({block_of_edge(held.blocks, f, k), block_of_facing(held.blocks, f, k)});
+    const auto [i, j] = blocks_of_face(held.blocks, f, k);
     if (!brittle.contains({i, j, f.law[k]})) continue;
     const bool lost = f.bonded[k] == 0.0;
     if (lost && !is_closed(f, k) && f.opened[k] == 0.0) continue;  // was never bonded
     m.brittle_length += f.now.length[k];
     if (lost) m.cohesion_lost_length += f.now.length[k];
   }
-  if (!lost_cohesion_text(m).empty())
+  if (has_lost_cohesion(m))
     m.text += fmt::format("; {:.3g} m of its {:.3g} m had lost their cohesion before it moved",
                           m.cohesion_lost_length, m.brittle_length);
 }
 
 std::string lost_cohesion_text(const Mechanism& m) {
-  constexpr double little = 0.01;
-  if (!(m.cohesion_lost_length > little * m.brittle_length)) return {};
+  if (!has_lost_cohesion(m)) return {};
   return fmt::format(
       "{:.3g} m of {:.3g} m of the mechanism's joints had no cohesion before it moved (it was "
       "lost, "

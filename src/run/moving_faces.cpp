@@ -28,10 +28,6 @@ EndMoved end_moved(const Simulation& before, const Simulation& after, std::size_
           dot(is, outward_normal(t_is)) - dot(was, outward_normal(t_was))};
 }
 
-std::pair<Id, Id> pair_of(const BlockSet& b, const FaceSet& f, std::size_t k) {
-  return std::minmax({block_of_edge(b, f, k), block_of_facing(b, f, k)});
-}
-
 }  // namespace
 
 void see_faces(SeenJoints& joints, const Simulation& before, const Simulation& after,
@@ -40,12 +36,12 @@ void see_faces(SeenJoints& joints, const Simulation& before, const Simulation& a
   const BlockSet& b = before.blocks;
   std::map<std::pair<Id, Id>, double> largest;
   for (std::size_t k = 0; k < f.size(); ++k) {
-    double& force = largest[pair_of(b, f, k)];
+    double& force = largest[blocks_of_face(b, f, k)];
     force = std::max(force, normal_force(f, k));
   }
   constexpr double counts = 1e-3;  // of what carries most between the two blocks
   for (std::size_t k = 0; k < f.size(); ++k) {
-    const auto [i, j] = pair_of(b, f, k);
+    const auto [i, j] = blocks_of_face(b, f, k);
     const bool along = f.acts[k] > 0.0 && f.now.cohesive[k] > 0.0 && closure_of(f, k) > -least;
     if (!along && !(normal_force(f, k) > counts * largest[{i, j}])) continue;
     const double length = std::min(b.edge_length[f.edge[k]], b.edge_length[f.facing[k]]);

@@ -80,10 +80,9 @@ ContactRecord face_record(const Simulation& sim, const FaceSet& f, std::size_t k
   r.joint = "glued";
   if (law < sim.model.joints.size()) r.joint = sim.model.joints[law].name;
   r.position = middle_of(f, sim.pose, k) + b.origin;
-  const FacePoints at = face_points(f, sim.pose.x, sim.pose.y, k);
-  const auto on_edge = [&](double xi) { return (1.0 - xi) * at.p1 + xi * at.p2 + b.origin; };
-  r.a = on_edge(f.now.xi_a[k]);
-  r.b = on_edge(f.now.xi_b[k]);
+  const FaceSpan span = span_of(f, sim.pose, k);
+  r.a = span.a + b.origin;
+  r.b = span.b + b.origin;
   r.length = f.now.length[k];
   const double eta = 0.5 * (f.now.eta_a[k] + f.now.eta_b[k]);
   std::array<double, 3> weight;
