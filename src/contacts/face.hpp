@@ -19,21 +19,13 @@
 // Forces are the exact gradient of U: they sum to zero and have no moment.
 #pragma once
 
-#include <cmath>
-
-#include "base/vec2.hpp"
-#include "base/vector_loop.hpp"
+#include "contacts/face_parts.hpp"
 
 namespace edda {
 
 /// Corners of the two edges, m.
 struct FacePoints {
   Vec2 p1, p2, q1, q2;
-};
-
-/// A value at each end of the overlap.
-struct FaceEnds {
-  double a = 0.0, b = 0.0;
 };
 
 /// What a face keeps while its blocks move.
@@ -54,6 +46,11 @@ struct CornerForces {
   Vec2 p1, p2, q1, q2;
 };
 
+/// Forces on the corners along t and n, N.
+struct FrameForces {
+  double p1t = 0.0, p1n = 0.0, p2t = 0.0, p2n = 0.0, q1t = 0.0, q1n = 0.0, q2t = 0.0, q2n = 0.0;
+};
+
 /// A face as it stands.
 struct Face {
   Vec2 t;
@@ -70,6 +67,7 @@ struct Face {
   FaceEnds slope;           ///< of the edge that the corner at each end is pressed against
   FaceEnds along;           ///< dU/dsa and dU/dsb, N
   FaceEnds of_first;        ///< part by which each end follows the first block's corner
+  FrameForces pressure;     ///< forces of the normal pressure, but for the couples of the frame
   CornerForces force;       ///< of the normal pressure
 };
 
@@ -87,138 +85,47 @@ EDDA_INLINE Vec2 frame_of(const FacePoints& p, double inverse_e, double inverse_
   return g / (size > 0.0 ? size : 1.0);
 }
 
-/// A choice that loops over several faces can make.
-EDDA_INLINE Vec2 chosen(bool first, Vec2 a, Vec2 b) {
-  return {first ? a.x : b.x, first ? a.y : b.y};
-}
-
-/// S(x) = x^2 (3 - 2 x) on [0, 1], 0 before and 1 beyond.
-struct SmoothStep {
-  double value, slope;
-};
-EDDA_INLINE SmoothStep smooth_step(double x) {
-  const double u = smaller(larger(x, 0.0), 1.0);
-  return {u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u)};
-}
-
-/// Closures deeper than this part of the overlap begin to fade, and are gone at four times that.
-inline constexpr double aspect_from = 0.5, aspect_range = 1.5;
-/// Part of the initial stress's closure that counts there.
-inline constexpr double locked_part = 0.25;
-
-/// Cosine of the angle between edges that lie along each other: 8 degrees. Cohesion needs surfaces
-/// that do; a corner that leans on an edge has friction alone. It goes over up to 4
-/// degrees.
-inline constexpr double lies_along = 0.99, lies_flush = 0.9976;
-EDDA_INLINE double flush_part(double cosine) {
-  return smooth_step((cosine - lies_along) * (1.0 / (lies_flush - lies_along))).value;
-}
-
-/// What bounds an end of the overlap where two corners are x apart along the face and pass each
-/// other within `reach` (m): how far it is drawn in, and by which part it follows the corner that
-/// would not bound it alone. Without it the force along the face would jump by k d^2/2.
-struct CornersPassing {
-  double drawn_in, by_other;
-  double by_reach;  ///< derivative of drawn_in
-};
-EDDA_INLINE CornersPassing corners_passing(double x, double reach) {
-  const double near = larger(reach - std::abs(x), 0.0);
-  const double part = near / (reach > 0.0 ? reach : 1.0);
-  return {0.25 * near * part, 0.5 * part, 0.25 * part * (2.0 - part)};
-}
-
-/// Part by which each end follows the first block's corner.
-EDDA_INLINE FaceEnds of_first(const CornersPassing& a, const CornersPassing& b, bool a_by_first,
-                              bool b_by_first) {
-  return {a_by_first ? 1.0 - a.by_other : a.by_other, b_by_first ? 1.0 - b.by_other : b.by_other};
-}
-
-/// That reach, of the closures at both ends, (da^2 + db^2)^(1/2)/3, towards a furthest one: edges
-/// may be shorter than what an initial stress locks in. The closure of corners that pass each other
-/// is taken halfway between the two, or it would go on at another rate where one takes over.
-inline constexpr double furthest_reach = 0.5;  ///< of FacePair::passing
-struct PassingReach {
-  double reach, by_a, by_b;
-};
-EDDA_INLINE PassingReach passing_reach(double da, double db, double furthest) {
-  const double both = std::sqrt(da * da + db * db), part = 1.0 / 3.0;
-  const double u = smaller(0.5 * part * both / furthest, 1.0);
-  const double slope = part * (1.0 - u) / (both > 0.0 ? both : 1.0);
-  return {furthest * u * (2.0 - u), slope * da, slope * db};
-}
-
-/// phi and its derivatives by da and db.
-struct ClosurePotential {
-  double value, by_a, by_b;
-};
-
-/// 1/(2 L) Int max(d, 0)^2 ds: (da^2 + da db + db^2)/6 where both ends are closed; else, of the
-/// closed end d, d^3/(6 |da - db|).
-EDDA_INLINE ClosurePotential exact_potential(double da, double db, bool pulls) {
-  const double pa = larger(da, 0.0), pb = larger(db, 0.0);
-  const bool whole = pulls | ((da >= 0.0) & (db >= 0.0));
-  const double closed = pa + pb, difference = std::abs(da - db);
-  const double part = closed / (difference > 0.0 ? difference : 1.0);
-  const double far = closed * part * part / 6.0;  // by the open end
-  const double near = closed * part / 2.0 - far;  // by the closed end
-  return {whole ? (da * da + da * db + db * db) / 6.0 : closed * closed * part / 6.0,
-          whole ? (2.0 * da + db) / 6.0 : (pa > 0.0 ? near : far),
-          whole ? (da + 2.0 * db) / 6.0 : (pb > 0.0 ? near : far)};
-}
-
-EDDA_INLINE ClosurePotential potential_at_ends(double da, double db, bool pulls) {
-  const double pa = pulls ? da : larger(da, 0.0), pb = pulls ? db : larger(db, 0.0);
-  return {(pa * pa + pb * pb) / 4.0, pa / 2.0, pb / 2.0};
-}
-
-/// Part of a leaning corner, sin^2(eps - theta)/(sin^2 theta + sin^2(eps - theta)): its two edges
-/// make theta and eps - theta with the edge that it leans on, so that their parts sum to one.
-/// c and s: cosine and sine of theta >= 0, both times the same length. With its derivatives.
-struct CornerShare {
-  double value, by_c, by_s;
-};
-EDDA_INLINE CornerShare corner_share(Vec2 turn, double c, double s) {
-  const double x = larger(turn.y * c - turn.x * s, 0.0);
-  const double a = x * x, b = s * s, sum = a + b;
-  const double inverse = 1.0 / (sum > 0.0 ? sum : 1.0), twice = 2.0 * inverse * inverse;
-  return {a * inverse, twice * b * x * turn.y, -twice * (b * x * turn.x + a * s)};
-}
-
-/// Adds -e at the part xi of the first edge, and f at the part eta of the second.
-EDDA_INLINE void add_pressures(CornerForces& on, double xi, double eta, Vec2 e, Vec2 f) {
-  on.p1 -= (1.0 - xi) * e;
-  on.p2 -= xi * e;
-  on.q1 += eta * f;
-  on.q2 += (1.0 - eta) * f;
-}
-EDDA_INLINE void add_at(CornerForces& on, double xi, double eta, Vec2 f) {
-  add_pressures(on, xi, eta, f, f);
+/// Adds (t, n) at the part eta of the second edge, and its opposite at the part xi of the first.
+EDDA_INLINE void add_at(FrameForces& on, double xi, double eta, double t, double n) {
+  on.p1t -= (1.0 - xi) * t;
+  on.p1n -= (1.0 - xi) * n;
+  on.p2t -= xi * t;
+  on.p2n -= xi * n;
+  on.q1t += eta * t;
+  on.q1n += eta * n;
+  on.q2t += (1.0 - eta) * t;
+  on.q2n += (1.0 - eta) * n;
 }
 
 /// Adds forces along t on what bounds the ends.
-EDDA_INLINE void push_bounds(CornerForces& on, FaceEnds of_first, Vec2 t, FaceEnds f) {
-  on.p1 += of_first.a * f.a * t;
-  on.q2 += (1.0 - of_first.a) * f.a * t;
-  on.p2 += of_first.b * f.b * t;
-  on.q1 += (1.0 - of_first.b) * f.b * t;
+EDDA_INLINE void push_bounds(FrameForces& on, FaceEnds of_first, FaceEnds f) {
+  on.p1t += of_first.a * f.a;
+  on.q2t += (1.0 - of_first.a) * f.a;
+  on.p2t += of_first.b * f.b;
+  on.q1t += (1.0 - of_first.b) * f.b;
 }
 
-/// The frame goes with both edges: their couples, which leave no moment.
-EDDA_INLINE void add_couple_of_frame(CornerForces& on, const FacePoints& at, const Face& face) {
+/// Forces on the corners. The frame goes with both edges: their couples are added, which leave no
+/// moment.
+EDDA_INLINE CornerForces on_corners(const FrameForces& on, const FacePoints& at, const Face& face) {
+  const Vec2 t = face.t, n = outward_normal(t);
+  CornerForces force{on.p1t * t + on.p1n * n, on.p2t * t + on.p2n * n, on.q1t * t + on.q1n * n,
+                     on.q2t * t + on.q2n * n};
   const Vec2 p = at.p1;
-  const double moment = cross(at.p2 - p, on.p2) + cross(at.q1 - p, on.q1) + cross(at.q2 - p, on.q2);
-  const Vec2 e = (moment * face.inverse_e) * perp(face.t);
-  const Vec2 f = (moment * face.inverse_f) * perp(face.t);
-  on.p1 += e;
-  on.p2 -= e;
-  on.q1 -= f;
-  on.q2 += f;
+  const double moment =
+      cross(at.p2 - p, force.p2) + cross(at.q1 - p, force.q1) + cross(at.q2 - p, force.q2);
+  const Vec2 e = (moment * face.inverse_e) * n, f = (moment * face.inverse_f) * n;
+  force.p1 -= e;
+  force.p2 += e;
+  force.q1 += f;
+  force.q2 -= f;
+  return force;
 }
 
 /// Where two edges stand to each other.
 struct Opposition {
   double tx, ty;            ///< t
-  double base;              ///< |E - F|
+  double per_base;          ///< 1/|E - F|
   double s2, r1, r2;        ///< s of p2, q1 and q2
   double per_e, per_f;      ///< 1/s2 and 1/(r1 - r2)
   double slope_e, slope_f;  ///< dy/ds
@@ -229,19 +136,21 @@ struct Opposition {
 EDDA_INLINE Opposition opposition_of(const FacePoints& at, const FacePair& pair) {
   const Vec2 e = at.p2 - at.p1, f = at.q2 - at.q1;
   const Vec2 g = pair.inverse_e * e - pair.inverse_f * f;
-  const double apart = norm(g), base = apart > 0.0 ? apart : 1.0;
-  const Vec2 t = g / base, n = outward_normal(t);
+  const double apart = norm(g), per_base = 1.0 / (apart > 0.0 ? apart : 1.0);
+  const Vec2 t = per_base * g, n = outward_normal(t);
   const Vec2 to_q1 = at.q1 - at.p1, to_q2 = at.q2 - at.p1;
   const double s2 = dot(e, t), y2 = dot(e, n);
   const double r1 = dot(to_q1, t), z1 = dot(to_q1, n), r2 = dot(to_q2, t), z2 = dot(to_q2, n);
   const bool opposed = (s2 > 0.0) & (r1 > r2);
-  const double per_e = 1.0 / (opposed ? s2 : 1.0), per_f = 1.0 / (opposed ? r1 - r2 : 1.0);
+  const double across_e = opposed ? s2 : 1.0, across_f = opposed ? r1 - r2 : 1.0;
+  const double per_both = 1.0 / (across_e * across_f);
+  const double per_e = across_f * per_both, per_f = across_e * per_both;
   const double slope_e = y2 * per_e, slope_f = (z1 - z2) * per_f;
   const double apart_0 = -(z2 - slope_f * r2),
                cosine = -dot(e, f) * (pair.inverse_e * pair.inverse_f);
   return {t.x,
           t.y,
-          base,
+          per_base,
           s2,
           r1,
           r2,
@@ -266,7 +175,7 @@ EDDA_INLINE FaceEnds gated_closure(double drawn_a, double drawn_b, const FacePai
 EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   Face face;
   const Opposition o = opposition_of(at, pair);
-  const Vec2 e = at.p2 - at.p1, f = at.q2 - at.q1, t{o.tx, o.ty}, n = outward_normal(t);
+  const Vec2 e = at.p2 - at.p1, f = at.q2 - at.q1, t{o.tx, o.ty};
   const double s2 = o.s2, r1 = o.r1, r2 = o.r2, per_e = o.per_e, per_f = o.per_f, ma = o.ma,
                mb = o.mb, slope_e = o.slope_e, slope_f = o.slope_f, apart_0 = o.apart_0,
                steeper = o.steeper, cosine = o.cosine;
@@ -274,21 +183,24 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const bool a_by_p = r2 <= 0.0, b_by_p = s2 <= r1;  // p1 and p2 bound the overlap
   const bool opposed = (s2 > 0.0) & (r1 > r2);
   const double furthest = furthest_reach * pair.passing;
-  const CornersPassing near_a = corners_passing(-r2, furthest),
-                       near_b = corners_passing(s2 - r1, furthest);
+  const double per_furthest = 1.0 / furthest, per_passing = furthest_reach * per_furthest;
+  const CornersPassing near_a = corners_passing(-r2, furthest, per_furthest),
+                       near_b = corners_passing(s2 - r1, furthest, per_furthest);
   const double beyond = 0.25 * furthest;
   const double la = ma + near_a.drawn_in - beyond, lb = mb - near_b.drawn_in + beyond;
   const double corner_a = apart_0 + steeper * la + pair.offset.a;
   const double corner_b = apart_0 + steeper * lb + pair.offset.b;
   const bool pulls = pair.pulls != 0.0;
-  const PassingReach wide = passing_reach(pulls ? corner_a : larger(corner_a, 0.0),
-                                          pulls ? corner_b : larger(corner_b, 0.0), furthest);
-  const CornersPassing pass_a = corners_passing(-r2, wide.reach),
-                       pass_b = corners_passing(s2 - r1, wide.reach);
+  const PassingReach wide =
+      passing_reach(pulls ? corner_a : larger(corner_a, 0.0),
+                    pulls ? corner_b : larger(corner_b, 0.0), furthest, per_furthest);
+  const double per_reach = 1.0 / (wide.reach > 0.0 ? wide.reach : 1.0);
+  const CornersPassing pass_a = corners_passing(-r2, wide.reach, per_reach),
+                       pass_b = corners_passing(s2 - r1, wide.reach, per_reach);
   const double sa = ma + pass_a.drawn_in, sb = mb - pass_b.drawn_in;
   face.t = t;
-  face.inverse_e = pair.inverse_e / o.base;
-  face.inverse_f = pair.inverse_f / o.base;
+  face.inverse_e = pair.inverse_e * o.per_base;
+  face.inverse_f = pair.inverse_f * o.per_base;
   face.length = sb - sa;
   face.xi = {sa * per_e, sb * per_e};
   face.eta = {(sa - r2) * per_f, (sb - r2) * per_f};
@@ -299,7 +211,7 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   // W, of the angle theta between the edges
   const double inverse_lengths = pair.inverse_e * pair.inverse_f;
   const SmoothStep by_angle = smooth_step((cosine - pair.gate_from) * pair.gate_scale);
-  const bool on = (face.length > 0.0) & (cosine > pair.gate_from) & opposed;
+  const bool lives = (face.length > 0.0) & (cosine > pair.gate_from) & opposed;
 
   // w
   const bool deep_b = db >= da;
@@ -309,8 +221,8 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const bool fades = (deepest > 0.0) & !pulls;
   const double per_deepest = 1.0 / (fades ? deepest : 1.0);
   const SmoothStep by_aspect =
-      smooth_step(fades ? (face.length * per_deepest - aspect_from) / aspect_range : 1.0);
-  const double aspect_slope = by_aspect.slope / aspect_range * per_deepest;  // dw/dL
+      smooth_step(fades ? (face.length * per_deepest - aspect_from) * (1.0 / aspect_range) : 1.0);
+  const double aspect_slope = by_aspect.slope * (1.0 / aspect_range) * per_deepest;  // dw/dL
 
   // b, of the corner that bounds the deeper end; one that is about to pass it counts, too
   const Vec2 a_turn = chosen(a_by_p, pair.p1_turn, pair.q2_turn),
@@ -318,22 +230,29 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const Vec2 b_turn = chosen(b_by_p, pair.p2_turn, pair.q1_turn),
              b_other = chosen(b_by_p, pair.q1_turn, pair.p2_turn);
   const double tilt = std::abs(s);
-  const CornerShare own = corner_share(chosen(deep_b, b_turn, a_turn), c, tilt);
-  const CornerShare other = corner_share(chosen(deep_b, b_other, a_other), c, tilt);
+  const Vec2 own_turn = chosen(deep_b, b_turn, a_turn),
+             other_turn = chosen(deep_b, b_other, a_other);
+  const double own_x = beyond_turn(own_turn, c, tilt), other_x = beyond_turn(other_turn, c, tilt);
+  const double own_sum = own_x * own_x + tilt * tilt, other_sum = other_x * other_x + tilt * tilt;
+  const double own_whole = own_sum > 0.0 ? own_sum : 1.0,
+               other_whole = other_sum > 0.0 ? other_sum : 1.0;
+  const double per_sums = 1.0 / (own_whole * other_whole);
+  const CornerShare own = corner_share(own_turn, own_x, tilt, other_whole * per_sums);
+  const CornerShare other = corner_share(other_turn, other_x, tilt, own_whole * per_sums);
   const double past = deep_b ? s2 - r1 : -r2;  // of the first block's corner beyond the second's
-  const SmoothStep passing = smooth_step(1.0 - std::abs(past) / pair.passing);
+  const SmoothStep passing = smooth_step(1.0 - std::abs(past) * per_passing);
   const bool more = other.value > own.value;
   const double mixed = more ? passing.value : 0.0;
   const double share = pair.ends * (own.value + mixed * (other.value - own.value));
   const double share_by_c = pair.ends * (own.by_c + mixed * (other.by_c - own.by_c));
   const double share_by_tilt = pair.ends * (own.by_s + mixed * (other.by_s - own.by_s));
   const double share_by_past =
-      pair.ends * (more ? (other.value - own.value) * passing.slope / pair.passing : 0.0);
+      pair.ends * (more ? (other.value - own.value) * passing.slope * per_passing : 0.0);
 
   const ClosurePotential exact = exact_potential(da, db, pulls),
                          ends = potential_at_ends(da, db, pulls);
   const double gain = ends.value - exact.value;
-  const double exists = on ? 1.0 : 0.0;
+  const double exists = lives ? 1.0 : 0.0;
   const double gate = exists * by_aspect.value * by_angle.value;
   const double whole = exists * pair.stiffness * face.length;
   const double phi = exact.value + share * gain;
@@ -363,30 +282,39 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const double by_reach = by_sa * pass_a.by_reach - by_sb * pass_b.by_reach;
   const double by_corner_a = by_reach * wide.by_a, by_corner_b = by_reach * wide.by_b;
 
-  CornerForces& force = face.force;
+  // The pressures by_a and by_b at the ends and by_corner at the corners stand across either edge.
   face.slope = {a_by_p ? slope_f : slope_e, b_by_p ? slope_f : slope_e};
-  add_pressures(force, la * per_e, (la - r2) * per_f, by_corner_a * (n - slope_e * t),
-                by_corner_a * (n - slope_f * t));
-  add_pressures(force, lb * per_e, (lb - r2) * per_f, by_corner_b * (n - slope_e * t),
-                by_corner_b * (n - slope_f * t));
-  push_bounds(force, of_first(near_a, near_b, a_by_p, b_by_p), t,
+  const double pressed = by_a + by_b + by_corner_a + by_corner_b;
+  const double weighted = by_a * sa + by_b * sb + by_corner_a * la + by_corner_b * lb;
+  const double on_p2 = weighted * per_e, on_q1 = (weighted - pressed * r2) * per_f;
+  const double on_p1 = pressed - on_p2, on_q2 = pressed - on_q1;
+  FrameForces& on = face.pressure;
+  on = {slope_e * on_p1,  -on_p1, slope_e * on_p2,  -on_p2,
+        -slope_f * on_q1, on_q1,  -slope_f * on_q2, on_q2};
+  push_bounds(on, of_first(near_a, near_b, a_by_p, b_by_p),
               {-steeper * by_corner_a, -steeper * by_corner_b});
-  add_pressures(force, face.xi.a, face.eta.a, by_a * (n - slope_e * t), by_a * (n - slope_f * t));
-  add_pressures(force, face.xi.b, face.eta.b, by_b * (n - slope_e * t), by_b * (n - slope_f * t));
   face.along = {by_sa, by_sb};
   face.of_first = of_first(pass_a, pass_b, a_by_p, b_by_p);
-  push_bounds(force, face.of_first, t, {-by_sa, -by_sb});
-  const Vec2 beside = by_past * t;  // past = (p2 - q1).t or (p1 - q2).t
-  force.p2 -= (deep_b ? 1.0 : 0.0) * beside;
-  force.q1 += (deep_b ? 1.0 : 0.0) * beside;
-  force.p1 -= (deep_b ? 0.0 : 1.0) * beside;
-  force.q2 += (deep_b ? 0.0 : 1.0) * beside;
-  add_couple_of_frame(force, at, face);
-  const Vec2 turn_e = by_c * f - by_s * perp(f), turn_f = by_c * e + by_s * perp(e);
-  force.p2 += turn_e;
-  force.p1 -= turn_e;
-  force.q2 += turn_f;
-  force.q1 -= turn_f;
+  push_bounds(on, face.of_first, {-by_sa, -by_sb});
+  // past = (p2 - q1).t or (p1 - q2).t
+  const double past_b = deep_b ? by_past : 0.0, past_a = by_past - past_b;
+  on.p2t -= past_b;
+  on.q1t += past_b;
+  on.p1t -= past_a;
+  on.q2t += past_a;
+  // theta: couples on the edges, by_c f - by_s perp(f) on e and by_c e + by_s perp(e) on f
+  const double ey = slope_e * s2, fs = r2 - r1, fy = slope_f * fs;
+  const double turn_et = by_c * fs - by_s * fy, turn_en = by_c * fy + by_s * fs;
+  const double turn_ft = by_c * s2 + by_s * ey, turn_fn = by_c * ey - by_s * s2;
+  on.p1t -= turn_et;
+  on.p1n -= turn_en;
+  on.p2t += turn_et;
+  on.p2n += turn_en;
+  on.q1t -= turn_ft;
+  on.q1n -= turn_fn;
+  on.q2t += turn_ft;
+  on.q2n += turn_fn;
+  face.force = on_corners(on, at, face);
   return face;
 }
 
@@ -403,15 +331,17 @@ EDDA_INLINE FaceEnds held_at_bounds(const Face& face, const FacePair& pair) {
 /// What acts at the ends beside the pressure, N: T along t on the second edge, against it on the
 /// first, N across the edge that the corner there is pressed against, and forces along t on what
 /// bounds the ends.
+EDDA_INLINE void add_ends(FrameForces& on, const Face& face, FaceEnds normal, FaceEnds shear,
+                          FaceEnds bounds = {}) {
+  add_at(on, face.xi.a, face.eta.a, shear.a - face.slope.a * normal.a, normal.a);
+  add_at(on, face.xi.b, face.eta.b, shear.b - face.slope.b * normal.b, normal.b);
+  push_bounds(on, face.of_first, bounds);
+}
 EDDA_INLINE CornerForces end_forces(const FacePoints& at, const Face& face, FaceEnds normal,
-                                    FaceEnds shear, FaceEnds bounds = {}) {
-  const Vec2 t = face.t, n = outward_normal(t);
-  CornerForces force;
-  add_at(force, face.xi.a, face.eta.a, normal.a * (n - face.slope.a * t) + shear.a * t);
-  add_at(force, face.xi.b, face.eta.b, normal.b * (n - face.slope.b * t) + shear.b * t);
-  push_bounds(force, face.of_first, face.t, bounds);
-  add_couple_of_frame(force, at, face);
-  return force;
+                                    FaceEnds shear) {
+  FrameForces on;
+  add_ends(on, face, normal, shear);
+  return on_corners(on, at, face);
 }
 
 }  // namespace edda

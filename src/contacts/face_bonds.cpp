@@ -141,7 +141,13 @@ void unglue_faces(FaceSet& c, const BlockSet& b, const Pose& pose) {
 }
 
 void set_face_dashpots(FaceSet& c, const LawTable& laws, double damping) {
-  const std::size_t n = damping > 0.0 || laws.any_dashpots ? c.size() : 0;
+  // Those that are taken away have still to do their work of the step in hand.
+  const bool any = damping > 0.0 || laws.any_dashpots || !c.zeta.empty();
+  const std::size_t n = any ? c.size() : 0;
+  for (auto* column : {&c.before.damping_a, &c.before.damping_b, &c.before.drag_a, &c.before.drag_b,
+                       &c.before.damping_work, &c.before.damping_due}) {
+    if (!any) std::fill(column->begin(), column->end(), 0.0);
+  }
   c.zeta.assign(n, 0.0);
   c.shear_zeta.assign(n, 0.0);
   for (std::size_t k = 0; k < n; ++k) {

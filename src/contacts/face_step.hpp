@@ -59,10 +59,13 @@ EDDA_INLINE EndMotion motion_of(const Face& face, FaceEnds offset, const FacePoi
 struct Shear {
   double force, slip;
 };
-EDDA_INLINE Shear cut(double trial, double spring, double limit) {
+EDDA_INLINE Shear cut(double trial, double spring, double per_spring, double limit) {
   const double whole = -spring * trial;
   const double force = smaller(larger(whole, -limit), limit);
-  return {force, force == whole ? trial : -force / (spring > 0.0 ? spring : 1.0)};
+  return {force, force == whole ? trial : -force * per_spring};
+}
+EDDA_INLINE double inverse_of(double spring) {
+  return 1.0 / (spring > 0.0 ? spring : 1.0);
 }
 
 /// What an end's shear spring has lost in the last step: in the leapfrog's terms T_n and T_{n-1}
@@ -130,7 +133,8 @@ struct EndActs {
 /// within it. `held`: the limit does not go with the normal force (ShearLimits).
 template <bool dashpots, bool held>
 EDDA_INLINE EndActs act(const FaceView& c, const Face& face, const EndOfFace& end, double spring,
-                        double cohesion, bool touches, const double* limits, std::size_t k) {
+                        double per_spring, double cohesion, bool touches, const double* limits,
+                        std::size_t k) {
   const double friction = c.friction[k];
   const bool bonded = c.bonded[k] > 0.0;
   const auto limit_under = [&](double normal) {
@@ -138,7 +142,7 @@ EDDA_INLINE EndActs act(const FaceView& c, const Face& face, const EndOfFace& en
     return bonded ? unlimited_shear : larger(cohesion + friction * normal, 0.0);
   };
   if constexpr (!dashpots) {
-    return {cut(end.trial, spring, limit_under(end.normal)), 0.0, 0.0};
+    return {cut(end.trial, spring, per_spring, limit_under(end.normal)), 0.0, 0.0};
   } else {
     const double inverse = inverse_mass_on_edge(c, c.edge[k], c.edge_end[k], end.xi) +
                            inverse_mass_on_edge(c, c.facing[k], c.facing_end[k], 1.0 - end.eta);
@@ -150,7 +154,7 @@ EDDA_INLINE EndActs act(const FaceView& c, const Face& face, const EndOfFace& en
     const bool pulls = c.pulls[k] > 0.0, carries = end.normal != 0.0;
     const double normal = carries ? (pulls ? whole : pushing) : 0.0;
     const double limit = limit_under(normal);
-    const Shear shear = cut(end.trial, spring, limit);
+    const Shear shear = cut(end.trial, spring, per_spring, limit);
     const double drag = -2.0 * c.shear_zeta[k] * std::sqrt(spring * mass) * end.slipping / c.step;
     const double within = larger(-limit - shear.force, smaller(limit - shear.force, drag));
     const bool holds = touches & (shear.slip == end.trial);
@@ -173,6 +177,7 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const double overlap = same ? length_1 : length;
   const double kept = overlap > length_1 ? length_1 / (overlap > 0.0 ? overlap : 1.0) : 1.0;
   const double spring = touches ? 0.5 * c.shear_stiffness[k] * overlap * face.gate : 0.0;
+  const double per_spring = inverse_of(spring);
 
   // slip, and Coulomb's limit at each end
   const EndMotion moved = motion_of(face, {c.offset_a[k], c.offset_b[k]}, then);
@@ -193,9 +198,9 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const EndOfFace end_a{face.normal.a, trial_a, closing.a, here.a, face.xi.a, face.eta.a};
   const EndOfFace end_b{face.normal.b, trial_b, closing.b, here.b, face.xi.b, face.eta.b};
   const EndActs acts_a =
-      act<dashpots, held>(c, face, end_a, spring, cohesion, touches, c.limit_a, k);
+      act<dashpots, held>(c, face, end_a, spring, per_spring, cohesion, touches, c.limit_a, k);
   const EndActs acts_b =
-      act<dashpots, held>(c, face, end_b, spring, cohesion, touches, c.limit_b, k);
+      act<dashpots, held>(c, face, end_b, spring, per_spring, cohesion, touches, c.limit_b, k);
   const Shear a = acts_a.shear, b = acts_b.shear;
   const Lost lost_a =
       lost(a, trial_a, spring, {here.a, there.a, old.shear_a[k], slip_1a, kept}, touches);
@@ -215,10 +220,6 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   m.normal_b[k] = face.normal.b;
   m.shear_a[k] = a.force;
   m.shear_b[k] = b.force;
-  m.damping_a[k] = acts_a.damping;
-  m.damping_b[k] = acts_b.damping;
-  m.drag_a[k] = acts_a.drag;
-  m.drag_b[k] = acts_b.drag;
   m.slip_a[k] = touches ? a.slip : 0.0;
   m.slip_b[k] = touches ? b.slip : 0.0;
   m.trial_a[k] = trial_a;
@@ -239,22 +240,27 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
     return 0.5 * (a_across * moved.closure.a + b_across * moved.closure.b - a_along * here.a -
                   b_along * here.b);
   };
-  m.damping_work[k] = taken(acts_a.damping, acts_b.damping, acts_a.drag, acts_b.drag);
-  m.damping_due[k] = taken(old.damping_a[k], old.damping_b[k], old.drag_a[k], old.drag_b[k]);
+  if constexpr (dashpots) {
+    m.damping_a[k] = acts_a.damping;
+    m.damping_b[k] = acts_b.damping;
+    m.drag_a[k] = acts_a.drag;
+    m.drag_b[k] = acts_b.drag;
+    m.damping_work[k] = taken(acts_a.damping, acts_b.damping, acts_a.drag, acts_b.drag);
+    m.damping_due[k] = taken(old.damping_a[k], old.damping_b[k], old.drag_a[k], old.drag_b[k]);
+  }
   const FaceEnds bounds = held_at_bounds(face, pair);
-  CornerForces holds;
-  push_bounds(holds, face.of_first, face.t, bounds);
-  const double given = dot(holds.p1, at.p1 - then.p1) + dot(holds.p2, at.p2 - then.p2) +
-                       dot(holds.q1, at.q1 - then.q1) + dot(holds.q2, at.q2 - then.q2);
+  const auto along = [&](double part, Vec2 first, Vec2 second) {
+    return dot(part * first + (1.0 - part) * second, face.t);
+  };
+  const double given = bounds.a * along(face.of_first.a, at.p1 - then.p1, at.q2 - then.q2) +
+                       bounds.b * along(face.of_first.b, at.p2 - then.p2, at.q1 - then.q1);
   m.transfer[k] = lost_a.transfer + lost_b.transfer - given;
 
   Placed placed;
-  placed.force = end_forces(at, face, {acts_a.damping, acts_b.damping},
-                            {a.force + acts_a.drag, b.force + acts_b.drag}, bounds);
-  placed.force.p1 += face.force.p1;
-  placed.force.p2 += face.force.p2;
-  placed.force.q1 += face.force.q1;
-  placed.force.q2 += face.force.q2;
+  FrameForces on = face.pressure;
+  add_ends(on, face, {acts_a.damping, acts_b.damping},
+           {a.force + acts_a.drag, b.force + acts_b.drag}, bounds);
+  placed.force = on_corners(on, at, face);
   placed.asks = asks(c, face, k) ? 1.0 : 0.0;
   placed.stirs = stirs ? 1.0 : 0.0;
   placed.works = touches | (old.energy[k] > 0.0) | (old.spring[k] > 0.0) ? 1.0 : 0.0;

@@ -169,11 +169,44 @@ bool break_bonds(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable
   return any;
 }
 
+/// Where the columns lie that a step reads or writes. There are more of them than a processor
+/// foresees by itself: models beyond its caches would wait for each.
+std::vector<const double*> columns_of_step(const FaceSet& c) {
+  std::vector<const double*> at;
+  for (const FaceColumn& column : face_columns) {
+    at.push_back((c.now.*column.values).data());
+    at.push_back((c.before.*column.values).data());
+  }
+  for (const auto* values :
+       {&c.stiffness, &c.shear_stiffness, &c.inverse_e, &c.inverse_f, &c.gate_from, &c.gate_scale,
+        &c.passing, &c.at_ends, &c.acts, &c.leans, &c.friction, &c.cohesion, &c.offset_a,
+        &c.offset_b, &c.pulls, &c.bonded}) {
+    at.push_back(values->data());
+  }
+  return at;
+}
+
+/// Asks for the faces [first, last) from memory.
+void fetch(const FaceSet& c, const std::vector<const double*>& columns, std::size_t first,
+           std::size_t last) {
+  constexpr std::size_t line = 8;  // numbers
+  for (const double* at : columns) {
+    for (std::size_t k = first; k < last; k += line) __builtin_prefetch(at + k);
+  }
+  for (std::size_t k = first; k < last; ++k) {
+    __builtin_prefetch(c.force.data() + 4 * std::size_t{c.slot[k]}, 1);
+    __builtin_prefetch(c.force.data() + 4 * std::size_t{c.facing_slot[k]}, 1);
+  }
+}
+
 /// laws: of the bonds that may break, if any.
 void place_chunks(FaceSet& c, const FaceView& view, const BlockSet& b, const Pose& pose,
                   const LawTable* laws, std::size_t begin, std::size_t end) {
   ChunkForces on;
+  const std::vector<const double*> columns = columns_of_step(c);
   for (std::size_t first = begin; first < end; first += FaceSet::chunk) {
+    fetch(c, columns, std::min(first + FaceSet::chunk, end),
+          std::min(first + 2 * FaceSet::chunk, end));
     const std::size_t last = std::min(end, first + FaceSet::chunk), q = first / FaceSet::chunk;
     const bool idle = c.now.idle[q] && c.before.idle[q] && !c.bonds[q] && view.limit_a == nullptr;
     if (idle && !wakes_chunk(view, first, last)) {
@@ -253,10 +286,11 @@ void change_step_behind(FaceSet& c, const BlockSet& b, const Pose& pose,
 
 void next_step(FaceSet& c) {
   if (c.gluing) glue_pressed(c);
+  const bool dashpots = !c.zeta.empty();
   parallel_for(c.size(), [&](std::size_t k) {
     if (c.now.idle[k / FaceSet::chunk] != 0) return;
     (c.breaks[k] > 0.0 ? c.fracture_work : c.friction_work)[k] += c.now.friction_work[k];
-    c.damping_work[k] += c.now.damping_work[k] + c.now.damping_due[k];
+    if (dashpots) c.damping_work[k] += c.now.damping_work[k] + c.now.damping_due[k];
     const bool cut = c.now.slip_a[k] != c.now.trial_a[k] || c.now.slip_b[k] != c.now.trial_b[k];
     if (cut) c.slipped[k] = 1.0;
     if (c.before.energy[k] > 0.0 && c.now.energy[k] == 0.0) c.opened[k] = 1.0;
@@ -292,7 +326,8 @@ CornerForces cut_again(FaceSet& c, const Face& face, const FacePoints& at, const
   const double spring = m.spring[k], cohesion = 0.5 * c.cohesion[k] * face.cohesive;
   const auto again = [&](double normal, double trial, double slipped, double& force, double& slip) {
     const double limit = std::max(cohesion + c.friction[k] * normal, 0.0);
-    const Shear next = cut(trial, spring, c.bonded[k] > 0.0 ? unlimited_shear : limit);
+    const Shear next =
+        cut(trial, spring, inverse_of(spring), c.bonded[k] > 0.0 ? unlimited_shear : limit);
     // As lost(), of which all that T_{n-1} does stays as it was; kept u_{n-1} = u_tr - slipped.
     const auto taken = [&](const Shear& s) {
       const double all = -0.5 * s.force * (slipped - s.slip);

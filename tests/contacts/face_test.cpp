@@ -242,18 +242,20 @@ TEST(Face, ACornerThatLeansKeepsTheSpringOfItsEnd) {
   }
 }
 
+CornerShare share_at(Vec2 turn, double theta) {
+  const double s = std::sin(theta), x = beyond_turn(turn, std::cos(theta), s);
+  return corner_share(turn, x, s, 1.0 / (x * x + s * s));
+}
+
 TEST(Face, TheTwoEdgesOfACornerShareItsSpring) {
   for (const double exterior : {0.5, pi / 2.0, 2.0}) {
     for (const double part : {0.0, 0.2, 0.5, 0.9, 1.0}) {
       const double theta = part * exterior;
-      const CornerShare one = corner_share(turn_of(exterior), std::cos(theta), std::sin(theta));
-      const CornerShare two =
-          corner_share(turn_of(exterior), std::cos(exterior - theta), std::sin(exterior - theta));
+      const CornerShare one = share_at(turn_of(exterior), theta);
+      const CornerShare two = share_at(turn_of(exterior), exterior - theta);
       EXPECT_NEAR(one.value + two.value, 1.0, 1e-12);
     }
-    EXPECT_EQ(
-        corner_share(turn_of(exterior), std::cos(1.1 * exterior), std::sin(1.1 * exterior)).value,
-        0.0);
+    EXPECT_EQ(share_at(turn_of(exterior), 1.1 * exterior).value, 0.0);
   }
 }
 

@@ -61,7 +61,7 @@ inline std::vector<EdgePair> all_near(const BlockSet& b, const std::vector<std::
 struct ListFaults {
   std::size_t wanted = 0;    ///< pairs that must be there
   std::size_t missed = 0;    ///< of them, not in the list
-  std::size_t repeated = 0;  ///< in the list more than once, or out of order
+  std::size_t repeated = 0;  ///< in the list more than once
 };
 
 /// Farthest that any vertex has moved since the list was made, m.
@@ -81,6 +81,7 @@ inline ListFaults check_list(const FaceSet& c, const BlockSet& b,
   ListFaults faults;
   std::vector<EdgePair> list;
   for (std::size_t k = 0; k < c.size(); ++k) list.push_back({c.edge[k], c.facing[k]});
+  std::sort(list.begin(), list.end());
   for (std::size_t k = 1; k < list.size(); ++k) faults.repeated += list[k - 1] < list[k] ? 0 : 1;
   const double near = c.reach - 2.0 * moved_since_built(c, x, y);
   if (near <= 0.0) return faults;
