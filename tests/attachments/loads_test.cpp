@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "attachments/drawn_blocks.hpp"
+#include "attachments/initial_forces.hpp"
 
 namespace edda::loads_test {
 namespace {
@@ -327,6 +328,33 @@ TEST(Load, RefusesWhatItCannotActOn) {
     EXPECT_EQ(l.faults[0].where.key, c.key);
     EXPECT_NE(l.faults[0].problem.find(c.problem), std::string::npos) << l.faults[0].problem;
   }
+}
+
+/// Under the stress of water at rest nothing is left for a face to bear: the water bears it all.
+TEST(InitialForces, WaterBearsItsShare) {
+  Loaded l;
+  l.add(odd_shape);
+  Water water = lake({{-10, 5}, {10, 5}});
+  l.model.waters = {water};
+  InitialStress stress;
+  const double rise = water.unit_weight;
+  stress.stress = Triple{-5.0 * rise, -5.0 * rise, 0.0};
+  stress.gradient = Triple{rise, rise, 0.0};
+  l.model.initial_stress = stress;
+  l.attach();
+  ASSERT_TRUE(l.faults.empty());
+  const StressField field(l.model, l.blocks.origin);
+  const LoadsNow now = loads_at(l.model, l.loads, 0.0);
+  const FaceForces faces(l.blocks, field, now);
+  for (Id e = 0; e < l.blocks.vertex_count(); ++e) {
+    for (const Part part : {Part{0.0, 1.0}, Part{0.2, 0.7}}) {
+      const EndForces on = faces.on(e, part);
+      EXPECT_NEAR(norm(on.at_from) + norm(on.at_to), 0.0, 1e-6 * rise);
+    }
+  }
+  // Without water it is all there.
+  const LoadsNow none;
+  EXPECT_GT(norm(FaceForces(l.blocks, field, none).on(0, {0.0, 1.0}).at_from), rise);
 }
 
 }  // namespace
