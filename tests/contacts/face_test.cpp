@@ -7,6 +7,8 @@
 #include <numbers>
 #include <random>
 
+#include "contacts/face_stiffness.hpp"
+
 namespace edda {
 namespace {
 
@@ -279,6 +281,40 @@ TEST(Face, WhatIsDeeperThanLongCarriesNothing) {
   const Face face = face_between(r.at, r.pair);
   EXPECT_GT(face.length, 0.0);
   EXPECT_EQ(face.energy, 0.0);
+}
+
+/// By the closures of its ends, of faces that are closed all over or gape, taken exactly, at their
+/// ends, and between the two.
+TEST(FaceStiffness, IsTheDerivativeOfTheNormalForces) {
+  for (const double depth : {1e-3, 1e-4}) {
+    for (const double tilt : {-2e-3, 1e-3, 0.3, -0.3}) {
+      for (const double ends : {0.0, 0.5, 1.0}) {
+        RandomFace r = flat(depth, 0.0);
+        // Shorter than the other and in its middle, so that no corners pass each other.
+        const Vec2 half = 0.3 * Vec2{std::cos(tilt), -std::sin(tilt)}, middle{0.5, depth};
+        r.at.q1 = middle + half;
+        r.at.q2 = middle - half;
+        r.pair.inverse_f = 1.0 / 0.6;
+        r.pair.ends = ends;
+        const Face face = face_between(r.at, r.pair);
+        if (!(face.energy > 0.0)) continue;
+        const EndStiffness s = end_stiffness(face, r.pair, 0.0);
+        const auto normal = [&](double a, double b) {
+          r.pair.offset = {a, b};
+          const FaceEnds n = face_between(r.at, r.pair).normal;
+          r.pair.offset = {};
+          return n;
+        };
+        const double d = 1e-8, scale = r.pair.stiffness;
+        const FaceEnds up_a = normal(d, 0.0), down_a = normal(-d, 0.0), up_b = normal(0.0, d),
+                       down_b = normal(0.0, -d);
+        EXPECT_NEAR(s.aa, (up_a.a - down_a.a) / (2.0 * d), 1e-4 * scale) << tilt << ' ' << ends;
+        EXPECT_NEAR(s.ab, (up_a.b - down_a.b) / (2.0 * d), 1e-4 * scale) << tilt << ' ' << ends;
+        EXPECT_NEAR(s.ab, (up_b.a - down_b.a) / (2.0 * d), 1e-4 * scale) << tilt << ' ' << ends;
+        EXPECT_NEAR(s.bb, (up_b.b - down_b.b) / (2.0 * d), 1e-4 * scale) << tilt << ' ' << ends;
+      }
+    }
+  }
 }
 
 }  // namespace

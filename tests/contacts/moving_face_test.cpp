@@ -137,20 +137,18 @@ TEST(MovingFace, BooksEveryJouleWhileTheOverlapChanges) {
   EXPECT_NE(m.transfer(), 0.0);
 }
 
-/// What the overlap gains is free of stress.
+/// What the overlap gains is free of stress: each spring grows, and its slip becomes as much less.
 TEST(MovingFace, SpringsShiftWithTheOverlap) {
-  MovedBlocks m = square_on_base(rough_joint(80.0));
+  MovedBlocks m = square_on_base(rough_joint(89.99));
   m.start(0.2);
   m.put(1, {{1.5, -depth}});
   m.settle();
-  m.go(1, {{1.5 - 1e-5, -depth}});
-  const double force = m.force_on(1).x;
-  EXPECT_NEAR(force, 0.5 * 1e9 * 1e-5, 1e-2 * force);
-  // From 0.5 m to 0.75 m, in one step: each spring has 1.5 times its stiffness, and its force plus
-  // what the step itself strains.
-  m.go(1, {{1.25, -depth}});
-  const double strained = 0.75 * 1e9 * (0.25 - 1e-5), limit = std::tan(80.0 / 180.0 * M_PI) * 1.5e5;
-  EXPECT_NEAR(m.force_on(1).x, std::min(force + strained, limit), 1e-2 * limit);
+  double force = 0.0;
+  for (const double overlap : {0.55, 0.60, 0.65}) {
+    m.go(1, {{2.0 - overlap, -depth}});
+    force += 1e9 * overlap * 0.05;
+    EXPECT_NEAR(m.force_on(1).x, force, 1e-3 * force) << overlap;
+  }
 }
 
 /// c = 2 zeta sqrt(p m) at each end, p the spring there and m the mass that the corner moves.
@@ -252,10 +250,30 @@ TEST(MovingFace, IsCutAnewUnderAPartOfItsNormalForce) {
   const double ks = 1e9, slip = 2e-5;
   const double taken = 0.75 * limit * (slip + 0.5 * limit / ks) - limit * slip;
   EXPECT_NEAR(m.faces.friction_work[k] - friction, taken, 1e-6 * limit * slip);
-  // Of T_n (slip - u_n)/2, what is not friction.
-  const double whole = 0.5 * limit * (slip - limit / ks),
-               halved = 0.25 * limit * (slip - 0.5 * limit / ks);
-  EXPECT_NEAR(m.faces.transfer[k] - transfer, halved - whole - taken, 1e-6 * limit * slip);
+  // The overlap stays: nothing else is missing.
+  EXPECT_NEAR(m.faces.transfer[k] - transfer, 0.0, 1e-6 * limit * slip);
+}
+
+/// A step that turns the shear round: with u_{n-1} = l, l = limit/k, and a trial slip of -2 l, what
+/// the spring gives up is no friction but transfer: k u_n (-3 l - u_n)/2, u_n = -l or, halved, -l/2.
+TEST(MovingFace, BooksTheTransferOfWhatIsCutAnew) {
+  MovedBlocks m = square_on_base(rough_joint(30.0));
+  m.start();
+  m.put(1, {{0.0, -depth}});
+  m.settle();
+  for (int n = 1; n <= 20; ++n) m.go(1, {{2e-5 * n, -depth}});
+  const double limit = mu * 2e9 * depth, l = limit / 1e9;
+  m.go(1, {{4e-4 - 3.0 * l, -depth}});
+  EXPECT_NEAR(m.force_on(1).x, limit, 1e-9 * limit);
+  const std::size_t k = m.main_face();
+  const FacePoints at = face_points(m.faces, m.pose.x, m.pose.y, k),
+                   then = face_points(m.faces, m.pose.x1, m.pose.y1, k);
+  const Face face = face_at(m.faces, m.blocks, m.pose.x, m.pose.y, k);
+  next_step(m.faces);
+  const double friction = m.friction(), transfer = m.transfer();
+  cut_again(m.faces, face, at, then, 0.5, k);
+  EXPECT_NEAR(m.friction(), friction, 1e-9 * limit * l);
+  EXPECT_NEAR(m.transfer() - transfer, (0.625 - 1.0) * limit * l, 1e-6 * limit * l);
 }
 
 }  // namespace
