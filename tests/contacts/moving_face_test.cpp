@@ -255,7 +255,8 @@ TEST(MovingFace, IsCutAnewUnderAPartOfItsNormalForce) {
 }
 
 /// A step that turns the shear round: with u_{n-1} = l, l = limit/k, and a trial slip of -2 l, what
-/// the spring gives up is no friction but transfer: k u_n (-3 l - u_n)/2, u_n = -l or, halved, -l/2.
+/// the spring gives up is no friction but transfer: k u_n (-3 l - u_n)/2, u_n = -l or, halved,
+/// -l/2.
 TEST(MovingFace, BooksTheTransferOfWhatIsCutAnew) {
   MovedBlocks m = square_on_base(rough_joint(30.0));
   m.start();
