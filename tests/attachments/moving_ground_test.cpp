@@ -1,6 +1,7 @@
 // Ground that moves: the columns of a free field, and the ground itself.
 #include <gtest/gtest.h>
 
+#include "attachments/drawn_blocks.hpp"
 #include "attachments/free_field.hpp"
 #include "attachments/ground.hpp"
 
@@ -87,6 +88,37 @@ TEST(Ground, KeepsItsParabolaWhenTheStepChanges) {
     time += next;
     h = next;
   }
+}
+
+TEST(Ground, CarriesHeldBlocksAlong) {
+  test::DrawnBlocks m;
+  m.add({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, true);
+  m.build_all();
+  Nodes x = m.blocks.node_x, y = m.blocks.node_y;
+  place_held(m.blocks, find_ground(m.model, m.blocks), {0.3, -0.2}, x, y);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(x[k][0], m.blocks.node_x[k][0] + 0.3);
+    EXPECT_EQ(y[k][0], m.blocks.node_y[k][0] - 0.2);
+  }
+}
+
+/// As high as the side beside which it stands.
+TEST(FreeFieldColumn, StandsBesideItsWholeSide) {
+  test::DrawnBlocks m;
+  m.add({{0, 0}, {1, 0}, {1, 2}, {0, 2}});
+  Boundary side;
+  side.name = "b";
+  side.type = BoundaryType::free_field;
+  side.along = {{0, 0}, {0, 2}};
+  m.model.boundaries = {side};
+  m.build_all();
+  const Dashpots dashpots = attach_dashpots(m.model, m.blocks).value();
+  const FreeField field = attach_free_field(m.model, m.blocks, dashpots, 1e-5);
+  ASSERT_EQ(field.columns.size(), 1u);
+  const FreeFieldColumn& c = field.columns[0];
+  EXPECT_NEAR(c.bottom + m.blocks.origin.y, 0.0, 1e-12);
+  EXPECT_NEAR(c.cell * static_cast<double>(c.density.size()), 2.0, 1e-12);
+  EXPECT_EQ(c.outward, -1.0);
 }
 
 }  // namespace
