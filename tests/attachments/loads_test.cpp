@@ -357,5 +357,46 @@ TEST(InitialForces, WaterBearsItsShare) {
   EXPECT_GT(norm(FaceForces(l.blocks, field, none).on(0, {0.0, 1.0}).at_from), rise);
 }
 
+/// Of a model 2 m thick.
+TEST(Load, GrowsWithTheThickness) {
+  Loaded l;
+  l.model.thickness = 2.0;
+  l.add({{0, 0}, {3, 0}, {3, 1}, {0, 1}});
+  Load pressure;
+  pressure.along = {{0, 1}, {3, 1}};
+  pressure.pressure = 1e4;
+  l.model.loads = {pressure};
+  l.attach();
+  ASSERT_TRUE(l.faults.empty());
+  EXPECT_NEAR(l.on(0).force.y, -2.0 * 3.0 * 1e4, 1e-6);
+}
+
+/// Of a stress that grows downwards, a boundary holds the resultant and the moment.
+TEST(InitialForces, BoundariesHoldWhatFacesBear) {
+  Loaded l;
+  l.add({{0, 0}, {1, 0}, {1, 2}, {0, 2}});
+  Boundary held;
+  held.name = "b";
+  held.along = {{1, 0}, {1, 2}};
+  held.stiffness = 1e6;
+  l.model.boundaries = {held};
+  InitialStress stress;
+  stress.stress = Triple{-3e5, 0.0, 0.0};
+  stress.gradient = Triple{1e5, 0.0, 0.0};
+  l.model.initial_stress = stress;
+  l.attach();
+  const StressField field(l.model, l.blocks.origin);
+  const LoadsNow none;
+  double force = 0.0, moment = 0.0;
+  for (const KeptForce& f :
+       held_initial_stress(l.model, l.blocks, l.loads.spells, FaceForces(l.blocks, field, none))) {
+    force += f.force.x;
+    moment += f.force.x * (l.blocks.vertex_y[f.vertex] + l.blocks.origin.y);
+  }
+  // Int (-3e5 + 1e5 y) dy and Int (-3e5 + 1e5 y) y dy from 0 to 2.
+  EXPECT_NEAR(force, -4e5, 1e-3);
+  EXPECT_NEAR(moment, -6e5 + 8e5 / 3.0, 1e-3);
+}
+
 }  // namespace
 }  // namespace edda::loads_test

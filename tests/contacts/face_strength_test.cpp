@@ -25,7 +25,7 @@ constexpr double cohesion = 1e6, tension = 2e5;
 /// A square glued to its base as drawn.
 MovedBlocks bonded_square() {
   JointLaw joint = rough_joint(30.0, cohesion, tension);
-  joint.residual = {20.0, 0.0, 5e4};
+  joint.residual = {20.0, 3e4, 5e4};
   MovedBlocks m = square_on_base(joint, thickness);
   m.start();
   bond_faces(m.faces, m.blocks, m.pose, m.laws);
@@ -56,6 +56,7 @@ TEST(FaceBond, TearsAtTheEndThatOpens) {
     EXPECT_EQ(m.faces.bonded[k], 0.0);
     EXPECT_EQ(m.faces.pulls[k], 0.0);  // by more than what is left, too
     EXPECT_NEAR(m.faces.friction[k], tangent(20.0), 1e-12);
+    EXPECT_EQ(m.faces.cohesion[k], 3e4 * thickness);
     EXPECT_EQ(m.faces.tension[k], 5e4 * thickness);
   }
 }
@@ -83,7 +84,7 @@ TEST(FaceBond, ShearsAtItsCohesionAndFriction) {
   EXPECT_NEAR(-m.force_on(1).x, 0.99 * limit, 1e-3 * limit);
   m.go(1, {{1.01 * limit / shear_k, -depth}});
   EXPECT_EQ(m.faces.bonded[k], 0.0);
-  EXPECT_NEAR(-m.force_on(1).x, tangent(20.0) * normal, 1e-3 * normal);
+  EXPECT_NEAR(-m.force_on(1).x, 3e4 * thickness + tangent(20.0) * normal, 1e-3 * normal);
   // What is left of the tensile strength holds, and no more.
   const double left = 5e4 * thickness / normal_k;
   EXPECT_EQ(m.faces.pulls[k], 1.0);
@@ -123,6 +124,7 @@ TEST(SlipWeakening, AllStrengthFallsWithSlip) {
   joint.peak = {40.0, 1e5, 2e5};
   joint.residual = {20.0, 2e4, 5e4};
   joint.slip_distance = 0.004;
+  joint.dilation_angle = 5.0;
   MovedBlocks m = square_on_base(joint, thickness);
   m.start();
   bond_faces(m.faces, m.blocks, m.pose, m.laws);
@@ -138,6 +140,9 @@ TEST(SlipWeakening, AllStrengthFallsWithSlip) {
   EXPECT_NEAR(m.faces.friction[k], between(tangent(40.0), tangent(20.0)), 1e-12);
   EXPECT_NEAR(m.faces.cohesion[k], thickness * between(1e5, 2e4), 1e-6);
   EXPECT_NEAR(m.faces.tension[k], thickness * between(2e5, 5e4), 1e-6);
+  // Its dilation goes, too: by (1 - u/D) tan(psi) du.
+  const double opened = tangent(5.0) * slid * (1.0 - 0.5 * part);
+  EXPECT_NEAR(m.faces.offset_a[k] + m.faces.owed[k], opened, 1e-2 * opened);
 }
 
 TEST(Dilation, OpensByTheTangentOfItsAngleAndBooksWhatItLifts) {
@@ -163,6 +168,41 @@ TEST(Dilation, OpensByTheTangentOfItsAngleAndBooksWhatItLifts) {
   EXPECT_NEAR(m.books() + m.work, start, 1e-3 * m.friction());
 }
 
+/// Steeper than friction pays for, it opens by no more than that.
+TEST(Dilation, LiftsByNoMoreThanFrictionTakes) {
+  JointLaw joint = rough_joint(5.0);
+  joint.dilation_angle = 40.0;
+  joint.slip_distance = 0.01;
+  MovedBlocks m = square_on_base(joint);
+  m.start();
+  m.put(1, {{0.0, -1e-4}});
+  m.settle();
+  for (int n = 1; n <= 200; ++n) {
+    m.go(1, {{1e-6 * n, -1e-4}});
+    EXPECT_GE(m.friction(), -1e-9);
+  }
+  EXPECT_GT(m.faces.offset_a[m.main_face()], 0.0);
+  EXPECT_GT(m.faces.owed[m.main_face()], 0.0);
+}
+
+/// Apart by a hair, its asperities go on counting the way that it slips.
+TEST(Dilation, CountsTheSlipOfAJointThatIsOpenByAHair) {
+  JointLaw joint = rough_joint(30.0);
+  joint.dilation_angle = 5.0;
+  joint.slip_distance = 0.01;
+  MovedBlocks m = square_on_base(joint);
+  m.start();
+  m.put(1, {{0.0, -1e-6}});
+  m.settle();
+  m.go(1, {{0.0, -1e-6}});
+  m.go(1, {{0.0, 2e-5}});
+  m.go(1, {{0.0, 2e-5}});
+  const auto& slid = m.faces.slid;
+  const double before = *std::max_element(slid.begin(), slid.end());
+  for (int n = 1; n <= 10; ++n) m.go(1, {{1e-6 * n, 2e-5}});
+  EXPECT_NEAR(*std::max_element(slid.begin(), slid.end()) - before, 1e-5, 1e-9);
+}
+
 TEST(BartonBandis, AngleAndRoughness) {
   Law law{};
   law.jrc = 10.0;
@@ -184,7 +224,7 @@ TEST(BartonBandis, FrictionAndDilationInForce) {
     joint.jrc = 8.0;
     joint.jcs = 50e6;
     joint.residual_angle = 28.0;
-    MovedBlocks m = square_on_base(joint);
+    MovedBlocks m = square_on_base(joint, thickness);
     m.start();
     m.laws = divided_laws(m.model, {factor});
     const double depth = 1e-4;

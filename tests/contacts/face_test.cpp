@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "contacts/face_step.hpp"
 #include "contacts/face_stiffness.hpp"
 
 namespace edda {
@@ -314,6 +315,31 @@ TEST(FaceStiffness, IsTheDerivativeOfTheNormalForces) {
         EXPECT_NEAR(s.bb, (up_b.b - down_b.b) / (2.0 * d), 1e-4 * scale) << tilt << ' ' << ends;
       }
     }
+  }
+}
+
+/// What acts at the ends works on the motion of the points there: N on the closure across the edge
+/// that the corner is pressed against, T on the slip.
+TEST(Face, EndForcesWorkOnTheMotionOfTheEnds) {
+  Faces faces;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<> by(-1e-7, 1e-7);
+  int tried = 0;
+  while (tried < 2000) {
+    const RandomFace r = faces.next();
+    const Face face = face_between(r.at, r.pair);
+    if (!(face.energy > 1e-9) || !is_smooth(r, face)) continue;
+    ++tried;
+    FacePoints then = r.at;
+    for (Vec2* p : {&then.p1, &then.p2, &then.q1, &then.q2}) *p += Vec2{by(random), by(random)};
+    const EndMotion motion = motion_of(face, r.pair.offset, then);
+    const FaceEnds normal{1.3, -0.4}, shear{0.7, 0.9};
+    const CornerForces f = end_forces(r.at, face, normal, shear);
+    const double work = dot(f.p1, r.at.p1 - then.p1) + dot(f.p2, r.at.p2 - then.p2) +
+                        dot(f.q1, r.at.q1 - then.q1) + dot(f.q2, r.at.q2 - then.q2);
+    const double expected = -normal.a * motion.closure.a - normal.b * motion.closure.b +
+                            shear.a * motion.slip.a + shear.b * motion.slip.b;
+    EXPECT_NEAR(work, expected, 1e-11);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "contacts/face_stiffness.hpp"
 #include "contacts/moved_blocks.hpp"
 
 namespace edda::moving_face_test {
@@ -36,8 +37,19 @@ TEST(MovingFace, IsAsStiffAsItsJoint) {
   const std::size_t k = m.main_face();
   EXPECT_EQ(m.faces.shear_stiffness[k], 0.4 * 3e9);  // none is given
   // Moment k L^3 tilt/12 of the pressure about the middle.
-  EXPECT_NEAR(0.5 * std::abs(m.faces.now.normal_a[k] - m.faces.now.normal_b[k]), 3e9 * tilt / 12.0,
-              1e-3 * 3e9 * tilt / 12.0);
+  const auto moment = [](const MovedBlocks& of, std::size_t face) {
+    return 0.5 * std::abs(of.faces.now.normal_a[face] - of.faces.now.normal_b[face]);
+  };
+  EXPECT_NEAR(moment(m, k), 3e9 * tilt / 12.0, 1e-3 * 3e9 * tilt / 12.0);
+  EXPECT_NEAR(norm(middle_of(m.faces, m.pose, k) - Vec2{0.5, 0.0}), 0.0, 1e-3);
+  // A penalty is a spring at either end, k L^3/4; where nothing leans there it is spread out, too.
+  const std::size_t q = penalty.main_face();
+  penalty.put(1, {{0.0, -depth}, tilt});
+  penalty.settle();
+  EXPECT_NEAR(moment(penalty, q), 4e9 * tilt / 4.0, 1e-3 * 4e9 * tilt);
+  penalty.faces.leans[q] = 0.0;
+  penalty.settle();
+  EXPECT_NEAR(moment(penalty, q), 4e9 * tilt / 12.0, 1e-3 * 4e9 * tilt);
 }
 
 TEST(MovingFace, SlidesAtCoulombsLimitAndUnloadsElastically) {
@@ -170,6 +182,11 @@ TEST(MovingFace, DashpotsAreThePartOfCriticalAskedFor) {
   m.go(1, {{-d, -depth}});
   const double drag = 2.0 * 2.0 * along * std::sqrt(0.5e9 * mass) * d / m.step;
   EXPECT_NEAR(m.force_on(1).x, 1e9 * d + drag, 1e-6 * drag);
+  // The implicit method has them beside its springs.
+  const FaceStiffness s = face_stiffness(m.faces, m.blocks, m.pose, m.step, {}, m.main_face());
+  EXPECT_NEAR(s.normal.aa, 1e9 + 0.5 * c / m.step, 1e-6 * c / m.step);
+  EXPECT_NEAR(s.normal.bb, 1e9 + 0.5 * c / m.step, 1e-6 * c / m.step);
+  EXPECT_NEAR(s.shear_a, 0.5e9 + 0.5 * drag / d, 1e-6 * drag / d);
 }
 
 /// It has nothing to do with how far away the block was a step before.
@@ -212,15 +229,19 @@ TEST(MovingFace, AChangeOfTheStepKeepsWhatHolds) {
   m.start();
   m.put(1, {{0.0, -depth}});
   m.settle();
-  for (int n = 1; n <= 5; ++n) m.go(1, {{1e-6 * n, -depth}});
+  for (int n = 1; n <= 5; ++n) m.go(1, {{1e-6 * n, -depth - 1e-6 * n}});
   const double force = m.force_on(1).x;
   const std::vector<double> old_x1 = m.pose.x1, old_y1 = m.pose.y1;
   for (std::size_t v = 0; v < m.pose.x.size(); ++v) {
     m.pose.x1[v] = 0.5 * (m.pose.x[v] + m.pose.x1[v]);
+    m.pose.y1[v] = 0.5 * (m.pose.y[v] + m.pose.y1[v]);
   }
   change_step_behind(m.faces, m.blocks, m.pose, old_x1, old_y1);
   place_faces(m.faces, m.blocks, m.pose, m.laws, 0.5 * m.step);
   EXPECT_NEAR(m.force_on(1).x, force, 1e-9 * std::abs(force));
+  const std::size_t k = m.main_face();
+  EXPECT_NEAR(m.faces.before.closure_a[k], depth + 4.5e-6, 1e-12);
+  EXPECT_NEAR(m.faces.before.closure_b[k], depth + 4.5e-6, 1e-12);
 }
 
 /// The part alpha of the normal force is all that friction feels.

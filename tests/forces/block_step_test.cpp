@@ -137,14 +137,13 @@ TEST(BoltMatrix, HasTheSpringsOfABolt) {
   m.add({{0, 2.5}, {4, 2.5}, {4, 4.5}, {0, 4.5}});
   m.build();
   Bolt bolt = test::grouted({2, 1}, {2, 4});
-  bolt.dowel = {};
   m.model.bolts = {bolt};
   m.attach();
   ASSERT_TRUE(m.faults.empty());
   const Vector6 up = moved({0, 1}), across = moved({1, 0});
   const Matrix6 bonds = bolt_matrix(m.bolts, m.blocks, m.state, 0);
-  EXPECT_NEAR(up.dot(bonds * up), 1e9 * 1.0, 1e-3 * 1e9);  // 1 m of it in the block
-  EXPECT_NEAR(across.dot(bonds * across), 0.0, 1.0);
+  EXPECT_NEAR(up.dot(bonds * up), 1e9 * 1.0, 1e-3 * 1e9);   // 1 m of it in the block
+  EXPECT_NEAR(across.dot(bonds * across), 2.0 * 1e7, 1.0);  // its dowel
   bolt.type = BoltType::end;
   bolt.pretension = 6e4;
   bolt.yield_stress = 400e6;
@@ -164,6 +163,93 @@ TEST(MassScaling, AddsByTheSquareOfTheSteps) {
   const double mass = m.blocks.mass[0];
   const double step = step_that_adds(m.blocks, {1.0, 3.0}, 3.0 * mass);
   EXPECT_NEAR(step, 2.0, 1e-9);
+}
+
+/// h^2 p/4 + h c/2 = m of a stiff joint against a held block, c = 2 zeta sqrt(p m) at each corner,
+/// m the mass that the corner feels.
+TEST(StepBound, OfAStiffJointWithDashpots) {
+  MovedBlocks m = two_squares(true);
+  const double k = 1e16, p = 0.5 * k, zeta = 0.4;
+  const Id first = m.blocks.vertex_begin[1];
+  for (std::size_t f = 0; f < m.faces.size(); ++f) {
+    if (m.faces.facing[f] == first && m.blocks.vertex(m.faces.edge[f]).y == 0.0 &&
+        m.blocks.vertex(m.faces.edge_end[f]).y == 0.0) {
+      m.faces.stiffness[f] = k;
+    }
+  }
+  Matrix6 unit_springs = Matrix6::Zero();
+  for (const Id v : {first, first + 1}) {
+    const Vector6 up = along(vertex_weights(m.blocks, v), {0.0, 1.0});
+    unit_springs += up * up.transpose();
+  }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(unit_springs,
+                                                                 mass_matrix(m.blocks, 1));
+  const double mass = 1.0 / solver.eigenvalues()[5];
+  const double c = 2.0 * zeta * std::sqrt(p / m.blocks.point_inverse[first]);
+  Damping damping;
+  damping.contact = zeta;
+  const double h = 2.0 * (std::sqrt(0.25 * c * c + p * mass) - 0.5 * c) / p;
+  EXPECT_NEAR(bound_of(m, damping).critical_step, h, 2e-3 * h);
+}
+
+TEST(BlockMatrices, TurnWithTheBlock) {
+  MovedBlocks m = two_squares(true);
+  const double turn = 0.7;
+  const Matrix6 own = elastic_matrix(m.blocks, 1),
+                seen = edda::turned(own, {std::cos(turn), std::sin(turn), 2.0});
+  Vector6 u, back;
+  u << 0.3, -0.2, 0.5, 0.1, -0.4, 0.6;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const Vec2 v = rotated({u[2 * k], u[2 * k + 1]}, -turn);
+    back[2 * k] = v.x;
+    back[2 * k + 1] = v.y;
+  }
+  EXPECT_NEAR(u.dot(seen * u), back.dot(own * back), 1e-9 * back.dot(own * back));
+}
+
+/// Of rock that is not strained, eta times the elastic one.
+TEST(BlockMatrices, ViscousIsElasticTimesItsViscosity) {
+  MovedBlocks m;
+  m.model.joints = {test::rough_joint(30.0)};
+  m.add({{0, 0}, {3, 0}, {3, 2}, {0, 1}});
+  m.start();
+  m.blocks.viscosity = {2e-3};
+  const Matrix6 elastic = elastic_matrix(m.blocks, 0),
+                viscous = viscous_matrix(m.blocks, 0, {1.0, 0.0, 0.0, 1.0});
+  EXPECT_LT((viscous - 2e-3 * elastic).norm(), 1e-9 * viscous.norm());
+}
+
+/// Whose step is made twice as long has four times the inertia, and the same part of critical
+/// damping.
+TEST(MassScaling, KeepsThePartOfCriticalDamping) {
+  for (const MassKind kind : {MassKind::matched, MassKind::consistent}) {
+    MovedBlocks m;
+    m.model.solver.mass = kind;
+    m.model.joints = {test::rough_joint(30.0)};
+    m.model.contact.normal_stiffness = m.model.contact.shear_stiffness = 1e6;
+    m.add({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+    m.start();
+    const double inverse = m.blocks.inverse_mass[0].empty() ? 0.0 : m.blocks.inverse_mass[0][0];
+    m.blocks.damping = {0.25};
+    BoundarySprings none;
+    none.block_begin.assign(2, 0);
+    const double step = 2.0 * bound_of(m).critical_step;
+    const std::vector<double> factors =
+        raise_inertia(m.blocks, m.state, m.faces, none, m.laws, {}, step);
+    ASSERT_EQ(factors.size(), 1u);
+    EXPECT_NEAR(factors[0], 4.0, 1e-6);
+    EXPECT_NEAR(bound_of(m).critical_step, step, 1e-6 * step);
+    if (inverse > 0.0) {
+      EXPECT_NEAR(m.blocks.inverse_mass[0][0], 0.25 * inverse, 1e-6 * inverse);
+    }
+    fill_viscosity(m.blocks, {});
+    const double viscosity = m.blocks.viscosity[0];
+    raise_inertia(m.blocks, m.state, m.faces, none, m.laws, {}, 3.0 * step);
+    const double raised = m.blocks.viscosity[0];
+    fill_viscosity(m.blocks, {});
+    EXPECT_GT(raised, 1.1 * viscosity);
+    EXPECT_NEAR(raised, m.blocks.viscosity[0], 1e-6 * raised);
+  }
 }
 
 }  // namespace

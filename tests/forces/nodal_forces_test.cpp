@@ -7,6 +7,7 @@
 
 #include "attachments/dashpots.hpp"
 #include "contacts/moved_blocks.hpp"
+#include "forces/block_matrices.hpp"
 #include "forces/dashpot_forces.hpp"
 #include "forces/elastic.hpp"
 
@@ -148,7 +149,8 @@ TEST(ViscousStress, IsTheElasticOneOfItsRate) {
   EXPECT_NEAR(p.yx, 2e-3 * mu * 0.5, 1e-6);
 }
 
-/// f = -C ((v- + v+)/2 - r), v+ the velocity that f itself leads to.
+/// f = -C ((v- + v+)/2 - r), v+ the velocity that f itself leads to, with mass damping and viscous
+/// rock.
 TEST(DashpotForces, AreThoseOfTheMeanVelocityOfTheStep) {
   Boundary lets_out;
   lets_out.name = "b";
@@ -158,7 +160,8 @@ TEST(DashpotForces, AreThoseOfTheMeanVelocityOfTheStep) {
   const Dashpots dashpots = attach_dashpots(o.model, o.blocks).value();
   const std::size_t points = dashpots.points.size();
   ASSERT_EQ(points, 2u);
-  const double h = 1e-3;
+  const double h = 1e-3, drag = 0.2;
+  o.blocks.viscosity = {1e-4};
   Nodes vx, vy;
   for (std::size_t k = 0; k < 3; ++k) {
     vx[k] = {0.2 + 0.1 * static_cast<double>(k)};
@@ -167,13 +170,18 @@ TEST(DashpotForces, AreThoseOfTheMeanVelocityOfTheStep) {
   const std::vector<Vec2> reference{{0.05, 0.02}, {0.01, -0.03}}, push{{10.0, 20.0}, {-5.0, 3.0}};
   std::vector<Vec2> on_point(points);
   o.gather({0.0, -9.81});
-  add_dashpots(o.forces, on_point, dashpots, o.blocks, o.state, vx, vy, {h, 0.0, reference, push},
+  add_dashpots(o.forces, on_point, dashpots, o.blocks, o.state, vx, vy, {h, drag, reference, push},
                0, 1);
-  Nodes mean_x = vx, mean_y = vy;
+  const Matrix6 mass = mass_matrix(o.blocks, 0);
+  const Vector6 before = nodal(vx, vy, 0);
+  const Matrix6 left = (1.0 + drag) * mass + h * viscous_matrix(o.blocks, 0, {1.0, 0.0, 0.0, 1.0});
+  const Vector6 after =
+      left.ldlt().solve((1.0 - drag) * mass * before + h * nodal(o.forces.x, o.forces.y, 0));
+  Nodes mean_x, mean_y;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double mass = o.blocks.node_mass[k][0];
-    mean_x[k][0] += 0.5 * h / mass * o.forces.x[k][0];
-    mean_y[k][0] += 0.5 * h / mass * o.forces.y[k][0];
+    const auto at = static_cast<Eigen::Index>(2 * k);
+    mean_x[k] = {0.5 * (before[at] + after[at])};
+    mean_y[k] = {0.5 * (before[at + 1] + after[at + 1])};
   }
   for (std::size_t p = 0; p < points; ++p) {
     const Dashpot& at = dashpots.points[p];

@@ -13,7 +13,7 @@ struct Flying : test::ImplicitBlocks {
   Vec2 gravity;
   std::vector<double> damping_work{0.0};
 
-  explicit Flying(double spin, Vec2 velocity, Vec2 g, double mass_damping)
+  Flying(double spin, Vec2 velocity, Vec2 g, double mass_damping, const std::string& more = "")
       : ImplicitBlocks(R"(
 [materials.rock]
 density = 2500.0
@@ -25,7 +25,7 @@ friction_angle = 30.0
 polygon = [[0, 0], [2, 0.2], [1.8, 1.1], [-0.1, 0.9]]
 [solver]
 duration = 1.0
-)"),
+)" + more),
         gravity(g) {
     const Vec2 c = centroid(state.x, state.y, 0);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -60,7 +60,8 @@ duration = 1.0
     const Vector6 v = nodal(state.vx, state.vy, 0);
     return 0.5 * v.dot(momentum()) +
            strain_energy(e, e, blocks.volume[0], blocks.lame_lambda[0], blocks.lame_mu[0]) -
-           blocks.mass[0] * dot(gravity, centroid(state.x, state.y, 0));
+           blocks.mass[0] * dot(gravity, centroid(state.x, state.y, 0)) +
+           boundary_energy(springs, pose);
   }
 };
 
@@ -94,6 +95,28 @@ TEST(Newmark, BooksEveryJoule) {
     // It has no other loss worth the name: m a v^2 and I a w^2 in 50 ms.
     EXPECT_GT(f.damping_work[0], 1e-2 * start);
   }
+}
+
+const std::string on_springs =
+    "[[boundary]]\nalong = [[0, 0], [2, 0.2]]\ntype = 'fixed'\nstiffness = 2e7\n";
+
+TEST(Newmark, BooksTheSpringsOfBoundaries) {
+  Flying f(5.0, {1.0, -2.0}, {0.5, -9.81}, 0.0, on_springs);
+  const double start = f.energy();
+  for (int n = 0; n < 50; ++n) f.go();
+  EXPECT_NEAR(f.damping_work[0], start - f.energy(), 1e-6 * std::abs(start));
+  EXPECT_GT(boundary_energy(f.springs, f.pose), 0.0);
+}
+
+/// Without dynamics every step ends at rest: all motion is taken.
+TEST(Newmark, BooksTheMotionThatItDrops) {
+  Flying f(0.0, {}, {0.0, -9.81}, 0.0, on_springs);
+  f.settings.dynamic = false;
+  const double start = f.energy();
+  for (int n = 0; n < 5; ++n) f.go();
+  EXPECT_EQ(f.state.vy[0][0], 0.0);
+  EXPECT_GT(f.damping_work[0], 0.0);
+  EXPECT_NEAR(f.damping_work[0], start - f.energy(), 1e-3 * f.damping_work[0]);
 }
 
 }  // namespace

@@ -94,6 +94,7 @@ TEST(Leapfrog, RetreatBringsBackWhereItWas) {
   retreat(o.state, o.blocks, 0.01, before.vx, before.vy);
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_NEAR(o.state.x[k][0], before.x[k][0], 1e-15);
+    EXPECT_NEAR(o.state.y[k][0], before.y[k][0], 1e-15);
     EXPECT_EQ(o.state.vx[k][0], before.vx[k][0]);
   }
 }

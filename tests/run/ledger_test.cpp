@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "contacts/face_reading.hpp"
 #include "contacts/find_faces.hpp"
 #include "run/prepared.hpp"
 
@@ -96,6 +97,25 @@ TEST(Ledger, HasWhatBoltsStoreAndTake) {
   EXPECT_GT(l.friction, 0.0);
 }
 
+/// Velocities that are changed while a bolt pulls are work from outside, and no more.
+TEST(Ledger, KeepsItsBooksOfBoltsWhenVelocitiesChange) {
+  Simulation sim = testing::prepared(
+                       rock +
+                       "[[block]]\nfixed = true\npolygon = [[-1,3],[1,3],[1,4],[-1,4]]\n[[block]]\n"
+                       "polygon = [[-1,0],[1,0],[1,2],[-1,2]]\n[[bolt]]\ntype = 'end'\n"
+                       "from = [0, 0.5]\nto = [0, 3.5]\ndiameter = 0.02\npretension = 5e4\n")
+                       .sim;
+  EXPECT_LT(drift_of(sim, 0.01), 1e-5);
+  Nodes vx = sim.state.vx, vy = sim.state.vy;
+  for (std::size_t k = 0; k < 3; ++k) vy[k][1] -= 1.0;
+  sim.change_velocities(vx, vy);
+  sim.aim_at(0.02);
+  while (sim.state.time < 0.02) {
+    ASSERT_FALSE(sim.step());
+    EXPECT_LT(std::abs(sim.ledger().drift), 1e-5);
+  }
+}
+
 /// A pulse that leaves through the foot of a column.
 TEST(Ledger, HasWhatBoundariesLetOut) {
   std::string text = "gravity = [0, 0]\n" + rock + "[contact]\nnormal_stiffness = 2e10\n";
@@ -153,6 +173,72 @@ TEST(Ledger, KeepsWhatFacesHadTaken) {
   EXPECT_NEAR(after.transfer, before.transfer, 1e-9);
   EXPECT_NEAR(after.fracture, 5.0, 1e-9);
   EXPECT_GE(after.damping, 7.0);
+}
+
+/// One block that meets dashpots while its steps change.
+TEST(Ledger, ClosesOnDashpotsWhateverTheSteps) {
+  Simulation sim =
+      testing::prepared("gravity = [0, 0]\n" + rock +
+                        "[[block]]\nvelocity = [0.3, -1.0]\npolygon = [[0,0],[1,0],[1,1],[0,1]]\n"
+                        "[[boundary]]\nsides = ['bottom']\ntype = 'viscous'\n")
+          .sim;
+  sim.start(1.0);
+  sim.ledger();
+  const double step = sim.state.step;
+  for (int n = 0; n < 30; ++n) {
+    sim.aim_at(sim.state.time + (n % 2 == 0 ? 0.4 : 1.0) * step);
+    ASSERT_FALSE(sim.step());
+    EXPECT_LT(std::abs(sim.ledger().drift), 1e-7);
+  }
+  EXPECT_GT(sim.ledger().damping, 0.1 * sim.ledger().kinetic);
+}
+
+/// What is lighter than the wave is long moves with twice the velocity of what comes up.
+TEST(Ledger, HasTheWorkOfWavesThatComeIn) {
+  Simulation sim =
+      testing::prepared(
+          "gravity = [0, 0]\n" + rock +
+          "[[block]]\npolygon = [[0,0],[1,0],[1,1],[0,1]]\n[[boundary]]\nname = 'foot'\n"
+          "sides = ['bottom']\ntype = 'viscous'\n[[shaking]]\napply = 'upgoing'\n"
+          "boundary = 'foot'\n"
+          "acceleration = { amplitude = 1.0, frequency = 10.0 }\n")
+          .sim;
+  EXPECT_LT(drift_of(sim, 0.05), 1e-6);
+  const double incoming = 2.0 / (2.0 * M_PI * 10.0);
+  EXPECT_NEAR(centroid(sim.state.vx, sim.state.vy, 0).x, 2.0 * incoming, 0.02 * incoming);
+}
+
+/// Springs of a boundary that goes with the ground.
+TEST(Ledger, HasTheWorkOfSpringsOnAGroundThatShakes) {
+  Simulation sim =
+      testing::prepared("gravity = [0, 0]\n" + rock +
+                        "[[block]]\npolygon = [[0,0],[1,0],[1,1],[0,1]]\n[[boundary]]\n"
+                        "sides = ['bottom']\ntype = 'fixed'\nstiffness = 1e7\n[[shaking]]\n"
+                        "acceleration = { amplitude = 20.0, frequency = 10.0 }\n")
+          .sim;
+  EXPECT_LT(drift_of(sim, 0.1), 1e-5);
+  EXPECT_GT(sim.ledger().external, 0.0);
+}
+
+/// What does not change jumps by nothing: of a block that slides, with half the friction, its
+/// weight.
+TEST(Jumps, AreTheChangeOfForces) {
+  Simulation sim =
+      testing::prepared(rock +
+                        "[contact]\nnormal_stiffness = 2e9\n[[block]]\nfixed = true\n"
+                        "polygon = [[-3,-1],[3,-1],[3,0],[-3,0]]\n[[block]]\nvelocity = [3, 0]\n"
+                        "polygon = [[0,0],[1,0],[1,1],[0,1]]\n")
+          .sim;
+  drift_of(sim, 0.02);
+  sim.set_strength_factor(2.0);
+  double x = 0.0, y = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    x += sim.jump.x[k].empty() ? 0.0 : sim.jump.x[k][1];
+    y += sim.jump.y[k].empty() ? 0.0 : sim.jump.y[k][1];
+  }
+  const double normal = normal_force(sim.contacts, 0), tangent = std::tan(20.0 * M_PI / 180.0);
+  EXPECT_NEAR(x, 0.5 * tangent * normal, 1e-3 * normal);
+  EXPECT_NEAR(y, 0.0, 1e-3 * normal);
 }
 
 }  // namespace
