@@ -110,6 +110,9 @@ inline constexpr double locked_part = 0.25;
 /// that do; a corner that leans on an edge has friction alone. It goes over up to 4
 /// degrees.
 inline constexpr double lies_along = 0.99, lies_flush = 0.9976;
+EDDA_INLINE double flush_part(double cosine) {
+  return smooth_step((cosine - lies_along) * (1.0 / (lies_flush - lies_along))).value;
+}
 
 /// What bounds an end of the overlap where two corners are x apart along the face and pass each
 /// other within `reach` (m): how far it is drawn in, and by which part it follows the corner that
@@ -212,8 +215,18 @@ EDDA_INLINE void add_couple_of_frame(CornerForces& on, const FacePoints& at, con
   on.q2 += f;
 }
 
-EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
-  Face face;
+/// Where two edges stand to each other.
+struct Opposition {
+  double tx, ty;            ///< t
+  double base;              ///< |E - F|
+  double s2, r1, r2;        ///< s of p2, q1 and q2
+  double per_e, per_f;      ///< 1/s2 and 1/(r1 - r2)
+  double slope_e, slope_f;  ///< dy/ds
+  double apart_0, steeper;  ///< closure as drawn: apart_0 + steeper s
+  double ma, mb;            ///< s of the corners that bound the overlap
+  double cosine;            ///< of theta, but for the stretch of the edges
+};
+EDDA_INLINE Opposition opposition_of(const FacePoints& at, const FacePair& pair) {
   const Vec2 e = at.p2 - at.p1, f = at.q2 - at.q1;
   const Vec2 g = pair.inverse_e * e - pair.inverse_f * f;
   const double apart = norm(g), base = apart > 0.0 ? apart : 1.0;
@@ -224,9 +237,42 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const bool opposed = (s2 > 0.0) & (r1 > r2);
   const double per_e = 1.0 / (opposed ? s2 : 1.0), per_f = 1.0 / (opposed ? r1 - r2 : 1.0);
   const double slope_e = y2 * per_e, slope_f = (z1 - z2) * per_f;
-  const bool a_by_p = r2 <= 0.0, b_by_p = s2 <= r1;            // p1 and p2 bound the overlap
-  const double ma = a_by_p ? 0.0 : r2, mb = b_by_p ? s2 : r1;  // of the corners that bound it
-  const double steeper = slope_e - slope_f, apart_0 = -(z2 - slope_f * r2);
+  const double apart_0 = -(z2 - slope_f * r2),
+               cosine = -dot(e, f) * (pair.inverse_e * pair.inverse_f);
+  return {t.x,
+          t.y,
+          base,
+          s2,
+          r1,
+          r2,
+          per_e,
+          per_f,
+          slope_e,
+          slope_f,
+          apart_0,
+          slope_e - slope_f,
+          larger(r2, 0.0),
+          smaller(s2, r1),
+          cosine};
+}
+
+/// What w goes by: closures at the ends as the edges are drawn, and a part of what is locked in.
+/// So a face that comes to be begins with nothing.
+EDDA_INLINE FaceEnds gated_closure(double drawn_a, double drawn_b, const FacePair& pair) {
+  return {drawn_a + smaller(locked_part * pair.offset.a, pair.passing),
+          drawn_b + smaller(locked_part * pair.offset.b, pair.passing)};
+}
+
+EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
+  Face face;
+  const Opposition o = opposition_of(at, pair);
+  const Vec2 e = at.p2 - at.p1, f = at.q2 - at.q1, t{o.tx, o.ty}, n = outward_normal(t);
+  const double s2 = o.s2, r1 = o.r1, r2 = o.r2, per_e = o.per_e, per_f = o.per_f, ma = o.ma,
+               mb = o.mb, slope_e = o.slope_e, slope_f = o.slope_f, apart_0 = o.apart_0,
+               steeper = o.steeper, cosine = o.cosine;
+  const double c = -dot(e, f), s = cross(f, e);      // of theta, times both lengths
+  const bool a_by_p = r2 <= 0.0, b_by_p = s2 <= r1;  // p1 and p2 bound the overlap
+  const bool opposed = (s2 > 0.0) & (r1 > r2);
   const double furthest = furthest_reach * pair.passing;
   const CornersPassing near_a = corners_passing(-r2, furthest),
                        near_b = corners_passing(s2 - r1, furthest);
@@ -241,8 +287,8 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
                        pass_b = corners_passing(s2 - r1, wide.reach);
   const double sa = ma + pass_a.drawn_in, sb = mb - pass_b.drawn_in;
   face.t = t;
-  face.inverse_e = pair.inverse_e / base;
-  face.inverse_f = pair.inverse_f / base;
+  face.inverse_e = pair.inverse_e / o.base;
+  face.inverse_f = pair.inverse_f / o.base;
   face.length = sb - sa;
   face.xi = {sa * per_e, sb * per_e};
   face.eta = {(sa - r2) * per_f, (sb - r2) * per_f};
@@ -250,19 +296,16 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const double da = drawn_a + pair.offset.a, db = drawn_b + pair.offset.b;
   face.closure = {da, db};
 
-  // W, of the angle theta between the edges; c and s: its cosine and sine, times both lengths.
-  const double c = -dot(e, f), s = cross(f, e);
+  // W, of the angle theta between the edges
   const double inverse_lengths = pair.inverse_e * pair.inverse_f;
-  const SmoothStep by_angle = smooth_step((c * inverse_lengths - pair.gate_from) * pair.gate_scale);
-  const bool on = (face.length > 0.0) & (c * inverse_lengths > pair.gate_from) & opposed;
+  const SmoothStep by_angle = smooth_step((cosine - pair.gate_from) * pair.gate_scale);
+  const bool on = (face.length > 0.0) & (cosine > pair.gate_from) & opposed;
 
-  // w, of the deeper end's closure as the edges are drawn and a part of what is locked in: a face
-  // that comes to be begins with nothing
+  // w
   const bool deep_b = db >= da;
-  const double gated_a = drawn_a + smaller(locked_part * pair.offset.a, pair.passing),
-               gated_b = drawn_b + smaller(locked_part * pair.offset.b, pair.passing);
-  const double deepest = larger(gated_a, gated_b);
-  const bool gated_deep_b = gated_b >= gated_a;
+  const FaceEnds gated = gated_closure(drawn_a, drawn_b, pair);
+  const double deepest = larger(gated.a, gated.b);
+  const bool gated_deep_b = gated.b >= gated.a;
   const bool fades = (deepest > 0.0) & !pulls;
   const double per_deepest = 1.0 / (fades ? deepest : 1.0);
   const SmoothStep by_aspect =
@@ -296,9 +339,7 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const double phi = exact.value + share * gain;
   face.gate = gate;
   face.angle_gate = exists * by_angle.value;
-  face.cohesive =
-      gate * larger(face.length, 0.0) *
-      smooth_step((c * inverse_lengths - lies_along) * (1.0 / (lies_flush - lies_along))).value;
+  face.cohesive = gate * larger(face.length, 0.0) * flush_part(cosine);
   face.share = share;
   face.energy = gate * whole * phi;
   face.normal = {gate * whole * (exact.by_a + share * (ends.by_a - exact.by_a)),

@@ -123,6 +123,7 @@ std::vector<JointStress> preload_faces(FaceSet& c, const BlockSet& b, const Pose
   }
   put_strengths_in_force(c, laws);
   for (const Asked& a : asked) judge_joint(joints[c.law[a.face]], c, a);
+  std::fill(c.before.idle.begin(), c.before.idle.end(), std::uint8_t{0});
   c.now = c.before;
   return joints;
 }

@@ -1,5 +1,6 @@
-// Faces: the contacts of the model, and their memory. Structure of arrays, [nf] each, sorted by
-// (edge, facing). Elements and notation: contacts/face.hpp; docs/contacts.md.
+// Faces: the contacts of the model, and their memory. Structure of arrays, [nf] each: first those
+// that carried when the list was made, then the others. Elements and notation: contacts/face.hpp;
+// docs/contacts.md.
 #pragma once
 
 #include <algorithm>
@@ -34,6 +35,8 @@ struct FaceMemory {
   std::vector<double> damping_due;    ///< by those at n - 1 in it: they have done with the blocks
   std::vector<double>
       transfer;  ///< taken in it by what is no physics: overlaps and ends that move on, J
+
+  std::vector<std::uint8_t> idle;  ///< [chunks] 1: none in it carries, or did at the step before
 };
 
 /// The arrays of FaceMemory, once: name, unit, and where they are.
@@ -123,8 +126,8 @@ struct FaceSet {
   std::vector<Id> begin_of_edge;      ///< [nv + 1] slots of an edge
   std::vector<Id> of_slot;            ///< [2 nf] its face
 
-  static constexpr std::size_t chunk = 32;
-  static constexpr std::size_t run = 16 * chunk;  ///< what a thread takes at once
+  static constexpr std::size_t chunk = 16;
+  static constexpr std::size_t run = 32 * chunk;  ///< what a thread takes at once
   std::size_t chunks() const { return (size() + chunk - 1) / chunk; }
   std::vector<std::uint8_t> stirs;  ///< [chunks] 1: ends of a face in it open or close
   std::vector<double> deepest;      ///< [chunks] largest closure of a face that carries, m
@@ -145,7 +148,8 @@ struct FaceSet {
   bool gluing = false;       ///< a stage glues its joints: what comes to touch, too
   std::uint64_t broken = 0;  ///< bonded faces that have gone to their residual law so far
 
-  /// Calls visit(k, of_edge) for the faces of the edges [first, end): of_edge where it is `edge`.
+  /// Calls visit(k, of_edge) for the faces of the edges [first, end), in the order of the edges
+  /// that face them: of_edge where it is `edge`.
   template <class Visit>
   void for_faces(Id first, Id end, Visit visit) const {
     for (Id q = begin_of_edge[first]; q < begin_of_edge[end]; ++q) {

@@ -91,13 +91,15 @@ EDDA_INLINE Lost lost(const Shear& now, double trial, double spring, const SlipO
 constexpr double worth = 1e-4;
 
 /// What asks for a decision (see judge_face()).
-EDDA_INLINE bool asks(const FaceView& c, const Face& face, std::size_t k) {
-  const double closure = larger(face.closure.a - c.offset_a[k], face.closure.b - c.offset_b[k]);
-  const bool on = face.gate > 0.0;
+EDDA_INLINE bool asks(const FaceView& c, bool on, FaceEnds drawn, bool stores, std::size_t k) {
   const bool born = on & (c.before.gate[k] == 0.0);
-  const bool frees = on & (c.acts[k] == 0.0) & (closure <= 0.0);
-  const bool first = (face.energy > 0.0) & (c.before.energy[k] == 0.0);
+  const bool frees = on & (c.acts[k] == 0.0) & (larger(drawn.a, drawn.b) <= 0.0);
+  const bool first = stores & (c.before.energy[k] == 0.0);
   return born | frees | first;
+}
+EDDA_INLINE bool asks(const FaceView& c, const Face& face, std::size_t k) {
+  return asks(c, face.gate > 0.0, {face.closure.a - c.offset_a[k], face.closure.b - c.offset_b[k]},
+              face.energy > 0.0, k);
 }
 
 /// Which ends are closed: 0 to 3.
@@ -107,7 +109,8 @@ EDDA_INLINE double ends_closed(double da, double db, double noise) {
 
 struct Placed {
   CornerForces force;
-  bool asks, stirs;
+  double asks, stirs;  ///< 1: yes
+  double works;        ///< 1: carries, or did at the step before
   double depth;
 };
 
@@ -252,10 +255,39 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   placed.force.p2 += face.force.p2;
   placed.force.q1 += face.force.q1;
   placed.force.q2 += face.force.q2;
-  placed.asks = asks(c, face, k);
-  placed.stirs = stirs;
+  placed.asks = asks(c, face, k) ? 1.0 : 0.0;
+  placed.stirs = stirs ? 1.0 : 0.0;
+  placed.works = touches | (old.energy[k] > 0.0) | (old.spring[k] > 0.0) ? 1.0 : 0.0;
   placed.depth = touches ? larger(da - c.offset_a[k], db - c.offset_b[k]) : 0.0;
   return placed;
+}
+
+/// A face that has carried nothing for two steps. Where it still does not, all that changes is
+/// where its edges stand, to the bit as place() says; whether that is not so, or a decision is
+/// asked for.
+EDDA_INLINE bool wakes(const FaceView& c, std::size_t k) {
+  const FacePair pair = face_pair(c, c.turn_cosine, c.turn_sine, k);
+  const Opposition o = opposition_of(face_points(c, c.x, c.y, k), pair);
+  const double drawn_a = o.apart_0 + o.steeper * o.ma, drawn_b = o.apart_0 + o.steeper * o.mb;
+  const double da = drawn_a + pair.offset.a, db = drawn_b + pair.offset.b;
+  const double gate = smooth_step((o.cosine - pair.gate_from) * pair.gate_scale).value;
+  const double overlap = o.mb - o.ma, length = larger(overlap, 0.0);
+  const bool on = (overlap > 0.0) & (o.cosine > pair.gate_from) & (o.s2 > 0.0) & (o.r1 > o.r2);
+  const double lives = on ? gate : 0.0;
+  const FaceEnds gated = gated_closure(drawn_a, drawn_b, pair);
+  const bool open = larger(larger(da, db), larger(gated.a, gated.b)) <= 0.0;
+  const FaceEnds surfaces{da - pair.offset.a, db - pair.offset.b};
+  const MemoryView& m = c.now;
+  m.closure_a[k] = da;
+  m.closure_b[k] = db;
+  m.length[k] = m.overlap[k] = length;
+  m.gate[k] = lives;
+  m.cohesive[k] = lives * length * flush_part(o.cosine);
+  m.xi_a[k] = o.ma * o.per_e;
+  m.xi_b[k] = o.mb * o.per_e;
+  m.eta_a[k] = (o.ma - o.r2) * o.per_f;
+  m.eta_b[k] = (o.mb - o.r2) * o.per_f;
+  return (on & !open) | asks(c, on, surfaces, false, k);
 }
 
 }  // namespace edda

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "contacts/face_bonds.hpp"
@@ -63,6 +64,48 @@ std::vector<EdgePair> wanted_faces(const FaceSet& old, const BlockSet& b, const 
   return list;
 }
 
+/// A pair of the new list, and the face that it was.
+struct Listed {
+  EdgePair pair;
+  Id old;  ///< no_id: none
+};
+std::vector<Listed> with_old_faces(const std::vector<EdgePair>& list, const FaceSet& old) {
+  std::vector<Id> order(old.size());
+  std::iota(order.begin(), order.end(), Id{0});
+  const auto pair_of = [&](Id k) { return EdgePair{old.edge[k], old.facing[k]}; };
+  std::sort(order.begin(), order.end(), [&](Id i, Id j) { return pair_of(i) < pair_of(j); });
+  std::vector<Listed> all;
+  all.reserve(list.size());
+  auto next = order.begin();
+  for (const EdgePair& pair : list) {
+    while (next != order.end() && pair_of(*next) < pair) ++next;
+    const bool was = next != order.end() && pair_of(*next) == pair;
+    all.push_back({pair, was ? *next : no_id});
+  }
+  return all;
+}
+
+/// Whether a face carries, or is about to: such ones stand first, so that the others can be looked
+/// at side by side.
+bool likely_carries(const FaceSet& old, const BlockSet& b, const Pose& pose, double reach,
+                    const Listed& f) {
+  if (f.old != no_id) {
+    return old.now.energy[f.old] > 0.0 || old.before.energy[f.old] > 0.0 ||
+           old.bonded[f.old] > 0.0 || old.pulls[f.old] > 0.0;
+  }
+  const auto [e, q] = f.pair;
+  FacePair pair;
+  pair.inverse_e = 1.0 / b.edge_length[e];
+  pair.inverse_f = 1.0 / b.edge_length[q];
+  const FacePoints at_e{at(pose.x, pose.y, e), at(pose.x, pose.y, b.next[e]), at(pose.x, pose.y, q),
+                        at(pose.x, pose.y, b.next[q])};
+  const Opposition o = opposition_of(at_e, pair);
+  constexpr double near = 0.01, overlaps = 0.01;
+  const double closure = o.apart_0 + std::max(o.steeper * o.ma, o.steeper * o.mb);
+  const double shorter = std::min(b.edge_length[e], b.edge_length[q]);
+  return o.s2 > 0.0 && o.r1 > o.r2 && o.mb - o.ma > overlaps * shorter && closure > -near * reach;
+}
+
 /// Corners nearer than this part of the shorter edge have one share between them (face.hpp).
 constexpr double passing_part = 0.15;
 
@@ -93,7 +136,8 @@ double rounding_of_closures(const Pose& pose) {
   return digits * std::numeric_limits<double>::epsilon() * largest;
 }
 
-/// Fills begin_of_edge, the slots and of_slot.
+/// Fills begin_of_edge, the slots and of_slot. Slots of an edge go by the edges that face it, so
+/// that sums over them do not depend on the order of the faces.
 void list_by_edge(FaceSet& c, std::size_t edges) {
   c.begin_of_edge.assign(edges + 1, 0);
   for (const auto* of : {&c.edge, &c.facing}) {
@@ -105,9 +149,15 @@ void list_by_edge(FaceSet& c, std::size_t edges) {
   c.slot.resize(c.size());
   c.facing_slot.resize(c.size());
   for (std::size_t k = 0; k < c.size(); ++k) {
-    c.slot[k] = fill[c.edge[k]]++;
-    c.facing_slot[k] = fill[c.facing[k]]++;
-    c.of_slot[c.slot[k]] = c.of_slot[c.facing_slot[k]] = static_cast<Id>(k);
+    for (const Id e : {c.edge[k], c.facing[k]}) c.of_slot[fill[e]++] = static_cast<Id>(k);
+  }
+  for (Id e = 0; e < edges; ++e) {
+    const auto other = [&](Id k) { return c.edge[k] == e ? c.facing[k] : c.edge[k]; };
+    std::sort(c.of_slot.begin() + c.begin_of_edge[e], c.of_slot.begin() + c.begin_of_edge[e + 1],
+              [&](Id i, Id j) { return other(i) < other(j); });
+    for (Id q = c.begin_of_edge[e]; q < c.begin_of_edge[e + 1]; ++q) {
+      (c.edge[c.of_slot[q]] == e ? c.slot : c.facing_slot)[c.of_slot[q]] = q;
+    }
   }
 }
 
@@ -126,12 +176,15 @@ void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
   list_by_edge(c, b.vertex_count());
   c.stirs.assign(c.chunks(), 0);
   c.deepest.assign(c.chunks(), 0.0);
+  for (FaceMemory* m : {&c.now, &c.before}) m->idle.assign(c.chunks(), 0);
   note_bonds(c);
 }
 
 void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
                 const LawTable& laws, double reach) {
-  const std::vector<EdgePair> list = wanted_faces(faces, b, state, pose, reach);
+  std::vector<Listed> list = with_old_faces(wanted_faces(faces, b, state, pose, reach), faces);
+  std::stable_partition(list.begin(), list.end(),
+                        [&](const Listed& f) { return likely_carries(faces, b, pose, reach, f); });
   const std::size_t n = list.size();
   FaceSet next;
   for (const FaceStateColumn& column : face_state_columns) (next.*column.values).assign(n, 0.0);
@@ -143,8 +196,7 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
   next.force.assign(8 * n, 0.0);
   next.edge.resize(n);
   next.facing.resize(n);
-  std::vector<Id> old_of_new(n, no_id);
-  std::size_t old = 0;
+  std::vector<std::uint8_t> stays(faces.size(), 0);
   next.retired_friction = faces.retired_friction;
   next.retired_damping = faces.retired_damping;
   next.retired_fracture = faces.retired_fracture;
@@ -160,13 +212,12 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
     next.retired_transfer += faces.transfer[k];
   };
   for (std::size_t k = 0; k < n; ++k) {
-    const auto [e, f] = list[k];
+    const auto [e, f] = list[k].pair;
+    const Id old = list[k].old;
     next.edge[k] = e;
     next.facing[k] = f;
-    for (; old < faces.size() && EdgePair{faces.edge[old], faces.facing[old]} < list[k]; ++old)
-      retire(old);
-    if (old < faces.size() && EdgePair{faces.edge[old], faces.facing[old]} == list[k]) {
-      old_of_new[k] = static_cast<Id>(old);
+    if (old != no_id) {
+      stays[old] = 1;
       for (const FaceStateColumn& column : face_state_columns) {
         (next.*column.values)[k] = (faces.*column.values)[old];
       }
@@ -174,7 +225,7 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
         (next.now.*column.values)[k] = (faces.now.*column.values)[old];
         (next.before.*column.values)[k] = (faces.before.*column.values)[old];
       }
-      next.law[k] = faces.law[old++];
+      next.law[k] = faces.law[old];
     } else {
       next.law[k] = laws.resolve_met(b.edge_joint[e], b.edge_joint[f],
                                      b.material[b.vertex_block[e]], b.material[b.vertex_block[f]]);
@@ -182,16 +233,18 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
       next.pulls[k] = 0.0;  // what comes to touch has no tensile strength
     }
   }
-  for (; old < faces.size(); ++old) retire(old);
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    if (stays[k] == 0) retire(k);
+  }
   complete_faces(next, b, laws);
   for (std::size_t k = 0; k < n; ++k) {
-    if (old_of_new[k] == no_id) continue;
+    if (list[k].old == no_id) continue;
     const auto copy = [&](Id from, Id to) {
       std::copy_n(faces.force.begin() + 4 * std::ptrdiff_t{from}, 4,
                   next.force.begin() + 4 * std::ptrdiff_t{to});
     };
-    copy(faces.slot[old_of_new[k]], next.slot[k]);
-    copy(faces.facing_slot[old_of_new[k]], next.facing_slot[k]);
+    copy(faces.slot[list[k].old], next.slot[k]);
+    copy(faces.facing_slot[list[k].old], next.facing_slot[k]);
   }
   next.noise = rounding_of_closures(pose);
   next.reach = reach;

@@ -72,13 +72,13 @@ struct ChunkForces {
 };
 
 struct FoundInChunk {
-  bool asks, stirs;
+  bool asks, stirs, works;
   double deepest;
 };
 
 template <bool dashpots, bool held = false>
 EDDA_INLINE void place_into(const FaceView& c, ChunkForces& on, std::size_t k, std::size_t q,
-                            double& asking, double& stirring, double& deepest) {
+                            double& asking, double& stirring, double& working, double& deepest) {
   const Placed placed = place<dashpots, held>(c, k);
   on.p1x[q] = placed.force.p1.x;
   on.p1y[q] = placed.force.p1.y;
@@ -88,38 +88,48 @@ EDDA_INLINE void place_into(const FaceView& c, ChunkForces& on, std::size_t k, s
   on.q1y[q] = placed.force.q1.y;
   on.q2x[q] = placed.force.q2.x;
   on.q2y[q] = placed.force.q2.y;
-  asking = larger(asking, placed.asks ? 1.0 : 0.0);
-  stirring = larger(stirring, placed.stirs ? 1.0 : 0.0);
+  asking = larger(asking, placed.asks);
+  stirring = larger(stirring, placed.stirs);
+  working = larger(working, placed.works);
   deepest = larger(deepest, placed.depth);
 }
 
 EDDA_VECTOR FoundInChunk place_undamped(FaceView c, ChunkForces* on, std::size_t first,
                                         std::size_t last) {
-  double asking = 0.0, stirring = 0.0, deepest = 0.0;
-#pragma omp simd reduction(max : asking, stirring, deepest)
+  double asking = 0.0, stirring = 0.0, working = 0.0, deepest = 0.0;
+#pragma omp simd reduction(max : asking, stirring, working, deepest)
   for (std::size_t k = first; k < last; ++k) {
-    place_into<false>(c, *on, k, k - first, asking, stirring, deepest);
+    place_into<false>(c, *on, k, k - first, asking, stirring, working, deepest);
   }
-  return {asking > 0.0, stirring > 0.0, deepest};
+  return {asking > 0.0, stirring > 0.0, working > 0.0, deepest};
 }
 
 EDDA_VECTOR FoundInChunk place_damped(FaceView c, ChunkForces* on, std::size_t first,
                                       std::size_t last) {
-  double asking = 0.0, stirring = 0.0, deepest = 0.0;
-#pragma omp simd reduction(max : asking, stirring, deepest)
+  double asking = 0.0, stirring = 0.0, working = 0.0, deepest = 0.0;
+#pragma omp simd reduction(max : asking, stirring, working, deepest)
   for (std::size_t k = first; k < last; ++k) {
-    place_into<true>(c, *on, k, k - first, asking, stirring, deepest);
+    place_into<true>(c, *on, k, k - first, asking, stirring, working, deepest);
   }
-  return {asking > 0.0, stirring > 0.0, deepest};
+  return {asking > 0.0, stirring > 0.0, working > 0.0, deepest};
 }
 
 template <bool dashpots>
 FoundInChunk place_held(const FaceView& c, ChunkForces* on, std::size_t first, std::size_t last) {
-  double asking = 0.0, stirring = 0.0, deepest = 0.0;
+  double asking = 0.0, stirring = 0.0, working = 0.0, deepest = 0.0;
   for (std::size_t k = first; k < last; ++k) {
-    place_into<dashpots, true>(c, *on, k, k - first, asking, stirring, deepest);
+    place_into<dashpots, true>(c, *on, k, k - first, asking, stirring, working, deepest);
   }
-  return {asking > 0.0, stirring > 0.0, deepest};
+  return {asking > 0.0, stirring > 0.0, working > 0.0, deepest};
+}
+
+/// Whether one of the faces [first, last), which have carried nothing for two steps, needs more
+/// than a look.
+EDDA_VECTOR bool wakes_chunk(FaceView c, std::size_t first, std::size_t last) {
+  double waking = 0.0;
+#pragma omp simd reduction(max : waking)
+  for (std::size_t k = first; k < last; ++k) waking = larger(waking, wakes(c, k) ? 1.0 : 0.0);
+  return waking > 0.0;
 }
 
 FoundInChunk place_chunk(const FaceView& c, ChunkForces* on, std::size_t first, std::size_t last) {
@@ -164,7 +174,13 @@ void place_chunks(FaceSet& c, const FaceView& view, const BlockSet& b, const Pos
                   const LawTable* laws, std::size_t begin, std::size_t end) {
   ChunkForces on;
   for (std::size_t first = begin; first < end; first += FaceSet::chunk) {
-    const std::size_t last = std::min(end, first + FaceSet::chunk);
+    const std::size_t last = std::min(end, first + FaceSet::chunk), q = first / FaceSet::chunk;
+    const bool idle = c.now.idle[q] && c.before.idle[q] && !c.bonds[q] && view.limit_a == nullptr;
+    if (idle && !wakes_chunk(view, first, last)) {
+      c.stirs[q] = 0;
+      c.deepest[q] = 0.0;
+      continue;
+    }
     FoundInChunk found = place_chunk(view, &on, first, last);
     if (found.asks) {
       for (std::size_t k = first; k < last; ++k) {
@@ -173,12 +189,12 @@ void place_chunks(FaceSet& c, const FaceView& view, const BlockSet& b, const Pos
       }
       found = place_chunk(view, &on, first, last);
     }
-    if (laws != nullptr && c.bonds[first / FaceSet::chunk] != 0 &&
-        break_bonds(c, b, pose, *laws, first, last)) {
+    if (laws != nullptr && c.bonds[q] != 0 && break_bonds(c, b, pose, *laws, first, last)) {
       found = place_chunk(view, &on, first, last);
     }
-    c.stirs[first / FaceSet::chunk] = found.stirs ? 1 : 0;
-    c.deepest[first / FaceSet::chunk] = found.deepest;
+    c.now.idle[q] = found.works ? 0 : 1;
+    c.stirs[q] = found.stirs ? 1 : 0;
+    c.deepest[q] = found.deepest;
     keep_forces(c, on, first, last);
   }
 }
@@ -212,12 +228,14 @@ void place_face(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable&
   }
   if (break_bonds(c, b, pose, laws, k, k + 1)) found = place_chunk(view, &on, k, k + 1);
   if (found.stirs) c.stirs[k / FaceSet::chunk] = 1;
+  if (found.works) c.now.idle[k / FaceSet::chunk] = 0;
   keep_forces(c, on, k, k + 1);
 }
 
 void change_step_behind(FaceSet& c, const BlockSet& b, const Pose& pose,
                         const std::vector<double>& old_x1, const std::vector<double>& old_y1) {
   FaceMemory& m = c.before;
+  std::fill(m.idle.begin(), m.idle.end(), std::uint8_t{0});
   parallel_for(c.size(), [&](std::size_t k) {
     const FaceEnds offset{c.offset_a[k], c.offset_b[k]};
     const Face now = face_at(c, b, pose.x, pose.y, k), then = face_at(c, b, pose.x1, pose.y1, k);
@@ -236,6 +254,7 @@ void change_step_behind(FaceSet& c, const BlockSet& b, const Pose& pose,
 void next_step(FaceSet& c) {
   if (c.gluing) glue_pressed(c);
   parallel_for(c.size(), [&](std::size_t k) {
+    if (c.now.idle[k / FaceSet::chunk] != 0) return;
     (c.breaks[k] > 0.0 ? c.fracture_work : c.friction_work)[k] += c.now.friction_work[k];
     c.damping_work[k] += c.now.damping_work[k] + c.now.damping_due[k];
     const bool cut = c.now.slip_a[k] != c.now.trial_a[k] || c.now.slip_b[k] != c.now.trial_b[k];

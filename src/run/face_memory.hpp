@@ -1,8 +1,10 @@
 // What a checkpoint holds of the faces, and how it is judged.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "contacts/face_set.hpp"
 #include "contacts/laws.hpp"
@@ -57,13 +59,14 @@ void judge_faces(Judge& j, const FaceSet& c, const BlockSet& b, const LawTable& 
   j.below("faces.edge", c.edge, nv);
   j.below("faces.facing", c.facing, nv);
   j.below("faces.law", {c.law.begin(), c.law.end()}, laws.rows.size());
-  for (std::size_t k = 0; j.flaw().empty() && k < n; ++k) {
-    const bool ascend =
-        k == 0 || std::pair(c.edge[k - 1], c.facing[k - 1]) < std::pair(c.edge[k], c.facing[k]);
-    if (!ascend || b.vertex_block[c.edge[k]] == b.vertex_block[c.facing[k]]) {
-      j.refuse("faces do not belong together");
-    }
-  }
+  std::vector<std::pair<Id, Id>> pairs;
+  for (std::size_t k = 0; j.flaw().empty() && k < n; ++k) pairs.push_back({c.edge[k], c.facing[k]});
+  std::sort(pairs.begin(), pairs.end());
+  const bool twice = std::adjacent_find(pairs.begin(), pairs.end()) != pairs.end();
+  const bool apart = std::all_of(pairs.begin(), pairs.end(), [&](const auto& p) {
+    return p.first < p.second && b.vertex_block[p.first] != b.vertex_block[p.second];
+  });
+  if (twice || !apart) j.refuse("faces do not belong together");
 }
 
 }  // namespace edda
