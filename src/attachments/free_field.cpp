@@ -71,8 +71,8 @@ FreeField attach_free_field(const Model& model, const BlockSet& b, const Dashpot
     }
     double y = 0.0;
     for (std::size_t k = 0; k < 3; ++k) y += at.weight[k] * b.node_y[k][at.block];
-    // Two points stand for each piece of a face, 1/sqrt(3) of its length apart.
-    const double reach = 0.5 * at.length * (1.0 + 1.0 / std::sqrt(3.0));
+    // Two points stand for each piece of a face, half of its length each, 1/sqrt(3) of it apart.
+    const double reach = at.length * (1.0 - 1.0 / std::sqrt(3.0));
     const std::pair<Index, int> key{at.boundary, at.normal.x > 0.0 ? 1 : 0};
     const auto [found, is_new] = sides.try_emplace(key);
     Side& side = found->second;

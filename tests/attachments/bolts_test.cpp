@@ -1,46 +1,17 @@
-#include "attachments/bolts.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "attachments/bolted_blocks.hpp"
 #include "attachments/dashpots.hpp"
-#include "attachments/drawn_blocks.hpp"
 
 namespace edda::bolts_test {
 namespace {
 
-/// Blocks as given, with the bolts of a model in them.
-struct Bolted : test::DrawnBlocks {
-  State state;
-  Bolts bolts;
-  Faults faults;
-
-  void build() {
-    build_all();
-    state = initial_state(blocks, set);
-  }
-  void attach() {
-    Result<Bolts> found = attach_bolts(model, blocks, state, blocks.vertex_x, blocks.vertex_y);
-    if (found.ok()) {
-      bolts = std::move(found.value());
-    } else {
-      faults = found.faults();
-    }
-  }
-};
-
-Bolt grouted(Vec2 from, Vec2 to) {
-  Bolt b;
-  b.from = from;
-  b.to = to;
-  b.diameter = 0.02;
-  b.bond = {1e9, 1e5};
-  b.dowel = {1e7, 1e4};
-  return b;
-}
+using test::Bolted;
+using test::grouted;
 
 /// Through two blocks, a gap and a third with a notch: bonded where there is rock, two nodes at
 /// every face, a dowel from block to block only.

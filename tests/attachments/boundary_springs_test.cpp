@@ -113,5 +113,38 @@ TEST(BoundarySprings, EnergyIsTheProductOfTwoSteps) {
   EXPECT_NEAR(boundary_energy(s, pose), static_cast<double>(s.size()) * 0.5 * 5.0 * 0.03, 1e-12);
 }
 
+/// K = k n n^T of a slanted roller: k (n . w)(n . u)/2.
+TEST(BoundarySprings, EnergyOfASlantedRollerIsAcrossIt) {
+  const Row r = row(boundary(BoundaryType::roller, {}, {{0, 1}, {1, 0}}));
+  const BoundarySprings s = attach_boundaries(r.model, r.blocks).value();
+  const Vec2 now{0.3, 0.1}, before{0.2, -0.4}, n = unit(Vec2{1, 1});
+  Pose pose{r.blocks.vertex_x, r.blocks.vertex_y, r.blocks.vertex_x, r.blocks.vertex_y};
+  for (std::size_t v = 0; v < pose.x.size(); ++v) {
+    pose.x[v] += now.x;
+    pose.y[v] += now.y;
+    pose.x1[v] += before.x;
+    pose.y1[v] += before.y;
+  }
+  EXPECT_NEAR(boundary_energy(s, pose),
+              static_cast<double>(s.size()) * 0.5 * 5.0 * dot(n, now) * dot(n, before), 1e-12);
+}
+
+TEST(BoundarySprings, BeginToActWhereTheirVerticesAre) {
+  const Row r = row(boundary(BoundaryType::fixed, {"left"}));
+  BoundarySprings s = attach_boundaries(r.model, r.blocks).value();
+  s.release(0);
+  std::vector<double> x = r.blocks.vertex_x, y = r.blocks.vertex_y;
+  for (double& u : x) u += 0.3;
+  for (double& u : y) u -= 0.2;
+  s.shift[0] = {0.05, 0.07};
+  s.engage(0, x, y);
+  for (std::size_t q = 0; q < s.size(); ++q) {
+    EXPECT_NEAR(norm(spring_force(s, q, x, y)), 0.0, 1e-12);
+    EXPECT_EQ(s.kxx[q], 5.0);
+  }
+  s.shift[0] += Vec2{0.1, 0.0};
+  EXPECT_NEAR(spring_force(s, 0, x, y).x, 0.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace edda::boundary_springs_test

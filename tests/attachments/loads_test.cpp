@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "attachments/drawn_blocks.hpp"
+#include "attachments/initial_forces.hpp"
 
 namespace edda::loads_test {
 namespace {
@@ -327,6 +328,74 @@ TEST(Load, RefusesWhatItCannotActOn) {
     EXPECT_EQ(l.faults[0].where.key, c.key);
     EXPECT_NE(l.faults[0].problem.find(c.problem), std::string::npos) << l.faults[0].problem;
   }
+}
+
+/// Under the stress of water at rest nothing is left for a face to bear: the water bears it all.
+TEST(InitialForces, WaterBearsItsShare) {
+  Loaded l;
+  l.add(odd_shape);
+  Water water = lake({{-10, 5}, {10, 5}});
+  l.model.waters = {water};
+  InitialStress stress;
+  const double rise = water.unit_weight;
+  stress.stress = Triple{-5.0 * rise, -5.0 * rise, 0.0};
+  stress.gradient = Triple{rise, rise, 0.0};
+  l.model.initial_stress = stress;
+  l.attach();
+  ASSERT_TRUE(l.faults.empty());
+  const StressField field(l.model, l.blocks.origin);
+  const LoadsNow now = loads_at(l.model, l.loads, 0.0);
+  const FaceForces faces(l.blocks, field, now);
+  for (Id e = 0; e < l.blocks.vertex_count(); ++e) {
+    for (const Part part : {Part{0.0, 1.0}, Part{0.2, 0.7}}) {
+      const EndForces on = faces.on(e, part);
+      EXPECT_NEAR(norm(on.at_from) + norm(on.at_to), 0.0, 1e-6 * rise);
+    }
+  }
+  // Without water it is all there.
+  const LoadsNow none;
+  EXPECT_GT(norm(FaceForces(l.blocks, field, none).on(0, {0.0, 1.0}).at_from), rise);
+}
+
+/// Of a model 2 m thick.
+TEST(Load, GrowsWithTheThickness) {
+  Loaded l;
+  l.model.thickness = 2.0;
+  l.add({{0, 0}, {3, 0}, {3, 1}, {0, 1}});
+  Load pressure;
+  pressure.along = {{0, 1}, {3, 1}};
+  pressure.pressure = 1e4;
+  l.model.loads = {pressure};
+  l.attach();
+  ASSERT_TRUE(l.faults.empty());
+  EXPECT_NEAR(l.on(0).force.y, -2.0 * 3.0 * 1e4, 1e-6);
+}
+
+/// Of a stress that grows downwards, a boundary holds the resultant and the moment.
+TEST(InitialForces, BoundariesHoldWhatFacesBear) {
+  Loaded l;
+  l.add({{0, 0}, {1, 0}, {1, 2}, {0, 2}});
+  Boundary held;
+  held.name = "b";
+  held.along = {{1, 0}, {1, 2}};
+  held.stiffness = 1e6;
+  l.model.boundaries = {held};
+  InitialStress stress;
+  stress.stress = Triple{-3e5, 0.0, 0.0};
+  stress.gradient = Triple{1e5, 0.0, 0.0};
+  l.model.initial_stress = stress;
+  l.attach();
+  const StressField field(l.model, l.blocks.origin);
+  const LoadsNow none;
+  double force = 0.0, moment = 0.0;
+  for (const KeptForce& f :
+       held_initial_stress(l.model, l.blocks, l.loads.spells, FaceForces(l.blocks, field, none))) {
+    force += f.force.x;
+    moment += f.force.x * (l.blocks.vertex_y[f.vertex] + l.blocks.origin.y);
+  }
+  // Int (-3e5 + 1e5 y) dy and Int (-3e5 + 1e5 y) y dy from 0 to 2.
+  EXPECT_NEAR(force, -4e5, 1e-3);
+  EXPECT_NEAR(moment, -6e5 + 8e5 / 3.0, 1e-3);
 }
 
 }  // namespace

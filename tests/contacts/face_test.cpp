@@ -7,6 +7,9 @@
 #include <numbers>
 #include <random>
 
+#include "contacts/face_step.hpp"
+#include "contacts/face_stiffness.hpp"
+
 namespace edda {
 namespace {
 
@@ -281,6 +284,65 @@ TEST(Face, WhatIsDeeperThanLongCarriesNothing) {
   const Face face = face_between(r.at, r.pair);
   EXPECT_GT(face.length, 0.0);
   EXPECT_EQ(face.energy, 0.0);
+}
+
+/// By the closures of its ends, of faces that are closed all over or gape, taken exactly, at their
+/// ends, and between the two.
+TEST(FaceStiffness, IsTheDerivativeOfTheNormalForces) {
+  for (const double depth : {1e-3, 1e-4}) {
+    for (const double tilt : {-2e-3, 1e-3, 0.3, -0.3}) {
+      for (const double ends : {0.0, 0.5, 1.0}) {
+        RandomFace r = flat(depth, 0.0);
+        // Shorter than the other and in its middle, so that no corners pass each other.
+        const Vec2 half = 0.3 * Vec2{std::cos(tilt), -std::sin(tilt)}, middle{0.5, depth};
+        r.at.q1 = middle + half;
+        r.at.q2 = middle - half;
+        r.pair.inverse_f = 1.0 / 0.6;
+        r.pair.ends = ends;
+        const Face face = face_between(r.at, r.pair);
+        if (!(face.energy > 0.0)) continue;
+        const EndStiffness s = end_stiffness(face, r.pair, 0.0);
+        const auto normal = [&](double a, double b) {
+          r.pair.offset = {a, b};
+          const FaceEnds n = face_between(r.at, r.pair).normal;
+          r.pair.offset = {};
+          return n;
+        };
+        const double d = 1e-8, scale = r.pair.stiffness;
+        const FaceEnds up_a = normal(d, 0.0), down_a = normal(-d, 0.0), up_b = normal(0.0, d),
+                       down_b = normal(0.0, -d);
+        EXPECT_NEAR(s.aa, (up_a.a - down_a.a) / (2.0 * d), 1e-4 * scale) << tilt << ' ' << ends;
+        EXPECT_NEAR(s.ab, (up_a.b - down_a.b) / (2.0 * d), 1e-4 * scale) << tilt << ' ' << ends;
+        EXPECT_NEAR(s.ab, (up_b.a - down_b.a) / (2.0 * d), 1e-4 * scale) << tilt << ' ' << ends;
+        EXPECT_NEAR(s.bb, (up_b.b - down_b.b) / (2.0 * d), 1e-4 * scale) << tilt << ' ' << ends;
+      }
+    }
+  }
+}
+
+/// What acts at the ends works on the motion of the points there: N on the closure across the edge
+/// that the corner is pressed against, T on the slip.
+TEST(Face, EndForcesWorkOnTheMotionOfTheEnds) {
+  Faces faces;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<> by(-1e-7, 1e-7);
+  int tried = 0;
+  while (tried < 2000) {
+    const RandomFace r = faces.next();
+    const Face face = face_between(r.at, r.pair);
+    if (!(face.energy > 1e-9) || !is_smooth(r, face)) continue;
+    ++tried;
+    FacePoints then = r.at;
+    for (Vec2* p : {&then.p1, &then.p2, &then.q1, &then.q2}) *p += Vec2{by(random), by(random)};
+    const EndMotion motion = motion_of(face, r.pair.offset, then);
+    const FaceEnds normal{1.3, -0.4}, shear{0.7, 0.9};
+    const CornerForces f = end_forces(r.at, face, normal, shear);
+    const double work = dot(f.p1, r.at.p1 - then.p1) + dot(f.p2, r.at.p2 - then.p2) +
+                        dot(f.q1, r.at.q1 - then.q1) + dot(f.q2, r.at.q2 - then.q2);
+    const double expected = -normal.a * motion.closure.a - normal.b * motion.closure.b +
+                            shear.a * motion.slip.a + shear.b * motion.slip.b;
+    EXPECT_NEAR(work, expected, 1e-11);
+  }
 }
 
 }  // namespace

@@ -5,82 +5,16 @@
 
 #include <algorithm>
 
-#include "blocks/build_blocks.hpp"
-#include "contacts/face_bonds.hpp"
-#include "contacts/find_faces.hpp"
-#include "contacts/place_faces.hpp"
-#include "lines/build_polygons.hpp"
-#include "model/read_model.hpp"
+#include "forces/viscosity.hpp"
+#include "implicit/implicit_blocks.hpp"
 
 namespace edda::assemble_test {
 namespace {
 
-struct Scene {
-  Model model;
-  PolygonSet polygons;
-  BlockSet blocks;
-  LawTable laws;
-  BoundarySprings springs;
-  State state;
-  Pose pose;
-  FaceSet contacts;
-  NodalForces forces;
-  ImplicitSolver solver;
-  ImplicitSettings settings;
-
-  explicit Scene(const std::string& toml) {
-    model = read_model_text(toml, "scene.toml", {}).value();
-    polygons = build_polygons(model).value();
-    blocks = build_blocks(model, polygons);
-    laws = build_laws(model);
-    springs = attach_boundaries(model, blocks).value();
-    state = initial_state(blocks, polygons);
-    for (std::size_t k = 0; k < 3; ++k) {
-      forces.x[k].assign(blocks.size(), 0.0);
-      forces.y[k].assign(blocks.size(), 0.0);
-    }
-    pose.x = blocks.vertex_x;
-    pose.y = blocks.vertex_y;
-    place();
-    pose.x1 = pose.x;
-    pose.y1 = pose.y;
-    find_faces(contacts, blocks, state, pose, laws, 0.05);
-    place_faces(contacts, blocks, pose, laws, 1.0);
-    stand_still(contacts);  // limits of friction
-    settings.step = 2e-3;
-    settings.mass_damping = 3.0;
-    settings.contact_damping = 0.1;
-    set_face_dashpots(contacts, laws, settings.contact_damping);
-  }
-
-  ImplicitScene scene() const { return {blocks, laws, springs, {0.0, -9.81}}; }
-
-  void place() {
-    for (std::size_t i = 0; i < blocks.size(); ++i) {
-      place_vertices(blocks, state.x, state.y, i, pose.x, pose.y);
-    }
-  }
-
-  /// What is out of balance with D as it stands.
-  Eigen::VectorXd residual(const Nodes& x0, const Nodes& y0) {
-    for (std::size_t row = 0; row < solver.block_of.size(); ++row) {
-      const Id i = solver.block_of[row];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto at = static_cast<Eigen::Index>(6 * row + 2 * k);
-        state.x[k][i] = x0[k][i] + solver.moved[at];
-        state.y[k][i] = y0[k][i] + solver.moved[at + 1];
-      }
-    }
-    place();
-    evaluate_springs(solver.springs, contacts, blocks, pose, settings.step, false);
-    gather_forces(forces, blocks, state, pose, contacts, springs, {0.0, -9.81});
-    measure_residual(solver, scene(), settings, state, contacts, forces);
-    return solver.residual;
-  }
-};
+using test::ImplicitBlocks;
 
 /// Two blocks on a held one, pressed together and turned a little, with boundary springs.
-const char* pressed = R"(
+const std::string pressed = R"(
 [materials.rock]
 density = 2500.0
 young = 2e9
@@ -103,9 +37,8 @@ stiffness = 1e8
 duration = 1.0
 )";
 
-TEST(Assemble, MatrixIsTheDerivativeOfTheResidual) {
-  Scene s(pressed);
-  const Nodes x0 = s.state.x, y0 = s.state.y;
+void expect_derivative(ImplicitBlocks& s) {
+  const Nodes x0 = s.solver.start_x = s.state.x, y0 = s.solver.start_y = s.state.y;
   set_pattern(s.solver, s.scene(), s.state, s.contacts);
   begin_springs(s.solver.springs, s.contacts);
   const auto n = static_cast<Eigen::Index>(6 * s.solver.block_of.size());
@@ -131,8 +64,48 @@ TEST(Assemble, MatrixIsTheDerivativeOfTheResidual) {
   EXPECT_GT(at_rest.norm(), 0.0);
 }
 
+TEST(Assemble, MatrixIsTheDerivativeOfTheResidual) {
+  ImplicitBlocks penalty(pressed);
+  expect_derivative(penalty);
+  // Ends that know of each other; rock whose strain is viscous.
+  std::string with_stiffness = pressed;
+  with_stiffness.insert(with_stiffness.find("friction_angle"), "kn = 5e9\nks = 5e9\n");
+  ImplicitBlocks measured(with_stiffness);
+  expect_derivative(measured);
+  ImplicitBlocks viscous(pressed);
+  fill_viscosity(viscous.blocks, {});
+  expect_derivative(viscous);
+}
+
+/// Of v_n: M (2/h + a) v_n, and what is viscous sees 2 D/h - v_n.
+TEST(Assemble, ResidualHasTheVelocityAtTheStartOfTheStep) {
+  ImplicitBlocks s(pressed);
+  const Nodes x0 = s.solver.start_x = s.state.x, y0 = s.solver.start_y = s.state.y;
+  set_pattern(s.solver, s.scene(), s.state, s.contacts);
+  begin_springs(s.solver.springs, s.contacts);
+  s.solver.moved = Eigen::VectorXd::Zero(12);
+  const Eigen::VectorXd at_rest = s.residual(x0, y0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    s.state.vx[k][1] = 0.1 + 0.2 * static_cast<double>(k);
+    s.state.vy[k][1] = 0.3 - 0.1 * static_cast<double>(k);
+  }
+  const Vector6 v = nodal(s.state.vx, s.state.vy, 1);
+  const Vector6 change = (s.residual(x0, y0) - at_rest).head<6>();
+  const Vector6 expected = (2.0 / s.settings.step + s.settings.mass_damping) * s.solver.mass[1] * v;
+  EXPECT_LT((change - expected).norm(), 1e-9 * expected.norm());
+  fill_viscosity(s.blocks, {});
+  s.solver.moved.head<6>() << 1e-7, 2e-7, -1e-7, 0.0, 3e-7, 1e-7;
+  const Vector6 rate = 2.0 / s.settings.step * s.solver.moved.head<6>() - 1e-3 * v;
+  for (auto* nodes : {&s.state.vx, &s.state.vy}) {
+    for (std::size_t k = 0; k < 3; ++k) (*nodes)[k][1] *= 1e-3;
+  }
+  const Vector6 force = viscous_force(s.solver, s.blocks, s.settings, s.state, 0);
+  const Vector6 linear = -viscous_matrix(s.blocks, 1) * rate;
+  EXPECT_LT((force - linear).norm(), 1e-4 * linear.norm());
+}
+
 TEST(Assemble, FillsThePatternOfWhatMayTouch) {
-  Scene s(pressed);
+  ImplicitBlocks s(pressed);
   set_pattern(s.solver, s.scene(), s.state, s.contacts);
   EXPECT_EQ(s.solver.row_of[0], no_id);
   EXPECT_EQ(s.solver.matrix.rows(), 2u);

@@ -94,7 +94,79 @@ TEST(Leapfrog, RetreatBringsBackWhereItWas) {
   retreat(o.state, o.blocks, 0.01, before.vx, before.vy);
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_NEAR(o.state.x[k][0], before.x[k][0], 1e-15);
+    EXPECT_NEAR(o.state.y[k][0], before.y[k][0], 1e-15);
     EXPECT_EQ(o.state.vx[k][0], before.vx[k][0]);
+  }
+}
+
+/// Against the velocity in either component, whatever its sign.
+TEST(Leapfrog, LocalDampingIsAgainstTheVelocity) {
+  for (const Vec2 v : {Vec2{1.0, 2.0}, Vec2{-1.0, 2.0}, Vec2{1.0, -2.0}, Vec2{-1.0, -2.0}}) {
+    OneBlock o = one_block(MassKind::matched, v);
+    o.fx[0][0] = 100.0;
+    o.fy[0][0] = -300.0;
+    const double h = 1e-3, mass = o.blocks.node_mass[0][0];
+    const State before = o.state;
+    advance(o.state, o.blocks, o.fx, o.fy, h, h, {0.0, 0.8});
+    const Vec2 sign{std::copysign(1.0, v.x), std::copysign(1.0, v.y)};
+    EXPECT_NEAR(o.state.vx[0][0] - before.vx[0][0], (100.0 - 80.0 * sign.x) * h / mass, 1e-12);
+    EXPECT_NEAR(o.state.vy[0][0] - before.vy[0][0], (-300.0 - 240.0 * sign.y) * h / mass, 1e-12);
+  }
+}
+
+/// Force of the damping times (x_{n+1} - x_{n-1})/2, with two steps that differ.
+TEST(Leapfrog, BooksTheWorkOfDampingOverBothSteps) {
+  const double h_old = 0.01, h_new = 0.03, beta = 0.8, a = 2.0;
+  for (const StepDamping& damping : {StepDamping{0.0, beta}, StepDamping{a, 0.0}}) {
+    OneBlock o = one_block(MassKind::matched, {1.0, -2.0});
+    o.fx[1][0] = 5e4;
+    o.fy[1][0] = 3e4;
+    const Nodes vx = o.state.vx, vy = o.state.vy;
+    DampingWork work{{0.0}};
+    advance(o.state, o.blocks, o.fx, o.fy, h_old, h_new, damping);
+    book_damping(o.state, o.blocks, o.fx, o.fy, vx, vy, h_old, h_new, damping, work);
+    double expected = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 before{vx[k][0], vy[k][0]}, after{o.state.vx[k][0], o.state.vy[k][0]};
+      const Vec2 moved = 0.5 * (h_old * before + h_new * after);
+      const Vec2 local = beta * Vec2{o.fx[k][0], -o.fy[k][0]};  // they move to +x and -y
+      const Vec2 drag = a * o.blocks.node_mass[k][0] * 0.5 * (before + after);
+      expected += dot(damping.local > 0.0 ? local : drag, moved);
+    }
+    EXPECT_GT(work.joules[0], 0.0);
+    EXPECT_NEAR(work.joules[0], expected, 1e-12 * expected);
+  }
+}
+
+/// v_{-1/2} = v_0 - (f/m - a v_0) h/2.
+TEST(Leapfrog, StartsHalfAStepBackWithItsDamping) {
+  OneBlock o = one_block(MassKind::matched, {1.0, -2.0});
+  o.fx[2][0] = 700.0;
+  o.fy[2][0] = 900.0;
+  const double h = 0.01, a = 3.0, mass = o.blocks.node_mass[2][0];
+  start_velocities(o.state, o.blocks, o.fx, o.fy, h, a);
+  EXPECT_NEAR(o.state.vx[2][0], 1.0 - 0.5 * h * (700.0 / mass - a), 1e-12);
+  EXPECT_NEAR(o.state.vy[2][0], -2.0 - 0.5 * h * (900.0 / mass + 2.0 * a), 1e-12);
+}
+
+/// Of a rigid motion, m v^2/2 + I w^2/2; the masses of `covering` turn with more.
+TEST(Leapfrog, KineticEnergyOfARigidMotion) {
+  for (MassKind kind : {MassKind::matched, MassKind::covering, MassKind::consistent}) {
+    OneBlock o = one_block(kind, {1.0, -2.0});
+    const double mass = o.blocks.mass[0], spin = 3.0;
+    EXPECT_NEAR(kinetic_energy(o.blocks, o.state.vx, o.state.vy, 0), 0.5 * mass * 5.0, 1e-9 * mass);
+    const Vec2 c = centroid(o.state.x, o.state.y, 0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      o.state.vx[k][0] -= spin * (o.state.y[k][0] - c.y);
+      o.state.vy[k][0] += spin * (o.state.x[k][0] - c.x);
+    }
+    const double turning = kinetic_energy(o.blocks, o.state.vx, o.state.vy, 0) - 0.5 * mass * 5.0;
+    const double exact = 0.5 * mass * (4.0 + 1.0) / 12.0 * spin * spin;
+    if (kind == MassKind::covering) {
+      EXPECT_GT(turning, exact);
+    } else {
+      EXPECT_NEAR(turning, exact, 1e-9 * exact);
+    }
   }
 }
 

@@ -1,0 +1,274 @@
+// Bonds, glue, laws that go with slip and factors of strength, on blocks that are moved by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "contacts/moved_blocks.hpp"
+#include "contacts/strength.hpp"
+
+namespace edda::face_strength_test {
+namespace {
+
+using test::MovedBlocks;
+using test::rough_joint;
+using test::square_on_base;
+
+double tangent(double degrees) {
+  return std::tan(degrees * std::numbers::pi / 180.0);
+}
+
+// Of a model 2 m thick: springs, N/m per metre.
+constexpr double thickness = 2.0, normal_k = 2e9 * thickness, shear_k = 1e9 * thickness;
+constexpr double cohesion = 1e6, tension = 2e5;
+
+/// A square glued to its base as drawn.
+MovedBlocks bonded_square() {
+  JointLaw joint = rough_joint(30.0, cohesion, tension);
+  joint.residual = {20.0, 3e4, 5e4};
+  MovedBlocks m = square_on_base(joint, thickness);
+  m.start();
+  bond_faces(m.faces, m.blocks, m.pose, m.laws);
+  m.settle();
+  return m;
+}
+
+std::size_t bonded_face(const MovedBlocks& m) {
+  const auto& bonded = m.faces.bonded;
+  return static_cast<std::size_t>(std::find(bonded.begin(), bonded.end(), 1.0) - bonded.begin());
+}
+
+/// One end of it opens while the other closes: it tears where it is open.
+TEST(FaceBond, TearsAtTheEndThatOpens) {
+  const double most = tension * thickness / normal_k;
+  for (const double way : {1.0, -1.0}) {
+    MovedBlocks m = bonded_square();
+    const std::size_t k = bonded_face(m);
+    ASSERT_LT(k, m.faces.size());
+    const auto open = [&](double by) {
+      // Closed by 0.2 of it at the other end; turned about the middle of the face.
+      m.go(1, {{-0.6 * way * by, 0.4 * by}, 1.2 * way * by});
+    };
+    for (int n = 1; n <= 98; ++n) open(0.01 * n * most);
+    EXPECT_EQ(m.faces.bonded[k], 1.0);
+    EXPECT_EQ(m.fracture(), 0.0);
+    open(1.02 * most);
+    EXPECT_EQ(m.faces.bonded[k], 0.0);
+    EXPECT_EQ(m.faces.pulls[k], 0.0);  // by more than what is left, too
+    EXPECT_NEAR(m.faces.friction[k], tangent(20.0), 1e-12);
+    EXPECT_EQ(m.faces.cohesion[k], 3e4 * thickness);
+    EXPECT_EQ(m.faces.tension[k], 5e4 * thickness);
+  }
+}
+
+/// What it stored goes: k d^2/2 of a face that opens as one.
+TEST(FaceBond, BooksWhatItStoredAsItTears) {
+  MovedBlocks m = bonded_square();
+  const std::size_t k = bonded_face(m);
+  const double most = tension * thickness / normal_k;
+  for (int n = 1; n <= 101; ++n) m.go(1, {{0.0, 0.01 * n * most}});
+  m.go(1, {{0.0, 1.01 * most}});
+  EXPECT_EQ(m.faces.bonded[k], 0.0);
+  const double stored = 0.5 * normal_k * most * most;
+  EXPECT_NEAR(m.fracture(), stored, 0.03 * stored);
+  EXPECT_NEAR(m.books() + m.work, 0.0, 0.02 * stored);
+}
+
+TEST(FaceBond, ShearsAtItsCohesionAndFriction) {
+  MovedBlocks m = bonded_square();
+  const std::size_t k = bonded_face(m);
+  const double depth = 1e-5, normal = normal_k * depth;
+  const double limit = cohesion * thickness + tangent(30.0) * normal;
+  for (int n = 0; n <= 99; ++n) m.go(1, {{0.01 * n * limit / shear_k, -depth}});
+  EXPECT_EQ(m.faces.bonded[k], 1.0);
+  EXPECT_NEAR(-m.force_on(1).x, 0.99 * limit, 1e-3 * limit);
+  m.go(1, {{1.01 * limit / shear_k, -depth}});
+  EXPECT_EQ(m.faces.bonded[k], 0.0);
+  EXPECT_NEAR(-m.force_on(1).x, 3e4 * thickness + tangent(20.0) * normal, 1e-3 * normal);
+  // What is left of the tensile strength holds, and no more.
+  const double left = 5e4 * thickness / normal_k;
+  EXPECT_EQ(m.faces.pulls[k], 1.0);
+  m.go(1, {{1.01 * limit / shear_k, 0.98 * left}});
+  EXPECT_NEAR(-m.force_on(1).y, 0.98 * 5e4 * thickness, 1.0);
+  m.go(1, {{1.01 * limit / shear_k, 1.02 * left}});
+  m.go(1, {{1.01 * limit / shear_k, 0.9 * left}});
+  EXPECT_EQ(m.force_on(1).y, 0.0);
+}
+
+TEST(Glue, LetsGoOfWhatItHeld) {
+  MovedBlocks m = square_on_base(rough_joint(30.0));
+  m.start();
+  m.put(1, {{0.0, -1e-6}});
+  m.settle();
+  glue_faces(m.faces);
+  const double apart = 1e-4, stored = 0.5 * 2e9 * apart * apart;
+  for (int n = 0; n <= 200; ++n) m.go(1, {{0.0, -1e-6 + 0.005 * n * (apart + 1e-6)}});
+  m.go(1, {{0.0, apart}});
+  EXPECT_NEAR(-m.force_on(1).y, 2e9 * apart, 1e-3 * 2e9 * apart);
+  unglue_faces(m.faces, m.blocks, m.pose);
+  EXPECT_NEAR(m.fracture(), stored, 1e-2 * stored);
+  place_faces(m.faces, m.blocks, m.pose, m.laws, m.step);
+  EXPECT_EQ(m.force_on(1).y, 0.0);
+}
+
+/// Slides the square by `way` in steps of 1e-5 m, pressed in by `depth`.
+void slide(MovedBlocks& m, double way, double depth) {
+  const int steps = static_cast<int>(way / 1e-5);
+  for (int n = 1; n <= steps; ++n) m.go(1, {{1e-5 * n, -depth}});
+}
+
+TEST(SlipWeakening, AllStrengthFallsWithSlip) {
+  JointLaw joint;
+  joint.name = "j";
+  joint.type = LawType::slip_weakening;
+  joint.peak = {40.0, 1e5, 2e5};
+  joint.residual = {20.0, 2e4, 5e4};
+  joint.slip_distance = 0.004;
+  joint.dilation_angle = 5.0;
+  MovedBlocks m = square_on_base(joint, thickness);
+  m.start();
+  bond_faces(m.faces, m.blocks, m.pose, m.laws);
+  m.settle();
+  const double depth = 1e-4, elastic = tangent(40.0) * normal_k * depth / shear_k + 1e5 / 1e9;
+  slide(m, 2e-3, depth);
+  const std::size_t k = m.main_face();
+  const double slid = m.faces.slid[k], part = slid / 0.004;
+  EXPECT_NEAR(slid, 2e-3 - elastic, 0.1 * 2e-3);
+  const auto between = [&](double peak, double residual) {
+    return peak + part * (residual - peak);
+  };
+  EXPECT_NEAR(m.faces.friction[k], between(tangent(40.0), tangent(20.0)), 1e-12);
+  EXPECT_NEAR(m.faces.cohesion[k], thickness * between(1e5, 2e4), 1e-6);
+  EXPECT_NEAR(m.faces.tension[k], thickness * between(2e5, 5e4), 1e-6);
+  // Its dilation goes, too: by (1 - u/D) tan(psi) du.
+  const double opened = tangent(5.0) * slid * (1.0 - 0.5 * part);
+  EXPECT_NEAR(m.faces.offset_a[k] + m.faces.owed[k], opened, 1e-2 * opened);
+}
+
+TEST(Dilation, OpensByTheTangentOfItsAngleAndBooksWhatItLifts) {
+  JointLaw joint = rough_joint(30.0);
+  joint.dilation_angle = 5.0;
+  joint.slip_distance = 0.01;
+  MovedBlocks m = square_on_base(joint);
+  m.start();
+  const double depth = 1e-4;
+  m.put(1, {{0.0, -depth}});
+  m.settle();
+  for (int n = 1; n <= 2; ++n) m.go(1, {{1e-6 * n, -depth}});
+  const double start = m.books() + m.work;
+  for (int n = 3; n <= 600; ++n) m.go(1, {{1e-6 * n, -depth}});
+  const std::size_t k = m.main_face();
+  const double slid = m.faces.slid[k];
+  EXPECT_GT(slid, 3e-4);
+  EXPECT_GT(m.faces.offset_a[k], 0.9 * tangent(5.0) * slid);
+  EXPECT_EQ(m.faces.offset_a[k], m.faces.offset_b[k]);
+  EXPECT_NEAR(m.faces.offset_a[k] + m.faces.owed[k], tangent(5.0) * slid, 1e-9 * slid);
+  // Held down, it is pressed by as much more, which friction has paid.
+  EXPECT_NEAR(m.force_on(1).y, 2e9 * (depth + m.faces.offset_a[k]), 1e-3 * m.force_on(1).y);
+  EXPECT_NEAR(m.books() + m.work, start, 1e-3 * m.friction());
+}
+
+/// Steeper than friction pays for, it opens by no more than that.
+TEST(Dilation, LiftsByNoMoreThanFrictionTakes) {
+  JointLaw joint = rough_joint(5.0);
+  joint.dilation_angle = 40.0;
+  joint.slip_distance = 0.01;
+  MovedBlocks m = square_on_base(joint);
+  m.start();
+  m.put(1, {{0.0, -1e-4}});
+  m.settle();
+  for (int n = 1; n <= 200; ++n) {
+    m.go(1, {{1e-6 * n, -1e-4}});
+    EXPECT_GE(m.friction(), -1e-9);
+  }
+  EXPECT_GT(m.faces.offset_a[m.main_face()], 0.0);
+  EXPECT_GT(m.faces.owed[m.main_face()], 0.0);
+}
+
+/// Apart by a hair, its asperities go on counting the way that it slips.
+TEST(Dilation, CountsTheSlipOfAJointThatIsOpenByAHair) {
+  JointLaw joint = rough_joint(30.0);
+  joint.dilation_angle = 5.0;
+  joint.slip_distance = 0.01;
+  MovedBlocks m = square_on_base(joint);
+  m.start();
+  m.put(1, {{0.0, -1e-6}});
+  m.settle();
+  m.go(1, {{0.0, -1e-6}});
+  m.go(1, {{0.0, 2e-5}});
+  m.go(1, {{0.0, 2e-5}});
+  const auto& slid = m.faces.slid;
+  const double before = *std::max_element(slid.begin(), slid.end());
+  for (int n = 1; n <= 10; ++n) m.go(1, {{1e-6 * n, 2e-5}});
+  EXPECT_NEAR(*std::max_element(slid.begin(), slid.end()) - before, 1e-5, 1e-9);
+}
+
+TEST(BartonBandis, AngleAndRoughness) {
+  Law law{};
+  law.jrc = 10.0;
+  law.jcs = 100e6;
+  law.residual_angle = 30.0;
+  EXPECT_NEAR(barton_angle(law, 1.0, 1e6), 50.0, 1e-12);
+  EXPECT_NEAR(barton_angle(law, 0.5, 1e6), 40.0, 1e-12);
+  EXPECT_EQ(barton_angle(law, 1.0, 100e6), 30.0);
+  EXPECT_NEAR(roughness_left(2.0, 1.0), 0.85, 1e-12);
+}
+
+/// phi_r + JRC log10(JCS/sigma), its tangent divided by the strength factor; half of what is above
+/// phi_r opens it.
+TEST(BartonBandis, FrictionAndDilationInForce) {
+  for (const double factor : {1.0, 2.0}) {
+    JointLaw joint;
+    joint.name = "j";
+    joint.type = LawType::barton_bandis;
+    joint.jrc = 8.0;
+    joint.jcs = 50e6;
+    joint.residual_angle = 28.0;
+    MovedBlocks m = square_on_base(joint, thickness);
+    m.start();
+    m.laws = divided_laws(m.model, {factor});
+    const double depth = 1e-4;
+    m.put(1, {{0.0, -depth}});
+    m.settle();
+    put_strengths_in_force(m.faces, m.laws);
+    const std::size_t k = m.main_face();
+    const double angle = 28.0 + 8.0 * std::log10(50e6 / (2e9 * depth));
+    EXPECT_NEAR(m.faces.friction[k], tangent(angle) / factor, 1e-6);
+    // At first, before the pressure has grown by what it opens.
+    const double elastic = tangent(angle) / factor * 2e9 * depth / 1e9;
+    const int steps = static_cast<int>(1.02 * elastic / 1e-6);
+    for (int n = 1; n <= steps; ++n) m.go(1, {{1e-6 * n, -depth}});
+    const double slid = m.faces.slid[k];
+    ASSERT_GT(slid, 0.0);
+    EXPECT_NEAR((m.faces.offset_a[k] + m.faces.owed[k]) / slid, tangent(0.5 * (angle - 28.0)),
+                1e-2 * tangent(0.5 * (angle - 28.0)));
+  }
+}
+
+TEST(StrengthFactors, DivideAllStrength) {
+  JointLaw joint = rough_joint(40.0, 3e5, 2e5);
+  joint.residual = {30.0, 1e5, 5e4};
+  Model model;
+  model.joints = {joint};
+  const Law whole = build_laws(model).rows[0], half = divided_laws(model, {2.0}).rows[0];
+  EXPECT_EQ(half.peak_friction, 0.5 * whole.peak_friction);
+  EXPECT_EQ(half.peak_cohesion, 0.5 * whole.peak_cohesion);
+  EXPECT_EQ(half.peak_tension, 0.5 * whole.peak_tension);
+  EXPECT_EQ(half.residual_friction, 0.5 * whole.residual_friction);
+  EXPECT_EQ(half.residual_cohesion, 0.5 * whole.residual_cohesion);
+  EXPECT_EQ(half.residual_tension, 0.5 * whole.residual_tension);
+}
+
+TEST(StrengthFactors, ReachWhatFacesHaveInForce) {
+  MovedBlocks m = bonded_square();
+  const std::size_t k = bonded_face(m);
+  const LawTable once = divided_laws(m.model, {1.25}), twice = divided_laws(m.model, {2.5});
+  take_strength(m.faces, m.laws, once);
+  take_strength(m.faces, once, twice);
+  EXPECT_NEAR(m.faces.friction[k], tangent(30.0) / 2.5, 1e-12);
+  EXPECT_NEAR(m.faces.cohesion[k], cohesion * thickness / 2.5, 1e-6);
+  EXPECT_NEAR(m.faces.tension[k], tension * thickness / 2.5, 1e-6);
+}
+
+}  // namespace
+}  // namespace edda::face_strength_test

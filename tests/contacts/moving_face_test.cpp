@@ -1,0 +1,302 @@
+// A face while its blocks are moved: what it carries, and that every joule of it is booked.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "contacts/face_stiffness.hpp"
+#include "contacts/moved_blocks.hpp"
+
+namespace edda::moving_face_test {
+namespace {
+
+using test::MovedBlocks;
+using test::Place;
+using test::rough_joint;
+using test::square_on_base;
+
+const double mu = std::tan(std::numbers::pi / 6.0);  // of 30 degrees
+constexpr double depth = 1e-4;
+
+TEST(MovingFace, IsAsStiffAsItsJoint) {
+  MovedBlocks penalty = square_on_base(rough_joint(30.0), 2.0);
+  penalty.start();
+  penalty.put(1, {{0.0, -depth}});
+  penalty.settle();
+  // A spring p at each of its ends, times the thickness.
+  EXPECT_NEAR(penalty.force_on(1).y, 2.0 * 2.0 * 1e9 * depth, 1.0);
+  JointLaw measured = rough_joint(30.0);
+  measured.kn = 3e9;
+  MovedBlocks m = square_on_base(measured);
+  m.start();
+  const double tilt = 2e-5;
+  m.put(1, {{0.0, -depth}, tilt});
+  m.settle();
+  EXPECT_NEAR(m.force_on(1).y, 3e9 * depth, 1e-4 * 3e9 * depth);
+  const std::size_t k = m.main_face();
+  EXPECT_EQ(m.faces.shear_stiffness[k], 0.4 * 3e9);  // none is given
+  // Moment k L^3 tilt/12 of the pressure about the middle.
+  const auto moment = [](const MovedBlocks& of, std::size_t face) {
+    return 0.5 * std::abs(of.faces.now.normal_a[face] - of.faces.now.normal_b[face]);
+  };
+  EXPECT_NEAR(moment(m, k), 3e9 * tilt / 12.0, 1e-3 * 3e9 * tilt / 12.0);
+  EXPECT_NEAR(norm(middle_of(m.faces, m.pose, k) - Vec2{0.5, 0.0}), 0.0, 1e-3);
+  // A penalty is a spring at either end, k L^3/4; where nothing leans there it is spread out, too.
+  const std::size_t q = penalty.main_face();
+  penalty.put(1, {{0.0, -depth}, tilt});
+  penalty.settle();
+  EXPECT_NEAR(moment(penalty, q), 4e9 * tilt / 4.0, 1e-3 * 4e9 * tilt);
+  penalty.faces.leans[q] = 0.0;
+  penalty.settle();
+  EXPECT_NEAR(moment(penalty, q), 4e9 * tilt / 12.0, 1e-3 * 4e9 * tilt);
+}
+
+TEST(MovingFace, SlidesAtCoulombsLimitAndUnloadsElastically) {
+  const double normal = 2e9 * depth, cohesion = 2e4;
+  for (const double c : {0.0, cohesion}) {
+    MovedBlocks m = square_on_base(rough_joint(30.0, c));
+    m.start();
+    m.put(1, {{0.0, -depth}});
+    m.settle();
+    const double limit = mu * normal + c;
+    const auto shear = [&](double at) {
+      m.go(1, {{at, -depth}});
+      return -m.force_on(1).x;
+    };
+    for (int n = 1; n <= 40; ++n) {
+      EXPECT_NEAR(shear(1e-5 * n), std::min(1e9 * 1e-5 * n, limit), 1e-3 * limit) << n;
+    }
+    EXPECT_NEAR(shear(3.5e-4), limit - 1e9 * 5e-5, 1e-3 * limit);
+    EXPECT_NEAR(shear(3.0e-4), limit - 1e9 * 1e-4, 1e-3 * limit);
+    const std::size_t k = m.main_face();
+    EXPECT_EQ(m.faces.slipped[k], 1.0);
+    m.go(1, {{3.0e-4, -depth}});
+    EXPECT_NEAR(m.friction(), limit * (4e-4 - limit / 1e9), 0.03 * limit * 4e-4);
+    EXPECT_NEAR(m.transfer(), 0.0, 1e-6 * m.friction());
+  }
+}
+
+/// (T_n + T_{n-1})/2 over the way of a step, while the normal force falls: nothing is left over for
+/// the transfer, the overlap stays.
+TEST(MovingFace, FrictionIsCoulombsWhileTheNormalForceChanges) {
+  MovedBlocks m = square_on_base(rough_joint(30.0));
+  m.start();
+  m.put(1, {{0.0, -depth}});
+  m.settle();
+  const auto limit = [](int n) { return mu * 2e9 * depth * (1.0 - 0.01 * n); };
+  double before = 0.0, expected = 0.0;
+  for (int n = 1; n <= 60; ++n) {
+    m.go(1, {{2e-5 * n, -depth * (1.0 - 0.01 * n)}});
+    if (n == 20) before = m.friction();
+    // As the limit falls the spring slips by what it lets go.
+    const double slip = 2e-5 + (limit(n - 2) - limit(n - 1)) / 1e9;
+    if (n > 20) expected += slip * 0.5 * (limit(n - 2) + limit(n - 1));
+  }
+  EXPECT_NEAR(m.friction() - before, expected, 1e-9 * expected);
+  EXPECT_NEAR(m.transfer(), 0.0, 1e-9 * expected);
+}
+
+/// Moves block 1 and holds the books to the work of the forces. Returns what friction took.
+void expect_closed_books(MovedBlocks& m, int steps, const std::function<Place(int)>& place,
+                         double bound) {
+  m.put(1, place(0));
+  m.settle();
+  for (int n = 1; n <= 2; ++n) m.go(1, place(n));
+  const double start = m.books() + m.work;
+  double most = 0.0, scale = 0.0;
+  for (int n = 3; n <= steps; ++n) {
+    m.go(1, place(n));
+    most = std::max(most, std::abs(m.books() + m.work - start));
+    scale = std::max(scale, m.stored() + m.friction() + m.damping());
+  }
+  EXPECT_LT(most, bound * scale);
+  EXPECT_GT(m.friction(), 0.01 * scale);
+}
+
+Place wiggle(int n) {
+  return {{3e-4 * std::sin(0.021 * n), -depth * (1.0 + 0.4 * std::sin(0.034 * n))},
+          2e-5 * std::sin(0.027 * n)};
+}
+
+TEST(MovingFace, BooksEveryJoule) {
+  MovedBlocks m = square_on_base(rough_joint(30.0));
+  m.start();
+  expect_closed_books(m, 600, wiggle, 1e-4);
+}
+
+TEST(MovingFace, BooksEveryJouleOfDashpots) {
+  JointLaw joint = rough_joint(30.0);
+  joint.dashpots = {0.2, 0.3, 1e9};
+  MovedBlocks m = square_on_base(joint);
+  m.start();
+  set_face_dashpots(m.faces, m.laws, 0.0);
+  expect_closed_books(m, 600, wiggle, 1e-4);
+  EXPECT_GT(m.damping(), 0.0);
+}
+
+/// Over the end of the base: the overlap grows and shrinks, its ends move on.
+TEST(MovingFace, BooksEveryJouleWhileTheOverlapChanges) {
+  MovedBlocks m = square_on_base(rough_joint(30.0));
+  m.start(0.2);
+  expect_closed_books(
+      m, 1500,
+      [](int n) {
+        return Place{{1.3 - 0.1 * std::cos(0.005 * n), -depth * (1.0 + 0.4 * std::sin(0.034 * n))},
+                     1e-5 * std::sin(0.027 * n)};
+      },
+      1e-3);
+  EXPECT_NE(m.transfer(), 0.0);
+}
+
+/// What the overlap gains is free of stress: each spring grows, and its slip becomes as much less.
+TEST(MovingFace, SpringsShiftWithTheOverlap) {
+  MovedBlocks m = square_on_base(rough_joint(89.99));
+  m.start(0.2);
+  m.put(1, {{1.5, -depth}});
+  m.settle();
+  double force = 0.0;
+  for (const double overlap : {0.55, 0.60, 0.65}) {
+    m.go(1, {{2.0 - overlap, -depth}});
+    force += 1e9 * overlap * 0.05;
+    EXPECT_NEAR(m.force_on(1).x, force, 1e-3 * force) << overlap;
+  }
+}
+
+/// c = 2 zeta sqrt(p m) at each end, p the spring there and m the mass that the corner moves.
+TEST(MovingFace, DashpotsAreThePartOfCriticalAskedFor) {
+  JointLaw joint = rough_joint(80.0);
+  const double across = 0.2, along = 0.1;
+  joint.dashpots = {across, along, 1e9};
+  MovedBlocks m = square_on_base(joint);
+  m.start();
+  set_face_dashpots(m.faces, m.laws, 0.0);
+  m.put(1, {{0.0, -depth}});
+  m.settle();
+  const double mass = 1.0 / m.blocks.point_inverse[m.blocks.vertex_begin[1]];
+  const double c = 2.0 * 2.0 * across * std::sqrt(1e9 * mass), d = 1e-7;
+  m.go(1, {{0.0, -depth - d}});
+  EXPECT_NEAR(m.force_on(1).y - 2e9 * (depth + d), c * d / m.step, 1e-6 * c * d / m.step);
+  m.go(1, {{0.0, -depth}});
+  EXPECT_NEAR(m.force_on(1).y - 2e9 * depth, -c * d / m.step, 1e-6 * c * d / m.step);
+  m.go(1, {{-d, -depth}});
+  const double drag = 2.0 * 2.0 * along * std::sqrt(0.5e9 * mass) * d / m.step;
+  EXPECT_NEAR(m.force_on(1).x, 1e9 * d + drag, 1e-6 * drag);
+  // The implicit method has them beside its springs.
+  const FaceStiffness s = face_stiffness(m.faces, m.blocks, m.pose, m.step, {}, m.main_face());
+  EXPECT_NEAR(s.normal.aa, 1e9 + 0.5 * c / m.step, 1e-6 * c / m.step);
+  EXPECT_NEAR(s.normal.bb, 1e9 + 0.5 * c / m.step, 1e-6 * c / m.step);
+  EXPECT_NEAR(s.shear_a, 0.5e9 + 0.5 * drag / d, 1e-6 * drag / d);
+}
+
+/// It has nothing to do with how far away the block was a step before.
+TEST(MovingFace, DashpotsBeginWhereBlocksTouch) {
+  JointLaw joint = rough_joint(30.0);
+  joint.dashpots = {0.2, 0.0, 1e9};
+  MovedBlocks m = square_on_base(joint);
+  m.start();
+  set_face_dashpots(m.faces, m.laws, 0.0);
+  m.put(1, {{0.0, 5e-3}});
+  m.settle();
+  m.go(1, {{0.0, -1e-7}});
+  const double mass = 1.0 / m.blocks.point_inverse[m.blocks.vertex_begin[1]];
+  const double whole = 2e9 * 1e-7 + 4.0 * 0.2 * std::sqrt(1e9 * mass) * 1e-7 / m.step;
+  EXPECT_NEAR(m.force_on(1).y, whole, 1e-6 * whole);
+}
+
+/// Cohesion is that of surfaces: of edges at 3 degrees whole, at 9 degrees none.
+TEST(MovingFace, CohesionNeedsSurfacesThatLieAlongEachOther) {
+  for (const double degrees : {0.0, 3.0, 9.0}) {
+    MovedBlocks m = square_on_base(rough_joint(0.0, 1e5));
+    m.start(0.3);
+    const double tilt = degrees * std::numbers::pi / 180.0;
+    m.put(1, {{0.0, 0.5 * (std::sin(tilt) + std::cos(tilt) - 1.0) - depth}, tilt});
+    m.settle();
+    ASSERT_GT(m.force_on(1).y, 0.0);
+    for (int n = 1; n <= 40; ++n) {
+      m.go(1, {{1e-5 * n, 0.5 * (std::sin(tilt) + std::cos(tilt) - 1.0) - depth}, tilt});
+    }
+    const std::size_t k = m.main_face();
+    const double cohesion = shear_strength(m.faces, k);
+    EXPECT_NEAR(cohesion, degrees < 5.0 ? 1e5 : 0.0, 2e-3 * 1e5) << degrees;
+    EXPECT_LE(std::abs(shear_force(m.faces, k)), (1.0 + 1e-9) * cohesion) << degrees;
+  }
+}
+
+/// The step behind is made shorter: what holds keeps its force, in the step to come, too.
+TEST(MovingFace, AChangeOfTheStepKeepsWhatHolds) {
+  MovedBlocks m = square_on_base(rough_joint(80.0));
+  m.start();
+  m.put(1, {{0.0, -depth}});
+  m.settle();
+  for (int n = 1; n <= 5; ++n) m.go(1, {{1e-6 * n, -depth - 1e-6 * n}});
+  const double force = m.force_on(1).x;
+  const std::vector<double> old_x1 = m.pose.x1, old_y1 = m.pose.y1;
+  for (std::size_t v = 0; v < m.pose.x.size(); ++v) {
+    m.pose.x1[v] = 0.5 * (m.pose.x[v] + m.pose.x1[v]);
+    m.pose.y1[v] = 0.5 * (m.pose.y[v] + m.pose.y1[v]);
+  }
+  change_step_behind(m.faces, m.blocks, m.pose, old_x1, old_y1);
+  place_faces(m.faces, m.blocks, m.pose, m.laws, 0.5 * m.step);
+  EXPECT_NEAR(m.force_on(1).x, force, 1e-9 * std::abs(force));
+  const std::size_t k = m.main_face();
+  EXPECT_NEAR(m.faces.before.closure_a[k], depth + 4.5e-6, 1e-12);
+  EXPECT_NEAR(m.faces.before.closure_b[k], depth + 4.5e-6, 1e-12);
+}
+
+/// The part alpha of the normal force is all that friction feels.
+TEST(MovingFace, IsCutAnewUnderAPartOfItsNormalForce) {
+  MovedBlocks m = square_on_base(rough_joint(30.0));
+  m.start();
+  m.put(1, {{0.0, -depth}});
+  m.settle();
+  for (int n = 1; n <= 20; ++n) m.go(1, {{2e-5 * n, -depth}});
+  const std::size_t k = m.main_face();
+  const FacePoints at = face_points(m.faces, m.pose.x, m.pose.y, k),
+                   then = face_points(m.faces, m.pose.x1, m.pose.y1, k);
+  const Face face = face_at(m.faces, m.blocks, m.pose.x, m.pose.y, k);
+  next_step(m.faces);
+  const double friction = m.faces.friction_work[k], transfer = m.faces.transfer[k];
+  const CornerForces half = cut_again(m.faces, face, at, then, 0.5, k);
+  const double normal = 2e9 * depth, limit = mu * normal;
+  const Vec2 on = half.q1 + half.q2;
+  EXPECT_NEAR(on.y, 0.5 * normal, 1e-9 * normal);
+  EXPECT_NEAR(on.x, -0.5 * limit, 1e-9 * limit);
+  // Force by force: half of the pressure, and the shear.
+  const CornerForces shear =
+      end_forces(at, face, {}, {m.faces.before.shear_a[k], m.faces.before.shear_b[k]});
+  EXPECT_NEAR(norm(half.p1 - 0.5 * face.force.p1 - shear.p1), 0.0, 1e-9 * normal);
+  EXPECT_NEAR(norm(half.p2 - 0.5 * face.force.p2 - shear.p2), 0.0, 1e-9 * normal);
+  // It slips by limit/2k more, from T_{n-1} = limit to T_n = limit/2; before, all was at the limit.
+  const double ks = 1e9, slip = 2e-5;
+  const double taken = 0.75 * limit * (slip + 0.5 * limit / ks) - limit * slip;
+  EXPECT_NEAR(m.faces.friction_work[k] - friction, taken, 1e-6 * limit * slip);
+  // The overlap stays: nothing else is missing.
+  EXPECT_NEAR(m.faces.transfer[k] - transfer, 0.0, 1e-6 * limit * slip);
+}
+
+/// A step that turns the shear round: with u_{n-1} = l, l = limit/k, and a trial slip of -2 l, what
+/// the spring gives up is no friction but transfer: k u_n (-3 l - u_n)/2, u_n = -l or, halved,
+/// -l/2.
+TEST(MovingFace, BooksTheTransferOfWhatIsCutAnew) {
+  MovedBlocks m = square_on_base(rough_joint(30.0));
+  m.start();
+  m.put(1, {{0.0, -depth}});
+  m.settle();
+  for (int n = 1; n <= 20; ++n) m.go(1, {{2e-5 * n, -depth}});
+  const double limit = mu * 2e9 * depth, l = limit / 1e9;
+  m.go(1, {{4e-4 - 3.0 * l, -depth}});
+  EXPECT_NEAR(m.force_on(1).x, limit, 1e-9 * limit);
+  const std::size_t k = m.main_face();
+  const FacePoints at = face_points(m.faces, m.pose.x, m.pose.y, k),
+                   then = face_points(m.faces, m.pose.x1, m.pose.y1, k);
+  const Face face = face_at(m.faces, m.blocks, m.pose.x, m.pose.y, k);
+  next_step(m.faces);
+  const double friction = m.friction(), transfer = m.transfer();
+  cut_again(m.faces, face, at, then, 0.5, k);
+  EXPECT_NEAR(m.friction(), friction, 1e-9 * limit * l);
+  EXPECT_NEAR(m.transfer() - transfer, (0.625 - 1.0) * limit * l, 1e-6 * limit * l);
+}
+
+}  // namespace
+}  // namespace edda::moving_face_test

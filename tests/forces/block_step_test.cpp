@@ -1,0 +1,256 @@
+// What decides the step of a block: its matrices, and the bound that follows from them.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+
+#include "attachments/bolted_blocks.hpp"
+#include "contacts/moved_blocks.hpp"
+#include "forces/block_matrices.hpp"
+#include "forces/bolt_matrix.hpp"
+#include "forces/mass_scaling.hpp"
+#include "forces/stiffness.hpp"
+#include "forces/viscosity.hpp"
+
+namespace edda::block_step_test {
+namespace {
+
+using test::MovedBlocks;
+
+StepBound bound_of(const MovedBlocks& m, const Damping& damping = {}) {
+  BoundarySprings none;
+  none.block_begin.assign(m.blocks.size() + 1, 0);
+  return step_bound(m.blocks, m.state, m.faces, none, m.laws, damping);
+}
+
+/// Two squares of 1 m one over the other, the lower one held or not.
+MovedBlocks two_squares(bool held) {
+  MovedBlocks m;
+  m.model.joints = {test::rough_joint(30.0)};
+  m.model.contact.normal_stiffness = m.model.contact.shear_stiffness = 1e6;
+  m.add({{0, -1}, {1, -1}, {1, 0}, {0, 0}}, held);
+  m.add({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+  m.start();
+  return m;
+}
+
+/// The uniform displacement d of the whole block.
+Vector6 moved(Vec2 d) {
+  Vector6 u;
+  u << d.x, d.y, d.x, d.y, d.x, d.y;
+  return u;
+}
+
+/// A joint far stiffer than all else: Int k (1 - s/l) ds = k l/2 at either corner of the edge,
+/// twice that against a block that is free, too; 2/w of M^-1 K.
+TEST(StepBound, OfAStiffJointIsThatOfItsSpringsAtTheCorners) {
+  for (const bool held : {true, false}) {
+    MovedBlocks m = two_squares(held);
+    const double k = 1e16;
+    for (std::size_t f = 0; f < m.faces.size(); ++f) {
+      const bool between = m.blocks.vertex(m.faces.edge[f]).y == 0.0 &&
+                           m.blocks.vertex(m.faces.edge_end[f]).y == 0.0 &&
+                           m.blocks.vertex(m.faces.facing[f]).y == 0.0 &&
+                           m.blocks.vertex(m.faces.facing_end[f]).y == 0.0;
+      if (between) m.faces.stiffness[f] = k;
+    }
+    Matrix6 stiffness = Matrix6::Zero();
+    for (const Id v : {m.blocks.vertex_begin[1], m.blocks.vertex_begin[1] + 1}) {
+      ASSERT_EQ(m.blocks.vertex(v).y, 0.0);
+      const Vector6 up = along(vertex_weights(m.blocks, v), {0.0, 1.0});
+      stiffness += (held ? 1.0 : 2.0) * 0.5 * k * up * up.transpose();
+    }
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(stiffness,
+                                                                   mass_matrix(m.blocks, 1));
+    EXPECT_NEAR(bound_of(m).critical_step, 2.0 / std::sqrt(solver.eigenvalues()[5]),
+                1e-3 * bound_of(m).critical_step)
+        << held;
+  }
+}
+
+/// beta of local damping makes springs look (1 + beta) times as stiff.
+TEST(StepBound, LocalDampingShortensIt) {
+  const MovedBlocks m = two_squares(false);
+  const double whole = bound_of(m).critical_step;
+  for (const double beta : {0.3, 0.8}) {
+    Damping damping;
+    damping.local = beta;
+    EXPECT_NEAR(bound_of(m, damping).critical_step, whole / std::sqrt(1.0 + beta), 1e-9 * whole);
+  }
+  Damping dragged;
+  dragged.mass = 4.0 / whole;
+  EXPECT_NEAR(bound_of(m, dragged).critical_step, 0.25 * whole, 1e-9 * whole);
+}
+
+/// h^2 k/4 + h (c - d)/2 = m: dashpots of contacts shorten it, viscous rock makes it longer.
+TEST(StepBound, DashpotsShortenItAndViscousRockMakesItLonger) {
+  MovedBlocks m = two_squares(false);
+  const double whole = bound_of(m).critical_step;
+  Damping damping;
+  damping.contact = 5.0;
+  EXPECT_LT(bound_of(m, damping).critical_step, (1.0 - 1e-3) * whole);
+  m.blocks.damping.assign(2, 0.5);
+  fill_viscosity(m.blocks, {});
+  EXPECT_GT(bound_of(m).critical_step, 1.1 * whole);
+}
+
+/// A square of 1 m: its softest vibrations are shear and a stretch that leaves its area, both at
+/// w^2 = 24 G/rho.
+TEST(Viscosity, IsTheFractionOfTheSoftestVibration) {
+  MovedBlocks m = two_squares(true);
+  const double frequency = std::sqrt(24.0 * m.blocks.lame_mu[1] / 2600.0);
+  EXPECT_NEAR(lowest_frequency(m.blocks, 1), frequency, 1e-9 * frequency);
+  m.blocks.damping.assign(2, 0.25);
+  fill_viscosity(m.blocks, {});
+  EXPECT_NEAR(m.blocks.viscosity[1], 2.0 * 0.25 / frequency, 1e-9 / frequency);
+}
+
+/// Seen from the frame of a block that has turned, a slanted roller holds it across its line.
+TEST(BlockMatrices, BoundarySpringsStandInSpaceAndNotInTheBlock) {
+  MovedBlocks m;
+  m.model.joints = {test::rough_joint(30.0)};
+  Boundary roller;
+  roller.name = "b";
+  roller.type = BoundaryType::roller;
+  roller.along = {{0, 0}, {2, 1}};
+  roller.stiffness = 3.0;
+  m.model.boundaries = {roller};
+  m.add({{0, 0}, {2, 1}, {1, 2}});
+  m.start();
+  const BoundarySprings springs = attach_boundaries(m.model, m.blocks).value();
+  ASSERT_EQ(springs.size(), 2u);
+  const double turn = 0.7;
+  const Matrix6 k = boundary_matrix(m.blocks, springs, {std::cos(turn), std::sin(turn), 2.0}, 0);
+  const Vec2 n = perp(unit(Vec2{2, 1}));
+  for (const Vec2 d : {Vec2{1, 0}, Vec2{0, 1}, Vec2{0.6, -0.8}}) {
+    const Vector6 u = moved(rotated(d, -turn));
+    EXPECT_NEAR(u.dot(k * u), 2.0 * 3.0 * dot(n, d) * dot(n, d), 1e-12);
+  }
+}
+
+/// Grouted: the bonds, along the bolt. With ends: the bar along it, and its pull over its length
+/// across, each twice, as the other block is free.
+TEST(BoltMatrix, HasTheSpringsOfABolt) {
+  test::Bolted m;
+  m.add({{0, 0}, {4, 0}, {4, 2}, {0, 2}});
+  m.add({{0, 2.5}, {4, 2.5}, {4, 4.5}, {0, 4.5}});
+  m.build();
+  Bolt bolt = test::grouted({2, 1}, {2, 4});
+  m.model.bolts = {bolt};
+  m.attach();
+  ASSERT_TRUE(m.faults.empty());
+  const Vector6 up = moved({0, 1}), across = moved({1, 0});
+  const Matrix6 bonds = bolt_matrix(m.bolts, m.blocks, m.state, 0);
+  EXPECT_NEAR(up.dot(bonds * up), 1e9 * 1.0, 1e-3 * 1e9);   // 1 m of it in the block
+  EXPECT_NEAR(across.dot(bonds * across), 2.0 * 1e7, 1.0);  // its dowel
+  bolt.type = BoltType::end;
+  bolt.pretension = 6e4;
+  bolt.yield_stress = 400e6;
+  m.model.bolts = {bolt};
+  m.attach();
+  ASSERT_TRUE(m.faults.empty());
+  const Matrix6 ends = bolt_matrix(m.bolts, m.blocks, m.state, 0);
+  const double area = 0.25 * std::numbers::pi * 4e-4, stiffness = bolt.young * area / 3.0;
+  EXPECT_NEAR(up.dot(ends * up), 2.0 * stiffness, 1e-6 * stiffness);
+  // At most its yield, which a strain of 0.01 is beyond.
+  EXPECT_NEAR(across.dot(ends * across), 2.0 * 400e6 * area / 3.0, 1e-6 * stiffness);
+}
+
+/// A block that needs a step of 1 s takes three times its mass more to bear one of 2 s.
+TEST(MassScaling, AddsByTheSquareOfTheSteps) {
+  MovedBlocks m = two_squares(false);
+  const double mass = m.blocks.mass[0];
+  const double step = step_that_adds(m.blocks, {1.0, 3.0}, 3.0 * mass);
+  EXPECT_NEAR(step, 2.0, 1e-9);
+}
+
+/// h^2 p/4 + h c/2 = m of a stiff joint against a held block, c = 2 zeta sqrt(p m) at each corner,
+/// m the mass that the corner feels.
+TEST(StepBound, OfAStiffJointWithDashpots) {
+  MovedBlocks m = two_squares(true);
+  const double k = 1e16, p = 0.5 * k, zeta = 0.4;
+  const Id first = m.blocks.vertex_begin[1];
+  for (std::size_t f = 0; f < m.faces.size(); ++f) {
+    if (m.faces.facing[f] == first && m.blocks.vertex(m.faces.edge[f]).y == 0.0 &&
+        m.blocks.vertex(m.faces.edge_end[f]).y == 0.0) {
+      m.faces.stiffness[f] = k;
+    }
+  }
+  Matrix6 unit_springs = Matrix6::Zero();
+  for (const Id v : {first, first + 1}) {
+    const Vector6 up = along(vertex_weights(m.blocks, v), {0.0, 1.0});
+    unit_springs += up * up.transpose();
+  }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(unit_springs,
+                                                                 mass_matrix(m.blocks, 1));
+  const double mass = 1.0 / solver.eigenvalues()[5];
+  const double c = 2.0 * zeta * std::sqrt(p / m.blocks.point_inverse[first]);
+  Damping damping;
+  damping.contact = zeta;
+  const double h = 2.0 * (std::sqrt(0.25 * c * c + p * mass) - 0.5 * c) / p;
+  EXPECT_NEAR(bound_of(m, damping).critical_step, h, 2e-3 * h);
+}
+
+TEST(BlockMatrices, TurnWithTheBlock) {
+  MovedBlocks m = two_squares(true);
+  const double turn = 0.7;
+  const Matrix6 own = elastic_matrix(m.blocks, 1),
+                seen = edda::turned(own, {std::cos(turn), std::sin(turn), 2.0});
+  Vector6 u, back;
+  u << 0.3, -0.2, 0.5, 0.1, -0.4, 0.6;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const Vec2 v = rotated({u[2 * k], u[2 * k + 1]}, -turn);
+    back[2 * k] = v.x;
+    back[2 * k + 1] = v.y;
+  }
+  EXPECT_NEAR(u.dot(seen * u), back.dot(own * back), 1e-9 * back.dot(own * back));
+}
+
+/// Of rock that is not strained, eta times the elastic one.
+TEST(BlockMatrices, ViscousIsElasticTimesItsViscosity) {
+  MovedBlocks m;
+  m.model.joints = {test::rough_joint(30.0)};
+  m.add({{0, 0}, {3, 0}, {3, 2}, {0, 1}});
+  m.start();
+  m.blocks.viscosity = {2e-3};
+  const Matrix6 elastic = elastic_matrix(m.blocks, 0),
+                viscous = viscous_matrix(m.blocks, 0, {1.0, 0.0, 0.0, 1.0});
+  EXPECT_LT((viscous - 2e-3 * elastic).norm(), 1e-9 * viscous.norm());
+}
+
+/// Whose step is made twice as long has four times the inertia, and the same part of critical
+/// damping.
+TEST(MassScaling, KeepsThePartOfCriticalDamping) {
+  for (const MassKind kind : {MassKind::matched, MassKind::consistent}) {
+    MovedBlocks m;
+    m.model.solver.mass = kind;
+    m.model.joints = {test::rough_joint(30.0)};
+    m.model.contact.normal_stiffness = m.model.contact.shear_stiffness = 1e6;
+    m.add({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+    m.start();
+    const double inverse = m.blocks.inverse_mass[0].empty() ? 0.0 : m.blocks.inverse_mass[0][0];
+    m.blocks.damping = {0.25};
+    BoundarySprings none;
+    none.block_begin.assign(2, 0);
+    const double step = 2.0 * bound_of(m).critical_step;
+    const std::vector<double> factors =
+        raise_inertia(m.blocks, m.state, m.faces, none, m.laws, {}, step);
+    ASSERT_EQ(factors.size(), 1u);
+    EXPECT_NEAR(factors[0], 4.0, 1e-6);
+    EXPECT_NEAR(bound_of(m).critical_step, step, 1e-6 * step);
+    if (inverse > 0.0) {
+      EXPECT_NEAR(m.blocks.inverse_mass[0][0], 0.25 * inverse, 1e-6 * inverse);
+    }
+    fill_viscosity(m.blocks, {});
+    const double viscosity = m.blocks.viscosity[0];
+    raise_inertia(m.blocks, m.state, m.faces, none, m.laws, {}, 3.0 * step);
+    const double raised = m.blocks.viscosity[0];
+    fill_viscosity(m.blocks, {});
+    EXPECT_GT(raised, 1.1 * viscosity);
+    EXPECT_NEAR(raised, m.blocks.viscosity[0], 1e-6 * raised);
+  }
+}
+
+}  // namespace
+}  // namespace edda::block_step_test

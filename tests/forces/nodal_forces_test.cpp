@@ -1,0 +1,198 @@
+// Forces on the nodes, against the energy, the work or the motion that they stand for.
+#include "forces/nodal_forces.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "attachments/dashpots.hpp"
+#include "contacts/moved_blocks.hpp"
+#include "forces/block_matrices.hpp"
+#include "forces/dashpot_forces.hpp"
+#include "forces/elastic.hpp"
+
+namespace edda::nodal_forces_test {
+namespace {
+
+using test::MovedBlocks;
+
+/// One block, and what is held of it.
+struct OneBlock : MovedBlocks {
+  BoundarySprings springs;
+  NodalForces forces;
+
+  explicit OneBlock(const std::vector<Boundary>& boundaries = {}) {
+    model.joints = {test::rough_joint(30.0)};
+    model.contact.normal_stiffness = model.contact.shear_stiffness = 1e9;
+    model.boundaries = boundaries;
+    add({{0, 0}, {2, 0.3}, {1.7, 1.4}, {-0.2, 1}});
+    start();
+    springs = attach_boundaries(model, blocks).value();
+    for (std::size_t k = 0; k < 3; ++k) forces.x[k] = forces.y[k] = {0.0};
+  }
+  void gather(Vec2 gravity, const LoadsNow& loads = {}) {
+    place_vertices(blocks, state.x, state.y, 0, pose.x, pose.y);
+    gather_forces(forces, blocks, state, pose, faces, springs, gravity, loads);
+  }
+  Vec2 on_node(std::size_t k) const { return {forces.x[k][0], forces.y[k][0]}; }
+  Vec2 whole() const { return on_node(0) + on_node(1) + on_node(2); }
+  /// Turns and strains it.
+  void deform() {
+    const double more[3] = {0.02, -0.03, 0.01};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 p = rotated({state.x[k][0], state.y[k][0]}, 0.4);
+      state.x[k][0] = p.x + more[k];
+      state.y[k][0] = p.y + more[(k + 1) % 3];
+    }
+  }
+};
+
+TEST(NodalForces, OfAStrainedBlockAreTheGradientOfItsEnergy) {
+  OneBlock o;
+  o.deform();
+  const auto energy = [&] {
+    const Deformation f = deformation(o.blocks, o.state.x, o.state.y, 0);
+    const Tensor e = corotated_strain(f, rotation(f));
+    return strain_energy(e, e, o.blocks.volume[0], o.blocks.lame_lambda[0], o.blocks.lame_mu[0]);
+  };
+  o.gather({});
+  const double d = 1e-6, scale = norm(o.on_node(0));
+  EXPECT_GT(scale, 1e6);
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (auto* place : {&o.state.x[k][0], &o.state.y[k][0]}) {
+      const double at = *place;
+      *place = at + d;
+      const double up = energy();
+      *place = at - d;
+      const double down = energy();
+      *place = at;
+      const double force = place == &o.state.x[k][0] ? o.on_node(k).x : o.on_node(k).y;
+      EXPECT_NEAR(force, (down - up) / (2.0 * d), 1e-6 * scale);
+    }
+  }
+}
+
+TEST(NodalForces, WeightIsThatOfTheBlock) {
+  OneBlock o;
+  const Vec2 gravity{1.0, -9.81}, frame{0.5, 0.25};
+  o.gather(gravity);
+  const double mass = o.blocks.mass[0];
+  EXPECT_NEAR(norm(o.whole() - mass * gravity), 0.0, 1e-6 * mass);
+  EXPECT_NEAR(norm(o.on_node(1) - mass / 3.0 * gravity), 0.0, 1e-6 * mass);
+  // On a ground that accelerates, and while weight is still to come.
+  LoadsNow loads;
+  loads.frame = frame;
+  loads.to_come = {0.0, -4.0};
+  o.gather(gravity, loads);
+  EXPECT_NEAR(norm(o.whole() - mass * (gravity - frame - Vec2{0.0, -4.0})), 0.0, 1e-6 * mass);
+}
+
+TEST(NodalForces, BoundarySpringsPullBack) {
+  Boundary held;
+  held.name = "b";
+  held.type = BoundaryType::fixed;
+  held.along = {{0, 0}, {2, 0.3}};
+  held.stiffness = 1e6;
+  OneBlock o({held});
+  ASSERT_EQ(o.springs.size(), 2u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    o.state.x[k][0] += 0.01;
+    o.state.y[k][0] -= 0.02;
+  }
+  o.gather({});
+  EXPECT_NEAR(o.whole().x, -2.0 * 1e6 * 0.01, 1e-6);
+  EXPECT_NEAR(o.whole().y, 2.0 * 1e6 * 0.02, 1e-6);
+}
+
+/// What faces do on the corners and what the nodes get of it work as much, whatever the motion.
+TEST(NodalForces, OfFacesWorkAsOnTheCorners) {
+  MovedBlocks m = test::square_on_base(test::rough_joint(30.0));
+  m.start();
+  m.put(1, {{0.0, -1e-4}, 5e-5});
+  m.settle();
+  m.go(1, {{2e-5, -1e-4}, 5e-5});
+  NodalForces forces;
+  for (std::size_t k = 0; k < 3; ++k) forces.x[k] = forces.y[k] = {0.0, 0.0};
+  BoundarySprings none;
+  none.block_begin.assign(3, 0);
+  gather_forces(forces, m.blocks, m.state, m.pose, m.faces, none, {});
+  std::mt19937 rng(3);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  Nodes dx, dy;
+  double on_nodes = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    dx[k] = {0.0, u(rng)};
+    dy[k] = {0.0, u(rng)};
+    on_nodes += forces.x[k][1] * dx[k][1] + forces.y[k][1] * dy[k][1];
+  }
+  double on_corners = 0.0;
+  for (std::size_t k = 0; k < m.faces.size(); ++k) {
+    const CornerForces on = corner_forces(m.faces, k);
+    on_corners += dot(on.q1, vertex_at(m.blocks, dx, dy, m.faces.facing[k])) +
+                  dot(on.q2, vertex_at(m.blocks, dx, dy, m.faces.facing_end[k]));
+  }
+  EXPECT_GT(std::abs(on_corners), 1e4);
+  EXPECT_NEAR(on_nodes, on_corners, 1e-9 * std::abs(on_corners));
+  EXPECT_NEAR(norm(contact_resultant(m.blocks, m.faces, 1) - m.force_on(1)), 0.0, 1e-6);
+}
+
+/// eta C : dU/dt of a block that is neither turned nor strained.
+TEST(ViscousStress, IsTheElasticOneOfItsRate) {
+  OneBlock o;
+  o.blocks.viscosity = {2e-3};
+  const double lambda = o.blocks.lame_lambda[0], mu = o.blocks.lame_mu[0];
+  const PiolaStress p =
+      viscous_stress(o.blocks, 0, strain_frame({1.0, 0.0, 0.0, 1.0}), {0.3, -0.1, 0.5});
+  EXPECT_NEAR(p.xx, 2e-3 * (lambda * 0.2 + 2.0 * mu * 0.3), 1e-6);
+  EXPECT_NEAR(p.yy, 2e-3 * (lambda * 0.2 - 2.0 * mu * 0.1), 1e-6);
+  EXPECT_NEAR(p.xy, 2e-3 * mu * 0.5, 1e-6);
+  EXPECT_NEAR(p.yx, 2e-3 * mu * 0.5, 1e-6);
+}
+
+/// f = -C ((v- + v+)/2 - r), v+ the velocity that f itself leads to, with mass damping and viscous
+/// rock.
+TEST(DashpotForces, AreThoseOfTheMeanVelocityOfTheStep) {
+  Boundary lets_out;
+  lets_out.name = "b";
+  lets_out.type = BoundaryType::viscous;
+  lets_out.along = {{0, 0}, {2, 0.3}};
+  OneBlock o({lets_out});
+  const Dashpots dashpots = attach_dashpots(o.model, o.blocks).value();
+  const std::size_t points = dashpots.points.size();
+  ASSERT_EQ(points, 2u);
+  const double h = 1e-3, drag = 0.2;
+  o.blocks.viscosity = {1e-4};
+  Nodes vx, vy;
+  for (std::size_t k = 0; k < 3; ++k) {
+    vx[k] = {0.2 + 0.1 * static_cast<double>(k)};
+    vy[k] = {-0.3 + 0.05 * static_cast<double>(k)};
+  }
+  const std::vector<Vec2> reference{{0.05, 0.02}, {0.01, -0.03}}, push{{10.0, 20.0}, {-5.0, 3.0}};
+  std::vector<Vec2> on_point(points);
+  o.gather({0.0, -9.81});
+  add_dashpots(o.forces, on_point, dashpots, o.blocks, o.state, vx, vy, {h, drag, reference, push},
+               0, 1);
+  const Matrix6 mass = mass_matrix(o.blocks, 0);
+  const Vector6 before = nodal(vx, vy, 0);
+  const Matrix6 left = (1.0 + drag) * mass + h * viscous_matrix(o.blocks, 0, {1.0, 0.0, 0.0, 1.0});
+  const Vector6 after =
+      left.ldlt().solve((1.0 - drag) * mass * before + h * nodal(o.forces.x, o.forces.y, 0));
+  Nodes mean_x, mean_y;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto at = static_cast<Eigen::Index>(2 * k);
+    mean_x[k] = {0.5 * (before[at] + after[at])};
+    mean_y[k] = {0.5 * (before[at + 1] + after[at + 1])};
+  }
+  for (std::size_t p = 0; p < points; ++p) {
+    const Dashpot& at = dashpots.points[p];
+    const Vec2 v = weighted(at.weight, mean_x, mean_y, 0) - reference[p];
+    const Vec2 force{-(at.cxx * v.x + at.cxy * v.y), -(at.cxy * v.x + at.cyy * v.y)};
+    EXPECT_GT(norm(force), 1e4);
+    EXPECT_NEAR(norm(on_point[p] - push[p] - force), 0.0, 1e-9 * norm(force));
+  }
+  remove_dashpots(o.forces, on_point, dashpots);
+  EXPECT_NEAR(norm(o.whole() - o.blocks.mass[0] * Vec2{0.0, -9.81}), 0.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace edda::nodal_forces_test

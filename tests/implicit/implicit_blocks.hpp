@@ -1,0 +1,78 @@
+// A model of a few blocks, and all that a step of the implicit method needs.
+#pragma once
+
+#include "blocks/build_blocks.hpp"
+#include "contacts/face_bonds.hpp"
+#include "contacts/find_faces.hpp"
+#include "contacts/place_faces.hpp"
+#include "implicit/assemble.hpp"
+#include "lines/build_polygons.hpp"
+#include "model/read_model.hpp"
+
+namespace edda::test {
+
+struct ImplicitBlocks {
+  Model model;
+  PolygonSet polygons;
+  BlockSet blocks;
+  LawTable laws;
+  BoundarySprings springs;
+  State state;
+  Pose pose;
+  FaceSet contacts;
+  NodalForces forces;
+  ImplicitSolver solver;
+  ImplicitSettings settings;
+
+  explicit ImplicitBlocks(const std::string& toml) {
+    model = read_model_text(toml, "scene.toml", {}).value();
+    polygons = build_polygons(model).value();
+    blocks = build_blocks(model, polygons);
+    laws = build_laws(model);
+    springs = attach_boundaries(model, blocks).value();
+    state = initial_state(blocks, polygons);
+    for (std::size_t k = 0; k < 3; ++k) {
+      forces.x[k].assign(blocks.size(), 0.0);
+      forces.y[k].assign(blocks.size(), 0.0);
+    }
+    pose.x = blocks.vertex_x;
+    pose.y = blocks.vertex_y;
+    place();
+    pose.x1 = pose.x;
+    pose.y1 = pose.y;
+    find_faces(contacts, blocks, state, pose, laws, 0.05);
+    place_faces(contacts, blocks, pose, laws, 1.0);
+    stand_still(contacts);  // limits of friction
+    settings.step = 2e-3;
+    settings.mass_damping = 3.0;
+    settings.contact_damping = 0.1;
+    set_face_dashpots(contacts, laws, settings.contact_damping);
+  }
+
+  ImplicitScene scene() const { return {blocks, laws, springs, {0.0, -9.81}}; }
+
+  void place() {
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      place_vertices(blocks, state.x, state.y, i, pose.x, pose.y);
+    }
+  }
+
+  /// What is out of balance with D as it stands.
+  Eigen::VectorXd residual(const Nodes& x0, const Nodes& y0) {
+    for (std::size_t row = 0; row < solver.block_of.size(); ++row) {
+      const Id i = solver.block_of[row];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto at = static_cast<Eigen::Index>(6 * row + 2 * k);
+        state.x[k][i] = x0[k][i] + solver.moved[at];
+        state.y[k][i] = y0[k][i] + solver.moved[at + 1];
+      }
+    }
+    place();
+    evaluate_springs(solver.springs, contacts, blocks, pose, settings.step, false);
+    gather_forces(forces, blocks, state, pose, contacts, springs, {0.0, -9.81});
+    measure_residual(solver, scene(), settings, state, contacts, forces);
+    return solver.residual;
+  }
+};
+
+}  // namespace edda::test

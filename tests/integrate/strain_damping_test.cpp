@@ -1,0 +1,97 @@
+// Viscous strain of a block: the stress that its new rate of strain makes, and the energy it takes.
+#include "integrate/strain_damping.hpp"
+
+#include <gtest/gtest.h>
+
+#include "blocks/build_blocks.hpp"
+#include "integrate/leapfrog.hpp"
+
+namespace edda::strain_damping_test {
+namespace {
+
+constexpr double viscosity = 3e-4, h = 1e-4;
+
+struct Strained {
+  BlockSet blocks;
+  State state;
+  Nodes none, old_vx, old_vy;
+  StrainDamping damping;
+  double before = 0.0, after = 0.0;  ///< kinetic energy, J
+
+  /// A block that strains and turns, and one step of it without any force.
+  explicit Strained(MassKind kind, double h_old, double h_new) {
+    Model model;
+    model.solver.mass = kind;
+    model.materials.push_back({"rock", 1000.0, 1e9, 0.3, {}});
+    PolygonSet set;
+    BlockPolygon p;
+    p.rings = {{{0, 0}, {2, 0}, {2.2, 1}, {0, 1.3}}};
+    p.joint = {std::vector<Index>(4, none_)};
+    p.material = 0;
+    set.blocks.push_back(p);
+    blocks = build_blocks(model, set);
+    blocks.viscosity = {viscosity};
+    state = initial_state(blocks, set);
+    const double vx[3] = {0.1, -0.2, 0.05}, vy[3] = {0.03, 0.1, -0.15};
+    for (std::size_t k = 0; k < 3; ++k) {
+      state.vx[k][0] = vx[k];
+      state.vy[k][0] = vy[k];
+      none[k] = {0.0};
+    }
+    old_vx = state.vx;
+    old_vy = state.vy;
+    before = kinetic_energy(blocks, state.vx, state.vy, 0);
+    prepare(damping, blocks, 0.5 * (h_old + h_new));
+    advance(state, blocks, none, none, h_old, h_new, {0.0, 0.0, nullptr, &damping});
+    after = kinetic_energy(blocks, state.vx, state.vy, 0);
+  }
+  StrainTerms rate(const Nodes& vx, const Nodes& vy) const {
+    return strain_rate(strain_frame({1.0, 0.0, 0.0, 1.0}), deformation(blocks, vx, vy, 0));
+  }
+
+ private:
+  static constexpr Index none_ = edda::none;
+};
+
+TEST(StrainDamping, StressIsThatOfTheNewRateOfStrain) {
+  for (MassKind kind : {MassKind::matched, MassKind::consistent}) {
+    const Strained o(kind, h, h);
+    const StrainTerms rate = o.rate(o.state.vx, o.state.vy);
+    const double lambda = o.blocks.lame_lambda[0], mu = o.blocks.lame_mu[0];
+    const double whole = viscosity * o.blocks.volume[0], size = whole * mu * 0.1;
+    EXPECT_NEAR(o.damping.stress[0][0], whole * (lambda * (rate.xx + rate.yy) + 2.0 * mu * rate.xx),
+                1e-3 * size);
+    EXPECT_NEAR(o.damping.stress[1][0], whole * (lambda * (rate.xx + rate.yy) + 2.0 * mu * rate.yy),
+                1e-3 * size);
+    EXPECT_NEAR(o.damping.stress[2][0], whole * mu * rate.xy, 1e-3 * size);
+  }
+}
+
+TEST(StrainDamping, TakesTheEnergyThatItBooks) {
+  for (MassKind kind : {MassKind::matched, MassKind::consistent}) {
+    const Strained o(kind, h, h);
+    EXPECT_LT(o.after, 0.95 * o.before);
+    const double booked =
+        strain_dissipation(o.damping, o.blocks, o.state, o.old_vx, o.old_vy, h, h, 0);
+    EXPECT_NEAR(booked, o.before - o.after, 1e-3 * booked);
+    // A motion as a whole is left alone.
+    const Vec2 was = centroid(o.old_vx, o.old_vy, 0), is = centroid(o.state.vx, o.state.vy, 0);
+    EXPECT_NEAR(norm(is - was), 0.0, 1e-12);
+  }
+}
+
+/// s . (h_old dU/dt- + h_new dU/dt+)/2.
+TEST(StrainDamping, BooksBothStepsWhereTheyDiffer) {
+  const double h_new = 3.0 * h;
+  const Strained o(MassKind::matched, h, h_new);
+  const StrainTerms was = o.rate(o.old_vx, o.old_vy), is = o.rate(o.state.vx, o.state.vy);
+  double expected = 0.0;
+  const double moved[3] = {h * was.xx + h_new * is.xx, h * was.yy + h_new * is.yy,
+                           h * was.xy + h_new * is.xy};
+  for (std::size_t q = 0; q < 3; ++q) expected += 0.5 * o.damping.stress[q][0] * moved[q];
+  EXPECT_NEAR(strain_dissipation(o.damping, o.blocks, o.state, o.old_vx, o.old_vy, h, h_new, 0),
+              expected, 1e-3 * expected);
+}
+
+}  // namespace
+}  // namespace edda::strain_damping_test
