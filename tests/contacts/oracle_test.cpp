@@ -18,5 +18,18 @@ TEST(ListOfFaces, MissesNothingWhileBlocksMove) {
   EXPECT_GT(wanted, 10000u);
 }
 
+/// Plates, needles of 2 degrees, stars, blocks with holes, as they lie over one another.
+TEST(ListOfFaces, ActWhereTheyPressInBothBlocks) {
+  ActingFaults sum;
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    const ActingFaults faults = acting_heap(seed, 30, 3, 4);
+    EXPECT_EQ(faults.apart, 0u) << "seed " << seed;
+    sum.add(faults);
+  }
+  std::printf("decided %zu apart %zu pressing %zu behind %zu\n", sum.decided, sum.apart,
+              sum.pressing, sum.behind);
+  EXPECT_GT(sum.decided, 10000u);
+}
+
 }  // namespace
 }  // namespace edda::oracle_test
