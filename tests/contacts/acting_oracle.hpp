@@ -1,6 +1,7 @@
 // Which faces act, from its definition in docs/contacts.md alone: edges are opposed and overlap, a
 // face that comes to be acts where it is open or where the points at which it would press lie in
-// both blocks, later once it is open. Nothing is shared with the program but the corners.
+// both blocks, later once it is open; its corner leans where there is no third block beside it.
+// Nothing is shared with the program but the corners.
 #pragma once
 
 #include <map>
@@ -38,6 +39,7 @@ struct EdgesFacing {
   double angle_left = 0.0;  ///< of the cosine, up to where they are no longer opposed
   double length = 0.0;      ///< of their overlap, m
   double a = 0.0, b = 0.0;  ///< closures at its ends, m
+  Vec2 beside;              ///< between both, a tenth of the overlap from its deeper end
   Vec2 on_edge, on_facing;  ///< points of either, amid the pressure
   double closure() const { return std::max(a, b); }
 };
@@ -66,18 +68,37 @@ inline EdgesFacing edges_facing(const BlockSet& b, const Pose& pose, Id e, Id f)
   if (s.b > 0.0 && s.a <= 0.0) middle = 1.0 - s.b / (s.b - s.a) / 3.0;
   s.on_edge = on_e(sa + middle * s.length);
   s.on_facing = on_f(sa + middle * s.length);
+  const double near = sa + (s.b >= s.a ? 0.9 : 0.1) * s.length;
+  s.beside = 0.5 * (on_e(near) + on_f(near));
   return s;
 }
 
+/// Where it would press neither edge lies in the other block: the far sides of two thin blocks,
+/// with both of them in between. What is deeper than half as long does not count: a corner.
+inline bool presses_from_behind(const EdgesFacing& s, const BlockSet& b, const Pose& pose, Id e,
+                                Id f) {
+  if (s.length < 2.0 * s.closure()) return false;
+  const double in_facing = depth_of(b, pose, s.on_edge, b.vertex_block[f]);
+  const double in_edge = depth_of(b, pose, s.on_facing, b.vertex_block[e]);
+  return std::max(in_facing, in_edge) < -0.1 * s.closure();
+}
+
 struct ActingFaults {
-  std::size_t decided = 0;  ///< faces that pressed as drawn and of which the oracle was sure
+  std::size_t decided = 0;  ///< faces closed of which the oracle was sure
   std::size_t apart = 0;    ///< of them, not as the program has it
-  std::size_t behind =
-      0;  ///< faces that press where a point of one edge lies outside the other block
-  std::size_t pressing = 0;
+  std::size_t idle = 0;     ///< of them, those that do not act
+  std::size_t leaning = 0;  ///< faces that came to carry and of which the oracle was sure who leans
+  std::size_t crossed = 0;  ///< of them, those with a third block beside the corner
+  std::size_t askew = 0;    ///< of them, not as the program has it
+  std::size_t pressing = 0;  ///< faces that carry
+  std::size_t behind = 0;    ///< of them, from behind a block
   void add(const ActingFaults& f) {
     decided += f.decided;
     apart += f.apart;
+    idle += f.idle;
+    leaning += f.leaning;
+    crossed += f.crossed;
+    askew += f.askew;
     behind += f.behind;
     pressing += f.pressing;
   }
@@ -101,13 +122,13 @@ class ActingOracle {
       now[{e, f}] = decided;
       if (s.closure() > rounding_ && decided != Decision::unknown) {
         ++faults.decided;
+        faults.idle += decided == Decision::idle ? 1 : 0;
         faults.apart += (c.acts[k] > 0.0) == (decided == Decision::acts) ? 0 : 1;
       }
-      if (c.now.energy[k] > 0.0) {
+      if (c.now.energy[k] > 0.0 && c.before.energy[k] == 0.0) look_beside(s, c, b, pose, k, faults);
+      if (c.now.energy[k] > 0.0 && s.closure() > rounding_) {
         ++faults.pressing;
-        const double out = std::min(depth_of(b, pose, s.on_edge, b.vertex_block[f]),
-                                    depth_of(b, pose, s.on_facing, b.vertex_block[e]));
-        faults.behind += out < -0.25 * s.closure() - rounding_ ? 1 : 0;
+        faults.behind += presses_from_behind(s, b, pose, e, f) ? 1 : 0;
       }
     }
     before_ = std::move(now);
@@ -136,6 +157,21 @@ class ActingOracle {
     const double near = rounding_ + 0.1 * closure;
     if (std::min(in_facing, in_edge) > near) return Decision::acts;
     return std::min(in_facing, in_edge) < -near ? Decision::idle : Decision::unknown;
+  }
+
+  /// Of all blocks, where the program asks those of the faces that it has in its list.
+  void look_beside(const EdgesFacing& s, const FaceSet& c, const BlockSet& b, const Pose& pose,
+                   std::size_t k, ActingFaults& faults) const {
+    double deepest = -std::numeric_limits<double>::infinity();
+    for (Id i = 0; i < b.size(); ++i) {
+      if (i == b.vertex_block[c.edge[k]] || i == b.vertex_block[c.facing[k]]) continue;
+      deepest = std::max(deepest, depth_of(b, pose, s.beside, i));
+    }
+    const double doubt = 1e-7 + 0.3 * std::abs(s.closure());
+    if (std::abs(deepest) < doubt) return;
+    ++faults.leaning;
+    faults.crossed += deepest > 0.0 ? 1 : 0;
+    faults.askew += (c.leans[k] > 0.0) == (deepest < 0.0) ? 0 : 1;
   }
 
   double rounding_;  ///< m
