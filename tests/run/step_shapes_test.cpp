@@ -56,11 +56,11 @@ std::string hexagons() {
   });
 }
 
-/// A square of 1 m beside sixteen of 0.25 m.
+/// A square of 1 m beside nine of a third of it.
 std::string large_and_small() {
   return among_held([](int i, int j) {
     const bool small = i >= 0 && j >= 0 && i < 3 && j < 3 && (i + j) % 2 == 0;
-    const int parts = small ? 4 : 1;
+    const int parts = small ? 3 : 1;
     const double size = 1.0 / parts;
     std::vector<Ring> rings;
     for (int a = 0; a < parts * parts; ++a) {
