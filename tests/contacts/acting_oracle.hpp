@@ -77,7 +77,8 @@ inline EdgesFacing edges_facing(const BlockSet& b, const Pose& pose, Id e, Id f)
 /// with both of them in between. What is deeper than half as long does not count: a corner.
 inline bool presses_from_behind(const EdgesFacing& s, const BlockSet& b, const Pose& pose, Id e,
                                 Id f) {
-  if (s.length < 2.0 * s.closure()) return false;
+  const double shorter = std::min(b.edge_length[e], b.edge_length[f]);
+  if (s.length < std::max(2.0 * s.closure(), 0.01 * shorter)) return false;
   const double in_facing = depth_of(b, pose, s.on_edge, b.vertex_block[f]);
   const double in_edge = depth_of(b, pose, s.on_facing, b.vertex_block[e]);
   return std::max(in_facing, in_edge) < -0.1 * s.closure();

@@ -83,6 +83,10 @@ bool acting_differs(unsigned n, unsigned first) {
                             unsigned number) {
     const Acting acting = acting_in(sim, steps);
     sum.add(acting.faults);
+    if (acting.faults.apart + acting.faults.askew + acting.faults.behind > 0) {
+      std::printf("number %u: %zu and %zu not as defined, %zu from behind\n", number,
+                  acting.faults.apart, acting.faults.askew, acting.faults.behind);
+    }
     if (acting.failure.empty()) return;
     std::printf("%u: %s\n", number, acting.failure.c_str());
     differs = true;
