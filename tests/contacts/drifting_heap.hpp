@@ -4,8 +4,9 @@
 #include <limits>
 
 #include "blocks/build_blocks.hpp"
+#include "contacts/acting_oracle.hpp"
 #include "contacts/find_faces.hpp"
-#include "contacts/oracle.hpp"
+#include "contacts/place_faces.hpp"
 #include "contacts/random_shapes.hpp"
 
 namespace edda {
@@ -33,6 +34,35 @@ inline PolygonSet random_polygons(std::mt19937& rng, int n, double decades) {
   return set;
 }
 
+/// The same with plates of 1 : 30 to 1 : 1,000, needles of 2 degrees and blocks with a hole among
+/// them.
+inline PolygonSet odd_polygons(std::mt19937& rng, int n) {
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  PolygonSet set = random_polygons(rng, n, 1.0);
+  for (BlockPolygon& p : set.blocks) {
+    const double kind = u(rng), turn = 2.0 * std::numbers::pi * u(rng);
+    const Vec2 c = p.rings[0][0];
+    const auto place = [&](Ring ring) {
+      for (Vec2& q : ring) q = c + rotated(q, turn);
+      return ring;
+    };
+    const double thin = 0.03 * std::pow(0.03, u(rng));
+    const double tip = std::tan(1.0 / 180.0 * std::numbers::pi);
+    if (kind < 0.2) {
+      p.rings = {place({{-1, -thin}, {1, -thin}, {1, thin}, {-1, thin}})};
+    } else if (kind < 0.4) {
+      p.rings = {place({{-1, -tip}, {1, 0}, {-1, tip}})};
+    } else if (kind < 0.6) {
+      const double wide = 0.3 + 0.6 * u(rng);
+      p.rings = {place({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}),
+                 place({{-wide, -wide}, {-wide, wide}, {wide, wide}, {wide, -wide}})};
+    }
+    p.joint.clear();
+    for (const Ring& ring : p.rings) p.joint.push_back(std::vector<Index>(ring.size(), none));
+  }
+  return set;
+}
+
 struct DriftingHeap {
   BlockSet blocks;
   State state;
@@ -40,11 +70,13 @@ struct DriftingHeap {
   LawTable laws;
   FaceSet contacts;
 
-  DriftingHeap(std::mt19937& rng, int n, double decades) {
+  DriftingHeap(std::mt19937& rng, int n, double decades)
+      : DriftingHeap(random_polygons(rng, n, decades)) {}
+
+  explicit DriftingHeap(const PolygonSet& polygons) {
     Model model;
     model.materials.push_back({"rock", 2600.0, 1e9, 0.2, {}});
     model.contact.normal_stiffness = model.contact.shear_stiffness = 1e9;
-    const PolygonSet polygons = random_polygons(rng, n, decades);
     blocks = build_blocks(model, polygons);
     state = initial_state(blocks, polygons);
     laws = build_laws(model);
@@ -78,6 +110,28 @@ struct DriftingHeap {
 
   ListFaults check() const { return check_list(contacts, blocks, state.alive, pose.x, pose.y); }
 };
+
+/// One heap of odd shapes, lying over one another as they fall, through `lists` lists and `moves`
+/// moves under each: which faces act.
+inline ActingFaults acting_heap(unsigned seed, int blocks, int lists, int moves) {
+  std::mt19937 rng(seed);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  DriftingHeap heap(odd_polygons(rng, blocks));
+  ActingOracle oracle(1e-10);
+  ActingFaults sum;
+  for (int list = 0; list < lists; ++list) {
+    const double reach = 0.3 * std::pow(10.0, -3.0 * u(rng));
+    FaceSet& c = heap.contacts;
+    find_faces(c, heap.blocks, heap.state, heap.pose, heap.laws, reach);
+    for (int move = 0; move < moves; ++move) {
+      next_step(c);
+      heap.drift(rng, 0.5 * reach / moves);
+      place_faces(c, heap.blocks, heap.pose, heap.laws, 1.0);
+      sum.add(oracle.look(c, heap.blocks, heap.pose));
+    }
+  }
+  return sum;
+}
 
 /// One heap through `lists` lists and `moves` moves under each; faces that carry must survive every
 /// new list.

@@ -12,18 +12,21 @@ namespace edda {
 
 using EdgePair = std::pair<Id, Id>;
 
-/// Whether the edges e and f are within the angle of each other in which a face may act: 85
-/// degrees, and where one of their ends is a needle of alpha < 90 degrees (90 - alpha)/2 more.
+/// Cosine of the angle of the edges e and f beyond which no face acts: 85 degrees, and where one of
+/// their ends is a needle of alpha < 90 degrees (90 - alpha)/2 more.
+inline double least_opposed(const BlockSet& b, Id e, Id f) {
+  double sharpest = 0.5 * std::numbers::pi;
+  for (const Id v : {e, b.next[e], f, b.next[f]}) sharpest = std::min(sharpest, b.corner[v]);
+  return std::cos(85.0 / 180.0 * std::numbers::pi + 0.5 * (0.5 * std::numbers::pi - sharpest));
+}
+
 inline bool oppose(const BlockSet& b, const std::vector<double>& x, const std::vector<double>& y,
                    Id e, Id f) {
   const auto direction = [&](Id edge) {
     const Id end = b.next[edge];
     return unit(Vec2{x[end] - x[edge], y[end] - y[edge]});
   };
-  double sharpest = 0.5 * std::numbers::pi;
-  for (const Id v : {e, b.next[e], f, b.next[f]}) sharpest = std::min(sharpest, b.corner[v]);
-  const double most = 85.0 / 180.0 * std::numbers::pi + 0.5 * (0.5 * std::numbers::pi - sharpest);
-  return -dot(direction(e), direction(f)) > std::cos(most);
+  return -dot(direction(e), direction(f)) > least_opposed(b, e, f);
 }
 
 /// Every two opposed edges of different blocks of which a corner of one is nearer than `near` (m)

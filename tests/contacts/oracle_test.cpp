@@ -18,5 +18,17 @@ TEST(ListOfFaces, MissesNothingWhileBlocksMove) {
   EXPECT_GT(wanted, 10000u);
 }
 
+/// Plates, needles of 2 degrees, stars, blocks with holes, as they lie over one another.
+TEST(ListOfFaces, ActWhereTheyPressInBothBlocks) {
+  ActingFaults sum;
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    const ActingFaults faults = acting_heap(seed, 30, 3, 4);
+    EXPECT_EQ(faults.apart, 0u) << "seed " << seed;
+    sum.add(faults);
+  }
+  EXPECT_GT(sum.decided, 50000u);
+  EXPECT_GT(sum.idle, 20000u);
+}
+
 }  // namespace
 }  // namespace edda::oracle_test

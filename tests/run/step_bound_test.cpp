@@ -1,92 +1,10 @@
-// The critical step against the true limit: a power iteration on the assembled system.
-#include <gtest/gtest.h>
-
-#include <cmath>
+// The critical step against the true limit.
 #include <cstdio>
-#include <optional>
-#include <random>
 
-#include "contacts/place_faces.hpp"
-#include "model/read_model.hpp"
-#include "run/simulation.hpp"
+#include "run/glued_scene.hpp"
 
 namespace edda::step_bound_test {
 namespace {
-
-/// Bonds that never open or slide, rock without damping unless `damping` says so.
-/// `own`: springs and dashpots of the joint.
-Simulation glued(const std::string& geometry, double damping = 0.0,
-                 const std::optional<LawDashpots>& own = {}) {
-  Result<Model> model = read_model_text(
-      "gravity = [0, 0]\n[materials.rock]\ndensity = 2600\nyoung = 20e9\npoisson = 0.2\n"
-      "damping = " +
-          std::to_string(damping) + "\n[joints.j]\ntype = 'glued'\n[solver]\nduration = 1\n" +
-          geometry,
-      "t.toml", {});
-  if (!model.ok()) ADD_FAILURE() << to_string(model.faults()[0]);
-  model.value().joints[0].dashpots = own;
-  Result<Simulation> sim = Simulation::create(std::move(model.value()));
-  if (!sim.ok()) ADD_FAILURE() << to_string(sim.faults()[0]);
-  return std::move(sim.value());
-}
-
-/// Acceleration of every node in the present state, with contacts as they are.
-Nodes accelerate(Simulation& s, bool along_x) {
-  for (std::size_t i = 0; i < s.blocks.size(); ++i) {
-    place_vertices(s.blocks, s.state.x, s.state.y, i, s.pose.x, s.pose.y);
-  }
-  place_faces(s.contacts, s.blocks, s.pose, s.laws, 1.0);
-  gather_forces(s.forces, s.blocks, s.state, s.pose, s.contacts, s.springs, {0, 0});
-  Nodes a = along_x ? s.forces.x : s.forces.y;
-  for (std::size_t i = 0; i < s.blocks.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      a[k][i] = s.blocks.fixed[i] ? 0.0 : a[k][i] / s.blocks.node_mass[k][i];
-    }
-  }
-  return a;
-}
-
-/// 2/omega_max of the assembled system.
-double true_critical_step(Simulation& s) {
-  const Nodes x0 = s.state.x, y0 = s.state.y;
-  const std::size_t nb = s.blocks.size();
-  std::mt19937 rng(1);
-  std::uniform_real_distribution<double> u(-1.0, 1.0);
-  Nodes vx = x0, vy = y0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < nb; ++i) {
-      vx[k][i] = s.blocks.fixed[i] ? 0.0 : u(rng);
-      vy[k][i] = s.blocks.fixed[i] ? 0.0 : u(rng);
-    }
-  }
-  double lambda = 0.0;
-  for (int round = 0; round < 3000; ++round) {
-    double size = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t i = 0; i < nb; ++i) size += vx[k][i] * vx[k][i] + vy[k][i] * vy[k][i];
-    }
-    const double scale = 1.0 / std::sqrt(size), epsilon = 1e-7;
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t i = 0; i < nb; ++i) {
-        s.state.x[k][i] = x0[k][i] + epsilon * scale * vx[k][i];
-        s.state.y[k][i] = y0[k][i] + epsilon * scale * vy[k][i];
-      }
-    }
-    const Nodes ax = accelerate(s, true), ay = accelerate(s, false);
-    double product = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t i = 0; i < nb; ++i) {
-        product -= scale * (vx[k][i] * ax[k][i] + vy[k][i] * ay[k][i]) / epsilon;
-        vx[k][i] = -ax[k][i] / epsilon;
-        vy[k][i] = -ay[k][i] / epsilon;
-      }
-    }
-    lambda = std::max(lambda, product);
-  }
-  s.state.x = x0;
-  s.state.y = y0;
-  return 2.0 / std::sqrt(lambda);
-}
 
 const std::vector<std::string>& scenes() {
   static const std::vector<std::string> all = {

@@ -2,6 +2,8 @@
 // and Ls thrown at each other. tools/contact-oracle runs more of them, and longer.
 #include <algorithm>
 
+#include "verification/acting_watch.hpp"
+#include "verification/cut_slope.hpp"
 #include "verification/heap_watch.hpp"
 #include "verification/random_heap.hpp"
 
@@ -89,6 +91,40 @@ TEST(ThrownHeap, MirroredAndRenumberedMoveAlike) {
     }
   }
   EXPECT_GT(switched, 60u);
+}
+
+/// Which faces act, and whose corners lean: as the definition says, and never from behind a block.
+void expect_acts_as_defined(const ActingFaults& faults, const std::string& what) {
+  EXPECT_EQ(faults.apart, 0u) << what;
+  EXPECT_EQ(faults.askew, 0u) << what;
+  EXPECT_EQ(faults.behind, 0u) << what;
+}
+
+TEST(ThrownHeap, FacesActAsDefined) {
+  ActingFaults sum;
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    Simulation sim = scene(odd_heap(seed, 3.0 * seed));
+    const Acting acting = acting_in(sim, 15000);
+    EXPECT_EQ(acting.failure, "") << seed;
+    expect_acts_as_defined(acting.faults, "seed " + std::to_string(seed));
+    sum.add(acting.faults);
+  }
+  EXPECT_GT(sum.decided, 20000u);
+}
+
+TEST(CutSlopes, FacesActAsDefined) {
+  ActingFaults sum;
+  for (unsigned n = 0; n < 20; n += 5) {
+    CutSlope slope = cut_slope(n, 15.0);
+    if (n % 2 == 1) slope.more = "[quality]\naction = 'report'\n";
+    Simulation sim = scene(slope_model(slope));
+    const Acting acting = acting_in(sim, 60);
+    EXPECT_EQ(acting.failure, "") << n;
+    expect_acts_as_defined(acting.faults, "slope " + std::to_string(n));
+    sum.add(acting.faults);
+  }
+  EXPECT_GT(sum.decided, 500u);
+  EXPECT_GT(sum.crossed, 1000u);
 }
 
 }  // namespace

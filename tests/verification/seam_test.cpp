@@ -103,16 +103,20 @@ TEST(SeamCrossing, TheLoadIsSharedByWhatOverlaps) {
 /// Off the edge of a table, held back by c times what still overlaps: m x'' = -c (L - x), so
 /// x = L - L cosh(w t) + (v/w) sinh(w t) with w^2 = c/m while it slides.
 TEST(SeamCrossing, CohesionIsThatOfWhatStillOverlaps) {
-  Simulation sim = scene(
-      rock(2e9) + joint("cohesion = 2000\nresidual = { friction_angle = 0, cohesion = 2000 }\n") +
-      "[contact]\nnormal_stiffness = 2e9\n" +
-      "[[block]]\npolygon = [[-2,0], [0,0], [0,0.2], [-2,0.2]]\nvelocity = [2.2, 0]\n" +
-      floor_in_pieces({-5.0, 0.0}) +
-      "[solver]\nduration = 0.5\ndamping = { contact = 0.1 }\n[output]\nhistory_every = 0.1\n");
-  run(sim, [](Simulation&) {});
   const double w = std::sqrt(2000.0 / (2500.0 * 0.4)), t = 0.5, length = 2.0;
   const double exact = length - length * std::cosh(w * t) + 2.2 / w * std::sinh(w * t);
-  EXPECT_NEAR(displacement(sim, 0).x, exact, 0.01 * exact);
+  // It is half a step at 2.2 m/s before there is any shear: longer with the softer contacts.
+  for (const auto& [contact, bound] :
+       {std::pair{"", 2e-4},
+        {"[contact]\nnormal_stiffness = 2e9\n[solver]\ndamping = { contact = 0.1 }\n", 4e-4}}) {
+    Simulation sim = scene(
+        rock(2e9) + joint("cohesion = 2000\nresidual = { friction_angle = 0, cohesion = 2000 }\n") +
+        "[[block]]\npolygon = [[-2,0], [0,0], [0,0.2], [-2,0.2]]\nvelocity = [2.2, 0]\n" +
+        floor_in_pieces({-5.0, 0.0}) + "[output]\nhistory_every = 0.1\n" +
+        (*contact != 0 ? contact : "[solver]\n") + "duration = 0.5\n");
+    run(sim, [](Simulation&) {});
+    EXPECT_NEAR(displacement(sim, 0).x, exact, bound * exact) << contact;
+  }
 }
 
 /// Squeezed by an initial stress, and slipping on one piece: the squeeze stays, by either method.

@@ -3,8 +3,8 @@
 #include <map>
 
 #include "run/observe.hpp"
-#include "run/run_model.hpp"
 #include "verification/models.hpp"
+#include "verification/settled.hpp"
 
 namespace edda::statics_test {
 namespace {
@@ -47,7 +47,7 @@ TEST(Column, CriticalStep) {
 
 /// Row 13: the limit of a semicircular arch of 16 voussoirs is t/R = 0.1072.
 TEST(Arch, StandsAndFalls) {
-  for (const auto& [ratio, stands] : {std::pair{0.112, true}, std::pair{0.100, false}}) {
+  for (const auto& [ratio, stands] : {std::pair{0.108, true}, std::pair{0.107, false}}) {
     Simulation sim = scene(arch(ratio));
     expect_arch(ratio, stands, sim, "");
   }
@@ -127,17 +127,13 @@ TEST(EccentricLoad, StressesOfAJoint) {
   const double load = 1e3, length = 2.0;
   for (const double part : {0.0, 0.05, 0.15, 0.2, 0.3, 0.4, 0.45}) {
     const double e = part * length;
-    const Result<Model> model = read_model_text(
+    PreparedRun ready = settled(
         "gravity = [0, 0]\n[materials.rock]\ndensity = 2500\nyoung = 2e10\npoisson = 0.2\n"
         "[joints.j]\nfriction_angle = 30\nkn = 1e9\nks = 1e9\n[[block]]\nfixed = true\n"
         "polygon = " +
-            rectangle(-3, -1, 3, 0) + "\n[[block]]\npolygon = " + rectangle(-1, 0, 1, 0.5) +
-            "\n[[load]]\npoint = [" + number(e) + ", 0.01]\nforce = [0, " + number(-load) +
-            "]\n[[stage]]\nuntil = 'equilibrium'\nratio = 1e-7\n",
-        EDDA_SOURCE_DIR "/scene.toml", {});
-    ASSERT_TRUE(model.ok()) << to_string(model.faults().front());
-    PreparedRun ready = prepare_run(model.value()).value();
-    ASSERT_EQ(run_model(ready, {}).value().status, Status::equilibrium);
+        rectangle(-3, -1, 3, 0) + "\n[[block]]\npolygon = " + rectangle(-1, 0, 1, 0.5) +
+        "\n[[load]]\npoint = [" + number(e) + ", 0.01]\nforce = [0, " + number(-load) +
+        "]\n[[stage]]\nuntil = 'equilibrium'\nratio = 1e-7\n");
     Instant at;
     observe(ready.sim, at);
     const Picture picture = picture_of(ready.sim, at);

@@ -92,7 +92,7 @@ ROWS = (
         "An arch of 16 equal voussoirs, centre line of radius R = 5 m, on held springings, under its own weight.",
         "It stands where some thrust line stays within it: t/R of at least"
         f" {exact.arch_limit(16):.4f} (limit analysis, Heyman 1969, here by linear conditions on all joints; 0.1075 for"
-        " endlessly many voussoirs). So it must stand at 0.112 and fall at 0.1.",
+        " endlessly many voussoirs). So it must stand at 0.108 and fall at 0.107.",
         "What is drawn of the arch that falls is the moment when a voussoir has sunk by 0.5 m."),
     Row(14, "Gravity dam with rising water",
         "A dam of 2 x 8 m, 24 kN/m3, on held rock, without uplift. Water rises on one side within 2 s, to a depth that is"
@@ -253,4 +253,28 @@ ROWS = (
     Row(57, "An arch of four hinges",
         "The arch of row 13, thickness a fifth of its radius, under a load on its haunch that grows.",
         "The least load of all mechanisms of four hinges, alternately at the outer and the inner edge of the joints (Heyman 1966)."),
+    Row(58, "A joint in bending",
+        "A block 2 m wide on a joint whose stiffness k is given is pressed at a point e off its middle, at rest.",
+        "Glued: M/(k L^3/12). Without tension the same up to e = L/6; beyond, the length a = 3 (L/2 - e) carries a triangle of"
+        " pressure, and the turn is 2 N/(k a^2)."),
+    Row(59, "Columns on soft joints",
+        "Columns of one block and of three stand on ground that is tilted slowly and stays so; glued ones sway after a push.",
+        "From the top down each joint turns as in row 58 under the weight above, leaning as it does: of one block the limit is the"
+        " largest atan(2 e/H) - 2 N/(9 k (B/2 - e)^2). Sway: each block has the way of its centre, the turn of its level and that"
+        " of its upright edges, between them springs k L, k_s L and k L^3/12."),
+    Row(60, "Joints that cross, squeezed",
+        "Wedges that meet at a point, four blocks round a crossing, three at a joint that ends on another, under a pressure all round"
+        " of 0.1 MPa that rises slowly; with a joint stiffness of 20 GPa/m, and with none.",
+        "Every joint closes by the same, so that every block has that pressure.",
+        "What is left goes with the closure over the length of the joints."),
+    Row(61, "Slides over many seams",
+        "The block of row 1, E 200 MPa, slides 42.5 m over 190 seams, flush, or each piece 0.1 mm higher or lower than the last. A block"
+        " between two rows of pieces slides at 8 m/s in a fault under 10 MPa.",
+        "v^2/2 = a s - g cos(a) h, h the mean rise under the ends of the block. The squeeze stays as it is.",
+        "Where corners pass each other the overlap is shorter by r/4 (docs/contacts.md): in the fault 1.2e-4 m, twice that where both"
+        " ends of the block do at once."),
+    Row(62, "Cohesion under a bent base",
+        "A force along its base is raised to 1.001 of its strength; what slides is held by damping in proportion to mass, at a steady"
+        " speed. The toe, a fifth of the base, bends up by an angle, or the floor bends down there.",
+        "c L + N tan phi, L the whole base."),
 )
