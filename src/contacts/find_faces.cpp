@@ -90,8 +90,7 @@ std::vector<Listed> with_old_faces(const std::vector<EdgePair>& list, const Face
 bool likely_carries(const FaceSet& old, const BlockSet& b, const Pose& pose, double reach,
                     const Listed& f) {
   if (f.old != no_id) {
-    return old.now.energy[f.old] > 0.0 || old.before.energy[f.old] > 0.0 ||
-           old.bonded[f.old] > 0.0 || old.pulls[f.old] > 0.0;
+    return old.now.energy[f.old] > 0.0 || old.bonded[f.old] > 0.0 || old.pulls[f.old] > 0.0;
   }
   const auto [e, q] = f.pair;
   FacePair pair;

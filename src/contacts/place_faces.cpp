@@ -253,6 +253,11 @@ void try_faces(FaceSet& c, const BlockSet& b, const Pose& pose, double step,
 void place_face(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws, double step,
                 std::size_t k) {
   const FaceView view = faces_view(c, b, pose, step);
+  const FaceMemory &m = c.now, &old = c.before;
+  const bool idle = m.energy[k] == 0.0 && old.energy[k] == 0.0 && old.spring[k] == 0.0 &&
+                    m.friction_work[k] == 0.0 && m.transfer[k] == 0.0 && m.damping_due[k] == 0.0 &&
+                    c.bonded[k] == 0.0 && c.pulls[k] == 0.0;
+  if (idle && !wakes_chunk(view, k, k + 1)) return;
   ChunkForces on;
   FoundInChunk found = place_chunk(view, &on, k, k + 1);
   if (found.asks) {

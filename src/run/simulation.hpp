@@ -205,6 +205,7 @@ struct Simulation {
   void search(double reach);
   void search_if_due();
   bool list_is_due();
+  bool list_is_scattered() const;
   bool move(double h_old, double h_new, const LoadsNow* not_yet_gathered);
   Vec2 twice_incoming(Index boundary) const;
   void start_ground(double h);

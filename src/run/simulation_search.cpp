@@ -51,8 +51,25 @@ bool Simulation::list_is_due() {
   return contacts.travel + margin > 0.5 * contacts.reach;
 }
 
+/// Faces that carry stand first in the list (find_faces()): whether so many of the others carry by
+/// now that it is worth a new one.
+bool Simulation::list_is_scattered() const {
+  constexpr std::uint64_t every = 256;  // steps
+  constexpr std::size_t few = 16;       // chunks
+  if (state.steps % every != 0) return false;
+  const FaceSet& c = contacts;
+  std::size_t carrying = 0, touched = 0;
+  for (std::size_t q = 0; q < c.chunks(); ++q) {
+    const std::size_t begin = q * FaceSet::chunk, end = std::min(begin + FaceSet::chunk, c.size());
+    const std::size_t before = carrying;
+    for (std::size_t k = begin; k < end; ++k) carrying += c.now.energy[k] > 0.0 ? 1 : 0;
+    touched += carrying > before ? 1 : 0;
+  }
+  return touched > few + 3 * carrying / (2 * FaceSet::chunk);
+}
+
 void Simulation::search_if_due() {
-  if (!list_is_due()) return;
+  if (!list_is_due() && !list_is_scattered()) return;
   search(std::max(base_reach, 20.0 * last_displacement));
   set_limit();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 
 #include "blocks/build_blocks.hpp"
 #include "contacts/acting_oracle.hpp"
@@ -147,15 +148,15 @@ inline ListFaults drifting_heap(unsigned seed, int blocks, int lists, int moves)
   };
   for (int list = 0; list < lists; ++list) {
     const double reach = 0.3 * std::pow(10.0, -3.0 * u(rng));
-    std::vector<std::pair<EdgePair, double>> carry;
+    std::map<EdgePair, double> carry;
     FaceSet& c = heap.contacts;
     for (std::size_t k = 0; k < c.size(); ++k) {
-      if (c.now.energy[k] > 0.0) carry.push_back({{c.edge[k], c.facing[k]}, c.now.energy[k]});
+      if (c.now.energy[k] > 0.0) carry[{c.edge[k], c.facing[k]}] = c.now.energy[k];
     }
     find_faces(c, heap.blocks, heap.state, heap.pose, heap.laws, reach);
-    for (std::size_t k = 0, q = 0; k < c.size(); ++k) {
-      const bool did = q < carry.size() && EdgePair{c.edge[k], c.facing[k]} == carry[q].first;
-      const double had = did ? carry[q++].second : 0.0;
+    for (std::size_t k = 0; k < c.size(); ++k) {
+      const auto did = carry.find({c.edge[k], c.facing[k]});
+      const double had = did != carry.end() ? did->second : 0.0;
       sum.missed += c.now.energy[k] == had ? 0 : 1;
       if (u(rng) < 0.1) c.now.energy[k] = 1.0 + u(rng);
     }
