@@ -232,6 +232,26 @@ void place_chunks(FaceSet& c, const FaceView& view, const BlockSet& b, const Pos
   }
 }
 
+/// What has been worked out is final; dashpots: of the faces, or of the method.
+void end_step(FaceSet& c, bool dashpots) {
+  if (c.gluing) glue_pressed(c);
+  parallel_for(c.size(), [&](std::size_t k) {
+    if (c.now.idle[k / FaceSet::chunk] != 0) return;
+    (c.breaks[k] > 0.0 ? c.fracture_work : c.friction_work)[k] += c.now.friction_work[k];
+    if (dashpots) c.damping_work[k] += c.now.damping_work[k] + c.now.damping_due[k];
+    const bool cut = c.now.slip_a[k] != c.now.trial_a[k] || c.now.slip_b[k] != c.now.trial_b[k];
+    if (cut) c.slipped[k] = 1.0;
+    if (c.before.energy[k] > 0.0 && c.now.energy[k] == 0.0) c.opened[k] = 1.0;
+    c.transfer[k] += c.now.transfer[k];
+  });
+  for (double& breaks : c.breaks) {
+    if (breaks == 0.0) continue;
+    if (breaks == bond_breaks) ++c.broken;
+    breaks = 0.0;
+  }
+  std::swap(c.now, c.before);
+}
+
 }  // namespace
 
 void place_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
@@ -290,27 +310,11 @@ void change_step_behind(FaceSet& c, const BlockSet& b, const Pose& pose,
 }
 
 void next_step(FaceSet& c) {
-  if (c.gluing) glue_pressed(c);
-  const bool dashpots = !c.zeta.empty();
-  parallel_for(c.size(), [&](std::size_t k) {
-    if (c.now.idle[k / FaceSet::chunk] != 0) return;
-    (c.breaks[k] > 0.0 ? c.fracture_work : c.friction_work)[k] += c.now.friction_work[k];
-    if (dashpots) c.damping_work[k] += c.now.damping_work[k] + c.now.damping_due[k];
-    const bool cut = c.now.slip_a[k] != c.now.trial_a[k] || c.now.slip_b[k] != c.now.trial_b[k];
-    if (cut) c.slipped[k] = 1.0;
-    if (c.before.energy[k] > 0.0 && c.now.energy[k] == 0.0) c.opened[k] = 1.0;
-    c.transfer[k] += c.now.transfer[k];
-  });
-  for (double& breaks : c.breaks) {
-    if (breaks == 0.0) continue;
-    if (breaks == bond_breaks) ++c.broken;
-    breaks = 0.0;
-  }
-  std::swap(c.now, c.before);
+  end_step(c, !c.zeta.empty());
 }
 
 void stand_still(FaceSet& c) {
-  next_step(c);
+  end_step(c, true);
   c.now = c.before;
   for (auto* work :
        {&c.now.friction_work, &c.now.damping_work, &c.now.damping_due, &c.now.transfer}) {
