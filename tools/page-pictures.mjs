@@ -2,7 +2,7 @@
 // Draws the pictures of docs/view.md: the replay page as a browser shows it.
 //   tools/page-pictures.mjs [EDDA] [PACKAGES]      default: build/edda build/page_tests
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, rmSync } from 'node:fs';
+import { existsSync, mkdtempSync, rmSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -27,13 +27,21 @@ const pictures = [
     await page.mouse.move(400, 430);
     await page.mouse.wheel(0, -600);
   }],
+  ['view-pressure', 'tunnel', async (page) => {
+    await page.selectOption('#field', 'none');
+    await page.check('#forces');
+    await page.mouse.move(400, 430);
+    await page.mouse.wheel(0, -600);
+  }],
 ];
 
 const browser = await launch(packages);
 for (const [name, example, arrange] of pictures) {
-  run('example', example);
-  run('run', `${example}.toml`, '--quiet');
-  run('view', example);
+  if (!existsSync(path.join(folder, `${example}.html`))) {
+    run('example', example);
+    run('run', `${example}.toml`, '--quiet');
+    run('view', example);
+  }
   const page = await open(browser, `file://${folder}/${example}.html`, []);
   await arrange(page);
   await page.waitForTimeout(500);

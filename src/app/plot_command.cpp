@@ -151,8 +151,8 @@ void add_what(CLI::App& command, PlotArguments& args) {
           .add_option("--vectors", args.vectors,
                       "Arrows at the blocks' centres: displacement or velocity")
           ->check(CLI::IsMember({"displacement", "velocity"}));
-  CLI::Option* const forces =
-      command.add_flag("--forces", args.forces, "Arrows of the contact forces");
+  CLI::Option* const forces = command.add_flag(
+      "--forces", args.forces, "Contact forces as arrows, and the pressure along each joint");
   CLI::Option* const principal =
       command.add_flag("--principal", args.principal,
                        "Principal stresses: crosses at the blocks' centres, tension as arrows");

@@ -15,8 +15,7 @@ template <class Visit>
 void each_value(std::span<const Snapshot> shots, Visit visit) {
   for (const Snapshot& shot : shots) {
     const ShownField& field = shot.field;
-    const std::vector<double> areas =
-        field.of_contacts ? std::vector<double>{} : cell_areas(shot.blocks);
+    const std::vector<double> areas = field.of_contacts ? field.lengths : cell_areas(shot.blocks);
     for (std::size_t c = 0; c < field.values.size(); ++c) {
       if (!field.of_contacts && is_held(shot.blocks, c)) continue;
       if (std::isfinite(field.values[c])) visit(field.values[c], areas.empty() ? 1.0 : areas[c]);
@@ -29,7 +28,7 @@ void each_value(std::span<const Snapshot> shots, Visit visit) {
 ColourScale::ColourScale(std::span<const Snapshot> shots,
                          std::optional<std::pair<double, double>> range, bool whole)
     : kind_(shots.front().field.kind), of_contacts_(shots.front().field.of_contacts) {
-  take_values(shots, whole || of_contacts_);
+  take_values(shots, whole || (of_contacts_ && !shots.front().field.along_faces));
   if (kind_ != ScaleKind::numbers) return;
   if (range) {
     take_range(range->first, range->second);

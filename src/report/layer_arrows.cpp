@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/drawn_range.hpp"
 #include "report/scene.hpp"
 
 namespace edda {
@@ -27,10 +26,6 @@ std::vector<std::size_t> shown_shapes(const Scene& s, std::vector<Vec2>& centres
     centres.push_back(centre_of(s.grid(), shape, s.points));
   }
   return thinned(centres, raster(s));
-}
-
-double longest(const Scene& s) {
-  return 0.08 * std::min(s.view.frame.width(), 1.4 * s.view.frame.height());
 }
 
 double side_of(const Scene& s, const BlockShape& shape) {
@@ -67,32 +62,17 @@ std::vector<Arrow> force_arrows(const Scene& s) {
   return arrows;
 }
 
-bool is_inside(const Scene& s, Vec2 p) {
-  const Box& w = s.view.world;
-  return p.x >= w.low.x && p.x <= w.high.x && p.y >= w.low.y && p.y <= w.high.y;
-}
-
-ArrowScale scale_for(double most, double length) {
-  if (!(most > 0.0)) return {};
-  return {length / most, round_below(most)};
-}
-
 /// `whole`: no arrow is longer than longest(); else a few may be, by longest_beyond.
 template <class ArrowsOf>
 ArrowScale arrow_scale(const std::vector<Scene>& scenes, bool whole, ArrowsOf arrows_of) {
   std::vector<Weighed> sizes;
-  double most = 0.0;
   for (const Scene& s : scenes) {
     for (const Arrow& a : arrows_of(s)) {
       if (!is_inside(s, a.at) || !std::isfinite(norm(a.vector))) continue;
       sizes.push_back({norm(a.vector), a.weight});
-      most = std::max(most, norm(a.vector));
     }
   }
-  const double drawn = whole ? most : drawn_ends({0.0, most}, inner_ends(sizes)).high;
-  ArrowScale scale = scale_for(drawn, longest(scenes.front()));
-  if (drawn < most) scale.longest = longest_beyond * longest(scenes.front());
-  return scale;
+  return scale_for(sizes, whole, longest(scenes.front()));
 }
 
 /// First all casings, then all arrows, so that no arrow is cut by its neighbour.

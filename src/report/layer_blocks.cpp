@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "report/faces.hpp"
 #include "report/scene.hpp"
 
 namespace edda {
@@ -129,8 +130,38 @@ void draw_blocks(Canvas& canvas, const Scene& s, const ColourScale& scale) {
   }
 }
 
+namespace {
+
+/// Lines along the faces that touch, the largest values on top.
+void draw_face_field(Canvas& canvas, const Scene& s, const ColourScale& scale,
+                     const std::vector<DrawnFace>& faces) {
+  const std::vector<double>& values = s.shot.field.values;
+  std::vector<std::size_t> order;
+  for (std::size_t c = 0; c < faces.size(); ++c) {
+    if (!faces[c].open && std::isfinite(values[c])) order.push_back(c);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::abs(values[a]) < std::abs(values[b]);
+  });
+  const double outline = outline_width(s, s.shapes.size());
+  const double width = std::clamp(4.0 * outline, 0.6, 1.8);
+  canvas.colour(ink::line);
+  for (const std::size_t c : order)
+    canvas.line(s.view.at(faces[c].a), s.view.at(faces[c].b), width + 2.0 * outline);
+  for (const std::size_t c : order) {
+    canvas.colour(scale.of(values[c]));
+    canvas.line(s.view.at(faces[c].a), s.view.at(faces[c].b), width);
+  }
+}
+
+}  // namespace
+
 void draw_contact_field(Canvas& canvas, const Scene& s, const ColourScale& scale) {
   if (!s.shot.field.of_contacts || !s.shot.contacts) return;
+  if (s.shot.field.along_faces) {
+    const std::vector<DrawnFace> faces = drawn_faces(*s.shot.contacts, s.exaggeration);
+    if (!faces.empty()) return draw_face_field(canvas, s, scale, faces);
+  }
   cairo_t* cr = canvas.cr();
   const std::vector<double>& values = s.shot.field.values;
   const double radius = std::clamp(5.0 * outline_width(s, s.shapes.size()), 0.5, 2.0);

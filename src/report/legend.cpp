@@ -18,7 +18,7 @@ using Sign = LegendKey::Sign;
 
 std::string quantity(double value, const std::string& unit) {
   const ScaledUnit scaled = scaled_unit(unit, value);
-  return fmt::format("{:.4g} {}", value * scaled.factor, scaled.name);
+  return fmt::format("{:.3g} {}", value * scaled.factor, scaled.name);
 }
 
 }  // namespace
@@ -81,7 +81,8 @@ double Legend::width() const {
 }
 
 double Legend::key_height(const LegendKey& key) const {
-  const double samples = key.sign == Sign::stress || key.also_red ? 2.0 : 1.0;
+  double samples = key.sign == Sign::stress || key.also_red ? 2.0 : 1.0;
+  if (key.sign == Sign::pressure) samples += 1.0;
   return (1.0 + samples) * line_step * font_ + 0.9 * font_;
 }
 
@@ -113,6 +114,19 @@ void Legend::draw(Canvas& canvas, double left, double top, double bottom) const 
   const double below = draw_heading(canvas, left, top);
   if (scale_.kind() == ScaleKind::kinds) return draw_kinds(canvas, left, below);
   draw_bar(canvas, left, below, end);
+}
+
+/// On an upright face at `a`, out to `b`.
+void Legend::draw_pressure(Canvas& canvas, Vec2 a, Vec2 b, Colour colour) const {
+  const double half = 0.35 * font_;
+  cairo_rectangle(canvas.cr(), a.x, a.y - half, b.x - a.x, 2.0 * half);
+  canvas.colour(colour, pressure_fill);
+  cairo_fill_preserve(canvas.cr());
+  canvas.colour(colour);
+  cairo_set_line_width(canvas.cr(), pressure_line);
+  cairo_stroke(canvas.cr());
+  canvas.colour(ink::line);
+  canvas.line({a.x, a.y - half}, {a.x, a.y + half}, 2.0 * pressure_line);
 }
 
 double Legend::draw_heading(Canvas& canvas, double left, double top) const {
@@ -224,6 +238,19 @@ void Legend::draw_key(Canvas& canvas, const LegendKey& key, double left, double 
         canvas.colour(key.sign == Sign::force ? ink::force : ink::vector);
         canvas.arrow(a, b, 0.6);
       });
+      break;
+    case Sign::pressure:
+      if (!(reference > 0.0)) {
+        next(value, [](Vec2, Vec2) {});
+        break;
+      }
+      next(value, [&](Vec2 a, Vec2 b) { draw_pressure(canvas, a, b, ink::pressure); });
+      if (key.also_red)
+        next("tension", [&](Vec2 a, Vec2 b) { draw_pressure(canvas, a, b, ink::tension); });
+      if (key.scale.longest > 0.0) {
+        canvas.text("cut at " + quantity(key.scale.longest / key.scale.per_unit, key.unit),
+                    {left, y + line_step * font_}, {.size = font_});
+      }
       break;
     case Sign::stress:
       if (!(reference > 0.0)) {

@@ -13,12 +13,12 @@ namespace edda {
 
 /// A sample line with what it stands for.
 struct LegendKey {
-  enum class Sign { vector, force, stress, bolt, bolt_load, joint };
+  enum class Sign { vector, force, pressure, stress, bolt, bolt_load, joint };
   Sign sign = Sign::vector;
   std::string name;  ///< "velocity"
   std::string unit;  ///< "m/s"
   ArrowScale scale{};
-  bool also_red = false;  ///< of bolts: some have yielded
+  bool also_red = false;  ///< of bolts: some have yielded; of pressures: some pull
 };
 
 class Legend {
@@ -54,6 +54,7 @@ class Legend {
   void draw_bar(Canvas& canvas, double left, double top, double bottom) const;
   void draw_ticks(Canvas& canvas, double left, const Box& bar, double factor) const;
   double key_height(const LegendKey& key) const;
+  void draw_pressure(Canvas& canvas, Vec2 a, Vec2 b, Colour colour) const;
   void draw_key(Canvas& canvas, const LegendKey& key, double left, double top) const;
   double keys_height() const;
   const ColourScale& scale_;

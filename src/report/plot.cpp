@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "report/canvas.hpp"
+#include "report/faces.hpp"
 #include "report/legend.hpp"
 #include "report/scene.hpp"
 
@@ -14,13 +15,16 @@ namespace {
 
 /// What the layers draw as lines, with one scale for all drawings.
 struct Scales {
-  ArrowScale vectors, forces, stresses, bolts;
+  ArrowScale vectors, forces, pressures, stresses, bolts;
 };
 
 Scales scales_of(const std::vector<Scene>& scenes, const PlotOptions& options) {
   Scales scales;
   if (!options.vectors.empty()) scales.vectors = vector_scale(scenes, options);
-  if (options.forces) scales.forces = force_scale(scenes);
+  if (options.forces) {
+    scales.forces = force_scale(scenes);
+    scales.pressures = pressure_scale(scenes, options);
+  }
   if (options.principal) scales.stresses = stress_scale(scenes, options.least_stress);
   if (options.bolt_forces) scales.bolts = bolt_scale(scenes);
   return scales;
@@ -43,6 +47,20 @@ ArrowScale for_legend(ArrowScale scale, double longest) {
 
 using Sign = LegendKey::Sign;
 
+/// Where the frames say what they are.
+void add_pressures(std::vector<LegendKey>& keys, std::span<const Snapshot> shots,
+                   const ArrowScale& scale) {
+  bool any = false, any_tension = false;
+  for (const Snapshot& shot : shots) {
+    if (!shot.contacts) continue;
+    for (const DrawnFace& face : drawn_faces(*shot.contacts, 1.0)) {
+      any = true;
+      any_tension = any_tension || (!face.open && std::min(face.pressure_a, face.pressure_b) < 0.0);
+    }
+  }
+  if (any) keys.push_back({Sign::pressure, "pressure on joints", "Pa", scale, any_tension});
+}
+
 std::vector<LegendKey> keys_of(std::span<const Snapshot> shots, const PlotOptions& options,
                                const Scales& scales) {
   const double longest = 4.5 * options.paper.font;
@@ -51,8 +69,10 @@ std::vector<LegendKey> keys_of(std::span<const Snapshot> shots, const PlotOption
     keys.push_back({Sign::vector, options.vectors, options.vectors == "velocity" ? "m/s" : "m",
                     for_legend(scales.vectors, longest)});
   }
-  if (options.forces)
+  if (options.forces) {
     keys.push_back({Sign::force, "contact force", "N", for_legend(scales.forces, longest)});
+    add_pressures(keys, shots, for_legend(scales.pressures, longest));
+  }
   if (options.principal) {
     // Each arm of a cross goes either way from the centre.
     ArrowScale whole = scales.stresses;
@@ -125,7 +145,10 @@ void draw_scene(Canvas& canvas, const Scene& s, const PlotOptions& options,
   draw_joints(canvas, s, options);
   if (options.principal) draw_stresses(canvas, s, scales.stresses);
   if (!options.vectors.empty()) draw_vectors(canvas, s, options.vectors, scales.vectors);
-  if (options.forces) draw_forces(canvas, s, scales.forces);
+  if (options.forces) {
+    draw_pressures(canvas, s, scales.pressures);
+    draw_forces(canvas, s, scales.forces);
+  }
   draw_bolts(canvas, s, options, scales.bolts);
   if (options.marks) draw_marks(canvas, s, options);
   cairo_restore(canvas.cr());

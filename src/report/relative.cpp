@@ -18,6 +18,11 @@ void shift(Grid& grid, Vec2 by) {
   for (auto* fields : {&grid.point_fields, &grid.cell_fields}) {
     for (Field& field : *fields) {
       if (field.name == "displacement" && field.components == 3) shift(field.values, by);
+      // Ends of faces.
+      const bool is_x = field.name == "x_a" || field.name == "x_b";
+      const bool is_y = field.name == "y_a" || field.name == "y_b";
+      if (!is_x && !is_y) continue;
+      for (double& value : field.values) value -= is_x ? by.x : by.y;
     }
   }
 }

@@ -21,6 +21,29 @@ double block_size(const Scene& s, std::size_t blocks) {
   return std::sqrt(area / static_cast<double>(std::max<std::size_t>(blocks, 1)));
 }
 
+bool is_inside(const Scene& s, Vec2 p) {
+  const Box& w = s.view.world;
+  return p.x >= w.low.x && p.x <= w.high.x && p.y >= w.low.y && p.y <= w.high.y;
+}
+
+double longest(const Scene& s) {
+  return 0.08 * std::min(s.view.frame.width(), 1.4 * s.view.frame.height());
+}
+
+ArrowScale scale_for(double most, double length) {
+  if (!(most > 0.0)) return {};
+  return {length / most, round_below(most)};
+}
+
+ArrowScale scale_for(std::vector<Weighed>& sizes, bool whole, double length) {
+  double most = 0.0;
+  for (const Weighed& size : sizes) most = std::max(most, size.value);
+  const double drawn = whole ? most : drawn_ends({0.0, most}, inner_ends(sizes)).high;
+  ArrowScale scale = scale_for(drawn, length);
+  if (drawn < most) scale.longest = longest_beyond * length;
+  return scale;
+}
+
 double round_below(double largest) {
   if (!(largest > 0.0) || !std::isfinite(largest)) return 0.0;
   const double power = std::pow(10.0, std::floor(std::log10(largest)));

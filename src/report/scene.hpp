@@ -6,6 +6,7 @@
 
 #include "report/canvas.hpp"
 #include "report/colour_scale.hpp"
+#include "report/drawn_range.hpp"
 #include "report/layout.hpp"
 #include "report/plot.hpp"
 #include "report/shapes.hpp"
@@ -18,10 +19,13 @@ inline constexpr Colour light_line{0.80, 0.80, 0.83};
 inline constexpr Colour held{0.80, 0.80, 0.80}, hatch{0.62, 0.62, 0.62};
 inline constexpr Colour vector{0.05, 0.05, 0.05}, force{0.75, 0.10, 0.10};
 inline constexpr Colour compression{0.05, 0.15, 0.45}, tension{0.85, 0.20, 0.05};
+inline constexpr Colour pressure{0.05, 0.35, 0.75};
 inline constexpr Colour monitor{0.80, 0.05, 0.45}, bolt{0.05, 0.25, 0.65}, joint{0.85, 0.10, 0.05};
 }  // namespace ink
 
-inline constexpr double joint_width = 1.6;  ///< of PlotOptions::joints, pt
+inline constexpr double pressure_line = 0.5;  ///< about the pressures on joints, pt
+inline constexpr double pressure_fill = 0.4;  ///< how much of what lies below they hide
+inline constexpr double joint_width = 1.6;    ///< of PlotOptions::joints, pt
 
 /// One drawing.
 struct Scene {
@@ -50,6 +54,18 @@ struct ArrowScale {
   double longest = 0.0;    ///< pt; what would be longer has two heads; 0: nothing is
 };
 
+bool is_inside(const Scene& scene, Vec2 p);
+
+/// Of the longest arrow, pt.
+double longest(const Scene& scene);
+
+/// So that `most` is `length` pt long.
+ArrowScale scale_for(double most, double length);
+
+/// The same for the largest of these sizes; unless `whole`, for what nearly all of their weight
+/// reaches: a few may then be longest_beyond times as long. Reorders them.
+ArrowScale scale_for(std::vector<Weighed>& sizes, bool whole, double length);
+
 /// A round value (1, 2 or 5 times a power of ten) not above `largest`; 0 of 0.
 double round_below(double largest);
 
@@ -68,6 +84,10 @@ void draw_vectors(Canvas& canvas, const Scene& scene, const std::string& name,
                   const ArrowScale& scale);
 ArrowScale force_scale(const std::vector<Scene>& scenes);
 void draw_forces(Canvas& canvas, const Scene& scene, const ArrowScale& scale);
+
+/// Pressures on joints, across them; beyond the longest they are cut.
+ArrowScale pressure_scale(const std::vector<Scene>& scenes, const PlotOptions& options);
+void draw_pressures(Canvas& canvas, const Scene& scene, const ArrowScale& scale);
 
 /// Bolts, as wide as their force where the scale says how wide.
 ArrowScale bolt_scale(const std::vector<Scene>& scenes);

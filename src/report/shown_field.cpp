@@ -17,6 +17,7 @@ struct Recipe {
   ScaleKind kind;
   bool of_contacts;
   double (*value)(const double* v);
+  bool along_faces = false;
 };
 
 double first(const double* v) {
@@ -74,6 +75,10 @@ constexpr std::array recipes{
     Recipe{"opening", "opening", "opening of contacts", "m", numbers, true, first},
     Recipe{"slip", "slip", "slip of contacts", "m", numbers, true, first},
     Recipe{"state", "state", "state of contacts", "", kinds, true, first},
+    Recipe{"normal_stress", "normal_stress", "normal stress on joints (tension positive)", "Pa",
+           numbers, true, first, true},
+    Recipe{"shear_stress", "shear_stress", "shear stress on joints", "Pa", numbers, true, first,
+           true},
 };
 
 const Recipe* recipe_of(const std::string& name) {
@@ -99,11 +104,14 @@ Result<ShownField> shown_field(const std::string& name, const Grid& blocks, cons
   const Grid* grid = recipe->of_contacts ? contacts : &blocks;
   const Field* field = grid == nullptr ? nullptr : grid->cell_field(recipe->array);
   if (field == nullptr) return no_field("\"" + name + "\" is not in these results");
-  ShownField shown{recipe->kind, recipe->of_contacts, recipe->label, recipe->unit, {}};
+  ShownField shown{
+      recipe->kind, recipe->of_contacts, recipe->along_faces, recipe->label, recipe->unit, {}, {}};
   shown.values.reserve(grid->cell_count());
   for (std::size_t c = 0; c < grid->cell_count(); ++c) {
     shown.values.push_back(recipe->value(field->values.data() + c * field->components));
   }
+  if (const Field* length = grid->cell_field("length"); recipe->along_faces && length != nullptr)
+    shown.lengths = length->values;
   return shown;
 }
 
@@ -127,7 +135,8 @@ std::vector<std::string> all_fields() {
 
 FieldText field_text(const std::string& name) {
   const Recipe* r = recipe_of(name);
-  return r == nullptr ? FieldText{} : FieldText{r->label, r->unit, r->kind, r->of_contacts};
+  return r == nullptr ? FieldText{}
+                      : FieldText{r->label, r->unit, r->kind, r->of_contacts, r->along_faces};
 }
 
 }  // namespace edda

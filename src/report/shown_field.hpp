@@ -17,16 +17,18 @@ inline constexpr std::array<const char*, 4> contact_states{"open", "stick", "sli
 
 struct ShownField {
   ScaleKind kind = ScaleKind::plain;
-  bool of_contacts = false;    ///< else of blocks
-  std::string label;           ///< "displacement"
-  std::string unit;            ///< "m"
-  std::vector<double> values;  ///< one per cell
+  bool of_contacts = false;     ///< else of blocks
+  bool along_faces = false;     ///< of contacts: drawn as lines from end to end, else as dots
+  std::string label;            ///< "displacement"
+  std::string unit;             ///< "m"
+  std::vector<double> values;   ///< one per cell
+  std::vector<double> lengths;  ///< of the faces, m: how much each value counts; else empty
 };
 
 /// Field by name: id material displacement velocity rotation stress principal_stress, of which
 /// vectors may name a part (displacement.y, stress.xx, principal_stress.minor); contacts:
-/// normal_force shear_force opening slip state. "none" or "" for plain blocks. A fault lists the
-/// names.
+/// normal_force shear_force opening slip state normal_stress shear_stress. "none" or "" for plain
+/// blocks. A fault lists the names.
 Result<ShownField> shown_field(const std::string& name, const Grid& blocks, const Grid* contacts);
 
 /// Whether that is a field of contacts.
@@ -42,7 +44,7 @@ std::vector<std::string> all_fields();
 struct FieldText {
   std::string label, unit;
   ScaleKind kind = ScaleKind::numbers;
-  bool of_contacts = false;
+  bool of_contacts = false, along_faces = false;
 };
 FieldText field_text(const std::string& name);
 

@@ -142,6 +142,9 @@ Grid contact_grid(const Picture& picture) {
   Field length = field_of("length", 1, n), closed = field_of("closed_length", 1, n);
   Field normal_stress = field_of("normal_stress", 1, n),
         shear_stress = field_of("shear_stress", 1, n);
+  Field stress_a = field_of("normal_stress_a", 1, n), stress_b = field_of("normal_stress_b", 1, n);
+  Field x_a = field_of("x_a", 1, n), y_a = field_of("y_a", 1, n);
+  Field x_b = field_of("x_b", 1, n), y_b = field_of("y_b", 1, n);
   Field force = field_of("force", 3, n), displacement = field_of("displacement", 3, n);
   for (const ContactRecord& c : picture.contacts) {
     g.corners.push_back(static_cast<std::int64_t>(g.point_count()));
@@ -158,6 +161,12 @@ Grid contact_grid(const Picture& picture) {
     push(closed, {c.closed_length});
     push(normal_stress, {c.normal_stress});
     push(shear_stress, {c.shear_stress});
+    push(stress_a, {c.normal_stress_a});
+    push(stress_b, {c.normal_stress_b});
+    push(x_a, {c.a.x});
+    push(y_a, {c.a.y});
+    push(x_b, {c.b.x});
+    push(y_b, {c.b.y});
     push(state, {static_cast<double>(c.state)});
     push(force, {c.force.x, c.force.y, 0.0});
     push(displacement, {c.displacement.x, c.displacement.y, 0.0});
@@ -165,7 +174,7 @@ Grid contact_grid(const Picture& picture) {
   // Both as point and as cell fields: glyphs want points, thresholds and tables cells.
   g.cells_are_points = true;
   take(g.cell_fields, normal, shear, opening, slip, state, i, j, force, displacement, length,
-       closed, normal_stress, shear_stress);
+       closed, normal_stress, shear_stress, stress_a, stress_b, x_a, y_a, x_b, y_b);
   return g;
 }
 

@@ -26,8 +26,8 @@ BlockCells block_cells(const BlockSet& blocks);
 /// the smaller in the plane, then the one across it. Pa.
 Grid block_grid(const BlockCells& cells, const Picture& picture);
 
-/// A vertex cell per contact with normal_force shear_force opening slip state block_i block_j and
-/// the vectors force (on block_i) and displacement (of the vertex).
+/// A vertex cell per contact, in the middle of its overlap, with what joints.csv has of it and the
+/// vectors force (on block_i) and displacement (of block_i there).
 Grid contact_grid(const Picture& picture);
 
 /// The file of a frame's contacts, from that of its blocks.

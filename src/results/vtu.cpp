@@ -176,7 +176,13 @@ constexpr std::array known_fields{KnownField{"id", 1, true},
                                   KnownField{"length", 1, false},
                                   KnownField{"closed_length", 1, false},
                                   KnownField{"normal_stress", 1, false},
-                                  KnownField{"shear_stress", 1, false}};
+                                  KnownField{"shear_stress", 1, false},
+                                  KnownField{"normal_stress_a", 1, false},
+                                  KnownField{"normal_stress_b", 1, false},
+                                  KnownField{"x_a", 1, false},
+                                  KnownField{"y_a", 1, false},
+                                  KnownField{"x_b", 1, false},
+                                  KnownField{"y_b", 1, false}};
 
 bool fits(const Field& f, std::size_t count) {
   if (f.components == 0 || f.values.size() % f.components != 0) return false;

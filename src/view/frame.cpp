@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "report/faces.hpp"
 #include "view/bytes.hpp"
 
 // Layout of a frame (numbers little-endian):
@@ -18,9 +19,11 @@
 //   d and A: of the displacement since the datum; where the block was at the datum says that. With
 //   16 bits A is times the block's reach, m, so that small blocks that turn cost large ones nothing
 //   then the contacts, sorted by the row of block i:
-//     varint [m] row of block i, less that before; varint [m] vertex of it;
-//     zigzag [m] row of block j less that of i; varint [m] edge of it; u8 [m] state; and the
-//     columns normal_force shear_force | opening | slip
+//     varint [m] row of block i, less that before; zigzag [m] row of block j less that of i;
+//     varint [m] edge of it; u8 [m] state; and the columns
+//     along_a along_b closed | normal_force shear_force | opening | slip |
+//     normal_stress_a normal_stress_b | normal_stress | shear_stress
+//   along: where on the edge the ends of the overlap lie, 0 to 1; closed: part of it that bears
 //
 // A bar separates groups; those of a group share a scale. A column of 16 bits is an f32 scale s (of
 // each group, before its first column) and whole numbers q = round(v / s), zigzagged, all low bytes
@@ -28,7 +31,7 @@
 //
 // With 16 bits the scale leaves to each value what it needs and no more, since the rest is noise
 // that cannot be packed: motion_steps for a displacement (and for A what moves no vertex by more),
-// value_steps for what is shown as a number or a colour, contact_steps for what is but drawn; and
+// value_steps for what is shown as a number or a colour, contact_steps for contacts; and
 // the overlap of closed contacts is left out: their opening is 0.
 
 namespace edda {
@@ -139,60 +142,37 @@ Vec2 point_value(const std::vector<double>& values, std::int64_t point) {
   return {values[at], values[at + 1]};
 }
 
-/// A contact of the frame by rows of the mesh.
+/// A contact of the frame by rows of the mesh, and the ends of its overlap on an edge of block j.
 struct Touch {
-  std::size_t cell = 0, i = 0, j = 0, vertex = 0, edge = 0;
+  std::size_t cell = 0, i = 0, j = 0, edge = 0;
+  double along_a = 0.0, along_b = 0.0;
 };
 
-/// The vertex of block `row` that lies at the contact's point: contacts are where a vertex is.
-std::size_t nearest_vertex(const ViewMesh& mesh, std::size_t row, const std::vector<double>& places,
-                           Vec2 at) {
-  std::size_t best = 0;
+/// Puts the face on the edge of its block j that it lies along: where others are as near, the one
+/// with its direction.
+void put_on_edge(const ViewMesh& mesh, const std::vector<double>& places, Vec2 a, Vec2 b,
+                 Vec2 along, Touch& touch) {
+  const auto place = [&](std::uint32_t v) { return point_value(places, mesh.point[v]); };
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t v = mesh.begin[row]; v < mesh.begin[row + 1]; ++v) {
-    const auto p = 3 * static_cast<std::size_t>(mesh.point[v]);
-    const double distance = std::hypot(places[p] - at.x, places[p + 1] - at.y);
-    if (distance < least) {
-      least = distance;
-      best = v - mesh.begin[row];
-    }
+  for (std::size_t e = mesh.edge_begin[touch.j]; e < mesh.edge_begin[touch.j + 1]; ++e) {
+    const Vec2 p = place(mesh.edges[e][0]), q = place(mesh.edges[e][1]);
+    const double length = norm(q - p);
+    if (!(length > 0.0)) continue;
+    const double off = distance_to_segment(a, p, q) + distance_to_segment(b, p, q);
+    const double misfit = off / length + norm((q - p) / length - along);
+    if (misfit >= least) continue;
+    least = misfit;
+    touch.edge = e - mesh.edge_begin[touch.j];
+    touch.along_a = dot(a - p, q - p) / (length * length);
+    touch.along_b = dot(b - p, q - p) / (length * length);
   }
-  return best;
 }
 
-/// What a contact does to block i.
-struct Push {
-  Vec2 force;
-  double normal = 0.0, shear = 0.0;
-};
-
-/// The edge of block `row` that the contact is with: where a corner meets a corner, that from whose
-/// direction the force comes; else the nearest.
-std::size_t edge_of(const ViewMesh& mesh, std::size_t row, const std::vector<double>& places,
-                    Vec2 at, const Push& push) {
-  const auto place = [&](std::uint32_t v) {
-    const auto p = 3 * static_cast<std::size_t>(mesh.point[v]);
-    return Vec2{places[p], places[p + 1]};
-  };
-  const double size = std::hypot(push.force.x, push.force.y);
-  std::size_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t e = mesh.edge_begin[row]; e < mesh.edge_begin[row + 1]; ++e) {
-    const Vec2 a = place(mesh.edges[e][0]), b = place(mesh.edges[e][1]);
-    const double length = std::hypot(b.x - a.x, b.y - a.y);
-    if (!(length > 0.0)) continue;
-    double misfit = distance_to_segment(at, a, b) / length;
-    if (size > 0.0) {
-      const Vec2 t = (b - a) / length;
-      const Vec2 off = push.force - (push.normal * outward_normal(t) + push.shear * t);
-      misfit += 10.0 * std::hypot(off.x, off.y) / size;
-    }
-    if (misfit < least) {
-      least = misfit;
-      best = e - mesh.edge_begin[row];
-    }
-  }
-  return best;
+/// From a to b by the force on block i: -N n + S t with n on the left of t. Nothing without one.
+Vec2 direction_by_force(Vec2 force, double normal, double shear) {
+  const double size = dot(force, force);
+  if (!(size > 0.0)) return {};
+  return Vec2{shear * force.x - normal * force.y, shear * force.y + normal * force.x} / size;
 }
 
 std::vector<Touch> touches_of(const ViewMesh& mesh, const Grid& blocks, const Grid& contacts) {
@@ -203,20 +183,35 @@ std::vector<Touch> touches_of(const ViewMesh& mesh, const Grid& blocks, const Gr
   for (const Field* field : {i, j, force, normal, shear}) {
     if (field == nullptr) return touches;
   }
+  const std::vector<DrawnFace> faces = drawn_faces(contacts, 1.0);
   for (std::size_t c = 0; c < contacts.cell_count(); ++c) {
     Touch t{c, mesh.row_of(static_cast<std::int32_t>(i->values[c])),
-            mesh.row_of(static_cast<std::int32_t>(j->values[c])), 0, 0};
+            mesh.row_of(static_cast<std::int32_t>(j->values[c]))};
     if (t.i == mesh.size() || t.j == mesh.size()) continue;
     const Vec2 at = point_value(contacts.points, contacts.corners[contacts.begin(c)]);
-    t.vertex = nearest_vertex(mesh, t.i, blocks.points, at);
-    t.edge = edge_of(
-        mesh, t.j, blocks.points, at,
-        {{force->values[3 * c], force->values[3 * c + 1]}, normal->values[c], shear->values[c]});
+    const Vec2 a = faces.empty() ? at : faces[c].a, b = faces.empty() ? at : faces[c].b;
+    // Frames of older versions have points.
+    const Vec2 along = a == b ? direction_by_force({force->values[3 * c], force->values[3 * c + 1]},
+                                                   normal->values[c], shear->values[c])
+                              : unit(b - a);
+    put_on_edge(mesh, blocks.points, a, b, along, t);
     touches.push_back(t);
   }
   std::stable_sort(touches.begin(), touches.end(),
                    [](const Touch& a, const Touch& b) { return a.i < b.i; });
   return touches;
+}
+
+/// Where the faces lie on their edges, and how much of them bears.
+Columns columns_along(const std::vector<Touch>& touches, const Grid& contacts) {
+  const std::vector<DrawnFace> faces = drawn_faces(contacts, 1.0);
+  Columns columns(3);
+  for (const Touch& t : touches) {
+    columns[0].push_back(t.along_a);
+    columns[1].push_back(t.along_b);
+    columns[2].push_back(faces.empty() ? 1.0 : faces[t.cell].closed);
+  }
+  return columns;
 }
 
 void add_contacts(Bytes& bytes, const std::vector<Touch>& touches, const Grid& contacts,
@@ -226,7 +221,6 @@ void add_contacts(Bytes& bytes, const std::vector<Touch>& touches, const Grid& c
     bytes.varint(t.i - before);
     before = t.i;
   }
-  for (const Touch& t : touches) bytes.varint(t.vertex);
   for (const Touch& t : touches)
     bytes.zigzag(static_cast<std::int64_t>(t.j) - static_cast<std::int64_t>(t.i));
   for (const Touch& t : touches) bytes.varint(t.edge);
@@ -239,11 +233,18 @@ void add_contacts(Bytes& bytes, const std::vector<Touch>& touches, const Grid& c
   for (std::size_t k = 0; k < opening.size(); ++k) {
     if (precision == ViewPrecision::whole16 && state[k] != 0.0) opening[k] = 0.0;
   }
-  add_group(bytes,
-            {column(contacts, "normal_force", 0, cells), column(contacts, "shear_force", 0, cells)},
-            precision, contact_steps);
+  const auto group = [&](std::initializer_list<const char*> names) {
+    Columns columns;
+    for (const char* name : names) columns.push_back(column(contacts, name, 0, cells));
+    add_group(bytes, columns, precision, contact_steps);
+  };
+  add_group(bytes, columns_along(touches, contacts), precision, contact_steps);
+  group({"normal_force", "shear_force"});
   add_group(bytes, {opening}, precision, contact_steps);
-  add_group(bytes, {column(contacts, "slip", 0, cells)}, precision, contact_steps);
+  group({"slip"});
+  group({"normal_stress_a", "normal_stress_b"});
+  group({"normal_stress"});
+  group({"shear_stress"});
 }
 
 /// The displacement since the datum.

@@ -1,5 +1,5 @@
 // One frame of the replay page, packed: six numbers a block for its motion, nine for what it
-// feels, and the contacts by vertex.
+// feels, and the contacts by edge.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace edda {
 /// How numbers are stored. single: as they are, to seven digits. whole16: as whole numbers of
 /// steps, so that displacements of blocks are right to 1/65534 of the largest in the frame and
 /// those of their corners to 1/10000, velocities, rotations and stresses to 1/4094, forces,
-/// openings and slips of contacts to 1/254.
+/// stresses, openings and slips of contacts to 1/254.
 enum class ViewPrecision : std::uint32_t { whole16 = 16, single = 32 };
 
 /// Displacements count from where the blocks were at a datum: the start, or a reset.

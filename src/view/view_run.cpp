@@ -10,6 +10,7 @@
 
 #include "report/colours.hpp"
 #include "report/drawn_range.hpp"
+#include "report/faces.hpp"
 #include "report/shapes.hpp"
 #include "report/shown_field.hpp"
 #include "results/files.hpp"
@@ -72,6 +73,20 @@ std::vector<double> force_sizes(const Grid& contacts) {
     if (state->values[c] != 0.0 && force > 0.0 && std::isfinite(force)) sizes.push_back(force);
   }
   return sizes;
+}
+
+/// The rule of pictures (pressure_scale()): by the length that bears, but for a few far beyond.
+void widen_pressures(ViewSizes& sizes, const Grid& contacts) {
+  std::vector<Weighed> of_frame;
+  double largest = 0.0;
+  for (const DrawnFace& face : drawn_faces(contacts, 1.0)) {
+    const double size = std::max(std::abs(face.pressure_a), std::abs(face.pressure_b));
+    if (face.open || !std::isfinite(size)) continue;
+    of_frame.push_back({size, face.closed * norm(face.b - face.a)});
+    largest = std::max(largest, size);
+  }
+  sizes.usual = std::max(sizes.usual, drawn_ends({0.0, largest}, inner_ends(of_frame)).high);
+  sizes.largest = std::max(sizes.largest, largest);
 }
 
 std::vector<double> stress_sizes(const Grid& blocks, const std::vector<std::size_t>& cells) {
@@ -160,6 +175,7 @@ void ViewRun::widen_ranges(const Opened& frame) {
   if (grids.contacts) forces = force_sizes(*grids.contacts);
   widen(stresses_, stresses);
   widen(forces_, forces);
+  if (grids.contacts) widen_pressures(pressures_, *grids.contacts);
   const Grid* contacts = grids.contacts ? &*grids.contacts : nullptr;
   const Field* fixed = grids.blocks.cell_field("fixed");
   const std::vector<double> areas = cell_areas(grids.blocks);
@@ -168,6 +184,7 @@ void ViewRun::widen_ranges(const Opened& frame) {
     if (!field.ok() || field.value().kind != ScaleKind::numbers) continue;
     ViewRange& range = ranges_[name];
     const bool first = !range.any;
+    const std::vector<double>& weights = field.value().of_contacts ? field.value().lengths : areas;
     std::vector<Weighed> values;
     Ends all;
     for (std::size_t c = 0; c < field.value().values.size(); ++c) {
@@ -179,7 +196,7 @@ void ViewRun::widen_ranges(const Opened& frame) {
       range.any = true;
       all.low = values.empty() ? v : std::min(all.low, v);
       all.high = values.empty() ? v : std::max(all.high, v);
-      values.push_back({v, field.value().of_contacts ? 1.0 : areas[c]});
+      values.push_back({v, weights.empty() ? 1.0 : weights[c]});
     }
     if (values.empty()) continue;
     const Ends inner = inner_ends(values);
@@ -255,9 +272,9 @@ std::string ViewRun::header(const std::string& served_as) const {
     if (const auto r = ranges_.find(name); r != ranges_.end() && r->second.any) {
       const ViewRange& range = r->second;
       const Ends all{range.low, range.high};
-      const Ends drawn =
-          about.of_contacts ? all : drawn_ends(all, {range.inner_low, range.inner_high});
-      const Ends last = about.of_contacts ? range.last : drawn_ends(range.last, range.last_inner);
+      const bool whole = about.of_contacts && !about.along_faces;
+      const Ends drawn = whole ? all : drawn_ends(all, {range.inner_low, range.inner_high});
+      const Ends last = whole ? range.last : drawn_ends(range.last, range.last_inner);
       json.key("range").open_list().value(all.low).value(all.high).close();
       json.key("drawn").open_list().value(drawn.low).value(drawn.high).close();
       json.key("last").open_list().value(last.low).value(last.high).close();
@@ -267,9 +284,11 @@ std::string ViewRun::header(const std::string& served_as) const {
   json.close();
   json.key("usual").open_object();
   const bool any_stress = stresses_.largest >= names_.least_stress;
-  json.pair("force", forces_.usual).pair("stress", any_stress ? stresses_.usual : 0.0).close();
+  json.pair("force", forces_.usual).pair("stress", any_stress ? stresses_.usual : 0.0);
+  json.pair("pressure", pressures_.usual).close();
   json.key("largest").open_object();
-  json.pair("force", forces_.largest).pair("stress", stresses_.largest).close();
+  json.pair("force", forces_.largest).pair("stress", stresses_.largest);
+  json.pair("pressure", pressures_.largest).close();
   std::string kinds;
   for (std::size_t k = 0; k < kind_colour_count; ++k) append_hex(kinds, kind_colour(k));
   std::string states;

@@ -107,6 +107,7 @@ class ViewRun {
   std::vector<Taken> taken_;
   std::map<std::string, ViewRange> ranges_;  ///< by name of the field
   ViewSizes forces_;                         ///< of closed contacts, N
+  ViewSizes pressures_;                      ///< at ends of closed faces, Pa
   ViewSizes stresses_;                       ///< principal, of blocks that are not held, Pa
 };
 

@@ -378,7 +378,7 @@ material = "rock"
         self.expect(0, "run", "m.toml")
         self.expect(0, "plot", "m")
         self.assertEqual((self.dir / "m.png").read_bytes()[:4], b"\x89PNG")
-        for field in "id material displacement velocity rotation stress principal_stress normal_force shear_force opening slip state none".split():
+        for field in "id material displacement velocity rotation stress principal_stress normal_force shear_force opening slip state normal_stress shear_stress none".split():
             self.expect(0, "plot", "m", "--field", field, "--time", "0.005", "-o", "p.svg", "--forces", "--vectors", "velocity")
         self.expect(0, "plot", "m.toml", "-o", "model.png")
 

@@ -122,7 +122,8 @@ def test_frames_agree_with_the_table_at_the_end(folder):
     assert [f.time for f in frames[:2]] == list(frames.times[:2])
     assert len(list(frames)) == len(frames)
     contacts = results.contact_frames[-1]
-    assert np.array_equal(contacts["normal_force"], results.joints["normal_force"])
+    for name in ("normal_force", "normal_stress_a", "normal_stress_b", "x_a", "y_a", "x_b", "y_b"):
+        assert np.array_equal(contacts[name], results.joints[name]), name
 
 
 def test_stages_and_bolts(models, tmp_path):

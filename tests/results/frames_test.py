@@ -116,7 +116,8 @@ def check_contacts(folder):
     states = ["open", "stick", "slide", "bonded"]
     data = grid.GetCellData()
     for c, row in enumerate(rows):
-        for name in ("normal_force", "shear_force", "opening", "slip", "length", "closed_length", "normal_stress", "shear_stress"):
+        for name in ("normal_force", "shear_force", "opening", "slip", "length", "closed_length", "normal_stress", "shear_stress",
+                     "normal_stress_a", "normal_stress_b", "x_a", "y_a", "x_b", "y_b"):
             assert data.GetArray(name).GetTuple1(c) == float(row[name]), name
         assert states[int(data.GetArray("state").GetTuple1(c))] == row["state"]
         close(grid.GetPoint(c)[0], float(row["x"]))

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "report/face_grid.hpp"
 #include "view/frames_of.hpp"
 
 namespace edda::frame_test {
@@ -22,7 +23,6 @@ class Unpacked {
       group(columns, count, blocks);
     std::uint64_t i = 0;
     for (std::uint32_t k = 0; k < touching; ++k) contact_i.push_back(i += varint());
-    for (std::uint32_t k = 0; k < touching; ++k) contact_vertex.push_back(varint());
     for (std::uint32_t k = 0; k < touching; ++k) {
       const std::uint64_t twice = varint();
       const auto by = static_cast<std::int64_t>(twice >> 1);
@@ -32,13 +32,14 @@ class Unpacked {
     for (std::uint32_t k = 0; k < touching; ++k)
       state.push_back(static_cast<unsigned char>(bytes_[at_++]));
     if (at_ < bytes.size()) {
-      for (const std::size_t columns : {2UL, 1UL, 1UL}) group(columns, touching, contacts);
+      for (const std::size_t columns : {3UL, 2UL, 1UL, 1UL, 2UL, 1UL, 1UL})
+        group(columns, touching, contacts);
     }
     EXPECT_EQ(at_, bytes.size());
   }
   std::uint32_t bits = 0, rows = 0, count = 0, datum = 0, touching = 0;
   std::vector<int> alive, state;
-  std::vector<std::uint64_t> contact_i, contact_vertex, contact_edge;
+  std::vector<std::uint64_t> contact_i, contact_edge;
   std::vector<std::int64_t> contact_j;
   std::vector<std::vector<double>> blocks, contacts;  ///< columns
 
@@ -101,9 +102,9 @@ Vec2 force_across(const TestBlock& b, std::size_t k, double normal, double shear
   return normal * outward_normal(t) + shear * t;
 }
 
-/// A corner of block 2 on edge 2 of block 0, and one of block 0 on edge 3 of block 1: both lie at a
-/// corner of the other, where two edges are equally near.
-Grid two_contacts() {
+/// As older versions wrote them: a corner of block 2 on edge 2 of block 0, and one of block 0 on
+/// edge 3 of block 1, both at a corner of the latter, where two edges are equally near.
+Grid two_points() {
   Grid g;
   const auto field = [&](const char* name, std::size_t components, std::vector<double> values) {
     g.cell_fields.push_back({name, components, std::move(values), {}, false});
@@ -251,28 +252,69 @@ TEST(ViewFrame, ABlockThatTheFirstFrameHasNotIsAFault) {
   EXPECT_FALSE(blocks_in(view_mesh(frame_of(two, stays, nothing)), all).ok());
 }
 
-TEST(ViewFrame, ContactsNameTheVertexThatTheyLieAt) {
-  const Grid contacts = two_contacts();
+/// Half of the upper edge of block 0, and the left side of block 1, at their places.
+Grid two_faces() {
+  const auto at = [&](std::size_t block, Vec2 p) { return turned(three[block], p); };
+  Grid g = face_grid({{at(0, {1.5, 1}), at(0, {0.5, 1}), -4e5, 0.0, 0.5, 2.0, 2, 0},
+                      {at(1, {2, 1}), at(1, {2, 0}), -1e5, -3e5, 1.0, 1.0, 0, 1}});
+  for (Field& field : g.cell_fields) {
+    if (field.name == "opening") field.values = {-1e-5, -2e-6};
+    if (field.name == "slip") field.values = {0.5, -0.25};
+  }
+  return g;
+}
+
+void expect_column(const std::vector<double>& column, double first, double second) {
+  ASSERT_EQ(column.size(), 2u);
+  EXPECT_NEAR(column[0], first, 1e-6 * (1.0 + std::abs(first)));
+  EXPECT_NEAR(column[1], second, 1e-6 * (1.0 + std::abs(second)));
+}
+
+TEST(ViewFrame, ContactsNameTheEdgeThatTheyLieAlongAndTheirEndsOnIt) {
+  const Grid contacts = two_faces();
   const Unpacked u = unpacked(frame_of(three, turned, by_turn), &contacts, ViewPrecision::single);
   ASSERT_EQ(u.touching, 2u);
   EXPECT_EQ(u.contact_i, (std::vector<std::uint64_t>{0, 2}));  // sorted by block
   EXPECT_EQ(u.contact_j, (std::vector<std::int64_t>{1, 0}));
-  EXPECT_EQ(u.contact_vertex, (std::vector<std::uint64_t>{1, 1}));
+  EXPECT_EQ(u.contact_edge, (std::vector<std::uint64_t>{3, 2}));
   EXPECT_EQ(u.state, (std::vector<int>{1, 2}));
-  EXPECT_FLOAT_EQ(static_cast<float>(u.contacts[0][1]), 1e5F);
-  EXPECT_FLOAT_EQ(static_cast<float>(u.contacts[1][1]), -3e4F);
+  expect_column(u.contacts[0], 0.0, 0.25);
+  expect_column(u.contacts[1], 1.0, 0.75);
+  expect_column(u.contacts[2], 1.0, 0.5);
+}
+
+TEST(ViewFrame, ContactsHaveTheirForcesAndStresses) {
+  const Grid contacts = two_faces();
+  const Unpacked u = unpacked(frame_of(three, turned, by_turn), &contacts, ViewPrecision::single);
+  ASSERT_EQ(u.contacts.size(), 11u);
+  expect_column(u.contacts[3], 2e5, 1e5);
+  expect_column(u.contacts[4], 4e4, 2e4);
+  expect_column(u.contacts[5], -2e-6, -1e-5);
+  expect_column(u.contacts[6], -0.25, 0.5);
+  expect_column(u.contacts[7], -1e5, -4e5);
+  expect_column(u.contacts[8], -3e5, 0.0);
+  expect_column(u.contacts[9], -2e5, -1e5);
+  expect_column(u.contacts[10], 4e4, 2e4);
+}
+
+TEST(ViewFrame, ContactsOfOlderFramesArePointsOnTheEdgeThatTheirForceCrosses) {
+  const Grid contacts = two_points();
+  const Unpacked u = unpacked(frame_of(three, turned, by_turn), &contacts, ViewPrecision::single);
+  ASSERT_EQ(u.touching, 2u);
   // Both forces were made to come across a certain edge.
   EXPECT_EQ(u.contact_edge, (std::vector<std::uint64_t>{3, 2}));
-  EXPECT_FLOAT_EQ(static_cast<float>(u.contacts[2][1]), -1e-5F);
-  EXPECT_FLOAT_EQ(static_cast<float>(u.contacts[3][0]), -0.25F);
+  EXPECT_EQ(u.contacts[0], u.contacts[1]);
+  expect_column(u.contacts[7], 0.0, 0.0);
 }
 
 TEST(ViewFrame, OverlapsOfClosedContactsAreLeftOutOfSixteenBits) {
-  const Grid contacts = two_contacts();
+  const Grid contacts = two_faces();
   const Unpacked u = unpacked(frame_of(three, turned, by_turn), &contacts, ViewPrecision::whole16);
-  EXPECT_EQ(u.contacts[2], (std::vector<double>{0.0, 0.0}));
-  EXPECT_NEAR(u.contacts[0][1], 1e5, 0.5 * 1e5 / 127.0);
-  EXPECT_NEAR(u.contacts[3][0], -0.25, 0.501 * 0.5 / 127.0);
+  EXPECT_EQ(u.contacts[5], (std::vector<double>{0.0, 0.0}));
+  EXPECT_NEAR(u.contacts[1][1], 0.75, 0.501 / 127.0);
+  EXPECT_NEAR(u.contacts[3][0], 2e5, 0.501 * 2e5 / 127.0);
+  EXPECT_NEAR(u.contacts[6][0], -0.25, 0.501 * 0.5 / 127.0);
+  EXPECT_NEAR(u.contacts[7][0], -1e5, 0.501 * 4e5 / 127.0);
 }
 
 TEST(ViewFrame, TheDatumChangesWhereDisplacementsAreReset) {

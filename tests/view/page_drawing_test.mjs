@@ -268,6 +268,69 @@ test('sets arrows off by an even rim', async () => {
   await p.close();
 });
 
+test('draws the stress of joints from end to end of each face', async () => {
+  const p = await page('tunnel.html');
+  const joints = table('tunnel/joints.csv');
+  await choose(p, 'field', 'normal_stress');
+  const { drawn, origin, low, high, colours, size } = await p.evaluate(() => {
+    const { view: { contactDots: layer, pose, blockSize }, scale } = edda;
+    // Below are their rims.
+    const of = (k) => ({ ends: [...layer.ends.subarray(4 * k, 4 * k + 4)], colour: [...layer.colours.subarray(4 * k, 4 * k + 3)].join(), width: layer.widths[2 * k] });
+    const all = Array.from({ length: layer.count }, (_, k) => of(k));
+    return { drawn: all.slice(all.length / 2), origin: pose.origin, low: scale.low, high: scale.high, size: blockSize,
+      colours: Array.from({ length: scale.steps }, (_, k) => [...scale.colours.subarray(3 * k, 3 * k + 3)].join()) };
+  });
+  const closed = joints.filter((row) => row.state !== 'open');
+  assert.equal(drawn.length, closed.length);
+  for (const row of closed) {
+    const ends = [row.x_a - origin[0], row.y_a - origin[1], row.x_b - origin[0], row.y_b - origin[1]];
+    const line = drawn.find((d) => d.ends.every((v, k) => Math.abs(v - ends[k]) < 5e-3 * size));
+    assert.ok(line !== undefined, `no line from ${row.x_a}, ${row.y_a} to ${row.x_b}, ${row.y_b}`);
+  }
+  assert.ok(drawn.every((d) => d.width >= 4), 'thicker than outlines');
+  const least = closed.reduce((a, b) => (Number(a.normal_stress) < Number(b.normal_stress) ? a : b));
+  assert.ok(Number(least.normal_stress) <= low && high > low);
+  assert.equal(drawn[drawn.length - 1].colour, colours[0], 'the largest is on top');
+  await p.close();
+});
+
+test('draws the pressure on a joint as a trapezoid or a triangle over what bears', async () => {
+  const p = await page('tunnel.html');
+  await p.locator('#forces').check();
+  await settled(p);
+  const joints = table('tunnel/joints.csv').filter((row) => row.state !== 'open');
+  const { areas, rims, origin, usual, height, size, legend } = await p.evaluate(() => {
+    const { view: { pressureAreas, pressureRims, pose, blockSize }, results: { run } } = edda;
+    const corners = [];
+    for (let k = 0; k < pressureAreas.corners.length; k += 2) corners.push([pressureAreas.corners[k], pressureAreas.corners[k + 1]]);
+    return { areas: corners, rims: pressureRims.count, origin: pose.origin, usual: run.usual.pressure, height: 0.45 * blockSize, size: blockSize, legend: edda.legend().strokes };
+  });
+  const corner = ([x, y]) => areas.some(([u, v]) => Math.hypot(u - x, v - y) < 5e-3 * size);
+  let [trapezoids, triangles] = [0, 0];
+  for (const row of joints) {
+    const [a, b] = [[row.x_a - origin[0], row.y_a - origin[1]], [row.x_b - origin[0], row.y_b - origin[1]]];
+    const [pa, pb] = [-row.normal_stress_a, -row.normal_stress_b];
+    const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
+    const most = Math.max(pa, pb);
+    if (Math.min(pa, pb) < 0 || most === 0 || most > 1.5 * usual || row.closed_length < 0.02 * size || length < 0.02 * size) continue;
+    const [tx, ty] = [(b[0] - a[0]) / length, (b[1] - a[1]) / length];
+    // Above, or on the left of steep ones.
+    const up = 0.3 * ty + tx < 0 ? -1 : 1;
+    const top = (end, pressure) => [end[0] - up * (pressure / usual) * height * ty, end[1] + up * (pressure / usual) * height * tx];
+    const part = row.closed_length / row.length;
+    const along = (s) => [a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])];
+    const wanted = pa > 0 && pb > 0 ? [a, top(a, pa), top(b, pb), b] : pa > 0 ? [a, top(a, pa), along(part)] : [along(1 - part), top(b, pb), b];
+    wanted.forEach((point) => assert.ok(corner(point), `${JSON.stringify(row)}: no corner at ${point}`));
+    if (wanted.length === 4) ++trapezoids;
+    else ++triangles;
+  }
+  assert.ok(trapezoids > 100 && triangles > 5, `${trapezoids} trapezoids, ${triangles} triangles`);
+  assert.ok(rims >= 3 * trapezoids + 2 * triangles);
+  const entry = legend.find((s) => s.text.startsWith('pressure'));
+  assert.ok(Math.abs(entry.perPixel * height * (await p.evaluate(() => edda.view.camera.scale)) - usual) < 1e-6 * usual);
+  await p.close();
+});
+
 test('says where strokes are cut', async () => {
   // One brick of forty bears a hundred times the weight of each.
   const pressed = `${wall({ columns: 40, rows: 1, duration: 0.1, every: 0.02, historyEvery: 0.02 })}

@@ -293,6 +293,16 @@ test('shows stages, bolts and rock that is taken out', async () => {
   };
   const [high, most] = await highOf('frame');
   assert.equal(high, most);
+  // Stresses of joints by the lengths of their faces: of all frames as pictures have it, of this one by the same rule.
+  await choose(p, 'field', 'normal_stress');
+  await choose(p, 'range', 'frame');
+  const stresses = await p.evaluate(() => ({ low: edda.scale.low, all: edda.scale.all, least: Math.min(...edda.frame.contacts.normalStress) }));
+  assert.equal(stresses.all[0], stresses.least);
+  assert.ok(stresses.low >= stresses.least && stresses.low < 0.2 * stresses.least, JSON.stringify(stresses));
+  await choose(p, 'range', 'last');
+  const last = await p.evaluate(() => edda.scale.low);
+  assert.ok(Math.abs(last - stresses.low) < 0.05 * Math.abs(last), `${last}, not ${stresses.low}`);
+  await choose(p, 'field', 'normal_force');
   await p.keyboard.press('Home');
   await p.waitForFunction(() => !edda.stale && edda.shown === 0);
   const [first, mostAtFirst] = await highOf('frame');

@@ -161,7 +161,7 @@ class Frame:
 
     Cell fields of contacts: block_i, block_j, state (0 open, 1 stick, 2 slide, 3 bonded), normal_force,
     shear_force (N), opening, slip, length, closed_length (m), normal_stress (tension positive), shear_stress
-    (Pa): (rows,); force (N, on block i), displacement (m): (rows, 3).
+    (Pa), normal_stress_a, normal_stress_b (Pa, at the ends), x_a, y_a, x_b, y_b (m): (rows,); force (N, on block i), displacement (m): (rows, 3).
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:

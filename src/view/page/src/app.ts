@@ -1,5 +1,6 @@
 // The page: what is chosen, and how it reaches the drawing.
 import uPlotStyle from 'uplot/dist/uPlot.min.css';
+import { LONGEST_BEYOND } from './data/ends';
 import { blockValue, blockValues } from './data/fields';
 import type { Frame } from './data/frame';
 import { Frames } from './data/frames';
@@ -128,6 +129,7 @@ export class App {
       contacts: controls.contacts || field?.of === 'contacts',
       forces: controls.forces,
       usualForce: results.run.usual.force,
+      usualPressure: results.run.usual.pressure,
       crosses: controls.crosses,
       usualStress: results.run.usual.stress,
       vectors: controls.vectors,
@@ -202,10 +204,14 @@ export class App {
     const { controls, results } = this;
     const theme = themes[this.theme];
     const strokes: LegendEntries['strokes'] = [];
-    const per = (of: 'forces' | 'crosses' | 'arrows') => this.view.valuePerPixel(of);
+    const per = (of: 'forces' | 'pressures' | 'crosses' | 'arrows') => this.view.valuePerPixel(of);
     const { usual, largest } = results.run;
     const cut = (of: 'force' | 'stress') => (largest[of] > LONGEST * usual[of] ? LONGEST * usual[of] : undefined);
     if (controls.forces) strokes.push({ colour: css(theme.ink), text: `force, up to ${quantity(largest.force, 'N', 3)}`, perPixel: per('forces'), unit: 'N', cutAt: cut('force') });
+    if (controls.forces && largest.pressure > 0) {
+      const cutAt = largest.pressure > LONGEST_BEYOND * usual.pressure ? LONGEST_BEYOND * usual.pressure : undefined;
+      strokes.push({ colour: css(theme.compression), text: `pressure, up to ${quantity(largest.pressure, 'Pa', 2)}`, perPixel: per('pressures'), unit: 'Pa', cutAt, most: largest.pressure });
+    }
     if (controls.crosses) {
       strokes.push({ colour: css(theme.compression), text: 'compression', perPixel: per('crosses'), unit: 'Pa' });
       strokes.push({ colour: css(theme.tension), text: 'tension', unit: 'Pa', cutAt: cut('stress') });

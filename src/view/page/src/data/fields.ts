@@ -50,7 +50,13 @@ const ofContacts: Record<string, (c: Contacts) => ArrayLike<number>> = {
   opening: (c) => c.opening,
   slip: (c) => c.slip,
   state: (c) => c.state,
+  normal_stress: (c) => c.normalStress,
+  shear_stress: (c) => c.shearStress,
 };
+/** Drawn as lines along the faces; the others as dots. */
+const alongFaces = ['normal_stress', 'shear_stress'];
+
+export const isAlongFaces = (name: string) => alongFaces.includes(name);
 
 export function isKnown(name: string): boolean {
   return name in ofBlocks || name in ofContacts;

@@ -7,12 +7,15 @@ export type Motion = Float32Array[];
 
 export interface Contacts {
   count: number;
-  /** Rows of the mesh: of the vertex, of the edge. */
+  /** Rows of the mesh. */
   i: Uint32Array;
   j: Uint32Array;
-  /** Vertex and edge of the mesh. */
-  vertex: Uint32Array;
+  /** Edge of block j, of the mesh; where on it the ends of the overlap lie, 0 to 1; part of the overlap that bears. On the
+   * way from a to b block j lies on the left. */
   edge: Uint32Array;
+  alongA: Float32Array;
+  alongB: Float32Array;
+  closed: Float32Array;
   /** 0 open, 1 stick, 2 slide, 3 bonded. */
   state: Uint8Array;
   /** N; compression positive. */
@@ -21,6 +24,11 @@ export interface Contacts {
   /** m */
   opening: Float32Array;
   slip: Float32Array;
+  /** Pa, tension positive: at the ends, and the mean over the overlap. */
+  stressA: Float32Array;
+  stressB: Float32Array;
+  normalStress: Float32Array;
+  shearStress: Float32Array;
 }
 
 export interface Frame {
@@ -61,9 +69,8 @@ export function readMotion(bytes: Uint8Array, blocks: number): Motion {
   return [...columns.group(2, blocks), ...columns.group(4, blocks)];
 }
 
-/** Of the mesh: where the vertices and edges of each block begin, [nb + 1], and its reach. */
+/** Of the mesh: where the edges of each block begin, [nb + 1], and its reach. */
 export interface Beginnings {
-  begin: Uint32Array;
   edgeBegin: Uint32Array;
   reach: Float64Array;
 }
@@ -98,18 +105,21 @@ function spread(values: Float32Array, alive: Uint8Array): Float32Array {
 }
 
 function readContacts(r: Reader, columns: Columns, count: number, mesh: Beginnings): Contacts {
-  const [i, j, vertex, edge] = Array.from({ length: 4 }, () => new Uint32Array(count));
+  const [i, j, edge] = Array.from({ length: 3 }, () => new Uint32Array(count));
   for (let k = 0, row = 0; k < count; ++k) i[k] = row += r.varint();
-  for (let k = 0; k < count; ++k) vertex[k] = mesh.begin[i[k]] + r.varint();
   for (let k = 0; k < count; ++k) j[k] = i[k] + r.zigzag();
   for (let k = 0; k < count; ++k) edge[k] = mesh.edgeBegin[j[k]] + r.varint();
   const state = r.take(count).slice();
   const some = r.left > 0;
   const group = (n: number) => (some ? columns.group(n, count) : Array.from({ length: n }, () => new Float32Array(0)));
+  const [alongA, alongB, closed] = group(3);
   const [normal, shear] = group(2);
   const [opening] = group(1);
   const [slip] = group(1);
-  return { count, i, j, vertex, edge, state, normal, shear, opening, slip };
+  const [stressA, stressB] = group(2);
+  const [normalStress] = group(1);
+  const [shearStress] = group(1);
+  return { count, i, j, edge, alongA, alongB, closed, state, normal, shear, opening, slip, stressA, stressB, normalStress, shearStress };
 }
 
 /** The arrays behind a frame, to hand over without a copy. */

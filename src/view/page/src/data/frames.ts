@@ -19,7 +19,7 @@ export class Frames {
   constructor(private readonly source: Source, private readonly mesh: Mesh, private readonly absent: Run['absent']) {
     this.worker = new Worker(URL.createObjectURL(new Blob([workerCode], { type: 'text/javascript' })));
     this.worker.onmessage = ({ data }: MessageEvent<Done>) => this.done(data);
-    this.worker.postMessage({ begin: mesh.begin, edgeBegin: mesh.edgeBegin, reach: mesh.reach } satisfies Setup);
+    this.worker.postMessage({ edgeBegin: mesh.edgeBegin, reach: mesh.reach } satisfies Setup);
   }
 
   /** Frames that may be kept. */

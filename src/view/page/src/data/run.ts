@@ -58,10 +58,10 @@ export interface Run {
   fields: Field[];
   /** Numbers of blocks that the frames have not, or that mean nothing in this run. */
   absent: ('omega' | 'rotation' | 'overstress')[];
-  /** What strokes of the usual length stand for, in all frames: N, Pa. */
-  usual: { force: number; stress: number };
+  /** What strokes of the usual length stand for, in all frames: N, Pa, Pa; pressures are those at the ends of faces. */
+  usual: { force: number; stress: number; pressure: number };
   /** The largest in all frames. */
-  largest: { force: number; stress: number };
+  largest: { force: number; stress: number; pressure: number };
   colours: { sequential: string; diverging: string; kinds: string; states: string };
   /** Of contacts, by number. */
   states: string[];

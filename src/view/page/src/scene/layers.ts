@@ -1,10 +1,12 @@
 // What is drawn over the blocks: strokes of contacts, stresses, motions and bolts.
 import type { BoltNode } from '../data/bolts';
 import { LONGEST_BEYOND } from '../data/ends';
-import { contactValues, length as lengthOf, principal } from '../data/fields';
+import { contactValues, isAlongFaces, length as lengthOf, principal } from '../data/fields';
 import type { Contacts, Frame } from '../data/frame';
 import type { Mesh } from '../data/mesh';
 import type { Scale } from '../data/scale';
+import type { Areas } from './areas';
+import { endsOf, middleOf, pressureDiagram } from './faces';
 import type { Pose } from './pose';
 import type { Strokes } from './strokes';
 
@@ -29,7 +31,7 @@ function stroke(layer: Strokes, x0: number, y0: number, x1: number, y1: number, 
   layer.add(x0, y0, x1, y1, width, ink[0], ink[1], ink[2]);
 }
 
-/** Force on block i, times `scale`: N across the edge, outwards from its block, and S along it. */
+/** Force on block i, times `scale`: N into it across the face, and S from end a to end b. */
 function forceOn(c: Contacts, k: number, pose: Pose, mesh: Mesh, scale: number): [number, number] {
   const [ax, ay] = pose.vertex(mesh.edges[2 * c.edge[k]]);
   const [bx, by] = pose.vertex(mesh.edges[2 * c.edge[k] + 1]);
@@ -45,31 +47,66 @@ export function drawForces(layer: Strokes, frame: Frame, pose: Pose, mesh: Mesh,
   for (let k = 0; k < contacts.normal.length && usual > 0; ++k) {
     const size = Math.min(lengthOf(contacts.normal[k], contacts.shear[k]) / usual, LONGEST);
     if (contacts.state[k] === 0 || size <= 1e-3) continue;
-    const [x, y] = pose.vertex(contacts.vertex[k]);
+    const [x, y] = middleOf(contacts, k, pose, mesh);
     const [dx, dy] = forceOn(contacts, k, pose, mesh, (0.5 * length * size) / lengthOf(contacts.normal[k], contacts.shear[k]));
     stroke(layer, x - dx, y - dy, x + dx, y + dy, 1 + size, contacts.normal[k] < 0 ? c.tension : c.ink, c);
   }
   layer.upload();
 }
 
-/** A dot on each contact: by its state, or by a field of contacts. */
-export function drawContacts(layer: Strokes, frame: Frame, pose: Pose, scale: Scale, size: number): void {
+/** The pressure on each closed face, across it; `height`: m of the usual one; larger ones are cut. `least`: of the length
+ * that bears, m. */
+export function drawPressures(areas: Areas, rims: Strokes, frame: Frame, pose: Pose, mesh: Mesh, usual: number, height: number, least: number, c: Palette): void {
+  const { contacts } = frame;
+  areas.clear();
+  // Two parts of five points at most.
+  rims.clear(8 * contacts.stressA.length);
+  for (let k = 0; k < contacts.stressA.length && usual > 0; ++k) {
+    if (contacts.state[k] === 0) continue;
+    const [a, b] = endsOf(contacts, k, pose, mesh);
+    if (contacts.closed[k] * lengthOf(b[0] - a[0], b[1] - a[1]) < least) continue;
+    for (const { ring, tension } of pressureDiagram(a, b, contacts.closed[k], -contacts.stressA[k], -contacts.stressB[k], height / usual, LONGEST_BEYOND * usual)) {
+      const [red, green, blue] = tension ? c.tension : c.compression;
+      areas.add(ring, [red, green, blue], 110);
+      for (let m = 1; m < ring.length; ++m) rims.add(...ring[m - 1], ...ring[m], 1, red, green, blue);
+    }
+  }
+  areas.upload();
+  rims.upload();
+}
+
+/** A dot on each contact: by its state, or by a field of contacts; a line along it where it is a stress. */
+export function drawContacts(layer: Strokes, frame: Frame, pose: Pose, mesh: Mesh, scale: Scale, size: number): void {
   const { contacts } = frame;
   const name = scale.field?.name ?? 'state';
   const values = contactValues(name, contacts) ?? contacts.state;
   const byState = name === 'state' || contactValues(name, contacts) === undefined;
   layer.clear(2 * contacts.count);
+  if (isAlongFaces(name)) {
+    drawFaces(layer, contacts, values, pose, mesh, scale, size);
+    return;
+  }
   const from = byState ? scale.states : scale.colours;
   // Contacts of one corner lie on one another: as in pictures open ones below, those that slide on top.
   for (const state of byState ? FROM_BELOW : [undefined]) {
     for (let k = 0; k < contacts.count; ++k) {
       if (byState ? contacts.state[k] !== state : contacts.state[k] === 0 && name.endsWith('force')) continue;
-      const [x, y] = pose.vertex(contacts.vertex[k]);
+      const [x, y] = middleOf(contacts, k, pose, mesh);
       const step = state ?? scale.step(values[k]);
       if (state === 0) layer.add(x, y, x, y, size, 27, 31, 39);
       layer.add(x, y, x, y, state === 0 ? size - 2 : size, from[3 * step], from[3 * step + 1], from[3 * step + 2]);
     }
   }
+  layer.upload();
+}
+
+/** Lines along the faces that touch, the largest values on top. */
+function drawFaces(layer: Strokes, contacts: Contacts, values: ArrayLike<number>, pose: Pose, mesh: Mesh, scale: Scale, size: number): void {
+  const order = Array.from(contacts.state.keys()).filter((k) => contacts.state[k] !== 0 && k < values.length);
+  order.sort((a, b) => Math.abs(values[a]) - Math.abs(values[b]));
+  const faces = order.map((k) => [...endsOf(contacts, k, pose, mesh).flat(), 3 * scale.step(values[k])]);
+  for (const [ax, ay, bx, by] of faces) layer.add(ax, ay, bx, by, size, 27, 31, 39, 255, 1);
+  for (const [ax, ay, bx, by, from] of faces) layer.add(ax, ay, bx, by, size, scale.colours[from], scale.colours[from + 1], scale.colours[from + 2]);
   layer.upload();
 }
 

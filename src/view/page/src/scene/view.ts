@@ -3,6 +3,7 @@ import type { BoltNode } from '../data/bolts';
 import type { Frame, Motion } from '../data/frame';
 import type { Mesh } from '../data/mesh';
 import type { Scale } from '../data/scale';
+import { Areas } from './areas';
 import { Blocks, WIDTH } from './blocks';
 import { BoltPlaces } from './bolt_places';
 import { Camera } from './camera';
@@ -24,6 +25,8 @@ export interface Shown {
   forces: boolean;
   /** N of a stroke of the usual length; forces of all frames share a scale. */
   usualForce: number;
+  /** Pa, of a pressure of the usual height. */
+  usualPressure: number;
   crosses: boolean;
   /** Pa, the same for stresses. */
   usualStress: number;
@@ -43,8 +46,11 @@ export interface Theme extends layers.Palette {
 const LEAST_EDGE = 4;
 
 /** Lengths of usual strokes and of the longest arrow, in sizes of a block. */
-const FORCE = 1.2;
+const FORCE = 0.7;
+const PRESSURE = 0.45;
 const CROSS = 0.8;
+/** A corner that leans on an edge has a force, but no length to draw a pressure over. */
+const LEAST_LENGTH = 0.01;
 const ARROW = 2.5;
 
 export class View {
@@ -55,6 +61,8 @@ export class View {
   private readonly blocks: Blocks;
   private readonly contactDots: Strokes;
   private readonly forceStrokes: Strokes;
+  private readonly pressureAreas: Areas;
+  private readonly pressureRims: Strokes;
   private readonly crossStrokes: Strokes;
   private readonly arrowStrokes: Strokes;
   private readonly boltStrokes: Strokes;
@@ -73,6 +81,8 @@ export class View {
     this.colours = new Float32Array(mesh.blocks);
     this.contactDots = new Strokes(gl);
     this.forceStrokes = new Strokes(gl);
+    this.pressureAreas = new Areas(gl);
+    this.pressureRims = new Strokes(gl);
     this.crossStrokes = new Strokes(gl);
     this.arrowStrokes = new Strokes(gl, 4);
     this.boltStrokes = new Strokes(gl);
@@ -94,8 +104,11 @@ export class View {
     this.pose.set(frame, shown.datum, shown.magnification, this.colours);
     this.blocks.setPose(this.pose);
     const size = this.blockSize;
-    if (shown.contacts) layers.drawContacts(this.contactDots, frame, this.pose, shown.scale, 5);
-    if (shown.forces) layers.drawForces(this.forceStrokes, frame, this.pose, this.mesh, shown.usualForce, FORCE * size, theme);
+    if (shown.contacts) layers.drawContacts(this.contactDots, frame, this.pose, this.mesh, shown.scale, 5);
+    if (shown.forces) {
+      layers.drawPressures(this.pressureAreas, this.pressureRims, frame, this.pose, this.mesh, shown.usualPressure, PRESSURE * size, LEAST_LENGTH * size, theme);
+      layers.drawForces(this.forceStrokes, frame, this.pose, this.mesh, shown.usualForce, FORCE * size, theme);
+    }
     if (shown.crosses) layers.drawCrosses(this.crossStrokes, frame, this.pose, this.mesh, shown.usualStress, CROSS * size, theme);
     if (shown.vectors !== 'none') {
       const [x, y] = shown.vectors === 'velocity' ? [frame.vx, frame.vy] : frame.motion;
@@ -125,16 +138,21 @@ export class View {
       this.blocks.drawEdges(view, [...unit(theme.edge), 0.15 + 0.6 * fade]);
     }
     if (shown.crosses) this.crossStrokes.draw(view);
-    if (shown.forces) this.forceStrokes.draw(view);
+    if (shown.forces) {
+      this.pressureAreas.draw(view);
+      this.pressureRims.draw(view);
+      this.forceStrokes.draw(view);
+    }
     if (shown.contacts) this.contactDots.draw(view);
     if (shown.vectors !== 'none') this.arrowStrokes.draw(view);
     this.boltStrokes.draw(view);
   }
 
   /** What a pixel of a stroke stands for. */
-  valuePerPixel(of: 'forces' | 'crosses' | 'arrows'): number {
+  valuePerPixel(of: 'forces' | 'pressures' | 'crosses' | 'arrows'): number {
     const px = this.blockSize * this.camera.scale;
     if (of === 'forces') return (this.shown?.usualForce ?? 0) / (FORCE * px);
+    if (of === 'pressures') return (this.shown?.usualPressure ?? 0) / (PRESSURE * px);
     if (of === 'crosses') return (this.shown?.usualStress ?? 0) / (CROSS * px);
     return (this.shown?.largestVector ?? 0) / (ARROW * px);
   }

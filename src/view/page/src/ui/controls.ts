@@ -1,6 +1,6 @@
 // What is to be shown and how: the panel's upper part, and the line below the drawing.
 import { drawnEnds, type Ends, endsOf } from '../data/ends';
-import { contactValues, isKnown } from '../data/fields';
+import { contactValues, isAlongFaces, isKnown, length } from '../data/fields';
 import type { Frame } from '../data/frame';
 import type { Results } from '../data/results';
 import type { Field } from '../data/run';
@@ -102,6 +102,15 @@ export class Controls {
     return this.results.mesh.area.map((area, b) => (frame.alive[b] && !this.held[b] ? area : 0));
   }
 
+  /** Of the faces, m. */
+  private lengths({ contacts: { count, edge, alongA, alongB } }: Frame): Float64Array {
+    const { edges, vertex } = this.results.mesh;
+    return Float64Array.from({ length: count }, (_, k) => {
+      const [p, q] = [2 * edges[2 * edge[k]], 2 * edges[2 * edge[k] + 1]];
+      return Math.abs(alongB[k] - alongA[k]) * length(vertex[q] - vertex[p], vertex[q + 1] - vertex[p + 1]);
+    });
+  }
+
   /** Where what stays is little beside what has passed (a run that was shaken), the colours are those that show what
    * stays: all frames' would make the last one flat. As long as nobody has chosen otherwise. */
   private chooseRange(): void {
@@ -129,9 +138,10 @@ export class Controls {
     if (how === 'whole') return range === undefined ? undefined : { ends: range, all: range };
     const ofContacts = this.field.of === 'contacts' ? (contactValues(this.field.name, frame.contacts) ?? []) : undefined;
     const shown = ofContacts ?? values;
-    const weights = ofContacts === undefined ? this.weights(frame) : new Uint8Array(shown.length).fill(1);
+    const faces = isAlongFaces(this.field.name);
+    const weights = faces ? this.lengths(frame) : ofContacts === undefined ? this.weights(frame) : new Uint8Array(shown.length).fill(1);
     const all = endsOf(shown, weights);
-    const ends = ofContacts !== undefined || this.wholeRange ? all : drawnEnds(shown, weights);
+    const ends = (ofContacts !== undefined && !faces) || this.wholeRange ? all : drawnEnds(shown, weights);
     return all[1] > all[0] ? { ends, all } : undefined;
   }
   held: Uint8Array = new Uint8Array(0);

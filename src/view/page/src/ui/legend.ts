@@ -12,6 +12,8 @@ export interface StrokeEntry {
   unit?: string;
   /** The value of the longest stroke, where some of the run are cut. */
   cutAt?: number;
+  /** The largest value: what is drawn beside it is not above. */
+  most?: number;
 }
 
 export interface LegendEntries {
@@ -24,7 +26,7 @@ export interface LegendEntries {
   strokes: StrokeEntry[];
 }
 
-export const WIDTH = 168;
+export const WIDTH = 180;
 /** Length of the colours, where there is room and where there is none. */
 const BAR = 190;
 const LEAST_BAR = 70;
@@ -95,7 +97,7 @@ export function paintLegend(g: CanvasRenderingContext2D, right: number, top: num
     if (stroke.perPixel !== undefined) {
       // As long as in the drawing, however small the legend.
       const perPixel = shrunk * stroke.perPixel;
-      const value = roundBelow(72 * perPixel);
+      const value = roundBelow(Math.min(72 * perPixel, stroke.most ?? Infinity));
       line(g, left + 12, y - 3, value / perPixel || 0, stroke.colour);
       g.fillStyle = style.ink;
       g.fillText(quantity(value, stroke.unit ?? '', 1), left + 92, y + 1, WIDTH - 98);
