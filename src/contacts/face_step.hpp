@@ -263,7 +263,8 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   placed.force = on_corners(on, at, face);
   placed.asks = asks(c, face, k) ? 1.0 : 0.0;
   placed.stirs = stirs ? 1.0 : 0.0;
-  placed.works = touches | (old.energy[k] > 0.0) | (old.spring[k] > 0.0) ? 1.0 : 0.0;
+  const bool works = touches | (old.energy[k] > 0.0) | (old.spring[k] > 0.0);
+  placed.works = works ? 1.0 : 0.0;
   placed.depth = touches ? larger(da - c.offset_a[k], db - c.offset_b[k]) : 0.0;
   return placed;
 }
