@@ -10,9 +10,9 @@ START = math.radians(2.0)          # beyond the balance
 END = math.radians(45.0)           # of the centre beyond the corner
 FLAT = 88.0                        # degrees: figures end here
 BOUND = 5e-3                       # row 5 of docs/validation.md
-METHODS = {"covering": {"mass": "covering", "switching": "plain"}, "matched": {"mass": "matched"},
+METHODS = {"covering": models.PAPER, "matched": {"mass": "matched"},
            "consistent": {"mass": "consistent"}, "dda": {"method": "dda"}}
-NAMES = {"covering": "paper's lumping", "matched": "matched", "consistent": "consistent", "dda": "DDA, implicit"}
+NAMES = {"covering": "as printed", "matched": "matched", "consistent": "consistent", "dda": "DDA, implicit"}
 
 
 class Case:
