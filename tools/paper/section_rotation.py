@@ -119,5 +119,5 @@ def _table(report, both, found, settings):
         f"(step {plain(settings.rotation_step)} s) to {percent(implicit)}. The paper's lumping is as slow as its inertia predicts, to",
         f"{percent(lumped)}. A slope of slender blocks would seem to give more warning than it does.")
     report.verdict(
-        f"Rocking and toppling: the paper's lumping takes {listed(digits(c.slower, 3) for c in both)} times as long"
+        f"Rocking and toppling: the paper as printed takes {listed(digits(c.slower, 3) for c in both)} times as long"
         f" as it should; matched mass is exact to {percent(worst)}.")
