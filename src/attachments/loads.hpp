@@ -117,6 +117,8 @@ struct LoadsNow {
   std::vector<double> rise;      ///< [rows of Model::waters] m
   std::vector<double> weight;    ///< [rows of Model::waters] N/m3 times thickness
   const Bolts* bolts = nullptr;  ///< with their forces at this time; null: there are none
+  const std::vector<std::array<Vec2, 3>>* on_nodes =
+      nullptr;   ///< [nb] N, of contacts at points (contacts/points.hpp); null: contacts are faces
   Vec2 frame;    ///< m/s2: acceleration of the ground that all blocks feel backwards
   Vec2 to_come;  ///< m/s2: what of gravity has not come yet (GentleChange::weight)
   /// What gravity is less by.

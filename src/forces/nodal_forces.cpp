@@ -142,7 +142,8 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
     moves[i - begin] = is_free(b, state, i) ? 1 : 0;
     const bool acted_on = springs.block_begin[i] < springs.block_begin[i + 1] ||
                           (loads.loads != nullptr && loads.loads->place[i] != no_id) ||
-                          (loads.bolts != nullptr && loads.bolts->place[i] != no_id);
+                          (loads.bolts != nullptr && loads.bolts->place[i] != no_id) ||
+                          loads.on_nodes != nullptr;
     if (moves[i - begin] != 0 && !acted_on) continue;
     NodeForce f{};
     if (moves[i - begin] != 0) {
@@ -150,6 +151,8 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
       add_springs(f, b, springs, pose, i);
       if (loads.loads != nullptr) add_loads(f, b, loads, pose.x, pose.y, i);
       if (loads.bolts != nullptr) add_bolts(f, *loads.bolts, i);
+      for (std::size_t k = 0; loads.on_nodes != nullptr && k < 3; ++k)
+        f[k] += (*loads.on_nodes)[i][k];
     }
     for (std::size_t k = 0; k < 3; ++k) {
       forces.x[k][i] = f[k].x;

@@ -27,6 +27,7 @@ struct Scene {
   const LawTable& laws;
   const Damping& damping;
   const Bolts* bolts;
+  const PointSet* points = nullptr;
 };
 
 /// What decides the step of one block: that of its equations M a + (C + D) v + K x = f, seen from
@@ -114,11 +115,26 @@ std::vector<Part> faces_all_round(const Scene& w, std::size_t i) {
   return parts;
 }
 
+/// In place of faces: contacts at points that are near, all at once, each in both directions, since
+/// it is open which edge a vertex will meet.
+std::vector<Part> points_near(const Scene& w, std::size_t i) {
+  const std::vector<PointSpring>& springs = w.points->springs;
+  const double p = std::max(w.points->stiffness, w.points->shear_stiffness);
+  std::vector<Part> parts;
+  const auto before = [](const PointSpring& s, std::size_t block) { return s.block < block; };
+  for (auto s = std::lower_bound(springs.begin(), springs.end(), i, before);
+       s != springs.end() && s->block == i; ++s) {
+    parts.push_back({no_id, along(s->weight, {1.0, 0.0}), along(s->weight, {0.0, 1.0}),
+                     s->factor * p, s->factor * p, 0.0, 0.0});
+  }
+  return parts;
+}
+
 BlockEquations equations_of(const Scene& w, std::size_t i) {
   BlockEquations k;
   k.mass = mass_matrix(w.b, i);
   k.viscous = viscous_matrix(w.b, i);
-  k.parts = faces_all_round(w, i);
+  k.parts = w.points == nullptr ? faces_all_round(w, i) : points_near(w, i);
   k.elastic = elastic_matrix(w.b, i);
   k.boundary = boundary_matrix(w.b, w.springs, rotation(deformation(w.b, w.s.x, w.s.y, i)), i);
   k.bolts = w.bolts == nullptr ? Matrix6::Zero().eval() : bolt_matrix(*w.bolts, w.b, w.s, i);
@@ -252,8 +268,8 @@ void explain(StepBound& bound, const Scene& w, std::size_t i) {
 
 StepBound step_bound(const BlockSet& b, const State& s, const FaceSet& c,
                      const BoundarySprings& springs, const LawTable& laws, const Damping& damping,
-                     const Bolts* bolts) {
-  const Scene scene{b, s, c, springs, laws, damping, bolts};
+                     const Bolts* bolts, const PointSet* points) {
+  const Scene scene{b, s, c, springs, laws, damping, bolts, points};
   std::vector<double> step(b.size(), std::numeric_limits<double>::infinity());
   parallel_for(b.size(), [&](std::size_t i) {
     if (!b.fixed[i] && s.alive[i]) step[i] = lower_estimate(equations_of(scene, i), damping);

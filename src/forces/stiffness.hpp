@@ -9,6 +9,7 @@
 #include "blocks/state.hpp"
 #include "contacts/face_set.hpp"
 #include "contacts/laws.hpp"
+#include "contacts/points.hpp"
 
 namespace edda {
 
@@ -31,9 +32,10 @@ struct StepBound {
 
 /// Local damping beta makes a node that moves against its force see (1 + beta) of it, so w^2 grows
 /// by that; and mass-proportional damping a turns velocities round beyond 2/a, so 1/a is the limit.
+/// `points`: contacts at points that are near, in place of faces all round.
 StepBound step_bound(const BlockSet& blocks, const State& state, const FaceSet& contacts,
                      const BoundarySprings& springs, const LawTable& laws, const Damping& damping,
-                     const Bolts* bolts = nullptr);
+                     const Bolts* bolts = nullptr, const PointSet* points = nullptr);
 
 /// The step that each block would allow alone, [nb] s: exact
 /// where it is below `limit`, elsewhere not below `limit` and perhaps too small; infinite for held

@@ -303,6 +303,7 @@ void complete(const Value& root, Reading& reading) {
   complete_stages(root, reading);
   check_solver(root, reading);
   complete_fos(root, reading);
+  complete_points(root, reading);
   complete_interval(root, "every", model.output.every, 20.0, 1e5, reading);
   complete_interval(root, "history_every", model.output.history_every, 200.0, 1e7, reading);
   const Value* output = find(&root, "output");

@@ -52,6 +52,9 @@ void complete_joints(const Value& root, Reading& reading);
 /// As complete(), for [fos]: the stage, joints and what is varied must exist.
 void complete_fos(const Value& root, Reading& reading);
 
+/// As complete(), for contact.model = "points": what the paper's contacts do not know is refused.
+void complete_points(const Value& root, Reading& reading);
+
 /// As complete(), for [[stage]]: damping and masses by default, what is named, durations together.
 void complete_stages(const Value& root, Reading& reading);
 

@@ -59,7 +59,7 @@ constexpr std::array joint_keys{
 };
 
 constexpr std::array contact_keys{
-    Key{"model", at<&ContactDefaults::model>, choice, initial, "Contacts are faces: an edge of one block against an opposed edge of another."},
+    Key{"model", at<&ContactDefaults::model>, choice, initial, "Contacts are faces: an edge of one block against an opposed edge of another; or points: a vertex on an edge, as the paper prints it and no more, to compare with."},
     Key{"normal_stiffness", at<&ContactDefaults::normal_stiffness>, number(D::stiffness, above(0)), otherwise("10 x the largest young"), "Normal spring per contact where the joint has no kn."},
     Key{"shear_stiffness", at<&ContactDefaults::shear_stiffness>, number(D::stiffness, above(0)), otherwise("normal_stiffness"), "Shear spring per contact where the joint has no ks."},
     Key{"joint", at<&ContactDefaults::joint>, joint, otherwise(if_one), "Law of contacts whose edges name none."},
@@ -217,7 +217,7 @@ constexpr std::array stage_keys{
 constexpr std::array solver_keys{
     Key{"method", at<&Solver::method>, choice, initial, "Explicit (edda), or implicit with one global solve (dda)."},
     Key{"mass", at<&Solver::mass>, choice, initial, "How a block's mass sits on its nodes."},
-    Key{"switching", at<&Solver::switching>, choice, initial, "Method edda: how contacts open and close, keeping the energy (exact) or as in the paper (plain)."},
+    Key{"switching", at<&Solver::switching>, choice, otherwise("\"exact\"; \"plain\" with contact.model = \"points\""), "Method edda: how contacts open and close, keeping the energy (exact) or as in the paper (plain)."},
     Key{"duration", at<&Solver::duration>, number(D::time, above(0)), or_none("required of a run unless there are stages: their durations together"), "Time to simulate."},
     Key{"time_step", at<&Solver::time_step>, number_or("auto", D::time, above(0)), otherwise("\"auto\""), "Time step; above the critical step it is refused."},
     Key{"allow_unstable", at<&Solver::allow_unstable>, flag, initial, "Method edda: whether a time step above the critical one is run all the same."},

@@ -22,7 +22,7 @@ enum class Plane { strain, stress };
 enum class Method { edda, dda };
 enum class MassKind { matched, covering, consistent };
 enum class Switching { exact, plain };
-enum class ContactModel { faces };
+enum class ContactModel { faces, points };
 enum class LawType { coulomb, glued, slip_weakening, barton_bandis };
 enum class StageEnd { time, equilibrium };
 enum class StageJoints { as_given, glued };
@@ -96,6 +96,7 @@ struct ContactDefaults {
   double normal_stiffness = 0.0;  ///< Pa (N/m per metre of thickness)
   double shear_stiffness = 0.0;   ///< Pa
   Index joint = none;  ///< law of contacts whose edges name none; none only if no law is needed
+  Where where;
 };
 
 /// [[block]]

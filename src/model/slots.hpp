@@ -15,7 +15,7 @@ inline constexpr std::array<std::string_view, 2> plane_names{"strain", "stress"}
 inline constexpr std::array<std::string_view, 2> method_names{"edda", "dda"};
 inline constexpr std::array<std::string_view, 3> mass_names{"matched", "covering", "consistent"};
 inline constexpr std::array<std::string_view, 2> switching_names{"exact", "plain"};
-inline constexpr std::array<std::string_view, 1> contact_model_names{"faces"};
+inline constexpr std::array<std::string_view, 2> contact_model_names{"faces", "points"};
 inline constexpr std::array<std::string_view, 4> law_names{"coulomb", "glued", "slip-weakening",
                                                            "barton-bandis"};
 inline constexpr std::array<std::string_view, 2> stage_end_names{"time", "equilibrium"};

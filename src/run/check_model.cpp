@@ -52,7 +52,10 @@ ModelCheck check_model(Simulation& sim) {
   for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
     found.closed += meets(sim.contacts, k);
   }
-  found.within_reach = sim.contacts.size();
+  for (std::size_t k = 0; k < sim.point_contacts.size(); ++k) {
+    found.closed += meets(sim.point_contacts, sim.blocks, sim.pose, k, sim.contacts.noise);
+  }
+  found.within_reach = sim.contacts.size() + sim.point_contacts.size();
   found.critical_step = sim.bound.critical_step;
   found.loads = load_report(sim);
   found.initial_stress = initial_stress_report(sim);

@@ -20,6 +20,26 @@ std::string cause(const StepInUse& step, const char* otherwise) {
   return otherwise;
 }
 
+/// The one that moves, or the smaller, is inside the other.
+Failure overlap_of(Id one, Id other, double depth, Vec2 place, const BlockSet& b, const State& s,
+                   const StepInUse& step) {
+  const auto weight = [&](Id i) {
+    return b.fixed[i] != 0 ? std::numeric_limits<double>::infinity() : b.area[i];
+  };
+  const Id i = weight(one) <= weight(other) ? one : other, j = i == one ? other : one;
+  Failure f;
+  f.time = s.time;
+  f.block = i;
+  f.place = place + b.origin;
+  f.message = fmt::format(
+      "{} is {:.3g} m inside {}, more than half the size of the smaller: {}", block_label(b, i),
+      depth, block_label(b, j),
+      cause(step,
+            "contacts are too soft for these loads or speeds: raise contact.normal_stiffness "
+            "(or the joint's kn), or lower solver.max_displacement_ratio"));
+  return f;
+}
+
 }  // namespace
 
 Failure lost_block(const BlockSet& b, const State& s, const Pose& pose, const NodalForces& forces,
@@ -53,22 +73,20 @@ std::optional<Failure> deep_overlap(const FaceSet& c, const BlockSet& b, const S
     const double depth = closure_of(c, k);
     if (!(c.now.energy[k] > 0.0) || depth <= std::min(b.inradius[of[0]], b.inradius[of[1]]))
       continue;
-    // The one that moves, or the smaller, is inside the other.
-    const auto weight = [&](Id i) {
-      return b.fixed[i] != 0 ? std::numeric_limits<double>::infinity() : b.area[i];
-    };
-    const Id i = weight(of[0]) <= weight(of[1]) ? of[0] : of[1], j = i == of[0] ? of[1] : of[0];
-    Failure f;
-    f.time = s.time;
-    f.block = i;
-    f.place = deeper_end(c, pose, k) + b.origin;
-    f.message = fmt::format(
-        "{} is {:.3g} m inside {}, more than half the size of the smaller: {}", block_label(b, i),
-        depth, block_label(b, j),
-        cause(step,
-              "contacts are too soft for these loads or speeds: raise contact.normal_stiffness "
-              "(or the joint's kn), or lower solver.max_displacement_ratio"));
-    return f;
+    return overlap_of(of[0], of[1], depth, deeper_end(c, pose, k), b, s, step);
+  }
+  return std::nullopt;
+}
+
+std::optional<Failure> deep_overlap(const PointSet& c, const BlockSet& b, const State& s,
+                                    const Pose& pose, double largest, double smallest_half_width,
+                                    const StepInUse& step) {
+  if (largest <= smallest_half_width) return std::nullopt;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const Id i = b.vertex_block[c.vertex[k]], j = b.vertex_block[c.edge[k]];
+    const double depth = gap_of(c, b, pose, k).depth;
+    if (c.closed[k] > 0.0 && depth > std::min(b.inradius[i], b.inradius[j]))
+      return overlap_of(i, j, depth, at(pose.x, pose.y, c.vertex[k]), b, s, step);
   }
   return std::nullopt;
 }

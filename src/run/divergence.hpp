@@ -9,6 +9,7 @@
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
 #include "contacts/face_set.hpp"
+#include "contacts/points.hpp"
 #include "forces/nodal_forces.hpp"
 #include "model/model.hpp"
 
@@ -36,6 +37,11 @@ Failure lost_block(const BlockSet& blocks, const State& state, const Pose& pose,
 /// inside. `largest`: largest effective penetration at present, m; blocks are looked at only where
 /// it, or a blocked contact, gives cause.
 std::optional<Failure> deep_overlap(const FaceSet& contacts, const BlockSet& blocks,
+                                    const State& state, const Pose& pose, double largest,
+                                    double smallest_half_width, const StepInUse& step);
+
+/// The same of contacts at points.
+std::optional<Failure> deep_overlap(const PointSet& contacts, const BlockSet& blocks,
                                     const State& state, const Pose& pose, double largest,
                                     double smallest_half_width, const StepInUse& step);
 

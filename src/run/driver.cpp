@@ -343,7 +343,7 @@ void Driver::write_end() {
     if (event.row || event.frame) record(event);
     outcome_.wall.output = wall;
   }
-  outcome_.contacts = closed_contacts(sim_.contacts);
+  outcome_.contacts = closed_contacts(sim_.contacts) + closed_points(sim_.point_contacts);
   if (begun && recorder_.writes()) {
     count_turns(sim_, angle_);
     Instant instant;

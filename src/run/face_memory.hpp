@@ -2,12 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "contacts/face_set.hpp"
 #include "contacts/laws.hpp"
+#include "contacts/points.hpp"
 
 namespace edda {
 
@@ -38,6 +40,31 @@ void list_faces(Archive& a, FaceSet& c) {
   a("faces.retired_damping", c.retired_damping);
   a("faces.retired_fracture", c.retired_fracture);
   a("faces.retired_transfer", c.retired_transfer);
+}
+
+template <class Archive>
+void list_points(Archive& a, PointSet& c) {
+  a("points.vertex", c.vertex);
+  a("points.edge", c.edge);
+  a("points.law", c.law);
+  for (std::size_t q = 0; q < std::size(point_columns); ++q) {
+    a("points.column." + std::to_string(q), c.*point_columns[q]);
+  }
+  a("points.energy", c.energy);
+  a("points.friction", c.friction);
+  a("points.due", c.due);
+  a("points.deepest", c.deepest);
+}
+
+/// What complete_points() and the step take for granted.
+template <class Judge>
+void judge_points(Judge& j, const PointSet& c, const BlockSet& b, const LawTable& laws) {
+  for (const auto column : point_columns) j.sized("points", c.*column, c.vertex.size());
+  j.sized("points.edge", c.edge, c.vertex.size());
+  j.sized("points.law", c.law, c.vertex.size());
+  j.below("points.vertex", c.vertex, b.vertex_count());
+  j.below("points.edge", c.edge, b.vertex_count());
+  j.below("points.law", {c.law.begin(), c.law.end()}, laws.rows.size());
 }
 
 /// Sizes and indices: what complete_faces() and the step take for granted. Judge: of

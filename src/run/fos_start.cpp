@@ -107,6 +107,11 @@ std::optional<Fault> refused(const Model& model, const Fos& fos) {
                   "the factor of safety is not sought by \"dda\"",
                   "use method = \"edda\" (--set solver.method=edda)");
   }
+  if (model.contact.model == ContactModel::points) {
+    return cannot(model, model.contact.where, "contact.model",
+                  "\"points\" is the paper's and knows no factor of safety",
+                  "use contact.model = \"faces\"");
+  }
   if (model.solver.mass == MassKind::consistent) {
     return cannot(model, model.solver.where, "solver.mass",
                   "masses that are raised for trials do not go with \"consistent\"",

@@ -107,6 +107,33 @@ ContactRecord face_record(const Simulation& sim, const FaceSet& f, std::size_t k
   return r;
 }
 
+/// A vertex on an edge: as a face without length.
+ContactRecord point_record(const Simulation& sim, std::size_t k) {
+  const BlockSet& b = sim.blocks;
+  const PointSet& c = sim.point_contacts;
+  const PointGap g = gap_of(c, b, sim.pose, k);
+  const Id v = c.vertex[k];
+  ContactRecord r;
+  r.block_i = b.vertex_block[v];
+  r.block_j = b.vertex_block[c.edge[k]];
+  r.joint = sim.model.joints[c.law[k]].name;
+  r.position = r.a = r.b = at(sim.pose.x, sim.pose.y, v) + b.origin;
+  r.displacement =
+      displacement_of(sim.state, r.block_i, {b.weight[0][v], b.weight[1][v], b.weight[2][v]});
+  r.opening = -g.depth;
+  r.slip = g.along - c.entered[k] * g.length;
+  r.ever_slipped = c.slipped[k] > 0.0;
+  r.ever_opened = c.opened[k] > 0.0;
+  if (c.closed[k] == 0.0) return r;
+  r.state = c.slides[k] > 0.0 ? ContactState::slide : ContactState::stick;
+  r.force = force_on_vertex(c, b, sim.pose, k);
+  r.normal_force = c.normal[k];
+  r.shear_force = c.shear[k];
+  const double strength = sim.laws.rows[c.law[k]].peak_friction * c.normal[k];
+  r.mobilised = r.shear_force == 0.0 ? 0.0 : std::abs(r.shear_force) / strength;
+  return r;
+}
+
 void place_points(const BlockSet& b, const State& s, Picture& p) {
   const std::size_t nv = b.vertex_count();
   for (auto* values : {&p.x, &p.y, &p.ux, &p.uy, &p.vx, &p.vy}) values->resize(nv);
@@ -177,6 +204,10 @@ Picture picture_of(const Simulation& sim, const Instant& at) {
   for (std::size_t k = 0; k < f.size(); ++k) {
     if (is_closed(f, k) || f.opened[k] > 0.0) p.contacts.push_back(face_record(sim, f, k));
   }
+  for (std::size_t k = 0; k < sim.point_contacts.size(); ++k) {
+    if (sim.point_contacts.closed[k] > 0.0 || sim.point_contacts.opened[k] > 0.0)
+      p.contacts.push_back(point_record(sim, k));
+  }
   place_points(sim.blocks, at.state, p);
   return p;
 }
@@ -243,6 +274,10 @@ double force_scale(const Simulation& sim, const FaceSet& f, const std::vector<Id
     if (!is_closed(f, k) || !(n > 0.0)) continue;
     normal += n;
     carrying += 2;  // its two ends
+  }
+  for (const double n : sim.point_contacts.normal) {
+    normal += n;
+    carrying += n > 0.0 ? 1 : 0;
   }
   // Contacts that only just touch, as at the start, carry rounding and no measure.
   const double mean_load = blocks.empty() ? 0.0 : loads / static_cast<double>(blocks.size());

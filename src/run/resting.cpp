@@ -37,6 +37,11 @@ Sets groups_of(const Simulation& sim) {
   for (std::size_t k = 0; k < f.size(); ++k) {
     if (meets(f, k)) sets.join(block_of_edge(sim.blocks, f, k), block_of_facing(sim.blocks, f, k));
   }
+  const PointSet& p = sim.point_contacts;
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    if (meets(p, sim.blocks, sim.pose, k, f.noise))
+      sets.join(sim.blocks.vertex_block[p.vertex[k]], sim.blocks.vertex_block[p.edge[k]]);
+  }
   const Bolts& bolts = sim.bolts;
   for (std::size_t r = 0; r < bolts.rows.size(); ++r) {
     for (Id k = bolts.begin[r] + 1; k < bolts.begin[r + 1]; ++k)

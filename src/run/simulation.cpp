@@ -131,6 +131,8 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   bond_faces(s.contacts, s.blocks, s.pose, s.laws);
   s.close_contacts();
   stand_still(s.contacts);
+  // Twice: they have been at rest.
+  for (int n = 0; n < 2; ++n) move_points(s.point_contacts, s.blocks, s.pose, s.laws);
   for (auto* work : {&s.contacts.friction_work, &s.contacts.transfer})
     std::fill(work->begin(), work->end(), 0.0);
   s.plan_slivers();
@@ -170,6 +172,11 @@ void Simulation::set_limit() {
   if (!explicit_method()) return set_implicit_limit();
   if (model.solver.mass_scaling > 0.0 || scaled_step_ > 0.0 || sliver_step_ > 0.0) raise_masses();
   bound = step_bound(blocks, state, contacts, springs, laws, damping, &bolts);
+  if (at_points()) {
+    const StepBound near =
+        step_bound(blocks, state, contacts, springs, laws, damping, &bolts, &point_contacts);
+    if (near.critical_step < bound.critical_step) bound = near;
+  }
   if (model.solver.time_step) {
     const double most = model.solver.allow_unstable
                             ? displacement_cap_
@@ -309,7 +316,8 @@ std::optional<Failure> Simulation::step() {
     const StepTaken taken{h_old, h, damps_.mass, damps_.strain};
     correct_switching(contacts, blocks, laws, state, pose, taken, open_close, switching_);
   }
-  penetration = largest_closure(contacts);
+  if (at_points()) move_points(point_contacts, blocks, pose, laws);
+  penetration = std::max(largest_closure(contacts), point_contacts.deepest);
   max_penetration = std::max(max_penetration, penetration);
   if (h != h_old) {
     step_change_energy += energy_of_step_change(blocks, state, old_vx_, old_vy_, h_old, h);
@@ -360,6 +368,9 @@ void Simulation::finish_step() {
 
 std::optional<Failure> Simulation::inspect() const {
   if (!std::isfinite(last_displacement)) return lost();
+  if (at_points())
+    return deep_overlap(point_contacts, blocks, state, pose, penetration, smallest_half_width,
+                        step_in_use());
   return deep_overlap(contacts, blocks, state, pose, penetration, smallest_half_width,
                       step_in_use());
 }
@@ -379,8 +390,8 @@ Ledger Simulation::ledger_now() const {
       sum_ledger(blocks, state, behind, pose, contacts, springs, damping_work, model.gravity);
   l.step_change = -step_change_energy;
   l.external = external_work;
-  l.contact += bolt_energy(bolts);
-  l.friction += bolts.slipped;
+  l.contact += bolt_energy(bolts) + point_contacts.energy;
+  l.friction += bolts.slipped + point_contacts.friction;
   l.fracture += bolts.fractured;
   return l;
 }

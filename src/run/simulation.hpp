@@ -19,6 +19,7 @@
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
 #include "contacts/face_set.hpp"
+#include "contacts/points.hpp"
 #include "forces/nodal_forces.hpp"
 #include "forces/stiffness.hpp"
 #include "implicit/newmark.hpp"
@@ -75,6 +76,7 @@ struct Simulation {
   State state;
   Pose pose;
   FaceSet contacts;
+  PointSet point_contacts;  ///< in their place, where contact.model = "points"
   Ground ground;
   NodalForces forces;
   NodalForces jump;  ///< by which forces at n have jumped since the last step; or empty
@@ -183,6 +185,7 @@ struct Simulation {
   Vec2 ground_velocity() const;
 
   bool explicit_method() const { return model.solver.method == Method::edda; }
+  bool at_points() const { return model.contact.model == ContactModel::points; }
   /// Damping in proportion to mass that acts at present, 1/s.
   double drag() const;
   /// Largest step allowed, s: of the implicit method once its short first ones are over.

@@ -12,6 +12,7 @@ namespace edda {
 LoadsNow Simulation::acting() const {
   LoadsNow now = loads_at(model, loads, state.time);
   if (!bolts.rows.empty()) now.bolts = &bolts;
+  if (at_points()) now.on_nodes = &point_contacts.on_nodes;
   return now;
 }
 

@@ -186,6 +186,7 @@ void judge(Judge& j, const Simulation& s) {
     for (std::size_t k = 0; k < 3; ++k) j.positive("node_mass", s.blocks.node_mass[k][i]);
   }
   judge_faces(j, s.contacts, s.blocks, s.laws);
+  judge_points(j, s.point_contacts, s.blocks, s.laws);
   if (j.flaw().empty()) judge_places(j, s);
 }
 
@@ -195,6 +196,7 @@ template <class Archive>
 void list_memory(Archive& a, Simulation& s) {
   list_state(a, s);
   list_faces(a, s.contacts);
+  if (s.at_points()) list_points(a, s.point_contacts);
   list_counts(a, s);
   list_kept(a, s);
   list_ground(a, s);
@@ -242,6 +244,7 @@ std::string recall(Simulation& sim, const Record& record) {
   if (!j.flaw().empty()) return j.flaw();
   complete_faces(sim.contacts, sim.blocks, sim.laws);
   set_face_dashpots(sim.contacts, sim.laws, sim.damping.contact);
+  complete_points(sim.point_contacts, sim.blocks, sim.pose, sim.laws);
   fill_point_masses(sim.blocks);
   fill_viscosity(sim.blocks, sim.damping);
   return j.flaw();

@@ -18,6 +18,12 @@ void Simulation::place_all() {
 }
 
 void Simulation::search(double reach) {
+  if (at_points()) {
+    find_points(point_contacts, blocks, state, pose, laws, reach);
+    State of_no_faces;
+    of_no_faces.alive.assign(blocks.size(), 0);
+    return find_faces(contacts, blocks, of_no_faces, pose, laws, reach);
+  }
   find_faces(contacts, blocks, state, pose, laws, reach);
   set_face_dashpots(contacts, laws, damping.contact);
 }

@@ -9,7 +9,7 @@ from paper import models, results
 TARGET = 0.01      # of the displacement, root mean square over monitors and rows
 ROWS = 100
 FINE = 0.2         # safety of the fine run with the paper's lumping
-PAPERS = {"mass": "covering", "switching": "plain"}
+PAPERS = {"mass": "covering", "switching": "plain"}  # with faces: its lumping alone
 
 
 @dataclasses.dataclass

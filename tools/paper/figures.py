@@ -9,7 +9,7 @@ METHODS = {
     "exact": {"color": "#000000", "linestyle": (0, (1, 1.5)), "label": "exact"},
     "matched": {"color": "#0072B2", "linestyle": "-", "linewidth": 2.6, "alpha": 0.6, "zorder": 2,
                 "label": "EDDA, matched"},
-    "covering": {"color": "#D55E00", "linestyle": (0, (5, 1.5)), "label": "EDDA, paper's lumping"},
+    "covering": {"color": "#D55E00", "linestyle": (0, (5, 1.5)), "label": "EDDA, as printed"},
     "dda": {"color": "#009E73", "linestyle": (0, (4, 1.5, 1, 1.5)), "label": "DDA, implicit"},
     "consistent": {"color": "#CC79A7", "linestyle": (0, (2, 1)), "label": "EDDA, consistent"},
 }

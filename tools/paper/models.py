@@ -4,6 +4,13 @@ import math
 import pathlib
 
 GRAVITY = 9.81  # m/s2, where the paper gives none
+# The paper's method as printed: a covering triangle, vertices on edges, plain switching, no damping of the rock.
+PAPER = {"mass": "covering", "switching": "plain", "contacts": "points"}
+
+
+def rock_of(contacts):
+    """Keys of the rock and of [contact] that go with contacts of the paper, or with this program's faces."""
+    return ("damping = 0.0\n", 'model = "points"\n') if contacts == "points" else ("", "")
 
 
 def number(value):
@@ -51,21 +58,22 @@ def on_slope(angle, along, across):
     return turned((along, across), -math.radians(angle))
 
 
-def ramp(angle, friction, stiffness, duration, rows, **keys):
+def ramp(angle, friction, stiffness, duration, rows, contacts="faces", **keys):
     """The paper's 2 m x 1 m block on a ramp that is held; contact springs of `stiffness` N/m. Monitor: centre."""
     def box(x0, x1, y0, y1):
         return points([on_slope(angle, *p) for p in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))])
 
+    damping, model = rock_of(contacts)
     return f"""title = "The paper's ramp"
 gravity = [0.0, -{RAMP_GRAVITY}]
 [materials.rock]
 density = 2750.0
 young = {number(RAMP_YOUNG)}
 poisson = 0.25
-[joints.ramp]
+{damping}[joints.ramp]
 friction_angle = {number(friction)}
 [contact]
-normal_stiffness = {number(stiffness)}
+{model}normal_stiffness = {number(stiffness)}
 [[block]]
 name = "ramp"
 fixed = true
@@ -87,20 +95,22 @@ def slid(run, angle):
 
 # Blocks that rock and topple
 
-def standing_block(width, height, tilt, duration, rows, **keys):
+def standing_block(width, height, tilt, duration, rows, contacts="faces", **keys):
     """A block on its lower right corner, tilted clockwise about it by `tilt` rad. Monitors: foot, head."""
     polygon = [turned(p, -tilt, about=(width, 0.0)) for p in ((0, 0), (width, 0), (width, height), (0, height))]
     head = turned((0.5 * width, 0.9 * height), -tilt, about=(width, 0.0))
     foot = turned((0.5 * width, 0.1 * height), -tilt, about=(width, 0.0))
+    damping, model = rock_of(contacts)
     return f"""title = "A block on its corner"
 gravity = [0.0, -{GRAVITY}]
 [materials.rock]
 density = 2600.0
 young = 20e9
 poisson = 0.2
-[joints.rough]
+{damping}[joints.rough]
 friction_angle = 60.0
-[[block]]
+[contact]
+{model}[[block]]
 fixed = true
 polygon = {points([(-3, -1), (width + 8, -1), (width + 8, 0), (-3, 0)])}
 [[block]]

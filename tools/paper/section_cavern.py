@@ -40,6 +40,7 @@ def write(report, program, settings):
         f" {digits(speed * PAPER_STEP)} m in a step.")
     _draw(report, edda, dda)
     _table(report, edda, dda, difference, duration)
+    _as_printed(report, program, model, fine, edda)
     _own_steps(report, program, settings, model, edda)
 
 
@@ -80,6 +81,26 @@ def _table(report, edda, dda, difference, duration):
         f"{percent(AGREE)}. Not all of it is hard to agree on: undisturbed rock falls freely until a wave arrives. At the end",
         f"{listed(_from_free_fall(edda, m) for m in MONITORS)} away from free fall.")
     report.verdict(f"Cavern: EDDA and DDA agree to {percent(difference)} of the largest displacement.")
+
+
+def _as_printed(report, program, model, fine, edda):
+    """The paper's method, contacts and all, against this program's."""
+    printed = program.run("cavern-printed", model, fine + ['contact.model="points"', "solver.mass=covering",
+                                                           "materials.rock.damping=0"], may_fail=True)
+    if printed is None or not printed.completed:
+        report.text("The paper's method as printed, with contacts of vertices on edges (`contact.model = \"points\"`), does",
+                    "not come to the end of this cavern.")
+        return
+    difference = results.largest_difference(printed, edda)
+    report.text(
+        "Both have this program's faces. The paper's method as printed, with the covering triangle, contacts of vertices on",
+        f"edges (`contact.model = \"points\"`), plain switching and no damping, is {percent(difference)} of the largest",
+        f"displacement away from EDDA: {listed(_apart(printed, edda, m) for m in MONITORS)}.")
+
+
+def _apart(run, other, monitor):
+    """How far a point has gone in one run and in the other."""
+    return f"{monitor} goes {digits(1e3 * _magnitude(run, monitor)[-1])} mm and not {digits(1e3 * _magnitude(other, monitor)[-1])} mm"
 
 
 def _from_free_fall(run, monitor):

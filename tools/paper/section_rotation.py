@@ -10,9 +10,9 @@ START = math.radians(2.0)          # beyond the balance
 END = math.radians(45.0)           # of the centre beyond the corner
 FLAT = 88.0                        # degrees: figures end here
 BOUND = 5e-3                       # row 5 of docs/validation.md
-METHODS = {"covering": {"mass": "covering", "switching": "plain"}, "matched": {"mass": "matched"},
+METHODS = {"covering": models.PAPER, "matched": {"mass": "matched"},
            "consistent": {"mass": "consistent"}, "dda": {"method": "dda"}}
-NAMES = {"covering": "paper's lumping", "matched": "matched", "consistent": "consistent", "dda": "DDA, implicit"}
+NAMES = {"covering": "as printed", "matched": "matched", "consistent": "consistent", "dda": "DDA, implicit"}
 
 
 class Case:
@@ -119,5 +119,5 @@ def _table(report, both, found, settings):
         f"(step {plain(settings.rotation_step)} s) to {percent(implicit)}. The paper's lumping is as slow as its inertia predicts, to",
         f"{percent(lumped)}. A slope of slender blocks would seem to give more warning than it does.")
     report.verdict(
-        f"Rocking and toppling: the paper's lumping takes {listed(digits(c.slower, 3) for c in both)} times as long"
+        f"Rocking and toppling: the paper as printed takes {listed(digits(c.slower, 3) for c in both)} times as long"
         f" as it should; matched mass is exact to {percent(worst)}.")

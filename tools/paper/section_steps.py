@@ -69,7 +69,7 @@ def _table(report, found, notes):
                     [f"diverged at {digits(run.summary['time'])} s", "-"]
             rows.append(cells)
     report.table(["contact springs", "critical step, matched (s)", "step (s)", "matched: end", "matched: mean",
-                  "paper's lumping: end", "paper's lumping: mean"], rows)
+                  "as printed: end", "as printed: mean"], rows)
 
 
 def _sentences(report, found, notes, stiff):
