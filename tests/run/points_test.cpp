@@ -216,7 +216,9 @@ TEST(PointRuns, TablesHaveARowPerContact) {
     normal += r.normal_force;
     shear += r.shear_force;
     sliding += r.state == ContactState::slide;
-    if (r.state == ContactState::slide) EXPECT_NEAR(r.mobilised, 1.0, 1e-12);
+    if (r.state == ContactState::slide) {
+      EXPECT_NEAR(r.mobilised, 1.0, 1e-12);
+    }
     if (r.state != ContactState::open) {
       EXPECT_NEAR(norm(r.force), std::hypot(r.normal_force, r.shear_force), 1e-6);
       EXPECT_LE(r.opening, 0.0);
