@@ -199,11 +199,10 @@ void fetch(const FaceSet& c, const std::vector<const double*>& columns, std::siz
   }
 }
 
-/// laws: of the bonds that may break, if any.
-void place_chunks(FaceSet& c, const FaceView& view, const BlockSet& b, const Pose& pose,
-                  const LawTable* laws, std::size_t begin, std::size_t end) {
+void place_chunks(FaceSet& c, const FaceView& view, const std::vector<const double*>& columns,
+                  const BlockSet& b, const Pose& pose, const LawTable* laws, std::size_t begin,
+                  std::size_t end) {
   ChunkForces on;
-  const std::vector<const double*> columns = columns_of_step(c);
   for (std::size_t first = begin; first < end; first += FaceSet::chunk) {
     fetch(c, columns, std::min(first + FaceSet::chunk, end),
           std::min(first + 2 * FaceSet::chunk, end));
@@ -232,6 +231,15 @@ void place_chunks(FaceSet& c, const FaceView& view, const BlockSet& b, const Pos
   }
 }
 
+/// laws: of the bonds that may break, if any.
+void place_all(FaceSet& c, const FaceView& view, const BlockSet& b, const Pose& pose,
+               const LawTable* laws) {
+  const std::vector<const double*> columns = columns_of_step(c);
+  parallel_chunks(c.size(), FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
+    place_chunks(c, view, columns, b, pose, laws, begin, end);
+  });
+}
+
 /// What has been worked out is final; dashpots: of the faces, or of the method.
 void end_step(FaceSet& c, bool dashpots) {
   if (c.gluing) glue_pressed(c);
@@ -256,18 +264,12 @@ void end_step(FaceSet& c, bool dashpots) {
 
 void place_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
                  double step) {
-  const FaceView view = faces_view(c, b, pose, step);
-  parallel_chunks(c.size(), FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
-    place_chunks(c, view, b, pose, &laws, begin, end);
-  });
+  place_all(c, faces_view(c, b, pose, step), b, pose, &laws);
 }
 
 void try_faces(FaceSet& c, const BlockSet& b, const Pose& pose, double step,
                const ShearLimits& limits) {
-  const FaceView view = faces_view(c, b, pose, step, &limits);
-  parallel_chunks(c.size(), FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
-    place_chunks(c, view, b, pose, nullptr, begin, end);
-  });
+  place_all(c, faces_view(c, b, pose, step, &limits), b, pose, nullptr);
 }
 
 void place_face(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws, double step,
