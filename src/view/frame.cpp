@@ -146,6 +146,7 @@ Vec2 point_value(const std::vector<double>& values, std::int64_t point) {
 struct Touch {
   std::size_t cell = 0, i = 0, j = 0, edge = 0;
   double along_a = 0.0, along_b = 0.0;
+  double closed = 1.0;  ///< part of it that bears
 };
 
 /// Puts the face on the edge of its block j that it lies along: where others are as near, the one
@@ -195,6 +196,7 @@ std::vector<Touch> touches_of(const ViewMesh& mesh, const Grid& blocks, const Gr
                                                    normal->values[c], shear->values[c])
                               : unit(b - a);
     put_on_edge(mesh, blocks.points, a, b, along, t);
+    if (!faces.empty()) t.closed = faces[c].closed;
     touches.push_back(t);
   }
   std::stable_sort(touches.begin(), touches.end(),
@@ -203,13 +205,12 @@ std::vector<Touch> touches_of(const ViewMesh& mesh, const Grid& blocks, const Gr
 }
 
 /// Where the faces lie on their edges, and how much of them bears.
-Columns columns_along(const std::vector<Touch>& touches, const Grid& contacts) {
-  const std::vector<DrawnFace> faces = drawn_faces(contacts, 1.0);
+Columns columns_along(const std::vector<Touch>& touches) {
   Columns columns(3);
   for (const Touch& t : touches) {
     columns[0].push_back(t.along_a);
     columns[1].push_back(t.along_b);
-    columns[2].push_back(faces.empty() ? 1.0 : faces[t.cell].closed);
+    columns[2].push_back(t.closed);
   }
   return columns;
 }
@@ -238,7 +239,7 @@ void add_contacts(Bytes& bytes, const std::vector<Touch>& touches, const Grid& c
     for (const char* name : names) columns.push_back(column(contacts, name, 0, cells));
     add_group(bytes, columns, precision, contact_steps);
   };
-  add_group(bytes, columns_along(touches, contacts), precision, contact_steps);
+  add_group(bytes, columns_along(touches), precision, contact_steps);
   group({"normal_force", "shear_force"});
   add_group(bytes, {opening}, precision, contact_steps);
   group({"slip"});
