@@ -16,8 +16,6 @@
 // as an index), and no sums over its elements: largest values only.
 #pragma once
 
-#include <cstring>
-
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__OPTIMIZE__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(EDDA_PLAIN_LOOPS)
 #define EDDA_VECTOR __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
@@ -30,15 +28,8 @@
 
 namespace edda {
 
-/// Two and four numbers that are added as one, for sums too short for a loop over several.
-using Two __attribute__((vector_size(16))) = double;
+/// Four numbers that are added as one, for sums too short for a loop over several.
 using Four __attribute__((vector_size(32))) = double;
-template <class Vector>
-EDDA_INLINE void add_from(Vector& sum, const double* values) {
-  Vector more;
-  std::memcpy(&more, values, sizeof more);
-  sum += more;
-}
 
 /// std::max by value: a choice between references is not one that g++ takes for several elements.
 EDDA_INLINE double larger(double a, double b) {

@@ -172,6 +172,22 @@ EDDA_INLINE FaceEnds gated_closure(double drawn_a, double drawn_b, const FacePai
           drawn_b + smaller(locked_part * pair.offset.b, pair.passing)};
 }
 
+/// Whether what is rare in U does not matter: no corners pass each other, the edges lie along each
+/// other (W = 1), nothing is deep (w = 1), nothing is locked in, no tension is borne; or all is
+/// open.
+EDDA_INLINE bool is_plain(const Opposition& o, const FacePair& pair) {
+  const double along = (o.cosine - pair.gate_from) * pair.gate_scale, length = o.mb - o.ma;
+  const bool absent = (length <= 0.0) | (along <= 0.0) | (o.s2 <= 0.0) | (o.r1 <= o.r2);
+  const bool apart = (std::abs(o.r2) >= pair.passing) & (std::abs(o.s2 - o.r1) >= pair.passing);
+  const double deepest = larger(o.apart_0 + o.steeper * o.ma, o.apart_0 + o.steeper * o.mb);
+  constexpr double shallow = 1.001 * (aspect_from + aspect_range);
+  const bool rigid = apart & (along >= 1.0) & (length >= shallow * deepest);
+  const bool unstressed = (pair.pulls == 0.0) & (pair.offset.a == 0.0) & (pair.offset.b == 0.0);
+  return unstressed & (absent | rigid);
+}
+
+/// plain: where is_plain() holds what it tells is left out, to the same bits.
+template <bool plain = false>
 EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   Face face;
   const Opposition o = opposition_of(at, pair);
@@ -182,22 +198,30 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   const double c = -dot(e, f), s = cross(f, e);      // of theta, times both lengths
   const bool a_by_p = r2 <= 0.0, b_by_p = s2 <= r1;  // p1 and p2 bound the overlap
   const bool opposed = (s2 > 0.0) & (r1 > r2);
-  const double furthest = furthest_reach * pair.passing;
-  const double per_furthest = 1.0 / furthest, per_passing = furthest_reach * per_furthest;
-  const CornersPassing near_a = corners_passing(-r2, furthest, per_furthest),
-                       near_b = corners_passing(s2 - r1, furthest, per_furthest);
-  const double beyond = 0.25 * furthest;
-  const double la = ma + near_a.drawn_in - beyond, lb = mb - near_b.drawn_in + beyond;
-  const double corner_a = apart_0 + steeper * la + pair.offset.a;
-  const double corner_b = apart_0 + steeper * lb + pair.offset.b;
-  const bool pulls = pair.pulls != 0.0;
-  const PassingReach wide =
-      passing_reach(pulls ? corner_a : larger(corner_a, 0.0),
-                    pulls ? corner_b : larger(corner_b, 0.0), furthest, per_furthest);
-  const double per_reach = 1.0 / (wide.reach > 0.0 ? wide.reach : 1.0);
-  const CornersPassing pass_a = corners_passing(-r2, wide.reach, per_reach),
-                       pass_b = corners_passing(s2 - r1, wide.reach, per_reach);
-  const double sa = ma + pass_a.drawn_in, sb = mb - pass_b.drawn_in;
+  const bool pulls = plain ? false : pair.pulls != 0.0;
+
+  // Corners that pass each other
+  double sa = ma, sb = mb, la = ma, lb = mb, per_passing = 0.0;
+  CornersPassing near_a, near_b, pass_a, pass_b;
+  PassingReach wide;
+  if constexpr (!plain) {
+    const double furthest = furthest_reach * pair.passing, per_furthest = 1.0 / furthest;
+    per_passing = furthest_reach * per_furthest;
+    near_a = corners_passing(-r2, furthest, per_furthest);
+    near_b = corners_passing(s2 - r1, furthest, per_furthest);
+    const double beyond = 0.25 * furthest;
+    la = ma + near_a.drawn_in - beyond;
+    lb = mb - near_b.drawn_in + beyond;
+    const double corner_a = apart_0 + steeper * la + pair.offset.a;
+    const double corner_b = apart_0 + steeper * lb + pair.offset.b;
+    wide = passing_reach(pulls ? corner_a : larger(corner_a, 0.0),
+                         pulls ? corner_b : larger(corner_b, 0.0), furthest, per_furthest);
+    const double per_reach = 1.0 / (wide.reach > 0.0 ? wide.reach : 1.0);
+    pass_a = corners_passing(-r2, wide.reach, per_reach);
+    pass_b = corners_passing(s2 - r1, wide.reach, per_reach);
+    sa = ma + pass_a.drawn_in;
+    sb = mb - pass_b.drawn_in;
+  }
   face.t = t;
   face.inverse_e = pair.inverse_e * o.per_base;
   face.inverse_f = pair.inverse_f * o.per_base;
@@ -210,44 +234,48 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
 
   // W, of the angle theta between the edges
   const double inverse_lengths = pair.inverse_e * pair.inverse_f;
-  const SmoothStep by_angle = smooth_step((cosine - pair.gate_from) * pair.gate_scale);
   const bool lives = (face.length > 0.0) & (cosine > pair.gate_from) & opposed;
+  const double along = (cosine - pair.gate_from) * pair.gate_scale;
+  SmoothStep by_angle{smaller(larger(along, 0.0), 1.0), 0.0};
+  if constexpr (!plain) by_angle = smooth_step(along);
 
   // w
   const bool deep_b = db >= da;
-  const FaceEnds gated = gated_closure(drawn_a, drawn_b, pair);
-  const double deepest = larger(gated.a, gated.b);
-  const bool gated_deep_b = gated.b >= gated.a;
-  const bool fades = (deepest > 0.0) & !pulls;
-  const double per_deepest = 1.0 / (fades ? deepest : 1.0);
-  const SmoothStep by_aspect =
-      smooth_step(fades ? (face.length * per_deepest - aspect_from) * (1.0 / aspect_range) : 1.0);
+  SmoothStep by_aspect{1.0, 0.0};
+  double per_deepest = 0.0;
+  bool gated_deep_b = false;
+  if constexpr (!plain) {
+    const FaceEnds gated = gated_closure(drawn_a, drawn_b, pair);
+    const double deepest = larger(gated.a, gated.b);
+    gated_deep_b = gated.b >= gated.a;
+    const bool fades = (deepest > 0.0) & !pulls;
+    per_deepest = 1.0 / (fades ? deepest : 1.0);
+    by_aspect =
+        smooth_step(fades ? (face.length * per_deepest - aspect_from) * (1.0 / aspect_range) : 1.0);
+  }
   const double aspect_slope = by_aspect.slope * (1.0 / aspect_range) * per_deepest;  // dw/dL
 
   // b, of the corner that bounds the deeper end; one that is about to pass it counts, too
-  const Vec2 a_turn = chosen(a_by_p, pair.p1_turn, pair.q2_turn),
-             a_other = chosen(a_by_p, pair.q2_turn, pair.p1_turn);
-  const Vec2 b_turn = chosen(b_by_p, pair.p2_turn, pair.q1_turn),
-             b_other = chosen(b_by_p, pair.q1_turn, pair.p2_turn);
+  const Vec2 a_turn = chosen(a_by_p, pair.p1_turn, pair.q2_turn);
+  const Vec2 b_turn = chosen(b_by_p, pair.p2_turn, pair.q1_turn);
   const double tilt = std::abs(s);
-  const Vec2 own_turn = chosen(deep_b, b_turn, a_turn),
-             other_turn = chosen(deep_b, b_other, a_other);
-  const double own_x = beyond_turn(own_turn, c, tilt), other_x = beyond_turn(other_turn, c, tilt);
-  const double own_sum = own_x * own_x + tilt * tilt, other_sum = other_x * other_x + tilt * tilt;
-  const double own_whole = own_sum > 0.0 ? own_sum : 1.0,
-               other_whole = other_sum > 0.0 ? other_sum : 1.0;
-  const double per_sums = 1.0 / (own_whole * other_whole);
-  const CornerShare own = corner_share(own_turn, own_x, tilt, other_whole * per_sums);
-  const CornerShare other = corner_share(other_turn, other_x, tilt, own_whole * per_sums);
+  CornerShare mean = corner_share(chosen(deep_b, b_turn, a_turn), c, tilt);
   const double past = deep_b ? s2 - r1 : -r2;  // of the first block's corner beyond the second's
-  const SmoothStep passing = smooth_step(1.0 - std::abs(past) * per_passing);
-  const bool more = other.value > own.value;
-  const double mixed = more ? passing.value : 0.0;
-  const double share = pair.ends * (own.value + mixed * (other.value - own.value));
-  const double share_by_c = pair.ends * (own.by_c + mixed * (other.by_c - own.by_c));
-  const double share_by_tilt = pair.ends * (own.by_s + mixed * (other.by_s - own.by_s));
-  const double share_by_past =
-      pair.ends * (more ? (other.value - own.value) * passing.slope * per_passing : 0.0);
+  double by_passing = 0.0;
+  if constexpr (!plain) {
+    const Vec2 a_other = chosen(a_by_p, pair.q2_turn, pair.p1_turn);
+    const Vec2 b_other = chosen(b_by_p, pair.q1_turn, pair.p2_turn);
+    const CornerShare other = corner_share(chosen(deep_b, b_other, a_other), c, tilt);
+    const SmoothStep passing = smooth_step(1.0 - std::abs(past) * per_passing);
+    const bool more = other.value > mean.value;
+    const double mixed = more ? passing.value : 0.0;
+    by_passing = more ? (other.value - mean.value) * passing.slope * per_passing : 0.0;
+    mean.by_c += mixed * (other.by_c - mean.by_c);
+    mean.by_s += mixed * (other.by_s - mean.by_s);
+    mean.value += mixed * (other.value - mean.value);
+  }
+  const double share = pair.ends * mean.value, share_by_c = pair.ends * mean.by_c,
+               share_by_tilt = pair.ends * mean.by_s, share_by_past = pair.ends * by_passing;
 
   const ClosurePotential exact = exact_potential(da, db, pulls),
                          ends = potential_at_ends(da, db, pulls);
@@ -266,42 +294,54 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
 
   // dU/dL, dU/dd, dU/dc, dU/ds and dU/d(past)
   const double stored = whole * phi, angle_gate = face.angle_gate;
-  const double by_length = gate * pair.stiffness * phi + angle_gate * stored * aspect_slope;
-  const double by_deepest = -angle_gate * stored * aspect_slope * face.length * per_deepest;
-  const double by_a = face.normal.a + (gated_deep_b ? 0.0 : by_deepest);
-  const double by_b = face.normal.b + (gated_deep_b ? by_deepest : 0.0);
+  double by_length = gate * pair.stiffness * phi, by_a = face.normal.a, by_b = face.normal.b;
   const double by_share = gate * whole * gain;
-  const double by_c =
-      by_aspect.value * stored * by_angle.slope * pair.gate_scale * inverse_lengths +
-      by_share * share_by_c;
+  double by_c = by_share * share_by_c, by_past = 0.0;
   const double by_s = by_share * (s < 0.0 ? -share_by_tilt : share_by_tilt);
-  const double by_past = by_share * (past < 0.0 ? share_by_past : -share_by_past);
+  if constexpr (!plain) {
+    by_length += angle_gate * stored * aspect_slope;
+    const double by_deepest = -angle_gate * stored * aspect_slope * face.length * per_deepest;
+    by_a += gated_deep_b ? 0.0 : by_deepest;
+    by_b += gated_deep_b ? by_deepest : 0.0;
+    by_c += by_aspect.value * stored * by_angle.slope * pair.gate_scale * inverse_lengths;
+    by_past = by_share * (past < 0.0 ? share_by_past : -share_by_past);
+  }
 
   // dU/dsa and dU/dsb, and dU/dd of the corners that the reach goes by
   const double by_sa = by_a * steeper - by_length, by_sb = by_b * steeper + by_length;
-  const double by_reach = by_sa * pass_a.by_reach - by_sb * pass_b.by_reach;
-  const double by_corner_a = by_reach * wide.by_a, by_corner_b = by_reach * wide.by_b;
+  double by_corner_a = 0.0, by_corner_b = 0.0;
 
   // The pressures by_a and by_b at the ends and by_corner at the corners stand across either edge.
   face.slope = {a_by_p ? slope_f : slope_e, b_by_p ? slope_f : slope_e};
-  const double pressed = by_a + by_b + by_corner_a + by_corner_b;
-  const double weighted = by_a * sa + by_b * sb + by_corner_a * la + by_corner_b * lb;
+  double pressed = by_a + by_b, weighted = by_a * sa + by_b * sb;
+  if constexpr (!plain) {
+    const double by_reach = by_sa * pass_a.by_reach - by_sb * pass_b.by_reach;
+    by_corner_a = by_reach * wide.by_a;
+    by_corner_b = by_reach * wide.by_b;
+    pressed += by_corner_a + by_corner_b;
+    weighted += by_corner_a * la + by_corner_b * lb;
+  }
   const double on_p2 = weighted * per_e, on_q1 = (weighted - pressed * r2) * per_f;
   const double on_p1 = pressed - on_p2, on_q2 = pressed - on_q1;
   FrameForces& on = face.pressure;
   on = {slope_e * on_p1,  -on_p1, slope_e * on_p2,  -on_p2,
         -slope_f * on_q1, on_q1,  -slope_f * on_q2, on_q2};
-  push_bounds(on, of_first(near_a, near_b, a_by_p, b_by_p),
-              {-steeper * by_corner_a, -steeper * by_corner_b});
   face.along = {by_sa, by_sb};
-  face.of_first = of_first(pass_a, pass_b, a_by_p, b_by_p);
+  face.of_first = {a_by_p ? 1.0 : 0.0, b_by_p ? 1.0 : 0.0};
+  if constexpr (!plain) {
+    push_bounds(on, of_first(near_a, near_b, a_by_p, b_by_p),
+                {-steeper * by_corner_a, -steeper * by_corner_b});
+    face.of_first = of_first(pass_a, pass_b, a_by_p, b_by_p);
+  }
   push_bounds(on, face.of_first, {-by_sa, -by_sb});
-  // past = (p2 - q1).t or (p1 - q2).t
-  const double past_b = deep_b ? by_past : 0.0, past_a = by_past - past_b;
-  on.p2t -= past_b;
-  on.q1t += past_b;
-  on.p1t -= past_a;
-  on.q2t += past_a;
+  if constexpr (!plain) {
+    // past = (p2 - q1).t or (p1 - q2).t
+    const double past_b = deep_b ? by_past : 0.0, past_a = by_past - past_b;
+    on.p2t -= past_b;
+    on.q1t += past_b;
+    on.p1t -= past_a;
+    on.q2t += past_a;
+  }
   // theta: couples on the edges, by_c f - by_s perp(f) on e and by_c e + by_s perp(e) on f
   const double ey = slope_e * s2, fs = r2 - r1, fy = slope_f * fs;
   const double turn_et = by_c * fs - by_s * fy, turn_en = by_c * fy + by_s * fs;

@@ -100,7 +100,7 @@ void break_bond(FaceSet& c, const LawTable& laws, std::size_t k) {
   const bool was_bonded = c.bonded[k] > 0.0;
   c.bonded[k] = 0.0;
   if (was_bonded) take_residual(c, laws, k);
-  c.breaks[k] = was_bonded ? bond_breaks : 1.0;
+  c.tear(k, was_bonded ? bond_breaks : 1.0);
   // Torn by more than what is left, too.
   const double least = std::min(c.now.closure_a[k], c.now.closure_b[k]);
   if (-c.stiffness[k] * least > c.tension[k]) c.pulls[k] = 0.0;
@@ -135,22 +135,19 @@ void unglue_faces(FaceSet& c, const BlockSet& b, const Pose& pose) {
     c.bonded[k] = had == 1.0 || had == 3.0 ? 1.0 : 0.0;
     c.lent[k] = 0.0;
     c.fracture_work[k] += std::max(stored - normal_energy(c, b, pose, k), 0.0);
-    c.breaks[k] = 1.0;
+    c.tear(k, 1.0);
   }
   note_bonds(c);
 }
 
 void set_face_dashpots(FaceSet& c, const LawTable& laws, double damping) {
   // Those that are taken away have still to do their work of the step in hand.
-  const bool any = damping > 0.0 || laws.any_dashpots || !c.zeta.empty();
-  const std::size_t n = any ? c.size() : 0;
+  c.dashpots = damping > 0.0 || laws.any_dashpots || c.dashpots;
   for (auto* column : {&c.before.damping_a, &c.before.damping_b, &c.before.drag_a, &c.before.drag_b,
                        &c.before.damping_work, &c.before.damping_due}) {
-    if (!any) std::fill(column->begin(), column->end(), 0.0);
+    if (!c.dashpots) column->fill(0.0);
   }
-  c.zeta.assign(n, 0.0);
-  c.shear_zeta.assign(n, 0.0);
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = 0; k < c.size(); ++k) {
     const Law& law = laws.rows[c.law[k]];
     c.zeta[k] = laws.damping_of(law, damping);
     c.shear_zeta[k] = law.dashpots ? law.shear_damping : 0.0;

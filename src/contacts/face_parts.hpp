@@ -102,16 +102,14 @@ EDDA_INLINE ClosurePotential potential_at_ends(double da, double db, bool pulls)
 
 /// Part of a leaning corner, sin^2(eps - theta)/(sin^2 theta + sin^2(eps - theta)): its two edges
 /// make theta and eps - theta with the edge that it leans on, so that their parts sum to one.
-/// c and s: cosine and sine of theta >= 0, both times the same length; x = beyond_turn(), inverse =
-/// 1/(x^2 + s^2). With its derivatives.
+/// c and s: cosine and sine of theta >= 0, both times the same length. With its derivatives.
 struct CornerShare {
   double value, by_c, by_s;
 };
-EDDA_INLINE double beyond_turn(Vec2 turn, double c, double s) {
-  return larger(turn.y * c - turn.x * s, 0.0);
-}
-EDDA_INLINE CornerShare corner_share(Vec2 turn, double x, double s, double inverse) {
-  const double a = x * x, b = s * s, twice = 2.0 * inverse * inverse;
+EDDA_INLINE CornerShare corner_share(Vec2 turn, double c, double s) {
+  const double x = larger(turn.y * c - turn.x * s, 0.0);  // sine of eps - theta
+  const double a = x * x, b = s * s, sum = a + b;
+  const double inverse = 1.0 / (sum > 0.0 ? sum : 1.0), twice = 2.0 * inverse * inverse;
   return {a * inverse, twice * b * x * turn.y, -twice * (b * x * turn.x + a * s)};
 }
 

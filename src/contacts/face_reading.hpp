@@ -79,9 +79,11 @@ inline bool slides(const FaceSet& f, std::size_t k) {
 
 /// Forces of face k on its corners, N.
 inline CornerForces corner_forces(const FaceSet& f, std::size_t k) {
-  const double* const e = f.force.data() + 4 * std::size_t{f.slot[k]};
-  const double* const q = f.force.data() + 4 * std::size_t{f.facing_slot[k]};
-  return {{e[0], e[1]}, {e[2], e[3]}, {q[0], q[1]}, {q[2], q[3]}};
+  const auto& on = f.force;
+  return {{on.p1x[k], on.p1y[k]},
+          {on.p2x[k], on.p2y[k]},
+          {on.q1x[k], on.q1y[k]},
+          {on.q2x[k], on.q2y[k]}};
 }
 
 /// Force on the block of `facing`; that of `edge` has the opposite.

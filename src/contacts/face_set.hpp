@@ -1,5 +1,5 @@
-// Faces: the contacts of the model, and their memory. Structure of arrays, [nf] each: first those
-// that carried when the list was made, then the others. Elements and notation: contacts/face.hpp;
+// Faces: the contacts of the model, and their memory. [nf] rows each: first those that
+// carried when the list was made, then the others. Elements and notation: contacts/face.hpp;
 // docs/contacts.md.
 #pragma once
 
@@ -8,130 +8,206 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/columns.hpp"
 #include "blocks/block_set.hpp"
 #include "contacts/face.hpp"
 
 namespace edda {
 
 /// What a face is at a step. All of it follows from the positions, but for the slip.
-struct FaceMemory {
-  std::vector<double> closure_a, closure_b;      ///< d at the ends, m
-  std::vector<double> energy;                    ///< U of the normal pressure, J
-  std::vector<double> normal_a, normal_b;        ///< normal force at the ends, N
-  std::vector<double> shear_a, shear_b;          ///< T at the ends, N
-  std::vector<double> damping_a, damping_b;      ///< of the dashpots across the face, N
-  std::vector<double> drag_a, drag_b;            ///< of those along it, N
-  std::vector<double> slip_a, slip_b;            ///< elastic slip u, m: T = -spring u
-  std::vector<double> trial_a, trial_b;          ///< the same before Coulomb's limit, m
-  std::vector<double> spring;                    ///< shear spring of each end, N/m
-  std::vector<double> length;                    ///< L, m; 0: no overlap
-  std::vector<double> overlap;                   ///< length that the shear springs stand for, m
-  std::vector<double> cohesive;                  ///< length along which cohesion acts, m
-  std::vector<double> gate;                      ///< w W
-  std::vector<double> xi_a, xi_b, eta_a, eta_b;  ///< where the ends are on the edges
-  std::vector<double> switched;       ///< 1: other ends are closed than at the step before
-  std::vector<double> friction_work;  ///< taken by friction in the step before, J
-  std::vector<double> damping_work;   ///< by dashpots at n in the step behind
-  std::vector<double> damping_due;    ///< by those at n - 1 in it: they have done with the blocks
-  std::vector<double>
-      transfer;  ///< taken in it by what is no physics: overlaps and ends that move on, J
+template <class C>
+struct FaceFields {
+  C closure_a, closure_b;      ///< d at the ends, m
+  C energy;                    ///< U of the normal pressure, J
+  C normal_a, normal_b;        ///< normal force at the ends, N
+  C shear_a, shear_b;          ///< T at the ends, N
+  C slip_a, slip_b;            ///< elastic slip u, m: T = -spring u
+  C trial_a, trial_b;          ///< the same before Coulomb's limit, m
+  C spring;                    ///< shear spring of each end, N/m
+  C length;                    ///< L, m; 0: no overlap
+  C overlap;                   ///< length that the shear springs stand for, m
+  C cohesive;                  ///< length along which cohesion acts, m
+  C gate;                      ///< w W
+  C xi_a, xi_b, eta_a, eta_b;  ///< where the ends are on the edges
+  C switched;                  ///< 1: other ends are closed than at the step before
+  C friction_work;             ///< taken by friction in the step before, J
+  C transfer;              ///< taken in it by what is no physics: overlaps and ends that move on, J
+  C damping_a, damping_b;  ///< of the dashpots across the face, N
+  C drag_a, drag_b;        ///< of those along it, N
+  C damping_work;          ///< by dashpots at n in the step behind
+  C damping_due;           ///< by those at n - 1 in it: they have done with the blocks
+};
 
+/// Its columns, once: name, unit, and where they are.
+template <class C>
+struct FaceField {
+  const char* name;
+  const char* unit;
+  C FaceFields<C>::*values;
+};
+template <class C>
+inline constexpr FaceField<C> face_fields[] = {
+    {"closure_a", "m", &FaceFields<C>::closure_a},
+    {"closure_b", "m", &FaceFields<C>::closure_b},
+    {"energy", "J", &FaceFields<C>::energy},
+    {"normal_a", "N", &FaceFields<C>::normal_a},
+    {"normal_b", "N", &FaceFields<C>::normal_b},
+    {"shear_a", "N", &FaceFields<C>::shear_a},
+    {"shear_b", "N", &FaceFields<C>::shear_b},
+    {"slip_a", "m", &FaceFields<C>::slip_a},
+    {"slip_b", "m", &FaceFields<C>::slip_b},
+    {"trial_a", "m", &FaceFields<C>::trial_a},
+    {"trial_b", "m", &FaceFields<C>::trial_b},
+    {"spring", "N/m", &FaceFields<C>::spring},
+    {"length", "m", &FaceFields<C>::length},
+    {"overlap", "m", &FaceFields<C>::overlap},
+    {"cohesive", "m", &FaceFields<C>::cohesive},
+    {"gate", "1", &FaceFields<C>::gate},
+    {"xi_a", "1", &FaceFields<C>::xi_a},
+    {"xi_b", "1", &FaceFields<C>::xi_b},
+    {"eta_a", "1", &FaceFields<C>::eta_a},
+    {"eta_b", "1", &FaceFields<C>::eta_b},
+    {"switched", "1", &FaceFields<C>::switched},
+    {"friction_work", "J", &FaceFields<C>::friction_work},
+    {"transfer", "J", &FaceFields<C>::transfer},
+    {"damping_a", "N", &FaceFields<C>::damping_a},
+    {"damping_b", "N", &FaceFields<C>::damping_b},
+    {"drag_a", "N", &FaceFields<C>::drag_a},
+    {"drag_b", "N", &FaceFields<C>::drag_b},
+    {"damping_work", "J", &FaceFields<C>::damping_work},
+    {"damping_due", "J", &FaceFields<C>::damping_due}};
+inline constexpr auto& face_columns = face_fields<ChunkColumn>;
+
+struct FaceMemory : ChunkTable<FaceFields<ChunkColumn>, face_fields<ChunkColumn>> {
   std::vector<std::uint8_t> idle;  ///< [chunks] 1: none in it carries, or did at the step before
 };
 
-/// The arrays of FaceMemory, once: name, unit, and where they are.
-struct FaceColumn {
+/// Forces on the corners of both edges, N: start and end of `edge`, start and end of `facing`.
+template <class C>
+struct CornerFields {
+  C p1x, p1y, p2x, p2y, q1x, q1y, q2x, q2y;
+};
+template <class C>
+struct CornerField {
+  const char* name;
+  C CornerFields<C>::*values;
+};
+template <class C>
+inline constexpr CornerField<C> corner_fields[] = {
+    {"p1x", &CornerFields<C>::p1x}, {"p1y", &CornerFields<C>::p1y}, {"p2x", &CornerFields<C>::p2x},
+    {"p2y", &CornerFields<C>::p2y}, {"q1x", &CornerFields<C>::q1x}, {"q1y", &CornerFields<C>::q1y},
+    {"q2x", &CornerFields<C>::q2x}, {"q2y", &CornerFields<C>::q2y}};
+
+/// What a face is made of, its strength in force, and what has become of it. First what a step
+/// reads.
+template <class C>
+struct FaceProperties {
+  C stiffness, shear_stiffness;  ///< k, ks times thickness, N/m per m of overlap
+  C inverse_e, inverse_f, gate_from, gate_scale, passing;  ///< as in FacePair
+  C at_ends;  ///< 1: the stiffness is a penalty: the integral is taken at the ends
+
+  // What holds for a face until it dies, decided while it stores nothing.
+  C acts;   ///< 1: the blocks meet there; 0: their far sides do
+  C leans;  ///< 1: beside the corner that leans there is no third block
+
+  C friction;            ///< tan(phi)
+  C cohesion;            ///< c times thickness, N per m of overlap
+  C offset_a, offset_b;  ///< o, closure at the ends of the surfaces as drawn, m
+  C pulls;               ///< 1: bears tension
+  C bonded;              ///< 1: has its peak strength: its shear is not cut
+  C zeta, shear_zeta;    ///< dashpots, as fractions of critical: set_face_dashpots()
+
+  C tension;  ///< tensile strength times thickness, N per m; of those that pull
+  C glued;    ///< 1: never opens or slides
+  C slid;     ///< m: slip so far; infinite: has its residual strength; of laws that change with it
+  C owed;     ///< m that the joint has still to open by its dilation
+  C lent;     ///< what a glued face had before, 1 + bonded + 2 pulls; else 0
+  C breaks;   ///< 1: torn in the step in hand, 2: its bond breaks: what goes is fracture energy
+  C opened;   ///< 1: has opened after having been closed
+  C slipped;  ///< 1: has slid at least once
+  C friction_work, damping_work, fracture_work, transfer;  ///< so far, J
+};
+
+/// Its columns, once. kept: over a search and in a checkpoint; the others are made anew.
+template <class C>
+struct FaceProperty {
   const char* name;
   const char* unit;
-  std::vector<double> FaceMemory::*values;
+  C FaceProperties<C>::*values;
+  bool kept;
 };
-inline constexpr FaceColumn face_columns[] = {{"closure_a", "m", &FaceMemory::closure_a},
-                                              {"closure_b", "m", &FaceMemory::closure_b},
-                                              {"energy", "J", &FaceMemory::energy},
-                                              {"normal_a", "N", &FaceMemory::normal_a},
-                                              {"normal_b", "N", &FaceMemory::normal_b},
-                                              {"shear_a", "N", &FaceMemory::shear_a},
-                                              {"shear_b", "N", &FaceMemory::shear_b},
-                                              {"slip_a", "m", &FaceMemory::slip_a},
-                                              {"slip_b", "m", &FaceMemory::slip_b},
-                                              {"trial_a", "m", &FaceMemory::trial_a},
-                                              {"trial_b", "m", &FaceMemory::trial_b},
-                                              {"spring", "N/m", &FaceMemory::spring},
-                                              {"length", "m", &FaceMemory::length},
-                                              {"overlap", "m", &FaceMemory::overlap},
-                                              {"cohesive", "m", &FaceMemory::cohesive},
-                                              {"gate", "1", &FaceMemory::gate},
-                                              {"xi_a", "1", &FaceMemory::xi_a},
-                                              {"xi_b", "1", &FaceMemory::xi_b},
-                                              {"eta_a", "1", &FaceMemory::eta_a},
-                                              {"eta_b", "1", &FaceMemory::eta_b},
-                                              {"damping_a", "N", &FaceMemory::damping_a},
-                                              {"damping_b", "N", &FaceMemory::damping_b},
-                                              {"drag_a", "N", &FaceMemory::drag_a},
-                                              {"drag_b", "N", &FaceMemory::drag_b},
-                                              {"damping_work", "J", &FaceMemory::damping_work},
-                                              {"damping_due", "J", &FaceMemory::damping_due},
-                                              {"switched", "1", &FaceMemory::switched},
-                                              {"friction_work", "J", &FaceMemory::friction_work},
-                                              {"transfer", "J", &FaceMemory::transfer}};
+template <class C>
+inline constexpr FaceProperty<C> face_property_list[] = {
+    {"stiffness", "N/m2", &FaceProperties<C>::stiffness, false},
+    {"shear_stiffness", "N/m2", &FaceProperties<C>::shear_stiffness, false},
+    {"inverse_e", "1/m", &FaceProperties<C>::inverse_e, false},
+    {"inverse_f", "1/m", &FaceProperties<C>::inverse_f, false},
+    {"gate_from", "1", &FaceProperties<C>::gate_from, false},
+    {"gate_scale", "1", &FaceProperties<C>::gate_scale, false},
+    {"passing", "m", &FaceProperties<C>::passing, false},
+    {"at_ends", "1", &FaceProperties<C>::at_ends, false},
+    {"acts", "1", &FaceProperties<C>::acts, true},
+    {"leans", "1", &FaceProperties<C>::leans, true},
+    {"friction", "1", &FaceProperties<C>::friction, true},
+    {"cohesion", "N/m", &FaceProperties<C>::cohesion, true},
+    {"offset_a", "m", &FaceProperties<C>::offset_a, true},
+    {"offset_b", "m", &FaceProperties<C>::offset_b, true},
+    {"pulls", "1", &FaceProperties<C>::pulls, true},
+    {"bonded", "1", &FaceProperties<C>::bonded, true},
+    {"zeta", "1", &FaceProperties<C>::zeta, false},
+    {"shear_zeta", "1", &FaceProperties<C>::shear_zeta, false},
+    {"tension", "N/m", &FaceProperties<C>::tension, true},
+    {"glued", "1", &FaceProperties<C>::glued, true},
+    {"slid", "m", &FaceProperties<C>::slid, true},
+    {"owed", "m", &FaceProperties<C>::owed, true},
+    {"lent", "1", &FaceProperties<C>::lent, true},
+    {"breaks", "1", &FaceProperties<C>::breaks, true},
+    {"opened", "1", &FaceProperties<C>::opened, true},
+    {"slipped", "1", &FaceProperties<C>::slipped, true},
+    {"friction_work", "J", &FaceProperties<C>::friction_work, true},
+    {"damping_work", "J", &FaceProperties<C>::damping_work, true},
+    {"fracture_work", "J", &FaceProperties<C>::fracture_work, true},
+    {"transfer", "J", &FaceProperties<C>::transfer, true}};
+inline constexpr auto& face_properties = face_property_list<ChunkColumn>;
 
 /// FaceSet::breaks of a bond.
 inline constexpr double bond_breaks = 2.0;
 
-struct FaceSet {
+struct FaceSet : ChunkTable<FaceProperties<ChunkColumn>, face_property_list<ChunkColumn>> {
   std::size_t size() const { return edge.size(); }
 
   // Identity. Filled by find_faces(); fixed between two searches.
-  std::vector<Id> edge, facing;                    ///< e < f, of two blocks
-  std::vector<Id> edge_end, facing_end;            ///< their second corners
-  std::vector<std::uint16_t> law;                  ///< row of the LawTable
-  std::vector<double> stiffness, shear_stiffness;  ///< k, ks times thickness, N/m per m of overlap
-  std::vector<double> inverse_e, inverse_f, gate_from, gate_scale, passing;  ///< as in FacePair
-  std::vector<double>
-      at_ends;  ///< 1: the stiffness is a penalty: the integral is taken at the ends
+  std::vector<Id> edge, facing;          ///< e < f, of two blocks
+  std::vector<Id> edge_end, facing_end;  ///< their second corners
+  std::vector<Id> corners;               ///< the four of them, [chunk][4][16]
+  std::vector<std::uint16_t> law;        ///< row of the LawTable
 
-  // What holds for a face until it dies, decided while it stores nothing.
-  std::vector<double> acts;   ///< 1: the blocks meet there; 0: their far sides do
-  std::vector<double> leans;  ///< 1: beside the corner that leans there is no third block
-
-  // Strength in force.
-  std::vector<double> friction;  ///< tan(phi)
-  std::vector<double> cohesion;  ///< c times thickness, N per m of overlap
-  std::vector<double> tension;   ///< tensile strength times thickness, N per m; of those that pull
-  std::vector<double> pulls;     ///< 1: bears tension
-  std::vector<double> bonded;    ///< 1: has its peak strength: its shear is not cut
-  std::vector<double> glued;     ///< 1: never opens or slides
-  std::vector<double> offset_a,
-      offset_b;              ///< o, closure at the ends of the surfaces as drawn, m
-  std::vector<double> slid;  ///< m: slip so far; infinite: has its residual strength; of laws that
-                             ///< change with it
-  std::vector<double> owed;  ///< m that the joint has still to open by its dilation
-  std::vector<double> lent;  ///< what a glued face had before, 1 + bonded + 2 pulls; else 0
-  std::vector<double>
-      breaks;  ///< 1: torn in the step in hand, 2: its bond breaks: what goes is fracture energy
-  std::vector<double> opened;   ///< 1: has opened after having been closed
-  std::vector<double> slipped;  ///< 1: has slid at least once
-
-  // Dashpots, as fractions of critical; empty where there are none. Filled by set_face_dashpots().
-  std::vector<double> zeta, shear_zeta;
+  bool dashpots = false;  ///< some face has them, or had them in the step in hand
 
   FaceMemory now;     ///< at step n
   FaceMemory before;  ///< at n - 1; while n + 1 is tried: at n
 
-  std::vector<double> friction_work, damping_work, fracture_work, transfer;  ///< so far, J
+  ChunkTable<CornerFields<ChunkColumn>, corner_fields<ChunkColumn>> force;  ///< at n
 
-  /// Forces on the corners of both edges at n, N: by slot, x and y on the edge's start, on its end.
-  std::vector<double> force;
-  std::vector<Id> slot, facing_slot;  ///< [nf] of the edge and of the one that faces it
-  std::vector<Id> begin_of_edge;      ///< [nv + 1] slots of an edge
-  std::vector<Id> of_slot;            ///< [2 nf] its face
+  /// The faces of each edge: [nv + 1], and [2 nf] the place of the first of the four columns of
+  /// `force` that act on it. By the edges that face it, so that sums do not depend on the order of
+  /// the faces.
+  std::vector<Id> begin_of_edge, on_edge;
 
-  static constexpr std::size_t chunk = 16;
+  static constexpr std::size_t chunk = chunk_rows;
   static constexpr std::size_t run = 32 * chunk;  ///< what a thread takes at once
   std::size_t chunks() const { return (size() + chunk - 1) / chunk; }
   std::vector<std::uint8_t> stirs;  ///< [chunks] 1: ends of a face in it open or close
   std::vector<double> deepest;      ///< [chunks] largest closure of a face that carries, m
   std::vector<std::uint8_t> bonds;  ///< [chunks] 1: a face in it is bonded or pulls
+  std::vector<std::uint8_t> plain;  ///< [chunks] 1: its faces were plain (is_plain()), or may be
+  std::vector<std::uint8_t> tears;  ///< [chunks] 1: one of them `breaks`
+
+  /// Of a face that is torn in the step in hand.
+  void tear(std::size_t k, double how) {
+    breaks[k] = how;
+    tears[k / chunk] = 1;
+  }
 
   std::vector<double> locked_start, locked_end;  ///< [nv] of an edge, at its two corners: pressure
                                                  ///< of the initial stress, N per m; empty: none
@@ -153,38 +229,12 @@ struct FaceSet {
   template <class Visit>
   void for_faces(Id first, Id end, Visit visit) const {
     for (Id q = begin_of_edge[first]; q < begin_of_edge[end]; ++q) {
-      visit(of_slot[q], slot[of_slot[q]] == q);
+      const std::size_t at = on_edge[q], in_chunk = at % force.stride;
+      visit(static_cast<Id>(at / force.stride * chunk + in_chunk % chunk),
+            in_chunk < force.stride / 2);
     }
   }
 };
-
-/// The arrays of FaceSet that are kept over a search and in a checkpoint, once: name and unit.
-struct FaceStateColumn {
-  const char* name;
-  const char* unit;
-  std::vector<double> FaceSet::*values;
-};
-inline constexpr FaceStateColumn face_state_columns[] = {
-    {"acts", "1", &FaceSet::acts},
-    {"leans", "1", &FaceSet::leans},
-    {"friction", "1", &FaceSet::friction},
-    {"cohesion", "N/m", &FaceSet::cohesion},
-    {"tension", "N/m", &FaceSet::tension},
-    {"pulls", "1", &FaceSet::pulls},
-    {"bonded", "1", &FaceSet::bonded},
-    {"glued", "1", &FaceSet::glued},
-    {"lent", "1", &FaceSet::lent},
-    {"opened", "1", &FaceSet::opened},
-    {"slipped", "1", &FaceSet::slipped},
-    {"breaks", "1", &FaceSet::breaks},
-    {"offset_a", "m", &FaceSet::offset_a},
-    {"offset_b", "m", &FaceSet::offset_b},
-    {"slid", "m", &FaceSet::slid},
-    {"owed", "m", &FaceSet::owed},
-    {"friction_work", "J", &FaceSet::friction_work},
-    {"damping_work", "J", &FaceSet::damping_work},
-    {"fracture_work", "J", &FaceSet::fracture_work},
-    {"transfer", "J", &FaceSet::transfer}};
 
 /// The pair of face k, as it is now.
 template <class Faces>

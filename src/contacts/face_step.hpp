@@ -13,29 +13,18 @@ namespace edda {
 
 inline constexpr double unlimited_shear = 1e300;  ///< N, of a bond
 
-/// Columns of FaceMemory as the loops over faces see them.
-struct MemoryView {
-  double *closure_a, *closure_b, *energy, *normal_a, *normal_b, *shear_a, *shear_b, *damping_a,
-      *damping_b, *drag_a, *drag_b, *slip_a, *slip_b, *trial_a, *trial_b, *spring, *length,
-      *overlap, *cohesive, *gate, *xi_a, *xi_b, *eta_a, *eta_b, *switched, *friction_work,
-      *damping_work, *damping_due, *transfer;
-};
-
-/// What a loop over faces reads and writes.
-struct FaceView {
+/// What a loop over the faces of a chunk reads and writes.
+struct FaceView : FaceProperties<const double*> {
   const Id *edge, *edge_end, *facing, *facing_end;
-  const double *stiffness, *shear_stiffness, *inverse_e, *inverse_f, *gate_from, *gate_scale,
-      *passing, *at_ends, *acts, *leans, *friction, *cohesion, *offset_a, *offset_b, *pulls,
-      *bonded;
   const double *turn_cosine, *turn_sine;
   const double *x, *y, *x1, *y1;
   double noise;
-  // of dashpots
-  const double *zeta, *shear_zeta, *point_inverse, *edge_inverse;
+  const double *point_inverse, *edge_inverse;  // of dashpots
   double step;
-  bool damped;
   const double *limit_a, *limit_b;  ///< N, of shear: those of ShearLimits, if any
-  MemoryView now, before;
+  FaceFields<double*> now;
+  FaceFields<const double*> before;
+  CornerFields<double*> force;
 };
 
 /// What the points that are at the ends now have moved by in the last step, one against the other,
@@ -115,6 +104,7 @@ struct Placed {
   double asks, stirs;  ///< 1: yes
   double works;        ///< 1: carries, or did at the step before
   double depth;
+  double rare;  ///< 1: not `plain`
 };
 
 /// One end of a face: its normal force, slip before Coulomb's limit, what its points have moved by
@@ -131,12 +121,12 @@ struct EndActs {
 /// Dashpots c = 2 zeta sqrt(p m), p the spring of the end and m the mass that it moves. The one
 /// across lets no end pull that could not, and counts in Coulomb's limit; the one along keeps
 /// within it. `held`: the limit does not go with the normal force (ShearLimits).
-template <bool dashpots, bool held>
+template <bool dashpots, bool held, bool plain>
 EDDA_INLINE EndActs act(const FaceView& c, const Face& face, const EndOfFace& end, double spring,
                         double per_spring, double cohesion, bool touches, const double* limits,
                         std::size_t k) {
   const double friction = c.friction[k];
-  const bool bonded = c.bonded[k] > 0.0;
+  const bool bonded = plain ? false : c.bonded[k] > 0.0;
   const auto limit_under = [&](double normal) {
     if constexpr (held) return limits[k];
     return bonded ? unlimited_shear : larger(cohesion + friction * normal, 0.0);
@@ -151,7 +141,8 @@ EDDA_INLINE EndActs act(const FaceView& c, const Face& face, const EndOfFace& en
     const double whole =
         end.normal + 2.0 * c.zeta[k] * std::sqrt(across * mass) * end.closing / c.step;
     const double pushing = larger(whole, 0.0);
-    const bool pulls = c.pulls[k] > 0.0, carries = end.normal != 0.0;
+    const bool pulls = plain ? false : c.pulls[k] > 0.0;
+    const bool carries = end.normal != 0.0;
     const double normal = carries ? (pulls ? whole : pushing) : 0.0;
     const double limit = limit_under(normal);
     const Shear shear = cut(end.trial, spring, per_spring, limit);
@@ -162,13 +153,15 @@ EDDA_INLINE EndActs act(const FaceView& c, const Face& face, const EndOfFace& en
   }
 }
 
-template <bool dashpots, bool held>
+template <bool dashpots, bool held, bool plain>
 EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
-  const MemoryView &m = c.now, &old = c.before;
+  const FaceFields<double*>& m = c.now;
+  const FaceFields<const double*>& old = c.before;
   const FacePoints at = face_points(c, c.x, c.y, k), then = face_points(c, c.x1, c.y1, k);
   const FacePair pair = face_pair(c, c.turn_cosine, c.turn_sine, k);
-  const Face face = face_between(at, pair);
-  const bool bonded = c.bonded[k] > 0.0;
+  const Opposition stands = opposition_of(at, pair);
+  const Face face = face_between<plain>(at, pair);
+  const bool bonded = plain ? false : c.bonded[k] > 0.0;
   const bool touches = (face.energy > 0.0) | (bonded & (face.gate > 0.0));
 
   // overlap and springs
@@ -190,17 +183,17 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const double trial_b = touches ? kept * slip_1b + here.b : 0.0;
   const double cohesion = touches ? 0.5 * c.cohesion[k] * face.cohesive : 0.0;
   const double da = face.closure.a, db = face.closure.b;
-  const bool pulls = c.pulls[k] > 0.0;
+  const bool pulls = plain ? false : c.pulls[k] > 0.0;
   const auto since_touch = [pulls](double closing, double d) {
     return pulls ? closing : smaller(closing, larger(d, 0.0));
   };
   const FaceEnds closing{since_touch(moved.closure.a, da), since_touch(moved.closure.b, db)};
   const EndOfFace end_a{face.normal.a, trial_a, closing.a, here.a, face.xi.a, face.eta.a};
   const EndOfFace end_b{face.normal.b, trial_b, closing.b, here.b, face.xi.b, face.eta.b};
-  const EndActs acts_a =
-      act<dashpots, held>(c, face, end_a, spring, per_spring, cohesion, touches, c.limit_a, k);
-  const EndActs acts_b =
-      act<dashpots, held>(c, face, end_b, spring, per_spring, cohesion, touches, c.limit_b, k);
+  const EndActs acts_a = act<dashpots, held, plain>(c, face, end_a, spring, per_spring, cohesion,
+                                                    touches, c.limit_a, k);
+  const EndActs acts_b = act<dashpots, held, plain>(c, face, end_b, spring, per_spring, cohesion,
+                                                    touches, c.limit_b, k);
   const Shear a = acts_a.shear, b = acts_b.shear;
   const Lost lost_a =
       lost(a, trial_a, spring, {here.a, there.a, old.shear_a[k], slip_1a, kept}, touches);
@@ -248,19 +241,26 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
     m.damping_work[k] = taken(acts_a.damping, acts_b.damping, acts_a.drag, acts_b.drag);
     m.damping_due[k] = taken(old.damping_a[k], old.damping_b[k], old.drag_a[k], old.drag_b[k]);
   }
-  const FaceEnds bounds = held_at_bounds(face, pair);
-  const auto along = [&](double part, Vec2 first, Vec2 second) {
-    return dot(part * first + (1.0 - part) * second, face.t);
-  };
-  const double given = bounds.a * along(face.of_first.a, at.p1 - then.p1, at.q2 - then.q2) +
-                       bounds.b * along(face.of_first.b, at.p2 - then.p2, at.q1 - then.q1);
+  FaceEnds bounds;
+  double given = 0.0;
+  if constexpr (!plain) {
+    bounds = held_at_bounds(face, pair);
+    const auto along = [&](double part, Vec2 first, Vec2 second) {
+      return dot(part * first + (1.0 - part) * second, face.t);
+    };
+    given = bounds.a * along(face.of_first.a, at.p1 - then.p1, at.q2 - then.q2) +
+            bounds.b * along(face.of_first.b, at.p2 - then.p2, at.q1 - then.q1);
+  }
   m.transfer[k] = lost_a.transfer + lost_b.transfer - given;
 
   Placed placed;
   FrameForces on = face.pressure;
   add_ends(on, face, {acts_a.damping, acts_b.damping},
-           {a.force + acts_a.drag, b.force + acts_b.drag}, bounds);
+           {a.force + acts_a.drag, b.force + acts_b.drag});
+  if constexpr (!plain) push_bounds(on, face.of_first, bounds);
   placed.force = on_corners(on, at, face);
+  const bool is_rare = (c.bonded[k] > 0.0) | !is_plain(stands, pair);
+  placed.rare = is_rare ? 1.0 : 0.0;
   placed.asks = asks(c, face, k) ? 1.0 : 0.0;
   placed.stirs = stirs ? 1.0 : 0.0;
   const bool works = touches | (old.energy[k] > 0.0) | (old.spring[k] > 0.0);
@@ -284,7 +284,7 @@ EDDA_INLINE bool wakes(const FaceView& c, std::size_t k) {
   const FaceEnds gated = gated_closure(drawn_a, drawn_b, pair);
   const bool open = larger(larger(da, db), larger(gated.a, gated.b)) <= 0.0;
   const FaceEnds surfaces{da - pair.offset.a, db - pair.offset.b};
-  const MemoryView& m = c.now;
+  const FaceFields<double*>& m = c.now;
   m.closure_a[k] = da;
   m.closure_b[k] = db;
   m.length[k] = m.overlap[k] = length;

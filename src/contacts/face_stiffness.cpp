@@ -56,7 +56,7 @@ FaceStiffness face_stiffness(const FaceSet& c, const BlockSet& b, const Pose& po
   const double spring = touches ? 0.5 * c.shear_stiffness[k] * face.length * face.gate : 0.0;
   s.shear_a = taken.a_slides ? 0.0 : spring;
   s.shear_b = taken.b_slides ? 0.0 : spring;
-  if (!c.zeta.empty()) {
+  if (c.dashpots) {
     const double across = 0.5 * pair.stiffness * face.length * face.gate;
     const auto damping = [&](double p, double zeta, double xi, double eta) {
       return dashpot(c, b, p, zeta, xi, eta, k) / step;

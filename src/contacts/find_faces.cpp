@@ -15,11 +15,6 @@ namespace {
 
 using EdgePair = std::pair<Id, Id>;
 
-/// Filled for every list.
-constexpr std::vector<double> FaceSet::*constants[] = {
-    &FaceSet::stiffness, &FaceSet::shear_stiffness, &FaceSet::inverse_e, &FaceSet::inverse_f,
-    &FaceSet::gate_from, &FaceSet::gate_scale,      &FaceSet::passing,   &FaceSet::at_ends};
-
 /// Cosine of the angle up to which a face acts wholly, and of that at which it is gone: 60 and 85
 /// degrees, and for a needle of alpha < 90 degrees, whose two edges stand across it at 90 -
 /// alpha/2, (90 - alpha)/2 more.
@@ -68,6 +63,7 @@ std::vector<EdgePair> wanted_faces(const FaceSet& old, const BlockSet& b, const 
 struct Listed {
   EdgePair pair;
   Id old;  ///< no_id: none
+  int kind = 0;
 };
 std::vector<Listed> with_old_faces(const std::vector<EdgePair>& list, const FaceSet& old) {
   std::vector<Id> order(old.size());
@@ -80,33 +76,40 @@ std::vector<Listed> with_old_faces(const std::vector<EdgePair>& list, const Face
   for (const EdgePair& pair : list) {
     while (next != order.end() && pair_of(*next) < pair) ++next;
     const bool was = next != order.end() && pair_of(*next) == pair;
-    all.push_back({pair, was ? *next : no_id});
+    all.push_back({pair, was ? *next : no_id, 0});
   }
   return all;
 }
 
-/// Whether a face carries, or is about to: such ones stand first, so that the others can be looked
-/// at side by side.
-bool likely_carries(const FaceSet& old, const BlockSet& b, const Pose& pose, double reach,
-                    const Listed& f) {
-  if (f.old != no_id) {
-    return old.now.energy[f.old] > 0.0 || old.bonded[f.old] > 0.0 || old.pulls[f.old] > 0.0;
-  }
+/// Corners nearer than this part of the shorter edge have one share between them (face.hpp).
+constexpr double passing_part = 0.15;
+
+/// Where faces stand in the list: those that carry, or are about to, before the others, and of both
+/// those first that are plain (is_plain()), so that a chunk of the list mostly has one kind of
+/// them.
+int kind_in_list(const FaceSet& old, const BlockSet& b, const Pose& pose, double reach,
+                 const Listed& f) {
   const auto [e, q] = f.pair;
+  const double shorter = std::min(b.edge_length[e], b.edge_length[q]);
   FacePair pair;
   pair.inverse_e = 1.0 / b.edge_length[e];
   pair.inverse_f = 1.0 / b.edge_length[q];
-  const FacePoints at_e{at(pose.x, pose.y, e), at(pose.x, pose.y, b.next[e]), at(pose.x, pose.y, q),
-                        at(pose.x, pose.y, b.next[q])};
-  const Opposition o = opposition_of(at_e, pair);
-  constexpr double near = 0.01, overlaps = 0.01;
-  const double closure = o.apart_0 + std::max(o.steeper * o.ma, o.steeper * o.mb);
-  const double shorter = std::min(b.edge_length[e], b.edge_length[q]);
-  return o.s2 > 0.0 && o.r1 > o.r2 && o.mb - o.ma > overlaps * shorter && closure > -near * reach;
+  const FacePoints points{at(pose.x, pose.y, e), at(pose.x, pose.y, b.next[e]),
+                          at(pose.x, pose.y, q), at(pose.x, pose.y, b.next[q])};
+  const Opposition o = opposition_of(points, pair);
+  bool carries = false;
+  double nearest = std::min(std::abs(o.r2), std::abs(o.s2 - o.r1)) - passing_part * shorter;
+  if (const Id k = f.old; k != no_id) {
+    carries = old.now.energy[k] > 0.0 || old.bonded[k] > 0.0 || old.pulls[k] > 0.0;
+    if (old.bonded[k] > 0.0 || old.offset_a[k] != 0.0 || old.offset_b[k] != 0.0) nearest = 0.0;
+  } else {
+    constexpr double near = 0.01, overlaps = 0.01;
+    const double closure = o.apart_0 + std::max(o.steeper * o.ma, o.steeper * o.mb);
+    carries =
+        o.s2 > 0.0 && o.r1 > o.r2 && o.mb - o.ma > overlaps * shorter && closure > -near * reach;
+  }
+  return (carries ? 0 : 2) + (nearest > 0.0 ? 0 : 1);
 }
-
-/// Corners nearer than this part of the shorter edge have one share between them (face.hpp).
-constexpr double passing_part = 0.15;
 
 void fill_constants(FaceSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
   const Id e = c.edge[k], f = c.facing[k];
@@ -135,8 +138,7 @@ double rounding_of_closures(const Pose& pose) {
   return digits * std::numeric_limits<double>::epsilon() * largest;
 }
 
-/// Fills begin_of_edge, the slots and of_slot. Slots of an edge go by the edges that face it, so
-/// that sums over them do not depend on the order of the faces.
+/// Fills begin_of_edge and on_edge.
 void list_by_edge(FaceSet& c, std::size_t edges) {
   c.begin_of_edge.assign(edges + 1, 0);
   for (const auto* of : {&c.edge, &c.facing}) {
@@ -144,18 +146,19 @@ void list_by_edge(FaceSet& c, std::size_t edges) {
   }
   for (std::size_t e = 0; e < edges; ++e) c.begin_of_edge[e + 1] += c.begin_of_edge[e];
   std::vector<Id> fill(c.begin_of_edge.begin(), c.begin_of_edge.end() - 1);
-  c.of_slot.resize(2 * c.size());
-  c.slot.resize(c.size());
-  c.facing_slot.resize(c.size());
+  c.on_edge.resize(2 * c.size());
   for (std::size_t k = 0; k < c.size(); ++k) {
-    for (const Id e : {c.edge[k], c.facing[k]}) c.of_slot[fill[e]++] = static_cast<Id>(k);
+    for (const Id e : {c.edge[k], c.facing[k]}) c.on_edge[fill[e]++] = static_cast<Id>(k);
   }
+  constexpr std::size_t columns = decltype(c.force)::stride, half = columns / 2;
   for (Id e = 0; e < edges; ++e) {
+    const auto first = c.on_edge.begin() + c.begin_of_edge[e],
+               last = c.on_edge.begin() + c.begin_of_edge[e + 1];
     const auto other = [&](Id k) { return c.edge[k] == e ? c.facing[k] : c.edge[k]; };
-    std::sort(c.of_slot.begin() + c.begin_of_edge[e], c.of_slot.begin() + c.begin_of_edge[e + 1],
-              [&](Id i, Id j) { return other(i) < other(j); });
-    for (Id q = c.begin_of_edge[e]; q < c.begin_of_edge[e + 1]; ++q) {
-      (c.edge[c.of_slot[q]] == e ? c.slot : c.facing_slot)[c.of_slot[q]] = q;
+    std::sort(first, last, [&](Id i, Id j) { return other(i) < other(j); });
+    for (auto q = first; q != last; ++q) {
+      const std::size_t k = *q, side = c.edge[k] == e ? 0 : half;
+      *q = static_cast<Id>(k / FaceSet::chunk * columns + side + k % FaceSet::chunk);
     }
   }
 }
@@ -164,17 +167,26 @@ void list_by_edge(FaceSet& c, std::size_t edges) {
 
 void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
   const std::size_t n = c.size();
-  for (const auto array : constants) (c.*array).assign(n, 0.0);
   c.edge_end.resize(n);
   c.facing_end.resize(n);
+  c.corners.assign(c.chunks() * 4 * FaceSet::chunk, 0);
   for (std::size_t k = 0; k < n; ++k) {
     c.edge_end[k] = b.next[c.edge[k]];
     c.facing_end[k] = b.next[c.facing[k]];
+    Id* const corner = c.corners.data() + k / FaceSet::chunk * 4 * FaceSet::chunk;
+    for (std::size_t q = 0; const Id v : {c.edge[k], c.edge_end[k], c.facing[k], c.facing_end[k]}) {
+      corner[q++ * FaceSet::chunk + k % FaceSet::chunk] = v;
+    }
     fill_constants(c, b, laws, k);
   }
   list_by_edge(c, b.vertex_count());
   c.stirs.assign(c.chunks(), 0);
   c.deepest.assign(c.chunks(), 0.0);
+  c.tears.assign(c.chunks(), 0);
+  c.plain.assign(c.chunks(), 1);
+  for (std::size_t k = 0; k < n; ++k) {
+    if (c.breaks[k] != 0.0) c.tears[k / FaceSet::chunk] = 1;
+  }
   for (FaceMemory* m : {&c.now, &c.before}) m->idle.assign(c.chunks(), 0);
   note_bonds(c);
 }
@@ -182,17 +194,16 @@ void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
 void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
                 const LawTable& laws, double reach) {
   std::vector<Listed> list = with_old_faces(wanted_faces(faces, b, state, pose, reach), faces);
-  std::stable_partition(list.begin(), list.end(),
-                        [&](const Listed& f) { return likely_carries(faces, b, pose, reach, f); });
+  for (Listed& f : list) f.kind = kind_in_list(faces, b, pose, reach, f);
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Listed& f, const Listed& g) { return f.kind < g.kind; });
   const std::size_t n = list.size();
   FaceSet next;
-  for (const FaceStateColumn& column : face_state_columns) (next.*column.values).assign(n, 0.0);
-  for (const FaceColumn& column : face_columns) {
-    (next.now.*column.values).assign(n, 0.0);
-    (next.before.*column.values).assign(n, 0.0);
-  }
+  next.clear_rows(n);
+  next.now.clear_rows(n);
+  next.before.clear_rows(n);
   next.law.resize(n);
-  next.force.assign(8 * n, 0.0);
+  next.force.clear_rows(n);
   next.edge.resize(n);
   next.facing.resize(n);
   std::vector<std::uint8_t> stays(faces.size(), 0);
@@ -217,12 +228,15 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
     next.facing[k] = f;
     if (old != no_id) {
       stays[old] = 1;
-      for (const FaceStateColumn& column : face_state_columns) {
-        (next.*column.values)[k] = (faces.*column.values)[old];
+      for (const auto& column : face_properties) {
+        if (column.kept) (next.*column.values)[k] = (faces.*column.values)[old];
       }
-      for (const FaceColumn& column : face_columns) {
+      for (const auto& column : face_columns) {
         (next.now.*column.values)[k] = (faces.now.*column.values)[old];
         (next.before.*column.values)[k] = (faces.before.*column.values)[old];
+      }
+      for (const auto& column : corner_fields<ChunkColumn>) {
+        (next.force.*column.values)[k] = (faces.force.*column.values)[old];
       }
       next.law[k] = faces.law[old];
     } else {
@@ -236,15 +250,6 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
     if (stays[k] == 0) retire(k);
   }
   complete_faces(next, b, laws);
-  for (std::size_t k = 0; k < n; ++k) {
-    if (list[k].old == no_id) continue;
-    const auto copy = [&](Id from, Id to) {
-      std::copy_n(faces.force.begin() + 4 * std::ptrdiff_t{from}, 4,
-                  next.force.begin() + 4 * std::ptrdiff_t{to});
-    };
-    copy(faces.slot[list[k].old], next.slot[k]);
-    copy(faces.facing_slot[list[k].old], next.facing_slot[k]);
-  }
   next.noise = rounding_of_closures(pose);
   next.reach = reach;
   next.built_x = pose.x;

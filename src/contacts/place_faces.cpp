@@ -13,146 +13,140 @@
 namespace edda {
 namespace {
 
-MemoryView faces_view(FaceMemory& m) {
-  return {m.closure_a.data(), m.closure_b.data(),     m.energy.data(),       m.normal_a.data(),
-          m.normal_b.data(),  m.shear_a.data(),       m.shear_b.data(),      m.damping_a.data(),
-          m.damping_b.data(), m.drag_a.data(),        m.drag_b.data(),       m.slip_a.data(),
-          m.slip_b.data(),    m.trial_a.data(),       m.trial_b.data(),      m.spring.data(),
-          m.length.data(),    m.overlap.data(),       m.cohesive.data(),     m.gate.data(),
-          m.xi_a.data(),      m.xi_b.data(),          m.eta_a.data(),        m.eta_b.data(),
-          m.switched.data(),  m.friction_work.data(), m.damping_work.data(), m.damping_due.data(),
-          m.transfer.data()};
-}
-
-FaceView faces_view(FaceSet& c, const BlockSet& b, const Pose& pose, double step,
-                    const ShearLimits* limits = nullptr) {
-  return {c.edge.data(),
-          c.edge_end.data(),
-          c.facing.data(),
-          c.facing_end.data(),
-          c.stiffness.data(),
-          c.shear_stiffness.data(),
-          c.inverse_e.data(),
-          c.inverse_f.data(),
-          c.gate_from.data(),
-          c.gate_scale.data(),
-          c.passing.data(),
-          c.at_ends.data(),
-          c.acts.data(),
-          c.leans.data(),
-          c.friction.data(),
-          c.cohesion.data(),
-          c.offset_a.data(),
-          c.offset_b.data(),
-          c.pulls.data(),
-          c.bonded.data(),
-          b.turn_cosine.data(),
+/// What all chunks read.
+struct AllFaces {
+  const double *turn_cosine, *turn_sine;
+  const double *x, *y, *x1, *y1;
+  double noise;
+  const double *point_inverse, *edge_inverse;
+  double step;
+  const double *limit_a, *limit_b;
+};
+AllFaces all_faces(const FaceSet& c, const BlockSet& b, const Pose& pose, double step,
+                   const ShearLimits* limits = nullptr) {
+  return {b.turn_cosine.data(),
           b.turn_sine.data(),
           pose.x.data(),
           pose.y.data(),
           pose.x1.data(),
           pose.y1.data(),
           c.noise,
-          c.zeta.data(),
-          c.shear_zeta.data(),
           b.point_inverse.data(),
           b.edge_inverse.data(),
           step,
-          !c.zeta.empty(),
           limits == nullptr ? nullptr : limits->a.data(),
-          limits == nullptr ? nullptr : limits->b.data(),
-          faces_view(c.now),
-          faces_view(c.before)};
+          limits == nullptr ? nullptr : limits->b.data()};
 }
 
-/// Forces of a chunk, by corner.
-struct ChunkForces {
-  double p1x[FaceSet::chunk], p1y[FaceSet::chunk], p2x[FaceSet::chunk], p2y[FaceSet::chunk],
-      q1x[FaceSet::chunk], q1y[FaceSet::chunk], q2x[FaceSet::chunk], q2y[FaceSet::chunk];
+/// Where a chunk lies.
+struct ChunkPlace {
+  const Id* corners;
+  const double* properties;
+  double* now;
+  const double* before;
+  double* force;
 };
+ChunkPlace chunk_place(FaceSet& c, std::size_t q) {
+  return {c.corners.data() + q * 4 * FaceSet::chunk, c.begin_of_chunk(q), c.now.begin_of_chunk(q),
+          c.before.begin_of_chunk(q), c.force.begin_of_chunk(q)};
+}
+
+EDDA_INLINE FaceView view_of(const AllFaces& all, const ChunkPlace& at) {
+  FaceView v;
+  static_cast<FaceProperties<const double*>&>(v) =
+      columns_of_chunk<FaceProperties<const double*>, face_property_list<const double*>>(
+          at.properties);
+  v.edge = at.corners;
+  v.edge_end = at.corners + FaceSet::chunk;
+  v.facing = at.corners + 2 * FaceSet::chunk;
+  v.facing_end = at.corners + 3 * FaceSet::chunk;
+  v.turn_cosine = all.turn_cosine;
+  v.turn_sine = all.turn_sine;
+  v.x = all.x;
+  v.y = all.y;
+  v.x1 = all.x1;
+  v.y1 = all.y1;
+  v.noise = all.noise;
+  v.point_inverse = all.point_inverse;
+  v.edge_inverse = all.edge_inverse;
+  v.step = all.step;
+  v.limit_a = all.limit_a;
+  v.limit_b = all.limit_b;
+  v.now = columns_of_chunk<FaceFields<double*>, face_fields<double*>>(at.now);
+  v.before = columns_of_chunk<FaceFields<const double*>, face_fields<const double*>>(at.before);
+  v.force = columns_of_chunk<CornerFields<double*>, corner_fields<double*>>(at.force);
+  return v;
+}
 
 struct FoundInChunk {
-  bool asks, stirs, works;
+  bool asks, stirs, works, rare;
   double deepest;
 };
 
-template <bool dashpots, bool held = false>
-EDDA_INLINE void place_into(const FaceView& c, ChunkForces& on, std::size_t k, std::size_t q,
-                            double& asking, double& stirring, double& working, double& deepest) {
-  const Placed placed = place<dashpots, held>(c, k);
-  on.p1x[q] = placed.force.p1.x;
-  on.p1y[q] = placed.force.p1.y;
-  on.p2x[q] = placed.force.p2.x;
-  on.p2y[q] = placed.force.p2.y;
-  on.q1x[q] = placed.force.q1.x;
-  on.q1y[q] = placed.force.q1.y;
-  on.q2x[q] = placed.force.q2.x;
-  on.q2y[q] = placed.force.q2.y;
+template <bool dashpots, bool held, bool plain>
+EDDA_INLINE void place_into(const FaceView& c, std::size_t k, double& asking, double& stirring,
+                            double& working, double& rare, double& deepest) {
+  const Placed placed = place<dashpots, held, plain>(c, k);
+  const CornerFields<double*>& on = c.force;
+  on.p1x[k] = placed.force.p1.x;
+  on.p1y[k] = placed.force.p1.y;
+  on.p2x[k] = placed.force.p2.x;
+  on.p2y[k] = placed.force.p2.y;
+  on.q1x[k] = placed.force.q1.x;
+  on.q1y[k] = placed.force.q1.y;
+  on.q2x[k] = placed.force.q2.x;
+  on.q2y[k] = placed.force.q2.y;
   asking = larger(asking, placed.asks);
   stirring = larger(stirring, placed.stirs);
   working = larger(working, placed.works);
+  rare = larger(rare, placed.rare);
   deepest = larger(deepest, placed.depth);
 }
 
-EDDA_VECTOR FoundInChunk place_undamped(FaceView c, ChunkForces* on, std::size_t first,
-                                        std::size_t last) {
-  double asking = 0.0, stirring = 0.0, working = 0.0, deepest = 0.0;
-#pragma omp simd reduction(max : asking, stirring, working, deepest)
-  for (std::size_t k = first; k < last; ++k) {
-    place_into<false>(c, *on, k, k - first, asking, stirring, working, deepest);
+/// All rows of a chunk.
+template <bool dashpots, bool plain>
+EDDA_INLINE FoundInChunk place_rows(const AllFaces& all, const ChunkPlace& at) {
+  const FaceView c = view_of(all, at);
+  double asking = 0.0, stirring = 0.0, working = 0.0, rare = 0.0, deepest = 0.0;
+#pragma omp simd reduction(max : asking, stirring, working, rare, deepest)
+  for (std::size_t k = 0; k < FaceSet::chunk; ++k) {
+    place_into<dashpots, false, plain>(c, k, asking, stirring, working, rare, deepest);
   }
-  return {asking > 0.0, stirring > 0.0, working > 0.0, deepest};
+  return {asking > 0.0, stirring > 0.0, working > 0.0, rare > 0.0, deepest};
+}
+EDDA_VECTOR FoundInChunk place_undamped(const AllFaces& all, const ChunkPlace& at) {
+  return place_rows<false, false>(all, at);
+}
+EDDA_VECTOR FoundInChunk place_plain_undamped(const AllFaces& all, const ChunkPlace& at) {
+  return place_rows<false, true>(all, at);
+}
+EDDA_VECTOR FoundInChunk place_damped(const AllFaces& all, const ChunkPlace& at) {
+  return place_rows<true, false>(all, at);
+}
+EDDA_VECTOR FoundInChunk place_plain_damped(const AllFaces& all, const ChunkPlace& at) {
+  return place_rows<true, true>(all, at);
 }
 
-EDDA_VECTOR FoundInChunk place_damped(FaceView c, ChunkForces* on, std::size_t first,
-                                      std::size_t last) {
-  double asking = 0.0, stirring = 0.0, working = 0.0, deepest = 0.0;
-#pragma omp simd reduction(max : asking, stirring, working, deepest)
+/// Rows [first, last) alone, one by one.
+template <bool dashpots, bool held>
+FoundInChunk place_rows(const AllFaces& all, const ChunkPlace& at, std::size_t first,
+                        std::size_t last) {
+  const FaceView c = view_of(all, at);
+  double asking = 0.0, stirring = 0.0, working = 0.0, rare = 0.0, deepest = 0.0;
   for (std::size_t k = first; k < last; ++k) {
-    place_into<true>(c, *on, k, k - first, asking, stirring, working, deepest);
+    place_into<dashpots, held, false>(c, k, asking, stirring, working, rare, deepest);
   }
-  return {asking > 0.0, stirring > 0.0, working > 0.0, deepest};
+  return {asking > 0.0, stirring > 0.0, working > 0.0, rare > 0.0, deepest};
 }
 
-template <bool dashpots>
-FoundInChunk place_held(const FaceView& c, ChunkForces* on, std::size_t first, std::size_t last) {
-  double asking = 0.0, stirring = 0.0, working = 0.0, deepest = 0.0;
-  for (std::size_t k = first; k < last; ++k) {
-    place_into<dashpots, true>(c, *on, k, k - first, asking, stirring, working, deepest);
-  }
-  return {asking > 0.0, stirring > 0.0, working > 0.0, deepest};
-}
-
-/// Whether one of the faces [first, last), which have carried nothing for two steps, needs more
-/// than a look.
-EDDA_VECTOR bool wakes_chunk(FaceView c, std::size_t first, std::size_t last) {
+/// Whether one of the faces of a chunk, which have carried nothing for two steps, needs more than a
+/// look.
+EDDA_VECTOR bool wakes_chunk(const AllFaces& all, const ChunkPlace& at) {
+  const FaceView c = view_of(all, at);
   double waking = 0.0;
 #pragma omp simd reduction(max : waking)
-  for (std::size_t k = first; k < last; ++k) waking = larger(waking, wakes(c, k) ? 1.0 : 0.0);
+  for (std::size_t k = 0; k < FaceSet::chunk; ++k) waking = larger(waking, wakes(c, k) ? 1.0 : 0.0);
   return waking > 0.0;
-}
-
-FoundInChunk place_chunk(const FaceView& c, ChunkForces* on, std::size_t first, std::size_t last) {
-  if (c.limit_a != nullptr) {
-    return c.damped ? place_held<true>(c, on, first, last) : place_held<false>(c, on, first, last);
-  }
-  return c.damped ? place_damped(c, on, first, last) : place_undamped(c, on, first, last);
-}
-
-void keep_forces(FaceSet& c, const ChunkForces& on, std::size_t first, std::size_t last) {
-  for (std::size_t k = first; k < last; ++k) {
-    const std::size_t q = k - first;
-    double* const e = c.force.data() + 4 * std::size_t{c.slot[k]};
-    double* const f = c.force.data() + 4 * std::size_t{c.facing_slot[k]};
-    e[0] = on.p1x[q];
-    e[1] = on.p1y[q];
-    e[2] = on.p2x[q];
-    e[3] = on.p2y[q];
-    f[0] = on.q1x[q];
-    f[1] = on.q1y[q];
-    f[2] = on.q2x[q];
-    f[3] = on.q2y[q];
-  }
 }
 
 /// Breaks what gives way of the faces [first, last). Whether anything does.
@@ -169,93 +163,129 @@ bool break_bonds(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable
   return any;
 }
 
-/// Where the columns lie that a step reads or writes. There are more of them than a processor
-/// foresees by itself: models beyond its caches would wait for each.
-std::vector<const double*> columns_of_step(const FaceSet& c) {
-  std::vector<const double*> at;
-  for (const FaceColumn& column : face_columns) {
-    at.push_back((c.now.*column.values).data());
-    at.push_back((c.before.*column.values).data());
+/// All faces of a chunk as they stand: plainly where they all are plain, as they mostly were at the
+/// step before.
+FoundInChunk place_chunk(FaceSet& c, const AllFaces& all, std::size_t q) {
+  const ChunkPlace at = chunk_place(c, q);
+  if (c.plain[q] != 0) {
+    const FoundInChunk found =
+        c.dashpots ? place_plain_damped(all, at) : place_plain_undamped(all, at);
+    if (!found.rare) return found;
   }
-  for (const auto* values :
-       {&c.stiffness, &c.shear_stiffness, &c.inverse_e, &c.inverse_f, &c.gate_from, &c.gate_scale,
-        &c.passing, &c.at_ends, &c.acts, &c.leans, &c.friction, &c.cohesion, &c.offset_a,
-        &c.offset_b, &c.pulls, &c.bonded}) {
-    at.push_back(values->data());
-  }
-  return at;
+  const FoundInChunk found = c.dashpots ? place_damped(all, at) : place_undamped(all, at);
+  c.plain[q] = found.rare ? 0 : 1;
+  return found;
 }
 
-/// Asks for the faces [first, last) from memory.
-void fetch(const FaceSet& c, const std::vector<const double*>& columns, std::size_t first,
-           std::size_t last) {
-  constexpr std::size_t line = 8;  // numbers
-  for (const double* at : columns) {
-    for (std::size_t k = first; k < last; k += line) __builtin_prefetch(at + k);
+/// The faces [first, last), of one chunk, as they stand.
+FoundInChunk place_part(FaceSet& c, const AllFaces& all, std::size_t first, std::size_t last) {
+  const std::size_t q = first / FaceSet::chunk, from = first % FaceSet::chunk;
+  const std::size_t to = from + (last - first);
+  const bool held = all.limit_a != nullptr;
+  if (!held && from == 0 && last == std::min(first + FaceSet::chunk, c.size())) {
+    return place_chunk(c, all, q);
   }
-  for (std::size_t k = first; k < last; ++k) {
-    __builtin_prefetch(c.force.data() + 4 * std::size_t{c.slot[k]}, 1);
-    __builtin_prefetch(c.force.data() + 4 * std::size_t{c.facing_slot[k]}, 1);
+  const ChunkPlace at = chunk_place(c, q);
+  AllFaces here = all;
+  if (held) {
+    here.limit_a += first - from;
+    here.limit_b += first - from;
+    return c.dashpots ? place_rows<true, true>(here, at, from, to)
+                      : place_rows<false, true>(here, at, from, to);
   }
+  return c.dashpots ? place_rows<true, false>(here, at, from, to)
+                    : place_rows<false, false>(here, at, from, to);
 }
 
-void place_chunks(FaceSet& c, const FaceView& view, const std::vector<const double*>& columns,
-                  const BlockSet& b, const Pose& pose, const LawTable* laws, std::size_t begin,
-                  std::size_t end) {
-  ChunkForces on;
+/// The same, with what has to be decided and, given the laws, bonds that may break.
+FoundInChunk place_and_judge(FaceSet& c, const AllFaces& all, const BlockSet& b, const Pose& pose,
+                             const LawTable* laws, std::size_t first, std::size_t last) {
+  FoundInChunk found = place_part(c, all, first, last);
+  if (found.asks) {
+    const FaceView view = view_of(all, chunk_place(c, first / FaceSet::chunk));
+    for (std::size_t k = first; k < last; ++k) {
+      const Face face = face_at(c, b, pose.x, pose.y, k);
+      if (asks(view, face, k % FaceSet::chunk)) judge_face(c, b, pose, k);
+    }
+    found = place_part(c, all, first, last);
+  }
+  const bool bonds = laws != nullptr && c.bonds[first / FaceSet::chunk] != 0;
+  if (bonds && break_bonds(c, b, pose, *laws, first, last)) {
+    found = place_part(c, all, first, last);
+  }
+  return found;
+}
+
+void place_chunks(FaceSet& c, const AllFaces& all, const BlockSet& b, const Pose& pose,
+                  const LawTable* laws, std::size_t begin, std::size_t end) {
   for (std::size_t first = begin; first < end; first += FaceSet::chunk) {
-    fetch(c, columns, std::min(first + FaceSet::chunk, end),
-          std::min(first + 2 * FaceSet::chunk, end));
     const std::size_t last = std::min(end, first + FaceSet::chunk), q = first / FaceSet::chunk;
-    const bool idle = c.now.idle[q] && c.before.idle[q] && !c.bonds[q] && view.limit_a == nullptr;
-    if (idle && !wakes_chunk(view, first, last)) {
+    const bool idle = c.now.idle[q] && c.before.idle[q] && !c.bonds[q] && all.limit_a == nullptr;
+    if (idle && !wakes_chunk(all, chunk_place(c, q))) {
       c.stirs[q] = 0;
       c.deepest[q] = 0.0;
       continue;
     }
-    FoundInChunk found = place_chunk(view, &on, first, last);
-    if (found.asks) {
-      for (std::size_t k = first; k < last; ++k) {
-        const Face face = face_at(c, b, pose.x, pose.y, k);
-        if (asks(view, face, k)) judge_face(c, b, pose, k);
-      }
-      found = place_chunk(view, &on, first, last);
-    }
-    if (laws != nullptr && c.bonds[q] != 0 && break_bonds(c, b, pose, *laws, first, last)) {
-      found = place_chunk(view, &on, first, last);
-    }
+    const FoundInChunk found = place_and_judge(c, all, b, pose, laws, first, last);
     c.now.idle[q] = found.works ? 0 : 1;
     c.stirs[q] = found.stirs ? 1 : 0;
     c.deepest[q] = found.deepest;
-    keep_forces(c, on, first, last);
   }
 }
 
 /// laws: of the bonds that may break, if any.
-void place_all(FaceSet& c, const FaceView& view, const BlockSet& b, const Pose& pose,
+void place_all(FaceSet& c, const AllFaces& all, const BlockSet& b, const Pose& pose,
                const LawTable* laws) {
-  const std::vector<const double*> columns = columns_of_step(c);
   parallel_chunks(c.size(), FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
-    place_chunks(c, view, columns, b, pose, laws, begin, end);
+    place_chunks(c, all, b, pose, laws, begin, end);
   });
+}
+
+/// Adds what a step has taken to what was taken before, of the faces of a chunk.
+struct ChunkBooks {
+  FaceProperties<double*> of;
+  FaceFields<const double*> now, before;
+};
+EDDA_INLINE void end_step(const ChunkBooks& c, bool dashpots, std::size_t k) {
+  const FaceFields<const double*>& m = c.now;
+  const bool tears = c.of.breaks[k] > 0.0;
+  const double taken = m.friction_work[k];
+  c.of.fracture_work[k] += tears ? taken : 0.0;
+  c.of.friction_work[k] += tears ? 0.0 : taken;
+  if (dashpots) c.of.damping_work[k] += m.damping_work[k] + m.damping_due[k];
+  const bool cut = (m.slip_a[k] != m.trial_a[k]) | (m.slip_b[k] != m.trial_b[k]);
+  const bool opens = (c.before.energy[k] > 0.0) & (m.energy[k] == 0.0);
+  c.of.slipped[k] = cut ? 1.0 : c.of.slipped[k];
+  c.of.opened[k] = opens ? 1.0 : c.of.opened[k];
+  c.of.transfer[k] += m.transfer[k];
+}
+EDDA_VECTOR void end_step_of_chunk(double* properties, const double* now, const double* before,
+                                   bool dashpots) {
+  const ChunkBooks c{
+      columns_of_chunk<FaceProperties<double*>, face_property_list<double*>>(properties),
+      columns_of_chunk<FaceFields<const double*>, face_fields<const double*>>(now),
+      columns_of_chunk<FaceFields<const double*>, face_fields<const double*>>(before)};
+#pragma omp simd
+  for (std::size_t k = 0; k < FaceSet::chunk; ++k) end_step(c, dashpots, k);
 }
 
 /// What has been worked out is final; dashpots: of the faces, or of the method.
 void end_step(FaceSet& c, bool dashpots) {
   if (c.gluing) glue_pressed(c);
-  parallel_for(c.size(), [&](std::size_t k) {
-    if (c.now.idle[k / FaceSet::chunk] != 0) return;
-    (c.breaks[k] > 0.0 ? c.fracture_work : c.friction_work)[k] += c.now.friction_work[k];
-    if (dashpots) c.damping_work[k] += c.now.damping_work[k] + c.now.damping_due[k];
-    const bool cut = c.now.slip_a[k] != c.now.trial_a[k] || c.now.slip_b[k] != c.now.trial_b[k];
-    if (cut) c.slipped[k] = 1.0;
-    if (c.before.energy[k] > 0.0 && c.now.energy[k] == 0.0) c.opened[k] = 1.0;
-    c.transfer[k] += c.now.transfer[k];
+  parallel_for(c.chunks(), [&](std::size_t q) {
+    if (c.now.idle[q] == 0) {
+      end_step_of_chunk(c.begin_of_chunk(q), c.now.begin_of_chunk(q), c.before.begin_of_chunk(q),
+                        dashpots);
+    }
   });
-  for (double& breaks : c.breaks) {
-    if (breaks == 0.0) continue;
-    if (breaks == bond_breaks) ++c.broken;
-    breaks = 0.0;
+  for (std::size_t q = 0; q < c.chunks(); ++q) {
+    if (c.tears[q] == 0) continue;
+    c.tears[q] = 0;
+    for (std::size_t k = q * FaceSet::chunk; k < std::min((q + 1) * FaceSet::chunk, c.size());
+         ++k) {
+      if (c.breaks[k] == bond_breaks) ++c.broken;
+      c.breaks[k] = 0.0;
+    }
   }
   std::swap(c.now, c.before);
 }
@@ -264,32 +294,26 @@ void end_step(FaceSet& c, bool dashpots) {
 
 void place_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
                  double step) {
-  place_all(c, faces_view(c, b, pose, step), b, pose, &laws);
+  place_all(c, all_faces(c, b, pose, step), b, pose, &laws);
 }
 
 void try_faces(FaceSet& c, const BlockSet& b, const Pose& pose, double step,
                const ShearLimits& limits) {
-  place_all(c, faces_view(c, b, pose, step, &limits), b, pose, nullptr);
+  place_all(c, all_faces(c, b, pose, step, &limits), b, pose, nullptr);
 }
 
 void place_face(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws, double step,
                 std::size_t k) {
-  const FaceView view = faces_view(c, b, pose, step);
+  const AllFaces all = all_faces(c, b, pose, step);
+  const std::size_t q = k / FaceSet::chunk;
   const FaceMemory &m = c.now, &old = c.before;
   const bool idle = m.energy[k] == 0.0 && old.energy[k] == 0.0 && old.spring[k] == 0.0 &&
                     m.friction_work[k] == 0.0 && m.transfer[k] == 0.0 && m.damping_due[k] == 0.0 &&
                     c.bonded[k] == 0.0 && c.pulls[k] == 0.0;
-  if (idle && !wakes_chunk(view, k, k + 1)) return;
-  ChunkForces on;
-  FoundInChunk found = place_chunk(view, &on, k, k + 1);
-  if (found.asks) {
-    judge_face(c, b, pose, k);
-    found = place_chunk(view, &on, k, k + 1);
-  }
-  if (break_bonds(c, b, pose, laws, k, k + 1)) found = place_chunk(view, &on, k, k + 1);
-  if (found.stirs) c.stirs[k / FaceSet::chunk] = 1;
-  if (found.works) c.now.idle[k / FaceSet::chunk] = 0;
-  keep_forces(c, on, k, k + 1);
+  if (idle && !wakes(view_of(all, chunk_place(c, q)), k % FaceSet::chunk)) return;
+  const FoundInChunk found = place_and_judge(c, all, b, pose, &laws, k, k + 1);
+  if (found.stirs) c.stirs[q] = 1;
+  if (found.works) c.now.idle[q] = 0;
 }
 
 void change_step_behind(FaceSet& c, const BlockSet& b, const Pose& pose,
@@ -312,7 +336,7 @@ void change_step_behind(FaceSet& c, const BlockSet& b, const Pose& pose,
 }
 
 void next_step(FaceSet& c) {
-  end_step(c, !c.zeta.empty());
+  end_step(c, c.dashpots);
 }
 
 void stand_still(FaceSet& c) {
@@ -320,7 +344,7 @@ void stand_still(FaceSet& c) {
   c.now = c.before;
   for (auto* work :
        {&c.now.friction_work, &c.now.damping_work, &c.now.damping_due, &c.now.transfer}) {
-    std::fill(work->begin(), work->end(), 0.0);
+    work->fill(0.0);
   }
 }
 

@@ -15,12 +15,13 @@ using NodeForce = std::array<Vec2, 3>;
 
 /// What the loops over the faces of a block read.
 struct FaceListView {
-  const Id *begin_of_edge, *next;
+  const Id *begin_of_edge, *on_edge, *next;
   const double* force;
   ConstNodeValues weight;
 };
 FaceListView faces_of(const BlockSet& b, const FaceSet& c) {
-  return {c.begin_of_edge.data(), b.next.data(), c.force.data(), values_of(b.weight)};
+  return {c.begin_of_edge.data(), c.on_edge.data(), b.next.data(), c.force.begin_of_chunk(0),
+          values_of(b.weight)};
 }
 
 /// Forces of faces on the nodes of the block with the edges [first, end): summed on each edge, then
@@ -29,7 +30,8 @@ EDDA_INLINE void add_faces(NodeForce& f, const FaceListView& c, Id first, Id end
   for (Id e = first; e < end; ++e) {
     Four sum{};
     for (std::size_t q = c.begin_of_edge[e]; q < c.begin_of_edge[e + 1]; ++q) {
-      add_from(sum, c.force + 4 * q);
+      const double* const on = c.force + c.on_edge[q];
+      sum += Four{on[0], on[chunk_rows], on[2 * chunk_rows], on[3 * chunk_rows]};
     }
     const Vec2 on_start{sum[0], sum[1]}, on_end{sum[2], sum[3]};
     const Id to = c.next[e];

@@ -66,10 +66,10 @@ double taken_from_blocks(const FaceSet& c, const Pose& pose, std::size_t k) {
 
 void begin_springs(FaceSprings& springs, const FaceSet& c) {
   const std::size_t n = c.size();
-  springs.acts = c.acts;
-  springs.leans = c.leans;
-  springs.offset_a = c.offset_a;
-  springs.offset_b = c.offset_b;
+  springs.acts = c.acts.values();
+  springs.leans = c.leans.values();
+  springs.offset_a = c.offset_a.values();
+  springs.offset_b = c.offset_b.values();
   springs.stored.resize(n);
   springs.state.resize(n);
   springs.limits.a.resize(n);
@@ -85,10 +85,10 @@ void begin_springs(FaceSprings& springs, const FaceSet& c) {
 std::size_t evaluate_springs(FaceSprings& springs, FaceSet& c, const BlockSet& b, const Pose& pose,
                              double step, bool first) {
   // Verdicts of other trial positions of this step are forgotten.
-  c.acts = springs.acts;
-  c.leans = springs.leans;
-  c.offset_a = springs.offset_a;
-  c.offset_b = springs.offset_b;
+  c.acts.take(springs.acts);
+  c.leans.take(springs.leans);
+  c.offset_a.take(springs.offset_a);
+  c.offset_b.take(springs.offset_b);
   try_faces(c, b, pose, step, springs.limits);
   springs.first = first;
   std::vector<std::size_t> changed(c.chunks(), 0);

@@ -143,7 +143,10 @@ void advance(State& s, const BlockSet& b, const Nodes& force_x, const Nodes& for
 void book_damping(const State& s, const BlockSet& b, const Nodes& force_x, const Nodes& force_y,
                   const Nodes& old_vx, const Nodes& old_vy, double h_old, double h_new,
                   const StepDamping& damping, DampingWork& work) {
-  if (damping.mass == 0.0 && damping.local == 0.0 && damping.strain == nullptr) return;
+  if (damping.strain != nullptr) {
+    add_strain_dissipation(*damping.strain, b, s, old_vx, old_vy, h_old, h_new, work.joules);
+  }
+  if (damping.mass == 0.0 && damping.local == 0.0) return;
   const auto is_spared = [&](std::size_t i) {
     return damping.spared != nullptr &&
            std::binary_search(damping.spared->begin(), damping.spared->end(), static_cast<Id>(i));
@@ -152,9 +155,6 @@ void book_damping(const State& s, const BlockSet& b, const Nodes& force_x, const
     if (b.fixed[i] || !s.alive[i]) return;
     const std::array<Vec2, 3> f = node_vectors(force_x, force_y, i);
     double dissipated = 0.0;
-    if (damping.strain != nullptr) {
-      dissipated = strain_dissipation(*damping.strain, b, s, old_vx, old_vy, h_old, h_new, i);
-    }
     const double local = damping.local > 0.0 && !is_spared(i) ? damping.local : 0.0;
     std::array<Vec2, 3> moved, mean;
     for (std::size_t k = 0; k < 3; ++k) {

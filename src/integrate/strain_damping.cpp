@@ -59,10 +59,14 @@ EDDA_INLINE StrainTerms times(const Matrix& w, std::size_t i, const StrainTerms&
           w[2][i] * d.xx + w[4][i] * d.yy + w[5][i] * d.xy};
 }
 
-/// F at step n, once x_{n+1} = x_n + h_new v_{n+1/2} is there.
-Deformation deformation_before(const BlockSet& b, const State& s, double h_new, std::size_t i) {
-  const Deformation f = deformation(b, s.x, s.y, i), l = deformation(b, s.vx, s.vy, i);
-  return {f.xx - h_new * l.xx, f.xy - h_new * l.xy, f.yx - h_new * l.yx, f.yy - h_new * l.yy};
+/// f + h l.
+EDDA_INLINE Deformation plus(const Deformation& f, double h, const Deformation& l) {
+  return {f.xx + h * l.xx, f.xy + h * l.xy, f.yx + h * l.yx, f.yy + h * l.yy};
+}
+
+/// The frame at step n, once x_{n+1} = x_n + h_new v_{n+1/2} is there.
+StrainFrame frame_before(const BlockSet& b, const State& s, double h_new, std::size_t i) {
+  return strain_frame(plus(deformation(b, s.x, s.y, i), -h_new, deformation(b, s.vx, s.vy, i)));
 }
 
 /// v less h M^-1 B^T W d, d the rate of strain to be damped; s grows by W d.
@@ -121,6 +125,33 @@ EDDA_VECTOR void damp_and_move_all(BlocksView b, double h, double h_new, std::si
   for (std::size_t i = begin; i < end; ++i) damp_and_move(b, h, h_new, i);
 }
 
+/// What the loop reads and writes that adds up what the damping took.
+struct DissipationView {
+  ConstNodeValues grad_x, grad_y;
+  std::array<const double*, 3> stress;
+  ConstNodeValues x, y, vx, vy, old_vx, old_vy;
+  double* joules;
+};
+
+EDDA_INLINE void add_dissipation(const DissipationView& b, double h_old, double h_new,
+                                 std::size_t i) {
+  const Deformation after = deformation(b, b.vx, b.vy, i);
+  const StrainFrame frame = strain_frame(plus(deformation(b, b.x, b.y, i), -h_new, after));
+  const Deformation before = deformation(b, b.old_vx, b.old_vy, i);
+  const Deformation moved{
+      0.5 * (h_old * before.xx + h_new * after.xx), 0.5 * (h_old * before.xy + h_new * after.xy),
+      0.5 * (h_old * before.yx + h_new * after.yx), 0.5 * (h_old * before.yy + h_new * after.yy)};
+  const StrainTerms strained = strain_rate(frame, moved);
+  b.joules[i] +=
+      b.stress[0][i] * strained.xx + b.stress[1][i] * strained.yy + b.stress[2][i] * strained.xy;
+}
+
+EDDA_VECTOR void add_dissipation_of_all(DissipationView b, double h_old, double h_new,
+                                        std::size_t begin, std::size_t end) {
+#pragma omp simd
+  for (std::size_t i = begin; i < end; ++i) add_dissipation(b, h_old, h_new, i);
+}
+
 }  // namespace
 
 void prepare(StrainDamping& d, const BlockSet& b, double h) {
@@ -174,19 +205,26 @@ void damp_strain_and_move(StrainDamping& d, const BlockSet& b, State& s, double 
 
 std::array<Vec2, 3> damped_change(StrainDamping& d, const BlockSet& b, const State& s, double h_new,
                                   std::size_t i, const std::array<Vec2, 3>& change) {
-  const StrainFrame frame = strain_frame(deformation_before(b, s, h_new, i));
+  const StrainFrame frame = frame_before(b, s, h_new, i);
   return slowed(d, b, i, frame, strain_rate(frame, rate_of(b, i, change)), change);
 }
 
-double strain_dissipation(const StrainDamping& d, const BlockSet& b, const State& s,
-                          const Nodes& old_vx, const Nodes& old_vy, double h_old, double h_new,
-                          std::size_t i) {
-  const StrainFrame frame = strain_frame(deformation_before(b, s, h_new, i));
-  const StrainTerms before = strain_rate(frame, deformation(b, old_vx, old_vy, i)),
-                    after = strain_rate(frame, deformation(b, s.vx, s.vy, i));
-  return 0.5 * (d.stress[0][i] * (h_old * before.xx + h_new * after.xx) +
-                d.stress[1][i] * (h_old * before.yy + h_new * after.yy) +
-                d.stress[2][i] * (h_old * before.xy + h_new * after.xy));
+void add_strain_dissipation(const StrainDamping& d, const BlockSet& b, const State& s,
+                            const Nodes& old_vx, const Nodes& old_vy, double h_old, double h_new,
+                            std::vector<double>& joules) {
+  const DissipationView view{values_of(b.grad_x),
+                             values_of(b.grad_y),
+                             {d.stress[0].data(), d.stress[1].data(), d.stress[2].data()},
+                             values_of(s.x),
+                             values_of(s.y),
+                             values_of(s.vx),
+                             values_of(s.vy),
+                             values_of(old_vx),
+                             values_of(old_vy),
+                             joules.data()};
+  parallel_chunks(b.size(), blocks_at_once, [&](std::size_t, std::size_t begin, std::size_t end) {
+    add_dissipation_of_all(view, h_old, h_new, begin, end);
+  });
 }
 
 }  // namespace edda

@@ -40,9 +40,9 @@ std::array<Vec2, 3> damped_change(StrainDamping& damping, const BlockSet& blocks
                                   const State& state, double h_new, std::size_t i,
                                   const std::array<Vec2, 3>& change);
 
-/// Dissipated in block i by the step just made, s : B (x_{n+1} - x_{n-1})/2, J.
-double strain_dissipation(const StrainDamping& damping, const BlockSet& blocks, const State& state,
-                          const Nodes& old_vx, const Nodes& old_vy, double h_old, double h_new,
-                          std::size_t i);
+/// Adds what the step just made dissipated in each block, s : B (x_{n+1} - x_{n-1})/2, J.
+void add_strain_dissipation(const StrainDamping& damping, const BlockSet& blocks,
+                            const State& state, const Nodes& old_vx, const Nodes& old_vy,
+                            double h_old, double h_new, std::vector<double>& joules);
 
 }  // namespace edda

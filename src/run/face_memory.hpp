@@ -13,19 +13,38 @@
 
 namespace edda {
 
+/// A column of `table`, which loses its rows where a file has another number of them.
+template <class Archive, class Table>
+void list_column(Archive& a, const std::string& name, Table& table, ChunkColumn& column) {
+  std::vector<double> values = column.values();
+  a(name, values);
+  if (values.size() == column.size()) {
+    column.take(values);
+  } else {
+    table.clear_rows(0);
+  }
+}
+
 template <class Archive>
 void list_faces(Archive& a, FaceSet& c) {
   a("faces.edge", c.edge);
   a("faces.facing", c.facing);
   a("faces.law", c.law);
-  for (const FaceStateColumn& column : face_state_columns) {
-    a(std::string("faces.") + column.name, c.*column.values);
+  if (c.rows() != c.size()) {
+    for (FaceMemory* m : {&c.now, &c.before}) m->clear_rows(c.size());
+    c.force.clear_rows(c.size());
+    c.clear_rows(c.size());
   }
-  for (const FaceColumn& column : face_columns) {
-    a(std::string("faces.now.") + column.name, c.now.*column.values);
-    a(std::string("faces.before.") + column.name, c.before.*column.values);
+  for (const auto& column : face_properties) {
+    if (column.kept) list_column(a, std::string("faces.") + column.name, c, c.*column.values);
   }
-  a("faces.force", c.force);
+  for (const auto& column : face_columns) {
+    list_column(a, std::string("faces.now.") + column.name, c.now, c.now.*column.values);
+    list_column(a, std::string("faces.before.") + column.name, c.before, c.before.*column.values);
+  }
+  for (const auto& column : corner_fields<ChunkColumn>) {
+    list_column(a, std::string("faces.force.") + column.name, c.force, c.force.*column.values);
+  }
   a("faces.locked_start", c.locked_start);
   a("faces.locked_end", c.locked_end);
   a("faces.built_x", c.built_x);
@@ -72,14 +91,12 @@ void judge_points(Judge& j, const PointSet& c, const BlockSet& b, const LawTable
 template <class Judge>
 void judge_faces(Judge& j, const FaceSet& c, const BlockSet& b, const LawTable& laws) {
   const std::size_t n = c.size(), nv = b.vertex_count();
-  for (const FaceStateColumn& column : face_state_columns) j.sized("faces", c.*column.values, n);
-  for (const FaceColumn& column : face_columns) {
-    j.sized("faces", c.now.*column.values, n);
-    j.sized("faces", c.before.*column.values, n);
-  }
+  j.rows("faces", c.rows(), n);
+  j.rows("faces", c.now.rows(), n);
+  j.rows("faces", c.before.rows(), n);
   j.sized("faces.facing", c.facing, n);
   j.sized("faces.law", c.law, n);
-  j.sized("faces.force", c.force, 8 * n);
+  j.rows("faces.force", c.force.rows(), n);
   for (const auto* values : {&c.built_x, &c.built_y}) j.sized("faces.built", *values, nv);
   if (!c.locked_start.empty()) j.sized("faces.locked", c.locked_start, nv);
   j.sized("faces.locked", c.locked_end, c.locked_start.size());

@@ -60,7 +60,7 @@ Ledger sum_ledger(const BlockSet& b, const State& s, double h, const Pose& pose,
   l.kinetic = over_free([&](std::size_t i) { return kinetic_energy(b, s.vx, s.vy, i); });
   l.strain = over_free([&](std::size_t i) { return block_strain_energy(b, s, h, i); });
   l.gravity = over_free([&](std::size_t i) { return block_gravity_energy(b, s, h, gravity, i); });
-  const auto over_faces = [&](const std::vector<double>& taken) {
+  const auto over_faces = [&](const ChunkColumn& taken) {
     return ordered_sum(c.size(), [&](std::size_t k) { return taken[k]; });
   };
   l.contact = ordered_sum(c.size(), [&](std::size_t k) { return face_energy(c, b, pose, k); }) +

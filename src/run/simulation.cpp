@@ -133,8 +133,7 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   stand_still(s.contacts);
   // Twice: they have been at rest.
   for (int n = 0; n < 2; ++n) move_points(s.point_contacts, s.blocks, s.pose, s.laws);
-  for (auto* work : {&s.contacts.friction_work, &s.contacts.transfer})
-    std::fill(work->begin(), work->end(), 0.0);
+  for (auto* work : {&s.contacts.friction_work, &s.contacts.transfer}) work->fill(0.0);
   s.plan_slivers();
   s.set_limit();
   s.free_field = attach_free_field(s.model, s.blocks, s.dashpots, s.step_limit);

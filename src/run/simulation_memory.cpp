@@ -110,7 +110,10 @@ class Judge {
   const std::string& flaw() const { return flaw_; }
   template <class T>
   void sized(const char* name, const std::vector<T>& values, std::size_t n) {
-    if (values.size() != n) note(name, "has another size than the model asks for");
+    rows(name, values.size(), n);
+  }
+  void rows(const char* name, std::size_t has, std::size_t n) {
+    if (has != n) note(name, "has another size than the model asks for");
   }
   void below(const char* name, const std::vector<Id>& values, std::size_t n, bool none = false) {
     for (const Id v : values) {

@@ -34,7 +34,7 @@ MovedBlocks bonded_square() {
 }
 
 std::size_t bonded_face(const MovedBlocks& m) {
-  const auto& bonded = m.faces.bonded;
+  const auto bonded = m.faces.bonded.values();
   return static_cast<std::size_t>(std::find(bonded.begin(), bonded.end(), 1.0) - bonded.begin());
 }
 
@@ -197,7 +197,7 @@ TEST(Dilation, CountsTheSlipOfAJointThatIsOpenByAHair) {
   m.go(1, {{0.0, -1e-6}});
   m.go(1, {{0.0, 2e-5}});
   m.go(1, {{0.0, 2e-5}});
-  const auto& slid = m.faces.slid;
+  const auto slid = m.faces.slid.values();
   const double before = *std::max_element(slid.begin(), slid.end());
   for (int n = 1; n <= 10; ++n) m.go(1, {{1e-6 * n, 2e-5}});
   EXPECT_NEAR(*std::max_element(slid.begin(), slid.end()) - before, 1e-5, 1e-9);

@@ -68,9 +68,9 @@ struct MovedBlocks : DrawnBlocks {
     for (std::size_t k = 0; k < faces.size(); ++k) sum += face_energy(faces, blocks, pose, k);
     return sum;
   }
-  static double sum(const std::vector<double>& values) {
+  static double sum(const ChunkColumn& column) {
     double all = 0.0;
-    for (const double value : values) all += value;
+    for (const double value : column.values()) all += value;
     return all;
   }
   double friction() const { return sum(faces.friction_work); }
@@ -89,7 +89,7 @@ struct MovedBlocks : DrawnBlocks {
   }
   /// The face that carries most.
   std::size_t main_face() const {
-    const auto& e = faces.now.energy;
+    const auto e = faces.now.energy.values();
     return static_cast<std::size_t>(std::max_element(e.begin(), e.end()) - e.begin());
   }
 

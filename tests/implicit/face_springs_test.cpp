@@ -29,7 +29,7 @@ struct Pressed : MovedBlocks {
     put(1, {{0.0, at}});
     settle();
     for (auto* taken : {&faces.friction_work, &faces.damping_work}) {
-      std::fill(taken->begin(), taken->end(), 0.0);
+      taken->fill(0.0);
     }
   }
   /// A step to there; bonds that do not hold break.

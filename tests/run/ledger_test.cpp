@@ -164,7 +164,7 @@ TEST(Ledger, KeepsWhatFacesHadTaken) {
   for (std::size_t v = sim.blocks.vertex_begin[1]; v < sim.blocks.vertex_count(); ++v) {
     sim.pose.x[v] += 50.0;
   }
-  for (auto* energy : {&c.now.energy, &c.bonded}) std::fill(energy->begin(), energy->end(), 0.0);
+  for (auto* energy : {&c.now.energy, &c.bonded}) energy->fill(0.0);
   find_faces(c, sim.blocks, sim.state, sim.pose, sim.laws, 0.01);
   ASSERT_EQ(c.size(), 0u);
   const Ledger after = sim.ledger_now();

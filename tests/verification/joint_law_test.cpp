@@ -86,7 +86,8 @@ TEST(DirectShear, SlipWeakening) {
   while (gravity * integral(friction, stops) < 0.5 * start * start) stops += 1e-5;
   expect_relative({46, "", "slip until it stops", "m"}, shown.slip, stops, 1e-2);
   record_model(46, "", sim);
-  EXPECT_GT(*std::max_element(sim.contacts.slid.begin(), sim.contacts.slid.end()), 0.0);
+  const std::vector<double> slid = sim.contacts.slid.values();
+  EXPECT_GT(*std::max_element(slid.begin(), slid.end()), 0.0);
 }
 
 /// Cohesion goes with slip, too: no segment breaks, and what it takes is friction.

@@ -97,7 +97,7 @@ inline std::string rectangle(double x0, double y0, double x1, double y1) {
 /// Faces that still have their peak strength.
 inline std::size_t bonded_faces(const Simulation& sim) {
   std::size_t count = 0;
-  for (const double bonded : sim.contacts.bonded) count += bonded > 0.0;
+  for (const double bonded : sim.contacts.bonded.values()) count += bonded > 0.0;
   return count;
 }
 

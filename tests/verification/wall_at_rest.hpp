@@ -64,7 +64,7 @@ inline Rest watch_rest(Simulation& sim, std::uint64_t steps, bool settled) {
   sim.largest_energy = 0.0;
   while (sim.state.steps < first + steps) {
     const std::uint64_t rebuilds = sim.contacts.rebuilds;
-    closed = sim.contacts.now.energy;
+    closed = sim.contacts.now.energy.values();
     const auto failure = sim.step();
     if (failure) {
       ADD_FAILURE() << failure->message;

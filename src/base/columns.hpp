@@ -1,0 +1,120 @@
+// Columns of numbers, one row an element, that lie together in one table, rows in chunks:
+// [chunk][column][16]. A loop over several elements at once (base/vector_loop.hpp) so reads one
+// stretch of memory, and where a column lies follows from where the chunk begins.
+//
+// The columns of a table are a struct of fields, `template <class C> struct Fields { C a, b; };`,
+// which is Fields<ChunkColumn> for all that takes a row by its number, Fields<double*> for a loop
+// over one chunk, and a list of these fields, `template <class C> constexpr Field<C> list[]`, whose
+// entries have the field as `values`.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <iterator>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "base/vector_loop.hpp"
+
+namespace edda {
+
+inline constexpr std::size_t chunk_rows = 16;
+
+/// Memory that begins with a cache line, or every load of eight numbers would touch two of them.
+template <class T>
+struct InWholeLines {
+  using value_type = T;
+  InWholeLines() = default;
+  template <class U>
+  InWholeLines(const InWholeLines<U>&) {}  // NOLINT(google-explicit-constructor): as allocators do
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
+  void deallocate(T* at, std::size_t) { ::operator delete(at, line); }
+  bool operator==(const InWholeLines&) const = default;
+  static constexpr std::align_val_t line{64};
+};
+
+/// One column of a table, [rows].
+class ChunkColumn {
+ public:
+  ChunkColumn() = default;
+  /// first: of row 0; stride: numbers from chunk to chunk.
+  ChunkColumn(double* first, std::size_t stride, std::size_t rows)
+      : first_(first), stride_(stride), rows_(rows) {}
+
+  double operator[](std::size_t row) const { return first_[place(row)]; }
+  double& operator[](std::size_t row) { return first_[place(row)]; }
+  std::size_t size() const { return rows_; }
+
+  void fill(double value) {
+    for (std::size_t row = 0; row < rows_; ++row) (*this)[row] = value;
+  }
+  std::vector<double> values() const {
+    std::vector<double> all(rows_);
+    for (std::size_t row = 0; row < rows_; ++row) all[row] = (*this)[row];
+    return all;
+  }
+  void take(const std::vector<double>& values) {  ///< [rows]
+    assert(values.size() == rows_);
+    for (std::size_t row = 0; row < rows_; ++row) (*this)[row] = values[row];
+  }
+
+ private:
+  std::size_t place(std::size_t row) const { return row / chunk_rows * stride_ + row % chunk_rows; }
+  double* first_ = nullptr;
+  std::size_t stride_ = 0, rows_ = 0;
+};
+
+/// Rows with the columns that `list` names. The last chunk is filled up with rows of zeros.
+template <class Columns, const auto& list>
+class ChunkTable : public Columns {
+ public:
+  ChunkTable() = default;
+  ChunkTable(const ChunkTable& other) : Columns(), cells_(other.cells_), rows_(other.rows_) {
+    bind();
+  }
+  ChunkTable(ChunkTable&& other) noexcept : cells_(std::move(other.cells_)), rows_(other.rows_) {
+    bind();
+  }
+  ChunkTable& operator=(ChunkTable other) noexcept {
+    cells_.swap(other.cells_);
+    rows_ = other.rows_;
+    bind();
+    return *this;
+  }
+  ~ChunkTable() = default;
+
+  std::size_t rows() const { return rows_; }
+  /// All values become 0.
+  void clear_rows(std::size_t rows) {
+    rows_ = rows;
+    cells_.assign((rows + chunk_rows - 1) / chunk_rows * stride, 0.0);
+    bind();
+  }
+  double* begin_of_chunk(std::size_t q) { return cells_.data() + q * stride; }
+  const double* begin_of_chunk(std::size_t q) const { return cells_.data() + q * stride; }
+
+  static constexpr std::size_t stride = std::size(list) * chunk_rows;
+
+ private:
+  void bind() {
+    for (std::size_t i = 0; i < std::size(list); ++i) {
+      this->*list[i].values = ChunkColumn(cells_.data() + i * chunk_rows, stride, rows_);
+    }
+  }
+  std::vector<double, InWholeLines<double>> cells_;
+  std::size_t rows_ = 0;
+};
+
+/// The columns of a chunk, for a loop over its rows 0 to 15.
+template <class Fields, const auto& list, class Number>
+EDDA_INLINE Fields columns_of_chunk(Number* chunk) {
+  Fields fields;
+  [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
+    ((fields.*list[i].values = chunk + i * chunk_rows), ...);
+  }
+  (std::make_index_sequence<std::size(list)>{});
+  return fields;
+}
+
+}  // namespace edda

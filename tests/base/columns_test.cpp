@@ -1,0 +1,84 @@
+#include "base/columns.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+namespace edda {
+namespace {
+
+template <class C>
+struct Pair {
+  C first, second;
+};
+template <class C>
+struct PairField {
+  C Pair<C>::*values;
+};
+template <class C>
+inline constexpr PairField<C> pair_fields[] = {{&Pair<C>::first}, {&Pair<C>::second}};
+using Pairs = ChunkTable<Pair<ChunkColumn>, pair_fields<ChunkColumn>>;
+
+Pairs counted(std::size_t rows) {
+  Pairs pairs;
+  pairs.clear_rows(rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    pairs.first[row] = static_cast<double>(row);
+    pairs.second[row] = 0.5 + static_cast<double>(row);
+  }
+  return pairs;
+}
+
+TEST(ChunkTable, HasEveryRowOfEveryColumnOnce) {
+  const Pairs pairs = counted(37);
+  ASSERT_EQ(pairs.rows(), 37u);
+  for (std::size_t row = 0; row < 37; ++row) {
+    EXPECT_EQ(pairs.first[row], static_cast<double>(row));
+    EXPECT_EQ(pairs.second[row], 0.5 + static_cast<double>(row));
+  }
+}
+
+/// What a loop over a chunk sees: rows 32 to 36, and zeros up to its end.
+TEST(ChunkTable, LaysOutAChunkColumnByColumn) {
+  const Pairs pairs = counted(37);
+  const auto chunk =
+      columns_of_chunk<Pair<const double*>, pair_fields<const double*>>(pairs.begin_of_chunk(2));
+  for (std::size_t k = 0; k < chunk_rows; ++k) {
+    EXPECT_EQ(chunk.first[k], k < 5 ? 32.0 + static_cast<double>(k) : 0.0);
+    EXPECT_EQ(chunk.second[k], k < 5 ? 32.5 + static_cast<double>(k) : 0.0);
+  }
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(chunk.first) % 64, 0u);
+}
+
+/// A copy's columns are its own.
+TEST(ChunkTable, IsCopiedMovedAndSwappedWithItsColumns) {
+  Pairs a = counted(20), b = counted(3);
+  Pairs copy = a;
+  copy.first[19] = -1.0;
+  EXPECT_EQ(a.first[19], 19.0);
+  EXPECT_EQ(copy.first[19], -1.0);
+  std::swap(a, b);
+  EXPECT_EQ(a.rows(), 3u);
+  EXPECT_EQ(b.second[19], 19.5);
+  b.second[19] = 7.0;
+  const Pairs moved = std::move(b);
+  EXPECT_EQ(moved.second[19], 7.0);
+  a = moved;
+  a.second[19] = 8.0;
+  EXPECT_EQ(moved.second[19], 7.0);
+}
+
+TEST(ChunkColumn, IsTakenAndFilledAsAWhole) {
+  Pairs pairs = counted(18);
+  std::vector<double> values = pairs.first.values();
+  ASSERT_EQ(values.size(), 18u);
+  values[17] = 3.0;
+  pairs.second.take(values);
+  EXPECT_EQ(pairs.second.values(), values);
+  pairs.first.fill(2.0);
+  EXPECT_EQ(pairs.first.values(), std::vector<double>(18, 2.0));
+  EXPECT_EQ(pairs.second[17], 3.0);
+}
+
+}  // namespace
+}  // namespace edda
