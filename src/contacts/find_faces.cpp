@@ -105,7 +105,7 @@ bool likely_carries(const FaceSet& old, const BlockSet& b, const Pose& pose, dou
   return o.s2 > 0.0 && o.r1 > o.r2 && o.mb - o.ma > overlaps * shorter && closure > -near * reach;
 }
 
-/// Corners nearer than this part of the shorter edge have one share between them (face.hpp).
+/// Corners pass each other smoothly within this part of the shorter edge (face.hpp).
 constexpr double passing_part = 0.15;
 
 void fill_constants(FaceSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
