@@ -79,7 +79,9 @@ ROWS = (
     Row(11, "Critical step",
         "The bound of the step that the program computes, block by block, for a column of 200 unit squares.",
         "The largest frequency of an endless row of such blocks gives the step L/(c0 sqrt(3 (1 + kappa))), c0 ="
-        " sqrt(E/rho), kappa as in row 10. The bound may not be above it, nor below 0.7 of it."),
+        " sqrt(E/rho), kappa as in row 10. The bound may not be above it, nor below 0.7 of it.",
+        "The bound is that of blocks that touch others all round ([contacts.md](contacts.md)), which those of a column do not: where the"
+        " joints are much stiffer than the blocks, that costs a factor of sqrt 2."),
     Row(12, "Snap-through of a three-hinged beam",
         "Two stiff halves of 2 x 0.15 m between held abutments press on each other and on these by their corners."
         " Gravity is raised slowly until they snap through: to 0.85 of the exact load in the first 5 s, then to 1.1 of"
@@ -270,7 +272,7 @@ ROWS = (
         "The block of row 1, E 200 MPa, slides 42.5 m over 190 boundaries between pieces, flush, or each piece 0.1 mm higher or lower than the last. A block"
         " between two rows of pieces slides at 8 m/s in a fault under 10 MPa.",
         "v^2/2 = a s - g cos(a) h, h the mean rise under the ends of the block. The squeeze stays as it is.",
-        "Where corners pass each other the overlap is shorter by r/4 (docs/contacts.md): in the fault 1.2e-4 m, twice that where both"
+        "Where corners pass each other the overlap is shorter by r/4 ([contacts.md](contacts.md)): in the fault 1.2e-4 m, twice that where both"
         " ends of the block do at once."),
     Row(62, "Cohesion under a bent base",
         "A force along its base is raised to 1.001 of its strength; what slides is held by damping in proportion to mass, at a steady"
