@@ -81,7 +81,7 @@ std::vector<Listed> with_old_faces(const std::vector<EdgePair>& list, const Face
   return all;
 }
 
-/// Corners nearer than this part of the shorter edge have one share between them (face.hpp).
+/// Corners pass each other smoothly within this part of the shorter edge (face.hpp).
 constexpr double passing_part = 0.15;
 
 /// Where faces stand in the list: those that carry, or are about to, before the others, and of both

@@ -13,7 +13,7 @@ namespace edda {
 struct Law {
   double peak_friction, peak_cohesion, peak_tension;
   double residual_friction, residual_cohesion, residual_tension;
-  double kn, ks;  ///< each 0: the contact default applies
+  double kn, ks;  ///< each 0: the default of [contact] applies
   bool glued;
   // Dashpots and springs of its own, where it asks for a restitution (run/restitution.hpp).
   bool dashpots = false;
@@ -27,8 +27,8 @@ struct Law {
   double jrc = 0.0, jcs = 0.0, residual_angle = 0.0;  ///< -, Pa, degrees
 };
 
-/// Whether a joint of this law opens as it slips. How far it has opened is kept in the rest
-/// penetration of its contacts.
+/// Whether a joint of this law opens as it slips. How far it has opened is a closure of its faces
+/// as drawn (FaceSet::offset_a, offset_b).
 inline bool dilates(const Law& law) {
   return law.dilation > 0.0 || law.type == LawType::barton_bandis;
 }
@@ -66,7 +66,7 @@ struct LawTable {
   /// tension, then name.
   std::uint16_t resolve(Index edge, Index facing) const;
 
-  /// Springs of a contact that stands for `length`, 0 for a lone corner, N/m.
+  /// Springs of `length` m of a joint, N/m; 0: of an end of a face without kn or ks.
   double normal_spring(const Law& law, double length) const;
   double shear_spring(const Law& law, double length) const;
   /// Dashpots of its contacts, where all others have `damping`.

@@ -1,4 +1,4 @@
-// Vertices on straight sides of a block go: they would double the contacts there (method.md section
+// Vertices on straight sides of a block go: they would part a face in two there (method.md section
 // 7).
 #pragma once
 

@@ -53,15 +53,15 @@ constexpr std::array joint_keys{
     Key{"jrc", at<&JointLaw::jrc>, number(D::plain, from_to(0, 20)), otherwise("required of barton-bandis"), "Joint roughness coefficient, of walls as long as the blocks' edges."},
     Key{"jcs", at<&JointLaw::jcs>, number(D::stress, above(0)), otherwise("required of barton-bandis"), "Compressive strength of the joint's walls."},
     Key{"residual_angle", at<&JointLaw::residual_angle>, number(D::angle, friction), otherwise("required of barton-bandis"), "Residual friction angle of barton-bandis."},
-    Key{"kn", at<&JointLaw::kn>, number(D::joint_stiffness, above(0)), otherwise("contact.normal_stiffness, as a spring per contact"), "Normal stiffness of the joint; the spring is kn times the length the contact stands for."},
+    Key{"kn", at<&JointLaw::kn>, number(D::joint_stiffness, above(0)), otherwise("contact.normal_stiffness, as a spring at each end of a face"), "Normal stiffness of the joint: its pressure is kn times its closure."},
     Key{"ks", at<&JointLaw::ks>, number(D::joint_stiffness, above(0)), otherwise("0.4 kn"), "Shear stiffness of the joint."},
     Key{"restitution", at<&JointLaw::restitution>, number_or("housner", D::plain, from_to(0, 1)), otherwise("what the damping of blocks and contacts leaves"), "Method edda: the part of its velocity with which a block leaves after a flat impact, or \"housner\": a block that rocks loses what Housner's assumption takes at each impact. Dashpots in these contacts do it, and unless kn is given their springs are soft: a thirtieth of the smallest young (below 0.1 a hundredth, housner a fifteenth)."},
 };
 
 constexpr std::array contact_keys{
     Key{"model", at<&ContactDefaults::model>, choice, initial, "Contacts are faces: an edge of one block against an opposed edge of another; or points: a vertex on an edge, as the paper prints it and no more, to compare with."},
-    Key{"normal_stiffness", at<&ContactDefaults::normal_stiffness>, number(D::stiffness, above(0)), otherwise("10 x the largest young"), "Normal spring per contact where the joint has no kn."},
-    Key{"shear_stiffness", at<&ContactDefaults::shear_stiffness>, number(D::stiffness, above(0)), otherwise("normal_stiffness"), "Shear spring per contact where the joint has no ks."},
+    Key{"normal_stiffness", at<&ContactDefaults::normal_stiffness>, number(D::stiffness, above(0)), otherwise("10 x the largest young"), "Normal spring at each end of a face where the joint has no kn."},
+    Key{"shear_stiffness", at<&ContactDefaults::shear_stiffness>, number(D::stiffness, above(0)), otherwise("normal_stiffness"), "Shear spring at each end of a face where the joint has no ks."},
     Key{"joint", at<&ContactDefaults::joint>, joint, otherwise(if_one), "Law of contacts whose edges name none."},
 };
 

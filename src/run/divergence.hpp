@@ -1,4 +1,4 @@
-// When a run must stop: shape lost, numbers lost, or a vertex deep inside a neighbour.
+// When a run must stop: shape lost, numbers lost, or blocks deep in each other.
 #pragma once
 
 #include <optional>
@@ -32,15 +32,15 @@ struct StepInUse {
 Failure lost_block(const BlockSet& blocks, const State& state, const Pose& pose,
                    const NodalForces& forces, const StepInUse& step);
 
-/// A vertex deeper inside a neighbour than half its size (the least of both blocks' half-widths),
-/// if there is one: closed contacts, and those blocked for their depth whose vertex truly lies
-/// inside. `largest`: largest effective penetration at present, m; blocks are looked at only where
-/// it, or a blocked contact, gives cause.
+/// A face that carries and at one of its ends is closed by more than the half-width of either of
+/// its blocks (BlockSet::inradius), if there is one.
+/// `largest`: largest closure at present, m; faces are looked at only where it is above
+/// `smallest_half_width`.
 std::optional<Failure> deep_overlap(const FaceSet& contacts, const BlockSet& blocks,
                                     const State& state, const Pose& pose, double largest,
                                     double smallest_half_width, const StepInUse& step);
 
-/// The same of contacts at points.
+/// The same of vertices on edges.
 std::optional<Failure> deep_overlap(const PointSet& contacts, const BlockSet& blocks,
                                     const State& state, const Pose& pose, double largest,
                                     double smallest_half_width, const StepInUse& step);

@@ -1,4 +1,5 @@
-// Slides over hundreds of seams: flush, with steps, and in a fault that is squeezed.
+// Slides over hundreds of boundaries between pieces: flush, with steps, and in a fault that is
+// squeezed.
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
 
@@ -68,7 +69,7 @@ double exact_way(Steps steps) {
   }
 }
 
-TEST(LongSlide, OverAHundredAndNinetySeams) {
+TEST(LongSlide, OverAHundredAndNinetyBoundaries) {
   EXPECT_EQ(tops(Steps::none).size(), 190u + 1u);
   expect_relative({61, "flush", "distance slid", "m"}, slid_over(Steps::none),
                   exact_way(Steps::none), 1e-5);
@@ -88,8 +89,8 @@ TEST(LongSlide, OverSteps) {
 /// A block between two rows of 32 pieces each slides at 8 m/s in a fault of 10 MPa, which goes on
 /// pressing on it from above and from below; friction brakes it by that. Where two corners pass
 /// each other the overlap is shorter by r/4, r = (da^2 + db^2)^(1/2)/3: 1.2e-4 m here, twice that
-/// where both ends of the block pass seams at once. Friction is there once the block has slipped,
-/// half a step late.
+/// where both ends of the block pass boundaries at once. Friction is there once the block has
+/// slipped, half a step late.
 TEST(LongSlide, APreloadedFaultKeepsItsSqueeze) {
   constexpr double young = 20e9, speed = 8.0, time = 0.25, density = 2500.0, height = 0.5;
   for (const double length : {1.1, 1.0}) {

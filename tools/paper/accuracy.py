@@ -8,8 +8,8 @@ from paper import models, results
 
 TARGET = 0.01      # of the displacement, root mean square over monitors and rows
 ROWS = 100
-FINE = 0.2         # safety of the fine run with the paper's lumping
-PAPERS = {"mass": "covering", "switching": "plain"}  # with faces: its lumping alone
+FINE = 0.2         # safety of the fine run with the covering triangle
+COVERING = {"mass": "covering", "switching": "plain"}  # of the paper, but with faces
 
 
 @dataclasses.dataclass
@@ -20,7 +20,7 @@ class Accuracy:
     blocks: int
     explicit_step: float
     errors: dict        # of the explicit variants at their own largest step
-    fine_error: float   # of the paper's lumping at a fifth of its critical step
+    fine_error: float   # with the covering triangle, at a fifth of its critical step
     tries: list         # implicit: (mean step, error)
     step: float         # implicit: for TARGET; None where no try brackets it
 
@@ -48,7 +48,7 @@ def step_for(target, tries):
 def _variants(settings):
     """Explicit runs: name and solver keys."""
     return {"reference": {"safety": settings.reference_safety}, "matched": {}, "consistent": {"mass": "consistent"},
-            "covering": PAPERS, "fine": {**PAPERS, "safety": FINE}}
+            "covering": COVERING, "fine": {**COVERING, "safety": FINE}}
 
 
 def measure(program, settings):

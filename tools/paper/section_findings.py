@@ -53,7 +53,8 @@ def _equations(report):
         " the edge turns. Shear T then acts along two parallel lines, one through P1 and one through P0, which are as far"
         f" apart as the blocks overlap, and the pair makes a couple: {digits(couple)} m times T at a penetration of"
         f" {digits(DEPTH)} m. Angular momentum is lost or gained with every contact that carries shear. The gradient of"
-        " p s²/2 with s = (P1 - P2).t - xi0 l has no such couple; this program uses it ([method.md](method.md), section 4).",
+        " p s²/2 with s = (P1 - P2).t - xi0 l has no such couple. Nor have this program's faces, whose forces are the gradient of"
+        " their energy ([contacts.md](contacts.md)).",
         "**Eq. 37** lets friction take its full size and the sign of the last movement. A block that should stick then"
         f" never does: on 30° with 35° of friction and a step of 1e-4 s it trembles with up to {digits(jitter)} m/s, g h"
         " (sin a + tan phi cos a) at most. Sticking needs the shear spring of Eq. 33, and friction as its limit.",
@@ -137,8 +138,9 @@ def _critical_step(report, program):
         f"that meet, and {digits(two)} times where edge lies on edge and both corners swing together.",
         f"Tried with two squares glued to a base (k = {digits(SPRING)} N/m, m = {MASS:g} kg): 2 sqrt(m/2k) is {digits(TEXTBOOK)} s",
         f"and {'diverges' if lost else 'does not diverge'}; the largest step that stays stable for 5 s is {digits(low, 3)} s,",
-        f"{digits(TEXTBOOK / low)} times smaller. The bound that this program works out, block by block with the springs of",
-        f"the other side counted twice, is {digits(bound, 3)} s, {digits(bound / low)} of what is stable.")
+        f"{digits(TEXTBOOK / low)} times smaller. The bound that this program works out holds for blocks that touch others all",
+        "round ([contacts.md](contacts.md)), which these do above and below alone:",
+        f"{digits(bound, 3)} s, {digits(bound / low)} of what is stable.")
 
 
 def _start(report):

@@ -33,13 +33,13 @@ ROWS = (
         "s = v0 t + g t^2 (sin a - tan phi cos a)/2. The first term is taken off on both sides."),
     Row(3, "Stick or slip within a tenth of a degree",
         "The ramp of row 2, with 0.1 degrees less friction than slope, and with 0.1 degrees more.",
-        "With less it slides as in row 2. With more it holds. The uphill corner has slipped to its limit, the shear"
-        " spring of the downhill one has what is left, (W sin a - N_up tan phi)/k_t, where N_up = W cos a/2 - W sin a/4"
-        " is what statics leaves on the uphill corner of a 2 x 1 m block."),
+        "With less it slides as in row 2. With more it holds. The uphill end of the face has slipped to its limit, the shear"
+        " spring of the downhill end has what is left, (W sin a - N_up tan phi)/p_t, where N_up = W cos a/2 - W sin a/4"
+        " is what statics leaves on the uphill end under a 2 x 1 m block."),
     Row(4, "Critical cohesion",
         "The block of row 1 on 30 degrees, with 15 degrees of friction, held by cohesion on its 2 m of joint; loaded"
-        " without overshoot by strong damping. Contact springs by themselves, or by the length of the joint. Below the"
-        " critical cohesion the damping is taken away when the bond breaks.",
+        " without overshoot by strong damping. Stiffness of the joint left to the program (\"springs per contact\"), or given"
+        " per length (kn and ks). Below the critical cohesion the damping is taken away when the bond breaks.",
         "Statics: c L = W sin a - W cos a tan phi. Once broken, cohesion is gone and the block slides as in row 1."),
     Row(5, "Rocking",
         "A block of 1 x 3 m is let go on its corner at half its critical tilt. Time until it stands flat, for the three"
@@ -79,7 +79,9 @@ ROWS = (
     Row(11, "Critical step",
         "The bound of the step that the program computes, block by block, for a column of 200 unit squares.",
         "The largest frequency of an endless row of such blocks gives the step L/(c0 sqrt(3 (1 + kappa))), c0 ="
-        " sqrt(E/rho), kappa as in row 10. The bound may not be above it, nor below 0.7 of it."),
+        " sqrt(E/rho), kappa as in row 10. The bound may not be above it, nor below 0.7 of it.",
+        "The bound is that of blocks that touch others all round ([contacts.md](contacts.md)), which those of a column do not: where the"
+        " joints are much stiffer than the blocks, that costs a factor of sqrt 2."),
     Row(12, "Snap-through of a three-hinged beam",
         "Two stiff halves of 2 x 0.15 m between held abutments press on each other and on these by their corners."
         " Gravity is raised slowly until they snap through: to 0.85 of the exact load in the first 5 s, then to 1.1 of"
@@ -112,15 +114,16 @@ ROWS = (
         "The two paths are mirror images. The contact force does not jump: in a step h it changes by no more than"
         " p_n v h, and half as much again where corners pass."),
     Row(17, "The ramp in ten pieces",
-        "The ramp of row 1 with the ramp itself cut into ten held blocks, so that the slider passes seams.",
-        "It slides as on one piece. No seam may kick: the sum of normal forces stays under 2.1 W cos a, which a block that"
+        "The ramp of row 1 with the ramp itself cut into ten held blocks, so that the slider passes the boundaries between"
+        " them.",
+        "It slides as on one piece. No boundary between pieces may kick: the sum of normal forces stays under 2.1 W cos a, which a block that"
         " meets gravity unstressed nearly reaches by itself.",
-        "Without damping of the rock the stiff vibrations of so many contacts may feed on the slide"
+        "Without damping of the rock the stiff vibrations of so many faces may feed on the slide"
         " ([method-notes.md](method-notes.md)); with it contact damping of 0.02 makes no difference."),
     Row(18, "A wall at rest",
         "Eight rows of eight bricks, 1 x 0.5 m, undamped; met by gravity at once (\"as drawn\"), or settled first.",
         "Energy does not change: as drawn, kinetic energy after the first second is no larger than in it. Settled, it is at"
-        " the level of rounding, and no contact that carries more than 1e-9 of a brick's weight opens or closes.",
+        " the level of rounding, and no face that carries more than 1e-9 of a brick's weight opens or closes.",
         "Tests watch 40,000 steps, `tools/rest-study wall` a million."),
     Row(19, "Momentum and indifference",
         "Twenty polygons of three to six corners, thrown at each other without gravity; and the same turned by 0.7 rad,"
@@ -171,9 +174,7 @@ ROWS = (
         " opening, undamped: oblique joint sets, traces that end in the rock, Voronoi polygons, layers, water, boundaries of"
         " every type, both methods, every mass matrix.",
         "Nothing happens. Each block's forces balance where the gradient of the stress is density times gravity; the"
-        " reactions, with water, equal the weight.",
-        "A shear spring acts at its anchor, which the initial shear has moved away from the corner: hence the looser bounds"
-        " where joints are soft."),
+        " reactions, with water, equal the weight."),
     Row(38, "A circular opening",
         "A hole of 1 m radius, cut at once from Voronoi polygons that are glued by joints twice as stiff as the blocks, under"
         " 10 MPa across and 20 MPa upright; held 16 m away. Beyond 4 m rings of larger blocks whose joints give as much.",
@@ -267,11 +268,11 @@ ROWS = (
         " of 0.1 MPa that rises slowly; with a joint stiffness of 20 GPa/m, and with none.",
         "Every joint closes by the same, so that every block has that pressure.",
         "What is left goes with the closure over the length of the joints."),
-    Row(61, "Slides over many seams",
-        "The block of row 1, E 200 MPa, slides 42.5 m over 190 seams, flush, or each piece 0.1 mm higher or lower than the last. A block"
+    Row(61, "Slides over many pieces",
+        "The block of row 1, E 200 MPa, slides 42.5 m over 190 boundaries between pieces, flush, or each piece 0.1 mm higher or lower than the last. A block"
         " between two rows of pieces slides at 8 m/s in a fault under 10 MPa.",
         "v^2/2 = a s - g cos(a) h, h the mean rise under the ends of the block. The squeeze stays as it is.",
-        "Where corners pass each other the overlap is shorter by r/4 (docs/contacts.md): in the fault 1.2e-4 m, twice that where both"
+        "Where corners pass each other the overlap is shorter by r/4 ([contacts.md](contacts.md)): in the fault 1.2e-4 m, twice that where both"
         " ends of the block do at once."),
     Row(62, "Cohesion under a bent base",
         "A force along its base is raised to 1.001 of its strength; what slides is held by damping in proportion to mass, at a steady"
