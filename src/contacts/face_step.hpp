@@ -89,9 +89,11 @@ EDDA_INLINE bool asks(const FaceView& c, bool on, FaceEnds drawn, bool stores, s
   const bool first = stores & (c.before.energy[k] == 0.0);
   return born | frees | first;
 }
-EDDA_INLINE bool asks(const FaceView& c, const Face& face, std::size_t k) {
-  return asks(c, face.gate > 0.0, {face.closure.a - c.offset_a[k], face.closure.b - c.offset_b[k]},
-              face.energy > 0.0, k);
+/// Of a face that stands in c.now.
+EDDA_INLINE bool asks(const FaceView& c, std::size_t k) {
+  const FaceFields<double*>& m = c.now;
+  return asks(c, m.gate[k] > 0.0, {m.closure_a[k] - c.offset_a[k], m.closure_b[k] - c.offset_b[k]},
+              m.energy[k] > 0.0, k);
 }
 
 /// Which ends are closed: 0 to 3.
@@ -261,7 +263,8 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   placed.force = on_corners(on, at, face);
   const bool is_rare = (c.bonded[k] > 0.0) | !is_plain(stands, pair);
   placed.rare = is_rare ? 1.0 : 0.0;
-  placed.asks = asks(c, face, k) ? 1.0 : 0.0;
+  const FaceEnds drawn{da - c.offset_a[k], db - c.offset_b[k]};
+  placed.asks = asks(c, face.gate > 0.0, drawn, face.energy > 0.0, k) ? 1.0 : 0.0;
   placed.stirs = stirs ? 1.0 : 0.0;
   const bool works = touches | (old.energy[k] > 0.0) | (old.spring[k] > 0.0);
   placed.works = works ? 1.0 : 0.0;

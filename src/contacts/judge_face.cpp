@@ -1,6 +1,7 @@
 #include "contacts/judge_face.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "contacts/face_preload.hpp"
 #include "contacts/inside.hpp"
@@ -52,7 +53,11 @@ bool corner_leans(const FaceSet& c, const BlockSet& b, const Pose& pose, const F
 
 }  // namespace
 
-void judge_face(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
+bool judge_face(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
+  const auto verdict = [&] {
+    return std::array{c.acts[k], c.leans[k], c.offset_a[k], c.offset_b[k]};
+  };
+  const auto before = verdict();
   const FacePoints at = face_points(c, pose.x, pose.y, k);
   const Face face = face_at(c, b, pose.x, pose.y, k);
   const double closure = std::max(face.closure.a - c.offset_a[k], face.closure.b - c.offset_b[k]);
@@ -71,6 +76,7 @@ void judge_face(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) 
                         lies_in(b, pose, p.on_edge, b.vertex_block[c.facing[k]]);
     c.acts[k] = inside ? 1.0 : 0.0;
   }
+  return verdict() != before;
 }
 
 }  // namespace edda

@@ -203,11 +203,11 @@ FoundInChunk place_and_judge(FaceSet& c, const AllFaces& all, const BlockSet& b,
   FoundInChunk found = place_part(c, all, first, last);
   if (found.asks) {
     const FaceView view = view_of(all, chunk_place(c, first / FaceSet::chunk));
+    bool changes = false;
     for (std::size_t k = first; k < last; ++k) {
-      const Face face = face_at(c, b, pose.x, pose.y, k);
-      if (asks(view, face, k % FaceSet::chunk)) judge_face(c, b, pose, k);
+      if (asks(view, k % FaceSet::chunk) && judge_face(c, b, pose, k)) changes = true;
     }
-    found = place_part(c, all, first, last);
+    if (changes) found = place_part(c, all, first, last);
   }
   const bool bonds = laws != nullptr && c.bonds[first / FaceSet::chunk] != 0;
   if (bonds && break_bonds(c, b, pose, *laws, first, last)) {
