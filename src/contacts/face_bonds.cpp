@@ -134,7 +134,9 @@ void unglue_faces(FaceSet& c, const BlockSet& b, const Pose& pose) {
     c.pulls[k] = had >= 2.0 ? 1.0 : 0.0;
     c.bonded[k] = had == 1.0 || had == 3.0 ? 1.0 : 0.0;
     c.lent[k] = 0.0;
-    c.fracture_work[k] += std::max(stored - normal_energy(c, b, pose, k), 0.0);
+    const double lost = stored - normal_energy(c, b, pose, k);
+    c.fracture_work[k] += std::max(lost, 0.0);
+    c.transfer[k] += std::min(lost, 0.0);
     c.breaks[k] = 1.0;
   }
   note_bonds(c);

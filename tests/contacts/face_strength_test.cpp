@@ -74,6 +74,20 @@ TEST(FaceBond, BooksWhatItStoredAsItTears) {
   EXPECT_NEAR(m.books() + m.work, 0.0, 0.02 * stored);
 }
 
+/// From pressure to tension and back within a step: k d_0 d_1/2, below nothing.
+TEST(FaceBond, StoresLikeASpringWhereItGoesOverToTension) {
+  MovedBlocks m = bonded_square();
+  const double d = 1e-5;
+  m.go(1, {{0.0, -d}});
+  const double start = m.books() + m.work, whole = normal_k * d * d;
+  for (const double y : {-0.5, 0.5, 1.5, -0.5, -1.5, 0.0, 1.0, 0.0, -1.0}) {
+    const double before = -m.faces.now.closure_a[bonded_face(m)];
+    m.go(1, {{0.0, y * d}});
+    EXPECT_NEAR(m.stored(), 0.5 * normal_k * y * d * before, 1e-6 * whole) << y;
+    EXPECT_NEAR(m.books() + m.work, start, 1e-6 * whole) << y;
+  }
+}
+
 TEST(FaceBond, ShearsAtItsCohesionAndFriction) {
   MovedBlocks m = bonded_square();
   const std::size_t k = bonded_face(m);

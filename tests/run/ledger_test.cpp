@@ -79,6 +79,16 @@ TEST(Ledger, ClosesWhileEndsOpenAndClose) {
   }
 }
 
+/// Two halves that pull and push each other through a bonded joint.
+TEST(Ledger, ClosesWhileABondGoesToAndFro) {
+  std::string text = "gravity = [0, 0]\n" + rock +
+                     "[[block]]\nvelocity = [0, -0.01]\npolygon = [[0,0],[1,0],[1,1],[0,1]]\n"
+                     "[[block]]\nvelocity = [0, 0.01]\npolygon = [[0,1],[1,1],[1,2],[0,2]]\n";
+  text.replace(text.find("friction_angle = 20"), 19, "type = 'glued'\nkn = 1e10");
+  Simulation sim = testing::prepared(text).sim;
+  EXPECT_LT(drift_of(sim, 0.02), 1e-6);
+}
+
 /// A block falls into a bolt, which yields and breaks.
 TEST(Ledger, HasWhatBoltsStoreAndTake) {
   Simulation sim =
