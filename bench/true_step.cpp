@@ -40,14 +40,30 @@ Field accelerations_of(Simulation& s) {
   return a;
 }
 
-/// Springs that neither open nor slide.
+/// Part of the most that any face stores below which one is open: corners that touch by a rounding.
+constexpr double nothing = 1e-12;
+
+/// Springs that neither open nor slide. An end that is open stays so, or it would pull by all that
+/// it is apart; among those that `may` carry it is brought to where it just touches.
 void hold_contacts(FaceSet& c, Carrying which) {
   constexpr double enough = 1e300;  // N
+  const double most =
+      c.size() == 0 ? 0.0 : *std::max_element(c.now.energy.begin(), c.now.energy.end());
   for (std::size_t k = 0; k < c.size(); ++k) {
-    const bool closed = is_closed(c, k);
+    const bool carries = is_closed(c, k) && (c.pulls[k] > 0.0 || c.now.energy[k] > nothing * most);
     const bool aside = c.acts[k] == 0.0 || c.now.gate[k] == 0.0;
-    if (!closed && (which == Carrying::now || aside)) continue;
-    c.pulls[k] = c.bonded[k] = c.glued[k] = 1.0;
+    if (!carries && (which == Carrying::now || aside)) {
+      c.stiffness[k] = c.shear_stiffness[k] = 0.0;
+      continue;
+    }
+    if (which == Carrying::may && c.pulls[k] == 0.0) {
+      c.offset_a[k] += std::max(-c.now.closure_a[k], 0.0);
+      c.offset_b[k] += std::max(-c.now.closure_b[k], 0.0);
+    }
+    const bool whole =
+        which == Carrying::may || std::min(c.now.closure_a[k], c.now.closure_b[k]) > 0.0;
+    if (whole) c.pulls[k] = 1.0;
+    c.bonded[k] = c.glued[k] = 1.0;
     c.tension[k] = enough;
   }
   note_bonds(c);
