@@ -43,8 +43,18 @@ Field accelerations_of(Simulation& s) {
 /// Part of the most that any face stores below which one is open: corners that touch by a rounding.
 constexpr double nothing = 1e-12;
 
+/// Brings a face that is open to where it just touches: all along where its edges lie along each
+/// other, else with the corner that would come first.
+void let_touch(FaceSet& c, std::size_t k) {
+  constexpr double just = 1e-6;  // m, more than what the iteration moves anything by
+  const double da = c.now.closure_a[k], db = c.now.closure_b[k];
+  const bool along = c.now.cohesive[k] > 0.0;
+  c.offset_a[k] += std::max(just - (along ? da : std::max(da, db)), 0.0);
+  c.offset_b[k] += std::max(just - (along ? db : std::max(da, db)), 0.0);
+}
+
 /// Springs that neither open nor slide. An end that is open stays so, or it would pull by all that
-/// it is apart; among those that `may` carry it is brought to where it just touches.
+/// it is apart.
 void hold_contacts(FaceSet& c, Carrying which) {
   constexpr double enough = 1e300;  // N
   const double most =
@@ -56,13 +66,11 @@ void hold_contacts(FaceSet& c, Carrying which) {
       c.stiffness[k] = c.shear_stiffness[k] = 0.0;
       continue;
     }
-    if (which == Carrying::may && c.pulls[k] == 0.0) {
-      c.offset_a[k] += std::max(-c.now.closure_a[k], 0.0);
-      c.offset_b[k] += std::max(-c.now.closure_b[k], 0.0);
-    }
-    const bool whole =
-        which == Carrying::may || std::min(c.now.closure_a[k], c.now.closure_b[k]) > 0.0;
-    if (whole) c.pulls[k] = 1.0;
+    const double before_a = c.offset_a[k], before_b = c.offset_b[k];
+    if (which == Carrying::may && c.pulls[k] == 0.0) let_touch(c, k);
+    const double da = c.now.closure_a[k] + c.offset_a[k] - before_a;
+    const double db = c.now.closure_b[k] + c.offset_b[k] - before_b;
+    if (std::min(da, db) > 0.0) c.pulls[k] = 1.0;
     c.bonded[k] = c.glued[k] = 1.0;
     c.tension[k] = enough;
   }
