@@ -40,14 +40,38 @@ Field accelerations_of(Simulation& s) {
   return a;
 }
 
-/// Springs that neither open nor slide.
+/// Part of the most that any face stores below which one is open: corners that touch by a rounding.
+constexpr double nothing = 1e-12;
+
+/// Brings a face that is open to where it just touches: all along where its edges lie along each
+/// other, else with the corner that would come first.
+void let_touch(FaceSet& c, std::size_t k) {
+  constexpr double just = 1e-6;  // m, more than what the iteration moves anything by
+  const double da = c.now.closure_a[k], db = c.now.closure_b[k];
+  const bool along = c.now.cohesive[k] > 0.0;
+  c.offset_a[k] += std::max(just - (along ? da : std::max(da, db)), 0.0);
+  c.offset_b[k] += std::max(just - (along ? db : std::max(da, db)), 0.0);
+}
+
+/// Springs that neither open nor slide. An end that is open stays so, or it would pull by all that
+/// it is apart.
 void hold_contacts(FaceSet& c, Carrying which) {
   constexpr double enough = 1e300;  // N
+  double most = 0.0;
+  for (std::size_t k = 0; k < c.size(); ++k) most = std::max(most, c.now.energy[k]);
   for (std::size_t k = 0; k < c.size(); ++k) {
-    const bool closed = is_closed(c, k);
+    const bool carries = is_closed(c, k) && (c.pulls[k] > 0.0 || c.now.energy[k] > nothing * most);
     const bool aside = c.acts[k] == 0.0 || c.now.gate[k] == 0.0;
-    if (!closed && (which == Carrying::now || aside)) continue;
-    c.pulls[k] = c.bonded[k] = c.glued[k] = 1.0;
+    if (!carries && (which == Carrying::now || aside)) {
+      c.stiffness[k] = c.shear_stiffness[k] = 0.0;
+      continue;
+    }
+    const double before_a = c.offset_a[k], before_b = c.offset_b[k];
+    if (which == Carrying::may && c.pulls[k] == 0.0) let_touch(c, k);
+    const double da = c.now.closure_a[k] + c.offset_a[k] - before_a;
+    const double db = c.now.closure_b[k] + c.offset_b[k] - before_b;
+    if (std::min(da, db) > 0.0) c.pulls[k] = 1.0;
+    c.bonded[k] = c.glued[k] = 1.0;
     c.tension[k] = enough;
   }
   note_bonds(c);

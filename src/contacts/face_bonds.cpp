@@ -107,6 +107,11 @@ void break_bond(FaceSet& c, const LawTable& laws, std::size_t k) {
   c.opened[k] = 1.0;
 }
 
+void take_lost_energy(FaceSet& c, double lost, std::size_t k) {
+  c.fracture_work[k] += std::max(lost, 0.0);
+  c.transfer[k] += std::min(lost, 0.0);
+}
+
 void glue_faces(FaceSet& c) {
   c.gluing = true;
   for (std::size_t k = 0; k < c.size(); ++k) {
@@ -134,7 +139,7 @@ void unglue_faces(FaceSet& c, const BlockSet& b, const Pose& pose) {
     c.pulls[k] = had >= 2.0 ? 1.0 : 0.0;
     c.bonded[k] = had == 1.0 || had == 3.0 ? 1.0 : 0.0;
     c.lent[k] = 0.0;
-    c.fracture_work[k] += std::max(stored - normal_energy(c, b, pose, k), 0.0);
+    take_lost_energy(c, stored - normal_energy(c, b, pose, k), k);
     c.tear(k, 1.0);
   }
   note_bonds(c);

@@ -29,6 +29,9 @@ bool gives_way(const FaceSet& faces, const BlockSet& blocks, std::size_t k);
 /// Face k breaks: it has its residual strength from now on, or none where that is spent, too.
 void break_bond(FaceSet& faces, const LawTable& laws, std::size_t k);
 
+/// What face k stored goes with its bond (J): to fracture. What it stores more is no physics.
+void take_lost_energy(FaceSet& faces, double lost, std::size_t k);
+
 /// Joints that touch neither open nor slide from now on; and do again, with what they had before:
 /// what is in tension then lets go, which is booked as fracture energy.
 void glue_faces(FaceSet& faces);

@@ -25,16 +25,18 @@ double work_of(const CornerForces& force, const FacePoints& to, const FacePoints
 }
 
 double stored_between(const Face& face0, const FacePoints& at0, const Face& face1,
-                      const FacePoints& at1) {
-  if (face0.energy == 0.0 || face1.energy == 0.0) return 0.0;
+                      const FacePoints& at1, bool pulls) {
+  const bool open = face0.energy == 0.0 || face1.energy == 0.0;
+  if (open && !pulls) return 0.0;
   const double both = 0.5 * (face0.energy + face1.energy) -
                       0.25 * (work_of(face0.force, at1, at0) - work_of(face1.force, at1, at0));
-  return std::max(both, 0.0);
+  return pulls ? both : std::max(both, 0.0);
 }
 
 double normal_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   return stored_between(face_at(c, b, pose.x1, pose.y1, k), face_points(c, pose.x1, pose.y1, k),
-                        face_at(c, b, pose.x, pose.y, k), face_points(c, pose.x, pose.y, k));
+                        face_at(c, b, pose.x, pose.y, k), face_points(c, pose.x, pose.y, k),
+                        c.pulls[k] > 0.0);
 }
 
 double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {

@@ -92,7 +92,8 @@ inline Vec2 force_on_facing(const FaceSet& f, std::size_t k) {
   return on.q1 + on.q2;
 }
 
-/// Ends of the overlap, on the edge.
+/// Ends of the overlap, on the edge: b - a along the frame is its length. Where edges have passed
+/// each other there is none, and both ends are halfway between the corners.
 struct FaceSpan {
   Vec2 a, b;
 };
@@ -100,7 +101,10 @@ inline FaceSpan span_of(const FaceSet& f, const Pose& pose, std::size_t k) {
   const Vec2 p1{pose.x[f.edge[k]], pose.y[f.edge[k]]},
       p2{pose.x[f.edge_end[k]], pose.y[f.edge_end[k]]};
   const auto at = [&](double xi) { return (1.0 - xi) * p1 + xi * p2; };
-  return {at(f.now.xi_a[k]), at(f.now.xi_b[k])};
+  const double xi_a = f.now.xi_a[k], xi_b = f.now.xi_b[k];
+  if (f.now.length[k] > 0.0) return {at(xi_a), at(xi_b)};
+  const Vec2 middle = at(0.5 * (xi_a + xi_b));
+  return {middle, middle};
 }
 /// The corner that bounds the overlap at the deeper end: of the edge, or of the one that faces it.
 inline Vec2 deeper_end(const FaceSet& f, const Pose& pose, std::size_t k) {

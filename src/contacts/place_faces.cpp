@@ -157,7 +157,7 @@ bool break_bonds(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable
     if ((c.bonded[k] == 0.0 && c.pulls[k] == 0.0) || !gives_way(c, b, k)) continue;
     const double stored = normal_energy(c, b, pose, k);
     break_bond(c, laws, k);
-    c.fracture_work[k] += std::max(stored - normal_energy(c, b, pose, k), 0.0);
+    take_lost_energy(c, stored - normal_energy(c, b, pose, k), k);
     any = true;
   }
   return any;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+
+#include "report/shapes.hpp"
 
 namespace edda {
 namespace {
@@ -36,9 +39,29 @@ Vec2 upper_side(Vec2 along) {
   return dot(across, up) < 0.0 ? -across : across;
 }
 
+/// Of a block, m, over where it is now.
+struct Displacement {
+  Vec2 from;
+  AffineField field;  ///< of what lies so far from there
+};
+Displacement displacement_of(const Grid& blocks, const BlockShape& shape) {
+  const Field* u = blocks.point_field("displacement");
+  if (u == nullptr) return {};
+  const auto of_point = [](const std::vector<double>& values, std::int64_t point) {
+    const auto at = 3 * static_cast<std::size_t>(point);
+    return Vec2{values[at], values[at + 1]};
+  };
+  const auto point = [&](std::size_t k) { return shape.outline[k].first; };
+  const Vec2 from = of_point(blocks.points, point(0));
+  return {from, affine_field(
+                    shape.outline.size(),
+                    [&](std::size_t k) { return of_point(blocks.points, point(k)) - from; },
+                    [&](std::size_t k) { return of_point(u->values, point(k)); })};
+}
+
 }  // namespace
 
-std::vector<DrawnFace> drawn_faces(const Grid& contacts, double scale) {
+std::vector<DrawnFace> drawn_faces(const Grid& contacts) {
   constexpr std::array names{
       "x_a",    "y_a",           "x_b",  "y_b", "normal_stress_a", "normal_stress_b",
       "length", "closed_length", "state"};
@@ -48,20 +71,33 @@ std::vector<DrawnFace> drawn_faces(const Grid& contacts, double scale) {
     if (field == nullptr) return {};
     columns[k] = field->values.data();
   }
-  const Field* moved = contacts.cell_field("displacement");
   std::vector<DrawnFace> faces(contacts.cell_count());
   for (std::size_t c = 0; c < faces.size(); ++c) {
     const auto value = [&](std::size_t k) { return columns[k][c]; };
-    const double* const u = moved == nullptr ? nullptr : moved->values.data() + 3 * c;
-    const Vec2 further = u == nullptr ? Vec2{} : (scale - 1.0) * Vec2{u[0], u[1]};
     DrawnFace& face = faces[c];
-    face.a = Vec2{value(0), value(1)} + further;
-    face.b = Vec2{value(2), value(3)} + further;
+    face.a = {value(0), value(1)};
+    face.b = {value(2), value(3)};
     // No -0, which would be printed.
     face.pressure_a = 0.0 - value(4);
     face.pressure_b = 0.0 - value(5);
     face.closed = value(6) > 0.0 ? value(7) / value(6) : 0.0;
     face.open = value(8) == 0.0;
+  }
+  return faces;
+}
+
+std::vector<DrawnFace> drawn_faces(const Grid& contacts, const Grid& blocks, double scale) {
+  std::vector<DrawnFace> faces = drawn_faces(contacts);
+  const Field *j = contacts.cell_field("block_j"), *id = blocks.cell_field("id");
+  if (scale == 1.0 || j == nullptr || id == nullptr) return faces;
+  std::map<double, Displacement> of_block;
+  for (const BlockShape& shape : block_shapes(blocks))
+    of_block.emplace(id->values[shape.first_cell], displacement_of(blocks, shape));
+  for (std::size_t c = 0; c < faces.size(); ++c) {
+    const auto found = of_block.find(j->values[c]);
+    if (found == of_block.end()) continue;
+    const auto& [from, field] = found->second;
+    for (Vec2* end : {&faces[c].a, &faces[c].b}) *end += (scale - 1.0) * field.at(*end - from);
   }
   return faces;
 }

@@ -17,9 +17,11 @@ struct DrawnFace {
   bool open = false;
 };
 
-/// A face per cell of the contacts, displacements drawn `scale` times as large; none where the
-/// frame does not say where faces end.
-std::vector<DrawnFace> drawn_faces(const Grid& contacts, double scale);
+/// A face per cell of the contacts; none where the frame does not say where faces end.
+std::vector<DrawnFace> drawn_faces(const Grid& contacts);
+
+/// The same, displacements drawn `scale` times as large: ends lie on their block j, and go with it.
+std::vector<DrawnFace> drawn_faces(const Grid& contacts, const Grid& blocks, double scale);
 
 /// Part of the diagram of a face: all in compression, or all in tension.
 struct PressureArea {

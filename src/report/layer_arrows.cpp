@@ -55,9 +55,8 @@ std::vector<Arrow> force_arrows(const Scene& s) {
   if (!s.shot.contacts) return arrows;
   const Field* force = s.shot.contacts->cell_field("force");
   if (force == nullptr) return arrows;
-  const std::vector<Vec2> points = drawn_points(*s.shot.contacts, s.exaggeration);
-  for (std::size_t c = 0; c < points.size(); ++c) {
-    arrows.push_back({points[c], {force->values[3 * c], force->values[3 * c + 1]}});
+  for (std::size_t c = 0; c < s.contacts.size(); ++c) {
+    arrows.push_back({s.contacts[c], {force->values[3 * c], force->values[3 * c + 1]}});
   }
   return arrows;
 }

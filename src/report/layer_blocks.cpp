@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "report/faces.hpp"
 #include "report/scene.hpp"
 
 namespace edda {
@@ -133,8 +132,8 @@ void draw_blocks(Canvas& canvas, const Scene& s, const ColourScale& scale) {
 namespace {
 
 /// Lines along the faces that touch, the largest values on top.
-void draw_face_field(Canvas& canvas, const Scene& s, const ColourScale& scale,
-                     const std::vector<DrawnFace>& faces) {
+void draw_face_field(Canvas& canvas, const Scene& s, const ColourScale& scale) {
+  const std::vector<DrawnFace>& faces = s.faces;
   const std::vector<double>& values = s.shot.field.values;
   std::vector<std::size_t> order;
   for (std::size_t c = 0; c < faces.size(); ++c) {
@@ -158,14 +157,11 @@ void draw_face_field(Canvas& canvas, const Scene& s, const ColourScale& scale,
 
 void draw_contact_field(Canvas& canvas, const Scene& s, const ColourScale& scale) {
   if (!s.shot.field.of_contacts || !s.shot.contacts) return;
-  if (s.shot.field.along_faces) {
-    const std::vector<DrawnFace> faces = drawn_faces(*s.shot.contacts, s.exaggeration);
-    if (!faces.empty()) return draw_face_field(canvas, s, scale, faces);
-  }
+  if (s.shot.field.along_faces && !s.faces.empty()) return draw_face_field(canvas, s, scale);
   cairo_t* cr = canvas.cr();
   const std::vector<double>& values = s.shot.field.values;
   const double radius = std::clamp(5.0 * outline_width(s, s.shapes.size()), 0.5, 2.0);
-  const std::vector<Vec2> points = drawn_points(*s.shot.contacts, s.exaggeration);
+  const std::vector<Vec2>& points = s.contacts;
   // Contacts of one corner lie on one another: the largest values on top, or those that slide.
   const bool states = s.shot.field.kind == ScaleKind::kinds;
   const auto weight = [&](std::size_t c) {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/faces.hpp"
 #include "report/scene.hpp"
 
 namespace edda {
@@ -36,8 +35,7 @@ ArrowScale pressure_scale(const std::vector<Scene>& scenes, const PlotOptions& o
   std::vector<Weighed> sizes;
   std::vector<double> lengths;
   for (const Scene& s : scenes) {
-    if (!s.shot.contacts) continue;
-    for (const DrawnFace& face : drawn_faces(*s.shot.contacts, s.exaggeration)) {
+    for (const DrawnFace& face : s.faces) {
       if (!is_shown(s, face)) continue;
       const double length = norm(face.b - face.a);
       sizes.push_back(
@@ -51,12 +49,12 @@ ArrowScale pressure_scale(const std::vector<Scene>& scenes, const PlotOptions& o
 }
 
 void draw_pressures(Canvas& canvas, const Scene& s, const ArrowScale& scale) {
-  if (scale.per_unit == 0.0 || !s.shot.contacts) return;
+  if (scale.per_unit == 0.0) return;
   const double most = scale.longest > 0.0 ? scale.longest / scale.per_unit : 1e300;
   // There are more of them, and closer, the smaller the blocks.
   const double line = std::min(pressure_line, 0.02 * block_size(s, s.shapes.size()));
   std::vector<PressureArea> areas;
-  for (const DrawnFace& face : drawn_faces(*s.shot.contacts, s.exaggeration)) {
+  for (const DrawnFace& face : s.faces) {
     if (!is_shown(s, face)) continue;
     const auto diagram = pressure_diagram(face, scale.per_unit / s.view.scale, most);
     areas.insert(areas.end(), diagram.begin(), diagram.end());

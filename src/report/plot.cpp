@@ -53,7 +53,7 @@ void add_pressures(std::vector<LegendKey>& keys, std::span<const Snapshot> shots
   bool any = false, any_tension = false;
   for (const Snapshot& shot : shots) {
     if (!shot.contacts) continue;
-    for (const DrawnFace& face : drawn_faces(*shot.contacts, 1.0)) {
+    for (const DrawnFace& face : drawn_faces(*shot.contacts)) {
       any = true;
       any_tension = any_tension || (!face.open && std::min(face.pressure_a, face.pressure_b) < 0.0);
     }

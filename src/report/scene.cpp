@@ -7,8 +7,13 @@
 namespace edda {
 
 Scene make_scene(const Snapshot& shot, double exaggeration) {
-  return {shot,         {}, drawn_points(shot.blocks, exaggeration), block_shapes(shot.blocks),
-          exaggeration, 8.0};
+  Scene s{shot, {},          drawn_points(shot.blocks, exaggeration), block_shapes(shot.blocks), {},
+          {},   exaggeration};
+  if (!shot.contacts) return s;
+  s.faces = drawn_faces(*shot.contacts, shot.blocks, exaggeration);
+  for (const DrawnFace& face : s.faces) s.contacts.push_back(0.5 * (face.a + face.b));
+  if (s.faces.empty()) s.contacts = drawn_points(*shot.contacts, exaggeration);
+  return s;
 }
 
 bool is_held(const Grid& grid, std::size_t cell) {

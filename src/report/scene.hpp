@@ -7,6 +7,7 @@
 #include "report/canvas.hpp"
 #include "report/colour_scale.hpp"
 #include "report/drawn_range.hpp"
+#include "report/faces.hpp"
 #include "report/layout.hpp"
 #include "report/plot.hpp"
 #include "report/shapes.hpp"
@@ -33,8 +34,10 @@ struct Scene {
   View view;
   std::vector<Vec2> points;  ///< of the grid, as drawn, m
   std::vector<BlockShape> shapes;
-  double exaggeration = 1.0;  ///< of displacements
-  double font = 8.0;          ///< pt
+  std::vector<DrawnFace> faces;  ///< a contact each; none where the frame does not have them
+  std::vector<Vec2> contacts;    ///< where they are drawn, m
+  double exaggeration = 1.0;     ///< of displacements
+  double font = 8.0;             ///< pt
 
   const Grid& grid() const { return shot.blocks; }
 };

@@ -27,6 +27,47 @@ std::vector<Vec2> drawn_points(const Grid& grid, double scale);
 /// Of every cell, m2.
 std::vector<double> cell_areas(const Grid& grid);
 
+/// How an affine vector field goes over a block: u(r) = d + A r.
+struct AffineField {
+  Vec2 d;
+  double xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0;  ///< A
+
+  Vec2 at(Vec2 r) const { return d + Vec2{xx * r.x + xy * r.y, yx * r.x + yy * r.y}; }
+};
+
+/// From its values at n points: least squares, exact for an affine field. `place(k)` is r there,
+/// `value(k)` is u.
+template <class Place, class Value>
+AffineField affine_field(std::size_t count, Place place, Value value) {
+  const auto n = static_cast<double>(count);
+  Vec2 middle, mean;
+  for (std::size_t k = 0; k < count; ++k) {
+    middle += place(k) / n;
+    mean += value(k) / n;
+  }
+  // A = (sum u r^T) (sum r r^T)^-1, u and r from their means.
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  Vec2 ux, uy;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vec2 r = place(k) - middle, u = value(k) - mean;
+    xx += r.x * r.x;
+    xy += r.x * r.y;
+    yy += r.y * r.y;
+    ux += u.x * r;
+    uy += u.y * r;
+  }
+  const double det = xx * yy - xy * xy;
+  AffineField f;
+  if (det > 0.0) {
+    f.xx = (ux.x * yy - ux.y * xy) / det;
+    f.xy = (ux.y * xx - ux.x * xy) / det;
+    f.yx = (uy.x * yy - uy.y * xy) / det;
+    f.yy = (uy.y * xx - uy.x * xy) / det;
+  }
+  f.d = mean - Vec2{f.xx * middle.x + f.xy * middle.y, f.yx * middle.x + f.yy * middle.y};
+  return f;
+}
+
 /// Area-weighted centre of a shape at the given points.
 Vec2 centre_of(const Grid& grid, const BlockShape& shape, const std::vector<Vec2>& points);
 

@@ -87,10 +87,12 @@ std::vector<KeptForce> Simulation::release_boundaries(const std::vector<Index>& 
 std::optional<Fault> Simulation::install(const std::vector<Index>& which) {
   // Walls have moved since the bolts were drawn.
   constexpr double slack = 0.05;
-  const double energy = ledger_now().balance();
+  const double energy = ledger_now().balance(), power = bolt_power();
   Result<Bolts> fresh = attach_bolts(model, blocks, state, pose.x, pose.y, which, slack);
   if (!fresh.ok()) return fresh.faults().front();
   add_bolts(bolts, fresh.value(), model, blocks.size());
+  // They pull for the whole of the step in hand, and had not been stretched in the one behind.
+  if (explicit_method()) bolts.owed += 0.5 * step_before_ * (bolt_power() - power);
   external_work += ledger_now().balance() - energy;
   return {};
 }

@@ -116,7 +116,7 @@ class Correction {
     for (const SwitchingFace& f : scratch_.set) {
       const Face next = face_at(c_, b_, pose_.x, pose_.y, f.face);
       const double stored_next =
-          stored_between(f.placed, f.at, next, face_points(c_, pose_.x, pose_.y, f.face));
+          stored_between(f.placed, f.at, next, face_points(c_, pose_.x, pose_.y, f.face), false);
       c_.transfer[f.face] += f.stored - stored_next - f.alpha * work(f);
     }
   }
@@ -139,7 +139,7 @@ class Correction {
     f.placed = face_at(c_, b_, pose_.x1, pose_.y1, k);
     const Face before = face_at(c_, b_, pose_.x2, pose_.y2, k);
     f.was_closed = before.energy > 0.0;
-    f.stored = stored_between(before, f.then, f.placed, f.at);
+    f.stored = stored_between(before, f.then, f.placed, f.at, false);
     const OnBlocks on = on_blocks(c_, b_, f.placed.force, k);
     f.pushes = kick_ * taken_.h_new *
                (mobility(b_, b_.vertex_block[c_.edge[k]], on.first) +
@@ -164,7 +164,7 @@ class Correction {
     const FacePoints next_at = face_points(c_, pose_.x, pose_.y, k);
     const Face next = face_at(c_, b_, pose_.x, pose_.y, k);
     const bool closes = next.energy > 0.0;
-    f.stored_next = stored_between(f.placed, f.at, next, next_at);
+    f.stored_next = stored_between(f.placed, f.at, next, next_at, false);
     const double whole = work(f);
     const double left = f.alpha * whole + f.stored_next - f.stored;
     const double slope = whole + 0.5 * (f.alpha - (closes ? 1.0 : 0.0)) * f.pushes;

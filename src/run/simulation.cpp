@@ -165,6 +165,8 @@ void Simulation::start(double first_event) {
                {0.0, 0.0, hold_.reference, hold_.push}, 0, blocks.size());
   start_velocities(state, blocks, forces.x, forces.y, h, damping.drag());
   look_back();
+  // Bolts are not gone back: what they pull with at the start does F_0 . (x_0 - x_{-1})/2 more.
+  bolts.owed = 0.5 * h * bolt_power();
 }
 
 void Simulation::set_limit() {

@@ -215,6 +215,7 @@ struct Simulation {
   void drive_ground(double h_old, double h_new);
   void hold_ground();
   Vec2 force_on_held() const;
+  double bolt_power() const;
   void book_boundaries(double h_old, double h_new);
   void set_viscosity();
   StepDamping step_damping();

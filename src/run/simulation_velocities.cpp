@@ -7,24 +7,22 @@
 #include "run/simulation.hpp"
 
 namespace edda {
-namespace {
 
-/// Of the bolts' forces at n on the blocks, W.
-double bolt_power(const Simulation& sim) {
-  if (sim.bolts.place.empty()) return 0.0;
-  return ordered_sum(sim.blocks.size(), [&](std::size_t i) {
-    if (!is_free(sim.blocks, sim.state, i)) return 0.0;
+/// Of the bolts' forces at n on what they go through, at the velocities of n - 1/2, W.
+double Simulation::bolt_power() const {
+  if (bolts.place.empty()) return 0.0;
+  return ordered_sum(blocks.size(), [&](std::size_t i) {
+    const bool carried = blocks.fixed[i] && ground.moves;
+    if (!carried && !is_free(blocks, state, i)) return 0.0;
     std::array<Vec2, 3> f{};
-    add_bolts(f, sim.bolts, i);
+    add_bolts(f, bolts, i);
     double power = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
-      power += dot(f[k], {sim.state.vx[k][i], sim.state.vy[k][i]});
+      power += dot(f[k], carried ? ground.velocity : Vec2{state.vx[k][i], state.vy[k][i]});
     }
     return power;
   });
 }
-
-}  // namespace
 
 void Simulation::exchange_velocity_arrays() {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -44,7 +42,7 @@ void Simulation::change_velocities(const Nodes& vx, const Nodes& vy) {
     place_a_step_back(blocks, state, state.vx, state.vy, step_before_, pose);
   }
   const std::vector<double> old_x1 = pose.x1, old_y1 = pose.y1;
-  const double bolts_before = leaps ? bolt_power(*this) : 0.0;
+  const double bolts_before = leaps ? bolt_power() : 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t i = 0; i < blocks.size(); ++i) {
       if (!is_free(blocks, state, i)) continue;
@@ -56,7 +54,7 @@ void Simulation::change_velocities(const Nodes& vx, const Nodes& vy) {
     place_a_step_back(blocks, state, state.vx, state.vy, step_before_, pose);
     change_step_behind(contacts, blocks, pose, old_x1, old_y1);
     place_faces(contacts, blocks, pose, laws, step_before_);
-    bolts.owed += 0.5 * step_before_ * (bolt_power(*this) - bolts_before);
+    bolts.owed += 0.5 * step_before_ * (bolt_power() - bolts_before);
   }
   external_work += ledger_now().balance() - energy;
 }

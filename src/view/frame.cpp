@@ -184,7 +184,7 @@ std::vector<Touch> touches_of(const ViewMesh& mesh, const Grid& blocks, const Gr
   for (const Field* field : {i, j, force, normal, shear}) {
     if (field == nullptr) return touches;
   }
-  const std::vector<DrawnFace> faces = drawn_faces(contacts, 1.0);
+  const std::vector<DrawnFace> faces = drawn_faces(contacts);
   for (std::size_t c = 0; c < contacts.cell_count(); ++c) {
     Touch t{c, mesh.row_of(static_cast<std::int32_t>(i->values[c])),
             mesh.row_of(static_cast<std::int32_t>(j->values[c]))};

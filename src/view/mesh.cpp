@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "report/shapes.hpp"
 #include "view/bytes.hpp"
 
 namespace edda {

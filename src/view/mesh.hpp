@@ -9,6 +9,7 @@
 
 #include "base/fault.hpp"
 #include "base/vec2.hpp"
+#include "report/shapes.hpp"
 #include "results/grid.hpp"
 
 namespace edda {
@@ -39,44 +40,16 @@ ViewMesh view_mesh(const Grid& first);
 /// u32.
 std::string mesh_bytes(const ViewMesh& mesh);
 
-/// How an affine vector field goes over a block: u(X) = d + A (X - c), X in the first frame.
-struct BlockMotion {
-  Vec2 d;                                         ///< at the centre, m
-  double xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0;  ///< A
-};
+/// Of a block: u(X) = d + A (X - c), c its centre and X in the first frame.
+using BlockMotion = AffineField;
 
-/// Of block `row`, from the values (m) at its vertices: least squares, exact for an affine field.
-/// `value(v)` is that at vertex v of the mesh.
+/// Of block `row`, from the values (m) at its vertices; `value(v)` is that at vertex v of the mesh.
 template <class Value>
 BlockMotion block_motion(const ViewMesh& mesh, std::size_t row, Value value) {
-  const std::size_t first = mesh.begin[row], end = mesh.begin[row + 1];
-  const auto n = static_cast<double>(end - first);
-  Vec2 place, mean;
-  for (std::size_t v = first; v < end; ++v) {
-    place += mesh.vertex[v] / n;
-    mean += value(v) / n;
-  }
-  // A = (sum u r^T) (sum r r^T)^-1, u and r from their means.
-  double xx = 0.0, xy = 0.0, yy = 0.0;
-  Vec2 ux, uy;
-  for (std::size_t v = first; v < end; ++v) {
-    const Vec2 r = mesh.vertex[v] - place, u = value(v) - mean;
-    xx += r.x * r.x;
-    xy += r.x * r.y;
-    yy += r.y * r.y;
-    ux += u.x * r;
-    uy += u.y * r;
-  }
-  const double det = xx * yy - xy * xy;
-  BlockMotion m;
-  if (det > 0.0) {
-    m.xx = (ux.x * yy - ux.y * xy) / det;
-    m.xy = (ux.y * xx - ux.x * xy) / det;
-    m.yx = (uy.x * yy - uy.y * xy) / det;
-    m.yy = (uy.y * xx - uy.x * xy) / det;
-  }
-  m.d = mean - Vec2{m.xx * place.x + m.xy * place.y, m.yx * place.x + m.yy * place.y};
-  return m;
+  const std::size_t first = mesh.begin[row];
+  return affine_field(
+      mesh.begin[row + 1] - first, [&](std::size_t k) { return mesh.vertex[first + k]; },
+      [&](std::size_t k) { return value(first + k); });
 }
 
 }  // namespace edda

@@ -76,17 +76,18 @@ std::vector<double> force_sizes(const Grid& contacts) {
 }
 
 /// The rule of pictures (pressure_scale()): by the length that bears, but for a few far beyond.
-void widen_pressures(ViewSizes& sizes, const Grid& contacts) {
+void widen_pressures(ViewSizes& sizes, double& tension, const Grid& contacts) {
   std::vector<Weighed> of_frame;
   double largest = 0.0;
-  for (const DrawnFace& face : drawn_faces(contacts, 1.0)) {
+  for (const DrawnFace& face : drawn_faces(contacts)) {
     const double size = std::max(std::abs(face.pressure_a), std::abs(face.pressure_b));
     if (face.open || !std::isfinite(size)) continue;
     of_frame.push_back({size, face.closed * norm(face.b - face.a)});
     largest = std::max(largest, size);
+    sizes.largest = std::max({sizes.largest, face.pressure_a, face.pressure_b});
+    tension = std::max({tension, -face.pressure_a, -face.pressure_b});
   }
   sizes.usual = std::max(sizes.usual, drawn_ends({0.0, largest}, inner_ends(of_frame)).high);
-  sizes.largest = std::max(sizes.largest, largest);
 }
 
 std::vector<double> stress_sizes(const Grid& blocks, const std::vector<std::size_t>& cells) {
@@ -175,7 +176,7 @@ void ViewRun::widen_ranges(const Opened& frame) {
   if (grids.contacts) forces = force_sizes(*grids.contacts);
   widen(stresses_, stresses);
   widen(forces_, forces);
-  if (grids.contacts) widen_pressures(pressures_, *grids.contacts);
+  if (grids.contacts) widen_pressures(pressures_, tension_, *grids.contacts);
   const Grid* contacts = grids.contacts ? &*grids.contacts : nullptr;
   const Field* fixed = grids.blocks.cell_field("fixed");
   const std::vector<double> areas = cell_areas(grids.blocks);
@@ -288,7 +289,7 @@ std::string ViewRun::header(const std::string& served_as) const {
   json.pair("pressure", pressures_.usual).close();
   json.key("largest").open_object();
   json.pair("force", forces_.largest).pair("stress", stresses_.largest);
-  json.pair("pressure", pressures_.largest).close();
+  json.pair("pressure", pressures_.largest).pair("tension", tension_).close();
   std::string kinds;
   for (std::size_t k = 0; k < kind_colour_count; ++k) append_hex(kinds, kind_colour(k));
   std::string states;

@@ -107,8 +107,9 @@ class ViewRun {
   std::vector<Taken> taken_;
   std::map<std::string, ViewRange> ranges_;  ///< by name of the field
   ViewSizes forces_;                         ///< of closed contacts, N
-  ViewSizes pressures_;                      ///< at ends of closed faces, Pa
-  ViewSizes stresses_;                       ///< principal, of blocks that are not held, Pa
+  ViewSizes pressures_;   ///< at ends of closed faces, Pa; the largest in compression
+  double tension_ = 0.0;  ///< the largest there, Pa
+  ViewSizes stresses_;    ///< principal, of blocks that are not held, Pa
 };
 
 /// Tables that a page takes along.

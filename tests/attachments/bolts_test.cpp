@@ -113,10 +113,7 @@ TEST(Dashpots, HaveTheImpedanceOfTheRock) {
   m.add({{0, 0}, {4, 3}, {1, 7}});
   m.model.thickness = 2.0;
   for (const double part : {1.0, 0.5}) {
-    Boundary b;
-    b.type = BoundaryType::viscous;
-    b.along = {{0, 0}, part * Vec2{4, 3}};
-    m.model.boundaries = {b};
+    m.model.boundaries = {test::boundary_along(BoundaryType::viscous, {0, 0}, part * Vec2{4, 3})};
     if (part == 1.0) m.build();
     const Result<Dashpots> found = attach_dashpots(m.model, m.blocks);
     ASSERT_TRUE(found.ok());

@@ -1,9 +1,21 @@
 // Blocks as given, for the tests of what is attached to them.
 #pragma once
 
+#include <optional>
+
 #include "blocks/build_blocks.hpp"
 
 namespace edda::test {
+
+inline Boundary boundary_along(BoundaryType type, Vec2 from, Vec2 to,
+                               std::optional<double> stiffness = {}) {
+  Boundary b;
+  b.name = "b";
+  b.type = type;
+  b.along = {from, to};
+  b.stiffness = stiffness;
+  return b;
+}
 
 struct DrawnBlocks {
   Model model;

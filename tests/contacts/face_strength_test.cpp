@@ -11,6 +11,7 @@ namespace edda::face_strength_test {
 namespace {
 
 using test::MovedBlocks;
+using test::pressed_square;
 using test::rough_joint;
 using test::square_on_base;
 
@@ -22,15 +23,18 @@ double tangent(double degrees) {
 constexpr double thickness = 2.0, normal_k = 2e9 * thickness, shear_k = 1e9 * thickness;
 constexpr double cohesion = 1e6, tension = 2e5;
 
-/// A square glued to its base as drawn.
-MovedBlocks bonded_square() {
-  JointLaw joint = rough_joint(30.0, cohesion, tension);
-  joint.residual = {20.0, 3e4, 5e4};
+/// A square bonded to its base as drawn.
+MovedBlocks bonded_square(const JointLaw& joint) {
   MovedBlocks m = square_on_base(joint, thickness);
   m.start();
   bond_faces(m.faces, m.blocks, m.pose, m.laws);
   m.settle();
   return m;
+}
+MovedBlocks bonded_square() {
+  JointLaw joint = rough_joint(30.0, cohesion, tension);
+  joint.residual = {20.0, 3e4, 5e4};
+  return bonded_square(joint);
 }
 
 std::size_t bonded_face(const MovedBlocks& m) {
@@ -74,6 +78,20 @@ TEST(FaceBond, BooksWhatItStoredAsItTears) {
   EXPECT_NEAR(m.books() + m.work, 0.0, 0.02 * stored);
 }
 
+/// From pressure to tension and back within a step: k d_0 d_1/2, below nothing.
+TEST(FaceBond, StoresLikeASpringWhereItGoesOverToTension) {
+  MovedBlocks m = bonded_square();
+  const double d = 1e-5;
+  m.go(1, {{0.0, -d}});
+  const double start = m.books() + m.work, whole = normal_k * d * d;
+  for (const double y : {-0.5, 0.5, 1.5, -0.5, -1.5, 0.0, 1.0, 0.0, -1.0}) {
+    const double before = -m.faces.now.closure_a[bonded_face(m)];
+    m.go(1, {{0.0, y * d}});
+    EXPECT_NEAR(m.stored(), 0.5 * normal_k * y * d * before, 1e-6 * whole) << y;
+    EXPECT_NEAR(m.books() + m.work, start, 1e-6 * whole) << y;
+  }
+}
+
 TEST(FaceBond, ShearsAtItsCohesionAndFriction) {
   MovedBlocks m = bonded_square();
   const std::size_t k = bonded_face(m);
@@ -96,10 +114,7 @@ TEST(FaceBond, ShearsAtItsCohesionAndFriction) {
 }
 
 TEST(Glue, LetsGoOfWhatItHeld) {
-  MovedBlocks m = square_on_base(rough_joint(30.0));
-  m.start();
-  m.put(1, {{0.0, -1e-6}});
-  m.settle();
+  MovedBlocks m = pressed_square(rough_joint(30.0), 1e-6);
   glue_faces(m.faces);
   const double apart = 1e-4, stored = 0.5 * 2e9 * apart * apart;
   for (int n = 0; n <= 200; ++n) m.go(1, {{0.0, -1e-6 + 0.005 * n * (apart + 1e-6)}});
@@ -125,10 +140,7 @@ TEST(SlipWeakening, AllStrengthFallsWithSlip) {
   joint.residual = {20.0, 2e4, 5e4};
   joint.slip_distance = 0.004;
   joint.dilation_angle = 5.0;
-  MovedBlocks m = square_on_base(joint, thickness);
-  m.start();
-  bond_faces(m.faces, m.blocks, m.pose, m.laws);
-  m.settle();
+  MovedBlocks m = bonded_square(joint);
   const double depth = 1e-4, elastic = tangent(40.0) * normal_k * depth / shear_k + 1e5 / 1e9;
   slide(m, 2e-3, depth);
   const std::size_t k = m.main_face();
@@ -145,15 +157,16 @@ TEST(SlipWeakening, AllStrengthFallsWithSlip) {
   EXPECT_NEAR(m.faces.offset_a[k] + m.faces.owed[k], opened, 1e-2 * opened);
 }
 
-TEST(Dilation, OpensByTheTangentOfItsAngleAndBooksWhatItLifts) {
-  JointLaw joint = rough_joint(30.0);
-  joint.dilation_angle = 5.0;
+JointLaw dilating_joint(double friction_angle, double dilation_angle) {
+  JointLaw joint = rough_joint(friction_angle);
+  joint.dilation_angle = dilation_angle;
   joint.slip_distance = 0.01;
-  MovedBlocks m = square_on_base(joint);
-  m.start();
+  return joint;
+}
+
+TEST(Dilation, OpensByTheTangentOfItsAngleAndBooksWhatItLifts) {
   const double depth = 1e-4;
-  m.put(1, {{0.0, -depth}});
-  m.settle();
+  MovedBlocks m = pressed_square(dilating_joint(30.0, 5.0), depth);
   for (int n = 1; n <= 2; ++n) m.go(1, {{1e-6 * n, -depth}});
   const double start = m.books() + m.work;
   for (int n = 3; n <= 600; ++n) m.go(1, {{1e-6 * n, -depth}});
@@ -170,13 +183,7 @@ TEST(Dilation, OpensByTheTangentOfItsAngleAndBooksWhatItLifts) {
 
 /// Steeper than friction pays for, it opens by no more than that.
 TEST(Dilation, LiftsByNoMoreThanFrictionTakes) {
-  JointLaw joint = rough_joint(5.0);
-  joint.dilation_angle = 40.0;
-  joint.slip_distance = 0.01;
-  MovedBlocks m = square_on_base(joint);
-  m.start();
-  m.put(1, {{0.0, -1e-4}});
-  m.settle();
+  MovedBlocks m = pressed_square(dilating_joint(5.0, 40.0), 1e-4);
   for (int n = 1; n <= 200; ++n) {
     m.go(1, {{1e-6 * n, -1e-4}});
     EXPECT_GE(m.friction(), -1e-9);
@@ -187,13 +194,7 @@ TEST(Dilation, LiftsByNoMoreThanFrictionTakes) {
 
 /// Apart by a hair, its asperities go on counting the way that it slips.
 TEST(Dilation, CountsTheSlipOfAJointThatIsOpenByAHair) {
-  JointLaw joint = rough_joint(30.0);
-  joint.dilation_angle = 5.0;
-  joint.slip_distance = 0.01;
-  MovedBlocks m = square_on_base(joint);
-  m.start();
-  m.put(1, {{0.0, -1e-6}});
-  m.settle();
+  MovedBlocks m = pressed_square(dilating_joint(30.0, 5.0), 1e-6);
   m.go(1, {{0.0, -1e-6}});
   m.go(1, {{0.0, 2e-5}});
   m.go(1, {{0.0, 2e-5}});
@@ -206,7 +207,8 @@ TEST(Dilation, CountsTheSlipOfAJointThatIsOpenByAHair) {
   EXPECT_NEAR(most_slid() - before, 1e-5, 1e-9);
 }
 
-TEST(BartonBandis, AngleAndRoughness) {
+/// The formulas themselves, against numbers worked by hand.
+TEST(BartonBandis, Formulas) {
   Law law{};
   law.jrc = 10.0;
   law.jcs = 100e6;
@@ -214,7 +216,12 @@ TEST(BartonBandis, AngleAndRoughness) {
   EXPECT_NEAR(barton_angle(law, 1.0, 1e6), 50.0, 1e-12);
   EXPECT_NEAR(barton_angle(law, 0.5, 1e6), 40.0, 1e-12);
   EXPECT_EQ(barton_angle(law, 1.0, 100e6), 30.0);
+  EXPECT_EQ(barton_angle(law, 1.0, 1e-3), 70.0);
+  EXPECT_EQ(roughness_left(0.5, 1.0), 1.0);
   EXPECT_NEAR(roughness_left(2.0, 1.0), 0.85, 1e-12);
+  EXPECT_NEAR(roughness_left(10.0, 1.0), 0.5, 1e-12);
+  EXPECT_NEAR(roughness_left(std::sqrt(40.0), 1.0), 0.6, 1e-12);
+  EXPECT_EQ(roughness_left(200.0, 1.0), 0.0);
 }
 
 /// phi_r + JRC log10(JCS/sigma), its tangent divided by the strength factor; half of what is above
@@ -231,8 +238,7 @@ TEST(BartonBandis, FrictionAndDilationInForce) {
     m.start();
     m.laws = divided_laws(m.model, {factor});
     const double depth = 1e-4;
-    m.put(1, {{0.0, -depth}});
-    m.settle();
+    m.rest(1, {{0.0, -depth}});
     put_strengths_in_force(m.faces, m.laws);
     const std::size_t k = m.main_face();
     const double angle = 28.0 + 8.0 * std::log10(50e6 / (2e9 * depth));

@@ -36,6 +36,7 @@ struct MovedBlocks : DrawnBlocks {
     pose = {blocks.vertex_x, blocks.vertex_y, blocks.vertex_x,
             blocks.vertex_y, blocks.vertex_x, blocks.vertex_y};
     find_faces(faces, blocks, state, pose, laws, reach);
+    set_face_dashpots(faces, laws, 0.0);
   }
   /// Block i is there from now on, and has been.
   void put(std::size_t i, const Place& place) {
@@ -46,6 +47,11 @@ struct MovedBlocks : DrawnBlocks {
   void settle() {
     place_faces(faces, blocks, pose, laws, step);
     stand_still(faces);
+  }
+  /// The same, and faces as they are after a while.
+  void rest(std::size_t i, const Place& place) {
+    put(i, place);
+    settle();
   }
   /// One step, at whose end block i is there.
   void go(std::size_t i, const Place& place) {
@@ -113,6 +119,14 @@ inline MovedBlocks square_on_base(const JointLaw& joint, double thickness = 1.0)
   m.model.contact.shear_stiffness = 0.5e9;
   m.add({{-1, -1}, {2, -1}, {2, 0}, {-1, 0}}, true);
   m.add({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+  return m;
+}
+
+/// The same at rest, pressed into its base by `depth`, which is negative where it hangs above.
+inline MovedBlocks pressed_square(const JointLaw& joint, double depth, double thickness = 1.0) {
+  MovedBlocks m = square_on_base(joint, thickness);
+  m.start();
+  m.rest(1, {{0.0, -depth}});
   return m;
 }
 

@@ -13,6 +13,7 @@ namespace {
 
 using test::MovedBlocks;
 using test::Place;
+using test::pressed_square;
 using test::rough_joint;
 using test::square_on_base;
 
@@ -20,10 +21,7 @@ const double mu = std::tan(std::numbers::pi / 6.0);  // of 30 degrees
 constexpr double depth = 1e-4;
 
 TEST(MovingFace, IsAsStiffAsItsJoint) {
-  MovedBlocks penalty = square_on_base(rough_joint(30.0), 2.0);
-  penalty.start();
-  penalty.put(1, {{0.0, -depth}});
-  penalty.settle();
+  MovedBlocks penalty = pressed_square(rough_joint(30.0), depth, 2.0);
   // A spring p at each of its ends, times the thickness.
   EXPECT_NEAR(penalty.force_on(1).y, 2.0 * 2.0 * 1e9 * depth, 1.0);
   JointLaw measured = rough_joint(30.0);
@@ -31,8 +29,7 @@ TEST(MovingFace, IsAsStiffAsItsJoint) {
   MovedBlocks m = square_on_base(measured);
   m.start();
   const double tilt = 2e-5;
-  m.put(1, {{0.0, -depth}, tilt});
-  m.settle();
+  m.rest(1, {{0.0, -depth}, tilt});
   EXPECT_NEAR(m.force_on(1).y, 3e9 * depth, 1e-4 * 3e9 * depth);
   const std::size_t k = m.main_face();
   EXPECT_EQ(m.faces.shear_stiffness[k], 0.4 * 3e9);  // none is given
@@ -44,8 +41,7 @@ TEST(MovingFace, IsAsStiffAsItsJoint) {
   EXPECT_NEAR(norm(middle_of(m.faces, m.pose, k) - Vec2{0.5, 0.0}), 0.0, 1e-3);
   // A penalty is a spring at either end, k L^3/4; where nothing leans there it is spread out, too.
   const std::size_t q = penalty.main_face();
-  penalty.put(1, {{0.0, -depth}, tilt});
-  penalty.settle();
+  penalty.rest(1, {{0.0, -depth}, tilt});
   EXPECT_NEAR(moment(penalty, q), 4e9 * tilt / 4.0, 1e-3 * 4e9 * tilt);
   penalty.faces.leans[q] = 0.0;
   penalty.settle();
@@ -55,10 +51,7 @@ TEST(MovingFace, IsAsStiffAsItsJoint) {
 TEST(MovingFace, SlidesAtCoulombsLimitAndUnloadsElastically) {
   const double normal = 2e9 * depth, cohesion = 2e4;
   for (const double c : {0.0, cohesion}) {
-    MovedBlocks m = square_on_base(rough_joint(30.0, c));
-    m.start();
-    m.put(1, {{0.0, -depth}});
-    m.settle();
+    MovedBlocks m = pressed_square(rough_joint(30.0, c), depth);
     const double limit = mu * normal + c;
     const auto shear = [&](double at) {
       m.go(1, {{at, -depth}});
@@ -80,10 +73,7 @@ TEST(MovingFace, SlidesAtCoulombsLimitAndUnloadsElastically) {
 /// (T_n + T_{n-1})/2 over the way of a step, while the normal force falls: nothing is left over for
 /// the transfer, the overlap stays.
 TEST(MovingFace, FrictionIsCoulombsWhileTheNormalForceChanges) {
-  MovedBlocks m = square_on_base(rough_joint(30.0));
-  m.start();
-  m.put(1, {{0.0, -depth}});
-  m.settle();
+  MovedBlocks m = pressed_square(rough_joint(30.0), depth);
   const auto limit = [](int n) { return mu * 2e9 * depth * (1.0 - 0.01 * n); };
   double before = 0.0, expected = 0.0;
   for (int n = 1; n <= 60; ++n) {
@@ -100,8 +90,7 @@ TEST(MovingFace, FrictionIsCoulombsWhileTheNormalForceChanges) {
 /// Moves block 1 and holds the books to the work of the forces. Returns what friction took.
 void expect_closed_books(MovedBlocks& m, int steps, const std::function<Place(int)>& place,
                          double bound) {
-  m.put(1, place(0));
-  m.settle();
+  m.rest(1, place(0));
   for (int n = 1; n <= 2; ++n) m.go(1, place(n));
   const double start = m.books() + m.work;
   double most = 0.0, scale = 0.0;
@@ -130,7 +119,6 @@ TEST(MovingFace, BooksEveryJouleOfDashpots) {
   joint.dashpots = {0.2, 0.3, 1e9};
   MovedBlocks m = square_on_base(joint);
   m.start();
-  set_face_dashpots(m.faces, m.laws, 0.0);
   expect_closed_books(m, 600, wiggle, 1e-4);
   EXPECT_GT(m.damping(), 0.0);
 }
@@ -153,8 +141,7 @@ TEST(MovingFace, BooksEveryJouleWhileTheOverlapChanges) {
 TEST(MovingFace, SpringsShiftWithTheOverlap) {
   MovedBlocks m = square_on_base(rough_joint(89.99));
   m.start(0.2);
-  m.put(1, {{1.5, -depth}});
-  m.settle();
+  m.rest(1, {{1.5, -depth}});
   double force = 0.0;
   for (const double overlap : {0.55, 0.60, 0.65}) {
     m.go(1, {{2.0 - overlap, -depth}});
@@ -168,11 +155,7 @@ TEST(MovingFace, DashpotsAreThePartOfCriticalAskedFor) {
   JointLaw joint = rough_joint(80.0);
   const double across = 0.2, along = 0.1;
   joint.dashpots = {across, along, 1e9};
-  MovedBlocks m = square_on_base(joint);
-  m.start();
-  set_face_dashpots(m.faces, m.laws, 0.0);
-  m.put(1, {{0.0, -depth}});
-  m.settle();
+  MovedBlocks m = pressed_square(joint, depth);
   const double mass = 1.0 / m.blocks.point_inverse[m.blocks.vertex_begin[1]];
   const double c = 2.0 * 2.0 * across * std::sqrt(1e9 * mass), d = 1e-7;
   m.go(1, {{0.0, -depth - d}});
@@ -193,11 +176,7 @@ TEST(MovingFace, DashpotsAreThePartOfCriticalAskedFor) {
 TEST(MovingFace, DashpotsBeginWhereBlocksTouch) {
   JointLaw joint = rough_joint(30.0);
   joint.dashpots = {0.2, 0.0, 1e9};
-  MovedBlocks m = square_on_base(joint);
-  m.start();
-  set_face_dashpots(m.faces, m.laws, 0.0);
-  m.put(1, {{0.0, 5e-3}});
-  m.settle();
+  MovedBlocks m = pressed_square(joint, -5e-3);
   m.go(1, {{0.0, -1e-7}});
   const double mass = 1.0 / m.blocks.point_inverse[m.blocks.vertex_begin[1]];
   const double whole = 2e9 * 1e-7 + 4.0 * 0.2 * std::sqrt(1e9 * mass) * 1e-7 / m.step;
@@ -210,8 +189,7 @@ TEST(MovingFace, CohesionNeedsSurfacesThatLieAlongEachOther) {
     MovedBlocks m = square_on_base(rough_joint(0.0, 1e5));
     m.start(0.3);
     const double tilt = degrees * std::numbers::pi / 180.0;
-    m.put(1, {{0.0, 0.5 * (std::sin(tilt) + std::cos(tilt) - 1.0) - depth}, tilt});
-    m.settle();
+    m.rest(1, {{0.0, 0.5 * (std::sin(tilt) + std::cos(tilt) - 1.0) - depth}, tilt});
     ASSERT_GT(m.force_on(1).y, 0.0);
     for (int n = 1; n <= 40; ++n) {
       m.go(1, {{1e-5 * n, 0.5 * (std::sin(tilt) + std::cos(tilt) - 1.0) - depth}, tilt});
@@ -225,10 +203,7 @@ TEST(MovingFace, CohesionNeedsSurfacesThatLieAlongEachOther) {
 
 /// The step behind is made shorter: what holds keeps its force, in the step to come, too.
 TEST(MovingFace, AChangeOfTheStepKeepsWhatHolds) {
-  MovedBlocks m = square_on_base(rough_joint(80.0));
-  m.start();
-  m.put(1, {{0.0, -depth}});
-  m.settle();
+  MovedBlocks m = pressed_square(rough_joint(80.0), depth);
   for (int n = 1; n <= 5; ++n) m.go(1, {{1e-6 * n, -depth - 1e-6 * n}});
   const double force = m.force_on(1).x;
   const std::vector<double> old_x1 = m.pose.x1, old_y1 = m.pose.y1;
@@ -246,10 +221,7 @@ TEST(MovingFace, AChangeOfTheStepKeepsWhatHolds) {
 
 /// The part alpha of the normal force is all that friction feels.
 TEST(MovingFace, IsCutAnewUnderAPartOfItsNormalForce) {
-  MovedBlocks m = square_on_base(rough_joint(30.0));
-  m.start();
-  m.put(1, {{0.0, -depth}});
-  m.settle();
+  MovedBlocks m = pressed_square(rough_joint(30.0), depth);
   for (int n = 1; n <= 20; ++n) m.go(1, {{2e-5 * n, -depth}});
   const std::size_t k = m.main_face();
   const FacePoints at = face_points(m.faces, m.pose.x, m.pose.y, k),
@@ -279,10 +251,7 @@ TEST(MovingFace, IsCutAnewUnderAPartOfItsNormalForce) {
 /// the spring gives up is no friction but transfer: k u_n (-3 l - u_n)/2, u_n = -l or, halved,
 /// -l/2.
 TEST(MovingFace, BooksTheTransferOfWhatIsCutAnew) {
-  MovedBlocks m = square_on_base(rough_joint(30.0));
-  m.start();
-  m.put(1, {{0.0, -depth}});
-  m.settle();
+  MovedBlocks m = pressed_square(rough_joint(30.0), depth);
   for (int n = 1; n <= 20; ++n) m.go(1, {{2e-5 * n, -depth}});
   const double limit = mu * 2e9 * depth, l = limit / 1e9;
   m.go(1, {{4e-4 - 3.0 * l, -depth}});

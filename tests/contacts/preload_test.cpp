@@ -109,8 +109,7 @@ TEST(JudgeFace, FarSidesDoNotAct) {
   m.add({{0.2, 0.02}, {0.8, 0.02}, {0.8, 0.04}, {0.2, 0.04}});
   m.start(0.05);
   const double depth = 1e-5;
-  m.put(1, {{0.0, -depth}});
-  m.settle();
+  m.rest(1, {{0.0, -depth}});
   EXPECT_NEAR(m.force_on(1).y, 2e9 * depth, 1e-6 * 2e9 * depth);
   int far = 0;
   for (std::size_t k = 0; k < m.faces.size(); ++k) {

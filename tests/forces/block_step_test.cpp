@@ -110,12 +110,7 @@ TEST(Viscosity, IsTheFractionOfTheSoftestVibration) {
 TEST(BlockMatrices, BoundarySpringsStandInSpaceAndNotInTheBlock) {
   MovedBlocks m;
   m.model.joints = {test::rough_joint(30.0)};
-  Boundary roller;
-  roller.name = "b";
-  roller.type = BoundaryType::roller;
-  roller.along = {{0, 0}, {2, 1}};
-  roller.stiffness = 3.0;
-  m.model.boundaries = {roller};
+  m.model.boundaries = {test::boundary_along(BoundaryType::roller, {0, 0}, {2, 1}, 3.0)};
   m.add({{0, 0}, {2, 1}, {1, 2}});
   m.start();
   const BoundarySprings springs = attach_boundaries(m.model, m.blocks).value();

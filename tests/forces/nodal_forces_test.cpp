@@ -88,12 +88,7 @@ TEST(NodalForces, WeightIsThatOfTheBlock) {
 }
 
 TEST(NodalForces, BoundarySpringsPullBack) {
-  Boundary held;
-  held.name = "b";
-  held.type = BoundaryType::fixed;
-  held.along = {{0, 0}, {2, 0.3}};
-  held.stiffness = 1e6;
-  OneBlock o({held});
+  OneBlock o({test::boundary_along(BoundaryType::fixed, {0, 0}, {2, 0.3}, 1e6)});
   ASSERT_EQ(o.springs.size(), 2u);
   for (std::size_t k = 0; k < 3; ++k) {
     o.state.x[k][0] += 0.01;
@@ -108,8 +103,7 @@ TEST(NodalForces, BoundarySpringsPullBack) {
 TEST(NodalForces, OfFacesWorkAsOnTheCorners) {
   MovedBlocks m = test::square_on_base(test::rough_joint(30.0));
   m.start();
-  m.put(1, {{0.0, -1e-4}, 5e-5});
-  m.settle();
+  m.rest(1, {{0.0, -1e-4}, 5e-5});
   m.go(1, {{2e-5, -1e-4}, 5e-5});
   NodalForces forces;
   for (std::size_t k = 0; k < 3; ++k) forces.x[k] = forces.y[k] = {0.0, 0.0};
@@ -152,11 +146,7 @@ TEST(ViscousStress, IsTheElasticOneOfItsRate) {
 /// f = -C ((v- + v+)/2 - r), v+ the velocity that f itself leads to, with mass damping and viscous
 /// rock.
 TEST(DashpotForces, AreThoseOfTheMeanVelocityOfTheStep) {
-  Boundary lets_out;
-  lets_out.name = "b";
-  lets_out.type = BoundaryType::viscous;
-  lets_out.along = {{0, 0}, {2, 0.3}};
-  OneBlock o({lets_out});
+  OneBlock o({test::boundary_along(BoundaryType::viscous, {0, 0}, {2, 0.3})});
   const Dashpots dashpots = attach_dashpots(o.model, o.blocks).value();
   const std::size_t points = dashpots.points.size();
   ASSERT_EQ(points, 2u);

@@ -26,8 +26,7 @@ struct Pressed : MovedBlocks {
       : MovedBlocks(test::square_on_base(joint)) {
     start();
     if (bonded) bond_faces(faces, blocks, pose, laws);
-    put(1, {{0.0, at}});
-    settle();
+    rest(1, {{0.0, at}});
     for (auto* taken : {&faces.friction_work, &faces.damping_work}) {
       taken->fill(0.0);
     }

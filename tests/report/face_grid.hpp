@@ -25,8 +25,9 @@ inline Grid face_grid(const std::vector<TestFace>& faces) {
   const auto add = [&](const std::string& name, const std::vector<double>& values) {
     Field* field = nullptr;
     for (Field& f : g.cell_fields) field = f.name == name ? &f : field;
+    const bool whole = name.starts_with("block_") || name == "state";
     if (field == nullptr)
-      field = &g.cell_fields.emplace_back(Field{name, values.size(), {}, {}, false});
+      field = &g.cell_fields.emplace_back(Field{name, values.size(), {}, {}, whole});
     field->values.insert(field->values.end(), values.begin(), values.end());
   };
   for (const TestFace& f : faces) {

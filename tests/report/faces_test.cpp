@@ -75,26 +75,50 @@ TEST(PressureDiagram, IsCutWhereItWouldBeTooHigh) {
   expect_ring(areas[1], {{3, 0}, {5, -2}, {6, -2}, {6, 0}}, true);
 }
 
-TEST(DrawnFaces, AreWhereTheFrameSaysAndGoAlongWithTheirDisplacements) {
-  Grid g = face_grid({{{1, 0}, {1, 1}, -2e6, 0.0, 0.6, 2.0, 4, 5, {0.5, -0.25}}});
-  const std::vector<DrawnFace> faces = drawn_faces(g, 3.0);
+TEST(DrawnFaces, AreWhereTheFrameSays) {
+  Grid g = face_grid({{{1, 0}, {1, 1}, -2e6, 0.0, 0.6}});
+  const std::vector<DrawnFace> faces = drawn_faces(g);
   ASSERT_EQ(faces.size(), 1u);
-  EXPECT_EQ(faces[0].a, (Vec2{2.0, -0.5}));
-  EXPECT_EQ(faces[0].b, (Vec2{2.0, 0.5}));
+  EXPECT_EQ(faces[0].a, (Vec2{1.0, 0.0}));
+  EXPECT_EQ(faces[0].b, (Vec2{1.0, 1.0}));
   EXPECT_DOUBLE_EQ(faces[0].pressure_a, 2e6);
   EXPECT_DOUBLE_EQ(faces[0].pressure_b, 0.0);
   EXPECT_DOUBLE_EQ(faces[0].closed, 0.6);
   EXPECT_FALSE(faces[0].open);
   // Frames of older versions do not say where faces end.
   g.cell_fields.pop_back();
-  EXPECT_TRUE(drawn_faces(g, 1.0).empty());
+  EXPECT_TRUE(drawn_faces(g).empty());
+}
+
+/// Where displacements are drawn larger, faces stay on the edges of their block j, which moves,
+/// turns and is strained, whatever block i does.
+TEST(DrawnFaces, GoAlongWithTheirBlock) {
+  Snapshot shot{two_blocks()};
+  std::vector<double>& u = shot.blocks.point_fields[0].values;
+  for (std::size_t p = 4; p < 8; ++p) {
+    const double x = shot.blocks.points[3 * p], y = shot.blocks.points[3 * p + 1];
+    u[3 * p] = 0.1 - 0.2 * y + 0.01 * x;
+    u[3 * p + 1] = -0.3 + 0.2 * x + 0.03 * y;
+  }
+  shot.contacts = face_grid({{{2, 0}, {2, 0.5}, -1e6, -1e6, 1.0, 1.0, 4, 5, {7.0, 7.0}},
+                             {{0.25, 0}, {1, 0}, -1e6, -1e6, 1.0, 1.0, 5, 4, {7.0, 7.0}},
+                             {{0.5, 0}, {1, 0}, -1e6, -1e6, 1.0, 1.0, 5, 9, {7.0, 7.0}}});
+  const Scene s = make_scene(shot, 4.0);
+  ASSERT_EQ(s.faces.size(), 3u);
+  const auto expect_at = [](Vec2 found, Vec2 place) { EXPECT_LT(norm(found - place), 1e-12); };
+  expect_at(s.faces[0].a, s.points[4]);
+  expect_at(s.faces[0].b, 0.5 * (s.points[4] + s.points[7]));
+  expect_at(s.contacts[0], 0.75 * s.points[4] + 0.25 * s.points[7]);
+  expect_at(s.faces[1].a, 0.75 * s.points[0] + 0.25 * s.points[1]);
+  expect_at(s.faces[1].b, s.points[1]);
+  expect_at(s.faces[2].a, {0.5, 0.0});  // of a block that is gone
 }
 
 TEST(DrawnFaces, StayOnTheirBlocksBesideAMonitor) {
   Snapshot shot{two_blocks()};
   shot.contacts = face_grid({{{1, 0}, {1, 1}, -1e6, -1e6}});
   ASSERT_TRUE(move_with(shot, {-0.2, 0.5}));
-  EXPECT_EQ(drawn_faces(*shot.contacts, 1.0)[0].a, (Vec2{0.5, 0.0}));
+  EXPECT_EQ(drawn_faces(*shot.contacts)[0].a, (Vec2{0.5, 0.0}));
 }
 
 Snapshot with_faces(const std::vector<TestFace>& faces, const std::string& field = "none") {

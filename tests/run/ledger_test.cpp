@@ -79,6 +79,16 @@ TEST(Ledger, ClosesWhileEndsOpenAndClose) {
   }
 }
 
+/// Two halves that pull and push each other through a bonded joint.
+TEST(Ledger, ClosesWhileABondGoesToAndFro) {
+  std::string text = "gravity = [0, 0]\n" + rock +
+                     "[[block]]\nvelocity = [0, -0.01]\npolygon = [[0,0],[1,0],[1,1],[0,1]]\n"
+                     "[[block]]\nvelocity = [0, 0.01]\npolygon = [[0,1],[1,1],[1,2],[0,2]]\n";
+  text.replace(text.find("friction_angle = 20"), 19, "type = 'glued'\nkn = 1e10");
+  Simulation sim = testing::prepared(text).sim;
+  EXPECT_LT(drift_of(sim, 0.02), 1e-6);
+}
+
 /// A block falls into a bolt, which yields and breaks.
 TEST(Ledger, HasWhatBoltsStoreAndTake) {
   Simulation sim =
@@ -95,6 +105,40 @@ TEST(Ledger, HasWhatBoltsStoreAndTake) {
   EXPECT_EQ(l.fracture, sim.bolts.fractured);
   EXPECT_EQ(l.friction, sim.bolts.slipped);
   EXPECT_GT(l.friction, 0.0);
+}
+
+/// A bolt that pulls, with ends or in grout, between a roof and a block that falls from it.
+std::string falling_from_a_bolt(const std::string& type) {
+  return rock +
+         "[[block]]\nfixed = true\npolygon = [[-1,3],[1,3],[1,4],[-1,4]]\n[[block]]\n"
+         "velocity = [0.5, -3]\npolygon = [[-1,0],[1,0],[1,2],[-1,2]]\n[[bolt]]\nname = 'b'\n"
+         "from = [0, 0.5]\nto = [0, 3.5]\ndiameter = 0.02\npretension = 5e4\ntype = '" +
+         type + (type == "end" ? "'\n" : "'\nbond = { stiffness = 1e9, strength = 1e6 }\n");
+}
+
+TEST(Ledger, HasWhatPretensionDoesFromTheStart) {
+  for (const std::string type : {"end", "grouted"}) {
+    Simulation sim = testing::prepared(falling_from_a_bolt(type)).sim;
+    EXPECT_LT(drift_of(sim, 0.005), 2e-6) << type;
+  }
+}
+
+/// One that is put in while its block falls and the roof shakes.
+TEST(Ledger, HasWhatPretensionDoesOncePutIn) {
+  Simulation sim =
+      testing::prepared(falling_from_a_bolt("end") +
+                        "[[shaking]]\nacceleration = { amplitude = 100.0, frequency = 10.0 }\n"
+                        "[[stage]]\nduration = 0.5\n[[stage]]\nduration = 0.5\n"
+                        "install = ['b']\n")
+          .sim;
+  EXPECT_LT(drift_of(sim, 0.03), 1e-6);
+  EXPECT_FALSE(sim.install({0}));
+  const double before = sim.ledger().drift;
+  sim.aim_at(0.032);
+  while (sim.state.time < 0.032) {
+    ASSERT_FALSE(sim.step());
+    ASSERT_NEAR(sim.ledger().drift, before, 2e-6);
+  }
 }
 
 /// Velocities that are changed while a bolt pulls are work from outside, and no more.

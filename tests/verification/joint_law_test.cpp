@@ -2,7 +2,6 @@
 // slides until friction has taken its motion; the normal load is its weight and that of a pressure.
 #include <cmath>
 
-#include "contacts/joint_laws.hpp"
 #include "verification/models.hpp"
 #include "verification/record.hpp"
 
@@ -217,23 +216,6 @@ TEST(DirectShear, BartonBandisPeak) {
     expect_relative({48, label, "shear over normal stress at which it goes", ""},
                     0.5 * (low + high) * t, t, 1e-2);
   }
-}
-
-/// The formulas themselves, against numbers worked by hand.
-TEST(BartonBandis, Formulas) {
-  Law law{};
-  law.jrc = 10.0;
-  law.jcs = 100e6;
-  law.residual_angle = 30.0;
-  EXPECT_NEAR(barton_angle(law, 1.0, 1e6), 50.0, 1e-12);
-  EXPECT_NEAR(barton_angle(law, 0.5, 1e6), 40.0, 1e-12);
-  EXPECT_EQ(barton_angle(law, 1.0, 100e6), 30.0);
-  EXPECT_EQ(barton_angle(law, 1.0, 1e-3), 70.0);
-  EXPECT_EQ(roughness_left(0.5, 1.0), 1.0);
-  EXPECT_NEAR(roughness_left(2.0, 1.0), 0.85, 1e-12);
-  EXPECT_NEAR(roughness_left(10.0, 1.0), 0.5, 1e-12);
-  EXPECT_NEAR(roughness_left(std::sqrt(40.0), 1.0), 0.6, 1e-12);
-  EXPECT_EQ(roughness_left(200.0, 1.0), 0.0);
 }
 
 }  // namespace

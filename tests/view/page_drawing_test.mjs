@@ -354,6 +354,45 @@ test('says where strokes are cut', async () => {
   }
 });
 
+test('has an entry for joints in tension where there are any', async () => {
+  // A brick hangs from another, and holds a third.
+  writeFileSync(path.join(folder, 'hung.toml'), `[materials.rock]
+density = 2500
+young = 1e9
+poisson = 0.2
+[joints.mortar]
+friction_angle = 30
+cohesion = 1e6
+tensile_strength = 1e6
+[contact]
+joint = 'mortar'
+[[block]]
+fixed = true
+polygon = [[0, 2], [1, 2], [1, 3], [0, 3]]
+[[block]]
+polygon = [[0, 1], [1, 1], [1, 2], [0, 2]]
+[[block]]
+polygon = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[solver]
+duration = 0.01
+[output]
+every = 0.005
+`);
+  run('run', 'hung.toml', '--quiet');
+  run('view', 'hung');
+  for (const [name, pulls] of [['hung.html', true], ['cavern.html', false]]) {
+    const p = await page(name);
+    for (const id of ['forces', 'crosses']) await p.locator(`#${id}`).check();
+    await p.waitForFunction(() => !edda.stale && !edda.overlayStale);
+    const { strokes, drawn, largest } = await p.evaluate(() => ({ strokes: edda.legend().strokes, drawn: edda.view.pressureRims.count, largest: edda.results.run.largest }));
+    const entry = strokes.find((s) => s.text.startsWith('in tension'));
+    assert.equal(entry !== undefined, pulls, JSON.stringify(strokes));
+    assert.ok(drawn > 0 && largest.tension > 0 === pulls);
+    if (pulls) assert.equal(entry.colour, strokes.find((s) => s.text === 'tension').colour);
+    await p.close();
+  }
+});
+
 test('says so of ends of the colours that are none', async () => {
   const p = await page('cavern.html');
   await choose(p, 'range', 'own');

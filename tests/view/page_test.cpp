@@ -11,6 +11,7 @@
 #include <functional>
 #include <random>
 
+#include "report/face_grid.hpp"
 #include "results/vtu.hpp"
 #include "scratch_folder.hpp"
 #include "view/frames_of.hpp"
@@ -201,6 +202,26 @@ TEST_F(ViewPage, TellsUsualStrokesAndWhatFramesHaveNot) {
       std::stod(header.substr(at + std::string("\"usual\":{\"force\":0,\"stress\":").size())),
       1e6 * (0.5 + std::hypot(1.5, 0.4)), 1.0);
   EXPECT_NE(header.find("\"largest\":{\"force\":0,\"stress\":2052"), std::string::npos) << header;
+}
+
+/// The largest pressures on closed faces, and the largest that are none.
+TEST_F(ViewPage, TellsOfFacesInTension) {
+  write_frames(1);
+  const auto largest = [&](const std::vector<TestFace>& faces) {
+    EXPECT_FALSE(write_vtu(folder_ + "/" + contacts_beside(series_[0].file), face_grid(faces)));
+    Result<ViewRun> run = ViewRun::open(folder_, {});
+    EXPECT_TRUE(run.ok());
+    take_new(run.value());
+    std::string header = run.value().header();
+    std::erase_if(header, [](char c) { return c == ' ' || c == '\n'; });
+    const std::size_t at = header.find("\"pressure\":", header.find("\"largest\":"));
+    return header.substr(at, header.find('}', at) - at);
+  };
+  EXPECT_EQ(largest({{{0, 0}, {1, 0}, -1e6, -2e6, 1.0, 1.0, 0, 1}}),
+            "\"pressure\":2000000,\"tension\":0");
+  EXPECT_EQ(largest({{{0, 0}, {1, 0}, -1e6, 3e6, 1.0, 1.0, 0, 1},
+                     {{1, 0}, {2, 0}, 9e6, 9e6, 1.0, 0.0, 0, 1}}),
+            "\"pressure\":1000000,\"tension\":3000000");
 }
 
 TEST_F(ViewPage, SaysWhatIsNoFolder) {

@@ -208,9 +208,17 @@ export class App {
     const { usual, largest } = results.run;
     const cut = (of: 'force' | 'stress') => (largest[of] > LONGEST * usual[of] ? LONGEST * usual[of] : undefined);
     if (controls.forces) strokes.push({ colour: css(theme.ink), text: `force, up to ${quantity(largest.force, 'N', 3)}`, perPixel: per('forces'), unit: 'N', cutAt: cut('force') });
-    if (controls.forces && largest.pressure > 0) {
-      const cutAt = largest.pressure > LONGEST_BEYOND * usual.pressure ? LONGEST_BEYOND * usual.pressure : undefined;
-      strokes.push({ colour: css(theme.compression), text: `pressure, up to ${quantity(largest.pressure, 'Pa', 2)}`, perPixel: per('pressures'), unit: 'Pa', cutAt, most: largest.pressure });
+    if (controls.forces) {
+      const most = Math.max(largest.pressure, largest.tension);
+      const cutAt = most > LONGEST_BEYOND * usual.pressure ? LONGEST_BEYOND * usual.pressure : undefined;
+      const up = (text: string, value: number, colour: number[]) => ({ colour: css(colour), text: `${text}, up to ${quantity(value, 'Pa', 2)}`, unit: 'Pa', most: value });
+      const drawn: LegendEntries['strokes'] = [];
+      if (largest.pressure > 0) drawn.push(up('pressure', largest.pressure, theme.compression));
+      if (largest.tension > 0) drawn.push(up('in tension', largest.tension, theme.tension));
+      // One sample is enough, and so is one word of what is cut.
+      if (drawn.length > 0) drawn[0].perPixel = per('pressures');
+      if (drawn.length > 0) drawn[drawn.length - 1].cutAt = cutAt;
+      strokes.push(...drawn);
     }
     if (controls.crosses) {
       strokes.push({ colour: css(theme.compression), text: 'compression', perPixel: per('crosses'), unit: 'Pa' });

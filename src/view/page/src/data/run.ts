@@ -60,8 +60,8 @@ export interface Run {
   absent: ('omega' | 'rotation' | 'overstress')[];
   /** What strokes of the usual length stand for, in all frames: N, Pa, Pa; pressures are those at the ends of faces. */
   usual: { force: number; stress: number; pressure: number };
-  /** The largest in all frames. */
-  largest: { force: number; stress: number; pressure: number };
+  /** The largest in all frames; `tension` is that of the pressures that are none. */
+  largest: { force: number; stress: number; pressure: number; tension: number };
   colours: { sequential: string; diverging: string; kinds: string; states: string };
   /** Of contacts, by number. */
   states: string[];
