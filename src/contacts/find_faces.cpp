@@ -97,18 +97,18 @@ int kind_in_list(const FaceSet& old, const BlockSet& b, const Pose& pose, double
   const FacePoints points{at(pose.x, pose.y, e), at(pose.x, pose.y, b.next[e]),
                           at(pose.x, pose.y, q), at(pose.x, pose.y, b.next[q])};
   const Opposition o = opposition_of(points, pair);
-  bool carries = false;
+  constexpr double near = 0.01, overlaps = 0.01;
+  const double closure = o.apart_0 + std::max(o.steeper * o.ma, o.steeper * o.mb);
+  const bool near_by = o.s2 > 0.0 && o.r1 > o.r2 && o.cosine > angle_gate(b, e, q).none &&
+                       o.mb - o.ma > -near * reach && closure > -near * reach;
+  bool carries = near_by && o.mb - o.ma > overlaps * shorter;
   double nearest = std::min(std::abs(o.r2), std::abs(o.s2 - o.r1)) - passing_part * shorter;
   if (const Id k = f.old; k != no_id) {
     carries = old.now.energy[k] > 0.0 || old.bonded[k] > 0.0 || old.pulls[k] > 0.0;
     if (old.bonded[k] > 0.0 || old.offset_a[k] != 0.0 || old.offset_b[k] != 0.0) nearest = 0.0;
-  } else {
-    constexpr double near = 0.01, overlaps = 0.01;
-    const double closure = o.apart_0 + std::max(o.steeper * o.ma, o.steeper * o.mb);
-    carries =
-        o.s2 > 0.0 && o.r1 > o.r2 && o.mb - o.ma > overlaps * shorter && closure > -near * reach;
   }
-  return (carries ? 0 : 2) + (nearest > 0.0 ? 0 : 1);
+  const int kind = carries ? 0 : near_by ? 1 : 2;
+  return 2 * kind + (nearest > 0.0 ? 0 : 1);
 }
 
 void fill_constants(FaceSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
