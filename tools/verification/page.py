@@ -47,7 +47,7 @@ STUDIES = {
         " -62 degrees, 2.5 m ± 1.0 m; deviations normal, uniform and exponential by turns, every other slope bonded. Every"
         " block is held against every other by points in polygons: faces may press no deeper than blocks lie in each"
         " other, nothing may overlap without being felt; as drawn, and after 400 steps. The largest of each group. A slope is"
-        " bad, too, where a face as drawn pushes with more than a thousandth of the heavier block's weight: between slivers of"
+        " bad, too, where a face as drawn pushes with more than four thousandths of the heavier block's weight: between slivers of"
         " square decimetres and less, with edges of millimetres, the rounding of coordinates may close a face by that much."),
 }
 
