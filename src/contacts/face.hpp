@@ -178,7 +178,8 @@ EDDA_INLINE FaceEnds gated_closure(double drawn_a, double drawn_b, const FacePai
 EDDA_INLINE bool is_plain(const Opposition& o, const FacePair& pair) {
   const double along = (o.cosine - pair.gate_from) * pair.gate_scale, length = o.mb - o.ma;
   const bool absent = (length <= 0.0) | (along <= 0.0) | (o.s2 <= 0.0) | (o.r1 <= o.r2);
-  const bool apart = (std::abs(o.r2) >= pair.passing) & (std::abs(o.s2 - o.r1) >= pair.passing);
+  const double nearest = smaller(std::abs(o.r2), std::abs(o.s2 - o.r1));  // corner to corner
+  const bool apart = nearest >= pair.passing;
   const double deepest = larger(o.apart_0 + o.steeper * o.ma, o.apart_0 + o.steeper * o.mb);
   constexpr double shallow = 1.001 * (aspect_from + aspect_range);
   const bool rigid = apart & (along >= 1.0) & (length >= shallow * deepest);

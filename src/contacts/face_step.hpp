@@ -186,7 +186,7 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const double cohesion = touches ? 0.5 * c.cohesion[k] * face.cohesive : 0.0;
   const double da = face.closure.a, db = face.closure.b;
   const bool pulls = plain ? false : c.pulls[k] > 0.0;
-  const auto since_touch = [pulls](double closing, double d) {
+  const auto since_touch = [&](double closing, double d) {
     return pulls ? closing : smaller(closing, larger(d, 0.0));
   };
   const FaceEnds closing{since_touch(moved.closure.a, da), since_touch(moved.closure.b, db)};
