@@ -1,7 +1,7 @@
-// Large arrays on large pages, and all others from the start of a cache line on: where eight
-// numbers are loaded at once they then lie in one line and not in two.
+// Large arrays on large pages, and smaller ones from the start of a cache line on: eight numbers
+// that are loaded at once then lie in one line and not in two.
 //
-// A step streams through some forty arrays. With pages of 4 KiB the processor spends a tenth of a
+// A step streams through all of them. With pages of 4 KiB the processor spends a tenth of a
 // large model's time looking up where the next ones are. Memory of some size is therefore asked for
 // on the boundaries of large pages, and the system told that it may use them; where it may not,
 // nothing changes.

@@ -73,8 +73,10 @@ class ChunkTable : public Columns {
   ChunkTable(const ChunkTable& other) : Columns(), cells_(other.cells_), rows_(other.rows_) {
     bind();
   }
-  ChunkTable(ChunkTable&& other) noexcept : cells_(std::move(other.cells_)), rows_(other.rows_) {
+  ChunkTable(ChunkTable&& other) noexcept
+      : cells_(std::exchange(other.cells_, {})), rows_(std::exchange(other.rows_, 0)) {
     bind();
+    other.bind();
   }
   ChunkTable& operator=(ChunkTable other) noexcept {
     cells_.swap(other.cells_);
@@ -95,6 +97,7 @@ class ChunkTable : public Columns {
   const double* begin_of_chunk(std::size_t q) const { return cells_.data() + q * stride; }
 
   static constexpr std::size_t stride = std::size(list) * chunk_rows;
+  static_assert(sizeof(Columns) == std::size(list) * sizeof(ChunkColumn), "a field is not listed");
 
  private:
   void bind() {
@@ -110,6 +113,7 @@ class ChunkTable : public Columns {
 template <class Fields, const auto& list, class Number>
 EDDA_INLINE Fields columns_of_chunk(Number* chunk) {
   Fields fields;
+  static_assert(sizeof(Fields) == std::size(list) * sizeof(Number*), "a field is not listed");
   [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
     ((fields.*list[i].values = chunk + i * chunk_rows), ...);
   }

@@ -173,8 +173,8 @@ EDDA_INLINE FaceEnds gated_closure(double drawn_a, double drawn_b, const FacePai
 }
 
 /// Whether what is rare in U does not matter: no corners pass each other, the edges lie along each
-/// other (W = 1), nothing is deep (w = 1), nothing is locked in, no tension is borne; or all is
-/// open.
+/// other (W = 1), nothing is deep (w = 1), nothing is locked in, no tension is borne; or there is
+/// no overlap.
 EDDA_INLINE bool is_plain(const Opposition& o, const FacePair& pair) {
   const double along = (o.cosine - pair.gate_from) * pair.gate_scale, length = o.mb - o.ma;
   const bool absent = (length <= 0.0) | (along <= 0.0) | (o.s2 <= 0.0) | (o.r1 <= o.r2);
@@ -198,11 +198,12 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
                steeper = o.steeper, cosine = o.cosine;
   const double c = -dot(e, f), s = cross(f, e);      // of theta, times both lengths
   const bool a_by_p = r2 <= 0.0, b_by_p = s2 <= r1;  // p1 and p2 bound the overlap
-  const bool opposed = (s2 > 0.0) & (r1 > r2);
   const bool pulls = plain ? false : pair.pulls != 0.0;
 
   // Corners that pass each other
   double sa = ma, sb = mb, la = ma, lb = mb, per_passing = 0.0;
+  const bool opposed = (s2 > 0.0) & (r1 > r2) & (cosine > pair.gate_from);
+  bool lives = (mb > ma) & opposed;
   CornersPassing near_a, near_b, pass_a, pass_b;
   PassingReach wide;
   if constexpr (!plain) {
@@ -220,8 +221,10 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
     const double per_reach = 1.0 / (wide.reach > 0.0 ? wide.reach : 1.0);
     pass_a = corners_passing(-r2, wide.reach, per_reach);
     pass_b = corners_passing(s2 - r1, wide.reach, per_reach);
-    sa = ma + pass_a.drawn_in;
-    sb = mb - pass_b.drawn_in;
+    const double from = ma + pass_a.drawn_in, to = mb - pass_b.drawn_in;
+    lives = (to > from) & opposed;
+    sa = lives ? from : ma;
+    sb = lives ? to : mb;
   }
   face.t = t;
   face.inverse_e = pair.inverse_e * o.per_base;
@@ -235,7 +238,6 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
 
   // W, of the angle theta between the edges
   const double inverse_lengths = pair.inverse_e * pair.inverse_f;
-  const bool lives = (face.length > 0.0) & (cosine > pair.gate_from) & opposed;
   const double along = (cosine - pair.gate_from) * pair.gate_scale;
   SmoothStep by_angle{smaller(larger(along, 0.0), 1.0), 0.0};
   if constexpr (!plain) by_angle = smooth_step(along);

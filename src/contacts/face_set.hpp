@@ -1,6 +1,6 @@
 // Faces: the contacts of the model, and their memory. [nf] rows each: first those that
-// carried when the list was made, then the others. Elements and notation: contacts/face.hpp;
-// docs/contacts.md.
+// carried when the list was made, then those that were near, then the others. Elements and
+// notation: contacts/face.hpp; docs/contacts.md.
 #pragma once
 
 #include <algorithm>

@@ -84,9 +84,8 @@ std::vector<Listed> with_old_faces(const std::vector<EdgePair>& list, const Face
 /// Corners pass each other smoothly within this part of the shorter edge (face.hpp).
 constexpr double passing_part = 0.15;
 
-/// Where faces stand in the list: those that carry, or are about to, before the others, and of both
-/// those first that are plain (is_plain()), so that a chunk of the list mostly has one kind of
-/// them.
+/// Where faces stand in the list: those that carry, those that soon may, the others; of each kind
+/// those first that are plain (is_plain()), so that a chunk of the list mostly has one kind.
 int kind_in_list(const FaceSet& old, const BlockSet& b, const Pose& pose, double reach,
                  const Listed& f) {
   const auto [e, q] = f.pair;
@@ -105,7 +104,8 @@ int kind_in_list(const FaceSet& old, const BlockSet& b, const Pose& pose, double
   double nearest = std::min(std::abs(o.r2), std::abs(o.s2 - o.r1)) - passing_part * shorter;
   if (const Id k = f.old; k != no_id) {
     carries = old.now.energy[k] > 0.0 || old.bonded[k] > 0.0 || old.pulls[k] > 0.0;
-    if (old.bonded[k] > 0.0 || old.offset_a[k] != 0.0 || old.offset_b[k] != 0.0) nearest = 0.0;
+    const bool locked = old.offset_a[k] != 0.0 || old.offset_b[k] != 0.0;
+    if (locked || old.bonded[k] > 0.0 || old.pulls[k] > 0.0) nearest = 0.0;
   }
   const int kind = carries ? 0 : near_by ? 1 : 2;
   return 2 * kind + (nearest > 0.0 ? 0 : 1);

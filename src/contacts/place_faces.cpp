@@ -272,8 +272,9 @@ EDDA_VECTOR void end_step_of_chunk(double* properties, const double* now, const 
 /// What has been worked out is final; dashpots: of the faces, or of the method.
 void end_step(FaceSet& c, bool dashpots) {
   if (c.gluing) glue_pressed(c);
-  parallel_for(c.chunks(), [&](std::size_t q) {
-    if (c.now.idle[q] == 0) {
+  parallel_chunks(c.size(), FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t q = begin / FaceSet::chunk; q * FaceSet::chunk < end; ++q) {
+      if (c.now.idle[q] != 0) continue;
       end_step_of_chunk(c.begin_of_chunk(q), c.now.begin_of_chunk(q), c.before.begin_of_chunk(q),
                         dashpots);
     }
@@ -312,6 +313,7 @@ void place_face(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable&
                     c.bonded[k] == 0.0 && c.pulls[k] == 0.0;
   if (idle && !wakes(view_of(all, chunk_place(c, q)), k % FaceSet::chunk)) return;
   const FoundInChunk found = place_and_judge(c, all, b, pose, &laws, k, k + 1);
+  c.deepest[q] = std::max(c.deepest[q], found.deepest);
   if (found.stirs) c.stirs[q] = 1;
   if (found.works) c.now.idle[q] = 0;
 }

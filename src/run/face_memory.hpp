@@ -13,15 +13,13 @@
 
 namespace edda {
 
-/// A column of `table`, which loses its rows where a file has another number of them.
-template <class Archive, class Table>
-void list_column(Archive& a, const std::string& name, Table& table, ChunkColumn& column) {
+template <class Archive>
+void list_column(Archive& a, const std::string& name, ChunkColumn& column) {
   std::vector<double> values = column.values();
   a(name, values);
-  if (values.size() == column.size()) {
+  if constexpr (Archive::loads) {
+    if (values.size() != column.size()) return a.refuse("faces do not fit together");
     column.take(values);
-  } else {
-    table.clear_rows(0);
   }
 }
 
@@ -30,20 +28,23 @@ void list_faces(Archive& a, FaceSet& c) {
   a("faces.edge", c.edge);
   a("faces.facing", c.facing);
   a("faces.law", c.law);
-  if (c.rows() != c.size()) {
+  if constexpr (Archive::loads) {
+    if (c.facing.size() != c.size() || c.law.size() != c.size()) {
+      return a.refuse("faces do not fit together");
+    }
     for (FaceMemory* m : {&c.now, &c.before}) m->clear_rows(c.size());
     c.force.clear_rows(c.size());
     c.clear_rows(c.size());
   }
   for (const auto& column : face_properties) {
-    if (column.kept) list_column(a, std::string("faces.") + column.name, c, c.*column.values);
+    if (column.kept) list_column(a, std::string("faces.") + column.name, c.*column.values);
   }
   for (const auto& column : face_columns) {
-    list_column(a, std::string("faces.now.") + column.name, c.now, c.now.*column.values);
-    list_column(a, std::string("faces.before.") + column.name, c.before, c.before.*column.values);
+    list_column(a, std::string("faces.now.") + column.name, c.now.*column.values);
+    list_column(a, std::string("faces.before.") + column.name, c.before.*column.values);
   }
   for (const auto& column : corner_fields<ChunkColumn>) {
-    list_column(a, std::string("faces.force.") + column.name, c.force, c.force.*column.values);
+    list_column(a, std::string("faces.force.") + column.name, c.force.*column.values);
   }
   a("faces.locked_start", c.locked_start);
   a("faces.locked_end", c.locked_end);

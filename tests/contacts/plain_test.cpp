@@ -1,0 +1,84 @@
+// Chunks whose faces are all plain are placed by a shorter loop: nothing may tell which loop it
+// was.
+#include <gtest/gtest.h>
+
+#include "contacts/drifting_heap.hpp"
+#include "contacts/face_bonds.hpp"
+
+namespace edda {
+namespace {
+
+template <class List, class Table>
+void expect_same(const List& list, const Table& a, const Table& b) {
+  for (const auto& column : list) {
+    ASSERT_EQ((a.*column.values).values(), (b.*column.values).values());
+  }
+}
+
+void expect_same(const FaceSet& a, const FaceSet& b) {
+  expect_same(face_properties, a, b);
+  expect_same(face_columns, a.now, b.now);
+  expect_same(face_columns, a.before, b.before);
+  expect_same(corner_fields<ChunkColumn>, a.force, b.force);
+  EXPECT_EQ(a.deepest, b.deepest);
+  EXPECT_EQ(a.stirs, b.stirs);
+}
+
+/// A heap that drifts, placed twice: once taken for plain throughout, once for rare.
+void drift_twice(double damping) {
+  std::mt19937 rng(5);
+  DriftingHeap heap(odd_polygons(rng, 60));
+  FaceSet& c = heap.contacts;
+  find_faces(c, heap.blocks, heap.state, heap.pose, heap.laws, 0.1);
+  set_face_dashpots(c, heap.laws, damping);
+  std::size_t plain = 0, rare = 0, carrying = 0;
+  for (int move = 0; move < 60; ++move) {
+    next_step(c);
+    heap.drift(rng, 2e-3);
+    FaceSet whole = c;
+    std::fill(whole.plain.begin(), whole.plain.end(), std::uint8_t{0});
+    std::fill(c.plain.begin(), c.plain.end(), std::uint8_t{1});
+    place_faces(c, heap.blocks, heap.pose, heap.laws, 1e-3);
+    place_faces(whole, heap.blocks, heap.pose, heap.laws, 1e-3);
+    expect_same(c, whole);
+    if (testing::Test::HasFatalFailure()) return;
+    for (std::size_t q = 0; q < c.chunks(); ++q) {
+      (c.plain[q] > 0 ? plain : rare) += 1;
+      carrying += c.plain[q] > 0 && c.deepest[q] > 0.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(plain, 100u);
+  EXPECT_GT(carrying, 20u);
+  EXPECT_GT(rare, 100u);
+}
+
+TEST(PlainFaces, AreAsThoseThatAreNot) {
+  drift_twice(0.0);
+}
+TEST(PlainFaces, AreAsThoseThatAreNotWithDashpots) {
+  drift_twice(0.2);
+}
+
+/// Faces one by one are as faces by chunks.
+TEST(PlainFaces, AreTheSameOneByOne) {
+  std::mt19937 rng(6);
+  DriftingHeap heap(odd_polygons(rng, 40));
+  FaceSet& c = heap.contacts;
+  find_faces(c, heap.blocks, heap.state, heap.pose, heap.laws, 0.1);
+  for (int move = 0; move < 20; ++move) {
+    next_step(c);
+    heap.drift(rng, 2e-3);
+    FaceSet single = c;
+    place_faces(c, heap.blocks, heap.pose, heap.laws, 1e-3);
+    for (std::size_t k = 0; k < single.size(); ++k) {
+      place_face(single, heap.blocks, heap.pose, heap.laws, 1e-3, k);
+    }
+    expect_same(face_properties, c, single);
+    expect_same(corner_fields<ChunkColumn>, c.force, single.force);
+    ASSERT_EQ(c.now.energy.values(), single.now.energy.values());
+    ASSERT_EQ(c.now.slip_a.values(), single.now.slip_a.values());
+  }
+}
+
+}  // namespace
+}  // namespace edda
