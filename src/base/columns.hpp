@@ -102,7 +102,8 @@ class ChunkTable : public Columns {
  private:
   void bind() {
     for (std::size_t i = 0; i < std::size(list); ++i) {
-      this->*list[i].values = ChunkColumn(cells_.data() + i * chunk_rows, stride, rows_);
+      double* const first = cells_.empty() ? nullptr : cells_.data() + i * chunk_rows;
+      this->*list[i].values = ChunkColumn(first, stride, rows_);
     }
   }
   std::vector<double, InWholeLines<double>> cells_;
