@@ -102,8 +102,8 @@ class ChunkTable : public Columns {
  private:
   void bind() {
     for (std::size_t i = 0; i < std::size(list); ++i) {
-      double* const first = cells_.empty() ? nullptr : cells_.data() + i * chunk_rows;
-      this->*list[i].values = ChunkColumn(first, stride, rows_);
+      double* const begin = cells_.empty() ? nullptr : cells_.data() + i * chunk_rows;
+      this->*list[i].values = ChunkColumn(begin, stride, rows_);
     }
   }
   std::vector<double, InWholeLines<double>> cells_;
