@@ -189,9 +189,8 @@ EDDA_INLINE bool is_plain(const Opposition& o, const FacePair& pair) {
 
 /// plain: where is_plain() holds what it tells is left out, to the same bits.
 template <bool plain = false>
-EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
+EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair, const Opposition& o) {
   Face face;
-  const Opposition o = opposition_of(at, pair);
   const Vec2 e = at.p2 - at.p1, f = at.q2 - at.q1, t{o.tx, o.ty};
   const double s2 = o.s2, r1 = o.r1, r2 = o.r2, per_e = o.per_e, per_f = o.per_f, ma = o.ma,
                mb = o.mb, slope_e = o.slope_e, slope_f = o.slope_f, apart_0 = o.apart_0,
@@ -359,6 +358,11 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   on.q2n += turn_fn;
   face.force = on_corners(on, at, face);
   return face;
+}
+
+template <bool plain = false>
+EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
+  return face_between<plain>(at, pair, opposition_of(at, pair));
 }
 
 /// Along the face an initial stress does nothing at the start, though the closure that it locks in

@@ -162,7 +162,7 @@ EDDA_INLINE Placed place(const FaceView& c, std::size_t k) {
   const FacePoints at = face_points(c, c.x, c.y, k), then = face_points(c, c.x1, c.y1, k);
   const FacePair pair = face_pair(c, c.turn_cosine, c.turn_sine, k);
   const Opposition stands = opposition_of(at, pair);
-  const Face face = face_between<plain>(at, pair);
+  const Face face = face_between<plain>(at, pair, stands);
   const bool bonded = plain ? false : c.bonded[k] > 0.0;
   const bool touches = (face.energy > 0.0) | (bonded & (face.gate > 0.0));
 

@@ -123,10 +123,8 @@ void fill_constants(FaceSet& c, const BlockSet& b, const LawTable& laws, std::si
   c.passing[k] = passing_part * shorter;
   c.at_ends[k] = law.kn > 0.0 ? 0.0 : 1.0;
   // A penalty is a spring at each end of the shorter edge.
-  c.stiffness[k] =
-      law.kn > 0.0 ? laws.thickness * law.kn : 2.0 * laws.normal_spring(law, 0.0) / shorter;
-  c.shear_stiffness[k] =
-      law.ks > 0.0 ? laws.thickness * law.ks : 2.0 * laws.shear_spring(law, 0.0) / shorter;
+  c.stiffness[k] = laws.normal_stiffness(law, shorter);
+  c.shear_stiffness[k] = laws.shear_stiffness(law, shorter);
 }
 
 double rounding_of_closures(const Pose& pose) {

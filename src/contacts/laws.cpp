@@ -94,14 +94,15 @@ LawTable build_laws(const Model& model) {
   return table;
 }
 
-double LawTable::normal_spring(const Law& law, double length) const {
-  if (law.kn > 0.0 && length > 0.0) return thickness * (law.kn * length);
-  return thickness * (law.spring > 0.0 ? law.spring : default_kn);
+double LawTable::normal_stiffness(const Law& law, double shorter) const {
+  if (law.kn > 0.0) return thickness * law.kn;
+  return 2.0 * (thickness * (law.spring > 0.0 ? law.spring : default_kn)) / shorter;
 }
 
-double LawTable::shear_spring(const Law& law, double length) const {
-  if (law.ks > 0.0 && length > 0.0) return thickness * (law.ks * length);
-  return thickness * default_ks * (law.spring > 0.0 ? law.spring / default_kn : 1.0);
+double LawTable::shear_stiffness(const Law& law, double shorter) const {
+  if (law.ks > 0.0) return thickness * law.ks;
+  return 2.0 * (thickness * default_ks * (law.spring > 0.0 ? law.spring / default_kn : 1.0)) /
+         shorter;
 }
 
 std::uint16_t LawTable::resolve(Index edge, Index facing) const {

@@ -66,9 +66,10 @@ struct LawTable {
   /// tension, then name.
   std::uint16_t resolve(Index edge, Index facing) const;
 
-  /// Springs of `length` m of a joint, N/m; 0: of an end of a face without kn or ks.
-  double normal_spring(const Law& law, double length) const;
-  double shear_spring(const Law& law, double length) const;
+  /// k and ks of a face times the thickness, N/m per m of overlap: those of the joint, or twice the
+  /// spring of each end over its `shorter` edge (m).
+  double normal_stiffness(const Law& law, double shorter) const;
+  double shear_stiffness(const Law& law, double shorter) const;
   /// Dashpots of its contacts, where all others have `damping`.
   double damping_of(const Law& law, double damping) const {
     return law.dashpots ? law.damping : damping;

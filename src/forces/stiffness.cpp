@@ -83,10 +83,8 @@ std::vector<Part> faces_all_round(const Scene& w, std::size_t i) {
     const double l = b.edge_length[e];
     const Law& own = w.laws.rows[w.laws.resolve(b.edge_joint[e], b.edge_joint[e])];
     const double bare = alone ? 1.0 : 2.0;
-    const double kn =
-        own.kn > 0.0 ? own.kn * w.laws.thickness : 2.0 * w.laws.normal_spring(own, 0.0) / l;
-    const double ks =
-        own.ks > 0.0 ? own.ks * w.laws.thickness : 2.0 * w.laws.shear_spring(own, 0.0) / l;
+    const double kn = w.laws.normal_stiffness(own, l);
+    const double ks = w.laws.shear_stiffness(own, l);
     normal.assign(1, {bare * kn, l, no_id});
     shear.assign(1, {bare * ks, l, no_id});
     double zeta = w.laws.damping_of(own, w.damping.contact), drag = own.shear_damping;

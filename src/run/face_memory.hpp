@@ -15,7 +15,8 @@ namespace edda {
 
 template <class Archive>
 void list_column(Archive& a, const std::string& name, ChunkColumn& column) {
-  std::vector<double> values = column.values();
+  std::vector<double> values;
+  if constexpr (!Archive::loads) values = column.values();
   a(name, values);
   if constexpr (Archive::loads) {
     if (values.size() != column.size()) return a.refuse("faces do not fit together");
