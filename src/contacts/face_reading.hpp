@@ -79,11 +79,8 @@ inline bool slides(const FaceSet& f, std::size_t k) {
 
 /// Forces of face k on its corners, N.
 inline CornerForces corner_forces(const FaceSet& f, std::size_t k) {
-  const auto& on = f.force;
-  return {{on.p1x[k], on.p1y[k]},
-          {on.p2x[k], on.p2y[k]},
-          {on.q1x[k], on.q1y[k]},
-          {on.q2x[k], on.q2y[k]}};
+  const double* const on = &f.force[8 * k];
+  return {{on[0], on[1]}, {on[2], on[3]}, {on[4], on[5]}, {on[6], on[7]}};
 }
 
 /// Force on the block of `facing`; that of `edge` has the opposite.

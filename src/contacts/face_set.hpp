@@ -82,22 +82,6 @@ struct FaceMemory : ChunkTable<FaceFields<ChunkColumn>, face_fields<ChunkColumn>
   std::vector<std::uint8_t> idle;  ///< [chunks] 1: none in it carries, or did at the step before
 };
 
-/// Forces on the corners of both edges, N: start and end of `edge`, start and end of `facing`.
-template <class C>
-struct CornerFields {
-  C p1x, p1y, p2x, p2y, q1x, q1y, q2x, q2y;
-};
-template <class C>
-struct CornerField {
-  const char* name;
-  C CornerFields<C>::*values;
-};
-template <class C>
-inline constexpr CornerField<C> corner_fields[] = {
-    {"p1x", &CornerFields<C>::p1x}, {"p1y", &CornerFields<C>::p1y}, {"p2x", &CornerFields<C>::p2x},
-    {"p2y", &CornerFields<C>::p2y}, {"q1x", &CornerFields<C>::q1x}, {"q1y", &CornerFields<C>::q1y},
-    {"q2x", &CornerFields<C>::q2x}, {"q2y", &CornerFields<C>::q2y}};
-
 /// What a face is made of, its strength in force, and what has become of it. First what a step
 /// reads.
 template <class C>
@@ -187,16 +171,18 @@ struct FaceSet : ChunkTable<FaceProperties<ChunkColumn>, face_property_list<Chun
   FaceMemory now;     ///< at step n
   FaceMemory before;  ///< at n - 1; while n + 1 is tried: at n
 
-  ChunkTable<CornerFields<ChunkColumn>, corner_fields<ChunkColumn>> force;  ///< at n
+  /// Forces on the corners at n, N, of face k from 8 k on: x and y at start and end of `edge`, at
+  /// start and end of `facing`. For whole chunks.
+  std::vector<double> force;
 
-  /// The faces of each edge: [nv + 1], and [2 nf] the place of the first of the four columns of
-  /// `force` that act on it. By the edges that face it, so that sums do not depend on the order of
-  /// the faces.
+  /// The faces of each edge: [nv + 1], and [2 nf] where in `force` its four numbers begin. By the
+  /// edges that face it, so that sums do not depend on the order of the faces.
   std::vector<Id> begin_of_edge, on_edge;
 
   static constexpr std::size_t chunk = chunk_rows;
   static constexpr std::size_t run = 32 * chunk;  ///< what a thread takes at once
   std::size_t chunks() const { return (size() + chunk - 1) / chunk; }
+  std::size_t force_size() const { return 8 * chunk * chunks(); }
   std::vector<std::uint8_t> stirs;  ///< [chunks] 1: ends of a face in it open or close
   std::vector<double> deepest;      ///< [chunks] largest closure of a face that carries, m
   std::vector<std::uint8_t> bonds;  ///< [chunks] 1: a face in it is bonded or pulls
@@ -229,9 +215,7 @@ struct FaceSet : ChunkTable<FaceProperties<ChunkColumn>, face_property_list<Chun
   template <class Visit>
   void for_faces(Id first, Id end, Visit visit) const {
     for (Id q = begin_of_edge[first]; q < begin_of_edge[end]; ++q) {
-      const std::size_t at = on_edge[q], in_chunk = at % force.stride;
-      visit(static_cast<Id>(at / force.stride * chunk + in_chunk % chunk),
-            in_chunk < force.stride / 2);
+      visit(on_edge[q] / 8, on_edge[q] % 8 == 0);
     }
   }
 };

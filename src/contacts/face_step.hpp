@@ -24,7 +24,7 @@ struct FaceView : FaceProperties<const double*> {
   const double *limit_a, *limit_b;  ///< N, of shear: those of ShearLimits, if any
   FaceFields<double*> now;
   FaceFields<const double*> before;
-  CornerFields<double*> force;
+  double* force;
 };
 
 /// What the points that are at the ends now have moved by in the last step, one against the other,

@@ -148,15 +148,14 @@ void list_by_edge(FaceSet& c, std::size_t edges) {
   for (std::size_t k = 0; k < c.size(); ++k) {
     for (const Id e : {c.edge[k], c.facing[k]}) c.on_edge[fill[e]++] = static_cast<Id>(k);
   }
-  constexpr std::size_t columns = decltype(c.force)::stride, half = columns / 2;
   for (Id e = 0; e < edges; ++e) {
     const auto first = c.on_edge.begin() + c.begin_of_edge[e],
                last = c.on_edge.begin() + c.begin_of_edge[e + 1];
     const auto other = [&](Id k) { return c.edge[k] == e ? c.facing[k] : c.edge[k]; };
     std::sort(first, last, [&](Id i, Id j) { return other(i) < other(j); });
     for (auto q = first; q != last; ++q) {
-      const std::size_t k = *q, side = c.edge[k] == e ? 0 : half;
-      *q = static_cast<Id>(k / FaceSet::chunk * columns + side + k % FaceSet::chunk);
+      const Id k = *q;
+      *q = 8 * k + (c.edge[k] == e ? 0 : 4);
     }
   }
 }
@@ -201,9 +200,9 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
   next.now.clear_rows(n);
   next.before.clear_rows(n);
   next.law.resize(n);
-  next.force.clear_rows(n);
   next.edge.resize(n);
   next.facing.resize(n);
+  next.force.assign(next.force_size(), 0.0);
   std::vector<std::uint8_t> stays(faces.size(), 0);
   next.retired_friction = faces.retired_friction;
   next.retired_damping = faces.retired_damping;
@@ -233,9 +232,7 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
         (next.now.*column.values)[k] = (faces.now.*column.values)[old];
         (next.before.*column.values)[k] = (faces.before.*column.values)[old];
       }
-      for (const auto& column : corner_fields<ChunkColumn>) {
-        (next.force.*column.values)[k] = (faces.force.*column.values)[old];
-      }
+      std::copy_n(&faces.force[8 * old], 8, &next.force[8 * k]);
       next.law[k] = faces.law[old];
     } else {
       next.law[k] = laws.resolve_met(b.edge_joint[e], b.edge_joint[f],

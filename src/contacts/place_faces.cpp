@@ -48,7 +48,7 @@ struct ChunkPlace {
 };
 ChunkPlace chunk_place(FaceSet& c, std::size_t q) {
   return {c.corners.data() + q * 4 * FaceSet::chunk, c.begin_of_chunk(q), c.now.begin_of_chunk(q),
-          c.before.begin_of_chunk(q), c.force.begin_of_chunk(q)};
+          c.before.begin_of_chunk(q), c.force.data() + q * 8 * FaceSet::chunk};
 }
 
 EDDA_INLINE FaceView view_of(const AllFaces& all, const ChunkPlace& at) {
@@ -74,7 +74,7 @@ EDDA_INLINE FaceView view_of(const AllFaces& all, const ChunkPlace& at) {
   v.limit_b = all.limit_b;
   v.now = columns_of_chunk<FaceFields<double*>, face_fields<double*>>(at.now);
   v.before = columns_of_chunk<FaceFields<const double*>, face_fields<const double*>>(at.before);
-  v.force = columns_of_chunk<CornerFields<double*>, corner_fields<double*>>(at.force);
+  v.force = at.force;
   return v;
 }
 
@@ -87,15 +87,14 @@ template <bool dashpots, bool held, bool plain>
 EDDA_INLINE void place_into(const FaceView& c, std::size_t k, double& asking, double& stirring,
                             double& working, double& rare, double& deepest) {
   const Placed placed = place<dashpots, held, plain>(c, k);
-  const CornerFields<double*>& on = c.force;
-  on.p1x[k] = placed.force.p1.x;
-  on.p1y[k] = placed.force.p1.y;
-  on.p2x[k] = placed.force.p2.x;
-  on.p2y[k] = placed.force.p2.y;
-  on.q1x[k] = placed.force.q1.x;
-  on.q1y[k] = placed.force.q1.y;
-  on.q2x[k] = placed.force.q2.x;
-  on.q2y[k] = placed.force.q2.y;
+  c.force[8 * k + 0] = placed.force.p1.x;
+  c.force[8 * k + 1] = placed.force.p1.y;
+  c.force[8 * k + 2] = placed.force.p2.x;
+  c.force[8 * k + 3] = placed.force.p2.y;
+  c.force[8 * k + 4] = placed.force.q1.x;
+  c.force[8 * k + 5] = placed.force.q1.y;
+  c.force[8 * k + 6] = placed.force.q2.x;
+  c.force[8 * k + 7] = placed.force.q2.y;
   asking = larger(asking, placed.asks);
   stirring = larger(stirring, placed.stirs);
   working = larger(working, placed.works);

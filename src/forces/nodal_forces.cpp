@@ -20,7 +20,7 @@ struct FaceListView {
   ConstNodeValues weight;
 };
 FaceListView faces_of(const BlockSet& b, const FaceSet& c) {
-  return {c.begin_of_edge.data(), c.on_edge.data(), b.next.data(), c.force.begin_of_chunk(0),
+  return {c.begin_of_edge.data(), c.on_edge.data(), b.next.data(), c.force.data(),
           values_of(b.weight)};
 }
 
@@ -31,7 +31,7 @@ EDDA_INLINE void add_faces(NodeForce& f, const FaceListView& c, Id first, Id end
     Four sum{};
     for (std::size_t q = c.begin_of_edge[e]; q < c.begin_of_edge[e + 1]; ++q) {
       const double* const on = c.force + c.on_edge[q];
-      sum += Four{on[0], on[chunk_rows], on[2 * chunk_rows], on[3 * chunk_rows]};
+      sum += Four{on[0], on[1], on[2], on[3]};
     }
     const Vec2 on_start{sum[0], sum[1]}, on_end{sum[2], sum[3]};
     const Id to = c.next[e];

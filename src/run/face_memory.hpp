@@ -34,7 +34,6 @@ void list_faces(Archive& a, FaceSet& c) {
       return a.refuse("faces do not fit together");
     }
     for (FaceMemory* m : {&c.now, &c.before}) m->clear_rows(c.size());
-    c.force.clear_rows(c.size());
     c.clear_rows(c.size());
   }
   for (const auto& column : face_properties) {
@@ -44,9 +43,7 @@ void list_faces(Archive& a, FaceSet& c) {
     list_column(a, std::string("faces.now.") + column.name, c.now.*column.values);
     list_column(a, std::string("faces.before.") + column.name, c.before.*column.values);
   }
-  for (const auto& column : corner_fields<ChunkColumn>) {
-    list_column(a, std::string("faces.force.") + column.name, c.force.*column.values);
-  }
+  a("faces.force", c.force);
   a("faces.locked_start", c.locked_start);
   a("faces.locked_end", c.locked_end);
   a("faces.built_x", c.built_x);
@@ -98,7 +95,7 @@ void judge_faces(Judge& j, const FaceSet& c, const BlockSet& b, const LawTable& 
   j.rows("faces", c.before.rows(), n);
   j.sized("faces.facing", c.facing, n);
   j.sized("faces.law", c.law, n);
-  j.rows("faces.force", c.force.rows(), n);
+  j.sized("faces.force", c.force, c.force_size());
   for (const auto* values : {&c.built_x, &c.built_y}) j.sized("faces.built", *values, nv);
   if (!c.locked_start.empty()) j.sized("faces.locked", c.locked_start, nv);
   j.sized("faces.locked", c.locked_end, c.locked_start.size());

@@ -73,6 +73,8 @@ TEST(FaceBond, BooksWhatItStoredAsItTears) {
   for (int n = 1; n <= 101; ++n) m.go(1, {{0.0, 0.01 * n * most}});
   m.go(1, {{0.0, 1.01 * most}});
   EXPECT_EQ(m.faces.bonded[k], 0.0);
+  EXPECT_EQ(m.faces.broken, 1u);
+  EXPECT_EQ(m.faces.breaks[k], 0.0);  // what it takes from now on is friction
   const double stored = 0.5 * normal_k * most * most;
   EXPECT_NEAR(m.fracture(), stored, 0.03 * stored);
   EXPECT_NEAR(m.books() + m.work, 0.0, 0.02 * stored);

@@ -119,6 +119,17 @@ TEST(Points, StickUpToFrictionAndSlideBeyond) {
   EXPECT_EQ(s.points.slipped[k], 1.0);
 }
 
+TEST(Points, FrictionTakesItsForceTimesTheWay) {
+  Scene s(wedge(0.001));
+  const double limit = 1e5 * std::tan(30.0 * std::acos(-1.0) / 180.0);
+  s.shift(1, {limit / 4e7, 0.0});
+  EXPECT_NEAR(s.points.friction + s.points.due, 0.0, 1e-9 * limit);
+  for (int n = 0; n < 10; ++n) s.shift(1, {1e-4, 0.0});
+  EXPECT_NEAR(s.points.friction + s.points.due, limit * 1e-3, 1e-9 * limit);
+  for (int n = 0; n < 2; ++n) s.shift(1, {-limit / 4e7, 0.0});  // back, by springs alone
+  EXPECT_NEAR(s.points.friction + s.points.due, limit * 1e-3, 1e-9 * limit);
+}
+
 /// Eq. 30 with Eq. 31 makes no moment; Eq. 34 with Eq. 35 one of T times the depth, as printed.
 TEST(Points, MomentIsThatOfEquation35) {
   Scene s(wedge(0.001));

@@ -66,7 +66,7 @@ TEST(ImplicitAttempt, LeavesEverythingAsItWas) {
   expect_same(face_properties, sim.contacts, c);
   expect_same(face_columns, sim.contacts.now, c.now);
   expect_same(face_columns, sim.contacts.before, c.before);
-  expect_same(corner_fields<ChunkColumn>, sim.contacts.force, c.force);
+  EXPECT_EQ(sim.contacts.force, c.force);
   EXPECT_EQ(sim.damping_work.joules, damping);
 }
 
