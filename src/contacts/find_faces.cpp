@@ -176,6 +176,8 @@ void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
     }
     fill_constants(c, b, laws, k);
   }
+  // What fills up the last chunk has no length, and no division by nothing.
+  for (std::size_t k = n; k < c.chunks() * FaceSet::chunk; ++k) c.passing[k] = 1.0;
   list_by_edge(c, b.vertex_count());
   c.stirs.assign(c.chunks(), 0);
   c.deepest.assign(c.chunks(), 0.0);
