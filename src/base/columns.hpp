@@ -93,6 +93,18 @@ class ChunkTable : public Columns {
     cells_.assign((rows + chunk_rows - 1) / chunk_rows * stride, 0.0);
     bind();
   }
+  /// Makes `row` what row `from` of another table is, in the columns that are chosen.
+  template <class Choice>
+  void copy_row(std::size_t row, const ChunkTable& other, std::size_t from, Choice chosen) {
+    double* const to = begin_of_chunk(row / chunk_rows) + row % chunk_rows;
+    const double* const is = other.begin_of_chunk(from / chunk_rows) + from % chunk_rows;
+    for (std::size_t i = 0; i < std::size(list); ++i) {
+      if (chosen(list[i])) to[i * chunk_rows] = is[i * chunk_rows];
+    }
+  }
+  void copy_row(std::size_t row, const ChunkTable& other, std::size_t from) {
+    copy_row(row, other, from, [](const auto&) { return true; });
+  }
   double* begin_of_chunk(std::size_t q) { return cells_.data() + q * stride; }
   const double* begin_of_chunk(std::size_t q) const { return cells_.data() + q * stride; }
 

@@ -21,12 +21,15 @@ using EdgePair = std::pair<Id, Id>;
 struct AngleGate {
   double whole, none;
 };
+constexpr double most_beyond = std::numbers::pi / 4.0;  ///< rad: at a needle
+double gate_from(double beyond) {
+  return std::cos(85.0 / 180.0 * std::numbers::pi + beyond);
+}
 AngleGate angle_gate(const BlockSet& b, Id e, Id f) {
-  constexpr double pi = std::numbers::pi;
   const double sharpest =
       std::min({b.corner[e], b.corner[b.next[e]], b.corner[f], b.corner[b.next[f]]});
-  const double more = std::max(0.0, 0.5 * (0.5 * pi - sharpest));
-  return {std::cos(pi / 3.0 + more), std::cos(85.0 / 180.0 * pi + more)};
+  const double beyond = std::max(0.0, most_beyond - 0.5 * sharpest);
+  return {std::cos(std::numbers::pi / 3.0 + beyond), gate_from(beyond)};
 }
 
 /// Whether the edges may come to be opposed before a vertex has moved by half of `reach`.
@@ -35,7 +38,9 @@ bool may_oppose(const BlockSet& b, const Pose& pose, Id e, Id f, double reach) {
   const Vec2 v = at(pose.x, pose.y, b.next[f]) - at(pose.x, pose.y, f);
   const double le = norm(u), lf = norm(v);
   const double turn = reach / le + reach / lf;  // of the one against the other, at most, rad
-  return -dot(u, v) / (le * lf) > angle_gate(b, e, f).none - turn;
+  const double cosine = -dot(u, v) / (le * lf) + turn;
+  static const double blunt = gate_from(0.0), sharp = gate_from(most_beyond);
+  return cosine > blunt || (cosine > sharp && cosine > angle_gate(b, e, f).none);
 }
 
 std::vector<EdgePair> wanted_faces(const FaceSet& old, const BlockSet& b, const State& state,
@@ -90,25 +95,30 @@ int kind_in_list(const FaceSet& old, const BlockSet& b, const Pose& pose, double
                  const Listed& f) {
   const auto [e, q] = f.pair;
   const double shorter = std::min(b.edge_length[e], b.edge_length[q]);
+  const AngleGate gate = angle_gate(b, e, q);
   FacePair pair;
   pair.inverse_e = 1.0 / b.edge_length[e];
   pair.inverse_f = 1.0 / b.edge_length[q];
+  pair.gate_from = gate.none;
+  pair.gate_scale = 1.0 / (gate.whole - gate.none);
+  pair.passing = passing_part * shorter;
   const FacePoints points{at(pose.x, pose.y, e), at(pose.x, pose.y, b.next[e]),
                           at(pose.x, pose.y, q), at(pose.x, pose.y, b.next[q])};
   const Opposition o = opposition_of(points, pair);
   constexpr double near = 0.01, overlaps = 0.01;
   const double closure = o.apart_0 + std::max(o.steeper * o.ma, o.steeper * o.mb);
-  const bool near_by = o.s2 > 0.0 && o.r1 > o.r2 && o.cosine > angle_gate(b, e, q).none &&
+  const bool near_by = o.s2 > 0.0 && o.r1 > o.r2 && o.cosine > gate.none &&
                        o.mb - o.ma > -near * reach && closure > -near * reach;
   bool carries = near_by && o.mb - o.ma > overlaps * shorter;
-  double nearest = std::min(std::abs(o.r2), std::abs(o.s2 - o.r1)) - passing_part * shorter;
+  bool bonded = false;
   if (const Id k = f.old; k != no_id) {
     carries = old.now.energy[k] > 0.0 || old.bonded[k] > 0.0 || old.pulls[k] > 0.0;
-    const bool locked = old.offset_a[k] != 0.0 || old.offset_b[k] != 0.0;
-    if (locked || old.bonded[k] > 0.0 || old.pulls[k] > 0.0) nearest = 0.0;
+    bonded = old.bonded[k] > 0.0;
+    pair.pulls = old.pulls[k];
+    pair.offset = {old.offset_a[k], old.offset_b[k]};
   }
   const int kind = carries ? 0 : near_by ? 1 : 2;
-  return 2 * kind + (nearest > 0.0 ? 0 : 1);
+  return 2 * kind + (is_plain(o, pair) && !bonded ? 0 : 1);
 }
 
 void fill_constants(FaceSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
@@ -227,13 +237,9 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
     next.facing[k] = f;
     if (old != no_id) {
       stays[old] = 1;
-      for (const auto& column : face_properties) {
-        if (column.kept) (next.*column.values)[k] = (faces.*column.values)[old];
-      }
-      for (const auto& column : face_columns) {
-        (next.now.*column.values)[k] = (faces.now.*column.values)[old];
-        (next.before.*column.values)[k] = (faces.before.*column.values)[old];
-      }
+      next.copy_row(k, faces, old, [](const auto& column) { return column.kept; });
+      next.now.copy_row(k, faces.now, old);
+      next.before.copy_row(k, faces.before, old);
       std::copy_n(&faces.force[8 * old], 8, &next.force[8 * k]);
       next.law[k] = faces.law[old];
     } else {

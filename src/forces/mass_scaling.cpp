@@ -23,7 +23,7 @@ void multiply_inertia(BlockSet& b, std::size_t i, double factor) {
 std::vector<double> raise_inertia(BlockSet& b, const State& state, const FaceSet& contacts,
                                   const BoundarySprings& springs, const LawTable& laws,
                                   const Damping& damping, double step, const Bolts* bolts,
-                                  const std::vector<double>* most) {
+                                  const std::vector<double>* most, KnownSteps* known) {
   // Frequencies fall as the root of the mass; damping makes the step fall a little faster than
   // that.
   constexpr int most_rounds = 20;
@@ -31,7 +31,7 @@ std::vector<double> raise_inertia(BlockSet& b, const State& state, const FaceSet
   std::vector<double> factors;
   for (int round = 0; round < most_rounds; ++round) {
     const std::vector<double> own =
-        steps_of_blocks(b, state, contacts, springs, laws, damping, step, bolts);
+        steps_of_blocks(b, state, contacts, springs, laws, damping, step, bolts, known);
     bool enough = true;
     for (std::size_t i = 0; i < b.size(); ++i) {
       if (!(own[i] < step) || !(own[i] > 0.0)) continue;

@@ -15,7 +15,8 @@ namespace edda {
 std::vector<double> raise_inertia(BlockSet& blocks, const State& state, const FaceSet& contacts,
                                   const BoundarySprings& springs, const LawTable& laws,
                                   const Damping& damping, double step, const Bolts* bolts = nullptr,
-                                  const std::vector<double>* most = nullptr);
+                                  const std::vector<double>* most = nullptr,
+                                  KnownSteps* known = nullptr);
 
 /// Mass that the blocks only seem to have, kg. inertia: [nb] factors on their masses, or none.
 double added_mass(const BlockSet& blocks, const std::vector<double>& inertia);

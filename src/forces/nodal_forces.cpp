@@ -27,16 +27,24 @@ FaceListView faces_of(const BlockSet& b, const FaceSet& c) {
 /// Forces of faces on the nodes of the block with the edges [first, end): summed on each edge, then
 /// spread from its two corners (Eq. 15).
 EDDA_INLINE void add_faces(NodeForce& f, const FaceListView& c, Id first, Id end) {
+  Four from_start_and_end[3] = {};  // x and y from the one, x and y from the other
   for (Id e = first; e < end; ++e) {
+    const Id begin = c.begin_of_edge[e], last = c.begin_of_edge[e + 1];
+    if (begin == last) continue;
     Four sum{};
-    for (std::size_t q = c.begin_of_edge[e]; q < c.begin_of_edge[e + 1]; ++q) {
+    for (std::size_t q = begin; q < last; ++q) {
       const double* const on = c.force + c.on_edge[q];
       sum += Four{on[0], on[1], on[2], on[3]};
     }
-    const Vec2 on_start{sum[0], sum[1]}, on_end{sum[2], sum[3]};
     const Id to = c.next[e];
-    for (std::size_t k = 0; k < 3; ++k)
-      f[k] += c.weight[k][e] * on_start + c.weight[k][to] * on_end;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double w = c.weight[k][e], w_to = c.weight[k][to];
+      from_start_and_end[k] += Four{w, w, w_to, w_to} * sum;
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Four& both = from_start_and_end[k];
+    f[k] += {both[0] + both[2], both[1] + both[3]};
   }
 }
 

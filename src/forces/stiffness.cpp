@@ -1,6 +1,7 @@
 #include "forces/stiffness.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -28,6 +29,7 @@ struct Scene {
   const Damping& damping;
   const Bolts* bolts;
   const PointSet* points = nullptr;
+  bool alone = std::count(b.fixed.begin(), b.fixed.end(), 0) == 1;  ///< one block moves
 };
 
 /// What decides the step of one block: that of its equations M a + (C + D) v + K x = f, seen from
@@ -76,13 +78,12 @@ double at_each_corner(std::vector<Bedded>& beds, double l, double* count = nullp
 std::vector<Part> faces_all_round(const Scene& w, std::size_t i) {
   const BlockSet& b = w.b;
   const FaceSet& c = w.c;
-  const bool alone = std::count(b.fixed.begin(), b.fixed.end(), 0) == 1;
   std::vector<Part> parts;
   std::vector<Bedded> normal, shear;
   for (Id e = b.vertex_begin[i]; e < b.vertex_begin[i + 1]; ++e) {
     const double l = b.edge_length[e];
     const Law& own = w.laws.rows[w.laws.resolve(b.edge_joint[e], b.edge_joint[e])];
-    const double bare = alone ? 1.0 : 2.0;
+    const double bare = w.alone ? 1.0 : 2.0;
     const double kn = w.laws.normal_stiffness(own, l);
     const double ks = w.laws.shear_stiffness(own, l);
     normal.assign(1, {bare * kn, l, no_id});
@@ -145,11 +146,20 @@ double not_beyond_drag(double step, const Damping& damping) {
   return drag > 0.0 ? std::min(step, 1.0 / drag) : step;
 }
 
+/// L^-1 K, M = L L^T: a column at a time, for which Eigen needs no memory.
+Matrix6 divided_by_root(const Eigen::LLT<Matrix6>& mass, const Matrix6& k) {
+  Matrix6 a;
+  for (int column = 0; column < 6; ++column) {
+    a.col(column) = mass.matrixL().solve(Vector6(k.col(column)));
+  }
+  return a;
+}
+
 /// Not below the largest eigenvalue of M^-1 K, and at most 6^(1/64) times it: with A = L^-1 K L^-T,
 /// M = L L^T, the root (tr A^64)^(1/64).
 double eigenvalue_bound(const Matrix6& k, const Eigen::LLT<Matrix6>& mass) {
-  Matrix6 a = mass.matrixL().solve(k);
-  a = mass.matrixL().solve(a.transpose().eval()).eval();
+  Matrix6 a = divided_by_root(mass, k);
+  a = divided_by_root(mass, a.transpose().eval());
   const double size = a.trace();
   if (!std::isfinite(size)) return std::numeric_limits<double>::infinity();
   if (!(size > 0.0)) return 0.0;
@@ -182,6 +192,51 @@ double lower_estimate(const BlockEquations& q, const Damping& damping) {
     h = std::max(h, root_of_step(k, c, 0.0, 1.0));
   }
   return not_beyond_drag(h, damping);
+}
+
+/// Of a sequence of numbers.
+class Hash {
+ public:
+  void add(double number) {
+    value_ = (value_ ^ std::bit_cast<std::uint64_t>(number)) * 0x9e3779b97f4a7c15u;
+    value_ ^= value_ >> 32;
+  }
+  std::uint64_t value() const { return value_ == 0 ? 1 : value_; }
+
+ private:
+  std::uint64_t value_ = 1;
+};
+
+/// A hash of all that may change in the equations of block i with the list of faces, stages or
+/// masses; 0: they change with the state, too.
+std::uint64_t made_of(const Scene& w, std::size_t i) {
+  const BlockSet& b = w.b;
+  const bool by_state =
+      w.springs.block_begin[i] < w.springs.block_begin[i + 1] ||
+      (w.bolts != nullptr && !w.bolts->place.empty() && w.bolts->place[i] != no_id);
+  if (by_state || w.points != nullptr) return 0;
+  Hash hash;
+  for (const double number : {w.damping.local, w.damping.drag(), b.node_mass[0][i],
+                              b.node_mass[1][i], b.node_mass[2][i], b.lame_lambda[i], b.lame_mu[i]})
+    hash.add(number);
+  if (!b.viscosity.empty()) hash.add(b.viscosity[i]);
+  if (b.mass_kind == MassKind::consistent) hash.add(b.inverse_mass[0][i]);
+  const auto add = [&](const Law& law, double kn, double ks, double length, bool held) {
+    for (const double number : {kn, ks, held ? -length : length,
+                                w.laws.damping_of(law, w.damping.contact), law.shear_damping})
+      hash.add(number);
+  };
+  for (Id e = b.vertex_begin[i]; e < b.vertex_begin[i + 1]; ++e) {
+    const double l = b.edge_length[e];
+    const Law& own = w.laws.rows[w.laws.resolve(b.edge_joint[e], b.edge_joint[e])];
+    add(own, w.laws.normal_stiffness(own, l), w.laws.shear_stiffness(own, l), l, w.alone);
+    w.c.for_faces(e, e + 1, [&](Id k, bool of_edge) {
+      const Id f = of_edge ? w.c.facing[k] : w.c.edge[k];
+      add(w.laws.rows[w.c.law[k]], w.c.stiffness[k], w.c.shear_stiffness[k], b.edge_length[f],
+          b.fixed[b.vertex_block[f]] != 0);
+    });
+  }
+  return hash.value();
 }
 
 /// The largest h for which M + h D/2 - h C/2 - h^2 K/4 has no negative eigenvalue: as long as it
@@ -219,19 +274,47 @@ struct Smallest {
   Id block = no_id;
 };
 
-Smallest smallest_step(const Scene& w, const std::vector<double>& estimates) {
-  const auto exact_step = [&](std::size_t i) {
-    return critical_step_of(equations_of(w, i), w.damping);
-  };
+/// The steps of blocks, worked out anew where what is known of them no longer holds.
+class BlockSteps {
+ public:
+  BlockSteps(const Scene& scene, KnownSteps& known) : w_(scene), known_(known) {
+    if (known.made_of.size() != w_.b.size()) {
+      known.made_of.assign(w_.b.size(), 0);
+      known.estimate.assign(w_.b.size(), 0.0);
+      known.exact.assign(w_.b.size(), unknown);
+    }
+  }
+  /// First; for one block after the other, or for several at once.
+  double estimate(std::size_t i) {
+    const std::uint64_t now = made_of(w_, i);
+    if (now == 0 || now != known_.made_of[i]) {
+      known_.made_of[i] = now;
+      known_.exact[i] = unknown;
+      known_.estimate[i] = lower_estimate(equations_of(w_, i), w_.damping);
+    }
+    return known_.estimate[i];
+  }
+  double exact(std::size_t i) {
+    if (known_.exact[i] < 0.0) known_.exact[i] = critical_step_of(equations_of(w_, i), w_.damping);
+    return known_.exact[i];
+  }
+
+ private:
+  static constexpr double unknown = -1.0;
+  const Scene& w_;
+  KnownSteps& known_;
+};
+
+Smallest smallest_step(BlockSteps& steps, const std::vector<double>& estimates) {
   const auto first = std::min_element(estimates.begin(), estimates.end());
   if (first == estimates.end() || !(*first < std::numeric_limits<double>::infinity())) return {};
-  const double known = exact_step(static_cast<std::size_t>(first - estimates.begin()));
+  const double known = steps.exact(static_cast<std::size_t>(first - estimates.begin()));
   std::vector<Id> open;
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     if (estimates[i] <= known) open.push_back(static_cast<Id>(i));
   }
   std::vector<double> exact(open.size());
-  parallel_for(open.size(), [&](std::size_t q) { exact[q] = exact_step(open[q]); });
+  parallel_for(open.size(), [&](std::size_t q) { exact[q] = steps.exact(open[q]); });
   Smallest found;
   for (std::size_t q = 0; q < open.size(); ++q) {
     if (exact[q] < found.step) found = {exact[q], open[q]};
@@ -266,13 +349,15 @@ void explain(StepBound& bound, const Scene& w, std::size_t i) {
 
 StepBound step_bound(const BlockSet& b, const State& s, const FaceSet& c,
                      const BoundarySprings& springs, const LawTable& laws, const Damping& damping,
-                     const Bolts* bolts, const PointSet* points) {
+                     const Bolts* bolts, const PointSet* points, KnownSteps* known) {
   const Scene scene{b, s, c, springs, laws, damping, bolts, points};
+  KnownSteps here;
+  BlockSteps steps(scene, known == nullptr ? here : *known);
   std::vector<double> step(b.size(), std::numeric_limits<double>::infinity());
   parallel_for(b.size(), [&](std::size_t i) {
-    if (!b.fixed[i] && s.alive[i]) step[i] = lower_estimate(equations_of(scene, i), damping);
+    if (!b.fixed[i] && s.alive[i]) step[i] = steps.estimate(i);
   });
-  const Smallest critical = smallest_step(scene, step);
+  const Smallest critical = smallest_step(steps, step);
   StepBound bound;
   bound.critical_step = critical.step;
   bound.block = critical.block;
@@ -282,14 +367,16 @@ StepBound step_bound(const BlockSet& b, const State& s, const FaceSet& c,
 
 std::vector<double> steps_of_blocks(const BlockSet& b, const State& s, const FaceSet& c,
                                     const BoundarySprings& springs, const LawTable& laws,
-                                    const Damping& damping, double limit, const Bolts* bolts) {
+                                    const Damping& damping, double limit, const Bolts* bolts,
+                                    KnownSteps* known) {
   const Scene scene{b, s, c, springs, laws, damping, bolts};
+  KnownSteps here;
+  BlockSteps steps(scene, known == nullptr ? here : *known);
   std::vector<double> step(b.size(), std::numeric_limits<double>::infinity());
   parallel_for(b.size(), [&](std::size_t i) {
     if (b.fixed[i] || !s.alive[i]) return;
-    const BlockEquations q = equations_of(scene, i);
-    step[i] = lower_estimate(q, damping);
-    if (step[i] < limit) step[i] = critical_step_of(q, damping);
+    step[i] = steps.estimate(i);
+    if (step[i] < limit) step[i] = steps.exact(i);
   });
   return step;
 }

@@ -2,6 +2,7 @@
 // sharp).
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "attachments/bolts.hpp"
@@ -30,12 +31,22 @@ struct StepBound {
   double bolt_part = 0.0;
 };
 
+/// What blocks allowed when they were last asked. A step is taken from here where all that it was
+/// worked out from is the same, bit by bit (a hash of it is); that of a block with boundary springs
+/// or bolts never is. No part of a simulation's state: nothing but time depends on it.
+struct KnownSteps {
+  std::vector<std::uint64_t> made_of;  ///< [nb] 0: nothing known
+  std::vector<double> estimate;        ///< [nb] s, not above the step
+  std::vector<double> exact;           ///< [nb] s; < 0: not worked out
+};
+
 /// Local damping beta makes a node that moves against its force see (1 + beta) of it, so w^2 grows
 /// by that; and mass-proportional damping a turns velocities round beyond 2/a, so 1/a is the limit.
 /// `points`: contacts at points that are near, in place of faces all round.
 StepBound step_bound(const BlockSet& blocks, const State& state, const FaceSet& contacts,
                      const BoundarySprings& springs, const LawTable& laws, const Damping& damping,
-                     const Bolts* bolts = nullptr, const PointSet* points = nullptr);
+                     const Bolts* bolts = nullptr, const PointSet* points = nullptr,
+                     KnownSteps* known = nullptr);
 
 /// The step that each block would allow alone, [nb] s: exact
 /// where it is below `limit`, elsewhere not below `limit` and perhaps too small; infinite for held
@@ -43,6 +54,6 @@ StepBound step_bound(const BlockSet& blocks, const State& state, const FaceSet& 
 std::vector<double> steps_of_blocks(const BlockSet& blocks, const State& state,
                                     const FaceSet& contacts, const BoundarySprings& springs,
                                     const LawTable& laws, const Damping& damping, double limit,
-                                    const Bolts* bolts = nullptr);
+                                    const Bolts* bolts = nullptr, KnownSteps* known = nullptr);
 
 }  // namespace edda

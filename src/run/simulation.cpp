@@ -172,7 +172,8 @@ void Simulation::start(double first_event) {
 void Simulation::set_limit() {
   if (!explicit_method()) return set_implicit_limit();
   if (model.solver.mass_scaling > 0.0 || scaled_step_ > 0.0 || sliver_step_ > 0.0) raise_masses();
-  bound = step_bound(blocks, state, contacts, springs, laws, damping, &bolts);
+  bound =
+      step_bound(blocks, state, contacts, springs, laws, damping, &bolts, nullptr, &known_steps_);
   if (at_points()) {
     const StepBound near =
         step_bound(blocks, state, contacts, springs, laws, damping, &bolts, &point_contacts);

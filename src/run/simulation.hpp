@@ -242,6 +242,7 @@ struct Simulation {
       0.0;  ///< s: step that the inertia of slivers is raised for; 0: there are none
   std::vector<double> sliver_most_;  ///< [nb] factor on masses that they may have at most for it
   double displacement_cap_ = std::numeric_limits<double>::infinity();  ///< s: after halvings
+  KnownSteps known_steps_;
   std::uint64_t larger_since_ = 0;  ///< step from which a much larger one would have been allowed
   double target_ = 0.0;             ///< s: the event aimed at
   double nominal_step_ = 0.0;       ///< s: of method "dda", before any cut

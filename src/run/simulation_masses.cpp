@@ -50,8 +50,9 @@ void Simulation::raise_masses() {
     most = sliver_most_;
     for (std::size_t i = 0; i < inertia.size(); ++i) most[i] /= inertia[i];
   }
-  const std::vector<double> factor = raise_inertia(blocks, state, contacts, springs, laws, damping,
-                                                   step, &bolts, slivers ? &most : nullptr);
+  const std::vector<double> factor =
+      raise_inertia(blocks, state, contacts, springs, laws, damping, step, &bolts,
+                    slivers ? &most : nullptr, &known_steps_);
   if (factor.empty()) return;
   set_viscosity();
   if (inertia.empty()) inertia.assign(blocks.size(), 1.0);

@@ -50,6 +50,19 @@ TEST(ChunkTable, LaysOutAChunkColumnByColumn) {
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(chunk.first) % 64, 0u);
 }
 
+TEST(ChunkTable, CopiesARowOfAnother) {
+  Pairs a = counted(37);
+  const Pairs b = counted(40);
+  a.copy_row(3, b, 38);
+  a.copy_row(36, b, 17,
+             [](const auto& field) { return field.values == &Pair<ChunkColumn>::second; });
+  for (std::size_t row = 0; row < 37; ++row) {
+    const auto was = static_cast<double>(row);
+    EXPECT_EQ(a.first[row], row == 3 ? 38.0 : was);
+    EXPECT_EQ(a.second[row], 0.5 + (row == 3 ? 38.0 : row == 36 ? 17.0 : was));
+  }
+}
+
 /// A copy's columns are its own.
 TEST(ChunkTable, IsCopiedMovedAndSwappedWithItsColumns) {
   Pairs a = counted(20), b = counted(3);

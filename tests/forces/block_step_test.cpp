@@ -95,6 +95,60 @@ TEST(StepBound, DashpotsShortenItAndViscousRockMakesItLonger) {
   EXPECT_GT(bound_of(m).critical_step, 1.1 * whole);
 }
 
+/// What is known of blocks is not taken for what has changed: the same bits as from nothing.
+TEST(KnownSteps, GoWithAllThatAStepIsMadeOf) {
+  MovedBlocks m = two_squares(false);
+  m.blocks.damping.assign(2, 0.3);
+  fill_viscosity(m.blocks, {});
+  BoundarySprings none;
+  none.block_begin.assign(m.blocks.size() + 1, 0);
+  Damping damping;
+  KnownSteps known;
+  const auto bound = [&](KnownSteps* of) {
+    return step_bound(m.blocks, m.state, m.faces, none, m.laws, damping, nullptr, nullptr, of)
+        .critical_step;
+  };
+  double last = 0.0;
+  const auto changes = [&](const char* what) {
+    const double anew = bound(nullptr);
+    EXPECT_NE(anew, last) << what;
+    EXPECT_EQ(bound(&known), anew) << what;
+    EXPECT_EQ(bound(&known), anew) << what;
+    const auto own = [&](KnownSteps* of) {
+      return steps_of_blocks(m.blocks, m.state, m.faces, none, m.laws, damping, 2.0 * anew, nullptr,
+                             of);
+    };
+    EXPECT_EQ(own(&known), own(nullptr)) << what;
+    last = anew;
+  };
+  changes("as it was");
+  for (std::size_t k = 0; k < m.faces.size(); ++k) m.faces.stiffness[k] *= 2.0;
+  changes("normal stiffness of faces");
+  for (std::size_t k = 0; k < m.faces.size(); ++k) m.faces.shear_stiffness[k] *= 4.0;
+  changes("shear stiffness of faces");
+  damping.contact = 0.5;
+  changes("dashpots");
+  m.laws.rows[0].shear_damping = 0.5;
+  changes("dashpots along faces");
+  damping.local = 0.5;
+  changes("local damping");
+  for (double& viscosity : m.blocks.viscosity) viscosity *= 0.5;
+  changes("viscosity");
+  for (auto& mass : m.blocks.node_mass) {
+    for (double& kg : mass) kg *= 3.0;
+  }
+  changes("mass");
+  m.blocks.fixed[0] = 1;
+  changes("a block that is held");
+  m.faces = FaceSet{};
+  m.state.alive[0] = 0;
+  find_faces(m.faces, m.blocks, m.state, m.pose, m.laws, 0.1);
+  changes("no faces");
+  m.laws.default_kn *= 100.0;
+  m.laws.default_ks *= 100.0;
+  changes("stiffness of bare edges");
+}
+
 /// A square of 1 m: its softest vibrations are shear and a stretch that leaves its area, both at
 /// w^2 = 24 G/rho.
 TEST(Viscosity, IsTheFractionOfTheSoftestVibration) {
