@@ -19,6 +19,7 @@
 // Forces are the exact gradient of U: they sum to zero and have no moment.
 #pragma once
 
+#include "blocks/block_set.hpp"
 #include "contacts/face_parts.hpp"
 
 namespace edda {
@@ -38,7 +39,10 @@ struct FacePair {
   double gate_scale = 1.0;  ///< 1/(cosine from which W = 1, less gate_from)
   double passing = 1.0;     ///< m: corners nearer than this have one share between them
   FaceEnds offset;          ///< o, closure of the surfaces as drawn, m: initial stress, dilation
-  Vec2 p1_turn, p2_turn, q1_turn, q2_turn;  ///< cosine and sine of the exterior angles
+  Id p1 = 0, p2 = 0, q1 = 0, q2 = 0;                          ///< the corners
+  const double *turn_cosine = nullptr, *turn_sine = nullptr;  ///< of exterior angles, by corner
+
+  Vec2 turn(Id corner) const { return {turn_cosine[corner], turn_sine[corner]}; }
 };
 
 /// Forces on the corners, N.
@@ -258,16 +262,14 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair, const 
   const double aspect_slope = by_aspect.slope * (1.0 / aspect_range) * per_deepest;  // dw/dL
 
   // b, of the corner that bounds the deeper end; one that is about to pass it counts, too
-  const Vec2 a_turn = chosen(a_by_p, pair.p1_turn, pair.q2_turn);
-  const Vec2 b_turn = chosen(b_by_p, pair.p2_turn, pair.q1_turn);
+  const Id at_a = a_by_p ? pair.p1 : pair.q2, at_b = b_by_p ? pair.p2 : pair.q1;
   const double tilt = std::abs(s);
-  CornerShare mean = corner_share(chosen(deep_b, b_turn, a_turn), c, tilt);
+  CornerShare mean = corner_share(pair.turn(deep_b ? at_b : at_a), c, tilt);
   const double past = deep_b ? s2 - r1 : -r2;  // of the first block's corner beyond the second's
   double by_passing = 0.0;
   if constexpr (!plain) {
-    const Vec2 a_other = chosen(a_by_p, pair.q2_turn, pair.p1_turn);
-    const Vec2 b_other = chosen(b_by_p, pair.q1_turn, pair.p2_turn);
-    const CornerShare other = corner_share(chosen(deep_b, b_other, a_other), c, tilt);
+    const Id past_a = a_by_p ? pair.q2 : pair.p1, past_b = b_by_p ? pair.q1 : pair.p2;
+    const CornerShare other = corner_share(pair.turn(deep_b ? past_b : past_a), c, tilt);
     const SmoothStep passing = smooth_step(1.0 - std::abs(past) * per_passing);
     const bool more = other.value > mean.value;
     const double mixed = more ? passing.value : 0.0;

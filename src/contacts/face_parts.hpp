@@ -15,11 +15,6 @@ struct FaceEnds {
   double a = 0.0, b = 0.0;
 };
 
-/// A choice that loops over several faces can make.
-EDDA_INLINE Vec2 chosen(bool first, Vec2 a, Vec2 b) {
-  return {first ? a.x : b.x, first ? a.y : b.y};
-}
-
 /// S(x) = x^2 (3 - 2 x) on [0, 1], 0 before and 1 beyond.
 struct SmoothStep {
   double value, slope;

@@ -234,11 +234,12 @@ EDDA_INLINE FacePair face_pair(const Faces& c, const double* turn_cosine, const 
   p.gate_from = c.gate_from[k];
   p.gate_scale = c.gate_scale[k];
   p.passing = c.passing[k];
-  const Id p1 = c.edge[k], p2 = c.edge_end[k], q1 = c.facing[k], q2 = c.facing_end[k];
-  p.p1_turn = {turn_cosine[p1], turn_sine[p1]};
-  p.p2_turn = {turn_cosine[p2], turn_sine[p2]};
-  p.q1_turn = {turn_cosine[q1], turn_sine[q1]};
-  p.q2_turn = {turn_cosine[q2], turn_sine[q2]};
+  p.p1 = c.edge[k];
+  p.p2 = c.edge_end[k];
+  p.q1 = c.facing[k];
+  p.q2 = c.facing_end[k];
+  p.turn_cosine = turn_cosine;
+  p.turn_sine = turn_sine;
   return p;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <random>
 
@@ -22,6 +23,21 @@ Vec2 turn_of(double exterior) {
 struct RandomFace {
   FacePoints at;
   FacePair pair;
+  std::shared_ptr<std::array<double, 8>> turns = std::make_shared<std::array<double, 8>>();
+
+  RandomFace() {
+    pair.p2 = 1;
+    pair.q1 = 2;
+    pair.q2 = 3;
+    pair.turn_cosine = turns->data();
+    pair.turn_sine = turns->data() + 4;
+  }
+  /// The exterior angle of a corner.
+  void turn(std::size_t corner, double angle) {
+    const Vec2 turned = turn_of(angle);
+    (*turns)[corner] = turned.x;
+    (*turns)[corner + 4] = turned.y;
+  }
 };
 
 /// Edges of 0.2 to 1 m, every second one nearly parallel; every law that a face may have.
@@ -49,9 +65,7 @@ class Faces {
     r.pair.gate_from = std::cos(85.0 * pi / 180.0);
     r.pair.gate_scale = 1.0 / (0.5 - r.pair.gate_from);
     r.pair.passing = 0.15 * std::min(le, lf);
-    for (Vec2* turn : {&r.pair.p1_turn, &r.pair.p2_turn, &r.pair.q1_turn, &r.pair.q2_turn}) {
-      *turn = turn_of(uniform(0.1, 2.8));
-    }
+    for (std::size_t corner = 0; corner < 4; ++corner) r.turn(corner, uniform(0.1, 2.8));
     return r;
   }
 
@@ -223,8 +237,8 @@ TEST(Face, IsTheSameSeenFromTheOtherBlock) {
     RandomFace other = r;
     other.at = {r.at.q1, r.at.q2, r.at.p1, r.at.p2};
     std::swap(other.pair.inverse_e, other.pair.inverse_f);
-    std::swap(other.pair.p1_turn, other.pair.q1_turn);
-    std::swap(other.pair.p2_turn, other.pair.q2_turn);
+    std::swap(other.pair.p1, other.pair.q1);
+    std::swap(other.pair.p2, other.pair.q2);
     std::swap(other.pair.offset.a, other.pair.offset.b);
     const Face one = face_between(r.at, r.pair), two = face_between(other.at, other.pair);
     if (std::abs(one.closure.a - one.closure.b) < 1e-9) continue;
@@ -243,9 +257,7 @@ RandomFace flat(double depth, double tilt) {
   r.pair.gate_from = std::cos(85.0 * pi / 180.0);
   r.pair.gate_scale = 1.0 / (0.5 - r.pair.gate_from);
   r.pair.passing = 0.15;
-  for (Vec2* turn : {&r.pair.p1_turn, &r.pair.p2_turn, &r.pair.q1_turn, &r.pair.q2_turn}) {
-    *turn = turn_of(pi / 2.0);
-  }
+  for (std::size_t corner = 0; corner < 4; ++corner) r.turn(corner, pi / 2.0);
   return r;
 }
 
