@@ -65,7 +65,8 @@ class ChunkColumn {
   std::size_t stride_ = 0, rows_ = 0;
 };
 
-/// Rows with the columns that `list` names. The last chunk is filled up with rows of zeros.
+/// Rows with the columns that `list` names. The last chunk is filled up with rows that clear_rows()
+/// leaves at zero; a loop over it may need other numbers there.
 template <class Columns, const auto& list>
 class ChunkTable : public Columns {
  public:

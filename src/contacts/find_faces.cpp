@@ -22,14 +22,14 @@ struct AngleGate {
   double whole, none;
 };
 constexpr double most_beyond = std::numbers::pi / 4.0;  ///< rad: at a needle
-double gate_from(double beyond) {
+double cosine_of_none(double beyond) {
   return std::cos(85.0 / 180.0 * std::numbers::pi + beyond);
 }
 AngleGate angle_gate(const BlockSet& b, Id e, Id f) {
   const double sharpest =
       std::min({b.corner[e], b.corner[b.next[e]], b.corner[f], b.corner[b.next[f]]});
   const double beyond = std::max(0.0, most_beyond - 0.5 * sharpest);
-  return {std::cos(std::numbers::pi / 3.0 + beyond), gate_from(beyond)};
+  return {std::cos(std::numbers::pi / 3.0 + beyond), cosine_of_none(beyond)};
 }
 
 /// Whether the edges may come to be opposed before a vertex has moved by half of `reach`.
@@ -38,9 +38,10 @@ bool may_oppose(const BlockSet& b, const Pose& pose, Id e, Id f, double reach) {
   const Vec2 v = at(pose.x, pose.y, b.next[f]) - at(pose.x, pose.y, f);
   const double le = norm(u), lf = norm(v);
   const double turn = reach / le + reach / lf;  // of the one against the other, at most, rad
-  const double cosine = -dot(u, v) / (le * lf) + turn;
-  static const double blunt = gate_from(0.0), sharp = gate_from(most_beyond);
-  return cosine > blunt || (cosine > sharp && cosine > angle_gate(b, e, f).none);
+  const double reached = -dot(u, v) / (le * lf) + turn;
+  // Most pairs need no gate of their own: it lies between those of blunt corners and of a needle.
+  static const double of_blunt = cosine_of_none(0.0), of_needle = cosine_of_none(most_beyond);
+  return reached > of_blunt || (reached > of_needle && reached > angle_gate(b, e, f).none);
 }
 
 std::vector<EdgePair> wanted_faces(const FaceSet& old, const BlockSet& b, const State& state,

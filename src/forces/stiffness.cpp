@@ -219,21 +219,24 @@ std::uint64_t made_of(const Scene& w, std::size_t i) {
   for (const double number : {w.damping.local, w.damping.drag(), b.node_mass[0][i],
                               b.node_mass[1][i], b.node_mass[2][i], b.lame_lambda[i], b.lame_mu[i]})
     hash.add(number);
-  if (!b.viscosity.empty()) hash.add(b.viscosity[i]);
-  if (b.mass_kind == MassKind::consistent) hash.add(b.inverse_mass[0][i]);
-  const auto add = [&](const Law& law, double kn, double ks, double length, bool held) {
-    for (const double number : {kn, ks, held ? -length : length,
+  hash.add(b.viscosity.empty() ? 0.0 : b.viscosity[i]);
+  hash.add(b.mass_kind == MassKind::consistent ? b.inverse_mass[0][i] : 0.0);
+  // The factor of a spring, 1 or 2, as the sign of its length.
+  const auto add = [&](const Law& law, double kn, double ks, double length, bool once) {
+    for (const double number : {kn, ks, once ? -length : length,
                                 w.laws.damping_of(law, w.damping.contact), law.shear_damping})
       hash.add(number);
   };
   for (Id e = b.vertex_begin[i]; e < b.vertex_begin[i + 1]; ++e) {
     const double l = b.edge_length[e];
     const Law& own = w.laws.rows[w.laws.resolve(b.edge_joint[e], b.edge_joint[e])];
+    hash.add(static_cast<double>(w.c.begin_of_edge[e + 1] - w.c.begin_of_edge[e]));
     add(own, w.laws.normal_stiffness(own, l), w.laws.shear_stiffness(own, l), l, w.alone);
     w.c.for_faces(e, e + 1, [&](Id k, bool of_edge) {
       const Id f = of_edge ? w.c.facing[k] : w.c.edge[k];
+      const bool held = b.fixed[b.vertex_block[f]] != 0;
       add(w.laws.rows[w.c.law[k]], w.c.stiffness[k], w.c.shear_stiffness[k], b.edge_length[f],
-          b.fixed[b.vertex_block[f]] != 0);
+          held);
     });
   }
   return hash.value();
@@ -284,16 +287,18 @@ class BlockSteps {
       known.exact.assign(w_.b.size(), unknown);
     }
   }
-  /// First; for one block after the other, or for several at once.
-  double estimate(std::size_t i) {
+  /// Exact where it is below `limit`, elsewhere not below `limit` and perhaps too small.
+  double below(double limit, std::size_t i) {
     const std::uint64_t now = made_of(w_, i);
     if (now == 0 || now != known_.made_of[i]) {
+      const BlockEquations q = equations_of(w_, i);
       known_.made_of[i] = now;
-      known_.exact[i] = unknown;
-      known_.estimate[i] = lower_estimate(equations_of(w_, i), w_.damping);
+      known_.estimate[i] = lower_estimate(q, w_.damping);
+      known_.exact[i] = known_.estimate[i] < limit ? critical_step_of(q, w_.damping) : unknown;
     }
-    return known_.estimate[i];
+    return known_.estimate[i] < limit ? exact(i) : known_.estimate[i];
   }
+  /// After below() of this block.
   double exact(std::size_t i) {
     if (known_.exact[i] < 0.0) known_.exact[i] = critical_step_of(equations_of(w_, i), w_.damping);
     return known_.exact[i];
@@ -355,7 +360,7 @@ StepBound step_bound(const BlockSet& b, const State& s, const FaceSet& c,
   BlockSteps steps(scene, known == nullptr ? here : *known);
   std::vector<double> step(b.size(), std::numeric_limits<double>::infinity());
   parallel_for(b.size(), [&](std::size_t i) {
-    if (!b.fixed[i] && s.alive[i]) step[i] = steps.estimate(i);
+    if (!b.fixed[i] && s.alive[i]) step[i] = steps.below(0.0, i);
   });
   const Smallest critical = smallest_step(steps, step);
   StepBound bound;
@@ -374,9 +379,7 @@ std::vector<double> steps_of_blocks(const BlockSet& b, const State& s, const Fac
   BlockSteps steps(scene, known == nullptr ? here : *known);
   std::vector<double> step(b.size(), std::numeric_limits<double>::infinity());
   parallel_for(b.size(), [&](std::size_t i) {
-    if (b.fixed[i] || !s.alive[i]) return;
-    step[i] = steps.estimate(i);
-    if (step[i] < limit) step[i] = steps.exact(i);
+    if (!b.fixed[i] && s.alive[i]) step[i] = steps.below(limit, i);
   });
   return step;
 }

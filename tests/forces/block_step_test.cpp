@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "attachments/bolted_blocks.hpp"
@@ -95,58 +96,119 @@ TEST(StepBound, DashpotsShortenItAndViscousRockMakesItLonger) {
   EXPECT_GT(bound_of(m).critical_step, 1.1 * whole);
 }
 
-/// What is known of blocks is not taken for what has changed: the same bits as from nothing.
-TEST(KnownSteps, GoWithAllThatAStepIsMadeOf) {
-  MovedBlocks m = two_squares(false);
-  m.blocks.damping.assign(2, 0.3);
-  fill_viscosity(m.blocks, {});
-  BoundarySprings none;
-  none.block_begin.assign(m.blocks.size() + 1, 0);
+/// Steps with what is known of blocks, and with nothing.
+struct TwiceAsked {
+  MovedBlocks m;
+  BoundarySprings springs;
   Damping damping;
   KnownSteps known;
-  const auto bound = [&](KnownSteps* of) {
-    return step_bound(m.blocks, m.state, m.faces, none, m.laws, damping, nullptr, nullptr, of)
-        .critical_step;
-  };
   double last = 0.0;
-  const auto changes = [&](const char* what) {
-    const double anew = bound(nullptr);
+
+  double critical(KnownSteps* of) const {
+    return step_bound(m.blocks, m.state, m.faces, springs, m.laws, damping, nullptr, nullptr, of)
+        .critical_step;
+  }
+  std::vector<double> of_blocks(double limit, KnownSteps* of) const {
+    return steps_of_blocks(m.blocks, m.state, m.faces, springs, m.laws, damping, limit, nullptr,
+                           of);
+  }
+  /// What has changed changes the step, and it is the same to the bit.
+  void changes(const char* what) {
+    const double anew = critical(nullptr);
     EXPECT_NE(anew, last) << what;
-    EXPECT_EQ(bound(&known), anew) << what;
-    EXPECT_EQ(bound(&known), anew) << what;
-    const auto own = [&](KnownSteps* of) {
-      return steps_of_blocks(m.blocks, m.state, m.faces, none, m.laws, damping, 2.0 * anew, nullptr,
-                             of);
-    };
-    EXPECT_EQ(own(&known), own(nullptr)) << what;
+    for (int again = 0; again < 2; ++again) {
+      EXPECT_EQ(critical(&known), anew) << what;
+      EXPECT_EQ(of_blocks(2.0 * anew, &known), of_blocks(2.0 * anew, nullptr)) << what;
+    }
     last = anew;
-  };
-  changes("as it was");
-  for (std::size_t k = 0; k < m.faces.size(); ++k) m.faces.stiffness[k] *= 2.0;
-  changes("normal stiffness of faces");
-  for (std::size_t k = 0; k < m.faces.size(); ++k) m.faces.shear_stiffness[k] *= 4.0;
-  changes("shear stiffness of faces");
-  damping.contact = 0.5;
-  changes("dashpots");
+  }
+};
+
+TEST(KnownSteps, GoWithAllThatAStepIsMadeOf) {
+  TwiceAsked t{two_squares(false), {}, {}, {}};
+  MovedBlocks& m = t.m;
+  m.add({{5, 0}, {6, 0}, {6, 1}, {5, 1}});
+  m.start();
+  t.springs.block_begin.assign(4, 0);
+  m.blocks.damping.assign(3, 0.3);
+  fill_viscosity(m.blocks, {});
+  t.changes("as it was");
+  for (std::size_t k = 0; k < m.faces.size(); ++k) m.faces.stiffness[k] *= 8.0;
+  t.changes("normal stiffness of faces");
+  for (std::size_t k = 0; k < m.faces.size(); ++k) m.faces.shear_stiffness[k] *= 8.0;
+  t.changes("shear stiffness of faces");
+  t.damping.contact = 0.5;
+  t.changes("dashpots");
   m.laws.rows[0].shear_damping = 0.5;
-  changes("dashpots along faces");
-  damping.local = 0.5;
-  changes("local damping");
+  t.changes("dashpots along faces");
+  t.damping.local = 0.5;
+  t.changes("local damping");
   for (double& viscosity : m.blocks.viscosity) viscosity *= 0.5;
-  changes("viscosity");
+  t.changes("viscosity");
   for (auto& mass : m.blocks.node_mass) {
     for (double& kg : mass) kg *= 3.0;
   }
-  changes("mass");
+  t.changes("mass");
   m.blocks.fixed[0] = 1;
-  changes("a block that is held");
+  t.changes("a block that is held");
   m.faces = FaceSet{};
   m.state.alive[0] = 0;
   find_faces(m.faces, m.blocks, m.state, m.pose, m.laws, 0.1);
-  changes("no faces");
-  m.laws.default_kn *= 100.0;
-  m.laws.default_ks *= 100.0;
-  changes("stiffness of bare edges");
+  t.changes("no faces");
+  m.laws.default_kn *= 1e3;
+  m.laws.default_ks *= 1e3;
+  t.changes("stiffness of bare edges");
+  m.blocks.fixed[2] = 1;
+  t.changes("one that moves alone");
+  for (auto* lame : {&m.blocks.lame_lambda, &m.blocks.lame_mu}) {
+    for (double& pascal : *lame) pascal *= 100.0;
+  }
+  t.changes("stiffness of rock");
+  t.damping.mass = 4.0 / t.last;
+  t.changes("drag");
+}
+
+/// Edges of 2 m and 1 m: a face of the one has the numbers of the other alone.
+TEST(KnownSteps, GoWithTheEdgeThatHasAFace) {
+  TwiceAsked t;
+  MovedBlocks& m = t.m;
+  m.model.joints = {test::rough_joint(30.0)};
+  m.model.contact.normal_stiffness = m.model.contact.shear_stiffness = 1e12;
+  m.add({{0, 0}, {2, 0}, {2, 1}, {0, 1}});
+  m.add({{0.5, -1}, {1.5, -1}, {1.5, 0}, {0.5, 0}});
+  m.start();
+  t.springs.block_begin.assign(3, 0);
+  const auto own = [&](KnownSteps* of) {
+    return t.of_blocks(std::numeric_limits<double>::infinity(), of)[0];
+  };
+  double last = 0.0;
+  for (const Vec2 to : {Vec2{0.0, 0.0}, Vec2{1.5, 1.3}, Vec2{0.0, 0.0}}) {
+    m.put(1, {to});
+    m.faces = FaceSet{};
+    find_faces(m.faces, m.blocks, m.state, m.pose, m.laws, 0.03);
+    ASSERT_EQ(m.faces.size(), 1u);
+    EXPECT_NE(own(nullptr), last);
+    last = own(nullptr);
+    EXPECT_EQ(own(&t.known), last);
+  }
+}
+
+/// What boundaries do to a block goes with how it has turned.
+TEST(KnownSteps, AreNotThoseOfBlocksAtBoundaries) {
+  TwiceAsked t;
+  MovedBlocks& m = t.m;
+  m.model.joints = {test::rough_joint(30.0)};
+  m.model.boundaries = {test::boundary_along(BoundaryType::roller, {0, 0}, {2, 1}, 1e13)};
+  m.add({{0, 0}, {2, 1}, {1, 2}});
+  m.start();
+  t.springs = attach_boundaries(m.model, m.blocks).value();
+  t.changes("as drawn");
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec2 p = rotated({m.state.x[k][0], m.state.y[k][0]}, 0.7);
+    m.state.x[k][0] = p.x;
+    m.state.y[k][0] = p.y;
+  }
+  t.changes("turned");
 }
 
 /// A square of 1 m: its softest vibrations are shear and a stretch that leaves its area, both at
