@@ -1,7 +1,7 @@
 // The ruler of tools/bench: the bare arithmetic of an explicit step on a wall in running bond, in
 // double precision. One shape of brick, one friction angle, contacts listed once; no search, no
-// transitions, no switching, no ledger, no checks. A program of its own, because it is compiled
-// with flags that would change the results of edda.
+// transitions, no switching, no energy balance, no checks. A program of its own, because it is
+// compiled with flags that would change the results of edda.
 //   bench_kernel COLUMNS ROWS STEPS
 // Prints: bricks, contacts, million brick-steps per second, ns per contact, ns per brick for the
 // rest.

@@ -7,9 +7,10 @@
 #include <map>
 #include <utility>
 
-#include "contacts/place_faces.hpp"
+#include "contacts/evaluate_faces.hpp"
 #include "contacts/search.hpp"
-#include "forces/stiffness.hpp"
+#include "forces/step_bound.hpp"
+#include "step/contact_search.hpp"
 #include "wall.hpp"
 
 namespace edda {
@@ -20,7 +21,7 @@ Simulation settled(const benchmark::State& bench) {
   static std::map<std::pair<std::int64_t, std::int64_t>, Simulation> walls;
   omp_set_num_threads(1);
   auto& [size, sim] = *walls.try_emplace({bench.range(0), bench.range(1)}).first;
-  if (sim.blocks.size() == 0) {
+  if (sim.scene->blocks.size() == 0) {
     sim = wall(static_cast<int>(size.first), static_cast<int>(size.second));
     take_steps(sim, 200);
   }
@@ -28,7 +29,7 @@ Simulation settled(const benchmark::State& bench) {
 }
 
 void count(benchmark::State& bench, const Simulation& sim) {
-  bench.SetItemsProcessed(bench.iterations() * static_cast<std::int64_t>(sim.blocks.size()));
+  bench.SetItemsProcessed(bench.iterations() * static_cast<std::int64_t>(sim.scene->blocks.size()));
 }
 
 void sizes(benchmark::internal::Benchmark* bench) {
@@ -37,7 +38,7 @@ void sizes(benchmark::internal::Benchmark* bench) {
 
 void PlaceFaces(benchmark::State& bench) {
   Simulation sim = settled(bench);
-  for (auto _ : bench) place_faces(sim.contacts, sim.blocks, sim.pose, sim.laws, sim.state.step);
+  for (auto _ : bench) evaluate_faces(sim.motion.contacts, face_scene(sim), sim.motion.state.step);
   count(bench, sim);
 }
 BENCHMARK(PlaceFaces)->Apply(sizes);
@@ -45,8 +46,8 @@ BENCHMARK(PlaceFaces)->Apply(sizes);
 void GatherForces(benchmark::State& bench) {
   Simulation sim = settled(bench);
   for (auto _ : bench) {
-    gather_forces(sim.forces, sim.blocks, sim.state, sim.pose, sim.contacts, sim.springs,
-                  sim.model.gravity);
+    gather_forces(sim.motion.forces, sim.scene->blocks, sim.motion.state, sim.motion.pose,
+                  sim.motion.contacts, sim.attached.springs, sim.scene->model.gravity);
   }
   count(bench, sim);
 }
@@ -54,9 +55,12 @@ BENCHMARK(GatherForces)->Apply(sizes);
 
 void Advance(benchmark::State& bench) {
   Simulation sim = settled(bench);
+  Motion& motion = sim.motion;
+  const StepDamping damping;
   const double h = 1e-15;  // s: the arithmetic of any step, but the wall stays where it is
   for (auto _ : bench) {
-    advance(sim.state, sim.blocks, sim.forces.x, sim.forces.y, h, h, {});
+    advance(motion.state, {sim.scene->blocks, motion.masses, motion.forces.x, motion.forces.y,
+                           motion.state.vx, motion.state.vy, h, h, damping});
   }
   count(bench, sim);
 }
@@ -65,8 +69,7 @@ BENCHMARK(Advance)->Apply(sizes);
 void CriticalStep(benchmark::State& bench) {
   Simulation sim = settled(bench);
   for (auto _ : bench) {
-    const StepBound bound =
-        step_bound(sim.blocks, sim.state, sim.contacts, sim.springs, sim.laws, {});
+    const StepBound bound = step_bound(stiffness_inputs(sim));
     benchmark::DoNotOptimize(bound);
   }
   count(bench, sim);
@@ -76,8 +79,9 @@ BENCHMARK(CriticalStep)->Apply(sizes);
 void NearPairs(benchmark::State& bench) {
   Simulation sim = settled(bench);
   for (auto _ : bench) {
-    benchmark::DoNotOptimize(
-        near_pairs(sim.blocks, sim.state.alive, sim.pose.x, sim.pose.y, sim.base_reach));
+    benchmark::DoNotOptimize(near_pairs(sim.scene->blocks, sim.motion.state.alive,
+                                        sim.motion.pose.x, sim.motion.pose.y,
+                                        sim.scene->base_reach));
   }
   count(bench, sim);
 }

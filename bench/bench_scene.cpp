@@ -21,6 +21,7 @@
 #include "contacts/face_reading.hpp"
 #include "memory.hpp"
 #include "scenes.hpp"
+#include "step/changes.hpp"
 #include "stopwatch.hpp"
 #include "true_step.hpp"
 #include "wall.hpp"
@@ -58,50 +59,53 @@ bool read_options(int argc, char** argv, Options& o) {
   return !o.scene.empty();
 }
 
-void describe(const edda::Scene& scene, double made_in) {
+void describe(const edda::BenchScene& scene, double made_in) {
   const Simulation& s = scene.sim;
   std::size_t closed = 0;
-  for (std::size_t c = 0; c < s.contacts.size(); ++c) {
-    if (edda::is_closed(s.contacts, c)) ++closed;
+  for (std::size_t c = 0; c < s.motion.contacts.size(); ++c) {
+    if (edda::is_closed(s.motion.contacts, c)) ++closed;
   }
   std::printf(
       "{\"blocks\": %zu, \"candidates\": %zu, \"closed\": %zu, \"step\": %.6g, "
       "\"critical_step\": %.6g, \"row_error\": %.3g, \"made_in\": %.2f}\n",
-      s.blocks.size(), s.contacts.size(), closed, s.state.step, s.bound.critical_step,
-      scene.row_error, made_in);
+      s.scene->blocks.size(), s.motion.contacts.size(), closed, s.motion.state.step,
+      s.control.bound.critical_step, scene.row_error, made_in);
   std::fflush(stdout);
 }
 
 /// What callgrind counts, too.
 void measure(Simulation& s, const Options& o) {
-  const edda::OpenCloseCounts before = s.open_close;
-  const edda::StageSeconds stages = s.seconds;
-  const std::uint64_t searches = s.contacts.rebuilds, redone = s.steps.redone;
+  const edda::OpenCloseCounts before = s.accounts.open_close;
+  const edda::StageSeconds stages = s.accounts.seconds;
+  const std::uint64_t searches = s.motion.contacts.rebuilds, redone = s.accounts.steps.redone;
   CALLGRIND_START_INSTRUMENTATION;
   const Stopwatch watch(static_cast<int>(o.threads));
   edda::take_steps(s, o.steps);
   const double seconds = watch.seconds();
   CALLGRIND_STOP_INSTRUMENTATION;
-  const double sampled = s.seconds.sum() - stages.sum();
+  const double sampled = s.accounts.seconds.sum() - stages.sum();
   const double scale = sampled > 0.0 ? seconds / sampled : 0.0;
   std::printf(
       "{\"steps\": %ld, \"seconds\": %.6g, \"switched\": %llu, \"passes\": %llu, "
       "\"searches\": %llu, \"redone\": %llu, \"search\": %.4g, \"forces\": %.4g, "
       "\"integrate\": %.4g}\n",
-      o.steps, seconds, static_cast<unsigned long long>(s.open_close.switched - before.switched),
-      static_cast<unsigned long long>(s.open_close.passes - before.passes),
-      static_cast<unsigned long long>(s.contacts.rebuilds - searches),
-      static_cast<unsigned long long>(s.steps.redone - redone),
-      scale * (s.seconds.search - stages.search), scale * (s.seconds.forces - stages.forces),
-      scale * (s.seconds.integrate - stages.integrate));
+      o.steps, seconds,
+      static_cast<unsigned long long>(s.accounts.open_close.switched - before.switched),
+      static_cast<unsigned long long>(s.accounts.open_close.passes - before.passes),
+      static_cast<unsigned long long>(s.motion.contacts.rebuilds - searches),
+      static_cast<unsigned long long>(s.accounts.steps.redone - redone),
+      scale * (s.accounts.seconds.search - stages.search),
+      scale * (s.accounts.seconds.forces - stages.forces),
+      scale * (s.accounts.seconds.integrate - stages.integrate));
   std::fflush(stdout);
 }
 
 /// Without damping, which shortens the one and is not in the other.
 void compare_steps(Simulation& s, int rounds) {
-  s.change_damping({}, true);
+  change_damping(s, {}, true);
   std::printf("{\"undamped_step\": %.6g, \"true_step\": %.6g, \"true_step_of_all\": %.6g}\n",
-              s.bound.critical_step, edda::true_critical_step(s, edda::Carrying::now, rounds),
+              s.control.bound.critical_step,
+              edda::true_critical_step(s, edda::Carrying::now, rounds),
               edda::true_critical_step(s, edda::Carrying::may, rounds));
 }
 
@@ -127,7 +131,7 @@ int main(int argc, char** argv) {
   }
   omp_set_num_threads(static_cast<int>(o.threads));
   const Stopwatch watch(static_cast<int>(o.threads));
-  edda::Scene scene = edda::make_scene(o.scene, o.cache);
+  edda::BenchScene scene = edda::make_scene(o.scene, o.cache);
   describe(scene, watch.seconds());
   if (o.limit > 0) {
     compare_steps(scene.sim, static_cast<int>(o.limit));

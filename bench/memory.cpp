@@ -26,11 +26,12 @@ std::size_t freed(Part& part) {
 
 MemoryInUse take_apart(Simulation sim) {
   MemoryInUse m;
-  m.contacts = freed(sim.contacts);
-  m.state = freed(sim.state) + freed(sim.pose);
-  m.blocks = freed(sim.blocks);
-  m.polygons = freed(sim.polygons);
-  m.model = freed(sim.model);
+  Scene& scene = sim.scene.edit();
+  m.contacts = freed(sim.motion.contacts);
+  m.state = freed(sim.motion.state) + freed(sim.motion.pose);
+  m.blocks = freed(scene.blocks);
+  m.polygons = freed(scene.polygons);
+  m.model = freed(scene.model);
   m.rest = freed(sim);
   return m;
 }

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "run/simulation.hpp"
+#include "step/simulation.hpp"
 
 namespace edda {
 

@@ -1,5 +1,6 @@
 // How fast the replay page draws: frames a second and script a frame, shown one after another as fast as they come.
-//   node bench/replay_page.mjs EDDA PACKAGES [BLOCKS ...]      PACKAGES: build/page_tests; default 2000 20000 100000
+//   node bench/replay_page.mjs EDDA PACKAGES [BLOCKS ...]      default 2000 20000 100000
+// PACKAGES: build/page_tests, which the target page_check makes.
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import os from 'node:os';

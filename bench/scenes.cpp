@@ -1,4 +1,5 @@
 #include "scenes.hpp"
+#include "step/step.hpp"
 
 #include <fmt/format.h>
 
@@ -48,8 +49,8 @@ Named taken_apart(const std::string& name) {
 }
 
 void take_time(Simulation& sim, double seconds) {
-  const double end = sim.state.time + seconds;
-  while (sim.state.time < end) take_steps(sim, 1);
+  const double end = sim.motion.state.time + seconds;
+  while (sim.motion.state.time < end) take_steps(sim, 1);
 }
 
 /// A convex polygon about the unit circle, drawn `size` times as large.
@@ -85,11 +86,11 @@ Simulation collapsing_wall(int columns, int rows) {
   }
   Simulation sim = built(read_model_text(toml, "collapse.toml"));
   constexpr double fallen = 1.5;  // m/s
-  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
-    if (sim.blocks.fixed[i]) continue;
-    for (auto& vy : sim.state.vy) vy[i] = -fallen;
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (sim.scene->blocks.fixed[i]) continue;
+    for (auto& vy : sim.motion.state.vy) vy[i] = -fallen;
   }
-  sim.start(1000.0);
+  start(sim, 1000.0);
   take_time(sim, 0.25);
   return sim;
 }
@@ -120,7 +121,7 @@ Simulation flowing_heap(int count) {
     toml += fmt::format("]\nvelocity = [{}, 0.0]\n", 0.3 * (1 + row));
   }
   Simulation sim = built(read_model_text(toml, "heap.toml"));
-  sim.start(1000.0);
+  start(sim, 1000.0);
   take_time(sim, 0.3);
   return sim;
 }
@@ -137,14 +138,14 @@ Simulation free_blocks(int count) {
     toml += fmt::format("angular_velocity = {}\n", u(rng));
   }
   Simulation sim = built(read_model_text(toml, "free.toml"));
-  sim.start(1000.0);
+  start(sim, 1000.0);
   take_steps(sim, 100);
   return sim;
 }
 
 Simulation cavern() {
   Simulation sim = built(read_model(std::string(EDDA_SOURCE_DIR) + "/examples/cavern.toml"));
-  sim.start(1000.0);
+  start(sim, 1000.0);
   take_steps(sim, 2000);
   return sim;
 }
@@ -162,13 +163,13 @@ std::string flaw_of_scene(const std::string& name) {
   return name + ": no such scene";
 }
 
-Scene make_scene(const std::string& name, const std::string& cache) {
+BenchScene make_scene(const std::string& name, const std::string& cache) {
   const Named n = taken_apart(name);
   if (n.kind == "collapse") return {collapsing_wall(n.first, n.second)};
   if (n.kind == "heap") return {flowing_heap(n.first)};
   if (n.kind == "free") return {free_blocks(n.first)};
   if (n.kind == "cavern") return {cavern()};
-  Scene scene{settled_wall(n.first, n.second, cache)};
+  BenchScene scene{settled_wall(n.first, n.second, cache)};
   scene.row_error = error_of_row_forces(scene.sim);
   return scene;
 }

@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "run/simulation.hpp"
+#include "step/simulation.hpp"
 
 namespace edda {
 
-struct Scene {
+struct BenchScene {
   Simulation sim;           ///< ready for its next step; no event interrupts it
   double row_error = -1.0;  ///< of a wall at rest: see error_of_row_forces()
 };
@@ -22,6 +22,6 @@ struct Scene {
 std::string flaw_of_scene(const std::string& name);
 
 /// Ends the program where it cannot be built. `cache`: see settled_wall().
-Scene make_scene(const std::string& name, const std::string& cache);
+BenchScene make_scene(const std::string& name, const std::string& cache);
 
 }  // namespace edda

@@ -1,4 +1,6 @@
 #include "settled_wall.hpp"
+#include "step/changes.hpp"
+#include "step/step.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +13,9 @@
 #include <unordered_map>
 
 #include "blocks/kinematics.hpp"
+#include "contacts/evaluate_faces.hpp"
 #include "contacts/face_reading.hpp"
-#include "contacts/place_faces.hpp"
+#include "step/contact_search.hpp"
 #include "wall.hpp"
 
 namespace edda {
@@ -73,7 +76,7 @@ std::uint64_t key_of(const Sides& s, Place from) {
 }
 
 /// The state of a wall at rest.
-struct Rest {
+struct Equilibrium {
   int columns = 0;
   std::unordered_map<std::uint64_t, Placed> bricks;
   std::unordered_map<std::uint64_t, Touch> touches;
@@ -85,16 +88,17 @@ bool between_neighbours(const Sides& s) {
          (!j.is_brick() || std::abs(j.quarter - i.quarter) <= 8);
 }
 
-Rest rest_of(const Simulation& s, int columns) {
-  const BlockSet& b = s.blocks;
-  const FaceSet& c = s.contacts;
-  Rest rest;
+Equilibrium rest_of(const Simulation& s, int columns) {
+  const BlockSet& b = s.scene->blocks;
+  const FaceSet& c = s.motion.contacts;
+  Equilibrium rest;
   rest.columns = columns;
   for (std::size_t i = 0; i < b.size(); ++i) {
     const Place place = place_of(b, i);
     if (!place.is_brick()) continue;
-    const Deformation f = deformation(b, s.state.x, s.state.y, i);
-    const Vec2 u = centroid(s.state.x, s.state.y, i) - Vec2{b.centroid_x[i], b.centroid_y[i]};
+    const Deformation f = deformation(b, s.motion.state.x, s.motion.state.y, i);
+    const Vec2 u =
+        centroid(s.motion.state.x, s.motion.state.y, i) - Vec2{b.centroid_x[i], b.centroid_y[i]};
     rest.bricks[key_of(place)] = {u.x, u.y, f.xx, f.xy, f.yx, f.yy};
   }
   for (std::size_t k = 0; k < c.size(); ++k) {
@@ -121,8 +125,8 @@ Source stands_for(Place p, int short_columns, int columns) {
   return {{middle, p.row}, false};
 }
 
-void put(Simulation& s, const Rest& rest, int columns) {
-  const BlockSet& b = s.blocks;
+void put(Simulation& s, const Equilibrium& rest, int columns) {
+  const BlockSet& b = s.scene->blocks;
   for (std::size_t i = 0; i < b.size(); ++i) {
     const Place place = place_of(b, i);
     if (!place.is_brick()) continue;
@@ -131,21 +135,21 @@ void put(Simulation& s, const Rest& rest, int columns) {
     const Vec2 c{b.centroid_x[i], b.centroid_y[i]};
     for (std::size_t k = 0; k < 3; ++k) {
       const double ax = b.node_x[k][i] - c.x, ay = b.node_y[k][i] - c.y;
-      s.state.x[k][i] = c.x + (from.drifts ? p.ux : 0.0) + p.xx * ax + p.xy * ay;
-      s.state.y[k][i] = c.y + p.uy + p.yx * ax + p.yy * ay;
+      s.motion.state.x[k][i] = c.x + (from.drifts ? p.ux : 0.0) + p.xx * ax + p.xy * ay;
+      s.motion.state.y[k][i] = c.y + p.uy + p.yx * ax + p.yy * ay;
     }
-    place_vertices(b, s.state.x, s.state.y, i, s.pose.x, s.pose.y);
+    place_vertices(b, s.motion.state.x, s.motion.state.y, i, s.motion.pose.x, s.motion.pose.y);
   }
-  s.pose.x1 = s.pose.x;
-  s.pose.y1 = s.pose.y;
+  s.motion.pose.x1 = s.motion.pose.x;
+  s.motion.pose.y1 = s.motion.pose.y;
 }
 
 /// As at the start of a run, and then what the faces of the short wall remember.
-void touch(Simulation& s, const Rest& rest, int columns) {
-  const BlockSet& b = s.blocks;
-  FaceSet& c = s.contacts;
-  place_faces(c, b, s.pose, s.laws, 1.0);
-  stand_still(c);
+void touch(Simulation& s, const Equilibrium& rest, int columns) {
+  const BlockSet& b = s.scene->blocks;
+  FaceSet& c = s.motion.contacts;
+  evaluate_faces(c, face_scene(s), 1.0);
+  begin_from_step_end(c);
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Sides sides = sides_of(b, c, k);
     if (!between_neighbours(sides)) continue;
@@ -159,8 +163,8 @@ void touch(Simulation& s, const Rest& rest, int columns) {
 
 /// So many steps under `damping`, with the step that it allows.
 void damp(Simulation& s, const Damping& damping, long steps) {
-  s.change_damping(damping, true);
-  s.aim_at(1000.0);
+  change_damping(s, damping, true);
+  fit_step_to(s, 1000.0);
   take_steps(s, steps);
 }
 
@@ -171,15 +175,15 @@ void settle(Simulation& s, int rows, double periods) {
   Damping damping;
   damping.local = 0.8;
   damping.mass = 2.0 * speed / height;
-  damp(s, damping, std::lround(periods * period / (0.7 * s.state.step)));
+  damp(s, damping, std::lround(periods * period / (0.7 * s.motion.state.step)));
 }
 
 /// A wall as drawn, with what another at rest can lend it.
-Simulation lent(int columns, int rows, const Rest& rest) {
+Simulation saved_bond(int columns, int rows, const Equilibrium& rest) {
   Simulation s = built_wall(columns, rows);
   put(s, rest, columns);
   touch(s, rest, columns);
-  s.start(1000.0);
+  start(s, 1000.0);
   return s;
 }
 
@@ -212,14 +216,15 @@ std::string title_of(int columns, int rows) {
   return "at rest, 3" + wall_model(columns, rows);
 }
 
-bool read_rest(const std::filesystem::path& path, const std::string& title, Rest& rest) {
+bool read_rest(const std::filesystem::path& path, const std::string& title, Equilibrium& rest) {
   std::ifstream in(path, std::ios::binary);
   std::string begins(title.size(), ' ');
   in.read(begins.data(), static_cast<std::streamsize>(begins.size()));
   return in && begins == title && read_map(in, rest.bricks) && read_map(in, rest.touches);
 }
 
-void write_rest(const std::filesystem::path& path, const std::string& title, const Rest& rest) {
+void write_rest(const std::filesystem::path& path, const std::string& title,
+                const Equilibrium& rest) {
   std::filesystem::create_directories(path.parent_path());
   const std::filesystem::path beside = path.string() + ".part";
   std::ofstream out(beside, std::ios::binary);
@@ -242,15 +247,15 @@ int long_columns(int rows) {
 }
 
 /// Settles the wall, or reads what it came to when it did before.
-Rest rest_from(int columns, int rows, const std::string& cache) {
+Equilibrium rest_from(int columns, int rows, const std::string& cache) {
   const std::string name = "wall-" + std::to_string(columns) + "x" + std::to_string(rows) + ".rest";
   const std::filesystem::path path = std::filesystem::path(cache) / name;
-  Rest rest;
+  Equilibrium rest;
   rest.columns = columns;
   if (!cache.empty() && read_rest(path, title_of(columns, rows), rest)) return rest;
   const bool as_drawn = columns <= short_columns(rows);
   Simulation s = as_drawn ? wall(columns, rows)
-                          : lent(columns, rows, rest_from(short_columns(rows), rows, cache));
+                          : saved_bond(columns, rows, rest_from(short_columns(rows), rows, cache));
   settle(s, rows, as_drawn ? 12.0 : 4.0);
   rest = rest_of(s, columns);
   if (!cache.empty()) write_rest(path, title_of(columns, rows), rest);
@@ -260,7 +265,8 @@ Rest rest_from(int columns, int rows, const std::string& cache) {
 }  // namespace
 
 Simulation settled_wall(int columns, int rows, const std::string& cache) {
-  Simulation s = lent(columns, rows, rest_from(std::min(columns, long_columns(rows)), rows, cache));
+  Simulation s =
+      saved_bond(columns, rows, rest_from(std::min(columns, long_columns(rows)), rows, cache));
   // What friction and the joins between ends and middle are still off by.
   Damping damping;
   damping.local = 0.8;
@@ -270,12 +276,12 @@ Simulation settled_wall(int columns, int rows, const std::string& cache) {
 }
 
 double error_of_row_forces(const Simulation& s) {
-  const BlockSet& b = s.blocks;
-  const FaceSet& c = s.contacts;
+  const BlockSet& b = s.scene->blocks;
+  const FaceSet& c = s.motion.contacts;
   std::map<int, double, std::greater<>> weight;  // by row, from above
   std::map<int, double> force;                   // of the joint beneath the row
   for (std::size_t i = 0; i < b.size(); ++i) {
-    if (!b.fixed[i]) weight[place_of(b, i).row] += b.mass[i] * -s.model.gravity.y;
+    if (!b.fixed[i]) weight[place_of(b, i).row] += b.mass[i] * -s.scene->model.gravity.y;
   }
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Sides sides = sides_of(b, c, k);

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "run/simulation.hpp"
+#include "step/simulation.hpp"
 
 namespace edda {
 

@@ -5,9 +5,10 @@
 #include <random>
 #include <utility>
 
+#include "contacts/evaluate_faces.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/face_reading.hpp"
-#include "contacts/place_faces.hpp"
+#include "step/contact_search.hpp"
 
 namespace edda {
 namespace {
@@ -19,23 +20,26 @@ struct Field {
 template <class Body>
 void for_each_node(const Simulation& s, Body body) {
   for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < s.blocks.size(); ++i) {
-      if (is_free(s.blocks, s.state, i)) body(k, i);
+    for (std::size_t i = 0; i < s.scene->blocks.size(); ++i) {
+      if (is_free(s.scene->blocks, s.motion.state, i)) body(k, i);
     }
   }
 }
 
 /// Accelerations where the nodes are, contacts as they are.
 Field accelerations_of(Simulation& s) {
-  for (std::size_t i = 0; i < s.blocks.size(); ++i) {
-    if (s.state.alive[i]) place_vertices(s.blocks, s.state.x, s.state.y, i, s.pose.x, s.pose.y);
+  for (std::size_t i = 0; i < s.scene->blocks.size(); ++i) {
+    if (s.motion.state.alive[i])
+      place_vertices(s.scene->blocks, s.motion.state.x, s.motion.state.y, i, s.motion.pose.x,
+                     s.motion.pose.y);
   }
-  place_faces(s.contacts, s.blocks, s.pose, s.laws, s.state.step);
-  gather_forces(s.forces, s.blocks, s.state, s.pose, s.contacts, s.springs, s.model.gravity);
-  Field a{s.forces.x, s.forces.y};
+  evaluate_faces(s.motion.contacts, face_scene(s), s.motion.state.step);
+  gather_forces(s.motion.forces, s.scene->blocks, s.motion.state, s.motion.pose, s.motion.contacts,
+                s.attached.springs, s.scene->model.gravity);
+  Field a{s.motion.forces.x, s.motion.forces.y};
   for_each_node(s, [&](std::size_t k, std::size_t i) {
-    a.x[k][i] /= s.blocks.node_mass[k][i];
-    a.y[k][i] /= s.blocks.node_mass[k][i];
+    a.x[k][i] /= s.motion.masses.node[k][i];
+    a.y[k][i] /= s.motion.masses.node[k][i];
   });
   return a;
 }
@@ -49,8 +53,8 @@ void let_touch(FaceSet& c, std::size_t k) {
   constexpr double just = 1e-6;  // m, more than what the iteration moves anything by
   const double da = c.now.closure_a[k], db = c.now.closure_b[k];
   const bool along = c.now.cohesive[k] > 0.0;
-  c.offset_a[k] += std::max(just - (along ? da : std::max(da, db)), 0.0);
-  c.offset_b[k] += std::max(just - (along ? db : std::max(da, db)), 0.0);
+  c.locked_closure_a[k] += std::max(just - (along ? da : std::max(da, db)), 0.0);
+  c.locked_closure_b[k] += std::max(just - (along ? db : std::max(da, db)), 0.0);
 }
 
 /// Springs that neither open nor slide. An end that is open stays so, or it would pull by all that
@@ -60,29 +64,30 @@ void hold_contacts(FaceSet& c, Carrying which) {
   double most = 0.0;
   for (std::size_t k = 0; k < c.size(); ++k) most = std::max(most, c.now.energy[k]);
   for (std::size_t k = 0; k < c.size(); ++k) {
-    const bool carries = is_closed(c, k) && (c.pulls[k] > 0.0 || c.now.energy[k] > nothing * most);
+    const bool carries =
+        is_closed(c, k) && (c.carries_tension[k] > 0.0 || c.now.energy[k] > nothing * most);
     const bool aside = c.acts[k] == 0.0 || c.now.gate[k] == 0.0;
     if (!carries && (which == Carrying::now || aside)) {
       c.stiffness[k] = c.shear_stiffness[k] = 0.0;
       continue;
     }
-    const double before_a = c.offset_a[k], before_b = c.offset_b[k];
-    if (which == Carrying::may && c.pulls[k] == 0.0) let_touch(c, k);
-    const double da = c.now.closure_a[k] + c.offset_a[k] - before_a;
-    const double db = c.now.closure_b[k] + c.offset_b[k] - before_b;
-    if (std::min(da, db) > 0.0) c.pulls[k] = 1.0;
+    const double before_a = c.locked_closure_a[k], before_b = c.locked_closure_b[k];
+    if (which == Carrying::may && c.carries_tension[k] == 0.0) let_touch(c, k);
+    const double da = c.now.closure_a[k] + c.locked_closure_a[k] - before_a;
+    const double db = c.now.closure_b[k] + c.locked_closure_b[k] - before_b;
+    if (std::min(da, db) > 0.0) c.carries_tension[k] = 1.0;
     c.bonded[k] = c.glued[k] = 1.0;
     c.tension[k] = enough;
   }
-  note_bonds(c);
+  mark_bonded_chunks(c);
 }
 
 }  // namespace
 
 double true_critical_step(const Simulation& sim, Carrying which, int rounds) {
   Simulation s = sim;
-  hold_contacts(s.contacts, which);
-  const Nodes x0 = s.state.x, y0 = s.state.y;
+  hold_contacts(s.motion.contacts, which);
+  const Nodes x0 = s.motion.state.x, y0 = s.motion.state.y;
   const Field at_rest = accelerations_of(s);
   std::mt19937 rng(1);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
@@ -91,26 +96,27 @@ double true_critical_step(const Simulation& sim, Carrying which, int rounds) {
     v.x[k][i] = u(rng);
     v.y[k][i] = u(rng);
   });
-  const double heaviest = *std::max_element(s.blocks.mass.begin(), s.blocks.mass.end());
+  const double heaviest =
+      *std::max_element(s.scene->blocks.mass.begin(), s.scene->blocks.mass.end());
   constexpr double amplitude = 1e-8;  // m, were it all in the heaviest block
   double largest = 0.0;
   for (int round = 0; round < rounds; ++round) {
     double square = 0.0;
     for_each_node(s, [&](std::size_t k, std::size_t i) {
-      square += s.blocks.node_mass[k][i] * (v.x[k][i] * v.x[k][i] + v.y[k][i] * v.y[k][i]);
+      square += s.motion.masses.node[k][i] * (v.x[k][i] * v.x[k][i] + v.y[k][i] * v.y[k][i]);
     });
     const double scale = amplitude * std::sqrt(heaviest / square);
     for_each_node(s, [&](std::size_t k, std::size_t i) {
       v.x[k][i] *= scale;
       v.y[k][i] *= scale;
-      s.state.x[k][i] = x0[k][i] + v.x[k][i];
-      s.state.y[k][i] = y0[k][i] + v.y[k][i];
+      s.motion.state.x[k][i] = x0[k][i] + v.x[k][i];
+      s.motion.state.y[k][i] = y0[k][i] + v.y[k][i];
     });
     const Field a = accelerations_of(s);
     double product = 0.0;
     for_each_node(s, [&](std::size_t k, std::size_t i) {
       const Vec2 pulled{at_rest.x[k][i] - a.x[k][i], at_rest.y[k][i] - a.y[k][i]};
-      product += s.blocks.node_mass[k][i] * (v.x[k][i] * pulled.x + v.y[k][i] * pulled.y);
+      product += s.motion.masses.node[k][i] * (v.x[k][i] * pulled.x + v.y[k][i] * pulled.y);
       v.x[k][i] = pulled.x;
       v.y[k][i] = pulled.y;
     });

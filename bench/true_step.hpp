@@ -2,7 +2,7 @@
 // StepBound looks at one block at a time.
 #pragma once
 
-#include "run/simulation.hpp"
+#include "step/simulation.hpp"
 
 namespace edda {
 

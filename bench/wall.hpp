@@ -1,4 +1,4 @@
-// The scene of all benchmarks: a wall in running bond on a held block, under its own weight.
+// The scene of all benchmarks: a wall in running bond on a fixed block, under its own weight.
 #pragma once
 
 #include <cstdio>
@@ -7,7 +7,8 @@
 #include <utility>
 
 #include "model/read_model.hpp"
-#include "run/simulation.hpp"
+#include "step/simulation.hpp"
+#include "step/step.hpp"
 
 namespace edda {
 
@@ -58,14 +59,14 @@ inline Simulation built_wall(int columns, int rows, const std::string& solver = 
 /// Ready for step(). No event interrupts it.
 inline Simulation wall(int columns, int rows, const std::string& solver = {}) {
   Simulation sim = built_wall(columns, rows, solver);
-  sim.start(1000.0);
+  start(sim, 1000.0);
   return sim;
 }
 
 /// So many steps; ends the program if one fails.
 inline void take_steps(Simulation& sim, long steps) {
   for (long i = 0; i < steps; ++i) {
-    if (const auto failure = sim.step()) {
+    if (const auto failure = step(sim)) {
       std::fprintf(stderr, "step %ld: %s\n", i, failure->message.c_str());
       std::exit(1);
     }

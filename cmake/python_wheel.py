@@ -32,8 +32,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 
 def configure(build):
-    """The module alone: no page of edda view, which would want node, and nothing without pybind11."""
-    options = ["-DCMAKE_BUILD_TYPE=Release", "-DEDDA_TESTS=OFF", "-DEDDA_BENCH=OFF", "-DEDDA_VIEW=OFF", "-DEDDA_PYTHON=ON",
+    """The module alone, and nothing without pybind11."""
+    options = ["-DCMAKE_BUILD_TYPE=Release", "-DEDDA_TESTS=OFF", "-DEDDA_BENCH=OFF", "-DEDDA_PYTHON=ON",
                "-DCMAKE_REQUIRE_FIND_PACKAGE_pybind11=ON", f"-DEDDA_PYTHON_EXECUTABLE={sys.executable}"]
     options += shlex.split(os.environ.get("CMAKE_ARGS", ""))
     subprocess.run(["cmake", "-G", "Ninja", "-S", ROOT, "-B", build, *options], check=True)

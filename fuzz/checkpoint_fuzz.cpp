@@ -5,13 +5,16 @@
 #include <cstdlib>
 #include <cstring>
 #include <iterator>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include "checkpoint/envelope.hpp"
 #include "checkpoint/hdf5_image.hpp"
 #include "model/read_model.hpp"
 #include "run/simulation_memory.hpp"
+#include "step/step.hpp"
 
 namespace {
 
@@ -45,9 +48,9 @@ edda::Simulation fresh(const char* more) {
 
 edda::Record some_way_on(const char* more) {
   edda::Simulation sim = fresh(more);
-  sim.start(1.0);
+  start(sim, 1.0);
   for (int step = 0; step < 100; ++step) {
-    if (sim.step()) std::abort();
+    if (edda::step(sim)) std::abort();
   }
   edda::Record record;
   edda::remember(sim, record);
@@ -103,8 +106,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   edda::Simulation sim = fresh(which ? "method = 'dda'\ntime_step = 1e-3\n" : "");
   if (!edda::recall(sim, record).empty()) return 0;
-  for (int step = 0; step < 3; ++step) {
-    if (sim.step()) return 0;
+  try {
+    for (int step = 0; step < 3; ++step) {
+      if (edda::step(sim)) return 0;
+    }
+  } catch (const std::logic_error& broken) {
+    // Finite numbers that no step makes may overflow in the next one; that breaks no memory.
+    if (!std::string_view(broken.what()).starts_with("invariant: ")) throw;
   }
   return 0;
 }

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "base/polygon.hpp"
-#include "lines/build_polygons.hpp"
+#include "cutting/build_polygons.hpp"
 #include "model/read_model.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "lines/drawing.hpp"
+#include "imports/drawing.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;

@@ -1,6 +1,6 @@
 #!/usr/bin/env node
 // Draws the pictures of docs/view.md: the replay page as a browser shows it.
-//   tools/page-pictures.mjs [EDDA] [PACKAGES]      default: build/edda build/page_tests
+//   tools/page-pictures.mjs [EDDA] [PACKAGES]      default: build/edda build/page_tests, which the target page_check makes
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, rmSync } from 'node:fs';
 import os from 'node:os';

@@ -4,7 +4,9 @@ KaTeX (Debian's package katex) translates them, all of a build's new ones in one
 """
 import json
 import os
+import re
 import subprocess
+import unicodedata
 
 from docutils import nodes
 from sphinx.errors import ExtensionError
@@ -19,6 +21,19 @@ console.log(JSON.stringify(formulas.map(([text, display]) =>
 known = {}
 
 
+def bold(found):
+    """A letter or digit of a vector or matrix as a bold character: browsers leave mathvariant="bold" out."""
+    tag, text = found.group(1), found.group(2)
+    kinds = {"LATIN CAPITAL LETTER": "CAPITAL", "LATIN SMALL LETTER": "SMALL", "GREEK CAPITAL LETTER": "CAPITAL",
+             "GREEK SMALL LETTER": "SMALL", "DIGIT": "DIGIT"}
+    letters = []
+    for letter in text:
+        name = unicodedata.name(letter)
+        kind = next((k for k in kinds if name.startswith(k + " ")), None)
+        letters.append(unicodedata.lookup(f"MATHEMATICAL BOLD {kinds[kind]} {name[len(kind) + 1:]}") if kind else letter)
+    return f'<{tag} mathvariant="normal">{"".join(letters)}</{tag}>'
+
+
 def translate(formulas):
     """MathML of each (text, whether it stands on a line of its own)."""
     paths = os.pathsep.join(filter(None, [os.environ.get("NODE_PATH"), "/usr/share/nodejs"]))
@@ -26,7 +41,7 @@ def translate(formulas):
                          capture_output=True, text=True, check=False)
     if run.returncode != 0:
         raise ExtensionError(f"a formula is not understood, or katex is missing:\n{run.stderr[:2000]}")
-    return json.loads(run.stdout)
+    return [re.sub(r'<(m[in]) mathvariant="bold(?:-italic)?">([^<]+)</\1>', bold, mathml) for mathml in json.loads(run.stdout)]
 
 
 def collect(app, doctree):

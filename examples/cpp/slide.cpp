@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
     for (const api::Contact& contact : simulation.contacts()) {
       std::printf("contact at (%.3f, %.3f): %.1f N\n", contact.x, contact.y, contact.normal_force);
     }
-    std::printf("%s after %.4g s, energy drift %.1e\n", name_of(outcome.status).data(),
+    std::printf("%s after %.4g s, energy balance error %.1e\n", name_of(outcome.status).data(),
                 outcome.time, outcome.drift);
   } catch (const api::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -6,11 +6,11 @@
 #include <memory>
 
 #include "app/common.hpp"
+#include "observe/sliver_report.hpp"
 #include "results/json.hpp"
 #include "run/check_model.hpp"
-#include "run/labels.hpp"
 #include "run/run_model.hpp"
-#include "run/sliver_report.hpp"
+#include "step/labels.hpp"
 
 namespace edda {
 namespace {
@@ -22,9 +22,10 @@ struct CheckArguments {
 };
 
 void print_blocks(const Simulation& sim, const ModelCheck& found) {
-  const BlockSet& b = sim.blocks;
-  const CutReport& r = sim.polygons.report;
-  fmt::print("blocks          {} ({} held), {} vertices\n", b.size(), found.held, b.vertex_count());
+  const BlockSet& b = sim.scene->blocks;
+  const CutReport& r = sim.scene->polygons.report;
+  fmt::print("blocks          {} ({} fixed), {} vertices\n", b.size(), found.fixed,
+             b.vertex_count());
   fmt::print(
       "smallest        area {:.4g} m2 at {}, edge {:.4g} m at {}, angle {:.3g} degrees at {}\n",
       r.smallest_area, place_label(r.smallest_area_at), r.smallest_edge,
@@ -34,7 +35,7 @@ void print_blocks(const Simulation& sim, const ModelCheck& found) {
 }
 
 void print_places(const PreparedRun& run) {
-  const BlockSet& blocks = run.sim.blocks;
+  const BlockSet& blocks = run.sim.scene->blocks;
   for (const MonitorPoint& m : run.monitors) {
     fmt::print("monitor         {} in {}\n", m.name, block_label(blocks, m.block));
   }
@@ -46,14 +47,14 @@ void print_places(const PreparedRun& run) {
 
 void print_step(const Simulation& sim, const ModelCheck& found) {
   const std::string of_what =
-      sim.model.solver.time_step ? "as given"
-      : !sim.explicit_method()
-          ? "as long as nothing moves too far in it; it is cut where needed"
-          : fmt::format("{:.2g} of the smaller, or a little less", sim.model.solver.safety);
-  if (found.static_step > 0.0) {
+      sim.scene->model.solver.time_step ? "as given"
+      : !is_explicit(sim)
+          ? "limited by the largest displacement in a step; reduced where needed"
+          : fmt::format("{:.2g} of the critical step, or less", sim.scene->model.solver.safety);
+  if (found.scaled_step > 0.0) {
     fmt::print(
-        "step            about {:.3g} s in stages with static masses, which all blocks allow{}\n",
-        found.static_step,
+        "step            about {:.3g} s in stages with scaled masses, stable for all blocks{}\n",
+        found.scaled_step,
         found.step_as_given > 0.0 ? fmt::format("; {:.3g} s in others", found.step_as_given)
                                   : std::string{});
   } else {
@@ -65,8 +66,8 @@ void print_step(const Simulation& sim, const ModelCheck& found) {
     return fmt::print("speed           {:.3g} steps per second\n", found.rate);
   }
   fmt::print("steps           {} {:.0f} for {:.6g} s{}\n", found.at_most ? "at most" : "about",
-             found.steps, sim.model.solver.duration,
-             found.at_most ? ": stages end as soon as all is at rest" : "");
+             found.steps, sim.scene->model.solver.duration,
+             found.at_most ? ": stages end as soon as the model is in equilibrium" : "");
   fmt::print("time to expect  {}{} at {:.3g} steps per second\n",
              found.at_most && found.steps > found.rate ? "at most " : "",
              duration_text(found.steps / found.rate), found.rate);
@@ -76,7 +77,7 @@ void print_text(const PreparedRun& run, const ModelCheck& found) {
   const Simulation& sim = run.sim;
   print_blocks(sim, found);
   fmt::print("contacts        {} closed, {} within reach\n", found.closed, found.within_reach);
-  if (sim.explicit_method()) {
+  if (is_explicit(sim)) {
     fmt::print("critical step   {:.6g} s\n", found.critical_step);
   }
   fmt::print("governed by     {}\n", run.governed_by);
@@ -103,25 +104,25 @@ void add_place(Json& json, const char* name, double value, Vec2 at) {
 
 void print_object(const PreparedRun& run, const ModelCheck& found) {
   const Simulation& sim = run.sim;
-  const CutReport& r = sim.polygons.report;
+  const CutReport& r = sim.scene->polygons.report;
   Json json;
-  json.open_object().pair("model", sim.model.file).pair("title", sim.model.title);
-  json.pair("blocks", sim.blocks.size()).pair("held", found.held);
-  json.pair("vertices", sim.blocks.vertex_count());
+  json.open_object().pair("model", sim.scene->model.file).pair("title", sim.scene->model.title);
+  json.pair("blocks", sim.scene->blocks.size()).pair("held", found.fixed);
+  json.pair("vertices", sim.scene->blocks.vertex_count());
   json.key("smallest").open_object();
   add_place(json, "area", r.smallest_area, r.smallest_area_at);
   add_place(json, "edge", r.smallest_edge, r.smallest_edge_at);
   add_place(json, "angle", r.smallest_angle, r.smallest_angle_at);
   json.close();
   json.pair("contacts", found.closed).pair("contacts_within_reach", found.within_reach);
-  if (sim.explicit_method()) {
+  if (is_explicit(sim)) {
     json.pair("critical_time_step", found.critical_step);
     json.pair("likely_time_step", found.critical_step);
   }
   json.pair("governed_by", run.governed_by);
   json.key("monitors").open_object();
   for (const MonitorPoint& m : run.monitors) {
-    json.pair(m.name, block_label(sim.blocks, m.block));
+    json.pair(m.name, block_label(sim.scene->blocks, m.block));
   }
   json.close();
   add_slivers(json, r);
@@ -134,9 +135,9 @@ void print_object(const PreparedRun& run, const ModelCheck& found) {
     json.key(name);
     timed ? json.value(value) : json.null();
   };
-  add_if_timed("duration", sim.model.solver.duration);
+  add_if_timed("duration", sim.scene->model.solver.duration);
   json.pair("time_step", found.step);
-  if (found.static_step > 0.0) json.pair("static_time_step", found.static_step);
+  if (found.scaled_step > 0.0) json.pair("static_time_step", found.scaled_step);
   json.pair("at_most", found.at_most);
   add_if_timed("steps", found.steps);
   json.pair("steps_per_second", found.rate);
@@ -165,7 +166,7 @@ int check(const CheckArguments& args) {
 void add_check(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand(
       "check",
-      "Check a model without running it: blocks, contacts, step, time to expect, warnings");
+      "Check a model without running it: blocks, contacts, time step, time to expect, warnings");
   command->footer(
       "Example:\n  edda check slope.toml\n\n"
       "Faults of the model are printed one per line, as FILE:LINE:COLUMN: key: what is wrong: what "

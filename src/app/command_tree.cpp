@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "app/examples.hpp"
-#include "model/keys.hpp"
+#include "model/table/keys.hpp"
 #include "report/shown_field.hpp"
+#include "results/columns.hpp"
 
 namespace edda {
 namespace {
@@ -37,6 +38,12 @@ std::vector<std::string> names_of_tables() {
   return names;
 }
 
+std::vector<std::string> names_of_result_files() {
+  std::vector<std::string> names;
+  for (const ResultTable& table : result_tables()) names.emplace_back(table.file);
+  return names;
+}
+
 /// CLI11 says what a value may be after its kind: "TEXT:{displacement,velocity}".
 std::vector<std::string> words_in_braces(const std::string& type) {
   const std::size_t open = type.find('{'), close = type.rfind('}');
@@ -48,6 +55,7 @@ std::vector<std::string> choices_of(const std::string& type) {
   if (type == "FIELD") return split(field_names(), ", ");
   if (type == "EXAMPLE") return names_of_examples();
   if (type == "TABLE") return names_of_tables();
+  if (type == "CSV") return names_of_result_files();
   return words_in_braces(type);
 }
 

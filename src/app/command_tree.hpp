@@ -1,5 +1,5 @@
-// The command line as data: what the manual page and the shells' completions are made of, read off
-// the parser itself.
+// The command line as data, read from the parser itself: the manual page and the shells'
+// completions are made from it.
 #pragma once
 
 #include <optional>
@@ -31,7 +31,7 @@ struct CommandText {
 struct ProgramText {
   std::string name, text, footer;
   std::vector<OptionText> options;
-  std::vector<CommandText> commands;  ///< but those without a group, which are hidden
+  std::vector<CommandText> commands;  ///< without those that have no group, which are hidden
 };
 
 ProgramText describe(const CLI::App& program);

@@ -19,7 +19,8 @@ void add_plot(CLI::App& app, int& code);
 void add_view(CLI::App& app, int& code);
 void add_example(CLI::App& app, int& code);
 void add_keys(CLI::App& app, int& code);
-/// After all others: they print what the others added.
+void add_columns(CLI::App& app, int& code);
+/// To be called after all others, since they print what the others have added.
 void add_completion(CLI::App& app, int& code);
 void add_man(CLI::App& app, int& code);
 

@@ -24,7 +24,7 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 int lost_for = 0;
 
 void ask_to_stop(int signal) {
-  // The end of a terminal may be told twice, by it and by its shell.
+  // The end of a terminal may be signalled twice, by it and by its shell.
   if (asked_to_stop.exchange(true) && signal != SIGHUP) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
@@ -36,7 +36,7 @@ void ask_to_stop(int signal) {
 const std::atomic<bool>& stop_on_signals() {
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
-  // Under nohup the end of the terminal is nothing to stop for.
+  // Under nohup the end of the terminal does not stop the run.
   if (std::signal(SIGHUP, ask_to_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   return asked_to_stop;
@@ -95,7 +95,7 @@ void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
 
 void add_threads(CLI::App& command) {
   command
-      .add_option_function<int>("--threads", say_threads,
+      .add_option_function<int>("--threads", report_threads,
                                 "Threads to use (default: up to all cores, as many as are "
                                 "quickest); results do not depend on "
                                 "it")

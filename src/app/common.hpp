@@ -1,4 +1,4 @@
-// What several commands share.
+// Functions that several commands share.
 #pragma once
 
 #include <atomic>
@@ -33,16 +33,16 @@ std::optional<Model> read_or_print(const std::string& path,
 /// Adds --json.
 void add_json(CLI::App& command, bool& json, const std::string& description);
 
-/// From now on SIGINT, SIGTERM and SIGHUP set what is returned, so that a run ends well; a second
-/// SIGINT or SIGTERM ends the program at once. SIGPIPE is ignored: see say().
+/// From now on SIGINT, SIGTERM and SIGHUP set the returned flag, so that a run ends properly; a
+/// second SIGINT or SIGTERM ends the program at once. SIGPIPE is ignored: see say().
 const std::atomic<bool>& stop_on_signals();
 
-/// Words on standard output were lost, for the first reason of errno that this was told; 0: none.
+/// Records that output on standard output was lost, with its errno; the second function returns the
+/// first one recorded, 0: none.
 void output_was_lost(int error);
 int why_output_was_lost();
 
-/// Says something during a run; that nobody reads it any more (a closed pipe, a terminal that is
-/// gone) ends no run.
+/// Prints during a run; a lost reader (a closed pipe or terminal) does not end the run.
 template <class Words>
 void say(const Words& words) {
   try {
@@ -61,14 +61,14 @@ void add_threads(CLI::App& command);
 /// File name without folder and ending.
 std::string stem_of(const std::string& path);
 
-/// What is made of a file or a folder is called by default: the file's name without its ending, the
-/// folder's own in full.
+/// Default name of what is made from a file or a folder: the file's name without its extension, or
+/// the folder's full name.
 std::string name_of(const std::string& path);
 
 /// ".svg" of "a/b.svg", in lower case.
 std::string ending_of(const std::string& path);
 
-/// Whether a file of that ending (as ending_of() gives it) is one that plot() draws.
+/// Whether plot() can draw a file with this extension (as ending_of() gives it).
 bool is_picture(const std::string& ending);
 
 /// Title, material names and monitors of a picture of the model.

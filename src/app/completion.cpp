@@ -47,7 +47,7 @@ std::string bash_values(const OptionText& o) {
     case Files::folders:
       return "_edda_folders";
     case Files::folders_or_models:
-      return "_edda_models";  // which offers folders on the way
+      return "_edda_models";  // which also offers folders
     case Files::nothing:
       break;
   }

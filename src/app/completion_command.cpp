@@ -9,14 +9,16 @@
 namespace edda {
 
 void add_completion(CLI::App& app, int& code) {
-  CLI::App* command =
-      app.add_subcommand("completion", "Print the script that lets a shell complete edda's words");
+  CLI::App* command = app.add_subcommand(
+      "completion", "Print the script that makes a shell complete edda's commands and options");
   command->footer(
       "Examples:\n"
       "  edda completion bash > ~/.local/share/bash-completion/completions/edda\n"
       "  edda completion zsh > ~/.zfunc/_edda          where ~/.zfunc is in fpath\n"
-      "  edda completion fish > ~/.config/fish/completions/edda.fish\n\n"
-      "An installed edda has put them where the shells look. They complete commands, options,\n"
+      "  edda completion fish > ~/.config/fish/completions/edda.fish\n"
+      "\n"
+      "An installed edda has put them where shells look for them. They complete commands, "
+      "options,\n"
       "models, folders, fields, the names of examples and tables.");
   auto shell = std::make_shared<std::string>();
   command->add_option("SHELL", *shell, "Which one")

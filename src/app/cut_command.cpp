@@ -6,13 +6,13 @@
 #include "app/common.hpp"
 #include "base/text.hpp"
 #include "blocks/build_blocks.hpp"
-#include "lines/build_polygons.hpp"
+#include "cutting/build_polygons.hpp"
+#include "observe/sliver_report.hpp"
+#include "observe/start_picture.hpp"
 #include "report/plot.hpp"
 #include "results/cut_table.hpp"
 #include "results/frames.hpp"
-#include "run/labels.hpp"
-#include "run/sliver_report.hpp"
-#include "run/start_picture.hpp"
+#include "step/labels.hpp"
 
 namespace edda {
 namespace {
@@ -28,13 +28,13 @@ std::string number_of(int n, const char* one) {
 
 void print_report(const Model& model, const PolygonSet& polygons) {
   const CutReport& r = polygons.report;
-  std::size_t held = 0;
+  std::size_t fixed = 0;
   double area = 0.0;
   for (const BlockPolygon& b : polygons.blocks) {
-    held += b.fixed;
+    fixed += b.fixed;
     area += moments(b.rings).area;
   }
-  fmt::print("blocks           {} ({} held), {:.6g} m2\n", polygons.blocks.size(), held, area);
+  fmt::print("blocks           {} ({} fixed), {:.6g} m2\n", polygons.blocks.size(), fixed, area);
   if (!polygons.removed.empty()) {
     fmt::print("inside openings  {}, not part of the model\n",
                counted(polygons.removed.size(), "block"));
@@ -65,7 +65,9 @@ void print_report(const Model& model, const PolygonSet& polygons) {
   fmt::print("smallest edge    {:.4g} m at {}\n", r.smallest_edge, place_label(r.smallest_edge_at));
   fmt::print("smallest angle   {:.4g} degrees at {}\n", r.smallest_angle,
              place_label(r.smallest_angle_at));
-  for (const std::string& w : r.warnings) fmt::print("warning          {}\n", w);
+  for (const auto* warnings : {&model.warnings, &r.warnings}) {
+    for (const std::string& w : *warnings) fmt::print("warning          {}\n", w);
+  }
 }
 
 Trouble write_cut(const Model& model, const PolygonSet& polygons, const std::string& path) {

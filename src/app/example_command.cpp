@@ -13,7 +13,7 @@
 namespace edda {
 namespace {
 
-/// From its text: some read tables that are not here.
+/// Read from its text, since some examples read tables that are not present.
 std::string title_of(const Example& example) {
   const std::string_view text = example.text, key = "\ntitle = \"";
   const std::size_t at = text.find(key);
@@ -28,7 +28,7 @@ int list() {
   return exit_code::done;
 }
 
-/// Never over a file: the mode "x" refuses one, whoever made it and when.
+/// Never overwrites a file: the mode "x" refuses an existing one.
 int write_new(const std::string& path, const char* text) {
   std::FILE* file = std::fopen(path.c_str(), "wx");
   if (file == nullptr) {
@@ -50,7 +50,7 @@ int write_new(const std::string& path, const char* text) {
 int write(const Example& example) {
   const std::string path = std::string(example.name) + ".toml", table = example.table_name;
   if (!table.empty()) {
-    // The model alone would be of no use.
+    // The model alone would be unusable.
     if (const int code = write_new(table, example.table); code != exit_code::done) return code;
   }
   if (const int code = write_new(path, example.text); code != exit_code::done) {

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "app/common.hpp"
-#include "model/nearest.hpp"
+#include "model/table/nearest.hpp"
 
 namespace edda {
 namespace {
 
-/// What others call a command.
+/// Names that other programs have for a command.
 constexpr std::pair<std::string_view, std::string_view> other_commands[] = {
     {"help", "--help"},
     {"version", "--version"},
@@ -65,7 +65,7 @@ std::string what_to_write(const std::string& word, const std::vector<std::string
   if (is_likely(word, commands)) {
     return fmt::format("did you mean: edda {}?", nearest(word, commands));
   }
-  return fmt::format("commands are {}; edda --help says what they do",
+  return fmt::format("commands are {}; edda --help describes them",
                      fmt::join(nearest_first(word, commands), ", "));
 }
 

@@ -1,4 +1,4 @@
-// The first word of the command line where it is no command.
+// A first word of the command line that is not a command.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,7 +7,7 @@
 
 namespace edda {
 
-/// What is wrong with it and what to write, or nothing where it is a command, an option or missing.
+/// The fault with its remedy, or nothing where it is a command, an option or missing.
 std::optional<std::string> not_a_command(const CLI::App& app, int argc, const char* const* argv);
 
 }  // namespace edda

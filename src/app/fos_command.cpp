@@ -10,12 +10,13 @@
 #include "app/common.hpp"
 #include "base/text.hpp"
 #include "model/write_model.hpp"
+#include "observe/observe.hpp"
 #include "report/plot.hpp"
+#include "results/columns.hpp"
 #include "results/files.hpp"
 #include "results/frames.hpp"
 #include "results/json.hpp"
-#include "run/fos.hpp"
-#include "run/observe.hpp"
+#include "study/fos.hpp"
 
 namespace edda {
 namespace {
@@ -39,18 +40,18 @@ Trouble draw_mechanism(const Model& model, const FosResult& r, const std::string
   const Simulation& sim = *r.failed;
   Instant instant;
   observe(sim, instant);
-  Snapshot shot{block_grid(block_cells(sim.blocks), picture_of(sim, instant))};
+  Snapshot shot{block_grid(block_cells(sim.scene->blocks), picture_of(sim, instant))};
   const Result<ShownField> field = shown_field("displacement", shot.blocks, nullptr);
   if (!field.ok()) return field.faults().front();
   shot.field = field.value();
   double largest = 0.0;
   for (const MovingBlock& b : r.mechanism->blocks) largest = std::max(largest, b.largest);
-  PlotOptions options = options_of(model, sim.blocks.size());
+  PlotOptions options = options_of(model, sim.scene->blocks.size());
   options.subtitle = fmt::format("mechanism at factor {:.4g}: {}", *r.fails, r.mechanism->text);
   constexpr double shown = 0.5;  // of a block's size
   options.scale = round_scale(shown * r.criterion.size / largest);
   options.vectors = "displacement";
-  options.whole_range = true;  // what moves may be little, and is what there is to see
+  options.whole_range = true;  // a small moving part is what the picture is to show
   for (const MovingJoint& j : r.mechanism->joints) {
     for (const Stretch& s : j.stretches)
       options.joints.push_back(
@@ -75,6 +76,7 @@ Trouble write_results(const Model& model, const FosResult& r, const std::string&
     if (Trouble t = write("mechanism_joints.csv", mechanism_joints_csv(*r.mechanism))) return t;
     if (Trouble t = draw_mechanism(model, r, folder)) return t;
   }
+  if (Trouble t = write_columns_csv(folder)) return t;
   return write("summary.json", fos_summary(model, r, omp_get_max_threads()));
 }
 
@@ -84,8 +86,9 @@ void print_end(const FosResult& r, const std::string& folder) {
   if (r.mechanism) fmt::print("  mechanism at {:.6g}: {}\n", *r.fails, r.mechanism->text);
   const std::string lost = r.mechanism ? lost_cohesion_text(*r.mechanism) : std::string();
   if (!lost.empty()) fmt::print("  {}\n", lost);
-  fmt::print("  a trial fails where a corner goes beyond {:.3g} m by the trend of its motion\n",
-             c.displacement);
+  fmt::print(
+      "  a trial fails where a corner will move further than {:.3g} m by the trend of its motion\n",
+      c.displacement);
   fmt::print("  {}, {} of wall time; results in {}/ (fos.csv, mechanism.png)\n",
              counted(r.trials.size(), "trial"), duration_text(r.seconds), folder);
 }
@@ -142,17 +145,20 @@ int fos(const FosArguments& args) {
 void add_fos(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand("fos", "Find a model's factor of safety");
   command->footer(
-      "Example:\n  edda fos slope.toml\n  edda fos dam.toml --set fos.vary=water:reservoir\n\n"
-      "Brings the model to rest, then tries factors: the strength of the joints divided by it\n"
-      "(cohesion, tangent of the friction angle, tensile strength), or a load, a water or a "
-      "shaking\n"
-      "multiplied by it, until the bracket of one that holds and one that fails is no wider than\n"
-      "the part fos.tolerance of its lower factor.\n"
+      "Example:\n"
+      "  edda fos slope.toml\n"
+      "  edda fos dam.toml --set fos.vary=water:reservoir\n"
+      "\n"
+      "Brings the model to equilibrium, then tries factors: the strength of the joints divided by\n"
+      "it (cohesion, tangent of the friction angle, tensile strength), or a load, a water "
+      "pressure\n"
+      "or a ground motion multiplied by it, until the bracket between a factor that holds and one\n"
+      "that fails is no wider than the part fos.tolerance of its lower factor.\n"
       "The folder (default: the model's name without .toml and with -fos, here) then holds\n"
       "  summary.json          the factor, its bracket, the criterion, the mechanism; written "
       "last\n"
-      "  fos.csv               every trial: factor, outcome, how far and how fast which block "
-      "went\n"
+      "  fos.csv               every trial: factor, outcome, largest displacement, its block, "
+      "velocity\n"
       "  mechanism.csv         which blocks move at the lowest factor that fails, and how\n"
       "  mechanism_joints.csv  along which joints;  mechanism.png, mechanism.svg: a picture\n"
       "Ctrl-C ends it early with the bracket so far (exit code 130).");
@@ -165,7 +171,7 @@ void add_fos(CLI::App& app, int& code) {
   add_threads(*command);
   add_overrides(*command, args->overrides);
   command->add_flag("--quiet", args->quiet,
-                    "The line with the factor alone: no progress, no warnings");
+                    "Print the line with the factor alone: no progress, no warnings");
   add_json(*command, args->json,
            "Print the summary as one JSON object on stdout, and nothing on stderr");
   command->callback([args, &code] { code = fos(*args); });

@@ -1,10 +1,10 @@
 // Large arrays on large pages, and smaller ones from the start of a cache line on: eight numbers
 // that are loaded at once then lie in one line and not in two.
 //
-// A step streams through all of them. With pages of 4 KiB the processor spends a tenth of a
-// large model's time looking up where the next ones are. Memory of some size is therefore asked for
-// on the boundaries of large pages, and the system told that it may use them; where it may not,
-// nothing changes.
+// A step reads all of them in sequence. With pages of 4 KiB the processor spends a tenth of a large
+// model's time on looking up page addresses. Larger arrays are therefore allocated on the
+// boundaries of large pages, and the system is advised to use them; where it cannot, nothing
+// changes.
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define EDDA_HUGE_PAGES 1
 #endif
@@ -21,13 +21,13 @@
 #include <cstdlib>
 #include <new>
 
-// This is where memory comes from. NOLINTBEGIN(cppcoreguidelines-no-malloc)
+// Replaces the allocation functions. NOLINTBEGIN(cppcoreguidelines-no-malloc)
 namespace {
 
 constexpr std::size_t page = std::size_t{2} << 20;
 constexpr std::size_t large = 2 * page;
 
-constexpr std::size_t line = 64, array = 8 * line;  // what is smaller is no array of a loop
+constexpr std::size_t line = 64, array = 8 * line;  // smaller allocations are not arrays of loops
 
 void* aligned(std::size_t boundary, std::size_t size) {
   if (size > SIZE_MAX - boundary) return nullptr;

@@ -1,4 +1,5 @@
-// What the commands say to machines: one JSON object per line on stdout, told apart by "event".
+// Machine-readable output of the commands: one JSON object per line on stdout, distinguished by
+// "event".
 #pragma once
 
 #include "base/fault.hpp"
@@ -9,7 +10,7 @@ namespace edda {
 /// An object begun, with its "event"; to be filled and given to print_line().
 Json event(std::string_view name);
 
-/// Ends the object and writes it, so that whoever reads along has it at once.
+/// Ends the object and writes it, and flushes the output, so that a reader has it at once.
 void print_line(Json& object);
 
 /// {"event": "fault", "file", "line", "column", "key", "problem", "remedy"}

@@ -5,9 +5,9 @@
 
 #include "app/commands.hpp"
 #include "app/common.hpp"
-#include "model/key_reference.hpp"
-#include "model/keys.hpp"
-#include "model/nearest.hpp"
+#include "model/table/key_reference.hpp"
+#include "model/table/keys.hpp"
+#include "model/table/nearest.hpp"
 
 namespace edda {
 namespace {

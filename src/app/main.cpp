@@ -1,4 +1,4 @@
-// The program: reads the command line and hands over to one command.
+// The program: reads the command line and calls one command.
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -14,12 +14,13 @@ namespace {
 int run_command(int argc, char** argv) {
   int code = edda::exit_code::done;
   CLI::App app{
-      "edda computes how jointed rock moves: blocks cut by joints, their contacts with friction, "
-      "in time\n"
-      "(explicit discontinuous deformation analysis).\n\n"
-      "New here? Five commands from nothing to a film:\n"
+      "edda computes the motion of jointed rock over time: blocks cut by joints, contacts with "
+      "friction\n"
+      "(explicit discontinuous deformation analysis).\n"
+      "\n"
+      "A first run in five commands:\n"
       "  edda example ramp          writes ramp.toml, a model to read and to change\n"
-      "  edda check ramp.toml       says whether it is sound, and how long it will take\n"
+      "  edda check ramp.toml       checks the model, and estimates the time of the run\n"
       "  edda run ramp.toml         computes it; results go to the folder ramp/\n"
       "  edda plot ramp             draws the last state into ramp.png\n"
       "  edda view ramp             ramp.html replays it in a browser\n",
@@ -39,6 +40,7 @@ int run_command(int argc, char** argv) {
   edda::add_view(app, code);
   edda::add_example(app, code);
   edda::add_keys(app, code);
+  edda::add_columns(app, code);
   edda::add_completion(app, code);
   edda::add_man(app, code);
   if (const auto problem = edda::not_a_command(app, argc, argv)) {
@@ -53,11 +55,10 @@ int run_command(int argc, char** argv) {
   return code;
 }
 
-/// What was said last may have been lost: on a full disk, say. A reader that has gone wants no
-/// more.
+/// The last output may have been lost, for example on a full disk. A closed pipe is not an error.
 int after_output(int code) {
   if (std::fflush(stdout) != 0) edda::output_was_lost(errno);
-  if (std::ferror(stdout) != 0) edda::output_was_lost(EIO);  // by one who did not say why
+  if (std::ferror(stdout) != 0) edda::output_was_lost(EIO);  // from an unknown cause
   const int why = edda::why_output_was_lost();
   if (why == 0 || why == EPIPE) return code;
   std::fprintf(stderr, "edda: standard output cannot be written: %s\n", std::strerror(why));

@@ -103,29 +103,46 @@ std::string command_section(const ProgramText& p, const CommandText& c) {
 }
 
 constexpr std::string_view exit_status =
-    ".TP\n0\nDone. A slope that collapses is a result; the status in summary.json says so.\n"
-    ".TP\n1\nThe run failed: it diverged, or the disk was full. What had been computed is kept.\n"
-    ".TP\n2\nBad usage or a bad model. Nothing was written. Each fault is one line on stderr:\n"
+    ".TP\n"
+    "0\n"
+    "Done. A slope that collapses is a result; the status in summary.json states it.\n"
+    ".TP\n"
+    "1\n"
+    "The run failed: it diverged, or the disk was full. What had been computed is kept.\n"
+    ".TP\n"
+    "2\n"
+    "Bad usage or a bad model. Nothing was written. Each fault is one line on stderr:\n"
     "FILE:LINE:COLUMN: key: what is wrong: what to do.\n"
-    ".TP\n130\nInterrupted. What had been computed is kept, and \\fBedda run \\-\\-resume\\fR goes "
-    "on from there.\n";
+    ".TP\n"
+    "130\n"
+    "Interrupted. What had been computed is kept, and \\fBedda run \\-\\-resume\\fR continues from "
+    "there.\n";
 
 constexpr std::string_view environment =
-    ".TP\n\\fBOMP_NUM_THREADS\\fR\nThreads to use where \\fB\\-\\-threads\\fR does not say. "
-    "Results "
-    "do not depend on it.\n";
+    ".TP\n"
+    "\\fBOMP_NUM_THREADS\\fR\n"
+    "Threads to use where \\fB\\-\\-threads\\fR is not given. Results do not depend on it.\n";
 
 constexpr std::string_view files =
-    ".TP\n\\fIMODEL\\fR.toml\nA model; \\fBedda keys\\fR explains every key, \\fBedda example\\fR "
-    "writes one to start from.\n"
-    ".TP\n\\fIDIR\\fR/summary.json\nHow a run ended; written last.\n"
-    ".TP\n\\fIDIR\\fR/history.csv, \\fIDIR\\fR/stages.csv, \\fIDIR\\fR/bolts.csv, "
-    "\\fIDIR\\fR/reactions.csv\nWhat is recorded over time.\n"
-    ".TP\n\\fIDIR\\fR/blocks.pvd, \\fIDIR\\fR/contacts.pvd, \\fIDIR\\fR/frames\nEvery block and "
-    "contact at each frame, for \\fBedda plot\\fR and ParaView.\n"
-    ".TP\n\\fIDIR\\fR/checkpoint.h5\nWhere \\fB\\-\\-resume\\fR goes on from.\n";
+    ".TP\n"
+    "\\fIMODEL\\fR.toml\n"
+    "A model; \\fBedda keys\\fR explains every key, \\fBedda example\\fR writes one to start "
+    "from.\n"
+    ".TP\n"
+    "\\fIDIR\\fR/summary.json\n"
+    "How a run ended; written last.\n"
+    ".TP\n"
+    "\\fIDIR\\fR/history.csv, \\fIDIR\\fR/stages.csv, \\fIDIR\\fR/bolts.csv, "
+    "\\fIDIR\\fR/reactions.csv\n"
+    "What is recorded over time.\n"
+    ".TP\n"
+    "\\fIDIR\\fR/blocks.pvd, \\fIDIR\\fR/contacts.pvd, \\fIDIR\\fR/frames\n"
+    "Every block and contact at each frame, for \\fBedda plot\\fR and ParaView.\n"
+    ".TP\n"
+    "\\fIDIR\\fR/checkpoint.h5\n"
+    "Where \\fB\\-\\-resume\\fR continues from.\n";
 
-/// What the program says of itself, up to its first empty line.
+/// The description of the program, up to its first empty line.
 std::string first_paragraph(const std::string& text) {
   return text.substr(0, text.find("\n\n"));
 }

@@ -53,7 +53,7 @@ int draw_frames(const PlotArguments& args, const std::string& path) {
   return finish(plot(source.shots, source.options, path), path);
 }
 
-/// What one option alone cannot say.
+/// Checks of options in combination.
 Trouble check(const PlotArguments& args) {
   const auto fault = [](const char* key, std::string problem, std::string remedy) {
     return Fault{{key, {}, 0, 0}, std::move(problem), std::move(remedy)};
@@ -67,14 +67,14 @@ Trouble check(const PlotArguments& args) {
   numbers.insert(numbers.end(), args.times.begin(), args.times.end());
   for (const auto& number : {args.time, args.scale}) numbers.push_back(number.value_or(0.0));
   if (!std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); }))
-    return fault("edda plot", "was given a number that is none, or has no end", "give another one");
+    return fault("edda plot", "was given a value that is no finite number", "give another one");
   const bool has_pixels = args.output.empty() || ending_of(args.output) == ".png";
   if (args.width_pixels > 0 && !has_pixels)
     return fault("--width", "is in pixels, which only a .png has", "give mm, as 90mm");
   if (args.dpi && !has_pixels)
     return fault("--dpi", "is for a .png: the others have no pixels", "leave it out");
   if (args.width_pixels > 0 && args.dpi)
-    return fault("--dpi", "has no say where --width is in pixels", "leave it out, or give mm");
+    return fault("--dpi", "has no effect where --width is in pixels", "leave it out, or give mm");
   if (!args.overrides.empty() && std::filesystem::is_directory(args.source))
     return fault("--set", "changes a model, not its results", "run the model with it");
   if (!args.history.empty() && (args.scale || !args.window.empty()))
@@ -156,12 +156,12 @@ void add_what(CLI::App& command, PlotArguments& args) {
   CLI::Option* const principal =
       command.add_flag("--principal", args.principal,
                        "Principal stresses: crosses at the blocks' centres, tension as arrows");
-  CLI::Option* const bolts =
-      command.add_flag("--bolts", args.bolts, "Bolts as wide as their axial force");
+  CLI::Option* const bolts = command.add_flag(
+      "--bolts", args.bolts, "Bolts, their width in proportion to their axial force");
   CLI::Option* const relative =
       command
           .add_option("--relative-to", args.relative_to,
-                      "Displacements relative to that of a monitor, which stays where it was")
+                      "Displacements relative to that of a monitor, which is drawn unmoved")
           ->type_name("MONITOR");
   CLI::Option* const history =
       command
@@ -180,14 +180,13 @@ void add_what(CLI::App& command, PlotArguments& args) {
 void add_how(CLI::App& command, PlotArguments& args) {
   command.add_option("--scale", args.scale, "Draw displacements this many times as large")
       ->type_name("FACTOR");
-  CLI::Option* const range =
-      command
-          .add_option("--range", args.range,
-                      "Values of the ends of the colours, in SI units; of --history: "
-                      "of the values")
-          ->type_name("LO,HI")
-          ->delimiter(',')
-          ->expected(2);
+  CLI::Option* const range = command
+                                 .add_option("--range", args.range,
+                                             "Values at the ends of the colour scale, in SI units; "
+                                             "with --history: of the value axis")
+                                 ->type_name("LO,HI")
+                                 ->delimiter(',')
+                                 ->expected(2);
   command
       .add_flag("--whole-range", args.whole_range,
                 "Colours and vectors up to the largest value, even where few blocks come near it")
@@ -238,7 +237,7 @@ void add_plot(CLI::App& app, int& code) {
       "Fields: " +
       field_names() +
       ".\n"
-      "Held blocks are grey and hatched; monitors are circles with their names, bolts blue lines "
+      "Fixed blocks are grey and hatched; monitors are circles with their names, bolts blue lines "
       "(orange: yielded), convergence lines dashed. Where blocks are small, vectors and crosses "
       "are drawn of some only, evenly spread.");
   auto args = std::make_shared<PlotArguments>();

@@ -7,11 +7,11 @@
 
 #include "app/common.hpp"
 #include "blocks/build_blocks.hpp"
-#include "lines/build_polygons.hpp"
+#include "cutting/build_polygons.hpp"
 #include "model/read_model.hpp"
+#include "observe/start_picture.hpp"
 #include "report/relative.hpp"
 #include "results/frames.hpp"
-#include "run/start_picture.hpp"
 
 namespace edda {
 namespace {
@@ -39,7 +39,7 @@ std::vector<SeriesEntry> chosen(const std::vector<SeriesEntry>& series, const Pl
   return entries;
 }
 
-/// Says where a time that was asked for is none of the run's.
+/// Reports requested times that the run does not have.
 std::vector<std::string> notes_on(const std::vector<SeriesEntry>& series,
                                   const PlotArguments& args) {
   std::vector<double> asked = args.compare;
@@ -56,7 +56,7 @@ std::vector<std::string> notes_on(const std::vector<SeriesEntry>& series,
   return notes;
 }
 
-/// A field where none is asked for: crosses of stresses want plain ground below them.
+/// The field where none is requested; crosses of stresses need blocks without colour.
 std::string field_of(const PlotArguments& args, const std::string& otherwise) {
   if (!args.field.empty()) return args.field;
   return args.principal ? "none" : otherwise;
@@ -101,7 +101,7 @@ Result<Snapshot> snapshot_of(const PlotArguments& args, const SeriesEntry& entry
   if (!blocks.ok()) return blocks.faults();
   Snapshot shot{std::move(blocks.value())};
   shot.heading = fmt::format("t = {:.6g} s", entry.time);
-  // Contacts take more room than the blocks: only where they are drawn.
+  // Contacts take more memory than blocks, so they are read only where they are drawn.
   if (args.forces || is_of_contacts(args.field)) {
     if (Result<Grid> contacts = read_vtu(folder + "/" + contacts_beside(entry.file));
         contacts.ok()) {
@@ -110,9 +110,10 @@ Result<Snapshot> snapshot_of(const PlotArguments& args, const SeriesEntry& entry
   }
   if (bolts != nullptr) shot.bolts = bolts_at(*bolts, entry.time);
   if (from != nullptr && !move_with(shot, from->start)) {
-    return Fault{{"--relative-to", {}, 0, 0},
-                 fmt::format("the block of {} is gone at {:.6g} s", from->name, entry.time),
-                 "use another monitor, or an earlier time"};
+    return Fault{
+        {"--relative-to", {}, 0, 0},
+        fmt::format("the block of {} has been excavated at {:.6g} s", from->name, entry.time),
+        "use another monitor, or an earlier time"};
   }
   const Result<ShownField> field = shown_field(field_of(args, "displacement"), shot.blocks,
                                                shot.contacts ? &*shot.contacts : nullptr);
@@ -123,7 +124,7 @@ Result<Snapshot> snapshot_of(const PlotArguments& args, const SeriesEntry& entry
   return shot;
 }
 
-/// Of rock without a strength the numbers are nothing, not small.
+/// For rock without a strength the values are undefined, not small.
 Trouble judged(const PlotArguments& args, const Model& model) {
   const auto has_strength = [](const Material& m) { return m.strength.has_value(); };
   const std::vector<Material>& all = model.materials;
@@ -133,8 +134,8 @@ Trouble judged(const PlotArguments& args, const Model& model) {
                "give one, as strength = { ucs = \"90 MPa\", tension = \"6 MPa\" }, and run it"};
 }
 
-/// What holds for either source.
-void add_wishes(const PlotArguments& args, PlotOptions& options) {
+/// Common to both sources.
+void add_options(const PlotArguments& args, PlotOptions& options) {
   options.vectors = args.vectors;
   options.forces = args.forces;
   options.principal = args.principal;
@@ -214,7 +215,7 @@ Result<PlotSource> from_folder(const PlotArguments& args) {
     source.shots.push_back(std::move(shot.value()));
   }
   source.options.subtitle = source.shots.size() == 1 ? source.shots.front().heading : "";
-  add_wishes(args, source.options);
+  add_options(args, source.options);
   return source;
 }
 
@@ -239,7 +240,7 @@ Result<PlotSource> from_model(const PlotArguments& args) {
   PlotSource source;
   source.shots.push_back(std::move(shot));
   source.options = options_of(model.value(), blocks.size());
-  add_wishes(args, source.options);
+  add_options(args, source.options);
   return source;
 }
 

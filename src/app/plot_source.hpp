@@ -1,4 +1,4 @@
-// What edda plot draws, read from a results folder or made of a model.
+// The data that edda plot draws, read from a results folder or made from a model.
 #pragma once
 
 #include <optional>
@@ -27,11 +27,11 @@ struct PlotArguments {
   bool whole_range = false;
 };
 
-/// Everything of a picture.
+/// All data of a picture.
 struct PlotSource {
   std::vector<Snapshot> shots;
   PlotOptions options;
-  std::vector<std::string> notes;  ///< what is drawn otherwise than asked for
+  std::vector<std::string> notes;  ///< deviations of the picture from what was requested
 };
 
 Result<PlotSource> from_folder(const PlotArguments& args);

@@ -47,7 +47,7 @@ std::vector<std::string> parts_of(const Progress& p) {
           fmt::format("t {:.4g} s", p.time),
           fmt::format("{:.3g} steps/s", p.rate),
           fmt::format("velocity {:.2g} m/s", p.largest_velocity),
-          fmt::format("overlap {:.2g} m", p.largest_overlap)};
+          fmt::format("penetration {:.2g} m", p.largest_overlap)};
 }
 
 std::string bar_of(double fraction, std::size_t width) {
@@ -86,8 +86,8 @@ void ProgressBar::show(const Progress& p) {
   next_line_ = wall < 60.0 ? wall + 10.0 : wall + 60.0;
   const std::string stage = stage_text(p);
   fmt::print(stderr,
-             "{}, {}t = {:.4g} s, {} steps, {:.3g} steps/s, {} left, velocity {:.2g} m/s, overlap "
-             "{:.2g} m\n",
+             "{}, {}t = {:.4g} s, {} steps, {:.3g} steps/s, {} left, velocity {:.2g} m/s, "
+             "penetration {:.2g} m\n",
              percent(p), stage.empty() ? "" : stage + ", ", p.time, p.steps, p.rate,
              duration_text(p.seconds_left), p.largest_velocity, p.largest_overlap);
 }

@@ -1,4 +1,4 @@
-// How a run gets on, on stderr.
+// The progress of a run, on stderr.
 #pragma once
 
 #include <chrono>
@@ -24,7 +24,7 @@ class ProgressBar {
   double next_line_ = 10.0;  ///< s after the start
 };
 
-/// What is said of it in at most `columns` characters, a bar included where there is room: the most
+/// The progress in at most `columns` characters, with a bar where there is room: the most
 /// important first (part done, time left, stage), the others as far as they fit.
 std::string progress_line(const Progress& progress, std::size_t columns);
 

@@ -6,6 +6,7 @@
 
 #include "app/common.hpp"
 #include "app/run_report.hpp"
+#include "model/stage_names.hpp"
 #include "results/files.hpp"
 #include "run/run_model.hpp"
 
@@ -31,7 +32,7 @@ Result<std::optional<std::size_t>> first_stage(const Model& model,
   if (const auto stage = stage_called(model, *name)) return stage;
   return Fault{{"--from", {}, 0, 0},
                '"' + *name + "\" is no stage of the model",
-               "name one of its [[stage]]s, or give its number from 0"};
+               "name one of its [[stage]]s, or give its number from 1"};
 }
 
 RunOptions options_for(const RunArguments& args, const std::string& folder, RunReport& report) {
@@ -45,13 +46,13 @@ RunOptions options_for(const RunArguments& args, const std::string& folder, RunR
   return options;
 }
 
-/// The model of the command line, where it, its stage to start from and its folder can be used.
+/// The model of the command line, if it, the stage to start from and the folder are usable.
 Result<Model> usable_model(const RunArguments& args, const std::string& folder) {
   Result<Model> model = read_within_memory(args.model, args.overrides);
   if (!model.ok()) return model;
   const auto from = first_stage(model.value(), args.from);
   if (!from.ok()) return from.faults();
-  // Asked before the cut, which may take minutes, and again when the run starts.
+  // Checked before the cut, which may take minutes, and again when the run starts.
   const bool goes_on = args.resume || args.from.has_value();
   if (const Trouble trouble = check_folder(folder, goes_on ? "" : args.model)) return *trouble;
   return model;
@@ -99,9 +100,11 @@ int run(const RunArguments& args) {
 void add_run(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand("run", "Run a model and write its results into a folder");
   command->footer(
-      "Example:\n  edda run slope.toml -o smooth --set joints.bedding.friction_angle=20\n\n"
+      "Example:\n"
+      "  edda run slope.toml -o smooth --set joints.bedding.friction_angle=20\n"
+      "\n"
       "The folder (default: the model's name without .toml, here) then holds\n"
-      "  summary.json   how the run ended, the energy ledger, checks to look at; written last\n"
+      "  summary.json   how the run ended, the energy balance, checks to look at; written last\n"
       "  history.csv    monitors and energies over time\n"
       "  reactions.csv  forces of the boundaries over time, where there are any\n"
       "  bolts.csv      forces along the bolts at each frame, where there are any\n"
@@ -109,9 +112,9 @@ void add_run(CLI::App& app, int& code) {
       "  blocks.pvd, contacts.pvd   time series: open them in ParaView\n"
       "  model.toml     the model as run, every default filled in\n"
       "  stages.csv     a row per stage, with joints_N.csv and checkpoint_N.h5 of its end\n"
-      "  checkpoint.h5  where to go on from, every few minutes of a long run\n"
-      "Ctrl-C ends a run early and keeps everything so far (exit code 130); --resume goes on from\n"
-      "there, to the same digits as if it had never stopped.");
+      "  checkpoint.h5  the state to continue from, every few minutes of a long run\n"
+      "Ctrl-C ends a run early and keeps everything so far (exit code 130); --resume continues\n"
+      "it, with the same digits as a run that was never stopped.");
   auto args = std::make_shared<RunArguments>();
   command->add_option("MODEL", args->model, "The model, a TOML file")
       ->required()
@@ -120,22 +123,22 @@ void add_run(CLI::App& app, int& code) {
       ->add_option("-o,--output", args->folder,
                    "Folder for the results (default: the model's stem)")
       ->type_name("DIR");
-  command->add_flag(
-      "--resume", args->resume,
-      "Go on from the last checkpoint in the folder; the model must be the same, only "
-      "its duration may grow");
+  command->add_flag("--resume", args->resume,
+                    "Continue from the last checkpoint in the folder; the model must be the same, "
+                    "only its duration may grow");
   command
       ->add_option("--from", args->from,
-                   "Go on from the end of this stage (name or number from 0) of the run in the "
+                   "Continue from the end of this stage (name or number from 1) of the run in the "
                    "folder; stages after it may have changed")
       ->type_name("STAGE")
       ->excludes("--resume");
   add_threads(*command);
   add_overrides(*command, args->overrides);
-  command->add_flag("--quiet", args->quiet,
-                    "No progress, no closing words, no warnings but of what a run could not write");
+  command->add_flag(
+      "--quiet", args->quiet,
+      "No progress, no summary at the end, no warnings except of what a run could not write");
   add_json(*command, args->json,
-           "Say all that happens as JSON, one object per line on stdout, and nothing on stderr");
+           "Report all events as JSON, one object per line on stdout, and nothing on stderr");
   command->callback([args, &code] { code = run(*args); });
 }
 

@@ -9,8 +9,8 @@
 #include "app/json_lines.hpp"
 #include "app/progress.hpp"
 #include "base/text.hpp"
+#include "observe/initial_stress_report.hpp"
 #include "results/version.hpp"
-#include "run/initial_stress_report.hpp"
 #include "run/stages.hpp"
 
 namespace edda {
@@ -28,19 +28,19 @@ class ForPeople : public RunReport {
   void starts(const PreparedRun& run, const std::string&) override {
     if (quiet_) return;
     const Simulation& sim = run.sim;
-    const StageMasses masses = stages_of(sim.model).front().masses;
+    const StageMasses masses = stages_of(sim.scene->model).front().masses;
     const double step = first_step(sim, masses);
-    if (sim.explicit_method()) {
+    if (is_explicit(sim)) {
       const std::string begins =
-          masses == StageMasses::uniform_step
-              ? fmt::format("step about {:.3g} s with static masses; with those as given", step)
+          masses == StageMasses::scaled
+              ? fmt::format("step about {:.3g} s with scaled masses; with masses as given", step)
               : fmt::format("step {:.4g} s;", step);
-      fmt::print(stderr, "{}; {} critical {:.4g} s, held by {}\n",
-                 counted(sim.blocks.size(), "block"), begins, sim.bound.critical_step,
-                 run.governed_by);
+      fmt::print(stderr, "{}; {} critical step {:.4g} s, governed by {}\n",
+                 counted(sim.scene->blocks.size(), "block"), begins,
+                 sim.control.bound.critical_step, run.governed_by);
     } else {
-      fmt::print(stderr, "{}; step {:.4g} s, held by {}\n", counted(sim.blocks.size(), "block"),
-                 step, run.governed_by);
+      fmt::print(stderr, "{}; step {:.4g} s, governed by {}\n",
+                 counted(sim.scene->blocks.size(), "block"), step, run.governed_by);
     }
     for (const std::string& line : initial_stress_report(sim)) {
       fmt::print(stderr, "initial stress: {}\n", line);
@@ -71,9 +71,9 @@ class ForPeople : public RunReport {
     for (const std::string& check : o.failed_checks) {
       fmt::print("  a check does not hold: {}\n", check);
     }
-    fmt::print("  energy drift {:.2g}{}\n", o.ledger.drift,
+    fmt::print("  energy balance error {:.2g}{}\n", o.energy.error,
                std::filesystem::is_directory(folder)
-                   ? fmt::format("; results in {}/ (summary.json says it all)", folder)
+                   ? fmt::format("; results in {}/ (see summary.json)", folder)
                    : std::string{});
   }
 
@@ -96,11 +96,13 @@ class ForMachines : public RunReport {
   void starts(const PreparedRun& run, const std::string& folder) override {
     const Simulation& sim = run.sim;
     Json json = event("start");
-    json.pair("version", version).pair("model", sim.model.file).pair("title", sim.model.title);
-    json.pair("folder", folder).pair("blocks", sim.blocks.size());
-    json.pair("duration", sim.model.solver.duration).key("stages").open_list();
-    for (const Stage& stage : sim.model.stages) json.value(stage.name);
-    json.close().pair("step", first_step(sim, stages_of(sim.model).front().masses));
+    json.pair("version", version)
+        .pair("model", sim.scene->model.file)
+        .pair("title", sim.scene->model.title);
+    json.pair("folder", folder).pair("blocks", sim.scene->blocks.size());
+    json.pair("duration", sim.scene->model.solver.duration).key("stages").open_list();
+    for (const Stage& stage : sim.scene->model.stages) json.value(stage.name);
+    json.close().pair("step", first_step(sim, stages_of(sim.scene->model).front().masses));
     json.pair("governed_by", run.governed_by);
     json.pair("threads", omp_get_max_threads());
     print_line(json);
@@ -117,7 +119,7 @@ class ForMachines : public RunReport {
     } else {
       json.null();
     }
-    json.pair("stage", p.stage).pair("stages", p.stages).pair("stage_name", p.stage_name);
+    json.pair("stage", p.stage + 1).pair("stages", p.stages).pair("stage_name", p.stage_name);
     json.pair("at_most", p.at_most)
         .pair("kinetic", p.kinetic)
         .pair("largest_velocity", p.largest_velocity);
@@ -127,7 +129,7 @@ class ForMachines : public RunReport {
 
   void stage_ended(const StageReport& s) override {
     Json json = event("stage_end");
-    json.pair("stage", s.stage).pair("name", s.name).pair("reached", s.reached);
+    json.pair("stage", s.stage + 1).pair("name", s.name).pair("reached", s.reached);
     json.pair("start", s.start).pair("end", s.end).pair("steps", s.steps).pair("ratio", s.ratio);
     print_line(json);
   }
@@ -145,7 +147,7 @@ class ForMachines : public RunReport {
     json.pair("status", status_name(o.status)).pair("exit_code", code).pair("message", o.message);
     json.pair("folder", folder).pair("time", o.time).pair("steps", o.steps);
     json.pair("contacts", o.contacts)
-        .pair("drift", o.ledger.drift)
+        .pair("drift", o.energy.error)
         .key("failed_checks")
         .open_list();
     for (const std::string& check : o.failed_checks) json.value(check);

@@ -1,4 +1,4 @@
-// What edda run says while it runs: to people, or to machines.
+// The messages of edda run, for people or for machines.
 #pragma once
 
 #include <memory>
@@ -18,12 +18,12 @@ class RunReport {
   virtual void goes_on(const Progress& progress) = 0;
   virtual void stage_ended(const StageReport& stage) = 0;
   virtual void warns(const std::string& message) = 0;
-  /// The run broke off before it could end.
+  /// The run was aborted.
   virtual void breaks(const std::string& why) = 0;
   virtual void ends(const Outcome& outcome, const std::string& folder, int code) = 0;
 };
 
-/// Progress, warnings and faults on stderr, closing words on stdout. Quiet: faults alone.
+/// Progress, warnings and faults on stderr, the closing summary on stdout. Quiet: only faults.
 std::unique_ptr<RunReport> report_to_people(bool quiet);
 
 /// One JSON object per line on stdout (docs/command-line.md). Quiet: no progress.

@@ -7,7 +7,7 @@
 
 #include "app/common.hpp"
 #include "app/progress.hpp"
-#include "run/verify_model.hpp"
+#include "study/verify_model.hpp"
 
 namespace edda {
 namespace {
@@ -32,7 +32,8 @@ std::string bar_text(double metres) {
 
 void print_bars(const Verification& v, const Model& model) {
   fmt::print(
-      "after {:.6g} s; each number tells how far a run that differs in one thing ends away\n",
+      "after {:.6g} s; each number is the distance between the ends of this run and of one that "
+      "differs in one respect\n",
       v.time);
   for (const MonitorBar& m : v.monitors) {
     fmt::print("{:16} {} ({}, {}), {} step, {} stiffness, {} order\n", m.name,
@@ -40,9 +41,9 @@ void print_bars(const Verification& v, const Model& model) {
                length_text(m.displacement.y), bar_text(m.step), bar_text(m.stiffness),
                bar_text(m.order));
   }
-  fmt::print("energy drift     {:.2g} at most\n", v.largest_drift);
+  fmt::print("energy error     {:.2g} at most\n", v.largest_energy_error);
   if (v.own_stiffness && model.boundaries.empty()) {
-    fmt::print("every joint names its kn: that is the rock's, and was left as it is\n");
+    fmt::print("every joint gives its kn, a property of the rock, which was not changed\n");
   }
 }
 
@@ -54,6 +55,7 @@ int verify(const VerifyArguments& args) {
   options.stop = &stop_asked;
   std::unique_ptr<ProgressBar> bar;
   if (!args.quiet) {
+    print_warnings(model->warnings);
     options.starts = [&](const std::string& run) {
       if (bar) bar->finish();
       fmt::print(stderr, "run: {}\n", run);
@@ -82,10 +84,14 @@ void add_verify(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand(
       "verify", "Put error bars on a model's monitors, by running it four times");
   command->footer(
-      "Example:\n  edda verify cavern.toml\n  edda verify slope.toml --set solver.duration=0.5\n\n"
+      "Example:\n"
+      "  edda verify cavern.toml\n"
+      "  edda verify slope.toml --set solver.duration=0.5\n"
+      "\n"
       "Runs the model as it is, at half the step, with penalty springs three times as stiff, and\n"
-      "with its blocks numbered the other way round, and prints how far each monitor's end moves.\n"
-      "Nothing is written. Where a heap falls, small causes have large effects: that shows, too.");
+      "with its blocks numbered the other way round, and prints the change of each monitor's end.\n"
+      "Nothing is written. Where a heap of blocks falls, small changes have large effects,\n"
+      "and the numbers show it.");
   auto args = std::make_shared<VerifyArguments>();
   command->add_option("MODEL", args->model, "The model, a TOML file")
       ->required()

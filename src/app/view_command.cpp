@@ -23,7 +23,7 @@ struct ViewArguments {
   int port = 8080;
 };
 
-/// What the model knows; a page does without it where the model is gone.
+/// Data of the model; a page works without them where the model file no longer exists.
 ViewNames names_of(const std::string& folder) {
   ViewNames names;
   const Result<Model> read = read_model(folder + "/model.toml", {}, ReadFor::no_run);
@@ -81,12 +81,6 @@ int serve(const std::function<Result<ViewRun>()>& open, const ViewArguments& arg
 }
 
 int view(const ViewArguments& args) {
-  if (page_template().head.empty()) {
-    fmt::print(stderr,
-               "edda view: this program was built without the replay page: build it with "
-               "-DEDDA_VIEW=ON\n");
-    return exit_code::bad_input;
-  }
   if (!args.output.empty() && ending_of(args.output) != ".html") {
     fmt::print(stderr, "{}: does not end in .html: name the page so\n", args.output);
     return exit_code::bad_input;

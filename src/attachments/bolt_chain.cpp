@@ -8,41 +8,42 @@
 namespace edda {
 namespace {
 
-/// Slope of a spring beyond its strength, as a part of its stiffness: enough for one answer where
-/// all of a bolt slips. The force exceeds the strength by this part of what one step adds.
+/// Slope of a spring beyond its strength, as a part of its stiffness. It makes the solution unique
+/// where a bolt slips along its whole length. The force exceeds the strength by this part of the
+/// trial increment of one step.
 constexpr double beyond = 1e-4;
 
-struct Answer {
+struct SpringResponse {
   double force, slope;
 };
 
-/// Force of a spring whose elongation, less its plastic part, is `stretch`.
-Answer answer(const BoltSprings& s, std::size_t k, double stretch) {
+/// Force and slope of a spring with the elastic elongation `stretch`.
+SpringResponse answer(const BoltSprings& s, std::size_t k, double stretch) {
   const double stiffness = s.broken[k] != 0 ? 0.0 : s.stiffness[k];
   const double force = stiffness * stretch, over = std::abs(force) - s.strength[k];
   if (!(over > 0.0)) return {force, stiffness};
   return {std::copysign(s.strength[k] + beyond * over, force), beyond * stiffness};
 }
 
-/// Energy that its stretching takes, as the integral of that force.
+/// Work of that force from zero to this elongation.
 double energy(const BoltSprings& s, std::size_t k, double stretch) {
-  const Answer a = answer(s, k, stretch);
+  const SpringResponse a = answer(s, k, stretch);
   if (s.broken[k] != 0 || s.stiffness[k] == 0.0) return 0.0;
   const double whole = s.stiffness[k] * std::abs(stretch), most = std::min(whole, s.strength[k]);
   return 0.5 * most * most / s.stiffness[k] +
          0.5 * (most + std::abs(a.force)) * (whole - most) / s.stiffness[k];
 }
 
-/// Energy that flow from n - 1 to n takes: the half of it that F_{n-1} has done by now, and the
-/// half that F_n does in the step to come.
+/// Work of plastic flow from n - 1 to n: the half that F_{n-1} has done so far, and the half that
+/// F_n does in the next step.
 struct Spent {
   double slipped = 0.0, fractured = 0.0;
-  double will_slip = 0.0, will_fracture = 0.0;
+  double pending_friction = 0.0, pending_fracture = 0.0;
 };
 
-/// Takes over the force at an elongation; plastic flow dissipates (F_{n-1} + F_n)/2 of it. A spring
-/// that has just broken lets go of all it stored.
-void settle(BoltSprings& s, std::size_t k, double elongation, Spent& spent) {
+/// Sets the force at an elongation. Plastic flow dissipates (F_{n-1} + F_n)/2 times its amount. A
+/// spring that has just broken releases all of its energy.
+void yield_to(BoltSprings& s, std::size_t k, double elongation, Spent& spent) {
   s.force_1[k] = s.force[k];
   if (s.stiffness[k] == 0.0) return;
   const double stretch = elongation - s.plastic[k];
@@ -52,7 +53,7 @@ void settle(BoltSprings& s, std::size_t k, double elongation, Spent& spent) {
   const double flow = stretch - s.force[k] / s.stiffness[k];
   s.plastic[k] += flow;
   (broken ? spent.fractured : spent.slipped) += 0.5 * s.force_1[k] * flow;
-  (broken ? spent.will_fracture : spent.will_slip) += 0.5 * s.force[k] * flow;
+  (broken ? spent.pending_fracture : spent.pending_friction) += 0.5 * s.force[k] * flow;
   if (!broken) s.yielded[k] = 1;
 }
 
@@ -65,7 +66,7 @@ bool is_dead(const Bolts& b, const State& state, std::size_t k) {
   return state.alive[b.host[k]] == 0;
 }
 
-/// One grouted bolt at its hosts' present places.
+/// One grouted bolt at the present positions of its hosts.
 class Chain {
  public:
   Chain(Bolts& bolts, const State& state, Id first, Id last)
@@ -73,7 +74,8 @@ class Chain {
     for (std::size_t k = first; k + 1 < last; ++k) b_.frame[k] = bar_frame(b_, state, k);
   }
 
-  /// Newton's method on a convex sum of pieces of parabolas, shortened where it would climb.
+  /// Newton's method on the energy, which is convex and piecewise quadratic; an increment that
+  /// would raise the energy is shortened.
   void solve() {
     constexpr int most = 100, most_cuts = 30;
     constexpr double rounding = 1e-12;
@@ -101,20 +103,21 @@ class Chain {
     return sum;
   }
 
-  /// Fills residual and tangent. Whether the residual is rounding.
+  /// Fills residual and tangent. Returns whether the residual is rounding.
   bool in_balance() {
     constexpr double rounding = 1e-11;
     std::fill_n(b_.diagonal.data() + first_, last_ - first_, 0.0);
     std::fill_n(b_.right.data() + first_, last_ - first_, 0.0);
     double largest = 0.0, error = 0.0;
     for (std::size_t k = first_; k < last_; ++k) {
-      const Answer bond = answer(b_.bonds, k, b_.slip[k] - b_.bonds.plastic[k]);
+      const SpringResponse bond = answer(b_.bonds, k, b_.slip[k] - b_.bonds.plastic[k]);
       b_.diagonal[k] += bond.slope;
       b_.right[k] -= bond.force;
       largest = std::max(largest, std::abs(bond.force));
       if (k + 1 < last_) {
         const BarFrame& f = b_.frame[k];
-        const Answer bar = answer(b_.bars, k, elongation(b_, b_.slip, k) - b_.bars.plastic[k]);
+        const SpringResponse bar =
+            answer(b_.bars, k, elongation(b_, b_.slip, k) - b_.bars.plastic[k]);
         b_.diagonal[k] += bar.slope * f.start * f.start;
         b_.diagonal[k + 1] += bar.slope * f.end * f.end;
         b_.upper[k] = -bar.slope * f.start * f.end;
@@ -122,13 +125,13 @@ class Chain {
         b_.right[k + 1] -= bar.force * f.end;
         largest = std::max(largest, std::abs(bar.force));
       }
-      if (b_.diagonal[k] == 0.0) b_.diagonal[k] = 1.0;  // hangs on nothing
+      if (b_.diagonal[k] == 0.0) b_.diagonal[k] = 1.0;  // connected to nothing
       error = std::max(error, std::abs(b_.right[k]));
     }
     return error <= rounding * largest;
   }
 
-  /// The tridiagonal system, by elimination from the head.
+  /// Solves the tridiagonal system by elimination from the head.
   void find_change() {
     b_.change[first_] = b_.right[first_];
     for (std::size_t k = first_ + 1; k < last_; ++k) {
@@ -146,9 +149,9 @@ class Chain {
   std::size_t first_, last_;
 };
 
-/// What bar k of a grouted bolt and its dowel do to the hosts of its two nodes: the gradients of
-/// their elongations. e = t . g: t on the points, and (g - t (t . g))/|m| on the directions. delta
-/// = t x h: its normal on the points, and -n (t . h)/|m| on the directions.
+/// Forces of bar k of a grouted bolt and of its dowel on the hosts of its two nodes: the gradients
+/// of their elongations. e = t . g: t on the points, and (g - t (t . g))/|m| on the directions.
+/// delta = t x h: its normal on the points, and -n (t . h)/|m| on the directions.
 void push_hosts(Bolts& b, std::size_t k) {
   const BarFrame& f = b.frame[k];
   const double axial = b.bars.force[k], across = b.dowels.force[k];
@@ -157,7 +160,7 @@ void push_hosts(Bolts& b, std::size_t k) {
   const Vec2 whole = f.gap + b.slip[k + 1] * f.to - b.slip[k] * f.from;
   const Vec2 turning =
       (axial / f.size) * (whole - dot(f.t, whole) * f.t) - (across * dot(f.t, f.gap) / f.size) * n;
-  for (std::size_t j = 0; j < 3; ++j) {
+  for (std::size_t j = 0; j < nodes_per_block; ++j) {
     b.on_host[k + 1][j] -= (b.weight[j][k + 1] + b.slip[k + 1] * b.along[j][k + 1]) * axial * f.t +
                            b.weight[j][k + 1] * across * n + b.along[j][k + 1] * turning;
     b.on_host[k][j] += (b.weight[j][k] + b.slip[k] * b.along[j][k]) * axial * f.t +
@@ -165,13 +168,13 @@ void push_hosts(Bolts& b, std::size_t k) {
   }
 }
 
-/// Steel breaks where it is strained too far: plastic and elastic stretch over the length that
-/// stretches.
+/// Breaks the steel where its strain, plastic and elastic over the length that stretches, reaches
+/// the rupture strain.
 void break_steel(Bolts& b, const BoltData& row, std::size_t k) {
   if (b.bars.stiffness[k] == 0.0 || b.bars.broken[k] != 0 || !(b.bars.force[k] > 0.0)) return;
   const bool link = row.grouted && b.crossing[k] != 0;
   const double elastic = b.bars.force[k] / row.steel;
-  // What pretension stretched at the start counts as elastic stretch, not as yield.
+  // The stretch by pretension at the start counts as elastic, not as yield.
   const double before = -row.pretension / b.bars.stiffness[k];
   const double yielded = b.bars.plastic[k] - before;
   const double strain = elastic + yielded / (link ? row.gauge : b.length[k]);
@@ -180,7 +183,7 @@ void break_steel(Bolts& b, const BoltData& row, std::size_t k) {
   b.dowels.broken[k] = 1;
 }
 
-void drop_dead(Bolts& b, const State& state, Id first, Id last) {
+void disconnect_excavated(Bolts& b, const State& state, Id first, Id last) {
   for (std::size_t k = first; k < last; ++k) {
     const bool dead = is_dead(b, state, k), next = k + 1 < last && is_dead(b, state, k + 1);
     if (dead) b.bonds.broken[k] = 1;
@@ -192,10 +195,10 @@ Spent update_grouted(Bolts& b, const BoltData& row, const State& state, Id first
   Spent spent;
   Chain(b, state, first, last).solve();
   for (std::size_t k = first; k < last; ++k) {
-    settle(b.bonds, k, b.slip[k], spent);
+    yield_to(b.bonds, k, b.slip[k], spent);
     if (k + 1 == last) break;
-    settle(b.bars, k, elongation(b, b.slip, k), spent);
-    settle(b.dowels, k, cross(b.frame[k].t, b.frame[k].gap), spent);
+    yield_to(b.bars, k, elongation(b, b.slip, k), spent);
+    yield_to(b.dowels, k, cross(b.frame[k].t, b.frame[k].gap), spent);
   }
   for (std::size_t k = first; k + 1 < last; ++k) {
     push_hosts(b, k);
@@ -204,22 +207,20 @@ Spent update_grouted(Bolts& b, const BoltData& row, const State& state, Id first
   return spent;
 }
 
-/// One bar from end to end, along their distance; it goes slack rather than push.
+/// End-anchored bolt: one bar along the distance of its ends, which goes slack rather than push.
 Spent update_ends(Bolts& b, const BoltData& row, const State& state, Id k) {
   Spent spent;
   const Vec2 gap = node_place(b, state, k + 1) - node_place(b, state, k);
   const double distance = norm(gap), longer = distance - b.length[k];
   if (longer - b.bars.plastic[k] >= 0.0 || b.bars.broken[k] != 0) {
-    settle(b.bars, k, longer, spent);
+    yield_to(b.bars, k, longer, spent);
   } else {
     b.bars.force_1[k] = b.bars.force[k];
     b.bars.force[k] = 0.0;
   }
   const Vec2 pull = (b.bars.force[k] / distance) * gap;
-  for (std::size_t j = 0; j < 3; ++j) {
-    b.on_host[k][j] += b.weight[j][k] * pull;
-    b.on_host[k + 1][j] -= b.weight[j][k + 1] * pull;
-  }
+  spread(b.on_host[k], weights_of(b.weight, k), pull);
+  spread(b.on_host[k + 1], weights_of(b.weight, k + 1), -pull);
   break_steel(b, row, k);
   return spent;
 }
@@ -227,8 +228,8 @@ Spent update_ends(Bolts& b, const BoltData& row, const State& state, Id k) {
 }  // namespace
 
 BarFrame bar_frame(const Bolts& b, const State& state, std::size_t k) {
-  const auto place = [&](const std::array<std::vector<double>, 3>& w, std::size_t node) {
-    return weighted({w[0][node], w[1][node], w[2][node]}, state.x, state.y, b.host[node]);
+  const auto place = [&](const Nodes& w, std::size_t node) {
+    return weighted(weights_of(w, node), state.x, state.y, b.host[node]);
   };
   const Vec2 from = place(b.along, k), to = place(b.along, k + 1), sum = from + to;
   BarFrame f;
@@ -244,8 +245,10 @@ BarFrame bar_frame(const Bolts& b, const State& state, std::size_t k) {
 }
 
 Vec2 node_place(const Bolts& b, const State& state, std::size_t k) {
-  std::array<double, 3> w;
-  for (std::size_t j = 0; j < 3; ++j) w[j] = b.weight[j][k] + b.slip[k] * b.along[j][k];
+  NodeWeights w;
+  for (std::size_t j = 0; j < nodes_per_block; ++j) {
+    w[j] = b.weight[j][k] + b.slip[k] * b.along[j][k];
+  }
   return weighted(w, state.x, state.y, b.host[k]);
 }
 
@@ -255,30 +258,30 @@ void update_bolts(Bolts& b, const State& state) {
   parallel_for(b.rows.size(), [&](std::size_t r) {
     const Id first = b.begin[r], last = b.begin[r + 1];
     for (Id k = first; k < last; ++k) b.on_host[k] = {};
-    drop_dead(b, state, first, last);
+    disconnect_excavated(b, state, first, last);
     spent[r] = b.rows[r].grouted ? update_grouted(b, b.rows[r], state, first, last)
                                  : update_ends(b, b.rows[r], state, first);
   });
-  b.slipped += b.will_slip;
-  b.fractured += b.will_fracture;
-  b.will_slip = b.will_fracture = b.owed = 0.0;
+  b.slipped += b.pending_friction;
+  b.fractured += b.pending_fracture;
+  b.pending_friction = b.pending_fracture = b.work_pending = 0.0;
   for (const Spent& s : spent) {
     b.slipped += s.slipped;
     b.fractured += s.fractured;
-    b.will_slip += s.will_slip;
-    b.will_fracture += s.will_fracture;
+    b.pending_friction += s.pending_friction;
+    b.pending_fracture += s.pending_fracture;
   }
 }
 
-void add_bolts(std::array<Vec2, 3>& f, const Bolts& b, std::size_t i) {
+void add_bolts(NodeVectors& f, const Bolts& b, std::size_t i) {
   if (b.place.empty() || b.place[i] == no_id) return;
   for (Id q = b.block_begin[b.place[i]]; q < b.block_begin[b.place[i] + 1]; ++q) {
-    for (std::size_t j = 0; j < 3; ++j) f[j] += b.on_host[b.block_nodes[q]][j];
+    f = f + b.on_host[b.block_nodes[q]];
   }
 }
 
 double bolt_energy(const Bolts& b) {
-  double sum = b.owed;
+  double sum = b.work_pending;
   for (const BoltSprings* s : {&b.bonds, &b.bars, &b.dowels}) {
     for (std::size_t k = 0; k < s->force.size(); ++k) {
       if (s->stiffness[k] > 0.0) sum += 0.5 * s->force_1[k] * s->force[k] / s->stiffness[k];

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// The part of a bolt that lies in one block, m from its head.
-struct Stay {
+/// A part of a bolt within one block, m from its head.
+struct BoltSegment {
   double from, to;
   Id block;
 };
@@ -27,7 +27,7 @@ struct Outlines {
   Vec2 at(Id v) const { return {x[v], y[v]}; }
 };
 
-/// Even and odd crossings of a ray to the right.
+/// Counts the crossings of a ray to the right.
 bool is_inside(const Outlines& o, Id i, Vec2 p) {
   bool inside = false;
   for (Id v = o.b.vertex_begin[i]; v < o.b.vertex_begin[i + 1]; ++v) {
@@ -40,7 +40,7 @@ bool is_inside(const Outlines& o, Id i, Vec2 p) {
 
 /// The parts of the line from `head` along `t` that lie in block i.
 void add_stays(const Outlines& o, Id i, Vec2 head, Vec2 t, double length,
-               std::vector<Stay>& stays) {
+               std::vector<BoltSegment>& stays) {
   std::vector<double> cuts{0.0, length};
   for (Id v = o.b.vertex_begin[i]; v < o.b.vertex_begin[i + 1]; ++v) {
     const Vec2 a = o.at(v) - head, u = o.at(o.b.next[v]) - o.at(v);
@@ -58,11 +58,11 @@ void add_stays(const Outlines& o, Id i, Vec2 head, Vec2 t, double length,
   }
 }
 
-/// All blocks that the bolt goes through, in order, none over another; parts of one block that
-/// touch are one.
-std::vector<Stay> stays_of(const Outlines& o, const State& state, Vec2 head, Vec2 t,
-                           double length) {
-  std::vector<Stay> stays, clean;
+/// All blocks that the bolt passes through, in order and without overlap; adjoining parts within
+/// one block are joined.
+std::vector<BoltSegment> segments_of(const Outlines& o, const State& state, Vec2 head, Vec2 t,
+                                     double length) {
+  std::vector<BoltSegment> stays, clean;
   for (Id i = 0; i < o.b.size(); ++i) {
     if (state.alive[i] == 0) continue;
     const Vec2 arm = centroid(state.x, state.y, i) - head;
@@ -71,11 +71,11 @@ std::vector<Stay> stays_of(const Outlines& o, const State& state, Vec2 head, Vec
       continue;
     add_stays(o, i, head, t, length, stays);
   }
-  std::sort(stays.begin(), stays.end(), [](const Stay& p, const Stay& q) {
+  std::sort(stays.begin(), stays.end(), [](const BoltSegment& p, const BoltSegment& q) {
     return p.from != q.from ? p.from < q.from : p.block < q.block;
   });
   const double least = 1e-6 * length;
-  for (Stay s : stays) {
+  for (BoltSegment s : stays) {
     if (!clean.empty()) s.from = std::max(s.from, clean.back().to);
     if (s.to - s.from <= least) continue;
     if (!clean.empty() && clean.back().block == s.block && s.from - clean.back().to <= least) {
@@ -117,7 +117,7 @@ void add_spring(BoltSprings& s, double stiffness, double strength) {
   s.broken.push_back(0);
 }
 
-/// Of a pattern, the table: it gives no ends.
+/// For the bolt of a pattern the place is the table, since a pattern gives no ends.
 Where at_key(const Bolt& bolt, const char* key) {
   Where where = bolt.where;
   if (where.key.starts_with("bolt.")) where.key += key;
@@ -136,9 +136,9 @@ class Builder {
     const Vec2 head = bolt.from - o_.b.origin, whole = bolt.to - bolt.from;
     const double length = norm(whole);
     const Vec2 t = whole / length;
-    const std::vector<Stay> stays = stays_of(o_, state_, head, t, length);
-    const bool any_free = std::any_of(stays.begin(), stays.end(),
-                                      [&](const Stay& s) { return o_.b.fixed[s.block] == 0; });
+    const std::vector<BoltSegment> stays = segments_of(o_, state_, head, t, length);
+    const bool any_free = std::any_of(
+        stays.begin(), stays.end(), [&](const BoltSegment& s) { return o_.b.fixed[s.block] == 0; });
     if (!any_free) {
       return Fault{at_key(bolt, ".from"), "bolt " + data.name + " goes through no free block",
                    "move it into the rock (edda cut draws the blocks)"};
@@ -164,15 +164,15 @@ class Builder {
   Bolts bolts;
 
  private:
-  /// Nodes so near to each other that shear lag, 1/lambda = sqrt(EA/K), takes five of them.
-  void add_grouted(const BoltData& data, const std::vector<Stay>& stays, Vec2 head, Vec2 t,
+  /// Spaces the nodes a fifth of the shear lag 1/lambda = sqrt(EA/K) apart.
+  void add_grouted(const BoltData& data, const std::vector<BoltSegment>& stays, Vec2 head, Vec2 t,
                    double length) {
     constexpr double part = 0.2, most = 1000.0, link = 0.01;
     const double lag = std::sqrt(data.steel / data.bond);
     const double wanted = std::max(std::min(part * lag, 0.1 * length), length / most);
     std::size_t last = no_node;
     double last_piece = 0.0;
-    for (const Stay& s : stays) {
+    for (const BoltSegment& s : stays) {
       const double long_ = s.to - s.from, pieces = std::max(2.0, std::ceil(long_ / wanted));
       const double piece = long_ / pieces;
       for (int q = 0; q <= static_cast<int>(pieces); ++q) {
@@ -183,7 +183,7 @@ class Builder {
         if (q > 0) {
           set_bar(k - 1, piece, piece, data);
         } else if (last != no_node) {
-          // Where blocks meet, a bar too short to count for more than its yield.
+          // Where blocks meet: a bar so short that only its yield matters.
           const double gap = at - bolts.distance[last];
           const double stretches = std::max(gap, link * std::min(piece, last_piece));
           set_bar(last, gap, stretches, data);
@@ -200,17 +200,17 @@ class Builder {
   }
 
   std::size_t add_node(Id i, Vec2 p, Vec2 t, double distance, double bonded, const BoltData& data) {
-    // The material point that is now at p, and the material direction that is now t.
+    // The material point now at p, and the material direction that is now t.
     const Deformation f = deformation(o_.b, state_.x, state_.y, i);
     const double det = f.xx * f.yy - f.xy * f.yx;
     const auto back = [&](Vec2 v) {
       return Vec2{(f.yy * v.x - f.xy * v.y) / det, (f.xx * v.y - f.yx * v.x) / det};
     };
     const Vec2 arm = back(p - centroid(state_.x, state_.y, i)), a = back(t);
-    for (std::size_t j = 0; j < 3; ++j) {
-      const Vec2 gradient{o_.b.grad_x[j][i], o_.b.grad_y[j][i]};
-      bolts.weight[j].push_back(1.0 / 3.0 + dot(gradient, arm));
-      bolts.along[j].push_back(dot(gradient, a));
+    const NodeVectors gradient = vectors_of(o_.b.grad_x, o_.b.grad_y, i);
+    for (std::size_t j = 0; j < nodes_per_block; ++j) {
+      bolts.weight[j].push_back(centroid_weights[j] + dot(gradient[j], arm));
+      bolts.along[j].push_back(dot(gradient[j], a));
     }
     bolts.host.push_back(i);
     bolts.distance.push_back(distance);
@@ -316,8 +316,9 @@ Result<Bolts> attach_bolts(const Model& model, const BlockSet& b, const State& s
   Bolts bolts = std::move(builder.bolts);
   complete_bolts(bolts, model, b.size());
   update_bolts(bolts, state);
-  // What letting pretension settle made slip is no part of the run.
-  bolts.slipped = bolts.fractured = bolts.will_slip = bolts.will_fracture = bolts.owed = 0.0;
+  // Slip while the pretension reaches equilibrium is not part of the run.
+  bolts.slipped = bolts.fractured = bolts.pending_friction = bolts.pending_fracture =
+      bolts.work_pending = 0.0;
   for (BoltSprings* s : {&bolts.bonds, &bolts.bars, &bolts.dowels}) s->force_1 = s->force;
   return bolts;
 }
@@ -357,7 +358,7 @@ void add_bolts(Bolts& bolts, const Bolts& more, const Model& model, std::size_t 
   append(bolts.rows, more.rows);
   for (std::size_t r = 1; r < more.begin.size(); ++r) bolts.begin.push_back(before + more.begin[r]);
   append(bolts.host, more.host);
-  for (std::size_t k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < nodes_per_block; ++k) {
     append(bolts.weight[k], more.weight[k]);
     append(bolts.along[k], more.along[k]);
   }

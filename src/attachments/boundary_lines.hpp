@@ -1,4 +1,4 @@
-// Where boundaries lie.
+// The lines of boundaries.
 #pragma once
 
 #include <vector>
@@ -12,12 +12,12 @@ struct Line {
   Vec2 a, b;
 };
 
-/// The lines of a boundary, local coordinates: sides of the outline's box (of the box round all
+/// The lines of a boundary, local coordinates: sides of the bounding box of the outline (of all
 /// blocks where there is no outline), or the pieces of its polyline.
 std::vector<Line> boundary_lines(const Model& model, const BlockSet& blocks,
                                  const Boundary& boundary);
 
-/// How far from a line a vertex may lie and still be on it, m.
+/// Largest distance of a vertex from a line on which it counts as lying, m.
 double boundary_snap(const Model& model, const BlockSet& blocks);
 
 }  // namespace edda

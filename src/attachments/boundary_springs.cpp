@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "attachments/boundary_lines.hpp"
 #include "base/parallel.hpp"
@@ -15,8 +16,8 @@ struct Spring {
   double kxx, kyy, kxy;
 };
 
-/// What a boundary without a stiffness of its own has per vertex, Pa: as stiff as the joints of the
-/// vertex's block, so that it neither holds the step nor gives more than they do.
+/// Default stiffness of a boundary per vertex, Pa: that of the joints of the vertex's block, so
+/// that the boundary neither reduces the step nor deforms more than they do.
 class AsJoints {
  public:
   AsJoints(const Model& model, const BlockSet& blocks, const std::vector<Line>& lines, double snap)
@@ -58,60 +59,42 @@ class AsJoints {
   double snap_;
 };
 
-}  // namespace
-
-Result<BoundarySprings> attach_boundaries(const Model& model, const BlockSet& b) {
-  const double snap = boundary_snap(model, b);
-  std::vector<Spring> found;
-  Faults faults;
-  for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
-    const Boundary& boundary = model.boundaries[q];
-    if (!has_springs(boundary.type)) continue;
-    const std::vector<Line> lines = boundary_lines(model, b, boundary);
-    const AsJoints as_joints(model, b, lines, snap);
-    std::size_t hits = 0;
-    std::vector<Vec2> across;  // normals that hold the vertex
-    for (Id v = 0; v < b.vertex_count(); ++v) {
-      if (b.fixed[b.vertex_block[v]]) continue;
-      Spring s{v, static_cast<Index>(q), 0.0, 0.0, 0.0};
-      bool on = false;
-      across.clear();
-      double k = 0.0;
-      for (const Line& line : lines) {
-        if (distance_to_segment(b.vertex(v), line.a, line.b) > snap) continue;
-        on = true;
-        k = b.thickness * (boundary.stiffness ? *boundary.stiffness : as_joints.at(v));
-        if (boundary.type != BoundaryType::roller) {
-          s.kxx = s.kyy = k;
-          break;
-        }
-        // Two rollers at a corner hold it across both lines; pieces of one straight line count
-        // once.
-        const Vec2 n = perp(unit(line.b - line.a));
-        const bool known = std::any_of(across.begin(), across.end(), [&](Vec2 other) {
-          return std::abs(cross(n, other)) < 1e-9;
-        });
-        if (known) continue;
-        across.push_back(n);
-        s.kxx += k * n.x * n.x;
-        s.kyy += k * n.y * n.y;
-        s.kxy += k * n.x * n.y;
-      }
-      if (!on) continue;
-      ++hits;
-      found.push_back(s);
+/// The spring of a vertex on these lines, or nothing where it lies on none. At a corner of two
+/// rollers it acts across both lines; pieces of one straight line count once.
+std::optional<Spring> spring_at(Id v, Index row, const Boundary& boundary, const BlockSet& b,
+                                const std::vector<Line>& lines, const AsJoints& as_joints,
+                                double snap) {
+  Spring s{v, row, 0.0, 0.0, 0.0};
+  bool on = false;
+  std::vector<Vec2> across;  // directions in which the vertex is supported
+  for (const Line& line : lines) {
+    if (distance_to_segment(b.vertex(v), line.a, line.b) > snap) continue;
+    on = true;
+    const double k = b.thickness * (boundary.stiffness ? *boundary.stiffness : as_joints.at(v));
+    if (boundary.type != BoundaryType::roller) {
+      s.kxx = s.kyy = k;
+      break;
     }
-    if (hits == 0) {
-      faults.push_back({boundary.where, "no vertex of a free block lies on this boundary",
-                        "give a line that block corners lie on, or sides of the outline"});
-    }
+    const Vec2 n = perp(unit(line.b - line.a));
+    const bool known = std::any_of(across.begin(), across.end(),
+                                   [&](Vec2 other) { return std::abs(cross(n, other)) < 1e-9; });
+    if (known) continue;
+    across.push_back(n);
+    s.kxx += k * n.x * n.x;
+    s.kyy += k * n.y * n.y;
+    s.kxy += k * n.x * n.y;
   }
-  if (!faults.empty()) return faults;
+  if (!on) return {};
+  return s;
+}
+
+/// Sorts the springs by block and boundary.
+BoundarySprings in_order(std::vector<Spring> found, const BlockSet& b, std::size_t boundaries) {
   std::sort(found.begin(), found.end(), [&](const Spring& s, const Spring& t) {
     return std::make_pair(s.vertex, s.boundary) < std::make_pair(t.vertex, t.boundary);
   });
   BoundarySprings springs;
-  springs.shift.assign(model.boundaries.size(), Vec2{});
+  springs.shift.assign(boundaries, Vec2{});
   springs.shift_1 = springs.shift;
   springs.block_begin.assign(b.size() + 1, 0);
   for (const Spring& s : found) {
@@ -127,6 +110,32 @@ Result<BoundarySprings> attach_boundaries(const Model& model, const BlockSet& b)
   }
   for (std::size_t i = 0; i < b.size(); ++i) springs.block_begin[i + 1] += springs.block_begin[i];
   return springs;
+}
+
+}  // namespace
+
+Result<BoundarySprings> attach_boundaries(const Model& model, const BlockSet& b) {
+  const double snap = boundary_snap(model, b);
+  std::vector<Spring> found;
+  Faults faults;
+  for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
+    const Boundary& boundary = model.boundaries[q];
+    if (!has_springs(boundary.type)) continue;
+    const std::vector<Line> lines = boundary_lines(model, b, boundary);
+    const AsJoints as_joints(model, b, lines, snap);
+    const std::size_t before = found.size();
+    for (Id v = 0; v < b.vertex_count(); ++v) {
+      if (b.fixed[b.vertex_block[v]]) continue;
+      const auto spring = spring_at(v, static_cast<Index>(q), boundary, b, lines, as_joints, snap);
+      if (spring) found.push_back(*spring);
+    }
+    if (found.size() == before) {
+      faults.push_back({boundary.where, "no vertex of a free block lies on this boundary",
+                        "give a line that block corners lie on, or sides of the outline"});
+    }
+  }
+  if (!faults.empty()) return faults;
+  return in_order(std::move(found), b, model.boundaries.size());
 }
 
 void BoundarySprings::release(Index row) {

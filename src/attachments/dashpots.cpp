@@ -9,7 +9,7 @@
 namespace edda {
 namespace {
 
-/// The two points of a piece of an edge.
+/// Adds the two dashpots of a piece of an edge.
 void add_points(const BlockSet& b, const Boundary& boundary, Index row, const Piece& piece,
                 std::vector<Dashpot>& points) {
   const Id v = piece.edge, end = b.next[v], i = b.vertex_block[v];
@@ -42,8 +42,9 @@ Result<Dashpots> attach_dashpots(const Model& model, const BlockSet& b) {
     const Boundary& boundary = model.boundaries[q];
     if (!has_dashpots(boundary.type)) continue;
     bool in_joints = false;
-    const std::vector<Piece> pieces = pieces_on(b, boundary_lines(model, b, boundary), Faces::open,
-                                                boundary_snap(model, b), in_joints);
+    const std::vector<Piece> pieces =
+        pieces_on(b, boundary_lines(model, b, boundary), WhichFaces::open, boundary_snap(model, b),
+                  in_joints);
     for (const Piece& piece : pieces) {
       add_points(b, boundary, static_cast<Index>(q), piece, dashpots.points);
     }
@@ -62,13 +63,13 @@ Result<Dashpots> attach_dashpots(const Model& model, const BlockSet& b) {
     dashpots.begin.push_back(static_cast<Id>(p));
   }
   dashpots.begin.push_back(static_cast<Id>(dashpots.points.size()));
-  dashpots.set_acting(std::vector<Spell>(model.boundaries.size()));
+  dashpots.set_acting(std::vector<ActiveInterval>(model.boundaries.size()));
   return dashpots;
 }
 
-void Dashpots::set_acting(const std::vector<Spell>& boundaries) {
+void Dashpots::set_acting(const std::vector<ActiveInterval>& boundaries) {
   acts.clear();
-  for (const Spell& spell : boundaries) acts.push_back(spell.acts() ? 1 : 0);
+  for (const ActiveInterval& interval : boundaries) acts.push_back(interval.acts() ? 1 : 0);
   damped.clear();
   for (const Dashpot& p : points) {
     if (acts[static_cast<std::size_t>(p.boundary)] == 0) continue;

@@ -6,7 +6,7 @@
 namespace edda {
 namespace {
 
-/// A line that turns back or touches an edge twice counts it once.
+/// Joins overlapping pieces, since a line may turn back or touch an edge twice.
 void unite(std::vector<Piece>& pieces) {
   std::sort(pieces.begin(), pieces.end(), [](const Piece& x, const Piece& y) {
     return x.edge != y.edge ? x.edge < y.edge : x.part.from < y.part.from;
@@ -80,7 +80,7 @@ std::vector<Part> free_parts(const std::vector<OnLine>& all, const OnLine& one, 
   return parts;
 }
 
-std::vector<Piece> pieces_on(const BlockSet& b, const std::vector<Line>& lines, Faces faces,
+std::vector<Piece> pieces_on(const BlockSet& b, const std::vector<Line>& lines, WhichFaces faces,
                              double snap, bool& in_joints) {
   std::vector<Piece> pieces;
   for (const Line& line : lines) {
@@ -88,7 +88,7 @@ std::vector<Piece> pieces_on(const BlockSet& b, const std::vector<Line>& lines, 
     for (const OnLine& e : all) {
       if (b.fixed[b.vertex_block[e.edge]]) continue;
       const std::vector<Part> parts =
-          faces == Faces::open ? free_parts(all, e, b, snap) : std::vector<Part>{e.part};
+          faces == WhichFaces::open ? free_parts(all, e, b, snap) : std::vector<Part>{e.part};
       in_joints = in_joints || parts.empty();
       for (const Part p : parts) pieces.push_back({e.edge, p});
     }

@@ -1,4 +1,4 @@
-// Faces of blocks that lie along a line, as far as they do.
+// Faces of blocks along a line.
 #pragma once
 
 #include <vector>
@@ -13,12 +13,12 @@ struct Part {
   double from = 0.0, to = 0.0;
 };
 
-/// An edge on a segment, and where: coordinates along the segment, m.
+/// An edge on a segment, and its coordinates along the segment, m.
 struct OnLine {
   Id edge;
   Part part;
   double low, high;
-  bool along;  ///< runs the way the segment does
+  bool along;  ///< runs in the direction of the segment
 };
 
 /// A part of one edge.
@@ -34,20 +34,20 @@ Part on_segment(const BlockSet& blocks, Id v, Vec2 p, Vec2 q, double snap);
 /// All edges that lie on the segment from p to q, in part or whole.
 std::vector<OnLine> edges_on(const BlockSet& blocks, Vec2 p, Vec2 q, double snap);
 
-/// What is left of `whole` without `taken`, in order.
+/// The remainder of `whole` without `taken`, in order.
 std::vector<Part> without(Part whole, std::vector<Part> taken);
 
-/// Parts of one face, in its own coordinate, against which no other block's face lies.
+/// Parts of one face, in its own coordinate, that no face of another block covers.
 std::vector<Part> free_parts(const std::vector<OnLine>& all, const OnLine& one,
                              const BlockSet& blocks, double snap);
 
-/// Which faces of blocks along a line are meant: those that no other block covers, or all.
-enum class Faces { open, all };
+/// Selects faces of blocks along a line: those that no other block covers, or all.
+enum class WhichFaces { open, all };
 
-/// Pieces of the faces of free blocks along the lines, by edge; a line that turns back or touches
-/// an edge twice counts it once. `in_joints`: set where a face along the lines is covered
-/// altogether.
-std::vector<Piece> pieces_on(const BlockSet& blocks, const std::vector<Line>& lines, Faces faces,
-                             double snap, bool& in_joints);
+/// Pieces of the faces of free blocks along the lines, by edge; each counts once, even if a line
+/// turns back or touches an edge twice. `in_joints`: set where a face along the lines is wholly
+/// covered.
+std::vector<Piece> pieces_on(const BlockSet& blocks, const std::vector<Line>& lines,
+                             WhichFaces faces, double snap, bool& in_joints);
 
 }  // namespace edda

@@ -14,17 +14,124 @@ double p_modulus(const FreeFieldColumn& c, std::size_t k) {
   return c.lambda[k] + 2.0 * c.mu[k];
 }
 
-/// Stress across the column in a cell, s_xy and s_yy.
+/// Stress on the horizontal plane of a cell, s_xy and s_yy.
 Vec2 across(const FreeFieldColumn& c, const std::vector<Vec2>& u, std::size_t k) {
   const Vec2 strain = (u[k + 1] - u[k]) / c.cell;
   return {c.mu[k] * strain.x, p_modulus(c, k) * strain.y};
 }
 
-/// What a side is made of, piece by piece, and how far it reaches.
+/// A side of the model: the row of its boundary, and 1 where its outward normal points to the
+/// right, else 0.
+using SideKey = std::pair<Index, int>;
+
+/// Extent and blocks of a side of the model.
 struct Side {
-  double bottom = 0.0, top = 0.0, shortest = 0.0;
-  std::vector<std::pair<double, Id>> blocks;  ///< height of a point, its block
+  double bottom = std::numeric_limits<double>::infinity();  ///< y, m
+  double top = -std::numeric_limits<double>::infinity();
+  double shortest = std::numeric_limits<double>::infinity();  ///< face, m
+  std::vector<std::pair<double, Id>> blocks;                  ///< height of a point, its block
 };
+
+struct Sides {
+  std::map<SideKey, Side> by_key;  ///< by boundary, left before right
+  std::vector<SideKey> of_point;   ///< [points of Dashpots]; those of other boundaries have none
+};
+
+double height_of(const Dashpot& at, const BlockSet& b) {
+  return weighted(at.weight, b.node_x, b.node_y, at.block).y;
+}
+
+/// Extends a side by the piece of face around a point at height y.
+void extend(Side& side, const Dashpot& at, double y) {
+  // Each piece of a face has two points, each with half of its length, 1/sqrt(3) of it apart.
+  const double reach = at.length * (1.0 - 1.0 / std::sqrt(3.0));
+  side.bottom = std::min(side.bottom, y - reach);
+  side.top = std::max(side.top, y + reach);
+  side.shortest = std::min(side.shortest, 2.0 * at.length);
+  side.blocks.emplace_back(y, at.block);
+}
+
+/// The sides with free-field boundaries, their blocks from the bottom up. Fills the heights and
+/// tributary areas of their points.
+Sides find_sides(const Model& model, const BlockSet& b, const Dashpots& dashpots,
+                 FreeField& field) {
+  Sides sides;
+  sides.of_point.resize(dashpots.points.size());
+  for (std::size_t p = 0; p < dashpots.points.size(); ++p) {
+    const Dashpot& at = dashpots.points[p];
+    if (model.boundaries[static_cast<std::size_t>(at.boundary)].type != BoundaryType::free_field) {
+      continue;
+    }
+    sides.of_point[p] = {at.boundary, at.normal.x > 0.0 ? 1 : 0};
+    field.height[p] = height_of(at, b);
+    field.face[p] = at.length * b.thickness;
+    extend(sides.by_key[sides.of_point[p]], at, field.height[p]);
+  }
+  for (auto& [key, side] : sides.by_key) std::sort(side.blocks.begin(), side.blocks.end());
+  return sides;
+}
+
+/// Speed of the P wave in the fastest block of a side, m/s.
+double fastest_p_wave(const Side& side, const BlockSet& b) {
+  double fastest = 0.0;
+  for (const auto& [y, i] : side.blocks) {
+    const double density = b.mass[i] / b.volume[i];
+    fastest = std::max(fastest, std::sqrt((b.lame_lambda[i] + 2.0 * b.lame_mu[i]) / density));
+  }
+  return fastest;
+}
+
+/// Number of cells of a column: as high as the shortest face, but high enough for steps of `step`.
+double cells_of(const Side& side, const BlockSet& b, double step) {
+  constexpr double margin = 2.0, most = 2000.0;  // the step may be lengthened later
+  const double height = side.top - side.bottom;
+  const double least = std::isfinite(step) ? margin * fastest_p_wave(side, b) * step : 0.0;
+  const double wanted = std::max({side.shortest, least, height / most});
+  return std::max(1.0, std::floor(height / wanted));
+}
+
+/// Of the points of a side, the block of the one nearest to a height.
+Id nearest_block(const Side& side, double height) {
+  const auto nearest =
+      std::min_element(side.blocks.begin(), side.blocks.end(), [&](const auto& p, const auto& q) {
+        return std::abs(p.first - height) < std::abs(q.first - height);
+      });
+  return nearest->second;
+}
+
+/// Adds a cell of the rock of block i, on top; its stiffness is that of the wave speeds that the
+/// boundary gives, if any.
+void add_cell(FreeFieldColumn& c, const BlockSet& b, Id i, const Boundary& boundary) {
+  c.density.push_back(b.mass[i] / b.volume[i]);
+  if (boundary.wave_speeds) {
+    const Vec2 speed = *boundary.wave_speeds;
+    c.mu.push_back(c.density.back() * speed.y * speed.y);
+    c.lambda.push_back(c.density.back() * speed.x * speed.x - 2.0 * c.mu.back());
+  } else {
+    c.mu.push_back(b.lame_mu[i]);
+    c.lambda.push_back(b.lame_lambda[i]);
+  }
+}
+
+/// The column beside a side, at rest.
+FreeFieldColumn column_of(const SideKey& key, const Side& side, const Model& model,
+                          const BlockSet& b, double step) {
+  FreeFieldColumn c;
+  c.boundary = key.first;
+  c.outward = key.second == 1 ? 1.0 : -1.0;
+  c.bottom = side.bottom;
+  const double cells = cells_of(side, b, step);
+  c.cell = (side.top - side.bottom) / cells;
+  const auto nodes = static_cast<std::size_t>(cells) + 1;
+  for (std::size_t k = 0; k + 1 < nodes; ++k) {
+    const double middle = c.bottom + (static_cast<double>(k) + 0.5) * c.cell;
+    add_cell(c, b, nearest_block(side, middle),
+             model.boundaries[static_cast<std::size_t>(key.first)]);
+  }
+  c.moved.assign(nodes, {});
+  c.velocity.assign(nodes, {});
+  return c;
+}
 
 }  // namespace
 
@@ -62,73 +169,14 @@ FreeField attach_free_field(const Model& model, const BlockSet& b, const Dashpot
   field.column.assign(dashpots.points.size(), none);
   field.height.assign(dashpots.points.size(), 0.0);
   field.face.assign(dashpots.points.size(), 0.0);
-  std::map<std::pair<Index, int>, Side> sides;  // by boundary, left before right
-  std::vector<std::pair<Index, int>> side_of(dashpots.points.size());
-  for (std::size_t p = 0; p < dashpots.points.size(); ++p) {
-    const Dashpot& at = dashpots.points[p];
-    if (model.boundaries[static_cast<std::size_t>(at.boundary)].type != BoundaryType::free_field) {
-      continue;
-    }
-    double y = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) y += at.weight[k] * b.node_y[k][at.block];
-    // Two points stand for each piece of a face, half of its length each, 1/sqrt(3) of it apart.
-    const double reach = at.length * (1.0 - 1.0 / std::sqrt(3.0));
-    const std::pair<Index, int> key{at.boundary, at.normal.x > 0.0 ? 1 : 0};
-    const auto [found, is_new] = sides.try_emplace(key);
-    Side& side = found->second;
-    const double low = y - reach, high = y + reach;
-    side.bottom = is_new ? low : std::min(side.bottom, low);
-    side.top = is_new ? high : std::max(side.top, high);
-    side.shortest = is_new ? 2.0 * at.length : std::min(side.shortest, 2.0 * at.length);
-    side.blocks.emplace_back(y, at.block);
-    side_of[p] = key;
-    field.height[p] = y;
-    field.face[p] = at.length * b.thickness;
-  }
-  std::map<std::pair<Index, int>, Index> number;
-  for (auto& [key, side] : sides) {
-    std::sort(side.blocks.begin(), side.blocks.end());
-    FreeFieldColumn c;
-    c.boundary = key.first;
-    c.outward = key.second == 1 ? 1.0 : -1.0;
-    c.bottom = side.bottom;
-    const double height = side.top - side.bottom;
-    double fastest = 0.0;
-    for (const auto& [y, i] : side.blocks) {
-      const double density = b.mass[i] / b.volume[i];
-      fastest = std::max(fastest, std::sqrt((b.lame_lambda[i] + 2.0 * b.lame_mu[i]) / density));
-    }
-    constexpr double margin = 2.0, most = 2000.0;  // steps may grow later
-    const double least = std::isfinite(step) ? margin * fastest * step : 0.0;
-    const double wanted = std::max({side.shortest, least, height / most});
-    const double cells = std::max(1.0, std::floor(height / wanted));
-    c.cell = height / cells;
-    const auto nodes = static_cast<std::size_t>(cells) + 1;
-    for (std::size_t k = 0; k + 1 < nodes; ++k) {
-      const double middle = c.bottom + (static_cast<double>(k) + 0.5) * c.cell;
-      const auto nearest = std::min_element(
-          side.blocks.begin(), side.blocks.end(), [&](const auto& p, const auto& q) {
-            return std::abs(p.first - middle) < std::abs(q.first - middle);
-          });
-      const Id i = nearest->second;
-      c.density.push_back(b.mass[i] / b.volume[i]);
-      const Boundary& boundary = model.boundaries[static_cast<std::size_t>(key.first)];
-      if (boundary.wave_speeds) {
-        const Vec2 speed = *boundary.wave_speeds;
-        c.mu.push_back(c.density.back() * speed.y * speed.y);
-        c.lambda.push_back(c.density.back() * speed.x * speed.x - 2.0 * c.mu.back());
-      } else {
-        c.mu.push_back(b.lame_mu[i]);
-        c.lambda.push_back(b.lame_lambda[i]);
-      }
-    }
-    c.moved.assign(nodes, {});
-    c.velocity.assign(nodes, {});
+  const Sides sides = find_sides(model, b, dashpots, field);
+  std::map<SideKey, Index> number;
+  for (const auto& [key, side] : sides.by_key) {
     number[key] = static_cast<Index>(field.columns.size());
-    field.columns.push_back(std::move(c));
+    field.columns.push_back(column_of(key, side, model, b, step));
   }
   for (std::size_t p = 0; p < dashpots.points.size(); ++p) {
-    if (field.face[p] > 0.0) field.column[p] = number[side_of[p]];
+    if (field.face[p] > 0.0) field.column[p] = number[sides.of_point[p]];
   }
   return field;
 }
@@ -136,7 +184,7 @@ FreeField attach_free_field(const Model& model, const BlockSet& b, const Dashpot
 std::vector<FreeFieldColumn> next_columns(const std::vector<FreeFieldColumn>& columns,
                                           const FreeFieldDrive& drive, double h_old, double h_new) {
   std::vector<FreeFieldColumn> next = columns;
-  const double h = 0.5 * (h_old + h_new), drag = 0.5 * drive.mass_damping * h;
+  const double h = 0.5 * (h_old + h_new), mass_damping = 0.5 * drive.mass_damping * h;
   for (std::size_t q = 0; q < columns.size(); ++q) {
     const FreeFieldColumn& c = columns[q];
     FreeFieldColumn& to = next[q];
@@ -164,7 +212,7 @@ std::vector<FreeFieldColumn> next_columns(const std::vector<FreeFieldColumn>& co
       }
       force -= mass * drive.frame;
       const Vec2 v = c.velocity[k];
-      if (k > 0) {  // the dashpot damps the bottom
+      if (k > 0) {  // the bottom is damped by its dashpot
         const auto damped = [&](double f, double along) {
           return f - (along == 0.0 ? 0.0 : std::copysign(drive.local_damping * std::abs(f), along));
         };
@@ -172,7 +220,7 @@ std::vector<FreeFieldColumn> next_columns(const std::vector<FreeFieldColumn>& co
       }
       const auto kicked = [&](double before, double f, double damper) {
         const double half = 0.5 * h * damper / mass;
-        return ((1.0 - drag - half) * before + h * f / mass) / (1.0 + drag + half);
+        return ((1.0 - mass_damping - half) * before + h * f / mass) / (1.0 + mass_damping + half);
       };
       to.velocity[k] = {kicked(v.x, force.x, damper_x), kicked(v.y, force.y, damper_y)};
       to.moved[k] += h_new * to.velocity[k];

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "model/accelerogram.hpp"
+#include "model/files/accelerogram.hpp"
 
 namespace edda {
 
@@ -13,36 +13,36 @@ Ground find_ground(const Model& model, const BlockSet& b) {
                  std::any_of(model.boundaries.begin(), model.boundaries.end(),
                              [](const Boundary& q) { return q.type == BoundaryType::velocity; });
   for (Id i = 0; i < b.size(); ++i) {
-    if (b.fixed[i]) ground.held.push_back(i);
+    if (b.fixed[i]) ground.fixed_blocks.push_back(i);
   }
   return ground;
 }
 
-Vec2 ground_acceleration(const Model& model, const Spells& spells, double time) {
+Vec2 ground_acceleration(const Model& model, const ActiveIntervals& intervals, double time) {
   Vec2 a;
   for (std::size_t q = 0; q < model.shakings.size(); ++q) {
     const Shaking& shaking = model.shakings[q];
-    const Spell& spell = spells.shakings[q];
-    const double part = spell.part(time);
+    const ActiveInterval& interval = intervals.shakings[q];
+    const double part = interval.part(time);
     if (shaking.apply != ShakingKind::base || part == 0.0) continue;
-    a += part * acceleration_at(shaking, time - spell.since);
+    a += part * acceleration_at(shaking, time - interval.since);
   }
   return a;
 }
 
-GroundStep next_ground(const Model& model, const Spells& spells, const Ground& ground,
+GroundStep next_ground(const Model& model, const ActiveIntervals& intervals, const Ground& ground,
                        const BoundarySprings& springs, double time, double h_old, double h_new) {
   GroundStep next;
   next.velocity =
-      ground.velocity + (0.5 * (h_old + h_new)) * ground_acceleration(model, spells, time);
+      ground.velocity + (0.5 * (h_old + h_new)) * ground_acceleration(model, intervals, time);
   next.shift = ground.shift + h_new * next.velocity;
   next.shifts = springs.shift;
   for (std::size_t q = 0; q < next.shifts.size(); ++q) {
     const Boundary& boundary = model.boundaries[q];
     Vec2 velocity = next.velocity;
-    const Spell& spell = spells.boundaries[q];
-    if (boundary.type == BoundaryType::velocity && spell.acts()) {
-      const double middle = time + 0.5 * h_new - spell.since;
+    const ActiveInterval& interval = intervals.boundaries[q];
+    if (boundary.type == BoundaryType::velocity && interval.acts()) {
+      const double middle = time + 0.5 * h_new - interval.since;
       velocity += boundary.factor.at(middle, 1.0) * *boundary.velocity;
     }
     next.shifts[q] += h_new * velocity;
@@ -50,12 +50,9 @@ GroundStep next_ground(const Model& model, const Spells& spells, const Ground& g
   return next;
 }
 
-void place_held(const BlockSet& b, const Ground& ground, Vec2 shift, Nodes& x, Nodes& y) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (const Id i : ground.held) {
-      x[k][i] = b.node_x[k][i] + shift.x;
-      y[k][i] = b.node_y[k][i] + shift.y;
-    }
+void place_fixed(const BlockSet& b, const Ground& ground, Vec2 shift, Nodes& x, Nodes& y) {
+  for (const Id i : ground.fixed_blocks) {
+    store(vectors_of(b.node_x, b.node_y, i) + at_every_node(shift), x, y, i);
   }
 }
 

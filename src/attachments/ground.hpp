@@ -1,4 +1,4 @@
-// Motion of what holds the model: held blocks, and where the springs of boundaries pull to.
+// Motion of the supports of the model: fixed blocks, and the far ends of boundary springs.
 #pragma once
 
 #include <vector>
@@ -10,17 +10,17 @@
 
 namespace edda {
 
-/// The ground that shakings of kind "base" move, by the same leapfrog as the blocks: v_{n+1/2} =
-/// v_{n-1/2} + h a_n, u_{n+1} = u_n + h v_{n+1/2}. Blocks on it then move as they would on a ground
-/// at rest with -a_n added to gravity, to rounding.
+/// The ground, moved by ground motions of kind "base" with the same leapfrog as the blocks:
+/// v_{n+1/2} = v_{n-1/2} + h a_n, u_{n+1} = u_n + h v_{n+1/2}. Blocks on it then move relative to
+/// it as they would on a ground at rest with -a_n added to gravity, to rounding.
 struct Ground {
-  bool moves = false;    ///< whether the model has anything that moves it, or a boundary
-  std::vector<Id> held;  ///< blocks on it
-  Vec2 velocity;         ///< at n - 1/2, m/s
-  Vec2 shift, shift_1;   ///< u_n, u_{n-1}, m
+  bool moves = false;            ///< whether the model has a base motion or a velocity boundary
+  std::vector<Id> fixed_blocks;  ///< the fixed blocks, which move with it
+  Vec2 velocity;                 ///< at n - 1/2, m/s
+  Vec2 shift, shift_1;           ///< u_n, u_{n-1}, m
 };
 
-/// Where a step takes it.
+/// The ground at the end of a step.
 struct GroundStep {
   Vec2 velocity;             ///< at n + 1/2
   Vec2 shift;                ///< u_{n+1}
@@ -29,15 +29,15 @@ struct GroundStep {
 
 Ground find_ground(const Model& model, const BlockSet& blocks);
 
-/// Acceleration that shakings of kind "base" give the ground, m/s2.
-Vec2 ground_acceleration(const Model& model, const Spells& spells, double time);
+/// Acceleration of the ground by ground motions of kind "base", m/s2.
+Vec2 ground_acceleration(const Model& model, const ActiveIntervals& intervals, double time);
 
-/// From `time` on, h_old and h_new the steps behind and ahead (s). A boundary of type velocity
-/// moves at its velocity at the middle of the step, too.
-GroundStep next_ground(const Model& model, const Spells& spells, const Ground& ground,
+/// The ground one step after `time`, with h_old and h_new the last and the next step (s). A
+/// boundary of type velocity also moves with its velocity at the middle of the step.
+GroundStep next_ground(const Model& model, const ActiveIntervals& intervals, const Ground& ground,
                        const BoundarySprings& springs, double time, double h_old, double h_new);
 
-/// Puts the nodes of the held blocks where the ground takes them.
-void place_held(const BlockSet& blocks, const Ground& ground, Vec2 shift, Nodes& x, Nodes& y);
+/// Moves the nodes of the fixed blocks with the ground.
+void place_fixed(const BlockSet& blocks, const Ground& ground, Vec2 shift, Nodes& x, Nodes& y);
 
 }  // namespace edda

@@ -17,19 +17,20 @@ Vec2 traction(const Tensor& s, Vec2 n) {
 /// The open faces along a boundary.
 std::vector<Piece> faces_of(const Model& model, const BlockSet& b, const Boundary& boundary) {
   bool in_joints = false;
-  return pieces_on(b, boundary_lines(model, b, boundary), Faces::open, boundary_snap(model, b),
+  return pieces_on(b, boundary_lines(model, b, boundary), WhichFaces::open, boundary_snap(model, b),
                    in_joints);
 }
 
-/// Faces that have been held, by edge.
-using Taken = std::map<Id, std::vector<Part>>;
+/// Parts of faces already supported by a boundary, by edge.
+using SupportedParts = std::map<Id, std::vector<Part>>;
 
-/// What of the faces of a boundary nobody has held yet; from now on it has.
-std::vector<Piece> take(const Model& model, const BlockSet& b, const Boundary& boundary,
-                        Taken& taken) {
+/// The parts of the faces of a boundary that no other boundary supports yet; marks them as
+/// supported.
+std::vector<Piece> newly_supported(const Model& model, const BlockSet& b, const Boundary& boundary,
+                                   SupportedParts& supported) {
   std::vector<Piece> mine;
   for (const Piece& p : faces_of(model, b, boundary)) {
-    std::vector<Part>& others = taken[p.edge];
+    std::vector<Part>& others = supported[p.edge];
     for (const Part part : without(p.part, others)) {
       if (part.to > part.from) mine.push_back({p.edge, part});
     }
@@ -55,27 +56,28 @@ EndForces FaceForces::on(Id edge, Part part) const {
           length / 6.0 * (t0 + 2.0 * t1) - water.at_to};
 }
 
-std::vector<KeptForce> held_initial_stress(const Model& model, const BlockSet& b,
-                                           const Spells& spells, const FaceForces& faces) {
-  std::vector<KeptForce> held;
-  Taken taken;
+std::vector<WallForce> supported_initial_stress(const Model& model, const BlockSet& b,
+                                                const ActiveIntervals& intervals,
+                                                const FaceForces& faces) {
+  std::vector<WallForce> forces;
+  SupportedParts supported;
   const auto each = [&](auto is_meant, bool keeps) {
     for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
       const Boundary& boundary = model.boundaries[q];
-      if (!spells.boundaries[q].acts() || !is_meant(boundary.type)) continue;
-      const auto keeper = static_cast<Index>(model.openings.size() + q);
-      for (const Piece& p : take(model, b, boundary, taken)) {
+      if (!intervals.boundaries[q].acts() || !is_meant(boundary.type)) continue;
+      const auto owner = static_cast<Index>(model.openings.size() + q);
+      for (const Piece& p : newly_supported(model, b, boundary, supported)) {
         if (!keeps) continue;
         const EndForces on = on_vertices(p.part.from, p.part.to, faces.on(p.edge, p.part));
-        held.push_back({p.edge, on.at_from, keeper});
-        held.push_back({b.next[p.edge], on.at_to, keeper});
+        forces.push_back({p.edge, on.at_from, owner});
+        forces.push_back({b.next[p.edge], on.at_to, owner});
       }
     }
   };
   each(has_springs, true);
   each([](BoundaryType type) { return type == BoundaryType::stress; }, false);
   each(has_dashpots, true);
-  return held;
+  return forces;
 }
 
 void load_initial_stress(Loads& loads, const Model& model, const BlockSet& b,

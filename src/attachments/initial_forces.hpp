@@ -1,4 +1,5 @@
-// Forces of the initial stress on faces of blocks, and the boundaries that carry them.
+// Forces of the initial stress on faces of blocks, and the boundaries that carry them (theory,
+// sections 3.3 and 13.4).
 #pragma once
 
 #include "attachments/edges_on_line.hpp"
@@ -7,14 +8,14 @@
 
 namespace edda {
 
-/// What holds a face at the start, over parts of it.
+/// Support forces of faces in the initial stress, over parts of them.
 class FaceForces {
  public:
-  /// The water of `loads` at t = 0 bears its share of the stress, which is total.
+  /// The stress is total; the water of `loads` at t = 0 carries its share of it.
   FaceForces(const BlockSet& blocks, const StressField& field, const LoadsNow& at_start);
 
-  /// On the part of face `edge`: sigma n, linear between its ends, without the pressure of water on
-  /// it.
+  /// Forces on the part of face `edge`: sigma n, linear between its ends, less the water pressure
+  /// on it.
   EndForces on(Id edge, Part part) const;
 
  private:
@@ -23,13 +24,14 @@ class FaceForces {
   const LoadsNow& now_;
 };
 
-/// What the boundaries that act at the start hold of the initial stress on the open faces along
-/// them: those with springs and dashpots, across the line and along it (a roller too), keep it up
-/// as forces on the vertices. No face is held twice: springs go first, then tractions.
-std::vector<KeptForce> held_initial_stress(const Model& model, const BlockSet& blocks,
-                                           const Spells& spells, const FaceForces& faces);
+/// Support of the open faces along the boundaries that are active at the start: boundaries with
+/// springs and dashpots carry the initial stress as forces on the vertices, normal and tangential
+/// (a roller, too). No face is supported twice: springs come first, then tractions.
+std::vector<WallForce> supported_initial_stress(const Model& model, const BlockSet& blocks,
+                                                const ActiveIntervals& intervals,
+                                                const FaceForces& faces);
 
-/// Boundaries of type stress that name no traction have that of the initial stress.
+/// Gives boundaries of type stress without a traction that of the initial stress.
 void load_initial_stress(Loads& loads, const Model& model, const BlockSet& blocks,
                          const FaceForces& faces);
 

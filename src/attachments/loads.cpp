@@ -8,7 +8,7 @@
 #include "attachments/edges_on_line.hpp"
 #include "base/parallel.hpp"
 #include "blocks/locate.hpp"
-#include "model/accelerogram.hpp"
+#include "model/files/accelerogram.hpp"
 #include "model/stage_names.hpp"
 
 namespace edda {
@@ -22,7 +22,7 @@ void attach_line(const Load& load, Index row, const BlockSet& b, double snap, Lo
   }
   bool in_joints = false;
   const std::vector<Piece> pieces =
-      pieces_on(b, lines, load.force ? Faces::open : Faces::all, snap, in_joints);
+      pieces_on(b, lines, load.force ? WhichFaces::open : WhichFaces::all, snap, in_joints);
   const double t = b.thickness;
   for (const Piece& p : pieces) {
     loads.edges.push_back({p.edge, p.part.from, p.part.to, load.force ? t * *load.force : Vec2{},
@@ -39,14 +39,14 @@ void attach_line(const Load& load, Index row, const BlockSet& b, double snap, Lo
   faults.push_back(fault);
 }
 
-/// A boundary of type stress: a traction on the faces along it. One that names none takes it from
-/// the initial stress (load_initial_stress()).
+/// A boundary of type stress: a traction on the faces along it. Without a traction of its own it
+/// gets that of the initial stress (load_initial_stress()).
 void attach_stress(const Model& model, std::size_t row, const BlockSet& b, double snap,
                    Loads& loads, Faults& faults) {
   const Boundary& boundary = model.boundaries[row];
   bool in_joints = false;
   const std::vector<Piece> pieces =
-      pieces_on(b, boundary_lines(model, b, boundary), Faces::open, snap, in_joints);
+      pieces_on(b, boundary_lines(model, b, boundary), WhichFaces::open, snap, in_joints);
   for (const Piece& p : pieces) {
     if (!boundary.traction) break;
     loads.edges.push_back({p.edge, p.part.from, p.part.to, b.thickness * *boundary.traction, 0.0,
@@ -66,14 +66,14 @@ void attach_point(const Model& model, const PolygonSet& polygons, const Load& lo
   }
   Fault fault{load.where, "lies in no block", "move it into one (edda cut draws them)"};
   if (block_at(model, polygons, b, p)) {
-    fault.problem = "lies in a block that is held";
+    fault.problem = "lies in a block that is fixed";
     fault.remedy = "move it to a free block, or leave the load out";
   }
   fault.where.key += ".point";
   faults.push_back(fault);
 }
 
-/// The table from left to right, local coordinates.
+/// The water table from left to right, local coordinates.
 struct Table {
   std::vector<Vec2> points;
 
@@ -88,8 +88,8 @@ struct Table {
   }
 };
 
-/// Parts of edge v that are below or above one straight piece of the table each, without those that
-/// are dry.
+/// The parts of edge v that each lie under one straight piece of the table, without those that are
+/// dry.
 void wet_edge(const BlockSet& b, Id v, const Table& table, const std::vector<Part>& dry,
               double snap, Index row, std::vector<WetEdge>& wet) {
   const Vec2 a = b.vertex(v), u = b.vertex(b.next[v]) - a;
@@ -100,7 +100,7 @@ void wet_edge(const BlockSet& b, Id v, const Table& table, const std::vector<Par
           {v, p.from, p.to, table.at(a.x + p.from * u.x), table.at(a.x + p.to * u.x), row});
     }
   };
-  if (std::abs(u.x) <= snap) {  // upright
+  if (std::abs(u.x) <= snap) {  // vertical
     const double x = a.x + 0.5 * u.x;
     if (x >= table.low() - snap && x <= table.high() + snap) add({0.0, 1.0});
     return;
@@ -111,7 +111,7 @@ void wet_edge(const BlockSet& b, Id v, const Table& table, const std::vector<Par
   for (std::size_t k = 1; k < ends.size(); ++k) add({ends[k - 1], ends[k]});
 }
 
-/// Outlines of the openings that hold no water, local coordinates.
+/// Outlines of the openings that are not flooded, local coordinates.
 std::vector<std::array<Vec2, 2>> dry_outlines(const Model& model, const Water& water, Vec2 origin) {
   std::vector<std::array<Vec2, 2>> lines;
   for (const Opening& opening : model.openings) {
@@ -143,22 +143,23 @@ void attach_water(const Model& model, const Water& water, Index row, const Block
   }
   if (loads.wet.size() > before) return;
   Fault fault{water.where, "no face of a free block lies between the ends of the table",
-              "give a table that passes over the blocks it is to wet"};
+              "give a table that lies above the blocks it is to act on"};
   fault.where.key += ".table";
   faults.push_back(fault);
 }
 
-/// Each acts from the start, or not yet.
+/// Active intervals at the start: active, or not yet.
 template <class Item>
-std::vector<Spell> first_spells(const Model& model, const std::vector<Item>& items) {
+std::vector<ActiveInterval> first_intervals(const Model& model, const std::vector<Item>& items) {
   constexpr double never = std::numeric_limits<double>::infinity();
-  std::vector<Spell> spells;
-  spells.reserve(items.size());
-  for (const Item& item : items) spells.push_back({acts_at_first(model, item.name) ? 0.0 : never});
-  return spells;
+  std::vector<ActiveInterval> intervals;
+  intervals.reserve(items.size());
+  for (const Item& item : items)
+    intervals.push_back({acts_at_first(model, item.name) ? 0.0 : never});
+  return intervals;
 }
 
-/// Sorts each list by block, and notes where each block's begin.
+/// Sorts each list by block, and fills the ranges of the blocks.
 void sort_by_block(const BlockSet& b, Loads& l) {
   auto by_edge = [](const auto& x, const auto& y) { return x.edge < y.edge; };
   std::stable_sort(l.points.begin(), l.points.end(),
@@ -188,7 +189,7 @@ void sort_by_block(const BlockSet& b, Loads& l) {
   }
 }
 
-/// Integrals over a part of an edge of d and of d s, d linear and cut off below zero.
+/// Integrals of d and of d s over a part of an edge, with d linear and zero where negative.
 struct Head {
   double all = 0.0, second = 0.0;
 };
@@ -206,7 +207,7 @@ Head head(double s0, double s1, double d0, double d1) {
   return {0.5 * w * (d0 + d1), w * (d0 * (2.0 * s0 + s1) + d1 * (s0 + 2.0 * s1)) / 6.0};
 }
 
-/// What one wet piece does within from and to of its edge, as forces on the two ends of the edge.
+/// Forces of one wet piece between `from` and `to` of its edge, at the two ends of the edge.
 EndForces water_of(const BlockSet& b, const LoadsNow& now, const WetEdge& e,
                    const std::vector<double>& x, const std::vector<double>& y, double from,
                    double to) {
@@ -231,9 +232,10 @@ EndForces water_of(const BlockSet& b, const LoadsNow& now, const WetEdge& e,
 Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const BlockSet& b) {
   Loads loads;
   Faults faults;
-  loads.spells = {first_spells(model, model.loads), first_spells(model, model.waters),
-                  first_spells(model, model.boundaries), first_spells(model, model.shakings)};
-  loads.held.assign(model.openings.size() + model.boundaries.size(), {});
+  loads.intervals = {first_intervals(model, model.loads), first_intervals(model, model.waters),
+                     first_intervals(model, model.boundaries),
+                     first_intervals(model, model.shakings)};
+  loads.remaining.assign(model.openings.size() + model.boundaries.size(), {});
   const auto is_stress = [](const Boundary& q) { return q.type == BoundaryType::stress; };
   const bool stressed = std::any_of(model.boundaries.begin(), model.boundaries.end(), is_stress);
   if (model.loads.empty() && model.waters.empty() && !stressed) return loads;
@@ -262,67 +264,65 @@ void add_edge_loads(const BlockSet& b, const std::vector<EdgeLoad>& more, Loads&
   sort_by_block(b, loads);
 }
 
-void keep_forces(const Model& model, const BlockSet& b, const std::vector<KeptForce>& forces,
-                 Loads& loads) {
+void keep_wall_forces(const Model& model, const BlockSet& b, const std::vector<WallForce>& forces,
+                      Loads& loads) {
   const std::size_t before = model.loads.size() + model.boundaries.size();
-  for (const KeptForce& f : forces) {
+  for (const WallForce& f : forces) {
     const Id v = f.vertex;
-    loads.points.push_back({b.vertex_block[v],
-                            {b.weight[0][v], b.weight[1][v], b.weight[2][v]},
-                            f.force,
-                            static_cast<Index>(before) + f.keeper});
+    loads.points.push_back({b.vertex_block[v], weights_of(b.weight, v), f.force,
+                            static_cast<Index>(before) + f.owner});
   }
   sort_by_block(b, loads);
 }
 
-void drop_forces(const Model& model, const BlockSet& b, Index keeper, Loads& loads) {
-  const auto row = static_cast<Index>(model.loads.size() + model.boundaries.size()) + keeper;
+void remove_wall_forces(const Model& model, const BlockSet& b, Index owner, Loads& loads) {
+  const auto row = static_cast<Index>(model.loads.size() + model.boundaries.size()) + owner;
   std::erase_if(loads.points, [&](const PointLoad& p) { return p.load == row; });
   sort_by_block(b, loads);
 }
 
 LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
   LoadsNow now;
-  const GentleChange& gentle = loads.gentle;
-  if (gentle.weight) now.to_come = (1.0 - gentle.part) * model.gravity;
+  const GradualChange& gradual = loads.gradual;
+  if (gradual.weight) now.to_come = (1.0 - gradual.part) * model.gravity;
   for (std::size_t q = 0; q < model.shakings.size(); ++q) {
     const Shaking& shaking = model.shakings[q];
-    const Spell& spell = loads.spells.shakings[q];
-    const double part = spell.part(time);
+    const ActiveInterval& interval = loads.intervals.shakings[q];
+    const double part = interval.part(time);
     if (shaking.apply != ShakingKind::inertia || part == 0.0) continue;
-    now.frame += part * acceleration_at(shaking, time - spell.since);
+    now.frame += part * acceleration_at(shaking, time - interval.since);
   }
   if (loads.blocks.empty()) return now;
   now.loads = &loads;
-  const auto add_factors = [&](const auto& items, const std::vector<Spell>& spells) {
+  const auto add_factors = [&](const auto& items, const std::vector<ActiveInterval>& intervals) {
     for (std::size_t q = 0; q < items.size(); ++q) {
-      const double part = spells[q].part(time, gentle);
-      now.factor.push_back(part > 0.0 ? part * items[q].factor.at(time - spells[q].since, 1.0)
+      const double part = intervals[q].part(time, gradual);
+      now.factor.push_back(part > 0.0 ? part * items[q].factor.at(time - intervals[q].since, 1.0)
                                       : 0.0);
     }
   };
-  add_factors(model.loads, loads.spells.loads);
-  add_factors(model.boundaries, loads.spells.boundaries);
-  for (const Hold& hold : loads.held) now.factor.push_back(hold.at(time, gentle));
+  add_factors(model.loads, loads.intervals.loads);
+  add_factors(model.boundaries, loads.intervals.boundaries);
+  for (const RemainingFraction& fraction : loads.remaining)
+    now.factor.push_back(fraction.at(time, gradual));
   for (std::size_t q = 0; q < model.waters.size(); ++q) {
     const Water& water = model.waters[q];
-    const Spell& spell = loads.spells.waters[q];
-    const double part = spell.part(time, gentle);
-    now.rise.push_back(part > 0.0 ? water.rise.at(time - spell.since, 0.0) : 0.0);
+    const ActiveInterval& interval = loads.intervals.waters[q];
+    const double part = interval.part(time, gradual);
+    now.rise.push_back(part > 0.0 ? water.rise.at(time - interval.since, 0.0) : 0.0);
     now.weight.push_back(part * water.unit_weight * model.thickness);
   }
   return now;
 }
 
-void add_loads(std::array<Vec2, 3>& f, const BlockSet& b, const LoadsNow& now,
-               const std::vector<double>& x, const std::vector<double>& y, std::size_t i) {
+void add_loads(NodeVectors& f, const BlockSet& b, const LoadsNow& now, const std::vector<double>& x,
+               const std::vector<double>& y, std::size_t i) {
   const Loads& l = *now.loads;
   if (l.place[i] == no_id) return;
   const Loads::Range& r = l.range[l.place[i]];
   for (Id q = r.point_begin; q < r.point_end; ++q) {
     const PointLoad& p = l.points[q];
-    const double factor = now.factor[static_cast<std::size_t>(p.load)];
-    for (std::size_t k = 0; k < 3; ++k) f[k] += factor * p.weight[k] * p.force;
+    spread(f, p.weight, p.force, now.factor[static_cast<std::size_t>(p.load)]);
   }
   for (Id q = r.edge_begin; q < r.edge_end; ++q) {
     const EdgeLoad& e = l.edges[q];
@@ -363,9 +363,9 @@ EndForces water_on(const BlockSet& b, const LoadsNow& now, const std::vector<dou
 
 Vec2 load_on(const BlockSet& b, const LoadsNow& now, const Pose& pose, std::size_t i) {
   if (now.loads == nullptr) return {};
-  std::array<Vec2, 3> f{};
+  NodeVectors f{};
   add_loads(f, b, now, pose.x, pose.y, i);
-  return f[0] + f[1] + f[2];
+  return resultant(f);
 }
 
 }  // namespace edda

@@ -1,8 +1,7 @@
-// Loads from outside: forces at points, tractions and pressures along lines, water, and the inertia
-// of a ground that shakes.
+// External loads: forces at points, tractions and pressures along lines, water (theory, sections
+// 13.1 and 13.2), and the inertia forces of a shaken frame (13.8).
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -11,7 +10,7 @@
 #include "base/fault.hpp"
 #include "blocks/initial_stress.hpp"
 #include "blocks/pose.hpp"
-#include "lines/polygon_set.hpp"
+#include "cutting/polygon_set.hpp"
 #include "model/model.hpp"
 
 namespace edda {
@@ -19,9 +18,9 @@ namespace edda {
 /// A force of constant direction on a material point.
 struct PointLoad {
   Id block;
-  std::array<double, 3> weight;  ///< of the point
-  Vec2 force;                    ///< N
-  Index load;                    ///< row of Model::loads, or that of a keeper (keep_forces())
+  NodeWeights weight;  ///< weights of the nodes at the point
+  Vec2 force;          ///< N
+  Index load;          ///< row of Model::loads, or that of an owner (keep_wall_forces())
 };
 
 /// Traction or pressure on the part of an edge from s = from to s = to (0: its first vertex, 1: its
@@ -30,18 +29,18 @@ struct EdgeLoad {
   Id edge;
   double from, to;
   Vec2 traction;     ///< N per m of edge as it was at the start
-  double pressure;   ///< N per m of edge as it is, against its outward normal
-  Index load;        ///< row of Model::loads, or their number and the row of Model::boundaries
+  double pressure;   ///< N per m of edge as it is now, against its outward normal
+  Index load;        ///< row of Model::loads, or their number plus the row of Model::boundaries
   EndForces ends{};  ///< N: of constant direction, on the ends of the part
 };
 
-/// What the forces at the ends of a part are on the two vertices of its edge.
+/// Forces on the two vertices of an edge that are equivalent to forces at the ends of a part of it.
 inline EndForces on_vertices(double from, double to, const EndForces& ends) {
   return {(1.0 - from) * ends.at_from + (1.0 - to) * ends.at_to,
           from * ends.at_from + to * ends.at_to};
 }
 
-/// Water on a part of an edge, over which the table is straight.
+/// Water on a part of an edge under one straight piece of the table.
 struct WetEdge {
   Id edge;
   double from, to;
@@ -49,117 +48,118 @@ struct WetEdge {
   Index water;                  ///< row of Model::waters
 };
 
-/// What comes and goes little by little in a stage until equilibrium, in place of at once: whatever
-/// begins or ends to act at one time.
-struct GentleChange {
+/// Gradual application, in a stage until equilibrium, of all that begins or ends to act at one
+/// time.
+struct GradualChange {
   double at = -1.0;     ///< s: that time
-  double part = 1.0;    ///< of it that has come; 1: all
-  bool weight = false;  ///< gravity itself comes so
+  double part = 1.0;    ///< fraction applied; 1: all
+  bool weight = false;  ///< gravity is applied gradually, too
 };
 
-/// When something acts, s. At the instant of a jump its part is the mean of both sides, so that a
-/// leapfrog that has this instant amid its step begins and ends where it should.
-struct Spell {
-  double since = 0.0;  ///< histories run from here; infinite: it does not act yet
+/// The interval in which something is active, s. At the instant of a jump it counts half, so that a
+/// leapfrog, whose step extends to both sides of this instant, begins and ends it at the right
+/// time.
+struct ActiveInterval {
+  double since = 0.0;  ///< histories count from here; infinite: not active yet
   double until = std::numeric_limits<double>::infinity();
   bool acts() const { return std::isfinite(since) && !std::isfinite(until); }
   double part(double time) const {
     if (time < since || time > until) return 0.0;
     return (time == since && since > 0.0) || time == until ? 0.5 : 1.0;
   }
-  double part(double time, const GentleChange& gentle) const {
-    if (gentle.part < 1.0 && until == gentle.at) return 1.0 - gentle.part;
-    return gentle.part < 1.0 && since == gentle.at && time <= until ? gentle.part : part(time);
+  double part(double time, const GradualChange& gradual) const {
+    if (gradual.part < 1.0 && until == gradual.at) return 1.0 - gradual.part;
+    return gradual.part < 1.0 && since == gradual.at && time <= until ? gradual.part : part(time);
   }
 };
 
-/// Of what stages may switch on and off.
-struct Spells {
-  std::vector<Spell> loads;       ///< [rows of Model::loads]
-  std::vector<Spell> waters;      ///< [rows of Model::waters]
-  std::vector<Spell> boundaries;  ///< [rows of Model::boundaries]
-  std::vector<Spell> shakings;    ///< [rows of Model::shakings]
+/// The active intervals of everything that stages may activate or deactivate.
+struct ActiveIntervals {
+  std::vector<ActiveInterval> loads;       ///< [rows of Model::loads]
+  std::vector<ActiveInterval> waters;      ///< [rows of Model::waters]
+  std::vector<ActiveInterval> boundaries;  ///< [rows of Model::boundaries]
+  std::vector<ActiveInterval> shakings;    ///< [rows of Model::shakings]
 };
 
-/// How much of the forces on a keeper (see KeptForce) is still there: now, and before the last
+/// The fraction of the forces of an owner (see WallForce) that still acts: now, and before the last
 /// change.
-struct Hold {
+struct RemainingFraction {
   double part = 0.0, before = 0.0;
   double changed = -1.0;  ///< s
   double at(double time) const { return time == changed ? 0.5 * (before + part) : part; }
-  double at(double time, const GentleChange& gentle) const {
-    return gentle.part < 1.0 && changed == gentle.at ? before + gentle.part * (part - before)
-                                                     : at(time);
+  double at(double time, const GradualChange& gradual) const {
+    return gradual.part < 1.0 && changed == gradual.at ? before + gradual.part * (part - before)
+                                                       : at(time);
   }
   void change(double to, double time) { *this = {to, time == changed ? before : part, time}; }
 };
 
-/// All of them, each list sorted by block, on blocks that are not held.
+/// All loads, each list sorted by block, on free blocks.
 struct Loads {
   std::vector<PointLoad> points;
   std::vector<EdgeLoad> edges;
   std::vector<WetEdge> wet;
-  std::vector<Id> blocks;  ///< that carry any, ascending
+  std::vector<Id> blocks;  ///< blocks that carry any, ascending
   struct Range {
     Id point_begin, point_end, edge_begin, edge_end, wet_begin, wet_end;
   };
   std::vector<Range> range;  ///< [blocks]
   std::vector<Id> place;     ///< [nb] index into `blocks`, or no_id; empty where there are none
-  Spells spells;
-  std::vector<Hold> held;  ///< [keepers]
-  GentleChange gentle;
+  ActiveIntervals intervals;
+  std::vector<RemainingFraction> remaining;  ///< [owners] fraction of wall forces that still acts
+  GradualChange gradual;
 };
 
-/// Loads as they act at one time.
+/// Loads at one time.
 struct LoadsNow {
   const Loads* loads = nullptr;  ///< null: there are none
-  std::vector<double> factor;    ///< [rows of Model::loads, those of Model::boundaries, keepers]
+  std::vector<double> factor;    ///< [rows of Model::loads, those of Model::boundaries, owners]
   std::vector<double> rise;      ///< [rows of Model::waters] m
-  std::vector<double> weight;    ///< [rows of Model::waters] N/m3 times thickness
+  std::vector<double> weight;    ///< [rows of Model::waters] unit weight times thickness, N/m2
   const Bolts* bolts = nullptr;  ///< with their forces at this time; null: there are none
-  const std::vector<std::array<Vec2, 3>>* on_nodes =
-      nullptr;   ///< [nb] N, of contacts at points (contacts/points.hpp); null: contacts are faces
-  Vec2 frame;    ///< m/s2: acceleration of the ground that all blocks feel backwards
-  Vec2 to_come;  ///< m/s2: what of gravity has not come yet (GentleChange::weight)
-  /// What gravity is less by.
-  Vec2 less_gravity() const { return frame + to_come; }
+  const std::vector<NodeVectors>* on_nodes =
+      nullptr;   ///< [nb] N, of point contacts (contacts/points.hpp); null: contacts are faces
+  Vec2 frame;    ///< m/s2: acceleration of the frame; all blocks feel its opposite
+  Vec2 to_come;  ///< m/s2: gravity that is not yet applied (GradualChange::weight)
+  /// What is to be subtracted from gravity.
+  Vec2 gravity_reduction() const { return frame + to_come; }
 };
 
-/// Finds what the loads, waters and boundaries of type stress act on. One that finds nothing is a
-/// fault.
+/// Finds the points and faces on which the loads, waters and boundaries of type stress act. A load
+/// without any is a fault.
 Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const BlockSet& blocks);
 
 /// Adds loads on faces to the lists.
 void add_edge_loads(const BlockSet& blocks, const std::vector<EdgeLoad>& more, Loads& loads);
 
-/// A force on a vertex, N, of something that has gone: rock taken out, or a boundary that another
-/// has taken over from. Its keeper says how much of it is still there: a row of Model::openings, or
-/// their number and the row of the Model::boundaries that took over.
-struct KeptForce {
+/// A force on a vertex, N, of something that is no longer there: excavated rock, or a boundary that
+/// another took over from. Its owner determines the fraction that still acts (Loads::remaining): a
+/// row of Model::openings, or their number plus the row of the Model::boundaries that took over.
+struct WallForce {
   Id vertex;
   Vec2 force;
-  Index keeper;
+  Index owner;
 };
 
-/// Puts these forces among the loads, of which the part Loads::held is there.
-void keep_forces(const Model& model, const BlockSet& blocks, const std::vector<KeptForce>& forces,
-                 Loads& loads);
-/// Takes those on one keeper out again.
-void drop_forces(const Model& model, const BlockSet& blocks, Index keeper, Loads& loads);
+/// Adds these forces to the loads; Loads::remaining has the fractions that act.
+void keep_wall_forces(const Model& model, const BlockSet& blocks,
+                      const std::vector<WallForce>& forces, Loads& loads);
+/// Removes the forces of one owner.
+void remove_wall_forces(const Model& model, const BlockSet& blocks, Index owner, Loads& loads);
 
 LoadsNow loads_at(const Model& model, const Loads& loads, double time);
 
-/// Adds what acts on block i, its vertices at `x`, `y`, to the forces on its nodes, N. Water:
-/// gamma (level + rise - y) across each edge where that is positive.
-void add_loads(std::array<Vec2, 3>& on_nodes, const BlockSet& blocks, const LoadsNow& now,
+/// Adds the loads on block i, its vertices at `x`, `y`, to the forces on its nodes, N. Water:
+/// pressure gamma (level + rise - y) on each edge where that is positive.
+void add_loads(NodeVectors& on_nodes, const BlockSet& blocks, const LoadsNow& now,
                const std::vector<double>& x, const std::vector<double>& y, std::size_t i);
 
-/// What the water on the part from s = from to s = to of a face does, as forces on the ends of that
-/// part; its vertices at `x`, `y`.
+/// Forces of the water on the part from s = from to s = to of a face, at the ends of that part; its
+/// vertices at `x`, `y`.
 EndForces water_on(const BlockSet& blocks, const LoadsNow& now, const std::vector<double>& x,
                    const std::vector<double>& y, Id edge, double from, double to);
 
-/// Their resultant on block i at the pose, N.
+/// Resultant of the loads on block i at the pose, N.
 Vec2 load_on(const BlockSet& blocks, const LoadsNow& now, const Pose& pose, std::size_t i);
 
 }  // namespace edda

@@ -1,9 +1,9 @@
-// Columns of numbers, one row an element, that lie together in one table, rows in chunks:
+// Tables of numbers, one row per element, stored in chunks of rows:
 // [chunk][column][16]. A loop over several elements at once (base/vector_loop.hpp) so reads one
-// stretch of memory, and where a column lies follows from where the chunk begins.
+// contiguous piece of memory, and the address of a column follows from that of the chunk.
 //
 // The columns of a table are a struct of fields, `template <class C> struct Fields { C a, b; };`,
-// which is Fields<ChunkColumn> for all that takes a row by its number, Fields<double*> for a loop
+// which is Fields<ChunkColumn> for access by the number of a row, Fields<double*> for a loop
 // over one chunk, and a list of these fields, `template <class C> constexpr Field<C> list[]`, whose
 // entries have the field as `values`.
 #pragma once
@@ -21,7 +21,7 @@ namespace edda {
 
 inline constexpr std::size_t chunk_rows = 16;
 
-/// Memory that begins with a cache line, or every load of eight numbers would touch two of them.
+/// Memory aligned to cache lines; otherwise every load of eight numbers would touch two of them.
 template <class T>
 struct InWholeLines {
   using value_type = T;
@@ -88,13 +88,13 @@ class ChunkTable : public Columns {
   ~ChunkTable() = default;
 
   std::size_t rows() const { return rows_; }
-  /// All values become 0.
+  /// Sets all values to 0.
   void clear_rows(std::size_t rows) {
     rows_ = rows;
     cells_.assign((rows + chunk_rows - 1) / chunk_rows * stride, 0.0);
     bind();
   }
-  /// Makes `row` what row `from` of another table is, in the columns that are chosen.
+  /// Copies row `from` of another table to `row`, in the chosen columns.
   template <class Choice>
   void copy_row(std::size_t row, const ChunkTable& other, std::size_t from, Choice chosen) {
     double* const to = begin_of_chunk(row / chunk_rows) + row % chunk_rows;

@@ -1,4 +1,4 @@
-// A fault in what the user gave: a value with place, key and remedy, never an exception or an exit.
+// A fault in the input: a value with place, key and remedy, never an exception or an exit.
 #pragma once
 
 #include <string>
@@ -25,10 +25,10 @@ struct Fault {
 
 using Faults = std::vector<Fault>;
 
-/// `FILE:LINE:COLUMN: key: problem: remedy`, leaving out what is empty.
+/// `FILE:LINE:COLUMN: key: problem: remedy`, without the parts that are empty.
 std::string to_string(const Fault& fault);
 
-/// A T, or the faults that stand in its way. No exceptions; test with ok() before value().
+/// A T, or the faults that prevent it. No exceptions; test with ok() before value().
 template <class T>
 class Result {
  public:

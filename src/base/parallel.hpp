@@ -5,7 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#ifndef EDDA_WORTH_SHARING  // builds that look for races and differences share every loop
+#ifndef EDDA_WORTH_SHARING  // builds that look for races and differences divide every loop among
+                            // threads
 #define EDDA_WORTH_SHARING 8192
 #endif
 
@@ -14,8 +15,8 @@ namespace edda {
 /// Loops shorter than this are not worth waking other threads for.
 inline constexpr std::size_t worth_sharing = EDDA_WORTH_SHARING;
 
-/// Blocks that go through all stages of a step together, so that what one stage leaves is at hand
-/// for the next.
+/// Blocks that go through all stages of a step together, so that the results of one stage are still
+/// in the cache for the next.
 inline constexpr std::size_t blocks_at_once = 256;
 
 /// Calls body(i) for i in [0, n), in parallel. body must write only what belongs to i.
@@ -34,7 +35,11 @@ void parallel_for(std::size_t n, Body body) {
 template <class Body>
 void parallel_chunks(std::size_t n, std::size_t size, Body body) {
   const std::size_t chunks = (n + size - 1) / size;
-#pragma omp parallel for schedule(static) if (n >= worth_sharing)
+  if (n < worth_sharing) {
+    for (std::size_t c = 0; c < chunks; ++c) body(c, c * size, std::min(n, (c + 1) * size));
+    return;
+  }
+#pragma omp parallel for schedule(static)
   for (std::size_t c = 0; c < chunks; ++c) body(c, c * size, std::min(n, (c + 1) * size));
 }
 
@@ -43,14 +48,17 @@ void parallel_chunks(std::size_t n, std::size_t size, Body body) {
 template <class Term>
 double ordered_sum(std::size_t n, Term term) {
   constexpr std::size_t chunk = 4096;
+  const auto sum_of = [&](std::size_t begin, std::size_t end) {
+    double sum = 0.0;
+    for (std::size_t i = begin; i < end; ++i) sum += term(i);
+    return sum;
+  };
+  if (n <= chunk) return sum_of(0, n);
   const std::size_t chunks = (n + chunk - 1) / chunk;
   std::vector<double> partial(chunks, 0.0);
-#pragma omp parallel for schedule(static) if (chunks > 1)
+#pragma omp parallel for schedule(static)
   for (std::size_t c = 0; c < chunks; ++c) {
-    const std::size_t end = std::min(n, (c + 1) * chunk);
-    double sum = 0.0;
-    for (std::size_t i = c * chunk; i < end; ++i) sum += term(i);
-    partial[c] = sum;
+    partial[c] = sum_of(c * chunk, std::min(n, (c + 1) * chunk));
   }
   double sum = 0.0;
   for (double p : partial) sum += p;

@@ -97,9 +97,9 @@ int side_of(std::span<const Ring> rings, Vec2 point, double tolerance) {
   return inside ? 1 : -1;
 }
 
-/// Andrew's monotone chain, then calipers that turn round the hull: the farthest corner from an
-/// edge only moves on as the edges turn. Points that lie straight but for rounding are none of its
-/// corners: between them that corner could not be told.
+/// Andrew's monotone chain, then rotating calipers: the farthest corner from an edge only moves
+/// forward from edge to edge. Points that are collinear within rounding are not corners of the
+/// hull: among them the farthest corner would be undetermined.
 double least_width(std::span<const Vec2> points) {
   std::vector<Vec2> p(points.begin(), points.end());
   const auto before = [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };

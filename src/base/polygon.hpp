@@ -20,7 +20,7 @@ struct Moments {
 };
 
 /// Moments of the region bounded by `rings`: counter-clockwise rings count positive, clockwise ones
-/// (holes) negative, so any simple polygon, convex or not, is exact (method.md section 2; the
+/// (holes) negative, so any simple polygon, convex or not, is exact (theory, section 1.2; the
 /// paper's "simplex integration"). The sum is formed about the first vertex, so that a polygon far
 /// from the origin keeps its digits. A region of zero area has zero second moments and its first
 /// vertex as centroid.
@@ -32,8 +32,8 @@ double signed_area(std::span<const Vec2> ring);
 /// +1 inside, 0 on an edge (within `tolerance`), -1 outside the region bounded by `rings`.
 int side_of(std::span<const Ring> rings, Vec2 point, double tolerance);
 
-/// Distance between the closest two parallel lines that hold all points between them: the width of
-/// their convex hull, whichever way it is turned. 0 for fewer than three. O(n log n).
+/// Distance between the closest two parallel lines that hold all points between them: the least
+/// width of their convex hull in any direction. 0 for fewer than three points. O(n log n).
 double least_width(std::span<const Vec2> points);
 
 /// Whether the closed ring touches or crosses itself (edges that are not neighbours meet, or

@@ -1,6 +1,6 @@
 // Random numbers that are the same on every compiler and processor: whole-number arithmetic, and
 // the four operations and square roots, which are exactly rounded. The library's distributions, and
-// its log and exp, are left aside: they may differ from one system to the next.
+// its log and exp, are not used: they may differ between systems.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace edda {
 /// that any number of independent streams can be started from keys.
 class Random {
  public:
-  /// The stream of a key: a seed mixed with whatever tells one use from another.
+  /// The stream of a key: a seed mixed with whatever distinguishes one use from another.
   explicit Random(std::uint64_t key) : state_(key) {}
 
   std::uint64_t next();
@@ -30,9 +30,9 @@ std::uint64_t mixed(std::uint64_t key, std::uint64_t value);
 /// As above, with the bytes of a text.
 std::uint64_t mixed(std::uint64_t key, std::string_view text);
 
-/// Natural logarithm of x > 0, to 2e-16 of it and 2e-16.
+/// Natural logarithm of x > 0, with a relative and an absolute error of 2e-16.
 double portable_log(double x);
-/// e to the x, to 1e-15 of it; x within +-700.
+/// e to the x, with a relative error of 1e-15; x within +-700.
 double portable_exp(double x);
 
 }  // namespace edda

@@ -12,7 +12,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// In place, of 2^k values.
+/// Fast Fourier transform of 2^k values, in place.
 void fourier(std::vector<Complex>& a) {
   const std::size_t n = a.size();
   for (std::size_t i = 1, j = 0; i < n; ++i) {
@@ -34,7 +34,8 @@ void fourier(std::vector<Complex>& a) {
   }
 }
 
-/// At equal intervals, x + iy about the mean, padded with zeros to four times as many.
+/// The curve at equal intervals as x + iy about its mean, padded with zeros to four times the
+/// number.
 std::vector<Complex> samples(const std::vector<double>& time, const std::vector<Vec2>& value,
                              std::size_t count) {
   const double span = time.back() - time.front();

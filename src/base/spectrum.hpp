@@ -1,4 +1,4 @@
-// The frequency that a record shakes with most.
+// The dominant frequency of a ground motion record.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@ namespace edda {
 
 /// Frequency of the largest Fourier amplitude of a curve in the plane, about its mean, Hz. `time`
 /// ascends, the curve is straight between its points. 0 where there is none: fewer than three
-/// points, or nothing that changes.
+/// points, or a constant curve.
 double dominant_frequency(const std::vector<double>& time, const std::vector<Vec2>& value);
 
 }  // namespace edda

@@ -1,4 +1,4 @@
-// What readers of text and writers of messages share.
+// Helpers for reading text and writing messages.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace edda {
 
-/// Without blanks, tabs and carriage returns at its ends.
+/// The text without blanks, tabs and carriage returns at its ends.
 inline std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t\r";
   const std::size_t first = text.find_first_not_of(blanks);
@@ -21,7 +21,7 @@ inline std::string counted(std::size_t n, const char* one) {
   return std::to_string(n) + ' ' + one + (n == 1 ? "" : "s");
 }
 
-/// With so many digits at most, as %g has it.
+/// The number with at most that many digits, as %g prints it.
 inline std::string number_text(double value, int digits = 6) {
   char text[32];
   std::snprintf(text, sizeof text, "%.*g", digits, value);

@@ -11,15 +11,15 @@ namespace {
 
 constexpr double trial_seconds = 0.02;
 constexpr std::size_t trial_steps = 2;
-// Trials of what is not the best then take 2 % of the time. At first a choice holds for less: early
-// steps are unlike others.
+// Trials of slower numbers then take 2 % of the time. At first a choice is kept for less time,
+// since early steps differ from later ones.
 constexpr double most_patience = 50.0;
 
 std::atomic<bool> said{false};
 
 }  // namespace
 
-void say_threads(int threads) {
+void report_threads(int threads) {
   omp_set_num_threads(threads);
   said = true;
 }
@@ -30,7 +30,7 @@ SameThreads::~SameThreads() {
   omp_set_num_threads(threads_);
 }
 
-bool threads_are_said() {
+bool threads_are_given() {
   return said || std::getenv("OMP_NUM_THREADS") != nullptr;
 }
 

@@ -1,4 +1,4 @@
-// How many threads share the loops of base/parallel.hpp.
+// Number of threads of the loops of base/parallel.hpp.
 #pragma once
 
 #include <cstddef>
@@ -6,10 +6,10 @@
 
 namespace edda {
 
-/// From now on the loops that this thread calls, and the steps of every run, take `threads` (1 or
-/// more).
-void say_threads(int threads);
-/// At its end this thread has as many threads for its loops again as it had at the start.
+/// From now on the loops that this thread calls, and the steps of every run, use `threads` threads
+/// (1 or more).
+void report_threads(int threads);
+/// Restores at its end the number of threads that this thread's loops had at its start.
 class SameThreads {
  public:
   SameThreads();
@@ -20,21 +20,21 @@ class SameThreads {
  private:
   int threads_;
 };
-/// Whether somebody has said how many: say_threads(), or OMP_NUM_THREADS.
-bool threads_are_said();
+/// Whether the number of threads has been set, by report_threads() or OMP_NUM_THREADS.
+bool threads_are_given();
 
-/// Threads that wait for one another lose more than they bring where a model is small, or where
-/// another program has their cores: then each loop lasts as long as the thread that is not let run.
-/// So steps are timed with all threads, with half of them and with one, and go on with the
-/// quickest; again after a while, as others come and go. Results do not depend on the number
+/// Chooses the number of threads by timing. More threads are slower where a model is small, or
+/// where another program uses the cores: each loop then waits for the thread that is not running.
+/// So steps are timed with all threads, with half of them and with one, and continue with the
+/// fastest number; this is repeated after a while. Results do not depend on the number
 /// (base/parallel.hpp).
 class ThreadChoice {
  public:
   /// Up to `most`, 1 or more.
   explicit ThreadChoice(int most);
-  /// For the next step.
+  /// Number of threads for the next step.
   int now() const { return candidates_[at_]; }
-  /// That step has taken so many seconds.
+  /// Reports the time that this step has taken, s.
   void stepped(double seconds);
 
  private:

@@ -1,4 +1,4 @@
-// Plane vectors. x right, y up; units are the caller's (metres unless said otherwise).
+// Plane vectors. x right, y up; units are the caller's (metres unless stated otherwise).
 #pragma once
 
 #include <algorithm>
@@ -44,7 +44,7 @@ constexpr double dot(Vec2 a, Vec2 b) {
 constexpr double cross(Vec2 a, Vec2 b) {
   return a.x * b.y - a.y * b.x;
 }
-/// a turned by +90 degrees.
+/// a rotated by +90 degrees.
 constexpr Vec2 perp(Vec2 a) {
   return {-a.y, a.x};
 }
@@ -65,7 +65,7 @@ inline double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
   const double s = length2 > 0.0 ? std::clamp(dot(p - a, u) / length2, 0.0, 1.0) : 0.0;
   return norm(p - (a + s * u));
 }
-/// a turned counter-clockwise by `angle` radians.
+/// a rotated counter-clockwise by `angle` radians.
 inline Vec2 rotated(Vec2 a, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * a.x - s * a.y, s * a.x + c * a.y};

@@ -2,18 +2,18 @@
 //
 // A hot loop is written for one element, with the same inline formulas as everywhere else, in a
 // function of its own that is marked EDDA_VECTOR, under `#pragma omp simd`. g++ then compiles the
-// function for AVX-512, for AVX2 and for any processor, and the program takes what its processor
-// knows when it starts. Every element goes through the same roundings in all of them (no sum runs
-// across elements, no multiply-add is fused), so the bits are the same on every processor.
+// function for AVX-512, for AVX2 and for any processor, and the program chooses by its processor
+// when it starts. Every element goes through the same roundings in all of them (no sum runs across
+// elements, no multiply-add is fused), so the bits are the same on every processor.
 //
-// What such a loop calls must be inlined before the function is compiled three times: the mark
-// EDDA_INLINE sees to it.
+// Functions that such a loop calls must be inlined before the function is compiled three times;
+// they are marked EDDA_INLINE.
 //
-// Vectors and other structures belong into those inlined functions, not into the body of the loop
+// Vectors and other structures belong in those inlined functions, not into the body of the loop
 // itself, where OpenMP would keep them in memory.
 //
-// To be worth it such a loop has no branches but selections, arrays of one width (double, with Id
-// as an index), and no sums over its elements: largest values only.
+// To be fast such a loop has selections and no branches, arrays of one width (double, with Id
+// as an index), and no sums over its elements: only largest values.
 #pragma once
 
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__OPTIMIZE__) && \
@@ -23,15 +23,15 @@
 #define EDDA_VECTOR
 #endif
 
-/// A formula of hot loops.
+/// Marks a function that hot loops call.
 #define EDDA_INLINE [[gnu::always_inline]] inline
 
 namespace edda {
 
-/// Four numbers that are added as one, for sums too short for a loop over several.
+/// Four numbers that are added together, for sums too short for a loop over several.
 using Four __attribute__((vector_size(32))) = double;
 
-/// std::max by value: a choice between references is not one that g++ takes for several elements.
+/// std::max by value: g++ does not vectorise a choice between references.
 EDDA_INLINE double larger(double a, double b) {
   return a < b ? b : a;
 }

@@ -6,7 +6,8 @@
 #include <numbers>
 
 #include "blocks/cover.hpp"
-#include "blocks/point_mass.hpp"
+#include "blocks/kinematics.hpp"
+#include "cutting/triangulate.hpp"
 
 namespace edda {
 namespace {
@@ -25,7 +26,8 @@ Lame lame(const Material& m, Plane plane) {
   return {lambda, mu};
 }
 
-/// Half the least distance between two parallel lines that hold the ring between them.
+/// Half the least distance between two parallel lines, one of them along an edge, that enclose the
+/// ring.
 double half_width(std::span<const Vec2> ring) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -50,7 +52,7 @@ double interior_angle(Vec2 before, Vec2 at, Vec2 after) {
 }
 
 void add_vertices(BlockSet& b, const BlockPolygon& polygon, const Moments& m,
-                  const std::array<Vec2, 3>& g) {
+                  const NodeVectors& g) {
   const Id block = static_cast<Id>(b.area.size());
   double smallest_edge = std::numeric_limits<double>::infinity(), radius = 0.0;
   for (std::size_t r = 0; r < polygon.rings.size(); ++r) {
@@ -59,8 +61,8 @@ void add_vertices(BlockSet& b, const BlockPolygon& polygon, const Moments& m,
     const Id n = static_cast<Id>(ring.size());
     for (Id i = 0; i < n; ++i) {
       const Vec2 p = ring[i], after = ring[(i + 1) % n], before = ring[(i + n - 1) % n];
-      for (std::size_t k = 0; k < 3; ++k) {
-        b.weight[k].push_back(1.0 / 3.0 + dot(g[k], p - m.centroid));
+      for (std::size_t k = 0; k < nodes_per_block; ++k) {
+        b.weight[k].push_back(centroid_weights[k] + dot(g[k], p - m.centroid));
       }
       b.vertex_block.push_back(block);
       b.next.push_back(first + (i + 1) % n);
@@ -69,8 +71,8 @@ void add_vertices(BlockSet& b, const BlockPolygon& polygon, const Moments& m,
       b.edge_length.push_back(norm(after - p));
       b.corner.push_back(interior_angle(before, p, after));
       const bool reentrant = b.corner.back() > std::numbers::pi * 1.001;
-      b.turn_cosine.push_back(reentrant ? 0.0 : -std::cos(b.corner.back()));
-      b.turn_sine.push_back(reentrant ? 1.0 : std::sin(b.corner.back()));
+      b.exterior_cosine.push_back(reentrant ? 0.0 : -std::cos(b.corner.back()));
+      b.exterior_sine.push_back(reentrant ? 1.0 : std::sin(b.corner.back()));
       b.vertex_x.push_back(p.x);
       b.vertex_y.push_back(p.y);
       smallest_edge = std::min(smallest_edge, norm(after - p));
@@ -81,14 +83,25 @@ void add_vertices(BlockSet& b, const BlockPolygon& polygon, const Moments& m,
   b.radius.push_back(radius);
 }
 
-/// Room for all, so that no array ends with twice what it needs.
+/// Of a block whose vertices are there, if it is not convex.
+void add_triangles(BlockSet& b, const BlockPolygon& polygon) {
+  if (polygon.rings.size() == 1 && is_convex(polygon.rings[0])) return;
+  const Id block = static_cast<Id>(b.vertex_begin.size() - 1), first = b.vertex_begin[block];
+  std::vector<std::array<Id, 3>> triangles = triangulate(polygon.rings);
+  for (std::array<Id, 3>& triangle : triangles) {
+    for (Id& corner : triangle) corner += first;
+  }
+  b.triangles[block] = std::move(triangles);
+}
+
+/// Reserves exact sizes, so that no array ends with excess capacity.
 void reserve(BlockSet& b, const std::vector<BlockPolygon>& polygons) {
   const std::size_t nb = polygons.size();
   std::size_t nv = 0;
   for (const BlockPolygon& polygon : polygons) {
     for (const Ring& ring : polygon.rings) nv += ring.size();
   }
-  for (auto* nodes : {&b.grad_x, &b.grad_y, &b.node_x, &b.node_y, &b.node_mass}) {
+  for (auto* nodes : {&b.grad_x, &b.grad_y, &b.node_x, &b.node_y}) {
     for (auto& values : *nodes) values.reserve(nb);
   }
   for (auto* values : {&b.volume, &b.lame_lambda, &b.lame_mu, &b.area, &b.mass, &b.damping,
@@ -100,7 +113,7 @@ void reserve(BlockSet& b, const std::vector<BlockPolygon>& polygons) {
   b.vertex_begin.reserve(nb + 1);
   for (auto& values : b.weight) values.reserve(nv);
   for (auto* values :
-       {&b.edge_length, &b.corner, &b.turn_cosine, &b.turn_sine, &b.vertex_x, &b.vertex_y})
+       {&b.edge_length, &b.corner, &b.exterior_cosine, &b.exterior_sine, &b.vertex_x, &b.vertex_y})
     values->reserve(nv);
   for (auto* ids : {&b.vertex_block, &b.next, &b.previous}) ids->reserve(nv);
   b.edge_joint.reserve(nv);
@@ -120,20 +133,20 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
     const Material& material = model.materials[static_cast<std::size_t>(polygon.material)];
     const bool matched = model.solver.mass == MassKind::matched;
     const Cover cover = matched ? matched_cover(m) : covering_cover(polygon.rings[0], m.centroid);
-    const std::array<Vec2, 3> g = gradients(cover);
+    const NodeVectors g = gradients(cover);
     const double volume = m.area * model.thickness;
     const double mass = material.density * volume;
     const Lame elastic = lame(material, model.plane);
     add_vertices(b, polygon, m, g);
-    for (std::size_t k = 0; k < 3; ++k) {
+    add_triangles(b, polygon);
+    for (std::size_t k = 0; k < nodes_per_block; ++k) {
       b.grad_x[k].push_back(g[k].x);
       b.grad_y[k].push_back(g[k].y);
       b.node_x[k].push_back(cover[k].x);
       b.node_y[k].push_back(cover[k].y);
-      b.node_mass[k].push_back(mass / 3.0);
     }
     if (model.solver.mass == MassKind::consistent) {
-      std::array<double, 6> per_mass = consistent_mass(m, g, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0});
+      std::array<double, 6> per_mass = consistent_mass(m, g, centroid_weights);
       const std::array<double, 6> inverse = inverse_symmetric(per_mass);
       for (std::size_t e = 0; e < 6; ++e) b.inverse_mass[e].push_back(inverse[e] / mass);
     }
@@ -155,28 +168,22 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
     if (!polygon.name.empty()) b.names[static_cast<Id>(b.area.size() - 1)] = polygon.name;
     b.vertex_begin.push_back(static_cast<Id>(b.vertex_block.size()));
   }
-  fill_point_masses(b);
   return b;
 }
 
 State initial_state(const BlockSet& b, const PolygonSet& polygons) {
   State s;
   const std::size_t nb = b.size();
-  for (std::size_t k = 0; k < 3; ++k) {
-    s.x[k] = b.node_x[k];
-    s.y[k] = b.node_y[k];
-    s.vx[k].resize(nb);
-    s.vy[k].resize(nb);
-    for (std::size_t i = 0; i < nb; ++i) {
-      const BlockPolygon& p = polygons.blocks[i];
-      const Vec2 arm{b.node_x[k][i] - b.centroid_x[i], b.node_y[k][i] - b.centroid_y[i]};
-      const Vec2 v = p.velocity + p.angular_velocity * perp(arm);
-      s.vx[k][i] = p.fixed ? 0.0 : v.x;
-      s.vy[k][i] = p.fixed ? 0.0 : v.y;
-    }
+  s.from_x = s.x = b.node_x;
+  s.from_y = s.y = b.node_y;
+  s.vx = s.vy = zero_nodes(nb);
+  for (std::size_t i = 0; i < nb; ++i) {
+    const BlockPolygon& p = polygons.blocks[i];
+    if (p.fixed) continue;
+    const Vec2 centre{b.centroid_x[i], b.centroid_y[i]};
+    store(rigid_velocities(vectors_of(s.x, s.y, i), centre, p.velocity, p.angular_velocity), s.vx,
+          s.vy, i);
   }
-  s.from_x = s.x;
-  s.from_y = s.y;
   s.alive.assign(nb, 1);
   s.turns.assign(nb, 0);
   return s;

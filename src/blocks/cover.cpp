@@ -9,6 +9,8 @@
 namespace edda {
 namespace {
 
+static_assert(nodes_per_block == 3, "a cover is a triangle");
+
 constexpr double third_turn = 2.0 * std::numbers::pi / 3.0;
 
 Vec2 direction(double angle) {
@@ -35,7 +37,8 @@ std::vector<Vec2> convex_hull(std::span<const Vec2> ring) {
   return hull;
 }
 
-/// Inradius of the centred equilateral triangle whose sides face `angle` and its thirds.
+/// Inradius of the centred equilateral triangle that contains the hull, with side normals at
+/// `angle` and at 120 degrees to it.
 double inradius_at(std::span<const Vec2> hull, Vec2 centroid, double angle) {
   double r = 0.0;
   for (int k = 0; k < 3; ++k) {
@@ -72,8 +75,8 @@ Cover matched_cover(const Moments& m) {
 
 Cover covering_cover(std::span<const Vec2> ring, Vec2 centroid) {
   // r(angle) is the largest of three support functions, each a sinusoid between the normals of two
-  // hull edges. Sinusoids are concave where they matter, so the least r lies either at an edge
-  // normal or where two of the three cross; we try them all.
+  // hull edges. The sinusoids are concave where they are the largest, so the least r lies either at
+  // an edge normal or where two of the three intersect. All of these are tried.
   const std::vector<Vec2> hull = convex_hull(ring);
   std::vector<double> breaks;
   for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -112,7 +115,7 @@ Cover covering_cover(std::span<const Vec2> ring, Vec2 centroid) {
       }
     }
   }
-  // Corners face away from the sides, at twice the inradius.
+  // Corners lie opposite the sides, at twice the inradius.
   Cover cover;
   for (int k = 0; k < 3; ++k) {
     const double angle = best_angle + std::numbers::pi + k * third_turn;
@@ -121,9 +124,9 @@ Cover covering_cover(std::span<const Vec2> ring, Vec2 centroid) {
   return cover;
 }
 
-std::array<Vec2, 3> gradients(const Cover& cover) {
+NodeVectors gradients(const Cover& cover) {
   const double twice_area = cross(cover[1] - cover[0], cover[2] - cover[0]);
-  std::array<Vec2, 3> g;
+  NodeVectors g;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec2 side = cover[(k + 2) % 3] - cover[(k + 1) % 3];
     g[k] = perp(side) / twice_area;
@@ -131,8 +134,8 @@ std::array<Vec2, 3> gradients(const Cover& cover) {
   return g;
 }
 
-std::array<double, 6> consistent_mass(const Moments& m, const std::array<Vec2, 3>& gradient,
-                                      const std::array<double, 3>& centroid_weight) {
+std::array<double, 6> consistent_mass(const Moments& m, const NodeVectors& gradient,
+                                      const NodeWeights& centroid_weight) {
   std::array<double, 6> mass{};
   std::size_t entry = 0;
   for (std::size_t k = 0; k < 3; ++k) {

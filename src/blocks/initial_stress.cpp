@@ -7,7 +7,7 @@
 namespace edda {
 namespace {
 
-/// Levels at which the ring meets the upright line at x, ascending. A corner counts with the edge
+/// Levels at which the ring crosses the vertical line at x, unsorted. A corner counts with the edge
 /// to its right.
 void add_crossings(const Ring& ring, double x, std::vector<double>& levels) {
   for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -21,7 +21,7 @@ double density_of(const Model& model, Index material) {
   return material == none ? 0.0 : model.materials[static_cast<std::size_t>(material)].density;
 }
 
-/// Whether all of the rock is alike.
+/// Whether all of the rock has the same density.
 bool one_density(const std::vector<double>& densities) {
   return std::all_of(densities.begin(), densities.end(),
                      [&](double d) { return d == densities.front(); });
@@ -84,7 +84,8 @@ double StressField::column(double x, double y) const {
   }
   levels.push_back(surface);
   std::sort(levels.begin(), levels.end());
-  // From below upwards, so that a gap and what lies above take the density of the rock below them.
+  // From bottom to top, so that a gap and what lies above the rock have the density of the rock
+  // below them.
   double density = 0.0, weight = 0.0, before = 0.0;
   for (std::size_t k = 1; k < levels.size(); ++k) {
     const double from = levels[k - 1], to = levels[k], middle = 0.5 * (from + to);
@@ -94,7 +95,7 @@ double StressField::column(double x, double y) const {
     }
     const double length = std::min(to, surface) - std::max(from, y);
     if (length <= 0.0) continue;
-    // The column may begin below all rock: then it has the density of the first.
+    // Where the column begins below all rock, it has the density of the lowest rock.
     if (density == 0.0) {
       before += length;
     } else {
@@ -117,7 +118,7 @@ double StressField::overburden(Vec2 point) const {
   if (stress.surface == SurfaceKind::level && one_density(densities)) {
     return g * densities.front() * std::max(0.0, *stress.surface_y - point.y);
   }
-  // On an upright edge between two materials both sides count alike.
+  // On a vertical edge between two materials both sides count half.
   const double aside = 1e-9 * (high_ - low_);
   const double left = std::max(point.x - aside, low_ + 0.5 * aside),
                right = std::min(point.x + aside, high_ - 0.5 * aside);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lines/cut_domain.hpp"
+#include "cutting/cut_domain.hpp"
 
 namespace edda {
 namespace {
@@ -27,7 +27,7 @@ double distance_to_rings(const std::vector<Ring>& rings, Vec2 p) {
   return least;
 }
 
-/// How far off an edge a point on it may lie by rounding alone, m.
+/// Largest distance from its edge, by rounding alone, of a point on it, m.
 double rounding_at(const BlockSet& b, Vec2 p, double snap) {
   return std::min(snap, 1e-13 * (extent(b) + norm(p + b.origin)));
 }

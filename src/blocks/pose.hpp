@@ -1,4 +1,4 @@
-// Vertex positions, derived from the nodes: at the step in hand and one step earlier.
+// Vertex positions, derived from the nodes: at the current step and at the two steps before.
 #pragma once
 
 #include <vector>
@@ -13,12 +13,12 @@ struct Pose {
   std::vector<double> x2 = {}, y2 = {};  ///< [nv] at step n - 2, m
 };
 
-/// Vertex v.
+/// Position of vertex v.
 inline Vec2 at(const std::vector<double>& x, const std::vector<double>& y, Id v) {
   return {x[v], y[v]};
 }
 
-/// Vertices of block i from its nodes (Eq. 19).
+/// Computes the vertices of block i from its nodes (Eq. 19).
 inline void place_vertices(const BlockSet& b, const Nodes& x, const Nodes& y, std::size_t i,
                            std::vector<double>& px, std::vector<double>& py) {
   const double x0 = x[0][i], x1 = x[1][i], x2 = x[2][i];
@@ -29,13 +29,13 @@ inline void place_vertices(const BlockSet& b, const Nodes& x, const Nodes& y, st
   }
 }
 
-/// Next vertices of the blocks [begin, end), from their nodes, into pose.x1, y1. Returns the
-/// largest square of a distance from pose.x, y, m2; 1e300 if one is not finite.
+/// Computes the next vertices of the blocks [begin, end) from their nodes, into pose.x1, y1.
+/// Returns the largest squared distance from pose.x, y, m2; 1e300 if one is not finite.
 double place_next(const BlockSet& blocks, const Nodes& x, const Nodes& y, Pose& pose,
                   std::size_t begin, std::size_t end);
 
-/// Vertices of the free blocks a step of h (s) earlier, by these velocities of the nodes (m/s),
-/// x_{n-1} = x_n - h v: into pose.x1, y1.
+/// Sets pose.x1, y1 of the free blocks to a step of h (s) earlier, at these velocities of the nodes
+/// (m/s): x_{n-1} = x_n - h v.
 void place_a_step_back(const BlockSet& blocks, const State& state, const Nodes& vx, const Nodes& vy,
                        double h, Pose& pose);
 

@@ -1,6 +1,6 @@
 // One list of fields, read in two ways. A function template `list(archive, object)` names every
-// field of an object once; Saver copies them into a Record, Loader back out of it. So what is
-// written and what is read can never differ.
+// field of an object once; Saver copies them into a Record, Loader back out of it. So the fields
+// written and the fields read can never differ.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace edda {
 
 namespace archive {
 
-/// Type in which a number is kept: enumerations and bool as bytes.
+/// Type in which a number is stored: enumerations and bool as bytes.
 template <class T, bool = std::is_enum_v<T>>
 struct Kept {
   using type = T;
@@ -70,9 +70,9 @@ class Loader {
   explicit Loader(const Record& record) : record_(record) {}
   static constexpr bool loads = true;
 
-  /// What was missing or of another kind, empty if nothing was. Such fields are left as they are.
+  /// The fields that were missing or of another kind, empty if none. Such fields are not changed.
   const std::string& flaw() const { return flaw_; }
-  /// For what a list finds wrong itself.
+  /// For faults that a list finds itself.
   void refuse(std::string what) { note(std::move(what)); }
 
   template <class T>

@@ -28,10 +28,10 @@ std::string former(const std::string& folder) {
 }
 
 std::string of_stage(const std::string& folder, std::size_t stage) {
-  return fmt::format("{}/checkpoint_{}.h5", folder, stage);
+  return fmt::format("{}/checkpoint_{}.h5", folder, stage + 1);
 }
 
-/// Takes `start` off the front.
+/// Removes `start` from the front.
 bool take(std::string_view& text, std::string_view start) {
   if (!text.starts_with(start)) return false;
   text.remove_prefix(start.size());
@@ -67,7 +67,7 @@ int write_part(const std::string& part, std::string_view image) {
   return error;
 }
 
-/// Gives the part its name, unless there was an error.
+/// Renames the temporary file, unless there was an error.
 Trouble put_in_place(const std::string& folder, const std::string& path, const std::string& part,
                      int error) {
   if (error == 0 && std::rename(part.c_str(), path.c_str()) != 0) error = errno;
@@ -140,7 +140,7 @@ Result<std::string> read_stage_checkpoint(const std::string& folder, std::size_t
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {
     return Fault{{{}, folder, 0, 0},
-                 fmt::format("holds no checkpoint of the end of stage {}", stage),
+                 fmt::format("holds no checkpoint of the end of stage {}", stage + 1),
                  "name a stage that the run has ended (stages.csv lists them)"};
   }
   return read_sealed(path);
@@ -165,7 +165,7 @@ Result<std::string> read_checkpoint(const std::string& folder, std::string& warn
   if (image.ok()) {
     warning = first ? faults.front().where.file + " " + faults.front().problem
                     : current(folder) + " is missing";
-    warning += "; going on from " + former(folder);
+    warning += "; continuing from " + former(folder);
     return image;
   }
   faults.push_back(image.faults().front());

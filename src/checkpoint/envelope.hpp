@@ -1,5 +1,6 @@
-// The file round the image: an HDF5 user block of 512 bytes with what the file is, its length and a
-// hash of the rest, checked before anything else reads it. HDF5's own tools skip the block.
+// The file around the image: an HDF5 user block of 512 bytes with the type of the file, its length
+// and a hash of the rest, which is checked before anything else is read. HDF5's own tools skip the
+// block.
 #pragma once
 
 #include <string>
@@ -18,15 +19,14 @@ std::string seal(std::string_view image);
 /// The image inside a whole file, or what is wrong with the file. A view into `file`.
 Result<std::string_view> open_sealed(std::string_view file);
 
-/// Writes the sealed image to `folder`/checkpoint.h5, through a temporary file and to the disk
-/// itself; the one before it becomes checkpoint.previous.h5. Whatever happens, one of them is
-/// whole.
+/// Writes the sealed image to `folder`/checkpoint.h5, through a temporary file that is flushed to
+/// the disk; the previous one becomes checkpoint.previous.h5. At any time one of them is complete.
 Trouble write_checkpoint(const std::string& folder, std::string_view image);
 
 /// The same for the end of a stage: `folder`/checkpoint_`stage`.h5.
 Trouble write_stage_checkpoint(const std::string& folder, std::size_t stage,
                                std::string_view image);
-/// Its image. Faults: it is not there, or is damaged.
+/// Its image. Faults: it does not exist, or is damaged.
 Result<std::string> read_stage_checkpoint(const std::string& folder, std::size_t stage);
 
 /// The image of `folder`/checkpoint.h5, or where that is damaged or missing of

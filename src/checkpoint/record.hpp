@@ -1,4 +1,5 @@
-// What a checkpoint holds, whatever its file looks like: arrays of numbers, and texts, by name.
+// The contents of a checkpoint, independent of the file format: arrays of numbers, and texts, by
+// name.
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "contacts/place_faces.hpp"
+#include "contacts/evaluate_faces.hpp"
 
 namespace edda {
 namespace {
@@ -25,28 +25,30 @@ double work_of(const CornerForces& force, const FacePoints& to, const FacePoints
 }
 
 double stored_between(const Face& face0, const FacePoints& at0, const Face& face1,
-                      const FacePoints& at1, bool pulls) {
+                      const FacePoints& at1, bool carries_tension) {
   const bool open = face0.energy == 0.0 || face1.energy == 0.0;
-  if (open && !pulls) return 0.0;
+  if (open && !carries_tension) return 0.0;
   const double both = 0.5 * (face0.energy + face1.energy) -
                       0.25 * (work_of(face0.force, at1, at0) - work_of(face1.force, at1, at0));
-  return pulls ? both : std::max(both, 0.0);
+  return carries_tension ? both : std::max(both, 0.0);
 }
 
 double normal_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   return stored_between(face_at(c, b, pose.x1, pose.y1, k), face_points(c, pose.x1, pose.y1, k),
                         face_at(c, b, pose.x, pose.y, k), face_points(c, pose.x, pose.y, k),
-                        c.pulls[k] > 0.0);
+                        c.carries_tension[k] > 0.0);
 }
 
 double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   const FacePoints at = face_points(c, pose.x, pose.y, k);
   const bool sheared = c.before.shear_a[k] != 0.0 || c.before.shear_b[k] != 0.0;
   const Vec2 t = sheared ? frame_of(at, c.inverse_e[k], c.inverse_f[k]) : Vec2{};
-  const auto slid = [&](double xi, double eta) { return dot(from_point_of_e(at, xi, eta), t); };
+  const auto slip_so_far = [&](double xi, double eta) {
+    return dot(from_point_of_e(at, xi, eta), t);
+  };
   const FaceMemory& m = c.before;
-  const double shear = m.shear_a[k] * (m.slip_a[k] + slid(m.xi_a[k], m.eta_a[k])) +
-                       m.shear_b[k] * (m.slip_b[k] + slid(m.xi_b[k], m.eta_b[k]));
+  const double shear = m.shear_a[k] * (m.slip_a[k] + slip_so_far(m.xi_a[k], m.eta_a[k])) +
+                       m.shear_b[k] * (m.slip_b[k] + slip_so_far(m.xi_b[k], m.eta_b[k]));
   return normal_energy(c, b, pose, k) - 0.5 * shear;
 }
 

@@ -1,4 +1,4 @@
-// What faces store and do, in the leapfrog's terms (docs/contacts.md).
+// Stored energy and work of faces, in the leapfrog's terms (theory, sections 6.2 and 10.1).
 #pragma once
 
 #include "blocks/pose.hpp"
@@ -9,16 +9,16 @@ namespace edda {
 /// sum of f . (x - y) over the corners, J.
 double work_of(const CornerForces& force, const FacePoints& to, const FacePoints& from);
 
-/// Energy between two steps, (U_0 + U_1)/2 - (F_0 - F_1).(x_1 - x_0)/4: of a linear spring
-/// p d_0 d_1/2. Nothing where the face is open at one of them; one that bears tension never is, and
-/// has less than nothing where it goes over from the one to the other, J.
+/// Energy between two steps, (U_0 + U_1)/2 - (F_0 - F_1).(x_1 - x_0)/4, J; for a linear spring this
+/// is p d_0 d_1/2. It is zero where the face is open at one of the two steps. A face that carries
+/// tension is never open; its energy is negative in a step from compression to tension or back.
 double stored_between(const Face& face0, const FacePoints& at0, const Face& face1,
-                      const FacePoints& at1, bool pulls);
+                      const FacePoints& at1, bool carries_tension);
 
-/// What face k stores between steps n - 1 and n, J.
+/// Energy that face k stores between steps n - 1 and n, normal and shear, J.
 double face_energy(const FaceSet& faces, const BlockSet& blocks, const Pose& pose, std::size_t k);
 
-/// The part of it that is of the normal pressure.
+/// The part of face_energy() that is due to the normal pressure, J.
 double normal_energy(const FaceSet& faces, const BlockSet& blocks, const Pose& pose, std::size_t k);
 
 }  // namespace edda

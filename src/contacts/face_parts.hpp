@@ -1,6 +1,6 @@
-// What the energy of a face is made of (contacts/face.hpp): its gates, where corners pass each
-// other, the potentials of its closure, and the share of a leaning corner; each with its
-// derivatives.
+// Parts of the energy of a face (contacts/face.hpp), each with its derivatives: the gates (theory,
+// section 4.4), the overlap where corners pass each other (4.5), the closure potentials (4.2), and
+// the corner weight (docs/contacts.md).
 #pragma once
 
 #include <cmath>
@@ -24,25 +24,27 @@ EDDA_INLINE SmoothStep smooth_step(double x) {
   return {u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u)};
 }
 
-/// Closures deeper than this part of the overlap begin to fade, and are gone at four times that.
+/// The aspect gate fades closures deeper than this part of the overlap, and removes them at four
+/// times that.
 inline constexpr double aspect_from = 0.5, aspect_range = 1.5;
-/// Part of the initial stress's closure that counts there.
+/// Part of the locked closure of the initial stress that counts in the aspect gate.
 inline constexpr double locked_part = 0.25;
 
-/// Cosine of the angle between edges that lie along each other: 8 degrees. Cohesion needs surfaces
-/// that do; a corner that leans on an edge has friction alone. It goes over up to 4
-/// degrees.
+/// Cosines of 8 and 4 degrees between the edges. Cohesion needs surfaces that lie along each other:
+/// none acts beyond 8 degrees, all of it within 4, with a smooth transition. A corner that leans on
+/// an edge has friction alone.
 inline constexpr double lies_along = 0.99, lies_flush = 0.9976;
 EDDA_INLINE double flush_part(double cosine) {
   return smooth_step((cosine - lies_along) * (1.0 / (lies_flush - lies_along))).value;
 }
 
-/// What bounds an end of the overlap where two corners are x apart along the face and pass each
-/// other within `reach` (m): how far it is drawn in, and by which part it follows the corner that
-/// would not bound it alone. Without it the force along the face would jump by k d^2/2.
+/// An end of the overlap where two corners are x apart along the face and pass each other within
+/// the distance r (`reach`, m): the distance by which the end lies inward of the nearer corner,
+/// (r - |x|)^2/(4 r), and the weight with which it follows the other corner. Without this the force
+/// along the face would jump by k d^2/2.
 struct CornersPassing {
   double drawn_in, by_other;
-  double by_reach;  ///< derivative of drawn_in
+  double by_reach;  ///< derivative of drawn_in with respect to r
 };
 EDDA_INLINE CornersPassing corners_passing(double x, double reach, double per_reach) {
   const double near = larger(reach - std::abs(x), 0.0);
@@ -50,16 +52,17 @@ EDDA_INLINE CornersPassing corners_passing(double x, double reach, double per_re
   return {0.25 * near * part, 0.5 * part, 0.25 * part * (2.0 - part)};
 }
 
-/// Part by which each end follows the first block's corner.
+/// Weights with which the ends follow the corners of the first block.
 EDDA_INLINE FaceEnds of_first(const CornersPassing& a, const CornersPassing& b, bool a_by_first,
                               bool b_by_first) {
   return {a_by_first ? 1.0 - a.by_other : a.by_other, b_by_first ? 1.0 - b.by_other : b.by_other};
 }
 
-/// That reach, of the closures at both ends, (da^2 + db^2)^(1/2)/3, towards a furthest one: edges
-/// may be shorter than what an initial stress locks in. The closure of corners that pass each other
-/// is taken halfway between the two, or it would go on at another rate where one takes over.
-inline constexpr double furthest_reach = 0.5;  ///< of FacePair::passing
+/// The distance r within which corners pass each other, from the closures at both ends: (da^2 +
+/// db^2)^(1/2)/3, limited smoothly to `furthest`, since edges may be shorter than the closure that
+/// an initial stress locks in. Where two corners pass each other this closure is taken about midway
+/// between them; otherwise its slope would jump as one takes over from the other.
+inline constexpr double furthest_reach = 0.5;  ///< part of FacePair::passing
 struct PassingReach {
   double reach, by_a, by_b;
 };
@@ -70,38 +73,41 @@ EDDA_INLINE PassingReach passing_reach(double da, double db, double furthest, do
   return {furthest * u * (2.0 - u), slope * da, slope * db};
 }
 
-/// phi and its derivatives by da and db.
+/// phi and its derivatives with respect to da and db.
 struct ClosurePotential {
   double value, by_a, by_b;
 };
 
-/// 1/(2 L) Int max(d, 0)^2 ds: (da^2 + da db + db^2)/6 where both ends are closed; else, of the
-/// closed end d, d^3/(6 |da - db|).
-EDDA_INLINE ClosurePotential exact_potential(double da, double db, bool pulls) {
+/// phi_exact, 1/(2 L) Int max(d, 0)^2 ds: (da^2 + da db + db^2)/6 where both ends are closed, or
+/// where the face carries tension; d^3/(6 |da - db|) where only the end with closure d is closed.
+EDDA_INLINE ClosurePotential exact_potential(double da, double db, bool carries_tension) {
   const double pa = larger(da, 0.0), pb = larger(db, 0.0);
-  const bool whole = pulls | ((da >= 0.0) & (db >= 0.0));
+  const bool whole = carries_tension | ((da >= 0.0) & (db >= 0.0));
   const double closed = pa + pb, difference = std::abs(da - db);
   const double part = closed / (difference > 0.0 ? difference : 1.0);
   constexpr double sixth = 1.0 / 6.0;
-  const double far = sixth * closed * part * part;  // by the open end
-  const double near = 0.5 * closed * part - far;    // by the closed end
+  const double far = sixth * closed * part * part;  // with respect to the open end
+  const double near = 0.5 * closed * part - far;    // with respect to the closed end
   return {sixth * (whole ? da * da + da * db + db * db : closed * closed * part),
           whole ? sixth * (2.0 * da + db) : (pa > 0.0 ? near : far),
           whole ? sixth * (da + 2.0 * db) : (pb > 0.0 ? near : far)};
 }
 
-EDDA_INLINE ClosurePotential potential_at_ends(double da, double db, bool pulls) {
-  const double pa = pulls ? da : larger(da, 0.0), pb = pulls ? db : larger(db, 0.0);
+/// phi_ends, (max(da, 0)^2 + max(db, 0)^2)/4, or (da^2 + db^2)/4 where the face carries tension.
+EDDA_INLINE ClosurePotential potential_at_ends(double da, double db, bool carries_tension) {
+  const double pa = carries_tension ? da : larger(da, 0.0),
+               pb = carries_tension ? db : larger(db, 0.0);
   return {(pa * pa + pb * pb) / 4.0, pa / 2.0, pb / 2.0};
 }
 
-/// Part of a leaning corner, sin^2(eps - theta)/(sin^2 theta + sin^2(eps - theta)): its two edges
-/// make theta and eps - theta with the edge that it leans on, so that their parts sum to one.
-/// c and s: cosine and sine of theta >= 0, both times the same length. With its derivatives.
-struct CornerShare {
+/// Corner weight sin^2(eps - theta)/(sin^2 theta + sin^2(eps - theta)), with its derivatives; eps
+/// is the exterior angle of the corner. The two edges of the corner make the angles theta and eps -
+/// theta with the edge that it leans on, so their weights sum to one. turn: cosine and sine of eps.
+/// c, s: cosine and sine of theta >= 0, both times the same length.
+struct CornerWeight {
   double value, by_c, by_s;
 };
-EDDA_INLINE CornerShare corner_share(Vec2 turn, double c, double s) {
+EDDA_INLINE CornerWeight corner_weight(Vec2 turn, double c, double s) {
   const double x = larger(turn.y * c - turn.x * s, 0.0);  // sine of eps - theta
   const double a = x * x, b = s * s, sum = a + b;
   const double inverse = 1.0 / (sum > 0.0 ? sum : 1.0), twice = 2.0 * inverse * inverse;

@@ -3,36 +3,36 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contacts/evaluate_faces.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/joint_laws.hpp"
-#include "contacts/place_faces.hpp"
 
 namespace edda {
 namespace {
 
-/// Closures whose pressure has these normal forces at the ends: N = k L d/2 where it is taken
-/// there, N_a = k L (2 d_a + d_b)/6 where it is not.
+/// Closures whose pressure has these normal forces at the ends: N = k L d/2 where the integral is
+/// taken at the ends, N_a = k L (2 d_a + d_b)/6 where it is exact.
 FaceEnds closures_of(FaceEnds normal, double stiffness, bool at_ends) {
   if (at_ends) return {2.0 * normal.a / stiffness, 2.0 * normal.b / stiffness};
   return {(4.0 * normal.a - 2.0 * normal.b) / stiffness,
           (4.0 * normal.b - 2.0 * normal.a) / stiffness};
 }
 
-/// What the initial stress asks of a face, N at its ends.
-struct Asked {
+/// Normal and shear forces that the initial stress requires at the ends of a face, N.
+struct RequiredForces {
   Id face;
   double length;
   FaceEnds normal, shear;
 };
 
-void judge_joint(JointStress& joint, const FaceSet& c, const Asked& asked) {
-  const Id k = asked.face;
-  const double length = asked.length;
+void add_to_joint(JointStress& joint, const FaceSet& c, const RequiredForces& required) {
+  const Id k = required.face;
+  const double length = required.length;
   joint.length += length;
   if (c.glued[k] > 0.0) return;
-  const double tension = c.pulls[k] > 0.0 ? c.tension[k] * length : 0.0;
-  const double normal = asked.normal.a + asked.normal.b;
-  const double shear = std::abs(asked.shear.a + asked.shear.b);
+  const double tension = c.carries_tension[k] > 0.0 ? c.tension[k] * length : 0.0;
+  const double normal = required.normal.a + required.normal.b;
+  const double shear = std::abs(required.shear.a + required.shear.b);
   if (normal < -tension) joint.torn += length;
   constexpr double rounding = 1e-9;
   const double strength = std::max(c.cohesion[k] * length + c.friction[k] * normal, 0.0);
@@ -75,29 +75,30 @@ FaceEnds locked_closure(const FaceSet& c, const Face& face, std::size_t k) {
 std::vector<JointStress> preload_faces(FaceSet& c, const BlockSet& b, const Pose& pose,
                                        const LawTable& laws, const FaceTraction& traction) {
   std::vector<JointStress> joints(laws.rows.size());
-  std::vector<Asked> asked;
+  std::vector<RequiredForces> required;
   lock_pressures(c, b, traction);
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Face drawn = face_at(c, b, pose.x, pose.y, k);
     if (!touch_as_drawn(c, b, pose, drawn, k)) continue;
     const Vec2 n = outward_normal(drawn.t);
-    // Along the facing edge from its first corner: end b comes first.
+    // `traction` runs along the facing edge from its first corner, so end b comes first.
     const EndForces on = traction(c.facing[k], 1.0 - drawn.eta.b, 1.0 - drawn.eta.a);
     const FaceEnds normal{dot(on.at_to, n), dot(on.at_from, n)};
     const FaceEnds shear{dot(on.at_to, drawn.t), dot(on.at_from, drawn.t)};
     c.acts[k] = c.leans[k] = 1.0;
-    asked.push_back({static_cast<Id>(k), drawn.length, normal, shear});
-    const bool bears = normal.a + normal.b > 0.0 || c.pulls[k] > 0.0;
+    required.push_back({static_cast<Id>(k), drawn.length, normal, shear});
+    const bool bears = normal.a + normal.b > 0.0 || c.carries_tension[k] > 0.0;
     if (!bears) continue;
-    // The ends are drawn in by what is locked in (face.hpp): a little more closure makes up for it.
+    // A locked closure moves the ends of the overlap inward (face.hpp): a little more closure makes
+    // up for the lost length.
     Face face = drawn;
     double more = 1.0;
-    constexpr int rounds = 4;
-    for (int round = 0; round < rounds; ++round) {
+    constexpr int passes = 4;
+    for (int pass = 0; pass < passes; ++pass) {
       const FaceEnds closure =
           closures_of(normal, c.stiffness[k] * drawn.length * drawn.gate, c.at_ends[k] > 0.0);
-      c.offset_a[k] = more * closure.a - drawn.closure.a;
-      c.offset_b[k] = more * closure.b - drawn.closure.b;
+      c.locked_closure_a[k] = more * closure.a - drawn.closure.a;
+      c.locked_closure_b[k] = more * closure.b - drawn.closure.b;
       face = face_at(c, b, pose.x, pose.y, k);
       const double pressing = dot(face.force.q1 + face.force.q2, n);
       if (pressing != 0.0) more *= std::clamp((normal.a + normal.b) / pressing, 0.5, 2.0);
@@ -122,8 +123,8 @@ std::vector<JointStress> preload_faces(FaceSet& c, const BlockSet& b, const Pose
     m.slip_b[k] = -shear.b / m.spring[k];
   }
   put_strengths_in_force(c, laws);
-  for (const Asked& a : asked) judge_joint(joints[c.law[a.face]], c, a);
-  std::fill(c.before.idle.begin(), c.before.idle.end(), std::uint8_t{0});
+  for (const RequiredForces& a : required) add_to_joint(joints[c.law[a.face]], c, a);
+  std::fill(c.before.inactive.begin(), c.before.inactive.end(), std::uint8_t{0});
   c.now = c.before;
   return joints;
 }

@@ -1,4 +1,5 @@
-// What faces say to those who only read them.
+// Read access to the state of faces: forces, strength, position. The signs are those of the theory,
+// "Sign conventions" (docs/theory.md).
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 
 namespace edda {
 
-/// Block of the edge, and of the one that faces it.
+/// Block of `edge`, and block of `facing`.
 inline Id block_of_edge(const BlockSet& b, const FaceSet& f, std::size_t k) {
   return b.vertex_block[f.edge[k]];
 }
@@ -17,29 +18,30 @@ inline Id block_of_facing(const BlockSet& b, const FaceSet& f, std::size_t k) {
   return b.vertex_block[f.facing[k]];
 }
 
-/// Both, the lower number first.
+/// Both blocks of face k, the lower number first.
 inline std::pair<Id, Id> blocks_of_face(const BlockSet& b, const FaceSet& f, std::size_t k) {
   return std::minmax({block_of_edge(b, f, k), block_of_facing(b, f, k)});
 }
 
-/// Whether face k carries force, or would at the least shear.
+/// Whether face k carries force, or is bonded and would carry it at any displacement.
 inline bool is_closed(const FaceSet& f, std::size_t k) {
   return f.now.energy[k] > 0.0 || (f.bonded[k] > 0.0 && f.now.gate[k] > 0.0);
 }
 
-/// The larger closure of its two ends, as the surfaces are drawn, m.
+/// The larger drawn closure of the two ends, m.
 inline double closure_of(const FaceSet& f, std::size_t k) {
-  return std::max(f.now.closure_a[k] - f.offset_a[k], f.now.closure_b[k] - f.offset_b[k]);
+  return std::max(f.now.closure_a[k] - f.locked_closure_a[k],
+                  f.now.closure_b[k] - f.locked_closure_b[k]);
 }
 
-/// Whether it is closed, or the edges meet but for rounding.
+/// Whether the face is closed, or its edges touch within rounding.
 inline bool meets(const FaceSet& f, std::size_t k) {
   return is_closed(f, k) ||
          (f.acts[k] > 0.0 && f.now.gate[k] > 0.0 && closure_of(f, k) >= -f.noise);
 }
 
-/// The face whose closure is the largest part of the half-width of the narrower block; ratio 0:
-/// none.
+/// The face with the largest ratio of closure to the inscribed radius of the narrower block; ratio
+/// 0: no face is closed.
 struct DeepestFace {
   std::size_t face = 0;
   double ratio = 0.0;
@@ -55,22 +57,23 @@ inline DeepestFace deepest_face(const FaceSet& f, const BlockSet& b) {
   return deepest;
 }
 
-/// N, positive in compression; T, positive where it drives the block of `facing` along the edge.
+/// Normal force, N, positive in compression; shear force, N, positive where it drives the block of
+/// `facing` along the edge.
 inline double normal_force(const FaceSet& f, std::size_t k) {
   const FaceMemory& m = f.now;
   return m.normal_a[k] + m.normal_b[k] + m.damping_a[k] + m.damping_b[k];
 }
 inline double shear_force(const FaceSet& f, std::size_t k) {
   const FaceMemory& m = f.now;
-  return m.shear_a[k] + m.shear_b[k] + m.drag_a[k] + m.drag_b[k];
+  return m.shear_a[k] + m.shear_b[k] + m.shear_damping_a[k] + m.shear_damping_b[k];
 }
 
-/// What it can bear in shear, N.
+/// Shear strength c L + N tan(phi), N (theory, section 5.1).
 inline double shear_strength(const FaceSet& f, std::size_t k) {
   return std::max(f.cohesion[k] * f.now.cohesive[k] + f.friction[k] * normal_force(f, k), 0.0);
 }
 
-/// Whether Coulomb's limit cut the shear of one of its ends at the last step.
+/// Whether Coulomb's limit has cut the shear force of one of its ends in the last step.
 inline bool slides(const FaceSet& f, std::size_t k) {
   const FaceMemory& m = f.now;
   return is_closed(f, k) && f.bonded[k] == 0.0 &&
@@ -83,14 +86,14 @@ inline CornerForces corner_forces(const FaceSet& f, std::size_t k) {
   return {{on[0], on[1]}, {on[2], on[3]}, {on[4], on[5]}, {on[6], on[7]}};
 }
 
-/// Force on the block of `facing`; that of `edge` has the opposite.
+/// Force on the block of `facing`, N; the force on the block of `edge` is opposite.
 inline Vec2 force_on_facing(const FaceSet& f, std::size_t k) {
   const CornerForces on = corner_forces(f, k);
   return on.q1 + on.q2;
 }
 
-/// Ends of the overlap, on the edge: b - a along the frame is its length. Where edges have passed
-/// each other there is none, and both ends are halfway between the corners.
+/// Ends of the overlap on `edge`; along t they are L apart. Where the edges have passed each other
+/// there is no overlap, and both ends are midway between the corners.
 struct FaceSpan {
   Vec2 a, b;
 };
@@ -103,7 +106,7 @@ inline FaceSpan span_of(const FaceSet& f, const Pose& pose, std::size_t k) {
   const Vec2 middle = at(0.5 * (xi_a + xi_b));
   return {middle, middle};
 }
-/// The corner that bounds the overlap at the deeper end: of the edge, or of the one that faces it.
+/// The corner, of `edge` or of `facing`, that bounds the overlap at the end of larger closure.
 inline Vec2 deeper_end(const FaceSet& f, const Pose& pose, std::size_t k) {
   const bool b_is = f.now.closure_b[k] >= f.now.closure_a[k];
   const double xi = b_is ? f.now.xi_b[k] : f.now.xi_a[k];

@@ -1,6 +1,6 @@
-// Faces: the contacts of the model, and their memory. [nf] rows each: first those that
-// carried when the list was made, then those that were near, then the others. Elements and
-// notation: contacts/face.hpp; docs/contacts.md.
+// Faces: the contacts of the model and their memory, [nf] rows each: first the faces that carried
+// load when the list was made, then those that were near, then the others. Element and notation:
+// contacts/face.hpp; docs/contacts.md.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace edda {
 
-/// What a face is at a step. All of it follows from the positions, but for the slip.
+/// State of the faces at a step. All of it follows from the positions, except the slip.
 template <class C>
 struct FaceFields {
   C closure_a, closure_b;      ///< d at the ends, m
@@ -22,23 +22,23 @@ struct FaceFields {
   C normal_a, normal_b;        ///< normal force at the ends, N
   C shear_a, shear_b;          ///< T at the ends, N
   C slip_a, slip_b;            ///< elastic slip u, m: T = -spring u
-  C trial_a, trial_b;          ///< the same before Coulomb's limit, m
-  C spring;                    ///< shear spring of each end, N/m
+  C trial_a, trial_b;          ///< elastic slip before Coulomb's limit, m
+  C spring;                    ///< stiffness of the shear spring of each end, N/m
   C length;                    ///< L, m; 0: no overlap
-  C overlap;                   ///< length that the shear springs stand for, m
+  C overlap;                   ///< length that the two shear springs represent, m
   C cohesive;                  ///< length along which cohesion acts, m
   C gate;                      ///< w W
-  C xi_a, xi_b, eta_a, eta_b;  ///< where the ends are on the edges
-  C switched;                  ///< 1: other ends are closed than at the step before
-  C friction_work;             ///< taken by friction in the step before, J
-  C transfer;              ///< taken in it by what is no physics: overlaps and ends that move on, J
-  C damping_a, damping_b;  ///< of the dashpots across the face, N
-  C drag_a, drag_b;        ///< of those along it, N
-  C damping_work;          ///< by dashpots at n in the step behind
-  C damping_due;           ///< by those at n - 1 in it: they have done with the blocks
+  C xi_a, xi_b, eta_a, eta_b;  ///< positions of the ends along the edges
+  C switched;                  ///< 1: another set of ends is closed than at the step before
+  C friction_work;             ///< dissipated by friction in the last step, J
+  C transfer;  ///< lost in the last step by changes of the overlap, no physical process, J
+  C damping_a, damping_b;              ///< forces of the normal dashpots, N
+  C shear_damping_a, shear_damping_b;  ///< forces of the shear dashpots, N
+  C damping_work;  ///< work of the dashpot forces at n in the last step, from n - 1 to n, J
+  C damping_due;   ///< work of the dashpot forces at n - 1 in it, the last that they do, J
 };
 
-/// Its columns, once: name, unit, and where they are.
+/// The columns of FaceFields: name, unit and member.
 template <class C>
 struct FaceField {
   const char* name;
@@ -72,47 +72,60 @@ inline constexpr FaceField<C> face_fields[] = {
     {"transfer", "J", &FaceFields<C>::transfer},
     {"damping_a", "N", &FaceFields<C>::damping_a},
     {"damping_b", "N", &FaceFields<C>::damping_b},
-    {"drag_a", "N", &FaceFields<C>::drag_a},
-    {"drag_b", "N", &FaceFields<C>::drag_b},
+    {"shear_damping_a", "N", &FaceFields<C>::shear_damping_a},
+    {"shear_damping_b", "N", &FaceFields<C>::shear_damping_b},
     {"damping_work", "J", &FaceFields<C>::damping_work},
     {"damping_due", "J", &FaceFields<C>::damping_due}};
 inline constexpr auto& face_columns = face_fields<ChunkColumn>;
 
+/// Those of dashpots, which are written only where FaceSet::dashpots is set.
+inline constexpr ChunkColumn FaceFields<ChunkColumn>::*dashpot_columns[] = {
+    &FaceFields<ChunkColumn>::damping_a,       &FaceFields<ChunkColumn>::damping_b,
+    &FaceFields<ChunkColumn>::shear_damping_a, &FaceFields<ChunkColumn>::shear_damping_b,
+    &FaceFields<ChunkColumn>::damping_work,    &FaceFields<ChunkColumn>::damping_due};
+
 struct FaceMemory : ChunkTable<FaceFields<ChunkColumn>, face_fields<ChunkColumn>> {
-  std::vector<std::uint8_t> idle;  ///< [chunks] 1: none in it carries, or did at the step before
+  std::vector<std::uint8_t> inactive;  ///< [chunks] 1: no face in it carries load now or did at the
+                                       ///< step before
 };
 
-/// What a face is made of, its strength in force, and what has become of it. First what a step
-/// reads.
+/// Properties of a face, its current strength, and its history. The columns that a step reads come
+/// first.
 template <class C>
 struct FaceProperties {
   C stiffness, shear_stiffness;  ///< k, ks times thickness, N/m per m of overlap
   C inverse_e, inverse_f, gate_from, gate_scale, passing;  ///< as in FacePair
   C at_ends;  ///< 1: the stiffness is a penalty: the integral is taken at the ends
 
-  // What holds for a face until it dies, decided while it stores nothing.
-  C acts;   ///< 1: the blocks meet there; 0: their far sides do
-  C leans;  ///< 1: beside the corner that leans there is no third block
+  // Decided while the face stores no energy; valid as long as it exists.
+  C acts;   ///< 1: the face acts; 0: its edges are far sides of blocks, which do not meet
+  C leans;  ///< 1: no third block lies beside the corner that leans
 
-  C friction;            ///< tan(phi)
-  C cohesion;            ///< c times thickness, N per m of overlap
-  C offset_a, offset_b;  ///< o, closure at the ends of the surfaces as drawn, m
-  C pulls;               ///< 1: bears tension
-  C bonded;              ///< 1: has its peak strength: its shear is not cut
+  C friction;  ///< tan(phi)
+  C cohesion;  ///< c times thickness, N per m of overlap
+  C locked_closure_a,
+      locked_closure_b;  ///< o, closure added at the ends to that of the surfaces as drawn, m
+  C carries_tension;     ///< 1: carries tension
+  C bonded;              ///< 1: has its peak strength; its shear is not cut end by end
   C zeta, shear_zeta;    ///< dashpots, as fractions of critical: set_face_dashpots()
 
-  C tension;  ///< tensile strength times thickness, N per m; of those that pull
+  C tension;  ///< tensile strength times thickness, N per m of overlap; used where carries_tension
+              ///< is 1
   C glued;    ///< 1: never opens or slides
-  C slid;     ///< m: slip so far; infinite: has its residual strength; of laws that change with it
-  C owed;     ///< m that the joint has still to open by its dilation
-  C lent;     ///< what a glued face had before, 1 + bonded + 2 pulls; else 0
-  C breaks;   ///< 1: torn in the step in hand, 2: its bond breaks: what goes is fracture energy
+  C slip_so_far;    ///< accumulated slip, m, for slip-dependent laws; infinite: has its residual
+                    ///< strength
+  C dilation_left;  ///< m by which dilation has yet to open the joint
+  C saved_bond;  ///< state of a temporarily glued face before that, 1 + bonded + 2 carries_tension;
+                 ///< else 0
+  C failure;  ///< 1: fails in tension in the current step, 2: its bond breaks; the energy released
+              ///< is fracture energy
   C opened;   ///< 1: has opened after having been closed
   C slipped;  ///< 1: has slid at least once
-  C friction_work, damping_work, fracture_work, transfer;  ///< so far, J
+  C friction_work, damping_work, fracture_work, transfer;  ///< accumulated, J
 };
 
-/// Its columns, once. kept: over a search and in a checkpoint; the others are made anew.
+/// The columns of FaceProperties. kept: carried over a search and into a checkpoint; the others are
+/// computed again.
 template <class C>
 struct FaceProperty {
   const char* name;
@@ -134,18 +147,18 @@ inline constexpr FaceProperty<C> face_property_list[] = {
     {"leans", "1", &FaceProperties<C>::leans, true},
     {"friction", "1", &FaceProperties<C>::friction, true},
     {"cohesion", "N/m", &FaceProperties<C>::cohesion, true},
-    {"offset_a", "m", &FaceProperties<C>::offset_a, true},
-    {"offset_b", "m", &FaceProperties<C>::offset_b, true},
-    {"pulls", "1", &FaceProperties<C>::pulls, true},
+    {"locked_closure_a", "m", &FaceProperties<C>::locked_closure_a, true},
+    {"locked_closure_b", "m", &FaceProperties<C>::locked_closure_b, true},
+    {"carries_tension", "1", &FaceProperties<C>::carries_tension, true},
     {"bonded", "1", &FaceProperties<C>::bonded, true},
     {"zeta", "1", &FaceProperties<C>::zeta, false},
     {"shear_zeta", "1", &FaceProperties<C>::shear_zeta, false},
     {"tension", "N/m", &FaceProperties<C>::tension, true},
     {"glued", "1", &FaceProperties<C>::glued, true},
-    {"slid", "m", &FaceProperties<C>::slid, true},
-    {"owed", "m", &FaceProperties<C>::owed, true},
-    {"lent", "1", &FaceProperties<C>::lent, true},
-    {"breaks", "1", &FaceProperties<C>::breaks, true},
+    {"slip_so_far", "m", &FaceProperties<C>::slip_so_far, true},
+    {"dilation_left", "m", &FaceProperties<C>::dilation_left, true},
+    {"saved_bond", "1", &FaceProperties<C>::saved_bond, true},
+    {"failure", "1", &FaceProperties<C>::failure, true},
     {"opened", "1", &FaceProperties<C>::opened, true},
     {"slipped", "1", &FaceProperties<C>::slipped, true},
     {"friction_work", "J", &FaceProperties<C>::friction_work, true},
@@ -154,7 +167,7 @@ inline constexpr FaceProperty<C> face_property_list[] = {
     {"transfer", "J", &FaceProperties<C>::transfer, true}};
 inline constexpr auto& face_properties = face_property_list<ChunkColumn>;
 
-/// FaceSet::breaks of a bond.
+/// Value of FaceSet::failure where a bond breaks.
 inline constexpr double bond_breaks = 2.0;
 
 struct FaceSet : ChunkTable<FaceProperties<ChunkColumn>, face_property_list<ChunkColumn>> {
@@ -163,55 +176,57 @@ struct FaceSet : ChunkTable<FaceProperties<ChunkColumn>, face_property_list<Chun
   // Identity. Filled by find_faces(); fixed between two searches.
   std::vector<Id> edge, facing;          ///< e < f, of two blocks
   std::vector<Id> edge_end, facing_end;  ///< their second corners
-  std::vector<Id> corners;               ///< the four of them, [chunk][4][16]
+  std::vector<Id> corners;               ///< their four corners, [chunk][4][16]
   std::vector<std::uint16_t> law;        ///< row of the LawTable
 
-  bool dashpots = false;  ///< some face has them, or had them in the step in hand
+  bool dashpots = false;  ///< some face has dashpots, or had them in the current step
 
-  FaceMemory now;     ///< at step n
-  FaceMemory before;  ///< at n - 1; while n + 1 is tried: at n
+  FaceMemory now;     ///< state at step n
+  FaceMemory before;  ///< state at n - 1; while step n + 1 is tried: at n
 
   /// Forces on the corners at n, N, of face k from 8 k on: x and y at start and end of `edge`, at
-  /// start and end of `facing`. For whole chunks.
+  /// start and end of `facing`. Whole chunks are allocated.
   std::vector<double> force;
 
-  /// The faces of each edge: [nv + 1], and [2 nf] where in `force` its four numbers begin. By the
-  /// edges that face it, so that sums do not depend on the order of the faces.
+  /// The faces of each edge: [nv + 1] offsets, and [2 nf] positions in `force` where its four
+  /// numbers begin. Sorted by the edge on the other side, so that sums do not depend on the order
+  /// of the faces.
   std::vector<Id> begin_of_edge, on_edge;
 
   static constexpr std::size_t chunk = chunk_rows;
-  static constexpr std::size_t run = 32 * chunk;  ///< what a thread takes at once
+  static constexpr std::size_t run = 32 * chunk;  ///< faces per task of a thread
   std::size_t chunks() const { return (size() + chunk - 1) / chunk; }
   std::size_t force_size() const { return 8 * chunk * chunks(); }
-  std::vector<std::uint8_t> stirs;  ///< [chunks] 1: ends of a face in it open or close
-  std::vector<double> deepest;      ///< [chunks] largest closure of a face that carries, m
-  std::vector<std::uint8_t> bonds;  ///< [chunks] 1: a face in it is bonded or pulls
-  std::vector<std::uint8_t> plain;  ///< [chunks] 1: its faces were plain (is_plain()), or may be
-  std::vector<std::uint8_t> tears;  ///< [chunks] 1: one of them `breaks`
+  std::vector<std::uint8_t> switching;  ///< [chunks] 1: ends of a face in it open or close
+  std::vector<double> deepest;  ///< [chunks] largest drawn closure of a face that carries load, m
+  std::vector<std::uint8_t> bonds;        ///< [chunks] 1: a face in it is bonded or carries tension
+  std::vector<std::uint8_t> plain;        ///< [chunks] 1: all its faces met is_plain() when last
+                                          ///< evaluated, or have not been evaluated yet
+  std::vector<std::uint8_t> chunk_fails;  ///< [chunks] 1: `failure` is set for a face in it
 
-  /// Of a face that is torn in the step in hand.
-  void tear(std::size_t k, double how) {
-    breaks[k] = how;
-    tears[k / chunk] = 1;
+  /// Marks face k as failing in the current step.
+  void mark_failure(std::size_t k, double how) {
+    failure[k] = how;
+    chunk_fails[k / chunk] = 1;
   }
 
-  std::vector<double> locked_start, locked_end;  ///< [nv] of an edge, at its two corners: pressure
-                                                 ///< of the initial stress, N per m; empty: none
+  std::vector<double> locked_start, locked_end;  ///< [nv] pressure of the initial stress at the two
+                                                 ///< corners of an edge, N per m; empty: none
 
-  // When the list was made, and how long it lives.
-  std::vector<double> built_x, built_y;  ///< [nv] vertices then, m
-  double noise = 0.0;                    ///< m: closures this small are rounding of the coordinates
-  double reach = 0.0;                    ///< m: edges nearer than this are in the list
-  double travel = 0.0;                   ///< m: bound of what any vertex has moved since
+  // When the list was made, and how long it is valid.
+  std::vector<double> built_x, built_y;  ///< [nv] positions of the vertices then, m
+  double noise = 0.0;   ///< m: closures up to this size are rounding of the coordinates
+  double reach = 0.0;   ///< m: the list contains edges nearer to each other than this
+  double travel = 0.0;  ///< m: upper bound of the distance that any vertex has moved since
   std::uint64_t rebuilds = 0;
-  double retired_friction = 0.0, retired_damping = 0.0, retired_fracture = 0.0,
-         retired_transfer = 0.0;  ///< J, of faces let go
+  double removed_friction = 0.0, removed_damping = 0.0, removed_fracture = 0.0,
+         removed_transfer = 0.0;  ///< J, of faces that have left the list
 
-  bool gluing = false;       ///< a stage glues its joints: what comes to touch, too
-  std::uint64_t broken = 0;  ///< bonded faces that have gone to their residual law so far
+  bool gluing = false;       ///< a stage glues its joints, also those that come into contact
+  std::uint64_t broken = 0;  ///< number of bonded faces that have failed so far
 
-  /// Calls visit(k, of_edge) for the faces of the edges [first, end), in the order of the edges
-  /// that face them: of_edge where it is `edge`.
+  /// Calls visit(k, of_edge) for the faces of the edges [first, end), per edge in the order of the
+  /// edges on the other side; of_edge: the edge is `edge` of face k, not `facing`.
   template <class Visit>
   void for_faces(Id first, Id end, Visit visit) const {
     for (Id q = begin_of_edge[first]; q < begin_of_edge[end]; ++q) {
@@ -220,15 +235,15 @@ struct FaceSet : ChunkTable<FaceProperties<ChunkColumn>, face_property_list<Chun
   }
 };
 
-/// The pair of face k, as it is now.
+/// The element data of face k in its current state.
 template <class Faces>
-EDDA_INLINE FacePair face_pair(const Faces& c, const double* turn_cosine, const double* turn_sine,
-                               std::size_t k) {
+EDDA_INLINE FacePair face_pair(const Faces& c, const double* exterior_cosine,
+                               const double* exterior_sine, std::size_t k) {
   FacePair p;
   p.stiffness = c.stiffness[k] * c.acts[k];
-  p.offset = {c.offset_a[k], c.offset_b[k]};
+  p.offset = {c.locked_closure_a[k], c.locked_closure_b[k]};
   p.ends = c.at_ends[k] * c.leans[k];
-  p.pulls = c.pulls[k];
+  p.carries_tension = c.carries_tension[k];
   p.inverse_e = c.inverse_e[k];
   p.inverse_f = c.inverse_f[k];
   p.gate_from = c.gate_from[k];
@@ -238,10 +253,14 @@ EDDA_INLINE FacePair face_pair(const Faces& c, const double* turn_cosine, const 
   p.p2 = c.edge_end[k];
   p.q1 = c.facing[k];
   p.q2 = c.facing_end[k];
-  p.turn_cosine = turn_cosine;
-  p.turn_sine = turn_sine;
+  p.exterior_cosine = exterior_cosine;
+  p.exterior_sine = exterior_sine;
   return p;
 }
+
+/// Gap, as a part of the smaller block's size, up to which blocks touch: their joint may be bonded,
+/// and has its peak strength.
+inline constexpr double touching_gap = 1e-6;
 
 /// Size of the smaller of the two blocks: the square root of its area, m.
 inline double smaller_size(const FaceSet& c, const BlockSet& b, std::size_t k) {

@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "blocks/point_mass.hpp"
-#include "contacts/place_faces.hpp"
+#include "blocks/masses.hpp"
+#include "contacts/evaluate_faces.hpp"
 
 namespace edda {
 namespace {
 
-/// Of phi_exact: (2 1; 1 2)/6 where both ends are closed, else with r = d/(d - d') of the closed
-/// end's closure d and the open one's d' < 0: r - r^2 + r^3/3, r^2/2 - r^3/3 and r^3/3.
-EndStiffness of_exact_potential(double da, double db, bool pulls) {
-  if (pulls || (da >= 0.0 && db >= 0.0)) return {1.0 / 3.0, 1.0 / 6.0, 1.0 / 3.0};
+/// Second derivatives of phi_exact: (2 1; 1 2)/6 where both ends are closed; else, with r = d/(d -
+/// d') of the closed end's closure d and the open end's d' < 0: r - r^2 + r^3/3, r^2/2 - r^3/3 and
+/// r^3/3.
+EndStiffness of_exact_potential(double da, double db, bool carries_tension) {
+  if (carries_tension || (da >= 0.0 && db >= 0.0)) return {1.0 / 3.0, 1.0 / 6.0, 1.0 / 3.0};
   const double closed = std::max(da, db);
   if (closed <= 0.0) return {};
   const double r = closed / std::abs(da - db), r2 = r * r, r3 = r2 * r / 3.0;
@@ -20,14 +21,14 @@ EndStiffness of_exact_potential(double da, double db, bool pulls) {
   return da > db ? EndStiffness{near, across, far} : EndStiffness{far, across, near};
 }
 
-EndStiffness of_potential_at_ends(double da, double db, bool pulls) {
-  return {pulls || da >= 0.0 ? 0.5 : 0.0, 0.0, pulls || db >= 0.0 ? 0.5 : 0.0};
+EndStiffness of_potential_at_ends(double da, double db, bool carries_tension) {
+  return {carries_tension || da >= 0.0 ? 0.5 : 0.0, 0.0, carries_tension || db >= 0.0 ? 0.5 : 0.0};
 }
 
-double dashpot(const FaceSet& c, const BlockSet& b, double spring, double zeta, double xi,
-               double eta, std::size_t k) {
-  const double inverse = inverse_mass_on_edge(b, c.edge[k], c.edge_end[k], xi) +
-                         inverse_mass_on_edge(b, c.facing[k], c.facing_end[k], 1.0 - eta);
+double dashpot(const FaceSet& c, const Masses& m, double spring, double zeta, double xi, double eta,
+               std::size_t k) {
+  const double inverse = inverse_mass_on_edge(m, c.edge[k], c.edge_end[k], xi) +
+                         inverse_mass_on_edge(m, c.facing[k], c.facing_end[k], 1.0 - eta);
   return inverse > 0.0 ? 2.0 * zeta * std::sqrt(spring / inverse) : 0.0;
 }
 
@@ -35,31 +36,33 @@ double dashpot(const FaceSet& c, const BlockSet& b, double spring, double zeta, 
 
 EndStiffness end_stiffness(const Face& face, const FacePair& pair, double near) {
   const double da = face.closure.a + near, db = face.closure.b + near;
-  const bool pulls = pair.pulls != 0.0;
-  const EndStiffness exact = of_exact_potential(da, db, pulls);
-  const EndStiffness ends = of_potential_at_ends(da, db, pulls);
+  const bool carries_tension = pair.carries_tension != 0.0;
+  const EndStiffness exact = of_exact_potential(da, db, carries_tension);
+  const EndStiffness ends = of_potential_at_ends(da, db, carries_tension);
   const double whole = face.gate * pair.stiffness * std::max(face.length, 0.0);
   const auto mixed = [&](double x, double y) { return whole * (x + face.share * (y - x)); };
   return {mixed(exact.aa, ends.aa), mixed(exact.ab, ends.ab), mixed(exact.bb, ends.bb)};
 }
 
-FaceStiffness face_stiffness(const FaceSet& c, const BlockSet& b, const Pose& pose, double step,
-                             const EndsTaken& taken, std::size_t k) {
+FaceStiffness face_stiffness(const FaceSet& c, const FaceScene& scene, double step,
+                             const EndStates& taken, std::size_t k) {
+  const BlockSet& b = scene.blocks;
+  const Pose& pose = scene.pose;
   FaceStiffness s;
   const FacePoints at = face_points(c, pose.x, pose.y, k);
-  const FacePair pair = face_pair(c, b.turn_cosine.data(), b.turn_sine.data(), k);
+  const FacePair pair = face_pair(c, b.exterior_cosine.data(), b.exterior_sine.data(), k);
   const Face face = face_between(at, pair);
   if (!(face.gate > 0.0) || !(pair.stiffness > 0.0)) return s;
   s.normal = end_stiffness(face, pair, taken.near);
   const double largest = std::max(face.closure.a, face.closure.b) + taken.near;
-  const bool touches = largest >= 0.0 || c.bonded[k] > 0.0 || c.pulls[k] > 0.0;
+  const bool touches = largest >= 0.0 || c.bonded[k] > 0.0 || c.carries_tension[k] > 0.0;
   const double spring = touches ? 0.5 * c.shear_stiffness[k] * face.length * face.gate : 0.0;
   s.shear_a = taken.a_slides ? 0.0 : spring;
   s.shear_b = taken.b_slides ? 0.0 : spring;
   if (c.dashpots) {
     const double across = 0.5 * pair.stiffness * face.length * face.gate;
     const auto damping = [&](double p, double zeta, double xi, double eta) {
-      return dashpot(c, b, p, zeta, xi, eta, k) / step;
+      return dashpot(c, scene.masses, p, zeta, xi, eta, k) / step;
     };
     if (s.normal.aa > 0.0) s.normal.aa += damping(across, c.zeta[k], face.xi.a, face.eta.a);
     if (s.normal.bb > 0.0) s.normal.bb += damping(across, c.zeta[k], face.xi.b, face.eta.b);

@@ -1,9 +1,10 @@
-// Stiffness of a face for the implicit method: the part of the Hessian of its energy that is never
-// negative, with the springs of its ends in their directions. What is left out goes with the force
-// over the length of the face, and makes rounds more, not another answer.
+// Stiffness of a face for the implicit method: the positive semidefinite part of the Hessian of its
+// energy, with the springs of its ends in their directions. The part that is left out is of the
+// order of force over face length; it costs iterations, not accuracy (theory, section 12.2).
 #pragma once
 
 #include "blocks/pose.hpp"
+#include "contacts/evaluate_faces.hpp"
 #include "contacts/face_set.hpp"
 
 namespace edda {
@@ -13,10 +14,10 @@ struct EndStiffness {
   double aa = 0.0, ab = 0.0, bb = 0.0;
 };
 
-/// Of the element as it stands; ends that gape by less than `near` (m) count as closed.
+/// Of the element in its present state; ends that gape by less than `near` (m) count as closed.
 EndStiffness end_stiffness(const Face& face, const FacePair& pair, double near);
 
-/// Springs of a face: stiffness, and what a unit force at either end does on the corners.
+/// Springs of a face: stiffness, and the corner forces of a unit force at either end.
 struct FaceStiffness {
   EndStiffness normal;
   double shear_a = 0.0, shear_b = 0.0;  ///< N/m
@@ -26,14 +27,14 @@ struct FaceStiffness {
   }
 };
 
-/// How an end is taken.
-struct EndsTaken {
+/// Assumed contact state of the ends.
+struct EndStates {
   bool a_slides = false, b_slides = false;
-  double near = 0.0;  ///< m, as above; shear springs of what is that near hold, too
+  double near = 0.0;  ///< m, as above; within it shear springs act, too
 };
 
-/// Of face k at pose.x, with its dashpots in a step of `step` s.
-FaceStiffness face_stiffness(const FaceSet& faces, const BlockSet& blocks, const Pose& pose,
-                             double step, const EndsTaken& taken, std::size_t k);
+/// Stiffness of face k at Pose::x, with its dashpots for a step of `step` s.
+FaceStiffness face_stiffness(const FaceSet& faces, const FaceScene& scene, double step,
+                             const EndStates& taken, std::size_t k);
 
 }  // namespace edda

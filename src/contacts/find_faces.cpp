@@ -15,13 +15,13 @@ namespace {
 
 using EdgePair = std::pair<Id, Id>;
 
-/// Cosine of the angle up to which a face acts wholly, and of that at which it is gone: 60 and 85
-/// degrees, and for a needle of alpha < 90 degrees, whose two edges stand across it at 90 -
-/// alpha/2, (90 - alpha)/2 more.
+/// Cosine of the angle up to which a face carries its full load, and of that at which it carries
+/// none: 60 and 85 degrees. Beside a corner of alpha < 90 degrees both are (90 - alpha)/2 larger,
+/// since its two edges stand at 90 - alpha/2 to an edge that it strikes at a right angle.
 struct AngleGate {
   double whole, none;
 };
-constexpr double most_beyond = std::numbers::pi / 4.0;  ///< rad: at a needle
+constexpr double most_beyond = std::numbers::pi / 4.0;  ///< rad: for a needle
 double cosine_of_none(double beyond) {
   return std::cos(85.0 / 180.0 * std::numbers::pi + beyond);
 }
@@ -32,14 +32,15 @@ AngleGate angle_gate(const BlockSet& b, Id e, Id f) {
   return {std::cos(std::numbers::pi / 3.0 + beyond), cosine_of_none(beyond)};
 }
 
-/// Whether the edges may come to be opposed before a vertex has moved by half of `reach`.
+/// Whether the edges may become opposed before a vertex has moved by half of `reach`.
 bool may_oppose(const BlockSet& b, const Pose& pose, Id e, Id f, double reach) {
   const Vec2 u = at(pose.x, pose.y, b.next[e]) - at(pose.x, pose.y, e);
   const Vec2 v = at(pose.x, pose.y, b.next[f]) - at(pose.x, pose.y, f);
   const double le = norm(u), lf = norm(v);
-  const double turn = reach / le + reach / lf;  // of the one against the other, at most, rad
+  const double turn = reach / le + reach / lf;  // largest relative rotation of the two edges, rad
   const double reached = -dot(u, v) / (le * lf) + turn;
-  // Most pairs need no gate of their own: it lies between those of blunt corners and of a needle.
+  // For most pairs the gate need not be computed: it lies between those of blunt corners and of a
+  // needle.
   static const double of_blunt = cosine_of_none(0.0), of_needle = cosine_of_none(most_beyond);
   return reached > of_blunt || (reached > of_needle && reached > angle_gate(b, e, f).none);
 }
@@ -65,7 +66,7 @@ std::vector<EdgePair> wanted_faces(const FaceSet& old, const BlockSet& b, const 
   return list;
 }
 
-/// A pair of the new list, and the face that it was.
+/// A pair of edges of the new list, and its face in the old one.
 struct Listed {
   EdgePair pair;
   Id old;  ///< no_id: none
@@ -87,36 +88,43 @@ std::vector<Listed> with_old_faces(const std::vector<EdgePair>& list, const Face
   return all;
 }
 
-/// Corners pass each other smoothly within this part of the shorter edge (face.hpp).
+/// FacePair::passing as a fraction of the shorter edge (theory, section 4.5).
 constexpr double passing_part = 0.15;
 
-/// Where faces stand in the list: those that carry, those that soon may, the others; of each kind
-/// those first that are plain (is_plain()), so that a chunk of the list mostly has one kind.
+/// The constants of a face that follow from its two edges alone.
+FacePair pair_of_edges(const BlockSet& b, Id e, Id f) {
+  const AngleGate gate = angle_gate(b, e, f);
+  FacePair pair;
+  pair.inverse_e = 1.0 / b.edge_length[e];
+  pair.inverse_f = 1.0 / b.edge_length[f];
+  pair.gate_from = gate.none;
+  pair.gate_scale = 1.0 / (gate.whole - gate.none);
+  pair.passing = passing_part * std::min(b.edge_length[e], b.edge_length[f]);
+  return pair;
+}
+
+/// Position of a face in the list: first those that carry load, then those that soon may, then the
+/// others; within each kind first those that are plain (is_plain()), so that most chunks of the
+/// list hold one kind.
 int kind_in_list(const FaceSet& old, const BlockSet& b, const Pose& pose, double reach,
                  const Listed& f) {
   const auto [e, q] = f.pair;
   const double shorter = std::min(b.edge_length[e], b.edge_length[q]);
-  const AngleGate gate = angle_gate(b, e, q);
-  FacePair pair;
-  pair.inverse_e = 1.0 / b.edge_length[e];
-  pair.inverse_f = 1.0 / b.edge_length[q];
-  pair.gate_from = gate.none;
-  pair.gate_scale = 1.0 / (gate.whole - gate.none);
-  pair.passing = passing_part * shorter;
+  FacePair pair = pair_of_edges(b, e, q);
   const FacePoints points{at(pose.x, pose.y, e), at(pose.x, pose.y, b.next[e]),
                           at(pose.x, pose.y, q), at(pose.x, pose.y, b.next[q])};
-  const Opposition o = opposition_of(points, pair);
+  const EdgeGeometry o = geometry_of_edges(points, pair);
   constexpr double near = 0.01, overlaps = 0.01;
-  const double closure = o.apart_0 + std::max(o.steeper * o.ma, o.steeper * o.mb);
-  const bool near_by = o.s2 > 0.0 && o.r1 > o.r2 && o.cosine > gate.none &&
+  const double closure = o.closure_at_0 + std::max(o.closure_slope * o.ma, o.closure_slope * o.mb);
+  const bool near_by = o.s2 > 0.0 && o.r1 > o.r2 && o.cosine > pair.gate_from &&
                        o.mb - o.ma > -near * reach && closure > -near * reach;
   bool carries = near_by && o.mb - o.ma > overlaps * shorter;
   bool bonded = false;
   if (const Id k = f.old; k != no_id) {
-    carries = old.now.energy[k] > 0.0 || old.bonded[k] > 0.0 || old.pulls[k] > 0.0;
+    carries = old.now.energy[k] > 0.0 || old.bonded[k] > 0.0 || old.carries_tension[k] > 0.0;
     bonded = old.bonded[k] > 0.0;
-    pair.pulls = old.pulls[k];
-    pair.offset = {old.offset_a[k], old.offset_b[k]};
+    pair.carries_tension = old.carries_tension[k];
+    pair.offset = {old.locked_closure_a[k], old.locked_closure_b[k]};
   }
   const int kind = carries ? 0 : near_by ? 1 : 2;
   return 2 * kind + (is_plain(o, pair) && !bonded ? 0 : 1);
@@ -126,14 +134,14 @@ void fill_constants(FaceSet& c, const BlockSet& b, const LawTable& laws, std::si
   const Id e = c.edge[k], f = c.facing[k];
   const double shorter = std::min(b.edge_length[e], b.edge_length[f]);
   const Law& law = laws.rows[c.law[k]];
-  c.inverse_e[k] = 1.0 / b.edge_length[e];
-  c.inverse_f[k] = 1.0 / b.edge_length[f];
-  const AngleGate gate = angle_gate(b, e, f);
-  c.gate_from[k] = gate.none;
-  c.gate_scale[k] = 1.0 / (gate.whole - gate.none);
-  c.passing[k] = passing_part * shorter;
+  const FacePair pair = pair_of_edges(b, e, f);
+  c.inverse_e[k] = pair.inverse_e;
+  c.inverse_f[k] = pair.inverse_f;
+  c.gate_from[k] = pair.gate_from;
+  c.gate_scale[k] = pair.gate_scale;
+  c.passing[k] = pair.passing;
   c.at_ends[k] = law.kn > 0.0 ? 0.0 : 1.0;
-  // A penalty is a spring at each end of the shorter edge.
+  // A penalty is one spring at each end of the shorter edge.
   c.stiffness[k] = laws.normal_stiffness(law, shorter);
   c.shear_stiffness[k] = laws.shear_stiffness(law, shorter);
 }
@@ -171,6 +179,45 @@ void list_by_edge(FaceSet& c, std::size_t edges) {
   }
 }
 
+/// Whether any dashpot has done work in the last step or has yet to do it, by the faces at its end.
+bool dashpots_work(const FaceMemory& m) {
+  for (const auto column : dashpot_columns) {
+    for (std::size_t k = 0; k < (m.*column).size(); ++k) {
+      if ((m.*column)[k] != 0.0) return true;
+    }
+  }
+  return false;
+}
+
+/// Moves what does not belong to any one face to the new list.
+void move_totals(FaceSet& next, FaceSet& old) {
+  next.removed_friction = old.removed_friction;
+  next.removed_damping = old.removed_damping;
+  next.removed_fracture = old.removed_fracture;
+  next.removed_transfer = old.removed_transfer;
+  next.broken = old.broken;
+  next.gluing = old.gluing;
+  next.locked_start = std::move(old.locked_start);
+  next.locked_end = std::move(old.locked_end);
+}
+
+/// Row k of the new list becomes a face of the old one, with its memory.
+void copy_face(FaceSet& next, std::size_t k, const FaceSet& faces, Id old) {
+  next.copy_row(k, faces, old, [](const auto& column) { return column.kept; });
+  next.now.copy_row(k, faces.now, old);
+  next.before.copy_row(k, faces.before, old);
+  std::copy_n(&faces.force[8 * old], 8, &next.force[8 * k]);
+  next.law[k] = faces.law[old];
+}
+
+/// Adds the energies of a face that is no longer in the list to the totals.
+void retire(FaceSet& next, const FaceSet& old, std::size_t k) {
+  next.removed_friction += old.friction_work[k];
+  next.removed_damping += old.damping_work[k];
+  next.removed_fracture += old.fracture_work[k];
+  next.removed_transfer += old.transfer[k];
+}
+
 }  // namespace
 
 void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
@@ -187,18 +234,19 @@ void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
     }
     fill_constants(c, b, laws, k);
   }
-  // What fills up the last chunk has no length, and no division by nothing.
+  // Padding rows of the last chunk have zero length; `passing` must not be zero, since it is
+  // divided by.
   for (std::size_t k = n; k < c.chunks() * FaceSet::chunk; ++k) c.passing[k] = 1.0;
   list_by_edge(c, b.vertex_count());
-  c.stirs.assign(c.chunks(), 0);
+  c.switching.assign(c.chunks(), 0);
   c.deepest.assign(c.chunks(), 0.0);
-  c.tears.assign(c.chunks(), 0);
+  c.chunk_fails.assign(c.chunks(), 0);
   c.plain.assign(c.chunks(), 1);
   for (std::size_t k = 0; k < n; ++k) {
-    if (c.breaks[k] != 0.0) c.tears[k / FaceSet::chunk] = 1;
+    if (c.failure[k] != 0.0) c.chunk_fails[k / FaceSet::chunk] = 1;
   }
-  for (FaceMemory* m : {&c.now, &c.before}) m->idle.assign(c.chunks(), 0);
-  note_bonds(c);
+  for (FaceMemory* m : {&c.now, &c.before}) m->inactive.assign(c.chunks(), 0);
+  mark_bonded_chunks(c);
 }
 
 void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
@@ -217,20 +265,7 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
   next.facing.resize(n);
   next.force.assign(next.force_size(), 0.0);
   std::vector<std::uint8_t> stays(faces.size(), 0);
-  next.retired_friction = faces.retired_friction;
-  next.retired_damping = faces.retired_damping;
-  next.retired_fracture = faces.retired_fracture;
-  next.retired_transfer = faces.retired_transfer;
-  next.broken = faces.broken;
-  next.gluing = faces.gluing;
-  next.locked_start = std::move(faces.locked_start);
-  next.locked_end = std::move(faces.locked_end);
-  const auto retire = [&](std::size_t k) {
-    next.retired_friction += faces.friction_work[k];
-    next.retired_damping += faces.damping_work[k];
-    next.retired_fracture += faces.fracture_work[k];
-    next.retired_transfer += faces.transfer[k];
-  };
+  move_totals(next, faces);
   for (std::size_t k = 0; k < n; ++k) {
     const auto [e, f] = list[k].pair;
     const Id old = list[k].old;
@@ -238,22 +273,19 @@ void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pos
     next.facing[k] = f;
     if (old != no_id) {
       stays[old] = 1;
-      next.copy_row(k, faces, old, [](const auto& column) { return column.kept; });
-      next.now.copy_row(k, faces.now, old);
-      next.before.copy_row(k, faces.before, old);
-      std::copy_n(&faces.force[8 * old], 8, &next.force[8 * k]);
-      next.law[k] = faces.law[old];
+      copy_face(next, k, faces, old);
     } else {
       next.law[k] = laws.resolve_met(b.edge_joint[e], b.edge_joint[f],
                                      b.material[b.vertex_block[e]], b.material[b.vertex_block[f]]);
-      take_residual(next, laws, k);
-      next.pulls[k] = 0.0;  // what comes to touch has no tensile strength
+      set_residual_strength(next, laws, k);
+      next.carries_tension[k] = 0.0;  // contacts that form later have no tensile strength
     }
   }
   for (std::size_t k = 0; k < faces.size(); ++k) {
-    if (stays[k] == 0) retire(k);
+    if (stays[k] == 0) retire(next, faces, k);
   }
   complete_faces(next, b, laws);
+  next.dashpots = dashpots_work(next.now);
   next.noise = rounding_of_closures(pose);
   next.reach = reach;
   next.built_x = pose.x;

@@ -1,4 +1,4 @@
-// How a point lies to a block.
+// Position of a point relative to a block.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace edda {
 
-/// How a point lies to a block.
+/// Position of a point relative to a block.
 struct Inside {
-  double depth;  ///< distance from its boundary, m; below zero outside
-  Id edge;       ///< the nearest
+  double depth;  ///< distance from the block's boundary, m; negative outside
+  Id edge;       ///< the nearest edge
 };
 
-/// How p lies to block j as that lies. O(its edges).
+/// Position of p relative to block j in the given pose. O(number of its edges).
 Inside inside_of(const BlockSet& blocks, const Pose& pose, Vec2 p, std::size_t j);
 
 }  // namespace edda

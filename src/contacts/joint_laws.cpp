@@ -6,22 +6,21 @@
 #include <limits>
 #include <numbers>
 
+#include "contacts/evaluate_faces.hpp"
 #include "contacts/face_energy.hpp"
 #include "contacts/face_step.hpp"
-#include "contacts/place_faces.hpp"
 
 namespace edda {
 namespace {
 
-constexpr double whole_gap = 1e-6;  // of the smaller block: what gapes by more is whole no more
-constexpr double hair = 1e-4;       // of the smaller block: what is further apart opens no more
-constexpr double steepest = 70.0;   // degrees
+constexpr double dilation_gap = 1e-4;  // of the smaller block: at a larger gap dilation stops
+constexpr double steepest = 70.0;      // degrees
 
 double radians(double degrees) {
   return degrees * std::numbers::pi / 180.0;
 }
 
-/// What of a law holds at contact k after the slip so far.
+/// Strength and dilation of a law in force at the accumulated slip.
 struct InForce {
   double friction, cohesion, tension;  ///< tangent; Pa
   double dilation;                     ///< tangent
@@ -47,55 +46,59 @@ InForce rough(const Law& law, double slip, double length, double sigma, double d
 InForce in_force(const FaceSet& c, const LawTable& laws, std::size_t k) {
   const Law& law = laws.rows[c.law[k]];
   const FaceMemory& m = c.before;
-  if (law.type == LawType::slip_weakening) return weakened(law, c.slid[k]);
+  if (law.type == LawType::slip_weakening) return weakened(law, c.slip_so_far[k]);
   if (law.type == LawType::barton_bandis && m.length[k] > 0.0) {
     const double sigma =
         std::max(m.normal_a[k] + m.normal_b[k], 0.0) / (m.length[k] * laws.thickness);
-    return rough(law, c.slid[k], m.length[k], sigma, laws.divided_by[c.law[k]]);
+    return rough(law, c.slip_so_far[k], m.length[k], sigma, laws.divided_by[c.law[k]]);
   }
-  return {c.friction[k], 0.0, 0.0, c.slid[k] < law.slip_distance ? law.dilation : 0.0};
+  return {c.friction[k], 0.0, 0.0, c.slip_so_far[k] < law.slip_distance ? law.dilation : 0.0};
 }
 
 void open_by(FaceSet& c, std::size_t k, double rise) {
-  c.offset_a[k] += rise;
-  c.offset_b[k] += rise;
-  c.owed[k] -= rise;
+  c.locked_closure_a[k] += rise;
+  c.locked_closure_b[k] += rise;
+  c.dilation_left[k] -= rise;
 }
 
-/// Opens the face by what is owed, or as far as what friction took in the step goes.
+/// Opens the face by its outstanding dilation, at most by what the friction work of the step can
+/// supply.
 void lift(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   const FaceMemory& m = c.before;
   const double normal = m.normal_a[k] + m.normal_b[k];
   const double spring = c.stiffness[k] * m.length[k] * m.gate[k];
   if (!(m.energy[k] > 0.0) || !(spring > 0.0)) return;
-  // A rise r stores N r + k L r^2/2 at most: as much where the face is closed all over.
+  // An opening r stores at most N r + k L r^2/2, and exactly that where the face is closed all
+  // along.
   const double most = std::max(m.friction_work[k], 0.0);
-  const double rise =
-      std::min(c.owed[k], (std::sqrt(normal * normal + 2.0 * spring * most) - normal) / spring);
+  const double rise = std::min(
+      c.dilation_left[k], (std::sqrt(normal * normal + 2.0 * spring * most) - normal) / spring);
   const double before = normal_energy(c, b, pose, k);
   open_by(c, k, rise);
   c.friction_work[k] -= normal_energy(c, b, pose, k) - before;
 }
 
-/// Of a joint that has slipped: what it is to open by.
+/// Adds a slip of the joint to its accumulated slip and to its outstanding dilation.
 void take_slip(FaceSet& c, const LawTable& laws, std::size_t k, double slip) {
   const Law& law = laws.rows[c.law[k]];
-  const double left = law.slip_distance > 0.0 ? std::max(law.slip_distance - c.slid[k], 0.0) : slip;
+  const double left =
+      law.slip_distance > 0.0 ? std::max(law.slip_distance - c.slip_so_far[k], 0.0) : slip;
   const double counts = law.type == LawType::barton_bandis ? slip : std::min(slip, left);
-  c.owed[k] += in_force(c, laws, k).dilation * counts;
-  c.slid[k] += slip;
+  c.dilation_left[k] += in_force(c, laws, k).dilation * counts;
+  c.slip_so_far[k] += slip;
 }
 
-/// A joint that has come apart by a hair goes on opening as it slips, its asperities are where they
-/// are; but it does not close by that.
+/// A joint that has opened by less than `hair` continues to dilate as it slips, since its
+/// asperities still face each other; the dilation does not exceed the gap, so it does not close the
+/// joint.
 void take_slip_while_open(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
                           std::size_t k) {
   const FacePoints then = face_points(c, pose.x1, pose.y1, k);
   const Face face = face_at(c, b, pose.x, pose.y, k);
-  const FaceEnds slip = motion_of(face, {c.offset_a[k], c.offset_b[k]}, then).slip;
+  const FaceEnds slip = motion_of(face, {c.locked_closure_a[k], c.locked_closure_b[k]}, then).slip;
   take_slip(c, laws, k, 0.5 * std::abs(slip.a + slip.b));
   const double gap = -std::max(face.closure.a, face.closure.b);
-  const double rise = std::clamp(gap, 0.0, c.owed[k]);
+  const double rise = std::clamp(gap, 0.0, c.dilation_left[k]);
   open_by(c, k, rise);
 }
 
@@ -114,7 +117,7 @@ double first_slip(const Law& law) {
 }
 
 double roughness_left(double slip, double peak) {
-  // Barton, Bandis and Bakhtar (1985), beyond the peak; straight over log10(u/u_p).
+  // Barton, Bandis and Bakhtar (1985), beyond the peak; linear in log10(u/u_p) between the points.
   constexpr std::array<std::array<double, 2>, 6> table{
       {{1.0, 1.0}, {2.0, 0.85}, {4.0, 0.70}, {10.0, 0.50}, {25.0, 0.40}, {100.0, 0.0}}};
   if (slip <= peak) return 1.0;
@@ -146,17 +149,17 @@ void update_joint_laws(FaceSet& c, const BlockSet& b, const Pose& pose, const La
     const Law& law = laws.rows[c.law[k]];
     if (!law.changes) continue;
     const double closure = std::max(m.closure_a[k], m.closure_b[k]);
-    if (m.energy[k] > 0.0 || c.pulls[k] > 0.0) {
+    if (m.energy[k] > 0.0 || c.carries_tension[k] > 0.0) {
       const double cut =
           std::abs(m.trial_a[k] - m.slip_a[k]) + std::abs(m.trial_b[k] - m.slip_b[k]);
       take_slip(c, laws, k, c.bonded[k] > 0.0 ? 0.0 : 0.5 * cut);
-      if (c.owed[k] > 0.0) lift(c, b, pose, k);
+      if (c.dilation_left[k] > 0.0) lift(c, b, pose, k);
       put_in_force(c, laws, k);
     } else if (dilates(law) && c.opened[k] > 0.0 && m.gate[k] > 0.0 &&
-               -closure < hair * smaller_size(c, b, k)) {
+               -closure < dilation_gap * smaller_size(c, b, k)) {
       take_slip_while_open(c, b, pose, laws, k);
-    } else if (law.type == LawType::slip_weakening && c.slid[k] < law.slip_distance) {
-      if (closure < -whole_gap * smaller_size(c, b, k)) c.slid[k] = first_slip(law);
+    } else if (law.type == LawType::slip_weakening && c.slip_so_far[k] < law.slip_distance) {
+      if (closure < -touching_gap * smaller_size(c, b, k)) c.slip_so_far[k] = first_slip(law);
     }
   }
 }

@@ -14,7 +14,7 @@ double tangent(double degrees) {
   return std::tan(degrees * std::numbers::pi / 180.0);
 }
 
-/// What of the joint goes with slip.
+/// Adds the slip-dependent part of the law.
 void add_slip(const JointLaw& j, Law& law) {
   law.type = j.type;
   law.changes = j.type == LawType::slip_weakening || j.type == LawType::barton_bandis ||

@@ -22,7 +22,7 @@ bool on_edge(const PointGap& g) {
   return g.along >= -rounding * g.length && g.along <= (1.0 + rounding) * g.length;
 }
 
-/// Entrance from outside: both neighbours of the vertex on its block lie outside the edge, up to 6
+/// A vertex enters from outside: both its neighbours on its block lie outside the edge, up to 6
 /// degrees.
 bool enters_from_outside(const PointSet& c, const BlockSet& b, const Pose& pose, const PointGap& g,
                          std::size_t k) {
@@ -36,9 +36,9 @@ bool enters_from_outside(const PointSet& c, const BlockSet& b, const Pose& pose,
   return true;
 }
 
-/// First entrance: a vertex is in contact with one edge of a block, and keeps it until it opens or
-/// runs off its end; else it is that of the edges entered which it is least deep in. The number of
-/// the contact in [first, end), of one vertex and one block; `end`: none.
+/// First entrance: a vertex is in contact with one edge of a block, and keeps that edge until it
+/// opens or runs off its end; a new contact is made with the entered edge of least penetration.
+/// Returns the number of the contact in [first, end), all of one vertex and one block; `end`: none.
 std::size_t entrance(const PointSet& c, const BlockSet& b, const Pose& pose, std::size_t first,
                      std::size_t end) {
   std::size_t found = end;
@@ -56,17 +56,17 @@ std::size_t entrance(const PointSet& c, const BlockSet& b, const Pose& pose, std
   return found;
 }
 
-/// N = p_n d_n (Eq. 30). T = -p_t s, s = (P1 - P0).t (Eqs. 34, 36), and where that is more than
-/// friction allows F_0 = N tan(phi) sgn(s) in its place, and P0 goes along (Eqs. 37, 38).
-/// Stored between two steps: N_{n-1} N_n/2 p_n + T_{n-1} T_n/2 p_t, T_n before it is cut.
+/// N = p_n d_n (Eq. 30). T = -p_t s, s = (P1 - P0).t (Eqs. 34, 36); where that exceeds friction,
+/// F_0 = N tan(phi) sgn(s) replaces it and P0 moves along (Eqs. 37, 38).
+/// Energy between two steps: N_{n-1} N_n/(2 p_n) + T_{n-1} T_n/(2 p_t), T_n before it is cut.
 void press(PointSet& c, const PointGap& g, double friction, std::size_t k) {
   const double normal_before = c.normal[k], shear_before = c.shear[k];
   const double normal = c.stiffness * g.depth;
-  const double trial = -c.shear_stiffness * (g.along - c.foot[k] * g.length);
+  const double trial = -c.shear_stiffness * (g.along - c.position[k] * g.length);
   const double limit = friction * normal;
   const bool slides = std::abs(trial) > limit;
   const double shear = slides ? std::copysign(limit, trial) : trial;
-  if (slides) c.foot[k] = (g.along + shear / c.shear_stiffness) / g.length;
+  if (slides) c.position[k] = (g.along + shear / c.shear_stiffness) / g.length;
   c.normal[k] = normal;
   c.shear[k] = shear;
   c.slides[k] = slides ? 1.0 : 0.0;
@@ -77,7 +77,7 @@ void press(PointSet& c, const PointGap& g, double friction, std::size_t k) {
   c.deepest = std::max(c.deepest, g.depth);
 }
 
-/// The last contact of the vertex and block of the one at `first`, plus one.
+/// One past the last contact that has the vertex and the block of the one at `first`.
 std::size_t end_of_group(const PointSet& c, const BlockSet& b, std::size_t first) {
   std::size_t end = first + 1;
   while (end < c.size() && c.vertex[end] == c.vertex[first] &&
@@ -86,15 +86,8 @@ std::size_t end_of_group(const PointSet& c, const BlockSet& b, std::size_t first
   return end;
 }
 
-/// Weights of the point of edge e that is the part xi of it from its start.
-std::array<double, 3> weights_on_edge(const BlockSet& b, Id e, double xi) {
-  std::array<double, 3> w;
-  for (std::size_t n = 0; n < 3; ++n)
-    w[n] = (1.0 - xi) * b.weight[n][e] + xi * b.weight[n][b.next[e]];
-  return w;
-}
-
-/// One for each vertex and other block, at the nearest of the edges that it may enter.
+/// Lists one spring on each side for each vertex and other block, at the nearest of the edges that
+/// the vertex may enter.
 void list_springs(PointSet& c, const BlockSet& b, const Pose& pose) {
   c.springs.clear();
   for (std::size_t first = 0, end = 0; first < c.size(); first = end) {
@@ -112,14 +105,15 @@ void list_springs(PointSet& c, const BlockSet& b, const Pose& pose) {
     }
     if (edge == no_id) continue;
     const Id i = block_of_vertex(c, b, first), j = b.vertex_block[edge];
-    c.springs.push_back({i, weights_on_edge(b, c.vertex[first], 0.0), b.fixed[j] != 0 ? 1.0 : 2.0});
-    c.springs.push_back({j, weights_on_edge(b, edge, xi), b.fixed[i] != 0 ? 1.0 : 2.0});
+    c.springs.push_back({i, weights_of(b.weight, c.vertex[first]), b.fixed[j] != 0 ? 1.0 : 2.0});
+    c.springs.push_back(
+        {j, weights_between(b, edge, b.next[edge], xi), b.fixed[i] != 0 ? 1.0 : 2.0});
   }
   std::stable_sort(c.springs.begin(), c.springs.end(),
                    [](const PointSpring& p, const PointSpring& q) { return p.block < q.block; });
 }
 
-/// F_i = -p_n S0 H/l, F_j = -p_n S0 G/l with H and G of Eq. 31 (Eq. 30), S0/l the penetration; and
+/// F_i = -p_n S0 H/l, F_j = -p_n S0 G/l with H and G of Eq. 31 (Eq. 30), S0/l the penetration;
 /// shear as in Eqs. 34 and 35, on P1 and on P0.
 void gather(PointSet& c, const BlockSet& b, const Pose& pose) {
   c.on_nodes.assign(b.size(), {});
@@ -133,8 +127,7 @@ void gather(PointSet& c, const BlockSet& b, const Pose& pose) {
     spread(c.on_nodes[b.vertex_block[v]], b, v, force_on_vertex(c, b, pose, k));
     spread(on_edge_block, b, e, pressure * Vec2{p3.y - p1.y, p1.x - p3.x});
     spread(on_edge_block, b, to, pressure * Vec2{p1.y - p2.y, p2.x - p1.x});
-    const std::array<double, 3> w = weights_on_edge(b, e, c.foot[k]);
-    for (std::size_t n = 0; n < 3; ++n) on_edge_block[n] -= (w[n] * c.shear[k]) * g.tangent;
+    spread(on_edge_block, weights_between(b, e, to, c.position[k]), g.tangent, -c.shear[k]);
   }
 }
 
@@ -175,7 +168,7 @@ void find_points(PointSet& c, const BlockSet& b, const State& state, const Pose&
     c.vertex.push_back(v);
     c.edge.push_back(e);
     const Id before = b.previous[v];
-    // The edge of the vertex that faces the other more.
+    // The edge of the vertex that is more nearly parallel to the other.
     const PointGap g = gap_of(c, b, pose, k);
     const Vec2 in = at(pose.x, pose.y, before) - at(pose.x, pose.y, v),
                out = at(pose.x, pose.y, b.next[v]) - at(pose.x, pose.y, v);
@@ -195,12 +188,12 @@ void move_points(PointSet& c, const BlockSet& b, const Pose& pose, const LawTabl
   c.energy = c.due = c.deepest = 0.0;
   for (std::size_t first = 0, end = 0; first < c.size(); first = end) {
     end = end_of_group(c, b, first);
-    const std::size_t held = entrance(c, b, pose, first, end);
+    const std::size_t kept = entrance(c, b, pose, first, end);
     for (std::size_t k = first; k < end; ++k) {
-      if (k == held) {
+      if (k == kept) {
         const PointGap g = gap_of(c, b, pose, k);
-        if (c.closed[k] == 0.0) c.foot[k] = g.along / g.length;
-        if (c.closed[k] == 0.0 && c.opened[k] == 0.0) c.entered[k] = c.foot[k];
+        if (c.closed[k] == 0.0) c.position[k] = g.along / g.length;
+        if (c.closed[k] == 0.0 && c.opened[k] == 0.0) c.entered[k] = c.position[k];
         c.closed[k] = 1.0;
         press(c, g, laws.rows[c.law[k]].peak_friction, k);
       } else if (c.closed[k] > 0.0) {

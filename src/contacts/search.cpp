@@ -11,9 +11,9 @@
 namespace edda {
 namespace {
 
-/// Square cells of several sizes, hashed into a fixed number of buckets: an edge lies in cells of
-/// about the width of its block, so that no cell holds many, be blocks small or thin. Two cells may
-/// share a bucket: that only costs a distance test.
+/// Square cells of several sizes, hashed into a fixed number of buckets. An edge is entered in
+/// cells of about the width of its block, so that no cell holds many edges, however small or thin
+/// the blocks are. Two cells may share a bucket, which only costs a distance test.
 struct Grid {
   std::vector<double> cell;  ///< m, of each size in use
   std::uint64_t mask = 0;
@@ -32,8 +32,8 @@ struct Grid {
   }
 };
 
-/// Calls visit(ix, iy) for every cell of a size that the edge a-b, widened by reach, may touch.
-/// Column by column, so that a long slanted edge does not fill its whole box.
+/// Calls visit(ix, iy) for every cell of a size that the edge a-b, widened by reach, may touch. It
+/// proceeds column by column, so that a long inclined edge does not fill its whole bounding box.
 template <class Visit>
 void for_cells(const Grid& grid, std::size_t size, Vec2 a, Vec2 b, double reach, Visit visit) {
   if (a.x > b.x) std::swap(a, b);
@@ -56,7 +56,7 @@ void for_cells(const Grid& grid, std::size_t size, Vec2 a, Vec2 b, double reach,
 
 constexpr std::size_t most_sizes = 16;
 
-/// Number of the cell size that suits an edge, in powers of four times the smallest cell.
+/// The cell size that suits an edge, as a power of four times the smallest cell.
 std::size_t fitting_size(const BlockSet& b, Id e, double smallest) {
   constexpr double most_cells = 64.0;  // along one edge
   const double wanted = std::max(b.inradius[b.vertex_block[e]], b.edge_length[e] / most_cells);
@@ -64,8 +64,9 @@ std::size_t fitting_size(const BlockSet& b, Id e, double smallest) {
   return static_cast<std::size_t>(std::clamp(power, 0.0, most_sizes - 1.0));
 }
 
-/// Every vertex looks into a cell of each size: edges of a size that few have go to the next larger
-/// that is in use. Returns, for each power of four, the number of the size in use.
+/// Every vertex is looked up in one cell of each size. Edges of a size that few edges have go to
+/// the next larger size in use, which saves look-ups. Returns, for each power of four, the number
+/// of the size in use.
 std::array<std::size_t, most_sizes> choose_sizes(const std::vector<std::uint8_t>& power,
                                                  double smallest, Grid& grid) {
   std::array<std::size_t, most_sizes> edges{};
@@ -113,8 +114,8 @@ Grid make_grid(const BlockSet& b, const std::vector<std::uint8_t>& alive,
   return grid;
 }
 
-/// Whether p is farther than reach from the line through a and b: without a division, for most of
-/// what a cell holds is. Says no in doubt: the margins are wider than all rounding.
+/// Whether p is farther than reach from the line through a and b. Needs no division and excludes
+/// most of what a cell holds. False in doubt: the margins exceed all rounding.
 bool off_line(Vec2 p, Vec2 a, Vec2 b, double reach) {
   const Vec2 u = b - a;
   const double side = cross(u, p - a), length2 = dot(u, u);

@@ -15,8 +15,8 @@ struct NearPair {
 };
 
 /// Every (vertex, edge of another block) nearer than `reach` (m), sorted, with both blocks alive
-/// and not both held. Hashed grids over the edges, of cells as wide as the
-/// blocks; O(n) but for blocks much more than a hundred times longer than wide.
+/// and not both fixed. Uses hashed grids over the edges, with cells as wide as the blocks; O(n),
+/// except for blocks much more than a hundred times longer than wide.
 std::vector<NearPair> near_pairs(const BlockSet& blocks, const std::vector<std::uint8_t>& alive,
                                  const std::vector<double>& x, const std::vector<double>& y,
                                  double reach);

@@ -12,19 +12,14 @@ bool acts(const Dashpots& d, const Dashpot& at) {
 }
 
 /// sum over the points of w w^T (x) C.
-Matrix6 damping_matrix(const Dashpots& d, Id first, Id last) {
-  Matrix6 m = Matrix6::Zero();
+NodalMatrix damping_matrix(const Dashpots& d, Id first, Id last) {
+  NodalMatrix m = NodalMatrix::Zero();
   for (Id p = first; p < last; ++p) {
     const Dashpot& at = d.points[p];
     if (!acts(d, at)) continue;
     Eigen::Matrix2d c;
     c << at.cxx, at.cxy, at.cxy, at.cyy;
-    for (int k = 0; k < 3; ++k) {
-      for (int l = 0; l < 3; ++l) {
-        m.block<2, 2>(2 * k, 2 * l) +=
-            at.weight[static_cast<std::size_t>(k)] * at.weight[static_cast<std::size_t>(l)] * c;
-      }
-    }
+    add_at(m, at.weight, c);
   }
   return m;
 }
@@ -37,18 +32,19 @@ Vec2 push_of(const DashpotStep& step, std::size_t p) {
   return step.push.empty() ? Vec2{} : step.push[p];
 }
 
-void spread_to(NodalForces& forces, const Dashpot& at, Vec2 f) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    forces.x[k][at.block] += at.weight[k] * f.x;
-    forces.y[k][at.block] += at.weight[k] * f.y;
-  }
+void spread_to(NodalForces& forces, const Dashpot& at, Vec2 force) {
+  NodeVectors f = vectors_of(forces.x, forces.y, at.block);
+  spread(f, at.weight, force);
+  store(f, forces.x, forces.y, at.block);
 }
 
 }  // namespace
 
 void add_dashpots(NodalForces& forces, std::vector<Vec2>& on_point, const Dashpots& d,
-                  const BlockSet& b, const State& state, const Nodes& vx, const Nodes& vy,
-                  const DashpotStep& step, std::size_t begin, std::size_t end) {
+                  const DashpotScene& scene, const DashpotStep& step, std::size_t begin,
+                  std::size_t end) {
+  const BlockSet& b = scene.blocks;
+  const State& state = scene.state;
   const auto first = std::lower_bound(d.blocks.begin(), d.blocks.end(), static_cast<Id>(begin));
   for (auto it = first; it != d.blocks.end() && *it < end; ++it) {
     const Id i = *it;
@@ -57,27 +53,27 @@ void add_dashpots(NodalForces& forces, std::vector<Vec2>& on_point, const Dashpo
       std::fill(on_point.begin() + d.begin[q], on_point.begin() + d.begin[q + 1], Vec2{});
       continue;
     }
-    const Matrix6 mass = mass_matrix(b, i);
-    const Matrix6 c = damping_matrix(d, d.begin[q], d.begin[q + 1]);
-    const Vector6 before = nodal(vx, vy, i);
-    Vector6 push = nodal(forces.x, forces.y, i);
+    const NodalMatrix mass = mass_matrix(scene.masses, i);
+    const NodalMatrix c = damping_matrix(d, d.begin[q], d.begin[q + 1]);
+    const NodalVector before = nodal(scene.vx, scene.vy, i);
+    NodalVector push = nodal(forces.x, forces.y, i);
     for (Id p = d.begin[q]; p < d.begin[q + 1]; ++p) {
       if (!acts(d, d.points[p])) continue;
       push += along(d.points[p].weight, times(d.points[p], step.reference[p]) + push_of(step, p));
     }
-    const Vector6 right = (1.0 - step.drag) * (mass * before) + step.h * (push - 0.5 * c * before);
-    const Matrix6 strain = viscous_matrix(b, i, deformation(b, state.x, state.y, i));
-    const Matrix6 left = (1.0 + step.drag) * mass + (0.5 * step.h) * c + step.h * strain;
-    const Vector6 mean = 0.5 * (before + Eigen::LLT<Matrix6>(left).solve(right));
+    const NodalVector right =
+        (1.0 - step.half_damping) * (mass * before) + step.h * (push - 0.5 * c * before);
+    const NodalMatrix strain =
+        viscous_matrix(b, scene.masses, i, deformation(b, state.x, state.y, i));
+    const NodalMatrix left =
+        (1.0 + step.half_damping) * mass + (0.5 * step.h) * c + step.h * strain;
+    const NodeVectors mean =
+        vectors_of(0.5 * (before + Eigen::LLT<NodalMatrix>(left).solve(right)));
     for (Id p = d.begin[q]; p < d.begin[q + 1]; ++p) {
       const Dashpot& at = d.points[p];
       on_point[p] = {};
       if (!acts(d, at)) continue;
-      Vec2 v;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto n = static_cast<Eigen::Index>(2 * k);
-        v += at.weight[k] * Vec2{mean[n], mean[n + 1]};
-      }
+      const Vec2 v = weighted(at.weight, mean);
       on_point[p] = push_of(step, p) - times(at, v - step.reference[p]);
       spread_to(forces, at, on_point[p]);
     }

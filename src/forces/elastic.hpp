@@ -1,7 +1,5 @@
-// Corotated constant-strain elasticity (method.md section 3).
+// Corotated constant-strain elasticity (theory, section 3).
 #pragma once
-
-#include <array>
 
 #include "blocks/initial_stress.hpp"
 #include "blocks/kinematics.hpp"
@@ -14,8 +12,9 @@ struct PiolaStress {
   double xx, xy, yx, yy;
 };
 
-/// P = 2 mu (F - R) + lambda tr(R^T F - I) R. The gradient of
-/// W = mu |F - R|^2 + lambda/2 tr(R^T F - I)^2 per volume; no stress under a rotation.
+/// P = 2 mu (F - R) + lambda tr(R^T F - I) R (theory, section 3.2), the gradient of W = mu |F -
+/// R|^2 + lambda/2 tr(R^T F
+/// - I)^2 per volume; zero under a rotation.
 EDDA_INLINE PiolaStress piola(const Deformation& f, const Rotation& r, double lambda, double mu) {
   const double trace = r.c * (f.xx + f.yy) + r.s * (f.yx - f.xy) - 2.0;
   const double lt = lambda * trace;
@@ -23,32 +22,37 @@ EDDA_INLINE PiolaStress piola(const Deformation& f, const Rotation& r, double la
           2.0 * mu * (f.yx - r.s) + lt * r.s, 2.0 * mu * (f.yy - r.c) + lt * r.c};
 }
 
-/// F sigma0, what an initial stress adds to P: the gradient of sigma0 : (F^T F - I)/2. (R sigma0
-/// would be that of no energy, and make a torque.)
-EDDA_INLINE PiolaStress carried_along(const Deformation& f, double xx, double yy, double xy) {
+/// F sigma0, the contribution of an initial stress to P: the gradient of sigma0 : (F^T F - I)/2. (R
+/// sigma0 would not be the gradient of an energy and would make a torque.)
+EDDA_INLINE PiolaStress initial_stress_term(const Deformation& f, double xx, double yy, double xy) {
   return {f.xx * xx + f.xy * xy, f.xx * xy + f.xy * yy, f.yx * xx + f.yy * xy,
           f.yx * xy + f.yy * yy};
 }
 
-/// P of block i with its initial stress.
+/// P of block i, with its initial stress.
 inline PiolaStress stress_in(const BlockSet& b, std::size_t i, const Deformation& f) {
   const PiolaStress p = piola(f, rotation(f), b.lame_lambda[i], b.lame_mu[i]);
   const Tensor s = initial_stress(b, i);
-  const PiolaStress q = carried_along(f, s.xx, s.yy, s.xy);
+  const PiolaStress q = initial_stress_term(f, s.xx, s.yy, s.xy);
   return {p.xx + q.xx, p.xy + q.xy, p.yx + q.yx, p.yy + q.yy};
 }
 
-/// Nodal force f_k = -V P G_k, N.
-EDDA_INLINE Vec2 elastic_force(const PiolaStress& p, double volume, double gx, double gy) {
-  return {-volume * (p.xx * gx + p.xy * gy), -volume * (p.yx * gx + p.yy * gy)};
+/// Nodal forces f_k = -V P G_k of block i, N. Blocks: BlockSet or a view with volume and gradients.
+template <class Blocks>
+EDDA_INLINE NodeVectors elastic_forces(const Blocks& b, const PiolaStress& p, std::size_t i) {
+  NodeVectors f;
+  for (std::size_t k = 0; k < nodes_per_block; ++k) {
+    const double volume = b.volume[i], gx = b.grad_x[k][i], gy = b.grad_y[k][i];
+    f[k] = {-volume * (p.xx * gx + p.xy * gy), -volume * (p.yx * gx + p.yy * gy)};
+  }
+  return f;
 }
 
 /// P of the viscous stress eta C : dU/dt of block i, F = R U in `frame` (blocks/strain_rate.hpp).
-/// The block must have a viscosity.
-inline PiolaStress viscous_stress(const BlockSet& b, std::size_t i, const StrainFrame& frame,
-                                  const StrainTerms& rate) {
-  const double eta = b.viscosity[i], mu = eta * b.lame_mu[i],
-               pressure = eta * b.lame_lambda[i] * (rate.xx + rate.yy);
+/// eta: viscosity time of the block, s.
+inline PiolaStress viscous_stress(const BlockSet& b, double eta, std::size_t i,
+                                  const StrainFrame& frame, const StrainTerms& rate) {
+  const double mu = eta * b.lame_mu[i], pressure = eta * b.lame_lambda[i] * (rate.xx + rate.yy);
   const Deformation p = stress_on_rate(
       frame, {pressure + 2.0 * mu * rate.xx, pressure + 2.0 * mu * rate.yy, mu * rate.xy});
   return {p.xx, p.xy, p.yx, p.yy};
@@ -61,7 +65,7 @@ inline Tensor cauchy(const PiolaStress& p, const Deformation& f) {
           (p.xx * f.yx + p.xy * f.yy) / det};
 }
 
-/// Energy of two strains in the ledger's terms, V (2 mu a:b + lambda tr a tr b)/2, J.
+/// Energy of two strains in the terms of the energy balance, V (2 mu a:b + lambda tr a tr b)/2, J.
 inline double strain_energy(const Tensor& a, const Tensor& b, double volume, double lambda,
                             double mu) {
   return 0.5 * volume *
@@ -69,8 +73,8 @@ inline double strain_energy(const Tensor& a, const Tensor& b, double volume, dou
           lambda * (a.xx + a.yy) * (b.xx + b.yy));
 }
 
-/// As strain_energy(), of an initial stress s: V [s : C^-1 : s / 2 + (A s B^T - s : I)/2], A and B
-/// the deformations, so that with strain_energy() it is the energy of the whole stress, J.
+/// As strain_energy(), for an initial stress s: V [s : C^-1 : s / 2 + (A s B^T - s : I)/2], J, with
+/// the deformations A and B. The sum of both is the energy of the total stress.
 inline double initial_energy(const Deformation& a, const Deformation& b, const Tensor& s,
                              double volume, double lambda, double mu) {
   const double axx = a.xx - 1.0, ayy = a.yy - 1.0, bxx = b.xx - 1.0, byy = b.yy - 1.0;

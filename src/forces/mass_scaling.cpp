@@ -5,33 +5,30 @@
 #include <limits>
 
 #include "base/parallel.hpp"
-#include "blocks/point_mass.hpp"
 
 namespace edda {
 namespace {
 
-/// Multiplies the masses of the nodes of block i, its weight left as it is.
-void multiply_inertia(BlockSet& b, std::size_t i, double factor) {
-  for (std::vector<double>& mass : b.node_mass) mass[i] *= factor;
-  if (!b.viscosity.empty()) b.viscosity[i] *= std::sqrt(factor);  // the same part of critical
-  if (b.mass_kind != MassKind::consistent) return;
-  for (std::vector<double>& entry : b.inverse_mass) entry[i] /= factor;
+/// Multiplies the inertia of block i; its weight does not change.
+void multiply_inertia(Masses& m, std::size_t i, double factor) {
+  for (std::vector<double>& mass : m.node) mass[i] *= factor;
+  if (!m.viscosity.empty()) m.viscosity[i] *= std::sqrt(factor);  // same fraction of critical
+  if (m.kind != MassKind::consistent) return;
+  for (std::vector<double>& entry : m.inverse) entry[i] /= factor;
 }
 
 }  // namespace
 
-std::vector<double> raise_inertia(BlockSet& b, const State& state, const FaceSet& contacts,
-                                  const BoundarySprings& springs, const LawTable& laws,
-                                  const Damping& damping, double step, const Bolts* bolts,
-                                  const std::vector<double>* most, KnownSteps* known) {
-  // Frequencies fall as the root of the mass; damping makes the step fall a little faster than
-  // that.
+std::vector<double> scale_block_masses(Masses& masses, const StiffnessInputs& inputs, double step,
+                                       const std::vector<double>* most, StepCache* known) {
+  const BlockSet& b = inputs.blocks;
+  // Frequencies fall with the square root of the mass. With damping the step does not rise exactly
+  // in proportion, hence the iteration.
   constexpr int most_rounds = 20;
   constexpr double rounding = 1e-9;
   std::vector<double> factors;
   for (int round = 0; round < most_rounds; ++round) {
-    const std::vector<double> own =
-        steps_of_blocks(b, state, contacts, springs, laws, damping, step, bolts, known);
+    const std::vector<double> own = steps_of_blocks(inputs, step, known);
     bool enough = true;
     for (std::size_t i = 0; i < b.size(); ++i) {
       if (!(own[i] < step) || !(own[i] > 0.0)) continue;
@@ -41,11 +38,11 @@ std::vector<double> raise_inertia(BlockSet& b, const State& state, const FaceSet
       if (!(factor > 1.0)) continue;
       enough = false;
       if (factors.empty()) factors.assign(b.size(), 1.0);
-      multiply_inertia(b, i, factor);
+      multiply_inertia(masses, i, factor);
       factors[i] *= factor;
     }
     if (enough) break;
-    fill_point_masses(b);
+    fill_point_masses(masses, b);
   }
   return factors;
 }

@@ -1,7 +1,6 @@
-// All forces of a step on the nodes, block by block, in a fixed order.
+// All nodal forces of a step, block by block, in a fixed order.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "attachments/boundary_springs.hpp"
@@ -11,14 +10,14 @@
 
 namespace edda {
 
-/// Nodal forces [3][nb], N. Filled by gather_forces(); read by the integrator.
+/// Nodal forces [nodes][nb], N. Filled by gather_forces(); read by the integrator.
 struct NodalForces {
   Nodes x, y;
 };
 
 /// Gravity, elasticity, boundary springs, loads, bolts and contacts of every free block (Eq. 15),
-/// contacts in the order of FaceSet::for_faces(). Blocks whose deformation has gone out of
-/// bounds (det F < 0.2 or no rotation left) get NaN; block_out_of_bounds() finds them.
+/// contacts in the order of FaceSet::for_faces(). Blocks that have lost their shape (det F < 0.2,
+/// or no rotation is defined) get NaN; block_out_of_bounds() finds them.
 void gather_forces(NodalForces& forces, const BlockSet& blocks, const State& state,
                    const Pose& pose, const FaceSet& contacts, const BoundarySprings& springs,
                    Vec2 gravity, const LoadsNow& loads = {});
@@ -28,7 +27,7 @@ void gather_forces(NodalForces& forces, const BlockSet& blocks, const State& sta
                    const Pose& pose, const FaceSet& contacts, const BoundarySprings& springs,
                    Vec2 gravity, const LoadsNow& loads, std::size_t begin, std::size_t end);
 
-/// Force of the contacts alone on the whole of block i (for reactions).
+/// Resultant of the contact forces on block i, N (for reactions).
 Vec2 contact_resultant(const BlockSet& blocks, const FaceSet& contacts, std::size_t i);
 
 }  // namespace edda

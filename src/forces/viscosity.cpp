@@ -9,15 +9,14 @@
 
 namespace edda {
 
-double lowest_frequency(const BlockSet& b, std::size_t i) {
-  const Eigen::Matrix<double, 3, 6> strain = strain_matrix(b, i);
+double lowest_frequency(const BlockSet& b, const Masses& masses, std::size_t i) {
+  const StrainMatrix strain = strain_matrix(b, i);
   Eigen::Matrix3d inverse_inertia;
-  if (b.mass_kind != MassKind::consistent) {
-    Vector6 inverse;
-    for (int k = 0; k < 6; ++k) inverse[k] = 1.0 / b.node_mass[static_cast<std::size_t>(k / 2)][i];
+  if (masses.kind != MassKind::consistent) {
+    const NodalVector inverse = mass_matrix(masses, i).diagonal().cwiseInverse();
     inverse_inertia = strain * inverse.asDiagonal() * strain.transpose();
   } else {
-    inverse_inertia = strain * mass_matrix(b, i).ldlt().solve(strain.transpose().eval());
+    inverse_inertia = strain * mass_matrix(masses, i).ldlt().solve(strain.transpose().eval());
   }
   const Eigen::Matrix3d root = (b.volume[i] * stiffness_of_rock(b, i)).llt().matrixL();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -25,15 +24,15 @@ double lowest_frequency(const BlockSet& b, std::size_t i) {
   return std::sqrt(std::max(solver.eigenvalues()[0], 0.0));
 }
 
-void fill_viscosity(BlockSet& b, const Damping& damping) {
+void fill_viscosity(Masses& masses, const BlockSet& b, const Damping& damping) {
   const bool elastic =
       std::all_of(b.damping.begin(), b.damping.end(), [](double zeta) { return zeta == 0.0; });
-  b.viscosity.clear();
+  masses.viscosity.clear();
   if (damping.rayleigh ? damping.rayleigh->fraction == 0.0 : elastic) return;
-  b.viscosity.assign(b.size(), 0.0);
+  masses.viscosity.assign(b.size(), 0.0);
   parallel_for(b.size(), [&](std::size_t i) {
-    b.viscosity[i] = damping.rayleigh ? damping.rayleigh->stiffness()
-                                      : 2.0 * b.damping[i] / lowest_frequency(b, i);
+    masses.viscosity[i] = damping.rayleigh ? damping.rayleigh->stiffness()
+                                           : 2.0 * b.damping[i] / lowest_frequency(b, masses, i);
   });
 }
 

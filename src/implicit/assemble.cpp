@@ -10,33 +10,32 @@
 namespace edda {
 namespace {
 
-/// What is out of balance may be this part of the forces on a single block, and this of all
-/// blocks together (root of the sum of squares).
-constexpr double single = 10.0;  // times what may be left of all forces together
+/// Tolerance of the residual of a single block,
+constexpr double single = 10.0;  // times that of all blocks together (root of the sum of squares)
 
-/// Forces on the corners of a face as generalised forces on the block at hand and on its partner: a
-/// spring of stiffness p adds p u u^T and p u w^T to the row of the former.
+/// Corner forces of a face as generalised forces on the block of this row and on its partner: a
+/// spring of stiffness p adds p u u^T and p u w^T to the row.
 struct Directions {
-  Vector6 own, other;
+  NodalVector own, other;
 };
 
 Directions on_both(const BlockSet& b, const FaceSet& c, std::size_t k, const CornerForces& f,
                    bool of_edge) {
-  const Vector6 edge =
-      along(vertex_weights(b, c.edge[k]), f.p1) + along(vertex_weights(b, c.edge_end[k]), f.p2);
-  const Vector6 facing =
-      along(vertex_weights(b, c.facing[k]), f.q1) + along(vertex_weights(b, c.facing_end[k]), f.q2);
+  const NodalVector edge = along(weights_of(b.weight, c.edge[k]), f.p1) +
+                           along(weights_of(b.weight, c.edge_end[k]), f.p2);
+  const NodalVector facing = along(weights_of(b.weight, c.facing[k]), f.q1) +
+                             along(weights_of(b.weight, c.facing_end[k]), f.q2);
   return of_edge ? Directions{edge, facing} : Directions{facing, edge};
 }
 
-/// Closed, or so near that it may well be before the list is made anew. What comes from further off
-/// costs a new pattern.
+/// Closed, or so near that it may well close before the list is renewed. A contact from further
+/// away requires a new pattern.
 bool may_carry(const FaceSet& c, std::size_t k) {
   const double near = c.reach / 6.0;
   return is_closed(c, k) || (c.now.length[k] > 0.0 && closure_of(c, k) > -near);
 }
 
-/// Whether the matrix has a place for all of `columns`, and few more than that.
+/// Whether the matrix has a place for all of `columns`, and few more than these.
 bool serves(const BlockMatrix& matrix, const std::vector<std::vector<Id>>& columns) {
   if (matrix.rows() != columns.size()) return false;
   std::size_t wanted = 0;
@@ -56,9 +55,9 @@ bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitS
   const double h = settings.step;
   const Rotation r = rotation(deformation(b, state.x, state.y, i));
   const Rotation none{1.0, 0.0, 2.0};
-  Matrix6 own = turned(s.elastic[i], r);
+  NodalMatrix own = rotated(s.elastic[i], r);
   if (settings.dynamic)
-    own += (2.0 / h) * viscous_matrix(b, i, deformation(b, state.x, state.y, i));
+    own += (2.0 / h) * viscous_matrix(b, scene.masses, i, deformation(b, state.x, state.y, i));
   if (scene.springs.block_begin[i] != scene.springs.block_begin[i + 1]) {
     own += boundary_matrix(b, scene.springs, none, i);
   }
@@ -66,7 +65,7 @@ bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitS
   bool known = true;
   Id partner = no_id, slot = no_id;
   c.for_faces(b.vertex_begin[i], b.vertex_begin[i + 1], [&](Id k, bool of_edge) {
-    const FaceStiffness spring = springs_of(s.springs, c, b, pose, h, k);
+    const FaceStiffness spring = springs_of(s.springs, c, scene.faces(pose), h, k);
     if (!spring.any()) return;
     const Id other = b.vertex_block[of_edge ? c.facing[k] : c.edge[k]];
     if (other != partner) {
@@ -121,7 +120,7 @@ void set_pattern(ImplicitSolver& s, const ImplicitScene& scene, const State& sta
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
   });
-  // The order of the rows, and the factor with it, outlive a list that changes nothing here.
+  // The order of the rows, and with it the factor, remains valid if the list changes nothing here.
   if (s.block_of != rows_before || !serves(s.matrix, columns)) lay_out(s, scene, columns);
 }
 
@@ -136,36 +135,32 @@ void lay_out(ImplicitSolver& s, const ImplicitScene& scene,
   parallel_for(s.block_of.size(), [&](std::size_t row) {
     const Id i = s.block_of[row];
     s.elastic[i] = elastic_matrix(b, i);
-    s.mass[i] = mass_matrix(b, i);
+    s.mass[i] = mass_matrix(scene.masses, i);
   });
 }
 
-Vector6 viscous_force(const ImplicitSolver& s, const BlockSet& b, const ImplicitSettings& settings,
-                      const State& state, std::size_t row) {
+NodalVector viscous_force(const ImplicitSolver& s, const ImplicitScene& scene,
+                          const ImplicitSettings& settings, const State& state, std::size_t row) {
+  const BlockSet& b = scene.blocks;
   const Id i = s.block_of[row];
-  Vector6 force = Vector6::Zero();
-  if (!settings.dynamic || b.viscosity.empty()) return force;
-  const Vector6 step = s.moved.segment<6>(static_cast<Eigen::Index>(6 * row));
+  if (!settings.dynamic || scene.masses.viscosity.empty()) return NodalVector::Zero();
+  const NodeVectors step = vectors_of(part_of(s.moved, row));
   Deformation gain{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto at = static_cast<Eigen::Index>(2 * k);
-    gain.xx += step[at] * b.grad_x[k][i] / settings.step;
-    gain.xy += step[at] * b.grad_y[k][i] / settings.step;
-    gain.yx += step[at + 1] * b.grad_x[k][i] / settings.step;
-    gain.yy += step[at + 1] * b.grad_y[k][i] / settings.step;
+  for (std::size_t k = 0; k < nodes_per_block; ++k) {
+    gain.xx += step[k].x * b.grad_x[k][i] / settings.step;
+    gain.xy += step[k].x * b.grad_y[k][i] / settings.step;
+    gain.yx += step[k].y * b.grad_x[k][i] / settings.step;
+    gain.yy += step[k].y * b.grad_y[k][i] / settings.step;
   }
-  // As v_{n+1} = 2 D/h - v_n: twice what U gains in the step, less its rate before it.
+  // With v_{n+1} = 2 D/h - v_n: twice the change of U in the step over h, less its rate before the
+  // step.
   const StrainFrame before = strain_frame(deformation(b, s.start_x, s.start_y, i));
   const StrainTerms mean = strain_rate_over(before, gain, settings.step),
                     was = strain_rate(before, deformation(b, state.vx, state.vy, i));
-  const PiolaStress p =
-      viscous_stress(b, i, strain_frame(deformation(b, state.x, state.y, i)),
-                     {2.0 * mean.xx - was.xx, 2.0 * mean.yy - was.yy, 2.0 * mean.xy - was.xy});
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec2 f = elastic_force(p, b.volume[i], b.grad_x[k][i], b.grad_y[k][i]);
-    force.segment<2>(static_cast<Eigen::Index>(2 * k)) << f.x, f.y;
-  }
-  return force;
+  const PiolaStress p = viscous_stress(
+      b, scene.masses.viscosity[i], i, strain_frame(deformation(b, state.x, state.y, i)),
+      {2.0 * mean.xx - was.xx, 2.0 * mean.yy - was.yy, 2.0 * mean.xy - was.xy});
+  return nodal(elastic_forces(b, p, i));
 }
 
 bool assemble(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings& settings,
@@ -183,17 +178,16 @@ double measure_residual(ImplicitSolver& s, const ImplicitScene& scene,
   const BlockSet& b = scene.blocks;
   const double h = settings.step, a = settings.mass_damping, balance = settings.balance;
   const double gravity = norm(scene.gravity);
-  s.residual.resize(static_cast<Eigen::Index>(6 * s.block_of.size()));
+  s.residual.resize(static_cast<Eigen::Index>(degrees_of_freedom * s.block_of.size()));
   s.error.assign(s.block_of.size(), 0.0);
   s.carried.resize(s.block_of.size());
   parallel_for(s.block_of.size(), [&](std::size_t row) {
     const Id i = s.block_of[row];
-    Vector6 moved =
-        (2.0 / (h * h) + 2.0 * a / h) * s.moved.segment<6>(static_cast<Eigen::Index>(6 * row));
+    NodalVector moved = (2.0 / (h * h) + 2.0 * a / h) * part_of(s.moved, row);
     if (settings.dynamic) moved -= (2.0 / h + a) * nodal(state.vx, state.vy, i);
-    const Vector6 force = nodal(forces.x, forces.y, i), inertia = s.mass[i] * moved;
-    const Vector6 left = force + viscous_force(s, b, settings, state, row) - inertia;
-    s.residual.segment<6>(static_cast<Eigen::Index>(6 * row)) = left;
+    const NodalVector force = nodal(forces.x, forces.y, i), inertia = s.mass[i] * moved;
+    const NodalVector left = force + viscous_force(s, scene, settings, state, row) - inertia;
+    part_of(s.residual, row) = left;
     double carried = b.mass[i] * gravity + force.norm() + inertia.norm();
     c.for_faces(b.vertex_begin[i], b.vertex_begin[i + 1], [&](Id k, bool) {
       const Vec2 on = force_on_facing(c, k);

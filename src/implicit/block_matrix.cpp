@@ -11,23 +11,25 @@ void BlockMatrix::set_pattern(const std::vector<std::vector<Id>>& columns) {
     column_.insert(column_.end(), row.begin(), row.end());
     begin_.push_back(static_cast<Id>(column_.size()));
   }
-  const auto n = static_cast<Eigen::Index>(6 * rows());
-  const auto entries = static_cast<Eigen::Index>(36 * column_.size());
+  const auto n = static_cast<Eigen::Index>(degrees_of_freedom * rows());
+  const auto all = static_cast<Eigen::Index>(entries * blocks());
   scalar_.resize(n, n);
-  scalar_.resizeNonZeros(entries);
+  scalar_.resizeNonZeros(all);
   int* outer = scalar_.outerIndexPtr();
   int* inner = scalar_.innerIndexPtr();
-  std::fill_n(scalar_.valuePtr(), entries, 0.0);
+  std::fill_n(scalar_.valuePtr(), all, 0.0);
   int next = 0;
   for (std::size_t r = 0; r < rows(); ++r) {
-    for (std::size_t line = 0; line < 6; ++line) {
-      outer[6 * r + line] = next;
+    for (std::size_t line = 0; line < degrees_of_freedom; ++line) {
+      *outer++ = next;
       for (Id q = begin_[r]; q < begin_[r + 1]; ++q) {
-        for (Id c = 0; c < 6; ++c) inner[next++] = static_cast<int>(6 * column_[q] + c);
+        for (std::size_t c = 0; c < degrees_of_freedom; ++c) {
+          inner[next++] = static_cast<int>(degrees_of_freedom * column_[q] + c);
+        }
       }
     }
   }
-  outer[6 * rows()] = next;
+  *outer = next;
 }
 
 std::vector<std::vector<Id>> BlockMatrix::pattern() const {
@@ -53,15 +55,13 @@ Id BlockMatrix::slot(Id r, Id c) const {
 }
 
 BlockMatrix::Block BlockMatrix::at(Id r, Id slot) {
-  const Eigen::Index line = 6 * static_cast<Eigen::Index>(begin_[r + 1] - begin_[r]);
-  double* first = scalar_.valuePtr() + 36 * static_cast<Eigen::Index>(begin_[r]);
-  return Block(first + 6 * static_cast<Eigen::Index>(slot), Eigen::OuterStride<>(line));
+  const std::size_t line = degrees_of_freedom * (begin_[r + 1] - begin_[r]);
+  double* first = scalar_.valuePtr() + entries * begin_[r] + degrees_of_freedom * slot;
+  return Block(first, Eigen::OuterStride<>(static_cast<Eigen::Index>(line)));
 }
 
 void BlockMatrix::clear_row(Id r) {
-  const auto first = static_cast<std::size_t>(36) * begin_[r];
-  std::fill_n(scalar_.valuePtr() + first,
-              static_cast<std::size_t>(36) * (begin_[r + 1] - begin_[r]), 0.0);
+  std::fill_n(scalar_.valuePtr() + entries * begin_[r], entries * (begin_[r + 1] - begin_[r]), 0.0);
 }
 
 }  // namespace edda

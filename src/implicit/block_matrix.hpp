@@ -1,5 +1,6 @@
-// A symmetric matrix of 6 x 6 blocks, one row of blocks per free block of the model, kept whole and
-// by rows, so that every row can be assembled on its own and Eigen can read it as it is.
+// A symmetric matrix of NodalMatrix blocks, one row of blocks per free block of the model, stored
+// in full and by rows, so that each row can be assembled independently and Eigen can use it
+// directly.
 #pragma once
 
 #include <Eigen/Sparse>
@@ -9,19 +10,29 @@
 
 namespace edda {
 
+/// The part of row `row` of blocks in a vector of all of them.
+template <class Vector>
+auto part_of(Vector& v, std::size_t row) {
+  return v.template segment<degrees_of_freedom>(
+      static_cast<Eigen::Index>(degrees_of_freedom * row));
+}
+
 class BlockMatrix {
  public:
   using Scalar = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-  using Block = Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>, 0, Eigen::OuterStride<>>;
+  using Block =
+      Eigen::Map<Eigen::Matrix<double, degrees_of_freedom, degrees_of_freedom, Eigen::RowMajor>, 0,
+                 Eigen::OuterStride<>>;
 
-  /// columns[r]: the columns of row r, ascending, r itself among them. Values become zero.
+  /// columns[r]: the columns of row r, ascending, including r. Values become zero.
   void set_pattern(const std::vector<std::vector<Id>>& columns);
 
-  /// As it was given to set_pattern().
+  /// The pattern as given to set_pattern().
   std::vector<std::vector<Id>> pattern() const;
   std::size_t rows() const { return begin_.empty() ? 0 : begin_.size() - 1; }
   std::size_t blocks() const { return column_.size(); }
-  /// Slot of column c in row r, or no_id.
+  static constexpr std::size_t entries = degrees_of_freedom * degrees_of_freedom;  ///< of a block
+  /// Position of column c in row r, or no_id.
   Id slot(Id r, Id c) const;
   Block at(Id r, Id slot);
   void clear_row(Id r);
@@ -32,7 +43,7 @@ class BlockMatrix {
 
  private:
   std::vector<Id> begin_, column_;
-  Scalar scalar_;  ///< [6 rows][6 rows], N/m
+  Scalar scalar_;  ///< [degrees_of_freedom * rows][the same], N/m
 };
 
 }  // namespace edda

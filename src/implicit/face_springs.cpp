@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint8_t closed_a = 1, closed_b = 2, slides_a = 4, slides_b = 8;
 
-/// Gap, of the smaller block's size, within which a face is expected to close.
+/// Gap, as a part of the smaller block's size, up to which a face is expected to close.
 constexpr double touch = 1e-9;
 
 /// Spring energies at one instant, U and p_t u^2/2 of each end, J.
@@ -36,19 +36,20 @@ void set_limits(FaceSprings& springs, const FaceSet& c, std::size_t k) {
 
 std::uint8_t state_of(const FaceSet& c, const FaceMemory& m, std::size_t k) {
   if (!(m.energy[k] > 0.0) && c.bonded[k] == 0.0) return 0;
-  const bool pulls = c.pulls[k] > 0.0;
-  return static_cast<std::uint8_t>((pulls || m.closure_a[k] > 0.0 ? closed_a : 0) |
-                                   (pulls || m.closure_b[k] > 0.0 ? closed_b : 0) |
+  const bool carries_tension = c.carries_tension[k] > 0.0;
+  return static_cast<std::uint8_t>((carries_tension || m.closure_a[k] > 0.0 ? closed_a : 0) |
+                                   (carries_tension || m.closure_b[k] > 0.0 ? closed_b : 0) |
                                    (m.slip_a[k] != m.trial_a[k] ? slides_a : 0) |
                                    (m.slip_b[k] != m.trial_b[k] ? slides_b : 0));
 }
 
-/// Carries all the shear it can, but for rounding.
+/// Whether an end carries its full shear strength, to rounding.
 bool at_limit(double shear, double limit) {
   return limit > 0.0 && std::abs(shear) >= (1.0 - 1e-6) * limit;
 }
 
-/// What slid a step ago and still carries all it can, as nothing has moved yet.
+/// Ends that slid in the last step and still carry their full shear strength, before anything has
+/// moved.
 std::uint8_t slides_on(const FaceSprings& springs, const FaceMemory& m, std::size_t k) {
   const std::uint8_t was = springs.state[k];
   const bool a = (was & slides_a) != 0 && at_limit(m.shear_a[k], springs.limits.a[k]);
@@ -68,8 +69,8 @@ void begin_springs(FaceSprings& springs, const FaceSet& c) {
   const std::size_t n = c.size();
   springs.acts = c.acts.values();
   springs.leans = c.leans.values();
-  springs.offset_a = c.offset_a.values();
-  springs.offset_b = c.offset_b.values();
+  springs.locked_closure_a = c.locked_closure_a.values();
+  springs.locked_closure_b = c.locked_closure_b.values();
   springs.stored.resize(n);
   springs.state.resize(n);
   springs.limits.a.resize(n);
@@ -82,14 +83,15 @@ void begin_springs(FaceSprings& springs, const FaceSet& c) {
   });
 }
 
-std::size_t evaluate_springs(FaceSprings& springs, FaceSet& c, const BlockSet& b, const Pose& pose,
-                             double step, bool first) {
-  // Verdicts of other trial positions of this step are forgotten.
+std::size_t evaluate_springs(FaceSprings& springs, FaceSet& c, const FaceScene& scene, double step,
+                             bool first) {
+  // Restores the decisions and offsets at the start of the step, which may have changed at other
+  // trial positions.
   c.acts.take(springs.acts);
   c.leans.take(springs.leans);
-  c.offset_a.take(springs.offset_a);
-  c.offset_b.take(springs.offset_b);
-  try_faces(c, b, pose, step, springs.limits);
+  c.locked_closure_a.take(springs.locked_closure_a);
+  c.locked_closure_b.take(springs.locked_closure_b);
+  evaluate_with_limits(c, scene, step, springs.limits);
   springs.first = first;
   std::vector<std::size_t> changed(c.chunks(), 0);
   parallel_chunks(c.size(), FaceSet::chunk, [&](std::size_t q, std::size_t begin, std::size_t end) {
@@ -105,20 +107,20 @@ std::size_t evaluate_springs(FaceSprings& springs, FaceSet& c, const BlockSet& b
   return sum;
 }
 
-FaceStiffness springs_of(const FaceSprings& springs, const FaceSet& c, const BlockSet& b,
-                         const Pose& pose, double step, std::size_t k) {
-  EndsTaken taken;
+FaceStiffness springs_of(const FaceSprings& springs, const FaceSet& c, const FaceScene& scene,
+                         double step, std::size_t k) {
+  EndStates taken;
   taken.a_slides = (springs.state[k] & slides_a) != 0;
   taken.b_slides = (springs.state[k] & slides_b) != 0;
-  if (springs.first) taken.near = touch * smaller_size(c, b, k);
-  return face_stiffness(c, b, pose, step, taken, k);
+  if (springs.first) taken.near = touch * smaller_size(c, scene.blocks, k);
+  return face_stiffness(c, scene, step, taken, k);
 }
 
 std::vector<Id> break_overloaded(FaceSprings& springs, FaceSet& c, const BlockSet& b,
                                  const LawTable& laws) {
   std::vector<Id> broken;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if ((c.bonded[k] == 0.0 && c.pulls[k] == 0.0) || !gives_way(c, b, k)) continue;
+    if ((c.bonded[k] == 0.0 && c.carries_tension[k] == 0.0) || !bond_fails(c, b, k)) continue;
     break_bond(c, laws, k);
     set_limits(springs, c, k);
     broken.push_back(static_cast<Id>(k));
@@ -126,23 +128,25 @@ std::vector<Id> break_overloaded(FaceSprings& springs, FaceSet& c, const BlockSe
   return broken;
 }
 
-void book_springs(const FaceSprings& springs, FaceSet& c, const Pose& pose,
-                  const std::vector<Id>& broken) {
+void account_springs(const FaceSprings& springs, FaceSet& c, const Pose& pose,
+                     const std::vector<Id>& broken) {
   parallel_for(c.size(), [&](std::size_t k) {
     FaceMemory& m = c.now;
     const double lost = taken_from_blocks(c, pose, k) - (energy_of(m, k) - springs.stored[k]);
     const double friction = m.spring[k] * (m.slip_a[k] * (m.trial_a[k] - m.slip_a[k]) +
                                            m.slip_b[k] * (m.trial_b[k] - m.slip_b[k]));
     const double rest = lost - friction;
-    // A bond gives up what it held; what the scheme takes in the same step cannot be told apart.
+    // A bond that breaks releases its energy. What the scheme dissipates in the same step cannot be
+    // separated from this.
     const bool broke = std::binary_search(broken.begin(), broken.end(), static_cast<Id>(k));
     const double fracture = broke ? std::clamp(rest, 0.0, springs.stored[k]) : 0.0;
     if (broke) c.friction_work[k] += friction;
-    m.friction_work[k] = broke ? fracture : friction;  // next_step() knows which of them it is
+    m.friction_work[k] = broke ? fracture : friction;  // next_step() adds it to fracture or
+                                                       // friction
     m.damping_work[k] = rest - fracture;
     m.damping_due[k] = m.transfer[k] = 0.0;
   });
-  stand_still(c);
+  begin_from_step_end(c);
 }
 
 }  // namespace edda

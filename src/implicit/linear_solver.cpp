@@ -11,17 +11,19 @@ namespace {
 using Vector = Eigen::VectorXd;
 
 }  // namespace
-/// Orders blocks, not single rows: six times smaller a graph, and the six rows stay together.
+/// Orders blocks instead of single rows: the graph is degrees_of_freedom times smaller, and the
+/// rows of a block stay together.
 struct BlockOrdering {
   using PermutationType = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
   template <class Matrix>
   void operator()(const Matrix& a, PermutationType& p) const {
     using Graph = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
-    const Eigen::Index blocks = a.cols() / 6;
+    constexpr Eigen::Index lines = degrees_of_freedom;
+    const Eigen::Index blocks = a.cols() / lines;
     std::vector<Eigen::Triplet<double>> edges;
     for (Eigen::Index j = 0; j < blocks; ++j) {
-      for (typename Matrix::InnerIterator it(a, 6 * j); it; ++it) {
-        if (it.row() % 6 == 0) edges.emplace_back(it.row() / 6, j, 1.0);
+      for (typename Matrix::InnerIterator it(a, lines * j); it; ++it) {
+        if (it.row() % lines == 0) edges.emplace_back(it.row() / lines, j, 1.0);
       }
     }
     Graph graph(blocks, blocks);
@@ -30,8 +32,8 @@ struct BlockOrdering {
     Eigen::AMDOrdering<int>()(graph, of_blocks);
     p.resize(a.cols());
     for (Eigen::Index j = 0; j < blocks; ++j) {
-      for (int r = 0; r < 6; ++r) {
-        p.indices()[6 * j + r] = 6 * of_blocks.indices()[j] + r;
+      for (int r = 0; r < lines; ++r) {
+        p.indices()[lines * j + r] = static_cast<int>(lines) * of_blocks.indices()[j] + r;
       }
     }
   }
@@ -40,7 +42,7 @@ struct BlockOrdering {
 struct LinearSolver::Factor
     : Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, BlockOrdering> {
   using Matrix = Eigen::SparseMatrix<double>;
-  /// Multiplications to make the factor, and to solve with it.
+  /// Multiplications to compute the factor, and to solve with it.
   double making() const {
     const int* outer = m_matrix.outerIndexPtr();
     double sum = 0.0;
@@ -64,14 +66,14 @@ void LinearSolver::forget_pattern() {
 }
 
 double LinearSolver::work_by_factor(const BlockMatrix& a) const {
-  return 36.0 * static_cast<double>(a.blocks()) + factor_->using_it();
+  return static_cast<double>(a.entries * a.blocks()) + factor_->using_it();
 }
 
 double LinearSolver::work_by_diagonal(const BlockMatrix& a) const {
-  return 36.0 * static_cast<double>(a.blocks() + a.rows());
+  return static_cast<double>(a.entries * (a.blocks() + a.rows()));
 }
 
-/// The matrix by columns: it is symmetric, so they are its rows.
+/// The matrix by columns: since it is symmetric, these are its rows.
 static Eigen::Map<const Eigen::SparseMatrix<double>> by_columns(const BlockMatrix& a) {
   const BlockMatrix::Scalar& m = a.scalar();
   return {m.rows(), m.cols(), m.nonZeros(), m.outerIndexPtr(), m.innerIndexPtr(), m.valuePtr()};
@@ -98,11 +100,11 @@ void LinearSolver::invert_diagonal(BlockMatrix& a) {
   diagonal_.resize(a.rows());
   parallel_for(a.rows(), [&](std::size_t r) {
     const Id row = static_cast<Id>(r);
-    diagonal_[r] = Matrix6(a.at(row, a.slot(row, row))).inverse();
+    diagonal_[r] = NodalMatrix(a.at(row, a.slot(row, row))).inverse();
   });
 }
 
-/// Hestenes and Stiefel 1952, with a preconditioner.
+/// Preconditioned conjugate gradients (Hestenes and Stiefel 1952).
 bool LinearSolver::iterate(const BlockMatrix& a, const Vector& b, double tolerance, double most,
                            Vector& x) {
   const double enough = tolerance * b.norm();
@@ -112,10 +114,7 @@ bool LinearSolver::iterate(const BlockMatrix& a, const Vector& b, double toleran
       return;
     }
     z.resize(r.size());
-    parallel_for(a.rows(), [&](std::size_t i) {
-      const auto row = static_cast<Eigen::Index>(6 * i);
-      z.segment<6>(row) = diagonal_[i] * r.segment<6>(row);
-    });
+    parallel_for(a.rows(), [&](std::size_t i) { part_of(z, i) = diagonal_[i] * part_of(r, i); });
   };
   Vector r = b - a.scalar() * x, z, p, q;
   last_iterations_ = 0;
@@ -178,7 +177,8 @@ bool LinearSolver::solve(BlockMatrix& a, const Vector& b, double tolerance, Vect
   order(a);
   const Vector guess = x;
   if (!m_.with_factor) {
-    // Rented until the rent has come to the price; a factor that did no better costs more trust.
+    // A factor is computed when the additional work of diagonal preconditioning has reached the
+    // cost of one; twenty times that cost after a factor that did no better.
     const double patience = m_.per_solve > 0.0 ? 20.0 : 1.0;
     if (m_.rent <= patience * factor_->making()) {
       invert_diagonal(a);
@@ -190,7 +190,7 @@ bool LinearSolver::solve(BlockMatrix& a, const Vector& b, double tolerance, Vect
     return solve_by_factor(a, b, tolerance, x);
   }
   if (m_.made && m_.excess <= factor_->making() && solve_by_factor(a, b, tolerance, x)) return true;
-  // The factor has served.
+  // The factor is no longer efficient.
   x = guess;
   m_.per_solve = m_.solved > 0.0 ? m_.life / m_.solved : 0.0;
   m_.made = false;

@@ -1,9 +1,9 @@
-// The global solve: conjugate gradients, preconditioned by the last factor of the matrix while it
-// serves, or by its diagonal blocks where that is cheaper. With a factor of the matrix itself the
-// first iteration is the direct solution.
+// The global solve: conjugate gradients, preconditioned by the last factor of the matrix as long as
+// that is efficient, or by its diagonal blocks where that is cheaper. With a factor of the matrix
+// itself the first iteration is the direct solution. Theory, section 12.4.
 //
-// What is cheaper is reckoned in multiplications, never by the clock, so that the bits of a run do
-// not depend on the machine's mood.
+// Costs are counted in multiplications and never measured by the clock, so that the bits of a run
+// do not depend on the machine's load.
 #pragma once
 
 #include <Eigen/Sparse>
@@ -21,18 +21,19 @@ struct SolverCounts {
   std::uint64_t orderings = 0;  ///< symbolic factorisations
 };
 
-/// What a solver remembers from solve to solve, so that it can go on elsewhere to the same bits.
+/// Data that a solver carries from solve to solve; with them another solver continues to the same
+/// bits.
 struct SolverMemory {
-  bool made = false;         ///< there is a factor with numbers
-  bool with_factor = false;  ///< preconditioner in use
-  // All in multiplications.
-  double rent = 0.0;         ///< by diagonal blocks, beyond what a factor at hand would have taken
-  double excess = 0.0;       ///< with this factor, beyond one iteration a solve
-  double life = 0.0;         ///< with this factor, its making included
+  bool made = false;         ///< a numerical factor exists
+  bool with_factor = false;  ///< the preconditioner in use is the factor
+  // Costs, in multiplications:
+  double rent = 0.0;         ///< with diagonal blocks, in excess of what a factor would have taken
+  double excess = 0.0;       ///< with this factor, in excess of one iteration per solve
+  double life = 0.0;         ///< with this factor, including its computation
   double solved = 0.0;       ///< solves with this factor
   double by_diagonal = 0.0;  ///< the last solve by diagonal blocks, 0: none yet
-  double per_solve = 0.0;    ///< with the factor before, over its life; 0 while there was none
-  std::vector<double> values;  ///< of the matrix that was factorised
+  double per_solve = 0.0;    ///< average with the last factor; 0 before the first one
+  std::vector<double> values;  ///< values of the factorised matrix
 };
 
 class LinearSolver {
@@ -45,19 +46,20 @@ class LinearSolver {
   LinearSolver(LinearSolver&&) noexcept;
   LinearSolver& operator=(LinearSolver&&) noexcept;
 
-  /// The pattern of the matrix is a new one: orders its rows anew when the next factor is made.
+  /// Declares the pattern of the matrix changed: its rows are ordered again for the next factor.
   void forget_pattern();
-  /// Solves A x = b to |A x - b| <= tolerance |b|; at entry x is a first guess. False if it cannot,
-  /// which for a positive definite matrix means that its numbers are out of range.
+  /// Solves A x = b to |A x - b| <= tolerance |b|; on entry x is a first guess. False if it fails,
+  /// which for a positive definite matrix means that its values are out of range.
   bool solve(BlockMatrix& a, const Eigen::VectorXd& b, double tolerance, Eigen::VectorXd& x);
   const SolverCounts& counts() const { return counts_; }
   const SolverMemory& memory() const { return m_; }
-  /// Takes up where another has left off; `a` has the pattern in force (its values are lost).
+  /// Continues from the memory of another solver; `a` has the present pattern (its values are
+  /// overwritten).
   bool recall(BlockMatrix& a, SolverMemory memory);
 
  private:
   struct Factor;
-  /// Conjugate gradients with the preconditioner in use; at most so many iterations.
+  /// Conjugate gradients with the preconditioner in use, at most `most` iterations.
   bool iterate(const BlockMatrix& a, const Eigen::VectorXd& b, double tolerance, double most,
                Eigen::VectorXd& x);
   bool solve_by_diagonal(const BlockMatrix& a, const Eigen::VectorXd& b, double tolerance,
@@ -67,12 +69,12 @@ class LinearSolver {
   bool factorise(const BlockMatrix& a);
   void order(const BlockMatrix& a);
   void invert_diagonal(BlockMatrix& a);
-  double work_by_factor(const BlockMatrix& a) const;    ///< of one iteration, multiplications
+  double work_by_factor(const BlockMatrix& a) const;    ///< per iteration, multiplications
   double work_by_diagonal(const BlockMatrix& a) const;  ///< the same
 
   std::unique_ptr<Factor> factor_;
-  std::vector<Matrix6> diagonal_;  ///< inverses of the diagonal blocks
-  bool ordered_ = false;           ///< the factor knows the pattern
+  std::vector<NodalMatrix> diagonal_;  ///< inverses of the diagonal blocks
+  bool ordered_ = false;               ///< the factor has the symbolic factorisation of the pattern
   SolverMemory m_;
   int last_iterations_ = 0;
   SolverCounts counts_;

@@ -10,8 +10,8 @@
 namespace edda {
 namespace {
 
-constexpr int most_rounds = 6;
-// Of the global solve: what is then left is a small part of what a round may leave.
+constexpr int most_iterations = 6;
+// Tolerances of the global solve: its residual is to be a small part of that of an iteration.
 constexpr double tightest = 1e-9, loosest = 1e-2, margin = 0.03;
 
 double strain_energy_of(const BlockSet& b, const State& s, std::size_t i) {
@@ -50,30 +50,28 @@ void begin(ImplicitSolver& s, const ImplicitScene& scene, const State& state, Po
   begin_springs(s.springs, c);
   if (s.pattern_of != c.rebuilds) set_pattern(s, scene, state, c);
   s.pattern_of = c.rebuilds;
-  s.moved = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(6 * s.block_of.size()));
-  if (s.drift_x[0].empty()) {
-    s.drift_x = state.vx;
-    s.drift_y = state.vy;
+  s.moved =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(degrees_of_freedom * s.block_of.size()));
+  if (s.mean_velocity_x[0].empty()) {
+    s.mean_velocity_x = state.vx;
+    s.mean_velocity_y = state.vy;
   }
   s.energy.resize(b.size());
   parallel_for(b.size(), [&](std::size_t i) {
     s.energy[i] = is_free(b, state, i) ? strain_energy_of(b, state, i) : 0.0;
   });
-  s.rounds = 0;
+  s.iterations = 0;
   s.switched = 0;
   s.last_displacement = 0.0;
 }
 
-/// D = base + part correction, and everything that follows from where the blocks then are.
+/// Sets D = base + part correction, and the positions of nodes and vertices that follow.
 void move(ImplicitSolver& s, const ImplicitScene& scene, double part, State& state, Pose& pose) {
   s.moved = s.base + part * s.correction;
   parallel_for(s.block_of.size(), [&](std::size_t row) {
     const Id i = s.block_of[row];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto at = static_cast<Eigen::Index>(6 * row + 2 * k);
-      state.x[k][i] = s.start_x[k][i] + s.moved[at];
-      state.y[k][i] = s.start_y[k][i] + s.moved[at + 1];
-    }
+    store(vectors_of(s.start_x, s.start_y, i) + vectors_of(part_of(s.moved, row)), state.x, state.y,
+          i);
   });
   place_all(scene.blocks, state, pose);
   s.last_displacement = largest_move(pose);
@@ -87,7 +85,7 @@ void go_back(const ImplicitSolver& s, State& state, Pose& pose, FaceSet& c) {
   c = s.faces_before;
 }
 
-/// One solve: K^ correction = residual (Eq. 10).
+/// One global solve: K^ correction = residual (Eq. 10).
 bool solve(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings& settings,
            double error, const State& state, const Pose& pose, const FaceSet& c) {
   if (!assemble(s, scene, settings, state, pose, c)) {
@@ -99,9 +97,9 @@ bool solve(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings
                         s.correction);
 }
 
-/// Work that the step dissipated in block i other than at its contacts: by the implicit scheme in
-/// its strain and its boundary springs (-f(x_{n+1}).D less the change of the stored energy), by
-/// mass damping and viscosity, and, without dynamics, all of its motion.
+/// Dissipation of the step in block i other than at its contacts: by the implicit scheme in its
+/// strain and its boundary springs (-f(x_{n+1}).D less the change of the stored energy), by mass
+/// damping and viscosity, and in a static analysis all of its kinetic energy.
 double dissipated(const ImplicitSolver& s, const ImplicitScene& scene,
                   const ImplicitSettings& settings, const State& state, const Pose& pose, Id row) {
   const Id i = s.block_of[row];
@@ -109,14 +107,11 @@ double dissipated(const ImplicitSolver& s, const ImplicitScene& scene,
   const Deformation f = deformation(b, state.x, state.y, i);
   const PiolaStress p = stress_in(b, i, f);
   double sum = s.energy[i] - strain_energy_of(b, state, i);
-  const Vector6 step = s.moved.segment<6>(static_cast<Eigen::Index>(6 * row));
-  const Vector6 velocity = nodal(state.vx, state.vy, i);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto at = static_cast<Eigen::Index>(2 * k);
-    const Vec2 d{step[at], step[at + 1]};
-    sum -= dot(elastic_force(p, b.volume[i], b.grad_x[k][i], b.grad_y[k][i]), d);
-  }
-  sum -= viscous_force(s, b, settings, state, row).dot(step);
+  const NodalVector step = part_of(s.moved, row);
+  const NodalVector velocity = nodal(state.vx, state.vy, i);
+  const NodeVectors forces = elastic_forces(b, p, i), moved = vectors_of(step);
+  for (std::size_t k = 0; k < nodes_per_block; ++k) sum -= dot(forces[k], moved[k]);
+  sum -= viscous_force(s, scene, settings, state, row).dot(step);
   const BoundarySprings& springs = scene.springs;
   for (Id q = springs.block_begin[i]; q < springs.block_begin[i + 1]; ++q) {
     const Id v = springs.vertex[q];
@@ -125,52 +120,44 @@ double dissipated(const ImplicitSolver& s, const ImplicitScene& scene,
                   uy * (springs.kxy[q] * ux + springs.kyy[q] * uy));
   }
   const double h = settings.step;
-  const Vector6 after = 2.0 / h * step - (settings.dynamic ? velocity : Vector6::Zero());
+  const NodalVector after = 2.0 / h * step - (settings.dynamic ? velocity : NodalVector::Zero());
   sum += settings.mass_damping * step.dot(s.mass[i] * after);
   if (!settings.dynamic)
     sum += 0.5 * after.dot(s.mass[i] * after) + 0.5 * velocity.dot(s.mass[i] * velocity);
   return sum;
 }
 
-/// Spin that the scheme takes from a block as it turns: forces act at the end of the step, and so
-/// do their moments, x_{n+1} x f, but momentum is carried on by v_n as it stood at x_n. What is
-/// missing of the moment of momentum about the centre of mass, -sum D x M v_n, is given back as a
-/// turning of the whole block; of a free block that is all that would slow its spin. Returns the
-/// energy that it brings, J.
-double give_spin_back(const ImplicitSolver& s, const Vector6& before, State& state, Id row) {
+/// Returns the angular momentum that the scheme takes from a rotating block. Forces and their
+/// moments, x_{n+1} x f, act at the end of the step, but the momentum is that of v_n at x_n. The
+/// loss about the centre of mass, -sum D x M v_n, is returned as a rotation of the whole block; for
+/// a free block it is all that would slow its spin. Returns the energy added, J.
+double restore_angular_momentum(const ImplicitSolver& s, const NodalVector& before, State& state,
+                                Id row) {
   const Id i = s.block_of[row];
-  const Matrix6& mass = s.mass[i];
-  const Vector6 x = nodal(state.x, state.y, i), v = nodal(state.vx, state.vy, i),
-                step = s.moved.segment<6>(static_cast<Eigen::Index>(6 * row));
-  const auto sum = [](const Vector6& of) {
-    return Vec2{of[0] + of[2] + of[4], of[1] + of[3] + of[5]};
+  const NodalMatrix& mass = s.mass[i];
+  const NodalVector x = nodal(state.x, state.y, i), v = nodal(state.vx, state.vy, i),
+                    step = part_of(s.moved, row);
+  const auto sum = [](const NodalVector& of) { return resultant(vectors_of(of)); };
+  const auto moment = [](const NodalVector& arm, const NodalVector& of) {
+    double whole = 0.0;
+    for (Eigen::Index k = 0; k < arm.size(); k += 2) {
+      whole = whole + arm[k] * of[k + 1] - arm[k + 1] * of[k];
+    }
+    return whole;
   };
-  const auto moment = [](const Vector6& arm, const Vector6& of) {
-    return arm[0] * of[1] - arm[1] * of[0] + arm[2] * of[3] - arm[3] * of[2] + arm[4] * of[5] -
-           arm[5] * of[4];
-  };
-  Vector6 shift;
-  shift << 1.0, 0.0, 1.0, 0.0, 1.0, 0.0;
+  const NodalVector shift = nodal(at_every_node({1.0, 0.0}));
   const double total = shift.dot(mass * shift);
   const Vec2 centre = 1.0 / total * sum(mass * x), moved = 1.0 / total * sum(mass * step);
-  const Vector6 momentum = mass * before;
+  const NodalVector momentum = mass * before;
   const double missing = cross(moved, sum(momentum)) - moment(step, momentum);
-  Vector6 spin;
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    spin[2 * k] = -(x[2 * k + 1] - centre.y);
-    spin[2 * k + 1] = x[2 * k] - centre.x;
-  }
+  const NodalVector spin = nodal(rigid_velocities(vectors_of(x), centre, {}, 1.0));
   const double inertia = spin.dot(mass * spin), rate = missing / inertia;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto at = static_cast<Eigen::Index>(2 * k);
-    state.vx[k][i] += rate * spin[at];
-    state.vy[k][i] += rate * spin[at + 1];
-  }
+  store(vectors_of(v + rate * spin), state.vx, state.vy, i);
   return rate * spin.dot(mass * v) + 0.5 * rate * rate * inertia;
 }
 
-/// Eqs. 7 and 8: v_{n+1} = 2 D/h - v_n, and the spin that this loses; without dynamics every step
-/// starts and ends at rest.
+/// Eqs. 7 and 8: v_{n+1} = 2 D/h - v_n, and the lost angular momentum; in a static analysis
+/// velocities are zero at the beginning and end of every step.
 void finish(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings& settings,
             State& state, const Pose& pose, FaceSet& c, const std::vector<Id>& broken,
             std::vector<double>& damping_work) {
@@ -178,22 +165,19 @@ void finish(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSetting
   parallel_for(s.block_of.size(), [&](std::size_t row) {
     const Id i = s.block_of[row];
     damping_work[i] += dissipated(s, scene, settings, state, pose, static_cast<Id>(row));
-    const Vector6 before = nodal(state.vx, state.vy, i);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto at = static_cast<Eigen::Index>(6 * row + 2 * k);
-      s.drift_x[k][i] = s.moved[at] / h;
-      s.drift_y[k][i] = s.moved[at + 1] / h;
-      state.vx[k][i] = settings.dynamic ? 2.0 * s.moved[at] / h - state.vx[k][i] : 0.0;
-      state.vy[k][i] = settings.dynamic ? 2.0 * s.moved[at + 1] / h - state.vy[k][i] : 0.0;
-    }
+    const NodalVector before = nodal(state.vx, state.vy, i);
+    const NodalVector step = part_of(s.moved, row);
+    store(vectors_of(step / h), s.mean_velocity_x, s.mean_velocity_y, i);
+    store(settings.dynamic ? vectors_of(2.0 * step / h - before) : NodeVectors{}, state.vx,
+          state.vy, i);
     if (settings.dynamic) {
-      damping_work[i] -= give_spin_back(s, before, state, static_cast<Id>(row));
+      damping_work[i] -= restore_angular_momentum(s, before, state, static_cast<Id>(row));
     }
   });
-  book_springs(s.springs, c, pose, broken);
+  account_springs(s.springs, c, pose, broken);
 }
 
-/// One attempt at a step: the pieces above, in order.
+/// One attempt at a step, by iteration of the functions above.
 class Rounds {
  public:
   Rounds(ImplicitSolver& solver, const ImplicitScene& scene, const ImplicitSettings& settings,
@@ -206,17 +190,18 @@ class Rounds {
         c_(contacts),
         forces_(forces) {}
 
-  /// Rounds until forces and contacts agree. `broken`: bonds that broke on the way, ascending.
+  /// Iterates until forces and contact states agree. `broken`: bonds that broke on the way,
+  /// ascending.
   Attempt run(std::vector<Id>& broken) {
     begin(s_, scene_, state_, pose_, c_);
     guess();
     double error = balance();
-    int most = most_rounds;
-    while (s_.rounds == 0 || !(error <= 1.0) || !bonds_hold(broken, most, error)) {
+    int most = most_iterations;
+    while (s_.iterations == 0 || !(error <= 1.0) || !bonds_stay(broken, most, error)) {
       if (std::isnan(error)) return Attempt::no_solution;
-      if (s_.rounds == most) return Attempt::unsettled;
+      if (s_.iterations == most) return Attempt::not_converged;
       if (!solve(s_, scene_, settings_, error, state_, pose_, c_)) return Attempt::no_solution;
-      ++s_.rounds;
+      ++s_.iterations;
       error = search();
       if (far()) return Attempt::too_far;
     }
@@ -226,43 +211,40 @@ class Rounds {
   }
 
  private:
-  /// Beyond this the gaps mean nothing.
+  /// Beyond this displacement the closures are meaningless.
   bool far() const { return !(s_.last_displacement <= 4.0 * settings_.displacement_limit); }
 
   double balance() {
-    const bool first = s_.rounds == 0;
+    const bool first = s_.iterations == 0;
     const std::size_t changed =
-        evaluate_springs(s_.springs, c_, scene_.blocks, pose_, settings_.step, first);
+        evaluate_springs(s_.springs, c_, scene_.faces(pose_), settings_.step, first);
     if (!first) s_.switched += changed;
     gather_forces(forces_, scene_.blocks, state_, pose_, c_, scene_.springs, scene_.gravity,
                   scene_.loads);
     return measure_residual(s_, scene_, settings_, state_, c_, forces_);
   }
 
-  /// The first guess of a dynamic step: once more the displacement of the step before. (Not h v_n:
-  /// the scheme makes velocities of stiff springs change their sign from step to step.)
+  /// First guess of a dynamic step: the displacement of the last step once more. (Not h v_n: the
+  /// scheme makes velocities of stiff springs change their sign from step to step.)
   void guess() {
     if (!settings_.dynamic) return;
     s_.base = s_.moved;
     s_.correction.resize(s_.moved.size());
     parallel_for(s_.block_of.size(), [&](std::size_t row) {
       const Id i = s_.block_of[row];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto at = static_cast<Eigen::Index>(6 * row + 2 * k);
-        s_.correction[at] = settings_.step * s_.drift_x[k][i];
-        s_.correction[at + 1] = settings_.step * s_.drift_y[k][i];
-      }
+      part_of(s_.correction, row) =
+          settings_.step * nodal(s_.mean_velocity_x, s_.mean_velocity_y, i);
     });
     move(s_, scene_, 1.0, state_, pose_);
   }
 
-  /// Whether bonded contacts bear what they have come to carry. Those that do not break, and rounds
-  /// begin anew.
-  bool bonds_hold(std::vector<Id>& broken, int& most, double& error) {
+  /// Whether all bonds carry their present load. Those that do not break, and the count of
+  /// iterations begins again.
+  bool bonds_stay(std::vector<Id>& broken, int& most, double& error) {
     const std::vector<Id> now = break_overloaded(s_.springs, c_, scene_.blocks, scene_.laws);
     if (now.empty()) return true;
     broken.insert(broken.end(), now.begin(), now.end());
-    most = s_.rounds + most_rounds;
+    most = s_.iterations + most_iterations;
     error = balance();
     return false;
   }
@@ -273,10 +255,10 @@ class Rounds {
     return s_.residual.dot(s_.correction);
   }
 
-  /// Goes along the correction. With the limits of friction given, all springs together have a
-  /// potential made of parabolas, each of which ends where a contact opens, closes or slides: the
-  /// whole correction may be far too long, and where its slope (residual . correction) has turned
-  /// round its zero is looked for. Returns the error there.
+  /// Line search along the correction. With given limits of friction all springs together have a
+  /// piecewise quadratic potential, with a break where a contact opens, closes or slides. The whole
+  /// correction may therefore be far too long; where the slope (residual . correction) has changed
+  /// its sign, its zero is searched. Returns the error there.
   double search() {
     constexpr int most_looks = 8;
     constexpr double flat = 0.1;  // of the slope at the start
@@ -288,7 +270,7 @@ class Rounds {
       high *= 0.25;
       at_high = slope_at(high, error);
     }
-    if (at_high > 0.0 && high < 1.0) {  // the zero lies where the gaps mean nothing
+    if (at_high > 0.0 && high < 1.0) {  // the zero lies beyond meaningful closures
       s_.last_displacement = 1e300;
       return error;
     }

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "base/parallel.hpp"
-#include "blocks/cover.hpp"
 
 namespace edda {
 namespace {
@@ -14,56 +13,22 @@ EDDA_INLINE double sign(double v) {
   return (v > 0.0 ? 1.0 : 0.0) - (v < 0.0 ? 1.0 : 0.0);
 }
 
-std::array<Vec2, 3> node_vectors(const Nodes& x, const Nodes& y, std::size_t i) {
-  return {Vec2{x[0][i], y[0][i]}, Vec2{x[1][i], y[1][i]}, Vec2{x[2][i], y[2][i]}};
-}
-
-/// Cundall's local damping: beta |f| against the velocity, component by component.
+/// Cundall's local damping: beta |f| against the velocity, by component.
 EDDA_INLINE Vec2 local_damping(Vec2 f, Vec2 v, double beta) {
   return {-beta * std::abs(f.x) * sign(v.x), -beta * std::abs(f.y) * sign(v.y)};
 }
 
-/// u^T M v of one block.
-double mass_product(const BlockSet& b, std::size_t i, const std::array<Vec2, 3>& u,
-                    const std::array<Vec2, 3>& v) {
-  if (b.mass_kind != MassKind::consistent) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) sum += b.node_mass[k][i] * dot(u[k], v[k]);
-    return sum;
-  }
-  std::array<double, 6> inverse;
-  for (std::size_t e = 0; e < 6; ++e) inverse[e] = b.inverse_mass[e][i];
-  const std::array<double, 6> m = inverse_symmetric(inverse);
-  return dot(u[0], m[0] * v[0] + m[1] * v[1] + m[2] * v[2]) +
-         dot(u[1], m[1] * v[0] + m[3] * v[1] + m[4] * v[2]) +
-         dot(u[2], m[2] * v[0] + m[4] * v[1] + m[5] * v[2]);
-}
-
-}  // namespace
-
-std::array<Vec2, 3> accelerations(const BlockSet& b, std::size_t i, const std::array<Vec2, 3>& f) {
-  if (b.mass_kind != MassKind::consistent) {
-    return {f[0] / b.node_mass[0][i], f[1] / b.node_mass[1][i], f[2] / b.node_mass[2][i]};
-  }
-  const auto& m = b.inverse_mass;
-  return {m[0][i] * f[0] + m[1][i] * f[1] + m[2][i] * f[2],
-          m[1][i] * f[0] + m[3][i] * f[1] + m[4][i] * f[2],
-          m[2][i] * f[0] + m[4][i] * f[1] + m[5][i] * f[2]};
-}
-
-namespace {
-
-/// What one step does to a velocity: v+ = ((1 - drag) v- + h f/m)/(1 + drag), and the step it then
-/// makes.
+/// Change of a velocity in one step, v+ = ((1 - a h/2) v- + h f/m)/(1 + a h/2) with the
+/// mass-proportional damping a, and the step h_new of the position that follows.
 struct Kick {
-  double h, h_new, drag, local;
+  double h, h_new, half_damping, local;
 };
 
 EDDA_INLINE Vec2 kicked(Vec2 before, Vec2 acceleration, const Kick& kick) {
-  return ((1.0 - kick.drag) * before + kick.h * acceleration) / (1.0 + kick.drag);
+  return ((1.0 - kick.half_damping) * before + kick.h * acceleration) / (1.0 + kick.half_damping);
 }
 
-/// One node of all blocks, its mass lumped.
+/// One node of all blocks, with lumped mass.
 struct NodeView {
   const double *mass, *fx, *fy, *old_vx, *old_vy;
   double *vx, *vy, *x, *y;
@@ -88,41 +53,47 @@ EDDA_VECTOR void advance_nodes(NodeView n, Kick kick, std::size_t begin, std::si
 
 }  // namespace
 
-void advance(State& s, const BlockSet& b, const Nodes& force_x, const Nodes& force_y,
-             const Nodes& old_vx, const Nodes& old_vy, double h_old, double h_new,
-             const StepDamping& damping, std::size_t begin, std::size_t end) {
+void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
+  const BlockSet& b = leap.blocks;
+  const Masses& masses = leap.masses;
+  const StepDamping& damping = leap.damping;
   if (damping.local > 0.0 && damping.spared != nullptr) {
     const std::vector<Id>& spared = *damping.spared;
     const StepDamping others{damping.mass, damping.local, nullptr, damping.strain},
         these{damping.mass, 0.0, nullptr, damping.strain};
+    const auto damped_by = [&](const StepDamping& other) {
+      return Leap{b,           masses,     leap.force_x, leap.force_y, leap.old_vx,
+                  leap.old_vy, leap.h_old, leap.h_new,   other};
+    };
     auto next = std::lower_bound(spared.begin(), spared.end(), static_cast<Id>(begin));
     for (; next != spared.end() && *next < end; ++next) {
-      advance(s, b, force_x, force_y, old_vx, old_vy, h_old, h_new, others, begin, *next);
-      advance(s, b, force_x, force_y, old_vx, old_vy, h_old, h_new, these, *next, *next + 1);
+      advance(s, damped_by(others), begin, *next);
+      advance(s, damped_by(these), *next, *next + 1);
       begin = *next + 1;
     }
   }
-  const double h = 0.5 * (h_old + h_new);
-  // With viscous strain the nodes of a block go on together, once all have their kick.
+  const double h = 0.5 * (leap.h_old + leap.h_new), h_new = leap.h_new;
+  // With strain damping the nodes of a block move together, after all have their new velocities.
   const bool strains = damping.strain != nullptr;
   const Kick kick{h, strains ? 0.0 : h_new, 0.5 * damping.mass * h, damping.local};
-  if (b.mass_kind != MassKind::consistent) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const NodeView node{b.node_mass[k].data(), force_x[k].data(), force_y[k].data(),
-                          old_vx[k].data(),      old_vy[k].data(),  s.vx[k].data(),
-                          s.vy[k].data(),        s.x[k].data(),     s.y[k].data()};
+  if (masses.kind != MassKind::consistent) {
+    for (std::size_t k = 0; k < nodes_per_block; ++k) {
+      const NodeView node{masses.node[k].data(), leap.force_x[k].data(), leap.force_y[k].data(),
+                          leap.old_vx[k].data(), leap.old_vy[k].data(),  s.vx[k].data(),
+                          s.vy[k].data(),        s.x[k].data(),          s.y[k].data()};
       advance_nodes(node, kick, begin, end);
     }
-    if (strains) damp_strain_and_move(*damping.strain, b, s, h_new, begin, end);
+    if (strains) damp_strain_and_move(*damping.strain, b, masses, s, h_new, begin, end);
     return;
   }
   for (std::size_t i = begin; i < end; ++i) {
-    const std::array<Vec2, 3> v = node_vectors(old_vx, old_vy, i);
-    std::array<Vec2, 3> f = node_vectors(force_x, force_y, i);
-    for (std::size_t k = 0; k < 3; ++k) f[k] += local_damping(f[k], v[k], damping.local);
-    const bool moves = is_free(b, s, i);
-    const std::array<Vec2, 3> a = moves ? accelerations(b, i, f) : std::array<Vec2, 3>{};
-    for (std::size_t k = 0; k < 3; ++k) {
+    const NodeVectors v = vectors_of(leap.old_vx, leap.old_vy, i);
+    NodeVectors f = vectors_of(leap.force_x, leap.force_y, i);
+    for (std::size_t k = 0; k < nodes_per_block; ++k) {
+      f[k] += local_damping(f[k], v[k], damping.local);
+    }
+    const NodeVectors a = is_free(b, s, i) ? accelerations(masses, i, f) : NodeVectors{};
+    for (std::size_t k = 0; k < nodes_per_block; ++k) {
       const Vec2 after = kicked(v[k], a[k], kick);
       s.vx[k][i] = after.x;
       s.vy[k][i] = after.y;
@@ -130,19 +101,20 @@ void advance(State& s, const BlockSet& b, const Nodes& force_x, const Nodes& for
       s.y[k][i] += kick.h_new * after.y;
     }
   }
-  if (strains) damp_strain_and_move(*damping.strain, b, s, h_new, begin, end);
+  if (strains) damp_strain_and_move(*damping.strain, b, masses, s, h_new, begin, end);
 }
 
-void advance(State& s, const BlockSet& b, const Nodes& force_x, const Nodes& force_y, double h_old,
-             double h_new, const StepDamping& damping) {
-  parallel_chunks(b.size(), blocks_at_once, [&](std::size_t, std::size_t begin, std::size_t end) {
-    advance(s, b, force_x, force_y, s.vx, s.vy, h_old, h_new, damping, begin, end);
-  });
+void advance(State& s, const Leap& leap) {
+  parallel_chunks(
+      leap.blocks.size(), blocks_at_once,
+      [&](std::size_t, std::size_t begin, std::size_t end) { advance(s, leap, begin, end); });
 }
 
-void book_damping(const State& s, const BlockSet& b, const Nodes& force_x, const Nodes& force_y,
-                  const Nodes& old_vx, const Nodes& old_vy, double h_old, double h_new,
-                  const StepDamping& damping, DampingWork& work) {
+void account_damping(const State& s, const Leap& leap, DampingWork& work) {
+  const BlockSet& b = leap.blocks;
+  const StepDamping& damping = leap.damping;
+  const Nodes &old_vx = leap.old_vx, &old_vy = leap.old_vy;
+  const double h_old = leap.h_old, h_new = leap.h_new;
   if (damping.strain != nullptr) {
     add_strain_dissipation(*damping.strain, b, s, old_vx, old_vy, h_old, h_new, work.joules);
   }
@@ -153,49 +125,37 @@ void book_damping(const State& s, const BlockSet& b, const Nodes& force_x, const
   };
   parallel_for(b.size(), [&](std::size_t i) {
     if (b.fixed[i] || !s.alive[i]) return;
-    const std::array<Vec2, 3> f = node_vectors(force_x, force_y, i);
+    const NodeVectors before = vectors_of(old_vx, old_vy, i), after = vectors_of(s.vx, s.vy, i),
+                      moved = 0.5 * (h_old * before + h_new * after);
     double dissipated = 0.0;
-    const double local = damping.local > 0.0 && !is_spared(i) ? damping.local : 0.0;
-    std::array<Vec2, 3> moved, mean;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 before{old_vx[k][i], old_vy[k][i]}, after{s.vx[k][i], s.vy[k][i]};
-      moved[k] = 0.5 * (h_old * before + h_new * after);
-      mean[k] = 0.5 * (before + after);
-      if (local > 0.0) dissipated -= dot(local_damping(f[k], before, local), moved[k]);
+    if (damping.local > 0.0 && !is_spared(i)) {
+      const NodeVectors f = vectors_of(leap.force_x, leap.force_y, i);
+      for (std::size_t k = 0; k < nodes_per_block; ++k) {
+        dissipated -= dot(local_damping(f[k], before[k], damping.local), moved[k]);
+      }
     }
     if (damping.mass > 0.0) {
-      dissipated += damping.mass * mass_product(b, i, mean, moved);
+      dissipated += damping.mass * mass_product(leap.masses, i, 0.5 * (before + after), moved);
     }
     work.joules[i] += dissipated;
   });
 }
 
-void retreat(State& s, const BlockSet& b, double h_new, const Nodes& old_vx, const Nodes& old_vy) {
+void undo_step(State& s, const BlockSet& b, double h_new, const Nodes& old_vx,
+               const Nodes& old_vy) {
   parallel_for(b.size(), [&](std::size_t i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      s.x[k][i] -= h_new * s.vx[k][i];
-      s.y[k][i] -= h_new * s.vy[k][i];
-      s.vx[k][i] = old_vx[k][i];
-      s.vy[k][i] = old_vy[k][i];
-    }
+    add(-h_new * vectors_of(s.vx, s.vy, i), s.x, s.y, i);
+    store(vectors_of(old_vx, old_vy, i), s.vx, s.vy, i);
   });
 }
 
-void start_velocities(State& s, const BlockSet& b, const Nodes& force_x, const Nodes& force_y,
-                      double h, double mass_damping) {
+void start_velocities(State& s, const BlockSet& b, const Masses& masses, const Nodes& force_x,
+                      const Nodes& force_y, double h, double mass_damping) {
   parallel_for(b.size(), [&](std::size_t i) {
     if (b.fixed[i] || !s.alive[i]) return;
-    const std::array<Vec2, 3> a = accelerations(b, i, node_vectors(force_x, force_y, i));
-    for (std::size_t k = 0; k < 3; ++k) {
-      s.vx[k][i] -= 0.5 * h * (a[k].x - mass_damping * s.vx[k][i]);
-      s.vy[k][i] -= 0.5 * h * (a[k].y - mass_damping * s.vy[k][i]);
-    }
+    const NodeVectors a = accelerations(masses, i, vectors_of(force_x, force_y, i));
+    add(-0.5 * h * (a - mass_damping * vectors_of(s.vx, s.vy, i)), s.vx, s.vy, i);
   });
-}
-
-double kinetic_energy(const BlockSet& b, const Nodes& vx, const Nodes& vy, std::size_t i) {
-  const std::array<Vec2, 3> v = node_vectors(vx, vy, i);
-  return 0.5 * mass_product(b, i, v, v);
 }
 
 }  // namespace edda

@@ -2,47 +2,34 @@
 
 #include "base/parallel.hpp"
 #include "blocks/cover.hpp"
-#include "integrate/leapfrog.hpp"
 
 namespace edda {
 namespace {
 
-/// Rate of F that the velocities v of the nodes make.
-Deformation rate_of(const BlockSet& b, std::size_t i, const std::array<Vec2, 3>& v) {
-  Deformation l{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
-    l.xx += v[k].x * gx;
-    l.xy += v[k].x * gy;
-    l.yx += v[k].y * gx;
-    l.yy += v[k].y * gy;
-  }
-  return l;
-}
-
 /// B M^-1 B^T of the undeformed block, entries 11 12 13 22 23 33, 1/(kg m2).
-std::array<double, 6> compliance_of_inertia(const BlockSet& b, std::size_t i) {
-  const auto rate = [&](const std::array<Vec2, 3>& v) {
-    const Deformation l = rate_of(b, i, v);
+std::array<double, 6> compliance_of_inertia(const BlockSet& b, const Masses& masses,
+                                            std::size_t i) {
+  const auto rate = [&](const NodeVectors& v) {
+    const Deformation l = deformed_by(b, i, v);
     return StrainTerms{l.xx, l.yy, l.xy + l.yx};
   };
-  std::array<Vec2, 3> xx, yy, xy;  // columns of B^T
-  for (std::size_t k = 0; k < 3; ++k) {
+  NodeVectors xx, yy, xy;  // columns of B^T
+  for (std::size_t k = 0; k < nodes_per_block; ++k) {
     const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
     xx[k] = {gx, 0.0};
     yy[k] = {0.0, gy};
     xy[k] = {gy, gx};
   }
-  const StrainTerms p = rate(accelerations(b, i, xx)), q = rate(accelerations(b, i, yy)),
-                    r = rate(accelerations(b, i, xy));
+  const StrainTerms p = rate(accelerations(masses, i, xx)), q = rate(accelerations(masses, i, yy)),
+                    r = rate(accelerations(masses, i, xy));
   return {p.xx, p.yy, p.xy, q.yy, q.xy, r.xy};
 }
 
 /// W of block i.
-std::array<double, 6> response(const BlockSet& b, std::size_t i, double h) {
+std::array<double, 6> response(const BlockSet& b, const Masses& masses, std::size_t i, double h) {
   const double lambda = b.lame_lambda[i], mu = b.lame_mu[i];
-  const double per = 1.0 / (b.viscosity[i] * b.volume[i] * 4.0 * mu * (lambda + mu));
-  std::array<double, 6> a = compliance_of_inertia(b, i);
+  const double per = 1.0 / (masses.viscosity[i] * b.volume[i] * 4.0 * mu * (lambda + mu));
+  std::array<double, 6> a = compliance_of_inertia(b, masses, i);
   for (double& entry : a) entry *= h;
   a[0] += per * (lambda + 2.0 * mu);
   a[1] -= per * lambda;
@@ -64,31 +51,29 @@ EDDA_INLINE Deformation plus(const Deformation& f, double h, const Deformation& 
   return {f.xx + h * l.xx, f.xy + h * l.xy, f.yx + h * l.yx, f.yy + h * l.yy};
 }
 
-/// The frame at step n, once x_{n+1} = x_n + h_new v_{n+1/2} is there.
+/// The frame at step n, when positions are x_{n+1} = x_n + h_new v_{n+1/2} already.
 StrainFrame frame_before(const BlockSet& b, const State& s, double h_new, std::size_t i) {
   return strain_frame(plus(deformation(b, s.x, s.y, i), -h_new, deformation(b, s.vx, s.vy, i)));
 }
 
-/// v less h M^-1 B^T W d, d the rate of strain to be damped; s grows by W d.
-std::array<Vec2, 3> slowed(StrainDamping& damping, const BlockSet& b, std::size_t i,
-                           const StrainFrame& frame, const StrainTerms& rate,
-                           std::array<Vec2, 3> v) {
+/// v - h M^-1 B^T W d, with d the strain rate to be damped; W d is added to s.
+NodeVectors damped_velocity(StrainDamping& damping, const BlockSet& b, const Masses& masses,
+                            std::size_t i, const StrainFrame& frame, const StrainTerms& rate,
+                            const NodeVectors& v) {
   const StrainTerms s = times(damping.matrix, i, rate);
   damping.stress[0][i] += s.xx;
   damping.stress[1][i] += s.yy;
   damping.stress[2][i] += s.xy;
   const Deformation p = stress_on_rate(frame, s);
-  std::array<Vec2, 3> f;
-  for (std::size_t k = 0; k < 3; ++k) {
+  NodeVectors f;
+  for (std::size_t k = 0; k < nodes_per_block; ++k) {
     const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
     f[k] = {p.xx * gx + p.xy * gy, p.yx * gx + p.yy * gy};
   }
-  const std::array<Vec2, 3> a = accelerations(b, i, f);
-  for (std::size_t k = 0; k < 3; ++k) v[k] -= damping.step * a[k];
-  return v;
+  return v - damping.step * accelerations(masses, i, f);
 }
 
-/// What the loop over blocks of lumped mass reads and writes.
+/// Data of the loop over blocks with lumped masses.
 struct BlocksView {
   ConstNodeValues grad_x, grad_y, mass;
   std::array<const double*, 6> w;
@@ -104,7 +89,7 @@ EDDA_INLINE void damp_and_move(const BlocksView& b, double h, double h_new, std:
   b.stress[0][i] = s.xx;
   b.stress[1][i] = s.yy;
   b.stress[2][i] = s.xy;
-  const auto node = [&](std::size_t k) __attribute__((always_inline)) {
+  for (std::size_t k = 0; k < nodes_per_block; ++k) {
     const double per = b.mass[k][i] > 0.0 ? h / b.mass[k][i] : 0.0;
     const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
     const double vx = b.vx[k][i] - per * (p.xx * gx + p.xy * gy);
@@ -113,10 +98,7 @@ EDDA_INLINE void damp_and_move(const BlocksView& b, double h, double h_new, std:
     b.vy[k][i] = vy;
     b.x[k][i] += h_new * vx;
     b.y[k][i] += h_new * vy;
-  };
-  node(0);
-  node(1);
-  node(2);
+  }
 }
 
 EDDA_VECTOR void damp_and_move_all(BlocksView b, double h, double h_new, std::size_t begin,
@@ -125,7 +107,7 @@ EDDA_VECTOR void damp_and_move_all(BlocksView b, double h, double h_new, std::si
   for (std::size_t i = begin; i < end; ++i) damp_and_move(b, h, h_new, i);
 }
 
-/// What the loop reads and writes that adds up what the damping took.
+/// Data of the loop that adds up the dissipation.
 struct DissipationView {
   ConstNodeValues grad_x, grad_y;
   std::array<const double*, 3> stress;
@@ -154,24 +136,24 @@ EDDA_VECTOR void add_dissipation_of_all(DissipationView b, double h_old, double 
 
 }  // namespace
 
-void prepare(StrainDamping& d, const BlockSet& b, double h) {
+void prepare(StrainDamping& d, const BlockSet& b, const Masses& masses, double h) {
   if (d.step == h && d.matrix[0].size() == b.size()) return;
   d.step = h;
   for (auto& entry : d.matrix) entry.assign(b.size(), 0.0);
   for (auto& stress : d.stress) stress.resize(b.size(), 0.0);
   parallel_for(b.size(), [&](std::size_t i) {
-    if (b.fixed[i] != 0 || !(b.viscosity[i] > 0.0)) return;
-    const std::array<double, 6> w = response(b, i, h);
+    if (b.fixed[i] != 0 || !(masses.viscosity[i] > 0.0)) return;
+    const std::array<double, 6> w = response(b, masses, i, h);
     for (std::size_t e = 0; e < 6; ++e) d.matrix[e][i] = w[e];
   });
 }
 
-void damp_strain_and_move(StrainDamping& d, const BlockSet& b, State& s, double h_new,
-                          std::size_t begin, std::size_t end) {
-  if (b.mass_kind != MassKind::consistent) {
+void damp_strain_and_move(StrainDamping& d, const BlockSet& b, const Masses& masses, State& s,
+                          double h_new, std::size_t begin, std::size_t end) {
+  if (masses.kind != MassKind::consistent) {
     const BlocksView view{values_of(b.grad_x),
                           values_of(b.grad_y),
-                          values_of(b.node_mass),
+                          values_of(masses.node),
                           {d.matrix[0].data(), d.matrix[1].data(), d.matrix[2].data(),
                            d.matrix[3].data(), d.matrix[4].data(), d.matrix[5].data()},
                           {d.stress[0].data(), d.stress[1].data(), d.stress[2].data()},
@@ -185,28 +167,20 @@ void damp_strain_and_move(StrainDamping& d, const BlockSet& b, State& s, double 
   for (std::size_t i = begin; i < end; ++i) {
     if (is_free(b, s, i)) {
       const StrainFrame frame = strain_frame(deformation(b, s.x, s.y, i));
-      std::array<Vec2, 3> v;
-      for (std::size_t k = 0; k < 3; ++k) {
-        v[k] = {s.vx[k][i], s.vy[k][i]};
-        d.stress[k][i] = 0.0;
-      }
-      v = slowed(d, b, i, frame, strain_rate_over(frame, deformation(b, s.vx, s.vy, i), h_new), v);
-      for (std::size_t k = 0; k < 3; ++k) {
-        s.vx[k][i] = v[k].x;
-        s.vy[k][i] = v[k].y;
-      }
+      const StrainTerms rate = strain_rate_over(frame, deformation(b, s.vx, s.vy, i), h_new);
+      for (std::vector<double>& stress : d.stress) stress[i] = 0.0;
+      store(damped_velocity(d, b, masses, i, frame, rate, vectors_of(s.vx, s.vy, i)), s.vx, s.vy,
+            i);
     }
-    for (std::size_t k = 0; k < 3; ++k) {
-      s.x[k][i] += h_new * s.vx[k][i];
-      s.y[k][i] += h_new * s.vy[k][i];
-    }
+    add(h_new * vectors_of(s.vx, s.vy, i), s.x, s.y, i);
   }
 }
 
-std::array<Vec2, 3> damped_change(StrainDamping& d, const BlockSet& b, const State& s, double h_new,
-                                  std::size_t i, const std::array<Vec2, 3>& change) {
+NodeVectors damped_change(StrainDamping& d, const BlockSet& b, const Masses& masses, const State& s,
+                          double h_new, std::size_t i, const NodeVectors& change) {
   const StrainFrame frame = frame_before(b, s, h_new, i);
-  return slowed(d, b, i, frame, strain_rate(frame, rate_of(b, i, change)), change);
+  return damped_velocity(d, b, masses, i, frame, strain_rate(frame, deformed_by(b, i, change)),
+                         change);
 }
 
 void add_strain_dissipation(const StrainDamping& d, const BlockSet& b, const State& s,

@@ -5,9 +5,10 @@
 #include <cmath>
 
 #include "library/impl.hpp"
-#include "model/nearest.hpp"
 #include "model/stage_names.hpp"
+#include "model/table/nearest.hpp"
 #include "run/stages.hpp"
+#include "step/changes.hpp"
 
 namespace edda::api {
 namespace {
@@ -36,13 +37,13 @@ void check_number(const char* function, const char* what, double value, double l
 /// Openings whose rock is in the model.
 Index row_of_opening(const char* function, const edda::Simulation& sim, const std::string& name) {
   std::vector<std::string_view> known;
-  add_names(sim.model.openings, known);
+  add_names(sim.scene->model.openings, known);
   check_known(function, name, "opening", known);
-  for (std::size_t q = 0; q < sim.model.openings.size(); ++q) {
-    const Opening& opening = sim.model.openings[q];
+  for (std::size_t q = 0; q < sim.scene->model.openings.size(); ++q) {
+    const Opening& opening = sim.scene->model.openings[q];
     if (opening.name == name && opening.staged) return static_cast<Index>(q);
   }
-  raise(function, "the rock of \"" + name + "\" was cut away at the start",
+  raise(function, "the rock of \"" + name + "\" was excavated before the start",
         "name the opening in a stage's excavate");
 }
 
@@ -51,35 +52,36 @@ std::vector<double> strength_factors(const LawTable& laws) {
 }
 
 constexpr double smallest_factor = 1e-6;
-/// Local damping of 1 holds what it damps for ever.
+/// A node with local damping of 1 never moves.
 const double below_one = std::nextafter(1.0, 0.0);
 
-// What follows has the wording of model/complete_stages.cpp: a stage is refused for the same.
+// The following faults have the wording of model/completion/complete_stages.cpp, which refuses the
+// same in stages.
 
 void check_excavation(const edda::Simulation& sim, const std::vector<std::string>& names,
                       const std::vector<Index>& rows) {
-  const auto& of_block = sim.blocks.opening;
+  const auto& of_block = sim.scene->blocks.opening;
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const auto here = rows.begin() + static_cast<std::ptrdiff_t>(q);
     const bool has_rock = std::find(of_block.begin(), of_block.end(), rows[q]) != of_block.end();
     const bool again = std::find(rows.begin(), here, rows[q]) != here;
-    if (!again && !(has_rock && is_taken_out(sim, rows[q]))) continue;
-    raise("excavate", '"' + names[q] + "\" has been taken out before",
-          "take each opening out once");
+    if (!again && !(has_rock && is_excavated(sim, rows[q]))) continue;
+    raise("excavate", '"' + names[q] + "\" has been excavated before",
+          "excavate each opening once");
   }
 }
 
 void check_relaxation(const edda::Simulation& sim, Index row, const std::string& name,
                       double part) {
-  if (!is_taken_out(sim, row)) {
-    raise("relax", '"' + name + "\" has not been taken out yet", "excavate() it before");
+  if (!is_excavated(sim, row)) {
+    raise("relax", '"' + name + "\" has not been excavated yet", "excavate() it before");
   }
-  const Hold& hold = sim.loads.held[static_cast<std::size_t>(row)];
-  // Changes of one moment are one change, of which the last counts.
-  const double still = hold.changed == sim.state.time ? hold.before : hold.part;
+  const RemainingFraction& fraction = sim.attached.loads.remaining[static_cast<std::size_t>(row)];
+  // Several changes at the same time count as one, and the last of them applies.
+  const double still = fraction.changed == sim.motion.state.time ? fraction.before : fraction.part;
   if (1.0 - part <= still) return;
-  raise("relax", "is less than the " + fmt::format("{:.6g}", 1.0 - still) + " let go so far",
-        "give the part let go by then, all changes together");
+  raise("relax", "is less than the " + fmt::format("{:.6g}", 1.0 - still) + " released so far",
+        "give the part released by then, all changes together");
 }
 
 void check_switches(const edda::Simulation& sim, const std::vector<std::string>& deactivate,
@@ -90,8 +92,8 @@ void check_switches(const edda::Simulation& sim, const std::vector<std::string>&
   }
   const auto check = [&](const std::vector<std::string>& names, bool act, const char* problem) {
     for (const std::string& name : names) {
-      const NamedRows rows = rows_called(sim.model, {name});
-      if (rows_that(act, sim.loads.spells, rows).empty()) continue;
+      const NamedRows rows = rows_called(sim.scene->model, {name});
+      if (rows_that(act, sim.attached.loads.intervals, rows).empty()) continue;
       raise("switch_over", '"' + name + problem, "leave it out here");
     }
   };
@@ -109,18 +111,17 @@ void Simulation::set_velocity(std::size_t block, Point velocity, double omega) {
     impl_->take_back();
   }
   edda::Simulation& sim = impl_->sim();
-  if (block >= sim.blocks.size() || !is_free(sim.blocks, sim.state, block)) {
+  if (block >= sim.scene->blocks.size() || !is_free(sim.scene->blocks, sim.motion.state, block)) {
     raise("set_velocity", "block " + std::to_string(block) + " is not free to move",
-          "name a block that is neither held nor taken out");
+          "name a block that is neither fixed nor excavated");
   }
   check_number("set_velocity", "velocity",
                std::abs(velocity.x) + std::abs(velocity.y) + std::abs(omega), 0.0);
-  edda::Nodes vx = sim.state.vx, vy = sim.state.vy;
-  const Vec2 middle = centroid(sim.state.x, sim.state.y, block);
-  for (std::size_t k = 0; k < 3; ++k) {
-    vx[k][block] = velocity.x - omega * (sim.state.y[k][block] - middle.y);
-    vy[k][block] = velocity.y + omega * (sim.state.x[k][block] - middle.x);
-  }
+  edda::Nodes vx = sim.motion.state.vx, vy = sim.motion.state.vy;
+  const edda::Nodes &x = sim.motion.state.x, &y = sim.motion.state.y;
+  store(rigid_velocities(vectors_of(x, y, block), centroid(x, y, block), {velocity.x, velocity.y},
+                         omega),
+        vx, vy, block);
   impl_->change_velocities(vx, vy);
   if (begun) impl_->end_change();
 }
@@ -130,18 +131,18 @@ void Simulation::set_damping(double mass, double local, double contact) {
   check_number("set_damping", "local", local, 0.0, below_one);
   check_number("set_damping", "contact", contact, 0.0, 10.0);
   impl_->begin_change("set_damping");
-  Damping damping = impl_->sim().damping;  // adaptive and Rayleigh's stay
+  Damping damping = impl_->sim().motion.damping;  // adaptive and Rayleigh damping remain
   damping.mass = mass;
   damping.local = local;
   damping.contact = contact;
-  impl_->sim().change_damping(damping, impl_->sim().dynamic);
+  change_damping(impl_->sim(), damping, impl_->sim().motion.dynamic);
   impl_->end_change();
 }
 
 void Simulation::set_strength_factor(double factor) {
   check_number("set_strength_factor", "factor", factor, smallest_factor);
   impl_->begin_change("set_strength_factor");
-  impl_->sim().set_strength_factor(factor);
+  edda::set_strength_factor(impl_->sim(), factor);
   impl_->end_change();
 }
 
@@ -149,14 +150,14 @@ void Simulation::set_strength_factor(const std::string& joint, double factor) {
   check_number("set_strength_factor", "factor", factor, smallest_factor);
   edda::Simulation& sim = impl_->sim();
   std::vector<std::string_view> known;
-  add_names(sim.model.joints, known);
+  add_names(sim.scene->model.joints, known);
   check_known("set_strength_factor", joint, "joint", known);
   impl_->begin_change("set_strength_factor");
-  std::vector<double> factors = strength_factors(sim.laws);
-  for (std::size_t r = 0; r < sim.model.joints.size(); ++r) {
-    if (sim.model.joints[r].name == joint) factors[r] = factor;
+  std::vector<double> factors = strength_factors(sim.motion.laws);
+  for (std::size_t r = 0; r < sim.scene->model.joints.size(); ++r) {
+    if (sim.scene->model.joints[r].name == joint) factors[r] = factor;
   }
-  sim.set_strength_factors(factors);
+  set_strength_factors(sim, factors);
   impl_->end_change();
 }
 
@@ -169,7 +170,7 @@ void Simulation::excavate(const std::vector<std::string>& openings) {
   if (rows.empty()) return;
   impl_->begin_change("excavate");
   check_excavation(impl_->sim(), openings, rows);
-  impl_->sim().excavate(rows);
+  edda::excavate(impl_->sim(), rows);
   impl_->end_change();
 }
 
@@ -178,13 +179,13 @@ void Simulation::relax(const std::string& opening, double part) {
   check_number("relax", "part", part, 0.0, 1.0);
   impl_->begin_change("relax");
   check_relaxation(impl_->sim(), row, opening, part);
-  impl_->sim().relax(row, part);
+  edda::relax(impl_->sim(), row, part);
   impl_->end_change();
 }
 
 void Simulation::switch_over(const std::vector<std::string>& deactivate,
                              const std::vector<std::string>& activate) {
-  const edda::Model& model = impl_->sim().model;
+  const edda::Model& model = impl_->sim().scene->model;
   std::vector<std::string_view> known;
   add_names(model.loads, known);
   add_names(model.waters, known);
@@ -197,12 +198,12 @@ void Simulation::switch_over(const std::vector<std::string>& deactivate,
   }
   impl_->begin_change("switch_over");
   check_switches(impl_->sim(), deactivate, activate);
-  impl_->sim().switch_over(rows_called(model, deactivate), rows_called(model, activate));
+  edda::switch_over(impl_->sim(), rows_called(model, deactivate), rows_called(model, activate));
   impl_->end_change();
 }
 
 void Simulation::install(const std::vector<std::string>& bolts) {
-  const edda::Model& model = impl_->sim().model;
+  const edda::Model& model = impl_->sim().scene->model;
   std::vector<std::string_view> known;
   add_names(model.bolts, known);
   add_names(model.bolt_patterns, known);
@@ -212,17 +213,17 @@ void Simulation::install(const std::vector<std::string>& bolts) {
   impl_->begin_change("install");
   for (const std::string& name : bolts) {
     for (const Index row : bolts_called(model, {name})) {
-      if (!is_installed(impl_->sim().bolts, row)) continue;
+      if (!is_installed(impl_->sim().attached.bolts, row)) continue;
       raise("install", '"' + name + "\" has been installed before", "install each once");
     }
   }
-  if (const auto fault = impl_->sim().install(rows)) raise(Faults{*fault});
+  if (const auto fault = edda::install(impl_->sim(), rows)) raise(Faults{*fault});
   impl_->end_change();
 }
 
 void Simulation::reset_displacements() {
   impl_->begin_change("reset_displacements");
-  impl_->sim().reset_displacements();
+  edda::reset_displacements(impl_->sim());
   impl_->end_change();
 }
 

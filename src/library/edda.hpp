@@ -4,16 +4,12 @@
 //   edda::api::Simulation simulation(model, {.results = "slope"});
 //   const edda::api::Outcome outcome = simulation.run();
 //
-// Units are SI, angles in rad, stresses positive in tension, coordinates those of the model unless
-// said otherwise. nb: number of blocks, nv: number of their vertices.
+// Units are SI, angles in rad, coordinates those of the model unless stated otherwise. Stresses are
+// positive in tension, those of joints in compression. nb: number of blocks, nv: of their vertices.
 //
-// Whatever goes wrong with what a caller gives is an Error, an exception that carries the list of
-// faults with key, problem and remedy: constructors and callbacks have no other way to say so, and
-// a fault that nobody looks at must not pass. A run that ends badly (it diverges, or finds no rest)
-// is no Error: Outcome says how it ended, and all that was computed stays.
-//
-// Objects of one Simulation belong to one thread at a time; only pause() and stop() may be called
-// from others. Two simulations may run at the same time.
+// Invalid input raises an Error, an exception with the list of faults. A run that ends badly (it
+// diverges, or does not reach equilibrium) raises none: Outcome says how it ended.
+// A Simulation belongs to one thread at a time, but for pause() and stop().
 #pragma once
 
 #include <array>
@@ -40,7 +36,7 @@ struct Point {
   double x = 0.0, y = 0.0;
 };
 
-/// One thing wrong with what was given.
+/// One fault of the input.
 struct EDDA_API Fault {
   std::string key;              ///< dotted path in the model ("block.slider.polygon"), or empty
   std::string file;             ///< "--set" for an override (line = its number, from 1)
@@ -65,9 +61,9 @@ class EDDA_API Error : public std::runtime_error {
 class EDDA_API Model {
  public:
   /// Reads a TOML file and applies `overrides` ("solver.duration=0.2"), as --set does. A model
-  /// without stages may lack solver.duration: cut() and fos() need none, all else refuses it.
+  /// without stages may lack solver.duration for cut() and fos(), not for other functions.
   static Model read(const std::string& path, const std::vector<std::string>& overrides = {});
-  /// The same of a text; `name` is what faults call it, and paths in it count from that file.
+  /// The same for a text; `name` is its file name, for faults and relative paths.
   static Model parse(std::string_view toml, const std::string& name = "model",
                      const std::vector<std::string>& overrides = {});
 
@@ -79,8 +75,7 @@ class EDDA_API Model {
   // Names, in the order of the model. Numbers of materials and joints below are rows of these.
   std::vector<std::string> materials() const, joints() const, openings() const, stages() const;
 
-  /// What looks right in it and is not, as `edda check` says it, a sentence each. The model is cut
-  /// for that, the first time that it is asked. Error: it cannot be computed.
+  /// What is valid but not plausible, as `edda check` reports it. Error: it cannot be computed.
   const std::vector<std::string>& warnings() const;
 
   struct Impl;
@@ -107,7 +102,7 @@ struct CutBlock {
 struct Cut {
   std::vector<CutBlock> blocks;  ///< in the order of their ids
   int trimmed = 0;               ///< ends of joints inside a block
-  int merged = 0;                ///< slivers joined to a neighbour
+  int merged = 0;                ///< slivers merged into a neighbour
   double smallest_area = 0.0;    ///< m2
   double smallest_edge = 0.0;    ///< m
   double smallest_angle = 0.0;   ///< degrees
@@ -119,24 +114,24 @@ EDDA_API Cut cut(const Model& model);
 
 // ---- Studies of a model
 
-/// What `edda check` says.
+/// The report of `edda check`.
 struct ModelCheck {
-  std::size_t blocks = 0, held = 0;                                ///< held: of the blocks
+  std::size_t blocks = 0, held = 0;                                ///< held: those that are fixed
   std::size_t contacts = 0;                                        ///< closed at the start
   double critical_step = 0.0;                                      ///< s
   double time_step = 0.0;                                          ///< s: the first
   double steps = 0.0;                                              ///< to expect
   bool at_most = false;                                            ///< stages may end before
   double steps_per_second = 0.0;                                   ///< of wall time
-  std::string governed_by;                                         ///< what holds the step
+  std::string governed_by;                                         ///< what limits the step
   std::vector<std::string> loads, initial_stress, strain_damping;  ///< a sentence each
   std::vector<std::string> warnings;                               ///< those of the model
 };
 
-/// Makes a few steps, of which nothing is kept. Error: the model cannot be computed.
+/// Makes a few steps and discards them. Error: the model cannot be computed.
 EDDA_API ModelCheck check(const Model& model);
 
-/// One factor that was tried.
+/// One trial.
 struct FosTrial {
   double factor = 0.0;
   bool holds = false;
@@ -144,10 +139,10 @@ struct FosTrial {
   double displacement = 0.0;  ///< m, largest of a corner since the start of the trial
   std::int32_t block = -1;    ///< whose corner that is; -1: none
   double velocity = 0.0;      ///< m/s, at its end
-  double time = 0.0;          ///< s that it took
+  double time = 0.0;          ///< s, duration of the trial in the model
 };
 
-/// What `edda fos` finds.
+/// The result of `edda fos`.
 struct FactorOfSafety {
   std::string status;                  ///< found, below, above, unstable or interrupted
   std::string message;                 ///< one sentence
@@ -159,31 +154,30 @@ struct FactorOfSafety {
   double wall_seconds = 0.0;
 };
 
-/// By what [fos] of the model says. `stop`, set from anywhere, ends it as interrupted. Error: the
-/// model cannot be computed, or has nothing to search for.
+/// The search that [fos] of the model describes. `stop`, set from anywhere, ends it as interrupted.
+/// Error: the model cannot be computed, or has nothing to search for.
 EDDA_API FactorOfSafety fos(const Model& model, const std::atomic<bool>* stop = nullptr);
 
-/// A monitor's displacement at the end, and how far other runs end from it, m.
+/// A monitor's displacement at the end, and the differences of the other runs from it, m.
 struct ErrorBar {
   std::string monitor;
   double ux = 0.0, uy = 0.0;
   double step = 0.0, stiffness = 0.0, order = 0.0;
 };
 
-/// What `edda verify` finds.
+/// The result of `edda verify`.
 struct Verification {
   std::vector<ErrorBar> monitors;
   double time = 0.0;           ///< s, of the model
-  double largest_drift = 0.0;  ///< of the energy, over all runs
+  double largest_drift = 0.0;  ///< largest error of the energy balance of all runs, in size
   std::string failed;          ///< which run did not reach its end, and why; empty: none
 };
 
 /// Runs the model four times: as it is, at half the step, with springs three times as stiff, and
-/// with its blocks in the other order. `stop` as of fos(). Error: the model cannot be computed, or
-/// has no monitors.
+/// with its blocks in reverse order. `stop` as in fos(). Error: as in fos(), or no monitors.
 EDDA_API Verification verify(const Model& model, const std::atomic<bool>* stop = nullptr);
 
-// ---- What a simulation tells
+// ---- Results of a simulation
 
 enum class Status { completed, equilibrium, collapsed, interrupted, failed };
 EDDA_API std::string_view name_of(Status status);
@@ -194,9 +188,9 @@ struct Outcome {
   std::string message;  ///< one sentence
   double time = 0.0;    ///< s reached
   std::uint64_t steps = 0;
-  std::size_t contacts = 0;  ///< closed at the end
-  double drift = 0.0;        ///< of the energy: the largest in size of all rows, not the last one's
-  bool at_rest = true;       ///< at the end; false: something still moves
+  std::size_t contacts = 0;   ///< closed at the end
+  double drift = 0.0;         ///< error of the energy balance: the largest of all rows, in size
+  bool at_rest = true;        ///< in equilibrium at the end; false: something still moves
   std::int32_t fastest = -1;  ///< block with the fastest corner at the end; -1: none is free
   double speed = 0.0;         ///< m/s, of that corner
   std::vector<std::string> failed_checks;  ///< those of summary.json, a sentence each
@@ -212,14 +206,14 @@ struct Progress {
   double kinetic = 0.0;           ///< J
   double largest_overlap = 0.0;   ///< m
   double largest_velocity = 0.0;  ///< m/s, of the blocks' centroids
-  std::size_t stage = 0;          ///< in hand, from 0
+  std::size_t stage = 0;          ///< the current one, from 1
   std::size_t stages = 1;         ///< of the model; 1 where it has none
   std::string stage_name{};       ///< empty where it has none
 };
 
-/// Energies since t = 0, J: friction, damping and fracture are dissipated, external is work done on
-/// the blocks, transfer taken by rules that are no physics; drift is what does not add up, over the
-/// largest energy so far.
+/// The energy balance since t = 0, J: friction, damping and fracture are dissipated, external is
+/// work done on the blocks, transfer is taken by the moving ends of faces; drift is the error of
+/// the balance over the largest energy so far.
 struct Ledger {
   double kinetic = 0.0, strain = 0.0, contact = 0.0, gravity = 0.0, friction = 0.0, damping = 0.0,
          fracture = 0.0, external = 0.0, step_change = 0.0, drift = 0.0, transfer = 0.0;
@@ -235,18 +229,18 @@ struct Contact {
   double x = 0.0, y = 0.0;    ///< middle of the overlap, m
   double normal_force = 0.0;  ///< N, positive in compression
   double shear_force = 0.0;   ///< N, positive where it drives block i from end a to end b
-  double opening = 0.0;       ///< m, of the end that is open less, negative: pressed together
-  double slip = 0.0;          ///< m from end a to end b since the start
-  double mobilised = 0.0;     ///< |shear| over shear strength
+  double opening = 0.0;    ///< m, minus the larger drawn closure of the two ends; negative: closed
+  double slip = 0.0;       ///< m from end a to end b since the start
+  double mobilised = 0.0;  ///< |shear| over shear strength
   bool ever_slipped = false, ever_opened = false;
-  double length = 0.0, closed_length = 0.0;           ///< of the overlap, of what of it bears, m
+  double length = 0.0, closed_length = 0.0;           ///< of the overlap, of its closed part, m
   double x_a = 0.0, y_a = 0.0, x_b = 0.0, y_b = 0.0;  ///< ends of the overlap, m
-  double normal_stress = 0.0;  ///< Pa, positive in tension: the mean over the overlap
+  double normal_stress = 0.0;  ///< Pa, positive in compression: the mean over the overlap
   double normal_stress_a = 0.0, normal_stress_b = 0.0;  ///< at its ends
   double shear_stress = 0.0;  ///< Pa: the mean over the overlap, signed as shear_force
 };
 
-/// What blocks are asked for, and how many numbers a block has of it.
+/// A quantity of blocks, and how many numbers it has for each block.
 enum class Field {
   centroid,      ///< 2: x, y, m
   displacement,  ///< 2: of the centroid since the start or the last reset, m
@@ -254,11 +248,11 @@ enum class Field {
   velocity,      ///< 2: of the centroid, at the time of the positions, m/s
   omega,         ///< 1: rad/s
   stress,        ///< 4: xx, yy, zz, xy, Pa
-  overstress,    ///< 1: part of the rock's strength that is used
+  overstress,    ///< 1: stress over the strength of the rock
 };
 EDDA_API std::size_t components_of(Field field);
 
-/// A material point that is followed.
+/// The motion of a material point.
 struct MonitorReading {
   double ux = 0.0, uy = 0.0;               ///< m
   double vx = 0.0, vy = 0.0;               ///< m/s
@@ -269,15 +263,14 @@ struct MonitorReading {
 using Nodes = std::array<std::span<const double>, 3>;
 using MutableNodes = std::array<std::span<double>, 3>;
 
-/// What never changes about the blocks. Views that live as long as the Simulation.
+/// Properties of the blocks that never change. Views that live as long as the Simulation.
 struct BlockViews {
   std::span<const double> area;                 ///< [nb] at the start, m2
   std::span<const double> mass;                 ///< [nb] kg
   std::span<const std::int32_t> material;       ///< [nb] row of Model::materials(), -1: none
-  std::span<const std::uint8_t> fixed;          ///< [nb] 1: held
+  std::span<const std::uint8_t> fixed;          ///< [nb] 1: fixed
   std::span<const std::uint32_t> vertex_begin;  ///< [nb + 1] first vertex of each block
-  /// [nv] the vertex behind this one, with the block on the left; behind the last of a ring its
-  /// first.
+  /// [nv] the next vertex of the ring, with the block on the left.
   std::span<const std::uint32_t> next;
 };
 
@@ -285,113 +278,110 @@ struct BlockViews {
 
 struct Options {
   std::string results{};  ///< folder for results, as of `edda run -o`; empty: none
-  bool resume = false;    ///< go on from the checkpoint in it, with the model of its model.toml
-  std::optional<std::size_t> from_stage{};  ///< go on from that of the end of this stage
-  /// Called between two steps, about every `progress_every` s of wall time, and once the run is
-  /// over, when it may look but no longer change; false: as stop(). May be empty.
+  bool resume = false;    ///< continue from the checkpoint in it, with the model of its model.toml
+  std::optional<std::size_t> from_stage{};  ///< continue from its end; counted from 1
+  /// Called between two steps, about every `progress_every` s of wall time, and once after the end,
+  /// when it may only query; false: as stop(). May be empty.
   std::function<bool(const Progress&)> progress{};
   double progress_every = 0.2;
-  std::function<void(const std::string&)> warn{};  ///< of what does not end the run; may be empty
+  std::function<void(const std::string&)> warn{};  ///< for warnings; may be empty
 };
 
-/// A model in motion. It stands at step n; run(), step() and advance_to() are one and the same run,
-/// in parts or at once: stages, rows and frames come in either way, to the same bits, and looking
-/// at it changes nothing.
+/// A model at step n of its run. run(), step() and advance_to() continue the same run, in parts or
+/// as a whole, with its stages, rows and frames, to the same bits; queries change nothing.
 class EDDA_API Simulation {
  public:
-  /// Cuts, builds and checks; nothing is written before the first step.
+  /// Cuts the geometry, builds the model and checks it; nothing is written before the first step.
   explicit Simulation(const Model& model, Options options = {});
-  /// A run with a results folder that has begun and is not over ends here as interrupted.
+  /// A run with a results folder that has begun and not ended ends here as interrupted.
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  // -- Going on. An exception out of a callback leaves the simulation between two steps, and comes
-  // through; going on is possible. Error of the first call: a folder that cannot be made, or that
-  // another run is writing to.
+  // -- Running. An exception from a callback is passed on and leaves the simulation between two
+  // steps, from which it may continue. Error of the first call: a folder that cannot be made, or
+  // that another run is writing to.
   Outcome run();  ///< to the end, or to a pause (then outcome says interrupted)
-  bool step(std::uint64_t steps = 1);  ///< so many, fewer at the end; false: the run is over
-  bool advance_to(double time);  ///< the first step at or past it (s); false: over. Error: NaN
+  bool step(std::uint64_t steps = 1);  ///< fewer at the end; false: the run has ended
+  bool advance_to(double time);        ///< first step at or after it (s); false: ended. Error: NaN
   bool over() const;
-  Outcome finish();  ///< ends the run where it stands and writes what is due
-  void pause();      ///< from any thread: the call in hand returns; without one nothing happens
+  Outcome finish();  ///< ends the run here and writes all results
+  void pause();      ///< from any thread: the current call returns; without one nothing happens
   void stop();       ///< from any thread: the run ends as interrupted
 
-  /// Calls `action` after every `steps`-th step; what it does to the simulation is between two
-  /// steps. Returns a number for forget(). Error: 0 steps, an empty function.
+  /// Calls `action` between two steps, after every `steps`-th one. Returns a number for forget().
+  /// Error: 0 steps, an empty function.
   std::size_t every(std::uint64_t steps, std::function<void()> action);
   void forget(std::size_t callback);
 
-  // -- Looking at it
+  // -- Queries
   const Model& model() const;
   double time() const;  ///< s
   std::uint64_t steps() const;
-  double time_step() const;         ///< s, in force; 0 before the first
+  double time_step() const;         ///< s, of the last step; 0 before the first
   double critical_step() const;     ///< s
-  std::string governed_by() const;  ///< what holds the step
+  std::string governed_by() const;  ///< what limits the step
   std::vector<std::string> warnings() const;
-  std::size_t stage() const;  ///< in hand, from 0
+  std::size_t stage() const;  ///< the current one, from 1
   Ledger ledger() const;
   double unbalanced() const;  ///< mean resultant over the mean contact force
 
-  // Views without copies, of the arrays that the steps work on. They end with the Simulation; a
-  // step changes what they show, never where they are.
+  // Views of the arrays that the steps work on, valid as long as the Simulation.
   std::size_t block_count() const;
   std::size_t vertex_count() const;
   BlockViews blocks() const;
-  std::span<const std::uint8_t> alive() const;  ///< [nb] 0: taken out by an excavation
+  std::span<const std::uint8_t> alive() const;  ///< [nb] 0: excavated
   Point origin() const;                         ///< node positions count from here
   Nodes node_x() const;                         ///< m, at step n, relative to origin()
   Nodes node_y() const;
   /// m/s, half a step before the positions (method "dda": with them). May be written to before the
-  /// first and between two steps; the energy that this brings counts as external work. The next
-  /// call puts back what was written for blocks that are not free; numbers that are not finite are
-  /// its Error, and so is any change once the run is over.
+  /// first and between two steps, which counts as external work. The next call restores those of
+  /// blocks that are not free. Error: numbers that are not finite, any change after the end.
   MutableNodes node_vx();
   MutableNodes node_vy();
   /// The name of a block (below block_count()), empty where it has none, and the block of a name.
   std::string name(std::size_t block) const;
   std::optional<std::size_t> block_called(std::string_view name) const;
 
-  // Worked out on request.
-  /// Into `out`, block by block, nb * components_of(field) numbers; of blocks taken out as they
-  /// went. Error: room for another number of them; the same of vertices().
+  /// Writes nb * components_of(field) numbers into `out`, block by block; excavated blocks have the
+  /// values of their last step. Error: `out` has another size; the same for vertices().
   void field(Field field, std::span<double> out) const;
   std::vector<double> field(Field field) const;
-  void vertices(std::span<double> out) const;  ///< nv times x, y, m; of blocks taken out, too
+  void vertices(std::span<double> out) const;  ///< nv times x, y, m
   std::vector<Contact> contacts() const;       ///< closed now or before, as in joints.csv
 
   // -- Monitors
-  /// The material point that is at `point` at the start. With a results folder before the first
-  /// step alone: history.csv has a column for each from its first row on. model.toml of the folder
-  /// names it, too: by that model such a run is resumed. Error: in no block, a name that is taken
-  /// or cannot head a column.
+  /// The material point that is at `point` at the start; with a results folder only before the
+  /// first step, since history.csv and model.toml of the folder have it from the beginning. Error:
+  /// in no block, a name that is taken or cannot head a column.
   void add_monitor(const std::string& name, Point point);
   std::vector<std::string> monitors() const;              ///< those of the model first
   MonitorReading read(const std::string& monitor) const;  ///< Error: none of that name
 
-  // -- Changing it, between two steps. A change before the first step begins the run, but for
-  // velocities, which the run then begins with. What a stage
-  // could not do either (activate what acts, install twice, let go less than before) is an Error; a
-  // later stage leaves out what has been done by hand before it.
-  /// Velocity of the centroid and rate of turn of a free block; its strain rate becomes 0. In an
-  /// explicit run velocities are those half a step ago; field() tells their mean over the step's
-  /// two halves, which differs by what half a step's acceleration brings.
+  // -- Changes, between two steps. A change before the first step begins the run, except for
+  // velocities, with which the run then begins. Changes that a stage could not make either
+  // (activate what is active, install twice, relax less than before) are an Error; a later stage
+  // skips what was done by a call before it.
+  /// Velocity of the centroid and angular velocity of a free block; its strain rate becomes 0. In
+  /// an explicit run velocities are those half a step ago; field() gives their mean over the two
+  /// halves of the step, which differs by half a step's acceleration.
   void set_velocity(std::size_t block, Point velocity, double omega = 0.0);
   /// Mass-proportional (1/s, from 0), local (0 to 1), and of contacts (part of critical, 0 to 10).
-  /// Adaptive damping and Rayleigh's stay as the model or the stage has them. Error: beyond these.
+  /// Adaptive and Rayleigh damping remain those of the model or the stage. Error: values beyond
+  /// these.
   void set_damping(double mass, double local = 0.0, double contact = 0.0);
   /// Divides cohesion, tensile strength and the tangent of the friction angle as the model gives
-  /// them (1e-6 or more), of all joints or of one; whatever it was before. Error: less.
+  /// them (1e-6 or more), of all joints or of one; replaces an earlier factor. Error: less.
   void set_strength_factor(double factor);
   void set_strength_factor(const std::string& joint, double factor);
-  /// Names as in a stage. Rock of an opening is there to be taken out where a stage names it.
+  /// Names as in a stage. The rock of an opening is in the model, and can be excavated, if a stage
+  /// names it.
   void excavate(const std::vector<std::string>& openings);
-  /// `part`, 0 to 1, of the forces that the rock had on the walls has been let go from now on, all
-  /// calls and stages together.
+  /// From now on the fraction `part`, 0 to 1, of the forces of the rock on the walls is released,
+  /// all calls and stages together.
   void relax(const std::string& opening, double part);
-  /// What has the first names acts no more (loads, water, boundaries, shaking), what has the second
-  /// does. A boundary bears from now on what one that goes has borne.
+  /// Deactivates and activates loads, water, boundaries and ground motions by their names. A
+  /// boundary takes over the forces of one that is deactivated.
   void switch_over(const std::vector<std::string>& deactivate,
                    const std::vector<std::string>& activate);
   void install(const std::vector<std::string>& bolts);
@@ -402,9 +392,8 @@ class EDDA_API Simulation {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Threads that each simulation of this process uses from its next call on, whichever thread makes
-/// it (default: up to all cores, as many as are quickest); results do not depend on it. Error: less
-/// than 1.
+/// Threads that each simulation of this process uses from its next call on (default: up to all
+/// cores, with the number that is fastest); results do not depend on it. Error: less than 1.
 EDDA_API void set_threads(int threads);
 
 }  // namespace edda::api

@@ -1,4 +1,4 @@
-// What stands behind the classes of edda.hpp.
+// The implementation classes of edda.hpp.
 #pragma once
 
 #include <atomic>
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "cutting/polygon_set.hpp"
 #include "library/edda.hpp"
-#include "lines/polygon_set.hpp"
 #include "model/model.hpp"
 #include "run/driver.hpp"
 #include "run/run_model.hpp"
@@ -20,7 +20,7 @@ namespace edda::api {
 struct Model::Impl {
   explicit Impl(edda::Model given) : model(std::move(given)) {}
   edda::Model model;
-  // Found out when they are first asked for.
+  // Computed when they are first needed.
   mutable std::mutex asking;
   mutable std::optional<std::vector<std::string>> warnings;
 };
@@ -29,10 +29,10 @@ struct Model::Impl {
 /// One fault of a call: `key` names the function or its argument.
 [[noreturn]] void raise(std::string key, std::string problem, std::string remedy);
 
-/// An Error where the blocks cannot fit into this machine's memory.
+/// Raises an Error where the blocks do not fit into memory.
 void check_memory(const edda::Model& model);
 
-/// The calling thread shares its loops among as many threads as set_threads() has said.
+/// Sets the number of threads of the calling thread's loops to that of set_threads().
 void use_threads();
 
 /// The value, or an Error.
@@ -49,20 +49,20 @@ struct Simulation::Impl {
   edda::Simulation& sim() { return prepared.sim; }
   const edda::Simulation& sim() const { return prepared.sim; }
 
-  /// The first row, if nothing has begun yet.
+  /// Writes the first row, if the run has not begun.
   void enter();
   /// Steps until step `to_step` or the time `to_time` (s), the end or a pause.
   void go(std::uint64_t to_step, double to_time);
   void finish();
-  /// Other velocities; before the first step those that the run begins with.
+  /// Sets velocities; before the first step those with which the run begins.
   void change_velocities(const edda::Nodes& vx, const edda::Nodes& vy);
-  /// Takes the simulation back from the caller: what was written to the velocities is taken up. An
-  /// Error where that is no number, with the velocities as handed over.
+  /// Ends the caller's access: velocities that it wrote are adopted. Raises an Error where they are
+  /// not finite, and restores those from before.
   void take_back();
-  /// Makes the simulation fit for a change, or refuses it on behalf of `function`.
+  /// Prepares the simulation for a change, or refuses it in the name of `function`.
   void begin_change(const char* function);
   void end_change();
-  /// What is known of step n and does not disturb it.
+  /// The state at step n, for queries that change nothing.
   const Instant& look();
 
   Model model;
@@ -83,7 +83,7 @@ struct Simulation::Impl {
   std::vector<Repeated> callbacks;
   std::size_t next_callback = 0;
 
-  /// Gives out the velocities for writing.
+  /// Gives the caller write access to the velocities.
   void lend_velocities();
 
  private:
@@ -91,15 +91,16 @@ struct Simulation::Impl {
   bool run_callbacks();
   void report(const edda::Progress& progress);
   void warn(const std::string& text);
-  /// Lets the caller act between two steps of a run that goes on: it may look and change. What it
-  /// throws is kept.
+  /// Lets the caller act between two steps of a run in progress, with queries and changes. An
+  /// exception that it throws is kept.
   template <class Action>
   void between_steps(Action action);
-  /// What `part` throws is kept, the first of several, until control is back with the caller.
+  /// An exception that `part` throws, the first of several, is kept until control returns to the
+  /// caller.
   template <class Part>
   void keep_thrown(Part part);
   void throw_kept();
-  /// The caller gets the simulation back: velocities where the views of them show.
+  /// Returns access to the caller, with the velocities where its views refer to.
   void hand_over();
   void refuse_within_step(const char* function) const;
 
@@ -109,7 +110,7 @@ struct Simulation::Impl {
   std::exception_ptr thrown_;
   const double* velocities_ = nullptr;  ///< where views of them point to
   bool lent_ = false;
-  edda::Nodes lent_vx_, lent_vy_;  ///< as handed over
+  edda::Nodes lent_vx_, lent_vy_;  ///< the velocities when access was given
   std::optional<Instant> instant_;
 };
 

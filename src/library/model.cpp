@@ -5,8 +5,8 @@
 #include <iterator>
 
 #include "base/threads.hpp"
+#include "cutting/build_polygons.hpp"
 #include "library/impl.hpp"
-#include "lines/build_polygons.hpp"
 #include "model/read_model.hpp"
 #include "model/write_model.hpp"
 #include "results/machine.hpp"
@@ -16,7 +16,7 @@
 namespace edda::api {
 namespace {
 
-/// OpenMP keeps such a number for each thread of the caller apart. 0: as OpenMP has it.
+/// Number of threads; OpenMP keeps it separately for each calling thread. 0: the default of OpenMP.
 std::atomic<int> threads_wanted{0};
 
 edda::Fault internal(const Fault& f) {
@@ -153,7 +153,7 @@ Cut cut(const Model& model) {
 void set_threads(int threads) {
   if (threads < 1) raise("set_threads", "less than one thread", "give 1 or more");
   threads_wanted = threads;
-  say_threads(threads);
+  report_threads(threads);
 }
 
 void use_threads() {

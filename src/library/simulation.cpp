@@ -1,10 +1,11 @@
-// A Simulation going on: the Driver's run, in parts.
+// Running a Simulation: the Driver's run, in parts.
 #include <cmath>
 #include <cstring>
 
 #include "blocks/kinematics.hpp"
 #include "library/impl.hpp"
 #include "results/files.hpp"
+#include "step/changes.hpp"
 
 namespace edda::api {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 constexpr std::uint64_t no_step = std::numeric_limits<std::uint64_t>::max();
 constexpr double no_time = std::numeric_limits<double>::infinity();
 
-/// True as long as it lives, whatever ends that.
+/// Keeps a flag true during its own lifetime, also where an exception ends it.
 class Within {
  public:
   explicit Within(bool& flag) : flag_(flag) { flag = true; }
@@ -24,17 +25,13 @@ class Within {
   bool& flag_;
 };
 
-/// Bits: what is no number is the same as itself.
+/// Compared by bits, so that NaN equals itself.
 bool same(const edda::Nodes& a, const edda::Nodes& b) {
-  for (std::size_t k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < nodes_per_block; ++k) {
     if (a[k].size() != b[k].size()) return false;
     if (std::memcmp(a[k].data(), b[k].data(), a[k].size() * sizeof(double)) != 0) return false;
   }
   return true;
-}
-
-bool is_finite(const edda::Nodes& v, std::size_t block) {
-  return std::isfinite(v[0][block] + v[1][block] + v[2][block]);
 }
 
 PreparedRun prepare(const Model& model, const Options& options) {
@@ -45,16 +42,19 @@ PreparedRun prepare(const Model& model, const Options& options) {
     const std::string input = goes_on ? "" : given.file;
     if (const Trouble trouble = check_folder(options.results, input)) raise(Faults{*trouble});
   } else if (goes_on) {
-    raise("results", "names no folder to go on from", "name the folder of the run");
+    raise("results", "names no folder to continue from", "name the folder of the run");
+  }
+  if (options.from_stage == 0u) {
+    raise("from_stage", "is 0, and stages count from 1", "give the number in stages.csv");
   }
   check_memory(given);
   return value_or_raise(prepare_run(given));
 }
 
-/// The folder is there, and nobody else is writing to it: an Error, where a run that finds out by
-/// itself would merely have failed.
+/// Makes the folder and checks that no other run is writing to it. Raises an Error, whereas the run
+/// itself would only fail.
 void check_for_writing(const std::string& folder) {
-  FolderLock lock;  // free again behind this: the run takes it itself
+  FolderLock lock;  // unlocked at the end of this function: the run locks it itself
   if (const Trouble trouble = make_folder(folder)) raise(Faults{*trouble});
   if (const Trouble trouble = lock.take(folder)) raise(Faults{*trouble});
 }
@@ -66,7 +66,7 @@ Outcome outcome_of(const edda::Outcome& o) {
   outcome.time = o.time;
   outcome.steps = o.steps;
   outcome.contacts = o.contacts;
-  outcome.drift = o.largest_drift;
+  outcome.drift = o.largest_energy_error;
   outcome.wall_seconds = o.wall.total;
   outcome.at_rest = o.at_rest;
   outcome.fastest = o.fastest == no_id ? -1 : static_cast<std::int32_t>(o.fastest);
@@ -85,7 +85,7 @@ Simulation::Impl::Impl(const Model& given, Options&& wanted)
     : model(given), options(std::move(wanted)), prepared(prepare(given, options)) {
   run_options.folder = options.results;
   run_options.resume = options.resume;
-  run_options.from_stage = options.from_stage;
+  if (options.from_stage) run_options.from_stage = *options.from_stage - 1;
   if (options.warn) run_options.warn = [this](const std::string& text) { warn(text); };
   run_options.stop = &stop;
   run_options.after_step = [this] { return after_step(); };
@@ -96,7 +96,7 @@ Simulation::Impl::Impl(const Model& given, Options&& wanted)
   driver.emplace(prepared, run_options);
   const Faults faults = take_up_folder(*driver, run_options);
   if (!faults.empty()) raise(faults);
-  velocities_ = sim().state.vx[0].data();
+  velocities_ = sim().motion.state.vx[0].data();
   if (options.resume || options.from_stage) enter();
 }
 
@@ -106,14 +106,15 @@ Simulation::Impl::~Impl() {
   for (int attempt = 0; attempt < 2 && !finished; ++attempt) {
     try {
       finish();
-    } catch (...) {  // nobody is left to tell; velocities that were refused are not there again
+    } catch (...) {  // no caller is left to receive it; refused velocities cannot come again
     }
   }
 }
 
 void Simulation::Impl::refuse_within_step(const char* function) const {
   if (stepping_) {
-    raise(function, "called while the simulation goes on", "pause() it, and call this afterwards");
+    raise(function, "called while the simulation is running",
+          "pause() it, and call this afterwards");
   }
 }
 
@@ -123,7 +124,7 @@ void Simulation::Impl::enter() {
   const bool goes_on = options.resume || options.from_stage;
   if (!options.results.empty() && !goes_on) check_for_writing(options.results);
   begun = true;
-  driver->begin();  // takes the velocities, as they are now, half a step back
+  driver->begin();  // changes the present velocities to those half a step before
   instant_.reset();
   hand_over();
   if (driver->over()) finish();
@@ -158,8 +159,8 @@ void Simulation::Impl::finish() {
   take_back();
   finished = true;
   outcome = outcome_of(driver->finish());
-  last_stage = driver->stage();
-  driver.reset();  // and with it the folder
+  last_stage = driver->stage_row();
+  driver.reset();  // and with it the lock of the folder
   hand_over();
   throw_kept();
 }
@@ -188,13 +189,13 @@ void Simulation::Impl::between_steps(Action action) {
 bool Simulation::Impl::after_step() {
   instant_.reset();
   if (!run_callbacks()) return true;
-  const State& state = sim().state;
+  const State& state = sim().motion.state;
   return pause || state.steps >= pause_step_ || state.time >= pause_time_;
 }
 
 bool Simulation::Impl::run_callbacks() {
-  const std::uint64_t step = sim().state.steps;
-  std::vector<std::function<void()>> due;  // an action may add and forget others
+  const std::uint64_t step = sim().motion.state.steps;
+  std::vector<std::function<void()>> due;  // a copy, since an action may add and remove others
   for (const Repeated& r : callbacks) {
     if (step % r.steps == 0) due.push_back(r.action);
   }
@@ -210,7 +211,7 @@ void Simulation::Impl::report(const edda::Progress& p) {
   if (!options.progress || thrown_) return;
   const Progress progress{p.fraction,     p.time,    p.steps,           p.rate,
                           p.seconds_left, p.kinetic, p.largest_overlap, p.largest_velocity,
-                          p.stage,        p.stages,  p.stage_name};
+                          p.stage + 1,    p.stages,  p.stage_name};
   between_steps([&] {
     if (!options.progress(progress)) stop = true;
   });
@@ -222,14 +223,14 @@ void Simulation::Impl::warn(const std::string& text) {
 }
 
 void Simulation::Impl::hand_over() {
-  if (sim().state.vx[0].data() != velocities_) sim().exchange_velocity_arrays();
+  if (sim().motion.state.vx[0].data() != velocities_) exchange_velocity_arrays(sim());
   if (!lent_) return;
-  lent_vx_ = sim().state.vx;
-  lent_vy_ = sim().state.vy;
+  lent_vx_ = sim().motion.state.vx;
+  lent_vy_ = sim().motion.state.vy;
 }
 
 void Simulation::Impl::take_back() {
-  State& state = sim().state;
+  State& state = sim().motion.state;
   if (!lent_ || (same(state.vx, lent_vx_) && same(state.vy, lent_vy_))) return;
   const edda::Nodes vx = state.vx, vy = state.vy;
   state.vx = lent_vx_;
@@ -239,8 +240,8 @@ void Simulation::Impl::take_back() {
     raise("node_vx", "velocities were written, but the run is over",
           "make a new Simulation; those of the end are there again");
   }
-  for (std::size_t i = 0; i < sim().blocks.size(); ++i) {
-    if (!is_free(sim().blocks, state, i) || (is_finite(vx, i) && is_finite(vy, i))) continue;
+  for (std::size_t i = 0; i < sim().scene->blocks.size(); ++i) {
+    if (!is_free(sim().scene->blocks, state, i) || is_finite(vx, vy, i)) continue;
     raise("node_vx", "the velocity written for block " + std::to_string(i) + " is no number",
           "write finite ones; those of before are there again");
   }
@@ -248,12 +249,12 @@ void Simulation::Impl::take_back() {
 }
 
 void Simulation::Impl::change_velocities(const edda::Nodes& vx, const edda::Nodes& vy) {
-  const double work = sim().external_work;
-  sim().change_velocities(vx, vy);
-  if (!begun) sim().external_work = work;  // it begins with them
+  const double work = sim().accounts.external_work;
+  edda::change_velocities(sim(), vx, vy);
+  if (!begun) sim().accounts.external_work = work;  // the run begins with them
   instant_.reset();
-  lent_vx_ = sim().state.vx;
-  lent_vy_ = sim().state.vy;
+  lent_vx_ = sim().motion.state.vx;
+  lent_vy_ = sim().motion.state.vy;
 }
 
 void Simulation::Impl::lend_velocities() {
@@ -271,7 +272,7 @@ void Simulation::Impl::begin_change(const char* function) {
 
 void Simulation::Impl::end_change() {
   edda::Simulation& s = sim();
-  s.change_damping(s.damping, s.dynamic);  // sets the step that is allowed now
+  change_damping(s, s.motion.damping, s.motion.dynamic);  // updates the allowed step
   driver->aim_again();
   instant_.reset();
   hand_over();
@@ -281,7 +282,7 @@ const Instant& Simulation::Impl::look() {
   use_threads();
   take_back();
   if (!instant_) {
-    if (begun && driver) driver->count_turns_now();
+    if (begun && driver) driver->count_revolutions_now();
     observe(sim(), instant_.emplace());
   }
   return *instant_;

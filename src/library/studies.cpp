@@ -1,10 +1,10 @@
-// What is found out about a model as a whole: warnings, factor of safety, error bars.
+// Studies of a model as a whole: warnings, factor of safety, error bars.
 #include <omp.h>
 
 #include "library/impl.hpp"
 #include "run/check_model.hpp"
-#include "run/fos.hpp"
-#include "run/verify_model.hpp"
+#include "study/fos.hpp"
+#include "study/verify_model.hpp"
 
 namespace edda::api {
 namespace {
@@ -37,8 +37,8 @@ ModelCheck check(const Model& model) {
   PreparedRun run = prepared(model);
   const edda::ModelCheck found = check_model(run.sim);
   ModelCheck result;
-  result.blocks = run.sim.blocks.size();
-  result.held = found.held;
+  result.blocks = run.sim.scene->blocks.size();
+  result.held = found.fixed;
   result.contacts = found.closed;
   result.critical_step = found.critical_step;
   result.time_step = found.step;
@@ -85,7 +85,7 @@ Verification verify(const Model& model, const std::atomic<bool>* stop) {
         {m.name, m.displacement.x, m.displacement.y, m.step, m.stiffness, m.order});
   }
   result.time = found.time;
-  result.largest_drift = found.largest_drift;
+  result.largest_drift = found.largest_energy_error;
   result.failed = found.failed;
   return result;
 }

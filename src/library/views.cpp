@@ -1,4 +1,4 @@
-// Looking at a Simulation.
+// Queries of a Simulation.
 #include <algorithm>
 #include <type_traits>
 
@@ -6,20 +6,21 @@
 #include "blocks/locate.hpp"
 #include "blocks/pose.hpp"
 #include "library/impl.hpp"
-#include "run/labels.hpp"
+#include "step/energy_balance.hpp"
+#include "step/labels.hpp"
 
 namespace edda::api {
 namespace {
 
 static_assert(std::is_same_v<Index, std::int32_t> && std::is_same_v<Id, std::uint32_t>,
               "BlockViews shows the arrays as they are");
+static_assert(std::tuple_size_v<Nodes> == nodes_per_block, "Nodes shows the arrays as they are");
 
-Nodes views_of(const edda::Nodes& n) {
-  return {n[0], n[1], n[2]};
-}
-
-MutableNodes views_of(edda::Nodes& n) {
-  return {n[0], n[1], n[2]};
+template <class Views, class Values>
+Views views_of(Values& n) {
+  Views views;
+  std::copy(n.begin(), n.end(), views.begin());
+  return views;
 }
 
 void check_size(const char* function, std::size_t given, std::size_t needed) {
@@ -94,19 +95,19 @@ const Model& Simulation::model() const {
 }
 
 double Simulation::time() const {
-  return impl_->sim().state.time;
+  return impl_->sim().motion.state.time;
 }
 
 std::uint64_t Simulation::steps() const {
-  return impl_->sim().state.steps;
+  return impl_->sim().motion.state.steps;
 }
 
 double Simulation::time_step() const {
-  return impl_->sim().state.step;
+  return impl_->sim().motion.state.step;
 }
 
 double Simulation::critical_step() const {
-  return impl_->sim().bound.critical_step;
+  return impl_->sim().control.bound.critical_step;
 }
 
 std::string Simulation::governed_by() const {
@@ -118,15 +119,15 @@ std::vector<std::string> Simulation::warnings() const {
 }
 
 std::size_t Simulation::stage() const {
-  return impl_->driver ? impl_->driver->stage() : impl_->last_stage;
+  return 1 + (impl_->driver ? impl_->driver->stage_row() : impl_->last_stage);
 }
 
 Ledger Simulation::ledger() const {
   impl_->look();
   const edda::Simulation& sim = impl_->sim();
-  const edda::Ledger l = sim.ledger_now();
-  const double start = sim.start_energy.value_or(l.balance());
-  const double drift = (l.balance() - start) / sim.energy_scale(l);
+  const edda::EnergyBalance l = energy_balance(sim);
+  const double start = sim.accounts.start_energy.value_or(l.balance());
+  const double drift = (l.balance() - start) / energy_scale(sim, l);
   return {l.kinetic,  l.strain,   l.contact,     l.gravity, l.friction, l.damping,
           l.fracture, l.external, l.step_change, drift,     l.transfer};
 }
@@ -136,42 +137,42 @@ double Simulation::unbalanced() const {
 }
 
 std::size_t Simulation::block_count() const {
-  return impl_->sim().blocks.size();
+  return impl_->sim().scene->blocks.size();
 }
 
 std::size_t Simulation::vertex_count() const {
-  return impl_->sim().blocks.vertex_count();
+  return impl_->sim().scene->blocks.vertex_count();
 }
 
 BlockViews Simulation::blocks() const {
-  const BlockSet& b = impl_->sim().blocks;
+  const BlockSet& b = impl_->sim().scene->blocks;
   return {b.area, b.mass, b.material, b.fixed, b.vertex_begin, b.next};
 }
 
 std::span<const std::uint8_t> Simulation::alive() const {
-  return impl_->sim().state.alive;
+  return impl_->sim().motion.state.alive;
 }
 
 Point Simulation::origin() const {
-  return {impl_->sim().blocks.origin.x, impl_->sim().blocks.origin.y};
+  return {impl_->sim().scene->blocks.origin.x, impl_->sim().scene->blocks.origin.y};
 }
 
 Nodes Simulation::node_x() const {
-  return views_of(std::as_const(impl_->sim().state.x));
+  return views_of<Nodes>(impl_->sim().motion.state.x);
 }
 
 Nodes Simulation::node_y() const {
-  return views_of(std::as_const(impl_->sim().state.y));
+  return views_of<Nodes>(impl_->sim().motion.state.y);
 }
 
 MutableNodes Simulation::node_vx() {
   impl_->lend_velocities();
-  return views_of(impl_->sim().state.vx);
+  return views_of<MutableNodes>(impl_->sim().motion.state.vx);
 }
 
 MutableNodes Simulation::node_vy() {
   impl_->lend_velocities();
-  return views_of(impl_->sim().state.vy);
+  return views_of<MutableNodes>(impl_->sim().motion.state.vy);
 }
 
 std::string Simulation::name(std::size_t block) const {
@@ -179,11 +180,11 @@ std::string Simulation::name(std::size_t block) const {
     raise("name", "there is no block " + std::to_string(block),
           "give a number below " + std::to_string(block_count()));
   }
-  return std::string(impl_->sim().blocks.name(block));
+  return std::string(impl_->sim().scene->blocks.name(block));
 }
 
 std::optional<std::size_t> Simulation::block_called(std::string_view name) const {
-  for (const auto& [id, called] : impl_->sim().blocks.names) {
+  for (const auto& [id, called] : impl_->sim().scene->blocks.names) {
     if (called == name) return id;
   }
   return {};
@@ -205,8 +206,8 @@ std::vector<double> Simulation::field(Field field) const {
 }
 
 void Simulation::vertices(std::span<double> out) const {
-  const BlockSet& b = impl_->sim().blocks;
-  const State& s = impl_->sim().state;
+  const BlockSet& b = impl_->sim().scene->blocks;
+  const State& s = impl_->sim().motion.state;
   check_size("vertices", out.size(), 2 * b.vertex_count());
   for (std::size_t v = 0; v < b.vertex_count(); ++v) {
     const Vec2 p = vertex_at(b, s.x, s.y, v) + b.origin;
@@ -218,7 +219,7 @@ void Simulation::vertices(std::span<double> out) const {
 std::vector<Contact> Simulation::contacts() const {
   const edda::Simulation& sim = impl_->sim();
   const Picture picture = picture_of(sim, impl_->look());
-  const std::vector<JointLaw>& joints = sim.model.joints;
+  const std::vector<JointLaw>& joints = sim.scene->model.joints;
   const auto row_of = [&](std::string_view name) {
     const auto found = std::find_if(joints.begin(), joints.end(),
                                     [&](const JointLaw& law) { return law.name == name; });
@@ -267,14 +268,15 @@ void Simulation::add_monitor(const std::string& name, Point point) {
   if (std::find(known.begin(), known.end(), name) != known.end()) {
     raise("add_monitor", "there is a monitor \"" + name + "\" already", "give another name");
   }
-  const Vec2 p = Vec2{point.x, point.y} - sim.blocks.origin;
-  const auto block = block_at(sim.model, drawn_polygons(sim.blocks), sim.blocks, p);
+  const Vec2 p = Vec2{point.x, point.y} - sim.scene->blocks.origin;
+  const auto block =
+      block_at(sim.scene->model, drawn_polygons(sim.scene->blocks), sim.scene->blocks, p);
   if (!block) {
     raise("add_monitor", place_label({point.x, point.y}) + " lies in no block",
           "move it into one (edda cut draws them)");
   }
-  sim.model.monitors.push_back({name, {point.x, point.y}, {}});
-  impl_->prepared.monitors.push_back({name, *block, weights_at(sim.blocks, *block, p)});
+  sim.scene.edit().model.monitors.push_back({name, {point.x, point.y}, {}});
+  impl_->prepared.monitors.push_back({name, *block, weights_at(sim.scene->blocks, *block, p)});
 }
 
 std::vector<std::string> Simulation::monitors() const {

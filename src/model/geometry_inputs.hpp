@@ -1,5 +1,5 @@
-// What the blocks are cut from, as read: parts of the Model (model.hpp). Fields named given_* are
-// what the file says; complete.cpp works out the ones in use from them.
+// The geometry that the blocks are cut from, as read: parts of the Model (model.hpp). Fields named
+// given_* hold the values of the file; complete.cpp derives from them the fields that are used.
 #pragma once
 
 #include <optional>
@@ -35,7 +35,7 @@ struct Domain {
   Where where;
 };
 
-/// [slope]: an outline by a few numbers. The ground rises to the right.
+/// [slope]: an outline from a few parameters. The ground rises to the right.
 struct Slope {
   Vec2 toe;                  ///< m
   double height = 0.0;       ///< m, from the toe to the crest
@@ -43,7 +43,7 @@ struct Slope {
   double base_y = 0.0;       ///< m
   Vec2 extent;               ///< left and right end, x in m
   int benches = 1;           ///< faces one above the other
-  double bench_width = 0.0;  ///< m, between one face and the next
+  double bench_width = 0.0;  ///< m, horizontal distance between one face and the next
   Where where;
 };
 
@@ -53,9 +53,9 @@ struct CrossSection {
   Where where;
 };
 
-/// How far the joints of a set depart from its means: half the width of a uniform distribution, or
-/// a standard deviation. Exponential are lengths alone, from the mean less the deviation upwards;
-/// angles are then normal.
+/// Scatter of the joints of a set about its means: half the width of a uniform distribution, or a
+/// standard deviation. With the exponential distribution only lengths are exponential, from the
+/// mean less the deviation upwards; angles are then normal.
 struct Deviation {
   double angle = 0.0;         ///< degrees
   double spacing = 0.0;       ///< m
@@ -76,7 +76,7 @@ struct JointSet {
   Vec2 origin;
   Index joint = none;
   Ring region;                         ///< empty: the whole domain
-  std::optional<double> trace_length;  ///< m; none: right through
+  std::optional<double> trace_length;  ///< m; none: persistent
   double gap = 0.0;                    ///< m, between one trace and the next
   Deviation deviation;
   long long seed = 0;
@@ -107,7 +107,7 @@ struct LengthSpread {
 struct FractureNetwork {
   std::string name;
   std::optional<double> p21;       ///< 1/m: length per area inside the domain; either this
-  std::optional<long long> count;  ///< or fractures that show in the domain
+  std::optional<long long> count;  ///< or the number of fractures that reach into the domain
   AngleSpread angle;
   LengthSpread length;
   Index joint = none;
@@ -116,10 +116,10 @@ struct FractureNetwork {
   Where where;
 };
 
-/// [voronoi]: the domain as polygons.
+/// [voronoi]: the domain divided into Voronoi polygons.
 struct Voronoi {
   double size = 0.0;  ///< m: side of a square as large as the mean polygon
-  int smoothing = 5;  ///< rounds in which points move to the centres of their polygons (Lloyd)
+  int smoothing = 5;  ///< iterations that move points to the centroids of their polygons (Lloyd)
   Index joint = none;
   Ring region;  ///< empty: the whole domain
   long long seed = 0;
@@ -139,7 +139,7 @@ struct Import {
   Where where;
 };
 
-/// An opening by a few numbers.
+/// The shape of an opening from a few parameters.
 struct OpeningShape {
   ShapeKind kind = ShapeKind::arch;
   Vec2 at;                       ///< m: middle of the floor; of a circle the centre
@@ -153,8 +153,8 @@ struct Opening {
   Ring polygon;        ///< given_polygon, or that of the shape
   Ring given_polygon;  ///< as written; empty where there is a shape
   std::optional<OpeningShape> shape;
-  Index joint = none;   ///< law of its outline until taken out; none: glued
-  bool staged = false;  ///< a stage takes it out: until then its rock is there
+  Index joint = none;   ///< law of its outline until it is excavated; none: glued
+  bool staged = false;  ///< a stage excavates it; until then its rock is there
   Where where;
 };
 
@@ -166,7 +166,7 @@ struct Region {
   Where where;
 };
 
-struct HeldPoint {
+struct FixedPoint {
   Vec2 point;
   Where where;
 };
@@ -193,7 +193,7 @@ struct Arch {
   Where where;
 };
 
-/// [quality]: which blocks are too small or too thin, and what becomes of them. 0: any will do.
+/// [quality]: which blocks are too small or too thin, and what is done with them. 0: no limit.
 struct Quality {
   double min_area = 0.0;   ///< m2
   double min_edge = 0.0;   ///< m

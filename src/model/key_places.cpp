@@ -36,7 +36,7 @@ Faults at_their_keys(const KeyPlaces& places, Faults faults) {
   for (Fault& fault : faults) {
     if (fault.where.line == 0) continue;
     const WrittenAt at = written_at(fault.where);
-    // The last of them: before it comes the name of the table, which may be that of a key.
+    // The last match counts: the name of the table comes before it and may equal that of a key.
     const KeyPlace* found = nullptr;
     std::size_t last = 0;
     for (const KeyPlace& p : places) {

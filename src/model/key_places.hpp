@@ -19,7 +19,7 @@ struct WrittenAt {
 struct KeyPlace {
   std::string_view key;  ///< of the table of keys, which lasts
   WrittenAt table, value;
-  bool in_words = false;  ///< a text, such as a number with its unit
+  bool in_words = false;  ///< it is a text, such as a number with its unit
 };
 
 using KeyPlaces = std::vector<KeyPlace>;
@@ -27,8 +27,8 @@ using KeyPlaces = std::vector<KeyPlace>;
 /// Where `key` of the table at `table` was written; null where it was not given.
 const KeyPlace* find_key_place(const KeyPlaces& places, const Where& table, std::string_view key);
 
-/// The faults with the place of the key that each names, where they have that of its table. Faults
-/// of a stage know no more than the table that a thing came from.
+/// Replaces in faults the place of a table by that of the key that the fault names. Faults found
+/// later in a run only have the place of the table.
 Faults at_their_keys(const KeyPlaces& places, Faults faults);
 
 }  // namespace edda

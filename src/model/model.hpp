@@ -26,7 +26,7 @@ enum class ContactModel { faces, points };
 enum class LawType { coulomb, glued, slip_weakening, barton_bandis };
 enum class StageEnd { time, equilibrium };
 enum class StageJoints { as_given, glued };
-enum class StageMasses { as_given, uniform_step };
+enum class StageMasses { as_given, scaled };
 enum class FallingBlocks { report, wait };
 enum class LooseBlocks { go_on, stop };
 enum class BoundaryType { fixed, roller, viscous, stress, velocity, free_field };
@@ -51,7 +51,8 @@ struct Material {
   double poisson = 0.0;
   Where where;
   std::optional<RockStrength> strength{};
-  double damping = 0.5;  ///< viscous, of a block's strain: of critical in its softest own mode
+  double damping =
+      0.5;  ///< strain damping, as a fraction of critical in the lowest mode of a block
 };
 
 /// Shear and tensile strength of a joint.
@@ -61,20 +62,20 @@ struct Strength {
   double tensile_strength = 0.0;  ///< Pa
 };
 
-/// What is left of the velocity after an impact: a part of it, or, of a block that rocks, what
-/// Housner's assumption leaves (the corner that strikes stays on the ground).
+/// Restitution of an impact (theory, section 9.7): a fraction of the velocity, or, for a rocking
+/// block, what follows from Housner's assumption (the striking corner stays on the ground).
 struct Restitution {
   bool housner = false;
   double part = 0.0;  ///< of the normal velocity of a flat impact
 };
 
-/// Springs and dashpots that give a contact law its restitution (run/restitution.hpp).
+/// Springs and dashpots that give a contact law its restitution (step/restitution.hpp).
 struct LawDashpots {
   double damping = 0.0, shear_damping = 0.0;  ///< fractions of critical of a contact
   double spring = 0.0;  ///< N/m per metre of thickness, of contacts without kn
 };
 
-/// The contact law of a joint (method.md section 4).
+/// The contact law of a joint (theory, section 5).
 struct JointLaw {
   std::string name;
   LawType type = LawType::coulomb;
@@ -87,7 +88,7 @@ struct JointLaw {
   std::optional<double> kn;              ///< Pa/m; without it contact.normal_stiffness
   std::optional<double> ks;  ///< Pa/m; filled with 0.4 kn where kn is given and ks is not
   std::optional<Restitution> restitution;
-  std::optional<LawDashpots> dashpots{};  ///< no key: what `restitution` comes to
+  std::optional<LawDashpots> dashpots{};  ///< not a key: found from `restitution`
   Where where;
 };
 
@@ -111,7 +112,7 @@ struct BlockInput {
   Where where;
 };
 
-/// A curve over time from a file, linear between its rows, held before the first and after the
+/// A curve over time from a file, linear between its rows, constant before the first and after the
 /// last.
 struct TimeHistory {
   std::vector<double> time;  ///< s, ascending; empty: none was given
@@ -152,14 +153,14 @@ struct Acceleration {
   std::string file;                 ///< path; empty: a sine
   std::optional<double> amplitude;  ///< m/s2
   std::optional<double> frequency;  ///< Hz
-  Vec2 direction{1.0, 0.0};         ///< of the sine; its length says nothing
+  Vec2 direction{1.0, 0.0};         ///< of the sine; its length does not matter
 };
 
 /// [[shaking]]
 struct Shaking {
   std::string name;
   Acceleration acceleration;
-  Vec2 direction{1.0, 0.0};  ///< of a file that has one component; its length says nothing
+  Vec2 direction{1.0, 0.0};  ///< of a file that has one component; its length does not matter
   double scale = 1.0;
   ShakingKind apply = ShakingKind::base;
   std::string boundary;  ///< upgoing: name of the viscous boundary that the wave comes in through
@@ -197,7 +198,7 @@ struct Load {
 struct Water {
   std::string name;
   std::vector<Vec2> table;           ///< from left to right
-  std::vector<std::string> flooded;  ///< openings that are full, too
+  std::vector<std::string> flooded;  ///< flooded openings
   double unit_weight = 9810.0;       ///< N/m3
   std::string history;               ///< path of a file of time, rise (m)
   TimeHistory rise;
@@ -249,18 +250,18 @@ struct Monitor {
   Where where;
 };
 
-/// [[convergence]]: how much nearer two material points come to each other.
+/// [[convergence]]: decrease of the distance between two material points.
 struct Convergence {
   std::string name;
   std::vector<Vec2> between;  ///< two points
   Where where;
 };
 
-/// Damping in proportion to mass and stiffness, least at one frequency.
+/// Rayleigh damping: in proportion to mass and stiffness, least at one frequency.
 struct Rayleigh {
   double fraction = 0.0;   ///< of critical there
   double frequency = 0.0;  ///< Hz
-  /// Part of the mass, 1/s, and of the stiffness of the blocks, s.
+  /// Coefficients of the mass, 1/s, and of the stiffness of the blocks, s.
   double mass() const { return fraction * 2.0 * std::numbers::pi * frequency; }
   double stiffness() const { return fraction / (2.0 * std::numbers::pi * frequency); }
 };
@@ -269,13 +270,14 @@ struct Damping {
   double mass = 0.0;     ///< 1/s
   double local = 0.0;    ///< fraction of the unbalanced force (Cundall)
   double contact = 0.0;  ///< fraction of critical
-  /// Fraction of critical, in proportion to mass, at the frequency with which all moves at present.
+  /// Fraction of critical of mass-proportional damping at the frequency with which the model moves
+  /// at present.
   double adaptive = 0.0;
-  /// Of `adaptive`, in which a model comes to rest soonest: a little more or less takes longer.
-  static constexpr double to_rest = 0.8;
+  /// The value of `adaptive` with which a model reaches equilibrium in the fewest steps.
+  static constexpr double for_equilibrium = 0.8;
   std::optional<Rayleigh> rayleigh{};  ///< in place of the materials' damping
-  /// In proportion to mass, Rayleigh's part with it, 1/s.
-  double drag() const { return mass + (rayleigh ? rayleigh->mass() : 0.0); }
+  /// Coefficient of mass-proportional damping, with that of Rayleigh damping, 1/s.
+  double mass_damping() const { return mass + (rayleigh ? rayleigh->mass() : 0.0); }
 };
 
 struct Solver {
@@ -288,43 +290,43 @@ struct Solver {
   double safety = 0.7;                   ///< of the critical step
   bool dynamic = true;                   ///< dda: false drops velocities at each step
   double max_displacement_ratio = 0.01;  ///< of half the model's least width, in a step
-  double mass_scaling = 0.0;             ///< s; edda: the step that inertia is raised for; 0: off
+  double mass_scaling = 0.0;             ///< s; edda: step up to which inertia is raised; 0: off
   Damping damping;
   Where where;
 };
 
 using NumberMap = std::vector<std::pair<std::string, double>>;
 
-/// [[stage]]: a part of the run, until a time or until nothing moves any more.
+/// [[stage]]: a part of the run, until a time or until equilibrium.
 struct Stage {
   std::string name;
   StageEnd until = StageEnd::time;
-  double ratio = 1e-5;                ///< of an equilibrium: mean resultant over mean contact force
-  double duration = 10.0;             ///< s; of an equilibrium: the longest
-  std::vector<std::string> excavate;  ///< openings taken out at its start
-  NumberMap relax;                    ///< part of their forces let go, by opening
-  std::vector<std::string> install;   ///< bolts and patterns put in at its start
+  double ratio = 1e-5;     ///< criterion of equilibrium: mean resultant over mean contact force
+  double duration = 10.0;  ///< s; until equilibrium: at most
+  std::vector<std::string> excavate;  ///< openings excavated at its start
+  NumberMap relax;                    ///< fraction of the wall forces released, by opening
+  std::vector<std::string> install;   ///< bolts and patterns installed at its start
   std::vector<std::string> activate, deactivate;  ///< loads, waters, boundaries, shakings
   bool reset_displacements = false;               ///< at its start
-  double strength_factor = 1.0;  ///< what the strength of all joints is divided by meanwhile
+  double strength_factor = 1.0;  ///< the strength of all joints is divided by this during the stage
   Damping damping;               ///< while it lasts
   StageJoints joints = StageJoints::as_given;     ///< while it lasts
   StageMasses masses = StageMasses::as_given;     ///< while it lasts
   FallingBlocks falling = FallingBlocks::report;  ///< whether an equilibrium waits for them
-  LooseBlocks otherwise = LooseBlocks::go_on;     ///< what comes where some do not come to rest
+  LooseBlocks otherwise = LooseBlocks::go_on;     ///< what follows where some blocks come loose
   Where where;
 };
 
 struct Output {
   double every = 0.0;          ///< s; default: duration / 20
   double history_every = 0.0;  ///< s; default: duration / 200
-  bool settling =
-      true;  ///< more rows and frames until an equilibrium; default: without the two above
+  bool settling = true;  ///< more rows and frames in stages until equilibrium; default: where the
+                         ///< two above are not given
   double checkpoint_every = 5.0;  ///< minutes of wall time
   bool stages = true;             ///< contacts and a checkpoint at the end of each stage
 };
 
-/// What counts as failure of a trial; left out: by the size of the blocks and gravity.
+/// The criterion of failure of a trial; by default from the size of the blocks and gravity.
 struct FosFails {
   std::optional<double> displacement;  ///< m, of a corner since the start of the trial
   std::optional<double> velocity;      ///< m/s, at its end
@@ -332,13 +334,13 @@ struct FosFails {
 
 /// [fos]: the factor of safety.
 struct Fos {
-  std::string stage;                 ///< whose end the trials begin from; empty: the last
+  std::string stage;                 ///< stage from whose end the trials begin; empty: the last
   std::string vary = "strength";     ///< as written
   Vec2 bracket{0.5, 3.0};            ///< factors to begin with, lower and upper
   double tolerance = 0.01;           ///< width of the bracket at the end, over its lower factor
   std::vector<std::string> exclude;  ///< joints that keep their strength
   FosFails fails;
-  Varied varied = Varied::strength;  ///< what `vary` says
+  Varied varied = Varied::strength;  ///< from `vary`
   Index target = none;               ///< row of loads, shakings or waters
   Where where;
 };
@@ -364,7 +366,7 @@ struct Model {
   std::vector<Import> imports;
   std::vector<Opening> openings;
   std::vector<Region> regions;
-  std::vector<HeldPoint> held;
+  std::vector<FixedPoint> fixed;
   std::vector<BrickWall> walls;
   std::vector<Arch> arches;
   Quality quality;
@@ -383,7 +385,8 @@ struct Model {
   Output output;
   std::optional<Fos> fos;
 
-  KeyPlaces key_places;  ///< of what was given; empty of a model that was not read
+  KeyPlaces key_places;  ///< places of the given keys; empty for a model that was not read
+  std::vector<std::string> warnings;  ///< of reading: old names
 };
 
 }  // namespace edda

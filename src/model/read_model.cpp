@@ -4,11 +4,12 @@
 #include <tuple>
 #include <variant>
 
-#include "model/complete.hpp"
-#include "model/file_text.hpp"
-#include "model/overrides.hpp"
-#include "model/reader.hpp"
-#include "model/value.hpp"
+#include "model/completion/complete.hpp"
+#include "model/files/file_text.hpp"
+#include "model/files/old_names.hpp"
+#include "model/files/overrides.hpp"
+#include "model/files/reader.hpp"
+#include "model/files/value.hpp"
 
 namespace edda {
 namespace {
@@ -75,11 +76,14 @@ Result<Model> read_model_text(std::string_view text, const std::string& file_nam
   Reading reading;
   reading.file = file_name;
   reading.model.file = file_name;
-  reading.faults = apply_overrides(root, overrides);
+  rename_old(root, reading);
+  apply_overrides(root, overrides, reading);
+  rename_old(root, reading);  // in lists that replace the file's
   read_sections(root, reading);
   complete(root, reading);
-  const bool says = find(find(&root, "solver"), "duration") != nullptr ||  // if wrongly
-                    find(&root, "stage") != nullptr;
+  const bool says =
+      find(find(&root, "solver"), "duration") != nullptr ||  // even with a wrong value
+      find(&root, "stage") != nullptr;
   if (what_for == ReadFor::run && !says) {
     if (auto fault = missing_duration(reading.model)) reading.faults.push_back(std::move(*fault));
   }

@@ -11,23 +11,23 @@
 
 namespace edda {
 
-/// What a model is read for. One that runs in time needs its duration; one that is drawn, cut into
-/// blocks or searched for a factor of safety does without.
+/// What a model is read for. A run in time needs a duration; drawing, cutting and the search for a
+/// factor of safety do not.
 enum class ReadFor { run, no_run };
 
 /// Reads the TOML file `path`, applies `overrides` ("solver.duration=0.2") in order, fills in every
-/// default and checks all that needs no geometry to be cut. All faults come together, in the order
-/// of the lines, those of overrides last ("--set", line = number of the override from 1); a TOML
-/// syntax error, or a file that cannot be read, stands alone.
+/// default and checks everything that can be checked without cutting the geometry. All faults are
+/// returned together, in the order of the lines, those of overrides last ("--set", line = number of
+/// the override from 1); a TOML syntax error, or a file that cannot be read, is returned alone.
 Result<Model> read_model(const std::string& path, const std::vector<std::string>& overrides = {},
                          ReadFor what_for = ReadFor::run);
 
-/// As read_model(), for a text at hand; `file_name` is what faults and Model::file say.
+/// As read_model(), for a text; `file_name` appears in faults and as Model::file.
 Result<Model> read_model_text(std::string_view text, const std::string& file_name,
                               const std::vector<std::string>& overrides = {},
                               ReadFor what_for = ReadFor::run);
 
-/// What keeps a model that was read for no run from running in time: neither stages nor a duration.
+/// The fault of a model without stages and duration that is to run in time after all.
 std::optional<Fault> missing_duration(const Model& model);
 
 }  // namespace edda

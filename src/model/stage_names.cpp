@@ -1,5 +1,7 @@
 #include "model/stage_names.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace edda {
@@ -38,7 +40,7 @@ std::vector<Index> bolts_called(const Model& model, const std::vector<std::strin
 
 std::optional<std::size_t> stage_called(const Model& model, const std::string& name) {
   for (std::size_t q = 0; q < model.stages.size(); ++q) {
-    if (model.stages[q].name == name || std::to_string(q) == name) return q;
+    if (model.stages[q].name == name || std::to_string(q + 1) == name) return q;
   }
   return {};
 }
@@ -54,6 +56,20 @@ bool acts_at_first(const Model& model, const std::string& name) {
 bool installed_at_first(const Model& model, const std::string& name) {
   return std::none_of(model.stages.begin(), model.stages.end(),
                       [&](const Stage& stage) { return holds(stage.install, name); });
+}
+
+std::vector<Stage> stages_of(const Model& model) {
+  if (!model.stages.empty()) return model.stages;
+  Stage only;
+  only.duration = model.solver.duration;
+  only.damping = model.solver.damping;
+  return {only};
+}
+
+std::string stage_label(const Model& model, std::size_t stage) {
+  const std::string name = stages_of(model)[stage].name;
+  return name.empty() ? fmt::format("stage {}", stage + 1)
+                      : fmt::format("stage {} ({})", stage + 1, name);
 }
 
 }  // namespace edda

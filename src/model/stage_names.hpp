@@ -1,4 +1,5 @@
-// What the names in a stage stand for, and what acts before any stage names it.
+// The elements that the names in a stage refer to, and which of them act before any stage names
+// them.
 #pragma once
 
 #include <optional>
@@ -17,20 +18,27 @@ struct NamedRows {
   }
 };
 
-/// All that have one of these names.
+/// All elements with one of these names.
 NamedRows rows_called(const Model& model, const std::vector<std::string>& names);
 
-/// Rows among Model::bolts and, behind them, the bolts of the patterns in their order.
+/// Rows in Model::bolts, followed by the bolts of the patterns in their order.
 std::vector<Index> bolts_called(const Model& model, const std::vector<std::string>& names);
 
-/// Whether what has this name acts from the start of the run: unless a stage behind the first
-/// activates it before any deactivates it. Without a name it does.
+/// Whether the element of this name acts from the start of the run. It does unless a stage after
+/// the first activates it before any deactivates it. An element without a name does.
 bool acts_at_first(const Model& model, const std::string& name);
 
-/// Whether bolts of this name are there from the start of the run: unless a stage installs them.
+/// Whether bolts of this name are there from the start of the run, which holds unless a stage
+/// installs them.
 bool installed_at_first(const Model& model, const std::string& name);
 
 /// Row of the stage that has this name or number.
 std::optional<std::size_t> stage_called(const Model& model, const std::string& name);
+
+/// The stages of the model; a model without [[stage]] has one, until solver.duration.
+std::vector<Stage> stages_of(const Model& model);
+
+/// "stage 2 (heading)".
+std::string stage_label(const Model& model, std::size_t stage);
 
 }  // namespace edda

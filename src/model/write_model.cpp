@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "model/keys.hpp"
+#include "model/table/keys.hpp"
 
 namespace edda {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "model/keys.hpp"
+#include "model/table/keys.hpp"
 
 namespace edda {
 
@@ -12,8 +12,8 @@ namespace edda {
 /// model but for Model::file and the places.
 std::string to_toml(const Model& model);
 
-/// One value of it; empty where the field holds none. `slot`: the key's field in an object of
-/// `model`.
+/// One value of the model as TOML; empty where the field has none. `slot`: the key's field in an
+/// object of `model`.
 std::string toml_value(const Key& key, const Slot& slot, const Model& model);
 
 }  // namespace edda

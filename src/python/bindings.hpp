@@ -1,4 +1,4 @@
-// The Python module edda._edda: library/edda.hpp as seen from Python. Shapes and units stand in
+// The Python module edda._edda: library/edda.hpp as seen from Python. Shapes and units are given in
 // edda/_edda.pyi.
 #pragma once
 

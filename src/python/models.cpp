@@ -42,7 +42,7 @@ api::Cut cut(const api::Model& model) {
   return api::cut(model);
 }
 
-/// Works without the GIL in a thread of its own, so that Ctrl-C is seen meanwhile and ends it.
+/// Runs a function without the GIL in a thread of its own, so that Ctrl-C ends it.
 template <class Work>
 auto interruptible(Work work) {
   std::atomic<bool> stop{false};
@@ -111,25 +111,7 @@ api::CutBlock block_of(const py::tuple& state) {
   return block;
 }
 
-}  // namespace
-
-py::array_t<double> array_of(const std::vector<api::Point>& points) {
-  py::array_t<double> array({points.size(), std::size_t{2}});
-  auto out = array.mutable_unchecked<2>();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto row = static_cast<py::ssize_t>(i);
-    out(row, 0) = points[i].x;
-    out(row, 1) = points[i].y;
-  }
-  return array;
-}
-
-void add_models(py::module_& m) {
-  py::register_exception_translator(&raise_model_error);
-  m.def(
-      "version", [] { return std::string(api::version()); }, "The version, \"0.1.0\".");
-  m.def("set_threads", &api::set_threads, py::arg("threads"),
-        "Threads that simulations of this process use; results do not depend on it.");
+void add_model(py::module_& m) {
   py::class_<api::Model>(m, "Model", "A checked model; never changes.")
       .def_static("read", &read, py::arg("path"), py::arg("overrides") = Overrides{},
                   "Reads a TOML file; overrides as of --set, \"solver.duration=0.2\".")
@@ -144,10 +126,9 @@ void add_models(py::module_& m) {
       .def_property_readonly("joints", &api::Model::joints, "Names of the laws, in order.")
       .def_property_readonly("openings", &api::Model::openings, "Names, in order.")
       .def_property_readonly("stages", &api::Model::stages, "Names, in order.")
-      .def_property_readonly(
-          "warnings", &warnings,
-          "What looks right in it and is not, as edda check says it, a sentence each; cuts the "
-          "model when it is first asked for.")
+      .def_property_readonly("warnings", &warnings,
+                             "Warnings of edda check, a sentence each; the model is cut when they "
+                             "are first asked for.")
       .def("to_toml", &api::Model::to_toml, "The model with every key and default filled in.")
       .def("cut", &cut, "Its blocks as polygons.")
       // It never changes.
@@ -160,15 +141,14 @@ void add_models(py::module_& m) {
                  "to_toml()");
            })
       .def("__repr__", [](const api::Model& model) { return "<edda.Model " + model.file() + ">"; });
-  m.def("check", &check, py::arg("model"), "What edda check says of a model.");
-  m.def("fos", &fos, py::arg("model"), "The factor of safety, by what [fos] of the model says.");
-  m.def("verify", &verify, py::arg("model"), "The error bars of the model's monitors.");
+}
 
+void add_cut(py::module_& m) {
   py::class_<api::CutBlock>(m, "CutBlock", "One block as cut.")
       .def(py::pickle(&state_of, &block_of))
       .def_readonly("name", &api::CutBlock::name, "Of a [[block]], else empty.")
       .def_readonly("material", &api::CutBlock::material, "Row of Model.materials, -1: none.")
-      .def_readonly("fixed", &api::CutBlock::fixed, "Whether it is held.")
+      .def_readonly("fixed", &api::CutBlock::fixed, "Whether it is fixed.")
       .def_readonly("area", &api::CutBlock::area, "m2")
       .def_property_readonly(
           "rings", &rings_of,
@@ -208,6 +188,32 @@ void add_models(py::module_& m) {
       .def_readonly("smallest_angle", &api::Cut::smallest_angle, "degrees")
       .def_readonly("notes", &api::Cut::notes,
                     "What was imported, drawn at random, left out, and which joints cut nothing.");
+}
+
+}  // namespace
+
+py::array_t<double> array_of(const std::vector<api::Point>& points) {
+  py::array_t<double> array({points.size(), std::size_t{2}});
+  auto out = array.mutable_unchecked<2>();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto row = static_cast<py::ssize_t>(i);
+    out(row, 0) = points[i].x;
+    out(row, 1) = points[i].y;
+  }
+  return array;
+}
+
+void add_models(py::module_& m) {
+  py::register_exception_translator(&raise_model_error);
+  m.def(
+      "version", [] { return std::string(api::version()); }, "The version, \"0.1.0\".");
+  m.def("set_threads", &api::set_threads, py::arg("threads"),
+        "Threads that simulations of this process use; results do not depend on it.");
+  add_model(m);
+  m.def("check", &check, py::arg("model"), "What edda check reports about a model.");
+  m.def("fos", &fos, py::arg("model"), "The factor of safety, as [fos] of the model defines it.");
+  m.def("verify", &verify, py::arg("model"), "The error bars of the model's monitors.");
+  add_cut(m);
 }
 
 }  // namespace edda::python

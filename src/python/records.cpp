@@ -54,9 +54,7 @@ void add_pickling(py::class_<T>& type, F T::*... fields) {
                  }));
 }
 
-}  // namespace
-
-void add_records(py::module_& m) {
+void add_outcome(py::module_& m) {
   py::class_<api::Outcome> outcome(m, "Outcome", "How a run ended.");
   outcome
       .def_property_readonly(
@@ -66,13 +64,13 @@ void add_records(py::module_& m) {
       .def_readonly("time", &api::Outcome::time, "s, reached.")
       .def_readonly("steps", &api::Outcome::steps, "Steps made.")
       .def_readonly("contacts", &api::Outcome::contacts, "Closed at the end.")
-      .def_readonly(
-          "drift", &api::Outcome::drift,
-          "Of the energy, a ratio: the largest in size of all rows of the history, not the "
-          "last one's.")
+      .def_readonly("drift", &api::Outcome::drift,
+                    "Error of the energy balance, a ratio: the largest in size of all rows of the "
+                    "history, not the last one's.")
       .def_readonly("wall_seconds", &api::Outcome::wall_seconds, "s")
-      .def_readonly("at_rest", &api::Outcome::at_rest,
-                    "Whether all is at rest at the end; of a run that has completed, too.")
+      .def_readonly(
+          "at_rest", &api::Outcome::at_rest,
+          "Whether the model is in equilibrium at the end; also for a run that has completed.")
       .def_readonly("fastest", &api::Outcome::fastest,
                     "Block with the fastest corner at the end, -1: none is free.")
       .def_readonly("speed", &api::Outcome::speed, "m/s, of that corner.")
@@ -83,22 +81,23 @@ void add_records(py::module_& m) {
                &api::Outcome::wall_seconds, &api::Outcome::at_rest, &api::Outcome::fastest,
                &api::Outcome::speed, &api::Outcome::failed_checks);
   add_repr(outcome, {"status", "message", "time", "steps"});
+}
 
+void add_check(py::module_& m) {
   py::class_<api::ModelCheck> check(m, "ModelCheck", "What edda.check() finds.");
   check.def_readonly("blocks", &api::ModelCheck::blocks, "How many there are.")
-      .def_readonly("held", &api::ModelCheck::held, "How many of them do not move.")
+      .def_readonly("held", &api::ModelCheck::held, "How many of them are fixed.")
       .def_readonly("contacts", &api::ModelCheck::contacts, "Closed at the start.")
       .def_readonly("critical_step", &api::ModelCheck::critical_step, "s")
       .def_readonly("time_step", &api::ModelCheck::time_step, "s, the first.")
       .def_readonly("steps", &api::ModelCheck::steps, "To expect.")
       .def_readonly("at_most", &api::ModelCheck::at_most, "Whether stages may end before.")
       .def_readonly("steps_per_second", &api::ModelCheck::steps_per_second, "Of wall time.")
-      .def_readonly("governed_by", &api::ModelCheck::governed_by, "What holds the step.")
+      .def_readonly("governed_by", &api::ModelCheck::governed_by, "What governs the time step.")
       .def_readonly("loads", &api::ModelCheck::loads, "A sentence each.")
       .def_readonly("initial_stress", &api::ModelCheck::initial_stress, "A sentence each.")
       .def_readonly("strain_damping", &api::ModelCheck::strain_damping, "A sentence each.")
-      .def_readonly("warnings", &api::ModelCheck::warnings,
-                    "What looks right in the model and is not, a sentence each.");
+      .def_readonly("warnings", &api::ModelCheck::warnings, "Warnings, a sentence each.");
   add_pickling(check, &api::ModelCheck::blocks, &api::ModelCheck::held, &api::ModelCheck::contacts,
                &api::ModelCheck::critical_step, &api::ModelCheck::time_step,
                &api::ModelCheck::steps, &api::ModelCheck::at_most,
@@ -106,10 +105,12 @@ void add_records(py::module_& m) {
                &api::ModelCheck::loads, &api::ModelCheck::initial_stress,
                &api::ModelCheck::strain_damping, &api::ModelCheck::warnings);
   add_repr(check, {"blocks", "held", "time_step", "steps", "warnings"});
+}
 
+void add_trial(py::module_& m) {
   py::class_<api::FosTrial> trial(m, "FosTrial", "One factor that was tried.");
   trial.def_readonly("factor", &api::FosTrial::factor, "What was tried.")
-      .def_readonly("holds", &api::FosTrial::holds, "Whether all came to rest.")
+      .def_readonly("holds", &api::FosTrial::holds, "Whether the model reached equilibrium.")
       .def_readonly("reason", &api::FosTrial::reason, "A few words.")
       .def_readonly("displacement", &api::FosTrial::displacement,
                     "m, largest of a corner since the start of the trial.")
@@ -120,7 +121,9 @@ void add_records(py::module_& m) {
                &api::FosTrial::displacement, &api::FosTrial::block, &api::FosTrial::velocity,
                &api::FosTrial::time);
   add_repr(trial, {"factor", "holds", "reason"});
+}
 
+void add_factor_of_safety(py::module_& m) {
   py::class_<api::FactorOfSafety> fos(m, "FactorOfSafety", "What edda.fos() finds.");
   fos.def_readonly("status", &api::FactorOfSafety::status,
                    "found, below, above, unstable or interrupted.")
@@ -131,7 +134,7 @@ void add_records(py::module_& m) {
       .def_readonly("fails", &api::FactorOfSafety::fails,
                     "The smallest factor that fails, or None.")
       .def_readonly("mechanism", &api::FactorOfSafety::mechanism,
-                    "What moves at it, a sentence; empty where nothing failed.")
+                    "What moves at this factor, a sentence; empty where nothing failed.")
       .def_readonly("trials", &api::FactorOfSafety::trials, "Every factor that was tried.")
       .def_readonly("warnings", &api::FactorOfSafety::warnings, "A sentence each.")
       .def_readonly("wall_seconds", &api::FactorOfSafety::wall_seconds, "s");
@@ -141,7 +144,9 @@ void add_records(py::module_& m) {
                &api::FactorOfSafety::trials, &api::FactorOfSafety::warnings,
                &api::FactorOfSafety::wall_seconds);
   add_repr(fos, {"status", "factor", "holds", "fails"});
+}
 
+void add_error_bar(py::module_& m) {
   py::class_<api::ErrorBar> bar(
       m, "ErrorBar", "A monitor's displacement at the end, and how far other runs end from it, m.");
   bar.def_readonly("monitor", &api::ErrorBar::monitor, "Its name.")
@@ -153,7 +158,9 @@ void add_records(py::module_& m) {
   add_pickling(bar, &api::ErrorBar::monitor, &api::ErrorBar::ux, &api::ErrorBar::uy,
                &api::ErrorBar::step, &api::ErrorBar::stiffness, &api::ErrorBar::order);
   add_repr(bar, {"monitor", "ux", "uy", "step", "stiffness", "order"});
+}
 
+void add_verification(py::module_& m) {
   py::class_<api::Verification> verification(m, "Verification", "What edda.verify() finds.");
   verification
       .def_readonly("monitors", &api::Verification::monitors, "An ErrorBar for each monitor.")
@@ -165,7 +172,9 @@ void add_records(py::module_& m) {
   add_pickling(verification, &api::Verification::monitors, &api::Verification::time,
                &api::Verification::largest_drift, &api::Verification::failed);
   add_repr(verification, {"time", "monitors", "failed"});
+}
 
+void add_progress(py::module_& m) {
   py::class_<api::Progress> progress(m, "Progress", "How far a run has come.");
   progress.def_readonly("fraction", &api::Progress::fraction, "Of the duration.")
       .def_readonly("time", &api::Progress::time, "s, simulated.")
@@ -177,7 +186,7 @@ void add_records(py::module_& m) {
       .def_readonly("largest_overlap", &api::Progress::largest_overlap, "m")
       .def_readonly("largest_velocity", &api::Progress::largest_velocity,
                     "m/s, of the blocks' centroids.")
-      .def_readonly("stage", &api::Progress::stage, "In hand, from 0.")
+      .def_readonly("stage", &api::Progress::stage, "The current one, from 1.")
       .def_readonly("stages", &api::Progress::stages, "Of the model; 1 where it has none.")
       .def_readonly("stage_name", &api::Progress::stage_name, "Empty where it has none.");
   add_pickling(progress, &api::Progress::fraction, &api::Progress::time, &api::Progress::steps,
@@ -185,7 +194,9 @@ void add_records(py::module_& m) {
                &api::Progress::largest_overlap, &api::Progress::largest_velocity,
                &api::Progress::stage, &api::Progress::stages, &api::Progress::stage_name);
   add_repr(progress, {"fraction", "time", "steps"});
+}
 
+void add_ledger(py::module_& m) {
   py::class_<api::Ledger> ledger(m, "Ledger", "Energies since t = 0, J; drift is a ratio.");
   ledger.def_readonly("kinetic", &api::Ledger::kinetic, "J")
       .def_readonly("strain", &api::Ledger::strain, "J")
@@ -195,17 +206,21 @@ void add_records(py::module_& m) {
       .def_readonly("damping", &api::Ledger::damping, "J, dissipated.")
       .def_readonly("fracture", &api::Ledger::fracture, "J, dissipated.")
       .def_readonly("external", &api::Ledger::external, "J, work done on the blocks.")
-      .def_readonly("step_change", &api::Ledger::step_change, "J, taken out by changed steps.")
-      .def_readonly("drift", &api::Ledger::drift, "What does not add up, over the largest energy.")
+      .def_readonly("step_change", &api::Ledger::step_change,
+                    "J, removed by changes of the time step.")
+      .def_readonly("drift", &api::Ledger::drift,
+                    "Error of the energy balance, over the largest energy.")
       .def_readonly("transfer", &api::Ledger::transfer,
-                    "J, taken by rules that are no physics; negative: given.");
+                    "J, removed by numerical rules without physical meaning; negative: added.");
   add_pickling(ledger, &api::Ledger::kinetic, &api::Ledger::strain, &api::Ledger::contact,
                &api::Ledger::gravity, &api::Ledger::friction, &api::Ledger::damping,
                &api::Ledger::fracture, &api::Ledger::external, &api::Ledger::step_change,
                &api::Ledger::drift, &api::Ledger::transfer);
   add_repr(ledger, {"kinetic", "strain", "contact", "gravity", "friction", "damping", "fracture",
                     "external", "step_change", "drift", "transfer"});
+}
 
+void add_monitor_reading(py::module_& m) {
   py::class_<api::MonitorReading> reading(
       m, "MonitorReading", "A material point and its block: m, m/s, Pa (tension positive).");
   reading.def_readonly("ux", &api::MonitorReading::ux, "m")
@@ -219,6 +234,20 @@ void add_records(py::module_& m) {
                &api::MonitorReading::vx, &api::MonitorReading::vy, &api::MonitorReading::sxx,
                &api::MonitorReading::syy, &api::MonitorReading::sxy);
   add_repr(reading, {"ux", "uy", "vx", "vy", "sxx", "syy", "sxy"});
+}
+
+}  // namespace
+
+void add_records(py::module_& m) {
+  add_outcome(m);
+  add_check(m);
+  add_trial(m);
+  add_factor_of_safety(m);
+  add_error_bar(m);
+  add_verification(m);
+  add_progress(m);
+  add_ledger(m);
+  add_monitor_reading(m);
 }
 
 }  // namespace edda::python

@@ -38,7 +38,7 @@ std::string path_or_empty(const py::object& path) {
   return path.is_none() ? "" : py::module_::import("os").attr("fspath")(path).cast<std::string>();
 }
 
-/// All that there are, for the end of Python alone. Under the GIL.
+/// All simulations, used only at the exit of Python. Requires the GIL.
 std::set<Runner*>& runners() {
   static std::set<Runner*> all;
   return all;
@@ -51,7 +51,8 @@ Runner* runner_of(PyObject* self) {
   return held.holder_constructed() ? held.value_ptr<Runner>() : nullptr;
 }
 
-/// Callables hold what they refer to, often the simulation itself: cycles that Python looks for.
+/// Callables refer to objects, often to the simulation itself; Python's garbage collector must see
+/// such cycles.
 void take_part_in_collection(PyHeapTypeObject* heap_type) {
   PyTypeObject& type = heap_type->ht_type;
   type.tp_flags |= Py_TPFLAGS_HAVE_GC;
@@ -140,7 +141,7 @@ int Runner::traverse(visitproc visit, void* arg) const {
 }
 
 void Runner::let_go() {
-  std::vector<py::object> dropped;  // what their ends do comes once none is held here
+  std::vector<py::object> dropped;  // destroyed only when none of them is referenced here any more
   const auto drop = [&](const Callback& held) {
     if (held) dropped.push_back(std::move(*held));
   };
@@ -173,20 +174,20 @@ void Runner::end() noexcept {
   ending_ = true;
   try {
     simulation_->finish();
-  } catch (...) {  // another exception is under way, or nobody is left to tell
+  } catch (...) {  // another exception is in progress, or no caller is left to receive it
   }
   ending_ = false;
 }
 
 void Runner::end_all() {
-  // A reference each: while a run ends, without the GIL, others may let theirs go.
+  // One reference to each: while a run ends without the GIL, other threads may release theirs.
   std::vector<py::object> held;
   for (Runner* const runner : runners()) {
     held.push_back(py::cast(runner, py::return_value_policy::reference));
   }
   for (const py::object& self : held) {
     Runner& runner = self.cast<Runner&>();
-    if (runner.busy_) continue;  // in a thread that Python does not wait for
+    if (runner.busy_) continue;  // running in a thread that Python does not wait for
     runner.thread_ = std::this_thread::get_id();
     runner.busy_ = true;
     const py::gil_scoped_release release;
@@ -208,8 +209,8 @@ py::class_<Runner> add_runner(py::module_& m) {
 
 model: a Model, or what edda.load() takes.
 results: folder for results, as of `edda run -o`; None: none are written.
-resume: go on from the checkpoint in that folder.
-from_stage: go on from the checkpoint of the end of this stage (from 0).
+resume: continue from the checkpoint in that folder.
+from_stage: continue from the checkpoint of the end of this stage (from 1).
 progress: called with a Progress about every progress_every s, and at the end, when the
     run is over and can no longer be changed; False stops the run.
 progress_every: s of wall time.
@@ -228,7 +229,7 @@ Raises ModelError for what cannot be computed, and for a folder that cannot be u
       .def(
           "advance_to",
           [](Runner& self, double time) {
-            // A run is not to end over this.
+            // This must not end a run.
             if (std::isnan(time)) throw py::value_error("the time is no number");
             return self.go([&](auto& s) { return s.advance_to(time); });
           },
@@ -236,7 +237,7 @@ Raises ModelError for what cannot be computed, and for a folder that cannot be u
       .def(
           "finish", [](Runner& self) { return self.go([](auto& s) { return s.finish(); }); },
           "Ends the run where it stands and writes what is due.")
-      .def("pause", &Runner::pause, "From any thread: the call in hand returns.")
+      .def("pause", &Runner::pause, "From any thread: the current call returns.")
       .def("stop", &Runner::stop, "From any thread: the run ends as interrupted.")
       .def(
           "every",

@@ -1,4 +1,4 @@
-// What a Simulation of Python holds: one of the library, and the callables given to it.
+// The data of a Python Simulation: one of the library, and the callables given to it.
 #pragma once
 
 #include <atomic>
@@ -13,14 +13,14 @@
 
 namespace edda::python {
 
-/// A callable, or None once Python has let it go. May be copied and dropped without the GIL.
+/// A callable, or None once Python has released it. May be copied and destroyed without the GIL.
 using Callback = std::shared_ptr<py::object>;
 
-/// The class Simulation. While one goes on the GIL is free: callbacks take it, and so does a look
-/// at the signals ten times a second, so that Ctrl-C ends a run in good order.
+/// The class Simulation. During a run the GIL is free: callbacks acquire it, and so does a check
+/// for signals ten times a second, so that Ctrl-C ends a run properly.
 class Runner {
  public:
-  /// TypeError where a callable is none.
+  /// Raises TypeError where an argument is not callable.
   Runner(const py::object& model, const py::object& results, bool resume,
          std::optional<std::size_t> from_stage, const py::object& progress, double progress_every,
          const py::object& warn);
@@ -32,8 +32,8 @@ class Runner {
   /// The simulation, for the thread that may have it.
   api::Simulation& get();
 
-  /// Goes on without the GIL. An exception ends a run that writes results as Ctrl-C in the program
-  /// would, so that nothing is lost; without results it is paused.
+  /// Runs without the GIL. An exception ends a run that writes results in the same way as Ctrl-C in
+  /// the program, so that nothing is lost; a run without results is paused.
   template <class Action>
   auto go(Action action) {
     api::Simulation& simulation = get();
@@ -62,12 +62,12 @@ class Runner {
   void pause() { simulation_->pause(); }
   void stop() { simulation_->stop(); }
 
-  // For Python's collector of cycles.
+  // For Python's garbage collector.
   int traverse(visitproc visit, void* arg) const;
   void let_go();
 
-  /// Ends all runs that write results and are under way, as the end of each object would: for the
-  /// end of Python, which destroys no object that a cycle or another one of C holds.
+  /// Ends all runs in progress that write results, as the destructor of each would. For the exit of
+  /// Python, which does not destroy objects in reference cycles or held by objects of C.
   static void end_all();
 
  private:
@@ -86,7 +86,8 @@ class Runner {
   std::chrono::steady_clock::time_point reported_{};
 };
 
-/// What of Simulation goes on and is let go: constructor, run(), step(), every() and so on.
+/// Binds the functions of Simulation that run it, and its lifetime: constructor, run(), step(),
+/// every() and so on.
 py::class_<Runner> add_runner(py::module_& module);
 
 }  // namespace edda::python

@@ -1,4 +1,4 @@
-// Looking at a Simulation and changing it.
+// Queries and changes of a Simulation.
 #include <map>
 
 #include "python/runner.hpp"
@@ -12,8 +12,9 @@ api::Simulation& of(const py::object& self) {
 
 template <class Nodes>
 py::tuple node_views(const Nodes& nodes, const py::object& owner) {
-  return py::make_tuple(view_of(nodes[0], owner), view_of(nodes[1], owner),
-                        view_of(nodes[2], owner));
+  py::tuple views(nodes.size());
+  for (std::size_t k = 0; k < nodes.size(); ++k) views[k] = view_of(nodes[k], owner);
+  return views;
 }
 
 api::Field field_called(const std::string& name) {
@@ -72,7 +73,7 @@ py::list polygons(Runner& self) {
   return all;
 }
 
-/// IndexError where there is no such block, TypeError where it is no whole number.
+/// Raises IndexError where there is no such block, TypeError where it is not an integer.
 std::size_t checked_number(const api::Simulation& simulation, const py::object& block) {
   const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(block.ptr()));
   if (!whole) throw py::error_already_set();
@@ -108,16 +109,17 @@ void add_numbers(py::class_<Runner>& type) {
   add(
       "steps", [](auto& s) { return s.steps(); }, "Steps made.");
   add(
-      "time_step", [](auto& s) { return s.time_step(); }, "s, in force; 0 before the first step.");
+      "time_step", [](auto& s) { return s.time_step(); },
+      "s, the current one; 0 before the first step.");
   add(
       "critical_step", [](auto& s) { return s.critical_step(); },
       "s, the largest that is stable now.");
   add(
-      "governed_by", [](auto& s) { return s.governed_by(); }, "What holds the step.");
+      "governed_by", [](auto& s) { return s.governed_by(); }, "What governs the time step.");
   add(
       "warnings", [](auto& s) { return s.warnings(); }, "What to look at before running.");
   add(
-      "stage", [](auto& s) { return s.stage(); }, "In hand, from 0.");
+      "stage", [](auto& s) { return s.stage(); }, "The current one, from 1.");
   add(
       "over", [](auto& s) { return s.over(); }, "Whether the run has ended.");
   add(
@@ -126,7 +128,8 @@ void add_numbers(py::class_<Runner>& type) {
       "unbalanced", [](auto& s) { return s.unbalanced(); },
       "Mean resultant over mean contact force.");
   add(
-      "block_count", [](auto& s) { return s.block_count(); }, "nb, those taken out among them.");
+      "block_count", [](auto& s) { return s.block_count(); },
+      "nb, with those that have been excavated.");
   add(
       "vertex_count", [](auto& s) { return s.vertex_count(); }, "nv, of all blocks.");
   add(
@@ -151,10 +154,10 @@ void add_views(py::class_<Runner>& type) {
       "(nb,) row of Model.materials, -1: none; a view, not to be written to.");
   add(
       "fixed", [](auto& s) { return s.blocks().fixed; },
-      "(nb,) 1: held; a view, not to be written to.");
+      "(nb,) 1: fixed; a view, not to be written to.");
   add(
       "alive", [](auto& s) { return s.alive(); },
-      "(nb,) 0: taken out; a view, not to be written to.");
+      "(nb,) 0: excavated; a view, not to be written to.");
   constexpr const char* velocities =
       "Three views (nb,) to read and write, m/s, half a step before the positions.\n\n"
       "What is written for blocks that are not free is put back by the next call; what is no "
@@ -182,7 +185,7 @@ void add_looking(py::class_<Runner>& type) {
 
 centroid, displacement (m), velocity (m/s): (nb, 2), x y; stress (Pa, tension positive):
 (nb, 4), xx yy zz xy; rotation (rad), omega (rad/s), overstress (part of the strength used):
-(nb,). Of blocks taken out as they went.)")
+(nb,). Of excavated blocks as they were then.)")
       .def("polygons", &polygons, "Per block its rings, arrays (n, 2), m, as they are now.")
       .def(
           "contacts",
@@ -195,10 +198,10 @@ centroid, displacement (m), velocity (m/s): (nb, 2), x y; stress (Pa, tension po
 A row is a face, an edge of block_i against one of block_j; joint (row of Model.joints,
 -1: glued), state (0 open, 1 stick, 2 slide, 3 bonded); x, y (m), middle of the overlap;
 normal_force (N, compression positive), shear_force (N, positive where it drives block i
-from end a to end b); opening (m, negative: pressed together), slip (m, from a to b);
+from end a to end b); opening (m, negative: closed), slip (m, from a to b);
 mobilised (shear over shear strength); ever_slipped, ever_opened (0 or 1); length of the
-overlap, closed_length of what bears, its ends x_a, y_a, x_b, y_b (m); normal_stress (Pa,
-tension positive), the mean over the overlap, normal_stress_a and normal_stress_b at its
+overlap, closed_length of its closed part, its ends x_a, y_a, x_b, y_b (m); normal_stress (Pa,
+compression positive), the mean over the overlap, normal_stress_a and normal_stress_b at its
 ends, shear_stress (Pa). Forces are those of the model's thickness.)")
       .def(
           "name",
@@ -220,7 +223,7 @@ ends, shear_stress (Pa). Forces are those of the model's thickness.)")
           "Follows the material point at (x, y) of the start, m.")
       .def(
           "read", [](Runner& self, const std::string& m) { return self.get().read(m); },
-          py::arg("monitor"), "What a monitor tells now.");
+          py::arg("monitor"), "The present values of a monitor.");
 }
 
 void add_changing(py::class_<Runner>& type) {
@@ -231,7 +234,7 @@ void add_changing(py::class_<Runner>& type) {
             s.set_velocity(number_or_name(s, block), {v.first, v.second}, omega);
           },
           py::arg("block"), py::arg("velocity"), py::arg("omega") = 0.0,
-          "Of a free block by number or name: (vx, vy) of its centroid, m/s, and rate of turn, "
+          "Of a free block by number or name: (vx, vy) of its centroid, m/s, and rate of rotation, "
           "rad/s.")
       .def(
           "set_damping",
@@ -253,20 +256,21 @@ critical, 0 to 10. Adaptive damping and Rayleigh's stay as they are.)")
           "Strength of all joints, or of one, as the model gives it, divided by the factor.")
       .def(
           "excavate", [](Runner& self, const Names& names) { self.get().excavate(names); },
-          py::arg("openings"), "Takes out the rock of openings that a stage of the model names.")
+          py::arg("openings"), "Excavates openings that a stage of the model names.")
       .def(
           "relax",
           [](Runner& self, const std::string& name, double part) { self.get().relax(name, part); },
           py::arg("opening"), py::arg("part"),
-          "Lets go a part (0 to 1, all calls and stages together) of the forces of rock taken out.")
+          "Releases a part (0 to 1, all calls and stages together) of the wall forces of excavated "
+          "rock.")
       .def(
           "switch_over",
           [](Runner& self, const Names& off, const Names& on) { self.get().switch_over(off, on); },
           py::arg("deactivate") = Names{}, py::arg("activate") = Names{},
-          "Loads, water, boundaries and shaking by name, as in a stage.")
+          "Loads, water, boundaries and ground motions by name, as in a stage.")
       .def(
           "install", [](Runner& self, const Names& names) { self.get().install(names); },
-          py::arg("bolts"), "Puts in bolts and patterns by name.")
+          py::arg("bolts"), "Installs bolts and patterns by name.")
       .def(
           "reset_displacements", [](Runner& self) { self.get().reset_displacements(); },
           "Displacements count from here.");

@@ -15,7 +15,7 @@ double widest_label(const std::vector<Tick>& all, double font) {
   return digit * font * static_cast<double>(most);
 }
 
-/// As many as leave some room between labels.
+/// The number of ticks that leaves some room between labels.
 std::vector<Tick> ticks_across(const Box& world, double width, double font) {
   double count = width / (2.5 * font);
   std::vector<Tick> all = ticks(world.low.x, world.high.x, count);

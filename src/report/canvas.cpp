@@ -108,7 +108,7 @@ double Canvas::text_width(const std::string& text, double size, bool bold) {
 }
 
 void Canvas::text(const std::string& any_text, Vec2 at, const TextStyle& style) {
-  // Cairo draws nothing more once it has met a text that is none.
+  // Cairo draws nothing more once it has met a text that is not UTF-8.
   const std::string text = printable(any_text);
   if (format_ == Format::svg) return svg_text(text, at, style);
   const double width = text_width(text, style.size, style.bold);

@@ -1,4 +1,4 @@
-// A drawing that ends as a PNG, SVG or PDF file. Lengths are points (1/72 inch), y down.
+// A drawing that is written as a PNG, SVG or PDF file. Lengths are points (1/72 inch), y down.
 #pragma once
 
 #include <cairo.h>
@@ -20,15 +20,15 @@ struct TextStyle {
   Align align = Align::left;
   bool bold = false;
   bool halo = false;     ///< white around it, where it lies on a drawing
-  bool upwards = false;  ///< turned by a quarter, reading upwards
+  bool upwards = false;  ///< rotated by a quarter turn, reading upwards
 };
 
 inline constexpr double rule = 0.5;  ///< width of frames, ticks and grids, pt
 
 class Canvas {
  public:
-  /// White, `width` x `height` pt. The ending of `path` says what it becomes: .svg, .pdf, else PNG
-  /// with so many pixels per point.
+  /// White, `width` x `height` pt. The extension of `path` gives the format: .svg, .pdf, else PNG
+  /// with `pixels_per_point`.
   Canvas(std::string path, double width, double height, double pixels_per_point);
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
@@ -52,10 +52,10 @@ class Canvas {
   enum class Format { png, svg, pdf };
   static cairo_status_t take(void* self, const unsigned char* data, unsigned int size);
   cairo_surface_t* surface_for(double width, double height, double pixels_per_point);
-  cairo_status_t end();  ///< the first thing that went wrong
+  cairo_status_t end();  ///< the first error
   void svg_text(const std::string& text, Vec2 at, const TextStyle& style);
   std::string path_, bytes_;
-  std::string svg_texts_;  ///< cairo would make outlines of them
+  std::string svg_texts_;  ///< kept as texts, since cairo would make outlines of them
   Format format_;
   Colour colour_;
   cairo_surface_t* surface_ = nullptr;

@@ -17,7 +17,7 @@ void each_value(std::span<const Snapshot> shots, Visit visit) {
     const ShownField& field = shot.field;
     const std::vector<double> areas = field.of_contacts ? field.lengths : cell_areas(shot.blocks);
     for (std::size_t c = 0; c < field.values.size(); ++c) {
-      if (!field.of_contacts && is_held(shot.blocks, c)) continue;
+      if (!field.of_contacts && is_fixed(shot.blocks, c)) continue;
       if (std::isfinite(field.values[c])) visit(field.values[c], areas.empty() ? 1.0 : areas[c]);
     }
   }
@@ -47,7 +47,7 @@ void ColourScale::take_values(std::span<const Snapshot> shots, bool whole) {
       if (kind_ == ScaleKind::kinds && v >= 0.0) kinds_.push_back(static_cast<std::size_t>(v));
     });
     if (values.empty()) continue;
-    // Of each drawing by itself: what is quiet in one hides nothing in another.
+    // For each drawing separately, so that small values in one do not hide those of another.
     const auto widen = [&](Ends& ends, Ends by) {
       ends = any ? Ends{std::min(ends.low, by.low), std::max(ends.high, by.high)} : by;
     };
@@ -73,7 +73,7 @@ void ColourScale::take_range(double low, double high) {
 }
 
 void ColourScale::judge_values() {
-  // Rounding is no range to paint: a bar from nothing to the one value there is.
+  // Values that differ by rounding give no range: the bar then runs from zero to the one value.
   const double size = std::max(std::abs(low_), std::abs(high_));
   if (high_ - low_ <= one_value * size) {
     if (low_ > 0.0) low_ = 0.0;

@@ -14,11 +14,11 @@ namespace edda {
 
 class ColourScale {
  public:
-  /// One scale for all snapshots, over the values of all blocks that are not held; but for a few
-  /// that lie far beyond, unless `whole` (drawn_range.hpp; of contacts all count but stresses, by
-  /// the lengths of their faces). `range`: over that
-  /// instead. Values beyond take the colours of its ends. Where it has both signs it is two-sided:
-  /// blue below nothing, red above, as dark on either side at the same distance.
+  /// One scale for all snapshots, over the values of all free blocks, except a few outliers, unless
+  /// `whole` (drawn_range.hpp; of contacts all values count, but stresses weighted by the lengths
+  /// of their faces). `range`: over this range instead. Values beyond have the colours of its ends.
+  /// Where it has both signs it is two-sided: blue below zero, red above, equally dark at the same
+  /// distance on either side.
   ColourScale(std::span<const Snapshot> shots, std::optional<std::pair<double, double>> range,
               bool whole);
   Colour of(double value) const;

@@ -37,7 +37,7 @@ constexpr std::array<Colour, 17> viridis{{{0.267004, 0.004874, 0.329415},
                                           {0.993248, 0.906157, 0.143936}}};
 
 // Blue over near-white to red: on either side a straight line in OKLab, so that equal steps look
-// equal and both ends are as dark.
+// equal and both ends are equally dark.
 constexpr std::array<Colour, 17> blue_red{{{0.078, 0.290, 0.583},
                                            {0.196, 0.374, 0.635},
                                            {0.302, 0.457, 0.684},

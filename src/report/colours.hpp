@@ -1,4 +1,4 @@
-// Colours of pictures: maps whose steps look even, and a palette for kinds.
+// Colours of pictures: perceptually uniform maps, and a palette for categories.
 #pragma once
 
 #include <cstddef>
@@ -16,12 +16,12 @@ Colour sequential(double s);
 /// Blue over white to red: for values of both signs, 0 at s = 1/2.
 Colour diverging(double s);
 
-/// The k-th of a few light, well told apart colours, again from the first after the last.
+/// The k-th of a few light, clearly different colours, repeated from the first.
 Colour kind_colour(std::size_t k);
 inline constexpr std::size_t kind_colour_count = 8;
 
-/// Of a contact's state (contact_states): told apart from each other and from plain blocks by the
-/// colour-blind, too; open ones have a rim.
+/// Colour of a contact's state (contact_states), different from the others and from plain blocks
+/// for the colour-blind, too; open contacts have a rim.
 Colour state_colour(std::size_t state);
 
 }  // namespace edda

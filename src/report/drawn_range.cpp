@@ -9,7 +9,7 @@ namespace {
 
 constexpr double beyond = 0.01;  // part of the weight
 
-/// The least value that no more than `rest` of the weight comes after, in the order of `before`.
+/// The least value after which, in the order of `before`, at most `rest` of the weight follows.
 template <class Before>
 double without_the_last(std::vector<Weighed>& values, double rest, Before before) {
   std::size_t first = 0, end = values.size();
@@ -35,7 +35,7 @@ Ends inner_ends(std::vector<Weighed>& values) {
   if (values.empty()) return {};
   double rest = 0.0;
   for (const Weighed& v : values) rest += beyond * v.weight;
-  // What weighs nothing is not left out for it.
+  // A value without weight is not left out because of that.
   if (!(rest > 0.0)) rest = -1.0;
   const auto rising = [](const Weighed& a, const Weighed& b) { return a.value < b.value; };
   const auto falling = [](const Weighed& a, const Weighed& b) { return a.value > b.value; };
@@ -45,7 +45,7 @@ Ends inner_ends(std::vector<Weighed>& values) {
 
 Ends drawn_ends(Ends all, Ends inner) {
   const double size = std::max(std::abs(inner.low), std::abs(inner.high));
-  // Where all but a few lie still, those few are what there is to see.
+  // Where all but a few blocks are at rest, the picture is to show those few.
   if (size <= 1e-6 * std::max(std::abs(all.low), std::abs(all.high))) return all;
   const double far = size, kept = 0.5 * size;
   return {all.low < inner.low - far ? inner.low - kept : all.low,

@@ -1,5 +1,5 @@
-// From where to where a picture shows values, so that a few giants do not make all others look
-// alike.
+// The range of values that a picture shows, chosen such that a few outliers do not make all others
+// look alike.
 #pragma once
 
 #include <vector>
@@ -15,18 +15,18 @@ struct Ends {
   double low = 0.0, high = 0.0;
 };
 
-/// Such that 1 % of the weight lie beyond either at most. Reorders the values, which are finite.
+/// The range beyond either end of which lies at most 1 % of the weight. Reorders the values, which
+/// are finite.
 Ends inner_ends(std::vector<Weighed>& values);
 
-/// The ends to draw by: `all`; but one that lies further out than `inner` by more than the larger
-/// of `inner` is put where it lies further out by half of that.
+/// The ends of the drawn range: those of `all`; but an end that lies beyond that of `inner` by more
+/// than the larger magnitude of `inner` is moved to half of that beyond it.
 Ends drawn_ends(Ends all, Ends inner);
 
-/// Values that differ by less than so much of the largest are one value and rounding.
+/// Values that differ by less than this fraction of the largest differ by rounding.
 inline constexpr double one_value = 1e-7;
 
-/// An arrow that is longer than the ends that arrows are drawn by is drawn so many times as long as
-/// those at most.
+/// Arrows beyond the drawn range are drawn at most this many times as long as its ends.
 inline constexpr double longest_beyond = 1.5;
 
 }  // namespace edda

@@ -10,12 +10,13 @@
 namespace edda {
 namespace {
 
-/// A point of the diagram: so far along the face, and the pressure there.
+/// A point of the diagram: its position along the face, and the pressure there.
 struct Station {
   double along, pressure;
 };
 
-/// The ends of what bears, and where the pressure changes its sign or reaches what it is cut at.
+/// The ends of the part that carries, and the points where the pressure changes its sign or reaches
+/// the limit at which it is cut.
 std::vector<Station> stations_of(const DrawnFace& face, double most) {
   Station from{0.0, face.pressure_a}, to{1.0, face.pressure_b};
   if (face.pressure_b == 0.0) to.along = face.closed;
@@ -39,10 +40,10 @@ Vec2 upper_side(Vec2 along) {
   return dot(across, up) < 0.0 ? -across : across;
 }
 
-/// Of a block, m, over where it is now.
+/// Displacement of a block, m, as a function of its present position.
 struct Displacement {
   Vec2 from;
-  AffineField field;  ///< of what lies so far from there
+  AffineField field;  ///< of the distance from this point
 };
 Displacement displacement_of(const Grid& blocks, const BlockShape& shape) {
   const Field* u = blocks.point_field("displacement");
@@ -77,9 +78,8 @@ std::vector<DrawnFace> drawn_faces(const Grid& contacts) {
     DrawnFace& face = faces[c];
     face.a = {value(0), value(1)};
     face.b = {value(2), value(3)};
-    // No -0, which would be printed.
-    face.pressure_a = 0.0 - value(4);
-    face.pressure_b = 0.0 - value(5);
+    face.pressure_a = value(4);
+    face.pressure_b = value(5);
     face.closed = value(6) > 0.0 ? value(7) / value(6) : 0.0;
     face.open = value(8) == 0.0;
   }
@@ -111,16 +111,16 @@ std::vector<PressureArea> pressure_diagram(const DrawnFace& face, double per_uni
   PressureArea area;
   for (std::size_t k = 0; k < stations.size(); ++k) {
     const double pressure = stations[k].pressure;
-    const Vec2 foot = face.a + stations[k].along * (face.b - face.a);
-    if (k == 0) area.ring = {foot};
+    const Vec2 base = face.a + stations[k].along * (face.b - face.a);
+    if (k == 0) area.ring = {base};
     if (pressure != 0.0) {
-      area.ring.push_back(foot + per_unit * std::clamp(pressure, -most, most) * across);
+      area.ring.push_back(base + per_unit * std::clamp(pressure, -most, most) * across);
       area.tension = pressure < 0.0;
     }
     if (k == 0 || (pressure != 0.0 && k + 1 < stations.size())) continue;
-    area.ring.push_back(foot);
+    area.ring.push_back(base);
     areas.push_back(area);
-    area.ring = {foot};
+    area.ring = {base};
   }
   return areas;
 }

@@ -1,4 +1,4 @@
-// Faces between blocks as pictures show them: where they are drawn, and the pressure on them.
+// Faces between blocks as pictures show them: their drawn positions and the pressure on them.
 #pragma once
 
 #include <vector>
@@ -8,19 +8,20 @@
 
 namespace edda {
 
-/// The overlap of two edges. Pressures are linear along the part that bears: a trapezoid, or a
+/// The overlap of two edges. Pressures are linear along the part that carries: a trapezoid, or a
 /// triangle where one end is open.
 struct DrawnFace {
   Vec2 a, b;                                  ///< ends as drawn, m
   double pressure_a = 0.0, pressure_b = 0.0;  ///< Pa, positive in compression
-  double closed = 1.0;                        ///< part of the length that bears
+  double closed = 1.0;                        ///< fraction of the length that carries
   bool open = false;
 };
 
-/// A face per cell of the contacts; none where the frame does not say where faces end.
+/// A face per cell of the contacts; none where the frame does not have the ends of faces.
 std::vector<DrawnFace> drawn_faces(const Grid& contacts);
 
-/// The same, displacements drawn `scale` times as large: ends lie on their block j, and go with it.
+/// The same, displacements drawn `scale` times as large: ends lie on their block j and move with
+/// it.
 std::vector<DrawnFace> drawn_faces(const Grid& contacts, const Grid& blocks, double scale);
 
 /// Part of the diagram of a face: all in compression, or all in tension.

@@ -31,7 +31,7 @@ bool is_energy(const std::string& name) {
 /// A panel without lines, for a column of that name.
 HistoryPanel panel_for(const std::string& name) {
   if (is_energy(name)) return {"energy", "J", {}};
-  if (name == "drift") return {"drift of the energy", "", {}};
+  if (name == "drift") return {"energy balance error", "", {}};
   if (name == "unbalanced") return {"unbalanced force ratio", "", {}};
   for (const Kind& k : kinds) {
     if (name.ends_with(k.ending)) return {std::string(k.label), std::string(k.unit), {}};
@@ -45,7 +45,7 @@ double largest(const Column& column) {
   return most;
 }
 
-/// The energies that can be seen beside the largest.
+/// The energies that are visible beside the largest.
 std::vector<const Column*> visible_energies(const Table& history) {
   constexpr double least = 0.005;
   double most = 0.0;
@@ -59,7 +59,7 @@ std::vector<const Column*> visible_energies(const Table& history) {
   return found;
 }
 
-/// A name as given stands for these columns.
+/// The columns that a given name stands for.
 std::vector<const Column*> columns_of(const Table& history, const std::string& name) {
   if (name == "energy") return visible_energies(history);
   std::vector<const Column*> found;

@@ -17,8 +17,8 @@ struct HistoryPanel {
 };
 
 /// `names`: columns of history.csv; a monitor or convergence line for all columns of it; "energy"
-/// for those of the ledger that can be seen beside the largest. Panels in the order in which they
-/// are first named. Faults name what there is.
+/// for those terms of the energy balance that are visible beside the largest. Panels in the order
+/// in which they are first named. Faults list the names that exist.
 Result<std::vector<HistoryPanel>> history_panels(const Table& history,
                                                  const std::vector<std::string>& names);
 

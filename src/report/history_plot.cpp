@@ -19,8 +19,8 @@ namespace {
 constexpr double line_width = 1.0;     // pt
 constexpr double panel_height = 13.0;  // in sizes of the font
 
-// Okabe and Ito's colours, told apart by the colour-blind too, without the yellow; dashes tell
-// lines apart in grey.
+// Okabe and Ito's colours, which the colour-blind can distinguish, without the yellow; dashes
+// distinguish lines in grey.
 constexpr std::array<Colour, 7> line_colours{{{0.000, 0.447, 0.698},
                                               {0.835, 0.369, 0.000},
                                               {0.000, 0.620, 0.451},
@@ -42,7 +42,7 @@ struct Axis {
   bool has(double value) const { return std::isfinite(value) && (!logarithmic || value > 0.0); }
 };
 
-/// Of the rows that are shown, or of the range that is asked for.
+/// The range of the rows that are shown, or the one that was given.
 Axis axis_of(const HistoryPanel& panel, const std::vector<double>& time,
              const std::optional<Vec2>& span, const std::optional<Vec2>& range) {
   double least = 1e300, most = -1e300, least_positive = 1e300;
@@ -99,7 +99,7 @@ std::vector<Tick> ticks_of(const Axis& axis, double count) {
   return all;
 }
 
-/// Heights of labels that want to stand at `wanted`, at least `apart` from each other, within
+/// Heights of labels, as near as possible to `wanted`, at least `apart` from each other, within
 /// [top, bottom] as far as there is room; in the order given.
 std::vector<double> spread(const std::vector<double>& wanted, double apart, double top,
                            double bottom) {
@@ -179,7 +179,7 @@ class HistoryPage {
       last_ = picture_.span->y;
     }
     if (!(last_ > first_)) last_ = first_ + 1.0;
-    // Rows that are shown, and one on each side where the lines come from and go to.
+    // Rows that are shown, and one more on each side, so that the lines continue to the edge.
     const auto& time = picture_.time;
     const auto from = std::lower_bound(time.begin(), time.end(), first_);
     const auto to = std::upper_bound(from, time.end(), last_);
@@ -269,7 +269,8 @@ class HistoryPage {
     }
   }
 
-  /// Returns the height of its end. `round`: how often the colours have been used before.
+  /// Returns the height of its end. `round`: number of times that all colours have been used
+  /// before.
   double draw_line(const std::vector<double>& values, const Axis& axis, const Box& frame,
                    std::size_t round) {
     cairo_t* cr = canvas_->cr();

@@ -42,7 +42,7 @@ void Labels::write(Canvas& canvas, const std::string& text, const std::vector<Ve
     }
   };
   for (const double d : {off, off + 1.1 * font_, off + 2.2 * font_}) {
-    // Low left corners, best sides first; then further away.
+    // Lower left corners of the label, best sides first; then further away.
     const std::array<Vec2, 8> corners{{{d, -d},
                                        {-d - wide, -d},
                                        {d, d + high},

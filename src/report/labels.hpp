@@ -1,4 +1,4 @@
-// Names beside points, so that none lies on another.
+// Names beside points, placed such that none covers another.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@ class Labels {
  public:
   /// Names stay within `frame`, pt.
   Labels(Box frame, double font) : frame_(frame), font_(font) {}
-  /// Keeps names off a mark of that radius.
+  /// Keeps names away from a mark of this radius.
   void avoid(Vec2 at, double radius);
-  /// Writes `text` beside the mark at the first of `places` where it is in the clear on a side;
-  /// else where it is most so.
+  /// Writes `text` beside the mark at the first of `places` where a side is free; else where it
+  /// covers least.
   void write(Canvas& canvas, const std::string& text, const std::vector<Vec2>& places,
              double radius);
 

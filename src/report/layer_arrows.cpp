@@ -12,15 +12,15 @@ constexpr double widest_casing = 0.7;  // pt of white about lines, so that they 
 
 struct Arrow {
   Vec2 at, vector;
-  double weight = 1.0;  ///< area of its block, m2; of a held one none
+  double weight = 1.0;  ///< area of its block, m2; 0 for a fixed one
 };
 
-/// Between the marks of neighbouring blocks on paper: closer ones are left out.
-double raster(const Scene& s) {
+/// Least distance on paper between the marks of neighbouring blocks; closer ones are left out.
+double raster(const PlotScene& s) {
   return 1.6 * s.font / s.view.scale;
 }
 
-std::vector<std::size_t> shown_shapes(const Scene& s, std::vector<Vec2>& centres) {
+std::vector<std::size_t> shown_shapes(const PlotScene& s, std::vector<Vec2>& centres) {
   centres.clear();
   for (const BlockShape& shape : s.shapes) {
     centres.push_back(centre_of(s.grid(), shape, s.points));
@@ -28,7 +28,7 @@ std::vector<std::size_t> shown_shapes(const Scene& s, std::vector<Vec2>& centres
   return thinned(centres, raster(s));
 }
 
-double side_of(const Scene& s, const BlockShape& shape) {
+double side_of(const PlotScene& s, const BlockShape& shape) {
   double twice = 0.0;
   for (const auto& [a, b] : shape.outline) {
     twice += cross(s.points[static_cast<std::size_t>(a)], s.points[static_cast<std::size_t>(b)]);
@@ -36,21 +36,21 @@ double side_of(const Scene& s, const BlockShape& shape) {
   return std::sqrt(0.5 * std::abs(twice));
 }
 
-std::vector<Arrow> block_arrows(const Scene& s, const std::string& name) {
+std::vector<Arrow> block_arrows(const PlotScene& s, const std::string& name) {
   std::vector<Arrow> arrows;
   const Field* field = s.grid().cell_field(name);
   if (field == nullptr || field->components < 2) return arrows;
   std::vector<Vec2> centres;
   for (const std::size_t i : shown_shapes(s, centres)) {
     const double* v = field->values.data() + s.shapes[i].first_cell * field->components;
-    const bool held = is_held(s.grid(), s.shapes[i].first_cell);
-    const double side = held ? 0.0 : side_of(s, s.shapes[i]);
+    const bool fixed = is_fixed(s.grid(), s.shapes[i].first_cell);
+    const double side = fixed ? 0.0 : side_of(s, s.shapes[i]);
     arrows.push_back({centres[i], {v[0], v[1]}, side * side});
   }
   return arrows;
 }
 
-std::vector<Arrow> force_arrows(const Scene& s) {
+std::vector<Arrow> force_arrows(const PlotScene& s) {
   std::vector<Arrow> arrows;
   if (!s.shot.contacts) return arrows;
   const Field* force = s.shot.contacts->cell_field("force");
@@ -63,9 +63,9 @@ std::vector<Arrow> force_arrows(const Scene& s) {
 
 /// `whole`: no arrow is longer than longest(); else a few may be, by longest_beyond.
 template <class ArrowsOf>
-ArrowScale arrow_scale(const std::vector<Scene>& scenes, bool whole, ArrowsOf arrows_of) {
+ArrowScale arrow_scale(const std::vector<PlotScene>& scenes, bool whole, ArrowsOf arrows_of) {
   std::vector<Weighed> sizes;
-  for (const Scene& s : scenes) {
+  for (const PlotScene& s : scenes) {
     for (const Arrow& a : arrows_of(s)) {
       if (!is_inside(s, a.at) || !std::isfinite(norm(a.vector))) continue;
       sizes.push_back({norm(a.vector), a.weight});
@@ -74,8 +74,8 @@ ArrowScale arrow_scale(const std::vector<Scene>& scenes, bool whole, ArrowsOf ar
   return scale_for(sizes, whole, longest(scenes.front()));
 }
 
-/// First all casings, then all arrows, so that no arrow is cut by its neighbour.
-void draw_arrows(Canvas& canvas, const Scene& s, const std::vector<Arrow>& arrows,
+/// First all casings, then all arrows, so that no casing covers an arrow.
+void draw_arrows(Canvas& canvas, const PlotScene& s, const std::vector<Arrow>& arrows,
                  const ArrowScale& scale, Colour colour, bool ends_at, double casing) {
   if (scale.per_unit == 0.0) return;
   constexpr double shortest = 0.8;  // pt
@@ -128,14 +128,14 @@ double quantile(std::vector<double> values, double part) {
   return *at;
 }
 
-std::vector<StressCross> stress_crosses(const Scene& s) {
+std::vector<StressCross> stress_crosses(const PlotScene& s) {
   std::vector<StressCross> crosses;
   const Field* stress = s.grid().cell_field("stress");
   if (stress == nullptr) return crosses;
   std::vector<Vec2> centres;
   for (const std::size_t i : shown_shapes(s, centres)) {
     const std::size_t cell = s.shapes[i].first_cell;
-    if (is_held(s.grid(), cell) || !is_inside(s, centres[i])) continue;
+    if (is_fixed(s.grid(), cell) || !is_inside(s, centres[i])) continue;
     crosses.push_back({centres[i], principal_of(stress->values.data() + cell * stress->components),
                        side_of(s, s.shapes[i])});
   }
@@ -161,29 +161,29 @@ void draw_arm(Canvas& canvas, Vec2 at, Vec2 way, double half, bool tension) {
 
 }  // namespace
 
-ArrowScale vector_scale(const std::vector<Scene>& scenes, const PlotOptions& options) {
+ArrowScale vector_scale(const std::vector<PlotScene>& scenes, const PlotOptions& options) {
   return arrow_scale(scenes, options.whole_range,
-                     [&](const Scene& s) { return block_arrows(s, options.vectors); });
+                     [&](const PlotScene& s) { return block_arrows(s, options.vectors); });
 }
 
-void draw_vectors(Canvas& canvas, const Scene& s, const std::string& name,
+void draw_vectors(Canvas& canvas, const PlotScene& s, const std::string& name,
                   const ArrowScale& scale) {
   draw_arrows(canvas, s, block_arrows(s, name), scale, ink::vector, false, widest_casing);
 }
 
-ArrowScale force_scale(const std::vector<Scene>& scenes) {
+ArrowScale force_scale(const std::vector<PlotScene>& scenes) {
   return arrow_scale(scenes, true, force_arrows);
 }
 
-void draw_forces(Canvas& canvas, const Scene& s, const ArrowScale& scale) {
-  // There are more of them, and closer, the smaller the blocks.
+void draw_forces(Canvas& canvas, const PlotScene& s, const ArrowScale& scale) {
+  // The smaller the blocks, the more crosses there are, and the closer.
   const double casing = std::min(widest_casing, 0.015 * block_size(s, s.shapes.size()));
   draw_arrows(canvas, s, force_arrows(s), scale, ink::force, true, casing);
 }
 
-ArrowScale stress_scale(const std::vector<Scene>& scenes, double least) {
+ArrowScale stress_scale(const std::vector<PlotScene>& scenes, double least) {
   std::vector<double> sizes, rooms;
-  for (const Scene& s : scenes) {
+  for (const PlotScene& s : scenes) {
     for (const StressCross& c : stress_crosses(s)) {
       if (!std::isfinite(size_of(c))) continue;
       sizes.push_back(size_of(c));
@@ -200,7 +200,7 @@ ArrowScale stress_scale(const std::vector<Scene>& scenes, double least) {
   return wanted.per_unit == 0.0 || shortest.per_unit < wanted.per_unit ? shortest : wanted;
 }
 
-void draw_stresses(Canvas& canvas, const Scene& s, const ArrowScale& scale) {
+void draw_stresses(Canvas& canvas, const PlotScene& s, const ArrowScale& scale) {
   if (scale.per_unit == 0.0) return;
   const std::vector<StressCross> crosses = stress_crosses(s);
   const auto arms = [&](const StressCross& c, auto&& draw) {

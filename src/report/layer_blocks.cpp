@@ -8,7 +8,7 @@
 namespace edda {
 namespace {
 
-void trace(cairo_t* cr, const Scene& s, const BlockShape& shape) {
+void trace(cairo_t* cr, const PlotScene& s, const BlockShape& shape) {
   for (const auto& ring : shape.rings) {
     for (std::size_t k = 0; k < ring.size(); ++k) {
       const Vec2 p = s.view.at(s.points[static_cast<std::size_t>(ring[k])]);
@@ -22,7 +22,7 @@ void trace(cairo_t* cr, const Scene& s, const BlockShape& shape) {
   }
 }
 
-Box bounds_of(const Scene& s, const BlockShape& shape) {
+Box bounds_of(const PlotScene& s, const BlockShape& shape) {
   Box b{{1e300, 1e300}, {-1e300, -1e300}};
   for (const auto& edge : shape.outline) {
     const Vec2 p = s.view.at(s.points[static_cast<std::size_t>(edge.first)]);
@@ -37,7 +37,7 @@ bool is_visible(const Box& b, const Box& frame) {
          b.low.y <= frame.high.y;
 }
 
-void hatch(Canvas& canvas, const Scene& s, const BlockShape& shape) {
+void hatch(Canvas& canvas, const PlotScene& s, const BlockShape& shape) {
   cairo_t* cr = canvas.cr();
   Box b = bounds_of(s, shape);
   b.low = {std::max(b.low.x, s.view.frame.low.x), std::max(b.low.y, s.view.frame.low.y)};
@@ -58,7 +58,7 @@ void hatch(Canvas& canvas, const Scene& s, const BlockShape& shape) {
 }
 
 /// Thinner where blocks are small, so that they stay visible between their outlines.
-double outline_width(const Scene& s, std::size_t blocks) {
+double outline_width(const PlotScene& s, std::size_t blocks) {
   return std::clamp(0.025 * block_size(s, blocks), 0.08, 0.45);
 }
 
@@ -68,12 +68,12 @@ double lightness(Colour c) {
 
 /// One colour of outlines for all coloured blocks: dark, or light where more of their area is so
 /// dark that dark lines would vanish than so light that light ones would.
-Colour outline_colour(const Scene& s, const ColourScale& scale) {
+Colour outline_colour(const PlotScene& s, const ColourScale& scale) {
   constexpr double dark = 0.3, light = 0.6;
   const std::vector<double> areas = cell_areas(s.grid());
   double of_dark = 0.0, of_light = 0.0;
   for (std::size_t c = 0; c < areas.size(); ++c) {
-    if (is_held(s.grid(), c)) continue;
+    if (is_fixed(s.grid(), c)) continue;
     const double fill = lightness(scale.of(s.shot.field.values[c]));
     if (fill < dark) of_dark += areas[c];
     if (fill > light) of_light += areas[c];
@@ -81,10 +81,9 @@ Colour outline_colour(const Scene& s, const ColourScale& scale) {
   return of_dark > of_light ? ink::light_line : ink::line;
 }
 
-/// One by one, so that an edge between two blocks is drawn twice wherever it is and all weigh the
-/// same.
+/// One by one, so that every edge between two blocks is drawn twice and all have the same weight.
 template <class Wanted>
-void stroke_outlines(Canvas& canvas, const Scene& s, const std::vector<std::size_t>& visible,
+void stroke_outlines(Canvas& canvas, const PlotScene& s, const std::vector<std::size_t>& visible,
                      Wanted wanted) {
   for (const std::size_t i : visible) {
     if (!wanted(s.shapes[i])) continue;
@@ -95,7 +94,7 @@ void stroke_outlines(Canvas& canvas, const Scene& s, const std::vector<std::size
 
 }  // namespace
 
-void draw_blocks(Canvas& canvas, const Scene& s, const ColourScale& scale) {
+void draw_blocks(Canvas& canvas, const PlotScene& s, const ColourScale& scale) {
   cairo_t* cr = canvas.cr();
   const ShownField& field = s.shot.field;
   const bool coloured = field.kind != ScaleKind::plain && !field.of_contacts;
@@ -107,24 +106,24 @@ void draw_blocks(Canvas& canvas, const Scene& s, const ColourScale& scale) {
   cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
   for (const std::size_t i : visible) {
     const BlockShape& shape = s.shapes[i];
-    const bool held = is_held(s.grid(), shape.first_cell);
+    const bool fixed = is_fixed(s.grid(), shape.first_cell);
     trace(cr, s, shape);
-    canvas.colour(held       ? ink::held
+    canvas.colour(fixed      ? ink::fixed
                   : coloured ? scale.of(field.values[shape.first_cell])
                              : ink::block);
-    // Its rim too: else the paper would shine through between neighbours.
+    // Its rim, too: otherwise the paper would show between neighbours.
     cairo_fill_preserve(cr);
     cairo_set_line_width(cr, std::max(line, 0.25));
     cairo_stroke(cr);
-    if (held) hatch(canvas, s, shape);
+    if (fixed) hatch(canvas, s, shape);
   }
-  constexpr double too_small = 1.5;  // pt: outlines alone would be seen
+  constexpr double too_small = 1.5;  // pt: only outlines would be visible
   if (block_size(s, visible.size()) < too_small) return;
   cairo_set_line_width(cr, line);
-  for (const bool held : {false, true}) {
-    canvas.colour(coloured && !held ? outline_colour(s, scale) : ink::line);
+  for (const bool fixed : {false, true}) {
+    canvas.colour(coloured && !fixed ? outline_colour(s, scale) : ink::line);
     stroke_outlines(canvas, s, visible, [&](const BlockShape& shape) {
-      return is_held(s.grid(), shape.first_cell) == held;
+      return is_fixed(s.grid(), shape.first_cell) == fixed;
     });
   }
 }
@@ -132,7 +131,7 @@ void draw_blocks(Canvas& canvas, const Scene& s, const ColourScale& scale) {
 namespace {
 
 /// Lines along the faces that touch, the largest values on top.
-void draw_face_field(Canvas& canvas, const Scene& s, const ColourScale& scale) {
+void draw_face_field(Canvas& canvas, const PlotScene& s, const ColourScale& scale) {
   const std::vector<DrawnFace>& faces = s.faces;
   const std::vector<double>& values = s.shot.field.values;
   std::vector<std::size_t> order;
@@ -155,14 +154,14 @@ void draw_face_field(Canvas& canvas, const Scene& s, const ColourScale& scale) {
 
 }  // namespace
 
-void draw_contact_field(Canvas& canvas, const Scene& s, const ColourScale& scale) {
+void draw_contact_field(Canvas& canvas, const PlotScene& s, const ColourScale& scale) {
   if (!s.shot.field.of_contacts || !s.shot.contacts) return;
   if (s.shot.field.along_faces && !s.faces.empty()) return draw_face_field(canvas, s, scale);
   cairo_t* cr = canvas.cr();
   const std::vector<double>& values = s.shot.field.values;
   const double radius = std::clamp(5.0 * outline_width(s, s.shapes.size()), 0.5, 2.0);
   const std::vector<Vec2>& points = s.contacts;
-  // Contacts of one corner lie on one another: the largest values on top, or those that slide.
+  // Contacts of one corner cover each other: the largest values are on top, or those that slide.
   const bool states = s.shot.field.kind == ScaleKind::kinds;
   const auto weight = [&](std::size_t c) {
     constexpr double slides = 2.0, foremost = 9.0;
@@ -184,7 +183,7 @@ void draw_contact_field(Canvas& canvas, const Scene& s, const ColourScale& scale
   }
 }
 
-void draw_joints(Canvas& canvas, const Scene& s, const PlotOptions& options) {
+void draw_joints(Canvas& canvas, const PlotScene& s, const PlotOptions& options) {
   canvas.colour(ink::joint);
   for (const auto& [from, to] : options.joints) {
     canvas.line(s.view.at(from), s.view.at(to), joint_width);

@@ -1,4 +1,4 @@
-// Bolts: as recorded, with their load; else where the model says, carried along by the blocks.
+// Bolts: as recorded, with their load; else from the model, carried along by the blocks.
 #include <algorithm>
 #include <cmath>
 
@@ -9,9 +9,9 @@ namespace {
 
 constexpr double plain_width = 1.2, widest = 4.0, thinnest = 0.5;  // pt
 
-/// The recorded places are those of the blocks as they are; where displacements are drawn larger,
-/// bolts go along.
-std::vector<Vec2> drawn_chain(const Scene& s, const Follower* follow, const BoltChain& bolt) {
+/// Recorded positions belong to the actual displacements; where these are drawn larger, bolts
+/// follow the drawn blocks.
+std::vector<Vec2> drawn_chain(const PlotScene& s, const Follower* follow, const BoltChain& bolt) {
   std::vector<Vec2> points;
   for (const Vec2 p : bolt.points) {
     const std::optional<Vec2> now = follow == nullptr ? p : (*follow)(p);
@@ -49,14 +49,14 @@ void draw_chain(Canvas& canvas, const BoltChain& bolt, const std::vector<Vec2>& 
   }
 }
 
-/// Straight from the model's ends, piece by piece where blocks hold it.
-void draw_planned(Canvas& canvas, const Scene& s, const PlotOptions& options) {
+/// Straight between the ends in the model, drawn piece by piece inside the blocks.
+void draw_planned(Canvas& canvas, const PlotScene& s, const PlotOptions& options) {
   constexpr int pieces = 12;
   const Follower follow(s.grid(), drawn_points(s.grid(), 0.0), s.points);
   for (const auto& [from, to] : options.bolts) {
     std::vector<Vec2> points;
     for (int q = 0; q <= pieces; ++q) {
-      // A hair inside of its ends, which lie on faces.
+      // Slightly inside of the ends, which lie on faces.
       const double part = std::clamp(static_cast<double>(q) / pieces, 1e-3, 1.0 - 1e-3);
       if (const auto now = follow(from + part * (to - from))) points.push_back(s.view.at(*now));
     }
@@ -69,9 +69,9 @@ void draw_planned(Canvas& canvas, const Scene& s, const PlotOptions& options) {
 
 }  // namespace
 
-ArrowScale bolt_scale(const std::vector<Scene>& scenes) {
+ArrowScale bolt_scale(const std::vector<PlotScene>& scenes) {
   double most = 0.0;
-  for (const Scene& s : scenes) {
+  for (const PlotScene& s : scenes) {
     if (!s.shot.bolts) continue;
     for (const BoltChain& bolt : *s.shot.bolts) {
       for (const double force : bolt.force) most = std::max(most, std::abs(force));
@@ -81,7 +81,7 @@ ArrowScale bolt_scale(const std::vector<Scene>& scenes) {
   return {widest / most, round_below(most)};
 }
 
-void draw_bolts(Canvas& canvas, const Scene& s, const PlotOptions& options,
+void draw_bolts(Canvas& canvas, const PlotScene& s, const PlotOptions& options,
                 const ArrowScale& scale) {
   if (!s.shot.bolts) {
     if (!options.bolts.empty()) draw_planned(canvas, s, options);

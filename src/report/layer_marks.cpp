@@ -13,10 +13,10 @@ namespace {
 
 constexpr double radius = 1.8;  // pt
 
-/// Both ends of a line as drawn; nothing where one has left with its block.
+/// Both ends of a line as drawn; nothing where an end was excavated with its block.
 std::optional<std::array<Vec2, 2>> ends_of(const Follower& follow, const PlotLine& line) {
   const Vec2 way = line.start[1] - line.start[0];
-  // Ends lie on the walls: a hair beyond they are within a block.
+  // Ends lie on the walls; slightly beyond they are inside a block.
   const auto end = [&](Vec2 at, Vec2 beyond) {
     const std::optional<Vec2> now = follow(at);
     return now ? now : follow(at + beyond);
@@ -30,7 +30,7 @@ std::optional<std::array<Vec2, 2>> ends_of(const Follower& follow, const PlotLin
 std::optional<std::array<Vec2, 2>> part_within(const Box& frame, Vec2 a, Vec2 b) {
   const Vec2 way = b - a;
   double from = 0.0, to = 1.0;
-  // Each side leaves what lies before it: at + s way <= 0.
+  // Each side clips the line to the part before it: at + s way <= 0.
   for (const auto& [at, by] :
        {std::pair{frame.low.x - a.x, -way.x}, std::pair{a.x - frame.high.x, way.x},
         std::pair{frame.low.y - a.y, -way.y}, std::pair{a.y - frame.high.y, way.y}}) {
@@ -70,7 +70,7 @@ void draw_point(Canvas& canvas, Vec2 p) {
 
 }  // namespace
 
-void draw_marks(Canvas& canvas, const Scene& s, const PlotOptions& options) {
+void draw_marks(Canvas& canvas, const PlotScene& s, const PlotOptions& options) {
   if (options.monitors.empty() && options.lines.empty()) return;
   const Follower follow(s.grid(), drawn_points(s.grid(), 0.0), s.points);
   Labels labels(s.view.frame, s.font);
@@ -98,7 +98,7 @@ void draw_marks(Canvas& canvas, const Scene& s, const PlotOptions& options) {
   }
   canvas.colour(ink::monitor);
   for (const auto& [name, at] : points) labels.write(canvas, name, {at}, radius);
-  // Names of lines stand off their crossings, where it would not be plain whose they are.
+  // Names of lines keep away from crossings, where it would be unclear to which line they belong.
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (const auto at = crossing(lines[i].second, lines[j].second))

@@ -13,15 +13,16 @@ double middle_of(std::vector<double>& values) {
   return *at;
 }
 
-/// A corner that leans on an edge has a force, but no length on paper to draw a pressure over.
-bool is_shown(const Scene& s, const DrawnFace& face) {
+/// A corner that leans on an edge has a force, but no visible length over which a pressure could be
+/// drawn.
+bool is_shown(const PlotScene& s, const DrawnFace& face) {
   constexpr double narrowest = 1.0;  // pt
   const double length = face.closed * norm(face.b - face.a);
   return !face.open && s.view.scale * length >= narrowest && std::isfinite(face.pressure_a) &&
          std::isfinite(face.pressure_b) && is_inside(s, 0.5 * (face.a + face.b));
 }
 
-void trace(Canvas& canvas, const Scene& s, const PressureArea& area) {
+void trace(Canvas& canvas, const PlotScene& s, const PressureArea& area) {
   for (const Vec2 p : area.ring) {
     const Vec2 at = s.view.at(p);
     cairo_line_to(canvas.cr(), at.x, at.y);
@@ -30,11 +31,11 @@ void trace(Canvas& canvas, const Scene& s, const PressureArea& area) {
 
 }  // namespace
 
-ArrowScale pressure_scale(const std::vector<Scene>& scenes, const PlotOptions& options) {
+ArrowScale pressure_scale(const std::vector<PlotScene>& scenes, const PlotOptions& options) {
   constexpr double usual = 0.45;  // of a face's length: the largest diagrams lie within a block
   std::vector<Weighed> sizes;
   std::vector<double> lengths;
-  for (const Scene& s : scenes) {
+  for (const PlotScene& s : scenes) {
     for (const DrawnFace& face : s.faces) {
       if (!is_shown(s, face)) continue;
       const double length = norm(face.b - face.a);
@@ -48,10 +49,10 @@ ArrowScale pressure_scale(const std::vector<Scene>& scenes, const PlotOptions& o
                    std::min(usual * middle_of(lengths), longest(scenes.front())));
 }
 
-void draw_pressures(Canvas& canvas, const Scene& s, const ArrowScale& scale) {
+void draw_pressures(Canvas& canvas, const PlotScene& s, const ArrowScale& scale) {
   if (scale.per_unit == 0.0) return;
   const double most = scale.longest > 0.0 ? scale.longest / scale.per_unit : 1e300;
-  // There are more of them, and closer, the smaller the blocks.
+  // The smaller the blocks, the more diagrams there are, and the closer.
   const double line = std::min(pressure_line, 0.02 * block_size(s, s.shapes.size()));
   std::vector<PressureArea> areas;
   for (const DrawnFace& face : s.faces) {
@@ -73,7 +74,7 @@ void draw_pressures(Canvas& canvas, const Scene& s, const ArrowScale& scale) {
     cairo_close_path(canvas.cr());
     canvas.colour(colour, pressure_fill);
     cairo_fill(canvas.cr());
-    // The rim, but for what lies on the face.
+    // The rim, without the part on the face.
     trace(canvas, s, area);
     canvas.colour(colour);
     cairo_stroke(canvas.cr());

@@ -1,4 +1,4 @@
-// Where things go on a page: title above, one or more drawings side by side with axes left and
+// Layout of a page: title above, one or more drawings side by side with axes left and
 // below, legend right, one scale for x and y and for all drawings. Points (1/72 inch), y down.
 #pragma once
 
@@ -23,7 +23,7 @@ struct Paper {
   double width = 160.0 * 72.0 / 25.4;            ///< pt
   double font = 8.0;                             ///< pt
   double pixels_per_point = 10.0 * 25.4 / 72.0;  ///< of a PNG: 10 per mm
-  bool whole = false;  ///< pages of slim models are as wide, too; else they may be narrower
+  bool whole = false;  ///< pages of slim models have the full width, too; else they may be narrower
 };
 
 /// One drawing on the page.
@@ -43,7 +43,7 @@ struct Layout {
   double below = 0.0;  ///< width of a legend below: of all drawings together, or of the page
 };
 
-/// What has to find room beside the drawings.
+/// Space needed beside the drawings.
 struct Surroundings {
   std::size_t drawings = 1;
   double left = 0.0;           ///< labels of the y axis

@@ -21,6 +21,76 @@ std::string quantity(double value, const std::string& unit) {
   return fmt::format("{:.3g} {}", value * scaled.factor, scaled.name);
 }
 
+/// On an upright face at `a`, out to `b`.
+void draw_pressure(Canvas& canvas, Vec2 a, Vec2 b, Colour colour, double font) {
+  const double half = 0.35 * font;
+  cairo_rectangle(canvas.cr(), a.x, a.y - half, b.x - a.x, 2.0 * half);
+  canvas.colour(colour, pressure_fill);
+  cairo_fill_preserve(canvas.cr());
+  canvas.colour(colour);
+  cairo_set_line_width(canvas.cr(), pressure_line);
+  cairo_stroke(canvas.cr());
+  canvas.colour(ink::line);
+  canvas.line({a.x, a.y - half}, {a.x, a.y + half}, 2.0 * pressure_line);
+}
+
+/// Rows of a key: a sample on the left and what it means beside it.
+class KeyRows {
+ public:
+  KeyRows(Canvas& canvas, double font, double left, double top, double sample)
+      : canvas_(canvas), font_(font), left_(left), y_(top + 0.8 * font), sample_(sample) {}
+
+  void title(const std::string& text) {
+    canvas_.colour(ink::line);
+    canvas_.text(text, {left_, y_}, {.size = font_});
+  }
+  /// draw(a, b): the sample, between these points.
+  template <class Draw>
+  void row(const std::string& text, Draw draw) {
+    y_ += line_step * font_;
+    const double middle = y_ - 0.35 * font_;
+    draw(Vec2{left_, middle}, Vec2{left_ + sample_, middle});
+    canvas_.colour(ink::line);
+    canvas_.text(text, {left_ + sample_ + 0.6 * font_, y_}, {.size = font_});
+  }
+  void line(const std::string& text, Colour colour, double width) {
+    row(text, [&](Vec2 a, Vec2 b) {
+      canvas_.colour(colour);
+      canvas_.line(a, b, width);
+    });
+  }
+  void note(const std::string& text) {
+    canvas_.text(text, {left_, y_ + line_step * font_}, {.size = font_});
+  }
+
+ private:
+  Canvas& canvas_;
+  double font_, left_, y_, sample_;
+};
+
+void draw_pressure_rows(Canvas& canvas, KeyRows& rows, const LegendKey& key,
+                        const std::string& value, double font) {
+  rows.row(value, [&](Vec2 a, Vec2 b) { draw_pressure(canvas, a, b, ink::pressure, font); });
+  if (key.also_red) {
+    rows.row("tension", [&](Vec2 a, Vec2 b) { draw_pressure(canvas, a, b, ink::tension, font); });
+  }
+  if (key.scale.longest > 0.0) {
+    rows.note("cut at " + quantity(key.scale.longest / key.scale.per_unit, key.unit));
+  }
+}
+
+void draw_stress_rows(Canvas& canvas, KeyRows& rows, const std::string& value) {
+  rows.row("\u2212" + value, [&](Vec2 a, Vec2 b) {
+    canvas.colour(ink::compression);
+    canvas.line(a, b, 0.8);
+  });
+  rows.row("+" + value, [&](Vec2 a, Vec2 b) {
+    canvas.colour(ink::tension);
+    canvas.arrow(0.5 * (a + b), a, 0.8);
+    canvas.arrow(0.5 * (a + b), b, 0.8);
+  });
+}
+
 }  // namespace
 
 std::vector<std::string> wrapped(Canvas& canvas, const std::string& text, double size, double width,
@@ -103,7 +173,7 @@ double Legend::height() const {
 }
 
 void Legend::draw(Canvas& canvas, double left, double top, double bottom) const {
-  // The keys stand at the bottom, the colours take what is left.
+  // The keys are at the bottom; the colours take the remaining height.
   double y = bottom - keys_height();
   const double end = keys_.empty() ? bottom : y - 1.5 * font_;
   for (const LegendKey& key : keys_) {
@@ -114,19 +184,6 @@ void Legend::draw(Canvas& canvas, double left, double top, double bottom) const 
   const double below = draw_heading(canvas, left, top);
   if (scale_.kind() == ScaleKind::kinds) return draw_kinds(canvas, left, below);
   draw_bar(canvas, left, below, end);
-}
-
-/// On an upright face at `a`, out to `b`.
-void Legend::draw_pressure(Canvas& canvas, Vec2 a, Vec2 b, Colour colour) const {
-  const double half = 0.35 * font_;
-  cairo_rectangle(canvas.cr(), a.x, a.y - half, b.x - a.x, 2.0 * half);
-  canvas.colour(colour, pressure_fill);
-  cairo_fill_preserve(canvas.cr());
-  canvas.colour(colour);
-  cairo_set_line_width(canvas.cr(), pressure_line);
-  cairo_stroke(canvas.cr());
-  canvas.colour(ink::line);
-  canvas.line({a.x, a.y - half}, {a.x, a.y + half}, 2.0 * pressure_line);
 }
 
 double Legend::draw_heading(Canvas& canvas, double left, double top) const {
@@ -175,12 +232,12 @@ void Legend::paint_bar(Canvas& canvas, const Box& bar, bool upwards) const {
   cairo_t* cr = canvas.cr();
   const double low = scale_.low(), high = scale_.high();
   const double length = upwards ? bar.height() : bar.width();
-  // A place so far along the bar and across it.
+  // A point given by its distance along the bar and across it.
   const auto at = [&](double along, double across) {
     return upwards ? Vec2{bar.low.x + across * bar.width(), bar.high.y - along * length}
                    : Vec2{bar.low.x + along * length, bar.low.y + across * bar.height()};
   };
-  // In as many steps as an eye can tell apart; each reaches below those after it, so that no seam
+  // In as many steps as the eye can distinguish; each extends below the next ones, so that no gap
   // shows.
   constexpr int steps = 128;
   for (int k = 0; k < steps; ++k) {
@@ -216,74 +273,37 @@ void Legend::draw_ticks(Canvas& canvas, double left, const Box& bar, double fact
 }
 
 void Legend::draw_key(Canvas& canvas, const LegendKey& key, double left, double top) const {
-  double y = top + 0.8 * font_;
-  canvas.colour(ink::line);
-  canvas.text(key.name, {left, y}, {.size = font_});
   const double reference = key.scale.reference, length = key.scale.per_unit * reference;
   const bool load = key.sign == Sign::bolt_load;
   const bool plain = key.sign == Sign::bolt || key.sign == Sign::joint;
-  const double sample = load || plain ? 2.4 * font_ : length;
-  const auto next = [&](const std::string& text, auto&& draw) {
-    y += line_step * font_;
-    const double middle = y - 0.35 * font_;
-    draw(Vec2{left, middle}, Vec2{left + sample, middle});
-    canvas.colour(ink::line);
-    canvas.text(text, {left + sample + 0.6 * font_, y}, {.size = font_});
-  };
+  KeyRows rows(canvas, font_, left, top, load || plain ? 2.4 * font_ : length);
+  rows.title(key.name);
   const std::string value = reference > 0.0 ? quantity(reference, key.unit) : "none";
+  const bool nothing =
+      !(reference > 0.0) && (key.sign == Sign::pressure || key.sign == Sign::stress);
+  if (nothing) return rows.row(value, [](Vec2, Vec2) {});
+  const double bolt_line = load ? length : 1.2;
   switch (key.sign) {
     case Sign::vector:
     case Sign::force:
-      next(value, [&](Vec2 a, Vec2 b) {
+      rows.row(value, [&](Vec2 a, Vec2 b) {
         canvas.colour(key.sign == Sign::force ? ink::force : ink::vector);
         canvas.arrow(a, b, 0.6);
       });
       break;
     case Sign::pressure:
-      if (!(reference > 0.0)) {
-        next(value, [](Vec2, Vec2) {});
-        break;
-      }
-      next(value, [&](Vec2 a, Vec2 b) { draw_pressure(canvas, a, b, ink::pressure); });
-      if (key.also_red)
-        next("tension", [&](Vec2 a, Vec2 b) { draw_pressure(canvas, a, b, ink::tension); });
-      if (key.scale.longest > 0.0) {
-        canvas.text("cut at " + quantity(key.scale.longest / key.scale.per_unit, key.unit),
-                    {left, y + line_step * font_}, {.size = font_});
-      }
+      draw_pressure_rows(canvas, rows, key, value, font_);
       break;
     case Sign::stress:
-      if (!(reference > 0.0)) {
-        next(value, [](Vec2, Vec2) {});
-        break;
-      }
-      next("\u2212" + value, [&](Vec2 a, Vec2 b) {
-        canvas.colour(ink::compression);
-        canvas.line(a, b, 0.8);
-      });
-      next("+" + value, [&](Vec2 a, Vec2 b) {
-        canvas.colour(ink::tension);
-        canvas.arrow(0.5 * (a + b), a, 0.8);
-        canvas.arrow(0.5 * (a + b), b, 0.8);
-      });
+      draw_stress_rows(canvas, rows, value);
       break;
     case Sign::joint:
-      next("slip or open", [&](Vec2 a, Vec2 b) {
-        canvas.colour(ink::joint);
-        canvas.line(a, b, joint_width);
-      });
+      rows.line("slip or open", ink::joint, joint_width);
       break;
     case Sign::bolt:
     case Sign::bolt_load:
-      next(load ? value : "below yield", [&](Vec2 a, Vec2 b) {
-        canvas.colour(ink::bolt);
-        canvas.line(a, b, load ? length : 1.2);
-      });
-      if (!key.also_red) break;
-      next("yielded", [&](Vec2 a, Vec2 b) {
-        canvas.colour(ink::tension);
-        canvas.line(a, b, load ? length : 1.2);
-      });
+      rows.line(load ? value : "below yield", ink::bolt, bolt_line);
+      if (key.also_red) rows.line("yielded", ink::tension, bolt_line);
       break;
   }
 }

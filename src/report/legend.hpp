@@ -1,5 +1,5 @@
-// What stands at the right of the drawings, or below them on a narrow page: the colours and what
-// they mean, and how long an arrow of a round value is.
+// The legend at the right of the drawings, or below them on a narrow page: colours with their
+// meaning, and the length of an arrow of a round value.
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@
 
 namespace edda {
 
-/// A sample line with what it stands for.
+/// A sample line with its meaning.
 struct LegendKey {
   enum class Sign { vector, force, pressure, stress, bolt, bolt_load, joint };
   Sign sign = Sign::vector;
   std::string name;  ///< "velocity"
   std::string unit;  ///< "m/s"
   ArrowScale scale{};
-  bool also_red = false;  ///< of bolts: some have yielded; of pressures: some pull
+  bool also_red = false;  ///< for bolts: some have yielded; for pressures: some are tensile
 };
 
 class Legend {
@@ -30,19 +30,19 @@ class Legend {
   /// Least, pt.
   double height() const;
   void draw(Canvas& canvas, double left, double top, double bottom) const;
-  /// The same below drawings that are so wide together, pt.
+  /// The same below drawings of this total width, pt.
   double height_below(double width) const;
   void draw_below(Canvas& canvas, double left, double top, double width) const;
 
  private:
-  /// Where the keys stand below, relative to the first.
+  /// Positions of the keys below, relative to the first.
   struct Rows {
     std::vector<Vec2> places;
     double height = 0.0;
   };
   Rows rows_below(double width) const;
   double colours_height_below(double width) const;
-  /// The heading in lines of that width, pt.
+  /// The heading broken into lines of this width, pt.
   std::vector<std::string> heading_below(double width) const;
   void draw_kinds_across(Canvas& canvas, double left, double top, double width) const;
   void draw_bar_across(Canvas& canvas, double left, double top, double width) const;
@@ -54,7 +54,6 @@ class Legend {
   void draw_bar(Canvas& canvas, double left, double top, double bottom) const;
   void draw_ticks(Canvas& canvas, double left, const Box& bar, double factor) const;
   double key_height(const LegendKey& key) const;
-  void draw_pressure(Canvas& canvas, Vec2 a, Vec2 b, Colour colour) const;
   void draw_key(Canvas& canvas, const LegendKey& key, double left, double top) const;
   double keys_height() const;
   const ColourScale& scale_;

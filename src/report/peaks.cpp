@@ -22,7 +22,7 @@ std::vector<std::size_t> rows_with_peaks(const std::vector<double>& time,
   for (std::size_t first = 0; first < time.size();) {
     std::size_t end = first + 1, low = first, high = first;
     for (; end < time.size() && sliver_of(end) == sliver_of(first); ++end) {
-      // What is no number is neither.
+      // A value that is not a number is neither the lowest nor the highest.
       if (std::isnan(values[low]) || values[end] < values[low]) low = end;
       if (std::isnan(values[high]) || values[end] > values[high]) high = end;
     }

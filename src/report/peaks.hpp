@@ -1,4 +1,4 @@
-// Long histories, thinned so that every peak stays.
+// Thinning of long histories such that every peak remains.
 #pragma once
 
 #include <cstddef>
@@ -6,8 +6,8 @@
 
 namespace edda {
 
-/// The rows that show where time is cut into so many slivers: all of them where there are few, or
-/// of each sliver the first, the last, the lowest and the highest. `time` ascends.
+/// The rows to draw where time is divided into this number of slivers: all rows where there are
+/// few, else the first, the last, the lowest and the highest of each sliver. `time` ascends.
 std::vector<std::size_t> rows_with_peaks(const std::vector<double>& time,
                                          const std::vector<double>& values, std::size_t slivers);
 

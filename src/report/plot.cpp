@@ -13,12 +13,12 @@
 namespace edda {
 namespace {
 
-/// What the layers draw as lines, with one scale for all drawings.
+/// The quantities that the layers draw as lines, with one scale for all drawings.
 struct Scales {
   ArrowScale vectors, forces, pressures, stresses, bolts;
 };
 
-Scales scales_of(const std::vector<Scene>& scenes, const PlotOptions& options) {
+Scales scales_of(const std::vector<PlotScene>& scenes, const PlotOptions& options) {
   Scales scales;
   if (!options.vectors.empty()) scales.vectors = vector_scale(scenes, options);
   if (options.forces) {
@@ -47,7 +47,7 @@ ArrowScale for_legend(ArrowScale scale, double longest) {
 
 using Sign = LegendKey::Sign;
 
-/// Where the frames say what they are.
+/// The kinds of lines, where the frames give them.
 void add_pressures(std::vector<LegendKey>& keys, std::span<const Snapshot> shots,
                    const ArrowScale& scale) {
   bool any = false, any_tension = false;
@@ -88,11 +88,11 @@ std::vector<LegendKey> keys_of(std::span<const Snapshot> shots, const PlotOption
   return keys;
 }
 
-/// What is shown: the window, or all that is drawn in any of the drawings.
-Box world_of(const std::vector<Scene>& scenes, const PlotOptions& options) {
+/// The visible range: the window, or everything in any of the drawings.
+Box world_of(const std::vector<PlotScene>& scenes, const PlotOptions& options) {
   if (options.window) return *options.window;
   std::vector<Vec2> points;
-  for (const Scene& s : scenes) points.insert(points.end(), s.points.begin(), s.points.end());
+  for (const PlotScene& s : scenes) points.insert(points.end(), s.points.begin(), s.points.end());
   return box_around(points);
 }
 
@@ -136,7 +136,7 @@ void draw_titles(Canvas& canvas, const Layout& l, const Titles& titles) {
   }
 }
 
-void draw_scene(Canvas& canvas, const Scene& s, const PlotOptions& options,
+void draw_scene(Canvas& canvas, const PlotScene& s, const PlotOptions& options,
                 const ColourScale& colours, const Scales& scales) {
   cairo_save(canvas.cr());
   canvas.clip(s.view.frame.low, s.view.frame.high);
@@ -162,7 +162,7 @@ bool is_sound(const Layout& l) {
          view.world.low.y < view.world.high.y;
 }
 
-/// One page: what is drawn first decides how large the page is.
+/// One page; the size of its drawings determines the size of the page.
 class Page {
  public:
   Page(std::span<const Snapshot> shots, const PlotOptions& options)
@@ -187,7 +187,7 @@ class Page {
     }
     const Scales scales = scales_of(scenes_, options_);
     Canvas canvas(path, layout.width, layout.height, options_.paper.pixels_per_point);
-    for (const Scene& s : scenes_) draw_scene(canvas, s, options_, colours_, scales);
+    for (const PlotScene& s : scenes_) draw_scene(canvas, s, options_, colours_, scales);
     for (std::size_t k = 0; k < scenes_.size(); ++k) draw_surroundings(canvas, k, layout);
     draw_titles(canvas, layout, titles);
     draw_legend(canvas, legend_with(scales), layout, room);
@@ -235,7 +235,7 @@ class Page {
   std::span<const Snapshot> shots_;
   const PlotOptions& options_;
   ColourScale colours_;
-  std::vector<Scene> scenes_;
+  std::vector<PlotScene> scenes_;
 };
 
 }  // namespace
@@ -248,7 +248,7 @@ Trouble check_window(std::span<const Snapshot> shots, const PlotOptions& options
     points.insert(points.end(), drawn.begin(), drawn.end());
   }
   const Box &w = *options.window, all = box_around(points);
-  constexpr double most = 1e6;  // times as large, or as small
+  constexpr double most = 1e6;  // largest ratio of window to model, either way
   const double size = std::max(all.width(), all.height());
   const char* problem =
       !(std::min(w.width(), w.height()) * most >= size)   ? "is tiny beside the model"

@@ -35,10 +35,10 @@ struct BoltChain {
   bool yielded = false, ruptured = false;  ///< anywhere
 };
 
-/// What one of the drawings of a picture shows.
+/// The data of one of the drawings of a picture.
 struct Snapshot {
   Grid blocks;
-  std::optional<Grid> contacts{};  ///< may be missing where nothing of them is shown
+  std::optional<Grid> contacts{};  ///< may be missing where no contacts are shown
   ShownField field{};
   /// As recorded; empty where there are no records.
   std::optional<std::vector<BoltChain>> bolts{};
@@ -51,22 +51,23 @@ struct PlotOptions {
   std::vector<std::string> materials;  ///< names, for the legend
   std::vector<PlotMonitor> monitors;
   std::vector<PlotLine> lines;              ///< [[convergence]]
-  std::vector<std::array<Vec2, 2>> bolts;   ///< from where to where they were at the start, m
-  std::vector<std::array<Vec2, 2>> joints;  ///< drawn thick, where they are drawn, m
+  std::vector<std::array<Vec2, 2>> bolts;   ///< their ends at the start, m
+  std::vector<std::array<Vec2, 2>> joints;  ///< drawn thick, at the drawn positions, m
   double scale = 1.0;                       ///< of the displacements drawn
   std::string vectors;     ///< "displacement" or "velocity": arrows at block centres; empty: none
   bool forces = false;     ///< contact forces as arrows
   bool principal = false;  ///< principal stresses as crosses at block centres
-  double least_stress = 0.0;  ///< Pa; where none is larger they are rounding, and not drawn
+  double least_stress = 0.0;  ///< Pa; where none is larger they are rounding and are not drawn
   bool bolt_forces = false;   ///< bolts as wide as their axial force
   bool marks = true;          ///< monitors and convergence lines
   std::optional<std::pair<double, double>> range{};  ///< of the colours, SI units
-  bool whole_range = false;     ///< else a few blocks may lie beyond colours and arrows
+  bool whole_range = false;  ///< else a few blocks may lie beyond the scales of colours and arrows
   std::optional<Box> window{};  ///< what is shown, m; default: everything
   Paper paper{};
 };
 
-/// A fault where the window shows nothing of what is drawn, or is tiny or huge beside it.
+/// A fault where the window shows nothing of what is drawn, or is very small or very large compared
+/// with it.
 Trouble check_window(std::span<const Snapshot> shots, const PlotOptions& options);
 
 /// Draws into `path` (.png, .svg or .pdf), at least one snapshot, side by side, with one scale and

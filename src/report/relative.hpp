@@ -5,9 +5,9 @@
 
 namespace edda {
 
-/// Takes from all places and displacements of a frame, before it has a field, what the material
-/// point has moved that was at `start`, so that this one stays. False where no block holds the
-/// point.
+/// Subtracts from all positions and displacements of a frame, before it has a field, the
+/// displacement of the material point that was at `start`, so that this point does not move. False
+/// where no block contains the point.
 bool move_with(Snapshot& shot, Vec2 start);
 
 }  // namespace edda

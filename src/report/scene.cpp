@@ -6,9 +6,10 @@
 
 namespace edda {
 
-Scene make_scene(const Snapshot& shot, double exaggeration) {
-  Scene s{shot, {},          drawn_points(shot.blocks, exaggeration), block_shapes(shot.blocks), {},
-          {},   exaggeration};
+PlotScene make_scene(const Snapshot& shot, double exaggeration) {
+  PlotScene s{
+      shot, {},          drawn_points(shot.blocks, exaggeration), block_shapes(shot.blocks), {},
+      {},   exaggeration};
   if (!shot.contacts) return s;
   s.faces = drawn_faces(*shot.contacts, shot.blocks, exaggeration);
   for (const DrawnFace& face : s.faces) s.contacts.push_back(0.5 * (face.a + face.b));
@@ -16,22 +17,22 @@ Scene make_scene(const Snapshot& shot, double exaggeration) {
   return s;
 }
 
-bool is_held(const Grid& grid, std::size_t cell) {
+bool is_fixed(const Grid& grid, std::size_t cell) {
   const Field* fixed = grid.cell_field("fixed");
   return fixed != nullptr && fixed->values[cell] != 0.0;
 }
 
-double block_size(const Scene& s, std::size_t blocks) {
+double block_size(const PlotScene& s, std::size_t blocks) {
   const double area = s.view.frame.width() * s.view.frame.height();
   return std::sqrt(area / static_cast<double>(std::max<std::size_t>(blocks, 1)));
 }
 
-bool is_inside(const Scene& s, Vec2 p) {
+bool is_inside(const PlotScene& s, Vec2 p) {
   const Box& w = s.view.world;
   return p.x >= w.low.x && p.x <= w.high.x && p.y >= w.low.y && p.y <= w.high.y;
 }
 
-double longest(const Scene& s) {
+double longest(const PlotScene& s) {
   return 0.08 * std::min(s.view.frame.width(), 1.4 * s.view.frame.height());
 }
 

@@ -142,7 +142,7 @@ std::optional<Vec2> Follower::within(std::size_t cell, Vec2 start) const {
 
 std::optional<Vec2> Follower::operator()(Vec2 start) const {
   const Field* const fixed = grid_.cell_field("fixed");
-  std::optional<Vec2> with_held;
+  std::optional<Vec2> with_fixed;
   for (std::size_t c = 0; c < bounds_.size(); ++c) {
     const Bounds& b = bounds_[c];
     if (start.x < b.low.x || start.x > b.high.x || start.y < b.low.y || start.y > b.high.y)
@@ -150,9 +150,9 @@ std::optional<Vec2> Follower::operator()(Vec2 start) const {
     const std::optional<Vec2> now = within(c, start);
     if (!now) continue;
     if (fixed == nullptr || fixed->values[c] == 0.0) return now;
-    if (!with_held) with_held = now;
+    if (!with_fixed) with_fixed = now;
   }
-  return with_held;
+  return with_fixed;
 }
 
 std::vector<std::size_t> thinned(const std::vector<Vec2>& centres, double raster) {

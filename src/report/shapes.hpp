@@ -1,4 +1,5 @@
-// The blocks of a frame as shapes: which cells are one block, its outline, where its points were.
+// The blocks of a frame as shapes: the cells of each block, its outline, the initial positions of
+// its points.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +25,10 @@ std::vector<BlockShape> block_shapes(const Grid& grid);
 /// Every point drawn with its displacement `scale` times as large, m.
 std::vector<Vec2> drawn_points(const Grid& grid, double scale);
 
-/// Of every cell, m2.
+/// Area of every cell, m2.
 std::vector<double> cell_areas(const Grid& grid);
 
-/// How an affine vector field goes over a block: u(r) = d + A r.
+/// An affine vector field over a block: u(r) = d + A r.
 struct AffineField {
   Vec2 d;
   double xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0;  ///< A
@@ -35,8 +36,8 @@ struct AffineField {
   Vec2 at(Vec2 r) const { return d + Vec2{xx * r.x + xy * r.y, yx * r.x + yy * r.y}; }
 };
 
-/// From its values at n points: least squares, exact for an affine field. `place(k)` is r there,
-/// `value(k)` is u.
+/// Fits the field to its values at n points by least squares, exact for an affine field. `place(k)`
+/// is r there, `value(k)` is u.
 template <class Place, class Value>
 AffineField affine_field(std::size_t count, Place place, Value value) {
   const auto n = static_cast<double>(count);
@@ -76,8 +77,8 @@ Vec2 centre_of(const Grid& grid, const BlockShape& shape, const std::vector<Vec2
 class Follower {
  public:
   Follower(const Grid& grid, std::vector<Vec2> from, const std::vector<Vec2>& to);
-  /// Where `start` has gone; nothing where it lies in no cell. On a border it goes with a block
-  /// that is free before one that is held, then with that of lowest number, as in the program.
+  /// The present position of `start`; nothing where it lies in no cell. On a border it belongs to a
+  /// free block before a fixed one, then to the block of lowest number, as in the program.
   std::optional<Vec2> operator()(Vec2 start) const;
 
  private:

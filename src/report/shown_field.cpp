@@ -8,7 +8,8 @@
 namespace edda {
 namespace {
 
-/// How a name becomes a number per cell: the array, and one of its components or a combination.
+/// The derivation of a number per cell from a name: the array, and one of its components or a
+/// combination.
 struct Recipe {
   const char* name;
   const char* array;
@@ -75,7 +76,7 @@ constexpr std::array recipes{
     Recipe{"opening", "opening", "opening of contacts", "m", numbers, true, first},
     Recipe{"slip", "slip", "slip of contacts", "m", numbers, true, first},
     Recipe{"state", "state", "state of contacts", "", kinds, true, first},
-    Recipe{"normal_stress", "normal_stress", "normal stress on joints (tension positive)", "Pa",
+    Recipe{"normal_stress", "normal_stress", "normal stress on joints (compression positive)", "Pa",
            numbers, true, first, true},
     Recipe{"shear_stress", "shear_stress", "shear stress on joints", "Pa", numbers, true, first,
            true},

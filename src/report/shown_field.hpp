@@ -1,4 +1,5 @@
-// What a picture colours: one number per cell of a frame, with its name, unit and kind of scale.
+// The field that a picture shows in colour: one number per cell of a frame, with its name, unit and
+// kind of scale.
 #pragma once
 
 #include <array>
@@ -31,7 +32,7 @@ struct ShownField {
 /// blocks. A fault lists the names.
 Result<ShownField> shown_field(const std::string& name, const Grid& blocks, const Grid* contacts);
 
-/// Whether that is a field of contacts.
+/// Whether the field is one of contacts.
 bool is_of_contacts(const std::string& name);
 
 /// The names, for --help.
@@ -40,7 +41,7 @@ std::string field_names();
 /// All of them but "none", in the order of --help.
 std::vector<std::string> all_fields();
 
-/// What is said of a field wherever it is shown; name: one of all_fields().
+/// Description of a field; name: one of all_fields().
 struct FieldText {
   std::string label, unit;
   ScaleKind kind = ScaleKind::numbers;

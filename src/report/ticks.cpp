@@ -21,7 +21,7 @@ std::vector<Tick> ticks(double low, double high, double count) {
       break;
     }
   }
-  // Too fine for the digits of the numbers themselves: no even ticks exist.
+  // The steps are below the precision of the numbers: no even ticks exist.
   if (step < 1e-12 * std::max(std::abs(low), std::abs(high))) return result;
   const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 15);
   const double largest = std::max(std::abs(low), std::abs(high));

@@ -19,11 +19,6 @@ Csv& Csv::add(std::string_view text) {
   return raw(quoted + '"');
 }
 
-Csv& Csv::header(std::initializer_list<std::string_view> names) {
-  for (const std::string_view name : names) add(name);
-  return end();
-}
-
 Csv& Csv::end() {
   text_ += '\n';
   first_ = true;

@@ -1,9 +1,8 @@
-// Comma-separated rows: one header line, shortest round-trip numbers, text quoted only where it
-// must be.
+// Comma-separated rows: shortest round-trip numbers, text quoted only where it must be. Headers are
+// those of results/columns.hpp.
 #pragma once
 
 #include <concepts>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -11,14 +10,13 @@
 
 namespace edda {
 
-/// Builds up rows of text. Cells are separated by commas, rows ended by end().
+/// Builds rows of text. Cells are separated by commas, rows ended by end().
 class Csv {
  public:
   Csv& add(double value) { return raw(shortest(value)); }
   Csv& add(std::integral auto value) { return raw(fmt::format("{}", value)); }
   Csv& add(std::string_view text);
   Csv& add(const char* text) { return add(std::string_view(text)); }
-  Csv& header(std::initializer_list<std::string_view> names);
   Csv& end();
   const std::string& text() const { return text_; }
   void clear() { text_.clear(); }

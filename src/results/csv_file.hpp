@@ -9,8 +9,8 @@
 
 namespace edda {
 
-/// Writes `csv` as it is by now, its header, and then what add_row(i) appends to it for each i of
-/// [0, rows). Only a piece of the table is ever in memory.
+/// Writes the present content of `csv`, its header, and then what add_row(i) appends to it for each
+/// i of [0, rows). Only a piece of the table is ever in memory.
 template <class AddRow>
 Trouble write_rows(const std::string& path, Csv& csv, std::size_t rows, AddRow add_row) {
   constexpr std::size_t piece = 1 << 16;  // bytes

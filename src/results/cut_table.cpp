@@ -1,5 +1,6 @@
 #include "results/cut_table.hpp"
 
+#include "results/columns.hpp"
 #include "results/csv_file.hpp"
 
 namespace edda {
@@ -14,8 +15,7 @@ std::string joint_name(const Model& model, Index joint) {
 }  // namespace
 
 Trouble write_cut_csv(const std::string& path, const PolygonSet& polygons, const Model& model) {
-  Csv csv;
-  csv.header({"block", "material", "ring", "x", "y", "joint"});
+  Csv csv = begin_table(ResultFile::cut);
   return write_rows(path, csv, polygons.blocks.size(), [&](std::size_t i) {
     const BlockPolygon& b = polygons.blocks[i];
     const std::string material =

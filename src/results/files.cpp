@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -11,6 +12,8 @@
 #include <filesystem>
 #include <fstream>
 #include <vector>
+
+#include "results/columns.hpp"
 
 namespace edda {
 namespace {
@@ -37,14 +40,12 @@ Fault cannot_write(const std::string& path, int error) {
 
 namespace {
 
-constexpr std::array known_files{"summary.json",  "history.csv",   "blocks.csv",
-                                 "joints.csv",    "blocks.pvd",    "contacts.pvd",
-                                 "model.toml",    "checkpoint.h5", "checkpoint.previous.h5",
-                                 "stages.csv",    "bolts.csv",     "reactions.csv",
-                                 "fos.csv",       "mechanism.csv", "mechanism_joints.csv",
-                                 "mechanism.png", "mechanism.svg"};
+/// Those that are no tables.
+constexpr std::array<std::string_view, 8> other_files{
+    "summary.json",           "blocks.pvd",    "contacts.pvd", "model.toml", "checkpoint.h5",
+    "checkpoint.previous.h5", "mechanism.png", "mechanism.svg"};
 
-bool starts_with_and_is(const std::string& name, std::string_view start, std::string_view end) {
+bool starts_with_and_is(std::string_view name, std::string_view start, std::string_view end) {
   return name.size() >= start.size() + end.size() && name.starts_with(start) && name.ends_with(end);
 }
 
@@ -53,22 +54,13 @@ bool is_result(const fs::directory_entry& entry) {
   if (name == "frames") return entry.is_directory() && !entry.is_symlink();
   if (name.ends_with(".part")) name.resize(name.size() - 5);
   if (!entry.is_regular_file()) return false;
-  for (const char* known : known_files) {
-    if (name == known) return true;
-  }
-  return starts_with_and_is(name, "joints_", ".csv") ||
-         starts_with_and_is(name, "checkpoint_", ".h5");
+  return is_result_table(name) || starts_with_and_is(name, "checkpoint_", ".h5") ||
+         std::find(other_files.begin(), other_files.end(), name) != other_files.end();
 }
 
-/// The number of a frame's file, such as 12 of contacts_000012.vtu.
 std::optional<std::size_t> number_of_frame(const std::string& name) {
-  constexpr std::string_view end = ".vtu";
   for (const std::string_view start : {"blocks_", "contacts_"}) {
-    if (!starts_with_and_is(name, start, end)) continue;
-    std::size_t number = 0;
-    const char* const last = name.data() + name.size() - end.size();
-    const auto [stop, error] = std::from_chars(name.data() + start.size(), last, number);
-    if (error == std::errc{} && stop == last) return number;
+    if (const auto number = number_in_name(name, start, ".vtu")) return number;
   }
   return {};
 }
@@ -79,7 +71,7 @@ bool is_frame(const fs::directory_entry& entry) {
   return entry.is_regular_file() && number_of_frame(name);
 }
 
-/// All that is in the folder, or the first entry that no run has written.
+/// All entries of the folder, or the first one that no run has written.
 struct Content {
   std::vector<fs::path> files;
   std::optional<fs::path> alien;
@@ -137,6 +129,15 @@ Trouble WholeFile::complete() {
   if (error_ == 0) return {};
   std::remove(part_.c_str());
   return cannot_write(path_, error_);
+}
+
+std::optional<std::size_t> number_in_name(std::string_view name, std::string_view start,
+                                          std::string_view end) {
+  if (!starts_with_and_is(name, start, end)) return {};
+  std::size_t number = 0;
+  const char* const last = name.data() + name.size() - end.size();
+  const auto [stop, error] = std::from_chars(name.data() + start.size(), last, number);
+  return error == std::errc{} && stop == last ? std::optional(number) : std::nullopt;
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {
@@ -290,7 +291,7 @@ Trouble forget_end(const std::string& folder, std::size_t frames) {
 Trouble clear_folder(const std::string& folder) {
   if (auto t = make_folder(folder)) return t;
   std::error_code error;
-  // The summary goes first: its presence says that a run has ended.
+  // The summary is removed first: its presence means that a run has ended.
   fs::remove(fs::path(folder) / "summary.json", error);
   const Content content = content_of(folder);
   if (content.alien) return check_folder(folder, {});

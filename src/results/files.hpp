@@ -1,6 +1,7 @@
-// Files that are there whole or not at all, and the folder that holds them.
+// Files that are complete or do not exist, and the results folder.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <optional>
@@ -25,7 +26,7 @@ class WholeFile {
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
   ~WholeFile();
-  /// After trouble nothing more is written; complete() tells.
+  /// After an error nothing more is written; complete() reports it.
   void add(std::string_view bytes);
   Trouble complete();
 
@@ -35,13 +36,18 @@ class WholeFile {
   int error_ = 0;
 };
 
-/// Whether both paths lead to one file that there is.
+/// The number in the name of one of several files: 12 of contacts_000012.vtu for the start
+/// "contacts_" and the end ".vtu". Nothing where the name has another form.
+std::optional<std::size_t> number_in_name(std::string_view name, std::string_view start,
+                                          std::string_view end);
+
+/// Whether both paths lead to the same existing file.
 bool is_same_file(const std::string& a, const std::string& b);
 
-/// A whole file at once.
+/// Writes a whole file at once.
 Trouble write_file(const std::string& path, std::string_view content);
 
-/// The whole of a file, or a fault.
+/// Reads a whole file, or returns a fault.
 Result<std::string> read_file(const std::string& path);
 
 /// A file that grows row by row; every row is on its way to the disk when add() returns.
@@ -53,9 +59,9 @@ class RowFile {
   ~RowFile();
 
   Trouble open(const std::string& path);
-  /// Opens a file that is there, cut to its first `bytes`.
+  /// Opens an existing file, truncated to its first `bytes`.
   Trouble reopen(const std::string& path, std::uint64_t bytes);
-  /// Brings all rows to the disk itself.
+  /// Flushes all rows to the disk.
   Trouble sync();
   std::uint64_t bytes() const { return bytes_; }
   Trouble add(std::string_view rows);
@@ -67,33 +73,33 @@ class RowFile {
   std::uint64_t bytes_ = 0;  ///< written so far
 };
 
-/// Whether `folder` may take results: it does not exist, is empty, or holds nothing but an earlier
-/// run's files. `input` is the model file; a folder in which it would be overwritten is refused.
-/// Empty where a run goes on, which may have been read from its model.toml.
+/// Whether `folder` may take results: it does not exist, is empty, or contains only files of an
+/// earlier run. `input` is the model file; a folder in which it would be overwritten is refused. It
+/// is empty where a run is continued, which may have been read from its model.toml.
 Trouble check_folder(const std::string& folder, const std::string& input);
 
-/// Holds a folder for one run, from opening to the end of this object, whatever ends the program.
+/// Locks a folder for one run until the end of this object, also where the program is killed.
 class FolderLock {
  public:
   FolderLock() = default;
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
   ~FolderLock();
-  /// A fault where another run has it.
+  /// Returns a fault where another run has locked it.
   Trouble take(const std::string& folder);
 
  private:
   int handle_ = -1;
 };
 
-/// Makes the folder if it is not there.
+/// Makes the folder if it does not exist.
 Trouble make_folder(const std::string& folder);
 
-/// Takes out of it what a run wrote at its end, the frames from number `frames` on, and files that
-/// were never finished.
+/// Removes from it what a run writes at its end, the frames from number `frames` on, and unfinished
+/// files.
 Trouble forget_end(const std::string& folder, std::size_t frames);
 
-/// Makes the folder, or takes an earlier run's files out of it (those that check_folder() accepts).
+/// Makes the folder, or removes an earlier run's files from it (those that check_folder() accepts).
 Trouble clear_folder(const std::string& folder);
 
 }  // namespace edda

@@ -4,32 +4,20 @@
 
 #include <cmath>
 
-#include "results/triangulate.hpp"
-
 namespace edda {
 namespace {
 
-std::vector<Ring> rings_of(const BlockSet& b, std::size_t i) {
-  std::vector<Ring> rings;
-  for (Id first = b.vertex_begin[i], v = first; v < b.vertex_begin[i + 1]; ++v) {
-    if (v == first) rings.emplace_back();
-    rings.back().push_back(b.vertex(v));
-    if (b.next[v] == first) first = v + 1;
-  }
-  return rings;
-}
-
-void add_cells(const BlockSet& b, std::size_t i, BlockCells& cells) {
-  const std::vector<Ring> rings = rings_of(b, i);
-  const Id first = b.vertex_begin[i];
+void add_cells(const BlockSet& b, Id block, BlockCells& cells) {
   const auto close = [&] { cells.end.push_back(static_cast<Id>(cells.corner.size())); };
-  if (rings.size() == 1 && is_convex(rings[0])) {
-    for (Id v = first; v < b.vertex_begin[i + 1]; ++v) cells.corner.push_back(v);
+  const auto triangles = b.triangles.find(block);
+  if (triangles == b.triangles.end()) {
+    for (Id v = b.vertex_begin[block]; v < b.vertex_begin[block + 1]; ++v)
+      cells.corner.push_back(v);
     close();
     return;
   }
-  for (const Triangle& t : triangulate(rings)) {
-    for (const std::size_t k : t) cells.corner.push_back(first + static_cast<Id>(k));
+  for (const std::array<Id, 3>& triangle : triangles->second) {
+    cells.corner.insert(cells.corner.end(), triangle.begin(), triangle.end());
     close();
   }
 }
@@ -76,7 +64,7 @@ BlockCells block_cells(const BlockSet& blocks) {
   cells.end.reserve(blocks.size());
   cells.corner.reserve(blocks.vertex_count());
   cells.begin.push_back(0);
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
+  for (Id i = 0; i < blocks.size(); ++i) {
     add_cells(blocks, i, cells);
     cells.begin.push_back(static_cast<Id>(cells.end.size()));
   }
@@ -171,7 +159,7 @@ Grid contact_grid(const Picture& picture) {
     push(force, {c.force.x, c.force.y, 0.0});
     push(displacement, {c.displacement.x, c.displacement.y, 0.0});
   }
-  // Both as point and as cell fields: glyphs want points, thresholds and tables cells.
+  // Both as point and as cell fields: glyphs need points, thresholds and tables cells.
   g.cells_are_points = true;
   take(g.cell_fields, normal, shear, opening, slip, state, i, j, force, displacement, length,
        closed, normal_stress, shear_stress, stress_a, stress_b, x_a, y_a, x_b, y_b);

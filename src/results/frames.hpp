@@ -11,7 +11,7 @@
 
 namespace edda {
 
-/// The cells of every block, made once: a block's motion is affine, so they stay what they are.
+/// The cells of every block, made once: a block's motion is affine, so they never change.
 struct BlockCells {
   std::vector<Id> begin;   ///< [nb + 1] first cell of each block
   std::vector<Id> end;     ///< of each cell in `corner`
@@ -26,7 +26,7 @@ BlockCells block_cells(const BlockSet& blocks);
 /// the smaller in the plane, then the one across it. Pa.
 Grid block_grid(const BlockCells& cells, const Picture& picture);
 
-/// A vertex cell per contact, in the middle of its overlap, with what joints.csv has of it and the
+/// A vertex cell per contact, in the middle of its overlap, with the values of joints.csv and the
 /// vectors force (on block_i) and displacement (of block_i there).
 Grid contact_grid(const Picture& picture);
 
@@ -42,7 +42,7 @@ class FrameSeries {
   Trouble add(const Picture& picture);
   /// Brings the time series up to the last frame.
   Trouble write_series();
-  /// Times of the frames so far, s; and to go on after frames that are there.
+  /// Times of the frames so far, s; to continue after existing frames.
   std::vector<double> times() const;
   void go_on_after(const std::vector<double>& times);
 

@@ -1,4 +1,4 @@
-// An unstructured grid of VTK: points, cells and named fields. What a frame is made of.
+// An unstructured grid of VTK, as a frame has it: points, cells and named fields.
 #pragma once
 
 #include <cstdint>
@@ -27,12 +27,13 @@ struct Grid {
   std::vector<std::int64_t> ends;     ///< of each cell in `corners`
   std::vector<std::uint8_t> types;    ///< of each cell
   std::vector<Field> point_fields, cell_fields;
-  bool cells_are_points = false;  ///< one each: written files have the cell fields at points, too
-  double time = 0.0;              ///< s
+  bool cells_are_points =
+      false;  ///< every cell is one point: written files have the cell fields at points, too
+  double time = 0.0;  ///< s
 
   std::size_t point_count() const { return points.size() / 3; }
   std::size_t cell_count() const { return ends.size(); }
-  /// Where the points of a cell begin in `corners`.
+  /// Index in `corners` at which the points of a cell begin.
   std::size_t begin(std::size_t cell) const {
     return cell == 0 ? 0 : static_cast<std::size_t>(ends[cell - 1]);
   }

@@ -10,8 +10,8 @@
 
 namespace edda {
 
-/// Usage: open_object(); key("a").value(1.5); close(); text(). A number that is none (nan, inf)
-/// becomes null.
+/// Usage: open_object(); key("a").value(1.5); close(); text(). Numbers that are not finite (nan,
+/// inf) become null.
 class Json {
  public:
   Json& open_object() { return open('{', '}'); }
@@ -37,7 +37,7 @@ class Json {
   Json& raw(std::string_view content);
   void next_line();
   std::string text_;
-  std::vector<char> ends_;  ///< of what is open
+  std::vector<char> ends_;  ///< closing characters of the open levels
   bool first_ = true;       ///< nothing yet at this level
   bool after_key_ = false;
 };

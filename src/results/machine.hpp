@@ -1,9 +1,9 @@
-// What this machine has.
+// Resources of the computer.
 #pragma once
 
 namespace edda {
 
-/// Bytes of memory; infinity where the system does not say.
+/// Bytes of memory; infinity where it is unknown.
 double memory_here();
 
 }  // namespace edda

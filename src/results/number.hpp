@@ -8,7 +8,7 @@
 namespace edda {
 
 /// The shortest text that reads back to the same value (-0 becomes 0); "nan", "inf" and "-inf"
-/// where it is no number.
+/// where it is not finite.
 inline std::string shortest(double value) {
   return fmt::format("{}", value + 0.0);
 }

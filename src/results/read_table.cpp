@@ -13,7 +13,7 @@
 namespace edda {
 namespace {
 
-/// Takes one row off the front of `text`, cell by cell. False: it has no end yet.
+/// Removes one row from the front of `text`, cell by cell. False: the row is incomplete.
 bool take_row(std::string_view& text, std::vector<std::string>& cells) {
   cells.assign(1, {});
   bool quoted = false;
@@ -46,8 +46,8 @@ void put(Column& column, const std::string& cell) {
   const char* const end = cell.data() + cell.size();
   const auto [stop, error] = std::from_chars(cell.data(), end, value);
   const bool is_number = error == std::errc{} && stop == end;
-  // A name may look like a number, as that of a bolt without one: where the number reads back to
-  // the cell there is no need to keep it.
+  // A name may look like a number, as that of a bolt without a name: the text is not kept where the
+  // number reads back to the same text.
   const bool says_all = is_number && shortest(value) == cell;
   if (!says_all && column.texts.empty()) {
     for (const double before : column.values) column.texts.push_back(shortest(before));

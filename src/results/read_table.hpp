@@ -11,9 +11,10 @@ namespace edda {
 
 struct Column {
   std::string name;
-  std::vector<double> values;        ///< one per row; nan where a cell is no number
-  std::vector<std::string> texts{};  ///< one per row where a number does not say it all, else empty
-  /// The cell as it stands in the file.
+  std::vector<double> values;  ///< one per row; nan where a cell is no number
+  std::vector<std::string>
+      texts{};  ///< one per row where numbers do not represent all cells, else empty
+  /// The cell as written in the file.
   std::string text(std::size_t row) const;
 };
 
@@ -24,7 +25,7 @@ struct Table {
   const Column* column(const std::string& name) const;
 };
 
-/// Reads what Csv writes. A last row that is not complete, as of a run that goes on, is left out. A
+/// Reads what Csv writes. An incomplete last row, as of a run in progress, is left out. A
 /// fault where there is no such file, or a row before the last has too few or too many cells.
 Result<Table> read_table(const std::string& path);
 /// The same of a table's text; faults name `path`.

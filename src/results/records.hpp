@@ -1,6 +1,7 @@
-// What a run tells of its blocks and contacts at one time: rows of the tables, values of the
-// frames. Filled by run/; model coordinates, SI units, stresses positive in tension. Names are
-// those of the model and the blocks, which must outlive a record.
+// The state of blocks and contacts at one time, as written: rows of the tables, values of the
+// frames. Filled by run/; model coordinates, SI units; stresses of blocks are positive in tension,
+// normal forces and normal stresses of joints in compression. Names are those of the model and the
+// blocks, which must outlive a record.
 #pragma once
 
 #include <cstdint>
@@ -23,10 +24,10 @@ struct BlockRecord {
   Vec2 velocity;                                      ///< of the centroid, m/s
   double omega = 0.0;                                 ///< rad/s
   double sxx = 0.0, syy = 0.0, szz = 0.0, sxy = 0.0;  ///< Pa
-  double overstress = 0.0;  ///< part of the rock's strength that is used, 0 where none is given
+  double overstress = 0.0;  ///< utilisation of the rock's strength, 0 where none is given
 };
 
-/// Numbers as in the frames.
+/// Numbers of the states in the frames.
 enum class ContactState : std::int32_t { open = 0, stick = 1, slide = 2, bonded = 3 };
 
 /// A face: an edge of block i against one of block j. Forces are of the model's thickness.
@@ -38,16 +39,16 @@ struct ContactRecord {
   Vec2 force;                 ///< on block i, N
   double normal_force = 0.0;  ///< N, positive in compression
   double shear_force = 0.0;   ///< N, positive where it drives block i from end a to end b
-  double opening = 0.0;       ///< m, of the end that is open less, negative: pressed together
+  double opening = 0.0;       ///< m, minus the larger drawn closure of the two ends
   double slip = 0.0;          ///< m from end a to end b since the start
   ContactState state = ContactState::open;
   bool ever_slipped = false, ever_opened = false;
-  double mobilised = 0.0;  ///< |shear| over shear strength, 0 where none is called on
+  double mobilised = 0.0;  ///< |shear| over shear strength, 0 without shear
   Vec2 a, b;               ///< ends of the overlap, block j on the left on the way from a to b, m
-  double length = 0.0, closed_length = 0.0;  ///< of the overlap, of what of it bears, m
-  double normal_stress = 0.0;                ///< Pa, positive in tension: the mean over the overlap
+  double length = 0.0, closed_length = 0.0;  ///< of the overlap, and of the part that carries, m
+  double normal_stress = 0.0;  ///< Pa, positive in compression: the mean over the overlap
   double normal_stress_a = 0.0,
-         normal_stress_b = 0.0;  ///< at the ends: linear along what bears, 0 elsewhere
+         normal_stress_b = 0.0;  ///< at the ends: linear over the part that carries, 0 elsewhere
   double shear_stress = 0.0;     ///< Pa: the mean over the overlap, signed as shear_force
 };
 

@@ -1,4 +1,4 @@
-// SHA-256 (FIPS 180-4): which input a result came from.
+// SHA-256 (FIPS 180-4), to identify the input of a result.
 #pragma once
 
 #include <string>

@@ -2,14 +2,13 @@
 
 #include <array>
 
+#include "results/columns.hpp"
 #include "results/csv_file.hpp"
 
 namespace edda {
 
 Trouble write_blocks_csv(const std::string& path, std::span<const BlockRecord> blocks) {
-  Csv csv;
-  csv.header({"id", "name", "material", "x", "y", "area", "ux", "uy", "rotation", "vx", "vy",
-              "omega", "sxx", "syy", "szz", "sxy", "overstress"});
+  Csv csv = begin_table(ResultFile::blocks);
   return write_rows(path, csv, blocks.size(), [&](std::size_t i) {
     const BlockRecord& b = blocks[i];
     csv.add(b.id).add(b.name).add(b.material).add(b.position.x).add(b.position.y).add(b.area);
@@ -22,30 +21,7 @@ Trouble write_blocks_csv(const std::string& path, std::span<const BlockRecord> b
 
 Trouble write_joints_csv(const std::string& path, std::span<const ContactRecord> contacts) {
   constexpr std::array state_names{"open", "stick", "slide", "bonded"};
-  Csv csv;
-  csv.header({"block_i",
-              "block_j",
-              "joint",
-              "x",
-              "y",
-              "normal_force",
-              "shear_force",
-              "opening",
-              "slip",
-              "state",
-              "ever_slipped",
-              "ever_opened",
-              "mobilised",
-              "length",
-              "closed_length",
-              "x_a",
-              "y_a",
-              "x_b",
-              "y_b",
-              "normal_stress",
-              "normal_stress_a",
-              "normal_stress_b",
-              "shear_stress"});
+  Csv csv = begin_table(ResultFile::joints);
   return write_rows(path, csv, contacts.size(), [&](std::size_t k) {
     const ContactRecord& c = contacts[k];
     csv.add(c.block_i).add(c.block_j).add(c.joint).add(c.position.x).add(c.position.y);

@@ -1,4 +1,4 @@
-// Texts of people: UTF-8, or what was meant to be.
+// Texts from users: UTF-8, valid or not.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@ inline constexpr std::string_view replacement_character = "\xef\xbf\xbd";
 /// Bytes of the character that begins at `at`; 0 where there is no valid one.
 std::size_t character_size(std::string_view text, std::size_t at);
 
-/// The text on one line that any drawing and any XML file takes: control characters become spaces,
-/// what is no character the replacement character.
+/// The text on one line in a form for drawings and XML files: control characters become spaces,
+/// invalid bytes the replacement character.
 std::string printable(std::string_view text);
 
 }  // namespace edda

@@ -32,8 +32,8 @@ const Field* Grid::point_field(const std::string& name) const {
 
 namespace {
 
-/// The XML, and what is to follow it: for each array a count of bytes (UInt64), then the values.
-/// Nothing is copied, so that a frame takes no more memory than its grid.
+/// The XML, and the data that follows it: for each array a count of bytes (UInt64), then the
+/// values. Nothing is copied, so that a frame takes no more memory than its grid.
 class Writer {
  public:
   std::string xml;
@@ -149,7 +149,7 @@ bool read_array(std::string_view section, std::string_view tag, std::string_view
   return values_of(tag, bytes, g.types);
 }
 
-/// What readers of frames take for granted of the fields they know.
+/// Checks the properties of known fields on which readers of frames rely.
 struct KnownField {
   std::string_view name;
   std::size_t components;
@@ -192,7 +192,7 @@ bool fits(const Field& f, std::size_t count) {
   });
 }
 
-/// Whether all that the arrays say of one another holds, so that users of the grid need not ask.
+/// Whether the arrays are consistent with each other, so that users of the grid need not check.
 bool consistent(const Grid& g) {
   if (g.points.size() % 3 != 0 || g.types.size() != g.ends.size()) return false;
   std::int64_t before = 0;
@@ -218,8 +218,11 @@ bool consistent(const Grid& g) {
 Trouble write_vtu(const std::string& path, const Grid& grid) {
   Writer w;
   w.xml =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n";
+      "<?xml version=\"1.0\"?>\n"
+      "<!-- Stresses of blocks are positive in tension, normal forces and normal stresses of "
+      "joints in compression; all values are in SI units, angles in rad. -->\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n";
   const std::vector<double> time{grid.time};
   w.array("Name=\"TimeValue\" NumberOfTuples=\"1\"", "Float64", time);
   w.xml +=
@@ -249,6 +252,11 @@ Result<Grid> read_vtu(const std::string& path) {
   Grid grid;
   std::string section;
   for (std::size_t at = xml.find('<'); at != std::string_view::npos; at = xml.find('<', at + 1)) {
+    if (xml.substr(at).starts_with("<!--")) {
+      at = xml.find("-->", at);
+      if (at == std::string_view::npos) break;
+      continue;
+    }
     const std::string_view tag = xml.substr(at, xml.find('>', at) - at);
     if (!tag.starts_with("<DataArray ")) {
       if (!tag.starts_with("</")) section = std::string(tag.substr(1, tag.find_first_of(" >") - 1));

@@ -21,7 +21,7 @@ struct SeriesEntry {
   std::string file;   ///< relative to the .pvd
 };
 
-/// Writes the whole series anew, so that it is valid while the run goes on.
+/// Writes the whole series anew, so that it is valid during the run.
 Trouble write_pvd(const std::string& path, const std::vector<SeriesEntry>& series);
 Result<std::vector<SeriesEntry>> read_pvd(const std::string& path);
 

@@ -1,4 +1,4 @@
-// What a checkpoint holds of the attachments: the ground and what is driven with it, and bolts.
+// Checkpoint data of the attachments: ground motion, boundaries and bolts.
 #pragma once
 
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "run/simulation.hpp"
+#include "step/simulation.hpp"
 
 namespace edda {
 
@@ -46,9 +46,11 @@ inline bool fits(const BoltSprings& s, std::size_t nodes) {
 
 /// Whether rows and nodes are those of bolts of the model in its blocks.
 inline bool fits(const Bolts& b, const Simulation& s) {
-  const std::size_t nodes = b.size(), known = all_bolts(s.model).size();
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (b.weight[k].size() != nodes || b.along[k].size() != nodes) return false;
+  const std::size_t nodes = b.size(), known = all_bolts(s.scene->model).size();
+  for (const Nodes* of_host : {&b.weight, &b.along}) {
+    for (const auto& values : *of_host) {
+      if (values.size() != nodes) return false;
+    }
   }
   for (const auto* values : {&b.distance, &b.bonded, &b.length, &b.slip}) {
     if (values->size() != nodes) return false;
@@ -62,14 +64,14 @@ inline bool fits(const Bolts& b, const Simulation& s) {
     if (b.begin[r] >= b.begin[r + 1]) return false;
   }
   const bool in_blocks =
-      std::all_of(b.host.begin(), b.host.end(), [&](Id i) { return i < s.blocks.size(); });
+      std::all_of(b.host.begin(), b.host.end(), [&](Id i) { return i < s.scene->blocks.size(); });
   return in_blocks && fits(b.bonds, nodes) && fits(b.bars, nodes) && fits(b.dowels, nodes);
 }
 
 template <class Archive>
 void list_bolts(Archive& a, Simulation& s) {
-  if (!has_bolts(s.model)) return;
-  Bolts& b = s.bolts;
+  if (!has_bolts(s.scene->model)) return;
+  Bolts& b = s.attached.bolts;
   std::vector<Index> rows;
   for (const BoltData& row : b.rows) rows.push_back(row.row);
   std::vector<Vec2> pushes;
@@ -89,93 +91,98 @@ void list_bolts(Archive& a, Simulation& s) {
   list_bolt_springs(a, "bolts.dowels.", b.dowels);
   a("bolts.slipped", b.slipped);
   a("bolts.fractured", b.fractured);
-  a("bolts.owed", b.owed);
-  a("bolts.will_slip", b.will_slip);
-  a("bolts.will_fracture", b.will_fracture);
+  a("bolts.work_pending", b.work_pending);
+  a("bolts.pending_friction", b.pending_friction);
+  a("bolts.pending_fracture", b.pending_fracture);
   list_points(a, "bolts.on_host", pushes);
   if constexpr (Archive::loads) {
     b.rows.assign(rows.size(), {});
     for (std::size_t r = 0; r < rows.size(); ++r) b.rows[r].row = rows[r];
     b.on_host.assign(b.size(), {});
     if (b.rows.empty() && b.begin.size() <= 1 && b.size() == 0) return;
-    if (pushes.size() != 3 * b.size() || !fits(b, s)) return a.refuse("bolts do not fit the model");
-    for (std::size_t k = 0; k < b.size(); ++k) {
-      std::copy_n(pushes.begin() + static_cast<std::ptrdiff_t>(3 * k), 3, b.on_host[k].begin());
+    if (pushes.size() != nodes_per_block * b.size() || !fits(b, s))
+      return a.refuse("bolts do not fit the model");
+    auto push = pushes.begin();
+    for (NodeVectors& f : b.on_host) {
+      for (Vec2& on_node : f) on_node = *push++;
     }
-    complete_bolts(b, s.model, s.blocks.size());
+    complete_bolts(b, s.scene->model, s.scene->blocks.size());
   }
 }
 
-/// What rock taken out and boundaries taken over from did, and how much of that is still there.
+/// Wall forces of excavated rock and of replaced boundaries, and the fractions of them that still
+/// act.
 template <class Archive>
-void list_kept(Archive& a, Simulation& s) {
+void list_wall_forces(Archive& a, Simulation& s) {
   std::vector<Id> vertex;
   std::vector<Vec2> force;
-  std::vector<Index> keeper;
-  for (const KeptForce& f : s.kept) {
+  std::vector<Index> owner;
+  for (const WallForce& f : s.attached.wall_forces) {
     vertex.push_back(f.vertex);
     force.push_back(f.force);
-    keeper.push_back(f.keeper);
+    owner.push_back(f.owner);
   }
-  a("kept.vertex", vertex);
-  list_points(a, "kept.force", force);
-  a("kept.keeper", keeper);
+  a("wall_force.vertex", vertex);
+  list_points(a, "wall_force.force", force);
+  a("wall_force.owner", owner);
   std::vector<double> part, before, changed;
-  for (const Hold& hold : s.loads.held) {
-    part.push_back(hold.part);
-    before.push_back(hold.before);
-    changed.push_back(hold.changed);
+  for (const RemainingFraction& fraction : s.attached.loads.remaining) {
+    part.push_back(fraction.part);
+    before.push_back(fraction.before);
+    changed.push_back(fraction.changed);
   }
-  a("kept.part", part);
-  a("kept.before", before);
-  a("kept.changed", changed);
+  a("remaining.part", part);
+  a("remaining.before", before);
+  a("remaining.changed", changed);
   if constexpr (Archive::loads) {
-    const std::size_t keepers = s.model.openings.size() + s.model.boundaries.size();
-    bool fits = force.size() == vertex.size() && keeper.size() == vertex.size() &&
-                part.size() == keepers && before.size() == keepers && changed.size() == keepers;
+    const std::size_t owners = s.scene->model.openings.size() + s.scene->model.boundaries.size();
+    bool fits = force.size() == vertex.size() && owner.size() == vertex.size() &&
+                part.size() == owners && before.size() == owners && changed.size() == owners;
     for (std::size_t k = 0; fits && k < vertex.size(); ++k) {
-      fits = vertex[k] < s.blocks.vertex_count() && keeper[k] >= 0 &&
-             static_cast<std::size_t>(keeper[k]) < keepers;
+      fits = vertex[k] < s.scene->blocks.vertex_count() && owner[k] >= 0 &&
+             static_cast<std::size_t>(owner[k]) < owners;
     }
     if (!fits) return a.refuse("forces that are kept do not fit the model");
-    for (std::size_t k = 0; k < keepers; ++k) {
-      s.loads.held[k] = {part[k], before[k], changed[k]};
+    for (std::size_t k = 0; k < owners; ++k) {
+      s.attached.loads.remaining[k] = {part[k], before[k], changed[k]};
     }
-    for (std::size_t k = 0; k < keepers; ++k) {
-      drop_forces(s.model, s.blocks, static_cast<Index>(k), s.loads);
+    for (std::size_t k = 0; k < owners; ++k) {
+      remove_wall_forces(s.scene->model, s.scene->blocks, static_cast<Index>(k), s.attached.loads);
     }
-    s.kept.clear();
+    s.attached.wall_forces.clear();
     for (std::size_t k = 0; k < vertex.size(); ++k) {
-      s.kept.push_back({vertex[k], force[k], keeper[k]});
+      s.attached.wall_forces.push_back({vertex[k], force[k], owner[k]});
     }
-    keep_forces(s.model, s.blocks, s.kept, s.loads);
+    keep_wall_forces(s.scene->model, s.scene->blocks, s.attached.wall_forces, s.attached.loads);
   }
 }
 
-/// False: there are not as many as the model has.
+/// Returns false if the number of intervals differs from that of the model.
 template <class Archive>
-bool list_spells(Archive& a, const std::string& of, std::vector<Spell>& spells) {
+bool list_intervals(Archive& a, const std::string& of, std::vector<ActiveInterval>& intervals) {
   std::vector<double> since, until;
-  for (const Spell& spell : spells) {
-    since.push_back(spell.since);
-    until.push_back(spell.until);
+  for (const ActiveInterval& interval : intervals) {
+    since.push_back(interval.since);
+    until.push_back(interval.until);
   }
   a("since." + of, since);
   a("until." + of, until);
-  if (since.size() != spells.size() || until.size() != spells.size()) return false;
-  for (std::size_t q = 0; q < spells.size(); ++q) spells[q] = {since[q], until[q]};
+  if (since.size() != intervals.size() || until.size() != intervals.size()) return false;
+  for (std::size_t q = 0; q < intervals.size(); ++q) intervals[q] = {since[q], until[q]};
   return true;
 }
 
-/// The ground, and when what shakes and drives it began.
+/// The state of the ground, and the active intervals of ground motions, loads, waters and
+/// boundaries.
 template <class Archive>
 void list_ground(Archive& a, Simulation& s) {
-  std::vector<Vec2> ground{s.ground.velocity, s.ground.shift, s.ground.shift_1};
+  std::vector<Vec2> ground{s.attached.ground.velocity, s.attached.ground.shift,
+                           s.attached.ground.shift_1};
   list_points(a, "ground", ground);
-  list_points(a, "springs.shift", s.springs.shift);
-  list_points(a, "springs.shift_1", s.springs.shift_1);
-  for (std::size_t q = 0; q < s.free_field.columns.size(); ++q) {
-    FreeFieldColumn& column = s.free_field.columns[q];
+  list_points(a, "springs.shift", s.attached.springs.shift);
+  list_points(a, "springs.shift_1", s.attached.springs.shift_1);
+  for (std::size_t q = 0; q < s.attached.free_field.columns.size(); ++q) {
+    FreeFieldColumn& column = s.attached.free_field.columns[q];
     const std::size_t nodes = column.moved.size();
     list_points(a, fmt::format("free_field.{}.moved", q), column.moved);
     list_points(a, fmt::format("free_field.{}.velocity", q), column.velocity);
@@ -185,31 +192,31 @@ void list_ground(Archive& a, Simulation& s) {
       }
     }
   }
-  a("springs.start_x", s.springs.start_x);
-  a("springs.start_y", s.springs.start_y);
-  Spells& spells = s.loads.spells;
-  bool fit = list_spells(a, "loads", spells.loads);
-  fit = list_spells(a, "waters", spells.waters) && fit;
-  fit = list_spells(a, "boundaries", spells.boundaries) && fit;
-  fit = list_spells(a, "shakings", spells.shakings) && fit;
+  a("springs.start_x", s.attached.springs.start_x);
+  a("springs.start_y", s.attached.springs.start_y);
+  ActiveIntervals& intervals = s.attached.loads.intervals;
+  bool fit = list_intervals(a, "loads", intervals.loads);
+  fit = list_intervals(a, "waters", intervals.waters) && fit;
+  fit = list_intervals(a, "boundaries", intervals.boundaries) && fit;
+  fit = list_intervals(a, "shakings", intervals.shakings) && fit;
   if constexpr (Archive::loads) {
-    const std::size_t rows = s.model.boundaries.size();
-    const bool fits = fit && ground.size() == 3 && s.springs.shift.size() == rows &&
-                      s.springs.shift_1.size() == rows &&
-                      s.springs.start_x.size() == s.springs.size() &&
-                      s.springs.start_y.size() == s.springs.size();
+    const std::size_t rows = s.scene->model.boundaries.size();
+    const bool fits = fit && ground.size() == 3 && s.attached.springs.shift.size() == rows &&
+                      s.attached.springs.shift_1.size() == rows &&
+                      s.attached.springs.start_x.size() == s.attached.springs.size() &&
+                      s.attached.springs.start_y.size() == s.attached.springs.size();
     if (!fits) return a.refuse("ground does not fit the model");
-    s.ground.velocity = ground[0];
-    s.ground.shift = ground[1];
-    s.ground.shift_1 = ground[2];
-    for (std::size_t q = 0; q < s.springs.size(); ++q) {
-      const auto row = static_cast<std::size_t>(s.springs.boundary[q]);
-      const bool acts = spells.boundaries[row].acts();
-      s.springs.kxx[q] = acts ? s.springs.acting_k[q][0] : 0.0;
-      s.springs.kyy[q] = acts ? s.springs.acting_k[q][1] : 0.0;
-      s.springs.kxy[q] = acts ? s.springs.acting_k[q][2] : 0.0;
+    s.attached.ground.velocity = ground[0];
+    s.attached.ground.shift = ground[1];
+    s.attached.ground.shift_1 = ground[2];
+    for (std::size_t q = 0; q < s.attached.springs.size(); ++q) {
+      const auto row = static_cast<std::size_t>(s.attached.springs.boundary[q]);
+      const bool acts = intervals.boundaries[row].acts();
+      s.attached.springs.kxx[q] = acts ? s.attached.springs.acting_k[q][0] : 0.0;
+      s.attached.springs.kyy[q] = acts ? s.attached.springs.acting_k[q][1] : 0.0;
+      s.attached.springs.kxy[q] = acts ? s.attached.springs.acting_k[q][2] : 0.0;
     }
-    s.dashpots.set_acting(spells.boundaries);
+    s.attached.dashpots.set_acting(intervals.boundaries);
   }
 }
 

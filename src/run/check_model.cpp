@@ -1,4 +1,6 @@
 #include "run/check_model.hpp"
+#include "step/changes.hpp"
+#include "step/step.hpp"
 
 #include <omp.h>
 
@@ -8,39 +10,43 @@
 
 #include "base/threads.hpp"
 #include "contacts/face_reading.hpp"
-#include "run/damping_report.hpp"
-#include "run/initial_stress_report.hpp"
-#include "run/load_report.hpp"
-#include "run/observe.hpp"
+#include "observe/damping_report.hpp"
+#include "observe/initial_stress_report.hpp"
+#include "observe/load_report.hpp"
+#include "observe/observe.hpp"
 #include "run/stages.hpp"
+#include "run/wall_clock.hpp"
 
 namespace edda {
 namespace {
 
 constexpr int most_tried = 2000;  // steps
 
-/// Steps per second of wall time, from a few steps made and thrown away, none of them after `end`.
+/// Steps per second of wall time, from a few steps that are made for this alone, none of them
+/// beyond `end`.
 double step_rate(Simulation& sim, double end, double seconds) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   double wall = 0.0;
   int steps = 0;
   const SameThreads afterwards;
-  ThreadChoice threads(threads_are_said() ? 1 : omp_get_max_threads());
+  ThreadChoice threads(threads_are_given() ? 1 : omp_get_max_threads());
   while (steps < 2 || (wall < seconds && steps < most_tried)) {
-    if (sim.state.time >= end) break;
-    if (!threads_are_said()) omp_set_num_threads(threads.now());
-    if (sim.step()) break;
+    if (sim.motion.state.time >= end) break;
+    if (sim.control.steps_left == 0) fit_step_to(sim, end);
+    if (!threads_are_given()) omp_set_num_threads(threads.now());
+    if (step(sim)) break;
     ++steps;
     const double before = wall;
-    wall = std::chrono::duration<double>(Clock::now() - start).count();
+    wall = since(start);
     threads.stepped(wall - before);
   }
   return wall > 0.0 ? static_cast<double>(steps) / wall : 0.0;
 }
 
-std::size_t held_blocks(const Simulation& sim) {
-  return static_cast<std::size_t>(std::count_if(sim.blocks.fixed.begin(), sim.blocks.fixed.end(),
+std::size_t fixed_blocks(const Simulation& sim) {
+  return static_cast<std::size_t>(std::count_if(sim.scene->blocks.fixed.begin(),
+                                                sim.scene->blocks.fixed.end(),
                                                 [](auto fixed) { return fixed != 0; }));
 }
 
@@ -48,35 +54,36 @@ std::size_t held_blocks(const Simulation& sim) {
 
 ModelCheck check_model(Simulation& sim) {
   ModelCheck found;
-  found.held = held_blocks(sim);
-  for (std::size_t k = 0; k < sim.contacts.size(); ++k) {
-    found.closed += meets(sim.contacts, k);
+  found.fixed = fixed_blocks(sim);
+  for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) {
+    found.closed += meets(sim.motion.contacts, k);
   }
-  for (std::size_t k = 0; k < sim.point_contacts.size(); ++k) {
-    found.closed += meets(sim.point_contacts, sim.blocks, sim.pose, k, sim.contacts.noise);
+  for (std::size_t k = 0; k < sim.motion.point_contacts.size(); ++k) {
+    found.closed += meets(sim.motion.point_contacts, sim.scene->blocks, sim.motion.pose, k,
+                          sim.motion.contacts.noise);
   }
-  found.within_reach = sim.contacts.size() + sim.point_contacts.size();
-  found.critical_step = sim.bound.critical_step;
+  found.within_reach = sim.motion.contacts.size() + sim.motion.point_contacts.size();
+  found.critical_step = sim.control.bound.critical_step;
   found.loads = load_report(sim);
   found.initial_stress = initial_stress_report(sim);
   found.strain_damping = strain_damping_report(sim);
-  const std::vector<Stage> stages = stages_of(sim.model);
-  const auto is_static = [](const Stage& s) { return s.masses == StageMasses::uniform_step; };
-  if (!std::all_of(stages.begin(), stages.end(), is_static))
+  const std::vector<Stage> stages = stages_of(sim.scene->model);
+  const auto is_scaled = [](const Stage& s) { return s.masses == StageMasses::scaled; };
+  if (!std::all_of(stages.begin(), stages.end(), is_scaled))
     found.step_as_given = first_step(sim, StageMasses::as_given);
-  if (std::any_of(stages.begin(), stages.end(), is_static))
-    found.static_step = first_step(sim, StageMasses::uniform_step);
-  sim.scale_masses(stages.front().masses);
-  sim.change_damping(stages.front().damping,
-                     sim.model.solver.dynamic && stages.front().until != StageEnd::equilibrium);
-  const double duration = sim.model.solver.duration;
-  const double tried = most_tried * sim.usual_step();
+  if (std::any_of(stages.begin(), stages.end(), is_scaled))
+    found.scaled_step = first_step(sim, StageMasses::scaled);
+  scale_masses(sim, stages.front().masses);
+  change_damping(sim, stages.front().damping,
+                 sim.scene->model.solver.dynamic && stages.front().until != StageEnd::equilibrium);
+  const double duration = sim.scene->model.solver.duration;
+  const double tried = most_tried * usual_step(sim);
   const double end = duration > 0.0 ? duration : std::isfinite(tried) ? tried : 1.0;
-  sim.start(duration > 0.0 ? std::min(sim.model.output.history_every, duration) : end);
-  found.step = sim.state.step;
+  start(sim, duration > 0.0 ? std::min(sim.scene->model.output.history_every, duration) : end);
+  found.step = sim.motion.state.step;
   for (const Stage& stage : stages) {
     const double step = &stage == &stages.front() ? found.step
-                        : is_static(stage)        ? found.static_step
+                        : is_scaled(stage)        ? found.scaled_step
                                                   : found.step_as_given;
     if (duration > 0.0) found.steps += std::max(1.0, std::ceil(stage.duration / step - 1e-9));
     found.at_most = found.at_most || stage.until == StageEnd::equilibrium;

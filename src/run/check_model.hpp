@@ -1,29 +1,30 @@
-// A look at a model before a run: what acts, how many steps it will take, and how long.
+// Check of a model before a run: loads, number of steps, expected duration.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "run/simulation.hpp"
+#include "step/simulation.hpp"
 
 namespace edda {
 
-/// What is found out about a model before it is run.
+/// Results of the check.
 struct ModelCheck {
-  std::size_t held = 0;  ///< blocks
+  std::size_t fixed = 0;  ///< number of fixed blocks
   std::vector<std::string> loads, initial_stress, strain_damping;
-  double step = 0.0;           ///< s: the first
-  double step_as_given = 0.0;  ///< s: in stages without static masses, where there are any
-  double static_step = 0.0;    ///< s: in stages with static masses, where there are any
-  double steps = 0.0;          ///< to expect; at most, where stages end at an equilibrium; 0
-                               ///< where no duration is given
+  double step = 0.0;           ///< s: first step
+  double step_as_given = 0.0;  ///< s: step in stages without scaled masses, if there are any
+  double scaled_step = 0.0;    ///< s: step in stages with scaled masses, if there are any
+  double steps = 0.0;  ///< expected number; an upper bound where stages end at an equilibrium; 0
+                       ///< where no duration is given
   bool at_most = false;
   double rate = 0.0;                         ///< steps per second of wall time
-  std::size_t closed = 0, within_reach = 0;  ///< contacts, at the start
+  std::size_t closed = 0, within_reach = 0;  ///< contacts at the start
   double critical_step = 0.0;                ///< s, at the start
 };
 
-/// Of a simulation as created; it makes a few steps with it, of which nothing is kept.
+/// Call for a simulation as created. It makes a few steps, after which the simulation is not to be
+/// used for a run.
 ModelCheck check_model(Simulation& sim);
 
 }  // namespace edda

@@ -1,4 +1,5 @@
-// Checkpoints of a run: the simulation's memory, the driver's own, and how far the files had come.
+// Checkpoints of a run: the data of the simulation, those of the driver, and the lengths of the
+// files written so far.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,13 +12,15 @@
 #include "results/version.hpp"
 #include "run/driver.hpp"
 #include "run/simulation_memory.hpp"
+#include "run/wall_clock.hpp"
 
 namespace edda {
 namespace {
 
 constexpr auto all_stages = static_cast<std::size_t>(-1);
 
-/// What the names in later stages make of the parts of the model before them.
+/// State at the start of the named parts of the model, as it follows from the stages that name
+/// them.
 std::string first_states(const Model& model) {
   std::string text;
   const auto add = [&](const auto& items, const char* what, auto state) {
@@ -38,8 +41,8 @@ std::string first_states(const Model& model) {
   return text;
 }
 
-/// The model's text but for what may change between a run and its resumption. `stages`: as many of
-/// them count, and the intervals of rows and frames do not where that is not all.
+/// The model's text without what may change between a run and its resumption. `stages`: only this
+/// many are included; if that is not all, the intervals of rows and frames are left out.
 std::string identity(const Model& model, std::size_t stages) {
   Model m = model;
   m.title.clear();
@@ -49,7 +52,7 @@ std::string identity(const Model& model, std::size_t stages) {
   m.solver.duration = 1.0;
   m.output.checkpoint_every = 1.0;
   m.fos.reset();
-  // What a history says counts, not where it lies.
+  // The content of a history matters, not the place of its file.
   for (Load& load : m.loads) load.history.clear();
   for (Water& water : m.waters) water.history.clear();
   for (Boundary& boundary : m.boundaries) boundary.history.clear();
@@ -75,7 +78,7 @@ std::string identity(const Model& model, std::size_t stages) {
   return text;
 }
 
-/// Names and hashes, a line each in turn.
+/// Reads names and hashes, on alternate lines.
 std::vector<InputFile> input_files(std::string_view text) {
   std::vector<InputFile> files;
   const auto line = [&] {
@@ -93,21 +96,21 @@ std::vector<InputFile> input_files(std::string_view text) {
   return files;
 }
 
-/// Takes the first line off.
+/// Removes the first line and returns it.
 std::string_view take_line(std::string_view& text) {
   const std::string_view line = text.substr(0, text.find('\n'));
   text.remove_prefix(std::min(text.size(), line.size() + 1));
   return line;
 }
 
-/// "safety" of "safety = 0.5"; empty of other lines.
+/// "safety" for "safety = 0.5"; empty for other lines.
 std::string_view key_of(std::string_view line) {
   const std::size_t equals = line.find(" = ");
   return equals == std::string_view::npos ? std::string_view{} : line.substr(0, equals);
 }
 
-/// The first line in which two models differ: what it was in the checkpoint, "there", and is
-/// "here".
+/// The first line in which two models differ, with its value in the checkpoint ("there") and now
+/// ("here").
 std::string difference(std::string_view now, std::string_view then) {
   std::string table, element;
   std::size_t number = 0;
@@ -139,7 +142,7 @@ std::string difference(std::string_view now, std::string_view then) {
 }
 
 template <class Archive>
-void list_ledger(Archive& a, const std::string& of, Ledger& l) {
+void list_energy_balance(Archive& a, const std::string& of, EnergyBalance& l) {
   for (const auto& [name, value] : {std::pair{"kinetic", &l.kinetic},
                                     {"strain", &l.strain},
                                     {"contact", &l.contact},
@@ -150,7 +153,7 @@ void list_ledger(Archive& a, const std::string& of, Ledger& l) {
                                     {"external", &l.external},
                                     {"step_change", &l.step_change},
                                     {"transfer", &l.transfer},
-                                    {"drift", &l.drift}}) {
+                                    {"drift", &l.error}}) {
     a(of + name, *value);
   }
 }
@@ -166,25 +169,25 @@ void Driver::list_stages(Archive& a) {
   a("stage.index", stage_);
   a("stage.start", stage_start_);
   a("stage.steps", stage_steps_);
-  a("stage.calm", settling_.calm);
-  a("settling.window_began", settling_.window_began);
-  a("settling.window", settling_.window);
-  a("settling.pull", settling_.pull);
-  a("settling.pull_before", settling_.pull_before);
-  a("settling.from_x", settling_.from_x);
-  a("settling.from_y", settling_.from_y);
-  a("settling.moved_x", settling_.moved_x);
-  a("settling.moved_y", settling_.moved_y);
-  a("settling.to_come", settling_.to_come);
-  a("settling.going", settling_.going);
+  a("search.found_in_sequence", search_.found_in_sequence);
+  a("search.window_began", search_.window_began);
+  a("search.window", search_.window);
+  a("search.pull", search_.pull);
+  a("search.pull_before", search_.pull_before);
+  a("search.from_x", search_.from_x);
+  a("search.from_y", search_.from_y);
+  a("search.moved_x", search_.moved_x);
+  a("search.moved_y", search_.moved_y);
+  a("search.to_come", search_.to_come);
+  a("search.windows_moving", search_.windows_moving);
   a("stage.has_ended", stage_has_ended_);
   if constexpr (Archive::loads) {
-    if (stage_ >= stages_.size()) {
+    if (stage_ >= plans_.size()) {
       a.refuse("stages do not fit the model");
       return;
     }
     ends_.resize(stage_ + (stage_has_ended_ ? 1 : 0));
-    times_.end_at(stage_start_ + stages_[stage_].duration);
+    times_.end_at(stage_start_ + stage().duration);
   }
   for (std::size_t q = 0; q < ends_.size(); ++q) {
     const std::string of = fmt::format("stage.{}.", q);
@@ -199,7 +202,7 @@ void Driver::list_stages(Archive& a) {
     a(of + "resting", r.balance.resting);
     a(of + "detached", r.balance.detached);
     a(of + "loose", r.balance.loose);
-    list_ledger(a, of, r.ledger);
+    list_energy_balance(a, of, r.energy);
     a(of + "closed", r.closed);
     a(of + "sliding", r.sliding);
     a(of + "bonded", r.bonded);
@@ -236,7 +239,7 @@ void Driver::list(Archive& a) {
   a("files.reactions_bytes", files.reactions_bytes);
   a("files.bolts_bytes", files.bolts_bytes);
   a("files.frame_times", files.frame_times);
-  // Each file's name, a line break, and its hash.
+  // For each file its name, a line break, and its hash.
   std::string inputs;
   for (const InputFile& f : files.inputs) inputs += f.file + '\n' + f.sha256 + '\n';
   a("files.inputs", inputs);
@@ -254,7 +257,7 @@ void Driver::list(Archive& a) {
   a("driver.angle", angle_);
   a("driver.last_row", last_row_);
   a("driver.last_frame", last_frame_);
-  a("outcome.largest_drift", outcome_.largest_drift);
+  a("outcome.largest_drift", outcome_.largest_energy_error);
   a("outcome.largest_transfer", outcome_.largest_transfer);
   a("outcome.unbalanced", outcome_.unbalanced);
   a("outcome.overlap.ratio", outcome_.overlap.ratio);
@@ -267,13 +270,13 @@ void Driver::list(Archive& a) {
   a("outcome.critical_step", outcome_.critical_step);
   a("outcome.step_over_critical", outcome_.step_over_critical);
   a("outcome.reaction_error", outcome_.reaction_error);
-  a("outcome.held_back", outcome_.held_back);
+  a("outcome.slowed_in_fall", outcome_.slowed_in_fall);
   a("outcome.loose", outcome_.loose);
   list_chatter(a, outcome_.chatter);
   a("outcome.stepping", outcome_.wall.stepping);
   a("outcome.output", outcome_.wall.output);
-  list_ledger(a, "ledger.", outcome_.ledger);
-  double wall = wall_before_ + std::chrono::duration<double>(Clock::now() - started_).count();
+  list_energy_balance(a, "energy_balance.", outcome_.energy);
+  double wall = wall_before_ + since(started_);
   a("driver.wall", wall);
   if constexpr (Archive::loads) {
     wall_before_ = wall;
@@ -285,7 +288,7 @@ void Driver::list(Archive& a) {
 Record Driver::memory(std::size_t stages) {
   Record record;
   record["version"] = std::string(version);
-  record["model"] = identity(sim_.model, stages);
+  record["model"] = identity(sim_.scene->model, stages);
   Saver saver(record);
   list(saver);
   remember(sim_, record);
@@ -296,12 +299,13 @@ void Driver::save_checkpoint() {
   saved_ = Clock::now();
   Trouble trouble = recorder_.sync();
   if (!trouble) trouble = write_checkpoint(options_.folder, to_hdf5(memory(all_stages)));
-  // The run is worth more than its checkpoint: it goes on, and the one before stays.
+  // A checkpoint that cannot be written does not end the run; the previous one remains.
   if (trouble && options_.warn) options_.warn("no checkpoint: " + to_string(*trouble));
 }
 
 void Driver::save_stage() {
-  if (!recorder_.writes() || !sim_.model.output.stages || sim_.model.stages.empty()) return;
+  if (!recorder_.writes() || !sim_.scene->model.output.stages || sim_.scene->model.stages.empty())
+    return;
   Instant instant;
   observe(sim_, instant);
   if (ended_by(recorder_.stage_joints(stage_, picture_of(sim_, instant)))) return;
@@ -314,7 +318,7 @@ void Driver::save_stage() {
   if (trouble && options_.warn) options_.warn("no checkpoint: " + to_string(*trouble));
 }
 
-Trouble Driver::take_up(const Record& record) {
+Trouble Driver::restore(const Record& record) {
   Loader loader(record);
   std::string by, model;
   loader("version", by);
@@ -330,7 +334,7 @@ Trouble Driver::take_up(const Record& record) {
                    "resume with that version, or run without --resume");
   }
   const std::size_t stages = options_.from_stage ? *options_.from_stage + 1 : all_stages;
-  if (const std::string now = identity(sim_.model, stages); now != model) {
+  if (const std::string now = identity(sim_.scene->model, stages); now != model) {
     return refused(
         folder,
         "the model is not the one of the checkpoint; first difference: " + difference(now, model),
@@ -340,14 +344,14 @@ Trouble Driver::take_up(const Record& record) {
   list(loader);
   std::string flaw = loader.flaw();
   if (flaw.empty()) flaw = recall(sim_, record);
-  if (flaw.empty() && angle_.size() != sim_.blocks.size() && !angle_.empty()) {
+  if (flaw.empty() && angle_.size() != sim_.scene->blocks.size() && !angle_.empty()) {
     flaw = "driver.angle has another size than the model asks for";
   }
-  const bool goes_on = stage_has_ended_ && stage_ + 1 < stages_.size();
-  if (flaw.empty() && !goes_on && sim_.state.time >= sim_.model.solver.duration) {
+  const bool goes_on = stage_has_ended_ && stage_ + 1 < plans_.size();
+  if (flaw.empty() && !goes_on && sim_.motion.state.time >= sim_.scene->model.solver.duration) {
     return refused(folder,
                    fmt::format("its checkpoint is at {:.6g} s, the duration is {:.6g} s",
-                               sim_.state.time, sim_.model.solver.duration),
+                               sim_.motion.state.time, sim_.scene->model.solver.duration),
                    "give a longer solver.duration");
   }
   if (!flaw.empty()) {
@@ -356,15 +360,15 @@ Trouble Driver::take_up(const Record& record) {
   }
   started_ = Clock::now();
   resumed_ = true;
-  if (stage_has_ended_) times_.go_on_after(sim_.state.time);
-  // Where the duration has changed, so has what comes next.
-  if (!stage_has_ended_ && (event_.end || event_.time > sim_.model.solver.duration)) {
+  if (stage_has_ended_) times_.go_on_after(sim_.motion.state.time);
+  // Where the duration has changed, the next event has, too.
+  if (!stage_has_ended_ && (event_.end || event_.time > sim_.scene->model.solver.duration)) {
     times_.put_back(event_);
     const Event next = times_.next();
-    if (next.time != event_.time) sim_.aim_at(next.time);
+    if (next.time != event_.time) fit_step_to(sim_, next.time);
     event_ = next;
   }
-  return recorder_.resume(sim_, files_);
+  return recorder_.resume(sim_, run_.monitors, run_.convergences, files_);
 }
 
 }  // namespace edda

@@ -6,7 +6,7 @@
 namespace edda {
 
 double multiple(std::uint64_t k, double every) {
-  // As a fraction of whole numbers, every = m / 10^d, there is one rounding only.
+  // With every = m / 10^d, m a whole number, there is only one rounding.
   double power = 1.0;
   for (int d = 0; d <= 15; ++d, power *= 10.0) {
     const double m = std::round(every * power), product = static_cast<double>(k) * m;
@@ -36,7 +36,7 @@ Event EventTimes::next() {
   e.counted_frame = frame <= e.time + same;
   e.row = e.end || e.counted_row;
   e.frame = e.end || e.counted_frame;
-  // The row's own time where both fall together, so that history.csv shows its multiples.
+  // Where both coincide, the time of the row, so that history.csv has exact multiples.
   if (e.row && !e.end) e.time = row;
   if (e.counted_row) ++row_;
   if (e.counted_frame) ++frame_;

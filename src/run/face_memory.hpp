@@ -1,7 +1,8 @@
-// What a checkpoint holds of the faces, and how it is judged.
+// Checkpoint data of the faces, and their validation.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -53,11 +54,12 @@ void list_faces(Archive& a, FaceSet& c) {
   a("faces.travel", c.travel);
   a("faces.rebuilds", c.rebuilds);
   a("faces.gluing", c.gluing);
+  a("faces.dashpots", c.dashpots);
   a("faces.broken", c.broken);
-  a("faces.retired_friction", c.retired_friction);
-  a("faces.retired_damping", c.retired_damping);
-  a("faces.retired_fracture", c.retired_fracture);
-  a("faces.retired_transfer", c.retired_transfer);
+  a("faces.removed_friction", c.removed_friction);
+  a("faces.removed_damping", c.removed_damping);
+  a("faces.removed_fracture", c.removed_fracture);
+  a("faces.removed_transfer", c.removed_transfer);
 }
 
 template <class Archive>
@@ -74,7 +76,7 @@ void list_points(Archive& a, PointSet& c) {
   a("points.deepest", c.deepest);
 }
 
-/// What complete_points() and the step take for granted.
+/// Checks the assumptions of complete_points() and of the step.
 template <class Judge>
 void judge_points(Judge& j, const PointSet& c, const BlockSet& b, const LawTable& laws) {
   for (const auto column : point_columns) j.sized("points", c.*column, c.vertex.size());
@@ -85,8 +87,20 @@ void judge_points(Judge& j, const PointSet& c, const BlockSet& b, const LawTable
   j.below("points.law", {c.law.begin(), c.law.end()}, laws.rows.size());
 }
 
-/// Sizes and indices: what complete_faces() and the step take for granted. Judge: of
-/// simulation_memory.cpp.
+/// Whether what a face remembers is finite, at this step and the one before.
+inline bool all_finite(const FaceSet& c) {
+  for (const FaceMemory* memory : {&c.now, &c.before}) {
+    for (const auto& column : face_columns) {
+      const std::vector<double> values = (memory->*column.values).values();
+      if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
+        return false;
+    }
+  }
+  return true;
+}
+
+/// Checks the assumptions of complete_faces() and of the step: sizes, indices, finite numbers.
+/// Judge: that of simulation_memory.cpp.
 template <class Judge>
 void judge_faces(Judge& j, const FaceSet& c, const BlockSet& b, const LawTable& laws) {
   const std::size_t n = c.size(), nv = b.vertex_count();
@@ -110,6 +124,7 @@ void judge_faces(Judge& j, const FaceSet& c, const BlockSet& b, const LawTable& 
     return p.first < p.second && b.vertex_block[p.first] != b.vertex_block[p.second];
   });
   if (twice || !apart) j.refuse("faces do not belong together");
+  if (!all_finite(c)) j.refuse("faces have a number that is not finite");
 }
 
 }  // namespace edda

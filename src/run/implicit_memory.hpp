@@ -1,4 +1,4 @@
-// What a checkpoint holds of the implicit method.
+// Checkpoint data of the implicit method.
 #pragma once
 
 #include <algorithm>
@@ -7,24 +7,25 @@
 #include <vector>
 
 #include "implicit/assemble.hpp"
-#include "run/simulation.hpp"
+#include "step/simulation.hpp"
 
 namespace edda {
 
-/// The matrix and its factor as they were. False where rows, columns or values do not fit the model
-/// or each other.
-inline bool take_up(Simulation& s, const std::vector<Id>& column, const std::vector<Id>& ends,
+/// Restores the matrix and its factor. False where rows, columns or values do not fit the model or
+/// each other.
+inline bool restore(Simulation& s, const std::vector<Id>& column, const std::vector<Id>& ends,
                     SolverMemory memory) {
   ImplicitSolver& solver = s.implicit;
   const std::size_t rows = solver.block_of.size();
   if (ends.size() != rows) return false;
   if (rows == 0) return !memory.made;  // no step has been made yet
   std::vector<std::vector<Id>> columns(rows);
-  solver.row_of.assign(s.blocks.size(), no_id);
+  solver.row_of.assign(s.scene->blocks.size(), no_id);
   std::size_t begin = 0;
   for (std::size_t r = 0; r < rows; ++r) {
     const Id i = solver.block_of[r];
-    if (i >= s.blocks.size() || s.blocks.fixed[i] || solver.row_of[i] != no_id) return false;
+    if (i >= s.scene->blocks.size() || s.scene->blocks.fixed[i] || solver.row_of[i] != no_id)
+      return false;
     if (ends[r] < begin || ends[r] > column.size()) return false;
     solver.row_of[i] = static_cast<Id>(r);
     std::vector<Id>& row = columns[r];
@@ -36,24 +37,27 @@ inline bool take_up(Simulation& s, const std::vector<Id>& column, const std::vec
     if (!rising || !std::binary_search(row.begin(), row.end(), static_cast<Id>(r))) return false;
     if (row.back() >= rows) return false;
   }
-  // Symmetric, or the factor would be one of another matrix.
+  // The pattern must be symmetric; otherwise the factor would be that of another matrix.
   for (std::size_t r = 0; r < rows; ++r) {
     for (const Id c : columns[r]) {
       if (!std::binary_search(columns[c].begin(), columns[c].end(), static_cast<Id>(r)))
         return false;
     }
   }
-  lay_out(solver, {s.blocks, s.laws, s.springs, s.model.gravity}, columns);
-  if (memory.made && memory.values.size() != 36 * column.size()) return false;
+  lay_out(
+      solver,
+      {s.scene->blocks, s.motion.masses, s.motion.laws, s.attached.springs, s.scene->model.gravity},
+      columns);
+  if (memory.made && memory.values.size() != BlockMatrix::entries * column.size()) return false;
   return solver.linear.recall(solver.matrix, std::move(memory));
 }
 
-/// The implicit method: its guess, and the factor that its solver keeps.
+/// Data of the implicit method: its first guess, and the factor of its solver.
 template <class Archive>
 void list_implicit(Archive& a, Simulation& s) {
   ImplicitSolver& solver = s.implicit;
-  a("implicit.drift_x", solver.drift_x);
-  a("implicit.drift_y", solver.drift_y);
+  a("implicit.mean_velocity_x", solver.mean_velocity_x);
+  a("implicit.mean_velocity_y", solver.mean_velocity_y);
   a("implicit.block_of", solver.block_of);
   a("implicit.pattern_of", solver.pattern_of);
   std::vector<Id> column, ends;
@@ -74,12 +78,12 @@ void list_implicit(Archive& a, Simulation& s) {
   a("solver.per_solve", m.per_solve);
   a("solver.values", m.values);
   if constexpr (Archive::loads) {
-    const std::size_t size = solver.drift_x[0].empty() ? 0 : s.blocks.size();
+    const std::size_t size = solver.mean_velocity_x[0].empty() ? 0 : s.scene->blocks.size();
     bool good = true;
-    for (const auto* drift : {&solver.drift_x, &solver.drift_y}) {
-      for (const auto& values : *drift) good = good && values.size() == size;
+    for (const auto* nodes : {&solver.mean_velocity_x, &solver.mean_velocity_y}) {
+      for (const auto& values : *nodes) good = good && values.size() == size;
     }
-    if (!good || !take_up(s, column, ends, std::move(m)))
+    if (!good || !restore(s, column, ends, std::move(m)))
       a.refuse("implicit does not fit the model");
   }
 }

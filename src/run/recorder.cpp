@@ -2,32 +2,22 @@
 
 #include <fmt/format.h>
 
-#include "model/time_history.hpp"
+#include "model/files/time_history.hpp"
 #include "model/write_model.hpp"
-#include "results/csv.hpp"
+#include "observe/attachment_rows.hpp"
+#include "observe/summary.hpp"
 #include "results/sha256.hpp"
 #include "results/tables.hpp"
-#include "run/attachment_rows.hpp"
-#include "run/summary.hpp"
 
 namespace edda {
 namespace {
 
-std::string history_header(const std::vector<MonitorPoint>& monitors,
-                           const std::vector<ConvergenceLine>& lines) {
-  Csv csv;
-  csv.add("time");
-  for (const MonitorPoint& m : monitors) {
-    for (const char* what : {".ux", ".uy", ".vx", ".vy", ".sxx", ".syy", ".sxy"})
-      csv.add(m.name + what);
-  }
-  for (const ConvergenceLine& line : lines) csv.add(line.name + ".convergence");
-  csv.header({"kinetic", "strain", "contact", "gravity", "friction", "damping", "fracture",
-              "external", "step_change", "drift", "unbalanced", "transfer"});
-  return csv.text();
+ColumnOwners owners_of(const Model& model, const std::vector<MonitorPoint>& monitors,
+                       const std::vector<ConvergenceLine>& lines) {
+  return {names_in(monitors), names_in(lines), boundary_names(model)};
 }
 
-/// What the model was read from; a model built in memory has no file to name.
+/// The files that the model was read from; none for a model built in memory.
 std::vector<InputFile> inputs_of(const Model& model) {
   std::vector<InputFile> inputs;
   std::vector<std::string> files = files_beside(model);
@@ -44,23 +34,25 @@ std::vector<InputFile> inputs_of(const Model& model) {
 Trouble Recorder::begin(const Simulation& sim, const std::vector<MonitorPoint>& monitors,
                         const std::vector<ConvergenceLine>& lines) {
   if (!writes()) return {};
-  inputs_ = inputs_of(sim.model);
+  inputs_ = inputs_of(sim.scene->model);
   if (auto t = make_folder(folder_)) return t;
   if (auto t = lock_.take(folder_)) return t;
   if (auto t = clear_folder(folder_)) return t;
-  if (auto t = write_file(path("model.toml"), to_toml(sim.model))) return t;
+  if (auto t = write_file(path("model.toml"), to_toml(sim.scene->model))) return t;
   if (auto t = history_.open(path("history.csv"))) return t;
-  if (auto t = history_.add(history_header(monitors, lines))) return t;
-  if (!sim.model.boundaries.empty()) {
+  owners_ = owners_of(sim.scene->model, monitors, lines);
+  const auto header = [this](ResultFile file) { return begin_table(file, owners_).text(); };
+  if (auto t = history_.add(header(ResultFile::history))) return t;
+  if (!sim.scene->model.boundaries.empty()) {
     if (auto t = reactions_.open(path("reactions.csv"))) return t;
-    if (auto t = reactions_.add(reactions_header(sim.model))) return t;
+    if (auto t = reactions_.add(header(ResultFile::reactions))) return t;
   }
-  if (has_bolts(sim.model)) {
+  if (has_bolts(sim.scene->model)) {
     if (auto t = bolts_.open(path("bolts.csv"))) return t;
-    if (auto t = bolts_.add(bolts_header())) return t;
+    if (auto t = bolts_.add(header(ResultFile::bolts))) return t;
   }
-  frames_.emplace(folder_, sim.blocks);
-  return {};
+  frames_.emplace(folder_, sim.scene->blocks);
+  return write_columns_csv(folder_, owners_);
 }
 
 RecorderMemory Recorder::memory() const {
@@ -75,25 +67,29 @@ Trouble Recorder::sync() {
   return frames_ ? frames_->write_series() : Trouble{};
 }
 
-Trouble Recorder::resume(const Simulation& sim, const RecorderMemory& memory) {
+Trouble Recorder::resume(const Simulation& sim, const std::vector<MonitorPoint>& monitors,
+                         const std::vector<ConvergenceLine>& lines, const RecorderMemory& memory) {
   if (!writes()) return {};
+  owners_ = owners_of(sim.scene->model, monitors, lines);
   if (auto t = lock_.take(folder_)) return t;
   inputs_ = memory.inputs;
   if (auto t = history_.reopen(path("history.csv"), memory.history_bytes)) return t;
-  if (!sim.model.boundaries.empty()) {
+  if (!sim.scene->model.boundaries.empty()) {
     if (auto t = reactions_.reopen(path("reactions.csv"), memory.reactions_bytes)) return t;
   }
-  if (has_bolts(sim.model)) {
+  if (has_bolts(sim.scene->model)) {
     if (auto t = bolts_.reopen(path("bolts.csv"), memory.bolts_bytes)) return t;
   }
-  frames_.emplace(folder_, sim.blocks);
+  frames_.emplace(folder_, sim.scene->blocks);
   frames_->go_on_after(memory.frame_times);
   if (auto t = forget_end(folder_, memory.frame_times.size())) return t;
-  return tell_model(sim.model);
+  if (auto t = write_columns_csv(folder_, owners_)) return t;
+  return write_model_file(sim.scene->model);
 }
 
-/// A resumed run may have another duration, one from a stage other stages after it.
-Trouble Recorder::tell_model(const Model& model) {
+/// A resumed run may have another duration, and one resumed from a stage may have other stages
+/// after it.
+Trouble Recorder::write_model_file(const Model& model) {
   const std::string file = path("model.toml"), text = to_toml(model);
   const Result<std::string> told = read_file(file);
   if (told.ok() && told.value() == text) return {};
@@ -103,11 +99,11 @@ Trouble Recorder::tell_model(const Model& model) {
 
 Trouble Recorder::row(const Simulation& sim, const Instant& at,
                       const std::vector<MonitorPoint>& monitors,
-                      const std::vector<ConvergenceLine>& lines, const Ledger& l,
+                      const std::vector<ConvergenceLine>& lines, const EnergyBalance& l,
                       double unbalanced) {
   if (!writes()) return {};
   Csv csv;
-  csv.add(sim.state.time);
+  csv.add(sim.motion.state.time);
   for (const MonitorPoint& m : monitors) {
     const MonitorReading r = read_monitor(sim, at, m);
     csv.add(r.displacement.x).add(r.displacement.y).add(r.velocity.x).add(r.velocity.y);
@@ -115,26 +111,30 @@ Trouble Recorder::row(const Simulation& sim, const Instant& at,
   }
   for (const ConvergenceLine& line : lines) csv.add(convergence(at.state, line));
   for (const double v : {l.kinetic, l.strain, l.contact, l.gravity, l.friction, l.damping,
-                         l.fracture, l.external, l.step_change, l.drift, unbalanced, l.transfer}) {
+                         l.fracture, l.external, l.step_change, l.error, unbalanced, l.transfer}) {
     csv.add(v);
   }
-  if (!sim.model.boundaries.empty()) {
+  if (!sim.scene->model.boundaries.empty()) {
     if (auto t = reactions_.add(reactions_row(sim, at))) return t;
   }
   return history_.add(csv.end().text());
 }
 
 Trouble Recorder::stages(const std::string& csv) {
-  return writes() ? write_file(path("stages.csv"), csv) : Trouble{};
+  if (!writes()) return {};
+  if (auto t = write_file(path("stages.csv"), csv)) return t;
+  return write_columns_csv(folder_, owners_);
 }
 
 Trouble Recorder::stage_joints(std::size_t stage, const Picture& picture) {
   if (!writes()) return {};
-  return write_joints_csv(fmt::format("{}/joints_{}.csv", folder_, stage), picture.contacts);
+  const std::string file = fmt::format("{}/joints_{}.csv", folder_, stage + 1);
+  if (auto t = write_joints_csv(file, picture.contacts)) return t;
+  return write_columns_csv(folder_, owners_);
 }
 
 Trouble Recorder::frame(const Simulation& sim, const Picture& picture) {
-  if (has_bolts(sim.model)) {
+  if (has_bolts(sim.scene->model)) {
     if (auto t = bolts_.add(bolts_rows(sim))) return t;
   }
   return frames_ ? frames_->add(picture) : Trouble{};
@@ -152,6 +152,7 @@ Trouble Recorder::tables(const Picture& picture) {
   }
   if (auto t = write_blocks_csv(path("blocks.csv"), picture.blocks)) return t;
   if (auto t = write_joints_csv(path("joints.csv"), picture.contacts)) return t;
+  if (auto t = write_columns_csv(folder_, owners_)) return t;
   return history;
 }
 

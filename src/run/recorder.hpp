@@ -1,4 +1,4 @@
-// The results folder of a run, filled as it goes.
+// The results folder of a run, written during the run.
 #pragma once
 
 #include <cstdint>
@@ -6,15 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "observe/monitors.hpp"
+#include "observe/outcome.hpp"
+#include "observe/summary.hpp"
+#include "results/columns.hpp"
 #include "results/files.hpp"
 #include "results/frames.hpp"
-#include "run/monitors.hpp"
-#include "run/outcome.hpp"
-#include "run/summary.hpp"
 
 namespace edda {
 
-/// How far the files of a run had come.
+/// Lengths of the files of a run at a checkpoint.
 struct RecorderMemory {
   std::uint64_t history_bytes = 0, reactions_bytes = 0, bolts_bytes = 0;
   std::vector<double> frame_times;  ///< s
@@ -23,25 +24,27 @@ struct RecorderMemory {
 
 class Recorder {
  public:
-  /// With an empty folder nothing is ever written.
+  /// With an empty folder nothing is written.
   explicit Recorder(std::string folder) : folder_(std::move(folder)) {}
 
-  /// Makes or empties the folder; model.toml and the heads of the tables that
-  /// grow.
+  /// Creates or empties the folder; writes model.toml and the headers of the tables that grow. From
+  /// here on columns.csv lists the columns of the tables that are there.
   Trouble begin(const Simulation& sim, const std::vector<MonitorPoint>& monitors,
                 const std::vector<ConvergenceLine>& lines);
-  /// Goes on with a folder as it was when a checkpoint was written: tables that grow cut to their
-  /// length then, frames that came later forgotten, model.toml that of the model now.
-  Trouble resume(const Simulation& sim, const RecorderMemory& memory);
+  /// Restores a folder to its state at a checkpoint: tables that grow are cut to their length then,
+  /// later frames are removed, and model.toml is that of the present model.
+  Trouble resume(const Simulation& sim, const std::vector<MonitorPoint>& monitors,
+                 const std::vector<ConvergenceLine>& lines, const RecorderMemory& memory);
   RecorderMemory memory() const;
-  /// Brings to the disk what a checkpoint relies on.
+  /// Writes to disk everything that a checkpoint relies on.
   Trouble sync();
   Trouble row(const Simulation& sim, const Instant& at, const std::vector<MonitorPoint>& monitors,
-              const std::vector<ConvergenceLine>& lines, const Ledger& ledger, double unbalanced);
+              const std::vector<ConvergenceLine>& lines, const EnergyBalance& energy,
+              double unbalanced);
   Trouble frame(const Simulation& sim, const Picture& picture);
-  /// stages.csv, as it is by now.
+  /// stages.csv, with the stages so far.
   Trouble stages(const std::string& csv);
-  /// joints_`stage`.csv, the contacts at its end.
+  /// joints_`stage`.csv, the contacts at the end of the stage.
   Trouble stage_joints(std::size_t stage, const Picture& picture);
   /// blocks.csv, joints.csv, and the end of history.csv.
   Trouble tables(const Picture& picture);
@@ -51,9 +54,10 @@ class Recorder {
 
  private:
   std::string path(const char* name) const { return folder_ + "/" + name; }
-  Trouble tell_model(const Model& model);
+  Trouble write_model_file(const Model& model);
   std::string folder_;
   std::vector<InputFile> inputs_;  ///< as they were when they were read
+  ColumnOwners owners_;
   FolderLock lock_;
   RowFile history_, reactions_, bolts_;
   std::optional<FrameSeries> frames_;

@@ -10,14 +10,17 @@
 #include "checkpoint/envelope.hpp"
 #include "checkpoint/hdf5_image.hpp"
 #include "forces/mass_scaling.hpp"
-#include "model/plausible.hpp"
+#include "model/completion/plausible.hpp"
 #include "model/read_model.hpp"
+#include "model/stage_names.hpp"
+#include "observe/initial_stress_report.hpp"
+#include "observe/model_warnings.hpp"
+#include "observe/resting.hpp"
+#include "observe/unused_names.hpp"
 #include "run/driver.hpp"
-#include "run/guard_rails.hpp"
-#include "run/idle_names.hpp"
-#include "run/resting.hpp"
 #include "run/size_limits.hpp"
 #include "run/stages.hpp"
+#include "run/wall_clock.hpp"
 
 namespace edda {
 namespace {
@@ -30,47 +33,46 @@ Fault solver_fault(const Model& model, const char* key, std::string problem, std
 }
 
 std::optional<Fault> unstable_step(const Simulation& sim) {
-  const Solver& solver = sim.model.solver;
-  if (!sim.explicit_method() || !solver.time_step || solver.allow_unstable) return {};
-  if (*solver.time_step <= sim.bound.critical_step) return {};
+  const Solver& solver = sim.scene->model.solver;
+  if (!is_explicit(sim) || !solver.time_step || solver.allow_unstable) return {};
+  if (*solver.time_step <= sim.control.bound.critical_step) return {};
   return solver_fault(
-      sim.model, "time_step",
+      sim.scene->model, "time_step",
       fmt::format("{:.6g} s is above the critical step of {:.6g} s", *solver.time_step,
-                  sim.bound.critical_step),
-      fmt::format(
-          "give at most that, or \"auto\" (now {:.6g} s); allow_unstable = true takes it as it is",
-          solver.safety * sim.bound.critical_step));
+                  sim.control.bound.critical_step),
+      fmt::format("give at most that, or \"auto\" (now {:.6g} s); allow_unstable = true permits it",
+                  solver.safety * sim.control.bound.critical_step));
 }
 
-/// So much mass that the motion is no longer that of the rock. Where all stages look for an
-/// equilibrium, the way there means nothing.
+/// A fault if so much mass is added that the motion is no longer that of the rock. Exempt are
+/// models whose stages all seek an equilibrium, since the motion on the way there has no meaning.
 std::optional<Fault> heavy_scaling(const Simulation& sim) {
-  const std::vector<Stage> stages = stages_of(sim.model);
-  if (!sim.explicit_method() || sim.inertia.empty() ||
+  const std::vector<Stage> stages = stages_of(sim.scene->model);
+  if (!is_explicit(sim) || sim.motion.masses.raised.empty() ||
       std::all_of(stages.begin(), stages.end(),
                   [](const Stage& s) { return s.until == StageEnd::equilibrium; }))
     return {};
-  const double all = free_mass(sim.blocks), added = added_mass(sim.blocks, sim.inertia);
+  const double all = free_mass(sim.scene->blocks),
+               added = added_mass(sim.scene->blocks, sim.motion.masses.raised);
   if (added <= most_added * all) return {};
-  const Solver& solver = sim.model.solver;
-  // Before the masses were raised, each block needed a step smaller by the root of its factor.
-  std::vector<double> own = steps_of_blocks(sim.blocks, sim.state, sim.contacts, sim.springs,
-                                            sim.laws, sim.damping, 0.0, &sim.bolts);
-  for (std::size_t i = 0; i < own.size(); ++i) own[i] /= std::sqrt(sim.inertia[i]);
-  const double step = step_that_adds(sim.blocks, own, most_added * all);
+  const Solver& solver = sim.scene->model.solver;
+  // Before mass scaling each block needed a step smaller by the square root of its factor.
+  std::vector<double> own = steps_of_blocks(stiffness_inputs(sim), 0.0);
+  for (std::size_t i = 0; i < own.size(); ++i) own[i] /= std::sqrt(sim.motion.masses.raised[i]);
+  const double step = step_that_adds(sim.scene->blocks, own, most_added * all);
   const double largest = solver.time_step ? step : solver.safety * step;
   const double unit = std::pow(10.0, std::floor(std::log10(largest)) - 1.0);
   return solver_fault(
-      sim.model, "mass_scaling",
+      sim.scene->model, "mass_scaling",
       fmt::format("{:.3g} s adds {:.3g} kg of inertia, {:.3g} % of the mass of all free blocks, "
-                  "more than {:.0f} %: this would no longer be the motion of this rock",
+                  "more than {:.0f} %, which would falsify the motion",
                   solver.mass_scaling, added, 100.0 * added / all, 100.0 * most_added),
-      fmt::format("give at most {:.2g} s; where only the state at rest is wanted, leave it out and "
+      fmt::format("give at most {:.2g} s; where only the equilibrium is wanted, leave it out and "
                   "give a [[stage]] until = \"equilibrium\", which scales masses by itself",
                   std::floor(largest / unit) * unit));
 }
 
-/// What the cut changed or left out of what the model asks for.
+/// What the cut has changed or left out of the model.
 void add_cut_warnings(const CutReport& report, std::vector<std::string>& warnings) {
   if (report.quality_merged > 0) {
     warnings.push_back(
@@ -84,20 +86,21 @@ void add_cut_warnings(const CutReport& report, std::vector<std::string>& warning
   warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
 }
 
-/// Material points that end with their block.
+/// Warns of material points that are excavated with their block.
 void warn_of_lost_points(const PreparedRun& run, std::vector<std::string>& warnings) {
-  const Model& model = run.sim.model;
+  const Model& model = run.sim.scene->model;
   const auto look = [&](const char* what, const std::string& name, std::size_t block) {
-    const Index row = run.sim.blocks.opening.empty() ? none : run.sim.blocks.opening[block];
+    const Index row =
+        run.sim.scene->blocks.opening.empty() ? none : run.sim.scene->blocks.opening[block];
     if (row == none) return;
     const std::string& opening = model.openings[static_cast<std::size_t>(row)].name;
     for (const Stage& stage : model.stages) {
       if (std::find(stage.excavate.begin(), stage.excavate.end(), opening) == stage.excavate.end())
         continue;
-      warnings.push_back(fmt::format(
-          "{} {} is in rock that stage \"{}\" takes out: from then on it shows nothing; put it "
-          "into rock that stays, at the wall for instance",
-          what, name, stage.name));
+      warnings.push_back(
+          fmt::format("{} {} lies in rock that stage \"{}\" excavates: from then on it keeps its "
+                      "last values; move it into rock that stays, for instance at the wall",
+                      what, name, stage.name));
     }
   };
   for (const MonitorPoint& m : run.monitors) look("monitor", m.name, m.block);
@@ -105,8 +108,9 @@ void warn_of_lost_points(const PreparedRun& run, std::vector<std::string>& warni
     look("an end of convergence", line.name, line.ends[0].block);
     look("an end of convergence", line.name, line.ends[1].block);
     if (line.ends[0].block == line.ends[1].block) {
-      warnings.push_back(fmt::format(
-          "both ends of convergence {} are in one block: it shows no joint opening", line.name));
+      warnings.push_back(
+          fmt::format("both ends of convergence {} lie in one block: it shows no opening of joints",
+                      line.name));
     }
   }
 }
@@ -118,7 +122,8 @@ Result<PreparedRun> prepared(Model model, BlockOrder order, ReadFor what_for) {
   Result<Simulation> made = Simulation::create(std::move(model), order);
   if (!made.ok()) return made.faults();
   PreparedRun run{std::move(made.value()), {}, {}, {}, {}, 0.0};
-  run.cut_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  judge_initial_stress(run.sim);
+  run.cut_seconds = since(start);
   Faults faults;
   Result<std::vector<MonitorPoint>> monitors = place_monitors(run.sim);
   if (!monitors.ok()) faults = monitors.faults();
@@ -131,19 +136,22 @@ Result<PreparedRun> prepared(Model model, BlockOrder order, ReadFor what_for) {
   run.monitors = std::move(monitors.value());
   run.convergences = std::move(lines.value());
   std::vector<std::string> on_borders = border_points(run.sim);
-  // The blocks have their shapes by now, and nothing looks for places among the polygons any more.
-  run.sim.polygons.blocks = {};
-  run.sim.polygons.removed = {};
+  // The polygons are no longer needed: the blocks have their shapes, and all points have been
+  // located.
+  run.sim.scene.edit().polygons.blocks = {};
+  run.sim.scene.edit().polygons.removed = {};
   run.governed_by = governed_by(run.sim);
-  run.warnings = implausible(run.sim.model);
-  for (std::string& warning : idle_names(run.sim)) run.warnings.push_back(std::move(warning));
-  for (std::string& warning : guard_rails(run.sim)) run.warnings.push_back(std::move(warning));
+  run.warnings = run.sim.scene->model.warnings;
+  for (std::string& warning : implausible(run.sim.scene->model))
+    run.warnings.push_back(std::move(warning));
+  for (std::string& warning : unused_names(run.sim)) run.warnings.push_back(std::move(warning));
+  for (std::string& warning : model_warnings(run.sim)) run.warnings.push_back(std::move(warning));
   for (std::string& warning : on_borders) run.warnings.push_back(std::move(warning));
-  const std::vector<BlockGroup> falling = resting_on_nothing(run.sim);
+  const std::vector<BlockGroup> falling = unsupported_blocks(run.sim);
   for (const BlockGroup& group : falling) run.on_nothing += group.size();
   for (std::string& warning : warnings_of(run.sim, falling))
     run.warnings.push_back(std::move(warning));
-  add_cut_warnings(run.sim.polygons.report, run.warnings);
+  add_cut_warnings(run.sim.scene->polygons.report, run.warnings);
   warn_of_lost_points(run, run.warnings);
   return run;
 }
@@ -160,7 +168,7 @@ Result<PreparedRun> prepare_run(Model model, BlockOrder order, ReadFor what_for)
 Result<Outcome> run_model(PreparedRun& run, const RunOptions& options) {
   if (!options.folder.empty()) {
     const bool goes_on = options.resume || options.from_stage;
-    const std::string input = goes_on ? "" : run.sim.model.file;
+    const std::string input = goes_on ? "" : run.sim.scene->model.file;
     if (auto trouble = check_folder(options.folder, input)) return *trouble;
   }
   Driver driver(run, options);
@@ -183,7 +191,7 @@ Faults take_up_folder(Driver& driver, const RunOptions& options) {
              "its checkpoint " + record.faults().front().problem,
              "run without --resume"}};
   }
-  if (const Trouble trouble = driver.take_up(record.value())) return {*trouble};
+  if (const Trouble trouble = driver.restore(record.value())) return {*trouble};
   return {};
 }
 

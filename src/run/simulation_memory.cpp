@@ -5,7 +5,6 @@
 #include <functional>
 #include <utility>
 
-#include "blocks/point_mass.hpp"
 #include "checkpoint/archive.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/find_faces.hpp"
@@ -20,91 +19,90 @@ namespace {
 
 template <class Archive>
 void list_state(Archive& a, Simulation& s) {
-  a("state.x", s.state.x);
-  a("state.y", s.state.y);
-  a("state.vx", s.state.vx);
-  a("state.vy", s.state.vy);
-  a("state.from_x", s.state.from_x);
-  a("state.from_y", s.state.from_y);
-  a("damping.mass", s.damping.mass);
-  a("damping.local", s.damping.local);
-  a("damping.contact", s.damping.contact);
-  a("damping.adaptive", s.damping.adaptive);
-  a("pace.frequency", s.pace.frequency);
-  a("pace.least", s.pace.least);
-  a("pace.since", s.pace.since);
-  a("pace.x", s.pace.x);
-  a("pace.y", s.pace.y);
-  a("pace.fx", s.pace.fx);
-  a("pace.fy", s.pace.fy);
-  a("aloof", s.aloof);
-  a("settles", s.settles);
-  a("balanced", s.balanced);
-  a("rest_ratio", s.rest_ratio);
-  a("gentle.at", s.loads.gentle.at);
-  a("gentle.part", s.loads.gentle.part);
-  a("gentle.weight", s.loads.gentle.weight);
-  double fraction = s.damping.rayleigh ? s.damping.rayleigh->fraction : 0.0;
-  double frequency = s.damping.rayleigh ? s.damping.rayleigh->frequency : 0.0;
+  a("state.x", s.motion.state.x);
+  a("state.y", s.motion.state.y);
+  a("state.vx", s.motion.state.vx);
+  a("state.vy", s.motion.state.vy);
+  a("state.from_x", s.motion.state.from_x);
+  a("state.from_y", s.motion.state.from_y);
+  a("damping.mass", s.motion.damping.mass);
+  a("damping.local", s.motion.damping.local);
+  a("damping.contact", s.motion.damping.contact);
+  a("damping.adaptive", s.motion.damping.adaptive);
+  a("frequency_estimate.frequency", s.relaxation.estimate.frequency);
+  a("frequency_estimate.least", s.relaxation.estimate.least);
+  a("frequency_estimate.since", s.relaxation.estimate.since);
+  a("frequency_estimate.x", s.relaxation.estimate.x);
+  a("frequency_estimate.y", s.relaxation.estimate.y);
+  a("frequency_estimate.fx", s.relaxation.estimate.fx);
+  a("frequency_estimate.fy", s.relaxation.estimate.fy);
+  a("loose", s.relaxation.loose);
+  a("seeks_equilibrium", s.relaxation.seeks_equilibrium);
+  a("balanced", s.relaxation.balanced);
+  a("equilibrium_ratio", s.relaxation.equilibrium_ratio);
+  a("gradual.at", s.attached.loads.gradual.at);
+  a("gradual.part", s.attached.loads.gradual.part);
+  a("gradual.weight", s.attached.loads.gradual.weight);
+  double fraction = s.motion.damping.rayleigh ? s.motion.damping.rayleigh->fraction : 0.0;
+  double frequency = s.motion.damping.rayleigh ? s.motion.damping.rayleigh->frequency : 0.0;
   a("damping.rayleigh.fraction", fraction);
   a("damping.rayleigh.frequency", frequency);
   if constexpr (Archive::loads) {
-    s.damping.rayleigh.reset();
-    if (frequency > 0.0) s.damping.rayleigh = {fraction, frequency};
+    s.motion.damping.rayleigh.reset();
+    if (frequency > 0.0) s.motion.damping.rayleigh = {fraction, frequency};
   }
-  a("dynamic", s.dynamic);
-  a("laws.divided_by", s.laws.divided_by);
-  a("state.alive", s.state.alive);
-  a("state.turns", s.state.turns);
-  a("state.time", s.state.time);
-  a("state.step", s.state.step);
-  a("state.steps", s.state.steps);
-  a("pose.x", s.pose.x);
-  a("pose.y", s.pose.y);
-  a("pose.x1", s.pose.x1);
-  a("pose.y1", s.pose.y1);
-  a("damping_work", s.damping_work.joules);
-  a("forces.x", s.forces.x);
-  a("forces.y", s.forces.y);
+  a("dynamic", s.motion.dynamic);
+  a("laws.divided_by", s.motion.laws.divided_by);
+  a("state.alive", s.motion.state.alive);
+  a("state.turns", s.motion.state.turns);
+  a("state.time", s.motion.state.time);
+  a("state.step", s.motion.state.step);
+  a("state.steps", s.motion.state.steps);
+  a("pose.x", s.motion.pose.x);
+  a("pose.y", s.motion.pose.y);
+  a("pose.x1", s.motion.pose.x1);
+  a("pose.y1", s.motion.pose.y1);
+  a("damping_work", s.accounts.damping_work.joules);
+  a("forces.x", s.motion.forces.x);
+  a("forces.y", s.motion.forces.y);
 }
 
 template <class Archive>
 void list_counts(Archive& a, Simulation& s) {
-  a("bound.critical_step", s.bound.critical_step);
-  a("bound.critical_step", s.bound.critical_step);
-  a("bound.block", s.bound.block);
-  a("bound.contact", s.bound.contact);
-  a("bound.elastic_part", s.bound.elastic_part);
-  a("bound.contact_part", s.bound.contact_part);
-  a("bound.boundary_part", s.bound.boundary_part);
-  a("bound.bolt_part", s.bound.bolt_part);
-  a("step_limit", s.step_limit);
-  a("last_displacement", s.last_displacement);
-  a("penetration", s.penetration);
-  a("max_penetration", s.max_penetration);
-  a("step_change_energy", s.step_change_energy);
-  a("external_work", s.external_work);
-  a("steps.smallest", s.steps.smallest);
-  a("steps.largest", s.steps.largest);
-  a("steps.sum", s.steps.sum);
-  a("steps.changes", s.steps.changes);
-  a("steps.over_critical", s.steps.over_critical);
-  a("steps.redone", s.steps.redone);
-  a("open_close.steps", s.open_close.steps);
-  a("open_close.passes", s.open_close.passes);
-  a("open_close.of_face", s.open_close.of_face);
-  a("open_close.of_list", s.open_close.of_list);
-  a("open_close.most", s.open_close.most);
-  a("open_close.switched", s.open_close.switched);
-  a("open_close.unsettled", s.open_close.unsettled);
-  a("seconds.search", s.seconds.search);
-  a("seconds.forces", s.seconds.forces);
-  a("seconds.integrate", s.seconds.integrate);
-  a("start_energy", s.start_energy);
-  a("largest_energy", s.largest_energy);
+  a("bound.critical_step", s.control.bound.critical_step);
+  a("bound.block", s.control.bound.block);
+  a("bound.contact", s.control.bound.contact);
+  a("bound.elastic_part", s.control.bound.elastic_part);
+  a("bound.contact_part", s.control.bound.contact_part);
+  a("bound.boundary_part", s.control.bound.boundary_part);
+  a("bound.bolt_part", s.control.bound.bolt_part);
+  a("step_limit", s.control.limit);
+  a("last_displacement", s.control.last_displacement);
+  a("penetration", s.accounts.penetration);
+  a("max_penetration", s.accounts.max_penetration);
+  a("step_change_energy", s.accounts.step_change_energy);
+  a("external_work", s.accounts.external_work);
+  a("steps.smallest", s.accounts.steps.smallest);
+  a("steps.largest", s.accounts.steps.largest);
+  a("steps.sum", s.accounts.steps.sum);
+  a("steps.changes", s.accounts.steps.changes);
+  a("steps.over_critical", s.accounts.steps.over_critical);
+  a("steps.redone", s.accounts.steps.redone);
+  a("open_close.steps", s.accounts.open_close.steps);
+  a("open_close.passes", s.accounts.open_close.passes);
+  a("open_close.of_face", s.accounts.open_close.of_face);
+  a("open_close.of_list", s.accounts.open_close.of_list);
+  a("open_close.most", s.accounts.open_close.most);
+  a("open_close.switched", s.accounts.open_close.switched);
+  a("open_close.not_converged", s.accounts.open_close.not_converged);
+  a("seconds.search", s.accounts.seconds.search);
+  a("seconds.forces", s.accounts.seconds.forces);
+  a("seconds.integrate", s.accounts.seconds.integrate);
+  a("start_energy", s.accounts.start_energy);
+  a("largest_energy", s.accounts.largest_energy);
 }
 
-/// The first thing that would lead out of an array, or to no number.
+/// Records the first value that would lead out of an array or is not finite.
 class Judge {
  public:
   const std::string& flaw() const { return flaw_; }
@@ -132,64 +130,67 @@ class Judge {
   std::string flaw_;
 };
 
-/// Blocks in one piece and not at the end of the world: the search for contacts counts cells.
+/// Checks that blocks are in one piece and not too far away: the contact search counts cells.
 void judge_places(Judge& j, const Simulation& s) {
-  const BlockSet& b = s.blocks;
+  const BlockSet& b = s.scene->blocks;
   double extent = 0.0;
   for (std::size_t v = 0; v < b.vertex_count(); ++v) {
     extent = std::max({extent, std::abs(b.vertex_x[v]), std::abs(b.vertex_y[v])});
   }
   const double far = 1e6 * extent;
   auto near = [&](const std::vector<double>& x, const std::vector<double>& y, std::size_t v) {
-    const Vec2 middle = centroid(s.state.x, s.state.y, b.vertex_block[v]);
+    const Vec2 middle = centroid(s.motion.state.x, s.motion.state.y, b.vertex_block[v]);
     const Vec2 p{x[v], y[v]};
     return norm(p) <= far && norm(p - middle) <= 10.0 * b.radius[b.vertex_block[v]];
   };
   for (std::size_t v = 0; v < b.vertex_count(); ++v) {
-    if (!near(s.pose.x, s.pose.y, v) || !near(s.pose.x1, s.pose.y1, v)) {
+    if (!near(s.motion.pose.x, s.motion.pose.y, v) ||
+        !near(s.motion.pose.x1, s.motion.pose.y1, v)) {
       return j.refuse("pose is not that of these blocks");
     }
-    if (!(std::abs(s.contacts.built_x[v]) <= far && std::abs(s.contacts.built_y[v]) <= far)) {
-      return j.refuse("contacts.built is not of these blocks");
+    if (!(std::abs(s.motion.contacts.built_x[v]) <= far &&
+          std::abs(s.motion.contacts.built_y[v]) <= far)) {
+      return j.refuse("faces.built is not of these blocks");
     }
   }
-  for (const double length : {s.contacts.reach, s.contacts.travel, s.last_displacement}) {
+  for (const double length :
+       {s.motion.contacts.reach, s.motion.contacts.travel, s.control.last_displacement}) {
     if (!(length >= 0.0 && length <= extent)) return j.refuse("a length is out of range");
   }
 }
 
 void judge(Judge& j, const Simulation& s) {
-  const std::size_t nb = s.blocks.size(), nv = s.blocks.vertex_count();
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (const auto* nodes : {&s.state.x, &s.state.y, &s.state.vx, &s.state.vy, &s.state.from_x,
-                              &s.state.from_y, &s.forces.x, &s.forces.y}) {
-      j.sized("state", (*nodes)[k], nb);
-    }
+  const std::size_t nb = s.scene->blocks.size(), nv = s.scene->blocks.vertex_count();
+  for (const Nodes* nodes :
+       {&s.motion.state.x, &s.motion.state.y, &s.motion.state.vx, &s.motion.state.vy,
+        &s.motion.state.from_x, &s.motion.state.from_y, &s.motion.forces.x, &s.motion.forces.y}) {
+    for (const auto& values : *nodes) j.sized("state", values, nb);
   }
-  for (const auto* jump : {&s.jump.x, &s.jump.y}) {
+  for (const auto* jump : {&s.motion.jump.x, &s.motion.jump.y}) {
     for (const auto& values : *jump) {
-      if (!s.jump.x[0].empty() || !values.empty()) j.sized("jump", values, nb);
+      if (!s.motion.jump.x[0].empty() || !values.empty()) j.sized("jump", values, nb);
     }
   }
-  j.sized("state.alive", s.state.alive, nb);
-  j.sized("state.turns", s.state.turns, nb);
-  j.sized("damping_work", s.damping_work.joules, nb);
-  for (const auto* values : {&s.pose.x, &s.pose.y, &s.pose.x1, &s.pose.y1}) {
+  j.sized("state.alive", s.motion.state.alive, nb);
+  j.sized("state.turns", s.motion.state.turns, nb);
+  j.sized("damping_work", s.accounts.damping_work.joules, nb);
+  for (const auto* values :
+       {&s.motion.pose.x, &s.motion.pose.y, &s.motion.pose.x1, &s.motion.pose.y1}) {
     j.sized("pose", *values, nv);
   }
-  j.below("bound.block", {s.bound.block}, nb, true);
-  j.positive("state.step", s.state.step);
-  j.positive("step_limit", s.step_limit);
-  if (!s.inertia.empty()) j.sized("inertia", s.inertia, nb);
-  for (const auto& mass : s.blocks.node_mass) j.sized("node_mass", mass, nb);
-  for (const auto& entry : s.blocks.inverse_mass) {
-    j.sized("inverse_mass", entry, s.blocks.mass_kind == MassKind::consistent ? nb : 0);
+  j.below("bound.block", {s.control.bound.block}, nb, true);
+  j.positive("state.step", s.motion.state.step);
+  j.positive("step_limit", s.control.limit);
+  if (!s.motion.masses.raised.empty()) j.sized("masses.raised", s.motion.masses.raised, nb);
+  for (const auto& mass : s.motion.masses.node) j.sized("node_mass", mass, nb);
+  for (const auto& entry : s.motion.masses.inverse) {
+    j.sized("inverse_mass", entry, s.scene->blocks.mass_kind == MassKind::consistent ? nb : 0);
   }
-  for (std::size_t i = 0; i < s.inertia.size() && j.flaw().empty(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) j.positive("node_mass", s.blocks.node_mass[k][i]);
+  for (std::size_t i = 0; i < s.motion.masses.raised.size() && j.flaw().empty(); ++i) {
+    for (const auto& mass : s.motion.masses.node) j.positive("node_mass", mass[i]);
   }
-  judge_faces(j, s.contacts, s.blocks, s.laws);
-  judge_points(j, s.point_contacts, s.blocks, s.laws);
+  judge_faces(j, s.motion.contacts, s.scene->blocks, s.motion.laws);
+  judge_points(j, s.motion.point_contacts, s.scene->blocks, s.motion.laws);
   if (j.flaw().empty()) judge_places(j, s);
 }
 
@@ -198,29 +199,30 @@ void judge(Judge& j, const Simulation& s) {
 template <class Archive>
 void list_memory(Archive& a, Simulation& s) {
   list_state(a, s);
-  list_faces(a, s.contacts);
-  if (s.at_points()) list_points(a, s.point_contacts);
+  list_faces(a, s.motion.contacts);
+  if (s.scene->at_points()) list_points(a, s.motion.point_contacts);
   list_counts(a, s);
-  list_kept(a, s);
+  list_wall_forces(a, s);
   list_ground(a, s);
   list_bolts(a, s);
-  a("displacement_cap", s.displacement_cap_);
-  a("strength_from", s.strength_from_);
-  a("strength_to", s.strength_to_);
-  a("larger_since", s.larger_since_);
-  a("target", s.target_);
-  a("nominal_step", s.nominal_step_);
-  a("step_before", s.step_before_);
-  a("steps_left", s.steps_left_);
-  if (!s.explicit_method()) list_implicit(a, s);
-  a("scaled_step", s.scaled_step_);
-  a("jump_x", s.jump.x);
-  a("jump_y", s.jump.y);
-  if (s.model.solver.mass_scaling > 0.0 || s.scaled_step_ > 0.0 || s.sliver_step_ > 0.0) {
-    // Masses by their bits, not by their factors.
-    a("inertia", s.inertia);
-    a("node_mass", s.blocks.node_mass);
-    a("inverse_mass", s.blocks.inverse_mass);
+  a("displacement_cap", s.control.cap);
+  a("strength_from", s.relaxation.strength_from);
+  a("strength_to", s.relaxation.strength_to);
+  a("larger_allowed_since", s.control.larger_allowed_since);
+  a("target", s.control.target);
+  a("nominal_step", s.control.nominal);
+  a("step_before", s.control.step_before);
+  a("steps_left", s.control.steps_left);
+  if (!is_explicit(s)) list_implicit(a, s);
+  a("scaled_step", s.control.scaled_step);
+  a("jump_x", s.motion.jump.x);
+  a("jump_y", s.motion.jump.y);
+  if (s.scene->model.solver.mass_scaling > 0.0 || s.control.scaled_step > 0.0 ||
+      s.control.sliver_step > 0.0) {
+    // The masses themselves, bit for bit, and not only their factors.
+    a("masses.raised", s.motion.masses.raised);
+    a("node_mass", s.motion.masses.node);
+    a("inverse_mass", s.motion.masses.inverse);
   }
 }
 
@@ -235,21 +237,21 @@ std::string recall(Simulation& sim, const Record& record) {
   Loader loader(record);
   list_memory(loader, sim);
   if (!loader.flaw().empty()) return loader.flaw();
-  const std::vector<double> factors = sim.laws.divided_by;
-  if (factors.size() != sim.laws.rows.size() ||
+  const std::vector<double> factors = sim.motion.laws.divided_by;
+  if (factors.size() != sim.motion.laws.rows.size() ||
       !std::all_of(factors.begin(), factors.end(),
                    [](double f) { return f > 0.0 && std::isfinite(f); })) {
     return "laws.divided_by is not of these laws";
   }
-  sim.laws = divided_laws(sim.model, factors);
+  sim.motion.laws = divided_laws(sim.scene->model, factors);
   Judge j;
   judge(j, sim);
   if (!j.flaw().empty()) return j.flaw();
-  complete_faces(sim.contacts, sim.blocks, sim.laws);
-  set_face_dashpots(sim.contacts, sim.laws, sim.damping.contact);
-  complete_points(sim.point_contacts, sim.blocks, sim.pose, sim.laws);
-  fill_point_masses(sim.blocks);
-  fill_viscosity(sim.blocks, sim.damping);
+  complete_faces(sim.motion.contacts, sim.scene->blocks, sim.motion.laws);
+  set_face_dashpots(sim.motion.contacts, sim.motion.laws, sim.motion.damping.contact);
+  complete_points(sim.motion.point_contacts, sim.scene->blocks, sim.motion.pose, sim.motion.laws);
+  fill_point_masses(sim.motion.masses, sim.scene->blocks);
+  fill_viscosity(sim.motion.masses, sim.scene->blocks, sim.motion.damping);
   return j.flaw();
 }
 

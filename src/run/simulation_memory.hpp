@@ -1,19 +1,19 @@
-// All that a simulation cannot work out again from its model: what a checkpoint has to hold.
+// Checkpoint data of a simulation: everything that cannot be computed again from its model.
 #pragma once
 
 #include <string>
 
 #include "checkpoint/record.hpp"
-#include "run/simulation.hpp"
+#include "step/simulation.hpp"
 
 namespace edda {
 
-/// Adds everything that has changed since create() to `record`, under names of its own.
+/// Adds everything that has changed since create() to `record`, each value under its own name.
 void remember(const Simulation& sim, Record& record);
 
-/// Brings a simulation made from the same model to where the other one was. Returns what is wrong
-/// with the record (missing, of another size, out of range), empty if nothing is; then `sim` is
-/// not to be used.
+/// Restores the state of `record` in a simulation made from the same model. Returns what is wrong
+/// with the record (missing, of another size, out of range), empty if nothing is; otherwise `sim`
+/// must not be used.
 std::string recall(Simulation& sim, const Record& record);
 
 }  // namespace edda

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
-#include "model/complete.hpp"
+#include "model/completion/complete.hpp"
+#include "results/columns.hpp"
 
 namespace edda {
 namespace {
 
-/// Measured: 4,700 a brick, 7,900 a block cut with sharp corners, both with their contacts.
+/// A lower bound; measured 4,700 per brick, and 7,900 per block cut with sharp corners, each with
+/// contacts.
 constexpr double bytes_per_block = 4000.0;
 
 std::string gigabytes(double bytes) {
@@ -26,7 +28,7 @@ std::optional<Fault> beyond_memory(const Model& model, double memory) {
   for (const BrickWall& wall : model.walls) {
     bricks += static_cast<double>(wall.columns) * wall.rows;
   }
-  // Openings and short regions may leave half of what an estimate sees.
+  // Openings and short regions may remove half of the estimated blocks.
   const double cut = model.domain ? 0.5 * estimated_blocks(model) : 0.0;
   const double needed = (bricks + cut) * bytes_per_block;
   if (needed <= memory) return {};
@@ -42,17 +44,20 @@ std::optional<Fault> beyond_memory(const Model& model, double memory) {
 std::optional<Fault> beyond_disks(const Simulation& sim) {
   constexpr double most = 1e13;                            // bytes
   constexpr double per_vertex = 100.0, per_column = 10.0;  // bytes, at least
-  const Output& output = sim.model.output;
-  const double duration = sim.model.solver.duration;
+  const Output& output = sim.scene->model.output;
+  const double duration = sim.scene->model.solver.duration;
   if (duration == 0.0) return {};
   const double frames =
-      duration / output.every * static_cast<double>(sim.blocks.vertex_count()) * per_vertex;
-  const double columns = 12.0 + 7.0 * static_cast<double>(sim.model.monitors.size());
+      duration / output.every * static_cast<double>(sim.scene->blocks.vertex_count()) * per_vertex;
+  const Model& model = sim.scene->model;
+  const auto columns = static_cast<double>(column_count(
+      ResultFile::history,
+      {.monitors = names_in(model.monitors), .convergences = names_in(model.convergences)}));
   const double rows = duration / output.history_every * columns * per_column;
   if (frames + rows <= most) return {};
   const bool by_frames = frames > rows;
-  Where where = sim.model.solver.where;
-  if (where.file.empty()) where.file = sim.model.file;
+  Where where = sim.scene->model.solver.where;
+  if (where.file.empty()) where.file = sim.scene->model.file;
   where.key = "output";
   where.line = where.column = 0;
   return at_key(where, by_frames ? "every" : "history_every",

@@ -1,18 +1,19 @@
-// What is too large to be started: for this machine's memory, for any disk.
+// Limits of model size: memory of the machine, and disk space.
 #pragma once
 
 #include <optional>
 
 #include "base/fault.hpp"
-#include "run/simulation.hpp"
+#include "step/simulation.hpp"
 
 namespace edda {
 
-/// A model whose blocks cannot fit into `memory` bytes. Counts what is certain, so that nothing is
-/// refused that would have fitted; what needs little more than there is, is not found here.
+/// A fault if the blocks of a model cannot fit into `memory` bytes. Only certain needs are counted,
+/// so that no model is refused that would fit; one that needs little more than there is may not be
+/// detected.
 std::optional<Fault> beyond_memory(const Model& model, double memory);
 
-/// Frames and rows so many that no disk would hold them.
+/// A fault if frames and rows exceed any disk.
 std::optional<Fault> beyond_disks(const Simulation& sim);
 
 }  // namespace edda

@@ -28,7 +28,8 @@ std::string deflated(std::string_view bytes) {
   std::string packed(size, '\0');
   const int outcome = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
                                 reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 6);
-  if (outcome != Z_OK) throw std::bad_alloc();  // with room for the worst case all that can fail
+  if (outcome != Z_OK)
+    throw std::bad_alloc();  // the only failure possible with room for the worst case
   packed.resize(size);
   return packed;
 }

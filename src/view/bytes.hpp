@@ -15,7 +15,7 @@ class Bytes {
   void u32(std::uint32_t value) { number(value); }
   void f32(double value);
   void f64(double value) { number(value); }
-  /// Seven bits a byte, the lowest first; the eighth says that more follow.
+  /// Seven bits per byte, the lowest first; the eighth is set if more follow.
   void varint(std::uint64_t value);
   /// Small for small values of either sign: 0, -1, 1, -2, ... as 0, 1, 2, 3, ...
   void zigzag(std::int64_t value);

@@ -17,21 +17,22 @@
 //     d.x d.y | A.xx A.xy A.yx A.yy | velocity.x velocity.y | omega | rotation |
 //     stress.xx .yy .zz .xy | overstress
 //   d and A: of the displacement since the datum; where the block was at the datum says that. With
-//   16 bits A is times the block's reach, m, so that small blocks that turn cost large ones nothing
-//   then the contacts, sorted by the row of block i:
+//   16 bits A is times the block's reach, m, so that the rotation of small blocks does not cost
+//   large ones precision then the contacts, sorted by the row of block i:
 //     varint [m] row of block i, less that before; zigzag [m] row of block j less that of i;
 //     varint [m] edge of it; u8 [m] state; and the columns
 //     along_a along_b closed | normal_force shear_force | opening | slip |
 //     normal_stress_a normal_stress_b | normal_stress | shear_stress
-//   along: where on the edge the ends of the overlap lie, 0 to 1; closed: part of it that bears
+//   along: where on the edge the ends of the overlap lie, 0 to 1; closed: fraction of it that
+//   carries
 //
 // A bar separates groups; those of a group share a scale. A column of 16 bits is an f32 scale s (of
 // each group, before its first column) and whole numbers q = round(v / s), zigzagged, all low bytes
 // before all high bytes. A column of 32 bits is f32, in four planes of bytes alike.
 //
-// With 16 bits the scale leaves to each value what it needs and no more, since the rest is noise
-// that cannot be packed: motion_steps for a displacement (and for A what moves no vertex by more),
-// value_steps for what is shown as a number or a colour, contact_steps for contacts; and
+// With 16 bits the scale gives each value only the precision it needs, since further digits are
+// noise that cannot be compressed: motion_steps for a displacement (and for A what moves no vertex
+// by more), value_steps for what is shown as a number or a colour, contact_steps for contacts; and
 // the overlap of closed contacts is left out: their opening is 0.
 
 namespace edda {
@@ -85,7 +86,7 @@ void add_group(Bytes& bytes, const Columns& columns, ViewPrecision precision, do
     for (const auto& column : columns) add_single(bytes, column);
     return;
   }
-  // As the page will read it, so that the quotient is rounded with the same number.
+  // The scale as the page will read it, so that the quotient is rounded with the same number.
   const auto scale = static_cast<float>(
       std::max({largest_of(columns) / steps, coarse, double{std::numeric_limits<float>::min()}}));
   bytes.f32(scale);
@@ -146,11 +147,11 @@ Vec2 point_value(const std::vector<double>& values, std::int64_t point) {
 struct Touch {
   std::size_t cell = 0, i = 0, j = 0, edge = 0;
   double along_a = 0.0, along_b = 0.0;
-  double closed = 1.0;  ///< part of it that bears
+  double closed = 1.0;  ///< fraction of it that carries
 };
 
-/// Puts the face on the edge of its block j that it lies along: where others are as near, the one
-/// with its direction.
+/// Assigns the face to the nearest edge of its block j; of equally near ones to the one with its
+/// direction.
 void put_on_edge(const ViewMesh& mesh, const std::vector<double>& places, Vec2 a, Vec2 b,
                  Vec2 along, Touch& touch) {
   const auto place = [&](std::uint32_t v) { return point_value(places, mesh.point[v]); };
@@ -204,7 +205,7 @@ std::vector<Touch> touches_of(const ViewMesh& mesh, const Grid& blocks, const Gr
   return touches;
 }
 
-/// Where the faces lie on their edges, and how much of them bears.
+/// The positions of the faces on their edges, and the fraction of each that carries.
 Columns columns_along(const std::vector<Touch>& touches) {
   Columns columns(3);
   for (const Touch& t : touches) {
@@ -266,7 +267,7 @@ BlockMotion datum_of(const ViewMesh& mesh, std::size_t row, const Grid& g) {
   });
 }
 
-/// By how much the vertices of a block lie apart in two motions, m.
+/// Largest distance of the vertices of a block between two motions, m.
 double apart(const ViewMesh& mesh, std::size_t row, const BlockMotion& a, const BlockMotion& b) {
   double most = 0.0;
   for (std::size_t v = mesh.begin[row]; v < mesh.begin[row + 1]; ++v) {

@@ -1,5 +1,5 @@
-// One frame of the replay page, packed: six numbers a block for its motion, nine for what it
-// feels, and the contacts by edge.
+// One frame of the replay page, packed: six numbers per block for its motion, nine for its
+// velocity, rotation and stress, and the contacts by edge.
 #pragma once
 
 #include <cstdint>
@@ -29,17 +29,17 @@ struct ViewBlocks {
   std::vector<std::size_t> cell;  ///< the first of each; it has all values of its block
 };
 
-/// Faults: a block that the first frame has not, or other vertices.
+/// Faults: a block that the first frame does not have, or other vertices.
 Result<ViewBlocks> blocks_in(const ViewMesh& mesh, const Grid& blocks);
 
-/// The datum of a frame where it is another than the one before (null: none yet).
+/// The datum of a frame, where it differs from the previous one (null: none yet).
 bool find_datum(const ViewMesh& mesh, const Grid& blocks, const ViewBlocks& in,
                 const ViewDatum* before, ViewDatum& found);
 
 /// Six f32 columns d.x d.y A.xx A.xy A.yx A.yy, as in a frame.
 std::string datum_bytes(const ViewDatum& datum);
 
-/// `datum`: number of the one in force. `contacts` may be null.
+/// `datum`: number of the current one. `contacts` may be null.
 std::string frame_bytes(const ViewMesh& mesh, const ViewBlocks& in, const Grid& blocks,
                         const Grid* contacts, ViewPrecision precision, std::size_t datum);
 

@@ -26,24 +26,26 @@ struct ViewMesh {
   std::vector<std::array<std::uint32_t, 2>> edges;      ///< of vertices, counter-clockwise
   std::vector<std::size_t> edge_begin;                  ///< [nb + 1] first edge of each block
 
-  std::size_t points = 0;  ///< of every frame's grid, whoever is gone
+  std::size_t points = 0;  ///< points of every frame's grid, those of excavated blocks included
 
   std::size_t size() const { return id.size(); }
   std::size_t row_of(std::int32_t block) const;  ///< size() where there is none
-  double reach(std::size_t row) const;  ///< farthest that a vertex is from the centre in x or y, m
+  double reach(
+      std::size_t row) const;  ///< largest distance of a vertex from the centre in x or y, m
 };
 
 ViewMesh view_mesh(const Grid& first);
 
-/// How the page gets it (view/page/src/data/mesh.ts reads it): nb, nv, triangles, edges as u32;
+/// The format for the page (read by page/src/data/mesh.ts): nb, nv, triangles, edges as u32;
 /// centres f64; vertices f32; then by u32 id, material, first vertex; fixed u8; triangles and edges
 /// u32.
 std::string mesh_bytes(const ViewMesh& mesh);
 
-/// Of a block: u(X) = d + A (X - c), c its centre and X in the first frame.
+/// Motion of a block: u(X) = d + A (X - c), c its centre and X in the first frame.
 using BlockMotion = AffineField;
 
-/// Of block `row`, from the values (m) at its vertices; `value(v)` is that at vertex v of the mesh.
+/// Motion of block `row`, from the values (m) at its vertices; `value(v)` is that at vertex v of
+/// the mesh.
 template <class Value>
 BlockMotion block_motion(const ViewMesh& mesh, std::size_t row, Value value) {
   const std::size_t first = mesh.begin[row];

@@ -10,7 +10,7 @@
 namespace edda {
 namespace {
 
-/// `count` of n things, evenly, the first and the last among them.
+/// `count` of n elements, evenly, including the first and the last.
 std::vector<std::size_t> evenly(std::size_t n, std::size_t count) {
   std::vector<std::size_t> chosen;
   if (n <= count) {
@@ -45,13 +45,13 @@ Result<FrameSizes> frame_sizes(const ViewRun& run, const std::vector<SeriesEntry
   return sizes;
 }
 
-/// What a page is to hold.
+/// The contents planned for a page.
 struct Plan {
   std::size_t frames = 0;
   ViewPrecision precision = ViewPrecision::single;
 };
 
-/// By what frames seem to take: the page itself, the mesh and the tables come first.
+/// Planned from the estimated size of frames, after the page itself, the mesh and the tables.
 Result<Plan> plan_of(const ViewRun& run, const std::vector<SeriesEntry>& series,
                      std::size_t most_bytes) {
   const Result<FrameSizes> read = frame_sizes(run, series);
@@ -99,7 +99,7 @@ Result<PageReport> fill(WholeFile& file, ViewRun& run, const std::vector<SeriesE
   return report;
 }
 
-/// What fits, once it has turned out how much `plan` takes.
+/// The contents that fit, once the size of `plan` is known.
 Plan with_less(Plan plan, const PageReport& report, std::size_t frames, std::size_t most_bytes) {
   if (plan.precision == ViewPrecision::single) return {plan.frames, ViewPrecision::whole16};
   const std::size_t rest = report.bytes - frames;
@@ -140,7 +140,7 @@ Result<PageReport> write_page(ViewRun& run, const std::string& path, std::size_t
     std::size_t frames = 0;
     Result<PageReport> report = fill(file, filled, series.value(), plan, frames);
     if (!report.ok()) return report.faults();
-    // Frames between those looked at may have been larger.
+    // Frames between those examined may have been larger.
     if (report.value().bytes > most_bytes && plan.frames > 2) {
       plan = with_less(plan, report.value(), frames, most_bytes);
       continue;

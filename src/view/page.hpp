@@ -10,13 +10,13 @@
 
 namespace edda {
 
-/// The page without a run, as built from view/page: before and behind what fills it.
+/// The page without a run, page/built/replay.html: the parts before and after the data.
 struct PageTemplate {
   std::string_view head, tail;
 };
 PageTemplate page_template();
 
-/// What a written page holds.
+/// The contents of a written page.
 struct PageReport {
   std::size_t frames = 0;  ///< in the page
   std::size_t of = 0;      ///< in the folder
@@ -25,8 +25,8 @@ struct PageReport {
 };
 
 /// Writes the run's page to `path`. Frames are left out evenly, never the first nor the last, where
-/// it would be larger than `most_bytes`; with those two alone it may still be. Numbers are stored
-/// singly where all frames then take less than small_page bytes and have room, else as whole
+/// it would be larger than `most_bytes`; with those two alone it may still be larger. Numbers are
+/// stored singly where all frames then take less than small_page bytes and have room, else as whole
 /// numbers; those of the last frame always singly.
 Result<PageReport> write_page(ViewRun& run, const std::string& path, std::size_t most_bytes);
 inline constexpr std::size_t small_page = std::size_t{12} << 20;
@@ -37,7 +37,7 @@ std::string chunk(std::string_view name, std::string_view bytes);
 /// The header as a script of the page.
 std::string header_script(const ViewRun& run);
 
-/// Rows of a history that a page takes along.
+/// Number of rows of a history in a page.
 inline constexpr std::size_t most_table_rows = 20000;
 
 }  // namespace edda

@@ -19,8 +19,8 @@ namespace {
 
 constexpr const char* this_machine = "127.0.0.1";
 
-/// A page of another place that this machine's name is made to lead to sends that place's name: it
-/// may not read on.
+/// Refuses requests with another host name, as a page of another site sends whose name was made to
+/// resolve to this computer (DNS rebinding).
 bool is_this_machine(const std::string& host) {
   const std::size_t port = host.rfind(':');
   const bool has_port = port != std::string::npos && !host.ends_with(']');
@@ -63,7 +63,7 @@ class Answers {
       return is_for_now(fault) ? gone(reply) : fail(reply, fault);
     }
     if (std::find(std::begin(view_tables), std::end(view_tables), name) != std::end(view_tables)) {
-      // None yet: an empty answer, which is no error of the page's.
+      // None yet: an empty answer, which is not an error for the page.
       return give(run_->table(name, most_table_rows), reply);
     }
     reply.status = 404;
@@ -72,7 +72,7 @@ class Answers {
  private:
   std::string name_of_run() const { return fmt::format("{}{}", run_->stamp(), opened_); }
 
-  /// Frames that have come since, of the run that is there now.
+  /// Frames that have been added since, of the present run.
   Trouble take_up_new() {
     if (run_ && !run_->is_still_there()) run_.reset();
     if (!run_) {
@@ -159,7 +159,7 @@ Trouble serve_page(const std::function<Result<ViewRun>()>& open, int port,
   }
   ready(fmt::format("http://{}:{}/", this_machine, bound));
   std::atomic<bool> over{false};
-  // A server that does not listen yet is not stopped by being told to.
+  // stop() has no effect on a server that does not listen yet.
   std::thread watch([&] {
     while (!over) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -1,4 +1,4 @@
-// The replay page of a run that may still be going on, served to this machine's browsers.
+// The replay page of a run, possibly in progress, served to browsers on this computer.
 #pragma once
 
 #include <atomic>
@@ -12,8 +12,8 @@ namespace edda {
 
 /// Serves the page at http://127.0.0.1:PORT/ until `stop`: the page itself, the run's header
 /// ("run"), its mesh, datums, frames and tables ("chunk/NAME", deflated). Frames are read when they
-/// are asked for. Where there is nothing to show for now, the header is {"waiting": why} and a
-/// chunk is status 204. `open`: the folder's run; asked again where there is none yet, or another
+/// are asked for. Where there is nothing to show yet, the header is {"waiting": why} and a
+/// chunk is status 204. `open`: the folder's run; called again where there is none yet, or another
 /// one than before. `port` 0: any that is free. `ready` is called with the address once it answers.
 Trouble serve_page(const std::function<Result<ViewRun>()>& open, int port,
                    const std::function<void(const std::string&)>& ready,

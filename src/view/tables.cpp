@@ -23,7 +23,7 @@ std::vector<std::string_view> rows_of(std::string_view csv) {
   return rows;
 }
 
-/// The first row, with the names, and those of the others that are wanted.
+/// The first row, with the names, and the selected ones of the others.
 template <class Wanted>
 std::string some_rows(const std::vector<std::string_view>& rows, Wanted wanted) {
   std::string text(rows.front());
@@ -59,7 +59,7 @@ std::string with_peaks(std::string_view csv, std::size_t most_rows) {
   const Result<Table> table = table_of(all, "");
   const Column* const time = table.ok() ? table.value().column("time") : nullptr;
   if (time == nullptr) return all;
-  // How many rows a sliver takes depends on how many columns have their peaks in one row.
+  // The number of rows of a sliver depends on how many columns have their peaks in the same row.
   for (std::size_t slivers = std::max<std::size_t>(most_rows / 2, 1);; slivers /= 2) {
     const std::vector<bool> kept = peaks_of(table.value(), time->values, slivers);
     const auto count = static_cast<std::size_t>(std::count(kept.begin(), kept.end(), true));

@@ -52,8 +52,8 @@ void add_marks(Json& json, const char* key, const std::vector<ViewMark>& marks) 
   json.close();
 }
 
-/// The usual one is nearly the largest, so that a few giants do not make dots of all others.
-/// Reorders those of the frame.
+/// The usual size is nearly the largest, so that a few outliers do not reduce all others to dots.
+/// Reorders the sizes of the frame.
 void widen(ViewSizes& sizes, std::vector<double>& of_frame) {
   if (of_frame.empty()) return;
   const auto at = of_frame.begin() + static_cast<std::ptrdiff_t>(of_frame.size() - 1) * 95 / 100;
@@ -75,7 +75,8 @@ std::vector<double> force_sizes(const Grid& contacts) {
   return sizes;
 }
 
-/// The rule of pictures (pressure_scale()): by the length that bears, but for a few far beyond.
+/// The rule of pictures (pressure_scale()): weighted by the length that carries, without a few
+/// outliers.
 void widen_pressures(ViewSizes& sizes, double& tension, const Grid& contacts) {
   std::vector<Weighed> of_frame;
   double largest = 0.0;

@@ -1,5 +1,5 @@
-// A results folder as the replay page sees it: its frames, tables and names. May grow while it is
-// looked at.
+// A results folder as the replay page sees it: its frames, tables and names. The run may still be
+// in progress.
 #pragma once
 
 #include <map>
@@ -15,35 +15,35 @@
 
 namespace edda {
 
-/// A point or a line of the model, where it was at the start, m.
+/// A point or a line of the model, in its initial position, m.
 struct ViewMark {
   std::string name;
   std::vector<Vec2> points;
 };
 
-/// What the model knows and the results do not; a page does without it.
+/// Data that only the model has, not the results; a page works without them.
 struct ViewNames {
   std::string title;
   std::vector<std::string> materials;
   std::vector<ViewMark> monitors;      ///< one point each
   std::vector<ViewMark> convergences;  ///< two
   double least_stress = 0.0;           ///< Pa; where none is larger they are rounding
-  bool judges_rock = true;             ///< a material has a strength: overstress means something
+  bool judges_rock = true;             ///< a material has a strength, so that overstress is defined
 };
 
-/// Smallest and largest value of a field of pictures in the frames so far; held blocks do not
+/// Smallest and largest value of a field of pictures in the frames so far; fixed blocks do not
 /// count.
 struct ViewRange {
   double low = 0.0, high = 0.0;
   bool any = false;
-  /// But for a few blocks that lie far beyond, of each frame (report/drawn_range.hpp).
+  /// Without a few outliers of each frame (report/drawn_range.hpp).
   double inner_low = 0.0, inner_high = 0.0;
   Ends last, last_inner;  ///< the same of the last frame that has any
 };
 
-/// Of what strokes stand for in the frames so far.
+/// Sizes of the quantities that lines represent in the frames so far.
 struct ViewSizes {
-  double usual = 0.0;  ///< of a stroke of the usual length
+  double usual = 0.0;  ///< value of a line of the usual length
   double largest = 0.0;
 };
 
@@ -54,25 +54,25 @@ class ViewRun {
 
   /// The frames there are, in order of time.
   Result<std::vector<SeriesEntry>> series() const;
-  /// Takes up a frame that is later than those taken up so far, and packs it. The bytes are not
+  /// Adds a frame that is later than those added so far, and packs it. The bytes are not
   /// deflated.
   Result<std::string> take(const SeriesEntry& frame, ViewPrecision precision);
-  /// Packs one of those taken up once more.
+  /// Packs an added frame once more.
   Result<std::string> again(std::size_t frame, ViewPrecision precision) const;
-  /// Packs any frame without taking it up, to see how large it is.
+  /// Packs any frame without adding it, to find its size.
   Result<std::string> probe(const SeriesEntry& frame, ViewPrecision precision) const;
 
   const ViewMesh& mesh() const { return mesh_; }
   const std::vector<ViewDatum>& datums() const { return datums_; }
   std::size_t frames() const { return taken_.size(); }
   /// A table of the folder, of a history about `most_rows` rows with all its peaks, of the bolts
-  /// the rows at the frames taken up; empty where there is none.
+  /// the rows at the added frames; empty where there is none.
   std::string table(const std::string& name, std::size_t most_rows) const;
-  /// What the page is told before anything else, as JSON (view/page/src/data/run.ts). `served_as`:
-  /// chunks are to be fetched, and another text than before tells that they are of another run;
-  /// empty: they are in the page.
+  /// The header of the page as JSON (page/src/data/run.ts). `served_as`: chunks are to be fetched,
+  /// and another text than before means that they belong to another run; empty: they are in the
+  /// page.
   std::string header(const std::string& served_as = {}) const;
-  /// Whether the folder still holds this run: the same files, and the frames taken up so far.
+  /// Whether the folder still holds this run: the same files, and the frames added so far.
   bool is_still_there() const;
   /// When the run's first files were written; another run has other times.
   const std::string& stamp() const { return stamp_; }
@@ -102,17 +102,17 @@ class ViewRun {
   ViewNames names_;
   ViewMesh mesh_;
   std::string stamp_;
-  std::vector<std::string> absent_;  ///< numbers of blocks that these frames have not
+  std::vector<std::string> absent_;  ///< numbers of blocks that these frames do not have
   std::vector<ViewDatum> datums_;
   std::vector<Taken> taken_;
   std::map<std::string, ViewRange> ranges_;  ///< by name of the field
   ViewSizes forces_;                         ///< of closed contacts, N
   ViewSizes pressures_;   ///< at ends of closed faces, Pa; the largest in compression
   double tension_ = 0.0;  ///< the largest there, Pa
-  ViewSizes stresses_;    ///< principal, of blocks that are not held, Pa
+  ViewSizes stresses_;    ///< principal, of free blocks, Pa
 };
 
-/// Tables that a page takes along.
+/// Tables that a page contains.
 inline constexpr const char* view_tables[] = {"history.csv", "stages.csv", "bolts.csv"};
 
 }  // namespace edda

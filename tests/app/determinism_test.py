@@ -1,6 +1,6 @@
 """The same model gives the same bits: with any number of threads, after a stop and --resume, at any optimisation.
 Nothing is compared with a stored value, only builds of the same sources with each other. Compared are hashes of
-  blocks.csv, joints.csv, history.csv, the last frames, and summary.json without what tells of the machine (program.py).
+  blocks.csv, joints.csv, history.csv, the last frames, and summary.json without what depends on the machine (program.py).
 Usage: determinism_test.py EDDA [EDDA_O1]
 EDDA_O1 is the same sources at -O1 with every loop shared among the threads (CMake's EDDA_O1_TWIN), so that small scenes
 meet all of the threads' work; EDDA itself shares only long loops, which the last scene has."""
@@ -39,13 +39,13 @@ LARGE_WALL = ("wall", {"brick_wall.0.columns": 45, "brick_wall.0.rows": 60,
                        "block.floor.polygon": "[[-4, -0.5], [26, -0.5], [26, 0], [-4, 0]]", **steps_of(1.2e-5, 150)})
 
 
-# More threads than cores must not spin while they wait for each other.
+# More threads than cores must not busy-wait for each other.
 ENVIRONMENT = {**os.environ, "OMP_WAIT_POLICY": "passive", "OMP_DYNAMIC": "false"}
 
 
 def given(settings, threads):
-    told = [] if threads is None else ["--threads", str(threads)]  # None: as many as are quickest, now these, now those
-    return [*told, *(word for key, value in settings.items() for word in ("--set", f"{key}={value}"))]
+    options = [] if threads is None else ["--threads", str(threads)]  # None: as many as are quickest, now these, now those
+    return [*options, *(word for key, value in settings.items() for word in ("--set", f"{key}={value}"))]
 
 
 class Determinism(Program):
@@ -75,7 +75,7 @@ class Determinism(Program):
         return self.prints(folder, steps)
 
     def resumed(self, first, second, settings, threads, steps):
-        """Stopped once its first checkpoint is there, and gone on with by the other program."""
+        """Stopped once its first checkpoint exists, and resumed by the other program."""
         often = {**settings, "output.checkpoint_every": 1e-4}
         self.assertEqual(self.stop_early(*given(often, threads[0]), program=first, env=ENVIRONMENT), 130)
         self.expect(0, "run", "m.toml", "--quiet", "-o", "r", "--resume", *given(often, threads[1]), program=second, env=ENVIRONMENT)

@@ -1,4 +1,4 @@
-"""Shaking, driven and viscous boundaries and bolts, end to end: what is written, and the same bytes after a stop and with
+"""Ground motion, moving and viscous boundaries and bolts, end to end: what is written, and the same bytes after a stop and with
 any number of threads. Usage: dynamics_test.py EDDA"""
 import json
 import unittest
@@ -95,7 +95,7 @@ class Dynamics(Program):
         start = [r for r in bolts if r["bolt"] == "1" and float(r["time"]) == 0.0]
         self.assertAlmostEqual(float(start[0]["axial_force"]), 2e4, delta=1e-6)
 
-    def test_check_tells_of_them(self):
+    def test_check_reports_them(self):
         out = self.expect(0, "check", "m.toml").stdout
         for part in ("shaking quake: 4 rows to 0.3 s, peak", "its velocity ends at", "sine of 1 m/s2 and 5 Hz", "2 bolts of"):
             self.assertIn(part, out)

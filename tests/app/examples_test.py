@@ -1,4 +1,4 @@
-"""Every built-in model, run as its first lines say: what it is there to show, it shows.
+"""Every built-in model, run as its first lines state: it shows what it is meant to show.
 Usage: examples_test.py EDDA"""
 import csv
 import json
@@ -55,7 +55,7 @@ class Examples(Program):
 
     def test_slope_has_a_factor_of_safety_below_one(self):
         factor, folder = self.factor("slope", "--set", "fos.bracket=[0.5, 0.7]", "--set", "fos.tolerance=0.03")
-        # A block on the beds alone has tan 20/tan 32 = 0.582; blocks that tip over on the face take a little of that.
+        # A block on the beds alone has tan 20/tan 32 = 0.582; blocks that topple on the face reduce it a little.
         self.assertLess(abs(factor / (math.tan(math.radians(20)) / math.tan(math.radians(32))) - 1), 0.07)
         self.assertTrue((folder / "mechanism.png").exists())
 
@@ -81,7 +81,7 @@ class Examples(Program):
     def test_roof_wedge_hangs_on_its_bolts(self):
         summary, folder = self.ran("roof-wedge")
         self.assertEqual(summary["status"], "equilibrium")
-        # Smooth flanks bear nothing: each bolt has half the weight of 4 x 2.4/2 m2, 1.5 m apart.
+        # Smooth flanks carry nothing: each bolt carries half the weight of 4 x 2.4/2 m2, 1.5 m apart.
         force = 0.5 * 4.8 * 27e3 * 1.5
         for row in self.rows(folder / "bolts.csv")[-4:]:
             self.assertLess(abs(float(row["axial_force"]) / force - 1.0), 1e-3)
@@ -100,7 +100,7 @@ class Examples(Program):
         _, folder = self.ran("dam")
         stages = self.rows(folder / "stages.csv")
         start, rows = float(stages[0]["end"]), self.rows(folder / "history.csv")
-        # gw h^2/2 = (W - U) tan 28, U under the part of the base that is wet; h rises by 11.9 m in 9 s.
+        # gw h^2/2 = (W - U) tan 28, U under the submerged part of the base; h rises by 11.9 m in 9 s.
         weight, t = 72 * 24e3, math.tan(math.radians(28))
         limit = math.sqrt(weight * t / (9810 / 2 * (1 + 10 / 11.9 * t)))
         gone = next(float(r["time"]) - start for r in rows if float(r["crest.ux"]) > 0.005)
@@ -108,7 +108,7 @@ class Examples(Program):
         _, folder = self.ran("dam", "--set", "joints.rock.friction_angle=35", out="rough")
         self.assertLess(self.moved(folder, "crest")[0], 0.005)
 
-    def test_rockfall_comes_to_rest(self):
+    def test_rockfall_stops(self):
         summary, folder = self.ran("rockfall")
         self.assertLess(summary["energy"]["kinetic"], 1.0)
         heights = [float(b["y"]) for b in self.rows(folder / "blocks.csv") if b["name"]]

@@ -1,4 +1,4 @@
-"""What befalls long runs: stopped, killed, disk full, damaged checkpoints, a folder in use, memory at an end.
+"""Faults of long runs: stopped, killed, disk full, damaged checkpoints, a folder in use, memory at an end.
 Each must end in a clear message, lose nothing already written, and go on to the same bytes.
 Usage: faults_test.py EDDA [--kills N]"""
 import json
@@ -127,7 +127,7 @@ class Faults(Program):
         self.killed_and_resumed(max(2, KILLS // 10), "--set", "solver.method=dda", "--set", "solver.time_step=2e-4")
 
     def test_stages_go_on_to_the_same_bytes(self):
-        """The wall settles, is hit, and comes to rest: killed in any of the three."""
+        """The wall reaches equilibrium, is hit, and reaches it again: killed in any of the three."""
         stages = """[[stage]]
 until = "equilibrium"
 ratio = 1e-3
@@ -161,7 +161,7 @@ duration = 2.0
         self.stop_early()
         self.expect(0, "run", "m.toml", "--quiet", "-o", "r", "--resume", "--set", "solver.duration=0.8")
         self.assertEqual(content(self.dir / "r"), content(self.dir / "whole"))
-        # From its own model.toml, which is the longer one by now.
+        # From its own model.toml, which has the longer duration by now.
         self.expect(0, "run", "r/model.toml", "--quiet", "-o", "r", "--resume", "--set", "solver.duration=0.9")
         self.assertIn("duration = 0.9", (self.dir / "r/model.toml").read_text())
         self.assertEqual([os.path.basename(i["file"]) for i in json.loads((self.dir / "r/summary.json").read_text())["inputs"]][0], "m.toml")
@@ -205,7 +205,7 @@ duration = 2.0
             (self.dir / "r/checkpoint.h5").write_bytes(damage)
             done = self.expect(0, "run", "m.toml", "--quiet", "-o", "r", "--resume")
             self.assertIn("is damaged", done.stderr)
-            self.assertIn("going on from r/checkpoint.previous.h5", done.stderr)
+            self.assertIn("continuing from r/checkpoint.previous.h5", done.stderr)
             self.assertEqual(content(self.dir / "r"), expected)
         (self.dir / "r/checkpoint.h5").write_bytes(good[:-1])
         (self.dir / "r/checkpoint.previous.h5").write_bytes(good[:-2])

@@ -137,7 +137,7 @@ class Geometry(Program):
         summary = json.loads((self.dir / "out/summary.json").read_text())
         self.assertEqual(summary["status"], "completed")
         self.assertEqual(summary["blocks"], len(blocks))
-        # What was run cuts into the same blocks.
+        # The written model cuts into the same blocks.
         shutil.copy(self.dir / "out/model.toml", self.dir / "again.toml")
         self.edda("cut", "again.toml", "-o", "again.csv")
         self.assertEqual((self.dir / "again.csv").read_text(), (self.dir / "c.csv").read_text())
@@ -191,7 +191,7 @@ class Geometry(Program):
         self.write(SQUARES, "squares.geo")
         blocks, summary, report = self.through_all(GEO)
         self.assertEqual(len(blocks), 2)
-        self.assertIn("2 (1 held)", report)
+        self.assertIn("2 (1 fixed)", report)
         self.assertEqual([pathlib.Path(i["file"]).name for i in summary["inputs"]], ["m.toml", "squares.geo"])
 
     def test_drawing(self):
@@ -220,7 +220,7 @@ class Geometry(Program):
         kept = self.edda("cut", "m.toml", *slivers).stdout
         self.assertRegex(kept, rf"quality +0 slivers joined to a neighbour, 0 m2 in all; {stay} stay")
         self.assertEqual(len(re.findall(r"(?m)^sliver +stays: [\d.e-]+ m2 at \(", kept)), stay)
-        # Traces that end on one another: what one may lose is merged.
+        # Traces that end on one another: the poor blocks that they leave are merged.
         self.write(text.replace("spacing = 2.1\n", "spacing = 2.1\ntrace_length = 7\ngap = 1\n"))
         merged = self.edda("cut", "m.toml", *slivers).stdout
         count = int(re.search(r"quality +(\d+) sliver", merged)[1])

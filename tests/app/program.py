@@ -19,7 +19,7 @@ import unittest
 
 EDDA = pathlib.Path(sys.argv.pop(1)).resolve()
 LIBC = ctypes.CDLL(None)
-# What of the summary tells of the machine and the threads, not of the model.
+# Parts of the summary that depend on the machine and the threads, not on the model.
 MACHINE = ("wall_seconds", "block_steps_per_second", "threads")
 
 
@@ -29,13 +29,13 @@ def read_rows(path):
 
 
 def content(folder):
-    """Every file but the summary (it tells of wall time) and the checkpoints."""
+    """Every file but the summary (it has wall times) and the checkpoints."""
     return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*"))
             if p.is_file() and not p.name.startswith("checkpoint") and p.name != "summary.json"}
 
 
 def lasting(folder):
-    """What of the summary may not depend on the machine or on how often the run was stopped."""
+    """The part of the summary that must not depend on the machine or on how often the run was stopped."""
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     return {k: v for k, v in summary.items() if k not in MACHINE}
 
@@ -79,7 +79,7 @@ class Program(unittest.TestCase):
         return done
 
     def start(self, *args, program=EDDA, **more):
-        """A process that goes on; it does not outlive the test."""
+        """A process that continues; it ends with the test."""
         process = subprocess.Popen([str(program), *args], cwd=self.dir, preexec_fn=prepared(None), **more)
         self.addCleanup(end, process)
         return process

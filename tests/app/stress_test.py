@@ -68,19 +68,19 @@ class Stress(Program):
         super().setUp()
         (self.dir / "m.toml").write_text(MODEL)
 
-    def test_check_tells_how_the_stress_goes_with_weight_and_joints(self):
+    def test_check_compares_the_stress_with_weight_and_joints(self):
         out = self.expect(0, "check", "m.toml").stdout
-        for part in ("syy grows by 26487 Pa per metre upwards; density times gravity of rock is 26487",
-                     "joint j: tau/sigma_n up to", "forces balance to", "convergence     H1 from block"):
+        for part in ("syy increases by 26487 Pa per metre upwards; density times gravity of rock is 26487",
+                     "joint j: tau/sigma_n up to", "the mean unbalanced force is", "convergence     H1 from block"):
             self.assertIn(part, out)
         self.assertNotIn("gradient and the weight", out)
         flat = self.expect(0, "check", "m.toml", "--set", "initial_stress.gradient=[0, 2e4, 0]").stdout
-        self.assertIn("its gradient and the weight of rock are 24 % apart", flat)
+        self.assertIn("its gradient and the weight of rock differ by 24 %", flat)
         self.assertIn("give syy a gradient of 26487", flat)
         weak = self.expect(0, "check", "m.toml", "--set", "joints.j.cohesion=0", "--set", "joints.j.friction_angle=2").stdout
-        self.assertIn("shear is above the strength of joint j", weak)
+        self.assertIn("the shear stress exceeds the strength of joint j", weak)
         torn = self.expect(0, "check", "m.toml", "--set", "initial_stress.stress=[3e6, -5e6, 0]").stdout
-        self.assertIn("in more tension than it bears", torn)
+        self.assertIn("in more tension than its strength", torn)
 
     def test_tables_and_checks(self):
         done = self.expect(0, "run", "m.toml", "-o", "r")
@@ -103,7 +103,7 @@ class Stress(Program):
         self.assertGreater(float(stages[0]["V1.convergence"]), 1e-4)
         end = [r for r in history if r["time"] == stages[0]["end"]]
         self.assertEqual(end[0]["V1.convergence"], stages[0]["V1.convergence"])
-        # Counted anew in the second stage.
+        # Reset in the second stage.
         self.assertLess(abs(float(stages[1]["V1.convergence"])), 0.05 * float(stages[0]["V1.convergence"]))
         self.expect(0, "plot", "r", "--field", "overstress", "-o", "p.png")
 

@@ -1,4 +1,4 @@
-"""What edda says to terminals, machines and shells: progress, JSON, completions, the manual page. Usage: terminal_test.py EDDA"""
+"""What edda prints for terminals, machines and shells: progress, JSON, completions, the manual page. Usage: terminal_test.py EDDA"""
 import json
 import os
 import re
@@ -53,7 +53,7 @@ class Progress(Folder):
                 self.assertLess(len(bar), columns, bar)
                 self.assertRegex(bar, r"\d+ %")
             self.assertIn("100 %", bars[-1])
-        for words in ("[####", "stage 2 of 2 (wait)", "steps/s", "left", "velocity", "overlap"):
+        for words in ("[####", "stage 2 of 2 (wait)", "steps/s", "left", "velocity", "penetration"):
             self.assertIn(words, bars[-1])
 
     def test_quiet_says_nothing(self):
@@ -67,7 +67,7 @@ class Lines(Folder):
     def lines(self, done):
         return [json.loads(line) for line in done.stdout.splitlines()]
 
-    def test_run_tells_its_life_in_json(self):
+    def test_run_reports_its_course_in_json(self):
         done = self.expect(0, "run", "m.toml", "--json")
         self.assertEqual(done.stderr, "")
         lines = self.lines(done)
@@ -75,7 +75,7 @@ class Lines(Folder):
         self.assertEqual(lines[0]["stages"], ["settle", "wait"])
         self.assertEqual(lines[0]["blocks"], 2)
         ends = [line for line in lines if line["event"] == "stage_end"]
-        self.assertEqual([(e["stage"], e["name"], e["reached"]) for e in ends], [(0, "settle", True), (1, "wait", True)])
+        self.assertEqual([(e["stage"], e["name"], e["reached"]) for e in ends], [(1, "settle", True), (2, "wait", True)])
         self.assertAlmostEqual(ends[1]["end"] - ends[1]["start"], 0.02)
         progress = [line for line in lines if line["event"] == "progress"]
         self.assertEqual(progress[-1]["fraction"], 1.0)
@@ -135,7 +135,7 @@ class Lines(Folder):
 
 class Shells(Folder):
     def shell(self, *command):
-        """What a shell says that complains of nothing, not even of the locale that the test was given."""
+        """Output of a shell that prints no warning, not even about the locale of the test."""
         done = subprocess.run(command, cwd=self.dir, text=True, capture_output=True, timeout=self.seconds,
                               env={**os.environ, "LC_ALL": "C.UTF-8", "HOME": str(self.dir)})
         self.assertEqual(done.stderr, "")
@@ -187,8 +187,8 @@ class Shells(Folder):
         (self.dir / "edda.fish").write_text(self.expect(0, "completion", "fish").stdout)
 
         def offered(line):
-            said = self.shell("fish", "--no-config", "-c", f"source edda.fish; complete -C '{line}'")
-            return [word.split("\t")[0] for word in said]
+            offered = self.shell("fish", "--no-config", "-c", f"source edda.fish; complete -C '{line}'")
+            return [word.split("\t")[0] for word in offered]
 
         self.assertGreaterEqual(set(offered("edda ")), set(self.commands()))
         self.assertEqual(offered("edda plot m --vectors "), ["displacement", "velocity"])
@@ -198,7 +198,7 @@ class Shells(Folder):
 
 
 class Manual(Folder):
-    def test_page_tells_of_every_command_and_option(self):
+    def test_page_has_every_command_and_option(self):
         page = self.expect(0, "man").stdout.replace("\\-", "-")
         for heading in ("NAME", "SYNOPSIS", "COMMANDS", "EXIT STATUS", "ENVIRONMENT", "FILES", "EXAMPLES"):
             self.assertIn(f".SH {heading}\n", page)

@@ -1,4 +1,4 @@
-"""What check and run say in words: of stages, of points that go with the rock, of checks that do not hold.
+"""Messages of check and run: on stages, on points in excavated rock, on checks that fail.
 
   words_test.py EDDA
 """
@@ -86,7 +86,7 @@ class Words(Program):
         self.assertLess(summary["steps"], found["steps"])
         text = self.expect(0, "check", "static.toml").stdout
         self.assertIn("at most", text)
-        mixed = self.check(self.write("mixed.toml", TUNNEL % (1.7, 1.7, 'mass_scaling = "as given"')))
+        mixed = self.check(self.write("mixed.toml", TUNNEL % (1.7, 1.7, 'masses = "as given"')))
         self.assertGreater(mixed["steps"], 1.2 * found["steps"])
         timed = self.check(self.write("block.toml", BLOCK % 1e10))
         self.assertFalse(timed["at_most"])
@@ -95,42 +95,42 @@ class Words(Program):
     def test_mass_scaling_that_changes_the_motion_is_refused(self):
         pebble = "[[block]]\npolygon = [[0.4, 1], [0.45, 1], [0.45, 1.05], [0.4, 1.05]]\n"
         model = self.write("pebble.toml", BLOCK % 1e10 + pebble)
-        said = self.expect(2, "check", model, "--set", "solver.mass_scaling=0.1").stderr
-        self.assertRegex(said, r"mass_scaling: 0\.1 s adds .* kg of inertia, .* % of the mass of all free blocks, more than 10 %")
-        most = float(re.search(r"give at most ([\d.e-]+) s", said).group(1))
+        refused = self.expect(2, "check", model, "--set", "solver.mass_scaling=0.1").stderr
+        self.assertRegex(refused, r"mass_scaling: 0\.1 s adds .* kg of inertia, .* % of the mass of all free blocks, more than 10 %")
+        most = float(re.search(r"give at most ([\d.e-]+) s", refused).group(1))
         found = json.loads(self.expect(0, "check", model, "--json", "--set", f"solver.mass_scaling={most}").stdout)
         self.assertTrue(any("solver.mass_scaling: " in w for w in found["warnings"]), found["warnings"])
         self.expect(2, "check", model, "--set", f"solver.mass_scaling={1.3 * most}")
-        rest = '[[stage]]\nuntil = "equilibrium"\n'
-        static = self.write("rest.toml", rest + (BLOCK % 1e10).replace("duration = 0.5\n", "") + pebble)
+        stage = '[[stage]]\nuntil = "equilibrium"\n'
+        static = self.write("static.toml", stage + (BLOCK % 1e10).replace("duration = 0.5\n", "") + pebble)
         self.expect(0, "check", static, "--set", "solver.mass_scaling=0.1")
 
-    def test_points_in_rock_that_goes_are_told(self):
+    def test_points_in_excavated_rock_are_reported(self):
         model = self.write("lost.toml", TUNNEL % (1.4, 1.4, ""))
         warnings = self.check(model)["warnings"]
         for what in ("monitor wall", "an end of convergence H"):
-            self.assertTrue(any(what in w and '"heading" takes out' in w for w in warnings), warnings)
+            self.assertTrue(any(what in w and '"heading" excavates' in w for w in warnings), warnings)
         self.assertIn("monitor wall", self.expect(0, "run", model).stderr)
         kept = self.check(self.write("kept.toml", TUNNEL % (1.7, 1.7, "")))["warnings"]
-        self.assertFalse(any("takes out" in w for w in kept), kept)
+        self.assertFalse(any("excavates" in w for w in kept), kept)
 
-    def test_checks_that_do_not_hold_are_said_at_the_end(self):
-        said = self.expect(0, "run", self.write("soft.toml", BLOCK % 1e6))
-        self.assertRegex(said.stdout, r"check does not hold: overlap over half width at the end is 0\.0\d+, more than 0\.02")
+    def test_checks_that_fail_are_reported_at_the_end(self):
+        run = self.expect(0, "run", self.write("soft.toml", BLOCK % 1e6))
+        self.assertRegex(run.stdout, r"check does not hold: overlap over half width at the end is 0\.0\d+, more than 0\.02")
         lines = self.expect(0, "run", "soft.toml", "-o", "again", "--json").stdout.splitlines()
         self.assertEqual(len(json.loads(lines[-1])["failed_checks"]), 1)
         firm = self.expect(0, "run", self.write("firm.toml", BLOCK % 1e10))
         self.assertNotIn("does not hold", firm.stdout)
 
     def test_check_and_summary_say_what_the_damping_of_strain_takes(self):
-        shaken = (BLOCK % 1e10).replace("damping = { local = 0.8 }\n", "") + (
+        quake = (BLOCK % 1e10).replace("damping = { local = 0.8 }\n", "") + (
             '[[shaking]]\nname = "quake"\nacceleration = { amplitude = 1.0, frequency = 2.5 }\napply = "inertia"\n')
-        text = self.expect(0, "check", self.write("shaken.toml", shaken)).stdout
+        text = self.expect(0, "check", self.write("quake.toml", quake)).stdout
         line = r"strain damping  ([\d.e-]+) of critical at 2\.5 Hz, the frequency of shaking quake \(in block 0"
         self.assertRegex(text, line)
-        self.assertEqual(len(self.check("shaken.toml")["strain_damping"]), 1)
-        self.expect(0, "run", "shaken.toml", "--quiet")
-        found = json.loads((self.dir / "shaken/summary.json").read_text())["strain_damping"]
+        self.assertEqual(len(self.check("quake.toml")["strain_damping"]), 1)
+        self.expect(0, "run", "quake.toml", "--quiet")
+        found = json.loads((self.dir / "quake/summary.json").read_text())["strain_damping"]
         self.assertEqual((found[0]["of"], found[0]["frequency"]), ("shaking quake", 2.5))
         self.assertAlmostEqual(found[0]["fraction"] / float(re.search(line, text).group(1)), 1.0, delta=0.05)
         self.assertNotIn("strain damping", self.expect(0, "check", self.write("still.toml", BLOCK % 1e10)).stdout)
@@ -144,7 +144,7 @@ class Words(Program):
         stops = self.edda("run", self.write("stop.toml", model % 'otherwise = "stop"\n'))
         failed = self.edda("run", self.write("fails.toml", model.replace('until = "equilibrium"', 'until = "equilibrium"\nratio = 1e-30\nduration = 0.01') % ""))
         self.assertEqual(stops.returncode, failed.returncode)
-        self.assertRegex(stops.stdout, r"collapsed: at rest after [\d.e-]+ s, but for 1 block that falls freely: .*\"stop\" of stage 0")
+        self.assertRegex(stops.stdout, r"collapsed: the model is in equilibrium after [\d.e-]+ s, except for 1 block that falls freely: .*\"stop\" of stage 1")
 
     def test_folders_that_cannot_be_made_are_refused(self):
         model = self.write("block.toml", BLOCK % 1e10)

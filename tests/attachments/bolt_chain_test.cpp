@@ -146,7 +146,7 @@ TEST(BoltChain, BooksEveryJoule) {
   EXPECT_NEAR(before.y, 0.0, 1e-6);  // it has broken
   EXPECT_GT(b.fractured, 1.0);
   EXPECT_GT(b.slipped, 1.0);
-  const double spent = b.slipped + b.will_slip + b.fractured + b.will_fracture;
+  const double spent = b.slipped + b.pending_friction + b.fractured + b.pending_fracture;
   EXPECT_NEAR((stored(b) + spent) / work, 1.0, 2e-3);
   // In the leapfrog's terms: what is booked by now, and F_{n-1} F_n/2k.
   EXPECT_NEAR((bolt_energy(b) + b.slipped + b.fractured) / work, 1.0, 2e-3);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "blocks/build_blocks.hpp"
+#include "blocks/masses.hpp"
 
 namespace edda::test {
 
@@ -21,6 +22,7 @@ struct DrawnBlocks {
   Model model;
   PolygonSet set;
   BlockSet blocks;
+  Masses masses;
 
   void add(const Ring& ring, bool fixed = false) {
     BlockPolygon p;
@@ -34,6 +36,7 @@ struct DrawnBlocks {
   void build_all() {
     model.materials.push_back({"rock", 2600.0, 1e9, 0.2, {}});
     blocks = build_blocks(model, set);
+    masses = given_masses(blocks);
   }
 };
 

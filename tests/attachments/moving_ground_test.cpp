@@ -74,14 +74,14 @@ TEST(Ground, KeepsItsParabolaWhenTheStepChanges) {
   shaking.record.acceleration = {{2.0, -1.0}, {2.0, -1.0}};
   shaking.record.velocity = {{0.0, 0.0}, {20.0, -10.0}};
   model.shakings = {shaking};
-  Spells spells;
-  spells.shakings = {{0.0}};
+  ActiveIntervals intervals;
+  intervals.shakings = {{0.0}};
   Ground ground;
   double time = 1.0, h = 0.01;
   ground.velocity = (time - 0.5 * h) * Vec2{2.0, -1.0};
   for (int n = 0; n < 20; ++n) {
     const double next = n % 3 == 0 ? 0.5 * h : n % 3 == 1 ? 2.0 * h : h;
-    const GroundStep step = next_ground(model, spells, ground, {}, time, h, next);
+    const GroundStep step = next_ground(model, intervals, ground, {}, time, h, next);
     EXPECT_NEAR(step.velocity.x, 2.0 * (time + 0.5 * next), 1e-12);
     EXPECT_NEAR(step.velocity.y, -(time + 0.5 * next), 1e-12);
     ground.velocity = step.velocity;
@@ -95,7 +95,7 @@ TEST(Ground, CarriesHeldBlocksAlong) {
   m.add({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, true);
   m.build_all();
   Nodes x = m.blocks.node_x, y = m.blocks.node_y;
-  place_held(m.blocks, find_ground(m.model, m.blocks), {0.3, -0.2}, x, y);
+  place_fixed(m.blocks, find_ground(m.model, m.blocks), {0.3, -0.2}, x, y);
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_EQ(x[k][0], m.blocks.node_x[k][0] + 0.3);
     EXPECT_EQ(y[k][0], m.blocks.node_y[k][0] - 0.2);

@@ -1,5 +1,7 @@
 // The true limit of the step against what blocks do at steps just below and above it.
 #include "true_step.hpp"
+#include "step/changes.hpp"
+#include "step/step.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,23 +20,23 @@ Simulation at_rest(const std::string& polygon) {
                        "polygon = [[-3,-1],[5,-1],[5,0],[-3,0]]\n[[block]]\npolygon = " +
                        polygon + "\n")
                        .sim;
-  sim.start(1e4 * sim.step_limit);
-  for (int n = 0; n < 6000; ++n) EXPECT_FALSE(sim.step());
-  sim.change_damping({}, true);
+  start(sim, 1e4 * sim.control.limit);
+  for (int n = 0; n < 6000; ++n) EXPECT_FALSE(step(sim));
+  change_damping(sim, {}, true);
   return sim;
 }
 
 bool grows(Simulation sim, double step) {
-  sim.model.solver.time_step = step;
-  sim.model.solver.allow_unstable = true;
-  sim.change_damping({}, true);
+  sim.scene.edit().model.solver.time_step = step;
+  sim.scene.edit().model.solver.allow_unstable = true;
+  change_damping(sim, {}, true);
   constexpr int steps = 1000;
-  sim.aim_at(sim.state.time + steps * step);
+  fit_step_to(sim, sim.motion.state.time + steps * step);
   for (int n = 0; n < steps; ++n) {
-    if (sim.step()) return true;
+    if (edda::step(sim)) return true;
   }
   constexpr double much = 1e-5;  // m/s
-  return norm(centroid(sim.state.vx, sim.state.vy, 1)) > much;
+  return norm(centroid(sim.motion.state.vx, sim.motion.state.vy, 1)) > much;
 }
 
 TEST(TrueStep, IsWhereMotionBeginsToGrow) {
@@ -47,7 +49,7 @@ TEST(TrueStep, IsWhereMotionBeginsToGrow) {
     // What would carry if it touched makes it no longer, and the bound counts all of that.
     const double of_all = true_critical_step(sim, Carrying::may, 2000);
     EXPECT_LE(of_all, limit * (1.0 + 1e-6)) << polygon;
-    EXPECT_GE(of_all, sim.bound.critical_step * (1.0 - 1e-4)) << polygon;
+    EXPECT_GE(of_all, sim.control.bound.critical_step * (1.0 - 1e-4)) << polygon;
   }
 }
 

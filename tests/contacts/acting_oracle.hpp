@@ -1,7 +1,7 @@
 // Which faces act, from its definition in docs/contacts.md alone: edges are opposed and overlap, a
-// face that comes to be acts where it is open or where the points at which it would press lie in
-// both blocks, later once it is open; its corner leans where there is no third block beside it.
-// Nothing is shared with the program but the corners.
+// face that comes into being acts if it is open or if the points where it would press lie inside
+// both blocks, otherwise once it is open; its corner leans if no third block lies beside it. Only
+// the corners are shared with the program.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@
 
 namespace edda {
 
-/// How often the outlines of a block go round p: 1 inside, 0 outside and in its holes.
+/// Winding number of the outlines of a block about p: 1 inside, 0 outside and in its holes.
 inline int windings(const BlockSet& b, const Pose& pose, Vec2 p, Id block) {
   double angle = 0.0;
   for (Id v = b.vertex_begin[block]; v < b.vertex_begin[block + 1]; ++v) {
@@ -23,7 +23,7 @@ inline int windings(const BlockSet& b, const Pose& pose, Vec2 p, Id block) {
   return static_cast<int>(std::lround(angle / (2.0 * std::numbers::pi)));
 }
 
-/// How deep p lies in the block, m; below zero outside.
+/// Depth of p inside the block, m; negative outside.
 inline double depth_of(const BlockSet& b, const Pose& pose, Vec2 p, Id block) {
   double nearest = std::numeric_limits<double>::infinity();
   for (Id v = b.vertex_begin[block]; v < b.vertex_begin[block + 1]; ++v) {
@@ -33,14 +33,15 @@ inline double depth_of(const BlockSet& b, const Pose& pose, Vec2 p, Id block) {
   return windings(b, pose, p, block) > 0 ? nearest : -nearest;
 }
 
-/// Two edges as they stand.
+/// Two edges in their present position.
 struct EdgesFacing {
   bool opposed = false;
-  double angle_left = 0.0;  ///< of the cosine, up to where they are no longer opposed
-  double length = 0.0;      ///< of their overlap, m
+  double angle_left =
+      0.0;              ///< distance of the cosine from the limit beyond which they are not opposed
+  double length = 0.0;  ///< of their overlap, m
   double a = 0.0, b = 0.0;  ///< closures at its ends, m
-  Vec2 beside;              ///< between both, a tenth of the overlap from its deeper end
-  Vec2 on_edge, on_facing;  ///< points of either, amid the pressure
+  Vec2 beside;  ///< point between both, a tenth of the overlap from the end of larger closure
+  Vec2 on_edge, on_facing;  ///< points of each at the centre of pressure
   double closure() const { return std::max(a, b); }
 };
 
@@ -61,7 +62,8 @@ inline EdgesFacing edges_facing(const BlockSet& b, const Pose& pose, Id e, Id f)
   const auto closure = [&](double x) { return dot(on_e(x) - on_f(x), n); };
   s.a = closure(sa);
   s.b = closure(sb);
-  // Where both ends are closed the pressure is a trapezoid, else a triangle from where it opens.
+  // Where both ends are closed the pressure is a trapezoid, else a triangle from the point where it
+  // opens.
   double middle = 0.5;
   if (s.a > 0.0 && s.b > 0.0) middle = (s.a + 2.0 * s.b) / (3.0 * (s.a + s.b));
   if (s.a > 0.0 && s.b <= 0.0) middle = s.a / (s.a - s.b) / 3.0;
@@ -73,8 +75,9 @@ inline EdgesFacing edges_facing(const BlockSet& b, const Pose& pose, Id e, Id f)
   return s;
 }
 
-/// Where it would press neither edge lies in the other block: the far sides of two thin blocks,
-/// with both of them in between. What is deeper than half as long does not count: a corner.
+/// Whether neither edge lies in the other block where it would press: these are far sides of two
+/// thin blocks, which lie between them. Closures beyond half of the overlap do not count, since
+/// those are corners.
 inline bool presses_from_behind(const EdgesFacing& s, const BlockSet& b, const Pose& pose, Id e,
                                 Id f) {
   const double shorter = std::min(b.edge_length[e], b.edge_length[f]);
@@ -85,18 +88,19 @@ inline bool presses_from_behind(const EdgesFacing& s, const BlockSet& b, const P
 }
 
 struct ActingFaults {
-  std::size_t decided = 0;  ///< faces closed of which the oracle was sure
-  std::size_t apart = 0;    ///< of them, not as the program has it
-  std::size_t idle = 0;     ///< of them, those that do not act
-  std::size_t leaning = 0;  ///< faces that came to carry and of which the oracle was sure who leans
-  std::size_t crossed = 0;  ///< of them, those with a third block beside the corner
-  std::size_t askew = 0;    ///< of them, not as the program has it
+  std::size_t decided = 0;   ///< closed faces for which the oracle is certain
+  std::size_t apart = 0;     ///< of them, those on which the program differs
+  std::size_t inactive = 0;  ///< of them, those that do not act
+  std::size_t leaning = 0;   ///< faces that began to carry and for which the oracle is certain
+                             ///< whether their corner leans
+  std::size_t crossed = 0;   ///< of them, those with a third block beside the corner
+  std::size_t askew = 0;     ///< of them, those on which the program differs
   std::size_t pressing = 0;  ///< faces that carry
-  std::size_t behind = 0;    ///< of them, from behind a block
+  std::size_t behind = 0;    ///< of them, those that press from the far side of a block
   void add(const ActingFaults& f) {
     decided += f.decided;
     apart += f.apart;
-    idle += f.idle;
+    inactive += f.inactive;
     leaning += f.leaning;
     crossed += f.crossed;
     askew += f.askew;
@@ -105,13 +109,13 @@ struct ActingFaults {
   }
 };
 
-/// Keeps what has been decided, from step to step; what is within rounding of a change is not known
-/// until it opens or ends.
+/// Keeps decisions from step to step; a face within rounding of a change is undecided until it
+/// opens or ends.
 class ActingOracle {
  public:
   explicit ActingOracle(double rounding) : rounding_(rounding) {}
 
-  /// After the faces were placed at a new step.
+  /// To be called after the faces were evaluated at a new step.
   ActingFaults look(const FaceSet& c, const BlockSet& b, const Pose& pose) {
     ActingFaults faults;
     std::map<EdgePair, Decision> now;
@@ -123,7 +127,7 @@ class ActingOracle {
       now[{e, f}] = decided;
       if (s.closure() > rounding_ && decided != Decision::unknown) {
         ++faults.decided;
-        faults.idle += decided == Decision::idle ? 1 : 0;
+        faults.inactive += decided == Decision::inactive ? 1 : 0;
         faults.apart += (c.acts[k] > 0.0) == (decided == Decision::acts) ? 0 : 1;
       }
       if (c.now.energy[k] > 0.0 && c.before.energy[k] == 0.0) look_beside(s, c, b, pose, k, faults);
@@ -137,15 +141,18 @@ class ActingOracle {
   }
 
  private:
-  enum class Decision { apart, acts, idle, unknown };
+  enum class Decision { apart, acts, inactive, unknown };
 
   Decision decide(const EdgesFacing& s, const FaceSet& c, const BlockSet& b, const Pose& pose,
                   std::size_t k) const {
     const auto old = before_.find({c.edge[k], c.facing[k]});
     const double closure = s.closure();
-    // A closure deeper than twice its overlap is the far side of a corner; what pulls has no depth.
-    const double beyond = c.pulls[k] > 0.0 ? s.length : s.length - 0.5 * std::max(closure, 0.0);
-    const double doubt = rounding_ + 0.3 * std::max(closure, 0.0) * (c.pulls[k] > 0.0 ? 0.0 : 1.0);
+    // A closure beyond twice the overlap is the far side of a corner; a face in tension has no
+    // closure.
+    const double beyond =
+        c.carries_tension[k] > 0.0 ? s.length : s.length - 0.5 * std::max(closure, 0.0);
+    const double doubt =
+        rounding_ + 0.3 * std::max(closure, 0.0) * (c.carries_tension[k] > 0.0 ? 0.0 : 1.0);
     if (!s.opposed || beyond < -doubt) return Decision::apart;
     if (s.angle_left < 1e-6 || beyond < doubt) return Decision::unknown;
     if (closure < -rounding_) return Decision::acts;
@@ -154,13 +161,13 @@ class ActingOracle {
     if (old != before_.end()) return old->second;
     const double in_facing = depth_of(b, pose, s.on_edge, b.vertex_block[c.facing[k]]);
     const double in_edge = depth_of(b, pose, s.on_facing, b.vertex_block[c.edge[k]]);
-    // Corners that pass each other draw the ends in by a little.
+    // Corners that pass each other move the ends inward a little.
     const double near = rounding_ + 0.1 * closure;
     if (std::min(in_facing, in_edge) > near) return Decision::acts;
-    return std::min(in_facing, in_edge) < -near ? Decision::idle : Decision::unknown;
+    return std::min(in_facing, in_edge) < -near ? Decision::inactive : Decision::unknown;
   }
 
-  /// Of all blocks, where the program asks those of the faces that it has in its list.
+  /// Searches all blocks, whereas the program searches those of the faces in its list.
   void look_beside(const EdgesFacing& s, const FaceSet& c, const BlockSet& b, const Pose& pose,
                    std::size_t k, ActingFaults& faults) const {
     double deepest = -std::numeric_limits<double>::infinity();

@@ -1,4 +1,5 @@
-// A random heap whose blocks drift about, its list of faces held to the oracle at every move.
+// A random heap whose blocks move at random; its list of faces is compared with the oracle at every
+// move.
 #pragma once
 
 #include <limits>
@@ -6,20 +7,20 @@
 
 #include "blocks/build_blocks.hpp"
 #include "contacts/acting_oracle.hpp"
+#include "contacts/evaluate_faces.hpp"
 #include "contacts/find_faces.hpp"
-#include "contacts/place_faces.hpp"
 #include "contacts/random_shapes.hpp"
 
 namespace edda {
 
-/// Sizes spread over `decades` powers of ten; blocks lie over one another as they fall.
+/// Sizes spread over `decades` powers of ten; blocks may overlap each other.
 inline PolygonSet random_polygons(std::mt19937& rng, int n, double decades) {
   std::uniform_real_distribution<double> u(0.0, 1.0);
   PolygonSet set;
   Vec2 last;
   for (int i = 0; i < n; ++i) {
     const double size = std::pow(10.0, -decades * u(rng));
-    // Half of them beside the one before, so that the small ones meet something, too.
+    // Half of them lie beside the one before, so that small ones also have contacts.
     const bool near_last = i > 0 && u(rng) < 0.5;
     const Vec2 c = near_last ? last + (2.0 * size) * Vec2{u(rng) - 0.5, u(rng) - 0.5}
                              : 6.0 * Vec2{u(rng) - 0.5, u(rng) - 0.5};
@@ -66,6 +67,7 @@ inline PolygonSet odd_polygons(std::mt19937& rng, int n) {
 
 struct DriftingHeap {
   BlockSet blocks;
+  Masses masses;
   State state;
   Pose pose;
   LawTable laws;
@@ -79,13 +81,14 @@ struct DriftingHeap {
     model.materials.push_back({"rock", 2600.0, 1e9, 0.2, {}});
     model.contact.normal_stiffness = model.contact.shear_stiffness = 1e9;
     blocks = build_blocks(model, polygons);
+    masses = given_masses(blocks);
     state = initial_state(blocks, polygons);
     laws = build_laws(model);
     pose = {blocks.vertex_x, blocks.vertex_y, blocks.vertex_x, blocks.vertex_y};
   }
 
-  /// Turns and shifts every block at random, no vertex by more than `most` m.
-  void drift(std::mt19937& rng, double most) {
+  /// Rotates and shifts every block at random, no vertex by more than `most` m.
+  void move_at_random(std::mt19937& rng, double most) {
     std::uniform_real_distribution<double> u(-1.0, 1.0);
     pose.x1 = pose.x;
     pose.y1 = pose.y;
@@ -109,10 +112,12 @@ struct DriftingHeap {
     }
   }
 
+  FaceScene scene() const { return {blocks, masses, pose, laws}; }
+
   ListFaults check() const { return check_list(contacts, blocks, state.alive, pose.x, pose.y); }
 };
 
-/// One heap of odd shapes, lying over one another as they fall, through `lists` lists and `moves`
+/// One heap of odd shapes, which overlap each other, through `lists` lists and `moves`
 /// moves under each: which faces act.
 inline ActingFaults acting_heap(unsigned seed, int blocks, int lists, int moves) {
   std::mt19937 rng(seed);
@@ -126,16 +131,16 @@ inline ActingFaults acting_heap(unsigned seed, int blocks, int lists, int moves)
     find_faces(c, heap.blocks, heap.state, heap.pose, heap.laws, reach);
     for (int move = 0; move < moves; ++move) {
       next_step(c);
-      heap.drift(rng, 0.5 * reach / moves);
-      place_faces(c, heap.blocks, heap.pose, heap.laws, 1.0);
+      heap.move_at_random(rng, 0.5 * reach / moves);
+      evaluate_faces(c, heap.scene(), 1.0);
       sum.add(oracle.look(c, heap.blocks, heap.pose));
     }
   }
   return sum;
 }
 
-/// One heap through `lists` lists and `moves` moves under each; faces that carry must survive every
-/// new list.
+/// One heap through `lists` lists and `moves` moves under each; faces that carry must remain in
+/// every new list.
 inline ListFaults drifting_heap(unsigned seed, int blocks, int lists, int moves) {
   std::mt19937 rng(seed);
   std::uniform_real_distribution<double> u(0.0, 1.0);
@@ -162,7 +167,7 @@ inline ListFaults drifting_heap(unsigned seed, int blocks, int lists, int moves)
     }
     add(heap.check());
     for (int move = 0; move < moves; ++move) {
-      heap.drift(rng, 0.5 * reach / moves);
+      heap.move_at_random(rng, 0.5 * reach / moves);
       add(heap.check());
     }
   }

@@ -1,4 +1,5 @@
-// Bonds, glue, laws that go with slip and factors of strength, on blocks that are moved by hand.
+// Bonds, glued joints, slip-dependent laws and strength factors, on blocks moved in a prescribed
+// way.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +20,7 @@ double tangent(double degrees) {
   return std::tan(degrees * std::numbers::pi / 180.0);
 }
 
-// Of a model 2 m thick: springs, N/m per metre.
+// For a model 2 m thick: springs, N/m per metre.
 constexpr double thickness = 2.0, normal_k = 2e9 * thickness, shear_k = 1e9 * thickness;
 constexpr double cohesion = 1e6, tension = 2e5;
 
@@ -28,7 +29,7 @@ MovedBlocks bonded_square(const JointLaw& joint) {
   MovedBlocks m = square_on_base(joint, thickness);
   m.start();
   bond_faces(m.faces, m.blocks, m.pose, m.laws);
-  m.settle();
+  m.evaluate();
   return m;
 }
 MovedBlocks bonded_square() {
@@ -42,7 +43,7 @@ std::size_t bonded_face(const MovedBlocks& m) {
   return static_cast<std::size_t>(std::find(bonded.begin(), bonded.end(), 1.0) - bonded.begin());
 }
 
-/// One end of it opens while the other closes: it tears where it is open.
+/// One end opens while the other closes: the bond fails in tension at the open end.
 TEST(FaceBond, TearsAtTheEndThatOpens) {
   const double most = tension * thickness / normal_k;
   for (const double way : {1.0, -1.0}) {
@@ -50,7 +51,7 @@ TEST(FaceBond, TearsAtTheEndThatOpens) {
     const std::size_t k = bonded_face(m);
     ASSERT_LT(k, m.faces.size());
     const auto open = [&](double by) {
-      // Closed by 0.2 of it at the other end; turned about the middle of the face.
+      // Closed by 0.2 of that at the other end, by rotation about the middle of the face.
       m.go(1, {{-0.6 * way * by, 0.4 * by}, 1.2 * way * by});
     };
     for (int n = 1; n <= 98; ++n) open(0.01 * n * most);
@@ -58,15 +59,15 @@ TEST(FaceBond, TearsAtTheEndThatOpens) {
     EXPECT_EQ(m.fracture(), 0.0);
     open(1.02 * most);
     EXPECT_EQ(m.faces.bonded[k], 0.0);
-    EXPECT_EQ(m.faces.pulls[k], 0.0);  // by more than what is left, too
+    EXPECT_EQ(m.faces.carries_tension[k], 0.0);  // exceeds the residual tensile strength, too
     EXPECT_NEAR(m.faces.friction[k], tangent(20.0), 1e-12);
     EXPECT_EQ(m.faces.cohesion[k], 3e4 * thickness);
     EXPECT_EQ(m.faces.tension[k], 5e4 * thickness);
   }
 }
 
-/// What it stored goes: k d^2/2 of a face that opens as one.
-TEST(FaceBond, BooksWhatItStoredAsItTears) {
+/// The stored energy is released: k d^2/2 of a face that opens uniformly.
+TEST(FaceBond, AccountsForItsStoredEnergyAsItFails) {
   MovedBlocks m = bonded_square();
   const std::size_t k = bonded_face(m);
   const double most = tension * thickness / normal_k;
@@ -74,23 +75,23 @@ TEST(FaceBond, BooksWhatItStoredAsItTears) {
   m.go(1, {{0.0, 1.01 * most}});
   EXPECT_EQ(m.faces.bonded[k], 0.0);
   EXPECT_EQ(m.faces.broken, 1u);
-  EXPECT_EQ(m.faces.breaks[k], 0.0);  // what it takes from now on is friction
+  EXPECT_EQ(m.faces.failure[k], 0.0);  // from now on its dissipation is friction
   const double stored = 0.5 * normal_k * most * most;
   EXPECT_NEAR(m.fracture(), stored, 0.03 * stored);
-  EXPECT_NEAR(m.books() + m.work, 0.0, 0.02 * stored);
+  EXPECT_NEAR(m.balance() + m.work, 0.0, 0.02 * stored);
 }
 
-/// From pressure to tension and back within a step: k d_0 d_1/2, below nothing.
-TEST(FaceBond, StoresLikeASpringWhereItGoesOverToTension) {
+/// From pressure to tension and back within a step: k d_0 d_1/2, which is negative.
+TEST(FaceBond, StoresLikeASpringWhereItChangesToTension) {
   MovedBlocks m = bonded_square();
   const double d = 1e-5;
   m.go(1, {{0.0, -d}});
-  const double start = m.books() + m.work, whole = normal_k * d * d;
+  const double start = m.balance() + m.work, whole = normal_k * d * d;
   for (const double y : {-0.5, 0.5, 1.5, -0.5, -1.5, 0.0, 1.0, 0.0, -1.0}) {
     const double before = -m.faces.now.closure_a[bonded_face(m)];
     m.go(1, {{0.0, y * d}});
     EXPECT_NEAR(m.stored(), 0.5 * normal_k * y * d * before, 1e-6 * whole) << y;
-    EXPECT_NEAR(m.books() + m.work, start, 1e-6 * whole) << y;
+    EXPECT_NEAR(m.balance() + m.work, start, 1e-6 * whole) << y;
   }
 }
 
@@ -105,9 +106,9 @@ TEST(FaceBond, ShearsAtItsCohesionAndFriction) {
   m.go(1, {{1.01 * limit / shear_k, -depth}});
   EXPECT_EQ(m.faces.bonded[k], 0.0);
   EXPECT_NEAR(-m.force_on(1).x, 3e4 * thickness + tangent(20.0) * normal, 1e-3 * normal);
-  // What is left of the tensile strength holds, and no more.
+  // Only the residual tensile strength remains.
   const double left = 5e4 * thickness / normal_k;
-  EXPECT_EQ(m.faces.pulls[k], 1.0);
+  EXPECT_EQ(m.faces.carries_tension[k], 1.0);
   m.go(1, {{1.01 * limit / shear_k, 0.98 * left}});
   EXPECT_NEAR(-m.force_on(1).y, 0.98 * 5e4 * thickness, 1.0);
   m.go(1, {{1.01 * limit / shear_k, 1.02 * left}});
@@ -115,7 +116,7 @@ TEST(FaceBond, ShearsAtItsCohesionAndFriction) {
   EXPECT_EQ(m.force_on(1).y, 0.0);
 }
 
-TEST(Glue, LetsGoOfWhatItHeld) {
+TEST(Glue, ReleasesWhatItCarried) {
   MovedBlocks m = pressed_square(rough_joint(30.0), 1e-6);
   glue_faces(m.faces);
   const double apart = 1e-4, stored = 0.5 * 2e9 * apart * apart;
@@ -124,11 +125,11 @@ TEST(Glue, LetsGoOfWhatItHeld) {
   EXPECT_NEAR(-m.force_on(1).y, 2e9 * apart, 1e-3 * 2e9 * apart);
   unglue_faces(m.faces, m.blocks, m.pose);
   EXPECT_NEAR(m.fracture(), stored, 1e-2 * stored);
-  place_faces(m.faces, m.blocks, m.pose, m.laws, m.step);
+  evaluate_faces(m.faces, m.scene(), m.step);
   EXPECT_EQ(m.force_on(1).y, 0.0);
 }
 
-/// Slides the square by `way` in steps of 1e-5 m, pressed in by `depth`.
+/// Slides the square by `way` in steps of 1e-5 m, with the closure `depth`.
 void slide(MovedBlocks& m, double way, double depth) {
   const int steps = static_cast<int>(way / 1e-5);
   for (int n = 1; n <= steps; ++n) m.go(1, {{1e-5 * n, -depth}});
@@ -146,17 +147,17 @@ TEST(SlipWeakening, AllStrengthFallsWithSlip) {
   const double depth = 1e-4, elastic = tangent(40.0) * normal_k * depth / shear_k + 1e5 / 1e9;
   slide(m, 2e-3, depth);
   const std::size_t k = m.main_face();
-  const double slid = m.faces.slid[k], part = slid / 0.004;
-  EXPECT_NEAR(slid, 2e-3 - elastic, 0.1 * 2e-3);
+  const double slip_so_far = m.faces.slip_so_far[k], part = slip_so_far / 0.004;
+  EXPECT_NEAR(slip_so_far, 2e-3 - elastic, 0.1 * 2e-3);
   const auto between = [&](double peak, double residual) {
     return peak + part * (residual - peak);
   };
   EXPECT_NEAR(m.faces.friction[k], between(tangent(40.0), tangent(20.0)), 1e-12);
   EXPECT_NEAR(m.faces.cohesion[k], thickness * between(1e5, 2e4), 1e-6);
   EXPECT_NEAR(m.faces.tension[k], thickness * between(2e5, 5e4), 1e-6);
-  // Its dilation goes, too: by (1 - u/D) tan(psi) du.
-  const double opened = tangent(5.0) * slid * (1.0 - 0.5 * part);
-  EXPECT_NEAR(m.faces.offset_a[k] + m.faces.owed[k], opened, 1e-2 * opened);
+  // Its dilation decreases, too: by (1 - u/D) tan(psi) du.
+  const double opened = tangent(5.0) * slip_so_far * (1.0 - 0.5 * part);
+  EXPECT_NEAR(m.faces.locked_closure_a[k] + m.faces.dilation_left[k], opened, 1e-2 * opened);
 }
 
 JointLaw dilating_joint(double friction_angle, double dilation_angle) {
@@ -166,50 +167,52 @@ JointLaw dilating_joint(double friction_angle, double dilation_angle) {
   return joint;
 }
 
-TEST(Dilation, OpensByTheTangentOfItsAngleAndBooksWhatItLifts) {
+TEST(Dilation, OpensByTheTangentOfItsAngleAndAccountsForTheWork) {
   const double depth = 1e-4;
   MovedBlocks m = pressed_square(dilating_joint(30.0, 5.0), depth);
   for (int n = 1; n <= 2; ++n) m.go(1, {{1e-6 * n, -depth}});
-  const double start = m.books() + m.work;
+  const double start = m.balance() + m.work;
   for (int n = 3; n <= 600; ++n) m.go(1, {{1e-6 * n, -depth}});
   const std::size_t k = m.main_face();
-  const double slid = m.faces.slid[k];
-  EXPECT_GT(slid, 3e-4);
-  EXPECT_GT(m.faces.offset_a[k], 0.9 * tangent(5.0) * slid);
-  EXPECT_EQ(m.faces.offset_a[k], m.faces.offset_b[k]);
-  EXPECT_NEAR(m.faces.offset_a[k] + m.faces.owed[k], tangent(5.0) * slid, 1e-9 * slid);
-  // Held down, it is pressed by as much more, which friction has paid.
-  EXPECT_NEAR(m.force_on(1).y, 2e9 * (depth + m.faces.offset_a[k]), 1e-3 * m.force_on(1).y);
-  EXPECT_NEAR(m.books() + m.work, start, 1e-3 * m.friction());
+  const double slip_so_far = m.faces.slip_so_far[k];
+  EXPECT_GT(slip_so_far, 3e-4);
+  EXPECT_GT(m.faces.locked_closure_a[k], 0.9 * tangent(5.0) * slip_so_far);
+  EXPECT_EQ(m.faces.locked_closure_a[k], m.faces.locked_closure_b[k]);
+  EXPECT_NEAR(m.faces.locked_closure_a[k] + m.faces.dilation_left[k], tangent(5.0) * slip_so_far,
+              1e-9 * slip_so_far);
+  // With the square kept at its height, the closure increases by that much; its energy is taken
+  // from friction.
+  EXPECT_NEAR(m.force_on(1).y, 2e9 * (depth + m.faces.locked_closure_a[k]), 1e-3 * m.force_on(1).y);
+  EXPECT_NEAR(m.balance() + m.work, start, 1e-3 * m.friction());
 }
 
-/// Steeper than friction pays for, it opens by no more than that.
+/// With a dilation beyond what friction dissipates, it opens only by what friction provides.
 TEST(Dilation, LiftsByNoMoreThanFrictionTakes) {
   MovedBlocks m = pressed_square(dilating_joint(5.0, 40.0), 1e-4);
   for (int n = 1; n <= 200; ++n) {
     m.go(1, {{1e-6 * n, -1e-4}});
     EXPECT_GE(m.friction(), -1e-9);
   }
-  EXPECT_GT(m.faces.offset_a[m.main_face()], 0.0);
-  EXPECT_GT(m.faces.owed[m.main_face()], 0.0);
+  EXPECT_GT(m.faces.locked_closure_a[m.main_face()], 0.0);
+  EXPECT_GT(m.faces.dilation_left[m.main_face()], 0.0);
 }
 
-/// Apart by a hair, its asperities go on counting the way that it slips.
+/// With a tiny gap the joint continues to dilate as it slips.
 TEST(Dilation, CountsTheSlipOfAJointThatIsOpenByAHair) {
   MovedBlocks m = pressed_square(dilating_joint(30.0, 5.0), 1e-6);
   m.go(1, {{0.0, -1e-6}});
   m.go(1, {{0.0, 2e-5}});
   m.go(1, {{0.0, 2e-5}});
   const auto most_slid = [&m] {
-    const std::vector<double> slid = m.faces.slid.values();
-    return *std::max_element(slid.begin(), slid.end());
+    const std::vector<double> slip_so_far = m.faces.slip_so_far.values();
+    return *std::max_element(slip_so_far.begin(), slip_so_far.end());
   };
   const double before = most_slid();
   for (int n = 1; n <= 10; ++n) m.go(1, {{1e-6 * n, 2e-5}});
   EXPECT_NEAR(most_slid() - before, 1e-5, 1e-9);
 }
 
-/// The formulas themselves, against numbers worked by hand.
+/// The formulas themselves, against values computed by hand.
 TEST(BartonBandis, Formulas) {
   Law law{};
   law.jrc = 10.0;
@@ -226,8 +229,8 @@ TEST(BartonBandis, Formulas) {
   EXPECT_EQ(roughness_left(200.0, 1.0), 0.0);
 }
 
-/// phi_r + JRC log10(JCS/sigma), its tangent divided by the strength factor; half of what is above
-/// phi_r opens it.
+/// phi_r + JRC log10(JCS/sigma), its tangent divided by the strength factor; half of the angle
+/// above phi_r is the dilation angle.
 TEST(BartonBandis, FrictionAndDilationInForce) {
   for (const double factor : {1.0, 2.0}) {
     JointLaw joint;
@@ -240,19 +243,19 @@ TEST(BartonBandis, FrictionAndDilationInForce) {
     m.start();
     m.laws = divided_laws(m.model, {factor});
     const double depth = 1e-4;
-    m.rest(1, {{0.0, -depth}});
+    m.put_still(1, {{0.0, -depth}});
     put_strengths_in_force(m.faces, m.laws);
     const std::size_t k = m.main_face();
     const double angle = 28.0 + 8.0 * std::log10(50e6 / (2e9 * depth));
     EXPECT_NEAR(m.faces.friction[k], tangent(angle) / factor, 1e-6);
-    // At first, before the pressure has grown by what it opens.
+    // At first, before dilation has raised the pressure.
     const double elastic = tangent(angle) / factor * 2e9 * depth / 1e9;
     const int steps = static_cast<int>(1.02 * elastic / 1e-6);
     for (int n = 1; n <= steps; ++n) m.go(1, {{1e-6 * n, -depth}});
-    const double slid = m.faces.slid[k];
-    ASSERT_GT(slid, 0.0);
-    EXPECT_NEAR((m.faces.offset_a[k] + m.faces.owed[k]) / slid, tangent(0.5 * (angle - 28.0)),
-                1e-2 * tangent(0.5 * (angle - 28.0)));
+    const double slip_so_far = m.faces.slip_so_far[k];
+    ASSERT_GT(slip_so_far, 0.0);
+    EXPECT_NEAR((m.faces.locked_closure_a[k] + m.faces.dilation_left[k]) / slip_so_far,
+                tangent(0.5 * (angle - 28.0)), 1e-2 * tangent(0.5 * (angle - 28.0)));
   }
 }
 
@@ -270,7 +273,7 @@ TEST(StrengthFactors, DivideAllStrength) {
   EXPECT_EQ(half.residual_tension, 0.5 * whole.residual_tension);
 }
 
-TEST(StrengthFactors, ReachWhatFacesHaveInForce) {
+TEST(StrengthFactors, ApplyToTheStrengthInForce) {
   MovedBlocks m = bonded_square();
   const std::size_t k = bonded_face(m);
   const LawTable once = divided_laws(m.model, {1.25}), twice = divided_laws(m.model, {2.5});

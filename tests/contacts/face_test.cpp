@@ -29,8 +29,8 @@ struct RandomFace {
     pair.p2 = 1;
     pair.q1 = 2;
     pair.q2 = 3;
-    pair.turn_cosine = turns->data();
-    pair.turn_sine = turns->data() + 4;
+    pair.exterior_cosine = turns->data();
+    pair.exterior_sine = turns->data() + 4;
   }
   /// The exterior angle of a corner.
   void turn(std::size_t corner, double angle) {
@@ -58,7 +58,7 @@ class Faces {
     for (Vec2* p : {&r.at.p1, &r.at.p2, &r.at.q1, &r.at.q2}) *p = rotated(*p, way) + Vec2{2.0, 1.0};
     r.pair.stiffness = 1.0;
     r.pair.ends = count_ % 4 == 1 ? 0.0 : 1.0;
-    r.pair.pulls = count_ % 11 == 0 ? 1.0 : 0.0;
+    r.pair.carries_tension = count_ % 11 == 0 ? 1.0 : 0.0;
     if (count_ % 7 == 0) r.pair.offset = {0.01, uniform(0.0, 0.02)};
     r.pair.inverse_e = 1.0 / le;
     r.pair.inverse_f = 1.0 / lf;
@@ -85,7 +85,8 @@ double largest(const std::array<Vec2, 4>& forces) {
   return size;
 }
 
-/// No corner, no end and no deepest end changes within the stencil.
+/// Within the stencil the corners that bound the ends do not change, nor which end has the larger
+/// closure.
 bool is_smooth(const RandomFace& r, const Face& f) {
   constexpr double clear = 1e-5;
   const Vec2 e = r.at.p2 - r.at.p1;
@@ -95,7 +96,7 @@ bool is_smooth(const RandomFace& r, const Face& f) {
          std::abs(f.closure.a - f.closure.b) > clear;
 }
 
-/// What a step leaves out where a face is plain changes no bit, but for the sign of a zero.
+/// The terms that a step omits for a plain face change no bit, except the sign of zeros.
 TEST(Face, IsTheSameWherePlainPartsAreLeftOut) {
   const auto parts = [](const Face& f) {
     return std::array{f.length,     f.cohesive,   f.closure.a,  f.closure.b,    f.xi.a,
@@ -114,7 +115,7 @@ TEST(Face, IsTheSameWherePlainPartsAreLeftOut) {
   while (closed < 2000) {
     const RandomFace r = faces.next();
     const Face whole = face_between(r.at, r.pair);
-    if (!is_plain(opposition_of(r.at, r.pair), r.pair)) {
+    if (!is_plain(geometry_of_edges(r.at, r.pair), r.pair)) {
       ++rare;
       continue;
     }
@@ -156,7 +157,7 @@ TEST(Face, ForcesAreTheGradientOfTheStoredEnergy) {
           u = here;
           return value;
         };
-        double error = 1.0;  // a stencil may lie across a change of curvature: not both
+        double error = 1.0;  // one of the two stencils may span a change of curvature, not both
         for (const double h : {1e-6, 1e-7}) {
           const double slope =
               (8.0 * (energy(h) - energy(-h)) - (energy(2.0 * h) - energy(-2.0 * h))) / (12.0 * h);
@@ -172,7 +173,8 @@ TEST(Face, ForcesAreTheGradientOfTheStoredEnergy) {
   EXPECT_GT(partial, 1000);
 }
 
-/// Moves the second edge along the first, past the corners at one end, by `x` from where they meet.
+/// Moves the second edge along the first, past the corners at one end, to `x` from the point where
+/// they meet.
 RandomFace passing_by(RandomFace r, bool first_end, double x) {
   const Vec2 along = unit(r.at.p2 - r.at.p1);
   const Vec2 meet = first_end ? r.at.p1 - r.at.q2 : r.at.p2 - r.at.q1;
@@ -182,7 +184,8 @@ RandomFace passing_by(RandomFace r, bool first_end, double x) {
   return r;
 }
 
-/// Corners that pass each other, an end or the deepest end that changes: no force jumps.
+/// Corners that pass each other, a change of the bounding corner or of the end of larger closure:
+/// no force jumps.
 TEST(Face, ForcesAreContinuous) {
   Faces faces;
   double worst = 0.0;
@@ -248,7 +251,7 @@ TEST(Face, IsTheSameSeenFromTheOtherBlock) {
   }
 }
 
-/// Two edges of 1 m, the second `depth` into the first and tilted by `tilt`.
+/// Two edges of 1 m, the second with the closure `depth` in the first and inclined by `tilt`.
 RandomFace flat(double depth, double tilt) {
   RandomFace r;
   r.at = {{0.0, 0.0}, {1.0, 0.0}, {1.0, depth}, {1.0 - std::cos(tilt), depth + std::sin(tilt)}};
@@ -293,16 +296,16 @@ TEST(Face, ACornerThatLeansKeepsTheSpringOfItsEnd) {
   }
 }
 
-CornerShare share_at(Vec2 turn, double theta) {
-  return corner_share(turn, std::cos(theta), std::sin(theta));
+CornerWeight share_at(Vec2 turn, double theta) {
+  return corner_weight(turn, std::cos(theta), std::sin(theta));
 }
 
 TEST(Face, TheTwoEdgesOfACornerShareItsSpring) {
   for (const double exterior : {0.5, pi / 2.0, 2.0}) {
     for (const double part : {0.0, 0.2, 0.5, 0.9, 1.0}) {
       const double theta = part * exterior;
-      const CornerShare one = share_at(turn_of(exterior), theta);
-      const CornerShare two = share_at(turn_of(exterior), exterior - theta);
+      const CornerWeight one = share_at(turn_of(exterior), theta);
+      const CornerWeight two = share_at(turn_of(exterior), exterior - theta);
       EXPECT_NEAR(one.value + two.value, 1.0, 1e-12);
     }
     EXPECT_EQ(share_at(turn_of(exterior), 1.1 * exterior).value, 0.0);
@@ -315,11 +318,11 @@ TEST(Face, ExistsOnlyWhileEdgesOverlapAndAreOpposed) {
   EXPECT_EQ(face_between(r.at, r.pair).energy, 0.0);  // beside each other
   r = flat(1e-3, 0.0);
   std::swap(r.at.q1, r.at.q2);
-  EXPECT_EQ(face_between(r.at, r.pair).energy, 0.0);  // the same way round
+  EXPECT_EQ(face_between(r.at, r.pair).energy, 0.0);  // edges in the same direction
   r = flat(-1e-3, 0.0);
   EXPECT_EQ(face_between(r.at, r.pair).energy, 0.0);  // apart
-  r.pair.pulls = 1.0;
-  // its corners pass each other: the ends are drawn in by r/4
+  r.pair.carries_tension = 1.0;
+  // its corners pass each other: the ends move inward by r/4
   const double furthest = 0.5 * r.pair.passing, u = std::sqrt(2.0) * 1e-3 / 6.0 / furthest;
   const double length = 1.0 - 0.5 * furthest * u * (2.0 - u);
   EXPECT_NEAR(face_between(r.at, r.pair).energy, 0.5 * 3e9 * 1e-6 * length, 1e-6);
@@ -327,14 +330,14 @@ TEST(Face, ExistsOnlyWhileEdgesOverlapAndAreOpposed) {
 
 TEST(Face, WhatIsDeeperThanLongCarriesNothing) {
   RandomFace r = flat(0.02, 0.0);
-  for (Vec2* q : {&r.at.q1, &r.at.q2}) *q += Vec2{0.995, 0.0};  // overlaps by 5 mm, 20 mm deep
+  for (Vec2* q : {&r.at.q1, &r.at.q2}) *q += Vec2{0.995, 0.0};  // overlap 5 mm, closure 20 mm
   const Face face = face_between(r.at, r.pair);
   EXPECT_GT(face.length, 0.0);
   EXPECT_EQ(face.energy, 0.0);
 }
 
-/// By the closures of its ends, of faces that are closed all over or gape, taken exactly, at their
-/// ends, and between the two.
+/// Derivatives with respect to the closures of the ends, for faces that are closed all along or
+/// gape, with the exact integral, the one at the ends, and weights between the two.
 TEST(FaceStiffness, IsTheDerivativeOfTheNormalForces) {
   for (const double depth : {1e-3, 1e-4}) {
     for (const double tilt : {-2e-3, 1e-3, 0.3, -0.3}) {
@@ -367,8 +370,8 @@ TEST(FaceStiffness, IsTheDerivativeOfTheNormalForces) {
   }
 }
 
-/// What acts at the ends works on the motion of the points there: N on the closure across the edge
-/// that the corner is pressed against, T on the slip.
+/// The forces at the ends do work on the motion of the points there: N on the closing normal to the
+/// edge on which the corner presses, T on the slip.
 TEST(Face, EndForcesWorkOnTheMotionOfTheEnds) {
   Faces faces;
   std::mt19937 random(11);

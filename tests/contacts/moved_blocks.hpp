@@ -1,18 +1,19 @@
-// Blocks that a test moves by hand, step by step, and what their faces make of it.
+// Blocks that a test moves in a prescribed way, step by step, and the response of their faces.
 #pragma once
 
 #include "attachments/drawn_blocks.hpp"
 #include "blocks/pose.hpp"
+#include "contacts/evaluate_faces.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/face_energy.hpp"
 #include "contacts/face_reading.hpp"
 #include "contacts/find_faces.hpp"
 #include "contacts/joint_laws.hpp"
-#include "contacts/place_faces.hpp"
 
 namespace edda::test {
 
-/// Where a block is: moved from where it was drawn, and turned about its centroid as drawn.
+/// Position of a block: its displacement from the drawn position, and its rotation about the drawn
+/// centroid.
 struct Place {
   Vec2 moved;
   double turned = 0.0;
@@ -26,7 +27,7 @@ struct MovedBlocks : DrawnBlocks {
   double step = 1e-4;
   double work = 0.0;  ///< J, done on the blocks by the forces of faces, in the leapfrog's terms
 
-  /// Blocks where they are drawn, at rest; all have the model's first joint.
+  /// Blocks as drawn, without velocity; all have the model's first joint.
   void start(double reach = 0.05) {
     build_all();
     model.contact.joint = 0;
@@ -38,22 +39,23 @@ struct MovedBlocks : DrawnBlocks {
     find_faces(faces, blocks, state, pose, laws, reach);
     set_face_dashpots(faces, laws, 0.0);
   }
-  /// Block i is there from now on, and has been.
+  /// Places block i, now and at the steps before.
   void put(std::size_t i, const Place& place) {
     place_in(i, place);
     pose.x1 = pose.x2 = pose.x;
     pose.y1 = pose.y2 = pose.y;
   }
-  void settle() {
-    place_faces(faces, blocks, pose, laws, step);
-    stand_still(faces);
+  FaceScene scene() const { return {blocks, masses, pose, laws}; }
+  void evaluate() {
+    evaluate_faces(faces, scene(), step);
+    begin_from_step_end(faces);
   }
-  /// The same, and faces as they are after a while.
-  void rest(std::size_t i, const Place& place) {
+  /// Places block i as put() does, and evaluates the faces there.
+  void put_still(std::size_t i, const Place& place) {
     put(i, place);
-    settle();
+    evaluate();
   }
-  /// One step, at whose end block i is there.
+  /// One step, at the end of which block i has this position.
   void go(std::size_t i, const Place& place) {
     pose.x2 = pose.x1;
     pose.y2 = pose.y1;
@@ -66,9 +68,9 @@ struct MovedBlocks : DrawnBlocks {
     }
     next_step(faces);
     if (laws.any_changes) update_joint_laws(faces, blocks, pose, laws);
-    place_faces(faces, blocks, pose, laws, step);
+    evaluate_faces(faces, scene(), step);
   }
-  /// What faces store and have taken, J.
+  /// Energy that faces store, J.
   double stored() const {
     double sum = 0.0;
     for (std::size_t k = 0; k < faces.size(); ++k) sum += face_energy(faces, blocks, pose, k);
@@ -83,8 +85,9 @@ struct MovedBlocks : DrawnBlocks {
   double damping() const { return sum(faces.damping_work) + sum(faces.now.damping_due); }
   double fracture() const { return sum(faces.fracture_work); }
   double transfer() const { return sum(faces.transfer); }
-  double books() const { return stored() + friction() + damping() + fracture() + transfer(); }
-  /// Of faces on block i, N.
+  /// Energy that faces store and have dissipated, J.
+  double balance() const { return stored() + friction() + damping() + fracture() + transfer(); }
+  /// Resultant force of the faces on block i, N.
   Vec2 force_on(std::size_t i) const {
     Vec2 force;
     for (std::size_t k = 0; k < faces.size(); ++k) {
@@ -110,7 +113,7 @@ struct MovedBlocks : DrawnBlocks {
   }
 };
 
-/// A square of 1 m, block 1, in the middle of a held base whose top is 3 m long.
+/// A square of 1 m, block 1, in the middle of a fixed base whose top is 3 m long.
 inline MovedBlocks square_on_base(const JointLaw& joint, double thickness = 1.0) {
   MovedBlocks m;
   m.model.thickness = thickness;
@@ -122,11 +125,12 @@ inline MovedBlocks square_on_base(const JointLaw& joint, double thickness = 1.0)
   return m;
 }
 
-/// The same at rest, pressed into its base by `depth`, which is negative where it hangs above.
+/// The same without velocity, with the penetration `depth` into its base, which is negative for a
+/// gap.
 inline MovedBlocks pressed_square(const JointLaw& joint, double depth, double thickness = 1.0) {
   MovedBlocks m = square_on_base(joint, thickness);
   m.start();
-  m.rest(1, {{0.0, -depth}});
+  m.put_still(1, {{0.0, -depth}});
   return m;
 }
 

@@ -1,4 +1,4 @@
-// A face while its blocks are moved: what it carries, and that every joule of it is booked.
+// A face while its blocks are moved: its forces, and that its energy balance closes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,14 +22,14 @@ constexpr double depth = 1e-4;
 
 TEST(MovingFace, IsAsStiffAsItsJoint) {
   MovedBlocks penalty = pressed_square(rough_joint(30.0), depth, 2.0);
-  // A spring p at each of its ends, times the thickness.
+  // A spring p at each end, times the thickness.
   EXPECT_NEAR(penalty.force_on(1).y, 2.0 * 2.0 * 1e9 * depth, 1.0);
   JointLaw measured = rough_joint(30.0);
   measured.kn = 3e9;
   MovedBlocks m = square_on_base(measured);
   m.start();
   const double tilt = 2e-5;
-  m.rest(1, {{0.0, -depth}, tilt});
+  m.put_still(1, {{0.0, -depth}, tilt});
   EXPECT_NEAR(m.force_on(1).y, 3e9 * depth, 1e-4 * 3e9 * depth);
   const std::size_t k = m.main_face();
   EXPECT_EQ(m.faces.shear_stiffness[k], 0.4 * 3e9);  // none is given
@@ -39,12 +39,13 @@ TEST(MovingFace, IsAsStiffAsItsJoint) {
   };
   EXPECT_NEAR(moment(m, k), 3e9 * tilt / 12.0, 1e-3 * 3e9 * tilt / 12.0);
   EXPECT_NEAR(norm(middle_of(m.faces, m.pose, k) - Vec2{0.5, 0.0}), 0.0, 1e-3);
-  // A penalty is a spring at either end, k L^3/4; where nothing leans there it is spread out, too.
+  // A penalty is a spring at either end, k L^3/4; where no corner leans the exact integral holds
+  // for it, too.
   const std::size_t q = penalty.main_face();
-  penalty.rest(1, {{0.0, -depth}, tilt});
+  penalty.put_still(1, {{0.0, -depth}, tilt});
   EXPECT_NEAR(moment(penalty, q), 4e9 * tilt / 4.0, 1e-3 * 4e9 * tilt);
   penalty.faces.leans[q] = 0.0;
-  penalty.settle();
+  penalty.evaluate();
   EXPECT_NEAR(moment(penalty, q), 4e9 * tilt / 12.0, 1e-3 * 4e9 * tilt);
 }
 
@@ -70,8 +71,8 @@ TEST(MovingFace, SlidesAtCoulombsLimitAndUnloadsElastically) {
   }
 }
 
-/// (T_n + T_{n-1})/2 over the way of a step, while the normal force falls: nothing is left over for
-/// the transfer, the overlap stays.
+/// (T_n + T_{n-1})/2 over the slip of a step, while the normal force falls: transfer is zero, since
+/// the overlap does not change.
 TEST(MovingFace, FrictionIsCoulombsWhileTheNormalForceChanges) {
   MovedBlocks m = pressed_square(rough_joint(30.0), depth);
   const auto limit = [](int n) { return mu * 2e9 * depth * (1.0 - 0.01 * n); };
@@ -79,7 +80,7 @@ TEST(MovingFace, FrictionIsCoulombsWhileTheNormalForceChanges) {
   for (int n = 1; n <= 60; ++n) {
     m.go(1, {{2e-5 * n, -depth * (1.0 - 0.01 * n)}});
     if (n == 20) before = m.friction();
-    // As the limit falls the spring slips by what it lets go.
+    // As the limit falls the end slips by the elastic slip that the spring loses.
     const double slip = 2e-5 + (limit(n - 2) - limit(n - 1)) / 1e9;
     if (n > 20) expected += slip * 0.5 * (limit(n - 2) + limit(n - 1));
   }
@@ -87,16 +88,17 @@ TEST(MovingFace, FrictionIsCoulombsWhileTheNormalForceChanges) {
   EXPECT_NEAR(m.transfer(), 0.0, 1e-9 * expected);
 }
 
-/// Moves block 1 and holds the books to the work of the forces. Returns what friction took.
+/// Moves block 1 and compares the energy balance with the work of the forces. Returns the
+/// frictional dissipation.
 void expect_closed_books(MovedBlocks& m, int steps, const std::function<Place(int)>& place,
                          double bound) {
-  m.rest(1, place(0));
+  m.put_still(1, place(0));
   for (int n = 1; n <= 2; ++n) m.go(1, place(n));
-  const double start = m.books() + m.work;
+  const double start = m.balance() + m.work;
   double most = 0.0, scale = 0.0;
   for (int n = 3; n <= steps; ++n) {
     m.go(1, place(n));
-    most = std::max(most, std::abs(m.books() + m.work - start));
+    most = std::max(most, std::abs(m.balance() + m.work - start));
     scale = std::max(scale, m.stored() + m.friction() + m.damping());
   }
   EXPECT_LT(most, bound * scale);
@@ -108,13 +110,13 @@ Place wiggle(int n) {
           2e-5 * std::sin(0.027 * n)};
 }
 
-TEST(MovingFace, BooksEveryJoule) {
+TEST(MovingFace, ClosesTheEnergyBalance) {
   MovedBlocks m = square_on_base(rough_joint(30.0));
   m.start();
   expect_closed_books(m, 600, wiggle, 1e-4);
 }
 
-TEST(MovingFace, BooksEveryJouleOfDashpots) {
+TEST(MovingFace, ClosesTheEnergyBalanceWithDashpots) {
   JointLaw joint = rough_joint(30.0);
   joint.dashpots = {0.2, 0.3, 1e9};
   MovedBlocks m = square_on_base(joint);
@@ -123,8 +125,8 @@ TEST(MovingFace, BooksEveryJouleOfDashpots) {
   EXPECT_GT(m.damping(), 0.0);
 }
 
-/// Over the end of the base: the overlap grows and shrinks, its ends move on.
-TEST(MovingFace, BooksEveryJouleWhileTheOverlapChanges) {
+/// Beyond the end of the base: the overlap grows and shrinks, its ends move.
+TEST(MovingFace, ClosesTheEnergyBalanceWhileTheOverlapChanges) {
   MovedBlocks m = square_on_base(rough_joint(30.0));
   m.start(0.2);
   expect_closed_books(
@@ -137,11 +139,12 @@ TEST(MovingFace, BooksEveryJouleWhileTheOverlapChanges) {
   EXPECT_NE(m.transfer(), 0.0);
 }
 
-/// What the overlap gains is free of stress: each spring grows, and its slip becomes as much less.
+/// Length that the overlap gains is free of stress: each spring grows, and its elastic slip
+/// decreases by the same factor.
 TEST(MovingFace, SpringsShiftWithTheOverlap) {
   MovedBlocks m = square_on_base(rough_joint(89.99));
   m.start(0.2);
-  m.rest(1, {{1.5, -depth}});
+  m.put_still(1, {{1.5, -depth}});
   double force = 0.0;
   for (const double overlap : {0.55, 0.60, 0.65}) {
     m.go(1, {{2.0 - overlap, -depth}});
@@ -156,40 +159,40 @@ TEST(MovingFace, DashpotsAreThePartOfCriticalAskedFor) {
   const double across = 0.2, along = 0.1;
   joint.dashpots = {across, along, 1e9};
   MovedBlocks m = pressed_square(joint, depth);
-  const double mass = 1.0 / m.blocks.point_inverse[m.blocks.vertex_begin[1]];
+  const double mass = 1.0 / m.masses.point_inverse[m.blocks.vertex_begin[1]];
   const double c = 2.0 * 2.0 * across * std::sqrt(1e9 * mass), d = 1e-7;
   m.go(1, {{0.0, -depth - d}});
   EXPECT_NEAR(m.force_on(1).y - 2e9 * (depth + d), c * d / m.step, 1e-6 * c * d / m.step);
   m.go(1, {{0.0, -depth}});
   EXPECT_NEAR(m.force_on(1).y - 2e9 * depth, -c * d / m.step, 1e-6 * c * d / m.step);
   m.go(1, {{-d, -depth}});
-  const double drag = 2.0 * 2.0 * along * std::sqrt(0.5e9 * mass) * d / m.step;
-  EXPECT_NEAR(m.force_on(1).x, 1e9 * d + drag, 1e-6 * drag);
-  // The implicit method has them beside its springs.
-  const FaceStiffness s = face_stiffness(m.faces, m.blocks, m.pose, m.step, {}, m.main_face());
+  const double mass_damping = 2.0 * 2.0 * along * std::sqrt(0.5e9 * mass) * d / m.step;
+  EXPECT_NEAR(m.force_on(1).x, 1e9 * d + mass_damping, 1e-6 * mass_damping);
+  // The implicit method has them in its matrix, too.
+  const FaceStiffness s = face_stiffness(m.faces, m.scene(), m.step, {}, m.main_face());
   EXPECT_NEAR(s.normal.aa, 1e9 + 0.5 * c / m.step, 1e-6 * c / m.step);
   EXPECT_NEAR(s.normal.bb, 1e9 + 0.5 * c / m.step, 1e-6 * c / m.step);
-  EXPECT_NEAR(s.shear_a, 0.5e9 + 0.5 * drag / d, 1e-6 * drag / d);
+  EXPECT_NEAR(s.shear_a, 0.5e9 + 0.5 * mass_damping / d, 1e-6 * mass_damping / d);
 }
 
-/// It has nothing to do with how far away the block was a step before.
+/// The force of the dashpot does not depend on the distance of the block a step before.
 TEST(MovingFace, DashpotsBeginWhereBlocksTouch) {
   JointLaw joint = rough_joint(30.0);
   joint.dashpots = {0.2, 0.0, 1e9};
   MovedBlocks m = pressed_square(joint, -5e-3);
   m.go(1, {{0.0, -1e-7}});
-  const double mass = 1.0 / m.blocks.point_inverse[m.blocks.vertex_begin[1]];
+  const double mass = 1.0 / m.masses.point_inverse[m.blocks.vertex_begin[1]];
   const double whole = 2e9 * 1e-7 + 4.0 * 0.2 * std::sqrt(1e9 * mass) * 1e-7 / m.step;
   EXPECT_NEAR(m.force_on(1).y, whole, 1e-6 * whole);
 }
 
-/// Cohesion is that of surfaces: of edges at 3 degrees whole, at 9 degrees none.
+/// Cohesion needs surfaces: edges at 3 degrees have all of it, edges at 9 degrees none.
 TEST(MovingFace, CohesionNeedsSurfacesThatLieAlongEachOther) {
   for (const double degrees : {0.0, 3.0, 9.0}) {
     MovedBlocks m = square_on_base(rough_joint(0.0, 1e5));
     m.start(0.3);
     const double tilt = degrees * std::numbers::pi / 180.0;
-    m.rest(1, {{0.0, 0.5 * (std::sin(tilt) + std::cos(tilt) - 1.0) - depth}, tilt});
+    m.put_still(1, {{0.0, 0.5 * (std::sin(tilt) + std::cos(tilt) - 1.0) - depth}, tilt});
     ASSERT_GT(m.force_on(1).y, 0.0);
     for (int n = 1; n <= 40; ++n) {
       m.go(1, {{1e-5 * n, 0.5 * (std::sin(tilt) + std::cos(tilt) - 1.0) - depth}, tilt});
@@ -201,8 +204,8 @@ TEST(MovingFace, CohesionNeedsSurfacesThatLieAlongEachOther) {
   }
 }
 
-/// The step behind is made shorter: what holds keeps its force, in the step to come, too.
-TEST(MovingFace, AChangeOfTheStepKeepsWhatHolds) {
+/// The last step is made shorter: an end that sticks keeps its force, in the next step, too.
+TEST(MovingFace, AChangeOfTheStepKeepsTheForceOfWhatSticks) {
   MovedBlocks m = pressed_square(rough_joint(80.0), depth);
   for (int n = 1; n <= 5; ++n) m.go(1, {{1e-6 * n, -depth - 1e-6 * n}});
   const double force = m.force_on(1).x;
@@ -211,15 +214,15 @@ TEST(MovingFace, AChangeOfTheStepKeepsWhatHolds) {
     m.pose.x1[v] = 0.5 * (m.pose.x[v] + m.pose.x1[v]);
     m.pose.y1[v] = 0.5 * (m.pose.y[v] + m.pose.y1[v]);
   }
-  change_step_behind(m.faces, m.blocks, m.pose, old_x1, old_y1);
-  place_faces(m.faces, m.blocks, m.pose, m.laws, 0.5 * m.step);
+  correct_last_step(m.faces, m.blocks, m.pose, old_x1, old_y1);
+  evaluate_faces(m.faces, m.scene(), 0.5 * m.step);
   EXPECT_NEAR(m.force_on(1).x, force, 1e-9 * std::abs(force));
   const std::size_t k = m.main_face();
   EXPECT_NEAR(m.faces.before.closure_a[k], depth + 4.5e-6, 1e-12);
   EXPECT_NEAR(m.faces.before.closure_b[k], depth + 4.5e-6, 1e-12);
 }
 
-/// The part alpha of the normal force is all that friction feels.
+/// Coulomb's limit is that of the part alpha of the normal force.
 TEST(MovingFace, IsCutAnewUnderAPartOfItsNormalForce) {
   MovedBlocks m = pressed_square(rough_joint(30.0), depth);
   for (int n = 1; n <= 20; ++n) m.go(1, {{2e-5 * n, -depth}});
@@ -229,7 +232,7 @@ TEST(MovingFace, IsCutAnewUnderAPartOfItsNormalForce) {
   const Face face = face_at(m.faces, m.blocks, m.pose.x, m.pose.y, k);
   next_step(m.faces);
   const double friction = m.faces.friction_work[k], transfer = m.faces.transfer[k];
-  const CornerForces half = cut_again(m.faces, face, at, then, 0.5, k);
+  const CornerForces half = recompute_shear(m.faces, face, at, then, 0.5, k);
   const double normal = 2e9 * depth, limit = mu * normal;
   const Vec2 on = half.q1 + half.q2;
   EXPECT_NEAR(on.y, 0.5 * normal, 1e-9 * normal);
@@ -239,18 +242,19 @@ TEST(MovingFace, IsCutAnewUnderAPartOfItsNormalForce) {
       end_forces(at, face, {}, {m.faces.before.shear_a[k], m.faces.before.shear_b[k]});
   EXPECT_NEAR(norm(half.p1 - 0.5 * face.force.p1 - shear.p1), 0.0, 1e-9 * normal);
   EXPECT_NEAR(norm(half.p2 - 0.5 * face.force.p2 - shear.p2), 0.0, 1e-9 * normal);
-  // It slips by limit/2k more, from T_{n-1} = limit to T_n = limit/2; before, all was at the limit.
+  // It slips further by limit/2k, from T_{n-1} = limit to T_n = limit/2; before, both were at the
+  // limit.
   const double ks = 1e9, slip = 2e-5;
   const double taken = 0.75 * limit * (slip + 0.5 * limit / ks) - limit * slip;
   EXPECT_NEAR(m.faces.friction_work[k] - friction, taken, 1e-6 * limit * slip);
-  // The overlap stays: nothing else is missing.
+  // The overlap does not change, so no other energy is lost.
   EXPECT_NEAR(m.faces.transfer[k] - transfer, 0.0, 1e-6 * limit * slip);
 }
 
-/// A step that turns the shear round: with u_{n-1} = l, l = limit/k, and a trial slip of -2 l, what
-/// the spring gives up is no friction but transfer: k u_n (-3 l - u_n)/2, u_n = -l or, halved,
-/// -l/2.
-TEST(MovingFace, BooksTheTransferOfWhatIsCutAnew) {
+/// A step that reverses the shear: with u_{n-1} = l, l = limit/k, and a trial slip of -2 l, the
+/// energy that the spring loses beyond friction is transfer: k u_n (-3 l - u_n)/2, u_n = -l or,
+/// halved, -l/2.
+TEST(MovingFace, AccountsForTheTransferOfWhatIsCutAnew) {
   MovedBlocks m = pressed_square(rough_joint(30.0), depth);
   for (int n = 1; n <= 20; ++n) m.go(1, {{2e-5 * n, -depth}});
   const double limit = mu * 2e9 * depth, l = limit / 1e9;
@@ -262,7 +266,7 @@ TEST(MovingFace, BooksTheTransferOfWhatIsCutAnew) {
   const Face face = face_at(m.faces, m.blocks, m.pose.x, m.pose.y, k);
   next_step(m.faces);
   const double friction = m.friction(), transfer = m.transfer();
-  cut_again(m.faces, face, at, then, 0.5, k);
+  recompute_shear(m.faces, face, at, then, 0.5, k);
   EXPECT_NEAR(m.friction(), friction, 1e-9 * limit * l);
   EXPECT_NEAR(m.transfer() - transfer, (0.625 - 1.0) * limit * l, 1e-6 * limit * l);
 }

@@ -1,4 +1,4 @@
-// What the list of faces must hold, by looking at every two edges.
+// The faces that the list must contain, found by examining every pair of edges.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@ namespace edda {
 
 using EdgePair = std::pair<Id, Id>;
 
-/// Cosine of the angle of the edges e and f beyond which no face acts: 85 degrees, and where one of
-/// their ends is a needle of alpha < 90 degrees (90 - alpha)/2 more.
+/// Cosine of the angle between the edges e and f beyond which no face acts: 85 degrees, and where
+/// one of their ends is a needle of alpha < 90 degrees (90 - alpha)/2 more.
 inline double least_opposed(const BlockSet& b, Id e, Id f) {
   double sharpest = 0.5 * std::numbers::pi;
   for (const Id v : {e, b.next[e], f, b.next[f]}) sharpest = std::min(sharpest, b.corner[v]);
@@ -30,7 +30,7 @@ inline bool oppose(const BlockSet& b, const std::vector<double>& x, const std::v
 }
 
 /// Every two opposed edges of different blocks of which a corner of one is nearer than `near` (m)
-/// to the other, in order. O(n^2): nothing is shared with the search but the meaning of "near".
+/// to the other, in order. O(n^2): only the definition of "near" is shared with the search.
 inline std::vector<EdgePair> all_near(const BlockSet& b, const std::vector<std::uint8_t>& alive,
                                       const std::vector<double>& x, const std::vector<double>& y,
                                       double near) {
@@ -62,7 +62,7 @@ inline std::vector<EdgePair> all_near(const BlockSet& b, const std::vector<std::
 }
 
 struct ListFaults {
-  std::size_t wanted = 0;    ///< pairs that must be there
+  std::size_t wanted = 0;    ///< pairs that must be in the list
   std::size_t missed = 0;    ///< of them, not in the list
   std::size_t repeated = 0;  ///< in the list more than once
 };
@@ -77,7 +77,8 @@ inline double moved_since_built(const FaceSet& c, const std::vector<double>& x,
   return most;
 }
 
-/// Holds the list to everything nearer than its reach less twice what a vertex has moved since.
+/// Checks that the list contains all pairs nearer than its reach less twice the distance that a
+/// vertex has moved since.
 inline ListFaults check_list(const FaceSet& c, const BlockSet& b,
                              const std::vector<std::uint8_t>& alive, const std::vector<double>& x,
                              const std::vector<double>& y) {

@@ -1,4 +1,4 @@
-// The list of faces against brute force, while blocks move under it.
+// The list of faces against brute force, while blocks move.
 #include <gtest/gtest.h>
 
 #include "contacts/drifting_heap.hpp"
@@ -18,7 +18,7 @@ TEST(ListOfFaces, MissesNothingWhileBlocksMove) {
   EXPECT_GT(wanted, 10000u);
 }
 
-/// Plates, needles of 2 degrees, stars, blocks with holes, as they lie over one another.
+/// Plates, needles of 2 degrees, stars, blocks with holes, which overlap each other.
 TEST(ListOfFaces, ActWhereTheyPressInBothBlocks) {
   ActingFaults sum;
   for (unsigned seed = 0; seed < 300; ++seed) {
@@ -27,7 +27,7 @@ TEST(ListOfFaces, ActWhereTheyPressInBothBlocks) {
     sum.add(faults);
   }
   EXPECT_GT(sum.decided, 50000u);
-  EXPECT_GT(sum.idle, 20000u);
+  EXPECT_GT(sum.inactive, 20000u);
 }
 
 }  // namespace

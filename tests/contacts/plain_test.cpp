@@ -1,5 +1,5 @@
-// Chunks whose faces are all plain are placed by a shorter loop: nothing may tell which loop it
-// was.
+// Chunks whose faces are all plain are evaluated by a shorter loop: both loops must give the same
+// bits.
 #include <gtest/gtest.h>
 
 #include "contacts/drifting_heap.hpp"
@@ -21,10 +21,10 @@ void expect_same(const FaceSet& a, const FaceSet& b) {
   expect_same(face_columns, a.before, b.before);
   EXPECT_EQ(a.force, b.force);
   EXPECT_EQ(a.deepest, b.deepest);
-  EXPECT_EQ(a.stirs, b.stirs);
+  EXPECT_EQ(a.switching, b.switching);
 }
 
-/// A heap that drifts, placed twice: once taken for plain throughout, once for rare.
+/// A heap that moves at random, evaluated twice: once with all chunks marked plain, once with none.
 void drift_twice(double damping) {
   std::mt19937 rng(5);
   DriftingHeap heap(odd_polygons(rng, 60));
@@ -34,12 +34,12 @@ void drift_twice(double damping) {
   std::size_t plain = 0, rare = 0, carrying = 0;
   for (int move = 0; move < 60; ++move) {
     next_step(c);
-    heap.drift(rng, 2e-3);
+    heap.move_at_random(rng, 2e-3);
     FaceSet whole = c;
     std::fill(whole.plain.begin(), whole.plain.end(), std::uint8_t{0});
     std::fill(c.plain.begin(), c.plain.end(), std::uint8_t{1});
-    place_faces(c, heap.blocks, heap.pose, heap.laws, 1e-3);
-    place_faces(whole, heap.blocks, heap.pose, heap.laws, 1e-3);
+    evaluate_faces(c, heap.scene(), 1e-3);
+    evaluate_faces(whole, heap.scene(), 1e-3);
     expect_same(c, whole);
     if (testing::Test::HasFatalFailure()) return;
     for (std::size_t q = 0; q < c.chunks(); ++q) {
@@ -59,7 +59,7 @@ TEST(PlainFaces, AreAsThoseThatAreNotWithDashpots) {
   drift_twice(0.2);
 }
 
-/// Faces one by one are as faces by chunks.
+/// Faces evaluated one by one are as those evaluated by chunks.
 TEST(PlainFaces, AreTheSameOneByOne) {
   std::mt19937 rng(6);
   DriftingHeap heap(odd_polygons(rng, 40));
@@ -67,11 +67,11 @@ TEST(PlainFaces, AreTheSameOneByOne) {
   find_faces(c, heap.blocks, heap.state, heap.pose, heap.laws, 0.1);
   for (int move = 0; move < 20; ++move) {
     next_step(c);
-    heap.drift(rng, 2e-3);
+    heap.move_at_random(rng, 2e-3);
     FaceSet single = c;
-    place_faces(c, heap.blocks, heap.pose, heap.laws, 1e-3);
+    evaluate_faces(c, heap.scene(), 1e-3);
     for (std::size_t k = 0; k < single.size(); ++k) {
-      place_face(single, heap.blocks, heap.pose, heap.laws, 1e-3, k);
+      evaluate_face(single, heap.scene(), 1e-3, k);
     }
     expect_same(face_properties, c, single);
     ASSERT_EQ(c.force, single.force);

@@ -5,13 +5,13 @@
 
 #include "blocks/build_blocks.hpp"
 #include "contacts/points.hpp"
-#include "lines/build_polygons.hpp"
+#include "cutting/build_polygons.hpp"
 #include "model/read_model.hpp"
 
 namespace edda::points_test {
 namespace {
 
-/// Blocks, held or not, and contacts as they are drawn.
+/// Blocks, fixed or free, and their contacts as drawn.
 struct Scene {
   BlockSet blocks;
   State state;
@@ -53,7 +53,7 @@ struct Scene {
     const auto& f = points.on_nodes[i];
     return f[0] + f[1] + f[2];
   }
-  /// About the origin of the blocks' coordinates, N m; the nodes as drawn.
+  /// Moment about the origin of the blocks' coordinates, N m; the nodes as drawn.
   double moment_on(std::size_t i) const {
     double sum = 0.0;
     for (std::size_t k = 0; k < 3; ++k)
@@ -73,7 +73,7 @@ std::string block(const std::string& polygon, const char* more = "") {
   return "[[block]]\npolygon = " + polygon + "\n" + more;
 }
 
-/// A wedge whose tip is `depth` inside a block that is held.
+/// A wedge whose tip is `depth` inside a fixed block.
 std::string wedge(double depth) {
   const auto at = [](double x, double y) {
     return "[" + std::to_string(x) + "," + std::to_string(y) + "]";
@@ -112,7 +112,7 @@ TEST(Points, StickUpToFrictionAndSlideBeyond) {
   s.shift(1, {0.01, 0.0});
   EXPECT_NEAR(norm(s.force_on(1) - Vec2{-limit, 1e5}), 0.0, 1e-5);
   EXPECT_EQ(s.points.slides[k], 1.0);
-  // Back: it sticks at once, from where it slid to.
+  // In the reverse direction it sticks at once at the point to which it slid.
   s.shift(1, {-0.0001, 0.0});
   EXPECT_NEAR(s.force_on(1).x, -limit + 4e7 * 0.0001, 1e-5);
   EXPECT_EQ(s.points.slides[k], 0.0);
@@ -126,7 +126,7 @@ TEST(Points, FrictionTakesItsForceTimesTheWay) {
   EXPECT_NEAR(s.points.friction + s.points.due, 0.0, 1e-9 * limit);
   for (int n = 0; n < 10; ++n) s.shift(1, {1e-4, 0.0});
   EXPECT_NEAR(s.points.friction + s.points.due, limit * 1e-3, 1e-9 * limit);
-  for (int n = 0; n < 2; ++n) s.shift(1, {-limit / 4e7, 0.0});  // back, by springs alone
+  for (int n = 0; n < 2; ++n) s.shift(1, {-limit / 4e7, 0.0});  // in reverse, by springs alone
   EXPECT_NEAR(s.points.friction + s.points.due, limit * 1e-3, 1e-9 * limit);
 }
 
@@ -142,8 +142,7 @@ TEST(Points, MomentIsThatOfEquation35) {
   EXPECT_NEAR(std::abs(s.moment_on(0) + s.moment_on(1)), 4e7 * 0.0005 * 0.001, 1e-5);
 }
 
-/// First entrance: a corner is in contact with the edge that it has gone less deep into, and keeps
-/// it.
+/// First entrance: a corner is in contact with the edge that it penetrates less, and keeps it.
 TEST(Points, KeepTheEdgeEntered) {
   // The lower right corner of the upper block, beside the upper left one of the other.
   Scene s(block("[[0,0],[1,0],[1,1],[0,1]]", "fixed = true\n") +
@@ -158,7 +157,7 @@ TEST(Points, KeepTheEdgeEntered) {
   }
   EXPECT_NEAR(normal, 2e5, 1e-2);  // the corner of the one, and that of the other
   EXPECT_NEAR(s.force_on(1).y, 2e5, 1e-2);
-  s.shift(1, {-0.0025, 0.0});  // less deep sideways now
+  s.shift(1, {-0.0025, 0.0});  // penetration is now less sideways
   EXPECT_NEAR(s.force_on(1).y, 2e5, 1e-2);
 }
 

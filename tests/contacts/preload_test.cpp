@@ -25,9 +25,9 @@ struct Pressed : MovedBlocks {
     start(0.2);
     joints = preload_faces(faces, blocks, pose, laws,
                            [&](Id edge, double s0, double s1) { return on(edge, s0, s1); });
-    place_faces(faces, blocks, pose, laws, step);
+    evaluate_faces(faces, scene(), step);
   }
-  /// What the stress does to edge s0 to s1; to level ones at y = 0 alone.
+  /// Forces of the stress on the edge from s0 to s1, which must be horizontal at y = 0.
   EndForces on(Id edge, double s0, double s1) const {
     const Vec2 a = blocks.vertex(edge), u = blocks.vertex(blocks.next[edge]) - a;
     if (a.y != 0.0 || u.y != 0.0) return {};
@@ -54,20 +54,20 @@ TEST(Preload, PushesBlocksWithTheTractionAndNothingElse) {
       const CornerForces on = corner_forces(m.faces, k);
       EXPECT_NEAR((on.q1 + on.q2).x, tau, (p1 == 0.0 ? 1e-6 : 2e-4) * p0);
       EXPECT_NEAR((on.q1 + on.q2).y, p0 + 0.5 * p1, 1e-6 * p0);
-      // On the square's corners, those of the same resultant and moment.
+      // On the square's corners, the forces with the same resultant and moment.
       EXPECT_NEAR(on.q1.y, p0 / 2.0 + p1 / 6.0, 2e-4 * p0);
       EXPECT_NEAR(on.q2.y, p0 / 2.0 + p1 / 3.0, 2e-4 * p0);
       EXPECT_NEAR(m.joints[0].mobilised, tau / (p0 + 0.5 * p1) / std::tan(40.0 * M_PI / 180.0),
                   1e-9);
       if (p1 > 0.0) continue;
-      // Along the face it pulls no corner: k o^2/2 at either end would be 250 N.
+      // No corner is pushed along the face: k o^2/2 at either end would be 250 N.
       EXPECT_NEAR(on.q1.x, 0.5 * tau, 1.0);
       EXPECT_NEAR(on.q2.x, 0.5 * tau, 1.0);
     }
   }
 }
 
-/// Edges remember the pressure at their corners, for faces that they make later.
+/// Edges keep the pressure at their corners, for faces that form later.
 TEST(Preload, LocksThePressureIntoEdges) {
   JointLaw joint = rough_joint(40.0);
   joint.kn = 2e9;
@@ -81,26 +81,26 @@ TEST(Preload, LocksThePressureIntoEdges) {
   EXPECT_NEAR(locked.b, pressure(face.eta.b) / 2e9, 1e-9 * p0 / 2e9);
 }
 
-/// Half over the end of the base, so that the overlap changes.
-TEST(Preload, BooksWhatItHoldsBack) {
+/// The square extends by half beyond the end of the base, so that the overlap changes.
+TEST(Preload, AccountsForTheForcesThatItRemoves) {
   Pressed m(rough_joint(30.0), 1.4, 4e5, 0.0, 0.0);
-  stand_still(m.faces);
+  begin_from_step_end(m.faces);
   const auto place = [](int n) {
     return Place{{4e-2 * std::sin(0.004 * n), -4e-5 * std::sin(0.034 * n)}};
   };
   for (int n = 1; n <= 2; ++n) m.go(1, place(n));
-  const double start = m.books() + m.work;
+  const double start = m.balance() + m.work;
   double most = 0.0;
   for (int n = 3; n <= 400; ++n) {
     m.go(1, place(n));
-    most = std::max(most, std::abs(m.books() + m.work - start));
+    most = std::max(most, std::abs(m.balance() + m.work - start));
   }
   EXPECT_LT(most, 1e-4 * m.friction());
   EXPECT_GT(m.friction(), 0.0);
 }
 
 /// Two plates thinner than they are long lie on each other: their far sides are opposed, too, and
-/// deep in each other.
+/// penetrate each other deeply.
 TEST(JudgeFace, FarSidesDoNotAct) {
   MovedBlocks m;
   m.model.joints = {rough_joint(30.0)};
@@ -109,7 +109,7 @@ TEST(JudgeFace, FarSidesDoNotAct) {
   m.add({{0.2, 0.02}, {0.8, 0.02}, {0.8, 0.04}, {0.2, 0.04}});
   m.start(0.05);
   const double depth = 1e-5;
-  m.rest(1, {{0.0, -depth}});
+  m.put_still(1, {{0.0, -depth}});
   EXPECT_NEAR(m.force_on(1).y, 2e9 * depth, 1e-6 * 2e9 * depth);
   int far = 0;
   for (std::size_t k = 0; k < m.faces.size(); ++k) {
@@ -121,7 +121,7 @@ TEST(JudgeFace, FarSidesDoNotAct) {
   EXPECT_GT(far, 0);
 }
 
-/// Between two wedges that meet at the point of five, but are no neighbours, lies a third.
+/// Between two wedges that meet at a point of five, but are not neighbours, lies a third.
 TEST(JudgeFace, NothingLeansAcrossAThirdBlock) {
   MovedBlocks m;
   m.model.joints = {rough_joint(30.0)};
@@ -136,7 +136,7 @@ TEST(JudgeFace, NothingLeansAcrossAThirdBlock) {
     const Vec2 inwards = -1e-5 * Vec2{m.blocks.centroid_x[i], m.blocks.centroid_y[i]};
     m.put(i, {inwards});
   }
-  m.settle();
+  m.evaluate();
   int across = 0, beside = 0;
   for (std::size_t k = 0; k < m.faces.size(); ++k) {
     if (!(m.faces.now.energy[k] > 0.0)) continue;

@@ -10,7 +10,7 @@
 
 namespace edda {
 
-/// A simple polygon of about the given size (m) round `centre`, corners counter-clockwise; needles
+/// A simple polygon of about the given size (m) around `centre`, corners counter-clockwise; needles
 /// and slivers of thickness over length from 0.1 down to `thinnest`.
 inline Ring random_shape(std::mt19937& rng, Vec2 centre, double size, double thinnest = 1e-3) {
   std::uniform_real_distribution<double> u(0.0, 1.0);

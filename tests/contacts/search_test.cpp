@@ -11,7 +11,7 @@
 namespace edda::search_test {
 namespace {
 
-/// Random polygons, overlapping at will, of very different sizes; some held.
+/// Random polygons, which may overlap, of very different sizes; some are fixed.
 BlockSet random_blocks(unsigned seed, int n, double spread) {
   std::mt19937 rng(seed);
   std::uniform_real_distribution<double> u(0.0, 1.0);

@@ -11,7 +11,7 @@
 #include "forces/block_matrices.hpp"
 #include "forces/bolt_matrix.hpp"
 #include "forces/mass_scaling.hpp"
-#include "forces/stiffness.hpp"
+#include "forces/step_bound.hpp"
 #include "forces/viscosity.hpp"
 
 namespace edda::block_step_test {
@@ -22,7 +22,7 @@ using test::MovedBlocks;
 StepBound bound_of(const MovedBlocks& m, const Damping& damping = {}) {
   BoundarySprings none;
   none.block_begin.assign(m.blocks.size() + 1, 0);
-  return step_bound(m.blocks, m.state, m.faces, none, m.laws, damping);
+  return step_bound({m.blocks, m.masses, m.state, m.faces, none, m.laws, damping});
 }
 
 /// Two squares of 1 m one over the other, the lower one held or not.
@@ -37,8 +37,8 @@ MovedBlocks two_squares(bool held) {
 }
 
 /// The uniform displacement d of the whole block.
-Vector6 moved(Vec2 d) {
-  Vector6 u;
+NodalVector moved(Vec2 d) {
+  NodalVector u;
   u << d.x, d.y, d.x, d.y, d.x, d.y;
   return u;
 }
@@ -56,14 +56,14 @@ TEST(StepBound, OfAStiffJointIsThatOfItsSpringsAtTheCorners) {
                            m.blocks.vertex(m.faces.facing_end[f]).y == 0.0;
       if (between) m.faces.stiffness[f] = k;
     }
-    Matrix6 stiffness = Matrix6::Zero();
+    NodalMatrix stiffness = NodalMatrix::Zero();
     for (const Id v : {m.blocks.vertex_begin[1], m.blocks.vertex_begin[1] + 1}) {
       ASSERT_EQ(m.blocks.vertex(v).y, 0.0);
-      const Vector6 up = along(vertex_weights(m.blocks, v), {0.0, 1.0});
+      const NodalVector up = along(weights_of(m.blocks.weight, v), {0.0, 1.0});
       stiffness += (held ? 1.0 : 2.0) * 0.5 * k * up * up.transpose();
     }
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(stiffness,
-                                                                   mass_matrix(m.blocks, 1));
+    const Eigen::GeneralizedSelfAdjointEigenSolver<NodalMatrix> solver(stiffness,
+                                                                       mass_matrix(m.masses, 1));
     EXPECT_NEAR(bound_of(m).critical_step, 2.0 / std::sqrt(solver.eigenvalues()[5]),
                 1e-3 * bound_of(m).critical_step)
         << held;
@@ -92,7 +92,7 @@ TEST(StepBound, DashpotsShortenItAndViscousRockMakesItLonger) {
   damping.contact = 5.0;
   EXPECT_LT(bound_of(m, damping).critical_step, (1.0 - 1e-3) * whole);
   m.blocks.damping.assign(2, 0.5);
-  fill_viscosity(m.blocks, {});
+  fill_viscosity(m.masses, m.blocks, {});
   EXPECT_GT(bound_of(m).critical_step, 1.1 * whole);
 }
 
@@ -101,16 +101,15 @@ struct TwiceAsked {
   MovedBlocks m;
   BoundarySprings springs;
   Damping damping;
-  KnownSteps known;
+  StepCache known;
   double last = 0.0;
 
-  double critical(KnownSteps* of) const {
-    return step_bound(m.blocks, m.state, m.faces, springs, m.laws, damping, nullptr, nullptr, of)
-        .critical_step;
+  StiffnessInputs inputs() const {
+    return {m.blocks, m.masses, m.state, m.faces, springs, m.laws, damping};
   }
-  std::vector<double> of_blocks(double limit, KnownSteps* of) const {
-    return steps_of_blocks(m.blocks, m.state, m.faces, springs, m.laws, damping, limit, nullptr,
-                           of);
+  double critical(StepCache* of) const { return step_bound(inputs(), of).critical_step; }
+  std::vector<double> of_blocks(double limit, StepCache* of) const {
+    return steps_of_blocks(inputs(), limit, of);
   }
   /// What has changed changes the step, and it is the same to the bit.
   void changes(const char* what) {
@@ -124,14 +123,14 @@ struct TwiceAsked {
   }
 };
 
-TEST(KnownSteps, GoWithAllThatAStepIsMadeOf) {
+TEST(StepCache, GoWithAllThatAStepIsMadeOf) {
   TwiceAsked t{two_squares(false), {}, {}, {}};
   MovedBlocks& m = t.m;
   m.add({{5, 0}, {6, 0}, {6, 1}, {5, 1}});
   m.start();
   t.springs.block_begin.assign(4, 0);
   m.blocks.damping.assign(3, 0.3);
-  fill_viscosity(m.blocks, {});
+  fill_viscosity(m.masses, m.blocks, {});
   t.changes("as it was");
   for (std::size_t k = 0; k < m.faces.size(); ++k) m.faces.stiffness[k] *= 8.0;
   t.changes("normal stiffness of faces");
@@ -143,9 +142,9 @@ TEST(KnownSteps, GoWithAllThatAStepIsMadeOf) {
   t.changes("dashpots along faces");
   t.damping.local = 0.5;
   t.changes("local damping");
-  for (double& viscosity : m.blocks.viscosity) viscosity *= 0.5;
+  for (double& viscosity : m.masses.viscosity) viscosity *= 0.5;
   t.changes("viscosity");
-  for (auto& mass : m.blocks.node_mass) {
+  for (auto& mass : m.masses.node) {
     for (double& kg : mass) kg *= 3.0;
   }
   t.changes("mass");
@@ -169,7 +168,7 @@ TEST(KnownSteps, GoWithAllThatAStepIsMadeOf) {
 }
 
 /// Edges of 2 m and 1 m: a face of the one has the numbers of the other alone.
-TEST(KnownSteps, GoWithTheEdgeThatHasAFace) {
+TEST(StepCache, GoWithTheEdgeThatHasAFace) {
   TwiceAsked t;
   MovedBlocks& m = t.m;
   m.model.joints = {test::rough_joint(30.0)};
@@ -178,7 +177,7 @@ TEST(KnownSteps, GoWithTheEdgeThatHasAFace) {
   m.add({{0.5, -1}, {1.5, -1}, {1.5, 0}, {0.5, 0}});
   m.start();
   t.springs.block_begin.assign(3, 0);
-  const auto own = [&](KnownSteps* of) {
+  const auto own = [&](StepCache* of) {
     return t.of_blocks(std::numeric_limits<double>::infinity(), of)[0];
   };
   double last = 0.0;
@@ -194,7 +193,7 @@ TEST(KnownSteps, GoWithTheEdgeThatHasAFace) {
 }
 
 /// What boundaries do to a block goes with how it has turned.
-TEST(KnownSteps, AreNotThoseOfBlocksAtBoundaries) {
+TEST(StepCache, AreNotThoseOfBlocksAtBoundaries) {
   TwiceAsked t;
   MovedBlocks& m = t.m;
   m.model.joints = {test::rough_joint(30.0)};
@@ -216,10 +215,10 @@ TEST(KnownSteps, AreNotThoseOfBlocksAtBoundaries) {
 TEST(Viscosity, IsTheFractionOfTheSoftestVibration) {
   MovedBlocks m = two_squares(true);
   const double frequency = std::sqrt(24.0 * m.blocks.lame_mu[1] / 2600.0);
-  EXPECT_NEAR(lowest_frequency(m.blocks, 1), frequency, 1e-9 * frequency);
+  EXPECT_NEAR(lowest_frequency(m.blocks, m.masses, 1), frequency, 1e-9 * frequency);
   m.blocks.damping.assign(2, 0.25);
-  fill_viscosity(m.blocks, {});
-  EXPECT_NEAR(m.blocks.viscosity[1], 2.0 * 0.25 / frequency, 1e-9 / frequency);
+  fill_viscosity(m.masses, m.blocks, {});
+  EXPECT_NEAR(m.masses.viscosity[1], 2.0 * 0.25 / frequency, 1e-9 / frequency);
 }
 
 /// Seen from the frame of a block that has turned, a slanted roller holds it across its line.
@@ -232,10 +231,11 @@ TEST(BlockMatrices, BoundarySpringsStandInSpaceAndNotInTheBlock) {
   const BoundarySprings springs = attach_boundaries(m.model, m.blocks).value();
   ASSERT_EQ(springs.size(), 2u);
   const double turn = 0.7;
-  const Matrix6 k = boundary_matrix(m.blocks, springs, {std::cos(turn), std::sin(turn), 2.0}, 0);
+  const NodalMatrix k =
+      boundary_matrix(m.blocks, springs, {std::cos(turn), std::sin(turn), 2.0}, 0);
   const Vec2 n = perp(unit(Vec2{2, 1}));
   for (const Vec2 d : {Vec2{1, 0}, Vec2{0, 1}, Vec2{0.6, -0.8}}) {
-    const Vector6 u = moved(rotated(d, -turn));
+    const NodalVector u = moved(rotated(d, -turn));
     EXPECT_NEAR(u.dot(k * u), 2.0 * 3.0 * dot(n, d) * dot(n, d), 1e-12);
   }
 }
@@ -251,8 +251,8 @@ TEST(BoltMatrix, HasTheSpringsOfABolt) {
   m.model.bolts = {bolt};
   m.attach();
   ASSERT_TRUE(m.faults.empty());
-  const Vector6 up = moved({0, 1}), across = moved({1, 0});
-  const Matrix6 bonds = bolt_matrix(m.bolts, m.blocks, m.state, 0);
+  const NodalVector up = moved({0, 1}), across = moved({1, 0});
+  const NodalMatrix bonds = bolt_matrix(m.bolts, m.blocks, m.state, 0);
   EXPECT_NEAR(up.dot(bonds * up), 1e9 * 1.0, 1e-3 * 1e9);   // 1 m of it in the block
   EXPECT_NEAR(across.dot(bonds * across), 2.0 * 1e7, 1.0);  // its dowel
   bolt.type = BoltType::end;
@@ -261,7 +261,7 @@ TEST(BoltMatrix, HasTheSpringsOfABolt) {
   m.model.bolts = {bolt};
   m.attach();
   ASSERT_TRUE(m.faults.empty());
-  const Matrix6 ends = bolt_matrix(m.bolts, m.blocks, m.state, 0);
+  const NodalMatrix ends = bolt_matrix(m.bolts, m.blocks, m.state, 0);
   const double area = 0.25 * std::numbers::pi * 4e-4, stiffness = bolt.young * area / 3.0;
   EXPECT_NEAR(up.dot(ends * up), 2.0 * stiffness, 1e-6 * stiffness);
   // At most its yield, which a strain of 0.01 is beyond.
@@ -288,15 +288,15 @@ TEST(StepBound, OfAStiffJointWithDashpots) {
       m.faces.stiffness[f] = k;
     }
   }
-  Matrix6 unit_springs = Matrix6::Zero();
+  NodalMatrix unit_springs = NodalMatrix::Zero();
   for (const Id v : {first, first + 1}) {
-    const Vector6 up = along(vertex_weights(m.blocks, v), {0.0, 1.0});
+    const NodalVector up = along(weights_of(m.blocks.weight, v), {0.0, 1.0});
     unit_springs += up * up.transpose();
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(unit_springs,
-                                                                 mass_matrix(m.blocks, 1));
+  const Eigen::GeneralizedSelfAdjointEigenSolver<NodalMatrix> solver(unit_springs,
+                                                                     mass_matrix(m.masses, 1));
   const double mass = 1.0 / solver.eigenvalues()[5];
-  const double c = 2.0 * zeta * std::sqrt(p / m.blocks.point_inverse[first]);
+  const double c = 2.0 * zeta * std::sqrt(p / m.masses.point_inverse[first]);
   Damping damping;
   damping.contact = zeta;
   const double h = 2.0 * (std::sqrt(0.25 * c * c + p * mass) - 0.5 * c) / p;
@@ -306,9 +306,9 @@ TEST(StepBound, OfAStiffJointWithDashpots) {
 TEST(BlockMatrices, TurnWithTheBlock) {
   MovedBlocks m = two_squares(true);
   const double turn = 0.7;
-  const Matrix6 own = elastic_matrix(m.blocks, 1),
-                seen = edda::turned(own, {std::cos(turn), std::sin(turn), 2.0});
-  Vector6 u, back;
+  const NodalMatrix own = elastic_matrix(m.blocks, 1),
+                    seen = edda::rotated(own, {std::cos(turn), std::sin(turn), 2.0});
+  NodalVector u, back;
   u << 0.3, -0.2, 0.5, 0.1, -0.4, 0.6;
   for (Eigen::Index k = 0; k < 3; ++k) {
     const Vec2 v = rotated({u[2 * k], u[2 * k + 1]}, -turn);
@@ -324,9 +324,9 @@ TEST(BlockMatrices, ViscousIsElasticTimesItsViscosity) {
   m.model.joints = {test::rough_joint(30.0)};
   m.add({{0, 0}, {3, 0}, {3, 2}, {0, 1}});
   m.start();
-  m.blocks.viscosity = {2e-3};
-  const Matrix6 elastic = elastic_matrix(m.blocks, 0),
-                viscous = viscous_matrix(m.blocks, 0, {1.0, 0.0, 0.0, 1.0});
+  m.masses.viscosity = {2e-3};
+  const NodalMatrix elastic = elastic_matrix(m.blocks, 0),
+                    viscous = viscous_matrix(m.blocks, m.masses, 0, {1.0, 0.0, 0.0, 1.0});
   EXPECT_LT((viscous - 2e-3 * elastic).norm(), 1e-9 * viscous.norm());
 }
 
@@ -340,26 +340,27 @@ TEST(MassScaling, KeepsThePartOfCriticalDamping) {
     m.model.contact.normal_stiffness = m.model.contact.shear_stiffness = 1e6;
     m.add({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
     m.start();
-    const double inverse = m.blocks.inverse_mass[0].empty() ? 0.0 : m.blocks.inverse_mass[0][0];
+    const double inverse = m.masses.inverse[0].empty() ? 0.0 : m.masses.inverse[0][0];
     m.blocks.damping = {0.25};
     BoundarySprings none;
     none.block_begin.assign(2, 0);
     const double step = 2.0 * bound_of(m).critical_step;
-    const std::vector<double> factors =
-        raise_inertia(m.blocks, m.state, m.faces, none, m.laws, {}, step);
+    const std::vector<double> factors = scale_block_masses(
+        m.masses, {m.blocks, m.masses, m.state, m.faces, none, m.laws, {}}, step);
     ASSERT_EQ(factors.size(), 1u);
     EXPECT_NEAR(factors[0], 4.0, 1e-6);
     EXPECT_NEAR(bound_of(m).critical_step, step, 1e-6 * step);
     if (inverse > 0.0) {
-      EXPECT_NEAR(m.blocks.inverse_mass[0][0], 0.25 * inverse, 1e-6 * inverse);
+      EXPECT_NEAR(m.masses.inverse[0][0], 0.25 * inverse, 1e-6 * inverse);
     }
-    fill_viscosity(m.blocks, {});
-    const double viscosity = m.blocks.viscosity[0];
-    raise_inertia(m.blocks, m.state, m.faces, none, m.laws, {}, 3.0 * step);
-    const double raised = m.blocks.viscosity[0];
-    fill_viscosity(m.blocks, {});
+    fill_viscosity(m.masses, m.blocks, {});
+    const double viscosity = m.masses.viscosity[0];
+    scale_block_masses(m.masses, {m.blocks, m.masses, m.state, m.faces, none, m.laws, {}},
+                       3.0 * step);
+    const double raised = m.masses.viscosity[0];
+    fill_viscosity(m.masses, m.blocks, {});
     EXPECT_GT(raised, 1.1 * viscosity);
-    EXPECT_NEAR(raised, m.blocks.viscosity[0], 1e-6 * raised);
+    EXPECT_NEAR(raised, m.masses.viscosity[0], 1e-6 * raised);
   }
 }
 

@@ -24,7 +24,7 @@ TEST(InitialStressForce, IsTheGradientOfItsEnergy) {
   const Tensor s{-3e6, -2e6, 0.7e6};
   for (int q = 0; q < 20; ++q) {
     const Deformation f = random_deformation(chance);
-    const PiolaStress p = carried_along(f, s.xx, s.yy, s.xy);
+    const PiolaStress p = initial_stress_term(f, s.xx, s.yy, s.xy);
     const double step = 1e-5;
     const auto slope = [&](double Deformation::*part) {
       Deformation up = f, down = f;
@@ -52,7 +52,7 @@ TEST(InitialStressForce, WorksWhatTheLedgerCounts) {
   for (int q = 0; q < 20; ++q) {
     const Deformation a = random_deformation(chance), b = random_deformation(chance),
                       c = random_deformation(chance);
-    const PiolaStress p = carried_along(b, s.xx, s.yy, s.xy);
+    const PiolaStress p = initial_stress_term(b, s.xx, s.yy, s.xy);
     const double work =
         0.5 * volume *
         (p.xx * (c.xx - a.xx) + p.xy * (c.xy - a.xy) + p.yx * (c.yx - a.yx) + p.yy * (c.yy - a.yy));

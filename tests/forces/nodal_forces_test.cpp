@@ -103,7 +103,7 @@ TEST(NodalForces, BoundarySpringsPullBack) {
 TEST(NodalForces, OfFacesWorkAsOnTheCorners) {
   MovedBlocks m = test::square_on_base(test::rough_joint(30.0));
   m.start();
-  m.rest(1, {{0.0, -1e-4}, 5e-5});
+  m.put_still(1, {{0.0, -1e-4}, 5e-5});
   m.go(1, {{2e-5, -1e-4}, 5e-5});
   NodalForces forces;
   for (std::size_t k = 0; k < 3; ++k) forces.x[k] = forces.y[k] = {0.0, 0.0};
@@ -133,10 +133,9 @@ TEST(NodalForces, OfFacesWorkAsOnTheCorners) {
 /// eta C : dU/dt of a block that is neither turned nor strained.
 TEST(ViscousStress, IsTheElasticOneOfItsRate) {
   OneBlock o;
-  o.blocks.viscosity = {2e-3};
   const double lambda = o.blocks.lame_lambda[0], mu = o.blocks.lame_mu[0];
   const PiolaStress p =
-      viscous_stress(o.blocks, 0, strain_frame({1.0, 0.0, 0.0, 1.0}), {0.3, -0.1, 0.5});
+      viscous_stress(o.blocks, 2e-3, 0, strain_frame({1.0, 0.0, 0.0, 1.0}), {0.3, -0.1, 0.5});
   EXPECT_NEAR(p.xx, 2e-3 * (lambda * 0.2 + 2.0 * mu * 0.3), 1e-6);
   EXPECT_NEAR(p.yy, 2e-3 * (lambda * 0.2 - 2.0 * mu * 0.1), 1e-6);
   EXPECT_NEAR(p.xy, 2e-3 * mu * 0.5, 1e-6);
@@ -150,8 +149,9 @@ TEST(DashpotForces, AreThoseOfTheMeanVelocityOfTheStep) {
   const Dashpots dashpots = attach_dashpots(o.model, o.blocks).value();
   const std::size_t points = dashpots.points.size();
   ASSERT_EQ(points, 2u);
-  const double h = 1e-3, drag = 0.2;
-  o.blocks.viscosity = {1e-4};
+  const double h = 1e-3, mass_damping = 0.2;
+  Masses masses = given_masses(o.blocks);
+  masses.viscosity = {1e-4};
   Nodes vx, vy;
   for (std::size_t k = 0; k < 3; ++k) {
     vx[k] = {0.2 + 0.1 * static_cast<double>(k)};
@@ -160,13 +160,14 @@ TEST(DashpotForces, AreThoseOfTheMeanVelocityOfTheStep) {
   const std::vector<Vec2> reference{{0.05, 0.02}, {0.01, -0.03}}, push{{10.0, 20.0}, {-5.0, 3.0}};
   std::vector<Vec2> on_point(points);
   o.gather({0.0, -9.81});
-  add_dashpots(o.forces, on_point, dashpots, o.blocks, o.state, vx, vy, {h, drag, reference, push},
-               0, 1);
-  const Matrix6 mass = mass_matrix(o.blocks, 0);
-  const Vector6 before = nodal(vx, vy, 0);
-  const Matrix6 left = (1.0 + drag) * mass + h * viscous_matrix(o.blocks, 0, {1.0, 0.0, 0.0, 1.0});
-  const Vector6 after =
-      left.ldlt().solve((1.0 - drag) * mass * before + h * nodal(o.forces.x, o.forces.y, 0));
+  add_dashpots(o.forces, on_point, dashpots, {o.blocks, masses, o.state, vx, vy},
+               {h, mass_damping, reference, push}, 0, 1);
+  const NodalMatrix mass = mass_matrix(masses, 0);
+  const NodalVector before = nodal(vx, vy, 0);
+  const NodalMatrix left =
+      (1.0 + mass_damping) * mass + h * viscous_matrix(o.blocks, masses, 0, {1.0, 0.0, 0.0, 1.0});
+  const NodalVector after = left.ldlt().solve((1.0 - mass_damping) * mass * before +
+                                              h * nodal(o.forces.x, o.forces.y, 0));
   Nodes mean_x, mean_y;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto at = static_cast<Eigen::Index>(2 * k);

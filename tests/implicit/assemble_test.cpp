@@ -73,7 +73,7 @@ TEST(Assemble, MatrixIsTheDerivativeOfTheResidual) {
   ImplicitBlocks measured(with_stiffness);
   expect_derivative(measured);
   ImplicitBlocks viscous(pressed);
-  fill_viscosity(viscous.blocks, {});
+  fill_viscosity(viscous.masses, viscous.blocks, {});
   expect_derivative(viscous);
 }
 
@@ -89,18 +89,19 @@ TEST(Assemble, ResidualHasTheVelocityAtTheStartOfTheStep) {
     s.state.vx[k][1] = 0.1 + 0.2 * static_cast<double>(k);
     s.state.vy[k][1] = 0.3 - 0.1 * static_cast<double>(k);
   }
-  const Vector6 v = nodal(s.state.vx, s.state.vy, 1);
-  const Vector6 change = (s.residual(x0, y0) - at_rest).head<6>();
-  const Vector6 expected = (2.0 / s.settings.step + s.settings.mass_damping) * s.solver.mass[1] * v;
+  const NodalVector v = nodal(s.state.vx, s.state.vy, 1);
+  const NodalVector change = (s.residual(x0, y0) - at_rest).head<6>();
+  const NodalVector expected =
+      (2.0 / s.settings.step + s.settings.mass_damping) * s.solver.mass[1] * v;
   EXPECT_LT((change - expected).norm(), 1e-9 * expected.norm());
-  fill_viscosity(s.blocks, {});
+  fill_viscosity(s.masses, s.blocks, {});
   s.solver.moved.head<6>() << 1e-7, 2e-7, -1e-7, 0.0, 3e-7, 1e-7;
-  const Vector6 rate = 2.0 / s.settings.step * s.solver.moved.head<6>() - 1e-3 * v;
+  const NodalVector rate = 2.0 / s.settings.step * s.solver.moved.head<6>() - 1e-3 * v;
   for (auto* nodes : {&s.state.vx, &s.state.vy}) {
     for (std::size_t k = 0; k < 3; ++k) (*nodes)[k][1] *= 1e-3;
   }
-  const Vector6 force = viscous_force(s.solver, s.blocks, s.settings, s.state, 0);
-  const Vector6 linear = -viscous_matrix(s.blocks, 1) * rate;
+  const NodalVector force = viscous_force(s.solver, s.scene(), s.settings, s.state, 0);
+  const NodalVector linear = -viscous_matrix(s.blocks, s.masses, 1) * rate;
   EXPECT_LT((force - linear).norm(), 1e-4 * linear.norm());
 }
 

@@ -26,7 +26,7 @@ struct Pressed : MovedBlocks {
       : MovedBlocks(test::square_on_base(joint)) {
     start();
     if (bonded) bond_faces(faces, blocks, pose, laws);
-    rest(1, {{0.0, at}});
+    put_still(1, {{0.0, at}});
     for (auto* taken : {&faces.friction_work, &faces.damping_work}) {
       taken->fill(0.0);
     }
@@ -38,10 +38,10 @@ struct Pressed : MovedBlocks {
     put(1, place);
     pose.x1 = x;
     pose.y1 = y;
-    evaluate_springs(springs, faces, blocks, pose, step, false);
+    evaluate_springs(springs, faces, scene(), step, false);
     const std::vector<Id> broken = break_overloaded(springs, faces, blocks, laws);
-    if (!broken.empty()) evaluate_springs(springs, faces, blocks, pose, step, false);
-    book_springs(springs, faces, pose, broken);
+    if (!broken.empty()) evaluate_springs(springs, faces, scene(), step, false);
+    account_springs(springs, faces, pose, broken);
     pose.x1 = pose.x;
     pose.y1 = pose.y;
   }

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "blocks/build_blocks.hpp"
+#include "contacts/evaluate_faces.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/find_faces.hpp"
-#include "contacts/place_faces.hpp"
+#include "cutting/build_polygons.hpp"
 #include "implicit/assemble.hpp"
-#include "lines/build_polygons.hpp"
 #include "model/read_model.hpp"
 
 namespace edda::test {
@@ -15,6 +15,7 @@ struct ImplicitBlocks {
   Model model;
   PolygonSet polygons;
   BlockSet blocks;
+  Masses masses;
   LawTable laws;
   BoundarySprings springs;
   State state;
@@ -28,6 +29,7 @@ struct ImplicitBlocks {
     model = read_model_text(toml, "scene.toml", {}).value();
     polygons = build_polygons(model).value();
     blocks = build_blocks(model, polygons);
+    masses = given_masses(blocks);
     laws = build_laws(model);
     springs = attach_boundaries(model, blocks).value();
     state = initial_state(blocks, polygons);
@@ -41,15 +43,15 @@ struct ImplicitBlocks {
     pose.x1 = pose.x;
     pose.y1 = pose.y;
     find_faces(contacts, blocks, state, pose, laws, 0.05);
-    place_faces(contacts, blocks, pose, laws, 1.0);
-    stand_still(contacts);  // limits of friction
+    evaluate_faces(contacts, scene().faces(pose), 1.0);
+    begin_from_step_end(contacts);  // limits of friction
     settings.step = 2e-3;
     settings.mass_damping = 3.0;
     settings.contact_damping = 0.1;
     set_face_dashpots(contacts, laws, settings.contact_damping);
   }
 
-  ImplicitScene scene() const { return {blocks, laws, springs, {0.0, -9.81}}; }
+  ImplicitScene scene() const { return {blocks, masses, laws, springs, {0.0, -9.81}}; }
 
   void place() {
     for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -68,7 +70,7 @@ struct ImplicitBlocks {
       }
     }
     place();
-    evaluate_springs(solver.springs, contacts, blocks, pose, settings.step, false);
+    evaluate_springs(solver.springs, contacts, scene().faces(pose), settings.step, false);
     gather_forces(forces, blocks, state, pose, contacts, springs, {0.0, -9.81});
     measure_residual(solver, scene(), settings, state, contacts, forces);
     return solver.residual;

@@ -91,7 +91,7 @@ TEST(LinearSolver, OrdersOncePerPatternAndKeepsAFactorThatServes) {
   for (int solve = 0; solve < 30; ++solve) {
     // The matrix changes a little from solve to solve, as contacts do.
     const auto block = static_cast<Id>(solve % 10);
-    grid.matrix.at(block, grid.matrix.slot(block, block)) += 10.0 * Matrix6::Identity();
+    grid.matrix.at(block, grid.matrix.slot(block, block)) += 10.0 * NodalMatrix::Identity();
     Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size());
     ASSERT_TRUE(solver.solve(grid.matrix, b, 1e-8, x));
     EXPECT_LE((grid.matrix.scalar() * x - b).norm(), 1.01e-8 * b.norm());

@@ -38,15 +38,15 @@ duration = 1.0
     settings.balance = 1e-9;
   }
   void go() {
-    const ImplicitScene at{blocks, laws, springs, gravity};
+    const ImplicitScene at{blocks, masses, laws, springs, gravity};
     ASSERT_EQ(newmark_step(solver, at, settings, state, pose, contacts, forces, damping_work),
               Attempt::accepted);
     pose.x1 = pose.x;
     pose.y1 = pose.y;
   }
-  Vector6 momentum() const { return mass_matrix(blocks, 0) * nodal(state.vx, state.vy, 0); }
+  NodalVector momentum() const { return mass_matrix(masses, 0) * nodal(state.vx, state.vy, 0); }
   double spin_momentum() const {
-    const Vector6 p = momentum();
+    const NodalVector p = momentum();
     double sum = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto at = static_cast<Eigen::Index>(2 * k);
@@ -57,7 +57,7 @@ duration = 1.0
   double energy() const {
     const Deformation f = deformation(blocks, state.x, state.y, 0);
     const Tensor e = corotated_strain(f, rotation(f));
-    const Vector6 v = nodal(state.vx, state.vy, 0);
+    const NodalVector v = nodal(state.vx, state.vy, 0);
     return 0.5 * v.dot(momentum()) +
            strain_energy(e, e, blocks.volume[0], blocks.lame_lambda[0], blocks.lame_mu[0]) -
            blocks.mass[0] * dot(gravity, centroid(state.x, state.y, 0)) +
@@ -85,13 +85,13 @@ TEST(Newmark, KeepsItsSpin) {
 
 /// What is kinetic, strain and weight, and what the method and mass damping took.
 TEST(Newmark, BooksEveryJoule) {
-  for (const double drag : {0.0, 3.0}) {
-    Flying f(20.0, {1.0, -2.0}, {0.5, -9.81}, drag);
+  for (const double mass_damping : {0.0, 3.0}) {
+    Flying f(20.0, {1.0, -2.0}, {0.5, -9.81}, mass_damping);
     const double start = f.energy();
     for (int n = 0; n < 50; ++n) f.go();
     const double taken = start - f.energy();
-    EXPECT_NEAR(f.damping_work[0], taken, 1e-6 * std::abs(start)) << drag;
-    if (drag == 0.0) continue;
+    EXPECT_NEAR(f.damping_work[0], taken, 1e-6 * std::abs(start)) << mass_damping;
+    if (mass_damping == 0.0) continue;
     // It has no other loss worth the name: m a v^2 and I a w^2 in 50 ms.
     EXPECT_GT(f.damping_work[0], 1e-2 * start);
   }

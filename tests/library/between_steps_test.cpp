@@ -105,7 +105,7 @@ TEST_F(Library, AChangeAtTheEndOfAStageLeavesItsCheckpointWhole) {
   EXPECT_EQ(whole.run().status, Status::completed);
   const std::string history = text_of(in_folder("out") + "/history.csv");
   EXPECT_EQ(history.find("nan"), std::string::npos) << history;
-  Simulation second(model, {.results = in_folder("out"), .from_stage = 0});
+  Simulation second(model, {.results = in_folder("out"), .from_stage = 1});
   EXPECT_EQ(second.run().status, Status::completed);
   EXPECT_EQ(positions(second), positions(whole));
   EXPECT_EQ(text_of(in_folder("out") + "/history.csv"), history);
@@ -115,8 +115,8 @@ TEST_F(Library, ARunTakenUpAtTheEndOfAStageBeginsTheNextBeforeAnyChange) {
   const Model model = staged_ramp();
   Simulation(model, {.results = in_folder("out")}).run();
   const auto end_of = [&](bool weaker) {
-    Simulation second(model, {.results = in_folder("out"), .from_stage = 0});
-    EXPECT_EQ(second.stage(), 1u);
+    Simulation second(model, {.results = in_folder("out"), .from_stage = 1});
+    EXPECT_EQ(second.stage(), 2u);
     if (weaker) second.set_strength_factor(3.0);
     EXPECT_EQ(second.run().status, Status::completed);
     return positions(second);
@@ -253,9 +253,9 @@ TEST_F(Library, ProgressTellsStagesAndSpeed) {
                                         .progress_every = 0.0});
   simulation.run();
   ASSERT_FALSE(told.empty());
-  EXPECT_EQ(told.front().stage, 0u);
+  EXPECT_EQ(told.front().stage, 1u);
   EXPECT_EQ(told.front().stage_name, "");
-  EXPECT_EQ(told.back().stage, 1u);
+  EXPECT_EQ(told.back().stage, 2u);
   EXPECT_EQ(told.back().stage_name, "weak");
   EXPECT_EQ(told.back().stages, 2u);
   EXPECT_EQ(told.back().fraction, 1.0);

@@ -119,8 +119,8 @@ activate = ["quake"]
   EXPECT_NEAR(moved(simulation), 3.0 / w * (t - std::sin(w * t) / w), 1e-5);
 }
 
-/// The ledger holds to rounding whatever is written, also where blocks slide and are bolted; what
-/// slides slips at the new velocity, not at that of the step behind.
+/// The energy balance closes to rounding whatever is written, also where blocks slide and are
+/// bolted; what slides slips at the new velocity, not at that of the step behind.
 TEST_F(Library, VelocitiesOfWhatSlidesChangeWithoutDrift) {
   Simulation sliding(ramp()), untouched(ramp());
   sliding.step(300);
@@ -197,7 +197,7 @@ TEST_F(Library, RockLetsGoOnlyMoreAndOnlyOnceItIsTakenOut) {
   const std::string opening = model.openings().front();
   Simulation simulation(model);
   simulation.step(4);
-  EXPECT_NE(problem_of([&] { simulation.relax(opening, 0.5); }).find("not been taken out yet"),
+  EXPECT_NE(problem_of([&] { simulation.relax(opening, 0.5); }).find("not been excavated yet"),
             std::string::npos);
   simulation.excavate({opening});
   simulation.relax(opening, 0.3);
@@ -206,7 +206,7 @@ TEST_F(Library, RockLetsGoOnlyMoreAndOnlyOnceItIsTakenOut) {
   simulation.relax(opening, 0.6);
   simulation.step(2);
   EXPECT_EQ(problem_of([&] { simulation.relax(opening, 0.5); }),
-            "is less than the 0.6 let go so far");
+            "is less than the 0.6 released so far");
   simulation.relax(opening, 1.0);
   simulation.step(2);
   EXPECT_LT(std::abs(simulation.ledger().drift), 1e-3);
@@ -227,7 +227,7 @@ joint = "j"
 [[opening]]
 name = "middle"
 polygon = [[0, 1], [1, 1], [1, 2], [0, 2]]
-[[held]]
+[[fixed]]
 point = [0.5, 0.5]
 [[stage]]
 duration = 0.05

@@ -38,7 +38,7 @@ class Installed(unittest.TestCase):
         self.assertGreater(len(moved), 3)
         self.assertGreater(max(moved), moved[0])
         self.assertLess(moved[-1], max(moved))  # it was pushed back
-        self.assertRegex(out, r"completed after 0\.2 s, energy drift")
+        self.assertRegex(out, r"completed after 0\.2 s, energy balance error")
         bad = subprocess.run([str(build / "slide"), "nothing.toml"], capture_output=True, text=True)
         self.assertEqual(bad.returncode, 2)
         self.assertIn("nothing.toml", bad.stderr)

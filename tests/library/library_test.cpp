@@ -1,5 +1,5 @@
 // The interface of the library: one run whether whole or in parts, views that stay, changes that
-// the ledger knows of.
+// the energy balance contains.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -298,9 +298,9 @@ TEST_F(Library, ARunGoesOnFromTheEndOfAStage) {
       text + "[[stage]]\nduration = 0.01\n[[stage]]\nduration = 0.02\nstrength_factor = 2.0\n");
   Simulation whole(model, {.results = in_folder("out")});
   EXPECT_EQ(whole.run().status, Status::completed);
-  EXPECT_EQ(whole.stage(), 1u);
+  EXPECT_EQ(whole.stage(), 2u);
   const std::string history = text_of(in_folder("out") + "/history.csv");
-  Simulation second(model, {.results = in_folder("out"), .from_stage = 0});
+  Simulation second(model, {.results = in_folder("out"), .from_stage = 1});
   EXPECT_NEAR(second.time(), 0.01, 1e-15);
   const auto* vx = second.node_vx()[0].data();
   EXPECT_EQ(second.run().status, Status::completed);

@@ -1,4 +1,4 @@
-#include "model/accelerogram.hpp"
+#include "model/files/accelerogram.hpp"
 
 #include <gtest/gtest.h>
 
@@ -65,7 +65,7 @@ TEST(Accelerogram, ReadsBothHeadsOfPeer) {
   }
 }
 
-TEST(Accelerogram, SaysWhatIsWrongAndWhere) {
+TEST(Accelerogram, ReportsWhatIsWrongAndWhere) {
   struct Case {
     bool peer;
     std::string text;

@@ -86,13 +86,13 @@ TEST(BadModel, Boundaries) {
   const std::string at = "[[boundary]]\nsides = [\"left\"]\n";
   for (const Bad& bad : {
            Bad{"[[boundary]]\nsides = [\"left\", \"top\"]\ntype = \"free-field\"\n", 43,
-               "boundary.1.sides", "stands upright"},
+               "boundary.1.sides", "is vertical"},
            Bad{"[[boundary]]\nalong = [[0, 0], [1, 9]]\ntype = \"free-field\"\n", 43,
-               "boundary.1.along", "stands upright"},
+               "boundary.1.along", "is vertical"},
            Bad{at + "type = \"viscus\"\n", 44, "boundary.1.type", "did you mean \"viscous\""},
            Bad{at + "type = \"stress\"\n", 42, "boundary.1.traction", "is missing"},
            Bad{at + "type = \"velocity\"\n", 42, "boundary.1.velocity", "is missing"},
-           Bad{at + "traction = [1, 0]\n", 44, "boundary.1.traction", "means nothing to type"},
+           Bad{at + "traction = [1, 0]\n", 44, "boundary.1.traction", "does not apply to type"},
            Bad{at + "type = \"viscous\"\nhistory = \"" EDDA_SOURCE_DIR "/tests/model/rise.csv\"\n",
                45, "boundary.1.history", "give another type: \"stress\""},
            Bad{at + "type = \"viscous\"\nwave_speeds = [0, 1]\n", 45, "boundary.1.wave_speeds[0]",
@@ -104,7 +104,7 @@ TEST(BadModel, Boundaries) {
   }
 }
 
-TEST(BadModel, Shakings) {
+TEST(BadModel, GroundMotions) {
   const std::string at = "[[shaking]]\nacceleration = { amplitude = 1, frequency = 2 }\n",
                     viscous = "[[boundary]]\nsides = [\"left\"]\ntype = \"viscous\"\n";
   for (const Bad& bad : {
@@ -139,7 +139,7 @@ TEST(BadModel, Bolts) {
            Bad{at + "bond = { stiffness = 1e9, strength = \"4 kN\" }\n", 46, "bolt.0.bond.strength",
                "is not a force per length"},
            Bad{end + "dowel = { stiffness = 1e8, strength = 1e5 }\n", 47, "bolt.0.dowel",
-               "means nothing"},
+               "does not apply"},
            Bad{end + "yield_stress = 1e6\npretension = 1e6\n", 48, "bolt.0.pretension",
                "at which the bolt yields"},
            Bad{end + "yield_stress = 4e8\nrupture_strain = 1e-3\n", 48, "bolt.0.rupture_strain",
@@ -188,17 +188,19 @@ TEST(BadModel, JointLaws) {
   for (const Bad& bad : {
            Bad{weak + end, 42, "joints.a.slip_distance", "is missing"},
            Bad{weak + "slip_distance = 0\n" + end, 45, "joints.a.slip_distance", "above 0"},
-           Bad{weak + "slip_distance = 1\njrc = 3\n" + end, 46, "joints.a.jrc", "means nothing"},
+           Bad{weak + "slip_distance = 1\njrc = 3\n" + end, 46, "joints.a.jrc", "does not apply"},
            Bad{weak + "slip_distance = 1\ndilation_angle = 31\n" + end, 46,
                "joints.a.dilation_angle", "not below the friction angle of 30"},
            Bad{plain + "residual = { friction_angle = 5 }\ndilation_angle = 6\n" + end, 45,
                "joints.a.dilation_angle", "angle of 5 degrees"},
            Bad{plain + "slip_distance = 1\n" + end, 44, "joints.a.slip_distance", "dilation_angle"},
-           Bad{barton_with("cohesion = 5\n"), 47, "joints.a.cohesion", "means nothing"},
-           Bad{barton_with("friction_angle = 5\n"), 47, "joints.a.friction_angle", "means nothing"},
-           Bad{barton_with("dilation_angle = 5\n"), 47, "joints.a.dilation_angle", "means nothing"},
+           Bad{barton_with("cohesion = 5\n"), 47, "joints.a.cohesion", "does not apply"},
+           Bad{barton_with("friction_angle = 5\n"), 47, "joints.a.friction_angle",
+               "does not apply"},
+           Bad{barton_with("dilation_angle = 5\n"), 47, "joints.a.dilation_angle",
+               "does not apply"},
            Bad{barton_with("residual = { cohesion = 5 }\n"), 47, "joints.a.residual",
-               "means nothing"},
+               "does not apply"},
            Bad{"[joints.a]\ntype = \"barton-bandis\"\njrc = 9\nresidual_angle = 28\n" + end, 42,
                "joints.a.jcs", "is missing"},
            Bad{"[joints.a]\ntype = \"barton-bandis\"\njrc = 21\njcs = 1e8\nresidual_angle = 28\n" +
@@ -250,7 +252,7 @@ TEST(BadModel, Stages) {
   const std::string known = testing::base_with("duration = 0.1\n", "");
   for (const Bad& bad : {
            Bad{stage + "joints = \"loose\"\n", 44, "stage.0.joints", "not known"},
-           Bad{stage + "mass_scaling = \"none\"\n", 44, "stage.0.mass_scaling", "not known"},
+           Bad{stage + "masses = \"none\"\n", 44, "stage.0.masses", "not known"},
            Bad{stage + "otherwise = \"stop\"\n", 44, "stage.0.otherwise",
                "belongs to a stage with until"},
            Bad{stage + "detached = 3\n", 44, "stage.0.detached", "expects one of"},
@@ -258,7 +260,7 @@ TEST(BadModel, Stages) {
            Bad{stage + "relax = { cave = 0.5 }\n", 44, "stage.0.relax.cave", "names no opening"},
            Bad{stage + "excavate = [\"hole\"]\nrelax = { hole = 0.6 }\n" + next +
                    "relax = { hole = 0.4 }\n",
-               48, "stage.1.relax.hole", "is less than the 0.6 let go so far"},
+               48, "stage.1.relax.hole", "is less than the 0.6 released so far"},
            Bad{stage + "install = [\"nail\"]\n", 44, "stage.0.install[0]",
                "names no bolt or pattern of bolts"},
            Bad{bolt + stage + "install = [\"nial\"]\n", 50, "stage.0.install[0]", "nail"},
@@ -288,7 +290,7 @@ TEST(BadModel, Stages) {
   EXPECT_EQ(missing.faults()[0].where.line, 38);
 }
 
-/// What does not run in time needs none, and is written without one.
+/// Models that are not run need no duration, and are written without one.
 TEST(BadParts, DurationIsMissingInARunAlone) {
   const std::string none = testing::base_with("duration = 0.1\n", "");
   const auto model = read_model_text(none, "m.toml", {}, ReadFor::no_run);

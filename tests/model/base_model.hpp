@@ -31,7 +31,7 @@ points = [[11, 1], [12, 5]]
 [[opening]]
 name = "hole"
 polygon = [[14, 4], [16, 4], [16, 6], [14, 6]]
-[[held]]
+[[fixed]]
 point = [15, 1]
 [[brick_wall]]
 columns = 4

@@ -118,9 +118,9 @@ shape = { kind = "horseshoe", at = [12, 7], width = 2, height = "1.5 m", segment
 polygon = [[11, 1], [12, 1], [12, 2]]
 material = "soft clay"
 joint = "glue"
-[[held]]
+[[fixed]]
 point = [15, 1]
-[[held]]
+[[fixed]]
 point = [15, 2]
 [[brick_wall]]
 origin = [30, 1]
@@ -246,7 +246,7 @@ excavate = ["cavern"]
 relax = { cavern = 0.6 }
 install = ["round"]
 activate = ["axle", "wet"]
-mass_scaling = "as given"
+masses = "as given"
 reset_displacements = true
 strength_factor = 1.25
 [solver]

@@ -1,8 +1,10 @@
-// What is worked out from the keys of geometry: joints as mapped, defaults; and what they refuse.
+// What follows from the keys of geometry: joints as mapped, defaults; and what is refused.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "model/base_model.hpp"
 #include "model/read_model.hpp"
@@ -30,7 +32,7 @@ JointSet mapped(double dip, double direction, double azimuth, double spacing) {
   return read(text).joint_sets.at(0);
 }
 
-/// Two lines alike: their angles differ by whole half turns.
+/// Two lines of the same direction: their angles differ by multiples of 180 degrees.
 void expect_direction(double angle, double expected) {
   EXPECT_NEAR(std::remainder(angle - expected, 180.0), 0.0, 1e-9);
 }
@@ -58,7 +60,8 @@ TEST(MappedJoints, AslantTheyAreApparent) {
       EXPECT_EQ(set.given_spacing, 3.0);
     }
   }
-  // Across the section only the dip's cosine is left: level traces, wider apart.
+  // At right angles to the section only the cosine of the dip remains: horizontal traces, wider
+  // apart.
   const JointSet across = mapped(60, 180, 90, 3.0);
   expect_direction(across.angle, 0.0);
   EXPECT_NEAR(across.spacing, 6.0, 1e-9);
@@ -144,83 +147,109 @@ void expect_fault(const std::string& text, const Bad& bad) {
   EXPECT_NE(to_string(f).find(bad.fragment), std::string::npos) << to_string(f);
 }
 
-/// base_model, and after it from line 42 on.
-TEST(BadModel, Geometry) {
+// What follows base_model, from line 42 on.
+
+/// Fracture networks and Voronoi cells.
+std::vector<Bad> bad_networks() {
   const std::string network = "[[fracture_network]]\nangle = { mean = 3 }\n";
+  return {
+      Bad{network + "length = { mean = 2 }\n", 42, "fracture_network.0", "neither p21 nor count"},
+      Bad{network + "length = { mean = 2 }\np21 = 1\ncount = 3\n", 46, "fracture_network.0.count",
+          "p21 is given too"},
+      Bad{network + "length = {}\np21 = 1\n", 44, "fracture_network.0.length.mean", "is missing"},
+      Bad{network + "length = { distribution = \"power\", min = 1, max = 2 }\np21 = 1\n", 44,
+          "fracture_network.0.length.exponent", "is missing"},
+      Bad{network + "length = { distribution = \"power\", exponent = 2, min = 3, max = 2 "
+                    "}\np21 = 1\n",
+          44, "fracture_network.0.length.max", "is below min"},
+      Bad{network + "length = { mean = 2, min = 1 }\np21 = 1\n", 44,
+          "fracture_network.0.length.min", "belongs to distribution = \"power\""},
+      Bad{network + "length = { mean = 2 }\np21 = -1\n", 45, "fracture_network.0.p21",
+          "out of range"},
+      Bad{network + "length = { mean = 2 }\ncount = 1.5\n", 45, "fracture_network.0.count",
+          "a whole number"},
+      Bad{"[[fracture_network]]\nlength = { mean = 2 }\np21 = 1\n", 42, "fracture_network.0.angle",
+          "is missing"},
+      Bad{"[voronoi]\nsize = 0\n", 43, "voronoi.size", "out of range"},
+      Bad{"[voronoi]\nsize = 1e-3\n", 43, "voronoi.size", "blocks would be cut"},
+  };
+}
+
+/// Files of lines.
+std::vector<Bad> bad_imports() {
+  return {
+      Bad{"[[import]]\nfile = \"a.dwg\"\n", 43, "import.0.file", "ends in none of"},
+      Bad{"[[import]]\nfile = \"a.dxf\"\nlayers = { A = \"ruff\" }\n", 44, "import.0.layers.A",
+          "the only known one is \"rough\""},
+      Bad{"[[import]]\nfile = \"a.dxf\"\nlayers = { A = 3 }\n", 44, "import.0.layers.A", "is 3"},
+      Bad{"[[import]]\nfile = \"a.dxf\"\nlayers = \"A\"\n", 44, "import.0.layers",
+          "a table such as"},
+      Bad{"[[import]]\nfile = \"a.dxf\"\nunits = \"yd\"\n", 44, "import.0.units",
+          "is not known: known are"},
+      Bad{"[[import]]\nfile = \"a.dxf\"\nmaterial = \"rock\"\n", 44, "import.0.material",
+          "those of the domain"},
+  };
+}
+
+/// Openings and their shapes.
+std::vector<Bad> bad_openings() {
+  return {
+      Bad{"[[opening]]\n", 42, "opening.1", "neither polygon nor shape"},
+      Bad{"[[opening]]\nshape = { kind = \"circle\", at = [1, 1], width = 1 }\npolygon = [[0, "
+          "0], "
+          "[1, 0], [1, 1]]\n",
+          43, "opening.1.shape", "polygon is given too"},
+      Bad{"[[opening]]\nshape = { kind = \"circle\", at = [1, 1], width = 1, height = 1 }\n", 43,
+          "opening.1.shape.height", "a circle has no height"},
+      Bad{"[[opening]]\nshape = { kind = \"arch\", at = [1, 1], width = 1 }\n", 43,
+          "opening.1.shape.height", "is missing"},
+      Bad{"[[opening]]\nshape = { kind = \"arc\", at = [1, 1], width = 1, height = 1 }\n", 43,
+          "opening.1.shape.kind", "did you mean \"arch\"?"},
+      Bad{"[[opening]]\nshape = { kind = \"horseshoe\", at = [1, 1], width = 6, height = 2 "
+          "}\n",
+          43, "opening.1.shape.height", "more than half the width"},
+      Bad{"[[opening]]\nshape = { kind = \"arch\", at = [1e11, 0], width = 1e-6, height = 1 "
+          "}\n",
+          43, "opening.1.shape", "too small"},
+  };
+}
+
+/// Regions and pairs of materials.
+std::vector<Bad> bad_regions() {
   const std::string region = "[[region]]\npolygon = [[11, 1], [12, 1], [12, 2]]\n";
-  for (const Bad& bad : {
-           Bad{network + "length = { mean = 2 }\n", 42, "fracture_network.0",
-               "neither p21 nor count"},
-           Bad{network + "length = { mean = 2 }\np21 = 1\ncount = 3\n", 46,
-               "fracture_network.0.count", "p21 is given too"},
-           Bad{network + "length = {}\np21 = 1\n", 44, "fracture_network.0.length.mean",
-               "is missing"},
-           Bad{network + "length = { distribution = \"power\", min = 1, max = 2 }\np21 = 1\n", 44,
-               "fracture_network.0.length.exponent", "is missing"},
-           Bad{network + "length = { distribution = \"power\", exponent = 2, min = 3, max = 2 "
-                         "}\np21 = 1\n",
-               44, "fracture_network.0.length.max", "is below min"},
-           Bad{network + "length = { mean = 2, min = 1 }\np21 = 1\n", 44,
-               "fracture_network.0.length.min", "belongs to distribution = \"power\""},
-           Bad{network + "length = { mean = 2 }\np21 = -1\n", 45, "fracture_network.0.p21",
-               "out of range"},
-           Bad{network + "length = { mean = 2 }\ncount = 1.5\n", 45, "fracture_network.0.count",
-               "a whole number"},
-           Bad{"[[fracture_network]]\nlength = { mean = 2 }\np21 = 1\n", 42,
-               "fracture_network.0.angle", "is missing"},
-           Bad{"[voronoi]\nsize = 0\n", 43, "voronoi.size", "out of range"},
-           Bad{"[voronoi]\nsize = 1e-3\n", 43, "voronoi.size", "blocks would be cut"},
-           Bad{"[[import]]\nfile = \"a.dwg\"\n", 43, "import.0.file", "ends in none of"},
-           Bad{"[[import]]\nfile = \"a.dxf\"\nlayers = { A = \"ruff\" }\n", 44, "import.0.layers.A",
-               "the only known one is \"rough\""},
-           Bad{"[[import]]\nfile = \"a.dxf\"\nlayers = { A = 3 }\n", 44, "import.0.layers.A",
-               "is 3"},
-           Bad{"[[import]]\nfile = \"a.dxf\"\nlayers = \"A\"\n", 44, "import.0.layers",
-               "a table such as"},
-           Bad{"[[import]]\nfile = \"a.dxf\"\nunits = \"yd\"\n", 44, "import.0.units",
-               "is not known: known are"},
-           Bad{"[[import]]\nfile = \"a.dxf\"\nmaterial = \"rock\"\n", 44, "import.0.material",
-               "those of the domain"},
-           Bad{"[[opening]]\n", 42, "opening.1", "neither polygon nor shape"},
-           Bad{"[[opening]]\nshape = { kind = \"circle\", at = [1, 1], width = 1 }\npolygon = [[0, "
-               "0], "
-               "[1, 0], [1, 1]]\n",
-               43, "opening.1.shape", "polygon is given too"},
-           Bad{"[[opening]]\nshape = { kind = \"circle\", at = [1, 1], width = 1, height = 1 }\n",
-               43, "opening.1.shape.height", "a circle has no height"},
-           Bad{"[[opening]]\nshape = { kind = \"arch\", at = [1, 1], width = 1 }\n", 43,
-               "opening.1.shape.height", "is missing"},
-           Bad{"[[opening]]\nshape = { kind = \"arc\", at = [1, 1], width = 1, height = 1 }\n", 43,
-               "opening.1.shape.kind", "did you mean \"arch\"?"},
-           Bad{"[[opening]]\nshape = { kind = \"horseshoe\", at = [1, 1], width = 6, height = 2 "
-               "}\n",
-               43, "opening.1.shape.height", "more than half the width"},
-           Bad{"[[opening]]\nshape = { kind = \"arch\", at = [1e11, 0], width = 1e-6, height = 1 "
-               "}\n",
-               43, "opening.1.shape", "too small"},
-           Bad{region + "material = \"roc\"\n", 44, "region.0.material", "did you mean \"rock\"?"},
-           Bad{"[[region]]\nmaterial = \"rock\"\n", 42, "region.0.polygon", "is missing"},
-           Bad{"[[contact_pair]]\njoint = \"rough\"\n", 42, "contact_pair.0.between", "is missing"},
-           Bad{"[[contact_pair]]\nbetween = [\"rock\"]\njoint = \"rough\"\n", 43,
-               "contact_pair.0.between", "does not name two"},
-           Bad{"[[contact_pair]]\nbetween = [\"rock\", \"rough\"]\njoint = \"rough\"\n", 43,
-               "contact_pair.0.between", "a joint and a material"},
-           Bad{"[[contact_pair]]\nbetween = [\"rock\", \"ruff\"]\njoint = \"rough\"\n", 43,
-               "contact_pair.0.between[1]", "known are \"rock\", \"rough\""},
-           Bad{"[[arch]]\nradius = 5\nthickness = 1\ncount = 0\n", 45, "arch.0.count",
-               "out of range"},
-           Bad{"[[arch]]\nradius = 5\nthickness = 10\ncount = 9\n", 44, "arch.0.thickness",
-               "not below twice the radius"},
-           Bad{"[[arch]]\nradius = 5\nthickness = 1\ncount = 9\nto_angle = -10\n", 46,
-               "arch.0.to_angle", "lies -10 degrees from"},
-           Bad{"[[arch]]\nradius = 5\nthickness = 1\ncount = 1\n", 45, "arch.0.count",
-               "half a turn"},
-           Bad{"[quality]\nmin_edge = -1\n", 43, "quality.min_edge", "out of range"},
-           Bad{"[quality]\naction = \"ignore\"\n", 43, "quality.action", "\"ignore\" is not known"},
-           Bad{"[slope]\ntoe = [5, 2]\nheight = 4\nface_angle = 45\nbase_y = 0\nextent = [0, 20]\n",
-               42, "slope", "domain.outline is given too"},
-       }) {
-    expect_fault(base_model + bad.text, bad);
+  return {
+      Bad{region + "material = \"roc\"\n", 44, "region.0.material", "did you mean \"rock\"?"},
+      Bad{"[[region]]\nmaterial = \"rock\"\n", 42, "region.0.polygon", "is missing"},
+      Bad{"[[contact_pair]]\njoint = \"rough\"\n", 42, "contact_pair.0.between", "is missing"},
+      Bad{"[[contact_pair]]\nbetween = [\"rock\"]\njoint = \"rough\"\n", 43,
+          "contact_pair.0.between", "does not name two"},
+      Bad{"[[contact_pair]]\nbetween = [\"rock\", \"rough\"]\njoint = \"rough\"\n", 43,
+          "contact_pair.0.between", "a joint and a material"},
+      Bad{"[[contact_pair]]\nbetween = [\"rock\", \"ruff\"]\njoint = \"rough\"\n", 43,
+          "contact_pair.0.between[1]", "known are \"rock\", \"rough\""},
+  };
+}
+
+/// Arches, limits of the quality of blocks, and a slope besides an outline.
+std::vector<Bad> bad_arches() {
+  return {
+      Bad{"[[arch]]\nradius = 5\nthickness = 1\ncount = 0\n", 45, "arch.0.count", "out of range"},
+      Bad{"[[arch]]\nradius = 5\nthickness = 10\ncount = 9\n", 44, "arch.0.thickness",
+          "not below twice the radius"},
+      Bad{"[[arch]]\nradius = 5\nthickness = 1\ncount = 9\nto_angle = -10\n", 46, "arch.0.to_angle",
+          "lies -10 degrees from"},
+      Bad{"[[arch]]\nradius = 5\nthickness = 1\ncount = 1\n", 45, "arch.0.count", "half a turn"},
+      Bad{"[quality]\nmin_edge = -1\n", 43, "quality.min_edge", "out of range"},
+      Bad{"[quality]\naction = \"ignore\"\n", 43, "quality.action", "\"ignore\" is not known"},
+      Bad{"[slope]\ntoe = [5, 2]\nheight = 4\nface_angle = 45\nbase_y = 0\nextent = [0, 20]\n", 42,
+          "slope", "domain.outline is given too"},
+  };
+}
+
+TEST(BadModel, Geometry) {
+  for (const std::vector<Bad>& models :
+       {bad_networks(), bad_imports(), bad_openings(), bad_regions(), bad_arches()}) {
+    for (const Bad& bad : models) expect_fault(base_model + bad.text, bad);
   }
 }
 
@@ -229,16 +258,16 @@ TEST(BadModel, MappedJoints) {
   const std::string section = "[section]\nazimuth = 90\n";
   for (const Bad& bad : {
            Bad{"spacing = 2\ndip = 30\ndip_direction = 90\n", 20, "joint_set.bedding.dip",
-               "how the section lies"},
+               "the bearing of the section"},
            Bad{"spacing = 2\ndip = 30\n", 20, "joint_set.bedding.dip_direction", "is missing"},
            Bad{"spacing = 2\nangle = 3\ndip_direction = 9\n", 21, "joint_set.bedding.dip",
                "is missing"},
            Bad{"spacing = 2\nangle = 3\ndip = 9\n", 21, "joint_set.bedding.dip",
                "angle is given too"},
            Bad{"spacing = 2\nangle = 3\ngap = 9\n", 21, "joint_set.bedding.gap",
-               "run right through"},
+               "extend through the whole domain"},
            Bad{"spacing = 2\nangle = 3\ndeviation = { gap = 1 }\n", 21,
-               "joint_set.bedding.deviation.gap", "run right through"},
+               "joint_set.bedding.deviation.gap", "extend through the whole domain"},
            Bad{"spacing = 2\nangle = 3\ndeviation = { spacing = 2 }\n", 21,
                "joint_set.bedding.deviation.spacing", "not below the mean"},
            Bad{"spacing = 2\nangle = 3\ntrace_length = 1\ndeviation = { trace_length = 1.5 }\n", 22,

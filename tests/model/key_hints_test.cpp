@@ -1,5 +1,5 @@
-// What is written in another program's way, or under another name, gets one message with the key
-// that there is for it.
+// Keys written as in another program, or under another name, give one message with the key to use
+// instead.
 #include <gtest/gtest.h>
 
 #include "model/base_model.hpp"
@@ -55,38 +55,38 @@ TEST(KeyHints, AKeyThatIsMissing) {
             "m.toml:44:1: monitor.top.location: unknown key: did you mean \"point\"?\n");
   EXPECT_EQ(below("[[monitor]]\nname = \"top\"\npiont = [11, 1]\n"),
             "m.toml:44:1: monitor.top.piont: unknown key: did you mean \"point\"?\n");
-  // What stands there is no list of points, and says nothing of the key that is missing.
+  // The value is no list of points, and does not explain the missing key.
   EXPECT_EQ(below("[[convergence]]\nname = \"across\"\nfrom = [11, 1]\n"),
             "m.toml:42:1: convergence.across.between: is missing: give a list of points such as "
             "[[0, 0], [2, 1]]\nm.toml:44:1: convergence.across.from: unknown key: from belongs to "
             "[[bolt]]\n");
-  // A key of another table belongs there, and the one that is missing is missing.
+  // A key of another table belongs there, and the missing key is reported as missing.
   const std::string monitor = "[[monitor]]\nname = \"top\"\n";
   EXPECT_EQ(below(monitor + "force = [0, -1000]\nvelocity = [0, -1]\n"),
             "m.toml:42:1: monitor.top.point: is missing: give a point such as [1.0, 2.5]\n"
             "m.toml:44:1: monitor.top.force: unknown key: force belongs to [[load]]\n"
             "m.toml:45:1: monitor.top.velocity: unknown key: velocity belongs to [[block]] or "
             "[[boundary]]\n");
-  // One key stands for one that is missing.
+  // One unknown key is taken for one missing key.
   EXPECT_EQ(below(monitor + "location = [11, 1]\nplace = [12, 1]\n"),
             "m.toml:44:1: monitor.top.location: unknown key: did you mean \"point\"?\n"
             "m.toml:45:1: monitor.top.place: unknown key: known are \"name\", \"point\"\n");
-  // A key of the file as a whole belongs there, whatever it looks like.
+  // A key of the file as a whole belongs there, whatever key it resembles.
   EXPECT_NE(below("[[monitor]]\nname = \"top\"\ngravity = [0, -9.81]\n").find("at the top of"),
             std::string::npos);
 }
 
-/// What is said of the last line of a text.
-std::string said(const std::string& text) {
+/// The message on the last line of a text.
+std::string message_on(const std::string& text) {
   const std::string all = faults(text);
   const std::size_t at = all.rfind("unknown key: ");
   return at == std::string::npos ? all : all.substr(at + 13, all.find('\n', at) - at - 13);
 }
 
 TEST(KeyHints, WordsForAKeyOfTheTable) {
-  const auto below = [](const std::string& text) { return said(base_model + text); };
+  const auto below = [](const std::string& text) { return message_on(base_model + text); };
   const auto of_set = [](const std::string& text) {
-    return said(base_with("spacing = 2.0", "spacing = 2.0\n" + text));
+    return message_on(base_with("spacing = 2.0", "spacing = 2.0\n" + text));
   };
   EXPECT_EQ(below("[[block]]\nheld = true\n"), "here that is fixed of [[block]]");
   EXPECT_EQ(below("[[load]]\nat = [11, 1]\n"), "here that is point of [[load]]");

@@ -1,5 +1,5 @@
 // Random damage to a good model: either it is still a model, and then survives being written and
-// read, or it has faults that say where and what to do.
+// read, or it has faults that state place and remedy.
 #include <gtest/gtest.h>
 
 #include <array>

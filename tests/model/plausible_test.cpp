@@ -1,11 +1,11 @@
-// Slips of units and of signs that no range refuses.
-#include "model/plausible.hpp"
+// Mistakes of units and of signs that no range refuses.
+#include "model/completion/plausible.hpp"
 
 #include <gtest/gtest.h>
 
 #include "model/base_model.hpp"
-#include "model/nearest.hpp"
 #include "model/read_model.hpp"
+#include "model/table/nearest.hpp"
 
 namespace edda::plausible_test {
 namespace {
@@ -26,7 +26,7 @@ void expect_warning(const std::string& text, const std::string& key, const std::
 using testing::base_model;
 using testing::base_with;
 
-TEST(Plausible, NothingIsSaidOfASoundModel) {
+TEST(Plausible, NothingIsReportedOfASoundModel) {
   EXPECT_TRUE(warnings_of(base_model).empty());
   EXPECT_TRUE(warnings_of(base_with("density = 2700.0", "unit_weight = \"26 kN/m3\"")).empty());
 }
@@ -107,13 +107,13 @@ TEST(Plausible, AnglesInRadians) {
 }
 
 TEST(Plausible, AccelerationsInUnitsOfGravity) {
-  const auto shaken = [](const std::string& amplitude) {
+  const auto ground_motion = [](const std::string& amplitude) {
     return base_model + "[[shaking]]\nacceleration = { frequency = 2, amplitude = " + amplitude +
            " }\n";
   };
-  expect_warning(shaken("0.3"), "shaking.0.acceleration.amplitude", "write 2.943,");
-  EXPECT_TRUE(warnings_of(shaken("\"0.3 m/s2\"")).empty());
-  EXPECT_TRUE(warnings_of(shaken("3.0")).empty());
+  expect_warning(ground_motion("0.3"), "shaking.0.acceleration.amplitude", "write 2.943,");
+  EXPECT_TRUE(warnings_of(ground_motion("\"0.3 m/s2\"")).empty());
+  EXPECT_TRUE(warnings_of(ground_motion("3.0")).empty());
 }
 
 TEST(Plausible, GravityThatPointsUpwards) {

@@ -1,4 +1,4 @@
-// contact.model = "points" has what the paper has; all else is refused.
+// contact.model = "points" allows what the paper has; all else is refused.
 #include <gtest/gtest.h>
 
 #include "model/read_model.hpp"
@@ -79,7 +79,7 @@ TEST(PointsModel, WhatThePaperDoesNotHave) {
     ASSERT_FALSE(model.ok()) << bad.text;
     bool found = false;
     for (const Fault& f : model.faults()) {
-      if (f.problem.find("is the paper's and knows no") == std::string::npos) continue;
+      if (f.problem.find("is the paper's contact model, without") == std::string::npos) continue;
       EXPECT_FALSE(found) << bad.text << to_string(f);
       found = true;
       EXPECT_EQ(f.where.file, "m.toml");

@@ -1,4 +1,4 @@
-#include "model/quantity.hpp"
+#include "model/table/quantity.hpp"
 
 #include <gtest/gtest.h>
 

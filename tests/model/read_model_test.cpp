@@ -8,7 +8,7 @@
 #include <string>
 
 #include "model/base_model.hpp"
-#include "model/complete.hpp"
+#include "model/completion/complete.hpp"
 #include "scratch_folder.hpp"
 
 namespace edda::read_model_test {

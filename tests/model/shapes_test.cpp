@@ -1,5 +1,5 @@
 // Shapes of openings and slopes: corners, areas and sizes that are known.
-#include "model/shapes.hpp"
+#include "model/completion/shapes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -162,7 +162,7 @@ TEST(Slopes, HaveBenches) {
   ASSERT_EQ(ring.size(), 12U);
   EXPECT_NEAR(run_of(s), 40.0 + 15.0, 1e-12);
   EXPECT_NEAR(norm(ring[3] - Vec2{105, 60}), 0.0, 1e-12);  // crest
-  EXPECT_NEAR(norm(ring[4] - Vec2{95, 50}), 0.0, 1e-12);   // foot of the highest face
+  EXPECT_NEAR(norm(ring[4] - Vec2{95, 50}), 0.0, 1e-12);   // toe of the highest face
   EXPECT_NEAR(norm(ring[5] - Vec2{90, 50}), 0.0, 1e-12);   // and the berm below it
   EXPECT_NEAR(norm(ring[10] - Vec2{50, 20}), 0.0, 1e-12);  // toe
 }

@@ -1,5 +1,5 @@
-// What other programs call things, and what they are called here.
-#include "model/synonyms.hpp"
+// Names of other programs, and the keys that they have here.
+#include "model/table/synonyms.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,15 +7,15 @@
 #include <set>
 
 #include "model/base_model.hpp"
-#include "model/keys.hpp"
 #include "model/read_model.hpp"
+#include "model/table/keys.hpp"
 
 namespace edda::synonyms_test {
 namespace {
 
 using testing::base_model;
 
-/// Whether "solver.damping.local" or "boundary" is what a model may have.
+/// Whether a model may have a key such as "solver.damping.local" or "boundary".
 bool is_known(std::string_view dotted) {
   const std::size_t dot = dotted.find('.');
   const Section* section = find_section(dotted.substr(0, dot));
@@ -48,7 +48,7 @@ TEST(Synonyms, NameKeysThatThereAre) {
   }
 }
 
-TEST(Synonyms, AreSaidOfUnknownKeys) {
+TEST(Synonyms, AreNamedForUnknownKeys) {
   const auto remedy = [](const std::string& text) {
     const Result<Model> model = read_model_text(text, "m.toml");
     EXPECT_FALSE(model.ok()) << text;
@@ -58,7 +58,7 @@ TEST(Synonyms, AreSaidOfUnknownKeys) {
   EXPECT_EQ(below("[[cable]]\nx = 1\n"), "here that is [[bolt]]");
   EXPECT_EQ(below("[insitu]\nx = 1\n"), "here that is [initial_stress]");
   EXPECT_EQ(below("[[hist]]\nx = 1\n"), "here that is [[monitor]] or history_every of [output]");
-  EXPECT_EQ(below("[fix]\nx = 1\n"), "here that is fixed of [[block]], [[held]] or [[boundary]]");
+  EXPECT_EQ(below("[fix]\nx = 1\n"), "here that is fixed of [[block]], [[fixed]] or [[boundary]]");
   EXPECT_EQ(below("[liner]\nx = 1\n").substr(0, 20), "there are no liners:");
   EXPECT_EQ(below("[contact]\njoint = \"rough\"\n[joints.a]\nfriction_angle = 3\njkn = 1e9\n"),
             "here that is kn of [joints.NAME]");

@@ -1,11 +1,11 @@
-#include "model/time_history.hpp"
+#include "model/files/time_history.hpp"
 
 #include <gtest/gtest.h>
 
 namespace edda::time_history_test {
 namespace {
 
-TEST(TimeHistory, IsLinearBetweenRowsAndHeldBeyond) {
+TEST(TimeHistory, IsLinearBetweenRowsAndConstantBeyond) {
   const auto read = parse_time_history("# a comment\n\ntime , factor\r\n0.5, 1\n1.5,3e0\n+2,-1",
                                        "f.csv", "load.0.history");
   ASSERT_TRUE(read.ok());
@@ -18,7 +18,7 @@ TEST(TimeHistory, IsLinearBetweenRowsAndHeldBeyond) {
   EXPECT_EQ(TimeHistory{}.at(5.0, 9.0), 9.0);
 }
 
-TEST(TimeHistory, SaysWhatIsWrongAndWhere) {
+TEST(TimeHistory, ReportsWhatIsWrongAndWhere) {
   struct Case {
     std::string text;
     int line;

@@ -85,13 +85,13 @@ def test_rock_lets_go_more_and_more(models):
     simulation = edda.Simulation(models / "tunnel.toml")
     opening = simulation.model.openings[0]
     simulation.step(4)
-    with pytest.raises(edda.ModelError, match="not been taken out yet"):
+    with pytest.raises(edda.ModelError, match="not been excavated yet"):
         simulation.relax(opening, 0.5)
     simulation.excavate([opening])
     simulation.relax(opening, 0.3)
     assert np.count_nonzero(simulation.alive == 0) > 0
     simulation.step(2)
-    with pytest.raises(edda.ModelError, match="less than the 0.3 let go so far"):
+    with pytest.raises(edda.ModelError, match="less than the 0.3 released so far"):
         simulation.relax(opening, 0.2)
     simulation.relax(opening, 1.0)
     simulation.step(2)
@@ -115,11 +115,11 @@ def test_a_run_goes_on_from_the_end_of_a_stage(tmp_path):
     model = edda.load({**LONE, "stage": [{"duration": 0.1}, {"duration": 0.1, "deactivate": ["push"]}]})
     edda.run(model, tmp_path / "out")
     history = (tmp_path / "out/history.csv").read_bytes()
-    again = edda.Simulation(model, results=tmp_path / "out", from_stage=0)
-    assert (again.time, again.stage) == (0.1, 1)
+    again = edda.Simulation(model, results=tmp_path / "out", from_stage=1)
+    assert (again.time, again.stage) == (0.1, 2)
     assert again.run().status == "completed"
     assert (tmp_path / "out/history.csv").read_bytes() == history
-    pushed = edda.Simulation(model, results=tmp_path / "out", from_stage=0)
+    pushed = edda.Simulation(model, results=tmp_path / "out", from_stage=1)
     pushed.switch_over(activate=["push"])  # against the stage, which has begun
     pushed.run()
     assert moved(pushed) > moved(again) + 1e-3

@@ -1,11 +1,14 @@
 """The example scripts, and every block of Python in docs/python.md, run as they stand."""
 import csv
+import importlib.util
 import os
 import re
 import subprocess
 import sys
 
 import pytest
+
+draws = pytest.mark.skipif(importlib.util.find_spec("matplotlib") is None, reason="matplotlib is not here")
 
 
 def run(*command, cwd):
@@ -14,6 +17,7 @@ def run(*command, cwd):
     return done.stdout
 
 
+@draws
 def test_the_cavern_closes_less_where_joints_are_rougher(models, tmp_path):
     run(models / "python/cavern_sweep.py", models / "cavern.toml", "-o", tmp_path / "closure.png",
         "--angles", 5, 40, "--duration", 0.04, cwd=tmp_path)
@@ -24,6 +28,7 @@ def test_the_cavern_closes_less_where_joints_are_rougher(models, tmp_path):
     assert float(smooth["roof_to_floor"]) > 1.1 * float(rough["roof_to_floor"]) > 0.0
 
 
+@draws
 def test_the_script_in_cells_runs(models, tmp_path):
     out = run(models / "python/first_steps.py", cwd=tmp_path)
     assert "status='completed'" in out
@@ -39,6 +44,7 @@ def blocks_of_manual(source):
     return re.findall(r"^```python\n(.*?)^```", text, re.S | re.M)
 
 
+@draws
 def test_the_manual_runs_from_top_to_bottom(source, models, tmp_path):
     """In a folder that holds the models it names, one block after the other."""
     blocks = blocks_of_manual(source)
@@ -61,6 +67,7 @@ def test_names_in_the_manual_exist(source, page):
         assert hasattr(edda.Simulation, name), name
 
 
+@draws
 def test_the_page_that_greets_runs(source, tmp_path):
     """The model and the script of README.md."""
     text = (source / "README.md").read_text()

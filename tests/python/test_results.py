@@ -38,6 +38,25 @@ def test_tables_hold_what_the_files_say_to_the_bit(folder, name):
     assert table.dtype[list(columns)[0]].kind in "fi"
 
 
+def test_columns_tell_unit_and_meaning(folder):
+    results = edda.Results(folder)
+    columns = results.columns
+    assert columns.dtype.names == ("file", "column", "unit", "meaning")
+    assert all(columns[name].dtype.kind == "U" for name in columns.dtype.names)
+    for name in ("history", "blocks", "joints", "reactions"):
+        of_file = columns["column"][columns["file"] == f"{name}.csv"]
+        assert tuple(of_file) == getattr(results, name).dtype.names
+
+
+def test_normal_stress_has_the_sign_of_normal_force(folder):
+    results = edda.Results(folder)
+    for contacts in (results.joints, results.contact_frames[-1]):
+        closed = contacts["state"] != ("open" if contacts is results.joints else 0)
+        force = np.asarray(contacts["normal_force"])[closed]
+        assert np.all(force * np.asarray(contacts["normal_stress"])[closed] >= 0.0)
+        assert np.count_nonzero(force > 0.0) > 10
+
+
 @pytest.mark.parametrize("left", ["whole", "1 row", "no line", "amid a number", "amid the header"])
 def test_a_table_that_is_being_written_is_read_as_far_as_it_goes(folder, tmp_path, left):
     text = (folder / "history.csv").read_bytes()
@@ -130,17 +149,17 @@ def test_stages_and_bolts(models, tmp_path):
     model = edda.load(models / "tunnel.toml", ["output.every=10", "output.history_every=1"])
     assert len(model.stages) > 1
     simulation = edda.Simulation(model, results=tmp_path / "out")
-    while simulation.stage == 0 and simulation.step(50):
+    while simulation.stage == 1 and simulation.step(50):
         pass
     simulation.finish()
     results = edda.Results(tmp_path / "out")
     assert len(results.stages) == 1
     assert results.stages["steps"].dtype.kind == "i"
-    at_end = results.stage_joints(0)
+    at_end = results.stage_joints(1)
     assert at_end.dtype.names == results.joints.dtype.names
     assert np.count_nonzero(at_end["normal_force"] > 0.0) > 10
-    with pytest.raises(AttributeError, match="joints_1.csv"):
-        results.stage_joints(1)
+    with pytest.raises(AttributeError, match="joints_2.csv"):
+        results.stage_joints(2)
 
 
 def test_matplotlib_is_imported_only_for_pictures():
@@ -164,7 +183,7 @@ def bolted(models, program, tmp_path_factory):
     path = tmp_path_factory.mktemp("bolted") / "tunnel"
     model = edda.load(models / "tunnel.toml", ["output.every=10", "output.history_every=1"])
     simulation = edda.Simulation(model, results=path)
-    while simulation.stage < 2 and simulation.step(50):
+    while simulation.stage < 3 and simulation.step(50):
         pass
     simulation.step(50)
     simulation.finish()

@@ -19,12 +19,12 @@ def wheel(source, tmp_path_factory):
     return folder / python_wheel.build_wheel(folder, {"build-dir": build})
 
 
-def test_it_asks_for_no_page_but_for_pybind11(source, tmp_path, monkeypatch, capfd):
+def test_it_asks_for_pybind11(source, tmp_path, monkeypatch, capfd):
     sys.path.insert(0, str(source / "cmake"))
     import python_wheel
 
     python_wheel.configure(tmp_path / "with")
-    assert "\nEDDA_VIEW:BOOL=OFF\n" in (tmp_path / "with/CMakeCache.txt").read_text()
+    assert "\nEDDA_PYTHON:BOOL=ON\n" in (tmp_path / "with/CMakeCache.txt").read_text()
     monkeypatch.setenv("CMAKE_ARGS", "-DCMAKE_DISABLE_FIND_PACKAGE_pybind11=ON")
     with pytest.raises(subprocess.CalledProcessError):
         python_wheel.configure(tmp_path / "without")

@@ -12,8 +12,8 @@ namespace edda {
 /// Block j lies on the left on the way from a to b.
 struct TestFace {
   Vec2 a, b;
-  double stress_a = 0.0, stress_b = 0.0;  ///< Pa, tension positive
-  double closed = 1.0;                    ///< part of its length that bears
+  double stress_a = 0.0, stress_b = 0.0;  ///< Pa, compression positive
+  double closed = 1.0;                    ///< fraction of its length that carries
   double state = 1.0;
   double block_i = 4.0, block_j = 5.0;
   Vec2 displacement{};
@@ -33,7 +33,7 @@ inline Grid face_grid(const std::vector<TestFace>& faces) {
   for (const TestFace& f : faces) {
     const Vec2 middle = 0.5 * (f.a + f.b), t = unit(f.b - f.a);
     const double length = norm(f.b - f.a), mean = 0.5 * f.closed * (f.stress_a + f.stress_b);
-    const double normal = -mean * length, shear = -0.2 * mean * length;
+    const double normal = mean * length, shear = 0.2 * mean * length;
     const Vec2 force = -normal * perp(t) + shear * t;
     g.corners.push_back(static_cast<std::int64_t>(g.point_count()));
     g.points.insert(g.points.end(), {middle.x, middle.y, 0.0});
@@ -55,7 +55,7 @@ inline Grid face_grid(const std::vector<TestFace>& faces) {
     add("x_b", {f.b.x});
     add("y_b", {f.b.y});
     add("normal_stress", {mean});
-    add("shear_stress", {-0.2 * mean});
+    add("shear_stress", {0.2 * mean});
     add("normal_stress_a", {f.stress_a});
     add("normal_stress_b", {f.stress_b});
   }

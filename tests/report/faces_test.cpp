@@ -76,7 +76,7 @@ TEST(PressureDiagram, IsCutWhereItWouldBeTooHigh) {
 }
 
 TEST(DrawnFaces, AreWhereTheFrameSays) {
-  Grid g = face_grid({{{1, 0}, {1, 1}, -2e6, 0.0, 0.6}});
+  Grid g = face_grid({{{1, 0}, {1, 1}, 2e6, 0.0, 0.6}});
   const std::vector<DrawnFace> faces = drawn_faces(g);
   ASSERT_EQ(faces.size(), 1u);
   EXPECT_EQ(faces[0].a, (Vec2{1.0, 0.0}));
@@ -100,10 +100,10 @@ TEST(DrawnFaces, GoAlongWithTheirBlock) {
     u[3 * p] = 0.1 - 0.2 * y + 0.01 * x;
     u[3 * p + 1] = -0.3 + 0.2 * x + 0.03 * y;
   }
-  shot.contacts = face_grid({{{2, 0}, {2, 0.5}, -1e6, -1e6, 1.0, 1.0, 4, 5, {7.0, 7.0}},
-                             {{0.25, 0}, {1, 0}, -1e6, -1e6, 1.0, 1.0, 5, 4, {7.0, 7.0}},
-                             {{0.5, 0}, {1, 0}, -1e6, -1e6, 1.0, 1.0, 5, 9, {7.0, 7.0}}});
-  const Scene s = make_scene(shot, 4.0);
+  shot.contacts = face_grid({{{2, 0}, {2, 0.5}, 1e6, 1e6, 1.0, 1.0, 4, 5, {7.0, 7.0}},
+                             {{0.25, 0}, {1, 0}, 1e6, 1e6, 1.0, 1.0, 5, 4, {7.0, 7.0}},
+                             {{0.5, 0}, {1, 0}, 1e6, 1e6, 1.0, 1.0, 5, 9, {7.0, 7.0}}});
+  const PlotScene s = make_scene(shot, 4.0);
   ASSERT_EQ(s.faces.size(), 3u);
   const auto expect_at = [](Vec2 found, Vec2 place) { EXPECT_LT(norm(found - place), 1e-12); };
   expect_at(s.faces[0].a, s.points[4]);
@@ -116,7 +116,7 @@ TEST(DrawnFaces, GoAlongWithTheirBlock) {
 
 TEST(DrawnFaces, StayOnTheirBlocksBesideAMonitor) {
   Snapshot shot{two_blocks()};
-  shot.contacts = face_grid({{{1, 0}, {1, 1}, -1e6, -1e6}});
+  shot.contacts = face_grid({{{1, 0}, {1, 1}, 1e6, 1e6}});
   ASSERT_TRUE(move_with(shot, {-0.2, 0.5}));
   EXPECT_EQ(drawn_faces(*shot.contacts)[0].a, (Vec2{0.5, 0.0}));
 }
@@ -148,9 +148,9 @@ TEST(Pressures, AreDrawnWithContactForcesOnOneScale) {
   PlotOptions options;
   options.forces = true;
   // Open ones carry nothing, whatever they are said to.
-  const std::string svg = drawn(with_faces({{{0, 0}, {1, 0}, -1e6, -3e6},
-                                            {{2, 0}, {3, 0}, -2e6, 0.0, 0.5},
-                                            {{1, 0}, {1, 1}, -9e6, -9e6, 1.0, 0.0}}),
+  const std::string svg = drawn(with_faces({{{0, 0}, {1, 0}, 1e6, 3e6},
+                                            {{2, 0}, {3, 0}, 2e6, 0.0, 0.5},
+                                            {{1, 0}, {1, 1}, 9e6, 9e6, 1.0, 0.0}}),
                                 options);
   const auto areas = filled(svg, ink::pressure);
   ASSERT_EQ(areas.size(), 3u);
@@ -168,12 +168,12 @@ TEST(Pressures, AreDrawnWithContactForcesOnOneScale) {
   EXPECT_FALSE(text_of(drawn(with_faces({}), options), "2 MPa"));
   options.forces = false;
   EXPECT_TRUE(
-      filled(drawn(with_faces({{{0, 0}, {1, 0}, -1e6, -3e6}}), options), ink::pressure).empty());
+      filled(drawn(with_faces({{{0, 0}, {1, 0}, 1e6, 3e6}}), options), ink::pressure).empty());
 }
 
 TEST(Pressures, OfAPointAreCutAndSaidToBe) {
-  std::vector<TestFace> faces(30, {{0, 0}, {1, 0}, -1e6, -1e6});
-  faces.push_back({{1, 0}, {1, 1}, -1e8, 0.0, 0.05});
+  std::vector<TestFace> faces(30, {{0, 0}, {1, 0}, 1e6, 1e6});
+  faces.push_back({{1, 0}, {1, 1}, 1e8, 0.0, 0.05});
   PlotOptions options;
   options.forces = true;
   const std::string svg = drawn(with_faces(faces), options);
@@ -183,7 +183,7 @@ TEST(Pressures, OfAPointAreCutAndSaidToBe) {
   const double height = areas[0][0].y - areas[0][1].y;
   EXPECT_NEAR(areas[30][0].x - areas[30][1].x, 2.25 * height, 0.05);
   // Nor is there anything to see of one over next to no length.
-  faces.push_back({{1, 0}, {1, 1}, -1e8, 0.0, 1e-4});
+  faces.push_back({{1, 0}, {1, 1}, 1e8, 0.0, 1e-4});
   EXPECT_EQ(filled(drawn(with_faces(faces), options), ink::pressure).size(), 32u);
   options.whole_range = true;
   EXPECT_TRUE(text_of(drawn(with_faces(faces), options), "100 MPa"));
@@ -192,30 +192,30 @@ TEST(Pressures, OfAPointAreCutAndSaidToBe) {
 TEST(Pressures, TensionHasItsColour) {
   PlotOptions options;
   options.forces = true;
-  const std::string svg = drawn(with_faces({{{0, 0}, {1, 0}, -1e6, 1e6}}), options);
+  const std::string svg = drawn(with_faces({{{0, 0}, {1, 0}, 1e6, -1e6}}), options);
   EXPECT_EQ(filled(svg, ink::pressure).size(), 2u);
   EXPECT_GE(filled(svg, ink::tension).size(), 2u);
   EXPECT_TRUE(text_of(svg, "tension"));
 }
 
 TEST(FaceField, IsALineFromEndToEndInTheColourOfItsStress) {
-  const Snapshot shot = with_faces({{{0, 0}, {1, 0}, -1e6, -3e6},
-                                    {{2, 0}, {3, 0}, -2e6, 0.0, 0.5},
+  const Snapshot shot = with_faces({{{0, 0}, {1, 0}, 1e6, 3e6},
+                                    {{2, 0}, {3, 0}, 2e6, 0.0, 0.5},
                                     {{1, 0}, {1, 1}, 0.0, 0.0, 0.0, 0.0}},
                                    "normal_stress");
   EXPECT_TRUE(shot.field.along_faces);
-  EXPECT_EQ(shot.field.values, (std::vector<double>{-2e6, -0.5e6, 0.0}));
+  EXPECT_EQ(shot.field.values, (std::vector<double>{2e6, 0.5e6, 0.0}));
   const std::string svg = drawn(shot, {});
-  const auto lines = stroked(svg, sequential(0.0));
+  const auto lines = stroked(svg, sequential(1.0));
   ASSERT_EQ(lines.size(), 1u);
   const std::vector<Vec2> ends = points_of(lines[0]);
   ASSERT_EQ(ends.size(), 2u);
   EXPECT_NEAR(ends[0].y, ends[1].y, 1e-3);
-  const auto other = stroked(svg, sequential(0.75));
+  const auto other = stroked(svg, sequential(0.25));
   ASSERT_EQ(other.size(), 1u);
   EXPECT_NEAR(points_of(other[0])[0].x - ends[0].x, 2.0 * (ends[1].x - ends[0].x), 0.02);
   const std::vector<double> outlines = stroke_widths(svg, ink::line);
-  EXPECT_GT(stroke_widths(svg, sequential(0.0))[0], 3.0 * outlines.front());
+  EXPECT_GT(stroke_widths(svg, sequential(1.0))[0], 3.0 * outlines.front());
   EXPECT_TRUE(text_of(svg, "normal stress on"));
   EXPECT_EQ(shown_field("shear_stress", shot.blocks, &*shot.contacts).value().values[0], 0.4e6);
 }

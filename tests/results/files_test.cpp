@@ -30,6 +30,8 @@ TEST_F(Folder, TakesAnEarlierRunsFilesAndNothingElse) {
   touch("old/summary.json");
   touch("old/frames/blocks_000001.vtu");
   touch("old/history.csv.part");
+  touch("old/columns.csv");
+  touch("old/joints_12.csv");
   EXPECT_FALSE(check_folder(at("old"), at("m.toml")));
   touch("old/notes.txt");
   ASSERT_TRUE(check_folder(at("old"), at("m.toml")));
@@ -100,6 +102,23 @@ TEST_F(Folder, FramesComeBackAsTheyWere) {
   EXPECT_EQ(back.value().cell_field("id")->values, g.cell_fields[0].values);
   EXPECT_EQ(back.value().cell_field("velocity")->values, g.cell_fields[1].values);
   EXPECT_EQ(back.value().point_field("displacement")->values, g.point_fields[0].values);
+}
+
+TEST_F(Folder, FramesTellTheirSignsInACommentThatReadersSkip) {
+  const Grid g = small_grid();
+  ASSERT_FALSE(write_vtu(at("g.vtu"), g));
+  std::string text = read_file(at("g.vtu")).value();
+  const std::string declaration = "<?xml version=\"1.0\"?>\n";
+  EXPECT_TRUE(text.starts_with(declaration + "<!-- Stresses of blocks are positive in tension, "));
+  // Whatever stands in one.
+  text.insert(declaration.size(),
+              "<!-- <CellData> <DataArray type=\"Int32\" Name=\"id\" offset=\"99\"/> > -->\n");
+  ASSERT_FALSE(write_file(at("g.vtu"), text));
+  const Result<Grid> back = read_vtu(at("g.vtu"));
+  ASSERT_TRUE(back.ok());
+  EXPECT_EQ(back.value().points, g.points);
+  EXPECT_EQ(back.value().cell_fields.size(), 2u);
+  EXPECT_EQ(back.value().cell_field("id")->values, g.cell_fields[0].values);
 }
 
 TEST_F(Folder, FramesCutShortAreFaultsAndNeverCrash) {

@@ -20,7 +20,7 @@ Result<Table> read(const std::string& text) {
 
 TEST(ReadTable, ReadsBackWhatCsvWrites) {
   Csv csv;
-  csv.header({"t", "name"});
+  csv.add("t").add("name").end();
   csv.add(0.1).add("a, \"b\"\nc").end();
   csv.add(1e300).add("7").end();
   const Result<Table> table = read(csv.text());

@@ -31,7 +31,7 @@ TEST(Numbers, ReadBackToTheSameBits) {
 
 TEST(Csv, QuotesOnlyWhatNeedsIt) {
   Csv csv;
-  csv.header({"a", "b"}).add(1.5).add("plain").end().add(2).add("a,\"b\"").end();
+  csv.add("a").add("b").end().add(1.5).add("plain").end().add(2).add("a,\"b\"").end();
   EXPECT_EQ(csv.text(), "a,b\n1.5,plain\n2,\"a,\"\"b\"\"\"\n");
 }
 

@@ -48,8 +48,8 @@ TEST(EventTimes, IntervalsLongerThanTheRun) {
   EXPECT_TRUE(end.end && end.row && end.frame);
 }
 
-/// A stage may end between multiples, by the clock or because all is at rest; the next multiple is
-/// the same.
+/// A stage may end between multiples, by its duration or in equilibrium; the next multiple is the
+/// same.
 TEST(EventTimes, GoesOnAfterAStage) {
   EventTimes times(0.3, 0.5);
   times.end_at(0.4);
@@ -64,7 +64,7 @@ TEST(EventTimes, GoesOnAfterAStage) {
   EXPECT_TRUE(e.frame && !e.row && !e.end);
   e = times.next();
   EXPECT_EQ(e.time, 0.6);
-  times.put_back(e);  // at rest before it
+  times.put_back(e);  // in equilibrium before it
   times.end_at(3.0);
   e = times.next();
   EXPECT_EQ(e.time, 0.6);

@@ -26,10 +26,10 @@ struct Ran {
   /// How far the block of that name has moved, m.
   Vec2 moved(const char* name) const {
     const Simulation& s = ready.sim;
-    for (std::size_t i = 0; i < s.blocks.size(); ++i) {
-      if (s.blocks.name(i) != name) continue;
-      return centroid(s.state.x, s.state.y, i) -
-             Vec2{s.blocks.centroid_x[i], s.blocks.centroid_y[i]};
+    for (std::size_t i = 0; i < s.scene->blocks.size(); ++i) {
+      if (s.scene->blocks.name(i) != name) continue;
+      return centroid(s.motion.state.x, s.motion.state.y, i) -
+             Vec2{s.scene->blocks.centroid_x[i], s.scene->blocks.centroid_y[i]};
     }
     ADD_FAILURE() << "no block is called " << name;
     return {};

@@ -1,4 +1,4 @@
-// The driver: rows, frames, velocities, turns, guards, stopping.
+// The driver: rows, frames, velocities, revolutions, limits, stopping.
 #include "run/run_model.hpp"
 
 #include <fmt/format.h>
@@ -83,7 +83,7 @@ TEST(RunModel, RowsAtEveryMultipleWithVelocitiesOfTheirTime) {
   }
   const auto blocks = table(folder + "/blocks.csv");
   ASSERT_EQ(blocks.size(), 2u);
-  // 21 rad are more than three turns; the spin carries a little centrifugal strain.
+  // 21 rad are more than three revolutions; the rotation causes a little centrifugal strain.
   EXPECT_NEAR(std::stod(blocks[1][8]), 21.0, 0.02);
   EXPECT_NEAR(std::stod(blocks[1][11]), 7.0, 0.01);
   int frames = 0;
@@ -130,7 +130,7 @@ TEST(RunModel, UnstableStepFailsWithBlockPlaceTimeAndCause) {
   const std::string folder = scratch.at("out");
   const Result<PreparedRun> stable = prepared(falling);
   ASSERT_TRUE(stable.ok());
-  const std::string step = fmt::format("{}", 30.0 * stable.value().sim.bound.critical_step);
+  const std::string step = fmt::format("{}", 30.0 * stable.value().sim.control.bound.critical_step);
   Result<PreparedRun> run = prepared(
       falling, {"solver.time_step=" + step, "solver.allow_unstable=true", "gravity=[0.0, 0.0]",
                 "solver.max_displacement_ratio=1.0", "block.flyer.angular_velocity=0.1"});
@@ -187,12 +187,12 @@ polygon = [[-9, -1], [9, -1], [9, 0], [-9, 0]]
   EXPECT_FALSE(warned({"solver.damping.local=0.8"}, "gravity acts at once"));
   EXPECT_FALSE(warned({}, "springs so"));
   EXPECT_TRUE(warned({"contact.normal_stiffness=1e6"}, "so soft"));
-  // A stiffness that was given for the joint is what it is.
+  // A stiffness that the joint gives is used as it is.
   EXPECT_FALSE(warned({"joints.j.kn=1e5"}, "so soft"));
   EXPECT_TRUE(warned({"contact.normal_stiffness=1e12"}, "so stiff"));
   EXPECT_FALSE(warned({}, "overlap at the start"));
   EXPECT_TRUE(warned({"block.flyer.polygon=[[0, -5e-4], [1, -5e-4], [1, 1], [0, 1]]"},
-                     "draw the block so that it touches, or cut both from one [domain] with a "
+                     "draw the blocks so that they touch, or cut both from one [domain] with a "
                      "[[trace]], or begin with a [[stage]] until = \"equilibrium\""));
 }
 
@@ -200,7 +200,7 @@ TEST(RunModel, TwoInOneProcessDoNotMeet) {
   Result<PreparedRun> a = prepared(falling), b = prepared(falling);
   ASSERT_TRUE(a.ok() && b.ok());
   const Result<Outcome> first = run_model(a.value(), {}), second = run_model(b.value(), {});
-  EXPECT_EQ(a.value().sim.state.x, b.value().sim.state.x);
+  EXPECT_EQ(a.value().sim.motion.state.x, b.value().sim.motion.state.x);
   EXPECT_EQ(first.value().steps, second.value().steps);
 }
 
@@ -219,10 +219,10 @@ TEST(RunModel, OverlapsAreMeasuredByTheBlocksThatOverlap) {
   Result<PreparedRun> run = prepared(dropped("duration = 0.3\ndamping = { contact = 0.3 }\n"));
   ASSERT_TRUE(run.ok());
   const Outcome o = run_model(run.value(), {}).value();
-  EXPECT_NEAR(run.value().sim.blocks.inradius[1], 0.2, 1e-9);
-  EXPECT_DOUBLE_EQ(o.overlap.ratio, o.overlap.depth / run.value().sim.blocks.inradius[1]);
-  EXPECT_LE(o.overlap.depth, run.value().sim.max_penetration * (1 + 1e-9));
-  EXPECT_GT(o.overlap.depth, 0.9 * run.value().sim.max_penetration);
+  EXPECT_NEAR(run.value().sim.scene->blocks.inradius[1], 0.2, 1e-9);
+  EXPECT_DOUBLE_EQ(o.overlap.ratio, o.overlap.depth / run.value().sim.scene->blocks.inradius[1]);
+  EXPECT_LE(o.overlap.depth, run.value().sim.accounts.max_penetration * (1 + 1e-9));
+  EXPECT_GT(o.overlap.depth, 0.9 * run.value().sim.accounts.max_penetration);
   EXPECT_GT(o.overlap.depth, 1e-3) << "deeper than the shortest edge is long";
   EXPECT_EQ(std::minmax(o.overlap.block_i, o.overlap.block_j), std::minmax(Id{0}, Id{1}));
   EXPECT_NEAR(o.overlap.place.y, -o.overlap.depth, 1e-3);
@@ -232,7 +232,7 @@ TEST(RunModel, OverlapsAreMeasuredByTheBlocksThatOverlap) {
     EXPECT_EQ(check.find("overlap"), check.npos) << check;
 }
 
-TEST(RunModel, DeepOverlapsSayWhereAndWhen) {
+TEST(RunModel, DeepPenetrationsAreReportedWithPlaceAndTime) {
   Result<PreparedRun> run = prepared(dropped("duration = 0.3\n"), {"contact.normal_stiffness=1e6"});
   ASSERT_TRUE(run.ok());
   const Outcome o = run_model(run.value(), {}).value();
@@ -243,14 +243,14 @@ TEST(RunModel, DeepOverlapsSayWhereAndWhen) {
   EXPECT_NE(o.failed_checks[0].find(", t = 0."), std::string::npos);
 }
 
-TEST(RunModel, TheEndSaysWhetherAllIsAtRest) {
+TEST(RunModel, TheEndReportsWhetherAllIsInEquilibrium) {
   const auto message = [](const std::string& solver) {
     Result<PreparedRun> run = prepared(dropped(solver));
     EXPECT_TRUE(run.ok());
     return run_model(run.value(), {}).value().message;
   };
   EXPECT_EQ(message("duration = 1.5\ndamping = { contact = 0.3, local = 0.5 }\n"),
-            "the run has reached its duration, at rest");
+            "the run has reached its duration, in equilibrium");
   EXPECT_EQ(message("duration = 0.02\n").substr(0, 83),
             "the run has reached its duration, still moving: fastest is block 1 (slab), at 2.2 m");
 }
@@ -264,27 +264,27 @@ TEST(RunModel, ARateIsThatOfTheStepsMadeSinceTheRunWasTakenUp) {
   RunOptions options{.folder = folder, .progress = {}};
   options.stop = &stop;
   options.after_step = [&] {
-    if (first.value().sim.state.steps >= 100000) stop = true;
+    if (first.value().sim.motion.state.steps >= 100000) stop = true;
     return false;
   };
   ASSERT_EQ(run_model(first.value(), options).value().status, Status::interrupted);
   Result<PreparedRun> second = prepared(falling, {"solver.time_step=2e-5"});
   ASSERT_TRUE(second.ok());
-  std::vector<Progress> said;
-  RunOptions again{.folder = folder, .progress = [&](const Progress& p) { said.push_back(p); }};
+  std::vector<Progress> reported;
+  RunOptions again{.folder = folder, .progress = [&](const Progress& p) { reported.push_back(p); }};
   again.resume = true;
   again.progress_every = 0.0;
   const auto start = std::chrono::steady_clock::now();
   ASSERT_EQ(run_model(second.value(), again).value().status, Status::completed);
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  ASSERT_GT(said.size(), 1000u);
-  ASSERT_GE(said.front().steps, 100000u);
-  const double mean = static_cast<double>(said.back().steps - said.front().steps) / wall;
-  EXPECT_LT(said.front().rate, 100.0 * mean) << "the 100,000 steps before were not made now";
+  ASSERT_GT(reported.size(), 1000u);
+  ASSERT_GE(reported.front().steps, 100000u);
+  const double mean = static_cast<double>(reported.back().steps - reported.front().steps) / wall;
+  EXPECT_LT(reported.front().rate, 100.0 * mean) << "the 100,000 steps before were not made now";
 }
 
-TEST(RunModel, AnEquilibriumSaysWhenAndWhatFallsAllTheSame) {
+TEST(RunModel, AnEquilibriumReportsItsTimeAndWhatStillFalls) {
   const std::string stages =
       "[[stage]]\nname = \"settle\"\nuntil = \"equilibrium\"\n[[stage]]\nname = \"wait\"\n"
       "until = \"equilibrium\"\n";
@@ -299,12 +299,12 @@ TEST(RunModel, AnEquilibriumSaysWhenAndWhatFallsAllTheSame) {
     return run_model(run.value(), {}).value().message;
   };
   const std::string rest = message(model(""));
-  EXPECT_EQ(rest.substr(0, 11), "at rest at ");
-  EXPECT_NE(rest.find(" s after the start of stage 1 (wait)"), std::string::npos) << rest;
+  EXPECT_EQ(rest.substr(0, 31), "the model is in equilibrium at ");
+  EXPECT_NE(rest.find(" s after the start of stage 2 (wait)"), std::string::npos) << rest;
   const std::string loose =
       message(model("[[block]]\nname = \"loose\"\npolygon = [[9, 0], [9.5, 0], [9, 0.5]]\n"));
   EXPECT_NE(
-      loose.find("(wait), but for 1 block that falls freely: fastest is block 2 (loose), at "),
+      loose.find("(wait), except for 1 block that falls freely: fastest is block 2 (loose), at "),
       std::string::npos)
       << loose;
 }
@@ -315,17 +315,19 @@ TEST(RunModel, ProgressCountsFromWhereStagesBeforeHaveEnded) {
          "[[stage]]\nuntil = \"equilibrium\"\nduration = 100\n[[stage]]\nduration = 0.05\n";
   Result<PreparedRun> run = prepared(text);
   ASSERT_TRUE(run.ok());
-  std::vector<Progress> said;
-  RunOptions options{.folder = {}, .progress = [&](const Progress& p) { said.push_back(p); }};
+  std::vector<Progress> reported;
+  RunOptions options{.folder = {}, .progress = [&](const Progress& p) { reported.push_back(p); }};
   options.progress_every = 0.0;
   ASSERT_EQ(run_model(run.value(), options).value().status, Status::completed);
-  const auto second = std::find_if(said.begin(), said.end(), [](auto& p) { return p.stage == 1; });
-  ASSERT_NE(second, said.end());
+  const auto second =
+      std::find_if(reported.begin(), reported.end(), [](auto& p) { return p.stage == 1; });
+  ASSERT_NE(second, reported.end());
   const double start = second->time;
   EXPECT_LT(start, 10.0);
   EXPECT_NEAR(second->fraction, start / (start + 0.05), 0.05);
   EXPECT_LT(second->seconds_left, 100.0);
-  for (std::size_t k = 1; k < said.size(); ++k) EXPECT_GE(said[k].fraction, said[k - 1].fraction);
+  for (std::size_t k = 1; k < reported.size(); ++k)
+    EXPECT_GE(reported[k].fraction, reported[k - 1].fraction);
 }
 
 }  // namespace

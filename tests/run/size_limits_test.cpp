@@ -1,4 +1,4 @@
-// What is too large to be started.
+// Models that are too large to be run.
 #include "run/size_limits.hpp"
 
 #include <gtest/gtest.h>
@@ -54,14 +54,14 @@ TEST(SizeLimits, FilesWithoutEndAreRefused) {
   ASSERT_TRUE(run.ok());
   Simulation& sim = run.value().sim;
   EXPECT_FALSE(beyond_disks(sim));
-  sim.model.output.every = 1e-8;
+  sim.scene.edit().model.output.every = 1e-8;
   const auto frames = beyond_disks(sim);
   ASSERT_TRUE(frames);
   EXPECT_EQ(to_string(*frames),
             "m.toml: output.every: the files would take at least 1.01e+05 GB: give more time "
             "between frames");
-  sim.model.output.every = 1.0;
-  sim.model.output.history_every = 1e-12;
+  sim.scene.edit().model.output.every = 1.0;
+  sim.scene.edit().model.output.history_every = 1e-12;
   const auto rows = beyond_disks(sim);
   ASSERT_TRUE(rows);
   EXPECT_EQ(rows->where.key, "output.history_every");

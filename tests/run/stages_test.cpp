@@ -1,4 +1,4 @@
-// Stages: equilibrium found and not found, displacements counted anew, what falls not waited for.
+// Stages: equilibrium found and not found, displacements reset, falling blocks not waited for.
 #include "run/stages.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ Outcome run(PreparedRun& ready) {
   return outcome.value();
 }
 
-/// Two squares on a floor, one on the other, and one that falls for ever beside it.
+/// Two squares on a floor, one on the other, and one beside them that falls without end.
 std::string tower(const std::string& more, double slope = 0.0, double phi = 30.0) {
   auto number = [](double v) { return std::to_string(v); };
   return R"(
@@ -51,8 +51,8 @@ point = [0.5, )" +
          number(2.0 + 0.5 * slope) + "]\n" + more;
 }
 
-/// The settlement is that of statics: each block's own half weight and what it carries on E, and
-/// two springs at each joint; the block that falls is not waited for.
+/// The settlement is that of statics: half of each block's own weight and the load on it, with E,
+/// and two springs at each joint; the block that falls is not waited for.
 TEST(Stages, EquilibriumIsThatOfStatics) {
   for (const auto& [method, ratio] : {std::pair{"edda", 1e-7}, std::pair{"dda", 1e-5}}) {
     PreparedRun ready =
@@ -70,20 +70,21 @@ TEST(Stages, EquilibriumIsThatOfStatics) {
     const double settlement =
         weight / (2.0 * spring) * 3.0 + weight / young * (0.5 + 1.0) + 0.5 * weight / young;
     const MonitorPoint& m = ready.monitors[0];
-    EXPECT_NEAR(displacement_of(ready.sim.state, m.block, m.weight).y / -settlement, 1.0, 1e-3)
+    EXPECT_NEAR(displacement_of(ready.sim.motion.state, m.block, m.weight).y / -settlement, 1.0,
+                1e-3)
         << method;
   }
 }
 
-TEST(Stages, ProgressAndEndsAreTold) {
+TEST(Stages, ProgressAndEndsAreReported) {
   PreparedRun ready =
       prepared(tower("[[stage]]\nname = 'settle'\nuntil = 'equilibrium'\n[[stage]]\nname = "
                      "'wait'\nduration = 0.01\n[solver]\n"));
   std::vector<StageReport> ends;
-  std::vector<Progress> told;
+  std::vector<Progress> reported;
   RunOptions options;
   options.progress_every = 0.0;
-  options.progress = [&](const Progress& p) { told.push_back(p); };
+  options.progress = [&](const Progress& p) { reported.push_back(p); };
   options.stage_ended = [&](const StageReport& s) { ends.push_back(s); };
   const Outcome o = run_model(ready, options).value();
   ASSERT_EQ(ends.size(), 2u);
@@ -93,11 +94,11 @@ TEST(Stages, ProgressAndEndsAreTold) {
   EXPECT_EQ(ends[1].start, ends[0].end);
   EXPECT_NEAR(ends[1].end - ends[1].start, 0.01, 1e-12);
   EXPECT_EQ(ends[0].steps + ends[1].steps, o.steps);
-  const Progress& last = told.back();
+  const Progress& last = reported.back();
   EXPECT_EQ(last.stage_name, "wait");
   EXPECT_EQ(last.stages, 2u);
   EXPECT_EQ(last.fraction, 1.0);
-  EXPECT_EQ(told.front().stage_name, "settle");
+  EXPECT_EQ(reported.front().stage_name, "settle");
 }
 
 TEST(Stages, ProgressHasTheFastestBlock) {
@@ -111,7 +112,7 @@ TEST(Stages, ProgressHasTheFastestBlock) {
   EXPECT_TRUE(last.stage_name.empty());
 }
 
-/// Where nothing holds, the run says so and who moves.
+/// Where no equilibrium exists the run reports this and the blocks that move.
 TEST(Stages, NoEquilibriumIsACollapse) {
   PreparedRun ready = prepared(tower(
       "[[stage]]\nname = 'settle'\nuntil = 'equilibrium'\nduration = 0.3\n[solver]\n", 0.5, 10.0));
@@ -119,25 +120,26 @@ TEST(Stages, NoEquilibriumIsACollapse) {
   EXPECT_EQ(o.status, Status::collapsed);
   EXPECT_NEAR(o.time, 0.3, 1e-12);
   for (const char* part :
-       {"stage 0 (settle)", "no equilibrium in 0.3 s", "upper", "1 fall freely"}) {
+       {"stage 1 (settle)", "did not reach equilibrium in 0.3 s", "upper", "1 fall freely"}) {
     EXPECT_NE(o.message.find(part), std::string::npos) << o.message << " lacks " << part;
   }
 }
 
-/// Where all slides or falls away there is nothing to wait for.
+/// Where all blocks slide or fall away the stage does not wait.
 TEST(Stages, AllThatGoesAwayIsACollapse) {
   PreparedRun ready = prepared(tower(
       "[[stage]]\nname = 'settle'\nuntil = 'equilibrium'\nduration = 1000\n[solver]\n", 0.5, 10.0));
   const Outcome o = run(ready);
   EXPECT_EQ(o.status, Status::collapsed);
   EXPECT_LT(o.time, 10.0);
-  EXPECT_NE(o.message.find("stage 0 (settle) finds no equilibrium: each block slides or falls"),
-            std::string::npos)
+  EXPECT_NE(
+      o.message.find("stage 1 (settle) does not reach equilibrium: each block slides or falls"),
+      std::string::npos)
       << o.message;
 }
 
-/// A block that friction does not hold by four hundredths, beside a wall with whose stiffness all
-/// else moves: it creeps under the wall's drag, and is not at rest.
+/// A block whose friction is four hundredths too low, beside a wall that determines the frequency:
+/// it creeps under the damping at that frequency, and is not in equilibrium.
 TEST(Stages, WhatCreepsBesideAWallIsLoose) {
   const auto ends = [](double friction) {
     PreparedRun ready = prepared(
@@ -162,15 +164,15 @@ TEST(Stages, WhatCreepsBesideAWallIsLoose) {
     return found == o.failed_checks.end() ? std::string() : *found;
   };
   EXPECT_EQ(loose_check(creeps),
-            "number of blocks that have come loose is 1, more than 0: the strength given does not "
-            "hold them; edda fos finds the factor of safety");
+            "number of blocks that have come loose is 1, more than 0: the given strength is not "
+            "enough to hold them; edda fos finds the factor of safety");
   const Outcome stands = ends(31.0);
   EXPECT_EQ(loose_check(stands), "");
   EXPECT_EQ(stands.status, Status::equilibrium);
   EXPECT_EQ(stands.message.find("loose"), std::string::npos) << stands.message;
 }
 
-/// What has come loose is left behind, or ends the run.
+/// Blocks that have come loose are left out, or end the run.
 TEST(Stages, LooseBlocksMayEndTheRun) {
   const auto ends = [](const std::string& otherwise) {
     PreparedRun ready =
@@ -183,14 +185,16 @@ TEST(Stages, LooseBlocksMayEndTheRun) {
   const Outcome stopped = ends("otherwise = 'stop'\n");
   EXPECT_EQ(stopped.status, Status::collapsed);
   EXPECT_LT(stopped.time, 2.0);
-  for (const char* part : {"at rest after ", "but for 1 block that falls freely: fastest is ",
-                           "(falling)", "\"stop\" of stage 0 (settle) ends the run here"}) {
+  for (const char* part :
+       {"the model is in equilibrium after ", "except for 1 block that falls freely: fastest is ",
+        "(falling)", "\"stop\" of stage 1 (settle) ends the run here"}) {
     EXPECT_NE(stopped.message.find(part), std::string::npos) << stopped.message;
   }
 }
 
-/// Local damping takes its part of gravity, too, and a run that falls says so.
-TEST(Stages, LocalDampingOfAFallIsTold) {
+/// Local damping also reduces the acceleration of gravity, and a run in which blocks fall reports
+/// so.
+TEST(Stages, LocalDampingOfAFallIsReported) {
   const auto failed = [](const std::string& damping) {
     PreparedRun ready = prepared(tower("[solver]\nduration = 0.2\n" + damping));
     const Outcome o = run(ready);
@@ -198,22 +202,22 @@ TEST(Stages, LocalDampingOfAFallIsTold) {
     for (const std::string& check : o.failed_checks) all += check + "\n";
     return all;
   };
-  const char* const told = "number of blocks that fell freely under local damping is 1, more";
-  EXPECT_NE(failed("damping = { local = 0.5 }\n").find(told), std::string::npos);
-  EXPECT_EQ(failed("damping = { contact = 0.1 }\n").find(told), std::string::npos);
+  const char* const reported = "number of blocks that fell freely under local damping is 1, more";
+  EXPECT_NE(failed("damping = { local = 0.5 }\n").find(reported), std::string::npos);
+  EXPECT_EQ(failed("damping = { contact = 0.1 }\n").find(reported), std::string::npos);
 }
 
-/// Displacements count from the stage that resets them; damping is the stage's.
-TEST(Stages, ResetAndDampingHoldForTheirStage) {
+/// Displacements count from the stage that resets them; damping is that of the stage.
+TEST(Stages, ResetAndDampingApplyToTheirStage) {
   PreparedRun ready =
       prepared(tower("[[stage]]\nuntil = 'equilibrium'\nratio = 1e-7\n[[stage]]\nduration = "
                      "0.05\nreset_displacements = true\n[solver]\ndamping = { contact = 0.05 }\n"));
   const Outcome o = run(ready);
   EXPECT_EQ(o.status, Status::completed);
   const MonitorPoint& m = ready.monitors[0];
-  EXPECT_LT(norm(displacement_of(ready.sim.state, m.block, m.weight)), 1e-9);
-  EXPECT_EQ(ready.sim.damping.local, 0.0);
-  EXPECT_EQ(ready.sim.damping.contact, 0.05);
+  EXPECT_LT(norm(displacement_of(ready.sim.motion.state, m.block, m.weight)), 1e-9);
+  EXPECT_EQ(ready.sim.motion.damping.local, 0.0);
+  EXPECT_EQ(ready.sim.motion.damping.contact, 0.05);
 }
 
 /// A stage by time is the same run as without stages, to the bit.
@@ -222,8 +226,8 @@ TEST(Stages, OneByTimeChangesNothing) {
   PreparedRun b = prepared(tower("[[stage]]\nduration = 0.05\n[solver]\n"));
   run(a);
   run(b);
-  EXPECT_EQ(a.sim.state.x, b.sim.state.x);
-  EXPECT_EQ(a.sim.state.vy, b.sim.state.vy);
+  EXPECT_EQ(a.sim.motion.state.x, b.sim.motion.state.x);
+  EXPECT_EQ(a.sim.motion.state.vy, b.sim.motion.state.vy);
 }
 
 }  // namespace

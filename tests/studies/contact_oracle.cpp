@@ -7,6 +7,8 @@
 #include <cstdlib>
 
 #include "contacts/drifting_heap.hpp"
+#include "step/energy_balance.hpp"
+#include "step/step.hpp"
 #include "verification/acting_watch.hpp"
 #include "verification/cut_slope.hpp"
 #include "verification/heap_watch.hpp"
@@ -22,7 +24,7 @@ using namespace edda;
 constexpr double largest_jump = 3.0;
 
 struct Thrown {
-  double jump = 0.0, drift = 0.0;
+  double jump = 0.0, error = 0.0;
   ListFaults list;
   std::uint64_t steps = 0, switched = 0;
   bool failed = false;
@@ -33,27 +35,27 @@ Thrown thrown(unsigned seed, std::uint64_t steps, bool verbose) {
   Simulation sim = scene(
       thrown_model(thrown_blocks(seed, 4, decades, 30.0), (7 * seed) % 41, "duration = 0.5\n"));
   HeapWatch watch(20);
-  sim.start(0.5);
+  start(sim, 0.5);
   Thrown t;
-  for (; t.steps < steps && sim.state.time < 0.5; ++t.steps) {
-    if (const auto failure = sim.step()) {
+  for (; t.steps < steps && sim.motion.state.time < 0.5; ++t.steps) {
+    if (const auto failure = step(sim)) {
       std::printf("seed %u: %s at %g s\n", seed, failure->message.c_str(), failure->time);
       t.failed = true;
       break;
     }
     watch.look(sim);
-    if (t.steps % 50 == 0) t.drift = std::max(t.drift, std::abs(sim.ledger().drift));
+    if (t.steps % 50 == 0) t.error = std::max(t.error, std::abs(account_energy(sim).error));
   }
   t.jump = watch.worst_jump;
   t.list = watch.list;
-  t.switched = sim.open_close.switched;
+  t.switched = sim.accounts.open_close.switched;
   if (verbose || t.jump > largest_jump || t.list.missed + t.list.repeated > 0) {
     std::printf(
         "seed %u: jump %.3g at %.6g s (%u, %u), drift %.2g, %zu of %zu missed, switched %llu, "
         "redone %llu\n",
-        seed, t.jump, watch.jump_at, watch.jump_of.first, watch.jump_of.second, t.drift,
+        seed, t.jump, watch.jump_at, watch.jump_of.first, watch.jump_of.second, t.error,
         t.list.missed, t.list.wanted, static_cast<unsigned long long>(t.switched),
-        static_cast<unsigned long long>(sim.steps.redone));
+        static_cast<unsigned long long>(sim.accounts.steps.redone));
   }
   return t;
 }
@@ -62,7 +64,7 @@ Thrown thrown(unsigned seed, std::uint64_t steps, bool verbose) {
 /// for a third block, and from which side a face presses, is then not asked.
 bool told(const char* what, unsigned count, const ActingFaults& f, bool drifting) {
   std::printf("%u %s: %zu faces closed, %zu of them idle, %zu not as defined", count, what,
-              f.decided, f.idle, f.apart);
+              f.decided, f.inactive, f.apart);
   if (!drifting) {
     std::printf(
         "; %zu came to carry, %zu with a third block beside, %zu not as defined; %zu of %zu "
@@ -116,14 +118,14 @@ int main(int argc, char** argv) {
   }
   std::printf("%u heaps adrift, %zu pairs wanted: %u heaps with a difference\n", n, sum.wanted,
               bad);
-  double jump = 0.0, drift = 0.0;
+  double jump = 0.0, error = 0.0;
   const unsigned runs = (n + 19) / 20;
   unsigned lost = 0;
   std::uint64_t steps = 0, switched = 0;
   for (unsigned seed = first; seed < first + runs; ++seed) {
     const Thrown t = thrown(seed, 15000, n <= 1000);
     jump = std::max(jump, t.jump);
-    drift = std::max(drift, t.drift);
+    error = std::max(error, t.error);
     steps += t.steps;
     switched += t.switched;
     lost += t.failed ? 1 : 0;
@@ -132,7 +134,7 @@ int main(int argc, char** argv) {
   std::printf(
       "%u heaps run, %llu steps, %llu switchings: largest jump %.3g p u, drift %.2g, %u lost\n",
       runs, static_cast<unsigned long long>(steps), static_cast<unsigned long long>(switched), jump,
-      drift, lost);
+      error, lost);
   const bool differs = acting_differs(n, first);
   return bad + lost > 0 || differs ? 1 : 0;
 }

@@ -8,7 +8,7 @@
 #include <ctime>
 #include <fstream>
 
-#include "run/fos.hpp"
+#include "study/fos.hpp"
 #include "verification/exact_slopes.hpp"
 #include "verification/scene.hpp"
 

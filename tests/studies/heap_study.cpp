@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "step/energy_balance.hpp"
+#include "step/step.hpp"
 #include "verification/heap_watch.hpp"
 #include "verification/overlap.hpp"
 #include "verification/random_heap.hpp"
@@ -60,59 +62,78 @@ std::string poured(unsigned seed, const Settings& s) {
 
 std::vector<Vec2> centroids(const Simulation& sim) {
   std::vector<Vec2> at;
-  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
-    at.push_back(centroid(sim.state.x, sim.state.y, i));
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    at.push_back(centroid(sim.motion.state.x, sim.motion.state.y, i));
   }
   return at;
 }
 
+/// Root of the smallest area of a block, m.
+double smallest_block(const Simulation& sim) {
+  double smallest = 1e9;
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i)
+    smallest = std::min(smallest, std::sqrt(sim.scene->blocks.area[i]));
+  return smallest;
+}
+
+/// Largest displacement of a centroid, over the root of its block's area.
+double largest_displacement(const Simulation& sim, const std::vector<Vec2>& from,
+                            const std::vector<Vec2>& to) {
+  double moved = 0.0;
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    moved = std::max(moved, norm(to[i] - from[i]) / std::sqrt(sim.scene->blocks.area[i]));
+  }
+  return moved;
+}
+
+/// Largest velocity of a centroid, m/s.
+double fastest_block(const Simulation& sim) {
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    fastest = std::max(fastest, norm(centroid(sim.motion.state.vx, sim.motion.state.vy, i)));
+  }
+  return fastest;
+}
+
 bool pour(unsigned seed, const Settings& s) {
   Simulation sim = scene(poured(seed, s));
-  double smallest = 1e9;
-  for (std::size_t i = 0; i < sim.blocks.size(); ++i)
-    smallest = std::min(smallest, std::sqrt(sim.blocks.area[i]));
+  const double smallest = smallest_block(sim);
   const double every = 0.05;
-  sim.start(every);
-  double overlap = 0.0, overlap_at = 0.0, gained = 0.0, energy = 0.0, drift = 0.0;
+  start(sim, every);
+  double overlap = 0.0, overlap_at = 0.0, gained = 0.0, energy = 0.0, error = 0.0;
   std::string failure;
   std::vector<Vec2> second_ago = centroids(sim);
   double kinetic = 0.0, moved = 1.0;
   constexpr int second = 20;  // rows
   bool rests = false;
   for (int row = 1; row * every <= s.seconds * (1 + 1e-9) && failure.empty() && !rests; ++row) {
-    sim.aim_at(row * every);
-    while (sim.state.time < row * every) {
-      if (const auto f = sim.step()) {
+    fit_step_to(sim, row * every);
+    while (sim.motion.state.time < row * every) {
+      if (const auto f = step(sim)) {
         failure = f->message;
         break;
       }
     }
-    const Ledger l = sim.ledger();
+    const EnergyBalance l = account_energy(sim);
     const double now = l.kinetic + l.strain + l.contact + l.gravity;
-    if (row > 1) gained = std::max(gained, (now - energy) / sim.largest_energy);
+    if (row > 1) gained = std::max(gained, (now - energy) / sim.accounts.largest_energy);
     energy = now;
-    kinetic = l.kinetic / sim.largest_energy;
+    kinetic = l.kinetic / sim.accounts.largest_energy;
     if (row % second == 0) {
       const std::vector<Vec2> now_at = centroids(sim);
-      moved = 0.0;
-      for (std::size_t i = 0; i < now_at.size(); ++i) {
-        moved = std::max(moved, norm(now_at[i] - second_ago[i]) / std::sqrt(sim.blocks.area[i]));
-      }
+      moved = largest_displacement(sim, second_ago, now_at);
       second_ago = now_at;
       rests = moved < 0.01 && kinetic < 1e-6;
     }
-    drift = std::max(drift, std::abs(l.drift));
-    const Overlap o = deepest_overlap(sim.blocks, sim.pose);
+    error = std::max(error, std::abs(l.error));
+    const Overlap o = deepest_overlap(sim.scene->blocks, sim.motion.pose);
     if (o.depth > overlap) {
       overlap = o.depth;
-      overlap_at = sim.state.time;
+      overlap_at = sim.motion.state.time;
     }
   }
-  double fastest = 0.0;
-  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
-    fastest = std::max(fastest, norm(centroid(sim.state.vx, sim.state.vy, i)));
-  }
-  const double cut = static_cast<double>(sim.steps.redone) / static_cast<double>(sim.state.steps);
+  const double cut =
+      static_cast<double>(sim.accounts.steps.redone) / static_cast<double>(sim.motion.state.steps);
   const bool good =
       failure.empty() && overlap < 0.01 * smallest && gained <= 1e-6 && cut < 0.01 && rests;
   std::printf(
@@ -121,9 +142,11 @@ bool pour(unsigned seed, const Settings& s) {
       "%.1e of %llu steps; in the last second no block moves by more than %.1e of its size, "
       "kinetic "
       "energy %.1e of the largest, fastest %.1e m/s, unsettled %.1e %s\n",
-      seed, good ? "good" : "BAD", sim.state.time, overlap / smallest, overlap_at, gained, drift,
-      cut, static_cast<unsigned long long>(sim.state.steps), moved, kinetic, fastest,
-      static_cast<double>(sim.open_close.unsettled) / static_cast<double>(sim.state.steps),
+      seed, good ? "good" : "BAD", sim.motion.state.time, overlap / smallest, overlap_at, gained,
+      error, cut, static_cast<unsigned long long>(sim.motion.state.steps), moved, kinetic,
+      fastest_block(sim),
+      static_cast<double>(sim.accounts.open_close.not_converged) /
+          static_cast<double>(sim.motion.state.steps),
       failure.c_str());
   std::fflush(stdout);
   return good;

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "step/step.hpp"
 #include "verification/wall_at_rest.hpp"
 
 int main(int argc, char** argv) {
@@ -10,19 +11,19 @@ int main(int argc, char** argv) {
   const std::uint64_t steps = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000000;
   for (const bool settle : {true, false}) {
     Simulation sim = brick_wall(settle);
-    sim.start(1e4);
-    while (settle && sim.state.time < 1.0 && !sim.step()) {
+    start(sim, 1e4);
+    while (settle && sim.motion.state.time < 1.0 && !step(sim)) {
     }
-    sim.damping.local = 0.0;
-    const Rest rest = watch_rest(sim, steps, settle);
+    sim.motion.damping.local = 0.0;
+    const Equilibrium rest = watch_rest(sim, steps, settle);
     std::printf(
         "%s: kinetic energy %.3g J in the first second, %.3g J after it; drift %.2e, trend %.1e; "
         "%llu flips in %llu steps; moved %.2e m; unsettled %llu of %llu\n",
-        settle ? "settled" : "as drawn", rest.first_kinetic, rest.later_kinetic, rest.drift,
+        settle ? "settled" : "as drawn", rest.first_kinetic, rest.later_kinetic, rest.error,
         rest.trend, static_cast<unsigned long long>(rest.flips),
         static_cast<unsigned long long>(rest.later_steps), rest.moved,
-        static_cast<unsigned long long>(sim.open_close.unsettled),
-        static_cast<unsigned long long>(sim.open_close.steps));
+        static_cast<unsigned long long>(sim.accounts.open_close.not_converged),
+        static_cast<unsigned long long>(sim.accounts.open_close.steps));
   }
   return testing::UnitTest::GetInstance()->ad_hoc_test_result().Failed() ? 1 : 0;
 }

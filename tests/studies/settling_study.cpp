@@ -12,8 +12,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "run/observe.hpp"
+#include "observe/observe.hpp"
 #include "run/run_model.hpp"
+#include "step/changes.hpp"
 #include "verification/cut_slope.hpp"
 
 namespace edda {
@@ -109,9 +110,9 @@ struct Answer {
 
 double kinetic_energy_of(const Simulation& sim) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
-    if (is_free(sim.blocks, sim.state, i)) {
-      sum += kinetic_energy(sim.blocks, sim.state.vx, sim.state.vy, i);
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (is_free(sim.scene->blocks, sim.motion.state, i)) {
+      sum += kinetic_energy(sim.motion.masses, sim.motion.state.vx, sim.motion.state.vy, i);
     }
   }
   return sum;
@@ -143,13 +144,13 @@ Answer answer_of(const Case& c, Way way, double most) {
     return answer;
   }
   Simulation& sim = run.value().sim;
-  answer.blocks = sim.blocks.size();
+  answer.blocks = sim.scene->blocks.size();
   RunOptions options;
   options.last_stage = last;
   double before = 0.0;
   const Nodes none = [&] {
     Nodes zero;
-    for (auto& values : zero) values.assign(sim.blocks.size(), 0.0);
+    for (auto& values : zero) values.assign(sim.scene->blocks.size(), 0.0);
     return zero;
   }();
   const std::clock_t start = std::clock();
@@ -159,7 +160,7 @@ Answer answer_of(const Case& c, Way way, double most) {
     if (static_cast<double>(std::clock() - start) > most * CLOCKS_PER_SEC) stop = true;
     if (way != Way::kinetic) return false;
     const double now = kinetic_energy_of(sim);
-    if (now < before) sim.change_velocities(none, none);
+    if (now < before) change_velocities(sim, none, none);
     before = now < before ? 0.0 : now;
     return false;
   };
@@ -169,9 +170,9 @@ Answer answer_of(const Case& c, Way way, double most) {
   answer.rests = outcome.value().status == Status::equilibrium;
   answer.message = outcome.value().message;
   answer.steps = outcome.value().steps;
-  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
-    answer.moved.push_back(displacement_of(sim.state, i, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}));
-    const BlockStress s = block_stress(sim, sim.state, i);
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    answer.moved.push_back(displacement_of(sim.motion.state, i, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}));
+    const BlockStress s = block_stress(sim, sim.motion.state, i);
     answer.stress.push_back({s.xx, s.yy, s.xy});
   }
   return answer;

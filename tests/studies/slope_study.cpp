@@ -16,7 +16,7 @@ namespace {
 struct Group {
   unsigned slopes = 0, bad = 0;
   std::size_t fewest = std::numeric_limits<std::size_t>::max(), most = 0, unfelt = 0;
-  double push = 0.0, drawn_false = 0.0, later_false = 0.0, drift = 0.0;
+  double push = 0.0, drawn_false = 0.0, later_false = 0.0, error = 0.0;
 
   void take(const SlopeLook& l) {
     ++slopes;
@@ -27,7 +27,7 @@ struct Group {
     push = std::max(push, l.drawn_push);
     drawn_false = std::max(drawn_false, l.drawn_false_depth);
     later_false = std::max(later_false, l.false_depth);
-    drift = std::max(drift, std::abs(l.drift));
+    error = std::max(error, std::abs(l.error));
   }
 };
 
@@ -39,7 +39,7 @@ void print(const std::map<double, Group>& groups) {
       "|---|---|---|---|---|---|---|---|---|\n");
   for (const auto& [angle, g] : groups) {
     std::printf("| %g | %u | %zu to %zu | %.1e | %.1e | %.1e | %zu | %.1e | %u |\n", angle,
-                g.slopes, g.fewest, g.most, g.push, g.drawn_false, g.later_false, g.unfelt, g.drift,
+                g.slopes, g.fewest, g.most, g.push, g.drawn_false, g.later_false, g.unfelt, g.error,
                 g.bad);
   }
 }
@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
         "%s%s\n",
         s.seed, s.distribution.c_str(), s.angle, s.cohesion, l.blocks, l.pairs, l.drawn_overlap,
         l.drawn_false_depth, l.drawn_push, l.drawn_energy, static_cast<unsigned long long>(l.steps),
-        l.overlap, l.false_depth, l.unfelt, l.drift, l.good() ? "" : "BAD ", l.failure.c_str());
+        l.overlap, l.false_depth, l.unfelt, l.error, l.good() ? "" : "BAD ", l.failure.c_str());
     std::fflush(stdout);
   }
   print(groups);

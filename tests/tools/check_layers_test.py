@@ -25,12 +25,17 @@ SOUND = {
     "src/lines/cut.hpp": "#include \"base/vec2.hpp\"\n",
     "src/lines/cut.cpp": "#include \"lines/cut.hpp\"\n#include <geos/geom/Polygon.h>\n#include <fstream>\n",
     "src/blocks/block_set.hpp": "#include \"base/vec2.hpp\"\n",
+    "src/blocks/nodes.cpp": "void f() { for (int k = 0; k < 3; ++k) g(k); }\n",
+    "src/lines/side.cpp": "void f() { for (int k = 0; k < 3; ++k) g(k); }\n",
+    "src/app/nodes.cpp": "void f() { for (int k = 0; k < nodes_per_block; ++k) g(k < 3); }\n",
     "src/blocks/build.hpp": "#include \"blocks/block_set.hpp\"\n#include \"lines/cut.hpp\"\n",
     "src/blocks/build.cpp": "#include \"blocks/build.hpp\"\n#include <cstdio>\n// #include \"results/table.hpp\"\n"
                             "char t[9]; int n = std::snprintf(t, 9, \"exit(1) cout\");  // never printf\n",
     "src/results/table.cpp": "#include \"blocks/block_set.hpp\"\n#include <Eigen/Dense>\n#include <fmt/format.h>\n",
     "src/app/main.cpp": "#include <CLI/CLI.hpp>\n#include \"blocks/build.hpp\"\nint main() { std::exit(0); }\n",
-    "tests/base/vec2_test.cpp": "int x;\n" * 450,
+    "tests/base/vec2_test.cpp": "int x;\n" * 400,
+    "src/blocks/long.cpp": "namespace edda {\nstruct Long {\n  int f() const {\n" + "    if (x) {\n    }\n" * 29 + "  }\n};\n" + "int x[] = {\n"
+                           + "  1,\n" * 70 + "};\n}  // namespace edda\n",
 }
 
 # What is put into the sound tree, and what must then be said.
@@ -47,13 +52,22 @@ BROKEN = {
     "a stream": ({"src/blocks/b.cpp": "#include <iostream>\n"}, "blocks must not touch files or streams: <iostream>"),
     "a print": ({"src/blocks/b.cpp": "void f() { std::printf(\"x\"); }\n"}, "blocks must not touch files or streams: printf"),
     "an exit": ({"src/lines/b.cpp": "/* exit(1)\n*/\nvoid f() { exit(1); }\n"}, "src/lines/b.cpp:3: only app may end the process"),
+    "a number of nodes": (
+        {"src/app/b.cpp": "void f() {\n  for (std::size_t k = 0; k < 3; ++k) g(k);\n}\n"},
+        "src/app/b.cpp:2: only blocks may know how many nodes a block has"),
     "a circle of files": (
         {"src/lines/a.hpp": "#include \"lines/b.hpp\"\n", "src/lines/b.hpp": "#include \"lines/a.hpp\"\n"},
         "files include each other in a circle: lines/a.hpp -> lines/b.hpp -> lines/a.hpp"),
     "a file that includes itself": ({"src/lines/a.hpp": "#include \"lines/a.hpp\"\n"}, "lines/a.hpp -> lines/a.hpp"),
     "a circle of folders": (
         {"src/base/a.hpp": "#include \"lines/cut.hpp\"\n"}, "folders include each other in a circle: base -> lines -> base"),
-    "a long file": ({"tests/base/long_test.cpp": "\n" * 451}, "tests/base/long_test.cpp:451: 451 lines"),
+    "a type in two headers": (
+        {"src/base/a.hpp": "struct Pair {\n};\n", "src/lines/b.hpp": "\nclass Pair {\n};\n"},
+        "src/lines/b.hpp:2: Pair is defined in src/base/a.hpp:1, too"),
+    "a long file": ({"tests/base/long_test.cpp": "\n" * 401}, "tests/base/long_test.cpp:401: 401 lines"),
+    "a long function": (
+        {"bench/b.cpp": "namespace {\ntemplate <class T>\nvoid f(T x) {\n" + "  if (x) { g([] { return 1; }); }\n" * 58 + "}\n}\n"},
+        "bench/b.cpp:2: a function of 61 lines"),
     "a note": ({"bench/b.cpp": "\n// TO" "DO: faster\n"}, "bench/b.cpp:2: TO" "DO"),
 }
 

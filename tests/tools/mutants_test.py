@@ -57,6 +57,10 @@ class Source(unittest.TestCase):
         with self.assertRaisesRegex(mutants.Stale, r"sign: src/base/sum.cpp: found 0 times, not once: a \* b"):
             mutants.mutated(SOURCE, [mutant(text="a * b")])
 
+    def test_refuses_a_part_of_a_statement(self):
+        with self.assertRaisesRegex(mutants.Stale, r"sign: src/base/sum.cpp: begins within a statement: a \+ b;"):
+            mutants.mutated(SOURCE, [mutant(text="a + b;", becomes="a;")])
+
     def test_refuses_a_text_that_is_there_twice(self):
         twice = mutant(text="sum", becomes="a")
         with self.assertRaisesRegex(mutants.Stale, "found 3 times, not once: sum"):

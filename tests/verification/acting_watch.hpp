@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contacts/acting_oracle.hpp"
+#include "step/step.hpp"
 #include "verification/random_heap.hpp"
 
 namespace edda {
@@ -12,23 +13,25 @@ struct Acting {
   std::string failure;
 };
 
-/// Looks as drawn and after every step.
+/// Compares the faces as drawn and after every step.
 inline Acting acting_in(Simulation& sim, std::uint64_t steps, double time = 1.0) {
   ActingOracle oracle(1e-9);
   Acting acting;
-  sim.start(time);
-  const auto look = [&] { acting.faults.add(oracle.look(sim.contacts, sim.blocks, sim.pose)); };
+  start(sim, time);
+  const auto look = [&] {
+    acting.faults.add(oracle.look(sim.motion.contacts, sim.scene->blocks, sim.motion.pose));
+  };
   look();
-  while (sim.state.steps < steps && sim.state.time < time && acting.failure.empty()) {
-    if (const auto failure = sim.step()) acting.failure = failure->message;
+  while (sim.motion.state.steps < steps && sim.motion.state.time < time && acting.failure.empty()) {
+    if (const auto failure = step(sim)) acting.failure = failure->message;
     look();
   }
-  acting.steps = sim.state.steps;
+  acting.steps = sim.motion.state.steps;
   return acting;
 }
 
-/// Plates of 1 : 50, needles of 2 degrees, stars, Ls of two glued squares, thrown at a frame in
-/// whose hole a block lies loose.
+/// Plates of 1 : 50, needles of 2 degrees, stars, Ls of two glued squares, thrown at a frame with a
+/// loose block in its hole.
 inline std::string odd_heap(unsigned seed, double friction) {
   std::mt19937 rng(seed);
   std::uniform_real_distribution<double> u(0.0, 1.0);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double cohesion = 2e4, friction = 30.0, length = 2.0, height = 0.2, density = 2500.0;
 
-/// What shears the joint: c L + N tan(phi), N the weight.
+/// Shear strength of the joint: c L + N tan(phi), N the weight.
 double shear_strength() {
   return cohesion * length + density * 9.81 * length * height * std::tan(radians(friction));
 }
@@ -19,8 +19,9 @@ struct Base {
   const char* joint;  ///< kn and ks, or nothing
 };
 
-/// Speed of the block at the end where a force along its base has been raised to `part` of that
-/// strength and stays. What has slipped has all of its strength: no part goes before another.
+/// Final speed of the block after a force along its base has been raised to `part` of that strength
+/// and kept constant. The strength does not decrease with slip, so that no part of the base fails
+/// before another.
 double speed_under(const Base& base, double part) {
   const double toe = 0.2 * length, edge = 0.5 * length, bent = toe * std::tan(radians(base.bend));
   const double beyond = 3.0 - edge + toe, down = beyond * std::tan(radians(base.bend));
@@ -41,11 +42,11 @@ double speed_under(const Base& base, double part) {
           ", 0]\nhistory = 'tests/verification/push_slowly.csv'\n";
   Simulation sim = scene(text);
   run(sim, [](Simulation&) {});
-  return centroid(sim.state.vx, sim.state.vy, 1).x;
+  return centroid(sim.motion.state.vx, sim.motion.state.vy, 1).x;
 }
 
-/// What the joint bears: all that is not left to the damping, 200 1/s times the mass, which holds
-/// what slides at a steady speed.
+/// Shear force of the joint: the load less the damping force, 200 1/s times the mass times the
+/// constant sliding speed.
 TEST(BentBase, ItsToeLosesNoCohesion) {
   const double mass = density * length * height;
   for (const char* joint : {"", "kn = 1e9\nks = 1e9\n"}) {
@@ -57,7 +58,7 @@ TEST(BentBase, ItsToeLosesNoCohesion) {
         EXPECT_LT(speed_under(base, 0.999), 1e-7) << label;
         const double speed = speed_under(base, 1.001);
         EXPECT_GT(speed, 1e-5) << label;
-        expect_relative({62, label, "force that it bears along the joint", "N"},
+        expect_relative({62, label, "force that it carries along the joint", "N"},
                         1.001 * shear_strength() - 200.0 * mass * speed, shear_strength(), 1e-3);
       }
     }

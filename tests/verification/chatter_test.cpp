@@ -1,5 +1,5 @@
-// Contacts that open and close without end are told; those of ordinary runs are not.
-#include "run/chatter.hpp"
+// Contacts that open and close without end are reported; those of ordinary runs are not.
+#include "observe/chatter.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace edda::chatter_test {
 namespace {
 
-/// Blocks of width x height on a slope of 20 degrees, which friction of 30 degrees holds.
+/// Blocks of width x height on a slope of 20 degrees, stable with friction of 30 degrees.
 std::string slope(double width, double height, int count, const std::string& material,
                   const std::string& more = "") {
   const auto box = [](double u0, double v0, double u1, double v1) {
@@ -33,7 +33,7 @@ std::string chatter_of(const std::string& text) {
   return {};
 }
 
-TEST(Chatter, IsToldWithItsRemedy) {
+TEST(Chatter, IsReportedWithItsRemedy) {
   for (const auto& [width, height, count] :
        {std::tuple{2.0, 1.0, 1}, {3.0, 3.0, 1}, {1.0, 1.0, 4}}) {
     const std::string said = chatter_of(slope(width, height, count, "damping = 0\n"));
@@ -49,7 +49,7 @@ TEST(Chatter, OrdinaryRunsHaveNone) {
        {std::tuple{2.0, 1.0, 1}, {3.0, 3.0, 1}, {1.0, 1.0, 4}}) {
     EXPECT_EQ(chatter_of(slope(width, height, count, "")), "") << width << " x " << height;
   }
-  // Dropped, and dropped without any damping: it strikes and bounces.
+  // Dropped, with damping and without: it strikes and bounces.
   for (const char* damping : {"", "damping = 0\n"}) {
     std::string text = slope(1.0, 1.0, 0, damping);
     text.insert(text.find("[solver]"),

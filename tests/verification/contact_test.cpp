@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <random>
 
+#include "step/energy_balance.hpp"
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
 
@@ -55,17 +56,17 @@ history_every = 0.001
       sim,
       [&](Simulation& s) {
         result.path.push_back(displacement(s, 1));
-        path.add({s.state.time, result.path.back().x, result.path.back().y});
+        path.add({s.motion.state.time, result.path.back().x, result.path.back().y});
       },
       [&](Simulation& s) {
-        const Vec2 now = contact_resultant(s.blocks, s.contacts, 1);
+        const Vec2 now = contact_resultant(s.scene->blocks, s.motion.contacts, 1);
         double speed = 0.0;
         for (std::size_t k = 0; k < 3; ++k) {
-          speed = std::max(speed, norm(Vec2{s.state.vx[k][1], s.state.vy[k][1]}));
+          speed = std::max(speed, norm(Vec2{s.motion.state.vx[k][1], s.motion.state.vy[k][1]}));
         }
-        const double jump = norm(now - force) / (p * speed * s.state.step);
+        const double jump = norm(now - force) / (p * speed * s.motion.state.step);
         result.worst_jump = std::max(result.worst_jump, jump);
-        if (jump > 0.0) jumps.add({s.state.time, jump});
+        if (jump > 0.0) jumps.add({s.motion.state.time, jump});
         force = now;
       });
   record_model(16, side, sim);
@@ -132,12 +133,13 @@ struct Momentum {
 /// In the leapfrog's terms: v at n - 1/2, x halfway between n - 1 and n.
 Momentum momentum(const Simulation& s) {
   Momentum m;
-  for (std::size_t i = 0; i < s.blocks.size(); ++i) {
-    if (s.blocks.fixed[i]) continue;
+  for (std::size_t i = 0; i < s.scene->blocks.size(); ++i) {
+    if (s.scene->blocks.fixed[i]) continue;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 v{s.state.vx[k][i], s.state.vy[k][i]};
-      const Vec2 x = Vec2{s.state.x[k][i], s.state.y[k][i]} - 0.5 * s.state.step * v;
-      const double mass = s.blocks.node_mass[k][i];
+      const Vec2 v{s.motion.state.vx[k][i], s.motion.state.vy[k][i]};
+      const Vec2 x =
+          Vec2{s.motion.state.x[k][i], s.motion.state.y[k][i]} - 0.5 * s.motion.state.step * v;
+      const double mass = s.motion.masses.node[k][i];
       m.linear += mass * v;
       m.angular += mass * cross(x, v);
       m.scale += mass * norm(v);
@@ -163,21 +165,21 @@ TEST(Heap, MomentumInCollisions) {
       started = true;
       const double pushed = norm(m.linear - first.linear) / first.scale;
       const double turned = std::abs(m.angular - first.angular) / first.angular_scale;
-      changes.add({s.state.time, pushed, turned});
+      changes.add({s.motion.state.time, pushed, turned});
       linear = std::max(linear, pushed);
       angular = std::max(angular, turned);
     });
     expect_at_most({19, label, "largest change of momentum over the sum of m v", ""}, linear, 1e-9);
     expect_at_most({19, label, "largest change of angular momentum over the sum of m r v", ""},
                    angular, 1e-9);
-    EXPECT_GT(sim.open_close.switched, 20u);
+    EXPECT_GT(sim.accounts.open_close.switched, 20u);
   }
 }
 
 std::vector<Vec2> positions(const Simulation& s) {
   std::vector<Vec2> p;
-  for (std::size_t i = 0; i < s.blocks.size(); ++i) {
-    p.push_back(centroid(s.state.x, s.state.y, i) + s.blocks.origin);
+  for (std::size_t i = 0; i < s.scene->blocks.size(); ++i) {
+    p.push_back(centroid(s.motion.state.x, s.motion.state.y, i) + s.scene->blocks.origin);
   }
   return p;
 }
@@ -198,7 +200,7 @@ std::vector<std::vector<Vec2>> paths(Simulation& sim) {
   return rows;
 }
 
-/// Row 19: a model turned, mirrored or renumbered gives the same motion. `back` undoes the change
+/// Row 19: a model rotated, mirrored or renumbered gives the same motion. `back` undoes the change
 /// in the positions of one row.
 void expect_same_motion(const Heap& heap, const std::vector<std::vector<Vec2>>& expected,
                         const std::string& label,
@@ -221,7 +223,7 @@ TEST(Heap, IndifferentToTurnMirrorAndNumbering) {
   const Heap heap = random_heap(4);
   Simulation reference = heap_scene(heap, two_impacts, 25.0);
   const std::vector<std::vector<Vec2>> expected = paths(reference);
-  ASSERT_GT(reference.open_close.switched, 4u);
+  ASSERT_GT(reference.accounts.open_close.switched, 4u);
   record_model(19, "", reference);
 
   const double angle = 0.7;
@@ -269,17 +271,17 @@ TEST(Heap, ConsistentAndMatchedMassesAgree) {
                                     "'\n[output]\nhistory_every = 0.03\n[contact]\n"
                                     "normal_stiffness = 1e8\n",
                                 30.0);
-    sim.blocks.lame_lambda.assign(sim.blocks.size(), 1e8);
-    sim.blocks.lame_mu.assign(sim.blocks.size(), 1e8);
+    sim.scene.edit().blocks.lame_lambda.assign(sim.scene->blocks.size(), 1e8);
+    sim.scene.edit().blocks.lame_mu.assign(sim.scene->blocks.size(), 1e8);
     run(sim, [](Simulation&) {});
-    EXPECT_EQ(sim.state.steps, 1000u);
-    EXPECT_GT(sim.open_close.switched, 4u);
+    EXPECT_EQ(sim.motion.state.steps, 1000u);
+    EXPECT_GT(sim.accounts.open_close.switched, 4u);
     ends.push_back(positions(sim));
   }
   EXPECT_LT(farthest(ends[0], ends[1]), 1e-8 * 8.0);
 }
 
-/// Row 21: what friction and damping take never comes back.
+/// Row 21: energy dissipated by friction and damping never returns.
 TEST(Dissipation, NeverFalls) {
   for (const auto& [label, damping_table] :
        {std::pair{"friction alone", ""},
@@ -300,18 +302,18 @@ TEST(Dissipation, NeverFalls) {
     }
     Simulation sim = scene(toml);
     Series taken(21, label, {"time", "friction", "damping"});
-    double drift = 0.0, friction = 0.0, damping = 0.0, worst_fall = 0.0;
+    double error = 0.0, friction = 0.0, damping = 0.0, worst_fall = 0.0;
     run(sim, [&](Simulation& s) {
-      const Ledger l = s.ledger();
-      keep_largest(drift, l.drift);
+      const EnergyBalance l = account_energy(s);
+      keep_largest(error, l.error);
       worst_fall = std::max({worst_fall, friction - l.friction, damping - l.damping});
       friction = l.friction;
       damping = l.damping;
-      taken.add({s.state.time, friction, damping});
+      taken.add({s.motion.state.time, friction, damping});
     });
-    expect_at_most({21, label, "largest fall of a line over the largest energy", ""},
-                   worst_fall / sim.largest_energy, 1e-6);
-    expect_at_most({21, label, "largest drift of the ledger", ""}, drift, 1e-5);
+    expect_at_most({21, label, "largest decrease of a term over the largest energy", ""},
+                   worst_fall / sim.accounts.largest_energy, 1e-6);
+    expect_at_most({21, label, "largest energy balance error", ""}, error, 1e-5);
     record_model(21, label, sim);
     EXPECT_GT(friction + damping, 0.0);
   }

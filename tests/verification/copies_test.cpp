@@ -1,8 +1,8 @@
-// Copies of a jointed model, mirrored, moved and far from the origin, come to the same rest:
-// nothing but rounding differs between them, and no contact, spring or mass may hang on that.
+// Copies of a jointed model, mirrored, moved and far from the origin, reach the same equilibrium:
+// only rounding differs between them, and no contact, spring or mass may depend on it.
 #include <random>
 
-#include "run/observe.hpp"
+#include "observe/observe.hpp"
 #include "run/run_model.hpp"
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
@@ -26,8 +26,8 @@ std::string points(const Copy& copy, const std::vector<Vec2>& list) {
   return text + "]";
 }
 
-/// Two joint sets with scatter of angle and spacing under weight and stress; the stage takes out a
-/// round opening.
+/// Two joint sets with scatter of angle and spacing under weight and stress; the second stage
+/// excavates a round opening.
 std::string model(const Copy& copy, unsigned seed) {
   std::mt19937 random(seed);
   const auto scatter = [&](double most) {
@@ -58,10 +58,10 @@ std::string model(const Copy& copy, unsigned seed) {
 }
 
 struct Moved {
-  Vec2 from, by;  ///< centroid at the start and displacement, as of the model that is no copy, m
+  Vec2 from, by;  ///< centroid at the start and displacement, in the coordinates of the original, m
 };
 
-std::vector<Moved> at_rest(const Copy& copy, unsigned seed) {
+std::vector<Moved> displacements_of(const Copy& copy, unsigned seed) {
   std::vector<Moved> all;
   Result<Model> read = read_model_text(model(copy, seed), EDDA_SOURCE_DIR "/copies.toml", {});
   EXPECT_TRUE(read.ok());
@@ -72,11 +72,11 @@ std::vector<Moved> at_rest(const Copy& copy, unsigned seed) {
   const Result<Outcome> outcome = run_model(run.value(), {});
   EXPECT_TRUE(outcome.ok() && outcome.value().status == Status::equilibrium) << copy.name;
   const Simulation& sim = run.value().sim;
-  for (std::size_t i = 0; i < sim.blocks.size(); ++i) {
-    if (!sim.state.alive[i]) continue;
-    Vec2 from =
-        Vec2{sim.blocks.centroid_x[i], sim.blocks.centroid_y[i]} + sim.blocks.origin - copy.moved;
-    Vec2 by = displacement_of(sim.state, i, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0});
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (!sim.motion.state.alive[i]) continue;
+    Vec2 from = Vec2{sim.scene->blocks.centroid_x[i], sim.scene->blocks.centroid_y[i]} +
+                sim.scene->blocks.origin - copy.moved;
+    Vec2 by = displacement_of(sim.motion.state, i, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0});
     if (copy.mirrored) {
       from.x = -from.x;
       by.x = -by.x;
@@ -87,8 +87,8 @@ std::vector<Moved> at_rest(const Copy& copy, unsigned seed) {
 }
 
 /// Differences of the blocks' displacements over the largest displacement: of nine in ten, and the
-/// largest. What rounding decides, which of two faces at a crossing is the first to touch, moves
-/// small blocks at the wall of the opening.
+/// largest. Rounding decides which of two faces at a crossing touches first, and so affects small
+/// blocks at the wall of the opening.
 struct Apart {
   double of_nine_in_ten, largest;
 };
@@ -113,11 +113,11 @@ TEST(Copies, ComeToTheSameRest) {
                          {"mirrored, far away", true, {-31415.926, 2718.28}}};
   std::size_t blocks = 0;
   for (const unsigned seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
-    const std::vector<Moved> first = at_rest({"as drawn", false, {}}, seed);
+    const std::vector<Moved> first = displacements_of({"as drawn", false, {}}, seed);
     ASSERT_GT(first.size(), 20U);
     blocks = std::max(blocks, first.size());
     for (const Copy& copy : copies) {
-      const std::vector<Moved> other = at_rest(copy, seed);
+      const std::vector<Moved> other = displacements_of(copy, seed);
       ASSERT_EQ(other.size(), first.size()) << copy.name;
       const Apart difference = apart(first, other);
       EXPECT_LT(difference.of_nine_in_ten, 3e-5) << copy.name << ", seed " << seed;

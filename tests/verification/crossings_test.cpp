@@ -1,6 +1,5 @@
-// Joints that cross, end on each other or meet at a point, squeezed by one pressure all round:
-// every block has that pressure, whatever the joints, since each of them closes by the same all
-// along.
+// Joints that cross, end on each other or meet at a point, under one pressure all round: every
+// block has that pressure, whatever the joints are, since each of them closes uniformly.
 #include "verification/models.hpp"
 #include "verification/settled.hpp"
 
@@ -29,17 +28,17 @@ const std::string slowly =
     "history = 'tests/verification/ramp_up.csv'\n[[stage]]\nduration = 0.06\n"
     "[[stage]]\nuntil = 'equilibrium'\nratio = 1e-8\n";
 
-/// Largest part by which the stress of a block is off -p, in any direction. `rest`: of the model,
-/// from the load's table on.
+/// Largest relative deviation of the stress of a block from -p, in any direction. `more`: the model
+/// from the table of the load on.
 double stress_off(const Blocks& blocks, const std::vector<Vec2>& outline, const Law& law,
-                  double friction, const std::string& rest = slowly) {
+                  double friction, const std::string& more = slowly) {
   std::vector<Vec2> round = outline;
   round.push_back(outline.front());
   std::string text =
       "gravity = [0, 0]\n[materials.rock]\ndensity = 2600\nyoung = 20e9\npoisson = 0.2\n"
       "[joints.j]\nfriction_angle = " +
       number(friction) + "\n" + law.keys + "[[load]]\nalong = " + points(round) +
-      "\npressure = " + number(0.5 * pressure) + "\n" + rest;
+      "\npressure = " + number(0.5 * pressure) + "\n" + more;
   for (const auto& ring : blocks) text += "[[block]]\npolygon = " + points(ring) + "\n";
   const PreparedRun r = settled(text);
   double worst = 0.0;
@@ -101,8 +100,8 @@ TEST(Crossing, OfJointsThatRunThroughCarriesThePressure) {
   }
 }
 
-/// Three blocks where a joint ends on another: the two beside it shift along the one that runs
-/// through, so that there must be no friction.
+/// Three blocks where a joint ends on another: the two beside it are displaced along the one that
+/// runs through, so that there must be no friction.
 TEST(Crossing, AJointThatEndsOnAnotherLeavesThePressure) {
   for (const Law& law : laws) {
     for (const double angle : {30.0, 60.0, 90.0}) {
@@ -120,10 +119,10 @@ TEST(Crossing, AJointThatEndsOnAnotherLeavesThePressure) {
   }
 }
 
-/// A block whose sides lean outwards from its base stands on the whole of it: it settles by W/(k
-/// L), without a kn on two springs, W/2p. By 6e-8 m there: rounding of coordinates of 5 m alone is
-/// 2e-8 of the force.
-TEST(BaseCorners, OfAnyAngleSettleAsTheJointSays) {
+/// A block whose sides are inclined outwards from its base is carried by the whole base: it settles
+/// by W/(k L), without a kn on two springs by W/2p. That is 6e-8 m: the rounding of coordinates of
+/// 5 m alone is 2e-8 of the force.
+TEST(BaseCorners, OfAnyAngleSettleByTheStiffnessOfTheJoint) {
   for (const Law& law : laws) {
     for (const double angle : {100.0, 110.0, 120.0, 135.0, 150.0}) {
       const double out = std::tan(radians(angle - 90.0));
@@ -135,10 +134,10 @@ TEST(BaseCorners, OfAnyAngleSettleAsTheJointSays) {
           points({{-0.5, 0}, {0.5, 0}, {0.5 + out, 1}, {-0.5 - out, 1}}) +
           "\n[[stage]]\nuntil = 'equilibrium'\nratio = 1e-7\n");
       const Simulation& s = r.sim;
-      const double stiffness = s.laws.rows[0].kn > 0.0 ? 2e10 : 2.0 * 10.0 * 20e9;
+      const double stiffness = s.motion.laws.rows[0].kn > 0.0 ? 2e10 : 2.0 * 10.0 * 20e9;
       const double exact = 2600.0 * (1.0 + out) * 9.81 / stiffness;
-      for (const Id v : {s.blocks.vertex_begin[1], s.blocks.vertex_begin[1] + 1}) {
-        EXPECT_NEAR((s.blocks.vertex_y[v] - s.pose.y[v]) / exact, 1.0, 1e-5)
+      for (const Id v : {s.scene->blocks.vertex_begin[1], s.scene->blocks.vertex_begin[1] + 1}) {
+        EXPECT_NEAR((s.scene->blocks.vertex_y[v] - s.motion.pose.y[v]) / exact, 1.0, 1e-5)
             << angle << ' ' << law.name;
       }
     }

@@ -1,5 +1,5 @@
-// Rock slopes cut by two joint sets whose angles and spacings vary, and what their geometry alone
-// says of who touches whom: every block against every block, by points in polygons.
+// Rock slopes cut by two joint sets whose angles and spacings vary, and which blocks touch each
+// other by geometry alone: every block against every block, by points in polygons.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "step/energy_balance.hpp"
+#include "step/step.hpp"
 #include "verification/scene.hpp"
 
 namespace edda {
@@ -52,7 +54,7 @@ inline std::string slope_model(const CutSlope& s) {
          s.more;
 }
 
-/// Edges of a block as it lies.
+/// Edges of a block in its present position.
 using Outline = std::vector<std::pair<Vec2, Vec2>>;
 
 inline std::vector<Outline> outlines(const BlockSet& b, const Pose& pose) {
@@ -94,7 +96,7 @@ inline Box box_of(const Outline& block) {
   return box;
 }
 
-/// How deep one block lies in another, m: its corners, and five points along each edge.
+/// Depth of one block in another, m: of its corners, and of five points along each edge.
 inline double overlap_of(const Outline& block, const Outline& other) {
   double deepest = 0.0;
   for (const auto& [a, b] : block) {
@@ -106,7 +108,7 @@ inline double overlap_of(const Outline& block, const Outline& other) {
   return deepest;
 }
 
-/// How deep any block lies in any other, m.
+/// Largest depth of any block in any other, m.
 inline double deepest_overlap(const std::vector<Outline>& blocks) {
   std::vector<Box> boxes;
   for (const Outline& block : blocks) boxes.push_back(box_of(block));
@@ -120,8 +122,8 @@ inline double deepest_overlap(const std::vector<Outline>& blocks) {
   return deepest;
 }
 
-/// A contact that presses: where, and how deep the program takes that point to lie in the other
-/// block.
+/// A contact that carries a normal force: its point, and the depth of that point in the other block
+/// according to the program.
 struct Pressing {
   Id block, other;
   Vec2 point;
@@ -129,24 +131,25 @@ struct Pressing {
   double force;  ///< N
 };
 
-/// The one place that knows how contacts are kept.
+/// The only function that depends on how contacts are stored.
 inline std::vector<Pressing> pressing(const Simulation& sim) {
-  const FaceSet& c = sim.contacts;
+  const FaceSet& c = sim.motion.contacts;
   std::vector<Pressing> list;
   for (std::size_t k = 0; k < c.size(); ++k) {
     const double force = normal_force(c, k);
     if (!is_closed(c, k) || force <= 0.0) continue;
     // The corner that bounds the deeper end lies in the other block.
-    const Vec2 point = deeper_end(c, sim.pose, k);
+    const Vec2 point = deeper_end(c, sim.motion.pose, k);
     const double xi = c.now.closure_b[k] >= c.now.closure_a[k] ? c.now.xi_b[k] : c.now.xi_a[k];
     const bool of_edge = xi == 0.0 || xi == 1.0;
-    const Id e = block_of_edge(sim.blocks, c, k), f = block_of_facing(sim.blocks, c, k);
+    const Id e = block_of_edge(sim.scene->blocks, c, k),
+             f = block_of_facing(sim.scene->blocks, c, k);
     list.push_back({of_edge ? e : f, of_edge ? f : e, point, closure_of(c, k), force});
   }
   return list;
 }
 
-/// By how much a contact is held to be deeper than the geometry shows, at most, m.
+/// Largest excess of the closure of a contact over the depth in the geometry, m.
 inline double false_depth(const Simulation& sim, const std::vector<Outline>& blocks) {
   double worst = 0.0;
   for (const Pressing& p : pressing(sim)) {
@@ -160,13 +163,14 @@ inline double false_depth(const Simulation& sim, const std::vector<Outline>& blo
 inline double largest_push(const Simulation& sim) {
   double largest = 0.0;
   for (const Pressing& p : pressing(sim)) {
-    const double mass = std::max(sim.blocks.mass[p.block], sim.blocks.mass[p.other]);
+    const double mass = std::max(sim.scene->blocks.mass[p.block], sim.scene->blocks.mass[p.other]);
     largest = std::max(largest, p.force / (9.81 * mass));
   }
   return largest;
 }
 
-/// Blocks that share a face longer than `least` (m), each pair once, the smaller number first.
+/// Pairs of blocks with a common boundary longer than `least` (m), each once, the smaller number
+/// first.
 inline std::set<std::pair<Id, Id>> neighbours(const std::vector<Outline>& blocks, double least) {
   std::set<std::pair<Id, Id>> pairs;
   std::vector<Box> boxes;
@@ -192,14 +196,16 @@ inline std::set<std::pair<Id, Id>> neighbours(const std::vector<Outline>& blocks
   return pairs;
 }
 
-/// Of pairs of blocks, those that overlap by more than `depth` (m) and do not press on each other.
+/// Number of the pairs of blocks that penetrate each other by more than `depth` (m) and carry no
+/// contact force.
 inline std::size_t unfelt(const Simulation& sim, const std::vector<Outline>& blocks,
                           const std::set<std::pair<Id, Id>>& pairs, double depth) {
   std::set<std::pair<Id, Id>> felt;
   for (const Pressing& p : pressing(sim)) felt.insert(std::minmax(p.block, p.other));
   std::size_t count = 0;
   for (const auto& [i, j] : pairs) {
-    if (felt.contains({i, j}) || (sim.blocks.fixed[i] && sim.blocks.fixed[j])) continue;
+    if (felt.contains({i, j}) || (sim.scene->blocks.fixed[i] && sim.scene->blocks.fixed[j]))
+      continue;
     count += std::max(overlap_of(blocks[i], blocks[j]), overlap_of(blocks[j], blocks[i])) > depth;
   }
   return count;
@@ -214,8 +220,8 @@ struct SlopeLook {
   std::uint64_t steps = 0;
   double overlap = 0.0;      ///< m, deepest after these steps
   double false_depth = 0.0;  ///< m, after these steps
-  std::size_t unfelt = 0;    ///< neighbours that overlap then and do not press
-  double drift = 0.0;        ///< of the ledger
+  std::size_t unfelt = 0;    ///< neighbours that then penetrate each other and carry no force
+  double error = 0.0;        ///< of the energy balance
   std::string failure;
 
   // A corner of a sliver may be closed by the rounding of its coordinates, some 1e-12 m: a face has
@@ -225,7 +231,7 @@ struct SlopeLook {
   bool good() const {
     return failure.empty() && pairs > blocks && drawn_overlap < 1e-9 && drawn_false_depth < 1e-9 &&
            drawn_push < push_of_rounding && drawn_energy < 1e-6 && overlap < 1e-4 &&
-           false_depth < 1e-5 && unfelt == 0 && drift < 1e-4;
+           false_depth < 1e-5 && unfelt == 0 && error < 1e-4;
   }
 };
 
@@ -233,21 +239,22 @@ struct SlopeLook {
 inline SlopeLook look_at_slope(const CutSlope& slope, std::uint64_t steps) {
   Simulation sim = scene(slope_model(slope));
   SlopeLook look;
-  look.blocks = sim.blocks.size();
-  std::vector<Outline> blocks = outlines(sim.blocks, sim.pose);
+  look.blocks = sim.scene->blocks.size();
+  std::vector<Outline> blocks = outlines(sim.scene->blocks, sim.motion.pose);
   const auto pairs = neighbours(blocks, 1e-3);
   look.pairs = pairs.size();
   look.drawn_overlap = deepest_overlap(blocks);
   look.drawn_false_depth = false_depth(sim, blocks);
   look.drawn_push = largest_push(sim);
-  sim.start(1.0);
-  look.drawn_energy = std::abs(sim.ledger().contact);
-  while (sim.state.steps < steps && look.failure.empty()) {
-    if (const auto failure = sim.step()) look.failure = failure->message;
-    if (sim.state.steps % 50 == 0) look.drift = std::max(look.drift, std::abs(sim.ledger().drift));
+  start(sim, 1.0);
+  look.drawn_energy = std::abs(account_energy(sim).contact);
+  while (sim.motion.state.steps < steps && look.failure.empty()) {
+    if (const auto failure = step(sim)) look.failure = failure->message;
+    if (sim.motion.state.steps % 50 == 0)
+      look.error = std::max(look.error, std::abs(account_energy(sim).error));
   }
-  look.steps = sim.state.steps;
-  blocks = outlines(sim.blocks, sim.pose);
+  look.steps = sim.motion.state.steps;
+  blocks = outlines(sim.scene->blocks, sim.motion.pose);
   look.overlap = deepest_overlap(blocks);
   look.false_depth = false_depth(sim, blocks);
   look.unfelt = unfelt(sim, blocks, pairs, 1e-9);

@@ -1,9 +1,12 @@
-// Friction of 20 to 45 degrees with the settings that the program chooses itself: what statics
-// holds does not move, what slides slides as it must, what topples turns about its toe.
+// Friction of 20 to 45 degrees with default settings: blocks that are stable by statics do not
+// move, sliding blocks slide by the exact amount, toppling blocks rotate about their toe.
 #include <algorithm>
 #include <array>
 #include <functional>
 
+#include "step/changes.hpp"
+#include "step/energy_balance.hpp"
+#include "step/step.hpp"
 #include "verification/models.hpp"
 #include "verification/record.hpp"
 
@@ -12,8 +15,8 @@ namespace {
 
 constexpr double gravity = 9.81;
 
-/// `count` blocks of `width` x `height` side by side on a slope, and nothing said of damping,
-/// stiffness or step.
+/// `count` blocks of `width` x `height` side by side on a slope; damping, stiffness and step are
+/// not given.
 struct Slope {
   double angle, friction, width = 1.0, height = 1.0;
   int count = 1;
@@ -47,7 +50,7 @@ struct Slope {
   }
 };
 
-/// How far each block has slid.
+/// Distance that each block has slid.
 std::vector<double> slid_by(const Slope& slope, const Simulation& sim) {
   std::vector<double> ways;
   for (int i = 1; i <= slope.count; ++i) {
@@ -63,18 +66,18 @@ TEST(DefaultSettings, WhatStaticsHoldsDoesNotCreep) {
       for (const int count : {1, 4}) {
         const Slope slope{angle, friction, width, height, count};
         Simulation sim = scene(slope.toml());
-        std::vector<double> settled;
-        double drift = 0.0;
+        std::vector<double> at_start;
+        double error = 0.0;
         run(sim, [&](Simulation& s) {
-          keep_largest(drift, s.ledger().drift);
-          if (settled.empty() && s.state.time > 0.3) settled = slid_by(slope, s);
+          keep_largest(error, account_energy(s).error);
+          if (at_start.empty() && s.motion.state.time > 0.3) at_start = slid_by(slope, s);
         });
         double creep = 0.0;
         const std::vector<double> now = slid_by(slope, sim);
-        for (std::size_t i = 0; i < now.size(); ++i) keep_largest(creep, now[i] - settled[i]);
+        for (std::size_t i = 0; i < now.size(); ++i) keep_largest(creep, now[i] - at_start[i]);
         expect_at_most({50, slope.label(), "creep after 0.3 s", "m"}, creep,
                        width > 2.0 ? 1e-4 : 1e-5);
-        EXPECT_LT(drift, 1e-6) << slope.label();
+        EXPECT_LT(error, 1e-6) << slope.label();
       }
     }
   }
@@ -114,14 +117,14 @@ TEST(DefaultSettings, ASlideThatReverses) {
       Simulation sim = scene(slope.toml());
       run(sim, [](Simulation&) {});
       const double exact = -way + 0.5 * (pull - brake) * 4.0 * turns * turns;
-      expect_relative({52, slope.label(), "where it is after three times its way up", "m"},
+      expect_relative({52, slope.label(), "position after three times the time of its way up", "m"},
                       slid_by(slope, sim)[0], exact, 1e-2);
     }
   }
 }
 
-/// Newmark's rigid block on a slope that rises to the left, the ground shaken along x by a sine
-/// that begins at zero: how far it slides down in three cycles.
+/// Newmark's rigid block on a slope that rises to the left, under a ground motion along x that is a
+/// sine beginning at zero: distance that it slides down in three cycles.
 double newmark(const Slope& slope, double amplitude, double frequency) {
   const double c = std::cos(radians(slope.angle)), s = std::sin(radians(slope.angle)),
                mu = std::tan(radians(slope.friction));
@@ -150,25 +153,26 @@ TEST(DefaultSettings, NewmarksBlock) {
       Slope slope{angle, friction, width};
       slope.duration = 0.3 + 3.0 / frequency;
       const double amplitude = part * gravity;
-      // It settles first; the record is a stage's own, and so is zero until then.
+      // It reaches equilibrium first; the record begins with its own stage and is zero until then.
       slope.more = "[[shaking]]\nname = 'quake'\napply = 'inertia'\nacceleration = { amplitude = " +
                    number(amplitude) + ", frequency = " + number(frequency) + " }\n";
       Simulation sim = scene(slope.toml());
-      sim.loads.spells.shakings[0] = {1e9};
-      sim.start(0.3);
-      while (sim.state.time < 0.3) ASSERT_FALSE(sim.step().has_value());
-      const double settled = slid_by(slope, sim)[0];
-      sim.switch_over({}, {{}, {}, {}, {0}});
-      sim.aim_at(slope.duration);
-      while (sim.state.time < slope.duration) ASSERT_FALSE(sim.step().has_value());
+      sim.attached.loads.intervals.shakings[0] = {1e9};
+      start(sim, 0.3);
+      while (sim.motion.state.time < 0.3) ASSERT_FALSE(step(sim).has_value());
+      const double at_start = slid_by(slope, sim)[0];
+      switch_over(sim, {}, {{}, {}, {}, {0}});
+      fit_step_to(sim, slope.duration);
+      while (sim.motion.state.time < slope.duration) ASSERT_FALSE(step(sim).has_value());
       expect_relative({53, slope.label() + ", " + brief(part) + " g, " + brief(frequency) + " Hz",
                        "slid in three cycles", "m"},
-                      slid_by(slope, sim)[0] - settled, newmark(slope, amplitude, frequency), 1e-2);
+                      slid_by(slope, sim)[0] - at_start, newmark(slope, amplitude, frequency),
+                      1e-2);
     }
   }
 }
 
-/// A slender block on a slope too steep for it turns about its toe and does not slip there.
+/// A slender block on a slope too steep for it rotates about its toe and does not slip there.
 TEST(DefaultSettings, TopplingAboutAToe) {
   for (const auto& [angle, friction, height] :
        {std::array{35.0, 45.0, 2.0}, {35.0, 40.0, 2.0}, {35.0, 45.0, 3.0}, {30.0, 35.0, 2.5}}) {
@@ -176,8 +180,8 @@ TEST(DefaultSettings, TopplingAboutAToe) {
     slope.duration = 0.6;
     Simulation sim = scene(slope.toml());
     const Vec2 corner =
-        Vec2{std::cos(radians(angle)), -std::sin(radians(angle))} - sim.blocks.origin;
-    const auto weights = weights_at(sim.blocks, 1, corner);
+        Vec2{std::cos(radians(angle)), -std::sin(radians(angle))} - sim.scene->blocks.origin;
+    const auto weights = weights_at(sim.scene->blocks, 1, corner);
     run(sim, [](Simulation&) {});
     // The pendulum about the toe: theta'' = g r/(J/m) sin(angle - slenderness + theta).
     const double r = 0.5 * std::hypot(1.0, height), inertia = (1.0 + height * height) / 3.0;
@@ -189,26 +193,27 @@ TEST(DefaultSettings, TopplingAboutAToe) {
           dt * gravity * r / inertia * std::sin(radians(angle) - std::atan2(1.0, height) + theta);
       theta += dt * rate;
     }
-    const Rotation turned = rotation(deformation(sim.blocks, sim.state.x, sim.state.y, 1));
-    // A third of a percent is the block's own elasticity at the sudden start.
-    expect_relative({54, slope.label(), "angle turned in 0.6 s", "rad"},
+    const Rotation turned =
+        rotation(deformation(sim.scene->blocks, sim.motion.state.x, sim.motion.state.y, 1));
+    // A third of a percent is due to the block's elasticity at the sudden start.
+    expect_relative({54, slope.label(), "rotation in 0.6 s", "rad"},
                     -std::atan2(turned.s, turned.c), theta, 1e-2);
-    const Vec2 toe = weighted(weights, sim.state.x, sim.state.y, 1) - corner;
+    const Vec2 toe = weighted(weights, sim.motion.state.x, sim.motion.state.y, 1) - corner;
     expect_at_most({54, slope.label(), "slip of the toe", "m"}, std::abs(slope.down(toe)), 1e-5);
   }
 }
 
-/// Without any damping energies can be followed: friction is all that takes any.
+/// Without any damping only friction dissipates energy, and the balance closes.
 TEST(DefaultSettings, WithoutDampingTheEnergyStays) {
   for (const double friction : {0.0, 20.0, 30.0, 45.0}) {
     Slope slope{35.0, friction, 1.0, 1.0, 3};
     std::string text = slope.toml();
     text.insert(text.find("[joints.j]"), "damping = 0\n");
     Simulation sim = scene(text);
-    double drift = 0.0;
-    run(sim, [&](Simulation& s) { keep_largest(drift, s.ledger().drift); });
-    EXPECT_LT(drift, 1e-6) << friction;
-    EXPECT_EQ(sim.ledger().damping, 0.0);
+    double error = 0.0;
+    run(sim, [&](Simulation& s) { keep_largest(error, account_energy(s).error); });
+    EXPECT_LT(error, 1e-6) << friction;
+    EXPECT_EQ(account_energy(sim).damping, 0.0);
   }
 }
 

@@ -12,18 +12,17 @@ namespace edda {
 
 struct ExactSlope {
   std::string name;
-  std::string model;  ///< TOML, without its [fos]
-  std::string
-      exclude;         ///< names of joints that keep their strength, as [fos] has them; may be none
-  std::string motion;  ///< what the mechanism's sentence begins with
+  std::string model;    ///< TOML, without its [fos]
+  std::string exclude;  ///< names of joints that keep their strength, as in [fos]; may be empty
+  std::string motion;   ///< beginning of the sentence that describes the mechanism
   double factor = 0.0;
 };
 
-/// A rock mass over a stepped base, cut by beds that dip out of the face and by cross joints. What
-/// slides goes along the beds and opens cross joints behind it: F is the least of
-/// [c L + (W cos a - U - V') tan phi]/(W sin a + V) over all paths through beds and cross joints
-/// that only ever step up. U: water on the beds; V, V': that on the cross joints of the path, along
-/// the beds and across.
+/// A rock mass over a stepped base, cut by beds that dip out of the face and by cross joints. The
+/// sliding mass moves along the beds and opens cross joints behind it: F is the least of [c L + (W
+/// cos a - U - V') tan phi]/(W sin a + V) over all paths through beds and cross joints that only
+/// step up. U: water on the beds; V, V': that on the cross joints of the path, along the beds and
+/// across.
 struct BeddedSlope {
   double dip = 38.0;                  ///< degrees, of the beds
   double bed = 2.0;                   ///< m, spacing across them; one goes through (0, 0)
@@ -40,17 +39,29 @@ struct BeddedSlope {
   std::string toml() const;
 
  private:
+  struct Part;
+  struct Cells;
+  struct Extent;
+  struct Path;
+
   Vec2 along() const;
   Vec2 riser() const;
   Vec2 place(double u, double v) const;
+  double u_of(Vec2 p) const;
+  double v_of(Vec2 p) const;
   Ring profile() const;
   Ring mass() const;
+  Vec2 push_on_riser() const;
+  Extent extent_of(const Ring& whole) const;
+  void add_cell(Cells& cells, const Ring& whole, const Extent& extent, int k) const;
+  void add_water_at_back(Cells& cells, const Ring& whole, const Extent& extent) const;
+  Path least_path(const Cells& cells, double guess) const;
 };
 
 /// Slices from toe to top on bases of their own, with joints between them, all at their limit
 /// together (Sarma 1979, without moments, which blocks that lie on faces do not need). Where base
-/// and joint meet there is a hollow, or the corner of the slice above would stand on the base
-/// below.
+/// and joint meet there is a hollow; otherwise the corner of the slice above would stand on the
+/// base below.
 struct SlicedSlope {
   std::vector<Vec2> base{};  ///< m, [slices + 1] from the toe up
   std::vector<Vec2>
@@ -75,15 +86,16 @@ struct TopplingSlope {
 
   TopplingSlope();
   double y(int n) const { return height[static_cast<std::size_t>(n)]; }
-  /// Force that keeps block 1 from going, from block to block down the slope: each passes on what
-  /// it needs not to topple, or not to slide, whichever is more (Goodman and Bray's equations).
+  /// Force that keeps block 1 in equilibrium, computed from block to block down the slope: each
+  /// exerts the force that it needs not to topple, or not to slide, whichever is larger (Goodman
+  /// and Bray's equations).
   double tie(double phi) const;
   /// The friction angle at which no tie is needed, degrees.
   double limit() const;
   std::string toml(double phi) const;
 };
 
-/// The ten of tools/study-fos.
+/// The ten slopes of tools/study-fos.
 std::vector<ExactSlope> exact_slopes();
 
 }  // namespace edda

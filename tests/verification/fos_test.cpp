@@ -1,5 +1,5 @@
 // Factors of safety that have a formula: validation.md rows 40 to 46.
-#include "run/fos.hpp"
+#include "study/fos.hpp"
 
 #include <array>
 #include <limits>
@@ -27,7 +27,7 @@ FosResult factor_of(const std::string& toml, const std::string& fos = {}) {
   return std::move(found.value());
 }
 
-/// Holds the factor to its formula, and keeps the state of its mechanism.
+/// Compares the factor with its formula, and records the state of its mechanism.
 void expect_factor(const FosResult& r, int row, const std::string& label, double exact,
                    double bound) {
   ASSERT_TRUE(r.factor) << label;
@@ -60,16 +60,16 @@ TEST(FactorOfSafety, Ramp) {
     if (r.factor && std::string(young) == "200e6") factors.add({phi, exact, *r.factor});
     const MovingBlock* slider = moving(r, 1);
     ASSERT_NE(slider, nullptr);
-    EXPECT_EQ(slider->motion, Motion::slides);
-    EXPECT_LT(slider->turning_part, 0.05);
+    EXPECT_EQ(slider->motion, FailureMode::slides);
+    EXPECT_LT(slider->rotation_part, 0.05);
     ASSERT_EQ(r.mechanism->joints.size(), 1U);
     EXPECT_GT(r.mechanism->joints[0].slip, 0.5 * slider->largest);
   }
 }
 
 /// Row 41: a block over a plane that daylights, an open vertical tension crack behind it, cohesion
-/// on the plane, water in the crack and, from its foot to nothing at the toe, on the plane (Hoek
-/// and Bray 1981): F = [c A + (W cos p - U - V sin p) tan phi]/(W sin p + V cos p).
+/// on the plane, water in the crack and on the plane, decreasing from the base of the crack to 0 at
+/// the toe (Hoek and Bray 1981): F = [c A + (W cos p - U - V sin p) tan phi]/(W sin p + V cos p).
 struct PlaneSlide {
   double dip = 35.0, face = 60.0, height = 12.0, crack_at = 12.0;  ///< degrees, m
   double cohesion = 20e3, phi = 30.0, water = 0.0;                 ///< Pa, degrees, m in the crack
@@ -117,7 +117,7 @@ TEST(FactorOfSafety, PlaneSlideWithCohesionAndWater) {
                   slide.exact(), 1e-2);
     const MovingBlock* slider = moving(r, 1);
     ASSERT_NE(slider, nullptr);
-    EXPECT_EQ(slider->motion, Motion::slides);
+    EXPECT_EQ(slider->motion, FailureMode::slides);
   }
 }
 
@@ -139,16 +139,16 @@ TEST(FactorOfSafety, LoadThatGrows) {
   const FosResult slides = factor_of(pushed(1.0, 0.1, 20.0), vary);
   expect_factor(slides, 42, "slides", std::tan(radians(20.0)) / 0.1, 1e-2);
   ASSERT_NE(moving(slides, 1), nullptr);
-  EXPECT_EQ(moving(slides, 1)->motion, Motion::slides);
+  EXPECT_EQ(moving(slides, 1)->motion, FailureMode::slides);
   const FosResult tips = factor_of(pushed(4.0, 3.0, 40.0), vary);
   expect_factor(tips, 42, "tips", 0.5 / 3.0 / 0.1, 1e-2);
   ASSERT_NE(moving(tips, 1), nullptr);
-  EXPECT_EQ(moving(tips, 1)->motion, Motion::topples);
+  EXPECT_EQ(moving(tips, 1)->motion, FailureMode::topples);
   EXPECT_LT(moving(tips, 1)->rotation, 0.0);
 }
 
-/// Row 42: lifted by one and a half times its weight it hangs on its joint, which bears
-/// c b - W/2 tan(phi) of shear.
+/// Row 42: lifted by one and a half times its weight, it is carried by the tensile strength of its
+/// joint, whose shear strength is c b - W/2 tan(phi).
 TEST(FactorOfSafety, JointThatPulls) {
   const double weight = 26e3, c = 30e3, phi = 40.0;
   const std::string strength =
@@ -171,7 +171,7 @@ TEST(FactorOfSafety, JointThatPulls) {
 /// Row 43: the slope of sixteen blocks of Goodman and Bray (1976).
 TEST(FactorOfSafety, GoodmanAndBraysSlope) {
   const TopplingSlope slope;
-  EXPECT_NEAR(slope.limit(), 38.15, 0.05);  // as the book has it
+  EXPECT_NEAR(slope.limit(), 38.15, 0.05);  // the value of the book
   EXPECT_EQ(slope.y(10), 40.0);
   EXPECT_NEAR(slope.y(16), 2.8, 1e-12);
   const double phi = 38.15;
@@ -186,7 +186,7 @@ TEST(FactorOfSafety, GoodmanAndBraysSlope) {
     const MovingBlock* block = moving(r, n);
     ASSERT_EQ(block == nullptr, n >= 14) << n;
     if (block != nullptr) {
-      EXPECT_EQ(block->motion, n >= 4 ? Motion::topples : Motion::slides) << n;
+      EXPECT_EQ(block->motion, n >= 4 ? FailureMode::topples : FailureMode::slides) << n;
     }
   }
 }
@@ -216,7 +216,7 @@ TEST(FactorOfSafety, WaterThatGrows) {
   const FosResult r = factor_of(toml, "vary = 'water:lake'\ntolerance = 0.01\n");
   expect_factor(r, 45, "", 3.0 * 24e3 * 4.0 * 8.0 / (9810.0 * depth * depth * depth), 1e-2);
   ASSERT_NE(moving(r, 1), nullptr);
-  EXPECT_EQ(moving(r, 1)->motion, Motion::topples);
+  EXPECT_EQ(moving(r, 1)->motion, FailureMode::topples);
 }
 
 /// Row 56: slopes of several blocks (tools/study-fos tries all of them).
@@ -241,7 +241,7 @@ INSTANTIATE_TEST_SUITE_P(FactorOfSafety, Slopes,
                                          "active and passive wedge", "six slices",
                                          "six slices with water"));
 
-/// Row 57: the arch of row 13 under a load on its haunch. What it bears is the least of all
+/// Row 57: the arch of row 13 under a load on its haunch. Its limit load is the least of all
 /// mechanisms of four hinges, alternately at the outer and the inner edge (Heyman 1966).
 struct LoadedArch {
   static constexpr int n = 16, loaded = 11;  ///< voussoirs, and the one with the load
@@ -260,7 +260,7 @@ struct LoadedArch {
            ", " + number(p.y - 1e-6) + "]\nforce = [0, " + number(-load) + "]\n";
   }
 
-  /// Power of forces downward through a point of a part that turns with `w` about `pivot`.
+  /// Power of a downward force at a point of a part that rotates with `w` about `pivot`.
   static double power(double force, double w, Vec2 from, Vec2 pivot) {
     return -force * w * (from.x - pivot.x);
   }
@@ -285,7 +285,7 @@ struct LoadedArch {
               const double across = cross(e, f);
               if (std::abs(across) < 1e-9) continue;
               const Vec2 centre = h1 + cross(h4 - h1, f) / across * e;
-              // An outer hinge opens inside: what lies beyond turns clockwise against it.
+              // An outer hinge opens at the inner edge: the part beyond it rotates clockwise.
               const double sign = first_outside ? -1.0 : 1.0;
               const double wa = sign;
               const double wb = wa * dot(e, e) / dot(h2 - centre, e);

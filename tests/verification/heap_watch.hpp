@@ -1,4 +1,5 @@
-// Looks at every step of a run for what a contact must never do.
+// Checks in every step of a run that contact forces are continuous and the list of contacts is
+// complete.
 #pragma once
 
 #include <map>
@@ -9,24 +10,24 @@
 
 namespace edda {
 
-/// Call look() after every step. Force of a pair of blocks: what all faces between them put on the
+/// Call look() after every step. Force of a pair of blocks: that of all faces between them on the
 /// block of lower number.
 class HeapWatch {
  public:
   double worst_jump = 0.0;  ///< change of a pair's force in a step over the sum of k L |u|, u how
                             ///< far its edges have moved in the step, one against the other
-  ListFaults list;          ///< summed over the steps looked at
+  ListFaults list;          ///< summed over the steps that were checked
   double jump_at = 0.0;     ///< s
   std::pair<Id, Id> jump_of{};
 
   explicit HeapWatch(std::uint64_t list_every) : list_every_(list_every) {}
 
   void look(const Simulation& s) {
-    const FaceSet& c = s.contacts;
+    const FaceSet& c = s.motion.contacts;
     std::map<std::pair<Id, Id>, Pair> now;
     for (std::size_t k = 0; k < c.size(); ++k) {
       if (!is_closed(c, k)) continue;
-      const Id i = block_of_edge(s.blocks, c, k), j = block_of_facing(s.blocks, c, k);
+      const Id i = block_of_edge(s.scene->blocks, c, k), j = block_of_facing(s.scene->blocks, c, k);
       Pair& pair = now[std::minmax(i, j)];
       pair.force += (j < i ? 1.0 : -1.0) * force_on_facing(c, k);
       const double spring = std::max(c.stiffness[k], c.shear_stiffness[k]) * c.now.length[k];
@@ -34,10 +35,11 @@ class HeapWatch {
     }
     if (!x_.empty()) compare(s, now);
     before_ = std::move(now);
-    x_ = s.pose.x;
-    y_ = s.pose.y;
-    if (s.state.steps % list_every_ != 0) return;
-    const ListFaults f = check_list(c, s.blocks, s.state.alive, s.pose.x, s.pose.y);
+    x_ = s.motion.pose.x;
+    y_ = s.motion.pose.y;
+    if (s.motion.state.steps % list_every_ != 0) return;
+    const ListFaults f =
+        check_list(c, s.scene->blocks, s.motion.state.alive, s.motion.pose.x, s.motion.pose.y);
     list.wanted += f.wanted;
     list.missed += f.missed;
     list.repeated += f.repeated;
@@ -53,7 +55,7 @@ class HeapWatch {
     std::vector<Contact> faces;
   };
 
-  /// How far corners of the one edge have moved against corners of the other, m, at most.
+  /// Largest relative displacement of a corner of one edge and a corner of the other, m.
   double moved(const Contact& c, const Pose& pose) const {
     double most = 0.0;
     const auto way = [&](Id v) { return at(pose.x, pose.y, v) - at(x_, y_, v); };
@@ -72,12 +74,12 @@ class HeapWatch {
     }
     for (const auto& [key, pair] : all) {
       double scale = 0.0;
-      for (const Contact& c : pair.faces) scale += c.spring * moved(c, s.pose);
+      for (const Contact& c : pair.faces) scale += c.spring * moved(c, s.motion.pose);
       if (scale <= 0.0) continue;
       const double jump = norm(pair.force) / scale;
       if (jump <= worst_jump) continue;
       worst_jump = jump;
-      jump_at = s.state.time;
+      jump_at = s.motion.state.time;
       jump_of = key;
     }
   }

@@ -1,5 +1,5 @@
-// Joints of a given stiffness in bending: glued, dry, under a column that leans, between the blocks
-// of one that sways.
+// Joints of a given stiffness in bending: glued, dry, under a tilted column, between the blocks of
+// a swaying one.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <optional>
@@ -10,13 +10,15 @@
 namespace edda::joint_bending_test {
 namespace {
 
-/// How far the first edge of block i has turned, rad.
+/// Rotation of the first edge of block i, rad.
 double turned(const Simulation& sim, std::size_t i) {
-  const Id v = sim.blocks.vertex_begin[i], w = sim.blocks.next[v];
-  return std::atan2(sim.pose.y[w] - sim.pose.y[v], sim.pose.x[w] - sim.pose.x[v]);
+  const Id v = sim.scene->blocks.vertex_begin[i], w = sim.scene->blocks.next[v];
+  return std::atan2(sim.motion.pose.y[w] - sim.motion.pose.y[v],
+                    sim.motion.pose.x[w] - sim.motion.pose.x[v]);
 }
 
-/// Turn of a block pressed `part` of its width off its middle on a joint of this law, at rest.
+/// Rotation in equilibrium of a block on a joint of this law, loaded at `part` of its width off its
+/// middle.
 double turn_under_load(double part, double load, double kn, double width, const std::string& law) {
   const PreparedRun r = settled(
       "gravity = [0, 0]\n[materials.rock]\ndensity = 2500\nyoung = 2e10\npoisson = 0.2\n"
@@ -29,22 +31,21 @@ double turn_under_load(double part, double load, double kn, double width, const 
   return -turned(r.sim, 1);
 }
 
-/// M/(k L^3/12), with every joint stiffness and wherever the load is, outside the block's width,
-/// too.
+/// M/(k L^3/12), with every joint stiffness and every eccentricity, beyond the middle third, too.
 TEST(GluedJoint, TurnsByMomentOverItsBendingStiffness) {
   const double load = 1e3, width = 2.0;
   for (const double kn : {1e9, 1e11}) {
     for (const double part : {0.05, 0.3, 0.5}) {
       const double exact = load * part * width / (kn * std::pow(width, 3) / 12.0);
-      expect_relative({58, "glued, e = " + brief(part) + " L, kn " + brief(kn), "turn", ""},
+      expect_relative({58, "glued, e = " + brief(part) + " L, kn " + brief(kn), "rotation", ""},
                       turn_under_load(part, load, kn, width, "type = 'glued'\n"), exact, 1e-6);
     }
   }
 }
 
-/// Turn of a joint without tension, of bending stiffness k L^3/12 as long as all of it is closed,
-/// under a force N at e off its middle; beyond e = L/6 the closed length a = 3 (L/2 - e) carries a
-/// triangle up to 2 N/a: 2 N/(k a^2).
+/// Rotation of a joint without tension, of bending stiffness k L^3/12 as long as all of it is
+/// closed, under a force N at e off its middle; beyond e = L/6 the closed length a = 3 (L/2 - e)
+/// carries a triangle up to 2 N/a: 2 N/(k a^2).
 double dry_turn(double normal, double e, double kn, double width) {
   const double part = e / width;
   if (part <= 1.0 / 6.0) return normal * e / (kn * std::pow(width, 3) / 12.0);
@@ -56,7 +57,7 @@ TEST(DryJoint, TurnsAsItGapes) {
   const double load = 1e3, width = 2.0, kn = 1e9;
   for (const double part : {0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45}) {
     const double exact = dry_turn(load, part * width, kn, width);
-    expect_relative({58, "dry, e = " + brief(part) + " L", "turn", ""},
+    expect_relative({58, "dry, e = " + brief(part) + " L", "rotation", ""},
                     turn_under_load(part, load, kn, width, "friction_angle = 30\n"), exact, 1e-5);
   }
 }
@@ -81,10 +82,10 @@ struct Column {
   }
 };
 
-/// What the lowest joint of a column on tilted ground allows: with the top block leaning by psi,
-/// each joint, from the top down, has N = W_above cos psi and e = M/N about its middle, and turns
-/// by dry_turn(N, e); what is left after the lowest is the tilt of the ground. None where a
-/// pressure would lie beyond the edge of a joint.
+/// Tilt of the ground that belongs to a rotation psi of the top block: each joint, from the top
+/// down, has N = W_above cos psi and e = M/N about its middle, and rotates by dry_turn(N, e); what
+/// remains after the lowest is the tilt of the ground. None where a resultant would lie beyond the
+/// edge of a joint.
 std::optional<double> ground_tilt(const Column& c, double psi) {
   Vec2 centre{};  // of all blocks above, from the middle of the joint; its x down the slope
   double count = 0.0;
@@ -116,7 +117,7 @@ Limit overturning(const Column& c) {
   return limit;
 }
 
-/// Lean of the top block where the ground's tilt is this, on the way up to the limit.
+/// Rotation of the top block at this tilt of the ground, below the limit.
 double lean(const Column& c, double tilt) {
   double low = 0.0, high = overturning(c).psi;
   for (int round = 0; round < 60; ++round) {
@@ -126,7 +127,7 @@ double lean(const Column& c, double tilt) {
   return low;
 }
 
-/// Lean of the top block after the ground has been tilted slowly and has stayed so.
+/// Rotation of the top block after the ground has been tilted slowly and the tilt has been kept.
 double lean_on(const Column& c, double tilt, double time) {
   Simulation sim = scene(c.toml(
       "friction_angle = 70\n",
@@ -135,11 +136,11 @@ double lean_on(const Column& c, double tilt, double time) {
   run(
       sim, [](Simulation&) {},
       [&](Simulation& s) {
-        const double part = std::min(s.state.time / time, 1.0);
+        const double part = std::min(s.motion.state.time / time, 1.0);
         const double now = tilt * (1.0 - (1.0 - part) * (1.0 - part));
-        s.model.gravity = {Column::g * std::sin(now), -Column::g * std::cos(now)};
+        s.scene.edit().model.gravity = {Column::g * std::sin(now), -Column::g * std::cos(now)};
       });
-  return tilt - turned(sim, sim.blocks.size() - 1);
+  return tilt - turned(sim, sim.scene->blocks.size() - 1);
 }
 
 std::string label_of(const Column& c) {
@@ -154,7 +155,7 @@ TEST(Column, OverturnsAsItsSoftJointsSay) {
     const Limit limit = overturning(c);
     EXPECT_LT(limit.tilt, 0.9 * std::atan(c.width / (c.blocks * c.height))) << label;
     const double below = 0.9 * limit.tilt;
-    expect_relative({59, label + ", 0.9 of the limit", "turn against the ground", ""},
+    expect_relative({59, label + ", 0.9 of the limit", "rotation against the ground", ""},
                     lean_on(c, below, 8.0) - below, lean(c, below) - below, 5e-3);
     expect_at_most({59, label + ", 0.99 of the limit", "lean over that at the limit", ""},
                    lean_on(c, 0.99 * limit.tilt, 8.0) / limit.psi, 1.0);
@@ -163,8 +164,9 @@ TEST(Column, OverturnsAsItsSoftJointsSay) {
   }
 }
 
-/// Sway of n blocks on glued joints: of each the way u of its centre, the turn phi of its level
-/// edges and omega of its upright ones, which differ by its shear strain. With m its mass,
+/// Sway of n blocks on glued joints: of each the displacement u of its centre, the rotation phi of
+/// its horizontal edges and omega of its vertical ones, which differ by its shear strain. With m
+/// its mass,
 ///   2 T = m (u'^2 + H^2 omega'^2/12 + B^2 phi'^2/12),
 ///   2 U = G B H (phi - omega)^2 + ks B (jump of u at the joint)^2 + kn B^3/12 (jump of phi)^2.
 struct Sway {
@@ -181,7 +183,7 @@ Sway sway(const Column& c) {
     const auto add = [&](double spring, const Eigen::VectorXd& jump) {
       k += spring * jump * jump.transpose();
     };
-    // Zero of what is held, below the lowest block.
+    // Zero for the fixed base below the lowest block.
     const auto unit_of = [&](Eigen::Index at) -> Eigen::VectorXd {
       if (at < 0) return Eigen::VectorXd::Zero(n);
       return Eigen::VectorXd::Unit(n, at);
@@ -209,21 +211,21 @@ TEST(Column, SwaysAsItsBondedJointsSay) {
     text.insert(text.find("[joints.j]"), "damping = 0\n");
     Simulation sim = scene("gravity = [0, 0]\n" + text);
     const double scale = 1e-5 / std::abs(exact.mode[exact.mode.size() - 3]);
-    for (std::size_t i = 1; i < sim.blocks.size(); ++i) {
+    for (std::size_t i = 1; i < sim.scene->blocks.size(); ++i) {
       const auto q = static_cast<Eigen::Index>(3 * (i - 1));
       for (std::size_t node = 0; node < 3; ++node) {
-        const double x = sim.state.x[node][i] - sim.blocks.centroid_x[i];
-        const double y = sim.state.y[node][i] - sim.blocks.centroid_y[i];
-        sim.state.vx[node][i] = scale * (exact.mode[q] - exact.mode[q + 1] * y);
-        sim.state.vy[node][i] = scale * exact.mode[q + 2] * x;
+        const double x = sim.motion.state.x[node][i] - sim.scene->blocks.centroid_x[i];
+        const double y = sim.motion.state.y[node][i] - sim.scene->blocks.centroid_y[i];
+        sim.motion.state.vx[node][i] = scale * (exact.mode[q] - exact.mode[q + 1] * y);
+        sim.motion.state.vy[node][i] = scale * exact.mode[q + 2] * x;
       }
     }
     double before = 0.0, first = 0.0, last = 0.0;
     int crossings = 0;
     const auto crossing = [&](Simulation& s) {
-      const double u = displacement(s, s.blocks.size() - 1).x;
+      const double u = displacement(s, s.scene->blocks.size() - 1).x;
       if (before * u < 0.0) {
-        last = s.state.time - s.state.step * u / (u - before);
+        last = s.motion.state.time - s.motion.state.step * u / (u - before);
         if (++crossings == 1) first = last;
       }
       before = u;

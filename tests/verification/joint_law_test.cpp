@@ -1,7 +1,9 @@
 // Direct shear of one joint: validation.md rows 46 to 48. A block is thrown along a level joint and
-// slides until friction has taken its motion; the normal load is its weight and that of a pressure.
+// slides until friction stops it; the normal load is its weight and that of a pressure.
 #include <cmath>
 
+#include "step/energy_balance.hpp"
+#include "step/step.hpp"
 #include "verification/models.hpp"
 #include "verification/record.hpp"
 
@@ -30,29 +32,29 @@ double normal_load(double pressure) {
   return length * (height * density * gravity + pressure);
 }
 
-/// What a shear test shows: the work of friction over the normal load, against the way slid, and
-/// how far the block rises.
+/// Results of a shear test: the work of friction over the normal load, the slip, and the rise of
+/// the block.
 struct Shown {
-  double slip = 0.0, work = 0.0, rise = 0.0, drift = 0.0;
+  double slip = 0.0, work = 0.0, rise = 0.0, error = 0.0;
 };
 
-/// Runs it; the ledger must close, and friction only take.
+/// Runs it; the energy balance must close, and friction may only dissipate.
 Shown shear(Simulation& sim, double pressure, const std::function<void(const Shown&)>& each = {}) {
   Shown shown;
-  double settled = 0.0, before = 0.0;
+  double first_y = 0.0, before = 0.0;
   run(sim, [&](Simulation& s) {
-    const Ledger l = s.ledger();
-    keep_largest(shown.drift, l.drift);
+    const EnergyBalance l = account_energy(s);
+    keep_largest(shown.error, l.error);
     EXPECT_GE(l.friction, before - 1e-9 * l.kinetic);
     before = l.friction;
     const Vec2 u = displacement(s, 1);
-    if (s.state.time < 0.01) settled = u.y;
+    if (s.motion.state.time < 0.01) first_y = u.y;
     shown.slip = u.x;
     shown.work = l.friction / normal_load(pressure);
-    shown.rise = u.y - settled;
+    shown.rise = u.y - first_y;
     if (each) each(shown);
   });
-  EXPECT_LT(shown.drift, 1e-5);
+  EXPECT_LT(shown.error, 1e-5);
   return shown;
 }
 
@@ -80,16 +82,16 @@ TEST(DirectShear, SlipWeakening) {
   });
   expect_relative({46, "", "work of friction over normal load", "m"}, shown.work,
                   integral(friction, shown.slip), 5e-3);
-  // All of the motion is gone by then.
+  // The block has stopped by then.
   double stops = 0.0;
   while (gravity * integral(friction, stops) < 0.5 * start * start) stops += 1e-5;
   expect_relative({46, "", "slip until it stops", "m"}, shown.slip, stops, 1e-2);
   record_model(46, "", sim);
-  const std::vector<double> slid = sim.contacts.slid.values();
-  EXPECT_GT(*std::max_element(slid.begin(), slid.end()), 0.0);
+  const std::vector<double> slip_so_far = sim.motion.contacts.slip_so_far.values();
+  EXPECT_GT(*std::max_element(slip_so_far.begin(), slip_so_far.end()), 0.0);
 }
 
-/// Cohesion goes with slip, too: no segment breaks, and what it takes is friction.
+/// Cohesion depends on slip, too: no bond breaks, and its dissipation is friction.
 TEST(DirectShear, SlipWeakeningTakesCohesionAway) {
   const double c = 4e3;
   const std::string law = "type = 'slip-weakening'\nfriction_angle = 20\ncohesion = " + number(c) +
@@ -103,9 +105,9 @@ TEST(DirectShear, SlipWeakeningTakesCohesionAway) {
   EXPECT_NEAR(shown.work / integral(strength, shown.slip), 1.0, 1e-2);
 }
 
-/// A block on a level joint under gravity (0, -g), stiff, settled by damping until drive() lets it
-/// go. `soft`: springs as stiff as the rock and a little damping of contacts, for a joint that
-/// forgets its dilation as soon as it opens.
+/// A stiff block on a level joint under gravity (0, -g), in equilibrium by damping until drive()
+/// removes it. `soft`: springs as stiff as the rock and a little contact damping, so that the joint
+/// stays closed.
 Simulation driven(const std::string& law, double g, double duration, bool soft = false) {
   std::string text = thrown(law, 0.0, duration);
   text.replace(text.find("[0, -10]"), 8, "[0, " + number(-g) + "]");
@@ -117,8 +119,8 @@ Simulation driven(const std::string& law, double g, double duration, bool soft =
   return scene(text);
 }
 
-/// Largest departures of the way slid and of the opening from `slip` (m, of the time since it was
-/// let go) and `opening` (m, of the slip), over the second half of the way `until`.
+/// Largest deviations of slip and opening from `slip` (m, over the time since the release) and
+/// `opening` (m, over the slip), over the second half of the slip `until`.
 struct Ways {
   FurthestOff slip, opening;
   double end = 0.0;  ///< m, of the slip
@@ -127,31 +129,31 @@ struct Ways {
 Ways drive(Simulation& sim, double gx, const std::function<double(double)>& slip,
            const std::function<double(double)>& opening, double until, Series& series) {
   Ways ways;
-  const double settle = 0.01;
-  sim.start(settle);
-  Vec2 at_rest;
+  const double damped_time = 0.01;
+  edda::start(sim, damped_time);
+  Vec2 at_start;
   double friction = 0.0;
-  while (sim.state.time < sim.model.solver.duration) {
-    if (sim.state.time >= settle && sim.damping.mass > 0.0) {
-      sim.damping.mass = 0.0;
-      sim.model.gravity.x = gx;
-      at_rest = displacement(sim, 1);
+  while (sim.motion.state.time < sim.scene->model.solver.duration) {
+    if (sim.motion.state.time >= damped_time && sim.motion.damping.mass > 0.0) {
+      sim.motion.damping.mass = 0.0;
+      sim.scene.edit().model.gravity.x = gx;
+      at_start = displacement(sim, 1);
     }
-    if (sim.state.time >= settle) sim.aim_at(sim.model.solver.duration);
-    if (sim.step()) {
+    if (sim.motion.state.time >= damped_time) fit_step_to(sim, sim.scene->model.solver.duration);
+    if (step(sim)) {
       ADD_FAILURE() << "diverged";
       return ways;
     }
-    const Ledger l = sim.ledger();
-    EXPECT_GE(l.friction, friction - 1e-6 * sim.largest_energy);
+    const EnergyBalance l = account_energy(sim);
+    EXPECT_GE(l.friction, friction - 1e-6 * sim.accounts.largest_energy);
     friction = l.friction;
-    if (sim.damping.mass > 0.0) continue;  // a change of gravity is no work
-    const Vec2 u = displacement(sim, 1) - at_rest;
+    if (sim.motion.damping.mass > 0.0) continue;  // a change of gravity is no work
+    const Vec2 u = displacement(sim, 1) - at_start;
     ways.end = u.x;
     if (u.x < 0.5 * until || u.x > until) continue;
-    ways.slip.see(u.x, slip(sim.state.time - settle));
+    ways.slip.see(u.x, slip(sim.motion.state.time - damped_time));
     ways.opening.see(u.y, opening(u.x));
-    if (sim.state.steps % 16 == 0) series.add({u.x, opening(u.x), u.y});
+    if (sim.motion.state.steps % 16 == 0) series.add({u.x, opening(u.x), u.y});
   }
   return ways;
 }
@@ -169,7 +171,7 @@ void expect_dilation(bool soft, double bound) {
   const Ways ways = drive(
       sim, g * t + excess, [&](double time) { return 0.5 * a * time * time; },
       [&](double u) { return psi * u; }, 0.0098, series);
-  ways.slip.expect({47, label, "way slid, furthest off", "m"}, 2e-2);
+  ways.slip.expect({47, label, "distance slid, furthest off", "m"}, 2e-2);
   ways.opening.expect({47, label, "opening, furthest off", "m"}, bound);
   EXPECT_GT(ways.end, 0.01);
   record_model(47, label, sim);
@@ -180,10 +182,10 @@ TEST(DirectShear, Dilation) {
   expect_dilation(false, 4e-2);
 }
 
-/// Row 48: Barton and Bandis at three normal stresses. Pulled in so thick a fluid that it creeps,
-/// the block holds at 0.99 of tan(phi_r + JRC log10(JCS/sigma)), and goes at 1.01, rising by half
-/// of what is above phi_r. (The peak is at l/500 (JRC/l)^0.33 = 6.6 mm of slip, further than it
-/// comes.)
+/// Row 48: Barton and Bandis at three normal stresses. With mass damping so strong that it creeps,
+/// the block sticks at 0.99 of tan(phi_r + JRC log10(JCS/sigma)) and slides at 1.01, dilating at
+/// half of the angle above phi_r. (The peak is at l/500 (JRC/l)^0.33 = 6.6 mm of slip, more than
+/// the block slips here.)
 TEST(DirectShear, BartonBandisPeak) {
   const std::string law = "type = 'barton-bandis'\njrc = 9\njcs = 60e6\nresidual_angle = 28\n";
   for (const double sigma : {0.1e6, 0.5e6, 2e6}) {
@@ -195,17 +197,17 @@ TEST(DirectShear, BartonBandisPeak) {
     while (high - low > 0.01) {
       const double middle = 0.5 * (low + high);
       Simulation sim = driven(law, g, 0.06);
-      sim.start(0.02);
-      while (sim.state.time < 0.02) ASSERT_FALSE(sim.step());
-      const Vec2 at_rest = displacement(sim, 1);
-      sim.model.gravity.x = middle * g * t;
-      sim.aim_at(0.04);
-      while (sim.state.time < 0.04) ASSERT_FALSE(sim.step());
-      const Vec2 settled = displacement(sim, 1);
-      sim.aim_at(0.06);
-      while (sim.state.time < 0.06) ASSERT_FALSE(sim.step());
-      const Vec2 u = displacement(sim, 1) - settled;
-      const bool goes = u.x > 0.02 * (settled.x - at_rest.x);
+      edda::start(sim, 0.02);
+      while (sim.motion.state.time < 0.02) ASSERT_FALSE(step(sim));
+      const Vec2 at_start = displacement(sim, 1);
+      sim.scene.edit().model.gravity.x = middle * g * t;
+      fit_step_to(sim, 0.04);
+      while (sim.motion.state.time < 0.04) ASSERT_FALSE(step(sim));
+      const Vec2 halfway = displacement(sim, 1);
+      fit_step_to(sim, 0.06);
+      while (sim.motion.state.time < 0.06) ASSERT_FALSE(step(sim));
+      const Vec2 u = displacement(sim, 1) - halfway;
+      const bool goes = u.x > 0.02 * (halfway.x - at_start.x);
       (goes ? high : low) = middle;
       if (!goes || seen) continue;
       seen = true;
@@ -213,7 +215,7 @@ TEST(DirectShear, BartonBandisPeak) {
                       std::tan(radians(0.5 * (angle - 28.0))), 3e-2);
       record_model(48, label, sim);
     }
-    expect_relative({48, label, "shear over normal stress at which it goes", ""},
+    expect_relative({48, label, "shear over normal stress at which it slides", ""},
                     0.5 * (low + high) * t, t, 1e-2);
   }
 }

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "model/read_model.hpp"
-#include "run/observe.hpp"
+#include "observe/observe.hpp"
 #include "run/run_model.hpp"
 #include "verification/models.hpp"
 
@@ -14,16 +14,16 @@ namespace edda::kirsch {
 inline constexpr double joints = 2.0;  // stiffness of a joint over that of the blocks beside it
 inline constexpr double radius = 1.0, fine_to = 4.0, far = 16.0;  // m
 inline constexpr double young = 20e9, poisson = 0.25;
-/// Far stresses, compression positive: across and upright.
+/// Far-field stresses, compression positive: horizontal and vertical.
 inline constexpr double px = 10e6, py = 20e6;
 
-/// What the mass is as a whole, in plane strain.
+/// Elastic constants of the mass as a whole, in plane strain.
 struct Mass {
   double shear_modulus = 0.0;  ///< Pa
   double poisson = 0.0;
 };
 
-/// Kirsch (1898) with the stress of before: tension positive, t from +x.
+/// Kirsch (1898) with the total stress: tension positive, t from +x.
 struct Polar {
   double rr, tt, rt;
 };
@@ -33,16 +33,16 @@ inline Polar exact_stress(double r, double t) {
   return {-(p * (1.0 - q) + d * (1.0 - 4.0 * q + 3.0 * q * q) * c),
           -(p * (1.0 + q) - d * (1.0 + 3.0 * q * q) * c), d * (1.0 + 2.0 * q - 3.0 * q * q) * s};
 }
-/// Way inwards of the wall when the opening is made.
-inline double exact_closure(const Mass& m, double t) {
+/// Inward displacement of the wall due to the excavation.
+inline double exact_convergence(const Mass& m, double t) {
   const double p = 0.5 * (px + py), d = 0.5 * (px - py);
   return radius / (2.0 * m.shear_modulus) * (p + d * (3.0 - 4.0 * m.poisson) * std::cos(2.0 * t));
 }
 
-/// Blocks of this size, and joints that give a fixed part of what the blocks do: the mass is the
-/// same for every size. (A block's strain is constant, so a mass of blocks whose joints give
-/// nothing could not bend at all: it is finely divided when joints over rock times (block/radius)^2
-/// is small.)
+/// Blocks of this size, and joints whose compliance is a fixed fraction of that of the blocks: the
+/// moduli of the mass are the same for every size. (A block's strain is uniform, so a mass of
+/// blocks with rigid joints could not bend at all: it is finely divided when the stiffness of the
+/// joints over that of the rock, times (block/radius)^2, is small.)
 inline std::string mass_of(double size) {
   return "gravity = [0, 0]\n[materials.rock]\ndensity = 2700.0\nyoung = " + number(young) +
          "\npoisson = " + number(poisson) +
@@ -50,11 +50,11 @@ inline std::string mass_of(double size) {
          "\nks = " + number(0.4 * joints * young / size) +
          "\n[quality]\nmin_edge = " + number(0.05 * size) + "\n";
 }
-inline std::string until_rest(double ratio, const std::string& solver) {
+inline std::string until_equilibrium(double ratio, const std::string& solver) {
   return "[[stage]]\nuntil = 'equilibrium'\nratio = " + number(ratio) +
          "\nduration = 2.0\n[solver]\n" + solver;
 }
-/// Small blocks do not hold the step: how fast they move on their way to rest says nothing.
+/// Small blocks do not govern the step, since their speed on the way to equilibrium has no meaning.
 inline std::string in_steps_for(double size) {
   return "mass_scaling = " + number(0.15 * size / std::sqrt(young / 2700.0)) + "\n";
 }
@@ -95,7 +95,7 @@ inline Simulation settled(const std::string& toml) {
 inline Tensor mean_strain(const Simulation& sim, double half) {
   double n = 0.0, sx = 0.0, sy = 0.0;
   Vec2 su;
-  const BlockSet& b = sim.blocks;
+  const BlockSet& b = sim.scene->blocks;
   const auto each = [&](auto visit) {
     for (std::size_t i = 0; i < b.size(); ++i) {
       const Vec2 p = Vec2{b.centroid_x[i], b.centroid_y[i]} + b.origin;
@@ -122,7 +122,7 @@ inline Tensor mean_strain(const Simulation& sim, double half) {
   return {(yy * ux.x - xy * uy.x) / det, (xx * uy.y - xy * ux.y) / det, 0.0};
 }
 
-/// A square of the same mass, pressed across and then upright.
+/// A square of the same mass, compressed horizontally and then vertically.
 inline Mass test_mass(double size) {
   const double half = 12.0 * size, p = 1e6;
   double difference = 0.0, across = 0.0;
@@ -134,7 +134,7 @@ inline Mass test_mass(double size) {
                 "']\ntype = 'stress'\ntraction = " + (along_x ? "[1e6, 0]" : "[0, 1e6]") +
                 "\n[[boundary]]\nsides = ['" + (along_x ? "right" : "top") +
                 "']\ntype = 'stress'\ntraction = " + (along_x ? "[-1e6, 0]" : "[0, -1e6]") + "\n" +
-                until_rest(1e-4, in_steps_for(size)));
+                until_equilibrium(1e-4, in_steps_for(size)));
     const Tensor e = mean_strain(sim, 0.75 * half);
     const double main = along_x ? e.xx : e.yy, other = along_x ? e.yy : e.xx;
     difference += -0.5 * (main - other) / p;
@@ -144,9 +144,9 @@ inline Mass test_mass(double size) {
   return {0.5 / difference, across / difference};
 }
 
-/// The opening cut at once from rock under stress, and left to come to rest.
+/// The opening cut at once from rock under stress, brought to equilibrium.
 inline Simulation opening(double size) {
-  // Blocks further out are twice as large for their distance.
+  // Blocks further out are twice as large relative to their distance.
   const double angle = 2.0 * size / fine_to;
   const int corners = 4 * static_cast<int>(std::lround(0.5 * std::numbers::pi / angle));
   const int rings = static_cast<int>(std::lround(std::log(far / fine_to) / angle));
@@ -156,9 +156,9 @@ inline Simulation opening(double size) {
       "\n[[opening]]\nname = 'hole'\nshape = { kind = 'circle', at = [0, 0], width = " +
       number(2.0 * radius) + ", segments = 64 }\n[initial_stress]\nstress = [" + number(-px) +
       ", " + number(-py) + ", 0]\n[[boundary]]\nalong = " + closed_ring(far, corners) +
-      "\ntype = 'fixed'\n" + until_rest(1e-4, in_steps_for(size));
-  // Further out, blocks grow with the distance, and their joints give as much of it as the small
-  // ones do: a law for each ring.
+      "\ntype = 'fixed'\n" + until_equilibrium(1e-4, in_steps_for(size));
+  // Further out, blocks grow with the distance, and the compliance of their joints grows with them:
+  // a law for each ring.
   const double growth = std::pow(far / fine_to, 1.0 / rings);
   std::string laws;
   double r = fine_to;
@@ -181,7 +181,7 @@ inline Simulation opening(double size) {
   return settled(toml);
 }
 
-/// Means of rr and tt over a ring of blocks, and how they go with cos 2t.
+/// Means of rr and tt over a ring of blocks, and their components in cos 2t.
 struct Harmonics {
   double rr = 0.0, rr2 = 0.0, tt = 0.0, tt2 = 0.0;
 };
@@ -215,7 +215,8 @@ class RingFit {
 struct Errors {
   double radial = 0.0, hoop = 0.0;
   double profile = 0.0;  ///< mean, radial and hoop
-  double closure = 0.0;  ///< largest of the wall along x and upright, over the exact one
+  double convergence =
+      0.0;  ///< largest of the convergence of the wall, horizontal and vertical, over the exact one
 };
 
 inline Polar polar(const BlockStress& s, double t) {
@@ -225,10 +226,10 @@ inline Polar polar(const BlockStress& s, double t) {
           (s.yy - s.xx) * c * n + s.xy * (c * c - n * n)};
 }
 
-/// `bound`: none are held to any where it is infinite.
+/// `bound`: infinite where no error is to be compared with a bound.
 inline Errors compare(const Simulation& sim, const Mass& mass, double size, double bound) {
   const std::string label = "blocks of " + brief(size) + " radii";
-  const BlockSet& b = sim.blocks;
+  const BlockSet& b = sim.scene->blocks;
   Errors e;
   double squares = 0.0;
   int count = 0;
@@ -242,7 +243,7 @@ inline Errors compare(const Simulation& sim, const Mass& mass, double size, doub
       const Vec2 p = Vec2{b.centroid_x[i], b.centroid_y[i]} + b.origin;
       const double r = norm(p), t = std::atan2(p.y, p.x);
       if (r < from || r >= from + size) continue;
-      computed.add(t, polar(block_stress(sim, sim.state, i), t), b.area[i]);
+      computed.add(t, polar(block_stress(sim, sim.motion.state, i), t), b.area[i]);
       exact.add(t, exact_stress(r, t), b.area[i]);
     }
     const Harmonics c = computed.fit(), x = exact.fit();
@@ -259,21 +260,21 @@ inline Errors compare(const Simulation& sim, const Mass& mass, double size, doub
     }
   }
   e.profile = std::sqrt(squares / count);
-  // The wall: mean and second harmonic of its way inwards.
+  // The wall: mean and second harmonic of its inward displacement.
   RingFit wall;
   for (std::size_t v = 0; v < b.vertex_count(); ++v) {
     const Vec2 p = Vec2{b.vertex_x[v], b.vertex_y[v]} + b.origin;
     if (norm(p) > radius * 1.0001) continue;
-    const Vec2 u{sim.pose.x[v] - b.vertex_x[v], sim.pose.y[v] - b.vertex_y[v]};
+    const Vec2 u{sim.motion.pose.x[v] - b.vertex_x[v], sim.motion.pose.y[v] - b.vertex_y[v]};
     wall.add(std::atan2(p.y, p.x), {-dot(u, p) / norm(p), 0.0, 0.0}, 1.0);
   }
   const Harmonics w = wall.fit();
   for (const double side : {1.0, -1.0}) {
-    const double exact = exact_closure(mass, side > 0.0 ? 0.0 : 0.5 * std::numbers::pi);
-    const std::string where = side > 0.0 ? ", along x" : ", upright";
-    expect_relative({38, label, "closure of the wall" + where, "m"}, w.rr + side * w.rr2, exact,
+    const double exact = exact_convergence(mass, side > 0.0 ? 0.0 : 0.5 * std::numbers::pi);
+    const std::string where = side > 0.0 ? ", along x" : ", vertical";
+    expect_relative({38, label, "convergence of the wall" + where, "m"}, w.rr + side * w.rr2, exact,
                     bound);
-    keep_largest(e.closure, (w.rr + side * w.rr2) / exact - 1.0);
+    keep_largest(e.convergence, (w.rr + side * w.rr2) / exact - 1.0);
   }
   expect_at_most({38, label, "hoop stress, furthest off, over the exact one", ""}, e.hoop, bound);
   expect_at_most({38, label, "radial stress, furthest off, over the exact hoop stress", ""},

@@ -7,7 +7,7 @@ namespace {
 TEST(Kirsch, OpeningInAMassOfBlocks) {
   const double size = 0.28;
   const kirsch::Mass mass = kirsch::test_mass(size);
-  // Softer than the rock by what the joints give.
+  // Softer than the rock by the compliance of the joints.
   const double rock = kirsch::young / (2.0 * (1.0 + kirsch::poisson));
   EXPECT_LT(mass.shear_modulus, 0.8 * rock);
   EXPECT_GT(mass.shear_modulus, 0.5 * rock);

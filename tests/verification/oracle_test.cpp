@@ -2,6 +2,8 @@
 // and Ls thrown at each other. tools/contact-oracle runs more of them, and longer.
 #include <algorithm>
 
+#include "step/energy_balance.hpp"
+#include "step/step.hpp"
 #include "verification/acting_watch.hpp"
 #include "verification/cut_slope.hpp"
 #include "verification/heap_watch.hpp"
@@ -12,45 +14,45 @@ namespace {
 
 Simulation thrown(const std::vector<ThrownBlock>& heap, double friction, double duration) {
   Simulation sim = scene(thrown_model(heap, friction, "duration = " + number(duration) + "\n"));
-  sim.start(duration);
+  start(sim, duration);
   return sim;
 }
 
-/// No contact missed while blocks move between two lists, none twice, shares within [0, 1], and no
-/// jump of force when vertices change their edges.
+/// No contact is missed while blocks move between two lists, none is listed twice, and no force
+/// jumps when corners change their edges.
 TEST(ThrownHeap, ContactsAgreeWithBruteForce) {
   std::size_t wanted = 0;
   std::uint64_t switched = 0;
   for (unsigned seed = 0; seed < 12; ++seed) {
     Simulation sim = thrown(thrown_blocks(seed, 3, 0.75 * (seed % 4), 30.0), 3.0 * seed, 0.5);
     HeapWatch watch(16);
-    double drift = 0.0;
-    while (sim.state.time < 0.5 && sim.state.steps < 6000) {
-      const auto failure = sim.step();
+    double error = 0.0;
+    while (sim.motion.state.time < 0.5 && sim.motion.state.steps < 6000) {
+      const auto failure = step(sim);
       ASSERT_FALSE(failure.has_value()) << seed << ": " << failure->message;
       watch.look(sim);
-      if (sim.state.steps % 100 == 0) keep_largest(drift, sim.ledger().drift);
+      if (sim.motion.state.steps % 100 == 0) keep_largest(error, account_energy(sim).error);
     }
     EXPECT_EQ(watch.list.missed, 0u) << seed;
     EXPECT_EQ(watch.list.repeated, 0u) << seed;
     EXPECT_LE(watch.worst_jump, 2.0) << seed << " at " << watch.jump_at;
-    EXPECT_LT(drift, 3e-5) << seed;
+    EXPECT_LT(error, 3e-5) << seed;
     wanted += watch.list.wanted;
-    switched += sim.open_close.switched;
+    switched += sim.accounts.open_close.switched;
   }
   EXPECT_GT(wanted, 1000u);
   EXPECT_GT(switched, 100u);
 }
 
-/// Four in which a corner passes a corner under load: handing the whole force over at once made it
-/// jump by 4 to 24 p u.
+/// Four heaps in which a corner passes a corner under load: a transfer of the whole force at once
+/// would make it jump by 4 to 24 p u.
 TEST(ThrownHeap, CornersPassWithoutAJump) {
   for (const unsigned seed : {2u, 6u, 19u, 30u}) {
     Simulation sim =
         thrown(thrown_blocks(seed, 4, 2.5 * (seed % 4) / 3.0, 30.0), (7 * seed) % 41, 0.5);
     HeapWatch watch(1000000);
-    while (sim.state.steps < 15000) {
-      ASSERT_FALSE(sim.step().has_value());
+    while (sim.motion.state.steps < 15000) {
+      ASSERT_FALSE(step(sim).has_value());
       watch.look(sim);
     }
     EXPECT_LE(watch.worst_jump, 2.0) << seed << " at " << watch.jump_at;
@@ -59,8 +61,8 @@ TEST(ThrownHeap, CornersPassWithoutAJump) {
 
 std::vector<Vec2> centres(const Simulation& s) {
   std::vector<Vec2> p;
-  for (std::size_t i = 0; i < s.blocks.size(); ++i)
-    p.push_back(centroid(s.state.x, s.state.y, i) + s.blocks.origin);
+  for (std::size_t i = 0; i < s.scene->blocks.size(); ++i)
+    p.push_back(centroid(s.motion.state.x, s.motion.state.y, i) + s.scene->blocks.origin);
   return p;
 }
 
@@ -72,8 +74,8 @@ TEST(ThrownHeap, MirroredAndRenumberedMoveAlike) {
     const double end = 2e-4 + (seed % 3 == 0 ? 0.03 : 0.0);
     auto run_to_end = [&](const std::vector<ThrownBlock>& blocks) {
       Simulation sim = thrown(blocks, 25.0, end);
-      while (sim.state.time < end) EXPECT_FALSE(sim.step().has_value());
-      switched += sim.open_close.switched;
+      while (sim.motion.state.time < end) EXPECT_FALSE(step(sim).has_value());
+      switched += sim.accounts.open_close.switched;
       return centres(sim);
     };
     const std::vector<Vec2> expected = run_to_end(heap);
@@ -93,7 +95,8 @@ TEST(ThrownHeap, MirroredAndRenumberedMoveAlike) {
   EXPECT_GT(switched, 60u);
 }
 
-/// Which faces act, and whose corners lean: as the definition says, and never from behind a block.
+/// Faces act and corners lean according to the definition, and no face presses from the far side of
+/// a block.
 void expect_acts_as_defined(const ActingFaults& faults, const std::string& what) {
   EXPECT_EQ(faults.apart, 0u) << what;
   EXPECT_EQ(faults.askew, 0u) << what;

@@ -1,4 +1,4 @@
-// How deep blocks lie in one another, by geometry alone.
+// Penetration of blocks in one another, by geometry alone.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,9 @@ struct Overlap {
   Id block = no_id, other = no_id;
 };
 
-/// Deepest overlap of any two blocks of one ring each. Two convex blocks: the least shift that
-/// parts them (over the normals of both). Else: how deep a vertex of one lies inside the other.
+/// Largest penetration of any two blocks of one ring each. Two convex blocks: the least translation
+/// that separates them (over the normals of both). Otherwise: the depth of a vertex of one inside
+/// the other.
 inline Overlap deepest_overlap(const BlockSet& b, const Pose& pose) {
   struct Box {
     double x0 = 1e300, y0 = 1e300, x1 = -1e300, y1 = -1e300;
@@ -34,7 +35,7 @@ inline Overlap deepest_overlap(const BlockSet& b, const Pose& pose) {
       box[i].convex = box[i].convex && cross(p - q, r - p) >= 0.0;
     }
   }
-  // Overlap along the outward normals of block i's edges: the least.
+  // Penetration along the outward normals of the edges of block i: the least.
   auto along_normals = [&](std::size_t i, std::size_t j) {
     double least = std::numeric_limits<double>::infinity();
     for (Id e = b.vertex_begin[i]; e < b.vertex_begin[i + 1]; ++e) {

@@ -22,9 +22,9 @@ struct ThrownBlock {
   double spin = 0.0;
 };
 
-/// side x side blocks of 1 m, and at the farthest corner of each three grains in a row, 0.03 m down
-/// to `decades` powers of ten less; all drawn to the middle at about `speed` m/s, the grains into
-/// their corner.
+/// side x side blocks of 1 m, and at the farthest corner of each three grains in a row, of 0.03 m
+/// down to `decades` powers of ten less; all move to the middle at about `speed` m/s, the grains
+/// into their corner.
 inline std::vector<ThrownBlock> thrown_blocks(unsigned seed, int side, double decades,
                                               double speed) {
   std::mt19937 rng(seed);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// JSON knows no infinity and no NaN.
+/// JSON has no infinity and no NaN.
 std::string json(double v) {
   if (!std::isfinite(v)) return "null";
   char text[40];
@@ -53,7 +53,7 @@ void write(const char* kind, int row, const std::string& which, const std::strin
   if (!out.flush()) ADD_FAILURE() << "cannot write the records of " << name;
 }
 
-/// `error` is what the bounds low and high are about.
+/// The bounds low and high are those of `error`.
 void check(const Quantity& q, const char* measure, double computed, double exact, double error,
            double low, double high) {
   if (recording()) {
@@ -70,7 +70,7 @@ void check(const Quantity& q, const char* measure, double computed, double exact
 
 std::string outlines(const Simulation& sim, const std::vector<double>& x,
                      const std::vector<double>& y) {
-  const BlockSet& b = sim.blocks;
+  const BlockSet& b = sim.scene->blocks;
   std::string out = "[";
   for (std::size_t i = 0; i < b.size(); ++i) {
     std::string ring;
@@ -108,8 +108,8 @@ bool recording() {
 
 void record_model(int row, const std::string& which, const Simulation& sim) {
   if (!recording()) return;
-  const Model& m = sim.model;
-  const BlockSet& b = sim.blocks;
+  const Model& m = sim.scene->model;
+  const BlockSet& b = sim.scene->blocks;
   std::vector<double> densities, moduli, ratios, angles, fixed;
   for (const Material& rock : m.materials) {
     densities.push_back(rock.density);
@@ -124,10 +124,10 @@ void record_model(int row, const std::string& which, const Simulation& sim) {
             "\",\"density\":" + json_list(densities) + ",\"young\":" + json_list(moduli) +
             ",\"poisson\":" + json_list(ratios) + ",\"friction\":" + json_list(angles) +
             ",\"normal_stiffness\":" + json(m.contact.normal_stiffness) + ",\"shear_stiffness\":" +
-            json(m.contact.shear_stiffness) + ",\"time\":" + json(sim.state.time) +
-            ",\"steps\":" + std::to_string(sim.state.steps) + ",\"fixed\":" + json_list(fixed) +
-            ",\"start\":" + outlines(sim, b.vertex_x, b.vertex_y) +
-            ",\"end\":" + outlines(sim, sim.pose.x, sim.pose.y));
+            json(m.contact.shear_stiffness) + ",\"time\":" + json(sim.motion.state.time) +
+            ",\"steps\":" + std::to_string(sim.motion.state.steps) + ",\"fixed\":" +
+            json_list(fixed) + ",\"start\":" + outlines(sim, b.vertex_x, b.vertex_y) +
+            ",\"end\":" + outlines(sim, sim.motion.pose.x, sim.motion.pose.y));
 }
 
 Series::Series(int row, std::string which, std::vector<std::string> columns)

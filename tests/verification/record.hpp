@@ -1,4 +1,4 @@
-// Numbers that a test holds to their exact value, written down for docs/verification.md: each
+// Numbers that a test compares with their exact value, recorded for docs/verification.md: each
 // expect_* asserts a bound and records the same numbers. Without the environment variable
 // EDDA_VERIFICATION_OUT, the folder to write to, nothing is recorded.
 #pragma once
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "run/simulation.hpp"
+#include "step/simulation.hpp"
 
 namespace edda {
 
@@ -25,11 +25,11 @@ struct Quantity {
 /// computed/exact - 1 lies within -bound and bound, or within low and high.
 void expect_relative(const Quantity& q, double computed, double exact, double bound);
 void expect_relative(const Quantity& q, double computed, double exact, double low, double high);
-/// One-sided: what may not be passed.
+/// One-sided bounds.
 void expect_at_most(const Quantity& q, double computed, double limit);
 void expect_at_least(const Quantity& q, double computed, double limit);
 
-/// Of many pairs the one furthest off, relative to its exact value.
+/// Of many pairs the one with the largest relative error.
 class FurthestOff {
  public:
   void see(double computed, double exact) {
@@ -47,10 +47,10 @@ class FurthestOff {
   double off_ = -1.0, computed_ = 0.0, exact_ = 0.0;
 };
 
-/// Whether records are kept.
+/// Whether records are written.
 bool recording();
 
-/// Keeps the model of a row: key numbers, outlines of the blocks at the start and now.
+/// Records the model of a row: key numbers, outlines of the blocks at the start and now.
 void record_model(int row, const std::string& which, const Simulation& sim);
 
 /// A table of numbers for the figure of a row: curves over time, values over depth. Written when it

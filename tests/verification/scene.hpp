@@ -13,7 +13,8 @@
 #include "contacts/face_reading.hpp"
 #include "forces/elastic.hpp"
 #include "model/read_model.hpp"
-#include "run/simulation.hpp"
+#include "step/simulation.hpp"
+#include "step/step.hpp"
 
 namespace edda {
 
@@ -36,15 +37,16 @@ using Look = std::function<void(Simulation&)>;
 /// Runs to the model's duration, calling look(sim) at t = 0 and at every history row, and each(sim)
 /// after every step.
 inline void run(Simulation& sim, const Look& look, const Look& each = {}) {
-  const double every = sim.model.output.history_every;
-  const auto rows = static_cast<std::uint64_t>(std::llround(sim.model.solver.duration / every));
-  sim.start(every);
+  const double every = sim.scene->model.output.history_every;
+  const auto rows =
+      static_cast<std::uint64_t>(std::llround(sim.scene->model.solver.duration / every));
+  start(sim, every);
   look(sim);
   for (std::uint64_t row = 1; row <= rows; ++row) {
     const double time = static_cast<double>(row) * every;
-    sim.aim_at(time);
-    while (sim.state.time < time) {
-      const auto failure = sim.step();
+    fit_step_to(sim, time);
+    while (sim.motion.state.time < time) {
+      const auto failure = step(sim);
       if (failure) FAIL() << failure->message << " at " << failure->time;
       if (each) each(sim);
     }
@@ -53,11 +55,11 @@ inline void run(Simulation& sim, const Look& look, const Look& each = {}) {
 }
 
 inline Vec2 displacement(const Simulation& sim, std::size_t i) {
-  return centroid(sim.state.x, sim.state.y, i) -
-         Vec2{sim.blocks.centroid_x[i], sim.blocks.centroid_y[i]};
+  return centroid(sim.motion.state.x, sim.motion.state.y, i) -
+         Vec2{sim.scene->blocks.centroid_x[i], sim.scene->blocks.centroid_y[i]};
 }
 
-/// The largest size so far; NaN stays.
+/// The largest absolute value so far; NaN is kept.
 inline void keep_largest(double& most, double value) {
   if (std::isnan(value) || std::abs(value) > most) most = std::abs(value);
 }
@@ -81,7 +83,7 @@ inline std::string number(double v) {
   return text;
 }
 
-/// A number for labels.
+/// A number in short form, for labels.
 inline std::string brief(double v) {
   char text[40];
   std::snprintf(text, sizeof text, "%g", v);
@@ -97,7 +99,7 @@ inline std::string rectangle(double x0, double y0, double x1, double y1) {
 /// Faces that still have their peak strength.
 inline std::size_t bonded_faces(const Simulation& sim) {
   std::size_t count = 0;
-  for (const double bonded : sim.contacts.bonded.values()) count += bonded > 0.0;
+  for (const double bonded : sim.motion.contacts.bonded.values()) count += bonded > 0.0;
   return count;
 }
 

@@ -6,7 +6,7 @@
 
 namespace edda {
 
-/// At the end of its last stage; one that waits for equilibrium must find it.
+/// The run at the end of its last stage; a stage until equilibrium must find it.
 inline PreparedRun settled(const std::string& toml) {
   Result<Model> model = read_model_text(toml, EDDA_SOURCE_DIR "/scene.toml", {});
   if (!model.ok()) ADD_FAILURE() << to_string(model.faults().front());

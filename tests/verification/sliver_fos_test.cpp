@@ -1,15 +1,15 @@
 // A plane slide with slivers beside its plane: whatever [quality] merges, the plane stays whole.
-#include "lines/build_polygons.hpp"
-#include "run/fos.hpp"
+#include "cutting/build_polygons.hpp"
+#include "study/fos.hpp"
 #include "verification/models.hpp"
 
 namespace edda::sliver_fos_test {
 namespace {
 
-/// A slab of 6 m x 1.5 m on a plane that dips 35 degrees and daylights at the face. On the plane
-/// end two joints, which lean towards each other, and between them one that leaves a strip of 5 cm
-/// there. A last one cuts off a wedge of 15 cm at the toe. Both slivers have the plane as their
-/// longest edge.
+/// A slab of 6 m x 1.5 m on a plane that dips 35 degrees and daylights at the face. Two joints,
+/// inclined towards each other, end on the plane, and between them a third one that leaves a strip
+/// of 5 cm there. A last one cuts off a wedge of 15 cm at the toe. Both slivers have the plane as
+/// their longest edge.
 std::string slab(double phi, const std::string& quality) {
   const auto at = [](double u, double v) { return on_slope(35.0, u, v); };
   const auto trace = [&](double u0, double v0, double u1, double v1) {

@@ -1,6 +1,7 @@
 // Waves along a bar of blocks: out through a viscous boundary, in through one, up to a free end.
 #include <algorithm>
 
+#include "step/energy_balance.hpp"
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
 
@@ -11,7 +12,7 @@ constexpr int blocks = 120;
 constexpr double density = 2500.0, young = 1e10, poisson = 0.2;
 constexpr double width = 8.0, hump_at = 40.5;  // m
 
-/// Of the rock, and of the bar: the springs of its joints make it slower.
+/// Wave speeds of the rock, and of the bar, in which the springs of the joints make them lower.
 struct Speeds {
   double p, s;
 };
@@ -28,8 +29,8 @@ Speeds in_bar(double spring) {
   return {slower(c.p), slower(c.s)};
 }
 
-/// Unit blocks on one another that hold together. Plane waves: what would move across the wave is
-/// held by rollers, at the sides for P, along every joint for S.
+/// A column of unit blocks with glued joints. For plane waves, rollers prevent motion transverse to
+/// that of the wave: at the sides for P, along every joint for S.
 std::string bar(bool shear, double spring, const std::string& more) {
   std::string toml =
       "gravity = [0, 0]\n[materials.rock]\ndensity = 2500.0\nyoung = 1e10\ndamping = 0\npoisson = "
@@ -53,21 +54,22 @@ double& of(Vec2& v, bool shear) {
   return shear ? v.x : v.y;
 }
 
-/// A hump of velocity round block 40: half of it runs down.
+/// A velocity pulse around block 40: half of it travels down.
 void start_hump(Simulation& sim, bool shear) {
   for (std::size_t i = 0; i < blocks; ++i) {
     const double from = static_cast<double>(i) + 0.5 - hump_at;
     for (std::size_t k = 0; k < 3; ++k) {
-      // Each block takes the hump's value and its slope.
-      const double y = sim.state.y[k][i] - centroid(sim.state.x, sim.state.y, i).y;
-      (shear ? sim.state.vx : sim.state.vy)[k][i] = 0.02 *
-                                                    std::exp(-0.5 * from * from / (width * width)) *
-                                                    (1.0 - from * y / (width * width));
+      // Each block has the value and the slope of the pulse.
+      const double y =
+          sim.motion.state.y[k][i] - centroid(sim.motion.state.x, sim.motion.state.y, i).y;
+      (shear ? sim.motion.state.vx : sim.motion.state.vy)[k][i] =
+          0.02 * std::exp(-0.5 * from * from / (width * width)) *
+          (1.0 - from * y / (width * width));
     }
   }
 }
 
-/// What of the half that ran down comes back through block 30 before the other half does.
+/// Part of the half travelling down that returns through block 30 before the other half does.
 double reflected(bool shear, double spring, const std::string& wave_speeds) {
   const Speeds speeds = in_bar(spring);
   const double c = shear ? speeds.s : speeds.p, end = 105.0 / c;
@@ -76,23 +78,23 @@ double reflected(bool shear, double spring, const std::string& wave_speeds) {
                                  wave_speeds + "[output]\nhistory_every = " + number(0.1 * end) +
                                  "\n[solver]\nduration = " + number(end) + "\n"));
   start_hump(sim, shear);
-  double back = 0.0, drift = 0.0, dissipated = 0.0;
+  double back = 0.0, error = 0.0, dissipated = 0.0;
   run(
       sim,
       [&](Simulation& s) {
-        const Ledger l = s.ledger();
-        keep_largest(drift, l.drift);
+        const EnergyBalance l = account_energy(s);
+        keep_largest(error, l.error);
         EXPECT_GE(l.damping, dissipated);
         dissipated = l.damping;
       },
       [&](Simulation& s) {
-        if (s.state.time < 42.0 / c) return;
-        Vec2 v = centroid(s.state.vx, s.state.vy, 30);
+        if (s.motion.state.time < 42.0 / c) return;
+        Vec2 v = centroid(s.motion.state.vx, s.motion.state.vy, 30);
         keep_largest(back, of(v, shear));
       });
-  EXPECT_LT(drift, 1e-5);
-  // Half of the energy has gone into the dashpots, but for what came back.
-  const Ledger l = sim.ledger();
+  EXPECT_LT(error, 1e-5);
+  // The dashpots have dissipated half of the energy, less what was reflected.
+  const EnergyBalance l = account_energy(sim);
   const double part = back / 0.01;
   EXPECT_NEAR(l.damping / (l.damping + l.kinetic + l.strain + l.contact), 0.5 * (1.0 - part * part),
               5e-3);
@@ -101,22 +103,23 @@ double reflected(bool shear, double spring, const std::string& wave_speeds) {
 
 TEST(Viscous, LetsWavesOut) {
   for (const bool shear : {false, true}) {
-    // Stiff joints: the rock's own impedance is that of the bar. Soft ones: theirs must be given.
+    // Stiff joints: the impedance of the rock is that of the bar. Soft joints: the wave speeds of
+    // the bar must be given.
     const std::string wave = shear ? "S" : "P";
-    expect_at_most({31, wave + ", stiff joints", "part of the wave that comes back", ""},
+    expect_at_most({31, wave + ", stiff joints", "reflected part of the wave", ""},
                    reflected(shear, 50.0 * young, ""), 0.02);
     const Speeds soft = in_bar(young);
     expect_at_most(
-        {31, wave + ", soft joints, their wave speeds", "part that comes back", ""},
+        {31, wave + ", soft joints, their wave speeds", "reflected part", ""},
         reflected(shear, young, "wave_speeds = [" + number(soft.p) + ", " + number(soft.s) + "]\n"),
         0.02);
-    // Without them the rock's impedance throws back what theory says.
+    // Without them the impedance of the rock reflects the part that theory predicts.
     const double c = shear ? in_rock().s : in_rock().p, slow = shear ? soft.s : soft.p;
     EXPECT_NEAR(reflected(shear, young, ""), (c - slow) / (c + slow), 0.01) << wave;
   }
 }
 
-/// A wave that comes in through the base arrives at the free end doubled, and leaves.
+/// A wave that enters through the base has twice its amplitude at the free end, and leaves again.
 TEST(Upgoing, ArrivesDoubledAtAFreeSurface) {
   for (const bool shear : {false, true}) {
     const double spring = 50.0 * young, frequency = 10.0, amplitude = 2.0;
@@ -128,15 +131,15 @@ TEST(Upgoing, ArrivesDoubledAtAFreeSurface) {
             "= 'upgoing'\nacceleration = { amplitude = 2.0, frequency = 10.0, direction = " +
                 std::string(shear ? "[1, 0]" : "[0, 1]") + " }\n[output]\nhistory_every = " +
                 number(end) + "\n[solver]\nduration = " + number(end) + "\n"));
-    double drift = 0.0, top = 0.0, middle = 0.0;
+    double error = 0.0, top = 0.0, middle = 0.0;
     run(
-        sim, [&](Simulation& s) { keep_largest(drift, s.ledger().drift); },
+        sim, [&](Simulation& s) { keep_largest(error, account_energy(s).error); },
         [&](Simulation& s) {
-          Vec2 v =
-              vertex_at(s.blocks, s.state.vx, s.state.vy, s.blocks.vertex_begin[blocks - 1] + 2);
+          Vec2 v = vertex_at(s.scene->blocks, s.motion.state.vx, s.motion.state.vy,
+                             s.scene->blocks.vertex_begin[blocks - 1] + 2);
           keep_largest(top, of(v, shear));
-          if (s.state.time > 0.5 * end) return;
-          Vec2 u = centroid(s.state.vx, s.state.vy, 10);
+          if (s.motion.state.time > 0.5 * end) return;
+          Vec2 u = centroid(s.motion.state.vx, s.motion.state.vy, 10);
           keep_largest(middle, of(u, shear));
         });
     // v = A/w (1 - cos w t), at most 2 A/w; twice that at the free end.
@@ -145,7 +148,7 @@ TEST(Upgoing, ArrivesDoubledAtAFreeSurface) {
     expect_relative({32, wave, "largest velocity on its way up", "m/s"}, middle, upgoing, 2e-2);
     expect_relative({32, wave, "largest velocity of the free end", "m/s"}, top, 2.0 * upgoing,
                     2e-2);
-    EXPECT_LT(drift, 1e-6);
+    EXPECT_LT(error, 1e-6);
   }
 }
 

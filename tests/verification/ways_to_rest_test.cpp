@@ -1,5 +1,6 @@
-// Stages until equilibrium: one block that slides away does not hold up the others, the implicit
-// method without velocities sees its own rest, and a large wall comes to rest with all defaults.
+// Stages until equilibrium: one block that slides away does not delay the others, the implicit
+// method without velocities recognises its own equilibrium, and a large wall reaches equilibrium
+// with all defaults.
 #include <fstream>
 #include <sstream>
 
@@ -10,38 +11,40 @@ namespace {
 
 using namespace ways_to_rest;
 
-/// Its motion would hide that of all others, and the damping that goes by it vanish: 7,312 steps.
-TEST(WaysToRest, WhatSlidesAloneHoldsUpNobody) {
-  const Rested rested = at_rest(
+/// Without the limit on the share of one block in the frequency (theory, section 11.1) its motion
+/// would hide that of all others, the adaptive damping would vanish, and the stage would take 7,312
+/// steps.
+TEST(WaysToRest, WhatSlidesAloneDelaysNoOther) {
+  const EquilibriumRun found = run_to_equilibrium(
       wall(8, 8) +
       "[joints.ice]\nfriction_angle = 0.0\n[[block]]\nfixed = true\njoint = 'ice'\npolygon = "
       "[[10, -1], [210, -36.2653961], [210, -37], [10, -37]]\n[[block]]\nname = 'slider'\n"
       "joint = 'ice'\npolygon = [[11, -1.176326981], [12, -1.352653961], "
       "[12.17364818, -0.3678462085], [11.17364818, -0.1915192285]]\n" +
-      until_rest);
-  EXPECT_LT(rested.outcome.steps, 2500U);
-  EXPECT_NE(rested.outcome.message.find("come loose: block 2 (slider)"), std::string::npos)
-      << rested.outcome.message;
+      until_equilibrium);
+  EXPECT_LT(found.outcome.steps, 2500U);
+  EXPECT_NE(found.outcome.message.find("come loose: block 2 (slider)"), std::string::npos)
+      << found.outcome.message;
 }
 
-/// Rounds left a thousandth of the forces, and the stage asked for a hundredth of that: it ended as
-/// collapsed, with all blocks at 0 m/s.
-TEST(WaysToRest, StaticImplicitStepsSeeTheirRest) {
+/// If iterations left a thousandth of the forces unbalanced, where the stage requires a hundredth
+/// of that, the run would end as collapsed although all blocks have the velocity 0.
+TEST(WaysToRest, StaticImplicitStepsFindTheirEquilibrium) {
   std::ifstream file(EDDA_SOURCE_DIR "/examples/slope.toml");
   std::ostringstream text;
   text << file.rdbuf();
   std::string slope = text.str();
   slope.resize(slope.find("[solver]"));
   slope.replace(slope.find("friction_angle = 20.0"), 21, "friction_angle = 45.0");
-  const Rested implicit =
-      at_rest(slope + "[solver]\nmethod = 'dda'\ndynamic = false\n" + until_rest);
+  const EquilibriumRun implicit =
+      run_to_equilibrium(slope + "[solver]\nmethod = 'dda'\ndynamic = false\n" + until_equilibrium);
   EXPECT_LT(implicit.outcome.unbalanced, 2e-5);
 }
 
 TEST(WaysToRest, AWallOfFortyRowsStandsOnItsBase) {
-  const Rested rested = at_rest(wall(40, 40) + until_rest);
-  EXPECT_LT(rested.outcome.steps, 12000U);
-  expect_borne(rested, 1e-3);
+  const EquilibriumRun found = run_to_equilibrium(wall(40, 40) + until_equilibrium);
+  EXPECT_LT(found.outcome.steps, 12000U);
+  expect_weight_carried(found, 1e-3);
 }
 
 }  // namespace

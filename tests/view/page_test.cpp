@@ -217,10 +217,10 @@ TEST_F(ViewPage, TellsOfFacesInTension) {
     const std::size_t at = header.find("\"pressure\":", header.find("\"largest\":"));
     return header.substr(at, header.find('}', at) - at);
   };
-  EXPECT_EQ(largest({{{0, 0}, {1, 0}, -1e6, -2e6, 1.0, 1.0, 0, 1}}),
+  EXPECT_EQ(largest({{{0, 0}, {1, 0}, 1e6, 2e6, 1.0, 1.0, 0, 1}}),
             "\"pressure\":2000000,\"tension\":0");
-  EXPECT_EQ(largest({{{0, 0}, {1, 0}, -1e6, 3e6, 1.0, 1.0, 0, 1},
-                     {{1, 0}, {2, 0}, 9e6, 9e6, 1.0, 0.0, 0, 1}}),
+  EXPECT_EQ(largest({{{0, 0}, {1, 0}, 1e6, -3e6, 1.0, 1.0, 0, 1},
+                     {{1, 0}, {2, 0}, -9e6, -9e6, 1.0, 0.0, 0, 1}}),
             "\"pressure\":1000000,\"tension\":3000000");
 }
 

@@ -34,7 +34,7 @@ class Program:
         """How far the times may be trusted, in a sentence."""
         if self.disturbed == 0:
             return f"Nothing else on the machine disturbed any of the {self.timed} timed runs."
-        return (f"Of the {self.timed} timed runs {self.disturbed} were disturbed by something else on the machine; of those,"
+        return (f"Of the {self.timed} timed runs {self.disturbed} were disturbed by other load on the machine; for those,"
                 " processor seconds are given.")
 
     def run(self, name, model, sets=(), timed=False, may_fail=False):

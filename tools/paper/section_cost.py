@@ -32,9 +32,9 @@ def _problem(report, settings):
         f"{digits(math.degrees(models.TILT), 3)}°, stands on rollers at its base and between rollers at its sides, and",
         f"gravity acts at once. Young's modulus is {digits(rock['young'] / 1e9)} GPa, contact springs are",
         f"{digits(0.5 * rock['joint'] * rock['spacing'] / rock['young'])} times that, friction is {rock['friction']:g}°, no",
-        "cohesion, no damping. The outline is parallel to the joints, so that all blocks are equal: what grows with the",
-        "size is the number of blocks and nothing else. Joints that cut the outline at random leave slivers; what they",
-        "cost comes further down. One period is the time a wave takes to cross the square four times,",
+        "cohesion, no damping. The outline is parallel to the joints, so that all blocks are equal: only the number of",
+        "blocks grows with the size. Joints that cut the outline at random leave slivers, whose cost is given below.",
+        "One period is the time that a wave takes to cross the square four times,",
         f"{digits(1e3 * models.period(10), 3)} ms for 100 blocks.")
 
 
@@ -43,9 +43,9 @@ def _accuracy(report, found, law):
     report.text(
         f"The error of a run is the root mean square of the difference of seven monitors' displacements over a period from",
         "those of an explicit run with a small step, over the root mean square of the displacements. Explicit steps are",
-        "the largest the program allows by itself; the table has their errors. For the implicit method several steps were",
-        f"tried; the one in the table is where the error is {percent(TARGET)}, interpolated. All have this program's faces;",
-        "\"covering\" has of the paper's method the lumping on a covering triangle and plain switching.")
+        "the largest that the program takes with `time_step = \"auto\"`; the table has their errors. For the implicit method several steps were",
+        f"tried; the table has the one at which the error is {percent(TARGET)}, by interpolation. All have this program's faces;",
+        "\"covering\" has of the paper's method the lumping on a covering triangle, without contact activation.")
     rows = []
     for f in found:
         rows.append([f"{f.blocks:,}", digits(f.explicit_step), percent(f.errors["matched"]), percent(f.errors["consistent"]),
@@ -57,13 +57,13 @@ def _accuracy(report, found, law):
                   "covering, fine step", f"implicit step for {percent(TARGET)} (s)", "over the explicit one"], rows)
     better = all(f.fine_error < 0.5 * f.errors["covering"] for f in found)
     report.text(
-        "The explicit step is bounded by stability, and well below what accuracy needs: its error is between",
+        "The explicit step is limited by stability, and is well below the step that accuracy needs: its error is between",
         f"{percent(min(f.errors['matched'] for f in found))} and {percent(max(f.errors['matched'] for f in found))}.",
         "The covering triangle " + ("converges to the same motion." if better else
                                   "converges to another motion: a finer step leaves an error of "
                                   f"{percent(min(f.fine_error for f in found))} to {percent(max(f.fine_error for f in found))}."
-                                  " It is left out of what follows."),
-        "The implicit method damps by itself, the more the larger the step; that damping is its error. Its step for",
+                                  " It is left out below."),
+        "The implicit method has numerical damping, which increases with the step; this damping is its error. Its step for",
         f"{percent(TARGET)} grows with the number of blocks to the power {digits(law[1])}, because the motion of a larger",
         "square is slower. Beyond the sizes of the table the steps below follow that law, in favour of the implicit method.")
 
@@ -110,12 +110,13 @@ def _whole_periods(report, timed, settings):
                      bytes_of(run.peak), bytes_of(dda.peak), digits(run.summary["open_close"]["mean"]),
                      digits(dda.summary["open_close"]["mean"]), dda.summary["step_cuts"]])
     report.table(["blocks", "EDDA (s/s)", "DDA (s/s)", "DDA over EDDA", "EDDA, peak", "DDA, peak",
-                  "EDDA: passes per step with a switch", "DDA: rounds per step", "DDA: cuts"], rows)
+                  "EDDA: passes per step in which a contact opens or closes", "DDA: iterations per step", "DDA: cuts"], rows)
     power = {m: _law(runs, _per_second, settings)[1] for m, runs in timed.items()}
     memory = {m: _law(runs, lambda r: r.peak, settings)[1] for m, runs in timed.items()}
     report.text(
-        f"Wall seconds of stepping per simulated second, over a whole period ({SMALL_PERIODS} below {SMALL} blocks), and the largest",
-        "memory of the process. \"Passes\" and \"rounds\" are those of the open-close iteration. From",
+        f"The table has wall seconds of stepping per simulated second, over a whole period ({SMALL_PERIODS} periods below",
+        f"{SMALL} blocks), and the largest memory of the process. \"Passes\" are those of the contact activation, \"iterations\"",
+        "those of the open-close iteration. From",
         f"{settings.large:,} blocks on, seconds grow with the number of blocks to the power {digits(power['matched'], 3)} (EDDA) and",
         f"{digits(power['dda'], 3)} (DDA), bytes with the power {digits(memory['matched'], 3)} and {digits(memory['dda'], 3)}.",
         _crossing(timed))
@@ -130,16 +131,16 @@ def _starts(report, starts, timed, settings):
                      bytes_of(run.peak), digits(run.summary["open_close"]["switched"] / (run.steps * run.blocks)),
                      digits(whole.per_second / run.per_second) if whole else "-"])
     report.text(
-        f"Larger squares: only the first 1/{round(1 / settings.start)} of a period is timed, the same part of the same motion at",
-        "every size. It is a hard part: most of the rock still falls freely, and its joints are just about closed.")
-    report.table(["blocks", "EDDA, matched (s/s)", "consistent (s/s)", "peak", "switches per block and step",
+        f"For larger squares only the first 1/{round(1 / settings.start)} of a period is timed, the same part of the same motion at",
+        "every size. It is an expensive part: most of the rock still falls freely, and its joints are just about closed.")
+    report.table(["blocks", "EDDA, matched (s/s)", "consistent (s/s)", "peak", "contacts that open or close, per block and step",
                   "whole period over start"], rows)
     power = {m: _law(runs, _per_second, settings)[1] for m, runs in starts.items()}
     first, *_, last = [r.blocks for r in starts["matched"].values()]
     met = power["matched"] <= TARGET_POWER
     report.text(
         f"From {first:,} to {last:,} blocks the explicit method's seconds per simulated second grow with the number of blocks to",
-        f"the power {digits(power['matched'], 3)}; not more than {TARGET_POWER} was asked for, which is",
+        f"the power {digits(power['matched'], 3)}; the aim of at most {TARGET_POWER} is",
         "met." if met else "not met.", f"The consistent mass has {digits(power['consistent'], 3)}.", _consistent(starts))
     report.verdict(
         f"Cost: from {first:,} to {last:,} blocks the explicit method's seconds per simulated second grow with the power"
@@ -150,10 +151,10 @@ def _consistent(starts):
     """What lumping saves against Mikola and Sitar's block masses."""
     ratios = [run.per_second / starts["matched"][side].per_second for side, run in starts["consistent"].items()]
     mean = math.exp(sum(map(math.log, ratios)) / len(ratios))
-    text = f"It takes {digits(mean, 3)} times as long as the lumped one"
+    text = f"It takes {digits(mean, 3)} times as long as the lumped mass"
     if mean > NOTICED:
-        return text + ": the paper's saving is real, if small."
-    return text + ": the paper's saving does not show, because inverting a 3 x 3 matrix per block once is next to nothing."
+        return text + ": the saving that the paper claims is small."
+    return text + ": the saving that the paper claims is not measurable, because a 3 x 3 matrix per block is inverted only once."
 
 
 def _crossing(timed):
@@ -227,11 +228,11 @@ def _slivers(report, program, settings, step_of):
         f"{times(explicit)} as much; with the implicit method at the same step as before ({digits(step)} s), {times(implicit)}.",
         f"On that square, {found['slivers', 'matched'].blocks:,} blocks, the {'explicit' if ratio > 1 else 'implicit'} method is",
         f"{times(max(ratio, 1 / ratio))} cheaper than the other. With a pattern that repeats along the sides, as there, the smallest",
-        "block is the same at every size. Cut at random it is not, and the critical step with it:",
+        "block is the same at every size. With a random cut it is not, and neither is the critical step:",
         f"{listed(digits(c['critical_step']) + ' s' for c in random_steps)} for {listed(format(c['blocks'], ',') for c in random_steps)}",
         f"blocks of an upright square with joints {plain(models.ROCK['spacing'])} m apart.",
-        f"The least of these is {times(found['equal', 'matched'].summary['critical_time_step'] / least)} smaller than that of equal",
-        "blocks, and that is what the explicit method pays where slivers are not merged.")
+        f"The smallest of these is {times(found['equal', 'matched'].summary['critical_time_step'] / least)} smaller than that of equal",
+        "blocks, which is the cost of slivers for the explicit method where they are not merged.")
     report.verdict(
-        f"Slivers: along the outline of an upright square they make a block {times(explicit)} as dear for the explicit method,"
-        f" {times(implicit)} for the implicit one.")
+        f"Slivers: along the outline of an upright square they make the cost of a block {times(explicit)} as large with the explicit"
+        f" method, {times(implicit)} with the implicit one.")

@@ -1,4 +1,4 @@
-"""What we found in the paper: equations, inertia, the critical step, the start."""
+"""Findings about the paper: equations, inertia, the critical step, the start."""
 import math
 
 import numpy as np
@@ -15,7 +15,7 @@ STEPS = (1e-5, 1e-4, 1e-3)
 
 def write(report, program, settings):
     """The section: prose, with its numbers computed."""
-    report.heading("What we found in the paper")
+    report.heading("Findings about the paper's equations")
     _equations(report)
     _inertia(report, settings)
     _critical_step(report, program)
@@ -40,30 +40,31 @@ def _equations(report):
     report.heading("Equations", 3)
     report.text(
         "A contact spring stores p (S0/l + H.D_i + G.D_j)²/2. The second derivatives of that energy are the stiffness",
-        f"blocks, and differences of it tell which are meant. What follows agrees with them to {digits(right)} of the",
+        f"blocks, and finite differences of it show which are meant. The versions below agree with them to {digits(right)} of the",
         "largest entry; the printed versions, in the copy we worked from, do not.")
     report.points([
         "**Eqs. 30 and 33** should read K_ii = p H Hᵀ, K_ij = p H Gᵀ, K_ji = p G Hᵀ, K_jj = p G Gᵀ. As printed, Eq. 30 has"
         f" K_ij = p G Hᵀ and K_ji = p G Gᵀ, and its entries are off by up to {percent(eq30)} of the largest; Eq. 33 has K_ij"
         f" and K_ji exchanged, off by up to {percent(eq33)}. The last two lines of Eq. 30 are the load vectors"
         " F_i = -p S0 H/l and F_j = -p S0 G/l; the first of them is printed as a second K_jj.",
-        f"**Eq. 31** is right: H and G are the gradient of S0/l, to {digits(normal)}. The gradient leaves out that l"
-        " changes, which costs nothing where S0 is small.",
-        "**Eqs. 34 to 36** agree with each other, but they are no gradient: G in Eq. 35 knows the point P0 alone and not that"
-        " the edge turns. Shear T then acts along two parallel lines, one through P1 and one through P0, which are as far"
-        f" apart as the blocks overlap, and the pair makes a couple: {digits(couple)} m times T at a penetration of"
+        f"**Eq. 31** is right: H and G are the gradient of S0/l, to {digits(normal)}. The gradient leaves out the change"
+        " of l, which has no effect where S0 is small.",
+        "**Eqs. 34 to 36** agree with each other, but they are no gradient: G in Eq. 35 contains the point P0 alone and not"
+        " the rotation of the edge. Shear T then acts along two parallel lines, one through P1 and one through P0, whose"
+        f" distance is the penetration, and the pair makes a couple: {digits(couple)} m times T at a penetration of"
         f" {digits(DEPTH)} m. Angular momentum is lost or gained with every contact that carries shear. The gradient of"
         " p s²/2 with s = (P1 - P2).t - xi0 l has no such couple. Nor have this program's faces, whose forces are the gradient of"
         " their energy ([contacts.md](contacts.md)).",
-        "**Eq. 37** lets friction take its full size and the sign of the last movement. A block that should stick then"
-        f" never does: on 30° with 35° of friction and a step of 1e-4 s it trembles with up to {digits(jitter)} m/s, g h"
+        "**Eq. 37** gives friction its full magnitude and the sign of the last movement. A block that should stick then"
+        f" never does: on 30° with 35° of friction and a step of 1e-4 s it vibrates with up to {digits(jitter)} m/s, g h"
         " (sin a + tan phi cos a) at most. Sticking needs the shear spring of Eq. 33, and friction as its limit.",
         "**Eqs. 39 and 40** are consistent with each other; G in Eq. 40 has the opposite sign of that in Eq. 35, and F_j the"
         " opposite sign of that in Eq. 34, so action equals reaction.",
         "**Eq. 13**, second line: the velocity at n + 1 needs the acceleration at n + 1. With that at n, as printed, the"
-        f" velocity of an oscillator is {times(late / new)} as wrong. It moves nothing, but damping and output use it.",
+        f" velocity of an oscillator is {times(late / new)} as wrong. This does not affect the positions, but damping and output use"
+        " the velocity.",
         "**Eq. 21** ends in u_3 twice; the last is v_3. **Eq. 27** multiplies the stiffness with the displacement of the step"
-        " alone; what the block carried before must be added, or held in total positions, as here.",
+        " alone; the stress that the block had before must be added, or total positions used, as here.",
         "**Eq. 41** gives the step as equal to 2/omega; it is a bound, and see below."])
 
 
@@ -77,12 +78,13 @@ def _inertia(report, settings):
     report.heading("The inertia that lumping adds", 3)
     report.text(
         "Row sums of Eq. 23 over a triangle that is centred on the block put a third of the mass on each of its corners. The",
-        "paper does not say how large the triangle is; the least equilateral one that covers the block is the kindest choice.",
-        "Its corners lie at R_c from the centre, so that the block turns with M R_c² in place of its own J, and resists strain",
-        f"in the same measure. For the paper's own block of 2 m x 1 m, R_c is {digits(cover, 3)} m and M R_c²/J is",
-        f"{digits(own, 3)}. For {settings.polygons} random convex polygons the middle is {digits(middle)}, nine in ten lie between",
+        "paper does not state how large the triangle is; the smallest equilateral one that covers the block is the most",
+        "favourable choice. Its corners lie at R_c from the centre, so that the block has the moment of inertia M R_c² in",
+        "place of its own J, and a resistance to straining that is larger in the same ratio.",
+        f"For the paper's own block of 2 m x 1 m, R_c is {digits(cover, 3)} m and M R_c²/J is",
+        f"{digits(own, 3)}. For {settings.polygons} random convex polygons the median is {digits(middle)}, nine in ten lie between",
         f"{digits(low)} and {digits(high)}, and the extremes are {digits(min(ratios))} and {digits(max(ratios))}.",
-        "Nodes placed by the block's second moments (`mass = \"matched\"`) are no dearer and have ratio 1.")
+        "Nodes placed by the block's second moments (`mass = \"matched\"`) cost no more and have the ratio 1.")
 
 
 SPRING, MASS = 1e6, 1000.0   # N/m per contact and kg, of the two squares
@@ -132,14 +134,14 @@ def _critical_step(report, program):
         low, high = (middle, high) if _is_stable(program, middle) else (low, middle)
     report.heading("A step of 2/omega", 3)
     report.text(
-        "Eq. 41 wants the largest eigenvalue of an element; it does not say that contact springs belong to it, or how. Two",
-        "blocks of mass m that meet in a spring k suggest 2 sqrt(m/2k). But a spring at a corner does not have to move the",
-        f"whole block: it sees m/{digits(corner)} of a square. The step is then {digits(one)} times smaller for two corners",
-        f"that meet, and {digits(two)} times where edge lies on edge and both corners swing together.",
-        f"Tried with two squares glued to a base (k = {digits(SPRING)} N/m, m = {MASS:g} kg): 2 sqrt(m/2k) is {digits(TEXTBOOK)} s",
+        "Eq. 41 asks for the largest eigenvalue of an element; it does not state whether or how contact springs belong to it.",
+        "Two blocks of mass m that are connected by a spring k suggest 2 sqrt(m/2k). But a spring at a corner does not have to move the",
+        f"whole block: it acts on m/{digits(corner)} of a square. The step is then {digits(one)} times smaller for two corners",
+        f"in contact, and {digits(two)} times where edge lies on edge and both corners vibrate together.",
+        f"This was tested with two squares glued to a base (k = {digits(SPRING)} N/m, m = {MASS:g} kg): 2 sqrt(m/2k) is {digits(TEXTBOOK)} s",
         f"and {'diverges' if lost else 'does not diverge'}; the largest step that stays stable for 5 s is {digits(low, 3)} s,",
-        f"{digits(TEXTBOOK / low)} times smaller. The bound that this program works out holds for blocks that touch others all",
-        "round ([contacts.md](contacts.md)), which these do above and below alone:",
+        f"{digits(TEXTBOOK / low)} times smaller. The bound that this program computes holds for blocks that touch others all",
+        "round ([contacts.md](contacts.md)), which these blocks do above and below alone:",
         f"{digits(bound, 3)} s, {digits(bound / low)} of what is stable.")
 
 
@@ -154,6 +156,6 @@ def _start(report):
                     + [digits(abs(equations.leapfrog_distance(acceleration, step, steps, True) / true - 1.0), 1)])
     report.heading("The start of the leapfrog", 3)
     report.text(
-        "Eq. 13 needs a velocity half a step before the start, and the paper does not say which. Taking v_0 for it adds h/t",
-        "to the distance of a block that starts from rest; v_0 - a_0 h/2 adds nothing. On the ramp of (30°, 15°), at 0.1 s:")
+        "Eq. 13 needs a velocity half a step before the start, and the paper does not state which. Taking v_0 for it adds the",
+        "part h/t to the distance of a block that starts without motion; v_0 - a_0 h/2 adds nothing. On the ramp of (30°, 15°), at 0.1 s:")
     report.table(["step (s)", "error with v_{-1/2} = v_0", "error with v_0 - a_0 h/2"], rows)

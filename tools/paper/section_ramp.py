@@ -9,7 +9,7 @@ STEP = 1e-4           # s, as in the paper
 DURATION = 0.1        # s, as in the paper
 ROWS = 100
 FIRST = 0.01          # s: errors are averaged from here on
-STIFFNESS = 10.0      # contact springs over young; the paper does not say
+STIFFNESS = 10.0      # contact springs over young; the paper does not state it
 METHODS = {
     "covering": models.PAPER,
     "matched": {"mass": "matched"},
@@ -52,15 +52,15 @@ def write(report, program, settings):
 
     report.heading("The ramp: Figs. 4 and 5")
     report.text(
-        f"A block of 2 m x 1 m slides from rest down a ramp for {DURATION} s. The step is {plain(STEP)} s, as in the",
-        "paper. Material and gravity are the paper's. The paper does not print the stiffness of the contact springs:",
-        f"here it is {STIFFNESS:g} times Young's modulus, {digits(stiffness)} N/m per contact. The critical step is then",
+        f"A block of 2 m x 1 m, initially without motion, slides down a ramp for {DURATION} s. The step is",
+        f"{plain(STEP)} s, as in the paper. Material and gravity are the paper's. The paper does not state the stiffness of",
+        f"the contact springs. Here it is {STIFFNESS:g} times Young's modulus, {digits(stiffness)} N/m per contact. The critical step is then",
         f"{digits(steps[1], 3)} s ({digits(steps[0], 3)} s as printed), so the paper's step is",
         ("allowed as it is." if STEP < min(steps) else "above it."),
-        "The ramp itself is held: the paper puts it on springs and does not print its size, and its own settling is",
-        "no part of sliding. \"As printed\" is the paper's method: the covering triangle, contacts of vertices on edges",
-        "(`contact.model = \"points\"`) with plain switching, no damping. \"Faces, matched\" is this program's default, and",
-        "DDA has its faces, too.")
+        "The ramp itself is fixed: the paper puts it on springs and does not state its size, and its own settlement is",
+        "not part of the sliding. \"As printed\" is the paper's method: the covering triangle, contacts of vertices on edges",
+        "(`contact.model = \"points\"`), no contact activation (`solver.switching = \"plain\"`) and no damping. \"Faces,",
+        "matched\" is the default of this program; DDA has its faces, too.")
     _draw(report, found)
     _table(report, found)
 
@@ -97,16 +97,16 @@ def _table(report, found):
     report.table(["slope, friction", "end: as printed", "end: faces, matched", "end: DDA", "mean: as printed",
                   "mean: faces, matched", "mean: DDA", "as printed against DDA: end, mean", "faces, matched against DDA"], rows)
     report.text(
-        f"Errors at {DURATION} s, and means over the rows from {FIRST} s on.",
-        f"\"Slightly\" means by a factor of at most {SLIGHTLY:g}. The paper says that its method is slightly better than",
+        f"The errors are those at {DURATION} s, and means over the rows from {FIRST} s on.",
+        f"\"Slightly\" means by a factor of at most {SLIGHTLY:g}. The paper states that its method is slightly better than",
         "traditional DDA. Pair by pair, with the paper's method as printed:")
     report.points(_pair(pair, found, wins, k) for k, pair in enumerate(PAIRS))
     report.text(_common(found))
     counts = {w: sum(v.endswith("better") for v in wins["covering", w]) for w in ("end", "mean")}
     ours = sum(v.endswith("better") for v in wins["matched", "end"])
     report.verdict(
-        f"Ramp: the paper's method as printed is more exact than DDA for {counts['end']} of {len(PAIRS)} pairs of"
-        f" angles at the end and {counts['mean']} in the mean; this program's faces and matched mass for {ours} at the end.")
+        f"Ramp: the paper's method as printed is more accurate than DDA for {counts['end']} of {len(PAIRS)} pairs of"
+        f" angles at the end and for {counts['mean']} in the mean; this program's faces and matched mass are for {ours} at the end.")
 
 
 def _pair(pair, found, wins, k):
@@ -129,10 +129,10 @@ def _common(found):
     spread = max(max(float(found[pair, m][1][-1]) for m in METHODS) - min(float(found[pair, m][1][-1]) for m in METHODS)
                  for pair in PAIRS)
     largest = max(float(found[pair, m][1][-1]) for pair in PAIRS for m in METHODS)
-    return ("Most of the error at the end belongs to no method. The block starts unstressed, drops on its springs and"
-            " rings, and its contacts slide under normal forces that swing. At the end the methods differ by at most"
+    return ("Most of the error at the end is common to all methods. The block starts without stress, drops on its springs and"
+            " oscillates, and its contacts slide under oscillating normal forces. At the end the methods differ by at most"
             f" {percent(spread)} of the distance, and the largest error is {percent(largest)}."
             if spread < 0.5 * largest else
-            "The block starts unstressed, drops on its springs and rings, and its contacts slide under normal forces"
-            f" that swing. At the end the methods differ by up to {percent(spread)} of the distance; the largest error"
+            "The block starts without stress, drops on its springs and oscillates, and its contacts slide under oscillating"
+            f" normal forces. At the end the methods differ by up to {percent(spread)} of the distance; the largest error"
             f" is {percent(largest)}.")

@@ -1,4 +1,4 @@
-"""To rest: the implicit method without dynamics against the explicit one with local damping."""
+"""Equilibrium: the implicit method without dynamics against the explicit one with local damping."""
 import numpy as np
 
 from paper import figures, models
@@ -48,12 +48,13 @@ def _to_rest(program, side, settings):
 
 def write(report, program, settings):
     """The section, from its runs."""
-    report.heading("To rest")
+    report.heading("Equilibrium")
     report.text(
-        "The same squares, but now only the state at rest is wanted. The implicit method has a variant for that, which drops",
-        "all velocities at every step (`dynamic = false`); the explicit one has local damping. A run is at rest when the mean",
-        f"unbalanced force stays under {plain(BALANCED)} of the mean contact force. For the static variant",
-        f"{len(settings.rest_tries)} steps were tried, and the one that came to rest soonest by the clock counts.")
+        "The squares are the same, but now only the state of equilibrium is wanted. The implicit method has a variant for",
+        "this, which drops all velocities at every step (`dynamic = false`); the explicit method has local damping.",
+        f"Equilibrium is reached when the mean unbalanced force stays below {plain(BALANCED)} of the mean contact force. For the",
+        f"static variant {len(settings.rest_tries)} steps were tried, and the table has the one that reached equilibrium in the",
+        "shortest wall time.")
     rows, ratios, points = [], [], {"matched": [], "dda": []}
     for side in settings.rest_sides:
         found, tries, settled = _to_rest(program, side, settings)
@@ -73,8 +74,8 @@ def write(report, program, settings):
         ratios.append((blocks, quickest / best.stepping))
         points["matched"].append((blocks, quickest))
         points["dda"].append((blocks, best.stepping))
-    report.table(["blocks", "method", "simulated (s)", "steps", "wall seconds to rest",
-                  "displacements apart from the explicit ones"], rows)
+    report.table(["blocks", "method", "simulated (s)", "steps", "wall seconds to equilibrium",
+                  "difference of displacements from the explicit ones"], rows)
     if ratios:
         _draw(report, points)
         _verdict(report, ratios)
@@ -94,21 +95,21 @@ def _draw(report, points):
         figures.line(axis, method, x, y, marker="o", markersize=3.5, label=label)
     figures.logarithmic(axis)
     axis.set_xlabel("blocks")
-    axis.set_ylabel("wall seconds to rest")
+    axis.set_ylabel("wall seconds to equilibrium")
     axis.legend(loc="upper left")
     drawing.tight_layout()
-    report.figure("rest", drawing, "Wall seconds until a square of jointed rock is at rest.")
+    report.figure("rest", drawing, "Wall seconds until a square of jointed rock is in equilibrium.")
 
 
 def _verdict(report, ratios):
     low, high = min(r for _, r in ratios), max(r for _, r in ratios)
     if low > 1.0:
         text = (f"Here the implicit method wins at every size, by a factor of {digits(low)} to {digits(high)}: it need not follow"
-                " the waves, its large steps go to the state at rest directly.")
+                " the waves, and its large steps lead to equilibrium directly.")
     elif high < 1.0:
         text = f"Here, too, the explicit method is quicker, by a factor of {digits(1 / high)} to {digits(1 / low)}."
     else:
-        text = "Which is quicker depends on the size: " + "; ".join(
+        text = "Which method is quicker depends on the size: " + "; ".join(
             f"{n:,} blocks, {'implicit' if r > 1 else 'explicit'} by {times(max(r, 1 / r))}" for n, r in ratios) + "."
-    report.verdict("To rest: " + text[0].lower() + text[1:])
-    report.text(text, "Where joints slide, the state at rest depends on the way to it, so the two need not end in the same one.")
+    report.verdict("Equilibrium: " + text[0].lower() + text[1:])
+    report.text(text, "Where joints slide, the equilibrium depends on the way to it, so the two methods need not find the same one.")

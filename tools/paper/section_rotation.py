@@ -1,4 +1,4 @@
-"""What the paper could not show: blocks that turn. Rocking and toppling against the exact answer."""
+"""Blocks that rotate, which the paper does not show. Rocking and toppling against the exact answer."""
 import math
 
 from paper import exact, figures, inertia, models
@@ -61,19 +61,20 @@ def write(report, program, settings):
     found = {(case.name, method): next(runs) for case in both for method in METHODS}
 
     rocking, toppling = both
-    report.heading("Rocking and toppling: what the paper could not show")
+    report.heading("Rocking and toppling: blocks that rotate")
     report.text(
-        "The paper's two examples hardly turn. Lumped on a triangle that covers the block, its mass sits far outside it,",
-        f"and the block resists turning too much: {digits(rocking.excess, 3)} times for a block of {ROCKING[0]:g} m x {ROCKING[1]:g} m,",
-        f"{digits(toppling.excess, 3)} times for one of {TOPPLING[0]:g} m x {TOPPLING[1]:g} m. About a corner, the distance to the",
-        f"corner adds to both, and what remains is that everything takes {digits(rocking.slower, 3)} and",
-        f"{digits(toppling.slower, 3)} times as long. Two problems with an exact answer show it:")
+        "The blocks of the paper's two examples hardly rotate. Where the mass is lumped on a triangle that covers the block",
+        "it lies far outside the block, whose moment of inertia is then too large:",
+        f"{digits(rocking.excess, 3)} times for a block of {ROCKING[0]:g} m x {ROCKING[1]:g} m,",
+        f"{digits(toppling.excess, 3)} times for one of {TOPPLING[0]:g} m x {TOPPLING[1]:g} m. For rotation about a corner",
+        f"the same term, for the distance to the corner, is added to both, and motions take {digits(rocking.slower, 3)} and",
+        f"{digits(toppling.slower, 3)} times as long. Two problems with an exact answer show this:")
     report.points([
-        f"rocking: the {ROCKING[0]:g} m x {ROCKING[1]:g} m block is let go on its corner at half its critical tilt"
-        f" ({digits(math.degrees(rocking.tilt), 3)}°); the time until it is flat is a quarter of its period. Exact:"
+        f"rocking: the {ROCKING[0]:g} m x {ROCKING[1]:g} m block is released on its corner at half its critical tilt"
+        f" ({digits(math.degrees(rocking.tilt), 3)}°); the time until it lies flat is a quarter of its period. Exact:"
         f" {digits(rocking.exact, 5)} s.",
-        f"toppling: the {TOPPLING[0]:g} m x {TOPPLING[1]:g} m block is let go {math.degrees(START):g}° beyond its balance; the"
-        f" time until its centre is {math.degrees(END):g}° beyond it. Exact: {digits(toppling.exact, 5)} s."])
+        f"toppling: the {TOPPLING[0]:g} m x {TOPPLING[1]:g} m block is released {math.degrees(START):g}° beyond its balance; the"
+        f" time is that until its centre is {math.degrees(END):g}° beyond it. Exact: {digits(toppling.exact, 5)} s."])
     _draw(report, both, found)
     _table(report, both, found, settings)
 
@@ -92,7 +93,8 @@ def _draw(report, both, found):
         axis.set_xlabel("time (s)")
         axis.set_ylabel("tilt (degrees)")
     figures.legend_below(drawing, axes[0, 0], 4)
-    report.figure("rotation", drawing, "Tilt of a block let go on its corner; the exact curve ends where time is taken.")
+    report.figure("rotation", drawing, "Tilt of a block released on its corner; the exact curve ends where the time is"
+                                        " measured.")
 
 
 def _table(report, both, found, settings):
@@ -115,9 +117,10 @@ def _table(report, both, found, settings):
     lumped = max(abs(e) for (_, m), e in errors.items() if m == "covering")
     implicit = max(abs(e) for (_, m), e in errors.items() if m == "dda")
     report.text(
-        f"With the matched and the consistent mass the times are exact to {percent(worst)}, with the implicit method",
-        f"(step {plain(settings.rotation_step)} s) to {percent(implicit)}. The paper's lumping is as slow as its inertia predicts, to",
-        f"{percent(lumped)}. A slope of slender blocks would seem to give more warning than it does.")
+        f"With the matched and the consistent mass the error of the times is {percent(worst)}, with the implicit method",
+        f"(step {plain(settings.rotation_step)} s) {percent(implicit)}. The times with the paper's lumping are those predicted from",
+        f"its inertia, to {percent(lumped)}. With this lumping a slope of slender blocks would appear to fail more slowly than it",
+        "does.")
     report.verdict(
-        f"Rocking and toppling: the paper as printed takes {listed(digits(c.slower, 3) for c in both)} times as long"
-        f" as it should; matched mass is exact to {percent(worst)}.")
+        f"Rocking and toppling: the paper's method as printed takes {listed(digits(c.slower, 3) for c in both)} times as long"
+        f" as it should; with matched mass the error is {percent(worst)}.")

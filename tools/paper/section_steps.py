@@ -1,4 +1,4 @@
-"""Fig. 6 of the paper: three steps, and what the contact stiffness, which it does not print, changes."""
+"""Fig. 6 of the paper: three steps, and the effect of the contact stiffness, which it does not state."""
 import numpy as np
 
 from paper import exact, figures, models
@@ -33,8 +33,8 @@ def write(report, program, settings):
     report.heading("Steps: Fig. 6")
     report.text(
         f"The pair ({ANGLE:g}°, {FRICTION:g}°) with steps of {listed(plain(s) for s in STEPS)} s. The contact stiffness",
-        "decides which of them are stable, and the paper does not print it, so here are three. Steps above the",
-        "critical one are refused by the program; for this figure they were run all the same",
+        "decides which of them are stable. The paper does not state it, so three values are used here. The program refuses",
+        "steps above the critical one; for this figure they were run nevertheless",
         "(`solver.allow_unstable = true`), to show what happens.")
     _draw(report, found)
     _table(report, found, notes)
@@ -79,7 +79,8 @@ def _table(report, found, notes):
 
 
 def _sentences(report, found, notes, stiff):
-    report.text("The paper reports that the error falls with the step. Errors here are means from", f"{FIRST} s on.")
+    report.text("The paper reports that the error decreases with the step. The errors in this list are means from",
+                f"{FIRST} s on.")
     report.points(f"{NAMES[method]}. " + " ".join(_sentence(found, notes, factor, method) for factor in STIFFNESSES)
                   for method in BOTH)
     end = {method: [_growth(_ends(found, notes, factor, method)) for factor in STIFFNESSES] for method in BOTH}
@@ -90,13 +91,13 @@ def _sentences(report, found, notes, stiff):
     report.verdict("Steps: " + text[0].lower() + text[1:])
     late = [s / DURATION for s in STEPS]
     report.text(
-        "What does make an error that is proportional to the step is the start. A leapfrog whose first velocity at the",
+        "An error that is proportional to the step comes from the start. A leapfrog whose first velocity at the",
         "half step is v_0 + a_0 h, and not v_0 + a_0 h/2, has slid too far by the part h/t at time t: at",
-        f"{DURATION} s that is {listed(percent(p) for p in late)} for the three steps. This program starts half a step",
-        "back. What is left at the smallest step is no error of the step: it is",
+        f"{DURATION} s this is {listed(percent(p) for p in late)} for the three steps. This program starts half a step",
+        "back. The error that remains at the smallest step does not come from the step: it is",
         f"{listed(_smallest(found, f) for f in STIFFNESSES)}, and {percent(stiff)} with a rock a hundred times as stiff (and",
-        f"springs of {STIFF_SPRINGS:g} times that), because the block starts unstressed and the softer it is, the longer it",
-        "rings.")
+        f"springs of {STIFF_SPRINGS:g} times that), because the block starts without stress, and a softer block",
+        "oscillates for longer.")
     report.expect(stiff < min(_end(found, f) for f in STIFFNESSES[1:]), "steps: a stiffer rock does not slide more exactly")
     report.expect(all(found[f, STEPS[0], "matched"].completed for f in STIFFNESSES), "steps: the smallest step diverged")
 
@@ -134,7 +135,7 @@ def _sentence(found, notes, factor, method):
     if len(means) < 2:
         text += f"{percent(means[0])} at the one stable step"
     elif max(means) <= SAME * min(means):
-        text += f"{percent(means[0])}, the same at all {len(means)} stable steps to {percent(max(means) / min(means) - 1)} of itself"
+        text += f"{percent(means[0])}, the same at all {len(means)} stable steps within {percent(max(means) / min(means) - 1)}"
     elif all(a <= b * 1.01 for a, b in zip(means, means[1:])):
         text += f"it falls with the step, {listed(percent(m) for m in means[::-1])} from the largest stable one to the smallest"
     else:
@@ -145,7 +146,7 @@ def _sentence(found, notes, factor, method):
             text += f"; a step of {plain(step)} s diverges"
         elif step > notes[factor, method]:
             error = mean_error(*relative_error(run, ANGLE, FRICTION))
-            text += f"; a step of {plain(step)} s is above the critical one, and got through with {percent(error)}"
+            text += f"; a step of {plain(step)} s is above the critical one and gives {percent(error)}"
     return text + "."
 
 

@@ -122,10 +122,10 @@ def bounce(records):
     left.set_ylim(top=0.22)
     for index, (which, books) in enumerate(records.series_of(8, "ledger").items()):
         draw.errors(right, books["time"], books["drift"], 1e-16, color=draw.COLORS[index], label=which.split()[2])
-    draw.bound(right, next(c.high for c in records.checks_of(8) if "drift" in c.what))
+    draw.bound(right, next(c.high for c in records.checks_of(8) if "energy" in c.what))
     right.set_ylim(1e-16, 1e1)
     draw.labels(left, "time (ms)", "height of the lower edge (mm)")
-    draw.labels(right, "time (s)", "drift of the ledger (-)")
+    draw.labels(right, "time (s)", "energy balance error (-)")
     draw.legend(left, loc="upper right", ncols=2)
     draw.legend(right, loc="upper center", ncols=3, title="step over the critical one", title_fontsize=8,
                 columnspacing=1.0)
@@ -142,7 +142,7 @@ def pulse(records):
             draw.exact_line(right, pulses["block"], 1e3 * pulses["exact speed"])
             draw.marks(right, pulses["block"], 1e3 * pulses["speed"], index, which, count=36)
     right.set_ylim(bottom=0.0)
-    draw.labels(left, "block", "hump passes after (ms)")
+    draw.labels(left, "block", "pulse passes after (ms)")
     draw.labels(right, "block (200: free end)", "largest speed (mm/s)")
     draw.legend(left, loc="upper left")
     draw.legend(right, loc="lower left")
@@ -223,8 +223,8 @@ def dissipation(records):
     for index, (which, taken) in enumerate(cases.items()):
         middle.plot(*draw.thinned(taken["time"], 1e-3 * taken["friction"]), color=draw.COLORS[index], label=which)
         right.plot(*draw.thinned(taken["time"], 1e-3 * taken["damping"]), color=draw.COLORS[index], label=which)
-    draw.labels(middle, "time (s)", "taken by friction (kJ)")
-    draw.labels(right, "time (s)", "taken by damping (kJ)")
+    draw.labels(middle, "time (s)", "dissipated by friction (kJ)")
+    draw.labels(right, "time (s)", "dissipated by damping (kJ)")
     middle.set_ylim(top=245.0)
     draw.legend(middle, loc="upper left")
     return draw.finish(drawing)

@@ -102,14 +102,14 @@ def wall(records):
         right.semilogy(*draw.highest(books["time"], np.maximum(books["drift"], 1e-17), 160), linewidth=1.0,
                        color=draw.COLORS[index], label=which)
     for check in records.checks_of(18):
-        if "drift" in check.what:
+        if "energy balance" in check.what:
             draw.bound(right, check.high, "bounds")
         if check.unit == "J":
             draw.bound(middle, check.high, "bound, settled")
     middle.set_ylim(1e-18, 1e7)
     right.set_ylim(1e-18, 1e0)
     draw.labels(middle, "time (s)", "kinetic energy (J)")
-    draw.labels(right, "time (s)", "drift of the ledger (-)")
+    draw.labels(right, "time (s)", "energy balance error (-)")
     draw.legend(middle, loc="upper right")
     draw.legend(right, loc="upper right")
     return draw.finish(drawing)
@@ -132,7 +132,7 @@ def box(records):
 def opening(records):
     drawing, (left, right) = draw.panels(1, 1)
     for which, stress in sorted(records.series_of(38).items()):
-        for axis, along, title in ((left, "x", "along x"), (right, "y", "upright")):
+        for axis, along, title in ((left, "x", "along x"), (right, "y", "vertical")):
             for index, (part, name) in enumerate((("rr", "radial"), ("tt", "hoop"))):
                 draw.exact_line(axis, stress["r"], 1e-6 * stress[f"{part} {along} exact"], "exact" if index == 0 else None)
                 draw.marks(axis, stress["r"], 1e-6 * stress[f"{part} {along}"], index, f"{name}, {which}")

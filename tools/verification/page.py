@@ -16,22 +16,22 @@ FIGURES = {
     3: (motion.threshold, "A tenth of a degree either side of the threshold."),
     4: (motion.cohesion, "Below and above the critical cohesion, springs per contact."),
     5: (motion.rocking, "Tilt over time with the three mass matrices."),
-    6: (motion.spin, "Growth of the area over the first swings; change of angular momentum over ten turns."),
+    6: (motion.spin, "Growth of the area over the first oscillations; change of angular momentum over ten turns."),
     7: (motion.frequencies, "Strain of a free block in its three modes."),
-    8: (motion.bounce, "The first bounces at 0.4 of the critical step; the ledger over twenty of them at all steps."),
+    8: (motion.bounce, "The first bounces at 0.4 of the critical step; the energy balance error over twenty of them at all steps."),
     9: (rest.column, "Stress over depth."),
-    10: (motion.pulse, "When the hump passes, and how fast each block then is; its mirror image meets it at the free end."),
+    10: (motion.pulse, "Time at which the pulse passes, and the velocity of each block then; its mirror image meets it at the free end."),
     11: (rest.critical_step, "The bound of the step over the stiffness of the joints."),
     12: (rest.snap_through, "Load and sag until the beam snaps through."),
-    13: (rest.arch, "The arches that stand and fall; how far their voussoirs sink, and the bounds on it."),
-    14: (rest.dam, "The dam as it goes over, and how far its crest moves at other depths of water."),
-    15: (rest.overhang, "The stacks that stand and fall; how far the top brick sinks, and the bounds on it."),
+    13: (rest.arch, "The arches that stand and collapse; how far their voussoirs sink, and the bounds on it."),
+    14: (rest.dam, "The dam as it overturns, and how far its crest moves at other depths of water."),
+    15: (rest.overhang, "The stacks that stand and collapse; how far the top brick sinks, and the bounds on it."),
     16: (motion.corner, "Model, paths of the two squares, and change of the contact force per step while in touch."),
     17: (motion.ten_pieces, "Distance slid, and the largest sums of normal forces over time."),
-    18: (rest.wall, "Kinetic energy and drift of the ledger, the largest over short stretches of time."),
+    18: (rest.wall, "Kinetic energy and energy balance error, the largest over short intervals of time."),
     19: (motion.heap, "The heap at its start and end; what changes of its momentum; how far the same motion is apart."),
     20: (rest.box, "Model, and the stress in one block as the box closes on it."),
-    21: (motion.dissipation, "What friction and damping take."),
+    21: (motion.dissipation, "Energy dissipated by friction and by damping."),
     38: (rest.opening, "Stress along the two axes, by rings of blocks; the first ring is left out."),
 }
 
@@ -45,8 +45,8 @@ STUDIES = {
         "Study: slopes as joint statistics cut them",
         "`tools/study-slopes`: slopes of 30 m at 60 degrees, bedding 38 degrees, spacing 2.0 m ± 0.8 m, cross joints"
         " -62 degrees, 2.5 m ± 1.0 m; deviations normal, uniform and exponential by turns, every other slope bonded. Every"
-        " block is held against every other by points in polygons: faces may press no deeper than blocks lie in each"
-        " other, nothing may overlap without being felt; as drawn, and after 400 steps. The largest of each group. A slope is"
+        " block is compared with every other by points in polygons: faces may be closed no deeper than blocks lie in each"
+        " other, nothing may overlap without a contact; as drawn, and after 400 steps. The largest of each group. A slope is"
         " bad, too, where a face as drawn pushes with more than four thousandths of the heavier block's weight: between slivers of"
         " square decimetres and less, with edges of millimetres, the rounding of coordinates may close a face by that much."),
 }
@@ -158,13 +158,13 @@ class Page:
 
 def _opening():
     return [
-        "# Problems with a known answer: what comes out",
+        "# Verification: computed answers",
         wrapped(
             "The rows of [validation.md](validation.md), computed. Every number here was recorded by the test that asserts"
             " the bound beside it; `tools/verification-page` runs the tests, puts this page together and draws the figures."
             " An error is relative, computed/exact - 1, unless it has a unit or the bound is one-sided. Numbers at the"
             " level of rounding, about 1e-12 and below, differ from one machine to the next. In figures the exact answer is"
-            " a black line and markers are computed; of models, held blocks are grey, dashed outlines are the start, filled"
+            " a black line and markers are computed; of models, fixed blocks are grey, dashed outlines are the start, filled"
             " ones the end."),
     ]
 
@@ -205,7 +205,7 @@ def _facts(models, leave_out):
     free = {model["fixed"].count(0) for model in models}
     held = {model["fixed"].count(1) for model in models}
     gravity = {math.hypot(*model["gravity"]) for model in models}
-    facts = [_count(free, "free block"), _count(held, "held one") if held != {0} else "",
+    facts = [_count(free, "free block"), _count(held, "fixed one") if held != {0} else "",
              "density " + of("density", lambda v: f"{v:g} kg/m3"),
              "E " + of("young", _pascal), "nu " + of("poisson", lambda v: f"{v:g}")]
     if any(model["friction"] for model in models):

@@ -8,7 +8,8 @@
     >>> edda.Results("ramp").history["centre.uy"][-1] < 0.0
     True
 
-Units are SI, angles in rad, stresses positive in tension; nb is the number of blocks.
+Units are SI, angles in rad. Stresses of blocks are positive in tension, normal forces and normal stresses of joints in
+compression. nb is the number of blocks.
 """
 
 from __future__ import annotations
@@ -114,8 +115,8 @@ def run(
 
     model: a Model, or what load() takes, with overrides as there. results: folder, as of `edda run -o`; None: no
     results are written. Raises ModelError for a model that cannot be computed and a folder that cannot be used; a run
-    that ends badly is no error: Outcome.status tells, and Outcome.at_rest whether anything still moves. What looks right
-    in the model and is not is a ModelWarning of Python's module warnings, which shows each once.
+    that ends badly is no error: Outcome.status states it, and Outcome.at_rest whether the model is in equilibrium.
+    A warning about the model is a ModelWarning of Python's module warnings, which shows each once.
     """
     model = _loaded(model, overrides)
     with _keys_named(overrides):
@@ -126,7 +127,7 @@ def run(
 
 
 def check(model: Model | Source, overrides: Overrides = None) -> ModelCheck:
-    """What `edda check` says of a model: blocks, steps to expect, warnings.
+    """What `edda check` reports about a model: blocks, steps to expect, warnings.
 
     model and overrides: as of run(). It makes a few steps, of which nothing is kept. Raises ModelError for a model that
     cannot be computed. The warnings alone are Model.warnings.
@@ -137,7 +138,7 @@ def check(model: Model | Source, overrides: Overrides = None) -> ModelCheck:
 
 
 def fos(model: Model | Source, overrides: Overrides = None) -> FactorOfSafety:
-    """The factor of safety, as `edda fos` finds it, by what [fos] of the model says.
+    """The factor of safety, as `edda fos` finds it, as [fos] of the model defines it.
 
     model and overrides: as of run(). Nothing is written. FactorOfSafety.factor is None where all factors tried hold, or
     all fail: status tells. Ctrl-C ends it. Raises ModelError for a model that cannot be computed.

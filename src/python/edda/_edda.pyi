@@ -18,9 +18,9 @@ def set_threads(threads: SupportsIndex) -> None:
     """Threads that simulations of this process use; results do not depend on it."""
 
 def check(model: Model) -> ModelCheck:
-    """What edda check says of a model."""
+    """What edda check reports about a model."""
 def fos(model: Model) -> FactorOfSafety:
-    """The factor of safety, by what [fos] of the model says."""
+    """The factor of safety, as [fos] of the model defines it."""
 def verify(model: Model) -> Verification:
     """The error bars of the model's monitors."""
 
@@ -56,8 +56,7 @@ class Model:
         """Names, in order."""
     @property
     def warnings(self) -> list[str]:
-        """What looks right in it and is not, as edda check says it, a sentence each; cuts the model when it is first
-        asked for."""
+        """Warnings of edda check, a sentence each; the model is cut when they are first asked for."""
     def to_toml(self) -> str:
         """The model with every key and default filled in."""
     def cut(self) -> Cut:
@@ -74,7 +73,7 @@ class CutBlock:
         """Row of Model.materials, -1: none."""
     @property
     def fixed(self) -> bool:
-        """Whether it is held."""
+        """Whether it is fixed."""
     @property
     def area(self) -> float:
         """m2"""
@@ -130,13 +129,13 @@ class Outcome:
         """Closed at the end."""
     @property
     def drift(self) -> float:
-        """Of the energy, a ratio: the largest in size of all rows of the history, not the last one's."""
+        """Error of the energy balance, a ratio: the largest in size of all rows of the history, not the last one's."""
     @property
     def wall_seconds(self) -> float:
         """s"""
     @property
     def at_rest(self) -> bool:
-        """Whether all is at rest at the end; of a run that has completed, too."""
+        """Whether the model is in equilibrium at the end; also for a run that has completed."""
     @property
     def fastest(self) -> int:
         """Block with the fastest corner at the end, -1: none is free."""
@@ -155,7 +154,7 @@ class ModelCheck:
         """How many there are."""
     @property
     def held(self) -> int:
-        """How many of them do not move."""
+        """How many of them are fixed."""
     @property
     def contacts(self) -> int:
         """Closed at the start."""
@@ -176,7 +175,7 @@ class ModelCheck:
         """Of wall time."""
     @property
     def governed_by(self) -> str:
-        """What holds the step."""
+        """What governs the time step."""
     @property
     def loads(self) -> list[str]:
         """A sentence each."""
@@ -188,7 +187,7 @@ class ModelCheck:
         """A sentence each."""
     @property
     def warnings(self) -> list[str]:
-        """What looks right in the model and is not, a sentence each."""
+        """Warnings, a sentence each."""
 
 class FosTrial:
     """One factor that was tried."""
@@ -198,7 +197,7 @@ class FosTrial:
         """What was tried."""
     @property
     def holds(self) -> bool:
-        """Whether all came to rest."""
+        """Whether the model reached equilibrium."""
     @property
     def reason(self) -> str:
         """A few words."""
@@ -235,7 +234,7 @@ class FactorOfSafety:
         """The smallest factor that fails, or None."""
     @property
     def mechanism(self) -> str:
-        """What moves at it, a sentence; empty where nothing failed."""
+        """What moves at this factor, a sentence; empty where nothing failed."""
     @property
     def trials(self) -> list[FosTrial]:
         """Every factor that was tried."""
@@ -313,7 +312,7 @@ class Progress:
         """m/s, of the blocks' centroids."""
     @property
     def stage(self) -> int:
-        """In hand, from 0."""
+        """The current one, from 1."""
     @property
     def stages(self) -> int:
         """Of the model; 1 where it has none."""
@@ -350,13 +349,13 @@ class Ledger:
         """J, work done on the blocks."""
     @property
     def step_change(self) -> float:
-        """J, taken out by changed steps."""
+        """J, removed by changes of the time step."""
     @property
     def drift(self) -> float:
-        """What does not add up, over the largest energy."""
+        """Error of the energy balance, over the largest energy."""
     @property
     def transfer(self) -> float:
-        """J, taken by rules that are no physics; negative: given."""
+        """J, removed by numerical rules without physical meaning; negative: added."""
 
 class MonitorReading:
     """A material point and its block: m, m/s, Pa (tension positive)."""
@@ -400,8 +399,8 @@ class Simulation:
 
         model: a Model, or what edda.load() takes.
         results: folder for results, as of `edda run -o`; None: none are written.
-        resume: go on from the checkpoint in that folder.
-        from_stage: go on from the checkpoint of the end of this stage (from 0).
+        resume: continue from the checkpoint in that folder.
+        from_stage: continue from the checkpoint of the end of this stage (from 1).
         progress: called with a Progress about every progress_every s, and at the end, when the
             run is over and can no longer be changed; False stops the run.
         progress_every: s of wall time.
@@ -418,7 +417,7 @@ class Simulation:
     def finish(self) -> Outcome:
         """Ends the run where it stands and writes what is due."""
     def pause(self) -> None:
-        """From any thread: the call in hand returns."""
+        """From any thread: the current call returns."""
     def stop(self) -> None:
         """From any thread: the run ends as interrupted."""
     def every(self, steps: SupportsIndex, action: Callable[[Simulation], object]) -> int:
@@ -436,19 +435,19 @@ class Simulation:
         """Steps made."""
     @property
     def time_step(self) -> float:
-        """s, in force; 0 before the first step."""
+        """s, the current one; 0 before the first step."""
     @property
     def critical_step(self) -> float:
         """s, the largest that is stable now."""
     @property
     def governed_by(self) -> str:
-        """What holds the step."""
+        """What governs the time step."""
     @property
     def warnings(self) -> list[str]:
         """What to look at before running."""
     @property
     def stage(self) -> int:
-        """In hand, from 0."""
+        """The current one, from 1."""
     @property
     def over(self) -> bool:
         """Whether the run has ended."""
@@ -460,7 +459,7 @@ class Simulation:
         """Mean resultant over mean contact force."""
     @property
     def block_count(self) -> int:
-        """nb, those taken out among them."""
+        """nb, with those that have been excavated."""
     @property
     def vertex_count(self) -> int:
         """nv, of all blocks."""
@@ -481,10 +480,10 @@ class Simulation:
         """(nb,) row of Model.materials, -1: none; a view, not to be written to."""
     @property
     def fixed(self) -> NDArray[np.uint8]:
-        """(nb,) 1: held; a view, not to be written to."""
+        """(nb,) 1: fixed; a view, not to be written to."""
     @property
     def alive(self) -> NDArray[np.uint8]:
-        """(nb,) 0: taken out; a view, not to be written to."""
+        """(nb,) 0: excavated; a view, not to be written to."""
     @property
     def node_x(self) -> _Nodes:
         """Three views (nb,), m from origin, not to be written to."""
@@ -510,7 +509,7 @@ class Simulation:
 
         centroid, displacement (m), velocity (m/s): (nb, 2), x y; stress (Pa, tension positive):
         (nb, 4), xx yy zz xy; rotation (rad), omega (rad/s), overstress (part of the strength used):
-        (nb,). Of blocks taken out as they went.
+        (nb,). Of excavated blocks as they were then.
         """
     def polygons(self) -> list[list[_Floats]]:
         """Per block its rings, arrays (n, 2), m, as they are now."""
@@ -520,10 +519,10 @@ class Simulation:
         A row is a face, an edge of block_i against one of block_j; joint (row of Model.joints,
         -1: glued), state (0 open, 1 stick, 2 slide, 3 bonded); x, y (m), middle of the overlap;
         normal_force (N, compression positive), shear_force (N, positive where it drives block i
-        from end a to end b); opening (m, negative: pressed together), slip (m, from a to b);
+        from end a to end b); opening (m, negative: closed), slip (m, from a to b);
         mobilised (shear over shear strength); ever_slipped, ever_opened (0 or 1); length of the
-        overlap, closed_length of what bears, its ends x_a, y_a, x_b, y_b (m); normal_stress (Pa,
-        tension positive), the mean over the overlap, normal_stress_a and normal_stress_b at its
+        overlap, closed_length of its closed part, its ends x_a, y_a, x_b, y_b (m); normal_stress (Pa,
+        compression positive), the mean over the overlap, normal_stress_a and normal_stress_b at its
         ends, shear_stress (Pa). Forces are those of the model's thickness.
         """
     def name(self, block: SupportsIndex) -> str:
@@ -533,9 +532,9 @@ class Simulation:
     def add_monitor(self, name: str, point: _Point) -> None:
         """Follows the material point at (x, y) of the start, m."""
     def read(self, monitor: str) -> MonitorReading:
-        """What a monitor tells now."""
+        """The present values of a monitor."""
     def set_velocity(self, block: Union[SupportsIndex, str], velocity: _Point, omega: float = 0.0) -> None:
-        """Of a free block by number or name: (vx, vy) of its centroid, m/s, and rate of turn, rad/s."""
+        """Of a free block by number or name: (vx, vy) of its centroid, m/s, and rate of rotation, rad/s."""
     def set_damping(self, mass: float = 0.0, local: float = 0.0, contact: float = 0.0) -> None:
         """From now on.
 
@@ -545,12 +544,12 @@ class Simulation:
     def set_strength_factor(self, factor: float, joint: Optional[str] = None) -> None:
         """Strength of all joints, or of one, as the model gives it, divided by the factor."""
     def excavate(self, openings: Sequence[str]) -> None:
-        """Takes out the rock of openings that a stage of the model names."""
+        """Excavates openings that a stage of the model names."""
     def relax(self, opening: str, part: float) -> None:
-        """Lets go a part (0 to 1, all calls and stages together) of the forces of rock taken out."""
+        """Releases a part (0 to 1, all calls and stages together) of the wall forces of excavated rock."""
     def switch_over(self, deactivate: Sequence[str] = [], activate: Sequence[str] = []) -> None:
-        """Loads, water, boundaries and shaking by name, as in a stage."""
+        """Loads, water, boundaries and ground motions by name, as in a stage."""
     def install(self, bolts: Sequence[str]) -> None:
-        """Puts in bolts and patterns by name."""
+        """Installs bolts and patterns by name."""
     def reset_displacements(self) -> None:
         """Displacements count from here."""

@@ -51,4 +51,4 @@ class ModelError(ValueError):
 
 
 class ModelWarning(UserWarning):
-    """What looks right in a model and is not, as edda check says it."""
+    """A warning about a model, as edda check prints it."""

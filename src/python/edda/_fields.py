@@ -45,7 +45,7 @@ def label_of(field: ArrayLike) -> str:
 
 
 def is_of_motion(source: Any, field: ArrayLike) -> bool:
-    """Whether it says nothing about blocks that are held."""
+    """Whether it says nothing about blocks that are fixed."""
     return isinstance(field, str) and not hasattr(source, "blocks") and field not in _CONSTANTS
 
 
@@ -106,8 +106,8 @@ def _principal(stress: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.column_stack([mean + radius, mean - radius, zz])
 
 
-def held(source: Any, ids: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Which of the drawn blocks are held."""
+def fixed_blocks(source: Any, ids: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Which of the drawn blocks are fixed."""
     if isinstance(source, Frame):
         if "fixed" not in source:
             return np.zeros(len(ids), dtype=bool)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._errors import UnknownName
-from ._fields import KINDS, held, is_of_motion, label_of, values_of
+from ._fields import KINDS, fixed_blocks, is_of_motion, label_of, values_of
 from .results import Frame, Results
 
 if TYPE_CHECKING:
@@ -135,7 +135,7 @@ def _kind_of(column: str) -> tuple[str, str]:
     """What a column of history.csv holds, and its unit."""
     if column in _ENERGIES:
         return "energy", "J"
-    own = {"time": ("time", "s"), "drift": ("drift of the energy", ""), "unbalanced": ("unbalanced force ratio", "")}
+    own = {"time": ("time", "s"), "drift": ("energy balance error", ""), "unbalanced": ("unbalanced force ratio", "")}
     name, _, ending = column.rpartition(".")
     return own.get(column) or (name and _ENDINGS.get(ending)) or (column, "")
 
@@ -185,9 +185,9 @@ def _set_colours(
     is_given: set[str],
 ) -> str:
     """Colours the paths; where values lie beyond the colours, in the words of a colorbar."""
-    is_held = held(source, ids)
-    if is_of_motion(source, field) and is_held.any():
-        values = np.where(is_held, np.nan, values)
+    is_fixed = fixed_blocks(source, ids)
+    if is_of_motion(source, field) and is_fixed.any():
+        values = np.where(is_fixed, np.nan, values)
         if drawn.get_cmap().get_bad()[3] == 0.0:
             drawn.set_cmap(drawn.get_cmap().with_extremes(bad=_HELD))
     drawn.set_array(values)
@@ -197,7 +197,7 @@ def _set_colours(
     if isinstance(field, str) and field in KINDS or whole_range:
         low, high = (shown.min(), shown.max()) if len(shown) else (0.0, 1.0)
     else:
-        low, high = _drawn_range(values, np.where(is_held, 0.0, _areas(drawn.get_paths())), shown)
+        low, high = _drawn_range(values, np.where(is_fixed, 0.0, _areas(drawn.get_paths())), shown)
     drawn.set_clim(low, high)
     below, above = bool(np.any(shown < low)), bool(np.any(shown > high))
     return "both" if below and above else "min" if below else "max" if above else "neither"

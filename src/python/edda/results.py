@@ -79,11 +79,11 @@ class Results:
 
         A row is a face, an edge of block_i against one of block_j; joint (name of its law); x, y (m, middle of
         the overlap), normal_force (N, compression positive), shear_force (N, positive where it drives block i from
-        end a to end b), opening (m, negative: pressed together), slip (m, from a to b); state (open, stick, slide,
+        end a to end b), opening (m, negative: closed), slip (m, from a to b); state (open, stick, slide,
         bonded), ever_slipped, ever_opened (0 or 1), mobilised (shear over shear strength); length of the overlap,
-        closed_length of what bears, its ends x_a, y_a, x_b, y_b (m); normal_stress (Pa, tension positive; the mean
-        over the overlap), normal_stress_a, normal_stress_b (at its ends), shear_stress (Pa). Forces are those of
-        the model's thickness.
+        closed_length of its closed part, its ends x_a, y_a, x_b, y_b (m); normal_stress (Pa, compression positive;
+        the mean over the overlap), normal_stress_a, normal_stress_b (at its ends), shear_stress (Pa). Forces are
+        those of the model's thickness.
         """
         return read_table(self._file("joints.csv"))
 
@@ -91,7 +91,7 @@ class Results:
     def stages(self) -> Table:
         """A row per stage that has ended; of a model with stages.
 
-        stage (from 0), name, until, reached (0 or 1), start, end (s), steps; ratio, largest_ratio (resultant of
+        stage (from 1), name, until, reached (0 or 1), start, end (s), steps; ratio, largest_ratio (resultant of
         blocks over contact force), largest_block (its id, -1: none); kinetic, strain, contact, gravity, friction,
         damping, fracture, external (J), drift as in history; how many contacts are closed (contacts), sliding, bonded,
         open, broken, how many blocks detached, yielded_bolts, how many blocks have come loose (loose);
@@ -100,7 +100,7 @@ class Results:
         return read_table(self._file("stages.csv"))
 
     def stage_joints(self, stage: int) -> Table:
-        """The contacts at the end of a stage, by its number from 0; columns as of joints."""
+        """The contacts at the end of a stage, by its number from 1; columns as of joints."""
         return read_table(self._file(f"joints_{stage}.csv"))
 
     @property
@@ -131,6 +131,14 @@ class Results:
         return read_table(self._file("bolts.csv"))
 
     @property
+    def columns(self) -> Table:
+        """A row per column of each table in the folder.
+
+        file, column (as in its header), unit (1: a number without dimension, text: words), meaning (with the sign).
+        """
+        return read_table(self._file("columns.csv"))
+
+    @property
     def frames(self) -> Frames:
         """The blocks at each output.every, a Frame each; read when asked for."""
         return Frames(self.folder, "blocks.pvd")
@@ -152,7 +160,7 @@ class Frame:
 
     time: s. points: (n, 2) corners, m. cells: per block the rows of the corners of its outer ring. point_fields and
     cell_fields: arrays by name; frame["stress"] is a cell field. There is one row per block, or per contact, in the
-    order of frame["id"]: blocks that have been taken out have none.
+    order of frame["id"]: blocks that have been excavated have none.
 
     Cell fields of blocks: id, material (row of Model.materials, -1: none), fixed (0 or 1), rotation (rad), omega
     (rad/s), overstress: (rows,); displacement (m), velocity (m/s): (rows, 3), x y z, of the centroid; stress (Pa,
@@ -160,8 +168,9 @@ class Frame:
     (most compressive) in the plane, and out of it. Point fields: displacement (m), velocity (m/s): (n, 3).
 
     Cell fields of contacts: block_i, block_j, state (0 open, 1 stick, 2 slide, 3 bonded), normal_force,
-    shear_force (N), opening, slip, length, closed_length (m), normal_stress (tension positive), shear_stress
-    (Pa), normal_stress_a, normal_stress_b (Pa, at the ends), x_a, y_a, x_b, y_b (m): (rows,); force (N, on block i), displacement (m): (rows, 3).
+    shear_force (N), opening, slip, length, closed_length (m), normal_stress (Pa, compression positive),
+    normal_stress_a, normal_stress_b (at the ends), shear_stress (Pa), x_a, y_a, x_b, y_b (m): (rows,); force (N, on
+    block i), displacement (m): (rows, 3).
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
@@ -301,7 +310,10 @@ _WHOLE = {
     *("stage", "reached", "steps", "largest_block", "contacts", "sliding", "bonded", "detached", "open", "broken"),
     *("yielded_bolts", "loose"),
 }
-_TEXT = {"name", "material", "joint", "state", "bolt", "until", "motion", "outcome", "reason"}
+_TEXT = {
+    *("name", "material", "joint", "state", "bolt", "until", "motion", "outcome", "reason"),
+    *("file", "column", "unit", "meaning"),
+}
 
 
 def _column(name: str, texts: Sequence[str]) -> NDArray[Any]:

@@ -1,0 +1,78 @@
+#include "blocks/masses.hpp"
+
+#include <array>
+
+#include "blocks/cover.hpp"
+
+namespace edda {
+namespace {
+
+/// u^T M^-1 w of block i.
+double inverse_product(const Masses& masses, std::size_t i, const NodeWeights& u,
+                       const NodeWeights& w) {
+  if (masses.kind != MassKind::consistent) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < nodes_per_block; ++k) sum += u[k] * w[k] / masses.node[k][i];
+    return sum;
+  }
+  const auto& m = masses.inverse;
+  return u[0] * (m[0][i] * w[0] + m[1][i] * w[1] + m[2][i] * w[2]) +
+         u[1] * (m[1][i] * w[0] + m[3][i] * w[1] + m[4][i] * w[2]) +
+         u[2] * (m[2][i] * w[0] + m[4][i] * w[1] + m[5][i] * w[2]);
+}
+
+}  // namespace
+
+Masses given_masses(const BlockSet& b) {
+  Masses m;
+  m.kind = b.mass_kind;
+  for (std::vector<double>& of_node : m.node) {
+    of_node.reserve(b.size());
+    for (const double mass : b.mass) of_node.push_back(mass / nodes_per_block);
+  }
+  m.inverse = b.inverse_mass;
+  fill_point_masses(m, b);
+  return m;
+}
+
+double inertia_of(const Masses& masses, std::size_t i) {
+  if (masses.kind != MassKind::consistent) {
+    return masses.node[0][i] + masses.node[1][i] + masses.node[2][i];
+  }
+  const auto& m = masses.inverse;
+  return 9.0 / (m[0][i] + m[3][i] + m[5][i] + 2.0 * (m[1][i] + m[2][i] + m[4][i]));
+}
+
+double mass_product(const Masses& masses, std::size_t i, const NodeVectors& u,
+                    const NodeVectors& v) {
+  if (masses.kind != MassKind::consistent) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < nodes_per_block; ++k) sum += masses.node[k][i] * dot(u[k], v[k]);
+    return sum;
+  }
+  std::array<double, 6> inverse;
+  for (std::size_t e = 0; e < 6; ++e) inverse[e] = masses.inverse[e][i];
+  const std::array<double, 6> m = inverse_symmetric(inverse);
+  return dot(u[0], m[0] * v[0] + m[1] * v[1] + m[2] * v[2]) +
+         dot(u[1], m[1] * v[0] + m[3] * v[1] + m[4] * v[2]) +
+         dot(u[2], m[2] * v[0] + m[4] * v[1] + m[5] * v[2]);
+}
+
+double kinetic_energy(const Masses& masses, const Nodes& vx, const Nodes& vy, std::size_t i) {
+  const NodeVectors v = vectors_of(vx, vy, i);
+  return 0.5 * mass_product(masses, i, v, v);
+}
+
+void fill_point_masses(Masses& m, const BlockSet& b) {
+  m.point_inverse.assign(b.vertex_count(), 0.0);
+  m.edge_inverse.assign(b.vertex_count(), 0.0);
+  for (std::size_t v = 0; v < b.vertex_count(); ++v) {
+    const std::size_t i = b.vertex_block[v];
+    if (b.fixed[i]) continue;
+    const NodeWeights w = weights_of(b.weight, v);
+    m.point_inverse[v] = inverse_product(m, i, w, w);
+    m.edge_inverse[v] = inverse_product(m, i, w, weights_of(b.weight, b.next[v]));
+  }
+}
+
+}  // namespace edda

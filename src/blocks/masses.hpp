@@ -1,0 +1,67 @@
+// Inertial masses of the blocks: as the model gives them, or raised by mass scaling. Weights do not
+// change (BlockSet::mass). Theory, sections 2 and 8.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "blocks/block_set.hpp"
+
+namespace edda {
+
+/// Filled by given_masses(); changed by scale_block_masses() and fill_viscosity().
+struct Masses {
+  MassKind kind = MassKind::matched;
+  Nodes node;  ///< [nodes][nb] lumped m_k, kg (unused by `consistent`)
+  std::array<std::vector<double>, 6>
+      inverse;  ///< [6][nb] M^-1, order 11 12 13 22 23 33, 1/kg; `consistent` only
+  std::vector<double> point_inverse,
+      edge_inverse;  ///< [nv] w_v^T M^-1 w_v and w_v^T M^-1 w_next, 1/kg; 0 where it is fixed
+  std::vector<double> viscosity;  ///< [nb] eta: viscous stress over elastic stress rate, s; empty
+                                  ///< where no block has any
+  std::vector<double> raised;  ///< [nb] factor of mass scaling on the masses; empty: none is raised
+};
+
+/// Masses as the model gives them, without viscosity.
+Masses given_masses(const BlockSet& blocks);
+
+/// Fills point_inverse and edge_inverse. Call again whenever the masses of the nodes change.
+void fill_point_masses(Masses& masses, const BlockSet& blocks);
+
+/// Inertial mass of block i as a whole, kg: more than that of its weight where inertia has been
+/// raised. (For `consistent` from M^-1 for a uniform acceleration: the cover is centred on the
+/// centroid.)
+double inertia_of(const Masses& masses, std::size_t i);
+
+/// Accelerations of the nodes of block i under nodal forces, m/s2: f_k/m_k, or M^{-1} f for
+/// `consistent`.
+inline NodeVectors accelerations(const Masses& masses, std::size_t i, const NodeVectors& f) {
+  if (masses.kind != MassKind::consistent) {
+    NodeVectors a;
+    for (std::size_t k = 0; k < nodes_per_block; ++k) a[k] = f[k] / masses.node[k][i];
+    return a;
+  }
+  const auto& m = masses.inverse;
+  return {m[0][i] * f[0] + m[1][i] * f[1] + m[2][i] * f[2],
+          m[1][i] * f[0] + m[3][i] * f[1] + m[4][i] * f[2],
+          m[2][i] * f[0] + m[4][i] * f[1] + m[5][i] * f[2]};
+}
+
+/// u^T M v of block i.
+double mass_product(const Masses& masses, std::size_t i, const NodeVectors& u,
+                    const NodeVectors& v);
+
+/// Kinetic energy of block i, J.
+double kinetic_energy(const Masses& masses, const Nodes& vx, const Nodes& vy, std::size_t i);
+
+/// Inverse of the effective mass of a force on edge e-f at the fraction xi of its length, 1/kg: the
+/// quadratic form of the weights (1 - xi) w_e + xi w_f.
+template <class PointMasses>
+[[gnu::always_inline]] inline double inverse_mass_on_edge(const PointMasses& m, std::size_t e,
+                                                          std::size_t f, double xi) {
+  const double rest = 1.0 - xi;
+  return rest * rest * m.point_inverse[e] + 2.0 * xi * rest * m.edge_inverse[e] +
+         xi * xi * m.point_inverse[f];
+}
+
+}  // namespace edda

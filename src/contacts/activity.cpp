@@ -1,0 +1,85 @@
+#include "contacts/activity.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "contacts/evaluate_faces.hpp"
+#include "contacts/face_preload.hpp"
+#include "contacts/inside.hpp"
+
+namespace edda {
+namespace {
+
+/// The points of both edges at the fraction x of the overlap.
+struct Opposite {
+  Vec2 on_edge, on_facing;
+};
+Opposite opposite_at(const FacePoints& p, const Face& face, double x) {
+  const double xi = face.xi.a + x * (face.xi.b - face.xi.a);
+  const double eta = face.eta.a + x * (face.eta.b - face.eta.a);
+  return {(1.0 - xi) * p.p1 + xi * p.p2, eta * p.q1 + (1.0 - eta) * p.q2};
+}
+
+/// Position of the resultant of the pressure, as a fraction of the overlap; at least one end is
+/// closed.
+double centre_of_pressure(double da, double db) {
+  if (da >= 0.0 && db >= 0.0) return da + db > 0.0 ? (da + 2.0 * db) / (3.0 * (da + db)) : 0.5;
+  return da > 0.0 ? da / (da - db) / 3.0 : 1.0 - db / (db - da) / 3.0;
+}
+
+bool lies_in(const BlockSet& b, const Pose& pose, Vec2 p, Id block) {
+  return inside_of(b, pose, p, block).depth > 0.0;
+}
+
+/// Whether the corner that bounds the end of larger closure leans on the other edge, that is,
+/// whether no third block lies beside it between the two edges. Where one does, as at a point where
+/// five wedges meet, the exact integral of the pressure holds and the corner has no spring of its
+/// own.
+bool corner_leans(const FaceSet& c, const BlockSet& b, const Pose& pose, const FacePoints& at,
+                  const Face& face, std::size_t k) {
+  constexpr double beside = 0.1;  // of the overlap
+  const Opposite points =
+      opposite_at(at, face, face.closure.b >= face.closure.a ? 1.0 - beside : beside);
+  const Vec2 between = 0.5 * (points.on_edge + points.on_facing);
+  const Id own[2] = {b.vertex_block[c.edge[k]], b.vertex_block[c.facing[k]]};
+  for (const Id j : own) {
+    bool third = false;
+    c.for_faces(b.vertex_begin[j], b.vertex_begin[j + 1], [&](Id q, bool of_edge) {
+      const Id i = b.vertex_block[of_edge ? c.facing[q] : c.edge[q]];
+      third = third || (i != own[0] && i != own[1] && lies_in(b, pose, between, i));
+    });
+    if (third) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool decide_activity(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
+  const auto verdict = [&] {
+    return std::array{c.acts[k], c.leans[k], c.locked_closure_a[k], c.locked_closure_b[k]};
+  };
+  const auto before = verdict();
+  const FacePoints at = face_points(c, pose.x, pose.y, k);
+  const Face face = face_at(c, b, pose.x, pose.y, k);
+  const double closure =
+      std::max(face.closure.a - c.locked_closure_a[k], face.closure.b - c.locked_closure_b[k]);
+  if (c.before.energy[k] == 0.0) c.leans[k] = corner_leans(c, b, pose, at, face, k) ? 1.0 : 0.0;
+  if (c.before.gate[k] == 0.0) {
+    const FaceEnds locked = c.leans[k] > 0.0 ? locked_closure(c, face, k) : FaceEnds{};
+    c.locked_closure_a[k] = locked.a;
+    c.locked_closure_b[k] = locked.b;
+  }
+  if (closure <= c.noise) {
+    c.acts[k] = 1.0;
+  } else if (c.before.gate[k] == 0.0) {
+    const Opposite p = opposite_at(at, face, centre_of_pressure(face.closure.a, face.closure.b));
+    const bool inside = std::max(face.closure.a, face.closure.b) > 0.0 &&
+                        lies_in(b, pose, p.on_facing, b.vertex_block[c.edge[k]]) &&
+                        lies_in(b, pose, p.on_edge, b.vertex_block[c.facing[k]]);
+    c.acts[k] = inside ? 1.0 : 0.0;
+  }
+  return verdict() != before;
+}
+
+}  // namespace edda

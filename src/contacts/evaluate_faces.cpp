@@ -1,0 +1,398 @@
+#include "contacts/evaluate_faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "contacts/activity.hpp"
+#include "contacts/face_bonds.hpp"
+#include "contacts/face_energy.hpp"
+#include "contacts/face_step.hpp"
+
+namespace edda {
+namespace {
+
+/// Data that all chunks read; members as in FaceView.
+struct AllFaces {
+  const double *exterior_cosine, *exterior_sine;
+  const double *x, *y, *x1, *y1;
+  double noise;
+  const double *point_inverse, *edge_inverse;
+  double step;
+  const double *limit_a, *limit_b;
+};
+AllFaces all_faces(const FaceSet& c, const FaceScene& scene, double step,
+                   const ShearLimits* limits = nullptr) {
+  const Pose& pose = scene.pose;
+  return {scene.blocks.exterior_cosine.data(),
+          scene.blocks.exterior_sine.data(),
+          pose.x.data(),
+          pose.y.data(),
+          pose.x1.data(),
+          pose.y1.data(),
+          c.noise,
+          scene.masses.point_inverse.data(),
+          scene.masses.edge_inverse.data(),
+          step,
+          limits == nullptr ? nullptr : limits->a.data(),
+          limits == nullptr ? nullptr : limits->b.data()};
+}
+
+/// Addresses of the data of a chunk.
+struct ChunkPlace {
+  const Id* corners;
+  const double* properties;
+  double* now;
+  const double* before;
+  double* force;
+};
+ChunkPlace chunk_place(FaceSet& c, std::size_t q) {
+  return {c.corners.data() + q * 4 * FaceSet::chunk, c.begin_of_chunk(q), c.now.begin_of_chunk(q),
+          c.before.begin_of_chunk(q), c.force.data() + q * 8 * FaceSet::chunk};
+}
+
+EDDA_INLINE FaceView view_of(const AllFaces& all, const ChunkPlace& at) {
+  FaceView v;
+  static_cast<FaceProperties<const double*>&>(v) =
+      columns_of_chunk<FaceProperties<const double*>, face_property_list<const double*>>(
+          at.properties);
+  v.edge = at.corners;
+  v.edge_end = at.corners + FaceSet::chunk;
+  v.facing = at.corners + 2 * FaceSet::chunk;
+  v.facing_end = at.corners + 3 * FaceSet::chunk;
+  v.exterior_cosine = all.exterior_cosine;
+  v.exterior_sine = all.exterior_sine;
+  v.x = all.x;
+  v.y = all.y;
+  v.x1 = all.x1;
+  v.y1 = all.y1;
+  v.noise = all.noise;
+  v.point_inverse = all.point_inverse;
+  v.edge_inverse = all.edge_inverse;
+  v.step = all.step;
+  v.limit_a = all.limit_a;
+  v.limit_b = all.limit_b;
+  v.now = columns_of_chunk<FaceFields<double*>, face_fields<double*>>(at.now);
+  v.before = columns_of_chunk<FaceFields<const double*>, face_fields<const double*>>(at.before);
+  v.force = at.force;
+  return v;
+}
+
+/// What evaluating a chunk has found: whether any of its faces has the flag (see FaceResult), and
+/// the largest depth.
+struct ChunkResult {
+  bool needs_decision, switching, works, rare;
+  double deepest;
+};
+
+template <bool dashpots, bool limits_given, bool plain>
+EDDA_INLINE void evaluate_into(const FaceView& c, std::size_t k, double& asking, double& switching,
+                               double& working, double& rare, double& deepest) {
+  const FaceResult result = evaluate_one<dashpots, limits_given, plain>(c, k);
+  c.force[8 * k + 0] = result.force.p1.x;
+  c.force[8 * k + 1] = result.force.p1.y;
+  c.force[8 * k + 2] = result.force.p2.x;
+  c.force[8 * k + 3] = result.force.p2.y;
+  c.force[8 * k + 4] = result.force.q1.x;
+  c.force[8 * k + 5] = result.force.q1.y;
+  c.force[8 * k + 6] = result.force.q2.x;
+  c.force[8 * k + 7] = result.force.q2.y;
+  asking = larger(asking, result.needs_decision);
+  switching = larger(switching, result.switching);
+  working = larger(working, result.works);
+  rare = larger(rare, result.rare);
+  deepest = larger(deepest, result.depth);
+}
+
+/// Evaluates all rows of a chunk.
+template <bool dashpots, bool plain>
+EDDA_INLINE ChunkResult evaluate_rows(const AllFaces& all, const ChunkPlace& at) {
+  const FaceView c = view_of(all, at);
+  double asking = 0.0, switching = 0.0, working = 0.0, rare = 0.0, deepest = 0.0;
+#pragma omp simd reduction(max : asking, switching, working, rare, deepest)
+  for (std::size_t k = 0; k < FaceSet::chunk; ++k) {
+    evaluate_into<dashpots, false, plain>(c, k, asking, switching, working, rare, deepest);
+  }
+  return {asking > 0.0, switching > 0.0, working > 0.0, rare > 0.0, deepest};
+}
+EDDA_VECTOR ChunkResult evaluate_undamped(const AllFaces& all, const ChunkPlace& at) {
+  return evaluate_rows<false, false>(all, at);
+}
+EDDA_VECTOR ChunkResult evaluate_plain_undamped(const AllFaces& all, const ChunkPlace& at) {
+  return evaluate_rows<false, true>(all, at);
+}
+EDDA_VECTOR ChunkResult evaluate_damped(const AllFaces& all, const ChunkPlace& at) {
+  return evaluate_rows<true, false>(all, at);
+}
+EDDA_VECTOR ChunkResult evaluate_plain_damped(const AllFaces& all, const ChunkPlace& at) {
+  return evaluate_rows<true, true>(all, at);
+}
+
+/// Evaluates the rows [first, last) alone, one by one.
+template <bool dashpots, bool limits_given>
+ChunkResult evaluate_rows(const AllFaces& all, const ChunkPlace& at, std::size_t first,
+                          std::size_t last) {
+  const FaceView c = view_of(all, at);
+  double asking = 0.0, switching = 0.0, working = 0.0, rare = 0.0, deepest = 0.0;
+  for (std::size_t k = first; k < last; ++k) {
+    evaluate_into<dashpots, limits_given, false>(c, k, asking, switching, working, rare, deepest);
+  }
+  return {asking > 0.0, switching > 0.0, working > 0.0, rare > 0.0, deepest};
+}
+
+/// Whether one of the faces of a chunk that have carried no load for two steps needs more than its
+/// geometry updated.
+EDDA_VECTOR bool chunk_may_close(const AllFaces& all, const ChunkPlace& at) {
+  const FaceView c = view_of(all, at);
+  double switching = 0.0;
+#pragma omp simd reduction(max : switching)
+  for (std::size_t k = 0; k < FaceSet::chunk; ++k)
+    switching = larger(switching, may_close(c, k) ? 1.0 : 0.0);
+  return switching > 0.0;
+}
+
+/// Breaks the bonds of those faces of [first, last) that fail. Returns whether any does.
+bool break_bonds(FaceSet& c, const FaceScene& scene, std::size_t first, std::size_t last) {
+  const BlockSet& b = scene.blocks;
+  const Pose& pose = scene.pose;
+  bool any = false;
+  for (std::size_t k = first; k < last; ++k) {
+    if ((c.bonded[k] == 0.0 && c.carries_tension[k] == 0.0) || !bond_fails(c, b, k)) continue;
+    const double stored = normal_energy(c, b, pose, k);
+    break_bond(c, scene.laws, k);
+    account_failure_energy(c, stored - normal_energy(c, b, pose, k), k);
+    any = true;
+  }
+  return any;
+}
+
+/// Evaluates all faces of a chunk. Where is_plain() held for all of them when they were
+/// last evaluated, the short formulas are tried first.
+ChunkResult evaluate_chunk(FaceSet& c, const AllFaces& all, std::size_t q) {
+  const ChunkPlace at = chunk_place(c, q);
+  if (c.plain[q] != 0) {
+    const ChunkResult found =
+        c.dashpots ? evaluate_plain_damped(all, at) : evaluate_plain_undamped(all, at);
+    if (!found.rare) return found;
+  }
+  const ChunkResult found = c.dashpots ? evaluate_damped(all, at) : evaluate_undamped(all, at);
+  c.plain[q] = found.rare ? 0 : 1;
+  return found;
+}
+
+/// Evaluates the faces [first, last), all of one chunk.
+ChunkResult evaluate_part(FaceSet& c, const AllFaces& all, std::size_t first, std::size_t last) {
+  const std::size_t q = first / FaceSet::chunk, from = first % FaceSet::chunk;
+  const std::size_t to = from + (last - first);
+  const bool limits_given = all.limit_a != nullptr;
+  if (!limits_given && from == 0 && last == std::min(first + FaceSet::chunk, c.size())) {
+    return evaluate_chunk(c, all, q);
+  }
+  const ChunkPlace at = chunk_place(c, q);
+  AllFaces here = all;
+  if (limits_given) {
+    here.limit_a += first - from;
+    here.limit_b += first - from;
+    return c.dashpots ? evaluate_rows<true, true>(here, at, from, to)
+                      : evaluate_rows<false, true>(here, at, from, to);
+  }
+  return c.dashpots ? evaluate_rows<true, false>(here, at, from, to)
+                    : evaluate_rows<false, false>(here, at, from, to);
+}
+
+/// The same, with pending decisions (decide_activity()) and, unless shear is limited from outside,
+/// failure of bonds.
+ChunkResult evaluate_with_laws(FaceSet& c, const AllFaces& all, const FaceScene& scene,
+                               std::size_t first, std::size_t last) {
+  ChunkResult found = evaluate_part(c, all, first, last);
+  if (found.needs_decision) {
+    const FaceView view = view_of(all, chunk_place(c, first / FaceSet::chunk));
+    bool changes = false;
+    for (std::size_t k = first; k < last; ++k) {
+      if (needs_decision(view, k % FaceSet::chunk) &&
+          decide_activity(c, scene.blocks, scene.pose, k))
+        changes = true;
+    }
+    if (changes) found = evaluate_part(c, all, first, last);
+  }
+  const bool bonds = all.limit_a == nullptr && c.bonds[first / FaceSet::chunk] != 0;
+  if (bonds && break_bonds(c, scene, first, last)) {
+    found = evaluate_part(c, all, first, last);
+  }
+  return found;
+}
+
+void evaluate_chunks(FaceSet& c, const AllFaces& all, const FaceScene& scene, std::size_t begin,
+                     std::size_t end) {
+  for (std::size_t first = begin; first < end; first += FaceSet::chunk) {
+    const std::size_t last = std::min(end, first + FaceSet::chunk), q = first / FaceSet::chunk;
+    const bool inactive =
+        c.now.inactive[q] && c.before.inactive[q] && !c.bonds[q] && all.limit_a == nullptr;
+    if (inactive && !chunk_may_close(all, chunk_place(c, q))) {
+      c.switching[q] = 0;
+      c.deepest[q] = 0.0;
+      continue;
+    }
+    const ChunkResult found = evaluate_with_laws(c, all, scene, first, last);
+    c.now.inactive[q] = found.works ? 0 : 1;
+    c.switching[q] = found.switching ? 1 : 0;
+    c.deepest[q] = found.deepest;
+  }
+}
+
+void evaluate_all(FaceSet& c, const AllFaces& all, const FaceScene& scene) {
+  parallel_chunks(c.size(), FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
+    evaluate_chunks(c, all, scene, begin, end);
+  });
+}
+
+/// Adds the work of a step to the accumulated work, for the faces of a chunk.
+struct ChunkAccounts {
+  FaceProperties<double*> of;
+  FaceFields<const double*> now, before;
+};
+EDDA_INLINE void end_step(const ChunkAccounts& c, bool dashpots, std::size_t k) {
+  const FaceFields<const double*>& m = c.now;
+  const bool fails = c.of.failure[k] > 0.0;
+  const double taken = m.friction_work[k];
+  c.of.fracture_work[k] += fails ? taken : 0.0;
+  c.of.friction_work[k] += fails ? 0.0 : taken;
+  if (dashpots) c.of.damping_work[k] += m.damping_work[k] + m.damping_due[k];
+  const bool cut = (m.slip_a[k] != m.trial_a[k]) | (m.slip_b[k] != m.trial_b[k]);
+  const bool opens = (c.before.energy[k] > 0.0) & (m.energy[k] == 0.0);
+  c.of.slipped[k] = cut ? 1.0 : c.of.slipped[k];
+  c.of.opened[k] = opens ? 1.0 : c.of.opened[k];
+  c.of.transfer[k] += m.transfer[k];
+}
+EDDA_VECTOR void end_step_of_chunk(double* properties, const double* now, const double* before,
+                                   bool dashpots) {
+  const ChunkAccounts c{
+      columns_of_chunk<FaceProperties<double*>, face_property_list<double*>>(properties),
+      columns_of_chunk<FaceFields<const double*>, face_fields<const double*>>(now),
+      columns_of_chunk<FaceFields<const double*>, face_fields<const double*>>(before)};
+#pragma omp simd
+  for (std::size_t k = 0; k < FaceSet::chunk; ++k) end_step(c, dashpots, k);
+}
+
+/// Makes the step final; dashpots: whether dashpots, or the damping of the implicit scheme, have
+/// done work.
+void end_step(FaceSet& c, bool dashpots) {
+  if (c.gluing) glue_pressed(c);
+  parallel_chunks(c.size(), FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t q = begin / FaceSet::chunk; q * FaceSet::chunk < end; ++q) {
+      if (c.now.inactive[q] != 0) continue;
+      end_step_of_chunk(c.begin_of_chunk(q), c.now.begin_of_chunk(q), c.before.begin_of_chunk(q),
+                        dashpots);
+    }
+  });
+  for (std::size_t q = 0; q < c.chunks(); ++q) {
+    if (c.chunk_fails[q] == 0) continue;
+    c.chunk_fails[q] = 0;
+    for (std::size_t k = q * FaceSet::chunk; k < std::min((q + 1) * FaceSet::chunk, c.size());
+         ++k) {
+      if (c.failure[k] == bond_breaks) ++c.broken;
+      c.failure[k] = 0.0;
+    }
+  }
+  std::swap(c.now, c.before);
+}
+
+}  // namespace
+
+void evaluate_faces(FaceSet& c, const FaceScene& scene, double step) {
+  evaluate_all(c, all_faces(c, scene, step), scene);
+}
+
+void evaluate_with_limits(FaceSet& c, const FaceScene& scene, double step,
+                          const ShearLimits& limits) {
+  evaluate_all(c, all_faces(c, scene, step, &limits), scene);
+}
+
+void evaluate_face(FaceSet& c, const FaceScene& scene, double step, std::size_t k) {
+  const AllFaces all = all_faces(c, scene, step);
+  const std::size_t q = k / FaceSet::chunk;
+  const FaceMemory &m = c.now, &old = c.before;
+  const bool inactive = m.energy[k] == 0.0 && old.energy[k] == 0.0 && old.spring[k] == 0.0 &&
+                        m.friction_work[k] == 0.0 && m.transfer[k] == 0.0 &&
+                        m.damping_due[k] == 0.0 && c.bonded[k] == 0.0 &&
+                        c.carries_tension[k] == 0.0;
+  if (inactive && !may_close(view_of(all, chunk_place(c, q)), k % FaceSet::chunk)) return;
+  const ChunkResult found = evaluate_with_laws(c, all, scene, k, k + 1);
+  c.deepest[q] = std::max(c.deepest[q], found.deepest);
+  if (found.switching) c.switching[q] = 1;
+  if (found.works) c.now.inactive[q] = 0;
+}
+
+void correct_last_step(FaceSet& c, const BlockSet& b, const Pose& pose,
+                       const std::vector<double>& old_x1, const std::vector<double>& old_y1) {
+  FaceMemory& m = c.before;
+  std::fill(m.inactive.begin(), m.inactive.end(), std::uint8_t{0});
+  parallel_for(c.size(), [&](std::size_t k) {
+    const FaceEnds offset{c.locked_closure_a[k], c.locked_closure_b[k]};
+    const Face now = face_at(c, b, pose.x, pose.y, k), then = face_at(c, b, pose.x1, pose.y1, k);
+    const FaceEnds was = motion_of(now, offset, face_points(c, old_x1, old_y1, k)).slip;
+    const FaceEnds is = motion_of(now, offset, face_points(c, pose.x1, pose.y1, k)).slip;
+    // Ends that stick keep their force; ends that slide slip at the new velocity.
+    if (c.now.slip_a[k] == c.now.trial_a[k]) m.slip_a[k] += was.a - is.a;
+    if (c.now.slip_b[k] == c.now.trial_b[k]) m.slip_b[k] += was.b - is.b;
+    m.closure_a[k] = then.closure.a;
+    m.closure_b[k] = then.closure.b;
+    m.energy[k] = then.energy;
+    m.gate[k] = std::max(m.gate[k], then.gate);
+  });
+}
+
+void next_step(FaceSet& c) {
+  end_step(c, c.dashpots);
+}
+
+void begin_from_step_end(FaceSet& c) {
+  end_step(c, true);
+  c.now = c.before;
+  for (auto* work :
+       {&c.now.friction_work, &c.now.damping_work, &c.now.damping_due, &c.now.transfer}) {
+    work->fill(0.0);
+  }
+}
+
+Face face_at(const FaceSet& c, const BlockSet& b, const std::vector<double>& x,
+             const std::vector<double>& y, std::size_t k) {
+  return face_between(face_points(c, x, y, k),
+                      face_pair(c, b.exterior_cosine.data(), b.exterior_sine.data(), k));
+}
+
+CornerForces recompute_shear(FaceSet& c, const Face& face, const FacePoints& at,
+                             const FacePoints& then, double alpha, std::size_t k) {
+  FaceMemory& m = c.before;
+  const FaceEnds here = motion_of(face, {c.locked_closure_a[k], c.locked_closure_b[k]}, then).slip;
+  const double spring = m.spring[k], cohesion = 0.5 * c.cohesion[k] * face.cohesive;
+  const auto again = [&](double normal, double trial, double slipped, double& force, double& slip) {
+    const double limit = std::max(cohesion + c.friction[k] * normal, 0.0);
+    const Shear next =
+        cut(trial, spring, inverse_of(spring), c.bonded[k] > 0.0 ? unlimited_shear : limit);
+    // As lost(), for a change of T_n alone: the work of T_{n-1} stays as it was, and kept u_{n-1}
+    // is u_tr - slipped.
+    const auto taken = [&](const Shear& s) {
+      const double all = -0.5 * s.force * (slipped - s.slip);
+      const double slip_so_far = 0.5 * spring * (trial - s.slip) * (s.slip + trial - slipped);
+      const double friction = std::max(slip_so_far, 0.0);
+      return Lost{friction, all - friction};
+    };
+    const Lost was = taken({force, slip}), is = taken(next);
+    c.friction_work[k] += is.friction - was.friction;
+    c.transfer[k] += is.transfer - was.transfer;
+    force = next.force;
+    slip = next.slip;
+  };
+  again(alpha * face.normal.a + m.damping_a[k], m.trial_a[k], here.a, m.shear_a[k], m.slip_a[k]);
+  again(alpha * face.normal.b + m.damping_b[k], m.trial_b[k], here.b, m.shear_b[k], m.slip_b[k]);
+  CornerForces force = end_forces(at, face, {}, {m.shear_a[k], m.shear_b[k]});
+  force.p1 += alpha * face.force.p1;
+  force.p2 += alpha * face.force.p2;
+  force.q1 += alpha * face.force.q1;
+  force.q2 += alpha * face.force.q2;
+  return force;
+}
+
+}  // namespace edda

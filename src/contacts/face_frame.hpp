@@ -1,0 +1,158 @@
+// Geometry of a face: the frame of its two edges, and the ends of its overlap (theory, sections 4.1
+// and 4.5). contacts/face.hpp has the notation.
+#pragma once
+
+#include "blocks/block_set.hpp"
+#include "contacts/face_parts.hpp"
+
+namespace edda {
+
+/// Corners of the two edges, m.
+struct FacePoints {
+  Vec2 p1, p2, q1, q2;
+};
+
+/// Properties of a face that do not change with the positions of its blocks.
+struct FacePair {
+  double stiffness = 0.0;        ///< k times the thickness, N/m per metre of overlap
+  double ends = 0.0;             ///< 1: phi_ends with the weight b; 0: phi_exact alone (b = 0)
+  double carries_tension = 0.0;  ///< 1: carries tension
+  double inverse_e = 0.0, inverse_f = 0.0;  ///< 1/l of the edges at the start, 1/m
+  double gate_from = 0.0;             ///< cosine of the angle between the edges from which W > 0
+  double gate_scale = 1.0;            ///< 1/(cosine from which W = 1, less gate_from)
+  double passing = 1.0;               ///< m: corners nearer than this share one corner weight b
+  FaceEnds offset;                    ///< o, locked closure of initial stress and dilation, m
+  Id p1 = 0, p2 = 0, q1 = 0, q2 = 0;  ///< the corners
+  const double *exterior_cosine = nullptr,
+               *exterior_sine = nullptr;  ///< [nv] of the exterior angles of the corners
+
+  Vec2 turn(Id corner) const { return {exterior_cosine[corner], exterior_sine[corner]}; }
+};
+
+/// Vector from the material point at the fraction xi of e (from p1) to that at the fraction eta of
+/// f (from q2).
+EDDA_INLINE Vec2 from_point_of_e(const FacePoints& p, double xi, double eta) {
+  return eta * p.q1 + (1.0 - eta) * p.q2 - ((1.0 - xi) * p.p1 + xi * p.p2);
+}
+
+/// Unit tangent t of the frame, or zero where E = F; inverse_e, inverse_f as in FacePair.
+EDDA_INLINE Vec2 frame_of(const FacePoints& p, double inverse_e, double inverse_f) {
+  const Vec2 g = inverse_e * (p.p2 - p.p1) - inverse_f * (p.q2 - p.q1);
+  const double size = norm(g);
+  return g / (size > 0.0 ? size : 1.0);
+}
+
+/// Geometry of two edges in their frame.
+struct EdgeGeometry {
+  double tx, ty;                       ///< t
+  double per_base;                     ///< 1/|E - F|
+  double s2, r1, r2;                   ///< s of p2, q1 and q2
+  double per_e, per_f;                 ///< 1/s2 and 1/(r1 - r2)
+  double slope_e, slope_f;             ///< dy/ds of the edges
+  double closure_at_0, closure_slope;  ///< drawn closure: closure_at_0 + closure_slope s
+  double ma, mb;                       ///< s of the corners that bound the overlap
+  double cosine;                       ///< of theta, times the stretch of both edges
+};
+EDDA_INLINE EdgeGeometry geometry_of_edges(const FacePoints& at, const FacePair& pair) {
+  const Vec2 e = at.p2 - at.p1, f = at.q2 - at.q1;
+  const Vec2 g = pair.inverse_e * e - pair.inverse_f * f;
+  const double apart = norm(g), per_base = 1.0 / (apart > 0.0 ? apart : 1.0);
+  const Vec2 t = per_base * g, n = outward_normal(t);
+  const Vec2 to_q1 = at.q1 - at.p1, to_q2 = at.q2 - at.p1;
+  const double s2 = dot(e, t), y2 = dot(e, n);
+  const double r1 = dot(to_q1, t), z1 = dot(to_q1, n), r2 = dot(to_q2, t), z2 = dot(to_q2, n);
+  const bool opposed = (s2 > 0.0) & (r1 > r2);
+  const double across_e = opposed ? s2 : 1.0, across_f = opposed ? r1 - r2 : 1.0;
+  const double per_both = 1.0 / (across_e * across_f);
+  const double per_e = across_f * per_both, per_f = across_e * per_both;
+  const double slope_e = y2 * per_e, slope_f = (z1 - z2) * per_f;
+  const double closure_at_0 = -(z2 - slope_f * r2),
+               cosine = -dot(e, f) * (pair.inverse_e * pair.inverse_f);
+  return {t.x,
+          t.y,
+          per_base,
+          s2,
+          r1,
+          r2,
+          per_e,
+          per_f,
+          slope_e,
+          slope_f,
+          closure_at_0,
+          slope_e - slope_f,
+          larger(r2, 0.0),
+          smaller(s2, r1),
+          cosine};
+}
+
+/// Closures at the ends that the aspect gate compares with the overlap: the drawn ones and a
+/// quarter of the locked ones, so that a face that comes into being begins without force.
+EDDA_INLINE FaceEnds gated_closure(double drawn_a, double drawn_b, const FacePair& pair) {
+  return {drawn_a + smaller(locked_part * pair.offset.a, pair.passing),
+          drawn_b + smaller(locked_part * pair.offset.b, pair.passing)};
+}
+
+/// Whether the short formulas suffice: the face has no locked closure and carries no tension, and
+/// either no corners pass each other and W = w = 1, or there is no overlap.
+EDDA_INLINE bool is_plain(const EdgeGeometry& o, const FacePair& pair) {
+  const double along = (o.cosine - pair.gate_from) * pair.gate_scale, length = o.mb - o.ma;
+  const bool absent = (length <= 0.0) | (along <= 0.0) | (o.s2 <= 0.0) | (o.r1 <= o.r2);
+  const double nearest = smaller(std::abs(o.r2), std::abs(o.s2 - o.r1));  // corner to corner
+  const bool apart = nearest >= pair.passing;
+  const double deepest =
+      larger(o.closure_at_0 + o.closure_slope * o.ma, o.closure_at_0 + o.closure_slope * o.mb);
+  constexpr double shallow = 1.001 * (aspect_from + aspect_range);
+  const bool rigid = apart & (along >= 1.0) & (length >= shallow * deepest);
+  const bool unstressed =
+      (pair.carries_tension == 0.0) & (pair.offset.a == 0.0) & (pair.offset.b == 0.0);
+  return unstressed & (absent | rigid);
+}
+
+/// The ends of the overlap, as coordinates along t from p1, m.
+struct OverlapEnds {
+  double sa = 0.0, sb = 0.0;
+  bool exists = false;                  ///< the edges are opposed and overlap
+  bool a_by_p = false, b_by_p = false;  ///< p1 bounds end a, p2 end b
+  double la = 0.0, lb = 0.0;            ///< where the closures are taken on which r depends
+  double per_passing = 0.0;             ///< 1/m
+  CornersPassing near_a{}, near_b{};    ///< corners that pass each other, for la and lb
+  CornersPassing pass_a{}, pass_b{};    ///< corners within r of each other, for sa and sb
+  PassingReach reach{};
+};
+
+/// The overlap of two edges. plain: is_plain() holds for them, so that no corners pass each other.
+template <bool plain>
+EDDA_INLINE OverlapEnds overlap_of(const EdgeGeometry& o, const FacePair& pair) {
+  OverlapEnds v;
+  v.a_by_p = o.r2 <= 0.0;
+  v.b_by_p = o.s2 <= o.r1;
+  v.sa = v.la = o.ma;
+  v.sb = v.lb = o.mb;
+  const bool opposed = (o.s2 > 0.0) & (o.r1 > o.r2) & (o.cosine > pair.gate_from);
+  v.exists = (o.mb > o.ma) & opposed;
+  if constexpr (!plain) {
+    const bool carries_tension = pair.carries_tension != 0.0;
+    const double furthest = furthest_reach * pair.passing, per_furthest = 1.0 / furthest;
+    v.per_passing = furthest_reach * per_furthest;
+    v.near_a = corners_passing(-o.r2, furthest, per_furthest);
+    v.near_b = corners_passing(o.s2 - o.r1, furthest, per_furthest);
+    const double beyond = 0.25 * furthest;
+    v.la = o.ma + v.near_a.drawn_in - beyond;
+    v.lb = o.mb - v.near_b.drawn_in + beyond;
+    const double corner_a = o.closure_at_0 + o.closure_slope * v.la + pair.offset.a;
+    const double corner_b = o.closure_at_0 + o.closure_slope * v.lb + pair.offset.b;
+    v.reach =
+        passing_reach(carries_tension ? corner_a : larger(corner_a, 0.0),
+                      carries_tension ? corner_b : larger(corner_b, 0.0), furthest, per_furthest);
+    const double per_reach = 1.0 / (v.reach.reach > 0.0 ? v.reach.reach : 1.0);
+    v.pass_a = corners_passing(-o.r2, v.reach.reach, per_reach);
+    v.pass_b = corners_passing(o.s2 - o.r1, v.reach.reach, per_reach);
+    const double from = o.ma + v.pass_a.drawn_in, to = o.mb - v.pass_b.drawn_in;
+    v.exists = (to > from) & opposed;
+    v.sa = v.exists ? from : o.ma;
+    v.sb = v.exists ? to : o.mb;
+  }
+  return v;
+}
+
+}  // namespace edda

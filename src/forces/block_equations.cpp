@@ -1,0 +1,157 @@
+#include "forces/block_equations.hpp"
+
+#include <bit>
+#include <cmath>
+
+#include "forces/bolt_matrix.hpp"
+
+namespace edda {
+namespace {
+
+/// A contact spring that is spread along a part of an edge.
+struct DistributedSpring {
+  double stiffness, length;  ///< N/m per m, with the factor 1 or 2; m
+  Id face;
+};
+
+/// Upper bound of the stiffness that springs along an edge of length l have at each of its corners,
+/// Int k(s) (1 - s/l) ds. Springs cannot overlap, and each counts most nearest to the corner, so
+/// they are laid out from the corner, the stiffest first.
+double corner_stiffness_bound(std::vector<DistributedSpring>& distributed_springs, double l,
+                              double* count = nullptr) {
+  std::stable_sort(distributed_springs.begin(), distributed_springs.end(),
+                   [](const DistributedSpring& p, const DistributedSpring& q) {
+                     return p.stiffness > q.stiffness;
+                   });
+  double sum = 0.0, from = 0.0;
+  for (const DistributedSpring& bed : distributed_springs) {
+    const double to = std::min(from + bed.length / l, 1.0);
+    if (count != nullptr && to > from) *count += 1.0;
+    sum += bed.stiffness * l * ((to - 0.5 * to * to) - (from - 0.5 * from * from));
+    from = to;
+  }
+  return sum;
+}
+
+/// Contacts of block i as if it were in contact all round: the faces in the list, and along edges
+/// without a face neighbours like the block itself. They follow from the shape of the blocks alone,
+/// so that the step does not change with the state.
+std::vector<SpringOnBlock> faces_all_round(const StiffnessInputs& w, std::size_t i) {
+  const BlockSet& b = w.blocks;
+  const FaceSet& c = w.contacts;
+  std::vector<SpringOnBlock> parts;
+  std::vector<DistributedSpring> normal, shear;
+  for (Id e = b.vertex_begin[i]; e < b.vertex_begin[i + 1]; ++e) {
+    const double l = b.edge_length[e];
+    const Law& own = w.laws.rows[w.laws.resolve(b.edge_joint[e], b.edge_joint[e])];
+    const double bare = w.alone ? 1.0 : 2.0;
+    const double kn = w.laws.normal_stiffness(own, l);
+    const double ks = w.laws.shear_stiffness(own, l);
+    normal.assign(1, {bare * kn, l, no_id});
+    shear.assign(1, {bare * ks, l, no_id});
+    double zeta = w.laws.damping_of(own, w.damping.contact), shear_zeta = own.shear_damping;
+    c.for_faces(e, e + 1, [&](Id k, bool of_edge) {
+      const Id f = of_edge ? c.facing[k] : c.edge[k];
+      const double factor = b.fixed[b.vertex_block[f]] != 0 ? 1.0 : 2.0;
+      const Law& law = w.laws.rows[c.law[k]];
+      zeta = std::max(zeta, w.laws.damping_of(law, w.damping.contact));
+      shear_zeta = std::max(shear_zeta, law.shear_damping);
+      normal.push_back({factor * c.stiffness[k], b.edge_length[f], k});
+      shear.push_back({factor * c.shear_stiffness[k], b.edge_length[f], k});
+    });
+    double count = 0.0;
+    const double of_normal = corner_stiffness_bound(normal, l, &count),
+                 of_shear = corner_stiffness_bound(shear, l);
+    const Vec2 t = unit(b.vertex(b.next[e]) - b.vertex(e));
+    for (const Id v : {e, b.next[e]}) {
+      const NodeWeights weights = weights_of(b.weight, v);
+      // n dashpots side by side, each computed with the mass that the corner feels, are sqrt(n)
+      // times one dashpot of the whole stiffness.
+      const double factor = 2.0 * std::sqrt(bare * count / w.masses.point_inverse[v]);
+      parts.push_back({normal.front().face, along(weights, outward_normal(t)), along(weights, t),
+                       of_normal, of_shear, factor * zeta * std::sqrt(of_normal),
+                       factor * shear_zeta * std::sqrt(of_shear)});
+    }
+  }
+  return parts;
+}
+
+/// In place of faces: all point contacts that are near act at once, each spring in both directions,
+/// since it is not known which edge a vertex will meet.
+std::vector<SpringOnBlock> points_near(const StiffnessInputs& w, std::size_t i) {
+  const std::vector<PointSpring>& springs = w.points->springs;
+  const double p = std::max(w.points->stiffness, w.points->shear_stiffness);
+  std::vector<SpringOnBlock> parts;
+  const auto before = [](const PointSpring& s, std::size_t block) { return s.block < block; };
+  for (auto s = std::lower_bound(springs.begin(), springs.end(), i, before);
+       s != springs.end() && s->block == i; ++s) {
+    parts.push_back({no_id, along(s->weight, {1.0, 0.0}), along(s->weight, {0.0, 1.0}),
+                     s->factor * p, s->factor * p, 0.0, 0.0});
+  }
+  return parts;
+}
+
+/// Hash of a sequence of numbers.
+class Hash {
+ public:
+  void add(double number) {
+    value_ = (value_ ^ std::bit_cast<std::uint64_t>(number)) * 0x9e3779b97f4a7c15u;
+    value_ ^= value_ >> 32;
+  }
+  std::uint64_t value() const { return value_ == 0 ? 1 : value_; }
+
+ private:
+  std::uint64_t value_ = 1;
+};
+
+}  // namespace
+
+BlockEquations equations_of(const StiffnessInputs& w, std::size_t i) {
+  BlockEquations k;
+  k.mass = mass_matrix(w.masses, i);
+  k.viscous = viscous_matrix(w.blocks, w.masses, i);
+  k.parts = w.points == nullptr ? faces_all_round(w, i) : points_near(w, i);
+  k.elastic = elastic_matrix(w.blocks, i);
+  k.boundary = boundary_matrix(w.blocks, w.springs,
+                               rotation(deformation(w.blocks, w.state.x, w.state.y, i)), i);
+  k.bolts =
+      w.bolts == nullptr ? NodalMatrix::Zero().eval() : bolt_matrix(*w.bolts, w.blocks, w.state, i);
+  for (const SpringOnBlock& p : k.parts) k.add(p);
+  return k;
+}
+
+std::uint64_t equations_hash(const StiffnessInputs& w, std::size_t i) {
+  const BlockSet& b = w.blocks;
+  const bool by_state =
+      w.springs.block_begin[i] < w.springs.block_begin[i + 1] ||
+      (w.bolts != nullptr && !w.bolts->place.empty() && w.bolts->place[i] != no_id);
+  if (by_state || w.points != nullptr) return 0;
+  Hash hash;
+  for (const std::vector<double>& mass : w.masses.node) hash.add(mass[i]);
+  for (const double number :
+       {w.damping.local, w.damping.mass_damping(), b.lame_lambda[i], b.lame_mu[i]})
+    hash.add(number);
+  hash.add(w.masses.viscosity.empty() ? 0.0 : w.masses.viscosity[i]);
+  hash.add(w.masses.kind == MassKind::consistent ? w.masses.inverse[0][i] : 0.0);
+  // The factor of a spring, 1 or 2, enters as the sign of its length.
+  const auto add = [&](const Law& law, double kn, double ks, double length, bool once) {
+    for (const double number : {kn, ks, once ? -length : length,
+                                w.laws.damping_of(law, w.damping.contact), law.shear_damping})
+      hash.add(number);
+  };
+  for (Id e = b.vertex_begin[i]; e < b.vertex_begin[i + 1]; ++e) {
+    const double l = b.edge_length[e];
+    const Law& own = w.laws.rows[w.laws.resolve(b.edge_joint[e], b.edge_joint[e])];
+    hash.add(static_cast<double>(w.contacts.begin_of_edge[e + 1] - w.contacts.begin_of_edge[e]));
+    add(own, w.laws.normal_stiffness(own, l), w.laws.shear_stiffness(own, l), l, w.alone);
+    w.contacts.for_faces(e, e + 1, [&](Id k, bool of_edge) {
+      const Id f = of_edge ? w.contacts.facing[k] : w.contacts.edge[k];
+      const bool fixed = b.fixed[b.vertex_block[f]] != 0;
+      add(w.laws.rows[w.contacts.law[k]], w.contacts.stiffness[k], w.contacts.shear_stiffness[k],
+          b.edge_length[f], fixed);
+    });
+  }
+  return hash.value();
+}
+
+}  // namespace edda

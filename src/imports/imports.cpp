@@ -1,0 +1,204 @@
+#include "imports/imports.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <set>
+#include <variant>
+
+#include "base/place.hpp"
+#include "imports/drawing.hpp"
+#include "imports/import_units.hpp"
+#include "model/files/file_text.hpp"
+#include "model/table/nearest.hpp"
+
+namespace edda {
+namespace {
+
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return ending;
+}
+
+Result<Drawing> read_drawing(const Import& import) {
+  const std::variant<std::string, Fault> text = file_text(import.file);
+  if (const Fault* fault = std::get_if<Fault>(&text)) return *fault;
+  const auto& content = std::get<std::string>(text);
+  const std::string ending = ending_of(import.file);
+  if (ending == ".csv") return parse_traces(content, import.file);
+  if (ending == ".geo") return parse_geo(content, import.file);
+  return parse_dxf(content, import.file);
+}
+
+/// Joint of a layer, and whether its lines are read at all.
+class Layers {
+ public:
+  Layers(const Model& model, const Import& import) : import_(import) {
+    for (std::size_t i = 0; i < model.joints.size(); ++i) {
+      joints_[model.joints[i].name] = static_cast<Index>(i);
+    }
+    for (const auto& [name, joint] : import.layers) named_[name] = joint;
+  }
+
+  bool reads(const std::string& layer) const {
+    return named_.empty() || named_.contains(layer) || layer.empty();
+  }
+
+  Index joint_of(const std::string& layer) const {
+    if (const auto found = named_.find(layer); found != named_.end()) return found->second;
+    if (const auto found = joints_.find(layer); found != joints_.end()) return found->second;
+    return import_.joint;
+  }
+
+  /// For a table, whose joints are written out: an unknown name is a mistake.
+  std::string unknown_joint(const std::string& name) const {
+    if (name.empty() || named_.contains(name) || joints_.contains(name)) return {};
+    std::vector<std::string_view> known;
+    for (const auto& [joint, i] : joints_) known.push_back(joint);
+    return known.empty() ? std::string("no joint is defined") : suggestion(name, known);
+  }
+
+ private:
+  const Import& import_;
+  std::map<std::string, Index> joints_, named_;
+};
+
+std::string listed(const std::map<std::string, int>& counts) {
+  std::string text;
+  constexpr std::size_t most = 12;
+  std::size_t shown = 0;
+  for (const auto& [name, count] : counts) {
+    if (++shown > most) return text + ", and more";
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + ' ' + clipped(name);
+  }
+  return text;
+}
+
+std::string note_of(const Import& import, std::size_t lines, const Drawing& drawing,
+                    const std::map<std::string, int>& taken) {
+  std::string text = std::filesystem::path(import.file).filename().string() + ": " +
+                     std::to_string(lines) + (lines == 1 ? " line" : " lines");
+  std::map<std::string, int> named = taken;
+  named.erase("");
+  if (!named.empty()) text += " (" + listed(named) + ')';
+  if (!drawing.fixed.empty()) text += ", " + std::to_string(drawing.fixed.size()) + " fixed";
+  if (!drawing.skipped.empty()) text += "; left out: " + listed(drawing.skipped);
+  return text;
+}
+
+std::optional<Fault> missing_layer(const Import& import, const Drawing& drawing) {
+  std::set<std::string> there;
+  for (const DrawnLine& line : drawing.lines) there.insert(line.layer);
+  for (const auto& [name, joint] : import.layers) {
+    if (there.contains(name)) continue;
+    const std::vector<std::string_view> known(there.begin(), there.end());
+    return Fault{member_of(import.where, "layers." + name), "no line of the file is on this layer",
+                 known.empty() ? "it has no lines" : "its layers are " + quoted_list(known)};
+  }
+  return std::nullopt;
+}
+
+/// Adds the lines of one file.
+std::optional<Fault> take(const Model& model, Index number, Drawing& drawing, Imports& imports) {
+  const Import& import = model.imports[static_cast<std::size_t>(number)];
+  const Layers layers(model, import);
+  const bool table = ending_of(import.file) == ".csv";
+  const double scale = import.scale * metres(import.units);
+  const auto placed = [&](Vec2 p) { return import.shift + scale * p; };
+  std::map<std::string, int> taken;
+  if (auto fault = missing_layer(import, drawing); fault && !table) return fault;
+  const std::size_t before = imports.lines.size();
+  for (DrawnLine& line : drawing.lines) {
+    if (table) {
+      if (const std::string hint = layers.unknown_joint(line.layer); !hint.empty()) {
+        return Fault{{"", import.file, line.line, 1},
+                     "no joint is called \"" + clipped(line.layer) + '"',
+                     hint};
+      }
+    } else if (!layers.reads(line.layer)) {
+      ++drawing.skipped["on layer \"" + line.layer + '"'];
+      continue;
+    }
+    const bool is_point = std::all_of(line.points.begin(), line.points.end(),
+                                      [&](Vec2 p) { return p == line.points[0]; });
+    if (is_point) {
+      ++drawing.skipped["of no length"];
+      continue;
+    }
+    ImportedLine imported{{}, layers.joint_of(line.layer), number};
+    for (const Vec2 p : line.points) {
+      imported.points.push_back(placed(p));
+      constexpr double largest = 1e12;  // m, as for lengths in the model
+      const Vec2 q = imported.points.back();
+      if (std::abs(q.x) > largest || std::abs(q.y) > largest) {
+        return Fault{{"", import.file, line.line, 1},
+                     "lies beyond 1e12 m",
+                     "check units, scale and shift of the import"};
+      }
+    }
+    imports.lines.push_back(std::move(imported));
+    ++taken[line.layer];
+  }
+  for (const auto& [a, b] : drawing.fixed) {
+    imports.fixed_lines.emplace_back(placed(a), placed(b));
+    imports.fixed_import.push_back(number);
+  }
+  const std::size_t lines = imports.lines.size() - before;
+  imports.drawn_in.push_back(drawing.units);
+  imports.notes.push_back(note_of(import, lines, drawing, taken));
+  if (lines > 0) return std::nullopt;
+  return Fault{member_of(import.where, "file"), imports.notes.back(),
+               "give a file with lines; of a drawing, lines, polylines, arcs, ellipses and splines "
+               "are read, also of inserted blocks"};
+}
+
+}  // namespace
+
+Result<Imports> read_imports(const Model& model) {
+  Imports imports;
+  Faults faults;
+  for (std::size_t i = 0; i < model.imports.size(); ++i) {
+    const Import& import = model.imports[i];
+    Result<Drawing> drawing = read_drawing(import);
+    if (!drawing.ok()) {
+      Fault fault = drawing.faults().front();
+      if (fault.where.line == 0) {  // the fault is in the file's name, not in the file
+        fault.problem = import.file + ' ' + fault.problem;
+        fault.where = member_of(import.where, "file");
+      }
+      faults.push_back(std::move(fault));
+    } else if (auto fault = take(model, static_cast<Index>(i), drawing.value(), imports)) {
+      faults.push_back(std::move(*fault));
+    }
+  }
+  if (!faults.empty()) return faults;
+  return imports;
+}
+
+Result<Domain> frame_of(const Model& model, const Imports& imports) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  Vec2 low{infinite, infinite}, high{-infinite, -infinite};
+  for (const ImportedLine& line : imports.lines) {
+    for (const Vec2 p : line.points) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+  }
+  const Import& first = model.imports.front();
+  if (!(high.x > low.x && high.y > low.y)) {
+    return Fault{member_of(first.where, "file"), "the lines enclose nothing",
+                 "give lines that bound blocks, or a [domain] for them to cut"};
+  }
+  Domain frame;
+  frame.outline = {low, {high.x, low.y}, high, {low.x, high.y}};
+  frame.material = first.material;
+  frame.where = first.where;
+  return frame;
+}
+
+}  // namespace edda

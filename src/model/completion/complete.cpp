@@ -1,0 +1,316 @@
+#include "model/completion/complete_tools.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "model/table/nearest.hpp"
+
+namespace edda {
+namespace {
+
+void complete_materials(const Value& root, Reading& reading) {
+  const auto keys = find_section("materials")->keys;
+  const double gravity = norm(reading.model.gravity);
+  constexpr double usual_gravity = 9.81;  // for the weight of materials in a model without gravity
+  auto& materials = reading.model.materials;
+  for (Material& material : materials) {
+    const Value* node = find(find(&root, "materials"), material.name);
+    const std::string path = material.where.key + ".unit_weight";
+    const Value* weight = find(node, "unit_weight");
+    if (weight != nullptr) {
+      const auto value = read_number(*weight, *find_key(keys, "unit_weight"), path, reading);
+      if (given(node, "density")) {
+        add_fault(reading, weight->place, path, "density is given too", "give only one of them");
+      } else if (value) {
+        material.density = fitted(*value / (gravity > 0.0 ? gravity : usual_gravity));
+      }
+    } else if (!given(node, "density")) {
+      add_fault(reading, node->place, material.where.key + ".density", "is missing",
+                "give " + expected(*find_key(keys, "density")) + ", or unit_weight");
+    }
+  }
+}
+
+void complete_contact(const Value& root, Reading& reading) {
+  Model& model = reading.model;
+  const Value* node = find(&root, "contact");
+  double young = 0.0;
+  for (const Material& material : model.materials) young = std::max(young, material.young);
+  constexpr double stiffness_over_young = 10.0;
+  if (!given(node, "normal_stiffness")) {
+    model.contact.normal_stiffness = fitted(stiffness_over_young * young);
+  }
+  if (!given(node, "shear_stiffness")) {
+    model.contact.shear_stiffness = model.contact.normal_stiffness;
+  }
+  if (!given(node, "joint") && model.joints.size() == 1) model.contact.joint = 0;
+}
+
+/// Fills in a missing material where the model has only one.
+void complete_material(const Value& root, const Value* node, Index& material, const Where& where,
+                       Reading& reading) {
+  if (!is_table(node) || given(node, "material")) return;
+  const auto& materials = reading.model.materials;
+  if (materials.size() == 1) {
+    material = 0;
+    return;
+  }
+  if (materials.empty() && given(&root, "materials")) return;  // faulty, and reported already
+  std::vector<std::string_view> names;
+  names.reserve(materials.size());
+  for (const Material& m : materials) names.push_back(m.name);
+  add_fault(reading, node->place, where.key + ".material", "is missing",
+            names.empty() ? "add a material: [materials.rock]"
+                          : "several are defined, name one of " + quoted_list(names));
+}
+
+void complete_material_references(const Value& root, Reading& reading) {
+  Model& model = reading.model;
+  const auto complete_one = [&](const Value* node, auto& item) {
+    complete_material(root, node, item.material, item.where, reading);
+  };
+  for (std::size_t i = 0; i < model.blocks.size(); ++i) {
+    complete_one(element(root, "block", i), model.blocks[i]);
+  }
+  if (model.domain) {
+    const Value* node = find(&root, "domain");
+    complete_one(node != nullptr ? node : find(&root, "slope"), *model.domain);
+  }
+  for (std::size_t i = 0; i < model.walls.size(); ++i) {
+    complete_one(element(root, "brick_wall", i), model.walls[i]);
+  }
+  for (std::size_t i = 0; i < model.arches.size(); ++i) {
+    complete_one(element(root, "arch", i), model.arches[i]);
+  }
+  for (std::size_t i = 0; i < model.regions.size(); ++i) {
+    complete_one(element(root, "region", i), model.regions[i]);
+  }
+  for (std::size_t i = 0; i < model.imports.size() && !model.domain; ++i) {
+    complete_one(element(root, "import", i), model.imports[i]);
+  }
+}
+
+/// Rough numbers of blocks: none, one or several.
+struct BlockCount {
+  double all = 0.0;
+  double without_law = 0.0;  ///< blocks whose edges name no joint
+};
+
+BlockCount count_blocks(const Model& model) {
+  BlockCount count;
+  const auto add = [&](double blocks, double without_law) {
+    count.all += blocks;
+    count.without_law += without_law;
+  };
+  for (const BlockInput& block : model.blocks) add(1.0, block.joint == none ? 1.0 : 0.0);
+  for (const BrickWall& wall : model.walls) {
+    const double bricks = static_cast<double>(wall.columns) * wall.rows;
+    add(bricks, wall.joint == none ? bricks : 0.0);
+  }
+  for (const Arch& arch : model.arches) {
+    add(arch.count, arch.joint == none ? arch.count : 0.0);
+  }
+  if (!model.domain && !model.imports.empty()) {
+    const bool unnamed = std::any_of(model.imports.begin(), model.imports.end(),
+                                     [](const Import& import) { return import.joint == none; });
+    add(2.0, unnamed ? 2.0 : 0.0);
+  }
+  if (model.domain) {
+    const auto names_none = [](const auto& cut) { return cut.joint == none; };
+    const bool cut = !model.joint_sets.empty() || !model.traces.empty() ||
+                     !model.networks.empty() || model.voronoi || !model.imports.empty() ||
+                     !model.regions.empty();
+    const auto any_unnamed = [&](const auto& items) {
+      return std::any_of(items.begin(), items.end(), names_none);
+    };
+    const bool unnamed = any_unnamed(model.joint_sets) || any_unnamed(model.traces) ||
+                         any_unnamed(model.networks) || any_unnamed(model.imports) ||
+                         (model.voronoi && names_none(*model.voronoi));
+    const double without_law = model.domain->joint != none ? 0.0 : unnamed ? 2.0 : 1.0;
+    add(cut ? 2.0 : 1.0, without_law);
+  }
+  return count;
+}
+
+/// A contact between edges that name no joint needs a law. Where the name of a joint is wrong, this
+/// is already a fault, and the count of edges without a law has no meaning.
+void check_laws(const Value& root, Reading& reading, bool joints_are_faulty) {
+  const Model& model = reading.model;
+  if (joints_are_faulty || (model.joints.empty() && given(&root, "joints"))) return;
+  const BlockCount count = count_blocks(model);
+  if (model.joints.empty() && count.all > 1.0) {
+    add_fault(reading, {1, 1, false}, "joints", "no contact law is defined",
+              "add [joints.NAME] with a friction_angle");
+  } else if (model.joints.size() > 1 && model.contact.joint == none && count.without_law > 1.0) {
+    std::vector<std::string_view> names;
+    for (const JointLaw& law : model.joints) names.push_back(law.name);
+    const Value* contact = find(&root, "contact");
+    add_fault(reading, contact == nullptr ? Place{1, 1, false} : contact->place, "contact.joint",
+              "is missing, and some edges name no joint",
+              "several are defined, name one of " + quoted_list(names));
+  }
+}
+
+template <class Item>
+void check_names(const Value& root, std::string_view section, const std::vector<Item>& items,
+                 Reading& reading) {
+  std::map<std::string_view, std::size_t> first;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (items[i].name.empty()) continue;
+    const auto [other, is_new] = first.emplace(items[i].name, i);
+    if (is_new) continue;
+    const Value* name = find(element(root, section, i), "name");
+    const Where& where = items[other->second].where;
+    add_fault(reading, name->place, items[i].where.key + ".name",
+              fmt::format("is the name of element {} (line {}) too", other->second, where.line),
+              "give each its own name");
+  }
+}
+
+void check_blocks(const Value& root, Reading& reading) {
+  const auto& blocks = reading.model.blocks;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const BlockInput& block = blocks[i];
+    if (!block.fixed) continue;
+    const Value* node = element(root, "block", i);
+    const auto refuse = [&](const char* key) {
+      add_fault(reading, find(node, key)->place, block.where.key + "." + key,
+                "a fixed block cannot have a velocity", "leave it out, or set fixed = false");
+    };
+    if (block.velocity != Vec2{}) refuse("velocity");
+    if (block.angular_velocity != 0.0) refuse("angular_velocity");
+  }
+}
+
+void check_content(const Value& root, Reading& reading) {
+  const Model& model = reading.model;
+  const bool is_misspelt =
+      std::any_of(reading.faults.begin(), reading.faults.end(), [](const Fault& fault) {
+        return fault.where.key == "block" || fault.where.key == "brick_wall" ||
+               fault.where.key == "arch" || fault.where.key == "import";
+      });
+  if (model.blocks.empty() && !model.domain && model.walls.empty() && model.arches.empty() &&
+      model.imports.empty() && !is_misspelt) {
+    add_fault(reading, {1, 1, false}, "block", "the model has no blocks",
+              "add a [[block]], a [domain] or a [[brick_wall]]");
+  }
+  if (model.domain) return;
+  for (const std::string_view name :
+       {"joint_set", "trace", "fracture_network", "opening", "region", "fixed"}) {
+    const Value* first = element(root, name, 0);
+    if (first == nullptr || (name == "fixed" && !model.imports.empty())) continue;
+    add_fault(reading, first->place, std::string(name), "there is no [domain] for it to act on",
+              "add a [domain] with an outline, or a [slope]");
+  }
+  if (model.voronoi) {
+    add_fault(reading, find(&root, "voronoi")->place, "voronoi",
+              "there is no [domain] for it to act on",
+              "add a [domain] with an outline, or a [slope]");
+  }
+}
+
+void check_solver(const Value& root, Reading& reading) {
+  const Solver& solver = reading.model.solver;
+  const Value* node = find(&root, "solver");
+  if (solver.damping.local > 0.0) {
+    check_local_damping(
+        find(node, "damping"), "solver", solver,
+        "leave it out: the implicit method has numerical damping, most of all with dynamic = false",
+        reading);
+  }
+  if (solver.method == Method::edda && !solver.dynamic) {
+    add_fault(reading, find(node, "dynamic")->place, "solver.dynamic",
+              "false belongs to method = \"dda\"",
+              "give method = \"dda\", or leave it out and end with a [[stage]] with "
+              "until = \"equilibrium\"");
+  }
+  constexpr double most_steps = 1e12;
+  if (solver.time_step && solver.duration / *solver.time_step > most_steps) {
+    add_fault(reading, find(node, "time_step")->place, "solver.time_step",
+              fmt::format("would take {:.1e} steps", solver.duration / *solver.time_step),
+              "give a longer time_step, or \"auto\"");
+  }
+}
+
+/// A default of duration / `parts` (0 where no duration is given), and a fault where there would be
+/// more than `most` rows.
+void complete_interval(const Value& root, const char* key, double& interval, double parts,
+                       double most, Reading& reading) {
+  const Value* value = find(find(&root, "output"), key);
+  const double duration = reading.model.solver.duration;
+  if (value == nullptr) {
+    interval = duration > 0.0 ? fitted(duration / parts) : 0.0;
+  } else if (interval > 0.0 && duration / interval > most) {
+    add_fault(reading, value->place, std::string("output.") + key,
+              fmt::format("would write {:.1e} times, more than {:.0e}", duration / interval, most),
+              fmt::format("give at least {:.3g} s", duration / most));
+  }
+}
+
+}  // namespace
+
+void check_local_damping(const Value* damping, const std::string& owner, const Solver& solver,
+                         const char* instead, Reading& reading) {
+  const Value* local = find(damping, "local");
+  if (local == nullptr) return;
+  const std::string key = owner + ".damping.local";
+  if (solver.method == Method::dda) {
+    add_fault(reading, local->place, key, "local damping belongs to method = \"edda\"", instead);
+  }
+  if (solver.mass == MassKind::consistent) {
+    add_fault(reading, local->place, key,
+              "local damping is not available with mass = \"consistent\"",
+              "use mass = \"matched\", which moves the same way");
+  }
+}
+
+void complete(const Value& root, Reading& reading) {
+  Model& model = reading.model;
+  const bool joints_are_faulty =
+      std::any_of(reading.faults.begin(), reading.faults.end(), [](const Fault& fault) {
+        return fault.where.key.ends_with("joint") || fault.where.key == "joints";
+      });
+  complete_shapes(root, reading);
+  complete_materials(root, reading);
+  complete_joints(root, reading);
+  complete_contact(root, reading);
+  complete_material_references(root, reading);
+  check_content(root, reading);
+  check_laws(root, reading, joints_are_faulty);
+  check_names(root, "block", model.blocks, reading);
+  check_names(root, "joint_set", model.joint_sets, reading);
+  check_names(root, "fracture_network", model.networks, reading);
+  check_names(root, "opening", model.openings, reading);
+  check_names(root, "boundary", model.boundaries, reading);
+  check_names(root, "load", model.loads, reading);
+  check_names(root, "water", model.waters, reading);
+  check_names(root, "stage", model.stages, reading);
+  check_names(root, "monitor", model.monitors, reading);
+  check_blocks(root, reading);
+  check_names(root, "shaking", model.shakings, reading);
+  check_names(root, "bolt", model.bolts, reading);
+  check_names(root, "bolt_pattern", model.bolt_patterns, reading);
+  check_names(root, "convergence", model.convergences, reading);
+  complete_boundaries(root, reading);
+  complete_lines(root, reading);
+  complete_initial_stress(root, reading);
+  complete_shakings(root, reading);
+  complete_bolts(root, reading);
+  complete_geometry(root, reading);
+  complete_loads(root, reading);
+  complete_stages(root, reading);
+  check_solver(root, reading);
+  complete_fos(root, reading);
+  complete_points(root, reading);
+  complete_interval(root, "every", model.output.every, 20.0, 1e5, reading);
+  complete_interval(root, "history_every", model.output.history_every, 200.0, 1e7, reading);
+  const Value* output = find(&root, "output");
+  if (find(output, "settling") == nullptr)
+    model.output.settling =
+        find(output, "every") == nullptr && find(output, "history_every") == nullptr;
+}
+
+}  // namespace edda

@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "model/completion/complete_tools.hpp"
+#include "model/table/nearest.hpp"
+
+namespace edda {
+namespace {
+
+/// The names of the elements of a list that have one.
+template <class Item>
+std::vector<std::string_view> names_in(const std::vector<Item>& items) {
+  std::vector<std::string_view> names;
+  for (const Item& item : items) {
+    if (!item.name.empty()) names.push_back(item.name);
+  }
+  return names;
+}
+
+/// The row of that name; a fault where there is none.
+template <class Item>
+Index row_of(const std::vector<Item>& items, const std::string& name, const char* what, Place place,
+             const std::string& key, Reading& reading) {
+  for (std::size_t q = 0; q < items.size(); ++q) {
+    if (items[q].name == name) return static_cast<Index>(q);
+  }
+  const std::vector<std::string_view> known = names_in(items);
+  add_fault(reading, place, key, fmt::format("no {} is called \"{}\"", what, clipped(name)),
+            !known.empty()  ? suggestion(name, known)
+            : items.empty() ? fmt::format("the model has none: add one, or leave this out")
+                            : fmt::format("give the {} that name", what));
+  return none;
+}
+
+/// vary = "strength", or KIND:NAME.
+void read_varied(const Value* node, Fos& fos, Reading& reading) {
+  if (fos.vary == "strength") return;
+  const Place place = place_of(node, "vary");
+  const std::size_t colon = std::min(fos.vary.find(':'), fos.vary.size());
+  const std::string kind = fos.vary.substr(0, colon);
+  const std::string name = fos.vary.substr(std::min(colon + 1, fos.vary.size()));
+  const Model& model = reading.model;
+  const auto find_in = [&](Varied varied, const auto& items) {
+    fos.varied = varied;
+    fos.target = row_of(items, name, kind.c_str(), place, "fos.vary", reading);
+  };
+  if (kind == "load") return find_in(Varied::load, model.loads);
+  if (kind == "shaking") return find_in(Varied::shaking, model.shakings);
+  if (kind == "water") return find_in(Varied::water, model.waters);
+  add_fault(reading, place, "fos.vary",
+            '"' + clipped(fos.vary) + "\" is nothing that can be varied",
+            "give \"strength\", \"load:NAME\", \"shaking:NAME\" or \"water:NAME\"");
+}
+
+}  // namespace
+
+void complete_fos(const Value& root, Reading& reading) {
+  if (!reading.model.fos) return;
+  Fos& fos = *reading.model.fos;
+  const Value* node = find(&root, "fos");
+  if (!is_table(node)) return;
+  const Model& model = reading.model;
+  read_varied(node, fos, reading);
+  if (!fos.stage.empty()) {
+    row_of(model.stages, fos.stage, "stage", place_of(node, "stage"), "fos.stage", reading);
+  }
+  for (const std::string& name : fos.exclude) {
+    row_of(model.joints, name, "joint", place_of(node, "exclude"), "fos.exclude", reading);
+  }
+  if (given(node, "bracket") && fos.bracket.x >= fos.bracket.y) {
+    add_fault(reading, find(node, "bracket")->place, "fos.bracket",
+              "the lower factor is not below the upper one", "give two such as [0.5, 3.0]");
+  }
+}
+
+}  // namespace edda

@@ -1,0 +1,228 @@
+// [[stage]]: its defaults, and whether what it names exists.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "model/completion/complete_tools.hpp"
+#include "model/stage_names.hpp"
+#include "model/table/nearest.hpp"
+
+namespace edda {
+namespace {
+
+/// Damping of a stage: values that it does not give are those of the solver; a stage until
+/// equilibrium has adaptive damping by default.
+void complete_stage_damping(const Value* node, const Solver& solver, Stage& stage) {
+  const Value* own = find(node, "damping");
+  const bool seeks_equilibrium =
+      stage.until == StageEnd::equilibrium && solver.method == Method::edda;
+  if (!given(own, "mass")) stage.damping.mass = solver.damping.mass;
+  if (!given(own, "contact")) stage.damping.contact = solver.damping.contact;
+  if (!given(own, "rayleigh")) stage.damping.rayleigh = solver.damping.rayleigh;
+  // With local damping the user has already chosen how the stage reaches equilibrium.
+  if (!given(own, "local")) stage.damping.local = seeks_equilibrium ? 0.0 : solver.damping.local;
+  if (!given(own, "adaptive")) {
+    const bool chosen = given(own, "local") || given(own, "mass");
+    stage.damping.adaptive =
+        seeks_equilibrium && !chosen ? Damping::for_equilibrium : solver.damping.adaptive;
+  }
+}
+
+/// In a stage until equilibrium inertia is scaled by default, so that small blocks do not shorten
+/// the step.
+void complete_masses(const Value* node, const Solver& solver, Stage& stage, Reading& reading) {
+  const Value* own = find(node, "masses");
+  if (own == nullptr) {
+    const bool seeks_equilibrium = stage.until == StageEnd::equilibrium &&
+                                   solver.method == Method::edda && solver.mass_scaling == 0.0 &&
+                                   !solver.time_step;
+    if (seeks_equilibrium) stage.masses = StageMasses::scaled;
+    return;
+  }
+  if (stage.masses != StageMasses::scaled) return;
+  const std::string key = stage.where.key + ".masses";
+  if (solver.method == Method::dda) {
+    add_fault(reading, own->place, key, "\"scaled\" belongs to method = \"edda\"",
+              "leave it out: an implicit step is as long as you choose");
+  } else if (solver.mass_scaling > 0.0 || solver.time_step) {
+    add_fault(reading, own->place, key,
+              std::string("\"scaled\" chooses the time step, and solver.") +
+                  (solver.time_step ? "time_step" : "mass_scaling") + " does too",
+              "leave one of them out");
+  }
+}
+
+template <class Item>
+std::vector<std::string_view> names_in(const std::vector<Item>& items) {
+  std::vector<std::string_view> names;
+  for (const Item& item : items) {
+    if (!item.name.empty()) names.push_back(item.name);
+  }
+  return names;
+}
+
+void names_nothing(Reading& reading, const Value& value, const std::string& path,
+                   const std::string& name, const std::string& what,
+                   const std::vector<std::string_view>& known) {
+  add_fault(reading, value.place, path, '"' + name + "\" names no " + what,
+            known.empty() ? "the model has none that has a name" : suggestion(name, known));
+}
+
+Opening* opening_called(Model& model, const std::string& name) {
+  const auto found = std::find_if(model.openings.begin(), model.openings.end(),
+                                  [&](const Opening& o) { return o.name == name; });
+  return found == model.openings.end() ? nullptr : &*found;
+}
+
+/// Excavation and release of wall forces in a stage.
+void complete_excavation(const Value* own, Stage& stage, std::map<std::string, double>& let_go,
+                         Reading& reading) {
+  Model& model = reading.model;
+  const std::vector<std::string_view> known = names_in(model.openings);
+  const auto unknown = [&](const Value& value, const std::string& path, const std::string& name) {
+    names_nothing(reading, value, path, name, "opening", known);
+  };
+  for (std::size_t q = 0; q < stage.excavate.size(); ++q) {
+    const Value& list = *find(own, "excavate");
+    const std::string path = fmt::format("{}.excavate[{}]", stage.where.key, q);
+    Opening* const opening = opening_called(model, stage.excavate[q]);
+    if (opening == nullptr) {
+      unknown(list, path, stage.excavate[q]);
+    } else if (opening->staged) {
+      add_fault(reading, list.place, path, '"' + opening->name + "\" has been excavated before",
+                "excavate each opening once");
+    } else {
+      opening->staged = true;
+      const auto says = [&](const auto& part) { return part.first == opening->name; };
+      const bool by_part = std::any_of(stage.relax.begin(), stage.relax.end(), says);
+      let_go[opening->name] = by_part ? 0.0 : 1.0;
+      if (opening->joint == none) opening->joint = glued_law(reading);
+    }
+  }
+  for (const auto& [name, part] : stage.relax) {
+    const Value& table = *find(own, "relax");
+    const std::string path = stage.where.key + ".relax." + name;
+    const Opening* const opening = opening_called(model, name);
+    if (opening == nullptr) {
+      unknown(table, path, name);
+    } else if (!opening->staged) {
+      add_fault(reading, table.place, path, '"' + name + "\" has not been excavated yet",
+                "name it in excavate of this stage or one before");
+    } else if (part < let_go[name]) {
+      add_fault(reading, table.place, path,
+                fmt::format("is less than the {:.6g} released so far", let_go[name]),
+                "give the part released by then, all stages together");
+    } else {
+      let_go[name] = part;
+    }
+  }
+}
+
+/// Bolts that a stage installs, each once.
+void check_install(const Value* own, const Stage& stage, std::set<std::string>& installed,
+                   Reading& reading) {
+  std::vector<std::string_view> known = names_in(reading.model.bolts);
+  for (const std::string_view name : names_in(reading.model.bolt_patterns)) known.push_back(name);
+  for (std::size_t q = 0; q < stage.install.size(); ++q) {
+    const std::string& name = stage.install[q];
+    const Value& list = *find(own, "install");
+    const std::string path = fmt::format("{}.install[{}]", stage.where.key, q);
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      names_nothing(reading, list, path, name, "bolt or pattern of bolts", known);
+    } else if (!installed.insert(name).second) {
+      add_fault(reading, list.place, path, '"' + name + "\" has been installed before",
+                "install each once");
+    }
+  }
+}
+
+/// Checks that a stage activates only what is inactive before it, and deactivates only what is
+/// active.
+void check_switches(const Value* own, const Stage& stage, std::set<std::string>& acting,
+                    const std::vector<std::string_view>& known, Reading& reading) {
+  const auto check = [&](const char* key, const std::vector<std::string>& names, bool on) {
+    for (std::size_t q = 0; q < names.size(); ++q) {
+      const std::string& name = names[q];
+      const Value& list = *find(own, key);
+      const std::string path = fmt::format("{}.{}[{}]", stage.where.key, key, q);
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        names_nothing(reading, list, path, name, "load, water, boundary or shaking", known);
+        continue;
+      }
+      const bool changed = on ? acting.insert(name).second : acting.erase(name) > 0;
+      if (changed) continue;
+      add_fault(reading, list.place, path,
+                '"' + name + (on ? "\" acts already" : "\" does not act before this stage"),
+                "leave it out here");
+    }
+  };
+  check("deactivate", stage.deactivate, false);
+  check("activate", stage.activate, true);
+  for (const std::string& name : stage.activate) {
+    const auto& off = stage.deactivate;
+    if (std::find(off.begin(), off.end(), name) == off.end()) continue;
+    add_fault(reading, find(own, "activate")->place, stage.where.key + ".activate",
+              '"' + name + "\" is in deactivate, too", "name it in one of them");
+  }
+}
+
+}  // namespace
+
+void complete_stages(const Value& root, Reading& reading) {
+  if (reading.model.stages.empty()) return;
+  Solver& solver = reading.model.solver;
+  const Value* duration = find(find(&root, "solver"), "duration");
+  const Model& model = reading.model;
+  std::vector<std::string_view> known;
+  for (const auto& names : {names_in(model.loads), names_in(model.waters),
+                            names_in(model.boundaries), names_in(model.shakings)}) {
+    known.insert(known.end(), names.begin(), names.end());
+  }
+  std::set<std::string> installed, acting;
+  std::map<std::string, double> let_go;
+  for (const std::string_view name : known) {
+    const auto& first = model.stages.front().activate;
+    const bool at_once = std::find(first.begin(), first.end(), name) != first.end();
+    if (!at_once && acts_at_first(model, std::string(name))) acting.emplace(name);
+  }
+  double sum = 0.0;
+  bool all_given = true;
+  for (std::size_t i = 0; i < reading.model.stages.size(); ++i) {
+    Stage& stage = reading.model.stages[i];
+    const Value* own = element(root, "stage", i);
+    if (!is_table(own)) continue;
+    complete_stage_damping(own, solver, stage);
+    complete_masses(own, solver, stage, reading);
+    complete_excavation(own, stage, let_go, reading);
+    check_install(own, stage, installed, reading);
+    check_switches(own, stage, acting, known, reading);
+    sum += stage.duration;
+    if (stage.until == StageEnd::time && !given(own, "duration")) {
+      all_given = false;
+      add_fault(reading, own->place, stage.where.key + ".duration", "is missing",
+                "give a time such as 0.1, or until = \"equilibrium\"");
+    }
+    if (stage.until == StageEnd::time && stage.otherwise == LooseBlocks::stop) {
+      add_fault(reading, find(own, "otherwise")->place, stage.where.key + ".otherwise",
+                "\"stop\" belongs to a stage with until = \"equilibrium\"",
+                "leave it out, or give until = \"equilibrium\"");
+    }
+    if (stage.damping.local > 0.0) {
+      check_local_damping(find(own, "damping"), stage.where.key, solver,
+                          "leave it out: until equilibrium this method drops velocities at each "
+                          "step",
+                          reading);
+    }
+  }
+  constexpr double same = 1e-9;
+  if (duration != nullptr && all_given && std::abs(solver.duration - sum) > same * sum) {
+    add_fault(reading, duration->place, "solver.duration",
+              fmt::format("is not the {:.6g} s of the stages together", sum), "leave it out");
+  }
+  solver.duration = sum;
+}
+
+}  // namespace edda

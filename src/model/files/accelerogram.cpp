@@ -1,0 +1,202 @@
+#include "model/files/accelerogram.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <variant>
+
+#include "model/files/csv_rows.hpp"
+#include "model/files/file_text.hpp"
+
+namespace edda {
+namespace {
+
+constexpr double standard_gravity = 9.80665;  // m/s2
+
+std::string upper(std::string_view text) {
+  std::string copy(text);
+  for (char& c : copy) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return copy;
+}
+
+/// Takes the next word off the front; words are separated by blanks and by the characters of
+/// `also`.
+std::string_view next_word(std::string_view& text, std::string_view also = {}) {
+  const auto between = [&](char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n' ||
+           also.find(c) != std::string_view::npos;
+  };
+  while (!text.empty() && between(text.front())) text.remove_prefix(1);
+  std::size_t n = 0;
+  while (n < text.size() && !between(text[n])) ++n;
+  const std::string_view word = text.substr(0, n);
+  text.remove_prefix(n);
+  return word;
+}
+
+std::string_view next_line(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
+}
+
+/// The two numbers of "NPTS= 4000, DT= .0050 SEC" or "4000 .0050 NPTS, DT".
+struct Header {
+  std::size_t points;
+  double step;
+};
+
+std::optional<Header> header_of(std::string_view line) {
+  constexpr double most_points = 1e8;
+  std::vector<double> numbers;
+  while (true) {
+    const std::string_view word = next_word(line, ",=:");
+    if (word.empty()) break;
+    double value = 0.0;
+    if (parse_number(word, value)) numbers.push_back(value);
+  }
+  if (numbers.size() != 2) return {};
+  const double n = numbers[0];
+  if (!(n >= 1.0 && n <= most_points) || n != std::floor(n) || !(numbers[1] > 0.0)) return {};
+  return Header{static_cast<std::size_t>(n), numbers[1]};
+}
+
+Vec2 direction_of(Vec2 d) {
+  return norm(d) > 0.0 ? unit(d) : Vec2{};
+}
+
+/// Acceleration and velocity of a record before scaling, linear and quadratic within the interval
+/// between two rows.
+struct Moving {
+  Vec2 acceleration, velocity;
+};
+
+Moving at(const Accelerogram& r, double t) {
+  const auto after = std::upper_bound(r.time.begin(), r.time.end(), t);
+  if (after == r.time.begin()) return {};
+  const auto k = static_cast<std::size_t>(after - r.time.begin()) - 1;
+  if (after == r.time.end()) return {{}, r.velocity[k]};
+  const double dt = r.time[k + 1] - r.time[k], s = (t - r.time[k]) / dt;
+  const Vec2 a = r.acceleration[k], change = r.acceleration[k + 1] - a;
+  return {a + s * change, r.velocity[k] + (s * dt) * (a + (0.5 * s) * change)};
+}
+
+Fault fault_in(const std::string& path, const std::string& key, int line, std::string problem,
+               std::string remedy) {
+  return {{key, path, line, line > 0 ? 1 : 0}, std::move(problem), std::move(remedy)};
+}
+
+}  // namespace
+
+void integrate(Accelerogram& r) {
+  r.velocity.assign(r.time.size(), Vec2{});
+  for (std::size_t k = 1; k < r.time.size(); ++k) {
+    r.velocity[k] = r.velocity[k - 1] + (0.5 * (r.time[k] - r.time[k - 1])) *
+                                            (r.acceleration[k - 1] + r.acceleration[k]);
+  }
+}
+
+Result<Accelerogram> parse_acceleration_rows(std::string_view text, const std::string& path,
+                                             const std::string& key) {
+  const RowShape shape{3, "three numbers", "write time,ax,ay", "0.005,-0.12,0.03"};
+  const Result<std::vector<double>> rows = parse_rows(text, shape, path, key);
+  if (!rows) return rows.faults();
+  Accelerogram record;
+  for (std::size_t k = 0; k < rows.value().size(); k += 3) {
+    const double* row = rows.value().data() + k;
+    record.time.push_back(row[0]);
+    record.acceleration.push_back({row[1], row[2]});
+  }
+  if (record.time.front() < 0.0) {
+    return fault_in(path, key, 0, "begins before time 0", "let its times begin at 0");
+  }
+  integrate(record);
+  return record;
+}
+
+Result<Accelerogram> parse_at2(std::string_view text, Vec2 direction, const std::string& path,
+                               const std::string& key) {
+  constexpr int longest_head = 10;
+  std::optional<Header> header;
+  int line = 0;
+  while (!header && !text.empty() && line < longest_head) {
+    const std::string head = upper(next_line(text));
+    ++line;
+    const std::size_t units = head.find("UNITS OF ");
+    if (units != std::string::npos && head.substr(units + 9, 1) != "G") {
+      return fault_in(path, key, line, "is not in units of g",
+                      "give a CSV file of time,ax,ay in m/s2");
+    }
+    if (head.find("NPTS") == std::string::npos) continue;
+    header = header_of(head);
+    if (!header) {
+      return fault_in(path, key, line, "gives no NPTS and DT",
+                      "write them as in NPTS= 4000, DT= .0050 SEC");
+    }
+  }
+  if (!header) {
+    return fault_in(path, key, 0, "has no line with NPTS and DT at its head",
+                    "give a record as the PEER database writes it, or a CSV file of time,ax,ay");
+  }
+  Accelerogram record;
+  const Vec2 along = standard_gravity * direction_of(direction);
+  while (!text.empty()) {
+    std::string_view row = next_line(text);
+    ++line;
+    while (true) {
+      const std::string_view word = next_word(row);
+      if (word.empty()) break;
+      double value = 0.0;
+      if (!parse_number(word, value)) {
+        return fault_in(path, key, line, "holds something that is no number",
+                        "give accelerations in g, separated by blanks");
+      }
+      record.time.push_back(header->step * static_cast<double>(record.time.size()));
+      record.acceleration.push_back(value * along);
+    }
+  }
+  if (record.time.size() != header->points) {
+    return fault_in(path, key, 0,
+                    fmt::format("holds {} accelerations where its head says NPTS = {}",
+                                record.time.size(), header->points),
+                    "give the whole record");
+  }
+  integrate(record);
+  return record;
+}
+
+Result<Accelerogram> read_accelerogram(const std::string& path, Vec2 direction,
+                                       const std::string& key) {
+  const std::variant<std::string, Fault> text = file_text(path);
+  if (const Fault* fault = std::get_if<Fault>(&text)) {
+    Fault named = *fault;
+    named.where.key = key;
+    return named;
+  }
+  const std::string& whole = std::get<std::string>(text);
+  return upper(path).ends_with(".AT2") ? parse_at2(whole, direction, path, key)
+                                       : parse_acceleration_rows(whole, path, key);
+}
+
+Vec2 acceleration_at(const Shaking& s, double t) {
+  if (!s.acceleration.file.empty()) return s.scale * at(s.record, t).acceleration;
+  if (t < 0.0) return {};
+  const double angle = 2.0 * std::numbers::pi * *s.acceleration.frequency * t;
+  return (s.scale * *s.acceleration.amplitude * std::sin(angle)) *
+         direction_of(s.acceleration.direction);
+}
+
+Vec2 velocity_at(const Shaking& s, double t) {
+  if (!s.acceleration.file.empty()) return s.scale * at(s.record, t).velocity;
+  if (t < 0.0) return {};
+  const double rate = 2.0 * std::numbers::pi * *s.acceleration.frequency;
+  return (s.scale * *s.acceleration.amplitude * (1.0 - std::cos(rate * t)) / rate) *
+         direction_of(s.acceleration.direction);
+}
+
+}  // namespace edda

@@ -1,0 +1,29 @@
+// Rows of numbers from the text of a CSV file.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/fault.hpp"
+
+namespace edda {
+
+/// The form that the rows of a file must have.
+struct RowShape {
+  std::size_t columns;
+  std::string numbers;  ///< "two numbers"
+  std::string write;    ///< "write time,value in each line"
+  std::string example;  ///< "0.5,1.0"
+};
+
+/// Reads the whole of `text` as a finite number, ignoring blanks around it. False if it is none.
+bool parse_number(std::string_view text, double& value);
+
+/// All numbers of rows of `shape.columns` numbers separated by commas, row after row; a first line
+/// of names, empty lines and lines that start with # are skipped. The first column is a time and
+/// must ascend. A fault has `path` and the line; `key` is the key that names the file.
+Result<std::vector<double>> parse_rows(std::string_view text, const RowShape& shape,
+                                       const std::string& path, const std::string& key);
+
+}  // namespace edda

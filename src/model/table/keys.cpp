@@ -1,0 +1,358 @@
+#include "model/table/keys.hpp"
+
+#include <array>
+
+#include "model/table/keys_geometry.hpp"
+#include "model/table/rules.hpp"
+#include "model/table/slots.hpp"
+
+namespace edda {
+namespace {
+
+using namespace rules;
+using namespace geometry_keys;
+
+constexpr Range friction = from_below(0.0, 90.0);
+
+// clang-format off
+constexpr std::array root_keys{
+    Key{"title", at<&Model::title>, text, initial, "Title of pictures and tables."},
+    Key{"gravity", at<&Model::gravity>, shape(Kind::point, D::acceleration), initial, "Acceleration of gravity, x and y."},
+    Key{"plane", at<&Model::plane>, choice, initial, "Plane strain, or plane stress (a thin plate)."},
+    Key{"thickness", at<&Model::thickness>, number(D::length, above(0)), initial, "Thickness out of plane for which forces and masses are given."},
+};
+
+constexpr std::array material_keys{
+    Key{"density", at<&Material::density>, number(D::density, above(0)), otherwise("unit_weight / |gravity|"), "Mass per volume; either this or unit_weight must be given."},
+    Key{"unit_weight", nullptr, number(D::unit_weight, above(0)), otherwise("density * |gravity|"), "Weight per volume, in place of density; divided by |gravity|, or by 9.81 m/s2 where that is zero."},
+    Key{"young", at<&Material::young>, number(D::stress, above(0)), required, "Young's modulus."},
+    Key{"poisson", at<&Material::poisson>, number(D::plain, between(-1, 0.5)), required, "Poisson's ratio."},
+    Key{"damping", at<&Material::damping>, number(D::plain, from(0)), initial, "Viscous damping of the strain of a block, as a fraction of critical damping of its lowest natural frequency; it hardly affects motion far below that frequency. 0: none."},
+    Key{"strength", at<&Material::strength>, table, otherwise("none: overstress is not computed"), "Strength of the intact rock; blocks stay elastic, over-stressed ones are reported."},
+};
+
+constexpr std::array rock_strength_keys{
+    Key{"ucs", at<&RockStrength::ucs>, number(D::stress, above(0)), required, "Uniaxial compressive strength of the intact rock."},
+    Key{"tension", at<&RockStrength::tension>, number(D::stress, above(0)), required, "Its tensile strength."},
+};
+
+constexpr std::array strength_keys{
+    Key{"friction_angle", at<&Strength::friction_angle>, number(D::angle, friction), otherwise("the joint's friction_angle"), "Friction angle after failure."},
+    Key{"cohesion", at<&Strength::cohesion>, number(D::stress, from(0)), initial, "Cohesion after failure."},
+    Key{"tensile_strength", at<&Strength::tensile_strength>, number(D::stress, from(0)), initial, "Tensile strength after failure."},
+};
+
+constexpr std::array joint_keys{
+    Key{"type", at<&JointLaw::type>, choice, initial, "Coulomb friction with cohesion and tension; glued: never opens or slides; slip-weakening: from the peak to the residual strength over slip_distance; barton-bandis: by jrc, jcs and residual_angle."},
+    Key{"friction_angle", at<&JointLaw::peak, &Strength::friction_angle>, number(D::angle, friction), otherwise("required unless type is \"glued\" or \"barton-bandis\""), "Friction angle until failure."},
+    Key{"cohesion", at<&JointLaw::peak, &Strength::cohesion>, number(D::stress, from(0)), initial, "Cohesion until failure."},
+    Key{"tensile_strength", at<&JointLaw::peak, &Strength::tensile_strength>, number(D::stress, from(0)), initial, "Tensile strength until failure."},
+    Key{"residual", at<&JointLaw::residual>, table, otherwise("same friction angle, no cohesion, no tension"), "Strength after failure, and of contacts that were not closed at the start."},
+    Key{"dilation_angle", at<&JointLaw::dilation_angle>, number(D::angle, from_below(0, 90)), otherwise("none"), "Dilation angle: tangent of opening over slip; less than the friction angles of the joint."},
+    Key{"slip_distance", at<&JointLaw::slip_distance>, number(D::length, above(0)), otherwise("required of slip-weakening; of Coulomb friction: unlimited"), "Slip from peak to residual strength, at which dilation also ends."},
+    Key{"jrc", at<&JointLaw::jrc>, number(D::plain, from_to(0, 20)), otherwise("required of barton-bandis"), "Joint roughness coefficient, for walls as long as the blocks' edges."},
+    Key{"jcs", at<&JointLaw::jcs>, number(D::stress, above(0)), otherwise("required of barton-bandis"), "Compressive strength of the joint's walls."},
+    Key{"residual_angle", at<&JointLaw::residual_angle>, number(D::angle, friction), otherwise("required of barton-bandis"), "Residual friction angle of barton-bandis."},
+    Key{"kn", at<&JointLaw::kn>, number(D::joint_stiffness, above(0)), otherwise("contact.normal_stiffness, as a spring at each end of a face"), "Normal stiffness of the joint: its pressure is kn times its closure."},
+    Key{"ks", at<&JointLaw::ks>, number(D::joint_stiffness, above(0)), otherwise("0.4 kn"), "Shear stiffness of the joint."},
+    Key{"restitution", at<&JointLaw::restitution>, number_or("housner", D::plain, from_to(0, 1)), otherwise("what remains with the damping of blocks and contacts"), "Method edda: the part of its velocity with which a block leaves after a flat impact, or \"housner\": a rocking block loses at each impact the energy of Housner's assumption. Dashpots in these contacts produce this, and unless kn is given their springs are soft: a thirtieth of the smallest young (below 0.1 a hundredth, housner a fifteenth)."},
+};
+
+constexpr std::array contact_keys{
+    Key{"model", at<&ContactDefaults::model>, choice, initial, "Contacts are faces: an edge of one block against an opposed edge of another; or points: a vertex on an edge, as in the paper, for comparison only."},
+    Key{"normal_stiffness", at<&ContactDefaults::normal_stiffness>, number(D::stiffness, above(0)), otherwise("10 x the largest young"), "Normal spring at each end of a face where the joint has no kn."},
+    Key{"shear_stiffness", at<&ContactDefaults::shear_stiffness>, number(D::stiffness, above(0)), otherwise("normal_stiffness"), "Shear spring at each end of a face where the joint has no ks."},
+    Key{"joint", at<&ContactDefaults::joint>, joint, otherwise(if_one), "Law of contacts whose edges name none."},
+};
+
+constexpr std::array block_keys{
+    Key{"name", at<&BlockInput::name>, naming, otherwise("none"), "What --set and messages call the block."},
+    Key{"polygon", at<&BlockInput::polygon>, polygon, required, "Corners in order, either way round, convex or not."},
+    Key{"material", at<&BlockInput::material>, material, otherwise(if_one), "Material of the block."},
+    Key{"joint", at<&BlockInput::joint>, joint, otherwise("contact.joint"), "Law of the block's edges."},
+    Key{"fixed", at<&BlockInput::fixed>, flag, initial, "Whether the block is fixed: it does not move, except with the ground."},
+    Key{"velocity", at<&BlockInput::velocity>, shape(Kind::point, D::velocity), initial, "Velocity at the start."},
+    Key{"angular_velocity", at<&BlockInput::angular_velocity>, number(D::angular_velocity), initial, "Rate of rotation at the start, counter-clockwise."},
+};
+
+constexpr std::array boundary_keys{
+    Key{"name", at<&Boundary::name>, naming, otherwise("none"), "What --set and messages call the boundary."},
+    Key{"sides", at<&Boundary::sides>, words_of(side_names), otherwise("none; either this or along"), "Sides of the box round the model."},
+    Key{"along", at<&Boundary::along>, polyline, otherwise("none; either this or sides"), "The polyline that the boundary follows."},
+    Key{"type", at<&Boundary::type>, choice, initial, "Springs in x and y (fixed) or only across the line (roller) on each block vertex on it; springs whose far ends move at a velocity (velocity); dashpots that absorb waves (viscous); a traction on the edges (stress); vertical sides that ground motion moves as the ground beyond them (free-field)."},
+    Key{"stiffness", at<&Boundary::stiffness>, number(D::stiffness, above(0)), otherwise("the largest kn of the joints of the vertex's block, times half of the faces beside the vertex that lie on the line; contact.normal_stiffness where no joint of it gives kn"), "Types fixed, roller and velocity: spring per block vertex."},
+    Key{"traction", at<&Boundary::traction>, shape(Kind::point, D::stress), otherwise("that of [initial_stress]; required by type stress without one"), "Type stress: traction on the edges along the line, of constant direction."},
+    Key{"velocity", at<&Boundary::velocity>, shape(Kind::point, D::velocity), otherwise("none; required by type velocity"), "Type velocity: velocity at which the vertices on the line are moved."},
+    Key{"wave_speeds", at<&Boundary::wave_speeds>, shape(Kind::point, D::velocity, above(0)), otherwise("those of the unjointed rock of each block"), "Types viscous and free-field: speeds of P and S waves in the jointed rock."},
+    Key{"history", at<&Boundary::history>, file, otherwise("constant from the start"), "Types stress and velocity: CSV file of time and factor, linear between its rows."},
+};
+
+constexpr std::array initial_stress_keys{
+    Key{"stress", at<&InitialStress::stress>, shape(Kind::triple, D::stress), otherwise("none; either this or k0"), "Total stress xx, yy and xy at y = at_y, positive in tension."},
+    Key{"at_y", at<&InitialStress::at_y>, number(D::length), otherwise("0"), "Level for which the stress is given."},
+    Key{"gradient", at<&InitialStress::gradient>, shape(Kind::triple, D::stress_gradient), otherwise("[0, 0, 0]"), "Increase of xx, yy and xy per metre of y."},
+    Key{"k0", at<&InitialStress::k0>, number(D::plain, from(0)), otherwise("none; either this or stress"), "Horizontal over vertical stress; the vertical one is the weight of the rock above."},
+    Key{"k0_out", at<&InitialStress::k0_out>, number(D::plain, from(0)), otherwise("k0; with stress: zz is nu (xx + yy)"), "Out-of-plane over vertical stress, zz / yy."},
+    Key{"surface_y", at<&InitialStress::surface_y>, number(D::length), otherwise("none; k0 requires it, or surface"), "Level of the ground's surface; it may lie above the model."},
+    Key{"surface", at<&InitialStress::surface>, choice, initial, "Where the ground ends: at a level (surface_y), or at the upper side of the domain's outline."},
+};
+
+constexpr std::array load_keys{
+    Key{"name", at<&Load::name>, naming, otherwise("none"), "What --set, stages and messages call the load."},
+    Key{"point", at<&Load::point>, point, otherwise("none; either this or along"), "The point of a block that the force acts on, and moves with."},
+    Key{"along", at<&Load::along>, polyline, otherwise("none; either this or point"), "The line whose edges carry a traction or a pressure."},
+    Key{"force", at<&Load::force>, shape(Kind::point, D::load), otherwise("none; either this or pressure"), "Force at the point (N), or traction along the line (Pa), of constant direction."},
+    Key{"pressure", at<&Load::pressure>, number(D::stress), otherwise("none; either this or force"), "Pressure normal to the edges along the line; it rotates with them."},
+    Key{"history", at<&Load::history>, file, otherwise("constant from the start"), "CSV file of time and factor, linear between its rows."},
+};
+
+constexpr std::array water_keys{
+    Key{"name", at<&Water::name>, naming, otherwise("none"), "What --set, stages and messages call the water."},
+    Key{"table", at<&Water::table>, polyline, required, "Its level from left to right; joints and faces below carry its pressure; joints and faces beyond its ends are dry."},
+    Key{"flooded", at<&Water::flooded>, name_list, initial, "Names of the openings that are full of water, too; the others are dry."},
+    Key{"unit_weight", at<&Water::unit_weight>, number(D::unit_weight, above(0)), initial, "Weight of water per volume."},
+    Key{"history", at<&Water::history>, file, otherwise("constant from the start"), "CSV file of time and rise of the table (m), linear between its rows."},
+};
+
+constexpr std::array shaking_keys{
+    Key{"name", at<&Shaking::name>, naming, otherwise("none"), "What --set, stages and messages call the ground motion."},
+    Key{"acceleration", at<&Shaking::acceleration>, source, required, "Acceleration of the ground: a CSV file of time, x and y (m/s2), an .AT2 file (g), or a sine as a table."},
+    Key{"direction", at<&Shaking::direction>, shape(Kind::point, D::plain), initial, "Direction of the one component in an .AT2 file."},
+    Key{"scale", at<&Shaking::scale>, number(D::plain), initial, "Factor on the acceleration."},
+    Key{"apply", at<&Shaking::apply>, choice, initial, "Fixed blocks and boundaries move (base), all blocks feel its inertia force (inertia), or it is a wave that enters upwards through a viscous boundary (upgoing)."},
+    Key{"boundary", at<&Shaking::boundary>, naming, otherwise("the only viscous one"), "Upgoing: name of the viscous boundary through which the wave enters."},
+};
+
+constexpr std::array acceleration_keys{
+    Key{"amplitude", at<&Acceleration::amplitude>, number(D::acceleration), required, "Amplitude of the sine."},
+    Key{"frequency", at<&Acceleration::frequency>, number(D::frequency, above(0)), required, "Frequency of the sine, which begins at zero: the ground then has a mean velocity of amplitude/(2 pi frequency) which displaces it steadily; docs/pictures.md describes how to subtract this displacement."},
+    Key{"direction", at<&Acceleration::direction>, shape(Kind::point, D::plain), initial, "Direction of the sine."},
+};
+
+constexpr std::array bond_keys{
+    Key{"stiffness", at<&BoltBond::stiffness>, number(D::stress, from(0)), required, "Force per slip and per metre of bolt."},
+    Key{"strength", at<&BoltBond::strength>, number(D::line_load, from(0)), required, "Largest force per metre of bolt."},
+};
+
+constexpr std::array dowel_keys{
+    Key{"stiffness", at<&BoltDowel::stiffness>, number(D::line_load, from(0)), required, "Force across the bolt per relative displacement of the walls of the joint."},
+    Key{"strength", at<&BoltDowel::strength>, number(D::force, from(0)), required, "Largest force across the bolt."},
+};
+
+constexpr std::array bolt_keys{
+    Key{"name", at<&Bolt::name>, naming, otherwise("none"), "What --set, stages and tables call the bolt."},
+    Key{"from", at<&Bolt::from>, point, required, "Head of the bolt."},
+    Key{"to", at<&Bolt::to>, point, required, "Its far end."},
+    Key{"type", at<&Bolt::type>, choice, initial, "Grouted along its length, or fixed at its ends (end)."},
+    Key{"diameter", at<&Bolt::diameter>, number(D::length, above(0)), required, "Diameter of the steel."},
+    Key{"young", at<&Bolt::young>, number(D::stress, above(0)), initial, "Young's modulus of the steel."},
+    Key{"yield_stress", at<&Bolt::yield_stress>, number(D::stress, above(0)), otherwise("none: it never yields"), "Stress at which it yields."},
+    Key{"rupture_strain", at<&Bolt::rupture_strain>, number(D::plain, above(0)), otherwise("none: it never breaks"), "Strain at which it breaks."},
+    Key{"spacing", at<&Bolt::spacing>, number(D::length, above(0)), initial, "Distance from bolt to bolt out of plane."},
+    Key{"pretension", at<&Bolt::pretension>, number(D::force, from(0)), initial, "Force in the bolt when it is installed, per bolt."},
+    Key{"bond", at<&Bolt::bond>, table, otherwise("none; required by a grouted bolt"), "Stiffness and strength of the grout, per metre of bolt."},
+    Key{"dowel", at<&Bolt::dowel>, table, otherwise("no dowel action"), "Stiffness and strength across the bolt where it crosses a joint, per bolt."},
+};
+
+constexpr std::array bolt_pattern_keys{
+    Key{"name", at<&BoltPattern::name>, naming, otherwise("none"), "What --set, stages and tables call the bolts: with .0, .1 and so on."},
+    Key{"opening", at<&BoltPattern::opening>, naming, required, "Name of the opening round which the bolts are placed."},
+    Key{"from_angle", at<&BoltPattern::from_angle>, number(D::angle), required, "Direction of the first bolt from the centroid of the opening, counter-clockwise from +x."},
+    Key{"to_angle", at<&BoltPattern::to_angle>, number(D::angle), required, "Direction of the last bolt."},
+    Key{"count", at<&BoltPattern::count>, whole(1, 1e5), required, "Number of bolts."},
+    Key{"length", at<&BoltPattern::length>, number(D::length, above(0)), required, "Length of a bolt from the outline of the opening outwards."},
+    Key{"type", at<&BoltPattern::bolt, &Bolt::type>, choice, initial, "As of a bolt."},
+    Key{"diameter", at<&BoltPattern::bolt, &Bolt::diameter>, number(D::length, above(0)), required, "As of a bolt."},
+    Key{"young", at<&BoltPattern::bolt, &Bolt::young>, number(D::stress, above(0)), initial, "As of a bolt."},
+    Key{"yield_stress", at<&BoltPattern::bolt, &Bolt::yield_stress>, number(D::stress, above(0)), otherwise("none: it never yields"), "As of a bolt."},
+    Key{"rupture_strain", at<&BoltPattern::bolt, &Bolt::rupture_strain>, number(D::plain, above(0)), otherwise("none: it never breaks"), "As of a bolt."},
+    Key{"spacing", at<&BoltPattern::bolt, &Bolt::spacing>, number(D::length, above(0)), initial, "As of a bolt."},
+    Key{"pretension", at<&BoltPattern::bolt, &Bolt::pretension>, number(D::force, from(0)), initial, "As of a bolt."},
+    Key{"bond", at<&BoltPattern::bolt, &Bolt::bond>, table, otherwise("none; required by grouted bolts"), "As of a bolt."},
+    Key{"dowel", at<&BoltPattern::bolt, &Bolt::dowel>, table, otherwise("no dowel action"), "As of a bolt."},
+};
+
+constexpr std::array monitor_keys{
+    Key{"name", at<&Monitor::name>, naming, required, "What the columns of history.csv are called."},
+    Key{"point", at<&Monitor::point>, point, required, "A material point of the block in which it lies at the start."},
+};
+
+constexpr std::array convergence_keys{
+    Key{"name", at<&Convergence::name>, naming, required, "What the columns of history.csv and stages.csv are called."},
+    Key{"between", at<&Convergence::between>, polyline, required, "Two material points; positive when they come nearer to each other."},
+};
+
+constexpr std::array rayleigh_keys{
+    Key{"fraction", at<&Rayleigh::fraction>, number(D::plain, from(0)), required, "Fraction of critical damping at the frequency, where it is least."},
+    Key{"frequency", at<&Rayleigh::frequency>, number(D::frequency, above(0)), required, "The frequency."},
+};
+
+constexpr std::array damping_keys{
+    Key{"mass", at<&Damping::mass>, number(D::rate, from(0)), initial, "Mass-proportional damping."},
+    Key{"local", at<&Damping::local>, number(D::plain, from_below(0, 1)), initial, "Local damping (Cundall), a fraction of the unbalanced force: for stages that seek equilibrium only, since it slows down free fall and all other motion."},
+    Key{"contact", at<&Damping::contact>, number(D::plain, from(0)), initial, "Viscous damping at contacts, a fraction of critical."},
+    Key{"adaptive", at<&Damping::adaptive>, number(D::plain, from_to(0, 1)), initial, "Method edda: viscous damping in proportion to mass, a fraction of critical at the frequency with which the model moves at present (Rayleigh's quotient); it brings a model to equilibrium and falsifies all other motion."},
+    Key{"rayleigh", at<&Damping::rayleigh>, table, otherwise("none: materials.X.damping"), "Damping in proportion to mass and to the stiffness of the blocks, least at one frequency (Rayleigh), in place of materials.X.damping."},
+};
+
+constexpr std::array stage_keys{
+    Key{"name", at<&Stage::name>, naming, otherwise("none"), "What messages, stages.csv and --set call the stage."},
+    Key{"until", at<&Stage::until>, choice, initial, "Whether it ends at its duration (time) or as soon as the model is in equilibrium (equilibrium)."},
+    Key{"ratio", at<&Stage::ratio>, number(D::plain, above_to(0, 1)), initial, "Equilibrium: mean resultant force of the blocks over the mean normal force at the ends of the contacts."},
+    Key{"duration", at<&Stage::duration>, number(D::time, above(0)), otherwise("required until \"time\"; 10 s until \"equilibrium\""), "Length of the stage; until equilibrium the longest it may take."},
+    Key{"excavate", at<&Stage::excavate>, name_list, otherwise("none"), "Openings that are excavated at the start of the stage."},
+    Key{"relax", at<&Stage::relax>, numbers_of_names(from_to(0, 1)), otherwise("all, when an opening is excavated"), "Part of the wall forces of the excavated rock that has been released by then, all stages together, by opening; the rest remains on the walls, like the support of a nearby face."},
+    Key{"install", at<&Stage::install>, name_list, otherwise("bolts that no stage names are there from the start"), "Bolts and patterns of bolts installed at the start of the stage, in the rock as deformed by then."},
+    Key{"activate", at<&Stage::activate>, name_list, otherwise("what no stage names acts from the start"), "Loads, waters, boundaries and ground motions that act from the start of the stage on; their histories count time from then."},
+    Key{"deactivate", at<&Stage::deactivate>, name_list, otherwise("none"), "Those that no longer act. A boundary that takes over from another carries the forces of that one."},
+    Key{"reset_displacements", at<&Stage::reset_displacements>, flag, initial, "Whether displacements count from the start of this stage."},
+    Key{"strength_factor", at<&Stage::strength_factor>, number(D::plain, above(0)), initial, "Divisor of cohesion, tangent of the friction angle and tensile strength of all joints during the stage."},
+    Key{"damping", at<&Stage::damping>, table, otherwise("solver.damping; until equilibrium adaptive = 0.8 (method edda)"), "Damping during the stage."},
+    Key{"joints", at<&Stage::joints>, choice, initial, "Joints as given, or glued: contacts neither open nor slide during the stage."},
+    Key{"masses", at<&Stage::masses>, choice, otherwise("\"scaled\" until equilibrium (method edda), else \"as given\""), "Masses as given, or scaled: inertia raised so that all blocks allow one time step, weights unchanged."},
+    Key{"otherwise", at<&Stage::otherwise>, choice, initial, "Until equilibrium: where blocks have come loose or fall freely while all others are in equilibrium: the run continues without them (go on) or ends there as collapsed (stop)."},
+    Key{"detached", at<&Stage::falling>, choice, initial, "Equilibrium is found although blocks fall freely (report), or waits for them (wait)."},
+};
+
+constexpr std::array solver_keys{
+    Key{"method", at<&Solver::method>, choice, initial, "Explicit (edda), or implicit with one global solve (dda)."},
+    Key{"mass", at<&Solver::mass>, choice, initial, "How the mass of a block is distributed to its nodes."},
+    Key{"switching", at<&Solver::switching>, choice, otherwise("\"exact\"; \"plain\" with contact.model = \"points\""), "Method edda: how contacts open and close, keeping the energy (exact) or as in the paper (plain)."},
+    Key{"duration", at<&Solver::duration>, number(D::time, above(0)), or_none("required of a run without stages; else the sum of their durations"), "Time to simulate."},
+    Key{"time_step", at<&Solver::time_step>, number_or("auto", D::time, above(0)), otherwise("\"auto\""), "Time step; above the critical step it is refused."},
+    Key{"allow_unstable", at<&Solver::allow_unstable>, flag, initial, "Method edda: whether a time step above the critical one is run all the same."},
+    Key{"safety", at<&Solver::safety>, number(D::plain, above_to(0, 1)), initial, "Method edda: part of the critical step that is taken when time_step is \"auto\"."},
+    Key{"dynamic", at<&Solver::dynamic>, flag, initial, "Method dda: whether velocities carry over from step to step, or are dropped (for equilibrium alone)."},
+    Key{"max_displacement_ratio", at<&Solver::max_displacement_ratio>, number(D::plain, above_to(0, 1)), initial, "Largest displacement in one step, over half the least width of the model in any direction (of a slope, half its height)."},
+    Key{"mass_scaling", at<&Solver::mass_scaling>, number(D::time, from(0)), initial, "Method edda: the inertia of the few blocks whose critical step is below this is raised until it is not (their weight stays); 0: off."},
+    Key{"damping", at<&Solver::damping>, table, initial, "Damping of the motion."},
+};
+
+constexpr std::array output_keys{
+    Key{"every", at<&Output::every>, number(D::time, above(0)), or_none("solver.duration / 20"), "Time between frames (the state of all blocks)."},
+    Key{"history_every", at<&Output::history_every>, number(D::time, above(0)), or_none("solver.duration / 200"), "Time between rows of history.csv."},
+    Key{"settling", at<&Output::settling>, flag, otherwise("true where neither every nor history_every is given"), "In stages until equilibrium, whose length is not known in advance: additional rows and frames, at intervals that grow with time."},
+    Key{"checkpoint_every", at<&Output::checkpoint_every>, number(D::plain, above(0)), initial, "Minutes of wall time between checkpoints."},
+    Key{"stages", at<&Output::stages>, flag, initial, "With stages: whether joints_N.csv and checkpoint_N.h5 are written at the end of each."},
+};
+
+constexpr std::array fos_fails_keys{
+    Key{"displacement", at<&FosFails::displacement>, number(D::length, above(0)), otherwise("a hundredth of the mean size of the blocks"), "A trial fails where a corner of a block moves further than this."},
+    Key{"velocity", at<&FosFails::velocity>, number(D::velocity, above(0)), otherwise("displacement over ten times the length of a trial"), "A trial fails where a corner still moves faster than this at its end."},
+};
+
+constexpr std::array fos_keys{
+    Key{"stage", at<&Fos::stage>, naming, otherwise("the last one; without stages, the model in equilibrium"), "The stage from whose end the trials begin."},
+    Key{"vary", at<&Fos::vary>, naming, initial, "What the factor acts on: \"strength\" (divided by it), \"load:NAME\", \"shaking:NAME\" or \"water:NAME\" (the pressure of that water), multiplied by it."},
+    Key{"bracket", at<&Fos::bracket>, shape(Kind::point, D::plain, above(0)), initial, "Two factors, the lower one expected to hold and the upper one to fail; widened where they do not."},
+    Key{"tolerance", at<&Fos::tolerance>, number(D::plain, above_to(0, 0.5)), initial, "The search ends when the bracket is no wider than this part of its lower factor."},
+    Key{"exclude", at<&Fos::exclude>, name_list, initial, "Joints that keep their strength."},
+    Key{"fails", at<&Fos::fails>, table, otherwise("by the size of the blocks and gravity"), "When a trial counts as failed."},
+};
+
+constexpr Section root_section{"", Shape::root, false, root_keys, "The model as a whole.",
+    [](const Model&) { return std::size_t{1}; }, [](Model& m) -> void* { return &m; },
+    [](Model& m, std::size_t) -> void* { return &m; }, nullptr, nullptr};
+
+constexpr std::array all_sections{
+    root_section,
+    section<&Model::materials>("materials", Shape::named, material_keys, "Elastic rock."),
+    section<&Model::joints>("joints", Shape::named, joint_keys, "The contact law of a joint."),
+    section<&Model::contact>("contact", Shape::table, contact_keys, "Properties of contacts whose joint does not give them."),
+    section<&Model::blocks>("block", Shape::list, block_keys, "A block given by its polygon."),
+    section<&Model::domain>("domain", Shape::table, domain_keys, "A region that joint sets, traces and openings cut into blocks."),
+    section<&Model::slope>("slope", Shape::table, slope_keys, "An outline by a few numbers: ground that rises to the right."),
+    section<&Model::section>("section", Shape::table, cross_section_keys, "Orientation of the model's plane in the ground."),
+    section<&Model::joint_sets>("joint_set", Shape::list, joint_set_keys, "Parallel, straight joints."),
+    section<&Model::traces>("trace", Shape::list, trace_keys, "A single joint."),
+    section<&Model::networks>("fracture_network", Shape::list, network_keys, "Independent fractures."),
+    section<&Model::voronoi>("voronoi", Shape::table, voronoi_keys, "The domain as Voronoi polygons."),
+    section<&Model::imports>("import", Shape::list, import_keys, "Lines from a file."),
+    section<&Model::openings>("opening", Shape::list, opening_keys, "A part of the domain that is excavated, before the run or by a stage."),
+    section<&Model::regions>("region", Shape::list, region_keys, "Another material inside a polygon."),
+    section<&Model::fixed>("fixed", Shape::list, fixed_keys, "A fixed block among the cut blocks."),
+    section<&Model::walls>("brick_wall", Shape::list, wall_keys, "Bricks in running bond, half bricks closing the odd rows."),
+    section<&Model::arches>("arch", Shape::list, arch_keys, "Voussoirs."),
+    section<&Model::quality>("quality", Shape::table, quality_keys, "Which cut blocks are too small or too thin, and what becomes of them."),
+    section<&Model::pairs>("contact_pair", Shape::list, pair_keys, "The law where two joints or two materials meet."),
+    section<&Model::initial_stress>("initial_stress", Shape::table, initial_stress_keys, "Stress in the rock at the start, in blocks and contacts."),
+    section<&Model::boundaries>("boundary", Shape::list, boundary_keys, "Support, motion, load or wave absorption along a line."),
+    section<&Model::loads>("load", Shape::list, load_keys, "A force at a point, or a traction or pressure along a line."),
+    section<&Model::waters>("water", Shape::list, water_keys, "Water in joints and on faces below a table."),
+    section<&Model::shakings>("shaking", Shape::list, shaking_keys, "Ground motion (seismic loading)."),
+    section<&Model::bolts>("bolt", Shape::list, bolt_keys, "A rock bolt."),
+    section<&Model::bolt_patterns>("bolt_pattern", Shape::list, bolt_pattern_keys, "Bolts round an opening."),
+    section<&Model::monitors>("monitor", Shape::list, monitor_keys, "A point whose history is written."),
+    section<&Model::convergences>("convergence", Shape::list, convergence_keys, "Two points whose convergence is written."),
+    section<&Model::stages>("stage", Shape::list, stage_keys, "A part of the run, one after the other."),
+    section<&Model::solver>("solver", Shape::table, solver_keys, "How the motion is computed."),
+    section<&Model::output>("output", Shape::table, output_keys, "What is written, and how often."),
+    section<&Model::fos>("fos", Shape::table, fos_keys, "The factor of safety (edda fos)."),
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const Key> keys_of(const Strength&) {
+  return strength_keys;
+}
+std::span<const Key> keys_of(const RockStrength&) {
+  return rock_strength_keys;
+}
+std::span<const Key> keys_of(const Damping&) {
+  return damping_keys;
+}
+std::span<const Key> keys_of(const Rayleigh&) {
+  return rayleigh_keys;
+}
+std::span<const Key> keys_of(const Deviation&) {
+  return deviation_keys;
+}
+std::span<const Key> keys_of(const AngleSpread&) {
+  return angle_spread_keys;
+}
+std::span<const Key> keys_of(const LengthSpread&) {
+  return length_spread_keys;
+}
+std::span<const Key> keys_of(const OpeningShape&) {
+  return shape_keys;
+}
+std::span<const Key> keys_of(const Acceleration&) {
+  return acceleration_keys;
+}
+std::span<const Key> keys_of(const BoltBond&) {
+  return bond_keys;
+}
+std::span<const Key> keys_of(const BoltDowel&) {
+  return dowel_keys;
+}
+
+std::span<const Key> keys_of(const FosFails&) {
+  return fos_fails_keys;
+}
+
+std::span<const Section> sections() {
+  return all_sections;
+}
+
+const Section* find_section(std::string_view name) {
+  for (const Section& s : all_sections) {
+    if (s.shape != Shape::root && s.name == name) return &s;
+  }
+  return nullptr;
+}
+
+const Key* find_key(std::span<const Key> keys, std::string_view name) {
+  for (const Key& key : keys) {
+    if (key.name == name) return &key;
+  }
+  return nullptr;
+}
+
+std::vector<std::string_view> key_names(std::span<const Key> keys) {
+  std::vector<std::string_view> names;
+  for (const Key& key : keys) names.push_back(key.name);
+  return names;
+}
+
+}  // namespace edda

@@ -1,0 +1,107 @@
+#include "observe/attachment_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "results/csv.hpp"
+
+namespace edda {
+namespace {
+
+/// Axial force at node k of a bolt with the nodes [first, last). In a joint it is that of the steel
+/// across it, at a free end zero, elsewhere the mean of the two bars.
+double axial_force(const Bolts& b, const BoltData& row, std::size_t k, std::size_t first,
+                   std::size_t last) {
+  if (!row.grouted) return b.bars.force[first];
+  const double before = k > first ? b.bars.force[k - 1] : 0.0;
+  const double after = k + 1 < last ? b.bars.force[k] : 0.0;
+  if (k + 1 < last && b.crossing[k] != 0) return after;
+  if (k > first && b.crossing[k - 1] != 0) return before;
+  if (k == first || k + 1 == last) return 0.0;
+  return 0.5 * (before + after);
+}
+
+double part(double force, double strength) {
+  return force != 0.0 && strength > 0.0 ? std::abs(force) / strength : 0.0;
+}
+
+}  // namespace
+
+std::vector<Vec2> reactions(const Simulation& sim, const Instant& at) {
+  std::vector<Vec2> sum(sim.scene->model.boundaries.size());
+  const BoundarySprings& s = sim.attached.springs;
+  for (std::size_t q = 0; q < s.size(); ++q) {
+    if (!is_free(sim.scene->blocks, sim.motion.state, sim.scene->blocks.vertex_block[s.vertex[q]]))
+      continue;
+    sum[static_cast<std::size_t>(s.boundary[q])] +=
+        spring_force(s, q, sim.motion.pose.x, sim.motion.pose.y);
+  }
+  for (std::size_t p = 0; p < at.on_dashpots.size(); ++p) {
+    sum[static_cast<std::size_t>(sim.attached.dashpots.points[p].boundary)] += at.on_dashpots[p];
+  }
+  const LoadsNow now = acting(sim);
+  for (const EdgeLoad& e : sim.attached.loads.edges) {
+    const auto row = static_cast<std::size_t>(e.load), loads = sim.scene->model.loads.size();
+    if (row < loads ||
+        !is_free(sim.scene->blocks, sim.motion.state, sim.scene->blocks.vertex_block[e.edge]))
+      continue;
+    sum[row - loads] +=
+        now.factor[row] * ((e.to - e.from) * sim.scene->blocks.edge_length[e.edge] * e.traction +
+                           e.ends.at_from + e.ends.at_to);
+  }
+  // The forces that a boundary has taken over from another are part of its reaction.
+  const auto openings = static_cast<Index>(sim.scene->model.openings.size());
+  for (const WallForce& f : sim.attached.wall_forces) {
+    if (f.owner < openings ||
+        !is_free(sim.scene->blocks, sim.motion.state, sim.scene->blocks.vertex_block[f.vertex])) {
+      continue;
+    }
+    const auto row = static_cast<std::size_t>(f.owner);
+    sum[row - static_cast<std::size_t>(openings)] +=
+        sim.attached.loads.remaining[row].at(sim.motion.state.time, sim.attached.loads.gradual) *
+        f.force;
+  }
+  return sum;
+}
+
+std::vector<std::string> boundary_names(const Model& model) {
+  std::vector<std::string> names;
+  for (const Boundary& boundary : model.boundaries)
+    names.push_back(boundary.name.empty() ? std::to_string(names.size()) : boundary.name);
+  return names;
+}
+
+std::string reactions_row(const Simulation& sim, const Instant& at) {
+  Csv csv;
+  csv.add(sim.motion.state.time);
+  for (const Vec2 f : reactions(sim, at)) csv.add(f.x).add(f.y);
+  return csv.end().text();
+}
+
+std::string bolts_rows(const Simulation& sim) {
+  const Bolts& b = sim.attached.bolts;
+  Csv csv;
+  for (std::size_t r = 0; r < b.rows.size(); ++r) {
+    const BoltData& row = b.rows[r];
+    const std::size_t first = b.begin[r], last = b.begin[r + 1];
+    for (std::size_t k = first; k < last; ++k) {
+      const Vec2 place = node_place(b, sim.motion.state, k) + sim.scene->blocks.origin;
+      const double axial = axial_force(b, row, k, first, last);
+      const double bond = b.bonded[k] > 0.0 ? b.bonds.force[k] / b.bonded[k] : 0.0;
+      const auto near = [&](const std::vector<std::uint8_t>& flags) {
+        return (k + 1 < last && flags[k] != 0) || (k > first && flags[k - 1] != 0);
+      };
+      const double dowel = k + 1 < last && b.dowels.stiffness[k] > 0.0    ? b.dowels.force[k]
+                           : k > first && b.dowels.stiffness[k - 1] > 0.0 ? b.dowels.force[k - 1]
+                                                                          : 0.0;
+      const double used = std::max(
+          {part(axial, row.yield), part(bond, row.bond_strength), part(dowel, row.dowel_strength)});
+      csv.add(sim.motion.state.time).add(row.name).add(b.distance[k]).add(place.x).add(place.y);
+      csv.add(axial / row.share).add(bond / row.share).add(dowel / row.share).add(used);
+      csv.add(int{near(b.bars.yielded)}).add(int{near(b.bars.broken)}).end();
+    }
+  }
+  return csv.text();
+}
+
+}  // namespace edda

@@ -1,0 +1,99 @@
+#include "observe/balance.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "observe/observe.hpp"
+#include "step/labels.hpp"
+#include "step/simulation.hpp"
+#include "step/touching.hpp"
+
+namespace edda {
+
+std::vector<std::uint8_t> negligible_blocks(const Simulation& sim) {
+  constexpr double small = 0.1;  // of the mean size
+  std::vector<std::uint8_t> are(sim.scene->blocks.size(), 0);
+  double size = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < are.size(); ++i) {
+    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
+    size += std::sqrt(sim.scene->blocks.area[i]);
+    count += 1.0;
+  }
+  for (std::size_t i = 0; i < are.size(); ++i) {
+    are[i] = is_free(sim.scene->blocks, sim.motion.state, i) &&
+             std::sqrt(sim.scene->blocks.area[i]) * count < small * size;
+  }
+  return are;
+}
+
+Balance balance_of(const Simulation& sim) {
+  Balance balance;
+  const std::vector<std::uint8_t> touches = touching(sim), small = negligible_blocks(sim);
+  double sum = 0.0;
+  std::vector<Id> resting;
+  std::vector<double> all;
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (!is_free(sim.scene->blocks, sim.motion.state, i) || small[i] != 0) continue;
+    if (!touches[i]) {
+      ++balance.detached;
+      continue;
+    }
+    if (!sim.relaxation.loose.empty() && sim.relaxation.loose[i] != 0) {
+      ++balance.loose;
+      continue;
+    }
+    resting.push_back(static_cast<Id>(i));
+    const double force =
+        nodes_per_block * norm(centroid(sim.motion.forces.x, sim.motion.forces.y, i));
+    sum += force;
+    all.push_back(force);
+    if (balance.block == no_id || force > balance.largest) {
+      balance.largest = force;
+      balance.block = static_cast<Id>(i);
+    }
+  }
+  balance.resting = resting.size();
+  if (sum == 0.0) return balance;
+  const double scale = force_scale(sim, sim.motion.contacts, resting);
+  constexpr std::size_t parts = 20;
+  const auto most = all.end() - static_cast<std::ptrdiff_t>(all.size() / parts);
+  std::nth_element(all.begin(), most - 1, all.end());
+  const double sum_of_most = std::accumulate(all.begin(), most, 0.0);
+  balance.mean_95 =
+      scale > 0.0 ? sum_of_most / static_cast<double>(most - all.begin()) / scale : 1.0;
+  balance.mean = scale > 0.0 ? sum / static_cast<double>(resting.size()) / scale : 1.0;
+  balance.largest = scale > 0.0 ? balance.largest / scale : 1.0;
+  return balance;
+}
+
+std::string still_moving(const Simulation& sim, const Balance& balance) {
+  std::vector<std::pair<double, Id>> speeds;
+  const std::vector<std::uint8_t> touches = touching(sim);
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (!is_free(sim.scene->blocks, sim.motion.state, i) || !touches[i]) continue;
+    speeds.emplace_back(norm(centroid(sim.motion.state.vx, sim.motion.state.vy, i)),
+                        static_cast<Id>(i));
+  }
+  constexpr std::size_t named = 3;
+  const std::size_t count = std::min(named, speeds.size());
+  std::partial_sort(speeds.begin(), speeds.begin() + static_cast<std::ptrdiff_t>(count),
+                    speeds.end(), [](const auto& a, const auto& b) {
+                      return a.first != b.first ? a.first > b.first : a.second < b.second;
+                    });
+  std::string text = fmt::format("the mean unbalanced ratio is {:.3g}", balance.mean);
+  if (balance.block != no_id) {
+    text += fmt::format(", the largest {:.3g} at {}", balance.largest,
+                        block_label(sim.scene->blocks, balance.block));
+  }
+  for (std::size_t q = 0; q < count; ++q) {
+    text += fmt::format("{}{} at {:.3g} m/s", q == 0 ? "; fastest are " : ", ",
+                        block_label(sim.scene->blocks, speeds[q].second), speeds[q].first);
+  }
+  if (balance.detached > 0) text += fmt::format("; {} fall freely", balance.detached);
+  return text;
+}
+
+}  // namespace edda

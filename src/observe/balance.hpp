@@ -1,0 +1,38 @@
+// Measures of how far a simulation is from equilibrium.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "blocks/block_set.hpp"
+
+namespace edda {
+
+struct Simulation;
+
+/// How far the forces of the last step are from equilibrium. Blocks without contact do not count,
+/// since they fall whatever the others do; nor do loose blocks (Relaxation::loose) and pebbles.
+struct Balance {
+  double mean = 0.0;     ///< mean resultant of the blocks, over the mean contact normal force (the
+                         ///< mean weight where no contact carries load)
+  double mean_95 = 0.0;  ///< the same mean without the 5 % of blocks furthest from equilibrium
+  double largest = 0.0;  ///< the same for the block furthest from equilibrium
+  Id block = no_id;      ///< that block
+  std::size_t resting = 0;   ///< blocks that count
+  std::size_t detached = 0;  ///< free blocks without contact
+  std::size_t loose = 0;     ///< blocks that slide or fall away for good (Relaxation::loose)
+};
+
+Balance balance_of(const Simulation& sim);
+
+/// [nb] 1: a free block whose size (square root of the area) is less than a tenth of the mean of
+/// all free blocks. With its inertia raised by mass scaling it is slow to reach equilibrium, and
+/// the other blocks do not depend on it.
+std::vector<std::uint8_t> negligible_blocks(const Simulation& sim);
+
+/// The fastest blocks and the unbalanced forces, for a stage that did not reach equilibrium.
+std::string still_moving(const Simulation& sim, const Balance& balance);
+
+}  // namespace edda

@@ -1,0 +1,216 @@
+#include "observe/initial_stress_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "contacts/face_reading.hpp"
+#include "observe/observe.hpp"
+#include "step/labels.hpp"
+
+namespace edda {
+namespace {
+
+constexpr double most_off = 0.05;         // of the gradient
+constexpr double most_unbalanced = 1e-3;  // of the mean contact force
+
+/// Violation of equilibrium: d(sxy)/dy + rho g_x and d(syy)/dy + rho g_y, over rho |g|; without
+/// gravity, the change of stress by the gradient over the height of the model, over the stress.
+double missed(const Simulation& sim, double density) {
+  const InitialStress& s = *sim.scene->model.initial_stress;
+  const Vec2 g = sim.scene->model.gravity,
+             off{(*s.gradient)[2] + density * g.x, (*s.gradient)[1] + density * g.y};
+  if (norm(g) > 0.0) return norm(off) / (density * norm(g));
+  const auto [low, high] =
+      std::minmax_element(sim.scene->blocks.vertex_y.begin(), sim.scene->blocks.vertex_y.end());
+  const double made = norm(off) * (*high - *low);
+  double size = 0.0;
+  for (const double c : *s.stress) size = std::max(size, std::abs(c));
+  return made > 0.0 ? made / std::max(size, made) : 0.0;
+}
+
+void judge_gradient(const Simulation& sim, InitialBalance& balance) {
+  if (!sim.scene->model.initial_stress->stress) return;
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    const Index m = sim.scene->blocks.material[i];
+    if (sim.scene->blocks.fixed[i] || m == none || m == balance.material) continue;
+    const double off = missed(sim, sim.scene->model.materials[static_cast<std::size_t>(m)].density);
+    if (balance.material != none && off <= balance.gradient) continue;
+    balance.gradient = off;
+    balance.material = m;
+  }
+}
+
+/// Resultant of weight, contacts, boundary springs and loads on every block, N.
+std::vector<Vec2> resultants(const Simulation& sim) {
+  const BlockSet& b = sim.scene->blocks;
+  const FaceSet& c = sim.motion.contacts;
+  std::vector<Vec2> sum(b.size());
+  const LoadsNow now = loads_at(sim.scene->model, sim.attached.loads, 0.0);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    sum[i] = b.mass[i] * sim.scene->model.gravity + load_on(b, now, sim.motion.pose, i);
+    for (Id q = sim.attached.springs.block_begin[i]; q < sim.attached.springs.block_begin[i + 1];
+         ++q) {
+      sum[i] += spring_force(sim.attached.springs, q, sim.motion.pose.x, sim.motion.pose.y);
+    }
+  }
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (!is_closed(c, k)) continue;
+    const Vec2 on = force_on_facing(c, k);
+    sum[block_of_facing(b, c, k)] += on;
+    sum[block_of_edge(b, c, k)] -= on;
+  }
+  return sum;
+}
+
+void judge_balance(const Simulation& sim, InitialBalance& balance) {
+  std::vector<Id> free_blocks;
+  double sum = 0.0;
+  const std::vector<Vec2> on = resultants(sim);
+  for (std::size_t i = 0; i < on.size(); ++i) {
+    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
+    free_blocks.push_back(static_cast<Id>(i));
+    sum += norm(on[i]);
+    if (balance.block != no_id && norm(on[i]) <= balance.largest) continue;
+    balance.largest = norm(on[i]);
+    balance.block = static_cast<Id>(i);
+  }
+  const double scale = force_scale(sim, sim.motion.contacts, free_blocks);
+  if (sum == 0.0) return;
+  balance.unbalanced = scale > 0.0 ? sum / static_cast<double>(free_blocks.size()) / scale : 1.0;
+  balance.largest = scale > 0.0 ? balance.largest / scale : 1.0;
+}
+
+struct NamedJoint {
+  std::string name;
+  const JointStress& stress;
+};
+
+/// Coulomb laws that contacts have.
+std::vector<NamedJoint> joints_of(const Simulation& sim) {
+  std::vector<NamedJoint> named;
+  const std::vector<JointStress>& joints = sim.accounts.initial->joints;
+  for (std::size_t q = 0; q < joints.size() && q < sim.scene->model.joints.size(); ++q) {
+    if (joints[q].length > 0.0 && !sim.motion.laws.rows[q].glued) {
+      named.push_back({sim.scene->model.joints[q].name, joints[q]});
+    }
+  }
+  return named;
+}
+
+double part(double length, const JointStress& joint) {
+  return length / joint.length;
+}
+
+std::string weight_line(const Simulation& sim) {
+  const InitialStress& s = *sim.scene->model.initial_stress;
+  if (!s.stress) {
+    return fmt::format("weight of the rock above, k0 = {:.4g}, out of the plane {:.4g}", *s.k0,
+                       *s.k0_out);
+  }
+  const double syy = (*s.gradient)[1];
+  std::string line = fmt::format("syy increases by {:.5g} Pa per metre upwards", syy);
+  if (sim.accounts.initial->material == none) return line;
+  const Material& m =
+      sim.scene->model.materials[static_cast<std::size_t>(sim.accounts.initial->material)];
+  return line + fmt::format("; density times gravity of {} is {:.5g}: a difference of {:.2g} %",
+                            m.name, -m.density * sim.scene->model.gravity.y,
+                            100.0 * sim.accounts.initial->gradient);
+}
+
+}  // namespace
+
+void judge_initial_stress(Simulation& sim) {
+  if (!sim.accounts.initial) return;
+  judge_gradient(sim, *sim.accounts.initial);
+  judge_balance(sim, *sim.accounts.initial);
+}
+
+std::vector<std::string> initial_stress_report(const Simulation& sim) {
+  if (!sim.accounts.initial) return {};
+  std::vector<std::string> lines{weight_line(sim)};
+  for (const auto& [name, joint] : joints_of(sim)) {
+    lines.push_back(
+        fmt::format("joint {}: tau/sigma_n up to {:.3g}, tau up to {:.3g} of the strength; {:.3g} "
+                    "% of {:.4g} m above it, {:.3g} % in more tension than its strength",
+                    name, joint.ratio, joint.mobilised, 100.0 * part(joint.over, joint),
+                    joint.length, 100.0 * part(joint.torn, joint)));
+  }
+  lines.push_back(fmt::format(
+      "the mean unbalanced force is {0:.2g} of the mean contact force, the largest {2:.2g} at {1}",
+      sim.accounts.initial->unbalanced,
+      sim.accounts.initial->block == no_id
+          ? "no block"
+          : block_label(sim.scene->blocks, sim.accounts.initial->block),
+      sim.accounts.initial->largest));
+  return lines;
+}
+
+void warn_of_initial_stress(const Simulation& sim, std::vector<std::string>& warnings) {
+  if (!sim.accounts.initial) return;
+  const InitialBalance& balance = *sim.accounts.initial;
+  if (balance.gradient > most_off) {
+    const Vec2 g = sim.scene->model.gravity;
+    const double density =
+        sim.scene->model.materials[static_cast<std::size_t>(balance.material)].density;
+    warnings.push_back(
+        fmt::format("initial_stress: its gradient and the weight of {} differ by {:.2g} %, so that "
+                    "the model is not in equilibrium: give syy a gradient of {:.6g} and sxy one of "
+                    "{:.6g}, or change the density or gravity",
+                    sim.scene->model.materials[static_cast<std::size_t>(balance.material)].name,
+                    100.0 * balance.gradient, -density * g.y + 0.0, -density * g.x + 0.0));
+  }
+  for (const auto& [name, joint] : joints_of(sim)) {
+    if (joint.over > 0.0) {
+      warnings.push_back(fmt::format(
+          "initial_stress: the shear stress exceeds the strength of joint {} on {:.3g} % of its "
+          "{:.4g} m (up to {:.3g} times, tau/sigma_n {:.3g}) and was reduced to it: give a stress "
+          "within the strength of the joints, stronger joints, or a stage until equilibrium, which "
+          "redistributes it",
+          name, 100.0 * part(joint.over, joint), joint.length, joint.mobilised, joint.ratio));
+    }
+    if (joint.torn > 0.0) {
+      warnings.push_back(fmt::format(
+          "initial_stress: joint {} is in more tension than its strength on {:.3g} % of its {:.4g} "
+          "m, which start open: give a stress that compresses it, or a tensile_strength",
+          name, 100.0 * part(joint.torn, joint), joint.length));
+    }
+  }
+  if (balance.unbalanced > most_unbalanced) {
+    warnings.push_back(fmt::format(
+        "initial_stress: forces are unbalanced at the start by {:.2g} of the mean contact force, "
+        "most on {} at {}: unsupported outer faces and openings, or what the lines above report, "
+        "set the rock in motion; begin with a stage until equilibrium",
+        balance.unbalanced, block_label(sim.scene->blocks, balance.block),
+        place_label(centroid(sim.motion.state.x, sim.motion.state.y, balance.block) +
+                    sim.scene->blocks.origin)));
+  }
+}
+
+void add_initial_checks(const Simulation& sim, std::vector<Check>& checks) {
+  if (!sim.accounts.initial) return;
+  const InitialBalance& balance = *sim.accounts.initial;
+  const auto add = [&](std::string name, double value, double limit) {
+    checks.push_back({std::move(name), value, limit, value <= limit});
+  };
+  if (sim.scene->model.initial_stress->stress) {
+    add("initial stress: gradient against density times gravity", balance.gradient, most_off);
+  }
+  add("initial stress: unbalanced forces at the start", balance.unbalanced, most_unbalanced);
+  for (const auto& [name, joint] : joints_of(sim)) {
+    constexpr double most = 1e9;  // stands for infinity, where a joint has no strength
+    add(fmt::format("initial stress: largest tau over strength of joint {}", name),
+        std::min(joint.mobilised, most), 1.0);
+    add(fmt::format("initial stress: part of joint {} over its strength", name),
+        part(joint.over, joint), 0.0);
+    add(fmt::format("initial stress: part of joint {} in too much tension", name),
+        part(joint.torn, joint), 0.0);
+    checks.push_back({fmt::format("initial stress: largest tau over sigma_n of joint {}", name),
+                      joint.ratio,
+                      {},
+                      true});
+  }
+}
+
+}  // namespace edda

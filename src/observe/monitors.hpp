@@ -1,0 +1,45 @@
+// Monitors: material points recorded in history.csv.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/fault.hpp"
+#include "observe/observe.hpp"
+
+namespace edda {
+
+struct MonitorPoint {
+  std::string name;
+  std::size_t block = 0;
+  NodeWeights weight{};  ///< area coordinates in the block
+};
+
+/// The block of every monitor (block_at()). A fault for each that lies in no block.
+Result<std::vector<MonitorPoint>> place_monitors(const Simulation& sim);
+
+/// A [[convergence]]: two material points.
+struct ConvergenceLine {
+  std::string name;
+  std::array<MonitorPoint, 2> ends;
+};
+
+/// The blocks of both ends, found as those of monitors.
+Result<std::vector<ConvergenceLine>> place_convergences(const Simulation& sim);
+
+/// A warning for each monitor, end of a convergence and point load that lies on the border of
+/// several blocks: to which block it is assigned.
+std::vector<std::string> border_points(const Simulation& sim);
+
+/// Shortening of the line since the start or the last reset of displacements, m.
+double convergence(const State& state, const ConvergenceLine& line);
+
+/// Displacement and velocity of the point, and the stress of its block.
+struct MonitorReading {
+  Vec2 displacement, velocity;
+  BlockStress stress;
+};
+MonitorReading read_monitor(const Simulation& sim, const Instant& at, const MonitorPoint& point);
+
+}  // namespace edda

@@ -1,0 +1,263 @@
+#include "observe/observe.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel.hpp"
+#include "contacts/face_reading.hpp"
+#include "forces/elastic.hpp"
+#include "observe/overstress.hpp"
+
+namespace edda {
+namespace {
+
+bool moves(const Simulation& sim, std::size_t i) {
+  return is_free(sim.scene->blocks, sim.motion.state, i);
+}
+
+/// F = I + sum u_k G_k^T: exactly the identity where nothing has moved.
+Deformation deformation_of(const BlockSet& b, const State& s, std::size_t i) {
+  return deformed_by(b, i, vectors_of(s.x, s.y, i) - vectors_of(b.node_x, b.node_y, i),
+                     {1.0, 0.0, 0.0, 1.0});
+}
+
+/// Angular velocity: the rate of the polar angle in the affine motion of the block.
+double spin(const BlockSet& b, const State& s, std::size_t i) {
+  // theta = atan2(beta, alpha) with alpha = F11 + F22, beta = F21 - F12.
+  const Deformation f = deformation_of(b, s, i), rate = deformation(b, s.vx, s.vy, i);
+  const double alpha = f.xx + f.yy, beta = f.yx - f.xy;
+  const double alpha_rate = rate.xx + rate.yy, beta_rate = rate.yx - rate.xy;
+  return (alpha * beta_rate - beta * alpha_rate) / (alpha * alpha + beta * beta);
+}
+
+double polar_angle(const BlockSet& b, const State& s, std::size_t i) {
+  const Deformation f = deformation_of(b, s, i);
+  return std::atan2(f.yx - f.xy, f.xx + f.yy);
+}
+
+/// Displacement of the middle of the overlap along the edge since the start: relative to each
+/// other, of the two material points that lie there now.
+double slip_since_start(const BlockSet& b, const FaceSet& f, std::size_t k) {
+  const double xi = 0.5 * (f.now.xi_a[k] + f.now.xi_b[k]);
+  const double eta = 0.5 * (f.now.eta_a[k] + f.now.eta_b[k]);
+  const FacePoints drawn = face_points(f, b.vertex_x, b.vertex_y, k);
+  return -dot(from_point_of_e(drawn, xi, eta), frame_of(drawn, f.inverse_e[k], f.inverse_f[k]));
+}
+
+/// Closed length of the overlap, and the stresses on it: k d at the ends.
+void add_stresses(ContactRecord& r, const Simulation& sim, const FaceSet& f, std::size_t k) {
+  const FaceMemory& m = f.now;
+  const bool carries_tension = f.carries_tension[k] > 0.0;
+  const double a = carries_tension ? m.closure_a[k] : std::max(m.closure_a[k], 0.0);
+  const double b = carries_tension ? m.closure_b[k] : std::max(m.closure_b[k], 0.0);
+  const double apart = std::abs(m.closure_a[k] - m.closure_b[k]);
+  const bool whole = carries_tension || std::min(m.closure_a[k], m.closure_b[k]) >= 0.0;
+  r.closed_length = whole ? r.length : r.length * (a + b) / apart;
+  const double area = r.length * sim.motion.laws.thickness;
+  const double stiffness = m.gate[k] * f.stiffness[k] / sim.motion.laws.thickness;
+  r.normal_stress_a = stiffness * a;
+  r.normal_stress_b = stiffness * b;
+  r.normal_stress = area > 0.0 ? r.normal_force / area : 0.0;
+  r.shear_stress = area > 0.0 ? r.shear_force / area : 0.0;
+}
+
+ContactRecord face_record(const Simulation& sim, const FaceSet& f, std::size_t k) {
+  const BlockSet& b = sim.scene->blocks;
+  ContactRecord r;
+  r.block_i = block_of_facing(b, f, k);
+  r.block_j = block_of_edge(b, f, k);
+  const std::size_t law = f.law[k];
+  r.joint = "glued";
+  if (law < sim.scene->model.joints.size()) r.joint = sim.scene->model.joints[law].name;
+  r.position = middle_of(f, sim.motion.pose, k) + b.origin;
+  const FaceSpan span = span_of(f, sim.motion.pose, k);
+  r.a = span.a + b.origin;
+  r.b = span.b + b.origin;
+  r.length = f.now.length[k];
+  const double eta = 0.5 * (f.now.eta_a[k] + f.now.eta_b[k]);
+  r.displacement = displacement_of(sim.motion.state, r.block_i,
+                                   weights_between(b, f.facing_end[k], f.facing[k], eta));
+  r.opening = -closure_of(f, k);
+  r.slip = slip_since_start(b, f, k);
+  r.ever_slipped = f.slipped[k] > 0.0;
+  r.ever_opened = f.opened[k] > 0.0;
+  if (!is_closed(f, k)) return r;
+  r.state = f.bonded[k] > 0.0 ? ContactState::bonded
+            : slides(f, k)    ? ContactState::slide
+                              : ContactState::stick;
+  r.force = force_on_facing(f, k);
+  r.normal_force = normal_force(f, k);
+  r.shear_force = shear_force(f, k);
+  add_stresses(r, sim, f, k);
+  const double strength = shear_strength(f, k);
+  r.mobilised = f.glued[k] > 0.0 || r.shear_force == 0.0 ? 0.0 : std::abs(r.shear_force) / strength;
+  return r;
+}
+
+/// A point contact is recorded as a face without length.
+ContactRecord point_record(const Simulation& sim, std::size_t k) {
+  const BlockSet& b = sim.scene->blocks;
+  const PointSet& c = sim.motion.point_contacts;
+  const PointGap g = gap_of(c, b, sim.motion.pose, k);
+  const Id v = c.vertex[k];
+  ContactRecord r;
+  r.block_i = b.vertex_block[v];
+  r.block_j = b.vertex_block[c.edge[k]];
+  r.joint = sim.scene->model.joints[c.law[k]].name;
+  r.position = r.a = r.b = at(sim.motion.pose.x, sim.motion.pose.y, v) + b.origin;
+  r.displacement = displacement_of(sim.motion.state, r.block_i, weights_of(b.weight, v));
+  r.opening = -g.depth;
+  r.slip = g.along - c.entered[k] * g.length;
+  r.ever_slipped = c.slipped[k] > 0.0;
+  r.ever_opened = c.opened[k] > 0.0;
+  if (c.closed[k] == 0.0) return r;
+  r.state = c.slides[k] > 0.0 ? ContactState::slide : ContactState::stick;
+  r.force = force_on_vertex(c, b, sim.motion.pose, k);
+  r.normal_force = c.normal[k];
+  r.shear_force = c.shear[k];
+  const double strength = sim.motion.laws.rows[c.law[k]].peak_friction * c.normal[k];
+  r.mobilised = r.shear_force == 0.0 ? 0.0 : std::abs(r.shear_force) / strength;
+  return r;
+}
+
+void place_points(const BlockSet& b, const State& s, Picture& p) {
+  const std::size_t nv = b.vertex_count();
+  for (auto* values : {&p.x, &p.y, &p.ux, &p.uy, &p.vx, &p.vy}) values->resize(nv);
+  parallel_for(nv, [&](std::size_t v) {
+    const Vec2 now = vertex_at(b, s.x, s.y, v), speed = vertex_at(b, s.vx, s.vy, v);
+    p.x[v] = now.x + b.origin.x;
+    p.y[v] = now.y + b.origin.y;
+    const Vec2 u = displacement_of(s, b.vertex_block[v], weights_of(b.weight, v));
+    p.ux[v] = u.x;
+    p.uy[v] = u.y;
+    p.vx[v] = speed.x;
+    p.vy[v] = speed.y;
+  });
+}
+
+}  // namespace
+
+Picture picture_of(const Simulation& sim, const Instant& at) {
+  Picture p;
+  p.time = sim.motion.state.time;
+  p.blocks.reserve(sim.scene->blocks.size());
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (at.state.alive[i]) p.blocks.push_back(block_record(sim, at.state, i));
+  }
+  const FaceSet& f = at.contacts;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    if (is_closed(f, k) || f.opened[k] > 0.0) p.contacts.push_back(face_record(sim, f, k));
+  }
+  for (std::size_t k = 0; k < sim.motion.point_contacts.size(); ++k) {
+    if (sim.motion.point_contacts.closed[k] > 0.0 || sim.motion.point_contacts.opened[k] > 0.0)
+      p.contacts.push_back(point_record(sim, k));
+  }
+  place_points(sim.scene->blocks, at.state, p);
+  return p;
+}
+
+BlockRecord block_record(const Simulation& sim, const State& s, std::size_t i) {
+  const BlockSet& b = sim.scene->blocks;
+  BlockRecord r;
+  r.id = static_cast<std::uint32_t>(i);
+  r.name = b.name(i);
+  r.material_index = b.material[i];
+  if (b.material[i] != none) {
+    r.material = sim.scene->model.materials[static_cast<std::size_t>(b.material[i])].name;
+  }
+  r.fixed = b.fixed[i] != 0;
+  r.position = centroid(s.x, s.y, i) + b.origin;
+  r.displacement = displacement_of(s, i, centroid_weights);
+  const Deformation f = deformation_of(b, s, i);
+  r.area = b.area[i] * (f.xx * f.yy - f.xy * f.yx);
+  r.rotation = polar_angle(b, s, i) + 2.0 * std::numbers::pi * s.turns[i];
+  r.velocity = centroid(s.vx, s.vy, i);
+  r.omega = spin(b, s, i);
+  const BlockStress stress = block_stress(sim, s, i);
+  r.sxx = stress.xx;
+  r.syy = stress.yy;
+  r.szz = stress.zz;
+  r.sxy = stress.xy;
+  r.overstress = overstress(sim, s, i);
+  return r;
+}
+
+Vec2 displacement_of(const State& s, std::size_t i, const NodeWeights& w) {
+  return weighted(w, vectors_of(s.x, s.y, i) - vectors_of(s.from_x, s.from_y, i));
+}
+
+BlockStress block_stress(const Simulation& sim, const State& s, std::size_t i) {
+  const BlockSet& b = sim.scene->blocks;
+  const Deformation f = deformation_of(b, s, i);
+  const Tensor t = cauchy(stress_in(b, i, f), f);
+  BlockStress stress{t.xx, t.yy, 0.0, t.xy};
+  if (sim.scene->model.plane == Plane::strain && b.material[i] != none) {
+    const double poisson =
+        sim.scene->model.materials[static_cast<std::size_t>(b.material[i])].poisson;
+    const Tensor start = initial_stress(b, i);
+    const double out = b.initial_zz.empty() ? 0.0 : b.initial_zz[i];
+    stress.zz = out + poisson * (t.xx - start.xx + t.yy - start.yy);
+  }
+  return stress;
+}
+
+double force_scale(const Simulation& sim, const FaceSet& f, const std::vector<Id>& blocks) {
+  const LoadsNow acting = loads_at(sim.scene->model, sim.attached.loads, sim.motion.state.time);
+  double loads = 0.0;
+  for (const Id i : blocks) {
+    loads += sim.scene->blocks.mass[i] * norm(sim.scene->model.gravity) +
+             norm(load_on(sim.scene->blocks, acting, sim.motion.pose, i));
+  }
+  double normal = 0.0;
+  std::size_t carrying = 0;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    const double n = normal_force(f, k);
+    if (!is_closed(f, k) || !(n > 0.0)) continue;
+    normal += n;
+    carrying += 2;  // both of its ends
+  }
+  for (const double n : sim.motion.point_contacts.normal) {
+    normal += n;
+    carrying += n > 0.0 ? 1 : 0;
+  }
+  // Contacts that barely touch, as at the start, carry forces of the order of rounding, which are
+  // no reference.
+  const double mean_load = blocks.empty() ? 0.0 : loads / static_cast<double>(blocks.size());
+  const double mean_normal = carrying > 0 ? normal / static_cast<double>(carrying) : 0.0;
+  return mean_normal > 1e-3 * mean_load ? mean_normal : mean_load;
+}
+
+double unbalanced_ratio(const Simulation& sim, const Instant& at) {
+  std::vector<Id> free_blocks;
+  double force = 0.0;
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (!moves(sim, i)) continue;
+    force += norm(nodes_per_block * centroid(at.forces.x, at.forces.y, i));
+    free_blocks.push_back(static_cast<Id>(i));
+  }
+  if (force == 0.0) return 0.0;
+  const double scale = force_scale(sim, at.contacts, free_blocks);
+  return scale > 0.0 ? force / static_cast<double>(free_blocks.size()) / scale : 1.0;
+}
+
+std::size_t closed_contacts(const FaceSet& f) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < f.size(); ++k) count += is_closed(f, k);
+  return count;
+}
+
+void count_revolutions(Simulation& sim, std::vector<double>& angle) {
+  const std::size_t nb = sim.scene->blocks.size();
+  const bool first = angle.empty();
+  angle.resize(nb, 0.0);
+  parallel_for(nb, [&](std::size_t i) {
+    if (!moves(sim, i)) return;
+    const double now = polar_angle(sim.scene->blocks, sim.motion.state, i);
+    if (!first && now - angle[i] > std::numbers::pi) --sim.motion.state.turns[i];
+    if (!first && now - angle[i] < -std::numbers::pi) ++sim.motion.state.turns[i];
+    angle[i] = now;
+  });
+}
+
+}  // namespace edda

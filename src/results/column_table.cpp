@@ -1,0 +1,323 @@
+#include <algorithm>
+#include <array>
+
+#include "results/columns.hpp"
+
+namespace edda {
+namespace column_table {
+
+using C = ResultColumn;
+
+// Columns that several files have.
+constexpr C time_column{"time", "s", "Time since the start of the run."};
+constexpr C kinetic{"kinetic", "J", "Kinetic energy of the free blocks."};
+constexpr C strain{
+    "strain", "J",
+    "Elastic energy of the blocks; with an initial stress that of the whole stress."};
+constexpr C contact{"contact", "J", "Energy stored in contacts, boundary springs and bolts."};
+constexpr C gravity{"gravity", "J", "Potential energy of weight, less that at the start."};
+constexpr C friction{
+    "friction", "J",
+    "Energy dissipated since the start by sliding, and in bolts by grout that slips "
+    "and steel that yields."};
+constexpr C damping{
+    "damping", "J",
+    "Energy dissipated since the start by all kinds of damping and by boundaries that "
+    "absorb waves."};
+constexpr C fracture{"fracture", "J",
+                     "Energy released since the start by joints and bolts that fail."};
+constexpr C external{
+    "external", "J",
+    "Work done on the blocks since the start by loads, boundaries, ground motion and "
+    "the changes of stages."};
+constexpr C drift{
+    "drift", "1",
+    "Energy balance error: the change since the start of kinetic + strain + contact + "
+    "gravity + friction + damping + fracture + transfer + step_change - external, over "
+    "the largest kinetic + strain + contact + friction + damping + fracture so far."};
+constexpr C transfer{
+    "transfer", "J",
+    "Energy taken since the start by rules of contacts that are no physical process: "
+    "overlaps whose ends move, locked closures, activation factors without a root."};
+constexpr C convergence{
+    "NAME.convergence", "m",
+    "Decrease of the distance between the two points of a convergence line since "
+    "the start or the last reset of displacements; positive where they have come "
+    "nearer to each other.",
+    ColumnOf::convergence};
+
+constexpr std::array history{
+    time_column,
+    C{"NAME.ux", "m",
+      "Displacement of a monitor to the right since the start or the last reset of displacements.",
+      ColumnOf::monitor},
+    C{"NAME.uy", "m",
+      "Displacement of a monitor upwards since the start or the last reset of displacements.",
+      ColumnOf::monitor},
+    C{"NAME.vx", "m/s", "Velocity of a monitor to the right.", ColumnOf::monitor},
+    C{"NAME.vy", "m/s", "Velocity of a monitor upwards.", ColumnOf::monitor},
+    C{"NAME.sxx", "Pa", "Stress xx of the block that holds the monitor, positive in tension.",
+      ColumnOf::monitor},
+    C{"NAME.syy", "Pa", "Stress yy of the block that holds the monitor, positive in tension.",
+      ColumnOf::monitor},
+    C{"NAME.sxy", "Pa", "Shear stress xy of the block that holds the monitor.", ColumnOf::monitor},
+    convergence,
+    kinetic,
+    strain,
+    contact,
+    gravity,
+    friction,
+    damping,
+    fracture,
+    external,
+    C{"step_change", "J",
+      "Energy that changes of the time step and of scaled masses have taken since the start; "
+      "negative where they have added energy."},
+    drift,
+    C{"unbalanced", "1",
+      "Mean resultant force of the free blocks over the mean normal force at the ends of the "
+      "contacts that carry load, or over the mean of weight and loads where none does."},
+    transfer,
+};
+
+constexpr std::array reactions{
+    time_column,
+    C{"NAME.fx", "N",
+      "Force of a boundary on the blocks, positive to the right; a boundary without a name is "
+      "called by its number, from 0.",
+      ColumnOf::boundary},
+    C{"NAME.fy", "N", "Force of the boundary on the blocks, positive upwards.", ColumnOf::boundary},
+};
+
+constexpr std::array bolts{
+    time_column,
+    C{"bolt", "text", "Name of the bolt."},
+    C{"distance", "m", "Distance of the node from the head of the bolt, along the bolt."},
+    C{"x", "m", "Coordinate x of the node now."},
+    C{"y", "m", "Coordinate y of the node now."},
+    C{"axial_force", "N",
+      "Axial force of one bolt, positive in tension; at a joint that of the steel across it."},
+    C{"bond_force", "N/m",
+      "Force of the bond per length of one bolt, positive where the rock resists slip of the bolt "
+      "away from its head."},
+    C{"dowel_force", "N", "Shear force of one bolt across the joint at this node."},
+    C{"utilisation", "1",
+      "Largest of axial force over yield force, bond force over bond strength and dowel force over "
+      "dowel strength."},
+    C{"yielded", "1", "1: the steel beside the node has yielded at some time; 0: it has not."},
+    C{"ruptured", "1", "1: the steel beside the node has ruptured; 0: it has not."},
+};
+
+constexpr std::array stages{
+    C{"stage", "1", "Number of the stage, from 1."},
+    C{"name", "text", "Name of the stage; empty where it has none."},
+    C{"until", "text", "What ends the stage: time or equilibrium."},
+    C{"reached", "1",
+      "1: the stage has reached its end; 0: it has found no equilibrium within its duration."},
+    C{"start", "s", "Time at which the stage began."},
+    C{"end", "s", "Time at which the stage ended."},
+    C{"steps", "1", "Number of time steps of the stage."},
+    C{"ratio", "1",
+      "Mean resultant force of the blocks over the mean normal force at the ends of the contacts "
+      "that "
+      "carry load, or over the mean of weight and loads where none does; blocks without contact, "
+      "loose blocks and pebbles do not count."},
+    C{"largest_ratio", "1", "The same ratio of the block that is furthest from equilibrium."},
+    C{"largest_block", "1", "Id of that block; empty where no block counts."},
+    kinetic,
+    strain,
+    contact,
+    gravity,
+    friction,
+    damping,
+    fracture,
+    external,
+    drift,
+    C{"contacts", "1", "Number of closed contacts."},
+    C{"sliding", "1", "Number of closed contacts that slide."},
+    C{"bonded", "1", "Number of closed contacts that still have their peak strength."},
+    C{"detached", "1", "Number of free blocks without contact."},
+    C{"open", "1",
+      "Number of contacts that have opened and whose edges are still near each other."},
+    C{"broken", "1", "Number of bonds of joints that have failed since the start of the run."},
+    C{"yielded_bolts", "1",
+      "Number of bolts of which any part has yielded, slipped in its grout or ruptured."},
+    C{"loose", "1",
+      "Number of blocks that slide or fall away while the others come to equilibrium."},
+    transfer,
+    convergence,
+};
+
+constexpr std::array blocks{
+    C{"id", "1", "Number of the block, from 0."},
+    C{"name", "text", "Name of the block; empty where it has none."},
+    C{"material", "text", "Name of its material."},
+    C{"x", "m", "Coordinate x of the centroid at the end of the run."},
+    C{"y", "m", "Coordinate y of the centroid at the end of the run."},
+    C{"area", "m2", "Area of the deformed block."},
+    C{"ux", "m",
+      "Displacement of the centroid to the right since the start or the last reset of "
+      "displacements."},
+    C{"uy", "m",
+      "Displacement of the centroid upwards since the start or the last reset of displacements."},
+    C{"rotation", "rad",
+      "Rotation of the block since the start, positive counter-clockwise, full turns counted."},
+    C{"vx", "m/s", "Velocity of the centroid to the right."},
+    C{"vy", "m/s", "Velocity of the centroid upwards."},
+    C{"omega", "rad/s", "Angular velocity, positive counter-clockwise."},
+    C{"sxx", "Pa", "Stress xx of the block, positive in tension."},
+    C{"syy", "Pa", "Stress yy of the block, positive in tension."},
+    C{"szz", "Pa", "Stress out of plane, positive in tension."},
+    C{"sxy", "Pa", "Shear stress xy of the block."},
+    C{"overstress", "1",
+      "Part of the strength of the intact rock that the stress takes up; above 1 the rock would "
+      "fail. 0 where the material has no strength."},
+};
+
+constexpr std::array joints{
+    C{"block_i", "1",
+      "Id of one block; the signs of shear_force and slip are those of its motion."},
+    C{"block_j", "1",
+      "Id of the other block, which lies on the left on the way from end a to end b."},
+    C{"joint", "text", "Name of the joint's law, or glued where that is the built-in one."},
+    C{"x", "m", "Coordinate x of the middle of the overlap of the two edges."},
+    C{"y", "m", "Coordinate y of the middle of the overlap of the two edges."},
+    C{"normal_force", "N", "Normal force, positive in compression."},
+    C{"shear_force", "N", "Shear force, positive where it drives block_i from end a to end b."},
+    C{"opening", "m",
+      "Opening of the joint at its more closed end, as the surfaces are drawn; negative where they "
+      "are pressed into each other."},
+    C{"slip", "m",
+      "Shear displacement of block_i against block_j since the start, positive from end a to end "
+      "b."},
+    C{"state", "text", "State of the contact now: open, stick, slide or bonded."},
+    C{"ever_slipped", "1", "1: the contact has slipped at some time; 0: it has not."},
+    C{"ever_opened", "1", "1: the contact has been open at some time; 0: it has not."},
+    C{"mobilised", "1",
+      "Shear force over shear strength, without sign; 0 for glued edges and without a shear "
+      "force."},
+    C{"length", "m", "Length of the overlap."},
+    C{"closed_length", "m", "Length of the part of the overlap that carries."},
+    C{"x_a", "m", "Coordinate x of end a of the overlap."},
+    C{"y_a", "m", "Coordinate y of end a of the overlap."},
+    C{"x_b", "m", "Coordinate x of end b of the overlap."},
+    C{"y_b", "m", "Coordinate y of end b of the overlap."},
+    C{"normal_stress", "Pa",
+      "Normal force over the area of the whole overlap, positive in compression."},
+    C{"normal_stress_a", "Pa",
+      "Normal stress at end a, positive in compression; it is linear over the closed length and 0 "
+      "at an open end."},
+    C{"normal_stress_b", "Pa", "Normal stress at end b, positive in compression."},
+    C{"shear_stress", "Pa",
+      "Shear force over the area of the whole overlap, with the sign of shear_force."},
+};
+
+constexpr std::array fos{
+    C{"factor", "1",
+      "Factor by which strength is divided, or a load, a water or a ground motion multiplied."},
+    C{"outcome", "text", "Outcome of the trial: holds or fails."},
+    C{"displacement", "m", "Largest displacement of a corner since the start of the trial."},
+    C{"block", "1", "Id of the block of that corner; empty where there is none."},
+    C{"time", "s", "Time since the start of the trial."},
+    C{"velocity", "m/s", "Largest mean speed of a corner between the last two checks."},
+    C{"unbalanced", "1", "Mean resultant force as in the column ratio of stages.csv."},
+    C{"steps", "1", "Number of time steps of the trial."},
+    C{"reason", "text", "Reason for the outcome."},
+};
+
+constexpr std::array mechanism{
+    C{"id", "1", "Number of the block, from 0."},
+    C{"name", "text", "Name of the block; empty where it has none."},
+    C{"x", "m", "Coordinate x of the centroid before the motion."},
+    C{"y", "m", "Coordinate y of the centroid before the motion."},
+    C{"ux", "m", "Displacement of the centroid to the right in the mechanism alone."},
+    C{"uy", "m", "Displacement of the centroid upwards in the mechanism alone."},
+    C{"displacement", "m", "Largest displacement of a corner of the block."},
+    C{"rotation", "rad", "Rotation of the block, positive counter-clockwise."},
+    C{"turning_part", "1",
+      "Rotation without sign times the distance of the furthest corner from the centroid, over the "
+      "displacement of the centroid: about 1 for a block that turns about a corner, 0 for one that "
+      "slides."},
+    C{"motion", "text", "Kind of motion: slides, topples, falls or hinges."},
+};
+
+constexpr std::array mechanism_joints{
+    C{"block_i", "1", "Id of one block."},
+    C{"block_j", "1", "Id of the other block."},
+    C{"joint", "text", "Name of the joint's law."},
+    C{"x", "m", "Coordinate x of the contact of the two blocks that moves most."},
+    C{"y", "m", "Coordinate y of the contact of the two blocks that moves most."},
+    C{"slip", "m", "Largest displacement along the joint of the two blocks against each other."},
+    C{"opening", "m", "Largest opening of the joint in the mechanism."},
+    C{"turning", "m",
+      "Rotation of the two blocks against each other times the length of the joint."},
+    C{"motion", "text", "Kind of motion: slips, opens or hinges."},
+};
+
+constexpr std::array columns{
+    C{"file", "text", "Name of a file of this folder."},
+    C{"column", "text", "Name of one of its columns, as in its header."},
+    C{"unit", "text", "Unit; 1 for a number without dimension, text for words."},
+    C{"meaning", "text", "Meaning of the column with its sign convention."},
+};
+
+constexpr std::array cut{
+    C{"block", "1", "Number of the block, from 0."},
+    C{"material", "text", "Name of its material."},
+    C{"ring", "1", "0: the outer ring, counter-clockwise; from 1: a hole, clockwise."},
+    C{"x", "m", "Coordinate x of the corner."},
+    C{"y", "m", "Coordinate y of the corner."},
+    C{"joint", "text",
+      "Law of the edge from this corner to the next; empty where the model names none, so that "
+      "contact.joint holds."},
+};
+
+constexpr std::array<ResultTable, 12> tables{{
+    {"history.csv",
+     "A row at the start, at each multiple of output.history_every and at the end of each stage; "
+     "stages until equilibrium have more (output.settling).",
+     history},
+    {"reactions.csv", "A row for each row of history.csv, of models with boundaries.", reactions},
+    {"bolts.csv", "A row for each node of each installed bolt in each frame, of models with bolts.",
+     bolts},
+    {"stages.csv", "A row for each stage that has ended, of models with stages.", stages},
+    {"joints_N.csv", "The contacts at the end of stage N, with the columns of joints.csv.", joints,
+     TableIn::folder_by_stage},
+    {"blocks.csv",
+     "A row for each block that is there at the end of the run; excavated blocks have none.",
+     blocks},
+    {"joints.csv",
+     "A row for each contact of two edges at the end of the run that is closed, or that has opened "
+     "after having been closed. Forces are those of the thickness of the model.",
+     joints},
+    {"fos.csv", "A row for each trial of edda fos.", fos},
+    {"mechanism.csv", "A row for each block that moves at the lowest factor that failed.",
+     mechanism},
+    {"mechanism_joints.csv",
+     "A row for each joint between two blocks that slips, opens or hinges in the mechanism.",
+     mechanism_joints},
+    {"columns.csv", "A row for each column of each table in the folder.", columns},
+    {"F.csv", "A row for each corner of each block, written by edda cut -o F.csv.", cut,
+     TableIn::file_of_user},
+}};
+
+constexpr bool is_complete(const ResultTable& table) {
+  return !table.rows.empty() &&
+         std::all_of(table.columns.begin(), table.columns.end(), [](const ResultColumn& c) {
+           return !c.name.empty() && !c.unit.empty() && !c.meaning.empty();
+         });
+}
+static_assert(std::all_of(tables.begin(), tables.end(), is_complete));
+static_assert(tables.size() == static_cast<std::size_t>(ResultFile::cut) + 1);
+
+}  // namespace column_table
+
+std::span<const ResultTable> result_tables() {
+  return column_table::tables;
+}
+
+const ResultTable& result_table(ResultFile file) {
+  return column_table::tables[static_cast<std::size_t>(file)];
+}
+
+}  // namespace edda

@@ -1,0 +1,113 @@
+// The end of a run, and the progress reports of the driver.
+#include <algorithm>
+#include <cmath>
+
+#include "contacts/face_reading.hpp"
+#include "observe/summary.hpp"
+#include "run/driver.hpp"
+#include "run/wall_clock.hpp"
+
+namespace edda {
+namespace {
+
+bool all_finite(const Simulation& sim) {
+  const State& s = sim.motion.state;
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (!is_finite(s.x, s.y, i) || !is_finite(s.vx, s.vy, i)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void Driver::write_end() {
+  const auto start = Clock::now();
+  outcome_.time = sim_.motion.state.time;
+  outcome_.steps = sim_.motion.state.steps;
+  const bool begun = last_row_.has_value();
+  if (begun && all_finite(sim_) && !disk_trouble_) {
+    Event event{sim_.motion.state.time, last_row_ != sim_.motion.state.time,
+                last_frame_ != sim_.motion.state.time, true};
+    const double wall = outcome_.wall.output;
+    if (event.row || event.frame) record(event);
+    outcome_.wall.output = wall;
+  }
+  outcome_.contacts =
+      closed_contacts(sim_.motion.contacts) + closed_points(sim_.motion.point_contacts);
+  if (begun && recorder_.writes()) {
+    count_revolutions(sim_, angle_);
+    Instant instant;
+    observe(sim_, instant);
+    const Picture picture = picture_of(sim_, instant);
+    const Trouble trouble = recorder_.tables(picture);
+    if (trouble && !disk_trouble_) {
+      outcome_.status = Status::failed;
+      outcome_.message = to_string(*trouble);
+    }
+  }
+  outcome_.wall.output += since(start);
+  outcome_.wall.cut = run_.cut_seconds;
+  scale_wall_times();
+  outcome_.wall.total = wall_before_ + since(started_) + run_.cut_seconds;
+  for (const Check& c : checks_of(sim_, outcome_)) {
+    if (c.pass) continue;
+    outcome_.failed_checks.push_back(message_of(c, sim_, outcome_));
+  }
+  const Trouble trouble = recorder_.summary(sim_, outcome_, run_.governed_by);
+  if (trouble && !disk_trouble_) {  // otherwise the message is that of the first file that could
+                                    // not be written
+    outcome_.status = Status::failed;
+    outcome_.message = to_string(*trouble);
+  }
+  if (options_.progress) report(true);
+}
+
+void Driver::scale_wall_times() {
+  WallSeconds& w = outcome_.wall;
+  const StageSeconds& sampled = sim_.accounts.seconds;
+  const double scale = sampled.sum() > 0.0 ? w.stepping / sampled.sum() : 0.0;
+  w.search = scale * sampled.search;
+  w.forces = scale * sampled.forces;
+  w.integrate = scale * sampled.integrate;
+}
+
+void Driver::report(bool last) {
+  const double seconds = since(reported_);
+  if (seconds > 0.0 && sim_.motion.state.steps > reported_steps_) {
+    const double rate = static_cast<double>(sim_.motion.state.steps - reported_steps_) / seconds;
+    rate_ = rate_ == 0.0 ? rate : 0.7 * rate_ + 0.3 * rate;
+  }
+  reported_ = Clock::now();
+  reported_steps_ = sim_.motion.state.steps;
+  Progress p;
+  p.time = sim_.motion.state.time;
+  // Earlier stages may have ended early, and later ones may, too.
+  double end = stage_start_ + stage().duration;
+  for (std::size_t q = stage_ + 1; q < plans_.size(); ++q) end += plans_[q].stage.duration;
+  p.fraction = sim_.motion.state.time / end;
+  // A stage until equilibrium may end before its longest duration.
+  const bool arrived =
+      outcome_.status == Status::completed || outcome_.status == Status::equilibrium;
+  if (last && arrived) p.fraction = 1.0;
+  p.steps = sim_.motion.state.steps;
+  p.rate = rate_;
+  const double left = std::max(end - sim_.motion.state.time, 0.0) / sim_.motion.state.step;
+  p.seconds_left = last ? 0.0 : rate_ > 0.0 ? left / rate_ : -1.0;
+  for (std::size_t i = 0; i < sim_.scene->blocks.size(); ++i) {
+    if (sim_.scene->blocks.fixed[i] || !sim_.motion.state.alive[i]) continue;
+    p.kinetic += kinetic_energy(sim_.motion.masses, sim_.motion.state.vx, sim_.motion.state.vy, i);
+    p.largest_velocity =
+        std::max(p.largest_velocity, norm(centroid(sim_.motion.state.vx, sim_.motion.state.vy, i)));
+  }
+  for (const double depth : sim_.motion.contacts.deepest) {
+    p.largest_overlap = std::max(p.largest_overlap, depth);
+  }
+  p.at_most = std::any_of(plans_.begin() + static_cast<std::ptrdiff_t>(stage_), plans_.end(),
+                          [](const StagePlan& plan) { return plan.to_equilibrium(); });
+  p.stage = stage_;
+  p.stages = plans_.size();
+  if (!sim_.scene->model.stages.empty()) p.stage_name = stage().name;
+  options_.progress(p);
+}
+
+}  // namespace edda

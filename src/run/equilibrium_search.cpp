@@ -1,0 +1,195 @@
+#include "run/equilibrium_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "contacts/face_reading.hpp"
+#include "observe/observe.hpp"
+#include "step/labels.hpp"
+#include "step/touching.hpp"
+
+namespace edda {
+namespace {
+
+constexpr std::uint64_t look_every = 16;  // steps
+constexpr std::uint8_t windows = 4;       // in which a loose block continues to move
+
+double size_of(const Simulation& sim, std::size_t i) {
+  return std::sqrt(sim.scene->blocks.area[i]);
+}
+
+/// About half a period of the motion, in steps; a block that reaches equilibrium has slowed down
+/// markedly by then.
+std::uint64_t window_of(const Simulation& sim) {
+  constexpr double least = 128.0, most = 512.0;
+  const double turn = sim.relaxation.estimate.frequency * sim.motion.state.step;
+  return static_cast<std::uint64_t>(turn > 0.0 ? std::clamp(std::numbers::pi / turn, least, most)
+                                               : least);
+}
+
+void begin_window(EquilibriumSearch& s, const Simulation& sim) {
+  s.window_began = sim.motion.state.steps;
+  s.window = window_of(sim);
+  const double length = static_cast<double>(s.window) * sim.motion.state.step;
+  s.pull_before = s.pull;
+  s.pull =
+      (sim.relaxation.estimate.frequency > 0.0 ? sim.relaxation.estimate.frequency : 1.0 / length) /
+      length;
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    const Vec2 at = centroid(sim.motion.state.x, sim.motion.state.y, i);
+    s.from_x[i] = at.x;
+    s.from_y[i] = at.y;
+  }
+}
+
+/// At the end of a window: finds the blocks that continue to move.
+void find_loose_blocks(EquilibriumSearch& s, Simulation& sim) {
+  constexpr double lasting = 0.5;  // a block that reaches equilibrium has moved far less than that
+  const double like_before = s.pull_before > 0.0 ? s.pull / s.pull_before : 1.0;
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    const Vec2 at = centroid(sim.motion.state.x, sim.motion.state.y, i);
+    const Vec2 now = at - Vec2{s.from_x[i], s.from_y[i]}, was{s.moved_x[i], s.moved_y[i]};
+    const bool far = windows * norm(now) > equilibrium_travel_ratio * size_of(sim, i);
+    const double ratio = dot(was, was) > 0.0 ? like_before * dot(now, was) / dot(was, was) : 1.0;
+    const bool goes = is_free(sim.scene->blocks, sim.motion.state, i) && norm(was) > 0.0 && far &&
+                      ratio >= lasting;
+    s.to_come[i] = ratio <= 0.0  ? 0.0
+                   : ratio < 1.0 ? norm(now) * ratio / (1.0 - ratio)
+                                 : std::numeric_limits<double>::infinity();
+    s.windows_moving[i] =
+        goes ? static_cast<std::uint8_t>(std::min<int>(s.windows_moving[i] + 1, windows)) : 0;
+    s.moved_x[i] = now.x;
+    s.moved_y[i] = now.y;
+    if (s.windows_moving[i] >= windows) {
+      sim.relaxation.loose.resize(sim.scene->blocks.size(), 0);
+      sim.relaxation.loose[i] = 1;
+    } else if (!sim.relaxation.loose.empty() && s.windows_moving[i] == 0) {
+      sim.relaxation.loose[i] = 0;
+    }
+  }
+}
+
+bool all_in_equilibrium(const EquilibriumSearch& s, const Simulation& sim) {
+  const std::vector<std::uint8_t> touches = touching(sim), small = negligible_blocks(sim);
+  const std::vector<double> rounding = rounding_of_forces(sim);
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (!is_free(sim.scene->blocks, sim.motion.state, i) || touches[i] == 0 || small[i] != 0)
+      continue;
+    if (!sim.relaxation.loose.empty() && sim.relaxation.loose[i] != 0) continue;
+    const double most = equilibrium_travel_ratio * size_of(sim, i);
+    if (sim.stepper->remaining_travel(sim, i) > most) return false;
+    if (!is_explicit(sim) || s.to_come[i] <= most) continue;
+    const double speed = norm(centroid(sim.motion.state.vx, sim.motion.state.vy, i)),
+                 time = equilibrium_time(size_of(sim, i), norm(sim.scene->model.gravity));
+    if (travel_if_free(sim, i, speed, time, rounding[i]) > most) return false;
+  }
+  return true;
+}
+
+bool all_loose(const Simulation& sim) {
+  if (sim.relaxation.loose.empty()) return false;
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
+    const Vec2 gone = displacement_of(sim.motion.state, i, centroid_weights);
+    if (sim.relaxation.loose[i] == 0 || norm(gone) < size_of(sim, i)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void begin_equilibrium_search(EquilibriumSearch& s, Simulation& sim, const Stage& stage) {
+  const std::size_t nb = sim.scene->blocks.size();
+  s = {};
+  for (auto* values : {&s.from_x, &s.from_y, &s.moved_x, &s.moved_y}) values->assign(nb, 0.0);
+  s.windows_moving.assign(nb, 0);
+  s.to_come.assign(nb, std::numeric_limits<double>::infinity());
+  sim.relaxation.loose.clear();
+  sim.relaxation.balanced = false;
+  sim.relaxation.seeks_equilibrium = stage.until == StageEnd::equilibrium;
+  sim.relaxation.equilibrium_ratio = stage.ratio;
+  if (!sim.relaxation.seeks_equilibrium) sim.relaxation.estimate = {};
+  begin_window(s, sim);
+}
+
+double equilibrium_time(double size, double acceleration) {
+  constexpr double times = 5.0;
+  return times * std::sqrt(size / (acceleration > 0.0 ? acceleration : usual_acceleration));
+}
+
+Equilibrium look_for_equilibrium(EquilibriumSearch& s, Simulation& sim, const Stage& stage) {
+  if (!gradual_change_complete(sim)) {
+    s.window_began = sim.motion.state.steps;
+    s.window = 0;
+    return Equilibrium::not_yet;
+  }
+  if (sim.motion.state.steps >= s.window_began + s.window) {
+    find_loose_blocks(s, sim);
+    begin_window(s, sim);
+    if (all_loose(sim)) return Equilibrium::never;
+  }
+  if (is_explicit(sim) && sim.motion.state.steps % look_every != 0) return Equilibrium::not_yet;
+  const Balance balance = balance_of(sim);
+  const bool waits = stage.falling == FallingBlocks::wait && balance.detached > 0;
+  sim.relaxation.balanced = balance.resting > 0 && balance.mean_95 <= stage.ratio;
+  const bool found_in_sequence = !waits && balance.resting > 0 && balance.mean <= stage.ratio &&
+                                 (balance.mean == 0.0 || all_in_equilibrium(s, sim));
+  s.found_in_sequence = found_in_sequence ? s.found_in_sequence + 1 : 0;
+  return s.found_in_sequence >= checks_in_sequence ? Equilibrium::found : Equilibrium::not_yet;
+}
+
+std::vector<double> rounding_of_forces(const Simulation& sim) {
+  std::vector<double> force(sim.scene->blocks.size(), 0.0);
+  const FaceSet& f = sim.motion.contacts;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    if (!is_closed(f, k)) continue;
+    const double spring = f.stiffness[k] * f.now.length[k] * f.now.gate[k];
+    for (const Id i :
+         {block_of_edge(sim.scene->blocks, f, k), block_of_facing(sim.scene->blocks, f, k)}) {
+      force[i] += 0.5 * f.noise * spring;
+    }
+  }
+  return force;
+}
+
+double travel_if_free(const Simulation& sim, std::size_t i, double v, double t, double rounding) {
+  const double resultant =
+      nodes_per_block * norm(centroid(sim.motion.forces.x, sim.motion.forces.y, i));
+  const double acceleration = std::max(resultant - rounding, 0.0) / sim.scene->blocks.mass[i];
+  return v * t + 0.5 * acceleration * t * t;
+}
+
+std::vector<Id> loose_block_ids(const Simulation& sim) {
+  const std::vector<std::uint8_t> small = negligible_blocks(sim);
+  std::vector<Id> loose;
+  for (std::size_t i = 0; i < sim.relaxation.loose.size(); ++i) {
+    if (sim.relaxation.loose[i] != 0 && small[i] == 0) loose.push_back(static_cast<Id>(i));
+  }
+  return loose;
+}
+
+std::string loose_blocks(const EquilibriumSearch& s, const Simulation& sim) {
+  std::vector<std::pair<double, Id>> loose;
+  for (const Id i : loose_block_ids(sim)) {
+    loose.emplace_back(norm(Vec2{s.moved_x[i], s.moved_y[i]}), i);
+  }
+  std::sort(loose.begin(), loose.end(), [](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first > b.first : a.second < b.second;
+  });
+  constexpr std::size_t named = 5;
+  std::string text;
+  for (std::size_t q = 0; q < std::min(named, loose.size()); ++q) {
+    const Id i = loose[q].second;
+    const Vec2 gone = displacement_of(sim.motion.state, i, centroid_weights);
+    text += fmt::format("{}{} ({:.3g} mm so far)", q == 0 ? "" : ", ",
+                        block_label(sim.scene->blocks, i), 1e3 * norm(gone));
+  }
+  if (loose.size() > named) text += fmt::format(" and {} more", loose.size() - named);
+  return text;
+}
+
+}  // namespace edda

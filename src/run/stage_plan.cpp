@@ -1,0 +1,100 @@
+#include "run/stage_plan.hpp"
+
+#include <algorithm>
+
+#include "run/stages.hpp"
+#include "step/changes.hpp"
+#include "step/simulation.hpp"
+
+namespace edda {
+namespace {
+
+Index opening_called(const Model& model, const std::string& name) {
+  const auto found = std::find_if(model.openings.begin(), model.openings.end(),
+                                  [&](const Opening& o) { return o.name == name; });
+  return static_cast<Index>(found - model.openings.begin());
+}
+
+StagePlan plan_of(const Model& model, const Stage& stage) {
+  StagePlan plan{stage,
+                 rows_called(model, stage.deactivate),
+                 rows_called(model, stage.activate),
+                 bolts_called(model, stage.install),
+                 {},
+                 {}};
+  for (const std::string& name : stage.excavate) plan.out.push_back(opening_called(model, name));
+  for (const auto& [name, part] : stage.relax) {
+    plan.relax.emplace_back(opening_called(model, name), part);
+  }
+  return plan;
+}
+
+/// The plan without what changes from outside have done already.
+StagePlan without_what_is_done(const Simulation& sim, StagePlan plan) {
+  const ActiveIntervals& intervals = sim.attached.loads.intervals;
+  plan.off = rows_that(true, intervals, plan.off);
+  plan.on = rows_that(false, intervals, plan.on);
+  std::erase_if(plan.bolts, [&](Index row) { return is_installed(sim.attached.bolts, row); });
+  return plan;
+}
+
+/// Fraction of the wall forces of an opening that has been released so far.
+double released(const Simulation& sim, Index opening) {
+  const double kept = sim.attached.loads.remaining[static_cast<std::size_t>(opening)].part;
+  return is_excavated(sim, opening) ? 1.0 - kept : 0.0;
+}
+
+void excavate_openings(Simulation& sim, const StagePlan& plan) {
+  std::vector<std::pair<Index, double>> more;  // those that exceed what has been released by now
+  for (const auto& [opening, part] : plan.relax) {
+    if (part >= released(sim, opening)) more.emplace_back(opening, part);
+  }
+  if (!plan.out.empty()) excavate(sim, plan.out);
+  for (const auto& [opening, part] : more) relax(sim, opening, part);
+}
+
+void change_strength(Simulation& sim, const StagePlan& plan) {
+  const std::vector<double> factors(sim.motion.laws.rows.size(), plan.stage.strength_factor);
+  if (plan.to_equilibrium() && plan.stage.damping.adaptive > 0.0) {
+    begin_gradually(sim, factors);
+  } else {
+    set_strength_factors(sim, factors);
+  }
+}
+
+}  // namespace
+
+std::vector<StagePlan> plan_stages(const Model& model) {
+  std::vector<StagePlan> plans;
+  for (const Stage& stage : stages_of(model)) plans.push_back(plan_of(model, stage));
+  return plans;
+}
+
+std::optional<Fault> enter_stage(Simulation& sim, const StagePlan& given, bool first) {
+  const StagePlan plan = first ? given : without_what_is_done(sim, given);
+  const Stage& stage = plan.stage;
+  const bool glued = stage.joints == StageJoints::glued;
+  // Unglue before excavation, so that the walls are not supported by joints that are no longer
+  // glued. Glue after all other changes, so that joints are glued in their state at that time.
+  if (!glued) glue_joints(sim, false);
+  // Excavate before boundaries take over from each other, so that a boundary takes over the forces
+  // after excavation.
+  excavate_openings(sim, plan);
+  switch_over(sim, plan.off, plan.on);
+  // Bolts are installed in the rock that remains.
+  if (!plan.bolts.empty()) {
+    if (auto fault = install(sim, plan.bolts)) return fault;
+  }
+  glue_joints(sim, glued);
+  // Mass scaling and the step that damping allows depend on all springs that act from now on.
+  scale_masses(sim, stage.masses);
+  const bool carry = sim.scene->model.solver.dynamic && !plan.to_equilibrium();
+  change_damping(sim, stage.damping, carry);
+  // Strength changes last: with adaptive damping it changes gradually, together with all that has
+  // begun or ended to act above.
+  change_strength(sim, plan);
+  if (stage.reset_displacements) reset_displacements(sim);
+  return {};
+}
+
+}  // namespace edda

@@ -1,0 +1,35 @@
+// The changes at the beginning of a stage, with names resolved to rows.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/fault.hpp"
+#include "model/stage_names.hpp"
+
+namespace edda {
+
+struct Simulation;
+
+/// A stage, with the rows of the names in it.
+struct StagePlan {
+  Stage stage;
+  NamedRows off, on;                            ///< what it deactivates and activates
+  std::vector<Index> bolts;                     ///< rows of all_bolts() that it installs
+  std::vector<Index> out;                       ///< rows of Model::openings that it excavates
+  std::vector<std::pair<Index, double>> relax;  ///< openings, and the fraction of their wall forces
+                                                ///< that it releases
+
+  bool to_equilibrium() const { return stage.until == StageEnd::equilibrium; }
+};
+
+/// The stages of a model in order; for a model without stages, the one stage that it consists of.
+std::vector<StagePlan> plan_stages(const Model& model);
+
+/// Makes the changes at the beginning of a stage of the model, between two steps. After the `first`
+/// stage, changes that have been made from outside are skipped. Fault: a bolt without rock at its
+/// place.
+std::optional<Fault> enter_stage(Simulation& sim, const StagePlan& plan, bool first);
+
+}  // namespace edda

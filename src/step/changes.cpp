@@ -1,0 +1,50 @@
+#include "step/changes.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "contacts/face_bonds.hpp"
+#include "contacts/strength.hpp"
+#include "step/contact_search.hpp"
+#include "step/force_jumps.hpp"
+#include "step/simulation.hpp"
+
+namespace edda {
+
+void change_damping(Simulation& sim, const Damping& now, bool carry_velocities) {
+  Damping& damping = sim.motion.damping;
+  damping = now;
+  sim.motion.dynamic = carry_velocities;
+  set_viscosity(sim);
+  set_face_dashpots(sim.motion.contacts, sim.motion.laws, damping.contact);
+  sim.control.limit = std::numeric_limits<double>::infinity();
+  set_limit(sim);
+}
+
+void set_strength_factors(Simulation& sim, const std::vector<double>& factors) {
+  if (factors == sim.motion.laws.divided_by) return;
+  const NodalForces before = forces_now(sim);
+  take_strength_factors(sim, factors);
+  note_jump(sim, before);
+}
+
+void take_strength_factors(Simulation& sim, const std::vector<double>& factors) {
+  LawTable& laws = sim.motion.laws;
+  if (factors == laws.divided_by) return;
+  LawTable divided = divided_laws(sim.scene->model, factors);
+  take_strength(sim.motion.contacts, laws, divided);
+  laws = std::move(divided);
+  reevaluate_faces(sim);
+}
+
+void set_strength_factor(Simulation& sim, double factor) {
+  set_strength_factors(sim, std::vector<double>(sim.motion.laws.rows.size(), factor));
+}
+
+void reset_displacements(Simulation& sim) {
+  State& state = sim.motion.state;
+  state.from_x = state.x;
+  state.from_y = state.y;
+}
+
+}  // namespace edda

@@ -1,0 +1,61 @@
+// Changes between two steps: damping, strength, excavation, active loads and boundaries,
+// velocities. Energy that they add or remove is accounted for as external work.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "attachments/loads.hpp"
+#include "base/fault.hpp"
+#include "blocks/kinematics.hpp"
+#include "model/stage_names.hpp"
+
+namespace edda {
+
+struct Simulation;
+
+/// Replaces the damping, and updates the step that it allows.
+void change_damping(Simulation& sim, const Damping& now, bool carry_velocities);
+
+/// Sets the strength factors: from now on the strength of law r as the model gives it is divided by
+/// factors[r] (rows of the LawTable, above zero): cohesion, tangent of the friction angle and
+/// tensile strength, peak and residual.
+void set_strength_factors(Simulation& sim, const std::vector<double>& factors);
+/// The same factor for all laws.
+void set_strength_factor(Simulation& sim, double factor);
+/// As set_strength_factors(), but without correcting the velocities for the jump of forces
+/// (note_jump()).
+void take_strength_factors(Simulation& sim, const std::vector<double>& factors);
+
+/// Removes the rock of these openings (rows of Model::openings). The forces that it had on the
+/// walls become loads, which keep their full value until relax() reduces them.
+void excavate(Simulation& sim, const std::vector<Index>& openings);
+/// Releases `part` (0 to 1) of the forces that the rock of an opening had on its walls.
+void relax(Simulation& sim, Index opening, double part);
+/// Adds these forces to the loads.
+void keep(Simulation& sim, const std::vector<WallForce>& more);
+
+/// Deactivates the rows `off` and activates the rows `on`. A boundary of any type but stress that
+/// is activated where another is deactivated takes over the forces that that one carried; energy
+/// stored in springs that are removed counts as external work.
+void switch_over(Simulation& sim, const NamedRows& off, const NamedRows& on);
+/// Installs bolts (rows of all_bolts()) in the present positions of the rock.
+std::optional<Fault> install(Simulation& sim, const std::vector<Index>& bolts);
+/// Glues all closed contacts, so that they neither open nor slide, or ends this.
+void glue_joints(Simulation& sim, bool glued);
+
+/// Displacements count from the present positions on.
+void reset_displacements(Simulation& sim);
+/// Every second step leaves the velocities in other arrays than the step before. This moves their
+/// contents into the arrays of the step before, for views of them that outlive a step.
+void exchange_velocity_arrays(Simulation& sim);
+/// Replaces the velocities of the nodes (finite, m/s); those of blocks that are not free do not
+/// change.
+void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy);
+
+/// Loads the outer faces with the initial stress, on boundaries too; at creation.
+void load_boundaries_with_initial_stress(Simulation& sim);
+/// Contact forces at the start; with an initial stress, those in equilibrium with it.
+void close_contacts(Simulation& sim);
+
+}  // namespace edda

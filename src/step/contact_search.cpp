@@ -1,0 +1,97 @@
+// The list of possible contacts, and when it is renewed.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.hpp"
+#include "contacts/evaluate_faces.hpp"
+#include "contacts/face_bonds.hpp"
+#include "contacts/find_faces.hpp"
+#include "step/simulation.hpp"
+
+namespace edda {
+
+void place_all(Simulation& sim) {
+  const BlockSet& blocks = sim.scene->blocks;
+  State& state = sim.motion.state;
+  Pose& pose = sim.motion.pose;
+  parallel_for(blocks.size(), [&](std::size_t i) {
+    if (state.alive[i]) place_vertices(blocks, state.x, state.y, i, pose.x, pose.y);
+  });
+}
+
+void search(Simulation& sim, double reach) {
+  const BlockSet& blocks = sim.scene->blocks;
+  State& state = sim.motion.state;
+  Pose& pose = sim.motion.pose;
+  LawTable& laws = sim.motion.laws;
+  FaceSet& contacts = sim.motion.contacts;
+  if (sim.scene->at_points()) {
+    find_points(sim.motion.point_contacts, blocks, state, pose, laws, reach);
+    State of_no_faces;
+    of_no_faces.alive.assign(blocks.size(), 0);
+    return find_faces(contacts, blocks, of_no_faces, pose, laws, reach);
+  }
+  find_faces(contacts, blocks, state, pose, laws, reach);
+  set_face_dashpots(contacts, laws, sim.motion.damping.contact);
+}
+
+FaceScene face_scene(const Simulation& sim) {
+  return {sim.scene->blocks, sim.motion.masses, sim.motion.pose, sim.motion.laws};
+}
+
+void reevaluate_faces(Simulation& sim) {
+  if (sim.control.step_before > 0.0) {
+    evaluate_faces(sim.motion.contacts, face_scene(sim), sim.control.step_before);
+  }
+}
+
+bool list_is_due(Simulation& sim) {
+  Pose& pose = sim.motion.pose;
+  FaceSet& contacts = sim.motion.contacts;
+  StepControl& control = sim.control;
+  contacts.travel += control.last_displacement;
+  // Distance that any vertex may move before the next check.
+  const double ahead = sim.stepper->ahead(sim);
+  if (contacts.travel + ahead <= 0.5 * contacts.reach) return false;
+  // The sum of displacements is an upper bound; the distance of the vertices from their positions
+  // when the list was made decides.
+  const std::size_t nv = sim.scene->blocks.vertex_count();
+  double moved2 = 0.0;
+  for (std::size_t v = 0; v < nv; ++v) {
+    const double dx = pose.x[v] - contacts.built_x[v], dy = pose.y[v] - contacts.built_y[v];
+    const double d2 = dx * dx + dy * dy;
+    if (!(d2 <= moved2)) moved2 = d2;
+  }
+  contacts.travel = std::sqrt(moved2);
+  if (!(contacts.travel <= 100.0 * (contacts.reach + sim.scene->displacement_limit))) {
+    control.last_displacement = std::numeric_limits<double>::infinity();  // inspect() ends the run
+    return false;
+  }
+  return contacts.travel + sim.stepper->margin * ahead > 0.5 * contacts.reach;
+}
+
+/// Faces that carry load stand first in the list (find_faces()). Whether so many others carry load
+/// by now that a new list pays.
+bool list_is_scattered(const Simulation& sim) {
+  constexpr std::uint64_t every = 256;  // steps
+  constexpr std::size_t few = 16;       // chunks
+  if (sim.motion.state.steps % every != 0) return false;
+  const FaceSet& c = sim.motion.contacts;
+  std::size_t carrying = 0, touched = 0;
+  for (std::size_t q = 0; q < c.chunks(); ++q) {
+    const std::size_t begin = q * FaceSet::chunk, end = std::min(begin + FaceSet::chunk, c.size());
+    const std::size_t before = carrying;
+    for (std::size_t k = begin; k < end; ++k) carrying += c.now.energy[k] > 0.0 ? 1 : 0;
+    touched += carrying > before ? 1 : 0;
+  }
+  return touched > few + 3 * carrying / (2 * FaceSet::chunk);
+}
+
+void search_if_due(Simulation& sim) {
+  if (!list_is_due(sim) && !list_is_scattered(sim)) return;
+  search(sim, std::max(sim.scene->base_reach, 20.0 * sim.control.last_displacement));
+  set_limit(sim);
+}
+
+}  // namespace edda

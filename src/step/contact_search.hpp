@@ -1,0 +1,22 @@
+// The list of possible contacts, and when it is renewed (theory, section 7.5).
+#pragma once
+
+#include "contacts/evaluate_faces.hpp"
+
+namespace edda {
+
+struct Simulation;
+
+/// The blocks and laws that the faces of a simulation refer to.
+FaceScene face_scene(const Simulation& sim);
+
+/// Computes all vertices from the nodes.
+void place_all(Simulation& sim);
+/// Evaluates the faces at n again, after a change of their strength.
+void reevaluate_faces(Simulation& sim);
+/// Makes the list of all possible contacts within `reach` (m).
+void search(Simulation& sim, double reach);
+/// After each step: renews the list and the bound of the step where that is due.
+void search_if_due(Simulation& sim);
+
+}  // namespace edda

@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <limits>
+
+#include "base/polygon.hpp"
+#include "blocks/build_blocks.hpp"
+#include "blocks/initial_stress.hpp"
+#include "contacts/face_bonds.hpp"
+#include "contacts/find_faces.hpp"
+#include "contacts/strength.hpp"
+#include "cutting/build_polygons.hpp"
+#include "step/changes.hpp"
+#include "step/contact_search.hpp"
+#include "step/restitution.hpp"
+#include "step/simulation.hpp"
+
+namespace edda {
+namespace {
+
+double median_edge(const BlockSet& b) {
+  std::vector<double> edges;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (!b.fixed[i]) edges.push_back(b.smallest_edge[i]);
+  }
+  if (edges.empty()) edges = b.smallest_edge;
+  const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
+  std::nth_element(edges.begin(), middle, edges.end());
+  return *middle;
+}
+
+/// The displacement limit (theory, section 7.3): a part of the model's half-width where it is
+/// narrowest (of a slope, its half-height), in whatever direction; at most a tenth of the smallest
+/// edge.
+double largest_displacement(const BlockSet& b, double ratio) {
+  std::vector<Vec2> points;
+  points.reserve(b.vertex_count());
+  for (std::size_t v = 0; v < b.vertex_count(); ++v) points.push_back(b.vertex(v));
+  const double edge = *std::min_element(b.smallest_edge.begin(), b.smallest_edge.end());
+  return std::min(ratio * 0.5 * least_width(points), 0.1 * edge);
+}
+
+Result<Scene> build_scene(Model given, BlockOrder order, const Stepper& stepper) {
+  Scene scene;
+  scene.model = std::move(given);
+  Result<PolygonSet> cut = build_polygons(scene.model);
+  if (!cut.ok()) return cut.faults();
+  scene.polygons = std::move(cut.value());
+  if (order == BlockOrder::reversed) {
+    std::reverse(scene.polygons.blocks.begin(), scene.polygons.blocks.end());
+    scene.polygons.reversed = true;
+  }
+  const Solver& solver = scene.model.solver;
+  BlockSet& blocks = scene.blocks;
+  blocks = build_blocks(scene.model, scene.polygons);
+  if (std::vector<Fault> faults = fit_restitution(scene.model, blocks); !faults.empty()) {
+    return faults;
+  }
+  if (scene.model.initial_stress) {
+    set_initial_stress(blocks, scene.model, StressField(scene.model, blocks.origin));
+  }
+  scene.displacement_limit = largest_displacement(blocks, solver.max_displacement_ratio);
+  scene.base_reach =
+      std::max(0.05 * median_edge(blocks), stepper.least_reach * scene.displacement_limit);
+  scene.smallest_half_width = *std::min_element(blocks.inradius.begin(), blocks.inradius.end());
+  return scene;
+}
+
+/// Attaches everything but bolts and free-field columns, which need the positions of the blocks and
+/// the step.
+std::vector<Fault> attach(const Scene& scene, Attached& attached) {
+  const Model& model = scene.model;
+  const BlockSet& blocks = scene.blocks;
+  Result<BoundarySprings> springs = attach_boundaries(model, blocks);
+  if (!springs.ok()) return springs.faults();
+  attached.springs = std::move(springs.value());
+  Result<Loads> loads = attach_loads(model, scene.polygons, blocks);
+  if (!loads.ok()) return loads.faults();
+  attached.loads = std::move(loads.value());
+  Result<Dashpots> dashpots = attach_dashpots(model, blocks);
+  if (!dashpots.ok()) return dashpots.faults();
+  attached.dashpots = std::move(dashpots.value());
+  const std::vector<ActiveInterval>& acting = attached.loads.intervals.boundaries;
+  for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
+    if (!acting[q].acts()) attached.springs.release(static_cast<Index>(q));
+  }
+  attached.dashpots.set_acting(acting);
+  attached.ground = find_ground(model, blocks);
+  return {};
+}
+
+/// The laws with the strength of the first stage, which applies to the state at the start.
+LawTable first_laws(const Model& model) {
+  const double factor = model.stages.empty() ? 1.0 : model.stages.front().strength_factor;
+  return divided_laws(model, std::vector<double>(build_laws(model).rows.size(), factor));
+}
+
+/// Places the blocks where they were cut, at rest unless the model gives velocities.
+void place_blocks(Simulation& sim) {
+  const BlockSet& blocks = sim.scene->blocks;
+  Motion& motion = sim.motion;
+  const std::size_t nb = blocks.size(), nv = blocks.vertex_count();
+  motion.state = initial_state(blocks, sim.scene->polygons);
+  motion.forces = {zero_nodes(nb), zero_nodes(nb)};
+  motion.on_dashpots.assign(sim.attached.dashpots.points.size(), Vec2{});
+  sim.accounts.damping_work.joules.assign(nb, 0.0);
+  Pose& pose = motion.pose;
+  pose.x.resize(nv);
+  pose.y.resize(nv);
+  place_all(sim);
+  pose.x2 = pose.x1 = pose.x;
+  pose.y2 = pose.y1 = pose.y;
+}
+
+/// Finds the contacts at the start, and closes them by the initial stress where there is one.
+void find_first_contacts(Simulation& sim) {
+  const BlockSet& blocks = sim.scene->blocks;
+  Motion& motion = sim.motion;
+  search(sim, sim.scene->base_reach);
+  bond_faces(motion.contacts, blocks, motion.pose, motion.laws);
+  close_contacts(sim);
+  begin_from_step_end(motion.contacts);
+  // Twice: energies need the state a step before, which is the same at rest.
+  for (int n = 0; n < 2; ++n) move_points(motion.point_contacts, blocks, motion.pose, motion.laws);
+  for (auto* work : {&motion.contacts.friction_work, &motion.contacts.transfer}) work->fill(0.0);
+}
+
+}  // namespace
+
+Result<Simulation> Simulation::create(Model given, BlockOrder order) {
+  Simulation sim;
+  sim.stepper = given.solver.method == Method::edda ? &leapfrog_stepper : &newmark_stepper;
+  Result<Scene> scene = build_scene(std::move(given), order, *sim.stepper);
+  if (!scene.ok()) return scene.faults();
+  sim.scene = CopyOnWrite<Scene>(std::move(scene.value()));
+  if (std::vector<Fault> faults = attach(*sim.scene, sim.attached); !faults.empty()) return faults;
+  const Model& model = sim.scene->model;
+  const BlockSet& blocks = sim.scene->blocks;
+  Motion& motion = sim.motion;
+  motion.damping = model.solver.damping;
+  motion.dynamic = model.solver.dynamic;
+  motion.laws = first_laws(model);
+  motion.masses = given_masses(blocks);
+  set_viscosity(sim);
+  if (model.initial_stress) load_boundaries_with_initial_stress(sim);
+  place_blocks(sim);
+  Result<Bolts> bolts = attach_bolts(model, blocks, motion.state, motion.pose.x, motion.pose.y);
+  if (!bolts.ok()) return bolts.faults();
+  sim.attached.bolts = std::move(bolts.value());
+  sim.control.limit = std::numeric_limits<double>::infinity();
+  find_first_contacts(sim);
+  plan_slivers(sim);
+  set_limit(sim);
+  sim.attached.free_field =
+      attach_free_field(model, blocks, sim.attached.dashpots, sim.control.limit);
+  return sim;
+}
+
+}  // namespace edda

@@ -1,0 +1,49 @@
+// When a run must stop: a block has lost its shape, values are not finite, or blocks overlap
+// deeply.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/vec2.hpp"
+#include "blocks/block_set.hpp"
+#include "blocks/pose.hpp"
+#include "blocks/state.hpp"
+#include "contacts/face_set.hpp"
+#include "contacts/points.hpp"
+#include "forces/nodal_forces.hpp"
+#include "model/model.hpp"
+
+namespace edda {
+
+/// Why a run stopped before its end: what, where, when and the likely cause.
+struct Failure {
+  std::string message;  ///< one line, with the likely cause
+  Id block = no_id;
+  Vec2 place;         ///< model coordinates
+  double time = 0.0;  ///< s
+};
+
+/// The step and the critical step, which the message compares to name the cause.
+struct StepInUse {
+  double step = 0.0, critical = 0.0;  ///< s
+};
+
+/// The block whose values are not finite or whose shape is lost, after a step without a finite
+/// displacement.
+Failure lost_block(const BlockSet& blocks, const State& state, const Pose& pose,
+                   const NodalForces& forces, const StepInUse& step);
+
+/// A face that carries load and whose closure at one of its ends exceeds the half-width of either
+/// of its blocks (BlockSet::inradius), if there is one. `largest`: largest closure at present, m;
+/// faces are checked only where it exceeds `smallest_half_width`.
+std::optional<Failure> deep_overlap(const FaceSet& contacts, const BlockSet& blocks,
+                                    const State& state, const Pose& pose, double largest,
+                                    double smallest_half_width, const StepInUse& step);
+
+/// The same for point contacts.
+std::optional<Failure> deep_overlap(const PointSet& contacts, const BlockSet& blocks,
+                                    const State& state, const Pose& pose, double largest,
+                                    double smallest_half_width, const StepInUse& step);
+
+}  // namespace edda

@@ -1,0 +1,108 @@
+#include "step/energy_balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.hpp"
+#include "contacts/face_energy.hpp"
+#include "forces/elastic.hpp"
+#include "step/simulation.hpp"
+
+namespace edda {
+namespace {
+
+/// Strain energy between steps n - 1 and n; x_{n-1} = x_n - h v_{n-1/2}.
+double block_strain_energy(const BlockSet& b, const State& s, double h, std::size_t i) {
+  const Deformation now = deformation(b, s.x, s.y, i);
+  const Deformation rate = deformation(b, s.vx, s.vy, i);
+  const Deformation before{now.xx - h * rate.xx, now.xy - h * rate.xy, now.yx - h * rate.yx,
+                           now.yy - h * rate.yy};
+  const double strain = strain_energy(corotated_strain(before, rotation(before)),
+                                      corotated_strain(now, rotation(now)), b.volume[i],
+                                      b.lame_lambda[i], b.lame_mu[i]);
+  if (b.initial_xx.empty()) return strain;
+  return strain + initial_energy(before, now, initial_stress(b, i), b.volume[i], b.lame_lambda[i],
+                                 b.lame_mu[i]);
+}
+
+double block_gravity_energy(const BlockSet& b, const State& s, double h, Vec2 gravity,
+                            std::size_t i) {
+  const Vec2 half_back = 0.5 * h * centroid(s.vx, s.vy, i);
+  const Vec2 moved = centroid(s.x, s.y, i) - half_back - Vec2{b.centroid_x[i], b.centroid_y[i]};
+  return -b.mass[i] * dot(gravity, moved);
+}
+
+}  // namespace
+
+double rounding_energy(const BlockSet& b, const FaceSet& c) {
+  double size = 0.0, stiffness = 0.0;
+  for (const double x : b.vertex_x) size = std::max(size, std::abs(x));
+  for (const double y : b.vertex_y) size = std::max(size, std::abs(y));
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    stiffness =
+        std::max(stiffness, (b.lame_lambda[i] + 2.0 * b.lame_mu[i]) * b.volume[i] / b.area[i]);
+  }
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const double shorter = std::min(b.edge_length[c.edge[k]], b.edge_length[c.facing[k]]);
+    stiffness = std::max(stiffness, 0.5 * c.stiffness[k] * shorter);
+  }
+  const double stretch = 1e4 * std::numeric_limits<double>::epsilon() * size;
+  return 0.5 * static_cast<double>(b.size()) * stiffness * stretch * stretch;
+}
+
+EnergyBalance energy_balance(const Simulation& sim) {
+  const BlockSet& b = sim.scene->blocks;
+  const State& s = sim.motion.state;
+  const FaceSet& c = sim.motion.contacts;
+  const Bolts& bolts = sim.attached.bolts;
+  const PointSet& points = sim.motion.point_contacts;
+  const Accounts& accounts = sim.accounts;
+  // Time by which positions go back: 0 where velocities belong to the same instant as positions
+  // (and pose.x1 = pose.x).
+  const double behind = 2.0 * sim.stepper->velocity_lag * sim.control.step_before;
+  const auto over_free = [&](auto&& term) {
+    return ordered_sum(b.size(), [&](std::size_t i) { return is_free(b, s, i) ? term(i) : 0.0; });
+  };
+  const auto over_faces = [&](const ChunkColumn& taken) {
+    return ordered_sum(c.size(), [&](std::size_t k) { return taken[k]; });
+  };
+  const auto in_faces = [&](std::size_t k) { return face_energy(c, b, sim.motion.pose, k); };
+  const std::vector<double>& damped = accounts.damping_work.joules;
+  EnergyBalance l;
+  l.kinetic =
+      over_free([&](std::size_t i) { return kinetic_energy(sim.motion.masses, s.vx, s.vy, i); });
+  l.strain = over_free([&](std::size_t i) { return block_strain_energy(b, s, behind, i); });
+  l.gravity = over_free([&](std::size_t i) {
+    return block_gravity_energy(b, s, behind, sim.scene->model.gravity, i);
+  });
+  l.contact =
+      ordered_sum(c.size(), in_faces) + boundary_energy(sim.attached.springs, sim.motion.pose);
+  l.friction = c.removed_friction + over_faces(c.friction_work);
+  l.fracture = c.removed_fracture + over_faces(c.fracture_work);
+  l.damping = c.removed_damping + over_faces(c.damping_work) + over_faces(c.now.damping_due) +
+              ordered_sum(damped.size(), [&](std::size_t i) { return damped[i]; });
+  l.transfer = c.removed_transfer + over_faces(c.transfer);
+  l.step_change = -accounts.step_change_energy;
+  l.external = accounts.external_work;
+  l.contact += bolt_energy(bolts) + points.energy;
+  l.friction += bolts.slipped + points.friction;
+  l.fracture += bolts.fractured;
+  return l;
+}
+
+double energy_scale(const Simulation& sim, const EnergyBalance& l) {
+  return std::max({sim.accounts.largest_energy, l.scale(),
+                   rounding_energy(sim.scene->blocks, sim.motion.contacts)});
+}
+
+EnergyBalance account_energy(Simulation& sim) {
+  Accounts& accounts = sim.accounts;
+  EnergyBalance l = energy_balance(sim);
+  if (!accounts.start_energy) accounts.start_energy = l.balance();
+  accounts.largest_energy = energy_scale(sim, l);
+  l.error = (l.balance() - *accounts.start_energy) / accounts.largest_energy;
+  return l;
+}
+
+}  // namespace edda

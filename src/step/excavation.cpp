@@ -1,0 +1,64 @@
+// Excavation between two steps.
+#include <algorithm>
+#include <set>
+
+#include "contacts/face_reading.hpp"
+#include "step/changes.hpp"
+#include "step/contact_search.hpp"
+#include "step/energy_balance.hpp"
+#include "step/simulation.hpp"
+
+namespace edda {
+namespace {
+
+/// Forces of the rock that is excavated on the rock that stays, from the contacts as they are now.
+std::vector<WallForce> wall_forces(const BlockSet& b, const FaceSet& f,
+                                   const std::vector<std::uint8_t>& goes) {
+  std::vector<WallForce> walls;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    const Id i = block_of_edge(b, f, k), j = block_of_facing(b, f, k);
+    if (goes[i] == goes[j] || !is_closed(f, k)) continue;
+    const CornerForces on = corner_forces(f, k);
+    const auto keep = [&](Id edge, Vec2 start, Vec2 end, Id of) {
+      walls.push_back({edge, start, b.opening[of]});
+      walls.push_back({b.next[edge], end, b.opening[of]});
+    };
+    if (goes[j] != 0 && !b.fixed[i]) keep(f.edge[k], on.p1, on.p2, j);
+    if (goes[i] != 0 && !b.fixed[j]) keep(f.facing[k], on.q1, on.q2, i);
+  }
+  return walls;
+}
+
+}  // namespace
+
+void excavate(Simulation& sim, const std::vector<Index>& openings) {
+  const BlockSet& blocks = sim.scene->blocks;
+  State& state = sim.motion.state;
+  const double energy = energy_balance(sim).balance();
+  std::vector<std::uint8_t> goes(blocks.size(), 0);
+  std::set<Index> going;  // openings excavated before keep what they have released
+  for (std::size_t i = 0; i < blocks.opening.size(); ++i) {
+    const bool named =
+        std::find(openings.begin(), openings.end(), blocks.opening[i]) != openings.end();
+    goes[i] = named && state.alive[i] != 0 ? 1 : 0;
+    if (goes[i] != 0) going.insert(blocks.opening[i]);
+  }
+  const std::vector<WallForce> on_walls = wall_forces(blocks, sim.motion.contacts, goes);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    if (goes[i] == 0) continue;
+    state.alive[i] = 0;
+    store({}, state.vx, state.vy, i);
+  }
+  for (const Index o : going)
+    sim.attached.loads.remaining[static_cast<std::size_t>(o)] = {0.0, 1.0, state.time};
+  keep(sim, on_walls);
+  search(sim, sim.motion.contacts.reach);
+  sim.accounts.external_work += energy_balance(sim).balance() - energy;
+}
+
+void relax(Simulation& sim, Index opening, double part) {
+  sim.attached.loads.remaining[static_cast<std::size_t>(opening)].change(1.0 - part,
+                                                                         sim.motion.state.time);
+}
+
+}  // namespace edda

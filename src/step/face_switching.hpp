@@ -1,0 +1,60 @@
+// Energy-consistent contact activation: corrects the step just made where ends of faces opened or
+// closed in it, so that the work of a face equals the decrease of its stored energy
+// (theory, sections 6.2 and 6.3).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "blocks/pose.hpp"
+#include "blocks/state.hpp"
+#include "contacts/evaluate_faces.hpp"
+#include "contacts/face_energy.hpp"
+#include "step/push_block.hpp"
+
+namespace edda {
+
+struct OpenCloseCounts {
+  std::uint64_t steps = 0;          ///< steps with at least one pass
+  std::uint64_t passes = 0;         ///< passes in all steps
+  std::uint64_t most = 0;           ///< most passes in one step
+  std::uint64_t switched = 0;       ///< faces of which an end opened or closed
+  std::uint64_t not_converged = 0;  ///< steps without convergence in the last pass
+  std::vector<Id> of_face;          ///< [nf] `switched` by face, since the list of faces was made
+  std::uint64_t of_list = 0;        ///< FaceSet::rebuilds of that list
+};
+
+/// A face of which an end opened or closed in the last two steps.
+struct SwitchingFace {
+  Id face;
+  FacePoints then, at;  ///< corners at n - 1 and n
+  Face element;         ///< element at n
+  CornerForces force;   ///< its force at n with the present alpha, shear included
+  double stored;        ///< U_{n-1/2}, J
+  double stored_next;   ///< U_{n+1/2}, J
+  bool was_closed;      ///< at n - 1
+  double own_work;  ///< work of the whole normal force on the displacement it makes in the step, J
+  double alpha;     ///< activation factor: part of the normal force that acts
+  std::uint64_t corrected_at;  ///< value of `corrections` when it was last corrected
+  bool done;                   ///< it changed by less than the tolerance then
+};
+
+/// Lists of one step, kept so that steps allocate nothing once the lists have grown.
+struct FaceSwitchingScratch {
+  std::vector<SwitchingFace> set;
+  std::vector<Id> pushed;  ///< blocks that have moved since the faces were last evaluated
+  std::vector<std::uint64_t>
+      moved_at;  ///< [nb] value of `corrections` when a face last moved the block
+  std::uint64_t corrections = 0;
+  Vec2 on_fixed;  ///< N: change of the forces on fixed blocks
+};
+
+/// On entry: positions and faces of step n + 1, made with the whole forces of step n. On return
+/// both are final, and `before` of the faces holds the forces that acted at n.
+void correct_switching(FaceSet& faces, const LawTable& laws, const StepTaken& taken,
+                       OpenCloseCounts& counts, FaceSwitchingScratch& scratch);
+
+/// Largest drawn closure of a face that carries load, m.
+double largest_closure(const FaceSet& faces);
+
+}  // namespace edda

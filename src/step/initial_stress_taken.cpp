@@ -1,0 +1,47 @@
+// Initial stress on boundaries and contacts at the start of a simulation.
+#include "attachments/initial_forces.hpp"
+#include "contacts/evaluate_faces.hpp"
+#include "contacts/face_bonds.hpp"
+#include "contacts/face_preload.hpp"
+#include "step/changes.hpp"
+#include "step/contact_search.hpp"
+#include "step/simulation.hpp"
+
+namespace edda {
+
+void load_boundaries_with_initial_stress(Simulation& sim) {
+  const Model& model = sim.scene->model;
+  const BlockSet& blocks = sim.scene->blocks;
+  Loads& loads = sim.attached.loads;
+  const StressField field(model, blocks.origin);
+  const LoadsNow at_start = loads_at(model, loads, 0.0);
+  const FaceForces faces(blocks, field, at_start);
+  const std::vector<WallForce> wall_forces =
+      supported_initial_stress(model, blocks, loads.intervals, faces);
+  load_initial_stress(loads, model, blocks, faces);
+  for (const WallForce& f : wall_forces) {
+    loads.remaining[static_cast<std::size_t>(f.owner)] = {1.0, 1.0};
+  }
+  if (!wall_forces.empty()) keep(sim, wall_forces);
+}
+
+void close_contacts(Simulation& sim) {
+  const Model& model = sim.scene->model;
+  const BlockSet& blocks = sim.scene->blocks;
+  const Pose& pose = sim.motion.pose;
+  const LawTable& laws = sim.motion.laws;
+  FaceSet& contacts = sim.motion.contacts;
+  if (!model.initial_stress) return evaluate_faces(contacts, face_scene(sim), 1.0);
+  const StressField field(model, blocks.origin);
+  const LoadsNow at_start = loads_at(model, sim.attached.loads, 0.0);
+  const FaceForces faces(blocks, field, at_start);
+  const auto traction = [&](Id edge, double from, double to) { return faces.on(edge, {from, to}); };
+  sim.accounts.initial.emplace();
+  // Joints that the first stage glues are checked against their own strength when they are unglued.
+  const bool glued = !model.stages.empty() && model.stages.front().joints == StageJoints::glued;
+  sim.accounts.initial->joints = preload_faces(contacts, blocks, pose, laws, traction);
+  if (glued) glue_faces(contacts);
+  evaluate_faces(contacts, face_scene(sim), 1.0);
+}
+
+}  // namespace edda

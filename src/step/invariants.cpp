@@ -1,0 +1,95 @@
+#include "step/invariants.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "step/simulation.hpp"
+
+namespace edda {
+namespace {
+
+std::string of_nodes(const Simulation& sim) {
+  const State& state = sim.motion.state;
+  const NodalForces& forces = sim.motion.forces;
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (state.alive[i] == 0) continue;
+    for (std::size_t k = 0; k < nodes_per_block; ++k) {
+      for (const double value : {state.x[k][i], state.y[k][i], state.vx[k][i], state.vy[k][i],
+                                 forces.x[k][i], forces.y[k][i]}) {
+        if (!std::isfinite(value)) return fmt::format("node {} of block {} is not finite", k, i);
+      }
+    }
+  }
+  return {};
+}
+
+bool in_range(double value, double from, double to) {
+  constexpr double rounding = 1e-9;
+  return value >= from - rounding && value <= to + rounding;
+}
+
+/// Coulomb's limit at one end: half of the cohesion and the friction of its normal force.
+bool within_limit(const FaceSet& c, std::size_t k, double shear, double normal) {
+  const double limit =
+      std::max(0.5 * c.cohesion[k] * c.now.cohesive[k] + c.friction[k] * normal, 0.0);
+  return std::abs(shear) <= limit * (1.0 + 1e-9) + 1e-6;
+}
+
+std::string of_face(const Simulation& sim, std::size_t k) {
+  const FaceSet& c = sim.motion.contacts;
+  const BlockSet& b = sim.scene->blocks;
+  const FaceMemory& m = c.now;
+  if (c.edge[k] >= c.facing[k] || c.facing[k] >= b.vertex_count()) return "edges are out of range";
+  if (b.vertex_block[c.edge[k]] == b.vertex_block[c.facing[k]]) return "joins a block to itself";
+  if (c.law[k] >= sim.motion.laws.rows.size()) return "has no law";
+  for (const auto& column : face_columns) {
+    if (!std::isfinite((m.*column.values)[k])) return fmt::format("{} is not finite", column.name);
+  }
+  if (!in_range(m.gate[k], 0.0, 1.0)) return "gate is out of [0, 1]";
+  if (m.energy[k] < 0.0) return "stores less than nothing";
+  if (m.friction_work[k] < 0.0) return "friction creates energy";
+  if (m.length[k] < 0.0) return "overlap is negative";
+  if (m.energy[k] == 0.0) return {};
+  for (const double at : {m.xi_a[k], m.xi_b[k], m.eta_a[k], m.eta_b[k]}) {
+    if (!in_range(at, 0.0, 1.0)) return "an end lies beyond its edge";
+  }
+  const bool free = is_explicit(sim) && c.bonded[k] == 0.0 && !c.dashpots &&
+                    !sim.motion.laws.any_changes && !c.gluing;
+  if (free && !(within_limit(c, k, m.shear_a[k], m.normal_a[k]) &&
+                within_limit(c, k, m.shear_b[k], m.normal_b[k]))) {
+    return "carries more shear than its limit";
+  }
+  return {};
+}
+
+std::string of_faces(const Simulation& sim) {
+  const FaceSet& c = sim.motion.contacts;
+  std::vector<std::pair<Id, Id>> pairs;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (std::string broken = of_face(sim, k); !broken.empty())
+      return fmt::format("face {}: {}", k, broken);
+    pairs.emplace_back(c.edge[k], c.facing[k]);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  const auto twice = std::adjacent_find(pairs.begin(), pairs.end());
+  if (twice == pairs.end()) return {};
+  return fmt::format("edges {} and {} have two faces", twice->first, twice->second);
+}
+
+}  // namespace
+
+std::string broken_invariant(const Simulation& sim) {
+  std::string broken = of_nodes(sim);
+  if (broken.empty()) broken = of_faces(sim);
+  const double time = sim.motion.state.time, target = sim.control.target;
+  if (broken.empty() && time > target * (1.0 + 1e-12)) {
+    broken = fmt::format("time {} is past the event at {}", time, target);
+  }
+  return broken;
+}
+
+}  // namespace edda

@@ -1,0 +1,20 @@
+#include "step/labels.hpp"
+
+#include <fmt/format.h>
+
+namespace edda {
+
+std::string block_label(const BlockSet& b, std::size_t i) {
+  return b.name(i).empty() ? fmt::format("block {}", i)
+                           : fmt::format("block {} ({})", i, b.name(i));
+}
+
+std::string place_label(Vec2 p) {
+  return fmt::format("({:.6g}, {:.6g})", p.x + 0.0, p.y + 0.0);
+}
+
+std::string row_label(const char* what, const std::string& name, std::size_t row) {
+  return name.empty() ? fmt::format("{} {}", what, row) : fmt::format("{} {}", what, name);
+}
+
+}  // namespace edda

@@ -1,0 +1,346 @@
+#include "step/leapfrog_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.hpp"
+#include "contacts/evaluate_faces.hpp"
+#include "contacts/joint_laws.hpp"
+#include "forces/dashpot_forces.hpp"
+#include "step/contact_search.hpp"
+#include "step/force_jumps.hpp"
+#include "step/instant.hpp"
+#include "step/load_work.hpp"
+#include "step/simulation.hpp"
+#include "step/step.hpp"
+
+namespace edda {
+namespace {
+
+/// Energy that a change of the step creates (theory, section 7.3): sum of m |v+ - v-|^2
+/// (h_old - h_new)/(4 h_mean), with the definition of work of the energy balance.
+double energy_of_step_change(const State& s, const Leap& leap) {
+  const BlockSet& b = leap.blocks;
+  const double twice = ordered_sum(b.size(), [&](std::size_t i) {
+    if (!is_free(b, s, i)) return 0.0;
+    const NodeVectors change = vectors_of(s.vx, s.vy, i) - vectors_of(leap.old_vx, leap.old_vy, i);
+    return mass_product(leap.masses, i, change, change);
+  });
+  return twice * (leap.h_old - leap.h_new) / (2.0 * (leap.h_old + leap.h_new));
+}
+
+/// Damping in force; `strain` is the strain damping, yet to be prepared.
+StepDamping step_damping(const Simulation& sim, StrainDamping& strain) {
+  const std::vector<Id>& damped = sim.attached.dashpots.damped;
+  return {mass_damping(sim), sim.motion.damping.local, damped.empty() ? nullptr : &damped,
+          sim.motion.masses.viscosity.empty() ? nullptr : &strain};
+}
+
+/// The step from n to n + 1, with the state at n.
+Leap leap_of(const Simulation& sim, double h_old, double h_new) {
+  const NodalForces& forces = sim.motion.forces;
+  const LeapfrogStep& own = sim.leapfrog;
+  return {sim.scene->blocks, sim.motion.masses, forces.x, forces.y,
+          own.old_vx,        own.old_vy,        h_old,    h_new,
+          own.damps};
+}
+
+/// Forces at n, velocities at n + 1/2, positions at n + 1. Returns whether no vertex has moved
+/// beyond the displacement limit. `not_yet_gathered`: the loads at n; null where the step is made
+/// again, and of the forces only those of the dashpots, which depend on the step, are to change.
+bool move(Simulation& sim, double h_old, double h_new, const LoadsNow* not_yet_gathered) {
+  const BlockSet& blocks = sim.scene->blocks;
+  const Dashpots& dashpots = sim.attached.dashpots;
+  State& state = sim.motion.state;
+  Pose& pose = sim.motion.pose;
+  NodalForces& forces = sim.motion.forces;
+  LeapfrogStep& own = sim.leapfrog;
+  drive_ground(sim, h_old, h_new);
+  if (not_yet_gathered == nullptr) remove_dashpots(forces, sim.motion.on_dashpots, dashpots);
+  const double h = 0.5 * (h_old + h_new);
+  own.damps = step_damping(sim, own.strain_damping);
+  const double half_mass_damping = 0.5 * own.damps.mass * h;
+  if (own.damps.strain != nullptr)
+    prepare(*own.damps.strain, blocks, sim.motion.masses, h / (1.0 + half_mass_damping));
+  const DashpotStep dashpot_step{h, half_mass_damping, own.drive.reference, own.drive.push};
+  const Leap leap = leap_of(sim, h_old, h_new);
+  const DashpotScene before{blocks, sim.motion.masses, state, own.old_vx, own.old_vy};
+  own.largest.assign((blocks.size() + blocks_at_once - 1) / blocks_at_once, 0.0);
+  parallel_chunks(
+      blocks.size(), blocks_at_once, [&](std::size_t c, std::size_t begin, std::size_t end) {
+        if (not_yet_gathered != nullptr) {
+          gather_forces(forces, blocks, state, pose, sim.motion.contacts, sim.attached.springs,
+                        sim.scene->model.gravity, *not_yet_gathered, begin, end);
+        }
+        add_dashpots(forces, sim.motion.on_dashpots, dashpots, before, dashpot_step, begin, end);
+        advance(state, leap, begin, end);
+        own.largest[c] = place_next(blocks, state.x, state.y, pose, begin, end);
+      });
+  std::swap(pose.x, pose.x1);
+  std::swap(pose.y, pose.y1);
+  sim.control.last_displacement = std::sqrt(
+      own.largest.empty() ? 0.0 : *std::max_element(own.largest.begin(), own.largest.end()));
+  return sim.control.last_displacement <= sim.scene->displacement_limit;
+}
+
+/// Work of the loads in the leapfrog's terms: f_n . (x_{n+1} - x_{n-1})/2.
+void account_loads(Simulation& sim, double h_old, double h_new, const LoadsNow& now) {
+  const State& state = sim.motion.state;
+  const Pose& pose = sim.motion.pose;
+  const auto moved = [&](Id i) {
+    return 0.5 * (h_old * vectors_of(sim.leapfrog.old_vx, sim.leapfrog.old_vy, i) +
+                  h_new * vectors_of(state.vx, state.vy, i));
+  };
+  sim.accounts.external_work +=
+      load_work(sim, now, pose.x1, pose.y1, moved) + frame_work(sim, now, moved);
+}
+
+/// Velocities half a step back from the start (theory, section 7.1), and the faces as if positions
+/// a step before the start were x_{-1} = x_0 - h v. The forces at the start depend on these
+/// positions by slip and dashpots: they are first taken with the initial velocities, then with
+/// v_{-1/2}.
+void start_leapfrog(Simulation& sim) {
+  const BlockSet& blocks = sim.scene->blocks;
+  State& state = sim.motion.state;
+  Pose& pose = sim.motion.pose;
+  FaceSet& contacts = sim.motion.contacts;
+  NodalForces& forces = sim.motion.forces;
+  LeapfrogStep& own = sim.leapfrog;
+  const double h = state.step;
+  sim.control.step_before = h;
+  auto look_back = [&] {
+    const std::vector<double> old_x1 = pose.x1, old_y1 = pose.y1;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      place_vertices(blocks, state.vx, state.vy, i, pose.x1, pose.y1);
+    }
+    parallel_for(blocks.vertex_count(), [&](std::size_t v) {
+      pose.x1[v] = pose.x[v] - h * pose.x1[v];
+      pose.y1[v] = pose.y[v] - h * pose.y1[v];
+    });
+    start_ground(sim, h);
+    correct_last_step(contacts, blocks, pose, old_x1, old_y1);
+    evaluate_faces(contacts, face_scene(sim), h);
+  };
+  look_back();
+  gather_forces(forces, blocks, state, pose, contacts, sim.attached.springs,
+                sim.scene->model.gravity, acting(sim));
+  own.drive = dashpot_drive(sim, {}, sim.attached.free_field.columns);
+  add_dashpots(forces, sim.motion.on_dashpots, sim.attached.dashpots,
+               {blocks, sim.motion.masses, state, state.vx, state.vy},
+               {0.0, 0.0, own.drive.reference, own.drive.push}, 0, blocks.size());
+  start_velocities(state, blocks, sim.motion.masses, forces.x, forces.y, h,
+                   sim.motion.damping.mass_damping());
+  look_back();
+  // The state of the bolts does not go back: their forces at the start do F_0 . (x_0 - x_{-1})/2
+  // more work than the bolts lose.
+  sim.attached.bolts.work_pending = 0.5 * h * bolt_power(sim);
+}
+
+/// Moves from n to n + 1 and halves the step as long as a vertex moves beyond the displacement
+/// limit. False: values are not finite, or halving is of no use.
+bool move_blocks(Simulation& sim, double h_old, const LoadsNow& at_work) {
+  State& state = sim.motion.state;
+  Pose& pose = sim.motion.pose;
+  StepControl& control = sim.control;
+  LeapfrogStep& own = sim.leapfrog;
+  std::swap(pose.x1, pose.x2);
+  std::swap(pose.y1, pose.y2);
+  if (own.old_vx[0].size() != sim.scene->blocks.size()) {
+    own.old_vx = state.vx;
+    own.old_vy = state.vy;
+  }
+  std::swap(own.old_vx, state.vx);
+  std::swap(own.old_vy, state.vy);
+  constexpr int most_halvings = 40;
+  constexpr double lost = 1e100;  // m
+  const LoadsNow* not_yet_gathered = &at_work;
+  for (int halvings = 0; !move(sim, h_old, state.step, not_yet_gathered); ++halvings) {
+    not_yet_gathered = nullptr;
+    if (control.last_displacement > lost || halvings == most_halvings) return false;
+    undo_step(state, sim.scene->blocks, state.step, own.old_vx, own.old_vy);
+    std::swap(pose.x, pose.x1);
+    std::swap(pose.y, pose.y1);
+    stop_ground(sim);
+    place_all(sim);
+    control.cap = 0.5 * state.step;
+    control.limit = std::min(control.limit, control.cap);
+    fit_step_to(sim, control.target);
+    ++sim.accounts.steps.redone;
+  }
+  return true;
+}
+
+/// Evaluates the faces at n + 1, with the strength after the accumulated slip.
+void place_contacts(Simulation& sim) {
+  const BlockSet& blocks = sim.scene->blocks;
+  const Pose& pose = sim.motion.pose;
+  const LawTable& laws = sim.motion.laws;
+  FaceSet& contacts = sim.motion.contacts;
+  if (sim.attached.ground.moves) sim.leapfrog.on_fixed = force_on_fixed(sim);
+  next_step(contacts);
+  if (laws.any_changes) update_joint_laws(contacts, blocks, pose, laws);
+  evaluate_faces(contacts, face_scene(sim), sim.motion.state.step);
+}
+
+/// Contact activation: corrects the faces that opened or closed from n to n + 1.
+void switch_contacts(Simulation& sim, double h_old) {
+  Motion& motion = sim.motion;
+  Accounts& accounts = sim.accounts;
+  LeapfrogStep& own = sim.leapfrog;
+  own.switching.on_fixed = {};
+  if (sim.scene->model.solver.switching == Switching::exact) {
+    const StepTaken taken{sim.scene->blocks, motion.masses,  motion.state,    motion.pose, h_old,
+                          motion.state.step, own.damps.mass, own.damps.strain};
+    correct_switching(motion.contacts, motion.laws, taken, accounts.open_close, own.switching);
+  }
+  if (sim.scene->at_points()) {
+    move_points(motion.point_contacts, sim.scene->blocks, motion.pose, motion.laws);
+  }
+  accounts.penetration = std::max(largest_closure(motion.contacts), motion.point_contacts.deepest);
+  accounts.max_penetration = std::max(accounts.max_penetration, accounts.penetration);
+}
+
+/// Accounts for work and dissipation of the step, once positions and velocities are final.
+void account_for_step(Simulation& sim, double h_old, const LoadsNow& at_work) {
+  const State& state = sim.motion.state;
+  Accounts& accounts = sim.accounts;
+  const double h = state.step;
+  const Leap leap = leap_of(sim, h_old, h);
+  if (h != h_old) {
+    accounts.step_change_energy += energy_of_step_change(state, leap);
+    ++accounts.steps.changes;
+  }
+  accounts.steps.over_critical =
+      std::max(accounts.steps.over_critical, h / sim.control.bound.critical_step);
+  account_damping(state, leap, accounts.damping_work);
+  account_loads(sim, h_old, h, at_work);
+  account_boundaries(sim, h_old, h);
+}
+
+/// Shortens a step that exceeds the present limit, and lengthens one that may be much longer
+/// (theory, section 7.3).
+void adjust_step(Simulation& sim) {
+  const StepControl& control = sim.control;
+  const double h = sim.motion.state.step;
+  constexpr double rounding = 1e-12, worth = 1.25;
+  if (control.steps_left == 0) return;
+  if (control.limit < h * (1.0 - rounding) || control.limit > worth * h) {
+    fit_step_to(sim, control.target);
+  }
+}
+
+std::optional<Failure> step_leapfrog(Simulation& sim) {
+  StageSeconds& seconds = sim.accounts.seconds;
+  StageClock clock(sim.motion.state.steps);
+  const double h_old = sim.control.step_before;
+  split_jump(sim);
+  const LoadsNow at_work = acting(sim);
+  clock.lap(seconds.forces);
+  if (!move_blocks(sim, h_old, at_work)) return lost(sim);
+  clock.lap(seconds.integrate);
+  place_contacts(sim);
+  switch_contacts(sim, h_old);
+  clock.lap(seconds.forces);
+  account_for_step(sim, h_old, at_work);
+  update_bolts(sim.attached.bolts, sim.motion.state);
+  finish_step(sim);
+  update_relaxation(sim, at_work);
+  clock.lap(seconds.integrate);
+  search_if_due(sim);
+  adjust_step(sim);
+  clock.lap(seconds.search);
+  return inspect(sim);
+}
+
+void set_leapfrog_limit(Simulation& sim) {
+  const Model& model = sim.scene->model;
+  const State& state = sim.motion.state;
+  StepControl& control = sim.control;
+  if (model.solver.mass_scaling > 0.0 || control.scaled_step > 0.0 || control.sliver_step > 0.0)
+    raise_masses(sim);
+  StiffnessInputs inputs = stiffness_inputs(sim);
+  control.bound = step_bound(inputs, &control.step_cache);
+  if (sim.scene->at_points()) {
+    inputs.points = &sim.motion.point_contacts;
+    const StepBound near = step_bound(inputs);
+    if (near.critical_step < control.bound.critical_step) control.bound = near;
+  }
+  if (model.solver.time_step) {
+    const double most = model.solver.allow_unstable
+                            ? control.cap
+                            : std::min(control.bound.critical_step, control.cap);
+    control.limit = std::min(*model.solver.time_step, most);
+    return;
+  }
+  // The limit is lowered at once, and raised only when it is much larger for a long time, since a
+  // change of the step costs energy.
+  constexpr double worth = 1.25;
+  constexpr std::uint64_t lasting = 20000;  // steps
+  const double allowed = std::min({model.solver.safety * control.bound.critical_step, control.cap,
+                                   sim.attached.free_field.largest_step()});
+  if (allowed <= worth * control.limit) control.larger_allowed_since = state.steps;
+  if (allowed < control.limit || state.steps >= control.larger_allowed_since + lasting ||
+      state.steps == 0) {
+    control.limit = allowed;
+    control.larger_allowed_since = state.steps;
+  }
+}
+
+/// v_n = (v_{n-1/2} + v_{n+1/2})/2; the next step is made on copies.
+void look_leapfrog(const Simulation& sim, Instant& at) {
+  const BlockSet& blocks = sim.scene->blocks;
+  const Masses& masses = sim.motion.masses;
+  const Dashpots& dashpots = sim.attached.dashpots;
+  const State& state = sim.motion.state;
+  const double h = state.step;
+  at.on_dashpots = sim.motion.on_dashpots;
+  StrainDamping strain;
+  const StepDamping damping = step_damping(sim, strain);
+  const double half_mass_damping = 0.5 * damping.mass * h;
+  if (damping.strain != nullptr) prepare(strain, blocks, masses, h / (1.0 + half_mass_damping));
+  const Vec2 ground = ground_velocity(sim);
+  const DashpotDrive drive = dashpot_drive(sim, ground, next_free_field(sim, ground, h, h));
+  add_dashpots(at.forces, at.on_dashpots, dashpots, {blocks, masses, state, state.vx, state.vy},
+               {h, half_mass_damping, drive.reference, drive.push}, 0, blocks.size());
+  advance(at.state,
+          {blocks, masses, at.forces.x, at.forces.y, at.state.vx, at.state.vy, h, h, damping});
+  at.state.x = state.x;
+  at.state.y = state.y;
+  Nodes &vx = at.state.vx, &vy = at.state.vy;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    store(0.5 * (vectors_of(vx, vy, i) + vectors_of(state.vx, state.vy, i)), vx, vy, i);
+  }
+  for (const Id i : sim.attached.ground.fixed_blocks) store(at_every_node(ground), vx, vy, i);
+}
+
+/// |v|/w + |R|/(m w^2) with the velocity v of the block, the resultant R of the forces on it, and
+/// the frequency w of the motion of the model (FrequencyEstimate).
+double remaining_travel_of_leapfrog(const Simulation& sim, std::size_t i) {
+  const State& state = sim.motion.state;
+  const NodalForces& forces = sim.motion.forces;
+  const double w = sim.relaxation.estimate.frequency;
+  if (w == 0.0) return std::numeric_limits<double>::infinity();
+  const double speed = norm(centroid(state.vx, state.vy, i)),
+               force = nodes_per_block * norm(centroid(forces.x, forces.y, i));
+  return speed / w + force / (inertia_of(sim.motion.masses, i) * w * w);
+}
+
+double ahead_of_leapfrog(const Simulation& sim) {
+  return 2.0 * sim.control.last_displacement;
+}
+
+}  // namespace
+
+const Stepper leapfrog_stepper{.start = start_leapfrog,
+                               .set_limit = set_leapfrog_limit,
+                               .step = step_leapfrog,
+                               .look = look_leapfrog,
+                               .remaining_travel = remaining_travel_of_leapfrog,
+                               .ahead = ahead_of_leapfrog,
+                               .margin = 2.0,
+                               .least_reach = 0.0,
+                               .velocity_lag = 0.5,
+                               .conditionally_stable = true};
+
+}  // namespace edda

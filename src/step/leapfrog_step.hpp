@@ -1,0 +1,29 @@
+// Working data of the leapfrog (theory, section 7.1), kept from step to step only so that steps
+// allocate nothing; a checkpoint needs none of it.
+#pragma once
+
+#include <vector>
+
+#include "attachments/free_field.hpp"
+#include "attachments/ground.hpp"
+#include "blocks/kinematics.hpp"
+#include "integrate/leapfrog.hpp"
+#include "integrate/strain_damping.hpp"
+#include "step/face_switching.hpp"
+#include "step/ground_motion.hpp"
+
+namespace edda {
+
+struct LeapfrogStep {
+  Nodes old_vx, old_vy;    ///< v_{n-1/2}, m/s; swapped with State::vx and vy as a step begins
+  GroundStep next_ground;  ///< ground at the end of the step
+  Vec2 on_fixed;           ///< N at n: force_on_fixed() before the contact activation
+  DashpotDrive drive;      ///< motion of the ground behind the dashpots
+  std::vector<FreeFieldColumn> next_columns;  ///< free field at the end of the step
+  std::vector<double> largest;  ///< [chunks of blocks] squares of largest displacements, m2
+  FaceSwitchingScratch switching;
+  StrainDamping strain_damping;
+  StepDamping damps;  ///< damping in force in the step
+};
+
+}  // namespace edda

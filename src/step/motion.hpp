@@ -1,0 +1,32 @@
+// The moving state: positions and velocities, contacts and forces, and the masses, laws and damping
+// in force.
+#pragma once
+
+#include <vector>
+
+#include "blocks/masses.hpp"
+#include "blocks/pose.hpp"
+#include "blocks/state.hpp"
+#include "contacts/face_set.hpp"
+#include "contacts/laws.hpp"
+#include "contacts/points.hpp"
+#include "forces/nodal_forces.hpp"
+
+namespace edda {
+
+struct Motion {
+  State state;
+  Pose pose;
+  Masses masses;  ///< in force
+  LawTable laws;  ///< with the strength in force
+  FaceSet contacts;
+  PointSet point_contacts;  ///< used instead of `contacts` where contact.model = "points"
+  NodalForces forces;
+  NodalForces jump;  ///< jump of the forces at n since the last step (note_jump()); or empty
+  std::vector<Vec2> on_dashpots;  ///< [points of dashpots] forces of the dashpots in the last step,
+                                  ///< N
+  Damping damping;                ///< in force
+  bool dynamic = true;  ///< of the implicit method: whether velocities carry over to the next step
+};
+
+}  // namespace edda

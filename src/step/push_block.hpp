@@ -1,0 +1,33 @@
+// Correction of a block's step for a change of the forces.
+#pragma once
+
+#include "blocks/masses.hpp"
+#include "blocks/pose.hpp"
+#include "blocks/state.hpp"
+#include "integrate/strain_damping.hpp"
+
+namespace edda {
+
+/// Change of velocity per change of acceleration in advance(), with h_mean the mean of the two
+/// steps, s.
+inline double kick_over(double h_mean, double mass_damping) {
+  return h_mean / (1.0 + 0.5 * mass_damping * h_mean);
+}
+
+/// A step that has been made, with the steps before and after the force, and the damping, as
+/// advance() used them.
+struct StepTaken {
+  const BlockSet& blocks;
+  const Masses& masses;
+  State& state;
+  Pose& pose;
+  double h_old = 0.0, h_new = 0.0, mass_damping = 0.0;
+  StrainDamping* strain = nullptr;
+  double kick = kick_over(0.5 * (h_old + h_new), mass_damping);  ///< s
+};
+
+/// Moves block i as the step would have with these additional nodal forces (N): changes its
+/// velocities, nodes and vertices in Pose::x, y.
+void push_block(const StepTaken& taken, Id i, const NodeVectors& force);
+
+}  // namespace edda

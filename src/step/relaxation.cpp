@@ -1,0 +1,221 @@
+#include "step/relaxation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "base/parallel.hpp"
+#include "step/changes.hpp"
+#include "step/simulation.hpp"
+#include "step/touching.hpp"
+
+namespace edda {
+namespace {
+
+/// Inertia of a node; for `consistent` masses its part of the block's.
+double inertia_of_node(const Masses& m, std::size_t k, std::size_t i) {
+  return m.kind == MassKind::consistent ? inertia_of(m, i) / nodes_per_block : m.node[k][i];
+}
+
+/// Upper limit of what one value may count, so that none is more than a quarter of the sum (with
+/// few values, more than four times their mean). Otherwise one block that slides alone would
+/// dominate the motion of all blocks that are to reach equilibrium.
+double largest_part(const std::vector<double>& values) {
+  constexpr double part = 1.0 / 4.0, few = 4.0;
+  constexpr int rounds = 30;
+  const auto counting =
+      std::count_if(values.begin(), values.end(), [](double v) { return v > 0.0; });
+  const double share = std::max(part, few / std::max(1.0, static_cast<double>(counting)));
+  double most = std::numeric_limits<double>::infinity();
+  if (share >= 1.0) return most;
+  for (int round = 0; round < rounds; ++round) {
+    double sum = 0.0;
+    for (const double v : values) sum += std::min(v, most);
+    if (share * sum >= most) break;
+    most = share * sum;
+  }
+  return most;
+}
+
+/// Frequency of a wave across a square arrangement of all blocks, 1/s.
+double wave_frequency(const Simulation& sim) {
+  return 0.5 / (sim.motion.state.step * std::sqrt(static_cast<double>(sim.scene->blocks.size())));
+}
+
+/// Steps from one estimate to the next: a quarter of a radian of the motion.
+std::uint64_t steps_between_looks(const FrequencyEstimate& estimate, double h) {
+  constexpr double radians = 0.25, least = 8.0, most = 512.0;
+  const double wanted = estimate.frequency > 0.0 ? radians / (estimate.frequency * h) : 0.0;
+  return static_cast<std::uint64_t>(std::clamp(wanted, least, most));
+}
+
+/// [nb] 1: counts in the frequency estimate. A block that falls or slides away has no stiffness and
+/// moves further than all others together.
+std::vector<std::uint8_t> counts_in_frequency(const Simulation& sim) {
+  std::vector<std::uint8_t> stays = touching(sim);
+  const std::vector<std::uint8_t>& loose = sim.relaxation.loose;
+  for (std::size_t i = 0; i < stays.size(); ++i) {
+    if (!is_free(sim.scene->blocks, sim.motion.state, i)) stays[i] = 0;
+    if (!loose.empty() && loose[i] != 0) stays[i] = 0;
+  }
+  return stays;
+}
+
+/// [nb] Rayleigh quotient by block: -dx . df and dx . M dx.
+struct Quotient {
+  std::vector<double> stiffness, inertia;
+};
+
+/// Records the position of the block and the forces on it without loads, whose changes are no
+/// response to motion. Where the block `counts`, adds its changes since the last estimate to the
+/// quotient.
+void look_at_block(Simulation& sim, const LoadsNow& at_work, std::size_t i, bool counts,
+                   Quotient& sum) {
+  const BlockSet& blocks = sim.scene->blocks;
+  const State& state = sim.motion.state;
+  const NodalForces& forces = sim.motion.forces;
+  FrequencyEstimate& estimate = sim.relaxation.estimate;
+  const double h = state.step;
+  const Vec2 gravity = sim.scene->model.gravity - at_work.gravity_reduction();
+  NodeVectors load{};
+  if (at_work.loads != nullptr && at_work.loads->place[i] != no_id) {
+    add_loads(load, blocks, at_work, sim.motion.pose.x1, sim.motion.pose.y1, static_cast<Id>(i));
+  }
+  // The forces are those of the positions before the step.
+  const NodeVectors x = vectors_of(state.x, state.y, i) - h * vectors_of(state.vx, state.vy, i);
+  const Vec2 weight = (blocks.mass[i] / nodes_per_block) * gravity;
+  const NodeVectors f = vectors_of(forces.x, forces.y, i) - at_every_node(weight) - load;
+  const NodeVectors dx = x - vectors_of(estimate.x, estimate.y, i),
+                    df = f - vectors_of(estimate.fx, estimate.fy, i);
+  for (std::size_t k = 0; counts && k < nodes_per_block; ++k) {
+    sum.stiffness[i] -= dot(dx[k], df[k]);
+    sum.inertia[i] += inertia_of_node(sim.motion.masses, k, i) * dot(dx[k], dx[k]);
+  }
+  store(x, estimate.x, estimate.y, i);
+  store(f, estimate.fx, estimate.fy, i);
+}
+
+/// w^2 of the whole model, 1/s2; nothing where nothing has moved. No block counts with an inertia
+/// above `most_of_one`.
+std::optional<double> square_of_frequency(const Quotient& sum, double most_of_one) {
+  double stiffness = 0.0, inertia = 0.0;
+  for (std::size_t i = 0; i < sum.inertia.size(); ++i) {
+    const double part = sum.inertia[i] > most_of_one ? most_of_one / sum.inertia[i] : 1.0;
+    stiffness += part * sum.stiffness[i];
+    inertia += part * sum.inertia[i];
+  }
+  if (!(inertia > 0.0)) return {};
+  return std::max(stiffness / inertia, 0.0);
+}
+
+/// Updates the frequency estimate where that is due.
+void update_estimate(Simulation& sim, const LoadsNow& at_work) {
+  const std::size_t nb = sim.scene->blocks.size();
+  const State& state = sim.motion.state;
+  FrequencyEstimate& estimate = sim.relaxation.estimate;
+  const bool first = estimate.x[0].empty();
+  if (!first && state.steps < estimate.since + steps_between_looks(estimate, state.step)) return;
+  if (first) {
+    for (Nodes* nodes : {&estimate.x, &estimate.y, &estimate.fx, &estimate.fy}) {
+      *nodes = zero_nodes(nb);
+    }
+  }
+  const std::vector<std::uint8_t> stays = counts_in_frequency(sim);
+  const bool none_stays =
+      std::none_of(stays.begin(), stays.end(), [](std::uint8_t stay) { return stay != 0; });
+  Quotient sum{std::vector<double>(nb, 0.0), std::vector<double>(nb, 0.0)};
+  parallel_for(nb, [&](std::size_t i) {
+    const bool counts = stays[i] != 0 || (none_stays && is_free(sim.scene->blocks, state, i));
+    look_at_block(sim, at_work, i, counts, sum);
+  });
+  estimate.since = state.steps;
+  if (first) return;
+  // Once all else is in balance, the blocks that still move determine the frequency.
+  const double most_of_one =
+      sim.relaxation.balanced ? std::numeric_limits<double>::infinity() : largest_part(sum.inertia);
+  const std::optional<double> now = square_of_frequency(sum, most_of_one);
+  if (!now) return;
+  // Where the motion has no stiffness, since all that moves slides, half of the previous square
+  // remains. No supported block moves a hundred times slower than the wave.
+  const double slowest = none_stays ? 0.0 : 0.01, was = estimate.frequency;
+  estimate.frequency = std::max(was > 0.0 ? std::sqrt(0.5 * (was * was + *now)) : std::sqrt(*now),
+                                slowest * wave_frequency(sim));
+}
+
+/// Increases what is applied gradually, in proportion to the frequency estimate: all of it within
+/// one period.
+void advance_gradual_change(Simulation& sim) {
+  const Relaxation& relaxation = sim.relaxation;
+  if (gradual_change_complete(sim)) return;
+  constexpr double periods = 1.0, increments = 100.0;
+  // Before anything has moved, the frequency of the wave is used.
+  const double frequency =
+      relaxation.estimate.frequency > 0.0 ? relaxation.estimate.clock() : wave_frequency(sim);
+  GradualChange& gradual = sim.attached.loads.gradual;
+  const double before = gradual.part;
+  gradual.part += sim.motion.state.step * frequency / (2.0 * std::numbers::pi * periods);
+  if (gradual.part >= 1.0) {
+    gradual = {};
+    if (!relaxation.strength_to.empty()) take_strength_factors(sim, relaxation.strength_to);
+  } else if (!relaxation.strength_to.empty() &&
+             std::floor(increments * gradual.part) > std::floor(increments * before)) {
+    std::vector<double> now = relaxation.strength_to;
+    for (std::size_t r = 0; r < now.size(); ++r) {
+      now[r] = relaxation.strength_from[r] +
+               gradual.part * (relaxation.strength_to[r] - relaxation.strength_from[r]);
+    }
+    take_strength_factors(sim, now);
+  }
+}
+
+}  // namespace
+
+double mass_damping(const Simulation& sim) {
+  const Damping& damping = sim.motion.damping;
+  if (damping.adaptive == 0.0) return damping.mass_damping();
+  // At more than 1/h velocities would change sign.
+  return std::min(
+      damping.mass_damping() + 2.0 * damping.adaptive * sim.relaxation.estimate.frequency,
+      1.0 / sim.motion.state.step);
+}
+
+void begin_gradually(Simulation& sim, const std::vector<double>& strength_factors, bool more) {
+  Loads& loads = sim.attached.loads;
+  const State& state = sim.motion.state;
+  const LawTable& laws = sim.motion.laws;
+  Relaxation& relaxation = sim.relaxation;
+  if (state.steps == 0) {  // the initial stress is in equilibrium with the weight already
+    set_strength_factors(sim, strength_factors);
+    if (!sim.scene->model.initial_stress) loads.gradual = {state.time, 0.0, true};
+    return;
+  }
+  const ActiveIntervals& intervals = loads.intervals;
+  const auto now = [&](double time) { return time == state.time; };
+  bool changes =
+      more || strength_factors != laws.divided_by ||
+      std::any_of(loads.remaining.begin(), loads.remaining.end(),
+                  [&](const RemainingFraction& fraction) { return now(fraction.changed); });
+  for (const auto* of : {&intervals.loads, &intervals.waters, &intervals.boundaries}) {
+    changes = changes || std::any_of(of->begin(), of->end(), [&](const ActiveInterval& interval) {
+                return now(interval.since) || now(interval.until);
+              });
+  }
+  if (changes) loads.gradual = {state.time, 0.0, false};
+  relaxation.estimate.least = 0.5 * relaxation.estimate.frequency;
+  relaxation.strength_from = laws.divided_by;
+  relaxation.strength_to = strength_factors;
+}
+
+bool gradual_change_complete(const Simulation& sim) {
+  return sim.attached.loads.gradual.part >= 1.0;
+}
+
+void update_relaxation(Simulation& sim, const LoadsNow& at_work) {
+  if (!sim.relaxation.seeks_equilibrium) return;
+  update_estimate(sim, at_work);
+  advance_gradual_change(sim);
+}
+
+}  // namespace edda

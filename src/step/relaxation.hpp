@@ -1,0 +1,58 @@
+// How a simulation reaches equilibrium by adaptive dynamic relaxation (Underwood 1983;
+// theory, sections 11.1 and 11.2): an estimate of the frequency of its motion, from which adaptive
+// damping follows, and the gradual application of what a stage changes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "attachments/loads.hpp"
+
+namespace edda {
+
+struct Simulation;
+
+/// Estimate of the present frequency of the motion of a model by the Rayleigh quotient (Underwood
+/// 1983): -dx . df / dx . M dx, with the changes dx of positions and df of forces over a quarter of
+/// a radian of the motion. Over that many steps fast vibrations hardly count; from step to step
+/// they would dominate the slow motion that has furthest to go.
+struct FrequencyEstimate {
+  double frequency = 0.0;   ///< 1/s; 0: not yet known
+  double least = 0.0;       ///< 1/s: half of the frequency when the last change began
+  std::uint64_t since = 0;  ///< step at which the following were recorded
+  Nodes x, y;               ///< [nodes][nb] positions then, m; empty: none yet
+  Nodes fx, fy;             ///< [nodes][nb] forces then, N
+
+  /// Frequency by which gradual changes proceed, 1/s: blocks that slide away lower the frequency,
+  /// but do not stop these.
+  double clock() const { return frequency > least ? frequency : least; }
+};
+
+struct Relaxation {
+  bool seeks_equilibrium = false;  ///< is to reach equilibrium; changes may be gradual
+  bool balanced = false;  ///< while it seeks equilibrium: all but single blocks are in balance
+  double equilibrium_ratio = 0.0;   ///< ratio of unbalanced forces in equilibrium (Stage::ratio)
+  FrequencyEstimate estimate;       ///< while it seeks equilibrium
+  std::vector<std::uint8_t> loose;  ///< [nb] 1: does not count in it, since the block falls or
+                                    ///< slides away; empty: none
+  std::vector<double> strength_from, strength_to;  ///< [laws] strength factors while strength
+                                                   ///< changes gradually
+};
+
+/// Coefficient of mass-proportional damping at present, adaptive damping included, 1/s.
+double mass_damping(const Simulation& sim);
+
+/// Applies gradually, over about a period of the motion, what begins or ends to act now, and this
+/// change of strength; at the very start also the weight, where the ground has no initial stress.
+/// Used with adaptive damping. `more`: something else is to change with Loads::gradual, too.
+void begin_gradually(Simulation& sim, const std::vector<double>& strength_factors,
+                     bool more = false);
+
+/// Whether gradual changes are complete.
+bool gradual_change_complete(const Simulation& sim);
+
+/// After each step: updates the frequency estimate where that is due, and continues gradual
+/// changes.
+void update_relaxation(Simulation& sim, const LoadsNow& at_work);
+
+}  // namespace edda

@@ -1,0 +1,37 @@
+// Wall time of the parts of a step. Only every 16th step is timed, so that small models do not pay
+// for the clock; the report scales the times to the whole run.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace edda {
+
+/// Sampled seconds by part of the step.
+struct StageSeconds {
+  double search = 0.0;     ///< contact list, bound of the step
+  double forces = 0.0;     ///< loads, evaluation of faces, contact activation
+  double integrate = 0.0;  ///< nodal forces, motion, energy accounts
+  double sum() const { return search + forces + integrate; }
+};
+
+class StageClock {
+ public:
+  explicit StageClock(std::uint64_t step) : on_(step % 16 == 0) {
+    if (on_) last_ = Clock::now();
+  }
+  /// Adds the time since the last lap to the part `stage`.
+  void lap(double& stage) {
+    if (!on_) return;
+    const Clock::time_point now = Clock::now();
+    stage += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool on_;
+  Clock::time_point last_;
+};
+
+}  // namespace edda

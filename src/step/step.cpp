@@ -1,0 +1,80 @@
+#include "step/step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "step/instant.hpp"
+#include "step/invariants.hpp"
+#include "step/simulation.hpp"
+
+namespace edda {
+namespace {
+
+StepInUse step_in_use(const Simulation& sim) {
+  const State& state = sim.motion.state;
+  const double stable =
+      sim.stepper->conditionally_stable ? sim.control.bound.critical_step : state.step;
+  return {state.step, stable};
+}
+
+}  // namespace
+
+void start(Simulation& sim, double first_event) {
+  fit_step_to(sim, first_event);
+  sim.stepper->start(sim);
+}
+
+std::optional<Failure> step(Simulation& sim) {
+  std::optional<Failure> failure = sim.stepper->step(sim);
+  if constexpr (invariants_are_checked) {
+    const std::string broken = failure ? std::string() : broken_invariant(sim);
+    if (!broken.empty()) throw std::logic_error("invariant: " + broken);
+  }
+  return failure;
+}
+
+void observe(const Simulation& sim, Instant& at) {
+  const Motion& motion = sim.motion;
+  at.contacts = motion.contacts;
+  at.state = motion.state;
+  at.forces = motion.forces;
+  gather_forces(at.forces, sim.scene->blocks, motion.state, motion.pose, at.contacts,
+                sim.attached.springs, sim.scene->model.gravity, acting(sim));
+  sim.stepper->look(sim, at);
+}
+
+void finish_step(Simulation& sim) {
+  State& state = sim.motion.state;
+  StepControl& control = sim.control;
+  Accounts& accounts = sim.accounts;
+  const double h = state.step;
+  ++state.steps;
+  --control.steps_left;
+  state.time = control.steps_left == 0 ? control.target : state.time + h;
+  control.step_before = h;
+  accounts.steps.smallest =
+      accounts.steps.smallest == 0.0 ? h : std::min(accounts.steps.smallest, h);
+  accounts.steps.largest = std::max(accounts.steps.largest, h);
+  accounts.steps.sum += h;
+}
+
+std::optional<Failure> inspect(const Simulation& sim) {
+  const BlockSet& blocks = sim.scene->blocks;
+  const State& state = sim.motion.state;
+  const Pose& pose = sim.motion.pose;
+  if (!std::isfinite(sim.control.last_displacement)) return lost(sim);
+  if (sim.scene->at_points())
+    return deep_overlap(sim.motion.point_contacts, blocks, state, pose, sim.accounts.penetration,
+                        sim.scene->smallest_half_width, step_in_use(sim));
+  return deep_overlap(sim.motion.contacts, blocks, state, pose, sim.accounts.penetration,
+                      sim.scene->smallest_half_width, step_in_use(sim));
+}
+
+Failure lost(const Simulation& sim) {
+  return lost_block(sim.scene->blocks, sim.motion.state, sim.motion.pose, sim.motion.forces,
+                    step_in_use(sim));
+}
+
+}  // namespace edda

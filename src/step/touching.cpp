@@ -1,0 +1,30 @@
+#include "step/touching.hpp"
+
+#include "contacts/face_reading.hpp"
+#include "step/simulation.hpp"
+
+namespace edda {
+
+std::vector<std::uint8_t> touching(const Simulation& sim) {
+  std::vector<std::uint8_t> touches(sim.scene->blocks.size(), 0);
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    for (Id q = sim.attached.springs.block_begin[i]; q < sim.attached.springs.block_begin[i + 1];
+         ++q) {
+      if (sim.attached.springs.kxx[q] + sim.attached.springs.kyy[q] > 0.0) touches[i] = 1;
+    }
+  }
+  const Bolts& bolts = sim.attached.bolts;
+  for (std::size_t r = 0; r < bolts.rows.size(); ++r) {
+    if (!bolts.rows[r].grouted && bolts.bars.broken[bolts.begin[r]] != 0) continue;
+    for (Id k = bolts.begin[r]; k < bolts.begin[r + 1]; ++k) touches[bolts.host[k]] = 1;
+  }
+  const FaceSet& f = sim.motion.contacts;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    if (!is_closed(f, k)) continue;
+    touches[block_of_edge(sim.scene->blocks, f, k)] =
+        touches[block_of_facing(sim.scene->blocks, f, k)] = 1;
+  }
+  return touches;
+}
+
+}  // namespace edda

@@ -1,0 +1,51 @@
+// Velocities as read and changed from outside, between two steps.
+#include <algorithm>
+#include <vector>
+
+#include "step/changes.hpp"
+#include "step/contact_search.hpp"
+#include "step/energy_balance.hpp"
+#include "step/simulation.hpp"
+
+namespace edda {
+
+void exchange_velocity_arrays(Simulation& sim) {
+  State& state = sim.motion.state;
+  LeapfrogStep& own = sim.leapfrog;
+  for (std::size_t k = 0; k < nodes_per_block; ++k) {
+    std::swap_ranges(state.vx[k].begin(), state.vx[k].end(), own.old_vx[k].begin());
+    std::swap_ranges(state.vy[k].begin(), state.vy[k].end(), own.old_vy[k].begin());
+  }
+  std::swap(own.old_vx, state.vx);
+  std::swap(own.old_vy, state.vy);
+}
+
+void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy) {
+  const BlockSet& blocks = sim.scene->blocks;
+  State& state = sim.motion.state;
+  Pose& pose = sim.motion.pose;
+  FaceSet& contacts = sim.motion.contacts;
+  const StepControl& control = sim.control;
+  const double energy = energy_balance(sim).balance();
+  const bool leaps = sim.stepper->velocity_lag > 0.0;
+  // The last step is taken to have been made with the new velocities, which changes closures and
+  // slips before it. Chains of bolts are not changed back; their forces will do F_n . (u'_n -
+  // u_n)/2 more work than the bolts lose.
+  if (leaps) {
+    place_a_step_back(blocks, state, state.vx, state.vy, control.step_before, pose);
+  }
+  const std::vector<double> old_x1 = pose.x1, old_y1 = pose.y1;
+  const double bolts_before = leaps ? bolt_power(sim) : 0.0;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    if (is_free(blocks, state, i)) store(vectors_of(vx, vy, i), state.vx, state.vy, i);
+  }
+  if (leaps) {
+    place_a_step_back(blocks, state, state.vx, state.vy, control.step_before, pose);
+    correct_last_step(contacts, blocks, pose, old_x1, old_y1);
+    evaluate_faces(contacts, face_scene(sim), control.step_before);
+    sim.attached.bolts.work_pending += 0.5 * control.step_before * (bolt_power(sim) - bolts_before);
+  }
+  sim.accounts.external_work += energy_balance(sim).balance() - energy;
+}
+
+}  // namespace edda

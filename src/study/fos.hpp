@@ -1,0 +1,59 @@
+// The factor of safety of a model, by bisection between a factor at which it holds and one at which
+// it fails (docs/fos.md).
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/records.hpp"
+#include "study/fos_trial.hpp"
+#include "study/mechanism.hpp"
+
+namespace edda {
+
+struct FosOptions {
+  int threads = 1;  ///< number of parallel trials; the result does not depend on it
+  std::function<void(const std::string&)> say{};  ///< progress messages, line by line; may be empty
+  const std::atomic<bool>* stop = nullptr;  ///< set from any thread: the search ends as interrupted
+};
+
+enum class FosStatus {
+  found,
+  below,        ///< fails at every factor tried
+  above,        ///< holds at every factor tried
+  unstable,     ///< finds no equilibrium before anything is varied
+  interrupted,  ///< with the bracket so far
+};
+
+constexpr std::string_view fos_status_name(FosStatus s) {
+  constexpr std::string_view names[] = {"found", "below", "above", "unstable", "interrupted"};
+  return names[static_cast<int>(s)];
+}
+
+struct FosResult {
+  FosStatus status = FosStatus::found;
+  std::string message;
+  std::optional<double> factor;        ///< mid-point of the bracket
+  std::optional<double> holds, fails;  ///< ends of the bracket
+  FosCriterion criterion;
+  std::vector<Trial> trials;           ///< in the order in which one thread makes them
+  std::optional<Mechanism> mechanism;  ///< at the lowest factor that failed
+  std::optional<Simulation> failed;    ///< final state at that factor; displacements count from the
+                                       ///< start of the trial
+  std::size_t blocks = 0;
+  double seconds = 0.0;  ///< s, wall time
+  std::vector<std::string> warnings;
+};
+
+/// Cuts, brings the model to equilibrium, and runs the trials. Faults: those of prepare_run(), and
+/// of settings that a search does not support (method "dda", mass = "consistent").
+Result<FosResult> find_factor(const Model& model, const FosOptions& options);
+
+/// fos.csv and summary.json.
+std::string fos_csv(const std::vector<Trial>& trials);
+std::string fos_summary(const Model& model, const FosResult& result, int threads);
+
+}  // namespace edda

@@ -1,0 +1,56 @@
+// Which factor a search for the factor of safety tries next. Pure functions of the trials so far.
+#pragma once
+
+#include <optional>
+
+namespace edda {
+
+/// Two factors around the factor of safety: `low` is expected to hold and `high` to fail, until a
+/// trial has shown it. An end with the opposite result becomes the other end, and a new one is set
+/// a factor of two further out.
+struct FosBracket {
+  double low, high;
+  double tolerance;  ///< relative width at which the search ends, in units of `low`
+  bool holds = false, fails = false;  ///< `low` has been shown to hold, `high` to fail
+  int widened = 0;
+
+  static constexpr int widest = 5;  ///< largest number of times an end is moved outwards
+
+  bool gave_up() const { return widened > widest; }
+
+  /// The next factor; nothing: the search is complete.
+  std::optional<double> next() const {
+    if (gave_up()) return {};
+    if (!holds) return low;
+    if (!fails) return high;
+    if (high - low <= tolerance * low) return {};
+    return 0.5 * (low + high);
+  }
+
+  void take(double factor, bool stable) {
+    if (stable && (!holds || factor > low)) {
+      low = factor;
+      holds = true;
+      if (high <= low) {
+        high = 2.0 * low;
+        fails = false;
+        ++widened;
+      }
+    } else if (!stable && (!fails || factor < high)) {
+      high = factor;
+      fails = true;
+      if (low >= high) {
+        low = 0.5 * high;
+        holds = false;
+        ++widened;
+      }
+    }
+  }
+
+  /// Whether a trial of this factor may still add information.
+  bool may_ask(double factor) const {
+    return !(holds && factor <= low) && !(fails && factor >= high);
+  }
+};
+
+}  // namespace edda

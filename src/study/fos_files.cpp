@@ -1,0 +1,79 @@
+// Tables and summary of a search for the factor of safety.
+#include "results/columns.hpp"
+#include "results/json.hpp"
+#include "results/version.hpp"
+#include "study/fos.hpp"
+
+namespace edda {
+namespace {
+
+void add_optional(Json& j, std::string_view name, const std::optional<double>& value) {
+  j.key(name);
+  if (value) {
+    j.value(*value);
+  } else {
+    j.null();
+  }
+}
+
+void add_criterion(Json& j, const FosCriterion& c) {
+  j.key("criterion").open_object();
+  j.pair("fails_displacement", c.displacement).pair("fails_velocity", c.velocity);
+  j.pair("block_size", c.size).pair("acceleration", c.acceleration);
+  j.pair("trial", c.duration).pair("shaking", c.shaking);
+  j.pair("text",
+         "a trial fails where a corner will move further than fails_displacement by the trend of "
+         "its motion; it holds where no block would move further than a ten-thousandth of "
+         "block_size within the time trial");
+  j.close();
+}
+
+void add_mechanism(Json& j, const Mechanism& m) {
+  j.key("mechanism").open_object().pair("text", m.text);
+  j.pair("blocks", m.blocks.size()).pair("joints", m.joints.size());
+  j.pair("sliding", m.sliding).pair("toppling", m.toppling).pair("falling", m.falling);
+  j.pair("hinging", m.hinging);
+  j.pair("brittle_length", m.brittle_length);
+  j.pair("cohesion_lost_length", m.cohesion_lost_length).close();
+}
+
+}  // namespace
+
+std::string fos_csv(const std::vector<Trial>& trials) {
+  Csv csv = begin_table(ResultFile::fos);
+  for (const Trial& t : trials) {
+    csv.add(t.factor).add(t.end == TrialEnd::holds ? "holds" : "fails").add(t.displacement);
+    if (t.block == no_id) {
+      csv.add("");
+    } else {
+      csv.add(t.block);
+    }
+    csv.add(t.time).add(t.velocity).add(t.unbalanced).add(t.steps).add(t.reason).end();
+  }
+  return csv.text();
+}
+
+std::string fos_summary(const Model& model, const FosResult& r, int threads) {
+  const Fos fos = model.fos.value_or(Fos{});
+  Json j;
+  j.open_object().pair("version", version).pair("title", model.title);
+  j.pair("status", fos_status_name(r.status)).pair("message", r.message);
+  add_optional(j, "factor_of_safety", r.factor);
+  add_optional(j, "holds", r.holds);
+  add_optional(j, "fails", r.fails);
+  j.pair("vary", fos.vary).pair("stage", fos.stage).pair("tolerance", fos.tolerance);
+  j.key("exclude").open_list();
+  for (const std::string& name : fos.exclude) j.value(name);
+  j.close();
+  add_criterion(j, r.criterion);
+  j.pair("trials", r.trials.size()).pair("blocks", r.blocks);
+  j.key("mechanism_found").value(r.mechanism.has_value());
+  if (r.mechanism) add_mechanism(j, *r.mechanism);
+  j.key("warnings").open_list();
+  for (const std::string& w : r.warnings) j.value(w);
+  j.close();
+  j.pair("wall_seconds", r.seconds).pair("threads", threads);
+  return j.close().text();
+}
+
+}  // namespace edda

@@ -1,0 +1,292 @@
+#include "study/fos_start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/key_places.hpp"
+#include "model/stage_names.hpp"
+#include "run/equilibrium_search.hpp"
+
+namespace edda {
+namespace {
+
+constexpr double strong = 1e-3;  // strength is divided by this where nothing is to slip or break
+
+/// The model with the varied load multiplied by `multiplier`, and strength divided by `divided` in
+/// addition.
+Model before_trials(Model model, const Fos& fos, double multiplier, double divided) {
+  for (Stage& stage : model.stages) stage.strength_factor *= divided;
+  const auto q = static_cast<std::size_t>(std::max(fos.target, 0));
+  if (fos.varied == Varied::shaking) model.shakings[q].scale *= multiplier;
+  if (fos.varied == Varied::water) model.waters[q].unit_weight *= multiplier;
+  if (fos.varied == Varied::load && multiplier != 1.0) {
+    TimeHistory& factor = model.loads[q].factor;
+    if (factor.time.empty()) factor = {{0.0}, {1.0}};
+    for (double& value : factor.value) value *= multiplier;
+  }
+  return model;
+}
+
+/// Duration of the ground motion that is varied: that of its record; for a sine, of the stages with
+/// a fixed time from the one that activates it, or of all.
+double shaking_time(const Model& model, const Fos& fos) {
+  if (fos.varied != Varied::shaking) return 0.0;
+  const Shaking& shaking = model.shakings[static_cast<std::size_t>(fos.target)];
+  if (!shaking.record.time.empty()) return shaking.record.time.back();
+  if (model.stages.empty()) return model.solver.duration;
+  const auto activates = [&](const Stage& stage) {
+    return std::find(stage.activate.begin(), stage.activate.end(), shaking.name) !=
+           stage.activate.end();
+  };
+  const auto first = std::find_if(model.stages.begin(), model.stages.end(), activates);
+  double time = 0.0;
+  for (auto stage = first == model.stages.end() ? model.stages.begin() : first;
+       stage != model.stages.end(); ++stage) {
+    if (stage->until == StageEnd::time) time += stage->duration;
+  }
+  return time;
+}
+
+FosCriterion criterion_of(const Simulation& sim, const Model& model, const Fos& fos) {
+  FosCriterion c;
+  double count = 0.0, mass = 0.0, force = 0.0;
+  const LoadsNow acting = loads_at(model, sim.attached.loads, sim.motion.state.time);
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
+    c.size += std::sqrt(sim.scene->blocks.area[i]);
+    mass += sim.scene->blocks.mass[i];
+    force += norm(load_on(sim.scene->blocks, acting, sim.motion.pose, i));
+    count += 1.0;
+  }
+  c.size /= std::max(count, 1.0);
+  c.acceleration = norm(model.gravity);
+  if (c.acceleration == 0.0) c.acceleration = force > 0.0 ? force / mass : usual_acceleration;
+  constexpr double part_of_size = 0.01, slower = 10.0;
+  c.duration = equilibrium_time(c.size, c.acceleration);
+  c.shaking = shaking_time(model, fos);
+  c.slows = !fos.fails.displacement && fos.varied != Varied::shaking;
+  c.displacement = fos.fails.displacement.value_or(part_of_size * c.size);
+  c.velocity = fos.fails.velocity.value_or(c.displacement / (slower * c.duration));
+  return c;
+}
+
+/// Damping with which a model reaches equilibrium.
+Damping damping_for_equilibrium(const Damping& own) {
+  Damping damping;
+  damping.contact = own.contact;
+  damping.adaptive = Damping::for_equilibrium;
+  damping.rayleigh = own.rayleigh;
+  return damping;
+}
+
+TrialPlan plan_of(const Simulation& sim, const Model& model, const Fos& fos) {
+  const Damping& own = model.solver.damping;
+  TrialPlan plan;
+  plan.given = model;
+  plan.varied = fos.varied;
+  plan.target = static_cast<std::size_t>(std::max(fos.target, 0));
+  plan.criterion = criterion_of(sim, model, fos);
+  plan.quiet = damping_for_equilibrium(own);
+  plan.shaken = own;
+  return plan;
+}
+
+Fault cannot(const Model& model, const Where& table, const char* key, std::string problem,
+             std::string remedy) {
+  Fault fault{table, std::move(problem), std::move(remedy)};
+  if (fault.where.file.empty()) fault.where.file = model.file;
+  fault.where.key = key;
+  return at_their_keys(model.key_places, {fault}).front();
+}
+
+/// Faults of settings that a search does not support.
+std::optional<Fault> refused(const Model& model, const Fos& fos) {
+  if (model.solver.method == Method::dda) {
+    return cannot(model, model.solver.where, "solver.method",
+                  "the factor of safety is not available with \"dda\"",
+                  "use method = \"edda\" (--set solver.method=edda)");
+  }
+  if (model.contact.model == ContactModel::points) {
+    return cannot(model, model.contact.where, "contact.model",
+                  "\"points\" is the paper's contact model, without a factor of safety",
+                  "use contact.model = \"faces\"");
+  }
+  if (model.solver.mass == MassKind::consistent) {
+    return cannot(model, model.solver.where, "solver.mass",
+                  "masses that are raised for trials are not available with mass = \"consistent\"",
+                  "use mass = \"matched\", which moves the same way");
+  }
+  if (fos.varied == Varied::shaking && shaking_time(model, fos) == 0.0) {
+    return cannot(model, fos.where, "fos.vary", "the duration of the ground motion is not given",
+                  model.stages.empty()
+                      ? "give solver.duration, or a record as the acceleration of the shaking"
+                      : "give a record as the acceleration of the shaking, or a stage with a "
+                        "duration that activates it");
+  }
+  return {};
+}
+
+std::optional<Fault> nothing_moves(const Model& model, const Simulation& sim) {
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (is_free(sim.scene->blocks, sim.motion.state, i)) return {};
+  }
+  return cannot(model, model.solver.where, "block", "no block is free to move, so nothing can fail",
+                "leave some blocks that are neither fixed nor excavated");
+}
+
+bool stopped(const FosOptions& options) {
+  return options.stop != nullptr && options.stop->load(std::memory_order_relaxed);
+}
+
+/// Limits a model of one stage to this duration (s), and suppresses output on the way.
+void last_at_most(Model& model, double time) {
+  model.stages.back().duration = model.solver.duration = time;
+  model.output.every = model.output.history_every = time;
+}
+
+/// The model with one stage in which it reaches equilibrium as drawn, without ground motion.
+Model with_equilibrium_stage(Model model) {
+  Stage rest;
+  rest.until = StageEnd::equilibrium;
+  rest.damping = damping_for_equilibrium(model.solver.damping);
+  rest.masses = StageMasses::scaled;
+  model.stages.push_back(std::move(rest));
+  // The duration of a run must not influence the equilibrium.
+  last_at_most(model, model.stages.back().duration);
+  model.output.settling = false;
+  for (Shaking& shaking : model.shakings) shaking.scale = 0.0;
+  return model;
+}
+
+/// The state from which trials start, at the end of the stages.
+struct Staged {
+  FosStart start;
+  bool in_equilibrium = true;
+  std::string says;       ///< message at the end of that run
+  std::size_t stage = 0;  ///< stage in which it ended
+};
+
+/// Runs the model through its stages, or to equilibrium as drawn, with the varied load multiplied
+/// and strength divided.
+Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& options,
+                      double multiplier, double divided) {
+  const bool as_drawn = model.stages.empty();
+  Result<PreparedRun> prepared = prepare_run(
+      before_trials(as_drawn ? with_equilibrium_stage(model) : model, fos, multiplier, divided));
+  if (!prepared.ok()) return prepared.faults();
+  if (auto fault = nothing_moves(model, prepared.value().sim)) return *fault;
+  if (as_drawn) {
+    Simulation& sim = prepared.value().sim;
+    last_at_most(sim.scene.edit().model,
+                 most_steps * sim.scene->model.solver.safety * uniform_step(sim));
+  }
+  RunOptions how;
+  how.stop = options.stop;
+  if (!fos.stage.empty()) how.last_stage = stage_called(model, fos.stage);
+  std::optional<std::size_t> ended;
+  how.stage_ended = [&](const StageReport& report) { ended = report.stage; };
+  const Result<Outcome> outcome = run_model(prepared.value(), how);
+  if (!outcome.ok()) return outcome.faults();
+  const Status status = outcome.value().status;
+  Staged made{{std::move(prepared.value().sim), {}, {}, {}, {}, {}, {}, {}, {}}, true, {}, 0};
+  if (ended) made.stage = *ended + (status == Status::failed ? 1 : 0);  // during the next stage
+  FosStart& s = made.start;
+  made.in_equilibrium = status != Status::collapsed && status != Status::failed;
+  made.says = outcome.value().message;
+  if (auto fault = nothing_moves(model, s.sim); made.in_equilibrium && fault) return *fault;
+  s.warnings = std::move(prepared.value().warnings);
+  if (status == Status::interrupted) s.status = FosStatus::interrupted;
+  s.loading = {s.sim.motion.laws.divided_by, multiplier};
+  s.given = {s.sim.motion.laws.divided_by, 1.0};
+  for (double& factor : s.given.strength) factor /= divided;
+  s.plan = plan_of(s.sim, model, fos);
+  return made;
+}
+
+/// Message: why the stages are run a second time.
+std::string run_again(const Model& model, const Staged& first) {
+  const std::string stage = stage_label(model, first.stage);
+  return fmt::format("{} with the given strength; {} run again with a thousand times the strength",
+                     first.in_equilibrium ? "blocks come loose in " + stage
+                                          : stage + " does not reach equilibrium",
+                     model.stages.size() == 1 ? "it is" : "the stages are");
+}
+
+Result<FosStart> at_rest(const Model& model, const Fos& fos, const FosOptions& options) {
+  const bool strength = fos.varied == Varied::strength;
+  if (!model.stages.empty()) {
+    Result<Staged> run =
+        staged(model, fos, options, fos.varied == Varied::shaking ? 0.0 : 1.0, 1.0);
+    if (!run.ok()) return run.faults();
+    if (run.value().in_equilibrium && loose_block_ids(run.value().start.sim).empty())
+      return std::move(run.value().start);
+    if (options.say) options.say(run_again(model, run.value()));
+  }
+  Result<Staged> run = staged(model, fos, options, strength ? 1.0 : 0.0, strong);
+  if (!run.ok()) return run.faults();
+  FosStart& s = run.value().start;
+  if (!run.value().in_equilibrium) {
+    s.status = FosStatus::unstable;
+    s.message = fmt::format(
+        "the model does not reach equilibrium however strong its joints are: {}; fix what falls, "
+        "or check its support",
+        run.value().says);
+  } else if (!loose_block_ids(s.sim).empty()) {
+    s.warnings.push_back("with joints that do not fail, " + run.value().says +
+                         "; the factor is that of all other blocks");
+  }
+  return std::move(s);
+}
+
+}  // namespace
+
+Loading loading_of(const Fos& fos, const Model& model, const Loading& given, double factor) {
+  Loading to = given;
+  if (fos.varied != Varied::strength) {
+    to.multiplier = factor;
+    return to;
+  }
+  for (std::size_t r = 0; r < to.strength.size(); ++r) {
+    const bool spared = r < model.joints.size() &&
+                        std::find(fos.exclude.begin(), fos.exclude.end(), model.joints[r].name) !=
+                            fos.exclude.end();
+    if (!spared) to.strength[r] *= factor;
+  }
+  return to;
+}
+
+Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptions& options) {
+  if (auto fault = refused(model, fos)) return *fault;
+  Result<FosStart> made = at_rest(model, fos, options);
+  if (!made.ok()) return made;
+  FosStart& s = made.value();
+  if (s.status != FosStatus::found) return made;
+  const bool shaken = fos.varied == Varied::shaking;
+  const Loading to = loading_of(fos, model, s.given, shaken ? 0.0 : 1.0);
+  Simulation as_given = s.sim;
+  Trial trial = run_trial(as_given, s.plan, s.loading, to, [&] { return stopped(options); });
+  trial.factor = 1.0;
+  if (trial.end == TrialEnd::stopped) {
+    s.status = FosStatus::interrupted;
+    return made;
+  }
+  if (trial.end == TrialEnd::holds) {
+    s.sim = std::move(as_given);
+    s.loading = to;
+    if (!shaken) s.seen.push_back(trial);
+    return made;
+  }
+  if (shaken) {
+    s.status = FosStatus::unstable;
+    s.message = "the model is not stable without the ground motion: " +
+                still_moving(as_given, balance_of(as_given));
+    return made;
+  }
+  s.seen.push_back(trial);
+  s.failed = std::move(as_given);
+  return made;
+}
+
+}  // namespace edda

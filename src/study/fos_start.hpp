@@ -1,0 +1,32 @@
+// The equilibrium state from which the trials of a factor start.
+#pragma once
+
+#include "run/run_model.hpp"
+#include "study/fos.hpp"
+
+namespace edda {
+
+/// A state in equilibrium, and its loading.
+struct FosStart {
+  Simulation sim;
+  Loading loading;  ///< loading of this state
+  Loading given;    ///< loading of the model as given (without ground motion)
+  TrialPlan plan;
+  std::vector<Trial> seen;              ///< the trial of the factor 1, where one was made
+  FosStatus status = FosStatus::found;  ///< otherwise unstable or interrupted, with a message
+  std::string message;
+  std::optional<Simulation> failed;  ///< final state of the trial of the factor 1, where that
+                                     ///< failed
+  std::vector<std::string> warnings;
+};
+
+/// Loading of a trial of this factor.
+Loading loading_of(const Fos& fos, const Model& model, const Loading& given, double factor);
+
+/// Brings the model to equilibrium. With stages: runs them to the end of the one named, and with a
+/// thousand times the strength of the joints where they do not reach equilibrium otherwise. Without
+/// stages: under gravity and loads, first with such joints, so that nothing slips or breaks on the
+/// way, then with those given.
+Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptions& options);
+
+}  // namespace edda

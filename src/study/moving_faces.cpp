@@ -1,0 +1,86 @@
+#include "study/moving_faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "contacts/face_reading.hpp"
+
+namespace edda {
+namespace {
+
+/// One end of a face: its position, and the relative displacement of its two points since then.
+struct EndMoved {
+  Vec2 place;
+  double slip, opening;
+};
+EndMoved end_moved(const Simulation& before, const Simulation& after, std::size_t k, double xi,
+                   double eta) {
+  const FaceSet& f = before.motion.contacts;
+  const FacePoints p = face_points(f, before.motion.pose.x, before.motion.pose.y, k);
+  const FacePoints q = face_points(f, after.motion.pose.x, after.motion.pose.y, k);
+  const Vec2 t_was = frame_of(p, f.inverse_e[k], f.inverse_f[k]),
+             t_is = frame_of(q, f.inverse_e[k], f.inverse_f[k]);
+  const Vec2 was = from_point_of_e(p, xi, eta), is = from_point_of_e(q, xi, eta);
+  return {(1.0 - xi) * p.p1 + xi * p.p2 + before.scene->blocks.origin,
+          std::abs(dot(is, t_is) - dot(was, t_was)),
+          dot(is, outward_normal(t_is)) - dot(was, outward_normal(t_was))};
+}
+
+}  // namespace
+
+void collect_joints(SeenJoints& joints, const Simulation& before, const Simulation& after,
+                    const std::vector<double>& rotation, double least) {
+  const FaceSet& f = before.motion.contacts;
+  const BlockSet& b = before.scene->blocks;
+  std::map<std::pair<Id, Id>, double> largest;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    double& force = largest[blocks_of_face(b, f, k)];
+    force = std::max(force, normal_force(f, k));
+  }
+  constexpr double counts = 1e-3;  // of the face with the largest force between the two blocks
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    const auto [i, j] = blocks_of_face(b, f, k);
+    const bool along = f.acts[k] > 0.0 && f.now.cohesive[k] > 0.0 && closure_of(f, k) > -least;
+    if (!along && !(normal_force(f, k) > counts * largest[{i, j}])) continue;
+    const double length = std::min(b.edge_length[f.edge[k]], b.edge_length[f.facing[k]]);
+    const double turning = std::abs(rotation[i] - rotation[j]) * length;
+    const EndMoved ends[2] = {end_moved(before, after, k, f.now.xi_a[k], f.now.eta_a[k]),
+                              end_moved(before, after, k, f.now.xi_b[k], f.now.eta_b[k])};
+    const double slip = std::max(ends[0].slip, ends[1].slip);
+    const double opening = std::max(ends[0].opening, ends[1].opening);
+    if (std::max({slip, opening, turning}) < least) continue;
+    JointData& seen = joints[{i, j, f.law[k]}];
+    MovingJoint& joint = seen.joint;
+    for (const EndMoved& end : ends) {
+      if (std::max(end.slip, end.opening) >= std::max(joint.slip, joint.opening)) {
+        joint.place = end.place;
+      }
+      joint.slip = std::max(joint.slip, end.slip);
+      joint.opening = std::max(joint.opening, end.opening);
+      if (end.opening < seen.least_opening) {
+        seen.least_opening = end.opening;
+        seen.hinge = end.place;
+      }
+    }
+    const FacePoints was = face_points(f, before.motion.pose.x, before.motion.pose.y, k);
+    const FacePoints is = face_points(f, after.motion.pose.x, after.motion.pose.y, k);
+    const auto carried = [&](double xi) {
+      return (1.0 - xi) * (is.p1 - was.p1) + xi * (is.p2 - was.p2);
+    };
+    if (norm(ends[1].place - ends[0].place) > 1e-3 * length) {
+      joint.stretches.push_back(
+          {ends[0].place, ends[1].place, carried(f.now.xi_a[k]), carried(f.now.xi_b[k])});
+    }
+    joint.block_i = i;
+    joint.block_j = j;
+    joint.law = f.law[k];
+    joint.joint = f.law[k] < before.scene->model.joints.size()
+                      ? std::string_view(before.scene->model.joints[f.law[k]].name)
+                      : std::string_view("glued");
+    joint.turning = std::max(joint.turning, turning);
+  }
+}
+
+}  // namespace edda

@@ -1,0 +1,123 @@
+"""edda plot and edda cut, end to end: what is drawn, and what is refused. Usage: pictures_test.py EDDA"""
+import re
+import unittest
+
+from program import read_rows
+from ramp import RAMP, RampProgram
+
+
+class Pictures(RampProgram):
+    def test_cut_in_every_format(self):
+        for ending in ("svg", "png", "vtu", "csv"):
+            self.expect(0, "cut", "m.toml", "-o", "cut." + ending)
+            self.assertGreater((self.dir / ("cut." + ending)).stat().st_size, 100)
+        rows = read_rows(self.dir / "cut.csv")
+        self.assertEqual(list(rows[0]), "block material ring x y joint".split())
+        self.assertEqual(len(rows), 8)
+
+    def test_plot_of_results_and_models(self):
+        self.expect(0, "run", "m.toml")
+        self.expect(0, "plot", "m")
+        self.assertEqual((self.dir / "m.png").read_bytes()[:4], b"\x89PNG")
+        for field in "id material displacement velocity rotation stress principal_stress normal_force shear_force opening slip state normal_stress shear_stress none".split():
+            self.expect(0, "plot", "m", "--field", field, "--time", "0.005", "-o", "p.svg", "--forces", "--vectors", "velocity")
+        self.expect(0, "plot", "m.toml", "-o", "model.png")
+
+    def test_plot_compares_times(self):
+        self.expect(0, "run", "m.toml")
+        self.expect(0, "plot", "m", "--compare", "0,0.01", "--field", "displacement.x", "-o", "c.svg")
+        picture = (self.dir / "c.svg").read_text(encoding="utf-8")
+        self.assertIn(">t = 0 s</text>", picture)
+        self.assertIn(">t = 0.01 s</text>", picture)
+        self.assertEqual(picture.count(">y (m)</text>"), 1)
+        self.expect(0, "plot", "m", "--before", "--time", "0.005", "-o", "b.svg")
+        self.assertIn(">t = 0.005 s</text>", (self.dir / "b.svg").read_text(encoding="utf-8"))
+
+    def test_plot_draws_histories(self):
+        self.expect(0, "run", "m.toml")
+        self.expect(0, "plot", "m", "--history", "M.ux,energy", "-o", "h.svg", "--title", "A <b>")
+        picture = (self.dir / "h.svg").read_text(encoding="utf-8")
+        for text in ("M.ux", "kinetic", "displacement (mm)", "time (s)", "A &lt;b&gt;"):
+            self.assertIn(f">{text}</text>", picture)
+        self.expect(0, "plot", "m", "--history", "M", "-o", "h.pdf")
+        self.assertEqual((self.dir / "h.pdf").read_bytes()[:5], b"%PDF-")
+
+    def test_plot_keeps_bolts_apart_whatever_their_names(self):
+        self.expect(0, "run", "m.toml", "--quiet")
+        for names in (("1", "2"), ("0", "B"), ("B", "0")):
+            rows = [f"0.01,{name},{x},{y},1e4,0,0" for name, x in zip(names, (0.5, 1.5)) for y in (0.2, 0.8)]
+            head = "time,bolt,x,y,axial_force,yielded,ruptured"
+            (self.dir / "m/bolts.csv").write_text("\n".join([head, *rows, ""]))
+            self.expect(0, "plot", "m", "-o", "p.svg", "--field", "none")
+            lines = re.findall('<path [^>]*stroke:rgb\\(5%,25%,65%\\)[^>]*>', (self.dir / "p.svg").read_text())
+            self.assertEqual(len(lines), 2, names)
+
+    def test_plot_takes_its_size_from_paper_and_pixels(self):
+        for more, wide in (((), 1600), (("--width", "80mm"), 800), (("--width", "300px"), 300), (("--dpi", "127"), 800)):
+            self.expect(0, "plot", "m.toml", "-o", "p.png", "--field", "material", *more)
+            self.assertEqual(int.from_bytes((self.dir / "p.png").read_bytes()[16:20], "big"), wide, more)
+
+    def test_plot_keeps_its_width_where_the_model_is_tall(self):
+        tall = RAMP.replace("[-1, -1], [4, -1], [4, 0], [-1, 0]", "[0, -20], [2, -20], [2, 0], [0, 0]")
+        (self.dir / "tall.toml").write_text(tall)
+        for more, wide in ((("--width", "80mm"), 800), (("--width", "300px"), 300)):
+            self.expect(0, "plot", "tall.toml", "-o", "p.png", *more)
+            self.assertEqual(int.from_bytes((self.dir / "p.png").read_bytes()[16:20], "big"), wide, more)
+
+    def test_plot_names_its_picture_after_the_whole_folder(self):
+        self.expect(0, "run", "m.toml", "-o", "slope-1.5", "--quiet")
+        for given in ("slope-1.5", "slope-1.5/", "./slope-1.5/../slope-1.5"):
+            self.expect(0, "plot", given)
+            (self.dir / "slope-1.5.png").unlink()
+
+    def test_plot_refuses_with_one_message(self):
+        self.expect(0, "run", "m.toml")
+        for more in (("--field", "nope"), ("--history", "nope"), ("--history", "M.nope"), ("--range", "2,1"), ("--window", "0,0,0,1"),
+                     ("--compare", "1"), ("--compare", "1,2,3,4,5"), ("--bolts",), ("-o", "x.gif")):
+            done = self.expect(2, "plot", "m", *more)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            self.assertEqual(done.stdout, "")
+        for more in (("--history", "energy"), ("--before",), ("--principal",), ("--bolts",)):
+            self.assertEqual(self.expect(2, "plot", "m.toml", *more).stderr.count("\n"), 1)
+        for more in (("--time", "nan"), ("--compare", "0,inf"), ("--scale", "inf"), ("--range=-inf,1",), ("--window", "0,0,nan,1"),
+                     ("--set", "title='x'"), ("--width", "800px", "--dpi", "100"), ("--width", "800px", "-o", "x.svg"),
+                     ("--history", "M", "--scale", "2"), ("--history", "M", "--set", "title='x'")):
+            done = self.expect(2, "plot", "m", *more)
+            self.assertEqual((done.stderr.count("\n"), done.stdout), (1, ""), done.stderr)
+        for more in (("--time", "0"), ("--forces",), ("--field", "opening")):
+            self.assertIn("is a model", self.expect(2, "plot", "m.toml", *more).stderr)
+        for more in (("--range", "1"), ("--width", "9mm"), ("--width", "x"), ("--history", "M", "--forces"), ("--vectors", "up")):
+            self.expect(2, "plot", "m", *more)
+        self.assertEqual(self.names(), ["m", "m.toml"])
+
+    def test_plot_says_which_window_and_time_it_cannot_show(self):
+        self.expect(0, "run", "m.toml", "--quiet")
+        for window in ("0,0,1e-310,1e-310", "0,0,1e-9,1", "100,100,120,120", "-1e12,-1e12,1e12,1e12"):
+            for source in ("m", "m.toml"):
+                done = self.expect(2, "plot", source, "--window=" + window, "-o", "w.svg")
+                self.assertRegex(done.stderr, "^--window: .* the model: give a part of -1.15,-1.*,4.15,", window)
+        self.assertEqual(self.names(), ["m", "m.toml"])
+        self.assertEqual(self.expect(0, "plot", "m", "--window=3.9,-1,9,1", "-o", "w.svg").stderr, "")
+        late = self.expect(0, "plot", "m", "--time", "99", "-o", "w.svg")
+        self.assertEqual(late.stderr, "note: 99 s lies beyond the frames, which go from 0 to 0.01 s: drawn is 0.01 s\n")
+        self.assertIn("use one of M", self.expect(2, "plot", "m", "--relative-to", "N").stderr)
+        self.assertEqual(self.expect(0, "plot", "m", "--compare=-1,0.003,2", "-o", "w.svg").stderr.count("note: "), 2)
+
+    def test_cut_says_what_it_took_out_and_what_it_cannot_do(self):
+        self.expect(0, "example", "cavern")
+        out = self.expect(0, "cut", "cavern.toml").stdout
+        self.assertRegex(out, r"inside openings  \d+ blocks, not part of the model")
+        self.assertRegex(out, r"cut area         .* m2 \(difference")
+        (self.dir / "two.toml").write_text(RAMP.replace("[2, 0], [2, 1]", "[2, -0.5], [2, 1]"))
+        self.assertIn("two.toml", self.expect(2, "cut", "two.toml").stderr)
+        self.assertIn("none/cut.svg", self.expect(1, "cut", "m.toml", "-o", "none/cut.svg").stderr)
+        self.assertIn("none/p.png", self.expect(1, "plot", "m.toml", "-o", "none/p.png").stderr)
+
+    def test_plot_wants_the_folder_of_a_run(self):
+        (self.dir / "empty").mkdir()
+        done = self.expect(2, "plot", "empty")
+        self.assertIn("give a folder that edda run has written, or a model file", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,88 @@
+// The mechanism that a search for a factor of safety reports.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "study/sliding_block.hpp"
+
+namespace edda::fos_mechanism_test {
+namespace {
+
+using testing::coarse;
+using testing::exact;
+using testing::found;
+using testing::model_of;
+using testing::ramp;
+
+/// Between the strength at which the cohesion fails and that at which friction is exceeded.
+TEST(Fos, ReportsCohesionThatWasLostBefore) {
+  const std::string law = "friction_angle = 40\ncohesion = 100\n";
+  const FosResult brittle = found(ramp(law + "residual = { friction_angle = 45 }\n", coarse));
+  EXPECT_NEAR(*brittle.factor, exact, 0.05);
+  ASSERT_TRUE(brittle.mechanism);
+  EXPECT_NEAR(brittle.mechanism->brittle_length, 2.0, 0.01);
+  EXPECT_NEAR(brittle.mechanism->cohesion_lost_length, 2.0, 0.01);
+  EXPECT_NE(
+      brittle.mechanism->text.find("; 2 m of its 2 m had lost their cohesion before it moved"),
+      std::string::npos)
+      << brittle.mechanism->text;
+  EXPECT_NE(lost_cohesion_text(*brittle.mechanism)
+                .find("2 m of 2 m of the mechanism's joints had no "
+                      "cohesion before it moved (it was lost, or "
+                      "they opened and closed again;"),
+            std::string::npos);
+  EXPECT_NE(fos_summary(model_of(ramp(law)), brittle, 1).find("\"cohesion_lost_length\""),
+            std::string::npos);
+  // Cohesion that is lost at failure, and residual cohesion.
+  const FosResult whole = found(ramp("friction_angle = 45\ncohesion = 3000\n", coarse));
+  EXPECT_NEAR(whole.mechanism->brittle_length, 2.0, 0.01);
+  EXPECT_EQ(whole.mechanism->cohesion_lost_length, 0.0);
+  EXPECT_EQ(lost_cohesion_text(*whole.mechanism), "");
+  const FosResult kept =
+      found(ramp(law + "residual = { friction_angle = 45, cohesion = 100 }\n", coarse));
+  EXPECT_EQ(kept.mechanism->brittle_length, 0.0);
+}
+
+/// The corner that moves most lies at the toe of the slope, where its edge has no neighbour: the
+/// plane is found nevertheless.
+TEST(Fos, TheMechanismHasTheWholePlane) {
+  const FosResult r = found(
+      "[materials.rock]\ndensity = 2600\nyoung = 1e10\npoisson = 0.25\n"
+      "[joints.plane]\nfriction_angle = 30\nkn = 1e10\nks = 4e9\n[joints.crack]\n"
+      "friction_angle = 30\n[domain]\njoint = 'crack'\n"
+      "outline = [[-20, -10], [60, -10], [60, 20], [7.2794, 20], [0, 0]]\n"
+      "[[trace]]\npoints = [[0, 0], [20, 11]]\njoint = 'plane'\n"
+      "[[trace]]\npoints = [[20, 11], [20, 20]]\njoint = 'crack'\n[[fixed]]\npoint = [30, -5]\n"
+      "[solver]\nduration = 1\n[fos]\nbracket = [1, 1.5]\ntolerance = 0.5\n");
+  ASSERT_TRUE(r.mechanism) << r.message;
+  const auto plane = std::find_if(r.mechanism->joints.begin(), r.mechanism->joints.end(),
+                                  [](const MovingJoint& j) { return j.joint == "plane"; });
+  ASSERT_NE(plane, r.mechanism->joints.end());
+  double length = 0.0;
+  for (const Stretch& s : plane->stretches) length += norm(s.to - s.from);
+  // The part that has slid past the toe no longer lies on the plane.
+  const double whole = std::hypot(20.0, 11.0), rounding = 0.01;
+  EXPECT_LT(plane->slip, 0.1);
+  EXPECT_GE(length, whole - plane->slip - rounding);
+  EXPECT_LE(length, whole + rounding);
+}
+
+/// A block that slides out over the toe of a plane does not topple.
+TEST(Fos, WhatGoesOutOverTheToeSlides) {
+  const FosResult r = found(
+      "[materials.rock]\nunit_weight = '26 kN/m3'\nyoung = '1 GPa'\npoisson = 0.25\n"
+      "[joints.bedding]\nfriction_angle = 20\n[joints.cross]\nfriction_angle = 35\n"
+      "[domain]\njoint = 'bedding'\n"
+      "outline = [[0, 0], [44, 0], [44, 22], [24.4, 22], [20, 10], [20, 8], [0, 8]]\n"
+      "[[trace]]\npoints = [[20, 10], [34.301, 22]]\njoint = 'bedding'\n"
+      "[[joint_set]]\nangle = -50\nspacing = 8\norigin = [25.6, 10]\njoint = 'cross'\n"
+      "region = [[20, 10], [34.301, 22], [24.4, 22]]\n[[fixed]]\npoint = [5, 5]\n" +
+      coarse);
+  ASSERT_TRUE(r.mechanism) << r.message;
+  EXPECT_EQ(r.mechanism->text, "sliding along bedding: 3 blocks");
+}
+
+}  // namespace
+}  // namespace edda::fos_mechanism_test

@@ -1,0 +1,70 @@
+// Classification of the motion of a block.
+#include "study/mechanism.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "run/prepared.hpp"
+
+namespace edda::mechanism_test {
+namespace {
+
+/// A block of 1 m by 2 m that stands on a base: its centroid is at (0.5, 1).
+Simulation standing(const std::string& gravity) {
+  return testing::prepared("gravity = " + gravity +
+                           "\n[materials.rock]\ndensity = 2500\nyoung = 1e9\npoisson = 0.2\n"
+                           "[joints.j]\nfriction_angle = 30\n[solver]\nduration = 1\n[[block]]\n"
+                           "fixed = true\npolygon = [[-3,-1],[4,-1],[4,0],[-3,0]]\n[[block]]\n"
+                           "polygon = [[0,0],[1,0],[1,2],[0,2]]\n")
+      .sim;
+}
+
+/// Motion of the block after a rotation by this angle about a point.
+FailureMode turned_about(const Simulation& before, Vec2 point, double by) {
+  Simulation after = before;
+  const Vec2 p = point - before.scene->blocks.origin;
+  const auto turn = [&](double& x, double& y) {
+    const Vec2 moved = p + rotated(Vec2{x, y} - p, by);
+    x = moved.x;
+    y = moved.y;
+  };
+  for (std::size_t k = 0; k < 3; ++k) turn(after.motion.state.x[k][1], after.motion.state.y[k][1]);
+  for (Id v = before.scene->blocks.vertex_begin[1]; v < before.scene->blocks.vertex_begin[2]; ++v)
+    turn(after.motion.pose.x[v], after.motion.pose.y[v]);
+  const Mechanism m = mechanism_of(before, after);
+  EXPECT_EQ(m.blocks.size(), 1u);
+  return m.blocks.empty() ? FailureMode::falls : m.blocks[0].motion;
+}
+
+/// Rotation about a point below its centroid, on either side and in either direction; where the
+/// rotation is half of its motion or more.
+TEST(Mechanism, TopplesAboutAPointBelow) {
+  const Simulation sim = standing("[0, -9.81]");
+  const double radius = std::hypot(0.5, 1.0);
+  for (const double by : {1e-3, -1e-3, 0.05, -0.05}) {
+    for (const double x : {0.0, 0.5, 1.0}) {
+      EXPECT_EQ(turned_about(sim, {x, 0.0}, by), FailureMode::topples) << x << ' ' << by;
+      EXPECT_EQ(turned_about(sim, {x, 2.0}, by), FailureMode::slides) << x << ' ' << by;
+    }
+    // At about its own height, a step of a twentieth of its width up or down.
+    for (const double x : {-0.5, 1.5}) {
+      EXPECT_EQ(turned_about(sim, {x, 0.95}, by), FailureMode::topples) << x << ' ' << by;
+      EXPECT_EQ(turned_about(sim, {x, 1.05}, by), FailureMode::slides) << x << ' ' << by;
+    }
+    EXPECT_EQ(turned_about(sim, {0.5, 1.0 - 1.9 * radius}, by), FailureMode::topples) << by;
+    EXPECT_EQ(turned_about(sim, {0.5, 1.0 - 2.1 * radius}, by), FailureMode::slides) << by;
+  }
+}
+
+/// Below is in the direction of gravity.
+TEST(Mechanism, TopplesAsGravityHasIt) {
+  const Simulation sideways = standing("[9.81, 0]"), upwards = standing("[0, 9.81]");
+  EXPECT_EQ(turned_about(sideways, {1.5, 1.0}, 1e-3), FailureMode::topples);
+  EXPECT_EQ(turned_about(sideways, {-0.5, 1.0}, 1e-3), FailureMode::slides);
+  EXPECT_EQ(turned_about(upwards, {0.5, 2.0}, 1e-3), FailureMode::topples);
+  EXPECT_EQ(turned_about(upwards, {0.5, 0.0}, 1e-3), FailureMode::slides);
+}
+
+}  // namespace
+}  // namespace edda::mechanism_test
