@@ -39,6 +39,7 @@ double energy(const BoltSprings& s, std::size_t k, double stretch) {
 struct Spent {
   double slipped = 0.0, fractured = 0.0;
   double pending_friction = 0.0, pending_fracture = 0.0;
+  int increments = 0;  ///< of Newton's method
 };
 
 /// Sets the force at an elongation. Plastic flow dissipates (F_{n-1} + F_n)/2 times its amount. A
@@ -75,12 +76,13 @@ class Chain {
   }
 
   /// Newton's method on the energy, which is convex and piecewise quadratic; an increment that
-  /// would raise the energy is shortened.
-  void solve() {
+  /// would raise the energy is shortened. Returns the number of increments.
+  int solve() {
     constexpr int most = 100, most_cuts = 30;
     constexpr double rounding = 1e-12;
     double now = energy_at(b_.slip);
-    for (int round = 0; round < most && !in_balance(); ++round) {
+    int round = 0;
+    for (; round < most && !in_balance(); ++round) {
       find_change();
       double part = 1.0, next = 0.0;
       for (int cut = 0; cut < most_cuts; ++cut, part *= 0.5) {
@@ -91,6 +93,7 @@ class Chain {
       std::copy_n(b_.trial.data() + first_, last_ - first_, b_.slip.data() + first_);
       now = next;
     }
+    return round;
   }
 
  private:
@@ -193,7 +196,7 @@ void disconnect_excavated(Bolts& b, const State& state, Id first, Id last) {
 
 Spent update_grouted(Bolts& b, const BoltData& row, const State& state, Id first, Id last) {
   Spent spent;
-  Chain(b, state, first, last).solve();
+  spent.increments = Chain(b, state, first, last).solve();
   for (std::size_t k = first; k < last; ++k) {
     yield_to(b.bonds, k, b.slip[k], spent);
     if (k + 1 == last) break;
@@ -265,11 +268,13 @@ void update_bolts(Bolts& b, const State& state) {
   b.slipped += b.pending_friction;
   b.fractured += b.pending_fracture;
   b.pending_friction = b.pending_fracture = b.work_pending = 0.0;
+  b.most_increments = 0;
   for (const Spent& s : spent) {
     b.slipped += s.slipped;
     b.fractured += s.fractured;
     b.pending_friction += s.pending_friction;
     b.pending_fracture += s.pending_fracture;
+    b.most_increments = std::max(b.most_increments, s.increments);
   }
 }
 

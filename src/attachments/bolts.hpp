@@ -88,6 +88,7 @@ struct Bolts {
          pending_fracture = 0.0;  ///< J: what the forces at n will add to these
   double work_pending = 0.0;  ///< J: work yet to be counted in the current step, because velocities
                               ///< or bolts changed at n
+  int most_increments = 0;    ///< of Newton's method for one bolt in the last step
   std::vector<NodeVectors> on_host;  ///< [nn] forces of node, bar and dowel on its host, N
 
   std::vector<Id> place;        ///< [nb] index into `block_begin`, or no_id; empty without bolts

@@ -118,6 +118,15 @@ TEST(BoltChain, ForcesAreGradientsOfTheStoredEnergy) {
   expect_gradients(with_ends({1, 1}, {2, 4}));
 }
 
+/// A bolt within its strength is linear: one increment of Newton's method solves it.
+TEST(BoltChain, ElasticOneIsSolvedAtOnce) {
+  Bolted m = two_blocks(grouted({1, 0.1}, {2, 4}));
+  for (const Vec2 by : {Vec2{0.0, 1e-6}, Vec2{1e-6, 0.0}, Vec2{-1e-6, 1e-6}}) {
+    shift_upper(m, by);
+    EXPECT_EQ(m.bolts.most_increments, 1);
+  }
+}
+
 /// What the pull has done is stored, or has gone into slip, yield and rupture.
 TEST(BoltChain, BooksEveryJoule) {
   Bolt bolt = grouted({2, 0.1}, {2, 4.4});
