@@ -1,5 +1,6 @@
 // edda verify
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <atomic>
 #include <cmath>
@@ -52,6 +53,7 @@ int verify(const VerifyArguments& args) {
   if (!model) return exit_code::bad_input;
   const std::atomic<bool>& stop_asked = stop_on_signals();
   VerifyOptions options;
+  options.threads = omp_get_max_threads();
   options.stop = &stop_asked;
   std::unique_ptr<ProgressBar> bar;
   if (!args.quiet) {

@@ -1,6 +1,8 @@
 // Loops over several threads whose results do not depend on how many there are.
 #pragma once
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -41,6 +43,23 @@ void parallel_chunks(std::size_t n, std::size_t size, Body body) {
   }
 #pragma omp parallel for schedule(static)
   for (std::size_t c = 0; c < chunks; ++c) body(c, c * size, std::min(n, (c + 1) * size));
+}
+
+/// Calls body(task, scratch) for tasks in [0, n), in parallel; `elements`: of all of them. scratch:
+/// working memory that no other task uses at the time. body must write only what belongs to its
+/// task.
+template <class Scratch, class Body>
+void parallel_tasks(std::size_t n, std::size_t elements, std::vector<Scratch>& scratch, Body body) {
+  if (elements < worth_sharing || n < 2) {
+    if (scratch.empty()) scratch.resize(1);
+    for (std::size_t q = 0; q < n; ++q) body(q, scratch[0]);
+    return;
+  }
+  scratch.resize(std::max(scratch.size(), static_cast<std::size_t>(omp_get_max_threads())));
+#pragma omp parallel for schedule(static)
+  for (std::size_t q = 0; q < n; ++q) {
+    body(q, scratch[static_cast<std::size_t>(omp_get_thread_num())]);
+  }
 }
 
 /// Sum of term(i) over [0, n): chunks of fixed size are summed each in order, then the chunks in

@@ -16,6 +16,7 @@ constexpr std::size_t trial_steps = 2;
 constexpr double most_patience = 50.0;
 
 std::atomic<bool> said{false};
+thread_local int kept_to = 0;  // 0: to none
 
 }  // namespace
 
@@ -32,6 +33,15 @@ SameThreads::~SameThreads() {
 
 bool threads_are_given() {
   return said || std::getenv("OMP_NUM_THREADS") != nullptr;
+}
+
+void keep_to_threads(int threads) {
+  omp_set_num_threads(threads);
+  kept_to = threads;
+}
+
+int most_threads() {
+  return kept_to > 0 ? kept_to : omp_get_num_procs();
 }
 
 ThreadChoice::ThreadChoice(int most) {

@@ -22,6 +22,12 @@ class SameThreads {
 };
 /// Whether the number of threads has been set, by report_threads() or OMP_NUM_THREADS.
 bool threads_are_given();
+/// For a thread beside which others compute: its loops, and the steps of every run that it makes,
+/// use up to `threads` threads (1 or more) from now on, also where their number is chosen.
+void keep_to_threads(int threads);
+/// Largest number of threads among which a run that this thread makes may choose: that of
+/// keep_to_threads(); without it all cores.
+int most_threads();
 
 /// Chooses the number of threads by timing. More threads are slower where a model is small, or
 /// where another program uses the cores: each loop then waits for the thread that is not running.

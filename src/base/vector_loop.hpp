@@ -13,7 +13,9 @@
 // itself, where OpenMP would keep them in memory.
 //
 // To be fast such a loop has selections and no branches, arrays of one width (double, with Id
-// as an index), and no sums over its elements: only largest values.
+// as an index), and no sums over its elements: only largest values. g++ 12 refuses loops that
+// select one of two truths (`a ? b > c : d > e`; write it with & and |) or that copy a structure
+// within another.
 #pragma once
 
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__OPTIMIZE__) && \

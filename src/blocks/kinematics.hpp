@@ -52,15 +52,15 @@ inline Deformation deformed_by(const BlockSet& b, std::size_t i, const NodeVecto
 
 /// Rotation R = [c -s; s c] of the polar decomposition F = R U: a = F11 + F22, b = F21 - F12, (c,
 /// s) = (a, b)/sqrt(a^2 + b^2). `strength` is that root, 2 for an undeformed block; near 0 the
-/// rotation is undefined and the run has diverged.
+/// rotation is undefined and the run has diverged. `inverse` is 1/strength.
 struct Rotation {
-  double c, s, strength;
+  double c, s, strength, inverse;
 };
 
 EDDA_INLINE Rotation rotation(const Deformation& f) {
   const double a = f.xx + f.yy, b = f.yx - f.xy;
-  const double r = std::sqrt(a * a + b * b);
-  return {a / r, b / r, r};
+  const double r = std::sqrt(a * a + b * b), inverse = 1.0 / r;
+  return {a * inverse, b * inverse, r, inverse};
 }
 
 /// Weights of the block's centroid: every cover is centred on it.

@@ -66,6 +66,12 @@ double kinetic_energy(const Masses& masses, const Nodes& vx, const Nodes& vy, st
 void fill_point_masses(Masses& m, const BlockSet& b) {
   m.point_inverse.assign(b.vertex_count(), 0.0);
   m.edge_inverse.assign(b.vertex_count(), 0.0);
+  for (std::size_t k = 0; k < nodes_per_block; ++k) {
+    m.node_inverse[k].resize(b.size());
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      m.node_inverse[k][i] = m.node[k][i] > 0.0 ? 1.0 / m.node[k][i] : 0.0;
+    }
+  }
   for (std::size_t v = 0; v < b.vertex_count(); ++v) {
     const std::size_t i = b.vertex_block[v];
     if (b.fixed[i]) continue;

@@ -12,7 +12,8 @@ namespace edda {
 /// Filled by given_masses(); changed by scale_block_masses() and fill_viscosity().
 struct Masses {
   MassKind kind = MassKind::matched;
-  Nodes node;  ///< [nodes][nb] lumped m_k, kg (unused by `consistent`)
+  Nodes node;          ///< [nodes][nb] lumped m_k, kg (unused by `consistent`)
+  Nodes node_inverse;  ///< [nodes][nb] 1/m_k, 1/kg; 0 without mass
   std::array<std::vector<double>, 6>
       inverse;  ///< [6][nb] M^-1, order 11 12 13 22 23 33, 1/kg; `consistent` only
   std::vector<double> point_inverse,
@@ -25,7 +26,8 @@ struct Masses {
 /// Masses as the model gives them, without viscosity.
 Masses given_masses(const BlockSet& blocks);
 
-/// Fills point_inverse and edge_inverse. Call again whenever the masses of the nodes change.
+/// Fills node_inverse, point_inverse and edge_inverse. Call again whenever the masses of the nodes
+/// change.
 void fill_point_masses(Masses& masses, const BlockSet& blocks);
 
 /// Inertial mass of block i as a whole, kg: more than that of its weight where inertia has been
@@ -54,14 +56,21 @@ double mass_product(const Masses& masses, std::size_t i, const NodeVectors& u,
 /// Kinetic energy of block i, J.
 double kinetic_energy(const Masses& masses, const Nodes& vx, const Nodes& vy, std::size_t i);
 
-/// Inverse of the effective mass of a force on edge e-f at the fraction xi of its length, 1/kg: the
-/// quadratic form of the weights (1 - xi) w_e + xi w_f.
+/// Quadratic form of the inverse mass along an edge, 1/kg: w^T M^-1 w at its start, of both ends,
+/// and at its end (Masses::point_inverse, edge_inverse).
+struct EdgeInverseMass {
+  double start = 0.0, both = 0.0, end = 0.0;
+};
 template <class PointMasses>
-[[gnu::always_inline]] inline double inverse_mass_on_edge(const PointMasses& m, std::size_t e,
-                                                          std::size_t f, double xi) {
+[[gnu::always_inline]] inline EdgeInverseMass inverse_mass_of_edge(const PointMasses& m,
+                                                                   std::size_t e, std::size_t f) {
+  return {m.point_inverse[e], m.edge_inverse[e], m.point_inverse[f]};
+}
+/// Inverse of the effective mass of a force on the edge at the fraction xi of its length, 1/kg: the
+/// form for the weights (1 - xi) w_start + xi w_end.
+[[gnu::always_inline]] inline double inverse_mass_at(const EdgeInverseMass& m, double xi) {
   const double rest = 1.0 - xi;
-  return rest * rest * m.point_inverse[e] + 2.0 * xi * rest * m.edge_inverse[e] +
-         xi * xi * m.point_inverse[f];
+  return rest * rest * m.start + 2.0 * xi * rest * m.both + xi * xi * m.end;
 }
 
 }  // namespace edda

@@ -16,15 +16,20 @@ struct StrainTerms {
   double xx, yy, xy;
 };
 
-/// F = R U of a block, R = [c -s; s c].
+/// F = R U of a block, R = [c -s; s c]; `trace` of U, and its inverse.
 struct StrainFrame {
-  double c, s, u11, u22, u12, trace;
+  double c, s, u11, u22, u12, trace, per_trace;
 };
 
 EDDA_INLINE StrainFrame strain_frame(const Deformation& f) {
   const Rotation r = rotation(f);
-  return {r.c,       r.s, r.c * f.xx + r.s * f.yx, r.c * f.yy - r.s * f.xy, r.c * f.xy + r.s * f.yy,
-          r.strength};
+  return {r.c,
+          r.s,
+          r.c * f.xx + r.s * f.yx,
+          r.c * f.yy - r.s * f.xy,
+          r.c * f.xy + r.s * f.yy,
+          r.strength,
+          r.inverse};
 }
 
 /// A = R^T L.
@@ -36,7 +41,7 @@ EDDA_INLINE Deformation rotated_back(const StrainFrame& q, const Deformation& l)
 /// dU/dt for the rate L of F.
 EDDA_INLINE StrainTerms strain_rate(const StrainFrame& q, const Deformation& l) {
   const Deformation a = rotated_back(q, l);
-  const double spin = (a.yx - a.xy) / q.trace;
+  const double spin = (a.yx - a.xy) * q.per_trace;
   return {a.xx + spin * q.u12, a.yy - spin * q.u12, a.xy + a.yx + spin * (q.u22 - q.u11)};
 }
 
@@ -47,8 +52,9 @@ EDDA_INLINE StrainTerms strain_rate_over(const StrainFrame& q, const Deformation
   const Deformation a = rotated_back(q, l);
   const double turn = a.yx - a.xy, along = q.trace + h * (a.xx + a.yy);
   const double r = std::sqrt(along * along + h * h * turn * turn);
-  const double cosine = along / r, spin = turn / r;         // sin(theta) = h spin
-  const double shrink = -h * spin * spin / (1.0 + cosine);  // (cos(theta) - 1)/h
+  const double both = r + along, inverse = 1.0 / (r * both), per_r = both * inverse;
+  const double cosine = along * per_r, spin = turn * per_r;  // sin(theta) = h spin
+  const double shrink = -h * turn * turn * inverse;          // (cos(theta) - 1)/h
   return {
       cosine * a.xx + shrink * q.u11 + spin * (q.u12 + h * a.yx),
       cosine * a.yy + shrink * q.u22 - spin * (q.u12 + h * a.xy),
@@ -58,7 +64,7 @@ EDDA_INLINE StrainTerms strain_rate_over(const StrainFrame& q, const Deformation
 /// P for nodal forces -V P G_k whose power is -V s : dU/dt in every motion. It is R s only where s
 /// and U have the same principal axes; otherwise R s would make a torque.
 EDDA_INLINE Deformation stress_on_rate(const StrainFrame& q, const StrainTerms& s) {
-  const double turn = ((s.xx - s.yy) * q.u12 + s.xy * (q.u22 - q.u11)) / q.trace;
+  const double turn = ((s.xx - s.yy) * q.u12 + s.xy * (q.u22 - q.u11)) * q.per_trace;
   const double s12 = s.xy - turn, s21 = s.xy + turn;
   return {q.c * s.xx - q.s * s21, q.c * s12 - q.s * s.yy, q.s * s.xx + q.c * s21,
           q.s * s12 + q.c * s.yy};

@@ -1,15 +1,18 @@
 // One list of fields, read in two ways. A function template `list(archive, object)` names every
-// field of an object once; Saver copies them into a Record, Loader back out of it. So the fields
-// written and the fields read can never differ.
+// field of an object once; Saver passes them to a RecordSink, Loader takes them out of a Record. So
+// the fields written and the fields read can never differ.
 #pragma once
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "base/columns.hpp"
 #include "checkpoint/record.hpp"
 
 namespace edda {
@@ -34,22 +37,33 @@ struct Kept<bool, false> {
 
 class Saver {
  public:
-  explicit Saver(Record& record) : record_(record) {}
+  explicit Saver(RecordSink& sink) : sink_(sink) {}
   static constexpr bool loads = false;
 
   template <class T>
   void operator()(const std::string& name, const std::vector<T>& values) {
     using K = typename archive::Kept<T>::type;
-    std::vector<K> kept;
-    kept.reserve(values.size());
-    for (const T& v : values) kept.push_back(static_cast<K>(v));
-    record_[name] = std::move(kept);
+    if constexpr (std::is_same_v<T, K>) {
+      sink_.put(name, std::span<const K>(values));
+    } else {
+      std::vector<K> kept;
+      kept.reserve(values.size());
+      for (const T& v : values) kept.push_back(static_cast<K>(v));
+      sink_.put(name, std::span<const K>(kept));
+    }
+  }
+  void operator()(const std::string& name, const ChunkColumn& column) {
+    column_.resize(column.size());
+    for (std::size_t row = 0; row < column.size(); ++row) column_[row] = column[row];
+    sink_.put(name, std::span<const double>(column_));
   }
   template <class T, std::size_t n>
   void operator()(const std::string& name, const std::array<std::vector<T>, n>& values) {
     for (std::size_t k = 0; k < n; ++k) (*this)(name + std::to_string(k), values[k]);
   }
-  void operator()(const std::string& name, const std::string& text) { record_[name] = text; }
+  void operator()(const std::string& name, const std::string& text) {
+    sink_.put(name, std::string_view(text));
+  }
   template <class T>
   void operator()(const std::string& name, const std::optional<T>& value) {
     (*this)(name, value ? std::vector<T>{*value} : std::vector<T>{});
@@ -58,11 +72,13 @@ class Saver {
   requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void operator()(const std::string& name,
                                                                          const T& value) {
     using K = typename archive::Kept<T>::type;
-    record_[name] = std::vector<K>{static_cast<K>(value)};
+    const K kept = static_cast<K>(value);
+    sink_.put(name, std::span<const K>(&kept, 1));
   }
 
  private:
-  Record& record_;
+  RecordSink& sink_;
+  std::vector<double> column_;  ///< one after the other in the same memory
 };
 
 class Loader {
@@ -83,6 +99,12 @@ class Loader {
     values.clear();
     values.reserve(kept->size());
     for (const K v : *kept) values.push_back(static_cast<T>(v));
+  }
+  void operator()(const std::string& name, ChunkColumn& column) {
+    const std::vector<double>* kept = find<std::vector<double>>(name);
+    if (kept == nullptr) return;
+    if (kept->size() != column.size()) return note(name + " has another size");
+    column.take(*kept);
   }
   template <class T, std::size_t n>
   void operator()(const std::string& name, std::array<std::vector<T>, n>& values) {

@@ -4,10 +4,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "results/sha256.hpp"
 
@@ -38,16 +42,6 @@ bool take(std::string_view& text, std::string_view start) {
   return true;
 }
 
-int write_all(int file, std::string_view content) {
-  while (!content.empty()) {
-    const ssize_t n = ::write(file, content.data(), content.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return errno;
-    content.remove_prefix(static_cast<std::size_t>(n));
-  }
-  return 0;
-}
-
 int sync_folder(const std::string& folder) {
   const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (handle < 0) return errno;
@@ -56,25 +50,105 @@ int sync_folder(const std::string& folder) {
   return error;
 }
 
-/// The sealed image in a file, on the disk. Returns an error number, 0: none.
-int write_part(const std::string& part, std::string_view image) {
-  const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) return errno;
-  int error = write_all(file, seal(image));
-  if (error == 0) error = write_all(file, image);
-  if (error == 0 && ::fsync(file) != 0) error = errno;
-  if (::close(file) != 0 && error == 0) error = errno;
-  return error;
-}
+/// A checkpoint on its way to the disk, beside its place. Removed unless it is put there.
+class Part : public ImageBytes {
+ public:
+  explicit Part(const std::string& path)
+      : path_(path),
+        part_(path + ".part"),
+        file_(::open(part_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+    if (file_ < 0) error_ = errno;
+  }
+  Part(const Part&) = delete;
+  Part& operator=(const Part&) = delete;
+  ~Part() override {
+    if (file_ >= 0) ::close(file_);
+    if (!in_place_) std::remove(part_.c_str());
+  }
 
-/// Renames the temporary file, unless there was an error.
-Trouble put_in_place(const std::string& folder, const std::string& path, const std::string& part,
-                     int error) {
-  if (error == 0 && std::rename(part.c_str(), path.c_str()) != 0) error = errno;
-  if (error == 0) error = sync_folder(folder);
-  if (error == 0) return {};
-  std::remove(part.c_str());
-  return cannot_write(path, error);
+  bool good() const noexcept override { return error_ == 0; }
+  std::uint64_t size() const noexcept override { return size_; }
+  bool read(std::uint64_t from, std::span<char> into) const noexcept override {
+    while (!into.empty()) {
+      const ssize_t n =
+          ::pread(file_, into.data(), into.size(), static_cast<off_t>(envelope_size + from));
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) return false;
+      from += static_cast<std::uint64_t>(n);
+      into = into.subspan(static_cast<std::size_t>(n));
+    }
+    return true;
+  }
+  void write(std::uint64_t from, std::string_view bytes) noexcept override {
+    size_ = std::max(size_, from + bytes.size());
+    write_at(envelope_size + from, bytes);
+  }
+  void resize(std::uint64_t size) noexcept override {
+    size_ = size;
+    if (error_ == 0 && ::ftruncate(file_, static_cast<off_t>(envelope_size + size)) != 0)
+      error_ = errno;
+  }
+
+  /// Puts the user block before the image, and all of it on the disk.
+  void seal_and_sync() {
+    const std::string hash = hash_of_image();
+    write_at(0, seal(size_, hash));
+    if (error_ == 0 && ::fsync(file_) != 0) error_ = errno;
+    if (file_ >= 0 && ::close(file_) != 0 && error_ == 0) error_ = errno;
+    file_ = -1;
+  }
+  /// Moves the file to its place; what was there goes to `former`, where that is not empty.
+  Trouble put_in_place(const std::string& folder, const std::string& former) {
+    if (error_ == 0 && !former.empty() && ::access(path_.c_str(), F_OK) == 0 &&
+        std::rename(path_.c_str(), former.c_str()) != 0) {
+      error_ = errno;
+    }
+    if (error_ == 0 && std::rename(part_.c_str(), path_.c_str()) != 0) error_ = errno;
+    in_place_ = error_ == 0;
+    if (error_ == 0) error_ = sync_folder(folder);
+    return error_ == 0 ? Trouble{} : cannot_write(path_, error_);
+  }
+
+ private:
+  /// Of the bytes as the file has them: HDF5 does not write them in their order.
+  std::string hash_of_image() {
+    Sha256 hash;
+    std::vector<char> piece(std::size_t{1} << 20);
+    for (std::uint64_t from = 0; from < size_ && error_ == 0;) {
+      const std::size_t n = std::min<std::uint64_t>(piece.size(), size_ - from);
+      if (!read(from, std::span(piece).first(n))) error_ = EIO;
+      hash.add({piece.data(), n});
+      from += n;
+    }
+    return hash.digits();
+  }
+  void write_at(std::uint64_t from, std::string_view bytes) noexcept {
+    while (error_ == 0 && !bytes.empty()) {
+      const ssize_t n = ::pwrite(file_, bytes.data(), bytes.size(), static_cast<off_t>(from));
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) {
+        error_ = errno;
+        return;
+      }
+      from += static_cast<std::uint64_t>(n);
+      bytes.remove_prefix(static_cast<std::size_t>(n));
+    }
+  }
+
+  std::string path_, part_;
+  int file_;
+  int error_ = 0;
+  std::uint64_t size_ = 0;  ///< of the image
+  bool in_place_ = false;
+};
+
+/// Writes the sealed image to `path`; what was there goes to `former`, where that is not empty.
+Trouble write_sealed(const std::string& folder, const std::string& path, const std::string& former,
+                     const WriteImage& image) {
+  Part part(path);
+  if (part.good()) image(part);
+  part.seal_and_sync();
+  return part.put_in_place(folder, former);
 }
 
 Result<std::string> read_sealed(const std::string& path) {
@@ -86,14 +160,15 @@ Result<std::string> read_sealed(const std::string& path) {
     fault.where.file = path;
     return fault;
   }
-  return std::string(image.value());
+  file.value().erase(0, envelope_size);
+  return file;
 }
 
 }  // namespace
 
-std::string seal(std::string_view image) {
+std::string seal(std::uint64_t length, const std::string& hash) {
   std::string block(magic);
-  block += fmt::format("length {}\nsha256 {}\n", image.size(), sha256(image));
+  block += fmt::format("length {}\nsha256 {}\n", length, hash);
   block.resize(envelope_size, '\0');
   return block;
 }
@@ -119,20 +194,13 @@ Result<std::string_view> open_sealed(std::string_view file) {
   return image;
 }
 
-Trouble write_checkpoint(const std::string& folder, std::string_view image) {
-  const std::string part = current(folder) + ".part";
-  int error = write_part(part, image);
-  if (error == 0 && ::access(current(folder).c_str(), F_OK) == 0 &&
-      std::rename(current(folder).c_str(), former(folder).c_str()) != 0) {
-    error = errno;
-  }
-  return put_in_place(folder, current(folder), part, error);
+Trouble write_checkpoint(const std::string& folder, const WriteImage& image) {
+  return write_sealed(folder, current(folder), former(folder), image);
 }
 
 Trouble write_stage_checkpoint(const std::string& folder, std::size_t stage,
-                               std::string_view image) {
-  const std::string path = of_stage(folder, stage), part = path + ".part";
-  return put_in_place(folder, path, part, write_part(part, image));
+                               const WriteImage& image) {
+  return write_sealed(folder, of_stage(folder, stage), {}, image);
 }
 
 Result<std::string> read_stage_checkpoint(const std::string& folder, std::size_t stage) {

@@ -2,8 +2,13 @@
 
 #include <hdf5.h>
 
+#include <cstring>
 #include <new>
+#include <span>
+#include <string>
 #include <utility>
+
+#include "checkpoint/image_driver.hpp"
 
 namespace edda {
 namespace {
@@ -11,13 +16,14 @@ namespace {
 /// Closes what HDF5 has opened.
 class Handle {
  public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Handle(hid_t id, herr_t (*closing)(hid_t)) : id_(id), close_(closing) {}
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   ~Handle() {
     if (id_ >= 0) close_(id_);
   }
   hid_t id() const { return id_; }
+  herr_t close() { return close_(std::exchange(id_, hid_t{-1})); }
   bool ok() const { return id_ >= 0; }
 
  private:
@@ -52,15 +58,26 @@ void be_quiet() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-/// A file that lives in memory alone, growing by so many bytes at a time.
-Handle in_memory(std::size_t grow) {
-  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-  H5Pset_fapl_core(access, grow, false);
-  return {access, H5Pclose};
-}
+/// Bytes in memory, to read.
+class Given : public ImageBytes {
+ public:
+  explicit Given(std::string_view bytes) : bytes_(bytes) {}
+  bool good() const noexcept override { return true; }
+  std::uint64_t size() const noexcept override { return bytes_.size(); }
+  bool read(std::uint64_t from, std::span<char> into) const noexcept override {
+    if (from > bytes_.size() || into.size() > bytes_.size() - from) return false;
+    std::memcpy(into.data(), bytes_.data() + from, into.size());
+    return true;
+  }
+  void write(std::uint64_t, std::string_view) noexcept override {}
+  void resize(std::uint64_t) noexcept override {}
+
+ private:
+  std::string_view bytes_;
+};
 
 template <class Values>
-bool put(hid_t file, const std::string& name, const Values& values) {
+bool put_set(hid_t file, const std::string& name, const Values& values) {
   const hsize_t size = values.size();
   const hid_t type = type_of(typename Values::value_type{});
   const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
@@ -70,6 +87,22 @@ bool put(hid_t file, const std::string& name, const Values& values) {
   return set.ok() &&
          (size == 0 || H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0);
 }
+
+/// Makes each entry a data set.
+class IntoFile : public RecordSink {
+ public:
+  IntoFile(hid_t file, const ImageBytes& image) : file_(file), image_(image) {}
+  bool complete() const { return complete_; }
+  void put(const std::string& name, RecordView value) override {
+    if (!complete_ || !image_.good()) return;
+    complete_ = std::visit([&](const auto& v) { return put_set(file_, name, v); }, value);
+  }
+
+ private:
+  hid_t file_;
+  const ImageBytes& image_;
+  bool complete_ = true;
+};
 
 template <class Values>
 bool get(hid_t set, hid_t type, hsize_t size, RecordValue& into) {
@@ -121,34 +154,20 @@ herr_t read_one(hid_t file, const char* name, const H5L_info_t*, void* data) {
 
 }  // namespace
 
-std::string to_hdf5(const Record& record) {
+void write_hdf5(ImageBytes& image, const std::function<void(RecordSink&)>& list) {
   be_quiet();
-  std::size_t bytes = 0;
-  for (const auto& [name, value] : record) {
-    bytes += std::visit([](const auto& v) { return v.size() * sizeof(v[0]); }, value);
-  }
-  const Handle access = in_memory(std::max<std::size_t>(1 << 16, bytes / 8));
-  const Handle file(H5Fcreate("checkpoint", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
-  bool good = file.ok();
-  for (const auto& entry : record) {
-    good = good &&
-           std::visit([&](const auto& v) { return put(file.id(), entry.first, v); }, entry.second);
-  }
-  good = good && H5Fflush(file.id(), H5F_SCOPE_GLOBAL) >= 0;
-  const ssize_t size = good ? H5Fget_file_image(file.id(), nullptr, 0) : -1;
-  if (size < 0) throw std::bad_alloc();
-  std::string image(static_cast<std::size_t>(size), '\0');
-  if (H5Fget_file_image(file.id(), image.data(), image.size()) < 0) throw std::bad_alloc();
-  return image;
+  const Handle access(access_to(image), H5Pclose);
+  Handle file(H5Fcreate("checkpoint", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
+  IntoFile sink(file.id(), image);
+  if (file.ok()) list(sink);
+  const bool complete = file.ok() && sink.complete() && file.close() >= 0;
+  if (!complete && image.good()) throw std::bad_alloc();
 }
 
 Result<Record> from_hdf5(std::string_view image) {
   be_quiet();
-  const Handle access = in_memory(1 << 16);
-  // The library only copies the image. NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
-  if (H5Pset_file_image(access.id(), const_cast<char*>(image.data()), image.size()) < 0) {
-    return unreadable("it is no HDF5 file");
-  }
+  Given bytes(image);
+  const Handle access(access_to(bytes), H5Pclose);
   const Handle file(H5Fopen("checkpoint", H5F_ACC_RDONLY, access.id()), H5Fclose);
   if (!file.ok()) return unreadable("it is no HDF5 file");
   Reading reading;

@@ -31,6 +31,41 @@ bool lies_in(const BlockSet& b, const Pose& pose, Vec2 p, Id block) {
   return inside_of(b, pose, p, block).depth > 0.0;
 }
 
+/// Calls visit(i) for the blocks that face block j, until one of the calls returns true.
+template <class Visit>
+bool any_neighbour(const FaceSet& c, const BlockSet& b, Id j, Visit visit) {
+  bool found = false;
+  c.for_faces(b.vertex_begin[j], b.vertex_begin[j + 1], [&](Id q, bool of_edge) {
+    found = found || visit(b.vertex_block[of_edge ? c.facing[q] : c.edge[q]]);
+  });
+  return found;
+}
+std::size_t faces_of(const FaceSet& c, const BlockSet& b, Id j) {
+  return c.begin_of_edge[b.vertex_begin[j + 1]] - c.begin_of_edge[b.vertex_begin[j]];
+}
+
+/// Whether `meets` holds for one of the blocks that face one of these two. Of a block with very
+/// many faces, such as the floor of a model, only those count that also face a neighbour of the
+/// other.
+template <class Meets>
+bool any_third_block(const FaceSet& c, const BlockSet& b, const std::array<Id, 2>& own,
+                     Meets meets) {
+  constexpr std::size_t many = 256;
+  const auto third = [&](Id i) { return i != own[0] && i != own[1] && meets(i); };
+  for (std::size_t n = 0; n < own.size(); ++n) {
+    const Id j = own[n], other = own[1 - n];
+    if (faces_of(c, b, j) <= many) {
+      if (any_neighbour(c, b, j, third)) return true;
+    } else if (faces_of(c, b, other) <= many) {
+      if (any_neighbour(c, b, other, [&](Id i) {
+            return i != j && faces_of(c, b, i) <= many && any_neighbour(c, b, i, third);
+          }))
+        return true;
+    }
+  }
+  return false;
+}
+
 /// Whether the corner that bounds the end of larger closure leans on the other edge, that is,
 /// whether no third block lies beside it between the two edges. Where one does, as at a point where
 /// five wedges meet, the exact integral of the pressure holds and the corner has no spring of its
@@ -41,16 +76,8 @@ bool corner_leans(const FaceSet& c, const BlockSet& b, const Pose& pose, const F
   const Opposite points =
       opposite_at(at, face, face.closure.b >= face.closure.a ? 1.0 - beside : beside);
   const Vec2 between = 0.5 * (points.on_edge + points.on_facing);
-  const Id own[2] = {b.vertex_block[c.edge[k]], b.vertex_block[c.facing[k]]};
-  for (const Id j : own) {
-    bool third = false;
-    c.for_faces(b.vertex_begin[j], b.vertex_begin[j + 1], [&](Id q, bool of_edge) {
-      const Id i = b.vertex_block[of_edge ? c.facing[q] : c.edge[q]];
-      third = third || (i != own[0] && i != own[1] && lies_in(b, pose, between, i));
-    });
-    if (third) return false;
-  }
-  return true;
+  const std::array own{b.vertex_block[c.edge[k]], b.vertex_block[c.facing[k]]};
+  return !any_third_block(c, b, own, [&](Id i) { return lies_in(b, pose, between, i); });
 }
 
 }  // namespace

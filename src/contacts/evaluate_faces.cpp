@@ -7,8 +7,8 @@
 #include "base/parallel.hpp"
 #include "contacts/activity.hpp"
 #include "contacts/face_bonds.hpp"
+#include "contacts/face_columns.hpp"
 #include "contacts/face_energy.hpp"
-#include "contacts/face_step.hpp"
 
 namespace edda {
 namespace {
@@ -21,6 +21,7 @@ struct AllFaces {
   const double *point_inverse, *edge_inverse;
   double step;
   const double *limit_a, *limit_b;
+  bool decided;  ///< activity has been decided, and bonds have been broken, at these positions
 };
 AllFaces all_faces(const FaceSet& c, const FaceScene& scene, double step,
                    const ShearLimits* limits = nullptr) {
@@ -36,7 +37,8 @@ AllFaces all_faces(const FaceSet& c, const FaceScene& scene, double step,
           scene.masses.edge_inverse.data(),
           step,
           limits == nullptr ? nullptr : limits->a.data(),
-          limits == nullptr ? nullptr : limits->b.data()};
+          limits == nullptr ? nullptr : limits->b.data(),
+          false};
 }
 
 /// Addresses of the data of a chunk.
@@ -70,7 +72,7 @@ EDDA_INLINE FaceView view_of(const AllFaces& all, const ChunkPlace& at) {
   v.noise = all.noise;
   v.point_inverse = all.point_inverse;
   v.edge_inverse = all.edge_inverse;
-  v.step = all.step;
+  v.per_step = 1.0 / all.step;
   v.limit_a = all.limit_a;
   v.limit_b = all.limit_b;
   v.now = columns_of_chunk<FaceFields<double*>, face_fields<double*>>(at.now);
@@ -79,42 +81,46 @@ EDDA_INLINE FaceView view_of(const AllFaces& all, const ChunkPlace& at) {
   return v;
 }
 
-/// What evaluating a chunk has found: whether any of its faces has the flag (see FaceResult), and
-/// the largest depth.
+/// What evaluating a chunk has found: whether any of its faces has the flag (see FaceStep), and the
+/// largest depth.
 struct ChunkResult {
-  bool needs_decision, switching, works, rare;
+  bool decides, switching, works, rare;
   double deepest;
 };
 
 template <bool dashpots, bool limits_given, bool plain>
-EDDA_INLINE void evaluate_into(const FaceView& c, std::size_t k, double& asking, double& switching,
-                               double& working, double& rare, double& deepest) {
-  const FaceResult result = evaluate_one<dashpots, limits_given, plain>(c, k);
-  c.force[8 * k + 0] = result.force.p1.x;
-  c.force[8 * k + 1] = result.force.p1.y;
-  c.force[8 * k + 2] = result.force.p2.x;
-  c.force[8 * k + 3] = result.force.p2.y;
-  c.force[8 * k + 4] = result.force.q1.x;
-  c.force[8 * k + 5] = result.force.q1.y;
-  c.force[8 * k + 6] = result.force.q2.x;
-  c.force[8 * k + 7] = result.force.q2.y;
-  asking = larger(asking, result.needs_decision);
-  switching = larger(switching, result.switching);
-  working = larger(working, result.works);
-  rare = larger(rare, result.rare);
-  deepest = larger(deepest, result.depth);
+EDDA_INLINE void evaluate_into(const FaceView& c, std::size_t k, double& deciding,
+                               double& switching, double& working, double& rare, double& deepest) {
+  const FaceInputs in = inputs_of<dashpots, limits_given>(c, k);
+  const EdgeGeometry stands = geometry_of_edges(in.at, in.pair);
+  const Face face = face_between<plain>(in.at, in.pair, stands);
+  const FaceStep s = step_of_face<dashpots, limits_given, plain>(in, stands, face);
+  write_face<dashpots>(c, face, s, k);
+  c.force[8 * k + 0] = s.force.p1.x;
+  c.force[8 * k + 1] = s.force.p1.y;
+  c.force[8 * k + 2] = s.force.p2.x;
+  c.force[8 * k + 3] = s.force.p2.y;
+  c.force[8 * k + 4] = s.force.q1.x;
+  c.force[8 * k + 5] = s.force.q1.y;
+  c.force[8 * k + 6] = s.force.q2.x;
+  c.force[8 * k + 7] = s.force.q2.y;
+  deciding = larger(deciding, s.decides ? 1.0 : 0.0);
+  switching = larger(switching, s.switching ? 1.0 : 0.0);
+  working = larger(working, s.works ? 1.0 : 0.0);
+  rare = larger(rare, s.rare ? 1.0 : 0.0);
+  deepest = larger(deepest, s.depth);
 }
 
 /// Evaluates all rows of a chunk.
 template <bool dashpots, bool plain>
 EDDA_INLINE ChunkResult evaluate_rows(const AllFaces& all, const ChunkPlace& at) {
   const FaceView c = view_of(all, at);
-  double asking = 0.0, switching = 0.0, working = 0.0, rare = 0.0, deepest = 0.0;
-#pragma omp simd reduction(max : asking, switching, working, rare, deepest)
+  double deciding = 0.0, switching = 0.0, working = 0.0, rare = 0.0, deepest = 0.0;
+#pragma omp simd reduction(max : deciding, switching, working, rare, deepest)
   for (std::size_t k = 0; k < FaceSet::chunk; ++k) {
-    evaluate_into<dashpots, false, plain>(c, k, asking, switching, working, rare, deepest);
+    evaluate_into<dashpots, false, plain>(c, k, deciding, switching, working, rare, deepest);
   }
-  return {asking > 0.0, switching > 0.0, working > 0.0, rare > 0.0, deepest};
+  return {deciding > 0.0, switching > 0.0, working > 0.0, rare > 0.0, deepest};
 }
 EDDA_VECTOR ChunkResult evaluate_undamped(const AllFaces& all, const ChunkPlace& at) {
   return evaluate_rows<false, false>(all, at);
@@ -134,15 +140,21 @@ template <bool dashpots, bool limits_given>
 ChunkResult evaluate_rows(const AllFaces& all, const ChunkPlace& at, std::size_t first,
                           std::size_t last) {
   const FaceView c = view_of(all, at);
-  double asking = 0.0, switching = 0.0, working = 0.0, rare = 0.0, deepest = 0.0;
+  double deciding = 0.0, switching = 0.0, working = 0.0, rare = 0.0, deepest = 0.0;
   for (std::size_t k = first; k < last; ++k) {
-    evaluate_into<dashpots, limits_given, false>(c, k, asking, switching, working, rare, deepest);
+    evaluate_into<dashpots, limits_given, false>(c, k, deciding, switching, working, rare, deepest);
   }
-  return {asking > 0.0, switching > 0.0, working > 0.0, rare > 0.0, deepest};
+  return {deciding > 0.0, switching > 0.0, working > 0.0, rare > 0.0, deepest};
 }
 
-/// Whether one of the faces of a chunk that have carried no load for two steps needs more than its
-/// geometry updated.
+/// Updates the geometry of a face that has carried no load for two steps. Returns whether it needs
+/// more than that.
+EDDA_INLINE bool may_close(const FaceView& c, std::size_t k) {
+  const OpenFace s = look_at_open_face(inputs_of<false, false>(c, k));
+  write_open_face(c, s, k);
+  return s.may_close;
+}
+/// The same for a chunk.
 EDDA_VECTOR bool chunk_may_close(const AllFaces& all, const ChunkPlace& at) {
   const FaceView c = view_of(all, at);
   double switching = 0.0;
@@ -206,11 +218,16 @@ ChunkResult evaluate_part(FaceSet& c, const AllFaces& all, std::size_t first, st
 ChunkResult evaluate_with_laws(FaceSet& c, const AllFaces& all, const FaceScene& scene,
                                std::size_t first, std::size_t last) {
   ChunkResult found = evaluate_part(c, all, first, last);
-  if (found.needs_decision) {
+  if (all.decided) return found;
+  if (found.decides) {
     const FaceView view = view_of(all, chunk_place(c, first / FaceSet::chunk));
     bool changes = false;
     for (std::size_t k = first; k < last; ++k) {
-      if (needs_decision(view, k % FaceSet::chunk) &&
+      const std::size_t row = k % FaceSet::chunk;
+      const FaceEnds drawn{view.now.closure_a[row] - view.locked_closure_a[row],
+                           view.now.closure_b[row] - view.locked_closure_b[row]};
+      if (needs_decision(inputs_of<false, false>(view, row), view.now.gate[row] > 0.0, drawn,
+                         view.now.energy[row] > 0.0) &&
           decide_activity(c, scene.blocks, scene.pose, k))
         changes = true;
     }
@@ -286,22 +303,28 @@ void end_step(FaceSet& c, bool dashpots) {
                         dashpots);
     }
   });
-  for (std::size_t q = 0; q < c.chunks(); ++q) {
-    if (c.chunk_fails[q] == 0) continue;
-    c.chunk_fails[q] = 0;
-    for (std::size_t k = q * FaceSet::chunk; k < std::min((q + 1) * FaceSet::chunk, c.size());
-         ++k) {
-      if (c.failure[k] == bond_breaks) ++c.broken;
-      c.failure[k] = 0.0;
-    }
-  }
+  count_failures(c);
   std::swap(c.now, c.before);
 }
 
 }  // namespace
 
+void count_failures(FaceSet& c) {
+  c.for_failures([&](std::size_t k) {
+    if (c.failure[k] == bond_breaks) ++c.broken;
+    c.failure[k] = 0.0;
+  });
+  std::fill(c.chunk_fails.begin(), c.chunk_fails.end(), std::uint8_t{0});
+}
+
 void evaluate_faces(FaceSet& c, const FaceScene& scene, double step) {
   evaluate_all(c, all_faces(c, scene, step), scene);
+}
+
+void evaluate_as_decided(FaceSet& c, const FaceScene& scene, double step) {
+  AllFaces all = all_faces(c, scene, step);
+  all.decided = true;
+  evaluate_all(c, all, scene);
 }
 
 void evaluate_with_limits(FaceSet& c, const FaceScene& scene, double step,
@@ -324,25 +347,6 @@ void evaluate_face(FaceSet& c, const FaceScene& scene, double step, std::size_t 
   if (found.works) c.now.inactive[q] = 0;
 }
 
-void correct_last_step(FaceSet& c, const BlockSet& b, const Pose& pose,
-                       const std::vector<double>& old_x1, const std::vector<double>& old_y1) {
-  FaceMemory& m = c.before;
-  std::fill(m.inactive.begin(), m.inactive.end(), std::uint8_t{0});
-  parallel_for(c.size(), [&](std::size_t k) {
-    const FaceEnds offset{c.locked_closure_a[k], c.locked_closure_b[k]};
-    const Face now = face_at(c, b, pose.x, pose.y, k), then = face_at(c, b, pose.x1, pose.y1, k);
-    const FaceEnds was = motion_of(now, offset, face_points(c, old_x1, old_y1, k)).slip;
-    const FaceEnds is = motion_of(now, offset, face_points(c, pose.x1, pose.y1, k)).slip;
-    // Ends that stick keep their force; ends that slide slip at the new velocity.
-    if (c.now.slip_a[k] == c.now.trial_a[k]) m.slip_a[k] += was.a - is.a;
-    if (c.now.slip_b[k] == c.now.trial_b[k]) m.slip_b[k] += was.b - is.b;
-    m.closure_a[k] = then.closure.a;
-    m.closure_b[k] = then.closure.b;
-    m.energy[k] = then.energy;
-    m.gate[k] = std::max(m.gate[k], then.gate);
-  });
-}
-
 void next_step(FaceSet& c) {
   end_step(c, c.dashpots);
 }
@@ -360,39 +364,6 @@ Face face_at(const FaceSet& c, const BlockSet& b, const std::vector<double>& x,
              const std::vector<double>& y, std::size_t k) {
   return face_between(face_points(c, x, y, k),
                       face_pair(c, b.exterior_cosine.data(), b.exterior_sine.data(), k));
-}
-
-CornerForces recompute_shear(FaceSet& c, const Face& face, const FacePoints& at,
-                             const FacePoints& then, double alpha, std::size_t k) {
-  FaceMemory& m = c.before;
-  const FaceEnds here = motion_of(face, {c.locked_closure_a[k], c.locked_closure_b[k]}, then).slip;
-  const double spring = m.spring[k], cohesion = 0.5 * c.cohesion[k] * face.cohesive;
-  const auto again = [&](double normal, double trial, double slipped, double& force, double& slip) {
-    const double limit = std::max(cohesion + c.friction[k] * normal, 0.0);
-    const Shear next =
-        cut(trial, spring, inverse_of(spring), c.bonded[k] > 0.0 ? unlimited_shear : limit);
-    // As lost(), for a change of T_n alone: the work of T_{n-1} stays as it was, and kept u_{n-1}
-    // is u_tr - slipped.
-    const auto taken = [&](const Shear& s) {
-      const double all = -0.5 * s.force * (slipped - s.slip);
-      const double slip_so_far = 0.5 * spring * (trial - s.slip) * (s.slip + trial - slipped);
-      const double friction = std::max(slip_so_far, 0.0);
-      return Lost{friction, all - friction};
-    };
-    const Lost was = taken({force, slip}), is = taken(next);
-    c.friction_work[k] += is.friction - was.friction;
-    c.transfer[k] += is.transfer - was.transfer;
-    force = next.force;
-    slip = next.slip;
-  };
-  again(alpha * face.normal.a + m.damping_a[k], m.trial_a[k], here.a, m.shear_a[k], m.slip_a[k]);
-  again(alpha * face.normal.b + m.damping_b[k], m.trial_b[k], here.b, m.shear_b[k], m.slip_b[k]);
-  CornerForces force = end_forces(at, face, {}, {m.shear_a[k], m.shear_b[k]});
-  force.p1 += alpha * face.force.p1;
-  force.p2 += alpha * face.force.p2;
-  force.q1 += alpha * face.force.q1;
-  force.q2 += alpha * face.force.q2;
-  return force;
 }
 
 }  // namespace edda

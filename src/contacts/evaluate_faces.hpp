@@ -22,7 +22,10 @@ struct FaceScene {
 /// be called again for other positions of the same step. step: from n - 1 to n, s, for dashpots.
 void evaluate_faces(FaceSet& faces, const FaceScene& scene, double step);
 
-/// The same for one face.
+/// The same where all has been decided at these positions: fills `now` and the forces alone.
+void evaluate_as_decided(FaceSet& faces, const FaceScene& scene, double step);
+
+/// evaluate_faces() for one face.
 void evaluate_face(FaceSet& faces, const FaceScene& scene, double step, std::size_t k);
 
 /// Limits of the shear forces at the ends of the faces for a whole step of the implicit method, N.
@@ -43,6 +46,9 @@ void correct_last_step(FaceSet& faces, const BlockSet& blocks, const Pose& pose,
 /// Makes the state of this step final: adds its work to the accumulated work and swaps `now` and
 /// `before`, so that `before` is that of step n. Call before the next step's evaluate_faces().
 void next_step(FaceSet& faces);
+
+/// Counts the bonds that broke in this step, and ends their failure.
+void count_failures(FaceSet& faces);
 
 /// As next_step(), for a method that starts every step from the end of the last one: `now` and
 /// `before` are both those of step n.

@@ -85,20 +85,16 @@ EDDA_INLINE void push_bounds(FrameForces& on, FaceEnds of_first, FaceEnds f) {
 
 /// Forces on the corners in x and y. `on` are those at a fixed direction of the frame, and have a
 /// moment. The frame rotates with both edges; the gradient of U therefore has a couple on each
-/// edge, too, and with these couples no moment remains.
-EDDA_INLINE CornerForces on_corners(const FrameForces& on, const FacePoints& at, const Face& face) {
+/// edge, too, and with these couples no moment remains. c: the corners in the frame.
+EDDA_INLINE CornerForces on_corners(const FrameForces& on, const EdgeCoordinates& c,
+                                    const Face& face) {
+  // Of the force that turns t towards n.
+  const double moment = c.s2 * on.p2n - c.y2 * on.p2t + (c.r1 * on.q1n - c.z1 * on.q1t) +
+                        (c.r2 * on.q2n - c.z2 * on.q2t);
+  const double e = moment * face.inverse_e, f = moment * face.inverse_f;
   const Vec2 t = face.t, n = outward_normal(t);
-  CornerForces force{on.p1t * t + on.p1n * n, on.p2t * t + on.p2n * n, on.q1t * t + on.q1n * n,
-                     on.q2t * t + on.q2n * n};
-  const Vec2 p = at.p1;
-  const double moment =
-      cross(at.p2 - p, force.p2) + cross(at.q1 - p, force.q1) + cross(at.q2 - p, force.q2);
-  const Vec2 e = (moment * face.inverse_e) * n, f = (moment * face.inverse_f) * n;
-  force.p1 -= e;
-  force.p2 += e;
-  force.q1 += f;
-  force.q2 -= f;
-  return force;
+  return {on.p1t * t + (on.p1n + e) * n, on.p2t * t + (on.p2n - e) * n,
+          on.q1t * t + (on.q1n - f) * n, on.q2t * t + (on.q2n + f) * n};
 }
 
 /// Aspect gate w with its derivatives.
@@ -142,14 +138,15 @@ template <bool plain>
 EDDA_INLINE EndWeight end_weight(const EdgeGeometry& o, const OverlapEnds& v, const FacePair& pair,
                                  FaceEnds closure, EdgeAngle angle) {
   const bool deep_b = closure.b >= closure.a;
-  const Id at_a = v.a_by_p ? pair.p1 : pair.q2, at_b = v.b_by_p ? pair.p2 : pair.q1;
   const double c = angle.cosine, tilt = std::abs(angle.sine);
-  CornerWeight mean = corner_weight(pair.turn(deep_b ? at_b : at_a), c, tilt);
+  const bool by_p = (deep_b & v.b_by_p) | (!deep_b & v.a_by_p);
+  const Vec2 turn_p = either(deep_b, pair.turn_p2, pair.turn_p1),
+             turn_q = either(deep_b, pair.turn_q1, pair.turn_q2);
+  CornerWeight mean = corner_weight(either(by_p, turn_p, turn_q), c, tilt);
   const double past = deep_b ? o.s2 - o.r1 : -o.r2;
   double by_passing = 0.0;
   if constexpr (!plain) {
-    const Id past_a = v.a_by_p ? pair.q2 : pair.p1, past_b = v.b_by_p ? pair.q1 : pair.p2;
-    const CornerWeight other = corner_weight(pair.turn(deep_b ? past_b : past_a), c, tilt);
+    const CornerWeight other = corner_weight(either(by_p, turn_q, turn_p), c, tilt);
     const SmoothStep passing = smooth_step(1.0 - std::abs(past) * v.per_passing);
     const bool more = other.value > mean.value;
     const double mixed = more ? passing.value : 0.0;
@@ -250,7 +247,7 @@ EDDA_INLINE void press(Face& face, const EdgeGeometry& o, const OverlapEnds& v,
 /// couples on the edges e = p2 - p1 and f = q2 - q1, with the force by_c f + by_s perp(f) on p2 and
 /// by_c e - by_s perp(e) on q2 and the opposite forces on p1 and q1, perp(v) = (v.y, -v.x).
 EDDA_INLINE void rotate_edges(FrameForces& on, const EdgeGeometry& o, double by_c, double by_s) {
-  const double ey = o.slope_e * o.s2, fs = o.r2 - o.r1, fy = o.slope_f * fs;
+  const double ey = o.y2, fs = o.r2 - o.r1, fy = o.z2 - o.z1;
   const double turn_et = by_c * fs - by_s * fy, turn_en = by_c * fy + by_s * fs;
   const double turn_ft = by_c * o.s2 + by_s * ey, turn_fn = by_c * ey - by_s * o.s2;
   on.p1t -= turn_et;
@@ -295,7 +292,7 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair, const 
   press<plain>(face, o, v, u);
   if constexpr (!plain) push_past(face.pressure, u.by_past, face.closure.b >= face.closure.a);
   rotate_edges(face.pressure, o, u.by_c, u.by_s);
-  face.force = on_corners(face.pressure, at, face);
+  face.force = on_corners(face.pressure, o.corners(), face);
   return face;
 }
 
@@ -324,11 +321,21 @@ EDDA_INLINE void add_ends(FrameForces& on, const Face& face, FaceEnds normal, Fa
   add_at(on, face.xi.b, face.eta.b, shear.b - face.slope.b * normal.b, normal.b);
   push_bounds(on, face.of_first, bounds);
 }
+/// The same for the shear forces alone.
+EDDA_INLINE void add_shear(FrameForces& on, const Face& face, FaceEnds shear) {
+  const double whole = shear.a + shear.b;
+  const double on_p2 = face.xi.a * shear.a + face.xi.b * shear.b;
+  const double on_q1 = face.eta.a * shear.a + face.eta.b * shear.b;
+  on.p1t -= whole - on_p2;
+  on.p2t -= on_p2;
+  on.q1t += on_q1;
+  on.q2t += whole - on_q1;
+}
 EDDA_INLINE CornerForces end_forces(const FacePoints& at, const Face& face, FaceEnds normal,
                                     FaceEnds shear) {
   FrameForces on;
   add_ends(on, face, normal, shear);
-  return on_corners(on, at, face);
+  return on_corners(on, coordinates_in({face.t, 0.0}, at), face);
 }
 
 }  // namespace edda

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "contacts/evaluate_faces.hpp"
+#include "contacts/face_step.hpp"
 
 namespace edda {
 namespace {
@@ -40,16 +41,17 @@ double normal_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std:
 }
 
 double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
-  const FacePoints at = face_points(c, pose.x, pose.y, k);
-  const bool sheared = c.before.shear_a[k] != 0.0 || c.before.shear_b[k] != 0.0;
-  const Vec2 t = sheared ? frame_of(at, c.inverse_e[k], c.inverse_f[k]) : Vec2{};
-  const auto slip_so_far = [&](double xi, double eta) {
-    return dot(from_point_of_e(at, xi, eta), t);
-  };
   const FaceMemory& m = c.before;
-  const double shear = m.shear_a[k] * (m.slip_a[k] + slip_so_far(m.xi_a[k], m.eta_a[k])) +
-                       m.shear_b[k] * (m.slip_b[k] + slip_so_far(m.xi_b[k], m.eta_b[k]));
-  return normal_energy(c, b, pose, k) - 0.5 * shear;
+  double shear = 0.0;
+  if (m.spring[k] > 0.0 && (m.slip_a[k] != 0.0 || m.slip_b[k] != 0.0)) {
+    const Face face = face_at(c, b, pose.x, pose.y, k);
+    const FaceEnds slip = motion_of(face, coordinates_at(c, pose.x, pose.y, k),
+                                    coordinates_at(c, pose.x1, pose.y1, k))
+                              .slip;
+    shear =
+        m.spring[k] * (m.slip_a[k] * (m.slip_a[k] + slip.a) + m.slip_b[k] * (m.slip_b[k] + slip.b));
+  }
+  return normal_energy(c, b, pose, k) + 0.5 * shear;
 }
 
 }  // namespace edda

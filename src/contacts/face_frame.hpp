@@ -18,15 +18,12 @@ struct FacePair {
   double ends = 0.0;             ///< 1: phi_ends with the weight b; 0: phi_exact alone (b = 0)
   double carries_tension = 0.0;  ///< 1: carries tension
   double inverse_e = 0.0, inverse_f = 0.0;  ///< 1/l of the edges at the start, 1/m
-  double gate_from = 0.0;             ///< cosine of the angle between the edges from which W > 0
-  double gate_scale = 1.0;            ///< 1/(cosine from which W = 1, less gate_from)
-  double passing = 1.0;               ///< m: corners nearer than this share one corner weight b
-  FaceEnds offset;                    ///< o, locked closure of initial stress and dilation, m
-  Id p1 = 0, p2 = 0, q1 = 0, q2 = 0;  ///< the corners
-  const double *exterior_cosine = nullptr,
-               *exterior_sine = nullptr;  ///< [nv] of the exterior angles of the corners
-
-  Vec2 turn(Id corner) const { return {exterior_cosine[corner], exterior_sine[corner]}; }
+  double gate_from = 0.0;   ///< cosine of the angle between the edges from which W > 0
+  double gate_scale = 1.0;  ///< 1/(cosine from which W = 1, less gate_from)
+  double passing = 1.0;     ///< m: corners nearer than this share one corner weight b
+  FaceEnds offset;          ///< o, locked closure of initial stress and dilation, m
+  Vec2 turn_p1, turn_p2, turn_q1,
+      turn_q2;  ///< cosine and sine of the exterior angles of the corners
 };
 
 /// Vector from the material point at the fraction xi of e (from p1) to that at the fraction eta of
@@ -35,32 +32,61 @@ EDDA_INLINE Vec2 from_point_of_e(const FacePoints& p, double xi, double eta) {
   return eta * p.q1 + (1.0 - eta) * p.q2 - ((1.0 - xi) * p.p1 + xi * p.p2);
 }
 
-/// Unit tangent t of the frame, or zero where E = F; inverse_e, inverse_f as in FacePair.
-EDDA_INLINE Vec2 frame_of(const FacePoints& p, double inverse_e, double inverse_f) {
+/// Frame of two edges.
+struct EdgeFrame {
+  Vec2 t;           ///< unit tangent, or zero where E = F
+  double per_base;  ///< 1/|E - F|
+};
+/// inverse_e, inverse_f as in FacePair; a common factor of both changes per_base alone.
+EDDA_INLINE EdgeFrame edge_frame(const FacePoints& p, double inverse_e, double inverse_f) {
   const Vec2 g = inverse_e * (p.p2 - p.p1) - inverse_f * (p.q2 - p.q1);
-  const double size = norm(g);
-  return g / (size > 0.0 ? size : 1.0);
+  const double apart = norm(g), per_base = 1.0 / (apart > 0.0 ? apart : 1.0);
+  return {per_base * g, per_base};
+}
+
+EDDA_INLINE Vec2 frame_of(const FacePoints& p, double inverse_e, double inverse_f) {
+  return edge_frame(p, inverse_e, inverse_f).t;
+}
+
+/// Coordinates of the corners along t and n from p1: s and y of p2, q1 and q2, m.
+struct EdgeCoordinates {
+  double s2, y2, r1, z1, r2, z2;
+};
+/// Distance along t, and along n, from the material point at the fraction xi of e (from p1) to that
+/// at the fraction eta of f (from q2), m.
+EDDA_INLINE double along_t(const EdgeCoordinates& c, double xi, double eta) {
+  return eta * c.r1 + (1.0 - eta) * c.r2 - xi * c.s2;
+}
+EDDA_INLINE double along_n(const EdgeCoordinates& c, double xi, double eta) {
+  return eta * c.z1 + (1.0 - eta) * c.z2 - xi * c.y2;
+}
+EDDA_INLINE EdgeCoordinates coordinates_in(const EdgeFrame& frame, const FacePoints& p) {
+  const Vec2 e = p.p2 - p.p1, to_q1 = p.q1 - p.p1, to_q2 = p.q2 - p.p1;
+  const Vec2 t = frame.t, n = outward_normal(t);
+  return {dot(e, t), dot(e, n), dot(to_q1, t), dot(to_q1, n), dot(to_q2, t), dot(to_q2, n)};
+}
+EDDA_INLINE EdgeCoordinates coordinates_of(const FacePoints& p, double inverse_e,
+                                           double inverse_f) {
+  return coordinates_in(edge_frame(p, inverse_e, inverse_f), p);
 }
 
 /// Geometry of two edges in their frame.
 struct EdgeGeometry {
   double tx, ty;                       ///< t
   double per_base;                     ///< 1/|E - F|
-  double s2, r1, r2;                   ///< s of p2, q1 and q2
+  double s2, y2, r1, z1, r2, z2;       ///< as in EdgeCoordinates
   double per_e, per_f;                 ///< 1/s2 and 1/(r1 - r2)
   double slope_e, slope_f;             ///< dy/ds of the edges
   double closure_at_0, closure_slope;  ///< drawn closure: closure_at_0 + closure_slope s
   double ma, mb;                       ///< s of the corners that bound the overlap
   double cosine;                       ///< of theta, times the stretch of both edges
+
+  EdgeCoordinates corners() const { return {s2, y2, r1, z1, r2, z2}; }
 };
 EDDA_INLINE EdgeGeometry geometry_of_edges(const FacePoints& at, const FacePair& pair) {
   const Vec2 e = at.p2 - at.p1, f = at.q2 - at.q1;
-  const Vec2 g = pair.inverse_e * e - pair.inverse_f * f;
-  const double apart = norm(g), per_base = 1.0 / (apart > 0.0 ? apart : 1.0);
-  const Vec2 t = per_base * g, n = outward_normal(t);
-  const Vec2 to_q1 = at.q1 - at.p1, to_q2 = at.q2 - at.p1;
-  const double s2 = dot(e, t), y2 = dot(e, n);
-  const double r1 = dot(to_q1, t), z1 = dot(to_q1, n), r2 = dot(to_q2, t), z2 = dot(to_q2, n);
+  const EdgeFrame frame = edge_frame(at, pair.inverse_e, pair.inverse_f);
+  const auto [s2, y2, r1, z1, r2, z2] = coordinates_in(frame, at);
   const bool opposed = (s2 > 0.0) & (r1 > r2);
   const double across_e = opposed ? s2 : 1.0, across_f = opposed ? r1 - r2 : 1.0;
   const double per_both = 1.0 / (across_e * across_f);
@@ -68,12 +94,15 @@ EDDA_INLINE EdgeGeometry geometry_of_edges(const FacePoints& at, const FacePair&
   const double slope_e = y2 * per_e, slope_f = (z1 - z2) * per_f;
   const double closure_at_0 = -(z2 - slope_f * r2),
                cosine = -dot(e, f) * (pair.inverse_e * pair.inverse_f);
-  return {t.x,
-          t.y,
-          per_base,
+  return {frame.t.x,
+          frame.t.y,
+          frame.per_base,
           s2,
+          y2,
           r1,
+          z1,
           r2,
+          z2,
           per_e,
           per_f,
           slope_e,
@@ -92,20 +121,18 @@ EDDA_INLINE FaceEnds gated_closure(double drawn_a, double drawn_b, const FacePai
           drawn_b + smaller(locked_part * pair.offset.b, pair.passing)};
 }
 
-/// Whether the short formulas suffice: the face has no locked closure and carries no tension, and
-/// either no corners pass each other and W = w = 1, or there is no overlap.
+/// Whether the short formulas suffice: the face carries no tension, and either no corners pass each
+/// other and W = w = 1, or there is no overlap.
 EDDA_INLINE bool is_plain(const EdgeGeometry& o, const FacePair& pair) {
   const double along = (o.cosine - pair.gate_from) * pair.gate_scale, length = o.mb - o.ma;
   const bool absent = (length <= 0.0) | (along <= 0.0) | (o.s2 <= 0.0) | (o.r1 <= o.r2);
   const double nearest = smaller(std::abs(o.r2), std::abs(o.s2 - o.r1));  // corner to corner
   const bool apart = nearest >= pair.passing;
-  const double deepest =
-      larger(o.closure_at_0 + o.closure_slope * o.ma, o.closure_at_0 + o.closure_slope * o.mb);
+  const FaceEnds gated = gated_closure(o.closure_at_0 + o.closure_slope * o.ma,
+                                       o.closure_at_0 + o.closure_slope * o.mb, pair);
   constexpr double shallow = 1.001 * (aspect_from + aspect_range);
-  const bool rigid = apart & (along >= 1.0) & (length >= shallow * deepest);
-  const bool unstressed =
-      (pair.carries_tension == 0.0) & (pair.offset.a == 0.0) & (pair.offset.b == 0.0);
-  return unstressed & (absent | rigid);
+  const bool rigid = apart & (along >= 1.0) & (length >= shallow * larger(gated.a, gated.b));
+  return (pair.carries_tension == 0.0) & (absent | rigid);
 }
 
 /// The ends of the overlap, as coordinates along t from p1, m.

@@ -15,6 +15,11 @@ struct FaceEnds {
   double a = 0.0, b = 0.0;
 };
 
+/// One of two vectors.
+EDDA_INLINE Vec2 either(bool first, Vec2 a, Vec2 b) {
+  return {first ? a.x : b.x, first ? a.y : b.y};
+}
+
 /// S(x) = x^2 (3 - 2 x) on [0, 1], 0 before and 1 beyond.
 struct SmoothStep {
   double value, slope;

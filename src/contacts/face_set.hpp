@@ -209,6 +209,16 @@ struct FaceSet : ChunkTable<FaceProperties<ChunkColumn>, face_property_list<Chun
     failure[k] = how;
     chunk_fails[k / chunk] = 1;
   }
+  /// Calls visit(k) for the faces that fail in the current step.
+  template <class Visit>
+  void for_failures(Visit visit) const {
+    for (std::size_t q = 0; q < chunk_fails.size(); ++q) {
+      if (chunk_fails[q] == 0) continue;
+      for (std::size_t k = q * chunk; k < std::min((q + 1) * chunk, size()); ++k) {
+        if (failure[k] != 0.0) visit(k);
+      }
+    }
+  }
 
   std::vector<double> locked_start, locked_end;  ///< [nv] pressure of the initial stress at the two
                                                  ///< corners of an edge, N per m; empty: none
@@ -249,12 +259,11 @@ EDDA_INLINE FacePair face_pair(const Faces& c, const double* exterior_cosine,
   p.gate_from = c.gate_from[k];
   p.gate_scale = c.gate_scale[k];
   p.passing = c.passing[k];
-  p.p1 = c.edge[k];
-  p.p2 = c.edge_end[k];
-  p.q1 = c.facing[k];
-  p.q2 = c.facing_end[k];
-  p.exterior_cosine = exterior_cosine;
-  p.exterior_sine = exterior_sine;
+  const Id p1 = c.edge[k], p2 = c.edge_end[k], q1 = c.facing[k], q2 = c.facing_end[k];
+  p.turn_p1 = {exterior_cosine[p1], exterior_sine[p1]};
+  p.turn_p2 = {exterior_cosine[p2], exterior_sine[p2]};
+  p.turn_q1 = {exterior_cosine[q1], exterior_sine[q1]};
+  p.turn_q2 = {exterior_cosine[q2], exterior_sine[q2]};
   return p;
 }
 
@@ -273,6 +282,13 @@ EDDA_INLINE FacePoints face_points(const Faces& c, const Values& x, const Values
                                    std::size_t k) {
   const Id p1 = c.edge[k], p2 = c.edge_end[k], q1 = c.facing[k], q2 = c.facing_end[k];
   return {{x[p1], y[p1]}, {x[p2], y[p2]}, {x[q1], y[q1]}, {x[q2], y[q2]}};
+}
+
+/// Coordinates of the corners of face k in its frame at these positions.
+template <class Faces, class Values>
+EDDA_INLINE EdgeCoordinates coordinates_at(const Faces& c, const Values& x, const Values& y,
+                                           std::size_t k) {
+  return coordinates_of(face_points(c, x, y, k), c.inverse_e[k], c.inverse_f[k]);
 }
 
 }  // namespace edda

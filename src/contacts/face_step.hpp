@@ -2,32 +2,50 @@
 // corners at n and n - 1 and its state at n - 1. Theory, sections 4.3 (shear and Coulomb's limit),
 // 9.6 (dashpots) and 10.1 (work); notation: contacts/face.hpp. These are the formulas of the loops
 // over all faces (base/vector_loop.hpp): they select and never branch, so that a processor can
-// compute several faces at a time.
+// compute several faces at a time. Where the numbers of a face are kept is up to the caller.
 #pragma once
 
 #include <cmath>
 
 #include "base/vector_loop.hpp"
 #include "blocks/masses.hpp"
-#include "contacts/face_set.hpp"
+#include "contacts/face.hpp"
 
 namespace edda {
 
 inline constexpr double unlimited_shear =
     1e300;  ///< N, limit of a bonded face: it fails as a whole
 
-/// What a loop over the faces of a chunk reads and writes. x, y: positions at n; x1, y1: at n - 1.
-struct FaceView : FaceProperties<const double*> {
-  const Id *edge, *edge_end, *facing, *facing_end;
-  const double *exterior_cosine, *exterior_sine;
-  const double *x, *y, *x1, *y1;
-  double noise;
-  const double *point_inverse, *edge_inverse;  // inverse masses, 1/kg, for dashpots
-  double step;                                 ///< from n - 1 to n, s
-  const double *limit_a, *limit_b;             ///< N: those of ShearLimits, or null
-  FaceFields<double*> now;
-  FaceFields<const double*> before;
-  double* force;
+/// Shear strength and damping of a face.
+struct FaceStrength {
+  double shear_stiffness;   ///< ks times the thickness, N/m per m of overlap
+  double friction;          ///< tan(phi)
+  double cohesion;          ///< c times the thickness, N per m of overlap
+  bool bonded;              ///< has its peak strength; its shear is not cut end by end
+  double zeta, shear_zeta;  ///< dashpots, as fractions of critical
+};
+
+/// A face at n - 1.
+struct FaceBefore {
+  double slip_a, slip_b;    ///< elastic slip u, m: T = -spring u
+  double overlap, spring;   ///< of the shear springs: length of both, m; stiffness of each, N/m
+  bool stored, on;          ///< it stored energy; its gate was open
+  bool closed_a, closed_b;  ///< its ends were closed
+  bool switched;            ///< one of them had just opened or closed
+  EdgeCoordinates corners;  ///< in the frame of n - 1
+  FaceEnds damping, shear_damping;  ///< forces of the dashpots, N
+};
+
+/// All that a step of a face follows from.
+struct FaceInputs {
+  FacePair pair;
+  FaceStrength strength;
+  FacePoints at, then;  ///< the corners at n and n - 1; `then` counts only with a locked closure
+  FaceBefore before;
+  EdgeInverseMass mass_e, mass_f;  ///< for dashpots
+  double per_step;                 ///< 1/s, of the step from n - 1 to n
+  double noise;                    ///< m: closures up to this size are rounding of the coordinates
+  FaceEnds limits;                 ///< of the shear forces, N, where they are given
 };
 
 /// Relative displacement, in the last step, of the two material points that lie at each end now, m:
@@ -36,15 +54,17 @@ struct FaceView : FaceProperties<const double*> {
 struct EndMotion {
   FaceEnds slip, closure;
 };
-EDDA_INLINE EndMotion motion_of(const Face& face, FaceEnds offset, const FacePoints& then) {
-  // The frame at n - 1. That inverse_e and inverse_f have a common factor here does not matter.
-  const Vec2 t = frame_of(then, face.inverse_e, face.inverse_f), n = outward_normal(t);
-  const Vec2 a = from_point_of_e(then, face.xi.a, face.eta.a);
-  const Vec2 b = from_point_of_e(then, face.xi.b, face.eta.b);
-  const FaceEnds slip{-dot(a, t), -dot(b, t)};
+/// now, then: the corners at n and n - 1, each in the frame of its step. What has moved is taken as
+/// the difference of these coordinates, so that a face at rest has not moved by as much as a
+/// rounding error, which would add up over many steps.
+EDDA_INLINE EndMotion motion_of(const Face& face, const EdgeCoordinates& now,
+                                const EdgeCoordinates& then) {
+  const EdgeCoordinates moved{now.s2 - then.s2, now.y2 - then.y2, now.r1 - then.r1,
+                              now.z1 - then.z1, now.r2 - then.r2, now.z2 - then.z2};
+  const FaceEnds slip{along_t(moved, face.xi.a, face.eta.a), along_t(moved, face.xi.b, face.eta.b)};
   return {slip,
-          {face.closure.a - offset.a + dot(a, n) + face.slope.a * slip.a,
-           face.closure.b - offset.b + dot(b, n) + face.slope.b * slip.b}};
+          {face.slope.a * slip.a - along_n(moved, face.xi.a, face.eta.a),
+           face.slope.b * slip.b - along_n(moved, face.xi.b, face.eta.b)}};
 }
 
 /// Shear force T = -spring u of one end, N, and its elastic slip u, m.
@@ -52,36 +72,43 @@ struct Shear {
   double force, slip;
 };
 /// Cuts the trial force to Coulomb's limit (N), and the trial slip with it (return mapping; theory,
-/// section 4.3).
+/// section 4.3). Without books the slip is not cut.
+template <bool books>
 EDDA_INLINE Shear cut(double trial, double spring, double per_spring, double limit) {
   const double whole = -spring * trial;
   const double force = smaller(larger(whole, -limit), limit);
+  if constexpr (!books) return {force, trial};
   return {force, force == whole ? trial : -force * per_spring};
 }
 EDDA_INLINE double inverse_of(double spring) {
   return 1.0 / (spring > 0.0 ? spring : 1.0);
 }
 
-/// Slip and shear of one end in the last step, for its energy balance. In the leapfrog's terms T_n
-/// and T_{n-1} each do work over half of the step, on the material points at the end at n and at
-/// n - 1, which are not quite the same.
-struct SlipOfStep {
-  double here;         ///< slip of the points at the end at n, m
-  double there;        ///< slip of those that were there at n - 1, m
-  double force, slip;  ///< T and u at n - 1
-  double kept;         ///< fraction of u that remains when the overlap has grown (ShearSprings)
-};
 /// Energy that an end's shear spring has lost, J.
 struct Lost {
   double friction, transfer;
 };
-/// The plastic slip u_tr - u_n dissipates spring (u_tr - u_n) (u_n + u_{n-1})/2 by friction
-/// (theory, section 4.3); the rest of what is missing is `transfer`. Where the face has opened, all
-/// that its spring had stored counts as friction.
-EDDA_INLINE Lost lost(const Shear& now, double trial, double spring, const SlipOfStep& s,
-                      bool touches) {
-  const double all = -0.5 * (now.force * (s.here - now.slip) + s.force * (s.slip + s.there));
-  const double slip_so_far = 0.5 * spring * (trial - now.slip) * (now.slip + s.kept * s.slip);
+/// An end's shear spring at n - 1.
+struct SpringBefore {
+  double spring, slip;  ///< N/m, m
+  double kept;          ///< fraction of the slip that remains (ShearSprings)
+};
+/// In the leapfrog's terms T_n and T_{n-1} each do work over half of the step; `here`: its slip, m.
+/// What the spring has lost is therefore -[T_n (here - u_n) + T_{n-1} (u_{n-1} + here)]/2, zero
+/// where it sticks and does not change. The plastic slip u_tr - u_n dissipates
+/// spring (u_tr - u_n) (u_n + u_{n-1})/2 by friction (theory, section 4.3); the rest of what is
+/// missing is `transfer`. Where the face has opened, all that its spring had stored counts as
+/// friction.
+EDDA_INLINE Lost lost(const Shear& now, double trial, double spring, const SpringBefore& old,
+                      double here, bool touches) {
+  const double plastic = trial - now.slip, kept_slip = old.kept * old.slip;
+  const double slip_so_far = 0.5 * spring * plastic * (now.slip + kept_slip);
+  const double by_plastic = 0.5 * plastic * (spring * now.slip + old.spring * old.slip);
+  const double by_change =
+      0.5 * old.slip *
+      ((old.spring - old.kept * spring) * now.slip + old.spring * (1.0 - old.kept) * old.slip);
+  const double all =
+      touches ? by_plastic + by_change : 0.5 * old.spring * old.slip * (old.slip + here);
   const double friction = larger(touches ? slip_so_far : all, 0.0);
   return {friction, all - friction};
 }
@@ -94,35 +121,12 @@ constexpr double least_length_change = 1e-4;
 /// Whether decide_activity() must be called for the face: it has come into being, or it does not
 /// act and is open now, or it stores energy for the first time. `on`: it exists; `drawn`: its drawn
 /// closures; `stores`: it stores energy.
-EDDA_INLINE bool needs_decision(const FaceView& c, bool on, FaceEnds drawn, bool stores,
-                                std::size_t k) {
-  const bool begins = on & (c.before.gate[k] == 0.0);
-  const bool frees = on & (c.acts[k] == 0.0) & (larger(drawn.a, drawn.b) <= 0.0);
-  const bool first = stores & (c.before.energy[k] == 0.0);
+EDDA_INLINE bool needs_decision(const FaceInputs& in, bool on, FaceEnds drawn, bool stores) {
+  const bool begins = on & !in.before.on;
+  const bool frees = on & (in.pair.stiffness == 0.0) & (larger(drawn.a, drawn.b) <= 0.0);
+  const bool first = stores & !in.before.stored;
   return begins | frees | first;
 }
-/// The same, for the state in c.now.
-EDDA_INLINE bool needs_decision(const FaceView& c, std::size_t k) {
-  const FaceFields<double*>& m = c.now;
-  return needs_decision(
-      c, m.gate[k] > 0.0,
-      {m.closure_a[k] - c.locked_closure_a[k], m.closure_b[k] - c.locked_closure_b[k]},
-      m.energy[k] > 0.0, k);
-}
-
-/// Which ends are closed: 0 none, 1 end a, 2 end b, 3 both.
-EDDA_INLINE double ends_closed(double da, double db, double noise) {
-  return (da > noise ? 1.0 : 0.0) + (db > noise ? 2.0 : 0.0);
-}
-
-/// Forces of one face at step n, and what its chunk records of it.
-struct FaceResult {
-  CornerForces force;
-  double needs_decision, switching;  ///< 1: yes; switching: see switches()
-  double works;                      ///< 1: carries load, or did so at the step before
-  double depth;                      ///< larger drawn closure, m; 0: carries nothing
-  double rare;                       ///< 1: bonded, or is_plain() does not hold
-};
 
 /// One end of a face: its normal force, its elastic slip before Coulomb's limit, and the motion of
 /// its points in the last step (EndMotion); of the closing only what came after they touched.
@@ -131,45 +135,59 @@ struct EndOfFace {
 };
 /// Forces at one end besides the pressure.
 struct EndActs {
-  Shear shear;
+  double force, slip;             ///< as in Shear
   double damping, shear_damping;  ///< of the dashpots across and along the face, N
 };
+
+/// Roots sqrt(p m) of the dashpots across both ends, kg/s, with the spring p of the end and the
+/// mass m that it moves; and the factor from there to those along the face.
+struct DashpotRoots {
+  double a = 0.0, b = 0.0, along_per_across = 0.0;
+};
+EDDA_INLINE DashpotRoots dashpot_roots(const FaceInputs& in, const Face& face, double spring) {
+  const auto inverse_mass = [&](double xi, double eta) {
+    return inverse_mass_at(in.mass_e, xi) + inverse_mass_at(in.mass_f, 1.0 - eta);
+  };
+  const double inverse_a = inverse_mass(face.xi.a, face.eta.a),
+               inverse_b = inverse_mass(face.xi.b, face.eta.b);
+  const bool moves = (inverse_a > 0.0) & (inverse_b > 0.0);
+  const double across = 0.5 * in.pair.stiffness * larger(face.length, 0.0) * face.gate;
+  const double per_both = moves ? 1.0 / (inverse_a * inverse_b) : 0.0;
+  return {std::sqrt(across * inverse_b * per_both), std::sqrt(across * inverse_a * per_both),
+          std::sqrt(spring / (across > 0.0 ? across : 1.0))};
+}
 
 /// Shear force under Coulomb's limit, |T| <= c L/2 + N tan(phi), and dashpots c = 2 zeta sqrt(p m)
 /// with the spring p of the end and the mass m that it moves (theory, sections 4.3 and 9.6). The
 /// force of the dashpot across the joint counts in Coulomb's limit and cannot make the end pull
 /// unless the face carries tension; that of the dashpot along the joint stays within what the limit
-/// leaves, and acts where the end sticks. `limits_given`: the limits are given (ShearLimits) and do
-/// not follow from the normal force.
-template <bool dashpots, bool limits_given, bool plain>
-EDDA_INLINE EndActs act(const FaceView& c, const Face& face, const EndOfFace& end, double spring,
-                        double per_spring, double cohesion, bool touches, const double* limits,
-                        std::size_t k) {
-  const double friction = c.friction[k];
-  const bool bonded = plain ? false : c.bonded[k] > 0.0;
+/// leaves, and acts where the end sticks. `limits_given`: the limit is given and does not follow
+/// from the normal force.
+template <bool dashpots, bool limits_given, bool plain, bool books>
+EDDA_INLINE EndActs act(const FaceInputs& in, const EndOfFace& end, double spring,
+                        double per_spring, const DashpotRoots& roots, double root, double cohesion,
+                        bool touches, double given) {
+  const bool bonded = plain ? false : in.strength.bonded;
   const auto limit_under = [&](double normal) {
-    if constexpr (limits_given) return limits[k];
-    return bonded ? unlimited_shear : larger(cohesion + friction * normal, 0.0);
+    if constexpr (limits_given) return given;
+    return bonded ? unlimited_shear : larger(cohesion + in.strength.friction * normal, 0.0);
   };
   if constexpr (!dashpots) {
-    return {cut(end.trial, spring, per_spring, limit_under(end.normal)), 0.0, 0.0};
+    const Shear shear = cut<books>(end.trial, spring, per_spring, limit_under(end.normal));
+    return {shear.force, shear.slip, 0.0, 0.0};
   } else {
-    const double inverse = inverse_mass_on_edge(c, c.edge[k], c.edge_end[k], end.xi) +
-                           inverse_mass_on_edge(c, c.facing[k], c.facing_end[k], 1.0 - end.eta);
-    const double mass = 1.0 / (inverse > 0.0 ? inverse : 1.0);
-    const double across = 0.5 * c.stiffness[k] * c.acts[k] * larger(face.length, 0.0) * face.gate;
-    const double whole =
-        end.normal + 2.0 * c.zeta[k] * std::sqrt(across * mass) * end.closing / c.step;
+    const double whole = end.normal + 2.0 * in.strength.zeta * root * end.closing * in.per_step;
     const double pushing = larger(whole, 0.0);
-    const bool carries_tension = plain ? false : c.carries_tension[k] > 0.0;
+    const bool carries_tension = plain ? false : in.pair.carries_tension > 0.0;
     const bool carries = end.normal != 0.0;
     const double normal = carries ? (carries_tension ? whole : pushing) : 0.0;
     const double limit = limit_under(normal);
-    const Shear shear = cut(end.trial, spring, per_spring, limit);
-    const double along = -2.0 * c.shear_zeta[k] * std::sqrt(spring * mass) * end.slipping / c.step;
+    const Shear shear = cut<books>(end.trial, spring, per_spring, limit);
+    const double along =
+        -2.0 * in.strength.shear_zeta * roots.along_per_across * root * end.slipping * in.per_step;
     const double within = larger(-limit - shear.force, smaller(limit - shear.force, along));
     const bool holds = touches & (shear.slip == end.trial);
-    return {shear, normal - end.normal, holds ? within : 0.0};
+    return {shear.force, shear.slip, normal - end.normal, holds ? within : 0.0};
   }
 }
 
@@ -178,15 +196,21 @@ struct ShearSprings {
   double overlap;  ///< length that the two springs represent, m
   double kept;     ///< fraction of the elastic slip that remains: new length is free of stress
   double spring, per_spring;  ///< of each end, N/m, and its inverse
+  bool change;                ///< the overlap that they represent has changed
 };
-EDDA_INLINE ShearSprings shear_springs(const FaceView& c, const Face& face, bool touches,
-                                       std::size_t k) {
-  const double length = larger(face.length, 0.0), length_1 = c.before.overlap[k];
+/// Without books, which are 0 where nothing changes, `kept` is 1 and there is no `per_spring`.
+template <bool books>
+EDDA_INLINE ShearSprings shear_springs(const FaceInputs& in, const Face& face, bool touches) {
+  const double length = larger(face.length, 0.0), length_1 = in.before.overlap;
+  const bool carried = in.before.spring > 0.0;
   const bool same = std::abs(length - length_1) <= least_length_change * length_1;
-  const double overlap = same ? length_1 : length;
-  const double kept = overlap > length_1 ? length_1 / (overlap > 0.0 ? overlap : 1.0) : 1.0;
-  const double spring = touches ? 0.5 * c.shear_stiffness[k] * overlap * face.gate : 0.0;
-  return {overlap, kept, spring, inverse_of(spring)};
+  const double overlap = (carried & same) ? length_1 : length;
+  const double spring = touches ? 0.5 * in.strength.shear_stiffness * overlap * face.gate : 0.0;
+  const bool change = carried & !same;
+  if constexpr (!books) return {overlap, 1.0, spring, 0.0, change};
+  const double longest = larger(overlap, length_1);
+  const double kept = carried ? length_1 / (longest > 0.0 ? longest : 1.0) : 1.0;
+  return {overlap, kept, spring, inverse_of(spring), change};
 }
 
 /// Both ends of a face in a step, before Coulomb's limit.
@@ -194,14 +218,12 @@ struct EndsOfFace {
   EndOfFace a, b;
 };
 template <bool plain>
-EDDA_INLINE EndsOfFace ends_of(const FaceView& c, const Face& face, const EndMotion& moved,
-                               double kept, bool touches, std::size_t k) {
-  const FaceFields<const double*>& old = c.before;
+EDDA_INLINE EndsOfFace ends_of(const FaceInputs& in, const Face& face, const EndMotion& moved,
+                               double kept, bool touches) {
   const FaceEnds here = moved.slip;
-  const double slip_1a = old.slip_a[k], slip_1b = old.slip_b[k];
-  const double trial_a = touches ? kept * slip_1a + here.a : 0.0;
-  const double trial_b = touches ? kept * slip_1b + here.b : 0.0;
-  const bool carries_tension = plain ? false : c.carries_tension[k] > 0.0;
+  const double trial_a = touches ? kept * in.before.slip_a + here.a : 0.0;
+  const double trial_b = touches ? kept * in.before.slip_b + here.b : 0.0;
+  const bool carries_tension = plain ? false : in.pair.carries_tension > 0.0;
   const auto since_touch = [&](double closing, double d) {
     return carries_tension ? closing : smaller(closing, larger(d, 0.0));
   };
@@ -209,72 +231,6 @@ EDDA_INLINE EndsOfFace ends_of(const FaceView& c, const Face& face, const EndMot
                          since_touch(moved.closure.b, face.closure.b)};
   return {{face.normal.a, trial_a, closing.a, here.a, face.xi.a, face.eta.a},
           {face.normal.b, trial_b, closing.b, here.b, face.xi.b, face.eta.b}};
-}
-
-/// Energy that the shear springs of both ends have lost in the step.
-struct LostAtEnds {
-  Lost a, b;
-};
-EDDA_INLINE LostAtEnds lost_at_ends(const FaceView& c, const FacePoints& at, const Face& face,
-                                    const EndsOfFace& end, const Shear& a, const Shear& b,
-                                    const ShearSprings& springs, bool touches, std::size_t k) {
-  const FaceFields<const double*>& old = c.before;
-  const double xi_a = old.xi_a[k], xi_b = old.xi_b[k], eta_a = old.eta_a[k], eta_b = old.eta_b[k];
-  const FaceEnds there{dot(from_point_of_e(at, xi_a, eta_a), face.t),
-                       dot(from_point_of_e(at, xi_b, eta_b), face.t)};
-  const double spring = springs.spring, kept = springs.kept;
-  return {lost(a, end.a.trial, spring,
-               {end.a.slipping, there.a, old.shear_a[k], old.slip_a[k], kept}, touches),
-          lost(b, end.b.trial, spring,
-               {end.b.slipping, there.b, old.shear_b[k], old.slip_b[k], kept}, touches)};
-}
-
-/// Writes the state of the face at n.
-EDDA_INLINE void write_face(const FaceView& c, const Face& face, const ShearSprings& springs,
-                            const EndsOfFace& end, const Shear& a, const Shear& b, bool touches,
-                            std::size_t k) {
-  const FaceFields<double*>& m = c.now;
-  const double length = larger(face.length, 0.0);
-  m.closure_a[k] = face.closure.a;
-  m.closure_b[k] = face.closure.b;
-  m.energy[k] = face.energy;
-  m.normal_a[k] = face.normal.a;
-  m.normal_b[k] = face.normal.b;
-  m.shear_a[k] = a.force;
-  m.shear_b[k] = b.force;
-  m.slip_a[k] = touches ? a.slip : 0.0;
-  m.slip_b[k] = touches ? b.slip : 0.0;
-  m.trial_a[k] = end.a.trial;
-  m.trial_b[k] = end.b.trial;
-  m.spring[k] = springs.spring;
-  m.length[k] = length;
-  m.cohesive[k] = face.cohesive;
-  m.overlap[k] = touches ? springs.overlap : length;
-  m.gate[k] = face.gate;
-  m.xi_a[k] = face.xi.a;
-  m.xi_b[k] = face.xi.b;
-  m.eta_a[k] = face.eta.a;
-  m.eta_b[k] = face.eta.b;
-}
-
-/// Writes forces and work of the dashpots: a force D_n does its work over (x_{n+1} - x_{n-1})/2,
-/// half of it in the last step and half in the next one.
-EDDA_INLINE void write_dashpots(const FaceView& c, const EndMotion& moved, const EndActs& a,
-                                const EndActs& b, std::size_t k) {
-  const FaceFields<double*>& m = c.now;
-  const FaceFields<const double*>& old = c.before;
-  const FaceEnds here = moved.slip;
-  const auto taken = [&](double a_across, double b_across, double a_along, double b_along) {
-    return 0.5 * (a_across * moved.closure.a + b_across * moved.closure.b - a_along * here.a -
-                  b_along * here.b);
-  };
-  m.damping_a[k] = a.damping;
-  m.damping_b[k] = b.damping;
-  m.shear_damping_a[k] = a.shear_damping;
-  m.shear_damping_b[k] = b.shear_damping;
-  m.damping_work[k] = taken(a.damping, b.damping, a.shear_damping, b.shear_damping);
-  m.damping_due[k] =
-      taken(old.damping_a[k], old.damping_b[k], old.shear_damping_a[k], old.shear_damping_b[k]);
 }
 
 /// Work of the forces of ends_at_bounds() in the step, J.
@@ -287,99 +243,140 @@ EDDA_INLINE double work_of_bounds(const Face& face, FaceEnds bounds, const FaceP
          bounds.b * along(face.of_first.b, at.p2 - then.p2, at.q1 - then.q1);
 }
 
-/// Whether the face may need an activation factor (theory, section 6.2): it stored energy at n - 1,
-/// and one of its ends opens or closes in this step or did so in the one before. Writes whether one
-/// does in this step.
-EDDA_INLINE bool switches(const FaceView& c, const Face& face, bool touches, std::size_t k) {
-  const FaceFields<const double*>& old = c.before;
-  const double closed = touches ? ends_closed(face.closure.a, face.closure.b, c.noise) : 0.0;
-  const double closed_1 =
-      old.energy[k] > 0.0 ? ends_closed(old.closure_a[k], old.closure_b[k], c.noise) : 0.0;
-  const double switched = closed != closed_1 ? 1.0 : 0.0;
-  c.now.switched[k] = switched;
-  return (old.energy[k] > 0.0) & ((switched > 0.0) | (old.switched[k] > 0.0));
+/// A face at n: forces, state, and the work of the step.
+struct FaceStep {
+  double overlap, spring;  ///< of the shear springs: length of both, m; stiffness of each, N/m
+  FaceEnds trial, slip;    ///< elastic slip before and after Coulomb's limit, m
+  FaceEnds shear;          ///< T, N
+  FaceEnds damping, shear_damping;  ///< forces of the dashpots across and along the face, N
+  bool touches;                     ///< carries force, or is bonded
+  bool closed_a, closed_b;          ///< its ends are closed
+  bool switched;                    ///< one of them opens or closes in this step
+  bool switching;  ///< it may need an activation factor (theory, section 6.2): it stored energy at
+                   ///< n - 1, and an end opens or closes in this step or did so in the one before
+  bool unrest;  ///< an end slides, or the springs change or open, or the face has a locked closure
+  double friction, transfer;         ///< as in FaceFields, J
+  double damping_work, damping_due;  ///< as in FaceFields, J
+  bool decides;                      ///< needs_decision()
+  bool works;                        ///< it carries load, or did so at n - 1
+  bool rare;                         ///< it is bonded, or is_plain() does not hold
+  double depth;                      ///< larger drawn closure, m; 0: it carries nothing
+  CornerForces force;
+};
+
+/// Work of dashpot forces in the step, J; half of it is done in this step and half in the next one,
+/// since D_n does its work over (x_{n+1} - x_{n-1})/2.
+EDDA_INLINE double half_work(FaceEnds across, FaceEnds along, const EndMotion& moved) {
+  return 0.5 * (across.a * moved.closure.a + across.b * moved.closure.b - along.a * moved.slip.a -
+                along.b * moved.slip.b);
 }
 
-/// Evaluates face k at step n and writes its state. dashpots: some face of the model has dashpots;
-/// limits_given: as in act(); plain: by the short formulas (is_plain()).
-template <bool dashpots, bool limits_given, bool plain>
-EDDA_INLINE FaceResult evaluate_one(const FaceView& c, std::size_t k) {
-  const FaceFields<const double*>& old = c.before;
-  const FacePoints at = face_points(c, c.x, c.y, k), then = face_points(c, c.x1, c.y1, k);
-  const FacePair pair = face_pair(c, c.exterior_cosine, c.exterior_sine, k);
-  const EdgeGeometry stands = geometry_of_edges(at, pair);
-  const Face face = face_between<plain>(at, pair, stands);
-  const bool bonded = plain ? false : c.bonded[k] > 0.0;
-  const bool touches = (face.energy > 0.0) | (bonded & (face.gate > 0.0));
+/// What has changed in the step (FaceStep).
+EDDA_INLINE void mark_changes(FaceStep& s, const FaceInputs& in, const EdgeGeometry& stands,
+                              const Face& face) {
+  const FaceBefore& old = in.before;
+  s.closed_a = s.touches & (face.closure.a > in.noise);
+  s.closed_b = s.touches & (face.closure.b > in.noise);
+  s.switched =
+      (s.closed_a != (old.stored & old.closed_a)) | (s.closed_b != (old.stored & old.closed_b));
+  s.switching = old.stored & (s.switched | old.switched);
+  const FaceEnds drawn{face.closure.a - in.pair.offset.a, face.closure.b - in.pair.offset.b};
+  s.decides = needs_decision(in, face.gate > 0.0, drawn, face.energy > 0.0);
+  s.works = s.touches | old.stored | (old.spring > 0.0);
+  s.rare = in.strength.bonded | !is_plain(stands, in.pair);
+  s.depth = s.touches ? larger(drawn.a, drawn.b) : 0.0;
+}
 
-  const ShearSprings springs = shear_springs(c, face, touches, k);
-  const EndMotion moved = motion_of(face, {c.locked_closure_a[k], c.locked_closure_b[k]}, then);
-  const EndsOfFace end = ends_of<plain>(c, face, moved, springs.kept, touches, k);
-  const double cohesion = touches ? 0.5 * c.cohesion[k] * face.cohesive : 0.0;
-  const EndActs acts_a = act<dashpots, limits_given, plain>(
-      c, face, end.a, springs.spring, springs.per_spring, cohesion, touches, c.limit_a, k);
-  const EndActs acts_b = act<dashpots, limits_given, plain>(
-      c, face, end.b, springs.spring, springs.per_spring, cohesion, touches, c.limit_b, k);
-  const Shear a = acts_a.shear, b = acts_b.shear;
-  const LostAtEnds losses = lost_at_ends(c, at, face, end, a, b, springs, touches, k);
-  const bool switching = switches(c, face, touches, k);
-  write_face(c, face, springs, end, a, b, touches, k);
-  if constexpr (dashpots) write_dashpots(c, moved, acts_a, acts_b, k);
-  c.now.friction_work[k] = losses.a.friction + losses.b.friction;
+/// Evaluates a face at step n, where its two edges stand so and are this element. dashpots: some
+/// face of the model has dashpots; limits_given: as in act(); plain: by the short formulas
+/// (is_plain()); books: with the work of the step, without which the result is only right where
+/// there is no `unrest`.
+template <bool dashpots, bool limits_given, bool plain, bool books = true>
+EDDA_INLINE FaceStep step_of_face(const FaceInputs& in, const EdgeGeometry& stands,
+                                  const Face& face) {
+  const FacePair& pair = in.pair;
+  const FaceBefore& old = in.before;
+  FaceStep s;
+  const bool bonded = plain ? false : in.strength.bonded;
+  s.touches = (face.energy > 0.0) | (bonded & (face.gate > 0.0));
+  const ShearSprings springs = shear_springs<books>(in, face, s.touches);
+  const double spring = springs.spring, per_spring = springs.per_spring;
+  const EndMotion moved = motion_of(face, stands.corners(), old.corners);
+  const EndsOfFace end = ends_of<plain>(in, face, moved, springs.kept, s.touches);
+  DashpotRoots roots;
+  if constexpr (dashpots) roots = dashpot_roots(in, face, spring);
+  const double cohesion = s.touches ? 0.5 * in.strength.cohesion * face.cohesive : 0.0;
+  const EndActs a = act<dashpots, limits_given, plain, books>(
+      in, end.a, spring, per_spring, roots, roots.a, cohesion, s.touches, in.limits.a);
+  const EndActs b = act<dashpots, limits_given, plain, books>(
+      in, end.b, spring, per_spring, roots, roots.b, cohesion, s.touches, in.limits.b);
+  s.overlap = springs.overlap;
+  s.spring = spring;
+  s.trial = {end.a.trial, end.b.trial};
+  s.slip = {s.touches ? a.slip : 0.0, s.touches ? b.slip : 0.0};
+  s.shear = {a.force, b.force};
+  s.damping = {a.damping, b.damping};
+  s.shear_damping = {a.shear_damping, b.shear_damping};
+  const bool slides = (s.shear.a != -spring * s.trial.a) | (s.shear.b != -spring * s.trial.b);
+  const bool stressed = (pair.offset.a != 0.0) | (pair.offset.b != 0.0);
+  s.unrest = (spring != old.spring) | (s.touches & (slides | springs.change | stressed));
+  s.friction = s.transfer = s.damping_work = s.damping_due = 0.0;
   FaceEnds bounds;
-  double given = 0.0;
-  if constexpr (!plain) {
-    bounds = ends_at_bounds(face, pair);
-    given = work_of_bounds(face, bounds, at, then);
+  if constexpr (books) bounds = ends_at_bounds(face, pair);
+  if constexpr (books) {
+    const Lost lost_a = lost({a.force, a.slip}, end.a.trial, spring,
+                             {old.spring, old.slip_a, springs.kept}, moved.slip.a, s.touches);
+    const Lost lost_b = lost({b.force, b.slip}, end.b.trial, spring,
+                             {old.spring, old.slip_b, springs.kept}, moved.slip.b, s.touches);
+    s.friction = lost_a.friction + lost_b.friction;
+    s.transfer = lost_a.transfer + lost_b.transfer - work_of_bounds(face, bounds, in.at, in.then);
   }
-  c.now.transfer[k] = losses.a.transfer + losses.b.transfer - given;
-
+  if constexpr (dashpots) {
+    s.damping_work = half_work(s.damping, s.shear_damping, moved);
+    s.damping_due = half_work(old.damping, old.shear_damping, moved);
+  }
   FrameForces on = face.pressure;
-  add_ends(on, face, {acts_a.damping, acts_b.damping},
-           {a.force + acts_a.shear_damping, b.force + acts_b.shear_damping});
-  if constexpr (!plain) push_bounds(on, face.of_first, bounds);
-  FaceResult result;
-  result.force = on_corners(on, at, face);
-  const bool is_rare = (c.bonded[k] > 0.0) | !is_plain(stands, pair);
-  result.rare = is_rare ? 1.0 : 0.0;
-  const FaceEnds drawn{face.closure.a - c.locked_closure_a[k],
-                       face.closure.b - c.locked_closure_b[k]};
-  result.needs_decision =
-      needs_decision(c, face.gate > 0.0, drawn, face.energy > 0.0, k) ? 1.0 : 0.0;
-  result.switching = switching ? 1.0 : 0.0;
-  const bool works = touches | (old.energy[k] > 0.0) | (old.spring[k] > 0.0);
-  result.works = works ? 1.0 : 0.0;
-  result.depth = touches ? larger(drawn.a, drawn.b) : 0.0;
-  return result;
+  if constexpr (dashpots) {
+    add_ends(on, face, s.damping, {s.shear.a + s.shear_damping.a, s.shear.b + s.shear_damping.b});
+  } else {
+    add_shear(on, face, s.shear);
+  }
+  if constexpr (books) push_bounds(on, face.of_first, bounds);
+  s.force = on_corners(on, stands.corners(), face);
+
+  mark_changes(s, in, stands, face);
+  return s;
 }
 
-/// For a face that has carried nothing for two steps: updates its geometry, with the same bits as
-/// evaluate_one() would. Returns whether this is not enough, because the face may be closed or
-/// because decide_activity() must be called.
-EDDA_INLINE bool may_close(const FaceView& c, std::size_t k) {
-  const FacePair pair = face_pair(c, c.exterior_cosine, c.exterior_sine, k);
-  const EdgeGeometry o = geometry_of_edges(face_points(c, c.x, c.y, k), pair);
+/// A face that has carried nothing for two steps, at n.
+struct OpenFace {
+  EdgeCoordinates corners;
+  FaceEnds closure, xi, eta;
+  double length, gate, cohesive;
+  bool may_close;  ///< it may be closed, or decide_activity() must be called
+};
+/// With the same bits as step_of_face().
+EDDA_INLINE OpenFace look_at_open_face(const FaceInputs& in) {
+  const FacePair& pair = in.pair;
+  const EdgeGeometry o = geometry_of_edges(in.at, pair);
+  OpenFace s;
+  s.corners = o.corners();
   const double drawn_a = o.closure_at_0 + o.closure_slope * o.ma,
                drawn_b = o.closure_at_0 + o.closure_slope * o.mb;
-  const double da = drawn_a + pair.offset.a, db = drawn_b + pair.offset.b;
+  s.closure = {drawn_a + pair.offset.a, drawn_b + pair.offset.b};
   const double gate = smooth_step((o.cosine - pair.gate_from) * pair.gate_scale).value;
-  const double overlap = o.mb - o.ma, length = larger(overlap, 0.0);
+  const double overlap = o.mb - o.ma;
+  s.length = larger(overlap, 0.0);
   const bool on = (overlap > 0.0) & (o.cosine > pair.gate_from) & (o.s2 > 0.0) & (o.r1 > o.r2);
-  const double lives = on ? gate : 0.0;
+  s.gate = on ? gate : 0.0;
+  s.cohesive = s.gate * s.length * flush_part(o.cosine);
+  s.xi = {o.ma * o.per_e, o.mb * o.per_e};
+  s.eta = {(o.ma - o.r2) * o.per_f, (o.mb - o.r2) * o.per_f};
   const FaceEnds gated = gated_closure(drawn_a, drawn_b, pair);
-  const bool open = larger(larger(da, db), larger(gated.a, gated.b)) <= 0.0;
-  const FaceEnds surfaces{da - pair.offset.a, db - pair.offset.b};
-  const FaceFields<double*>& m = c.now;
-  m.closure_a[k] = da;
-  m.closure_b[k] = db;
-  m.length[k] = m.overlap[k] = length;
-  m.gate[k] = lives;
-  m.cohesive[k] = lives * length * flush_part(o.cosine);
-  m.xi_a[k] = o.ma * o.per_e;
-  m.xi_b[k] = o.mb * o.per_e;
-  m.eta_a[k] = (o.ma - o.r2) * o.per_f;
-  m.eta_b[k] = (o.mb - o.r2) * o.per_f;
-  return (on & !open) | needs_decision(c, on, surfaces, false, k);
+  const bool open = larger(larger(s.closure.a, s.closure.b), larger(gated.a, gated.b)) <= 0.0;
+  const FaceEnds surfaces{s.closure.a - pair.offset.a, s.closure.b - pair.offset.b};
+  s.may_close = (on & !open) | needs_decision(in, on, surfaces, false);
+  return s;
 }
 
 }  // namespace edda

@@ -27,8 +27,9 @@ EndStiffness of_potential_at_ends(double da, double db, bool carries_tension) {
 
 double dashpot(const FaceSet& c, const Masses& m, double spring, double zeta, double xi, double eta,
                std::size_t k) {
-  const double inverse = inverse_mass_on_edge(m, c.edge[k], c.edge_end[k], xi) +
-                         inverse_mass_on_edge(m, c.facing[k], c.facing_end[k], 1.0 - eta);
+  const double inverse =
+      inverse_mass_at(inverse_mass_of_edge(m, c.edge[k], c.edge_end[k]), xi) +
+      inverse_mass_at(inverse_mass_of_edge(m, c.facing[k], c.facing_end[k]), 1.0 - eta);
   return inverse > 0.0 ? 2.0 * zeta * std::sqrt(spring / inverse) : 0.0;
 }
 

@@ -93,9 +93,10 @@ void take_slip(FaceSet& c, const LawTable& laws, std::size_t k, double slip) {
 /// joint.
 void take_slip_while_open(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
                           std::size_t k) {
-  const FacePoints then = face_points(c, pose.x1, pose.y1, k);
   const Face face = face_at(c, b, pose.x, pose.y, k);
-  const FaceEnds slip = motion_of(face, {c.locked_closure_a[k], c.locked_closure_b[k]}, then).slip;
+  const EdgeCoordinates now = coordinates_at(c, pose.x, pose.y, k),
+                        then = coordinates_at(c, pose.x1, pose.y1, k);
+  const FaceEnds slip = motion_of(face, now, then).slip;
   take_slip(c, laws, k, 0.5 * std::abs(slip.a + slip.b));
   const double gap = -std::max(face.closure.a, face.closure.b);
   const double rise = std::clamp(gap, 0.0, c.dilation_left[k]);

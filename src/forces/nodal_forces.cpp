@@ -46,15 +46,24 @@ EDDA_INLINE void add_faces(NodeVectors& f, const FaceListView& c, Id first, Id e
   }
 }
 
-EDDA_VECTOR void add_faces_of_blocks(FaceListView c, const Id* vertex_begin,
-                                     const std::uint8_t* is_free, NodeValues fx, NodeValues fy,
-                                     std::size_t begin, std::size_t end) {
+EDDA_VECTOR void sum_faces_of_blocks(FaceListView c, const Id* vertex_begin, NodeValues fx,
+                                     NodeValues fy, std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
-    const Id first = vertex_begin[i], last = vertex_begin[i + 1];
-    if (is_free[i - begin] == 0 || c.begin_of_edge[first] == c.begin_of_edge[last]) continue;
-    NodeVectors f = vectors_of(fx, fy, i);
-    add_faces(f, c, first, last);
+    NodeVectors f{};
+    add_faces(f, c, vertex_begin[i], vertex_begin[i + 1]);
     store(f, fx, fy, i);
+  }
+}
+
+/// Adds the sums of the faces; a block that is not free has none.
+EDDA_VECTOR void add_sums(ConstNodeValues on_x, ConstNodeValues on_y, const double* is_free,
+                          NodeValues fx, NodeValues fy, std::size_t begin, std::size_t end) {
+  for (std::size_t n = 0; n < nodes_per_block; ++n) {
+#pragma omp simd
+    for (std::size_t i = begin; i < end; ++i) {
+      fx[n][i] += is_free[i - begin] > 0.0 ? on_x[n][i] : 0.0;
+      fy[n][i] += is_free[i - begin] > 0.0 ? on_y[n][i] : 0.0;
+    }
   }
 }
 
@@ -114,8 +123,18 @@ EDDA_VECTOR void add_initial_forces(InitialView b, ConstNodeValues x, ConstNodeV
 
 }  // namespace
 
+void sum_faces(NodalForces& on, const BlockSet& b, const FaceSet& contacts) {
+  for (Nodes* const nodes : {&on.x, &on.y}) {
+    for (auto& values : *nodes) values.resize(b.size());
+  }
+  parallel_chunks(b.size(), blocks_at_once, [&](std::size_t, std::size_t begin, std::size_t end) {
+    sum_faces_of_blocks(faces_of(b, contacts), b.vertex_begin.data(), values_of(on.x),
+                        values_of(on.y), begin, end);
+  });
+}
+
 void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
-                   const FaceSet& contacts, const BoundarySprings& springs, Vec2 gravity,
+                   const NodalForces& on_faces, const BoundarySprings& springs, Vec2 gravity,
                    const LoadsNow& loads, std::size_t begin, std::size_t end) {
   const BodyView body{values_of(b.grad_x),  values_of(b.grad_y), b.volume.data(),
                       b.lame_lambda.data(), b.lame_mu.data(),    b.mass.data()};
@@ -128,16 +147,16 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
                        values_of(forces.y), begin, end);
   }
   assert(end - begin <= blocks_at_once);
-  std::array<std::uint8_t, blocks_at_once> moves;
+  std::array<double, blocks_at_once> moves;
   for (std::size_t i = begin; i < end; ++i) {
-    moves[i - begin] = is_free(b, state, i) ? 1 : 0;
+    moves[i - begin] = is_free(b, state, i) ? 1.0 : 0.0;
     const bool acted_on = springs.block_begin[i] < springs.block_begin[i + 1] ||
                           (loads.loads != nullptr && loads.loads->place[i] != no_id) ||
                           (loads.bolts != nullptr && loads.bolts->place[i] != no_id) ||
                           loads.on_nodes != nullptr;
-    if (moves[i - begin] != 0 && !acted_on) continue;
+    if (moves[i - begin] > 0.0 && !acted_on) continue;
     NodeVectors f{};
-    if (moves[i - begin] != 0) {
+    if (moves[i - begin] > 0.0) {
       f = vectors_of(forces.x, forces.y, i);
       add_springs(f, b, springs, pose, i);
       if (loads.loads != nullptr) add_loads(f, b, loads, pose.x, pose.y, i);
@@ -146,15 +165,15 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
     }
     store(f, forces.x, forces.y, i);
   }
-  add_faces_of_blocks(faces_of(b, contacts), b.vertex_begin.data(), moves.data(),
-                      values_of(forces.x), values_of(forces.y), begin, end);
+  add_sums(values_of(on_faces.x), values_of(on_faces.y), moves.data(), values_of(forces.x),
+           values_of(forces.y), begin, end);
 }
 
 void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
-                   const FaceSet& contacts, const BoundarySprings& springs, Vec2 gravity,
+                   const NodalForces& on_faces, const BoundarySprings& springs, Vec2 gravity,
                    const LoadsNow& loads) {
   parallel_chunks(b.size(), blocks_at_once, [&](std::size_t, std::size_t begin, std::size_t end) {
-    gather_forces(forces, b, state, pose, contacts, springs, gravity, loads, begin, end);
+    gather_forces(forces, b, state, pose, on_faces, springs, gravity, loads, begin, end);
   });
 }
 

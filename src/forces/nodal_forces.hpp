@@ -15,16 +15,20 @@ struct NodalForces {
   Nodes x, y;
 };
 
-/// Gravity, elasticity, boundary springs, loads, bolts and contacts of every free block (Eq. 15),
-/// contacts in the order of FaceSet::for_faces(). Blocks that have lost their shape (det F < 0.2,
-/// or no rotation is defined) get NaN; block_out_of_bounds() finds them.
+/// Sums the forces of the faces on each block, in the order of FaceSet::for_faces(). Fixed blocks
+/// have theirs, too.
+void sum_faces(NodalForces& on_faces, const BlockSet& blocks, const FaceSet& contacts);
+
+/// Gravity, elasticity, boundary springs, loads, bolts and contacts of every free block (Eq. 15);
+/// on_faces: what the faces exert on it, N, [nodes][nb]. Blocks that have lost their shape
+/// (det F < 0.2, or no rotation is defined) get NaN; block_out_of_bounds() finds them.
 void gather_forces(NodalForces& forces, const BlockSet& blocks, const State& state,
-                   const Pose& pose, const FaceSet& contacts, const BoundarySprings& springs,
+                   const Pose& pose, const NodalForces& on_faces, const BoundarySprings& springs,
                    Vec2 gravity, const LoadsNow& loads = {});
 
 /// The same for the blocks [begin, end), not more than blocks_at_once.
 void gather_forces(NodalForces& forces, const BlockSet& blocks, const State& state,
-                   const Pose& pose, const FaceSet& contacts, const BoundarySprings& springs,
+                   const Pose& pose, const NodalForces& on_faces, const BoundarySprings& springs,
                    Vec2 gravity, const LoadsNow& loads, std::size_t begin, std::size_t end);
 
 /// Resultant of the contact forces on block i, N (for reactions).

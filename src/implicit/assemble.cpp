@@ -54,7 +54,7 @@ bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitS
   const Id i = s.block_of[row];
   const double h = settings.step;
   const Rotation r = rotation(deformation(b, state.x, state.y, i));
-  const Rotation none{1.0, 0.0, 2.0};
+  const Rotation none{1.0, 0.0, 2.0, 0.5};
   NodalMatrix own = rotated(s.elastic[i], r);
   if (settings.dynamic)
     own += (2.0 / h) * viscous_matrix(b, scene.masses, i, deformation(b, state.x, state.y, i));

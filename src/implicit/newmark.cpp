@@ -219,8 +219,9 @@ class Rounds {
     const std::size_t changed =
         evaluate_springs(s_.springs, c_, scene_.faces(pose_), settings_.step, first);
     if (!first) s_.switched += changed;
-    gather_forces(forces_, scene_.blocks, state_, pose_, c_, scene_.springs, scene_.gravity,
-                  scene_.loads);
+    sum_faces(s_.on_faces, scene_.blocks, c_);
+    gather_forces(forces_, scene_.blocks, state_, pose_, s_.on_faces, scene_.springs,
+                  scene_.gravity, scene_.loads);
     return measure_residual(s_, scene_, settings_, state_, c_, forces_);
   }
 

@@ -68,6 +68,7 @@ struct ImplicitSolver {
   std::vector<double> carried;       ///< [rows] working array of measure_residual(), N
   std::vector<double> error;         ///< [rows] working array of measure_residual()
   std::vector<double> energy;        ///< [nb] strain energy at the start of the step, J
+  NodalForces on_faces;              ///< forces of the faces in the last iteration, N
   int iterations = 0;                ///< iterations of the last attempt
   std::uint64_t switched = 0;        ///< changes of contact states in it
   double last_displacement = 0.0;    ///< m: largest displacement of a vertex

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/parallel.hpp"
 
@@ -21,25 +20,25 @@ EDDA_INLINE Vec2 local_damping(Vec2 f, Vec2 v, double beta) {
 /// Change of a velocity in one step, v+ = ((1 - a h/2) v- + h f/m)/(1 + a h/2) with the
 /// mass-proportional damping a, and the step h_new of the position that follows.
 struct Kick {
-  double h, h_new, half_damping, local;
+  double keeps;  ///< (1 - a h/2)/(1 + a h/2)
+  double h;      ///< h/(1 + a h/2), s
+  double h_new, local;
 };
 
 EDDA_INLINE Vec2 kicked(Vec2 before, Vec2 acceleration, const Kick& kick) {
-  return ((1.0 - kick.half_damping) * before + kick.h * acceleration) / (1.0 + kick.half_damping);
+  return kick.keeps * before + kick.h * acceleration;
 }
 
 /// One node of all blocks, with lumped mass.
 struct NodeView {
-  const double *mass, *fx, *fy, *old_vx, *old_vy;
+  const double *inverse_mass, *fx, *fy, *old_vx, *old_vy;
   double *vx, *vy, *x, *y;
 };
 
 EDDA_INLINE void advance_one(const NodeView& n, const Kick& kick, std::size_t i) {
-  constexpr double held = std::numeric_limits<double>::infinity();
   const Vec2 before{n.old_vx[i], n.old_vy[i]}, push{n.fx[i], n.fy[i]};
   const Vec2 force = push + local_damping(push, before, kick.local);
-  const double mass = n.mass[i] > 0.0 ? n.mass[i] : held;
-  const Vec2 after = kicked(before, (1.0 / mass) * force, kick);
+  const Vec2 after = kicked(before, n.inverse_mass[i] * force, kick);
   n.vx[i] = after.x;
   n.vy[i] = after.y;
   n.x[i] += kick.h_new * after.x;
@@ -75,12 +74,20 @@ void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
   const double h = 0.5 * (leap.h_old + leap.h_new), h_new = leap.h_new;
   // With strain damping the nodes of a block move together, after all have their new velocities.
   const bool strains = damping.strain != nullptr;
-  const Kick kick{h, strains ? 0.0 : h_new, 0.5 * damping.mass * h, damping.local};
+  const double half = 0.5 * damping.mass * h;
+  const Kick kick{(1.0 - half) / (1.0 + half), h / (1.0 + half), strains ? 0.0 : h_new,
+                  damping.local};
   if (masses.kind != MassKind::consistent) {
     for (std::size_t k = 0; k < nodes_per_block; ++k) {
-      const NodeView node{masses.node[k].data(), leap.force_x[k].data(), leap.force_y[k].data(),
-                          leap.old_vx[k].data(), leap.old_vy[k].data(),  s.vx[k].data(),
-                          s.vy[k].data(),        s.x[k].data(),          s.y[k].data()};
+      const NodeView node{masses.node_inverse[k].data(),
+                          leap.force_x[k].data(),
+                          leap.force_y[k].data(),
+                          leap.old_vx[k].data(),
+                          leap.old_vy[k].data(),
+                          s.vx[k].data(),
+                          s.vy[k].data(),
+                          s.x[k].data(),
+                          s.y[k].data()};
       advance_nodes(node, kick, begin, end);
     }
     if (strains) damp_strain_and_move(*damping.strain, b, masses, s, h_new, begin, end);

@@ -75,7 +75,7 @@ NodeVectors damped_velocity(StrainDamping& damping, const BlockSet& b, const Mas
 
 /// Data of the loop over blocks with lumped masses.
 struct BlocksView {
-  ConstNodeValues grad_x, grad_y, mass;
+  ConstNodeValues grad_x, grad_y, inverse_mass;
   std::array<const double*, 6> w;
   std::array<double*, 3> stress;
   NodeValues x, y, vx, vy;
@@ -90,7 +90,7 @@ EDDA_INLINE void damp_and_move(const BlocksView& b, double h, double h_new, std:
   b.stress[1][i] = s.yy;
   b.stress[2][i] = s.xy;
   for (std::size_t k = 0; k < nodes_per_block; ++k) {
-    const double per = b.mass[k][i] > 0.0 ? h / b.mass[k][i] : 0.0;
+    const double per = h * b.inverse_mass[k][i];
     const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
     const double vx = b.vx[k][i] - per * (p.xx * gx + p.xy * gy);
     const double vy = b.vy[k][i] - per * (p.yx * gx + p.yy * gy);
@@ -153,7 +153,7 @@ void damp_strain_and_move(StrainDamping& d, const BlockSet& b, const Masses& mas
   if (masses.kind != MassKind::consistent) {
     const BlocksView view{values_of(b.grad_x),
                           values_of(b.grad_y),
-                          values_of(masses.node),
+                          values_of(masses.node_inverse),
                           {d.matrix[0].data(), d.matrix[1].data(), d.matrix[2].data(),
                            d.matrix[3].data(), d.matrix[4].data(), d.matrix[5].data()},
                           {d.stress[0].data(), d.stress[1].data(), d.stress[2].data()},

@@ -180,6 +180,7 @@ void Simulation::Impl::throw_kept() {
 
 template <class Action>
 void Simulation::Impl::between_steps(Action action) {
+  update_face_rows(sim());
   instant_.reset();
   hand_over();
   keep_thrown(action);
@@ -283,7 +284,7 @@ const Instant& Simulation::Impl::look() {
   take_back();
   if (!instant_) {
     if (begun && driver) driver->count_revolutions_now();
-    observe(sim(), instant_.emplace());
+    observe_blocks(sim(), instant_.emplace());
   }
   return *instant_;
 }

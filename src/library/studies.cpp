@@ -77,6 +77,7 @@ Verification verify(const Model& model, const std::atomic<bool>* stop) {
   use_threads();
   check_memory(model.impl().model);
   VerifyOptions options;
+  options.threads = omp_get_max_threads();
   options.stop = stop;
   const edda::Verification found = value_or_raise(verify_model(model.impl().model, options));
   Verification result;

@@ -28,15 +28,28 @@ namespace {
 constexpr double soft = 0.1, stiff = 300.0;
 constexpr double sliver = 1e-3;  // of the median edge
 
+/// Fixes a free block for as long as this exists: a copy of all blocks would take more memory than
+/// the answer is worth.
+class Held {
+ public:
+  Held(BlockSet& blocks, Id block) : fixed_(blocks.fixed[block]) { fixed_ = 1; }
+  Held(const Held&) = delete;
+  Held& operator=(const Held&) = delete;
+  ~Held() { fixed_ = 0; }
+
+ private:
+  std::uint8_t& fixed_;
+};
+
 /// The critical step with the governing block fixed: that of the others (except for the factor of
 /// their contacts with it).
-double step_without(const Simulation& sim, Id block) {
-  BlockSet others = sim.scene->blocks;
-  others.fixed[block] = 1;
-  return step_bound(stiffness_inputs(sim, others)).critical_step;
+double step_without(Simulation& sim, Id block) {
+  const Held held(sim.scene.edit().blocks, block);
+  StepCache known = sim.control.step_cache;  // that of its neighbours is another now
+  return step_bound(stiffness_inputs(sim), &known).critical_step;
 }
 
-std::string by_how_much(const Simulation& sim) {
+std::string by_how_much(Simulation& sim) {
   if (sim.control.bound.block == no_id) return {};
   const double others = step_without(sim, sim.control.bound.block);
   if (!std::isfinite(others)) return {};
@@ -158,7 +171,8 @@ void warn_of_few(const Simulation& sim, std::vector<std::string>& warnings) {
     return;  // all blocks have the same step
   constexpr double few = 0.01, worth = 2.0;
   constexpr std::size_t least = 20;  // blocks; with fewer, "few" has no meaning
-  std::vector<double> steps = steps_of_blocks(stiffness_inputs(sim), 0.0);
+  StepCache known = sim.control.step_cache;
+  std::vector<double> steps = steps_of_blocks(stiffness_inputs(sim), 0.0, &known);
   std::vector<double> sorted;
   std::copy_if(steps.begin(), steps.end(), std::back_inserter(sorted),
                [](double h) { return std::isfinite(h); });
@@ -238,7 +252,7 @@ void warn_of_strain_damping(const Simulation& sim, std::vector<std::string>& war
 
 }  // namespace
 
-std::string governed_by(const Simulation& sim) {
+std::string governed_by(Simulation& sim) {
   if (!is_explicit(sim)) {
     return sim.scene->model.solver.time_step
                ? "time_step: the implicit method is stable at any step"

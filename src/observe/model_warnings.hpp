@@ -10,8 +10,8 @@ namespace edda {
 
 /// What governs the step, for instance "block 12 (slider) at (1, 2): 80 % contacts, 20 % its own
 /// elasticity; most of it by the contact with block 7 at (1, 3); other blocks need as small a
-/// step".
-std::string governed_by(const Simulation& sim);
+/// step". The simulation is as before afterwards.
+std::string governed_by(Simulation& sim);
 
 /// One sentence per warning, with a remedy. Call for a simulation as created, before start().
 std::vector<std::string> model_warnings(const Simulation& sim);

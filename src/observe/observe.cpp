@@ -8,6 +8,7 @@
 #include "contacts/face_reading.hpp"
 #include "forces/elastic.hpp"
 #include "observe/overstress.hpp"
+#include "step/ground_motion.hpp"
 
 namespace edda {
 namespace {
@@ -138,6 +139,15 @@ void place_points(const BlockSet& b, const State& s, Picture& p) {
 
 }  // namespace
 
+void observe_blocks(const Simulation& sim, Instant& at) {
+  const Motion& motion = sim.motion;
+  at.state = motion.state;
+  at.forces = motion.forces;
+  gather_forces(at.forces, sim.scene->blocks, motion.state, motion.pose, motion.on_faces,
+                sim.attached.springs, sim.scene->model.gravity, acting(sim));
+  sim.stepper->look(sim, at);
+}
+
 Picture picture_of(const Simulation& sim, const Instant& at) {
   Picture p;
   p.time = sim.motion.state.time;
@@ -145,7 +155,7 @@ Picture picture_of(const Simulation& sim, const Instant& at) {
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
     if (at.state.alive[i]) p.blocks.push_back(block_record(sim, at.state, i));
   }
-  const FaceSet& f = at.contacts;
+  const FaceSet& f = sim.motion.contacts;
   for (std::size_t k = 0; k < f.size(); ++k) {
     if (is_closed(f, k) || f.opened[k] > 0.0) p.contacts.push_back(face_record(sim, f, k));
   }
@@ -237,7 +247,7 @@ double unbalanced_ratio(const Simulation& sim, const Instant& at) {
     free_blocks.push_back(static_cast<Id>(i));
   }
   if (force == 0.0) return 0.0;
-  const double scale = force_scale(sim, at.contacts, free_blocks);
+  const double scale = force_scale(sim, sim.motion.contacts, free_blocks);
   return scale > 0.0 ? force / static_cast<double>(free_blocks.size()) / scale : 1.0;
 }
 

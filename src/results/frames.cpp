@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
+#include <numeric>
+#include <utility>
 
 namespace edda {
 namespace {
@@ -22,38 +25,75 @@ void add_cells(const BlockSet& b, Id block, BlockCells& cells) {
   }
 }
 
-Field field_of(const char* name, std::size_t components, std::size_t count) {
-  Field f{name, components, {}, {}, false};
-  f.values.reserve(components * count);
-  return f;
-}
+/// Adds fields with a value, or several, of every row; row_at(k) is the row of point or cell k.
+template <class RowAt>
+class Fields {
+ public:
+  Fields(std::vector<FieldSource>& into, std::size_t count, RowAt row_at)
+      : into_(into), count_(count), row_at_(row_at) {}
 
-Field numbers(const char* name, std::size_t count) {
-  Field f = field_of(name, 1, count);
-  f.whole = true;
-  return f;
-}
+  /// values(row, v) sets v[0] to v[components - 1].
+  template <class Values>
+  void add(const char* name, std::size_t components, Values values,
+           std::vector<std::string> component_names = {}) {
+    const auto fill = [row_at = row_at_, components, values](std::size_t first, std::size_t end,
+                                                             double* v) {
+      for (std::size_t k = first; k < end; ++k, v += components) values(row_at(k), v);
+    };
+    into_.push_back({name, components, std::move(component_names), false, count_, fill});
+  }
+  template <class Value>
+  void number(const char* name, Value value) {
+    add(name, 1, [value](const auto& row, double* v) { v[0] = value(row); });
+  }
+  template <class Value>
+  void whole(const char* name, Value value) {
+    number(name, [value](const auto& row) { return static_cast<double>(value(row)); });
+    into_.back().whole = true;
+  }
+  template <class Value>
+  void vector(const char* name, Value value) {
+    add(name, 3, [value](const auto& row, double* v) {
+      const Vec2 p = value(row);
+      v[0] = p.x;
+      v[1] = p.y;
+      v[2] = 0.0;
+    });
+  }
 
-void push(Field& f, std::initializer_list<double> values) {
-  f.values.insert(f.values.end(), values);
-}
+ private:
+  std::vector<FieldSource>& into_;
+  std::size_t count_;
+  RowAt row_at_;
+};
 
-/// Without a copy.
-template <class... Fields>
-void take(std::vector<Field>& into, Fields&... fields) {
-  (into.push_back(std::move(fields)), ...);
-}
-
-void push_principal(Field& f, const BlockRecord& b) {
-  const double mean = 0.5 * (b.sxx + b.syy);
-  const double radius = std::hypot(0.5 * (b.sxx - b.syy), b.sxy);
-  push(f, {mean + radius, mean - radius, b.szz});
-}
-
-Field point_vectors(const char* name, const std::vector<double>& x, const std::vector<double>& y) {
-  Field f = field_of(name, 3, x.size());
-  for (std::size_t v = 0; v < x.size(); ++v) push(f, {x[v], y[v], 0.0});
-  return f;
+void add_block_fields(std::vector<FieldSource>& into, const Picture& picture,
+                      std::vector<std::uint32_t> row_of_cell) {
+  using B = BlockRecord;
+  const std::size_t n = row_of_cell.size();
+  const auto rows = std::make_shared<const std::vector<std::uint32_t>>(std::move(row_of_cell));
+  Fields f(into, n,
+           [rows, &picture](std::size_t k) -> const B& { return picture.blocks[(*rows)[k]]; });
+  f.whole("id", [](const B& b) { return b.id; });
+  f.whole("material", [](const B& b) { return b.material_index; });
+  f.whole("fixed", [](const B& b) { return b.fixed; });
+  f.vector("displacement", [](const B& b) { return b.displacement; });
+  f.vector("velocity", [](const B& b) { return b.velocity; });
+  f.number("rotation", [](const B& b) { return b.rotation; });
+  f.number("omega", [](const B& b) { return b.omega; });
+  const auto stress = [](const B& b, double* v) {
+    for (const double part : {b.sxx, b.syy, b.szz, b.sxy, 0.0, 0.0}) *v++ = part;
+  };
+  f.add("stress", 6, stress, {"XX", "YY", "ZZ", "XY", "YZ", "XZ"});
+  const auto principal = [](const B& b, double* v) {
+    const double mean = 0.5 * (b.sxx + b.syy);
+    const double radius = std::hypot(0.5 * (b.sxx - b.syy), b.sxy);
+    v[0] = mean + radius;
+    v[1] = mean - radius;
+    v[2] = b.szz;
+  };
+  f.add("principal_stress", 3, principal, {"major", "minor", "out_of_plane"});
+  f.number("overstress", [](const B& b) { return b.overstress; });
 }
 
 }  // namespace
@@ -71,99 +111,84 @@ BlockCells block_cells(const BlockSet& blocks) {
   return cells;
 }
 
-Grid block_grid(const BlockCells& cells, const Picture& picture) {
-  Grid g;
+GridSource block_source(const BlockCells& cells, const Picture& picture) {
+  GridSource source;
+  Grid& g = source.shape;
   g.time = picture.time;
-  g.points.reserve(3 * picture.x.size());
-  for (std::size_t v = 0; v < picture.x.size(); ++v) {
+  const std::size_t nv = picture.x.size(), n = cells.end.size();
+  g.points.reserve(3 * nv);
+  for (std::size_t v = 0; v < nv; ++v) {
     g.points.insert(g.points.end(), {picture.x[v], picture.y[v], 0.0});
   }
-  const std::size_t n = cells.end.size();
   g.corners.reserve(cells.corner.size());
   g.ends.reserve(n);
   g.types.reserve(n);
-  Field id = numbers("id", n), material = numbers("material", n), fixed = numbers("fixed", n);
-  Field displacement = field_of("displacement", 3, n), velocity = field_of("velocity", 3, n);
-  Field rotation = field_of("rotation", 1, n), stress = field_of("stress", 6, n);
-  Field principal = field_of("principal_stress", 3, n);
-  Field omega = field_of("omega", 1, n), overstress = field_of("overstress", 1, n);
-  stress.component_names = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
-  principal.component_names = {"major", "minor", "out_of_plane"};
-  for (const BlockRecord& b : picture.blocks) {
-    const Id first = cells.begin[b.id], end = cells.begin[b.id + 1];
+  std::vector<std::uint32_t> row_of_cell;
+  row_of_cell.reserve(n);
+  for (std::size_t row = 0; row < picture.blocks.size(); ++row) {
+    const Id block = picture.blocks[row].id;
+    const Id first = cells.begin[block], end = cells.begin[block + 1];
     for (Id c = first; c < end; ++c) {
       for (Id k = c == 0 ? 0 : cells.end[c - 1]; k < cells.end[c]; ++k) {
         g.corners.push_back(cells.corner[k]);
       }
       g.ends.push_back(static_cast<std::int64_t>(g.corners.size()));
       g.types.push_back(end - first == 1 ? cell_type::polygon : cell_type::triangle);
-      push(id, {static_cast<double>(b.id)});
-      push(material, {static_cast<double>(b.material_index)});
-      push(fixed, {b.fixed ? 1.0 : 0.0});
-      push(displacement, {b.displacement.x, b.displacement.y, 0.0});
-      push(velocity, {b.velocity.x, b.velocity.y, 0.0});
-      push(rotation, {b.rotation});
-      push(omega, {b.omega});
-      push(stress, {b.sxx, b.syy, b.szz, b.sxy, 0.0, 0.0});
-      push_principal(principal, b);
-      push(overstress, {b.overstress});
+      row_of_cell.push_back(static_cast<std::uint32_t>(row));
     }
   }
-  take(g.cell_fields, id, material, fixed, displacement, velocity, rotation, omega, stress,
-       principal, overstress);
-  g.point_fields.push_back(point_vectors("displacement", picture.ux, picture.uy));
-  g.point_fields.push_back(point_vectors("velocity", picture.vx, picture.vy));
-  return g;
+  add_block_fields(source.cell_fields, picture, std::move(row_of_cell));
+  Fields f(source.point_fields, nv, [](std::size_t v) { return v; });
+  f.vector("displacement", [&picture](std::size_t v) {
+    return Vec2{picture.ux[v], picture.uy[v]};
+  });
+  f.vector("velocity", [&picture](std::size_t v) { return Vec2{picture.vx[v], picture.vy[v]}; });
+  return source;
 }
 
-Grid contact_grid(const Picture& picture) {
-  Grid g;
+Grid block_grid(const BlockCells& cells, const Picture& picture) {
+  return grid_of(block_source(cells, picture));
+}
+
+GridSource contact_source(const Picture& picture) {
+  using C = ContactRecord;
+  GridSource source;
+  Grid& g = source.shape;
   g.time = picture.time;
   const std::size_t n = picture.contacts.size();
   g.points.reserve(3 * n);
-  g.corners.reserve(n);
-  g.ends.reserve(n);
-  g.types.reserve(n);
-  Field i = numbers("block_i", n), j = numbers("block_j", n), state = numbers("state", n);
-  Field normal = field_of("normal_force", 1, n), shear = field_of("shear_force", 1, n);
-  Field opening = field_of("opening", 1, n), slip = field_of("slip", 1, n);
-  Field length = field_of("length", 1, n), closed = field_of("closed_length", 1, n);
-  Field normal_stress = field_of("normal_stress", 1, n),
-        shear_stress = field_of("shear_stress", 1, n);
-  Field stress_a = field_of("normal_stress_a", 1, n), stress_b = field_of("normal_stress_b", 1, n);
-  Field x_a = field_of("x_a", 1, n), y_a = field_of("y_a", 1, n);
-  Field x_b = field_of("x_b", 1, n), y_b = field_of("y_b", 1, n);
-  Field force = field_of("force", 3, n), displacement = field_of("displacement", 3, n);
-  for (const ContactRecord& c : picture.contacts) {
-    g.corners.push_back(static_cast<std::int64_t>(g.point_count()));
+  for (const C& c : picture.contacts) {
     g.points.insert(g.points.end(), {c.position.x, c.position.y, 0.0});
-    g.ends.push_back(static_cast<std::int64_t>(g.corners.size()));
-    g.types.push_back(cell_type::vertex);
-    push(i, {static_cast<double>(c.block_i)});
-    push(j, {static_cast<double>(c.block_j)});
-    push(normal, {c.normal_force});
-    push(shear, {c.shear_force});
-    push(opening, {c.opening});
-    push(slip, {c.slip});
-    push(length, {c.length});
-    push(closed, {c.closed_length});
-    push(normal_stress, {c.normal_stress});
-    push(shear_stress, {c.shear_stress});
-    push(stress_a, {c.normal_stress_a});
-    push(stress_b, {c.normal_stress_b});
-    push(x_a, {c.a.x});
-    push(y_a, {c.a.y});
-    push(x_b, {c.b.x});
-    push(y_b, {c.b.y});
-    push(state, {static_cast<double>(c.state)});
-    push(force, {c.force.x, c.force.y, 0.0});
-    push(displacement, {c.displacement.x, c.displacement.y, 0.0});
   }
+  g.corners.resize(n);
+  std::iota(g.corners.begin(), g.corners.end(), std::int64_t{0});
+  g.ends.resize(n);
+  std::iota(g.ends.begin(), g.ends.end(), std::int64_t{1});
+  g.types.assign(n, cell_type::vertex);
   // Both as point and as cell fields: glyphs need points, thresholds and tables cells.
   g.cells_are_points = true;
-  take(g.cell_fields, normal, shear, opening, slip, state, i, j, force, displacement, length,
-       closed, normal_stress, shear_stress, stress_a, stress_b, x_a, y_a, x_b, y_b);
-  return g;
+  Fields f(source.cell_fields, n,
+           [&picture](std::size_t k) -> const C& { return picture.contacts[k]; });
+  f.number("normal_force", [](const C& c) { return c.normal_force; });
+  f.number("shear_force", [](const C& c) { return c.shear_force; });
+  f.number("opening", [](const C& c) { return c.opening; });
+  f.number("slip", [](const C& c) { return c.slip; });
+  f.whole("state", [](const C& c) { return static_cast<std::int32_t>(c.state); });
+  f.whole("block_i", [](const C& c) { return c.block_i; });
+  f.whole("block_j", [](const C& c) { return c.block_j; });
+  f.vector("force", [](const C& c) { return c.force; });
+  f.vector("displacement", [](const C& c) { return c.displacement; });
+  f.number("length", [](const C& c) { return c.length; });
+  f.number("closed_length", [](const C& c) { return c.closed_length; });
+  f.number("normal_stress", [](const C& c) { return c.normal_stress; });
+  f.number("shear_stress", [](const C& c) { return c.shear_stress; });
+  f.number("normal_stress_a", [](const C& c) { return c.normal_stress_a; });
+  f.number("normal_stress_b", [](const C& c) { return c.normal_stress_b; });
+  f.number("x_a", [](const C& c) { return c.a.x; });
+  f.number("y_a", [](const C& c) { return c.a.y; });
+  f.number("x_b", [](const C& c) { return c.b.x; });
+  f.number("y_b", [](const C& c) { return c.b.y; });
+  return source;
 }
 
 std::string contacts_beside(std::string blocks_file) {
@@ -197,8 +222,8 @@ Trouble FrameSeries::add(const Picture& picture) {
   enter(picture.time);
   const std::string blocks = folder_ + "/" + blocks_.back().file;
   const std::string contacts = folder_ + "/" + contacts_.back().file;
-  Trouble trouble = write_vtu(blocks, block_grid(cells_, picture));
-  if (!trouble) trouble = write_vtu(contacts, contact_grid(picture));
+  Trouble trouble = write_vtu(blocks, block_source(cells_, picture));
+  if (!trouble) trouble = write_vtu(contacts, contact_source(picture));
   if (trouble) {
     blocks_.pop_back();
     contacts_.pop_back();

@@ -23,12 +23,14 @@ BlockCells block_cells(const BlockSet& blocks);
 
 /// Cell fields id material fixed displacement velocity rotation omega stress principal_stress,
 /// point fields displacement velocity. stress: XX YY ZZ XY YZ XZ; principal_stress: the larger and
-/// the smaller in the plane, then the one across it. Pa.
+/// the smaller in the plane, then the one across it. Pa. The picture must outlive the source.
+GridSource block_source(const BlockCells& cells, const Picture& picture);
+/// The same in memory.
 Grid block_grid(const BlockCells& cells, const Picture& picture);
 
 /// A vertex cell per contact, in the middle of its overlap, with the values of joints.csv and the
-/// vectors force (on block_i) and displacement (of block_i there).
-Grid contact_grid(const Picture& picture);
+/// vectors force (on block_i) and displacement (of block_i there). The picture must outlive it.
+GridSource contact_source(const Picture& picture);
 
 /// The file of a frame's contacts, from that of its blocks.
 std::string contacts_beside(std::string blocks_file);

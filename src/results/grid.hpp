@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -41,5 +42,25 @@ struct Grid {
   const Field* cell_field(const std::string& name) const;
   const Field* point_field(const std::string& name) const;
 };
+
+/// A field whose values are made when they are needed.
+struct FieldSource {
+  std::string name;
+  std::size_t components = 1;
+  std::vector<std::string> component_names;  ///< may be empty
+  bool whole = false;                        ///< written as Int32
+  std::size_t count = 0;                     ///< of points or cells
+  /// Puts the values of the points or cells [first, end) into memory, one after another.
+  std::function<void(std::size_t first, std::size_t end, double* into)> fill;
+};
+
+/// A Grid, as it is written: most of its size are its fields, which are not in memory.
+struct GridSource {
+  Grid shape;  ///< without fields
+  std::vector<FieldSource> point_fields, cell_fields;
+};
+
+/// With its fields in memory.
+Grid grid_of(GridSource source);
 
 }  // namespace edda

@@ -33,7 +33,7 @@ const Field* Grid::point_field(const std::string& name) const {
 namespace {
 
 /// The XML, and the data that follows it: for each array a count of bytes (UInt64), then the
-/// values. Nothing is copied, so that a frame takes no more memory than its grid.
+/// values. Nothing is copied but a piece of a field at a time.
 class Writer {
  public:
   std::string xml;
@@ -47,20 +47,17 @@ class Writer {
       file.add({reinterpret_cast<const char*>(values.data()), size});
     });
   }
-  void field(const Field& f) {
+  void field(const FieldSource& f) {
     std::string attributes =
         fmt::format("Name=\"{}\" NumberOfComponents=\"{}\"", f.name, f.components);
     for (std::size_t k = 0; k < f.component_names.size(); ++k) {
       attributes += fmt::format(" ComponentName{}=\"{}\"", k, f.component_names[k]);
     }
-    if (!f.whole) return array(attributes, "Float64", f.values);
-    announce(attributes, "Int32", f.values.size() * sizeof(std::int32_t));
-    pieces_.emplace_back([&f](WholeFile& file) {
-      const std::vector<std::int32_t> numbers(f.values.begin(), f.values.end());
-      const std::uint64_t size = numbers.size() * sizeof numbers[0];
-      file.add({reinterpret_cast<const char*>(&size), sizeof size});
-      file.add({reinterpret_cast<const char*>(numbers.data()), size});
-    });
+    if (f.whole) {
+      made<std::int32_t>(attributes, "Int32", f);
+    } else {
+      made<double>(attributes, "Float64", f);
+    }
   }
   Trouble write(const std::string& path) const {
     WholeFile file(path);
@@ -71,6 +68,25 @@ class Writer {
   }
 
  private:
+  /// An array of Number that is made piece by piece.
+  template <class Number>
+  void made(const std::string& attributes, const char* type, const FieldSource& f) {
+    announce(attributes, type, f.count * f.components * sizeof(Number));
+    pieces_.emplace_back([&f](WholeFile& file) {
+      const std::uint64_t size = f.count * f.components * sizeof(Number);
+      file.add({reinterpret_cast<const char*>(&size), sizeof size});
+      constexpr std::size_t at_once = 4096;
+      std::vector<double> values(at_once * f.components);
+      std::vector<Number> numbers;
+      for (std::size_t first = 0; first < f.count; first += at_once) {
+        const std::size_t end = std::min(first + at_once, f.count);
+        f.fill(first, end, values.data());
+        numbers.assign(values.begin(),
+                       values.begin() + static_cast<std::ptrdiff_t>((end - first) * f.components));
+        file.add({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)});
+      }
+    });
+  }
   void announce(const std::string& attributes, const char* type, std::size_t size) {
     xml += fmt::format("<DataArray type=\"{}\" {} format=\"appended\" offset=\"{}\"/>\n", type,
                        attributes, offset_);
@@ -213,9 +229,23 @@ bool consistent(const Grid& g) {
   return true;
 }
 
-}  // namespace
+std::vector<FieldSource> sources_of(const std::vector<Field>& fields) {
+  std::vector<FieldSource> sources;
+  for (const Field& f : fields) {
+    const auto fill = [&f](std::size_t first, std::size_t end, double* into) {
+      std::copy_n(f.values.begin() + static_cast<std::ptrdiff_t>(first * f.components),
+                  (end - first) * f.components, into);
+    };
+    const std::size_t count = f.components == 0 ? 0 : f.values.size() / f.components;
+    sources.push_back({f.name, f.components, f.component_names, f.whole, count, fill});
+  }
+  return sources;
+}
 
-Trouble write_vtu(const std::string& path, const Grid& grid) {
+/// The fields of `grid` are not looked at.
+Trouble write(const std::string& path, const Grid& grid,
+              const std::vector<FieldSource>& point_fields,
+              const std::vector<FieldSource>& cell_fields) {
   Writer w;
   w.xml =
       "<?xml version=\"1.0\"?>\n"
@@ -228,9 +258,9 @@ Trouble write_vtu(const std::string& path, const Grid& grid) {
   w.xml +=
       fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n",
                   grid.point_count(), grid.cell_count());
-  for (const Field& f : grid.cells_are_points ? grid.cell_fields : grid.point_fields) w.field(f);
+  for (const FieldSource& f : grid.cells_are_points ? cell_fields : point_fields) w.field(f);
   w.xml += "</PointData>\n<CellData>\n";
-  for (const Field& f : grid.cell_fields) w.field(f);
+  for (const FieldSource& f : cell_fields) w.field(f);
   w.xml += "</CellData>\n<Points>\n";
   w.array("Name=\"Points\" NumberOfComponents=\"3\"", "Float64", grid.points);
   w.xml += "</Points>\n<Cells>\n";
@@ -239,6 +269,30 @@ Trouble write_vtu(const std::string& path, const Grid& grid) {
   w.array("Name=\"types\"", "UInt8", grid.types);
   w.xml += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
   return w.write(path);
+}
+
+}  // namespace
+
+Grid grid_of(GridSource source) {
+  Grid grid = std::move(source.shape);
+  const auto add = [](const std::vector<FieldSource>& sources, std::vector<Field>& fields) {
+    for (const FieldSource& f : sources) {
+      fields.push_back({f.name, f.components, std::vector<double>(f.count * f.components),
+                        f.component_names, f.whole});
+      f.fill(0, f.count, fields.back().values.data());
+    }
+  };
+  add(source.point_fields, grid.point_fields);
+  add(source.cell_fields, grid.cell_fields);
+  return grid;
+}
+
+Trouble write_vtu(const std::string& path, const Grid& grid) {
+  return write(path, grid, sources_of(grid.point_fields), sources_of(grid.cell_fields));
+}
+
+Trouble write_vtu(const std::string& path, const GridSource& source) {
+  return write(path, source.shape, source.point_fields, source.cell_fields);
 }
 
 Result<Grid> read_vtu(const std::string& path) {

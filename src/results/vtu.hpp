@@ -12,6 +12,7 @@
 namespace edda {
 
 Trouble write_vtu(const std::string& path, const Grid& grid);
+Trouble write_vtu(const std::string& path, const GridSource& source);
 
 /// Reads what write_vtu() wrote; other files of the format are a fault.
 Result<Grid> read_vtu(const std::string& path);

@@ -59,7 +59,7 @@ double reaction_error(const Simulation& sim, const Instant& at) {
   }
   // Without weight, or where loads cancel, the contact forces are the only reference.
   double pressed = 0.0;
-  const FaceSet& f = at.contacts;
+  const FaceSet& f = sim.motion.contacts;
   for (std::size_t k = 0; k < f.size(); ++k) pressed += std::abs(normal_force(f, k));
   if (weight < 1e-6 * pressed) weight = pressed;
   return weight > 0.0 ? norm(sum) / weight : 0.0;
@@ -131,12 +131,13 @@ void Driver::go_on() {
   if (threads_are_given()) {
     threads_.reset();
   } else if (!threads_) {
-    threads_.emplace(omp_get_num_procs());
+    threads_.emplace(most_threads());
   }
   started_ = Clock::now();
   if (paused_) reported_ += started_ - paused_at_;
   paused_ = pause_asked_ = false;
   within_memory([&] { follow_events(); });
+  update_face_rows(sim_);
   if (!over_) pause();
 }
 
@@ -211,7 +212,7 @@ void Driver::write_checkpoint_if_due() {
 std::optional<Failure> Driver::timed_step() {
   if (threads_) omp_set_num_threads(threads_->now());
   const auto start = Clock::now();
-  std::optional<Failure> failure = step(sim_);
+  std::optional<Failure> failure = step_ahead(sim_);
   const double seconds = since(start);
   if (threads_) threads_->stepped(seconds);
   outcome_.wall.stepping += seconds;
@@ -233,6 +234,7 @@ Driver::Arrival Driver::step_to(double time) {
       return Arrival::over;
     }
     if (sim_.motion.state.steps % revolutions_every == 0) {
+      update_face_rows(sim_);
       count_revolutions(sim_, angle_);
       measure_overlaps();
       look_for_chatter(outcome_.chatter, sim_);
@@ -251,12 +253,17 @@ Driver::Arrival Driver::step_to(double time) {
   return Arrival::there;
 }
 
+const Instant& Driver::look() {
+  observe_blocks(sim_, instant_);
+  return instant_;
+}
+
 bool Driver::record(const Event& event) {
   const auto start = Clock::now();
+  update_face_rows(sim_);
   count_revolutions(sim_, angle_);
   measure_overlaps();
-  Instant instant;
-  observe(sim_, instant);
+  const Instant& instant = look();
   bool fine = true;
   if (event.row) {
     const EnergyBalance energy = account_energy(sim_);
@@ -274,7 +281,9 @@ bool Driver::record(const Event& event) {
   }
   if (fine && event.frame && recorder_.writes()) {
     last_frame_ = sim_.motion.state.time;
-    fine = !ended_by(recorder_.frame(sim_, picture_of(sim_, instant)));
+    const Picture picture = picture_of(sim_, instant);
+    forget_instant();
+    fine = !ended_by(recorder_.frame(sim_, picture));
   }
   outcome_.wall.output += since(start);
   if (!fine || over_ || !event.row) return fine;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/threads.hpp"
+#include "checkpoint/image_bytes.hpp"
 #include "checkpoint/record.hpp"
 #include "run/equilibrium_search.hpp"
 #include "run/event_times.hpp"
@@ -14,6 +15,7 @@
 #include "run/run_model.hpp"
 #include "run/stage_plan.hpp"
 #include "run/stages.hpp"
+#include "step/instant.hpp"
 
 namespace edda {
 
@@ -57,7 +59,10 @@ class Driver {
   void save_checkpoint();
   /// Saves the end of the present stage, and its contacts.
   void save_stage();
-  Record memory(std::size_t stages);
+  /// False: the run is over.
+  bool save_stage_joints();
+  /// Writes what a checkpoint contains, so many stages of the model included.
+  void write_memory(ImageBytes& image, std::size_t stages);
   /// Names every field of its own that a checkpoint contains (run/driver_memory.cpp).
   template <class Archive>
   void list(Archive& archive);
@@ -91,6 +96,10 @@ class Driver {
   bool begin_next_stage();
   /// Makes a step, measures its time and chooses the number of threads.
   std::optional<Failure> timed_step();
+  /// The present instant, until it is asked for again.
+  const Instant& look();
+  /// Frees its memory, for what needs more.
+  void forget_instant() { instant_ = {}; }
   bool record(const Event& event);
   void measure_overlaps();
   bool energy_is_out_of_bounds();
@@ -118,6 +127,7 @@ class Driver {
   EventTimes times_;
   Event event_;  ///< the next event
   bool resumed_ = false;
+  Instant instant_;            ///< of look(), kept from row to row for its memory
   std::vector<double> angle_;  ///< rad, polar angle of every block when rotations were last counted
   bool over_ = false;
   bool pause_asked_ = false, paused_ = false;

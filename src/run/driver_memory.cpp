@@ -285,34 +285,45 @@ void Driver::list(Archive& a) {
   }
 }
 
-Record Driver::memory(std::size_t stages) {
-  Record record;
-  record["version"] = std::string(version);
-  record["model"] = identity(sim_.scene->model, stages);
-  Saver saver(record);
-  list(saver);
-  remember(sim_, record);
-  return record;
+void Driver::write_memory(ImageBytes& image, std::size_t stages) {
+  write_hdf5(image, [&](RecordSink& sink) {
+    Saver saver(sink);
+    saver("version", std::string(version));
+    saver("model", identity(sim_.scene->model, stages));
+    list(saver);
+    remember(sim_, sink);
+  });
 }
 
 void Driver::save_checkpoint() {
+  update_face_rows(sim_);
+  forget_instant();
   saved_ = Clock::now();
   Trouble trouble = recorder_.sync();
-  if (!trouble) trouble = write_checkpoint(options_.folder, to_hdf5(memory(all_stages)));
+  if (!trouble) {
+    trouble = write_checkpoint(options_.folder,
+                               [&](ImageBytes& image) { write_memory(image, all_stages); });
+  }
   // A checkpoint that cannot be written does not end the run; the previous one remains.
   if (trouble && options_.warn) options_.warn("no checkpoint: " + to_string(*trouble));
+}
+
+bool Driver::save_stage_joints() {
+  const Picture picture = picture_of(sim_, look());
+  forget_instant();
+  return !ended_by(recorder_.stage_joints(stage_, picture));
 }
 
 void Driver::save_stage() {
   if (!recorder_.writes() || !sim_.scene->model.output.stages || sim_.scene->model.stages.empty())
     return;
-  Instant instant;
-  observe(sim_, instant);
-  if (ended_by(recorder_.stage_joints(stage_, picture_of(sim_, instant)))) return;
+  update_face_rows(sim_);
+  if (!save_stage_joints()) return;
   stage_has_ended_ = true;
   Trouble trouble = recorder_.sync();
   if (!trouble) {
-    trouble = write_stage_checkpoint(options_.folder, stage_, to_hdf5(memory(stage_ + 1)));
+    trouble = write_stage_checkpoint(options_.folder, stage_,
+                                     [&](ImageBytes& image) { write_memory(image, stage_ + 1); });
   }
   stage_has_ended_ = false;
   if (trouble && options_.warn) options_.warn("no checkpoint: " + to_string(*trouble));

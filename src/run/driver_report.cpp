@@ -22,6 +22,7 @@ bool all_finite(const Simulation& sim) {
 
 void Driver::write_end() {
   const auto start = Clock::now();
+  update_face_rows(sim_);
   outcome_.time = sim_.motion.state.time;
   outcome_.steps = sim_.motion.state.steps;
   const bool begun = last_row_.has_value();
@@ -36,9 +37,8 @@ void Driver::write_end() {
       closed_contacts(sim_.motion.contacts) + closed_points(sim_.motion.point_contacts);
   if (begun && recorder_.writes()) {
     count_revolutions(sim_, angle_);
-    Instant instant;
-    observe(sim_, instant);
-    const Picture picture = picture_of(sim_, instant);
+    const Picture picture = picture_of(sim_, look());
+    forget_instant();
     const Trouble trouble = recorder_.tables(picture);
     if (trouble && !disk_trouble_) {
       outcome_.status = Status::failed;
@@ -99,9 +99,7 @@ void Driver::report(bool last) {
     p.largest_velocity =
         std::max(p.largest_velocity, norm(centroid(sim_.motion.state.vx, sim_.motion.state.vy, i)));
   }
-  for (const double depth : sim_.motion.contacts.deepest) {
-    p.largest_overlap = std::max(p.largest_overlap, depth);
-  }
+  p.largest_overlap = sim_.accounts.penetration;
   p.at_most = std::any_of(plans_.begin() + static_cast<std::ptrdiff_t>(stage_), plans_.end(),
                           [](const StagePlan& plan) { return plan.to_equilibrium(); });
   p.stage = stage_;

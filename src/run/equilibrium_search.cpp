@@ -128,11 +128,13 @@ Equilibrium look_for_equilibrium(EquilibriumSearch& s, Simulation& sim, const St
     return Equilibrium::not_yet;
   }
   if (sim.motion.state.steps >= s.window_began + s.window) {
+    update_face_rows(sim);
     find_loose_blocks(s, sim);
     begin_window(s, sim);
     if (all_loose(sim)) return Equilibrium::never;
   }
   if (is_explicit(sim) && sim.motion.state.steps % look_every != 0) return Equilibrium::not_yet;
+  update_face_rows(sim);
   const Balance balance = balance_of(sim);
   const bool waits = stage.falling == FallingBlocks::wait && balance.detached > 0;
   sim.relaxation.balanced = balance.resting > 0 && balance.mean_95 <= stage.ratio;

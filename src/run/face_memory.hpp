@@ -15,17 +15,6 @@
 namespace edda {
 
 template <class Archive>
-void list_column(Archive& a, const std::string& name, ChunkColumn& column) {
-  std::vector<double> values;
-  if constexpr (!Archive::loads) values = column.values();
-  a(name, values);
-  if constexpr (Archive::loads) {
-    if (values.size() != column.size()) return a.refuse("faces do not fit together");
-    column.take(values);
-  }
-}
-
-template <class Archive>
 void list_faces(Archive& a, FaceSet& c) {
   a("faces.edge", c.edge);
   a("faces.facing", c.facing);
@@ -38,11 +27,11 @@ void list_faces(Archive& a, FaceSet& c) {
     c.clear_rows(c.size());
   }
   for (const auto& column : face_properties) {
-    if (column.kept) list_column(a, std::string("faces.") + column.name, c.*column.values);
+    if (column.kept) a(std::string("faces.") + column.name, c.*column.values);
   }
   for (const auto& column : face_columns) {
-    list_column(a, std::string("faces.now.") + column.name, c.now.*column.values);
-    list_column(a, std::string("faces.before.") + column.name, c.before.*column.values);
+    a(std::string("faces.now.") + column.name, c.now.*column.values);
+    a(std::string("faces.before.") + column.name, c.before.*column.values);
   }
   a("faces.force", c.force);
   a("faces.locked_start", c.locked_start);

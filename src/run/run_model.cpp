@@ -57,7 +57,8 @@ std::optional<Fault> heavy_scaling(const Simulation& sim) {
   if (added <= most_added * all) return {};
   const Solver& solver = sim.scene->model.solver;
   // Before mass scaling each block needed a step smaller by the square root of its factor.
-  std::vector<double> own = steps_of_blocks(stiffness_inputs(sim), 0.0);
+  StepCache known = sim.control.step_cache;
+  std::vector<double> own = steps_of_blocks(stiffness_inputs(sim), 0.0, &known);
   for (std::size_t i = 0; i < own.size(); ++i) own[i] /= std::sqrt(sim.motion.masses.raised[i]);
   const double step = step_that_adds(sim.scene->blocks, own, most_added * all);
   const double largest = solver.time_step ? step : solver.safety * step;

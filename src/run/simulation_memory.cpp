@@ -163,7 +163,8 @@ void judge(Judge& j, const Simulation& s) {
   const std::size_t nb = s.scene->blocks.size(), nv = s.scene->blocks.vertex_count();
   for (const Nodes* nodes :
        {&s.motion.state.x, &s.motion.state.y, &s.motion.state.vx, &s.motion.state.vy,
-        &s.motion.state.from_x, &s.motion.state.from_y, &s.motion.forces.x, &s.motion.forces.y}) {
+        &s.motion.state.from_x, &s.motion.state.from_y, &s.motion.forces.x, &s.motion.forces.y,
+        &s.motion.on_faces.x, &s.motion.on_faces.y}) {
     for (const auto& values : *nodes) j.sized("state", values, nb);
   }
   for (const auto* jump : {&s.motion.jump.x, &s.motion.jump.y}) {
@@ -200,6 +201,8 @@ template <class Archive>
 void list_memory(Archive& a, Simulation& s) {
   list_state(a, s);
   list_faces(a, s.motion.contacts);
+  a("on_faces_x", s.motion.on_faces.x);
+  a("on_faces_y", s.motion.on_faces.y);
   if (s.scene->at_points()) list_points(a, s.motion.point_contacts);
   list_counts(a, s);
   list_wall_forces(a, s);
@@ -226,11 +229,16 @@ void list_memory(Archive& a, Simulation& s) {
   }
 }
 
-void remember(const Simulation& sim, Record& record) {
-  Saver saver(record);
+void remember(const Simulation& sim, RecordSink& sink) {
+  Saver saver(sink);
   // Saver only reads.
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
   list_memory(saver, const_cast<Simulation&>(sim));
+}
+
+void remember(const Simulation& sim, Record& record) {
+  RecordKeeper keeper(record);
+  remember(sim, keeper);
 }
 
 std::string recall(Simulation& sim, const Record& record) {

@@ -8,7 +8,9 @@
 
 namespace edda {
 
-/// Adds everything that has changed since create() to `record`, each value under its own name.
+/// Passes on everything that has changed since create(), each value under its own name.
+void remember(const Simulation& sim, RecordSink& sink);
+/// The same, into memory.
 void remember(const Simulation& sim, Record& record);
 
 /// Restores the state of `record` in a simulation made from the same model. Returns what is wrong

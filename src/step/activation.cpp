@@ -102,7 +102,7 @@ std::optional<Fault> install(Simulation& sim, const std::vector<Index>& which) {
   const Pose& pose = sim.motion.pose;
   // The walls have moved since the bolts were drawn.
   constexpr double slack = 0.05;
-  const double energy = energy_balance(sim).balance(), power = bolt_power(sim);
+  const double energy = total_energy(sim), power = bolt_power(sim);
   Result<Bolts> fresh = attach_bolts(model, blocks, sim.motion.state, pose.x, pose.y, which, slack);
   if (!fresh.ok()) return fresh.faults().front();
   add_bolts(bolts, fresh.value(), model, blocks.size());
@@ -110,7 +110,7 @@ std::optional<Fault> install(Simulation& sim, const std::vector<Index>& which) {
   // in which the bolts did not store it.
   bolts.work_pending +=
       sim.stepper->velocity_lag * sim.control.step_before * (bolt_power(sim) - power);
-  sim.accounts.external_work += energy_balance(sim).balance() - energy;
+  sim.accounts.external_work += total_energy(sim) - energy;
   return {};
 }
 
@@ -120,7 +120,7 @@ void switch_over(Simulation& sim, const NamedRows& off, const NamedRows& on) {
   Ground& ground = sim.attached.ground;
   const State& state = sim.motion.state;
   const Pose& pose = sim.motion.pose;
-  const double energy = energy_balance(sim).balance();
+  const double energy = total_energy(sim);
   const NodalForces before_it = off.boundaries.empty() ? NodalForces{} : forces_now(sim);
   std::vector<WallForce> wall_forces = release_boundaries(sim, off.boundaries);
   for (const Index q : off.shakings) {
@@ -163,11 +163,11 @@ void switch_over(Simulation& sim, const NamedRows& off, const NamedRows& on) {
   const bool shakes = std::any_of(intervals.shakings.begin(), intervals.shakings.end(),
                                   [](const ActiveInterval& interval) { return interval.acts(); });
   if (!shakes) ground.velocity = {};
-  sim.accounts.external_work += energy_balance(sim).balance() - energy;
+  sim.accounts.external_work += total_energy(sim) - energy;
 }
 
 void glue_joints(Simulation& sim, bool glued) {
-  FaceSet& contacts = sim.motion.contacts;
+  FaceSet& contacts = faces_to_change(sim);
   if (glued == contacts.gluing) return;
   const NodalForces before = forces_now(sim);
   if (glued) {

@@ -1,4 +1,6 @@
 // The list of possible contacts, and when it is renewed.
+#include "step/contact_search.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,24 +27,31 @@ void search(Simulation& sim, double reach) {
   State& state = sim.motion.state;
   Pose& pose = sim.motion.pose;
   LawTable& laws = sim.motion.laws;
-  FaceSet& contacts = sim.motion.contacts;
+  FaceSet& contacts = faces_to_change(sim);
   if (sim.scene->at_points()) {
     find_points(sim.motion.point_contacts, blocks, state, pose, laws, reach);
     State of_no_faces;
     of_no_faces.alive.assign(blocks.size(), 0);
-    return find_faces(contacts, blocks, of_no_faces, pose, laws, reach);
+    find_faces(contacts, blocks, of_no_faces, pose, laws, reach);
+  } else {
+    find_faces(contacts, blocks, state, pose, laws, reach);
+    set_face_dashpots(contacts, laws, sim.motion.damping.contact);
   }
-  find_faces(contacts, blocks, state, pose, laws, reach);
-  set_face_dashpots(contacts, laws, sim.motion.damping.contact);
+  sum_face_forces(sim);
 }
 
 FaceScene face_scene(const Simulation& sim) {
   return {sim.scene->blocks, sim.motion.masses, sim.motion.pose, sim.motion.laws};
 }
 
+void sum_face_forces(Simulation& sim) {
+  sum_faces(sim.motion.on_faces, sim.scene->blocks, sim.motion.contacts);
+}
+
 void reevaluate_faces(Simulation& sim) {
   if (sim.control.step_before > 0.0) {
-    evaluate_faces(sim.motion.contacts, face_scene(sim), sim.control.step_before);
+    evaluate_faces(faces_to_change(sim), face_scene(sim), sim.control.step_before);
+    sum_face_forces(sim);
   }
 }
 
@@ -77,12 +86,11 @@ bool list_is_scattered(const Simulation& sim) {
   constexpr std::uint64_t every = 256;  // steps
   constexpr std::size_t few = 16;       // chunks
   if (sim.motion.state.steps % every != 0) return false;
-  const FaceSet& c = sim.motion.contacts;
+  const std::vector<std::uint8_t> carry = faces_that_carry(sim);
   std::size_t carrying = 0, touched = 0;
-  for (std::size_t q = 0; q < c.chunks(); ++q) {
-    const std::size_t begin = q * FaceSet::chunk, end = std::min(begin + FaceSet::chunk, c.size());
-    const std::size_t before = carrying;
-    for (std::size_t k = begin; k < end; ++k) carrying += c.now.energy[k] > 0.0 ? 1 : 0;
+  for (std::size_t begin = 0; begin < carry.size(); begin += FaceSet::chunk) {
+    const std::size_t end = std::min(begin + FaceSet::chunk, carry.size()), before = carrying;
+    for (std::size_t k = begin; k < end; ++k) carrying += carry[k];
     touched += carrying > before ? 1 : 0;
   }
   return touched > few + 3 * carrying / (2 * FaceSet::chunk);
@@ -90,7 +98,8 @@ bool list_is_scattered(const Simulation& sim) {
 
 void search_if_due(Simulation& sim) {
   if (!list_is_due(sim) && !list_is_scattered(sim)) return;
-  search(sim, std::max(sim.scene->base_reach, 20.0 * sim.control.last_displacement));
+  const double reach = std::max(sim.scene->base_reach, 20.0 * sim.control.last_displacement);
+  search(sim, reach);
   set_limit(sim);
 }
 

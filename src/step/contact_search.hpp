@@ -12,6 +12,8 @@ FaceScene face_scene(const Simulation& sim);
 
 /// Computes all vertices from the nodes.
 void place_all(Simulation& sim);
+/// Sums the forces of the faces on each block; to be called where faces have been evaluated.
+void sum_face_forces(Simulation& sim);
 /// Evaluates the faces at n again, after a change of their strength.
 void reevaluate_faces(Simulation& sim);
 /// Makes the list of all possible contacts within `reach` (m).

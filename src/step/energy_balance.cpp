@@ -98,11 +98,17 @@ double energy_scale(const Simulation& sim, const EnergyBalance& l) {
 
 EnergyBalance account_energy(Simulation& sim) {
   Accounts& accounts = sim.accounts;
+  update_face_rows(sim);
   EnergyBalance l = energy_balance(sim);
   if (!accounts.start_energy) accounts.start_energy = l.balance();
   accounts.largest_energy = energy_scale(sim, l);
   l.error = (l.balance() - *accounts.start_energy) / accounts.largest_energy;
   return l;
+}
+
+double total_energy(Simulation& sim) {
+  update_face_rows(sim);
+  return energy_balance(sim).balance();
 }
 
 }  // namespace edda

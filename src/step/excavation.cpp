@@ -34,7 +34,7 @@ std::vector<WallForce> wall_forces(const BlockSet& b, const FaceSet& f,
 void excavate(Simulation& sim, const std::vector<Index>& openings) {
   const BlockSet& blocks = sim.scene->blocks;
   State& state = sim.motion.state;
-  const double energy = energy_balance(sim).balance();
+  const double energy = total_energy(sim);
   std::vector<std::uint8_t> goes(blocks.size(), 0);
   std::set<Index> going;  // openings excavated before keep what they have released
   for (std::size_t i = 0; i < blocks.opening.size(); ++i) {
@@ -43,7 +43,7 @@ void excavate(Simulation& sim, const std::vector<Index>& openings) {
     goes[i] = named && state.alive[i] != 0 ? 1 : 0;
     if (goes[i] != 0) going.insert(blocks.opening[i]);
   }
-  const std::vector<WallForce> on_walls = wall_forces(blocks, sim.motion.contacts, goes);
+  const std::vector<WallForce> on_walls = wall_forces(blocks, faces_to_change(sim), goes);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     if (goes[i] == 0) continue;
     state.alive[i] = 0;
@@ -53,7 +53,7 @@ void excavate(Simulation& sim, const std::vector<Index>& openings) {
     sim.attached.loads.remaining[static_cast<std::size_t>(o)] = {0.0, 1.0, state.time};
   keep(sim, on_walls);
   search(sim, sim.motion.contacts.reach);
-  sim.accounts.external_work += energy_balance(sim).balance() - energy;
+  sim.accounts.external_work += total_energy(sim) - energy;
 }
 
 void relax(Simulation& sim, Index opening, double part) {

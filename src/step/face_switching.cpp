@@ -52,28 +52,32 @@ double mobility(const StepTaken& taken, Id i, const NodeVectors& force) {
   return dot(accelerations(taken.masses, i, force), force);
 }
 
+/// Whether a face that stored energy at n - 1 opens or closes in this step or did so in the last.
+bool switches(const FaceSet& c, std::size_t k) {
+  return c.before.energy[k] > 0.0 && c.carries_tension[k] == 0.0 &&
+         (c.now.switched[k] > 0.0 || c.before.switched[k] > 0.0);
+}
+
 class Correction {
  public:
-  Correction(FaceSet& faces, const LawTable& laws, const StepTaken& taken,
-             FaceSwitchingScratch& scratch)
+  Correction(FaceSet& faces, const StepTaken& taken, FaceSwitchingScratch& scratch,
+             FaceAccess& access)
       : c_(faces),
         b_(taken.blocks),
-        laws_(laws),
         pose_(taken.pose),
         scratch_(scratch),
-        taken_(taken) {
+        taken_(taken),
+        access_(access) {
     scratch_.moved_at.resize(b_.size(), 0);
     scratch_.set.clear();
     scratch_.pushed.clear();
+    scratch_.pushed_by = 0.0;
   }
 
-  bool find() {
-    for (std::size_t q = 0; q < c_.switching.size(); ++q) {
-      if (c_.switching[q] == 0) continue;
-      const std::size_t end = std::min(c_.size(), (q + 1) * FaceSet::chunk);
-      for (std::size_t k = q * FaceSet::chunk; k < end; ++k) {
-        if (switches(k)) add(static_cast<Id>(k));
-      }
+  bool find(const std::vector<Id>& among) {
+    for (const Id k : among) {
+      access_.bring(k);
+      if (switches(c_, k)) add(k);
     }
     return !scratch_.set.empty();
   }
@@ -99,17 +103,19 @@ class Correction {
     std::sort(pushed.begin(), pushed.end());
     pushed.erase(std::unique(pushed.begin(), pushed.end()), pushed.end());
     const std::size_t known = scratch_.set.size();
-    for (const Id i : pushed) {
-      c_.for_faces(b_.vertex_begin[i], b_.vertex_begin[i + 1], [&](Id k, bool) {
-        evaluate_face(c_, {b_, taken_.masses, pose_, laws_}, taken_.h_new, k);
-        if (switches(k) && !is_known(k)) add(k);
-      });
+    scratch_.found.clear();
+    access_.evaluate(pushed, scratch_.found);
+    for (const Id k : scratch_.found) {
+      if (is_known(k)) continue;
+      access_.bring(k);
+      if (switches(c_, k)) add(k);
     }
     pushed.clear();
     return scratch_.set.size() > known;
   }
 
-  /// Accounts for the energy residual left after the last pass as transfer.
+  /// Accounts for the energy residual left after the last pass as transfer. The slip of these faces
+  /// at n has changed, also where no block was pushed.
   void book() {
     for (const SwitchingFace& f : scratch_.set) {
       const Face next = face_at(c_, b_, pose_.x, pose_.y, f.face);
@@ -117,13 +123,10 @@ class Correction {
           stored_between(f.element, f.at, next, face_points(c_, pose_.x, pose_.y, f.face), false);
       c_.transfer[f.face] += f.stored - stored_next - f.alpha * work(f);
     }
+    access_.finish(scratch_.set);
   }
 
  private:
-  bool switches(std::size_t k) const {
-    return c_.before.energy[k] > 0.0 && c_.carries_tension[k] == 0.0 &&
-           (c_.now.switched[k] > 0.0 || c_.before.switched[k] > 0.0);
-  }
   bool is_known(Id k) const {
     return std::any_of(scratch_.set.begin(), scratch_.set.end(),
                        [&](const SwitchingFace& f) { return f.face == k; });
@@ -181,28 +184,48 @@ class Correction {
     const OnBlocks on = on_blocks(c_, b_, more, k);
     if (b_.fixed[i]) scratch_.on_fixed += resultant(on.first);
     if (b_.fixed[j]) scratch_.on_fixed += resultant(on.second);
-    push_block(taken_, i, on.first);
-    push_block(taken_, j, on.second);
-    scratch_.pushed.push_back(i);
-    scratch_.pushed.push_back(j);
+    push(i, on.first);
+    push(j, on.second);
     if (!f.done) scratch_.moved_at[i] = scratch_.moved_at[j] = f.corrected_at;
     return f.done;
   }
 
+  /// A fixed block does not move, and may have very many faces.
+  void push(Id i, const NodeVectors& force) {
+    if (b_.fixed[i]) return;
+    scratch_.pushed_by += push_block(taken_, i, force);
+    scratch_.pushed.push_back(i);
+  }
+
   FaceSet& c_;
   const BlockSet& b_;
-  const LawTable& laws_;
   const Pose& pose_;
   FaceSwitchingScratch& scratch_;
   const StepTaken& taken_;
+  FaceAccess& access_;
 };
 
 }  // namespace
 
-void correct_switching(FaceSet& c, const LawTable& laws, const StepTaken& taken,
-                       OpenCloseCounts& counts, FaceSwitchingScratch& scratch) {
-  Correction correction(c, laws, taken, scratch);
-  if (!correction.find()) return;
+void FaceRows::evaluate(const std::vector<Id>& blocks, std::vector<Id>& switching) {
+  const BlockSet& b = scene_.blocks;
+  for (const Id i : blocks) {
+    faces_.for_faces(b.vertex_begin[i], b.vertex_begin[i + 1], [&](Id k, bool) {
+      evaluate_face(faces_, scene_, step_, k);
+      if (switches(faces_, k)) switching.push_back(k);
+    });
+  }
+}
+
+void FaceRows::finish(const std::vector<SwitchingFace>& corrected) {
+  for (const SwitchingFace& f : corrected) evaluate_face(faces_, scene_, step_, f.face);
+}
+
+void correct_switching(FaceSet& c, const StepTaken& taken, OpenCloseCounts& counts,
+                       FaceSwitchingScratch& scratch, const std::vector<Id>& switching,
+                       FaceAccess& access) {
+  Correction correction(c, taken, scratch, access);
+  if (!correction.find(switching)) return;
   std::uint64_t passes = 0;
   bool all = false, more = true;
   while (more) {
@@ -223,6 +246,16 @@ void correct_switching(FaceSet& c, const LawTable& laws, const StepTaken& taken,
   }
   for (const SwitchingFace& f : scratch.set) ++counts.of_face[f.face];
   if (!all) ++counts.not_converged;
+}
+
+std::vector<Id> switching_faces(const FaceSet& c) {
+  std::vector<Id> found;
+  for (std::size_t q = 0; q < c.switching.size(); ++q) {
+    if (c.switching[q] == 0) continue;
+    const std::size_t end = std::min(c.size(), (q + 1) * FaceSet::chunk);
+    for (std::size_t k = q * FaceSet::chunk; k < end; ++k) found.push_back(static_cast<Id>(k));
+  }
+  return found;
 }
 
 double largest_closure(const FaceSet& c) {

@@ -43,16 +43,51 @@ struct SwitchingFace {
 struct FaceSwitchingScratch {
   std::vector<SwitchingFace> set;
   std::vector<Id> pushed;  ///< blocks that have moved since the faces were last evaluated
+  std::vector<Id> found;   ///< faces that may switch since
   std::vector<std::uint64_t>
       moved_at;  ///< [nb] value of `corrections` when a face last moved the block
   std::uint64_t corrections = 0;
-  Vec2 on_fixed;  ///< N: change of the forces on fixed blocks
+  double pushed_by = 0.0;  ///< m: no vertex was pushed farther in the last correction
+  Vec2 on_fixed;           ///< N: change of the forces on fixed blocks
+};
+
+/// The faces, wherever their state is kept.
+class FaceAccess {
+ public:
+  virtual ~FaceAccess() = default;
+  /// Brings the row of face k up to date, `before` at least, for as long as the correction lasts.
+  virtual void bring(Id k) = 0;
+  /// Evaluates the faces of these blocks, which have been pushed, and appends those that may
+  /// switch.
+  virtual void evaluate(const std::vector<Id>& blocks, std::vector<Id>& switching) = 0;
+  /// Evaluates these faces, of which `before` has changed, at their final positions.
+  virtual void finish(const std::vector<SwitchingFace>& corrected) = 0;
+};
+
+/// Faces whose rows are up to date.
+class FaceRows : public FaceAccess {
+ public:
+  FaceRows(FaceSet& faces, const FaceScene& scene, double step)
+      : faces_(faces), scene_(scene), step_(step) {}
+  void bring(Id) override {}
+  void evaluate(const std::vector<Id>& blocks, std::vector<Id>& switching) override;
+  void finish(const std::vector<SwitchingFace>& corrected) override;
+
+ private:
+  FaceSet& faces_;
+  FaceScene scene_;
+  double step_;
 };
 
 /// On entry: positions and faces of step n + 1, made with the whole forces of step n. On return
-/// both are final, and `before` of the faces holds the forces that acted at n.
-void correct_switching(FaceSet& faces, const LawTable& laws, const StepTaken& taken,
-                       OpenCloseCounts& counts, FaceSwitchingScratch& scratch);
+/// both are final, and `before` of the faces holds the forces that acted at n. switching: the faces
+/// that may switch, ascending.
+void correct_switching(FaceSet& faces, const StepTaken& taken, OpenCloseCounts& counts,
+                       FaceSwitchingScratch& scratch, const std::vector<Id>& switching,
+                       FaceAccess& access);
+
+/// The faces of chunks in which one may switch (FaceSet::switching).
+std::vector<Id> switching_faces(const FaceSet& faces);
 
 /// Largest drawn closure of a face that carries load, m.
 double largest_closure(const FaceSet& faces);

@@ -132,9 +132,8 @@ Vec2 force_on_fixed(const Simulation& sim) {
   for (const Id i : sim.attached.ground.fixed_blocks) {
     NodeVectors f{};
     add_bolts(f, sim.attached.bolts, i);
-    Vec2 on_block = contact_resultant(sim.scene->blocks, sim.motion.contacts, i);
-    for (const Vec2 on_node : f) on_block += on_node;
-    on_fixed += on_block;
+    const NodalForces& faces = sim.motion.on_faces;
+    on_fixed += resultant(vectors_of(faces.x, faces.y, i)) + resultant(f);
   }
   return on_fixed;
 }

@@ -31,7 +31,10 @@ void close_contacts(Simulation& sim) {
   const Pose& pose = sim.motion.pose;
   const LawTable& laws = sim.motion.laws;
   FaceSet& contacts = sim.motion.contacts;
-  if (!model.initial_stress) return evaluate_faces(contacts, face_scene(sim), 1.0);
+  if (!model.initial_stress) {
+    evaluate_faces(contacts, face_scene(sim), 1.0);
+    return sum_face_forces(sim);
+  }
   const StressField field(model, blocks.origin);
   const LoadsNow at_start = loads_at(model, sim.attached.loads, 0.0);
   const FaceForces faces(blocks, field, at_start);
@@ -42,6 +45,7 @@ void close_contacts(Simulation& sim) {
   sim.accounts.initial->joints = preload_faces(contacts, blocks, pose, laws, traction);
   if (glued) glue_faces(contacts);
   evaluate_faces(contacts, face_scene(sim), 1.0);
+  sum_face_forces(sim);
 }
 
 }  // namespace edda

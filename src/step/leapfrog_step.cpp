@@ -70,7 +70,7 @@ bool move(Simulation& sim, double h_old, double h_new, const LoadsNow* not_yet_g
   parallel_chunks(
       blocks.size(), blocks_at_once, [&](std::size_t c, std::size_t begin, std::size_t end) {
         if (not_yet_gathered != nullptr) {
-          gather_forces(forces, blocks, state, pose, sim.motion.contacts, sim.attached.springs,
+          gather_forces(forces, blocks, state, pose, sim.motion.on_faces, sim.attached.springs,
                         sim.scene->model.gravity, *not_yet_gathered, begin, end);
         }
         add_dashpots(forces, sim.motion.on_dashpots, dashpots, before, dashpot_step, begin, end);
@@ -104,7 +104,7 @@ void start_leapfrog(Simulation& sim) {
   const BlockSet& blocks = sim.scene->blocks;
   State& state = sim.motion.state;
   Pose& pose = sim.motion.pose;
-  FaceSet& contacts = sim.motion.contacts;
+  FaceSet& contacts = faces_to_change(sim);
   NodalForces& forces = sim.motion.forces;
   LeapfrogStep& own = sim.leapfrog;
   const double h = state.step;
@@ -121,9 +121,10 @@ void start_leapfrog(Simulation& sim) {
     start_ground(sim, h);
     correct_last_step(contacts, blocks, pose, old_x1, old_y1);
     evaluate_faces(contacts, face_scene(sim), h);
+    sum_face_forces(sim);
   };
   look_back();
-  gather_forces(forces, blocks, state, pose, contacts, sim.attached.springs,
+  gather_forces(forces, blocks, state, pose, sim.motion.on_faces, sim.attached.springs,
                 sim.scene->model.gravity, acting(sim));
   own.drive = dashpot_drive(sim, {}, sim.attached.free_field.columns);
   add_dashpots(forces, sim.motion.on_dashpots, sim.attached.dashpots,
@@ -173,13 +174,12 @@ bool move_blocks(Simulation& sim, double h_old, const LoadsNow& at_work) {
 
 /// Evaluates the faces at n + 1, with the strength after the accumulated slip.
 void place_contacts(Simulation& sim) {
-  const BlockSet& blocks = sim.scene->blocks;
-  const Pose& pose = sim.motion.pose;
-  const LawTable& laws = sim.motion.laws;
-  FaceSet& contacts = sim.motion.contacts;
   if (sim.attached.ground.moves) sim.leapfrog.on_fixed = force_on_fixed(sim);
+  if (steps_in_tiles(sim)) return place_in_tiles(sim);
+  const LawTable& laws = sim.motion.laws;
+  FaceSet& contacts = faces_to_change(sim);
   next_step(contacts);
-  if (laws.any_changes) update_joint_laws(contacts, blocks, pose, laws);
+  if (laws.any_changes) update_joint_laws(contacts, sim.scene->blocks, sim.motion.pose, laws);
   evaluate_faces(contacts, face_scene(sim), sim.motion.state.step);
 }
 
@@ -192,12 +192,24 @@ void switch_contacts(Simulation& sim, double h_old) {
   if (sim.scene->model.solver.switching == Switching::exact) {
     const StepTaken taken{sim.scene->blocks, motion.masses,  motion.state,    motion.pose, h_old,
                           motion.state.step, own.damps.mass, own.damps.strain};
-    correct_switching(motion.contacts, motion.laws, taken, accounts.open_close, own.switching);
+    if (own.tiled.ahead) {
+      switch_in_tiles(sim, taken);
+    } else {
+      FaceRows rows(motion.contacts, face_scene(sim), motion.state.step);
+      correct_switching(motion.contacts, taken, accounts.open_close, own.switching,
+                        switching_faces(motion.contacts), rows);
+    }
+  }
+  if (own.tiled.ahead) {
+    accounts.penetration = largest_closure(own.tiled);
+  } else {
+    sum_face_forces(sim);
+    accounts.penetration = largest_closure(motion.contacts);
   }
   if (sim.scene->at_points()) {
     move_points(motion.point_contacts, sim.scene->blocks, motion.pose, motion.laws);
+    accounts.penetration = std::max(accounts.penetration, motion.point_contacts.deepest);
   }
-  accounts.penetration = std::max(largest_closure(motion.contacts), motion.point_contacts.deepest);
   accounts.max_penetration = std::max(accounts.max_penetration, accounts.penetration);
 }
 
@@ -230,6 +242,24 @@ void adjust_step(Simulation& sim) {
   }
 }
 
+/// Brings the rows of the faces to step n where the step to n + 1 has failed.
+void update_faces_before(Simulation& sim) {
+  Pose& pose = sim.motion.pose;
+  const auto turn = [&] {
+    std::swap(pose.x, pose.x1);
+    std::swap(pose.y, pose.y1);
+  };
+  const auto turn_old = [&] {
+    std::swap(pose.x1, pose.x2);
+    std::swap(pose.y1, pose.y2);
+  };
+  turn();
+  turn_old();
+  update_face_rows(sim);
+  turn_old();
+  turn();
+}
+
 std::optional<Failure> step_leapfrog(Simulation& sim) {
   StageSeconds& seconds = sim.accounts.seconds;
   StageClock clock(sim.motion.state.steps);
@@ -237,7 +267,15 @@ std::optional<Failure> step_leapfrog(Simulation& sim) {
   split_jump(sim);
   const LoadsNow at_work = acting(sim);
   clock.lap(seconds.forces);
-  if (!move_blocks(sim, h_old, at_work)) return lost(sim);
+  if (steps_in_tiles(sim)) {
+    load_tiles(sim);
+  } else {
+    faces_to_change(sim);
+  }
+  if (!move_blocks(sim, h_old, at_work)) {
+    update_faces_before(sim);
+    return lost(sim);
+  }
   clock.lap(seconds.integrate);
   place_contacts(sim);
   switch_contacts(sim, h_old);
@@ -250,6 +288,7 @@ std::optional<Failure> step_leapfrog(Simulation& sim) {
   search_if_due(sim);
   adjust_step(sim);
   clock.lap(seconds.search);
+  if (sim.accounts.penetration > sim.scene->smallest_half_width) update_face_rows(sim);
   return inspect(sim);
 }
 

@@ -11,6 +11,7 @@
 #include "integrate/strain_damping.hpp"
 #include "step/face_switching.hpp"
 #include "step/ground_motion.hpp"
+#include "step/tile_step.hpp"
 
 namespace edda {
 
@@ -22,6 +23,7 @@ struct LeapfrogStep {
   std::vector<FreeFieldColumn> next_columns;  ///< free field at the end of the step
   std::vector<double> largest;  ///< [chunks of blocks] squares of largest displacements, m2
   FaceSwitchingScratch switching;
+  TiledFaces tiled;
   StrainDamping strain_damping;
   StepDamping damps;  ///< damping in force in the step
 };

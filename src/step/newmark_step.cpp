@@ -94,6 +94,7 @@ void start_newmark(Simulation& sim) {
   pose.x1 = pose.x;
   pose.y1 = pose.y;
   evaluate_faces(contacts, face_scene(sim), state.step);
+  sum_face_forces(sim);
   begin_from_step_end(contacts);
 }
 
@@ -178,6 +179,7 @@ std::optional<Failure> step_newmark(Simulation& sim) {
   }
   LoadsNow at_work;
   if (std::optional<Failure> failure = move_blocks(sim, at_work)) return failure;
+  sum_face_forces(sim);
   account_loads(sim, at_work);
   if (motion.state.step != sim.control.step_before) ++accounts.steps.changes;
   finish_step(sim);

@@ -27,7 +27,8 @@ struct StepTaken {
 };
 
 /// Moves block i as the step would have with these additional nodal forces (N): changes its
-/// velocities, nodes and vertices in Pose::x, y.
-void push_block(const StepTaken& taken, Id i, const NodeVectors& force);
+/// velocities, nodes and vertices in Pose::x, y. Returns how far the vertex has moved that has
+/// moved farthest, m.
+double push_block(const StepTaken& taken, Id i, const NodeVectors& force);
 
 }  // namespace edda

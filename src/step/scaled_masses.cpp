@@ -50,7 +50,7 @@ void raise_masses(Simulation& sim) {
                       : solver.time_step        ? solver.mass_scaling
                                                 : solver.mass_scaling / solver.safety;
   const bool moving = state.steps > 0;
-  const double energy = moving ? energy_balance(sim).balance() : 0.0;
+  const double energy = moving ? total_energy(sim) : 0.0;
   std::vector<double> most;
   if (slivers) {
     most = control.sliver_most;
@@ -68,7 +68,7 @@ void raise_masses(Simulation& sim) {
       for (std::size_t i = 0; i < blocks.size(); ++i) values[i] /= factor[i];
     }
   }
-  sim.accounts.step_change_energy += energy_balance(sim).balance() - energy;
+  sim.accounts.step_change_energy += total_energy(sim) - energy;
 }
 
 double uniform_step(const Simulation& sim) {
@@ -84,11 +84,11 @@ void scale_masses(Simulation& sim, StageMasses masses) {
   StepControl& control = sim.control;
   const bool uniform = masses == StageMasses::scaled;
   if (!uniform && control.scaled_step == 0.0) return;
-  const double energy = energy_balance(sim).balance();
+  const double energy = total_energy(sim);
   sim.motion.masses = given_masses(sim.scene->blocks);
   set_viscosity(sim);
   control.scaled_step = uniform ? uniform_step(sim) : 0.0;
-  sim.accounts.step_change_energy += energy_balance(sim).balance() - energy;
+  sim.accounts.step_change_energy += total_energy(sim) - energy;
 }
 
 }  // namespace edda

@@ -27,8 +27,15 @@ void start(Simulation& sim, double first_event) {
 }
 
 std::optional<Failure> step(Simulation& sim) {
+  std::optional<Failure> failure = step_ahead(sim);
+  update_face_rows(sim);
+  return failure;
+}
+
+std::optional<Failure> step_ahead(Simulation& sim) {
   std::optional<Failure> failure = sim.stepper->step(sim);
   if constexpr (invariants_are_checked) {
+    update_face_rows(sim);
     const std::string broken = failure ? std::string() : broken_invariant(sim);
     if (!broken.empty()) throw std::logic_error("invariant: " + broken);
   }
@@ -40,7 +47,7 @@ void observe(const Simulation& sim, Instant& at) {
   at.contacts = motion.contacts;
   at.state = motion.state;
   at.forces = motion.forces;
-  gather_forces(at.forces, sim.scene->blocks, motion.state, motion.pose, at.contacts,
+  gather_forces(at.forces, sim.scene->blocks, motion.state, motion.pose, motion.on_faces,
                 sim.attached.springs, sim.scene->model.gravity, acting(sim));
   sim.stepper->look(sim, at);
 }

@@ -24,9 +24,9 @@ void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy) {
   const BlockSet& blocks = sim.scene->blocks;
   State& state = sim.motion.state;
   Pose& pose = sim.motion.pose;
-  FaceSet& contacts = sim.motion.contacts;
+  FaceSet& contacts = faces_to_change(sim);
   const StepControl& control = sim.control;
-  const double energy = energy_balance(sim).balance();
+  const double energy = total_energy(sim);
   const bool leaps = sim.stepper->velocity_lag > 0.0;
   // The last step is taken to have been made with the new velocities, which changes closures and
   // slips before it. Chains of bolts are not changed back; their forces will do F_n . (u'_n -
@@ -43,9 +43,10 @@ void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy) {
     place_a_step_back(blocks, state, state.vx, state.vy, control.step_before, pose);
     correct_last_step(contacts, blocks, pose, old_x1, old_y1);
     evaluate_faces(contacts, face_scene(sim), control.step_before);
+    sum_face_forces(sim);
     sim.attached.bolts.work_pending += 0.5 * control.step_before * (bolt_power(sim) - bolts_before);
   }
-  sim.accounts.external_work += energy_balance(sim).balance() - energy;
+  sim.accounts.external_work += total_energy(sim) - energy;
 }
 
 }  // namespace edda

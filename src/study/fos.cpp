@@ -4,39 +4,19 @@
 
 #include <algorithm>
 #include <chrono>
-#include <deque>
-#include <exception>
 #include <map>
+#include <memory>
 
+#include "results/machine.hpp"
 #include "run/wall_clock.hpp"
 #include "step/labels.hpp"
 #include "study/fos_bracket.hpp"
 #include "study/fos_start.hpp"
+#include "study/likely_factors.hpp"
+#include "study/side_by_side.hpp"
 
 namespace edda {
 namespace {
-
-/// The factors that the search may need next, the most certain first: the one it needs, then those
-/// it would need after either outcome, and so on.
-std::vector<double> likely_next(const FosBracket& bracket, std::size_t most) {
-  std::vector<double> factors;
-  std::deque<FosBracket> states{bracket};
-  while (!states.empty() && factors.size() < most) {
-    const FosBracket state = states.front();
-    states.pop_front();
-    const std::optional<double> factor = state.next();
-    if (!factor) continue;
-    if (std::find(factors.begin(), factors.end(), *factor) == factors.end()) {
-      factors.push_back(*factor);
-    }
-    for (const bool stable : {true, false}) {
-      FosBracket after = state;
-      after.take(*factor, stable);
-      states.push_back(after);
-    }
-  }
-  return factors;
-}
 
 /// A completed trial, with its final state as long as that may be one of the two nearest to the
 /// factor of safety.
@@ -45,6 +25,15 @@ struct Made {
   std::optional<Simulation> end;
 };
 
+/// A trial that is being made.
+struct Trying {
+  double factor;
+  bool given_up = false;  ///< it has been asked to stop
+  Made made{};            ///< belongs to the task until that has ended
+};
+
+/// The search between the ends of the bracket. Beside the trial that it needs it makes others that
+/// it may need next, but it counts and reports those alone that it has needed, in their order.
 class Search {
  public:
   Search(const Model& model, const Fos& fos, FosStart& start, const FosOptions& options,
@@ -54,36 +43,30 @@ class Search {
         start_(start),
         options_(options),
         result_(result),
-        first_{fos.bracket.x, fos.bracket.y, fos.tolerance},
-        reported_bracket_{first_} {
-    for (const Trial& trial : start.seen) {
-      say(trial);
-      first_.take(trial.factor, trial.end == TrialEnd::holds);
-      reported_bracket_ = first_;
-      result_.trials.push_back(trial);
-    }
+        bracket_{fos.bracket.x, fos.bracket.y, fos.tolerance},
+        trials_(options.threads,
+                tasks_within(memory_here(), options.threads, start.sim.scene->blocks.size())) {
+    for (const Trial& trial : start.seen) count(trial);
   }
 
-  /// Searches until the bracket is narrow enough. Returns the bracket.
+  /// Searches until the bracket is narrow enough, or until it is stopped. Returns the bracket.
   FosBracket go() {
-    FosBracket bracket = first_;
-    while (const auto needed = bracket.next()) {
-      if (!made_.contains(*needed)) make(bracket);
+    for (auto needed = bracket_.next(); needed && !stopped(); needed = bracket_.next()) {
+      make(*needed);
       const auto found = made_.find(*needed);
       if (found == made_.end()) break;  // the search was stopped
-      const Trial& trial = found->second.trial;
-      result_.trials.push_back(trial);
-      bracket.take(trial.factor, trial.end == TrialEnd::holds);
-      drop_ends(bracket);
+      count(found->second.trial);
+      drop_ends();
     }
-    const auto lowest = made_.find(bracket.high), highest = made_.find(bracket.low);
-    if (bracket.fails && lowest != made_.end()) {
+    for (const auto& [number, one] : trying_) trials_.stop(number);
+    const auto lowest = made_.find(bracket_.high), highest = made_.find(bracket_.low);
+    if (bracket_.fails && lowest != made_.end()) {
       result_.failed = std::move(lowest->second.end);
-    } else if (bracket.fails && start_.failed) {
+    } else if (bracket_.fails && start_.failed) {
       result_.failed = std::move(start_.failed);
     }
-    if (bracket.holds && highest != made_.end()) stable_ = std::move(highest->second.end);
-    return bracket;
+    if (bracket_.holds && highest != made_.end()) stable_ = std::move(highest->second.end);
+    return bracket_;
   }
 
   /// The state at the highest factor that holds; if there is none, the state from which the trials
@@ -91,6 +74,12 @@ class Search {
   const Simulation& stable() const { return stable_ ? *stable_ : start_.sim; }
 
  private:
+  void count(const Trial& trial) {
+    say(trial);
+    result_.trials.push_back(trial);
+    bracket_.take(trial.factor, trial.end == TrialEnd::holds);
+  }
+
   void say(const Trial& trial) const {
     if (!options_.say) return;
     const bool holds = trial.end == TrialEnd::holds;
@@ -104,77 +93,74 @@ class Search {
     return options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed);
   }
 
-  /// Runs the trial that is needed, and as many of those that may be needed next as there are
-  /// threads. A trial that turns out not to be needed is aborted.
-  void make(const FosBracket& bracket) {
-    std::vector<double> factors;
-    for (const double f : likely_next(bracket, static_cast<std::size_t>(options_.threads))) {
-      if (!made_.contains(f)) factors.push_back(f);
-    }
-    const int at_once = static_cast<int>(factors.size());
-    if (at_once == 1) return try_one(factors.front(), bracket);  // it may use all threads inside
-    std::exception_ptr trouble;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(at_once)
-    for (int q = 0; q < at_once; ++q) {
-      try {
-        try_one(factors[static_cast<std::size_t>(q)], bracket);
-      } catch (...) {
-#pragma omp critical(fos_search)
-        trouble = std::current_exception();
-        given_up_ = true;
+  /// Makes the trial of this factor and, in the other places, those that may be needed next.
+  /// Returns once it has ended or the search has been stopped.
+  void make(double needed) {
+    while (!made_.contains(needed) && !stopped()) {
+      const std::vector<double> wanted =
+          likely_factors(bracket_, trials_.places(), [&](double f) { return outcome_of(f); });
+      make_room(wanted);
+      for (const double factor : wanted) {
+        if (trials_.has_room() && !is_tried(factor)) begin(factor);
       }
-    }
-    if (trouble) std::rethrow_exception(trouble);
-  }
-
-  void try_one(double factor, const FosBracket& bracket) {
-    Made made;
-    made.end = start_.sim;
-    const Loading to = loading_of(fos_, model_, start_.given, factor);
-    made.trial = run_trial(*made.end, start_.plan, start_.loading, to,
-                           [&] { return stopped() || given_up_ || !is_wanted(factor, bracket); });
-    made.trial.factor = factor;
-    if (made.trial.end == TrialEnd::stopped) return;
-#pragma omp critical(fos_search)
-    {
-      made_.emplace(factor, std::move(made));
-      report_known();
+      const auto ended = trying_.extract(trials_.wait_for_one());
+      Trying& one = *ended.mapped();
+      const bool complete = one.made.trial.end != TrialEnd::stopped;
+      if (complete && bracket_.may_ask(one.factor)) made_.emplace(one.factor, std::move(one.made));
     }
   }
 
-  /// Reports trials in the order in which one thread would make them, without those that turn out
-  /// not to be needed.
-  void report_known() {
-    for (auto needed = reported_bracket_.next(); needed; needed = reported_bracket_.next()) {
-      const auto found = made_.find(*needed);
-      if (found == made_.end()) return;
-      const Trial& trial = found->second.trial;
-      say(trial);
-      reported_bracket_.take(trial.factor, trial.end == TrialEnd::holds);
+  std::optional<bool> outcome_of(double factor) const {
+    const auto found = made_.find(factor);
+    if (found == made_.end()) return {};
+    return found->second.trial.end == TrialEnd::holds;
+  }
+
+  bool is_tried(double factor) const {
+    return std::any_of(trying_.begin(), trying_.end(), [&](const auto& t) {
+      return t.second->factor == factor && !t.second->given_up;
+    });
+  }
+
+  /// Gives up trials that can no longer be needed; if there is no room yet for the first one
+  /// wanted, also one that is not wanted now, of these the latest, which has computed least.
+  void make_room(const std::vector<double>& wanted) {
+    bool room = trials_.has_room() || is_tried(wanted.front());
+    const auto give_up = [&](std::size_t number, Trying& one) {
+      trials_.stop(number);
+      one.given_up = room = true;
+    };
+    for (auto& [number, one] : trying_) {
+      if (one->given_up || !bracket_.may_ask(one->factor)) give_up(number, *one);
+    }
+    for (auto t = trying_.rbegin(); t != trying_.rend() && !room; ++t) {
+      const bool is_wanted =
+          std::find(wanted.begin(), wanted.end(), t->second->factor) != wanted.end();
+      if (!is_wanted) give_up(t->first, *t->second);
     }
   }
 
-  /// Whether the search may still need this factor, given the trials so far.
-  bool is_wanted(double factor, FosBracket bracket) {
-    bool wanted = true;
-#pragma omp critical(fos_search)
-    {
-      std::optional<double> needed = bracket.next();
-      while (needed && made_.contains(*needed)) {
-        bracket.take(*needed, made_.at(*needed).trial.end == TrialEnd::holds);
-        needed = bracket.next();
-      }
-      wanted = needed && bracket.may_ask(factor);
-    }
-    return wanted;
+  void begin(double factor) {
+    const auto one = std::make_shared<Trying>(Trying{factor});
+    const std::size_t number =
+        trials_.begin([this, one](const std::stop_token& stop) { run(*one, stop); });
+    trying_.emplace(number, one);
+  }
+
+  void run(Trying& one, const std::stop_token& stop) const {
+    one.made.end = start_.sim;
+    const Loading to = loading_of(fos_, model_, start_.given, one.factor);
+    one.made.trial = run_trial(*one.made.end, start_.plan, start_.loading, to,
+                               [&] { return stopped() || stop.stop_requested(); });
+    one.made.trial.factor = one.factor;
   }
 
   /// Drops the states of trials that can no longer be the lowest that fails or the highest that
   /// holds.
-  void drop_ends(const FosBracket& bracket) {
+  void drop_ends() {
     for (auto& [factor, made] : made_) {
-      if (bracket.fails && factor > bracket.high) made.end.reset();
-      if (bracket.holds && factor < bracket.low) made.end.reset();
+      if (bracket_.fails && factor > bracket_.high) made.end.reset();
+      if (bracket_.holds && factor < bracket_.low) made.end.reset();
     }
   }
 
@@ -183,10 +169,11 @@ class Search {
   FosStart& start_;
   const FosOptions& options_;
   FosResult& result_;
-  FosBracket first_{}, reported_bracket_{};
+  FosBracket bracket_;
   std::optional<Simulation> stable_;
-  std::map<double, Made> made_;
-  std::atomic<bool> given_up_{false};
+  std::map<double, Made> made_;                            ///< by factor
+  std::map<std::size_t, std::shared_ptr<Trying>> trying_;  ///< by number of the task
+  SideBySide trials_;  ///< the last member: its tasks end before what they read is gone
 };
 
 const char* what_was_varied(Varied varied) {

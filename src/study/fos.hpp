@@ -15,7 +15,8 @@
 namespace edda {
 
 struct FosOptions {
-  int threads = 1;  ///< number of parallel trials; the result does not depend on it
+  int threads = 1;  ///< trials that are made side by side, as far as memory has room for them; the
+                    ///< result does not depend on it
   std::function<void(const std::string&)> say{};  ///< progress messages, line by line; may be empty
   const std::atomic<bool>* stop = nullptr;  ///< set from any thread: the search ends as interrupted
 };

@@ -59,6 +59,7 @@ class Run {
   void end(TrialEnd how, std::string reason) {
     if (over_) return;
     over_ = true;
+    update_face_rows(sim_);
     const Furthest moved = watch_.displacement(sim_);
     trial_.displacement = moved.value;
     trial_.block = moved.block;
@@ -77,17 +78,17 @@ class Run {
       fit_step_to(sim_, time);
     }
     while (!over_ && sim_.motion.state.time < time) {
+      if (stops_()) return end(TrialEnd::stopped, "stopped");
       advance_gradual_change();
-      if (const auto failure = step(sim_)) {
+      if (const auto failure = step_ahead(sim_)) {
         return end(TrialEnd::fails, "diverged: " + failure->message);
       }
-      if (sim_.motion.state.steps % look != 0) continue;
-      if (stops_()) return end(TrialEnd::stopped, "stopped");
-      see();
+      if (sim_.motion.state.steps % look == 0) see();
     }
   }
 
   void see() {
+    update_face_rows(sim_);
     trial_.velocity = watch_.velocity(sim_).value;
     const double most = plan_.criterion.displacement;
     const double gone = watch_.displacement(sim_).value;

@@ -68,8 +68,8 @@ void apply_multiplier(Simulation& sim, const TrialPlan& plan, double multiplier)
 
 /// Runs `sim`, in equilibrium under `from`, to the end of a trial under `to`. Displacements count
 /// from the start of the trial; in a trial that fails by its trend those of the state count from
-/// where the trend was found, so that they show the mechanism. `stops` is called now and then; true
-/// ends the trial.
+/// where the trend was found, so that they show the mechanism. `stops` is called before each step;
+/// true ends the trial.
 Trial run_trial(Simulation& sim, const TrialPlan& plan, const Loading& from, const Loading& to,
                 const std::function<bool()>& stops);
 

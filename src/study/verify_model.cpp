@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <optional>
+#include <utility>
 
-#include "run/driver.hpp"
+#include "results/machine.hpp"
+#include "study/side_by_side.hpp"
 
 namespace edda {
 namespace {
@@ -12,40 +16,106 @@ namespace {
 constexpr double finer = 0.5;    // factor on the step
 constexpr double stiffer = 3.0;  // factor on the penalty springs
 
-/// Final displacements of the monitors of one run, or why it failed.
+/// How a run ended, and its monitors' displacements then.
 struct End {
-  std::vector<MonitorPoint> monitors;
   std::vector<Vec2> displacement;
-  double step = 0.0;  ///< s, initial step
   Outcome outcome;
 };
 
-Result<End> run_to_end(Model model, BlockOrder order, const std::vector<MonitorPoint>* monitors,
-                       const VerifyOptions& options) {
-  Result<PreparedRun> prepared = prepare_run(std::move(model), order);
-  if (!prepared.ok()) return prepared.faults();
-  PreparedRun& run = prepared.value();
-  if (monitors != nullptr) {
-    // Keeps each monitor in the same block, whatever its number: a point on an edge belongs to two.
-    run.monitors = *monitors;
-    if (order == BlockOrder::reversed) {
-      for (MonitorPoint& m : run.monitors) m.block = run.sim.scene->blocks.size() - 1 - m.block;
-    }
-  }
-  RunOptions how;
-  how.progress = options.progress;
-  how.stop = options.stop;
-  End end;
-  end.step = run.sim.control.limit;
+Result<End> run_to_end(PreparedRun& run, const RunOptions& how) {
   const Result<Outcome> outcome = run_model(run, how);
   if (!outcome.ok()) return outcome.faults();
+  End end;
   end.outcome = outcome.value();
-  end.monitors = run.monitors;
   for (const MonitorPoint& m : run.monitors) {
     end.displacement.push_back(displacement_of(run.sim.motion.state, m.block, m.weight));
   }
   return end;
 }
+
+/// Prepares a run with its monitors in the same blocks as in the run with which it is compared,
+/// whatever their numbers are: a point on an edge belongs to two.
+Result<PreparedRun> prepare_like(const std::vector<MonitorPoint>& monitors, const Model& model,
+                                 BlockOrder order) {
+  Result<PreparedRun> run = prepare_run(model, order);
+  if (!run.ok()) return run;
+  run.value().monitors = monitors;
+  if (order == BlockOrder::reversed) {
+    const std::size_t blocks = run.value().sim.scene->blocks.size();
+    for (MonitorPoint& m : run.value().monitors) m.block = blocks - 1 - m.block;
+  }
+  return run;
+}
+
+/// One of the runs, and what its displacements are compared with.
+struct VerifyRun {
+  std::string name;
+  std::function<Result<End>(const RunOptions&)> make;
+  double MonitorBar::*bar = nullptr;  ///< the difference; none for the run as it is
+  std::size_t with = 0;               ///< of an earlier run
+};
+
+/// The runs, side by side as far as there are threads, reported one after the other.
+class VerifyRuns {
+ public:
+  /// `options.starts` has been called for the first run.
+  VerifyRuns(std::vector<VerifyRun> runs, const VerifyOptions& options, int at_once)
+      : runs_(std::move(runs)),
+        options_(options),
+        ends_(runs_.size()),
+        latest_(runs_.size()),
+        tasks_(options.threads, at_once) {}
+
+  const VerifyRun& operator[](std::size_t k) const { return runs_[k]; }
+  std::size_t size() const { return runs_.size(); }
+
+  /// Waits for the end of run `k` and reports its progress; call for one after the other.
+  const Result<End>& end_of(std::size_t k) {
+    if (k > 0) report(k);
+    while (!has_ended_[k]) {
+      while (begun_ < runs_.size() && tasks_.has_room()) begin(begun_++);
+      has_ended_[tasks_.wait_for_one()] = true;
+    }
+    return *ends_[k];
+  }
+  /// The same of a run whose end has been waited for.
+  const End& known_end_of(std::size_t k) const { return ends_[k]->value(); }
+
+ private:
+  void report(std::size_t k) {
+    const std::lock_guard lock(reporting_);
+    reported_ = k;
+    if (options_.starts) options_.starts(runs_[k].name);
+    if (options_.progress && latest_[k]) options_.progress(*latest_[k]);
+  }
+
+  /// Tasks are numbered as the runs are.
+  void begin(std::size_t k) {
+    tasks_.begin([this, k](const std::stop_token& stop) {
+      RunOptions how;
+      how.stop = options_.stop;
+      how.after_step = [&] { return stop.stop_requested(); };
+      if (options_.progress) how.progress = [this, k](const Progress& p) { progress(k, p); };
+      ends_[k] = runs_[k].make(how);
+    });
+  }
+
+  void progress(std::size_t k, const Progress& p) {
+    const std::lock_guard lock(reporting_);
+    latest_[k] = p;
+    if (reported_ == k) options_.progress(p);
+  }
+
+  const std::vector<VerifyRun> runs_;
+  const VerifyOptions& options_;
+  std::vector<std::optional<Result<End>>> ends_;  ///< each belongs to its task until that has ended
+  std::map<std::size_t, bool> has_ended_;
+  std::size_t begun_ = 0;
+  std::mutex reporting_;
+  std::vector<std::optional<Progress>> latest_;
+  std::size_t reported_ = 0;
+  SideBySide tasks_;  ///< the last member: its tasks end before what they write to is gone
+};
 
 Model with_finer_step(Model model, double step) {
   if (model.solver.time_step) {
@@ -69,6 +139,38 @@ Model with_stiffer_springs(Model model) {
   return model;
 }
 
+constexpr const char* first_run = "as it is";
+
+/// The four runs; `base` is the first of them, prepared.
+std::vector<VerifyRun> runs_of(const Model& model, PreparedRun base) {
+  const double step = base.sim.control.limit;
+  const std::vector<MonitorPoint> monitors = base.monitors;
+  const auto like_base = [monitors](const Model& changed, BlockOrder order) {
+    return [=](const RunOptions& how) -> Result<End> {
+      Result<PreparedRun> run = prepare_like(monitors, changed, order);
+      if (!run.ok()) return run.faults();
+      return run_to_end(run.value(), how);
+    };
+  };
+  std::vector<VerifyRun> runs;
+  runs.push_back({first_run, [run = std::make_shared<PreparedRun>(std::move(base))](
+                                 const RunOptions& how) mutable {
+                    const std::shared_ptr<PreparedRun> mine = std::move(run);  // frees its memory
+                    return run_to_end(*mine, how);
+                  }});
+  runs.push_back({"half the step", like_base(with_finer_step(model, step), BlockOrder::as_cut),
+                  &MonitorBar::step});
+  // The stiffer springs are compared with the run that differs only in them: where the step is
+  // given, it is halved in both.
+  const std::size_t same_step = model.solver.time_step ? 1 : 0;
+  runs.push_back({"springs three times as stiff",
+                  like_base(with_stiffer_springs(model), BlockOrder::as_cut),
+                  &MonitorBar::stiffness, same_step});
+  runs.push_back(
+      {"blocks in the other order", like_base(model, BlockOrder::reversed), &MonitorBar::order});
+  return runs;
+}
+
 }  // namespace
 
 Result<Verification> verify_model(const Model& model, const VerifyOptions& options) {
@@ -81,53 +183,33 @@ Result<Verification> verify_model(const Model& model, const VerifyOptions& optio
   v.own_stiffness =
       !model.joints.empty() && std::all_of(model.joints.begin(), model.joints.end(),
                                            [](const JointLaw& j) { return j.kn.has_value(); });
-  auto run = [&](const char* name, Model m, BlockOrder order,
-                 const std::vector<MonitorPoint>* monitors) {
-    if (options.starts) options.starts(name);
-    Result<End> end = run_to_end(std::move(m), order, monitors, options);
-    if (end.ok()) {
-      const Outcome& o = end.value().outcome;
-      v.largest_energy_error = std::max(v.largest_energy_error, o.largest_energy_error);
-      if (o.status != Status::completed && v.failed.empty()) {
-        v.failed = std::string(name) + ": " + o.message;
+  if (options.starts) options.starts(first_run);
+  Result<PreparedRun> base = prepare_run(model);
+  if (!base.ok()) return base.faults();
+  for (const MonitorPoint& m : base.value().monitors) v.monitors.push_back({m.name, {}});
+  const std::size_t blocks = base.value().sim.scene->blocks.size();
+  std::vector<VerifyRun> planned = runs_of(model, std::move(base.value()));
+  const int at_once = tasks_within(memory_here(), static_cast<int>(planned.size()), blocks);
+  VerifyRuns runs(std::move(planned), options, at_once);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const Result<End>& end = runs.end_of(k);
+    if (!end.ok()) return end.faults();
+    const auto& [displacement, outcome] = end.value();
+    v.largest_energy_error = std::max(v.largest_energy_error, outcome.largest_energy_error);
+    if (k == 0) v.time = outcome.time;
+    const VerifyRun& run = runs[k];
+    for (std::size_t m = 0; m < v.monitors.size(); ++m) {
+      MonitorBar& monitor = v.monitors[m];
+      if (run.bar == nullptr) {
+        monitor.displacement = displacement[m];
+      } else {
+        monitor.*run.bar = norm(displacement[m] - runs.known_end_of(run.with).displacement[m]);
       }
     }
-    return end;
-  };
-  const Result<End> base = run("as it is", model, BlockOrder::as_cut, nullptr);
-  if (!base.ok()) return base.faults();
-  v.time = base.value().outcome.time;
-  for (std::size_t k = 0; k < base.value().monitors.size(); ++k) {
-    v.monitors.push_back({base.value().monitors[k].name, base.value().displacement[k]});
-  }
-  const std::vector<MonitorPoint>& points = base.value().monitors;
-  // The stiffer springs are compared with the run that differs only in them: where the step is
-  // given, it is halved in both.
-  std::optional<End> fine;
-  const bool given = model.solver.time_step.has_value();
-  auto compare = [&](const char* name, Model m, BlockOrder order, double MonitorBar::*bar,
-                     const End& with) -> std::optional<Faults> {
-    if (!v.failed.empty()) return {};
-    const Result<End> end = run(name, std::move(m), order, &points);
-    if (!end.ok()) return end.faults();
-    for (std::size_t k = 0; k < v.monitors.size(); ++k) {
-      v.monitors[k].*bar = norm(end.value().displacement[k] - with.displacement[k]);
+    if (outcome.status != Status::completed) {
+      v.failed = run.name + ": " + outcome.message;
+      return v;
     }
-    if (bar == &MonitorBar::step) fine = end.value();
-    return {};
-  };
-  if (auto f = compare("half the step", with_finer_step(model, base.value().step),
-                       BlockOrder::as_cut, &MonitorBar::step, base.value())) {
-    return *f;
-  }
-  const End& reference = given && fine ? *fine : base.value();
-  if (auto f = compare("springs three times as stiff", with_stiffer_springs(model),
-                       BlockOrder::as_cut, &MonitorBar::stiffness, reference)) {
-    return *f;
-  }
-  if (auto f = compare("blocks in the other order", model, BlockOrder::reversed, &MonitorBar::order,
-                       base.value())) {
-    return *f;
   }
   return v;
 }

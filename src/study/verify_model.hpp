@@ -27,14 +27,19 @@ struct Verification {
 };
 
 struct VerifyOptions {
-  std::function<void(const std::string& run)> starts;  ///< may be empty
-  std::function<void(const Progress&)> progress;       ///< may be empty
-  const std::atomic<bool>* stop = nullptr;
+  int threads = 1;  ///< runs that are made side by side, as far as memory has room for them; the
+                    ///< result does not depend on it
+  /// Called in the order in which one thread makes the runs, also where they are made side by side:
+  /// a run that has begun early is reported once those before it have ended. `progress` may be
+  /// called in another thread, but never beside itself or `starts`. Both may be empty.
+  std::function<void(const std::string& run)> starts{};
+  std::function<void(const Progress&)> progress{};  ///< of the run that `starts` has named last
+  const std::atomic<bool>* stop = nullptr;          ///< set from any thread: all runs end
 };
 
-/// Runs the model four times, without results folders. Penalty stiffnesses are tripled
-/// (contact.normal_stiffness, shear_stiffness and boundaries); kn and ks of joints are properties
-/// of the rock and stay. Faults: those of prepare_run(), and a model without monitors.
+/// Runs the model four times, side by side, without results folders. Penalty stiffnesses are
+/// tripled (contact.normal_stiffness, shear_stiffness and boundaries); kn and ks of joints are
+/// properties of the rock and stay. Faults: those of prepare_run(), and a model without monitors.
 Result<Verification> verify_model(const Model& model, const VerifyOptions& options);
 
 }  // namespace edda

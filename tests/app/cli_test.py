@@ -9,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from program import read_rows
+from program import content, lasting, read_rows
 from ramp import RAMP, RampProgram
 
 RESULTS = {"summary.json", "history.csv", "blocks.csv", "joints.csv", "columns.csv", "blocks.pvd", "contacts.pvd", "frames", "model.toml"}
@@ -105,6 +105,34 @@ class Cli(RampProgram):
         self.expect(2, *args)
         self.expect(2, "fos", "m.toml", "--set", "fos.vary=load:pull")
         self.expect(2, "fos", "m.toml", "--set", "solver.method=dda")
+
+    def test_threads_change_nothing_of_a_search(self):
+        self.expect(0, "example", "toppling")
+        told = []
+        for threads in ("1", "2", "3", "4"):
+            folder = "t" + threads
+            done = self.expect(0, "fos", "toppling.toml", "--set", "fos.tolerance=0.02", "--threads", threads, "-o", folder)
+            self.assertEqual(sorted(content(self.dir / folder)), sorted(content(self.dir / "t1")))
+            told.append((done.stderr, done.stdout.replace(folder, "t1").split("\n")[:-2], content(self.dir / folder), lasting(self.dir / folder)))
+        self.assertEqual(told[0][0].count("\nfactor ") + 1, len(read_rows(self.dir / "t1/fos.csv")))
+        for other in told[1:]:
+            self.assertEqual(other, told[0])
+
+    def test_a_search_can_be_interrupted(self):
+        self.expect(0, "example", "toppling")
+        for threads in ("1", "3"):
+            run = self.start("fos", "toppling.toml", "--set", "fos.tolerance=1e-12", "--threads", threads, "-o", "t" + threads,
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            with self.soon("the first trials"):
+                for _ in range(3):
+                    self.assertIn(b"factor ", run.stderr.readline())
+            run.send_signal(signal.SIGINT)
+            run.communicate(timeout=self.seconds)
+            self.assertEqual(run.returncode, 130)
+            summary = json.loads((self.dir / ("t" + threads) / "summary.json").read_text())
+            self.assertEqual(summary["status"], "interrupted")
+            self.assertGreaterEqual(summary["holds"], 1.0)
+            self.assertGreaterEqual(len(read_rows(self.dir / ("t" + threads) / "fos.csv")), 3)
 
     def test_only_what_runs_needs_a_duration(self):
         model = RAMP.replace("[-1, -1], [4, -1], [4, 0], [-1, 0]", "[-9, -1], [9, -1], [9, 0], [-9, 0]") \
@@ -230,7 +258,7 @@ material = "rock"
         for one in sent:
             run.send_signal(one)
             time.sleep(0.01)
-        run.communicate(timeout=60)
+        run.communicate(timeout=self.seconds)
         self.assertEqual(run.returncode, 130)
         self.assertEqual({p.name for p in (self.dir / "m").iterdir()}, RESULTS | {"checkpoint.h5"})
         summary = json.loads((self.dir / "m/summary.json").read_text())
@@ -340,6 +368,9 @@ material = "rock"
         for words in ("after 0.01 s", "M  ", " step, +- ", " stiffness, +- ", " order", "energy error"):
             self.assertIn(words, done.stdout)
         self.assertEqual(done.stderr.count("run: "), 4)
+        for threads in ("1", "2", "3", "4"):
+            other = self.expect(0, "verify", "m.toml", "--threads", threads)
+            self.assertEqual((other.stderr, other.stdout), (done.stderr, done.stdout), threads)
         self.assertEqual(self.expect(0, "verify", "m.toml", "--quiet").stderr, "")
         self.assertEqual(self.names(), ["m.toml"])
         self.expect(2, "verify", "m.toml", "--set", "joints.ramp.friction_angle=-1")
@@ -354,7 +385,7 @@ material = "rock"
         with self.soon("the first run of edda verify"):
             self.assertIn(b"run: ", run.stderr.readline())
         run.send_signal(signal.SIGINT)
-        run.communicate(timeout=60)
+        run.communicate(timeout=self.seconds)
         self.assertEqual(run.returncode, 130)
 
     def test_progress_is_a_bar_on_a_terminal_and_silent_when_quiet(self):

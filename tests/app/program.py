@@ -61,7 +61,7 @@ def end(process):
 
 
 class Program(unittest.TestCase):
-    seconds = 120  # that a command, or a wait, may take
+    seconds = 300  # that a command, or a wait, may take on a busy machine with sanitizers
 
     def setUp(self):
         self.dir = pathlib.Path(tempfile.mkdtemp(prefix="edda_test_"))

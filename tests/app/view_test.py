@@ -79,11 +79,11 @@ class View(Program):
         self.assertEqual([p.name for p in self.dir.glob("*.html")], [])
 
     def test_says_what_was_left_out(self):
-        self.model(columns=20, rows=15, duration=0.4, every=0.001)
+        self.model(columns=20, rows=15, duration=0.15, every=0.001)
         self.expect(0, "run", "m.toml", "--quiet")
         done = self.expect(0, "view", "m", "--max-size", "1")
         kept, size = re.match(r"wrote m.html: (\d+) frames, ([\d.]+) MB\n", done.stdout).groups()
-        self.assertIn(f"{401 - int(kept)} of the run's 401 frames were left out, evenly, to stay below 1 MB: --max-size", done.stdout)
+        self.assertIn(f"{151 - int(kept)} of the run's 151 frames were left out, evenly, to stay below 1 MB: --max-size", done.stdout)
         self.assertLessEqual((self.dir / "m.html").stat().st_size, 1e6)
         self.assertGreater((self.dir / "m.html").stat().st_size, 0.8e6)
         self.assertGreater(int(kept), 20)

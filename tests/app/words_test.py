@@ -154,9 +154,9 @@ class Words(Program):
         model = self.write("block.toml", BLOCK % 1e10)
         with open("/dev/full", "w", encoding="utf-8") as full:
             for command in (["check", model], ["example"], ["keys"], ["run", model, "--json"]):
-                done = subprocess.run([str(EDDA), *command], cwd=self.dir, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+                done = subprocess.run([str(EDDA), *command], cwd=self.dir, stdout=full, stderr=subprocess.PIPE, text=True, timeout=300)
                 self.assertEqual((done.returncode, "No space left" in done.stderr), (1, True), command)
-            done = subprocess.run([str(EDDA), "--version"], cwd=self.dir, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+            done = subprocess.run([str(EDDA), "--version"], cwd=self.dir, stdout=full, stderr=subprocess.PIPE, text=True, timeout=300)
             self.assertEqual(done.returncode, 1)
 
 

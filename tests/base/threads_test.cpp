@@ -1,8 +1,10 @@
 #include "base/threads.hpp"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <functional>
+#include <thread>
 
 namespace edda::threads_test {
 namespace {
@@ -53,6 +55,22 @@ TEST(ThreadChoice, LargeStepsAreTriedTwice) {
     EXPECT_EQ(choice.now(), threads);
     choice.stepped(threads == 2 ? 0.3 : 0.5);
   }
+}
+
+/// A thread beside which others compute keeps to its share; the others do not notice.
+TEST(KeepToThreads, IsForOneThread) {
+  const int before = omp_get_max_threads(), most = most_threads();
+  EXPECT_EQ(most, omp_get_num_procs());
+  int loops = 0, chosen = 0;
+  std::thread([&] {
+    keep_to_threads(3);
+    loops = omp_get_max_threads();
+    chosen = most_threads();
+  }).join();
+  EXPECT_EQ(loops, 3);
+  EXPECT_EQ(chosen, 3);
+  EXPECT_EQ(omp_get_max_threads(), before);
+  EXPECT_EQ(most_threads(), most);
 }
 
 }  // namespace

@@ -23,20 +23,11 @@ Vec2 turn_of(double exterior) {
 struct RandomFace {
   FacePoints at;
   FacePair pair;
-  std::shared_ptr<std::array<double, 8>> turns = std::make_shared<std::array<double, 8>>();
 
-  RandomFace() {
-    pair.p2 = 1;
-    pair.q1 = 2;
-    pair.q2 = 3;
-    pair.exterior_cosine = turns->data();
-    pair.exterior_sine = turns->data() + 4;
-  }
-  /// The exterior angle of a corner.
+  /// The exterior angle of a corner: p1, p2, q1, q2.
   void turn(std::size_t corner, double angle) {
-    const Vec2 turned = turn_of(angle);
-    (*turns)[corner] = turned.x;
-    (*turns)[corner + 4] = turned.y;
+    Vec2* const turns[] = {&pair.turn_p1, &pair.turn_p2, &pair.turn_q1, &pair.turn_q2};
+    *turns[corner] = turn_of(angle);
   }
 };
 
@@ -240,8 +231,8 @@ TEST(Face, IsTheSameSeenFromTheOtherBlock) {
     RandomFace other = r;
     other.at = {r.at.q1, r.at.q2, r.at.p1, r.at.p2};
     std::swap(other.pair.inverse_e, other.pair.inverse_f);
-    std::swap(other.pair.p1, other.pair.q1);
-    std::swap(other.pair.p2, other.pair.q2);
+    std::swap(other.pair.turn_p1, other.pair.turn_q1);
+    std::swap(other.pair.turn_p2, other.pair.turn_q2);
     std::swap(other.pair.offset.a, other.pair.offset.b);
     const Face one = face_between(r.at, r.pair), two = face_between(other.at, other.pair);
     if (std::abs(one.closure.a - one.closure.b) < 1e-9) continue;
@@ -384,7 +375,10 @@ TEST(Face, EndForcesWorkOnTheMotionOfTheEnds) {
     ++tried;
     FacePoints then = r.at;
     for (Vec2* p : {&then.p1, &then.p2, &then.q1, &then.q2}) *p += Vec2{by(random), by(random)};
-    const EndMotion motion = motion_of(face, r.pair.offset, then);
+    const auto corners = [&](const FacePoints& p) {
+      return coordinates_of(p, r.pair.inverse_e, r.pair.inverse_f);
+    };
+    const EndMotion motion = motion_of(face, corners(r.at), corners(then));
     const FaceEnds normal{1.3, -0.4}, shear{0.7, 0.9};
     const CornerForces f = end_forces(r.at, face, normal, shear);
     const double work = dot(f.p1, r.at.p1 - then.p1) + dot(f.p2, r.at.p2 - then.p2) +

@@ -31,6 +31,11 @@ void drift_twice(double damping) {
   FaceSet& c = heap.contacts;
   find_faces(c, heap.blocks, heap.state, heap.pose, heap.laws, 0.1);
   set_face_dashpots(c, heap.laws, damping);
+  std::uniform_real_distribution<double> locked(0.0, 2e-3);
+  for (std::size_t k = 0; k < c.size(); k += 3) {
+    c.locked_closure_a[k] = locked(rng);
+    c.locked_closure_b[k] = locked(rng);
+  }
   std::size_t plain = 0, rare = 0, carrying = 0;
   for (int move = 0; move < 60; ++move) {
     next_step(c);

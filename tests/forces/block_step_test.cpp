@@ -232,7 +232,7 @@ TEST(BlockMatrices, BoundarySpringsStandInSpaceAndNotInTheBlock) {
   ASSERT_EQ(springs.size(), 2u);
   const double turn = 0.7;
   const NodalMatrix k =
-      boundary_matrix(m.blocks, springs, {std::cos(turn), std::sin(turn), 2.0}, 0);
+      boundary_matrix(m.blocks, springs, {std::cos(turn), std::sin(turn), 2.0, 0.5}, 0);
   const Vec2 n = perp(unit(Vec2{2, 1}));
   for (const Vec2 d : {Vec2{1, 0}, Vec2{0, 1}, Vec2{0.6, -0.8}}) {
     const NodalVector u = moved(rotated(d, -turn));
@@ -307,7 +307,7 @@ TEST(BlockMatrices, TurnWithTheBlock) {
   MovedBlocks m = two_squares(true);
   const double turn = 0.7;
   const NodalMatrix own = elastic_matrix(m.blocks, 1),
-                    seen = edda::rotated(own, {std::cos(turn), std::sin(turn), 2.0});
+                    seen = edda::rotated(own, {std::cos(turn), std::sin(turn), 2.0, 0.5});
   NodalVector u, back;
   u << 0.3, -0.2, 0.5, 0.1, -0.4, 0.6;
   for (Eigen::Index k = 0; k < 3; ++k) {

@@ -32,7 +32,9 @@ struct OneBlock : MovedBlocks {
   }
   void gather(Vec2 gravity, const LoadsNow& loads = {}) {
     place_vertices(blocks, state.x, state.y, 0, pose.x, pose.y);
-    gather_forces(forces, blocks, state, pose, faces, springs, gravity, loads);
+    NodalForces on_faces;
+    sum_faces(on_faces, blocks, faces);
+    gather_forces(forces, blocks, state, pose, on_faces, springs, gravity, loads);
   }
   Vec2 on_node(std::size_t k) const { return {forces.x[k][0], forces.y[k][0]}; }
   Vec2 whole() const { return on_node(0) + on_node(1) + on_node(2); }
@@ -109,7 +111,9 @@ TEST(NodalForces, OfFacesWorkAsOnTheCorners) {
   for (std::size_t k = 0; k < 3; ++k) forces.x[k] = forces.y[k] = {0.0, 0.0};
   BoundarySprings none;
   none.block_begin.assign(3, 0);
-  gather_forces(forces, m.blocks, m.state, m.pose, m.faces, none, {});
+  NodalForces on_faces;
+  sum_faces(on_faces, m.blocks, m.faces);
+  gather_forces(forces, m.blocks, m.state, m.pose, on_faces, none, {});
   std::mt19937 rng(3);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   Nodes dx, dy;

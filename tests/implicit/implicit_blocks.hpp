@@ -71,7 +71,8 @@ struct ImplicitBlocks {
     }
     place();
     evaluate_springs(solver.springs, contacts, scene().faces(pose), settings.step, false);
-    gather_forces(forces, blocks, state, pose, contacts, springs, {0.0, -9.81});
+    sum_faces(solver.on_faces, blocks, contacts);
+    gather_forces(forces, blocks, state, pose, solver.on_faces, springs, {0.0, -9.81});
     measure_residual(solver, scene(), settings, state, contacts, forces);
     return solver.residual;
   }

@@ -104,6 +104,45 @@ TEST_F(Folder, FramesComeBackAsTheyWere) {
   EXPECT_EQ(back.value().point_field("displacement")->values, g.point_fields[0].values);
 }
 
+/// A frame that is written without being in memory has the bytes of one that is, over more rows
+/// than are made at once.
+TEST_F(Folder, FramesOfASourceAreThoseOfItsGrid) {
+  constexpr std::size_t n = 10000;
+  GridSource source;
+  source.shape.time = 0.5;
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto at = static_cast<std::int64_t>(k);
+    source.shape.points.insert(source.shape.points.end(), {static_cast<double>(k), 0.5, 0.0});
+    source.shape.corners.push_back(at);
+    source.shape.ends.push_back(at + 1);
+    source.shape.types.push_back(cell_type::vertex);
+  }
+  const auto fill = [](std::size_t first, std::size_t end, double* into) {
+    for (std::size_t k = first; k < end; ++k) {
+      *into++ = 0.1 * static_cast<double>(k);
+      *into++ = -static_cast<double>(k);
+    }
+  };
+  const auto count = [](std::size_t first, std::size_t end, double* into) {
+    for (std::size_t k = first; k < end; ++k) *into++ = static_cast<double>(k);
+  };
+  source.cell_fields = {{"pair", 2, {"first", "second"}, false, n, fill},
+                        {"id", 1, {}, true, n, count}};
+  source.point_fields = {{"moved", 2, {}, false, n, fill}};
+  for (const bool cells_are_points : {false, true}) {
+    source.shape.cells_are_points = cells_are_points;
+    const Grid grid = grid_of(source);
+    EXPECT_EQ(grid.cell_field("id")->values.back(), n - 1.0);
+    ASSERT_FALSE(write_vtu(at("source.vtu"), source));
+    ASSERT_FALSE(write_vtu(at("grid.vtu"), grid));
+    EXPECT_EQ(read_file(at("source.vtu")).value(), read_file(at("grid.vtu")).value());
+    const Result<Grid> back = read_vtu(at("source.vtu"));
+    ASSERT_TRUE(back.ok());
+    EXPECT_EQ(back.value().cell_field("pair")->values, grid.cell_field("pair")->values);
+    EXPECT_EQ(back.value().cell_field("id")->values, grid.cell_field("id")->values);
+  }
+}
+
 TEST_F(Folder, FramesTellTheirSignsInACommentThatReadersSkip) {
   const Grid g = small_grid();
   ASSERT_FALSE(write_vtu(at("g.vtu"), g));

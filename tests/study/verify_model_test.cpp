@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <string>
+#include <vector>
+
 #include "model/read_model.hpp"
 
 namespace edda::verify_model_test {
@@ -57,6 +61,97 @@ TEST(VerifyModel, PutsBarsOnEveryMonitor) {
     EXPECT_LT(m.step, 2e-3) << solver;
     EXPECT_LT(m.stiffness, 2e-3) << solver;
     EXPECT_LT(m.order, 1e-6) << solver;
+  }
+}
+
+const std::string short_run =
+    "[solver]\nduration = 0.02\n[output]\nhistory_every = 0.005\nevery = 0.01\n";
+
+/// All numbers, to the last digit.
+std::vector<double> numbers(const Verification& v) {
+  std::vector<double> all{v.time, v.largest_energy_error};
+  for (const MonitorBar& m : v.monitors)
+    all.insert(all.end(), {m.displacement.x, m.displacement.y, m.step, m.stiffness, m.order});
+  return all;
+}
+
+TEST(VerifyModel, DoesNotDependOnThreads) {
+  for (const std::string solver : {"", "time_step = 2e-5\n", "method = 'dda'\n"}) {
+    std::string text = slab + monitor + short_run;
+    text.insert(text.find("duration"), solver);
+    const Result<Model> model = read_model_text(text, "slab.toml", {});
+    ASSERT_TRUE(model.ok());
+    std::vector<double> of_one;
+    for (const int threads : {1, 2, 3, 4, 9}) {
+      VerifyOptions options;
+      options.threads = threads;
+      const Result<Verification> v = verify_model(model.value(), options);
+      ASSERT_TRUE(v.ok());
+      EXPECT_EQ(v.value().failed, "");
+      if (of_one.empty()) of_one = numbers(v.value());
+      EXPECT_EQ(numbers(v.value()), of_one) << solver << threads;
+    }
+  }
+}
+
+/// The runs are reported in one order, the progress of each after its name, to its end.
+TEST(VerifyModel, ReportsOneRunAfterTheOther) {
+  const Result<Model> model = read_model_text(slab + monitor + short_run, "slab.toml", {});
+  ASSERT_TRUE(model.ok());
+  for (const int threads : {1, 2, 4}) {
+    std::vector<std::string> runs;
+    std::vector<double> done;
+    VerifyOptions options;
+    options.threads = threads;
+    options.starts = [&](const std::string& run) {
+      runs.push_back(run);
+      done.push_back(0.0);
+    };
+    options.progress = [&](const Progress& p) { done.back() = p.fraction; };
+    ASSERT_TRUE(verify_model(model.value(), options).ok());
+    EXPECT_EQ(runs,
+              (std::vector<std::string>{"as it is", "half the step", "springs three times as stiff",
+                                        "blocks in the other order"}));
+    EXPECT_EQ(done, std::vector<double>(4, 1.0)) << threads;
+  }
+}
+
+/// The first run that fails is named, and no other is reported.
+TEST(VerifyModel, EndsWithTheRunThatFails) {
+  const Result<Model> model =
+      read_model_text(slab + monitor + "[solver]\nduration = 0.5\ntime_step = 6e-4\n" +
+                          "allow_unstable = true\n[output]\nhistory_every = 0.01\n",
+                      "slab.toml", {"materials.rock.damping=0"});
+  ASSERT_TRUE(model.ok());
+  std::string of_one;
+  for (const int threads : {1, 2, 4}) {
+    std::size_t runs = 0;
+    VerifyOptions options;
+    options.threads = threads;
+    options.starts = [&](const std::string&) { ++runs; };
+    const Result<Verification> v = verify_model(model.value(), options);
+    ASSERT_TRUE(v.ok());
+    if (threads == 1) of_one = v.value().failed;
+    EXPECT_NE(v.value().failed.find("diverged"), std::string::npos);
+    EXPECT_EQ(v.value().failed, of_one) << threads;
+    EXPECT_EQ(runs, 1u);
+  }
+}
+
+TEST(VerifyModel, StopsWhenAsked) {
+  const Result<Model> model =
+      read_model_text(slab + monitor + "[solver]\nduration = 1e6\n[output]\nhistory_every = 1e3\n",
+                      "slab.toml", {});
+  ASSERT_TRUE(model.ok());
+  for (const int threads : {1, 4}) {
+    std::atomic<bool> stop{false};
+    VerifyOptions options;
+    options.threads = threads;
+    options.stop = &stop;
+    options.progress = [&](const Progress&) { stop = true; };
+    const Result<Verification> v = verify_model(model.value(), options);
+    ASSERT_TRUE(v.ok());
+    EXPECT_TRUE(v.value().failed.starts_with("as it is: stopped at ")) << v.value().failed;
   }
 }
 

@@ -153,7 +153,9 @@ TEST(EccentricLoad, StressesOfAJoint) {
     const double most = whole ? mean * (1.0 + 6.0 * part) : 2.0 * load / closed;
     const double least = whole ? mean * (1.0 - 6.0 * part) : 0.0;
     const bool a_deeper = c.normal_stress_a > c.normal_stress_b;
-    EXPECT_NEAR((a_deeper ? c.a : c.b).x, 1.0, 1e-3) << "the load is on this side";
+    if (part > 0.0) {
+      EXPECT_NEAR((a_deeper ? c.a : c.b).x, 1.0, 1e-3) << "the load is on this side";
+    }
     EXPECT_NEAR(c.length, length, 1e-4);
     EXPECT_NEAR(c.closed_length, closed, 2e-4 * length) << part;
     EXPECT_NEAR(c.normal_stress, mean, 1e-6 * mean);

@@ -1,0 +1,59 @@
+// The loops over the eight faces of a chunk (contacts/face_tiles.hpp).
+#pragma once
+
+#include "contacts/edge_records.hpp"
+#include "contacts/face_tiles.hpp"
+
+namespace edda {
+
+/// A chunk of faces, as its loop reads and writes it: tables of [columns][8].
+struct ChunkView {
+  const double *edges, *strengths;       ///< EdgeConstants, StrengthConstants
+  const double *before, *damped_before;  ///< FaceMemoryColumns, DashpotMemoryColumns
+  double *memory, *damped;
+  double* work;  ///< FaceWorkColumns
+  const Records *e, *f, *e_then, *f_then, *mass_e, *mass_f;
+  Records *on_e, *on_f;
+  const Id *record_e, *record_f;
+  double* on;  ///< records of the forces on the edges
+  LaneBits was;
+  double step, noise;
+};
+
+/// What a loop has found: the bits to be remembered and those of the step (lane_bits), and the
+/// largest depth, m.
+struct ChunkFound {
+  LaneBits bits, found;
+  double deepest;
+};
+
+/// Evaluates a chunk: state, forces, and, where `work` is in the name, work. `plain`: by the short
+/// formulas. Forces are stored unless the chunk turns out to need another of these loops: it is not
+/// plain (lane_bits::rare), or does work (lane_bits::busy).
+ChunkFound evaluate_with_work(const ChunkView& chunk);
+ChunkFound evaluate_at_rest(const ChunkView& chunk);
+ChunkFound evaluate_plain_with_work(const ChunkView& chunk);
+ChunkFound evaluate_plain_at_rest(const ChunkView& chunk);
+/// The same with dashpots, which always work.
+ChunkFound evaluate_damped(const ChunkView& chunk);
+ChunkFound evaluate_plain_damped(const ChunkView& chunk);
+
+/// Updates the corners of faces that have carried nothing for two steps. `decides` of what is
+/// found: one needs more than that.
+ChunkFound look_at_undamped(const ChunkView& chunk);
+ChunkFound look_at_damped(const ChunkView& chunk);
+
+/// Reads the records of the edges of a chunk.
+void read_edges(const double* from, const Id* slot_e, const Id* slot_f, Records& e, Records& f);
+
+/// What can happen to the faces of a chunk that have carried nothing for two steps; bits of lanes.
+struct OpenLanes {
+  unsigned near;  ///< a corner touches the other edge
+  unsigned stay;  ///< nothing changes that counts: no state but that of the corners, and no force
+};
+/// `was` of the chunk is that of the step before. `stay` holds for so many steps in each of which
+/// the ends of the edges move by e_then and f_then of the chunk (m), as long as none of them strays
+/// from there by more than `margin` (m).
+OpenLanes open_lanes(const ChunkView& chunk, double margin, double steps);
+
+}  // namespace edda

@@ -1,0 +1,68 @@
+// Corrections of the last step of faces (evaluate_faces.hpp).
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "contacts/evaluate_faces.hpp"
+#include "contacts/face_step.hpp"
+
+namespace edda {
+
+void correct_last_step(FaceSet& c, const BlockSet& b, const Pose& pose,
+                       const std::vector<double>& old_x1, const std::vector<double>& old_y1) {
+  FaceMemory& m = c.before;
+  std::fill(m.inactive.begin(), m.inactive.end(), std::uint8_t{0});
+  parallel_for(c.size(), [&](std::size_t k) {
+    const Face now = face_at(c, b, pose.x, pose.y, k), then = face_at(c, b, pose.x1, pose.y1, k);
+    const auto slip_from = [&](const std::vector<double>& x1, const std::vector<double>& y1) {
+      return motion_of(now, coordinates_at(c, pose.x, pose.y, k), coordinates_at(c, x1, y1, k))
+          .slip;
+    };
+    const FaceEnds was = slip_from(old_x1, old_y1), is = slip_from(pose.x1, pose.y1);
+    // Ends that stick keep their force; ends that slide slip at the new velocity.
+    if (c.now.slip_a[k] == c.now.trial_a[k]) m.slip_a[k] += was.a - is.a;
+    if (c.now.slip_b[k] == c.now.trial_b[k]) m.slip_b[k] += was.b - is.b;
+    m.closure_a[k] = then.closure.a;
+    m.closure_b[k] = then.closure.b;
+    m.energy[k] = then.energy;
+    m.gate[k] = std::max(m.gate[k], then.gate);
+  });
+}
+
+CornerForces recompute_shear(FaceSet& c, const Face& face, const FacePoints& at,
+                             const FacePoints& then, double alpha, std::size_t k) {
+  FaceMemory& m = c.before;
+  const auto corners = [&](const FacePoints& p) {
+    return coordinates_of(p, c.inverse_e[k], c.inverse_f[k]);
+  };
+  const FaceEnds here = motion_of(face, corners(at), corners(then)).slip;
+  const double spring = m.spring[k], cohesion = 0.5 * c.cohesion[k] * face.cohesive;
+  const auto again = [&](double normal, double trial, double slipped, double& force, double& slip) {
+    const double limit = std::max(cohesion + c.friction[k] * normal, 0.0);
+    const Shear next =
+        cut<true>(trial, spring, inverse_of(spring), c.bonded[k] > 0.0 ? unlimited_shear : limit);
+    // As lost(), for a change of T_n alone: the work of T_{n-1} stays as it was, and kept u_{n-1}
+    // is u_tr - slipped.
+    const auto taken = [&](const Shear& s) {
+      const double all = -0.5 * s.force * (slipped - s.slip);
+      const double slip_so_far = 0.5 * spring * (trial - s.slip) * (s.slip + trial - slipped);
+      const double friction = std::max(slip_so_far, 0.0);
+      return Lost{friction, all - friction};
+    };
+    const Lost was = taken({force, slip}), is = taken(next);
+    c.friction_work[k] += is.friction - was.friction;
+    c.transfer[k] += is.transfer - was.transfer;
+    force = next.force;
+    slip = next.slip;
+  };
+  again(alpha * face.normal.a + m.damping_a[k], m.trial_a[k], here.a, m.shear_a[k], m.slip_a[k]);
+  again(alpha * face.normal.b + m.damping_b[k], m.trial_b[k], here.b, m.shear_b[k], m.slip_b[k]);
+  CornerForces force = end_forces(at, face, {}, {m.shear_a[k], m.shear_b[k]});
+  force.p1 += alpha * face.force.p1;
+  force.p2 += alpha * face.force.p2;
+  force.q1 += alpha * face.force.q1;
+  force.q2 += alpha * face.force.q2;
+  return force;
+}
+
+}  // namespace edda

@@ -1,0 +1,191 @@
+// The faces as the explicit step keeps them: tiles of neighbouring blocks, in each the faces of its
+// blocks in chunks of eight.
+//
+// A tile reads the positions of its own blocks and of the edges that face them (its halo), and
+// writes the forces on its own blocks alone; so tiles can be evaluated side by side. A face between
+// two tiles is in both: both copies are computed from the same numbers and stay equal to the bit.
+//
+// Each face has its place for its forces, and those on an edge are added in the order of the edges
+// on the other side. So nothing depends on the tiles, nor on the order of the faces within a tile:
+// faces that do alike lie together (contacts/tile_packing.hpp), and those of which nothing can
+// change for a while sleep behind the others (contacts/tile_sleep.hpp).
+//
+// All arrays are flat and hold numbers and indices only.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/columns.hpp"
+#include "blocks/block_set.hpp"
+#include "blocks/pose.hpp"
+#include "blocks/state.hpp"
+#include "contacts/face_set.hpp"
+
+namespace edda {
+
+inline constexpr std::size_t lanes = 8;  ///< faces of a chunk
+inline constexpr std::size_t blocks_per_tile = 256;
+
+/// What a step reads of a face and does not change. Members as in FacePair and FaceStrength. First
+/// what follows from its two edges.
+template <class C>
+struct EdgeConstants {
+  C stiffness, shear_stiffness, inverse_e, inverse_f, gate_from, gate_scale, passing;
+  C touching;  ///< m: bonded faces without tension fail at a larger gap
+  C cosine_p1, sine_p1, cosine_p2, sine_p2, cosine_q1, sine_q1, cosine_q2, sine_q2;
+};
+inline constexpr std::size_t edge_columns = sizeof(EdgeConstants<double>) / sizeof(double);
+/// Then what most faces of a joint have in common.
+template <class C>
+struct StrengthConstants {
+  C ends, friction, cohesion, locked_closure_a, locked_closure_b, carries_tension, bonded;
+  C zeta, shear_zeta;
+  C tension, glued;  ///< as in FaceProperties
+};
+inline constexpr std::size_t strength_columns = sizeof(StrengthConstants<double>) / sizeof(double);
+
+/// What a face remembers from step to step. Members as in FaceBefore; s2, r1, r2 of its corners.
+template <class C>
+struct FaceMemoryColumns {
+  C slip_a, slip_b, overlap, spring, s2, r1, r2;
+};
+inline constexpr std::size_t memory_columns = sizeof(FaceMemoryColumns<double>) / sizeof(double);
+
+/// The same where faces have dashpots: y2, z1, z2 of the corners, and the forces of the dashpots.
+template <class C>
+struct DashpotMemoryColumns {
+  C y2, z1, z2, damping_a, damping_b, shear_damping_a, shear_damping_b;
+};
+inline constexpr std::size_t dashpot_memory_columns =
+    sizeof(DashpotMemoryColumns<double>) / sizeof(double);
+
+/// Work of a step, slip before Coulomb's limit, and shear. Members as in FaceFields; kept for the
+/// chunks where any work is not 0, or a face slides.
+template <class C>
+struct FaceWorkColumns {
+  C friction_work, transfer, trial_a, trial_b, shear_a, shear_b, damping_work, damping_due;
+};
+inline constexpr std::size_t work_columns = sizeof(FaceWorkColumns<double>) / sizeof(double);
+
+/// Work accumulated until step n - 1, J. Members as in FaceProperties.
+template <class C>
+struct FaceSumColumns {
+  C friction_work, transfer, damping_work;
+};
+inline constexpr std::size_t sum_columns = sizeof(FaceSumColumns<double>) / sizeof(double);
+
+/// One bit for each lane of a chunk, in a field of eight bits for each of these.
+using LaneBits = std::uint64_t;
+namespace lane_bits {
+// Remembered from step to step (FaceBefore).
+inline constexpr unsigned stored = 0, on = 8, closed_a = 16, closed_b = 24, switched = 32;
+// Found in a step (FaceStep).
+inline constexpr unsigned decides = 0, switching = 8, works = 16, rare = 24, busy = 32, opens = 40,
+                          slides = 48, fails = 56;
+constexpr LaneBits field(unsigned of) {
+  return LaneBits{0xff} << of;
+}
+constexpr bool test(LaneBits bits, unsigned of, std::size_t lane) {
+  return (bits >> (of + lane) & 1) != 0;
+}
+}  // namespace lane_bits
+
+using AlignedNumbers = std::vector<double, InWholeLines<double>>;
+
+/// How long the faces of a tile that sleep may do so: until a vertex of its edges has left its
+/// straight path by more than `margin`, or for a number of steps.
+struct TileSleep {
+  double margin = 0.0;   ///< m
+  double strayed = 0.0;  ///< m: upper bound of the distance of any vertex from its path
+  double fastest = 0.0;  ///< m: motion along the paths in a step, of any vertex
+  unsigned age = 0;      ///< steps since it was decided who sleeps
+  bool over = true;      ///< that must be decided anew
+  AlignedNumbers from;   ///< [slots][4] where the ends of the edges were then, m
+  AlignedNumbers pace;   ///< [slots][4] how far they had come in the last step, m
+};
+
+struct Tile {
+  Id first_block = 0, last_block = 0;  ///< own blocks, in FaceTiles::blocks
+  Id first_halo = 0, last_halo = 0;    ///< edges of other blocks, in FaceTiles::halo
+  Id first_chunk = 0, last_chunk = 0;
+  Id awake_end = 0;   ///< the chunks from here on hold faces that sleep
+  Id first_edge = 0;  ///< of its own edges, in FaceTiles::record_begin
+  Id own_edges = 0;  ///< slots of the own blocks' edges; then those of the halo, then an empty edge
+  bool takes_then = false;  ///< a face needs the corners at n - 1 (FaceInputs::then)
+  TileSleep sleep;
+  Id slots() const { return own_edges + (last_halo - first_halo) + 1; }
+};
+
+/// Constants of the chunks of a tile; chunks with equal ones share them.
+struct TileConstants {
+  AlignedNumbers edges;      ///< [sets][edge_columns][8]
+  AlignedNumbers strengths;  ///< [sets][strength_columns][8]
+};
+
+struct FaceTiles {
+  std::vector<Tile> tiles;
+  std::vector<Id> blocks;  ///< of the tiles, one after the other; in each ascending
+  std::vector<Id> halo;    ///< edges that face those of a tile
+
+  std::size_t chunks() const { return plain.size(); }
+  std::vector<Id> face;                ///< [chunks][8] row of the FaceSet, or no_id
+  std::vector<Id> slot_e, slot_f;      ///< [chunks][8] the edges, by their slots in the tile
+  std::vector<std::uint8_t> owned;     ///< [chunks] bit of each lane: this copy's work counts
+  std::vector<std::uint8_t> plain;     ///< [chunks] as FaceSet::plain
+  std::vector<std::uint8_t> bonds;     ///< [chunks] as FaceSet::bonds
+  std::vector<std::uint8_t> idle[2];   ///< [chunks] 1: no face carried load in that step
+  std::vector<std::uint8_t> fresh[2];  ///< [chunks] 1: `work` holds the work of that step
+
+  /// Copies of face k: places [nf][2] in chunks (8 chunk + lane), first that which is owned; no_id:
+  /// none.
+  std::vector<std::array<Id, 2>> place;
+
+  /// Records of four numbers for the forces of the awake faces on the edges of a tile: those on an
+  /// own edge lie side by side, in the order of FaceSet::on_edge.
+  std::vector<Id> record_begin;        ///< [tiles][own edges + 1]
+  std::vector<Id> record_e, record_f;  ///< [chunks][8]; an edge of another tile has the last one
+
+  /// The records of the last sweep of a tile, where some of its faces may be evaluated again.
+  std::vector<AlignedNumbers> forces;  ///< [tiles] [records][4] on start and end of an edge, N
+  std::vector<std::uint8_t> kept;      ///< [tiles] 1: they are those of the last sweep
+
+  std::vector<TileConstants> constants;    ///< [tiles]
+  std::vector<Id> edge_set, strength_set;  ///< [chunks] their constants
+
+  AlignedNumbers memory[2];        ///< [chunks][memory_columns][8], of steps n and n - 1 in turn
+  AlignedNumbers dashpots[2];      ///< [chunks][dashpot_memory_columns][8]; empty: no dashpots
+  std::vector<LaneBits> bits[2];   ///< [chunks]
+  std::vector<LaneBits> found[2];  ///< [chunks] of that step
+  AlignedNumbers work[2];          ///< [chunks][work_columns][8], where `fresh`
+  AlignedNumbers sums;             ///< [chunks][sum_columns][8]
+  std::vector<LaneBits> ever;      ///< [chunks] `opens`, `slides` of any step until n - 1
+  std::vector<double> deepest;     ///< [chunks] as FaceStep::depth, largest in the step so far, m
+  int now = 0;                     ///< which of the two is that of step n
+
+  bool has_dashpots() const { return !dashpots[0].empty(); }
+  const double* edges_of(std::size_t tile, std::size_t chunk) const {
+    return constants[tile].edges.data() + edge_set[chunk] * edge_columns * lanes;
+  }
+  const double* strengths_of(std::size_t tile, std::size_t chunk) const {
+    return constants[tile].strengths.data() + strength_set[chunk] * strength_columns * lanes;
+  }
+  std::size_t tile_of_chunk(std::size_t chunk) const;
+};
+
+/// Divides the blocks among tiles by their places: halves of halves, until none has more than
+/// `most`. Fixed blocks are left out unless `with_fixed`; so are excavated ones.
+void divide_blocks(FaceTiles& tiles, const BlockSet& blocks, const State& state, bool with_fixed,
+                   std::size_t most = blocks_per_tile);
+
+/// Gives each face of the list its places in the tiles, and all that has a size its size. Blocks
+/// must have been divided. All faces are awake.
+void lay_out(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks);
+
+/// Gives the forces of the awake faces of a tile their records.
+void order_records(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
+                   std::size_t tile);
+
+}  // namespace edda

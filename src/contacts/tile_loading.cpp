@@ -1,0 +1,182 @@
+#include "contacts/tile_loading.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/parallel.hpp"
+#include "contacts/tile_columns.hpp"
+
+namespace edda {
+namespace {
+
+/// The constants of one face.
+EdgeConstants<double> edge_constants(const FaceSet& c, const BlockSet& b, const FacePair& p,
+                                     std::size_t k) {
+  return {p.stiffness, c.shear_stiffness[k], p.inverse_e, p.inverse_f,
+          p.gate_from, p.gate_scale,         p.passing,   touching_gap * smaller_size(c, b, k),
+          p.turn_p1.x, p.turn_p1.y,          p.turn_p2.x, p.turn_p2.y,
+          p.turn_q1.x, p.turn_q1.y,          p.turn_q2.x, p.turn_q2.y};
+}
+StrengthConstants<double> strength_constants(const FaceSet& c, const FacePair& p, std::size_t k) {
+  return {p.ends,      c.friction[k], c.cohesion[k],   p.offset.a,   p.offset.b, p.carries_tension,
+          c.bonded[k], c.zeta[k],     c.shear_zeta[k], c.tension[k], c.glued[k]};
+}
+/// Of a lane without a face: no length and no stiffness; `passing` is divided by.
+EdgeConstants<double> no_constants() {
+  EdgeConstants<double> none{};
+  none.gate_scale = none.passing = 1.0;
+  return none;
+}
+
+/// The set of constants that equals this one, of the last ones in the table; appended where there
+/// is none. In regular masonry there are few, elsewhere no two are equal.
+Id set_of(AlignedNumbers& table, const double* numbers, std::size_t columns) {
+  constexpr std::size_t last = 12;
+  const std::size_t size = columns * lanes, sets = table.size() / size;
+  for (std::size_t n = sets - std::min(sets, last); n < sets; ++n) {
+    if (std::memcmp(table.data() + n * size, numbers, size * sizeof(double)) == 0)
+      return static_cast<Id>(n);
+  }
+  table.insert(table.end(), numbers, numbers + size);
+  return static_cast<Id>(sets);
+}
+
+/// The memory of face k at the step of `m`, at these positions.
+void load_memory(FaceTiles& t, const FaceSet& c, const FaceMemory& m, const std::vector<double>& x,
+                 const std::vector<double>& y, int which, std::size_t place, std::size_t k) {
+  const EdgeCoordinates at = coordinates_at(c, x, y, k);
+  put(t.memory[which], place,
+      FaceMemoryColumns<double>{m.slip_a[k], m.slip_b[k], m.overlap[k], m.spring[k], at.s2, at.r1,
+                                at.r2});
+  if (t.has_dashpots()) {
+    put(t.dashpots[which], place,
+        DashpotMemoryColumns<double>{at.y2, at.z1, at.z2, m.damping_a[k], m.damping_b[k],
+                                     m.shear_damping_a[k], m.shear_damping_b[k]});
+  }
+  const bool stored = m.energy[k] > 0.0, touches = stored || m.spring[k] > 0.0;
+  LaneBits& bits = t.bits[which][place / lanes];
+  const auto mark = [&](unsigned of, bool is) { set_bit(bits, of, place % lanes, is); };
+  mark(lane_bits::stored, stored);
+  mark(lane_bits::on, m.gate[k] > 0.0);
+  mark(lane_bits::closed_a, touches && m.closure_a[k] > c.noise);
+  mark(lane_bits::closed_b, touches && m.closure_b[k] > c.noise);
+  mark(lane_bits::switched, m.switched[k] > 0.0);
+}
+
+/// The work of face k in the step of `m`. Of a chunk in which no face has done any nothing is kept.
+void load_work(FaceTiles& t, const FaceMemory& m, bool opens, int which, std::size_t place,
+               std::size_t k) {
+  const FaceWorkColumns<double> work{m.friction_work[k], m.transfer[k],   m.trial_a[k],
+                                     m.trial_b[k],       m.shear_a[k],    m.shear_b[k],
+                                     m.damping_work[k],  m.damping_due[k]};
+  const bool slides = m.trial_a[k] != m.slip_a[k] || m.trial_b[k] != m.slip_b[k];
+  const bool sticks =
+      m.shear_a[k] == -m.spring[k] * m.slip_a[k] && m.shear_b[k] == -m.spring[k] * m.slip_b[k];
+  const bool busy = opens || slides || !sticks || work.friction_work != 0.0 ||
+                    work.transfer != 0.0 || work.damping_work != 0.0 || work.damping_due != 0.0;
+  const std::size_t q = place / lanes;
+  if (busy) begin_work(t, which, q);
+  if (t.fresh[which][q] != 0) put(t.work[which], place, work);
+  set_bit(t.found[which][q], lane_bits::opens, place % lanes, opens);
+  set_bit(t.found[which][q], lane_bits::slides, place % lanes, slides);
+}
+
+/// The accumulated work of face k.
+void load_sums(FaceTiles& t, const FaceSet& c, std::size_t place, std::size_t k) {
+  put(t.sums, place, FaceSumColumns<double>{c.friction_work[k], c.transfer[k], c.damping_work[k]});
+  const std::size_t q = place / lanes;
+  set_bit(t.ever[q], lane_bits::opens, place % lanes, c.opened[k] > 0.0);
+  set_bit(t.ever[q], lane_bits::slides, place % lanes, c.slipped[k] > 0.0);
+}
+
+/// Fills memory and work of a copy of face k from its row.
+void load_copy(FaceTiles& t, const FaceSet& c, const Pose& pose, std::size_t place, std::size_t k) {
+  const int now = t.now, old = 1 - t.now;
+  const auto remembers = [k](const FaceMemory& m) {
+    return m.energy[k] > 0.0 || m.spring[k] > 0.0 || m.slip_a[k] != 0.0 || m.slip_b[k] != 0.0;
+  };
+  const bool carries = remembers(c.now), carried = remembers(c.before);
+  const bool opens = c.before.energy[k] > 0.0 && c.now.energy[k] == 0.0;
+  const std::size_t q = place / lanes;
+  load_memory(t, c, c.now, pose.x, pose.y, now, place, k);
+  load_memory(t, c, c.before, pose.x1, pose.y1, old, place, k);
+  load_work(t, c.now, opens, now, place, k);
+  load_sums(t, c, place, k);
+  set_bit(t.found[now][q], lane_bits::works, place % lanes, carries || carried);
+  if (carries || carried) t.idle[now][q] = 0;
+  if (carried) t.idle[old][q] = 0;
+}
+
+}  // namespace
+
+void load_correction(FaceTiles& t, const FaceSet& c, std::size_t k) {
+  using Memory = FaceMemoryColumns<double>;
+  for (const Id place : t.place[k]) {
+    if (place == no_id) continue;
+    number_at(t.memory[1 - t.now], place, &Memory::slip_a) = c.before.slip_a[k];
+    number_at(t.memory[1 - t.now], place, &Memory::slip_b) = c.before.slip_b[k];
+    load_sums(t, c, place, k);
+  }
+}
+
+void load_chunk_constants(FaceTiles& t, const FaceSet& c, const BlockSet& b, std::size_t tile,
+                          std::size_t q) {
+  alignas(64) double edges[edge_columns * lanes], strengths[strength_columns * lanes];
+  bool bonds = false;
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const Id k = t.face[q * lanes + lane];
+    if (k == no_id) {
+      put(edges, lane, no_constants());
+      put(strengths, lane, StrengthConstants<double>{});
+      continue;
+    }
+    const FacePair pair = face_pair(c, b.exterior_cosine.data(), b.exterior_sine.data(), k);
+    put(edges, lane, edge_constants(c, b, pair, k));
+    put(strengths, lane, strength_constants(c, pair, k));
+    bonds = bonds || c.bonded[k] > 0.0 || c.carries_tension[k] > 0.0;
+  }
+  t.bonds[q] = bonds ? 1 : 0;
+  t.edge_set[q] = set_of(t.constants[tile].edges, edges, edge_columns);
+  t.strength_set[q] = set_of(t.constants[tile].strengths, strengths, strength_columns);
+}
+
+void load_faces(FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& pose) {
+  lay_out(t, c, b);
+  t.deepest.assign(t.chunks(), 0.0);
+  t.now = 0;
+  std::vector<char> no_scratch;
+  parallel_tasks(t.tiles.size(), b.size(), no_scratch, [&](std::size_t tile, char&) {
+    const Tile& of = t.tiles[tile];
+    t.constants[tile] = {};
+    for (std::size_t q = of.first_chunk; q < of.last_chunk; ++q) {
+      load_chunk_constants(t, c, b, tile, q);
+      t.idle[0][q] = t.idle[1][q] = 1;
+      for (std::size_t place = q * lanes; place < (q + 1) * lanes; ++place) {
+        if (t.face[place] != no_id) load_copy(t, c, pose, place, t.face[place]);
+      }
+    }
+    order_records(t, c, b, tile);
+  });
+}
+
+void load_decisions(FaceTiles& t, const FaceSet& c, const BlockSet& b, std::size_t k) {
+  for (const Id place : t.place[k]) {
+    if (place == no_id) continue;
+    load_chunk_constants(t, c, b, t.tile_of_chunk(place / lanes), place / lanes);
+    load_sums(t, c, place, k);
+  }
+}
+
+void load_corners(FaceTiles& t, const EdgeCoordinates& at, int which, std::size_t place) {
+  using Memory = FaceMemoryColumns<double>;
+  number_at(t.memory[which], place, &Memory::s2) = at.s2;
+  number_at(t.memory[which], place, &Memory::r1) = at.r1;
+  number_at(t.memory[which], place, &Memory::r2) = at.r2;
+  if (!t.has_dashpots()) return;
+  using Dashpots = DashpotMemoryColumns<double>;
+  number_at(t.dashpots[which], place, &Dashpots::y2) = at.y2;
+  number_at(t.dashpots[which], place, &Dashpots::z1) = at.z1;
+  number_at(t.dashpots[which], place, &Dashpots::z2) = at.z2;
+}
+
+}  // namespace edda

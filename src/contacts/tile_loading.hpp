@@ -1,0 +1,27 @@
+// From rows of the FaceSet to tiles (contacts/face_tiles.hpp); tile_rows.hpp has the way back.
+#pragma once
+
+#include "contacts/face_tiles.hpp"
+
+namespace edda {
+
+/// Fills everything from the faces as they are at the end of a step (FaceSet::now, before), with
+/// the positions of that step. divide_blocks() must have been called for these blocks.
+void load_faces(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks, const Pose& pose);
+
+/// Takes over what has been decided of face k: stiffness, strength, locked closures, and what that
+/// has added to its accumulated work.
+void load_decisions(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks, std::size_t k);
+
+/// The constants of a chunk of a tile.
+void load_chunk_constants(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
+                          std::size_t tile, std::size_t chunk);
+
+/// Takes over what the correction of switching has changed of face k (recompute_shear()): its slip
+/// at n - 1 and its accumulated work.
+void load_correction(FaceTiles& tiles, const FaceSet& faces, std::size_t k);
+
+/// Coordinates of the corners of the face at a place, at step n (which = FaceTiles::now) or n - 1.
+void load_corners(FaceTiles& tiles, const EdgeCoordinates& at, int which, std::size_t place);
+
+}  // namespace edda

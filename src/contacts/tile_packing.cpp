@@ -1,0 +1,81 @@
+#include "contacts/tile_packing.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+#include "contacts/tile_columns.hpp"
+#include "contacts/tile_loading.hpp"
+
+namespace edda {
+namespace {
+
+void swap_numbers(AlignedNumbers& table, std::size_t columns, std::size_t a, std::size_t b) {
+  double* const p = table.data() + a / lanes * columns * lanes + a % lanes;
+  double* const q = table.data() + b / lanes * columns * lanes + b % lanes;
+  for (std::size_t i = 0; i < columns; ++i) std::swap(p[i * lanes], q[i * lanes]);
+}
+
+/// Exchanges the bits of two lanes in every field.
+template <class Bits>
+void swap_bits(std::vector<Bits>& bits, Bits every, std::size_t a, std::size_t b) {
+  const auto lane_of = [&](std::size_t place) {
+    return static_cast<Bits>(bits[place / lanes] >> (place % lanes) & every);
+  };
+  const auto set = [&](std::size_t place, Bits to) {
+    Bits& in = bits[place / lanes];
+    const auto lane = place % lanes;
+    in =
+        static_cast<Bits>((in & ~static_cast<Bits>(every << lane)) | static_cast<Bits>(to << lane));
+  };
+  const Bits of_a = lane_of(a), of_b = lane_of(b);
+  set(a, of_b);
+  set(b, of_a);
+}
+
+}  // namespace
+
+void swap_faces(FaceTiles& t, std::size_t a, std::size_t b) {
+  const std::size_t p = a / lanes, q = b / lanes;
+  std::swap(t.face[a], t.face[b]);
+  std::swap(t.slot_e[a], t.slot_e[b]);
+  std::swap(t.slot_f[a], t.slot_f[b]);
+  swap_bits(t.owned, std::uint8_t{1}, a, b);
+  swap_numbers(t.sums, sum_columns, a, b);
+  constexpr LaneBits every = 0x0101010101010101;
+  swap_bits(t.ever, every, a, b);
+  for (const int which : {0, 1}) {
+    if (t.fresh[which][p] != 0 || t.fresh[which][q] != 0) {
+      begin_work(t, which, p);
+      begin_work(t, which, q);
+      swap_numbers(t.work[which], work_columns, a, b);
+    }
+    swap_numbers(t.memory[which], memory_columns, a, b);
+    if (t.has_dashpots()) swap_numbers(t.dashpots[which], dashpot_memory_columns, a, b);
+    swap_bits(t.bits[which], every, a, b);
+    swap_bits(t.found[which], every, a, b);
+  }
+  for (const std::size_t place : {a, b}) {
+    if (t.face[place] == no_id) continue;
+    const bool owns = (t.owned[place / lanes] >> (place % lanes) & 1u) != 0;
+    // The other copy of the face may be looked for in another tile just now (order_records()).
+    std::atomic_ref<Id>(t.place[t.face[place]][owns ? 0 : 1])
+        .store(static_cast<Id>(place), std::memory_order_relaxed);
+  }
+}
+
+void drop_unused_constants(FaceTiles& t, const FaceSet& c, const BlockSet& b, std::size_t tile) {
+  const Tile& of = t.tiles[tile];
+  TileConstants& constants = t.constants[tile];
+  const std::size_t sets = std::max(constants.edges.size() / edge_columns,
+                                    constants.strengths.size() / strength_columns) /
+                           lanes;
+  constexpr std::size_t few = 16;
+  if (sets <= 2 * (of.last_chunk - of.first_chunk) + few) return;
+  constants = {};
+  for (std::size_t q = of.first_chunk; q < of.last_chunk; ++q) {
+    load_chunk_constants(t, c, b, tile, q);
+  }
+}
+
+}  // namespace edda

@@ -1,0 +1,16 @@
+// Faces change places within a tile (contacts/face_tiles.hpp).
+#pragma once
+
+#include "contacts/face_tiles.hpp"
+
+namespace edda {
+
+/// Lets the faces at two places of a tile change places, with all that they remember and have
+/// found. The marks and the constants of their chunks, and the records, are left to the caller.
+void swap_faces(FaceTiles& tiles, std::size_t place, std::size_t other);
+
+/// Sets of constants that chunks have left are dropped once they are more than those in use.
+void drop_unused_constants(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
+                           std::size_t tile);
+
+}  // namespace edda

@@ -1,0 +1,190 @@
+#include "contacts/tile_rows.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "base/parallel.hpp"
+#include "contacts/face_step.hpp"
+#include "contacts/tile_columns.hpp"
+
+namespace edda {
+namespace {
+
+/// What a face did in a step. Where nothing is kept it has done no work and sticks.
+FaceWorkColumns<double> work_at(const FaceTiles& t, int which, std::size_t place,
+                                const FaceMemoryColumns<double>& m) {
+  const std::size_t q = place / lanes;
+  if (t.fresh[which][q] != 0) return get<FaceWorkColumns<double>>(t.work[which], place);
+  FaceWorkColumns<double> work{};
+  work.trial_a = m.slip_a;
+  work.trial_b = m.slip_b;
+  work.shear_a = -m.spring * m.slip_a;
+  work.shear_b = -m.spring * m.slip_b;
+  return work;
+}
+
+/// Fills the row of face k in `m` with what the tiles remember of that step. Of energy, gate and
+/// closures they know only whether they are above zero: 1 stands for that.
+void recall(FaceMemory& m, const FaceTiles& t, int which, std::size_t k) {
+  const Id place = t.place[k][0];
+  const auto memory = get<FaceMemoryColumns<double>>(t.memory[which], place);
+  const FaceWorkColumns<double> work = work_at(t, which, place, memory);
+  const LaneBits bits = t.bits[which][place / lanes];
+  const auto was = [&](unsigned of) {
+    return lane_bits::test(bits, of, place % lanes) ? 1.0 : 0.0;
+  };
+  m.energy[k] = was(lane_bits::stored);
+  m.gate[k] = was(lane_bits::on);
+  m.closure_a[k] = was(lane_bits::closed_a);
+  m.closure_b[k] = was(lane_bits::closed_b);
+  m.switched[k] = was(lane_bits::switched);
+  m.slip_a[k] = memory.slip_a;
+  m.slip_b[k] = memory.slip_b;
+  m.spring[k] = memory.spring;
+  m.overlap[k] = memory.spring > 0.0 ? memory.overlap : 0.0;
+  m.trial_a[k] = work.trial_a;
+  m.trial_b[k] = work.trial_b;
+  m.shear_a[k] = work.shear_a;
+  m.shear_b[k] = work.shear_b;
+  m.friction_work[k] = work.friction_work;
+  m.transfer[k] = work.transfer;
+  if (!t.has_dashpots()) return;
+  const auto dashpots = get<DashpotMemoryColumns<double>>(t.dashpots[which], place);
+  m.damping_a[k] = dashpots.damping_a;
+  m.damping_b[k] = dashpots.damping_b;
+  m.shear_damping_a[k] = dashpots.shear_damping_a;
+  m.shear_damping_b[k] = dashpots.shear_damping_b;
+  m.damping_work[k] = work.damping_work;
+  m.damping_due[k] = work.damping_due;
+}
+
+/// Brings the accumulated work of face k up to date.
+void recall_sums(FaceSet& c, const FaceTiles& t, std::size_t k) {
+  const Id place = t.place[k][0];
+  const auto sums = get<FaceSumColumns<double>>(t.sums, place);
+  const auto ever = [&](unsigned of) {
+    return lane_bits::test(t.ever[place / lanes], of, place % lanes) ? 1.0 : 0.0;
+  };
+  c.friction_work[k] = sums.friction_work;
+  c.transfer[k] = sums.transfer;
+  c.damping_work[k] = sums.damping_work;
+  c.opened[k] = ever(lane_bits::opens);
+  c.slipped[k] = ever(lane_bits::slides);
+}
+
+}  // namespace
+
+void recall_face(FaceSet& c, const FaceTiles& t, std::size_t k) {
+  recall(c.before, t, 1 - t.now, k);
+  recall(c.now, t, t.now, k);
+  recall_sums(c, t, k);
+  std::fill_n(&c.force[8 * k], 8, 0.0);
+  c.now.inactive[k / FaceSet::chunk] = 0;
+}
+
+bool stays_open(const FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& pose,
+                std::size_t k) {
+  FaceInputs in{};
+  in.pair = face_pair(c, b.exterior_cosine.data(), b.exterior_sine.data(), k);
+  in.at = face_points(c, pose.x, pose.y, k);
+  in.noise = c.noise;
+  const std::size_t place = t.place[k][0];
+  in.before.on = lane_bits::test(t.bits[1 - t.now][place / lanes], lane_bits::on, place % lanes);
+  const OpenFace s = look_at_open_face(in);
+  return !s.may_close && (s.gate > 0.0) == in.before.on;
+}
+
+namespace {
+
+/// Whether a face in each chunk of the list has acted, [chunks].
+std::vector<std::uint8_t> chunks_that_have_acted(const FaceSet& c, const FaceTiles& t) {
+  std::vector<std::uint8_t> have(c.chunks(), 0);
+  for (std::size_t q = 0; q < t.chunks(); ++q) {
+    if (t.idle[0][q] != 0 && t.idle[1][q] != 0 && t.bonds[q] == 0) continue;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const Id k = t.face[q * lanes + lane];
+      if (k != no_id) have[k / FaceSet::chunk] = 1;
+    }
+  }
+  return have;
+}
+
+/// Empties the rows of a chunk, but for whether the edges of each face have faced each other.
+void unload_open(FaceSet& c, const FaceTiles& t, std::size_t q) {
+  const bool empty = c.now.inactive[q] != 0 && c.before.inactive[q] != 0;
+  const std::size_t first = q * FaceSet::chunk, last = std::min(first + FaceSet::chunk, c.size());
+  if (!empty) {
+    constexpr std::size_t numbers = std::size(face_columns) * FaceSet::chunk;
+    std::fill_n(c.now.begin_of_chunk(q), numbers, 0.0);
+    std::fill_n(c.before.begin_of_chunk(q), numbers, 0.0);
+    std::fill_n(&c.force[8 * first], 8 * FaceSet::chunk, 0.0);
+    c.now.inactive[q] = c.before.inactive[q] = 1;
+  }
+  for (std::size_t k = first; k < last; ++k) {
+    const Id place = t.place[k][0];
+    if (place == no_id) continue;
+    const LaneBits bits = t.bits[1 - t.now][place / lanes];
+    c.before.gate[k] = lane_bits::test(bits, lane_bits::on, place % lanes) ? 1.0 : 0.0;
+  }
+}
+
+}  // namespace
+
+void unload_faces(FaceSet& c, const FaceTiles& t, const FaceScene& scene, double step) {
+  const std::vector<std::uint8_t> acted = chunks_that_have_acted(c, t);
+  parallel_chunks(c.size(), FaceSet::chunk, [&](std::size_t q, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      if (t.place[k][0] != no_id) recall_sums(c, t, k);
+    }
+    if (acted[q] == 0) return unload_open(c, t, q);
+    c.now.inactive[q] = c.before.inactive[q] = 0;
+    for (std::size_t k = begin; k < end; ++k) {
+      if (t.place[k][0] != no_id) recall(c.before, t, 1 - t.now, k);
+    }
+  });
+  evaluate_as_decided(c, scene, step);
+}
+
+namespace {
+
+/// What a face that loses its strength takes by friction in that step counts as fracture.
+void move_friction_to_fracture(FaceSet& c, FaceTiles& t, std::size_t k) {
+  for (const Id place : t.place[k]) {
+    if (place == no_id || t.fresh[t.now][place / lanes] == 0) continue;
+    double& friction = number_at(t.work[t.now], place, &FaceWorkColumns<double>::friction_work);
+    if (place == t.place[k][0]) c.fracture_work[k] += friction;
+    friction = 0.0;
+  }
+}
+
+/// Adds the work of the step of a chunk to the accumulated work.
+EDDA_VECTOR void add_work(const double* work, double* sums) {
+  const auto w = columns_from<FaceWorkColumns<const double*>>(work);
+  const auto of = columns_from<FaceSumColumns<double*>>(sums);
+#pragma omp simd
+  for (std::size_t k = 0; k < lanes; ++k) {
+    of.friction_work[k] += w.friction_work[k];
+    of.transfer[k] += w.transfer[k];
+    of.damping_work[k] += w.damping_work[k] + w.damping_due[k];
+  }
+}
+
+}  // namespace
+
+void next_step(FaceSet& c, FaceTiles& t) {
+  c.for_failures([&](std::size_t k) { move_friction_to_fracture(c, t, k); });
+  count_failures(c);
+  constexpr LaneBits lasting =
+      lane_bits::field(lane_bits::opens) | lane_bits::field(lane_bits::slides);
+  std::vector<char> no_scratch;
+  parallel_tasks(t.tiles.size(), t.face.size(), no_scratch, [&](std::size_t tile, char&) {
+    for (Id q = t.tiles[tile].first_chunk; q < t.tiles[tile].awake_end; ++q) {
+      if (t.fresh[t.now][q] == 0) continue;
+      add_work(&t.work[t.now][q * work_columns * lanes], &t.sums[q * sum_columns * lanes]);
+      t.ever[q] |= t.found[t.now][q] & lasting;
+    }
+  });
+  t.now = 1 - t.now;
+}
+
+}  // namespace edda

@@ -1,0 +1,40 @@
+// Between the tiles of the explicit step (contacts/face_tiles.hpp) and the rows of the FaceSet, of
+// which the step keeps up to date only what is decided.
+#pragma once
+
+#include "contacts/evaluate_faces.hpp"
+#include "contacts/face_tiles.hpp"
+
+namespace edda {
+
+/// Fills `now` and `before` of face k with what the tiles remember, which is all that a step reads
+/// of them: 1 stands for an energy, a gate or a closure above 0; and its accumulated work. Clears
+/// its forces.
+void recall_face(FaceSet& faces, const FaceTiles& tiles, std::size_t k);
+
+/// Whether face k, which has carried nothing for two steps, remains open at these positions.
+bool stays_open(const FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
+                const Pose& pose, std::size_t k);
+
+/// Fills `now`, what a step reads of `before`, and the forces of all faces. step: from n - 1 to n,
+/// s.
+void unload_faces(FaceSet& faces, const FaceTiles& tiles, const FaceScene& scene, double step);
+
+/// As next_step(): adds the work of step n to the accumulated work and makes its memory that of the
+/// step before.
+void next_step(FaceSet& faces, FaceTiles& tiles);
+
+/// Visits the owned copies that have a bit of field `of` set in the last step, of the chunks of
+/// tile `tile`: visit(k).
+template <class Visit>
+void for_found(const FaceTiles& t, std::size_t tile, unsigned of, Visit visit) {
+  for (Id q = t.tiles[tile].first_chunk; q < t.tiles[tile].awake_end; ++q) {
+    const LaneBits found = t.found[t.now][q] >> of & t.owned[q];
+    if (found == 0) continue;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (lane_bits::test(found, 0, lane)) visit(t.face[q * lanes + lane]);
+    }
+  }
+}
+
+}  // namespace edda

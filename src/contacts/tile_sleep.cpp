@@ -1,0 +1,222 @@
+#include "contacts/tile_sleep.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "contacts/chunk_loops.hpp"
+#include "contacts/tile_loading.hpp"
+#include "contacts/tile_packing.hpp"
+
+namespace edda {
+namespace {
+
+/// Steps after which it is decided anew who sleeps at the latest, which also brings faces together
+/// again that do alike.
+constexpr unsigned longest_sleep = 32;
+
+/// Largest component of at - from - age pace.
+EDDA_VECTOR double largest_component(const double* at, const double* from, const double* pace,
+                                     double age, std::size_t count) {
+  double largest = 0.0;
+#pragma omp simd reduction(max : largest)
+  for (std::size_t n = 0; n < count; ++n) {
+    largest = larger(largest, std::abs(at[n] - from[n] - age * pace[n]));
+  }
+  return largest;
+}
+
+/// Upper bound of the distance of any vertex from its path, m.
+double distance_strayed(const TileSleep& sleep, const SweepScratch& scratch) {
+  return std::numbers::sqrt2 * largest_component(scratch.at.data(), sleep.from.data(),
+                                                 sleep.pace.data(), sleep.age, sleep.from.size());
+}
+
+/// The wider the margin, the fewer faces sleep; the narrower, the more often that is decided anew:
+/// somewhat more than what the last sleep would have needed.
+double next_margin(const TileSleep& sleep, double strayed, double least) {
+  constexpr double more = 1.5, change = 4.0, first = 4.0;
+  if (sleep.age == 0) return std::max(first * sleep.fastest, least);
+  const double part = static_cast<double>(sleep.age) / longest_sleep;
+  return std::max(
+      std::clamp(more * strayed / (part * part), sleep.margin / change, sleep.margin * change),
+      least);
+}
+
+void begin_sleep(const SweepScene& scene, TileSleep& sleep, const SweepScratch& scratch,
+                 std::size_t edges) {
+  const double strayed = sleep.age == 0 ? 0.0 : distance_strayed(sleep, scratch);
+  sleep.from.assign(scratch.at.begin(),
+                    scratch.at.begin() + static_cast<std::ptrdiff_t>(4 * edges));
+  sleep.pace.resize(4 * (edges + 1));  // with the empty edge
+  double fastest = 0.0;
+  for (std::size_t n = 0; n < 4 * edges; ++n) {
+    sleep.pace[n] = scratch.at[n] - scratch.then[n];
+    fastest = std::max(fastest, std::abs(sleep.pace[n]));
+  }
+  sleep.fastest = std::numbers::sqrt2 * fastest;
+  sleep.margin = next_margin(sleep, strayed, scene.least_margin);
+  sleep.strayed = 0.0;
+  sleep.age = 0;
+  sleep.over = false;
+}
+
+/// What the faces of a tile do, in the order in which they lie in it: carry load by the short
+/// formulas (FaceSet::plain) and by the long ones, at rest and with work; touch, are looked at,
+/// sleep.
+enum Kind : std::uint8_t {
+  short_rest,
+  short_work,
+  long_work,
+  long_rest,
+  touching,
+  looked_at,
+  asleep
+};
+constexpr std::size_t kinds = 7;
+constexpr std::uint8_t slept = 8;  ///< and it slept before
+
+/// What a face does that carries load.
+Kind kind_of_working(bool short_formulas, bool works) {
+  if (short_formulas) return works ? short_work : short_rest;
+  return works ? long_work : long_rest;
+}
+
+/// Where fewer faces than this part of the edges would sleep, none does: to see whether they may
+/// go on takes as long as to look at them.
+constexpr double worth_sleeping = 0.25;
+
+/// Fills SweepScratch::kind. Returns how many faces there are of each kind.
+std::array<Id, kinds> classify(const FaceTiles& t, std::size_t tile, double noise,
+                               SweepScratch& scratch) {
+  const Tile& of = t.tiles[tile];
+  const int old = 1 - t.now;
+  scratch.kind.resize((of.last_chunk - of.first_chunk) * lanes);
+  std::array<Id, kinds> count{};
+  Records e, f, pace_e, pace_f;
+  std::uint8_t* next = scratch.kind.data();
+  for (std::size_t q = of.first_chunk; q < of.last_chunk; ++q) {
+    read_edges(scratch.at.data(), &t.slot_e[q * lanes], &t.slot_f[q * lanes], e, f);
+    read_edges(of.sleep.pace.data(), &t.slot_e[q * lanes], &t.slot_f[q * lanes], pace_e, pace_f);
+    ChunkView view{};
+    view.edges = t.edges_of(tile, q);
+    view.strengths = t.strengths_of(tile, q);
+    view.e = &e;
+    view.f = &f;
+    view.noise = noise;
+    view.was = t.bits[old][q];
+    view.e_then = &pace_e;
+    view.f_then = &pace_f;
+    const OpenLanes open = open_lanes(view, of.sleep.margin, longest_sleep);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const auto found = [&](unsigned what) {
+        return lane_bits::test(t.found[old][q], what, lane);
+      };
+      const auto is = [&](unsigned bits) { return (bits >> lane & 1u) != 0; };
+      Kind kind = is(open.stay) ? asleep : is(open.near) ? touching : looked_at;
+      if (found(lane_bits::works))
+        kind = kind_of_working(!found(lane_bits::rare), found(lane_bits::busy));
+      if (t.face[q * lanes + lane] == no_id) kind = asleep;
+      ++count[kind];
+      *next++ = static_cast<std::uint8_t>(kind | (q >= of.awake_end ? slept : 0));
+    }
+  }
+  if (count[asleep] >= worth_sleeping * of.slots()) return count;
+  for (std::size_t n = 0; n < scratch.kind.size(); ++n) {
+    std::uint8_t& kind = scratch.kind[n];
+    if (kind % slept != asleep || t.face[of.first_chunk * lanes + n] == no_id) continue;
+    kind = static_cast<std::uint8_t>(looked_at | (kind & slept));
+    --count[asleep];
+    ++count[looked_at];
+  }
+  return count;
+}
+
+/// Corners of a face that wakes at n - 1; its gate has remained as it was.
+void recall_corners(FaceTiles& t, const SweepScene& scene, std::size_t place) {
+  const Pose& pose = scene.pose;
+  load_corners(t, coordinates_at(scene.faces, pose.x1, pose.y1, t.face[place]), 1 - t.now, place);
+}
+
+/// Marks of a chunk after faces have come and gone.
+void mark_chunk(FaceTiles& t, std::size_t q, bool awake) {
+  const int now = t.now, old = 1 - t.now;
+  const auto any = [&](unsigned of) { return (t.found[old][q] & lane_bits::field(of)) != 0; };
+  const std::uint8_t idle = any(lane_bits::works) ? 0 : 1;
+  t.plain[q] = any(lane_bits::rare) ? 0 : 1;
+  t.idle[old][q] = t.idle[now][q] = idle;
+  if (awake) return;
+  t.bits[old][q] &= lane_bits::field(lane_bits::on);
+  t.bits[now][q] = t.bits[old][q];
+  t.found[old][q] = t.found[now][q] = 0;
+  t.fresh[old][q] = t.fresh[now][q] = 0;
+}
+
+}  // namespace
+
+bool sleep_is_over(FaceTiles& t, const SweepScene& scene, std::size_t tile,
+                   const SweepScratch& scratch) {
+  TileSleep& sleep = t.tiles[tile].sleep;
+  if (scene.least_margin == 0.0) return false;
+  if (sleep.over) return true;
+  sleep.strayed += scene.largest_move + sleep.fastest + scene.pushed;
+  if (++sleep.age >= longest_sleep) return true;
+  if (t.tiles[tile].awake_end == t.tiles[tile].last_chunk) return false;
+  if (sleep.strayed <= sleep.margin) return false;
+  sleep.strayed = distance_strayed(sleep, scratch);
+  return !(sleep.strayed <= sleep.margin);
+}
+
+void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScratch& scratch) {
+  Tile& of = t.tiles[tile];
+  begin_sleep(scene, of.sleep, scratch, of.slots() - 1);
+  const std::array<Id, kinds> count = classify(t, tile, scene.noise, scratch);
+  std::vector<std::uint8_t>& kind = scratch.kind;
+  std::vector<std::uint8_t>& touched = scratch.touched;
+  touched.assign(of.last_chunk - of.first_chunk, 0);
+  std::array<std::size_t, kinds> next{}, end{};
+  for (std::size_t r = 0, begin = 0; r < kinds; ++r) {
+    next[r] = begin;
+    end[r] = begin += count[r];
+  }
+  const std::size_t first = of.first_chunk * lanes;
+  const auto of_kind = [&](std::size_t n) { return std::size_t{kind[n]} % slept; };
+  for (std::size_t r = 0; r < kinds; ++r) {
+    for (std::size_t n = next[r]; n < end[r]; ++n) {
+      while (of_kind(n) != r) {
+        const std::size_t to = of_kind(n);
+        while (of_kind(next[to]) == to) ++next[to];
+        const std::size_t m = next[to]++;
+        swap_faces(t, first + n, first + m);
+        std::swap(kind[n], kind[m]);
+        touched[n / lanes] = touched[m / lanes] = 1;
+      }
+    }
+  }
+  const Id awake = (of.last_chunk - of.first_chunk) * static_cast<Id>(lanes) - count[asleep];
+  const Id was = of.awake_end;
+  of.awake_end = of.first_chunk + static_cast<Id>((awake + lanes - 1) / lanes);
+  for (Id q = std::min(was, of.awake_end); q < std::max(was, of.awake_end); ++q) {
+    touched[q - of.first_chunk] = 1;
+  }
+  bool any = false;
+  for (std::size_t n = 0; n < touched.size(); ++n) {
+    if (touched[n] == 0) continue;
+    any = true;
+    const std::size_t q = of.first_chunk + n;
+    load_chunk_constants(t, scene.faces, scene.blocks, tile, q);
+    mark_chunk(t, q, q < of.awake_end);
+    if (q >= of.awake_end) continue;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const std::size_t place = q * lanes + lane;
+      if (kind[n * lanes + lane] >= slept && t.face[place] != no_id)
+        recall_corners(t, scene, place);
+    }
+  }
+  drop_unused_constants(t, scene.faces, scene.blocks, tile);
+  if (!any) return;
+  order_records(t, scene.faces, scene.blocks, tile);
+}
+
+}  // namespace edda

@@ -1,0 +1,23 @@
+// Which faces of a tile sleep. A face that carries nothing, and of which nothing else that counts
+// can change as long as the corners of its blocks move little against each other
+// (open_lanes()), need not be looked at until they may have moved that far. How far they move
+// is bounded, never guessed: each vertex of the tile's edges goes on along a straight path at the
+// pace of the step in which it was decided who sleeps, but for a margin that is checked. Nothing
+// depends on which faces sleep, to the bit.
+#pragma once
+
+#include "contacts/tile_sweep.hpp"
+
+namespace edda {
+
+/// Adds the motion of the last step; the edges have been placed at n (SweepScratch::at). Returns
+/// whether a face that sleeps might have to wake, so that let_sleep() must be called before the
+/// tile is evaluated.
+bool sleep_is_over(FaceTiles& tiles, const SweepScene& scene, std::size_t tile,
+                   const SweepScratch& scratch);
+
+/// Wakes and lets sleep; also brings faces together that do alike. The edges have been placed at n
+/// and n - 1 (SweepScratch::then); FaceTiles::now is that of n, which has yet to be evaluated.
+void let_sleep(FaceTiles& tiles, const SweepScene& scene, std::size_t tile, SweepScratch& scratch);
+
+}  // namespace edda

@@ -1,0 +1,342 @@
+#include "contacts/tile_sweep.hpp"
+
+#include <algorithm>
+
+#include "contacts/chunk_loops.hpp"
+#include "contacts/tile_sleep.hpp"
+
+namespace edda {
+namespace {
+
+/// Vertex data in the layout of BlockSet.
+struct Corners {
+  ConstNodeValues weight;
+  const Id *vertex_begin, *next, *previous;
+};
+
+/// Fills the records of the edges of a tile: start and end.
+EDDA_VECTOR void place_edges(const Corners& c, const Id* blocks, std::size_t count, const Id* halo,
+                             std::size_t halo_count, const double* x, const double* y, double* to) {
+  const auto corner = [&](Id v) __attribute__((always_inline)) {
+    return Two{x[v], y[v]};
+  };
+  std::size_t base = 0;
+  for (std::size_t n = 0; n < count; ++n) {
+    const Id i = blocks[n], first = c.vertex_begin[i], last = c.vertex_begin[i + 1];
+    for (Id v = first; v < last; ++v) {
+      const Two p = corner(v);
+      *reinterpret_cast<Two*>(to + 4 * (base + (v - first))) = p;
+      *reinterpret_cast<Two*>(to + 4 * (base + (c.previous[v] - first)) + 2) = p;
+    }
+    base += last - first;
+  }
+  for (std::size_t n = 0; n < halo_count; ++n) {
+    const Id v = halo[n];
+    *reinterpret_cast<Two*>(to + 4 * (base + n)) = corner(v);
+    *reinterpret_cast<Two*>(to + 4 * (base + n) + 2) = corner(c.next[v]);
+  }
+}
+
+/// The forces on the nodes of the own blocks of a tile: summed on each edge, then spread from its
+/// two corners (Eq. 15). wanted: [nb] for which blocks, or null.
+EDDA_VECTOR void gather_blocks(const Corners& c, const Id* blocks, std::size_t count,
+                               const std::uint8_t* wanted, const Id* record_begin,
+                               const double* records, NodeValues fx, NodeValues fy) {
+  for (std::size_t n = 0; n < count; ++n) {
+    const Id i = blocks[n], first = c.vertex_begin[i], last = c.vertex_begin[i + 1];
+    if (wanted != nullptr && wanted[i] == 0) {
+      record_begin += last - first;
+      continue;
+    }
+    Four from_start_and_end[nodes_per_block] = {};  // x and y from the start, x and y from the end
+    for (Id e = first; e < last; ++e) {
+      const Id begin = *record_begin, end = *++record_begin;
+      if (begin == end) continue;
+      Four sum{};
+      for (std::size_t q = begin; q < end; ++q) sum += four_at(records + 4 * q);
+      const Id to = c.next[e];
+      for (std::size_t k = 0; k < nodes_per_block; ++k) {
+        const double w = c.weight[k][e], w_to = c.weight[k][to];
+        from_start_and_end[k] += Four{w, w, w_to, w_to} * sum;
+      }
+    }
+    for (std::size_t k = 0; k < nodes_per_block; ++k) {
+      const Four& both = from_start_and_end[k];
+      fx[k][i] = both[0] + both[2];
+      fy[k][i] = both[1] + both[3];
+    }
+  }
+}
+
+/// The records of a chunk's edges and of the forces on them.
+struct ChunkRecords {
+  Records e, f, e_then, f_then, mass_e, mass_f, on_e, on_f;
+};
+
+ChunkView view_of(FaceTiles& t, const SweepScene& scene, std::size_t tile, std::size_t q,
+                  ChunkRecords& r) {
+  const int now = t.now, old = 1 - t.now;
+  const auto at = [q](auto& table, std::size_t columns) {
+    return table.data() + q * columns * lanes;
+  };
+  const bool damped = t.has_dashpots();
+  return {.edges = t.edges_of(tile, q),
+          .strengths = t.strengths_of(tile, q),
+          .before = at(t.memory[old], memory_columns),
+          .damped_before = damped ? at(t.dashpots[old], dashpot_memory_columns) : nullptr,
+          .memory = at(t.memory[now], memory_columns),
+          .damped = damped ? at(t.dashpots[now], dashpot_memory_columns) : nullptr,
+          .work = at(t.work[now], work_columns),
+          .e = &r.e,
+          .f = &r.f,
+          .e_then = &r.e_then,
+          .f_then = &r.f_then,
+          .mass_e = &r.mass_e,
+          .mass_f = &r.mass_f,
+          .on_e = &r.on_e,
+          .on_f = &r.on_f,
+          .record_e = &t.record_e[q * lanes],
+          .record_f = &t.record_f[q * lanes],
+          .on = nullptr,
+          .was = t.bits[old][q],
+          .step = scene.step,
+          .noise = scene.noise};
+}
+
+/// Evaluates a chunk. What held for all of its faces in the last step is tried first: that
+/// is_plain(), and that they do no work.
+ChunkFound evaluate_chunk(FaceTiles& t, const ChunkView& view, std::size_t q) {
+  const auto any = [](const ChunkFound& c, unsigned of) {
+    return (c.found & lane_bits::field(of)) != 0;
+  };
+  const bool damped = t.has_dashpots();
+  const bool worked = t.fresh[1 - t.now][q] != 0;
+  bool plain = t.plain[q] != 0, rests = !damped && !worked;
+  for (;;) {
+    const ChunkFound found = plain    ? damped  ? evaluate_plain_damped(view)
+                                        : rests ? evaluate_plain_at_rest(view)
+                                                : evaluate_plain_with_work(view)
+                                : damped ? evaluate_damped(view)
+                             : rests  ? evaluate_at_rest(view)
+                                      : evaluate_with_work(view);
+    const bool too_plain = plain && any(found, lane_bits::rare),
+               too_quiet = rests && any(found, lane_bits::busy);
+    if (!too_plain && !too_quiet) {
+      t.plain[q] = any(found, lane_bits::rare) ? 0 : 1;
+      return found;
+    }
+    plain = plain && !too_plain;
+    rests = rests && !too_quiet;
+  }
+}
+
+/// Keeps what the evaluation of a chunk has found. Its work counts only if it did any.
+void keep(FaceTiles& t, std::size_t q, const ChunkFound& c) {
+  const auto any = [&](unsigned of) { return (c.found & lane_bits::field(of)) != 0; };
+  t.bits[t.now][q] = c.bits;
+  t.found[t.now][q] = c.found;
+  t.idle[t.now][q] = any(lane_bits::works) ? 0 : 1;
+  t.fresh[t.now][q] = any(lane_bits::busy) ? 1 : 0;
+}
+
+/// A tile in its sweep.
+struct TileInSweep {
+  FaceTiles& tiles;
+  const SweepScene& scene;
+  std::size_t number;
+  const Tile& tile;
+  SweepScratch& scratch;
+  double* on;  ///< records of the forces
+};
+
+EDDA_VECTOR void read_chunk(const SweepScratch& from, const Id* e, const Id* f, const double* then,
+                            bool damped, ChunkRecords& r) {
+  read_records(from.at.data(), e, r.e);
+  read_records(from.at.data(), f, r.f);
+  if (then != nullptr) {
+    read_records(then, e, r.e_then);
+    read_records(then, f, r.f_then);
+  }
+  if (damped) {
+    read_records(from.mass.data(), e, r.mass_e);
+    read_records(from.mass.data(), f, r.mass_f);
+  }
+}
+
+/// Clears the records of a chunk.
+void store_nothing(const FaceTiles& t, double* on, std::size_t q) {
+  const auto clear = [&](const std::vector<Id>& record) {
+    for (std::size_t place = q * lanes; place < (q + 1) * lanes; ++place) {
+      *reinterpret_cast<Four*>(on + 4 * std::size_t{record[place]}) = Four{};
+    }
+  };
+  clear(t.record_e);
+  clear(t.record_f);
+}
+
+/// Evaluates a chunk whose edges have been read, and stores its forces. Returns what it has found.
+ChunkFound evaluate_read(FaceTiles& t, const SweepScene& scene, std::size_t tile, std::size_t q,
+                         double* on, ChunkRecords& r) {
+  ChunkView view = view_of(t, scene, tile, q, r);
+  view.on = on;
+  if (!t.tiles[tile].takes_then) {  // what is multiplied by them is 0, but they must be numbers
+    view.e_then = view.e;
+    view.f_then = view.f;
+  }
+  const bool idle = t.idle[0][q] != 0 && t.idle[1][q] != 0 && t.bonds[q] == 0;
+  if (idle) {
+    const ChunkFound open = t.has_dashpots() ? look_at_damped(view) : look_at_undamped(view);
+    if (open.found == 0) {
+      keep(t, q, open);
+      store_nothing(t, on, q);
+      return open;
+    }
+  }
+  const ChunkFound found = evaluate_chunk(t, view, q);
+  keep(t, q, found);
+  return found;
+}
+
+ChunkFound sweep_chunk(const TileInSweep& s, std::size_t q) {
+  FaceTiles& t = s.tiles;
+  ChunkRecords r;
+  const double* const then = s.tile.takes_then ? s.scratch.then.data() : nullptr;
+  read_chunk(s.scratch, &t.slot_e[q * lanes], &t.slot_f[q * lanes], then, t.has_dashpots(), r);
+  return evaluate_read(t, s.scene, s.number, q, s.on, r);
+}
+
+/// Reads the edges of a chunk from the vertices.
+void read_vertices(const FaceTiles& t, const SweepScene& scene, bool takes_then, std::size_t q,
+                   ChunkRecords& r) {
+  const BlockSet& b = scene.blocks;
+  const Masses& m = scene.masses;
+  const auto read = [&](std::size_t lane, Id edge, Records& at, Records& then, Records& mass) {
+    const auto put = [lane](Records& to, double a, double b2, double c, double d) {
+      to.column[0][lane] = a;
+      to.column[1][lane] = b2;
+      to.column[2][lane] = c;
+      to.column[3][lane] = d;
+    };
+    if (edge == no_id) {
+      put(at, 0.0, 0.0, 0.0, 0.0);
+      put(then, 0.0, 0.0, 0.0, 0.0);
+      return put(mass, 0.0, 0.0, 0.0, 0.0);
+    }
+    const Id end = b.next[edge];
+    const Pose& p = scene.pose;
+    put(at, p.x[edge], p.y[edge], p.x[end], p.y[end]);
+    if (takes_then) put(then, p.x1[edge], p.y1[edge], p.x1[end], p.y1[end]);
+    if (t.has_dashpots())
+      put(mass, m.point_inverse[edge], m.edge_inverse[edge], m.point_inverse[end], 0.0);
+  };
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const Id k = t.face[q * lanes + lane];
+    read(lane, k == no_id ? no_id : scene.faces.edge[k], r.e, r.e_then, r.mass_e);
+    read(lane, k == no_id ? no_id : scene.faces.facing[k], r.f, r.f_then, r.mass_f);
+  }
+}
+
+Corners corners_of(const BlockSet& b) {
+  return {values_of(b.weight), b.vertex_begin.data(), b.next.data(), b.previous.data()};
+}
+
+void place_masses(const TileInSweep& s, const BlockSet& b, const Masses& m) {
+  std::size_t slot = 0;
+  const auto put = [&](Id e) {
+    double* const to = &s.scratch.mass[4 * slot++];
+    to[0] = m.point_inverse[e];
+    to[1] = m.edge_inverse[e];
+    to[2] = m.point_inverse[b.next[e]];
+  };
+  for (Id n = s.tile.first_block; n < s.tile.last_block; ++n) {
+    const Id i = s.tiles.blocks[n];
+    for (Id e = b.vertex_begin[i]; e < b.vertex_begin[i + 1]; ++e) put(e);
+  }
+  for (Id n = s.tile.first_halo; n < s.tile.last_halo; ++n) put(s.tiles.halo[n]);
+}
+
+/// Fills the records of a tile's edges.
+void place_tile(const TileInSweep& s) {
+  const BlockSet& b = s.scene.blocks;
+  const std::size_t numbers = 4 * std::size_t{s.tile.slots()};
+  const auto place = [&](const std::vector<double>& x, const std::vector<double>& y,
+                         AlignedNumbers& to) {
+    to.resize(std::max(to.size(), numbers));
+    place_edges(corners_of(b), &s.tiles.blocks[s.tile.first_block],
+                s.tile.last_block - s.tile.first_block, s.tiles.halo.data() + s.tile.first_halo,
+                s.tile.last_halo - s.tile.first_halo, x.data(), y.data(), to.data());
+    std::fill_n(&to[numbers - 4], 4, 0.0);
+  };
+  const Pose& pose = s.scene.pose;
+  place(pose.x, pose.y, s.scratch.at);
+  const bool sleep_ends = sleep_is_over(s.tiles, s.scene, s.number, s.scratch);
+  if (s.tile.takes_then || sleep_ends) place(pose.x1, pose.y1, s.scratch.then);
+  if (sleep_ends) let_sleep(s.tiles, s.scene, s.number, s.scratch);
+  if (s.tiles.has_dashpots()) {
+    s.scratch.mass.resize(std::max(s.scratch.mass.size(), numbers));
+    place_masses(s, b, s.scene.masses);
+  }
+}
+
+/// Numbers of the records of a tile's forces.
+std::size_t record_numbers(const FaceTiles& t, const Tile& tile) {
+  return 4 * (std::size_t{t.record_begin[tile.first_edge + tile.own_edges]} + 1);
+}
+
+SweepResult result_of(LaneBits found) {
+  const auto any = [&](unsigned of) { return (found & lane_bits::field(of)) != 0; };
+  return {any(lane_bits::decides), any(lane_bits::switching), any(lane_bits::fails)};
+}
+
+}  // namespace
+
+SweepResult sweep_tile(FaceTiles& t, const SweepScene& scene, std::size_t tile, bool keep,
+                       SweepScratch& scratch, Nodes& force_x, Nodes& force_y) {
+  const Tile& of = t.tiles[tile];
+  TileInSweep s{t, scene, tile, of, scratch, nullptr};
+  place_tile(s);
+  const std::size_t numbers = record_numbers(t, of);
+  AlignedNumbers &own = t.forces[tile], &on = t.kept[tile] != 0 ? own : scratch.on;
+  on.resize(std::max(on.size(), numbers));
+  s.on = on.data();
+  LaneBits found = 0;
+  if (!scene.corrects) {
+    std::fill(t.deepest.data() + of.first_chunk, t.deepest.data() + of.last_chunk, 0.0);
+  }
+  for (std::size_t q = of.first_chunk; q < of.awake_end; ++q) {
+    const ChunkFound here = sweep_chunk(s, q);
+    found |= here.found;
+    t.deepest[q] = std::max(t.deepest[q], here.deepest);
+  }
+  gather_blocks(corners_of(scene.blocks), &t.blocks[of.first_block], of.last_block - of.first_block,
+                nullptr, &t.record_begin[of.first_edge], s.on, values_of(force_x),
+                values_of(force_y));
+  const SweepResult result = result_of(found);
+  const bool keeps = keep || result.decides || result.switching || result.fails;
+  if (keeps && t.kept[tile] == 0) own.assign(s.on, s.on + numbers);
+  t.kept[tile] = keeps ? 1 : 0;
+  return result;
+}
+
+SweepResult sweep_chunks(FaceTiles& t, const SweepScene& scene, std::size_t tile,
+                         std::span<const Id> chunks) {
+  LaneBits found = 0;
+  for (const std::size_t q : chunks) {
+    ChunkRecords r;
+    read_vertices(t, scene, t.tiles[tile].takes_then, q, r);
+    const ChunkFound here = evaluate_read(t, scene, tile, q, t.forces[tile].data(), r);
+    found |= here.found;
+    t.deepest[q] = scene.corrects ? std::max(t.deepest[q], here.deepest) : here.deepest;
+  }
+  return result_of(found);
+}
+
+void gather_tile(const FaceTiles& t, const BlockSet& b, std::size_t tile,
+                 const std::vector<std::uint8_t>& wanted, Nodes& force_x, Nodes& force_y) {
+  const Tile& of = t.tiles[tile];
+  gather_blocks(corners_of(b), &t.blocks[of.first_block], of.last_block - of.first_block,
+                wanted.data(), &t.record_begin[of.first_edge], t.forces[tile].data(),
+                values_of(force_x), values_of(force_y));
+}
+
+}  // namespace edda

@@ -1,0 +1,320 @@
+#include "step/tile_step.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "base/parallel.hpp"
+#include "contacts/activity.hpp"
+#include "contacts/tile_loading.hpp"
+#include "contacts/tile_rows.hpp"
+#include "step/contact_search.hpp"
+#include "step/face_switching.hpp"
+#include "step/simulation.hpp"
+
+namespace edda {
+namespace {
+
+SweepScene sweep_scene(const Simulation& sim) {
+  const Motion& motion = sim.motion;
+  const TiledFaces& own = sim.leapfrog.tiled;
+  return {.blocks = sim.scene->blocks,
+          .masses = motion.masses,
+          .faces = motion.contacts,
+          .pose = motion.pose,
+          .largest_move = sim.control.last_displacement,
+          .pushed = own.pushed,
+          .least_margin = own.sleep_part * motion.contacts.reach,
+          .step = motion.state.step,
+          .noise = motion.contacts.noise,
+          .corrects = own.corrects};
+}
+
+SweepResult sweep(Simulation& sim, std::size_t tile, bool keep, SweepScratch& scratch) {
+  TiledFaces& own = sim.leapfrog.tiled;
+  return sweep_tile(own.tiles, sweep_scene(sim), tile, keep, scratch, sim.motion.on_faces.x,
+                    sim.motion.on_faces.y);
+}
+
+/// Whether a face that sleeps in this tile may go on, although blocks have been pushed so far (m).
+bool sleeps_on(const Simulation& sim, const Tile& tile, double pushed, Id k) {
+  const TiledFaces& own = sim.leapfrog.tiled;
+  return tile.sleep.strayed + pushed <= tile.sleep.margin ||
+         stays_open(own.tiles, sim.motion.contacts, sim.scene->blocks, sim.motion.pose, k);
+}
+
+/// Chunks, ascending, in which these faces lie. A tile of which one must wake is to be swept anew.
+std::vector<Id> chunks_of(Simulation& sim, const std::vector<Id>& faces, double pushed) {
+  FaceTiles& t = sim.leapfrog.tiled.tiles;
+  std::vector<Id> chunks;
+  for (const Id k : faces) {
+    for (const Id place : t.place[k]) {
+      if (place == no_id) continue;
+      const Id q = place / static_cast<Id>(lanes);
+      Tile& tile = t.tiles[t.tile_of_chunk(q)];
+      if (q >= tile.awake_end) {
+        if (sleeps_on(sim, tile, pushed, k)) continue;
+        tile.sleep.over = true;
+      }
+      chunks.push_back(q);
+    }
+  }
+  std::sort(chunks.begin(), chunks.end());
+  chunks.erase(std::unique(chunks.begin(), chunks.end()), chunks.end());
+  return chunks;
+}
+
+/// Evaluates these chunks once more, and the whole tile where its forces are not kept or a face of
+/// it must wake.
+void evaluate_chunks(Simulation& sim, const std::vector<Id>& chunks) {
+  TiledFaces& own = sim.leapfrog.tiled;
+  struct Part {
+    std::size_t tile;
+    std::span<const Id> chunks;
+  };
+  std::vector<Part> parts;
+  for (std::size_t n = 0, end = 0; n < chunks.size(); n = end) {
+    const std::size_t tile = own.tiles.tile_of_chunk(chunks[n]);
+    while (end < chunks.size() && chunks[end] < own.tiles.tiles[tile].last_chunk) ++end;
+    parts.push_back({tile, {&chunks[n], end - n}});
+  }
+  parallel_tasks(
+      parts.size(), chunks.size() * lanes, own.scratch, [&](std::size_t n, SweepScratch& scratch) {
+        const std::size_t tile = parts[n].tile;
+        FaceTiles& t = own.tiles;
+        const SweepResult found = t.kept[tile] != 0 && !t.tiles[tile].sleep.over
+                                      ? sweep_chunks(t, sweep_scene(sim), tile, parts[n].chunks)
+                                      : sweep(sim, tile, true, scratch);
+        SweepResult& so_far = own.results[tile];
+        so_far.decides = so_far.decides || found.decides;
+        so_far.switching = so_far.switching || found.switching;
+        so_far.fails = so_far.fails || found.fails;
+      });
+}
+
+bool has_found(const FaceTiles& t, unsigned of, Id k) {
+  const Id place = t.place[k][0];
+  return place != no_id && lane_bits::test(t.found[t.now][place / lanes], of, place % lanes);
+}
+
+/// Properties that a decision may change and on which the forces of a face depend.
+auto properties(const FaceSet& c, Id k) {
+  return std::array{c.acts[k],     c.leans[k],    c.locked_closure_a[k],
+                    c.bonded[k],   c.glued[k],    c.locked_closure_b[k],
+                    c.friction[k], c.cohesion[k], c.carries_tension[k],
+                    c.tension[k]};
+}
+
+/// Decides activity and breaks bonds of those of these faces that ask for it. Returns those of
+/// which anything has changed. corrected: faces whose rows are ahead of the tiles.
+std::vector<Id> decide(Simulation& sim, const std::vector<Id>& faces,
+                       const std::vector<SwitchingFace>& corrected) {
+  FaceTiles& t = sim.leapfrog.tiled.tiles;
+  FaceSet& c = sim.motion.contacts;
+  const BlockSet& b = sim.scene->blocks;
+  const auto is_corrected = [&](Id k) {
+    return std::any_of(corrected.begin(), corrected.end(),
+                       [k](const SwitchingFace& f) { return f.face == k; });
+  };
+  std::vector<Id> changed;
+  for (const Id k : faces) {
+    const bool fails = has_found(t, lane_bits::fails, k);
+    if (!fails && !has_found(t, lane_bits::decides, k)) continue;
+    const auto before = properties(c, k);
+    if (!is_corrected(k)) recall_face(c, t, k);
+    if (fails || c.bonded[k] > 0.0 || c.carries_tension[k] > 0.0) {
+      evaluate_face(c, face_scene(sim), sim.motion.state.step, k);
+    } else {
+      decide_activity(c, b, sim.motion.pose, k);
+    }
+    if (properties(c, k) == before) continue;
+    load_decisions(t, c, b, k);
+    changed.push_back(k);
+  }
+  return changed;
+}
+
+/// Evaluates faces once more while switching is corrected, with what is decided of them then.
+void evaluate_again(Simulation& sim, const std::vector<Id>& faces) {
+  const FaceSwitchingScratch& so_far = sim.leapfrog.switching;
+  const double pushed = so_far.pushed_by;
+  evaluate_chunks(sim, chunks_of(sim, faces, pushed));
+  const std::vector<Id> changed = decide(sim, faces, so_far.set);
+  if (!changed.empty()) evaluate_chunks(sim, chunks_of(sim, changed, pushed));
+}
+
+/// Faces with a bit of the field in the tiles of which `has` holds, in the order of the list.
+template <class Has>
+std::vector<Id> faces_found(const TiledFaces& own, unsigned of, Has has) {
+  std::vector<Id> found;
+  for (std::size_t q = 0; q < own.tiles.tiles.size(); ++q) {
+    if (has(own.results[q])) for_found(own.tiles, q, of, [&](Id k) { found.push_back(k); });
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Sums the forces anew on the blocks of these faces.
+void gather(Simulation& sim, const std::vector<Id>& faces) {
+  TiledFaces& own = sim.leapfrog.tiled;
+  const BlockSet& b = sim.scene->blocks;
+  const FaceSet& c = sim.motion.contacts;
+  std::vector<std::uint8_t>& wanted = own.wanted;
+  wanted.resize(b.size(), 0);
+  std::vector<std::uint8_t> in_tile(own.tiles.tiles.size(), 0);
+  const auto mark = [&](std::uint8_t as) {
+    for (const Id k : faces)
+      wanted[b.vertex_block[c.edge[k]]] = wanted[b.vertex_block[c.facing[k]]] = as;
+  };
+  mark(1);
+  for (const Id k : faces) {
+    for (const Id place : own.tiles.place[k]) {
+      if (place != no_id) in_tile[own.tiles.tile_of_chunk(place / lanes)] = 1;
+    }
+  }
+  std::vector<char> no_scratch;
+  parallel_tasks(in_tile.size(), b.size(), no_scratch, [&](std::size_t tile, char&) {
+    if (in_tile[tile] == 0 || own.tiles.kept[tile] == 0) return;
+    gather_tile(own.tiles, b, tile, wanted, sim.motion.on_faces.x, sim.motion.on_faces.y);
+  });
+  mark(0);
+}
+
+/// Decides what the sweep asks for.
+void decide_after_sweep(Simulation& sim) {
+  const TiledFaces& own = sim.leapfrog.tiled;
+  std::vector<Id> asking =
+      faces_found(own, lane_bits::decides, [](const SweepResult& r) { return r.decides; });
+  const std::vector<Id> failing =
+      faces_found(own, lane_bits::fails, [](const SweepResult& r) { return r.fails; });
+  asking.insert(asking.end(), failing.begin(), failing.end());
+  std::sort(asking.begin(), asking.end());
+  asking.erase(std::unique(asking.begin(), asking.end()), asking.end());
+  const std::vector<Id> changed = decide(sim, asking, {});
+  if (changed.empty()) return;
+  evaluate_chunks(sim, chunks_of(sim, changed, 0.0));
+  gather(sim, changed);
+}
+
+/// The faces in tiles, as the correction of switching reads them.
+class FacesInTiles : public FaceAccess {
+ public:
+  explicit FacesInTiles(Simulation& sim) : sim_(sim) {}
+
+  void bring(Id k) override { recall_face(sim_.motion.contacts, sim_.leapfrog.tiled.tiles, k); }
+
+  void evaluate(const std::vector<Id>& blocks, std::vector<Id>& switching) override {
+    const BlockSet& b = sim_.scene->blocks;
+    const std::size_t known = changed_.size();
+    for (const Id i : blocks) {
+      sim_.motion.contacts.for_faces(b.vertex_begin[i], b.vertex_begin[i + 1],
+                                     [&](Id k, bool) { changed_.push_back(k); });
+    }
+    const std::vector<Id> faces(changed_.begin() + static_cast<std::ptrdiff_t>(known),
+                                changed_.end());
+    evaluate_again(sim_, faces);
+    for (const Id k : faces) {
+      if (has_found(sim_.leapfrog.tiled.tiles, lane_bits::switching, k)) switching.push_back(k);
+    }
+  }
+
+  void finish(const std::vector<SwitchingFace>& corrected) override {
+    std::vector<Id> faces;
+    for (const SwitchingFace& f : corrected) {
+      faces.push_back(f.face);
+      load_correction(sim_.leapfrog.tiled.tiles, sim_.motion.contacts, f.face);
+    }
+    evaluate_again(sim_, faces);
+    changed_.insert(changed_.end(), faces.begin(), faces.end());
+    gather(sim_, changed_);
+  }
+
+ private:
+  Simulation& sim_;
+  std::vector<Id> changed_;
+};
+
+}  // namespace
+
+bool steps_in_tiles(const Simulation& sim) {
+  const TiledFaces& own = sim.leapfrog.tiled;
+  const FaceSet& c = sim.motion.contacts;
+  if (sim.scene->at_points() || sim.motion.laws.any_changes || c.gluing) return false;
+  return own.use == TiledFaces::Use::where_faster ? !c.dashpots
+                                                  : own.use == TiledFaces::Use::always;
+}
+
+void load_tiles(Simulation& sim) {
+  TiledFaces& own = sim.leapfrog.tiled;
+  if (own.loaded) return;
+  const BlockSet& blocks = sim.scene->blocks;
+  divide_blocks(own.tiles, blocks, sim.motion.state, sim.attached.ground.moves, own.blocks);
+  load_faces(own.tiles, sim.motion.contacts, blocks, sim.motion.pose);
+  own.results.resize(own.tiles.tiles.size());
+  own.loaded = true;
+  own.ahead = false;
+  own.pushed = 0.0;
+}
+
+void place_in_tiles(Simulation& sim) {
+  TiledFaces& own = sim.leapfrog.tiled;
+  next_step(sim.motion.contacts, own.tiles);
+  own.ahead = true;
+  parallel_tasks(own.tiles.tiles.size(), sim.scene->blocks.size(), own.scratch,
+                 [&](std::size_t tile, SweepScratch& scratch) {
+                   own.results[tile] = sweep(sim, tile, false, scratch);
+                 });
+  own.pushed = 0.0;
+  decide_after_sweep(sim);
+}
+
+void switch_in_tiles(Simulation& sim, const StepTaken& taken) {
+  TiledFaces& own = sim.leapfrog.tiled;
+  const std::vector<Id> switching =
+      faces_found(own, lane_bits::switching, [](const SweepResult& r) { return r.switching; });
+  if (switching.empty()) return;
+  FacesInTiles access(sim);
+  own.corrects = true;
+  correct_switching(sim.motion.contacts, taken, sim.accounts.open_close, sim.leapfrog.switching,
+                    switching, access);
+  own.corrects = false;
+  own.pushed = sim.leapfrog.switching.pushed_by;
+}
+
+double largest_closure(const TiledFaces& own) {
+  double depth = 0.0;
+  for (const double d : own.tiles.deepest) depth = std::max(depth, d);
+  return depth;
+}
+
+std::vector<std::uint8_t> faces_that_carry(const Simulation& sim) {
+  const FaceSet& c = sim.motion.contacts;
+  const FaceTiles& t = sim.leapfrog.tiled.tiles;
+  std::vector<std::uint8_t> carry(c.size(), 0);
+  if (!sim.leapfrog.tiled.ahead) {
+    for (std::size_t k = 0; k < c.size(); ++k) carry[k] = c.now.energy[k] > 0.0 ? 1 : 0;
+    return carry;
+  }
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const Id place = t.place[k][0];
+    const bool stores = place != no_id && lane_bits::test(t.bits[t.now][place / lanes],
+                                                          lane_bits::stored, place % lanes);
+    carry[k] = stores ? 1 : 0;
+  }
+  return carry;
+}
+
+void update_face_rows(Simulation& sim) {
+  TiledFaces& own = sim.leapfrog.tiled;
+  if (!own.ahead) return;
+  own.ahead = false;
+  unload_faces(sim.motion.contacts, own.tiles, face_scene(sim), sim.control.step_before);
+}
+
+FaceSet& faces_to_change(Simulation& sim) {
+  update_face_rows(sim);
+  sim.leapfrog.tiled.loaded = false;
+  return sim.motion.contacts;
+}
+
+}  // namespace edda

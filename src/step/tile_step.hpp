@@ -1,0 +1,59 @@
+// The faces of the explicit step, in tiles (contacts/face_tiles.hpp): loaded when a step needs
+// them, left when something else changes the faces. While they are in use the rows of
+// Motion::contacts are behind: only what is decided of them is that of the step.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "contacts/tile_sweep.hpp"
+
+namespace edda {
+
+struct Simulation;
+struct StepTaken;
+
+struct TiledFaces {
+  FaceTiles tiles;
+  /// Where it is faster: not with dashpots at the contacts, as moving heaps have them, in which
+  /// lists are made anew every few steps.
+  enum class Use { where_faster, always, never } use = Use::where_faster;
+  /// SweepScene::least_margin as a part of the list's reach. 0: no face sleeps.
+  double sleep_part = 1e-9;
+  double pushed = 0.0;  ///< m, SweepScene::pushed
+  std::size_t blocks = blocks_per_tile;
+  bool corrects = false;              ///< SweepScene::corrects
+  bool loaded = false;                ///< they hold the faces of the simulation
+  bool ahead = false;                 ///< and the rows of the faces are behind
+  std::vector<SweepScratch> scratch;  ///< by thread
+  std::vector<SweepResult> results;   ///< [tiles]
+  std::vector<std::uint8_t> wanted;   ///< [nb] working memory: 0 everywhere between uses
+};
+
+/// Whether the next step keeps the faces in tiles: where all that it reads of them is in there, and
+/// where that is faster. A function of the state alone, so that a resumed run does the same.
+bool steps_in_tiles(const Simulation& sim);
+
+/// Takes the faces at n into tiles, unless they are; to be called before the blocks move.
+void load_tiles(Simulation& sim);
+
+/// Evaluates the faces at n + 1: memory, forces on the blocks; activity and bonds where they
+/// change.
+void place_in_tiles(Simulation& sim);
+
+/// Contact activation (face_switching.hpp) of the faces in tiles.
+void switch_in_tiles(Simulation& sim, const StepTaken& taken);
+
+/// Largest drawn closure of a face that carries load, m.
+double largest_closure(const TiledFaces& tiled);
+
+/// Whether each face stores energy, [nf].
+std::vector<std::uint8_t> faces_that_carry(const Simulation& sim);
+
+/// Brings the rows of the faces up to date.
+void update_face_rows(Simulation& sim);
+
+/// The faces, to be changed: up to date, and no longer in tiles.
+FaceSet& faces_to_change(Simulation& sim);
+
+}  // namespace edda

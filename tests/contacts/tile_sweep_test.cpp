@@ -1,0 +1,295 @@
+// The sweep over tiles must give every face the state, to the bit, that evaluate_faces() gives it,
+// and every block the sum of the forces of its faces, however the blocks are divided.
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "contacts/drifting_heap.hpp"
+#include "contacts/face_bonds.hpp"
+#include "contacts/face_reading.hpp"
+#include "contacts/tile_loading.hpp"
+#include "contacts/tile_rows.hpp"
+#include "contacts/tile_sweep.hpp"
+#include "forces/nodal_forces.hpp"
+
+namespace edda {
+namespace {
+
+/// Equal to the bit, but for the sign of a zero.
+void expect_same(double a, double b, const char* what, std::size_t k) {
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(a + 0.0), std::bit_cast<std::uint64_t>(b + 0.0))
+      << what << " of face " << k << ": " << a << ", " << b;
+}
+
+double number(const AlignedNumbers& table, std::size_t columns, std::size_t column, Id place) {
+  return table[(place / lanes * columns + column) * lanes + place % lanes];
+}
+
+/// Faces of a heap that moves at random, with dashpots and bonds as wanted.
+struct Drift {
+  std::mt19937 rng{7}, of_moves;
+  DriftingHeap heap;
+  double damping;
+  std::size_t carrying = 0, sliding = 0, opened = 0, open = 0, asleep = 0;
+  unsigned moves = 0, steady = 1;  ///< so many moves are alike
+
+  Drift(int blocks, double zeta, double bonded_part, double locked_part)
+      : heap(odd_polygons(rng, blocks)), damping(zeta) {
+    FaceSet& c = heap.contacts;
+    place();
+    place();
+    find_faces(c, heap.blocks, heap.state, heap.pose, heap.laws, 0.1);
+    std::uniform_real_distribution<double> u(0.0, 1.0);
+    for (std::size_t k = 0; k < c.size(); ++k) {
+      c.friction[k] = 0.3;
+      c.cohesion[k] = 10.0 * u(rng);
+      if (u(rng) < bonded_part) c.bonded[k] = c.glued[k] = c.carries_tension[k] = 1.0;
+      if (u(rng) < locked_part) c.locked_closure_a[k] = c.locked_closure_b[k] = 1e-4 * u(rng);
+    }
+    mark_bonded_chunks(c);
+    set_face_dashpots(c, heap.laws, damping);
+  }
+
+  void place() {
+    Pose& pose = heap.pose;
+    pose.x1 = pose.x;
+    pose.y1 = pose.y;
+    for (std::size_t i = 0; i < heap.blocks.size(); ++i) {
+      place_vertices(heap.blocks, heap.state.x, heap.state.y, i, pose.x, pose.y);
+    }
+  }
+
+  /// Shifts, turns and strains every block at random, by some 1e-3 of its size times `far`. Returns
+  /// the largest motion of a vertex, m.
+  double move_blocks(double far) {
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    State& state = heap.state;
+    if (moves++ % steady == 0) {
+      of_moves = rng;
+      rng.discard(10000);
+    }
+    std::mt19937 same = of_moves;
+    for (std::size_t i = 0; i < heap.blocks.size(); ++i) {
+      if (heap.blocks.fixed[i] != 0) continue;
+      const Vec2 shift{u(same), u(same)}, centre = centroid(state.x, state.y, i);
+      const double turn = u(same), strain = 0.01 * u(same), size = heap.blocks.radius[i];
+      NodeVectors x = vectors_of(state.x, state.y, i);
+      for (Vec2& node : x) {
+        const Vec2 arm = node - centre;
+        node += far * 1e-3 * (size * shift + turn * perp(arm) + strain * Vec2{arm.x, -arm.y});
+      }
+      store(x, state.x, state.y, i);
+    }
+    place();
+    double most = 0.0;
+    const Pose& p = heap.pose;
+    for (std::size_t v = 0; v < p.x.size(); ++v) {
+      most = std::max(most, std::hypot(p.x[v] - p.x1[v], p.y[v] - p.y1[v]));
+    }
+    return most;
+  }
+
+  /// Makes a move and compares with faces that are taken into tiles before it. most: blocks of a
+  /// tile.
+  void move(std::size_t most, bool with_fixed) {
+    FaceTiles t;
+    divide_blocks(t, heap.blocks, heap.state, with_fixed, most);
+    FaceSet own = heap.contacts;
+    load_faces(t, own, heap.blocks, heap.pose);
+    move_on(t, own, with_fixed, 1.0, 0.0);
+  }
+
+  /// Makes a move with the faces of `own` in tiles, and compares.
+  void move_on(FaceTiles& t, FaceSet& own, bool with_fixed, double far, double least_margin) {
+    FaceSet& c = heap.contacts;
+    next_step(own, t);
+    next_step(c);
+    const double moved = move_blocks(far);
+    evaluate_faces(c, heap.scene(), 1e-3);
+    Nodes fx = zero_nodes(heap.blocks.size()), fy = fx;
+    SweepScratch scratch;
+    const SweepScene scene{.blocks = heap.blocks,
+                           .masses = heap.masses,
+                           .faces = own,
+                           .pose = heap.pose,
+                           .largest_move = moved,
+                           .pushed = 0.0,
+                           .least_margin = least_margin,
+                           .step = 1e-3,
+                           .noise = c.noise,
+                           .corrects = false};
+    const auto sweep = [&] {
+      for (std::size_t q = 0; q < t.tiles.size(); ++q)
+        sweep_tile(t, scene, q, false, scratch, fx, fy);
+    };
+    sweep();
+    take_decisions(t, own);
+    sweep();  // it may be repeated
+    for (std::size_t k = 0; k < c.size(); ++k) compare(t, with_fixed, k);
+    compare_forces(t, fx, fy);
+  }
+
+  /// Takes over what evaluate_faces() has decided: nothing of faces that sleep.
+  void take_decisions(FaceTiles& t, FaceSet& own) {
+    const FaceSet& c = heap.contacts;
+    for (std::size_t k = 0; k < c.size(); ++k) {
+      bool same = true;
+      for (const auto& column : face_properties) {
+        double& value = (own.*column.values)[k];
+        same = same && value == (c.*column.values)[k];
+        value = (c.*column.values)[k];
+      }
+      if (same) continue;
+      load_decisions(t, own, heap.blocks, k);
+      EXPECT_TRUE(t.place[k][0] == no_id || is_awake(t, t.place[k][0])) << "face " << k;
+    }
+    own.bonds = c.bonds;
+  }
+  static bool is_awake(const FaceTiles& t, Id place) {
+    return place / lanes < t.tiles[t.tile_of_chunk(place / lanes)].awake_end;
+  }
+
+  void compare(const FaceTiles& t, bool with_fixed, std::size_t k) {
+    const FaceSet& c = heap.contacts;
+    const FaceMemory& m = c.now;
+    const auto is_in = [&](Id edge) {
+      return with_fixed || heap.blocks.fixed[heap.blocks.vertex_block[edge]] == 0;
+    };
+    std::size_t copies = 0, owned = 0;
+    for (const Id place : t.place[k]) {
+      if (place == no_id) continue;
+      ++copies;
+      const std::size_t q = place / lanes, lane = place % lanes;
+      ASSERT_EQ(t.face[place], k);
+      owned += t.owned[q] >> lane & 1u;
+      const auto memory = [&](std::size_t column) {
+        return number(t.memory[t.now], memory_columns, column, place);
+      };
+      expect_same(memory(0), m.slip_a[k], "slip a", k);
+      expect_same(memory(1), m.slip_b[k], "slip b", k);
+      expect_same(memory(3), m.spring[k], "spring", k);
+      if (m.spring[k] > 0.0) expect_same(memory(2), m.overlap[k], "overlap", k);
+      if (is_awake(t, place)) {
+        const EdgeCoordinates at = coordinates_at(c, heap.pose.x, heap.pose.y, k);
+        expect_same(memory(4), at.s2, "s2", k);
+        expect_same(memory(5), at.r1, "r1", k);
+        expect_same(memory(6), at.r2, "r2", k);
+      } else {
+        ++asleep;
+      }
+      const LaneBits bits = t.bits[t.now][q];
+      EXPECT_EQ(lane_bits::test(bits, lane_bits::stored, lane), m.energy[k] > 0.0);
+      EXPECT_EQ(lane_bits::test(bits, lane_bits::on, lane), m.gate[k] > 0.0);
+      EXPECT_EQ(lane_bits::test(bits, lane_bits::switched, lane), m.switched[k] > 0.0);
+      compare_work(t, place, k);
+    }
+    EXPECT_EQ(copies > 0 ? 1u : 0u, owned);
+    EXPECT_EQ(copies > 0, is_in(c.edge[k]) || is_in(c.facing[k]));
+    carrying += m.energy[k] > 0.0;
+    open += m.energy[k] == 0.0;
+    sliding += m.slip_a[k] != m.trial_a[k];
+    opened += c.before.energy[k] > 0.0 && m.energy[k] == 0.0;
+  }
+
+  /// Of a chunk that did no work nothing is kept.
+  void compare_work(const FaceTiles& t, Id place, std::size_t k) {
+    const FaceMemory& m = heap.contacts.now;
+    const double expected[] = {m.friction_work[k], m.transfer[k],   m.trial_a[k],
+                               m.trial_b[k],       m.shear_a[k],    m.shear_b[k],
+                               m.damping_work[k],  m.damping_due[k]};
+    if (t.fresh[t.now][place / lanes] == 0) {
+      expect_same(m.trial_a[k], m.slip_a[k], "trial a", k);
+      expect_same(m.trial_b[k], m.slip_b[k], "trial b", k);
+      for (const unsigned i : {0u, 1u, 6u, 7u}) expect_same(0.0, expected[i], "work", k);
+      return;
+    }
+    for (std::size_t i = 0; i < work_columns; ++i) {
+      expect_same(number(t.work[t.now], work_columns, i, place), expected[i], "work", k);
+    }
+  }
+
+  /// Forces on an edge are added in the same order as those of the rows.
+  void compare_forces(const FaceTiles& t, const Nodes& fx, const Nodes& fy) {
+    NodalForces rows;
+    sum_faces(rows, heap.blocks, heap.contacts);
+    for (const Id i : t.blocks) {
+      for (std::size_t n = 0; n < nodes_per_block; ++n) {
+        expect_same(fx[n][i], rows.x[n][i], "force x, block", i);
+        expect_same(fy[n][i], rows.y[n][i], "force y, block", i);
+      }
+    }
+  }
+};
+
+void drift(double damping, double bonded_part, double locked_part, std::size_t most,
+           bool with_fixed) {
+  Drift d(60, damping, bonded_part, locked_part);
+  for (int move = 0; move < 100 && !testing::Test::HasFailure(); ++move) d.move(most, with_fixed);
+  EXPECT_GT(d.carrying, 1000u);
+  EXPECT_GT(d.open, 1000u);
+  EXPECT_GT(d.sliding, 50u);
+  EXPECT_GT(d.opened, 10u);
+}
+
+TEST(TileSweep, GivesFacesTheStateThatTheyHaveAlone) {
+  drift(0.0, 0.0, 0.0, 256, false);
+}
+TEST(TileSweep, DoesSoInSmallTiles) {
+  drift(0.0, 0.0, 0.0, 7, false);
+}
+TEST(TileSweep, DoesSoWithDashpotsAndFixedBlocks) {
+  drift(0.2, 0.0, 0.0, 7, true);
+}
+TEST(TileSweep, DoesSoWithBonds) {
+  drift(0.0, 0.3, 0.0, 12, false);
+}
+
+TEST(TileSweep, DoesSoWithLockedClosures) {
+  drift(0.2, 0.1, 0.5, 12, false);
+}
+
+/// Which faces sleep, and how faces lie within their tile, changes no bit; and none sleeps through
+/// a change.
+void drift_asleep(double damping, double bonded_part, double locked_part, double far) {
+  Drift d(60, damping, bonded_part, locked_part);
+  d.steady = 10;
+  d.move(12, false);
+  FaceTiles t;
+  divide_blocks(t, d.heap.blocks, d.heap.state, false, 12);
+  FaceSet own = d.heap.contacts;
+  load_faces(t, own, d.heap.blocks, d.heap.pose);
+  for (int move = 0; move < 400 && !testing::Test::HasFailure(); ++move) {
+    d.move_on(t, own, false, far, 1e-9);
+  }
+  EXPECT_GT(d.asleep, 1000u);
+}
+TEST(TileSleep, ChangesNothingInSlowMotion) {
+  drift_asleep(0.0, 0.0, 0.0, 0.002);
+}
+TEST(TileSleep, ChangesNothingInFastMotion) {
+  drift_asleep(0.0, 0.0, 0.0, 0.1);
+}
+TEST(TileSleep, ChangesNothingWithDashpots) {
+  drift_asleep(0.2, 0.0, 0.0, 0.02);
+}
+TEST(TileSleep, ChangesNothingWithBondsAndLockedClosures) {
+  drift_asleep(0.0, 0.2, 0.2, 0.02);
+}
+
+/// Tiles hold each block once, are nearly whole, and do not spread.
+TEST(TileSweep, DividesBlocksByTheirPlaces) {
+  std::mt19937 rng(3);
+  const DriftingHeap heap(random_polygons(rng, 500, 1.0));
+  FaceTiles t;
+  divide_blocks(t, heap.blocks, heap.state, true, 20);
+  EXPECT_EQ(t.tiles.size(), 25u);
+  std::vector<int> seen(heap.blocks.size(), 0);
+  for (const Tile& tile : t.tiles) {
+    EXPECT_EQ(tile.last_block - tile.first_block, 20u);
+    for (Id n = tile.first_block; n < tile.last_block; ++n) ++seen[t.blocks[n]];
+  }
+  for (const int times : seen) EXPECT_EQ(times, 1);
+}
+
+}  // namespace
+}  // namespace edda

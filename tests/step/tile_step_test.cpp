@@ -1,0 +1,217 @@
+// Steps with the faces in tiles must do what steps that evaluate the rows of the faces do.
+#include "step/tile_step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "run/prepared.hpp"
+#include "step/energy_balance.hpp"
+#include "step/step.hpp"
+
+namespace edda::tile_step_test {
+namespace {
+
+void expect_same_rows(const FaceSet& a, const FaceSet& b) {
+  ASSERT_EQ(a.size(), b.size());
+  const auto compare = [&](const char* of, const char* name, const std::vector<double>& p,
+                           const std::vector<double>& q) {
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      EXPECT_EQ(p[k], q[k]) << of << name << " of face " << k;
+    }
+  };
+  for (const auto& column : face_columns) {
+    compare("now: ", column.name, (a.now.*column.values).values(), (b.now.*column.values).values());
+  }
+  for (const auto& column : face_properties) {
+    compare("", column.name, (a.*column.values).values(), (b.*column.values).values());
+  }
+}
+
+void compare_steps(const std::string& text, double duration) {
+  Simulation tiled = testing::prepared(text).sim, rows = testing::prepared(text).sim;
+  tiled.leapfrog.tiled.use = TiledFaces::Use::always;
+  rows.leapfrog.tiled.use = TiledFaces::Use::never;
+  ASSERT_FALSE(steps_in_tiles(rows));
+  ASSERT_TRUE(steps_in_tiles(tiled));
+  start(tiled, duration);
+  start(rows, duration);
+  while (tiled.motion.state.time < duration && !::testing::Test::HasFailure()) {
+    ASSERT_FALSE(step(tiled));
+    ASSERT_FALSE(step(rows));
+    ASSERT_EQ(tiled.motion.state.steps, rows.motion.state.steps);
+    expect_same_rows(tiled.motion.contacts, rows.motion.contacts);
+    if (::testing::Test::HasFailure()) ADD_FAILURE() << "step " << tiled.motion.state.steps;
+  }
+}
+
+const std::string rock =
+    "[materials.rock]\ndensity = 2600\nyoung = 20e9\npoisson = 0.2\ndamping = 0\n[joints.j]\n"
+    "friction_angle = 20\n[solver]\nduration = 1\n";
+
+TEST(TileStep, Corners) {
+  for (const char* damping : {"0", "50"}) {
+    compare_steps(rock + "damping = { mass = " + damping +
+                      " }\n[contact]\nnormal_stiffness = 2e9\n[[block]]\nfixed = true\n"
+                      "polygon = [[-3,-1],[3,-1],[3,0],[-3,0]]\n[[block]]\nvelocity = [1, -2]\n"
+                      "polygon = [[0,0.01],[1,0.06],[0.95,1.06],[-0.05,1.01]]\n[[block]]\n"
+                      "velocity = [0, -3]\n"
+                      "polygon = [[-0.2,1.2],[0.8,1.1],[0.9,2.1],[-0.1,2.2]]\n",
+                  0.02);
+  }
+}
+
+const std::string hit_wall =
+    rock +
+    "[solver.damping]\ncontact = 0.1\n[contact]\njoint = \"j\"\n[[block]]\nname = \"floor\"\n"
+    "fixed = true\npolygon = [[-4, -1], [8, -1], [8, 0], [-4, 0]]\n[[brick_wall]]\ncolumns = 2\n"
+    "rows = 2\nbrick = [1.0, 0.5]\njoint = \"j\"\n[[block]]\nname = \"ball\"\n"
+    "velocity = [-12.0, 3.0]\nangular_velocity = 4.0\n"
+    "polygon = [[3.0, 0.2], [3.6, 0.2], [3.6, 0.9], [3.0, 0.9]]\n";
+
+TEST(TileStep, WallThatIsHit) {
+  compare_steps(hit_wall, 0.01);
+}
+
+/// Nothing depends on when the rows are brought up to date, or on when the faces are taken into
+/// tiles.
+TEST(TileStep, RowsInBetweenChangeNothing) {
+  Simulation ahead = testing::prepared(hit_wall).sim, asked = testing::prepared(hit_wall).sim;
+  for (Simulation* sim : {&ahead, &asked}) {
+    sim->leapfrog.tiled.use = TiledFaces::Use::always;
+    sim->leapfrog.tiled.blocks = 16;
+    start(*sim, 1.0);
+  }
+  for (int n = 0; n < 20000; ++n) {
+    ASSERT_FALSE(step_ahead(ahead));
+    ASSERT_FALSE(step_ahead(asked));
+    if (n % 3 == 0) update_face_rows(asked);
+    if (n % 5 == 0) faces_to_change(asked);
+    ASSERT_EQ(ahead.motion.state.x, asked.motion.state.x) << n;
+    ASSERT_EQ(ahead.motion.on_faces.y, asked.motion.on_faces.y) << n;
+  }
+  EXPECT_GT(ahead.accounts.open_close.switched, 20u);
+}
+
+/// Polygons of 3 to 6 corners that fall onto a floor and each other.
+std::string falling_heap() {
+  std::mt19937 rng(11);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  std::string text = rock +
+                     "[solver.damping]\ncontact = 0.1\n[contact]\njoint = \"j\"\n[[block]]\n"
+                     "fixed = true\npolygon = [[-9,-1],[9,-1],[9,0],[-9,0]]\n";
+  for (int n = 0; n < 40; ++n) {
+    const int corners = 3 + n % 4;
+    const double phase = 6.3 * u(rng), x = 1.0 * (n % 8) - 4.0 + 0.15 * u(rng),
+                 y = 0.5 + 0.9 * (n / 8);
+    text += "[[block]]\nvelocity = [0, -3]\nangular_velocity = " + std::to_string(2.0 * u(rng)) +
+            "\npolygon = [";
+    for (int k = 0; k < corners; ++k) {
+      const double angle = phase + (k + 0.3 * u(rng)) * 6.283 / corners;
+      text += "[" + std::to_string(x + 0.42 * std::cos(angle)) + "," +
+              std::to_string(y + 0.42 * std::sin(angle)) + "],";
+    }
+    text += "]\n";
+  }
+  return text;
+}
+
+/// Which faces sleep changes no bit, nor how they lie in their tile.
+void compare_asleep_and_awake(const std::string& text, int steps) {
+  Simulation sleeping = testing::prepared(text).sim, awake = testing::prepared(text).sim;
+  awake.leapfrog.tiled.sleep_part = 0.0;
+  for (Simulation* sim : {&sleeping, &awake}) {
+    sim->leapfrog.tiled.use = TiledFaces::Use::always;
+    sim->leapfrog.tiled.blocks = 16;
+    start(*sim, 1.0);
+  }
+  std::size_t asleep = 0;
+  for (int n = 0; n < steps; ++n) {
+    ASSERT_FALSE(step_ahead(sleeping));
+    ASSERT_FALSE(step_ahead(awake));
+    ASSERT_EQ(sleeping.motion.state.x, awake.motion.state.x) << n;
+    ASSERT_EQ(sleeping.motion.on_faces.y, awake.motion.on_faces.y) << n;
+    ASSERT_EQ(sleeping.accounts.penetration, awake.accounts.penetration) << n;
+    for (const Tile& tile : sleeping.leapfrog.tiled.tiles.tiles) {
+      asleep += tile.last_chunk - tile.awake_end;
+    }
+  }
+  EXPECT_GT(asleep, 1000u);
+}
+
+/// Rock above an opening, from which blocks fall.
+const std::string loose_roof =
+    rock +
+    "[domain]\noutline = [[-6,-5],[6,-5],[6,5],[-6,5]]\n[[joint_set]]\nangle = 65\n"
+    "spacing = 1.1\norigin = [0.3, 0]\n[[joint_set]]\nangle = -15\nspacing = 1\n"
+    "origin = [0, 0.2]\n[[opening]]\npolygon = [[-3,-2],[3,-2],[3,1],[0,2],[-3,1]]\n"
+    "[[boundary]]\nsides = [\"left\", \"right\", \"bottom\"]\ntype = \"fixed\"\n"
+    "stiffness = 1e10\n";
+
+TEST(TileStep, SleepChangesNothing) {
+  compare_asleep_and_awake(loose_roof, 2000);
+}
+
+/// Faces in tiles go on as those in rows, to the bit, also where what is decided of a face changes
+/// while opening and closing are corrected, and where faces sleep. Returns how many have opened and
+/// closed.
+std::uint64_t compare_with_rows(const std::string& text, int steps) {
+  Simulation tiled = testing::prepared(text).sim, rows = testing::prepared(text).sim;
+  tiled.leapfrog.tiled.use = TiledFaces::Use::always;
+  tiled.leapfrog.tiled.blocks = 7;
+  rows.leapfrog.tiled.use = TiledFaces::Use::never;
+  start(tiled, 100.0);
+  start(rows, 100.0);
+  for (int n = 0; n < steps && !::testing::Test::HasFailure(); ++n) {
+    EXPECT_FALSE(step_ahead(tiled));
+    EXPECT_FALSE(step_ahead(rows));
+    EXPECT_EQ(tiled.motion.state.x, rows.motion.state.x) << n;
+    EXPECT_EQ(tiled.motion.state.y, rows.motion.state.y) << n;
+    EXPECT_EQ(tiled.accounts.penetration, rows.accounts.penetration) << n;
+  }
+  update_face_rows(tiled);
+  const FaceSet &a = tiled.motion.contacts, &b = rows.motion.contacts;
+  for (const auto& column : face_properties) {
+    EXPECT_EQ((a.*column.values).values(), (b.*column.values).values()) << column.name;
+  }
+  return tiled.accounts.open_close.switched;
+}
+
+TEST(TileStep, GoesOnAsWithRows) {
+  EXPECT_GT(compare_with_rows(hit_wall, 20000), 20u);
+}
+TEST(TileStep, GoesOnAsWithRowsAsARoofFalls) {
+  EXPECT_GT(compare_with_rows(loose_roof, 2000), 50u);
+}
+TEST(TileStep, GoesOnAsWithRowsInAHeap) {
+  EXPECT_GT(compare_with_rows(falling_heap(), 20000), 100u);
+}
+TEST(TileStep, GoesOnAsWithRowsWhereBlocksFallOnEachOther) {
+  std::string text =
+      "[materials.rock]\ndensity = 2600.0\nyoung = 200e9\ndamping = 0\npoisson = 0.2\n"
+      "[joints.j]\nfriction_angle = 0.0\n[contact]\nnormal_stiffness = 2e9\n[solver]\n"
+      "duration = 2.5\nsafety = 0.4\n[[block]]\nfixed = true\n"
+      "polygon = [[-6,-1],[6,-1],[6,0],[-6,0]]\n";
+  for (int i = 0; i < 6; ++i) {
+    const double c = 0.5 * std::cos(0.1 * i), s = 0.5 * std::sin(0.1 * i), y = 0.625 + 1.25 * i;
+    text += "[[block]]\npolygon = [";
+    for (const auto& [px, py] :
+         {std::pair{-c + s, -s - c}, {c + s, s - c}, {c - s, s + c}, {-c - s, c - s}}) {
+      text += "[" + std::to_string(px) + "," + std::to_string(y + py) + "],";
+    }
+    text += "]\n";
+  }
+  EXPECT_GT(compare_with_rows(text, 60000), 20u);
+  compare_steps(text, 2.5);
+}
+TEST(TileStep, GoesOnAsWithRowsWithBonds) {
+  std::string text = falling_heap();
+  const std::string bonds = "cohesion = 2e5\ntensile_strength = 1e5\n";
+  text.replace(text.find("[solver]"), 0, bonds);
+  EXPECT_GT(compare_with_rows(text, 20000), 100u);
+}
+
+}  // namespace
+}  // namespace edda::tile_step_test
