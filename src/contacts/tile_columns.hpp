@@ -59,18 +59,22 @@ double& number_at(AlignedNumbers& table, std::size_t place, double Fields::*colu
   return table[(place / lanes * columns_in<Fields> + at) * lanes + place % lanes];
 }
 
+/// The work of a face that sticks and does none, from its memory of that step.
+inline FaceWorkColumns<double> no_work(const FaceMemoryColumns<double>& m) {
+  FaceWorkColumns<double> work{};
+  work.trial_a = m.slip_a;
+  work.trial_b = m.slip_b;
+  work.shear_a = -m.spring * m.slip_a;
+  work.shear_b = -m.spring * m.slip_b;
+  return work;
+}
+
 /// Gives a chunk of which no work is kept that of faces which stick and do none.
 inline void begin_work(FaceTiles& t, int which, std::size_t chunk) {
   if (t.fresh[which][chunk] != 0) return;
   t.fresh[which][chunk] = 1;
   for (std::size_t place = chunk * lanes; place < (chunk + 1) * lanes; ++place) {
-    const auto m = get<FaceMemoryColumns<double>>(t.memory[which], place);
-    FaceWorkColumns<double> work{};
-    work.trial_a = m.slip_a;
-    work.trial_b = m.slip_b;
-    work.shear_a = -m.spring * m.slip_a;
-    work.shear_b = -m.spring * m.slip_b;
-    put(t.work[which], place, work);
+    put(t.work[which], place, no_work(get<FaceMemoryColumns<double>>(t.memory[which], place)));
   }
 }
 

@@ -10,25 +10,13 @@
 namespace edda {
 namespace {
 
-/// What a face did in a step. Where nothing is kept it has done no work and sticks.
-FaceWorkColumns<double> work_at(const FaceTiles& t, int which, std::size_t place,
-                                const FaceMemoryColumns<double>& m) {
-  const std::size_t q = place / lanes;
-  if (t.fresh[which][q] != 0) return get<FaceWorkColumns<double>>(t.work[which], place);
-  FaceWorkColumns<double> work{};
-  work.trial_a = m.slip_a;
-  work.trial_b = m.slip_b;
-  work.shear_a = -m.spring * m.slip_a;
-  work.shear_b = -m.spring * m.slip_b;
-  return work;
-}
-
 /// Fills the row of face k in `m` with what the tiles remember of that step. Of energy, gate and
 /// closures they know only whether they are above zero: 1 stands for that.
 void recall(FaceMemory& m, const FaceTiles& t, int which, std::size_t k) {
   const Id place = t.place[k][0];
   const auto memory = get<FaceMemoryColumns<double>>(t.memory[which], place);
-  const FaceWorkColumns<double> work = work_at(t, which, place, memory);
+  const bool kept = t.fresh[which][place / lanes] != 0;
+  const auto work = kept ? get<FaceWorkColumns<double>>(t.work[which], place) : no_work(memory);
   const LaneBits bits = t.bits[which][place / lanes];
   const auto was = [&](unsigned of) {
     return lane_bits::test(bits, of, place % lanes) ? 1.0 : 0.0;
