@@ -227,7 +227,7 @@ struct FaceSet : ChunkTable<FaceProperties<ChunkColumn>, face_property_list<Chun
   std::vector<double> built_x, built_y;  ///< [nv] positions of the vertices then, m
   double noise = 0.0;   ///< m: closures up to this size are rounding of the coordinates
   double reach = 0.0;   ///< m: the list contains edges nearer to each other than this
-  double travel = 0.0;  ///< m: upper bound of the distance that any vertex has moved since
+  double travel = 0.0;  ///< m: upper bound of how far two edges have approached each other since
   std::uint64_t rebuilds = 0;
   double removed_friction = 0.0, removed_damping = 0.0, removed_fracture = 0.0,
          removed_transfer = 0.0;  ///< J, of faces that have left the list

@@ -2,10 +2,10 @@
 #include "step/contact_search.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "base/parallel.hpp"
+#include "contacts/approach.hpp"
 #include "contacts/evaluate_faces.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/find_faces.hpp"
@@ -56,28 +56,20 @@ void reevaluate_faces(Simulation& sim) {
 }
 
 bool list_is_due(Simulation& sim) {
-  Pose& pose = sim.motion.pose;
   FaceSet& contacts = sim.motion.contacts;
   StepControl& control = sim.control;
-  contacts.travel += control.last_displacement;
-  // Distance that any vertex may move before the next check.
-  const double ahead = sim.stepper->ahead(sim);
-  if (contacts.travel + ahead <= 0.5 * contacts.reach) return false;
-  // The sum of displacements is an upper bound; the distance of the vertices from their positions
-  // when the list was made decides.
-  const std::size_t nv = sim.scene->blocks.vertex_count();
-  double moved2 = 0.0;
-  for (std::size_t v = 0; v < nv; ++v) {
-    const double dx = pose.x[v] - contacts.built_x[v], dy = pose.y[v] - contacts.built_y[v];
-    const double d2 = dx * dx + dy * dy;
-    if (!(d2 <= moved2)) moved2 = d2;
-  }
-  contacts.travel = std::sqrt(moved2);
-  if (!(contacts.travel <= 100.0 * (contacts.reach + sim.scene->displacement_limit))) {
+  // What two vertices may approach each other by before the next check, m.
+  const double ahead = 2.0 * sim.stepper->ahead(sim);
+  contacts.travel += 2.0 * control.last_displacement;
+  if (contacts.travel + ahead <= contacts.reach) return false;
+  // The sum of displacements is an upper bound; the positions decide.
+  contacts.travel = largest_approach(control.neighbours, sim.scene->blocks, sim.motion.state,
+                                     sim.motion.pose, contacts);
+  if (!(contacts.travel <= 200.0 * (contacts.reach + sim.scene->displacement_limit))) {
     control.last_displacement = std::numeric_limits<double>::infinity();  // inspect() ends the run
     return false;
   }
-  return contacts.travel + sim.stepper->margin * ahead > 0.5 * contacts.reach;
+  return contacts.travel + sim.stepper->margin * ahead > contacts.reach;
 }
 
 /// Faces that carry load stand first in the list (find_faces()). Whether so many others carry load

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "blocks/block_set.hpp"
+#include "contacts/approach.hpp"
 #include "forces/step_bound.hpp"
 
 namespace edda {
@@ -24,6 +25,7 @@ struct StepControl {
   std::uint64_t steps_left = 0;            ///< steps up to the next event
   std::uint64_t larger_allowed_since = 0;  ///< step since which a much larger one has been allowed
   double last_displacement = 0.0;          ///< m: largest of a vertex in the last step
+  NeighbourGroups neighbours;              ///< of the list of possible contacts
   StepCache step_cache;
   // Mass scaling.
   double scaled_step = 0.0;  ///< s: uniform step of a stage, to which inertia is raised; 0: none

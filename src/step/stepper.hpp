@@ -28,8 +28,8 @@ struct Stepper {
 
   /// Distance that any vertex may move in the next step, m.
   double (*ahead)(const Simulation&);
-  /// The contact list is renewed when half of its reach is less than what a vertex has moved since
-  /// plus this multiple of ahead().
+  /// The contact list is renewed when its reach is less than what two edges have approached each
+  /// other since (largest_approach()) plus twice this multiple of ahead().
   double margin;
   /// Least reach of the contact list, in units of the displacement limit of a step.
   double least_reach;

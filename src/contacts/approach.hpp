@@ -1,0 +1,36 @@
+// How far edges have approached each other since the list of possible contacts was made, and with
+// that how long the list holds (theory, section 7.5).
+#pragma once
+
+#include <vector>
+
+#include "blocks/pose.hpp"
+#include "blocks/state.hpp"
+#include "contacts/face_set.hpp"
+
+namespace edda {
+
+/// Blocks in groups of neighbours, and the pairs of groups near each other, as they stood when the
+/// list was made. Blocks that move together, however fast, leave the list as it is.
+struct NeighbourGroups {
+  struct Pair {
+    Id one, other;  ///< groups, or a group and itself
+    double spare;   ///< m: by how much more than the reach of the list they may approach
+  };
+  std::uint64_t of_list = 0;      ///< FaceSet::rebuilds of the list; 0: none
+  std::vector<Id> begin, blocks;  ///< blocks of group g: blocks[begin[g]] to blocks[begin[g + 1]]
+  std::vector<Pair> pairs;        ///< of groups nearer to each other than `far`
+  double far = 0.0;               ///< m
+
+  std::vector<double> least_x, least_y, most_x, most_y;  ///< [groups] displacement of vertices, m
+};
+
+/// Upper bound of the distance (m) by which edges of the blocks alive have approached each other
+/// since the list was made, less what those of groups apart from each other have to spare: edges
+/// that stood at a distance d >= reach are now farther apart than reach - largest_approach(), and
+/// the list holds as long as that is positive. No two vertices of a group have moved against each
+/// other by more. Not a number where a position is not.
+double largest_approach(NeighbourGroups& groups, const BlockSet& blocks, const State& state,
+                        const Pose& pose, const FaceSet& list);
+
+}  // namespace edda
