@@ -111,7 +111,7 @@ TEST(ImplicitSolver, KeepsItsOrderWhileNeighboursStay) {
                                       block(-2, 1.5, 0.0, "velocity = [4.0, 0.0]\n"),
                                   "method = 'dda'\nduration = 0.5\ntime_step = 2e-3\n"));
   run(sim, [](Simulation&) {});
-  EXPECT_GT(sim.motion.contacts.rebuilds, 20u);
+  EXPECT_GT(sim.motion.contacts.rebuilds, 12u);
   EXPECT_EQ(sim.implicit.linear.counts().orderings, 1u);
 }
 
