@@ -42,11 +42,13 @@ test('reads names in quotes, whatever they hold', async () => {
 
 test('follows a run that goes on', async (t) => {
   run('example', 'rockfall');
-  const going = start(t, ['run', 'rockfall.toml', '--quiet', '--set', 'solver.safety=0.05', '--set', 'output.every=0.05']);
+  const going = start(t, ['run', 'rockfall.toml', '--quiet', '--set', 'solver.safety=0.01', '--set', 'output.every=0.05']);
   await until(() => existsSync(path.join(folder, 'rockfall/blocks.pvd')), 'the first frame');
+  going.child.kill('SIGSTOP');  // until the page has shown it, however slow the machine
   const { server, ended, address } = await serve(t, 'rockfall');
   const p = await page(address);
   const first = await p.evaluate(() => edda.results.run.frames.length);
+  going.child.kill('SIGCONT');
   await p.waitForFunction((n) => edda.results.run.frames.length > n, first, { timeout: 60000 });
   assert.equal(await within(going.ended, 'the end of the run', 120), 0);
   await p.waitForFunction(() => !document.getElementById('status').textContent.startsWith('going on'), null, { timeout: 60000 });
