@@ -2,6 +2,8 @@
 // that how long the list holds (theory, section 7.5).
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "blocks/pose.hpp"
@@ -13,6 +15,21 @@ namespace edda {
 /// Blocks in groups of neighbours, and the pairs of groups near each other, as they stood when the
 /// list was made. Blocks that move together, however fast, leave the list as it is.
 struct NeighbourGroups {
+  /// Least and largest of both coordinates of some points, m.
+  struct Extent {
+    double left = std::numeric_limits<double>::infinity(), right = -left;
+    double low = left, high = -left;
+    double lost = 0.0;  ///< not a number where a coordinate is not
+
+    void include(const Extent& e) {
+      left = std::min(left, e.left);
+      right = std::max(right, e.right);
+      low = std::min(low, e.low);
+      high = std::max(high, e.high);
+      lost += e.lost;
+    }
+    void include(Vec2 p) { include({p.x, p.x, p.y, p.y, 0.0 * (p.x + p.y)}); }
+  };
   struct Pair {
     Id one, other;  ///< groups, or a group and itself
     double spare;   ///< m: by how much more than the reach of the list they may approach
@@ -21,8 +38,7 @@ struct NeighbourGroups {
   std::vector<Id> begin, blocks;  ///< blocks of group g: blocks[begin[g]] to blocks[begin[g + 1]]
   std::vector<Pair> pairs;        ///< of groups nearer to each other than `far`
   double far = 0.0;               ///< m
-
-  std::vector<double> least_x, least_y, most_x, most_y;  ///< [groups] displacement of vertices, m
+  std::vector<Extent> moved;      ///< [groups] displacements of the vertices, at the last look
 };
 
 /// Upper bound of the distance (m) by which edges of the blocks alive have approached each other
