@@ -94,6 +94,19 @@ class ChunkTable : public Columns {
     cells_.assign((rows + chunk_rows - 1) / chunk_rows * stride, 0.0);
     bind();
   }
+  /// As many rows, of which those that were there keep some values; those that fill up the last
+  /// chunk are 0.
+  void set_rows(std::size_t rows) {
+    rows_ = rows;
+    cells_.resize((rows + chunk_rows - 1) / chunk_rows * stride, 0.0);
+    bind();
+    for (std::size_t row = rows; row % chunk_rows != 0; ++row) clear_row(row);
+  }
+  /// Sets the values of a row to 0.
+  void clear_row(std::size_t row) {
+    double* const first = begin_of_chunk(row / chunk_rows) + row % chunk_rows;
+    for (std::size_t i = 0; i < std::size(list); ++i) first[i * chunk_rows] = 0.0;
+  }
   /// Copies row `from` of another table to `row`, in the chosen columns.
   template <class Choice>
   void copy_row(std::size_t row, const ChunkTable& other, std::size_t from, Choice chosen) {

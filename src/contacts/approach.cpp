@@ -23,10 +23,9 @@ double gap(const Extent& a, const Extent& b) {
   return std::hypot(x, y);
 }
 
-Extent extent_of_block(const BlockSet& b, const FaceSet& list, Id i) {
+Extent extent_of_block(const BlockSet& b, const Standing& then, Id i) {
   Extent box;
-  for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v)
-    box.include(at(list.built_x, list.built_y, v));
+  for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v) box.include(at(then.x, then.y, v));
   return box;
 }
 
@@ -87,9 +86,9 @@ void pair_groups(NeighbourGroups& g, const std::vector<Extent>& boxes, double re
   }
 }
 
-void make_groups(NeighbourGroups& g, const BlockSet& b, const State& state, const FaceSet& list) {
+void make_groups(NeighbourGroups& g, const BlockSet& b, const State& state, const Standing& then) {
   std::vector<Extent> boxes(b.size());
-  for (Id i = 0; i < b.size(); ++i) boxes[i] = extent_of_block(b, list, i);
+  for (Id i = 0; i < b.size(); ++i) boxes[i] = extent_of_block(b, then, i);
   g.far = widths_of_group * mean_width(b, state);
   const std::vector<Placed> placed = place_in_grid(b, state, boxes, g.far);
   g.begin.clear();
@@ -104,11 +103,11 @@ void make_groups(NeighbourGroups& g, const BlockSet& b, const State& state, cons
     of_groups.back().include(boxes[placed[n].block]);
   }
   g.begin.push_back(static_cast<Id>(placed.size()));
-  pair_groups(g, of_groups, list.reach);
-  g.of_list = list.rebuilds;
+  pair_groups(g, of_groups, then.reach);
+  g.of_list = then.list;
 }
 
-void measure(NeighbourGroups& g, const BlockSet& b, const Pose& pose, const FaceSet& list) {
+void measure(NeighbourGroups& g, const BlockSet& b, const Pose& pose, const Standing& then) {
   g.moved.resize(g.begin.size() - 1);
   parallel_chunks(g.moved.size(), 64, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t q = begin; q < end; ++q) {
@@ -116,7 +115,7 @@ void measure(NeighbourGroups& g, const BlockSet& b, const Pose& pose, const Face
       for (Id p = g.begin[q]; p < g.begin[q + 1]; ++p) {
         const Id i = g.blocks[p];
         for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v)
-          moved.include(at(pose.x, pose.y, v) - at(list.built_x, list.built_y, v));
+          moved.include(at(pose.x, pose.y, v) - at(then.x, then.y, v));
       }
       g.moved[q] = moved;
     }
@@ -133,14 +132,14 @@ double relative_displacement(const Extent& one, const Extent& other) {
 }  // namespace
 
 double largest_approach(NeighbourGroups& g, const BlockSet& b, const State& state, const Pose& pose,
-                        const FaceSet& list) {
-  if (g.of_list != list.rebuilds) make_groups(g, b, state, list);
-  measure(g, b, pose, list);
+                        const Standing& then) {
+  if (g.of_list != then.list) make_groups(g, b, state, then);
+  measure(g, b, pose, then);
   if (g.moved.empty()) return 0.0;
   Extent all;
   for (const Extent& moved : g.moved) all.include(moved);
   const double apart = relative_displacement(all, all);
-  double approach = std::max(0.0, apart - std::max(0.0, g.far - list.reach)) + all.lost;
+  double approach = std::max(0.0, apart - std::max(0.0, g.far - then.reach)) + all.lost;
   for (const NeighbourGroups::Pair& p : g.pairs) {
     approach =
         std::max(approach, relative_displacement(g.moved[p.one], g.moved[p.other]) - p.spare);

@@ -1,5 +1,5 @@
-// How far edges have approached each other since the list of possible contacts was made, and with
-// that how long the list holds (theory, section 7.5).
+// How far edges have approached each other since a list of near ones was made, and with that how
+// long the list holds (theory, section 7.5).
 #pragma once
 
 #include <algorithm>
@@ -34,12 +34,22 @@ struct NeighbourGroups {
     Id one, other;  ///< groups, or a group and itself
     double spare;   ///< m: by how much more than the reach of the list they may approach
   };
-  std::uint64_t of_list = 0;      ///< FaceSet::rebuilds of the list; 0: none
+  std::uint64_t of_list = 0;      ///< Standing::list; 0: none
   std::vector<Id> begin, blocks;  ///< blocks of group g: blocks[begin[g]] to blocks[begin[g + 1]]
   std::vector<Pair> pairs;        ///< of groups nearer to each other than `far`
   double far = 0.0;               ///< m
   std::vector<Extent> moved;      ///< [groups] displacements of the vertices, at the last look
 };
+
+/// How the blocks stood when a list was made.
+struct Standing {
+  const std::vector<double>&x, &y;  ///< [nv] positions of the vertices, m
+  double reach;                     ///< m: the list has the edges nearer to each other than this
+  std::uint64_t list;               ///< its number, from 1 on
+};
+inline Standing standing_of(const FaceSet& faces) {
+  return {faces.built_x, faces.built_y, faces.reach, faces.rebuilds};
+}
 
 /// Upper bound of the distance (m) by which edges of the blocks alive have approached each other
 /// since the list was made, less what those of groups apart from each other have to spare: edges
@@ -47,6 +57,6 @@ struct NeighbourGroups {
 /// the list holds as long as that is positive. No two vertices of a group have moved against each
 /// other by more. Not a number where a position is not.
 double largest_approach(NeighbourGroups& groups, const BlockSet& blocks, const State& state,
-                        const Pose& pose, const FaceSet& list);
+                        const Pose& pose, const Standing& then);
 
 }  // namespace edda

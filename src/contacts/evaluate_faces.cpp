@@ -84,17 +84,17 @@ EDDA_INLINE FaceView view_of(const AllFaces& all, const ChunkPlace& at) {
 /// What evaluating a chunk has found: whether any of its faces has the flag (see FaceStep), and the
 /// largest depth.
 struct ChunkResult {
-  bool decides, switching, works, rare;
+  bool decides, switching, works;
   double deepest;
 };
 
-template <bool dashpots, bool limits_given, bool plain>
+template <bool dashpots, bool limits_given>
 EDDA_INLINE void evaluate_into(const FaceView& c, std::size_t k, double& deciding,
-                               double& switching, double& working, double& rare, double& deepest) {
+                               double& switching, double& working, double& deepest) {
   const FaceInputs in = inputs_of<dashpots, limits_given>(c, k);
   const EdgeGeometry stands = geometry_of_edges(in.at, in.pair);
-  const Face face = face_between<plain>(in.at, in.pair, stands);
-  const FaceStep s = step_of_face<dashpots, limits_given, plain>(in, stands, face);
+  const Face face = face_between(in.at, in.pair, stands);
+  const FaceStep s = step_of_face<dashpots, limits_given, false>(in, stands, face);
   write_face<dashpots>(c, face, s, k);
   c.force[8 * k + 0] = s.force.p1.x;
   c.force[8 * k + 1] = s.force.p1.y;
@@ -107,32 +107,25 @@ EDDA_INLINE void evaluate_into(const FaceView& c, std::size_t k, double& decidin
   deciding = larger(deciding, s.decides ? 1.0 : 0.0);
   switching = larger(switching, s.switching ? 1.0 : 0.0);
   working = larger(working, s.works ? 1.0 : 0.0);
-  rare = larger(rare, s.rare ? 1.0 : 0.0);
   deepest = larger(deepest, s.depth);
 }
 
 /// Evaluates all rows of a chunk.
-template <bool dashpots, bool plain>
+template <bool dashpots>
 EDDA_INLINE ChunkResult evaluate_rows(const AllFaces& all, const ChunkPlace& at) {
   const FaceView c = view_of(all, at);
-  double deciding = 0.0, switching = 0.0, working = 0.0, rare = 0.0, deepest = 0.0;
-#pragma omp simd reduction(max : deciding, switching, working, rare, deepest)
+  double deciding = 0.0, switching = 0.0, working = 0.0, deepest = 0.0;
+#pragma omp simd reduction(max : deciding, switching, working, deepest)
   for (std::size_t k = 0; k < FaceSet::chunk; ++k) {
-    evaluate_into<dashpots, false, plain>(c, k, deciding, switching, working, rare, deepest);
+    evaluate_into<dashpots, false>(c, k, deciding, switching, working, deepest);
   }
-  return {deciding > 0.0, switching > 0.0, working > 0.0, rare > 0.0, deepest};
+  return {deciding > 0.0, switching > 0.0, working > 0.0, deepest};
 }
 EDDA_VECTOR ChunkResult evaluate_undamped(const AllFaces& all, const ChunkPlace& at) {
-  return evaluate_rows<false, false>(all, at);
-}
-EDDA_VECTOR ChunkResult evaluate_plain_undamped(const AllFaces& all, const ChunkPlace& at) {
-  return evaluate_rows<false, true>(all, at);
+  return evaluate_rows<false>(all, at);
 }
 EDDA_VECTOR ChunkResult evaluate_damped(const AllFaces& all, const ChunkPlace& at) {
-  return evaluate_rows<true, false>(all, at);
-}
-EDDA_VECTOR ChunkResult evaluate_plain_damped(const AllFaces& all, const ChunkPlace& at) {
-  return evaluate_rows<true, true>(all, at);
+  return evaluate_rows<true>(all, at);
 }
 
 /// Evaluates the rows [first, last) alone, one by one.
@@ -140,11 +133,11 @@ template <bool dashpots, bool limits_given>
 ChunkResult evaluate_rows(const AllFaces& all, const ChunkPlace& at, std::size_t first,
                           std::size_t last) {
   const FaceView c = view_of(all, at);
-  double deciding = 0.0, switching = 0.0, working = 0.0, rare = 0.0, deepest = 0.0;
+  double deciding = 0.0, switching = 0.0, working = 0.0, deepest = 0.0;
   for (std::size_t k = first; k < last; ++k) {
-    evaluate_into<dashpots, limits_given, false>(c, k, deciding, switching, working, rare, deepest);
+    evaluate_into<dashpots, limits_given>(c, k, deciding, switching, working, deepest);
   }
-  return {deciding > 0.0, switching > 0.0, working > 0.0, rare > 0.0, deepest};
+  return {deciding > 0.0, switching > 0.0, working > 0.0, deepest};
 }
 
 /// Updates the geometry of a face that has carried no load for two steps. Returns whether it needs
@@ -179,29 +172,15 @@ bool break_bonds(FaceSet& c, const FaceScene& scene, std::size_t first, std::siz
   return any;
 }
 
-/// Evaluates all faces of a chunk. Where is_plain() held for all of them when they were
-/// last evaluated, the short formulas are tried first.
-ChunkResult evaluate_chunk(FaceSet& c, const AllFaces& all, std::size_t q) {
-  const ChunkPlace at = chunk_place(c, q);
-  if (c.plain[q] != 0) {
-    const ChunkResult found =
-        c.dashpots ? evaluate_plain_damped(all, at) : evaluate_plain_undamped(all, at);
-    if (!found.rare) return found;
-  }
-  const ChunkResult found = c.dashpots ? evaluate_damped(all, at) : evaluate_undamped(all, at);
-  c.plain[q] = found.rare ? 0 : 1;
-  return found;
-}
-
 /// Evaluates the faces [first, last), all of one chunk.
 ChunkResult evaluate_part(FaceSet& c, const AllFaces& all, std::size_t first, std::size_t last) {
   const std::size_t q = first / FaceSet::chunk, from = first % FaceSet::chunk;
   const std::size_t to = from + (last - first);
   const bool limits_given = all.limit_a != nullptr;
-  if (!limits_given && from == 0 && last == std::min(first + FaceSet::chunk, c.size())) {
-    return evaluate_chunk(c, all, q);
-  }
   const ChunkPlace at = chunk_place(c, q);
+  if (!limits_given && from == 0 && last == std::min(first + FaceSet::chunk, c.size())) {
+    return c.dashpots ? evaluate_damped(all, at) : evaluate_undamped(all, at);
+  }
   AllFaces here = all;
   if (limits_given) {
     here.limit_a += first - from;

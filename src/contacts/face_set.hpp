@@ -1,6 +1,5 @@
-// Faces: the contacts of the model and their memory, [nf] rows each: first the faces that carried
-// load when the list was made, then those that were near, then the others. Element and notation:
-// contacts/face.hpp; docs/contacts.md.
+// Faces: the contacts of the model and their memory, [nf] rows each, sorted by their two edges.
+// Element and notation: contacts/face.hpp; docs/contacts.md.
 #pragma once
 
 #include <algorithm>
@@ -200,8 +199,6 @@ struct FaceSet : ChunkTable<FaceProperties<ChunkColumn>, face_property_list<Chun
   std::vector<std::uint8_t> switching;  ///< [chunks] 1: ends of a face in it open or close
   std::vector<double> deepest;  ///< [chunks] largest drawn closure of a face that carries load, m
   std::vector<std::uint8_t> bonds;        ///< [chunks] 1: a face in it is bonded or carries tension
-  std::vector<std::uint8_t> plain;        ///< [chunks] 1: all its faces met is_plain() when last
-                                          ///< evaluated, or have not been evaluated yet
   std::vector<std::uint8_t> chunk_fails;  ///< [chunks] 1: `failure` is set for a face in it
 
   /// Marks face k as failing in the current step.

@@ -58,6 +58,19 @@ FacesOfTiles faces_of_tiles(const FaceTiles& t, const FaceSet& c, const BlockSet
   return of;
 }
 
+/// Lets the faces of lower kinds come first in each tile.
+void sort_by_kind(FacesOfTiles& of, const std::vector<std::uint8_t>& kind) {
+  const std::vector<Id> as_listed = of.face;
+  for (std::size_t q = 0; q + 1 < of.begin.size(); ++q) {
+    std::array<Id, face_kinds + 1> next{};
+    for (Id n = of.begin[q]; n < of.begin[q + 1]; ++n) ++next[kind[as_listed[n]] + 1u];
+    next[0] = of.begin[q];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    for (Id n = of.begin[q]; n < of.begin[q + 1]; ++n)
+      of.face[next[kind[as_listed[n]]]++] = as_listed[n];
+  }
+}
+
 std::vector<Id> tiles_of_blocks(const FaceTiles& t, std::size_t blocks) {
   std::vector<Id> tile_of(blocks, no_id);
   for (std::size_t q = 0; q < t.tiles.size(); ++q) {
@@ -154,9 +167,10 @@ std::size_t FaceTiles::tile_of_chunk(std::size_t chunk) const {
   return static_cast<std::size_t>(next - tiles.begin()) - 1;
 }
 
-void lay_out(FaceTiles& t, const FaceSet& c, const BlockSet& b) {
-  const std::vector<Id> tile_of = tiles_of_blocks(t, b.size());
-  const FacesOfTiles of = faces_of_tiles(t, c, b, tile_of);
+void lay_out(FaceTiles& t, const FaceSet& c, const BlockSet& b,
+             const std::vector<std::uint8_t>& kind) {
+  FacesOfTiles of = faces_of_tiles(t, c, b, tiles_of_blocks(t, b.size()));
+  if (!kind.empty()) sort_by_kind(of, kind);
   Slots slots(b.vertex_count());
   t.halo.clear();
   t.face.clear();

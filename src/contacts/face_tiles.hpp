@@ -93,6 +93,22 @@ constexpr bool test(LaneBits bits, unsigned of, std::size_t lane) {
 }
 }  // namespace lane_bits
 
+/// What a face does, in the order in which faces lie in their tile: carries load by the short
+/// formulas (is_plain()) and by the long ones, at rest and with work; touches, is looked at,
+/// sleeps.
+namespace face_kind {
+enum Kind : std::uint8_t {
+  short_rest,
+  short_work,
+  long_work,
+  long_rest,
+  touching,
+  looked_at,
+  asleep
+};
+}
+inline constexpr std::size_t face_kinds = 7;
+
 using AlignedNumbers = std::vector<double, InWholeLines<double>>;
 
 /// How long the faces of a tile that sleep may do so: until a vertex of its edges has left its
@@ -131,10 +147,11 @@ struct FaceTiles {
   std::vector<Id> halo;    ///< edges that face those of a tile
 
   std::size_t chunks() const { return plain.size(); }
-  std::vector<Id> face;                ///< [chunks][8] row of the FaceSet, or no_id
-  std::vector<Id> slot_e, slot_f;      ///< [chunks][8] the edges, by their slots in the tile
-  std::vector<std::uint8_t> owned;     ///< [chunks] bit of each lane: this copy's work counts
-  std::vector<std::uint8_t> plain;     ///< [chunks] as FaceSet::plain
+  std::vector<Id> face;             ///< [chunks][8] row of the FaceSet, or no_id
+  std::vector<Id> slot_e, slot_f;   ///< [chunks][8] the edges, by their slots in the tile
+  std::vector<std::uint8_t> owned;  ///< [chunks] bit of each lane: this copy's work counts
+  std::vector<std::uint8_t>
+      plain;  ///< [chunks] 1: is_plain() held for all its faces in the last step
   std::vector<std::uint8_t> bonds;     ///< [chunks] as FaceSet::bonds
   std::vector<std::uint8_t> idle[2];   ///< [chunks] 1: no face carried load in that step
   std::vector<std::uint8_t> fresh[2];  ///< [chunks] 1: `work` holds the work of that step
@@ -181,8 +198,10 @@ void divide_blocks(FaceTiles& tiles, const BlockSet& blocks, const State& state,
                    std::size_t most = blocks_per_tile);
 
 /// Gives each face of the list its places in the tiles, and all that has a size its size. Blocks
-/// must have been divided. All faces are awake.
-void lay_out(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks);
+/// must have been divided. All faces are awake. kind: [nf] what each face does: faces of lower
+/// kinds come first in a tile (contacts/tile_packing.hpp); empty: none is known.
+void lay_out(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
+             const std::vector<std::uint8_t>& kind);
 
 /// Gives the forces of the awake faces of a tile their records.
 void order_records(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,

@@ -3,88 +3,45 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <numeric>
 #include <utility>
 
+#include "base/parallel.hpp"
 #include "contacts/face_bonds.hpp"
-#include "contacts/search.hpp"
 
 namespace edda {
 namespace {
 
-using EdgePair = std::pair<Id, Id>;
-
-/// Cosine of the angle up to which a face carries its full load, and of that at which it carries
-/// none: 60 and 85 degrees. Beside a corner of alpha < 90 degrees both are (90 - alpha)/2 larger,
-/// since its two edges stand at 90 - alpha/2 to an edge that it strikes at a right angle.
-struct AngleGate {
-  double whole, none;
-};
-constexpr double most_beyond = std::numbers::pi / 4.0;  ///< rad: for a needle
-double cosine_of_none(double beyond) {
-  return std::cos(85.0 / 180.0 * std::numbers::pi + beyond);
-}
-AngleGate angle_gate(const BlockSet& b, Id e, Id f) {
-  const double sharpest =
-      std::min({b.corner[e], b.corner[b.next[e]], b.corner[f], b.corner[b.next[f]]});
-  const double beyond = std::max(0.0, most_beyond - 0.5 * sharpest);
-  return {std::cos(std::numbers::pi / 3.0 + beyond), cosine_of_none(beyond)};
-}
-
-/// Whether the edges may become opposed before a vertex has moved by half of `reach`.
-bool may_oppose(const BlockSet& b, const Pose& pose, Id e, Id f, double reach) {
-  const Vec2 u = at(pose.x, pose.y, b.next[e]) - at(pose.x, pose.y, e);
-  const Vec2 v = at(pose.x, pose.y, b.next[f]) - at(pose.x, pose.y, f);
-  const double le = norm(u), lf = norm(v);
-  const double turn = reach / le + reach / lf;  // largest relative rotation of the two edges, rad
-  const double reached = -dot(u, v) / (le * lf) + turn;
-  // For most pairs the gate need not be computed: it lies between those of blunt corners and of a
-  // needle.
-  static const double of_blunt = cosine_of_none(0.0), of_needle = cosine_of_none(most_beyond);
-  return reached > of_blunt || (reached > of_needle && reached > angle_gate(b, e, f).none);
-}
-
-std::vector<EdgePair> wanted_faces(const FaceSet& old, const BlockSet& b, const State& state,
-                                   const Pose& pose, double reach) {
-  std::vector<EdgePair> list;
-  const auto add = [&](Id e, Id f) {
-    if (may_oppose(b, pose, e, f, reach)) list.push_back(std::minmax(e, f));
-  };
-  for (const NearPair& near : near_pairs(b, state.alive, pose.x, pose.y, reach)) {
-    add(near.vertex, near.edge);
-    add(b.previous[near.vertex], near.edge);
-  }
-  for (std::size_t k = 0; k < old.size(); ++k) {
-    const bool stays = state.alive[b.vertex_block[old.edge[k]]] != 0 &&
-                       state.alive[b.vertex_block[old.facing[k]]] != 0;
-    if (stays && (old.now.energy[k] > 0.0 || old.bonded[k] > 0.0))
-      list.push_back({old.edge[k], old.facing[k]});
-  }
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
-  return list;
-}
-
-/// A pair of edges of the new list, and its face in the old one.
+/// A face of the new list, and its row in the old one.
 struct Listed {
-  EdgePair pair;
+  Id edge, facing;
   Id old;  ///< no_id: none
-  int kind = 0;
 };
-std::vector<Listed> with_old_faces(const std::vector<EdgePair>& list, const FaceSet& old) {
-  std::vector<Id> order(old.size());
-  std::iota(order.begin(), order.end(), Id{0});
-  const auto pair_of = [&](Id k) { return EdgePair{old.edge[k], old.facing[k]}; };
-  std::sort(order.begin(), order.end(), [&](Id i, Id j) { return pair_of(i) < pair_of(j); });
+
+/// The faces of the pairs of edges `near`, and those of the old list that stay whatever lies
+/// between their edges: they carry, or are bonded, and both blocks are there. Both lists are
+/// sorted by their edges.
+std::vector<Listed> wanted_faces(const std::vector<EdgePair>& near, const FaceSet& old,
+                                 const std::vector<std::uint8_t>& carry, const BlockSet& b,
+                                 const State& state) {
+  const auto stays = [&](std::size_t k) {
+    return (carry[k] != 0 || old.bonded[k] > 0.0) &&
+           state.alive[b.vertex_block[old.edge[k]]] != 0 &&
+           state.alive[b.vertex_block[old.facing[k]]] != 0;
+  };
   std::vector<Listed> all;
-  all.reserve(list.size());
-  auto next = order.begin();
-  for (const EdgePair& pair : list) {
-    while (next != order.end() && pair_of(*next) < pair) ++next;
-    const bool was = next != order.end() && pair_of(*next) == pair;
-    all.push_back({pair, was ? *next : no_id, 0});
+  all.reserve(near.size());
+  std::size_t k = 0;
+  const auto add_old_before = [&](const EdgePair& pair) {
+    for (; k < old.size() && EdgePair{old.edge[k], old.facing[k]} < pair; ++k) {
+      if (stays(k)) all.push_back({old.edge[k], old.facing[k], static_cast<Id>(k)});
+    }
+  };
+  for (const EdgePair& pair : near) {
+    add_old_before(pair);
+    const bool was = k < old.size() && EdgePair{old.edge[k], old.facing[k]} == pair;
+    all.push_back({pair.first, pair.second, was ? static_cast<Id>(k++) : no_id});
   }
+  add_old_before({no_id, no_id});
   return all;
 }
 
@@ -103,43 +60,18 @@ FacePair pair_of_edges(const BlockSet& b, Id e, Id f) {
   return pair;
 }
 
-/// Position of a face in the list: first those that carry load, then those that soon may, then the
-/// others; within each kind first those that are plain (is_plain()), so that most chunks of the
-/// list hold one kind.
-int kind_in_list(const FaceSet& old, const BlockSet& b, const Pose& pose, double reach,
-                 const Listed& f) {
-  const auto [e, q] = f.pair;
-  const double shorter = std::min(b.edge_length[e], b.edge_length[q]);
-  FacePair pair = pair_of_edges(b, e, q);
-  const FacePoints points{at(pose.x, pose.y, e), at(pose.x, pose.y, b.next[e]),
-                          at(pose.x, pose.y, q), at(pose.x, pose.y, b.next[q])};
-  const EdgeGeometry o = geometry_of_edges(points, pair);
-  constexpr double near = 0.01, overlaps = 0.01;
-  const double closure = o.closure_at_0 + std::max(o.closure_slope * o.ma, o.closure_slope * o.mb);
-  const bool near_by = o.s2 > 0.0 && o.r1 > o.r2 && o.cosine > pair.gate_from &&
-                       o.mb - o.ma > -near * reach && closure > -near * reach;
-  bool carries = near_by && o.mb - o.ma > overlaps * shorter;
-  bool bonded = false;
-  if (const Id k = f.old; k != no_id) {
-    carries = old.now.energy[k] > 0.0 || old.bonded[k] > 0.0 || old.carries_tension[k] > 0.0;
-    bonded = old.bonded[k] > 0.0;
-    pair.carries_tension = old.carries_tension[k];
-    pair.offset = {old.locked_closure_a[k], old.locked_closure_b[k]};
-  }
-  const int kind = carries ? 0 : near_by ? 1 : 2;
-  return 2 * kind + (is_plain(o, pair) && !bonded ? 0 : 1);
-}
-
-void fill_constants(FaceSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
-  const Id e = c.edge[k], f = c.facing[k];
-  const double shorter = std::min(b.edge_length[e], b.edge_length[f]);
-  const Law& law = laws.rows[c.law[k]];
-  const FacePair pair = pair_of_edges(b, e, f);
+void fill_constants_of_edges(FaceSet& c, const BlockSet& b, std::size_t k) {
+  const FacePair pair = pair_of_edges(b, c.edge[k], c.facing[k]);
   c.inverse_e[k] = pair.inverse_e;
   c.inverse_f[k] = pair.inverse_f;
   c.gate_from[k] = pair.gate_from;
   c.gate_scale[k] = pair.gate_scale;
   c.passing[k] = pair.passing;
+}
+
+void fill_constants_of_law(FaceSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
+  const double shorter = std::min(b.edge_length[c.edge[k]], b.edge_length[c.facing[k]]);
+  const Law& law = laws.rows[c.law[k]];
   c.at_ends[k] = law.kn > 0.0 ? 0.0 : 1.0;
   // A penalty is one spring at each end of the shorter edge.
   c.stiffness[k] = laws.normal_stiffness(law, shorter);
@@ -155,28 +87,19 @@ double rounding_of_closures(const Pose& pose) {
   return digits * std::numeric_limits<double>::epsilon() * largest;
 }
 
-/// Fills begin_of_edge and on_edge.
+/// Fills begin_of_edge and on_edge. Faces are sorted by `edge`, then by `facing`: of the faces of
+/// an edge come first those in which it is `facing`, as the other edge has the lower number there.
 void list_by_edge(FaceSet& c, std::size_t edges) {
   c.begin_of_edge.assign(edges + 1, 0);
   for (const auto* of : {&c.edge, &c.facing}) {
     for (const Id e : *of) ++c.begin_of_edge[e + 1];
   }
   for (std::size_t e = 0; e < edges; ++e) c.begin_of_edge[e + 1] += c.begin_of_edge[e];
-  std::vector<Id> fill(c.begin_of_edge.begin(), c.begin_of_edge.end() - 1);
+  std::vector<Id> next(c.begin_of_edge.begin(), c.begin_of_edge.end() - 1);
   c.on_edge.resize(2 * c.size());
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    for (const Id e : {c.edge[k], c.facing[k]}) c.on_edge[fill[e]++] = static_cast<Id>(k);
-  }
-  for (Id e = 0; e < edges; ++e) {
-    const auto first = c.on_edge.begin() + c.begin_of_edge[e],
-               last = c.on_edge.begin() + c.begin_of_edge[e + 1];
-    const auto other = [&](Id k) { return c.edge[k] == e ? c.facing[k] : c.edge[k]; };
-    std::sort(first, last, [&](Id i, Id j) { return other(i) < other(j); });
-    for (auto q = first; q != last; ++q) {
-      const Id k = *q;
-      *q = 8 * k + (c.edge[k] == e ? 0 : 4);
-    }
-  }
+  for (std::size_t k = 0; k < c.size(); ++k)
+    c.on_edge[next[c.facing[k]]++] = static_cast<Id>(8 * k + 4);
+  for (std::size_t k = 0; k < c.size(); ++k) c.on_edge[next[c.edge[k]]++] = static_cast<Id>(8 * k);
 }
 
 /// Whether any dashpot has done work in the last step or has yet to do it, by the faces at its end.
@@ -201,13 +124,26 @@ void move_totals(FaceSet& next, FaceSet& old) {
   next.locked_end = std::move(old.locked_end);
 }
 
-/// Row k of the new list becomes a face of the old one, with its memory.
+/// Row k of the new list becomes a face of the old one. The constants are those of its edges.
 void copy_face(FaceSet& next, std::size_t k, const FaceSet& faces, Id old) {
-  next.copy_row(k, faces, old, [](const auto& column) { return column.kept; });
+  next.copy_row(k, faces, old);
+  next.law[k] = faces.law[old];
+}
+/// And its state.
+void copy_state(FaceSet& next, std::size_t k, const FaceSet& faces, Id old) {
   next.now.copy_row(k, faces.now, old);
   next.before.copy_row(k, faces.before, old);
   std::copy_n(&faces.force[8 * old], 8, &next.force[8 * k]);
-  next.law[k] = faces.law[old];
+}
+
+/// Row k becomes a face that was not in the old list.
+void begin_face(FaceSet& next, std::size_t k, const BlockSet& b, const LawTable& laws) {
+  const Id e = next.edge[k], f = next.facing[k];
+  next.law[k] = laws.resolve_met(b.edge_joint[e], b.edge_joint[f], b.material[b.vertex_block[e]],
+                                 b.material[b.vertex_block[f]]);
+  set_residual_strength(next, laws, k);
+  next.carries_tension[k] = 0.0;  // contacts that form later have no tensile strength
+  fill_constants_of_edges(next, b, k);
 }
 
 /// Adds the energies of a face that is no longer in the list to the totals.
@@ -218,9 +154,8 @@ void retire(FaceSet& next, const FaceSet& old, std::size_t k) {
   next.removed_transfer += old.transfer[k];
 }
 
-}  // namespace
-
-void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
+/// Fills what follows from the edges of the faces but for the constants of each of them.
+void complete_list(FaceSet& c, const BlockSet& b) {
   const std::size_t n = c.size();
   c.edge_end.resize(n);
   c.facing_end.resize(n);
@@ -232,7 +167,6 @@ void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
     for (std::size_t q = 0; const Id v : {c.edge[k], c.edge_end[k], c.facing[k], c.facing_end[k]}) {
       corner[q++ * FaceSet::chunk + k % FaceSet::chunk] = v;
     }
-    fill_constants(c, b, laws, k);
   }
   // Padding rows of the last chunk have zero length; `passing` must not be zero, since it is
   // divided by.
@@ -241,7 +175,6 @@ void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
   c.switching.assign(c.chunks(), 0);
   c.deepest.assign(c.chunks(), 0.0);
   c.chunk_fails.assign(c.chunks(), 0);
-  c.plain.assign(c.chunks(), 1);
   for (std::size_t k = 0; k < n; ++k) {
     if (c.failure[k] != 0.0) c.chunk_fails[k / FaceSet::chunk] = 1;
   }
@@ -249,49 +182,92 @@ void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
   mark_bonded_chunks(c);
 }
 
-void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
-                const LawTable& laws, double reach) {
-  std::vector<Listed> list = with_old_faces(wanted_faces(faces, b, state, pose, reach), faces);
-  for (Listed& f : list) f.kind = kind_in_list(faces, b, pose, reach, f);
-  std::stable_sort(list.begin(), list.end(),
-                   [](const Listed& f, const Listed& g) { return f.kind < g.kind; });
+/// Makes room for the states of the new list, of which nothing is known yet.
+void take_room_for_states(FaceSet& next, FaceSet& old) {
+  const std::size_t n = next.size();
+  for (auto state : {&FaceSet::now, &FaceSet::before}) {
+    next.*state = std::move(old.*state);
+    (next.*state).set_rows(n);
+  }
+  next.force = std::move(old.force);
+  next.force.resize(next.force_size());
+  next.dashpots = old.dashpots;
+}
+
+}  // namespace
+
+void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    fill_constants_of_edges(c, b, k);
+    fill_constants_of_law(c, b, laws, k);
+  }
+  complete_list(c, b);
+}
+
+std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
+                            const LawTable& laws, double reach, NearEdges& known,
+                            const std::vector<std::uint8_t>& carry, FaceStates states) {
+  const std::vector<Listed> list =
+      wanted_faces(edges_within(known, b, state, pose, reach), faces, carry, b, state);
   const std::size_t n = list.size();
+  const bool copies = states == FaceStates::in_rows;
   FaceSet next;
   next.clear_rows(n);
-  next.now.clear_rows(n);
-  next.before.clear_rows(n);
   next.law.resize(n);
   next.edge.resize(n);
   next.facing.resize(n);
-  next.force.assign(next.force_size(), 0.0);
-  std::vector<std::uint8_t> stays(faces.size(), 0);
-  move_totals(next, faces);
   for (std::size_t k = 0; k < n; ++k) {
-    const auto [e, f] = list[k].pair;
-    const Id old = list[k].old;
-    next.edge[k] = e;
-    next.facing[k] = f;
-    if (old != no_id) {
-      stays[old] = 1;
-      copy_face(next, k, faces, old);
-    } else {
-      next.law[k] = laws.resolve_met(b.edge_joint[e], b.edge_joint[f],
-                                     b.material[b.vertex_block[e]], b.material[b.vertex_block[f]]);
-      set_residual_strength(next, laws, k);
-      next.carries_tension[k] = 0.0;  // contacts that form later have no tensile strength
-    }
+    next.edge[k] = list[k].edge;
+    next.facing[k] = list[k].facing;
   }
+  if (copies) {
+    next.now.clear_rows(n);
+    next.before.clear_rows(n);
+    next.force.assign(next.force_size(), 0.0);
+  }
+  move_totals(next, faces);
+  std::vector<std::uint8_t> stays(faces.size(), 0);
+  parallel_chunks(n, FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Id old = list[k].old;
+      if (old == no_id) {
+        begin_face(next, k, b, laws);
+      } else {
+        stays[old] = 1;
+        copy_face(next, k, faces, old);
+        if (copies) copy_state(next, k, faces, old);
+      }
+      fill_constants_of_law(next, b, laws, k);
+    }
+  });
   for (std::size_t k = 0; k < faces.size(); ++k) {
     if (stays[k] == 0) retire(next, faces, k);
   }
-  complete_faces(next, b, laws);
-  next.dashpots = dashpots_work(next.now);
+  if (!copies) take_room_for_states(next, faces);
+  complete_list(next, b);
+  if (copies) next.dashpots = dashpots_work(next.now);
   next.noise = rounding_of_closures(pose);
   next.reach = reach;
   next.built_x = pose.x;
   next.built_y = pose.y;
   next.rebuilds = faces.rebuilds + 1;
   faces = std::move(next);
+  std::vector<Id> old(n);
+  for (std::size_t k = 0; k < n; ++k) old[k] = list[k].old;
+  return old;
+}
+
+void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
+                const LawTable& laws, double reach, NearEdges& known) {
+  std::vector<std::uint8_t> carry(faces.size());
+  for (std::size_t k = 0; k < faces.size(); ++k) carry[k] = faces.now.energy[k] > 0.0 ? 1 : 0;
+  renew_faces(faces, b, state, pose, laws, reach, known, carry, FaceStates::in_rows);
+}
+
+void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
+                const LawTable& laws, double reach) {
+  NearEdges known;
+  find_faces(faces, b, state, pose, laws, reach, known);
 }
 
 }  // namespace edda

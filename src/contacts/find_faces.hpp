@@ -6,13 +6,27 @@
 #include "blocks/state.hpp"
 #include "contacts/face_set.hpp"
 #include "contacts/laws.hpp"
+#include "contacts/near_edges.hpp"
 
 namespace edda {
 
 /// Lists all pairs of edges of two blocks that may act before any vertex has moved by half of
-/// `reach` (m), and carries over the memory of those that were in the old list.
+/// `reach` (m), sorted by `edge`, then by `facing`, and carries over the memory of those that were
+/// in the old list. known: what the search before has found, which saves time.
+void find_faces(FaceSet& faces, const BlockSet& blocks, const State& state, const Pose& pose,
+                const LawTable& laws, double reach, NearEdges& known);
 void find_faces(FaceSet& faces, const BlockSet& blocks, const State& state, const Pose& pose,
                 const LawTable& laws, double reach);
+
+/// Where the state of the faces (FaceSet::now, before, force) is kept: in the rows of the FaceSet,
+/// or elsewhere, in which case the rows of the new list have room for it and no meaning.
+enum class FaceStates { in_rows, elsewhere };
+
+/// The same; carry: [nf] 1: the face stores energy. Returns for each face of the new list its row
+/// in the old one, or no_id.
+std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& blocks, const State& state,
+                            const Pose& pose, const LawTable& laws, double reach, NearEdges& known,
+                            const std::vector<std::uint8_t>& carry, FaceStates states);
 
 /// Fills everything that follows from the edges and laws of the faces.
 void complete_faces(FaceSet& faces, const BlockSet& blocks, const LawTable& laws);

@@ -141,7 +141,7 @@ void load_chunk_constants(FaceTiles& t, const FaceSet& c, const BlockSet& b, std
 }
 
 void load_faces(FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& pose) {
-  lay_out(t, c, b);
+  lay_out(t, c, b, {});
   t.deepest.assign(t.chunks(), 0.0);
   t.now = 0;
   std::vector<char> no_scratch;

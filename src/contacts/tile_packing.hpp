@@ -5,6 +5,12 @@
 
 namespace edda {
 
+/// What a face does that carries load.
+constexpr face_kind::Kind kind_of_working(bool short_formulas, bool works) {
+  if (short_formulas) return works ? face_kind::short_work : face_kind::short_rest;
+  return works ? face_kind::long_work : face_kind::long_rest;
+}
+
 /// Lets the faces at two places of a tile change places, with all that they remember and have
 /// found. The marks and the constants of their chunks, and the records, are left to the caller.
 void swap_faces(FaceTiles& tiles, std::size_t place, std::size_t other);

@@ -70,6 +70,14 @@ void recall_face(FaceSet& c, const FaceTiles& t, std::size_t k) {
   c.now.inactive[k / FaceSet::chunk] = 0;
 }
 
+void recall_work(FaceSet& c, const FaceTiles& t) {
+  parallel_chunks(c.size(), FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      if (t.place[k][0] != no_id) recall_sums(c, t, k);
+    }
+  });
+}
+
 bool stays_open(const FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& pose,
                 std::size_t k) {
   FaceInputs in{};
@@ -118,6 +126,22 @@ void unload_open(FaceSet& c, const FaceTiles& t, std::size_t q) {
 
 }  // namespace
 
+namespace {
+
+/// A face that is new in the list has no state until its first step.
+void clear_new_faces(FaceSet& c, const FaceTiles& t) {
+  parallel_chunks(c.size(), FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Id place = t.place[k][0];
+      const bool on = place == no_id ||
+                      lane_bits::test(t.bits[t.now][place / lanes], lane_bits::on, place % lanes);
+      if (!on && c.now.gate[k] > 0.0) c.now.clear_row(k);
+    }
+  });
+}
+
+}  // namespace
+
 void unload_faces(FaceSet& c, const FaceTiles& t, const FaceScene& scene, double step) {
   const std::vector<std::uint8_t> acted = chunks_that_have_acted(c, t);
   parallel_chunks(c.size(), FaceSet::chunk, [&](std::size_t q, std::size_t begin, std::size_t end) {
@@ -131,6 +155,7 @@ void unload_faces(FaceSet& c, const FaceTiles& t, const FaceScene& scene, double
     }
   });
   evaluate_as_decided(c, scene, step);
+  clear_new_faces(c, t);
 }
 
 namespace {

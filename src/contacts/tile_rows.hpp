@@ -12,6 +12,9 @@ namespace edda {
 /// its forces.
 void recall_face(FaceSet& faces, const FaceTiles& tiles, std::size_t k);
 
+/// Brings the accumulated work of all faces up to date.
+void recall_work(FaceSet& faces, const FaceTiles& tiles);
+
 /// Whether face k, which has carried nothing for two steps, remains open at these positions.
 bool stays_open(const FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
                 const Pose& pose, std::size_t k);

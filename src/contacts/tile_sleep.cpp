@@ -62,38 +62,19 @@ void begin_sleep(const SweepScene& scene, TileSleep& sleep, const SweepScratch& 
   sleep.over = false;
 }
 
-/// What the faces of a tile do, in the order in which they lie in it: carry load by the short
-/// formulas (FaceSet::plain) and by the long ones, at rest and with work; touch, are looked at,
-/// sleep.
-enum Kind : std::uint8_t {
-  short_rest,
-  short_work,
-  long_work,
-  long_rest,
-  touching,
-  looked_at,
-  asleep
-};
-constexpr std::size_t kinds = 7;
 constexpr std::uint8_t slept = 8;  ///< and it slept before
-
-/// What a face does that carries load.
-Kind kind_of_working(bool short_formulas, bool works) {
-  if (short_formulas) return works ? short_work : short_rest;
-  return works ? long_work : long_rest;
-}
 
 /// Where fewer faces than this part of the edges would sleep, none does: to see whether they may
 /// go on takes as long as to look at them.
 constexpr double worth_sleeping = 0.25;
 
 /// Fills SweepScratch::kind. Returns how many faces there are of each kind.
-std::array<Id, kinds> classify(const FaceTiles& t, std::size_t tile, double noise,
-                               SweepScratch& scratch) {
+std::array<Id, face_kinds> classify(const FaceTiles& t, std::size_t tile, double noise,
+                                    SweepScratch& scratch) {
   const Tile& of = t.tiles[tile];
   const int old = 1 - t.now;
   scratch.kind.resize((of.last_chunk - of.first_chunk) * lanes);
-  std::array<Id, kinds> count{};
+  std::array<Id, face_kinds> count{};
   Records e, f, pace_e, pace_f;
   std::uint8_t* next = scratch.kind.data();
   for (std::size_t q = of.first_chunk; q < of.last_chunk; ++q) {
@@ -114,21 +95,23 @@ std::array<Id, kinds> classify(const FaceTiles& t, std::size_t tile, double nois
         return lane_bits::test(t.found[old][q], what, lane);
       };
       const auto is = [&](unsigned bits) { return (bits >> lane & 1u) != 0; };
-      Kind kind = is(open.stay) ? asleep : is(open.near) ? touching : looked_at;
+      face_kind::Kind kind = is(open.stay)   ? face_kind::asleep
+                             : is(open.near) ? face_kind::touching
+                                             : face_kind::looked_at;
       if (found(lane_bits::works))
         kind = kind_of_working(!found(lane_bits::rare), found(lane_bits::busy));
-      if (t.face[q * lanes + lane] == no_id) kind = asleep;
+      if (t.face[q * lanes + lane] == no_id) kind = face_kind::asleep;
       ++count[kind];
       *next++ = static_cast<std::uint8_t>(kind | (q >= of.awake_end ? slept : 0));
     }
   }
-  if (count[asleep] >= worth_sleeping * of.slots()) return count;
+  if (count[face_kind::asleep] >= worth_sleeping * of.slots()) return count;
   for (std::size_t n = 0; n < scratch.kind.size(); ++n) {
     std::uint8_t& kind = scratch.kind[n];
-    if (kind % slept != asleep || t.face[of.first_chunk * lanes + n] == no_id) continue;
-    kind = static_cast<std::uint8_t>(looked_at | (kind & slept));
-    --count[asleep];
-    ++count[looked_at];
+    if (kind % slept != face_kind::asleep || t.face[of.first_chunk * lanes + n] == no_id) continue;
+    kind = static_cast<std::uint8_t>(face_kind::looked_at | (kind & slept));
+    --count[face_kind::asleep];
+    ++count[face_kind::looked_at];
   }
   return count;
 }
@@ -171,18 +154,18 @@ bool sleep_is_over(FaceTiles& t, const SweepScene& scene, std::size_t tile,
 void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScratch& scratch) {
   Tile& of = t.tiles[tile];
   begin_sleep(scene, of.sleep, scratch, of.slots() - 1);
-  const std::array<Id, kinds> count = classify(t, tile, scene.noise, scratch);
+  const std::array<Id, face_kinds> count = classify(t, tile, scene.noise, scratch);
   std::vector<std::uint8_t>& kind = scratch.kind;
   std::vector<std::uint8_t>& touched = scratch.touched;
   touched.assign(of.last_chunk - of.first_chunk, 0);
-  std::array<std::size_t, kinds> next{}, end{};
-  for (std::size_t r = 0, begin = 0; r < kinds; ++r) {
+  std::array<std::size_t, face_kinds> next{}, end{};
+  for (std::size_t r = 0, begin = 0; r < face_kinds; ++r) {
     next[r] = begin;
     end[r] = begin += count[r];
   }
   const std::size_t first = of.first_chunk * lanes;
   const auto of_kind = [&](std::size_t n) { return std::size_t{kind[n]} % slept; };
-  for (std::size_t r = 0; r < kinds; ++r) {
+  for (std::size_t r = 0; r < face_kinds; ++r) {
     for (std::size_t n = next[r]; n < end[r]; ++n) {
       while (of_kind(n) != r) {
         const std::size_t to = of_kind(n);
@@ -194,7 +177,8 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
       }
     }
   }
-  const Id awake = (of.last_chunk - of.first_chunk) * static_cast<Id>(lanes) - count[asleep];
+  const Id awake =
+      (of.last_chunk - of.first_chunk) * static_cast<Id>(lanes) - count[face_kind::asleep];
   const Id was = of.awake_end;
   of.awake_end = of.first_chunk + static_cast<Id>((awake + lanes - 1) / lanes);
   for (Id q = std::min(was, of.awake_end); q < std::max(was, of.awake_end); ++q) {

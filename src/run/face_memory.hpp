@@ -105,14 +105,13 @@ void judge_faces(Judge& j, const FaceSet& c, const BlockSet& b, const LawTable& 
   j.below("faces.edge", c.edge, nv);
   j.below("faces.facing", c.facing, nv);
   j.below("faces.law", {c.law.begin(), c.law.end()}, laws.rows.size());
-  std::vector<std::pair<Id, Id>> pairs;
-  for (std::size_t k = 0; j.flaw().empty() && k < n; ++k) pairs.push_back({c.edge[k], c.facing[k]});
-  std::sort(pairs.begin(), pairs.end());
-  const bool twice = std::adjacent_find(pairs.begin(), pairs.end()) != pairs.end();
-  const bool apart = std::all_of(pairs.begin(), pairs.end(), [&](const auto& p) {
-    return p.first < p.second && b.vertex_block[p.first] != b.vertex_block[p.second];
-  });
-  if (twice || !apart) j.refuse("faces do not belong together");
+  const auto pair_of = [&](std::size_t k) { return std::pair(c.edge[k], c.facing[k]); };
+  for (std::size_t k = 0; j.flaw().empty() && k < n; ++k) {
+    const auto [e, f] = pair_of(k);
+    const bool sorted = k == 0 || pair_of(k - 1) < pair_of(k);
+    if (!sorted || e >= f || b.vertex_block[e] == b.vertex_block[f])
+      j.refuse("faces do not belong together");
+  }
   if (!all_finite(c)) j.refuse("faces have a number that is not finite");
 }
 

@@ -23,6 +23,7 @@ void place_all(Simulation& sim) {
 }
 
 void search(Simulation& sim, double reach) {
+  if (sim.leapfrog.tiled.loaded && steps_in_tiles(sim)) return search_in_tiles(sim, reach);
   const BlockSet& blocks = sim.scene->blocks;
   State& state = sim.motion.state;
   Pose& pose = sim.motion.pose;
@@ -34,7 +35,7 @@ void search(Simulation& sim, double reach) {
     of_no_faces.alive.assign(blocks.size(), 0);
     find_faces(contacts, blocks, of_no_faces, pose, laws, reach);
   } else {
-    find_faces(contacts, blocks, state, pose, laws, reach);
+    find_faces(contacts, blocks, state, pose, laws, reach, sim.control.near_edges);
     set_face_dashpots(contacts, laws, sim.motion.damping.contact);
   }
   sum_face_forces(sim);
@@ -64,7 +65,7 @@ bool list_is_due(Simulation& sim) {
   if (contacts.travel + ahead <= contacts.reach) return false;
   // The sum of displacements is an upper bound; the positions decide.
   contacts.travel = largest_approach(control.neighbours, sim.scene->blocks, sim.motion.state,
-                                     sim.motion.pose, contacts);
+                                     sim.motion.pose, standing_of(contacts));
   if (!(contacts.travel <= 200.0 * (contacts.reach + sim.scene->displacement_limit))) {
     control.last_displacement = std::numeric_limits<double>::infinity();  // inspect() ends the run
     return false;
@@ -72,24 +73,8 @@ bool list_is_due(Simulation& sim) {
   return contacts.travel + sim.stepper->margin * ahead > contacts.reach;
 }
 
-/// Faces that carry load stand first in the list (find_faces()). Whether so many others carry load
-/// by now that a new list pays.
-bool list_is_scattered(const Simulation& sim) {
-  constexpr std::uint64_t every = 256;  // steps
-  constexpr std::size_t few = 16;       // chunks
-  if (sim.motion.state.steps % every != 0) return false;
-  const std::vector<std::uint8_t> carry = faces_that_carry(sim);
-  std::size_t carrying = 0, touched = 0;
-  for (std::size_t begin = 0; begin < carry.size(); begin += FaceSet::chunk) {
-    const std::size_t end = std::min(begin + FaceSet::chunk, carry.size()), before = carrying;
-    for (std::size_t k = begin; k < end; ++k) carrying += carry[k];
-    touched += carrying > before ? 1 : 0;
-  }
-  return touched > few + 3 * carrying / (2 * FaceSet::chunk);
-}
-
 void search_if_due(Simulation& sim) {
-  if (!list_is_due(sim) && !list_is_scattered(sim)) return;
+  if (!list_is_due(sim)) return;
   const double reach = std::max(sim.scene->base_reach, 20.0 * sim.control.last_displacement);
   search(sim, reach);
   set_limit(sim);

@@ -6,7 +6,10 @@
 
 #include "base/parallel.hpp"
 #include "contacts/activity.hpp"
+#include "contacts/face_bonds.hpp"
+#include "contacts/find_faces.hpp"
 #include "contacts/tile_loading.hpp"
+#include "contacts/tile_renewal.hpp"
 #include "contacts/tile_rows.hpp"
 #include "step/contact_search.hpp"
 #include "step/face_switching.hpp"
@@ -239,9 +242,7 @@ class FacesInTiles : public FaceAccess {
 bool steps_in_tiles(const Simulation& sim) {
   const TiledFaces& own = sim.leapfrog.tiled;
   const FaceSet& c = sim.motion.contacts;
-  if (sim.scene->at_points() || sim.motion.laws.any_changes || c.gluing) return false;
-  return own.use == TiledFaces::Use::where_faster ? !c.dashpots
-                                                  : own.use == TiledFaces::Use::always;
+  return own.use && !sim.scene->at_points() && !sim.motion.laws.any_changes && !c.gluing;
 }
 
 void load_tiles(Simulation& sim) {
@@ -287,21 +288,34 @@ double largest_closure(const TiledFaces& own) {
   return depth;
 }
 
-std::vector<std::uint8_t> faces_that_carry(const Simulation& sim) {
-  const FaceSet& c = sim.motion.contacts;
-  const FaceTiles& t = sim.leapfrog.tiled.tiles;
-  std::vector<std::uint8_t> carry(c.size(), 0);
-  if (!sim.leapfrog.tiled.ahead) {
-    for (std::size_t k = 0; k < c.size(); ++k) carry[k] = c.now.energy[k] > 0.0 ? 1 : 0;
-    return carry;
-  }
-  for (std::size_t k = 0; k < c.size(); ++k) {
+namespace {
+
+/// Whether each face stores energy, [nf].
+std::vector<std::uint8_t> faces_that_carry(const FaceTiles& t) {
+  std::vector<std::uint8_t> carry(t.place.size(), 0);
+  for (std::size_t k = 0; k < carry.size(); ++k) {
     const Id place = t.place[k][0];
     const bool stores = place != no_id && lane_bits::test(t.bits[t.now][place / lanes],
                                                           lane_bits::stored, place % lanes);
     carry[k] = stores ? 1 : 0;
   }
   return carry;
+}
+
+}  // namespace
+
+void search_in_tiles(Simulation& sim, double reach) {
+  TiledFaces& own = sim.leapfrog.tiled;
+  Motion& motion = sim.motion;
+  const BlockSet& b = sim.scene->blocks;
+  recall_work(motion.contacts, own.tiles);
+  const std::vector<Id> old_row =
+      renew_faces(motion.contacts, b, motion.state, motion.pose, motion.laws, reach,
+                  sim.control.near_edges, faces_that_carry(own.tiles), FaceStates::elsewhere);
+  set_face_dashpots(motion.contacts, motion.laws, motion.damping.contact);
+  renew_tiles(own.tiles, motion.contacts, b, motion.pose, old_row);
+  own.ahead = true;
+  own.pushed = 0.0;
 }
 
 void update_face_rows(Simulation& sim) {

@@ -15,9 +15,7 @@ struct StepTaken;
 
 struct TiledFaces {
   FaceTiles tiles;
-  /// Where it is faster: not with dashpots at the contacts, as moving heaps have them, in which
-  /// lists are made anew every few steps.
-  enum class Use { where_faster, always, never } use = Use::where_faster;
+  bool use = true;  ///< false: the rows are evaluated, which gives the same bits
   /// SweepScene::least_margin as a part of the list's reach. 0: no face sleeps.
   double sleep_part = 1e-9;
   double pushed = 0.0;  ///< m, SweepScene::pushed
@@ -30,8 +28,7 @@ struct TiledFaces {
   std::vector<std::uint8_t> wanted;   ///< [nb] working memory: 0 everywhere between uses
 };
 
-/// Whether the next step keeps the faces in tiles: where all that it reads of them is in there, and
-/// where that is faster. A function of the state alone, so that a resumed run does the same.
+/// Whether the next step keeps the faces in tiles: where all that it reads of them is in there.
 bool steps_in_tiles(const Simulation& sim);
 
 /// Takes the faces at n into tiles, unless they are; to be called before the blocks move.
@@ -47,8 +44,8 @@ void switch_in_tiles(Simulation& sim, const StepTaken& taken);
 /// Largest drawn closure of a face that carries load, m.
 double largest_closure(const TiledFaces& tiled);
 
-/// Whether each face stores energy, [nf].
-std::vector<std::uint8_t> faces_that_carry(const Simulation& sim);
+/// Makes a new list of the faces, which remain in tiles.
+void search_in_tiles(Simulation& sim, double reach);
 
 /// Brings the rows of the faces up to date.
 void update_face_rows(Simulation& sim);

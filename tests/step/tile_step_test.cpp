@@ -22,8 +22,17 @@ void expect_same_rows(const FaceSet& a, const FaceSet& b) {
       EXPECT_EQ(p[k], q[k]) << of << name << " of face " << k;
     }
   };
+  // Where edges do not face each other there is nothing to know; a face that has just been listed
+  // has no state until its first step.
+  const auto on = [](const FaceSet& c, const auto& column) {
+    std::vector<double> values = (c.now.*column.values).values();
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (c.now.gate[k] == 0.0) values[k] = 0.0;
+    }
+    return values;
+  };
   for (const auto& column : face_columns) {
-    compare("now: ", column.name, (a.now.*column.values).values(), (b.now.*column.values).values());
+    compare("now: ", column.name, on(a, column), on(b, column));
   }
   for (const auto& column : face_properties) {
     compare("", column.name, (a.*column.values).values(), (b.*column.values).values());
@@ -32,8 +41,7 @@ void expect_same_rows(const FaceSet& a, const FaceSet& b) {
 
 void compare_steps(const std::string& text, double duration) {
   Simulation tiled = testing::prepared(text).sim, rows = testing::prepared(text).sim;
-  tiled.leapfrog.tiled.use = TiledFaces::Use::always;
-  rows.leapfrog.tiled.use = TiledFaces::Use::never;
+  rows.leapfrog.tiled.use = false;
   ASSERT_FALSE(steps_in_tiles(rows));
   ASSERT_TRUE(steps_in_tiles(tiled));
   start(tiled, duration);
@@ -80,7 +88,6 @@ TEST(TileStep, WallThatIsHit) {
 TEST(TileStep, RowsInBetweenChangeNothing) {
   Simulation ahead = testing::prepared(hit_wall).sim, asked = testing::prepared(hit_wall).sim;
   for (Simulation* sim : {&ahead, &asked}) {
-    sim->leapfrog.tiled.use = TiledFaces::Use::always;
     sim->leapfrog.tiled.blocks = 16;
     start(*sim, 1.0);
   }
@@ -123,7 +130,6 @@ void compare_asleep_and_awake(const std::string& text, int steps) {
   Simulation sleeping = testing::prepared(text).sim, awake = testing::prepared(text).sim;
   awake.leapfrog.tiled.sleep_part = 0.0;
   for (Simulation* sim : {&sleeping, &awake}) {
-    sim->leapfrog.tiled.use = TiledFaces::Use::always;
     sim->leapfrog.tiled.blocks = 16;
     start(*sim, 1.0);
   }
@@ -159,9 +165,8 @@ TEST(TileStep, SleepChangesNothing) {
 /// closed.
 std::uint64_t compare_with_rows(const std::string& text, int steps) {
   Simulation tiled = testing::prepared(text).sim, rows = testing::prepared(text).sim;
-  tiled.leapfrog.tiled.use = TiledFaces::Use::always;
   tiled.leapfrog.tiled.blocks = 7;
-  rows.leapfrog.tiled.use = TiledFaces::Use::never;
+  rows.leapfrog.tiled.use = false;
   start(tiled, 100.0);
   start(rows, 100.0);
   for (int n = 0; n < steps && !::testing::Test::HasFailure(); ++n) {

@@ -1,0 +1,151 @@
+#include "contacts/near_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel.hpp"
+#include "base/vector_loop.hpp"
+#include "contacts/search.hpp"
+
+namespace edda {
+namespace {
+
+/// How much wider the reach of the stored pairs is: the wider, the more pairs are looked at for
+/// each list, and the fewer times they are found anew.
+constexpr double wider = 4.0;
+
+constexpr double most_beyond = std::numbers::pi / 4.0;  ///< rad: for a needle
+double cosine_of_none(double beyond) {
+  return std::cos(85.0 / 180.0 * std::numbers::pi + beyond);
+}
+
+/// What the loop over pairs of edges reads.
+struct EdgesView {
+  const Id *first, *second, *next;
+  const double *x, *y;
+};
+
+/// Square of the distance of p from the segment of direction u that starts at a.
+EDDA_INLINE double square_of_distance(Vec2 p, Vec2 a, Vec2 u, double per_square) {
+  const Vec2 to = p - a;
+  const double along = smaller(larger(dot(to, u) * per_square, 0.0), 1.0);
+  const Vec2 away = to - along * u;
+  return dot(away, away);
+}
+
+/// Cosine to which two edges may turn towards each other before a vertex of either has moved by
+/// half of `reach`; -2 where no end of one is within `reach` of the other.
+EDDA_INLINE double cosine_within(const EdgesView& v, double reach, std::size_t n) {
+  const Id e = v.first[n], f = v.second[n], e_end = v.next[e], f_end = v.next[f];
+  const Vec2 p1{v.x[e], v.y[e]}, p2{v.x[e_end], v.y[e_end]};
+  const Vec2 q1{v.x[f], v.y[f]}, q2{v.x[f_end], v.y[f_end]};
+  const Vec2 u = p2 - p1, w = q2 - q1;
+  const double uu = 1.0 / dot(u, u), ww = 1.0 / dot(w, w);
+  const double nearest =
+      smaller(smaller(square_of_distance(p1, q1, w, ww), square_of_distance(p2, q1, w, ww)),
+              smaller(square_of_distance(q1, p1, u, uu), square_of_distance(q2, p1, u, uu)));
+  const double per_e = std::sqrt(uu), per_f = std::sqrt(ww);
+  // The largest relative rotation of the two edges is reach/le + reach/lf.
+  const double reached = reach * (per_e + per_f) - dot(u, w) * (per_e * per_f);
+  return nearest < reach * reach ? reached : -2.0;
+}
+
+EDDA_VECTOR void find_cosines(EdgesView v, double reach, double* cosine, std::size_t begin,
+                              std::size_t end) {
+#pragma omp simd
+  for (std::size_t n = begin; n < end; ++n) cosine[n - begin] = cosine_within(v, reach, n);
+}
+
+/// Whether edges that may reach this cosine may be opposed. For most pairs the gate need not be
+/// computed: it lies between those of blunt corners and of a needle.
+bool may_oppose(const BlockSet& b, Id e, Id f, double cosine) {
+  static const double of_blunt = cosine_of_none(0.0), of_needle = cosine_of_none(most_beyond);
+  return cosine > of_blunt || (cosine > of_needle && cosine > angle_gate(b, e, f).none);
+}
+
+constexpr std::size_t pairs_at_once = 512;
+
+/// Those of the pairs [begin, end) that are within `reach`, both blocks alive; visit(e, f).
+template <class Visit>
+void for_pairs_within(const NearEdges& known, const BlockSet& b, const State& state,
+                      const Pose& pose, double reach, std::size_t begin, std::size_t end,
+                      Visit visit) {
+  double cosine[pairs_at_once];
+  const EdgesView view{known.first.data(), known.second.data(), b.next.data(), pose.x.data(),
+                       pose.y.data()};
+  find_cosines(view, reach, cosine, begin, end);
+  for (std::size_t n = begin; n < end; ++n) {
+    if (cosine[n - begin] == -2.0) continue;
+    const Id e = known.first[n], f = known.second[n];
+    const bool alive = state.alive[b.vertex_block[e]] != 0 && state.alive[b.vertex_block[f]] != 0;
+    if (alive && may_oppose(b, e, f, cosine[n - begin])) visit(e, f);
+  }
+}
+
+/// Fills the store for this reach.
+void find_near_edges(NearEdges& known, const BlockSet& b, const State& state, const Pose& pose,
+                     double reach) {
+  std::vector<EdgePair> pairs;
+  const auto add = [&](Id e, Id f) {
+    const Vec2 u = at(pose.x, pose.y, b.next[e]) - at(pose.x, pose.y, e);
+    const Vec2 w = at(pose.x, pose.y, b.next[f]) - at(pose.x, pose.y, f);
+    const double le = norm(u), lf = norm(w);
+    constexpr double strained = 1.01;  // edges may have other lengths later
+    if (may_oppose(b, e, f, strained * (reach / le + reach / lf) - dot(u, w) / (le * lf)))
+      pairs.push_back(std::minmax(e, f));
+  };
+  for (const NearPair& near : near_pairs(b, state.alive, pose.x, pose.y, reach)) {
+    add(near.vertex, near.edge);
+    add(b.previous[near.vertex], near.edge);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  known.first.clear();
+  known.second.clear();
+  for (const auto& [e, f] : pairs) {
+    known.first.push_back(e);
+    known.second.push_back(f);
+  }
+  known.reach = reach;
+  known.built_x = pose.x;
+  known.built_y = pose.y;
+  ++known.lists;
+}
+
+/// Whether the pairs within `reach` are all in the store.
+bool holds(NearEdges& known, const BlockSet& b, const State& state, const Pose& pose,
+           double reach) {
+  if (known.lists == 0 || !(reach < known.reach)) return false;
+  const Standing then{known.built_x, known.built_y, known.reach, known.lists};
+  // The part takes up the rounding of distances.
+  constexpr double part = 1.0 - 1e-9;
+  return reach + largest_approach(known.groups, b, state, pose, then) < part * known.reach;
+}
+
+}  // namespace
+
+AngleGate angle_gate(const BlockSet& b, Id e, Id f) {
+  const double sharpest =
+      std::min({b.corner[e], b.corner[b.next[e]], b.corner[f], b.corner[b.next[f]]});
+  const double beyond = std::max(0.0, most_beyond - 0.5 * sharpest);
+  return {std::cos(std::numbers::pi / 3.0 + beyond), cosine_of_none(beyond)};
+}
+
+std::vector<EdgePair> edges_within(NearEdges& known, const BlockSet& b, const State& state,
+                                   const Pose& pose, double reach) {
+  if (!holds(known, b, state, pose, reach)) find_near_edges(known, b, state, pose, wider * reach);
+  const std::size_t all = known.first.size();
+  std::vector<std::vector<EdgePair>> parts((all + pairs_at_once - 1) / pairs_at_once);
+  parallel_chunks(all, pairs_at_once, [&](std::size_t q, std::size_t begin, std::size_t end) {
+    for_pairs_within(known, b, state, pose, reach, begin, end, [&](Id e, Id f) {
+      parts[q].push_back({e, f});
+    });
+  });
+  std::vector<EdgePair> pairs;
+  pairs.reserve(all);
+  for (const auto& part : parts) pairs.insert(pairs.end(), part.begin(), part.end());
+  return pairs;
+}
+
+}  // namespace edda

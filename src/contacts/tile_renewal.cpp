@@ -1,0 +1,125 @@
+#include "contacts/tile_renewal.hpp"
+
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "contacts/tile_columns.hpp"
+#include "contacts/tile_loading.hpp"
+#include "contacts/tile_packing.hpp"
+
+namespace edda {
+namespace {
+
+/// What each face of the old list did, [nf].
+std::vector<std::uint8_t> kinds_of(const FaceTiles& t) {
+  std::vector<std::uint8_t> kind(t.place.size(), face_kind::looked_at);
+  for (const Tile& tile : t.tiles) {
+    for (Id q = tile.first_chunk; q < tile.last_chunk; ++q) {
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const Id k = t.face[q * lanes + lane];
+        if (k == no_id) continue;
+        const auto found = [&](unsigned of) {
+          return lane_bits::test(t.found[t.now][q], of, lane);
+        };
+        if (q >= tile.awake_end) {
+          kind[k] = face_kind::asleep;
+        } else if (found(lane_bits::works)) {
+          kind[k] = kind_of_working(!found(lane_bits::rare), found(lane_bits::busy));
+        }
+      }
+    }
+  }
+  return kind;
+}
+
+/// The tiles of both lists, and what one face of the old list did.
+struct Renewal {
+  FaceTiles& next;
+  const FaceTiles& old;
+  const FaceSet& faces;
+  const Pose& pose;
+};
+
+/// Copies the bits of one face in every field.
+void copy_bits(LaneBits& to, std::size_t lane, LaneBits from, std::size_t old_lane) {
+  constexpr LaneBits every = 0x0101010101010101;
+  to |= (from >> old_lane & every) << lane;
+}
+
+/// What a face remembers of one step, and what it has done in it.
+void copy_step(const Renewal& r, int which, std::size_t place, std::size_t from) {
+  const std::size_t q = place / lanes, p = from / lanes;
+  const auto memory = get<FaceMemoryColumns<double>>(r.old.memory[which], from);
+  put(r.next.memory[which], place, memory);
+  if (r.next.has_dashpots()) {
+    put(r.next.dashpots[which], place,
+        get<DashpotMemoryColumns<double>>(r.old.dashpots[which], from));
+  }
+  copy_bits(r.next.bits[which][q], place % lanes, r.old.bits[which][p], from % lanes);
+  copy_bits(r.next.found[which][q], place % lanes, r.old.found[which][p], from % lanes);
+  const bool kept = r.old.fresh[which][p] != 0;
+  if (kept) begin_work(r.next, which, q);
+  if (r.next.fresh[which][q] != 0) {
+    put(r.next.work[which], place,
+        kept ? get<FaceWorkColumns<double>>(r.old.work[which], from) : no_work(memory));
+  }
+  if (lane_bits::test(r.old.found[which][p], lane_bits::works, from % lanes))
+    r.next.idle[which][q] = 0;
+}
+
+/// The corners of a face that has just been listed, or has slept, at both steps.
+void place_corners(const Renewal& r, std::size_t place, std::size_t k) {
+  const Pose& p = r.pose;
+  load_corners(r.next, coordinates_at(r.faces, p.x, p.y, k), r.next.now, place);
+  load_corners(r.next, coordinates_at(r.faces, p.x1, p.y1, k), 1 - r.next.now, place);
+}
+
+void renew_copy(const Renewal& r, std::size_t place, Id old, bool slept) {
+  const Id k = r.next.face[place];
+  const Id from = old == no_id ? no_id : r.old.place[old][0];
+  if (from != no_id) {
+    for (const int which : {0, 1}) copy_step(r, which, place, from);
+    put(r.next.sums, place, get<FaceSumColumns<double>>(r.old.sums, from));
+    copy_bits(r.next.ever[place / lanes], place % lanes, r.old.ever[from / lanes], from % lanes);
+  }
+  if (from == no_id || slept) place_corners(r, place, k);
+}
+
+}  // namespace
+
+void renew_tiles(FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& pose,
+                 const std::vector<Id>& old_row) {
+  const std::vector<std::uint8_t> did = kinds_of(t);
+  std::vector<std::uint8_t> kind(c.size(), face_kind::looked_at);
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (old_row[k] != no_id) kind[k] = did[old_row[k]];
+  }
+  FaceTiles old = std::move(t);
+  t = FaceTiles{};
+  t.tiles = old.tiles;
+  t.blocks = std::move(old.blocks);
+  t.constants = std::move(old.constants);
+  t.forces = std::move(old.forces);
+  t.now = old.now;
+  lay_out(t, c, b, kind);
+  t.deepest.assign(t.chunks(), 0.0);
+  const Renewal renewal{t, old, c, pose};
+  std::vector<char> no_scratch;
+  parallel_tasks(t.tiles.size(), b.size(), no_scratch, [&](std::size_t tile, char&) {
+    const Tile& of = t.tiles[tile];
+    TileConstants& constants = t.constants[tile];
+    constants.edges.clear();
+    constants.strengths.clear();
+    for (std::size_t q = of.first_chunk; q < of.last_chunk; ++q) {
+      load_chunk_constants(t, c, b, tile, q);
+      t.idle[0][q] = t.idle[1][q] = 1;
+      for (std::size_t place = q * lanes; place < (q + 1) * lanes; ++place) {
+        const Id k = t.face[place];
+        if (k != no_id) renew_copy(renewal, place, old_row[k], kind[k] == face_kind::asleep);
+      }
+    }
+    order_records(t, c, b, tile);
+  });
+}
+
+}  // namespace edda
