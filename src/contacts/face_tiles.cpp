@@ -4,6 +4,8 @@
 #include <atomic>
 #include <numeric>
 
+#include "base/parallel.hpp"
+
 namespace edda {
 namespace {
 
@@ -84,47 +86,47 @@ std::vector<Id> tiles_of_blocks(const FaceTiles& t, std::size_t blocks) {
 /// Gives edges their slots in a tile.
 class Slots {
  public:
-  explicit Slots(std::size_t edges) : slot_(edges), tile_(edges, no_id) {}
-
-  void begin(FaceTiles& t, const BlockSet& b, std::size_t tile) {
-    t_ = &t;
+  /// Begins a tile with the edges of its own blocks; halo: takes those of others.
+  void begin(const FaceTiles& t, const BlockSet& b, std::size_t tile, std::vector<Id>& halo) {
+    slot_.resize(b.vertex_count());
+    tile_.resize(b.vertex_count(), no_id);
     here_ = static_cast<Id>(tile);
-    Tile& of = t.tiles[tile];
+    halo_ = &halo;
     next_ = 0;
+    const Tile& of = t.tiles[tile];
     for (Id n = of.first_block; n < of.last_block; ++n) {
       const Id i = t.blocks[n];
       for (Id e = b.vertex_begin[i]; e < b.vertex_begin[i + 1]; ++e) give(e);
     }
-    of.own_edges = next_;
-    of.first_halo = of.last_halo = static_cast<Id>(t.halo.size());
   }
   Id of(Id edge) {
     if (tile_[edge] != here_) {
       give(edge);
-      t_->halo.push_back(edge);
-      t_->tiles[here_].last_halo = static_cast<Id>(t_->halo.size());
+      halo_->push_back(edge);
     }
     return slot_[edge];
   }
+  Id next() const { return next_; }
 
  private:
   void give(Id edge) {
     tile_[edge] = here_;
     slot_[edge] = next_++;
   }
-  FaceTiles* t_ = nullptr;
+  std::vector<Id>* halo_ = nullptr;
   Id here_ = 0, next_ = 0;
   std::vector<Id> slot_, tile_;
 };
 
 void resize_chunks(FaceTiles& t, std::size_t chunks, bool dashpots) {
+  for (auto* ids : {&t.face, &t.slot_e, &t.slot_f, &t.record_e, &t.record_f})
+    ids->resize(chunks * lanes);
+  t.owned.assign(chunks, 0);
   t.plain.assign(chunks, 1);
   t.bonds.assign(chunks, 0);
   t.edge_set.assign(chunks, 0);
   t.strength_set.assign(chunks, 0);
-  t.record_e.assign(chunks * lanes, 0);
-  t.record_f.assign(chunks * lanes, 0);
-  t.sums.assign(chunks * sum_columns * lanes, 0.0);
+  t.sums.resize(chunks * sum_columns * lanes);
   t.ever.assign(chunks, 0);
   for (int which : {0, 1}) {
     t.idle[which].assign(chunks, 0);
@@ -132,8 +134,78 @@ void resize_chunks(FaceTiles& t, std::size_t chunks, bool dashpots) {
     t.bits[which].assign(chunks, 0);
     t.found[which].assign(chunks, 0);
     t.work[which].resize(chunks * work_columns * lanes);
-    t.memory[which].assign(chunks * memory_columns * lanes, 0.0);
-    t.dashpots[which].assign(dashpots ? chunks * dashpot_memory_columns * lanes : 0, 0.0);
+    t.memory[which].resize(chunks * memory_columns * lanes);
+    t.dashpots[which].resize(dashpots ? chunks * dashpot_memory_columns * lanes : 0);
+  }
+}
+
+/// Says where the chunks and the edges of each tile begin. Returns how many chunks there are.
+std::size_t place_tiles(FaceTiles& t, const FacesOfTiles& of, const BlockSet& b) {
+  std::size_t chunks = 0;
+  Id edges = 0;
+  for (std::size_t q = 0; q < t.tiles.size(); ++q) {
+    Tile& tile = t.tiles[q];
+    tile.own_edges = 0;
+    for (Id n = tile.first_block; n < tile.last_block; ++n)
+      tile.own_edges += b.vertex_begin[t.blocks[n] + 1] - b.vertex_begin[t.blocks[n]];
+    tile.first_edge = edges;
+    edges += tile.own_edges + 1;
+    tile.first_chunk = static_cast<Id>(chunks);
+    chunks += (of.begin[q + 1] - of.begin[q] + lanes - 1) / lanes;
+    tile.last_chunk = tile.awake_end = static_cast<Id>(chunks);
+    tile.takes_then = false;
+    tile.sleep = {};
+  }
+  t.record_begin.assign(edges, 0);
+  return chunks;
+}
+
+/// Gives the faces of a tile their places. A face of two tiles belongs to the first.
+void lay_out_tile(FaceTiles& t, const FacesOfTiles& of, const FaceSet& c, const BlockSet& b,
+                  const std::vector<Id>& tile_of, std::size_t q, Slots& slots,
+                  std::vector<Id>& halo) {
+  Tile& tile = t.tiles[q];
+  slots.begin(t, b, q, halo);
+  std::size_t place = tile.first_chunk * lanes;
+  for (Id n = of.begin[q]; n < of.begin[q + 1]; ++n, ++place) {
+    const Id k = of.face[n];
+    const bool owns =
+        std::min(tile_of[b.vertex_block[c.edge[k]]], tile_of[b.vertex_block[c.facing[k]]]) == q;
+    t.place[k][owns ? 0 : 1] = static_cast<Id>(place);
+    std::uint8_t& owned = t.owned[place / lanes];
+    if (owns) owned = static_cast<std::uint8_t>(owned | 1u << (place % lanes));
+    t.face[place] = k;
+    t.slot_e[place] = slots.of(c.edge[k]);
+    t.slot_f[place] = slots.of(c.facing[k]);
+    tile.takes_then = tile.takes_then || !c.locked_start.empty() || c.locked_closure_a[k] != 0.0 ||
+                      c.locked_closure_b[k] != 0.0;
+  }
+  for (; place < tile.last_chunk * lanes; ++place) {
+    t.face[place] = no_id;
+    t.slot_e[place] = t.slot_f[place] = slots.next();
+  }
+}
+
+/// Lets no face of a tile remember anything.
+void clear_memory(FaceTiles& t, std::size_t tile) {
+  const std::size_t first = t.tiles[tile].first_chunk, chunks = t.tiles[tile].last_chunk - first;
+  const auto clear = [&](AlignedNumbers& table, std::size_t columns) {
+    if (!table.empty()) std::fill_n(&table[first * columns * lanes], chunks * columns * lanes, 0.0);
+  };
+  clear(t.sums, sum_columns);
+  for (const int which : {0, 1}) {
+    clear(t.memory[which], memory_columns);
+    clear(t.dashpots[which], dashpot_memory_columns);
+  }
+}
+
+/// Joins the edges of others of all tiles.
+void join_halos(FaceTiles& t, const std::vector<std::vector<Id>>& halos) {
+  t.halo.clear();
+  for (std::size_t q = 0; q < t.tiles.size(); ++q) {
+    t.tiles[q].first_halo = static_cast<Id>(t.halo.size());
+    t.halo.insert(t.halo.end(), halos[q].begin(), halos[q].end());
+    t.tiles[q].last_halo = static_cast<Id>(t.halo.size());
   }
 }
 
@@ -169,45 +241,18 @@ std::size_t FaceTiles::tile_of_chunk(std::size_t chunk) const {
 
 void lay_out(FaceTiles& t, const FaceSet& c, const BlockSet& b,
              const std::vector<std::uint8_t>& kind) {
-  FacesOfTiles of = faces_of_tiles(t, c, b, tiles_of_blocks(t, b.size()));
+  const std::vector<Id> tile_of = tiles_of_blocks(t, b.size());
+  FacesOfTiles of = faces_of_tiles(t, c, b, tile_of);
   if (!kind.empty()) sort_by_kind(of, kind);
-  Slots slots(b.vertex_count());
-  t.halo.clear();
-  t.face.clear();
-  t.slot_e.clear();
-  t.slot_f.clear();
-  t.owned.clear();
+  resize_chunks(t, place_tiles(t, of, b), c.dashpots);
   t.place.assign(c.size(), {no_id, no_id});
-  Id edges = 0;
-  for (std::size_t q = 0; q < t.tiles.size(); ++q) {
-    Tile& tile = t.tiles[q];
-    slots.begin(t, b, q);
-    tile.first_edge = edges;
-    edges += tile.own_edges + 1;
-    tile.first_chunk = static_cast<Id>(t.face.size() / lanes);
-    tile.takes_then = false;
-    tile.sleep = {};
-    for (Id n = of.begin[q]; n < of.begin[q + 1]; ++n) {
-      const Id k = of.face[n], place = static_cast<Id>(t.face.size());
-      if (place % lanes == 0) t.owned.push_back(0);
-      const bool owns = t.place[k][0] == no_id;
-      t.place[k][owns ? 0 : 1] = place;
-      if (owns) t.owned.back() = static_cast<std::uint8_t>(t.owned.back() | 1u << (place % lanes));
-      t.face.push_back(k);
-      t.slot_e.push_back(slots.of(c.edge[k]));
-      t.slot_f.push_back(slots.of(c.facing[k]));
-      tile.takes_then = tile.takes_then || !c.locked_start.empty() ||
-                        c.locked_closure_a[k] != 0.0 || c.locked_closure_b[k] != 0.0;
-    }
-    while (t.face.size() % lanes != 0) {
-      t.face.push_back(no_id);
-      t.slot_e.push_back(tile.slots() - 1);
-      t.slot_f.push_back(tile.slots() - 1);
-    }
-    tile.last_chunk = tile.awake_end = static_cast<Id>(t.face.size() / lanes);
-  }
-  resize_chunks(t, t.face.size() / lanes, c.dashpots);
-  t.record_begin.assign(edges, 0);
+  std::vector<std::vector<Id>> halos(t.tiles.size());
+  std::vector<Slots> slots;
+  parallel_tasks(t.tiles.size(), b.size(), slots, [&](std::size_t q, Slots& of_thread) {
+    lay_out_tile(t, of, c, b, tile_of, q, of_thread, halos[q]);
+    clear_memory(t, q);
+  });
+  join_halos(t, halos);
   t.constants.resize(t.tiles.size());
   t.forces.resize(t.tiles.size());
   t.kept.assign(t.tiles.size(), 0);

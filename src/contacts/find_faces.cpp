@@ -139,6 +139,7 @@ void copy_state(FaceSet& next, std::size_t k, const FaceSet& faces, Id old) {
 /// Row k becomes a face that was not in the old list.
 void begin_face(FaceSet& next, std::size_t k, const BlockSet& b, const LawTable& laws) {
   const Id e = next.edge[k], f = next.facing[k];
+  next.clear_row(k);
   next.law[k] = laws.resolve_met(b.edge_joint[e], b.edge_joint[f], b.material[b.vertex_block[e]],
                                  b.material[b.vertex_block[f]]);
   set_residual_strength(next, laws, k);
@@ -205,14 +206,14 @@ void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
 }
 
 std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
-                            const LawTable& laws, double reach, NearEdges& known,
+                            const LawTable& laws, double reach, FaceSearch& search,
                             const std::vector<std::uint8_t>& carry, FaceStates states) {
   const std::vector<Listed> list =
-      wanted_faces(edges_within(known, b, state, pose, reach), faces, carry, b, state);
+      wanted_faces(edges_within(search.near, b, state, pose, reach), faces, carry, b, state);
   const std::size_t n = list.size();
   const bool copies = states == FaceStates::in_rows;
-  FaceSet next;
-  next.clear_rows(n);
+  FaceSet& next = search.spare;
+  next.set_rows(n);
   next.law.resize(n);
   next.edge.resize(n);
   next.facing.resize(n);
@@ -250,24 +251,25 @@ std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& b, const State& stat
   next.reach = reach;
   next.built_x = pose.x;
   next.built_y = pose.y;
+  next.travel = 0.0;
   next.rebuilds = faces.rebuilds + 1;
-  faces = std::move(next);
+  std::swap(faces, next);
   std::vector<Id> old(n);
   for (std::size_t k = 0; k < n; ++k) old[k] = list[k].old;
   return old;
 }
 
 void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
-                const LawTable& laws, double reach, NearEdges& known) {
+                const LawTable& laws, double reach, FaceSearch& search) {
   std::vector<std::uint8_t> carry(faces.size());
   for (std::size_t k = 0; k < faces.size(); ++k) carry[k] = faces.now.energy[k] > 0.0 ? 1 : 0;
-  renew_faces(faces, b, state, pose, laws, reach, known, carry, FaceStates::in_rows);
+  renew_faces(faces, b, state, pose, laws, reach, search, carry, FaceStates::in_rows);
 }
 
 void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
                 const LawTable& laws, double reach) {
-  NearEdges known;
-  find_faces(faces, b, state, pose, laws, reach, known);
+  FaceSearch search;
+  find_faces(faces, b, state, pose, laws, reach, search);
 }
 
 }  // namespace edda

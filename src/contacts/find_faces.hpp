@@ -10,11 +10,17 @@
 
 namespace edda {
 
+/// What a search leaves to the next one, which saves time and changes nothing.
+struct FaceSearch {
+  NearEdges near;
+  FaceSet spare;  ///< the list before this one, for its memory
+};
+
 /// Lists all pairs of edges of two blocks that may act before any vertex has moved by half of
 /// `reach` (m), sorted by `edge`, then by `facing`, and carries over the memory of those that were
-/// in the old list. known: what the search before has found, which saves time.
+/// in the old list.
 void find_faces(FaceSet& faces, const BlockSet& blocks, const State& state, const Pose& pose,
-                const LawTable& laws, double reach, NearEdges& known);
+                const LawTable& laws, double reach, FaceSearch& search);
 void find_faces(FaceSet& faces, const BlockSet& blocks, const State& state, const Pose& pose,
                 const LawTable& laws, double reach);
 
@@ -25,8 +31,9 @@ enum class FaceStates { in_rows, elsewhere };
 /// The same; carry: [nf] 1: the face stores energy. Returns for each face of the new list its row
 /// in the old one, or no_id.
 std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& blocks, const State& state,
-                            const Pose& pose, const LawTable& laws, double reach, NearEdges& known,
-                            const std::vector<std::uint8_t>& carry, FaceStates states);
+                            const Pose& pose, const LawTable& laws, double reach,
+                            FaceSearch& search, const std::vector<std::uint8_t>& carry,
+                            FaceStates states);
 
 /// Fills everything that follows from the edges and laws of the faces.
 void complete_faces(FaceSet& faces, const BlockSet& blocks, const LawTable& laws);

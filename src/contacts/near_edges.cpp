@@ -83,6 +83,27 @@ void for_pairs_within(const NearEdges& known, const BlockSet& b, const State& st
   }
 }
 
+/// Sorts pairs and drops those that are there twice: by their first edges first, of which each has
+/// few.
+void store_sorted(NearEdges& known, const std::vector<EdgePair>& pairs, std::size_t edges) {
+  std::vector<Id> begin(edges + 1, 0);
+  for (const EdgePair& pair : pairs) ++begin[pair.first + 1];
+  for (std::size_t e = 0; e < edges; ++e) begin[e + 1] += begin[e];
+  std::vector<Id> second(pairs.size()), next(begin.begin(), begin.end() - 1);
+  for (const auto& [e, f] : pairs) second[next[e]++] = f;
+  known.first.clear();
+  known.second.clear();
+  for (Id e = 0; e < edges; ++e) {
+    const auto from = second.begin() + begin[e], to = second.begin() + begin[e + 1];
+    std::sort(from, to);
+    for (auto f = from; f != to; ++f) {
+      if (f != from && *f == *(f - 1)) continue;
+      known.first.push_back(e);
+      known.second.push_back(*f);
+    }
+  }
+}
+
 /// Fills the store for this reach.
 void find_near_edges(NearEdges& known, const BlockSet& b, const State& state, const Pose& pose,
                      double reach) {
@@ -99,14 +120,7 @@ void find_near_edges(NearEdges& known, const BlockSet& b, const State& state, co
     add(near.vertex, near.edge);
     add(b.previous[near.vertex], near.edge);
   }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  known.first.clear();
-  known.second.clear();
-  for (const auto& [e, f] : pairs) {
-    known.first.push_back(e);
-    known.second.push_back(f);
-  }
+  store_sorted(known, pairs, b.vertex_count());
   known.reach = reach;
   known.built_x = pose.x;
   known.built_y = pose.y;

@@ -87,19 +87,18 @@ void renew_copy(const Renewal& r, std::size_t place, Id old, bool slept) {
 
 }  // namespace
 
-void renew_tiles(FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& pose,
-                 const std::vector<Id>& old_row) {
+void renew_tiles(FaceTiles& t, FaceTiles& old, const FaceSet& c, const BlockSet& b,
+                 const Pose& pose, const std::vector<Id>& old_row) {
   const std::vector<std::uint8_t> did = kinds_of(t);
   std::vector<std::uint8_t> kind(c.size(), face_kind::looked_at);
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (old_row[k] != no_id) kind[k] = did[old_row[k]];
   }
-  FaceTiles old = std::move(t);
-  t = FaceTiles{};
+  std::swap(t, old);
   t.tiles = old.tiles;
-  t.blocks = std::move(old.blocks);
-  t.constants = std::move(old.constants);
-  t.forces = std::move(old.forces);
+  t.blocks = old.blocks;
+  t.constants.swap(old.constants);
+  t.forces.swap(old.forces);
   t.now = old.now;
   lay_out(t, c, b, kind);
   t.deepest.assign(t.chunks(), 0.0);

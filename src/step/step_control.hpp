@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "blocks/block_set.hpp"
-#include "contacts/near_edges.hpp"
+#include "contacts/find_faces.hpp"
 #include "forces/step_bound.hpp"
 
 namespace edda {
@@ -26,7 +26,7 @@ struct StepControl {
   std::uint64_t larger_allowed_since = 0;  ///< step since which a much larger one has been allowed
   double last_displacement = 0.0;          ///< m: largest of a vertex in the last step
   NeighbourGroups neighbours;              ///< of the list of possible contacts
-  NearEdges near_edges;                    ///< from which that list is made
+  FaceSearch face_search;
   StepCache step_cache;
   // Mass scaling.
   double scaled_step = 0.0;  ///< s: uniform step of a stage, to which inertia is raised; 0: none

@@ -311,9 +311,9 @@ void search_in_tiles(Simulation& sim, double reach) {
   recall_work(motion.contacts, own.tiles);
   const std::vector<Id> old_row =
       renew_faces(motion.contacts, b, motion.state, motion.pose, motion.laws, reach,
-                  sim.control.near_edges, faces_that_carry(own.tiles), FaceStates::elsewhere);
+                  sim.control.face_search, faces_that_carry(own.tiles), FaceStates::elsewhere);
   set_face_dashpots(motion.contacts, motion.laws, motion.damping.contact);
-  renew_tiles(own.tiles, motion.contacts, b, motion.pose, old_row);
+  renew_tiles(own.tiles, own.spare, motion.contacts, b, motion.pose, old_row);
   own.ahead = true;
   own.pushed = 0.0;
 }

@@ -15,6 +15,7 @@ struct StepTaken;
 
 struct TiledFaces {
   FaceTiles tiles;
+  FaceTiles spare;  ///< those of the list before, for their memory
   bool use = true;  ///< false: the rows are evaluated, which gives the same bits
   /// SweepScene::least_margin as a part of the list's reach. 0: no face sleeps.
   double sleep_part = 1e-9;
