@@ -8,6 +8,7 @@
 #include "contacts/face_bonds.hpp"
 #include "contacts/face_reading.hpp"
 #include "contacts/tile_loading.hpp"
+#include "contacts/tile_renewal.hpp"
 #include "contacts/tile_rows.hpp"
 #include "contacts/tile_sweep.hpp"
 #include "forces/nodal_forces.hpp"
@@ -29,7 +30,10 @@ double number(const AlignedNumbers& table, std::size_t columns, std::size_t colu
 struct Drift {
   std::mt19937 rng{7}, of_moves;
   DriftingHeap heap;
+  FaceSearch search;
+  FaceTiles spare;
   double damping;
+  std::size_t listed = 0, kept = 0;  ///< faces that a new list has added, and taken over
   std::size_t carrying = 0, sliding = 0, opened = 0, open = 0, asleep = 0;
   unsigned moves = 0, steady = 1;  ///< so many moves are alike
 
@@ -127,6 +131,30 @@ struct Drift {
     sweep();  // it may be repeated
     for (std::size_t k = 0; k < c.size(); ++k) compare(t, with_fixed, k);
     compare_forces(t, fx, fy);
+  }
+
+  /// Makes a new list, in rows and in tiles.
+  void renew(FaceTiles& t, FaceSet& own, double reach) {
+    const DriftingHeap& h = heap;
+    FaceSet& c = heap.contacts;
+    std::vector<std::uint8_t> carry(own.size());
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      const Id at = t.place[k][0];
+      carry[k] =
+          at != no_id && lane_bits::test(t.bits[t.now][at / lanes], lane_bits::stored, at % lanes);
+    }
+    recall_work(own, t);
+    const std::vector<Id> old = renew_faces(own, h.blocks, h.state, h.pose, h.laws, reach, search,
+                                            carry, FaceStates::elsewhere);
+    find_faces(c, h.blocks, h.state, h.pose, h.laws, reach);
+    for (FaceSet* faces : {&own, &c}) set_face_dashpots(*faces, h.laws, damping);
+    renew_tiles(t, spare, own, h.blocks, h.pose, old);
+    ASSERT_EQ(own.size(), c.size());
+    for (const auto& column : face_properties) {
+      for (std::size_t k = 0; k < c.size(); ++k)
+        expect_same((own.*column.values)[k], (c.*column.values)[k], column.name, k);
+    }
+    for (const Id k : old) (k == no_id ? listed : kept) += 1;
   }
 
   /// Takes over what evaluate_faces() has decided: nothing of faces that sleep.
@@ -260,8 +288,11 @@ void drift_asleep(double damping, double bonded_part, double locked_part, double
   load_faces(t, own, d.heap.blocks, d.heap.pose);
   for (int move = 0; move < 400 && !testing::Test::HasFailure(); ++move) {
     d.move_on(t, own, false, far, 1e-9);
+    if (move % 25 == 20) d.renew(t, own, move % 2 == 0 ? 0.1 : 0.15);
   }
   EXPECT_GT(d.asleep, 1000u);
+  EXPECT_GT(d.listed, 100u);
+  EXPECT_GT(d.kept, 1000u);
 }
 TEST(TileSleep, ChangesNothingInSlowMotion) {
   drift_asleep(0.0, 0.0, 0.0, 0.002);
