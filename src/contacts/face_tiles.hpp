@@ -118,6 +118,8 @@ struct TileSleep {
   double strayed = 0.0;  ///< m: upper bound of the distance of any vertex from its path
   double fastest = 0.0;  ///< m: motion along the paths in a step, of any vertex
   unsigned age = 0;      ///< steps since it was decided who sleeps
+  unsigned length = 32;  ///< steps for which they may do so
+  bool calm = false;     ///< few faces did otherwise then than before
   bool over = true;      ///< that must be decided anew
   AlignedNumbers from;   ///< [slots][4] where the ends of the edges were then, m
   AlignedNumbers pace;   ///< [slots][4] how far they had come in the last step, m

@@ -12,9 +12,9 @@
 namespace edda {
 namespace {
 
-/// Steps after which it is decided anew who sleeps at the latest, which also brings faces together
-/// again that do alike.
-constexpr unsigned longest_sleep = 32;
+/// Steps after which it is decided anew who sleeps, which also brings faces together again that do
+/// alike: the more where little changes.
+constexpr unsigned shortest_sleep = 32, longest_sleep = 256;
 
 /// Largest component of at - from - age pace.
 EDDA_VECTOR double largest_component(const double* at, const double* from, const double* pace,
@@ -38,7 +38,7 @@ double distance_strayed(const TileSleep& sleep, const SweepScratch& scratch) {
 double next_margin(const TileSleep& sleep, double strayed, double least) {
   constexpr double more = 1.5, change = 4.0, first = 4.0;
   if (sleep.age == 0) return std::max(first * sleep.fastest, least);
-  const double part = static_cast<double>(sleep.age) / longest_sleep;
+  const double part = static_cast<double>(sleep.age) / sleep.length;
   return std::max(
       std::clamp(more * strayed / (part * part), sleep.margin / change, sleep.margin * change),
       least);
@@ -57,6 +57,11 @@ void begin_sleep(const SweepScene& scene, TileSleep& sleep, const SweepScratch& 
   }
   sleep.fastest = std::numbers::sqrt2 * fastest;
   sleep.margin = next_margin(sleep, strayed, scene.least_margin);
+  if (sleep.age >= sleep.length && sleep.calm) {
+    sleep.length = std::min(longest_sleep, 2 * sleep.length);
+  } else if (sleep.age > 0) {
+    sleep.length = std::max(shortest_sleep, sleep.length / 2);
+  }
   sleep.strayed = 0.0;
   sleep.age = 0;
   sleep.over = false;
@@ -89,7 +94,10 @@ std::array<Id, face_kinds> classify(const FaceTiles& t, std::size_t tile, double
     view.was = t.bits[old][q];
     view.e_then = &pace_e;
     view.f_then = &pace_f;
-    const OpenLanes open = open_lanes(view, of.sleep.margin, longest_sleep);
+    const LaneBits working = t.found[old][q] >> lane_bits::works & lane_bits::field(0);
+    const OpenLanes open = working == lane_bits::field(0)
+                               ? OpenLanes{}
+                               : open_lanes(view, of.sleep.margin, of.sleep.length);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const auto found = [&](unsigned what) {
         return lane_bits::test(t.found[old][q], what, lane);
@@ -144,7 +152,7 @@ bool sleep_is_over(FaceTiles& t, const SweepScene& scene, std::size_t tile,
   if (scene.least_margin == 0.0) return false;
   if (sleep.over) return true;
   sleep.strayed += scene.largest_move + sleep.fastest + scene.pushed;
-  if (++sleep.age >= longest_sleep) return true;
+  if (++sleep.age >= sleep.length) return true;
   if (t.tiles[tile].awake_end == t.tiles[tile].last_chunk) return false;
   if (sleep.strayed <= sleep.margin) return false;
   sleep.strayed = distance_strayed(sleep, scratch);
@@ -184,10 +192,10 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
   for (Id q = std::min(was, of.awake_end); q < std::max(was, of.awake_end); ++q) {
     touched[q - of.first_chunk] = 1;
   }
-  bool any = false;
+  std::size_t changed = 0;
   for (std::size_t n = 0; n < touched.size(); ++n) {
     if (touched[n] == 0) continue;
-    any = true;
+    ++changed;
     const std::size_t q = of.first_chunk + n;
     load_chunk_constants(t, scene.faces, scene.blocks, tile, q);
     mark_chunk(t, q, q < of.awake_end);
@@ -199,7 +207,9 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
     }
   }
   drop_unused_constants(t, scene.faces, scene.blocks, tile);
-  if (!any) return;
+  constexpr std::size_t few = 8;  // one chunk in so many
+  of.sleep.calm = few * changed <= touched.size();
+  if (changed == 0) return;
   order_records(t, scene.faces, scene.blocks, tile);
 }
 
