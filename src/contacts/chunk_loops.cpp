@@ -30,25 +30,44 @@ struct ChunkColumns : EdgeConstants<const double*>, StrengthConstants<const doub
   LaneBits was;
   double per_step, noise;
 };
+/// What a loop reads and writes beside the constants and the edges.
+enum class Tables { none, memory, memory_and_dashpots };
+
+/// A table that a loop does not use may be missing.
+template <Tables tables>
 EDDA_INLINE ChunkColumns columns_of(const ChunkView& v) {
-  return {columns_from<EdgeConstants<const double*>>(v.edges),
-          columns_from<StrengthConstants<const double*>>(v.strengths),
-          columns_from<FaceMemoryColumns<const double*>>(v.before),
-          columns_from<FaceMemoryColumns<double*>>(v.memory),
-          columns_from<DashpotMemoryColumns<const double*>>(v.damped_before),
-          columns_from<DashpotMemoryColumns<double*>>(v.damped),
-          columns_from<FaceWorkColumns<double*>>(v.work),
-          v.e,
-          v.f,
-          v.e_then,
-          v.f_then,
-          v.mass_e,
-          v.mass_f,
-          v.on_e,
-          v.on_f,
-          v.was,
-          1.0 / v.step,
-          v.noise};
+  ChunkColumns c{columns_from<EdgeConstants<const double*>>(v.edges),
+                 columns_from<StrengthConstants<const double*>>(v.strengths),
+                 {},
+                 {},
+                 {},
+                 {},
+                 {},
+                 v.e,
+                 v.f,
+                 v.e_then,
+                 v.f_then,
+                 v.mass_e,
+                 v.mass_f,
+                 v.on_e,
+                 v.on_f,
+                 v.was,
+                 1.0 / v.step,
+                 v.noise};
+  if constexpr (tables != Tables::none) {
+    c.before = columns_from<FaceMemoryColumns<const double*>>(v.before);
+    c.memory = columns_from<FaceMemoryColumns<double*>>(v.memory);
+    c.work = columns_from<FaceWorkColumns<double*>>(v.work);
+  }
+  if constexpr (tables == Tables::memory_and_dashpots) {
+    c.damped_before = columns_from<DashpotMemoryColumns<const double*>>(v.damped_before);
+    c.damped = columns_from<DashpotMemoryColumns<double*>>(v.damped);
+  }
+  return c;
+}
+template <bool dashpots>
+EDDA_INLINE ChunkColumns columns_of(const ChunkView& v) {
+  return columns_of<dashpots ? Tables::memory_and_dashpots : Tables::memory>(v);
 }
 
 EDDA_INLINE FacePair pair_of(const ChunkColumns& c, std::size_t k) {
@@ -199,7 +218,7 @@ EDDA_INLINE void evaluate_lane(const ChunkColumns& c, std::size_t k, LaneBits& b
 /// Stores the forces unless the chunk must be evaluated in another way.
 template <bool dashpots, bool plain, bool books>
 EDDA_INLINE ChunkFound evaluate_lanes(const ChunkView& given) {
-  const ChunkColumns c = columns_of(given);  // a copy that no store can change
+  const ChunkColumns c = columns_of<dashpots>(given);  // a copy that no store can change
   LaneBits bits = 0, found = 0;
   double deepest = 0.0;
 #pragma omp simd reduction(| : bits, found) reduction(max : deepest)
@@ -216,7 +235,7 @@ EDDA_INLINE ChunkFound evaluate_lanes(const ChunkView& given) {
 }
 template <bool dashpots>
 EDDA_INLINE ChunkFound look_at_lanes(const ChunkView& given) {
-  const ChunkColumns c = columns_of(given);
+  const ChunkColumns c = columns_of<dashpots>(given);
   LaneBits bits = 0, asking = 0;
 #pragma omp simd reduction(| : bits, asking)
   for (std::size_t k = 0; k < lanes; ++k) {
@@ -319,7 +338,7 @@ EDDA_VECTOR void read_edges(const double* from, const Id* slot_e, const Id* slot
 }
 
 EDDA_VECTOR OpenLanes open_lanes(const ChunkView& given, double margin, double steps) {
-  const ChunkColumns c = columns_of(given);
+  const ChunkColumns c = columns_of<Tables::none>(given);
   LaneBits stay = 0, near = 0;
 #pragma omp simd reduction(| : stay, near)
   for (std::size_t k = 0; k < lanes; ++k) {
