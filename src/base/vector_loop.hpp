@@ -41,4 +41,15 @@ EDDA_INLINE double smaller(double a, double b) {
   return b < a ? b : a;
 }
 
+/// 0 and 1, of whose values g++ must not know: a processor takes the larger of two numbers in one
+/// instruction, which g++ does not see where one of them is a constant.
+extern const double hidden_zero, hidden_one;
+
+EDDA_INLINE double positive_part(double x) {
+  return larger(x, hidden_zero);
+}
+EDDA_INLINE double at_most_one(double x) {
+  return smaller(x, hidden_one);
+}
+
 }  // namespace edda

@@ -2,74 +2,55 @@
 
 #include <cmath>
 
+#include "contacts/chunk_columns.hpp"
 #include "contacts/face_step.hpp"
-#include "contacts/tile_columns.hpp"
 
 namespace edda {
 namespace {
 
-/// The bit of each lane; loops over lanes have no shifts by the lane.
-alignas(64) constexpr LaneBits bit_of_lane[lanes] = {1, 2, 4, 8, 16, 32, 64, 128};
-
-EDDA_INLINE FacePoints points_of(const Records& e, const Records& f, std::size_t k) {
-  return {{e.column[0][k], e.column[1][k]},
-          {e.column[2][k], e.column[3][k]},
-          {f.column[0][k], f.column[1][k]},
-          {f.column[2][k], f.column[3][k]}};
+EDDA_INLINE EdgeGeometry geometry_of(const ChunkColumns& c, const FacePair& pair, std::size_t k) {
+  const StandColumns<double*>& s = c.stands;
+  EdgeGeometry o;
+  o.tx = s.tx[k];
+  o.ty = s.ty[k];
+  o.per_base = s.per_base[k];
+  o.s2 = c.memory.s2[k];
+  o.y2 = s.y2[k];
+  o.r1 = c.memory.r1[k];
+  o.z1 = s.z1[k];
+  o.r2 = c.memory.r2[k];
+  o.z2 = s.z2[k];
+  o.per_e = s.per_e[k];
+  o.per_f = s.per_f[k];
+  o.slope_e = s.slope_e[k];
+  o.slope_f = s.slope_f[k];
+  o.closure_at_0 = s.closure_at_0[k];
+  o.length_cosine = s.length_cosine[k];
+  o.length_sine = s.length_sine[k];
+  complete(o, pair);
+  return o;
+}
+EDDA_INLINE void write_geometry(const ChunkColumns& c, const EdgeGeometry& o, std::size_t k) {
+  const StandColumns<double*>& s = c.stands;
+  s.tx[k] = o.tx;
+  s.ty[k] = o.ty;
+  s.per_base[k] = o.per_base;
+  c.memory.s2[k] = o.s2;
+  s.y2[k] = o.y2;
+  c.memory.r1[k] = o.r1;
+  s.z1[k] = o.z1;
+  c.memory.r2[k] = o.r2;
+  s.z2[k] = o.z2;
+  s.per_e[k] = o.per_e;
+  s.per_f[k] = o.per_f;
+  s.slope_e[k] = o.slope_e;
+  s.slope_f[k] = o.slope_f;
+  s.closure_at_0[k] = o.closure_at_0;
+  s.length_cosine[k] = o.length_cosine;
+  s.length_sine[k] = o.length_sine;
 }
 
-/// A chunk by its columns.
-struct ChunkColumns : EdgeConstants<const double*>, StrengthConstants<const double*> {
-  FaceMemoryColumns<const double*> before;
-  FaceMemoryColumns<double*> memory;
-  DashpotMemoryColumns<const double*> damped_before;
-  DashpotMemoryColumns<double*> damped;
-  FaceWorkColumns<double*> work;
-  const Records *e, *f, *e_then, *f_then, *mass_e, *mass_f;
-  Records *on_e, *on_f;
-  LaneBits was;
-  double per_step, noise;
-};
-EDDA_INLINE ChunkColumns columns_of(const ChunkView& v) {
-  return {columns_from<EdgeConstants<const double*>>(v.edges),
-          columns_from<StrengthConstants<const double*>>(v.strengths),
-          columns_from<FaceMemoryColumns<const double*>>(v.before),
-          columns_from<FaceMemoryColumns<double*>>(v.memory),
-          columns_from<DashpotMemoryColumns<const double*>>(v.damped_before),
-          columns_from<DashpotMemoryColumns<double*>>(v.damped),
-          columns_from<FaceWorkColumns<double*>>(v.work),
-          v.e,
-          v.f,
-          v.e_then,
-          v.f_then,
-          v.mass_e,
-          v.mass_f,
-          v.on_e,
-          v.on_f,
-          v.was,
-          1.0 / v.step,
-          v.noise};
-}
-
-EDDA_INLINE FacePair pair_of(const ChunkColumns& c, std::size_t k) {
-  FacePair p;
-  p.stiffness = c.stiffness[k];
-  p.ends = c.ends[k];
-  p.carries_tension = c.carries_tension[k];
-  p.inverse_e = c.inverse_e[k];
-  p.inverse_f = c.inverse_f[k];
-  p.gate_from = c.gate_from[k];
-  p.gate_scale = c.gate_scale[k];
-  p.passing = c.passing[k];
-  p.offset = {c.locked_closure_a[k], c.locked_closure_b[k]};
-  p.turn_p1 = {c.cosine_p1[k], c.sine_p1[k]};
-  p.turn_p2 = {c.cosine_p2[k], c.sine_p2[k]};
-  p.turn_q1 = {c.cosine_q1[k], c.sine_q1[k]};
-  p.turn_q2 = {c.cosine_q2[k], c.sine_q2[k]};
-  return p;
-}
-
-/// books: with the corners at n - 1, of which only the work of the step follows.
+/// books: with the corners at n and n - 1, of which only the work of the step follows.
 template <bool dashpots, bool books>
 EDDA_INLINE FaceInputs inputs_of(const ChunkColumns& c, std::size_t k) {
   const LaneBits bit = bit_of_lane[k];
@@ -82,7 +63,7 @@ EDDA_INLINE FaceInputs inputs_of(const ChunkColumns& c, std::size_t k) {
   return {pair_of(c, k),
           {c.shear_stiffness[k], c.friction[k], c.cohesion[k], c.bonded[k] > 0.0, c.zeta[k],
            c.shear_zeta[k]},
-          points_of(*c.e, *c.f, k),
+          !books ? FacePoints{} : points_of(*c.e, *c.f, k),
           !books ? FacePoints{} : points_of(*c.e_then, *c.f_then, k),
           {c.before.slip_a[k],
            c.before.slip_b[k],
@@ -112,9 +93,6 @@ EDDA_INLINE void write_memory(const ChunkColumns& c, const FaceStep& s, const Ed
   m.slip_b[k] = s.slip.b;
   m.overlap[k] = s.overlap;
   m.spring[k] = s.spring;
-  m.s2[k] = at.s2;
-  m.r1[k] = at.r1;
-  m.r2[k] = at.r2;
   if constexpr (dashpots) {
     const DashpotMemoryColumns<double*>& d = c.damped;
     d.y2[k] = at.y2;
@@ -139,15 +117,15 @@ EDDA_INLINE void write_work(const ChunkColumns& c, const FaceStep& s, std::size_
   w.damping_due[k] = s.damping_due;
 }
 
-EDDA_INLINE void write_forces(const ChunkColumns& c, const CornerForces& f, std::size_t k) {
-  c.on_e->column[0][k] = f.p1.x;
-  c.on_e->column[1][k] = f.p1.y;
-  c.on_e->column[2][k] = f.p2.x;
-  c.on_e->column[3][k] = f.p2.y;
-  c.on_f->column[0][k] = f.q1.x;
-  c.on_f->column[1][k] = f.q1.y;
-  c.on_f->column[2][k] = f.q2.x;
-  c.on_f->column[3][k] = f.q2.y;
+EDDA_INLINE void write_forces(Records& on_e, Records& on_f, const CornerForces& f, std::size_t k) {
+  on_e.column[0][k] = f.p1.x;
+  on_e.column[1][k] = f.p1.y;
+  on_e.column[2][k] = f.p2.x;
+  on_e.column[3][k] = f.p2.y;
+  on_f.column[0][k] = f.q1.x;
+  on_f.column[1][k] = f.q1.y;
+  on_f.column[2][k] = f.q2.x;
+  on_f.column[3][k] = f.q2.y;
 }
 
 /// As bond_fails(): beyond its tensile strength, apart, or beyond its shear strength.
@@ -165,65 +143,88 @@ EDDA_INLINE bool bond_fails_in(const ChunkColumns& c, const Face& face, const Fa
   return (torn | apart | sheared) & (c.glued[k] == 0.0);
 }
 
+/// What the lanes of a chunk tell, bits as lane_bits. All else follows from it and from what was.
+struct ChunkTruths {
+  LaneBits state = 0;  ///< stored, on, closed_a, closed_b, and those below
+  LaneBits found = 0;  ///< rare, busy, slides, fails
+  double deepest = 0.0;
+};
+constexpr unsigned touches = 32, carried = 40, is_free = 48;  ///< of `state`
+
 template <bool dashpots, bool plain, bool books>
-EDDA_INLINE void evaluate_lane(const ChunkColumns& c, std::size_t k, LaneBits& bits,
-                               LaneBits& found, double& deepest) {
+EDDA_INLINE void evaluate_lane(const ChunkColumns& c, std::size_t k, Records& on_e, Records& on_f,
+                               LaneBits& state, LaneBits& found, double& deepest) {
   const FaceInputs in = inputs_of<dashpots, books>(c, k);
-  const EdgeGeometry stands = geometry_of_edges(in.at, in.pair);
-  const Face face = face_between<plain>(in.at, in.pair, stands);
+  const EdgeGeometry stands = geometry_of(c, in.pair, k);
+  const Face face = face_between<plain>(stands, in.pair);
   const FaceStep s = step_of_face<dashpots, false, plain, books>(in, stands, face);
   write_memory<dashpots>(c, s, stands.corners(), k);
   if constexpr (books) write_work(c, s, k);
-  write_forces(c, s.force, k);
+  write_forces(on_e, on_f, s.force, k);
   const LaneBits bit = bit_of_lane[k];
-  const bool stores = face.energy > 0.0;
-  const bool opens = in.before.stored & !stores;
-  const bool slides = (s.trial.a != s.slip.a) | (s.trial.b != s.slip.b);
+  const auto mark = [bit](bool is, unsigned of) __attribute__((always_inline)) {
+    return is ? bit << of : 0;
+  };
   const double work = std::abs(s.friction) + std::abs(s.transfer);
-  const bool busy = dashpots | opens | s.unrest | (work != 0.0);
-  bits |= (stores ? bit << lane_bits::stored : 0) | (face.gate > 0.0 ? bit << lane_bits::on : 0) |
-          (s.closed_a ? bit << lane_bits::closed_a : 0) |
-          (s.closed_b ? bit << lane_bits::closed_b : 0) |
-          (s.switched ? bit << lane_bits::switched : 0);
-  found |= (s.decides ? bit << lane_bits::decides : 0) |
-           (s.switching ? bit << lane_bits::switching : 0) |
-           (s.works ? bit << lane_bits::works : 0) | (s.rare ? bit << lane_bits::rare : 0) |
-           (busy ? bit << lane_bits::busy : 0) | (opens ? bit << lane_bits::opens : 0) |
-           (slides ? bit << lane_bits::slides : 0);
-  if constexpr (!plain) {
-    found |= bond_fails_in(c, face, s, k) ? bit << lane_bits::fails : 0;
-  }
+  const bool slides = (s.trial.a != s.slip.a) | (s.trial.b != s.slip.b);
+  state |= mark(face.energy > 0.0, lane_bits::stored) | mark(face.gate > 0.0, lane_bits::on) |
+           mark(s.closed_a, lane_bits::closed_a) | mark(s.closed_b, lane_bits::closed_b) |
+           mark(s.touches, touches) | mark(in.before.spring > 0.0, carried) | mark(s.free, is_free);
+  found |= mark(s.rare, lane_bits::rare) | mark(s.unrest | (work != 0.0), lane_bits::busy);
+  if constexpr (books) found |= mark(slides, lane_bits::slides);
+  if constexpr (!plain) found |= mark(bond_fails_in(c, face, s, k), lane_bits::fails);
   deepest = larger(deepest, s.depth);
+}
+
+/// As mark_changes(), for all lanes at once.
+EDDA_INLINE ChunkFound conclude(LaneBits was, const ChunkTruths& is, bool dashpots) {
+  const auto lanes_of = [](LaneBits bits, unsigned of) { return bits >> of & 0xff; };
+  const auto now = [&](unsigned of) { return lanes_of(is.state, of); };
+  const auto then = [&](unsigned of) { return lanes_of(was, of); };
+  const LaneBits stores = now(lane_bits::stored), stored = then(lane_bits::stored);
+  const LaneBits on = now(lane_bits::on);
+  const LaneBits opens = stored & ~stores;
+  const LaneBits switched = (now(lane_bits::closed_a) ^ (stored & then(lane_bits::closed_a))) |
+                            (now(lane_bits::closed_b) ^ (stored & then(lane_bits::closed_b)));
+  const LaneBits switching = stored & (switched | then(lane_bits::switched));
+  const LaneBits decides = (on & ~then(lane_bits::on)) | (on & now(is_free)) | (stores & ~stored);
+  const LaneBits works = now(touches) | stored | now(carried);
+  const LaneBits busy = dashpots ? 0xff : opens;
+  constexpr LaneBits remembered = 0xffffffff;  // stored, on, closed_a, closed_b
+  return {(is.state & remembered) | switched << lane_bits::switched,
+          is.found | decides << lane_bits::decides | switching << lane_bits::switching |
+              works << lane_bits::works | busy << lane_bits::busy | opens << lane_bits::opens,
+          is.deepest};
 }
 
 /// Stores the forces unless the chunk must be evaluated in another way.
 template <bool dashpots, bool plain, bool books>
 EDDA_INLINE ChunkFound evaluate_lanes(const ChunkView& given) {
-  const ChunkColumns c = columns_of(given);  // a copy that no store can change
-  LaneBits bits = 0, found = 0;
+  const ChunkColumns c = columns_of<dashpots>(given);  // a copy that no store can change
+  Records on_e, on_f;
+  LaneBits state = 0, found = 0;
   double deepest = 0.0;
-#pragma omp simd reduction(| : bits, found) reduction(max : deepest)
+#pragma omp simd reduction(| : state, found) reduction(max : deepest)
   for (std::size_t k = 0; k < lanes; ++k) {
-    evaluate_lane<dashpots, plain, books>(c, k, bits, found, deepest);
+    evaluate_lane<dashpots, plain, books>(c, k, on_e, on_f, state, found, deepest);
   }
+  const ChunkFound all = conclude(given.was, {state, found, deepest}, dashpots);
   const LaneBits unfit = (plain ? lane_bits::field(lane_bits::rare) : 0) |
                          (books ? 0 : lane_bits::field(lane_bits::busy));
-  if ((found & unfit) == 0) {
-    store_records(given.on, given.record_e, *c.on_e);
-    store_records(given.on, given.record_f, *c.on_f);
+  if ((all.found & unfit) == 0) {
+    store_records(given.on, given.record_e, on_e);
+    store_records(given.on, given.record_f, on_f);
   }
-  return {bits, found, deepest};
+  return all;
 }
 template <bool dashpots>
 EDDA_INLINE ChunkFound look_at_lanes(const ChunkView& given) {
-  const ChunkColumns c = columns_of(given);
+  const ChunkColumns c = columns_of<dashpots>(given);
   LaneBits bits = 0, asking = 0;
 #pragma omp simd reduction(| : bits, asking)
   for (std::size_t k = 0; k < lanes; ++k) {
-    const OpenFace s = look_at_open_face(inputs_of<false, false>(c, k));
-    c.memory.s2[k] = s.corners.s2;
-    c.memory.r1[k] = s.corners.r1;
-    c.memory.r2[k] = s.corners.r2;
+    const FaceInputs in = inputs_of<false, false>(c, k);
+    const OpenFace s = look_at_open_face(in, geometry_of(c, in.pair, k));
     if constexpr (dashpots) {
       c.damped.y2[k] = s.corners.y2;
       c.damped.z1[k] = s.corners.z1;
@@ -236,6 +237,18 @@ EDDA_INLINE ChunkFound look_at_lanes(const ChunkView& given) {
   return {bits, asking, 0.0};
 }
 }  // namespace
+
+EDDA_VECTOR void stand_edges(const ChunkView& given, const double* at, const Id* slot_e,
+                             const Id* slot_f) {
+  const ChunkColumns c = columns_of<Tables::memory>(given);
+  Records e, f;
+  read_records(at, slot_e, e);
+  read_records(at, slot_f, f);
+#pragma omp simd
+  for (std::size_t k = 0; k < lanes; ++k) {
+    write_geometry(c, geometry_of_edges(points_of(e, f, k), pair_of(c, k)), k);
+  }
+}
 
 EDDA_VECTOR ChunkFound evaluate_with_work(const ChunkView& c) {
   return evaluate_lanes<false, false, true>(c);
@@ -263,74 +276,10 @@ EDDA_VECTOR ChunkFound look_at_damped(const ChunkView& c) {
   return look_at_lanes<true>(c);
 }
 
-namespace {
-
-/// Whether nothing of a face can change that carries nothing: its gate was shut and remains so; or
-/// it was open and remains so, and the surfaces apart. Both edges and the vectors between their
-/// corners change by at most `relative` (r below); |g| is the length of E - F with both edges over
-/// their lengths.
-///   The sine of the angle by which the frame turns is at most r (1/le + 1/lf)/|g|, and so a
-///   coordinate s along it changes by at most r + (L + r) times about that, where no corner lies
-///   farther from p1 than L; the ends of the overlap by the same, its length by twice that. Where
-///   all of f lies beyond all of e by more than r along n, their surfaces stay apart as long as n
-///   turns by less than a right angle.
-EDDA_INLINE bool stays_as_it_is(const ChunkColumns& c, const FacePair& pair, const EdgeGeometry& o,
-                                std::size_t k, double relative) {
-  const double change = relative * (pair.inverse_e + pair.inverse_f);  // of g
-  const double turn = 1.1 * change * o.per_base;                       // of t, no more than this
-  const auto far_from_p1 = [](double s, double y) { return std::abs(s) + std::abs(y); };
-  const double farthest =
-      larger(far_from_p1(o.s2, o.y2), larger(far_from_p1(o.r1, o.z1), far_from_p1(o.r2, o.z2)));
-  const double shift = relative + (farthest + relative) * turn;
-  constexpr double stretch = 1.5;  // the cosine is that of edges stretched by less than this
-  const double overlap = o.mb - o.ma, faces_by = o.cosine - pair.gate_from;
-  const bool firm = (turn < 0.5) & (change < 0.25);
-  const bool shut = (change < 0.25) & (faces_by + stretch * change < 0.0);
-  const bool beside = firm & (overlap + 2.0 * shift < 0.0);
-  const bool opposed = firm & (faces_by - stretch * change > 0.0) & (o.s2 > shift) &
-                       (o.r1 - o.r2 > 2.0 * shift) & (overlap > 2.0 * shift);
-  const double gap = smaller(o.z1, o.z2) - larger(o.y2, 0.0);
-  const double locked = larger(larger(pair.offset.a, pair.offset.b), 0.0);
-  const bool open = opposed & (gap > relative + locked) & (pair.stiffness > 0.0);
-  const bool loose = (c.bonded[k] == 0.0) & (pair.carries_tension == 0.0);
-  const bool was_off = (c.was & (bit_of_lane[k] << lane_bits::on)) == 0;
-  return loose & ((was_off & (shut | beside)) | ((was_off == 0) & open));
-}
-
-/// Half of the largest distance that any two of these points can have at most.
-EDDA_INLINE double apart(const FacePoints& p) {
-  const auto square = [&](Vec2 v) { return dot(v - p.p1, v - p.p1); };
-  return std::sqrt(larger(square(p.p2), larger(square(p.q1), square(p.q2))));
-}
-
-/// Whether the edges are opposed and a corner touches the other edge, to rounding.
-EDDA_INLINE bool touches_as_drawn(const FacePair& pair, const EdgeGeometry& o, double noise) {
-  const double most = larger(pair.offset.a + o.closure_at_0 + o.closure_slope * o.ma,
-                             pair.offset.b + o.closure_at_0 + o.closure_slope * o.mb);
-  return (o.cosine > pair.gate_from) & (o.mb > o.ma) & (most > -noise);
-}
-
-}  // namespace
-
 EDDA_VECTOR void read_edges(const double* from, const Id* slot_e, const Id* slot_f, Records& e,
                             Records& f) {
   read_records(from, slot_e, e);
   read_records(from, slot_f, f);
-}
-
-EDDA_VECTOR OpenLanes open_lanes(const ChunkView& given, double margin, double steps) {
-  const ChunkColumns c = columns_of(given);
-  LaneBits stay = 0, near = 0;
-#pragma omp simd reduction(| : stay, near)
-  for (std::size_t k = 0; k < lanes; ++k) {
-    const FacePair pair = pair_of(c, k);
-    const EdgeGeometry o = geometry_of_edges(points_of(*c.e, *c.f, k), pair);
-    const LaneBits bit = bit_of_lane[k];
-    const double relative = 2.0 * (margin + steps * apart(points_of(*c.e_then, *c.f_then, k)));
-    stay |= stays_as_it_is(c, pair, o, k, relative) ? bit : 0;
-    near |= touches_as_drawn(pair, o, c.noise) ? bit : 0;
-  }
-  return {static_cast<unsigned>(near), static_cast<unsigned>(stay)};
 }
 
 }  // namespace edda

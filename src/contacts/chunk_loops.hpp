@@ -6,14 +6,23 @@
 
 namespace edda {
 
+/// How the two edges of each face stand: what EdgeGeometry follows from beside s2, r1, and r2,
+/// which are remembered (FaceMemoryColumns).
+template <class C>
+struct StandColumns {
+  C tx, ty, per_base, y2, z1, z2, per_e, per_f, slope_e, slope_f, closure_at_0;
+  C length_cosine, length_sine;
+};
+inline constexpr std::size_t stand_columns = sizeof(StandColumns<double>) / sizeof(double);
+
 /// A chunk of faces, as its loop reads and writes it: tables of [columns][8].
 struct ChunkView {
   const double *edges, *strengths;       ///< EdgeConstants, StrengthConstants
   const double *before, *damped_before;  ///< FaceMemoryColumns, DashpotMemoryColumns
   double *memory, *damped;
-  double* work;  ///< FaceWorkColumns
+  double* work;    ///< FaceWorkColumns
+  double* stands;  ///< StandColumns
   const Records *e, *f, *e_then, *f_then, *mass_e, *mass_f;
-  Records *on_e, *on_f;
   const Id *record_e, *record_f;
   double* on;  ///< records of the forces on the edges
   LaneBits was;
@@ -27,9 +36,12 @@ struct ChunkFound {
   double deepest;
 };
 
-/// Evaluates a chunk: state, forces, and, where `work` is in the name, work. `plain`: by the short
-/// formulas. Forces are stored unless the chunk turns out to need another of these loops: it is not
-/// plain (lane_bits::rare), or does work (lane_bits::busy).
+/// Finds out how the edges stand, from their records `at` and the slots of the chunk.
+void stand_edges(const ChunkView& chunk, const double* at, const Id* slot_e, const Id* slot_f);
+
+/// The other loops need that. Evaluates a chunk: state, forces, and, where `work` is in the name,
+/// work. `plain`: by the short formulas. Forces are stored unless the chunk turns out to need
+/// another of these loops: it is not plain (lane_bits::rare), or does work (lane_bits::busy).
 ChunkFound evaluate_with_work(const ChunkView& chunk);
 ChunkFound evaluate_at_rest(const ChunkView& chunk);
 ChunkFound evaluate_plain_with_work(const ChunkView& chunk);

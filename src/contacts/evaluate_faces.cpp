@@ -93,7 +93,7 @@ EDDA_INLINE void evaluate_into(const FaceView& c, std::size_t k, double& decidin
                                double& switching, double& working, double& deepest) {
   const FaceInputs in = inputs_of<dashpots, limits_given>(c, k);
   const EdgeGeometry stands = geometry_of_edges(in.at, in.pair);
-  const Face face = face_between(in.at, in.pair, stands);
+  const Face face = face_between(stands, in.pair);
   const FaceStep s = step_of_face<dashpots, limits_given, false>(in, stands, face);
   write_face<dashpots>(c, face, s, k);
   c.force[8 * k + 0] = s.force.p1.x;

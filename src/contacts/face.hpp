@@ -172,7 +172,7 @@ EDDA_INLINE EnergySlopes store_energy(Face& face, const EdgeGeometry& o, const O
   const double da = face.closure.a, db = face.closure.b;
   const SmoothStep by_aspect = w.part;
   const double along = (o.cosine - pair.gate_from) * pair.gate_scale;
-  SmoothStep by_angle{smaller(larger(along, 0.0), 1.0), 0.0};
+  SmoothStep by_angle{at_most_one(positive_part(along)), 0.0};
   if constexpr (!plain) by_angle = smooth_step(along);
   const EndWeight share = end_weight<plain>(o, v, pair, face.closure, angle);
   const ClosurePotential exact = exact_potential(da, db, carries_tension),
@@ -184,7 +184,7 @@ EDDA_INLINE EnergySlopes store_energy(Face& face, const EdgeGeometry& o, const O
   const double phi = exact.value + share.value * gain;
   face.gate = gate;
   face.angle_gate = exists * by_angle.value;
-  face.cohesive = gate * larger(face.length, 0.0) * flush_part(o.cosine);
+  face.cohesive = gate * positive_part(face.length) * flush_part(o.cosine);
   face.share = share.value;
   face.energy = gate * whole * phi;
   face.normal = {gate * whole * (exact.by_a + share.value * (ends.by_a - exact.by_a)),
@@ -273,10 +273,9 @@ EDDA_INLINE void push_past(FrameForces& on, double by_past, bool deep_b) {
 /// The face of two edges. plain: is_plain() holds for them; what it excludes is not computed, and
 /// the result is the same to the bit.
 template <bool plain = false>
-EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair, const EdgeGeometry& o) {
+EDDA_INLINE Face face_between(const EdgeGeometry& o, const FacePair& pair) {
   Face face;
-  const Vec2 e = at.p2 - at.p1, f = at.q2 - at.q1;
-  const EdgeAngle angle{-dot(e, f), cross(f, e)};
+  const EdgeAngle angle{o.length_cosine, o.length_sine};
   const OverlapEnds v = overlap_of<plain>(o, pair);
   face.t = {o.tx, o.ty};
   face.inverse_e = pair.inverse_e * o.per_base;
@@ -298,7 +297,7 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair, const 
 
 template <bool plain = false>
 EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
-  return face_between<plain>(at, pair, geometry_of_edges(at, pair));
+  return face_between<plain>(geometry_of_edges(at, pair), pair);
 }
 
 /// Forces (N, along t) on the corners that bound the ends, where a closure o is locked in. The
@@ -308,8 +307,8 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
 EDDA_INLINE FaceEnds ends_at_bounds(const Face& face, const FacePair& pair) {
   const double half = 0.5 * face.gate * pair.stiffness;
   const FaceEnds locked{half * pair.offset.a * pair.offset.a, half * pair.offset.b * pair.offset.b};
-  return {-smaller(locked.a, larger(-face.along.a, 0.0)),
-          smaller(locked.b, larger(face.along.b, 0.0))};
+  return {-smaller(locked.a, positive_part(-face.along.a)),
+          smaller(locked.b, positive_part(face.along.b))};
 }
 
 /// Adds the forces at the ends beside the pressure, N: T along t on f and against t on e, N normal

@@ -80,9 +80,17 @@ struct EdgeGeometry {
   double closure_at_0, closure_slope;  ///< drawn closure: closure_at_0 + closure_slope s
   double ma, mb;                       ///< s of the corners that bound the overlap
   double cosine;                       ///< of theta, times the stretch of both edges
+  double length_cosine, length_sine;   ///< of theta, times the lengths of both edges
 
   EdgeCoordinates corners() const { return {s2, y2, r1, z1, r2, z2}; }
 };
+/// What follows from the rest of the geometry.
+EDDA_INLINE void complete(EdgeGeometry& o, const FacePair& pair) {
+  o.closure_slope = o.slope_e - o.slope_f;
+  o.ma = positive_part(o.r2);
+  o.mb = smaller(o.s2, o.r1);
+  o.cosine = o.length_cosine * (pair.inverse_e * pair.inverse_f);
+}
 EDDA_INLINE EdgeGeometry geometry_of_edges(const FacePoints& at, const FacePair& pair) {
   const Vec2 e = at.p2 - at.p1, f = at.q2 - at.q1;
   const EdgeFrame frame = edge_frame(at, pair.inverse_e, pair.inverse_f);
@@ -92,26 +100,25 @@ EDDA_INLINE EdgeGeometry geometry_of_edges(const FacePoints& at, const FacePair&
   const double per_both = 1.0 / (across_e * across_f);
   const double per_e = across_f * per_both, per_f = across_e * per_both;
   const double slope_e = y2 * per_e, slope_f = (z1 - z2) * per_f;
-  const double closure_at_0 = -(z2 - slope_f * r2),
-               cosine = -dot(e, f) * (pair.inverse_e * pair.inverse_f);
-  return {frame.t.x,
-          frame.t.y,
-          frame.per_base,
-          s2,
-          y2,
-          r1,
-          z1,
-          r2,
-          z2,
-          per_e,
-          per_f,
-          slope_e,
-          slope_f,
-          closure_at_0,
-          slope_e - slope_f,
-          larger(r2, 0.0),
-          smaller(s2, r1),
-          cosine};
+  EdgeGeometry o;
+  o.tx = frame.t.x;
+  o.ty = frame.t.y;
+  o.per_base = frame.per_base;
+  o.s2 = s2;
+  o.y2 = y2;
+  o.r1 = r1;
+  o.z1 = z1;
+  o.r2 = r2;
+  o.z2 = z2;
+  o.per_e = per_e;
+  o.per_f = per_f;
+  o.slope_e = slope_e;
+  o.slope_f = slope_f;
+  o.closure_at_0 = -(z2 - slope_f * r2);
+  o.length_cosine = -dot(e, f);
+  o.length_sine = cross(f, e);
+  complete(o, pair);
+  return o;
 }
 
 /// Closures at the ends that the aspect gate compares with the overlap: the drawn ones and a
@@ -169,8 +176,8 @@ EDDA_INLINE OverlapEnds overlap_of(const EdgeGeometry& o, const FacePair& pair) 
     const double corner_a = o.closure_at_0 + o.closure_slope * v.la + pair.offset.a;
     const double corner_b = o.closure_at_0 + o.closure_slope * v.lb + pair.offset.b;
     v.reach =
-        passing_reach(carries_tension ? corner_a : larger(corner_a, 0.0),
-                      carries_tension ? corner_b : larger(corner_b, 0.0), furthest, per_furthest);
+        passing_reach(carries_tension ? corner_a : positive_part(corner_a),
+                      carries_tension ? corner_b : positive_part(corner_b), furthest, per_furthest);
     const double per_reach = 1.0 / (v.reach.reach > 0.0 ? v.reach.reach : 1.0);
     v.pass_a = corners_passing(-o.r2, v.reach.reach, per_reach);
     v.pass_b = corners_passing(o.s2 - o.r1, v.reach.reach, per_reach);

@@ -25,7 +25,7 @@ struct SmoothStep {
   double value, slope;
 };
 EDDA_INLINE SmoothStep smooth_step(double x) {
-  const double u = smaller(larger(x, 0.0), 1.0);
+  const double u = at_most_one(positive_part(x));
   return {u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u)};
 }
 
@@ -52,7 +52,7 @@ struct CornersPassing {
   double by_reach;  ///< derivative of drawn_in with respect to r
 };
 EDDA_INLINE CornersPassing corners_passing(double x, double reach, double per_reach) {
-  const double near = larger(reach - std::abs(x), 0.0);
+  const double near = positive_part(reach - std::abs(x));
   const double part = near * per_reach;
   return {0.25 * near * part, 0.5 * part, 0.25 * part * (2.0 - part)};
 }
@@ -73,7 +73,7 @@ struct PassingReach {
 };
 EDDA_INLINE PassingReach passing_reach(double da, double db, double furthest, double per_furthest) {
   const double both = std::sqrt(da * da + db * db), part = 1.0 / 3.0;
-  const double u = smaller(0.5 * part * both * per_furthest, 1.0);
+  const double u = at_most_one(0.5 * part * both * per_furthest);
   const double slope = part * (1.0 - u) / (both > 0.0 ? both : 1.0);
   return {furthest * u * (2.0 - u), slope * da, slope * db};
 }
@@ -86,22 +86,23 @@ struct ClosurePotential {
 /// phi_exact, 1/(2 L) Int max(d, 0)^2 ds: (da^2 + da db + db^2)/6 where both ends are closed, or
 /// where the face carries tension; d^3/(6 |da - db|) where only the end with closure d is closed.
 EDDA_INLINE ClosurePotential exact_potential(double da, double db, bool carries_tension) {
-  const double pa = larger(da, 0.0), pb = larger(db, 0.0);
+  const double pa = positive_part(da), pb = positive_part(db);
   const bool whole = carries_tension | ((da >= 0.0) & (db >= 0.0));
   const double closed = pa + pb, difference = std::abs(da - db);
   const double part = closed / (difference > 0.0 ? difference : 1.0);
   constexpr double sixth = 1.0 / 6.0;
   const double far = sixth * closed * part * part;  // with respect to the open end
   const double near = 0.5 * closed * part - far;    // with respect to the closed end
+  const bool a_closed = pa > 0.0, b_closed = pb > 0.0;
+  const double by_a = a_closed ? near : far, by_b = b_closed ? near : far;
   return {sixth * (whole ? da * da + da * db + db * db : closed * closed * part),
-          whole ? sixth * (2.0 * da + db) : (pa > 0.0 ? near : far),
-          whole ? sixth * (da + 2.0 * db) : (pb > 0.0 ? near : far)};
+          whole ? sixth * (2.0 * da + db) : by_a, whole ? sixth * (da + 2.0 * db) : by_b};
 }
 
 /// phi_ends, (max(da, 0)^2 + max(db, 0)^2)/4, or (da^2 + db^2)/4 where the face carries tension.
 EDDA_INLINE ClosurePotential potential_at_ends(double da, double db, bool carries_tension) {
-  const double pa = carries_tension ? da : larger(da, 0.0),
-               pb = carries_tension ? db : larger(db, 0.0);
+  const double pa = carries_tension ? da : positive_part(da),
+               pb = carries_tension ? db : positive_part(db);
   return {(pa * pa + pb * pb) / 4.0, pa / 2.0, pb / 2.0};
 }
 
@@ -113,7 +114,7 @@ struct CornerWeight {
   double value, by_c, by_s;
 };
 EDDA_INLINE CornerWeight corner_weight(Vec2 turn, double c, double s) {
-  const double x = larger(turn.y * c - turn.x * s, 0.0);  // sine of eps - theta
+  const double x = positive_part(turn.y * c - turn.x * s);  // sine of eps - theta
   const double a = x * x, b = s * s, sum = a + b;
   const double inverse = 1.0 / (sum > 0.0 ? sum : 1.0), twice = 2.0 * inverse * inverse;
   return {a * inverse, twice * b * x * turn.y, -twice * (b * x * turn.x + a * s)};

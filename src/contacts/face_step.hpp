@@ -109,7 +109,7 @@ EDDA_INLINE Lost lost(const Shear& now, double trial, double spring, const Sprin
       ((old.spring - old.kept * spring) * now.slip + old.spring * (1.0 - old.kept) * old.slip);
   const double all =
       touches ? by_plastic + by_change : 0.5 * old.spring * old.slip * (old.slip + here);
-  const double friction = larger(touches ? slip_so_far : all, 0.0);
+  const double friction = positive_part(touches ? slip_so_far : all);
   return {friction, all - friction};
 }
 
@@ -118,12 +118,17 @@ EDDA_INLINE Lost lost(const Shear& now, double trial, double spring, const Sprin
 /// with it.
 constexpr double least_length_change = 1e-4;
 
+/// Whether a face is open that does not act, so that it may act from now on.
+EDDA_INLINE bool becomes_free(const FaceInputs& in, FaceEnds drawn) {
+  return (in.pair.stiffness == 0.0) & (larger(drawn.a, drawn.b) <= 0.0);
+}
+
 /// Whether decide_activity() must be called for the face: it has come into being, or it does not
 /// act and is open now, or it stores energy for the first time. `on`: it exists; `drawn`: its drawn
 /// closures; `stores`: it stores energy.
 EDDA_INLINE bool needs_decision(const FaceInputs& in, bool on, FaceEnds drawn, bool stores) {
   const bool begins = on & !in.before.on;
-  const bool frees = on & (in.pair.stiffness == 0.0) & (larger(drawn.a, drawn.b) <= 0.0);
+  const bool frees = on & becomes_free(in, drawn);
   const bool first = stores & !in.before.stored;
   return begins | frees | first;
 }
@@ -151,7 +156,7 @@ EDDA_INLINE DashpotRoots dashpot_roots(const FaceInputs& in, const Face& face, d
   const double inverse_a = inverse_mass(face.xi.a, face.eta.a),
                inverse_b = inverse_mass(face.xi.b, face.eta.b);
   const bool moves = (inverse_a > 0.0) & (inverse_b > 0.0);
-  const double across = 0.5 * in.pair.stiffness * larger(face.length, 0.0) * face.gate;
+  const double across = 0.5 * in.pair.stiffness * positive_part(face.length) * face.gate;
   const double per_both = moves ? 1.0 / (inverse_a * inverse_b) : 0.0;
   return {std::sqrt(across * inverse_b * per_both), std::sqrt(across * inverse_a * per_both),
           std::sqrt(spring / (across > 0.0 ? across : 1.0))};
@@ -170,14 +175,14 @@ EDDA_INLINE EndActs act(const FaceInputs& in, const EndOfFace& end, double sprin
   const bool bonded = plain ? false : in.strength.bonded;
   const auto limit_under = [&](double normal) {
     if constexpr (limits_given) return given;
-    return bonded ? unlimited_shear : larger(cohesion + in.strength.friction * normal, 0.0);
+    return bonded ? unlimited_shear : positive_part(cohesion + in.strength.friction * normal);
   };
   if constexpr (!dashpots) {
     const Shear shear = cut<books>(end.trial, spring, per_spring, limit_under(end.normal));
     return {shear.force, shear.slip, 0.0, 0.0};
   } else {
     const double whole = end.normal + 2.0 * in.strength.zeta * root * end.closing * in.per_step;
-    const double pushing = larger(whole, 0.0);
+    const double pushing = positive_part(whole);
     const bool carries_tension = plain ? false : in.pair.carries_tension > 0.0;
     const bool carries = end.normal != 0.0;
     const double normal = carries ? (carries_tension ? whole : pushing) : 0.0;
@@ -201,7 +206,7 @@ struct ShearSprings {
 /// Without books, which are 0 where nothing changes, `kept` is 1 and there is no `per_spring`.
 template <bool books>
 EDDA_INLINE ShearSprings shear_springs(const FaceInputs& in, const Face& face, bool touches) {
-  const double length = larger(face.length, 0.0), length_1 = in.before.overlap;
+  const double length = positive_part(face.length), length_1 = in.before.overlap;
   const bool carried = in.before.spring > 0.0;
   const bool same = std::abs(length - length_1) <= least_length_change * length_1;
   const double overlap = (carried & same) ? length_1 : length;
@@ -225,7 +230,7 @@ EDDA_INLINE EndsOfFace ends_of(const FaceInputs& in, const Face& face, const End
   const double trial_b = touches ? kept * in.before.slip_b + here.b : 0.0;
   const bool carries_tension = plain ? false : in.pair.carries_tension > 0.0;
   const auto since_touch = [&](double closing, double d) {
-    return carries_tension ? closing : smaller(closing, larger(d, 0.0));
+    return carries_tension ? closing : smaller(closing, positive_part(d));
   };
   const FaceEnds closing{since_touch(moved.closure.a, face.closure.a),
                          since_touch(moved.closure.b, face.closure.b)};
@@ -258,6 +263,7 @@ struct FaceStep {
   double friction, transfer;         ///< as in FaceFields, J
   double damping_work, damping_due;  ///< as in FaceFields, J
   bool decides;                      ///< needs_decision()
+  bool free;                         ///< becomes_free()
   bool works;                        ///< it carries load, or did so at n - 1
   bool rare;                         ///< it is bonded, or is_plain() does not hold
   double depth;                      ///< larger drawn closure, m; 0: it carries nothing
@@ -281,6 +287,7 @@ EDDA_INLINE void mark_changes(FaceStep& s, const FaceInputs& in, const EdgeGeome
       (s.closed_a != (old.stored & old.closed_a)) | (s.closed_b != (old.stored & old.closed_b));
   s.switching = old.stored & (s.switched | old.switched);
   const FaceEnds drawn{face.closure.a - in.pair.offset.a, face.closure.b - in.pair.offset.b};
+  s.free = becomes_free(in, drawn);
   s.decides = needs_decision(in, face.gate > 0.0, drawn, face.energy > 0.0);
   s.works = s.touches | old.stored | (old.spring > 0.0);
   s.rare = in.strength.bonded | !is_plain(stands, in.pair);
@@ -356,9 +363,8 @@ struct OpenFace {
   bool may_close;  ///< it may be closed, or decide_activity() must be called
 };
 /// With the same bits as step_of_face().
-EDDA_INLINE OpenFace look_at_open_face(const FaceInputs& in) {
+EDDA_INLINE OpenFace look_at_open_face(const FaceInputs& in, const EdgeGeometry& o) {
   const FacePair& pair = in.pair;
-  const EdgeGeometry o = geometry_of_edges(in.at, pair);
   OpenFace s;
   s.corners = o.corners();
   const double drawn_a = o.closure_at_0 + o.closure_slope * o.ma,
@@ -366,7 +372,7 @@ EDDA_INLINE OpenFace look_at_open_face(const FaceInputs& in) {
   s.closure = {drawn_a + pair.offset.a, drawn_b + pair.offset.b};
   const double gate = smooth_step((o.cosine - pair.gate_from) * pair.gate_scale).value;
   const double overlap = o.mb - o.ma;
-  s.length = larger(overlap, 0.0);
+  s.length = positive_part(overlap);
   const bool on = (overlap > 0.0) & (o.cosine > pair.gate_from) & (o.s2 > 0.0) & (o.r1 > o.r2);
   s.gate = on ? gate : 0.0;
   s.cohesive = s.gate * s.length * flush_part(o.cosine);
@@ -377,6 +383,9 @@ EDDA_INLINE OpenFace look_at_open_face(const FaceInputs& in) {
   const FaceEnds surfaces{s.closure.a - pair.offset.a, s.closure.b - pair.offset.b};
   s.may_close = (on & !open) | needs_decision(in, on, surfaces, false);
   return s;
+}
+EDDA_INLINE OpenFace look_at_open_face(const FaceInputs& in) {
+  return look_at_open_face(in, geometry_of_edges(in.at, in.pair));
 }
 
 }  // namespace edda

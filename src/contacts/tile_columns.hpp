@@ -20,10 +20,9 @@ double* chunk_of(AlignedNumbers& table, std::size_t chunk) {
   return table.data() + chunk * columns_in<Fields> * lanes;
 }
 
-/// The columns of a chunk, whose numbers begin here, or null without a table; for loops over lanes.
+/// The columns of a chunk, whose numbers begin here; for loops over lanes.
 template <class Fields, class Number>
 EDDA_INLINE Fields columns_from(Number* first) {
-  if (first == nullptr) return Fields{};
   return [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
     return Fields{(first + i * lanes)...};
   }

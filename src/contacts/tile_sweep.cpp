@@ -68,13 +68,26 @@ EDDA_VECTOR void gather_blocks(const Corners& c, const Id* blocks, std::size_t c
   }
 }
 
-/// The records of a chunk's edges and of the forces on them.
-struct ChunkRecords {
-  Records e, f, e_then, f_then, mass_e, mass_f, on_e, on_f;
+/// The edges of a chunk: tables of records of four numbers, and the slots there.
+struct ChunkEdges {
+  const double *at, *then;  ///< start and end at n and n - 1, m; then: null where no face takes it
+  const double* mass;       ///< EdgeInverseMass, or null
+  const Id *slot_e, *slot_f;
 };
 
+/// How the edges of a chunk stand.
+struct ChunkStand {
+  alignas(64) double columns[stand_columns * lanes];
+};
+
+/// The corners of faces whose corners do not count: what is multiplied by them is 0.
+constexpr Records no_corners{};
+
+/// Chunks that are evaluated together: what they need meanwhile stays in the first cache.
+constexpr std::size_t chunks_at_once = 8;
+
 ChunkView view_of(FaceTiles& t, const SweepScene& scene, std::size_t tile, std::size_t q,
-                  ChunkRecords& r) {
+                  double* on, ChunkStand& stand) {
   const int now = t.now, old = 1 - t.now;
   const auto at = [q](auto& table, std::size_t columns) {
     return table.data() + q * columns * lanes;
@@ -87,17 +100,16 @@ ChunkView view_of(FaceTiles& t, const SweepScene& scene, std::size_t tile, std::
           .memory = at(t.memory[now], memory_columns),
           .damped = damped ? at(t.dashpots[now], dashpot_memory_columns) : nullptr,
           .work = at(t.work[now], work_columns),
-          .e = &r.e,
-          .f = &r.f,
-          .e_then = &r.e_then,
-          .f_then = &r.f_then,
-          .mass_e = &r.mass_e,
-          .mass_f = &r.mass_f,
-          .on_e = &r.on_e,
-          .on_f = &r.on_f,
+          .stands = stand.columns,
+          .e = &no_corners,
+          .f = &no_corners,
+          .e_then = &no_corners,
+          .f_then = &no_corners,
+          .mass_e = &no_corners,
+          .mass_f = &no_corners,
           .record_e = &t.record_e[q * lanes],
           .record_f = &t.record_f[q * lanes],
-          .on = nullptr,
+          .on = on,
           .was = t.bits[old][q],
           .step = scene.step,
           .noise = scene.noise};
@@ -149,20 +161,6 @@ struct TileInSweep {
   double* on;  ///< records of the forces
 };
 
-EDDA_VECTOR void read_chunk(const SweepScratch& from, const Id* e, const Id* f, const double* then,
-                            bool damped, ChunkRecords& r) {
-  read_records(from.at.data(), e, r.e);
-  read_records(from.at.data(), f, r.f);
-  if (then != nullptr) {
-    read_records(then, e, r.e_then);
-    read_records(then, f, r.f_then);
-  }
-  if (damped) {
-    read_records(from.mass.data(), e, r.mass_e);
-    read_records(from.mass.data(), f, r.mass_f);
-  }
-}
-
 /// Clears the records of a chunk.
 void store_nothing(const FaceTiles& t, double* on, std::size_t q) {
   const auto clear = [&](const std::vector<Id>& record) {
@@ -174,65 +172,94 @@ void store_nothing(const FaceTiles& t, double* on, std::size_t q) {
   clear(t.record_f);
 }
 
-/// Evaluates a chunk whose edges have been read, and stores its forces. Returns what it has found.
-ChunkFound evaluate_read(FaceTiles& t, const SweepScene& scene, std::size_t tile, std::size_t q,
-                         double* on, ChunkRecords& r) {
-  ChunkView view = view_of(t, scene, tile, q, r);
-  view.on = on;
-  if (!t.tiles[tile].takes_then) {  // what is multiplied by them is 0, but they must be numbers
-    view.e_then = view.e;
-    view.f_then = view.f;
-  }
+/// Evaluates a chunk whose edges stand as they are known to, and stores its forces. Returns what it
+/// has found.
+ChunkFound evaluate_standing(FaceTiles& t, ChunkView& view, std::size_t q,
+                             const ChunkEdges& edges) {
   const bool idle = t.idle[0][q] != 0 && t.idle[1][q] != 0 && t.bonds[q] == 0;
   if (idle) {
     const ChunkFound open = t.has_dashpots() ? look_at_damped(view) : look_at_undamped(view);
     if (open.found == 0) {
       keep(t, q, open);
-      store_nothing(t, on, q);
+      store_nothing(t, view.on, q);
       return open;
     }
+  }
+  Records e, f, e_then, f_then, mass_e, mass_f;
+  if (edges.then != nullptr) {
+    read_edges(edges.at, edges.slot_e, edges.slot_f, e, f);
+    read_edges(edges.then, edges.slot_e, edges.slot_f, e_then, f_then);
+    view.e = &e;
+    view.f = &f;
+    view.e_then = &e_then;
+    view.f_then = &f_then;
+  }
+  if (edges.mass != nullptr) {
+    read_edges(edges.mass, edges.slot_e, edges.slot_f, mass_e, mass_f);
+    view.mass_e = &mass_e;
+    view.mass_f = &mass_f;
   }
   const ChunkFound found = evaluate_chunk(t, view, q);
   keep(t, q, found);
   return found;
 }
 
-ChunkFound sweep_chunk(const TileInSweep& s, std::size_t q) {
+/// Evaluates some chunks [first, last). How the edges of all of them stand comes first, for the
+/// processor to compute one beside the other: each is a long chain of roots and divisions.
+LaneBits sweep_some(const TileInSweep& s, std::size_t first, std::size_t last) {
   FaceTiles& t = s.tiles;
-  ChunkRecords r;
-  const double* const then = s.tile.takes_then ? s.scratch.then.data() : nullptr;
-  read_chunk(s.scratch, &t.slot_e[q * lanes], &t.slot_f[q * lanes], then, t.has_dashpots(), r);
-  return evaluate_read(t, s.scene, s.number, q, s.on, r);
+  ChunkStand stands[chunks_at_once];
+  ChunkView views[chunks_at_once];
+  const auto edges_of = [&](std::size_t q) {
+    return ChunkEdges{s.scratch.at.data(), s.tile.takes_then ? s.scratch.then.data() : nullptr,
+                      t.has_dashpots() ? s.scratch.mass.data() : nullptr, &t.slot_e[q * lanes],
+                      &t.slot_f[q * lanes]};
+  };
+  for (std::size_t q = first; q < last; ++q) {
+    ChunkView& view = views[q - first] = view_of(t, s.scene, s.number, q, s.on, stands[q - first]);
+    const ChunkEdges edges = edges_of(q);
+    stand_edges(view, edges.at, edges.slot_e, edges.slot_f);
+  }
+  LaneBits found = 0;
+  for (std::size_t q = first; q < last; ++q) {
+    const ChunkFound here = evaluate_standing(t, views[q - first], q, edges_of(q));
+    found |= here.found;
+    t.deepest[q] = std::max(t.deepest[q], here.deepest);
+  }
+  return found;
 }
 
+/// Records of the edges of a chunk alone.
+struct EdgesAlone {
+  alignas(32) double at[2 * lanes][4], then[2 * lanes][4], mass[2 * lanes][4];
+};
+constexpr Id slots_alone[2 * lanes] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
 /// Reads the edges of a chunk from the vertices.
-void read_vertices(const FaceTiles& t, const SweepScene& scene, bool takes_then, std::size_t q,
-                   ChunkRecords& r) {
+void read_vertices(const FaceTiles& t, const SweepScene& scene, std::size_t q, EdgesAlone& to) {
   const BlockSet& b = scene.blocks;
   const Masses& m = scene.masses;
-  const auto read = [&](std::size_t lane, Id edge, Records& at, Records& then, Records& mass) {
-    const auto put = [lane](Records& to, double a, double b2, double c, double d) {
-      to.column[0][lane] = a;
-      to.column[1][lane] = b2;
-      to.column[2][lane] = c;
-      to.column[3][lane] = d;
+  const Pose& p = scene.pose;
+  to = {};
+  const auto read = [&](std::size_t slot, Id edge) {
+    const auto put = [slot](double(&record)[2 * lanes][4], double v, double w, double x, double y) {
+      record[slot][0] = v;
+      record[slot][1] = w;
+      record[slot][2] = x;
+      record[slot][3] = y;
     };
-    if (edge == no_id) {
-      put(at, 0.0, 0.0, 0.0, 0.0);
-      put(then, 0.0, 0.0, 0.0, 0.0);
-      return put(mass, 0.0, 0.0, 0.0, 0.0);
-    }
     const Id end = b.next[edge];
-    const Pose& p = scene.pose;
-    put(at, p.x[edge], p.y[edge], p.x[end], p.y[end]);
-    if (takes_then) put(then, p.x1[edge], p.y1[edge], p.x1[end], p.y1[end]);
-    if (t.has_dashpots())
-      put(mass, m.point_inverse[edge], m.edge_inverse[edge], m.point_inverse[end], 0.0);
+    put(to.at, p.x[edge], p.y[edge], p.x[end], p.y[end]);
+    put(to.then, p.x1[edge], p.y1[edge], p.x1[end], p.y1[end]);
+    if (t.has_dashpots()) {
+      put(to.mass, m.point_inverse[edge], m.edge_inverse[edge], m.point_inverse[end], 0.0);
+    }
   };
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const Id k = t.face[q * lanes + lane];
-    read(lane, k == no_id ? no_id : scene.faces.edge[k], r.e, r.e_then, r.mass_e);
-    read(lane, k == no_id ? no_id : scene.faces.facing[k], r.f, r.f_then, r.mass_f);
+    if (k == no_id) continue;
+    read(lane, scene.faces.edge[k]);
+    read(lanes + lane, scene.faces.facing[k]);
   }
 }
 
@@ -303,10 +330,8 @@ SweepResult sweep_tile(FaceTiles& t, const SweepScene& scene, std::size_t tile, 
   if (!scene.corrects) {
     std::fill(t.deepest.data() + of.first_chunk, t.deepest.data() + of.last_chunk, 0.0);
   }
-  for (std::size_t q = of.first_chunk; q < of.awake_end; ++q) {
-    const ChunkFound here = sweep_chunk(s, q);
-    found |= here.found;
-    t.deepest[q] = std::max(t.deepest[q], here.deepest);
+  for (std::size_t q = of.first_chunk; q < of.awake_end; q += chunks_at_once) {
+    found |= sweep_some(s, q, std::min<std::size_t>(of.awake_end, q + chunks_at_once));
   }
   gather_blocks(corners_of(scene.blocks), &t.blocks[of.first_block], of.last_block - of.first_block,
                 nullptr, &t.record_begin[of.first_edge], s.on, values_of(force_x),
@@ -322,9 +347,15 @@ SweepResult sweep_chunks(FaceTiles& t, const SweepScene& scene, std::size_t tile
                          std::span<const Id> chunks) {
   LaneBits found = 0;
   for (const std::size_t q : chunks) {
-    ChunkRecords r;
-    read_vertices(t, scene, t.tiles[tile].takes_then, q, r);
-    const ChunkFound here = evaluate_read(t, scene, tile, q, t.forces[tile].data(), r);
+    EdgesAlone alone;
+    read_vertices(t, scene, q, alone);
+    const ChunkEdges edges{alone.at[0], t.tiles[tile].takes_then ? alone.then[0] : nullptr,
+                           t.has_dashpots() ? alone.mass[0] : nullptr, slots_alone,
+                           slots_alone + lanes};
+    ChunkStand stand;
+    ChunkView view = view_of(t, scene, tile, q, t.forces[tile].data(), stand);
+    stand_edges(view, edges.at, edges.slot_e, edges.slot_f);
+    const ChunkFound here = evaluate_standing(t, view, q, edges);
     found |= here.found;
     t.deepest[q] = scene.corrects ? std::max(t.deepest[q], here.deepest) : here.deepest;
   }
