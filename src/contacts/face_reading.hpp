@@ -28,16 +28,23 @@ inline bool is_closed(const FaceSet& f, std::size_t k) {
   return f.now.energy[k] > 0.0 || (f.bonded[k] > 0.0 && f.now.gate[k] > 0.0);
 }
 
-/// The larger drawn closure of the two ends, m.
+/// The larger drawn closure of the two ends of face k, m, where they are closed by so much.
+inline double drawn_closure(const FaceSet& f, FaceEnds closure, std::size_t k) {
+  return std::max(closure.a - f.locked_closure_a[k], closure.b - f.locked_closure_b[k]);
+}
 inline double closure_of(const FaceSet& f, std::size_t k) {
-  return std::max(f.now.closure_a[k] - f.locked_closure_a[k],
-                  f.now.closure_b[k] - f.locked_closure_b[k]);
+  return drawn_closure(f, {f.now.closure_a[k], f.now.closure_b[k]}, k);
 }
 
 /// Whether the face is closed, or its edges touch within rounding.
 inline bool meets(const FaceSet& f, std::size_t k) {
   return is_closed(f, k) ||
          (f.acts[k] > 0.0 && f.now.gate[k] > 0.0 && closure_of(f, k) >= -f.noise);
+}
+
+/// Inscribed radius of the narrower of the two blocks of face k, m.
+inline double narrower_radius(const BlockSet& b, const FaceSet& f, std::size_t k) {
+  return std::min(b.inradius[block_of_edge(b, f, k)], b.inradius[block_of_facing(b, f, k)]);
 }
 
 /// The face with the largest ratio of closure to the inscribed radius of the narrower block; ratio
@@ -50,9 +57,8 @@ inline DeepestFace deepest_face(const FaceSet& f, const BlockSet& b) {
   DeepestFace deepest;
   for (std::size_t k = 0; k < f.size(); ++k) {
     if (!(f.now.energy[k] > 0.0)) continue;
-    const double size =
-        std::min(b.inradius[block_of_edge(b, f, k)], b.inradius[block_of_facing(b, f, k)]);
-    if (closure_of(f, k) > deepest.ratio * size) deepest = {k, closure_of(f, k) / size};
+    const double radius = narrower_radius(b, f, k);
+    if (closure_of(f, k) > deepest.ratio * radius) deepest = {k, closure_of(f, k) / radius};
   }
   return deepest;
 }
@@ -106,14 +112,19 @@ inline FaceSpan span_of(const FaceSet& f, const Pose& pose, std::size_t k) {
   const Vec2 middle = at(0.5 * (xi_a + xi_b));
   return {middle, middle};
 }
-/// The corner, of `edge` or of `facing`, that bounds the overlap at the end of larger closure.
+/// The corner, of `edge` or of `facing`, that bounds the overlap at the end of larger closure; the
+/// ends lie at the fractions xi and eta of the edges with these corners.
+inline Vec2 deeper_end(const FacePoints& p, FaceEnds closure, FaceEnds of_edge,
+                       FaceEnds of_facing) {
+  const bool b_is = closure.b >= closure.a;
+  const double xi = b_is ? of_edge.b : of_edge.a, eta = b_is ? of_facing.b : of_facing.a;
+  const bool of_first = xi == 0.0 || xi == 1.0;
+  return of_first ? (1.0 - xi) * p.p1 + xi * p.p2 : eta * p.q1 + (1.0 - eta) * p.q2;
+}
 inline Vec2 deeper_end(const FaceSet& f, const Pose& pose, std::size_t k) {
-  const bool b_is = f.now.closure_b[k] >= f.now.closure_a[k];
-  const double xi = b_is ? f.now.xi_b[k] : f.now.xi_a[k];
-  const double eta = b_is ? f.now.eta_b[k] : f.now.eta_a[k];
-  const FacePoints p = face_points(f, pose.x, pose.y, k);
-  const bool of_edge = xi == 0.0 || xi == 1.0;
-  return of_edge ? (1.0 - xi) * p.p1 + xi * p.p2 : eta * p.q1 + (1.0 - eta) * p.q2;
+  const FaceMemory& m = f.now;
+  return deeper_end(face_points(f, pose.x, pose.y, k), {m.closure_a[k], m.closure_b[k]},
+                    {m.xi_a[k], m.xi_b[k]}, {m.eta_a[k], m.eta_b[k]});
 }
 inline Vec2 middle_of(const FaceSet& f, const Pose& pose, std::size_t k) {
   const FaceSpan span = span_of(f, pose, k);

@@ -1,6 +1,7 @@
 #include "observe/chatter.hpp"
 
 #include "contacts/face_reading.hpp"
+#include "step/faces_now.hpp"
 
 namespace edda {
 namespace {
@@ -20,6 +21,7 @@ void begin_window(Chatter& w, const Simulation& sim) {
   const std::size_t n = sim.motion.contacts.size();
   w.sum.assign(n, 0.0);
   w.squares.assign(n, 0.0);
+  w.samples.assign(n, 0);
   w.before.resize(n);
   for (std::size_t k = 0; k < n; ++k) w.before[k] = switches(sim, k);
   w.looks = 0;
@@ -31,8 +33,7 @@ void judge(Chatter& w, const Simulation& sim) {
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Id count = switches(sim, k) - w.before[k];
     if (count < again) continue;
-    const auto looks = static_cast<double>(w.looks);
-    if (w.squares[k] * looks < above_mean * w.sum[k] * w.sum[k]) continue;
+    if (w.squares[k] * w.samples[k] < above_mean * w.sum[k] * w.sum[k]) continue;
     w.count += count;
     if (count <= w.worst) continue;
     w.worst = count;
@@ -51,10 +52,13 @@ void look_for_chatter(Chatter& w, const Simulation& sim) {
   }
   const FaceSet& c = sim.motion.contacts;
   const bool fits = w.rebuilds == c.rebuilds && w.sum.size() == c.size() &&
-                    w.squares.size() == c.size() && w.before.size() == c.size();
+                    w.squares.size() == c.size() && w.samples.size() == c.size() &&
+                    w.before.size() == c.size();
   if (w.looks == 0 || !fits) begin_window(w, sim);
   for (std::size_t k = 0; k < c.size(); ++k) {
-    const double normal = is_closed(c, k) ? normal_force(c, k) : 0.0;
+    if (switches(sim, k) == w.before[k]) continue;
+    const double normal = normal_force_now(sim, k);
+    ++w.samples[k];
     w.sum[k] += normal;
     w.squares[k] += normal * normal;
   }

@@ -11,8 +11,9 @@ namespace edda {
 
 /// Contact forces and events in a window of some hundred steps, and the count of chatter so far.
 struct Chatter {
-  std::vector<double> sum, squares;       ///< [nf] sums of the normal force over the samples of the
-                                          ///< window, N, N2
+  std::vector<double> sum, squares;       ///< [nf] sums of the normal force over the samples since
+                                          ///< the first event in the window, N, N2
+  std::vector<Id> samples;                ///< [nf] how many these are
   std::vector<Id> before;                 ///< [nf] opening and closing events before the window
   std::uint64_t looks = 0, rebuilds = 0;  ///< samples in the window; FaceSet::rebuilds of its list
   std::uint64_t count = 0;                ///< events in windows in which their contact chattered
@@ -21,10 +22,11 @@ struct Chatter {
   double time = 0.0;                      ///< s, end of that window
 };
 
-/// A contact chatters in a window in which it opens or closes many times and in which its spring
-/// stores more than twice the energy at the mean force. A block in equilibrium or in smooth sliding
-/// does neither; one that impacts and bounces does not do it for so long. Stages until equilibrium
-/// are left out, since their motion is not physical. Call once every few steps.
+/// A contact chatters in a window in which it opens or closes many times and in which its spring,
+/// since it first did so, stores more than twice the energy at the mean force. A block in
+/// equilibrium or in smooth sliding does neither; one that impacts and bounces does not do it for
+/// so long. Stages until equilibrium are left out, since their motion is not physical. Call once
+/// every few steps.
 void look_for_chatter(Chatter& chatter, const Simulation& sim);
 
 }  // namespace edda

@@ -234,7 +234,8 @@ Driver::Arrival Driver::step_to(double time) {
       return Arrival::over;
     }
     if (sim_.motion.state.steps % revolutions_every == 0) {
-      update_face_rows(sim_);
+      if (sim_.relaxation.seeks_equilibrium)
+        update_face_rows(sim_);  // update_relaxation() reads them
       count_revolutions(sim_, angle_);
       measure_overlaps();
       look_for_chatter(outcome_.chatter, sim_);
@@ -263,6 +264,7 @@ bool Driver::record(const Event& event) {
   update_face_rows(sim_);
   count_revolutions(sim_, angle_);
   measure_overlaps();
+  outcome_.overlap_now = deepest_face(sim_.motion.contacts, sim_.scene->blocks).ratio;
   const Instant& instant = look();
   bool fine = true;
   if (event.row) {

@@ -222,6 +222,7 @@ template <class Archive>
 static void list_chatter(Archive& a, Chatter& c) {
   a("chatter.sum", c.sum);
   a("chatter.squares", c.squares);
+  a("chatter.samples", c.samples);
   a("chatter.before", c.before);
   a("chatter.looks", c.looks);
   a("chatter.rebuilds", c.rebuilds);

@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "contacts/face_reading.hpp"
 #include "run/driver.hpp"
+#include "step/faces_now.hpp"
 #include "step/labels.hpp"
 
 namespace edda {
@@ -142,13 +143,12 @@ bool Driver::begin_next_stage() {
 }
 
 void Driver::measure_overlaps() {
+  const DeepestNow deepest = deepest_now(sim_, outcome_.overlap.ratio);
+  if (!(deepest.ratio > 0.0)) return;
   const FaceSet& f = sim_.motion.contacts;
-  const DeepestFace deepest = deepest_face(f, sim_.scene->blocks);
-  outcome_.overlap_now = deepest.ratio;
-  if (!(deepest.ratio > outcome_.overlap.ratio)) return;
   outcome_.overlap = {deepest.ratio,
-                      closure_of(f, deepest.face),
-                      deeper_end(f, sim_.motion.pose, deepest.face) + sim_.scene->blocks.origin,
+                      deepest.depth,
+                      deepest.place + sim_.scene->blocks.origin,
                       block_of_facing(sim_.scene->blocks, f, deepest.face),
                       block_of_edge(sim_.scene->blocks, f, deepest.face),
                       sim_.motion.state.time};

@@ -1,0 +1,80 @@
+#include "step/faces_now.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "contacts/evaluate_faces.hpp"
+#include "contacts/face_reading.hpp"
+#include "contacts/tile_columns.hpp"
+#include "step/simulation.hpp"
+
+namespace edda {
+namespace {
+
+Face face_now(const Simulation& sim, std::size_t k) {
+  const Pose& pose = sim.motion.pose;
+  return face_at(sim.motion.contacts, sim.scene->blocks, pose.x, pose.y, k);
+}
+
+/// Force of the dashpots across face k, N.
+double pressure_of_dashpots(const Simulation& sim, std::size_t k) {
+  const FaceMemory& m = sim.motion.contacts.now;
+  if (!sim.leapfrog.tiled.ahead) return m.damping_a[k] + m.damping_b[k];
+  const FaceTiles& t = sim.leapfrog.tiled.tiles;
+  const Id place = t.place[k][0];
+  if (!t.has_dashpots() || place == no_id) return 0.0;
+  const auto memory = get<DashpotMemoryColumns<double>>(t.dashpots[t.now], place);
+  return memory.damping_a + memory.damping_b;
+}
+
+/// Rows in tiles, ascending, whose ratio may be larger than `above`: of a chunk the tiles know an
+/// upper bound of the closures.
+std::vector<Id> faces_that_may_exceed(const Simulation& sim, double above) {
+  constexpr double rounding = 1e-9;  // in which the tiles may be off
+  const FaceTiles& t = sim.leapfrog.tiled.tiles;
+  const FaceSet& c = sim.motion.contacts;
+  const BlockSet& b = sim.scene->blocks;
+  const double least = (1.0 - rounding) * above;
+  std::vector<Id> found;
+  for (std::size_t q = 0; q < t.chunks(); ++q) {
+    if (t.deepest[q] <= least * sim.scene->smallest_half_width) continue;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const Id k = t.face[q * lanes + lane];
+      if (k != no_id && t.deepest[q] > least * narrower_radius(b, c, k)) found.push_back(k);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace
+
+double normal_force_now(const Simulation& sim, std::size_t k) {
+  const Face face = face_now(sim, k);
+  const bool bonded = sim.motion.contacts.bonded[k] > 0.0 && face.gate > 0.0;
+  if (!bonded && !(face.energy > 0.0)) return 0.0;
+  return face.normal.a + face.normal.b + pressure_of_dashpots(sim, k);
+}
+
+DeepestNow deepest_now(const Simulation& sim, double above) {
+  const FaceSet& c = sim.motion.contacts;
+  const BlockSet& b = sim.scene->blocks;
+  const Pose& pose = sim.motion.pose;
+  std::vector<Id> among;
+  if (sim.leapfrog.tiled.ahead) {
+    among = faces_that_may_exceed(sim, above);
+  } else if (const DeepestFace deepest = deepest_face(c, b); deepest.ratio > 0.0) {
+    among = {static_cast<Id>(deepest.face)};
+  }
+  DeepestNow deepest;
+  for (const Id k : among) {
+    const Face face = face_now(sim, k);
+    const double depth = drawn_closure(c, face.closure, k), radius = narrower_radius(b, c, k);
+    if (!(face.energy > 0.0) || !(depth > std::max(above, deepest.ratio) * radius)) continue;
+    const FacePoints at = face_points(c, pose.x, pose.y, k);
+    deepest = {k, depth / radius, depth, deeper_end(at, face.closure, face.xi, face.eta)};
+  }
+  return deepest;
+}
+
+}  // namespace edda

@@ -1,0 +1,27 @@
+// What faces carry at the present positions, also while their rows are behind (step/tile_step.hpp):
+// for looks every few steps, which need few faces and would otherwise bring all rows up to date.
+#pragma once
+
+#include <cstddef>
+
+#include "base/vec2.hpp"
+
+namespace edda {
+
+struct Simulation;
+
+/// Normal force of face k, N, positive in compression, that of its dashpots included; 0 where it is
+/// not closed.
+double normal_force_now(const Simulation& sim, std::size_t k);
+
+/// The face with the largest ratio of closure to the inscribed radius of the narrower block.
+struct DeepestNow {
+  std::size_t face = 0;
+  double ratio = 0.0;  ///< 0: none is above the limit
+  double depth = 0.0;  ///< m, the larger drawn closure of its ends
+  Vec2 place;          ///< m, the corner that bounds the overlap at that end, local coordinates
+};
+/// That of all faces whose ratio is larger than `above`.
+DeepestNow deepest_now(const Simulation& sim, double above);
+
+}  // namespace edda

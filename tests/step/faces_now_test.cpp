@@ -1,0 +1,92 @@
+// Looks at faces whose rows are behind must see what the rows say once they are up to date.
+#include "step/faces_now.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "contacts/face_reading.hpp"
+#include "run/prepared.hpp"
+#include "step/step.hpp"
+
+namespace edda::faces_now_test {
+namespace {
+
+/// Two blocks of unequal size fall on a slope, one upon the other.
+Simulation falling(const std::string& contact_damping) {
+  Simulation sim = testing::prepared(
+                       "[materials.rock]\ndensity = 2600\nyoung = 20e9\npoisson = 0.2\n"
+                       "damping = 0\n[joints.j]\nfriction_angle = 20\n[contact]\n"
+                       "normal_stiffness = 2e9\n[solver.damping]\ncontact = " +
+                       contact_damping +
+                       "\n[solver]\nduration = 1\n[[block]]\nfixed = true\n"
+                       "polygon = [[-3,-1],[3,-1],[3,0],[-3,0]]\n[[block]]\nvelocity = [1, -2]\n"
+                       "polygon = [[0,0.01],[1,0.06],[0.95,1.06],[-0.05,1.01]]\n[[block]]\n"
+                       "velocity = [0, -3]\npolygon = [[0.3,1.1],[0.7,1.1],[0.7,1.4],[0.3,1.4]]\n")
+                       .sim;
+  sim.leapfrog.tiled.use = TiledFaces::Use::always;
+  start(sim, 1.0);
+  return sim;
+}
+
+void compare_normal_forces(const std::string& contact_damping) {
+  Simulation sim = falling(contact_damping);
+  constexpr double rounding = 1e-4;  // N
+  double largest = 0.0;
+  std::size_t behind = 0;
+  while (sim.motion.state.time < 0.05) {
+    ASSERT_FALSE(step_ahead(sim));
+    if (sim.leapfrog.tiled.ahead) ++behind;  // not after a step that has made a new list
+    const std::size_t n = sim.motion.contacts.size();
+    std::vector<double> seen(n);
+    for (std::size_t k = 0; k < n; ++k) seen[k] = normal_force_now(sim, k);
+    update_face_rows(sim);
+    const FaceSet& c = sim.motion.contacts;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double in_row = is_closed(c, k) ? normal_force(c, k) : 0.0;
+      EXPECT_NEAR(seen[k], in_row, rounding) << "face " << k;
+      EXPECT_NEAR(seen[k], normal_force_now(sim, k), rounding) << "face " << k;
+      largest = std::max(largest, in_row);
+    }
+  }
+  EXPECT_GT(largest, 1e9 * rounding);
+  EXPECT_GT(behind, sim.motion.state.steps / 2);
+}
+
+TEST(FacesNow, NormalForcesAreThoseOfTheRows) {
+  for (const char* contact_damping : {"0", "0.1"}) compare_normal_forces(contact_damping);
+}
+
+TEST(FacesNow, TheDeepestIsThatOfTheRows) {
+  Simulation sim = falling("0");
+  constexpr double rounding = 1e-13;
+  double largest = 0.0;
+  int found = 0, none = 0, behind = 0;
+  while (sim.motion.state.time < 0.05) {
+    ASSERT_FALSE(step_ahead(sim));
+    if (sim.leapfrog.tiled.ahead) ++behind;
+    const DeepestNow any = deepest_now(sim, 0.0), more = deepest_now(sim, 1.001 * largest);
+    update_face_rows(sim);
+    const FaceSet& c = sim.motion.contacts;
+    const DeepestFace deepest = deepest_face(c, sim.scene->blocks);
+    EXPECT_NEAR(any.ratio, deepest.ratio, rounding);
+    EXPECT_EQ(more.ratio, any.ratio > 1.001 * largest ? any.ratio : 0.0);
+    if (!(more.ratio > 0.0)) {
+      ++none;
+      continue;
+    }
+    ++found;
+    EXPECT_EQ(more.face, deepest.face);
+    EXPECT_NEAR(more.depth, closure_of(c, deepest.face), rounding);
+    EXPECT_LT(norm(more.place - deeper_end(c, sim.motion.pose, deepest.face)), rounding);
+    largest = more.ratio;
+  }
+  EXPECT_GT(found, 0);
+  EXPECT_GT(none, 0);
+  EXPECT_GT(behind, 100);
+}
+
+}  // namespace
+}  // namespace edda::faces_now_test
