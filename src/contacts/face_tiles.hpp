@@ -181,7 +181,8 @@ struct FaceTiles {
   AlignedNumbers work[2];          ///< [chunks][work_columns][8], where `fresh`
   AlignedNumbers sums;             ///< [chunks][sum_columns][8]
   std::vector<LaneBits> ever;      ///< [chunks] `opens`, `slides` of any step until n - 1
-  std::vector<double> deepest;     ///< [chunks] as FaceStep::depth, largest in the step so far, m
+  std::vector<double> deepest;     ///< [chunks] as FaceStep::depth, largest in the step so far, m;
+                                   ///< of a new list an upper bound of that
   int now = 0;                     ///< which of the two is that of step n
 
   bool has_dashpots() const { return !dashpots[0].empty(); }

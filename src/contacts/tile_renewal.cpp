@@ -1,5 +1,6 @@
 #include "contacts/tile_renewal.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/parallel.hpp"
@@ -79,6 +80,8 @@ void renew_copy(const Renewal& r, std::size_t place, Id old, bool slept) {
   const Id from = old == no_id ? no_id : r.old.place[old][0];
   if (from != no_id) {
     for (const int which : {0, 1}) copy_step(r, which, place, from);
+    double& deepest = r.next.deepest[place / lanes];
+    deepest = std::max(deepest, r.old.deepest[from / lanes]);
     put(r.next.sums, place, get<FaceSumColumns<double>>(r.old.sums, from));
     copy_bits(r.next.ever[place / lanes], place % lanes, r.old.ever[from / lanes], from % lanes);
   }

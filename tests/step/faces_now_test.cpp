@@ -26,7 +26,6 @@ Simulation falling(const std::string& contact_damping) {
                        "polygon = [[0,0.01],[1,0.06],[0.95,1.06],[-0.05,1.01]]\n[[block]]\n"
                        "velocity = [0, -3]\npolygon = [[0.3,1.1],[0.7,1.1],[0.7,1.4],[0.3,1.4]]\n")
                        .sim;
-  sim.leapfrog.tiled.use = TiledFaces::Use::always;
   start(sim, 1.0);
   return sim;
 }
