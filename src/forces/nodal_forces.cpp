@@ -1,11 +1,10 @@
 #include "forces/nodal_forces.hpp"
 
-#include <array>
-#include <cassert>
-#include <cstdint>
+#include <algorithm>
 #include <limits>
 
 #include "base/parallel.hpp"
+#include "blocks/free_blocks.hpp"
 #include "forces/elastic.hpp"
 
 namespace edda {
@@ -55,22 +54,48 @@ EDDA_VECTOR void sum_faces_of_blocks(FaceListView c, const Id* vertex_begin, Nod
   }
 }
 
-/// Adds the sums of the faces; a block that is not free has none.
-EDDA_VECTOR void add_sums(ConstNodeValues on_x, ConstNodeValues on_y, const double* is_free,
-                          NodeValues fx, NodeValues fy, std::size_t begin, std::size_t end) {
-  for (std::size_t n = 0; n < nodes_per_block; ++n) {
-#pragma omp simd
-    for (std::size_t i = begin; i < end; ++i) {
-      fx[n][i] += is_free[i - begin] > 0.0 ? on_x[n][i] : 0.0;
-      fy[n][i] += is_free[i - begin] > 0.0 ? on_y[n][i] : 0.0;
-    }
+/// Calls body(i, forces on the nodes of i) for those of these blocks, ascending, that lie in
+/// [begin, end) and are free.
+template <class Body>
+void change_forces(NodalForces& forces, const BlockSet& b, const State& state,
+                   const std::vector<Id>& blocks, std::size_t begin, std::size_t end, Body body) {
+  auto next = std::lower_bound(blocks.begin(), blocks.end(), static_cast<Id>(begin));
+  for (; next != blocks.end() && *next < end; ++next) {
+    if (!is_free(b, state, *next)) continue;
+    NodeVectors f = vectors_of(forces.x, forces.y, *next);
+    body(f, *next);
+    store(f, forces.x, forces.y, *next);
   }
 }
 
-void add_springs(NodeVectors& f, const BlockSet& b, const BoundarySprings& s, const Pose& pose,
-                 std::size_t i) {
-  for (Id q = s.block_begin[i]; q < s.block_begin[i + 1]; ++q) {
-    spread(f, b, s.vertex[q], spring_force(s, q, pose.x, pose.y));
+/// Adds the forces of the springs on the free blocks of [begin, end).
+void add_springs(NodalForces& forces, const BlockSet& b, const BoundarySprings& s,
+                 const State& state, const Pose& pose, std::size_t begin, std::size_t end) {
+  for (Id q = s.block_begin[begin], next = q; q < s.block_begin[end]; q = next) {
+    const Id i = b.vertex_block[s.vertex[q]];
+    next = s.block_begin[i + 1];
+    if (!is_free(b, state, i)) continue;
+    NodeVectors f = vectors_of(forces.x, forces.y, i);
+    for (; q < next; ++q) spread(f, b, s.vertex[q], spring_force(s, q, pose.x, pose.y));
+    store(f, forces.x, forces.y, i);
+  }
+}
+
+/// Adds the loads, then the forces of the bolts, then those of point contacts, likewise.
+void add_loads(NodalForces& forces, const BlockSet& b, const LoadsNow& loads, const State& state,
+               const Pose& pose, std::size_t begin, std::size_t end) {
+  if (loads.loads != nullptr) {
+    change_forces(forces, b, state, loads.loads->blocks, begin, end,
+                  [&](NodeVectors& f, Id i) { add_loads(f, b, loads, pose.x, pose.y, i); });
+  }
+  if (loads.bolts == nullptr && loads.on_nodes == nullptr) return;
+  for (std::size_t i = begin; i < end; ++i) {
+    const bool bolted = loads.bolts != nullptr && loads.bolts->place[i] != no_id;
+    if ((!bolted && loads.on_nodes == nullptr) || !is_free(b, state, i)) continue;
+    NodeVectors f = vectors_of(forces.x, forces.y, i);
+    if (bolted) add_bolts(f, *loads.bolts, i);
+    if (loads.on_nodes != nullptr) f = f + (*loads.on_nodes)[i];
+    store(f, forces.x, forces.y, i);
   }
 }
 
@@ -133,9 +158,9 @@ void sum_faces(NodalForces& on, const BlockSet& b, const FaceSet& contacts) {
   });
 }
 
-void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
-                   const NodalForces& on_faces, const BoundarySprings& springs, Vec2 gravity,
-                   const LoadsNow& loads, std::size_t begin, std::size_t end) {
+void gather_own_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
+                       const BoundarySprings& springs, Vec2 gravity, const LoadsNow& loads,
+                       std::size_t begin, std::size_t end) {
   const BodyView body{values_of(b.grad_x),  values_of(b.grad_y), b.volume.data(),
                       b.lame_lambda.data(), b.lame_mu.data(),    b.mass.data()};
   body_forces(body, values_of(state.x), values_of(state.y), gravity - loads.gravity_reduction(),
@@ -146,27 +171,15 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
     add_initial_forces(initial, values_of(state.x), values_of(state.y), values_of(forces.x),
                        values_of(forces.y), begin, end);
   }
-  assert(end - begin <= blocks_at_once);
-  std::array<double, blocks_at_once> moves;
-  for (std::size_t i = begin; i < end; ++i) {
-    moves[i - begin] = is_free(b, state, i) ? 1.0 : 0.0;
-    const bool acted_on = springs.block_begin[i] < springs.block_begin[i + 1] ||
-                          (loads.loads != nullptr && loads.loads->place[i] != no_id) ||
-                          (loads.bolts != nullptr && loads.bolts->place[i] != no_id) ||
-                          loads.on_nodes != nullptr;
-    if (moves[i - begin] > 0.0 && !acted_on) continue;
-    NodeVectors f{};
-    if (moves[i - begin] > 0.0) {
-      f = vectors_of(forces.x, forces.y, i);
-      add_springs(f, b, springs, pose, i);
-      if (loads.loads != nullptr) add_loads(f, b, loads, pose.x, pose.y, i);
-      if (loads.bolts != nullptr) add_bolts(f, *loads.bolts, i);
-      if (loads.on_nodes != nullptr) f = f + (*loads.on_nodes)[i];
-    }
-    store(f, forces.x, forces.y, i);
-  }
-  add_sums(values_of(on_faces.x), values_of(on_faces.y), moves.data(), values_of(forces.x),
-           values_of(forces.y), begin, end);
+  add_springs(forces, b, springs, state, pose, begin, end);
+  add_loads(forces, b, loads, state, pose, begin, end);
+}
+
+void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
+                   const NodalForces& on_faces, const BoundarySprings& springs, Vec2 gravity,
+                   const LoadsNow& loads, std::size_t begin, std::size_t end) {
+  gather_own_forces(forces, b, state, pose, springs, gravity, loads, begin, end);
+  add_to_free(b, state, {on_faces.x, on_faces.y, forces.x, forces.y}, begin, end);
 }
 
 void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,

@@ -31,6 +31,12 @@ void gather_forces(NodalForces& forces, const BlockSet& blocks, const State& sta
                    const Pose& pose, const NodalForces& on_faces, const BoundarySprings& springs,
                    Vec2 gravity, const LoadsNow& loads, std::size_t begin, std::size_t end);
 
+/// All of them but those of the contacts, which are to be added (add_to_free()): until then blocks
+/// that are not free have forces, too.
+void gather_own_forces(NodalForces& forces, const BlockSet& blocks, const State& state,
+                       const Pose& pose, const BoundarySprings& springs, Vec2 gravity,
+                       const LoadsNow& loads, std::size_t begin, std::size_t end);
+
 /// Resultant of the contact forces on block i, N (for reactions).
 Vec2 contact_resultant(const BlockSet& blocks, const FaceSet& contacts, std::size_t i);
 

@@ -4,30 +4,10 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "integrate/kick.hpp"
 
 namespace edda {
 namespace {
-
-EDDA_INLINE double sign(double v) {
-  return (v > 0.0 ? 1.0 : 0.0) - (v < 0.0 ? 1.0 : 0.0);
-}
-
-/// Cundall's local damping: beta |f| against the velocity, by component.
-EDDA_INLINE Vec2 local_damping(Vec2 f, Vec2 v, double beta) {
-  return {-beta * std::abs(f.x) * sign(v.x), -beta * std::abs(f.y) * sign(v.y)};
-}
-
-/// Change of a velocity in one step, v+ = ((1 - a h/2) v- + h f/m)/(1 + a h/2) with the
-/// mass-proportional damping a, and the step h_new of the position that follows.
-struct Kick {
-  double keeps;  ///< (1 - a h/2)/(1 + a h/2)
-  double h;      ///< h/(1 + a h/2), s
-  double h_new, local;
-};
-
-EDDA_INLINE Vec2 kicked(Vec2 before, Vec2 acceleration, const Kick& kick) {
-  return kick.keeps * before + kick.h * acceleration;
-}
 
 /// One node of all blocks, with lumped mass.
 struct NodeView {
@@ -36,9 +16,8 @@ struct NodeView {
 };
 
 EDDA_INLINE void advance_one(const NodeView& n, const Kick& kick, std::size_t i) {
-  const Vec2 before{n.old_vx[i], n.old_vy[i]}, push{n.fx[i], n.fy[i]};
-  const Vec2 force = push + local_damping(push, before, kick.local);
-  const Vec2 after = kicked(before, n.inverse_mass[i] * force, kick);
+  const Vec2 after =
+      kicked_node({n.old_vx[i], n.old_vy[i]}, {n.fx[i], n.fy[i]}, n.inverse_mass[i], kick);
   n.vx[i] = after.x;
   n.vy[i] = after.y;
   n.x[i] += kick.h_new * after.x;
@@ -48,6 +27,12 @@ EDDA_INLINE void advance_one(const NodeView& n, const Kick& kick, std::size_t i)
 EDDA_VECTOR void advance_nodes(NodeView n, Kick kick, std::size_t begin, std::size_t end) {
 #pragma omp simd
   for (std::size_t i = begin; i < end; ++i) advance_one(n, kick, i);
+}
+
+Kick kick_of(const Leap& leap, double h_of_positions) {
+  const double h = 0.5 * (leap.h_old + leap.h_new);
+  const double half = 0.5 * leap.damping.mass * h;
+  return {(1.0 - half) / (1.0 + half), h / (1.0 + half), h_of_positions, leap.damping.local};
 }
 
 }  // namespace
@@ -71,12 +56,10 @@ void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
       begin = *next + 1;
     }
   }
-  const double h = 0.5 * (leap.h_old + leap.h_new), h_new = leap.h_new;
+  const double h_new = leap.h_new;
   // With strain damping the nodes of a block move together, after all have their new velocities.
   const bool strains = damping.strain != nullptr;
-  const double half = 0.5 * damping.mass * h;
-  const Kick kick{(1.0 - half) / (1.0 + half), h / (1.0 + half), strains ? 0.0 : h_new,
-                  damping.local};
+  const Kick kick = kick_of(leap, strains ? 0.0 : h_new);
   if (masses.kind != MassKind::consistent) {
     for (std::size_t k = 0; k < nodes_per_block; ++k) {
       const NodeView node{masses.node_inverse[k].data(),
@@ -109,6 +92,18 @@ void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
     }
   }
   if (strains) damp_strain_and_move(*damping.strain, b, masses, s, h_new, begin, end);
+}
+
+void add_and_advance(State& s, const Leap& leap, const ForcesToAdd& forces, std::size_t begin,
+                     std::size_t end) {
+  const StepDamping& damping = leap.damping;
+  const bool spares = damping.local > 0.0 && damping.spared != nullptr;
+  if (damping.strain == nullptr || leap.masses.kind == MassKind::consistent || spares) {
+    add_to_free(leap.blocks, s, forces, begin, end);
+    return advance(s, leap, begin, end);
+  }
+  add_kick_and_damp(*damping.strain, leap.blocks, leap.masses, s, forces, leap.old_vx, leap.old_vy,
+                    kick_of(leap, leap.h_new), begin, end);
 }
 
 void advance(State& s, const Leap& leap) {

@@ -42,6 +42,10 @@ struct Leap {
 void advance(State& state, const Leap& leap, std::size_t begin, std::size_t end);
 /// The same for all blocks.
 void advance(State& state, const Leap& leap);
+/// The same for [begin, end), not more than blocks_at_once, after `forces` have been added to those
+/// of the leap.
+void add_and_advance(State& state, const Leap& leap, const ForcesToAdd& forces, std::size_t begin,
+                     std::size_t end);
 
 /// Accounts for the dissipation of the step just made, once its velocities are final: damping force
 /// times (x_{n+1} - x_{n-1})/2.

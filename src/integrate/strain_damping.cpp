@@ -73,18 +73,42 @@ NodeVectors damped_velocity(StrainDamping& damping, const BlockSet& b, const Mas
   return v - damping.step * accelerations(masses, i, f);
 }
 
-/// Data of the loop over blocks with lumped masses.
+/// Data of the loops over blocks with lumped masses.
 struct BlocksView {
   ConstNodeValues grad_x, grad_y, inverse_mass;
   std::array<const double*, 6> w;
   std::array<double*, 3> stress;
   NodeValues x, y, vx, vy;
 };
+BlocksView blocks_view(StrainDamping& d, const BlockSet& b, const Masses& masses, State& s) {
+  return {values_of(b.grad_x),
+          values_of(b.grad_y),
+          values_of(masses.node_inverse),
+          {d.matrix[0].data(), d.matrix[1].data(), d.matrix[2].data(), d.matrix[3].data(),
+           d.matrix[4].data(), d.matrix[5].data()},
+          {d.stress[0].data(), d.stress[1].data(), d.stress[2].data()},
+          values_of(s.x),
+          values_of(s.y),
+          values_of(s.vx),
+          values_of(s.vy)};
+}
 
-EDDA_INLINE void damp_and_move(const BlocksView& b, double h, double h_new, std::size_t i) {
+/// The rate of F for velocities v.
+EDDA_INLINE Deformation rate_of(const BlocksView& b, const NodeVectors& v, std::size_t i) {
+  Deformation l{v[0].x * b.grad_x[0][i], v[0].x * b.grad_y[0][i], v[0].y * b.grad_x[0][i],
+                v[0].y * b.grad_y[0][i]};
+  for (std::size_t k = 1; k < nodes_per_block; ++k) {
+    const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
+    l = {l.xx + v[k].x * gx, l.xy + v[k].x * gy, l.yx + v[k].y * gx, l.yy + v[k].y * gy};
+  }
+  return l;
+}
+
+/// Damps v* and moves block i.
+EDDA_INLINE void damp_and_move(const BlocksView& b, double h, double h_new, const NodeVectors& v,
+                               std::size_t i) {
   const StrainFrame frame = strain_frame(deformation(b, b.x, b.y, i));
-  const StrainTerms s =
-      times(b.w, i, strain_rate_over(frame, deformation(b, b.vx, b.vy, i), h_new));
+  const StrainTerms s = times(b.w, i, strain_rate_over(frame, rate_of(b, v, i), h_new));
   const Deformation p = stress_on_rate(frame, s);
   b.stress[0][i] = s.xx;
   b.stress[1][i] = s.yy;
@@ -92,8 +116,8 @@ EDDA_INLINE void damp_and_move(const BlocksView& b, double h, double h_new, std:
   for (std::size_t k = 0; k < nodes_per_block; ++k) {
     const double per = h * b.inverse_mass[k][i];
     const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
-    const double vx = b.vx[k][i] - per * (p.xx * gx + p.xy * gy);
-    const double vy = b.vy[k][i] - per * (p.yx * gx + p.yy * gy);
+    const double vx = v[k].x - per * (p.xx * gx + p.xy * gy);
+    const double vy = v[k].y - per * (p.yx * gx + p.yy * gy);
     b.vx[k][i] = vx;
     b.vy[k][i] = vy;
     b.x[k][i] += h_new * vx;
@@ -101,10 +125,32 @@ EDDA_INLINE void damp_and_move(const BlocksView& b, double h, double h_new, std:
   }
 }
 
+EDDA_INLINE void damp_and_move(const BlocksView& b, double h, double h_new, std::size_t i) {
+  damp_and_move(b, h, h_new, vectors_of(b.vx, b.vy, i), i);
+}
+
 EDDA_VECTOR void damp_and_move_all(BlocksView b, double h, double h_new, std::size_t begin,
                                    std::size_t end) {
 #pragma omp simd
   for (std::size_t i = begin; i < end; ++i) damp_and_move(b, h, h_new, i);
+}
+
+/// Completes the forces of block i, kicks, damps and moves it.
+EDDA_INLINE void kick_and_move(const BlocksView& b, const FreeForces& f,
+                               const ConstNodeValues& old_vx, const ConstNodeValues& old_vy,
+                               const Kick& kick, double h, std::size_t i) {
+  NodeVectors v;
+  for (std::size_t k = 0; k < nodes_per_block; ++k) {
+    v[k] = kicked_node({old_vx[k][i], old_vy[k][i]}, f.complete(k, i), b.inverse_mass[k][i], kick);
+  }
+  damp_and_move(b, h, kick.h_new, v, i);
+}
+
+EDDA_VECTOR void add_kick_and_damp_all(BlocksView b, FreeForces f, ConstNodeValues old_vx,
+                                       ConstNodeValues old_vy, Kick kick, double h,
+                                       std::size_t begin, std::size_t end) {
+#pragma omp simd
+  for (std::size_t i = begin; i < end; ++i) kick_and_move(b, f, old_vx, old_vy, kick, h, i);
 }
 
 /// Data of the loop that adds up the dissipation.
@@ -151,17 +197,7 @@ void prepare(StrainDamping& d, const BlockSet& b, const Masses& masses, double h
 void damp_strain_and_move(StrainDamping& d, const BlockSet& b, const Masses& masses, State& s,
                           double h_new, std::size_t begin, std::size_t end) {
   if (masses.kind != MassKind::consistent) {
-    const BlocksView view{values_of(b.grad_x),
-                          values_of(b.grad_y),
-                          values_of(masses.node_inverse),
-                          {d.matrix[0].data(), d.matrix[1].data(), d.matrix[2].data(),
-                           d.matrix[3].data(), d.matrix[4].data(), d.matrix[5].data()},
-                          {d.stress[0].data(), d.stress[1].data(), d.stress[2].data()},
-                          values_of(s.x),
-                          values_of(s.y),
-                          values_of(s.vx),
-                          values_of(s.vy)};
-    damp_and_move_all(view, d.step, h_new, begin, end);
+    damp_and_move_all(blocks_view(d, b, masses, s), d.step, h_new, begin, end);
     return;
   }
   for (std::size_t i = begin; i < end; ++i) {
@@ -174,6 +210,14 @@ void damp_strain_and_move(StrainDamping& d, const BlockSet& b, const Masses& mas
     }
     add(h_new * vectors_of(s.vx, s.vy, i), s.x, s.y, i);
   }
+}
+
+void add_kick_and_damp(StrainDamping& d, const BlockSet& b, const Masses& masses, State& s,
+                       const ForcesToAdd& forces, const Nodes& old_vx, const Nodes& old_vy,
+                       const Kick& kick, std::size_t begin, std::size_t end) {
+  const FreeMarks free(b, s, begin, end);
+  add_kick_and_damp_all(blocks_view(d, b, masses, s), free_forces(forces, free), values_of(old_vx),
+                        values_of(old_vy), kick, d.step, begin, end);
 }
 
 NodeVectors damped_change(StrainDamping& d, const BlockSet& b, const Masses& masses, const State& s,

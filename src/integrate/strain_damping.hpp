@@ -15,9 +15,11 @@
 #include <array>
 #include <vector>
 
+#include "blocks/free_blocks.hpp"
 #include "blocks/kinematics.hpp"
 #include "blocks/masses.hpp"
 #include "blocks/strain_rate.hpp"
+#include "integrate/kick.hpp"
 
 namespace edda {
 
@@ -36,6 +38,13 @@ void prepare(StrainDamping& damping, const BlockSet& blocks, const Masses& masse
 /// blocks [begin, end). Stores s.
 void damp_strain_and_move(StrainDamping& damping, const BlockSet& blocks, const Masses& masses,
                           State& state, double h_new, std::size_t begin, std::size_t end);
+
+/// The whole step of the blocks [begin, end), not more than blocks_at_once, with lumped masses:
+/// adds the forces, makes v* of v_{n-1/2} in old_vx, old_vy by the kick, then damps and moves as
+/// above.
+void add_kick_and_damp(StrainDamping& damping, const BlockSet& blocks, const Masses& masses,
+                       State& state, const ForcesToAdd& forces, const Nodes& old_vx,
+                       const Nodes& old_vy, const Kick& kick, std::size_t begin, std::size_t end);
 
 /// The part of a `change` of the velocities of block i, due to a changed force in the step just
 /// made, that remains under strain damping; updates s accordingly.

@@ -1,0 +1,21 @@
+#include "blocks/free_blocks.hpp"
+
+namespace edda {
+namespace {
+
+EDDA_VECTOR void complete_all(FreeForces f, std::size_t begin, std::size_t end) {
+  for (std::size_t k = 0; k < nodes_per_block; ++k) {
+#pragma omp simd
+    for (std::size_t i = begin; i < end; ++i) f.complete(k, i);
+  }
+}
+
+}  // namespace
+
+void add_to_free(const BlockSet& b, const State& s, const ForcesToAdd& forces, std::size_t begin,
+                 std::size_t end) {
+  const FreeMarks free(b, s, begin, end);
+  complete_all(free_forces(forces, free), begin, end);
+}
+
+}  // namespace edda
