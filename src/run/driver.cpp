@@ -234,8 +234,6 @@ Driver::Arrival Driver::step_to(double time) {
       return Arrival::over;
     }
     if (sim_.motion.state.steps % revolutions_every == 0) {
-      if (sim_.relaxation.seeks_equilibrium)
-        update_face_rows(sim_);  // update_relaxation() reads them
       count_revolutions(sim_, angle_);
       measure_overlaps();
       look_for_chatter(outcome_.chatter, sim_);

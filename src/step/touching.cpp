@@ -4,6 +4,22 @@
 #include "step/simulation.hpp"
 
 namespace edda {
+namespace {
+
+/// As is_closed(), also where the rows of the faces are behind.
+bool is_closed_now(const Simulation& sim, std::size_t k) {
+  const FaceSet& f = sim.motion.contacts;
+  if (!sim.leapfrog.tiled.ahead) return is_closed(f, k);
+  const FaceTiles& t = sim.leapfrog.tiled.tiles;
+  const Id place = t.place[k][0];
+  if (place == no_id) return false;
+  const auto is = [&](unsigned of) {
+    return lane_bits::test(t.bits[t.now][place / lanes], of, place % lanes);
+  };
+  return is(lane_bits::stored) || (f.bonded[k] > 0.0 && is(lane_bits::on));
+}
+
+}  // namespace
 
 std::vector<std::uint8_t> touching(const Simulation& sim) {
   std::vector<std::uint8_t> touches(sim.scene->blocks.size(), 0);
@@ -20,7 +36,7 @@ std::vector<std::uint8_t> touching(const Simulation& sim) {
   }
   const FaceSet& f = sim.motion.contacts;
   for (std::size_t k = 0; k < f.size(); ++k) {
-    if (!is_closed(f, k)) continue;
+    if (!is_closed_now(sim, k)) continue;
     touches[block_of_edge(sim.scene->blocks, f, k)] =
         touches[block_of_facing(sim.scene->blocks, f, k)] = 1;
   }

@@ -10,6 +10,7 @@
 #include "contacts/face_reading.hpp"
 #include "run/prepared.hpp"
 #include "step/step.hpp"
+#include "step/touching.hpp"
 
 namespace edda::faces_now_test {
 namespace {
@@ -56,6 +57,20 @@ void compare_normal_forces(const std::string& contact_damping) {
 
 TEST(FacesNow, NormalForcesAreThoseOfTheRows) {
   for (const char* contact_damping : {"0", "0.1"}) compare_normal_forces(contact_damping);
+}
+
+TEST(FacesNow, BlocksThatTouchAreThoseOfTheRows) {
+  Simulation sim = falling("0.1");
+  std::size_t touched = 0, apart = 0;
+  while (sim.motion.state.time < 0.05) {
+    ASSERT_FALSE(step_ahead(sim));
+    const std::vector<std::uint8_t> seen = touching(sim);
+    update_face_rows(sim);
+    ASSERT_EQ(seen, touching(sim)) << sim.motion.state.steps;
+    for (const std::uint8_t touches : seen) (touches != 0 ? touched : apart) += 1;
+  }
+  EXPECT_GT(touched, 100u);
+  EXPECT_GT(apart, 100u);
 }
 
 TEST(FacesNow, TheDeepestIsThatOfTheRows) {
