@@ -190,7 +190,8 @@ void lay_out_tile(FaceTiles& t, const FacesOfTiles& of, const FaceSet& c, const 
 void clear_memory(FaceTiles& t, std::size_t tile) {
   const std::size_t first = t.tiles[tile].first_chunk, chunks = t.tiles[tile].last_chunk - first;
   const auto clear = [&](AlignedNumbers& table, std::size_t columns) {
-    if (!table.empty()) std::fill_n(&table[first * columns * lanes], chunks * columns * lanes, 0.0);
+    if (table.empty()) return;  // a tile without faces may begin where the table ends
+    std::fill_n(table.data() + first * columns * lanes, chunks * columns * lanes, 0.0);
   };
   clear(t.sums, sum_columns);
   for (const int which : {0, 1}) {
