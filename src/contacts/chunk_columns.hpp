@@ -25,6 +25,7 @@ struct ChunkColumns : EdgeConstants<const double*>, StrengthConstants<const doub
   DashpotMemoryColumns<double*> damped;
   FaceWorkColumns<double*> work;
   StandColumns<double*> stands;
+  OverlapColumns<double*> overlaps;
   const Records *e, *f, *e_then, *f_then, *mass_e, *mass_f;
   LaneBits was;
   double per_step, noise;
@@ -37,6 +38,7 @@ template <Tables tables>
 EDDA_INLINE ChunkColumns columns_of(const ChunkView& v) {
   ChunkColumns c{columns_from<EdgeConstants<const double*>>(v.edges),
                  columns_from<StrengthConstants<const double*>>(v.strengths),
+                 {},
                  {},
                  {},
                  {},
@@ -57,6 +59,7 @@ EDDA_INLINE ChunkColumns columns_of(const ChunkView& v) {
     c.memory = columns_from<FaceMemoryColumns<double*>>(v.memory);
     c.work = columns_from<FaceWorkColumns<double*>>(v.work);
     c.stands = columns_from<StandColumns<double*>>(v.stands);
+    c.overlaps = columns_from<OverlapColumns<double*>>(v.overlaps);
   }
   if constexpr (tables == Tables::memory_and_dashpots) {
     c.damped_before = columns_from<DashpotMemoryColumns<const double*>>(v.damped_before);

@@ -50,6 +50,51 @@ EDDA_INLINE void write_geometry(const ChunkColumns& c, const EdgeGeometry& o, st
   s.length_sine[k] = o.length_sine;
 }
 
+template <bool plain>
+EDDA_INLINE OverlapEnds overlap_of(const ChunkColumns& c, const EdgeGeometry& o,
+                                   const FacePair& pair, std::size_t k) {
+  if constexpr (plain) return overlap_of<true>(o, pair);
+  const OverlapColumns<double*>& s = c.overlaps;
+  OverlapEnds v;
+  v.sa = s.sa[k];
+  v.sb = s.sb[k];
+  v.exists = s.exists[k] != 0.0;
+  v.a_by_p = o.r2 <= 0.0;
+  v.b_by_p = o.s2 <= o.r1;
+  v.la = s.la[k];
+  v.lb = s.lb[k];
+  v.per_passing = s.per_passing[k];
+  v.near_a.by_other = s.near_a[k];
+  v.near_b.by_other = s.near_b[k];
+  v.pass_a.by_other = s.pass_a[k];
+  v.pass_b.by_other = s.pass_b[k];
+  v.pass_a.by_reach = s.reach_a[k];
+  v.pass_b.by_reach = s.reach_b[k];
+  v.reach.by_a = s.reach_by_a[k];
+  v.reach.by_b = s.reach_by_b[k];
+  return v;
+}
+EDDA_INLINE void write_overlap(const ChunkColumns& c, std::size_t k) {
+  const FacePair pair = pair_of(c, k);
+  const EdgeGeometry stands = geometry_of(c, pair, k);
+  const OverlapEnds v = overlap_of<false>(stands, pair);
+  const OverlapColumns<double*>& s = c.overlaps;
+  s.sa[k] = v.sa;
+  s.sb[k] = v.sb;
+  s.exists[k] = v.exists ? 1.0 : 0.0;
+  s.la[k] = v.la;
+  s.lb[k] = v.lb;
+  s.per_passing[k] = v.per_passing;
+  s.near_a[k] = v.near_a.by_other;
+  s.near_b[k] = v.near_b.by_other;
+  s.pass_a[k] = v.pass_a.by_other;
+  s.pass_b[k] = v.pass_b.by_other;
+  s.reach_a[k] = v.pass_a.by_reach;
+  s.reach_b[k] = v.pass_b.by_reach;
+  s.reach_by_a[k] = v.reach.by_a;
+  s.reach_by_b[k] = v.reach.by_b;
+}
+
 /// books: with the corners at n and n - 1, of which only the work of the step follows.
 template <bool dashpots, bool books>
 EDDA_INLINE FaceInputs inputs_of(const ChunkColumns& c, std::size_t k) {
@@ -156,7 +201,8 @@ EDDA_INLINE void evaluate_lane(const ChunkColumns& c, std::size_t k, Records& on
                                LaneBits& state, LaneBits& found, double& deepest) {
   const FaceInputs in = inputs_of<dashpots, books>(c, k);
   const EdgeGeometry stands = geometry_of(c, in.pair, k);
-  const Face face = face_between<plain>(stands, in.pair);
+  const OverlapEnds overlap = overlap_of<plain>(c, stands, in.pair, k);
+  const Face face = face_between<plain>(stands, overlap, in.pair);
   const FaceStep s = step_of_face<dashpots, false, plain, books>(in, stands, face);
   write_memory<dashpots>(c, s, stands.corners(), k);
   if constexpr (books) write_work(c, s, k);
@@ -248,6 +294,12 @@ EDDA_VECTOR void stand_edges(const ChunkView& given, const double* at, const Id*
   for (std::size_t k = 0; k < lanes; ++k) {
     write_geometry(c, geometry_of_edges(points_of(e, f, k), pair_of(c, k)), k);
   }
+}
+
+EDDA_VECTOR void overlap_edges(const ChunkView& given) {
+  const ChunkColumns c = columns_of<Tables::memory>(given);
+#pragma omp simd
+  for (std::size_t k = 0; k < lanes; ++k) write_overlap(c, k);
 }
 
 EDDA_VECTOR ChunkFound evaluate_with_work(const ChunkView& c) {

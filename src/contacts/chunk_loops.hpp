@@ -14,14 +14,24 @@ struct StandColumns {
   C length_cosine, length_sine;
 };
 inline constexpr std::size_t stand_columns = sizeof(StandColumns<double>) / sizeof(double);
+/// Where they overlap: what counts of OverlapEnds where the short formulas do not suffice.
+template <class C>
+struct OverlapColumns {
+  C exists, sa, sb, la, lb, per_passing, near_a, near_b, pass_a,
+      pass_b;                ///< CornersPassing::by_other
+  C reach_a, reach_b;        ///< CornersPassing::by_reach, of pass_a and pass_b
+  C reach_by_a, reach_by_b;  ///< PassingReach
+};
+inline constexpr std::size_t overlap_columns = sizeof(OverlapColumns<double>) / sizeof(double);
 
 /// A chunk of faces, as its loop reads and writes it: tables of [columns][8].
 struct ChunkView {
   const double *edges, *strengths;       ///< EdgeConstants, StrengthConstants
   const double *before, *damped_before;  ///< FaceMemoryColumns, DashpotMemoryColumns
   double *memory, *damped;
-  double* work;    ///< FaceWorkColumns
-  double* stands;  ///< StandColumns
+  double* work;      ///< FaceWorkColumns
+  double* stands;    ///< StandColumns
+  double* overlaps;  ///< OverlapColumns
   const Records *e, *f, *e_then, *f_then, *mass_e, *mass_f;
   const Id *record_e, *record_f;
   double* on;  ///< records of the forces on the edges
@@ -38,6 +48,8 @@ struct ChunkFound {
 
 /// Finds out how the edges stand, from their records `at` and the slots of the chunk.
 void stand_edges(const ChunkView& chunk, const double* at, const Id* slot_e, const Id* slot_f);
+/// Finds where they overlap, from how they stand.
+void overlap_edges(const ChunkView& chunk);
 
 /// The other loops need that. Evaluates a chunk: state, forces, and, where `work` is in the name,
 /// work. `plain`: by the short formulas. Forces are stored unless the chunk turns out to need

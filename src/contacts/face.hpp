@@ -272,11 +272,10 @@ EDDA_INLINE void push_past(FrameForces& on, double by_past, bool deep_b) {
 
 /// The face of two edges. plain: is_plain() holds for them; what it excludes is not computed, and
 /// the result is the same to the bit.
-template <bool plain = false>
-EDDA_INLINE Face face_between(const EdgeGeometry& o, const FacePair& pair) {
+template <bool plain>
+EDDA_INLINE Face face_between(const EdgeGeometry& o, const OverlapEnds& v, const FacePair& pair) {
   Face face;
   const EdgeAngle angle{o.length_cosine, o.length_sine};
-  const OverlapEnds v = overlap_of<plain>(o, pair);
   face.t = {o.tx, o.ty};
   face.inverse_e = pair.inverse_e * o.per_base;
   face.inverse_f = pair.inverse_f * o.per_base;
@@ -295,6 +294,10 @@ EDDA_INLINE Face face_between(const EdgeGeometry& o, const FacePair& pair) {
   return face;
 }
 
+template <bool plain = false>
+EDDA_INLINE Face face_between(const EdgeGeometry& o, const FacePair& pair) {
+  return face_between<plain>(o, overlap_of<plain>(o, pair), pair);
+}
 template <bool plain = false>
 EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
   return face_between<plain>(geometry_of_edges(at, pair), pair);

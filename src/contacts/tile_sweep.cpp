@@ -75,9 +75,11 @@ struct ChunkEdges {
   const Id *slot_e, *slot_f;
 };
 
-/// How the edges of a chunk stand.
+/// How the edges of a chunk stand, and where they overlap.
 struct ChunkStand {
   alignas(64) double columns[stand_columns * lanes];
+  alignas(64) double overlaps[overlap_columns * lanes];
+  bool overlaps_known;
 };
 
 /// The corners of faces whose corners do not count: what is multiplied by them is 0.
@@ -101,6 +103,7 @@ ChunkView view_of(FaceTiles& t, const SweepScene& scene, std::size_t tile, std::
           .damped = damped ? at(t.dashpots[now], dashpot_memory_columns) : nullptr,
           .work = at(t.work[now], work_columns),
           .stands = stand.columns,
+          .overlaps = stand.overlaps,
           .e = &no_corners,
           .f = &no_corners,
           .e_then = &no_corners,
@@ -117,7 +120,7 @@ ChunkView view_of(FaceTiles& t, const SweepScene& scene, std::size_t tile, std::
 
 /// Evaluates a chunk. What held for all of its faces in the last step is tried first: that
 /// is_plain(), and that they do no work.
-ChunkFound evaluate_chunk(FaceTiles& t, const ChunkView& view, std::size_t q) {
+ChunkFound evaluate_chunk(FaceTiles& t, const ChunkView& view, std::size_t q, bool overlaps_known) {
   const auto any = [](const ChunkFound& c, unsigned of) {
     return (c.found & lane_bits::field(of)) != 0;
   };
@@ -125,6 +128,7 @@ ChunkFound evaluate_chunk(FaceTiles& t, const ChunkView& view, std::size_t q) {
   const bool worked = t.fresh[1 - t.now][q] != 0;
   bool plain = t.plain[q] != 0, rests = !damped && !worked;
   for (;;) {
+    if (!plain && !overlaps_known) overlap_edges(view);
     const ChunkFound found = plain    ? damped  ? evaluate_plain_damped(view)
                                         : rests ? evaluate_plain_at_rest(view)
                                                 : evaluate_plain_with_work(view)
@@ -137,6 +141,7 @@ ChunkFound evaluate_chunk(FaceTiles& t, const ChunkView& view, std::size_t q) {
       t.plain[q] = any(found, lane_bits::rare) ? 0 : 1;
       return found;
     }
+    overlaps_known = overlaps_known || !plain;
     plain = plain && !too_plain;
     rests = rests && !too_quiet;
   }
@@ -172,12 +177,16 @@ void store_nothing(const FaceTiles& t, double* on, std::size_t q) {
   clear(t.record_f);
 }
 
+/// Whether none of the faces of a chunk has carried anything for two steps.
+bool is_idle(const FaceTiles& t, std::size_t q) {
+  return t.idle[0][q] != 0 && t.idle[1][q] != 0 && t.bonds[q] == 0;
+}
+
 /// Evaluates a chunk whose edges stand as they are known to, and stores its forces. Returns what it
 /// has found.
-ChunkFound evaluate_standing(FaceTiles& t, ChunkView& view, std::size_t q,
-                             const ChunkEdges& edges) {
-  const bool idle = t.idle[0][q] != 0 && t.idle[1][q] != 0 && t.bonds[q] == 0;
-  if (idle) {
+ChunkFound evaluate_standing(FaceTiles& t, ChunkView& view, std::size_t q, const ChunkEdges& edges,
+                             bool overlaps_known) {
+  if (is_idle(t, q)) {
     const ChunkFound open = t.has_dashpots() ? look_at_damped(view) : look_at_undamped(view);
     if (open.found == 0) {
       keep(t, q, open);
@@ -199,13 +208,14 @@ ChunkFound evaluate_standing(FaceTiles& t, ChunkView& view, std::size_t q,
     view.mass_e = &mass_e;
     view.mass_f = &mass_f;
   }
-  const ChunkFound found = evaluate_chunk(t, view, q);
+  const ChunkFound found = evaluate_chunk(t, view, q, overlaps_known);
   keep(t, q, found);
   return found;
 }
 
-/// Evaluates some chunks [first, last). How the edges of all of them stand comes first, for the
-/// processor to compute one beside the other: each is a long chain of roots and divisions.
+/// Evaluates some chunks [first, last). How the edges of all of them stand comes first, and where
+/// they overlap, for the processor to compute several beside each other: each is a long chain of
+/// roots and divisions.
 LaneBits sweep_some(const TileInSweep& s, std::size_t first, std::size_t last) {
   FaceTiles& t = s.tiles;
   ChunkStand stands[chunks_at_once];
@@ -220,9 +230,15 @@ LaneBits sweep_some(const TileInSweep& s, std::size_t first, std::size_t last) {
     const ChunkEdges edges = edges_of(q);
     stand_edges(view, edges.at, edges.slot_e, edges.slot_f);
   }
+  for (std::size_t q = first; q < last; ++q) {
+    bool& known = stands[q - first].overlaps_known;
+    known = t.plain[q] == 0 && !is_idle(t, q);
+    if (known) overlap_edges(views[q - first]);
+  }
   LaneBits found = 0;
   for (std::size_t q = first; q < last; ++q) {
-    const ChunkFound here = evaluate_standing(t, views[q - first], q, edges_of(q));
+    const ChunkFound here =
+        evaluate_standing(t, views[q - first], q, edges_of(q), stands[q - first].overlaps_known);
     found |= here.found;
     t.deepest[q] = std::max(t.deepest[q], here.deepest);
   }
@@ -355,7 +371,7 @@ SweepResult sweep_chunks(FaceTiles& t, const SweepScene& scene, std::size_t tile
     ChunkStand stand;
     ChunkView view = view_of(t, scene, tile, q, t.forces[tile].data(), stand);
     stand_edges(view, edges.at, edges.slot_e, edges.slot_f);
-    const ChunkFound here = evaluate_standing(t, view, q, edges);
+    const ChunkFound here = evaluate_standing(t, view, q, edges, false);
     found |= here.found;
     t.deepest[q] = scene.corrects ? std::max(t.deepest[q], here.deepest) : here.deepest;
   }

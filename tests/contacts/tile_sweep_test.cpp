@@ -35,7 +35,8 @@ struct Drift {
   double damping;
   std::size_t listed = 0, kept = 0;  ///< faces that a new list has added, and taken over
   std::size_t carrying = 0, sliding = 0, opened = 0, open = 0, asleep = 0;
-  unsigned moves = 0, steady = 1;  ///< so many moves are alike
+  std::size_t only_bonded = 0, only_carried = 0;  ///< carry shear, or did so, and store no energy
+  unsigned moves = 0, steady = 1;                 ///< so many moves are alike
 
   Drift(int blocks, double zeta, double bonded_part, double locked_part)
       : heap(odd_polygons(rng, blocks)), damping(zeta) {
@@ -209,6 +210,7 @@ struct Drift {
       EXPECT_EQ(lane_bits::test(bits, lane_bits::stored, lane), m.energy[k] > 0.0);
       EXPECT_EQ(lane_bits::test(bits, lane_bits::on, lane), m.gate[k] > 0.0);
       EXPECT_EQ(lane_bits::test(bits, lane_bits::switched, lane), m.switched[k] > 0.0);
+      if (is_awake(t, place)) compare_found(t.found[t.now][q], lane, k);
       compare_work(t, place, k);
     }
     EXPECT_EQ(copies > 0 ? 1u : 0u, owned);
@@ -217,6 +219,22 @@ struct Drift {
     open += m.energy[k] == 0.0;
     sliding += m.slip_a[k] != m.trial_a[k];
     opened += c.before.energy[k] > 0.0 && m.energy[k] == 0.0;
+  }
+
+  void compare_found(LaneBits found, std::size_t lane, std::size_t k) {
+    const FaceSet& c = heap.contacts;
+    const FaceMemory &m = c.now, &old = c.before;
+    const bool touches = m.energy[k] > 0.0 || (c.bonded[k] > 0.0 && m.gate[k] > 0.0);
+    const bool worked = old.energy[k] > 0.0 || old.spring[k] > 0.0;
+    EXPECT_EQ(lane_bits::test(found, lane_bits::works, lane), touches || worked) << "face " << k;
+    EXPECT_EQ(lane_bits::test(found, lane_bits::opens, lane),
+              old.energy[k] > 0.0 && m.energy[k] == 0.0)
+        << "face " << k;
+    EXPECT_EQ(lane_bits::test(found, lane_bits::slides, lane),
+              m.slip_a[k] != m.trial_a[k] || m.slip_b[k] != m.trial_b[k])
+        << "face " << k;
+    only_bonded += touches && m.energy[k] == 0.0;
+    only_carried += worked && old.energy[k] == 0.0;
   }
 
   /// Of a chunk that did no work nothing is kept.
@@ -257,6 +275,10 @@ void drift(double damping, double bonded_part, double locked_part, std::size_t m
   EXPECT_GT(d.open, 1000u);
   EXPECT_GT(d.sliding, 50u);
   EXPECT_GT(d.opened, 10u);
+  if (bonded_part > 0.0) {
+    EXPECT_GT(d.only_bonded, 1000u);
+    EXPECT_GT(d.only_carried, 1000u);
+  }
 }
 
 TEST(TileSweep, GivesFacesTheStateThatTheyHaveAlone) {
