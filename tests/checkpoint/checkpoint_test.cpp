@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -8,6 +9,7 @@
 #include <new>
 #include <numeric>
 #include <span>
+#include <thread>
 #include <type_traits>
 
 #include "checkpoint/archive.hpp"
@@ -252,6 +254,13 @@ TEST(Hdf5Image, GoesOnAfterAFullDisk) {
     EXPECT_FALSE(full.good()) << most;
   }
   EXPECT_EQ(image_of(record), whole);
+}
+
+TEST(Hdf5Image, HasTheSameBytesASecondLater) {
+  const Record record = record_of(Thing{});
+  const std::string image = image_of(record);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  EXPECT_EQ(image_of(record), image);
 }
 
 TEST(Sha256, IsThatOfThePieces) {

@@ -9,6 +9,7 @@
 
 #include "contacts/face_reading.hpp"
 #include "run/prepared.hpp"
+#include "step/invariants.hpp"
 #include "step/step.hpp"
 #include "step/touching.hpp"
 
@@ -52,7 +53,7 @@ void compare_normal_forces(const std::string& contact_damping) {
     }
   }
   EXPECT_GT(largest, 1e9 * rounding);
-  EXPECT_GT(behind, sim.motion.state.steps / 2);
+  if (!invariants_are_checked) EXPECT_GT(behind, sim.motion.state.steps / 2);
 }
 
 TEST(FacesNow, NormalForcesAreThoseOfTheRows) {
@@ -99,7 +100,7 @@ TEST(FacesNow, TheDeepestIsThatOfTheRows) {
   }
   EXPECT_GT(found, 0);
   EXPECT_GT(none, 0);
-  EXPECT_GT(behind, 100);
+  if (!invariants_are_checked) EXPECT_GT(behind, 100);  // else rows are read after every step
 }
 
 }  // namespace
