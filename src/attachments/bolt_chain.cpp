@@ -76,27 +76,38 @@ class Chain {
   }
 
   /// Newton's method on the energy, which is convex and piecewise quadratic; an increment that
-  /// would raise the energy is shortened. Returns the number of increments.
+  /// would raise the energy is shortened. Whole increments that lead into balance need no energy:
+  /// the minimum is there. Returns the number of increments.
   int solve() {
-    constexpr int most = 100, most_cuts = 30;
-    constexpr double rounding = 1e-12;
-    double now = energy_at(b_.slip);
+    constexpr int most = 100;
     int round = 0;
-    for (; round < most && !in_balance(); ++round) {
+    for (bool balanced = in_balance(b_.slip); round < most && !balanced; ++round) {
       find_change();
-      double part = 1.0, next = 0.0;
-      for (int cut = 0; cut < most_cuts; ++cut, part *= 0.5) {
-        for (std::size_t k = first_; k < last_; ++k) b_.trial[k] = b_.slip[k] + part * b_.change[k];
-        next = energy_at(b_.trial);
-        if (next <= (1.0 + rounding) * now) break;
-      }
+      increase_by(1.0);
+      balanced = in_balance(b_.trial);
+      if (!balanced && shorten()) balanced = in_balance(b_.trial);
       std::copy_n(b_.trial.data() + first_, last_ - first_, b_.slip.data() + first_);
-      now = next;
     }
     return round;
   }
 
  private:
+  void increase_by(double part) {
+    for (std::size_t k = first_; k < last_; ++k) b_.trial[k] = b_.slip[k] + part * b_.change[k];
+  }
+
+  /// Halves the increment as long as it raises the energy. Returns whether it did.
+  bool shorten() {
+    constexpr int most_cuts = 30;
+    constexpr double rounding = 1e-12;
+    const double now = energy_at(b_.slip);
+    double part = 1.0;
+    for (int cut = 1; cut < most_cuts && !(energy_at(b_.trial) <= (1.0 + rounding) * now); ++cut) {
+      increase_by(part *= 0.5);
+    }
+    return part < 1.0;
+  }
+
   double energy_at(const std::vector<double>& slip) const {
     double sum = 0.0;
     for (std::size_t k = first_; k < last_; ++k) {
@@ -106,21 +117,20 @@ class Chain {
     return sum;
   }
 
-  /// Fills residual and tangent. Returns whether the residual is rounding.
-  bool in_balance() {
+  /// Fills residual and tangent at these slips. Returns whether the residual is rounding.
+  bool in_balance(const std::vector<double>& slip) {
     constexpr double rounding = 1e-11;
     std::fill_n(b_.diagonal.data() + first_, last_ - first_, 0.0);
     std::fill_n(b_.right.data() + first_, last_ - first_, 0.0);
     double largest = 0.0, error = 0.0;
     for (std::size_t k = first_; k < last_; ++k) {
-      const SpringResponse bond = answer(b_.bonds, k, b_.slip[k] - b_.bonds.plastic[k]);
+      const SpringResponse bond = answer(b_.bonds, k, slip[k] - b_.bonds.plastic[k]);
       b_.diagonal[k] += bond.slope;
       b_.right[k] -= bond.force;
       largest = std::max(largest, std::abs(bond.force));
       if (k + 1 < last_) {
         const BarFrame& f = b_.frame[k];
-        const SpringResponse bar =
-            answer(b_.bars, k, elongation(b_, b_.slip, k) - b_.bars.plastic[k]);
+        const SpringResponse bar = answer(b_.bars, k, elongation(b_, slip, k) - b_.bars.plastic[k]);
         b_.diagonal[k] += bar.slope * f.start * f.start;
         b_.diagonal[k + 1] += bar.slope * f.end * f.end;
         b_.upper[k] = -bar.slope * f.start * f.end;

@@ -16,6 +16,13 @@ std::array<Vec2, 4> list(const CornerForces& f) {
   return {f.p1, f.p2, f.q1, f.q2};
 }
 
+/// normal_energy() with the face at n given.
+double normal_energy_to(const Face& face, const FaceSet& c, const BlockSet& b, const Pose& pose,
+                        std::size_t k) {
+  return stored_between(face_at(c, b, pose.x1, pose.y1, k), face_points(c, pose.x1, pose.y1, k),
+                        face, face_points(c, pose.x, pose.y, k), c.carries_tension[k] > 0.0);
+}
+
 }  // namespace
 
 double work_of(const CornerForces& force, const FacePoints& to, const FacePoints& from) {
@@ -35,23 +42,24 @@ double stored_between(const Face& face0, const FacePoints& at0, const Face& face
 }
 
 double normal_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
-  return stored_between(face_at(c, b, pose.x1, pose.y1, k), face_points(c, pose.x1, pose.y1, k),
-                        face_at(c, b, pose.x, pose.y, k), face_points(c, pose.x, pose.y, k),
-                        c.carries_tension[k] > 0.0);
+  return normal_energy_to(face_at(c, b, pose.x, pose.y, k), c, b, pose, k);
 }
 
 double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   const FaceMemory& m = c.before;
+  const bool slips = m.spring[k] > 0.0 && (m.slip_a[k] != 0.0 || m.slip_b[k] != 0.0);
+  const bool open = c.now.energy[k] == 0.0 && !(c.carries_tension[k] > 0.0);
+  if (open && !slips) return 0.0;
+  const Face face = face_at(c, b, pose.x, pose.y, k);
   double shear = 0.0;
-  if (m.spring[k] > 0.0 && (m.slip_a[k] != 0.0 || m.slip_b[k] != 0.0)) {
-    const Face face = face_at(c, b, pose.x, pose.y, k);
+  if (slips) {
     const FaceEnds slip = motion_of(face, coordinates_at(c, pose.x, pose.y, k),
                                     coordinates_at(c, pose.x1, pose.y1, k))
                               .slip;
     shear =
         m.spring[k] * (m.slip_a[k] * (m.slip_a[k] + slip.a) + m.slip_b[k] * (m.slip_b[k] + slip.b));
   }
-  return normal_energy(c, b, pose, k) + 0.5 * shear;
+  return normal_energy_to(face, c, b, pose, k) + 0.5 * shear;
 }
 
 }  // namespace edda
