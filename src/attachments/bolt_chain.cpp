@@ -67,12 +67,41 @@ bool is_dead(const Bolts& b, const State& state, std::size_t k) {
   return state.alive[b.host[k]] == 0;
 }
 
+/// The direction m of a bolt at a node, and the point h in its host.
+struct NodeAt {
+  Vec2 m, h;
+};
+
+NodeAt node_at(const Bolts& b, const State& state, std::size_t k) {
+  const NodeVectors x = vectors_of(state.x, state.y, b.host[k]);
+  return {weighted(weights_of(b.along, k), x), weighted(weights_of(b.weight, k), x)};
+}
+
+BarFrame frame_between(const NodeAt& at, const NodeAt& next, double length) {
+  const Vec2 sum = at.m + next.m;
+  BarFrame f;
+  f.from = at.m;
+  f.to = next.m;
+  f.size = norm(sum);
+  f.t = sum / f.size;
+  f.gap = next.h - at.h;
+  f.start = dot(f.t, f.from);
+  f.end = dot(f.t, f.to);
+  f.stretch = dot(f.t, f.gap) - length;
+  return f;
+}
+
 /// One grouted bolt at the present positions of its hosts.
 class Chain {
  public:
   Chain(Bolts& bolts, const State& state, Id first, Id last)
       : b_(bolts), first_(first), last_(last) {
-    for (std::size_t k = first; k + 1 < last; ++k) b_.frame[k] = bar_frame(b_, state, k);
+    NodeAt at = node_at(b_, state, first);
+    for (std::size_t k = first; k + 1 < last; ++k) {
+      const NodeAt next = node_at(b_, state, k + 1);
+      b_.frame[k] = frame_between(at, next, b_.length[k]);
+      at = next;
+    }
   }
 
   /// Newton's method on the energy, which is convex and piecewise quadratic; an increment that
@@ -144,17 +173,19 @@ class Chain {
     return error <= rounding * largest;
   }
 
-  /// Solves the tridiagonal system by elimination from the head.
+  /// Solves the tridiagonal system by elimination from the head; `diagonal` is inverted on the way.
   void find_change() {
-    b_.change[first_] = b_.right[first_];
+    std::vector<double>&inverse = b_.diagonal, &change = b_.change;
+    inverse[first_] = 1.0 / inverse[first_];
+    change[first_] = b_.right[first_];
     for (std::size_t k = first_ + 1; k < last_; ++k) {
-      const double factor = b_.upper[k - 1] / b_.diagonal[k - 1];
-      b_.diagonal[k] -= factor * b_.upper[k - 1];
-      b_.change[k] = b_.right[k] - factor * b_.change[k - 1];
+      const double factor = b_.upper[k - 1] * inverse[k - 1];
+      inverse[k] = 1.0 / (inverse[k] - factor * b_.upper[k - 1]);
+      change[k] = b_.right[k] - factor * change[k - 1];
     }
-    b_.change[last_ - 1] /= b_.diagonal[last_ - 1];
+    change[last_ - 1] *= inverse[last_ - 1];
     for (std::size_t k = last_ - 1; k-- > first_;) {
-      b_.change[k] = (b_.change[k] - b_.upper[k] * b_.change[k + 1]) / b_.diagonal[k];
+      change[k] = (change[k] - b_.upper[k] * change[k + 1]) * inverse[k];
     }
   }
 
@@ -241,20 +272,7 @@ Spent update_ends(Bolts& b, const BoltData& row, const State& state, Id k) {
 }  // namespace
 
 BarFrame bar_frame(const Bolts& b, const State& state, std::size_t k) {
-  const auto place = [&](const Nodes& w, std::size_t node) {
-    return weighted(weights_of(w, node), state.x, state.y, b.host[node]);
-  };
-  const Vec2 from = place(b.along, k), to = place(b.along, k + 1), sum = from + to;
-  BarFrame f;
-  f.from = from;
-  f.to = to;
-  f.size = norm(sum);
-  f.t = sum / f.size;
-  f.gap = place(b.weight, k + 1) - place(b.weight, k);
-  f.start = dot(f.t, from);
-  f.end = dot(f.t, to);
-  f.stretch = dot(f.t, f.gap) - b.length[k];
-  return f;
+  return frame_between(node_at(b, state, k), node_at(b, state, k + 1), b.length[k]);
 }
 
 Vec2 node_place(const Bolts& b, const State& state, std::size_t k) {
