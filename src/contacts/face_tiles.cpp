@@ -154,7 +154,7 @@ std::size_t place_tiles(FaceTiles& t, const FacesOfTiles& of, const BlockSet& b)
     chunks += (of.begin[q + 1] - of.begin[q] + lanes - 1) / lanes;
     tile.last_chunk = tile.awake_end = static_cast<Id>(chunks);
     tile.takes_then = false;
-    tile.sleep = {};
+    tile.sleep.begin_anew();
   }
   t.record_begin.assign(edges, 0);
   return chunks;

@@ -16,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/columns.hpp"
@@ -117,12 +118,20 @@ struct TileSleep {
   double margin = 0.0;   ///< m
   double strayed = 0.0;  ///< m: upper bound of the distance of any vertex from its path
   double fastest = 0.0;  ///< m: motion along the paths in a step, of any vertex
-  unsigned age = 0;      ///< steps since it was decided who sleeps
+  unsigned age = 0;      ///< sweeps since it was decided who sleeps, as many as steps or more
   unsigned length = 32;  ///< steps for which they may do so
   bool calm = false;     ///< few faces did otherwise then than before
   bool over = true;      ///< that must be decided anew
   AlignedNumbers from;   ///< [slots][4] where the ends of the edges were then, m
   AlignedNumbers pace;   ///< [slots][4] how far they had come in the last step, m
+
+  /// Nothing is decided; keeps the memory of its arrays.
+  void begin_anew() {
+    TileSleep next;
+    next.from.swap(from);
+    next.pace.swap(pace);
+    *this = std::move(next);
+  }
 };
 
 struct Tile {

@@ -14,6 +14,16 @@ namespace {
 /// How much wider the reach of the stored pairs is: the wider, the more pairs are looked at for
 /// each list, and the fewer times they are found anew.
 constexpr double wider = 4.0;
+/// But not by more than this part of the mean length of the edges: where blocks move far in a step,
+/// the pairs would be too many.
+constexpr double most_of_edge = 0.5;
+
+double wider_reach(const BlockSet& b, double reach) {
+  double sum = 0.0;
+  for (const double length : b.edge_length) sum += length;
+  const double mean = sum / static_cast<double>(std::max<std::size_t>(b.edge_length.size(), 1));
+  return std::min(wider * reach, reach + most_of_edge * mean);
+}
 
 constexpr double most_beyond = std::numbers::pi / 4.0;  ///< rad: for a needle
 double cosine_of_none(double beyond) {
@@ -131,6 +141,7 @@ void find_near_edges(NearEdges& known, const BlockSet& b, const State& state, co
 bool holds(NearEdges& known, const BlockSet& b, const State& state, const Pose& pose,
            double reach) {
   if (known.lists == 0 || !(reach < known.reach)) return false;
+  if (known.reach > wider * wider * reach) return false;  // it is from a time of faster motion
   const Standing then{known.built_x, known.built_y, known.reach, known.lists};
   // The part takes up the rounding of distances.
   constexpr double part = 1.0 - 1e-9;
@@ -148,7 +159,8 @@ AngleGate angle_gate(const BlockSet& b, Id e, Id f) {
 
 std::vector<EdgePair> edges_within(NearEdges& known, const BlockSet& b, const State& state,
                                    const Pose& pose, double reach) {
-  if (!holds(known, b, state, pose, reach)) find_near_edges(known, b, state, pose, wider * reach);
+  if (!holds(known, b, state, pose, reach))
+    find_near_edges(known, b, state, pose, wider_reach(b, reach));
   const std::size_t all = known.first.size();
   std::vector<std::vector<EdgePair>> parts((all + pairs_at_once - 1) / pairs_at_once);
   parallel_chunks(all, pairs_at_once, [&](std::size_t q, std::size_t begin, std::size_t end) {

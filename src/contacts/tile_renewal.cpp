@@ -98,8 +98,8 @@ void renew_tiles(FaceTiles& t, FaceTiles& old, const FaceSet& c, const BlockSet&
     if (old_row[k] != no_id) kind[k] = did[old_row[k]];
   }
   std::swap(t, old);
-  t.tiles = old.tiles;
-  t.blocks = old.blocks;
+  t.tiles.swap(old.tiles);
+  t.blocks.swap(old.blocks);
   t.constants.swap(old.constants);
   t.forces.swap(old.forces);
   t.now = old.now;
@@ -122,6 +122,25 @@ void renew_tiles(FaceTiles& t, FaceTiles& old, const FaceSet& c, const BlockSet&
     }
     order_records(t, c, b, tile);
   });
+}
+
+bool dashpots_work(const FaceTiles& t) {
+  using Columns = DashpotMemoryColumns<double>;
+  for (std::size_t place = 0; t.has_dashpots() && place < t.face.size(); ++place) {
+    if (t.face[place] == no_id) continue;
+    const Columns d = get<Columns>(t.dashpots[t.now], place);
+    if (d.damping_a != 0.0 || d.damping_b != 0.0 || d.shear_damping_a != 0.0 ||
+        d.shear_damping_b != 0.0)
+      return true;
+  }
+  return false;
+}
+
+double part_in_two_tiles(const FaceTiles& t) {
+  const auto in_two = std::count_if(t.place.begin(), t.place.end(),
+                                    [](const auto& place) { return place[1] != no_id; });
+  return static_cast<double>(in_two) /
+         static_cast<double>(std::max<std::size_t>(t.place.size(), 1));
 }
 
 }  // namespace edda

@@ -12,4 +12,10 @@ namespace edda {
 void renew_tiles(FaceTiles& tiles, FaceTiles& spare, const FaceSet& faces, const BlockSet& blocks,
                  const Pose& pose, const std::vector<Id>& old_row);
 
+/// Whether a dashpot has yet to do work, by the forces at n.
+bool dashpots_work(const FaceTiles& tiles);
+
+/// Part of the faces that lie in two tiles.
+double part_in_two_tiles(const FaceTiles& tiles);
+
 }  // namespace edda

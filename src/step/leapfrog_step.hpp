@@ -1,5 +1,6 @@
-// Working data of the leapfrog (theory, section 7.1), kept from step to step only so that steps
-// allocate nothing; a checkpoint needs none of it.
+// Working data of the leapfrog (theory, section 7.1), kept from step to step. A checkpoint needs
+// none of it, once the rows of the faces are up to date (step/tile_step.hpp): until then the tiles
+// alone know the slip of the faces.
 #pragma once
 
 #include <vector>

@@ -21,7 +21,8 @@ struct Motion {
   LawTable laws;  ///< with the strength in force
   FaceSet contacts;
   PointSet point_contacts;  ///< used instead of `contacts` where contact.model = "points"
-  NodalForces on_faces;     ///< forces of the faces on the blocks at n, N
+  NodalForces on_faces;     ///< forces of the faces at n on the blocks, N; of fixed
+                            ///< ones only where the ground moves or faces are stepped by rows
   NodalForces forces;
   NodalForces jump;  ///< jump of the forces at n since the last step (note_jump()); or empty
   std::vector<Vec2> on_dashpots;  ///< [points of dashpots] forces of the dashpots in the last step,

@@ -252,6 +252,7 @@ void load_tiles(Simulation& sim) {
   divide_blocks(own.tiles, blocks, sim.motion.state, sim.attached.ground.moves, own.blocks);
   load_faces(own.tiles, sim.motion.contacts, blocks, sim.motion.pose);
   own.results.resize(own.tiles.tiles.size());
+  own.in_two_tiles = part_in_two_tiles(own.tiles);
   own.loaded = true;
   own.ahead = false;
   own.pushed = 0.0;
@@ -309,6 +310,7 @@ void search_in_tiles(Simulation& sim, double reach) {
   Motion& motion = sim.motion;
   const BlockSet& b = sim.scene->blocks;
   recall_work(motion.contacts, own.tiles);
+  motion.contacts.dashpots = dashpots_work(own.tiles);
   const std::vector<Id> old_row =
       renew_faces(motion.contacts, b, motion.state, motion.pose, motion.laws, reach,
                   sim.control.face_search, faces_that_carry(own.tiles), FaceStates::elsewhere);
@@ -316,6 +318,8 @@ void search_in_tiles(Simulation& sim, double reach) {
   renew_tiles(own.tiles, own.spare, motion.contacts, b, motion.pose, old_row);
   own.ahead = true;
   own.pushed = 0.0;
+  constexpr double worth = 0.15;  // of the faces, evaluated twice because neighbours have changed
+  if (part_in_two_tiles(own.tiles) > own.in_two_tiles + worth) faces_to_change(sim);
 }
 
 void update_face_rows(Simulation& sim) {

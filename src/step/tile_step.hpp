@@ -16,11 +16,12 @@ struct StepTaken;
 struct TiledFaces {
   FaceTiles tiles;
   FaceTiles spare;  ///< those of the list before, for their memory
-  bool use = true;  ///< false: the rows are evaluated, which gives the same bits
-  /// SweepScene::least_margin as a part of the list's reach. 0: no face sleeps.
+  bool use = true;  ///< false, for tests: the rows are evaluated, which gives the same bits
+  /// SweepScene::least_margin as a part of the list's reach. 0, for tests: no face sleeps.
   double sleep_part = 1e-9;
   double pushed = 0.0;  ///< m, SweepScene::pushed
   std::size_t blocks = blocks_per_tile;
+  double in_two_tiles = 0.0;          ///< part_in_two_tiles() as the blocks were divided
   bool corrects = false;              ///< SweepScene::corrects
   bool loaded = false;                ///< they hold the faces of the simulation
   bool ahead = false;                 ///< and the rows of the faces are behind

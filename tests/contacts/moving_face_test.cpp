@@ -175,6 +175,37 @@ TEST(MovingFace, DashpotsAreThePartOfCriticalAskedFor) {
   EXPECT_NEAR(s.shear_a, 0.5e9 + 0.5 * mass_damping / d, 1e-6 * mass_damping / d);
 }
 
+/// On a block that stands out over the edge of its base the two ends move different masses, and the
+/// stiffer dashpot is that of the end which moves more.
+TEST(MovingFace, DashpotsMoveTheMassOfTheirOwnEnd) {
+  MovedBlocks m;
+  m.model.joints.push_back(rough_joint(30.0));
+  m.model.joints[0].dashpots = {0.2, 0.0, 1e9};
+  m.add({{-3, -1}, {0.4, -1}, {0.4, 0}, {-3, 0}}, true);
+  m.add({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+  m.start();
+  m.put_still(1, {{0.0, -depth}});
+  const double d = 1e-7;
+  m.go(1, {{0.0, -depth - d}});
+  const std::size_t k = m.main_face();
+  const double spring = 0.5 * m.faces.stiffness[k] * m.faces.now.length[k];
+  const auto dashpot = [&](double x) {
+    const NodeWeights w = weights_at(m.blocks, 1, Vec2{x, 0.0} - m.blocks.origin);
+    double per_mass = 0.0;
+    for (std::size_t n = 0; n < nodes_per_block; ++n)
+      per_mass += w[n] * w[n] * m.masses.node_inverse[n][1];
+    return 0.4 * std::sqrt(spring / per_mass) * d / m.step;
+  };
+  const double low = std::min(m.faces.now.damping_a[k], m.faces.now.damping_b[k]);
+  const double high = std::max(m.faces.now.damping_a[k], m.faces.now.damping_b[k]);
+  EXPECT_GT(high, 1.2 * low);
+  EXPECT_NEAR(low / dashpot(0.0), 1.0, 1e-4);
+  EXPECT_NEAR(high / dashpot(0.4), 1.0, 1e-4);
+  // The edge of the base begins at x = 0.4.
+  const bool a_is_high = m.faces.now.damping_a[k] > m.faces.now.damping_b[k];
+  EXPECT_NEAR(a_is_high ? m.faces.now.xi_a[k] : m.faces.now.xi_b[k], 0.0, 1e-3);
+}
+
 /// The force of the dashpot does not depend on the distance of the block a step before.
 TEST(MovingFace, DashpotsBeginWhereBlocksTouch) {
   JointLaw joint = rough_joint(30.0);

@@ -70,6 +70,19 @@ TEST(NearEdges, AWiderReachIsFoundAnew) {
   EXPECT_EQ(known.lists, 2u);
 }
 
+/// What is stored for fast blocks is not kept when they have come to rest.
+TEST(NearEdges, AMuchWiderStoreIsGivenUp) {
+  std::mt19937 rng(5);
+  const DriftingHeap heap(odd_polygons(rng, 40));
+  NearEdges known;
+  edges_within(known, heap.blocks, heap.state, heap.pose, 0.5);
+  EXPECT_LT(known.reach, 4.0 * 0.5);
+  edges_within(known, heap.blocks, heap.state, heap.pose, 0.4);
+  EXPECT_EQ(known.lists, 1u);
+  EXPECT_EQ(edges_within(known, heap.blocks, heap.state, heap.pose, 0.01), brute_force(heap, 0.01));
+  EXPECT_EQ(known.lists, 2u);
+}
+
 TEST(NearEdges, ExcavatedBlocksHaveNone) {
   std::mt19937 rng(4);
   DriftingHeap heap(odd_polygons(rng, 40));

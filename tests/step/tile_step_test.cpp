@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <random>
 #include <string>
 
 #include "run/prepared.hpp"
+#include "step/changes.hpp"
 #include "step/energy_balance.hpp"
 #include "step/step.hpp"
 
@@ -163,15 +165,19 @@ TEST(TileStep, SleepChangesNothing) {
 /// Faces in tiles go on as those in rows, to the bit, also where what is decided of a face changes
 /// while opening and closing are corrected, and where faces sleep. Returns how many have opened and
 /// closed.
-std::uint64_t compare_with_rows(const std::string& text, int steps) {
+using Before = std::function<void(Simulation&, int)>;  // before each step
+std::uint64_t compare_with_rows(
+    const std::string& text, int steps, const Before& before = [](Simulation&, int) {}) {
   Simulation tiled = testing::prepared(text).sim, rows = testing::prepared(text).sim;
   tiled.leapfrog.tiled.blocks = 7;
   rows.leapfrog.tiled.use = false;
   start(tiled, 100.0);
   start(rows, 100.0);
   for (int n = 0; n < steps && !::testing::Test::HasFailure(); ++n) {
-    EXPECT_FALSE(step_ahead(tiled));
-    EXPECT_FALSE(step_ahead(rows));
+    for (Simulation* sim : {&tiled, &rows}) {
+      before(*sim, n);
+      EXPECT_FALSE(step_ahead(*sim));
+    }
     EXPECT_EQ(tiled.motion.state.x, rows.motion.state.x) << n;
     EXPECT_EQ(tiled.motion.state.y, rows.motion.state.y) << n;
     EXPECT_EQ(tiled.accounts.penetration, rows.accounts.penetration) << n;
@@ -210,6 +216,43 @@ TEST(TileStep, GoesOnAsWithRowsWhereBlocksFallOnEachOther) {
   }
   EXPECT_GT(compare_with_rows(text, 60000), 20u);
   compare_steps(text, 2.5);
+}
+/// A step in which a vertex moves too far is made again with half of the length.
+TEST(TileStep, GoesOnAsWithRowsWhereAStepIsMadeAgain) {
+  std::uint64_t redone = 0;
+  compare_with_rows(falling_heap(), 20000, [&](Simulation& sim, int n) {
+    redone = sim.accounts.steps.redone;
+    if (sim.accounts.open_close.switched > 50 && redone < 4 && n % 500 == 0)
+      sim.scene.edit().displacement_limit = 0.98 * sim.control.last_displacement;
+  });
+  EXPECT_GT(redone, 1u);
+}
+TEST(TileStep, DashpotsThatAreTakenAwayLeaveTheTiles) {
+  bool left = false;
+  compare_with_rows(falling_heap(), 12000, [&](Simulation& sim, int n) {
+    if (n == 6000) change_damping(sim, {}, false);
+    left = !sim.motion.contacts.dashpots;
+  });
+  EXPECT_TRUE(left);
+}
+TEST(TileStep, BlocksAreDividedAnewWhereTheirNeighboursHaveChanged) {
+  Simulation sim = testing::prepared(falling_heap()).sim;
+  sim.leapfrog.tiled.blocks = 7;
+  start(sim, 100.0);
+  int divided = 0;
+  for (int n = 0; n < 20000; ++n) {
+    ASSERT_FALSE(step_ahead(sim));
+    if (!sim.leapfrog.tiled.loaded) ++divided;
+  }
+  EXPECT_GT(divided, 0);
+}
+TEST(TileStep, GoesOnAsWithRowsWhereBondsFail) {
+  std::string text = hit_wall;
+  text.replace(text.find("[solver]"), 0, "cohesion = 2e5\ntensile_strength = 1e5\n");
+  std::uint64_t broken = 0;
+  compare_with_rows(text, 20000,
+                    [&](Simulation& sim, int) { broken = sim.motion.contacts.broken; });
+  EXPECT_GT(broken, 5u);
 }
 TEST(TileStep, GoesOnAsWithRowsWithBonds) {
   std::string text = falling_heap();
