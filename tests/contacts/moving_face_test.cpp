@@ -175,6 +175,18 @@ TEST(MovingFace, DashpotsAreThePartOfCriticalAskedFor) {
   EXPECT_NEAR(s.shear_a, 0.5e9 + 0.5 * mass_damping / d, 1e-6 * mass_damping / d);
 }
 
+/// A face that carries stays in the list, although its corners lie deeper than the list reaches.
+TEST(MovingFace, StaysInTheListAsLongAsItCarries) {
+  MovedBlocks m = pressed_square(rough_joint(30.0), depth);
+  m.go(1, {{0.0, -depth}});
+  const double force = m.force_on(1).y;
+  find_faces(m.faces, m.blocks, m.state, m.pose, m.laws, 0.1 * depth);
+  EXPECT_EQ(m.force_on(1).y, force);
+  m.go(1, {{0.0, 0.5}});
+  find_faces(m.faces, m.blocks, m.state, m.pose, m.laws, 0.1 * depth);
+  EXPECT_EQ(m.faces.size(), 0u);
+}
+
 /// On a block that stands out over the edge of its base the two ends move different masses, and the
 /// stiffer dashpot is that of the end which moves more.
 TEST(MovingFace, DashpotsMoveTheMassOfTheirOwnEnd) {

@@ -322,9 +322,10 @@ TEST(TileSweep, DoesSoWithLockedClosures) {
 
 /// Which faces sleep, and how faces lie within their tile, changes no bit; and none sleeps through
 /// a change.
-void drift_asleep(double damping, double bonded_part, double locked_part, double far) {
+void drift_asleep(double damping, double bonded_part, double locked_part, double far,
+                  unsigned steady = 40) {
   Drift d(60, damping, bonded_part, locked_part);
-  d.steady = 40;
+  d.steady = steady;
   d.with_sums = true;
   d.move(12, false);
   FaceTiles t;
@@ -336,6 +337,7 @@ void drift_asleep(double damping, double bonded_part, double locked_part, double
     // Between others far enough apart that faces sleep as long as they may.
     if (move % 200 < 40 && move % 10 == 5) d.renew(t, own, move % 20 == 5 ? 0.1 : 0.15);
   }
+  EXPECT_EQ(dashpots_work(t), damping > 0.0);
   EXPECT_GT(d.asleep, 1000u);
   EXPECT_GT(d.listed, 100u);
   EXPECT_GT(d.kept, 1000u);
@@ -344,7 +346,7 @@ TEST(TileSleep, ChangesNothingInSlowMotion) {
   drift_asleep(0.0, 0.0, 0.0, 0.002);
 }
 TEST(TileSleep, ChangesNothingInFastMotion) {
-  drift_asleep(0.0, 0.0, 0.0, 0.2);
+  drift_asleep(0.0, 0.0, 0.0, 0.2, 150);
 }
 TEST(TileSleep, ChangesNothingWithDashpots) {
   drift_asleep(0.2, 0.0, 0.0, 0.02);
