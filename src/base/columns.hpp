@@ -34,6 +34,17 @@ struct InWholeLines {
   static constexpr std::align_val_t line{64};
 };
 
+/// As resize(), but for the values that were there, and with little room to spare where memory grows:
+/// std::vector would double it.
+template <class Vector>
+void resize_afresh(Vector& values, std::size_t size) {
+  if (size > values.capacity()) {
+    values = Vector();
+    values.reserve(size + size / 16);
+  }
+  values.resize(size);
+}
+
 /// One column of a table, [rows].
 class ChunkColumn {
  public:
@@ -94,11 +105,10 @@ class ChunkTable : public Columns {
     cells_.assign((rows + chunk_rows - 1) / chunk_rows * stride, 0.0);
     bind();
   }
-  /// As many rows, of which those that were there keep some values; those that fill up the last
-  /// chunk are 0.
+  /// As many rows, of any values; those that fill up the last chunk are 0.
   void set_rows(std::size_t rows) {
     rows_ = rows;
-    cells_.resize((rows + chunk_rows - 1) / chunk_rows * stride, 0.0);
+    resize_afresh(cells_, (rows + chunk_rows - 1) / chunk_rows * stride);
     bind();
     for (std::size_t row = rows; row % chunk_rows != 0; ++row) clear_row(row);
   }

@@ -120,22 +120,22 @@ class Slots {
 
 void resize_chunks(FaceTiles& t, std::size_t chunks, bool dashpots) {
   for (auto* ids : {&t.face, &t.slot_e, &t.slot_f, &t.record_e, &t.record_f})
-    ids->resize(chunks * lanes);
+    resize_afresh(*ids, chunks * lanes);
   t.owned.assign(chunks, 0);
   t.plain.assign(chunks, 1);
   t.bonds.assign(chunks, 0);
   t.edge_set.assign(chunks, 0);
   t.strength_set.assign(chunks, 0);
-  t.sums.resize(chunks * sum_columns * lanes);
+  resize_afresh(t.sums, chunks * sum_columns * lanes);
   t.ever.assign(chunks, 0);
   for (int which : {0, 1}) {
     t.idle[which].assign(chunks, 0);
     t.fresh[which].assign(chunks, 0);
     t.bits[which].assign(chunks, 0);
     t.found[which].assign(chunks, 0);
-    t.work[which].resize(chunks * work_columns * lanes);
-    t.memory[which].resize(chunks * memory_columns * lanes);
-    t.dashpots[which].resize(dashpots ? chunks * dashpot_memory_columns * lanes : 0);
+    resize_afresh(t.work[which], chunks * work_columns * lanes);
+    resize_afresh(t.memory[which], chunks * memory_columns * lanes);
+    resize_afresh(t.dashpots[which], dashpots ? chunks * dashpot_memory_columns * lanes : 0);
   }
 }
 

@@ -96,7 +96,7 @@ void list_by_edge(FaceSet& c, std::size_t edges) {
   }
   for (std::size_t e = 0; e < edges; ++e) c.begin_of_edge[e + 1] += c.begin_of_edge[e];
   std::vector<Id> next(c.begin_of_edge.begin(), c.begin_of_edge.end() - 1);
-  c.on_edge.resize(2 * c.size());
+  resize_afresh(c.on_edge, 2 * c.size());
   for (std::size_t k = 0; k < c.size(); ++k)
     c.on_edge[next[c.facing[k]]++] = static_cast<Id>(8 * k + 4);
   for (std::size_t k = 0; k < c.size(); ++k) c.on_edge[next[c.edge[k]]++] = static_cast<Id>(8 * k);
@@ -191,7 +191,7 @@ void take_room_for_states(FaceSet& next, FaceSet& old) {
     (next.*state).set_rows(n);
   }
   next.force = std::move(old.force);
-  next.force.resize(next.force_size());
+  resize_afresh(next.force, next.force_size());
   next.dashpots = old.dashpots;
 }
 
