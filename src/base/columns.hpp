@@ -34,8 +34,8 @@ struct InWholeLines {
   static constexpr std::align_val_t line{64};
 };
 
-/// As resize(), but for the values that were there, and with little room to spare where memory grows:
-/// std::vector would double it.
+/// As resize(), but for the values that were there, and with little room to spare where memory
+/// grows: std::vector would double it.
 template <class Vector>
 void resize_afresh(Vector& values, std::size_t size) {
   if (size > values.capacity()) {
