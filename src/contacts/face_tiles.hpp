@@ -195,6 +195,10 @@ struct FaceTiles {
   int now = 0;                     ///< which of the two is that of step n
 
   bool has_dashpots() const { return !dashpots[0].empty(); }
+  /// A bit of face k of step n, by its owned copy; false where it has none. Of those remembered:
+  bool remembers(unsigned of, std::size_t k) const { return bit_of(bits[now], of, k); }
+  /// Of those found in the step:
+  bool has_found(unsigned of, std::size_t k) const { return bit_of(found[now], of, k); }
   const double* edges_of(std::size_t tile, std::size_t chunk) const {
     return constants[tile].edges.data() + edge_set[chunk] * edge_columns * lanes;
   }
@@ -202,6 +206,13 @@ struct FaceTiles {
     return constants[tile].strengths.data() + strength_set[chunk] * strength_columns * lanes;
   }
   std::size_t tile_of_chunk(std::size_t chunk) const;
+
+ private:
+  bool bit_of(const std::vector<LaneBits>& values, unsigned of, std::size_t k) const {
+    const Id owned_copy = place[k][0];
+    return owned_copy != no_id &&
+           lane_bits::test(values[owned_copy / lanes], of, owned_copy % lanes);
+  }
 };
 
 /// Divides the blocks among tiles by their places: halves of halves, until none has more than

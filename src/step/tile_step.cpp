@@ -95,11 +95,6 @@ void evaluate_chunks(Simulation& sim, const std::vector<Id>& chunks) {
       });
 }
 
-bool has_found(const FaceTiles& t, unsigned of, Id k) {
-  const Id place = t.place[k][0];
-  return place != no_id && lane_bits::test(t.found[t.now][place / lanes], of, place % lanes);
-}
-
 /// Properties that a decision may change and on which the forces of a face depend.
 auto properties(const FaceSet& c, Id k) {
   return std::array{c.acts[k],     c.leans[k],    c.locked_closure_a[k],
@@ -121,8 +116,8 @@ std::vector<Id> decide(Simulation& sim, const std::vector<Id>& faces,
   };
   std::vector<Id> changed;
   for (const Id k : faces) {
-    const bool fails = has_found(t, lane_bits::fails, k);
-    if (!fails && !has_found(t, lane_bits::decides, k)) continue;
+    const bool fails = t.has_found(lane_bits::fails, k);
+    if (!fails && !t.has_found(lane_bits::decides, k)) continue;
     const auto before = properties(c, k);
     if (!is_corrected(k)) recall_face(c, t, k);
     if (fails || c.bonded[k] > 0.0 || c.carries_tension[k] > 0.0) {
@@ -217,7 +212,7 @@ class FacesInTiles : public FaceAccess {
                                 changed_.end());
     evaluate_again(sim_, faces);
     for (const Id k : faces) {
-      if (has_found(sim_.leapfrog.tiled.tiles, lane_bits::switching, k)) switching.push_back(k);
+      if (sim_.leapfrog.tiled.tiles.has_found(lane_bits::switching, k)) switching.push_back(k);
     }
   }
 
@@ -294,12 +289,8 @@ namespace {
 /// Whether each face stores energy, [nf].
 std::vector<std::uint8_t> faces_that_carry(const FaceTiles& t) {
   std::vector<std::uint8_t> carry(t.place.size(), 0);
-  for (std::size_t k = 0; k < carry.size(); ++k) {
-    const Id place = t.place[k][0];
-    const bool stores = place != no_id && lane_bits::test(t.bits[t.now][place / lanes],
-                                                          lane_bits::stored, place % lanes);
-    carry[k] = stores ? 1 : 0;
-  }
+  for (std::size_t k = 0; k < carry.size(); ++k)
+    carry[k] = t.remembers(lane_bits::stored, k) ? 1 : 0;
   return carry;
 }
 

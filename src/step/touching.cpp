@@ -11,12 +11,7 @@ bool is_closed_now(const Simulation& sim, std::size_t k) {
   const FaceSet& f = sim.motion.contacts;
   if (!sim.leapfrog.tiled.ahead) return is_closed(f, k);
   const FaceTiles& t = sim.leapfrog.tiled.tiles;
-  const Id place = t.place[k][0];
-  if (place == no_id) return false;
-  const auto is = [&](unsigned of) {
-    return lane_bits::test(t.bits[t.now][place / lanes], of, place % lanes);
-  };
-  return is(lane_bits::stored) || (f.bonded[k] > 0.0 && is(lane_bits::on));
+  return t.remembers(lane_bits::stored, k) || (f.bonded[k] > 0.0 && t.remembers(lane_bits::on, k));
 }
 
 }  // namespace

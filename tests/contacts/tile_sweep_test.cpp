@@ -144,11 +144,8 @@ struct Drift {
     const DriftingHeap& h = heap;
     FaceSet& c = heap.contacts;
     std::vector<std::uint8_t> carry(own.size());
-    for (std::size_t k = 0; k < own.size(); ++k) {
-      const Id at = t.place[k][0];
-      carry[k] =
-          at != no_id && lane_bits::test(t.bits[t.now][at / lanes], lane_bits::stored, at % lanes);
-    }
+    for (std::size_t k = 0; k < own.size(); ++k)
+      carry[k] = t.remembers(lane_bits::stored, k) ? 1 : 0;
     recall_work(own, t);
     const std::vector<Id> old = renew_faces(own, h.blocks, h.state, h.pose, h.laws, reach, search,
                                             carry, FaceStates::elsewhere);

@@ -162,10 +162,11 @@ TEST(TileStep, SleepChangesNothing) {
   compare_asleep_and_awake(loose_roof, 2000);
 }
 
+using Before = std::function<void(Simulation&, int)>;  // before each step
+
 /// Faces in tiles go on as those in rows, to the bit, also where what is decided of a face changes
 /// while opening and closing are corrected, and where faces sleep. Returns how many have opened and
 /// closed.
-using Before = std::function<void(Simulation&, int)>;  // before each step
 std::uint64_t compare_with_rows(
     const std::string& text, int steps, const Before& before = [](Simulation&, int) {}) {
   Simulation tiled = testing::prepared(text).sim, rows = testing::prepared(text).sim;
