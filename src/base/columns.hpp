@@ -35,10 +35,10 @@ struct InWholeLines {
 };
 
 /// As resize(), but for the values that were there, and with little room to spare where memory
-/// grows: std::vector would double it.
+/// grows: std::vector would double it. Of size 0 nothing is kept.
 template <class Vector>
 void resize_afresh(Vector& values, std::size_t size) {
-  if (size > values.capacity()) {
+  if (size > values.capacity() || size == 0) {
     values = Vector();
     values.reserve(size + size / 16);
   }
@@ -107,8 +107,9 @@ class ChunkTable : public Columns {
   }
   /// As many rows, of any values; those that fill up the last chunk are 0.
   void set_rows(std::size_t rows) {
-    rows_ = rows;
+    rows_ = 0;  // where there is no memory
     resize_afresh(cells_, (rows + chunk_rows - 1) / chunk_rows * stride);
+    rows_ = rows;
     bind();
     for (std::size_t row = rows; row % chunk_rows != 0; ++row) clear_row(row);
   }

@@ -147,7 +147,11 @@ void set_face_dashpots(FaceSet& c, const LawTable& laws, double damping) {
   // Dashpots that are removed have yet to do their work of the current step.
   c.dashpots = damping > 0.0 || laws.any_dashpots || c.dashpots;
   for (const auto column : dashpot_columns) {
-    if (!c.dashpots) (c.before.*column).fill(0.0);
+    // Nothing writes these columns where there are no dashpots.
+    if (!c.dashpots) {
+      (c.now.*column).fill(0.0);
+      (c.before.*column).fill(0.0);
+    }
   }
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Law& law = laws.rows[c.law[k]];

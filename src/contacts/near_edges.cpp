@@ -101,17 +101,20 @@ void store_sorted(NearEdges& known, const std::vector<EdgePair>& pairs, std::siz
   for (std::size_t e = 0; e < edges; ++e) begin[e + 1] += begin[e];
   std::vector<Id> second(pairs.size()), next(begin.begin(), begin.end() - 1);
   for (const auto& [e, f] : pairs) second[next[e]++] = f;
-  known.first.clear();
-  known.second.clear();
+  std::vector<Id> firsts, seconds;
+  firsts.reserve(pairs.size());
+  seconds.reserve(pairs.size());
   for (Id e = 0; e < edges; ++e) {
     const auto from = second.begin() + begin[e], to = second.begin() + begin[e + 1];
     std::sort(from, to);
     for (auto f = from; f != to; ++f) {
       if (f != from && *f == *(f - 1)) continue;
-      known.first.push_back(e);
-      known.second.push_back(*f);
+      firsts.push_back(e);
+      seconds.push_back(*f);
     }
   }
+  known.first = std::move(firsts);
+  known.second = std::move(seconds);
 }
 
 /// Fills the store for this reach.

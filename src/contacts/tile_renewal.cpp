@@ -128,6 +128,10 @@ bool dashpots_work(const FaceTiles& t) {
   using Columns = DashpotMemoryColumns<double>;
   for (std::size_t place = 0; t.has_dashpots() && place < t.face.size(); ++place) {
     if (t.face[place] == no_id) continue;
+    if (t.fresh[t.now][place / lanes] != 0) {
+      const auto work = get<FaceWorkColumns<double>>(t.work[t.now], place);
+      if (work.damping_work != 0.0 || work.damping_due != 0.0) return true;
+    }
     const Columns d = get<Columns>(t.dashpots[t.now], place);
     if (d.damping_a != 0.0 || d.damping_b != 0.0 || d.shear_damping_a != 0.0 ||
         d.shear_damping_b != 0.0)

@@ -12,7 +12,7 @@ namespace edda {
 void renew_tiles(FaceTiles& tiles, FaceTiles& spare, const FaceSet& faces, const BlockSet& blocks,
                  const Pose& pose, const std::vector<Id>& old_row);
 
-/// Whether a dashpot has yet to do work, by the forces at n.
+/// Whether any dashpot has done work in the last step or has yet to do it.
 bool dashpots_work(const FaceTiles& tiles);
 
 /// Part of the faces that lie in two tiles.

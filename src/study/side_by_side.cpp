@@ -62,7 +62,7 @@ std::size_t SideBySide::wait_for_one() {
 }
 
 int tasks_within(double memory, int wanted, std::size_t blocks) {
-  constexpr double bytes_per_block = 2.5e4, part = 0.5;
+  constexpr double bytes_per_block = 5e4, part = 0.5;  // of heaps of irregular polygons
   const double room = part * memory / (bytes_per_block * static_cast<double>(blocks));
   return room < wanted ? std::max(static_cast<int>(room), 1) : wanted;
 }

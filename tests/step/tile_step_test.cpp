@@ -10,6 +10,7 @@
 
 #include "run/prepared.hpp"
 #include "step/changes.hpp"
+#include "step/contact_search.hpp"
 #include "step/energy_balance.hpp"
 #include "step/step.hpp"
 
@@ -235,6 +236,40 @@ TEST(TileStep, DashpotsThatAreTakenAwayLeaveTheTiles) {
     left = !sim.motion.contacts.dashpots;
   });
   EXPECT_TRUE(left);
+}
+/// A wall that stands on dashpots, and a block that falls beside it and makes lists be renewed.
+const std::string wall_and_falling_block =
+    rock +
+    "[solver.damping]\ncontact = 0.1\n[contact]\njoint = \"j\"\n[[block]]\nfixed = true\n"
+    "polygon = [[-4, -1], [8, -1], [8, 0], [-4, 0]]\n[[brick_wall]]\ncolumns = 4\nrows = 4\n"
+    "brick = [1.0, 0.5]\njoint = \"j\"\n[[block]]\nvelocity = [0.0, -3.0]\n"
+    "angular_velocity = 1.0\npolygon = [[6.0, 2.2], [6.6, 2.2], [6.6, 2.9], [6.0, 2.9]]\n";
+/// What dashpots did last is neither lost with them nor counted again.
+void compare_without_dashpots(bool list_at_once) {
+  Simulation tiled = testing::prepared(wall_and_falling_block).sim, rows = tiled;
+  rows.leapfrog.tiled.use = false;
+  for (Simulation* sim : {&tiled, &rows}) {
+    start(*sim, 100.0);
+    for (int n = 0; n < 500; ++n) ASSERT_FALSE(step_ahead(*sim));
+    update_face_rows(*sim);
+    change_damping(*sim, {}, false);
+    ASSERT_FALSE(step_ahead(*sim));
+    if (list_at_once) search(*sim, sim->motion.contacts.reach);
+    EXPECT_TRUE(sim->motion.contacts.dashpots);
+    for (int n = 0; n < 8000; ++n) ASSERT_FALSE(step_ahead(*sim));
+    EXPECT_FALSE(sim->motion.contacts.dashpots);
+    account_energy(*sim);
+    faces_to_change(*sim);
+    for (int n = 0; n < 10; ++n) ASSERT_FALSE(step_ahead(*sim));
+  }
+  const double damping = account_energy(rows).damping;
+  EXPECT_GT(damping, 0.0);
+  EXPECT_EQ(account_energy(tiled).damping, damping);
+  EXPECT_EQ(tiled.motion.contacts.damping_work.values(), rows.motion.contacts.damping_work.values());
+}
+TEST(TileStep, WorkOfDashpotsThatAreTakenAwayIsCountedOnce) {
+  compare_without_dashpots(false);
+  compare_without_dashpots(true);
 }
 TEST(TileStep, BlocksAreDividedAnewWhereTheirNeighboursHaveChanged) {
   Simulation sim = testing::prepared(falling_heap()).sim;

@@ -129,8 +129,8 @@ TEST(SideBySide, CarriesOverWhatIsThrown) {
 TEST(SideBySide, TakesHalfOfTheMemory) {
   constexpr double gigabyte = 1e9;
   EXPECT_EQ(tasks_within(16.0 * gigabyte, 8, 1000), 8);
-  EXPECT_EQ(tasks_within(16.0 * gigabyte, 8, 80000), 4);
-  EXPECT_EQ(tasks_within(16.0 * gigabyte, 2, 80000), 2);
+  EXPECT_EQ(tasks_within(16.0 * gigabyte, 8, 40000), 4);
+  EXPECT_EQ(tasks_within(16.0 * gigabyte, 2, 40000), 2);
   EXPECT_EQ(tasks_within(16.0 * gigabyte, 8, 10000000), 1);
   EXPECT_EQ(tasks_within(std::numeric_limits<double>::infinity(), 8, 10000000), 8);
 }
