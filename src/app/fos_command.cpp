@@ -8,13 +8,11 @@
 #include <memory>
 
 #include "app/common.hpp"
+#include "app/mechanism_picture.hpp"
 #include "base/text.hpp"
 #include "model/write_model.hpp"
-#include "observe/observe.hpp"
-#include "report/plot.hpp"
 #include "results/columns.hpp"
 #include "results/files.hpp"
-#include "results/frames.hpp"
 #include "results/json.hpp"
 #include "study/fos.hpp"
 
@@ -27,44 +25,6 @@ struct FosArguments {
   bool quiet = false, json = false;
 };
 
-/// 1, 2 or 5 times a power of ten, not above x; at least 1.
-double round_scale(double x) {
-  if (!(x > 1.0)) return 1.0;
-  const double power = std::pow(10.0, std::floor(std::log10(x)));
-  const double digit = x / power;
-  return power * (digit >= 5.0 ? 5.0 : digit >= 2.0 ? 2.0 : 1.0);
-}
-
-/// The blocks as they have moved, enlarged until that shows, and the joints along which they did.
-Trouble draw_mechanism(const Model& model, const FosResult& r, const std::string& folder) {
-  const Simulation& sim = *r.failed;
-  Instant instant;
-  observe(sim, instant);
-  Snapshot shot{block_grid(block_cells(sim.scene->blocks), picture_of(sim, instant))};
-  const Result<ShownField> field = shown_field("displacement", shot.blocks, nullptr);
-  if (!field.ok()) return field.faults().front();
-  shot.field = field.value();
-  double largest = 0.0;
-  for (const MovingBlock& b : r.mechanism->blocks) largest = std::max(largest, b.largest);
-  PlotOptions options = options_of(model, sim.scene->blocks.size());
-  options.subtitle = fmt::format("mechanism at factor {:.4g}: {}", *r.fails, r.mechanism->text);
-  constexpr double shown = 0.5;  // of a block's size
-  options.scale = round_scale(shown * r.criterion.size / largest);
-  options.vectors = "displacement";
-  options.whole_range = true;  // a small moving part is what the picture is to show
-  for (const MovingJoint& j : r.mechanism->joints) {
-    for (const Stretch& s : j.stretches)
-      options.joints.push_back(
-          {s.from + options.scale * s.from_moved, s.to + options.scale * s.to_moved});
-  }
-  for (const char* name : {"/mechanism.png", "/mechanism.svg"}) {
-    if (Trouble trouble = plot({&shot, 1}, options, folder + name)) {
-      return trouble;
-    }
-  }
-  return {};
-}
-
 Trouble write_results(const Model& model, const FosResult& r, const std::string& folder) {
   const auto write = [&](const char* name, const std::string& text) {
     return write_file(folder + "/" + name, text);
@@ -74,7 +34,9 @@ Trouble write_results(const Model& model, const FosResult& r, const std::string&
   if (r.mechanism) {
     if (Trouble t = write("mechanism.csv", mechanism_csv(*r.failed, *r.mechanism))) return t;
     if (Trouble t = write("mechanism_joints.csv", mechanism_joints_csv(*r.mechanism))) return t;
-    if (Trouble t = draw_mechanism(model, r, folder)) return t;
+    const std::string says =
+        fmt::format("mechanism at factor {:.4g}: {}", *r.fails, r.mechanism->text);
+    if (Trouble t = draw_mechanism(model, *r.failed, *r.mechanism, says, folder)) return t;
   }
   if (Trouble t = write_columns_csv(folder)) return t;
   return write("summary.json", fos_summary(model, r, omp_get_max_threads()));
@@ -86,6 +48,7 @@ void print_end(const FosResult& r, const std::string& folder) {
   if (r.mechanism) fmt::print("  mechanism at {:.6g}: {}\n", *r.fails, r.mechanism->text);
   const std::string lost = r.mechanism ? lost_cohesion_text(*r.mechanism) : std::string();
   if (!lost.empty()) fmt::print("  {}\n", lost);
+  if (r.rigid) fmt::print("  {}\n", r.rigid->text);
   fmt::print(
       "  a trial fails where a corner will move further than {:.3g} m by the trend of its motion\n",
       c.displacement);

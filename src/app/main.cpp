@@ -36,6 +36,7 @@ int run_command(int argc, char** argv) {
   edda::add_cut(app, code);
   edda::add_verify(app, code);
   edda::add_fos(app, code);
+  edda::add_limit(app, code);
   edda::add_plot(app, code);
   edda::add_view(app, code);
   edda::add_example(app, code);

@@ -32,7 +32,7 @@ enum class LooseBlocks { go_on, stop };
 enum class BoundaryType { fixed, roller, viscous, stress, velocity, free_field };
 enum class ShakingKind { base, inertia, upgoing };
 enum class BoltType { grouted, end };
-enum class Varied { strength, load, shaking, water };
+enum class Varied { strength, load, shaking, water, tilt, kh, kv, gravity };
 enum class SurfaceKind { level, outline };
 
 /// Three numbers, such as the components xx, yy and xy of a stress.
@@ -345,6 +345,12 @@ struct Fos {
   Where where;
 };
 
+/// [limit]: rigid limit analysis; what is varied is [fos]'s.
+struct Limit {
+  bool crushing = false;  ///< joints have the compressive strength of their rock
+  Where where;
+};
+
 struct Model {
   std::string title;
   std::string file;          ///< path as given on the command line
@@ -384,6 +390,7 @@ struct Model {
   Solver solver;
   Output output;
   std::optional<Fos> fos;
+  std::optional<Limit> limit;
 
   KeyPlaces key_places;  ///< places of the given keys; empty for a model that was not read
   std::vector<std::string> warnings;  ///< of reading: old names

@@ -254,6 +254,24 @@ constexpr std::array mechanism_joints{
     C{"motion", "text", "Kind of motion: slips, opens or hinges."},
 };
 
+constexpr std::array limit_joints{
+    C{"block_i", "1", "Id of one block."},
+    C{"block_j", "1", "Id of the other block."},
+    C{"joint", "text", "Name of the joint's law."},
+    C{"x", "m", "Coordinate x of the thrust: where the resultant goes through the joint."},
+    C{"y", "m", "Coordinate y of the thrust."},
+    C{"normal_force", "N", "Normal force of the joint at the limit, positive in compression."},
+    C{"shear_force", "N", "Shear force, positive where it drives block i from end a to end b."},
+    C{"fx", "N", "Force on block i to the right."},
+    C{"fy", "N", "Force on block i upwards."},
+    C{"mobilised", "1",
+      "Shear force without sign over the shear strength; 1 where the joint slides."},
+    C{"ax", "m", "Coordinate x of end a of the joint."},
+    C{"ay", "m", "Coordinate y of end a."},
+    C{"bx", "m", "Coordinate x of end b; the same point as a where a corner leans on an edge."},
+    C{"by", "m", "Coordinate y of end b."},
+};
+
 constexpr std::array columns{
     C{"file", "text", "Name of a file of this folder."},
     C{"column", "text", "Name of one of its columns, as in its header."},
@@ -272,7 +290,7 @@ constexpr std::array cut{
       "contact.joint holds."},
 };
 
-constexpr std::array<ResultTable, 12> tables{{
+constexpr std::array<ResultTable, 13> tables{{
     {"history.csv",
      "A row at the start, at each multiple of output.history_every and at the end of each stage; "
      "stages until equilibrium have more (output.settling).",
@@ -291,11 +309,15 @@ constexpr std::array<ResultTable, 12> tables{{
      "after having been closed. Forces are those of the thickness of the model.",
      joints},
     {"fos.csv", "A row for each trial of edda fos.", fos},
-    {"mechanism.csv", "A row for each block that moves at the lowest factor that failed.",
+    {"mechanism.csv",
+     "A row for each block that moves at the lowest factor that failed, or at the limit that edda "
+     "limit finds.",
      mechanism},
     {"mechanism_joints.csv",
      "A row for each joint between two blocks that slips, opens or hinges in the mechanism.",
      mechanism_joints},
+    {"limit_joints.csv",
+     "A row for each joint that carries a force at the limit that edda limit finds.", limit_joints},
     {"columns.csv", "A row for each column of each table in the folder.", columns},
     {"F.csv", "A row for each corner of each block, written by edda cut -o F.csv.", cut,
      TableIn::file_of_user},

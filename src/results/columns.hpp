@@ -35,6 +35,7 @@ enum class ResultFile {
   fos,
   mechanism,
   mechanism_joints,
+  limit_joints,
   columns,
   cut,
 };

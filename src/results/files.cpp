@@ -41,9 +41,9 @@ Fault cannot_write(const std::string& path, int error) {
 namespace {
 
 /// Those that are no tables.
-constexpr std::array<std::string_view, 8> other_files{
-    "summary.json",           "blocks.pvd",    "contacts.pvd", "model.toml", "checkpoint.h5",
-    "checkpoint.previous.h5", "mechanism.png", "mechanism.svg"};
+constexpr std::array<std::string_view, 10> other_files{
+    "summary.json",           "blocks.pvd",    "contacts.pvd",  "model.toml", "checkpoint.h5",
+    "checkpoint.previous.h5", "mechanism.png", "mechanism.svg", "thrust.png", "thrust.svg"};
 
 bool starts_with_and_is(std::string_view name, std::string_view start, std::string_view end) {
   return name.size() >= start.size() + end.size() && name.starts_with(start) && name.ends_with(end);

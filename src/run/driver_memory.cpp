@@ -52,6 +52,7 @@ std::string identity(const Model& model, std::size_t stages) {
   m.solver.duration = 1.0;
   m.output.checkpoint_every = 1.0;
   m.fos.reset();
+  m.limit.reset();
   // The content of a history matters, not the place of its file.
   for (Load& load : m.loads) load.history.clear();
   for (Water& water : m.waters) water.history.clear();

@@ -13,6 +13,7 @@
 #include "study/fos_bracket.hpp"
 #include "study/fos_start.hpp"
 #include "study/likely_factors.hpp"
+#include "study/limit_analysis.hpp"
 #include "study/side_by_side.hpp"
 
 namespace edda {
@@ -177,8 +178,9 @@ class Search {
 };
 
 const char* what_was_varied(Varied varied) {
-  constexpr const char* words[] = {"strength", "the load", "the ground motion",
-                                   "the water pressure"};
+  constexpr const char* words[] = {
+      "strength", "the load", "the ground motion", "the water pressure", "the tilt", "kh",
+      "kv",       "gravity"};
   return words[static_cast<int>(varied)];
 }
 
@@ -221,6 +223,29 @@ Simulation at_start(const Simulation& rest, const Simulation& later) {
   return start;
 }
 
+/// Compares the factor with the limits of rigid blocks.
+void compare_with_rigid(const Model& model, const Fos& fos, FosResult& r) {
+  constexpr std::size_t most_blocks = 5000;  // for which it takes a small part of the search
+  if (!r.factor || fos.varied == Varied::shaking || r.blocks > most_blocks) return;
+  const Result<LimitResult> found = limit_analysis(model);
+  if (!found.ok() || found.value().largest.status != LimitStatus::found) return;
+  const LimitResult& limit = found.value();
+  RigidBracket rigid;
+  rigid.most = limit.largest.upper;
+  rigid.least = std::min({limit.largest.lower, limit.without_dilation.value_or(rigid.most),
+                          limit.residual.value_or(rigid.most)});
+  constexpr double elastic = 0.02;  // joints and blocks deform before they fail
+  rigid.slack = fos.tolerance + elastic;
+  rigid.below_most = *r.factor <= (1.0 + rigid.slack) * rigid.most;
+  const bool lower = *r.factor < (1.0 - rigid.slack) * rigid.least;
+  rigid.text = fmt::format("rigid limit analysis: {}; {}", limit.message,
+                           !rigid.below_most ? "NO EQUILIBRIUM OF RIGID BLOCKS HAS SUCH A FACTOR"
+                           : lower           ? "the factor is lower than theirs (docs/limit.md)"
+                                             : "the factor agrees with theirs");
+  if (!rigid.below_most) r.warnings.push_back(rigid.text);
+  r.rigid = std::move(rigid);
+}
+
 }  // namespace
 
 Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
@@ -253,6 +278,7 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
     if (!trial.reason.starts_with("diverged")) continue;
     r.warnings.push_back(fmt::format("the trial of {:.6g} {}", trial.factor, trial.reason));
   }
+  compare_with_rigid(model, fos, r);
   r.seconds = since(began);
   return r;
 }

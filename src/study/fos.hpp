@@ -34,6 +34,16 @@ constexpr std::string_view fos_status_name(FosStatus s) {
   return names[static_cast<int>(s)];
 }
 
+/// What rigid limit analysis says of the same factor (docs/limit.md).
+struct RigidBracket {
+  double least = 0.0;  ///< of joints that slide without dilating, and of those that have broken
+  double most = 0.0;   ///< of joints that dilate as they slide
+  bool below_most = false;  ///< the factor is at most `most`, which no equilibrium exceeds, with
+                            ///< the part `slack` beyond it
+  double slack = 0.0;
+  std::string text;  ///< one sentence
+};
+
 struct FosResult {
   FosStatus status = FosStatus::found;
   std::string message;
@@ -44,6 +54,7 @@ struct FosResult {
   std::optional<Mechanism> mechanism;  ///< at the lowest factor that failed
   std::optional<Simulation> failed;    ///< final state at that factor; displacements count from the
                                        ///< start of the trial
+  std::optional<RigidBracket> rigid;   ///< none where it has no limit or was not asked
   std::size_t blocks = 0;
   double seconds = 0.0;  ///< s, wall time
   std::vector<std::string> warnings;

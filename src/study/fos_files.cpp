@@ -66,6 +66,15 @@ std::string fos_summary(const Model& model, const FosResult& r, int threads) {
   for (const std::string& name : fos.exclude) j.value(name);
   j.close();
   add_criterion(j, r.criterion);
+  if (r.rigid) {
+    j.key("rigid_limits").open_object();
+    j.pair("least", r.rigid->least).pair("most", r.rigid->most).pair("text", r.rigid->text);
+    j.close();
+    j.key("checks").open_list().open_object();
+    j.pair("name", "factor at most that of rigid blocks").pair("value", *r.factor);
+    j.pair("limit", r.rigid->most).pair("pass", r.rigid->below_most);
+    j.close().close();
+  }
   j.pair("trials", r.trials.size()).pair("blocks", r.blocks);
   j.key("mechanism_found").value(r.mechanism.has_value());
   if (r.mechanism) add_mechanism(j, *r.mechanism);

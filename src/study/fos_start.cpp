@@ -8,6 +8,7 @@
 #include "model/key_places.hpp"
 #include "model/stage_names.hpp"
 #include "run/equilibrium_search.hpp"
+#include "study/varied_gravity.hpp"
 
 namespace edda {
 namespace {
@@ -198,7 +199,8 @@ Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& opti
   if (auto fault = nothing_moves(model, s.sim); made.in_equilibrium && fault) return *fault;
   s.warnings = std::move(prepared.value().warnings);
   if (status == Status::interrupted) s.status = FosStatus::interrupted;
-  s.loading = {s.sim.motion.laws.divided_by, multiplier};
+  s.loading = {s.sim.motion.laws.divided_by,
+               changes_gravity(fos.varied) ? factor_as_given(fos.varied) : multiplier};
   s.given = {s.sim.motion.laws.divided_by, 1.0};
   for (double& factor : s.given.strength) factor /= divided;
   s.plan = plan_of(s.sim, model, fos);
@@ -263,11 +265,11 @@ Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptio
   if (!made.ok()) return made;
   FosStart& s = made.value();
   if (s.status != FosStatus::found) return made;
-  const bool shaken = fos.varied == Varied::shaking;
-  const Loading to = loading_of(fos, model, s.given, shaken ? 0.0 : 1.0);
+  const double given = factor_as_given(fos.varied);
+  const Loading to = loading_of(fos, model, s.given, given);
   Simulation as_given = s.sim;
   Trial trial = run_trial(as_given, s.plan, s.loading, to, [&] { return stopped(options); });
-  trial.factor = 1.0;
+  trial.factor = given;
   if (trial.end == TrialEnd::stopped) {
     s.status = FosStatus::interrupted;
     return made;
@@ -275,12 +277,12 @@ Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptio
   if (trial.end == TrialEnd::holds) {
     s.sim = std::move(as_given);
     s.loading = to;
-    if (!shaken) s.seen.push_back(trial);
+    if (given > 0.0) s.seen.push_back(trial);
     return made;
   }
-  if (shaken) {
+  if (given == 0.0) {
     s.status = FosStatus::unstable;
-    s.message = "the model is not stable without the ground motion: " +
+    s.message = "the model is not stable without what is varied: " +
                 still_moving(as_given, balance_of(as_given));
     return made;
   }

@@ -11,6 +11,7 @@
 #include "run/equilibrium_search.hpp"
 #include "run/stages.hpp"
 #include "study/fos_watch.hpp"
+#include "study/varied_gravity.hpp"
 
 namespace edda {
 namespace {
@@ -120,7 +121,9 @@ class Run {
 
   /// Applies what is varied besides strength, in proportion to the gradual change so far.
   void advance_gradual_change() {
-    if (plan_.varied != Varied::load && plan_.varied != Varied::water) return;
+    if (plan_.varied != Varied::load && plan_.varied != Varied::water &&
+        !changes_gravity(plan_.varied))
+      return;
     const double part = std::floor(increments * sim_.attached.loads.gradual.part) / increments;
     if (part == part_) return;
     part_ = part;
@@ -190,6 +193,12 @@ void apply_multiplier(Simulation& sim, const TrialPlan& plan, double by) {
   const std::size_t q = plan.target;
   switch (plan.varied) {
     case Varied::strength:
+      return;
+    case Varied::tilt:
+    case Varied::kh:
+    case Varied::kv:
+    case Varied::gravity:
+      sim.scene.edit().model.gravity = varied_gravity(plan.given.gravity, plan.varied, by);
       return;
     case Varied::load:
       sim.scene.edit().model.loads[q].factor = scaled(plan.given.loads[q].factor, by);

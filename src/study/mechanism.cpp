@@ -20,7 +20,6 @@
 namespace edda {
 namespace {
 
-constexpr double moving = 0.1;           // of the largest displacement
 constexpr double mostly_rotation = 0.5;  // lower limit of rotation_part
 
 double turned(const Simulation& before, const Simulation& after, std::size_t i) {
@@ -200,7 +199,7 @@ std::string sentence(const Mechanism& m) {
 
 }  // namespace
 
-Mechanism mechanism_of(const Simulation& before, const Simulation& after) {
+Mechanism mechanism_of(const Simulation& before, const Simulation& after, double moving) {
   Mechanism m;
   double largest = 0.0, weight = 0.0;
   std::vector<double> rotation(before.scene->blocks.size(), 0.0);

@@ -25,7 +25,8 @@ constexpr std::string_view motion_name(JointMotion m) {
   return names[static_cast<int>(m)];
 }
 
-/// A moving block: a vertex moves by more than a tenth of the largest displacement.
+/// A moving block: a vertex moves by more than a part of the largest displacement, usually a tenth
+/// (mechanism_of()).
 struct MovingBlock {
   Id id = 0;
   Vec2 place;                  ///< m, centroid at the start
@@ -43,8 +44,8 @@ struct Stretch {
   Vec2 from_moved, to_moved;  ///< m, displacement of the ends with the block beside it
 };
 
-/// A joint between two blocks that slips, opens, or gapes at one end by rotation, by more than a
-/// tenth of the largest displacement. It hinges where its rotation displaces it at least twice as
+/// A joint between two blocks that slips, opens, or gapes at one end by rotation, by more than
+/// that. It hinges where its rotation displaces it at least twice as
 /// far as it slips and one of its ends stays closed.
 struct MovingJoint {
   Id block_i = 0, block_j = 0;
@@ -71,6 +72,7 @@ struct Mechanism {
 };
 
 /// The mechanism of the motion from `before`, in equilibrium, to `after`, the same model later.
+/// moving: part of the largest displacement that counts as motion, also that of a joint.
 ///
 /// Blocks hinge where they move as one piece (no joint between them moves) between two hinges or
 /// more, and nothing slips along that piece: parts of an arch. Of the others, a block topples where
@@ -79,7 +81,7 @@ struct Mechanism {
 /// (about 1 for a block that rotates about one of its vertices, 0 for one that slides); else it
 /// slides. A block that is no longer within a tenth of the largest displacement of another block
 /// falls.
-Mechanism mechanism_of(const Simulation& before, const Simulation& after);
+Mechanism mechanism_of(const Simulation& before, const Simulation& after, double moving = 0.1);
 
 /// Determines how much cohesion the mechanism's joints had lost in the state `stable`, which
 /// is the last stable one.

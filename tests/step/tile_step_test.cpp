@@ -265,7 +265,8 @@ void compare_without_dashpots(bool list_at_once) {
   const double damping = account_energy(rows).damping;
   EXPECT_GT(damping, 0.0);
   EXPECT_EQ(account_energy(tiled).damping, damping);
-  EXPECT_EQ(tiled.motion.contacts.damping_work.values(), rows.motion.contacts.damping_work.values());
+  EXPECT_EQ(tiled.motion.contacts.damping_work.values(),
+            rows.motion.contacts.damping_work.values());
 }
 TEST(TileStep, WorkOfDashpotsThatAreTakenAwayIsCountedOnce) {
   compare_without_dashpots(false);

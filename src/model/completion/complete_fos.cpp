@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 #include "model/completion/complete_tools.hpp"
 #include "model/table/nearest.hpp"
@@ -33,9 +35,18 @@ Index row_of(const std::vector<Item>& items, const std::string& name, const char
   return none;
 }
 
-/// vary = "strength", or KIND:NAME.
+/// vary = "strength" or another word, or KIND:NAME.
 void read_varied(const Value* node, Fos& fos, Reading& reading) {
-  if (fos.vary == "strength") return;
+  constexpr std::pair<std::string_view, Varied> by_name[] = {{"strength", Varied::strength},
+                                                             {"tilt", Varied::tilt},
+                                                             {"kh", Varied::kh},
+                                                             {"kv", Varied::kv},
+                                                             {"gravity", Varied::gravity}};
+  for (const auto& [word, varied] : by_name) {
+    if (fos.vary != word) continue;
+    fos.varied = varied;
+    return;
+  }
   const Place place = place_of(node, "vary");
   const std::size_t colon = std::min(fos.vary.find(':'), fos.vary.size());
   const std::string kind = fos.vary.substr(0, colon);
@@ -50,7 +61,8 @@ void read_varied(const Value* node, Fos& fos, Reading& reading) {
   if (kind == "water") return find_in(Varied::water, model.waters);
   add_fault(reading, place, "fos.vary",
             '"' + clipped(fos.vary) + "\" is nothing that can be varied",
-            "give \"strength\", \"load:NAME\", \"shaking:NAME\" or \"water:NAME\"");
+            "give \"strength\", \"tilt\", \"kh\", \"kv\", \"gravity\", \"load:NAME\", "
+            "\"shaking:NAME\" or \"water:NAME\"");
 }
 
 }  // namespace
@@ -67,6 +79,10 @@ void complete_fos(const Value& root, Reading& reading) {
   }
   for (const std::string& name : fos.exclude) {
     row_of(model.joints, name, "joint", place_of(node, "exclude"), "fos.exclude", reading);
+  }
+  if (!given(node, "bracket")) {
+    if (fos.varied == Varied::tilt) fos.bracket = {5.0, 45.0};
+    if (fos.varied == Varied::kh || fos.varied == Varied::kv) fos.bracket = {0.05, 0.5};
   }
   if (given(node, "bracket") && fos.bracket.x >= fos.bracket.y) {
     add_fault(reading, find(node, "bracket")->place, "fos.bracket",

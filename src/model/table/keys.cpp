@@ -243,11 +243,15 @@ constexpr std::array fos_fails_keys{
 
 constexpr std::array fos_keys{
     Key{"stage", at<&Fos::stage>, naming, otherwise("the last one; without stages, the model in equilibrium"), "The stage from whose end the trials begin."},
-    Key{"vary", at<&Fos::vary>, naming, initial, "What the factor acts on: \"strength\" (divided by it), \"load:NAME\", \"shaking:NAME\" or \"water:NAME\" (the pressure of that water), multiplied by it."},
+    Key{"vary", at<&Fos::vary>, naming, initial, "What the factor acts on: \"strength\" (divided by it), \"load:NAME\", \"shaking:NAME\" or \"water:NAME\" (the pressure of that water), multiplied by it; \"gravity\" (the weight), multiplied by it; \"kh\" or \"kv\", a seismic coefficient: a force on each block of that part of its weight, to the right or upwards; \"tilt\", the angle in degrees by which the ground is tilted so that blocks lean to the right."},
     Key{"bracket", at<&Fos::bracket>, shape(Kind::point, D::plain, above(0)), initial, "Two factors, the lower one expected to hold and the upper one to fail; widened where they do not."},
     Key{"tolerance", at<&Fos::tolerance>, number(D::plain, above_to(0, 0.5)), initial, "The search ends when the bracket is no wider than this part of its lower factor."},
     Key{"exclude", at<&Fos::exclude>, name_list, initial, "Joints that keep their strength."},
     Key{"fails", at<&Fos::fails>, table, otherwise("by the size of the blocks and gravity"), "When a trial counts as failed."},
+};
+
+constexpr std::array limit_keys{
+    Key{"crushing", at<&Limit::crushing>, flag, initial, "Whether joints are crushed where the thrust comes near an edge: they have the compressive strength materials.X.strength.ucs of the weaker rock beside them."},
 };
 
 constexpr Section root_section{"", Shape::root, false, root_keys, "The model as a whole.",
@@ -287,7 +291,8 @@ constexpr std::array all_sections{
     section<&Model::stages>("stage", Shape::list, stage_keys, "A part of the run, one after the other."),
     section<&Model::solver>("solver", Shape::table, solver_keys, "How the motion is computed."),
     section<&Model::output>("output", Shape::table, output_keys, "What is written, and how often."),
-    section<&Model::fos>("fos", Shape::table, fos_keys, "The factor of safety (edda fos)."),
+    section<&Model::fos>("fos", Shape::table, fos_keys, "The factor of safety (edda fos), and what edda limit varies."),
+    section<&Model::limit>("limit", Shape::table, limit_keys, "Rigid limit analysis (edda limit)."),
 };
 // clang-format on
 

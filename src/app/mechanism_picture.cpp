@@ -1,0 +1,86 @@
+#include "app/mechanism_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/common.hpp"
+#include "observe/observe.hpp"
+#include "report/plot.hpp"
+#include "results/frames.hpp"
+
+namespace edda {
+namespace {
+
+/// 1, 2 or 5 times a power of ten, not above x; at least 1.
+double round_scale(double x) {
+  if (!(x > 1.0)) return 1.0;
+  const double power = std::pow(10.0, std::floor(std::log10(x)));
+  const double digit = x / power;
+  return power * (digit >= 5.0 ? 5.0 : digit >= 2.0 ? 2.0 : 1.0);
+}
+
+/// Mean square root of the areas of free blocks, m.
+double size_of(const Simulation& sim) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
+    sum += std::sqrt(sim.scene->blocks.area[i]);
+    count += 1.0;
+  }
+  return sum / std::max(count, 1.0);
+}
+
+Trouble draw(const Snapshot& shot, const PlotOptions& options, const std::string& folder,
+             const char* name) {
+  for (const char* ending : {".png", ".svg"}) {
+    if (Trouble trouble = plot({&shot, 1}, options, folder + "/" + name + ending)) return trouble;
+  }
+  return {};
+}
+
+}  // namespace
+
+Trouble draw_mechanism(const Model& model, const Simulation& moved, const Mechanism& mechanism,
+                       const std::string& subtitle, const std::string& folder) {
+  Instant instant;
+  observe(moved, instant);
+  Snapshot shot{block_grid(block_cells(moved.scene->blocks), picture_of(moved, instant))};
+  const Result<ShownField> field = shown_field("displacement", shot.blocks, nullptr);
+  if (!field.ok()) return field.faults().front();
+  shot.field = field.value();
+  double largest = 0.0;
+  for (const MovingBlock& b : mechanism.blocks) largest = std::max(largest, b.largest);
+  PlotOptions options = options_of(model, moved.scene->blocks.size());
+  options.subtitle = subtitle;
+  constexpr double shown = 0.5;  // of a block's size
+  options.scale = round_scale(shown * size_of(moved) / largest);
+  options.vectors = "displacement";
+  options.whole_range = true;  // a small moving part is what the picture is to show
+  for (const MovingJoint& j : mechanism.joints) {
+    for (const Stretch& s : j.stretches)
+      options.joints.push_back(
+          {s.from + options.scale * s.from_moved, s.to + options.scale * s.to_moved});
+  }
+  return draw(shot, options, folder, "mechanism");
+}
+
+Trouble draw_thrust(const Model& model, const Simulation& drawn,
+                    const std::vector<ContactRecord>& forces, const std::string& subtitle,
+                    const std::string& folder) {
+  Instant instant;
+  observe(drawn, instant);
+  Picture picture = picture_of(drawn, instant);
+  picture.contacts = forces;
+  for (ContactRecord& c : picture.contacts) c.a = c.b = c.position;  // no pressures are known
+  Snapshot shot{block_grid(block_cells(drawn.scene->blocks), picture)};
+  shot.contacts = grid_of(contact_source(picture));
+  const Result<ShownField> field = shown_field("material", shot.blocks, nullptr);
+  if (!field.ok()) return field.faults().front();
+  shot.field = field.value();
+  PlotOptions options = options_of(model, drawn.scene->blocks.size());
+  options.subtitle = subtitle;
+  options.forces = true;
+  return draw(shot, options, folder, "thrust");
+}
+
+}  // namespace edda

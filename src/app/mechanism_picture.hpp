@@ -1,0 +1,23 @@
+// Pictures of a failure mechanism, of edda fos and edda limit.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "results/files.hpp"
+#include "results/records.hpp"
+#include "study/mechanism.hpp"
+
+namespace edda {
+
+/// mechanism.png and mechanism.svg: the blocks as they have moved, enlarged until that shows, and
+/// the joints along which they did.
+Trouble draw_mechanism(const Model& model, const Simulation& moved, const Mechanism& mechanism,
+                       const std::string& subtitle, const std::string& folder);
+
+/// thrust.png and thrust.svg: the blocks and the forces of their joints.
+Trouble draw_thrust(const Model& model, const Simulation& drawn,
+                    const std::vector<ContactRecord>& forces, const std::string& subtitle,
+                    const std::string& folder);
+
+}  // namespace edda

@@ -1,0 +1,89 @@
+// Rigid limit analysis as a linear program over the forces of the joints (Livesley 1978; static
+// theorem). Its dual is the kinematic one: the prices of the equilibrium of a block are its
+// velocities in the mechanism.
+//
+// A joint has the normal forces N_a, N_b of its two ends and one shear force T, with
+//
+//   N_a, N_b >= -p,     |T| <= s + tan(phi) (N_a + N_b),     p = t L/2, s = c L.
+//
+// These forces are the sum of a constant one (-p), a bounded T and rays: each end presses with the
+// friction angle to either side. So a program has three rows for each block, its equilibrium, and a
+// variable for each ray. Compressive strength f (per m of joint) limits the eccentricity,
+// N_a, N_b >= N^2/(2 f L): a convex set, to which tangents are added where it is exceeded until it
+// is not (docs/limit.md).
+#pragma once
+
+#include "limit/linear_program.hpp"
+#include "limit/rigid_blocks.hpp"
+
+namespace edda {
+
+/// Strength of a joint in a program.
+struct RigidStrength {
+  double friction = 0.0;     ///< tan(phi)
+  double shear = 0.0;        ///< s, N
+  double tension = 0.0;      ///< p of each end, N; at most s/(2 tan(phi))
+  double compression = 0.0;  ///< f L, N; 0: not limited
+};
+
+/// Forces of a joint on its block b.
+struct RigidJointForce {
+  double normal[2] = {0.0, 0.0};  ///< N, of its ends
+  double shear = 0.0;             ///< N
+  double whole() const { return normal[0] + normal[1]; }
+};
+
+/// Velocity of a body's centroid and its spin, counter-clockwise.
+struct RigidMotion {
+  Vec2 velocity;
+  double spin = 0.0;
+};
+inline Vec2 velocity_at(const RigidMotion& m, Vec2 centroid, Vec2 place) {
+  return m.velocity + m.spin * perp(place - centroid);
+}
+
+/// Velocity of a point of a block, [nb] number; 0 where that is fixed.
+Vec2 velocity_of(const RigidBlocks& rigid, const std::vector<RigidMotion>& motion, Id block,
+                 Vec2 place);
+
+struct LimitProblem {
+  const RigidBlocks* rigid = nullptr;
+  std::vector<RigidStrength> strength;  ///< [joints]
+  RigidForces dead, live;               ///< [bodies]
+};
+
+enum class LimitEnd {
+  found,
+  no_equilibrium,  ///< under any multiple of the load
+  no_limit,        ///< there is an equilibrium under any multiple, however large
+  not_solved,      ///< the numbers of the program are too far apart for the solver
+};
+
+struct LimitState {
+  LimitEnd end = LimitEnd::not_solved;
+  double multiplier = 0.0;              ///< static theorem
+  double kinematic = 0.0;               ///< kinematic theorem, from `motion`
+  double violation = 0.0;               ///< by how much `motion` violates the flow rule, as
+                                        ///< a part of its fastest velocity
+  std::vector<RigidJointForce> forces;  ///< [joints]
+  std::vector<double> ties;             ///< [ties] N, tension positive
+  std::vector<RigidMotion> motion;      ///< [bodies] the mechanism, its fastest point with
+                                        ///< velocity 1; also where there is no equilibrium
+};
+
+/// The largest multiplier m (or the smallest) for which dead + m live can be in equilibrium.
+LimitState limit_state(const LimitProblem& problem, bool largest);
+
+/// How far the dead loads are from an equilibrium.
+struct Shortfall {
+  bool solved = false;
+  double force =
+      0.0;  ///< least sum of forces on the blocks by which it fails, over the mean weight
+  double strength =
+      0.0;           ///< by how much less that were if all strengths grew in proportion, by part
+  LimitState state;  ///< forces, and the mechanism where the shortfall is above 0
+};
+/// divided: [joints] 1: its strength is among those that grow.
+Shortfall shortfall(const LimitProblem& problem, const std::vector<char>& divided);
+
+}  // namespace edda

@@ -1,0 +1,240 @@
+#include "study/limit_analysis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "base/text.hpp"
+#include "model/key_places.hpp"
+#include "model/stage_names.hpp"
+#include "observe/observe.hpp"
+#include "run/run_model.hpp"
+#include "run/stage_plan.hpp"
+#include "run/wall_clock.hpp"
+#include "step/labels.hpp"
+#include "study/limit_case.hpp"
+#include "study/varied_gravity.hpp"
+
+namespace edda {
+namespace {
+
+Fault fault_at(const Model& model, const Where& table, const char* key, std::string problem,
+               std::string remedy) {
+  Fault fault{table, std::move(problem), std::move(remedy)};
+  if (fault.where.file.empty()) fault.where.file = model.file;
+  fault.where.key = key;
+  return at_their_keys(model.key_places, {fault}).front();
+}
+
+std::optional<Fault> without_limit(const Model& model, const Fos& fos) {
+  if (fos.varied == Varied::shaking) {
+    return fault_at(model, fos.where, "fos.vary",
+                    "a ground motion has no limit load: limit analysis is statics",
+                    "vary \"kh\", the seismic coefficient");
+  }
+  if (model.contact.model == ContactModel::points) {
+    return fault_at(model, model.contact.where, "contact.model",
+                    "\"points\" is the paper's contact model, without joints that have a length",
+                    "use contact.model = \"faces\"");
+  }
+  const bool has_ucs =
+      std::any_of(model.materials.begin(), model.materials.end(),
+                  [](const auto& m) { return m.strength && m.strength->ucs > 0.0; });
+  if (model.limit && model.limit->crushing && !has_ucs) {
+    return fault_at(model, model.limit->where, "limit.crushing",
+                    "no material has a compressive strength",
+                    "give materials.X.strength = { ucs = ..., tension = ... }");
+  }
+  if (changes_gravity(fos.varied) && model.gravity == Vec2{}) {
+    return fault_at(model, fos.where, "fos.vary", "the model has no gravity that this could act on",
+                    "give gravity = [0, -9.81]");
+  }
+  return {};
+}
+
+/// The model as drawn, with the changes of all stages up to the one asked for.
+Result<PreparedRun> as_staged(const Model& model, const Fos& fos) {
+  Result<PreparedRun> made = prepare_run(model, BlockOrder::as_cut, ReadFor::no_run);
+  if (!made.ok() || model.stages.empty()) return made;
+  const std::vector<StagePlan> plans = plan_stages(model);
+  const std::size_t last =
+      fos.stage.empty() ? plans.size() - 1 : stage_called(model, fos.stage).value_or(0);
+  for (std::size_t q = 0; q <= last; ++q) {
+    if (auto fault = enter_stage(made.value().sim, plans[q], q == 0)) return *fault;
+  }
+  return made;
+}
+
+LimitValue value_of(const LimitCase::Answer& answer) {
+  LimitValue value{LimitStatus::unsolved, answer.lower, answer.upper};
+  switch (answer.end) {
+    case LimitEnd::found:
+      value.status = LimitStatus::found;
+      break;
+    case LimitEnd::no_limit:
+      value.status = LimitStatus::unlimited;
+      break;
+    case LimitEnd::no_equilibrium:
+      value.status = LimitStatus::unstable;
+      break;
+    case LimitEnd::not_solved:
+      value.status = LimitStatus::unsolved;
+      break;
+  }
+  return value;
+}
+
+/// The blocks moved by the mechanism, its largest velocity `far` (m).
+Simulation moved_by(const Simulation& drawn, const RigidBlocks& rigid,
+                    const std::vector<RigidMotion>& motion, double far) {
+  Simulation moved = drawn;
+  State& state = moved.motion.state;
+  for (std::size_t r = 0; r < motion.size(); ++r) {
+    for (const Id i : rigid.blocks[r]) {
+      NodeVectors x = vectors_of(state.x, state.y, i);
+      // A rotation, not its first order, so that blocks keep their shape.
+      const double c = std::cos(far * motion[r].spin), s = std::sin(far * motion[r].spin);
+      for (Vec2& of_node : x) {
+        const Vec2 arm = of_node - rigid.centroid[r];
+        of_node = rigid.centroid[r] + far * motion[r].velocity + c * arm + s * perp(arm);
+      }
+      store(x, state.x, state.y, i);
+      place_vertices(moved.scene->blocks, state.x, state.y, i, moved.motion.pose.x,
+                     moved.motion.pose.y);
+    }
+  }
+  return moved;
+}
+
+/// The forces of the joints, each at the point through which its resultant goes.
+std::vector<ContactRecord> thrust(const Simulation& sim, const RigidBlocks& rigid,
+                                  const std::vector<RigidStrength>& strength,
+                                  const LimitState& state) {
+  std::vector<ContactRecord> all;
+  const Vec2 origin = sim.scene->blocks.origin;
+  for (std::size_t k = 0; k < state.forces.size(); ++k) {
+    const RigidJoint& joint = rigid.joints[k];
+    const RigidJointForce& f = state.forces[k];
+    constexpr double little = 1e-9;  // of a mean weight
+    if (std::abs(f.whole()) + std::abs(f.shear) <= little * rigid.force) continue;
+    ContactRecord c;
+    c.block_i = joint.block_a;
+    c.block_j = joint.block_b;
+    c.joint = joint.law < sim.scene->model.joints.size()
+                  ? std::string_view(sim.scene->model.joints[joint.law].name)
+                  : std::string_view("glued");
+    c.a = joint.ends[0] + origin;
+    c.b = joint.ends[1] + origin;
+    const double part = f.whole() != 0.0 ? f.normal[1] / f.whole() : 0.5;
+    c.position = c.a + std::clamp(part, 0.0, 1.0) * (c.b - c.a);
+    c.force = -f.whole() * joint.n - f.shear * joint.t;  // on block i
+    c.normal_force = f.whole();
+    c.shear_force = -f.shear;
+    c.length = joint.length();
+    const double most = strength[k].shear + strength[k].friction * f.whole();
+    c.mobilised = most > 0.0 ? std::min(1.0, std::abs(f.shear) / most) : 0.0;
+    all.push_back(c);
+  }
+  return all;
+}
+
+const char* quantity(Varied varied) {
+  switch (varied) {
+    case Varied::strength:
+      return "factor of safety";
+    case Varied::load:
+      return "multiplier of the load";
+    case Varied::water:
+      return "multiplier of the water pressure";
+    case Varied::tilt:
+      return "tilt in degrees";
+    case Varied::kh:
+      return "seismic coefficient kh";
+    case Varied::kv:
+      return "seismic coefficient kv";
+    default:
+      return "multiplier of gravity";
+  }
+}
+
+std::string message_of(const Fos& fos, const LimitResult& r) {
+  const std::string what = quantity(fos.varied);
+  switch (r.largest.status) {
+    case LimitStatus::unlimited:
+      return fmt::format("no {} moves the rigid blocks", what);
+    case LimitStatus::unstable:
+      return "the rigid blocks have no equilibrium" +
+             std::string(fos.varied == Varied::strength ? " at any strength of their joints"
+                                                        : ", whatever the " + what);
+    case LimitStatus::unsolved:
+      return "the linear program could not be solved: its numbers are too far apart";
+    case LimitStatus::found:
+      break;
+  }
+  std::string text = fmt::format("{} {:.5g}", what, r.largest.lower);
+  if (r.without_dilation) text += fmt::format(", {:.5g} without dilation", *r.without_dilation);
+  if (r.residual) text += fmt::format(", {:.5g} with residual strength", *r.residual);
+  if (r.smallest && r.smallest->status == LimitStatus::found)
+    text += fmt::format("; at the other end {:.5g}", r.smallest->lower);
+  return text;
+}
+
+void add_mechanism(LimitResult& r, const Simulation& drawn, const RigidBlocks& rigid,
+                   const std::vector<RigidMotion>& motion) {
+  constexpr double far = 0.01;     // of the blocks' size
+  constexpr double moving = 0.01;  // nothing moves but the mechanism
+  if (motion.empty()) return;
+  r.moved = moved_by(drawn, rigid, motion, far * rigid.size);
+  Simulation before = drawn;  // whose joints carry what they carry at the limit
+  FaceSet& faces = before.motion.contacts;
+  for (const RigidJoint& joint : rigid.joints) faces.now.energy[joint.face] = 1.0;
+  r.mechanism = mechanism_of(before, *r.moved, moving);
+}
+
+}  // namespace
+
+Result<LimitResult> limit_analysis(const Model& model) {
+  const auto began = std::chrono::steady_clock::now();
+  const Fos fos = model.fos.value_or(Fos{});
+  if (auto fault = without_limit(model, fos)) return *fault;
+  Result<PreparedRun> prepared = as_staged(model, fos);
+  if (!prepared.ok()) return prepared.faults();
+  const Simulation& sim = prepared.value().sim;
+  const LimitCase asked(sim, fos, model.limit && model.limit->crushing);
+  LimitResult r;
+  r.vary = fos.vary;
+  r.blocks = asked.rigid().bodies();
+  r.joints = asked.rigid().joints.size();
+  r.warnings = prepared.value().warnings;
+  if (!asked.rigid().loose.empty()) {
+    r.warnings.push_back(
+        fmt::format("{} touched by nothing and left out: {}",
+                    asked.rigid().loose.size() == 1 ? "a block is" : "some blocks are",
+                    block_label(sim.scene->blocks, asked.rigid().loose.front())));
+  }
+  if (r.blocks == 0) {
+    return fault_at(model, model.solver.where, "block",
+                    "no block is free to move, so nothing can fail",
+                    "leave some blocks that are neither fixed nor excavated");
+  }
+  const LimitCase::Answer answer = asked.at_end(true, StrengthOf::peak);
+  r.largest = value_of(answer);
+  r.violation = answer.state.violation;
+  r.without_dilation = asked.without_dilation(answer);
+  if (fos.varied != Varied::strength) r.smallest = value_of(asked.at_end(false, StrengthOf::peak));
+  if (asked.is_brittle()) {
+    const LimitCase::Answer weak = asked.at_end(true, StrengthOf::residual);
+    if (weak.end == LimitEnd::found) r.residual = weak.lower;
+    if (weak.end == LimitEnd::no_equilibrium) r.residual = 0.0;
+  }
+  r.forces = thrust(sim, asked.rigid(), asked.strength_of(answer), answer.state);
+  r.drawn = sim;
+  add_mechanism(r, sim, asked.rigid(), answer.state.motion);
+  r.message = message_of(fos, r);
+  r.seconds = since(began);
+  return r;
+}
+
+}  // namespace edda

@@ -1,0 +1,60 @@
+// Rigid limit analysis of a model: the load, tilt or strength at which its blocks, taken as rigid,
+// lose their equilibrium (docs/limit.md).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limit/limit_program.hpp"
+#include "results/records.hpp"
+#include "study/mechanism.hpp"
+
+namespace edda {
+
+enum class LimitStatus {
+  found,
+  unlimited,  ///< no value of what is varied moves the blocks
+  unstable,   ///< there is no equilibrium at any value
+  unsolved,   ///< the solver gave up
+};
+
+constexpr std::string_view limit_status_name(LimitStatus s) {
+  constexpr std::string_view names[] = {"found", "unlimited", "unstable", "unsolved"};
+  return names[static_cast<int>(s)];
+}
+
+/// One end of the values of what is varied that have an equilibrium.
+struct LimitValue {
+  LimitStatus status = LimitStatus::unsolved;
+  double lower = 0.0;  ///< static theorem: at this value there is an equilibrium
+  double upper = 0.0;  ///< kinematic theorem: at this value there is none
+};
+
+struct LimitResult {
+  std::string vary;     ///< as in [fos]
+  std::string message;  ///< one sentence
+  LimitValue largest;   ///< joints with their peak strength and an associated flow rule
+  std::optional<LimitValue> smallest;      ///< at the other end; none for strength
+  std::optional<double> without_dilation;  ///< largest.lower, where joints slide without dilating
+  std::optional<double> residual;      ///< largest.lower of joints that have lost their bonds; none
+                                       ///< where that makes no difference
+  double violation = 0.0;              ///< LimitState::violation of `largest`
+  std::optional<Mechanism> mechanism;  ///< at `largest`, its largest displacement a hundredth of
+                                       ///< the mean size of the blocks
+  std::optional<Simulation> drawn, moved;  ///< the model as drawn, and moved by the mechanism
+  std::vector<ContactRecord> forces;       ///< of the joints that carry any, at the thrust point
+  std::size_t blocks = 0, joints = 0;
+  double seconds = 0.0;  ///< s, wall time
+  std::vector<std::string> warnings;
+};
+
+/// Cuts, makes the changes of all stages up to fos.stage, and solves. Faults: those of
+/// prepare_run(), and of quantities that rigid limit analysis cannot vary (ground motion).
+Result<LimitResult> limit_analysis(const Model& model);
+
+/// limit_joints.csv and summary.json.
+std::string limit_joints_csv(const LimitResult& result);
+std::string limit_summary(const Model& model, const LimitResult& result);
+
+}  // namespace edda

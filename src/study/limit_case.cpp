@@ -1,0 +1,168 @@
+#include "study/limit_case.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "contacts/laws.hpp"
+#include "study/varied_gravity.hpp"
+
+namespace edda {
+namespace {
+
+constexpr double degrees = 180.0 / std::numbers::pi;
+constexpr double strength_tolerance = 1e-6;
+
+}  // namespace
+
+LimitCase::LimitCase(const Simulation& sim, const Fos& fos, bool crushing)
+    : sim_(sim), fos_(fos), crushing_(crushing), rigid_(rigid_blocks(sim)) {}
+
+bool LimitCase::is_spared(std::size_t law) const {
+  const std::vector<JointLaw>& joints = sim_.scene->model.joints;
+  return law < joints.size() && std::find(fos_.exclude.begin(), fos_.exclude.end(),
+                                          joints[law].name) != fos_.exclude.end();
+}
+
+std::vector<RigidStrength> LimitCase::strength_at(double factor, StrengthOf which,
+                                                  const std::vector<RigidJointForce>& last) const {
+  const LawTable laws = build_laws(sim_.scene->model);
+  std::vector<double> divided_by = sim_.motion.laws.divided_by;  // by the stage
+  for (std::size_t r = 0; r < divided_by.size(); ++r) {
+    if (!is_spared(r)) divided_by[r] *= factor;
+  }
+  return joint_strengths(rigid_, laws, divided_by, which, crushing_, last);
+}
+
+/// Everything that acts but what is varied.
+RigidForces LimitCase::dead_loads() const {
+  LoadFactors factors = last_factors(sim_);
+  const auto q = static_cast<std::size_t>(std::max(fos_.target, 0));
+  if (fos_.varied == Varied::load && q < factors.loads.size()) factors.loads[q] = 0.0;
+  if (fos_.varied == Varied::water && q < factors.waters.size()) factors.waters[q] = 0.0;
+  const Vec2 gravity = fos_.varied == Varied::gravity ? Vec2{} : sim_.scene->model.gravity;
+  return weights_under(rigid_, sim_, gravity) + loads_with(rigid_, sim_, factors);
+}
+
+/// What the multiplier acts on.
+RigidForces LimitCase::live() const {
+  const Vec2 gravity = sim_.scene->model.gravity;
+  const auto q = static_cast<std::size_t>(std::max(fos_.target, 0));
+  const LoadFactors given = last_factors(sim_);
+  LoadFactors factors{std::vector<double>(given.loads.size(), 0.0),
+                      std::vector<double>(given.waters.size(), 0.0)};
+  const auto once = [](double own) { return own == 0.0 ? 1.0 : own; };  // not active yet
+  switch (fos_.varied) {
+    case Varied::kh:
+      return weights_under(rigid_, sim_, perp(gravity));
+    case Varied::kv:
+      return weights_under(rigid_, sim_, -gravity);
+    case Varied::gravity:
+      return weights_under(rigid_, sim_, gravity);
+    case Varied::load:
+      if (q < given.loads.size()) factors.loads[q] = once(given.loads[q]);
+      break;
+    case Varied::water:
+      if (q < given.waters.size()) factors.waters[q] = once(given.waters[q]);
+      break;
+    default:
+      break;
+  }
+  return loads_with(rigid_, sim_, factors);
+}
+
+RigidForces LimitCase::dead_at(double angle) const {
+  const Vec2 tilted = varied_gravity(sim_.scene->model.gravity, Varied::tilt, degrees * angle);
+  return weights_under(rigid_, sim_, tilted) + loads_with(rigid_, sim_, last_factors(sim_));
+}
+RigidForces LimitCase::turning_at(double angle) const {
+  const Vec2 tilted = varied_gravity(sim_.scene->model.gravity, Varied::tilt, degrees * angle);
+  return weights_under(rigid_, sim_, perp(tilted));
+}
+
+LimitCase::Answer LimitCase::solve(bool largest, const StrengthAt& strength_at, double near) const {
+  LimitProblem problem;
+  problem.rigid = &rigid_;
+  if (fos_.varied == Varied::strength) {
+    problem.dead = dead_loads();
+    std::vector<char> divided;
+    for (const RigidJoint& joint : rigid_.joints) divided.push_back(is_spared(joint.law) ? 0 : 1);
+    StrengthFactor found = strength_factor(problem, divided, strength_at, strength_tolerance, near);
+    return {found.end, found.holds, found.fails, std::move(found.state)};
+  }
+  problem.strength = strength_at(1.0);
+  if (fos_.varied == Varied::tilt) {
+    LimitState state = tilt_limit(
+        problem, largest, [&](double angle) { return dead_at(angle); },
+        [&](double angle) { return turning_at(angle); });
+    return {state.end, degrees * state.multiplier, degrees * state.kinematic, std::move(state)};
+  }
+  problem.dead = dead_loads();
+  problem.live = live();
+  LimitState state = limit_state(problem, largest);
+  return {state.end, state.multiplier, state.kinematic, std::move(state)};
+}
+
+LimitCase::Answer LimitCase::at_end(bool largest, StrengthOf which) const {
+  constexpr int most_rounds = 20;
+  constexpr double close = 1e-5;
+  Answer answer = solve(largest, [&](double factor) { return strength_at(factor, which, {}); });
+  const bool again = depends_on_stress(rigid_, sim_.motion.laws);
+  for (int round = 0; again && round < most_rounds && answer.end == LimitEnd::found; ++round) {
+    const std::vector<RigidJointForce> last = answer.state.forces;
+    const double before = answer.lower;
+    answer = solve(
+        largest, [&](double factor) { return strength_at(factor, which, last); }, before);
+    if (std::abs(answer.lower - before) <= close * std::abs(before)) break;
+  }
+  return answer;
+}
+
+std::optional<double> LimitCase::without_dilation(const Answer& associated) const {
+  if (associated.end != LimitEnd::found) return {};
+  constexpr double close = 1e-4, about = 1e-2;
+  constexpr int most_rounds = 20;
+  const std::vector<RigidJointForce> stress = associated.state.forces;
+  std::vector<RigidJointForce> reference = stress;
+  std::vector<double> values{associated.lower};
+  for (int round = 0; round < most_rounds; ++round) {
+    const Answer answer = solve(
+        true,
+        [&](double factor) {
+          return edda::without_dilation(rigid_, strength_at(factor, StrengthOf::peak, stress),
+                                        reference);
+        },
+        values.back());
+    if (answer.end != LimitEnd::found) return {};
+    const double change = std::abs(answer.lower - values.back());
+    values.push_back(answer.lower);
+    if (change <= close * std::abs(answer.lower)) return answer.lower;
+    for (std::size_t k = 0; k < reference.size(); ++k) {
+      for (std::size_t end = 0; end < 2; ++end) {
+        double& normal = reference[k].normal[end];
+        normal = 0.5 * (normal + answer.state.forces[k].normal[end]);
+      }
+    }
+  }
+  // Programs may alternate between two mechanisms.
+  const auto [least, most] = std::minmax_element(values.end() - 4, values.end());
+  if (*most - *least > about * std::abs(*most)) return {};
+  return *least;
+}
+
+std::vector<RigidStrength> LimitCase::strength_of(const Answer& answer) const {
+  const bool strength = fos_.varied == Varied::strength && answer.end == LimitEnd::found;
+  return strength_at(strength ? answer.lower : 1.0, StrengthOf::peak, answer.state.forces);
+}
+
+bool LimitCase::is_brittle() const {
+  const LawTable laws = build_laws(sim_.scene->model);
+  return std::any_of(rigid_.joints.begin(), rigid_.joints.end(), [&](const RigidJoint& joint) {
+    const Law& law = laws.rows[joint.law];
+    return joint.has_peak && !law.glued &&
+           (law.residual_friction < law.peak_friction ||
+            law.residual_cohesion < law.peak_cohesion || law.residual_tension < law.peak_tension);
+  });
+}
+
+}  // namespace edda

@@ -1,0 +1,55 @@
+// What rigid limit analysis is asked about a model, as programs.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "limit/joint_strength.hpp"
+#include "limit/limit_factor.hpp"
+#include "model/model.hpp"
+
+namespace edda {
+
+/// The quantity that [fos] varies, in one state of the model.
+class LimitCase {
+ public:
+  LimitCase(const Simulation& sim, const Fos& fos, bool crushing);
+
+  /// The value at one end and the state there.
+  struct Answer {
+    LimitEnd end = LimitEnd::not_solved;
+    double lower = 0.0, upper = 0.0;
+    LimitState state;
+  };
+  /// Joints dilate as they slide (associated flow rule).
+  Answer at_end(bool largest, StrengthOf which) const;
+  /// The largest value of joints that slide without dilating, from that of joints that do; it is
+  /// not unique. Empty where the successive programs do not come to an end.
+  std::optional<double> without_dilation(const Answer& associated) const;
+  /// Whether joints lose any strength at failure.
+  bool is_brittle() const;
+
+  /// [joints] in the programs that gave the answer.
+  std::vector<RigidStrength> strength_of(const Answer& answer) const;
+  const RigidBlocks& rigid() const { return rigid_; }
+
+ private:
+  using StrengthAt = std::function<std::vector<RigidStrength>(double factor)>;
+  /// near: where a factor of strength may be.
+  Answer solve(bool largest, const StrengthAt& strength_at, double near = 1.0) const;
+  std::vector<RigidStrength> strength_at(double factor, StrengthOf which,
+                                         const std::vector<RigidJointForce>& last) const;
+  RigidForces dead_at(double angle) const;
+  RigidForces turning_at(double angle) const;
+  RigidForces live() const;
+  RigidForces dead_loads() const;
+  bool is_spared(std::size_t law) const;
+
+  const Simulation& sim_;
+  const Fos& fos_;
+  bool crushing_;
+  RigidBlocks rigid_;
+};
+
+}  // namespace edda

@@ -1,0 +1,224 @@
+// Rigid limit analysis of whole models: public figures, and what must not change an answer.
+#include "study/limit_analysis.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "model/read_model.hpp"
+
+namespace edda::limit_analysis_test {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+LimitResult limit_of(const std::string& text, const std::string& vary) {
+  Result<Model> model =
+      read_model_text(text + "[fos]\nvary = \"" + vary + "\"\n", "m.toml", {}, ReadFor::no_run);
+  if (!model.ok()) {
+    ADD_FAILURE() << to_string(model.faults()[0]);
+    return {};
+  }
+  Result<LimitResult> r = limit_analysis(model.value());
+  if (!r.ok()) {
+    ADD_FAILURE() << to_string(r.faults()[0]);
+    return {};
+  }
+  return std::move(r.value());
+}
+
+std::string stone(double mu) {
+  return fmt::format(
+      "[materials.stone]\ndensity = 2000\nyoung = 50e9\npoisson = 0.2\n[joints.dry]\n"
+      "friction_angle = {:.15g}\n",
+      std::atan(mu) / degree);
+}
+
+struct Turned {
+  double angle = 0.0;
+  Vec2 shift;
+  std::string operator()(double x, double y) const {
+    const double c = std::cos(angle), s = std::sin(angle);
+    return fmt::format("[{:.15g}, {:.15g}]", c * x - s * y + shift.x, s * x + c * y + shift.y);
+  }
+};
+
+/// An arch of n equal voussoirs between fixed springers; R of the middle line, 10 m.
+std::string arch(int n, double embrace, double thickness, double mu, const Turned& at = {}) {
+  const double from = 0.5 * (180.0 - embrace) * degree, step = embrace * degree / n;
+  const double in = 10.0 - 0.5 * thickness, out = 10.0 + 0.5 * thickness;
+  const auto polar = [&](double r, double a, double beyond) {
+    return at(r * std::cos(a) - beyond * std::sin(a), r * std::sin(a) + beyond * std::cos(a));
+  };
+  std::string text = stone(mu);
+  const auto quad = [&](double a, double b, double beyond_a, double beyond_b) {
+    return "polygon = [" + polar(in, a, beyond_a) + ", " + polar(out, a, beyond_a) + ", " +
+           polar(out, b, beyond_b) + ", " + polar(in, b, beyond_b) + "]\n";
+  };
+  for (int k = 0; k < n; ++k)
+    text += "[[block]]\n" + quad(from + k * step, from + (k + 1) * step, 0.0, 0.0);
+  text += "[[block]]\nfixed = true\n" + quad(from, from, -0.3, 0.0);
+  text += "[[block]]\nfixed = true\n" + quad(from + n * step, from + n * step, 0.0, 0.3);
+  return text;
+}
+
+/// Ferris and Tin-Loi's (2001) panel: courses of 0.4 x 0.175 m units, half units at the ends of the
+/// bottom course and of every second one above it.
+std::string panel(int courses, int units, double mu) {
+  const double b = 0.4, h = 0.175;
+  const auto rectangle = [](double x0, double y0, double x1, double y1) {
+    return fmt::format(
+        "polygon = [[{0:.15g},{1:.15g}],[{2:.15g},{1:.15g}],[{2:.15g},{3:.15g}],"
+        "[{0:.15g},{3:.15g}]]\n",
+        x0, y0, x1, y1);
+  };
+  std::string text =
+      stone(mu) + "[[block]]\nfixed = true\n" + rectangle(-b, -h, (units + 1) * b, 0.0);
+  for (int c = 0; c < courses; ++c) {
+    double from = 0.0;
+    for (double to = c % 2 == 0 ? 0.5 * b : b; from < units * b - 1e-9; to += b) {
+      const double end = std::min(to, units * b);
+      text += "[[block]]\n" + rectangle(from, c * h, end, (c + 1) * h);
+      from = end;
+    }
+  }
+  return text;
+}
+
+void expect_sharp(const LimitResult& r, double exact, double digits) {
+  ASSERT_EQ(r.largest.status, LimitStatus::found) << r.message;
+  EXPECT_NEAR(r.largest.lower, exact, digits);
+  EXPECT_NEAR(r.largest.upper, r.largest.lower, 1e-8);
+  EXPECT_LT(r.violation, 1e-7);
+}
+
+TEST(LimitAnalysis, CircularArchUnderHorizontalAcceleration) {
+  expect_sharp(limit_of(arch(7, 157.5, 1.0, 1.0), "kh"), 0.1990239, 5e-8);
+  expect_sharp(limit_of(arch(7, 157.5, 1.5, 1.0), "kh"), 0.3736117, 5e-8);
+  expect_sharp(limit_of(arch(7, 157.5, 2.0, 1.0), "kh"), 0.5265889, 5e-8);
+}
+
+TEST(LimitAnalysis, NamesTheHingesOfAnArch) {
+  const LimitResult r = limit_of(arch(7, 157.5, 1.5, 1.0), "kh");
+  ASSERT_TRUE(r.mechanism);
+  EXPECT_EQ(r.mechanism->joints.size(), 4u);
+  EXPECT_TRUE(r.mechanism->text.starts_with("hinging: 4 hinges at")) << r.mechanism->text;
+  // Where it hinges the thrust is at an edge; between them it lies within.
+  std::size_t at_edges = 0;
+  for (const ContactRecord& c : r.forces) {
+    const double part = norm(c.position - c.a) / norm(c.b - c.a);
+    if (part < 1e-6 || part > 1.0 - 1e-6) ++at_edges;
+  }
+  EXPECT_EQ(at_edges, 4u);
+}
+
+/// The least thickness of a semicircular arch of 27 voussoirs depends on friction below 0.4.
+TEST(LimitAnalysis, LeastThicknessOfASemicircularArch) {
+  struct Least {
+    double mu, thickness;
+  };
+  for (const Least& l : {Least{0.31, 0.195995},
+                         {0.35, 0.151185},
+                         {0.39, 0.111630},
+                         {0.40, 0.106721},
+                         {0.60, 0.106721}}) {
+    const auto stands = [&](double part) {
+      return limit_of(arch(27, 180.0, 10.0 * part, l.mu), "kh").largest.status ==
+             LimitStatus::found;
+    };
+    EXPECT_TRUE(stands(l.thickness + 2e-6)) << l.mu;
+    EXPECT_FALSE(stands(l.thickness - 2e-6)) << l.mu;
+  }
+}
+
+TEST(LimitAnalysis, PanelOfFerrisAndTinLoi) {
+  const LimitResult r = limit_of(panel(6, 5, 0.65), "kh");
+  expect_sharp(r, 0.6428590, 5e-8);
+  ASSERT_TRUE(r.smallest);
+  EXPECT_NEAR(r.smallest->lower, -0.6428590, 5e-8);
+  ASSERT_TRUE(r.without_dilation);
+  EXPECT_NEAR(*r.without_dilation, 0.6428590, 1e-4);
+  const LimitResult tilt = limit_of(panel(6, 5, 0.65), "tilt");
+  EXPECT_NEAR(std::tan(tilt.largest.lower * degree), 0.6428590, 1e-7);
+}
+
+/// Rotated with its gravity, moved far away, mirrored: the same multiplier.
+TEST(LimitAnalysis, DoesNotDependOnWhereAndHowAModelIsDrawn) {
+  const double angle = 1.1, g = 9.81;
+  const std::string turned =
+      fmt::format("gravity = [{:.15g}, {:.15g}]\n", g * std::sin(angle), -g * std::cos(angle)) +
+      arch(7, 157.5, 1.5, 1.0, {angle, {4e5, -2e5}});
+  const LimitResult r = limit_of(turned, "kh");
+  expect_sharp(r, 0.3736117, 1e-6);
+  ASSERT_TRUE(r.smallest);
+  EXPECT_NEAR(r.smallest->lower, -r.largest.lower, 1e-6);
+}
+
+/// A load at a point, its multiplier and the dead loads.
+TEST(LimitAnalysis, LoadsAndWaterAreMultiplied) {
+  const std::string block =
+      stone(0.5) +
+      "[[block]]\nfixed = true\npolygon = [[-5,-1],[5,-1],[5,0],[-5,0]]\n[[block]]\n"
+      "polygon = [[0,0],[4,0],[4,2],[0,2]]\n[[load]]\nname = \"push\"\npoint = [0, 0.5]\n"
+      "force = [1000, 0]\n[[load]]\nname = \"weight\"\npoint = [2, 2]\nforce = [0, -50000]\n";
+  const double down = 2000.0 * 9.81 * 8.0 + 50000.0;
+  const LimitResult r = limit_of(block, "load:push");
+  expect_sharp(r, 0.5 * down / 1000.0, 1e-5);
+  EXPECT_TRUE(r.mechanism->text.starts_with("sliding along dry")) << r.mechanism->text;
+}
+
+/// A joint with cohesion that it loses at failure: both strengths are reported.
+TEST(LimitAnalysis, ReportsWhatBrokenJointsCarry) {
+  const std::string text = stone(0.3) +
+                           "cohesion = 1e4\n[[block]]\nfixed = true\n"
+                           "polygon = [[-5,-1],[5,-1],[5,0],[-5,0]]\n[[block]]\n"
+                           "polygon = [[0,0],[2,0],[2,0.5],[0,0.5]]\n";
+  const LimitResult r = limit_of(text, "kh");
+  const double weight = 2000.0 * 9.81;
+  expect_sharp(r, 0.3 + 2e4 / weight, 1e-7);
+  ASSERT_TRUE(r.residual);
+  EXPECT_NEAR(*r.residual, 0.3, 1e-7);
+}
+
+/// Stages: what they excavate is gone, what they activate acts.
+TEST(LimitAnalysis, MakesTheChangesOfStages) {
+  const std::string text =
+      stone(0.3) +
+      "[domain]\noutline = [[0,0],[6,0],[6,3],[0,3]]\n[[trace]]\npoints = [[0,1],[6,1]]\n"
+      "[[trace]]\npoints = [[2,1],[2,3]]\n[[trace]]\npoints = [[4,1],[4,3]]\n[[fixed]]\n"
+      "point = [3, 0.5]\n[[opening]]\nname = \"right\"\n"
+      "polygon = [[4,1],[6,1],[6,3],[4,3]]\njoint = \"dry\"\n"
+      "[[load]]\nname = \"push\"\npoint = [0, 1.5]\nforce = [1000, 0]\n";
+  const std::string stages =
+      "[[stage]]\nname = \"all\"\nuntil = \"equilibrium\"\n[[stage]]\nname = \"last\"\n"
+      "until = \"equilibrium\"\nexcavate = [\"right\"]\n"
+      "activate = [\"push\"]\n";
+  const double block = 2000.0 * 9.81 * 4.0;
+  const LimitResult last = limit_of(text + stages, "load:push");
+  EXPECT_NEAR(last.largest.lower, 0.3 * 2.0 * block / 1000.0, 1e-4);
+  const LimitResult first = limit_of(text + stages, "load:push\"\nstage = \"all");
+  EXPECT_NEAR(first.largest.lower, 0.3 * 3.0 * block / 1000.0, 1e-4);
+}
+
+TEST(LimitAnalysis, RefusesWhatHasNoLimit) {
+  const std::string text = stone(0.3) + "[[block]]\npolygon = [[0,0],[1,0],[1,1],[0,1]]\n";
+  const auto fault = [](const std::string& toml) {
+    const Result<Model> model = read_model_text(toml, "m.toml", {}, ReadFor::no_run);
+    if (!model.ok()) return to_string(model.faults()[0]);
+    const Result<LimitResult> r = limit_analysis(model.value());
+    return r.ok() ? std::string() : to_string(r.faults()[0]);
+  };
+  const std::string shaking =
+      "[[shaking]]\nname = \"quake\"\nacceleration = { amplitude = 1, frequency = 1 }\n";
+  EXPECT_NE(fault(text + shaking + "[fos]\nvary = \"shaking:quake\"\n").find("kh"),
+            std::string::npos);
+  EXPECT_NE(fault("gravity = [0, 0]\n" + text + "[fos]\nvary = \"kh\"\n").find("gravity"),
+            std::string::npos);
+  EXPECT_NE(fault(text + "[limit]\ncrushing = true\n").find("ucs"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace edda::limit_analysis_test
