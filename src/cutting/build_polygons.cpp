@@ -131,20 +131,23 @@ Result<PolygonSet> all_blocks(const Model& model, const Imports& imports, bool f
   if (Faults faults = too_few_corners(model); !faults.empty()) return faults;
   if (Faults faults = too_many_bricks(model); !faults.empty()) return faults;
   PolygonSet set;
-  set.origin = model_centre(model);
+  set.origin = model_centre(model, imports);
   set.blocks = given_blocks(model, set.origin);
   const std::size_t given = set.blocks.size();
   Faults faults = too_many_corners(set.blocks, given);
   if (!faults.empty()) return faults;
   append(set.blocks, wall_bricks(model, set.origin));
   append(set.blocks, voussoirs(model, set.origin));
+  const std::size_t first_imported = set.blocks.size();
+  append(set.blocks, imported_blocks(model, imports, set.origin));
   const std::size_t first_cut = set.blocks.size();
   if (model.domain) {
     Result<PolygonSet> cut = add_cut_blocks(model, imports, framed, std::move(set));
     if (!cut.ok()) return cut.faults();
     set = std::move(cut.value());
   } else {
-    faults = fix_blocks(model, 0.0, first_cut, set);
+    set.report.notes = imports.notes;
+    faults = fix_blocks(model, 0.0, first_imported, set);
     if (!faults.empty()) return faults;
   }
   faults = find_overlaps(set.blocks, first_cut);
@@ -160,7 +163,8 @@ Result<PolygonSet> cut_or_given(const Model& model) {
   if (model.imports.empty()) return all_blocks(model, {}, false);
   const Result<Imports> imports = read_imports(model);
   if (!imports.ok()) return imports.faults();
-  if (model.domain) return all_blocks(model, imports.value(), false);
+  if (model.domain || imports.value().lines.empty())
+    return all_blocks(model, imports.value(), false);
   Result<Domain> frame = frame_of(model, imports.value());
   if (!frame.ok()) return frame.faults();
   Model framed = model;

@@ -21,6 +21,7 @@
 #include "cutting/planar_graph.hpp"
 #include "cutting/poor_faces.hpp"
 #include "cutting/rock_area.hpp"
+#include "cutting/unenclosed.hpp"
 #include "imports/import_units.hpp"
 
 namespace edda {
@@ -322,6 +323,10 @@ Result<DomainCut> cut_domain(const Model& model, Vec2 origin, const Imports& imp
   if (auto fault = lost_area(model, a, work, snap, *area_in)) return *fault;
   cut.blocks = polygons(model, a, work, Zone::rock, snap);
   cut.removed = polygons(model, a, work, Zone::opening, snap);
+  if (framed) {
+    if (auto warning = unenclosed_warning(imports, cut.blocks, origin))
+      cut.report.warnings.push_back(std::move(*warning));
+  }
   keep_staged(model, cut);
   cut.report.cut_blocks = static_cast<int>(cut.blocks.size());
   cut.report.area_out = area_of(cut.blocks);

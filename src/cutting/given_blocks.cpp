@@ -59,7 +59,7 @@ std::vector<Vec2> arch_corners(const Arch& arch, Vec2 centre) {
 
 }  // namespace
 
-Vec2 model_centre(const Model& model) {
+Vec2 model_centre(const Model& model, const Imports& imports) {
   Box box;
   for (const BlockInput& block : model.blocks) grow(box, block.polygon);
   for (const BrickWall& wall : model.walls) {
@@ -71,6 +71,7 @@ Vec2 model_centre(const Model& model) {
   }
   if (model.domain) grow(box, model.domain->outline);
   for (const Opening& opening : model.openings) grow(box, opening.polygon);
+  for (const ImportedBlock& block : imports.blocks) grow(box, block.ring);
   if (box.low.x > box.high.x) return {};
   return box.low + (box.high - box.low) / 2.0;
 }
@@ -92,6 +93,25 @@ std::vector<BlockPolygon> given_blocks(const Model& model, Vec2 origin) {
     block.angular_velocity = input.angular_velocity;
     block.name = input.name;
     block.where = input.where;
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
+}
+
+std::vector<BlockPolygon> imported_blocks(const Model& model, const Imports& imports, Vec2 origin) {
+  std::vector<BlockPolygon> blocks;
+  blocks.reserve(imports.blocks.size());
+  for (const ImportedBlock& input : imports.blocks) {
+    Ring ring;
+    ring.reserve(input.ring.size());
+    for (const Vec2 p : input.ring) ring.push_back(p - origin);
+    if (signed_area(ring) < 0.0) std::reverse(ring.begin(), ring.end());
+    BlockPolygon block;
+    block.joint = {std::vector<Index>(ring.size(), input.joint)};
+    block.rings = {std::move(ring)};
+    block.material = input.material;
+    block.fixed = input.fixed;
+    block.where = model.imports[static_cast<std::size_t>(input.import)].where;
     blocks.push_back(std::move(block));
   }
   return blocks;

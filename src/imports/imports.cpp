@@ -82,7 +82,9 @@ std::string listed(const std::map<std::string, int>& counts) {
 std::string note_of(const Import& import, std::size_t lines, const Drawing& drawing,
                     const std::map<std::string, int>& taken) {
   std::string text = std::filesystem::path(import.file).filename().string() + ": " +
-                     std::to_string(lines) + (lines == 1 ? " line" : " lines");
+                     std::to_string(lines) +
+                     (import.as == ImportAs::blocks ? (lines == 1 ? " block" : " blocks")
+                                                    : (lines == 1 ? " line" : " lines"));
   std::map<std::string, int> named = taken;
   named.erase("");
   if (!named.empty()) text += " (" + listed(named) + ')';
@@ -94,68 +96,141 @@ std::string note_of(const Import& import, std::size_t lines, const Drawing& draw
 std::optional<Fault> missing_layer(const Import& import, const Drawing& drawing) {
   std::set<std::string> there;
   for (const DrawnLine& line : drawing.lines) there.insert(line.layer);
-  for (const auto& [name, joint] : import.layers) {
-    if (there.contains(name)) continue;
+  const auto missing = [&](const std::string& key,
+                           const std::string& name) -> std::optional<Fault> {
+    if (there.contains(name)) return std::nullopt;
     const std::vector<std::string_view> known(there.begin(), there.end());
-    return Fault{member_of(import.where, "layers." + name), "no line of the file is on this layer",
+    return Fault{member_of(import.where, key), "no line of the file is on this layer",
                  known.empty() ? "it has no lines" : "its layers are " + quoted_list(known)};
+  };
+  for (const auto& [name, joint] : import.layers) {
+    if (auto fault = missing("layers." + name, name)) return fault;
+  }
+  for (const auto& [name, material] : import.materials) {
+    if (auto fault = missing("materials." + name, name)) return fault;
+  }
+  for (const std::string& name : import.fixed) {
+    if (auto fault = missing("fixed", name)) {
+      fault->problem = '"' + clipped(name) + "\": " + fault->problem;
+      return fault;
+    }
   }
   return std::nullopt;
 }
 
-/// Adds the lines of one file.
-std::optional<Fault> take(const Model& model, Index number, Drawing& drawing, Imports& imports) {
-  const Import& import = model.imports[static_cast<std::size_t>(number)];
-  const Layers layers(model, import);
-  const bool table = ending_of(import.file) == ".csv";
-  const double scale = import.scale * metres(import.units);
-  const auto placed = [&](Vec2 p) { return import.shift + scale * p; };
-  std::map<std::string, int> taken;
-  if (auto fault = missing_layer(import, drawing); fault && !table) return fault;
-  const std::size_t before = imports.lines.size();
-  for (DrawnLine& line : drawing.lines) {
-    if (table) {
-      if (const std::string hint = layers.unknown_joint(line.layer); !hint.empty()) {
-        return Fault{{"", import.file, line.line, 1},
+/// The corners of a closed polyline; fewer than three: it is not closed, or has no area.
+Ring ring_of(const std::vector<Vec2>& points) {
+  Ring ring;
+  if (points.size() < 4 || points.front() != points.back()) return ring;
+  for (const Vec2 p : points) {
+    if (ring.empty() || !(p == ring.back())) ring.push_back(p);
+  }
+  if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+  if (ring.size() >= 3 && signed_area(ring) == 0.0) ring.clear();
+  return ring;
+}
+
+Index material_of(const Import& import, const std::string& layer) {
+  for (const auto& [name, material] : import.materials) {
+    if (name == layer) return material;
+  }
+  return import.material;
+}
+
+/// Adds the lines of one file, or the blocks that its closed ones are.
+class Taker {
+ public:
+  Taker(const Model& model, Index number, Drawing& drawing, Imports& imports)
+      : import_(model.imports[static_cast<std::size_t>(number)]),
+        layers_(model, import_),
+        number_(number),
+        drawing_(drawing),
+        imports_(imports),
+        table_(ending_of(import_.file) == ".csv") {}
+
+  std::optional<Fault> take() {
+    if (auto fault = missing_layer(import_, drawing_); fault && !table_) return fault;
+    for (DrawnLine& line : drawing_.lines) {
+      if (auto fault = take(line)) return fault;
+    }
+    for (const auto& [a, b] : drawing_.fixed) {
+      imports_.fixed_lines.emplace_back(placed(a), placed(b));
+      imports_.fixed_import.push_back(number_);
+    }
+    imports_.drawn_in.push_back(drawing_.units);
+    imports_.notes.push_back(note_of(import_, count_, drawing_, taken_));
+    if (count_ > 0) return std::nullopt;
+    return Fault{member_of(import_.where, "file"), imports_.notes.back(),
+                 import_.as == ImportAs::blocks
+                     ? "give a drawing in which each block is a closed polyline, or as = \"lines\""
+                     : "give a file with lines; of a drawing, lines, polylines, arcs, ellipses and "
+                       "splines are read, also of inserted blocks"};
+  }
+
+ private:
+  Vec2 placed(Vec2 p) const { return import_.shift + import_.scale * metres(import_.units) * p; }
+
+  std::optional<Fault> take(const DrawnLine& line) {
+    if (table_) {
+      if (const std::string hint = layers_.unknown_joint(line.layer); !hint.empty()) {
+        return Fault{{"", import_.file, line.line, 1},
                      "no joint is called \"" + clipped(line.layer) + '"',
                      hint};
       }
-    } else if (!layers.reads(line.layer)) {
-      ++drawing.skipped["on layer \"" + line.layer + '"'];
-      continue;
+    } else if (!layers_.reads(line.layer)) {
+      ++drawing_.skipped["on layer \"" + line.layer + '"'];
+      return std::nullopt;
     }
     const bool is_point = std::all_of(line.points.begin(), line.points.end(),
                                       [&](Vec2 p) { return p == line.points[0]; });
     if (is_point) {
-      ++drawing.skipped["of no length"];
-      continue;
+      ++drawing_.skipped["of no length"];
+      return std::nullopt;
     }
-    ImportedLine imported{{}, layers.joint_of(line.layer), number};
+    std::vector<Vec2> points;
     for (const Vec2 p : line.points) {
-      imported.points.push_back(placed(p));
+      points.push_back(placed(p));
       constexpr double largest = 1e12;  // m, as for lengths in the model
-      const Vec2 q = imported.points.back();
-      if (std::abs(q.x) > largest || std::abs(q.y) > largest) {
-        return Fault{{"", import.file, line.line, 1},
+      if (std::abs(points.back().x) > largest || std::abs(points.back().y) > largest) {
+        return Fault{{"", import_.file, line.line, 1},
                      "lies beyond 1e12 m",
                      "check units, scale and shift of the import"};
       }
     }
-    imports.lines.push_back(std::move(imported));
-    ++taken[line.layer];
+    if (add(line.layer, std::move(points))) {
+      ++count_;
+      ++taken_[line.layer];
+    }
+    return std::nullopt;
   }
-  for (const auto& [a, b] : drawing.fixed) {
-    imports.fixed_lines.emplace_back(placed(a), placed(b));
-    imports.fixed_import.push_back(number);
+
+  bool add(const std::string& layer, std::vector<Vec2> points) {
+    const Index joint = layers_.joint_of(layer);
+    if (import_.as == ImportAs::lines) {
+      imports_.lines.push_back({std::move(points), joint, number_});
+      return true;
+    }
+    Ring ring = ring_of(points);
+    if (ring.size() < 3) {
+      ++drawing_.skipped["not closed"];
+      return false;
+    }
+    const bool fixed =
+        std::find(import_.fixed.begin(), import_.fixed.end(), layer) != import_.fixed.end();
+    imports_.blocks.push_back(
+        {std::move(ring), joint, material_of(import_, layer), fixed, number_});
+    return true;
   }
-  const std::size_t lines = imports.lines.size() - before;
-  imports.drawn_in.push_back(drawing.units);
-  imports.notes.push_back(note_of(import, lines, drawing, taken));
-  if (lines > 0) return std::nullopt;
-  return Fault{member_of(import.where, "file"), imports.notes.back(),
-               "give a file with lines; of a drawing, lines, polylines, arcs, ellipses and splines "
-               "are read, also of inserted blocks"};
-}
+
+  const Import& import_;
+  const Layers layers_;
+  const Index number_;
+  Drawing& drawing_;
+  Imports& imports_;
+  const bool table_;
+  std::size_t count_ = 0;
+  std::map<std::string, int> taken_;  ///< how many of each layer
+};
 
 }  // namespace
 
@@ -172,7 +247,7 @@ Result<Imports> read_imports(const Model& model) {
         fault.where = member_of(import.where, "file");
       }
       faults.push_back(std::move(fault));
-    } else if (auto fault = take(model, static_cast<Index>(i), drawing.value(), imports)) {
+    } else if (auto fault = Taker(model, static_cast<Index>(i), drawing.value(), imports).take()) {
       faults.push_back(std::move(*fault));
     }
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/fault.hpp"
+#include "base/polygon.hpp"
 #include "base/vec2.hpp"
 #include "model/model.hpp"
 
@@ -19,7 +20,16 @@ struct ImportedLine {
   Index import = 0;          ///< in Model::imports
 };
 
+/// A closed polyline that is a block, in model coordinates.
+struct ImportedBlock {
+  Ring ring;  ///< m, either orientation
+  Index joint = none, material = none;
+  bool fixed = false;
+  Index import = 0;  ///< in Model::imports
+};
+
 struct Imports {
+  std::vector<ImportedBlock> blocks;                ///< of imports as blocks, in order
   std::vector<ImportedLine> lines;                  ///< in the order of the files
   std::vector<std::pair<Vec2, Vec2>> fixed_lines;   ///< blocks on them are fixed; points are lines
                                                     ///< without length; m, model coordinates
@@ -29,7 +39,8 @@ struct Imports {
 };
 
 /// Reads the files of model.imports. Faults, one per file: it cannot be read, does not have its
-/// format, names joints or layers that do not exist, or contains no lines.
+/// format, names joints or layers that do not exist, or contains no lines, or no closed ones where
+/// these are blocks.
 Result<Imports> read_imports(const Model& model);
 
 /// The bounding box of all lines as a domain, where a model has imports and no domain; the area

@@ -67,8 +67,7 @@ class EDDA_API Model {
   static Model parse(std::string_view toml, const std::string& name = "model",
                      const std::vector<std::string>& overrides = {});
 
-  std::string title() const;
-  std::string file() const;
+  std::string title() const, file() const;
   double duration() const;      ///< s; 0: none is given
   std::string to_toml() const;  ///< every key and default filled in; reads back to the same bits
 
@@ -91,9 +90,8 @@ struct CutBlock {
   std::string name;  ///< of a [[block]], else empty
   int material = 0;  ///< row of Model::materials(), -1: none
   bool fixed = false;
-  double area = 0.0;  ///< m2
-  std::vector<std::vector<Point>>
-      rings;  ///< the outer one counter-clockwise, then holes, clockwise
+  double area = 0.0;                      ///< m2
+  std::vector<std::vector<Point>> rings;  ///< outer one counter-clockwise, then holes, clockwise
   /// joints[r][e]: row of Model::joints() of the edge from rings[r][e] to the next vertex, -1: none
   std::vector<std::vector<int>> joints;
 };
@@ -101,13 +99,9 @@ struct CutBlock {
 /// The model's blocks, and what the cut did to its lines.
 struct Cut {
   std::vector<CutBlock> blocks;  ///< in the order of their ids
-  int trimmed = 0;               ///< ends of joints inside a block
-  int merged = 0;                ///< slivers merged into a neighbour
-  double smallest_area = 0.0;    ///< m2
-  double smallest_edge = 0.0;    ///< m
-  double smallest_angle = 0.0;   ///< degrees
-  /// what was imported, drawn at random, left out, and which joints cut nothing
-  std::vector<std::string> notes;
+  int trimmed = 0, merged = 0;   ///< ends of joints inside a block; slivers
+  double smallest_area = 0.0, smallest_edge = 0.0, smallest_angle = 0.0;  ///< m2, m, degrees
+  std::vector<std::string> notes;  ///< what was imported, drawn at random, left out, cuts nothing
 };
 
 EDDA_API Cut cut(const Model& model);
@@ -118,8 +112,7 @@ EDDA_API Cut cut(const Model& model);
 struct ModelCheck {
   std::size_t blocks = 0, held = 0;                                ///< held: those that are fixed
   std::size_t contacts = 0;                                        ///< closed at the start
-  double critical_step = 0.0;                                      ///< s
-  double time_step = 0.0;                                          ///< s: the first
+  double critical_step = 0.0, time_step = 0.0;                     ///< s; the first one
   double steps = 0.0;                                              ///< to expect
   bool at_most = false;                                            ///< stages may end before
   double steps_per_second = 0.0;                                   ///< of wall time
@@ -135,20 +128,18 @@ EDDA_API ModelCheck check(const Model& model);
 struct FosTrial {
   double factor = 0.0;
   bool holds = false;
-  std::string reason;         ///< a few words
-  double displacement = 0.0;  ///< m, largest of a corner since the start of the trial
-  std::int32_t block = -1;    ///< whose corner that is; -1: none
-  double velocity = 0.0;      ///< m/s, at its end
-  double time = 0.0;          ///< s, duration of the trial in the model
+  std::string reason;                 ///< a few words
+  double displacement = 0.0;          ///< m, largest of a corner since the start of the trial
+  std::int32_t block = -1;            ///< whose corner that is; -1: none
+  double velocity = 0.0, time = 0.0;  ///< m/s at its end; s, its duration in the model
 };
 
 /// The result of `edda fos`.
 struct FactorOfSafety {
   std::string status;                  ///< found, below, above, unstable or interrupted
-  std::string message;                 ///< one sentence
+  std::string message, mechanism;      ///< a sentence each; the latter empty where nothing failed
   std::optional<double> factor;        ///< middle of the bracket; none where there is no bracket
   std::optional<double> holds, fails;  ///< the largest that holds, the smallest that fails
-  std::string mechanism;               ///< a sentence; empty where nothing failed
   std::vector<FosTrial> trials;        ///< in the order in which one thread makes them
   std::vector<std::string> warnings;
   double wall_seconds = 0.0;
@@ -158,19 +149,38 @@ struct FactorOfSafety {
 /// Error: the model cannot be computed, or has nothing to search for.
 EDDA_API FactorOfSafety fos(const Model& model, const std::atomic<bool>* stop = nullptr);
 
+/// The force of a joint between two blocks at their limit load.
+struct LimitJoint {
+  std::uint32_t block_i = 0, block_j = 0;
+  std::string joint;                            ///< name of its law
+  double x = 0.0, y = 0.0, fx = 0.0, fy = 0.0;  ///< m, of the thrust; N, on block_i
+  double normal_force = 0.0, mobilised = 0.0;   ///< N, in compression; part of its shear strength
+};
+
+/// The result of `edda limit`; numbers are empty where there is no such limit.
+struct LimitLoad {
+  std::string status, message, mechanism;  ///< found, unlimited, unstable or unsolved; sentences
+  std::optional<double> limit, upper, other_end;     ///< largest, by both theorems; smallest value
+  std::optional<double> without_dilation, residual;  ///< `limit` of joints that are weaker
+  std::vector<LimitJoint> joints;                    ///< those that carry a force at the limit
+  std::vector<std::string> warnings;
+  double wall_seconds = 0.0;
+};
+
+/// Rigid limit analysis of what [fos] of the model varies. Error: it cannot be computed.
+EDDA_API LimitLoad limit(const Model& model);
+
 /// A monitor's displacement at the end, and the differences of the other runs from it, m.
 struct ErrorBar {
   std::string monitor;
-  double ux = 0.0, uy = 0.0;
-  double step = 0.0, stiffness = 0.0, order = 0.0;
+  double ux = 0.0, uy = 0.0, step = 0.0, stiffness = 0.0, order = 0.0;
 };
 
 /// The result of `edda verify`.
 struct Verification {
   std::vector<ErrorBar> monitors;
-  double time = 0.0;           ///< s, of the model
-  double largest_drift = 0.0;  ///< largest error of the energy balance of all runs, in size
-  std::string failed;          ///< which run did not reach its end, and why; empty: none
+  double time = 0.0, largest_drift = 0.0;  ///< s, of the model; error of the energy balance
+  std::string failed;  ///< which run did not reach its end, and why; empty: none
 };
 
 /// Runs the model four times: as it is, at half the step, with springs three times as stiff, and
@@ -198,17 +208,13 @@ struct Outcome {
 };
 
 struct Progress {
-  double fraction = 0.0;  ///< of the duration
-  double time = 0.0;      ///< s simulated
+  double fraction = 0.0, time = 0.0;  ///< of the duration; s simulated
   std::uint64_t steps = 0;
-  double rate = 0.0;              ///< steps per second of wall time
-  double seconds_left = 0.0;      ///< wall; -1 while unknown
-  double kinetic = 0.0;           ///< J
-  double largest_overlap = 0.0;   ///< m
-  double largest_velocity = 0.0;  ///< m/s, of the blocks' centroids
-  std::size_t stage = 0;          ///< the current one, from 1
-  std::size_t stages = 1;         ///< of the model; 1 where it has none
-  std::string stage_name{};       ///< empty where it has none
+  double rate = 0.0, seconds_left = 0.0;  ///< steps per second of wall time; -1 while unknown
+  double kinetic = 0.0, largest_overlap = 0.0, largest_velocity = 0.0;  ///< J, m; m/s, of centroids
+  std::size_t stage = 0,
+              stages = 1;    ///< the current one, from 1, of so many; 1 where there are none
+  std::string stage_name{};  ///< empty where there are none
 };
 
 /// The energy balance since t = 0, J: friction, damping and fracture are dissipated, external is
@@ -254,9 +260,8 @@ EDDA_API std::size_t components_of(Field field);
 
 /// The motion of a material point.
 struct MonitorReading {
-  double ux = 0.0, uy = 0.0;               ///< m
-  double vx = 0.0, vy = 0.0;               ///< m/s
-  double sxx = 0.0, syy = 0.0, sxy = 0.0;  ///< Pa, of its block
+  double ux = 0.0, uy = 0.0, vx = 0.0, vy = 0.0;  ///< m; m/s
+  double sxx = 0.0, syy = 0.0, sxy = 0.0;         ///< Pa, of its block
 };
 
 /// [3] spans of nb numbers each: node k of block i is the k-th span's element i.
@@ -318,27 +323,23 @@ class EDDA_API Simulation {
   const Model& model() const;
   double time() const;  ///< s
   std::uint64_t steps() const;
-  double time_step() const;         ///< s, of the last step; 0 before the first
-  double critical_step() const;     ///< s
-  std::string governed_by() const;  ///< what limits the step
+  double time_step() const, critical_step() const;  ///< s; of the last step, 0 before the first
+  std::string governed_by() const;                  ///< what limits the step
   std::vector<std::string> warnings() const;
   std::size_t stage() const;  ///< the current one, from 1
   Ledger ledger() const;
   double unbalanced() const;  ///< mean resultant over the mean contact force
 
   // Views of the arrays that the steps work on, valid as long as the Simulation.
-  std::size_t block_count() const;
-  std::size_t vertex_count() const;
+  std::size_t block_count() const, vertex_count() const;
   BlockViews blocks() const;
   std::span<const std::uint8_t> alive() const;  ///< [nb] 0: excavated
   Point origin() const;                         ///< node positions count from here
-  Nodes node_x() const;                         ///< m, at step n, relative to origin()
-  Nodes node_y() const;
+  Nodes node_x() const, node_y() const;         ///< m, at step n, relative to origin()
   /// m/s, half a step before the positions (method "dda": with them). May be written to before the
   /// first and between two steps, which counts as external work. The next call restores those of
   /// blocks that are not free. Error: numbers that are not finite, any change after the end.
-  MutableNodes node_vx();
-  MutableNodes node_vy();
+  MutableNodes node_vx(), node_vy();
   /// The name of a block (below block_count()), empty where it has none, and the block of a name.
   std::string name(std::size_t block) const;
   std::optional<std::size_t> block_called(std::string_view name) const;

@@ -4,6 +4,7 @@
 #include "library/impl.hpp"
 #include "run/check_model.hpp"
 #include "study/fos.hpp"
+#include "study/limit_analysis.hpp"
 #include "study/verify_model.hpp"
 
 namespace edda::api {
@@ -68,6 +69,31 @@ FactorOfSafety fos(const Model& model, const std::atomic<bool>* stop) {
   result.fails = found.fails;
   if (found.mechanism) result.mechanism = found.mechanism->text;
   for (const Trial& t : found.trials) result.trials.push_back(trial_of(t));
+  result.warnings = found.warnings;
+  result.wall_seconds = found.seconds;
+  return result;
+}
+
+LimitLoad limit(const Model& model) {
+  use_threads();
+  check_memory(model.impl().model);
+  const LimitResult found = value_or_raise(limit_analysis(model.impl().model));
+  const auto lower_of = [](const LimitValue& value) {
+    return value.status == LimitStatus::found ? std::optional<double>(value.lower) : std::nullopt;
+  };
+  LimitLoad result;
+  result.status = limit_status_name(found.largest.status);
+  result.message = found.message;
+  result.limit = lower_of(found.largest);
+  if (result.limit) result.upper = found.largest.upper;
+  if (found.smallest) result.other_end = lower_of(*found.smallest);
+  result.without_dilation = found.without_dilation;
+  result.residual = found.residual;
+  if (found.mechanism) result.mechanism = found.mechanism->text;
+  for (const ContactRecord& c : found.forces) {
+    result.joints.push_back({c.block_i, c.block_j, std::string(c.joint), c.position.x, c.position.y,
+                             c.force.x, c.force.y, c.normal_force, c.mobilised});
+  }
   result.warnings = found.warnings;
   result.wall_seconds = found.seconds;
   return result;

@@ -21,6 +21,7 @@ enum class Spread { uniform, normal };
 enum class JointSpread { uniform, normal, exponential };
 enum class LengthKind { lognormal, power, constant };
 enum class ShapeKind { arch, circle, rectangle, horseshoe };
+enum class ImportAs { lines, blocks };
 enum class LengthUnit { m, mm, cm, km, ft, in };
 enum class QualityAction { merge, report, error };
 
@@ -131,11 +132,14 @@ struct Import {
   std::string file;  ///< path
   LengthUnit units = LengthUnit::m;
   double scale = 1.0;
-  bool size_given = false;                            ///< the model gives units or scale
-  Vec2 shift;                                         ///< m, after scaling
-  std::vector<std::pair<std::string, Index>> layers;  ///< layer -> joint; empty: all layers
-  Index joint = none;                                 ///< law of lines whose layer names none
-  Index material = none;                              ///< of the blocks, where there is no domain
+  bool size_given = false;                               ///< the model gives units or scale
+  Vec2 shift;                                            ///< m, after scaling
+  ImportAs as = ImportAs::lines;                         ///< lines cut rock, closed ones are blocks
+  std::vector<std::pair<std::string, Index>> layers;     ///< layer -> joint; empty: all layers
+  std::vector<std::pair<std::string, Index>> materials;  ///< layer -> material; as blocks
+  std::vector<std::string> fixed;                        ///< layers of fixed blocks; as blocks
+  Index joint = none;                                    ///< law of lines whose layer names none
+  Index material = none;  ///< of the blocks, where there is no domain or they are blocks themselves
   Where where;
 };
 

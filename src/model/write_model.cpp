@@ -80,9 +80,11 @@ struct Write {
   }
   std::string operator()(const JointMap* field) const {
     std::string text;
-    for (const auto& [name, joint] : *field) {
+    const bool materials = key.rule.kind == Kind::material_map;
+    for (const auto& [name, index] : *field) {
+      const auto row = static_cast<std::size_t>(index);
       text += fmt::format("{}{} = {}", text.empty() ? "{ " : ", ", bare_or_quoted(name),
-                          written(model.joints[static_cast<std::size_t>(joint)].name));
+                          written(materials ? model.materials[row].name : model.joints[row].name));
     }
     return text.empty() ? text : text + " }";
   }

@@ -70,6 +70,11 @@ api::FactorOfSafety fos(const api::Model& model) {
   return interruptible([&](const std::atomic<bool>* stop) { return api::fos(model, stop); });
 }
 
+api::LimitLoad limit(const api::Model& model) {
+  const py::gil_scoped_release release;
+  return api::limit(model);
+}
+
 api::Verification verify(const api::Model& model) {
   return interruptible([&](const std::atomic<bool>* stop) { return api::verify(model, stop); });
 }
@@ -212,6 +217,8 @@ void add_models(py::module_& m) {
   add_model(m);
   m.def("check", &check, py::arg("model"), "What edda check reports about a model.");
   m.def("fos", &fos, py::arg("model"), "The factor of safety, as [fos] of the model defines it.");
+  m.def("limit", &limit, py::arg("model"),
+        "The limit load of the blocks, taken as rigid, of what [fos] of the model varies.");
   m.def("verify", &verify, py::arg("model"), "The error bars of the model's monitors.");
   add_cut(m);
 }

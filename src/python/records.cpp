@@ -146,6 +146,51 @@ void add_factor_of_safety(py::module_& m) {
   add_repr(fos, {"status", "factor", "holds", "fails"});
 }
 
+void add_limit_joint(py::module_& m) {
+  py::class_<api::LimitJoint> joint(m, "LimitJoint",
+                                    "The force of a joint between two blocks at their limit load.");
+  joint.def_readonly("block_i", &api::LimitJoint::block_i, "Id of one block.")
+      .def_readonly("block_j", &api::LimitJoint::block_j, "Id of the other block.")
+      .def_readonly("joint", &api::LimitJoint::joint, "Name of its law.")
+      .def_readonly("x", &api::LimitJoint::x, "m, of the point through which its resultant goes.")
+      .def_readonly("y", &api::LimitJoint::y, "m, of the same point.")
+      .def_readonly("fx", &api::LimitJoint::fx, "N, on block_i to the right.")
+      .def_readonly("fy", &api::LimitJoint::fy, "N, on block_i upwards.")
+      .def_readonly("normal_force", &api::LimitJoint::normal_force, "N, positive in compression.")
+      .def_readonly("mobilised", &api::LimitJoint::mobilised, "Shear force over shear strength.");
+  add_pickling(joint, &api::LimitJoint::block_i, &api::LimitJoint::block_j, &api::LimitJoint::joint,
+               &api::LimitJoint::x, &api::LimitJoint::y, &api::LimitJoint::fx, &api::LimitJoint::fy,
+               &api::LimitJoint::normal_force, &api::LimitJoint::mobilised);
+  add_repr(joint, {"block_i", "block_j", "fx", "fy"});
+}
+
+void add_limit_load(py::module_& m) {
+  py::class_<api::LimitLoad> limit(m, "LimitLoad", "What edda.limit() finds.");
+  limit.def_readonly("status", &api::LimitLoad::status, "found, unlimited, unstable or unsolved.")
+      .def_readonly("message", &api::LimitLoad::message, "One sentence.")
+      .def_readonly("limit", &api::LimitLoad::limit,
+                    "The largest value with an equilibrium (static theorem), or None.")
+      .def_readonly("upper", &api::LimitLoad::upper, "The same by the kinematic theorem, or None.")
+      .def_readonly("other_end", &api::LimitLoad::other_end,
+                    "The smallest value with an equilibrium, or None.")
+      .def_readonly("without_dilation", &api::LimitLoad::without_dilation,
+                    "The limit of joints that slide without dilating, or None.")
+      .def_readonly("residual", &api::LimitLoad::residual,
+                    "The limit of joints with their residual strength, or None.")
+      .def_readonly("mechanism", &api::LimitLoad::mechanism,
+                    "What moves at the limit, a sentence; empty: none.")
+      .def_readonly("joints", &api::LimitLoad::joints,
+                    "A LimitJoint for each that carries a force.")
+      .def_readonly("warnings", &api::LimitLoad::warnings, "A sentence each.")
+      .def_readonly("wall_seconds", &api::LimitLoad::wall_seconds, "s");
+  add_pickling(limit, &api::LimitLoad::status, &api::LimitLoad::message, &api::LimitLoad::limit,
+               &api::LimitLoad::upper, &api::LimitLoad::other_end,
+               &api::LimitLoad::without_dilation, &api::LimitLoad::residual,
+               &api::LimitLoad::mechanism, &api::LimitLoad::joints, &api::LimitLoad::warnings,
+               &api::LimitLoad::wall_seconds);
+  add_repr(limit, {"status", "limit", "without_dilation"});
+}
+
 void add_error_bar(py::module_& m) {
   py::class_<api::ErrorBar> bar(
       m, "ErrorBar", "A monitor's displacement at the end, and how far other runs end from it, m.");
@@ -243,6 +288,8 @@ void add_records(py::module_& m) {
   add_check(m);
   add_trial(m);
   add_factor_of_safety(m);
+  add_limit_joint(m);
+  add_limit_load(m);
   add_error_bar(m);
   add_verification(m);
   add_progress(m);

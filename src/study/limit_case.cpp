@@ -136,7 +136,7 @@ std::optional<double> LimitCase::without_dilation(const Answer& associated) cons
     if (answer.end != LimitEnd::found) return {};
     const double change = std::abs(answer.lower - values.back());
     values.push_back(answer.lower);
-    if (change <= close * std::abs(answer.lower)) return answer.lower;
+    if (change <= close * std::abs(answer.lower)) return std::min(answer.lower, associated.lower);
     for (std::size_t k = 0; k < reference.size(); ++k) {
       for (std::size_t end = 0; end < 2; ++end) {
         double& normal = reference[k].normal[end];
@@ -147,7 +147,7 @@ std::optional<double> LimitCase::without_dilation(const Answer& associated) cons
   // Programs may alternate between two mechanisms.
   const auto [least, most] = std::minmax_element(values.end() - 4, values.end());
   if (*most - *least > about * std::abs(*most)) return {};
-  return *least;
+  return std::min(*least, associated.lower);
 }
 
 std::vector<RigidStrength> LimitCase::strength_of(const Answer& answer) const {

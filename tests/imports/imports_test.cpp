@@ -284,5 +284,96 @@ TEST(Imports, UnitsThatADrawingSaysAreComparedAndNotTaken) {
   EXPECT_EQ(only_warning(model), "");
 }
 
+/// Two piers and a lintel, each a closed polyline, and a line that is not closed.
+std::string portal() {
+  const auto box = [](const char* layer, double x0, double y0, double x1, double y1) {
+    DxfPairs pairs{{8, layer}, {90, "4"}, {70, "1"}};
+    for (const auto& [x, y] : {std::pair{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}) {
+      pairs.emplace_back(10, std::to_string(x));
+      pairs.emplace_back(20, std::to_string(y));
+    }
+    return entity("LWPOLYLINE", pairs);
+  };
+  return dxf(box("GROUND", -1, -1, 4, 0) + box("PIER", 0, 0, 1, 2) + box("PIER", 2, 0, 3, 2) +
+             box("LINTEL", 0, 2, 3, 3) +
+             entity("LINE", {{8, "NOTE"}, {10, "0"}, {20, "5"}, {11, "1"}, {21, "5"}}));
+}
+
+Model drawn_as(const File& file, ImportAs as) {
+  Model model = with_joints({});
+  model.materials.resize(2);
+  model.contact.joint = 0;
+  Import import = import_of(file);
+  import.as = as;
+  import.material = 0;
+  if (as == ImportAs::blocks) {
+    import.materials = {{ "LINTEL", 1 }};
+    import.fixed = {"GROUND"};
+    import.joint = 2;
+  }
+  model.imports = {import};
+  return model;
+}
+
+TEST(Imports, ClosedPolylinesAreBlocks) {
+  const File file("portal.dxf", portal());
+  const auto made = build_polygons(drawn_as(file, ImportAs::blocks));
+  ASSERT_TRUE(made.ok()) << reason(made);
+  const PolygonSet& set = made.value();
+  ASSERT_EQ(set.blocks.size(), 4U);
+  EXPECT_TRUE(set.blocks[0].fixed);
+  EXPECT_FALSE(set.blocks[1].fixed);
+  EXPECT_EQ(set.blocks[1].material, 0);
+  EXPECT_EQ(set.blocks[3].material, 1);
+  EXPECT_EQ(set.blocks[3].joint, (std::vector<std::vector<Index>>{{2, 2, 2, 2}}));
+  double area = 0.0;
+  for (const BlockPolygon& block : set.blocks) area += signed_area(block.rings[0]);
+  EXPECT_NEAR(area, 5.0 + 2.0 + 2.0 + 3.0, 1e-12);
+  ASSERT_EQ(set.report.notes.size(), 1U);
+  EXPECT_NE(set.report.notes[0].find("1 not closed"), std::string::npos) << set.report.notes[0];
+}
+
+TEST(Imports, LinesWarnOfRockBetweenClosedOnes) {
+  const File file("portal.dxf", portal());
+  const auto made = build_polygons(drawn_as(file, ImportAs::lines));
+  ASSERT_TRUE(made.ok()) << reason(made);
+  EXPECT_EQ(made.value().blocks.size(), 5U);  // with the doorway
+  const auto& warnings = made.value().report.warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& w) {
+    return w.find("1 area that no closed line") != std::string::npos &&
+           w.find("(1.5, 1)") != std::string::npos;
+  }));
+}
+
+TEST(Imports, FixedPointsActOnDrawnBlocks) {
+  const File file("portal.dxf", portal());
+  Model model = drawn_as(file, ImportAs::blocks);
+  model.imports[0].fixed = {};
+  model.fixed.push_back({{0.5, 1.0}, {}});
+  const auto made = build_polygons(model);
+  ASSERT_TRUE(made.ok()) << reason(made);
+  EXPECT_TRUE(made.value().blocks[1].fixed);
+  EXPECT_FALSE(made.value().blocks[0].fixed);
+}
+
+TEST(Imports, LayersOfBlocksMustExist) {
+  const File file("portal.dxf", portal());
+  Model model = drawn_as(file, ImportAs::blocks);
+  model.imports[0].fixed = {"BASE"};
+  EXPECT_NE(fault_of(model).find("\"BASE\""), std::string::npos);
+  model.imports[0].fixed = {};
+  model.imports[0].materials = {{"BASE", 0}};
+  EXPECT_NE(fault_of(model).find("layer"), std::string::npos);
+}
+
+TEST(Imports, DrawingsWithoutClosedPolylinesHaveNoBlocks) {
+  const File file("lines.dxf",
+                  dxf(entity("LINE", {{8, "A"}, {10, "0"}, {20, "5"}, {11, "1"}, {21, "5"}})));
+  Model model = drawn_as(file, ImportAs::blocks);
+  model.imports[0].fixed = {};
+  model.imports[0].materials = {};
+  EXPECT_NE(fault_of(model).find("closed polyline"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace edda::imports_test

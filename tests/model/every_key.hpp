@@ -108,6 +108,12 @@ scale = 2
 shift = [1, 2]
 layers = { "J 1" = "glue", b = "rough" }
 joint = "glue"
+[[import]]
+file = "b.dxf"
+as = "blocks"
+material = "rock"
+materials = { STONE = "soft clay" }
+fixed = ["BASE"]
 [[opening]]
 name = "cavern"
 polygon = [[14, 4], [16, 4], [16, 6], [14, 6]]
@@ -274,6 +280,8 @@ bracket = [0.7, 2]
 tolerance = 0.02
 exclude = ["glue"]
 fails = { displacement = "1 cm", velocity = "2 mm/s" }
+[limit]
+crushing = true
 )";
 
 // In place of stress, at_y and gradient.

@@ -155,7 +155,14 @@ void expect_every_joint_key(const Model& m) {
 
 /// Imports, shapes of openings, regions, arches, quality and pairs of materials.
 void expect_every_shape_key(const Model& m) {
-  ASSERT_EQ(m.imports.size(), 1U);
+  ASSERT_EQ(m.imports.size(), 2U);
+  EXPECT_EQ(m.imports[0].as, ImportAs::lines);
+  EXPECT_EQ(m.imports[1].as, ImportAs::blocks);
+  EXPECT_EQ(m.imports[1].material, 0);
+  EXPECT_EQ(m.imports[1].materials, (JointMap{{"STONE", 1}}));
+  EXPECT_EQ(m.imports[1].fixed, (std::vector<std::string>{"BASE"}));
+  ASSERT_TRUE(m.limit);
+  EXPECT_TRUE(m.limit->crushing);
   EXPECT_TRUE(m.imports[0].file.ends_with("/t.csv"));
   EXPECT_EQ(m.imports[0].units, LengthUnit::cm);
   EXPECT_EQ(m.imports[0].scale, 2.0);

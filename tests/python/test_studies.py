@@ -75,6 +75,25 @@ def test_a_factor_of_safety():
     assert edda.fos(PLANE, {"joints.plane.type": "glued", "joints.plane.friction_angle": 0}).factor is None
 
 
+def test_a_limit_load():
+    found = edda.limit(PLANE)
+    exact = math.tan(math.radians(33)) / math.tan(TILT)
+    assert found.status == "found" and found.limit == pytest.approx(exact, rel=1e-5)
+    assert found.upper >= found.limit and found.other_end is None and found.residual is None
+    assert found.mechanism == "sliding along plane: 1 block"
+    (joint,) = found.joints
+    assert joint.joint == "plane" and joint.mobilised == pytest.approx(1.0) and joint.normal_force > 0
+    again = pickle.loads(pickle.dumps(found))
+    assert again.joints[0].fx == joint.fx and again.message == found.message
+    pushed = edda.limit(PLANE, {"fos.vary": "kh"})
+    # To the left, down the plane, and to the right, up it.
+    phi = math.radians(33)
+    assert sorted(abs(k) for k in (pushed.limit, pushed.other_end)) == pytest.approx(
+        sorted([math.tan(phi - TILT), math.tan(phi + TILT)]), rel=1e-6)
+    with pytest.raises(edda.ModelError, match="no gravity"):
+        edda.limit(PLANE, {"gravity": [0, 0], "fos.vary": "kh"})
+
+
 def test_error_bars():
     found = edda.verify(PLANE)
     (bar,) = found.monitors

@@ -88,7 +88,8 @@ void complete_material_references(const Value& root, Reading& reading) {
   for (std::size_t i = 0; i < model.regions.size(); ++i) {
     complete_one(element(root, "region", i), model.regions[i]);
   }
-  for (std::size_t i = 0; i < model.imports.size() && !model.domain; ++i) {
+  for (std::size_t i = 0; i < model.imports.size(); ++i) {
+    if (model.domain && model.imports[i].as == ImportAs::lines) continue;
     complete_one(element(root, "import", i), model.imports[i]);
   }
 }

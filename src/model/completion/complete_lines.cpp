@@ -163,6 +163,19 @@ void complete_import(const Value* node, Import& import, Reading& reading) {
               "export it as one of those, and name it so");
   }
   import.file = beside_model(import.file, reading.model.file);
+  if (import.as == ImportAs::blocks) {
+    if (ending != ".dxf") {
+      add_fault(reading, find(node, "as")->place, import.where.key + ".as",
+                "only drawings (.dxf) have closed polylines", "give a drawing, or as = \"lines\"");
+    }
+    return;
+  }
+  for (const char* key : {"materials", "fixed"}) {
+    if (!given(node, key)) continue;
+    add_fault(reading, find(node, key)->place, import.where.key + "." + key,
+              "is for blocks, and the file is read as lines",
+              "add as = \"blocks\", or leave it out");
+  }
   if (reading.model.domain && given(node, "material")) {
     add_fault(reading, find(node, "material")->place, import.where.key + ".material",
               "the blocks are those of the domain", "leave it out, or the domain");

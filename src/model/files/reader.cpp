@@ -88,14 +88,18 @@ struct ReadInto {
     *field = *value;
   }
   void operator()(JointMap* field) const {
+    const bool materials = spot.key.rule.kind == Kind::material_map;
     each_entry([&](const Entry& entry, const std::string& path) {
       const Spot named{spot.key, entry.value, path, spot.reading};
       if (as<std::string>(entry.value) == nullptr) {
         add_fault(spot.reading, entry.value.place, path, "is " + shown(entry.value),
-                  "expects the name of a joint in quotes");
+                  materials ? "expects the name of a material in quotes"
+                            : "expects the name of a joint in quotes");
         return;
       }
-      const Index i = read_reference(named, spot.reading.model.joints, "joint", "joints");
+      const Index i =
+          materials ? read_reference(named, spot.reading.model.materials, "material", "materials")
+                    : read_reference(named, spot.reading.model.joints, "joint", "joints");
       if (i != none) field->emplace_back(entry.key, i);
     });
   }

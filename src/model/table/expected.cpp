@@ -53,6 +53,8 @@ std::string expected(const Key& key) {
       return "a list of names such as [\"one\", \"two\"]";
     case Kind::joint_map:
       return "a table such as { NAME = \"joint\" }";
+    case Kind::material_map:
+      return "a table such as { NAME = \"material\" }";
     case Kind::number_map:
       return "a table such as { NAME = 0.5 }, each " + expected_range(rule);
     case Kind::file:

@@ -23,21 +23,22 @@ enum class Kind {
   integer,
   number,
   text,
-  name,        ///< text that is not empty: the name of the element in lists and for --set
-  choice,      ///< one of the words of an enumeration
-  material,    ///< name of a material
-  joint,       ///< name of a joint law
-  point,       ///< two numbers
-  triple,      ///< three numbers
-  polyline,    ///< two points or more
-  polygon,     ///< three points or more, with an area, not crossing itself
-  words,       ///< a list of distinct words, each one of Rule::words
-  names,       ///< a list of distinct names of other elements
-  joint_map,   ///< a table of names, each with the name of a joint law
-  number_map,  ///< a table of names, each with a number in Rule::range
-  file,        ///< path of a file, as written relative to the model's
-  table,       ///< keys inside a key: damping = { ... }
-  source,      ///< path of a file, or a table
+  name,          ///< text that is not empty: the name of the element in lists and for --set
+  choice,        ///< one of the words of an enumeration
+  material,      ///< name of a material
+  joint,         ///< name of a joint law
+  point,         ///< two numbers
+  triple,        ///< three numbers
+  polyline,      ///< two points or more
+  polygon,       ///< three points or more, with an area, not crossing itself
+  words,         ///< a list of distinct words, each one of Rule::words
+  names,         ///< a list of distinct names of other elements
+  joint_map,     ///< a table of names, each with the name of a joint law
+  material_map,  ///< a table of names, each with the name of a material
+  number_map,    ///< a table of names, each with a number in Rule::range
+  file,          ///< path of a file, as written relative to the model's
+  table,         ///< keys inside a key: damping = { ... }
+  source,        ///< path of a file, or a table
 };
 
 /// Bounds of a number, inclusive unless open. Points obey them in each component.

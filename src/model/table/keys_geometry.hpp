@@ -97,12 +97,15 @@ inline constexpr std::array voronoi_keys{
 
 inline constexpr std::array import_keys{
     Key{"file", at<&Import::file>, file, required, "A drawing (.dxf), traces (.csv: x1,y1,x2,y2 and a joint) or lines of DDA (.geo)."},
+    Key{"as", at<&Import::as>, choice, initial, "What the file draws. Lines: they cut the rock of the domain, or what they enclose together. Blocks: each closed polyline is a block, as masonry is drawn, and nothing between them is."},
     Key{"units", at<&Import::units>, choice, initial, "Unit of the coordinates in the file."},
     Key{"scale", at<&Import::scale>, number(D::plain, above(0)), initial, "Factor on the coordinates."},
     Key{"shift", at<&Import::shift>, point, initial, "Added to the coordinates after scaling."},
     Key{"layers", at<&Import::layers>, rule(Kind::joint_map), otherwise("all layers; one called like a joint has its law"), "The layers that are read, and the law of each."},
     Key{"joint", at<&Import::joint>, joint, otherwise("domain.joint"), "Law of lines whose layer names none."},
-    Key{"material", at<&Import::material>, material, otherwise(if_one), "Material of the blocks, where there is no domain."},
+    Key{"material", at<&Import::material>, material, otherwise(if_one), "Material of the blocks, where there is no domain, or with as = \"blocks\" where their layer names none."},
+    Key{"materials", at<&Import::materials>, rule(Kind::material_map), otherwise("material"), "As blocks: the material of those on a layer."},
+    Key{"fixed", at<&Import::fixed>, name_list, otherwise("none"), "As blocks: layers whose blocks do not move."},
 };
 
 inline constexpr std::array shape_keys{

@@ -29,6 +29,7 @@ inline constexpr std::array<std::string_view, 3> joint_spread_names{"uniform", "
 inline constexpr std::array<std::string_view, 3> length_names{"lognormal", "power", "constant"};
 inline constexpr std::array<std::string_view, 4> shape_names{"arch", "circle", "rectangle",
                                                              "horseshoe"};
+inline constexpr std::array<std::string_view, 2> import_as_names{"lines", "blocks"};
 inline constexpr std::array<std::string_view, 6> unit_names{"m", "mm", "cm", "km", "ft", "in"};
 inline constexpr std::array<std::string_view, 3> action_names{"merge", "report", "error"};
 inline constexpr std::array<std::string_view, 6> boundary_names{"fixed",  "roller",   "viscous",
@@ -85,6 +86,9 @@ constexpr std::span<const std::string_view> names_of(LengthKind) {
 }
 constexpr std::span<const std::string_view> names_of(ShapeKind) {
   return shape_names;
+}
+constexpr std::span<const std::string_view> names_of(ImportAs) {
+  return import_as_names;
 }
 constexpr std::span<const std::string_view> names_of(LengthUnit) {
   return unit_names;

@@ -28,6 +28,8 @@ from ._edda import (
     FactorOfSafety,
     FosTrial,
     Ledger,
+    LimitJoint,
+    LimitLoad,
     Model,
     ModelCheck,
     MonitorReading,
@@ -51,6 +53,8 @@ __all__ = [
     "FosTrial",
     "Frame",
     "Ledger",
+    "LimitJoint",
+    "LimitLoad",
     "Model",
     "ModelCheck",
     "ModelError",
@@ -63,6 +67,7 @@ __all__ = [
     "Verification",
     "check",
     "fos",
+    "limit",
     "load",
     "parse",
     "plot_blocks",
@@ -146,6 +151,17 @@ def fos(model: Model | Source, overrides: Overrides = None) -> FactorOfSafety:
     model = _loaded(model, overrides)
     with _keys_named(overrides):
         return _edda.fos(model)
+
+
+def limit(model: Model | Source, overrides: Overrides = None) -> LimitLoad:
+    """The limit load of the blocks, taken as rigid, as `edda limit` finds it.
+
+    model and overrides: as of run(); [fos] of the model says what is varied. LimitLoad.limit is None where nothing moves the
+    blocks, or they have no equilibrium: status tells. Raises ModelError for a model that cannot be computed.
+    """
+    model = _loaded(model, overrides)
+    with _keys_named(overrides):
+        return _edda.limit(model)
 
 
 def verify(model: Model | Source, overrides: Overrides = None) -> Verification:

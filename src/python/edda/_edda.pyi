@@ -21,6 +21,8 @@ def check(model: Model) -> ModelCheck:
     """What edda check reports about a model."""
 def fos(model: Model) -> FactorOfSafety:
     """The factor of safety, as [fos] of the model defines it."""
+def limit(model: Model) -> LimitLoad:
+    """The limit load of the blocks, taken as rigid, of what [fos] of the model varies."""
 def verify(model: Model) -> Verification:
     """The error bars of the model's monitors."""
 
@@ -238,6 +240,74 @@ class FactorOfSafety:
     @property
     def trials(self) -> list[FosTrial]:
         """Every factor that was tried."""
+    @property
+    def warnings(self) -> list[str]:
+        """A sentence each."""
+    @property
+    def wall_seconds(self) -> float:
+        """s"""
+
+class LimitJoint:
+    """The force of a joint between two blocks at their limit load."""
+
+    @property
+    def block_i(self) -> int:
+        """Id of one block."""
+    @property
+    def block_j(self) -> int:
+        """Id of the other block."""
+    @property
+    def joint(self) -> str:
+        """Name of its law."""
+    @property
+    def x(self) -> float:
+        """m, of the point through which its resultant goes."""
+    @property
+    def y(self) -> float:
+        """m, of the same point."""
+    @property
+    def fx(self) -> float:
+        """N, on block_i to the right."""
+    @property
+    def fy(self) -> float:
+        """N, on block_i upwards."""
+    @property
+    def normal_force(self) -> float:
+        """N, positive in compression."""
+    @property
+    def mobilised(self) -> float:
+        """Shear force over shear strength."""
+
+class LimitLoad:
+    """What edda.limit() finds."""
+
+    @property
+    def status(self) -> str:
+        """found, unlimited, unstable or unsolved."""
+    @property
+    def message(self) -> str:
+        """One sentence."""
+    @property
+    def limit(self) -> Optional[float]:
+        """The largest value with an equilibrium (static theorem), or None."""
+    @property
+    def upper(self) -> Optional[float]:
+        """The same by the kinematic theorem, or None."""
+    @property
+    def other_end(self) -> Optional[float]:
+        """The smallest value with an equilibrium, or None."""
+    @property
+    def without_dilation(self) -> Optional[float]:
+        """The limit of joints that slide without dilating, or None."""
+    @property
+    def residual(self) -> Optional[float]:
+        """The limit of joints with their residual strength, or None."""
+    @property
+    def mechanism(self) -> str:
+        """What moves at the limit, a sentence; empty: none."""
+    @property
+    def joints(self) -> list[LimitJoint]:
+        """A LimitJoint for each that carries a force."""
     @property
     def warnings(self) -> list[str]:
         """A sentence each."""
