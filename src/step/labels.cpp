@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace edda {
 
 std::string block_label(const BlockSet& b, std::size_t i) {
@@ -10,7 +12,9 @@ std::string block_label(const BlockSet& b, std::size_t i) {
 }
 
 std::string place_label(Vec2 p) {
-  return fmt::format("({:.6g}, {:.6g})", p.x + 0.0, p.y + 0.0);
+  constexpr double rounding = 1e-9;  // m
+  const auto shown = [](double u) { return std::abs(u) < rounding ? 0.0 : u; };
+  return fmt::format("({:.6g}, {:.6g})", shown(p.x), shown(p.y));
 }
 
 std::string row_label(const char* what, const std::string& name, std::size_t row) {
