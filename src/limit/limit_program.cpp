@@ -164,21 +164,24 @@ class Builder {
   }
 
   void add_ties() {
-    std::vector<int> grout;
     const auto scaled = [&](double force) {
       return std::abs(force) < no_bound ? force / rigid_.force : force;
     };
-    for (const RigidGrout& g : rigid_.grout)
-      grout.push_back(program.add_row(-scaled(g.strength), scaled(g.strength)));
+    // Rows of the bonds before and behind each tie.
+    constexpr int no_row = -1;
+    std::vector<int> behind(rigid_.ties.size(), no_row), ahead(rigid_.ties.size(), no_row);
+    for (const RigidGrout& g : rigid_.grout) {
+      const int row = program.add_row(-scaled(g.strength), scaled(g.strength));
+      if (g.after != RigidGrout::no_tie) behind[g.after] = row;
+      if (g.before != RigidGrout::no_tie) ahead[g.before] = row;
+    }
     first_tie_ = program.columns();
     for (std::size_t q = 0; q < rigid_.ties.size(); ++q) {
       const RigidTie& tie = rigid_.ties[q];
       add_force(tie.block_a, tie.place_a, tie.direction);
       add_force(tie.block_b, tie.place_b, -tie.direction);
-      for (std::size_t g = 0; g < grout.size(); ++g) {
-        if (rigid_.grout[g].after == q) program.add_entry(grout[g], 1.0);
-        if (rigid_.grout[g].before == q) program.add_entry(grout[g], -1.0);
-      }
+      if (behind[q] != no_row) program.add_entry(behind[q], 1.0);
+      if (ahead[q] != no_row) program.add_entry(ahead[q], -1.0);
       program.add_column(scaled(tie.least), scaled(tie.most));
     }
   }

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <utility>
 
 #include "attachments/bolts.hpp"
 #include "attachments/loads.hpp"
@@ -98,17 +100,16 @@ void add_joint(RigidBlocks& rigid, const Simulation& sim, std::size_t k) {
 
 /// A corner between two edges leans once, not once for each of them.
 void leave_out_twins(std::vector<RigidJoint>& joints) {
-  std::vector<RigidJoint> all;
-  for (const RigidJoint& joint : joints) {
-    const auto same = [&](const RigidJoint& other) {
-      return other.is_corner() && other.ends[0] == joint.ends[0] &&
-             std::abs(cross(other.t, joint.t)) < 1e-12 &&
-             std::minmax(other.block_a, other.block_b) == std::minmax(joint.block_a, joint.block_b);
-    };
-    if (joint.is_corner() && std::any_of(all.begin(), all.end(), same)) continue;
-    all.push_back(joint);
-  }
-  joints = std::move(all);
+  std::map<std::pair<Id, Id>, std::vector<RigidJoint>> seen;  // by blocks
+  std::erase_if(joints, [&](const RigidJoint& joint) {
+    if (!joint.is_corner()) return false;
+    std::vector<RigidJoint>& others = seen[std::minmax(joint.block_a, joint.block_b)];
+    const bool again = std::any_of(others.begin(), others.end(), [&](const RigidJoint& other) {
+      return other.ends[0] == joint.ends[0] && std::abs(cross(other.t, joint.t)) < 1e-12;
+    });
+    if (!again) others.push_back(joint);
+    return again;
+  });
 }
 
 /// What boundaries hold. All with springs do: those that absorb waves carry the forces that were

@@ -100,7 +100,11 @@ LimitCase::Answer LimitCase::solve(bool largest, const StrengthAt& strength_at, 
   problem.dead = dead_loads();
   problem.live = live();
   LimitState state = limit_state(problem, largest);
-  return {state.end, state.multiplier, state.kinematic, std::move(state)};
+  // Where nothing but the live load acts a multiplier of 0 has an equilibrium, and may be the only
+  // one.
+  constexpr double rounding = 1e-9;
+  const auto rounded = [](double m) { return std::abs(m) < rounding ? 0.0 : m; };
+  return {state.end, rounded(state.multiplier), rounded(state.kinematic), std::move(state)};
 }
 
 LimitCase::Answer LimitCase::at_end(bool largest, StrengthOf which) const {
