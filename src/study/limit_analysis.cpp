@@ -222,7 +222,13 @@ Result<LimitResult> limit_analysis(const Model& model) {
   const LimitCase::Answer answer = asked.at_end(true, StrengthOf::peak);
   r.largest = value_of(answer);
   r.violation = answer.state.violation;
-  r.without_dilation = asked.without_dilation(answer);
+  constexpr std::size_t most_bodies = 2000;  // twenty programs more, of a few seconds each
+  if (r.blocks <= most_bodies) {
+    r.without_dilation = asked.without_dilation(answer);
+  } else {
+    r.warnings.push_back(fmt::format(
+        "the limit without dilation is left out: the model has more than {} bodies", most_bodies));
+  }
   if (fos.varied != Varied::strength) r.smallest = value_of(asked.at_end(false, StrengthOf::peak));
   if (asked.is_brittle()) {
     const LimitCase::Answer weak = asked.at_end(true, StrengthOf::residual);
