@@ -71,9 +71,11 @@ Trouble draw_thrust(const Model& model, const Simulation& drawn,
   observe(drawn, instant);
   Picture picture = picture_of(drawn, instant);
   picture.contacts = forces;
-  for (ContactRecord& c : picture.contacts) c.a = c.b = c.position;  // no pressures are known
   Snapshot shot{block_grid(block_cells(drawn.scene->blocks), picture)};
   shot.contacts = grid_of(contact_source(picture));
+  // Limit analysis knows no pressures, of which a picture draws diagrams.
+  std::erase_if(shot.contacts->cell_fields,
+                [](const Field& field) { return field.name == "closed_length"; });
   const Result<ShownField> field = shown_field("material", shot.blocks, nullptr);
   if (!field.ok()) return field.faults().front();
   shot.field = field.value();

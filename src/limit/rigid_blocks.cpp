@@ -98,16 +98,24 @@ void add_joint(RigidBlocks& rigid, const Simulation& sim, std::size_t k) {
   if (inside) rigid.joints.push_back(leaning(joint, at, place, e_leans));
 }
 
-/// A corner between two edges leans once, not once for each of them.
-void leave_out_twins(std::vector<RigidJoint>& joints) {
-  std::map<std::pair<Id, Id>, std::vector<RigidJoint>> seen;  // by blocks
+/// A corner between two edges leans once, not once for each of them, and not where a joint of the
+/// same two blocks ends.
+void leave_out_twins(std::vector<RigidJoint>& joints, double close) {
+  using Places = std::vector<std::pair<Vec2, Vec2>>;  // with t; 0 for an end of a joint
+  std::map<std::pair<Id, Id>, Places> seen;           // by blocks
+  for (const RigidJoint& joint : joints) {
+    if (joint.is_corner()) continue;
+    for (const Vec2 end : joint.ends)
+      seen[std::minmax(joint.block_a, joint.block_b)].emplace_back(end, Vec2{});
+  }
   std::erase_if(joints, [&](const RigidJoint& joint) {
     if (!joint.is_corner()) return false;
-    std::vector<RigidJoint>& others = seen[std::minmax(joint.block_a, joint.block_b)];
-    const bool again = std::any_of(others.begin(), others.end(), [&](const RigidJoint& other) {
-      return other.ends[0] == joint.ends[0] && std::abs(cross(other.t, joint.t)) < 1e-12;
+    Places& others = seen[std::minmax(joint.block_a, joint.block_b)];
+    const bool again = std::any_of(others.begin(), others.end(), [&](const auto& other) {
+      return norm(other.first - joint.ends[0]) <= close &&
+             std::abs(cross(other.second, joint.t)) < 1e-12;
     });
-    if (!again) others.push_back(joint);
+    if (!again) others.emplace_back(joint.ends[0], joint.t);
     return again;
   });
 }
@@ -278,7 +286,7 @@ RigidBlocks rigid_blocks(const Simulation& sim) {
     rigid.force = masses / count * (g > 0.0 ? g : usual_acceleration);
   }
   for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) add_joint(rigid, sim, k);
-  leave_out_twins(rigid.joints);
+  leave_out_twins(rigid.joints, rigid_gap * rigid.size);
   add_bolts(rigid, sim);
   make_bodies(rigid, sim, supports_of(sim));
   return rigid;
