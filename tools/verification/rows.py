@@ -301,4 +301,17 @@ ROWS = (
         " damping in proportion to mass. The toe, a fifth of the base, bends up by an angle, or the floor bends down"
         " there.",
         "c L + N tan phi, L the whole base."),
+    Row(63, "Slopes as rigid blocks",
+        "Slopes of row 56 and larger ones, up to 547 blocks, by `edda limit`: the factor by which strength may be divided.",
+        "As in row 56. A plane or a path of planes on which a mass slides in one direction has the same factor whether joints"
+        " dilate or not."),
+    Row(64, "Toppling as rigid blocks",
+        "The sixteen blocks of Goodman and Bray (1976) by `edda limit`, with joints that dilate as they slide and with joints that"
+        " do not.",
+        "Limit equilibrium from block to block, with friction mobilised on all sides. Joints that dilate have a larger factor, and"
+        " the mechanism that successive programs find for others is not the one with the least ([limit.md](limit.md))."),
+    Row(65, "A panel under slow loads",
+        "Six courses of masonry, 33 units of 0.4 x 0.175 m and halves, under a seismic coefficient that `edda fos` raises slowly.",
+        "The limit load of rigid blocks, 0.6428590 (Ferris and Tin-Loi 2001); stiffness does not matter.",
+        "The factor is the middle of a bracket of 0.6 %."),
 )
