@@ -13,7 +13,7 @@ double barton_friction(const Law& law, const RigidBlocks& rigid, const RigidJoin
                        double normal, double thickness) {
   const double area = std::max(joint.length(), 1e-3 * rigid.size) * thickness;
   const double least = 1e-6 * rigid.force / area;
-  const double angle = barton_angle(law, law.jrc, std::max(normal / area, least));
+  const double angle = barton_angle(law, 1.0, std::max(normal / area, least));
   return std::tan(angle * std::numbers::pi / 180.0);
 }
 

@@ -215,9 +215,13 @@ Result<LimitResult> limit_analysis(const Model& model) {
                     block_label(sim.scene->blocks, asked.rigid().loose.front())));
   }
   if (r.blocks == 0) {
+    const bool loose = !asked.rigid().loose.empty();
     return fault_at(model, model.solver.where, "block",
-                    "no block is free to move, so nothing can fail",
-                    "leave some blocks that are neither fixed nor excavated");
+                    loose
+                        ? "no free block touches anything as drawn, so there are no joints to fail"
+                        : "no block is free to move, so nothing can fail",
+                    loose ? "draw the blocks so that they touch, or use edda fos"
+                          : "leave some blocks that are neither fixed nor excavated");
   }
   const LimitCase::Answer answer = asked.at_end(true, StrengthOf::peak);
   r.largest = value_of(answer);

@@ -183,6 +183,26 @@ TEST(LimitAnalysis, ReportsWhatBrokenJointsCarry) {
   EXPECT_NEAR(*r.residual, 0.3, 1e-7);
 }
 
+/// Joints of Barton and Bandis: the friction angle at the normal stress of the joint, 28 + 8
+/// log10(50e6/19620) degrees; with blocks on each other that of each joint.
+TEST(LimitAnalysis, BartonBandisAtItsNormalStress) {
+  const auto block = [](double from, double to) {
+    return fmt::format("[[block]]\npolygon = [[0,{0}],[6,{0}],[6,{1}],[0,{1}]]\n", from, to);
+  };
+  const std::string rock =
+      "[materials.stone]\ndensity = 2000\nyoung = 50e9\npoisson = 0.2\n[joints.rough]\n"
+      "type = \"barton-bandis\"\njrc = 8\njcs = 50e6\nresidual_angle = 28\n[[block]]\n"
+      "fixed = true\npolygon = [[-9,-1],[9,-1],[9,0],[-9,0]]\n";
+  const double stress = 2000.0 * 9.81;
+  const auto slides_at = [&](double sigma) {
+    return std::tan((28.0 + 8.0 * std::log10(50e6 / sigma)) * degree);
+  };
+  EXPECT_NEAR(limit_of(rock + block(0, 1), "kh").largest.lower, slides_at(stress), 1e-5);
+  // The lower joint has twice the stress and slides first.
+  EXPECT_NEAR(limit_of(rock + block(0, 1) + block(1, 2), "kh").largest.lower,
+              slides_at(2.0 * stress), 1e-5);
+}
+
 /// Stages: what they excavate is gone, what they activate acts.
 TEST(LimitAnalysis, MakesTheChangesOfStages) {
   const std::string text =
