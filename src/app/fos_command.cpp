@@ -4,16 +4,15 @@
 
 #include <atomic>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 
 #include "app/common.hpp"
 #include "app/mechanism_picture.hpp"
+#include "app/study_folder.hpp"
 #include "base/text.hpp"
 #include "model/write_model.hpp"
 #include "results/columns.hpp"
 #include "results/files.hpp"
-#include "results/json.hpp"
 #include "study/fos.hpp"
 
 namespace edda {
@@ -36,7 +35,8 @@ Trouble write_results(const Model& model, const FosResult& r, const std::string&
     if (Trouble t = write("mechanism_joints.csv", mechanism_joints_csv(*r.mechanism))) return t;
     const std::string says =
         fmt::format("mechanism at factor {:.4g}: {}", *r.fails, r.mechanism->text);
-    if (Trouble t = draw_mechanism(model, *r.failed, *r.mechanism, says, folder)) return t;
+    if (Trouble t = draw_mechanism(model, *r.failed, *r.mechanism, r.criterion.size, says, folder))
+      return t;
   }
   if (Trouble t = write_columns_csv(folder)) return t;
   return write("summary.json", fos_summary(model, r, omp_get_max_threads()));
@@ -82,24 +82,14 @@ int fos(const FosArguments& args) {
   }
   const FosResult& r = found.value();
   if (!args.quiet && !args.json) say([&] { print_warnings(r.warnings); });
-  FolderLock lock;
-  Trouble trouble = make_folder(folder);
-  if (!trouble) trouble = lock.take(folder);
-  if (!trouble) trouble = clear_folder(folder);
-  std::error_code none_there;
-  std::filesystem::remove(folder + "/frames", none_there);  // it has no frames
-  if (!trouble) trouble = write_results(*model, r, folder);
+  const Trouble trouble =
+      fill_study_folder(folder, [&] { return write_results(*model, r, folder); });
   if (trouble) {
     print({*trouble}, args.json);
     return exit_code::failed;
   }
-  if (args.json) {
-    say([&] { fmt::print("{}\n", one_line(fos_summary(*model, r, omp_get_max_threads()))); });
-  } else if (args.quiet) {
-    say([&] { fmt::print("{}\n", r.message); });
-  } else {
-    say([&] { print_end(r, folder); });
-  }
+  print_answer(args.json, args.quiet, fos_summary(*model, r, omp_get_max_threads()), r.message,
+               [&] { print_end(r, folder); });
   return code_of(r.status);
 }
 

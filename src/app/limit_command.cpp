@@ -1,15 +1,14 @@
 // edda limit
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 
 #include "app/common.hpp"
 #include "app/mechanism_picture.hpp"
+#include "app/study_folder.hpp"
 #include "model/write_model.hpp"
 #include "results/columns.hpp"
 #include "results/files.hpp"
-#include "results/json.hpp"
 #include "study/limit_analysis.hpp"
 
 namespace edda {
@@ -30,7 +29,7 @@ Trouble write_results(const Model& model, const LimitResult& r, const std::strin
     if (Trouble t = write("mechanism.csv", mechanism_csv(*r.moved, *r.mechanism))) return t;
     if (Trouble t = write("mechanism_joints.csv", mechanism_joints_csv(*r.mechanism))) return t;
     const std::string says = r.message + ": " + r.mechanism->text;
-    if (Trouble t = draw_mechanism(model, *r.moved, *r.mechanism, says, folder)) return t;
+    if (Trouble t = draw_mechanism(model, *r.moved, *r.mechanism, r.size, says, folder)) return t;
   }
   if (!r.forces.empty()) {
     if (Trouble t = write("limit_joints.csv", limit_joints_csv(r))) return t;
@@ -44,7 +43,7 @@ Trouble write_results(const Model& model, const LimitResult& r, const std::strin
 void print_end(const LimitResult& r, const std::string& folder) {
   fmt::print("{}\n", r.message);
   if (r.mechanism) fmt::print("  mechanism: {}\n", r.mechanism->text);
-  if (r.largest.status == LimitStatus::found) {
+  if (r.largest.status == LimitEnd::found) {
     fmt::print("  equilibrium up to {:.9g}, none from {:.9g} on\n", r.largest.lower,
                r.largest.upper);
   }
@@ -70,25 +69,15 @@ int limit(const LimitArguments& args) {
   }
   const LimitResult& r = found.value();
   if (!args.quiet && !args.json) say([&] { print_warnings(r.warnings); });
-  FolderLock lock;
-  Trouble trouble = make_folder(folder);
-  if (!trouble) trouble = lock.take(folder);
-  if (!trouble) trouble = clear_folder(folder);
-  std::error_code none_there;
-  std::filesystem::remove(folder + "/frames", none_there);  // it has no frames
-  if (!trouble) trouble = write_results(*model, r, folder);
+  const Trouble trouble =
+      fill_study_folder(folder, [&] { return write_results(*model, r, folder); });
   if (trouble) {
     print({*trouble}, args.json);
     return exit_code::failed;
   }
-  if (args.json) {
-    say([&] { fmt::print("{}\n", one_line(limit_summary(*model, r))); });
-  } else if (args.quiet) {
-    say([&] { fmt::print("{}\n", r.message); });
-  } else {
-    say([&] { print_end(r, folder); });
-  }
-  return r.largest.status == LimitStatus::unsolved ? exit_code::failed : exit_code::done;
+  print_answer(args.json, args.quiet, limit_summary(*model, r), r.message,
+               [&] { print_end(r, folder); });
+  return r.largest.status == LimitEnd::not_solved ? exit_code::failed : exit_code::done;
 }
 
 }  // namespace

@@ -19,17 +19,6 @@ double round_scale(double x) {
   return power * (digit >= 5.0 ? 5.0 : digit >= 2.0 ? 2.0 : 1.0);
 }
 
-/// Mean square root of the areas of free blocks, m.
-double size_of(const Simulation& sim) {
-  double sum = 0.0, count = 0.0;
-  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
-    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
-    sum += std::sqrt(sim.scene->blocks.area[i]);
-    count += 1.0;
-  }
-  return sum / std::max(count, 1.0);
-}
-
 Trouble draw(const Snapshot& shot, const PlotOptions& options, const std::string& folder,
              const char* name) {
   for (const char* ending : {".png", ".svg"}) {
@@ -41,7 +30,7 @@ Trouble draw(const Snapshot& shot, const PlotOptions& options, const std::string
 }  // namespace
 
 Trouble draw_mechanism(const Model& model, const Simulation& moved, const Mechanism& mechanism,
-                       const std::string& subtitle, const std::string& folder) {
+                       double size, const std::string& subtitle, const std::string& folder) {
   Instant instant;
   observe(moved, instant);
   Snapshot shot{block_grid(block_cells(moved.scene->blocks), picture_of(moved, instant))};
@@ -53,7 +42,7 @@ Trouble draw_mechanism(const Model& model, const Simulation& moved, const Mechan
   PlotOptions options = options_of(model, moved.scene->blocks.size());
   options.subtitle = subtitle;
   constexpr double shown = 0.5;  // of a block's size
-  options.scale = round_scale(shown * size_of(moved) / largest);
+  options.scale = round_scale(shown * size / largest);
   options.vectors = "displacement";
   options.whole_range = true;  // a small moving part is what the picture is to show
   for (const MovingJoint& j : mechanism.joints) {

@@ -43,6 +43,21 @@ BlockPolygon brick(const BrickWall& wall, Vec2 low, int from, int to, int row) {
   return block;
 }
 
+/// A block of one ring, relative to `origin`. Input: has joint, material and fixed.
+template <class Input>
+BlockPolygon block_of(const Ring& given, const Input& input, Vec2 origin) {
+  Ring ring;
+  ring.reserve(given.size());
+  for (const Vec2 p : given) ring.push_back(p - origin);
+  if (signed_area(ring) < 0.0) std::reverse(ring.begin(), ring.end());
+  BlockPolygon block;
+  block.joint = {std::vector<Index>(ring.size(), input.joint)};
+  block.rings = {std::move(ring)};
+  block.material = input.material;
+  block.fixed = input.fixed;
+  return block;
+}
+
 /// Inner and outer corner of each joint in turn, the first again at the end of a full circle.
 std::vector<Vec2> arch_corners(const Arch& arch, Vec2 centre) {
   constexpr double full = 360.0;
@@ -80,15 +95,7 @@ std::vector<BlockPolygon> given_blocks(const Model& model, Vec2 origin) {
   std::vector<BlockPolygon> blocks;
   blocks.reserve(model.blocks.size());
   for (const BlockInput& input : model.blocks) {
-    Ring ring;
-    ring.reserve(input.polygon.size());
-    for (Vec2 p : input.polygon) ring.push_back(p - origin);
-    if (signed_area(ring) < 0.0) std::reverse(ring.begin(), ring.end());
-    BlockPolygon block;
-    block.joint = {std::vector<Index>(ring.size(), input.joint)};
-    block.rings = {std::move(ring)};
-    block.material = input.material;
-    block.fixed = input.fixed;
+    BlockPolygon block = block_of(input.polygon, input, origin);
     block.velocity = input.velocity;
     block.angular_velocity = input.angular_velocity;
     block.name = input.name;
@@ -102,17 +109,8 @@ std::vector<BlockPolygon> imported_blocks(const Model& model, const Imports& imp
   std::vector<BlockPolygon> blocks;
   blocks.reserve(imports.blocks.size());
   for (const ImportedBlock& input : imports.blocks) {
-    Ring ring;
-    ring.reserve(input.ring.size());
-    for (const Vec2 p : input.ring) ring.push_back(p - origin);
-    if (signed_area(ring) < 0.0) std::reverse(ring.begin(), ring.end());
-    BlockPolygon block;
-    block.joint = {std::vector<Index>(ring.size(), input.joint)};
-    block.rings = {std::move(ring)};
-    block.material = input.material;
-    block.fixed = input.fixed;
-    block.where = model.imports[static_cast<std::size_t>(input.import)].where;
-    blocks.push_back(std::move(block));
+    blocks.push_back(block_of(input.ring, input, origin));
+    blocks.back().where = model.imports[static_cast<std::size_t>(input.import)].where;
   }
   return blocks;
 }

@@ -31,8 +31,8 @@ std::optional<std::string> unenclosed_warning(const Imports& imports,
                                               Vec2 origin) {
   std::vector<std::vector<Ring>> closed;
   for (const ImportedLine& line : imports.lines) {
-    if (line.points.size() < 4 || line.points.front() != line.points.back()) continue;
-    Ring ring(line.points.begin(), line.points.end() - 1);
+    Ring ring = closed_ring(line.points);
+    if (ring.size() < 3) continue;
     for (Vec2& p : ring) p = p - origin;
     closed.push_back({std::move(ring)});
   }

@@ -118,18 +118,6 @@ std::optional<Fault> missing_layer(const Import& import, const Drawing& drawing)
   return std::nullopt;
 }
 
-/// The corners of a closed polyline; fewer than three: it is not closed, or has no area.
-Ring ring_of(const std::vector<Vec2>& points) {
-  Ring ring;
-  if (points.size() < 4 || points.front() != points.back()) return ring;
-  for (const Vec2 p : points) {
-    if (ring.empty() || !(p == ring.back())) ring.push_back(p);
-  }
-  if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
-  if (ring.size() >= 3 && signed_area(ring) == 0.0) ring.clear();
-  return ring;
-}
-
 Index material_of(const Import& import, const std::string& layer) {
   for (const auto& [name, material] : import.materials) {
     if (name == layer) return material;
@@ -210,7 +198,7 @@ class Taker {
       imports_.lines.push_back({std::move(points), joint, number_});
       return true;
     }
-    Ring ring = ring_of(points);
+    Ring ring = closed_ring(points);
     if (ring.size() < 3) {
       ++drawing_.skipped["not closed"];
       return false;
@@ -233,6 +221,17 @@ class Taker {
 };
 
 }  // namespace
+
+Ring closed_ring(const std::vector<Vec2>& points) {
+  Ring ring;
+  if (points.size() < 4 || points.front() != points.back()) return ring;
+  for (const Vec2 p : points) {
+    if (ring.empty() || !(p == ring.back())) ring.push_back(p);
+  }
+  if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+  if (ring.size() >= 3 && signed_area(ring) == 0.0) ring.clear();
+  return ring;
+}
 
 Result<Imports> read_imports(const Model& model) {
   Imports imports;

@@ -43,6 +43,9 @@ struct Imports {
 /// these are blocks.
 Result<Imports> read_imports(const Model& model);
 
+/// The corners of a closed polyline; fewer than three: it is not closed, or has no area.
+Ring closed_ring(const std::vector<Vec2>& points);
+
 /// The bounding box of all lines as a domain, where a model has imports and no domain; the area
 /// between the box and the outermost lines is not rock. Fault: the lines have no extent in both
 /// directions.

@@ -79,10 +79,10 @@ LimitLoad limit(const Model& model) {
   check_memory(model.impl().model);
   const LimitResult found = value_or_raise(limit_analysis(model.impl().model));
   const auto lower_of = [](const LimitValue& value) {
-    return value.status == LimitStatus::found ? std::optional<double>(value.lower) : std::nullopt;
+    return value.status == LimitEnd::found ? std::optional<double>(value.lower) : std::nullopt;
   };
   LimitLoad result;
-  result.status = limit_status_name(found.largest.status);
+  result.status = limit_end_name(found.largest.status);
   result.message = found.message;
   result.limit = lower_of(found.largest);
   if (result.limit) result.upper = found.largest.upper;

@@ -268,6 +268,21 @@ void add_bolts(RigidBlocks& rigid, const Simulation& sim) {
   }
 }
 
+/// All loads with the last values of their histories, nothing of them gradual any more.
+LoadsNow last_loads(const Simulation& sim) {
+  Loads loads = sim.attached.loads;
+  loads.gradual = {};
+  constexpr double at_last = 1e30;  // s
+  LoadsNow now = loads_at(sim.scene->model, loads, at_last);
+  if (now.loads != nullptr) now.loads = &sim.attached.loads;  // the places are the same
+  return now;
+}
+
+/// Of a row of Model::waters, N/m2.
+double unit_weight(const Simulation& sim, std::size_t water) {
+  return sim.scene->model.waters[water].unit_weight * sim.scene->model.thickness;
+}
+
 }  // namespace
 
 RigidBlocks rigid_blocks(const Simulation& sim) {
@@ -301,13 +316,9 @@ RigidForces weights_under(const RigidBlocks& rigid, const Simulation& sim, Vec2 
 }
 
 LoadFactors last_factors(const Simulation& sim) {
-  Loads loads = sim.attached.loads;
-  loads.gradual = {};
-  constexpr double at_last = 1e30;  // s: histories have their last value
-  const LoadsNow now = loads_at(sim.scene->model, loads, at_last);
+  const LoadsNow now = last_loads(sim);
   LoadFactors factors{now.factor, now.weight};
-  for (std::size_t q = 0; q < factors.waters.size(); ++q)
-    factors.waters[q] /= sim.scene->model.waters[q].unit_weight * sim.scene->model.thickness;
+  for (std::size_t q = 0; q < factors.waters.size(); ++q) factors.waters[q] /= unit_weight(sim, q);
   return factors;
 }
 
@@ -315,15 +326,11 @@ RigidForces loads_with(const RigidBlocks& rigid, const Simulation& sim,
                        const LoadFactors& factors) {
   const BlockSet& b = sim.scene->blocks;
   RigidForces all(rigid.bodies());
-  Loads loads = sim.attached.loads;
-  loads.gradual = {};
-  LoadsNow now = loads_at(sim.scene->model, loads, 1e30);
+  LoadsNow now = last_loads(sim);
   if (now.loads == nullptr) return all;
   now.factor = factors.loads;
-  for (std::size_t q = 0; q < now.weight.size(); ++q) {
-    now.weight[q] =
-        factors.waters[q] * sim.scene->model.waters[q].unit_weight * sim.scene->model.thickness;
-  }
+  for (std::size_t q = 0; q < now.weight.size(); ++q)
+    now.weight[q] = factors.waters[q] * unit_weight(sim, q);
   for (std::size_t r = 0; r < all.size(); ++r) {
     for (const Id i : rigid.blocks[r]) {
       NodeVectors f{};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,8 @@ class Json {
   Json& value(std::string_view text);
   Json& value(const char* text) { return value(std::string_view(text)); }
   Json& null() { return raw("null"); }
+  /// Nothing becomes null.
+  Json& value(const std::optional<double>& number) { return number ? value(*number) : null(); }
   template <class T>
   Json& pair(std::string_view name, const T& content) {
     return key(name).value(content);

@@ -228,7 +228,7 @@ void compare_with_rigid(const Model& model, const Fos& fos, FosResult& r) {
   constexpr std::size_t most_blocks = 5000;  // for which it takes a small part of the search
   if (!r.factor || fos.varied == Varied::shaking || r.blocks > most_blocks) return;
   const Result<LimitResult> found = limit_analysis(model);
-  if (!found.ok() || found.value().largest.status != LimitStatus::found) return;
+  if (!found.ok() || found.value().largest.status != LimitEnd::found) return;
   const LimitResult& limit = found.value();
   RigidBracket rigid;
   rigid.most = limit.largest.upper;

@@ -7,15 +7,6 @@
 namespace edda {
 namespace {
 
-void add_optional(Json& j, std::string_view name, const std::optional<double>& value) {
-  j.key(name);
-  if (value) {
-    j.value(*value);
-  } else {
-    j.null();
-  }
-}
-
 void add_criterion(Json& j, const FosCriterion& c) {
   j.key("criterion").open_object();
   j.pair("fails_displacement", c.displacement).pair("fails_velocity", c.velocity);
@@ -58,9 +49,9 @@ std::string fos_summary(const Model& model, const FosResult& r, int threads) {
   Json j;
   j.open_object().pair("version", version).pair("title", model.title);
   j.pair("status", fos_status_name(r.status)).pair("message", r.message);
-  add_optional(j, "factor_of_safety", r.factor);
-  add_optional(j, "holds", r.holds);
-  add_optional(j, "fails", r.fails);
+  j.pair("factor_of_safety", r.factor);
+  j.pair("holds", r.holds);
+  j.pair("fails", r.fails);
   j.pair("vary", fos.vary).pair("stage", fos.stage).pair("tolerance", fos.tolerance);
   j.key("exclude").open_list();
   for (const std::string& name : fos.exclude) j.value(name);

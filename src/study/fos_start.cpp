@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/key_places.hpp"
 #include "model/stage_names.hpp"
 #include "run/equilibrium_search.hpp"
+#include "study/fault_at.hpp"
 #include "study/varied_gravity.hpp"
 
 namespace edda {
@@ -94,37 +94,30 @@ TrialPlan plan_of(const Simulation& sim, const Model& model, const Fos& fos) {
   return plan;
 }
 
-Fault cannot(const Model& model, const Where& table, const char* key, std::string problem,
-             std::string remedy) {
-  Fault fault{table, std::move(problem), std::move(remedy)};
-  if (fault.where.file.empty()) fault.where.file = model.file;
-  fault.where.key = key;
-  return at_their_keys(model.key_places, {fault}).front();
-}
-
 /// Faults of settings that a search does not support.
 std::optional<Fault> refused(const Model& model, const Fos& fos) {
   if (model.solver.method == Method::dda) {
-    return cannot(model, model.solver.where, "solver.method",
-                  "the factor of safety is not available with \"dda\"",
-                  "use method = \"edda\" (--set solver.method=edda)");
+    return fault_at(model, model.solver.where, "solver.method",
+                    "the factor of safety is not available with \"dda\"",
+                    "use method = \"edda\" (--set solver.method=edda)");
   }
   if (model.contact.model == ContactModel::points) {
-    return cannot(model, model.contact.where, "contact.model",
-                  "\"points\" is the paper's contact model, without a factor of safety",
-                  "use contact.model = \"faces\"");
+    return fault_at(model, model.contact.where, "contact.model",
+                    "\"points\" is the paper's contact model, without a factor of safety",
+                    "use contact.model = \"faces\"");
   }
   if (model.solver.mass == MassKind::consistent) {
-    return cannot(model, model.solver.where, "solver.mass",
-                  "masses that are raised for trials are not available with mass = \"consistent\"",
-                  "use mass = \"matched\", which moves the same way");
+    return fault_at(
+        model, model.solver.where, "solver.mass",
+        "masses that are raised for trials are not available with mass = \"consistent\"",
+        "use mass = \"matched\", which moves the same way");
   }
   if (fos.varied == Varied::shaking && shaking_time(model, fos) == 0.0) {
-    return cannot(model, fos.where, "fos.vary", "the duration of the ground motion is not given",
-                  model.stages.empty()
-                      ? "give solver.duration, or a record as the acceleration of the shaking"
-                      : "give a record as the acceleration of the shaking, or a stage with a "
-                        "duration that activates it");
+    return fault_at(model, fos.where, "fos.vary", "the duration of the ground motion is not given",
+                    model.stages.empty()
+                        ? "give solver.duration, or a record as the acceleration of the shaking"
+                        : "give a record as the acceleration of the shaking, or a stage with a "
+                          "duration that activates it");
   }
   return {};
 }
@@ -133,8 +126,9 @@ std::optional<Fault> nothing_moves(const Model& model, const Simulation& sim) {
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
     if (is_free(sim.scene->blocks, sim.motion.state, i)) return {};
   }
-  return cannot(model, model.solver.where, "block", "no block is free to move, so nothing can fail",
-                "leave some blocks that are neither fixed nor excavated");
+  return fault_at(model, model.solver.where, "block",
+                  "no block is free to move, so nothing can fail",
+                  "leave some blocks that are neither fixed nor excavated");
 }
 
 bool stopped(const FosOptions& options) {

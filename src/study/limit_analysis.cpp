@@ -7,26 +7,18 @@
 #include <cmath>
 
 #include "base/text.hpp"
-#include "model/key_places.hpp"
 #include "model/stage_names.hpp"
 #include "observe/observe.hpp"
 #include "run/run_model.hpp"
 #include "run/stage_plan.hpp"
 #include "run/wall_clock.hpp"
 #include "step/labels.hpp"
+#include "study/fault_at.hpp"
 #include "study/limit_case.hpp"
 #include "study/varied_gravity.hpp"
 
 namespace edda {
 namespace {
-
-Fault fault_at(const Model& model, const Where& table, const char* key, std::string problem,
-               std::string remedy) {
-  Fault fault{table, std::move(problem), std::move(remedy)};
-  if (fault.where.file.empty()) fault.where.file = model.file;
-  fault.where.key = key;
-  return at_their_keys(model.key_places, {fault}).front();
-}
 
 std::optional<Fault> without_limit(const Model& model, const Fos& fos) {
   if (fos.varied == Varied::shaking) {
@@ -68,22 +60,7 @@ Result<PreparedRun> as_staged(const Model& model, const Fos& fos) {
 }
 
 LimitValue value_of(const LimitCase::Answer& answer) {
-  LimitValue value{LimitStatus::unsolved, answer.lower, answer.upper};
-  switch (answer.end) {
-    case LimitEnd::found:
-      value.status = LimitStatus::found;
-      break;
-    case LimitEnd::no_limit:
-      value.status = LimitStatus::unlimited;
-      break;
-    case LimitEnd::no_equilibrium:
-      value.status = LimitStatus::unstable;
-      break;
-    case LimitEnd::not_solved:
-      value.status = LimitStatus::unsolved;
-      break;
-  }
-  return value;
+  return {answer.end, answer.lower, answer.upper};
 }
 
 /// The blocks moved by the mechanism, its largest velocity `far` (m).
@@ -162,21 +139,21 @@ const char* quantity(Varied varied) {
 std::string message_of(const Fos& fos, const LimitResult& r) {
   const std::string what = quantity(fos.varied);
   switch (r.largest.status) {
-    case LimitStatus::unlimited:
+    case LimitEnd::no_limit:
       return fmt::format("no {} moves the rigid blocks", what);
-    case LimitStatus::unstable:
+    case LimitEnd::no_equilibrium:
       return "the rigid blocks have no equilibrium" +
              std::string(fos.varied == Varied::strength ? " at any strength of their joints"
                                                         : ", whatever the " + what);
-    case LimitStatus::unsolved:
+    case LimitEnd::not_solved:
       return "the linear program could not be solved: its numbers are too far apart";
-    case LimitStatus::found:
+    case LimitEnd::found:
       break;
   }
   std::string text = fmt::format("{} {:.5g}", what, r.largest.lower);
   if (r.without_dilation) text += fmt::format(", {:.5g} without dilation", *r.without_dilation);
   if (r.residual) text += fmt::format(", {:.5g} with residual strength", *r.residual);
-  if (r.smallest && r.smallest->status == LimitStatus::found)
+  if (r.smallest && r.smallest->status == LimitEnd::found)
     text += fmt::format("; at the other end {:.5g}", r.smallest->lower);
   return text;
 }
@@ -207,6 +184,7 @@ Result<LimitResult> limit_analysis(const Model& model) {
   r.vary = fos.vary;
   r.blocks = asked.rigid().bodies();
   r.joints = asked.rigid().joints.size();
+  r.size = asked.rigid().size;
   r.warnings = prepared.value().warnings;
   if (!asked.rigid().loose.empty()) {
     r.warnings.push_back(

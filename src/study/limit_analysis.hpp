@@ -12,21 +12,15 @@
 
 namespace edda {
 
-enum class LimitStatus {
-  found,
-  unlimited,  ///< no value of what is varied moves the blocks
-  unstable,   ///< there is no equilibrium at any value
-  unsolved,   ///< the solver gave up
-};
-
-constexpr std::string_view limit_status_name(LimitStatus s) {
-  constexpr std::string_view names[] = {"found", "unlimited", "unstable", "unsolved"};
-  return names[static_cast<int>(s)];
+/// As summary.json has it.
+constexpr std::string_view limit_end_name(LimitEnd end) {
+  constexpr std::string_view names[] = {"found", "unstable", "unlimited", "unsolved"};
+  return names[static_cast<int>(end)];
 }
 
 /// One end of the values of what is varied that have an equilibrium.
 struct LimitValue {
-  LimitStatus status = LimitStatus::unsolved;
+  LimitEnd status = LimitEnd::not_solved;
   double lower = 0.0;  ///< static theorem: at this value there is an equilibrium
   double upper = 0.0;  ///< kinematic theorem: at this value there is none
 };
@@ -45,6 +39,7 @@ struct LimitResult {
   std::optional<Simulation> drawn, moved;  ///< the model as drawn, and moved by the mechanism
   std::vector<ContactRecord> forces;       ///< of the joints that carry any, at the thrust point
   std::size_t blocks = 0, joints = 0;
+  double size = 0.0;     ///< m, of the blocks: RigidBlocks::size
   double seconds = 0.0;  ///< s, wall time
   std::vector<std::string> warnings;
 };

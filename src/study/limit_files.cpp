@@ -8,23 +8,14 @@ namespace edda {
 namespace {
 
 void add_value(Json& j, std::string_view name, const LimitValue& value) {
-  j.key(name).open_object().pair("status", limit_status_name(value.status));
-  if (value.status == LimitStatus::found) {
+  j.key(name).open_object().pair("status", limit_end_name(value.status));
+  if (value.status == LimitEnd::found) {
     j.pair("lower", value.lower).pair("upper", value.upper);
   } else {
     j.key("lower").null();
     j.key("upper").null();
   }
   j.close();
-}
-
-void add_optional(Json& j, std::string_view name, const std::optional<double>& value) {
-  j.key(name);
-  if (value) {
-    j.value(*value);
-  } else {
-    j.null();
-  }
 }
 
 }  // namespace
@@ -42,12 +33,12 @@ std::string limit_joints_csv(const LimitResult& r) {
 std::string limit_summary(const Model& model, const LimitResult& r) {
   Json j;
   j.open_object().pair("version", version).pair("title", model.title);
-  j.pair("status", limit_status_name(r.largest.status)).pair("message", r.message);
+  j.pair("status", limit_end_name(r.largest.status)).pair("message", r.message);
   j.pair("vary", r.vary);
   add_value(j, "limit", r.largest);
   if (r.smallest) add_value(j, "other_end", *r.smallest);
-  add_optional(j, "without_dilation", r.without_dilation);
-  add_optional(j, "residual", r.residual);
+  j.pair("without_dilation", r.without_dilation);
+  j.pair("residual", r.residual);
   j.pair("flow_rule_violation", r.violation);
   j.pair("crushing", model.limit && model.limit->crushing);
   j.pair("blocks", r.blocks).pair("joints", r.joints);

@@ -9,9 +9,12 @@
 #include <string>
 
 #include "model/read_model.hpp"
+#include "study/masonry_panel.hpp"
 
 namespace edda::limit_analysis_test {
 namespace {
+
+using testing::masonry_panel;
 
 constexpr double degree = std::numbers::pi / 180.0;
 
@@ -65,31 +68,8 @@ std::string arch(int n, double embrace, double thickness, double mu, const Turne
   return text;
 }
 
-/// Ferris and Tin-Loi's (2001) panel: courses of 0.4 x 0.175 m units, half units at the ends of the
-/// bottom course and of every second one above it.
-std::string panel(int courses, int units, double mu) {
-  const double b = 0.4, h = 0.175;
-  const auto rectangle = [](double x0, double y0, double x1, double y1) {
-    return fmt::format(
-        "polygon = [[{0:.15g},{1:.15g}],[{2:.15g},{1:.15g}],[{2:.15g},{3:.15g}],"
-        "[{0:.15g},{3:.15g}]]\n",
-        x0, y0, x1, y1);
-  };
-  std::string text =
-      stone(mu) + "[[block]]\nfixed = true\n" + rectangle(-b, -h, (units + 1) * b, 0.0);
-  for (int c = 0; c < courses; ++c) {
-    double from = 0.0;
-    for (double to = c % 2 == 0 ? 0.5 * b : b; from < units * b - 1e-9; to += b) {
-      const double end = std::min(to, units * b);
-      text += "[[block]]\n" + rectangle(from, c * h, end, (c + 1) * h);
-      from = end;
-    }
-  }
-  return text;
-}
-
 void expect_sharp(const LimitResult& r, double exact, double digits) {
-  ASSERT_EQ(r.largest.status, LimitStatus::found) << r.message;
+  ASSERT_EQ(r.largest.status, LimitEnd::found) << r.message;
   EXPECT_NEAR(r.largest.lower, exact, digits);
   EXPECT_NEAR(r.largest.upper, r.largest.lower, 1e-8);
   EXPECT_LT(r.violation, 1e-7);
@@ -126,8 +106,7 @@ TEST(LimitAnalysis, LeastThicknessOfASemicircularArch) {
                          {0.40, 0.106721},
                          {0.60, 0.106721}}) {
     const auto stands = [&](double part) {
-      return limit_of(arch(27, 180.0, 10.0 * part, l.mu), "kh").largest.status ==
-             LimitStatus::found;
+      return limit_of(arch(27, 180.0, 10.0 * part, l.mu), "kh").largest.status == LimitEnd::found;
     };
     EXPECT_TRUE(stands(l.thickness + 2e-6)) << l.mu;
     EXPECT_FALSE(stands(l.thickness - 2e-6)) << l.mu;
@@ -135,13 +114,13 @@ TEST(LimitAnalysis, LeastThicknessOfASemicircularArch) {
 }
 
 TEST(LimitAnalysis, PanelOfFerrisAndTinLoi) {
-  const LimitResult r = limit_of(panel(6, 5, 0.65), "kh");
+  const LimitResult r = limit_of(masonry_panel(50e9), "kh");
   expect_sharp(r, 0.6428590, 5e-8);
   ASSERT_TRUE(r.smallest);
   EXPECT_NEAR(r.smallest->lower, -0.6428590, 5e-8);
   ASSERT_TRUE(r.without_dilation);
   EXPECT_NEAR(*r.without_dilation, 0.6428590, 1e-4);
-  const LimitResult tilt = limit_of(panel(6, 5, 0.65), "tilt");
+  const LimitResult tilt = limit_of(masonry_panel(50e9), "tilt");
   EXPECT_NEAR(std::tan(tilt.largest.lower * degree), 0.6428590, 1e-7);
 }
 

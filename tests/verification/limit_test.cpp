@@ -19,7 +19,7 @@ TEST(LimitSlopes, FactorsOfRigidBlocks) {
     ASSERT_TRUE(model.ok()) << to_string(model.faults()[0]);
     const Result<LimitResult> r = limit_analysis(model.value());
     ASSERT_TRUE(r.ok()) << to_string(r.faults()[0]);
-    ASSERT_EQ(r.value().largest.status, LimitStatus::found) << slope.name;
+    ASSERT_EQ(r.value().largest.status, LimitEnd::found) << slope.name;
     const double factor = r.value().largest.lower;
     if (slope.motion.starts_with("toppling")) {
       expect_at_least({64, slope.name, "factor of joints that dilate", ""}, factor, slope.factor);
