@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "app/common.hpp"
+#include "base/text.hpp"
+#include "run/wall_clock.hpp"
 
 namespace edda {
 namespace {
@@ -78,12 +80,19 @@ std::string progress_line(const Progress& p, std::size_t columns) {
 ProgressBar::ProgressBar()
     : terminal_(isatty(STDERR_FILENO) == 1), start_(std::chrono::steady_clock::now()) {}
 
-void ProgressBar::show(const Progress& p) {
-  if (terminal_) return draw_bar(p);
-  const double wall =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  if (wall < next_line_) return;
+/// Elsewhere than on a terminal lines are rare.
+bool ProgressBar::is_due() {
+  if (terminal_) return true;
+  const double wall = since(start_);
+  if (wall < next_line_) return false;
   next_line_ = wall < 60.0 ? wall + 10.0 : wall + 60.0;
+  return true;
+}
+
+void ProgressBar::show(const Progress& p) {
+  if (!is_due()) return;
+  // The last column stays empty: some terminals go to the next line once it is full.
+  if (terminal_) return draw(progress_line(p, terminal_columns() - 1));
   const std::string stage = stage_text(p);
   fmt::print(stderr,
              "{}, {}t = {:.4g} s, {} steps, {:.3g} steps/s, {} left, velocity {:.2g} m/s, "
@@ -92,9 +101,23 @@ void ProgressBar::show(const Progress& p) {
              duration_text(p.seconds_left), p.largest_velocity, p.largest_overlap);
 }
 
-void ProgressBar::draw_bar(const Progress& p) {
-  // The last column stays empty: some terminals go to the next line once it is full.
-  fmt::print(stderr, "\r\x1b[K{}", progress_line(p, terminal_columns() - 1));
+void ProgressBar::show_samples(const Progress& p, std::size_t done, std::size_t of) {
+  if (!is_due()) return;
+  const std::string number =
+      of > 0 ? fmt::format("{} of {}", done, counted(of, "sample")) : counted(done, "sample");
+  const std::string left = of > 0 && p.seconds_left >= 0.0
+                               ? fmt::format("  {} left", duration_text(p.seconds_left))
+                               : std::string();
+  const std::string text = fmt::format("{}{}  {:.3g} samples/s", number, left, p.rate);
+  if (!terminal_) {
+    fmt::print(stderr, "{}\n", text);
+  } else {
+    draw(of > 0 ? bar_of(p.fraction, 24) + "  " + text : text);
+  }
+}
+
+void ProgressBar::draw(const std::string& line) {
+  fmt::print(stderr, "\r\x1b[K{}", line);
   std::fflush(stderr);
   drawn_ = true;
 }

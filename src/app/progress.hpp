@@ -13,11 +13,14 @@ class ProgressBar {
  public:
   ProgressBar();
   void show(const Progress& progress);
+  /// The same of a study: samples in place of steps; `of`: all of them, 0: not known.
+  void show_samples(const Progress& progress, std::size_t done, std::size_t of);
   /// Ends the bar's line.
   void finish();
 
  private:
-  void draw_bar(const Progress& progress);
+  bool is_due();
+  void draw(const std::string& line);
   bool terminal_;
   bool drawn_ = false;
   std::chrono::steady_clock::time_point start_;

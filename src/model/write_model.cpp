@@ -112,6 +112,9 @@ struct Write {
   std::string operator()(const std::vector<Vec2>* field) const {
     return field->empty() ? std::string{} : written(*field);
   }
+  std::string operator()(const std::vector<double>* field) const {
+    return field->empty() ? std::string{} : written(*field);
+  }
   std::string operator()(const std::vector<std::string>* field) const {
     return field->empty() ? std::string{} : written(*field);
   }
@@ -150,14 +153,18 @@ std::string toml_value(const Key& key, const Slot& slot, const Model& model) {
 
 std::string to_toml(const Model& model) {
   Model copy = model;  // slots reach fields to fill them, too
+  return to_toml(sections(), &copy, copy);
+}
+
+std::string to_toml(std::span<const Section> sections, void* root, const Model& names) {
   std::string text;
-  for (const Section& section : sections()) {
-    for (std::size_t i = 0; i < section.count(copy); ++i) {
-      void* object = section.at(copy, i);
+  for (const Section& section : sections) {
+    for (std::size_t i = 0; i < section.count(root); ++i) {
+      void* object = section.at(root, i);
       write_header(section, object, text);
       for (const Key& key : section.keys) {
         if (key.slot == nullptr) continue;
-        const std::string value = toml_value(key, key.slot(object), copy);
+        const std::string value = toml_value(key, key.slot(object), names);
         if (!value.empty()) text += fmt::format("{} = {}\n", key.name, value);
       }
     }

@@ -18,7 +18,18 @@ bool ends_in(const std::string& path, std::string_view lower, std::string_view u
   return path.ends_with(lower) || path.ends_with(upper);
 }
 
-std::string escaped(const std::string& text) {
+const char* anchor_name(Align align) {
+  return align == Align::left ? "start" : align == Align::right ? "end" : "middle";
+}
+
+std::string hex(Colour c) {
+  const auto part = [](double v) { return static_cast<int>(std::lround(255.0 * v)); };
+  return fmt::format("#{:02x}{:02x}{:02x}", part(c.r), part(c.g), part(c.b));
+}
+
+}  // namespace
+
+std::string xml_escaped(const std::string& text) {
   std::string xml;
   for (const char c : text) {
     switch (c) {
@@ -37,17 +48,6 @@ std::string escaped(const std::string& text) {
   }
   return xml;
 }
-
-const char* anchor_name(Align align) {
-  return align == Align::left ? "start" : align == Align::right ? "end" : "middle";
-}
-
-std::string hex(Colour c) {
-  const auto part = [](double v) { return static_cast<int>(std::lround(255.0 * v)); };
-  return fmt::format("#{:02x}{:02x}{:02x}", part(c.r), part(c.g), part(c.b));
-}
-
-}  // namespace
 
 Canvas::Canvas(std::string path, double width, double height, double pixels_per_point)
     : path_(std::move(path)),
@@ -145,7 +145,7 @@ void Canvas::svg_text(const std::string& text, Vec2 at, const TextStyle& style) 
       "<text {} font-family=\"sans-serif\" font-size=\"{:.2f}\" font-weight=\"{}\" "
       "text-anchor=\"{}\" fill=\"{}\"{}>{}</text>\n",
       place, style.size, style.bold ? "bold" : "normal", anchor_name(style.align), hex(colour_),
-      halo, escaped(text));
+      halo, xml_escaped(text));
 }
 
 void Canvas::line(Vec2 a, Vec2 b, double width) {

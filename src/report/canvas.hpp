@@ -62,6 +62,9 @@ class Canvas {
   cairo_t* cr_ = nullptr;
 };
 
+/// As text of SVG and HTML.
+std::string xml_escaped(const std::string& text);
+
 /// A number as it is printed: with a minus sign, not a hyphen.
 std::string typeset(std::string_view number);
 

@@ -263,6 +263,8 @@ Trouble FolderLock::take(const std::string& folder) {
     return cannot("used for results", folder, std::strerror(errno), "name another with -o");
   if (::flock(handle_, LOCK_EX | LOCK_NB) == 0) return {};
   if (errno != EWOULDBLOCK) return {};  // a file system without locks
+  ::close(handle_);
+  handle_ = -1;
   return cannot("used for results", folder, "another run is writing to it",
                 "wait for it, or name another folder with -o");
 }

@@ -28,7 +28,7 @@ bool is_known(std::string_view dotted) {
   const Key* key = find_key(section->keys, rest.substr(0, inner));
   if (key == nullptr || inner == std::string_view::npos) return key != nullptr;
   Model model;
-  const Slot slot = key->slot(section->add(model));
+  const Slot slot = key->slot(section->add(&model));
   const SubTable* table = std::get_if<SubTable>(&slot);
   return table != nullptr && find_key(table->keys, rest.substr(inner + 1)) != nullptr;
 }

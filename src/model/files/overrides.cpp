@@ -152,7 +152,7 @@ std::optional<Fault> apply(Value& root, const std::string& override_text, int nu
       path += (path.empty() ? "" : ".") + part;
       const std::size_t before = table->size();
       Value& next = entry_of(*table, part, place);
-      const Section* section = node == &root ? find_section(part) : nullptr;
+      const Section* section = node == &root ? find_section(part, reading.sections) : nullptr;
       const bool is_made = table->size() > before;
       if (is_made && &part != &parts.back() && section != nullptr &&
           section->shape == Shape::list) {

@@ -72,6 +72,22 @@ std::optional<Vec2> read_point(const Value& value, const Key& key, const std::st
   return Vec2{(*pair)[0], (*pair)[1]};
 }
 
+std::vector<double> read_number_list(const Value& value, const Key& key, const std::string& path,
+                                     Reading& reading) {
+  const List* list = as<List>(value);
+  if (list == nullptr || list->empty()) {
+    type_fault({key, value, path, reading});
+    return {};
+  }
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const auto number = read_number((*list)[i], key, fmt::format("{}[{}]", path, i), reading);
+    if (number) numbers.push_back(*number);
+  }
+  if (numbers.size() != list->size()) return {};
+  return numbers;
+}
+
 std::vector<Vec2> read_points(const Spot& spot) {
   const List* list = as<List>(spot.value);
   if (list == nullptr) {

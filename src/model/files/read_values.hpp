@@ -75,6 +75,9 @@ std::optional<std::array<double, 3>> read_numbers(const Value& value, const Key&
                                                   Reading& reading);
 std::optional<Vec2> read_point(const Value& value, const Key& key, const std::string& path,
                                Reading& reading);
+/// A list of at least one number; empty where anything is wrong with it.
+std::vector<double> read_number_list(const Value& value, const Key& key, const std::string& path,
+                                     Reading& reading);
 /// A list of points, empty where anything is wrong with it.
 std::vector<Vec2> read_points(const Spot& spot);
 std::vector<std::string> read_words(const Spot& spot);

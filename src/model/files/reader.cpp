@@ -124,6 +124,9 @@ struct ReadInto {
     *field = read_numbers(spot.value, spot.key, spot.path, 3, spot.reading);
   }
   void operator()(std::vector<Vec2>* field) const { *field = read_points(spot); }
+  void operator()(std::vector<double>* field) const {
+    *field = read_number_list(spot.value, spot.key, spot.path, spot.reading);
+  }
   void operator()(std::vector<std::string>* field) const { *field = read_words(spot); }
   void operator()(const Choice& choice) const {
     const std::string* word = as<std::string>(spot.value);
@@ -169,10 +172,11 @@ void read_keys(std::span<const Key> keys, void* object, const Value& table,
   const bool is_root = prefix.empty();
   std::vector<const Key*> meant;  // that unknown keys probably stand for
   for (const Entry& entry : *entries) {
-    if (is_root && find_section(entry.key) != nullptr) continue;
+    if (is_root && find_section(entry.key, reading.sections) != nullptr) continue;
     const Key* key = find_key(keys, entry.key);
     if (key == nullptr) {
-      const UnknownKey unknown = unknown_key(entry, table, keys, object, meant, is_root);
+      const UnknownKey unknown =
+          unknown_key(entry, table, keys, object, meant, is_root, reading.sections);
       add_fault(reading, entry.place, prefix + entry.key, "unknown key", unknown.hint);
       meant.push_back(unknown.stands_for);
     } else {
@@ -198,8 +202,8 @@ void read_keys(std::span<const Key> keys, void* object, const Value& table,
 
 /// One object: its keys, its place and, in a named table, its name.
 void read_object(const Section& section, const Value& value, const std::string& path,
-                 const std::string& object_name, Reading& reading) {
-  void* object = section.add(reading.model);
+                 const std::string& object_name, void* into, Reading& reading) {
+  void* object = section.add(into);
   if (section.where != nullptr) *section.where(object) = where_of(reading, value.place, path);
   if (section.name_of != nullptr) *section.name_of(object) = object_name;
   if (as<Table>(value) == nullptr) {
@@ -211,7 +215,7 @@ void read_object(const Section& section, const Value& value, const std::string& 
   read_keys(section.keys, object, value, section.shape == Shape::root ? "" : path + '.', reading);
 }
 
-void read_list(const Section& section, const Value& value, Reading& reading) {
+void read_list(const Section& section, const Value& value, void* into, Reading& reading) {
   const List* list = as<List>(value);
   if (list == nullptr) {
     add_fault(reading, value.place, std::string(section.name), "is " + shown(value),
@@ -220,11 +224,11 @@ void read_list(const Section& section, const Value& value, Reading& reading) {
   }
   for (std::size_t i = 0; i < list->size(); ++i) {
     const std::string path = fmt::format("{}.{}", section.name, label((*list)[i], i));
-    read_object(section, (*list)[i], path, {}, reading);
+    read_object(section, (*list)[i], path, {}, into, reading);
   }
 }
 
-void read_named(const Section& section, const Value& value, Reading& reading) {
+void read_named(const Section& section, const Value& value, void* into, Reading& reading) {
   const Table* table = as<Table>(value);
   if (table == nullptr) {
     add_fault(reading, value.place, std::string(section.name), "is " + shown(value),
@@ -244,7 +248,7 @@ void read_named(const Section& section, const Value& value, Reading& reading) {
       add_fault(reading, entry.place, std::string(section.name), "an empty name", "give a name");
     }
     check_name(entry.key, entry.place, path, reading);
-    read_object(section, entry.value, path, entry.key, reading);
+    read_object(section, entry.value, path, entry.key, into, reading);
   }
 }
 
@@ -270,21 +274,21 @@ std::string label(const Value& element, std::size_t number) {
   return text == nullptr || text->empty() ? std::to_string(number) : *text;
 }
 
-void read_sections(const Value& root, Reading& reading) {
-  for (const Section& section : sections()) {
+void read_sections(const Value& root, void* into, Reading& reading) {
+  for (const Section& section : reading.sections) {
     const Value* value = section.shape == Shape::root ? &root : find(&root, section.name);
     if (section.shape == Shape::root) {
-      read_object(section, root, {}, {}, reading);
+      read_object(section, root, {}, {}, into, reading);
     } else if (section.shape == Shape::table) {
       // A table that is missing as a whole may still have required keys.
       const Value empty{Table{}, {1, 1, false}};
       if (value == nullptr && section.optional) continue;
-      read_object(section, value == nullptr ? empty : *value, std::string(section.name), {},
+      read_object(section, value == nullptr ? empty : *value, std::string(section.name), {}, into,
                   reading);
     } else if (value != nullptr && section.shape == Shape::named) {
-      read_named(section, *value, reading);
+      read_named(section, *value, into, reading);
     } else if (value != nullptr) {
-      read_list(section, *value, reading);
+      read_list(section, *value, into, reading);
     }
   }
 }

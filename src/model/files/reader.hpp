@@ -14,11 +14,13 @@ namespace edda {
 inline constexpr double largest_number = 1e150, largest_length = 1e12;
 inline constexpr double smallest_positive = 1e-150;  ///< of a key that must be above 0
 
-/// State of reading: the model and the faults so far.
+/// State of reading: the model and the faults so far. A file of another kind has other sections,
+/// and leaves the model empty.
 struct Reading {
   std::string file;
   Model model;
   Faults faults;
+  std::span<const Section> sections = edda::sections();
 };
 
 Where where_of(const Reading& reading, Place place, std::string key);
@@ -31,7 +33,8 @@ std::string label(const Value& element, std::size_t number);
 /// Fills every object of every section. Objects and elements of the file keep the same numbers,
 /// also where an element is faulty. A field whose key is missing keeps its initial value of
 /// model.hpp.
-void read_sections(const Value& root, Reading& reading);
+/// `into`: the model, or the root of the objects of Reading::sections.
+void read_sections(const Value& root, void* into, Reading& reading);
 
 /// A number in the key's unit, or nothing and a fault at `path`.
 std::optional<double> read_number(const Value& value, const Key& key, const std::string& path,

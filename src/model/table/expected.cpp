@@ -49,6 +49,8 @@ std::string expected(const Key& key) {
       return "a list of points such as [[0, 0], [2, 1]]";
     case Kind::polygon:
       return "a list of points such as [[0, 0], [2, 0], [2, 1]]";
+    case Kind::numbers:
+      return "a list of numbers such as [1.0, 2.5]";
     case Kind::names:
       return "a list of names such as [\"one\", \"two\"]";
     case Kind::joint_map:

@@ -32,11 +32,11 @@ std::vector<InnerKey> inner_keys(std::span<const Key> keys, void* object) {
 }
 
 /// Tables that have a key of this name.
-std::vector<std::string> tables_with(std::string_view name) {
+std::vector<std::string> tables_with(std::string_view name, std::span<const Section> sections) {
   std::vector<std::string> tables;
-  for (const Section& section : sections()) {
+  for (const Section& section : sections) {
     if (section.shape != Shape::root && find_key(section.keys, name) != nullptr)
-      tables.push_back(named_in_file(section.name));
+      tables.push_back(in_file(section));
   }
   return tables;
 }
@@ -140,19 +140,21 @@ UnknownKey slip_of(std::string_view name, const Value& table, std::span<const Ke
 }  // namespace
 
 UnknownKey unknown_key(const Entry& entry, const Value& table, std::span<const Key> keys,
-                       void* object, const std::vector<const Key*>& meant, bool is_root) {
+                       void* object, const std::vector<const Key*>& meant, bool is_root,
+                       std::span<const Section> sections) {
   const std::string& name = entry.key;
   if (!keys_called(name, keys).empty()) return called_here(name, table, keys);
   if (const std::string hint = inside(name, keys, inner_keys(keys, object)); !hint.empty())
     return {hint};
-  if (find_key(sections().front().keys, name) != nullptr)
+  if (find_key(sections.front().keys, name) != nullptr)
     return {fmt::format("{} belongs at the top of the file, before the first [table]", name)};
   std::vector<std::string_view> known = key_names(keys);
-  for (const Section& s : sections()) {
+  for (const Section& s : sections) {
     if (is_root && s.shape != Shape::root) known.push_back(s.name);
   }
-  const std::vector<std::string> elsewhere = tables_with(name);
-  const std::string other_word = synonym_hint(name);
+  const std::vector<std::string> elsewhere = tables_with(name, sections);
+  const bool is_model = sections.data() == edda::sections().data();
+  const std::string other_word = is_model ? synonym_hint(name) : std::string();
   if (elsewhere.empty() && !other_word.empty()) return {other_word};
   if (is_likely(name, known)) return slip_of(name, table, keys, known);
   if (const std::string places = either(elsewhere); !places.empty())

@@ -19,9 +19,10 @@ struct UnknownKey {
 };
 
 /// `table` has the `keys` and is read into `object`; `is_root`: it is the whole file, which also
-/// has sections; `meant`: missing keys for which other unknown keys were written.
+/// has `sections`; `meant`: missing keys for which other unknown keys were written.
 UnknownKey unknown_key(const Entry& entry, const Value& table, std::span<const Key> keys,
-                       void* object, const std::vector<const Key*>& meant, bool is_root);
+                       void* object, const std::vector<const Key*>& meant, bool is_root,
+                       std::span<const Section> sections);
 
 /// What a number that was given as a table should be, where a table beside it has the further
 /// values; empty where there is no such table. `keys`, `object`: as above.

@@ -75,14 +75,18 @@ void add_rows(std::span<const Key> keys, void* object, const std::string& prefix
 
 std::string reference_of(const Section& section) {
   Model model;
-  void* object = section.add(model);
-  std::string text = fmt::format("## {}\n\n{}\n\n", heading(section), section.meaning);
-  text += "| key | value | default | meaning |\n|---|---|---|---|\n";
-  add_rows(section.keys, object, "", model, text);
-  return text;
+  return key_reference(section, &model);
 }
 
 }  // namespace
+
+std::string key_reference(const Section& section, void* root) {
+  void* object = section.add(root);
+  std::string text = fmt::format("## {}\n\n{}\n\n", heading(section), section.meaning);
+  text += "| key | value | default | meaning |\n|---|---|---|---|\n";
+  add_rows(section.keys, object, "", Model{}, text);
+  return text;
+}
 
 std::string key_reference() {
   std::string text =

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "model/table/keys.hpp"
+
 namespace edda {
 
 /// Every table and key of a model file in Markdown: its values, its default, its meaning.
@@ -11,5 +13,9 @@ std::string key_reference();
 
 /// The same of one table ("stage", "solver"; "" for the keys outside any); empty if there is none.
 std::string key_reference(std::string_view section);
+
+/// The same of a section of a file of any kind. `root`: an object of what it is read into, which
+/// gets an element more.
+std::string key_reference(const Section& section, void* root);
 
 }  // namespace edda

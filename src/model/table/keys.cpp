@@ -254,12 +254,8 @@ constexpr std::array limit_keys{
     Key{"crushing", at<&Limit::crushing>, flag, initial, "Whether joints are crushed where the thrust comes near an edge: they have the compressive strength materials.X.strength.ucs of the weaker rock beside them."},
 };
 
-constexpr Section root_section{"", Shape::root, false, root_keys, "The model as a whole.",
-    [](const Model&) { return std::size_t{1}; }, [](Model& m) -> void* { return &m; },
-    [](Model& m, std::size_t) -> void* { return &m; }, nullptr, nullptr};
-
 constexpr std::array all_sections{
-    root_section,
+    root_section(root_keys, "The model as a whole."),
     section<&Model::materials>("materials", Shape::named, material_keys, "Elastic rock."),
     section<&Model::joints>("joints", Shape::named, joint_keys, "The contact law of a joint."),
     section<&Model::contact>("contact", Shape::table, contact_keys, "Properties of contacts whose joint does not give them."),
@@ -340,8 +336,8 @@ std::span<const Section> sections() {
   return all_sections;
 }
 
-const Section* find_section(std::string_view name) {
-  for (const Section& s : all_sections) {
+const Section* find_section(std::string_view name, std::span<const Section> among) {
+  for (const Section& s : among) {
     if (s.shape != Shape::root && s.name == name) return &s;
   }
   return nullptr;

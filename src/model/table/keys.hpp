@@ -32,6 +32,7 @@ enum class Kind {
   polyline,      ///< two points or more
   polygon,       ///< three points or more, with an area, not crossing itself
   words,         ///< a list of distinct words, each one of Rule::words
+  numbers,       ///< a list of numbers
   names,         ///< a list of distinct names of other elements
   joint_map,     ///< a table of names, each with the name of a joint law
   material_map,  ///< a table of names, each with the name of a material
@@ -90,11 +91,11 @@ struct SubTable {
 using JointMap = std::vector<std::pair<std::string, Index>>;
 
 /// Typed access to the field that a key fills.
-using Slot =
-    std::variant<bool*, int*, long long*, double*, std::optional<double>*,
-                 std::optional<long long>*, std::optional<Restitution>*, std::string*, JointMap*,
-                 NumberMap*, Vec2*, std::optional<Vec2>*, Triple*, std::optional<Triple>*,
-                 std::vector<Vec2>*, std::vector<std::string>*, Choice, SubTable>;
+using Slot = std::variant<bool*, int*, long long*, double*, std::optional<double>*,
+                          std::optional<long long>*, std::optional<Restitution>*, std::string*,
+                          JointMap*, NumberMap*, Vec2*, std::optional<Vec2>*, Triple*,
+                          std::optional<Triple>*, std::vector<Vec2>*, std::vector<double>*,
+                          std::vector<std::string>*, Choice, SubTable>;
 
 struct Key {
   std::string_view name;
@@ -111,24 +112,25 @@ enum class Shape {
   list,   ///< [[block]]
 };
 
-/// A table of the model file, with access to its objects in a Model.
+/// A table of the model file, with access to its objects in a Model; or of another file, with
+/// access to those in what it is read into (`root`).
 struct Section {
   std::string_view name;
   Shape shape;
   bool optional;  ///< of Shape::table: a missing table has no required keys
   std::span<const Key> keys;
   std::string_view meaning;
-  std::size_t (*count)(const Model& model);
-  void* (*add)(Model& model);  ///< a new object of a list; the one object of a table
-  void* (*at)(Model& model, std::size_t i);
+  std::size_t (*count)(const void* root);
+  void* (*add)(void* root);  ///< a new object of a list; the one object of a table
+  void* (*at)(void* root, std::size_t i);
   Where* (*where)(void* object);          ///< null if the object does not keep it
   std::string* (*name_of)(void* object);  ///< of Shape::named, else null
 };
 
-/// All tables, in the order in which they are read and written: tables that others refer to come
-/// first.
+/// All tables of a model file, in the order in which they are read and written: tables that others
+/// refer to come first.
 std::span<const Section> sections();
-const Section* find_section(std::string_view name);
+const Section* find_section(std::string_view name, std::span<const Section> among = sections());
 const Key* find_key(std::span<const Key> keys, std::string_view name);
 std::vector<std::string_view> key_names(std::span<const Key> keys);
 

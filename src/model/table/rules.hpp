@@ -53,7 +53,8 @@ constexpr Rule flag = rule(Kind::flag), text = rule(Kind::text), naming = rule(K
                joint = rule(Kind::joint), table = rule(Kind::table),
                point = shape(Kind::point, D::length), polygon = shape(Kind::polygon, D::length),
                polyline = shape(Kind::polyline, D::length), name_list = rule(Kind::names),
-               file = rule(Kind::file), source = rule(Kind::source);
+               number_list = rule(Kind::numbers), file = rule(Kind::file),
+               source = rule(Kind::source);
 
 constexpr Default required{true, {}};
 constexpr Default initial{};  // the field's initial value in model.hpp

@@ -148,37 +148,42 @@ Slot at(void* object) {
   return slot_of((field.*....*rest));
 }
 
-/// Access to the objects of a section through the member of Model that holds them.
+/// Access to the objects of a section through the member of Model, or of another root, that holds
+/// them.
 template <auto member>
 struct Held {
-  using Type = std::remove_reference_t<decltype(std::declval<Model&>().*member)>;
+  using Root = decltype(owner_of(member));
+  using Type = std::remove_reference_t<decltype(std::declval<Root&>().*member)>;
   static constexpr bool is_list = requires(Type t) { t.emplace_back(); };
   static constexpr bool is_optional = requires(Type t) { t.has_value(); };
 
-  static std::size_t count(const Model& model) {
+  static Type& in(void* root) { return static_cast<Root*>(root)->*member; }
+  static std::size_t count(const void* root) {
+    const Type& held = static_cast<const Root*>(root)->*member;
     if constexpr (is_list) {
-      return (model.*member).size();
+      return held.size();
     } else if constexpr (is_optional) {
-      return (model.*member).has_value() ? 1 : 0;
+      return held.has_value() ? 1 : 0;
     } else {
       return 1;
     }
   }
-  static void* add(Model& model) {
-    if constexpr (is_list || is_optional) {
-      if constexpr (is_list) return &(model.*member).emplace_back();
-      if constexpr (is_optional) return &(model.*member).emplace();
+  static void* add(void* root) {
+    if constexpr (is_list) {
+      return &in(root).emplace_back();
+    } else if constexpr (is_optional) {
+      return &in(root).emplace();
     } else {
-      return &(model.*member);
+      return &in(root);
     }
   }
-  static void* at(Model& model, std::size_t i) {
+  static void* at(void* root, std::size_t i) {
     if constexpr (is_list) {
-      return &(model.*member)[i];
+      return &in(root)[i];
     } else if constexpr (is_optional) {
-      return &*(model.*member);
+      return &*in(root);
     } else {
-      return &(model.*member);
+      return &in(root);
     }
   }
 };
@@ -216,6 +221,20 @@ constexpr Section section(std::string_view name, Shape shape, std::span<const Ke
     }
   }
   return s;
+}
+
+/// The keys outside any table.
+constexpr Section root_section(std::span<const Key> keys, std::string_view meaning) {
+  return {"",
+          Shape::root,
+          false,
+          keys,
+          meaning,
+          [](const void*) { return std::size_t{1}; },
+          [](void* root) { return root; },
+          [](void* root, std::size_t) { return root; },
+          nullptr,
+          nullptr};
 }
 
 }  // namespace edda

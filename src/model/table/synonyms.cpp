@@ -223,7 +223,7 @@ const Key* key_at(std::string_view dotted) {
   const Key* key = find_key(section->keys, rest.substr(0, inner));
   if (key == nullptr || inner == std::string_view::npos) return key;
   Model model;
-  const Slot slot = key->slot(section->add(model));
+  const Slot slot = key->slot(section->add(&model));
   const SubTable* table = std::get_if<SubTable>(&slot);
   return table == nullptr ? nullptr : find_key(table->keys, rest.substr(inner + 1));
 }
@@ -238,14 +238,18 @@ std::span<const Synonym> synonyms() {
   return other_words;
 }
 
+std::string in_file(const Section& section) {
+  const char* form = section.shape == Shape::list    ? "[[{}]]"
+                     : section.shape == Shape::named ? "[{}.NAME]"
+                                                     : "[{}]";
+  return fmt::format(fmt::runtime(form), section.name);
+}
+
 std::string named_in_file(std::string_view dotted_key) {
   const std::size_t dot = dotted_key.find('.');
   const Section* section = find_section(dotted_key.substr(0, dot));
   if (section == nullptr) return std::string(dotted_key);
-  const char* form = section->shape == Shape::list    ? "[[{}]]"
-                     : section->shape == Shape::named ? "[{}.NAME]"
-                                                      : "[{}]";
-  const std::string name = fmt::format(fmt::runtime(form), section->name);
+  const std::string name = in_file(*section);
   if (dot == std::string_view::npos) return name;
   return fmt::format("{} of {}", dotted_key.substr(dot + 1), name);
 }

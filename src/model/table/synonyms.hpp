@@ -29,6 +29,9 @@ std::vector<const Key*> keys_called(std::string_view word, std::span<const Key> 
 /// `keys` of a table correspond, only these are named. Case, "-" and blanks do not matter.
 std::string synonym_hint(std::string_view word, std::span<const Key> keys = {});
 
+/// A table as messages name it: "[[boundary]]", "[joints.NAME]".
+std::string in_file(const Section& section);
+
 /// A table or a key as messages name it: "[[boundary]]", "kn of [joints.NAME]", "gravity".
 std::string named_in_file(std::string_view dotted_key);
 

@@ -1,0 +1,161 @@
+#include "sampling/run_sample.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "model/read_model.hpp"
+#include "results/files.hpp"
+#include "results/number.hpp"
+#include "results/read_table.hpp"
+#include "run/run_model.hpp"
+#include "sampling/sample_points.hpp"
+#include "study/fos.hpp"
+#include "study/limit_analysis.hpp"
+
+namespace edda {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view unstable = "unstable", unlimited = "unlimited";
+constexpr std::string_view history = "history.";
+
+/// The results of one analysis of a sample: a summary, and the history of a run.
+struct Analysed {
+  std::string summary;
+  std::string word;  ///< in place of its main value
+  std::optional<Table> history{};
+};
+
+std::string first_of(const Faults& faults) {
+  return to_string(faults.front());
+}
+
+/// The path without the name in front, or the whole of it where the text is the last name.
+const json* step_into(const json& node, std::string_view& path) {
+  // Names may contain dots: the longest that is there is taken.
+  for (std::size_t end = path.size(); end != std::string_view::npos && end > 0;
+       end = path.rfind('.', end - 1)) {
+    const std::string name(path.substr(0, end));
+    const json* found = nullptr;
+    if (node.is_object() && node.contains(name)) found = &node[name];
+    if (node.is_array()) {
+      for (const json& item : node) {
+        if (item.is_object() && item.value("name", "") == name) found = &item;
+      }
+      const bool digits =
+          std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
+      if (found == nullptr && digits && name.size() < 9 && std::stoul(name) < node.size())
+        found = &node[std::stoul(name)];
+    }
+    if (found == nullptr) continue;
+    path.remove_prefix(std::min(end + 1, path.size()));
+    return found;
+  }
+  return nullptr;
+}
+
+std::string in_history(const Table& table, const Ask& ask) {
+  const Column* column = table.column(ask.value.substr(history.size()));
+  if (column == nullptr || column->values.empty()) return {};
+  const std::vector<double>& v = column->values;
+  if (ask.take == Taken::largest) return shortest(*std::max_element(v.begin(), v.end()));
+  if (ask.take == Taken::smallest) return shortest(*std::min_element(v.begin(), v.end()));
+  return shortest(v.back());
+}
+
+/// The factor where there is one, else what is known of it.
+Result<Analysed> analyse_fos(const Model& model) {
+  const Result<FosResult> found = find_factor(model, {});
+  if (!found.ok()) return found.faults();
+  const FosResult& r = found.value();
+  Analysed a{fos_summary(model, r, 1), {}};
+  if (r.status == FosStatus::below || r.status == FosStatus::unstable) a.word = unstable;
+  if (r.status == FosStatus::above) a.word = unlimited;
+  return a;
+}
+
+Result<Analysed> analyse_limit(const Model& model) {
+  const Result<LimitResult> found = limit_analysis(model);
+  if (!found.ok()) return found.faults();
+  const LimitResult& r = found.value();
+  Analysed a{limit_summary(model, r), {}};
+  if (r.largest.status == LimitEnd::no_equilibrium) a.word = unstable;
+  if (r.largest.status == LimitEnd::no_limit) a.word = unlimited;
+  return a;
+}
+
+Result<Analysed> analyse_run(Model model, const std::string& scratch) {
+  Result<PreparedRun> run = prepare_run(std::move(model));
+  if (!run.ok()) return run.faults();
+  RunOptions options;
+  options.folder = scratch;
+  const Result<Outcome> outcome = run_model(run.value(), options);
+  if (!outcome.ok()) return outcome.faults();
+  const Result<std::string> summary = read_file(scratch + "/summary.json");
+  if (!summary.ok()) return summary.faults();
+  Analysed a{summary.value(), {}};
+  if (const Result<Table> table = read_table(scratch + "/history.csv"); table.ok())
+    a.history = table.value();
+  std::error_code error;
+  std::filesystem::remove_all(scratch, error);
+  return a;
+}
+
+Result<Analysed> analyse(Analysis analysis, const StudyPlan& plan, std::string_view model_text,
+                         const std::vector<std::string>& overrides, const std::string& scratch) {
+  const ReadFor what_for = analysis == Analysis::run ? ReadFor::run : ReadFor::no_run;
+  Result<Model> model = read_model_text(model_text, plan.model, overrides, what_for);
+  if (!model.ok()) return model.faults();
+  if (analysis == Analysis::run) return analyse_run(std::move(model.value()), scratch);
+  return analysis == Analysis::fos ? analyse_fos(model.value()) : analyse_limit(model.value());
+}
+
+std::string cell_of(const Analysed& a, const Ask& ask) {
+  if (a.history && ask.value.starts_with(history)) return in_history(*a.history, ask);
+  const std::string value = value_in(a.summary, ask.value);
+  return value.empty() ? a.word : value;
+}
+
+}  // namespace
+
+std::string value_in(std::string_view json_text, std::string_view path) {
+  const json root = json::parse(json_text, nullptr, false);
+  const json* node = root.is_discarded() ? nullptr : &root;
+  while (node != nullptr && !path.empty()) node = step_into(*node, path);
+  if (node == nullptr) return {};
+  if (node->is_number()) return shortest(node->get<double>());
+  if (node->is_boolean()) return node->get<bool>() ? "1" : "0";
+  return node->is_string() ? node->get<std::string>() : std::string();
+}
+
+SampleAnswer run_sample(const StudyPlan& plan, std::string_view model_text,
+                        const std::vector<double>& point, const std::string& scratch) {
+  const std::vector<std::string> overrides = overrides_of(plan, point);
+  SampleAnswer answer;
+  answer.cells.resize(plan.ask.size());
+  for (const Analysis analysis : {Analysis::run, Analysis::fos, Analysis::limit}) {
+    const auto asks = [&](const Ask& a) { return a.of == analysis; };
+    if (std::none_of(plan.ask.begin(), plan.ask.end(), asks)) continue;
+    const Result<Analysed> made = analyse(analysis, plan, model_text, overrides, scratch);
+    if (!made.ok()) {
+      answer.message = first_of(made.faults());
+      continue;
+    }
+    for (std::size_t i = 0; i < plan.ask.size(); ++i) {
+      const Ask& ask = plan.ask[i];
+      if (!asks(ask)) continue;
+      answer.cells[i] = cell_of(made.value(), ask);
+      if (answer.cells[i].empty())
+        answer.message = fmt::format("there is no {} in the results", ask.value);
+    }
+  }
+  return answer;
+}
+
+}  // namespace edda
