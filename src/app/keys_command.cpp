@@ -5,6 +5,7 @@
 
 #include "app/commands.hpp"
 #include "app/common.hpp"
+#include "model/study/study_plan.hpp"
 #include "model/table/key_reference.hpp"
 #include "model/table/keys.hpp"
 #include "model/table/nearest.hpp"
@@ -38,7 +39,16 @@ void add_keys(CLI::App& app, int& code) {
   auto name = std::make_shared<std::string>();
   command->add_option("TABLE", *name, "One table alone, such as stage or solver")
       ->type_name("TABLE");
-  command->callback([name, &code] { code = run(*name); });
+  auto study = std::make_shared<bool>(false);
+  command->add_flag("--study", *study, "The keys of a study's file (edda study)");
+  command->callback([name, study, &code] {
+    if (*study) {
+      fmt::print("{}", study_key_reference());
+      code = exit_code::done;
+    } else {
+      code = run(*name);
+    }
+  });
 }
 
 }  // namespace edda

@@ -1,6 +1,5 @@
 // edda study
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -10,14 +9,10 @@
 
 #include "app/common.hpp"
 #include "app/progress.hpp"
-#include "app/study_pictures.hpp"
-#include "base/text.hpp"
+#include "app/study_answer.hpp"
 #include "model/files/file_text.hpp"
-#include "model/write_model.hpp"
-#include "results/files.hpp"
-#include "results/json.hpp"
 #include "run/wall_clock.hpp"
-#include "sampling/study_results.hpp"
+#include "sampling/lead_study.hpp"
 #include "sampling/worker_pool.hpp"
 
 namespace edda {
@@ -59,14 +54,6 @@ int work(const StudyArguments& args) {
   return trouble ? fail({*trouble}, false, exit_code::failed) : exit_code::done;
 }
 
-Trouble write_results(const StudyPlan& plan, const StudyResults& r, const SampleFolder& folder,
-                      SamplerProcess& sampler) {
-  if (Trouble t = write_file(folder.file("study.csv"), study_csv(plan, r))) return t;
-  if (Trouble t = folder.tidy(plan)) return t;
-  if (Trouble t = draw_study(plan, r, folder, sampler)) return t;
-  return write_file(folder.file("summary.json"), study_summary(plan, r));
-}
-
 /// A bar with the samples done and the time left.
 class StudyProgress {
  public:
@@ -89,40 +76,36 @@ class StudyProgress {
   std::size_t first_ = none_yet;
 };
 
-void print_end(const StudyPlan& plan, const StudyResults& r, const std::string& folder,
-               double seconds) {
-  fmt::print("{}\n", r.message);
-  for (const AskedNumbers& a : r.asked) {
-    if (a.values.empty()) continue;
-    fmt::print(
-        "  {}: mean {:.4g}, standard deviation {:.3g}, 5 % below {:.4g}, 95 % below {:.4g}\n",
-        a.name, a.mean, a.sd, a.quantile_05, a.quantile_95);
-    if (a.unstable > 0)
-      fmt::print("    {} without any equilibrium\n", counted(a.unstable, "sample"));
-    if (a.none > 0)
-      fmt::print("    {} without an answer (study.csv says why)\n", counted(a.none, "sample"));
-  }
-  (void)plan;
-  fmt::print("  {} of wall time; results in {}/ (study.csv, report.html)\n", duration_text(seconds),
-             folder);
+/// The path of this program, for its workers.
+std::string this_program() {
+  std::error_code error;
+  const std::string path = std::filesystem::read_symlink("/proc/self/exe", error).string();
+  return error ? "/proc/self/exe" : path;
 }
 
 int study(const StudyArguments& args) {
-  if (!args.worker.empty()) return work(args);
+  const auto bad = [&](const Faults& faults) {
+    print(faults, args.json);
+    return exit_code::bad_input;
+  };
   const std::optional<Shard> shard = shard_of(args.shard);
-  if (!shard)
-    return fail({Fault{{"--shard", "", 0, 0},
-                       fmt::format("\"{}\" is no part", args.shard),
-                       "write 2/8 for the second of eight"}},
-                args.json, exit_code::bad_input);
+  if (!shard) {
+    return bad({Fault{{"--shard", "", 0, 0},
+                      fmt::format("\"{}\" is no part", args.shard),
+                      "write 2/8 for the second of eight"}});
+  }
   const Result<StudyPlan> plan = read_study(args.study, args.overrides);
-  if (!plan.ok()) return fail(plan.faults(), args.json, exit_code::bad_input);
+  if (!plan.ok()) return bad(plan.faults());
+  if (shard->parts > 1 && needs_all(plan.value())) {
+    return bad({Fault{{"--shard", "", 0, 0},
+                      "this study chooses its samples as it goes",
+                      "start it in the same folder on each machine, without --shard"}});
+  }
   const auto model_text = file_text(plan.value().model);
-  if (const Fault* fault = std::get_if<Fault>(&model_text))
-    return fail({*fault}, args.json, exit_code::bad_input);
+  if (const Fault* fault = std::get_if<Fault>(&model_text)) return bad({*fault});
   SampleFolder folder(args.folder.empty() ? stem_of(args.study) : args.folder);
   StudyOptions options;
-  options.worker = {"/proc/self/exe", "study", "--worker", folder.path()};
+  options.worker = {this_program(), "study", "--worker", folder.path()};
   if (!args.shard.empty()) options.worker.insert(options.worker.end(), {"--shard", args.shard});
   options.jobs = args.jobs;
   options.shard = *shard;
@@ -135,24 +118,9 @@ int study(const StudyArguments& args) {
   Result<StudyRun> run =
       lead_study(plan.value(), std::get<std::string>(model_text), folder, options, sampler);
   progress.finish();
-  if (!run.ok()) return fail(run.faults(), args.json, exit_code::bad_input);
-  const Result<StudyResults> results = results_of(plan.value(), std::move(run.value()), sampler);
-  if (!results.ok()) return fail(results.faults(), args.json, exit_code::failed);
-  const StudyResults& r = results.value();
-  if (r.run.end == StudyEnd::complete) {
-    if (const Trouble t = write_results(plan.value(), r, folder, sampler))
-      return fail({*t}, args.json, exit_code::failed);
-  }
-  say([&] {
-    if (args.json) {
-      fmt::print("{}\n", one_line(study_summary(plan.value(), r)));
-    } else if (args.quiet) {
-      fmt::print("{}\n", r.message);
-    } else {
-      print_end(plan.value(), r, folder.path(), since(start));
-    }
-  });
-  return r.run.end == StudyEnd::interrupted ? exit_code::interrupted : exit_code::done;
+  if (!run.ok()) return bad(run.faults());
+  return answer_study(plan.value(), std::move(run.value()), folder, sampler,
+                      {args.json, args.quiet, since(start)});
 }
 
 }  // namespace
@@ -163,7 +131,17 @@ void add_study(CLI::App& app, int& code) {
   command->footer(
       "Example:\n"
       "  edda study bench-study.toml\n"
-      "  edda study bench-study.toml --set sampling.samples=5000     goes on to 5000 samples\n");
+      "  edda study bench-study.toml --set sampling.samples=5000     goes on to 5000 samples\n"
+      "  edda study show bench-study --run 17                        writes the model of a sample\n"
+      "\n"
+      "The study names a model, what varies and how ([vary.NAME]), what is asked of each sample\n"
+      "([ask.NAME]: edda run, fos or limit) and when it fails ([failure]); `edda keys --study`\n"
+      "prints all keys. The folder (default: the study's name without .toml, here) holds\n"
+      "  study.csv             a row a sample: its values, its answers, whether it failed\n"
+      "  summary.json          probability of failure, distributions, sensitivities\n"
+      "  report.html           all of it with pictures, one page\n"
+      "Any number of processes on any number of machines may fill one folder: start the same\n"
+      "command on each. What was killed goes on where it was; the outcome is the same bytes.");
   auto args = std::make_shared<StudyArguments>();
   command->add_option("STUDY", args->study, "The study, a TOML file")->type_name("FILE");
   command
@@ -177,7 +155,13 @@ void add_study(CLI::App& app, int& code) {
   command->add_flag("--quiet", args->quiet, "Print the answer alone: no progress");
   add_json(*command, args->json,
            "Print the summary as one JSON object on stdout, and nothing on stderr");
-  command->callback([args, &code] { code = study(*args); });
+  add_study_show(*command, code);
+  add_study_merge(*command, code);
+  command->callback([args, command, &code] {
+    if (!command->get_subcommands().empty()) return;
+    if (args->study.empty() && args->worker.empty()) throw CLI::RequiredError("STUDY");
+    code = args->worker.empty() ? study(*args) : work(*args);
+  });
 }
 
 }  // namespace edda

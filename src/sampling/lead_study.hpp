@@ -13,7 +13,7 @@ namespace edda {
 
 struct StudyOptions {
   std::vector<std::string> worker;  ///< its command
-  std::size_t jobs = 1;             ///< workers on this machine
+  std::size_t jobs = 1;  ///< workers on this machine; 0: only what is done already counts
   Shard shard{};
   const std::atomic<bool>* stop = nullptr;
   /// Finished samples, and how many there are; 0: not known beforehand.

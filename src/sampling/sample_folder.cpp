@@ -79,13 +79,25 @@ Trouble wait_for(FolderLock& lock, const std::string& folder) {
   return trouble;
 }
 
+/// Without the path of the model, whose text is compared.
+StudyPlan without_model(StudyPlan plan) {
+  plan.model.clear();
+  return plan;
+}
+
 /// The plan but for what a study may be gone on with.
-std::string kept(StudyPlan plan) {
-  plan.title.clear();
-  plan.sampling.samples.reset();
-  plan.model.clear();  // whose text is compared
-  plan.sampling.half_width = 0.0;
-  return to_toml(plan);
+std::string kept(const StudyPlan& plan) {
+  StudyPlan copy = without_model(plan);
+  copy.title.clear();
+  copy.sampling.samples.reset();
+  copy.sampling.half_width = 0.0;
+  return to_toml(copy);
+}
+
+std::string rows_text(const Rows& rows) {
+  std::string text;
+  for (const auto& [sample, answer] : rows) text += row_text(sample, answer);
+  return text;
 }
 
 Fault other_study(const std::string& folder, const std::string& what) {
@@ -148,6 +160,36 @@ Trouble SampleFolder::open(const StudyPlan& plan, const std::string& model_text,
   const Result<Points> all = points(plan);
   if (!all.ok()) return all.faults().front();
   return free_missing(plan, all.value().size(), shard);
+}
+
+Trouble SampleFolder::merge(const std::vector<std::string>& parts) {
+  if (!names_in(path_).empty())
+    return Fault{{"", path_, 0, 0}, "is there already", "name a new folder to merge into"};
+  const Result<StudyPlan> plan = plan_in(parts.front());
+  if (!plan.ok()) return plan.faults().front();
+  std::vector<std::string> first;
+  Rows all;
+  for (const std::string& part : parts) {
+    const Result<StudyPlan> other = plan_in(part);
+    if (!other.ok()) return other.faults().front();
+    std::vector<std::string> texts{to_toml(without_model(other.value()))};
+    for (const char* name : {"/model.toml", "/points.csv"}) {
+      Result<std::string> text = read_file(part + name);
+      if (!text.ok()) return text.faults().front();
+      texts.push_back(std::move(text.value()));
+    }
+    if (first.empty()) first = texts;
+    if (texts != first)
+      return Fault{{"", part, 0, 0},
+                   "is no part of the study in " + parts.front(),
+                   "merge parts of one study, of the same number of samples"};
+    all.merge(SampleFolder(part).rows(plan.value()));
+  }
+  if (Trouble t = make_folder(path_)) return t;
+  if (Trouble t = write_file(file("model.toml"), first[1])) return t;
+  if (Trouble t = write_file(file("points.csv"), first[2])) return t;
+  if (Trouble t = write_file(file("rows.csv"), rows_text(all))) return t;
+  return write_file(file("study.toml"), to_toml(plan.value()));
 }
 
 Trouble SampleFolder::begin(const StudyPlan& plan, const std::string& model_text,
@@ -243,12 +285,10 @@ void SampleFolder::withdraw() const {
   for (const std::size_t s : free_samples()) fs::remove(file("free/" + token_name(s)), error);
 }
 
-Trouble SampleFolder::tidy(const StudyPlan& plan) const {
+Trouble SampleFolder::tidy(const StudyPlan& plan, const std::function<Trouble()>& write) const {
   FolderLock lock;
   if (Trouble t = wait_for(lock, path_)) return t;
-  std::string text;
-  for (const auto& [sample, answer] : rows(plan)) text += row_text(sample, answer);
-  if (Trouble t = write_file(file("rows.csv"), text)) return t;
+  if (Trouble t = write_file(file("rows.csv"), rows_text(rows(plan)))) return t;
   std::error_code error;
   for (const std::string& name : names_in(file("workers"))) {
     const std::string own = file("workers/" + name);
@@ -257,7 +297,7 @@ Trouble SampleFolder::tidy(const StudyPlan& plan) const {
   }
   fs::remove(file("workers"), error);  // unless somebody is at work there
   fs::remove(file("free"), error);
-  return {};
+  return write();
 }
 
 std::vector<std::size_t> SampleFolder::free_samples() const {

@@ -12,6 +12,7 @@
 // however it ends: what it had begun is then moved back.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -54,14 +55,17 @@ class SampleFolder {
   }
   /// Adds points, whose numbers follow those that are there, and makes them free.
   Trouble issue(const StudyPlan& plan, const Points& all, std::size_t first);
+  /// Makes a new folder of the finished samples of several, which are parts of one study.
+  Trouble merge(const std::vector<std::string>& parts);
   /// All finished samples.
   Rows rows(const StudyPlan& plan) const;
   /// Gives back what workers that have ended had begun.
   Trouble recover() const;
   /// Takes away all samples that nobody has begun.
   void withdraw() const;
-  /// Writes all rows into one file, and removes what only workers need.
-  Trouble tidy(const StudyPlan& plan) const;
+  /// Writes all rows into one file, removes what only workers need, and calls write(), while no
+  /// other process does.
+  Trouble tidy(const StudyPlan& plan, const std::function<Trouble()>& write) const;
 
   std::vector<std::size_t> free_samples() const;
 

@@ -115,6 +115,11 @@ constexpr bool is_random(SamplingMethod m) {
          m == SamplingMethod::sobol;
 }
 
+/// Whether which samples are run depends on the answers of others.
+inline bool needs_all(const StudyPlan& plan) {
+  return chooses_as_it_goes(plan.sampling.method) || plan.sampling.half_width > 0.0;
+}
+
 /// Reads the TOML file; every default is filled in. Faults: all of the file together, in the order
 /// of its lines.
 Result<StudyPlan> read_study(const std::string& path, const std::vector<std::string>& overrides);
