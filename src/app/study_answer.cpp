@@ -37,6 +37,7 @@ Trouble write_results(const StudyPlan& plan, const StudyResults& r, const Sample
                       SamplerProcess& sampler) {
   return folder.tidy(plan, [&]() -> Trouble {
     if (Trouble t = write_file(folder.file("study.csv"), study_csv(plan, r))) return t;
+    if (Trouble t = write_columns_csv(folder.path(), columns_of(plan))) return t;
     if (Trouble t = draw_study(plan, r, folder, sampler)) return t;
     return write_file(folder.file("summary.json"), study_summary(plan, r));
   });

@@ -254,6 +254,20 @@ constexpr std::array mechanism_joints{
     C{"motion", "text", "Kind of motion: slips, opens or hinges."},
 };
 
+constexpr std::array study{
+    C{"sample", "1", "Number of the sample, from 0."},
+    C{"NAME", "as varied",
+      "Value of a quantity of [vary], in the unit that it gives, or that of its key.",
+      ColumnOf::quantity},
+    C{"NAME", "as asked",
+      "Answer to an [ask]: a number; \"unstable\" where there is no equilibrium at all; "
+      "\"unlimited\" where there is no limit; empty where there is no answer.",
+      ColumnOf::answer},
+    C{"failed", "1",
+      "1 where the sample fails by [failure], 0 where it does not; empty where this is not known."},
+    C{"message", "text", "Why there is no answer."},
+};
+
 constexpr std::array limit_joints{
     C{"block_i", "1", "Id of one block."},
     C{"block_j", "1", "Id of the other block."},
@@ -290,7 +304,7 @@ constexpr std::array cut{
       "contact.joint holds."},
 };
 
-constexpr std::array<ResultTable, 13> tables{{
+constexpr std::array<ResultTable, 14> tables{{
     {"history.csv",
      "A row at the start, at each multiple of output.history_every and at the end of each stage; "
      "stages until equilibrium have more (output.settling).",
@@ -318,6 +332,8 @@ constexpr std::array<ResultTable, 13> tables{{
      mechanism_joints},
     {"limit_joints.csv",
      "A row for each joint that carries a force at the limit that edda limit finds.", limit_joints},
+    {"study.csv", "A row for each sample of a study (edda study), in the folder of the study.",
+     study},
     {"columns.csv", "A row for each column of each table in the folder.", columns},
     {"F.csv", "A row for each corner of each block, written by edda cut -o F.csv.", cut,
      TableIn::file_of_user},

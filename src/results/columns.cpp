@@ -28,6 +28,10 @@ std::vector<NamedColumn> named_columns(const ResultTable& table, const ColumnOwn
         return owners.convergences;
       case ColumnOf::boundary:
         return owners.boundaries;
+      case ColumnOf::quantity:
+        return owners.quantities;
+      case ColumnOf::answer:
+        return owners.answers;
       case ColumnOf::file:
         break;
     }

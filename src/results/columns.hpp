@@ -13,8 +13,9 @@
 
 namespace edda {
 
-/// What a file has the column for: once, or for each monitor, convergence line or boundary.
-enum class ColumnOf { file, monitor, convergence, boundary };
+/// What a file has the column for: once, or for each monitor, convergence line or boundary; of a
+/// study for each quantity that varies, or that is asked.
+enum class ColumnOf { file, monitor, convergence, boundary, quantity, answer };
 
 struct ResultColumn {
   std::string_view name;     ///< as in the header; NAME.ux stands for crown.ux of a monitor crown
@@ -36,6 +37,7 @@ enum class ResultFile {
   mechanism,
   mechanism_joints,
   limit_joints,
+  study,
   columns,
   cut,
 };
@@ -58,7 +60,7 @@ bool is_result_table(std::string_view name);
 
 /// Names of what has columns of its own, in the order of the columns.
 struct ColumnOwners {
-  std::vector<std::string> monitors{}, convergences{}, boundaries{};
+  std::vector<std::string> monitors{}, convergences{}, boundaries{}, quantities{}, answers{};
 };
 
 /// The names of rows of the model, or of what was made of them.

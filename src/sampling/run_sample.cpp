@@ -116,6 +116,31 @@ Result<Analysed> analyse(Analysis analysis, const StudyPlan& plan, std::string_v
   return analysis == Analysis::fos ? analyse_fos(model.value()) : analyse_limit(model.value());
 }
 
+/// Somewhere within each distribution.
+std::vector<double> middle_of(const StudyPlan& plan) {
+  std::vector<double> point;
+  for (const Vary& v : plan.vary) {
+    const double ends = 0.5 * (v.low.value_or(0.0) + v.high.value_or(0.0));
+    const double middle = v.mean ? *v.mean : v.mode ? *v.mode : ends;
+    point.push_back(std::clamp(middle, v.at_least.value_or(-1e300), v.at_most.value_or(1e300)));
+  }
+  return point;
+}
+
+/// A fault of a --set, where the quantity that gave it is defined.
+Fault in_study(const StudyPlan& plan, Fault fault) {
+  if (fault.where.file != "--set") return fault;
+  int number = fault.where.line;
+  for (const Vary& v : plan.vary) {
+    number -= static_cast<int>(v.keys.size());
+    if (number > 0) continue;
+    fault.problem = fault.where.key + ": " + fault.problem;
+    fault.where = v.where;
+    break;
+  }
+  return fault;
+}
+
 std::string cell_of(const Analysed& a, const Ask& ask) {
   if (a.history && ask.value.starts_with(history)) return in_history(*a.history, ask);
   const std::string value = value_in(a.summary, ask.value);
@@ -132,6 +157,26 @@ std::string value_in(std::string_view json_text, std::string_view path) {
   if (node->is_number()) return shortest(node->get<double>());
   if (node->is_boolean()) return node->get<bool>() ? "1" : "0";
   return node->is_string() ? node->get<std::string>() : std::string();
+}
+
+std::optional<Fault> no_sample_can_be_read(const StudyPlan& plan, std::string_view model_text,
+                                           const std::vector<std::vector<double>>& points) {
+  const bool runs = std::any_of(plan.ask.begin(), plan.ask.end(),
+                                [](const Ask& a) { return a.of == Analysis::run; });
+  const ReadFor what_for = runs ? ReadFor::run : ReadFor::no_run;
+  if (const Result<Model> model = read_model_text(model_text, plan.model, {}, what_for);
+      !model.ok())
+    return model.faults().front();
+  std::optional<Fault> first;
+  constexpr std::size_t most = 20;
+  for (std::size_t i = 0; i < std::min(most, std::max<std::size_t>(points.size(), 1)); ++i) {
+    const std::vector<double> point = points.empty() ? middle_of(plan) : points[i];
+    const Result<Model> model =
+        read_model_text(model_text, plan.model, overrides_of(plan, point), what_for);
+    if (model.ok()) return {};
+    if (!first) first = in_study(plan, model.faults().front());
+  }
+  return first;
 }
 
 SampleAnswer run_sample(const StudyPlan& plan, std::string_view model_text,

@@ -1,6 +1,7 @@
 // One sample of a study: the model with its values, analysed.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,11 @@ struct SampleAnswer {
 /// made and removed.
 SampleAnswer run_sample(const StudyPlan& plan, std::string_view model_text,
                         const std::vector<double>& point, const std::string& scratch);
+
+/// A fault of the model, or of the keys that vary: where none of the first samples can be read. A
+/// few that cannot are answers of the study.
+std::optional<Fault> no_sample_can_be_read(const StudyPlan& plan, std::string_view model_text,
+                                           const std::vector<std::vector<double>>& points);
 
 /// The number or the word at a path of names in JSON ("limit.lower"); elements of lists are named
 /// by their "name" or their number. Empty where there is none.

@@ -130,13 +130,30 @@ Result<StudyPlan> SampleFolder::plan_in(const std::string& path) {
   return read_study(path + "/study.toml", {});
 }
 
+bool SampleFolder::is_someone_elses() const {
+  const std::vector<std::string> names = names_in(path_);
+  return std::any_of(names.begin(), names.end(), [](const std::string& name) {
+    return name != "free" && name != "workers" && !name.starts_with("model.toml") &&
+           !name.starts_with("points.csv") && !name.starts_with("study.toml");
+  });
+}
+
 Trouble SampleFolder::open(const StudyPlan& plan, const std::string& model_text, const Shard& shard,
                            SamplerProcess& sampler) {
   std::error_code error;
   const bool is_new = !fs::exists(file("study.toml"), error);
-  if (is_new && !fs::exists(file("points.csv"), error) && !names_in(path_).empty()) {
+  if (is_new && is_someone_elses()) {
     return Fault{
         {"", path_, 0, 0}, "holds something other than a study", "name another folder with -o"};
+  }
+  Points first;
+  if (is_new) {
+    if (!chooses_as_it_goes(plan.sampling.method)) {
+      Result<Points> drawn = points_of(plan, 0, sampler);
+      if (!drawn.ok()) return drawn.faults().front();
+      first = std::move(drawn.value());
+    }
+    if (Trouble t = no_sample_can_be_read(plan, model_text, first)) return t;
   }
   if (Trouble t = make_folder(path_)) return t;
   FolderLock lock;
@@ -144,7 +161,13 @@ Trouble SampleFolder::open(const StudyPlan& plan, const std::string& model_text,
   for (const char* name : {"free", "workers"}) {
     if (Trouble t = make_folder(file(name))) return t;
   }
-  if (!fs::exists(file("study.toml"), error)) return begin(plan, model_text, shard, sampler);
+  // Another process may have begun it meanwhile.
+  return fs::exists(file("study.toml"), error) ? join(plan, model_text, shard, sampler)
+                                               : begin(plan, model_text, shard, first);
+}
+
+Trouble SampleFolder::join(const StudyPlan& plan, const std::string& model_text, const Shard& shard,
+                           SamplerProcess& sampler) {
   const Result<StudyPlan> there = plan_in(path_);
   if (!there.ok()) return there.faults().front();
   if (kept(there.value()) != kept(plan)) return other_study(path_, "another plan");
@@ -193,13 +216,7 @@ Trouble SampleFolder::merge(const std::vector<std::string>& parts) {
 }
 
 Trouble SampleFolder::begin(const StudyPlan& plan, const std::string& model_text,
-                            const Shard& shard, SamplerProcess& sampler) {
-  Points first;
-  if (!chooses_as_it_goes(plan.sampling.method)) {
-    Result<Points> drawn = points_of(plan, 0, sampler);
-    if (!drawn.ok()) return drawn.faults().front();
-    first = std::move(drawn.value());
-  }
+                            const Shard& shard, const Points& first) {
   if (Trouble t = write_file(file("model.toml"), model_text)) return t;
   if (Trouble t = write_file(file("points.csv"), points_csv(plan, first))) return t;
   if (Trouble t = free_missing(plan, first.size(), shard)) return t;

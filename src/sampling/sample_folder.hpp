@@ -70,8 +70,11 @@ class SampleFolder {
   std::vector<std::size_t> free_samples() const;
 
  private:
+  bool is_someone_elses() const;
+  Trouble join(const StudyPlan& plan, const std::string& model_text, const Shard& shard,
+               SamplerProcess& sampler);
   Trouble begin(const StudyPlan& plan, const std::string& model_text, const Shard& shard,
-                SamplerProcess& sampler);
+                const Points& first);
   Trouble widen(const StudyPlan& plan, const Points& points, SamplerProcess& sampler);
   void give_back() const;
   Trouble make_free(std::size_t sample) const;

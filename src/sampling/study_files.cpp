@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "model/study/study_keys.hpp"
-#include "results/csv.hpp"
 #include "results/json.hpp"
 #include "results/version.hpp"
 #include "sampling/study_results.hpp"
@@ -78,12 +77,15 @@ void add_sobol(Json& j, const StudyPlan& plan, const SobolIndices& s) {
 
 }  // namespace
 
+ColumnOwners columns_of(const StudyPlan& plan) {
+  ColumnOwners owners;
+  owners.quantities = names_in(plan.vary);
+  owners.answers = names_in(plan.ask);
+  return owners;
+}
+
 std::string study_csv(const StudyPlan& plan, const StudyResults& r) {
-  Csv csv;
-  csv.add("sample");
-  for (const Vary& v : plan.vary) csv.add(v.name);
-  for (const Ask& a : plan.ask) csv.add(a.name);
-  csv.add("failed").add("message").end();
+  Csv csv = begin_table(ResultFile::study, columns_of(plan));
   for (const auto& [sample, answer] : r.run.rows) {
     if (sample >= r.run.samples) continue;
     csv.add(sample);

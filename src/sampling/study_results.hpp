@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "results/columns.hpp"
 #include "sampling/lead_study.hpp"
 
 namespace edda {
@@ -44,6 +45,8 @@ Result<StudyResults> results_of(const StudyPlan& plan, StudyRun run, SamplerProc
 /// The numbers that decide about failure; without [failure] those of the first [ask].
 const AskedNumbers& main_of(const StudyPlan& plan, const StudyResults& results);
 
+/// Those of study.csv.
+ColumnOwners columns_of(const StudyPlan& plan);
 /// A row a sample: its values, its answers, whether it failed, and why there is no answer.
 std::string study_csv(const StudyPlan& plan, const StudyResults& results);
 std::string study_summary(const StudyPlan& plan, const StudyResults& results);

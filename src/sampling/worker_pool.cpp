@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <thread>
@@ -19,6 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// In the environment of a worker: who started it, and may have ended before it looked.
+constexpr const char* parent_name = "EDDA_STUDY_PARENT";
+
 int started(const std::vector<std::string>& arguments) {
   std::vector<char*> list;
   for (const std::string& a : arguments) list.push_back(const_cast<char*>(a.c_str()));
@@ -29,7 +33,9 @@ int started(const std::vector<std::string>& arguments) {
     if (std::string_view(*e).substr(0, 16) != "OMP_NUM_THREADS=") environment.push_back(*e);
   }
   std::string threads = "OMP_NUM_THREADS=1";
+  std::string parent = fmt::format("{}={}", parent_name, ::getpid());
   environment.push_back(threads.data());
+  environment.push_back(parent.data());
   environment.push_back(nullptr);
   int process = -1;
   const int error =
@@ -98,7 +104,8 @@ void WorkerPool::end() {
 Trouble work_in(const SampleFolder& folder, const StudyPlan& plan, const std::string& model_text,
                 const Shard& shard) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const pid_t parent = ::getppid();
+  const char* started_by = std::getenv(parent_name);
+  const pid_t parent = started_by != nullptr ? std::atoi(started_by) : ::getppid();
   Worker worker;
   if (Trouble t = worker.join(folder)) return t;
   Points points;
