@@ -11,7 +11,7 @@ add_library(edda_shared SHARED $<TARGET_OBJECTS:edda_library>)
 add_library(edda::edda ALIAS edda_shared)
 set_target_properties(edda_shared PROPERTIES OUTPUT_NAME edda EXPORT_NAME edda
                       VERSION ${PROJECT_VERSION} SOVERSION ${edda_abi})
-target_link_libraries(edda_shared PRIVATE $<BUILD_INTERFACE:edda_study>)
+target_link_libraries(edda_shared PRIVATE $<BUILD_INTERFACE:edda_sampling> $<BUILD_INTERFACE:edda_study>)
 if(NOT EDDA_SANITIZE AND NOT EDDA_TSAN)  # their run-time libraries are in the program alone
   target_link_options(edda_shared PRIVATE -Wl,--exclude-libs,ALL -Wl,-z,defs)
 endif()

@@ -11,7 +11,7 @@ endif()
 file(GLOB python_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/python/*.cpp)
 pybind11_add_module(edda_python NO_EXTRAS ${python_sources} $<TARGET_OBJECTS:edda_library>)
 set_target_properties(edda_python PROPERTIES OUTPUT_NAME _edda SKIP_BUILD_RPATH ON LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/python/edda)
-target_link_libraries(edda_python PRIVATE edda_study)
+target_link_libraries(edda_python PRIVATE edda_sampling edda_study)
 target_link_options(edda_python PRIVATE -Wl,--exclude-libs,ALL)
 
 file(GLOB python_files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/python/edda/*.py*)

@@ -99,6 +99,7 @@ int merge(const std::string& into, const std::vector<std::string>& parts) {
   SamplerProcess sampler;
   StudyOptions options;
   options.jobs = 0;
+  options.waits = false;
   Result<StudyRun> run = lead_study(plan.value(), model.value(), folder, options, sampler);
   if (!run.ok()) {
     print(run.faults());

@@ -147,8 +147,10 @@ void add_study(CLI::App& app, int& code) {
   command
       ->add_option("-o,--output", args->folder, "Folder of the samples (default: the study's name)")
       ->type_name("DIR");
-  command->add_option("-j,--jobs", args->jobs, "Runs side by side (default: the processors)")
-      ->check(CLI::Range(1, 1024));
+  command
+      ->add_option("-j,--jobs", args->jobs,
+                   "Runs side by side (default: the processors); 0: others fill the folder")
+      ->check(CLI::Range(0, 1024));
   command->add_option("--shard", args->shard, "I/N: only this part of the samples, of N");
   command->add_option("--worker", args->worker)->group("");
   add_overrides(*command, args->overrides);

@@ -1,5 +1,5 @@
-// The Python module edda._edda: library/edda.hpp as seen from Python. Shapes and units are given in
-// edda/_edda.pyi.
+// The Python module edda._edda: library/edda.hpp and library/study.hpp as seen from Python. Shapes
+// and units are given in edda/_edda.pyi.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -19,6 +19,7 @@ namespace py = pybind11;
 void add_models(py::module_& module);
 void add_records(py::module_& module);
 void add_simulation(py::module_& module);
+void add_studies(py::module_& module);
 
 /// A view without a copy of memory that `owner` keeps alive.
 template <class T>

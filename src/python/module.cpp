@@ -5,4 +5,5 @@ PYBIND11_MODULE(_edda, m) {
   edda::python::add_records(m);  // returned by functions of models
   edda::python::add_models(m);
   edda::python::add_simulation(m);
+  edda::python::add_studies(m);
 }

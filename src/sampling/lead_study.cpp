@@ -96,7 +96,7 @@ Result<Lead::Waited> Lead::wait_until(std::size_t of, const Done& done) {
     if (options_.progress) options_.progress(run_.rows.size(), of);
     const Result<bool> is_done = done();
     if (!is_done.ok()) return is_done.faults();
-    if (is_done.value() || options_.jobs == 0) return Waited::finished;
+    if (is_done.value() || !options_.waits) return Waited::finished;
     // Workers of other machines that were killed.
     if (since(recovered) > 5.0) {
       if (Trouble t = folder_.recover()) return Faults{*t};

@@ -13,7 +13,8 @@ namespace edda {
 
 struct StudyOptions {
   std::vector<std::string> worker;  ///< its command
-  std::size_t jobs = 1;  ///< workers on this machine; 0: only what is done already counts
+  std::size_t jobs = 1;             ///< workers of this process; 0: others fill the folder
+  bool waits = true;                ///< false: only what is done already counts
   Shard shard{};
   const std::atomic<bool>* stop = nullptr;
   /// Finished samples, and how many there are; 0: not known beforehand.

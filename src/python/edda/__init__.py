@@ -43,6 +43,7 @@ from ._edda import (
 from ._errors import Fault, ModelError, ModelWarning
 from .plotting import plot_blocks, plot_history
 from .results import Frame, Results
+from .studies import Study, study
 
 __all__ = [
     "Cut",
@@ -64,6 +65,7 @@ __all__ = [
     "Progress",
     "Results",
     "Simulation",
+    "Study",
     "Verification",
     "check",
     "fos",
@@ -74,6 +76,7 @@ __all__ = [
     "plot_history",
     "run",
     "set_threads",
+    "study",
     "verify",
     "version",
 ]

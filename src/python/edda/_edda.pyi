@@ -623,3 +623,21 @@ class Simulation:
         """Installs bolts and patterns by name."""
     def reset_displacements(self) -> None:
         """Displacements count from here."""
+
+def study_sample(study: str, model: str, point: Sequence[float], scratch: str) -> tuple[list[str], str]:
+    """The answers of one sample as study.csv has them, and why there is none."""
+
+class StudyWorker:
+    """A worker in the folder of a study."""
+
+    def __init__(self, folder: str) -> None: ...
+    @property
+    def study(self) -> str:
+        """Text of study.toml."""
+    @property
+    def model(self) -> str:
+        """Text of the model."""
+    def take(self) -> Optional[tuple[int, list[float]]]:
+        """The next sample and its values; None where none is free now."""
+    def finish(self, number: SupportsIndex, cells: Sequence[str], message: str) -> None:
+        """Writes a sample's answers."""
