@@ -1,5 +1,7 @@
 #include "app/command_tree.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "app/examples.hpp"
@@ -102,8 +104,18 @@ CommandText describe_command(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     if (option->get_positional()) {
       text.positional = describe(*option);
-    } else {
+    } else if (!option->get_group().empty()) {
       text.options.push_back(describe(*option));
+    }
+  }
+  for (const CLI::App* inner : command.get_subcommands({})) {
+    const CommandText more = describe_command(*inner);
+    text.inner.push_back(more.name);
+    for (OptionText option : more.options) {
+      const auto same = [&](const OptionText& o) { return o.names == option.names; };
+      if (std::any_of(text.options.begin(), text.options.end(), same)) continue;
+      option.text = fmt::format("Of {} {}: {}", text.name, more.name, option.text);
+      text.options.push_back(std::move(option));
     }
   }
   return text;

@@ -26,12 +26,14 @@ struct CommandText {
   std::string name, text, footer;
   std::vector<OptionText> options;
   std::optional<OptionText> positional;
+  std::vector<std::string> inner;  ///< commands of this command ("show"), whose options are among
+                                   ///< `options`
 };
 
 struct ProgramText {
   std::string name, text, footer;
   std::vector<OptionText> options;
-  std::vector<CommandText> commands;  ///< without those that have no group, which are hidden
+  std::vector<CommandText> commands;  ///< these and options without a group are hidden
 };
 
 ProgramText describe(const CLI::App& program);

@@ -66,8 +66,13 @@ std::string bash_command(const CommandText& c) {
       "        _edda_words '{}'\n"
       "      else\n"
       "        {}\n"
+      "{}"
       "      fi ;;\n",
-      all_names(c.options), c.positional ? bash_values(*c.positional) : ":");
+      all_names(c.options), c.positional ? bash_values(*c.positional) : ":",
+      c.inner.empty() ? ""
+                      : fmt::format("        ((COMP_CWORD == 2)) && COMPREPLY+=($(compgen -W '{}' "
+                                    "-- \"$current\"))\n",
+                                    joined(c.inner, " ")));
   return text;
 }
 
@@ -136,9 +141,13 @@ std::string zsh_command(const CommandText& c) {
   std::string text = fmt::format("    {})\n      _arguments", c.name);
   for (const OptionText& o : c.options) text += zsh_option(o);
   if (c.positional) {
+    const std::string values =
+        c.inner.empty()
+            ? zsh_values(*c.positional)
+            : fmt::format("_alternative \"commands:command:({})\" \"files:file:_files\"",
+                          joined(c.inner, " "));
     text += " \\\n        " +
-            quoted(fmt::format("1:{}:{}", zsh_text(c.positional->value), zsh_values(*c.positional)),
-                   R"('\'')");
+            quoted(fmt::format("1:{}:{}", zsh_text(c.positional->value), values), R"('\'')");
   }
   return text + " ;;\n";
 }
@@ -220,6 +229,9 @@ std::string fish_completion(const ProgramText& program) {
     text += "\n";
     for (const OptionText& o : c.options) text += fish_option(o, when);
     if (c.positional) text += fish_positional(*c.positional, when);
+    if (!c.inner.empty())
+      text += "complete -c edda -n " + quoted(when, "\\'") + " -a " +
+              quoted(joined(c.inner, " "), "\\'") + "\n";
   }
   return text;
 }

@@ -16,7 +16,7 @@ void add_studies(py::module_& module) {
       py::arg("study"), py::arg("model"), py::arg("point"), py::arg("scratch"),
       "The answers of one sample as study.csv has them, and why there is none.");
   py::class_<api::StudyWorker>(module, "StudyWorker", "A worker in the folder of a study.")
-      .def(py::init<const std::string&>(), py::arg("folder"))
+      .def(py::init<const std::string&>(), py::arg("folder"), "In a folder that edda study leads.")
       .def_property_readonly("study", &api::StudyWorker::study, "Text of study.toml.")
       .def_property_readonly("model", &api::StudyWorker::model, "Text of the model.")
       .def(

@@ -80,8 +80,12 @@ Result<Analysed> analyse_fos(const Model& model) {
   return a;
 }
 
-Result<Analysed> analyse_limit(const Model& model) {
-  const Result<LimitResult> found = limit_analysis(model);
+Result<Analysed> analyse_limit(const Model& model, const StudyPlan& plan) {
+  const bool largest_alone = std::all_of(plan.ask.begin(), plan.ask.end(), [](const Ask& a) {
+    return a.of != Analysis::limit || a.value.starts_with("limit.");
+  });
+  const Result<LimitResult> found =
+      limit_analysis(model, largest_alone ? LimitExtent::largest_alone : LimitExtent::all);
   if (!found.ok()) return found.faults();
   const LimitResult& r = found.value();
   Analysed a{limit_summary(model, r), {}};
@@ -113,7 +117,8 @@ Result<Analysed> analyse(Analysis analysis, const StudyPlan& plan, std::string_v
   Result<Model> model = read_model_text(model_text, plan.model, overrides, what_for);
   if (!model.ok()) return model.faults();
   if (analysis == Analysis::run) return analyse_run(std::move(model.value()), scratch);
-  return analysis == Analysis::fos ? analyse_fos(model.value()) : analyse_limit(model.value());
+  return analysis == Analysis::fos ? analyse_fos(model.value())
+                                   : analyse_limit(model.value(), plan);
 }
 
 /// Somewhere within each distribution.

@@ -170,9 +170,30 @@ void add_mechanism(LimitResult& r, const Simulation& drawn, const RigidBlocks& r
   r.mechanism = mechanism_of(before, *r.moved, moving);
 }
 
+/// All but the largest value.
+void add_others(LimitResult& r, const Simulation& sim, const Fos& fos, const LimitCase& asked,
+                const LimitCase::Answer& answer) {
+  constexpr std::size_t most_bodies = 2000;  // twenty programs more, of a few seconds each
+  if (r.blocks <= most_bodies) {
+    r.without_dilation = asked.without_dilation(answer);
+  } else {
+    r.warnings.push_back(fmt::format(
+        "the limit without dilation is left out: the model has more than {} bodies", most_bodies));
+  }
+  if (fos.varied != Varied::strength) r.smallest = value_of(asked.at_end(false, StrengthOf::peak));
+  if (asked.is_brittle()) {
+    const LimitCase::Answer weak = asked.at_end(true, StrengthOf::residual);
+    if (weak.end == LimitEnd::found) r.residual = weak.lower;
+    if (weak.end == LimitEnd::no_equilibrium) r.residual = 0.0;
+  }
+  r.forces = thrust(sim, asked.rigid(), asked.strength_of(answer), answer.state);
+  r.drawn = sim;
+  add_mechanism(r, sim, asked.rigid(), answer.state.motion);
+}
+
 }  // namespace
 
-Result<LimitResult> limit_analysis(const Model& model) {
+Result<LimitResult> limit_analysis(const Model& model, LimitExtent extent) {
   const auto began = std::chrono::steady_clock::now();
   const Fos fos = model.fos.value_or(Fos{});
   if (auto fault = without_limit(model, fos)) return *fault;
@@ -204,22 +225,7 @@ Result<LimitResult> limit_analysis(const Model& model) {
   const LimitCase::Answer answer = asked.at_end(true, StrengthOf::peak);
   r.largest = value_of(answer);
   r.violation = answer.state.violation;
-  constexpr std::size_t most_bodies = 2000;  // twenty programs more, of a few seconds each
-  if (r.blocks <= most_bodies) {
-    r.without_dilation = asked.without_dilation(answer);
-  } else {
-    r.warnings.push_back(fmt::format(
-        "the limit without dilation is left out: the model has more than {} bodies", most_bodies));
-  }
-  if (fos.varied != Varied::strength) r.smallest = value_of(asked.at_end(false, StrengthOf::peak));
-  if (asked.is_brittle()) {
-    const LimitCase::Answer weak = asked.at_end(true, StrengthOf::residual);
-    if (weak.end == LimitEnd::found) r.residual = weak.lower;
-    if (weak.end == LimitEnd::no_equilibrium) r.residual = 0.0;
-  }
-  r.forces = thrust(sim, asked.rigid(), asked.strength_of(answer), answer.state);
-  r.drawn = sim;
-  add_mechanism(r, sim, asked.rigid(), answer.state.motion);
+  if (extent == LimitExtent::all) add_others(r, sim, fos, asked, answer);
   r.message = message_of(fos, r);
   r.seconds = since(began);
   return r;

@@ -44,9 +44,15 @@ struct LimitResult {
   std::vector<std::string> warnings;
 };
 
+/// What is found besides `largest`.
+enum class LimitExtent {
+  all,
+  largest_alone,  ///< no mechanism, forces or other limits: a fifth of the time
+};
+
 /// Cuts, makes the changes of all stages up to fos.stage, and solves. Faults: those of
 /// prepare_run(), and of quantities that rigid limit analysis cannot vary (ground motion).
-Result<LimitResult> limit_analysis(const Model& model);
+Result<LimitResult> limit_analysis(const Model& model, LimitExtent extent = LimitExtent::all);
 
 /// limit_joints.csv and summary.json.
 std::string limit_joints_csv(const LimitResult& result);

@@ -1,7 +1,8 @@
 """Every model and command of the manual, and of the README, is run. Usage: manual_test.py EDDA [PAGE ...]
 
 A block ```toml that begins with a comment "# NAME.toml" is a model: it is written under that name and must pass
-edda check. One that begins with "# at the end of NAME.toml" is added to that model. Any other is a piece of a model: with tests/docs/around/PAGE.toml, which has what the piece names (or
+edda check. One that begins with "# NAME.toml, a study" is
+written alone. One that begins with "# at the end of NAME.toml" is added to that model. Any other is a piece of a model: with tests/docs/around/PAGE.toml, which has what the piece names (or
 PAGE-N.toml for the N-th piece of the page), it must pass, too. A block ```sh is run line by line, in one folder per page.
 Blocks without a language are shown, not run.
 """
@@ -23,6 +24,7 @@ PAGES = [pathlib.Path(p) for p in sys.argv[1:]] or [ROOT / "README.md", *sorted(
 del sys.argv[1:]
 
 FENCE = re.compile(r"^```(\w+)\n(.*?)^```$", re.M | re.S)
+STUDY = re.compile(r"# (\S+\.toml), a study\n")
 ADDED = re.compile(r"# at the end of (\S+\.toml)\n")
 # What the program is called in the text.
 NAMES = ("edda", "build/edda")
@@ -75,7 +77,9 @@ def test_of(page):
             folder = pathlib.Path(name)
             for language, text in FENCE.findall(page.read_text(encoding="utf-8")):
                 with self.subTest(block=text.split("\n", 1)[0]):
-                    if language == "toml" and re.match(r"# \S+\.toml\n", text):
+                    if language == "toml" and STUDY.match(text):
+                        (folder / STUDY.match(text).group(1)).write_text(text, encoding="utf-8")
+                    elif language == "toml" and re.match(r"# \S+\.toml\n", text):
                         self.check_model(folder, text)
                     elif language == "toml" and ADDED.match(text):
                         self.add_to_model(folder, text)

@@ -14,10 +14,15 @@
 namespace edda {
 namespace {
 
+const std::string model =
+    "[materials.rock]\ndensity = 2500\nyoung = 1e9\npoisson = 0.2\n"
+    "[joints.a]\nfriction_angle = 30\n[[block]]\npolygon = [[0, 0], [1, 0], [1, 1]]\n";
+
 StudyPlan grid_of(int values) {
   std::string text =
-      "model = \"m.toml\"\n[sampling]\nmethod = \"grid\"\n[vary.x]\nkey = \"a\"\nvalues = [0";
-  for (int i = 1; i < values; ++i) text += ", " + std::to_string(i);
+      "model = \"m.toml\"\n[sampling]\nmethod = \"grid\"\n[vary.x]\nkey = "
+      "\"materials.rock.density\"\nvalues = [1000";
+  for (int i = 1; i < values; ++i) text += ", " + std::to_string(1000 + i);
   const Result<StudyPlan> plan =
       read_study_text(text + "]\n[ask.f]\nof = \"limit\"\n[failure]\nbelow = 1\n", "s.toml", {});
   EXPECT_TRUE(plan.ok());
@@ -37,7 +42,7 @@ class StudyFolder : public ::testing::Test {
 
 TEST_F(StudyFolder, EverySampleIsTakenOnce) {
   const StudyPlan plan = grid_of(300);
-  ASSERT_FALSE(folder_.open(plan, "model", {}, sampler_));
+  ASSERT_FALSE(folder_.open(plan, model, {}, sampler_));
   std::vector<std::vector<std::size_t>> taken(4);
   std::vector<std::thread> threads;
   for (std::vector<std::size_t>& mine : taken) {
@@ -63,7 +68,7 @@ TEST_F(StudyFolder, EverySampleIsTakenOnce) {
 
 TEST_F(StudyFolder, WhatAWorkerHadBegunIsFreeOnceItHasEnded) {
   const StudyPlan plan = grid_of(3);
-  ASSERT_FALSE(folder_.open(plan, "model", {}, sampler_));
+  ASSERT_FALSE(folder_.open(plan, model, {}, sampler_));
   auto worker = std::make_unique<Worker>();
   ASSERT_FALSE(worker->join(folder_));
   EXPECT_EQ(worker->take({}), 0u);
@@ -79,7 +84,7 @@ TEST_F(StudyFolder, WhatAWorkerHadBegunIsFreeOnceItHasEnded) {
 
 TEST_F(StudyFolder, ARowThatWasNotWrittenToItsEndDoesNotCount) {
   const StudyPlan plan = grid_of(2);
-  ASSERT_FALSE(folder_.open(plan, "model", {}, sampler_));
+  ASSERT_FALSE(folder_.open(plan, model, {}, sampler_));
   {
     Worker worker;
     ASSERT_FALSE(worker.join(folder_));
@@ -92,24 +97,24 @@ TEST_F(StudyFolder, ARowThatWasNotWrittenToItsEndDoesNotCount) {
 
 TEST_F(StudyFolder, ShardsShareTheSamples) {
   const StudyPlan plan = grid_of(10);
-  ASSERT_FALSE(folder_.open(plan, "model", {1, 3}, sampler_));
+  ASSERT_FALSE(folder_.open(plan, model, {1, 3}, sampler_));
   EXPECT_EQ(folder_.free_samples(), (std::vector<std::size_t>{1, 4, 7}));
-  ASSERT_FALSE(folder_.open(plan, "model", {0, 3}, sampler_));
+  ASSERT_FALSE(folder_.open(plan, model, {0, 3}, sampler_));
   EXPECT_EQ(folder_.free_samples(), (std::vector<std::size_t>{0, 1, 3, 4, 6, 7, 9}));
 }
 
 TEST_F(StudyFolder, AnotherStudyIsRefused) {
-  ASSERT_FALSE(folder_.open(grid_of(3), "model", {}, sampler_));
-  EXPECT_FALSE(folder_.open(grid_of(3), "model", {}, sampler_));
-  const Trouble plan = folder_.open(grid_of(4), "model", {}, sampler_);
+  ASSERT_FALSE(folder_.open(grid_of(3), model, {}, sampler_));
+  EXPECT_FALSE(folder_.open(grid_of(3), model, {}, sampler_));
+  const Trouble plan = folder_.open(grid_of(4), model, {}, sampler_);
   ASSERT_TRUE(plan);
   EXPECT_NE(plan->problem.find("another plan"), std::string::npos);
-  const Trouble model = folder_.open(grid_of(3), "other model", {}, sampler_);
-  ASSERT_TRUE(model);
-  EXPECT_NE(model->problem.find("another model"), std::string::npos);
+  const Trouble other = folder_.open(grid_of(3), model + "# other", {}, sampler_);
+  ASSERT_TRUE(other);
+  EXPECT_NE(other->problem.find("another model"), std::string::npos);
   std::ofstream(scratch_.at("notes.txt")) << "mine";
   SampleFolder taken(scratch_.path().string());
-  EXPECT_TRUE(taken.open(grid_of(3), "model", {}, sampler_));
+  EXPECT_TRUE(taken.open(grid_of(3), model, {}, sampler_));
 }
 
 TEST(RunSample, ValuesAreFoundByTheirNames) {

@@ -630,7 +630,8 @@ def study_sample(study: str, model: str, point: Sequence[float], scratch: str) -
 class StudyWorker:
     """A worker in the folder of a study."""
 
-    def __init__(self, folder: str) -> None: ...
+    def __init__(self, folder: str) -> None:
+        """In a folder that edda study leads."""
     @property
     def study(self) -> str:
         """Text of study.toml."""
