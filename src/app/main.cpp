@@ -38,6 +38,7 @@ int run_command(int argc, char** argv) {
   edda::add_fos(app, code);
   edda::add_limit(app, code);
   edda::add_study(app, code);
+  edda::add_fit(app, code);
   edda::add_plot(app, code);
   edda::add_view(app, code);
   edda::add_example(app, code);

@@ -19,7 +19,7 @@ namespace {
 void print_end(const StudyResults& r, const std::string& folder, double seconds) {
   fmt::print("{}\n", r.message);
   for (const AskedNumbers& a : r.asked) {
-    if (a.values.empty() || r.run.reliability) continue;
+    if (a.values.empty() || r.run.reliability || r.run.fitted) continue;
     fmt::print(
         "  {}: mean {:.4g}, standard deviation {:.3g}, 5 % below {:.4g}, 95 % below {:.4g}\n",
         a.name, a.mean, a.sd, a.quantile_05, a.quantile_95);

@@ -123,7 +123,41 @@ int study(const StudyArguments& args) {
                       {args.json, args.quiet, since(start)});
 }
 
+void add_arguments(CLI::App& command, StudyArguments& args) {
+  command.add_option("STUDY", args.study, "The study, a TOML file")->type_name("FILE");
+  command
+      .add_option("-o,--output", args.folder, "Folder of the samples (default: the study's name)")
+      ->type_name("DIR");
+  command
+      .add_option("-j,--jobs", args.jobs,
+                  "Runs side by side (default: the processors); 0: others fill the folder")
+      ->check(CLI::Range(0, 1024));
+  add_overrides(command, args.overrides);
+  command.add_flag("--quiet", args.quiet, "Print the answer alone: no progress");
+  add_json(command, args.json,
+           "Print the summary as one JSON object on stdout, and nothing on stderr");
+}
+
 }  // namespace
+
+void add_fit(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand("fit", "Find values of a model from what was measured");
+  command->footer(
+      "Example:\n"
+      "  edda fit tunnel-fit.toml\n"
+      "\n"
+      "Back-analysis by least squares: the study names a model, quantities between bounds\n"
+      "([vary.NAME] with low and high), and measurements ([ask.NAME] with measured and error).\n"
+      "The answer is the values with their standard errors, and which of them the measurements do\n"
+      "not tell apart. The folder holds what that of edda study does.");
+  auto args = std::make_shared<StudyArguments>();
+  add_arguments(*command, *args);
+  command->callback([args, command, &code] {
+    if (args->study.empty()) throw CLI::RequiredError("STUDY");
+    args->overrides.insert(args->overrides.begin(), "sampling.method=fit");
+    code = study(*args);
+  });
+}
 
 void add_study(CLI::App& app, int& code) {
   CLI::App* command =
@@ -143,20 +177,9 @@ void add_study(CLI::App& app, int& code) {
       "Any number of processes on any number of machines may fill one folder: start the same\n"
       "command on each. What was killed goes on where it was; the outcome is the same bytes.");
   auto args = std::make_shared<StudyArguments>();
-  command->add_option("STUDY", args->study, "The study, a TOML file")->type_name("FILE");
-  command
-      ->add_option("-o,--output", args->folder, "Folder of the samples (default: the study's name)")
-      ->type_name("DIR");
-  command
-      ->add_option("-j,--jobs", args->jobs,
-                   "Runs side by side (default: the processors); 0: others fill the folder")
-      ->check(CLI::Range(0, 1024));
+  add_arguments(*command, *args);
   command->add_option("--shard", args->shard, "I/N: only this part of the samples, of N");
   command->add_option("--worker", args->worker)->group("");
-  add_overrides(*command, args->overrides);
-  command->add_flag("--quiet", args->quiet, "Print the answer alone: no progress");
-  add_json(*command, args->json,
-           "Print the summary as one JSON object on stdout, and nothing on stderr");
   add_study_show(*command, code);
   add_study_merge(*command, code);
   command->callback([args, command, &code] {

@@ -25,6 +25,10 @@ std::string file_name(const std::string& name) {
   return file;
 }
 
+std::string label_of(const Vary& v) {
+  return v.unit.empty() ? v.name : v.name + " (" + v.unit + ")";
+}
+
 class Drawing {
  public:
   Drawing(const StudyPlan& plan, const StudyResults& results, const SampleFolder& folder,
@@ -60,6 +64,7 @@ class Drawing {
   Trouble sobol();
   Trouble scatter();
   Trouble report();
+  void add_fit();
   std::vector<std::string> quantities() const {
     std::vector<std::string> names;
     for (const Vary& v : plan_.vary) names.push_back(v.name);
@@ -179,6 +184,32 @@ std::vector<std::string> Drawing::row_of(std::size_t sample) const {
   return row;
 }
 
+/// Values found, and what is left of the measurements.
+void Drawing::add_fit() {
+  const Fitted& f = *r_.run.fitted;
+  ReportTable values{"Values",
+                     "With their standard errors, and the correlation of these.",
+                     {{"", "value", "error"}}};
+  for (const Vary& v : plan_.vary) values.rows[0].push_back(v.name);
+  for (std::size_t q = 0; q < plan_.vary.size(); ++q) {
+    std::vector<std::string> row{label_of(plan_.vary[q]), number_text(f.values[q], 5),
+                                 number_text(f.errors[q], 2)};
+    for (const double c : f.correlation[q]) row.push_back(number_text(c, 2));
+    values.rows.push_back(std::move(row));
+  }
+  ReportTable rest{"Measurements",
+                   "The difference is that of computed and measured, over the error.",
+                   {{"", "measured", "error", "computed", "difference"}}};
+  for (std::size_t k = 0; k < plan_.ask.size(); ++k) {
+    const Ask& a = plan_.ask[k];
+    rest.rows.push_back({a.name, number_text(*a.measured, 5), number_text(*a.error, 2),
+                         number_text(*a.measured + f.differences[k] * *a.error, 5),
+                         number_text(f.differences[k], 2)});
+  }
+  page_.before.push_back(std::move(values));
+  page_.before.push_back(std::move(rest));
+}
+
 Trouble Drawing::report() {
   page_.title = plan_.title.empty() ? "Study" : plan_.title;
   page_.answer = r_.message;
@@ -205,17 +236,19 @@ Trouble Drawing::report() {
     const Reliability& found = *r_.run.reliability;
     for (std::size_t k = 0; k < found.drawn.size(); ++k) {
       const Vary& v = plan_.vary[found.drawn[k]];
-      point.rows.push_back({v.name + (v.unit.empty() ? "" : " (" + v.unit + ")"),
-                            number_text(found.design_point[k], 5),
+      point.rows.push_back({label_of(v), number_text(found.design_point[k], 5),
                             number_text(found.importance[k], 3)});
     }
     page_.before.push_back(std::move(point));
   }
+  if (r_.run.fitted) {
+    add_fit();
+    return write_report(page_, folder_.file("report.html"));
+  }
   ReportTable worst{"Worst samples",
                     "edda study show FOLDER --run NUMBER writes the model of one of them.",
                     {{"sample"}}};
-  for (const Vary& v : plan_.vary)
-    worst.rows[0].push_back(v.name + (v.unit.empty() ? "" : " (" + v.unit + ")"));
+  for (const Vary& v : plan_.vary) worst.rows[0].push_back(label_of(v));
   for (const Ask& a : plan_.ask) worst.rows[0].push_back(a.name);
   for (const std::size_t s : worst_samples(plan_, r_, 10)) worst.rows.push_back(row_of(s));
   page_.after.push_back(std::move(worst));

@@ -16,5 +16,7 @@ nlohmann::json ranks(const nlohmann::json& request);
 nlohmann::json sobol_indices(const nlohmann::json& request);
 /// Asks for the values of points with answer() and next_line() as it needs them.
 nlohmann::json reliability(const nlohmann::json& request);
+/// The same.
+nlohmann::json fit(const nlohmann::json& request);
 
 }  // namespace edda::sampler

@@ -34,6 +34,7 @@ nlohmann::json answer_to(const nlohmann::json& request) {
   if (task == "ranks") return ranks(request);
   if (task == "sobol-indices") return sobol_indices(request);
   if (task == "reliability") return reliability(request);
+  if (task == "fit") return fit(request);
   return {{"fault", "there is no task " + task}};
 }
 

@@ -1,5 +1,7 @@
 #include "sampling/lead_study.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -44,6 +46,32 @@ Reliability reliability_in(const json& answer, const std::vector<std::size_t>& d
   return r;
 }
 
+Fitted fitted_in(const json& answer) {
+  Fitted f;
+  answer["values"].get_to(f.values);
+  answer["errors"].get_to(f.errors);
+  answer["correlation"].get_to(f.correlation);
+  answer["differences"].get_to(f.differences);
+  answer["sum_of_squares"].get_to(f.sum_of_squares);
+  answer["converged"].get_to(f.converged);
+  return f;
+}
+
+/// The request that begins a fit.
+json fit_request(const StudyPlan& plan) {
+  json parameters = json::array(), measured = json::array();
+  for (const Vary& v : plan.vary) {
+    parameters.push_back(
+        {{"low", *v.low}, {"high", *v.high}, {"start", *v.start}, {"log", v.scale == Scale::log}});
+  }
+  for (const Ask& a : plan.ask) measured.push_back({{"value", *a.measured}, {"error", *a.error}});
+  return {{"task", "fit"},
+          {"parameters", parameters},
+          {"measured", measured},
+          {"difference", 0.1 * plan.sampling.difference},
+          {"iterations", 50}};
+}
+
 class Lead {
  public:
   Lead(const StudyPlan& plan, SampleFolder& folder, const StudyOptions& options,
@@ -67,6 +95,7 @@ class Lead {
   Result<std::optional<std::size_t>> narrow_enough();
   json request(const std::vector<std::size_t>& drawn, const json& variables) const;
   Trouble add_points(const json& rows, std::size_t first, const std::vector<std::size_t>& drawn);
+  Result<double> value_of(std::size_t sample, std::size_t ask) const;
   Result<json> values_of(std::size_t first, std::size_t end) const;
 
   const StudyPlan& plan_;
@@ -155,21 +184,31 @@ Result<StudyRun> Lead::all_at_once() {
   return std::move(run_);
 }
 
-/// The numbers of a method's points. A sample without an equilibrium has the factor 0.
+/// The number of an answer; that of a sample without an equilibrium is 0.
+Result<double> Lead::value_of(std::size_t sample, std::size_t ask) const {
+  const SampleAnswer& row = run_.rows.at(sample);
+  const std::string& cell = row.cells[ask];
+  const std::optional<double> number = number_in(cell);
+  if (number || cell == "unstable") return number.value_or(0.0);
+  return Fault{{"", folder_.path(), 0, 0},
+               fmt::format("sample {} gave no value of {}: {}", sample, plan_.ask[ask].name,
+                           row.message.empty() ? cell : row.message),
+               "the method needs one everywhere; keep the values that vary within narrower bounds"};
+}
+
+/// Of a reliability method's points the value that decides about failure, of a fit's all of them.
 Result<json> Lead::values_of(std::size_t first, std::size_t end) const {
   json values = json::array();
-  const std::size_t k = row_of(plan_, plan_.failure->ask);
+  const bool fits = plan_.sampling.method == SamplingMethod::fit;
   for (std::size_t s = first; s < end; ++s) {
-    const SampleAnswer& row = run_.rows.at(s);
-    const std::optional<double> number = number_in(row.cells[k]);
-    if (!number && row.cells[k] != "unstable") {
-      return Fault{
-          {"", folder_.path(), 0, 0},
-          "sample " + std::to_string(s) +
-              " gave no value: " + (row.message.empty() ? row.cells[k] : row.message),
-          "the method needs one everywhere; use monte-carlo, or truncate the distributions"};
+    json all = json::array();
+    for (std::size_t k = 0; k < plan_.ask.size(); ++k) {
+      if (!fits && k != row_of(plan_, plan_.failure->ask)) continue;
+      const Result<double> value = value_of(s, k);
+      if (!value.ok()) return value.faults();
+      all.push_back(value.value());
     }
-    values.push_back(number.value_or(0.0));
+    values.push_back(fits ? all : all[0]);
   }
   return values;
 }
@@ -214,14 +253,20 @@ Result<StudyRun> Lead::as_it_goes() {
   Result<Points> known = folder_.points(plan_);
   if (!known.ok()) return known.faults();
   run_.points = std::move(known.value());
+  const bool fits = plan_.sampling.method == SamplingMethod::fit;
   std::vector<std::size_t> drawn;
   const json variables = variables_of(plan_, drawn);
-  json line = request(drawn, variables);
+  json line = fits ? fit_request(plan_) : request(drawn, variables);
   while (true) {
     const Result<json> answer = sampler_.ask(line);
     if (!answer.ok()) return answer.faults();
     if (!answer.value().contains("ask")) {
-      run_.reliability = reliability_in(answer.value()["answer"], drawn);
+      const json& found = answer.value()["answer"];
+      if (fits) {
+        run_.fitted = fitted_in(found);
+      } else {
+        run_.reliability = reliability_in(found, drawn);
+      }
       return std::move(run_);
     }
     const json& rows = answer.value()["ask"];

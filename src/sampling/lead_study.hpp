@@ -31,6 +31,15 @@ struct Reliability {
   std::vector<std::size_t> drawn{};                  ///< rows of plan.vary
 };
 
+/// What a fit finds, in the order of plan.vary and plan.ask.
+struct Fitted {
+  std::vector<double> values, errors;            ///< [quantities] with their standard errors
+  std::vector<std::vector<double>> correlation;  ///< [quantities][quantities] of the errors
+  std::vector<double> differences;  ///< [measurements] computed less measured, over its error
+  double sum_of_squares = 0.0;      ///< of these
+  bool converged = false;
+};
+
 enum class StudyEnd {
   complete,
   part,  ///< this shard is complete, others are not
@@ -43,6 +52,7 @@ struct StudyRun {
   Points points;
   Rows rows;
   std::optional<Reliability> reliability{};
+  std::optional<Fitted> fitted{};
   bool ended_early = false;  ///< sampling.half_width was reached
 };
 

@@ -62,6 +62,30 @@ void add_failure(Json& j, const StudyPlan& plan, const StudyResults& r) {
   j.close();
 }
 
+void add_fitted(Json& j, const StudyPlan& plan, const Fitted& f) {
+  j.key("fit").open_object().pair("converged", f.converged);
+  j.pair("sum_of_squares", f.sum_of_squares);
+  add_by_quantity(j, "values", plan, f.values);
+  add_by_quantity(j, "errors", plan, f.errors);
+  j.key("correlation").open_object();
+  for (std::size_t q = 0; q < plan.vary.size(); ++q)
+    add_by_quantity(j, plan.vary[q].name, plan, f.correlation[q]);
+  j.close();
+  j.key("measurements").open_list();
+  for (std::size_t k = 0; k < plan.ask.size(); ++k) {
+    const Ask& a = plan.ask[k];
+    j.open_object().pair("name", a.name).pair("measured", a.measured).pair("error", a.error);
+    j.pair("computed", *a.measured + f.differences[k] * *a.error);
+    j.pair("difference_over_error", f.differences[k]).close();
+  }
+  j.close().key("not_told_apart").open_list();
+  for (const auto& [a, b] : told_together(f))
+    j.open_list().value(plan.vary[a].name).value(plan.vary[b].name).close();
+  j.close().key("not_told").open_list();
+  for (const std::size_t q : not_told(plan, f)) j.value(plan.vary[q].name);
+  j.close().close();
+}
+
 void add_sobol(Json& j, const StudyPlan& plan, const SobolIndices& s) {
   j.key("sobol_indices")
       .open_object()
@@ -108,9 +132,12 @@ std::string study_summary(const StudyPlan& plan, const StudyResults& r) {
   j.key("asked").open_list();
   for (const AskedNumbers& a : r.asked) add_asked(j, plan, a);
   j.close();
+  if (r.run.fitted) add_fitted(j, plan, *r.run.fitted);
   if (r.sobol) add_sobol(j, plan, *r.sobol);
-  const std::vector<std::size_t> worst = worst_samples(plan, r, 10);
-  add_list(j, "worst", {worst.begin(), worst.end()});
+  if (!r.run.fitted) {
+    const std::vector<std::size_t> worst = worst_samples(plan, r, 10);
+    add_list(j, "worst", {worst.begin(), worst.end()});
+  }
   return j.close().text();
 }
 

@@ -145,6 +145,25 @@ std::string percent(double p) {
   return number_text(100.0 * p, 3);
 }
 
+/// "friction 30.21 +- 0.35 degrees, kn 2.1 +- 0.2; 24 runs".
+std::string fit_message(const StudyPlan& plan, const Fitted& f, std::size_t runs) {
+  std::string text;
+  for (std::size_t q = 0; q < plan.vary.size(); ++q) {
+    const Vary& v = plan.vary[q];
+    text += fmt::format("{}{} {} +- {}{}", q == 0 ? "" : ", ", v.name, number_text(f.values[q], 5),
+                        number_text(f.errors[q], 2), v.unit.empty() ? "" : " " + v.unit);
+  }
+  text += fmt::format("; {}", counted(runs, "run"));
+  if (!f.converged) text += "; the search did not come to an end";
+  for (const auto& [a, b] : told_together(f)) {
+    text += fmt::format("; the measurements do not tell {} and {} apart", plan.vary[a].name,
+                        plan.vary[b].name);
+  }
+  for (const std::size_t q : not_told(plan, f))
+    text += fmt::format("; the measurements do not tell {}", plan.vary[q].name);
+  return text;
+}
+
 std::string message_of(const StudyPlan& plan, const StudyResults& r) {
   const std::string samples = counted(r.run.samples, "sample");
   if (r.run.end == StudyEnd::part)
@@ -152,6 +171,7 @@ std::string message_of(const StudyPlan& plan, const StudyResults& r) {
   if (r.run.end == StudyEnd::interrupted)
     return fmt::format("interrupted with {} of {} done; start it again to go on", r.run.rows.size(),
                        samples);
+  if (r.run.fitted) return fit_message(plan, *r.run.fitted, r.run.samples);
   if (r.probability) {
     std::string text = fmt::format("probability of failure {} %", percent(*r.probability));
     if (r.interval) {
@@ -176,6 +196,32 @@ std::string message_of(const StudyPlan& plan, const StudyResults& r) {
 }
 
 }  // namespace
+
+std::vector<std::pair<std::size_t, std::size_t>> told_together(const Fitted& f) {
+  constexpr double apart = 0.98;
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t a = 0; a < f.values.size(); ++a) {
+    for (std::size_t b = a + 1; b < f.values.size(); ++b) {
+      if (std::abs(f.correlation[a][b]) > apart) pairs.emplace_back(a, b);
+    }
+  }
+  return pairs;
+}
+
+std::vector<std::size_t> not_told(const StudyPlan& plan, const Fitted& f) {
+  constexpr double part = 0.3;  // of the range from low to high
+  std::vector<std::size_t> list;
+  const auto pairs = told_together(f);
+  for (std::size_t q = 0; q < f.values.size(); ++q) {
+    const Vary& v = plan.vary[q];
+    const double range =
+        v.scale == Scale::log ? f.values[q] * std::log(*v.high / *v.low) : *v.high - *v.low;
+    const bool paired = std::any_of(pairs.begin(), pairs.end(),
+                                    [&](const auto& p) { return p.first == q || p.second == q; });
+    if (!paired && f.errors[q] > part * range) list.push_back(q);
+  }
+  return list;
+}
 
 const AskedNumbers& main_of(const StudyPlan& plan, const StudyResults& results) {
   for (const AskedNumbers& a : results.asked) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "results/columns.hpp"
@@ -41,6 +42,12 @@ struct StudyResults {
 };
 
 Result<StudyResults> results_of(const StudyPlan& plan, StudyRun run, SamplerProcess& sampler);
+
+/// Pairs of quantities that the measurements of a fit do not tell apart: the correlation of their
+/// errors is nearly 1 or -1.
+std::vector<std::pair<std::size_t, std::size_t>> told_together(const Fitted& fitted);
+/// Quantities on which the measurements hardly depend: their error is a good part of their range.
+std::vector<std::size_t> not_told(const StudyPlan& plan, const Fitted& fitted);
 
 /// The numbers that decide about failure; without [failure] those of the first [ask].
 const AskedNumbers& main_of(const StudyPlan& plan, const StudyResults& results);

@@ -78,6 +78,104 @@ sd = 3
 OUTCOME = ("study.csv", "summary.json", "points.csv", "rows.csv", "study.toml", "model.toml", "report.html")
 
 
+# A cut in ground under horizontal stress: it slips along flat beds as it is dug.
+CUT = """
+[materials.rock]
+unit_weight = "26 kN/m3"
+young = "10 GPa"
+poisson = 0.25
+[joints.beds]
+friction_angle = 22
+kn = "2 GPa/m"
+[domain]
+outline = [[0, 0], [40, 0], [40, 20], [0, 20]]
+joint = "beds"
+[[joint_set]]
+name = "beds"
+angle = 5
+spacing = 4
+origin = [20, 6]
+[[joint_set]]
+name = "cross"
+angle = 110
+spacing = 6
+origin = [20, 6]
+[[opening]]
+name = "cut"
+polygon = [[0, 8], [18, 8], [21, 20], [0, 20]]
+[initial_stress]
+k0 = 2.0
+surface_y = 20
+[[boundary]]
+sides = ["left", "right", "bottom"]
+type = "roller"
+[[monitor]]
+name = "a"
+point = [20, 15]
+[[monitor]]
+name = "b"
+point = [21.5, 19]
+[[monitor]]
+name = "c"
+point = [19.2, 11]
+[[monitor]]
+name = "d"
+point = [26, 19]
+[[monitor]]
+name = "e"
+point = [10, 7.5]
+[[stage]]
+name = "rest"
+until = "equilibrium"
+[[stage]]
+name = "dig25"
+excavate = ["cut"]
+relax = { cut = 0.25 }
+until = "equilibrium"
+[[stage]]
+name = "dig50"
+relax = { cut = 0.5 }
+until = "equilibrium"
+[[stage]]
+name = "dig75"
+relax = { cut = 0.75 }
+until = "equilibrium"
+[[stage]]
+name = "dig100"
+relax = { cut = 1.0 }
+until = "equilibrium"
+"""
+
+
+def fit_of(measured, error):
+    """A study that looks for three keys of CUT."""
+    text = """
+model = "cut.toml"
+[vary.friction]
+key = "joints.beds.friction_angle"
+low = 12
+high = 40
+[vary.kn]
+key = "joints.beds.kn"
+low = 0.5
+high = 8
+scale = "log"
+unit = "GPa/m"
+[vary.k0]
+key = "initial_stress.k0"
+low = 1
+high = 3
+"""
+    for column, value in measured.items():
+        text += f"""[ask.{column.replace('.', '_')}]
+of = "run"
+value = "history.{column}"
+measured = {value!r}
+error = {error!r}
+"""
+    return text
+
+
 class Study(Program):
     def setUp(self):
         super().setUp()
@@ -224,6 +322,53 @@ below = -1e-3
         for name in ("study.csv", "summary.json", "report.html"):
             self.assertEqual((self.dir / "1" / name).read_bytes(), (self.dir / "3" / name).read_bytes())
 
+    def test_a_fit_finds_what_was_measured(self):
+        (self.dir / "cut.toml").write_text(CUT)
+        self.expect(0, "run", "cut.toml", "--quiet")
+        last = read_rows(self.dir / "cut/history.csv")[-1]
+        for seed in (1, 2, 3):
+            noise = random.Random(seed)
+            measured = {f"{m}.{c}": noise.gauss(float(last[f"{m}.{c}"]), 1e-6) for m in "abcde" for c in ("ux", "uy")}
+            (self.dir / "f.toml").write_text(fit_of(measured, 1e-6))
+            self.expect(0, "fit", "f.toml", "-o", f"f{seed}")
+            summary = self.summary(f"f{seed}")
+            found = summary["fit"]
+            self.assertTrue(found["converged"])
+            self.assertLessEqual(summary["samples"], 60)
+            for name, truth in {"friction": 22, "kn": 2, "k0": 2}.items():
+                self.assertAlmostEqual(found["values"][name] / truth, 1, delta=0.01)
+                self.assertLess(abs(found["values"][name] - truth), 4 * found["errors"][name])
+            self.assertLess(found["sum_of_squares"], 30)  # ten measurements less three values
+            self.assertEqual((found["not_told_apart"], found["not_told"]), ([], []))
+
+    def test_a_fit_says_what_the_measurements_do_not_tell(self):
+        fit = """
+model = "slide.toml"
+[vary.cohesion]
+key = "joints.plane.cohesion"
+low = 1
+high = 40
+unit = "kPa"
+[vary.friction]
+key = "joints.plane.friction_angle"
+low = 10
+high = 45
+"""
+        ask = '[ask.{0}]\nof = "limit"\nvalue = "limit.{0}"\nmeasured = 1.2\nerror = 0.01\n'
+        (self.dir / "f.toml").write_text(fit + ask.format("lower") + ask.format("upper"))
+        done = self.expect(0, "fit", "f.toml")
+        self.assertIn("the measurements do not tell cohesion and friction apart", done.stdout)
+        found = self.summary("f")["fit"]
+        self.assertAlmostEqual(factor(found["values"]["cohesion"], found["values"]["friction"]), 1.2, delta=1e-3)
+        # The density of the slab matters where there is cohesion, and so does its stiffness not.
+        young = '[vary.young]\nkey = "materials.rock.young"\nlow = 1e9\nhigh = 9e9\n'
+        one = fit[:fit.index("[vary.friction]")] + young
+        (self.dir / "g.toml").write_text(one + ask.format("lower") + ask.format("upper"))
+        done = self.expect(0, "fit", "g.toml")
+        self.assertIn("the measurements do not tell young", done.stdout)
+        exact = 1e-3 * (1.2 - factor(0)) * math.sin(math.radians(30)) * WEIGHT / LENGTH
+        self.assertAlmostEqual(self.summary("g")["fit"]["values"]["cohesion"], exact, delta=1e-3 * exact)
+
     def test_shows_a_sample_and_writes_its_model(self):
         self.write('method = "monte-carlo"\nsamples = 12', FRICTION)
         self.expect(0, "study", "s.toml")
@@ -255,6 +400,7 @@ below = -1e-3
             (study('method = "monte-carlo"\nsamples = 9').replace("joints.plane.cohesion", "joints.plan.cohesion"), "joints.plan"),
             (study('method = "monte-carlo"\nsamples = 9').replace('"kPa"', '"kg"'), "kg"),
             (study('method = "monte-carlo"\nsamples = 9').replace("lognormal", "cauchy"), '"cauchy" is not known'),
+            (study('method = "fit"'), "vary.cohesion.low: is missing"),
         )
         for text, says in cases:
             (self.dir / "s.toml").write_text(text)

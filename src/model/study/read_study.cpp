@@ -155,13 +155,35 @@ void check_values(const Completing& c, const Value* table, const std::string& pa
             "leave it out");
 }
 
+/// Of method fit: the search begins somewhere between bounds.
+void complete_bounds(const Completing& c, const Value* table, const std::string& path, Vary& v) {
+  for (const Parameter& p : {low, high}) {
+    if (!(v.*(p.field)))
+      c.fault(table, p.name, path, "is missing", "method fit looks between low and high");
+  }
+  if (!v.low || !v.high) return;
+  if (*v.low >= *v.high) {
+    c.fault(table, "low", path, "is not below high", "give the smallest value as low");
+    return;
+  }
+  const bool logarithmic = v.scale == Scale::log;
+  if (logarithmic && *v.low <= 0.0) {
+    c.fault(table, "low", path, "must be above 0 where scale is \"log\"", "give a small number");
+    return;
+  }
+  if (!v.start) v.start = logarithmic ? std::sqrt(*v.low * *v.high) : 0.5 * (*v.low + *v.high);
+  if (*v.start < *v.low || *v.start > *v.high)
+    c.fault(table, "start", path, "lies outside low and high", "give a value between them");
+}
+
 void complete_vary(const Completing& c) {
   const Value* all = find(&c.root, "vary");
   if (c.plan.vary.empty() && c.reading.faults.empty())
     add_fault(c.reading, {1, 1, false}, "vary", "is missing",
               "add [vary.NAME] with key and distribution");
   const SamplingMethod method = c.plan.sampling.method;
-  const bool drawn = method != SamplingMethod::grid && method != SamplingMethod::table;
+  const bool drawn = method != SamplingMethod::grid && method != SamplingMethod::table &&
+                     method != SamplingMethod::fit;
   for (Vary& v : c.plan.vary) {
     const Value* table = find(all, v.name);
     const std::string path = "vary." + v.name;
@@ -177,6 +199,7 @@ void complete_vary(const Completing& c) {
               "give one of " + quoted_list(distribution_words));
     if (!drawn) {
       if (method == SamplingMethod::grid) check_values(c, table, path, v);
+      if (method == SamplingMethod::fit) complete_bounds(c, table, path, v);
       continue;
     }
     if (!given(table, "distribution")) continue;
@@ -209,7 +232,9 @@ void complete_sampling(const Completing& c) {
   if (s.half_width > 0.0 && m != SamplingMethod::monte_carlo)
     wrong("half_width", fmt::format("is nothing of method {}", word_of(m)),
           "use monte-carlo, whose samples may end anywhere, or leave it out");
-  if ((s.half_width > 0.0 || chooses_as_it_goes(m)) && !c.plan.failure)
+  const bool fits = m == SamplingMethod::fit;
+  if (fits && c.plan.failure) wrong("method", "\"fit\" knows no failures", "leave [failure] out");
+  if ((s.half_width > 0.0 || (chooses_as_it_goes(m) && !fits)) && !c.plan.failure)
     wrong(s.half_width > 0.0 ? "half_width" : "method", "needs to know what a failure is",
           "add [failure] with below or above");
 }
@@ -294,6 +319,26 @@ void complete_ask(const Completing& c) {
   }
 }
 
+/// Measurements that method fit compares with.
+void check_measured(const Completing& c) {
+  const Value* all = find(&c.root, "ask");
+  const bool fits = c.plan.sampling.method == SamplingMethod::fit;
+  std::size_t measured = 0;
+  for (const Ask& a : c.plan.ask) {
+    const Value* table = find(all, a.name);
+    if (fits && !a.measured)
+      c.fault(table, "measured", "ask." + a.name, "is missing", "give what was measured");
+    if (a.measured && !a.error)
+      c.fault(table, "error", "ask." + a.name, "is missing",
+              "give the standard deviation of the measurement");
+    measured += a.measured.has_value();
+  }
+  if (fits && measured < c.plan.vary.size() && c.reading.faults.empty())
+    add_fault(c.reading, {1, 1, false}, "ask",
+              fmt::format("has {} for {} quantities", measured, c.plan.vary.size()),
+              "fit no more quantities than there are measurements");
+}
+
 void complete_failure(const Completing& c) {
   if (!c.plan.failure) return;
   FailureCriterion& f = *c.plan.failure;
@@ -330,6 +375,7 @@ Result<StudyPlan> read_study_text(std::string_view text, const std::string& path
   complete_vary(c);
   complete_correlated(c);
   complete_ask(c);
+  check_measured(c);
   complete_failure(c);
   if (reading.faults.empty()) {
     plan.model = beside_model(plan.model, path);

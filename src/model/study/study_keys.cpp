@@ -19,27 +19,29 @@ constexpr std::array root_keys{
 };
 
 constexpr std::array sampling_keys{
-    Key{"method", at<&Sampling::method>, choice, initial, "Independent draws (monte-carlo), draws spread evenly over each quantity (latin-hypercube) or over all (sobol), every combination of the values (grid), the rows of a file (table); the most likely failure by first- or second-order reliability (form, sorm), subset simulation for small probabilities (subset), or Saltelli's design for the sensitivity indices of Sobol (sobol-indices)."},
-    Key{"samples", at<&Sampling::samples>, whole(1, 10'000'000), otherwise("required unless method is grid, table, form or sorm"), "Number of samples; of subset: per level; of sobol-indices: this many times the number of quantities plus two."},
+    Key{"method", at<&Sampling::method>, choice, initial, "Independent draws (monte-carlo), draws spread evenly over each quantity (latin-hypercube) or over all (sobol), every combination of the values (grid), the rows of a file (table); the most likely failure by first- or second-order reliability (form, sorm), subset simulation for small probabilities (subset), Saltelli's design for the sensitivity indices of Sobol (sobol-indices); or a search for the values with which the answers are those that were measured (fit, edda fit)."},
+    Key{"samples", at<&Sampling::samples>, whole(1, 10'000'000), otherwise("required unless method is grid, table, form, sorm or fit"), "Number of samples; of subset: per level; of sobol-indices: this many times the number of quantities plus two."},
     Key{"seed", at<&Sampling::seed>, whole(0, 4'000'000'000), initial, "Another seed, other draws."},
     Key{"table", at<&Sampling::table>, file, otherwise("required of method table"), "CSV file with a column for each quantity, named as in [vary]."},
     Key{"confidence", at<&Sampling::confidence>, number(D::plain, between(0.5, 1)), initial, "Confidence of all intervals."},
     Key{"half_width", at<&Sampling::half_width>, number(D::plain, between(0, 0.5)), or_none("all samples are run"), "The study ends once the interval of the probability of failure is no wider than plus or minus this."},
-    Key{"difference", at<&Sampling::difference>, number(D::plain, above_to(0, 1)), initial, "Methods form and sorm: step of the derivatives, in standard deviations."},
+    Key{"difference", at<&Sampling::difference>, number(D::plain, above_to(0, 1)), initial, "Step of the derivatives: of form and sorm in standard deviations, of fit a tenth of this as a part of the range from low to high."},
     Key{"tolerance", at<&Sampling::tolerance>, number(D::plain, above_to(0, 0.1)), initial, "Methods form and sorm: how exactly the most likely failure is found, in standard deviations."},
 };
 
 constexpr std::array vary_keys{
     Key{"key", at<&Vary::key>, naming, otherwise("none; either this or keys"), "Key of the model that gets the value, as --set names it."},
     Key{"keys", at<&Vary::keys>, name_list, otherwise("none; either this or key"), "Several keys of the model that all get the value."},
-    Key{"distribution", at<&Vary::distribution>, choice, otherwise("required unless method is grid or table"), "What the value is drawn from."},
+    Key{"distribution", at<&Vary::distribution>, choice, otherwise("required unless method is grid, table or fit"), "What the value is drawn from."},
     Key{"mean", at<&Vary::mean>, number(D::plain), otherwise("required of normal, lognormal, exponential, weibull, beta and von-mises"), "Mean, before truncation."},
     Key{"sd", at<&Vary::sd>, number(D::plain, above(0)), otherwise("required of normal, lognormal, weibull and beta unless cv is given"), "Standard deviation, before truncation."},
     Key{"cv", at<&Vary::cv>, number(D::plain, above(0)), otherwise("none; in place of sd"), "Coefficient of variation: standard deviation over mean."},
-    Key{"low", at<&Vary::low>, number(D::plain), otherwise("required of uniform, triangular and beta; of lognormal, exponential and weibull 0; of seed 1"), "Smallest value."},
-    Key{"high", at<&Vary::high>, number(D::plain), otherwise("required of uniform, triangular and beta"), "Largest value."},
+    Key{"low", at<&Vary::low>, number(D::plain), otherwise("required of uniform, triangular and beta, and of method fit; of lognormal, exponential and weibull 0; of seed 1"), "Smallest value."},
+    Key{"high", at<&Vary::high>, number(D::plain), otherwise("required of uniform, triangular and beta, and of method fit"), "Largest value."},
     Key{"mode", at<&Vary::mode>, number(D::plain), otherwise("required of triangular"), "Most likely value."},
     Key{"concentration", at<&Vary::concentration>, number(D::plain, above(0)), otherwise("required of von-mises"), "Concentration kappa of the von Mises distribution, the mean of which is in degrees."},
+    Key{"start", at<&Vary::start>, number(D::plain), otherwise("midway between low and high"), "Method fit: where the search begins, between its bounds low and high."},
+    Key{"scale", at<&Vary::scale>, choice, initial, "Method fit: log where a value may be several times as large or small, such as a stiffness."},
     Key{"at_least", at<&Vary::at_least>, number(D::plain), otherwise("not truncated"), "The distribution is truncated below this value."},
     Key{"at_most", at<&Vary::at_most>, number(D::plain), otherwise("not truncated"), "The distribution is truncated above this value."},
     Key{"values", at<&Vary::values>, number_list, otherwise("required of choice and of method grid"), "The values of which each sample has one."},
@@ -58,6 +60,8 @@ constexpr std::array ask_keys{
     Key{"of", at<&Ask::of>, choice, required, "The analysis made of each sample: a run in time, the factor of safety, or rigid limit analysis."},
     Key{"value", at<&Ask::value>, naming, otherwise("of fos \"factor_of_safety\", of limit \"limit.lower\"; required of run"), "What is asked of it: a value of its summary.json, with the names of the tables around it before (\"energy.friction\"), or of a run a column of history.csv (\"history.crest.ux\")."},
     Key{"take", at<&Ask::take>, choice, initial, "Of a column of history.csv: its last, largest or smallest value."},
+    Key{"measured", at<&Ask::measured>, number(D::plain), otherwise("none"), "Method fit: what was measured."},
+    Key{"error", at<&Ask::error>, number(D::plain, above(0)), otherwise("required with measured"), "Method fit: standard deviation of the measurement."},
 };
 
 constexpr std::array failure_keys{

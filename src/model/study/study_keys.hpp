@@ -9,15 +9,16 @@
 namespace edda {
 
 // Names of the values of each enumeration, in the order of the enumeration.
-inline constexpr std::array<std::string_view, 9> method_words{
-    "monte-carlo", "latin-hypercube", "sobol",        "grid", "table", "form",
-    "sorm",        "subset",          "sobol-indices"};
+inline constexpr std::array<std::string_view, 10> method_words{
+    "monte-carlo", "latin-hypercube", "sobol",         "grid", "table", "form",
+    "sorm",        "subset",          "sobol-indices", "fit"};
 inline constexpr std::array<std::string_view, 10> distribution_words{
     "normal",  "lognormal", "uniform",   "triangular", "exponential",
     "weibull", "beta",      "von-mises", "choice",     "seed"};
 inline constexpr std::array<std::string_view, 4> copula_words{"normal", "clayton", "gumbel",
                                                               "frank"};
 inline constexpr std::array<std::string_view, 3> analysis_words{"run", "fos", "limit"};
+inline constexpr std::array<std::string_view, 2> scale_words{"linear", "log"};
 inline constexpr std::array<std::string_view, 3> taken_words{"last", "largest", "smallest"};
 
 constexpr std::span<const std::string_view> names_of(SamplingMethod) {
@@ -34,6 +35,9 @@ constexpr std::span<const std::string_view> names_of(Analysis) {
 }
 constexpr std::span<const std::string_view> names_of(Taken) {
   return taken_words;
+}
+constexpr std::span<const std::string_view> names_of(Scale) {
+  return scale_words;
 }
 
 /// The word of a value in the file.

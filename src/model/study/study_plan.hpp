@@ -23,6 +23,7 @@ enum class SamplingMethod {
   sorm,
   subset,
   sobol_indices,
+  fit,  ///< values with which the answers are those that were measured
 };
 
 enum class Distribution {
@@ -41,6 +42,7 @@ enum class Distribution {
 enum class Copula { normal, clayton, gumbel, frank };
 enum class Analysis { run, fos, limit };
 enum class Taken { last, largest, smallest };
+enum class Scale { linear, log };
 
 /// How many samples, and which.
 struct Sampling {
@@ -63,6 +65,8 @@ struct Vary {
   Distribution distribution = Distribution::normal;
   std::optional<double> mean{}, sd{}, cv{}, low{}, high{}, mode{}, concentration{};
   std::optional<double> at_least{}, at_most{};  ///< the distribution is truncated there
+  std::optional<double> start{};                ///< of method fit, with low and high its bounds
+  Scale scale = Scale::linear;
   std::vector<double> values{}, weights{};
   std::string unit;  ///< of all of these; empty: that of the key
   Where where;
@@ -83,6 +87,7 @@ struct Ask {
   Analysis of = Analysis::limit;
   std::string value;  ///< path in summary.json, or a column of history.csv
   Taken take = Taken::last;
+  std::optional<double> measured{}, error{};  ///< of method fit; error: standard deviation
   Where where;
 };
 
@@ -106,7 +111,8 @@ struct StudyPlan {
 
 /// Whether the points are chosen as the values of those before are known.
 constexpr bool chooses_as_it_goes(SamplingMethod m) {
-  return m == SamplingMethod::form || m == SamplingMethod::sorm || m == SamplingMethod::subset;
+  return m == SamplingMethod::form || m == SamplingMethod::sorm || m == SamplingMethod::subset ||
+         m == SamplingMethod::fit;
 }
 /// Whether samples are independent draws (or, of a Latin hypercube, better than those), so that
 /// parts of them estimate probabilities.
