@@ -16,6 +16,7 @@ void add_cut(CLI::App& app, int& code);
 void add_verify(CLI::App& app, int& code);
 void add_fos(CLI::App& app, int& code);
 void add_limit(CLI::App& app, int& code);
+void add_keyblocks(CLI::App& app, int& code);
 void add_fit(CLI::App& app, int& code);
 void add_study(CLI::App& app, int& code);
 void add_plot(CLI::App& app, int& code);

@@ -37,6 +37,7 @@ int run_command(int argc, char** argv) {
   edda::add_verify(app, code);
   edda::add_fos(app, code);
   edda::add_limit(app, code);
+  edda::add_keyblocks(app, code);
   edda::add_study(app, code);
   edda::add_fit(app, code);
   edda::add_plot(app, code);

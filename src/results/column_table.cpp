@@ -254,6 +254,33 @@ constexpr std::array mechanism_joints{
     C{"motion", "text", "Kind of motion: slips, opens or hinges."},
 };
 
+constexpr std::array key_blocks{
+    C{"block", "1", "Id of the block; of several that are glued together the first."},
+    C{"name", "text", "Its name, where it has one."},
+    C{"x", "m", "Coordinate x of its centroid."},
+    C{"y", "m", "Coordinate y of its centroid."},
+    C{"area", "m2", "Its area."},
+    C{"weight", "N", "Its weight, of the thickness of the model."},
+    C{"class", "text",
+      "key: its factor is below the one asked for; held: above it; stable: it stays without any "
+      "friction."},
+    C{"mode", "text", "falls, slides, slides on two faces, rotates, or stays."},
+    C{"joints", "text", "Names of the joints on which it slides."},
+    C{"direction", "rad", "Direction of its motion by translation, counter-clockwise from +x."},
+    C{"factor_translation", "1",
+      "Factor of safety against falling or sliding; empty where it does neither."},
+    C{"factor_rotation", "1",
+      "Factor of safety of the block alone between neighbours that do not move, by rigid limit "
+      "analysis; empty where no factor moves it."},
+    C{"factor", "1", "The lower one of both."},
+    C{"generation", "1",
+      "1: it can leave, or leaves, as drawn; 2: once the key blocks of generation 1 have gone; and "
+      "so on."},
+    C{"support", "N",
+      "Force against the direction of its motion with which it has the factor asked for; empty "
+      "where it rotates."},
+};
+
 constexpr std::array study{
     C{"sample", "1", "Number of the sample, from 0."},
     C{"NAME", "as varied",
@@ -304,7 +331,7 @@ constexpr std::array cut{
       "contact.joint holds."},
 };
 
-constexpr std::array<ResultTable, 14> tables{{
+constexpr std::array<ResultTable, 15> tables{{
     {"history.csv",
      "A row at the start, at each multiple of output.history_every and at the end of each stage; "
      "stages until equilibrium have more (output.settling).",
@@ -332,6 +359,9 @@ constexpr std::array<ResultTable, 14> tables{{
      mechanism_joints},
     {"limit_joints.csv",
      "A row for each joint that carries a force at the limit that edda limit finds.", limit_joints},
+    {"keyblocks.csv",
+     "A row for each block that can leave the rock (edda keyblocks), key blocks first.",
+     key_blocks},
     {"study.csv", "A row for each sample of a study (edda study), in the folder of the study.",
      study},
     {"columns.csv", "A row for each column of each table in the folder.", columns},

@@ -37,6 +37,7 @@ enum class ResultFile {
   mechanism,
   mechanism_joints,
   limit_joints,
+  key_blocks,
   study,
   columns,
   cut,

@@ -15,6 +15,7 @@
 #include "run/run_model.hpp"
 #include "sampling/sample_points.hpp"
 #include "study/fos.hpp"
+#include "study/key_blocks.hpp"
 #include "study/limit_analysis.hpp"
 
 namespace edda {
@@ -94,6 +95,12 @@ Result<Analysed> analyse_limit(const Model& model, const StudyPlan& plan) {
   return a;
 }
 
+Result<Analysed> analyse_key_blocks(const Model& model) {
+  const Result<KeyBlocks> found = key_blocks(model, {});
+  if (!found.ok()) return found.faults();
+  return Analysed{key_blocks_summary(model, found.value()), {}};
+}
+
 Result<Analysed> analyse_run(Model model, const std::string& scratch) {
   Result<PreparedRun> run = prepare_run(std::move(model));
   if (!run.ok()) return run.faults();
@@ -116,9 +123,17 @@ Result<Analysed> analyse(Analysis analysis, const StudyPlan& plan, std::string_v
   const ReadFor what_for = analysis == Analysis::run ? ReadFor::run : ReadFor::no_run;
   Result<Model> model = read_model_text(model_text, plan.model, overrides, what_for);
   if (!model.ok()) return model.faults();
-  if (analysis == Analysis::run) return analyse_run(std::move(model.value()), scratch);
-  return analysis == Analysis::fos ? analyse_fos(model.value())
-                                   : analyse_limit(model.value(), plan);
+  switch (analysis) {
+    case Analysis::run:
+      return analyse_run(std::move(model.value()), scratch);
+    case Analysis::fos:
+      return analyse_fos(model.value());
+    case Analysis::keyblocks:
+      return analyse_key_blocks(model.value());
+    case Analysis::limit:
+      break;
+  }
+  return analyse_limit(model.value(), plan);
 }
 
 /// Somewhere within each distribution.
@@ -189,7 +204,8 @@ SampleAnswer run_sample(const StudyPlan& plan, std::string_view model_text,
   const std::vector<std::string> overrides = overrides_of(plan, point);
   SampleAnswer answer;
   answer.cells.resize(plan.ask.size());
-  for (const Analysis analysis : {Analysis::run, Analysis::fos, Analysis::limit}) {
+  for (const Analysis analysis :
+       {Analysis::run, Analysis::fos, Analysis::limit, Analysis::keyblocks}) {
     const auto asks = [&](const Ask& a) { return a.of == analysis; };
     if (std::none_of(plan.ask.begin(), plan.ask.end(), asks)) continue;
     const Result<Analysed> made = analyse(analysis, plan, model_text, overrides, scratch);

@@ -7,14 +7,13 @@
 #include <cmath>
 
 #include "base/text.hpp"
-#include "model/stage_names.hpp"
 #include "observe/observe.hpp"
 #include "run/run_model.hpp"
-#include "run/stage_plan.hpp"
 #include "run/wall_clock.hpp"
 #include "step/labels.hpp"
 #include "study/fault_at.hpp"
 #include "study/limit_case.hpp"
+#include "study/staged_model.hpp"
 #include "study/varied_gravity.hpp"
 
 namespace edda {
@@ -44,19 +43,6 @@ std::optional<Fault> without_limit(const Model& model, const Fos& fos) {
                     "give gravity = [0, -9.81]");
   }
   return {};
-}
-
-/// The model as drawn, with the changes of all stages up to the one asked for.
-Result<PreparedRun> as_staged(const Model& model, const Fos& fos) {
-  Result<PreparedRun> made = prepare_run(model, BlockOrder::as_cut, ReadFor::no_run);
-  if (!made.ok() || model.stages.empty()) return made;
-  const std::vector<StagePlan> plans = plan_stages(model);
-  const std::size_t last =
-      fos.stage.empty() ? plans.size() - 1 : stage_called(model, fos.stage).value_or(0);
-  for (std::size_t q = 0; q <= last; ++q) {
-    if (auto fault = enter_stage(made.value().sim, plans[q], q == 0)) return *fault;
-  }
-  return made;
 }
 
 LimitValue value_of(const LimitCase::Answer& answer) {

@@ -296,12 +296,13 @@ void complete_ask(const Completing& c) {
   const Value* all = find(&c.root, "ask");
   if (c.plan.ask.empty() && c.reading.faults.empty())
     add_fault(c.reading, {1, 1, false}, "ask", "is missing",
-              "add [ask.NAME] with of = \"limit\", \"fos\" or \"run\"");
+              "add [ask.NAME] with of = \"limit\", \"fos\", \"keyblocks\" or \"run\"");
   for (Ask& a : c.plan.ask) {
     const Value* table = find(all, a.name);
     const bool history = a.value.starts_with("history.");
     if (a.value.empty() && a.of == Analysis::fos) a.value = "factor_of_safety";
     if (a.value.empty() && a.of == Analysis::limit) a.value = "limit.lower";
+    if (a.value.empty() && a.of == Analysis::keyblocks) a.value = "key_area";
     if (a.value.empty())
       c.fault(table, "value", "ask." + a.name, "is missing",
               "name a value of summary.json, such as \"energy.friction\", or a column, such as "

@@ -17,7 +17,7 @@ inline constexpr std::array<std::string_view, 10> distribution_words{
     "weibull", "beta",      "von-mises", "choice",     "seed"};
 inline constexpr std::array<std::string_view, 4> copula_words{"normal", "clayton", "gumbel",
                                                               "frank"};
-inline constexpr std::array<std::string_view, 3> analysis_words{"run", "fos", "limit"};
+inline constexpr std::array<std::string_view, 4> analysis_words{"run", "fos", "limit", "keyblocks"};
 inline constexpr std::array<std::string_view, 2> scale_words{"linear", "log"};
 inline constexpr std::array<std::string_view, 3> taken_words{"last", "largest", "smallest"};
 

@@ -40,7 +40,7 @@ enum class Distribution {
 };
 
 enum class Copula { normal, clayton, gumbel, frank };
-enum class Analysis { run, fos, limit };
+enum class Analysis { run, fos, limit, keyblocks };
 enum class Taken { last, largest, smallest };
 enum class Scale { linear, log };
 

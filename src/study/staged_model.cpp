@@ -1,0 +1,20 @@
+#include "study/staged_model.hpp"
+
+#include "model/stage_names.hpp"
+#include "run/stage_plan.hpp"
+
+namespace edda {
+
+Result<PreparedRun> as_staged(const Model& model, const Fos& fos) {
+  Result<PreparedRun> made = prepare_run(model, BlockOrder::as_cut, ReadFor::no_run);
+  if (!made.ok() || model.stages.empty()) return made;
+  const std::vector<StagePlan> plans = plan_stages(model);
+  const std::size_t last =
+      fos.stage.empty() ? plans.size() - 1 : stage_called(model, fos.stage).value_or(0);
+  for (std::size_t q = 0; q <= last; ++q) {
+    if (auto fault = enter_stage(made.value().sim, plans[q], q == 0)) return *fault;
+  }
+  return made;
+}
+
+}  // namespace edda
