@@ -73,6 +73,19 @@ json form_answer(const OT::FORMResult& result, const Variables& variables) {
           {"importance", importance}};
 }
 
+/// Whether the point is one where the value is the threshold.
+void check_design_point(const AskedValue& value, const OT::FORMResult& result,
+                        const json& request) {
+  const double at = value(result.getStandardSpaceDesignPoint())[0];
+  constexpr double close = 0.01;
+  const double threshold = request.at("threshold"), scale = request.at("scale");
+  if (!(std::abs(at - threshold) <= close * scale)) {
+    throw OT::InternalException(HERE)
+        << "the search for the most likely failure ended at a value of " << at << ", not of "
+        << threshold << ": the values are not smooth enough, or there is no failure near";
+  }
+}
+
 /// Fiessler's, Hasofer's and Lind's index by the algorithm of Abdo and Rackwitz.
 json form_or_sorm(const json& request, const Variables& variables) {
   const std::size_t d = variables.count();
@@ -91,12 +104,14 @@ json form_or_sorm(const json& request, const Variables& variables) {
   if (request.at("method") == "form") {
     OT::FORM form(nearest, event, OT::Point(d, 0.0));
     form.run();
+    check_design_point(value, form.getResult(), request);
     return form_answer(form.getResult(), variables);
   }
   OT::SORM sorm(nearest, event, OT::Point(d, 0.0));
   sorm.run();
   OT::FORM form(nearest, event, OT::Point(d, 0.0));
   form.run();
+  check_design_point(value, form.getResult(), request);
   json result = form_answer(form.getResult(), variables);
   const OT::SORMResult second = sorm.getResult();
   result["probability_form"] = result["probability"];

@@ -140,7 +140,7 @@ Result<Lead::Waited> Lead::wait_until(std::size_t of, const Done& done) {
 Result<std::optional<std::size_t>> Lead::narrow_enough() {
   using Number = std::optional<std::size_t>;
   if (plan_.sampling.half_width <= 0.0) return Number{};
-  for (std::size_t n = asked_ + asked_every; n <= run_.points.size(); n += asked_every) {
+  for (std::size_t n = asked_ + asked_every; n <= run_.samples; n += asked_every) {
     if (!have_all(0, n)) return Number{};
     std::size_t failures = 0, answers = 0;
     for (std::size_t s = 0; s < n; ++s) {
@@ -162,6 +162,9 @@ Result<StudyRun> Lead::all_at_once() {
   if (!points.ok()) return points.faults();
   run_.points = std::move(points.value());
   run_.samples = run_.points.size();
+  // A study that has had more may be looked at with fewer.
+  if (is_random(plan_.sampling.method))
+    run_.samples = std::min(run_.samples, static_cast<std::size_t>(*plan_.sampling.samples));
   const auto done = [&]() -> Result<bool> {
     const auto enough = narrow_enough();
     if (!enough.ok()) return enough.faults();

@@ -86,7 +86,12 @@ Trouble WorkerPool::look_after(const SampleFolder& folder, const StudyPlan& plan
                    "workers end again and again without a result",
                    "see whether memory is short; edda study with --jobs 1 needs less"};
     }
-    if (process < 0) process = started(arguments_);
+    if (process >= 0) continue;
+    process = started(arguments_);
+    if (process < 0)
+      return Fault{{"", arguments_.front(), 0, 0},
+                   "cannot be started as a worker",
+                   "start the study again with the program as it is now"};
   }
   return {};
 }

@@ -20,7 +20,7 @@
 namespace edda {
 namespace {
 
-constexpr double little = 1e-9;  // of the resultant
+constexpr double negligible = 1e-9;  // of the resultant
 
 /// One body and what touches it now.
 struct Surrounded {
@@ -139,8 +139,8 @@ void KeyBlockSearch::slide_on(RemovableBlock& block, const Surrounded& near,
 void KeyBlockSearch::add_motion(RemovableBlock& block, const Surrounded& near) const {
   const Vec2 r = force_[block.body].force;
   const double size = norm(r);
-  if (size <= little * rigid_.force) return;
-  const auto presses = [&](std::size_t i) { return dot(r, near.outward[i]) > little * size; };
+  if (size <= negligible * rigid_.force) return;
+  const auto presses = [&](std::size_t i) { return dot(r, near.outward[i]) > negligible * size; };
   bool falls = true;
   for (std::size_t i = 0; i < near.outward.size(); ++i) falls = falls && !presses(i);
   if (falls) {
@@ -154,7 +154,7 @@ void KeyBlockSearch::add_motion(RemovableBlock& block, const Surrounded& near) c
   for (std::size_t i = 0; i < near.outward.size(); ++i) {
     if (!presses(i)) continue;
     const Vec2 along = r - dot(r, near.outward[i]) * near.outward[i];
-    if (norm(along) > little * size && is_free(near.outward, along))
+    if (norm(along) > negligible * size && is_free(near.outward, along))
       return slide_on(block, near, i);
   }
 }

@@ -309,6 +309,16 @@ below = -1e-3
         self.expect(0, "study", "s.toml")
         self.assertEqual(read_rows(self.dir / "s/study.csv")[:60], before)
         self.same_outcome("whole", "s")
+        # Fewer are those that came first.
+        self.expect(0, "study", "s.toml", "--set", "sampling.samples=60")
+        self.assertEqual(read_rows(self.dir / "s/study.csv"), before)
+        self.assertEqual(self.summary()["samples"], 60)
+
+    def test_a_search_without_end_says_so(self):
+        # No cohesion is so small that the slab of little dip fails.
+        (self.dir / "slide.toml").write_text(SLIDE.replace("friction_angle = 25", "friction_angle = 50"))
+        self.write('method = "form"')
+        self.assertIn("there is no failure near", self.expect(2, "study", "s.toml").stderr)
 
     def test_ends_once_the_interval_is_narrow_enough(self):
         self.write('method = "monte-carlo"\nsamples = 5000\nhalf_width = 0.05', FRICTION)
