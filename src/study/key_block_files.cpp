@@ -62,6 +62,12 @@ std::string key_blocks_summary(const Model& model, const KeyBlocks& k) {
     if (b.factor && (!least || *b.factor < *least)) least = b.factor;
   }
   j.pair("largest_key_area", largest).pair("least_factor", least);
+  j.key("monitors").open_list();
+  for (const MonitoredPlace& m : k.monitors) {
+    j.open_object().pair("name", m.name).pair("class", block_class_name(m.kind));
+    j.pair("key", m.kind == BlockClass::key).pair("generation", m.generation).close();
+  }
+  j.close();
   j.key("warnings").open_list();
   for (const std::string& w : k.warnings) j.value(w);
   j.close();

@@ -321,6 +321,8 @@ Result<KeyBlocks> key_blocks(const Model& model, const KeyBlockOptions& options)
                     "give gravity or loads, and leave some blocks that are not fixed");
   }
   KeyBlocks found = search.run();
+  for (const MonitorPoint& m : prepared.value().monitors)
+    found.monitors.push_back({m.name, found.of_block[m.block], found.generation_of_block[m.block]});
   found.message = message_of(found);
   found.drawn = sim;
   found.warnings = prepared.value().warnings;

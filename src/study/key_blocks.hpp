@@ -54,12 +54,20 @@ struct KeyBlockOptions {
   std::size_t generations = 1000;  ///< at most: blocks that others have left free
 };
 
+/// The block at a monitor of the model.
+struct MonitoredPlace {
+  std::string name;
+  BlockClass kind = BlockClass::locked;
+  std::size_t generation = 0;  ///< of a key block; 0: it is none
+};
+
 struct KeyBlocks {
   std::vector<RemovableBlock>
       blocks;                        ///< key blocks first, in the order of generations and factors
   std::vector<BlockClass> of_block;  ///< [nb]
   std::vector<std::size_t> generation_of_block;  ///< [nb] of key blocks; 0: none
   std::size_t bodies = 0, locked = 0, stable = 0, held = 0, key = 0, generations = 0;
+  std::vector<MonitoredPlace> monitors;
   double key_area = 0.0, key_weight = 0.0;
   std::string message;
   std::optional<Simulation> drawn;

@@ -301,6 +301,19 @@ below = -1e-3
             self.assertEqual((row["nothing"], row["message"]), ("", "there is no energy.magic in the results"))
         self.assertEqual(list((self.dir / "s").glob("**/frames")), [])
 
+    def test_how_often_a_place_belongs_to_a_key_block(self):
+        (self.dir / "slide.toml").write_text(SLIDE + '[[monitor]]\nname = "toe"\npoint = [2, 2]\n')
+        text = study('method = "monte-carlo"\nsamples = 40', FRICTION)
+        text = text.replace("[failure]\nbelow = 1.0", '[ask.key]\nof = "keyblocks"\nvalue = "monitors.toe.key"\n[ask.area]\nof = "keyblocks"')
+        (self.dir / "s.toml").write_text(text)
+        self.expect(0, "study", "s.toml")
+        rows = read_rows(self.dir / "s/study.csv")
+        for row in rows:
+            fails = float(row["factor"]) < 1
+            self.assertEqual(float(row["key"]), fails)
+            self.assertAlmostEqual(float(row["area"]), 2 * LENGTH if fails else 0, delta=1e-6)
+        self.assertEqual(len({row["key"] for row in rows}), 2)
+
     def test_a_longer_study_goes_on(self):
         self.write('method = "monte-carlo"\nsamples = 150', FRICTION)
         self.expect(0, "study", "s.toml", "-o", "whole")
