@@ -38,6 +38,7 @@ OT::Distribution untruncated(const json& v) {
   if (kind == "exponential") return OT::Exponential(1.0 / (mean - low), low);
   if (kind == "weibull") return OT::WeibullMinMuSigma(mean, sd, low).getDistribution();
   if (kind == "beta") return OT::BetaMuSigma(mean, sd, low, high).getDistribution();
+  if (kind == "fisher") return OT::Uniform(0.0, 1.0);  // which orient() turns into angles
   if (kind == "von-mises") return OT::VonMises(0.0, value_of(v, "concentration"));
   return weighted(v);
 }
@@ -97,12 +98,45 @@ Variables::Variables(const json& variables, const json& dependence) {
     if (v.at("distribution") == "von-mises") scale_[i] = {value_of(v, "mean"), 1.0 / degree};
     marginals.add(truncated(v, scale_[i].zero, scale_[i].unit));
   }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (variables[i].at("distribution") != "fisher" || !variables[i].contains("with")) continue;
+    for (std::size_t j = 0; j < n; ++j) {
+      if (variables[j].at("name") != variables[i].at("with")) continue;
+      orientations_.push_back({j, i, value_of(variables[j], "mean"), value_of(variables[i], "mean"),
+                               value_of(variables[j], "concentration")});
+    }
+  }
   independent_ = dependence.empty();
   if (independent_) {
     joint_ = OT::ComposedDistribution(marginals);
   } else {
     joint_ = OT::ComposedDistribution(marginals, OT::ComposedCopula(copulas));
   }
+}
+
+/// From two uniform numbers u, v: the pole of the plane lies at the angle t from its mean,
+/// cos(t) = 1 + ln(u + (1 - u) exp(-2 k))/k (Fisher 1953), all round it alike.
+void Variables::orient(const Orientation& o, OT::Point& x) const {
+  const double u = x[o.dip], around = 2.0 * std::numbers::pi * x[o.direction];
+  const double k = o.concentration;
+  const double c = 1.0 + std::log(u + (1.0 - u) * std::exp(-2.0 * k)) / k;
+  const double s = std::sqrt(std::max(0.0, 1.0 - c * c));
+  // The upward pole of a plane of dip d leans by d to its dip direction. North, east, up, in the
+  // frame of the mean: along the dip, along the strike, along the mean pole.
+  const double d = o.mean_dip * degree, a = o.mean_direction * degree;
+  const double down = s * std::cos(around), strike = s * std::sin(around);
+  const double out = std::sin(d) * c + std::cos(d) * down;  // towards the mean dip direction
+  double north = out * std::cos(a) - strike * std::sin(a);
+  double east = out * std::sin(a) + strike * std::cos(a);
+  double up = std::cos(d) * c - std::sin(d) * down;
+  if (up < 0.0) {  // the same plane, seen from above
+    north = -north;
+    east = -east;
+    up = -up;
+  }
+  const double direction = std::atan2(east, north) / degree;
+  x[o.dip] = std::acos(std::clamp(up, -1.0, 1.0)) / degree;
+  x[o.direction] = direction < 0.0 ? direction + 360.0 : direction;
 }
 
 OT::Point Variables::from_uniform(const OT::Point& p) const {
@@ -113,6 +147,7 @@ OT::Point Variables::from_uniform(const OT::Point& p) const {
     const Scale& s = scale_[order_[k]];
     x[order_[k]] = s.zero + s.unit * y[k];
   }
+  for (const Orientation& o : orientations_) orient(o, x);
   return x;
 }
 

@@ -28,6 +28,13 @@ class Variables {
   struct Scale {
     double zero = 0.0, unit = 1.0;
   };
+  /// Dip and dip direction of an orientation, of Fisher's distribution.
+  struct Orientation {
+    std::size_t dip = 0, direction = 0;  ///< variables
+    double mean_dip = 0.0, mean_direction = 0.0, concentration = 1.0;
+  };
+  void orient(const Orientation& o, OT::Point& x) const;
+  std::vector<Orientation> orientations_;
   OT::Distribution joint_;
   std::vector<std::size_t> order_;  ///< variable of each of joint_'s components
   std::vector<Scale> scale_;        ///< of each variable

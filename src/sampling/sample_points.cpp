@@ -81,6 +81,8 @@ json variables_of(const StudyPlan& plan, std::vector<std::size_t>& drawn) {
     add("at_most", v.at_most);
     if (!v.values.empty()) one["values"] = v.values;
     if (!v.weights.empty()) one["weights"] = v.weights;
+    if (!v.with.empty()) one["with"] = v.with;
+    one["name"] = v.name;
     variables.push_back(std::move(one));
   }
   return variables;

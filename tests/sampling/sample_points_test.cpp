@@ -90,6 +90,40 @@ TEST(SamplePoints, TruncationCutsOffBothEnds) {
   EXPECT_GT(m.most, 62.9);
 }
 
+// Fisher: the mean of cos(t), t from the mean pole, is coth(k) - 1/k, and no direction around it is
+// better than another. Near the vertical the dip direction may be any.
+TEST(SamplePoints, PolesLieAroundTheirMean) {
+  for (const double mean_dip : {40.0, 3.0, 88.0}) {
+    const double k = 60.0, degree = M_PI / 180.0, azimuth = 135.0;
+    const Points points = points_or_fail(plan_of(study_of(
+        "distribution = \"fisher\"\nmean = " + std::to_string(mean_dip) +
+            "\nconcentration = 60\n[vary.y]\nkey = \"a.c\"\ndistribution = \"fisher\"\nmean = " +
+            "135\nwith = \"x\"",
+        "latin-hypercube", 4000)));
+    double cosines = 0.0, up = 0.0, side = 0.0;
+    for (const auto& p : points) {
+      ASSERT_TRUE(p[0] >= 0.0 && p[0] <= 90.0 && p[1] >= 0.0 && p[1] < 360.0);
+      const double dip = p[0] * degree, turn = (p[1] - azimuth) * degree;
+      double out = std::sin(dip) * std::cos(turn), strike = std::sin(dip) * std::sin(turn),
+             above = std::cos(dip);
+      const double d = mean_dip * degree;
+      double c = out * std::sin(d) + above * std::cos(d);
+      if (c < 0.0) {  // the pole was turned upwards
+        c = -c;
+        out = -out;
+        strike = -strike;
+        above = -above;
+      }
+      cosines += c / 4000.0;
+      up += (out * std::cos(d) - above * std::sin(d)) / 4000.0;
+      side += strike / 4000.0;
+    }
+    EXPECT_NEAR(cosines, 1.0 / std::tanh(k) - 1.0 / k, 3e-4) << mean_dip;
+    EXPECT_NEAR(up, 0.0, 4e-3) << mean_dip;
+    EXPECT_NEAR(side, 0.0, 4e-3) << mean_dip;
+  }
+}
+
 /// Spearman's coefficient of two columns without ties.
 double rank_of(const Points& points) {
   const auto ranks = [&](std::size_t column) {

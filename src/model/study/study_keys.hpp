@@ -12,9 +12,9 @@ namespace edda {
 inline constexpr std::array<std::string_view, 10> method_words{
     "monte-carlo", "latin-hypercube", "sobol",         "grid", "table", "form",
     "sorm",        "subset",          "sobol-indices", "fit"};
-inline constexpr std::array<std::string_view, 10> distribution_words{
-    "normal",  "lognormal", "uniform",   "triangular", "exponential",
-    "weibull", "beta",      "von-mises", "choice",     "seed"};
+inline constexpr std::array<std::string_view, 11> distribution_words{
+    "normal", "lognormal", "uniform", "triangular", "exponential", "weibull",
+    "beta",   "von-mises", "fisher",  "choice",     "seed"};
 inline constexpr std::array<std::string_view, 4> copula_words{"normal", "clayton", "gumbel",
                                                               "frank"};
 inline constexpr std::array<std::string_view, 4> analysis_words{"run", "fos", "limit", "keyblocks"};

@@ -35,6 +35,7 @@ enum class Distribution {
   weibull,
   beta,
   von_mises,
+  fisher,  ///< of an orientation: its dip, or with `with` its dip direction
   choice,  ///< one of `values`
   seed,    ///< another whole number for every sample
 };
@@ -65,6 +66,7 @@ struct Vary {
   Distribution distribution = Distribution::normal;
   std::optional<double> mean{}, sd{}, cv{}, low{}, high{}, mode{}, concentration{};
   std::optional<double> at_least{}, at_most{};  ///< the distribution is truncated there
+  std::string with;                             ///< of a dip direction: the name of its dip
   std::optional<double> start{};                ///< of method fit, with low and high its bounds
   Scale scale = Scale::linear;
   std::vector<double> values{}, weights{};
