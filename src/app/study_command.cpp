@@ -152,7 +152,7 @@ void add_fit(CLI::App& app, int& code) {
       "not tell apart. The folder holds what that of edda study does.");
   auto args = std::make_shared<StudyArguments>();
   add_arguments(*command, *args);
-  command->callback([args, command, &code] {
+  command->callback([args, &code] {
     if (args->study.empty()) throw CLI::RequiredError("STUDY");
     args->overrides.insert(args->overrides.begin(), "sampling.method=fit");
     code = study(*args);

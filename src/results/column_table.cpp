@@ -259,7 +259,7 @@ constexpr std::array key_blocks{
     C{"name", "text", "Its name, where it has one."},
     C{"x", "m", "Coordinate x of its centroid."},
     C{"y", "m", "Coordinate y of its centroid."},
-    C{"area", "m2", "Its area."},
+    C{"area", "m2", "Area of the block, or of those that are glued together."},
     C{"weight", "N", "Its weight, of the thickness of the model."},
     C{"class", "text",
       "key: its factor is below the one asked for; held: above it; stable: it stays without any "

@@ -93,13 +93,13 @@ std::string to_toml(const StudyPlan& plan) {
 }
 
 std::string study_key_reference() {
-  std::string text =
+  std::string page =
       "# Keys of a study's file\n\n"
       "A study is a TOML 1.0 file, read as a model file is. `edda keys --study` prints this "
       "page.\n";
   StudyPlan plan;
-  for (const Section& section : study_sections()) text += '\n' + key_reference(section, &plan);
-  return text;
+  for (const Section& section : study_sections()) page += '\n' + key_reference(section, &plan);
+  return page;
 }
 
 }  // namespace edda
