@@ -3,9 +3,9 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "app/common.hpp"
+#include "app/mechanism_picture.hpp"
 #include "app/study_folder.hpp"
 #include "base/text.hpp"
 #include "model/write_model.hpp"
@@ -13,7 +13,6 @@
 #include "results/columns.hpp"
 #include "results/files.hpp"
 #include "results/frames.hpp"
-#include "step/labels.hpp"
 #include "study/key_blocks.hpp"
 
 namespace edda {
@@ -60,10 +59,7 @@ Trouble draw(const Model& model, const KeyBlocks& found, const std::string& fold
       options.joints.push_back({joint.ends[0] + origin, joint.ends[1] + origin});
     }
   }
-  for (const char* ending : {".png", ".svg"}) {
-    if (Trouble t = plot({&shot, 1}, options, folder + "/keyblocks" + ending)) return t;
-  }
-  return {};
+  return draw_in_both_forms(shot, options, folder, "keyblocks");
 }
 
 Trouble write_results(const Model& model, const KeyBlocks& found, const std::string& folder) {
@@ -75,10 +71,6 @@ Trouble write_results(const Model& model, const KeyBlocks& found, const std::str
   if (Trouble t = draw(model, found, folder)) return t;
   if (Trouble t = write_columns_csv(folder)) return t;
   return write("summary.json", key_blocks_summary(model, found));
-}
-
-std::string number_or(const std::optional<double>& value, const char* otherwise) {
-  return value ? fmt::format("{:.4g}", *value) : otherwise;
 }
 
 /// To centimetres, without a minus sign before 0.
@@ -100,7 +92,7 @@ void print_end(const KeyBlocks& found, const std::string& folder) {
     fmt::print("  {:>5}  {:>18}  {:>8.4g}  {:>9.4g}  {:>8.4g}  {:>10}  {}{}\n", b.blocks.front(),
                fmt::format("({:.2f}, {:.2f})", rounded(b.centroid.x), rounded(b.centroid.y)),
                b.area, 1e-3 * b.weight, b.factor.value_or(0.0),
-               b.support ? number_or(1e-3 * *b.support, "") : "", removal_mode_name(b.mode),
+               b.support ? fmt::format("{:.4g}", 1e-3 * *b.support) : "", removal_mode_name(b.mode),
                b.generation > 1 ? fmt::format(", generation {}", b.generation) : "");
   }
   if (shown > most) fmt::print("  and {} more (keyblocks.csv)\n", shown - most);

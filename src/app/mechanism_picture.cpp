@@ -19,15 +19,15 @@ double round_scale(double x) {
   return power * (digit >= 5.0 ? 5.0 : digit >= 2.0 ? 2.0 : 1.0);
 }
 
-Trouble draw(const Snapshot& shot, const PlotOptions& options, const std::string& folder,
-             const char* name) {
+}  // namespace
+
+Trouble draw_in_both_forms(const Snapshot& shot, const PlotOptions& options,
+                           const std::string& folder, const char* name) {
   for (const char* ending : {".png", ".svg"}) {
     if (Trouble trouble = plot({&shot, 1}, options, folder + "/" + name + ending)) return trouble;
   }
   return {};
 }
-
-}  // namespace
 
 Trouble draw_mechanism(const Model& model, const Simulation& moved, const Mechanism& mechanism,
                        double size, const std::string& subtitle, const std::string& folder) {
@@ -50,7 +50,7 @@ Trouble draw_mechanism(const Model& model, const Simulation& moved, const Mechan
       options.joints.push_back(
           {s.from + options.scale * s.from_moved, s.to + options.scale * s.to_moved});
   }
-  return draw(shot, options, folder, "mechanism");
+  return draw_in_both_forms(shot, options, folder, "mechanism");
 }
 
 Trouble draw_thrust(const Model& model, const Simulation& drawn,
@@ -71,7 +71,7 @@ Trouble draw_thrust(const Model& model, const Simulation& drawn,
   PlotOptions options = options_of(model, drawn.scene->blocks.size());
   options.subtitle = subtitle;
   options.forces = true;
-  return draw(shot, options, folder, "thrust");
+  return draw_in_both_forms(shot, options, folder, "thrust");
 }
 
 }  // namespace edda

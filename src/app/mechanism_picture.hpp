@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "report/plot.hpp"
 #include "results/files.hpp"
 #include "results/records.hpp"
 #include "study/mechanism.hpp"
@@ -19,5 +20,9 @@ Trouble draw_mechanism(const Model& model, const Simulation& moved, const Mechan
 Trouble draw_thrust(const Model& model, const Simulation& drawn,
                     const std::vector<ContactRecord>& forces, const std::string& subtitle,
                     const std::string& folder);
+
+/// FOLDER/NAME.png and .svg.
+Trouble draw_in_both_forms(const Snapshot& shot, const PlotOptions& options,
+                           const std::string& folder, const char* name);
 
 }  // namespace edda

@@ -19,7 +19,6 @@ class Chart {
     return {frame_.low.x + (x - world_.low.x) / world_.width() * frame_.width(),
             frame_.high.y - (y - world_.low.y) / world_.height() * frame_.height()};
   }
-  const Box& frame() const { return frame_; }
 
   /// Grid, ticks with their labels, frame. An axis without a name has no labels.
   void draw_axes(const std::string& x, const std::string& y);

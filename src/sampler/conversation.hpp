@@ -10,6 +10,14 @@ void answer(const nlohmann::json& line);
 /// The next line; null at the end of the input.
 nlohmann::json next_line();
 
+/// The numbers of a point or a vector.
+template <class Numbers>
+nlohmann::json list_of(const Numbers& numbers) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const double x : numbers) list.push_back(x);
+  return list;
+}
+
 nlohmann::json points(const nlohmann::json& request);
 nlohmann::json interval(const nlohmann::json& request);
 nlohmann::json ranks(const nlohmann::json& request);

@@ -106,8 +106,7 @@ Variables::Variables(const json& variables, const json& dependence) {
                                value_of(variables[j], "concentration")});
     }
   }
-  independent_ = dependence.empty();
-  if (independent_) {
+  if (dependence.empty()) {
     joint_ = OT::ComposedDistribution(marginals);
   } else {
     joint_ = OT::ComposedDistribution(marginals, OT::ComposedCopula(copulas));

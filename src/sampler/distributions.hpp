@@ -17,7 +17,6 @@ class Variables {
   Variables(const nlohmann::json& variables, const nlohmann::json& dependence);
 
   std::size_t count() const { return order_.size(); }
-  bool are_independent() const { return independent_; }
   /// From standard space.
   OT::Point from_normal(const OT::Point& u) const;
   /// From independent variables uniform in (0, 1).
@@ -38,7 +37,6 @@ class Variables {
   OT::Distribution joint_;
   std::vector<std::size_t> order_;  ///< variable of each of joint_'s components
   std::vector<Scale> scale_;        ///< of each variable
-  bool independent_ = true;
 };
 
 }  // namespace edda::sampler

@@ -67,7 +67,6 @@ class Differences : public ceres::CostFunction {
   }
 
   const std::vector<Parameter>& parameters() const { return parameters_; }
-  std::size_t runs() const { return known_.size(); }
 
  private:
   /// Towards the middle where the other side is a bound.
@@ -97,12 +96,6 @@ class Differences : public ceres::CostFunction {
   std::vector<double> measured_, error_;
   mutable std::map<std::vector<double>, std::vector<double>> known_;
 };
-
-json list_of(const Eigen::VectorXd& v) {
-  json list = json::array();
-  for (const double x : v) list.push_back(x);
-  return list;
-}
 
 /// Covariance of the parameters in [0, 1], s^2 (J^T J)^-1 with the reduced sum of squares s^2,
 /// which is not taken below 1: errors given are not made smaller by a lucky fit. Directions that
@@ -167,8 +160,7 @@ json fit(const json& request) {
             {"correlation", correlation},
             {"differences", list_of(rest)},
             {"sum_of_squares", squares},
-            {"converged", summary.termination_type == ceres::CONVERGENCE},
-            {"runs", differences->runs()}}}};
+            {"converged", summary.termination_type == ceres::CONVERGENCE}}}};
 }
 
 }  // namespace edda::sampler

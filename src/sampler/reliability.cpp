@@ -30,11 +30,8 @@ class AskedValue : public OT::EvaluationImplementation {
   OT::Point operator()(const OT::Point& u) const override { return (*this)(OT::Sample(1, u))[0]; }
   OT::Sample operator()(const OT::Sample& u) const override {
     json rows = json::array();
-    for (std::size_t i = 0; i < u.getSize(); ++i) {
-      json row = json::array();
-      for (const double x : variables_->from_normal(u[i])) row.push_back(x);
-      rows.push_back(row);
-    }
+    for (std::size_t i = 0; i < u.getSize(); ++i)
+      rows.push_back(list_of(variables_->from_normal(u[i])));
     answer({{"ask", rows}});
     const json reply = next_line();
     if (!reply.contains("values")) throw OT::InternalException(HERE) << "the study was ended";
@@ -54,27 +51,23 @@ OT::ThresholdEvent event_of(const json& request, const OT::Function& value, std:
   return {output, OT::Greater(), threshold};
 }
 
-json point_of(const OT::Point& x) {
-  json list = json::array();
-  for (const double c : x) list.push_back(c);
-  return list;
-}
-
 /// What FORM finds: its design point is that of failure nearest to the origin of standard space.
-json form_answer(const OT::FORMResult& result, const Variables& variables) {
+json form_answer(const OT::AnalyticalResult& result, const Variables& variables) {
   const OT::Point u = result.getStandardSpaceDesignPoint();
+  const double distance = result.getHasoferReliabilityIndex();
+  const double index = result.getIsStandardPointOriginInFailureSpace() ? -distance : distance;
   double square = 0.0;
   for (const double c : u) square += c * c;
   json importance = json::array();
   for (const double c : u) importance.push_back(square > 0.0 ? c * c / square : 0.0);
-  return {{"probability", result.getEventProbability()},
-          {"reliability_index", result.getGeneralisedReliabilityIndex()},
-          {"design_point", point_of(variables.from_normal(u))},
+  return {{"probability", OT::DistFunc::pNormal(-index)},
+          {"reliability_index", index},
+          {"design_point", list_of(variables.from_normal(u))},
           {"importance", importance}};
 }
 
 /// Whether the point is one where the value is the threshold.
-void check_design_point(const AskedValue& value, const OT::FORMResult& result,
+void check_design_point(const AskedValue& value, const OT::AnalyticalResult& result,
                         const json& request) {
   const double at = value(result.getStandardSpaceDesignPoint())[0];
   constexpr double close = 0.01;
@@ -109,11 +102,9 @@ json form_or_sorm(const json& request, const Variables& variables) {
   }
   OT::SORM sorm(nearest, event, OT::Point(d, 0.0));
   sorm.run();
-  OT::FORM form(nearest, event, OT::Point(d, 0.0));
-  form.run();
-  check_design_point(value, form.getResult(), request);
-  json result = form_answer(form.getResult(), variables);
   const OT::SORMResult second = sorm.getResult();
+  check_design_point(value, second, request);
+  json result = form_answer(second, variables);
   result["probability_form"] = result["probability"];
   result["probability"] = second.getEventProbabilityBreitung();
   result["reliability_index"] = second.getGeneralisedReliabilityIndexBreitung();

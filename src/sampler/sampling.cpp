@@ -46,12 +46,6 @@ OT::Sample column_of(const json& values) {
   return sample;
 }
 
-json list_of(const OT::Point& p) {
-  json list = json::array();
-  for (const double x : p) list.push_back(x);
-  return list;
-}
-
 }  // namespace
 
 json points(const json& request) {
