@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "app/common.hpp"
+#include "app/curve_picture.hpp"
 #include "app/plot_source.hpp"
 
 namespace edda {
@@ -100,6 +101,10 @@ Trouble check(const PlotArguments& args) {
 int draw(const PlotArguments& args) {
   if (const Trouble trouble = check(args)) return refuse(*trouble);
   const std::string path = args.output.empty() ? name_of(args.source) + ".png" : args.output;
+  if (args.curve) {
+    if (!has_curve(args.source)) return refuse(*draw_curve(args.source, path, args.title));
+    return finish(draw_curve(args.source, path, args.title), path);
+  }
   return args.history.empty() ? draw_frames(args, path) : draw_histories(args, path);
 }
 
@@ -171,9 +176,16 @@ void add_what(CLI::App& command, PlotArguments& args) {
           ->type_name("NAME[,NAME...]")
           ->delimiter(',')
           ->allow_extra_args(false);
+  CLI::Option* const curve =
+      command
+          .add_flag("--curve", args.curve,
+                    "The curve of a ramp instead: what it varies against the monitors' "
+                    "displacements")
+          ->excludes(history);
   for (CLI::Option* other :
        {field, time, compare, before, vectors, forces, principal, bolts, relative}) {
     history->excludes(other);
+    curve->excludes(other);
   }
 }
 
@@ -233,6 +245,7 @@ void add_plot(CLI::App& app, int& code) {
       "  edda plot slope --before --range 0,0.5       before and after, one scale\n"
       "  edda plot slope --history energy,drift       lines over time\n"
       "  edda plot slope --history crest.ux --times 0,0.5 --range 0,0.1\n"
+      "  edda plot wall --curve                       what a ramp varied over displacements\n"
       "  edda plot slope.toml                         the blocks before the run\n\n"
       "Fields: " +
       field_names() +

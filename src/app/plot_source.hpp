@@ -24,7 +24,7 @@ struct PlotArguments {
   int width_pixels = 0;
   double font = 8.0;
   bool forces = false, principal = false, bolts = false, before = false, no_marks = false;
-  bool whole_range = false;
+  bool whole_range = false, curve = false;
 };
 
 /// All data of a picture.

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/common.hpp"
+#include "app/curve_picture.hpp"
 #include "app/run_report.hpp"
 #include "model/stage_names.hpp"
 #include "results/files.hpp"
@@ -75,6 +76,12 @@ int run(const RunArguments& args, RunReport* report) {
   options.from_stage = first_stage(model.value(), args.from).value();
   const Result<Outcome> outcome = run_model(prepared.value(), options);
   if (!outcome.ok()) return refuse(outcome.faults());
+  if (has_curve(folder)) {
+    for (const char* file : {"/curve.png", "/curve.svg"}) {
+      if (const Trouble trouble = draw_curve(folder, folder + file, {}))
+        options.warn(to_string(*trouble));
+    }
+  }
   const int code = code_of(outcome.value().status);
   say([&] { report->ends(outcome.value(), folder, code); });
   return code;
@@ -112,6 +119,7 @@ void add_run(CLI::App& app, int& code) {
       "  blocks.pvd, contacts.pvd   time series: open them in ParaView\n"
       "  model.toml     the model as run, every default filled in\n"
       "  stages.csv     a row per stage, with joints_N.csv and checkpoint_N.h5 of its end\n"
+      "  curve.csv      a row per increment of a ramp, drawn as curve.png and curve.svg\n"
       "  checkpoint.h5  the state to continue from, every few minutes of a long run\n"
       "Ctrl-C ends a run early and keeps everything so far (exit code 130); --resume continues\n"
       "it, with the same digits as a run that was never stopped.");

@@ -1,5 +1,5 @@
-// Boundaries of type fixed, roller and velocity (theory, section 13.3): linear springs between
-// block vertices and their positions at the start, moved with the boundary.
+// Boundaries of type fixed, roller, velocity and displacement (theory, section 13.3): linear
+// springs between block vertices and their positions at the start, moved with the boundary.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ struct BoundarySprings {
 
 inline bool has_springs(BoundaryType type) {
   return type == BoundaryType::fixed || type == BoundaryType::roller ||
-         type == BoundaryType::velocity;
+         type == BoundaryType::velocity || type == BoundaryType::displacement;
 }
 
 /// Force of spring q on its vertex at x, y, N.

@@ -8,10 +8,12 @@ namespace edda {
 
 Ground find_ground(const Model& model, const BlockSet& b) {
   Ground ground;
-  ground.moves = std::any_of(model.shakings.begin(), model.shakings.end(),
-                             [](const Shaking& s) { return s.apply == ShakingKind::base; }) ||
-                 std::any_of(model.boundaries.begin(), model.boundaries.end(),
-                             [](const Boundary& q) { return q.type == BoundaryType::velocity; });
+  ground.moves =
+      std::any_of(model.shakings.begin(), model.shakings.end(),
+                  [](const Shaking& s) { return s.apply == ShakingKind::base; }) ||
+      std::any_of(model.boundaries.begin(), model.boundaries.end(), [](const Boundary& q) {
+        return q.type == BoundaryType::velocity || q.type == BoundaryType::displacement;
+      });
   for (Id i = 0; i < b.size(); ++i) {
     if (b.fixed[i]) ground.fixed_blocks.push_back(i);
   }
@@ -30,8 +32,9 @@ Vec2 ground_acceleration(const Model& model, const ActiveIntervals& intervals, d
   return a;
 }
 
-GroundStep next_ground(const Model& model, const ActiveIntervals& intervals, const Ground& ground,
+GroundStep next_ground(const Model& model, const Loads& loads, const Ground& ground,
                        const BoundarySprings& springs, double time, double h_old, double h_new) {
+  const ActiveIntervals& intervals = loads.intervals;
   GroundStep next;
   next.velocity =
       ground.velocity + (0.5 * (h_old + h_new)) * ground_acceleration(model, intervals, time);
@@ -46,6 +49,10 @@ GroundStep next_ground(const Model& model, const ActiveIntervals& intervals, con
       velocity += boundary.factor.at(middle, 1.0) * *boundary.velocity;
     }
     next.shifts[q] += h_new * velocity;
+    if (boundary.type == BoundaryType::displacement) {
+      next.shifts[q] =
+          next.shift + boundary_factor(model, loads, q, time + h_new) * *boundary.displacement;
+    }
   }
   return next;
 }

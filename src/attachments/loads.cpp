@@ -2,192 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 
-#include "attachments/boundary_lines.hpp"
-#include "attachments/edges_on_line.hpp"
-#include "base/parallel.hpp"
-#include "blocks/locate.hpp"
 #include "model/files/accelerogram.hpp"
-#include "model/stage_names.hpp"
 
 namespace edda {
 namespace {
-
-void attach_line(const Load& load, Index row, const BlockSet& b, double snap, Loads& loads,
-                 Faults& faults) {
-  std::vector<Line> lines;
-  for (std::size_t k = 0; k + 1 < load.along.size(); ++k) {
-    lines.push_back({load.along[k] - b.origin, load.along[k + 1] - b.origin});
-  }
-  bool in_joints = false;
-  const std::vector<Piece> pieces =
-      pieces_on(b, lines, load.force ? WhichFaces::open : WhichFaces::all, snap, in_joints);
-  const double t = b.thickness;
-  for (const Piece& p : pieces) {
-    loads.edges.push_back({p.edge, p.part.from, p.part.to, load.force ? t * *load.force : Vec2{},
-                           load.pressure ? t * *load.pressure : 0.0, row});
-  }
-  if (!pieces.empty()) return;
-  Fault fault{load.where, "no face of a free block lies on this line",
-              "give a line that faces of blocks lie on (edda cut draws them)"};
-  if (in_joints) {
-    fault.problem = "lies along a joint, where a traction would act on both faces";
-    fault.remedy = "give pressure in place of force, or a line along a free face";
-  }
-  fault.where.key += ".along";
-  faults.push_back(fault);
-}
-
-/// A boundary of type stress: a traction on the faces along it. Without a traction of its own it
-/// gets that of the initial stress (load_initial_stress()).
-void attach_stress(const Model& model, std::size_t row, const BlockSet& b, double snap,
-                   Loads& loads, Faults& faults) {
-  const Boundary& boundary = model.boundaries[row];
-  bool in_joints = false;
-  const std::vector<Piece> pieces =
-      pieces_on(b, boundary_lines(model, b, boundary), WhichFaces::open, snap, in_joints);
-  for (const Piece& p : pieces) {
-    if (!boundary.traction) break;
-    loads.edges.push_back({p.edge, p.part.from, p.part.to, b.thickness * *boundary.traction, 0.0,
-                           static_cast<Index>(model.loads.size() + row)});
-  }
-  if (!pieces.empty()) return;
-  faults.push_back({boundary.where, "no open face of a free block lies on this boundary",
-                    "give a line that faces of blocks lie on, or sides of the outline"});
-}
-
-void attach_point(const Model& model, const PolygonSet& polygons, const Load& load, Index row,
-                  const BlockSet& b, Loads& loads, Faults& faults) {
-  const Vec2 p = *load.point - b.origin;
-  if (const auto block = block_at(model, polygons, b, p, Among::free_blocks)) {
-    loads.points.push_back({*block, weights_at(b, *block, p), *load.force, row});
-    return;
-  }
-  Fault fault{load.where, "lies in no block", "move it into one (edda cut draws them)"};
-  if (block_at(model, polygons, b, p)) {
-    fault.problem = "lies in a block that is fixed";
-    fault.remedy = "move it to a free block, or leave the load out";
-  }
-  fault.where.key += ".point";
-  faults.push_back(fault);
-}
-
-/// The water table from left to right, local coordinates.
-struct Table {
-  std::vector<Vec2> points;
-
-  double low() const { return points.front().x; }
-  double high() const { return points.back().x; }
-  double at(double x) const {
-    if (x <= low()) return points.front().y;
-    std::size_t k = 1;
-    while (k + 1 < points.size() && points[k].x < x) ++k;
-    const Vec2 a = points[k - 1], b = points[k];
-    return a.y + std::min((x - a.x) / (b.x - a.x), 1.0) * (b.y - a.y);
-  }
-};
-
-/// The parts of edge v that each lie under one straight piece of the table, without those that are
-/// dry.
-void wet_edge(const BlockSet& b, Id v, const Table& table, const std::vector<Part>& dry,
-              double snap, Index row, std::vector<WetEdge>& wet) {
-  const Vec2 a = b.vertex(v), u = b.vertex(b.next[v]) - a;
-  const auto add = [&](Part piece) {
-    for (const Part p : without(piece, dry)) {
-      if ((p.to - p.from) * norm(u) <= snap) continue;
-      wet.push_back(
-          {v, p.from, p.to, table.at(a.x + p.from * u.x), table.at(a.x + p.to * u.x), row});
-    }
-  };
-  if (std::abs(u.x) <= snap) {  // vertical
-    const double x = a.x + 0.5 * u.x;
-    if (x >= table.low() - snap && x <= table.high() + snap) add({0.0, 1.0});
-    return;
-  }
-  std::vector<double> ends;
-  for (const Vec2 p : table.points) ends.push_back(std::clamp((p.x - a.x) / u.x, 0.0, 1.0));
-  std::sort(ends.begin(), ends.end());
-  for (std::size_t k = 1; k < ends.size(); ++k) add({ends[k - 1], ends[k]});
-}
-
-/// Outlines of the openings that are not flooded, local coordinates.
-std::vector<std::array<Vec2, 2>> dry_outlines(const Model& model, const Water& water, Vec2 origin) {
-  std::vector<std::array<Vec2, 2>> lines;
-  for (const Opening& opening : model.openings) {
-    const auto& full = water.flooded;
-    if (std::find(full.begin(), full.end(), opening.name) != full.end()) continue;
-    for (std::size_t k = 0; k < opening.polygon.size(); ++k) {
-      const Vec2 end = opening.polygon[(k + 1) % opening.polygon.size()];
-      lines.push_back({opening.polygon[k] - origin, end - origin});
-    }
-  }
-  return lines;
-}
-
-void attach_water(const Model& model, const Water& water, Index row, const BlockSet& b, double snap,
-                  Loads& loads, Faults& faults) {
-  Table table;
-  for (const Vec2 p : water.table) table.points.push_back(p - b.origin);
-  const std::vector<std::array<Vec2, 2>> outlines = dry_outlines(model, water, b.origin);
-  const std::size_t before = loads.wet.size();
-  std::vector<Part> dry;
-  for (Id v = 0; v < b.vertex_count(); ++v) {
-    if (b.fixed[b.vertex_block[v]]) continue;
-    dry.clear();
-    for (const auto& line : outlines) {
-      const Part part = on_segment(b, v, line[0], line[1], snap);
-      if (part.to > part.from) dry.push_back(part);
-    }
-    wet_edge(b, v, table, dry, snap, row, loads.wet);
-  }
-  if (loads.wet.size() > before) return;
-  Fault fault{water.where, "no face of a free block lies between the ends of the table",
-              "give a table that lies above the blocks it is to act on"};
-  fault.where.key += ".table";
-  faults.push_back(fault);
-}
-
-/// Active intervals at the start: active, or not yet.
-template <class Item>
-std::vector<ActiveInterval> first_intervals(const Model& model, const std::vector<Item>& items) {
-  constexpr double never = std::numeric_limits<double>::infinity();
-  std::vector<ActiveInterval> intervals;
-  intervals.reserve(items.size());
-  for (const Item& item : items)
-    intervals.push_back({acts_at_first(model, item.name) ? 0.0 : never});
-  return intervals;
-}
-
-/// Sorts each list by block, and fills the ranges of the blocks.
-void sort_by_block(const BlockSet& b, Loads& l) {
-  auto by_edge = [](const auto& x, const auto& y) { return x.edge < y.edge; };
-  std::stable_sort(l.points.begin(), l.points.end(),
-                   [](const PointLoad& x, const PointLoad& y) { return x.block < y.block; });
-  std::stable_sort(l.edges.begin(), l.edges.end(), by_edge);
-  std::stable_sort(l.wet.begin(), l.wet.end(), by_edge);
-  std::vector<std::uint8_t> any(b.size(), 0);
-  for (const PointLoad& p : l.points) any[p.block] = 1;
-  for (const EdgeLoad& e : l.edges) any[b.vertex_block[e.edge]] = 1;
-  for (const WetEdge& e : l.wet) any[b.vertex_block[e.edge]] = 1;
-  l.place.assign(b.size(), no_id);
-  l.blocks.clear();
-  l.range.clear();
-  Id point = 0, edge = 0, wet = 0;
-  for (Id i = 0; i < b.size(); ++i) {
-    if (!any[i]) continue;
-    l.place[i] = static_cast<Id>(l.blocks.size());
-    l.blocks.push_back(i);
-    Loads::Range r{point, 0, edge, 0, wet, 0};
-    while (point < l.points.size() && l.points[point].block == i) ++point;
-    while (edge < l.edges.size() && b.vertex_block[l.edges[edge].edge] == i) ++edge;
-    while (wet < l.wet.size() && b.vertex_block[l.wet[wet].edge] == i) ++wet;
-    r.point_end = point;
-    r.edge_end = edge;
-    r.wet_end = wet;
-    l.range.push_back(r);
-  }
-}
 
 /// Integrals of d and of d s over a part of an edge, with d linear and zero where negative.
 struct Head {
@@ -227,64 +47,65 @@ EndForces water_of(const BlockSet& b, const LoadsNow& now, const WetEdge& e,
   return {(h.all - h.second) * inward, h.second * inward};
 }
 
+/// The factor on a load: what its history says since it was activated, times its multiplier.
+double factor_of(const TimeHistory& history, const ActiveInterval& interval,
+                 const SteppedValue& slow, double time, const GradualChange& gradual) {
+  const double part = interval.part(time, gradual);
+  if (!(part > 0.0)) return 0.0;
+  return part * slow.at(time, gradual) * history.at(time - interval.since, 1.0);
+}
+
 }  // namespace
 
-Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const BlockSet& b) {
-  Loads loads;
-  Faults faults;
-  loads.intervals = {first_intervals(model, model.loads), first_intervals(model, model.waters),
-                     first_intervals(model, model.boundaries),
-                     first_intervals(model, model.shakings)};
-  loads.remaining.assign(model.openings.size() + model.boundaries.size(), {});
-  const auto is_stress = [](const Boundary& q) { return q.type == BoundaryType::stress; };
-  const bool stressed = std::any_of(model.boundaries.begin(), model.boundaries.end(), is_stress);
-  if (model.loads.empty() && model.waters.empty() && !stressed) return loads;
-  const double snap = 4.0 * snap_distance(model, b);
-  for (std::size_t q = 0; q < model.loads.size(); ++q) {
-    const Load& load = model.loads[q];
-    if (load.point) {
-      attach_point(model, polygons, load, static_cast<Index>(q), b, loads, faults);
-    } else {
-      attach_line(load, static_cast<Index>(q), b, snap, loads, faults);
-    }
-  }
-  for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
-    if (is_stress(model.boundaries[q])) attach_stress(model, q, b, snap, loads, faults);
-  }
-  for (std::size_t q = 0; q < model.waters.size(); ++q) {
-    attach_water(model, model.waters[q], static_cast<Index>(q), b, snap, loads, faults);
-  }
-  if (!faults.empty()) return faults;
-  sort_by_block(b, loads);
-  return loads;
+Vec2 gravity_at(Vec2 g, const SlowLoading& slow, double time, const GradualChange& gradual) {
+  const double angle = slow.tilt.at(time, gradual) * std::numbers::pi / 180.0;
+  const double kh = slow.kh.at(time, gradual), kv = slow.kv.at(time, gradual);
+  const Vec2 tilted = std::cos(angle) * g + std::sin(angle) * perp(g);
+  return slow.gravity.at(time, gradual) * ((1.0 - kv) * tilted + kh * perp(tilted));
 }
 
-void add_edge_loads(const BlockSet& b, const std::vector<EdgeLoad>& more, Loads& loads) {
-  loads.edges.insert(loads.edges.end(), more.begin(), more.end());
-  sort_by_block(b, loads);
-}
-
-void keep_wall_forces(const Model& model, const BlockSet& b, const std::vector<WallForce>& forces,
-                      Loads& loads) {
-  const std::size_t before = model.loads.size() + model.boundaries.size();
-  for (const WallForce& f : forces) {
-    const Id v = f.vertex;
-    loads.points.push_back({b.vertex_block[v], weights_of(b.weight, v), f.force,
-                            static_cast<Index>(before) + f.owner});
+SteppedValue* slow_value(SlowLoading& slow, Varied varied, Index target) {
+  const auto row = static_cast<std::size_t>(target);
+  switch (varied) {
+    case Varied::tilt:
+      return &slow.tilt;
+    case Varied::kh:
+      return &slow.kh;
+    case Varied::kv:
+      return &slow.kv;
+    case Varied::gravity:
+      return &slow.gravity;
+    case Varied::load:
+      return &slow.loads[row];
+    case Varied::water:
+      return &slow.waters[row];
+    case Varied::boundary:
+      return &slow.boundaries[row];
+    case Varied::strength:
+    case Varied::shaking:
+      break;
   }
-  sort_by_block(b, loads);
+  return nullptr;
 }
 
-void remove_wall_forces(const Model& model, const BlockSet& b, Index owner, Loads& loads) {
-  const auto row = static_cast<Index>(model.loads.size() + model.boundaries.size()) + owner;
-  std::erase_if(loads.points, [&](const PointLoad& p) { return p.load == row; });
-  sort_by_block(b, loads);
+ActiveInterval* interval_of(ActiveIntervals& intervals, Varied varied, Index target) {
+  const auto row = static_cast<std::size_t>(target);
+  if (varied == Varied::load) return &intervals.loads[row];
+  if (varied == Varied::water) return &intervals.waters[row];
+  if (varied == Varied::boundary) return &intervals.boundaries[row];
+  return nullptr;
+}
+
+double boundary_factor(const Model& model, const Loads& loads, std::size_t row, double time) {
+  return factor_of(model.boundaries[row].factor, loads.intervals.boundaries[row],
+                   loads.slow.boundaries[row], time, loads.gradual);
 }
 
 LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
   LoadsNow now;
   const GradualChange& gradual = loads.gradual;
-  if (gradual.weight) now.to_come = (1.0 - gradual.part) * model.gravity;
+  now.to_come = model.gravity - (gradual.weight ? gradual.part : 1.0) *
+                                    gravity_at(model.gravity, loads.slow, time, gradual);
   for (std::size_t q = 0; q < model.shakings.size(); ++q) {
     const Shaking& shaking = model.shakings[q];
     const ActiveInterval& interval = loads.intervals.shakings[q];
@@ -294,23 +115,22 @@ LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
   }
   if (loads.blocks.empty()) return now;
   now.loads = &loads;
-  const auto add_factors = [&](const auto& items, const std::vector<ActiveInterval>& intervals) {
-    for (std::size_t q = 0; q < items.size(); ++q) {
-      const double part = intervals[q].part(time, gradual);
-      now.factor.push_back(part > 0.0 ? part * items[q].factor.at(time - intervals[q].since, 1.0)
-                                      : 0.0);
-    }
+  const auto add_factors = [&](const auto& items, const std::vector<ActiveInterval>& intervals,
+                               const std::vector<SteppedValue>& slow) {
+    for (std::size_t q = 0; q < items.size(); ++q)
+      now.factor.push_back(factor_of(items[q].factor, intervals[q], slow[q], time, gradual));
   };
-  add_factors(model.loads, loads.intervals.loads);
-  add_factors(model.boundaries, loads.intervals.boundaries);
-  for (const RemainingFraction& fraction : loads.remaining)
+  add_factors(model.loads, loads.intervals.loads, loads.slow.loads);
+  add_factors(model.boundaries, loads.intervals.boundaries, loads.slow.boundaries);
+  for (const SteppedValue& fraction : loads.remaining)
     now.factor.push_back(fraction.at(time, gradual));
   for (std::size_t q = 0; q < model.waters.size(); ++q) {
     const Water& water = model.waters[q];
     const ActiveInterval& interval = loads.intervals.waters[q];
     const double part = interval.part(time, gradual);
     now.rise.push_back(part > 0.0 ? water.rise.at(time - interval.since, 0.0) : 0.0);
-    now.weight.push_back(part * water.unit_weight * model.thickness);
+    now.weight.push_back(part * loads.slow.waters[q].at(time, gradual) * water.unit_weight *
+                         model.thickness);
   }
   return now;
 }

@@ -81,18 +81,37 @@ struct ActiveIntervals {
   std::vector<ActiveInterval> shakings;    ///< [rows of Model::shakings]
 };
 
-/// The fraction of the forces of an owner (see WallForce) that still acts: now, and before the last
-/// change.
-struct RemainingFraction {
-  double part = 0.0, before = 0.0;
+/// A number that changes at one time: what it is from then on, and what it was before.
+struct SteppedValue {
+  double value = 0.0, before = 0.0;
   double changed = -1.0;  ///< s
-  double at(double time) const { return time == changed ? 0.5 * (before + part) : part; }
+  double at(double time) const { return time == changed ? 0.5 * (before + value) : value; }
   double at(double time, const GradualChange& gradual) const {
-    return gradual.part < 1.0 && changed == gradual.at ? before + gradual.part * (part - before)
+    return gradual.part < 1.0 && changed == gradual.at ? before + gradual.part * (value - before)
                                                        : at(time);
   }
-  void change(double to, double time) { *this = {to, time == changed ? before : part, time}; }
+  void change(double to, double time) { *this = {to, time == changed ? before : value, time}; }
 };
+
+/// What ramps and the trials of a factor have made of gravity and of the loads that the model gives
+/// (theory, section 11.5).
+struct SlowLoading {
+  SteppedValue kh, kv;           ///< seismic coefficients
+  SteppedValue tilt;             ///< degrees
+  SteppedValue gravity{1., 1.};  ///< multiplier of the weight
+  /// Multipliers, [rows of Model::loads], of Model::waters and of Model::boundaries.
+  std::vector<SteppedValue> loads, waters, boundaries;
+};
+
+/// Gravity g (m/s2) turned by the tilt and changed by the seismic coefficients (forces of that part
+/// of the weight to the right of g, seen with g downwards, and against it), times its multiplier.
+Vec2 gravity_at(Vec2 g, const SlowLoading& slow, double time, const GradualChange& gradual);
+
+/// The value of what a ramp or the trials of a factor vary (`target`: row of the model's loads,
+/// waters or boundaries); null for strength and ground motions, which are none of these.
+SteppedValue* slow_value(SlowLoading& slow, Varied varied, Index target);
+/// The interval in which that load, water or boundary is active; null for all others.
+ActiveInterval* interval_of(ActiveIntervals& intervals, Varied varied, Index target);
 
 /// All loads, each list sorted by block, on free blocks.
 struct Loads {
@@ -106,7 +125,9 @@ struct Loads {
   std::vector<Range> range;  ///< [blocks]
   std::vector<Id> place;     ///< [nb] index into `blocks`, or no_id; empty where there are none
   ActiveIntervals intervals;
-  std::vector<RemainingFraction> remaining;  ///< [owners] fraction of wall forces that still acts
+  std::vector<SteppedValue> remaining;  ///< [owners] fraction of wall forces that still acts; an
+                                        ///< owner: see WallForce
+  SlowLoading slow;
   GradualChange gradual;
 };
 
@@ -120,7 +141,8 @@ struct LoadsNow {
   const std::vector<NodeVectors>* on_nodes =
       nullptr;   ///< [nb] N, of point contacts (contacts/points.hpp); null: contacts are faces
   Vec2 frame;    ///< m/s2: acceleration of the frame; all blocks feel its opposite
-  Vec2 to_come;  ///< m/s2: gravity that is not yet applied (GradualChange::weight)
+  Vec2 to_come;  ///< m/s2: gravity of the model less the present one, which is applied gradually
+                 ///< (GradualChange::weight) or changed (SlowLoading)
   /// What is to be subtracted from gravity.
   Vec2 gravity_reduction() const { return frame + to_come; }
 };
@@ -146,6 +168,10 @@ void keep_wall_forces(const Model& model, const BlockSet& blocks,
                       const std::vector<WallForce>& forces, Loads& loads);
 /// Removes the forces of one owner.
 void remove_wall_forces(const Model& model, const BlockSet& blocks, Index owner, Loads& loads);
+
+/// The factor on what boundary `row` prescribes at one time: its history, its multiplier, and the
+/// part of it that is active.
+double boundary_factor(const Model& model, const Loads& loads, std::size_t row, double time);
 
 LoadsNow loads_at(const Model& model, const Loads& loads, double time);
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/columns.hpp"
+#include "base/vec2.hpp"
 #include "checkpoint/record.hpp"
 
 namespace edda {
@@ -149,5 +150,19 @@ class Loader {
   const Record& record_;
   std::string flaw_;
 };
+
+template <class Archive>
+void list_points(Archive& a, const std::string& name, std::vector<Vec2>& points) {
+  std::vector<double> flat;
+  for (const Vec2 p : points) {
+    flat.push_back(p.x);
+    flat.push_back(p.y);
+  }
+  a(name, flat);
+  if constexpr (Archive::loads) {
+    points.clear();
+    for (std::size_t k = 0; k + 1 < flat.size(); k += 2) points.push_back({flat[k], flat[k + 1]});
+  }
+}
 
 }  // namespace edda

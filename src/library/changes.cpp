@@ -76,9 +76,9 @@ void check_relaxation(const edda::Simulation& sim, Index row, const std::string&
   if (!is_excavated(sim, row)) {
     raise("relax", '"' + name + "\" has not been excavated yet", "excavate() it before");
   }
-  const RemainingFraction& fraction = sim.attached.loads.remaining[static_cast<std::size_t>(row)];
+  const SteppedValue& fraction = sim.attached.loads.remaining[static_cast<std::size_t>(row)];
   // Several changes at the same time count as one, and the last of them applies.
-  const double still = fraction.changed == sim.motion.state.time ? fraction.before : fraction.part;
+  const double still = fraction.changed == sim.motion.state.time ? fraction.before : fraction.value;
   if (1.0 - part <= still) return;
   raise("relax", "is less than the " + fmt::format("{:.6g}", 1.0 - still) + " released so far",
         "give the part released by then, all changes together");

@@ -15,24 +15,16 @@
 #include "base/vec2.hpp"
 #include "model/geometry_inputs.hpp"
 #include "model/key_places.hpp"
+#include "model/run_inputs.hpp"
 
 namespace edda {
 
 enum class Plane { strain, stress };
-enum class Method { edda, dda };
-enum class MassKind { matched, covering, consistent };
-enum class Switching { exact, plain };
 enum class ContactModel { faces, points };
 enum class LawType { coulomb, glued, slip_weakening, barton_bandis };
-enum class StageEnd { time, equilibrium };
-enum class StageJoints { as_given, glued };
-enum class StageMasses { as_given, scaled };
-enum class FallingBlocks { report, wait };
-enum class LooseBlocks { go_on, stop };
-enum class BoundaryType { fixed, roller, viscous, stress, velocity, free_field };
+enum class BoundaryType { fixed, roller, viscous, stress, velocity, free_field, displacement };
 enum class ShakingKind { base, inertia, upgoing };
 enum class BoltType { grouted, end };
-enum class Varied { strength, load, shaking, water, tilt, kh, kv, gravity };
 enum class SurfaceKind { level, outline };
 
 /// Three numbers, such as the components xx, yy and xy of a stress.
@@ -128,13 +120,16 @@ struct Boundary {
   std::vector<std::string>
       sides;                ///< of "left", "right", "bottom", "top"; empty where `along` is given
   std::vector<Vec2> along;  ///< polyline
-  /// Pa: spring per block vertex on it; fixed, roller, velocity; empty: as the joints of its block
+  /// Pa: spring per block vertex on it; fixed, roller, velocity, displacement; empty: as the joints
+  /// of its block
   std::optional<double> stiffness;
   std::optional<Vec2>
       traction;  ///< Pa, on the edges along it; stress; empty: that of the initial stress
-  std::optional<Vec2> velocity;     ///< m/s; velocity
-  std::optional<Vec2> wave_speeds;  ///< m/s, P and S; viscous; empty: the rock's own
-  std::string history;              ///< path of a file of time, factor; stress, velocity
+  std::optional<Vec2> velocity;      ///< m/s; velocity
+  std::optional<Vec2> displacement;  ///< m, from the start; displacement
+  std::optional<Vec2> wave_speeds;   ///< m/s, P and S; viscous; empty: the rock's own
+  std::string history;               ///< path of a file of time, factor; stress, velocity,
+                                     ///< displacement
   TimeHistory factor;
   Where where;
 };
@@ -182,13 +177,16 @@ struct InitialStress {
   Where where;
 };
 
-/// [[load]]: a force at a point, or a traction or pressure on the edges along a line.
+/// [[load]]: a force at a point, a traction or pressure on the edges along a line, or a body force
+/// in a region.
 struct Load {
   std::string name;
-  std::optional<Vec2> point;       ///< either this or `along`
+  std::optional<Vec2> point;       ///< either this, `along` or `within`
   std::vector<Vec2> along;         ///< polyline
+  std::vector<Vec2> within;        ///< polygon
   std::optional<Vec2> force;       ///< N; on a line Pa
   std::optional<double> pressure;  ///< Pa, across the edge and into the block
+  std::optional<Vec2> body_force;  ///< N/m3, on all blocks whose centroids lie in `within`
   std::string history;             ///< path of a file of time, factor
   TimeHistory factor;
   Where where;
@@ -254,100 +252,6 @@ struct Monitor {
 struct Convergence {
   std::string name;
   std::vector<Vec2> between;  ///< two points
-  Where where;
-};
-
-/// Rayleigh damping: in proportion to mass and stiffness, least at one frequency.
-struct Rayleigh {
-  double fraction = 0.0;   ///< of critical there
-  double frequency = 0.0;  ///< Hz
-  /// Coefficients of the mass, 1/s, and of the stiffness of the blocks, s.
-  double mass() const { return fraction * 2.0 * std::numbers::pi * frequency; }
-  double stiffness() const { return fraction / (2.0 * std::numbers::pi * frequency); }
-};
-
-struct Damping {
-  double mass = 0.0;     ///< 1/s
-  double local = 0.0;    ///< fraction of the unbalanced force (Cundall)
-  double contact = 0.0;  ///< fraction of critical
-  /// Fraction of critical of mass-proportional damping at the frequency with which the model moves
-  /// at present.
-  double adaptive = 0.0;
-  /// The value of `adaptive` with which a model reaches equilibrium in the fewest steps.
-  static constexpr double for_equilibrium = 0.8;
-  std::optional<Rayleigh> rayleigh{};  ///< in place of the materials' damping
-  /// Coefficient of mass-proportional damping, with that of Rayleigh damping, 1/s.
-  double mass_damping() const { return mass + (rayleigh ? rayleigh->mass() : 0.0); }
-};
-
-struct Solver {
-  Method method = Method::edda;
-  MassKind mass = MassKind::matched;
-  Switching switching = Switching::exact;
-  double duration = 0.0;            ///< s; 0: not given
-  std::optional<double> time_step;  ///< s; empty: "auto"
-  bool allow_unstable = false;
-  double safety = 0.7;                   ///< of the critical step
-  bool dynamic = true;                   ///< dda: false drops velocities at each step
-  double max_displacement_ratio = 0.01;  ///< of half the model's least width, in a step
-  double mass_scaling = 0.0;             ///< s; edda: step up to which inertia is raised; 0: off
-  Damping damping;
-  Where where;
-};
-
-using NumberMap = std::vector<std::pair<std::string, double>>;
-
-/// [[stage]]: a part of the run, until a time or until equilibrium.
-struct Stage {
-  std::string name;
-  StageEnd until = StageEnd::time;
-  double ratio = 1e-5;     ///< criterion of equilibrium: mean resultant over mean contact force
-  double duration = 10.0;  ///< s; until equilibrium: at most
-  std::vector<std::string> excavate;  ///< openings excavated at its start
-  NumberMap relax;                    ///< fraction of the wall forces released, by opening
-  std::vector<std::string> install;   ///< bolts and patterns installed at its start
-  std::vector<std::string> activate, deactivate;  ///< loads, waters, boundaries, shakings
-  bool reset_displacements = false;               ///< at its start
-  double strength_factor = 1.0;  ///< the strength of all joints is divided by this during the stage
-  Damping damping;               ///< while it lasts
-  StageJoints joints = StageJoints::as_given;     ///< while it lasts
-  StageMasses masses = StageMasses::as_given;     ///< while it lasts
-  FallingBlocks falling = FallingBlocks::report;  ///< whether an equilibrium waits for them
-  LooseBlocks otherwise = LooseBlocks::go_on;     ///< what follows where some blocks come loose
-  Where where;
-};
-
-struct Output {
-  double every = 0.0;          ///< s; default: duration / 20
-  double history_every = 0.0;  ///< s; default: duration / 200
-  bool settling = true;  ///< more rows and frames in stages until equilibrium; default: where the
-                         ///< two above are not given
-  double checkpoint_every = 5.0;  ///< minutes of wall time
-  bool stages = true;             ///< contacts and a checkpoint at the end of each stage
-};
-
-/// The criterion of failure of a trial; by default from the size of the blocks and gravity.
-struct FosFails {
-  std::optional<double> displacement;  ///< m, of a corner since the start of the trial
-  std::optional<double> velocity;      ///< m/s, at its end
-};
-
-/// [fos]: the factor of safety.
-struct Fos {
-  std::string stage;                 ///< stage from whose end the trials begin; empty: the last
-  std::string vary = "strength";     ///< as written
-  Vec2 bracket{0.5, 3.0};            ///< factors to begin with, lower and upper
-  double tolerance = 0.01;           ///< width of the bracket at the end, over its lower factor
-  std::vector<std::string> exclude;  ///< joints that keep their strength
-  FosFails fails;
-  Varied varied = Varied::strength;  ///< from `vary`
-  Index target = none;               ///< row of loads, shakings or waters
-  Where where;
-};
-
-/// [limit]: rigid limit analysis; what is varied is [fos]'s.
-struct Limit {
-  bool crushing = false;  ///< joints have the compressive strength of their rock
   Where where;
 };
 

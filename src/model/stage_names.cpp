@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "model/table/slots.hpp"
+
 namespace edda {
 namespace {
 
@@ -64,6 +66,10 @@ std::vector<Stage> stages_of(const Model& model) {
   only.duration = model.solver.duration;
   only.damping = model.solver.damping;
   return {only};
+}
+
+std::string_view stage_end_name(StageEnd end) {
+  return stage_end_names[static_cast<std::size_t>(end)];
 }
 
 std::string stage_label(const Model& model, std::size_t stage) {

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/model.hpp"
@@ -37,6 +38,9 @@ std::optional<std::size_t> stage_called(const Model& model, const std::string& n
 
 /// The stages of the model; a model without [[stage]] has one, until solver.duration.
 std::vector<Stage> stages_of(const Model& model);
+
+/// "time", "equilibrium" or "collapse".
+std::string_view stage_end_name(StageEnd end);
 
 /// "stage 2 (heading)".
 std::string stage_label(const Model& model, std::size_t stage);

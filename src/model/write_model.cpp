@@ -96,6 +96,10 @@ struct Write {
     }
     return text.empty() ? text : text + " }";
   }
+  std::string operator()(const VariedRange* field) const {
+    const Key* const own = find_key({&key, 1}, field->vary);
+    return own == nullptr ? std::string{} : written(*field->range);
+  }
   std::string operator()(const std::string* field) const {
     return key.rule.kind != Kind::text && field->empty() ? std::string{} : written(*field);
   }
@@ -126,9 +130,12 @@ struct Write {
     std::string text;
     for (const Key& inner : table.keys) {
       if (table.object == nullptr) break;
-      const std::string value = std::visit(Write{inner, model}, inner.slot(table.object));
+      const Slot slot = inner.slot(table.object);
+      const std::string value = std::visit(Write{inner, model}, slot);
       if (value.empty()) continue;
-      text += fmt::format("{}{} = {}", text.empty() ? "{ " : ", ", inner.name, value);
+      const auto* varied = std::get_if<VariedRange*>(&slot);
+      text += fmt::format("{}{} = {}", text.empty() ? "{ " : ", ",
+                          varied == nullptr ? inner.name : bare_or_quoted((*varied)->vary), value);
     }
     return text.empty() ? text : text + " }";
   }

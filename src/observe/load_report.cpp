@@ -83,16 +83,19 @@ std::vector<std::string> load_report(const Simulation& sim) {
     const Load& load = sim.scene->model.loads[q];
     std::string on;
     double length = 0.0;
-    std::size_t faces = 0;
+    std::size_t faces = 0, points = 0;
     for (const PointLoad& p : sim.attached.loads.points) {
-      if (static_cast<std::size_t>(p.load) == q) on = block_label(b, p.block);
+      if (static_cast<std::size_t>(p.load) != q) continue;
+      on = block_label(b, p.block);
+      ++points;
     }
     for (const EdgeLoad& e : sim.attached.loads.edges) {
       if (static_cast<std::size_t>(e.load) != q) continue;
       ++faces;
       length += (e.to - e.from) * b.edge_length[e.edge];
     }
-    if (!load.point) on = fmt::format("{:.4g} m of {}", length, counted(faces, "face"));
+    if (!load.along.empty()) on = fmt::format("{:.4g} m of {}", length, counted(faces, "face"));
+    if (load.body_force) on = counted(points, "block");
     const Vec2 f = alone(sim, q, no_row);
     lines.push_back(fmt::format("{} on {}: ({:.4g}, {:.4g}) N{}", row_label("load", load.name, q),
                                 on, f.x, f.y, range_of(load.factor, "times", "")));

@@ -66,7 +66,7 @@ void warn_of_sudden_gravity(const Simulation& sim, std::vector<std::string>& war
   if (sim.accounts.initial || sim.scene->model.solver.duration == 0.0) return;
   const Stage first = stages_of(sim.scene->model).front();
   const Damping& d = first.damping;
-  if (first.until == StageEnd::equilibrium || sim.scene->model.gravity == Vec2{} || d.mass > 0.0 ||
+  if (first.to_equilibrium() || sim.scene->model.gravity == Vec2{} || d.mass > 0.0 ||
       d.local > 0.0 || d.contact > 0.0 || d.adaptive > 0.0)
     return;
   bool carried = sim.attached.springs.size() > 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,6 +41,13 @@ struct Overlap {
   double time = 0.0;  ///< s
 };
 
+/// Between which values of what it varies the ramp of a stage has failed.
+struct RampOutcome {
+  std::size_t stage = 0;  ///< row of Model::stages
+  std::string vary;
+  std::optional<double> holds, fails;
+};
+
 struct Outcome {
   Status status = Status::completed;
   std::string message;  ///< one sentence; for a failure: block, place, time, likely cause
@@ -65,6 +73,7 @@ struct Outcome {
                                    ///< slowed them
   std::size_t loose = 0;  ///< most loose blocks at the end of a stage until equilibrium, pebbles
                           ///< excluded
+  std::vector<RampOutcome> ramps;
   std::vector<std::string> failed_checks;  ///< checks of summary.json that failed, a sentence each
   WallSeconds wall;
 };

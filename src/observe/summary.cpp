@@ -106,7 +106,27 @@ void add_checks(Json& j, const std::vector<Check>& checks) {
   j.close();
 }
 
+/// The ramps by the names or numbers of their stages.
+void add_ramps(Json& j, const Model& model, const std::vector<RampOutcome>& ramps) {
+  if (ramps.empty()) return;
+  j.key("ramps").open_object();
+  for (const RampOutcome& r : ramps) {
+    const std::string& name = model.stages[r.stage].name;
+    j.key(name.empty() ? std::to_string(r.stage + 1) : name).open_object();
+    j.pair("vary", r.vary).pair("holds", r.holds).pair("fails", r.fails).close();
+  }
+  j.close();
+}
+
 }  // namespace
+
+/// Ramps until collapse that have ended in equilibrium at their last value.
+static double without_collapse(const Model& model, const std::vector<RampOutcome>& ramps) {
+  return static_cast<double>(std::count_if(ramps.begin(), ramps.end(), [&](const RampOutcome& r) {
+    const Stage& stage = model.stages[r.stage];
+    return stage.until == StageEnd::collapse && !r.fails && r.holds == stage.ramp->what.range->y;
+  }));
+}
 
 /// Blocks whose material gives a strength: the largest utilisation, and the number of blocks above
 /// 1.
@@ -147,8 +167,13 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
   }
   const std::vector<Stage> stages = stages_of(sim.scene->model);
   if (std::any_of(stages.begin(), stages.end(),
-                  [](const Stage& s) { return s.until == StageEnd::equilibrium; })) {
+                  [](const Stage& s) { return s.to_equilibrium(); })) {
     checks.push_back(limited(std::string(loose_check), static_cast<double>(o.loose), 0.0));
+  }
+  if (std::any_of(stages.begin(), stages.end(),
+                  [](const Stage& s) { return s.until == StageEnd::collapse; })) {
+    checks.push_back(limited("number of ramps until collapse without one",
+                             without_collapse(sim.scene->model, o.ramps), 0.0));
   }
   if (is_explicit(sim)) {
     checks.insert(checks.begin() + 2,
@@ -214,6 +239,7 @@ std::string summary_json(const Simulation& sim, const Outcome& o, const std::str
   j.pair("status", status_name(o.status)).pair("message", o.message);
   j.pair("blocks", sim.scene->blocks.size()).pair("contacts", o.contacts).pair("time", o.time);
   add_steps(j, sim, o);
+  add_ramps(j, sim.scene->model, o.ramps);
   j.pair("critical_time_step", o.critical_step).pair("governed_by", governed_by);
   add_open_close(j, sim);
   j.pair("step_changes", sim.accounts.steps.changes)

@@ -2,151 +2,10 @@
 #include <array>
 
 #include "results/columns.hpp"
+#include "results/columns_over_time.hpp"
 
 namespace edda {
 namespace column_table {
-
-using C = ResultColumn;
-
-// Columns that several files have.
-constexpr C time_column{"time", "s", "Time since the start of the run."};
-constexpr C kinetic{"kinetic", "J", "Kinetic energy of the free blocks."};
-constexpr C strain{
-    "strain", "J",
-    "Elastic energy of the blocks; with an initial stress that of the whole stress."};
-constexpr C contact{"contact", "J", "Energy stored in contacts, boundary springs and bolts."};
-constexpr C gravity{"gravity", "J", "Potential energy of weight, less that at the start."};
-constexpr C friction{
-    "friction", "J",
-    "Energy dissipated since the start by sliding, and in bolts by grout that slips "
-    "and steel that yields."};
-constexpr C damping{
-    "damping", "J",
-    "Energy dissipated since the start by all kinds of damping and by boundaries that "
-    "absorb waves."};
-constexpr C fracture{"fracture", "J",
-                     "Energy released since the start by joints and bolts that fail."};
-constexpr C external{
-    "external", "J",
-    "Work done on the blocks since the start by loads, boundaries, ground motion and "
-    "the changes of stages."};
-constexpr C drift{
-    "drift", "1",
-    "Energy balance error: the change since the start of kinetic + strain + contact + "
-    "gravity + friction + damping + fracture + transfer + step_change - external, over "
-    "the largest kinetic + strain + contact + friction + damping + fracture so far."};
-constexpr C transfer{
-    "transfer", "J",
-    "Energy taken since the start by rules of contacts that are no physical process: "
-    "overlaps whose ends move, locked closures, activation factors without a root."};
-constexpr C convergence{
-    "NAME.convergence", "m",
-    "Decrease of the distance between the two points of a convergence line since "
-    "the start or the last reset of displacements; positive where they have come "
-    "nearer to each other.",
-    ColumnOf::convergence};
-
-constexpr std::array history{
-    time_column,
-    C{"NAME.ux", "m",
-      "Displacement of a monitor to the right since the start or the last reset of displacements.",
-      ColumnOf::monitor},
-    C{"NAME.uy", "m",
-      "Displacement of a monitor upwards since the start or the last reset of displacements.",
-      ColumnOf::monitor},
-    C{"NAME.vx", "m/s", "Velocity of a monitor to the right.", ColumnOf::monitor},
-    C{"NAME.vy", "m/s", "Velocity of a monitor upwards.", ColumnOf::monitor},
-    C{"NAME.sxx", "Pa", "Stress xx of the block that holds the monitor, positive in tension.",
-      ColumnOf::monitor},
-    C{"NAME.syy", "Pa", "Stress yy of the block that holds the monitor, positive in tension.",
-      ColumnOf::monitor},
-    C{"NAME.sxy", "Pa", "Shear stress xy of the block that holds the monitor.", ColumnOf::monitor},
-    convergence,
-    kinetic,
-    strain,
-    contact,
-    gravity,
-    friction,
-    damping,
-    fracture,
-    external,
-    C{"step_change", "J",
-      "Energy that changes of the time step and of scaled masses have taken since the start; "
-      "negative where they have added energy."},
-    drift,
-    C{"unbalanced", "1",
-      "Mean resultant force of the free blocks over the mean normal force at the ends of the "
-      "contacts that carry load, or over the mean of weight and loads where none does."},
-    transfer,
-};
-
-constexpr std::array reactions{
-    time_column,
-    C{"NAME.fx", "N",
-      "Force of a boundary on the blocks, positive to the right; a boundary without a name is "
-      "called by its number, from 0.",
-      ColumnOf::boundary},
-    C{"NAME.fy", "N", "Force of the boundary on the blocks, positive upwards.", ColumnOf::boundary},
-};
-
-constexpr std::array bolts{
-    time_column,
-    C{"bolt", "text", "Name of the bolt."},
-    C{"distance", "m", "Distance of the node from the head of the bolt, along the bolt."},
-    C{"x", "m", "Coordinate x of the node now."},
-    C{"y", "m", "Coordinate y of the node now."},
-    C{"axial_force", "N",
-      "Axial force of one bolt, positive in tension; at a joint that of the steel across it."},
-    C{"bond_force", "N/m",
-      "Force of the bond per length of one bolt, positive where the rock resists slip of the bolt "
-      "away from its head."},
-    C{"dowel_force", "N", "Shear force of one bolt across the joint at this node."},
-    C{"utilisation", "1",
-      "Largest of axial force over yield force, bond force over bond strength and dowel force over "
-      "dowel strength."},
-    C{"yielded", "1", "1: the steel beside the node has yielded at some time; 0: it has not."},
-    C{"ruptured", "1", "1: the steel beside the node has ruptured; 0: it has not."},
-};
-
-constexpr std::array stages{
-    C{"stage", "1", "Number of the stage, from 1."},
-    C{"name", "text", "Name of the stage; empty where it has none."},
-    C{"until", "text", "What ends the stage: time or equilibrium."},
-    C{"reached", "1",
-      "1: the stage has reached its end; 0: it has found no equilibrium within its duration."},
-    C{"start", "s", "Time at which the stage began."},
-    C{"end", "s", "Time at which the stage ended."},
-    C{"steps", "1", "Number of time steps of the stage."},
-    C{"ratio", "1",
-      "Mean resultant force of the blocks over the mean normal force at the ends of the contacts "
-      "that "
-      "carry load, or over the mean of weight and loads where none does; blocks without contact, "
-      "loose blocks and pebbles do not count."},
-    C{"largest_ratio", "1", "The same ratio of the block that is furthest from equilibrium."},
-    C{"largest_block", "1", "Id of that block; empty where no block counts."},
-    kinetic,
-    strain,
-    contact,
-    gravity,
-    friction,
-    damping,
-    fracture,
-    external,
-    drift,
-    C{"contacts", "1", "Number of closed contacts."},
-    C{"sliding", "1", "Number of closed contacts that slide."},
-    C{"bonded", "1", "Number of closed contacts that still have their peak strength."},
-    C{"detached", "1", "Number of free blocks without contact."},
-    C{"open", "1",
-      "Number of contacts that have opened and whose edges are still near each other."},
-    C{"broken", "1", "Number of bonds of joints that have failed since the start of the run."},
-    C{"yielded_bolts", "1",
-      "Number of bolts of which any part has yielded, slipped in its grout or ruptured."},
-    C{"loose", "1",
-      "Number of blocks that slide or fall away while the others come to equilibrium."},
-    transfer,
-    convergence,
-};
 
 constexpr std::array blocks{
     C{"id", "1", "Number of the block, from 0."},
@@ -331,7 +190,7 @@ constexpr std::array cut{
       "contact.joint holds."},
 };
 
-constexpr std::array<ResultTable, 15> tables{{
+constexpr std::array<ResultTable, 16> tables{{
     {"history.csv",
      "A row at the start, at each multiple of output.history_every and at the end of each stage; "
      "stages until equilibrium have more (output.settling).",
@@ -340,6 +199,8 @@ constexpr std::array<ResultTable, 15> tables{{
     {"bolts.csv", "A row for each node of each installed bolt in each frame, of models with bolts.",
      bolts},
     {"stages.csv", "A row for each stage that has ended, of models with stages.", stages},
+    {"curve.csv", "A row for each increment of a ramp, of models with stages that have one.",
+     curve},
     {"joints_N.csv", "The contacts at the end of stage N, with the columns of joints.csv.", joints,
      TableIn::folder_by_stage},
     {"blocks.csv",

@@ -30,6 +30,7 @@ enum class ResultFile {
   reactions,
   bolts,
   stages,
+  curve,
   stage_joints,
   blocks,
   joints,

@@ -13,20 +13,6 @@
 namespace edda {
 
 template <class Archive>
-void list_points(Archive& a, const std::string& name, std::vector<Vec2>& points) {
-  std::vector<double> flat;
-  for (const Vec2 p : points) {
-    flat.push_back(p.x);
-    flat.push_back(p.y);
-  }
-  a(name, flat);
-  if constexpr (Archive::loads) {
-    points.clear();
-    for (std::size_t k = 0; k + 1 < flat.size(); k += 2) points.push_back({flat[k], flat[k + 1]});
-  }
-}
-
-template <class Archive>
 void list_bolt_springs(Archive& a, const std::string& of, BoltSprings& s) {
   a(of + "stiffness", s.stiffness);
   a(of + "strength", s.strength);
@@ -110,6 +96,42 @@ void list_bolts(Archive& a, Simulation& s) {
   }
 }
 
+/// Returns false if the number of values differs from that of the model.
+template <class Archive>
+bool list_stepped(Archive& a, const std::string& of, std::vector<SteppedValue>& values) {
+  std::vector<double> value, before, changed;
+  for (const SteppedValue& v : values) {
+    value.push_back(v.value);
+    before.push_back(v.before);
+    changed.push_back(v.changed);
+  }
+  a(of + ".value", value);
+  a(of + ".before", before);
+  a(of + ".changed", changed);
+  const std::size_t count = values.size();
+  if (value.size() != count || before.size() != count || changed.size() != count) return false;
+  for (std::size_t k = 0; k < count; ++k) values[k] = {value[k], before[k], changed[k]};
+  return true;
+}
+
+/// What ramps and trials have made of gravity and loads.
+template <class Archive>
+void list_slow_loading(Archive& a, Simulation& s) {
+  SlowLoading& slow = s.attached.loads.slow;
+  std::vector<SteppedValue> gravity{slow.kh, slow.kv, slow.tilt, slow.gravity};
+  bool fits = list_stepped(a, "slow.gravity", gravity);
+  fits = list_stepped(a, "slow.loads", slow.loads) && fits;
+  fits = list_stepped(a, "slow.waters", slow.waters) && fits;
+  fits = list_stepped(a, "slow.boundaries", slow.boundaries) && fits;
+  if constexpr (Archive::loads) {
+    if (!fits) return a.refuse("ramped loads do not fit the model");
+    slow.kh = gravity[0];
+    slow.kv = gravity[1];
+    slow.tilt = gravity[2];
+    slow.gravity = gravity[3];
+  }
+}
+
 /// Wall forces of excavated rock and of replaced boundaries, and the fractions of them that still
 /// act.
 template <class Archive>
@@ -125,27 +147,15 @@ void list_wall_forces(Archive& a, Simulation& s) {
   a("wall_force.vertex", vertex);
   list_points(a, "wall_force.force", force);
   a("wall_force.owner", owner);
-  std::vector<double> part, before, changed;
-  for (const RemainingFraction& fraction : s.attached.loads.remaining) {
-    part.push_back(fraction.part);
-    before.push_back(fraction.before);
-    changed.push_back(fraction.changed);
-  }
-  a("remaining.part", part);
-  a("remaining.before", before);
-  a("remaining.changed", changed);
+  const bool all = list_stepped(a, "remaining", s.attached.loads.remaining);
   if constexpr (Archive::loads) {
     const std::size_t owners = s.scene->model.openings.size() + s.scene->model.boundaries.size();
-    bool fits = force.size() == vertex.size() && owner.size() == vertex.size() &&
-                part.size() == owners && before.size() == owners && changed.size() == owners;
+    bool fits = all && force.size() == vertex.size() && owner.size() == vertex.size();
     for (std::size_t k = 0; fits && k < vertex.size(); ++k) {
       fits = vertex[k] < s.scene->blocks.vertex_count() && owner[k] >= 0 &&
              static_cast<std::size_t>(owner[k]) < owners;
     }
     if (!fits) return a.refuse("forces that are kept do not fit the model");
-    for (std::size_t k = 0; k < owners; ++k) {
-      s.attached.loads.remaining[k] = {part[k], before[k], changed[k]};
-    }
     for (std::size_t k = 0; k < owners; ++k) {
       remove_wall_forces(s.scene->model, s.scene->blocks, static_cast<Index>(k), s.attached.loads);
     }

@@ -75,7 +75,7 @@ ModelCheck check_model(Simulation& sim) {
     found.scaled_step = first_step(sim, StageMasses::scaled);
   scale_masses(sim, stages.front().masses);
   change_damping(sim, stages.front().damping,
-                 sim.scene->model.solver.dynamic && stages.front().until != StageEnd::equilibrium);
+                 sim.scene->model.solver.dynamic && !stages.front().to_equilibrium());
   const double duration = sim.scene->model.solver.duration;
   const double tried = most_tried * usual_step(sim);
   const double end = duration > 0.0 ? duration : std::isfinite(tried) ? tried : 1.0;
@@ -86,7 +86,7 @@ ModelCheck check_model(Simulation& sim) {
                         : is_scaled(stage)        ? found.scaled_step
                                                   : found.step_as_given;
     if (duration > 0.0) found.steps += std::max(1.0, std::ceil(stage.duration / step - 1e-9));
-    found.at_most = found.at_most || stage.until == StageEnd::equilibrium;
+    found.at_most = found.at_most || stage.to_equilibrium();
   }
   found.rate = step_rate(sim, end, 0.5);
   return found;

@@ -192,6 +192,10 @@ void Driver::follow_events() {
   while (true) {
     const Arrival went = step_to(event_.time);
     if (went == Arrival::over || went == Arrival::paused) return;
+    if (went == Arrival::at_rest && ramp_goes_on()) {
+      if (!begin_increment()) return;
+      continue;
+    }
     if (went != Arrival::there) end_stage_before(event_);
     if (!record(event_)) return;
     const bool next_stage = event_.end || went != Arrival::there;

@@ -11,6 +11,7 @@
 #include "checkpoint/record.hpp"
 #include "run/equilibrium_search.hpp"
 #include "run/event_times.hpp"
+#include "run/ramp.hpp"
 #include "run/recorder.hpp"
 #include "run/run_model.hpp"
 #include "run/stage_plan.hpp"
@@ -77,6 +78,18 @@ class Driver {
   const Stage& stage() const { return plans_[stage_].stage; }
   /// Result for the present stage; not_yet where it does not end at an equilibrium.
   Equilibrium look_for_equilibrium();
+  // Ramps (run/driver_ramp.cpp).
+  /// Whether the increment that has just been held is not the last one.
+  bool ramp_goes_on() const;
+  /// Records the increment and begins the next. False: the run is over.
+  bool begin_increment();
+  /// Adds a row to the curve.
+  void end_increment(bool holds);
+  Trouble write_curve();
+  /// "kh = 0.31".
+  std::string ramp_at(int increment) const;
+  /// Result of a stage with a ramp that held at its last value or failed at one.
+  std::string end_of_ramp(bool holds) const;
   /// The row and the frame that are due at this step of a stage until equilibrium: 32 rows 64 steps
   /// apart, then 32 of twice that, and so on, with a frame at every eighth row. Depends on the
   /// number of steps alone, so that a resumed run has the same.
@@ -121,6 +134,8 @@ class Driver {
   double stage_start_ = 0.0;             ///< s
   std::uint64_t stage_steps_ = 0;        ///< steps made before it
   EquilibriumSearch search_;             ///< of a stage until equilibrium
+  RampProgress ramp_;                    ///< of the present stage, if it has a ramp
+  std::vector<CurveRow> curve_;          ///< of all ramps
   std::optional<ThreadChoice> threads_;  ///< number of threads for the steps; none: it was given
   bool stage_has_ended_ = false;         ///< the next stage has yet to begin
   std::vector<StageRecord> ends_;        ///< of the stages that have ended

@@ -11,6 +11,7 @@
 #include "model/write_model.hpp"
 #include "results/version.hpp"
 #include "run/driver.hpp"
+#include "run/ramp_memory.hpp"
 #include "run/simulation_memory.hpp"
 #include "run/wall_clock.hpp"
 
@@ -256,6 +257,9 @@ void Driver::list(Archive& a) {
   a("events.counted_row", event_.counted_row);
   a("events.counted_frame", event_.counted_frame);
   list_stages(a);
+  const Model& model = sim_.scene->model;
+  list_ramp(a, ramp_, stage_ < plans_.size() && stage().ramp, sim_);
+  list_curve(a, curve_, model, run_.monitors.size());
   a("driver.angle", angle_);
   a("driver.last_row", last_row_);
   a("driver.last_frame", last_frame_);

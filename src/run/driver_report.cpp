@@ -33,8 +33,10 @@ void Driver::write_end() {
     if (event.row || event.frame) record(event);
     outcome_.wall.output = wall;
   }
+  outcome_.ramps = ramp_outcomes(sim_.scene->model, curve_);
   outcome_.contacts =
       closed_contacts(sim_.motion.contacts) + closed_points(sim_.motion.point_contacts);
+  if (const Trouble trouble = disk_trouble_ ? Trouble{} : write_curve()) ended_by(trouble);
   if (begun && recorder_.writes()) {
     count_revolutions(sim_, angle_);
     const Picture picture = picture_of(sim_, look());
@@ -101,7 +103,7 @@ void Driver::report(bool last) {
   }
   p.largest_overlap = sim_.accounts.penetration;
   p.at_most = std::any_of(plans_.begin() + static_cast<std::ptrdiff_t>(stage_), plans_.end(),
-                          [](const StagePlan& plan) { return plan.to_equilibrium(); });
+                          [](const StagePlan& plan) { return plan.stage.to_equilibrium(); });
   p.stage = stage_;
   p.stages = plans_.size();
   if (!sim_.scene->model.stages.empty()) p.stage_name = stage().name;

@@ -18,6 +18,8 @@ void Driver::begin_stage(std::size_t index) {
   stage_start_ = sim_.motion.state.time;
   stage_steps_ = sim_.motion.state.steps;
   begin_equilibrium_search(search_, sim_, stage());
+  ramp_ = {};
+  ramp_.since = stage_steps_;
   times_.end_at(stage_start_ + stage().duration);
   if (sim_.scene->model.stages.empty()) return;
   if (const auto fault = enter_stage(sim_, plans_[index], index == 0)) {
@@ -27,8 +29,17 @@ void Driver::begin_stage(std::size_t index) {
 
 Equilibrium Driver::look_for_equilibrium() {
   const Stage& now = stage();
-  if (now.until != StageEnd::equilibrium) return Equilibrium::not_yet;
-  return edda::look_for_equilibrium(search_, sim_, now);
+  if (!now.to_equilibrium()) return Equilibrium::not_yet;
+  if (!ramp_.search) return edda::look_for_equilibrium(search_, sim_, now);
+  switch (look_at_increment(ramp_, sim_)) {
+    case Verdict::holds:
+      return Equilibrium::found;
+    case Verdict::fails:
+      return Equilibrium::never;
+    case Verdict::not_yet:
+      break;
+  }
+  return Equilibrium::not_yet;
 }
 
 Event Driver::search_event() const {
@@ -37,7 +48,7 @@ Event Driver::search_event() const {
   std::uint64_t interval = first;
   for (std::uint64_t end = rows * first; n > end; end += rows * interval) interval *= 2;
   const bool seeks_equilibrium =
-      sim_.scene->model.output.settling && stage().until == StageEnd::equilibrium;
+      sim_.scene->model.output.settling && stage().to_equilibrium() && !ramp_.search;
   Event e;
   e.time = sim_.motion.state.time;
   e.row = seeks_equilibrium && n % interval == 0;
@@ -53,7 +64,13 @@ void Driver::end_stage_before(Event& event) {
 bool Driver::end_stage(Arrival went) {
   const Stage& now = stage();
   const bool at_rest = went == Arrival::at_rest;
-  const bool reached = at_rest || now.until == StageEnd::time;
+  const bool failed = went == Arrival::no_equilibrium && ramp_.search;  // of a ramp
+  const bool reached =
+      now.until == StageEnd::collapse ? failed : at_rest || now.until == StageEnd::time;
+  if (now.ramp && went != Arrival::there) {
+    end_increment(at_rest);
+    if (ended_by(write_curve())) return false;
+  }
   if (!sim_.scene->model.stages.empty()) {
     ends_.push_back(stage_record(sim_, outcome_.energy, stage_start_, stage_steps_, reached));
     for (const ConvergenceLine& line : run_.convergences) {
@@ -63,10 +80,13 @@ bool Driver::end_stage(Arrival went) {
     if (ended_by(recorder_.stages(stages_csv(sim_.scene->model, ends_)))) return false;
     save_stage();
   }
-  if (now.until == StageEnd::equilibrium)
-    outcome_.loose = std::max(outcome_.loose, loose_block_ids(sim_).size());
+  if (now.to_equilibrium()) outcome_.loose = std::max(outcome_.loose, loose_block_ids(sim_).size());
   const std::string label = stage_label(sim_.scene->model, stage_);
-  if (went == Arrival::no_equilibrium) {
+  if (now.ramp && !reached && (failed || at_rest)) {
+    end(at_rest ? Status::equilibrium : Status::collapsed, end_of_ramp(at_rest));
+    return false;
+  }
+  if (went == Arrival::no_equilibrium && !reached) {
     end(Status::collapsed, fmt::format("{} does not reach equilibrium: each block slides or falls, "
                                        "and has moved further than its own size: {}",
                                        label, still_moving(sim_, ends_.back().balance)));
@@ -74,9 +94,10 @@ bool Driver::end_stage(Arrival went) {
   }
   if (!reached) {
     end(Status::collapsed,
-        fmt::format("{} did not reach equilibrium in {:.6g} s: {}; give it a longer duration or "
+        fmt::format("{} did not reach equilibrium in {:.6g} s{}: {}; give it a longer duration or "
                     "more damping, or check what fails",
-                    label, now.duration, still_moving(sim_, ends_.back().balance)));
+                    label, now.duration, now.ramp ? ", at " + ramp_at(ramp_.increment) : "",
+                    still_moving(sim_, ends_.back().balance)));
     return false;
   }
   if (at_rest && now.otherwise == LooseBlocks::stop) {
@@ -87,7 +108,10 @@ bool Driver::end_stage(Arrival went) {
     }
   }
   if (stage_ + 1 == plans_.size() || options_.last_stage == stage_) {
-    if (at_rest) {
+    if (now.ramp) {
+      end(at_rest ? Status::equilibrium : Status::completed,
+          end_of_ramp(at_rest) + (at_rest ? not_in_equilibrium() : ""));
+    } else if (at_rest) {
       end(Status::equilibrium, equilibrium_of_stage() + not_in_equilibrium());
     } else {
       end(Status::completed, "the run has reached its duration, " + motion_at_end());

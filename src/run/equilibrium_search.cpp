@@ -90,6 +90,21 @@ bool all_in_equilibrium(const EquilibriumSearch& s, const Simulation& sim) {
   return true;
 }
 
+double resultant_on(const Simulation& sim, std::size_t i) {
+  return nodes_per_block * norm(centroid(sim.motion.forces.x, sim.motion.forces.y, i));
+}
+
+/// Whether no block has a resultant beyond the rounding of the forces on it, as where nothing acts
+/// on the model.
+bool forces_are_rounding(const Simulation& sim) {
+  const std::vector<double> rounding = rounding_of_forces(sim);
+  for (std::size_t i = 0; i < rounding.size(); ++i) {
+    if (is_free(sim.scene->blocks, sim.motion.state, i) && resultant_on(sim, i) > rounding[i])
+      return false;
+  }
+  return true;
+}
+
 bool all_loose(const Simulation& sim) {
   if (sim.relaxation.loose.empty()) return false;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
@@ -110,7 +125,7 @@ void begin_equilibrium_search(EquilibriumSearch& s, Simulation& sim, const Stage
   s.to_come.assign(nb, std::numeric_limits<double>::infinity());
   sim.relaxation.loose.clear();
   sim.relaxation.balanced = false;
-  sim.relaxation.seeks_equilibrium = stage.until == StageEnd::equilibrium;
+  sim.relaxation.seeks_equilibrium = stage.to_equilibrium();
   sim.relaxation.equilibrium_ratio = stage.ratio;
   if (!sim.relaxation.seeks_equilibrium) sim.relaxation.estimate = {};
   begin_window(s, sim);
@@ -138,8 +153,10 @@ Equilibrium look_for_equilibrium(EquilibriumSearch& s, Simulation& sim, const St
   const Balance balance = balance_of(sim);
   const bool waits = stage.falling == FallingBlocks::wait && balance.detached > 0;
   sim.relaxation.balanced = balance.resting > 0 && balance.mean_95 <= stage.ratio;
-  const bool found_in_sequence = !waits && balance.resting > 0 && balance.mean <= stage.ratio &&
-                                 (balance.mean == 0.0 || all_in_equilibrium(s, sim));
+  const bool found_in_sequence =
+      !waits && balance.resting > 0 &&
+      ((balance.mean <= stage.ratio && (balance.mean == 0.0 || all_in_equilibrium(s, sim))) ||
+       (balance.mean > stage.ratio && forces_are_rounding(sim)));
   s.found_in_sequence = found_in_sequence ? s.found_in_sequence + 1 : 0;
   return s.found_in_sequence >= checks_in_sequence ? Equilibrium::found : Equilibrium::not_yet;
 }
@@ -155,13 +172,15 @@ std::vector<double> rounding_of_forces(const Simulation& sim) {
       force[i] += 0.5 * f.noise * spring;
     }
   }
+  const BoundarySprings& s = sim.attached.springs;
+  for (std::size_t q = 0; q < s.size(); ++q)
+    force[sim.scene->blocks.vertex_block[s.vertex[q]]] += f.noise * std::max(s.kxx[q], s.kyy[q]);
   return force;
 }
 
 double travel_if_free(const Simulation& sim, std::size_t i, double v, double t, double rounding) {
-  const double resultant =
-      nodes_per_block * norm(centroid(sim.motion.forces.x, sim.motion.forces.y, i));
-  const double acceleration = std::max(resultant - rounding, 0.0) / sim.scene->blocks.mass[i];
+  const double acceleration =
+      std::max(resultant_on(sim, i) - rounding, 0.0) / sim.scene->blocks.mass[i];
   return v * t + 0.5 * acceleration * t * t;
 }
 

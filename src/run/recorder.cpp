@@ -126,6 +126,12 @@ Trouble Recorder::stages(const std::string& csv) {
   return write_columns_csv(folder_, owners_);
 }
 
+Trouble Recorder::curve(const std::string& csv) {
+  if (!writes()) return {};
+  if (auto t = write_file(path("curve.csv"), csv)) return t;
+  return write_columns_csv(folder_, owners_);
+}
+
 Trouble Recorder::stage_joints(std::size_t stage, const Picture& picture) {
   if (!writes()) return {};
   const std::string file = fmt::format("{}/joints_{}.csv", folder_, stage + 1);

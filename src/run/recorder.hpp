@@ -44,6 +44,8 @@ class Recorder {
   Trouble frame(const Simulation& sim, const Picture& picture);
   /// stages.csv, with the stages so far.
   Trouble stages(const std::string& csv);
+  /// curve.csv, with the increments of ramps so far.
+  Trouble curve(const std::string& csv);
   /// joints_`stage`.csv, the contacts at the end of the stage.
   Trouble stage_joints(std::size_t stage, const Picture& picture);
   /// blocks.csv, joints.csv, and the end of history.csv.

@@ -49,8 +49,7 @@ std::optional<Fault> unstable_step(const Simulation& sim) {
 std::optional<Fault> heavy_scaling(const Simulation& sim) {
   const std::vector<Stage> stages = stages_of(sim.scene->model);
   if (!is_explicit(sim) || sim.motion.masses.raised.empty() ||
-      std::all_of(stages.begin(), stages.end(),
-                  [](const Stage& s) { return s.until == StageEnd::equilibrium; }))
+      std::all_of(stages.begin(), stages.end(), [](const Stage& s) { return s.to_equilibrium(); }))
     return {};
   const double all = free_mass(sim.scene->blocks),
                added = added_mass(sim.scene->blocks, sim.motion.masses.raised);

@@ -205,6 +205,7 @@ void list_memory(Archive& a, Simulation& s) {
   a("on_faces_y", s.motion.on_faces.y);
   if (s.scene->at_points()) list_points(a, s.motion.point_contacts);
   list_counts(a, s);
+  list_slow_loading(a, s);
   list_wall_forces(a, s);
   list_ground(a, s);
   list_bolts(a, s);

@@ -40,7 +40,7 @@ StagePlan without_what_is_done(const Simulation& sim, StagePlan plan) {
 
 /// Fraction of the wall forces of an opening that has been released so far.
 double released(const Simulation& sim, Index opening) {
-  const double kept = sim.attached.loads.remaining[static_cast<std::size_t>(opening)].part;
+  const double kept = sim.attached.loads.remaining[static_cast<std::size_t>(opening)].value;
   return is_excavated(sim, opening) ? 1.0 - kept : 0.0;
 }
 
@@ -53,16 +53,29 @@ void excavate_openings(Simulation& sim, const StagePlan& plan) {
   for (const auto& [opening, part] : more) relax(sim, opening, part);
 }
 
-void change_strength(Simulation& sim, const StagePlan& plan) {
-  const std::vector<double> factors(sim.motion.laws.rows.size(), plan.stage.strength_factor);
-  if (plan.to_equilibrium() && plan.stage.damping.adaptive > 0.0) {
-    begin_gradually(sim, factors);
+void change_strength(Simulation& sim, const Stage& stage, double factor) {
+  const std::vector<double> factors(sim.motion.laws.rows.size(), factor);
+  if (stage.to_equilibrium() && stage.damping.adaptive > 0.0) {
+    begin_gradually(sim, factors, stage.ramp.has_value());
   } else {
     set_strength_factors(sim, factors);
   }
 }
 
 }  // namespace
+
+void set_ramp(Simulation& sim, const Stage& stage, double value) {
+  const Ramp& ramp = *stage.ramp;
+  const State& state = sim.motion.state;
+  if (SteppedValue* const v = slow_value(sim.attached.loads.slow, ramp.varied, ramp.target)) {
+    if (state.steps == 0) {
+      *v = {value, value};
+    } else {
+      v->change(value, state.time);
+    }
+  }
+  change_strength(sim, stage, ramp.varied == Varied::strength ? value : stage.strength_factor);
+}
 
 std::vector<StagePlan> plan_stages(const Model& model) {
   std::vector<StagePlan> plans;
@@ -88,11 +101,15 @@ std::optional<Fault> enter_stage(Simulation& sim, const StagePlan& given, bool f
   glue_joints(sim, glued);
   // Mass scaling and the step that damping allows depend on all springs that act from now on.
   scale_masses(sim, stage.masses);
-  const bool carry = sim.scene->model.solver.dynamic && !plan.to_equilibrium();
+  const bool carry = sim.scene->model.solver.dynamic && !stage.to_equilibrium();
   change_damping(sim, stage.damping, carry);
   // Strength changes last: with adaptive damping it changes gradually, together with all that has
   // begun or ended to act above.
-  change_strength(sim, plan);
+  if (stage.ramp) {
+    set_ramp(sim, stage, stage.ramp->what.range->x);
+  } else {
+    change_strength(sim, stage, stage.strength_factor);
+  }
   if (stage.reset_displacements) reset_displacements(sim);
   return {};
 }

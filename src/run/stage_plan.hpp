@@ -20,16 +20,18 @@ struct StagePlan {
   std::vector<Index> out;                       ///< rows of Model::openings that it excavates
   std::vector<std::pair<Index, double>> relax;  ///< openings, and the fraction of their wall forces
                                                 ///< that it releases
-
-  bool to_equilibrium() const { return stage.until == StageEnd::equilibrium; }
 };
 
 /// The stages of a model in order; for a model without stages, the one stage that it consists of.
 std::vector<StagePlan> plan_stages(const Model& model);
 
-/// Makes the changes at the beginning of a stage of the model, between two steps. After the `first`
+/// Makes the changes at the beginning of a stage of the model, between two steps; a ramp is at its
+/// first value. After the `first`
 /// stage, changes that have been made from outside are skipped. Fault: a bolt without rock at its
 /// place.
 std::optional<Fault> enter_stage(Simulation& sim, const StagePlan& plan, bool first);
+
+/// Brings the ramp of the stage to this value, gradually.
+void set_ramp(Simulation& sim, const Stage& stage, double value);
 
 }  // namespace edda

@@ -82,7 +82,7 @@ std::string stages_csv(const Model& model, const std::vector<StageRecord>& recor
     const StageRecord& r = records[q];
     const EnergyBalance& l = r.energy;
     csv.add(q + 1).add(stages[q].name);
-    csv.add(stages[q].until == StageEnd::time ? "time" : "equilibrium").add(r.reached ? 1 : 0);
+    csv.add(stage_end_name(stages[q].until)).add(r.reached ? 1 : 0);
     csv.add(r.start).add(r.end).add(r.steps).add(r.balance.mean).add(r.balance.largest);
     if (r.balance.block == no_id) {
       csv.add("");

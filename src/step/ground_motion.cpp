@@ -112,8 +112,8 @@ void drive_ground(Simulation& sim, double h_old, double h_new) {
     own.drive = dashpot_drive(sim, {}, own.next_columns);
     return;
   }
-  own.next_ground = next_ground(sim.scene->model, sim.attached.loads.intervals, ground,
-                                sim.attached.springs, state.time, h_old, h_new);
+  own.next_ground = next_ground(sim.scene->model, sim.attached.loads, ground, sim.attached.springs,
+                                state.time, h_old, h_new);
   place_fixed(sim.scene->blocks, ground, own.next_ground.shift, state.x, state.y);
   own.next_columns = next_free_field(sim, own.next_ground.velocity, h_old, h_new);
   own.drive =

@@ -193,10 +193,9 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
   }
   const ActiveIntervals& intervals = loads.intervals;
   const auto now = [&](double time) { return time == state.time; };
-  bool changes =
-      more || strength_factors != laws.divided_by ||
-      std::any_of(loads.remaining.begin(), loads.remaining.end(),
-                  [&](const RemainingFraction& fraction) { return now(fraction.changed); });
+  bool changes = more || strength_factors != laws.divided_by ||
+                 std::any_of(loads.remaining.begin(), loads.remaining.end(),
+                             [&](const SteppedValue& fraction) { return now(fraction.changed); });
   for (const auto* of : {&intervals.loads, &intervals.waters, &intervals.boundaries}) {
     changes = changes || std::any_of(of->begin(), of->end(), [&](const ActiveInterval& interval) {
                 return now(interval.since) || now(interval.until);

@@ -151,7 +151,7 @@ class Search {
   void run(Trying& one, const std::stop_token& stop) const {
     one.made.end = start_.sim;
     const Loading to = loading_of(fos_, model_, start_.given, one.factor);
-    one.made.trial = run_trial(*one.made.end, start_.plan, start_.loading, to,
+    one.made.trial = run_trial(*one.made.end, start_.plan, to,
                                [&] { return stopped() || stop.stop_requested(); });
     one.made.trial.factor = one.factor;
   }

@@ -49,7 +49,7 @@ struct FosResult {
   std::string message;
   std::optional<double> factor;        ///< mid-point of the bracket
   std::optional<double> holds, fails;  ///< ends of the bracket
-  FosCriterion criterion;
+  CollapseCriterion criterion;
   std::vector<Trial> trials;           ///< in the order in which one thread makes them
   std::optional<Mechanism> mechanism;  ///< at the lowest factor that failed
   std::optional<Simulation> failed;    ///< final state at that factor; displacements count from the

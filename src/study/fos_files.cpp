@@ -7,7 +7,7 @@
 namespace edda {
 namespace {
 
-void add_criterion(Json& j, const FosCriterion& c) {
+void add_criterion(Json& j, const CollapseCriterion& c) {
   j.key("criterion").open_object();
   j.pair("fails_displacement", c.displacement).pair("fails_velocity", c.velocity);
   j.pair("block_size", c.size).pair("acceleration", c.acceleration);

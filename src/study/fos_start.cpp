@@ -8,26 +8,24 @@
 #include "model/stage_names.hpp"
 #include "run/equilibrium_search.hpp"
 #include "study/fault_at.hpp"
-#include "study/varied_gravity.hpp"
 
 namespace edda {
 namespace {
 
 constexpr double strong = 1e-3;  // strength is divided by this where nothing is to slip or break
 
-/// The model with the varied load multiplied by `multiplier`, and strength divided by `divided` in
-/// addition.
+/// The model with strength divided by `divided` in addition, and the varied ground motion, if any,
+/// multiplied.
 Model before_trials(Model model, const Fos& fos, double multiplier, double divided) {
   for (Stage& stage : model.stages) stage.strength_factor *= divided;
-  const auto q = static_cast<std::size_t>(std::max(fos.target, 0));
-  if (fos.varied == Varied::shaking) model.shakings[q].scale *= multiplier;
-  if (fos.varied == Varied::water) model.waters[q].unit_weight *= multiplier;
-  if (fos.varied == Varied::load && multiplier != 1.0) {
-    TimeHistory& factor = model.loads[q].factor;
-    if (factor.time.empty()) factor = {{0.0}, {1.0}};
-    for (double& value : factor.value) value *= multiplier;
-  }
+  if (fos.varied == Varied::shaking)
+    model.shakings[static_cast<std::size_t>(fos.target)].scale *= multiplier;
   return model;
+}
+
+constexpr bool changes_gravity(Varied varied) {
+  return varied == Varied::tilt || varied == Varied::kh || varied == Varied::kv ||
+         varied == Varied::gravity;
 }
 
 /// Duration of the ground motion that is varied: that of its record; for a sine, of the stages with
@@ -50,26 +48,13 @@ double shaking_time(const Model& model, const Fos& fos) {
   return time;
 }
 
-FosCriterion criterion_of(const Simulation& sim, const Model& model, const Fos& fos) {
-  FosCriterion c;
-  double count = 0.0, mass = 0.0, force = 0.0;
-  const LoadsNow acting = loads_at(model, sim.attached.loads, sim.motion.state.time);
-  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
-    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
-    c.size += std::sqrt(sim.scene->blocks.area[i]);
-    mass += sim.scene->blocks.mass[i];
-    force += norm(load_on(sim.scene->blocks, acting, sim.motion.pose, i));
-    count += 1.0;
-  }
-  c.size /= std::max(count, 1.0);
-  c.acceleration = norm(model.gravity);
-  if (c.acceleration == 0.0) c.acceleration = force > 0.0 ? force / mass : usual_acceleration;
-  constexpr double part_of_size = 0.01, slower = 10.0;
-  c.duration = equilibrium_time(c.size, c.acceleration);
+CollapseCriterion criterion_of(const Simulation& sim, const Model& model, const Fos& fos) {
+  CollapseCriterion c = collapse_criterion(sim);
+  const double usual = c.displacement;
   c.shaking = shaking_time(model, fos);
   c.slows = !fos.fails.displacement && fos.varied != Varied::shaking;
-  c.displacement = fos.fails.displacement.value_or(part_of_size * c.size);
-  c.velocity = fos.fails.velocity.value_or(c.displacement / (slower * c.duration));
+  c.displacement = fos.fails.displacement.value_or(usual);
+  c.velocity = fos.fails.velocity.value_or(c.velocity * c.displacement / usual);
   return c;
 }
 
@@ -85,9 +70,14 @@ Damping damping_for_equilibrium(const Damping& own) {
 TrialPlan plan_of(const Simulation& sim, const Model& model, const Fos& fos) {
   const Damping& own = model.solver.damping;
   TrialPlan plan;
-  plan.given = model;
   plan.varied = fos.varied;
-  plan.target = static_cast<std::size_t>(std::max(fos.target, 0));
+  plan.target = fos.target;
+  if (fos.varied == Varied::shaking)
+    plan.given_scale = model.shakings[static_cast<std::size_t>(fos.target)].scale;
+  if (fos.varied == Varied::boundary) {
+    const Boundary& support = model.boundaries[static_cast<std::size_t>(fos.target)];
+    plan.displacement = norm(support.displacement.value_or(Vec2{}));
+  }
   plan.criterion = criterion_of(sim, model, fos);
   plan.quiet = damping_for_equilibrium(own);
   plan.shaken = own;
@@ -111,6 +101,13 @@ std::optional<Fault> refused(const Model& model, const Fos& fos) {
         model, model.solver.where, "solver.mass",
         "masses that are raised for trials are not available with mass = \"consistent\"",
         "use mass = \"matched\", which moves the same way");
+  }
+  const std::size_t last =
+      fos.stage.empty() ? model.stages.size() : stage_called(model, fos.stage).value_or(0) + 1;
+  if (last > 0 && model.stages[last - 1].until == StageEnd::collapse) {
+    return fault_at(model, fos.where, "fos.stage",
+                    "trials cannot begin at the end of a stage until collapse",
+                    "name a stage before it");
   }
   if (fos.varied == Varied::shaking && shaking_time(model, fos) == 0.0) {
     return fault_at(model, fos.where, "fos.vary", "the duration of the ground motion is not given",
@@ -171,9 +168,12 @@ Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& opti
   Result<PreparedRun> prepared = prepare_run(
       before_trials(as_drawn ? with_equilibrium_stage(model) : model, fos, multiplier, divided));
   if (!prepared.ok()) return prepared.faults();
-  if (auto fault = nothing_moves(model, prepared.value().sim)) return *fault;
+  Simulation& sim = prepared.value().sim;
+  if (auto fault = nothing_moves(model, sim)) return *fault;
+  if (SteppedValue* const load = slow_value(sim.attached.loads.slow, fos.varied, fos.target);
+      load != nullptr && !changes_gravity(fos.varied))
+    *load = {multiplier, multiplier};
   if (as_drawn) {
-    Simulation& sim = prepared.value().sim;
     last_at_most(sim.scene.edit().model,
                  most_steps * sim.scene->model.solver.safety * uniform_step(sim));
   }
@@ -185,7 +185,7 @@ Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& opti
   const Result<Outcome> outcome = run_model(prepared.value(), how);
   if (!outcome.ok()) return outcome.faults();
   const Status status = outcome.value().status;
-  Staged made{{std::move(prepared.value().sim), {}, {}, {}, {}, {}, {}, {}, {}}, true, {}, 0};
+  Staged made{{std::move(sim), {}, {}, {}, {}, {}, {}, {}}, true, {}, 0};
   if (ended) made.stage = *ended + (status == Status::failed ? 1 : 0);  // during the next stage
   FosStart& s = made.start;
   made.in_equilibrium = status != Status::collapsed && status != Status::failed;
@@ -193,9 +193,9 @@ Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& opti
   if (auto fault = nothing_moves(model, s.sim); made.in_equilibrium && fault) return *fault;
   s.warnings = std::move(prepared.value().warnings);
   if (status == Status::interrupted) s.status = FosStatus::interrupted;
-  s.loading = {s.sim.motion.laws.divided_by,
-               changes_gravity(fos.varied) ? factor_as_given(fos.varied) : multiplier};
-  s.given = {s.sim.motion.laws.divided_by, 1.0};
+  s.given = {s.sim.motion.laws.divided_by, fos.varied == Varied::shaking ? 0.0 : 1.0};
+  if (changes_gravity(fos.varied))
+    s.given.value = slow_value(s.sim.attached.loads.slow, fos.varied, fos.target)->value;
   for (double& factor : s.given.strength) factor /= divided;
   s.plan = plan_of(s.sim, model, fos);
   return made;
@@ -241,7 +241,7 @@ Result<FosStart> at_rest(const Model& model, const Fos& fos, const FosOptions& o
 Loading loading_of(const Fos& fos, const Model& model, const Loading& given, double factor) {
   Loading to = given;
   if (fos.varied != Varied::strength) {
-    to.multiplier = factor;
+    to.value = factor;
     return to;
   }
   for (std::size_t r = 0; r < to.strength.size(); ++r) {
@@ -259,10 +259,9 @@ Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptio
   if (!made.ok()) return made;
   FosStart& s = made.value();
   if (s.status != FosStatus::found) return made;
-  const double given = factor_as_given(fos.varied);
-  const Loading to = loading_of(fos, model, s.given, given);
+  const double given = s.given.value;
   Simulation as_given = s.sim;
-  Trial trial = run_trial(as_given, s.plan, s.loading, to, [&] { return stopped(options); });
+  Trial trial = run_trial(as_given, s.plan, s.given, [&] { return stopped(options); });
   trial.factor = given;
   if (trial.end == TrialEnd::stopped) {
     s.status = FosStatus::interrupted;
@@ -270,7 +269,6 @@ Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptio
   }
   if (trial.end == TrialEnd::holds) {
     s.sim = std::move(as_given);
-    s.loading = to;
     if (given > 0.0) s.seen.push_back(trial);
     return made;
   }

@@ -9,8 +9,7 @@ namespace edda {
 /// A state in equilibrium, and its loading.
 struct FosStart {
   Simulation sim;
-  Loading loading;  ///< loading of this state
-  Loading given;    ///< loading of the model as given (without ground motion)
+  Loading given;  ///< loading of the model as given (without ground motion)
   TrialPlan plan;
   std::vector<Trial> seen;              ///< the trial of the factor 1, where one was made
   FosStatus status = FosStatus::found;  ///< otherwise unstable or interrupted, with a message

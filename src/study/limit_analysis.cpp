@@ -14,7 +14,6 @@
 #include "study/fault_at.hpp"
 #include "study/limit_case.hpp"
 #include "study/staged_model.hpp"
-#include "study/varied_gravity.hpp"
 
 namespace edda {
 namespace {
@@ -38,7 +37,15 @@ std::optional<Fault> without_limit(const Model& model, const Fos& fos) {
                     "no material has a compressive strength",
                     "give materials.X.strength = { ucs = ..., tension = ... }");
   }
-  if (changes_gravity(fos.varied) && model.gravity == Vec2{}) {
+  if (fos.varied == Varied::boundary &&
+      model.boundaries[static_cast<std::size_t>(fos.target)].type == BoundaryType::displacement) {
+    return fault_at(model, fos.where, "fos.vary",
+                    "rigid blocks have no limit to the displacement of their support",
+                    "vary a load, or run edda fos, which follows the displacement");
+  }
+  const bool weight = fos.varied == Varied::tilt || fos.varied == Varied::kh ||
+                      fos.varied == Varied::kv || fos.varied == Varied::gravity;
+  if (weight && model.gravity == Vec2{}) {
     return fault_at(model, fos.where, "fos.vary", "the model has no gravity that this could act on",
                     "give gravity = [0, -9.81]");
   }
@@ -111,6 +118,8 @@ const char* quantity(Varied varied) {
       return "multiplier of the load";
     case Varied::water:
       return "multiplier of the water pressure";
+    case Varied::boundary:
+      return "multiplier of the traction at the boundary";
     case Varied::tilt:
       return "tilt in degrees";
     case Varied::kh:
@@ -185,7 +194,10 @@ Result<LimitResult> limit_analysis(const Model& model, LimitExtent extent) {
   if (auto fault = without_limit(model, fos)) return *fault;
   Result<PreparedRun> prepared = as_staged(model, fos);
   if (!prepared.ok()) return prepared.faults();
-  const Simulation& sim = prepared.value().sim;
+  Simulation& sim = prepared.value().sim;
+  // Multipliers refer to the load as given, whatever a ramp has made of it.
+  if (SteppedValue* const varied = slow_value(sim.attached.loads.slow, fos.varied, fos.target))
+    *varied = {1.0, 1.0};
   const LimitCase asked(sim, fos, model.limit && model.limit->crushing);
   LimitResult r;
   r.vary = fos.vary;

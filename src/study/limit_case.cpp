@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "contacts/laws.hpp"
-#include "study/varied_gravity.hpp"
 
 namespace edda {
 namespace {
@@ -34,50 +33,54 @@ std::vector<RigidStrength> LimitCase::strength_at(double factor, StrengthOf whic
   return joint_strengths(rigid_, laws, divided_by, which, crushing_, last);
 }
 
+Vec2 LimitCase::gravity_with(double value) const {
+  SlowLoading slow = sim_.attached.loads.slow;
+  if (SteppedValue* const varied = slow_value(slow, fos_.varied, fos_.target))
+    *varied = {value, value};
+  return gravity_at(sim_.scene->model.gravity, slow, sim_.motion.state.time, {});
+}
+
+double* LimitCase::factor_of_varied(LoadFactors& factors) const {
+  const auto q = static_cast<std::size_t>(std::max(fos_.target, 0));
+  switch (fos_.varied) {
+    case Varied::load:
+      return q < factors.loads.size() ? &factors.loads[q] : nullptr;
+    case Varied::boundary:
+      return &factors.loads[sim_.scene->model.loads.size() + q];
+    case Varied::water:
+      return q < factors.waters.size() ? &factors.waters[q] : nullptr;
+    default:
+      return nullptr;
+  }
+}
+
 /// Everything that acts but what is varied.
 RigidForces LimitCase::dead_loads() const {
   LoadFactors factors = last_factors(sim_);
-  const auto q = static_cast<std::size_t>(std::max(fos_.target, 0));
-  if (fos_.varied == Varied::load && q < factors.loads.size()) factors.loads[q] = 0.0;
-  if (fos_.varied == Varied::water && q < factors.waters.size()) factors.waters[q] = 0.0;
-  const Vec2 gravity = fos_.varied == Varied::gravity ? Vec2{} : sim_.scene->model.gravity;
-  return weights_under(rigid_, sim_, gravity) + loads_with(rigid_, sim_, factors);
+  if (double* const varied = factor_of_varied(factors)) *varied = 0.0;
+  return weights_under(rigid_, sim_, gravity_with(0.0)) + loads_with(rigid_, sim_, factors);
 }
 
 /// What the multiplier acts on.
 RigidForces LimitCase::live() const {
-  const Vec2 gravity = sim_.scene->model.gravity;
-  const auto q = static_cast<std::size_t>(std::max(fos_.target, 0));
-  const LoadFactors given = last_factors(sim_);
+  LoadFactors given = last_factors(sim_);
   LoadFactors factors{std::vector<double>(given.loads.size(), 0.0),
                       std::vector<double>(given.waters.size(), 0.0)};
-  const auto once = [](double own) { return own == 0.0 ? 1.0 : own; };  // not active yet
-  switch (fos_.varied) {
-    case Varied::kh:
-      return weights_under(rigid_, sim_, perp(gravity));
-    case Varied::kv:
-      return weights_under(rigid_, sim_, -gravity);
-    case Varied::gravity:
-      return weights_under(rigid_, sim_, gravity);
-    case Varied::load:
-      if (q < given.loads.size()) factors.loads[q] = once(given.loads[q]);
-      break;
-    case Varied::water:
-      if (q < given.waters.size()) factors.waters[q] = once(given.waters[q]);
-      break;
-    default:
-      break;
+  if (double* const varied = factor_of_varied(factors)) {
+    const double own = *factor_of_varied(given);
+    *varied = own == 0.0 ? 1.0 : own;  // 0: not active yet
   }
-  return loads_with(rigid_, sim_, factors);
+  // Gravity is linear in the seismic coefficients and in its multiplier.
+  return weights_under(rigid_, sim_, gravity_with(1.0) - gravity_with(0.0)) +
+         loads_with(rigid_, sim_, factors);
 }
 
 RigidForces LimitCase::dead_at(double angle) const {
-  const Vec2 tilted = varied_gravity(sim_.scene->model.gravity, Varied::tilt, degrees * angle);
-  return weights_under(rigid_, sim_, tilted) + loads_with(rigid_, sim_, last_factors(sim_));
+  return weights_under(rigid_, sim_, gravity_with(degrees * angle)) +
+         loads_with(rigid_, sim_, last_factors(sim_));
 }
 RigidForces LimitCase::turning_at(double angle) const {
-  const Vec2 tilted = varied_gravity(sim_.scene->model.gravity, Varied::tilt, degrees * angle);
-  return weights_under(rigid_, sim_, perp(tilted));
+  return weights_under(rigid_, sim_, perp(gravity_with(degrees * angle)));
 }
 
 LimitCase::Answer LimitCase::solve(bool largest, const StrengthAt& strength_at, double near) const {

@@ -40,6 +40,10 @@ class LimitCase {
   Answer solve(bool largest, const StrengthAt& strength_at, double near = 1.0) const;
   std::vector<RigidStrength> strength_at(double factor, StrengthOf which,
                                          const std::vector<RigidJointForce>& last) const;
+  /// Gravity at this value of what is varied, m/s2.
+  Vec2 gravity_with(double value) const;
+  /// Of what is varied, if that is a load; null otherwise, and where no load acts.
+  double* factor_of_varied(LoadFactors& factors) const;
   RigidForces dead_at(double angle) const;
   RigidForces turning_at(double angle) const;
   RigidForces live() const;

@@ -12,7 +12,10 @@ Result<PreparedRun> as_staged(const Model& model, const Fos& fos) {
   const std::size_t last =
       fos.stage.empty() ? plans.size() - 1 : stage_called(model, fos.stage).value_or(0);
   for (std::size_t q = 0; q <= last; ++q) {
-    if (auto fault = enter_stage(made.value().sim, plans[q], q == 0)) return *fault;
+    Simulation& sim = made.value().sim;
+    if (auto fault = enter_stage(sim, plans[q], q == 0)) return *fault;
+    const Stage& stage = plans[q].stage;
+    if (stage.ramp) set_ramp(sim, stage, stage.ramp->what.range->y);
   }
   return made;
 }

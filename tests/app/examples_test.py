@@ -78,6 +78,16 @@ class Examples(Program):
         self.assertLess(abs(summary["energy"]["drift"]), 1e-4)
         self.assertGreater(max(math.hypot(float(b["ux"]), float(b["uy"])) for b in self.rows(folder / "blocks.csv")), 0.05)
 
+    def test_pushover_collapses_where_rigid_blocks_do(self):
+        summary, folder = self.ran("pushover")
+        self.assertEqual(summary["status"], "completed")
+        ramp = summary["ramps"]["push"]
+        self.assertLessEqual(ramp["holds"], math.tan(math.radians(33)))
+        self.assertGreaterEqual(ramp["fails"], math.tan(math.radians(33)) - 1e-3)
+        self.assertAlmostEqual(ramp["fails"] - ramp["holds"], 0.005)
+        self.assertEqual(len(self.rows(folder / "curve.csv")), round(ramp["fails"] / 0.005) + 1)
+        self.assertTrue((folder / "curve.png").exists() and (folder / "curve.svg").exists())
+
     def test_roof_wedge_hangs_on_its_bolts(self):
         summary, folder = self.ran("roof-wedge")
         self.assertEqual(summary["status"], "equilibrium")

@@ -74,14 +74,14 @@ TEST(Ground, KeepsItsParabolaWhenTheStepChanges) {
   shaking.record.acceleration = {{2.0, -1.0}, {2.0, -1.0}};
   shaking.record.velocity = {{0.0, 0.0}, {20.0, -10.0}};
   model.shakings = {shaking};
-  ActiveIntervals intervals;
-  intervals.shakings = {{0.0}};
+  Loads loads;
+  loads.intervals.shakings = {{0.0}};
   Ground ground;
   double time = 1.0, h = 0.01;
   ground.velocity = (time - 0.5 * h) * Vec2{2.0, -1.0};
   for (int n = 0; n < 20; ++n) {
     const double next = n % 3 == 0 ? 0.5 * h : n % 3 == 1 ? 2.0 * h : h;
-    const GroundStep step = next_ground(model, intervals, ground, {}, time, h, next);
+    const GroundStep step = next_ground(model, loads, ground, {}, time, h, next);
     EXPECT_NEAR(step.velocity.x, 2.0 * (time + 0.5 * next), 1e-12);
     EXPECT_NEAR(step.velocity.y, -(time + 0.5 * next), 1e-12);
     ground.velocity = step.velocity;

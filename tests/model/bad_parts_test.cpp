@@ -28,12 +28,17 @@ TEST(BadModel, Loads) {
   const std::string at = "[[load]]\npoint = [15, 9]\n",
                     line = "[[load]]\nalong = [[10, 0], [10, 9]]\n";
   for (const Bad& bad : {
-           Bad{"[[load]]\nforce = [1, 0]\n", 42, "load.0", "neither point nor along"},
-           Bad{at, 42, "load.0", "neither force nor pressure"},
+           Bad{"[[load]]\nforce = [1, 0]\n", 42, "load.0", "none of point, along and within"},
+           Bad{at, 42, "load.0", "none of force, pressure and body_force"},
            Bad{at + "along = [[0, 0], [1, 0]]\nforce = [1, 0]\n", 44, "load.0.along",
                "point is given too"},
            Bad{at + "force = [1, 0]\npressure = 5\n", 45, "load.0.pressure", "force is given too"},
            Bad{at + "pressure = 5\n", 44, "load.0.pressure", "no face"},
+           Bad{at + "body_force = [1, 0]\n", 44, "load.0.body_force", "belongs to a polygon"},
+           Bad{"[[load]]\nwithin = [[0, 0], [9, 0], [9, 9]]\nforce = [1, 0]\n", 43, "load.0.within",
+               "belongs to a body force"},
+           Bad{"[[load]]\nwithin = [[0, 0], [9, 0], [9, 9]]\nbody_force = [\"1 kN\", 0]\n", 44,
+               "load.0.body_force[0]", "is not a"},
            Bad{at + "force = [0, \"3 kPa\"]\n", 44, "load.0.force", "is not a force"},
            Bad{line + "force = [0, \"3 kN\"]\n", 44, "load.0.force", "is not a stress"},
            Bad{at + "force = [0, \"3 m\"]\n", 44, "load.0.force[1]", "is not a load"},
@@ -306,6 +311,39 @@ TEST(BadParts, DurationIsMissingInARunAlone) {
                                      "m.toml", {}, ReadFor::no_run);
   ASSERT_FALSE(wrong.ok());
   EXPECT_EQ(wrong.faults().size(), 1U);
+}
+
+TEST(BadModel, Ramps) {
+  const std::string load = "[[load]]\nname = \"push\"\npoint = [15, 9]\nforce = [1, 0]\n",
+                    stage = "[[stage]]\nduration = 0.1\n",
+                    wall = "[[boundary]]\nname = \"w\"\nsides = [\"left\"]\n";
+  const auto ramp = [&](const std::string& keys) { return stage + "ramp = { " + keys + " }\n"; };
+  for (const Bad& bad : {
+           Bad{stage + "until = \"collapse\"\n", 44, "stage.0.until",
+               "belongs to a stage with a ramp"},
+           Bad{ramp("kh = [0, 1]") + "until = \"time\"\n", 45, "stage.0.until", "does not go with"},
+           Bad{ramp("steps = 5"), 44, "stage.0.ramp", "says nothing"},
+           Bad{ramp("kx = [0, 1]"), 44, "stage.0.ramp.kx", "unknown key"},
+           Bad{ramp("kh = [0, 1], kv = [0, 1]"), 44, "stage.0.ramp.kv", "\"kh\" is varied too"},
+           Bad{ramp("kh = [0.2, 0.2]"), 44, "stage.0.ramp.kh", "ends where it begins"},
+           Bad{ramp("kh = 0.2"), 44, "stage.0.ramp.kh", "from and to"},
+           Bad{ramp("kh = [0, 1], steps = 0"), 44, "stage.0.ramp.steps", "out of range"},
+           Bad{ramp("kh = [0, 1], hold = \"time\""), 44, "stage.0.ramp.hold", "not known"},
+           Bad{ramp("strength = [1, 0]"), 44, "stage.0.ramp.strength", "not above 0"},
+           Bad{ramp("gravity = [1, -1]"), 44, "stage.0.ramp.gravity", "below 0"},
+           Bad{ramp("strength = [1, 2]") + "strength_factor = 2\n", 45, "stage.0.strength_factor",
+               "beside a ramp"},
+           Bad{load + ramp("'load:pusch' = [0, 1]"), 48, "stage.0.ramp.load:pusch", "did you mean"},
+           Bad{wall + ramp("'boundary:w' = [0, 1]"), 47, "stage.0.ramp.boundary:w",
+               "neither a displacement nor a traction"},
+           Bad{ramp("kh = [0, 1]") + "damping = { local = 0.5 }\n", 45, "stage.0.damping",
+               "needs adaptive damping"},
+           Bad{wall + "type = \"displacement\"\n", 42, "boundary.w.displacement", "is missing"},
+           Bad{wall + "displacement = [1, 0]\n", 45, "boundary.w.displacement",
+               "does not apply to type"},
+       }) {
+    expect_fault(bad);
+  }
 }
 
 }  // namespace

@@ -179,6 +179,11 @@ history = "tests/model/rise.csv"
 sides = ["left"]
 type = "velocity"
 velocity = ["1 mm/s", -0.5]
+[[boundary]]
+name = "yielding"
+along = [[0, 0], [1, 0]]
+type = "displacement"
+displacement = ["1 mm", -0.02]
 [[load]]
 name = "axle"
 point = [15, 10]
@@ -187,6 +192,9 @@ force = ["2 kN", -1e5]
 along = [[10, 10], [20, 10]]
 pressure = "3 kPa"
 history = "tests/model/rise.csv"
+[[load]]
+within = [[10, 10], [20, 10], [15, 15]]
+body_force = ["1 kN/m3", -5.0]
 [[water]]
 name = "wet"
 table = [[0, 4], [30, 5]]
@@ -255,11 +263,16 @@ activate = ["axle", "wet"]
 masses = "as given"
 reset_displacements = true
 strength_factor = 1.25
+[[stage]]
+name = "push"
+until = "collapse"
+duration = 5.0
+ramp = { "load:axle" = [0, 2.5], hold = "equilibrium", steps = 50 }
 [solver]
 method = "edda"
 mass = "covering"
 switching = "plain"
-duration = "2 min"
+duration = "125 s"
 time_step = 1e-5
 allow_unstable = true
 safety = 0.7

@@ -204,7 +204,7 @@ void expect_every_geometry_key(const Model& m) {
 
 /// Boundaries and ground motion ([[shaking]]).
 void expect_every_boundary_key(const Model& m) {
-  ASSERT_EQ(m.boundaries.size(), 5U);
+  ASSERT_EQ(m.boundaries.size(), 6U);
   EXPECT_EQ(m.boundaries[0].name, "base");
   EXPECT_EQ(m.boundaries[0].sides, (std::vector<std::string>{"bottom", "left"}));
   EXPECT_EQ(m.boundaries[0].type, BoundaryType::roller);
@@ -219,6 +219,8 @@ void expect_every_boundary_key(const Model& m) {
   EXPECT_EQ(m.boundaries[3].factor.value, (std::vector<double>{0.0, 2.5}));
   EXPECT_EQ(m.boundaries[4].type, BoundaryType::velocity);
   EXPECT_EQ(m.boundaries[4].velocity, (Vec2{0.001, -0.5}));
+  EXPECT_EQ(m.boundaries[5].type, BoundaryType::displacement);
+  EXPECT_EQ(m.boundaries[5].displacement, (Vec2{0.001, -0.02}));
   ASSERT_EQ(m.shakings.size(), 2U);
   EXPECT_EQ(m.shakings[0].name, "quake");
   EXPECT_EQ(m.shakings[0].direction, (Vec2{0, 2}));
@@ -261,7 +263,7 @@ void expect_every_bolt_key(const Model& m) {
 
 /// Loads, water and monitors.
 void expect_every_load_key(const Model& m) {
-  ASSERT_EQ(m.loads.size(), 2U);
+  ASSERT_EQ(m.loads.size(), 3U);
   EXPECT_EQ(m.loads[0].name, "axle");
   EXPECT_EQ(m.loads[0].point, (Vec2{15, 10}));
   EXPECT_EQ(m.loads[0].force, (Vec2{2000, -1e5}));
@@ -269,6 +271,8 @@ void expect_every_load_key(const Model& m) {
   EXPECT_EQ(m.loads[1].along.size(), 2U);
   EXPECT_EQ(m.loads[1].pressure, 3000.0);
   EXPECT_EQ(m.loads[1].factor.value, (std::vector<double>{0.0, 2.5}));
+  EXPECT_EQ(m.loads[2].within.size(), 3U);
+  EXPECT_EQ(m.loads[2].body_force, (Vec2{1e3, -5.0}));
   ASSERT_EQ(m.waters.size(), 1U);
   EXPECT_EQ(m.waters[0].table[1], (Vec2{30, 5}));
   EXPECT_EQ(m.waters[0].flooded, (std::vector<std::string>{"cavern"}));
@@ -280,7 +284,7 @@ void expect_every_load_key(const Model& m) {
 }
 
 void expect_every_stage_key(const Model& m) {
-  ASSERT_EQ(m.stages.size(), 2U);
+  ASSERT_EQ(m.stages.size(), 3U);
   EXPECT_EQ(m.stages[0].name, "settle");
   EXPECT_EQ(m.stages[0].until, StageEnd::equilibrium);
   EXPECT_EQ(m.stages[0].ratio, 1e-4);
@@ -292,6 +296,14 @@ void expect_every_stage_key(const Model& m) {
   EXPECT_EQ(m.stages[0].damping.adaptive, 0.8);
   EXPECT_EQ(m.stages[0].damping.contact, 0.2);
   EXPECT_FALSE(m.stages[0].reset_displacements);
+  EXPECT_EQ(m.stages[2].until, StageEnd::collapse);
+  ASSERT_TRUE(m.stages[2].ramp);
+  EXPECT_EQ(m.stages[2].ramp->what.vary, "load:axle");
+  EXPECT_EQ(m.stages[2].ramp->what.range, (Vec2{0.0, 2.5}));
+  EXPECT_EQ(m.stages[2].ramp->varied, Varied::load);
+  EXPECT_EQ(m.stages[2].ramp->target, 0);
+  EXPECT_EQ(m.stages[2].ramp->steps, 50);
+  EXPECT_FALSE(m.stages[1].ramp);
   EXPECT_EQ(m.stages[1].until, StageEnd::time);
   EXPECT_EQ(m.stages[1].damping.local, 0.1);
   EXPECT_TRUE(m.stages[1].reset_displacements);
@@ -315,7 +327,7 @@ void expect_every_stage_key(const Model& m) {
 void expect_every_solver_key(const Model& m) {
   EXPECT_EQ(m.solver.mass, MassKind::covering);
   EXPECT_EQ(m.solver.switching, Switching::plain);
-  EXPECT_EQ(m.solver.duration, 120.0);
+  EXPECT_EQ(m.solver.duration, 125.0);
   EXPECT_EQ(m.solver.time_step, 1e-5);
   EXPECT_TRUE(m.solver.allow_unstable);
   EXPECT_EQ(m.solver.safety, 0.7);

@@ -162,6 +162,20 @@ def test_stages_and_bolts(models, tmp_path):
         results.stage_joints(2)
 
 
+def test_curve_of_a_ramp(models, tmp_path):
+    model = edda.load(models / "pushover.toml", ["stage.push.ramp={kh=[0,0.1],steps=2}"])
+    edda.Simulation(model, results=tmp_path / "out").run()
+    curve = edda.Results(tmp_path / "out").curve
+    assert curve["value"].tolist() == [0.0, 0.05, 0.1]
+    assert curve["holds"].tolist() == [1, 1, 1] and curve["holds"].dtype == np.int64
+    assert curve["vary"].tolist() == ["kh"] * 3
+    weight = -curve["fy"][0]
+    assert np.allclose(curve["fx"], curve["value"] * weight, rtol=1e-12)
+    assert np.all(np.diff(curve["top.ux"]) > 0.0)
+    text = " ".join(edda.Results.curve.__doc__.split())
+    assert all(name.rpartition(".")[2] in text for name in curve.dtype.names)
+
+
 def test_matplotlib_is_imported_only_for_pictures():
     code = "import edda, sys; sys.exit('matplotlib' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

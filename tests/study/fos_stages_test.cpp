@@ -68,6 +68,52 @@ TEST(Fos, BeginsFromAStage) {
   EXPECT_NEAR(*last.factor, exact / 1.25, 0.05);
 }
 
+/// Trials begin from what a ramp has reached, and refuse a stage that ends in collapse.
+TEST(Fos, BeginsFromTheEndOfARamp) {
+  const std::string floor =
+      "[materials.rock]\ndensity = 2500\nyoung = 1e9\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = 45\n[[block]]\nfixed = true\npolygon = [[-1,-1],[3,-1],[3,0],[-1,0]]\n"
+      "[[block]]\npolygon = [[0,0],[2,0],[2,1],[0,1]]\n";
+  const std::string pushed = "[[stage]]\nramp = { kh = [0, 0.5], steps = 5 }\n";
+  const FosResult strength = found(floor + pushed + coarse);
+  ASSERT_TRUE(strength.factor) << strength.message;
+  EXPECT_NEAR(*strength.factor, 1.0 / 0.5, 0.06);
+  const FosResult kh = found(floor + pushed + coarse + "vary = 'kh'\nbracket = [0.6, 1.5]\n");
+  ASSERT_TRUE(kh.factor) << kh.message;
+  EXPECT_NEAR(*kh.factor, 1.0, 0.04);
+  const Result<FosResult> collapsed = find_factor(
+      testing::model_of(floor + "[[stage]]\nuntil = 'collapse'\nramp = { kh = [0, 2] }\n"), {});
+  ASSERT_FALSE(collapsed.ok());
+  EXPECT_NE(to_string(collapsed.faults()[0]).find("until collapse"), std::string::npos);
+}
+
+/// The traction of a boundary, and the displacement of a support.
+TEST(Fos, VariesBoundaries) {
+  const std::string floor =
+      "[materials.rock]\ndensity = 2500\nyoung = 1e9\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = 30\n[[block]]\nfixed = true\npolygon = [[-1,-1],[3,-1],[3,0],[-1,0]]\n"
+      "[[block]]\npolygon = [[0,0],[2,0],[2,1],[0,1]]\n[[boundary]]\nname = 'side'\n"
+      "along = [[0,0],[0,1]]\n";
+  const double holds = 2500.0 * 2.0 * 9.81 * std::tan(std::numbers::pi / 6.0);
+  const FosResult traction = found(floor + "type = 'stress'\ntraction = [1e4, 0]\n" + coarse +
+                                   "vary = 'boundary:side'\nbracket = [1, 5]\n");
+  ASSERT_TRUE(traction.factor) << traction.message;
+  EXPECT_NEAR(*traction.factor, holds / 1e4, 0.05 * holds / 1e4);
+  ASSERT_TRUE(traction.rigid);
+  EXPECT_TRUE(traction.rigid->below_most);
+  // A lintel falls off a pier that is displaced by its bearing of 0.3 m.
+  const FosResult bearing = found(
+      "[materials.rock]\ndensity = 2500\nyoung = 1e9\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = 30\n[[block]]\nfixed = true\n"
+      "polygon = [[-1,0],[1,0],[1,2],[0,2],[0,3],[-1,3]]\n"
+      "[[block]]\npolygon = [[3.7,0],[4.7,0],[4.7,2],[3.7,2]]\n"
+      "[[block]]\npolygon = [[0,2],[4,2],[4,2.5],[0,2.5]]\n[[boundary]]\nname = 'pier'\n"
+      "along = [[3.7,0],[4.7,0]]\ntype = 'displacement'\ndisplacement = [0.3,0]\n" +
+      coarse + "vary = 'boundary:pier'\nbracket = [0.5, 1.5]\n");
+  ASSERT_TRUE(bearing.factor) << bearing.message;
+  EXPECT_NEAR(*bearing.factor, 1.0, 0.03);
+}
+
 /// A load that no stage has activated yet acts in the trials.
 TEST(Fos, SwitchesOnWhatItVaries) {
   std::string text = ramp("friction_angle = 45\n",

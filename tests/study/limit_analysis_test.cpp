@@ -202,6 +202,50 @@ TEST(LimitAnalysis, MakesTheChangesOfStages) {
   EXPECT_NEAR(first.largest.lower, 0.3 * 3.0 * block / 1000.0, 1e-4);
 }
 
+/// What a ramp has reached stays; a factor on the same load refers to the load as given.
+TEST(LimitAnalysis, TakesRampsAtTheirEnd) {
+  const std::string text = stone(0.5) +
+                           "[[block]]\nfixed = true\npolygon = [[-1,-1],[3,-1],[3,0],[-1,0]]\n"
+                           "[[block]]\npolygon = [[0,0],[2,0],[2,1],[0,1]]\n"
+                           "[[load]]\nname = \"push\"\npoint = [0.1, 0.1]\nforce = [1000, 0]\n";
+  const auto ramp = [](const char* keys) {
+    return fmt::format("[[stage]]\nuntil = \"equilibrium\"\nramp = {{ {} }}\n", keys);
+  };
+  const double weight = 2000.0 * 9.81 * 2.0, pushed = 1000.0 / weight;
+  EXPECT_NEAR(limit_of(text + ramp("kh = [0, 0.2]"), "strength").largest.lower,
+              0.5 / (0.2 + pushed), 1e-5);
+  EXPECT_NEAR(limit_of(text + ramp("'load:push' = [0, 4]"), "strength").largest.lower,
+              0.5 / (4.0 * pushed), 1e-5);
+  EXPECT_NEAR(limit_of(text + ramp("'load:push' = [0, 4]"), "load:push").largest.lower,
+              0.5 / pushed, 1e-3);
+  EXPECT_NEAR(limit_of(text + ramp("kv = [0, 0.2]"), "kh").largest.lower, 0.5 * 0.8 - pushed, 1e-6);
+  const double tilt = 5.0 * degree;
+  EXPECT_NEAR(
+      limit_of(text + ramp("tilt = [0, 5]"), "kh").largest.lower,
+      (0.5 * std::cos(tilt) - std::sin(tilt) - pushed) / (std::cos(tilt) + 0.5 * std::sin(tilt)),
+      1e-6);
+}
+
+/// The traction of a boundary is a load; the displacement of one has no limit.
+TEST(LimitAnalysis, BoundariesAreMultiplied) {
+  const std::string text = stone(0.5) +
+                           "[[block]]\nfixed = true\npolygon = [[-1,-1],[3,-1],[3,0],[-1,0]]\n"
+                           "[[block]]\npolygon = [[0,0],[2,0],[2,1],[0,1]]\n"
+                           "[[boundary]]\nname = \"side\"\nalong = [[0,0],[0,1]]\n";
+  const LimitResult r =
+      limit_of(text + "type = \"stress\"\ntraction = [1000, 0]\n", "boundary:side");
+  EXPECT_NEAR(r.largest.lower, 0.5 * 2000.0 * 9.81 * 2.0 / 1000.0, 1e-4);
+  const Result<Model> model =
+      read_model_text(text +
+                          "type = \"displacement\"\ndisplacement = [0.01, 0]\n[fos]\nvary = "
+                          "\"boundary:side\"\n",
+                      "m.toml", {}, ReadFor::no_run);
+  ASSERT_TRUE(model.ok());
+  const Result<LimitResult> none_found = limit_analysis(model.value());
+  ASSERT_FALSE(none_found.ok());
+  EXPECT_NE(to_string(none_found.faults()[0]).find("no limit"), std::string::npos);
+}
+
 TEST(LimitAnalysis, RefusesWhatHasNoLimit) {
   const std::string text = stone(0.3) + "[[block]]\npolygon = [[0,0],[1,0],[1,1],[0,1]]\n";
   const auto fault = [](const std::string& toml) {

@@ -29,14 +29,18 @@ struct TypeKey {
 const std::vector<TypeKey>& type_keys() {
   using T = BoundaryType;
   static const std::vector<TypeKey> keys{
-      {"stiffness", {T::fixed, T::roller, T::velocity}, false, ""},
+      {"stiffness", {T::fixed, T::roller, T::velocity, T::displacement}, false, ""},
       {"traction",
        {T::stress},
        true,
        "a traction such as traction = [0.0, -1e5], or an [initial_stress]"},
       {"velocity", {T::velocity}, true, "a velocity such as velocity = [0.01, 0.0]"},
+      {"displacement",
+       {T::displacement},
+       true,
+       "a displacement such as displacement = [0.0, -0.01]"},
       {"wave_speeds", {T::viscous, T::free_field}, false, ""},
-      {"history", {T::stress, T::velocity}, false, ""},
+      {"history", {T::stress, T::velocity, T::displacement}, false, ""},
   };
   return keys;
 }

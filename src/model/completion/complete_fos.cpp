@@ -35,37 +35,45 @@ Index row_of(const std::vector<Item>& items, const std::string& name, const char
   return none;
 }
 
-/// vary = "strength" or another word, or KIND:NAME.
-void read_varied(const Value* node, Fos& fos, Reading& reading) {
+}  // namespace
+
+std::optional<VariedRow> find_varied(const std::string& vary, Place place, const std::string& key,
+                                     Reading& reading) {
   constexpr std::pair<std::string_view, Varied> by_name[] = {{"strength", Varied::strength},
                                                              {"tilt", Varied::tilt},
                                                              {"kh", Varied::kh},
                                                              {"kv", Varied::kv},
                                                              {"gravity", Varied::gravity}};
   for (const auto& [word, varied] : by_name) {
-    if (fos.vary != word) continue;
-    fos.varied = varied;
-    return;
+    if (vary == word) return VariedRow{varied, none};
   }
-  const Place place = place_of(node, "vary");
-  const std::size_t colon = std::min(fos.vary.find(':'), fos.vary.size());
-  const std::string kind = fos.vary.substr(0, colon);
-  const std::string name = fos.vary.substr(std::min(colon + 1, fos.vary.size()));
+  const std::size_t colon = std::min(vary.find(':'), vary.size());
+  const std::string kind = vary.substr(0, colon);
+  const std::string name = vary.substr(std::min(colon + 1, vary.size()));
   const Model& model = reading.model;
-  const auto find_in = [&](Varied varied, const auto& items) {
-    fos.varied = varied;
-    fos.target = row_of(items, name, kind.c_str(), place, "fos.vary", reading);
+  const auto find_in = [&](Varied varied, const auto& items) -> std::optional<VariedRow> {
+    const Index row = row_of(items, name, kind.c_str(), place, key, reading);
+    if (row == none) return {};
+    return VariedRow{varied, row};
   };
   if (kind == "load") return find_in(Varied::load, model.loads);
   if (kind == "shaking") return find_in(Varied::shaking, model.shakings);
   if (kind == "water") return find_in(Varied::water, model.waters);
-  add_fault(reading, place, "fos.vary",
-            '"' + clipped(fos.vary) + "\" is nothing that can be varied",
-            "give \"strength\", \"tilt\", \"kh\", \"kv\", \"gravity\", \"load:NAME\", "
-            "\"shaking:NAME\" or \"water:NAME\"");
+  if (kind != "boundary") {
+    add_fault(reading, place, key, '"' + clipped(vary) + "\" is nothing that can be varied",
+              "give \"strength\", \"tilt\", \"kh\", \"kv\", \"gravity\", \"load:NAME\", "
+              "\"shaking:NAME\", \"water:NAME\" or \"boundary:NAME\"");
+    return {};
+  }
+  const auto found = find_in(Varied::boundary, model.boundaries);
+  if (!found) return {};
+  const BoundaryType type = model.boundaries[static_cast<std::size_t>(found->target)].type;
+  if (type == BoundaryType::displacement || type == BoundaryType::stress) return found;
+  add_fault(reading, place, key,
+            '"' + clipped(name) + "\" prescribes neither a displacement nor a traction",
+            "name a boundary of type \"displacement\" or \"stress\"");
+  return {};
 }
-
-}  // namespace
 
 void complete_fos(const Value& root, Reading& reading) {
   if (!reading.model.fos) return;
@@ -73,7 +81,10 @@ void complete_fos(const Value& root, Reading& reading) {
   const Value* node = find(&root, "fos");
   if (!is_table(node)) return;
   const Model& model = reading.model;
-  read_varied(node, fos, reading);
+  if (const auto found = find_varied(fos.vary, place_of(node, "vary"), "fos.vary", reading)) {
+    fos.varied = found->varied;
+    fos.target = found->target;
+  }
   if (!fos.stage.empty()) {
     row_of(model.stages, fos.stage, "stage", place_of(node, "stage"), "fos.stage", reading);
   }

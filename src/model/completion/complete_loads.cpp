@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 
 #include "model/completion/complete_tools.hpp"
 #include "model/files/input_file.hpp"
@@ -25,26 +28,37 @@ void check_unit(const Value& force, const Load& load, Reading& reading) {
 
 void complete_load(const Value* node, const Load& load, Reading& reading) {
   const std::string& key = load.where.key;
-  const auto one_of = [&](const char* first, const char* second, const char* example) {
-    if (given(node, first) && given(node, second)) {
-      add_fault(reading, find(node, second)->place, key + "." + second,
-                std::string(first) + " is given too", "give only one of them");
-      return false;
+  const auto one_of = [&](std::array<const char*, 3> names, const char* example) {
+    const char* first = nullptr;
+    for (const char* name : names) {
+      if (!given(node, name)) continue;
+      if (first != nullptr) {
+        add_fault(reading, find(node, name)->place, key + "." + name,
+                  std::string(first) + " is given too", "give only one of them");
+        return false;
+      }
+      first = name;
     }
-    if (!given(node, first) && !given(node, second)) {
-      add_fault(reading, node->place, key, std::string("has neither ") + first + " nor " + second,
+    if (first == nullptr) {
+      add_fault(reading, node->place, key,
+                fmt::format("has none of {}, {} and {}", names[0], names[1], names[2]),
                 std::string("add ") + example);
-      return false;
     }
-    return true;
+    return first != nullptr;
   };
-  one_of("point", "along", "a point such as point = [0.0, 5.0]");
-  if (!one_of("force", "pressure", "a force such as force = [0.0, -1e5]")) return;
-  if (given(node, "pressure") && given(node, "point")) {
-    add_fault(reading, find(node, "pressure")->place, key + ".pressure",
-              "a point has no face for a pressure to act on",
-              "give force, or along in place of point");
-  }
+  if (!one_of({"point", "along", "within"}, "a point such as point = [0.0, 5.0]")) return;
+  if (!one_of({"force", "pressure", "body_force"}, "a force such as force = [0.0, -1e5]")) return;
+  const auto refuse = [&](const char* name, const char* problem, const char* remedy) {
+    add_fault(reading, find(node, name)->place, key + "." + name, problem, remedy);
+  };
+  if (given(node, "pressure") && given(node, "point"))
+    refuse("pressure", "a point has no face for a pressure to act on",
+           "give force, or along in place of point");
+  if (given(node, "body_force") && !given(node, "within"))
+    refuse("body_force", "belongs to a polygon", "give within in place of point or along");
+  if (given(node, "within") && !given(node, "body_force"))
+    refuse("within", "belongs to a body force",
+           "give body_force, a force per volume such as [\"5 kN/m3\", 0]");
   if (given(node, "force")) check_unit(*find(node, "force"), load, reading);
 }
 

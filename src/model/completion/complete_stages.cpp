@@ -17,8 +17,7 @@ namespace {
 /// equilibrium has adaptive damping by default.
 void complete_stage_damping(const Value* node, const Solver& solver, Stage& stage) {
   const Value* own = find(node, "damping");
-  const bool seeks_equilibrium =
-      stage.until == StageEnd::equilibrium && solver.method == Method::edda;
+  const bool seeks_equilibrium = stage.to_equilibrium() && solver.method == Method::edda;
   if (!given(own, "mass")) stage.damping.mass = solver.damping.mass;
   if (!given(own, "contact")) stage.damping.contact = solver.damping.contact;
   if (!given(own, "rayleigh")) stage.damping.rayleigh = solver.damping.rayleigh;
@@ -36,9 +35,8 @@ void complete_stage_damping(const Value* node, const Solver& solver, Stage& stag
 void complete_masses(const Value* node, const Solver& solver, Stage& stage, Reading& reading) {
   const Value* own = find(node, "masses");
   if (own == nullptr) {
-    const bool seeks_equilibrium = stage.until == StageEnd::equilibrium &&
-                                   solver.method == Method::edda && solver.mass_scaling == 0.0 &&
-                                   !solver.time_step;
+    const bool seeks_equilibrium = stage.to_equilibrium() && solver.method == Method::edda &&
+                                   solver.mass_scaling == 0.0 && !solver.time_step;
     if (seeks_equilibrium) stage.masses = StageMasses::scaled;
     return;
   }
@@ -169,6 +167,71 @@ void check_switches(const Value* own, const Stage& stage, std::set<std::string>&
   }
 }
 
+/// What a ramp varies, and whether its two values are possible.
+void find_ramp(const Value* node, const std::string& key, Ramp& ramp, Reading& reading) {
+  const std::string& vary = ramp.what.vary;
+  if (vary.empty()) {
+    const bool said =
+        std::any_of(reading.faults.begin(), reading.faults.end(),
+                    [&](const Fault& f) { return f.where.key.starts_with(key + '.'); });
+    if (said) return;
+    add_fault(reading, node->place, key, "says nothing that is to be varied",
+              "give one such as kh = [0.0, 0.5] or \"load:NAME\" = [0.0, 2.0]");
+    return;
+  }
+  const Place place = place_of(node, vary);
+  const auto found = find_varied(vary, place, key + '.' + vary, reading);
+  if (!found || !ramp.what.range) return;
+  ramp.varied = found->varied;
+  ramp.target = found->target;
+  const auto [from, to] = *ramp.what.range;
+  const double least = std::min(from, to);
+  const auto refuse = [&](const char* problem) {
+    add_fault(reading, place, key + '.' + vary, problem, "give two values such as [1.0, 3.0]");
+  };
+  if (from == to) return refuse("ends where it begins");
+  if (ramp.varied == Varied::strength && least <= 0.0) refuse("has a value that is not above 0");
+  if (ramp.varied == Varied::gravity && least < 0.0) refuse("has a value below 0");
+}
+
+/// Checks a ramp, and fills the defaults of its stage.
+void complete_ramp(const Value* own, Stage& stage, Reading& reading) {
+  const auto refuse = [&](const char* at, std::string problem, const char* remedy) {
+    add_fault(reading, place_of(own, at), stage.where.key + "." + at, std::move(problem), remedy);
+  };
+  if (!stage.ramp) {
+    if (stage.until == StageEnd::collapse)
+      refuse("until", "\"collapse\" belongs to a stage with a ramp",
+             "give a ramp such as ramp = { kh = [0.0, 0.5] }, or until = \"equilibrium\"");
+    return;
+  }
+  const bool as_time = given(own, "until") && stage.until == StageEnd::time;
+  if (!stage.to_equilibrium()) stage.until = StageEnd::equilibrium;
+  if (!given(own, "duration")) stage.duration *= stage.ramp->steps;
+  if (as_time)
+    return refuse("until", "\"time\" does not go with a ramp, which is held at each value",
+                  "give \"equilibrium\" or \"collapse\"");
+  const Model& model = reading.model;
+  if (model.solver.method == Method::dda || model.contact.model == ContactModel::points)
+    return refuse("ramp",
+                  "is not available with method = \"dda\" nor with contact.model = \"points\"",
+                  "use method = \"edda\" and contact.model = \"faces\"");
+  const Value* node = find(own, "ramp");
+  if (!is_table(node)) return;
+  find_ramp(node, stage.where.key + ".ramp", *stage.ramp, reading);
+  if (stage.ramp->varied == Varied::strength && given(own, "strength_factor"))
+    refuse("strength_factor", "is given beside a ramp of the strength", "leave one of them out");
+}
+
+/// A ramp needs the damping by which equilibrium and failure are told apart.
+void check_ramp_damping(const Value* own, const Stage& stage, Reading& reading) {
+  if (!stage.ramp || stage.damping.adaptive > 0.0) return;
+  if (reading.model.solver.method == Method::dda) return;
+  add_fault(reading, place_of(own, "damping"), stage.where.key + ".damping",
+            "a ramp needs adaptive damping, by which it tells equilibrium and failure apart",
+            "leave damping out, or give adaptive = 0.8");
+}
+
 }  // namespace
 
 void complete_stages(const Value& root, Reading& reading) {
@@ -194,7 +257,9 @@ void complete_stages(const Value& root, Reading& reading) {
     Stage& stage = reading.model.stages[i];
     const Value* own = element(root, "stage", i);
     if (!is_table(own)) continue;
+    complete_ramp(own, stage, reading);
     complete_stage_damping(own, solver, stage);
+    check_ramp_damping(own, stage, reading);
     complete_masses(own, solver, stage, reading);
     complete_excavation(own, stage, let_go, reading);
     check_install(own, stage, installed, reading);

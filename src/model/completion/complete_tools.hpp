@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "model/completion/complete.hpp"
@@ -41,5 +43,14 @@ bool one_of(const Value* table, const std::string& path, std::string_view first,
 /// `instead`: what to do in the implicit method.
 void check_local_damping(const Value* damping, const std::string& owner, const Solver& solver,
                          const char* instead, Reading& reading);
+
+/// What `vary` ("kh", "load:NAME" ...) means; a fault at that place and key where it means nothing
+/// in the model. `words`: all that may be given there.
+struct VariedRow {
+  Varied varied;
+  Index target;  ///< row of loads, shakings, waters or boundaries; else none
+};
+std::optional<VariedRow> find_varied(const std::string& vary, Place place, const std::string& key,
+                                     Reading& reading);
 
 }  // namespace edda

@@ -49,7 +49,8 @@ std::optional<std::array<double, 3>> read_numbers(const Value& value, const Key&
               list == nullptr ? "is " + shown(value)
                               : fmt::format("has {} numbers, not {}", list->size(),
                                             count == 2 ? "two" : "three"),
-              key.rule.kind == Kind::point || key.rule.kind == Kind::triple
+              key.rule.kind == Kind::point || key.rule.kind == Kind::triple ||
+                      key.rule.kind == Kind::varied
                   ? "expects " + expected(key)
                   : "expects a point such as [1.0, 2.5]");
     return std::nullopt;

@@ -29,6 +29,7 @@ void read_keys(std::span<const Key> keys, void* object, const Value& table,
 /// Reads a value into a field of each type.
 struct ReadInto {
   Spot spot;
+  std::string_view name;  ///< the key as written
 
   /// Calls take(entry, path) for each entry of a table whose keys are names.
   template <class Take>
@@ -110,6 +111,14 @@ struct ReadInto {
       if (value) field->emplace_back(entry.key, *value);
     });
   }
+  void operator()(VariedRange* field) const {
+    if (!field->vary.empty()) {
+      add_fault(spot.reading, spot.value.place, spot.path, '"' + field->vary + "\" is varied too",
+                "give one of them; ramps of several things are stages, one after the other");
+      return;
+    }
+    *field = {std::string(name), read_point(spot.value, spot.key, spot.path, spot.reading)};
+  }
   void operator()(Vec2* field) const {
     if (const auto p = read_point(spot.value, spot.key, spot.path, spot.reading)) *field = *p;
   }
@@ -185,7 +194,7 @@ void read_keys(std::span<const Key> keys, void* object, const Value& table,
       const std::string path = prefix + entry.key;
       const std::string beside = number_remedy(*key, entry.value, keys, object);
       if (beside.empty()) {
-        std::visit(ReadInto{{*key, entry.value, path, reading}}, key->slot(object));
+        std::visit(ReadInto{{*key, entry.value, path, reading}, entry.key}, key->slot(object));
       } else {
         add_fault(reading, entry.value.place, path, "is " + shown(entry.value), beside);
       }

@@ -59,6 +59,8 @@ std::string expected(const Key& key) {
       return "a table such as { NAME = \"material\" }";
     case Kind::number_map:
       return "a table such as { NAME = 0.5 }, each " + expected_range(rule);
+    case Kind::varied:
+      return "two numbers, from and to, such as [0.0, 0.5]";
     case Kind::file:
       return "the path of a file in quotes";
     case Kind::words:

@@ -79,12 +79,13 @@ constexpr std::array boundary_keys{
     Key{"name", at<&Boundary::name>, naming, otherwise("none"), "What --set and messages call the boundary."},
     Key{"sides", at<&Boundary::sides>, words_of(side_names), otherwise("none; either this or along"), "Sides of the box round the model."},
     Key{"along", at<&Boundary::along>, polyline, otherwise("none; either this or sides"), "The polyline that the boundary follows."},
-    Key{"type", at<&Boundary::type>, choice, initial, "Springs in x and y (fixed) or only across the line (roller) on each block vertex on it; springs whose far ends move at a velocity (velocity); dashpots that absorb waves (viscous); a traction on the edges (stress); vertical sides that ground motion moves as the ground beyond them (free-field)."},
-    Key{"stiffness", at<&Boundary::stiffness>, number(D::stiffness, above(0)), otherwise("the largest kn of the joints of the vertex's block, times half of the faces beside the vertex that lie on the line; contact.normal_stiffness where no joint of it gives kn"), "Types fixed, roller and velocity: spring per block vertex."},
+    Key{"type", at<&Boundary::type>, choice, initial, "Springs in x and y (fixed) or only across the line (roller) on each block vertex on it; springs whose far ends move at a velocity (velocity) or by a displacement (displacement); dashpots that absorb waves (viscous); a traction on the edges (stress); vertical sides that ground motion moves as the ground beyond them (free-field)."},
+    Key{"stiffness", at<&Boundary::stiffness>, number(D::stiffness, above(0)), otherwise("the largest kn of the joints of the vertex's block, times half of the faces beside the vertex that lie on the line; contact.normal_stiffness where no joint of it gives kn"), "Types fixed, roller, velocity and displacement: spring per block vertex."},
     Key{"traction", at<&Boundary::traction>, shape(Kind::point, D::stress), otherwise("that of [initial_stress]; required by type stress without one"), "Type stress: traction on the edges along the line, of constant direction."},
     Key{"velocity", at<&Boundary::velocity>, shape(Kind::point, D::velocity), otherwise("none; required by type velocity"), "Type velocity: velocity at which the vertices on the line are moved."},
+    Key{"displacement", at<&Boundary::displacement>, shape(Kind::point, D::length), otherwise("none; required by type displacement"), "Type displacement: displacement of the support, from where its vertices lie when it begins to act; gradual in a stage until equilibrium."},
     Key{"wave_speeds", at<&Boundary::wave_speeds>, shape(Kind::point, D::velocity, above(0)), otherwise("those of the unjointed rock of each block"), "Types viscous and free-field: speeds of P and S waves in the jointed rock."},
-    Key{"history", at<&Boundary::history>, file, otherwise("constant from the start"), "Types stress and velocity: CSV file of time and factor, linear between its rows."},
+    Key{"history", at<&Boundary::history>, file, otherwise("constant from the start"), "Types stress, velocity and displacement: CSV file of time and factor, linear between its rows."},
 };
 
 constexpr std::array initial_stress_keys{
@@ -99,10 +100,12 @@ constexpr std::array initial_stress_keys{
 
 constexpr std::array load_keys{
     Key{"name", at<&Load::name>, naming, otherwise("none"), "What --set, stages and messages call the load."},
-    Key{"point", at<&Load::point>, point, otherwise("none; either this or along"), "The point of a block that the force acts on, and moves with."},
-    Key{"along", at<&Load::along>, polyline, otherwise("none; either this or point"), "The line whose edges carry a traction or a pressure."},
-    Key{"force", at<&Load::force>, shape(Kind::point, D::load), otherwise("none; either this or pressure"), "Force at the point (N), or traction along the line (Pa), of constant direction."},
-    Key{"pressure", at<&Load::pressure>, number(D::stress), otherwise("none; either this or force"), "Pressure normal to the edges along the line; it rotates with them."},
+    Key{"point", at<&Load::point>, point, otherwise("none; either this, along or within"), "The point of a block that the force acts on, and moves with."},
+    Key{"along", at<&Load::along>, polyline, otherwise("none; either this, point or within"), "The line whose edges carry a traction or a pressure."},
+    Key{"within", at<&Load::within>, polygon, otherwise("none; either this, point or along"), "The polygon whose blocks carry a body force: those with their centroid in it."},
+    Key{"force", at<&Load::force>, shape(Kind::point, D::load), otherwise("none; either this, pressure or body_force"), "Force at the point (N), or traction along the line (Pa), of constant direction."},
+    Key{"pressure", at<&Load::pressure>, number(D::stress), otherwise("none; either this, force or body_force"), "Pressure normal to the edges along the line; it rotates with them."},
+    Key{"body_force", at<&Load::body_force>, shape(Kind::point, D::unit_weight), otherwise("none; belongs to within"), "Force per volume on each block within the polygon, of constant direction."},
     Key{"history", at<&Load::history>, file, otherwise("constant from the start"), "CSV file of time and factor, linear between its rows."},
 };
 
@@ -195,11 +198,24 @@ constexpr std::array damping_keys{
     Key{"rayleigh", at<&Damping::rayleigh>, table, otherwise("none: materials.X.damping"), "Damping in proportion to mass and to the stiffness of the blocks, least at one frequency (Rayleigh), in place of materials.X.damping."},
 };
 
+constexpr std::array ramp_keys{
+    Key{"kh", at<&Ramp::what>, varied(D::plain), otherwise("none; one of these must be given"), "Horizontal seismic coefficient: a force on each block of that part of its weight, to the right."},
+    Key{"kv", at<&Ramp::what>, varied(D::plain), otherwise("none"), "Vertical seismic coefficient: such a force upwards."},
+    Key{"tilt", at<&Ramp::what>, varied(D::angle), otherwise("none"), "Angle by which the ground is tilted so that blocks lean to the right (a tilting table)."},
+    Key{"gravity", at<&Ramp::what>, varied(D::plain), otherwise("none"), "Multiplier of the weight."},
+    Key{"strength", at<&Ramp::what>, varied(D::plain), otherwise("none"), "Divisor of the strength of all joints, in place of strength_factor."},
+    Key{"load:NAME", at<&Ramp::what>, varied(D::plain), otherwise("none"), "Multiplier of the load of that name (a quoted key); the load begins to act with the stage, unless it does already."},
+    Key{"water:NAME", at<&Ramp::what>, varied(D::plain), otherwise("none"), "Multiplier of the pressure of that water."},
+    Key{"boundary:NAME", at<&Ramp::what>, varied(D::plain), otherwise("none"), "Multiplier of the displacement, or of the traction, of that boundary."},
+    Key{"hold", at<&Ramp::hold>, choice, initial, "What each value is held for."},
+    Key{"steps", at<&Ramp::steps>, whole(1, 100000), initial, "Number of increments, and so the accuracy of a collapse load."},
+};
+
 constexpr std::array stage_keys{
     Key{"name", at<&Stage::name>, naming, otherwise("none"), "What messages, stages.csv and --set call the stage."},
-    Key{"until", at<&Stage::until>, choice, initial, "Whether it ends at its duration (time) or as soon as the model is in equilibrium (equilibrium)."},
+    Key{"until", at<&Stage::until>, choice, otherwise("`\"time\"`; `\"equilibrium\"` with a ramp"), "Whether it ends at its duration (time) or as soon as the model is in equilibrium (equilibrium); with a ramp, whose end is to be reached in equilibrium (equilibrium) or before which the model is to fail (collapse)."},
     Key{"ratio", at<&Stage::ratio>, number(D::plain, above_to(0, 1)), initial, "Equilibrium: mean resultant force of the blocks over the mean normal force at the ends of the contacts."},
-    Key{"duration", at<&Stage::duration>, number(D::time, above(0)), otherwise("required until \"time\"; 10 s until \"equilibrium\""), "Length of the stage; until equilibrium the longest it may take."},
+    Key{"duration", at<&Stage::duration>, number(D::time, above(0)), otherwise("required until \"time\"; 10 s until \"equilibrium\", with a ramp for each of its increments"), "Length of the stage; until equilibrium the longest it may take."},
     Key{"excavate", at<&Stage::excavate>, name_list, otherwise("none"), "Openings that are excavated at the start of the stage."},
     Key{"relax", at<&Stage::relax>, numbers_of_names(from_to(0, 1)), otherwise("all, when an opening is excavated"), "Part of the wall forces of the excavated rock that has been released by then, all stages together, by opening; the rest remains on the walls, like the support of a nearby face."},
     Key{"install", at<&Stage::install>, name_list, otherwise("bolts that no stage names are there from the start"), "Bolts and patterns of bolts installed at the start of the stage, in the rock as deformed by then."},
@@ -211,6 +227,7 @@ constexpr std::array stage_keys{
     Key{"joints", at<&Stage::joints>, choice, initial, "Joints as given, or glued: contacts neither open nor slide during the stage."},
     Key{"masses", at<&Stage::masses>, choice, otherwise("\"scaled\" until equilibrium (method edda), else \"as given\""), "Masses as given, or scaled: inertia raised so that all blocks allow one time step, weights unchanged."},
     Key{"otherwise", at<&Stage::otherwise>, choice, initial, "Until equilibrium: where blocks have come loose or fall freely while all others are in equilibrium: the run continues without them (go on) or ends there as collapsed (stop)."},
+    Key{"ramp", at<&Stage::ramp>, table, otherwise("none"), "Something that is varied in increments during the stage, each held until the model is in equilibrium under it (pushover)."},
     Key{"detached", at<&Stage::falling>, choice, initial, "Equilibrium is found although blocks fall freely (report), or waits for them (wait)."},
 };
 
@@ -243,7 +260,7 @@ constexpr std::array fos_fails_keys{
 
 constexpr std::array fos_keys{
     Key{"stage", at<&Fos::stage>, naming, otherwise("the last one; without stages, the model in equilibrium"), "The stage from whose end the trials begin."},
-    Key{"vary", at<&Fos::vary>, naming, initial, "What the factor acts on: \"strength\" (divided by it), \"load:NAME\", \"shaking:NAME\" or \"water:NAME\" (the pressure of that water), multiplied by it; \"gravity\" (the weight), multiplied by it; \"kh\" or \"kv\", a seismic coefficient: a force on each block of that part of its weight, to the right or upwards; \"tilt\", the angle in degrees by which the ground is tilted so that blocks lean to the right."},
+    Key{"vary", at<&Fos::vary>, naming, initial, "What the factor acts on: \"strength\" (divided by it), \"load:NAME\", \"shaking:NAME\", \"water:NAME\" (the pressure of that water) or \"boundary:NAME\" (its displacement or traction), multiplied by it; \"gravity\" (the weight), multiplied by it; \"kh\" or \"kv\", a seismic coefficient: a force on each block of that part of its weight, to the right or upwards; \"tilt\", the angle in degrees by which the ground is tilted so that blocks lean to the right."},
     Key{"bracket", at<&Fos::bracket>, shape(Kind::point, D::plain, above(0)), initial, "Two factors, the lower one expected to hold and the upper one to fail; widened where they do not."},
     Key{"tolerance", at<&Fos::tolerance>, number(D::plain, above_to(0, 0.5)), initial, "The search ends when the bracket is no wider than this part of its lower factor."},
     Key{"exclude", at<&Fos::exclude>, name_list, initial, "Joints that keep their strength."},
@@ -332,6 +349,10 @@ std::span<const Key> keys_of(const FosFails&) {
   return fos_fails_keys;
 }
 
+std::span<const Key> keys_of(const Ramp&) {
+  return ramp_keys;
+}
+
 std::span<const Section> sections() {
   return all_sections;
 }
@@ -345,7 +366,10 @@ const Section* find_section(std::string_view name, std::span<const Section> amon
 
 const Key* find_key(std::span<const Key> keys, std::string_view name) {
   for (const Key& key : keys) {
-    if (key.name == name) return &key;
+    const std::size_t colon = key.name.find(":NAME");
+    const bool named = colon != std::string_view::npos && name.size() > colon + 1 &&
+                       name.substr(0, colon + 1) == key.name.substr(0, colon + 1);
+    if (key.name == name || named) return &key;
   }
   return nullptr;
 }

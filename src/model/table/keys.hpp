@@ -37,6 +37,7 @@ enum class Kind {
   joint_map,     ///< a table of names, each with the name of a joint law
   material_map,  ///< a table of names, each with the name of a material
   number_map,    ///< a table of names, each with a number in Rule::range
+  varied,        ///< two numbers, from and to, of what the key names
   file,          ///< path of a file, as written relative to the model's
   table,         ///< keys inside a key: damping = { ... }
   source,        ///< path of a file, or a table
@@ -93,7 +94,7 @@ using JointMap = std::vector<std::pair<std::string, Index>>;
 /// Typed access to the field that a key fills.
 using Slot = std::variant<bool*, int*, long long*, double*, std::optional<double>*,
                           std::optional<long long>*, std::optional<Restitution>*, std::string*,
-                          JointMap*, NumberMap*, Vec2*, std::optional<Vec2>*, Triple*,
+                          JointMap*, NumberMap*, VariedRange*, Vec2*, std::optional<Vec2>*, Triple*,
                           std::optional<Triple>*, std::vector<Vec2>*, std::vector<double>*,
                           std::vector<std::string>*, Choice, SubTable>;
 
@@ -131,6 +132,7 @@ struct Section {
 /// refer to come first.
 std::span<const Section> sections();
 const Section* find_section(std::string_view name, std::span<const Section> among = sections());
+/// A key of that name; "load:NAME" is found by "load:" and any name.
 const Key* find_key(std::span<const Key> keys, std::string_view name);
 std::vector<std::string_view> key_names(std::span<const Key> keys);
 

@@ -48,6 +48,9 @@ constexpr Rule numbers_of_names(Range range) {
 constexpr Rule words_of(std::span<const std::string_view> words) {
   return {.kind = Kind::words, .words = words};
 }
+constexpr Rule varied(D dimension) {
+  return {.kind = Kind::varied, .dimension = dimension};
+}
 constexpr Rule flag = rule(Kind::flag), text = rule(Kind::text), naming = rule(Kind::name),
                choice = rule(Kind::choice), material = rule(Kind::material),
                joint = rule(Kind::joint), table = rule(Kind::table),

@@ -18,7 +18,8 @@ inline constexpr std::array<std::string_view, 2> switching_names{"exact", "plain
 inline constexpr std::array<std::string_view, 2> contact_model_names{"faces", "points"};
 inline constexpr std::array<std::string_view, 4> law_names{"coulomb", "glued", "slip-weakening",
                                                            "barton-bandis"};
-inline constexpr std::array<std::string_view, 2> stage_end_names{"time", "equilibrium"};
+inline constexpr std::array<std::string_view, 3> stage_end_names{"time", "equilibrium", "collapse"};
+inline constexpr std::array<std::string_view, 1> hold_names{"equilibrium"};
 inline constexpr std::array<std::string_view, 2> stage_joint_names{"as given", "glued"};
 inline constexpr std::array<std::string_view, 2> stage_mass_names{"as given", "scaled"};
 inline constexpr std::array<std::string_view, 2> falling_names{"report", "wait"};
@@ -32,8 +33,8 @@ inline constexpr std::array<std::string_view, 4> shape_names{"arch", "circle", "
 inline constexpr std::array<std::string_view, 2> import_as_names{"lines", "blocks"};
 inline constexpr std::array<std::string_view, 6> unit_names{"m", "mm", "cm", "km", "ft", "in"};
 inline constexpr std::array<std::string_view, 3> action_names{"merge", "report", "error"};
-inline constexpr std::array<std::string_view, 6> boundary_names{"fixed",  "roller",   "viscous",
-                                                                "stress", "velocity", "free-field"};
+inline constexpr std::array<std::string_view, 7> boundary_names{
+    "fixed", "roller", "viscous", "stress", "velocity", "free-field", "displacement"};
 inline constexpr std::array<std::string_view, 3> shaking_names{"base", "inertia", "upgoing"};
 inline constexpr std::array<std::string_view, 2> bolt_names{"grouted", "end"};
 inline constexpr std::array<std::string_view, 2> surface_names{"level", "outline"};
@@ -59,6 +60,9 @@ constexpr std::span<const std::string_view> names_of(LawType) {
 }
 constexpr std::span<const std::string_view> names_of(StageEnd) {
   return stage_end_names;
+}
+constexpr std::span<const std::string_view> names_of(HoldFor) {
+  return hold_names;
 }
 constexpr std::span<const std::string_view> names_of(StageJoints) {
   return stage_joint_names;
@@ -119,6 +123,7 @@ std::span<const Key> keys_of(const Acceleration&);
 std::span<const Key> keys_of(const BoltBond&);
 std::span<const Key> keys_of(const BoltDowel&);
 std::span<const Key> keys_of(const FosFails&);
+std::span<const Key> keys_of(const Ramp&);
 
 template <class Field>
 Slot slot_of(Field& field) {

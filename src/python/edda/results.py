@@ -99,6 +99,16 @@ class Results:
         """
         return read_table(self._file("stages.csv"))
 
+    @property
+    def curve(self) -> Table:
+        """A row per increment of a ramp; of a model with stages that have one.
+
+        stage (from 1), vary (what the ramp varies), value, holds (0 or 1), time (s), steps; moved (m, largest
+        displacement of a corner in the increment); fx, fy (N, sum of what is varied); reason; NAME.ux, NAME.uy (m) of
+        each monitor.
+        """
+        return read_table(self._file("curve.csv"))
+
     def stage_joints(self, stage: int) -> Table:
         """The contacts at the end of a stage, by its number from 1; columns as of joints."""
         return read_table(self._file(f"joints_{stage}.csv"))
@@ -307,12 +317,12 @@ def _end_of_rows(text: str) -> int:
 
 _WHOLE = {
     *("id", "block", "block_i", "block_j", "ring", "ever_slipped", "ever_opened", "yielded", "ruptured"),
-    *("stage", "reached", "steps", "largest_block", "contacts", "sliding", "bonded", "detached", "open", "broken"),
+    *("stage", "reached", "holds", "steps", "largest_block", "contacts", "sliding", "bonded", "detached", "open", "broken"),
     *("yielded_bolts", "loose"),
 }
 _TEXT = {
     *("name", "material", "joint", "state", "bolt", "until", "motion", "outcome", "reason"),
-    *("file", "column", "unit", "meaning"),
+    *("file", "column", "unit", "meaning", "vary"),
 }
 
 

@@ -1,11 +1,11 @@
-#include "study/fos_watch.hpp"
+#include "run/failure_watch.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-#include "study/moved_block.hpp"
+#include "run/moved_block.hpp"
 
 namespace edda {
 namespace {

@@ -1,4 +1,4 @@
-#include "study/fos_watch.hpp"
+#include "run/failure_watch.hpp"
 
 #include <algorithm>
 #include <cmath>

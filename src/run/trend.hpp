@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "step/simulation.hpp"
@@ -30,6 +31,8 @@ class Trend {
   bool known() const { return moments_.size() == 3; }
   /// Number of periods of the motion so far.
   double periods() const { return periods_; }
+  template <class Archive>
+  void list(Archive& a);
 
  private:
   struct Moment {
@@ -45,5 +48,28 @@ class Trend {
   int half_periods_ = 2;         ///< number of half-periods at the next moment
   double effort_ = 0.0;          ///< s2, integral of dt/w so far
 };
+
+template <class Archive>
+void Trend::list(Archive& a) {
+  std::size_t count = moments_.size();
+  a("trend.moments", count);
+  if constexpr (Archive::loads) {
+    if (count > 3) return a.refuse("a trend has too many moments");
+    moments_.resize(count);
+  }
+  for (std::size_t m = 0; m < count; ++m) {
+    const std::string of = "trend." + std::to_string(m);
+    a(of + ".effort", moments_[m].effort);
+    a(of + ".x", moments_[m].nodes[0]);
+    a(of + ".y", moments_[m].nodes[1]);
+  }
+  a("trend.ground_x", ground_.x);
+  a("trend.ground_y", ground_.y);
+  a("trend.looked", looked_);
+  a("trend.phase", phase_);
+  a("trend.periods", periods_);
+  a("trend.half_periods", half_periods_);
+  a("trend.effort", effort_);
+}
 
 }  // namespace edda

@@ -1,4 +1,4 @@
-#include "study/trend.hpp"
+#include "run/trend.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 
-#include "study/moved_block.hpp"
+#include "run/moved_block.hpp"
 
 namespace edda {
 namespace {

@@ -1,10 +1,10 @@
-// Displacements and velocities of the blocks in a trial.
+// Displacements and velocities of the blocks while a model is brought to equilibrium or failure.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "study/trend.hpp"
+#include "run/trend.hpp"
 
 namespace edda {
 
@@ -42,6 +42,8 @@ class Watch {
   bool goes_beyond(const Simulation& sim, double far, double most, double more) const;
   /// Makes displacements count from the beginning of the time spans in which the trend was found.
   void count_from_trend(State& state) const;
+  template <class Archive>
+  void list(Archive& a);
 
  private:
   Vec2 place(const Simulation& sim, std::size_t v) const;
@@ -52,5 +54,15 @@ class Watch {
   double last_time_;                   ///< s
   Trend trend_;
 };
+
+template <class Archive>
+void Watch::list(Archive& a) {
+  a("watch.counted", counted_);
+  list_points(a, "watch.start", start_);
+  list_points(a, "watch.last", last_);
+  a("watch.speed", speed_);
+  a("watch.last_time", last_time_);
+  trend_.list(a);
+}
 
 }  // namespace edda

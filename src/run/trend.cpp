@@ -1,4 +1,4 @@
-#include "study/trend.hpp"
+#include "run/trend.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,0 +1,97 @@
+#include "run/failure_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "attachments/loads.hpp"
+#include "run/equilibrium_search.hpp"
+
+namespace edda {
+namespace {
+
+constexpr std::uint64_t look_at_every = 32;  // steps
+// Parts of the failure displacement that a vertex must have moved for its trend to count: during a
+// search, and at its end.
+constexpr double visible = 0.3, barely = 0.01;
+constexpr double periods_enough = 6.0;  // of the motion, before a trend counts
+constexpr double far_enough = 100.0;  // times the failure displacement: no block deforms by its own
+                                      // size
+constexpr double part_of_size = 0.01, slower = 10.0;
+
+}  // namespace
+
+CollapseCriterion collapse_criterion(const Simulation& sim) {
+  CollapseCriterion c;
+  double count = 0.0, mass = 0.0, force = 0.0;
+  const Model& model = sim.scene->model;
+  const BlockSet& b = sim.scene->blocks;
+  const LoadsNow acting = loads_at(model, sim.attached.loads, sim.motion.state.time);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (!is_free(b, sim.motion.state, i)) continue;
+    c.size += std::sqrt(b.area[i]);
+    mass += b.mass[i];
+    force += norm(load_on(b, acting, sim.motion.pose, i));
+    count += 1.0;
+  }
+  c.size /= std::max(count, 1.0);
+  c.acceleration = norm(model.gravity);
+  if (c.acceleration == 0.0) c.acceleration = force > 0.0 ? force / mass : usual_acceleration;
+  c.duration = equilibrium_time(c.size, c.acceleration);
+  c.displacement = part_of_size * c.size;
+  c.velocity = c.displacement / (slower * c.duration);
+  return c;
+}
+
+Verdict FailureSearch::end(Verdict verdict, std::string reason) {
+  verdict_ = verdict;
+  reason_ = std::move(reason);
+  return verdict;
+}
+
+/// Whether a vertex moves beyond the failure displacement by its trend, and has moved this part of
+/// it already.
+bool FailureSearch::goes_beyond(const Simulation& sim, double part) const {
+  const double most = criterion_.displacement;
+  return watch_.goes_beyond(sim, part * most, most, visible * most);
+}
+
+Verdict FailureSearch::fail_by_trend(const Simulation& sim, double part) {
+  if (!goes_beyond(sim, part)) return Verdict::not_yet;
+  by_trend_ = true;
+  return end(Verdict::fails, "keeps moving");
+}
+
+Verdict FailureSearch::look(Simulation& sim) {
+  if (sim.motion.state.steps % look_at_every != 0) return Verdict::not_yet;
+  update_face_rows(sim);
+  velocity_ = watch_.velocity(sim).value;
+  const double most = criterion_.displacement;
+  const double gone = watch_.displacement(sim).value;
+  if (gone > (criterion_.slows ? far_enough : 1.0) * most)
+    return end(Verdict::fails, "moved too far");
+  if (!sim.relaxation.seeks_equilibrium) return Verdict::not_yet;
+  if (!gradual_change_complete(sim)) {
+    watch_.begin(sim);
+    return Verdict::not_yet;
+  }
+  const bool anew = watch_.look_at_trend(sim);
+  if (gone > most && goes_beyond(sim, 1.0)) return end(Verdict::fails, "moved too far");
+  if (anew && watch_.periods() >= periods_enough && fail_by_trend(sim, visible) != Verdict::not_yet)
+    return verdict_;
+  const double to_come = watch_.prospect(sim, criterion_.duration);
+  found_in_sequence_ =
+      to_come <= equilibrium_travel_ratio * criterion_.size ? found_in_sequence_ + 1 : 0;
+  if (found_in_sequence_ < checks_in_sequence) return Verdict::not_yet;
+  return end(Verdict::holds, "in equilibrium");
+}
+
+Verdict FailureSearch::at_end(Simulation& sim) {
+  update_face_rows(sim);
+  if (fail_by_trend(sim, barely) != Verdict::not_yet) return verdict_;
+  return velocity_ > criterion_.velocity
+             ? end(Verdict::fails, "still moving")
+             : end(Verdict::holds, "slower than the velocity of a failure");
+}
+
+}  // namespace edda

@@ -1,0 +1,86 @@
+// Whether a model that was in equilibrium holds or fails under a change of its loading: in the
+// trials of a factor (docs/fos.md) and in the increments of a ramp (docs/stages.md).
+#pragma once
+
+#include <string>
+
+#include "run/failure_watch.hpp"
+
+namespace edda {
+
+/// When a model holds and when it fails. Values that are not given follow from the mean size L of
+/// the free blocks and from gravity g (docs/fos.md).
+struct CollapseCriterion {
+  double size = 0.0;          ///< L, m: mean of the square roots of the areas
+  double acceleration = 0.0;  ///< g, m/s2: without gravity the mean load over mass, and without
+                              ///< loads usual_acceleration
+  double displacement = 0.0;  ///< m: failure displacement of a vertex
+  bool slows = true;      ///< a vertex beyond it has not failed if it slows down to equilibrium and
+                          ///< has not moved a hundred times as far
+  double velocity = 0.0;  ///< m/s: a vertex that is faster at the end, without another verdict, has
+                          ///< failed
+  double duration = 0.0;  ///< s, T: time within which nothing may move further in equilibrium
+  double shaking = 0.0;   ///< s, duration of ground motion before that; 0 without
+};
+
+/// The criterion of the present model, from its blocks, gravity and loads.
+CollapseCriterion collapse_criterion(const Simulation& sim);
+
+/// Largest number of steps in which a model may reach equilibrium, and of a search.
+constexpr double most_steps = 300000.0;
+
+enum class Verdict { not_yet, holds, fails };
+
+/// Follows a model from the state in equilibrium in which this is created. Displacements count from
+/// there.
+class FailureSearch {
+ public:
+  FailureSearch(const Simulation& sim, const CollapseCriterion& criterion)
+      : criterion_(criterion), watch_(sim) {}
+
+  /// Call when the change begins to be applied (begin_gradually()).
+  void begin(const Simulation& sim) { watch_.begin(sim); }
+  /// Call after every step; looks at the model at every 32nd. While the model does not seek
+  /// equilibrium (ground motion), only a displacement that is too large is a verdict.
+  Verdict look(Simulation& sim);
+  /// The verdict where the steps are exhausted.
+  Verdict at_end(Simulation& sim);
+
+  Verdict verdict() const { return verdict_; }
+  const std::string& reason() const { return reason_; }  ///< of the verdict, a few words
+  /// Whether the model fails by the trend of its motion.
+  bool by_trend() const { return by_trend_; }
+  /// Largest mean velocity of a vertex between the last two looks, m/s.
+  double velocity() const { return velocity_; }
+  const Watch& watch() const { return watch_; }
+  /// Names every field that a checkpoint contains.
+  template <class Archive>
+  void list(Archive& a);
+
+ private:
+  Verdict end(Verdict verdict, std::string reason);
+  bool goes_beyond(const Simulation& sim, double part) const;
+  Verdict fail_by_trend(const Simulation& sim, double part);
+
+  CollapseCriterion criterion_;
+  Watch watch_;
+  double velocity_ = 0.0;
+  int found_in_sequence_ = 0;
+  Verdict verdict_ = Verdict::not_yet;
+  bool by_trend_ = false;
+  std::string reason_;
+};
+
+template <class Archive>
+void FailureSearch::list(Archive& a) {
+  a("failure.velocity", velocity_);
+  a("failure.found_in_sequence", found_in_sequence_);
+  a("failure.size", criterion_.size);
+  a("failure.acceleration", criterion_.acceleration);
+  a("failure.displacement", criterion_.displacement);
+  a("failure.least_velocity", criterion_.velocity);
+  a("failure.duration", criterion_.duration);
+  watch_.list(a);
+}
+
+}  // namespace edda

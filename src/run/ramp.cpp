@@ -1,0 +1,80 @@
+#include "run/ramp.hpp"
+
+#include <algorithm>
+
+#include "observe/attachment_rows.hpp"
+#include "results/columns.hpp"
+#include "run/stage_plan.hpp"
+
+namespace edda {
+
+double ramp_value(const Ramp& ramp, int increment) {
+  const auto [from, to] = *ramp.what.range;
+  if (increment >= ramp.steps) return to;
+  return from + (to - from) * increment / ramp.steps;
+}
+
+void begin_increment(RampProgress& ramp, Simulation& sim, const Stage& stage) {
+  ++ramp.increment;
+  ramp.since = sim.motion.state.steps;
+  ramp.search.emplace(sim, collapse_criterion(sim));
+  set_ramp(sim, stage, ramp_value(*stage.ramp, ramp.increment));
+  ramp.search->begin(sim);
+}
+
+Verdict look_at_increment(RampProgress& ramp, Simulation& sim) {
+  const Verdict found = ramp.search->look(sim);
+  if (found != Verdict::not_yet) return found;
+  const auto made = static_cast<double>(sim.motion.state.steps - ramp.since);
+  return made < most_steps ? Verdict::not_yet : ramp.search->at_end(sim);
+}
+
+Vec2 ramped_force(const Simulation& sim, const Instant& at, const Ramp& ramp) {
+  const Model& model = sim.scene->model;
+  const BlockSet& b = sim.scene->blocks;
+  const Loads& loads = sim.attached.loads;
+  const double time = sim.motion.state.time;
+  Vec2 sum;
+  if (ramp.varied == Varied::strength) return sum;
+  if (ramp.varied == Varied::boundary)
+    return reactions(sim, at)[static_cast<std::size_t>(ramp.target)];
+  const bool weight = ramp.target == none;
+  const Vec2 gravity = gravity_at(model.gravity, loads.slow, time, loads.gradual);
+  LoadsNow now = loads_at(model, loads, time);
+  const auto keep = [&](std::vector<double>& factors, Varied varied) {
+    for (std::size_t q = 0; q < factors.size(); ++q) {
+      if (ramp.varied != varied || q != static_cast<std::size_t>(ramp.target)) factors[q] = 0.0;
+    }
+  };
+  keep(now.factor, Varied::load);
+  keep(now.weight, Varied::water);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (!is_free(b, sim.motion.state, i)) continue;
+    sum += weight ? b.mass[i] * gravity : load_on(b, now, sim.motion.pose, i);
+  }
+  return sum;
+}
+
+std::vector<RampOutcome> ramp_outcomes(const Model& model, const std::vector<CurveRow>& rows) {
+  std::vector<RampOutcome> ramps;
+  for (const CurveRow& r : rows) {
+    if (ramps.empty() || ramps.back().stage != r.stage)
+      ramps.push_back({r.stage, model.stages[r.stage].ramp->what.vary, {}, {}});
+    (r.holds ? ramps.back().holds : ramps.back().fails) = r.value;
+  }
+  return ramps;
+}
+
+std::string curve_csv(const Model& model, const std::vector<CurveRow>& rows) {
+  Csv csv = begin_table(ResultFile::curve, {.monitors = names_in(model.monitors)});
+  for (const CurveRow& r : rows) {
+    csv.add(r.stage + 1).add(model.stages[r.stage].ramp->what.vary).add(r.value);
+    csv.add(r.holds ? 1 : 0).add(r.time).add(r.steps).add(r.moved).add(r.force.x).add(r.force.y);
+    csv.add(r.reason);
+    for (const Vec2 u : r.monitors) csv.add(u.x).add(u.y);
+    csv.end();
+  }
+  return csv.text();
+}
+
+}  // namespace edda
