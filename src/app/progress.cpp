@@ -36,9 +36,11 @@ std::string percent(const Progress& p) {
 }
 
 std::string stage_text(const Progress& p) {
-  return p.stage_name.empty()
+  const std::string at = p.ramp_at.empty() ? "" : ", " + p.ramp_at;
+  return p.stage_name.empty() && at.empty()
              ? std::string{}
-             : fmt::format("stage {} of {} ({})", p.stage + 1, p.stages, p.stage_name);
+             : fmt::format("stage {} of {}{}{}", p.stage + 1, p.stages,
+                           p.stage_name.empty() ? "" : " (" + p.stage_name + ")", at);
 }
 
 /// Its parts in the order of their importance.

@@ -315,6 +315,10 @@ RigidForces weights_under(const RigidBlocks& rigid, const Simulation& sim, Vec2 
   return all;
 }
 
+Vec2 last_gravity(const Simulation& sim) {
+  return gravity_at(sim.scene->model.gravity, sim.attached.loads.slow, sim.motion.state.time, {});
+}
+
 LoadFactors last_factors(const Simulation& sim) {
   const LoadsNow now = last_loads(sim);
   LoadFactors factors{now.factor, now.weight};

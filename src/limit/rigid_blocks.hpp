@@ -85,6 +85,9 @@ RigidBlocks rigid_blocks(const Simulation& sim);
 /// Weight of the bodies under gravity (m/s2).
 RigidForces weights_under(const RigidBlocks& rigid, const Simulation& sim, Vec2 gravity);
 
+/// Gravity in force, m/s2: that of the model, changed by ramps (SlowLoading).
+Vec2 last_gravity(const Simulation& sim);
+
 /// Which of the loads act; each [rows] a factor.
 struct LoadFactors {
   std::vector<double> loads;   ///< of Model::loads, Model::boundaries, and owners of wall forces

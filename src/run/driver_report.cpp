@@ -84,16 +84,25 @@ void Driver::report(bool last) {
   Progress p;
   p.time = sim_.motion.state.time;
   // Earlier stages may have ended early, and later ones may, too.
-  double end = stage_start_ + stage().duration;
-  for (std::size_t q = stage_ + 1; q < plans_.size(); ++q) end += plans_[q].stage.duration;
-  p.fraction = sim_.motion.state.time / end;
+  double later = 0.0;
+  for (std::size_t q = stage_ + 1; q < plans_.size(); ++q) later += plans_[q].stage.duration;
+  const double end = stage_start_ + stage().duration + later;
+  double gone = sim_.motion.state.time;
+  double left = std::max(end - gone, 0.0) / sim_.motion.state.step;
+  if (stage().ramp) p.ramp_at = ramp_at(ramp_.increment);
+  if (ramp_.increment > 0) {  // increments are a better measure than the longest duration
+    const double part = static_cast<double>(ramp_.increment) / stage().ramp->steps;
+    gone = stage_start_ + part * stage().duration;
+    left = static_cast<double>(sim_.motion.state.steps - stage_steps_) * (1.0 / part - 1.0) +
+           later / sim_.motion.state.step;
+  }
+  p.fraction = gone / end;
   // A stage until equilibrium may end before its longest duration.
   const bool arrived =
       outcome_.status == Status::completed || outcome_.status == Status::equilibrium;
   if (last && arrived) p.fraction = 1.0;
   p.steps = sim_.motion.state.steps;
   p.rate = rate_;
-  const double left = std::max(end - sim_.motion.state.time, 0.0) / sim_.motion.state.step;
   p.seconds_left = last ? 0.0 : rate_ > 0.0 ? left / rate_ : -1.0;
   for (std::size_t i = 0; i < sim_.scene->blocks.size(); ++i) {
     if (sim_.scene->blocks.fixed[i] || !sim_.motion.state.alive[i]) continue;

@@ -28,6 +28,7 @@ struct Progress {
   std::size_t stage = 0;     ///< present stage, from 0
   std::size_t stages = 1;    ///< of the model; 1 where it has none
   std::string stage_name{};  ///< empty where it has none
+  std::string ramp_at{};     ///< "kh = 0.31" in a stage with a ramp
 };
 
 /// Report of the end of a stage.

@@ -35,8 +35,8 @@ class KeyBlockSearch {
     const std::vector<double> undivided(sim.motion.laws.rows.size(), 1.0);
     strength_ =
         joint_strengths(rigid_, sim.motion.laws, undivided, StrengthOf::peak, /*crushing=*/false);
-    force_ = weights_under(rigid_, sim, sim.scene->model.gravity) +
-             loads_with(rigid_, sim, last_factors(sim));
+    force_ =
+        weights_under(rigid_, sim, last_gravity(sim)) + loads_with(rigid_, sim, last_factors(sim));
     joints_of_.resize(rigid_.bodies());
     for (std::size_t k = 0; k < rigid_.joints.size(); ++k) {
       for (const Id block : {rigid_.joints[k].block_a, rigid_.joints[k].block_b}) {

@@ -88,6 +88,17 @@ std::string wedge(double lean, bool roof, const std::string& joint) {
   return rock(joint) + block(left, fixed) + block(right, fixed) + block(middle);
 }
 
+/// What a ramp has reached acts: a seismic coefficient down the plane.
+TEST(KeyBlocks, FeelTheEndOfARamp) {
+  const double dip = 20 * degree, k = 0.1, c = std::cos(dip), s = std::sin(dip);
+  const KeyBlocks found =
+      found_in(slab_on(20, "friction_angle = 30\n") +
+               "[[stage]]\nuntil = \"equilibrium\"\nramp = { kh = [0, -0.1] }\n");
+  ASSERT_EQ(found.blocks.size(), 1u);
+  EXPECT_NEAR(*found.blocks[0].by_translation, std::tan(30 * degree) * (c - k * s) / (s + k * c),
+              1e-6);
+}
+
 TEST(KeyBlocks, AWedgeFallsFromTheRoofAndLiesInTheFloor) {
   const KeyBlocks roof = found_in(wedge(20, true, "friction_angle = 30\n"));
   ASSERT_EQ(roof.blocks.size(), 1u);
