@@ -224,6 +224,12 @@ Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const
     const double from = stage->ramp->what.range->x;
     *slow_value(loads.slow, stage->ramp->varied, stage->ramp->target) = {from, from};
   }
+  // A displacement begins with the run.
+  for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
+    if (model.boundaries[q].type != BoundaryType::displacement) continue;
+    SteppedValue& multiplier = loads.slow.boundaries[q];
+    multiplier = {multiplier.value, 0.0, 0.0};
+  }
   const auto is_stress = [](const Boundary& q) { return q.type == BoundaryType::stress; };
   const bool stressed = std::any_of(model.boundaries.begin(), model.boundaries.end(), is_stress);
   if (model.loads.empty() && model.waters.empty() && !stressed) return loads;

@@ -51,7 +51,7 @@ GroundStep next_ground(const Model& model, const Loads& loads, const Ground& gro
     next.shifts[q] += h_new * velocity;
     if (boundary.type == BoundaryType::displacement) {
       next.shifts[q] =
-          next.shift + boundary_factor(model, loads, q, time + h_new) * *boundary.displacement;
+          next.shift + displacement_factor(model, loads, q, time + h_new) * *boundary.displacement;
     }
   }
   return next;

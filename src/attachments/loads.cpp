@@ -96,9 +96,13 @@ ActiveInterval* interval_of(ActiveIntervals& intervals, Varied varied, Index tar
   return nullptr;
 }
 
-double boundary_factor(const Model& model, const Loads& loads, std::size_t row, double time) {
-  return factor_of(model.boundaries[row].factor, loads.intervals.boundaries[row],
-                   loads.slow.boundaries[row], time, loads.gradual);
+double displacement_factor(const Model& model, const Loads& loads, std::size_t row, double time) {
+  const ActiveInterval& interval = loads.intervals.boundaries[row];
+  if (time < interval.since || time > interval.until) return 0.0;
+  GradualChange smooth = loads.gradual;
+  smooth.part *= smooth.part * (3.0 - 2.0 * smooth.part);
+  return loads.slow.boundaries[row].at(time, smooth) *
+         model.boundaries[row].factor.at(time - interval.since, 1.0);
 }
 
 LoadsNow loads_at(const Model& model, const Loads& loads, double time) {

@@ -54,6 +54,7 @@ struct GradualChange {
   double at = -1.0;     ///< s: that time
   double part = 1.0;    ///< fraction applied; 1: all
   bool weight = false;  ///< gravity is applied gradually, too
+  double least = 0.0;   ///< s: time that it takes at least, where a support is displaced
 };
 
 /// The interval in which something is active, s. At the instant of a jump it counts half, so that a
@@ -89,6 +90,10 @@ struct SteppedValue {
   double at(double time, const GradualChange& gradual) const {
     return gradual.part < 1.0 && changed == gradual.at ? before + gradual.part * (value - before)
                                                        : at(time);
+  }
+  /// Ends a gradual change at what it has reached.
+  void stop(double time, const GradualChange& gradual) {
+    if (gradual.part < 1.0 && changed == gradual.at) value = before = at(time, gradual);
   }
   void change(double to, double time) { *this = {to, time == changed ? before : value, time}; }
 };
@@ -169,9 +174,10 @@ void keep_wall_forces(const Model& model, const BlockSet& blocks,
 /// Removes the forces of one owner.
 void remove_wall_forces(const Model& model, const BlockSet& blocks, Index owner, Loads& loads);
 
-/// The factor on what boundary `row` prescribes at one time: its history, its multiplier, and the
-/// part of it that is active.
-double boundary_factor(const Model& model, const Loads& loads, std::size_t row, double time);
+/// The factor on the displacement of a boundary at one time: its history times its multiplier,
+/// which has been 0 until the boundary began to act, and changes gradually without a jump of the
+/// velocity.
+double displacement_factor(const Model& model, const Loads& loads, std::size_t row, double time);
 
 LoadsNow loads_at(const Model& model, const Loads& loads, double time);
 

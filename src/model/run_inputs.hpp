@@ -73,6 +73,7 @@ enum class HoldFor { equilibrium };
 
 /// [[stage]] ramp: something varied in increments, each held until the model is in equilibrium.
 struct Ramp {
+  static constexpr double longest_value = 1000.0;  ///< s, default of Stage::duration
   VariedRange what;
   HoldFor hold = HoldFor::equilibrium;
   int steps = 200;                   ///< number of increments
@@ -87,6 +88,8 @@ struct Stage {
   double ratio = 1e-5;     ///< criterion of equilibrium: mean resultant over mean contact force
   double duration = 10.0;  ///< s; until equilibrium: at most
   bool to_equilibrium() const { return until != StageEnd::time; }
+  /// s, the longest that the whole stage may take; of a ramp `duration` for each value.
+  double longest() const { return ramp ? duration * (ramp->steps + 1) : duration; }
   std::vector<std::string> excavate;  ///< openings excavated at its start
   NumberMap relax;                    ///< fraction of the wall forces released, by opening
   std::vector<std::string> install;   ///< bolts and patterns installed at its start
@@ -110,6 +113,11 @@ struct Output {
   double checkpoint_every = 5.0;  ///< minutes of wall time
   bool stages = true;             ///< contacts and a checkpoint at the end of each stage
 };
+
+constexpr bool changes_gravity(Varied varied) {
+  return varied == Varied::tilt || varied == Varied::kh || varied == Varied::kv ||
+         varied == Varied::gravity;
+}
 
 /// The criterion of failure of a trial; by default from the size of the blocks and gravity.
 struct FosFails {

@@ -189,7 +189,7 @@ void Driver::list_stages(Archive& a) {
       return;
     }
     ends_.resize(stage_ + (stage_has_ended_ ? 1 : 0));
-    times_.end_at(stage_start_ + stage().duration);
+    times_.end_at(stage_start_ + stage().longest());
   }
   for (std::size_t q = 0; q < ends_.size(); ++q) {
     const std::string of = fmt::format("stage.{}.", q);
@@ -375,6 +375,7 @@ Trouble Driver::restore(const Record& record) {
     return refused(folder, "its checkpoint does not fit the model: " + flaw,
                    "run without --resume");
   }
+  if (options_.from_stage) begin_ramps_after(sim_, stage_);
   started_ = Clock::now();
   resumed_ = true;
   if (stage_has_ended_) times_.go_on_after(sim_.motion.state.time);

@@ -29,6 +29,12 @@ bool Driver::begin_increment() {
   if (!record(event)) return false;
   end_increment(true);
   if (event.frame && ended_by(write_curve())) return false;
+  if (ramp_.increment == 0 && stage().otherwise == LooseBlocks::stop) {
+    if (const std::string loose = not_in_equilibrium(); !loose.empty()) {
+      end(Status::collapsed, stopped_by(loose));
+      return false;
+    }
+  }
   edda::begin_increment(ramp_, sim_, stage());
   fit_step_to(sim_, event_.time);
   return true;
@@ -41,7 +47,7 @@ void Driver::end_increment(bool holds) {
   row.holds = holds;
   row.time = sim_.motion.state.time;
   row.steps = sim_.motion.state.steps - ramp_.since;
-  row.moved = ramp_.search ? ramp_.search->watch().displacement(sim_).value : 0.0;
+  row.moved = moved_in_increment(ramp_, sim_);
   row.reason = ramp_.search ? ramp_.search->reason() : holds ? "in equilibrium" : "keeps moving";
   const Instant& at = look();
   row.force = ramped_force(sim_, at, *stage().ramp);
@@ -65,15 +71,16 @@ std::string Driver::end_of_ramp(bool holds) const {
   if (holds) {
     const std::string end =
         fmt::format("{} is in equilibrium at {}", label, ramp_at(ramp_.increment));
-    if (stage().until != StageEnd::collapse) return end;
-    return end + ": it does not collapse; give the ramp a larger range";
+    return stage().until == StageEnd::collapse
+               ? end + ": it does not collapse; give the ramp a larger range"
+               : end;
   }
-  const Furthest moved = ramp_.search->watch().displacement(sim_);
-  return fmt::format("{} holds at {} and fails at {}: {} {}", label, ramp_at(ramp_.increment - 1),
-                     ramp_at(ramp_.increment),
-                     moved.block == no_id ? std::string("the model")
-                                          : block_label(sim_.scene->blocks, moved.block),
-                     ramp_.search->reason());
+  const Id block = ramp_.search->block();
+  return fmt::format(
+      "{} holds at {} and fails at {}: {} {}", label, ramp_at(ramp_.increment - 1),
+      ramp_at(ramp_.increment),
+      block == no_id ? std::string("the model") : block_label(sim_.scene->blocks, block),
+      ramp_.search->reason());
 }
 
 }  // namespace edda

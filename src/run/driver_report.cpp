@@ -85,14 +85,14 @@ void Driver::report(bool last) {
   p.time = sim_.motion.state.time;
   // Earlier stages may have ended early, and later ones may, too.
   double later = 0.0;
-  for (std::size_t q = stage_ + 1; q < plans_.size(); ++q) later += plans_[q].stage.duration;
-  const double end = stage_start_ + stage().duration + later;
+  for (std::size_t q = stage_ + 1; q < plans_.size(); ++q) later += plans_[q].stage.longest();
+  const double end = stage_start_ + stage().longest() + later;
   double gone = sim_.motion.state.time;
   double left = std::max(end - gone, 0.0) / sim_.motion.state.step;
   if (stage().ramp) p.ramp_at = ramp_at(ramp_.increment);
   if (ramp_.increment > 0) {  // increments are a better measure than the longest duration
     const double part = static_cast<double>(ramp_.increment) / stage().ramp->steps;
-    gone = stage_start_ + part * stage().duration;
+    gone = stage_start_ + part * stage().longest();
     left = static_cast<double>(sim_.motion.state.steps - stage_steps_) * (1.0 / part - 1.0) +
            later / sim_.motion.state.step;
   }

@@ -20,7 +20,7 @@ void Driver::begin_stage(std::size_t index) {
   begin_equilibrium_search(search_, sim_, stage());
   ramp_ = {};
   ramp_.since = stage_steps_;
-  times_.end_at(stage_start_ + stage().duration);
+  times_.end_at(stage_start_ + stage().longest());
   if (sim_.scene->model.stages.empty()) return;
   if (const auto fault = enter_stage(sim_, plans_[index], index == 0)) {
     end(Status::failed, stage_label(sim_.scene->model, stage_) + ": " + fault->problem);
@@ -31,7 +31,7 @@ Equilibrium Driver::look_for_equilibrium() {
   const Stage& now = stage();
   if (!now.to_equilibrium()) return Equilibrium::not_yet;
   if (!ramp_.search) return edda::look_for_equilibrium(search_, sim_, now);
-  switch (look_at_increment(ramp_, sim_)) {
+  switch (look_at_increment(ramp_, sim_, now)) {
     case Verdict::holds:
       return Equilibrium::found;
     case Verdict::fails:
@@ -82,8 +82,8 @@ bool Driver::end_stage(Arrival went) {
   }
   if (now.to_equilibrium()) outcome_.loose = std::max(outcome_.loose, loose_block_ids(sim_).size());
   const std::string label = stage_label(sim_.scene->model, stage_);
-  if (now.ramp && !reached && (failed || at_rest)) {
-    end(at_rest ? Status::equilibrium : Status::collapsed, end_of_ramp(at_rest));
+  if (failed && !reached) {
+    end(Status::collapsed, end_of_ramp(false) + not_in_equilibrium());
     return false;
   }
   if (went == Arrival::no_equilibrium && !reached) {
@@ -92,25 +92,24 @@ bool Driver::end_stage(Arrival went) {
                                        label, still_moving(sim_, ends_.back().balance)));
     return false;
   }
-  if (!reached) {
+  if (!reached && !at_rest) {
     end(Status::collapsed,
         fmt::format("{} did not reach equilibrium in {:.6g} s{}: {}; give it a longer duration or "
                     "more damping, or check what fails",
-                    label, now.duration, now.ramp ? ", at " + ramp_at(ramp_.increment) : "",
+                    label, now.longest(), now.ramp ? ", at " + ramp_at(ramp_.increment) : "",
                     still_moving(sim_, ends_.back().balance)));
     return false;
   }
   if (at_rest && now.otherwise == LooseBlocks::stop) {
     if (const std::string loose = not_in_equilibrium(); !loose.empty()) {
-      end(Status::collapsed, fmt::format("{}{}; otherwise = \"stop\" of {} ends the run here",
-                                         equilibrium_of_stage(), loose, label));
+      end(Status::collapsed, stopped_by(loose));
       return false;
     }
   }
   if (stage_ + 1 == plans_.size() || options_.last_stage == stage_) {
     if (now.ramp) {
       end(at_rest ? Status::equilibrium : Status::completed,
-          end_of_ramp(at_rest) + (at_rest ? not_in_equilibrium() : ""));
+          end_of_ramp(at_rest) + not_in_equilibrium());
     } else if (at_rest) {
       end(Status::equilibrium, equilibrium_of_stage() + not_in_equilibrium());
     } else {
@@ -128,6 +127,11 @@ std::string Driver::equilibrium_of_stage() const {
              : fmt::format(
                    "the model is in equilibrium at {:.6g} s, {:.6g} s after the start of {}", time,
                    time - stage_start_, stage_label(sim_.scene->model, stage_));
+}
+
+std::string Driver::stopped_by(const std::string& loose) const {
+  return fmt::format("{}{}; otherwise = \"stop\" of {} ends the run here", equilibrium_of_stage(),
+                     loose, stage_label(sim_.scene->model, stage_));
 }
 
 /// Blocks that are not in equilibrium at the end of the stage, beginning with a comma; else empty.

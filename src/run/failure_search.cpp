@@ -43,23 +43,39 @@ CollapseCriterion collapse_criterion(const Simulation& sim) {
   return c;
 }
 
-Verdict FailureSearch::end(Verdict verdict, std::string reason) {
+int parts_of_change(const Model& model, Varied varied, Index target, double from, double to,
+                    const CollapseCriterion& criterion) {
+  if (varied != Varied::boundary) return 1;
+  // Blocks that the support carries along must not look as if they failed (`visible`).
+  constexpr double at_a_time = 0.25;
+  const Vec2 whole =
+      model.boundaries[static_cast<std::size_t>(target)].displacement.value_or(Vec2{});
+  const double way = norm(whole) * std::abs(to - from);
+  return std::max(1, static_cast<int>(std::ceil(way / (at_a_time * criterion.displacement))));
+}
+
+Verdict FailureSearch::end(Verdict verdict, std::string reason, Id block) {
   verdict_ = verdict;
+  block_ = block;
   reason_ = std::move(reason);
   return verdict;
 }
 
-/// Whether a vertex moves beyond the failure displacement by its trend, and has moved this part of
-/// it already.
-bool FailureSearch::goes_beyond(const Simulation& sim, double part) const {
+/// A block that moves beyond the failure displacement by its trend, and has moved this part of it
+/// already. During the search a block so slow that it would count as in equilibrium does not; of
+/// one that has lost its contacts any motion counts.
+Id FailureSearch::goes_beyond(const Simulation& sim, double part) const {
   const double most = criterion_.displacement;
-  return watch_.goes_beyond(sim, part * most, most, visible * most);
+  const double slow = equilibrium_travel_ratio * criterion_.size / criterion_.duration;
+  return watch_.goes_beyond(sim, {part * most, part > barely ? slow : 0.0}, {barely * most, 0.0},
+                            most, visible * most);
 }
 
 Verdict FailureSearch::fail_by_trend(const Simulation& sim, double part) {
-  if (!goes_beyond(sim, part)) return Verdict::not_yet;
+  const Id block = goes_beyond(sim, part);
+  if (block == no_id) return Verdict::not_yet;
   by_trend_ = true;
-  return end(Verdict::fails, "keeps moving");
+  return end(Verdict::fails, "keeps moving", block);
 }
 
 Verdict FailureSearch::look(Simulation& sim) {
@@ -67,16 +83,18 @@ Verdict FailureSearch::look(Simulation& sim) {
   update_face_rows(sim);
   velocity_ = watch_.velocity(sim).value;
   const double most = criterion_.displacement;
-  const double gone = watch_.displacement(sim).value;
+  const Furthest furthest = watch_.displacement(sim);
+  const double gone = furthest.value;
   if (gone > (criterion_.slows ? far_enough : 1.0) * most)
-    return end(Verdict::fails, "moved too far");
+    return end(Verdict::fails, "moved too far", furthest.block);
   if (!sim.relaxation.seeks_equilibrium) return Verdict::not_yet;
   if (!gradual_change_complete(sim)) {
     watch_.begin(sim);
     return Verdict::not_yet;
   }
   const bool anew = watch_.look_at_trend(sim);
-  if (gone > most && goes_beyond(sim, 1.0)) return end(Verdict::fails, "moved too far");
+  if (const Id block = gone > most ? goes_beyond(sim, 1.0) : no_id; block != no_id)
+    return end(Verdict::fails, "moved too far", block);
   if (anew && watch_.periods() >= periods_enough && fail_by_trend(sim, visible) != Verdict::not_yet)
     return verdict_;
   const double to_come = watch_.prospect(sim, criterion_.duration);
@@ -90,7 +108,7 @@ Verdict FailureSearch::at_end(Simulation& sim) {
   update_face_rows(sim);
   if (fail_by_trend(sim, barely) != Verdict::not_yet) return verdict_;
   return velocity_ > criterion_.velocity
-             ? end(Verdict::fails, "still moving")
+             ? end(Verdict::fails, "still moving", watch_.fastest())
              : end(Verdict::holds, "slower than the velocity of a failure");
 }
 

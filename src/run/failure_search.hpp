@@ -29,6 +29,11 @@ CollapseCriterion collapse_criterion(const Simulation& sim);
 /// Largest number of steps in which a model may reach equilibrium, and of a search.
 constexpr double most_steps = 300000.0;
 
+/// Parts in which a change of what is varied is applied, each held in turn: a support is displaced
+/// by no more at a time than a small part of what counts as failure; of everything else one.
+int parts_of_change(const Model& model, Varied varied, Index target, double from, double to,
+                    const CollapseCriterion& criterion);
+
 enum class Verdict { not_yet, holds, fails };
 
 /// Follows a model from the state in equilibrium in which this is created. Displacements count from
@@ -50,16 +55,19 @@ class FailureSearch {
   const std::string& reason() const { return reason_; }  ///< of the verdict, a few words
   /// Whether the model fails by the trend of its motion.
   bool by_trend() const { return by_trend_; }
+  /// The block that fails; no_id: the model holds, or there is no verdict.
+  Id block() const { return block_; }
   /// Largest mean velocity of a vertex between the last two looks, m/s.
   double velocity() const { return velocity_; }
+  const CollapseCriterion& criterion() const { return criterion_; }
   const Watch& watch() const { return watch_; }
   /// Names every field that a checkpoint contains.
   template <class Archive>
   void list(Archive& a);
 
  private:
-  Verdict end(Verdict verdict, std::string reason);
-  bool goes_beyond(const Simulation& sim, double part) const;
+  Verdict end(Verdict verdict, std::string reason, Id block = no_id);
+  Id goes_beyond(const Simulation& sim, double part) const;
   Verdict fail_by_trend(const Simulation& sim, double part);
 
   CollapseCriterion criterion_;
@@ -68,6 +76,7 @@ class FailureSearch {
   int found_in_sequence_ = 0;
   Verdict verdict_ = Verdict::not_yet;
   bool by_trend_ = false;
+  Id block_ = no_id;
   std::string reason_;
 };
 

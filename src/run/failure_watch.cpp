@@ -65,14 +65,23 @@ Furthest Watch::velocity(const Simulation& sim) {
   return most;
 }
 
-bool Watch::goes_beyond(const Simulation& sim, double far, double most, double more) const {
-  if (!trend_.known()) return false;
+Id Watch::fastest() const {
+  const auto most = std::max_element(speed_.begin(), speed_.end());
+  return most == speed_.end() || *most == 0.0 ? no_id : static_cast<Id>(most - speed_.begin());
+}
+
+Id Watch::goes_beyond(const Simulation& sim, const Least& touching_ones, const Least& others,
+                      double most, double more) const {
+  if (!trend_.known()) return no_id;
+  const std::vector<std::uint8_t> touches = touching(sim);
   for (std::size_t i = 0; i < counted_.size(); ++i) {
-    if (!counted_[i]) continue;
+    const Least& least = touches[i] != 0 ? touching_ones : others;
+    if (!counted_[i] || speed_[i] < least.velocity) continue;
     const double so_far = gone(sim, i);
-    if (so_far > far && trend_.to_come(i) > (so_far > most ? more : most - so_far)) return true;
+    if (so_far > least.far && trend_.to_come(i) > (so_far > most ? more : most - so_far))
+      return static_cast<Id>(i);
   }
-  return false;
+  return no_id;
 }
 
 void Watch::count_from_trend(State& state) const {
@@ -82,11 +91,10 @@ void Watch::count_from_trend(State& state) const {
 }
 
 double Watch::prospect(const Simulation& sim, double t) const {
-  const std::vector<std::uint8_t> touches = touching(sim);
   const std::vector<double> rounding = rounding_of_forces(sim);
   double furthest = -1.0;
   for (std::size_t i = 0; i < counted_.size(); ++i) {
-    if (!counted_[i] || !touches[i]) continue;
+    if (!counted_[i]) continue;
     furthest = std::max(furthest, travel_if_free(sim, i, speed_[i], t, rounding[i]));
   }
   return furthest < 0.0 ? std::numeric_limits<double>::infinity() : furthest;

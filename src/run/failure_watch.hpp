@@ -25,9 +25,11 @@ class Watch {
   Furthest displacement(const Simulation& sim) const;
   /// Largest mean velocity of a vertex since the last call, m/s; call at the ends of time windows.
   Furthest velocity(const Simulation& sim);
+  /// The fastest block at that call.
+  Id fastest() const;
   /// Largest distance that a block would move within t if it kept its velocity of the last window
   /// and the resultant R of the forces on it, less rounding: v t + R/m t^2/2, m, with its true
-  /// mass. Only blocks in contact count; infinite where there are none.
+  /// mass. A block that has lost its contacts falls and counts, too; infinite where there is none.
   double prospect(const Simulation& sim, double t) const;
 
   /// Begins to follow the trend of the motion.
@@ -36,10 +38,16 @@ class Watch {
   bool look_at_trend(const Simulation& sim) { return trend_.look(sim); }
   /// Number of periods of the motion since begin().
   double periods() const { return trend_.periods(); }
-  /// Whether a block with a vertex that has moved further than `far` (m) since the start will move
-  /// beyond `most` (m) by its trend; if it has done so already, whether it will move `more` (m)
-  /// further.
-  bool goes_beyond(const Simulation& sim, double far, double most, double more) const;
+  /// What a block must have done for its trend to count.
+  struct Least {
+    double far = 0.0;       ///< m, of a vertex since the start
+    double velocity = 0.0;  ///< m/s
+  };
+  /// A block that will move beyond `most` (m) by its trend; if it has done so already, `more` (m)
+  /// further. What it must have done differs for one that has lost its contacts. no_id: there is
+  /// none.
+  Id goes_beyond(const Simulation& sim, const Least& touching_ones, const Least& others,
+                 double most, double more) const;
   /// Makes displacements count from the beginning of the time spans in which the trend was found.
   void count_from_trend(State& state) const;
   template <class Archive>

@@ -14,19 +14,63 @@ double ramp_value(const Ramp& ramp, int increment) {
   return from + (to - from) * increment / ramp.steps;
 }
 
-void begin_increment(RampProgress& ramp, Simulation& sim, const Stage& stage) {
-  ++ramp.increment;
-  ramp.since = sim.motion.state.steps;
+namespace {
+
+int parts_of(const RampProgress& now, const Simulation& sim, const Ramp& ramp) {
+  return parts_of_change(sim.scene->model, ramp.varied, ramp.target,
+                         ramp_value(ramp, now.increment - 1), ramp_value(ramp, now.increment),
+                         now.search->criterion());
+}
+
+void begin_part(RampProgress& ramp, Simulation& sim, const Stage& stage) {
+  const double from = ramp_value(*stage.ramp, ramp.increment - 1),
+               to = ramp_value(*stage.ramp, ramp.increment);
   ramp.search.emplace(sim, collapse_criterion(sim));
-  set_ramp(sim, stage, ramp_value(*stage.ramp, ramp.increment));
+  const int parts = parts_of(ramp, sim, *stage.ramp);
+  set_ramp(sim, stage, ramp.part >= parts ? to : from + (to - from) * ramp.part / parts);
   ramp.search->begin(sim);
 }
 
-Verdict look_at_increment(RampProgress& ramp, Simulation& sim) {
-  const Verdict found = ramp.search->look(sim);
-  if (found != Verdict::not_yet) return found;
+}  // namespace
+
+double moved_in_increment(const RampProgress& ramp, const Simulation& sim) {
+  return ramp.moved + (ramp.search ? ramp.search->watch().displacement(sim).value : 0.0);
+}
+
+void begin_increment(RampProgress& ramp, Simulation& sim, const Stage& stage) {
+  ++ramp.increment;
+  ramp.since = sim.motion.state.steps;
+  ramp.part = 1;
+  ramp.moved = 0.0;
+  begin_part(ramp, sim, stage);
+}
+
+Verdict look_at_increment(RampProgress& ramp, Simulation& sim, const Stage& stage) {
+  const int parts = parts_of(ramp, sim, *stage.ramp);
+  Verdict found = ramp.search->look(sim);
   const auto made = static_cast<double>(sim.motion.state.steps - ramp.since);
-  return made < most_steps ? Verdict::not_yet : ramp.search->at_end(sim);
+  if (found == Verdict::not_yet && made >= most_steps * parts) found = ramp.search->at_end(sim);
+  if (found != Verdict::holds || ramp.part >= parts) return found;
+  ramp.moved = moved_in_increment(ramp, sim);
+  ++ramp.part;
+  begin_part(ramp, sim, stage);
+  return Verdict::not_yet;
+}
+
+void begin_ramps_after(Simulation& sim, std::size_t stage) {
+  const std::vector<Stage>& stages = sim.scene->model.stages;
+  const auto varies = [](const Stage& one, const Ramp& ramp) {
+    return one.ramp && one.ramp->varied == ramp.varied && one.ramp->target == ramp.target;
+  };
+  for (std::size_t q = stage + 1; q < stages.size(); ++q) {
+    if (!stages[q].ramp || stages[q].ramp->target == none) continue;
+    const Ramp& ramp = *stages[q].ramp;
+    const auto before = stages.begin() + static_cast<std::ptrdiff_t>(q);
+    if (std::any_of(stages.begin(), before, [&](const Stage& s) { return varies(s, ramp); }))
+      continue;
+    SteppedValue& v = *slow_value(sim.attached.loads.slow, ramp.varied, ramp.target);
+    if (v.value != ramp.what.range->x) v.change(ramp.what.range->x, sim.motion.state.time);
+  }
 }
 
 Vec2 ramped_force(const Simulation& sim, const Instant& at, const Ramp& ramp) {

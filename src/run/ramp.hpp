@@ -15,8 +15,10 @@ namespace edda {
 
 /// The present increment of a ramp.
 struct RampProgress {
-  int increment = 0;                    ///< 0: the equilibrium at the first value
-  std::uint64_t since = 0;              ///< step at which it began
+  int increment = 0;        ///< 0: the equilibrium at the first value
+  std::uint64_t since = 0;  ///< step at which it began
+  int part = 1;             ///< of a displaced support: the present part of it (parts_of_change())
+  double moved = 0.0;       ///< m, largest displacements of a vertex in its earlier parts together
   std::optional<FailureSearch> search;  ///< from the first increment on
 };
 
@@ -36,10 +38,17 @@ struct CurveRow {
 /// Value of increment k: from the first to the last value in equal parts.
 double ramp_value(const Ramp& ramp, int increment);
 
+/// Largest displacement of a vertex in this increment so far, m.
+double moved_in_increment(const RampProgress& ramp, const Simulation& sim);
+
+/// Gives what the ramps after a stage vary, and none up to it does, the value with which its first
+/// ramp begins, since those stages may be new.
+void begin_ramps_after(Simulation& sim, std::size_t stage);
+
 /// Brings the ramp to its next value.
 void begin_increment(RampProgress& ramp, Simulation& sim, const Stage& stage);
 /// Call after every step of an increment but the first.
-Verdict look_at_increment(RampProgress& ramp, Simulation& sim);
+Verdict look_at_increment(RampProgress& ramp, Simulation& sim, const Stage& stage);
 
 /// Sum of what is varied on all free blocks at that instant, N: the load, the pressure of the
 /// water, the reaction at the boundary, or the weight; zero for strength.

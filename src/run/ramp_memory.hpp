@@ -16,6 +16,8 @@ template <class Archive>
 void list_ramp(Archive& a, RampProgress& ramp, bool expected, const Simulation& sim) {
   a("ramp.increment", ramp.increment);
   a("ramp.since", ramp.since);
+  a("ramp.part", ramp.part);
+  a("ramp.moved", ramp.moved);
   bool searches = ramp.search.has_value();
   a("ramp.searches", searches);
   if constexpr (Archive::loads) {

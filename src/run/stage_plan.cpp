@@ -68,7 +68,11 @@ void set_ramp(Simulation& sim, const Stage& stage, double value) {
   const Ramp& ramp = *stage.ramp;
   const State& state = sim.motion.state;
   if (SteppedValue* const v = slow_value(sim.attached.loads.slow, ramp.varied, ramp.target)) {
-    if (state.steps == 0) {
+    const bool displaces =
+        ramp.varied == Varied::boundary &&
+        sim.scene->model.boundaries[static_cast<std::size_t>(ramp.target)].type ==
+            BoundaryType::displacement;
+    if (state.steps == 0 && !displaces) {
       *v = {value, value};
     } else {
       v->change(value, state.time);
@@ -87,6 +91,7 @@ std::optional<Fault> enter_stage(Simulation& sim, const StagePlan& given, bool f
   const StagePlan plan = first ? given : without_what_is_done(sim, given);
   const Stage& stage = plan.stage;
   const bool glued = stage.joints == StageJoints::glued;
+  stop_gradual_change(sim);
   // Unglue before excavation, so that the walls are not supported by joints that are no longer
   // glued. Glue after all other changes, so that joints are glued in their state at that time.
   if (!glued) glue_joints(sim, false);

@@ -145,6 +145,10 @@ void switch_over(Simulation& sim, const NamedRows& off, const NamedRows& on) {
     const Boundary& boundary = model.boundaries[static_cast<std::size_t>(row)];
     sim.attached.springs.engage(row, pose.x, pose.y);
     if (boundary.type == BoundaryType::stress) continue;
+    if (boundary.type == BoundaryType::displacement) {
+      SteppedValue& multiplier = loads.slow.boundaries[static_cast<std::size_t>(row)];
+      multiplier = {multiplier.value, 0.0, state.time};
+    }
     const Index owner = owner_row(model, row);
     for (WallForce& f : wall_forces) {
       const Vec2 part = carried_by(model, sim.scene->blocks, boundary, f.vertex, f.force);

@@ -155,7 +155,8 @@ void advance_gradual_change(Simulation& sim) {
       relaxation.estimate.frequency > 0.0 ? relaxation.estimate.clock() : wave_frequency(sim);
   GradualChange& gradual = sim.attached.loads.gradual;
   const double before = gradual.part;
-  gradual.part += sim.motion.state.step * frequency / (2.0 * std::numbers::pi * periods);
+  const double period = 2.0 * std::numbers::pi * periods / frequency;
+  gradual.part += sim.motion.state.step / std::max(period, gradual.least);
   if (gradual.part >= 1.0) {
     gradual = {};
     if (!relaxation.strength_to.empty()) take_strength_factors(sim, relaxation.strength_to);
@@ -168,6 +169,38 @@ void advance_gradual_change(Simulation& sim) {
     }
     take_strength_factors(sim, now);
   }
+}
+
+/// The time within which the displacements that change now are to be applied, s: so slowly that
+/// supports accelerate by a small part of gravity, by which blocks follow them; 0 where none does.
+/// A way d covered as 3 s^2 - 2 s^3 of the time t has the acceleration 6 d/t^2 at most.
+double time_of_displacements(const Simulation& sim) {
+  constexpr double part_of_gravity = 0.05, without_gravity = 9.81;
+  const Model& model = sim.scene->model;
+  const SlowLoading& slow = sim.attached.loads.slow;
+  const double time = sim.motion.state.time;
+  double way = 0.0;
+  for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
+    const SteppedValue& v = slow.boundaries[q];
+    const ActiveInterval& interval = sim.attached.loads.intervals.boundaries[q];
+    if (model.boundaries[q].type != BoundaryType::displacement || v.changed != time ||
+        time < interval.since || time > interval.until)
+      continue;
+    const double history = model.boundaries[q].factor.at(time - interval.since, 1.0);
+    way = std::max(
+        way, std::abs((v.value - v.before) * history) * norm(*model.boundaries[q].displacement));
+  }
+  if (way == 0.0) return 0.0;
+  // Blocks whose inertia is raised follow the more slowly.
+  const std::vector<double>& raised = sim.motion.masses.raised;
+  double mass = 0.0, inertia = 0.0;
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
+    mass += sim.scene->blocks.mass[i];
+    inertia += sim.scene->blocks.mass[i] * (raised.empty() ? 1.0 : raised[i]);
+  }
+  const double g = model.gravity == Vec2{} ? without_gravity : norm(model.gravity);
+  return inertia > 0.0 ? std::sqrt(6.0 * way * inertia / (part_of_gravity * g * mass)) : 0.0;
 }
 
 }  // namespace
@@ -188,12 +221,15 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
   Relaxation& relaxation = sim.relaxation;
   if (state.steps == 0) {  // the initial stress is in equilibrium with the weight already
     set_strength_factors(sim, strength_factors);
-    if (!sim.scene->model.initial_stress) loads.gradual = {state.time, 0.0, true};
+    const double least = time_of_displacements(sim);
+    const bool weight = !sim.scene->model.initial_stress;
+    if (weight || least > 0.0) loads.gradual = {state.time, 0.0, weight, least};
     return;
   }
+  const double least = time_of_displacements(sim);
   const ActiveIntervals& intervals = loads.intervals;
   const auto now = [&](double time) { return time == state.time; };
-  bool changes = more || strength_factors != laws.divided_by ||
+  bool changes = more || least > 0.0 || strength_factors != laws.divided_by ||
                  std::any_of(loads.remaining.begin(), loads.remaining.end(),
                              [&](const SteppedValue& fraction) { return now(fraction.changed); });
   for (const auto* of : {&intervals.loads, &intervals.waters, &intervals.boundaries}) {
@@ -201,10 +237,23 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
                 return now(interval.since) || now(interval.until);
               });
   }
-  if (changes) loads.gradual = {state.time, 0.0, false};
+  if (changes) loads.gradual = {state.time, 0.0, false, least};
   relaxation.estimate.least = 0.5 * relaxation.estimate.frequency;
   relaxation.strength_from = laws.divided_by;
   relaxation.strength_to = strength_factors;
+}
+
+void stop_gradual_change(Simulation& sim) {
+  Loads& loads = sim.attached.loads;
+  SlowLoading& slow = loads.slow;
+  const double time = sim.motion.state.time;
+  for (SteppedValue* v : {&slow.kh, &slow.kv, &slow.tilt, &slow.gravity})
+    v->stop(time, loads.gradual);
+  for (auto* of : {&slow.loads, &slow.waters, &slow.boundaries}) {
+    for (SteppedValue& v : *of) v.stop(time, loads.gradual);
+  }
+  loads.gradual = {};
+  sim.relaxation.strength_to.clear();
 }
 
 bool gradual_change_complete(const Simulation& sim) {

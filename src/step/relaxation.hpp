@@ -48,6 +48,9 @@ double mass_damping(const Simulation& sim);
 void begin_gradually(Simulation& sim, const std::vector<double>& strength_factors,
                      bool more = false);
 
+/// Ends gradual changes where they are, as where a model fails on the way.
+void stop_gradual_change(Simulation& sim);
+
 /// Whether gradual changes are complete.
 bool gradual_change_complete(const Simulation& sim);
 

@@ -17,15 +17,14 @@ constexpr double strong = 1e-3;  // strength is divided by this where nothing is
 /// The model with strength divided by `divided` in addition, and the varied ground motion, if any,
 /// multiplied.
 Model before_trials(Model model, const Fos& fos, double multiplier, double divided) {
-  for (Stage& stage : model.stages) stage.strength_factor *= divided;
+  for (Stage& stage : model.stages) {
+    stage.strength_factor *= divided;
+    if (stage.ramp && stage.ramp->varied == Varied::strength)
+      *stage.ramp->what.range = divided * *stage.ramp->what.range;
+  }
   if (fos.varied == Varied::shaking)
     model.shakings[static_cast<std::size_t>(fos.target)].scale *= multiplier;
   return model;
-}
-
-constexpr bool changes_gravity(Varied varied) {
-  return varied == Varied::tilt || varied == Varied::kh || varied == Varied::kv ||
-         varied == Varied::gravity;
 }
 
 /// Duration of the ground motion that is varied: that of its record; for a sine, of the stages with
@@ -74,10 +73,6 @@ TrialPlan plan_of(const Simulation& sim, const Model& model, const Fos& fos) {
   plan.target = fos.target;
   if (fos.varied == Varied::shaking)
     plan.given_scale = model.shakings[static_cast<std::size_t>(fos.target)].scale;
-  if (fos.varied == Varied::boundary) {
-    const Boundary& support = model.boundaries[static_cast<std::size_t>(fos.target)];
-    plan.displacement = norm(support.displacement.value_or(Vec2{}));
-  }
   plan.criterion = criterion_of(sim, model, fos);
   plan.quiet = damping_for_equilibrium(own);
   plan.shaken = own;

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "run/stages.hpp"
@@ -33,9 +31,8 @@ class Run {
       return trial_;
     }
     const double from = value_now();
-    // A support moves no further at a time than what counts as failure of a block.
-    const double way = plan_.displacement * std::abs(to_.value - from);
-    const int parts = std::max(1, static_cast<int>(std::ceil(way / plan_.criterion.displacement)));
+    const int parts = parts_of_change(sim_.scene->model, plan_.varied, plan_.target, from,
+                                      to_.value, plan_.criterion);
     for (int part = 1; part <= parts; ++part) {
       if (part > 1) search_ = FailureSearch(sim_, plan_.criterion);
       over_ = false;

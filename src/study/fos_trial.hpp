@@ -22,9 +22,8 @@ struct Loading {
 /// Data that all trials of a search share.
 struct TrialPlan {
   Varied varied = Varied::strength;
-  Index target = 0;           ///< row of loads, ground motions, waters or boundaries
-  double displacement = 0.0;  ///< m, of a support at the factor 1, where that is varied
-  double given_scale = 1.0;   ///< of that ground motion, to which factors refer
+  Index target = 0;          ///< row of loads, ground motions, waters or boundaries
+  double given_scale = 1.0;  ///< of that ground motion, to which factors refer
   CollapseCriterion criterion;
   Damping quiet;   ///< damping in the search for equilibrium
   Damping shaken;  ///< damping during ground motion

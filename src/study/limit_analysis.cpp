@@ -18,6 +18,20 @@
 namespace edda {
 namespace {
 
+/// A stage until collapse that ends before what is asked begins; null: there is none. What varies
+/// the same as its ramp begins where that did.
+const Stage* collapsed_before(const Model& model, const Fos& fos) {
+  const std::size_t last =
+      fos.stage.empty() ? model.stages.size() : stage_called(model, fos.stage).value_or(0) + 1;
+  for (std::size_t q = 0; q < last; ++q) {
+    const Stage& stage = model.stages[q];
+    const bool same = q + 1 == last && stage.ramp && stage.ramp->varied == fos.varied &&
+                      stage.ramp->target == fos.target;
+    if (stage.until == StageEnd::collapse && !same) return &stage;
+  }
+  return nullptr;
+}
+
 std::optional<Fault> without_limit(const Model& model, const Fos& fos) {
   if (fos.varied == Varied::shaking) {
     return fault_at(model, fos.where, "fos.vary",
@@ -43,9 +57,12 @@ std::optional<Fault> without_limit(const Model& model, const Fos& fos) {
                     "rigid blocks have no limit to the displacement of their support",
                     "vary a load, or run edda fos, which follows the displacement");
   }
-  const bool weight = fos.varied == Varied::tilt || fos.varied == Varied::kh ||
-                      fos.varied == Varied::kv || fos.varied == Varied::gravity;
-  if (weight && model.gravity == Vec2{}) {
+  if (const Stage* stage = collapsed_before(model, fos); stage != nullptr) {
+    return fault_at(model, stage->where, "stage.until",
+                    "at the end of a stage until collapse there is no equilibrium to start from",
+                    "vary what its ramp varies, or name a stage before it in fos.stage");
+  }
+  if (changes_gravity(fos.varied) && model.gravity == Vec2{}) {
     return fault_at(model, fos.where, "fos.vary", "the model has no gravity that this could act on",
                     "give gravity = [0, -9.81]");
   }

@@ -15,7 +15,9 @@ Result<PreparedRun> as_staged(const Model& model, const Fos& fos) {
     Simulation& sim = made.value().sim;
     if (auto fault = enter_stage(sim, plans[q], q == 0)) return *fault;
     const Stage& stage = plans[q].stage;
-    if (stage.ramp) set_ramp(sim, stage, stage.ramp->what.range->y);
+    // A ramp until collapse does not reach its last value.
+    if (stage.ramp && stage.until != StageEnd::collapse)
+      set_ramp(sim, stage, stage.ramp->what.range->y);
   }
   return made;
 }

@@ -266,13 +266,13 @@ strength_factor = 1.25
 [[stage]]
 name = "push"
 until = "collapse"
-duration = 5.0
+duration = 0.1
 ramp = { "load:axle" = [0, 2.5], hold = "equilibrium", steps = 50 }
 [solver]
 method = "edda"
 mass = "covering"
 switching = "plain"
-duration = "125 s"
+duration = "125.1 s"
 time_step = 1e-5
 allow_unstable = true
 safety = 0.7

@@ -327,7 +327,7 @@ void expect_every_stage_key(const Model& m) {
 void expect_every_solver_key(const Model& m) {
   EXPECT_EQ(m.solver.mass, MassKind::covering);
   EXPECT_EQ(m.solver.switching, Switching::plain);
-  EXPECT_EQ(m.solver.duration, 125.0);
+  EXPECT_EQ(m.solver.duration, 125.1);
   EXPECT_EQ(m.solver.time_step, 1e-5);
   EXPECT_TRUE(m.solver.allow_unstable);
   EXPECT_EQ(m.solver.safety, 0.7);

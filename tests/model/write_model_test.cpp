@@ -64,7 +64,7 @@ TEST(WriteModel, ImplicitMethodComesBack) {
   text.erase(text.find(install), install.size());
   const std::size_t push = text.find("[[stage]]\nname = \"push\"");
   text.erase(push, text.find("[solver]") - push);
-  text.replace(text.find("duration = \"125 s\""), 18, "duration = 120.0");
+  text.replace(text.find("duration = \"125.1 s\""), 20, "duration = 120.0");
   const Model second = read_or_fail(to_toml(read_or_fail(text)));
   EXPECT_EQ(second.solver.method, Method::dda);
   EXPECT_FALSE(second.solver.dynamic);

@@ -19,7 +19,7 @@ along = [[0, 0], [1, 0]]
 
 /// Whether the block, which has moved by `place` m (over time, s) along the x axis within 4 s, will
 /// move beyond 0.1 m: judged from 0.03 m on, and beyond 0.1 m for 0.03 m more.
-bool goes_beyond(const std::function<double(double)>& place) {
+bool goes_beyond(const std::function<double(double)>& place, double slowest = 0.0) {
   Simulation sim = testing::one_block(supported);
   const State start = sim.motion.state;
   Watch watch(sim);
@@ -28,10 +28,11 @@ bool goes_beyond(const std::function<double(double)>& place) {
   while (sim.motion.state.time < 4.0) {
     testing::move_on(sim, start, place);
     watch.look_at_trend(sim);
+    place_vertices(sim.scene->blocks, sim.motion.state.x, sim.motion.state.y, 0, sim.motion.pose.x,
+                   sim.motion.pose.y);
+    watch.velocity(sim);
   }
-  place_vertices(sim.scene->blocks, sim.motion.state.x, sim.motion.state.y, 0, sim.motion.pose.x,
-                 sim.motion.pose.y);
-  return watch.goes_beyond(sim, 0.03, 0.1, 0.03);
+  return watch.goes_beyond(sim, {0.03, slowest}, {0.03, slowest}, 0.1, 0.03) != no_id;
 }
 
 double approach(double t) {
@@ -47,6 +48,8 @@ TEST(Watch, OnTheWayTheTrendMustReachTheDisplacement) {
   EXPECT_TRUE(goes_beyond([](double t) { return 0.01 * t; }));
   EXPECT_FALSE(goes_beyond([](double t) { return 0.09 * approach(t); }));
   EXPECT_FALSE(goes_beyond([](double t) { return 0.007 * t; })) << "not asked yet";
+  EXPECT_TRUE(goes_beyond([](double t) { return 0.01 * t; }, 0.009));
+  EXPECT_FALSE(goes_beyond([](double t) { return 0.01 * t; }, 0.011)) << "as slow as at rest";
 }
 
 }  // namespace

@@ -181,6 +181,136 @@ TEST(Ramp, ValueRemains) {
   EXPECT_NEAR(shear({std::move(before), {}}), 0.5e3, 1e-6);
 }
 
+/// A block that loses its contacts has failed, whatever stays in equilibrium beside it.
+TEST(Ramp, ABlockThatIsLiftedHasFailed) {
+  const std::string beside = "[[block]]\npolygon = [[1.5, 0], [2.5, 0], [2.5, 0.5], [1.5, 0.5]]\n";
+  const Ran r =
+      ran(block_on_floor(beside + "[[load]]\nname = 'up'\npoint = [0.5, 0.5]\nforce = [0, 1e4]\n" +
+                         stages_with("'load:up' = [0, 3], steps = 100")));
+  ASSERT_TRUE(r.outcome.ramps[0].fails) << r.outcome.message;
+  EXPECT_NEAR(*r.outcome.ramps[0].fails, weight / 1e4, 0.031);
+  EXPECT_LE(*r.outcome.ramps[0].holds, weight / 1e4);
+  EXPECT_NE(r.outcome.message.find("(block)"), std::string::npos) << r.outcome.message;
+}
+
+/// Blocks ride on a support that is displaced as a whole, however far and in however few
+/// increments.
+TEST(Ramp, AWallRidesOnItsSupport) {
+  const auto wall = [](const char* displacement, const char* steps) {
+    return std::string(
+               "[materials.brick]\ndensity = 2000\nyoung = 1e9\npoisson = 0.2\n[joints.dry]\n"
+               "friction_angle = 35\n[[block]]\nname = 'base'\n"
+               "polygon = [[-0.4, -0.2], [1.6, -0.2], [1.6, 0], [-0.4, 0]]\n[[brick_wall]]\n"
+               "columns = 3\nrows = 3\nbrick = [0.4, 0.2]\n[[boundary]]\nname = 'support'\n"
+               "along = [[-0.4, -0.2], [1.6, -0.2]]\ntype = 'displacement'\ndisplacement = ") +
+           displacement +
+           "\n[[stage]]\nuntil = 'equilibrium'\n[[stage]]\n"
+           "ramp = { 'boundary:support' = [0, 1], steps = " +
+           steps + " }\n";
+  };
+  for (const char* displacement : {"[0, -0.02]", "[0, 0.02]", "[0.02, 0]"}) {
+    for (const char* steps : {"1", "40"}) {
+      const Ran r = ran(wall(displacement, steps));
+      EXPECT_EQ(r.outcome.status, Status::equilibrium) << displacement << r.outcome.message;
+      EXPECT_TRUE(r.outcome.failed_checks.empty()) << r.outcome.failed_checks.front();
+      EXPECT_NEAR(norm(r.moved("base")), 0.02, 1e-4);
+      const Simulation& s = r.ready.sim;
+      for (std::size_t i = 0; i < s.scene->blocks.size(); ++i)
+        EXPECT_NEAR(norm(displacement_of(s.motion.state, i, centroid_weights)), 0.02, 2e-4) << i;
+    }
+  }
+}
+
+/// A support that is displaced where another gives way, and one in stressed ground, moves
+/// gradually.
+TEST(Ramp, DisplacementsBeginGradually) {
+  const std::string ground =
+      "[materials.stone]\ndensity = 2500\nyoung = 1e9\npoisson = 0.2\n[joints.dry]\n"
+      "friction_angle = 30\n[[block]]\nname = 'b'\npolygon = [[0, 0], [1, 0], [1, 2], [0, 2]]\n";
+  const std::string moves =
+      "[[boundary]]\nname = 'moves'\nalong = [[0, 0], [1, 0]]\ntype = 'displacement'\n"
+      "displacement = [0, -0.01]\n";
+  const std::string taken_over =
+      ground + moves +
+      "[[boundary]]\nname = 'first'\nalong = [[0, 0], [1, 0]]\n[[stage]]\n"
+      "until = 'equilibrium'\n[[stage]]\nuntil = 'equilibrium'\ndeactivate = ['first']\n"
+      "activate = ['moves']\n";
+  const std::string stressed = ground + moves +
+                               "[initial_stress]\nk0 = 0.3\nsurface_y = 2\n[[stage]]\n"
+                               "until = 'equilibrium'\n";
+  for (const std::string& text : {taken_over, stressed}) {
+    PreparedRun run = prepared(text);
+    double most = 0.0;
+    RunOptions options;
+    options.after_step = [&] {
+      const BoundarySprings& s = run.sim.attached.springs;
+      Vec2 sum;
+      for (std::size_t q = 0; q < s.size(); ++q)
+        sum += spring_force(s, q, run.sim.motion.pose.x, run.sim.motion.pose.y);
+      most = std::max(most, norm(sum));
+      return false;
+    };
+    const Result<Outcome> outcome = run_model(run, options);
+    ASSERT_TRUE(outcome.ok());
+    EXPECT_EQ(outcome.value().status, Status::equilibrium) << outcome.value().message;
+    EXPECT_LT(most, 2.5 * density * g * 2.0);
+    EXPECT_NEAR(centroid(run.sim.motion.state.x, run.sim.motion.state.y, 0).y -
+                    run.sim.scene->blocks.centroid_y[0],
+                -0.01, 2e-4);
+  }
+}
+
+/// What a failed increment has reached acts in the next stage, and no more.
+TEST(Ramp, AFailureOnTheWayKeepsWhatActs) {
+  std::string soft =
+      block_on_floor(stages_with("kv = [0, 30], steps = 1") + "[[stage]]\nduration = 0.01\n");
+  const std::string friction_of_joint = fmt::format("friction_angle = {}\n", friction);
+  soft.insert(soft.find(friction_of_joint), "kn = 1e5\nks = 1e5\n");
+  const Ran r = ran(soft);
+  const SlowLoading& slow = r.ready.sim.attached.loads.slow;
+  EXPECT_TRUE(gradual_change_complete(r.ready.sim));
+  EXPECT_GT(slow.kv.value, 1.0);
+  EXPECT_LT(slow.kv.value, 29.0);
+}
+
+/// Blocks that are loose at the first value are named, or end the run.
+TEST(Ramp, LooseBlocksAreNamedOrEndTheRun) {
+  const std::string loose =
+      "[joints.smooth]\nfriction_angle = 2\n[contact]\njoint = 'dry'\n[[block]]\n"
+      "name = 'loose'\njoint = 'smooth'\n"
+      "polygon = [[1.5, 0], [2.5, 0], [2.5, 0.5], [1.5, 0.5]]\n";
+  const Ran named = ran(block_on_floor(loose + stages_with("kh = [-0.1, -0.9], steps = 8")));
+  EXPECT_NE(named.outcome.message.find("fails at kh = -0.6"), std::string::npos)
+      << named.outcome.message;
+  EXPECT_NE(named.outcome.message.find("come loose"), std::string::npos) << named.outcome.message;
+  const Ran stopped = ran(
+      block_on_floor(loose + stages_with("kh = [-0.1, -0.9], steps = 8") + "otherwise = 'stop'\n"));
+  EXPECT_EQ(stopped.outcome.status, Status::collapsed);
+  EXPECT_NE(stopped.outcome.message.find("otherwise"), std::string::npos)
+      << stopped.outcome.message;
+}
+
+/// A ramp that is added behind a stage begins as if it had been there.
+TEST(Ramp, BeginsWhereItDoesAfterAStageOfAnotherModel) {
+  const std::string first = block_on_floor(
+      "[[load]]\nname = 'push'\npoint = [0.1, 0.1]\nforce = [5e3, 0]\n"
+      "[[stage]]\nuntil = 'equilibrium'\n");
+  const ScratchFolder folder;
+  RunOptions options;
+  options.folder = folder.path().string();
+  PreparedRun before = prepared(first);
+  ASSERT_TRUE(run_model(before, options).ok());
+  PreparedRun after =
+      prepared(first +
+               "[[stage]]\nuntil = 'equilibrium'\n[[stage]]\nuntil = 'equilibrium'\n"
+               "ramp = { 'load:push' = [0, 1], steps = 2 }\n");
+  options.from_stage = 0;
+  options.last_stage = 1;
+  const Result<Outcome> outcome = run_model(after, options);
+  ASSERT_TRUE(outcome.ok()) << to_string(outcome.faults()[0]);
+  EXPECT_EQ(after.sim.attached.loads.slow.loads[0].value, 0.0);
+}
+
 TEST(Ramp, HowItEnds) {
   const Ran held = ran(block_on_floor(stages_with("kh = [0, 0.3], steps = 3", "equilibrium")));
   EXPECT_EQ(held.outcome.status, Status::equilibrium);
@@ -196,6 +326,14 @@ TEST(Ramp, HowItEnds) {
   EXPECT_EQ(no_collapse.outcome.status, Status::equilibrium);
   EXPECT_NE(no_collapse.outcome.message.find("does not collapse"), std::string::npos);
   EXPECT_EQ(no_collapse.outcome.failed_checks.size(), 1u);
+}
+
+/// So do stages where there was none; the check fails.
+TEST(Ramp, StagesGoOnWithoutACollapse) {
+  const Ran r =
+      ran(block_on_floor(stages_with("kh = [0, 0.3], steps = 3") + "[[stage]]\nduration = 0.01\n"));
+  EXPECT_EQ(r.outcome.status, Status::completed) << r.outcome.message;
+  EXPECT_EQ(r.outcome.failed_checks.size(), 1u);
 }
 
 /// After a collapse the next stage shows where the blocks go.

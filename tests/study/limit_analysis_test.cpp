@@ -226,6 +226,18 @@ TEST(LimitAnalysis, TakesRampsAtTheirEnd) {
       1e-6);
 }
 
+/// Beyond a collapse there is nothing to start from, but for what its own ramp varies.
+TEST(LimitAnalysis, StopsBeforeACollapse) {
+  const std::string text = stone(0.5) +
+                           "[[block]]\nfixed = true\npolygon = [[-1,-1],[3,-1],[3,0],[-1,0]]\n"
+                           "[[block]]\npolygon = [[0,0],[2,0],[2,1],[0,1]]\n[[stage]]\n"
+                           "until = \"collapse\"\nramp = { kh = [0, 0.9] }\n";
+  EXPECT_NEAR(limit_of(text, "kh").largest.lower, 0.5, 1e-6);
+  const Result<Model> model = read_model_text(text, "m.toml", {}, ReadFor::no_run);
+  ASSERT_TRUE(model.ok());
+  EXPECT_FALSE(limit_analysis(model.value()).ok());
+}
+
 /// The traction of a boundary is a load; the displacement of one has no limit.
 TEST(LimitAnalysis, BoundariesAreMultiplied) {
   const std::string text = stone(0.5) +

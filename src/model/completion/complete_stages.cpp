@@ -191,7 +191,11 @@ void find_ramp(const Value* node, const std::string& key, Ramp& ramp, Reading& r
   };
   if (from == to) return refuse("ends where it begins");
   if (ramp.varied == Varied::strength && least <= 0.0) refuse("has a value that is not above 0");
-  if (ramp.varied == Varied::gravity && least < 0.0) refuse("has a value below 0");
+  const bool pressure = ramp.varied == Varied::gravity || ramp.varied == Varied::water;
+  if (pressure && least < 0.0) refuse("has a value below 0");
+  if (changes_gravity(ramp.varied) && reading.model.gravity == Vec2{})
+    add_fault(reading, place, key + '.' + vary, "the model has no gravity that this could act on",
+              "give gravity = [0, -9.81]");
 }
 
 /// Checks a ramp, and fills the defaults of its stage.
@@ -207,10 +211,10 @@ void complete_ramp(const Value* own, Stage& stage, Reading& reading) {
   }
   const bool as_time = given(own, "until") && stage.until == StageEnd::time;
   if (!stage.to_equilibrium()) stage.until = StageEnd::equilibrium;
-  if (!given(own, "duration")) stage.duration *= stage.ramp->steps;
   if (as_time)
     return refuse("until", "\"time\" does not go with a ramp, which is held at each value",
                   "give \"equilibrium\" or \"collapse\"");
+  if (!given(own, "duration")) stage.duration = Ramp::longest_value;
   const Model& model = reading.model;
   if (model.solver.method == Method::dda || model.contact.model == ContactModel::points)
     return refuse("ramp",
@@ -221,6 +225,18 @@ void complete_ramp(const Value* own, Stage& stage, Reading& reading) {
   find_ramp(node, stage.where.key + ".ramp", *stage.ramp, reading);
   if (stage.ramp->varied == Varied::strength && given(own, "strength_factor"))
     refuse("strength_factor", "is given beside a ramp of the strength", "leave one of them out");
+}
+
+/// What a ramp varies must act in its stage.
+void check_acts(const Value* own, const Stage& stage, const std::set<std::string>& acting,
+                Reading& reading) {
+  if (!stage.ramp || stage.ramp->target == none) return;
+  const std::string& vary = stage.ramp->what.vary;
+  const std::string name = vary.substr(vary.find(':') + 1);
+  if (acting.contains(name)) return;
+  add_fault(reading, place_of(find(own, "ramp"), vary), stage.where.key + ".ramp." + vary,
+            '"' + clipped(name) + "\" does not act in this stage",
+            "name it in activate of this stage or of one before");
 }
 
 /// A ramp needs the damping by which equilibrium and failure are told apart.
@@ -264,7 +280,8 @@ void complete_stages(const Value& root, Reading& reading) {
     complete_excavation(own, stage, let_go, reading);
     check_install(own, stage, installed, reading);
     check_switches(own, stage, acting, known, reading);
-    sum += stage.duration;
+    check_acts(own, stage, acting, reading);
+    sum += stage.longest();
     if (stage.until == StageEnd::time && !given(own, "duration")) {
       all_given = false;
       add_fault(reading, own->place, stage.where.key + ".duration", "is missing",

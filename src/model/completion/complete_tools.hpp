@@ -45,7 +45,7 @@ void check_local_damping(const Value* damping, const std::string& owner, const S
                          const char* instead, Reading& reading);
 
 /// What `vary` ("kh", "load:NAME" ...) means; a fault at that place and key where it means nothing
-/// in the model. `words`: all that may be given there.
+/// in the model.
 struct VariedRow {
   Varied varied;
   Index target;  ///< row of loads, shakings, waters or boundaries; else none
