@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "model/stage_names.hpp"
 #include "observe/observe.hpp"
 #include "run/run_model.hpp"
 #include "run/wall_clock.hpp"
