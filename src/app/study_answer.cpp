@@ -28,6 +28,11 @@ void print_end(const StudyResults& r, const std::string& folder, double seconds)
     if (a.none > 0)
       fmt::print("    {} without an answer (study.csv says why)\n", counted(a.none, "sample"));
   }
+  if (r.map && r.map->samples > 0) {
+    const Vec2 at = r.map->places[r.map->most()];
+    fmt::print("  key blocks most often at ({:.4g}, {:.4g}): in {:.3g} % of the samples\n", at.x,
+               at.y, 100.0 * r.map->part(r.map->most()));
+  }
   const char* what = r.run.end == StudyEnd::complete ? "results" : "samples";
   fmt::print("  {} of wall time; {} in {}/{}\n", duration_text(seconds), what, folder,
              r.run.end == StudyEnd::complete ? " (study.csv, report.html)" : "");
@@ -37,6 +42,9 @@ Trouble write_results(const StudyPlan& plan, const StudyResults& r, const Sample
                       SamplerProcess& sampler) {
   return folder.tidy(plan, [&]() -> Trouble {
     if (Trouble t = write_file(folder.file("study.csv"), study_csv(plan, r))) return t;
+    if (r.map) {
+      if (Trouble t = write_file(folder.file("key_block_map.csv"), map_csv(*r.map))) return t;
+    }
     if (Trouble t = write_columns_csv(folder.path(), columns_of(plan))) return t;
     if (Trouble t = draw_study(plan, r, folder, sampler)) return t;
     return write_file(folder.file("summary.json"), study_summary(plan, r));

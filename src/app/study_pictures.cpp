@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "app/map_picture.hpp"
 #include "base/text.hpp"
 #include "model/study/study_keys.hpp"
 #include "report/study_plots.hpp"
@@ -43,6 +44,7 @@ class Drawing {
     if (Trouble t = tornado()) return t;
     if (Trouble t = sobol()) return t;
     if (Trouble t = scatter()) return t;
+    if (Trouble t = map()) return t;
     return report();
   }
 
@@ -63,6 +65,7 @@ class Drawing {
   Trouble tornado();
   Trouble sobol();
   Trouble scatter();
+  Trouble map();
   Trouble report();
   void add_fit();
   std::vector<std::string> quantities() const {
@@ -148,7 +151,7 @@ Trouble Drawing::scatter() {
   std::vector<std::size_t> shown;
   for (std::size_t s = 0; s < r_.run.samples && shown.size() < most_points; ++s) {
     const std::vector<std::string>& cells = r_.run.rows.at(s).cells;
-    if (std::all_of(cells.begin(), cells.end(),
+    if (std::all_of(cells.begin(), cells.begin() + std::ssize(plan_.ask),
                     [](const std::string& c) { return number_in(c).has_value(); }))
       shown.push_back(s);
   }
@@ -174,10 +177,20 @@ Trouble Drawing::scatter() {
               "Red samples fail. Above the diagonal: rank correlation." + some);
 }
 
+Trouble Drawing::map() {
+  if (!r_.map || r_.map->samples == 0) return {};
+  if (Trouble t = draw_map(plan_.title, *plan_.map, *r_.map, folder_.path())) return t;
+  page_.figures.push_back({"Key blocks",
+                           "How often each place belongs to a key block. White: there is no rock.",
+                           folder_.file("key_block_map.svg")});
+  return {};
+}
+
 std::vector<std::string> Drawing::row_of(std::size_t sample) const {
   std::vector<std::string> row{std::to_string(sample)};
   for (const double x : r_.run.points[sample]) row.push_back(number_text(x, 5));
-  for (const std::string& cell : r_.run.rows.at(sample).cells) {
+  for (std::size_t k = 0; k < plan_.ask.size(); ++k) {
+    const std::string& cell = r_.run.rows.at(sample).cells[k];
     const std::optional<double> number = number_in(cell);
     row.push_back(number ? number_text(*number, 5) : cell);
   }

@@ -94,7 +94,7 @@ void stroke_outlines(Canvas& canvas, const PlotScene& s, const std::vector<std::
 
 }  // namespace
 
-void draw_blocks(Canvas& canvas, const PlotScene& s, const ColourScale& scale) {
+void draw_blocks(Canvas& canvas, const PlotScene& s, const ColourScale& scale, bool outlines) {
   cairo_t* cr = canvas.cr();
   const ShownField& field = s.shot.field;
   const bool coloured = field.kind != ScaleKind::plain && !field.of_contacts;
@@ -118,7 +118,7 @@ void draw_blocks(Canvas& canvas, const PlotScene& s, const ColourScale& scale) {
     if (fixed) hatch(canvas, s, shape);
   }
   constexpr double too_small = 1.5;  // pt: only outlines would be visible
-  if (block_size(s, visible.size()) < too_small) return;
+  if (!outlines || block_size(s, visible.size()) < too_small) return;
   cairo_set_line_width(cr, line);
   for (const bool fixed : {false, true}) {
     canvas.colour(coloured && !fixed ? outline_colour(s, scale) : ink::line);

@@ -140,7 +140,7 @@ void draw_scene(Canvas& canvas, const PlotScene& s, const PlotOptions& options,
                 const ColourScale& colours, const Scales& scales) {
   cairo_save(canvas.cr());
   canvas.clip(s.view.frame.low, s.view.frame.high);
-  draw_blocks(canvas, s, colours);
+  draw_blocks(canvas, s, colours, options.outlines);
   draw_contact_field(canvas, s, colours);
   draw_joints(canvas, s, options);
   if (options.principal) draw_stresses(canvas, s, scales.stresses);

@@ -59,6 +59,7 @@ struct PlotOptions {
   bool principal = false;  ///< principal stresses as crosses at block centres
   double least_stress = 0.0;  ///< Pa; where none is larger they are rounding and are not drawn
   bool bolt_forces = false;   ///< bolts as wide as their axial force
+  bool outlines = true;       ///< of the blocks
   bool marks = true;          ///< monitors and convergence lines
   std::optional<std::pair<double, double>> range{};  ///< of the colours, SI units
   bool whole_range = false;  ///< else a few blocks may lie beyond the scales of colours and arrows

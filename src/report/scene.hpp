@@ -74,7 +74,7 @@ ArrowScale scale_for(std::vector<Weighed>& sizes, bool whole, double length);
 double round_below(double largest);
 
 // The layers, from the bottom to the top.
-void draw_blocks(Canvas& canvas, const PlotScene& scene, const ColourScale& scale);
+void draw_blocks(Canvas& canvas, const PlotScene& scene, const ColourScale& scale, bool outlines);
 void draw_contact_field(Canvas& canvas, const PlotScene& scene, const ColourScale& scale);
 void draw_joints(Canvas& canvas, const PlotScene& scene, const PlotOptions& options);
 

@@ -154,6 +154,14 @@ constexpr std::array study{
     C{"message", "text", "Why there is no answer."},
 };
 
+constexpr std::array map{
+    C{"x", "m", "Coordinate x of the place."},
+    C{"y", "m", "Coordinate y."},
+    C{"rock", "1", "Samples in which there is rock at the place."},
+    C{"key", "1", "Samples in which it belongs to a key block."},
+    C{"part", "1", "Part of all samples with an answer in which it belongs to a key block."},
+};
+
 constexpr std::array limit_joints{
     C{"block_i", "1", "Id of one block."},
     C{"block_j", "1", "Id of the other block."},
@@ -190,7 +198,7 @@ constexpr std::array cut{
       "contact.joint holds."},
 };
 
-constexpr std::array<ResultTable, 16> tables{{
+constexpr std::array<ResultTable, 17> tables{{
     {"history.csv",
      "A row at the start, at each multiple of output.history_every and at the end of each stage; "
      "stages until equilibrium have more (output.settling).",
@@ -225,6 +233,8 @@ constexpr std::array<ResultTable, 16> tables{{
      key_blocks},
     {"study.csv", "A row for each sample of a study (edda study), in the folder of the study.",
      study},
+    {"key_block_map.csv", "A row for each place of [map] of a study where any sample has rock.",
+     map},
     {"columns.csv", "A row for each column of each table in the folder.", columns},
     {"F.csv", "A row for each corner of each block, written by edda cut -o F.csv.", cut,
      TableIn::file_of_user},

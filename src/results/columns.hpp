@@ -40,6 +40,7 @@ enum class ResultFile {
   limit_joints,
   key_blocks,
   study,
+  map,
   columns,
   cut,
 };

@@ -13,6 +13,7 @@
 #include "results/number.hpp"
 #include "results/read_table.hpp"
 #include "run/run_model.hpp"
+#include "sampling/place_map.hpp"
 #include "sampling/sample_points.hpp"
 #include "study/fos.hpp"
 #include "study/key_blocks.hpp"
@@ -31,6 +32,7 @@ struct Analysed {
   std::string summary;
   std::string word;  ///< in place of its main value
   std::optional<Table> history{};
+  std::string places{};  ///< of plan.map
 };
 
 std::string first_of(const Faults& faults) {
@@ -95,10 +97,15 @@ Result<Analysed> analyse_limit(const Model& model, const StudyPlan& plan) {
   return a;
 }
 
-Result<Analysed> analyse_key_blocks(const Model& model) {
-  const Result<KeyBlocks> found = key_blocks(model, {});
+Result<Analysed> analyse_key_blocks(const Model& model, const StudyPlan& plan) {
+  KeyBlockOptions options;
+  if (plan.map) options.places = places_of(*plan.map);
+  const Result<KeyBlocks> found = key_blocks(model, options);
   if (!found.ok()) return found.faults();
-  return Analysed{key_blocks_summary(model, found.value()), {}};
+  std::vector<AtPlace> there;
+  for (const auto& generation : found.value().at_place)
+    there.push_back(what_is_at(generation, plan.map->generations));
+  return Analysed{key_blocks_summary(model, found.value()), {}, {}, places_text(there)};
 }
 
 Result<Analysed> analyse_run(Model model, const std::string& scratch) {
@@ -129,7 +136,7 @@ Result<Analysed> analyse(Analysis analysis, const StudyPlan& plan, std::string_v
     case Analysis::fos:
       return analyse_fos(model.value());
     case Analysis::keyblocks:
-      return analyse_key_blocks(model.value());
+      return analyse_key_blocks(model.value(), plan);
     case Analysis::limit:
       break;
   }
@@ -203,7 +210,7 @@ SampleAnswer run_sample(const StudyPlan& plan, std::string_view model_text,
                         const std::vector<double>& point, const std::string& scratch) {
   const std::vector<std::string> overrides = overrides_of(plan, point);
   SampleAnswer answer;
-  answer.cells.resize(plan.ask.size());
+  answer.cells.resize(answer_cells(plan));
   for (const Analysis analysis :
        {Analysis::run, Analysis::fos, Analysis::limit, Analysis::keyblocks}) {
     const auto asks = [&](const Ask& a) { return a.of == analysis; };
@@ -220,6 +227,7 @@ SampleAnswer run_sample(const StudyPlan& plan, std::string_view model_text,
       if (answer.cells[i].empty())
         answer.message = fmt::format("there is no {} in the results", ask.value);
     }
+    if (plan.map && analysis == Analysis::keyblocks) answer.cells.back() = made.value().places;
   }
   return answer;
 }

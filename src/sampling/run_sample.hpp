@@ -13,7 +13,8 @@ namespace edda {
 /// What was asked of a sample.
 struct SampleAnswer {
   std::vector<std::string> cells;  ///< [plan.ask] a number, or a word: "unstable" (there is no
-                                   ///< equilibrium), "unlimited" (no limit); empty: no answer
+                                   ///< equilibrium), "unlimited" (no limit); empty: no answer. Then
+                                   ///< what is at the places of plan.map (sampling/place_map.hpp)
   std::string message;             ///< why there is no answer; empty where there is one
 };
 

@@ -56,12 +56,13 @@ void add_rows(const StudyPlan& plan, const std::string& path, Rows& rows) {
   if (!text.ok()) return;
   std::string header = "sample";
   for (const Ask& a : plan.ask) header += ',' + Csv().add(a.name).text();
+  if (plan.map) header += ",places";
   const Result<Table> table = table_of(header + ",message\n" + text.value(), path);
   if (!table.ok()) return;
   const std::vector<Column>& columns = table.value().columns;
   for (std::size_t i = 0; i < table.value().rows(); ++i) {
     SampleAnswer answer;
-    for (std::size_t k = 0; k < plan.ask.size(); ++k)
+    for (std::size_t k = 0; k < answer_cells(plan); ++k)
       answer.cells.push_back(columns[k + 1].text(i));
     answer.message = columns.back().text(i);
     rows[static_cast<std::size_t>(columns.front().values[i])] = std::move(answer);

@@ -114,7 +114,7 @@ std::string study_csv(const StudyPlan& plan, const StudyResults& r) {
     if (sample >= r.run.samples) continue;
     csv.add(sample);
     for (const double x : r.run.points[sample]) csv.add(x);
-    for (const std::string& cell : answer.cells) csv.add(cell);
+    for (std::size_t k = 0; k < plan.ask.size(); ++k) csv.add(answer.cells[k]);
     const std::optional<bool> failed = has_failed(plan, answer);
     csv.add(!failed ? "" : *failed ? "1" : "0").add(answer.message).end();
   }
@@ -134,6 +134,13 @@ std::string study_summary(const StudyPlan& plan, const StudyResults& r) {
   j.close();
   if (r.run.fitted) add_fitted(j, plan, *r.run.fitted);
   if (r.sobol) add_sobol(j, plan, *r.sobol);
+  if (r.map) {
+    const KeyBlockMap& m = *r.map;
+    const Vec2 at = m.places[m.most()];
+    j.key("map").open_object().pair("places", m.places.size()).pair("samples", m.samples);
+    j.pair("most", m.part(m.most())).key("at").open_list().value(at.x).value(at.y).close();
+    j.close();
+  }
   if (!r.run.fitted) {
     const std::vector<std::size_t> worst = worst_samples(plan, r, 10);
     add_list(j, "worst", {worst.begin(), worst.end()});

@@ -244,6 +244,7 @@ Result<StudyResults> results_of(const StudyPlan& plan, StudyRun run, SamplerProc
   Result<std::optional<SobolIndices>> sobol = sobol_of(plan, r, sampler);
   if (!sobol.ok()) return sobol.faults();
   r.sobol = std::move(sobol.value());
+  if (plan.map) r.map = key_block_map(plan, r.run);
   r.message = message_of(plan, r);
   return r;
 }

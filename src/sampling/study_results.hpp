@@ -8,6 +8,7 @@
 
 #include "results/columns.hpp"
 #include "sampling/lead_study.hpp"
+#include "sampling/place_map.hpp"
 
 namespace edda {
 
@@ -38,6 +39,7 @@ struct StudyResults {
   std::optional<Interval> interval;   ///< its confidence interval
   std::optional<Interval> bounds;     ///< if those without an answer all stood, or all failed
   std::optional<SobolIndices> sobol;
+  std::optional<KeyBlockMap> map;
   std::string message;  ///< one sentence
 };
 

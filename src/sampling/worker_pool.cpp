@@ -57,7 +57,7 @@ void report_crash(const SampleFolder& folder, const StudyPlan& plan, int process
        it.increment(error)) {
     if (it->path().filename().string().find(mark) == std::string::npos) continue;
     SampleAnswer answer;
-    answer.cells.resize(plan.ask.size());
+    answer.cells.resize(answer_cells(plan));
     answer.message = fmt::format("the analysis ended with signal {} ({})", WTERMSIG(status),
                                  ::strsignal(WTERMSIG(status)));
     FolderLock lock;

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "base/text.hpp"
+#include "contacts/inside.hpp"
 #include "limit/joint_strength.hpp"
 #include "limit/limit_factor.hpp"
 #include "limit/removal_cone.hpp"
@@ -288,6 +289,21 @@ KeyBlocks KeyBlockSearch::collected(std::vector<std::optional<RemovableBlock>> l
   return found;
 }
 
+/// As KeyBlocks::at_place; of blocks that share a border there, the first that leaves. place: in
+/// local coordinates, m.
+std::optional<std::size_t> generation_at(const Simulation& sim,
+                                         const std::vector<std::size_t>& of_block, Vec2 place) {
+  const BlockSet& b = sim.scene->blocks;
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    const Vec2 arm = place - Vec2{b.centroid_x[i], b.centroid_y[i]};
+    if (sim.motion.state.alive[i] == 0 || norm(arm) > b.radius[i]) continue;
+    if (inside_of(b, sim.motion.pose, place, i).depth < 0.0) continue;
+    if (!found || *found == 0 || (of_block[i] > 0 && of_block[i] < *found)) found = of_block[i];
+  }
+  return found;
+}
+
 std::string message_of(const KeyBlocks& k) {
   const std::string asked =
       k.required == 1.0 ? "" : fmt::format(" (factor below {:.4g})", k.required);
@@ -323,6 +339,9 @@ Result<KeyBlocks> key_blocks(const Model& model, const KeyBlockOptions& options)
   KeyBlocks found = search.run();
   for (const MonitorPoint& m : prepared.value().monitors)
     found.monitors.push_back({m.name, found.of_block[m.block], found.generation_of_block[m.block]});
+  for (const Vec2 place : options.places)
+    found.at_place.push_back(
+        generation_at(sim, found.generation_of_block, place - sim.scene->blocks.origin));
   found.message = message_of(found);
   found.drawn = sim;
   found.warnings = prepared.value().warnings;

@@ -52,6 +52,7 @@ struct RemovableBlock {
 struct KeyBlockOptions {
   double factor = 1.0;             ///< below it a removable block is a key block
   std::size_t generations = 1000;  ///< at most: blocks that others have left free
+  std::vector<Vec2> places{};      ///< m, of which to say what is there
 };
 
 /// The block at a monitor of the model.
@@ -68,6 +69,8 @@ struct KeyBlocks {
   std::vector<std::size_t> generation_of_block;  ///< [nb] of key blocks; 0: none
   std::size_t bodies = 0, locked = 0, stable = 0, held = 0, key = 0, generations = 0;
   std::vector<MonitoredPlace> monitors;
+  /// [options.places] generation of the key block there, 0: of other rock; none: there is no rock.
+  std::vector<std::optional<std::size_t>> at_place;
   double key_area = 0.0, key_weight = 0.0;
   std::string message;
   std::optional<Simulation> drawn;

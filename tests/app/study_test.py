@@ -31,6 +31,13 @@ LENGTH, WEIGHT = 16 / math.cos(math.radians(30)), 2600 * 9.81 * 2 * 16 / math.co
 MEAN, SD = 10.0, 4.0  # kPa, of the cohesion
 
 
+def in_slab(x, y):
+    slope = math.radians(30)
+    x, y = x - 2, y - 1.154700538379252
+    along, across = x * math.cos(slope) + y * math.sin(slope), y * math.cos(slope) - x * math.sin(slope)
+    return 0 <= along <= LENGTH and 0 <= across <= 2
+
+
 def factor(cohesion, friction=25.0):
     """Of cohesion in kPa and friction in degrees."""
     slope = math.radians(30)
@@ -313,6 +320,28 @@ below = -1e-3
             self.assertEqual(float(row["key"]), fails)
             self.assertAlmostEqual(float(row["area"]), 2 * LENGTH if fails else 0, delta=1e-6)
         self.assertEqual(len({row["key"] for row in rows}), 2)
+
+    def test_map_of_key_blocks(self):
+        (self.dir / "slide.toml").write_text(SLIDE)
+        text = study('method = "monte-carlo"\nsamples = 40', FRICTION)
+        text = text.replace("[failure]\nbelow = 1.0", '[ask.area]\nof = "keyblocks"\n[map]\nspacing = 0.5\nregion = [[0, 0], [20, 0], [20, 13], [0, 13]]')
+        (self.dir / "s.toml").write_text(text)
+        self.assertIn("key blocks most often at", self.expect(0, "study", "s.toml").stdout)
+        fail = sum(float(row["factor"]) < 1 for row in read_rows(self.dir / "s/study.csv"))
+        places = read_rows(self.dir / "s/key_block_map.csv")
+        self.assertEqual({int(p["key"]) for p in places}, {0, fail})
+        self.assertEqual({int(p["rock"]) for p in places}, {40})
+        for p in places:
+            self.assertEqual(int(p["key"]) > 0, in_slab(float(p["x"]), float(p["y"])), p)
+            self.assertAlmostEqual(float(p["part"]), int(p["key"]) / 40)
+        self.assertEqual(self.summary()["map"]["most"], fail / 40)
+        self.assertIn("Key blocks", (self.dir / "s/report.html").read_text())
+        # The same bytes from parts, and the picture.
+        for i in ("1/2", "2/2"):
+            self.expect(0, "study", "s.toml", "--shard", i, "-o", i[0])
+        self.expect(0, "study", "merge", "both", "1", "2")
+        for name in ("key_block_map.csv", "key_block_map.png", "key_block_map.svg", "study.csv"):
+            self.assertEqual((self.dir / "both" / name).read_bytes(), (self.dir / "s" / name).read_bytes(), name)
 
     def test_a_longer_study_goes_on(self):
         self.write('method = "monte-carlo"\nsamples = 150', FRICTION)

@@ -36,6 +36,8 @@ of = "limit"
 below = 1.0
 )";
 
+const std::string map = "[map]\nspacing = \"50 cm\"\nregion = [[0, 0], [2, 0], [2, 1], [0, 1]]\n";
+
 std::string with(const std::string& from, const std::string& to) {
   std::string text = whole;
   const std::size_t at = text.find(from);
@@ -74,6 +76,21 @@ TEST(ReadStudy, ComesBackAsItWasWritten) {
   EXPECT_EQ(to_toml(second.value()), written);
 }
 
+TEST(ReadStudy, PlacesOfAMapFillItsRegionFromBelow) {
+  const std::string text = with("of = \"limit\"\n", "of = \"keyblocks\"\n" + map);
+  const Result<StudyPlan> plan = read_study_text(text, "study.toml", {});
+  ASSERT_TRUE(plan.ok()) << to_string(plan.faults().front());
+  const std::vector<Vec2> wanted{{0.25, 0.25}, {0.75, 0.25}, {1.25, 0.25}, {1.75, 0.25},
+                                 {0.25, 0.75}, {0.75, 0.75}, {1.25, 0.75}, {1.75, 0.75}};
+  EXPECT_EQ(places_of(*plan.value().map), wanted);
+  StudyMap corner{1.0, {{0, 0}, {3, 0}, {0, 3}}, 1, {}};
+  EXPECT_EQ(places_of(corner).size(), 6u);  // on the hypotenuse, too
+  const std::string written = to_toml(plan.value());
+  const Result<StudyPlan> again = read_study_text(written, "study.toml", {});
+  ASSERT_TRUE(again.ok()) << written;
+  EXPECT_EQ(places_of(*again.value().map), wanted);
+}
+
 TEST(ReadStudy, SaysWhatIsWrongAndWhere) {
   const std::pair<std::string, std::string> cases[] = {
       {with("mean = 20\n", ""), "vary.cohesion.distribution: \"lognormal\" needs mean"},
@@ -107,6 +124,16 @@ TEST(ReadStudy, SaysWhatIsWrongAndWhere) {
       {with("below = 1.0", "below = 1.0\nask = \"factr\""),
        "failure.ask: no [ask] is called \"factr\": did you mean \"factor\"?"},
       {with("[ask.factor]", "[ask.cohesion]"), "ask.cohesion"},
+      {with("[failure]", map + "[failure]"), "map.: is one of key blocks, which no [ask] is of"},
+      {with("of = \"limit\"",
+            "of = \"keyblocks\"\n[map]\nspacing = 0.01\nregion = [[0, 0], [10, 0], "
+            "[10, 10], [0, 10]]"),
+       "map.spacing: makes 1000000 places: choose a larger one"},
+      {with("of = \"limit\"",
+            "of = \"keyblocks\"\n[map]\nspacing = 30\nregion = [[0, 0], [10, 0], [0, "
+            "10]]"),
+       "map.spacing: leaves no place in the region"},
+      {with("of = \"limit\"", "of = \"keyblocks\"\n[map]\nspacing = 1"), "map.region: is missing"},
       {with("model = \"bench.toml\"", "modle = \"bench.toml\""),
        "modle: unknown key: did you mean \"model\"?"},
       {with("[vary.cohesion]\nkey", "[vary.cohesion]\nkye"), "vary.cohesion.kye: unknown key"},

@@ -72,6 +72,11 @@ TEST(KeyBlocks, ASlabSlidesByFrictionAndCohesion) {
   const KeyBlocks safer =
       found_in(slab_on(35, "friction_angle = 30\ncohesion = 2000\n"), {1.5, 10});
   EXPECT_NEAR(*safer.blocks[0].support, weight * std::sin(dip) - resists / 1.5, 1e-5 * weight);
+  // Above the slab's lower corner there is no rock, in it the key block, below it the plane.
+  const auto up = [&](double along, double across) { return turned({{along, across}}, dip)[0]; };
+  const KeyBlocks seen = found_in(slab_on(35, "friction_angle = 30\n"),
+                                  {1, 10, {up(0.1, 1.1), up(0.1, 0.9), up(0.1, -0.1)}});
+  EXPECT_EQ(seen.at_place, (std::vector<std::optional<std::size_t>>{{}, 1u, 0u}));
   const KeyBlocks gentle = found_in(slab_on(25, "friction_angle = 30\n"));
   EXPECT_EQ(gentle.blocks[0].kind, BlockClass::held);
   EXPECT_NEAR(*gentle.blocks[0].factor, std::tan(30 * degree) / std::tan(25 * degree), 1e-6);

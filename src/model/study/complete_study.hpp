@@ -21,5 +21,7 @@ struct Completing {
 
 /// Fills in and checks the [vary] tables.
 void complete_vary(const Completing& c);
+/// Checks [map].
+void complete_map(const Completing& c);
 
 }  // namespace edda

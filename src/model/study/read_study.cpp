@@ -183,6 +183,7 @@ Result<StudyPlan> read_study_text(std::string_view text, const std::string& path
   complete_ask(c);
   check_measured(c);
   complete_failure(c);
+  complete_map(c);
   if (reading.faults.empty()) {
     plan.model = beside_model(plan.model, path);
     return plan;

@@ -71,6 +71,12 @@ constexpr std::array failure_keys{
     Key{"above", at<&FailureCriterion::above>, number(D::plain), otherwise("none; either this or below"), "A sample fails where the value is larger."},
 };
 
+constexpr std::array map_keys{
+    Key{"spacing", at<&StudyMap::spacing>, number(D::length, above(0)), required, "Distance of neighbouring places."},
+    Key{"region", at<&StudyMap::region>, polygon, required, "The places lie inside this polygon."},
+    Key{"generations", at<&StudyMap::generations>, whole(1, 1000), initial, "Generations of key blocks that count: 1 those that leave first, 2 also those that then can."},
+};
+
 constexpr std::array all_sections{
     root_section(root_keys, "The study as a whole."),
     section<&StudyPlan::sampling>("sampling", Shape::table, sampling_keys, "Which samples, and how many."),
@@ -78,6 +84,7 @@ constexpr std::array all_sections{
     section<&StudyPlan::correlated>("correlated", Shape::list, correlated_keys, "Two quantities that depend on each other."),
     section<&StudyPlan::ask>("ask", Shape::named, ask_keys, "What is asked of every sample."),
     section<&StudyPlan::failure>("failure", Shape::table, failure_keys, "When a sample counts as a failure."),
+    section<&StudyPlan::map>("map", Shape::table, map_keys, "Where it is counted how often a place belongs to a key block; one [ask] must be of = \"keyblocks\"."),
 };
 // clang-format on
 

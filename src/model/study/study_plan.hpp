@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/fault.hpp"
+#include "base/polygon.hpp"
 
 namespace edda {
 
@@ -100,6 +101,14 @@ struct FailureCriterion {
   Where where;
 };
 
+/// Where it is counted how often a place belongs to a key block.
+struct StudyMap {
+  double spacing = 0.0;       ///< m, of the places, in rows and columns
+  Ring region;                ///< around them
+  long long generations = 1;  ///< of key blocks that count: 1, those that leave first
+  Where where;
+};
+
 struct StudyPlan {
   std::string title;
   std::string model;  ///< path
@@ -108,6 +117,7 @@ struct StudyPlan {
   std::vector<Correlated> correlated;
   std::vector<Ask> ask;
   std::optional<FailureCriterion> failure;
+  std::optional<StudyMap> map;
   std::string file;  ///< path of the study's file
 };
 
@@ -127,6 +137,16 @@ constexpr bool is_random(SamplingMethod m) {
 inline bool needs_all(const StudyPlan& plan) {
   return chooses_as_it_goes(plan.sampling.method) || plan.sampling.half_width > 0.0;
 }
+
+/// What each sample answers: as many cells, [plan.ask] and then the map, where there is one.
+inline std::size_t answer_cells(const StudyPlan& plan) {
+  return plan.ask.size() + (plan.map ? 1 : 0);
+}
+
+/// The middles of squares with sides of the spacing, row by row from below, that lie in the region.
+std::vector<Vec2> places_of(const StudyMap& map);
+/// At most as many.
+inline constexpr double most_places = 20'000;
 
 /// Reads the TOML file; every default is filled in. Faults: all of the file together, in the order
 /// of its lines.

@@ -1,0 +1,65 @@
+// [map] of a study's file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/study/complete_study.hpp"
+#include "model/study/study_keys.hpp"
+
+namespace edda {
+namespace {
+
+struct Extent {
+  Vec2 low, high;
+};
+
+Extent extent_of(const Ring& ring) {
+  Extent e{ring.front(), ring.front()};
+  for (const Vec2 p : ring) {
+    e.low = {std::min(e.low.x, p.x), std::min(e.low.y, p.y)};
+    e.high = {std::max(e.high.x, p.x), std::max(e.high.y, p.y)};
+  }
+  return e;
+}
+
+}  // namespace
+
+std::vector<Vec2> places_of(const StudyMap& map) {
+  const auto [low, high] = extent_of(map.region);
+  std::vector<Vec2> places;
+  for (double j = 0.5; low.y + j * map.spacing < high.y; j += 1.0) {
+    for (double i = 0.5; low.x + i * map.spacing < high.x; i += 1.0) {
+      const Vec2 place = low + map.spacing * Vec2{i, j};
+      if (side_of({&map.region, 1}, place, 0.0) >= 0) places.push_back(place);
+    }
+  }
+  return places;
+}
+
+void complete_map(const Completing& c) {
+  if (!c.plan.map || !c.reading.faults.empty()) return;
+  const StudyMap& map = *c.plan.map;
+  const Value* table = find(&c.root, "map");
+  const auto wrong = [&](std::string_view key, const std::string& problem,
+                         const std::string& remedy) {
+    c.fault(table, key, "map", problem, remedy);
+  };
+  const auto [low, high] = extent_of(map.region);
+  const Vec2 size = (1.0 / map.spacing) * (high - low);
+  if (size.x * size.y > most_places) {
+    wrong("spacing", fmt::format("makes {:.0f} places", size.x * size.y),
+          fmt::format("choose a larger one, or a smaller region: at most {:.0f} places",
+                      most_places));
+  } else if (places_of(map).empty()) {
+    wrong("spacing", "leaves no place in the region", "choose a smaller one");
+  }
+  const auto asks = [](const Ask& a) { return a.of == Analysis::keyblocks; };
+  if (std::none_of(c.plan.ask.begin(), c.plan.ask.end(), asks))
+    wrong("", "is one of key blocks, which no [ask] is of", "ask of = \"keyblocks\", too");
+  if (!is_random(c.plan.sampling.method))
+    wrong("", fmt::format("is nothing of method {}", word_of(c.plan.sampling.method)),
+          "use monte-carlo, latin-hypercube or sobol, of which parts are probabilities");
+}
+
+}  // namespace edda
