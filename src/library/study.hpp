@@ -18,7 +18,7 @@ struct StudySample {
 };
 
 struct StudyAnswer {
-  std::vector<std::string> cells;  ///< of each [ask], as in study.csv
+  std::vector<std::string> cells;  ///< of each [ask], as in study.csv; then of [map]
   std::string message;             ///< why there is no answer
 };
 
