@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/common.hpp"
+#include "base/text.hpp"
 #include "observe/sliver_report.hpp"
 #include "results/json.hpp"
 #include "run/check_model.hpp"
@@ -63,6 +64,11 @@ void print_step(const Simulation& sim, const ModelCheck& found) {
   if (found.steps == 0.0) {
     fmt::print(
         "duration        no solver.duration is given: edda run needs one, edda fos does not\n");
+    return fmt::print("speed           {:.3g} steps per second\n", found.rate);
+  }
+  if (found.increments > 0) {
+    fmt::print("steps           as many as the {} of ramps need, some thousand each\n",
+               counted(static_cast<std::size_t>(found.increments), "increment"));
     return fmt::print("speed           {:.3g} steps per second\n", found.rate);
   }
   fmt::print("steps           {} {:.0f} for {:.6g} s{}\n", found.at_most ? "at most" : "about",

@@ -4,6 +4,8 @@
 #include <omp.h>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "app/common.hpp"
 #include "app/json_lines.hpp"
@@ -52,7 +54,10 @@ class ForPeople : public RunReport {
     if (!quiet_) bar_.show(progress);
   }
 
-  void stage_ended(const StageReport&) override {}
+  void stage_ended(const StageReport& s) override {
+    if (s.ramp.empty()) return;
+    ramps_.push_back(s.ramp);
+  }
 
   void warns(const std::string& message) override {
     bar_.finish();
@@ -68,6 +73,9 @@ class ForPeople : public RunReport {
     fmt::print("{}: {}\n", status_name(o.status), o.message);
     fmt::print("  {:.6g} s in {} steps, {} of wall time; {} contacts closed at the end\n", o.time,
                o.steps, duration_text(o.wall.total), o.contacts);
+    for (const std::string& ramp : ramps_) {
+      if (!o.message.starts_with(ramp)) fmt::print("  {}\n", ramp);
+    }
     for (const std::string& check : o.failed_checks) {
       fmt::print("  a check does not hold: {}\n", check);
     }
@@ -80,6 +88,7 @@ class ForPeople : public RunReport {
  private:
   bool quiet_;
   ProgressBar bar_;
+  std::vector<std::string> ramps_;  ///< how they ended
 };
 
 class ForMachines : public RunReport {
@@ -131,6 +140,7 @@ class ForMachines : public RunReport {
     Json json = event("stage_end");
     json.pair("stage", s.stage + 1).pair("name", s.name).pair("reached", s.reached);
     json.pair("start", s.start).pair("end", s.end).pair("steps", s.steps).pair("ratio", s.ratio);
+    if (!s.ramp.empty()) json.pair("ramp", s.ramp);
     print_line(json);
   }
 

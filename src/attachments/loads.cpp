@@ -99,17 +99,15 @@ ActiveInterval* interval_of(ActiveIntervals& intervals, Varied varied, Index tar
 double displacement_factor(const Model& model, const Loads& loads, std::size_t row, double time) {
   const ActiveInterval& interval = loads.intervals.boundaries[row];
   if (time < interval.since || time > interval.until) return 0.0;
-  GradualChange smooth = loads.gradual;
-  smooth.part *= smooth.part * (3.0 - 2.0 * smooth.part);
-  return loads.slow.boundaries[row].at(time, smooth) *
+  return loads.slow.boundaries[row].at(time, loads.gradual.of_supports()) *
          model.boundaries[row].factor.at(time - interval.since, 1.0);
 }
 
 LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
   LoadsNow now;
   const GradualChange& gradual = loads.gradual;
-  now.to_come = model.gravity - (gradual.weight ? gradual.part : 1.0) *
-                                    gravity_at(model.gravity, loads.slow, time, gradual);
+  now.to_come =
+      model.gravity - gradual.of_weight() * gravity_at(model.gravity, loads.slow, time, gradual);
   for (std::size_t q = 0; q < model.shakings.size(); ++q) {
     const Shaking& shaking = model.shakings[q];
     const ActiveInterval& interval = loads.intervals.shakings[q];

@@ -2,6 +2,7 @@
 // 13.1 and 13.2), and the inertia forces of a shaken frame (13.8).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -55,6 +56,24 @@ struct GradualChange {
   double part = 1.0;    ///< fraction applied; 1: all
   bool weight = false;  ///< gravity is applied gradually, too
   double least = 0.0;   ///< s: time that it takes at least, where a support is displaced
+
+  /// Whether the weight comes first, in the first half, and supports move on it in the second.
+  bool weight_first() const { return weight && least > 0.0; }
+  double of_weight() const {
+    return !weight ? 1.0 : weight_first() ? std::min(1.0, 2.0 * part) : part;
+  }
+  /// The same as supports feel it: their velocity does not jump.
+  GradualChange of_supports() const {
+    GradualChange smooth = *this;
+    const double s = weight_first() ? std::max(0.0, 2.0 * part - 1.0) : part;
+    smooth.part = s * s * (3.0 - 2.0 * s);
+    return smooth;
+  }
+  /// s, in which supports move; 0: none does at present.
+  double time_of_supports() const {
+    if (part >= 1.0 || (weight_first() && part < 0.5)) return 0.0;
+    return weight_first() ? 0.5 * least : least;
+  }
 };
 
 /// The interval in which something is active, s. At the instant of a jump it counts half, so that a

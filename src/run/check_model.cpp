@@ -85,6 +85,7 @@ ModelCheck check_model(Simulation& sim) {
     const double step = &stage == &stages.front() ? found.step
                         : is_scaled(stage)        ? found.scaled_step
                                                   : found.step_as_given;
+    if (stage.ramp) found.increments += stage.ramp->steps;
     if (duration > 0.0) found.steps += std::max(1.0, std::ceil(stage.longest() / step - 1e-9));
     found.at_most = found.at_most || stage.to_equilibrium();
   }

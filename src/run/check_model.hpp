@@ -18,6 +18,7 @@ struct ModelCheck {
   double steps = 0.0;  ///< expected number; an upper bound where stages end at an equilibrium; 0
                        ///< where no duration is given
   bool at_most = false;
+  int increments = 0;                        ///< of all ramps, whose steps nobody knows beforehand
   double rate = 0.0;                         ///< steps per second of wall time
   std::size_t closed = 0, within_reach = 0;  ///< contacts at the start
   double critical_step = 0.0;                ///< s, at the start

@@ -173,8 +173,11 @@ void Driver::pause() {
 
 void Driver::stop_early() {
   if (recorder_.writes()) save_checkpoint();
-  end(Status::interrupted, fmt::format("stopped at {:.6g} s of {:.6g} s", sim_.motion.state.time,
-                                       sim_.scene->model.solver.duration));
+  const double time = sim_.motion.state.time;
+  end(Status::interrupted,
+      stage().ramp ? fmt::format("stopped at {:.6g} s, at {}", time, ramp_at(ramp_.increment))
+                   : fmt::format("stopped at {:.6g} s of {:.6g} s", time,
+                                 sim_.scene->model.solver.duration));
 }
 
 void Driver::enter_first_stage() {

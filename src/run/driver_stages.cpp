@@ -156,7 +156,12 @@ std::string Driver::motion_at_end() const {
 
 StageReport Driver::report_of_stage() const {
   const StageRecord& r = ends_.back();
-  return {stage_, stage().name, r.reached, r.start, r.end, r.steps, r.balance.mean};
+  const bool ramped = stage().ramp && ramp_.search && !curve_.empty() &&
+                      curve_.back().value == ramp_value(*stage().ramp, ramp_.increment);
+  return {stage_,         stage().name,
+          r.reached,      r.start,
+          r.end,          r.steps,
+          r.balance.mean, ramped ? end_of_ramp(curve_.back().holds) : std::string{}};
 }
 
 bool Driver::begin_next_stage() {

@@ -39,6 +39,8 @@ struct StageReport {
   double start = 0.0, end = 0.0;  ///< s
   std::uint64_t steps = 0;        ///< steps made in it
   double ratio = 0.0;             ///< mean ratio of unbalanced forces at its end
+  std::string ramp{};  ///< of a stage with a ramp: between which values it fails, or that
+                       ///< it does not
 };
 
 struct RunOptions {

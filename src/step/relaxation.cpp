@@ -175,7 +175,7 @@ void advance_gradual_change(Simulation& sim) {
 /// supports accelerate by a small part of gravity, by which blocks follow them; 0 where none does.
 /// A way d covered as 3 s^2 - 2 s^3 of the time t has the acceleration 6 d/t^2 at most.
 double time_of_displacements(const Simulation& sim) {
-  constexpr double part_of_gravity = 0.05, without_gravity = 9.81;
+  constexpr double part_of_gravity = 0.0025, without_gravity = 9.81;
   const Model& model = sim.scene->model;
   const SlowLoading& slow = sim.attached.loads.slow;
   const double time = sim.motion.state.time;
@@ -208,10 +208,14 @@ double time_of_displacements(const Simulation& sim) {
 double mass_damping(const Simulation& sim) {
   const Damping& damping = sim.motion.damping;
   if (damping.adaptive == 0.0) return damping.mass_damping();
+  double adaptive = 2.0 * damping.adaptive * sim.relaxation.estimate.frequency;
+  // Blocks follow supports by a small part of their weight, which damping must not take from them:
+  // at the largest velocity of a support, 1.5 d/T, this is the force that accelerates them, 6
+  // d/T^2.
+  if (const double time = sim.attached.loads.gradual.time_of_supports(); time > 0.0)
+    adaptive = std::min(adaptive, 4.0 / time);
   // At more than 1/h velocities would change sign.
-  return std::min(
-      damping.mass_damping() + 2.0 * damping.adaptive * sim.relaxation.estimate.frequency,
-      1.0 / sim.motion.state.step);
+  return std::min(damping.mass_damping() + adaptive, 1.0 / sim.motion.state.step);
 }
 
 void begin_gradually(Simulation& sim, const std::vector<double>& strength_factors, bool more) {
@@ -223,7 +227,8 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
     set_strength_factors(sim, strength_factors);
     const double least = time_of_displacements(sim);
     const bool weight = !sim.scene->model.initial_stress;
-    if (weight || least > 0.0) loads.gradual = {state.time, 0.0, weight, least};
+    if (weight || least > 0.0)
+      loads.gradual = {state.time, 0.0, weight, weight ? 2.0 * least : least};
     return;
   }
   const double least = time_of_displacements(sim);
@@ -249,8 +254,12 @@ void stop_gradual_change(Simulation& sim) {
   const double time = sim.motion.state.time;
   for (SteppedValue* v : {&slow.kh, &slow.kv, &slow.tilt, &slow.gravity})
     v->stop(time, loads.gradual);
-  for (auto* of : {&slow.loads, &slow.waters, &slow.boundaries}) {
+  for (auto* of : {&slow.loads, &slow.waters}) {
     for (SteppedValue& v : *of) v.stop(time, loads.gradual);
+  }
+  for (std::size_t q = 0; q < slow.boundaries.size(); ++q) {
+    const bool moves = sim.scene->model.boundaries[q].type == BoundaryType::displacement;
+    slow.boundaries[q].stop(time, moves ? loads.gradual.of_supports() : loads.gradual);
   }
   loads.gradual = {};
   sim.relaxation.strength_to.clear();

@@ -200,10 +200,10 @@ void conclude(const FosBracket& bracket, const Fos& fos, bool stopped, FosResult
                                      : "it has another cause");
   } else if (!bracket.fails) {
     r.status = FosStatus::above;
-    r.message =
-        fmt::format("the model holds at every factor tried, up to {:.6g}: {}", *r.holds,
-                    strength ? "it does not need the strength of these joints"
-                             : std::string(what_was_varied(fos.varied)) + " cannot move it");
+    r.message = fmt::format(
+        "the model holds at every factor tried, up to {:.6g}: {}", *r.holds,
+        strength ? "it does not need the strength of these joints"
+                 : std::string(what_was_varied(fos.varied)) + " cannot move it in this direction");
   } else {
     r.factor = 0.5 * (*r.holds + *r.fails);
     r.message = fmt::format("factor of safety {:.4g} (holds at {:.6g}, fails at {:.6g})", *r.factor,

@@ -153,7 +153,10 @@ std::string message_of(const Fos& fos, const LimitResult& r) {
   const std::string what = quantity(fos.varied);
   switch (r.largest.status) {
     case LimitEnd::no_limit:
-      return fmt::format("no {} moves the rigid blocks", what);
+      return r.smallest && r.smallest->status == LimitEnd::found
+                 ? fmt::format("no larger {} moves the rigid blocks; at the other end {:.5g} does",
+                               what, r.smallest->lower)
+                 : fmt::format("no {} moves the rigid blocks", what);
     case LimitEnd::no_equilibrium:
       return "the rigid blocks have no equilibrium" +
              std::string(fos.varied == Varied::strength ? " at any strength of their joints"
