@@ -15,13 +15,20 @@ constexpr std::uint64_t look_at_every = 32;  // steps
 // search, and at its end.
 constexpr double visible = 0.3, barely = 0.01;
 constexpr double periods_enough = 6.0;  // of the motion, before a trend counts
-constexpr double far_enough = 100.0;  // times the failure displacement: no block deforms by its own
-                                      // size
+// Times the failure displacement: no block deforms by its own size, nor moves forty times as far as
+// a support that is displaced by a part of a change (parts_of_change()), unless it falls.
+constexpr double far_by_forces = 100.0, far_by_supports = 10.0;
 constexpr double part_of_size = 0.01, slower = 10.0;
+
+/// Whether a support is displaced.
+bool is_displaced(const Model& model, Varied varied, Index target) {
+  return varied == Varied::boundary &&
+         model.boundaries[static_cast<std::size_t>(target)].type == BoundaryType::displacement;
+}
 
 }  // namespace
 
-CollapseCriterion collapse_criterion(const Simulation& sim) {
+CollapseCriterion collapse_criterion(const Simulation& sim, Varied varied, Index target) {
   CollapseCriterion c;
   double count = 0.0, mass = 0.0, force = 0.0;
   const Model& model = sim.scene->model;
@@ -40,16 +47,16 @@ CollapseCriterion collapse_criterion(const Simulation& sim) {
   c.duration = equilibrium_time(c.size, c.acceleration);
   c.displacement = part_of_size * c.size;
   c.velocity = c.displacement / (slower * c.duration);
+  c.far = is_displaced(model, varied, target) ? far_by_supports : far_by_forces;
   return c;
 }
 
 int parts_of_change(const Model& model, Varied varied, Index target, double from, double to,
                     const CollapseCriterion& criterion) {
-  if (varied != Varied::boundary) return 1;
+  if (!is_displaced(model, varied, target)) return 1;
   // Blocks that the support carries along must not look as if they failed (`visible`).
   constexpr double at_a_time = 0.25;
-  const Vec2 whole =
-      model.boundaries[static_cast<std::size_t>(target)].displacement.value_or(Vec2{});
+  const Vec2 whole = *model.boundaries[static_cast<std::size_t>(target)].displacement;
   const double way = norm(whole) * std::abs(to - from);
   return std::max(1, static_cast<int>(std::ceil(way / (at_a_time * criterion.displacement))));
 }
@@ -85,8 +92,7 @@ Verdict FailureSearch::look(Simulation& sim) {
   const double most = criterion_.displacement;
   const Furthest furthest = watch_.displacement(sim);
   const double gone = furthest.value;
-  if (gone > (criterion_.slows ? far_enough : 1.0) * most)
-    return end(Verdict::fails, "moved too far", furthest.block);
+  if (gone > criterion_.far * most) return end(Verdict::fails, "moved too far", furthest.block);
   if (!sim.relaxation.seeks_equilibrium) return Verdict::not_yet;
   if (!gradual_change_complete(sim)) {
     watch_.begin(sim);

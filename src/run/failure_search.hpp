@@ -15,16 +15,17 @@ struct CollapseCriterion {
   double acceleration = 0.0;  ///< g, m/s2: without gravity the mean load over mass, and without
                               ///< loads usual_acceleration
   double displacement = 0.0;  ///< m: failure displacement of a vertex
-  bool slows = true;      ///< a vertex beyond it has not failed if it slows down to equilibrium and
-                          ///< has not moved a hundred times as far
+  double far = 1.0;  ///< times that: a vertex has failed that has moved so far, though it slows
+                     ///< down to equilibrium
   double velocity = 0.0;  ///< m/s: a vertex that is faster at the end, without another verdict, has
                           ///< failed
   double duration = 0.0;  ///< s, T: time within which nothing may move further in equilibrium
   double shaking = 0.0;   ///< s, duration of ground motion before that; 0 without
 };
 
-/// The criterion of the present model, from its blocks, gravity and loads.
-CollapseCriterion collapse_criterion(const Simulation& sim);
+/// The criterion of the present model, from its blocks, gravity and loads, and from what is varied
+/// (target: as slow_value()).
+CollapseCriterion collapse_criterion(const Simulation& sim, Varied varied, Index target);
 
 /// Largest number of steps in which a model may reach equilibrium, and of a search.
 constexpr double most_steps = 300000.0;
@@ -89,6 +90,7 @@ void FailureSearch::list(Archive& a) {
   a("failure.displacement", criterion_.displacement);
   a("failure.least_velocity", criterion_.velocity);
   a("failure.duration", criterion_.duration);
+  a("failure.far", criterion_.far);
   watch_.list(a);
 }
 

@@ -25,7 +25,7 @@ int parts_of(const RampProgress& now, const Simulation& sim, const Ramp& ramp) {
 void begin_part(RampProgress& ramp, Simulation& sim, const Stage& stage) {
   const double from = ramp_value(*stage.ramp, ramp.increment - 1),
                to = ramp_value(*stage.ramp, ramp.increment);
-  ramp.search.emplace(sim, collapse_criterion(sim));
+  ramp.search.emplace(sim, collapse_criterion(sim, stage.ramp->varied, stage.ramp->target));
   const int parts = parts_of(ramp, sim, *stage.ramp);
   set_ramp(sim, stage, ramp.part >= parts ? to : from + (to - from) * ramp.part / parts);
   ramp.search->begin(sim);

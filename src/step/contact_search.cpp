@@ -56,13 +56,21 @@ void reevaluate_faces(Simulation& sim) {
   }
 }
 
+/// Distance (m) that edges which are not in the list must keep, for two blocks may overlap by no
+/// more than the largest closure, and edges that overlap by L do not act while they lie more than L
+/// over aspect_from behind each other.
+double distance_to_keep(const Simulation& sim) {
+  return sim.accounts.penetration / aspect_from;
+}
+
 bool list_is_due(Simulation& sim) {
   FaceSet& contacts = sim.motion.contacts;
   StepControl& control = sim.control;
   // What two vertices may approach each other by before the next check, m.
   const double ahead = 2.0 * sim.stepper->ahead(sim);
+  const double reach = contacts.reach - distance_to_keep(sim);
   contacts.travel += 2.0 * control.last_displacement;
-  if (contacts.travel + ahead <= contacts.reach) return false;
+  if (contacts.travel + ahead <= reach) return false;
   // The sum of displacements is an upper bound; the positions decide.
   contacts.travel = largest_approach(control.neighbours, sim.scene->blocks, sim.motion.state,
                                      sim.motion.pose, standing_of(contacts));
@@ -70,12 +78,13 @@ bool list_is_due(Simulation& sim) {
     control.last_displacement = std::numeric_limits<double>::infinity();  // inspect() ends the run
     return false;
   }
-  return contacts.travel + sim.stepper->margin * ahead > contacts.reach;
+  return contacts.travel + sim.stepper->margin * ahead > reach;
 }
 
 void search_if_due(Simulation& sim) {
   if (!list_is_due(sim)) return;
-  const double reach = std::max(sim.scene->base_reach, 20.0 * sim.control.last_displacement);
+  const double reach = std::max(
+      {sim.scene->base_reach, 20.0 * sim.control.last_displacement, 4.0 * distance_to_keep(sim)});
   search(sim, reach);
   set_limit(sim);
 }

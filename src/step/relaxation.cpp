@@ -44,6 +44,22 @@ double wave_frequency(const Simulation& sim) {
   return 0.5 / (sim.motion.state.step * std::sqrt(static_cast<double>(sim.scene->blocks.size())));
 }
 
+/// Slower than this no supported block moves, 1/s: a hundredth of the wave's frequency, or the
+/// rocking and falling over of a block of mean size, which weight alone drives.
+double slowest_frequency(const Simulation& sim) {
+  const BlockSet& b = sim.scene->blocks;
+  double area = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (!is_free(b, sim.motion.state, i)) continue;
+    area += b.area[i];
+    count += 1.0;
+  }
+  const double by_stiffness = 0.01 * wave_frequency(sim);
+  const double g = norm(sim.scene->model.gravity);
+  if (g == 0.0 || count == 0.0) return by_stiffness;
+  return std::min(by_stiffness, std::sqrt(g / std::sqrt(area / count)));
+}
+
 /// Steps from one estimate to the next: a quarter of a radian of the motion.
 std::uint64_t steps_between_looks(const FrequencyEstimate& estimate, double h) {
   constexpr double radians = 0.25, least = 8.0, most = 512.0;
@@ -138,10 +154,10 @@ void update_estimate(Simulation& sim, const LoadsNow& at_work) {
   const std::optional<double> now = square_of_frequency(sum, most_of_one);
   if (!now) return;
   // Where the motion has no stiffness, since all that moves slides, half of the previous square
-  // remains. No supported block moves a hundred times slower than the wave.
-  const double slowest = none_stays ? 0.0 : 0.01, was = estimate.frequency;
-  estimate.frequency = std::max(was > 0.0 ? std::sqrt(0.5 * (was * was + *now)) : std::sqrt(*now),
-                                slowest * wave_frequency(sim));
+  // remains.
+  const double slowest = none_stays ? 0.0 : slowest_frequency(sim), was = estimate.frequency;
+  estimate.frequency =
+      std::max(was > 0.0 ? std::sqrt(0.5 * (was * was + *now)) : std::sqrt(*now), slowest);
 }
 
 /// Increases what is applied gradually, in proportion to the frequency estimate: all of it within

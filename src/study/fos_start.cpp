@@ -48,10 +48,10 @@ double shaking_time(const Model& model, const Fos& fos) {
 }
 
 CollapseCriterion criterion_of(const Simulation& sim, const Model& model, const Fos& fos) {
-  CollapseCriterion c = collapse_criterion(sim);
+  CollapseCriterion c = collapse_criterion(sim, fos.varied, fos.target);
   const double usual = c.displacement;
   c.shaking = shaking_time(model, fos);
-  c.slows = !fos.fails.displacement && fos.varied != Varied::shaking;
+  if (fos.fails.displacement || fos.varied == Varied::shaking) c.far = 1.0;
   c.displacement = fos.fails.displacement.value_or(usual);
   c.velocity = fos.fails.velocity.value_or(c.velocity * c.displacement / usual);
   return c;

@@ -71,6 +71,20 @@ TEST(Settlement, AFlatArchFallsWhereItsAbutmentHasSpreadTooFar) {
   EXPECT_GT(*r.outcome.ramps[0].fails, 0.995 * exact / 0.1);
 }
 
+/// A lintel loses its bearing of 0.3 m, and its end falls past the corner of the pier: the edges
+/// that lay behind each other until then begin to act without a gain of energy.
+TEST(Settlement, ALintelFallsOffItsBearing) {
+  const Ran r = ran(stone(1e9, 30) + block("left", -1, 0, 1, 2, "fixed = true\n") +
+                    block("pier", 3.7, 0, 4.7, 2) + block("lintel", 0, 2, 4, 2.5) +
+                    support("[[3.7, 0], [4.7, 0]]", "[0.3, 0]") + weight_first +
+                    "[[stage]]\nuntil = 'collapse'\n"
+                    "ramp = { 'boundary:support' = [0, 1.5], steps = 30 }\n");
+  ASSERT_EQ(r.outcome.ramps.size(), 1u);
+  EXPECT_NEAR(r.outcome.ramps[0].holds.value_or(0.0), 0.95, 1e-9) << r.outcome.message;
+  EXPECT_NEAR(r.outcome.ramps[0].fails.value_or(0.0), 1.0, 1e-9) << r.outcome.message;
+  EXPECT_LT(std::abs(r.outcome.energy.error), 1e-5);
+}
+
 /// A block that a jack pushes along a floor: at the end of the last increment the jack has the
 /// force with which it slides.
 TEST(Settlement, AJackHasTheForceOfSliding) {
