@@ -153,7 +153,9 @@ std::string message_of(const Fos& fos, const LimitResult& r) {
   const std::string what = quantity(fos.varied);
   switch (r.largest.status) {
     case LimitEnd::no_limit:
-      return r.smallest && r.smallest->status == LimitEnd::found
+      // Below no weight at all everything moves.
+      return r.smallest && r.smallest->status == LimitEnd::found &&
+                     std::abs(r.smallest->lower) > 1e-6
                  ? fmt::format("no larger {} moves the rigid blocks; at the other end {:.5g} does",
                                what, r.smallest->lower)
                  : fmt::format("no {} moves the rigid blocks", what);

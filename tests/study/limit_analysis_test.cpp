@@ -275,5 +275,21 @@ TEST(LimitAnalysis, RefusesWhatHasNoLimit) {
   EXPECT_NE(fault(text + "[limit]\ncrushing = true\n").find("ucs"), std::string::npos);
 }
 
+/// A weight that holds a block against a push: more of it holds as well, less of it does not.
+TEST(LimitAnalysis, NamesTheOtherEndWhereThereIsNoLargest) {
+  const LimitResult r =
+      limit_of(stone(0.5) +
+                   "[[block]]\nfixed = true\npolygon = [[-1, -1], [3, -1], [3, 0], [-1, 0]]\n"
+                   "[[block]]\npolygon = [[0, 0], [2, 0], [2, 1], [0, 1]]\n"
+                   "[[load]]\npoint = [0, 0.1]\nforce = [10e3, 0]\n",
+               "gravity");
+  EXPECT_EQ(r.largest.status, LimitEnd::no_limit);
+  ASSERT_TRUE(r.smallest);
+  const double exact = 10e3 / (0.5 * 2000 * 9.81 * 2.0);
+  EXPECT_NEAR(r.smallest->lower, exact, 1e-5);
+  EXPECT_NE(r.message.find(fmt::format("at the other end {:.4f}", exact)), std::string::npos)
+      << r.message;
+}
+
 }  // namespace
 }  // namespace edda::limit_analysis_test
