@@ -137,17 +137,18 @@ void print_object(const PreparedRun& run, const ModelCheck& found) {
   add_texts(json, "initial_stress", found.initial_stress);
   add_texts(json, "strain_damping", found.strain_damping);
   const bool timed = found.steps > 0.0;
-  const auto add_if_timed = [&](const char* name, double value) {
+  const auto add_if_known = [&](const char* name, double value) {
     json.key(name);
-    timed ? json.value(value) : json.null();
+    timed&& found.increments == 0 ? json.value(value) : json.null();
   };
-  add_if_timed("duration", sim.scene->model.solver.duration);
+  add_if_known("duration", sim.scene->model.solver.duration);
   json.pair("time_step", found.step);
   if (found.scaled_step > 0.0) json.pair("static_time_step", found.scaled_step);
   json.pair("at_most", found.at_most);
-  add_if_timed("steps", found.steps);
+  add_if_known("steps", found.steps);
   json.pair("steps_per_second", found.rate);
-  add_if_timed("seconds", found.steps / found.rate);
+  add_if_known("seconds", found.steps / found.rate);
+  if (found.increments > 0) json.pair("increments", found.increments);
   add_texts(json, "warnings", run.warnings);
   fmt::print("{}\n", json.close().line());
 }

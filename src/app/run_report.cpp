@@ -11,6 +11,7 @@
 #include "app/json_lines.hpp"
 #include "app/progress.hpp"
 #include "base/text.hpp"
+#include "model/stage_names.hpp"
 #include "observe/initial_stress_report.hpp"
 #include "results/version.hpp"
 #include "run/stages.hpp"
@@ -28,6 +29,8 @@ class ForPeople : public RunReport {
   }
 
   void starts(const PreparedRun& run, const std::string&) override {
+    for (std::size_t q = 0; q < run.sim.scene->model.stages.size(); ++q)
+      stages_.push_back(stage_label(run.sim.scene->model, q));
     if (quiet_) return;
     const Simulation& sim = run.sim;
     const StageMasses masses = stages_of(sim.scene->model).front().masses;
@@ -54,10 +57,7 @@ class ForPeople : public RunReport {
     if (!quiet_) bar_.show(progress);
   }
 
-  void stage_ended(const StageReport& s) override {
-    if (s.ramp.empty()) return;
-    ramps_.push_back(s.ramp);
-  }
+  void stage_ended(const StageReport&) override {}
 
   void warns(const std::string& message) override {
     bar_.finish();
@@ -73,8 +73,13 @@ class ForPeople : public RunReport {
     fmt::print("{}: {}\n", status_name(o.status), o.message);
     fmt::print("  {:.6g} s in {} steps, {} of wall time; {} contacts closed at the end\n", o.time,
                o.steps, duration_text(o.wall.total), o.contacts);
-    for (const std::string& ramp : ramps_) {
-      if (!o.message.starts_with(ramp)) fmt::print("  {}\n", ramp);
+    for (const RampOutcome& r : o.ramps) {
+      const std::string& stage = stages_[r.stage];
+      if (o.message.starts_with(stage + " holds") || o.message.starts_with(stage + " is in"))
+        continue;
+      fmt::print("  {}: {}{}{}\n", stage, r.vary,
+                 r.holds ? fmt::format(" holds at {:.6g}", *r.holds) : "",
+                 r.fails ? fmt::format("{} fails at {:.6g}", r.holds ? " and" : "", *r.fails) : "");
     }
     for (const std::string& check : o.failed_checks) {
       fmt::print("  a check does not hold: {}\n", check);
@@ -88,7 +93,7 @@ class ForPeople : public RunReport {
  private:
   bool quiet_;
   ProgressBar bar_;
-  std::vector<std::string> ramps_;  ///< how they ended
+  std::vector<std::string> stages_;  ///< their labels
 };
 
 class ForMachines : public RunReport {

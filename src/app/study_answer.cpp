@@ -30,8 +30,13 @@ void print_end(const StudyResults& r, const std::string& folder, double seconds)
   }
   if (r.map && r.map->samples > 0) {
     const Vec2 at = r.map->places[r.map->most()];
-    fmt::print("  key blocks most often at ({:.4g}, {:.4g}): in {:.3g} % of the samples\n", at.x,
-               at.y, 100.0 * r.map->part(r.map->most()));
+    const double part = r.map->part(r.map->most());
+    if (part == 0.0) {
+      fmt::print("  no key blocks at any place of the map\n");
+    } else {
+      fmt::print("  key blocks most often at ({:.4g}, {:.4g}): in {:.3g} % of the samples\n", at.x,
+                 at.y, 100.0 * part);
+    }
   }
   const char* what = r.run.end == StudyEnd::complete ? "results" : "samples";
   fmt::print("  {} of wall time; {} in {}/{}\n", duration_text(seconds), what, folder,

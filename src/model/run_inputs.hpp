@@ -73,7 +73,8 @@ enum class HoldFor { equilibrium };
 
 /// [[stage]] ramp: something varied in increments, each held until the model is in equilibrium.
 struct Ramp {
-  static constexpr double longest_value = 1000.0;  ///< s, default of Stage::duration
+  static constexpr double longest_value = 1000.0;  ///< s, default of Stage::duration; also where a
+                                                   ///< support may be displaced
   VariedRange what;
   HoldFor hold = HoldFor::equilibrium;
   int steps = 200;                   ///< number of increments

@@ -15,9 +15,9 @@ constexpr std::uint64_t look_at_every = 32;  // steps
 // search, and at its end.
 constexpr double visible = 0.3, barely = 0.01;
 constexpr double periods_enough = 6.0;  // of the motion, before a trend counts
-// Times the failure displacement: no block deforms by its own size, nor moves forty times as far as
-// a support that is displaced by a part of a change (parts_of_change()), unless it falls.
-constexpr double far_by_forces = 100.0, far_by_supports = 10.0;
+// Times the failure displacement: no block deforms by its own size, nor moves a hundred times as
+// far as a support that is displaced by a part of a change (parts_of_change()), unless it falls.
+constexpr double far_by_forces = 100.0, far_by_supports = 25.0;
 constexpr double part_of_size = 0.01, slower = 10.0;
 
 /// Whether a support is displaced.

@@ -138,7 +138,8 @@ std::string study_summary(const StudyPlan& plan, const StudyResults& r) {
     const KeyBlockMap& m = *r.map;
     const Vec2 at = m.places[m.most()];
     j.key("map").open_object().pair("places", m.places.size()).pair("samples", m.samples);
-    j.pair("most", m.part(m.most())).key("at").open_list().value(at.x).value(at.y).close();
+    j.pair("most", m.part(m.most()));
+    if (m.part(m.most()) > 0.0) j.key("at").open_list().value(at.x).value(at.y).close();
     j.close();
   }
   if (!r.run.fitted) {

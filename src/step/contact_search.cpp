@@ -56,11 +56,14 @@ void reevaluate_faces(Simulation& sim) {
   }
 }
 
-/// Distance (m) that edges which are not in the list must keep, for two blocks may overlap by no
-/// more than the largest closure, and edges that overlap by L do not act while they lie more than L
-/// over aspect_from behind each other.
+/// Distance (m) that edges which are not in the list must keep. Two blocks that overlap by a
+/// closure d overlap by d over the sine of a corner behind the next edge, of corners down to 30
+/// degrees by 2 d; and edges that overlap by L do not act while they lie more than L over
+/// aspect_from behind each other.
 double distance_to_keep(const Simulation& sim) {
-  return sim.accounts.penetration / aspect_from;
+  if (sim.scene->at_points()) return 0.0;
+  constexpr double per_sine = 2.0;
+  return per_sine * sim.accounts.penetration / aspect_from;
 }
 
 bool list_is_due(Simulation& sim) {
@@ -84,7 +87,7 @@ bool list_is_due(Simulation& sim) {
 void search_if_due(Simulation& sim) {
   if (!list_is_due(sim)) return;
   const double reach = std::max(
-      {sim.scene->base_reach, 20.0 * sim.control.last_displacement, 4.0 * distance_to_keep(sim)});
+      {sim.scene->base_reach, 20.0 * sim.control.last_displacement, 1.5 * distance_to_keep(sim)});
   search(sim, reach);
   set_limit(sim);
 }

@@ -44,6 +44,18 @@ double wave_frequency(const Simulation& sim) {
   return 0.5 / (sim.motion.state.step * std::sqrt(static_cast<double>(sim.scene->blocks.size())));
 }
 
+/// By which factor inertia is raised, the mean of the free blocks; 1 where there are none.
+double raised_inertia(const Simulation& sim) {
+  const std::vector<double>& raised = sim.motion.masses.raised;
+  double mass = 0.0, inertia = 0.0;
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
+    mass += sim.scene->blocks.mass[i];
+    inertia += sim.scene->blocks.mass[i] * (raised.empty() ? 1.0 : raised[i]);
+  }
+  return mass > 0.0 ? inertia / mass : 1.0;
+}
+
 /// Slower than this no supported block moves, 1/s: a hundredth of the wave's frequency, or the
 /// rocking and falling over of a block of mean size, which weight alone drives.
 double slowest_frequency(const Simulation& sim) {
@@ -57,7 +69,7 @@ double slowest_frequency(const Simulation& sim) {
   const double by_stiffness = 0.01 * wave_frequency(sim);
   const double g = norm(sim.scene->model.gravity);
   if (g == 0.0 || count == 0.0) return by_stiffness;
-  return std::min(by_stiffness, std::sqrt(g / std::sqrt(area / count)));
+  return std::min(by_stiffness, std::sqrt(g / (raised_inertia(sim) * std::sqrt(area / count))));
 }
 
 /// Steps from one estimate to the next: a quarter of a radian of the motion.
@@ -207,16 +219,9 @@ double time_of_displacements(const Simulation& sim) {
         way, std::abs((v.value - v.before) * history) * norm(*model.boundaries[q].displacement));
   }
   if (way == 0.0) return 0.0;
-  // Blocks whose inertia is raised follow the more slowly.
-  const std::vector<double>& raised = sim.motion.masses.raised;
-  double mass = 0.0, inertia = 0.0;
-  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
-    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
-    mass += sim.scene->blocks.mass[i];
-    inertia += sim.scene->blocks.mass[i] * (raised.empty() ? 1.0 : raised[i]);
-  }
   const double g = model.gravity == Vec2{} ? without_gravity : norm(model.gravity);
-  return inertia > 0.0 ? std::sqrt(6.0 * way * inertia / (part_of_gravity * g * mass)) : 0.0;
+  // Blocks whose inertia is raised follow the more slowly.
+  return std::sqrt(6.0 * way * raised_inertia(sim) / (part_of_gravity * g));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <map>
 #include <memory>
 
@@ -179,8 +180,9 @@ class Search {
 
 const char* what_was_varied(Varied varied) {
   constexpr const char* words[] = {
-      "strength", "the load", "the ground motion", "the water pressure", "the tilt", "kh",
-      "kv",       "gravity"};
+      "strength", "the load", "the ground motion", "the water pressure", "the tilt",
+      "kh",       "kv",       "gravity",           "the boundary"};
+  static_assert(std::size(words) == static_cast<std::size_t>(Varied::boundary) + 1);
   return words[static_cast<int>(varied)];
 }
 

@@ -156,8 +156,9 @@ std::string message_of(const Fos& fos, const LimitResult& r) {
       // Below no weight at all everything moves.
       return r.smallest && r.smallest->status == LimitEnd::found &&
                      std::abs(r.smallest->lower) > 1e-6
-                 ? fmt::format("no larger {} moves the rigid blocks; at the other end {:.5g} does",
-                               what, r.smallest->lower)
+                 ? fmt::format(
+                       "no larger {} moves the rigid blocks; at the other end the limit is {:.5g}",
+                       what, r.smallest->lower)
                  : fmt::format("no {} moves the rigid blocks", what);
     case LimitEnd::no_equilibrium:
       return "the rigid blocks have no equilibrium" +

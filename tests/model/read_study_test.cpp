@@ -124,7 +124,8 @@ TEST(ReadStudy, SaysWhatIsWrongAndWhere) {
       {with("below = 1.0", "below = 1.0\nask = \"factr\""),
        "failure.ask: no [ask] is called \"factr\": did you mean \"factor\"?"},
       {with("[ask.factor]", "[ask.cohesion]"), "ask.cohesion"},
-      {with("[failure]", map + "[failure]"), "map.: is one of key blocks, which no [ask] is of"},
+      {with("[failure]", map + "[failure]"),
+       "map.spacing: makes a map of key blocks, and no [ask] is of them"},
       {with("of = \"limit\"",
             "of = \"keyblocks\"\n[map]\nspacing = 0.01\nregion = [[0, 0], [10, 0], "
             "[10, 10], [0, 10]]"),

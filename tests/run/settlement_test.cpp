@@ -37,8 +37,9 @@ std::string support(const std::string& along, const std::string& displacement) {
 const std::string weight_first = "[[stage]]\nname = 'weight'\nuntil = 'equilibrium'\n";
 
 TEST(Settlement, ATowerFollowsItsFloor) {
-  for (const double way : {0.0005, 0.01}) {
+  for (const double way : {0.0005, 0.01, 0.6}) {
     for (const bool in_first_stage : {true, false}) {
+      if (way > 0.1 && !in_first_stage) continue;  // in 240 parts
       std::string text = stone(20e9, 30) + block("floor", -2, -0.5, 4, 0) +
                          support("[[-2, -0.5], [4, -0.5]]", fmt::format("[0, {}]", -way));
       for (int i = 0; i < 5; ++i)

@@ -102,16 +102,22 @@ TEST(Fos, VariesBoundaries) {
   ASSERT_TRUE(traction.rigid);
   EXPECT_TRUE(traction.rigid->below_most);
   // A lintel falls off a pier that is displaced by its bearing of 0.3 m.
-  const FosResult bearing = found(
-      "[materials.rock]\ndensity = 2500\nyoung = 1e9\npoisson = 0.2\n[joints.j]\n"
-      "friction_angle = 30\n[[block]]\nfixed = true\n"
-      "polygon = [[-1,0],[1,0],[1,2],[-1,2]]\n"
-      "[[block]]\npolygon = [[3.7,0],[4.7,0],[4.7,2],[3.7,2]]\n"
-      "[[block]]\npolygon = [[0,2],[4,2],[4,2.5],[0,2.5]]\n[[boundary]]\nname = 'pier'\n"
-      "along = [[3.7,0],[4.7,0]]\ntype = 'displacement'\ndisplacement = [0.3,0]\n" +
-      coarse + "vary = 'boundary:pier'\nbracket = [0.5, 1.5]\n");
+  const auto lintel = [&](const std::string& displacement, const std::string& bracket) {
+    return found(
+        "[materials.rock]\ndensity = 2500\nyoung = 1e9\npoisson = 0.2\n[joints.j]\n"
+        "friction_angle = 30\n[[block]]\nfixed = true\n"
+        "polygon = [[-1,0],[1,0],[1,2],[-1,2]]\n"
+        "[[block]]\npolygon = [[3.7,0],[4.7,0],[4.7,2],[3.7,2]]\n"
+        "[[block]]\npolygon = [[0,2],[4,2],[4,2.5],[0,2.5]]\n[[boundary]]\nname = 'pier'\n"
+        "along = [[3.7,0],[4.7,0]]\ntype = 'displacement'\ndisplacement = " +
+        displacement + "\n" + coarse + "vary = 'boundary:pier'\nbracket = " + bracket + "\n");
+  };
+  const FosResult bearing = lintel("[0.3, 0]", "[0.5, 1.5]");
   ASSERT_TRUE(bearing.factor) << bearing.message;
   EXPECT_NEAR(*bearing.factor, 1.0, 0.03);
+  const FosResult rests = lintel("[0.002, 0]", "[0.5, 1.5]");
+  EXPECT_EQ(rests.status, FosStatus::above);
+  EXPECT_NE(rests.message.find("the boundary cannot move it"), std::string::npos) << rests.message;
 }
 
 /// A load that no stage has activated yet acts in the trials.

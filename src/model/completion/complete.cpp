@@ -243,8 +243,10 @@ void complete_interval(const Value& root, const char* key, double& interval, dou
   const Value* value = find(find(&root, "output"), key);
   // How long a ramp takes is not known: it counts as a stage until equilibrium.
   double duration = reading.model.stages.empty() ? reading.model.solver.duration : 0.0;
-  for (const Stage& stage : reading.model.stages)
-    duration += stage.ramp ? std::min(stage.duration, Stage{}.duration) : stage.duration;
+  for (const Stage& stage : reading.model.stages) {
+    const bool shorter = stage.ramp || stage.duration == Ramp::longest_value;
+    duration += shorter ? std::min(stage.duration, Stage{}.duration) : stage.duration;
+  }
   if (value == nullptr) {
     interval = duration > 0.0 ? fitted(duration / parts) : 0.0;
   } else if (interval > 0.0 && duration / interval > most) {

@@ -267,6 +267,9 @@ void complete_stages(const Value& root, Reading& reading) {
     const bool at_once = std::find(first.begin(), first.end(), name) != first.end();
     if (!at_once && acts_at_first(model, std::string(name))) acting.emplace(name);
   }
+  const bool moves_supports =
+      std::any_of(model.boundaries.begin(), model.boundaries.end(),
+                  [](const Boundary& b) { return b.type == BoundaryType::displacement; });
   double sum = 0.0;
   bool all_given = true;
   for (std::size_t i = 0; i < reading.model.stages.size(); ++i) {
@@ -274,6 +277,8 @@ void complete_stages(const Value& root, Reading& reading) {
     const Value* own = element(root, "stage", i);
     if (!is_table(own)) continue;
     complete_ramp(own, stage, reading);
+    if (moves_supports && stage.to_equilibrium() && !given(own, "duration"))
+      stage.duration = Ramp::longest_value;
     complete_stage_damping(own, solver, stage);
     check_ramp_damping(own, stage, reading);
     complete_masses(own, solver, stage, reading);

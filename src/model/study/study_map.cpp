@@ -47,18 +47,24 @@ void complete_map(const Completing& c) {
   };
   const auto [low, high] = extent_of(map.region);
   const Vec2 size = (1.0 / map.spacing) * (high - low);
-  if (size.x * size.y > most_places) {
-    wrong("spacing", fmt::format("makes {:.0f} places", size.x * size.y),
+  constexpr double most_looked_at = 100.0 * most_places;
+  const double all = size.x * size.y;
+  const double count = all > most_looked_at ? all : static_cast<double>(places_of(map).size());
+  if (count > most_places) {
+    wrong("spacing", fmt::format("makes {:.0f} places", count),
           fmt::format("choose a larger one, or a smaller region: at most {:.0f} places",
                       most_places));
-  } else if (places_of(map).empty()) {
+  } else if (count == 0.0) {
     wrong("spacing", "leaves no place in the region", "choose a smaller one");
   }
   const auto asks = [](const Ask& a) { return a.of == Analysis::keyblocks; };
   if (std::none_of(c.plan.ask.begin(), c.plan.ask.end(), asks))
-    wrong("", "is one of key blocks, which no [ask] is of", "ask of = \"keyblocks\", too");
+    wrong("spacing", "makes a map of key blocks, and no [ask] is of them",
+          "add an [ask] with of = \"keyblocks\"");
   if (!is_random(c.plan.sampling.method))
-    wrong("", fmt::format("is nothing of method {}", word_of(c.plan.sampling.method)),
+    wrong("spacing",
+          fmt::format("makes a map, which does not go with method {}",
+                      word_of(c.plan.sampling.method)),
           "use monte-carlo, latin-hypercube or sobol, of which parts are probabilities");
 }
 
