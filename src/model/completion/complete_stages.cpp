@@ -198,6 +198,12 @@ void find_ramp(const Value* node, const std::string& key, Ramp& ramp, Reading& r
               "give gravity = [0, -9.81]");
 }
 
+/// Whether a support may be displaced, which takes its time.
+bool moves_supports(const Model& model) {
+  return std::any_of(model.boundaries.begin(), model.boundaries.end(),
+                     [](const Boundary& b) { return b.type == BoundaryType::displacement; });
+}
+
 /// Checks a ramp, and fills the defaults of its stage.
 void complete_ramp(const Value* own, Stage& stage, Reading& reading) {
   const auto refuse = [&](const char* at, std::string problem, const char* remedy) {
@@ -267,9 +273,6 @@ void complete_stages(const Value& root, Reading& reading) {
     const bool at_once = std::find(first.begin(), first.end(), name) != first.end();
     if (!at_once && acts_at_first(model, std::string(name))) acting.emplace(name);
   }
-  const bool moves_supports =
-      std::any_of(model.boundaries.begin(), model.boundaries.end(),
-                  [](const Boundary& b) { return b.type == BoundaryType::displacement; });
   double sum = 0.0;
   bool all_given = true;
   for (std::size_t i = 0; i < reading.model.stages.size(); ++i) {
@@ -277,7 +280,7 @@ void complete_stages(const Value& root, Reading& reading) {
     const Value* own = element(root, "stage", i);
     if (!is_table(own)) continue;
     complete_ramp(own, stage, reading);
-    if (moves_supports && stage.to_equilibrium() && !given(own, "duration"))
+    if (moves_supports(model) && stage.to_equilibrium() && !given(own, "duration"))
       stage.duration = Ramp::longest_value;
     complete_stage_damping(own, solver, stage);
     check_ramp_damping(own, stage, reading);
