@@ -37,7 +37,9 @@ void plan_slivers(Simulation& sim) {
 }
 
 /// Raises the masses of blocks that would hold the step below the requested one. A block in motion
-/// keeps its momentum; the energy that it loses by that is accounted as `step_change`.
+/// keeps its momentum, and the energy that it loses by that is accounted as `step_change`; where a
+/// stage scales all masses it keeps its velocity, since a jolt would open joints on the way to
+/// equilibrium, and the energy is work of the stage.
 void raise_masses(Simulation& sim) {
   const BlockSet& blocks = sim.scene->blocks;
   Masses& masses = sim.motion.masses;
@@ -63,6 +65,10 @@ void raise_masses(Simulation& sim) {
   if (masses.raised.empty()) masses.raised.assign(blocks.size(), 1.0);
   for (std::size_t i = 0; i < blocks.size(); ++i) masses.raised[i] *= factor[i];
   if (!moving) return;
+  if (control.scaled_step > 0.0) {
+    sim.accounts.external_work += total_energy(sim) - energy;
+    return;
+  }
   for (Nodes* v : {&state.vx, &state.vy}) {
     for (std::vector<double>& values : *v) {
       for (std::size_t i = 0; i < blocks.size(); ++i) values[i] /= factor[i];
