@@ -208,15 +208,15 @@ TEST(Ramp, AWallRidesOnItsSupport) {
            "ramp = { 'boundary:support' = [0, 1], steps = " +
            steps + " }\n";
   };
-  for (const char* displacement : {"[0, -0.02]", "[0, 0.02]", "[0.02, 0]"}) {
+  for (const char* displacement : {"[0, -0.005]", "[0, 0.005]", "[0.005, 0]"}) {
     for (const char* steps : {"1", "40"}) {
       const Ran r = ran(wall(displacement, steps));
       EXPECT_EQ(r.outcome.status, Status::equilibrium) << displacement << r.outcome.message;
       EXPECT_TRUE(r.outcome.failed_checks.empty()) << r.outcome.failed_checks.front();
-      EXPECT_NEAR(norm(r.moved("base")), 0.02, 1e-4);
+      EXPECT_NEAR(norm(r.moved("base")), 0.005, 3e-5);
       const Simulation& s = r.ready.sim;
       for (std::size_t i = 0; i < s.scene->blocks.size(); ++i)
-        EXPECT_NEAR(norm(displacement_of(s.motion.state, i, centroid_weights)), 0.02, 2e-4) << i;
+        EXPECT_NEAR(norm(displacement_of(s.motion.state, i, centroid_weights)), 0.005, 5e-5) << i;
     }
   }
 }
