@@ -136,10 +136,10 @@ void print_object(const PreparedRun& run, const ModelCheck& found) {
   add_texts(json, "loads", found.loads);
   add_texts(json, "initial_stress", found.initial_stress);
   add_texts(json, "strain_damping", found.strain_damping);
-  const bool timed = found.steps > 0.0;
+  const bool known = found.steps > 0.0 && found.increments == 0;
   const auto add_if_known = [&](const char* name, double value) {
     json.key(name);
-    timed&& found.increments == 0 ? json.value(value) : json.null();
+    known ? json.value(value) : json.null();
   };
   add_if_known("duration", sim.scene->model.solver.duration);
   json.pair("time_step", found.step);

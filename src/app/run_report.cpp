@@ -29,10 +29,10 @@ class ForPeople : public RunReport {
   }
 
   void starts(const PreparedRun& run, const std::string&) override {
-    for (std::size_t q = 0; q < run.sim.scene->model.stages.size(); ++q)
-      stages_.push_back(stage_label(run.sim.scene->model, q));
     if (quiet_) return;
     const Simulation& sim = run.sim;
+    for (std::size_t q = 0; q < sim.scene->model.stages.size(); ++q)
+      stages_.push_back(stage_label(sim.scene->model, q));
     const StageMasses masses = stages_of(sim.scene->model).front().masses;
     const double step = first_step(sim, masses);
     if (is_explicit(sim)) {

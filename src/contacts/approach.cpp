@@ -8,6 +8,17 @@
 #include "blocks/kinematics.hpp"
 
 namespace edda {
+
+double mean_width(const BlockSet& b, const State& state) {
+  double area = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (!is_free(b, state, i)) continue;
+    area += b.area[i];
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(area / count) : 1.0;
+}
+
 namespace {
 
 using Extent = NeighbourGroups::Extent;
@@ -38,16 +49,6 @@ struct Placed {
     return column == o.column && row == o.row && alone == o.alone;
   }
 };
-
-double mean_width(const BlockSet& b, const State& state) {
-  double area = 0.0, count = 0.0;
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    if (!is_free(b, state, i)) continue;
-    area += b.area[i];
-    count += 1.0;
-  }
-  return count > 0.0 ? std::sqrt(area / count) : 1.0;
-}
 
 std::vector<Placed> place_in_grid(const BlockSet& b, const State& state,
                                   const std::vector<Extent>& boxes, double cell) {

@@ -12,6 +12,9 @@
 
 namespace edda {
 
+/// Width of a free block of mean area, m; 1 where no block is free.
+double mean_width(const BlockSet& blocks, const State& state);
+
 /// Blocks in groups of neighbours, and the pairs of groups near each other, as they stood when the
 /// list was made. Blocks that move together, however fast, leave the list as it is.
 struct NeighbourGroups {

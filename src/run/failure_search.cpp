@@ -20,13 +20,12 @@ constexpr double periods_enough = 6.0;  // of the motion, before a trend counts
 constexpr double far_by_forces = 100.0, far_by_supports = 25.0;
 constexpr double part_of_size = 0.01, slower = 10.0;
 
-/// Whether a support is displaced.
+}  // namespace
+
 bool is_displaced(const Model& model, Varied varied, Index target) {
   return varied == Varied::boundary &&
          model.boundaries[static_cast<std::size_t>(target)].type == BoundaryType::displacement;
 }
-
-}  // namespace
 
 CollapseCriterion collapse_criterion(const Simulation& sim, Varied varied, Index target) {
   CollapseCriterion c;

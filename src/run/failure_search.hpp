@@ -23,8 +23,10 @@ struct CollapseCriterion {
   double shaking = 0.0;   ///< s, duration of ground motion before that; 0 without
 };
 
-/// The criterion of the present model, from its blocks, gravity and loads, and from what is varied
-/// (target: as slow_value()).
+/// Whether what is varied (target: as slow_value()) displaces a support.
+bool is_displaced(const Model& model, Varied varied, Index target);
+
+/// The criterion of the present model, from its blocks, gravity and loads, and from what is varied.
 CollapseCriterion collapse_criterion(const Simulation& sim, Varied varied, Index target);
 
 /// Largest number of steps in which a model may reach equilibrium, and of a search.

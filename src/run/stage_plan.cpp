@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "run/failure_search.hpp"
 #include "run/stages.hpp"
 #include "step/changes.hpp"
 #include "step/simulation.hpp"
@@ -68,11 +69,7 @@ void set_ramp(Simulation& sim, const Stage& stage, double value) {
   const Ramp& ramp = *stage.ramp;
   const State& state = sim.motion.state;
   if (SteppedValue* const v = slow_value(sim.attached.loads.slow, ramp.varied, ramp.target)) {
-    const bool displaces =
-        ramp.varied == Varied::boundary &&
-        sim.scene->model.boundaries[static_cast<std::size_t>(ramp.target)].type ==
-            BoundaryType::displacement;
-    if (state.steps == 0 && !displaces) {
+    if (state.steps == 0 && !is_displaced(sim.scene->model, ramp.varied, ramp.target)) {
       *v = {value, value};
     } else {
       v->change(value, state.time);

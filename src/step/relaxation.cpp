@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/parallel.hpp"
+#include "contacts/approach.hpp"
 #include "step/changes.hpp"
 #include "step/simulation.hpp"
 #include "step/touching.hpp"
@@ -59,17 +60,11 @@ double raised_inertia(const Simulation& sim) {
 /// Slower than this no supported block moves, 1/s: a hundredth of the wave's frequency, or the
 /// rocking and falling over of a block of mean size, which weight alone drives.
 double slowest_frequency(const Simulation& sim) {
-  const BlockSet& b = sim.scene->blocks;
-  double area = 0.0, count = 0.0;
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    if (!is_free(b, sim.motion.state, i)) continue;
-    area += b.area[i];
-    count += 1.0;
-  }
   const double by_stiffness = 0.01 * wave_frequency(sim);
   const double g = norm(sim.scene->model.gravity);
-  if (g == 0.0 || count == 0.0) return by_stiffness;
-  return std::min(by_stiffness, std::sqrt(g / (raised_inertia(sim) * std::sqrt(area / count))));
+  if (g == 0.0) return by_stiffness;
+  const double size = mean_width(sim.scene->blocks, sim.motion.state);
+  return std::min(by_stiffness, std::sqrt(g / (raised_inertia(sim) * size)));
 }
 
 /// Steps from one estimate to the next: a quarter of a radian of the motion.

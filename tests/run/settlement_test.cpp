@@ -107,7 +107,7 @@ TEST(Settlement, AJackHasTheForceOfSliding) {
 }
 
 /// Half of the floor of a wall settles: where its bricks come to lie does not depend on the number
-/// of increments, and the settlement may come with a stage as well.
+/// of increments.
 TEST(Settlement, AWallCracksAlikeInFewAndManyIncrements) {
   const std::string wall = stone(10e9, 35) + block("floor", -0.4, -0.2, 0.6, 0, "fixed = true\n") +
                            block("moving", 0.6, -0.2, 1.6, 0) +

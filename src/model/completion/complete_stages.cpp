@@ -220,7 +220,6 @@ void complete_ramp(const Value* own, Stage& stage, Reading& reading) {
   if (as_time)
     return refuse("until", "\"time\" does not go with a ramp, which is held at each value",
                   "give \"equilibrium\" or \"collapse\"");
-  if (!given(own, "duration")) stage.duration = Ramp::longest_value;
   const Model& model = reading.model;
   if (model.solver.method == Method::dda || model.contact.model == ContactModel::points)
     return refuse("ramp",
@@ -280,8 +279,8 @@ void complete_stages(const Value& root, Reading& reading) {
     const Value* own = element(root, "stage", i);
     if (!is_table(own)) continue;
     complete_ramp(own, stage, reading);
-    if (moves_supports(model) && stage.to_equilibrium() && !given(own, "duration"))
-      stage.duration = Ramp::longest_value;
+    const bool is_slow = stage.ramp || (stage.to_equilibrium() && moves_supports(model));
+    if (is_slow && !given(own, "duration")) stage.duration = Ramp::longest_value;
     complete_stage_damping(own, solver, stage);
     check_ramp_damping(own, stage, reading);
     complete_masses(own, solver, stage, reading);

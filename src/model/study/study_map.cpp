@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "model/study/complete_study.hpp"
 #include "model/study/study_keys.hpp"
