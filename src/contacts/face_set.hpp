@@ -222,8 +222,9 @@ struct FaceSet : ChunkTable<FaceProperties<ChunkColumn>, face_property_list<Chun
 
   // When the list was made, and how long it is valid.
   std::vector<double> built_x, built_y;  ///< [nv] positions of the vertices then, m
-  double noise = 0.0;   ///< m: closures up to this size are rounding of the coordinates
-  double reach = 0.0;   ///< m: the list contains edges nearer to each other than this
+  double noise = 0.0;         ///< m: closures up to this size are rounding of the coordinates
+  double reach = 0.0;         ///< m: the list contains edges nearer to each other than this
+  double reach_behind = 0.0;  ///< m, Reach::behind: and of those behind each other also deeper ones
   double travel = 0.0;  ///< m: upper bound of how far two edges have approached each other since
   std::uint64_t rebuilds = 0;
   double removed_friction = 0.0, removed_damping = 0.0, removed_fracture = 0.0,

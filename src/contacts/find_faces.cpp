@@ -206,7 +206,7 @@ void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
 }
 
 std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
-                            const LawTable& laws, double reach, FaceSearch& search,
+                            const LawTable& laws, const Reach& reach, FaceSearch& search,
                             const std::vector<std::uint8_t>& carry, FaceStates states) {
   const std::vector<Listed> list =
       wanted_faces(edges_within(search.near, b, state, pose, reach), faces, carry, b, state);
@@ -248,7 +248,8 @@ std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& b, const State& stat
   complete_list(next, b);
   if (copies) next.dashpots = dashpots_work(next.now);
   next.noise = rounding_of_closures(pose);
-  next.reach = reach;
+  next.reach = reach.apart;
+  next.reach_behind = reach.behind;
   next.built_x = pose.x;
   next.built_y = pose.y;
   next.travel = 0.0;
@@ -260,14 +261,14 @@ std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& b, const State& stat
 }
 
 void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
-                const LawTable& laws, double reach, FaceSearch& search) {
+                const LawTable& laws, const Reach& reach, FaceSearch& search) {
   std::vector<std::uint8_t> carry(faces.size());
   for (std::size_t k = 0; k < faces.size(); ++k) carry[k] = faces.now.energy[k] > 0.0 ? 1 : 0;
   renew_faces(faces, b, state, pose, laws, reach, search, carry, FaceStates::in_rows);
 }
 
 void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
-                const LawTable& laws, double reach) {
+                const LawTable& laws, const Reach& reach) {
   FaceSearch search;
   find_faces(faces, b, state, pose, laws, reach, search);
 }

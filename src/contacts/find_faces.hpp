@@ -17,12 +17,12 @@ struct FaceSearch {
 };
 
 /// Lists all pairs of edges of two blocks that may act before any vertex has moved by half of
-/// `reach` (m), sorted by `edge`, then by `facing`, and carries over the memory of those that were
+/// reach.apart, sorted by `edge`, then by `facing`, and carries over the memory of those that were
 /// in the old list.
 void find_faces(FaceSet& faces, const BlockSet& blocks, const State& state, const Pose& pose,
-                const LawTable& laws, double reach, FaceSearch& search);
+                const LawTable& laws, const Reach& reach, FaceSearch& search);
 void find_faces(FaceSet& faces, const BlockSet& blocks, const State& state, const Pose& pose,
-                const LawTable& laws, double reach);
+                const LawTable& laws, const Reach& reach);
 
 /// Where the state of the faces (FaceSet::now, before, force) is kept: in the rows of the FaceSet,
 /// or elsewhere, in which case the rows of the new list have room for it and no meaning.
@@ -31,7 +31,7 @@ enum class FaceStates { in_rows, elsewhere };
 /// The same; carry: [nf] 1: the face stores energy. Returns for each face of the new list its row
 /// in the old one, or no_id.
 std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& blocks, const State& state,
-                            const Pose& pose, const LawTable& laws, double reach,
+                            const Pose& pose, const LawTable& laws, const Reach& reach,
                             FaceSearch& search, const std::vector<std::uint8_t>& carry,
                             FaceStates states);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/parallel.hpp"
@@ -18,11 +19,12 @@ constexpr double wider = 4.0;
 /// the pairs would be too many.
 constexpr double most_of_edge = 0.5;
 
-double wider_reach(const BlockSet& b, double reach) {
+double wider_reach(const BlockSet& b, Reach reach) {
   double sum = 0.0;
   for (const double length : b.edge_length) sum += length;
   const double mean = sum / static_cast<double>(std::max<std::size_t>(b.edge_length.size(), 1));
-  return std::min(wider * reach, reach + most_of_edge * mean);
+  return std::min(reach.furthest() + (wider - 1.0) * reach.apart,
+                  reach.furthest() + most_of_edge * mean);
 }
 
 constexpr double most_beyond = std::numbers::pi / 4.0;  ///< rad: for a needle
@@ -44,9 +46,26 @@ EDDA_INLINE double square_of_distance(Vec2 p, Vec2 a, Vec2 u, double per_square)
   return dot(away, away);
 }
 
+/// Overlap of two edges along the mean of their directions, of unit vectors ue and uf: negative by
+/// how much they are apart along it. -infinity where they are not behind each other.
+EDDA_INLINE double overlap_behind(Vec2 p1, Vec2 u, Vec2 ue, Vec2 q1, Vec2 q2, Vec2 uf) {
+  const Vec2 mean = ue - uf;
+  const double length2 = dot(mean, mean);
+  const Vec2 t = (1.0 / std::sqrt(length2 > 0.0 ? length2 : 1.0)) * mean;
+  const double s2 = dot(u, t), r1 = dot(q1 - p1, t), r2 = dot(q2 - p1, t);
+  const double from = larger(r2, 0.0), to = smaller(s2, r1);
+  const double z1 = cross(t, q1 - p1), z2 = cross(t, q2 - p1);
+  const double slope_e = cross(t, u) / (s2 > 0.0 ? s2 : 1.0);
+  const double slope_f = (z1 - z2) / (r1 > r2 ? r1 - r2 : 1.0);
+  const auto closure_at = [&](double s) { return z2 + slope_f * (s - r2) - slope_e * s; };
+  const bool opposed = (length2 > 0.0) & (s2 > 0.0) & (r1 > r2);
+  const bool behind = opposed & (larger(closure_at(from), closure_at(to)) > 0.0);
+  return behind ? to - from : -std::numeric_limits<double>::infinity();
+}
+
 /// Cosine to which two edges may turn towards each other before a vertex of either has moved by
-/// half of `reach`; -2 where no end of one is within `reach` of the other.
-EDDA_INLINE double cosine_within(const EdgesView& v, double reach, std::size_t n) {
+/// half of reach.apart; -2 where they are not within reach.
+EDDA_INLINE double cosine_within(const EdgesView& v, const Reach& reach, std::size_t n) {
   const Id e = v.first[n], f = v.second[n], e_end = v.next[e], f_end = v.next[f];
   const Vec2 p1{v.x[e], v.y[e]}, p2{v.x[e_end], v.y[e_end]};
   const Vec2 q1{v.x[f], v.y[f]}, q2{v.x[f_end], v.y[f_end]};
@@ -57,11 +76,14 @@ EDDA_INLINE double cosine_within(const EdgesView& v, double reach, std::size_t n
               smaller(square_of_distance(q1, p1, u, uu), square_of_distance(q2, p1, u, uu)));
   const double per_e = std::sqrt(uu), per_f = std::sqrt(ww);
   // The largest relative rotation of the two edges is reach/le + reach/lf.
-  const double reached = reach * (per_e + per_f) - dot(u, w) * (per_e * per_f);
-  return nearest < reach * reach ? reached : -2.0;
+  const double reached = reach.apart * (per_e + per_f) - dot(u, w) * (per_e * per_f);
+  const double overlap = overlap_behind(p1, u, per_e * u, q1, q2, per_f * w);
+  const double acting = smaller(larger(overlap + reach.apart, 0.0), reach.behind);
+  const double within = reach.apart + (aspect_from + aspect_range) * acting;
+  return nearest < within * within ? reached : -2.0;
 }
 
-EDDA_VECTOR void find_cosines(EdgesView v, double reach, double* cosine, std::size_t begin,
+EDDA_VECTOR void find_cosines(EdgesView v, Reach reach, double* cosine, std::size_t begin,
                               std::size_t end) {
 #pragma omp simd
   for (std::size_t n = begin; n < end; ++n) cosine[n - begin] = cosine_within(v, reach, n);
@@ -76,10 +98,10 @@ bool may_oppose(const BlockSet& b, Id e, Id f, double cosine) {
 
 constexpr std::size_t pairs_at_once = 512;
 
-/// Those of the pairs [begin, end) that are within `reach`, both blocks alive; visit(e, f).
+/// Those of the pairs [begin, end) that are within reach, both blocks alive; visit(e, f).
 template <class Visit>
 void for_pairs_within(const NearEdges& known, const BlockSet& b, const State& state,
-                      const Pose& pose, double reach, std::size_t begin, std::size_t end,
+                      const Pose& pose, Reach reach, std::size_t begin, std::size_t end,
                       Visit visit) {
   double cosine[pairs_at_once];
   const EdgesView view{known.first.data(), known.second.data(), b.next.data(), pose.x.data(),
@@ -140,15 +162,16 @@ void find_near_edges(NearEdges& known, const BlockSet& b, const State& state, co
   ++known.lists;
 }
 
-/// Whether the pairs within `reach` are all in the store.
+/// Whether the pairs within reach are all in the store.
 bool holds(NearEdges& known, const BlockSet& b, const State& state, const Pose& pose,
-           double reach) {
-  if (known.lists == 0 || !(reach < known.reach)) return false;
-  if (known.reach > wider * wider * reach) return false;  // it is from a time of faster motion
+           const Reach& reach) {
+  const double furthest = reach.furthest();
+  if (known.lists == 0 || !(furthest < known.reach)) return false;
+  if (known.reach > wider * wider * furthest) return false;  // it is from a time of faster motion
   const Standing then{known.built_x, known.built_y, known.reach, known.lists};
   // The part takes up the rounding of distances.
   constexpr double part = 1.0 - 1e-9;
-  return reach + largest_approach(known.groups, b, state, pose, then) < part * known.reach;
+  return furthest + largest_approach(known.groups, b, state, pose, then) < part * known.reach;
 }
 
 }  // namespace
@@ -161,7 +184,7 @@ AngleGate angle_gate(const BlockSet& b, Id e, Id f) {
 }
 
 std::vector<EdgePair> edges_within(NearEdges& known, const BlockSet& b, const State& state,
-                                   const Pose& pose, double reach) {
+                                   const Pose& pose, Reach reach) {
   if (!holds(known, b, state, pose, reach))
     find_near_edges(known, b, state, pose, wider_reach(b, reach));
   const std::size_t all = known.first.size();

@@ -9,6 +9,7 @@
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
 #include "contacts/approach.hpp"
+#include "contacts/face_parts.hpp"
 
 namespace edda {
 
@@ -23,6 +24,20 @@ struct AngleGate {
 };
 AngleGate angle_gate(const BlockSet& blocks, Id e, Id f);
 
+/// Which edges are near each other. Edges of which an end of one is nearer than `apart` (m) to the
+/// other; and those which lie behind each other, hence overlap, but are farther inside each other
+/// than that: they begin to act when their overlap along each other, L, has become longer, or when
+/// they have come out so far, that they are within (aspect_from + aspect_range) L. L is no more
+/// than the blocks penetrate each other there, over the sine of the corner: `behind` (m) at most.
+struct Reach {
+  double apart;
+  double behind = 0.0;
+  // A number is a reach of edges apart. NOLINTNEXTLINE(google-explicit-constructor)
+  Reach(double within, double penetrated = 0.0) : apart(within), behind(penetrated) {}
+  /// No pair of edges farther from each other than this is near, m.
+  double furthest() const { return apart + (aspect_from + aspect_range) * behind; }
+};
+
 /// Pairs of edges that stood within a wider reach some time ago. As long as neighbours have not
 /// approached each other by the difference, those within a reach now are among them. A store: what
 /// edges_within() returns does not depend on it.
@@ -34,10 +49,10 @@ struct NearEdges {
   NeighbourGroups groups;
 };
 
-/// All pairs of edges of two blocks, both alive and not both fixed, of which an end of one lies
-/// nearer to the other than `reach` (m) and which may be opposed before any vertex has moved by
-/// half of that; sorted.
+/// All pairs of edges of two blocks, both alive and not both fixed, that are
+/// within this reach of each other and may be opposed before any vertex has moved by half of
+/// `apart`; sorted.
 std::vector<EdgePair> edges_within(NearEdges& known, const BlockSet& blocks, const State& state,
-                                   const Pose& pose, double reach);
+                                   const Pose& pose, Reach reach);
 
 }  // namespace edda

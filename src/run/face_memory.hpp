@@ -40,6 +40,7 @@ void list_faces(Archive& a, FaceSet& c) {
   a("faces.built_y", c.built_y);
   a("faces.noise", c.noise);
   a("faces.reach", c.reach);
+  a("faces.reach_behind", c.reach_behind);
   a("faces.travel", c.travel);
   a("faces.rebuilds", c.rebuilds);
   a("faces.gluing", c.gluing);

@@ -154,8 +154,8 @@ void judge_places(Judge& j, const Simulation& s) {
       return j.refuse("faces.built is not of these blocks");
     }
   }
-  for (const double length :
-       {s.motion.contacts.reach, s.motion.contacts.travel, s.control.last_displacement}) {
+  for (const double length : {s.motion.contacts.reach, s.motion.contacts.reach_behind,
+                              s.motion.contacts.travel, s.control.last_displacement}) {
     if (!(length >= 0.0 && length <= extent)) return j.refuse("a length is out of range");
   }
 }

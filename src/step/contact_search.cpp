@@ -22,7 +22,7 @@ void place_all(Simulation& sim) {
   });
 }
 
-void search(Simulation& sim, double reach) {
+void search(Simulation& sim, const Reach& reach) {
   if (sim.leapfrog.tiled.loaded && steps_in_tiles(sim)) return search_in_tiles(sim, reach);
   const BlockSet& blocks = sim.scene->blocks;
   State& state = sim.motion.state;
@@ -30,7 +30,7 @@ void search(Simulation& sim, double reach) {
   LawTable& laws = sim.motion.laws;
   FaceSet& contacts = faces_to_change(sim);
   if (sim.scene->at_points()) {
-    find_points(sim.motion.point_contacts, blocks, state, pose, laws, reach);
+    find_points(sim.motion.point_contacts, blocks, state, pose, laws, reach.apart);
     State of_no_faces;
     of_no_faces.alive.assign(blocks.size(), 0);
     find_faces(contacts, blocks, of_no_faces, pose, laws, reach);
@@ -56,14 +56,12 @@ void reevaluate_faces(Simulation& sim) {
   }
 }
 
-/// Distance (m) that edges which are not in the list must keep. Two blocks that overlap by a
-/// closure d overlap by d over the sine of a corner behind the next edge, of corners down to 30
-/// degrees by 2 d; and edges that overlap by L do not act while they lie more than L over
-/// aspect_from behind each other.
-double distance_to_keep(const Simulation& sim) {
-  if (sim.scene->at_points()) return 0.0;
+/// How far edges that lie behind each other may overlap along each other, m: where two blocks
+/// penetrate each other by a closure d, by d over the sine of a corner beside the next edge, of
+/// corners down to 30 degrees by 2 d.
+double overlap_of_next_edges(const Simulation& sim) {
   constexpr double per_sine = 2.0;
-  return per_sine * sim.accounts.penetration / aspect_from;
+  return sim.scene->at_points() ? 0.0 : per_sine * sim.accounts.penetration;
 }
 
 bool list_is_due(Simulation& sim) {
@@ -71,9 +69,9 @@ bool list_is_due(Simulation& sim) {
   StepControl& control = sim.control;
   // What two vertices may approach each other by before the next check, m.
   const double ahead = 2.0 * sim.stepper->ahead(sim);
-  const double reach = contacts.reach - distance_to_keep(sim);
   contacts.travel += 2.0 * control.last_displacement;
-  if (contacts.travel + ahead <= reach) return false;
+  if (overlap_of_next_edges(sim) > contacts.reach_behind) return true;
+  if (contacts.travel + ahead <= contacts.reach) return false;
   // The sum of displacements is an upper bound; the positions decide.
   contacts.travel = largest_approach(control.neighbours, sim.scene->blocks, sim.motion.state,
                                      sim.motion.pose, standing_of(contacts));
@@ -81,14 +79,14 @@ bool list_is_due(Simulation& sim) {
     control.last_displacement = std::numeric_limits<double>::infinity();  // inspect() ends the run
     return false;
   }
-  return contacts.travel + sim.stepper->margin * ahead > reach;
+  return contacts.travel + sim.stepper->margin * ahead > contacts.reach;
 }
 
 void search_if_due(Simulation& sim) {
   if (!list_is_due(sim)) return;
-  const double reach = std::max(
-      {sim.scene->base_reach, 20.0 * sim.control.last_displacement, 1.5 * distance_to_keep(sim)});
-  search(sim, reach);
+  const double reach = std::max(sim.scene->base_reach, 20.0 * sim.control.last_displacement);
+  // What blocks penetrate each other by may grow before the next list.
+  search(sim, {reach, std::max(0.25 * reach, 1.5 * overlap_of_next_edges(sim))});
   set_limit(sim);
 }
 

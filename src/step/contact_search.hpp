@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contacts/evaluate_faces.hpp"
+#include "contacts/near_edges.hpp"
 
 namespace edda {
 
@@ -16,8 +17,8 @@ void place_all(Simulation& sim);
 void sum_face_forces(Simulation& sim);
 /// Evaluates the faces at n again, after a change of their strength.
 void reevaluate_faces(Simulation& sim);
-/// Makes the list of all possible contacts within `reach` (m).
-void search(Simulation& sim, double reach);
+/// Makes the list of all possible contacts within this reach.
+void search(Simulation& sim, const Reach& reach);
 /// After each step: renews the list and the bound of the step where that is due.
 void search_if_due(Simulation& sim);
 

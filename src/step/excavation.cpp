@@ -52,7 +52,7 @@ void excavate(Simulation& sim, const std::vector<Index>& openings) {
   for (const Index o : going)
     sim.attached.loads.remaining[static_cast<std::size_t>(o)] = {0.0, 1.0, state.time};
   keep(sim, on_walls);
-  search(sim, sim.motion.contacts.reach);
+  search(sim, {sim.motion.contacts.reach, sim.motion.contacts.reach_behind});
   sim.accounts.external_work += total_energy(sim) - energy;
 }
 

@@ -296,7 +296,7 @@ std::vector<std::uint8_t> faces_that_carry(const FaceTiles& t) {
 
 }  // namespace
 
-void search_in_tiles(Simulation& sim, double reach) {
+void search_in_tiles(Simulation& sim, const Reach& reach) {
   TiledFaces& own = sim.leapfrog.tiled;
   Motion& motion = sim.motion;
   const BlockSet& b = sim.scene->blocks;

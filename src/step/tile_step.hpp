@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "contacts/near_edges.hpp"
 #include "contacts/tile_sweep.hpp"
 
 namespace edda {
@@ -47,7 +48,7 @@ void switch_in_tiles(Simulation& sim, const StepTaken& taken);
 double largest_closure(const TiledFaces& tiled);
 
 /// Makes a new list of the faces, which remain in tiles.
-void search_in_tiles(Simulation& sim, double reach);
+void search_in_tiles(Simulation& sim, const Reach& reach);
 
 /// Brings the rows of the faces up to date.
 void update_face_rows(Simulation& sim);
