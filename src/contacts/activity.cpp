@@ -31,6 +31,23 @@ bool lies_in(const BlockSet& b, const Pose& pose, Vec2 p, Id block) {
   return inside_of(b, pose, p, block).depth > 0.0;
 }
 
+/// A face whose edges begin to overlap while they lie behind each other begins with a closure of
+/// twice the overlap. The corners of the two blocks are then beside each other, and where the next
+/// edges are inclined by more than 14 degrees the points where the face would press are not yet
+/// inside. They may be outside by this part of the closure. Of the far sides of two thin blocks one
+/// is always outside by half of the closure or more, which is the thickness of both.
+constexpr double still_outside = 0.4;
+
+/// Whether the points at the centre of pressure lie in the other block, or nearly so.
+bool presses_inside(const FaceSet& c, const BlockSet& b, const Pose& pose, const FacePoints& at,
+                    const Face& face, std::size_t k) {
+  if (std::max(face.closure.a, face.closure.b) <= 0.0) return false;
+  const Opposite p = opposite_at(at, face, centre_of_pressure(face.closure.a, face.closure.b));
+  const double outside = still_outside * norm(p.on_facing - p.on_edge);
+  return inside_of(b, pose, p.on_facing, b.vertex_block[c.edge[k]]).depth > -outside &&
+         inside_of(b, pose, p.on_edge, b.vertex_block[c.facing[k]]).depth > -outside;
+}
+
 /// Calls visit(i) for the blocks that face block j, until one of the calls returns true.
 template <class Visit>
 bool any_neighbour(const FaceSet& c, const BlockSet& b, Id j, Visit visit) {
@@ -100,11 +117,7 @@ bool decide_activity(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_
   if (closure <= c.noise) {
     c.acts[k] = 1.0;
   } else if (c.before.gate[k] == 0.0) {
-    const Opposite p = opposite_at(at, face, centre_of_pressure(face.closure.a, face.closure.b));
-    const bool inside = std::max(face.closure.a, face.closure.b) > 0.0 &&
-                        lies_in(b, pose, p.on_facing, b.vertex_block[c.edge[k]]) &&
-                        lies_in(b, pose, p.on_edge, b.vertex_block[c.facing[k]]);
-    c.acts[k] = inside ? 1.0 : 0.0;
+    c.acts[k] = presses_inside(c, b, pose, at, face, k) ? 1.0 : 0.0;
   }
   return verdict() != before;
 }

@@ -12,8 +12,8 @@ struct OnTheWay {
   FacePoints at, pace;
   double steps, margin;
 
-  /// Least value of n . (b - a) on the way, n of length 1: on straight paths that of the beginning or
-  /// of the end.
+  /// Least value of n . (b - a) on the way, n of length 1: on straight paths that of the beginning
+  /// or of the end.
   EDDA_INLINE double least_along(Vec2 n, Vec2 FacePoints::*b, Vec2 FacePoints::*a) const {
     const Vec2 w = at.*b - at.*a, end = w + steps * (pace.*b - pace.*a);
     return smaller(dot(n, w), dot(n, end)) - 2.0 * margin;
@@ -35,9 +35,9 @@ struct OnTheWay {
 /// remains so; or it was open and remains so, and the surfaces apart. With the length |g| of E - F,
 /// both edges over their lengths, the sine of the angle by which the frame turns is at most that by
 /// which g changes, over |g|; so a vector along t changes by its length times about that beside its
-/// own change. The edges do not overlap as long as p2 lies before q2 along t, or q1 before p1. Where
-/// all of f lies beyond all of e along n, their surfaces stay apart as long as n turns by less than
-/// a right angle.
+/// own change. The edges do not overlap as long as p2 lies before q2 along t, or q1 before p1.
+/// Where all of f lies beyond all of e along n, their surfaces stay apart as long as n turns by
+/// less than a right angle.
 EDDA_INLINE bool stays_as_it_is(const ChunkColumns& c, const FacePair& pair, const EdgeGeometry& o,
                                 std::size_t k, const OnTheWay& way) {
   using P = FacePoints;
@@ -56,9 +56,9 @@ EDDA_INLINE bool stays_as_it_is(const ChunkColumns& c, const FacePair& pair, con
   const bool opposed = firm & (faces_by - stretch * change > 0.0) & goes_along(&P::p2, &P::p1) &
                        goes_along(&P::q1, &P::q2) & goes_along(&P::p2, &P::q2) &
                        goes_along(&P::q1, &P::p1);
-  const double gap = smaller(
-      smaller(way.least_along(n, &P::q1, &P::p1), way.least_along(n, &P::q1, &P::p2)),
-      smaller(way.least_along(n, &P::q2, &P::p1), way.least_along(n, &P::q2, &P::p2)));
+  const double gap =
+      smaller(smaller(way.least_along(n, &P::q1, &P::p1), way.least_along(n, &P::q1, &P::p2)),
+              smaller(way.least_along(n, &P::q2, &P::p1), way.least_along(n, &P::q2, &P::p2)));
   const double locked = positive_part(larger(pair.offset.a, pair.offset.b));
   const bool open = opposed & (gap > locked) & (pair.stiffness > 0.0);
   const bool loose = (c.bonded[k] == 0.0) & (pair.carries_tension == 0.0);

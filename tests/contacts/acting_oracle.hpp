@@ -1,7 +1,7 @@
 // Which faces act, from its definition in docs/contacts.md alone: edges are opposed and overlap, a
 // face that comes into being acts if it is open or if the points where it would press lie inside
-// both blocks, otherwise once it is open; its corner leans if no third block lies beside it. Only
-// the corners are shared with the program.
+// both blocks, or outside by no more than 0.4 of the closure, otherwise once it is open; its corner
+// leans if no third block lies beside it. Only the corners are shared with the program.
 #pragma once
 
 #include <map>
@@ -163,8 +163,9 @@ class ActingOracle {
     const double in_edge = depth_of(b, pose, s.on_facing, b.vertex_block[c.edge[k]]);
     // Corners that pass each other move the ends inward a little.
     const double near = rounding_ + 0.1 * closure;
-    if (std::min(in_facing, in_edge) > near) return Decision::acts;
-    return std::min(in_facing, in_edge) < -near ? Decision::inactive : Decision::unknown;
+    const double depth = std::min(in_facing, in_edge) + 0.4 * norm(s.on_facing - s.on_edge);
+    if (depth > near) return Decision::acts;
+    return depth < -near ? Decision::inactive : Decision::unknown;
   }
 
   /// Searches all blocks, whereas the program searches those of the faces in its list.
