@@ -31,21 +31,36 @@ bool lies_in(const BlockSet& b, const Pose& pose, Vec2 p, Id block) {
   return inside_of(b, pose, p, block).depth > 0.0;
 }
 
-/// A face whose edges begin to overlap while they lie behind each other begins with a closure of
-/// twice the overlap. The corners of the two blocks are then beside each other, and where the next
-/// edges are inclined by more than 14 degrees the points where the face would press are not yet
-/// inside. They may be outside by this part of the closure. Of the far sides of two thin blocks one
-/// is always outside by half of the closure or more, which is the thickness of both.
-constexpr double still_outside = 0.4;
+/// Whether the corner that bounds an end of the overlap lies in the other block, by a tenth of the
+/// closure at least.
+bool a_corner_lies_inside(const FaceSet& c, const BlockSet& b, const Pose& pose,
+                          const FacePoints& at, const Face& face, std::size_t k) {
+  constexpr double least = 0.1;
+  const Id of_edge = b.vertex_block[c.edge[k]], of_facing = b.vertex_block[c.facing[k]];
+  const auto lies = [&](bool of_first, Vec2 p, Vec2 q, double closure) {
+    const double depth =
+        of_first ? inside_of(b, pose, p, of_facing).depth : inside_of(b, pose, q, of_edge).depth;
+    return closure > 0.0 && depth > least * closure;
+  };
+  return lies(face.of_first.a >= 0.5, at.p1, at.q2, face.closure.a) ||
+         lies(face.of_first.b >= 0.5, at.p2, at.q1, face.closure.b);
+}
 
-/// Whether the points at the centre of pressure lie in the other block, or nearly so.
+/// Whether the points at the centre of pressure lie in the other block. A face whose edges begin to
+/// overlap while they lie behind each other, as where a corner sinks past a corner, begins with a
+/// closure of twice the overlap, and where the next edges are inclined by more than some 14 degrees
+/// these points are not inside yet: they may be outside by a part of the closure if a corner is
+/// inside. Of the far sides of two thin blocks one is outside by half of the closure, which is the
+/// thickness of both.
 bool presses_inside(const FaceSet& c, const BlockSet& b, const Pose& pose, const FacePoints& at,
                     const Face& face, std::size_t k) {
   if (std::max(face.closure.a, face.closure.b) <= 0.0) return false;
   const Opposite p = opposite_at(at, face, centre_of_pressure(face.closure.a, face.closure.b));
-  const double outside = still_outside * norm(p.on_facing - p.on_edge);
-  return inside_of(b, pose, p.on_facing, b.vertex_block[c.edge[k]]).depth > -outside &&
-         inside_of(b, pose, p.on_edge, b.vertex_block[c.facing[k]]).depth > -outside;
+  const double depth = std::min(inside_of(b, pose, p.on_facing, b.vertex_block[c.edge[k]]).depth,
+                                inside_of(b, pose, p.on_edge, b.vertex_block[c.facing[k]]).depth);
+  constexpr double still_outside = 0.4;
+  return depth > 0.0 || (depth > -still_outside * norm(p.on_facing - p.on_edge) &&
+                         a_corner_lies_inside(c, b, pose, at, face, k));
 }
 
 /// Calls visit(i) for the blocks that face block j, until one of the calls returns true.

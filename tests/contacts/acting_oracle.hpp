@@ -1,7 +1,8 @@
 // Which faces act, from its definition in docs/contacts.md alone: edges are opposed and overlap, a
 // face that comes into being acts if it is open or if the points where it would press lie inside
-// both blocks, or outside by no more than 0.4 of the closure, otherwise once it is open; its corner
-// leans if no third block lies beside it. Only the corners are shared with the program.
+// both blocks, or outside by no more than 0.4 of the closure while a corner that bounds the overlap
+// lies in the other block by a tenth of the closure, otherwise once it is open; its corner leans if
+// no third block lies beside it. Only the corners are shared with the program.
 #pragma once
 
 #include <map>
@@ -42,6 +43,10 @@ struct EdgesFacing {
   double a = 0.0, b = 0.0;  ///< closures at its ends, m
   Vec2 beside;  ///< point between both, a tenth of the overlap from the end of larger closure
   Vec2 on_edge, on_facing;  ///< points of each at the centre of pressure
+  struct Bound {
+    Vec2 corner;
+    bool of_edge = true;  ///< it is a corner of `edge`, not of `facing`
+  } at_a, at_b;           ///< the corners that bound the overlap
   double closure() const { return std::max(a, b); }
 };
 
@@ -55,6 +60,8 @@ inline EdgesFacing edges_facing(const BlockSet& b, const Pose& pose, Id e, Id f)
   const Vec2 t = unit(unit(p2 - p1) - unit(q2 - q1)), n{t.y, -t.x};
   const double end = dot(p2 - p1, t), from = dot(q2 - p1, t), to = dot(q1 - p1, t);
   const double sa = std::max(0.0, from), sb = std::min(end, to);
+  s.at_a = from <= 0.0 ? EdgesFacing::Bound{p1, true} : EdgesFacing::Bound{q2, false};
+  s.at_b = end <= to ? EdgesFacing::Bound{p2, true} : EdgesFacing::Bound{q1, false};
   s.length = sb - sa;
   if (end <= 0.0 || to <= from) s.opposed = false;
   const auto on_e = [&](double x) { return p1 + x / end * (p2 - p1); };
@@ -73,6 +80,20 @@ inline EdgesFacing edges_facing(const BlockSet& b, const Pose& pose, Id e, Id f)
   const double near = sa + (s.b >= s.a ? 0.9 : 0.1) * s.length;
   s.beside = 0.5 * (on_e(near) + on_f(near));
   return s;
+}
+
+/// How deep a corner that bounds the overlap lies in the other block, as a part of the closure
+/// there.
+inline double corner_inside(const EdgesFacing& s, const BlockSet& b, const Pose& pose, Id e, Id f) {
+  double deepest = -std::numeric_limits<double>::infinity();
+  const auto look = [&](const EdgesFacing::Bound& bound, double closure) {
+    if (closure <= 0.0) return;
+    const Id other = b.vertex_block[bound.of_edge ? f : e];
+    deepest = std::max(deepest, depth_of(b, pose, bound.corner, other) / closure);
+  };
+  look(s.at_a, s.a);
+  look(s.at_b, s.b);
+  return deepest;
 }
 
 /// Whether neither edge lies in the other block where it would press: these are far sides of two
@@ -163,9 +184,13 @@ class ActingOracle {
     const double in_edge = depth_of(b, pose, s.on_facing, b.vertex_block[c.edge[k]]);
     // Corners that pass each other move the ends inward a little.
     const double near = rounding_ + 0.1 * closure;
-    const double depth = std::min(in_facing, in_edge) + 0.4 * norm(s.on_facing - s.on_edge);
-    if (depth > near) return Decision::acts;
-    return depth < -near ? Decision::inactive : Decision::unknown;
+    const double depth = std::min(in_facing, in_edge);
+    const double deep_enough = depth + 0.4 * norm(s.on_facing - s.on_edge);
+    const double corner = corner_inside(s, b, pose, c.edge[k], c.facing[k]) - 0.1;
+    constexpr double corner_near = 0.05;
+    if (depth > near || (deep_enough > near && corner > corner_near)) return Decision::acts;
+    const bool outside = depth < -near && (deep_enough < -near || corner < -corner_near);
+    return outside ? Decision::inactive : Decision::unknown;
   }
 
   /// Searches all blocks, whereas the program searches those of the faces in its list.

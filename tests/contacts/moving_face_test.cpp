@@ -176,10 +176,10 @@ TEST(MovingFace, DashpotsAreThePartOfCriticalAskedFor) {
 }
 
 /// A face that carries stays in the list, although its corners lie deeper than the list reaches.
-/// The lower right corner of a block comes over the upper left corner of a base, twice as far to the
-/// side as down, and then sinks. The top of the base and the bottom of the block overlap too little
-/// for that to carry, so that the side of the base must hold the block, however inclined its bottom
-/// is: nothing else would.
+/// The lower right corner of a block comes over the upper left corner of a base, twice as far to
+/// the side as down, and then sinks. The top of the base and the bottom of the block overlap too
+/// little for that to carry, so that the side of the base must hold the block, however inclined its
+/// bottom is: nothing else would.
 TEST(MovingFace, ACornerThatSinksPastACornerIsHeldByTheSide) {
   for (const double degrees : {5.0, 10.0, 20.0, 30.0}) {
     const double rise = std::tan(degrees / 180.0 * std::numbers::pi);
