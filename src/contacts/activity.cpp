@@ -31,36 +31,53 @@ bool lies_in(const BlockSet& b, const Pose& pose, Vec2 p, Id block) {
   return inside_of(b, pose, p, block).depth > 0.0;
 }
 
-/// Whether the corner that bounds an end of the overlap lies in the other block, by a tenth of the
-/// closure at least.
-bool a_corner_lies_inside(const FaceSet& c, const BlockSet& b, const Pose& pose,
-                          const FacePoints& at, const Face& face, std::size_t k) {
-  constexpr double least = 0.1;
-  const Id of_edge = b.vertex_block[c.edge[k]], of_facing = b.vertex_block[c.facing[k]];
-  const auto lies = [&](bool of_first, Vec2 p, Vec2 q, double closure) {
-    const double depth =
-        of_first ? inside_of(b, pose, p, of_facing).depth : inside_of(b, pose, q, of_edge).depth;
-    return closure > 0.0 && depth > least * closure;
-  };
-  return lies(face.of_first.a >= 0.5, at.p1, at.q2, face.closure.a) ||
-         lies(face.of_first.b >= 0.5, at.p2, at.q1, face.closure.b);
+/// Depths in the other block of the points at the centre of pressure of a closed face, m.
+struct PressedDepths {
+  double of_edge, of_facing;  ///< of the point of `edge`, and that of `facing`
+};
+PressedDepths pressed_depths(const FaceSet& c, const BlockSet& b, const Pose& pose,
+                             const FacePoints& at, const Face& face, std::size_t k) {
+  const Opposite p = opposite_at(at, face, centre_of_pressure(face.closure.a, face.closure.b));
+  return {inside_of(b, pose, p.on_edge, b.vertex_block[c.facing[k]]).depth,
+          inside_of(b, pose, p.on_facing, b.vertex_block[c.edge[k]]).depth};
 }
 
-/// Whether the points at the centre of pressure lie in the other block. A face whose edges begin to
-/// overlap while they lie behind each other, as where a corner sinks past a corner, begins with a
-/// closure of twice the overlap, and where the next edges are inclined by more than some 14 degrees
-/// these points are not inside yet: they may be outside by a part of the closure if a corner is
-/// inside. Of the far sides of two thin blocks one is outside by half of the closure, which is the
-/// thickness of both.
+/// The corner that bounds an end of the overlap.
+struct BoundingCorner {
+  bool of_edge;  ///< of `edge`, not of `facing`
+  double depth;  ///< in the other block, m
+};
+std::array<BoundingCorner, 2> bounding_corners(const FaceSet& c, const BlockSet& b,
+                                               const Pose& pose, const FacePoints& at,
+                                               const Face& face, std::size_t k) {
+  const auto corner = [&](double of_first, Vec2 p, Vec2 q) {
+    const bool of_edge = of_first >= 0.5;
+    const Id other = b.vertex_block[of_edge ? c.facing[k] : c.edge[k]];
+    return BoundingCorner{of_edge, inside_of(b, pose, of_edge ? p : q, other).depth};
+  };
+  return {corner(face.of_first.a, at.p1, at.q2), corner(face.of_first.b, at.p2, at.q1)};
+}
+
+/// Whether the blocks overlap where the face presses, and not between the far sides of two thin
+/// blocks: the points at the centre of pressure lie in the other block; or a corner that bounds the
+/// overlap does, by a tenth of the closure. The corner counts where edges begin to overlap while
+/// they lie behind each other, as where a corner sinks past a corner, and the edges beside are so
+/// inclined that the points of pressure are not inside yet. Where those of both blocks are, the
+/// corners may not be, either: two corners that begin to pass each other may both be outside by a
+/// little. That they begin to is seen from the closure, which is twice the overlap when the aspect
+/// gate opens, and small.
 bool presses_inside(const FaceSet& c, const BlockSet& b, const Pose& pose, const FacePoints& at,
                     const Face& face, std::size_t k) {
-  if (std::max(face.closure.a, face.closure.b) <= 0.0) return false;
-  const Opposite p = opposite_at(at, face, centre_of_pressure(face.closure.a, face.closure.b));
-  const double depth = std::min(inside_of(b, pose, p.on_facing, b.vertex_block[c.edge[k]]).depth,
-                                inside_of(b, pose, p.on_edge, b.vertex_block[c.facing[k]]).depth);
-  constexpr double still_outside = 0.4;
-  return depth > 0.0 || (depth > -still_outside * norm(p.on_facing - p.on_edge) &&
-                         a_corner_lies_inside(c, b, pose, at, face, k));
+  const double closure = std::max(face.closure.a, face.closure.b);
+  if (closure <= 0.0) return false;
+  const PressedDepths pressed = pressed_depths(c, b, pose, at, face, k);
+  if (std::min(pressed.of_edge, pressed.of_facing) > 0.0) return true;
+  const auto corners = bounding_corners(c, b, pose, at, face, k);
+  const auto [least, most] = std::minmax(corners[0].depth, corners[1].depth);
+  constexpr double inside = 0.1, outside = 0.3, begins = 1.5;  // parts of the closure, overlaps
+  const bool begin_to_pass = corners[0].of_edge != corners[1].of_edge &&
+                             closure > begins * face.length && closure < c.passing[k];
+  return most > inside * closure || (begin_to_pass && least > -outside * closure);
 }
 
 /// Calls visit(i) for the blocks that face block j, until one of the calls returns true.
@@ -135,6 +152,14 @@ bool decide_activity(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_
     c.acts[k] = presses_inside(c, b, pose, at, face, k) ? 1.0 : 0.0;
   }
   return verdict() != before;
+}
+
+bool overlap_where_pressed(const FaceSet& c, const BlockSet& b, const Pose& pose, const Face& face,
+                           std::size_t k) {
+  if (std::max(face.closure.a, face.closure.b) <= 0.0) return false;
+  const PressedDepths depth =
+      pressed_depths(c, b, pose, face_points(c, pose.x, pose.y, k), face, k);
+  return std::max(depth.of_edge, depth.of_facing) > 0.0;
 }
 
 }  // namespace edda

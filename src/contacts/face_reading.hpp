@@ -47,22 +47,6 @@ inline double narrower_radius(const BlockSet& b, const FaceSet& f, std::size_t k
   return std::min(b.inradius[block_of_edge(b, f, k)], b.inradius[block_of_facing(b, f, k)]);
 }
 
-/// The face with the largest ratio of closure to the inscribed radius of the narrower block; ratio
-/// 0: no face is closed.
-struct DeepestFace {
-  std::size_t face = 0;
-  double ratio = 0.0;
-};
-inline DeepestFace deepest_face(const FaceSet& f, const BlockSet& b) {
-  DeepestFace deepest;
-  for (std::size_t k = 0; k < f.size(); ++k) {
-    if (!(f.now.energy[k] > 0.0)) continue;
-    const double radius = narrower_radius(b, f, k);
-    if (closure_of(f, k) > deepest.ratio * radius) deepest = {k, closure_of(f, k) / radius};
-  }
-  return deepest;
-}
-
 /// Normal force, N, positive in compression; shear force, N, positive where it drives the block of
 /// `facing` along the edge.
 inline double normal_force(const FaceSet& f, std::size_t k) {

@@ -13,6 +13,7 @@
 #include "observe/summary.hpp"
 #include "run/wall_clock.hpp"
 #include "step/energy_balance.hpp"
+#include "step/faces_now.hpp"
 #include "step/labels.hpp"
 #include "step/step.hpp"
 
@@ -271,7 +272,7 @@ bool Driver::record(const Event& event) {
   update_face_rows(sim_);
   count_revolutions(sim_, angle_);
   measure_overlaps();
-  outcome_.overlap_now = deepest_face(sim_.motion.contacts, sim_.scene->blocks).ratio;
+  outcome_.overlap_now = deepest_now(sim_, 0.0).ratio;
   const Instant& instant = look();
   bool fine = true;
   if (event.row) {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "contacts/face_reading.hpp"
 #include "step/labels.hpp"
 
 namespace edda {
@@ -18,26 +17,6 @@ std::string cause(const StepInUse& step, const char* otherwise) {
                        step.step, step.step / step.critical);
   }
   return otherwise;
-}
-
-/// The overlap is reported for the block that is free, or for the smaller one, inside the other.
-Failure overlap_of(Id one, Id other, double depth, Vec2 place, const BlockSet& b, const State& s,
-                   const StepInUse& step) {
-  const auto weight = [&](Id i) {
-    return b.fixed[i] != 0 ? std::numeric_limits<double>::infinity() : b.area[i];
-  };
-  const Id i = weight(one) <= weight(other) ? one : other, j = i == one ? other : one;
-  Failure f;
-  f.time = s.time;
-  f.block = i;
-  f.place = place + b.origin;
-  f.message = fmt::format(
-      "{} is {:.3g} m inside {}, more than half the size of the smaller: {}", block_label(b, i),
-      depth, block_label(b, j),
-      cause(step,
-            "contacts are too soft for these loads or velocities: raise contact.normal_stiffness "
-            "(or the joint's kn), or lower solver.max_displacement_ratio"));
-  return f;
 }
 
 }  // namespace
@@ -61,18 +40,24 @@ Failure lost_block(const BlockSet& b, const State& s, const Pose& pose, const No
   return f;
 }
 
-std::optional<Failure> deep_overlap(const FaceSet& c, const BlockSet& b, const State& s,
-                                    const Pose& pose, double largest, double smallest_half_width,
-                                    const StepInUse& step) {
-  if (largest <= smallest_half_width) return std::nullopt;
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    const Id of[2] = {block_of_edge(b, c, k), block_of_facing(b, c, k)};
-    const double depth = closure_of(c, k);
-    if (!(c.now.energy[k] > 0.0) || depth <= std::min(b.inradius[of[0]], b.inradius[of[1]]))
-      continue;
-    return overlap_of(of[0], of[1], depth, deeper_end(c, pose, k), b, s, step);
-  }
-  return std::nullopt;
+// The overlap is reported for the block that is free, or for the smaller one, inside the other.
+Failure deep_overlap(Id one, Id other, double depth, Vec2 place, const BlockSet& b, const State& s,
+                     const StepInUse& step) {
+  const auto weight = [&](Id i) {
+    return b.fixed[i] != 0 ? std::numeric_limits<double>::infinity() : b.area[i];
+  };
+  const Id i = weight(one) <= weight(other) ? one : other, j = i == one ? other : one;
+  Failure f;
+  f.time = s.time;
+  f.block = i;
+  f.place = place + b.origin;
+  f.message = fmt::format(
+      "{} is {:.3g} m inside {}, more than half the size of the smaller: {}", block_label(b, i),
+      depth, block_label(b, j),
+      cause(step,
+            "contacts are too soft for these loads or velocities: raise contact.normal_stiffness "
+            "(or the joint's kn), or lower solver.max_displacement_ratio"));
+  return f;
 }
 
 std::optional<Failure> deep_overlap(const PointSet& c, const BlockSet& b, const State& s,
@@ -83,7 +68,7 @@ std::optional<Failure> deep_overlap(const PointSet& c, const BlockSet& b, const 
     const Id i = b.vertex_block[c.vertex[k]], j = b.vertex_block[c.edge[k]];
     const double depth = gap_of(c, b, pose, k).depth;
     if (c.closed[k] > 0.0 && depth > std::min(b.inradius[i], b.inradius[j]))
-      return overlap_of(i, j, depth, at(pose.x, pose.y, c.vertex[k]), b, s, step);
+      return deep_overlap(i, j, depth, at(pose.x, pose.y, c.vertex[k]), b, s, step);
   }
   return std::nullopt;
 }

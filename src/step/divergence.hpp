@@ -9,7 +9,6 @@
 #include "blocks/block_set.hpp"
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
-#include "contacts/face_set.hpp"
 #include "contacts/points.hpp"
 #include "forces/nodal_forces.hpp"
 #include "model/model.hpp"
@@ -34,14 +33,14 @@ struct StepInUse {
 Failure lost_block(const BlockSet& blocks, const State& state, const Pose& pose,
                    const NodalForces& forces, const StepInUse& step);
 
-/// A face that carries load and whose closure at one of its ends exceeds the half-width of either
-/// of its blocks (BlockSet::inradius), if there is one. `largest`: largest closure at present, m;
-/// faces are checked only where it exceeds `smallest_half_width`.
-std::optional<Failure> deep_overlap(const FaceSet& contacts, const BlockSet& blocks,
-                                    const State& state, const Pose& pose, double largest,
-                                    double smallest_half_width, const StepInUse& step);
+/// Two blocks overlap by `depth` (m) at `place` (local coordinates), more than the half-width of
+/// the smaller.
+Failure deep_overlap(Id one, Id other, double depth, Vec2 place, const BlockSet& blocks,
+                     const State& state, const StepInUse& step);
 
-/// The same for point contacts.
+/// A point contact that carries load and whose penetration exceeds the half-width of either of its
+/// blocks (BlockSet::inradius), if there is one. `largest`: largest penetration at present, m;
+/// contacts are checked only where it exceeds `smallest_half_width`.
 std::optional<Failure> deep_overlap(const PointSet& contacts, const BlockSet& blocks,
                                     const State& state, const Pose& pose, double largest,
                                     double smallest_half_width, const StepInUse& step);

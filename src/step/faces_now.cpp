@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "contacts/activity.hpp"
 #include "contacts/evaluate_faces.hpp"
 #include "contacts/face_reading.hpp"
 #include "contacts/tile_columns.hpp"
@@ -25,6 +26,18 @@ double pressure_of_dashpots(const Simulation& sim, std::size_t k) {
   if (!t.has_dashpots() || place == no_id) return 0.0;
   const auto memory = get<DashpotMemoryColumns<double>>(t.dashpots[t.now], place);
   return memory.damping_a + memory.damping_b;
+}
+
+/// Rows whose ratio is larger than `above`, where they are up to date.
+std::vector<Id> faces_that_exceed(const Simulation& sim, double above) {
+  const FaceSet& c = sim.motion.contacts;
+  std::vector<Id> found;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (c.now.energy[k] > 0.0 &&
+        closure_of(c, k) > above * narrower_radius(sim.scene->blocks, c, k))
+      found.push_back(static_cast<Id>(k));
+  }
+  return found;
 }
 
 /// Rows in tiles, ascending, whose ratio may be larger than `above`: of a chunk the tiles know an
@@ -60,17 +73,14 @@ DeepestNow deepest_now(const Simulation& sim, double above) {
   const FaceSet& c = sim.motion.contacts;
   const BlockSet& b = sim.scene->blocks;
   const Pose& pose = sim.motion.pose;
-  std::vector<Id> among;
-  if (sim.leapfrog.tiled.ahead) {
-    among = faces_that_may_exceed(sim, above);
-  } else if (const DeepestFace deepest = deepest_face(c, b); deepest.ratio > 0.0) {
-    among = {static_cast<Id>(deepest.face)};
-  }
+  const std::vector<Id> among =
+      sim.leapfrog.tiled.ahead ? faces_that_may_exceed(sim, above) : faces_that_exceed(sim, above);
   DeepestNow deepest;
   for (const Id k : among) {
     const Face face = face_now(sim, k);
     const double depth = drawn_closure(c, face.closure, k), radius = narrower_radius(b, c, k);
     if (!(face.energy > 0.0) || !(depth > std::max(above, deepest.ratio) * radius)) continue;
+    if (!overlap_where_pressed(c, b, pose, face, k)) continue;
     const FacePoints at = face_points(c, pose.x, pose.y, k);
     deepest = {k, depth / radius, depth, deeper_end(at, face.closure, face.xi, face.eta)};
   }

@@ -14,7 +14,8 @@ struct Simulation;
 /// not closed.
 double normal_force_now(const Simulation& sim, std::size_t k);
 
-/// The face with the largest ratio of closure to the inscribed radius of the narrower block.
+/// Where blocks overlap most: the face with the largest ratio of closure to the inscribed radius of
+/// the narrower block, of those at which they overlap (overlap_where_pressed()).
 struct DeepestNow {
   std::size_t face = 0;
   double ratio = 0.0;  ///< 0: none is above the limit

@@ -294,7 +294,6 @@ std::optional<Failure> step_leapfrog(Simulation& sim) {
   search_if_due(sim);
   adjust_step(sim);
   clock.lap(seconds.search);
-  if (sim.accounts.penetration > sim.scene->smallest_half_width) update_face_rows(sim);
   return inspect(sim);
 }
 

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "contacts/face_reading.hpp"
+#include "step/faces_now.hpp"
 #include "step/instant.hpp"
 #include "step/invariants.hpp"
 #include "step/simulation.hpp"
@@ -75,8 +77,13 @@ std::optional<Failure> inspect(const Simulation& sim) {
   if (sim.scene->at_points())
     return deep_overlap(sim.motion.point_contacts, blocks, state, pose, sim.accounts.penetration,
                         sim.scene->smallest_half_width, step_in_use(sim));
-  return deep_overlap(sim.motion.contacts, blocks, state, pose, sim.accounts.penetration,
-                      sim.scene->smallest_half_width, step_in_use(sim));
+  if (sim.accounts.penetration <= sim.scene->smallest_half_width) return std::nullopt;
+  const DeepestNow deepest = deepest_now(sim, 1.0);
+  if (deepest.ratio == 0.0) return std::nullopt;
+  const FaceSet& c = sim.motion.contacts;
+  return deep_overlap(block_of_edge(blocks, c, deepest.face),
+                      block_of_facing(blocks, c, deepest.face), deepest.depth, deepest.place,
+                      blocks, state, step_in_use(sim));
 }
 
 Failure lost(const Simulation& sim) {

@@ -179,26 +179,30 @@ TEST(MovingFace, DashpotsAreThePartOfCriticalAskedFor) {
 /// The lower right corner of a block comes over the upper left corner of a base, twice as far to
 /// the side as down, and then sinks. The top of the base and the bottom of the block overlap too
 /// little for that to carry, so that the side of the base must hold the block, however inclined its
-/// bottom is: nothing else would.
+/// bottom and the top of the base are: nothing else would. Where both are, neither corner lies in
+/// the other block when the sides begin to overlap.
+void sink_past_a_corner(double bottom, double top) {
+  const auto slope = [](double degrees) { return std::tan(degrees / 180.0 * std::numbers::pi); };
+  MovedBlocks m;
+  m.model.joints = {rough_joint(30.0)};
+  m.model.contact.normal_stiffness = m.model.contact.shear_stiffness = 1e9;
+  m.add({{0, -2}, {2, -2}, {2, -2.0 * slope(top)}, {0, 0}}, true);
+  m.add({{-1, slope(bottom)}, {0, 0}, {-0.2, 1}, {-1, 1.2}});
+  m.start(0.1);
+  m.put_still(1, {{-0.001, 0.001}});
+  constexpr double step = 1e-4;
+  Vec2 corner;
+  for (; corner.y > -0.01; corner += step * Vec2{1.9, -1.0}) m.go(1, {corner});
+  for (; corner.y > -0.05; corner.y -= step) m.go(1, {corner});
+  // The two edges of about 1 m share a spring at each end, of which they use what overlaps.
+  const double length = -corner.y, mean_closure = corner.x - 0.5 * 0.2 * length;
+  EXPECT_LT(m.force_on(1).x, -0.9 * 2e9 * length * mean_closure) << bottom << " " << top;
+  EXPECT_NEAR(m.work + m.balance(), 0.0, 0.01 * m.stored()) << bottom << " " << top;
+}
+
 TEST(MovingFace, ACornerThatSinksPastACornerIsHeldByTheSide) {
-  for (const double degrees : {5.0, 10.0, 20.0, 30.0}) {
-    const double rise = std::tan(degrees / 180.0 * std::numbers::pi);
-    MovedBlocks m;
-    m.model.joints = {rough_joint(30.0)};
-    m.model.contact.normal_stiffness = m.model.contact.shear_stiffness = 1e9;
-    m.add({{0, -2}, {2, -2}, {2, 0}, {0, 0}}, true);
-    m.add({{-1, rise}, {0, 0}, {-0.2, 1}, {-1, 1.2}});
-    m.start(0.1);
-    m.put_still(1, {{-0.001, 0.001}});
-    constexpr double step = 1e-4;
-    Vec2 corner;
-    for (; corner.y > -0.01; corner += step * Vec2{1.9, -1.0}) m.go(1, {corner});
-    for (; corner.y > -0.05; corner.y -= step) m.go(1, {corner});
-    // The two edges of about 1 m share a spring at each end, of which they use what overlaps.
-    const double length = -corner.y, mean_closure = corner.x - 0.5 * 0.2 * length;
-    EXPECT_LT(m.force_on(1).x, -0.9 * 2e9 * length * mean_closure) << degrees;
-    EXPECT_NEAR(m.work + m.balance(), 0.0, 0.01 * m.stored()) << degrees;
-  }
+  for (const double bottom : {5.0, 10.0, 20.0, 30.0}) sink_past_a_corner(bottom, 0.0);
+  for (const double top : {10.0, 20.0, 30.0}) sink_past_a_corner(30.0, top);
 }
 
 TEST(MovingFace, StaysInTheListAsLongAsItCarries) {
