@@ -176,12 +176,12 @@ TEST(MovingFace, DashpotsAreThePartOfCriticalAskedFor) {
 }
 
 /// A face that carries stays in the list, although its corners lie deeper than the list reaches.
-/// The lower right corner of a block comes over the upper left corner of a base, twice as far to
-/// the side as down, and then sinks. The top of the base and the bottom of the block overlap too
-/// little for that to carry, so that the side of the base must hold the block, however inclined its
-/// bottom and the top of the base are: nothing else would. Where both are, neither corner lies in
-/// the other block when the sides begin to overlap.
-void sink_past_a_corner(double bottom, double top) {
+/// The lower right corner of a block sinks past the upper left corner of a base, from touching it
+/// or from a place beside it. The top of the base and the bottom of the block overlap too little
+/// for that to carry, so that the side of the base must hold the block, however inclined its bottom
+/// and the top of the base are: nothing else would. Where both are, neither corner lies in the
+/// other block when the sides begin to overlap.
+void sink_past_a_corner(double bottom, double top, Vec2 corner) {
   const auto slope = [](double degrees) { return std::tan(degrees / 180.0 * std::numbers::pi); };
   MovedBlocks m;
   m.model.joints = {rough_joint(30.0)};
@@ -189,10 +189,9 @@ void sink_past_a_corner(double bottom, double top) {
   m.add({{0, -2}, {2, -2}, {2, -2.0 * slope(top)}, {0, 0}}, true);
   m.add({{-1, slope(bottom)}, {0, 0}, {-0.2, 1}, {-1, 1.2}});
   m.start(0.1);
-  m.put_still(1, {{-0.001, 0.001}});
+  m.put_still(1, {corner});
   constexpr double step = 1e-4;
-  Vec2 corner;
-  for (; corner.y > -0.01; corner += step * Vec2{1.9, -1.0}) m.go(1, {corner});
+  for (; corner.x < 0.019; corner += step * Vec2{1.9, -1.0}) m.go(1, {corner});
   for (; corner.y > -0.05; corner.y -= step) m.go(1, {corner});
   // The two edges of about 1 m share a spring at each end, of which they use what overlaps.
   const double length = -corner.y, mean_closure = corner.x - 0.5 * 0.2 * length;
@@ -201,8 +200,10 @@ void sink_past_a_corner(double bottom, double top) {
 }
 
 TEST(MovingFace, ACornerThatSinksPastACornerIsHeldByTheSide) {
-  for (const double bottom : {5.0, 10.0, 20.0, 30.0}) sink_past_a_corner(bottom, 0.0);
-  for (const double top : {10.0, 20.0, 30.0}) sink_past_a_corner(30.0, top);
+  for (const Vec2 from : {Vec2{-1e-3, 1e-3}, Vec2{0.019, 0.001}}) {
+    for (const double bottom : {5.0, 10.0, 20.0, 30.0}) sink_past_a_corner(bottom, 0.0, from);
+    for (const double top : {10.0, 20.0, 30.0}) sink_past_a_corner(30.0, top, from);
+  }
 }
 
 TEST(MovingFace, StaysInTheListAsLongAsItCarries) {
