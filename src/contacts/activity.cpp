@@ -34,38 +34,54 @@ bool lies_in(const BlockSet& b, const Pose& pose, Vec2 p, Id block) {
 /// Depths in the other block of the points at the centre of pressure of a closed face, m.
 struct PressedDepths {
   double of_edge, of_facing;  ///< of the point of `edge`, and that of `facing`
+  double between;             ///< of the point midway between them, in the block where it is deeper
 };
 PressedDepths pressed_depths(const FaceSet& c, const BlockSet& b, const Pose& pose,
                              const FacePoints& at, const Face& face, std::size_t k) {
   const Opposite p = opposite_at(at, face, centre_of_pressure(face.closure.a, face.closure.b));
-  return {inside_of(b, pose, p.on_edge, b.vertex_block[c.facing[k]]).depth,
-          inside_of(b, pose, p.on_facing, b.vertex_block[c.edge[k]]).depth};
+  const Id edge = b.vertex_block[c.edge[k]], facing = b.vertex_block[c.facing[k]];
+  const Vec2 middle = 0.5 * (p.on_edge + p.on_facing);
+  return {
+      inside_of(b, pose, p.on_edge, facing).depth, inside_of(b, pose, p.on_facing, edge).depth,
+      std::min(inside_of(b, pose, middle, edge).depth, inside_of(b, pose, middle, facing).depth)};
 }
 
-/// Depth in the other block of the deeper of the two corners that bound the overlap, m.
-double deepest_corner(const FaceSet& c, const BlockSet& b, const Pose& pose, const FacePoints& at,
-                      const Face& face, std::size_t k) {
-  const auto depth = [&](double of_first, Vec2 p, Vec2 q) {
+/// The corner that bounds an end of the overlap.
+struct BoundingCorner {
+  bool of_edge;  ///< of `edge`, not of `facing`
+  double depth;  ///< in the other block, m
+};
+std::array<BoundingCorner, 2> bounding_corners(const FaceSet& c, const BlockSet& b,
+                                               const Pose& pose, const FacePoints& at,
+                                               const Face& face, std::size_t k) {
+  const auto corner = [&](double of_first, Vec2 p, Vec2 q) {
     const bool of_edge = of_first >= 0.5;
     const Id other = b.vertex_block[of_edge ? c.facing[k] : c.edge[k]];
-    return inside_of(b, pose, of_edge ? p : q, other).depth;
+    return BoundingCorner{of_edge, inside_of(b, pose, of_edge ? p : q, other).depth};
   };
-  return std::max(depth(face.of_first.a, at.p1, at.q2), depth(face.of_first.b, at.p2, at.q1));
+  return {corner(face.of_first.a, at.p1, at.q2), corner(face.of_first.b, at.p2, at.q1)};
 }
 
-/// Whether the blocks overlap where the face presses, and not between the far sides of two thin
-/// blocks: the points at the centre of pressure lie in the other block; or a corner that bounds the
-/// overlap does, by a part of the closure. The corner counts where edges begin to overlap while
+/// Whether a face that comes into being with a closure acts: whether the blocks overlap there, and
+/// do not lie between its edges as where these are the far sides of two thin blocks. Either the
+/// points at the centre of pressure lie in the other block; or the edges begin to overlap while
 /// they lie behind each other, as where a corner sinks past a corner, and the edges beside are so
-/// inclined that the points of pressure are not inside yet.
-bool presses_inside(const FaceSet& c, const BlockSet& b, const Pose& pose, const FacePoints& at,
-                    const Face& face, std::size_t k) {
+/// inclined that these points are not inside yet. Then a corner that bounds the overlap is inside;
+/// or, where the edges beside both corners are inclined, neither is outside by much: such a face
+/// begins with a closure that is small, and twice its overlap, where the aspect gate opens.
+bool acts_from_the_start(const FaceSet& c, const BlockSet& b, const Pose& pose,
+                         const FacePoints& at, const Face& face, std::size_t k) {
   const double closure = std::max(face.closure.a, face.closure.b);
   if (closure <= 0.0) return false;
   const PressedDepths pressed = pressed_depths(c, b, pose, at, face, k);
   if (std::min(pressed.of_edge, pressed.of_facing) > 0.0) return true;
-  constexpr double inside = 0.05;
-  return deepest_corner(c, b, pose, at, face, k) > inside * closure;
+  const auto corners = bounding_corners(c, b, pose, at, face, k);
+  const auto [least, most] = std::minmax(corners[0].depth, corners[1].depth);
+  constexpr double inside = 0.05, outside = 0.3;  // parts of the closure
+  constexpr double begins = 1.5;                  // overlaps
+  const bool corners_pass = corners[0].of_edge != corners[1].of_edge &&
+                            closure > begins * face.length && closure < c.passing[k];
+  return most > inside * closure || (corners_pass && least > -outside * closure);
 }
 
 /// Calls visit(i) for the blocks that face block j, until one of the calls returns true.
@@ -137,7 +153,7 @@ bool decide_activity(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_
   if (closure <= c.noise) {
     c.acts[k] = 1.0;
   } else if (c.before.gate[k] == 0.0) {
-    c.acts[k] = presses_inside(c, b, pose, at, face, k) ? 1.0 : 0.0;
+    c.acts[k] = acts_from_the_start(c, b, pose, at, face, k) ? 1.0 : 0.0;
   }
   return verdict() != before;
 }
@@ -147,7 +163,7 @@ bool overlap_where_pressed(const FaceSet& c, const BlockSet& b, const Pose& pose
   if (std::max(face.closure.a, face.closure.b) <= 0.0) return false;
   const PressedDepths depth =
       pressed_depths(c, b, pose, face_points(c, pose.x, pose.y, k), face, k);
-  return std::max(depth.of_edge, depth.of_facing) > 0.0;
+  return std::max({depth.of_edge, depth.of_facing, depth.between}) > 0.0;
 }
 
 }  // namespace edda

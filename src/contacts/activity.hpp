@@ -8,16 +8,16 @@
 namespace edda {
 
 /// Decides those properties of face k that may change only while it stores no energy. The face acts
-/// if it comes into being open, if the points where it would press lie inside both blocks, or if a
-/// corner that bounds its overlap lies in the other block; otherwise, as with the far sides of two
+/// if it comes into being open, or the blocks overlap where it would press (docs/contacts.md);
+/// otherwise, as with the far sides of two
 /// thin blocks, which are opposed, too, it acts once it is open. Returns whether anything has
 /// changed.
 bool decide_activity(FaceSet& faces, const BlockSet& blocks, const Pose& pose, std::size_t k);
 
 /// Whether the blocks of face k, which is closed, overlap each other where it presses: the point of
-/// either edge at the centre of pressure lies in the other block. Where a corner has slid past the
-/// end of the edge on which it pressed, what is left of the face fades with the aspect gate, and
-/// its closure is no penetration.
+/// either edge at the centre of pressure lies in the other block, or that midway between in both.
+/// Where a corner has slid past the end of the edge on which it pressed, what is left of the face
+/// fades with the aspect gate, and its closure is no penetration.
 bool overlap_where_pressed(const FaceSet& faces, const BlockSet& blocks, const Pose& pose,
                            const Face& face, std::size_t k);
 

@@ -23,7 +23,7 @@ struct Records {
 };
 
 /// Four records of four numbers by columns, or four columns by records. In vectors of 32 bytes,
-/// since g++ takes longer ones apart where the processor has none.
+/// since g++ takes longer ones apart, through memory, where the processor has no such registers.
 struct FourByFour {
   Four v[4];
 };

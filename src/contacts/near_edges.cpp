@@ -12,14 +12,14 @@
 namespace edda {
 namespace {
 
-/// How much wider the reach of the stored pairs is: the wider, the more pairs are looked at for
-/// each list, and the fewer times they are found anew.
+/// How much wider than the reach of a list that of the stored pairs is: the wider, the more pairs
+/// are looked at for each list, and the fewer times they are found anew.
 constexpr double wider = 4.0;
 /// But not by more than this part of the mean length of the edges: where blocks move far in a step,
 /// the pairs would be too many.
 constexpr double most_of_edge = 0.5;
 
-double wider_reach(const BlockSet& b, Reach reach) {
+double wider_reach(const BlockSet& b, const Reach& reach) {
   double sum = 0.0;
   for (const double length : b.edge_length) sum += length;
   const double mean = sum / static_cast<double>(std::max<std::size_t>(b.edge_length.size(), 1));
@@ -101,7 +101,7 @@ constexpr std::size_t pairs_at_once = 512;
 /// Those of the pairs [begin, end) that are within reach, both blocks alive; visit(e, f).
 template <class Visit>
 void for_pairs_within(const NearEdges& known, const BlockSet& b, const State& state,
-                      const Pose& pose, Reach reach, std::size_t begin, std::size_t end,
+                      const Pose& pose, const Reach& reach, std::size_t begin, std::size_t end,
                       Visit visit) {
   double cosine[pairs_at_once];
   const EdgesView view{known.first.data(), known.second.data(), b.next.data(), pose.x.data(),
@@ -184,7 +184,7 @@ AngleGate angle_gate(const BlockSet& b, Id e, Id f) {
 }
 
 std::vector<EdgePair> edges_within(NearEdges& known, const BlockSet& b, const State& state,
-                                   const Pose& pose, Reach reach) {
+                                   const Pose& pose, const Reach& reach) {
   if (!holds(known, b, state, pose, reach))
     find_near_edges(known, b, state, pose, wider_reach(b, reach));
   const std::size_t all = known.first.size();

@@ -24,11 +24,10 @@ struct AngleGate {
 };
 AngleGate angle_gate(const BlockSet& blocks, Id e, Id f);
 
-/// Which edges are near each other. Edges of which an end of one is nearer than `apart` (m) to the
-/// other; and those which lie behind each other, hence overlap, but are farther inside each other
-/// than that: they begin to act when their overlap along each other, L, has become longer, or when
-/// they have come out so far, that they are within (aspect_from + aspect_range) L. L is no more
-/// than the blocks penetrate each other there, over the sine of the corner: `behind` (m) at most.
+/// Which edges are near each other: those of which an end of one is nearer than `apart` (m) to the
+/// other. Edges that lie behind each other act when they are within (aspect_from + aspect_range)
+/// times their overlap along each other, which is `behind` (m) at most; they are near from so much
+/// farther on.
 struct Reach {
   double apart;
   double behind = 0.0;
@@ -49,10 +48,9 @@ struct NearEdges {
   NeighbourGroups groups;
 };
 
-/// All pairs of edges of two blocks, both alive and not both fixed, that are
-/// within this reach of each other and may be opposed before any vertex has moved by half of
-/// `apart`; sorted.
+/// All pairs of edges of two blocks, both alive and not both fixed, that are within this reach of
+/// each other and may be opposed before any vertex has moved by half of `apart`; sorted.
 std::vector<EdgePair> edges_within(NearEdges& known, const BlockSet& blocks, const State& state,
-                                   const Pose& pose, Reach reach);
+                                   const Pose& pose, const Reach& reach);
 
 }  // namespace edda

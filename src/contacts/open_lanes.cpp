@@ -14,24 +14,24 @@ struct OnTheWay {
 
   /// Least value of n . (b - a) on the way, n of length 1: on straight paths that of the beginning
   /// or of the end.
-  EDDA_INLINE double least_along(Vec2 n, Vec2 FacePoints::*b, Vec2 FacePoints::*a) const {
+  EDDA_INLINE double least_along(Vec2 n, Vec2 FacePoints::*a, Vec2 FacePoints::*b) const {
     const Vec2 w = at.*b - at.*a, end = w + steps * (pace.*b - pace.*a);
     return smaller(dot(n, w), dot(n, end)) - 2.0 * margin;
   }
   /// Upper bound of the length of b - a on the way.
-  EDDA_INLINE double longest(Vec2 FacePoints::*b, Vec2 FacePoints::*a) const {
+  EDDA_INLINE double longest(Vec2 FacePoints::*a, Vec2 FacePoints::*b) const {
     const Vec2 w = at.*b - at.*a, end = w + steps * (pace.*b - pace.*a);
     return larger(std::abs(w.x), std::abs(end.x)) + larger(std::abs(w.y), std::abs(end.y)) +
            2.0 * margin;
   }
   /// Upper bound of the change of b - a on the way.
-  EDDA_INLINE double change(Vec2 FacePoints::*b, Vec2 FacePoints::*a) const {
+  EDDA_INLINE double change(Vec2 FacePoints::*a, Vec2 FacePoints::*b) const {
     const Vec2 by = pace.*b - pace.*a;
     return steps * (std::abs(by.x) + std::abs(by.y)) + 2.0 * margin;
   }
 };
 
-/// Whether nothing of a face can change on the way that carries nothing: its gate was shut and
+/// Whether nothing can change, on the way, of a face that carries nothing: its gate was shut and
 /// remains so; or it was open and remains so, and the surfaces apart. With the length |g| of E - F,
 /// both edges over their lengths, the sine of the angle by which the frame turns is at most that by
 /// which g changes, over |g|; so a vector along t changes by its length times about that beside its
@@ -41,24 +41,25 @@ struct OnTheWay {
 EDDA_INLINE bool stays_as_it_is(const ChunkColumns& c, const FacePair& pair, const EdgeGeometry& o,
                                 std::size_t k, const OnTheWay& way) {
   using P = FacePoints;
-  const double change = way.change(&P::p2, &P::p1) * pair.inverse_e +
-                        way.change(&P::q2, &P::q1) * pair.inverse_f;  // of g
-  const double turn = 1.1 * change * o.per_base;                      // of t, no more than this
+  const double change = way.change(&P::p1, &P::p2) * pair.inverse_e +
+                        way.change(&P::q1, &P::q2) * pair.inverse_f;  // of g
+  const double turn =
+      1.1 * change * o.per_base;  // of t: an angle below 0.5 is 1.1 times its sine at most
   const Vec2 t{o.tx, o.ty}, n = outward_normal(t);
-  const auto goes_along = [&](Vec2 P::*b, Vec2 P::*a) {  // from a to b along t, all the way
-    return way.least_along(t, b, a) > turn * way.longest(b, a);
+  const auto lies_before = [&](Vec2 P::*a, Vec2 P::*b) {  // along t, all the way
+    return way.least_along(t, a, b) > turn * way.longest(a, b);
   };
   constexpr double stretch = 1.5;  // the cosine is that of edges stretched by less than this
   const double faces_by = o.cosine - pair.gate_from;
   const bool firm = (turn < 0.5) & (change < 0.25);
   const bool shut = (change < 0.25) & (faces_by + stretch * change < 0.0);
-  const bool beside = firm & (goes_along(&P::q2, &P::p2) | goes_along(&P::p1, &P::q1));
-  const bool opposed = firm & (faces_by - stretch * change > 0.0) & goes_along(&P::p2, &P::p1) &
-                       goes_along(&P::q1, &P::q2) & goes_along(&P::p2, &P::q2) &
-                       goes_along(&P::q1, &P::p1);
+  const bool beside = firm & (lies_before(&P::p2, &P::q2) | lies_before(&P::q1, &P::p1));
+  const bool opposed = firm & (faces_by - stretch * change > 0.0) & lies_before(&P::p1, &P::p2) &
+                       lies_before(&P::q2, &P::q1) & lies_before(&P::q2, &P::p2) &
+                       lies_before(&P::p1, &P::q1);
   const double gap =
-      smaller(smaller(way.least_along(n, &P::q1, &P::p1), way.least_along(n, &P::q1, &P::p2)),
-              smaller(way.least_along(n, &P::q2, &P::p1), way.least_along(n, &P::q2, &P::p2)));
+      smaller(smaller(way.least_along(n, &P::p1, &P::q1), way.least_along(n, &P::p2, &P::q1)),
+              smaller(way.least_along(n, &P::p1, &P::q2), way.least_along(n, &P::p2, &P::q2)));
   const double locked = positive_part(larger(pair.offset.a, pair.offset.b));
   const bool open = opposed & (gap > locked) & (pair.stiffness > 0.0);
   const bool loose = (c.bonded[k] == 0.0) & (pair.carries_tension == 0.0);

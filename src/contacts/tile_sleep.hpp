@@ -1,9 +1,8 @@
 // Which faces of a tile sleep. A face that carries nothing, and of which nothing else that counts
-// can change as long as the corners of its blocks move little against each other
-// (open_lanes()), need not be looked at until they may have moved that far. How far they move
-// is bounded, never guessed: each vertex of the tile's edges goes on along a straight path at the
-// pace of the step in which it was decided who sleeps, but for a margin that is checked. Nothing
-// depends on which faces sleep, to the bit.
+// can change as long as the corners of its edges stay near their paths (open_lanes()), need not be
+// looked at meanwhile. Where they are is bounded, never guessed: each vertex of the tile's edges
+// goes on along a straight path at the pace of the step in which it was decided who sleeps, but for
+// a margin that is checked. Nothing depends on which faces sleep, to the bit.
 #pragma once
 
 #include "contacts/tile_sweep.hpp"

@@ -64,14 +64,20 @@ double overlap_of_next_edges(const Simulation& sim) {
   return sim.scene->at_points() ? 0.0 : per_sine * sim.accounts.penetration;
 }
 
+/// What blocks penetrate each other by may grow before the next list.
+Reach next_reach(const Simulation& sim) {
+  const double reach = std::max(sim.scene->base_reach, 20.0 * sim.control.last_displacement);
+  return {reach, std::max(0.25 * reach, 1.5 * overlap_of_next_edges(sim))};
+}
+
 bool list_is_due(Simulation& sim) {
   FaceSet& contacts = sim.motion.contacts;
   StepControl& control = sim.control;
   // What two vertices may approach each other by before the next check, m.
   const double ahead = 2.0 * sim.stepper->ahead(sim);
   contacts.travel += 2.0 * control.last_displacement;
-  if (overlap_of_next_edges(sim) > contacts.reach_behind) return true;
-  if (contacts.travel + ahead <= contacts.reach) return false;
+  const bool deeper = overlap_of_next_edges(sim) > contacts.reach_behind;
+  if (!deeper && contacts.travel + ahead <= contacts.reach) return false;
   // The sum of displacements is an upper bound; the positions decide.
   contacts.travel = largest_approach(control.neighbours, sim.scene->blocks, sim.motion.state,
                                      sim.motion.pose, standing_of(contacts));
@@ -79,14 +85,12 @@ bool list_is_due(Simulation& sim) {
     control.last_displacement = std::numeric_limits<double>::infinity();  // inspect() ends the run
     return false;
   }
-  return contacts.travel + sim.stepper->margin * ahead > contacts.reach;
+  return deeper || contacts.travel + sim.stepper->margin * ahead > contacts.reach;
 }
 
 void search_if_due(Simulation& sim) {
   if (!list_is_due(sim)) return;
-  const double reach = std::max(sim.scene->base_reach, 20.0 * sim.control.last_displacement);
-  // What blocks penetrate each other by may grow before the next list.
-  search(sim, {reach, std::max(0.25 * reach, 1.5 * overlap_of_next_edges(sim))});
+  search(sim, next_reach(sim));
   set_limit(sim);
 }
 

@@ -19,6 +19,9 @@ void sum_face_forces(Simulation& sim);
 void reevaluate_faces(Simulation& sim);
 /// Makes the list of all possible contacts within this reach.
 void search(Simulation& sim, const Reach& reach);
+
+/// The reach of the next list.
+Reach next_reach(const Simulation& sim);
 /// After each step: renews the list and the bound of the step where that is due.
 void search_if_due(Simulation& sim);
 

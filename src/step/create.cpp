@@ -114,7 +114,7 @@ void place_blocks(Simulation& sim) {
 void find_first_contacts(Simulation& sim) {
   const BlockSet& blocks = sim.scene->blocks;
   Motion& motion = sim.motion;
-  search(sim, sim.scene->base_reach);
+  search(sim, next_reach(sim));
   bond_faces(motion.contacts, blocks, motion.pose, motion.laws);
   close_contacts(sim);
   begin_from_step_end(motion.contacts);

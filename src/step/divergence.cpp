@@ -41,8 +41,8 @@ Failure lost_block(const BlockSet& b, const State& s, const Pose& pose, const No
 }
 
 // The overlap is reported for the block that is free, or for the smaller one, inside the other.
-Failure deep_overlap(Id one, Id other, double depth, Vec2 place, const BlockSet& b, const State& s,
-                     const StepInUse& step) {
+Failure overlap_failure(Id one, Id other, double depth, Vec2 place, const BlockSet& b,
+                        const State& s, const StepInUse& step) {
   const auto weight = [&](Id i) {
     return b.fixed[i] != 0 ? std::numeric_limits<double>::infinity() : b.area[i];
   };
@@ -68,7 +68,7 @@ std::optional<Failure> deep_overlap(const PointSet& c, const BlockSet& b, const 
     const Id i = b.vertex_block[c.vertex[k]], j = b.vertex_block[c.edge[k]];
     const double depth = gap_of(c, b, pose, k).depth;
     if (c.closed[k] > 0.0 && depth > std::min(b.inradius[i], b.inradius[j]))
-      return deep_overlap(i, j, depth, at(pose.x, pose.y, c.vertex[k]), b, s, step);
+      return overlap_failure(i, j, depth, at(pose.x, pose.y, c.vertex[k]), b, s, step);
   }
   return std::nullopt;
 }

@@ -33,10 +33,10 @@ struct StepInUse {
 Failure lost_block(const BlockSet& blocks, const State& state, const Pose& pose,
                    const NodalForces& forces, const StepInUse& step);
 
-/// Two blocks overlap by `depth` (m) at `place` (local coordinates), more than the half-width of
-/// the smaller.
-Failure deep_overlap(Id one, Id other, double depth, Vec2 place, const BlockSet& blocks,
-                     const State& state, const StepInUse& step);
+/// The failure of two blocks that overlap by `depth` (m) at `place` (local coordinates), more than
+/// the half-width of the smaller.
+Failure overlap_failure(Id one, Id other, double depth, Vec2 place, const BlockSet& blocks,
+                        const State& state, const StepInUse& step);
 
 /// A point contact that carries load and whose penetration exceeds the half-width of either of its
 /// blocks (BlockSet::inradius), if there is one. `largest`: largest penetration at present, m;

@@ -81,9 +81,9 @@ std::optional<Failure> inspect(const Simulation& sim) {
   const DeepestNow deepest = deepest_now(sim, 1.0);
   if (deepest.ratio == 0.0) return std::nullopt;
   const FaceSet& c = sim.motion.contacts;
-  return deep_overlap(block_of_edge(blocks, c, deepest.face),
-                      block_of_facing(blocks, c, deepest.face), deepest.depth, deepest.place,
-                      blocks, state, step_in_use(sim));
+  return overlap_failure(block_of_edge(blocks, c, deepest.face),
+                         block_of_facing(blocks, c, deepest.face), deepest.depth, deepest.place,
+                         blocks, state, step_in_use(sim));
 }
 
 Failure lost(const Simulation& sim) {

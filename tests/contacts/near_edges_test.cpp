@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <random>
+#include <vector>
 
 #include "contacts/drifting_heap.hpp"
 
