@@ -53,10 +53,12 @@ EDDA_INLINE bool stays_as_it_is(const ChunkColumns& c, const FacePair& pair, con
   const double faces_by = o.cosine - pair.gate_from;
   const bool firm = (turn < 0.5) & (change < 0.25);
   const bool shut = (change < 0.25) & (faces_by + stretch * change < 0.0);
-  const bool beside = firm & (lies_before(&P::p2, &P::q2) | lies_before(&P::q1, &P::p1));
-  const bool opposed = firm & (faces_by - stretch * change > 0.0) & lies_before(&P::p1, &P::p2) &
-                       lies_before(&P::q2, &P::q1) & lies_before(&P::q2, &P::p2) &
-                       lies_before(&P::p1, &P::q1);
+  const bool past_e = lies_before(&P::p2, &P::q2), short_of_e = lies_before(&P::q1, &P::p1);
+  const bool beside = firm & (past_e | short_of_e);
+  const bool e_goes_on = lies_before(&P::p1, &P::p2), f_goes_back = lies_before(&P::q2, &P::q1);
+  const bool begins = lies_before(&P::q2, &P::p2), ends = lies_before(&P::p1, &P::q1);
+  const bool opposed =
+      firm & (faces_by - stretch * change > 0.0) & e_goes_on & f_goes_back & begins & ends;
   const double gap =
       smaller(smaller(way.least_along(n, &P::p1, &P::q1), way.least_along(n, &P::p2, &P::q1)),
               smaller(way.least_along(n, &P::p1, &P::q2), way.least_along(n, &P::p2, &P::q2)));
