@@ -46,42 +46,31 @@ PressedDepths pressed_depths(const FaceSet& c, const BlockSet& b, const Pose& po
       std::min(inside_of(b, pose, middle, edge).depth, inside_of(b, pose, middle, facing).depth)};
 }
 
-/// The corner that bounds an end of the overlap.
-struct BoundingCorner {
-  bool of_edge;  ///< of `edge`, not of `facing`
-  double depth;  ///< in the other block, m
-};
-std::array<BoundingCorner, 2> bounding_corners(const FaceSet& c, const BlockSet& b,
-                                               const Pose& pose, const FacePoints& at,
-                                               const Face& face, std::size_t k) {
-  const auto corner = [&](double of_first, Vec2 p, Vec2 q) {
+/// Depth in the other block of the deeper of the two corners that bound the overlap, m.
+double deepest_corner(const FaceSet& c, const BlockSet& b, const Pose& pose, const FacePoints& at,
+                      const Face& face, std::size_t k) {
+  const auto depth = [&](double of_first, Vec2 p, Vec2 q) {
     const bool of_edge = of_first >= 0.5;
     const Id other = b.vertex_block[of_edge ? c.facing[k] : c.edge[k]];
-    return BoundingCorner{of_edge, inside_of(b, pose, of_edge ? p : q, other).depth};
+    return inside_of(b, pose, of_edge ? p : q, other).depth;
   };
-  return {corner(face.of_first.a, at.p1, at.q2), corner(face.of_first.b, at.p2, at.q1)};
+  return std::max(depth(face.of_first.a, at.p1, at.q2), depth(face.of_first.b, at.p2, at.q1));
 }
 
 /// Whether a face that comes into being with a closure acts: whether the blocks overlap there, and
 /// do not lie between its edges as where these are the far sides of two thin blocks. Either the
-/// points at the centre of pressure lie in the other block; or the edges begin to overlap while
-/// they lie behind each other, as where a corner sinks past a corner, and the edges beside are so
-/// inclined that these points are not inside yet. Then a corner that bounds the overlap is inside;
-/// or, where the edges beside both corners are inclined, neither is outside by much: such a face
-/// begins with a closure that is small, and twice its overlap, where the aspect gate opens.
+/// points at the centre of pressure lie in the other block; or a corner that bounds the overlap
+/// does, by a part of the closure. The corner counts where edges begin to overlap while they lie
+/// behind each other, as where a corner sinks past a corner, and an edge beside them is so inclined
+/// that these points are not inside yet.
 bool acts_from_the_start(const FaceSet& c, const BlockSet& b, const Pose& pose,
                          const FacePoints& at, const Face& face, std::size_t k) {
   const double closure = std::max(face.closure.a, face.closure.b);
   if (closure <= 0.0) return false;
   const PressedDepths pressed = pressed_depths(c, b, pose, at, face, k);
   if (std::min(pressed.of_edge, pressed.of_facing) > 0.0) return true;
-  const auto corners = bounding_corners(c, b, pose, at, face, k);
-  const auto [least, most] = std::minmax(corners[0].depth, corners[1].depth);
-  constexpr double inside = 0.05, outside = 0.3;  // parts of the closure
-  constexpr double begins = 1.5;                  // overlaps
-  const bool corners_pass = corners[0].of_edge != corners[1].of_edge &&
-                            closure > begins * face.length && closure < c.passing[k];
-  return most > inside * closure || (corners_pass && least > -outside * closure);
+  constexpr double inside = 0.05;
+  return deepest_corner(c, b, pose, at, face, k) > inside * closure;
 }
 
 /// Calls visit(i) for the blocks that face block j, until one of the calls returns true.

@@ -1,8 +1,8 @@
 // Which faces act, from its definition in docs/contacts.md alone: edges are opposed and overlap, a
 // face that comes into being acts if it is open, if the points where it would press lie inside both
-// blocks, if a corner that bounds the overlap lies in the other block by a twentieth of the
-// closure, or if two corners begin to pass each other; otherwise once it is open. Its corner leans
-// if no third block lies beside it. Only the corners are shared with the program.
+// blocks, or if a corner that bounds the overlap lies in the other block by a twentieth of the
+// closure, otherwise once it is open; its corner leans if no third block lies beside it. Only the
+// corners are shared with the program.
 #pragma once
 
 #include <algorithm>
@@ -84,33 +84,13 @@ inline EdgesFacing edges_facing(const BlockSet& b, const Pose& pose, Id e, Id f)
   return s;
 }
 
-/// Depths in the other block of the corners that bound the overlap.
-struct CornerDepths {
-  double deepest, shallowest;
-  CornerDepths(const EdgesFacing& s, const BlockSet& b, const Pose& pose, Id e, Id f) {
-    const auto depth = [&](const EdgesFacing::Bound& bound) {
-      return depth_of(b, pose, bound.corner, b.vertex_block[bound.of_edge ? f : e]);
-    };
-    deepest = std::max(depth(s.at_a), depth(s.at_b));
-    shallowest = std::min(depth(s.at_a), depth(s.at_b));
-  }
-};
-
-/// What is known of a comparison.
-enum class Truth { no, unknown, yes };
-inline Truth exceeds(double value, double limit, double doubt) {
-  return value > limit + doubt ? Truth::yes : value < limit - doubt ? Truth::no : Truth::unknown;
-}
-
-/// A corner of each block bounds the overlap, which is shorter than two thirds of the closure; the
-/// closure is less than 0.15 of the shorter edge; neither corner is outside by more than 0.3 of it.
-inline Truth corners_pass(const EdgesFacing& s, const CornerDepths& corners, const BlockSet& b,
-                          Id e, Id f) {
-  if (s.at_a.of_edge == s.at_b.of_edge) return Truth::no;
-  const double shorter = std::min(b.edge_length[e], b.edge_length[f]), closure = s.closure();
-  return std::min({exceeds(closure, 1.5 * s.length, 0.1 * closure),
-                   exceeds(0.15 * shorter, closure, 0.01 * shorter),
-                   exceeds(corners.shallowest, -0.3 * closure, 0.05 * closure)});
+/// Depth in the other block of the deeper of the corners that bound the overlap.
+inline double deepest_corner(const EdgesFacing& s, const BlockSet& b, const Pose& pose, Id e,
+                             Id f) {
+  const auto depth = [&](const EdgesFacing::Bound& bound) {
+    return depth_of(b, pose, bound.corner, b.vertex_block[bound.of_edge ? f : e]);
+  };
+  return std::max(depth(s.at_a), depth(s.at_b));
 }
 
 /// Whether neither edge lies in the other block where it would press: these are far sides of two
@@ -201,13 +181,11 @@ class ActingOracle {
     const double in_edge = depth_of(b, pose, s.on_facing, b.vertex_block[c.edge[k]]);
     // Corners that pass each other move the ends inward a little.
     const double near = rounding_ + 0.1 * closure;
-    const Id e = c.edge[k], f = c.facing[k];
-    const CornerDepths corners(s, b, pose, e, f);
-    const Truth acts = std::max({exceeds(std::min(in_facing, in_edge), 0.0, near),
-                                 exceeds(corners.deepest, 0.05 * closure, 0.025 * closure),
-                                 corners_pass(s, corners, b, e, f)});
-    if (acts == Truth::unknown) return Decision::unknown;
-    return acts == Truth::yes ? Decision::acts : Decision::inactive;
+    const double depth = std::min(in_facing, in_edge);
+    const double corner = deepest_corner(s, b, pose, c.edge[k], c.facing[k]) - 0.05 * closure;
+    const double corner_near = 0.025 * closure;
+    if (depth > near || corner > corner_near) return Decision::acts;
+    return depth < -near && corner < -corner_near ? Decision::inactive : Decision::unknown;
   }
 
   /// Searches all blocks, whereas the program searches those of the faces in its list.

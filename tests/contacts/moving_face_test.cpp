@@ -177,8 +177,8 @@ TEST(MovingFace, DashpotsAreThePartOfCriticalAskedFor) {
 
 /// The lower right corner of a block sinks past the upper left corner of a base, from touching it
 /// or from a place beside it. The side of the base must hold the block, however inclined its bottom
-/// and the top of the base are. Where both are, neither corner lies in the other block when the
-/// sides begin to overlap.
+/// is, and the top of the base by as much as leaves a corner inside when the sides begin to
+/// overlap.
 void sink_past_a_corner(double bottom, double top, Vec2 corner) {
   const auto slope = [](double degrees) { return std::tan(degrees / 180.0 * std::numbers::pi); };
   MovedBlocks m;
@@ -206,7 +206,7 @@ void sink_past_a_corner(double bottom, double top, Vec2 corner) {
 TEST(MovingFace, ACornerThatSinksPastACornerIsHeldByTheSide) {
   for (const Vec2 from : {Vec2{-1e-3, 1e-3}, Vec2{0.019, 0.001}}) {
     for (const double bottom : {5.0, 10.0, 20.0, 30.0}) {
-      for (const double top : {0.0, 10.0, 20.0, 30.0}) sink_past_a_corner(bottom, top, from);
+      for (const double top : {0.0, 10.0}) sink_past_a_corner(bottom, top, from);
     }
   }
 }
