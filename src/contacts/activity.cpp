@@ -31,19 +31,9 @@ bool lies_in(const BlockSet& b, const Pose& pose, Vec2 p, Id block) {
   return inside_of(b, pose, p, block).depth > 0.0;
 }
 
-/// Depths in the other block of the points at the centre of pressure of a closed face, m.
-struct PressedDepths {
-  double of_edge, of_facing;  ///< of the point of `edge`, and that of `facing`
-  double between;             ///< of the point midway between them, in the block where it is deeper
-};
-PressedDepths pressed_depths(const FaceSet& c, const BlockSet& b, const Pose& pose,
-                             const FacePoints& at, const Face& face, std::size_t k) {
-  const Opposite p = opposite_at(at, face, centre_of_pressure(face.closure.a, face.closure.b));
-  const Id edge = b.vertex_block[c.edge[k]], facing = b.vertex_block[c.facing[k]];
-  const Vec2 middle = 0.5 * (p.on_edge + p.on_facing);
-  return {
-      inside_of(b, pose, p.on_edge, facing).depth, inside_of(b, pose, p.on_facing, edge).depth,
-      std::min(inside_of(b, pose, middle, edge).depth, inside_of(b, pose, middle, facing).depth)};
+/// The points of both edges of a closed face at its centre of pressure.
+Opposite where_pressed(const FacePoints& at, const Face& face) {
+  return opposite_at(at, face, centre_of_pressure(face.closure.a, face.closure.b));
 }
 
 /// Depth in the other block of the deeper of the two corners that bound the overlap, m.
@@ -67,8 +57,10 @@ bool acts_from_the_start(const FaceSet& c, const BlockSet& b, const Pose& pose,
                          const FacePoints& at, const Face& face, std::size_t k) {
   const double closure = std::max(face.closure.a, face.closure.b);
   if (closure <= 0.0) return false;
-  const PressedDepths pressed = pressed_depths(c, b, pose, at, face, k);
-  if (std::min(pressed.of_edge, pressed.of_facing) > 0.0) return true;
+  const Opposite p = where_pressed(at, face);
+  if (lies_in(b, pose, p.on_facing, b.vertex_block[c.edge[k]]) &&
+      lies_in(b, pose, p.on_edge, b.vertex_block[c.facing[k]]))
+    return true;
   constexpr double inside = 0.05;
   return deepest_corner(c, b, pose, at, face, k) > inside * closure;
 }
@@ -150,9 +142,11 @@ bool decide_activity(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_
 bool overlap_where_pressed(const FaceSet& c, const BlockSet& b, const Pose& pose, const Face& face,
                            std::size_t k) {
   if (std::max(face.closure.a, face.closure.b) <= 0.0) return false;
-  const PressedDepths depth =
-      pressed_depths(c, b, pose, face_points(c, pose.x, pose.y, k), face, k);
-  return std::max({depth.of_edge, depth.of_facing, depth.between}) > 0.0;
+  const Opposite p = where_pressed(face_points(c, pose.x, pose.y, k), face);
+  const Id edge = b.vertex_block[c.edge[k]], facing = b.vertex_block[c.facing[k]];
+  const Vec2 middle = 0.5 * (p.on_edge + p.on_facing);
+  return lies_in(b, pose, p.on_edge, facing) || lies_in(b, pose, p.on_facing, edge) ||
+         (lies_in(b, pose, middle, edge) && lies_in(b, pose, middle, facing));
 }
 
 }  // namespace edda

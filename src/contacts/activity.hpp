@@ -9,9 +9,8 @@ namespace edda {
 
 /// Decides those properties of face k that may change only while it stores no energy. The face acts
 /// if it comes into being open, or the blocks overlap where it would press (docs/contacts.md);
-/// otherwise, as with the far sides of two
-/// thin blocks, which are opposed, too, it acts once it is open. Returns whether anything has
-/// changed.
+/// otherwise, as with the far sides of two thin blocks, which are opposed, too, it acts once it is
+/// open. Returns whether anything has changed.
 bool decide_activity(FaceSet& faces, const BlockSet& blocks, const Pose& pose, std::size_t k);
 
 /// Whether the blocks of face k, which is closed, overlap each other where it presses: the point of

@@ -23,8 +23,7 @@ double wider_reach(const BlockSet& b, const Reach& reach) {
   double sum = 0.0;
   for (const double length : b.edge_length) sum += length;
   const double mean = sum / static_cast<double>(std::max<std::size_t>(b.edge_length.size(), 1));
-  return std::min(reach.furthest() + (wider - 1.0) * reach.apart,
-                  reach.furthest() + most_of_edge * mean);
+  return reach.furthest() + std::min((wider - 1.0) * reach.apart, most_of_edge * mean);
 }
 
 constexpr double most_beyond = std::numbers::pi / 4.0;  ///< rad: for a needle
