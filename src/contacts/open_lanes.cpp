@@ -6,28 +6,41 @@
 namespace edda {
 namespace {
 
-/// The corners of two edges on their way: where they are, how far each comes in a step, and by how
-/// much it may stray from there at any time in so many steps, m.
+/// Vector from one corner to another, m, and its change in a step as they go on, m.
+struct Between {
+  Vec2 w, pace;
+};
+EDDA_INLINE Between between(Vec2 from, Vec2 to, Vec2 pace_from, Vec2 pace_to) {
+  return {to - from, pace_to - pace_from};
+}
+EDDA_INLINE Between reversed(const Between& b) {
+  return {-1.0 * b.w, -1.0 * b.pace};
+}
+
+/// The way of corners for so many steps, in which each may stray from its straight path by up to
+/// `margin` (m).
 struct OnTheWay {
-  FacePoints at, pace;
   double steps, margin;
 
-  /// Least value of n . (b - a) on the way, n of length 1: on straight paths that of the beginning
-  /// or of the end.
-  EDDA_INLINE double least_along(Vec2 n, Vec2 FacePoints::*a, Vec2 FacePoints::*b) const {
-    const Vec2 w = at.*b - at.*a, end = w + steps * (pace.*b - pace.*a);
-    return smaller(dot(n, w), dot(n, end)) - 2.0 * margin;
+  /// Least value of n . w on the way, n of length 1: on straight paths that of the beginning or of
+  /// the end.
+  EDDA_INLINE double least_along(Vec2 n, const Between& b) const {
+    const double begin = dot(n, b.w), end = begin + steps * dot(n, b.pace);
+    return smaller(begin, end) - 2.0 * margin;
   }
-  /// Upper bound of the length of b - a on the way.
-  EDDA_INLINE double longest(Vec2 FacePoints::*a, Vec2 FacePoints::*b) const {
-    const Vec2 w = at.*b - at.*a, end = w + steps * (pace.*b - pace.*a);
-    return larger(std::abs(w.x), std::abs(end.x)) + larger(std::abs(w.y), std::abs(end.y)) +
+  /// Upper bound of the length of w on the way.
+  EDDA_INLINE double longest(const Between& b) const {
+    const Vec2 end = b.w + steps * b.pace;
+    return larger(std::abs(b.w.x), std::abs(end.x)) + larger(std::abs(b.w.y), std::abs(end.y)) +
            2.0 * margin;
   }
-  /// Upper bound of the change of b - a on the way.
-  EDDA_INLINE double change(Vec2 FacePoints::*a, Vec2 FacePoints::*b) const {
-    const Vec2 by = pace.*b - pace.*a;
-    return steps * (std::abs(by.x) + std::abs(by.y)) + 2.0 * margin;
+  /// Upper bound of the change of w on the way.
+  EDDA_INLINE double change(const Between& b) const {
+    return steps * (std::abs(b.pace.x) + std::abs(b.pace.y)) + 2.0 * margin;
+  }
+  /// Whether n . w > 0 all the way, where n turns by up to `turn` (rad, small).
+  EDDA_INLINE bool ahead(Vec2 n, double turn, const Between& b) const {
+    return least_along(n, b) > turn * longest(b);
   }
 };
 
@@ -39,29 +52,28 @@ struct OnTheWay {
 /// Where all of f lies beyond all of e along n, their surfaces stay apart as long as n turns by
 /// less than a right angle.
 EDDA_INLINE bool stays_as_it_is(const ChunkColumns& c, const FacePair& pair, const EdgeGeometry& o,
-                                std::size_t k, const OnTheWay& way) {
-  using P = FacePoints;
-  const double change = way.change(&P::p1, &P::p2) * pair.inverse_e +
-                        way.change(&P::q1, &P::q2) * pair.inverse_f;  // of g
+                                std::size_t k, const FacePoints& at, const FacePoints& pace,
+                                const OnTheWay& way) {
+  const Between e = between(at.p1, at.p2, pace.p1, pace.p2),
+                f = between(at.q2, at.q1, pace.q2, pace.q1),
+                p1_q1 = between(at.p1, at.q1, pace.p1, pace.q1),
+                p2_q1 = between(at.p2, at.q1, pace.p2, pace.q1),
+                p1_q2 = between(at.p1, at.q2, pace.p1, pace.q2),
+                p2_q2 = between(at.p2, at.q2, pace.p2, pace.q2);
+  const double change = way.change(e) * pair.inverse_e + way.change(f) * pair.inverse_f;  // of g
   const double turn =
       1.1 * change * o.per_base;  // of t: an angle below 0.5 is 1.1 times its sine at most
   const Vec2 t{o.tx, o.ty}, n = outward_normal(t);
-  const auto lies_before = [&](Vec2 P::*a, Vec2 P::*b) {  // along t, all the way
-    return way.least_along(t, a, b) > turn * way.longest(a, b);
-  };
   constexpr double stretch = 1.5;  // the cosine is that of edges stretched by less than this
   const double faces_by = o.cosine - pair.gate_from;
   const bool firm = (turn < 0.5) & (change < 0.25);
   const bool shut = (change < 0.25) & (faces_by + stretch * change < 0.0);
-  const bool past_e = lies_before(&P::p2, &P::q2), short_of_e = lies_before(&P::q1, &P::p1);
-  const bool beside = firm & (past_e | short_of_e);
-  const bool e_goes_on = lies_before(&P::p1, &P::p2), f_goes_back = lies_before(&P::q2, &P::q1);
-  const bool begins = lies_before(&P::q2, &P::p2), ends = lies_before(&P::p1, &P::q1);
-  const bool opposed =
-      firm & (faces_by - stretch * change > 0.0) & e_goes_on & f_goes_back & begins & ends;
-  const double gap =
-      smaller(smaller(way.least_along(n, &P::p1, &P::q1), way.least_along(n, &P::p2, &P::q1)),
-              smaller(way.least_along(n, &P::p1, &P::q2), way.least_along(n, &P::p2, &P::q2)));
+  const bool beside = firm & (way.ahead(t, turn, p2_q2) | way.ahead(t, turn, reversed(p1_q1)));
+  const bool both_go_on = way.ahead(t, turn, e) & way.ahead(t, turn, f);
+  const bool overlap = way.ahead(t, turn, reversed(p2_q2)) & way.ahead(t, turn, p1_q1);
+  const bool opposed = firm & (faces_by - stretch * change > 0.0) & both_go_on & overlap;
+  const double gap = smaller(smaller(way.least_along(n, p1_q1), way.least_along(n, p2_q1)),
+                             smaller(way.least_along(n, p1_q2), way.least_along(n, p2_q2)));
   const double locked = positive_part(larger(pair.offset.a, pair.offset.b));
   const bool open = opposed & (gap > locked) & (pair.stiffness > 0.0);
   const bool loose = (c.bonded[k] == 0.0) & (pair.carries_tension == 0.0);
@@ -76,20 +88,23 @@ EDDA_INLINE bool touches_as_drawn(const FacePair& pair, const EdgeGeometry& o, d
   return (o.cosine > pair.gate_from) & (o.mb > o.ma) & (most > -noise);
 }
 
+EDDA_INLINE void look_at_lane(const ChunkColumns& c, std::size_t k, const OnTheWay& way,
+                              LaneBits& stay, LaneBits& near) {
+  const FacePair pair = pair_of(c, k);
+  const FacePoints at = points_of(*c.e, *c.f, k), pace = points_of(*c.e_then, *c.f_then, k);
+  const EdgeGeometry o = geometry_of_edges(at, pair);
+  const LaneBits bit = bit_of_lane[k];
+  stay |= stays_as_it_is(c, pair, o, k, at, pace, way) ? bit : 0;
+  near |= touches_as_drawn(pair, o, c.noise) ? bit : 0;
+}
+
 }  // namespace
 
 EDDA_VECTOR OpenLanes open_lanes(const ChunkView& given, double margin, double steps) {
   const ChunkColumns c = columns_of<Tables::constants_alone>(given);
   LaneBits stay = 0, near = 0;
 #pragma omp simd reduction(| : stay, near)
-  for (std::size_t k = 0; k < lanes; ++k) {
-    const FacePair pair = pair_of(c, k);
-    const OnTheWay way{points_of(*c.e, *c.f, k), points_of(*c.e_then, *c.f_then, k), steps, margin};
-    const EdgeGeometry o = geometry_of_edges(way.at, pair);
-    const LaneBits bit = bit_of_lane[k];
-    stay |= stays_as_it_is(c, pair, o, k, way) ? bit : 0;
-    near |= touches_as_drawn(pair, o, c.noise) ? bit : 0;
-  }
+  for (std::size_t k = 0; k < lanes; ++k) look_at_lane(c, k, {steps, margin}, stay, near);
   return {static_cast<unsigned>(near), static_cast<unsigned>(stay)};
 }
 

@@ -1,9 +1,11 @@
 #include "integrate/leapfrog.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "blocks/free_blocks.hpp"
 #include "integrate/kick.hpp"
 
 namespace edda {
@@ -27,6 +29,35 @@ EDDA_INLINE void advance_one(const NodeView& n, const Kick& kick, std::size_t i)
 EDDA_VECTOR void advance_nodes(NodeView n, Kick kick, std::size_t begin, std::size_t end) {
 #pragma omp simd
   for (std::size_t i = begin; i < end; ++i) advance_one(n, kick, i);
+}
+
+/// Blocks whose nodes have lumped masses and are damped. `free` and `local` (beta) have the numbers
+/// of the blocks from `begin` on.
+struct DampedView {
+  ConstNodeValues mass, fx, fy, old_vx, old_vy, vx, vy;
+  const double *free, *local;
+  std::size_t begin;
+  double* joules;
+};
+
+EDDA_INLINE void add_damping_work(const DampedView& b, double mass_damping, double h_old,
+                                  double h_new, std::size_t i) {
+  double by_local = 0.0, by_mass = 0.0;
+  for (std::size_t k = 0; k < nodes_per_block; ++k) {
+    const Vec2 before{b.old_vx[k][i], b.old_vy[k][i]}, after{b.vx[k][i], b.vy[k][i]};
+    const Vec2 moved = 0.5 * (h_old * before + h_new * after);
+    const Vec2 push = local_damping({b.fx[k][i], b.fy[k][i]}, before, b.local[i - b.begin]);
+    by_local -= dot(push, moved);
+    by_mass += b.mass[k][i] * dot(0.5 * (before + after), moved);
+  }
+  const double dissipated = by_local + mass_damping * by_mass;
+  b.joules[i] += b.free[i - b.begin] > 0.0 ? dissipated : 0.0;
+}
+
+EDDA_VECTOR void add_damping_work_of_all(DampedView b, double mass_damping, double h_old,
+                                         double h_new, std::size_t begin, std::size_t end) {
+#pragma omp simd
+  for (std::size_t i = begin; i < end; ++i) add_damping_work(b, mass_damping, h_old, h_new, i);
 }
 
 Kick kick_of(const Leap& leap, double h_of_positions) {
@@ -121,25 +152,37 @@ void account_damping(const State& s, const Leap& leap, DampingWork& work) {
     add_strain_dissipation(*damping.strain, b, s, old_vx, old_vy, h_old, h_new, work.joules);
   }
   if (damping.mass == 0.0 && damping.local == 0.0) return;
-  const auto is_spared = [&](std::size_t i) {
-    return damping.spared != nullptr &&
-           std::binary_search(damping.spared->begin(), damping.spared->end(), static_cast<Id>(i));
-  };
-  parallel_for(b.size(), [&](std::size_t i) {
-    if (b.fixed[i] || !s.alive[i]) return;
-    const NodeVectors before = vectors_of(old_vx, old_vy, i), after = vectors_of(s.vx, s.vy, i),
-                      moved = 0.5 * (h_old * before + h_new * after);
-    double dissipated = 0.0;
-    if (damping.local > 0.0 && !is_spared(i)) {
-      const NodeVectors f = vectors_of(leap.force_x, leap.force_y, i);
-      for (std::size_t k = 0; k < nodes_per_block; ++k) {
-        dissipated -= dot(local_damping(f[k], before[k], damping.local), moved[k]);
-      }
+  if (leap.masses.kind == MassKind::consistent) {  // which has no local damping
+    parallel_for(b.size(), [&](std::size_t i) {
+      if (!is_free(b, s, i)) return;
+      const NodeVectors before = vectors_of(old_vx, old_vy, i), after = vectors_of(s.vx, s.vy, i),
+                        moved = 0.5 * (h_old * before + h_new * after);
+      work.joules[i] += damping.mass * mass_product(leap.masses, i, 0.5 * (before + after), moved);
+    });
+    return;
+  }
+  static const std::vector<Id> no_blocks;
+  const std::vector<Id>& spared = damping.spared != nullptr ? *damping.spared : no_blocks;
+  parallel_chunks(b.size(), blocks_at_once, [&](std::size_t, std::size_t begin, std::size_t end) {
+    const FreeMarks free(b, s, begin, end);
+    std::array<double, blocks_at_once> local;
+    local.fill(damping.local);
+    for (auto i = std::lower_bound(spared.begin(), spared.end(), static_cast<Id>(begin));
+         i != spared.end() && *i < end; ++i) {
+      local[*i - begin] = 0.0;
     }
-    if (damping.mass > 0.0) {
-      dissipated += damping.mass * mass_product(leap.masses, i, 0.5 * (before + after), moved);
-    }
-    work.joules[i] += dissipated;
+    const DampedView view{values_of(leap.masses.node),
+                          values_of(leap.force_x),
+                          values_of(leap.force_y),
+                          values_of(old_vx),
+                          values_of(old_vy),
+                          values_of(s.vx),
+                          values_of(s.vy),
+                          free.data(),
+                          local.data(),
+                          begin,
+                          work.joules.data()};
+    add_damping_work_of_all(view, damping.mass, h_old, h_new, begin, end);
   });
 }
 

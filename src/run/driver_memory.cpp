@@ -172,6 +172,7 @@ void Driver::list_stages(Archive& a) {
   a("stage.start", stage_start_);
   a("stage.steps", stage_steps_);
   a("search.found_in_sequence", search_.found_in_sequence);
+  a("search.is_far", search_.is_far);
   a("search.window_began", search_.window_began);
   a("search.window", search_.window);
   a("search.pull", search_.pull);

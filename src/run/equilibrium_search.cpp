@@ -15,8 +15,11 @@
 namespace edda {
 namespace {
 
-constexpr std::uint64_t look_every = 16;  // steps
-constexpr std::uint8_t windows = 4;       // in which a loose block continues to move
+/// Steps from look to look, each of which evaluates all faces once more: while the mean unbalanced
+/// force is so many times what counts as equilibrium, and from then on.
+constexpr std::uint64_t look_from_afar = 64, look_every = 16;
+constexpr double far_from_equilibrium = 4.0;
+constexpr std::uint8_t windows = 4;  // in which a loose block continues to move
 
 double size_of(const Simulation& sim, std::size_t i) {
   return std::sqrt(sim.scene->blocks.area[i]);
@@ -143,12 +146,12 @@ Equilibrium look_for_equilibrium(EquilibriumSearch& s, Simulation& sim, const St
     return Equilibrium::not_yet;
   }
   if (sim.motion.state.steps >= s.window_began + s.window) {
-    update_face_rows(sim);
     find_loose_blocks(s, sim);
     begin_window(s, sim);
     if (all_loose(sim)) return Equilibrium::never;
   }
-  if (is_explicit(sim) && sim.motion.state.steps % look_every != 0) return Equilibrium::not_yet;
+  const std::uint64_t every = !is_explicit(sim) ? 1 : s.is_far ? look_from_afar : look_every;
+  if (sim.motion.state.steps % every != 0) return Equilibrium::not_yet;
   update_face_rows(sim);
   const Balance balance = balance_of(sim);
   const bool waits = stage.falling == FallingBlocks::wait && balance.detached > 0;
@@ -158,6 +161,8 @@ Equilibrium look_for_equilibrium(EquilibriumSearch& s, Simulation& sim, const St
       ((balance.mean <= stage.ratio && (balance.mean == 0.0 || all_in_equilibrium(s, sim))) ||
        (balance.mean > stage.ratio && forces_are_rounding(sim)));
   s.found_in_sequence = found_in_sequence ? s.found_in_sequence + 1 : 0;
+  s.is_far = !found_in_sequence &&
+             std::min(balance.mean, balance.mean_95) > far_from_equilibrium * stage.ratio;
   return s.found_in_sequence >= checks_in_sequence ? Equilibrium::found : Equilibrium::not_yet;
 }
 

@@ -26,6 +26,7 @@ double equilibrium_time(double size, double acceleration);
 /// Data of the search in one stage until equilibrium.
 struct EquilibriumSearch {
   int found_in_sequence = 0;             ///< checks in sequence that have found equilibrium
+  bool is_far = false;                   ///< from equilibrium, by the mean unbalanced force
   std::uint64_t window_began = 0;        ///< step
   std::uint64_t window = 0;              ///< steps
   double pull = 0.0, pull_before = 0.0;  ///< 1/s2, of this window and the last one: the

@@ -86,7 +86,6 @@ Verdict FailureSearch::fail_by_trend(const Simulation& sim, double part) {
 
 Verdict FailureSearch::look(Simulation& sim) {
   if (sim.motion.state.steps % look_at_every != 0) return Verdict::not_yet;
-  update_face_rows(sim);
   velocity_ = watch_.velocity(sim).value;
   const double most = criterion_.displacement;
   const Furthest furthest = watch_.displacement(sim);
@@ -102,9 +101,13 @@ Verdict FailureSearch::look(Simulation& sim) {
     return end(Verdict::fails, "moved too far", block);
   if (anew && watch_.periods() >= periods_enough && fail_by_trend(sim, visible) != Verdict::not_yet)
     return verdict_;
-  const double to_come = watch_.prospect(sim, criterion_.duration);
-  found_in_sequence_ =
-      to_come <= equilibrium_travel_ratio * criterion_.size ? found_in_sequence_ + 1 : 0;
+  const double least = equilibrium_travel_ratio * criterion_.size;
+  bool in_equilibrium = velocity_ * criterion_.duration <= least;
+  if (in_equilibrium) {
+    update_face_rows(sim);
+    in_equilibrium = watch_.prospect(sim, criterion_.duration) <= least;
+  }
+  found_in_sequence_ = in_equilibrium ? found_in_sequence_ + 1 : 0;
   if (found_in_sequence_ < checks_in_sequence) return Verdict::not_yet;
   return end(Verdict::holds, "in equilibrium");
 }

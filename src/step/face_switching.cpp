@@ -10,9 +10,8 @@ namespace edda {
 namespace {
 
 constexpr std::uint64_t most_passes = 30;
-constexpr std::uint64_t passes_to_look = 4;  // before the neighbours are checked again
-constexpr double converged = 1e-9;           // change of alpha
-constexpr double negligible = 1e-10;         // residual, as a part of the stored energy
+constexpr double converged = 1e-9;    // change of alpha
+constexpr double negligible = 1e-10;  // residual, as a part of the stored energy
 
 /// The root x of a + b x + c x^2/2 nearest to 0, c > 0. Where there is none, as where the blocks
 /// reverse their motion and the force does no work, the lowest point of the parabola.
@@ -227,14 +226,13 @@ void correct_switching(FaceSet& c, const StepTaken& taken, OpenCloseCounts& coun
   Correction correction(c, taken, scratch, access);
   if (!correction.find(switching)) return;
   std::uint64_t passes = 0;
-  bool all = false, more = true;
-  while (more) {
+  bool all = false;
+  do {
     do {
       all = correction.pass();
       ++passes;
-    } while (!all && passes % passes_to_look != 0);
-    more = (correction.refresh() || !all) && passes < most_passes;
-  }
+    } while (!all && passes < most_passes);
+  } while (correction.refresh() && passes < most_passes);
   correction.book();
   ++counts.steps;
   counts.passes += passes;
