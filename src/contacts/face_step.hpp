@@ -95,21 +95,21 @@ struct SpringBefore {
 };
 /// In the leapfrog's terms T_n and T_{n-1} each do work over half of the step; `here`: its slip, m.
 /// What the spring has lost is therefore -[T_n (here - u_n) + T_{n-1} (u_{n-1} + here)]/2, zero
-/// where it sticks and does not change. The plastic slip u_tr - u_n dissipates
-/// spring (u_tr - u_n) (u_n + u_{n-1})/2 by friction (theory, section 4.3); the rest of what is
-/// missing is `transfer`. Where the face has opened, all that its spring had stored counts as
-/// friction.
+/// where it sticks and does not change. Where it slides, its force is Coulomb's limit whatever it
+/// remembers, and all of that is friction: with an unchanged spring (u_tr - u_n) spring (u_n +
+/// u_{n-1})/2 (theory, section 4.3). So is all that it had stored where the face has opened. What
+/// it loses otherwise, or gains, is `transfer`.
 EDDA_INLINE Lost lost(const Shear& now, double trial, double spring, const SpringBefore& old,
                       double here, bool touches) {
-  const double plastic = trial - now.slip, kept_slip = old.kept * old.slip;
-  const double slip_so_far = 0.5 * spring * plastic * (now.slip + kept_slip);
+  const double plastic = trial - now.slip;
   const double by_plastic = 0.5 * plastic * (spring * now.slip + old.spring * old.slip);
   const double by_change =
       0.5 * old.slip *
       ((old.spring - old.kept * spring) * now.slip + old.spring * (1.0 - old.kept) * old.slip);
   const double all =
       touches ? by_plastic + by_change : 0.5 * old.spring * old.slip * (old.slip + here);
-  const double friction = positive_part(touches ? slip_so_far : all);
+  const bool dissipates = (plastic != 0.0) | !touches;
+  const double friction = dissipates ? positive_part(all) : 0.0;
   return {friction, all - friction};
 }
 

@@ -40,12 +40,17 @@ struct DampedView {
   double* joules;
 };
 
+/// The displacement (x_{n+1} - x_{n-1})/2 on which the forces at n do their work.
+EDDA_INLINE Vec2 half_way(Vec2 before, Vec2 after, double h_old, double h_new) {
+  return 0.5 * (h_old * before + h_new * after);
+}
+
 EDDA_INLINE void add_damping_work(const DampedView& b, double mass_damping, double h_old,
                                   double h_new, std::size_t i) {
   double by_local = 0.0, by_mass = 0.0;
   for (std::size_t k = 0; k < nodes_per_block; ++k) {
     const Vec2 before{b.old_vx[k][i], b.old_vy[k][i]}, after{b.vx[k][i], b.vy[k][i]};
-    const Vec2 moved = 0.5 * (h_old * before + h_new * after);
+    const Vec2 moved = half_way(before, after, h_old, h_new);
     const Vec2 push = local_damping({b.fx[k][i], b.fy[k][i]}, before, b.local[i - b.begin]);
     by_local -= dot(push, moved);
     by_mass += b.mass[k][i] * dot(0.5 * (before + after), moved);
@@ -155,8 +160,11 @@ void account_damping(const State& s, const Leap& leap, DampingWork& work) {
   if (leap.masses.kind == MassKind::consistent) {  // which has no local damping
     parallel_for(b.size(), [&](std::size_t i) {
       if (!is_free(b, s, i)) return;
-      const NodeVectors before = vectors_of(old_vx, old_vy, i), after = vectors_of(s.vx, s.vy, i),
-                        moved = 0.5 * (h_old * before + h_new * after);
+      const NodeVectors before = vectors_of(old_vx, old_vy, i), after = vectors_of(s.vx, s.vy, i);
+      NodeVectors moved;
+      for (std::size_t k = 0; k < nodes_per_block; ++k) {
+        moved[k] = half_way(before[k], after[k], h_old, h_new);
+      }
       work.joules[i] += damping.mass * mass_product(leap.masses, i, 0.5 * (before + after), moved);
     });
     return;

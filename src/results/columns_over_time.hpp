@@ -39,7 +39,7 @@ constexpr C drift{
 constexpr C transfer{
     "transfer", "J",
     "Energy taken since the start by rules of contacts that are no physical process: "
-    "overlaps whose ends move, locked closures, activation factors without a root."};
+    "overlaps of sticking faces that change, locked closures, activation factors without a root."};
 constexpr C convergence{
     "NAME.convergence", "m",
     "Decrease of the distance between the two points of a convergence line since "
