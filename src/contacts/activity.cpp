@@ -123,8 +123,7 @@ bool decide_activity(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_
   const auto before = verdict();
   const FacePoints at = face_points(c, pose.x, pose.y, k);
   const Face face = face_at(c, b, pose.x, pose.y, k);
-  const double closure =
-      std::max(face.closure.a - c.locked_closure_a[k], face.closure.b - c.locked_closure_b[k]);
+  const double closure = std::max(face.drawn.a, face.drawn.b);
   if (c.before.energy[k] == 0.0) c.leans[k] = corner_leans(c, b, pose, at, face, k) ? 1.0 : 0.0;
   if (c.before.gate[k] == 0.0) {
     const FaceEnds locked = c.leans[k] > 0.0 ? locked_closure(c, face, k) : FaceEnds{};

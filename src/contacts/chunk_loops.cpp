@@ -50,10 +50,10 @@ EDDA_INLINE void write_geometry(const ChunkColumns& c, const EdgeGeometry& o, st
   s.length_sine[k] = o.length_sine;
 }
 
-template <bool plain>
+template <Formulas use>
 EDDA_INLINE OverlapEnds overlap_of(const ChunkColumns& c, const EdgeGeometry& o,
                                    const FacePair& pair, std::size_t k) {
-  if constexpr (plain) return overlap_of<true>(o, pair);
+  if constexpr (use == Formulas::plain) return overlap_of<use>(o, pair);
   const OverlapColumns<double*>& s = c.overlaps;
   OverlapEnds v;
   v.sa = s.sa[k];
@@ -77,7 +77,7 @@ EDDA_INLINE OverlapEnds overlap_of(const ChunkColumns& c, const EdgeGeometry& o,
 EDDA_INLINE void write_overlap(const ChunkColumns& c, std::size_t k) {
   const FacePair pair = pair_of(c, k);
   const EdgeGeometry stands = geometry_of(c, pair, k);
-  const OverlapEnds v = overlap_of<false>(stands, pair);
+  const OverlapEnds v = overlap_of<Formulas::all>(stands, pair);
   const OverlapColumns<double*>& s = c.overlaps;
   s.sa[k] = v.sa;
   s.sb[k] = v.sb;
@@ -196,14 +196,14 @@ struct ChunkTruths {
 };
 constexpr unsigned touches = 32, carried = 40, is_free = 48;  ///< of `state`
 
-template <bool dashpots, bool plain, bool books>
+template <bool dashpots, Formulas use, bool books>
 EDDA_INLINE void evaluate_lane(const ChunkColumns& c, std::size_t k, Records& on_e, Records& on_f,
                                LaneBits& state, LaneBits& found, double& deepest) {
   const FaceInputs in = inputs_of<dashpots, books>(c, k);
   const EdgeGeometry stands = geometry_of(c, in.pair, k);
-  const OverlapEnds overlap = overlap_of<plain>(c, stands, in.pair, k);
-  const Face face = face_between<plain>(stands, overlap, in.pair);
-  const FaceStep s = step_of_face<dashpots, false, plain, books>(in, stands, face);
+  const OverlapEnds overlap = overlap_of<use>(c, stands, in.pair, k);
+  const Face face = face_between<use>(stands, overlap, in.pair);
+  const FaceStep s = step_of_face<dashpots, false, use, books>(in, stands, face);
   write_memory<dashpots>(c, s, stands.corners(), k);
   if constexpr (books) write_work(c, s, k);
   write_forces(on_e, on_f, s.force, k);
@@ -218,7 +218,9 @@ EDDA_INLINE void evaluate_lane(const ChunkColumns& c, std::size_t k, Records& on
            mark(s.touches, touches) | mark(in.before.spring > 0.0, carried) | mark(s.free, is_free);
   found |= mark(s.rare, lane_bits::rare) | mark(s.unrest | (work != 0.0), lane_bits::busy);
   if constexpr (books) found |= mark(slides, lane_bits::slides);
-  if constexpr (!plain) found |= mark(bond_fails_in(c, face, s, k), lane_bits::fails);
+  if constexpr (use == Formulas::all) {
+    found |= mark(bond_fails_in(c, face, s, k), lane_bits::fails);
+  }
   deepest = larger(deepest, s.depth);
 }
 
@@ -244,7 +246,7 @@ EDDA_INLINE ChunkFound conclude(LaneBits was, const ChunkTruths& is, bool dashpo
 }
 
 /// Stores the forces unless the chunk must be evaluated in another way.
-template <bool dashpots, bool plain, bool books>
+template <bool dashpots, Formulas use, bool books>
 EDDA_INLINE ChunkFound evaluate_lanes(const ChunkView& given) {
   const ChunkColumns c = columns_of<dashpots>(given);  // a copy that no store can change
   Records on_e, on_f;
@@ -252,10 +254,10 @@ EDDA_INLINE ChunkFound evaluate_lanes(const ChunkView& given) {
   double deepest = 0.0;
 #pragma omp simd reduction(| : state, found) reduction(max : deepest)
   for (std::size_t k = 0; k < lanes; ++k) {
-    evaluate_lane<dashpots, plain, books>(c, k, on_e, on_f, state, found, deepest);
+    evaluate_lane<dashpots, use, books>(c, k, on_e, on_f, state, found, deepest);
   }
   const ChunkFound all = conclude(given.was, {state, found, deepest}, dashpots);
-  const LaneBits unfit = (plain ? lane_bits::field(lane_bits::rare) : 0) |
+  const LaneBits unfit = (use == Formulas::plain ? lane_bits::field(lane_bits::rare) : 0) |
                          (books ? 0 : lane_bits::field(lane_bits::busy));
   if ((all.found & unfit) == 0) {
     store_records(given.on, given.record_e, on_e);
@@ -302,23 +304,32 @@ EDDA_VECTOR void overlap_edges(const ChunkView& given) {
   for (std::size_t k = 0; k < lanes; ++k) write_overlap(c, k);
 }
 
-EDDA_VECTOR ChunkFound evaluate_with_work(const ChunkView& c) {
-  return evaluate_lanes<false, false, true>(c);
+EDDA_VECTOR ChunkFound evaluate_bonded_at_rest(const ChunkView& c) {
+  return evaluate_lanes<false, Formulas::all, false>(c);
+}
+EDDA_VECTOR ChunkFound evaluate_bonded_with_work(const ChunkView& c) {
+  return evaluate_lanes<false, Formulas::all, true>(c);
+}
+EDDA_VECTOR ChunkFound evaluate_bonded_damped(const ChunkView& c) {
+  return evaluate_lanes<true, Formulas::all, true>(c);
 }
 EDDA_VECTOR ChunkFound evaluate_at_rest(const ChunkView& c) {
-  return evaluate_lanes<false, false, false>(c);
+  return evaluate_lanes<false, Formulas::unbonded, false>(c);
 }
-EDDA_VECTOR ChunkFound evaluate_plain_with_work(const ChunkView& c) {
-  return evaluate_lanes<false, true, true>(c);
-}
-EDDA_VECTOR ChunkFound evaluate_plain_at_rest(const ChunkView& c) {
-  return evaluate_lanes<false, true, false>(c);
+EDDA_VECTOR ChunkFound evaluate_with_work(const ChunkView& c) {
+  return evaluate_lanes<false, Formulas::unbonded, true>(c);
 }
 EDDA_VECTOR ChunkFound evaluate_damped(const ChunkView& c) {
-  return evaluate_lanes<true, false, true>(c);
+  return evaluate_lanes<true, Formulas::unbonded, true>(c);
+}
+EDDA_VECTOR ChunkFound evaluate_plain_at_rest(const ChunkView& c) {
+  return evaluate_lanes<false, Formulas::plain, false>(c);
+}
+EDDA_VECTOR ChunkFound evaluate_plain_with_work(const ChunkView& c) {
+  return evaluate_lanes<false, Formulas::plain, true>(c);
 }
 EDDA_VECTOR ChunkFound evaluate_plain_damped(const ChunkView& c) {
-  return evaluate_lanes<true, true, true>(c);
+  return evaluate_lanes<true, Formulas::plain, true>(c);
 }
 
 EDDA_VECTOR ChunkFound look_at_undamped(const ChunkView& c) {

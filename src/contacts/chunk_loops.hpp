@@ -51,14 +51,18 @@ void stand_edges(const ChunkView& chunk, const double* at, const Id* slot_e, con
 /// Finds where they overlap, from how they stand.
 void overlap_edges(const ChunkView& chunk);
 
-/// The other loops need that. Evaluates a chunk: state, forces, and, where `work` is in the name,
-/// work. `plain`: by the short formulas. Forces are stored unless the chunk turns out to need
-/// another of these loops: it is not plain (lane_bits::rare), or does work (lane_bits::busy).
-ChunkFound evaluate_with_work(const ChunkView& chunk);
+/// The loops below need that. They evaluate a chunk: state, forces, and, where `work` is in the
+/// name, work. `bonded`: by all formulas; `plain`: by those of plain faces; else by those of faces
+/// without bonds (Formulas). Forces are stored unless the chunk turns out to need another of these
+/// loops: it is not plain (lane_bits::rare), or does work (lane_bits::busy).
+ChunkFound evaluate_bonded_at_rest(const ChunkView& chunk);
+ChunkFound evaluate_bonded_with_work(const ChunkView& chunk);
 ChunkFound evaluate_at_rest(const ChunkView& chunk);
-ChunkFound evaluate_plain_with_work(const ChunkView& chunk);
+ChunkFound evaluate_with_work(const ChunkView& chunk);
 ChunkFound evaluate_plain_at_rest(const ChunkView& chunk);
+ChunkFound evaluate_plain_with_work(const ChunkView& chunk);
 /// The same with dashpots, which always work.
+ChunkFound evaluate_bonded_damped(const ChunkView& chunk);
 ChunkFound evaluate_damped(const ChunkView& chunk);
 ChunkFound evaluate_plain_damped(const ChunkView& chunk);
 

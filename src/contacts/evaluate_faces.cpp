@@ -94,7 +94,7 @@ EDDA_INLINE void evaluate_into(const FaceView& c, std::size_t k, double& decidin
   const FaceInputs in = inputs_of<dashpots, limits_given>(c, k);
   const EdgeGeometry stands = geometry_of_edges(in.at, in.pair);
   const Face face = face_between(stands, in.pair);
-  const FaceStep s = step_of_face<dashpots, limits_given, false>(in, stands, face);
+  const FaceStep s = step_of_face<dashpots, limits_given, Formulas::all>(in, stands, face);
   write_face<dashpots>(c, face, s, k);
   c.force[8 * k + 0] = s.force.p1.x;
   c.force[8 * k + 1] = s.force.p1.y;

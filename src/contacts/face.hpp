@@ -47,6 +47,7 @@ struct Face {
          inverse_f = 0.0;   ///< rotation of t per motion of a corner of e (of f) along n, 1/m
   double length = 0.0;      ///< L, m; <= 0: no overlap
   double cohesive = 0.0;    ///< length on which cohesion acts, m: w W L times flush_part()
+  FaceEnds drawn;           ///< drawn closures at the ends, m
   FaceEnds closure;         ///< da and db, m
   FaceEnds xi, eta;         ///< positions of the ends along e and f, as fractions
   double gate = 0.0;        ///< w W
@@ -104,14 +105,14 @@ struct DepthGate {
   double per_deepest = 0.0;   ///< 1/d*, the inverse of the larger closure (gated_closure()), 1/m
   bool deep_b = false;        ///< the larger closure is that of end b
 };
-template <bool plain>
+template <Formulas use>
 EDDA_INLINE DepthGate depth_gate(FaceEnds drawn, double length, const FacePair& pair) {
   DepthGate w;
-  if constexpr (!plain) {
+  if constexpr (use != Formulas::plain) {
     const FaceEnds gated = gated_closure(drawn.a, drawn.b, pair);
     const double deepest = larger(gated.a, gated.b);
     w.deep_b = gated.b >= gated.a;
-    const bool fades = (deepest > 0.0) & (pair.carries_tension == 0.0);
+    const bool fades = (deepest > 0.0) & !carries_tension<use>(pair);
     w.per_deepest = 1.0 / (fades ? deepest : 1.0);
     w.part =
         smooth_step(fades ? (length * w.per_deepest - aspect_from) * (1.0 / aspect_range) : 1.0);
@@ -134,7 +135,7 @@ struct EndWeight {
   double by_past = 0.0;         ///< with respect to -|past|, 1/m
   double past;                  ///< m: distance of the two corners at that end along t, signed
 };
-template <bool plain>
+template <Formulas use>
 EDDA_INLINE EndWeight end_weight(const EdgeGeometry& o, const OverlapEnds& v, const FacePair& pair,
                                  FaceEnds closure, EdgeAngle angle) {
   const bool deep_b = closure.b >= closure.a;
@@ -145,7 +146,7 @@ EDDA_INLINE EndWeight end_weight(const EdgeGeometry& o, const OverlapEnds& v, co
   CornerWeight mean = corner_weight(either(by_p, turn_p, turn_q), c, tilt);
   const double past = deep_b ? o.s2 - o.r1 : -o.r2;
   double by_passing = 0.0;
-  if constexpr (!plain) {
+  if constexpr (use != Formulas::plain) {
     const CornerWeight other = corner_weight(either(by_p, turn_q, turn_p), c, tilt);
     const SmoothStep passing = smooth_step(1.0 - std::abs(past) * v.per_passing);
     const bool more = other.value > mean.value;
@@ -165,18 +166,18 @@ struct EnergySlopes {
   double by_length, by_a, by_b, by_c, by_s, by_past;
 };
 /// U = w W k L phi and the normal forces of a face with known overlap and closures (theory 4.2).
-template <bool plain>
+template <Formulas use>
 EDDA_INLINE EnergySlopes store_energy(Face& face, const EdgeGeometry& o, const OverlapEnds& v,
                                       const FacePair& pair, const DepthGate& w, EdgeAngle angle) {
-  const bool carries_tension = plain ? false : pair.carries_tension != 0.0;
+  const bool carries = carries_tension<use>(pair);
   const double da = face.closure.a, db = face.closure.b;
   const SmoothStep by_aspect = w.part;
   const double along = (o.cosine - pair.gate_from) * pair.gate_scale;
   SmoothStep by_angle{at_most_one(positive_part(along)), 0.0};
-  if constexpr (!plain) by_angle = smooth_step(along);
-  const EndWeight share = end_weight<plain>(o, v, pair, face.closure, angle);
-  const ClosurePotential exact = exact_potential(da, db, carries_tension),
-                         ends = potential_at_ends(da, db, carries_tension);
+  if constexpr (use != Formulas::plain) by_angle = smooth_step(along);
+  const EndWeight share = end_weight<use>(o, v, pair, face.closure, angle);
+  const ClosurePotential exact = exact_potential(da, db, carries),
+                         ends = potential_at_ends(da, db, carries);
   const double gain = ends.value - exact.value;
   const double exists = v.exists ? 1.0 : 0.0;
   const double gate = exists * by_aspect.value * by_angle.value;
@@ -198,7 +199,7 @@ EDDA_INLINE EnergySlopes store_energy(Face& face, const EdgeGeometry& o, const O
                  by_share * share.by_c,
                  by_share * (angle.sine < 0.0 ? -share.by_tilt : share.by_tilt),
                  0.0};
-  if constexpr (!plain) {
+  if constexpr (use != Formulas::plain) {
     u.by_length += angle_gate * stored * w.by_length;
     const double by_deepest = -angle_gate * stored * w.by_length * face.length * w.per_deepest;
     u.by_a += w.deep_b ? 0.0 : by_deepest;
@@ -213,7 +214,7 @@ EDDA_INLINE EnergySlopes store_energy(Face& face, const EdgeGeometry& o, const O
 /// The part of the forces that follows from the derivatives with respect to L and to the closures:
 /// forces normal to either edge at sa and sb, and at la and lb, where the closures are taken on
 /// which r depends; and forces along t on the corners that bound these places.
-template <bool plain>
+template <Formulas use>
 EDDA_INLINE void press(Face& face, const EdgeGeometry& o, const OverlapEnds& v,
                        const EnergySlopes& u) {
   const double by_sa = u.by_a * o.closure_slope - u.by_length,
@@ -221,7 +222,7 @@ EDDA_INLINE void press(Face& face, const EdgeGeometry& o, const OverlapEnds& v,
   double by_corner_a = 0.0, by_corner_b = 0.0;
   face.slope = {v.a_by_p ? o.slope_f : o.slope_e, v.b_by_p ? o.slope_f : o.slope_e};
   double pressed = u.by_a + u.by_b, weighted = u.by_a * v.sa + u.by_b * v.sb;
-  if constexpr (!plain) {
+  if constexpr (use != Formulas::plain) {
     const double by_reach = by_sa * v.pass_a.by_reach - by_sb * v.pass_b.by_reach;
     by_corner_a = by_reach * v.reach.by_a;
     by_corner_b = by_reach * v.reach.by_b;
@@ -235,7 +236,7 @@ EDDA_INLINE void press(Face& face, const EdgeGeometry& o, const OverlapEnds& v,
         -o.slope_f * on_q1, on_q1,  -o.slope_f * on_q2, on_q2};
   face.along = {by_sa, by_sb};
   face.of_first = {v.a_by_p ? 1.0 : 0.0, v.b_by_p ? 1.0 : 0.0};
-  if constexpr (!plain) {
+  if constexpr (use != Formulas::plain) {
     push_bounds(on, of_first(v.near_a, v.near_b, v.a_by_p, v.b_by_p),
                 {-o.closure_slope * by_corner_a, -o.closure_slope * by_corner_b});
     face.of_first = of_first(v.pass_a, v.pass_b, v.a_by_p, v.b_by_p);
@@ -270,9 +271,8 @@ EDDA_INLINE void push_past(FrameForces& on, double by_past, bool deep_b) {
   on.q2t += past_a;
 }
 
-/// The face of two edges. plain: is_plain() holds for them; what it excludes is not computed, and
-/// the result is the same to the bit.
-template <bool plain>
+/// The face of two edges.
+template <Formulas use>
 EDDA_INLINE Face face_between(const EdgeGeometry& o, const OverlapEnds& v, const FacePair& pair) {
   Face face;
   const EdgeAngle angle{o.length_cosine, o.length_sine};
@@ -282,25 +282,25 @@ EDDA_INLINE Face face_between(const EdgeGeometry& o, const OverlapEnds& v, const
   face.length = v.sb - v.sa;
   face.xi = {v.sa * o.per_e, v.sb * o.per_e};
   face.eta = {(v.sa - o.r2) * o.per_f, (v.sb - o.r2) * o.per_f};
-  const FaceEnds drawn{o.closure_at_0 + o.closure_slope * v.sa,
-                       o.closure_at_0 + o.closure_slope * v.sb};
-  face.closure = {drawn.a + pair.offset.a, drawn.b + pair.offset.b};
-  const DepthGate w = depth_gate<plain>(drawn, face.length, pair);
-  const EnergySlopes u = store_energy<plain>(face, o, v, pair, w, angle);
-  press<plain>(face, o, v, u);
-  if constexpr (!plain) push_past(face.pressure, u.by_past, face.closure.b >= face.closure.a);
+  face.drawn = {o.closure_at_0 + o.closure_slope * v.sa, o.closure_at_0 + o.closure_slope * v.sb};
+  face.closure = {face.drawn.a + pair.offset.a, face.drawn.b + pair.offset.b};
+  const DepthGate w = depth_gate<use>(face.drawn, face.length, pair);
+  const EnergySlopes u = store_energy<use>(face, o, v, pair, w, angle);
+  press<use>(face, o, v, u);
+  if constexpr (use != Formulas::plain)
+    push_past(face.pressure, u.by_past, face.closure.b >= face.closure.a);
   rotate_edges(face.pressure, o, u.by_c, u.by_s);
   face.force = on_corners(face.pressure, o.corners(), face);
   return face;
 }
 
-template <bool plain = false>
+template <Formulas use = Formulas::all>
 EDDA_INLINE Face face_between(const EdgeGeometry& o, const FacePair& pair) {
-  return face_between<plain>(o, overlap_of<plain>(o, pair), pair);
+  return face_between<use>(o, overlap_of<use>(o, pair), pair);
 }
-template <bool plain = false>
+template <Formulas use = Formulas::all>
 EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
-  return face_between<plain>(geometry_of_edges(at, pair), pair);
+  return face_between<use>(geometry_of_edges(at, pair), pair);
 }
 
 /// Forces (N, along t) on the corners that bound the ends, where a closure o is locked in. The

@@ -121,6 +121,12 @@ EDDA_INLINE EdgeGeometry geometry_of_edges(const FacePoints& at, const FacePair&
   return o;
 }
 
+template <Formulas use>
+EDDA_INLINE bool carries_tension(const FacePair& pair) {
+  if constexpr (use != Formulas::all) return false;
+  return pair.carries_tension != 0.0;
+}
+
 /// Closures at the ends that the aspect gate compares with the overlap: the drawn ones and a
 /// quarter of the locked ones, so that a face that comes into being begins without force.
 EDDA_INLINE FaceEnds gated_closure(double drawn_a, double drawn_b, const FacePair& pair) {
@@ -129,17 +135,21 @@ EDDA_INLINE FaceEnds gated_closure(double drawn_a, double drawn_b, const FacePai
 }
 
 /// Whether the short formulas suffice: the face carries no tension, and either no corners pass each
-/// other and W = w = 1, or there is no overlap.
-EDDA_INLINE bool is_plain(const EdgeGeometry& o, const FacePair& pair) {
+/// other and W = w = 1, or there is no overlap. drawn: the drawn closures at the ends of the
+/// overlap, which count where no corners pass each other.
+EDDA_INLINE bool is_plain(const EdgeGeometry& o, FaceEnds drawn, const FacePair& pair) {
   const double along = (o.cosine - pair.gate_from) * pair.gate_scale, length = o.mb - o.ma;
   const bool absent = (length <= 0.0) | (along <= 0.0) | (o.s2 <= 0.0) | (o.r1 <= o.r2);
   const double nearest = smaller(std::abs(o.r2), std::abs(o.s2 - o.r1));  // corner to corner
   const bool apart = nearest >= pair.passing;
-  const FaceEnds gated = gated_closure(o.closure_at_0 + o.closure_slope * o.ma,
-                                       o.closure_at_0 + o.closure_slope * o.mb, pair);
+  const FaceEnds gated = gated_closure(drawn.a, drawn.b, pair);
   constexpr double shallow = 1.001 * (aspect_from + aspect_range);
   const bool rigid = apart & (along >= 1.0) & (length >= shallow * larger(gated.a, gated.b));
   return (pair.carries_tension == 0.0) & (absent | rigid);
+}
+EDDA_INLINE bool is_plain(const EdgeGeometry& o, const FacePair& pair) {
+  return is_plain(
+      o, {o.closure_at_0 + o.closure_slope * o.ma, o.closure_at_0 + o.closure_slope * o.mb}, pair);
 }
 
 /// The ends of the overlap, as coordinates along t from p1, m.
@@ -154,8 +164,8 @@ struct OverlapEnds {
   PassingReach reach{};
 };
 
-/// The overlap of two edges. plain: is_plain() holds for them, so that no corners pass each other.
-template <bool plain>
+/// The overlap of two edges.
+template <Formulas use>
 EDDA_INLINE OverlapEnds overlap_of(const EdgeGeometry& o, const FacePair& pair) {
   OverlapEnds v;
   v.a_by_p = o.r2 <= 0.0;
@@ -164,8 +174,8 @@ EDDA_INLINE OverlapEnds overlap_of(const EdgeGeometry& o, const FacePair& pair) 
   v.sb = v.lb = o.mb;
   const bool opposed = (o.s2 > 0.0) & (o.r1 > o.r2) & (o.cosine > pair.gate_from);
   v.exists = (o.mb > o.ma) & opposed;
-  if constexpr (!plain) {
-    const bool carries_tension = pair.carries_tension != 0.0;
+  if constexpr (use != Formulas::plain) {
+    const bool carries = carries_tension<use>(pair);
     const double furthest = furthest_reach * pair.passing, per_furthest = 1.0 / furthest;
     v.per_passing = furthest_reach * per_furthest;
     v.near_a = corners_passing(-o.r2, furthest, per_furthest);
@@ -175,9 +185,8 @@ EDDA_INLINE OverlapEnds overlap_of(const EdgeGeometry& o, const FacePair& pair) 
     v.lb = o.mb - v.near_b.drawn_in + beyond;
     const double corner_a = o.closure_at_0 + o.closure_slope * v.la + pair.offset.a;
     const double corner_b = o.closure_at_0 + o.closure_slope * v.lb + pair.offset.b;
-    v.reach =
-        passing_reach(carries_tension ? corner_a : positive_part(corner_a),
-                      carries_tension ? corner_b : positive_part(corner_b), furthest, per_furthest);
+    v.reach = passing_reach(carries ? corner_a : positive_part(corner_a),
+                            carries ? corner_b : positive_part(corner_b), furthest, per_furthest);
     const double per_reach = 1.0 / (v.reach.reach > 0.0 ? v.reach.reach : 1.0);
     v.pass_a = corners_passing(-o.r2, v.reach.reach, per_reach);
     v.pass_b = corners_passing(o.s2 - o.r1, v.reach.reach, per_reach);

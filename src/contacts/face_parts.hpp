@@ -10,6 +10,11 @@
 
 namespace edda {
 
+/// Which formulas of a face are computed: all of them; those of a face that is neither bonded nor
+/// carries tension; and of these, those where is_plain() holds. What is left out would add nothing,
+/// and the results are the same to the bit.
+enum class Formulas { all, unbonded, plain };
+
 /// A value at each end of the overlap.
 struct FaceEnds {
   double a = 0.0, b = 0.0;

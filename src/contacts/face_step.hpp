@@ -168,11 +168,11 @@ EDDA_INLINE DashpotRoots dashpot_roots(const FaceInputs& in, const Face& face, d
 /// unless the face carries tension; that of the dashpot along the joint stays within what the limit
 /// leaves, and acts where the end sticks. `limits_given`: the limit is given and does not follow
 /// from the normal force.
-template <bool dashpots, bool limits_given, bool plain, bool books>
+template <bool dashpots, bool limits_given, Formulas use, bool books>
 EDDA_INLINE EndActs act(const FaceInputs& in, const EndOfFace& end, double spring,
                         double per_spring, const DashpotRoots& roots, double root, double cohesion,
                         bool touches, double given) {
-  const bool bonded = plain ? false : in.strength.bonded;
+  const bool bonded = use == Formulas::all ? in.strength.bonded : false;
   const auto limit_under = [&](double normal) {
     if constexpr (limits_given) return given;
     return bonded ? unlimited_shear : positive_part(cohesion + in.strength.friction * normal);
@@ -183,9 +183,9 @@ EDDA_INLINE EndActs act(const FaceInputs& in, const EndOfFace& end, double sprin
   } else {
     const double whole = end.normal + 2.0 * in.strength.zeta * root * end.closing * in.per_step;
     const double pushing = positive_part(whole);
-    const bool carries_tension = plain ? false : in.pair.carries_tension > 0.0;
+    const bool tension = carries_tension<use>(in.pair);
     const bool carries = end.normal != 0.0;
-    const double normal = carries ? (carries_tension ? whole : pushing) : 0.0;
+    const double normal = carries ? (tension ? whole : pushing) : 0.0;
     const double limit = limit_under(normal);
     const Shear shear = cut<books>(end.trial, spring, per_spring, limit);
     const double along =
@@ -222,15 +222,15 @@ EDDA_INLINE ShearSprings shear_springs(const FaceInputs& in, const Face& face, b
 struct EndsOfFace {
   EndOfFace a, b;
 };
-template <bool plain>
+template <Formulas use>
 EDDA_INLINE EndsOfFace ends_of(const FaceInputs& in, const Face& face, const EndMotion& moved,
                                double kept, bool touches) {
   const FaceEnds here = moved.slip;
   const double trial_a = touches ? kept * in.before.slip_a + here.a : 0.0;
   const double trial_b = touches ? kept * in.before.slip_b + here.b : 0.0;
-  const bool carries_tension = plain ? false : in.pair.carries_tension > 0.0;
+  const bool tension = carries_tension<use>(in.pair);
   const auto since_touch = [&](double closing, double d) {
-    return carries_tension ? closing : smaller(closing, positive_part(d));
+    return tension ? closing : smaller(closing, positive_part(d));
   };
   const FaceEnds closing{since_touch(moved.closure.a, face.closure.a),
                          since_touch(moved.closure.b, face.closure.b)};
@@ -286,36 +286,35 @@ EDDA_INLINE void mark_changes(FaceStep& s, const FaceInputs& in, const EdgeGeome
   s.switched =
       (s.closed_a != (old.stored & old.closed_a)) | (s.closed_b != (old.stored & old.closed_b));
   s.switching = old.stored & (s.switched | old.switched);
-  const FaceEnds drawn{face.closure.a - in.pair.offset.a, face.closure.b - in.pair.offset.b};
-  s.free = becomes_free(in, drawn);
-  s.decides = needs_decision(in, face.gate > 0.0, drawn, face.energy > 0.0);
+  s.free = becomes_free(in, face.drawn);
+  s.decides = needs_decision(in, face.gate > 0.0, face.drawn, face.energy > 0.0);
   s.works = s.touches | old.stored | (old.spring > 0.0);
-  s.rare = in.strength.bonded | !is_plain(stands, in.pair);
-  s.depth = s.touches ? larger(drawn.a, drawn.b) : 0.0;
+  s.rare = in.strength.bonded | !is_plain(stands, face.drawn, in.pair);
+  s.depth = s.touches ? larger(face.drawn.a, face.drawn.b) : 0.0;
 }
 
 /// Evaluates a face at step n, where its two edges stand so and are this element. dashpots: some
-/// face of the model has dashpots; limits_given: as in act(); plain: by the short formulas
-/// (is_plain()); books: with the work of the step, without which the result is only right where
+/// face of the model has dashpots; limits_given: as in act(); books: with the work of the step,
+/// without which the result is only right where
 /// there is no `unrest`.
-template <bool dashpots, bool limits_given, bool plain, bool books = true>
+template <bool dashpots, bool limits_given, Formulas use, bool books = true>
 EDDA_INLINE FaceStep step_of_face(const FaceInputs& in, const EdgeGeometry& stands,
                                   const Face& face) {
   const FacePair& pair = in.pair;
   const FaceBefore& old = in.before;
   FaceStep s;
-  const bool bonded = plain ? false : in.strength.bonded;
+  const bool bonded = use == Formulas::all ? in.strength.bonded : false;
   s.touches = (face.energy > 0.0) | (bonded & (face.gate > 0.0));
   const ShearSprings springs = shear_springs<books>(in, face, s.touches);
   const double spring = springs.spring, per_spring = springs.per_spring;
   const EndMotion moved = motion_of(face, stands.corners(), old.corners);
-  const EndsOfFace end = ends_of<plain>(in, face, moved, springs.kept, s.touches);
+  const EndsOfFace end = ends_of<use>(in, face, moved, springs.kept, s.touches);
   DashpotRoots roots;
   if constexpr (dashpots) roots = dashpot_roots(in, face, spring);
   const double cohesion = s.touches ? 0.5 * in.strength.cohesion * face.cohesive : 0.0;
-  const EndActs a = act<dashpots, limits_given, plain, books>(
+  const EndActs a = act<dashpots, limits_given, use, books>(
       in, end.a, spring, per_spring, roots, roots.a, cohesion, s.touches, in.limits.a);
-  const EndActs b = act<dashpots, limits_given, plain, books>(
+  const EndActs b = act<dashpots, limits_given, use, books>(
       in, end.b, spring, per_spring, roots, roots.b, cohesion, s.touches, in.limits.b);
   s.overlap = springs.overlap;
   s.spring = spring;
@@ -380,8 +379,7 @@ EDDA_INLINE OpenFace look_at_open_face(const FaceInputs& in, const EdgeGeometry&
   s.eta = {(o.ma - o.r2) * o.per_f, (o.mb - o.r2) * o.per_f};
   const FaceEnds gated = gated_closure(drawn_a, drawn_b, pair);
   const bool open = larger(larger(s.closure.a, s.closure.b), larger(gated.a, gated.b)) <= 0.0;
-  const FaceEnds surfaces{s.closure.a - pair.offset.a, s.closure.b - pair.offset.b};
-  s.may_close = (on & !open) | needs_decision(in, on, surfaces, false);
+  s.may_close = (on & !open) | needs_decision(in, on, {drawn_a, drawn_b}, false);
   return s;
 }
 EDDA_INLINE OpenFace look_at_open_face(const FaceInputs& in) {

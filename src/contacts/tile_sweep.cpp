@@ -118,32 +118,41 @@ ChunkView view_of(FaceTiles& t, const SweepScene& scene, std::size_t tile, std::
           .noise = scene.noise};
 }
 
+/// What a chunk is evaluated for.
+enum class Needs { forces, work, dashpots };
+
+ChunkFound evaluate_by(Formulas use, Needs needs, const ChunkView& view) {
+  using Loop = ChunkFound(const ChunkView&);
+  static constexpr Loop* loops[3][3] = {
+      {evaluate_bonded_at_rest, evaluate_bonded_with_work, evaluate_bonded_damped},
+      {evaluate_at_rest, evaluate_with_work, evaluate_damped},
+      {evaluate_plain_at_rest, evaluate_plain_with_work, evaluate_plain_damped}};
+  return loops[static_cast<std::size_t>(use)][static_cast<std::size_t>(needs)](view);
+}
+
 /// Evaluates a chunk. What held for all of its faces in the last step is tried first: that
 /// is_plain(), and that they do no work.
 ChunkFound evaluate_chunk(FaceTiles& t, const ChunkView& view, std::size_t q, bool overlaps_known) {
   const auto any = [](const ChunkFound& c, unsigned of) {
     return (c.found & lane_bits::field(of)) != 0;
   };
-  const bool damped = t.has_dashpots();
   const bool worked = t.fresh[1 - t.now][q] != 0;
-  bool plain = t.plain[q] != 0, rests = !damped && !worked;
+  Formulas use = t.bonds[q] != 0   ? Formulas::all
+                 : t.plain[q] != 0 ? Formulas::plain
+                                   : Formulas::unbonded;
+  Needs needs = t.has_dashpots() ? Needs::dashpots : worked ? Needs::work : Needs::forces;
   for (;;) {
-    if (!plain && !overlaps_known) overlap_edges(view);
-    const ChunkFound found = plain    ? damped  ? evaluate_plain_damped(view)
-                                        : rests ? evaluate_plain_at_rest(view)
-                                                : evaluate_plain_with_work(view)
-                                : damped ? evaluate_damped(view)
-                             : rests  ? evaluate_at_rest(view)
-                                      : evaluate_with_work(view);
-    const bool too_plain = plain && any(found, lane_bits::rare),
-               too_quiet = rests && any(found, lane_bits::busy);
+    if (use != Formulas::plain && !overlaps_known) overlap_edges(view);
+    const ChunkFound found = evaluate_by(use, needs, view);
+    const bool too_plain = use == Formulas::plain && any(found, lane_bits::rare),
+               too_quiet = needs == Needs::forces && any(found, lane_bits::busy);
     if (!too_plain && !too_quiet) {
       t.plain[q] = any(found, lane_bits::rare) ? 0 : 1;
       return found;
     }
-    overlaps_known = overlaps_known || !plain;
-    plain = plain && !too_plain;
-    rests = rests && !too_quiet;
+    overlaps_known = overlaps_known || use != Formulas::plain;
+    if (too_plain) use = Formulas::unbonded;
+    if (too_quiet) needs = Needs::work;
   }
 }
 
@@ -232,7 +241,7 @@ LaneBits sweep_some(const TileInSweep& s, std::size_t first, std::size_t last) {
   }
   for (std::size_t q = first; q < last; ++q) {
     bool& known = stands[q - first].overlaps_known;
-    known = t.plain[q] == 0 && !is_idle(t, q);
+    known = (t.plain[q] == 0 || t.bonds[q] != 0) && !is_idle(t, q);
     if (known) overlap_edges(views[q - first]);
   }
   LaneBits found = 0;

@@ -110,7 +110,7 @@ TEST(Face, IsTheSameWherePlainPartsAreLeftOut) {
       ++rare;
       continue;
     }
-    const Face plain = face_between<true>(r.at, r.pair);
+    const Face plain = face_between<Formulas::plain>(r.at, r.pair);
     if (whole.gate > 0.0) {
       (whole.energy > 0.0 ? closed : open) += 1;
       EXPECT_EQ(parts(plain), parts(whole));
