@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 #include "base/parallel.hpp"
 #include "contacts/tile_columns.hpp"
@@ -120,10 +121,14 @@ void load_correction(FaceTiles& t, const FaceSet& c, std::size_t k) {
 }
 
 void load_chunk_constants(FaceTiles& t, const FaceSet& c, const BlockSet& b, std::size_t tile,
-                          std::size_t q) {
+                          std::size_t q, unsigned changed) {
   alignas(64) double edges[edge_columns * lanes], strengths[strength_columns * lanes];
-  bool bonds = false;
+  if (changed != 0xff) {
+    std::copy_n(t.edges_of(tile, q), std::size(edges), edges);
+    std::copy_n(t.strengths_of(tile, q), std::size(strengths), strengths);
+  }
   for (std::size_t lane = 0; lane < lanes; ++lane) {
+    if ((changed >> lane & 1u) == 0) continue;
     const Id k = t.face[q * lanes + lane];
     if (k == no_id) {
       put(edges, lane, no_constants());
@@ -133,7 +138,11 @@ void load_chunk_constants(FaceTiles& t, const FaceSet& c, const BlockSet& b, std
     const FacePair pair = face_pair(c, b.exterior_cosine.data(), b.exterior_sine.data(), k);
     put(edges, lane, edge_constants(c, b, pair, k));
     put(strengths, lane, strength_constants(c, pair, k));
-    bonds = bonds || c.bonded[k] > 0.0 || c.carries_tension[k] > 0.0;
+  }
+  const auto of = columns_from<StrengthConstants<const double*>>(&strengths[0]);
+  bool bonds = false;
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    bonds = bonds || of.bonded[lane] > 0.0 || of.carries_tension[lane] > 0.0;
   }
   t.bonds[q] = bonds ? 1 : 0;
   t.edge_set[q] = set_of(t.constants[tile].edges, edges, edge_columns);
@@ -162,7 +171,8 @@ void load_faces(FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& p
 void load_decisions(FaceTiles& t, const FaceSet& c, const BlockSet& b, std::size_t k) {
   for (const Id place : t.place[k]) {
     if (place == no_id) continue;
-    load_chunk_constants(t, c, b, t.tile_of_chunk(place / lanes), place / lanes);
+    load_chunk_constants(t, c, b, t.tile_of_chunk(place / lanes), place / lanes,
+                         1u << place % lanes);
     load_sums(t, c, place, k);
   }
 }

@@ -13,9 +13,10 @@ void load_faces(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks, 
 /// has added to its accumulated work.
 void load_decisions(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks, std::size_t k);
 
-/// The constants of a chunk of a tile.
+/// The constants of a chunk of a tile. changed: bits of the lanes to be loaded; the others have
+/// their constants already.
 void load_chunk_constants(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
-                          std::size_t tile, std::size_t chunk);
+                          std::size_t tile, std::size_t chunk, unsigned changed = 0xff);
 
 /// Takes over what the correction of switching has changed of face k (recompute_shear()): its slip
 /// at n - 1 and its accumulated work.

@@ -166,6 +166,9 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
   std::vector<std::uint8_t>& kind = scratch.kind;
   std::vector<std::uint8_t>& touched = scratch.touched;
   touched.assign(of.last_chunk - of.first_chunk, 0);
+  const auto touch = [&](std::size_t n) {
+    touched[n / lanes] = static_cast<std::uint8_t>(touched[n / lanes] | 1u << n % lanes);
+  };
   std::array<std::size_t, face_kinds> next{}, end{};
   for (std::size_t r = 0, begin = 0; r < face_kinds; ++r) {
     next[r] = begin;
@@ -181,7 +184,8 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
         const std::size_t m = next[to]++;
         swap_faces(t, first + n, first + m);
         std::swap(kind[n], kind[m]);
-        touched[n / lanes] = touched[m / lanes] = 1;
+        touch(n);
+        touch(m);
       }
     }
   }
@@ -189,15 +193,13 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
       (of.last_chunk - of.first_chunk) * static_cast<Id>(lanes) - count[face_kind::asleep];
   const Id was = of.awake_end;
   of.awake_end = of.first_chunk + static_cast<Id>((awake + lanes - 1) / lanes);
-  for (Id q = std::min(was, of.awake_end); q < std::max(was, of.awake_end); ++q) {
-    touched[q - of.first_chunk] = 1;
-  }
   std::size_t changed = 0;
   for (std::size_t n = 0; n < touched.size(); ++n) {
-    if (touched[n] == 0) continue;
-    ++changed;
     const std::size_t q = of.first_chunk + n;
-    load_chunk_constants(t, scene.faces, scene.blocks, tile, q);
+    const bool turns = (q < was) != (q < of.awake_end);  // falls asleep or wakes
+    if (touched[n] == 0 && !turns) continue;
+    ++changed;
+    if (touched[n] != 0) load_chunk_constants(t, scene.faces, scene.blocks, tile, q, touched[n]);
     mark_chunk(t, q, q < of.awake_end);
     if (q >= of.awake_end) continue;
     for (std::size_t lane = 0; lane < lanes; ++lane) {

@@ -260,31 +260,36 @@ struct EdgesAlone {
 };
 constexpr Id slots_alone[2 * lanes] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
-/// Reads the edges of a chunk from the vertices.
-void read_vertices(const FaceTiles& t, const SweepScene& scene, std::size_t q, EdgesAlone& to) {
+/// Reads the edges of a chunk from the vertices, those at n - 1 if `then`.
+void read_vertices(const FaceTiles& t, const SweepScene& scene, std::size_t q, bool then,
+                   EdgesAlone& to) {
   const BlockSet& b = scene.blocks;
   const Masses& m = scene.masses;
   const Pose& p = scene.pose;
-  to = {};
+  const auto put = [](double* record, double v, double w, double x, double y) {
+    record[0] = v;
+    record[1] = w;
+    record[2] = x;
+    record[3] = y;
+  };
   const auto read = [&](std::size_t slot, Id edge) {
-    const auto put = [slot](double(&record)[2 * lanes][4], double v, double w, double x, double y) {
-      record[slot][0] = v;
-      record[slot][1] = w;
-      record[slot][2] = x;
-      record[slot][3] = y;
-    };
     const Id end = b.next[edge];
-    put(to.at, p.x[edge], p.y[edge], p.x[end], p.y[end]);
-    put(to.then, p.x1[edge], p.y1[edge], p.x1[end], p.y1[end]);
+    put(to.at[slot], p.x[edge], p.y[edge], p.x[end], p.y[end]);
+    if (then) put(to.then[slot], p.x1[edge], p.y1[edge], p.x1[end], p.y1[end]);
     if (t.has_dashpots()) {
-      put(to.mass, m.point_inverse[edge], m.edge_inverse[edge], m.point_inverse[end], 0.0);
+      put(to.mass[slot], m.point_inverse[edge], m.edge_inverse[edge], m.point_inverse[end], 0.0);
     }
   };
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const Id k = t.face[q * lanes + lane];
-    if (k == no_id) continue;
-    read(lane, scene.faces.edge[k]);
-    read(lanes + lane, scene.faces.facing[k]);
+    if (k != no_id) {
+      read(lane, scene.faces.edge[k]);
+      read(lanes + lane, scene.faces.facing[k]);
+      continue;
+    }
+    for (auto* table : {to.at, to.then, to.mass}) {
+      for (const std::size_t slot : {lane, lanes + lane}) put(table[slot], 0.0, 0.0, 0.0, 0.0);
+    }
   }
 }
 
@@ -373,8 +378,9 @@ SweepResult sweep_chunks(FaceTiles& t, const SweepScene& scene, std::size_t tile
   LaneBits found = 0;
   for (const std::size_t q : chunks) {
     EdgesAlone alone;
-    read_vertices(t, scene, q, alone);
-    const ChunkEdges edges{alone.at[0], t.tiles[tile].takes_then ? alone.then[0] : nullptr,
+    const bool then = t.tiles[tile].takes_then;
+    read_vertices(t, scene, q, then, alone);
+    const ChunkEdges edges{alone.at[0], then ? alone.then[0] : nullptr,
                            t.has_dashpots() ? alone.mass[0] : nullptr, slots_alone,
                            slots_alone + lanes};
     ChunkStand stand;

@@ -30,7 +30,7 @@ struct SweepScratch {
   AlignedNumbers mass;             ///< [slots][4] EdgeInverseMass; empty without dashpots
   AlignedNumbers on;               ///< [records][4] forces on start and end of an edge, N
   std::vector<std::uint8_t> kind;  ///< [places of a tile] what each face does (tile_sleep.cpp)
-  std::vector<std::uint8_t> touched;  ///< [chunks of a tile] faces in it have come and gone
+  std::vector<std::uint8_t> touched;  ///< [chunks of a tile] lanes where faces have come and gone
 };
 
 /// What the faces of a tile need besides their forces.
