@@ -1,6 +1,7 @@
 #include "contacts/tile_sweep.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "contacts/chunk_loops.hpp"
 #include "contacts/tile_sleep.hpp"
@@ -266,18 +267,15 @@ void read_vertices(const FaceTiles& t, const SweepScene& scene, std::size_t q, b
   const BlockSet& b = scene.blocks;
   const Masses& m = scene.masses;
   const Pose& p = scene.pose;
-  const auto put = [](double* record, double v, double w, double x, double y) {
-    record[0] = v;
-    record[1] = w;
-    record[2] = x;
-    record[3] = y;
+  const auto put = [](double* record, const std::array<double, 4>& numbers) {
+    std::copy(numbers.begin(), numbers.end(), record);
   };
   const auto read = [&](std::size_t slot, Id edge) {
     const Id end = b.next[edge];
-    put(to.at[slot], p.x[edge], p.y[edge], p.x[end], p.y[end]);
-    if (then) put(to.then[slot], p.x1[edge], p.y1[edge], p.x1[end], p.y1[end]);
+    put(to.at[slot], {p.x[edge], p.y[edge], p.x[end], p.y[end]});
+    if (then) put(to.then[slot], {p.x1[edge], p.y1[edge], p.x1[end], p.y1[end]});
     if (t.has_dashpots()) {
-      put(to.mass[slot], m.point_inverse[edge], m.edge_inverse[edge], m.point_inverse[end], 0.0);
+      put(to.mass[slot], {m.point_inverse[edge], m.edge_inverse[edge], m.point_inverse[end], 0.0});
     }
   };
   for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -285,10 +283,8 @@ void read_vertices(const FaceTiles& t, const SweepScene& scene, std::size_t q, b
     if (k != no_id) {
       read(lane, scene.faces.edge[k]);
       read(lanes + lane, scene.faces.facing[k]);
-      continue;
-    }
-    for (auto* table : {to.at, to.then, to.mass}) {
-      for (const std::size_t slot : {lane, lanes + lane}) put(table[slot], 0.0, 0.0, 0.0, 0.0);
+    } else {
+      for (auto* of : {to.at, to.then, to.mass}) put(of[lane], {}), put(of[lanes + lane], {});
     }
   }
 }

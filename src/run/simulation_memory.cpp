@@ -213,6 +213,7 @@ void list_memory(Archive& a, Simulation& s) {
   a("displacement_cap", s.control.cap);
   a("strength_from", s.relaxation.strength_from);
   a("strength_to", s.relaxation.strength_to);
+  a("hold", s.relaxation.hold);
   a("larger_allowed_since", s.control.larger_allowed_since);
   a("target", s.control.target);
   a("nominal_step", s.control.nominal);

@@ -167,30 +167,44 @@ void update_estimate(Simulation& sim, const LoadsNow& at_work) {
       std::max(was > 0.0 ? std::sqrt(0.5 * (was * was + *now)) : std::sqrt(*now), slowest);
 }
 
-/// Increases what is applied gradually, in proportion to the frequency estimate: all of it within
-/// one period.
-void advance_gradual_change(Simulation& sim) {
+/// Brings strength to what it is at this part of its gradual change.
+void change_strength(Simulation& sim, double part) {
   const Relaxation& relaxation = sim.relaxation;
+  std::vector<double> now = relaxation.strength_to;
+  for (std::size_t r = 0; r < now.size(); ++r) {
+    now[r] = relaxation.strength_from[r] + part * (now[r] - relaxation.strength_from[r]);
+  }
+  take_strength_factors(sim, now);
+}
+
+/// Increases what is applied gradually, in proportion to the frequency estimate: all of it within
+/// one period. The first loads come on more slowly where inertia has been raised, since such blocks
+/// follow more slowly than their neighbours; then the model settles (`part` is below 0 meanwhile)
+/// before the joints come down to their strength.
+void advance_gradual_change(Simulation& sim) {
+  Relaxation& relaxation = sim.relaxation;
   if (gradual_change_complete(sim)) return;
-  constexpr double periods = 1.0, increments = 100.0;
+  constexpr double periods = 1.0, settling = 1.0, increments = 100.0;
   // Before anything has moved, the frequency of the wave is used.
   const double frequency =
       relaxation.estimate.frequency > 0.0 ? relaxation.estimate.clock() : wave_frequency(sim);
   GradualChange& gradual = sim.attached.loads.gradual;
   const double before = gradual.part;
-  const double period = 2.0 * std::numbers::pi * periods / frequency;
+  const bool loading = relaxation.hold == Relaxation::Hold::loading;
+  const double slower = loading ? std::sqrt(raised_inertia(sim)) : 1.0;
+  const double period = 2.0 * std::numbers::pi * periods * slower / frequency;
   gradual.part += sim.motion.state.step / std::max(period, gradual.least);
-  if (gradual.part >= 1.0) {
+  const bool strength = !relaxation.strength_to.empty() && !loading;
+  if (gradual.part >= 1.0 && loading) {
+    gradual = {sim.motion.state.time, -settling, false, 0.0};
+    relaxation.hold = Relaxation::Hold::settling;
+  } else if (gradual.part >= 1.0) {
     gradual = {};
-    if (!relaxation.strength_to.empty()) take_strength_factors(sim, relaxation.strength_to);
-  } else if (!relaxation.strength_to.empty() &&
+    relaxation.hold = Relaxation::Hold::over;
+    if (strength) change_strength(sim, 1.0);
+  } else if (strength && gradual.part > 0.0 &&
              std::floor(increments * gradual.part) > std::floor(increments * before)) {
-    std::vector<double> now = relaxation.strength_to;
-    for (std::size_t r = 0; r < now.size(); ++r) {
-      now[r] = relaxation.strength_from[r] +
-               gradual.part * (relaxation.strength_to[r] - relaxation.strength_from[r]);
-    }
-    take_strength_factors(sim, now);
+    change_strength(sim, gradual.part);
   }
 }
 
@@ -240,12 +254,15 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
   const LawTable& laws = sim.motion.laws;
   Relaxation& relaxation = sim.relaxation;
   if (state.steps == 0) {  // the initial stress is in equilibrium with the weight already
-    set_strength_factors(sim, strength_factors);
     const double least = time_of_displacements(sim);
     const bool weight = !sim.scene->model.initial_stress;
-    if (weight || least > 0.0)
-      loads.gradual = {state.time, 0.0, weight, weight ? 2.0 * least : least};
-    return;
+    if (!weight && least == 0.0) return set_strength_factors(sim, strength_factors);
+    relaxation.hold = Relaxation::Hold::loading;
+    constexpr double strong = 1e-3;  // strength is divided by this
+    loads.gradual = {state.time, 0.0, weight, weight ? 2.0 * least : least};
+    relaxation.strength_from = relaxation.strength_to = strength_factors;
+    for (double& factor : relaxation.strength_from) factor *= strong;
+    return set_strength_factors(sim, relaxation.strength_from);
   }
   const double least = time_of_displacements(sim);
   const ActiveIntervals& intervals = loads.intervals;
@@ -264,7 +281,14 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
   relaxation.strength_to = strength_factors;
 }
 
+void end_hold(Simulation& sim) {
+  if (sim.relaxation.hold == Relaxation::Hold::over) return;
+  sim.relaxation.hold = Relaxation::Hold::over;
+  set_strength_factors(sim, sim.relaxation.strength_to);
+}
+
 void stop_gradual_change(Simulation& sim) {
+  end_hold(sim);
   Loads& loads = sim.attached.loads;
   SlowLoading& slow = loads.slow;
   const double time = sim.motion.state.time;

@@ -37,6 +37,9 @@ struct Relaxation {
                                     ///< slides away; empty: none
   std::vector<double> strength_from, strength_to;  ///< [laws] strength factors while strength
                                                    ///< changes gradually
+  /// At the very start joints neither slide nor break while the first loads come on; then the model
+  /// settles, and they come down to their strength.
+  enum class Hold : std::uint8_t { over, loading, settling } hold = Hold::over;
 };
 
 /// Coefficient of mass-proportional damping at present, adaptive damping included, 1/s.
@@ -44,11 +47,16 @@ double mass_damping(const Simulation& sim);
 
 /// Applies gradually, over about a period of the motion, what begins or ends to act now, and this
 /// change of strength; at the very start also the weight, where the ground has no initial stress.
-/// Used with adaptive damping. `more`: something else is to change with Loads::gradual, too.
+/// What comes on then comes on joints that hold; once it is settled they come down to their
+/// strength, gradually, too. Used with adaptive damping. `more`: something else is to change with
+/// Loads::gradual, too.
 void begin_gradually(Simulation& sim, const std::vector<double>& strength_factors,
                      bool more = false);
 
-/// Ends gradual changes where they are, as where a model fails on the way.
+/// Brings joints that hold to their strength at once.
+void end_hold(Simulation& sim);
+
+/// Ends gradual changes where they are, as where a model fails on the way, and a hold.
 void stop_gradual_change(Simulation& sim);
 
 /// Whether gradual changes are complete.

@@ -2,6 +2,7 @@
 
 #include "model/stage_names.hpp"
 #include "run/stage_plan.hpp"
+#include "step/relaxation.hpp"
 
 namespace edda {
 
@@ -18,6 +19,7 @@ Result<PreparedRun> as_staged(const Model& model, const Fos& fos) {
     // A ramp until collapse does not reach its last value.
     if (stage.ramp && stage.until != StageEnd::collapse)
       set_ramp(sim, stage, stage.ramp->what.range->y);
+    end_hold(sim);
   }
   return made;
 }

@@ -12,8 +12,8 @@ namespace {
 using namespace ways_to_rest;
 
 /// Without the limit on the share of one block in the frequency (theory, section 11.1) its motion
-/// would hide that of all others, the adaptive damping would vanish, and the stage would take 7,312
-/// steps.
+/// would hide that of all others, the adaptive damping would vanish, and the stage would take twice
+/// as long.
 TEST(WaysToRest, WhatSlidesAloneDelaysNoOther) {
   const EquilibriumRun found = run_to_equilibrium(
       wall(8, 8) +
@@ -22,7 +22,7 @@ TEST(WaysToRest, WhatSlidesAloneDelaysNoOther) {
       "joint = 'ice'\npolygon = [[11, -1.176326981], [12, -1.352653961], "
       "[12.17364818, -0.3678462085], [11.17364818, -0.1915192285]]\n" +
       until_equilibrium);
-  EXPECT_LT(found.outcome.steps, 2500U);
+  EXPECT_LT(found.outcome.steps, 4000U);
   EXPECT_NE(found.outcome.message.find("come loose: block 2 (slider)"), std::string::npos)
       << found.outcome.message;
 }
