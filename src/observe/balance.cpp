@@ -29,15 +29,41 @@ std::vector<std::uint8_t> negligible_blocks(const Simulation& sim) {
   return are;
 }
 
+namespace {
+
+double resultant_on(const Simulation& sim, std::size_t i) {
+  return nodes_per_block * norm(centroid(sim.motion.forces.x, sim.motion.forces.y, i));
+}
+
+/// Whether block i moves or is about to: by more than rounding, whatever may act on it.
+bool is_moved(const Simulation& sim, std::size_t i) {
+  constexpr double usual_gravity = 9.81, part = 1e-9;
+  const BlockSet& b = sim.scene->blocks;
+  const double speed = norm(centroid(sim.motion.state.vx, sim.motion.state.vy, i));
+  return resultant_on(sim, i) > part * usual_gravity * b.mass[i] ||
+         speed > part * std::sqrt(usual_gravity * std::sqrt(b.area[i]));
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> falling_blocks(const Simulation& sim) {
+  std::vector<std::uint8_t> fall = touching(sim);
+  for (std::size_t i = 0; i < fall.size(); ++i) {
+    const bool free = is_free(sim.scene->blocks, sim.motion.state, i);
+    fall[i] = fall[i] == 0 && free && is_moved(sim, i) ? 1 : 0;
+  }
+  return fall;
+}
+
 Balance balance_of(const Simulation& sim) {
   Balance balance;
-  const std::vector<std::uint8_t> touches = touching(sim), small = negligible_blocks(sim);
+  const std::vector<std::uint8_t> falls = falling_blocks(sim), small = negligible_blocks(sim);
   double sum = 0.0;
   std::vector<Id> resting;
   std::vector<double> all;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
     if (!is_free(sim.scene->blocks, sim.motion.state, i) || small[i] != 0) continue;
-    if (!touches[i]) {
+    if (falls[i] != 0) {
       ++balance.detached;
       continue;
     }
@@ -46,8 +72,7 @@ Balance balance_of(const Simulation& sim) {
       continue;
     }
     resting.push_back(static_cast<Id>(i));
-    const double force =
-        nodes_per_block * norm(centroid(sim.motion.forces.x, sim.motion.forces.y, i));
+    const double force = resultant_on(sim, i);
     sum += force;
     all.push_back(force);
     if (balance.block == no_id || force > balance.largest) {
@@ -56,7 +81,8 @@ Balance balance_of(const Simulation& sim) {
     }
   }
   balance.resting = resting.size();
-  if (sum == 0.0) return balance;
+  if (std::none_of(resting.begin(), resting.end(), [&](Id i) { return is_moved(sim, i); }))
+    return balance;
   const double scale = force_scale(sim, sim.motion.contacts, resting);
   constexpr std::size_t parts = 20;
   const auto most = all.end() - static_cast<std::ptrdiff_t>(all.size() / parts);

@@ -13,7 +13,8 @@ namespace edda {
 struct Simulation;
 
 /// How far the forces of the last step are from equilibrium. Blocks without contact do not count,
-/// since they fall whatever the others do; nor do loose blocks (Relaxation::loose) and pebbles.
+/// since they fall whatever the others do, unless nothing moves them; nor do loose blocks
+/// (Relaxation::loose) and pebbles.
 struct Balance {
   double mean = 0.0;     ///< mean resultant of the blocks, over the mean contact normal force (the
                          ///< mean weight where no contact carries load)
@@ -21,11 +22,15 @@ struct Balance {
   double largest = 0.0;  ///< the same for the block furthest from equilibrium
   Id block = no_id;      ///< that block
   std::size_t resting = 0;   ///< blocks that count
-  std::size_t detached = 0;  ///< free blocks without contact
+  std::size_t detached = 0;  ///< free blocks that fall: without contact, and not at rest
   std::size_t loose = 0;     ///< blocks that slide or fall away for good (Relaxation::loose)
 };
 
 Balance balance_of(const Simulation& sim);
+
+/// [nb] 1: a free block that touches nothing, or carries no load where it touches, and moves or is
+/// about to move. Where nothing acts on a model its blocks rest without carrying any load.
+std::vector<std::uint8_t> falling_blocks(const Simulation& sim);
 
 /// [nb] 1: a free block whose size (square root of the area) is less than a tenth of the mean of
 /// all free blocks. With its inertia raised by mass scaling it is slow to reach equilibrium, and

@@ -80,7 +80,7 @@ bool Driver::end_stage(Arrival went) {
     if (ended_by(recorder_.stages(stages_csv(sim_.scene->model, ends_)))) return false;
     save_stage();
   }
-  if (now.to_equilibrium()) outcome_.loose = std::max(outcome_.loose, loose_block_ids(sim_).size());
+  if (now.to_equilibrium()) outcome_.loose = std::max(outcome_.loose, lost_block_ids(sim_).size());
   const std::string label = stage_label(sim_.scene->model, stage_);
   if (failed && !reached) {
     end(Status::collapsed, end_of_ramp(false) + not_in_equilibrium());

@@ -198,6 +198,17 @@ std::vector<Id> loose_block_ids(const Simulation& sim) {
   return loose;
 }
 
+std::vector<Id> lost_block_ids(const Simulation& sim) {
+  std::vector<Id> lost = loose_block_ids(sim);
+  const std::vector<std::uint8_t> falls = falling_blocks(sim), small = negligible_blocks(sim);
+  for (std::size_t i = 0; i < falls.size(); ++i) {
+    if (falls[i] != 0 && small[i] == 0) lost.push_back(static_cast<Id>(i));
+  }
+  std::sort(lost.begin(), lost.end());
+  lost.erase(std::unique(lost.begin(), lost.end()), lost.end());
+  return lost;
+}
+
 std::string loose_blocks(const EquilibriumSearch& s, const Simulation& sim) {
   std::vector<std::pair<double, Id>> loose;
   for (const Id i : loose_block_ids(sim)) {

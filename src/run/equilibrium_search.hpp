@@ -74,6 +74,8 @@ double travel_if_free(const Simulation& sim, std::size_t i, double v, double t, 
 
 /// Loose blocks of the present stage, pebbles excluded, ascending.
 std::vector<Id> loose_block_ids(const Simulation& sim);
+/// The same and those that fall freely.
+std::vector<Id> lost_block_ids(const Simulation& sim);
 
 /// "block 25 (3.1 mm so far), block 7 (...)", the fastest first; empty: none.
 std::string loose_blocks(const EquilibriumSearch& search, const Simulation& sim);

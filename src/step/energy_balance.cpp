@@ -35,11 +35,12 @@ double block_gravity_energy(const BlockSet& b, const State& s, double h, Vec2 gr
 
 }  // namespace
 
-double rounding_energy(const BlockSet& b, const FaceSet& c) {
-  double size = 0.0, stiffness = 0.0;
+double rounding_energy(const BlockSet& b, const FaceSet& c, Vec2 gravity) {
+  double size = 0.0, stiffness = 0.0, mass = 0.0;
   for (const double x : b.vertex_x) size = std::max(size, std::abs(x));
   for (const double y : b.vertex_y) size = std::max(size, std::abs(y));
   for (std::size_t i = 0; i < b.size(); ++i) {
+    mass += b.mass[i];
     stiffness =
         std::max(stiffness, (b.lame_lambda[i] + 2.0 * b.lame_mu[i]) * b.volume[i] / b.area[i]);
   }
@@ -48,7 +49,8 @@ double rounding_energy(const BlockSet& b, const FaceSet& c) {
     stiffness = std::max(stiffness, 0.5 * c.stiffness[k] * shorter);
   }
   const double stretch = 1e4 * std::numeric_limits<double>::epsilon() * size;
-  return 0.5 * static_cast<double>(b.size()) * stiffness * stretch * stretch;
+  return 0.5 * static_cast<double>(b.size()) * stiffness * stretch * stretch +
+         mass * norm(gravity) * stretch;
 }
 
 EnergyBalance energy_balance(const Simulation& sim) {
@@ -92,8 +94,9 @@ EnergyBalance energy_balance(const Simulation& sim) {
 }
 
 double energy_scale(const Simulation& sim, const EnergyBalance& l) {
-  return std::max({sim.accounts.largest_energy, l.scale(),
-                   rounding_energy(sim.scene->blocks, sim.motion.contacts)});
+  return std::max(
+      {sim.accounts.largest_energy, l.scale(),
+       rounding_energy(sim.scene->blocks, sim.motion.contacts, sim.scene->model.gravity)});
 }
 
 EnergyBalance account_energy(Simulation& sim) {

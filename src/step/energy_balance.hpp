@@ -32,9 +32,9 @@ struct EnergyBalance {
 };
 
 /// Energy that rounding alone may store in springs and rock and release over a long run, J: all
-/// blocks on the stiffest spring, stretched by 1e4 roundings of a coordinate. Changes of energy
-/// below a part of it have no meaning.
-double rounding_energy(const BlockSet& blocks, const FaceSet& contacts);
+/// blocks on the stiffest spring, stretched by 1e4 roundings of a coordinate, and lowered by as
+/// much. Changes of energy below a part of it have no meaning.
+double rounding_energy(const BlockSet& blocks, const FaceSet& contacts, Vec2 gravity);
 
 /// All terms but the error, from positions at step n and velocities at the instant at which the
 /// method has them. The rows of the faces must be up to date (step/tile_step.hpp).

@@ -225,10 +225,12 @@ Simulation at_start(const Simulation& rest, const Simulation& later) {
   return start;
 }
 
-/// Compares the factor with the limits of rigid blocks.
+/// Compares the factor, or the highest one that holds where none fails, with the limits of rigid
+/// blocks.
 void compare_with_rigid(const Model& model, const Fos& fos, FosResult& r) {
   constexpr std::size_t most_blocks = 5000;  // for which it takes a small part of the search
-  if (!r.factor || fos.varied == Varied::shaking || r.blocks > most_blocks) return;
+  const std::optional<double> found_factor = r.status == FosStatus::above ? r.holds : r.factor;
+  if (!found_factor || fos.varied == Varied::shaking || r.blocks > most_blocks) return;
   const Result<LimitResult> found = limit_analysis(model);
   if (!found.ok() || found.value().largest.status != LimitEnd::found) return;
   const LimitResult& limit = found.value();
@@ -238,8 +240,8 @@ void compare_with_rigid(const Model& model, const Fos& fos, FosResult& r) {
                           limit.residual.value_or(rigid.most)});
   constexpr double elastic = 0.02;  // joints and blocks deform before they fail
   rigid.slack = fos.tolerance + elastic;
-  rigid.below_most = *r.factor <= (1.0 + rigid.slack) * rigid.most;
-  const bool lower = *r.factor < (1.0 - rigid.slack) * rigid.least;
+  rigid.below_most = *found_factor <= (1.0 + rigid.slack) * rigid.most;
+  const bool lower = *found_factor < (1.0 - rigid.slack) * rigid.least;
   rigid.text = fmt::format("rigid limit analysis: {}; {}", limit.message,
                            !rigid.below_most ? "NO EQUILIBRIUM OF RIGID BLOCKS HAS SUCH A FACTOR"
                            : lower           ? "the factor is lower than theirs (docs/limit.md)"

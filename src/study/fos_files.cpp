@@ -62,7 +62,8 @@ std::string fos_summary(const Model& model, const FosResult& r, int threads) {
     j.pair("least", r.rigid->least).pair("most", r.rigid->most).pair("text", r.rigid->text);
     j.close();
     j.key("checks").open_list().open_object();
-    j.pair("name", "factor at most that of rigid blocks").pair("value", *r.factor);
+    j.pair("name", "factor at most that of rigid blocks")
+        .pair("value", r.factor ? r.factor : r.holds);
     j.pair("limit", r.rigid->most).pair("pass", r.rigid->below_most);
     j.close().close();
   }

@@ -200,7 +200,7 @@ Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& opti
 std::string run_again(const Model& model, const Staged& first) {
   const std::string stage = stage_label(model, first.stage);
   return fmt::format("{} with the given strength; {} run again with a thousand times the strength",
-                     first.in_equilibrium ? "blocks come loose in " + stage
+                     first.in_equilibrium ? "blocks come loose or fall in " + stage
                                           : stage + " does not reach equilibrium",
                      model.stages.size() == 1 ? "it is" : "the stages are");
 }
@@ -211,7 +211,7 @@ Result<FosStart> at_rest(const Model& model, const Fos& fos, const FosOptions& o
     Result<Staged> run =
         staged(model, fos, options, fos.varied == Varied::shaking ? 0.0 : 1.0, 1.0);
     if (!run.ok()) return run.faults();
-    if (run.value().in_equilibrium && loose_block_ids(run.value().start.sim).empty())
+    if (run.value().in_equilibrium && lost_block_ids(run.value().start.sim).empty())
       return std::move(run.value().start);
     if (options.say) options.say(run_again(model, run.value()));
   }
@@ -224,7 +224,7 @@ Result<FosStart> at_rest(const Model& model, const Fos& fos, const FosOptions& o
         "the model does not reach equilibrium however strong its joints are: {}; fix what falls, "
         "or check its support",
         run.value().says);
-  } else if (!loose_block_ids(s.sim).empty()) {
+  } else if (!lost_block_ids(s.sim).empty()) {
     s.warnings.push_back("with joints that do not fail, " + run.value().says +
                          "; the factor is that of all other blocks");
   }

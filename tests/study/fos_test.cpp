@@ -202,6 +202,25 @@ TEST(Fos, NothingToBracket) {
       << falling.message;
 }
 
+/// A roof wedge that no strength of its joints holds falls while the trials' joints come to rest;
+/// the factor is that of the block on the floor, and the result says so and that rigid blocks would
+/// fail.
+TEST(Fos, SaysWhatFallsHoweverStrongTheJointsAre) {
+  const std::string rock =
+      "[materials.rock]\ndensity = 2600\nyoung = 10e9\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = 30\n[domain]\njoint = 'j'\n"
+      "outline = [[-10, -10], [10, -10], [10, 10], [-10, 10]]\n"
+      "[[trace]]\npoints = [[-2, 2], [0.5, 5]]\n[[trace]]\npoints = [[2.5, 2], [0.5, 5]]\n"
+      "[[opening]]\nname = 't'\npolygon = [[-3, -2], [3, -2], [3, 2], [-3, 2]]\n"
+      "[[boundary]]\nsides = ['left', 'right', 'bottom']\ntype = 'fixed'\n";
+  const FosResult r = found(rock);
+  EXPECT_EQ(r.status, FosStatus::above);
+  ASSERT_EQ(r.warnings.size(), 2u);
+  EXPECT_NE(r.warnings[0].find("1 block that falls freely"), std::string::npos) << r.warnings[0];
+  EXPECT_NE(r.warnings[1].find("NO EQUILIBRIUM OF RIGID BLOCKS"), std::string::npos);
+  EXPECT_NE(fos_summary(model_of(rock), r, 0).find("\"pass\": false"), std::string::npos);
+}
+
 /// With the same trials for any number of threads, even where more of them have been made.
 TEST(Fos, StopsWhenAsked) {
   for (const int threads : {1, 2, 3, 4}) {

@@ -1,8 +1,11 @@
 // Stages until equilibrium: one block that slides away does not delay the others, the implicit
 // method without velocities recognises its own equilibrium, and a large wall reaches equilibrium
 // with all defaults.
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
+#include <string>
 
 #include "verification/ways_to_rest.hpp"
 
@@ -25,6 +28,62 @@ TEST(WaysToRest, WhatSlidesAloneDelaysNoOther) {
   EXPECT_LT(found.outcome.steps, 4000U);
   EXPECT_NE(found.outcome.message.find("come loose: block 2 (slider)"), std::string::npos)
       << found.outcome.message;
+}
+
+/// The largest difference of a vertical stress from what `exact` gives at the height of the block.
+template <class Exact>
+double largest_difference(const EquilibriumRun& found, Exact exact) {
+  const Simulation& sim = found.run.sim;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    const double difference =
+        block_stress(sim, sim.motion.state, i).yy - exact(sim.scene->blocks.centroid_y[i]);
+    largest = std::max(largest, std::abs(difference));
+  }
+  return largest;
+}
+
+/// A square of blocks between rollers that are fifty times as stiff as its joints, pressed from
+/// above. Were friction to act while the load comes on, blocks at the sides, whose inertia is
+/// raised, would lag behind, and shear would remain locked in: stresses of 0.5 to 1.2 MPa.
+TEST(WaysToRest, WhatPressesFirstLocksNoShearIn) {
+  const std::string rollers = "type = 'roller'\nstiffness = 1e12\n";
+  const EquilibriumRun found = run_to_equilibrium(
+      "gravity = [0, 0]\n[materials.rock]\ndensity = 2600\nyoung = 10e9\npoisson = 0.2\n"
+      "[joints.j]\nfriction_angle = 40\nkn = 20e9\nks = 8e9\n[domain]\njoint = 'j'\n"
+      "outline = " +
+      rectangle(0.0, 0.0, 8.0, 8.0) +
+      "\n[[joint_set]]\nangle = 0\nspacing = 1\n[[joint_set]]\nangle = 90\nspacing = 1\n"
+      "[[boundary]]\nsides = ['left', 'right']\n" +
+      rollers + "[[boundary]]\nsides = ['bottom']\n" + rollers +
+      "[[boundary]]\nsides = ['top']\ntype = 'stress'\ntraction = [0, -1e6]\n" + until_equilibrium);
+  EXPECT_LT(largest_difference(found, [](double) { return -1e6; }), 1e4);
+}
+
+/// A column a tenth of a metre wide beside one of 1.9 m: each carries its own weight. Where masses
+/// are scaled the narrow one follows more slowly; with friction from the start its lower half would
+/// have a quarter to two fifths of its stress.
+TEST(WaysToRest, ANarrowColumnCarriesItsOwnWeight) {
+  const std::string text =
+      "[materials.rock]\ndensity = 2600\nyoung = 10e9\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = 40\nkn = 20e9\nks = 8e9\n[domain]\njoint = 'j'\noutline = " +
+      rectangle(0.0, 0.0, 2.0, 4.0) +
+      "\n[[joint_set]]\nangle = 0\nspacing = 1\n[[trace]]\npoints = [[0.1, 0], [0.1, 4]]\n"
+      "[[boundary]]\nsides = ['left', 'right', 'bottom']\ntype = 'roller'\n" +
+      std::string(until_equilibrium);
+  const auto weight = [](double y) { return -2600.0 * 9.81 * (4.0 - y); };
+  EXPECT_LT(largest_difference(run_to_equilibrium(text), weight), 11e3);
+  EXPECT_LT(largest_difference(run_to_equilibrium(text + "masses = 'as given'\n"), weight), 700.0);
+}
+
+/// Where nothing acts yet, blocks that lie on each other without any load do not fall.
+TEST(WaysToRest, ARampOfTheWeightFromNothing) {
+  const EquilibriumRun found = run_to_equilibrium(
+      "[materials.rock]\ndensity = 2600\nyoung = 10e9\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = 30\n[contact]\njoint = 'j'\n[[block]]\nfixed = true\npolygon = " +
+      rectangle(-1.0, -1.0, 2.0, 0.0) + "\n[[block]]\npolygon = " + rectangle(0.0, 0.0, 1.0, 1.0) +
+      "\n[[stage]]\nuntil = 'equilibrium'\nramp = { gravity = [0, 1], steps = 5 }\n");
+  EXPECT_LT(found.outcome.largest_energy_error, 1e-3);
 }
 
 /// If iterations left a thousandth of the forces unbalanced, where the stage requires a hundredth
