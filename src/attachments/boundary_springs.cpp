@@ -23,13 +23,15 @@ class AsJoints {
   AsJoints(const Model& model, const BlockSet& blocks, const std::vector<Line>& lines, double snap)
       : model_(model), b_(blocks), lines_(lines), snap_(snap) {}
 
-  double at(Id v) const {
+  /// across: a unit vector normal to the line; faces along other lines do not count; or 0, where
+  /// all do.
+  double at(Id v, Vec2 across) const {
     const double kn = stiffest(b_.vertex_block[v]);
     if (kn == 0.0) return model_.contact.normal_stiffness;
     const Id edges[] = {v, b_.previous[v]};
     double length = 0.0, shortest = b_.edge_length[v];
     for (const Id e : edges) {
-      if (on_line(e)) length += 0.5 * b_.edge_length[e];
+      if (on_line(e) && lies_along(e, across)) length += 0.5 * b_.edge_length[e];
       shortest = std::min(shortest, b_.edge_length[e]);
     }
     return kn * (length > 0.0 ? length : 0.5 * shortest);
@@ -46,6 +48,9 @@ class AsJoints {
       }
     }
     return most;
+  }
+  bool lies_along(Id e, Vec2 across) const {
+    return std::abs(dot(b_.vertex(b_.next[e]) - b_.vertex(e), across)) <= snap_;
   }
   bool on_line(Id e) const {
     return std::any_of(lines_.begin(), lines_.end(), [&](const Line& line) {
@@ -70,9 +75,11 @@ std::optional<Spring> spring_at(Id v, Index row, const Boundary& boundary, const
   for (const Line& line : lines) {
     if (distance_to_segment(b.vertex(v), line.a, line.b) > snap) continue;
     on = true;
-    const double k = b.thickness * (boundary.stiffness ? *boundary.stiffness : as_joints.at(v));
+    const auto stiffness = [&](Vec2 n) {
+      return b.thickness * (boundary.stiffness ? *boundary.stiffness : as_joints.at(v, n));
+    };
     if (boundary.type != BoundaryType::roller) {
-      s.kxx = s.kyy = k;
+      s.kxx = s.kyy = stiffness({});
       break;
     }
     const Vec2 n = perp(unit(line.b - line.a));
@@ -80,6 +87,7 @@ std::optional<Spring> spring_at(Id v, Index row, const Boundary& boundary, const
                                    [&](Vec2 other) { return std::abs(cross(n, other)) < 1e-9; });
     if (known) continue;
     across.push_back(n);
+    const double k = stiffness(n);
     s.kxx += k * n.x * n.x;
     s.kyy += k * n.y * n.y;
     s.kxy += k * n.x * n.y;

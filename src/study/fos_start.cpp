@@ -200,7 +200,7 @@ Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& opti
 std::string run_again(const Model& model, const Staged& first) {
   const std::string stage = stage_label(model, first.stage);
   return fmt::format("{} with the given strength; {} run again with a thousand times the strength",
-                     first.in_equilibrium ? "blocks come loose or fall in " + stage
+                     first.in_equilibrium ? "blocks come loose in " + stage
                                           : stage + " does not reach equilibrium",
                      model.stages.size() == 1 ? "it is" : "the stages are");
 }

@@ -61,8 +61,8 @@ TEST(WaysToRest, WhatPressesFirstLocksNoShearIn) {
 }
 
 /// A column a tenth of a metre wide beside one of 1.9 m: each carries its own weight. Where masses
-/// are scaled the narrow one follows more slowly; with friction from the start its lower half would
-/// have a quarter to two fifths of its stress.
+/// are scaled the narrow one follows more slowly; with friction from the start its lower blocks
+/// would lack 22 and 38 kPa. (What the uppermost one lacks is 11 kPa of 13.)
 TEST(WaysToRest, ANarrowColumnCarriesItsOwnWeight) {
   const std::string text =
       "[materials.rock]\ndensity = 2600\nyoung = 10e9\npoisson = 0.2\n[joints.j]\n"
@@ -71,8 +71,8 @@ TEST(WaysToRest, ANarrowColumnCarriesItsOwnWeight) {
       "\n[[joint_set]]\nangle = 0\nspacing = 1\n[[trace]]\npoints = [[0.1, 0], [0.1, 4]]\n"
       "[[boundary]]\nsides = ['left', 'right', 'bottom']\ntype = 'roller'\n" +
       std::string(until_equilibrium);
-  const auto weight = [](double y) { return -2600.0 * 9.81 * (4.0 - y); };
-  EXPECT_LT(largest_difference(run_to_equilibrium(text), weight), 11e3);
+  const auto weight = [](double y) { return -2600.0 * 9.81 * (2.0 - y); };  // y from mid-height
+  EXPECT_LT(largest_difference(run_to_equilibrium(text), weight), 12e3);
   EXPECT_LT(largest_difference(run_to_equilibrium(text + "masses = 'as given'\n"), weight), 700.0);
 }
 
