@@ -53,7 +53,7 @@ struct WetEdge {
 /// time.
 struct GradualChange {
   double at = -1.0;     ///< s: that time
-  double part = 1.0;    ///< fraction applied; 1: all
+  double part = 1.0;    ///< fraction applied; 1: all; below 0 while a model settles (Relaxation)
   bool weight = false;  ///< gravity is applied gradually, too
   double least = 0.0;   ///< s: time that it takes at least, where a support is displaced
 

@@ -68,10 +68,12 @@ EDDA_INLINE bool stays_as_it_is(const ChunkColumns& c, const FacePair& pair, con
   const double faces_by = o.cosine - pair.gate_from;
   const bool firm = (turn < 0.5) & (change < 0.25);
   const bool shut = (change < 0.25) & (faces_by + stretch * change < 0.0);
-  const bool beside = firm & (way.ahead(t, turn, p2_q2) | way.ahead(t, turn, reversed(p1_q1)));
-  const bool both_go_on = way.ahead(t, turn, e) & way.ahead(t, turn, f);
-  const bool overlap = way.ahead(t, turn, reversed(p2_q2)) & way.ahead(t, turn, p1_q1);
-  const bool opposed = firm & (faces_by - stretch * change > 0.0) & both_go_on & overlap;
+  const bool past_e = way.ahead(t, turn, p2_q2), short_of_e = way.ahead(t, turn, reversed(p1_q1));
+  const bool beside = firm & (past_e | short_of_e);
+  const bool e_goes_on = way.ahead(t, turn, e), f_goes_back = way.ahead(t, turn, f);
+  const bool begins = way.ahead(t, turn, reversed(p2_q2)), ends = way.ahead(t, turn, p1_q1);
+  const bool opposed =
+      firm & (faces_by - stretch * change > 0.0) & e_goes_on & f_goes_back & begins & ends;
   const double gap = smaller(smaller(way.least_along(n, p1_q1), way.least_along(n, p2_q1)),
                              smaller(way.least_along(n, p1_q2), way.least_along(n, p2_q2)));
   const double locked = positive_part(larger(pair.offset.a, pair.offset.b));

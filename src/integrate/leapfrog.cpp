@@ -157,20 +157,24 @@ void account_damping(const State& s, const Leap& leap, DampingWork& work) {
     add_strain_dissipation(*damping.strain, b, s, old_vx, old_vy, h_old, h_new, work.joules);
   }
   if (damping.mass == 0.0 && damping.local == 0.0) return;
-  if (leap.masses.kind == MassKind::consistent) {  // which has no local damping
+  static const std::vector<Id> no_blocks;
+  const std::vector<Id>& spared = damping.spared != nullptr ? *damping.spared : no_blocks;
+  if (leap.masses.kind == MassKind::consistent) {
     parallel_for(b.size(), [&](std::size_t i) {
       if (!is_free(b, s, i)) return;
       const NodeVectors before = vectors_of(old_vx, old_vy, i), after = vectors_of(s.vx, s.vy, i);
+      const bool is_spared = std::binary_search(spared.begin(), spared.end(), static_cast<Id>(i));
+      const NodeVectors f = vectors_of(leap.force_x, leap.force_y, i);
       NodeVectors moved;
       for (std::size_t k = 0; k < nodes_per_block; ++k) {
         moved[k] = half_way(before[k], after[k], h_old, h_new);
+        const double local = is_spared ? 0.0 : damping.local;
+        work.joules[i] -= dot(local_damping(f[k], before[k], local), moved[k]);
       }
       work.joules[i] += damping.mass * mass_product(leap.masses, i, 0.5 * (before + after), moved);
     });
     return;
   }
-  static const std::vector<Id> no_blocks;
-  const std::vector<Id>& spared = damping.spared != nullptr ? *damping.spared : no_blocks;
   parallel_chunks(b.size(), blocks_at_once, [&](std::size_t, std::size_t begin, std::size_t end) {
     const FreeMarks free(b, s, begin, end);
     std::array<double, blocks_at_once> local;

@@ -9,6 +9,7 @@
 #include "model/table/nearest.hpp"
 #include "run/stages.hpp"
 #include "step/changes.hpp"
+#include "step/relaxation.hpp"
 
 namespace edda::api {
 namespace {
@@ -142,6 +143,7 @@ void Simulation::set_damping(double mass, double local, double contact) {
 void Simulation::set_strength_factor(double factor) {
   check_number("set_strength_factor", "factor", factor, smallest_factor);
   impl_->begin_change("set_strength_factor");
+  end_hold(impl_->sim());
   edda::set_strength_factor(impl_->sim(), factor);
   impl_->end_change();
 }
@@ -153,6 +155,7 @@ void Simulation::set_strength_factor(const std::string& joint, double factor) {
   add_names(sim.scene->model.joints, known);
   check_known("set_strength_factor", joint, "joint", known);
   impl_->begin_change("set_strength_factor");
+  end_hold(sim);
   std::vector<double> factors = strength_factors(sim.motion.laws);
   for (std::size_t r = 0; r < sim.scene->model.joints.size(); ++r) {
     if (sim.scene->model.joints[r].name == joint) factors[r] = factor;

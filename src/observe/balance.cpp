@@ -81,8 +81,10 @@ Balance balance_of(const Simulation& sim) {
     }
   }
   balance.resting = resting.size();
-  if (std::none_of(resting.begin(), resting.end(), [&](Id i) { return is_moved(sim, i); }))
+  if (std::none_of(resting.begin(), resting.end(), [&](Id i) { return is_moved(sim, i); })) {
+    balance.largest = 0.0;
     return balance;
+  }
   const double scale = force_scale(sim, sim.motion.contacts, resting);
   constexpr std::size_t parts = 20;
   const auto most = all.end() - static_cast<std::ptrdiff_t>(all.size() / parts);

@@ -196,8 +196,10 @@ void advance_gradual_change(Simulation& sim) {
   gradual.part += sim.motion.state.step / std::max(period, gradual.least);
   const bool strength = !relaxation.strength_to.empty() && !loading;
   if (gradual.part >= 1.0 && loading) {
-    gradual = {sim.motion.state.time, -settling, false, 0.0};
+    constexpr double no_time = std::numeric_limits<double>::quiet_NaN();  // nothing else began then
+    gradual = {no_time, -settling, false, 0.0};
     relaxation.hold = Relaxation::Hold::settling;
+    relaxation.estimate.least = 0.5 * relaxation.estimate.frequency;
   } else if (gradual.part >= 1.0) {
     gradual = {};
     relaxation.hold = Relaxation::Hold::over;
@@ -285,6 +287,8 @@ void end_hold(Simulation& sim) {
   if (sim.relaxation.hold == Relaxation::Hold::over) return;
   sim.relaxation.hold = Relaxation::Hold::over;
   set_strength_factors(sim, sim.relaxation.strength_to);
+  sim.relaxation.strength_from.clear();
+  sim.relaxation.strength_to.clear();
 }
 
 void stop_gradual_change(Simulation& sim) {

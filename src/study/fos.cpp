@@ -241,6 +241,7 @@ void compare_with_rigid(const Model& model, const Fos& fos, FosResult& r) {
   constexpr double elastic = 0.02;  // joints and blocks deform before they fail
   rigid.slack = fos.tolerance + elastic;
   rigid.below_most = *found_factor <= (1.0 + rigid.slack) * rigid.most;
+  if (!r.factor && rigid.below_most) return;  // the highest factor tried is no limit
   const bool lower = *found_factor < (1.0 - rigid.slack) * rigid.least;
   rigid.text = fmt::format("rigid limit analysis: {}; {}", limit.message,
                            !rigid.below_most ? "NO EQUILIBRIUM OF RIGID BLOCKS HAS SUCH A FACTOR"
