@@ -195,11 +195,12 @@ void advance_gradual_change(Simulation& sim) {
   const double period = 2.0 * std::numbers::pi * periods * slower / frequency;
   gradual.part += sim.motion.state.step / std::max(period, gradual.least);
   const bool strength = !relaxation.strength_to.empty() && !loading;
+  if (before < 0.0 && gradual.part >= 0.0) relaxation.estimate.least = 0.5 * frequency;
   if (gradual.part >= 1.0 && loading) {
     constexpr double no_time = std::numeric_limits<double>::quiet_NaN();  // nothing else began then
     gradual = {no_time, -settling, false, 0.0};
     relaxation.hold = Relaxation::Hold::settling;
-    relaxation.estimate.least = 0.5 * relaxation.estimate.frequency;
+    relaxation.estimate.least = 0.05 * frequency;  // also where all that moves falls
   } else if (gradual.part >= 1.0) {
     gradual = {};
     relaxation.hold = Relaxation::Hold::over;
