@@ -295,8 +295,7 @@ EDDA_INLINE void mark_changes(FaceStep& s, const FaceInputs& in, const EdgeGeome
 
 /// Evaluates a face at step n, where its two edges stand so and are this element. dashpots: some
 /// face of the model has dashpots; limits_given: as in act(); books: with the work of the step,
-/// without which the result is only right where
-/// there is no `unrest`.
+/// without which the result is only right where there is no `unrest`.
 template <bool dashpots, bool limits_given, Formulas use, bool books = true>
 EDDA_INLINE FaceStep step_of_face(const FaceInputs& in, const EdgeGeometry& stands,
                                   const Face& face) {

@@ -29,11 +29,11 @@ std::vector<std::uint8_t> negligible_blocks(const Simulation& sim) {
   return are;
 }
 
-namespace {
-
 double resultant_on(const Simulation& sim, std::size_t i) {
   return nodes_per_block * norm(centroid(sim.motion.forces.x, sim.motion.forces.y, i));
 }
+
+namespace {
 
 /// Whether block i moves or is about to: by more than rounding, whatever may act on it.
 bool is_moved(const Simulation& sim, std::size_t i) {

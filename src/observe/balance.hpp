@@ -28,6 +28,9 @@ struct Balance {
 
 Balance balance_of(const Simulation& sim);
 
+/// Resultant of the forces on block i in the last step, N.
+double resultant_on(const Simulation& sim, std::size_t i);
+
 /// [nb] 1: a free block that touches nothing, or carries no load where it touches, and moves or is
 /// about to move. Where nothing acts on a model its blocks rest without carrying any load.
 std::vector<std::uint8_t> falling_blocks(const Simulation& sim);

@@ -93,10 +93,6 @@ bool all_in_equilibrium(const EquilibriumSearch& s, const Simulation& sim) {
   return true;
 }
 
-double resultant_on(const Simulation& sim, std::size_t i) {
-  return nodes_per_block * norm(centroid(sim.motion.forces.x, sim.motion.forces.y, i));
-}
-
 /// Whether no block has a resultant beyond the rounding of the forces on it, as where nothing acts
 /// on the model.
 bool forces_are_rounding(const Simulation& sim) {
@@ -199,13 +195,13 @@ std::vector<Id> loose_block_ids(const Simulation& sim) {
 }
 
 std::vector<Id> lost_block_ids(const Simulation& sim) {
-  std::vector<Id> lost = loose_block_ids(sim);
+  const std::vector<std::uint8_t>& loose = sim.relaxation.loose;
   const std::vector<std::uint8_t> falls = falling_blocks(sim), small = negligible_blocks(sim);
+  std::vector<Id> lost;
   for (std::size_t i = 0; i < falls.size(); ++i) {
-    if (falls[i] != 0 && small[i] == 0) lost.push_back(static_cast<Id>(i));
+    const bool is_lost = falls[i] != 0 || (!loose.empty() && loose[i] != 0);
+    if (is_lost && small[i] == 0) lost.push_back(static_cast<Id>(i));
   }
-  std::sort(lost.begin(), lost.end());
-  lost.erase(std::unique(lost.begin(), lost.end()), lost.end());
   return lost;
 }
 
