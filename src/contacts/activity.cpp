@@ -116,26 +116,27 @@ bool corner_leans(const FaceSet& c, const BlockSet& b, const Pose& pose, const F
 
 }  // namespace
 
-bool decide_activity(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
+bool decide_activity(FaceSet& c, const BlockSet& b, const Pose& pose, WasActive before,
+                     std::size_t k) {
   const auto verdict = [&] {
     return std::array{c.acts[k], c.leans[k], c.locked_closure_a[k], c.locked_closure_b[k]};
   };
-  const auto before = verdict();
+  const auto was = verdict();
   const FacePoints at = face_points(c, pose.x, pose.y, k);
   const Face face = face_at(c, b, pose.x, pose.y, k);
   const double closure = std::max(face.drawn.a, face.drawn.b);
-  if (c.before.energy[k] == 0.0) c.leans[k] = corner_leans(c, b, pose, at, face, k) ? 1.0 : 0.0;
-  if (c.before.gate[k] == 0.0) {
+  if (!before.stored) c.leans[k] = corner_leans(c, b, pose, at, face, k) ? 1.0 : 0.0;
+  if (!before.on) {
     const FaceEnds locked = c.leans[k] > 0.0 ? locked_closure(c, face, k) : FaceEnds{};
     c.locked_closure_a[k] = locked.a;
     c.locked_closure_b[k] = locked.b;
   }
   if (closure <= c.noise) {
     c.acts[k] = 1.0;
-  } else if (c.before.gate[k] == 0.0) {
+  } else if (!before.on) {
     c.acts[k] = acts_from_the_start(c, b, pose, at, face, k) ? 1.0 : 0.0;
   }
-  return verdict() != before;
+  return verdict() != was;
 }
 
 bool overlap_where_pressed(const FaceSet& c, const BlockSet& b, const Pose& pose, const Face& face,

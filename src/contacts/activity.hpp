@@ -7,11 +7,17 @@
 
 namespace edda {
 
+/// Of a face at n - 1: whether it stored energy, and whether its gate was open.
+struct WasActive {
+  bool stored, on;
+};
+
 /// Decides those properties of face k that may change only while it stores no energy. The face acts
 /// if it comes into being open, or the blocks overlap where it would press (docs/contacts.md);
 /// otherwise, as with the far sides of two thin blocks, which are opposed, too, it acts once it is
 /// open. Returns whether anything has changed.
-bool decide_activity(FaceSet& faces, const BlockSet& blocks, const Pose& pose, std::size_t k);
+bool decide_activity(FaceSet& faces, const BlockSet& blocks, const Pose& pose, WasActive before,
+                     std::size_t k);
 
 /// Whether the blocks of face k, which is closed, overlap each other where it presses: the point of
 /// either edge at the centre of pressure lies in the other block, or that midway between in both.

@@ -29,14 +29,14 @@ void correct_last_step(FaceSet& c, const BlockSet& b, const Pose& pose,
   });
 }
 
-CornerForces recompute_shear(FaceSet& c, const Face& face, const FacePoints& at,
-                             const FacePoints& then, double alpha, std::size_t k) {
-  FaceMemory& m = c.before;
+CornerForces recompute_shear(FaceSet& c, FaceFields<double>& m, const Face& face,
+                             const FacePoints& at, const FacePoints& then, double alpha,
+                             std::size_t k) {
   const auto corners = [&](const FacePoints& p) {
     return coordinates_of(p, c.inverse_e[k], c.inverse_f[k]);
   };
   const FaceEnds here = motion_of(face, corners(at), corners(then)).slip;
-  const double spring = m.spring[k], cohesion = 0.5 * c.cohesion[k] * face.cohesive;
+  const double spring = m.spring, cohesion = 0.5 * c.cohesion[k] * face.cohesive;
   const auto again = [&](double normal, double trial, double slipped, double& force, double& slip) {
     const double limit = std::max(cohesion + c.friction[k] * normal, 0.0);
     const Shear next =
@@ -55,9 +55,9 @@ CornerForces recompute_shear(FaceSet& c, const Face& face, const FacePoints& at,
     force = next.force;
     slip = next.slip;
   };
-  again(alpha * face.normal.a + m.damping_a[k], m.trial_a[k], here.a, m.shear_a[k], m.slip_a[k]);
-  again(alpha * face.normal.b + m.damping_b[k], m.trial_b[k], here.b, m.shear_b[k], m.slip_b[k]);
-  CornerForces force = end_forces(at, face, {}, {m.shear_a[k], m.shear_b[k]});
+  again(alpha * face.normal.a + m.damping_a, m.trial_a, here.a, m.shear_a, m.slip_a);
+  again(alpha * face.normal.b + m.damping_b, m.trial_b, here.b, m.shear_b, m.slip_b);
+  CornerForces force = end_forces(at, face, {}, {m.shear_a, m.shear_b});
   force.p1 += alpha * face.force.p1;
   force.p2 += alpha * face.force.p2;
   force.q1 += alpha * face.force.q1;

@@ -157,27 +157,38 @@ EDDA_VECTOR bool chunk_may_close(const AllFaces& all, const ChunkPlace& at) {
   return switching > 0.0;
 }
 
-/// Breaks the bonds of those faces of [first, last) that fail. Returns whether any does.
-bool break_bonds(FaceSet& c, const FaceScene& scene, std::size_t first, std::size_t last) {
+/// A row of a chunk of states.
+FaceFields<double> row_in(const FaceFields<double*>& chunk, std::size_t row) {
+  FaceFields<double> fields;
+  for (std::size_t i = 0; i < std::size(face_fields<double>); ++i)
+    fields.*face_fields<double>[i].values = (chunk.*face_fields<double*>[i].values)[row];
+  return fields;
+}
+
+/// Breaks the bonds of those faces of [first, last), of this chunk, that fail. Returns whether any
+/// does.
+bool break_bonds(FaceSet& c, const FaceScene& scene, const FaceFields<double*>& chunk,
+                 std::size_t first, std::size_t last) {
   const BlockSet& b = scene.blocks;
   const Pose& pose = scene.pose;
   bool any = false;
   for (std::size_t k = first; k < last; ++k) {
-    if ((c.bonded[k] == 0.0 && c.carries_tension[k] == 0.0) || !bond_fails(c, b, k)) continue;
+    if (c.bonded[k] == 0.0 && c.carries_tension[k] == 0.0) continue;
+    const FaceFields<double> now = row_in(chunk, k % FaceSet::chunk);
+    if (!bond_fails(c, b, now, k)) continue;
     const double stored = normal_energy(c, b, pose, k);
-    break_bond(c, scene.laws, k);
+    break_bond(c, scene.laws, now, k);
     account_failure_energy(c, stored - normal_energy(c, b, pose, k), k);
     any = true;
   }
   return any;
 }
 
-/// Evaluates the faces [first, last), all of one chunk.
-ChunkResult evaluate_part(FaceSet& c, const AllFaces& all, std::size_t first, std::size_t last) {
-  const std::size_t q = first / FaceSet::chunk, from = first % FaceSet::chunk;
-  const std::size_t to = from + (last - first);
+/// Evaluates the faces [first, last), all of the chunk `at`.
+ChunkResult evaluate_part(const FaceSet& c, const AllFaces& all, const ChunkPlace& at,
+                          std::size_t first, std::size_t last) {
+  const std::size_t from = first % FaceSet::chunk, to = from + (last - first);
   const bool limits_given = all.limit_a != nullptr;
-  const ChunkPlace at = chunk_place(c, q);
   if (!limits_given && from == 0 && last == std::min(first + FaceSet::chunk, c.size())) {
     return c.dashpots ? evaluate_damped(all, at) : evaluate_undamped(all, at);
   }
@@ -195,11 +206,11 @@ ChunkResult evaluate_part(FaceSet& c, const AllFaces& all, std::size_t first, st
 /// The same, with pending decisions (decide_activity()) and, unless shear is limited from outside,
 /// failure of bonds.
 ChunkResult evaluate_with_laws(FaceSet& c, const AllFaces& all, const FaceScene& scene,
-                               std::size_t first, std::size_t last) {
-  ChunkResult found = evaluate_part(c, all, first, last);
+                               const ChunkPlace& at, std::size_t first, std::size_t last) {
+  ChunkResult found = evaluate_part(c, all, at, first, last);
   if (all.decided) return found;
+  const FaceView view = view_of(all, at);
   if (found.decides) {
-    const FaceView view = view_of(all, chunk_place(c, first / FaceSet::chunk));
     bool changes = false;
     for (std::size_t k = first; k < last; ++k) {
       const std::size_t row = k % FaceSet::chunk;
@@ -207,14 +218,15 @@ ChunkResult evaluate_with_laws(FaceSet& c, const AllFaces& all, const FaceScene&
                            view.now.closure_b[row] - view.locked_closure_b[row]};
       if (needs_decision(inputs_of<false, false>(view, row), view.now.gate[row] > 0.0, drawn,
                          view.now.energy[row] > 0.0) &&
-          decide_activity(c, scene.blocks, scene.pose, k))
+          decide_activity(c, scene.blocks, scene.pose,
+                          {view.before.energy[row] > 0.0, view.before.gate[row] > 0.0}, k))
         changes = true;
     }
-    if (changes) found = evaluate_part(c, all, first, last);
+    if (changes) found = evaluate_part(c, all, at, first, last);
   }
   const bool bonds = all.limit_a == nullptr && c.bonds[first / FaceSet::chunk] != 0;
-  if (bonds && break_bonds(c, scene, first, last)) {
-    found = evaluate_part(c, all, first, last);
+  if (bonds && break_bonds(c, scene, view.now, first, last)) {
+    found = evaluate_part(c, all, at, first, last);
   }
   return found;
 }
@@ -225,12 +237,13 @@ void evaluate_chunks(FaceSet& c, const AllFaces& all, const FaceScene& scene, st
     const std::size_t last = std::min(end, first + FaceSet::chunk), q = first / FaceSet::chunk;
     const bool inactive =
         c.now.inactive[q] && c.before.inactive[q] && !c.bonds[q] && all.limit_a == nullptr;
-    if (inactive && !chunk_may_close(all, chunk_place(c, q))) {
+    const ChunkPlace at = chunk_place(c, q);
+    if (inactive && !chunk_may_close(all, at)) {
       c.switching[q] = 0;
       c.deepest[q] = 0.0;
       continue;
     }
-    const ChunkResult found = evaluate_with_laws(c, all, scene, first, last);
+    const ChunkResult found = evaluate_with_laws(c, all, scene, at, first, last);
     c.now.inactive[q] = found.works ? 0 : 1;
     c.switching[q] = found.switching ? 1 : 0;
     c.deepest[q] = found.deepest;
@@ -319,11 +332,24 @@ void evaluate_face(FaceSet& c, const FaceScene& scene, double step, std::size_t 
                         m.friction_work[k] == 0.0 && m.transfer[k] == 0.0 &&
                         m.damping_due[k] == 0.0 && c.bonded[k] == 0.0 &&
                         c.carries_tension[k] == 0.0;
-  if (inactive && !may_close(view_of(all, chunk_place(c, q)), k % FaceSet::chunk)) return;
-  const ChunkResult found = evaluate_with_laws(c, all, scene, k, k + 1);
+  const ChunkPlace at = chunk_place(c, q);
+  if (inactive && !may_close(view_of(all, at), k % FaceSet::chunk)) return;
+  const ChunkResult found = evaluate_with_laws(c, all, scene, at, k, k + 1);
   c.deepest[q] = std::max(c.deepest[q], found.deepest);
   if (found.switching) c.switching[q] = 1;
   if (found.works) c.now.inactive[q] = 0;
+}
+
+void decide_face(FaceSet& c, const FaceScene& scene, double step, const FaceFields<double>& before,
+                 std::size_t k) {
+  FaceMemory was, is;
+  for (FaceMemory* m : {&was, &is}) m->clear_rows(FaceSet::chunk);
+  set_row(was, k % FaceSet::chunk, before);
+  double force[8 * FaceSet::chunk];
+  const std::size_t q = k / FaceSet::chunk;
+  const ChunkPlace at{c.corners.data() + q * 4 * FaceSet::chunk, c.begin_of_chunk(q),
+                      is.begin_of_chunk(0), was.begin_of_chunk(0), &force[0]};
+  evaluate_with_laws(c, all_faces(c, scene, step), scene, at, k, k + 1);
 }
 
 void next_step(FaceSet& c) {

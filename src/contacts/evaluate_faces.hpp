@@ -28,6 +28,11 @@ void evaluate_as_decided(FaceSet& faces, const FaceScene& scene, double step);
 /// evaluate_faces() for one face.
 void evaluate_face(FaceSet& faces, const FaceScene& scene, double step, std::size_t k);
 
+/// What evaluate_face() decides of a face whose state at n - 1 is this, whatever the rows hold:
+/// activity, and whether its bond breaks.
+void decide_face(FaceSet& faces, const FaceScene& scene, double step,
+                 const FaceFields<double>& before, std::size_t k);
+
 /// Limits of the shear forces at the ends of the faces for a whole step of the implicit method, N.
 struct ShearLimits {
   std::vector<double> a, b;
@@ -59,10 +64,10 @@ Face face_at(const FaceSet& faces, const BlockSet& blocks, const std::vector<dou
              const std::vector<double>& y, std::size_t k);
 
 /// Applies the activation factor alpha (theory, section 6.2) to the normal forces of face k at step
-/// n - 1 (in `before`) and cuts its shear forces again to the limit that belongs to it. at, then:
-/// the corners at n - 1 and at n - 2. Corrects the work of the step. Returns the forces of the
-/// face.
-CornerForces recompute_shear(FaceSet& faces, const Face& face, const FacePoints& at,
-                             const FacePoints& then, double alpha, std::size_t k);
+/// n - 1 (`before`) and cuts its shear forces again to the limit that belongs to it. at, then: the
+/// corners at n - 1 and at n - 2. Corrects the work of the step. Returns the forces of the face.
+CornerForces recompute_shear(FaceSet& faces, FaceFields<double>& before, const Face& face,
+                             const FacePoints& at, const FacePoints& then, double alpha,
+                             std::size_t k);
 
 }  // namespace edda

@@ -80,27 +80,26 @@ void bond_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable&
   mark_bonded_chunks(c);
 }
 
-bool bond_fails(const FaceSet& c, const BlockSet& b, std::size_t k) {
+bool bond_fails(const FaceSet& c, const BlockSet& b, const FaceFields<double>& now, std::size_t k) {
   if (c.glued[k] > 0.0) return false;
-  const FaceMemory& m = c.now;
-  const double least = std::min(m.closure_a[k], m.closure_b[k]);
-  const double largest = std::max(m.closure_a[k], m.closure_b[k]);
+  const double least = std::min(now.closure_a, now.closure_b);
+  const double largest = std::max(now.closure_a, now.closure_b);
   if (c.carries_tension[k] > 0.0 && -c.stiffness[k] * least > c.tension[k]) return true;
   if (c.bonded[k] == 0.0) return false;
   if (c.carries_tension[k] == 0.0 && largest < -touching_gap * smaller_size(c, b, k)) return true;
-  const double shear = std::abs(m.shear_a[k] + m.shear_b[k]);
-  const double rounding = 2.0 * m.spring[k] * c.noise;
+  const double shear = std::abs(now.shear_a + now.shear_b);
+  const double rounding = 2.0 * now.spring * c.noise;
   return shear >
-         rounding + c.cohesion[k] * m.cohesive[k] + c.friction[k] * (m.normal_a[k] + m.normal_b[k]);
+         rounding + c.cohesion[k] * now.cohesive + c.friction[k] * (now.normal_a + now.normal_b);
 }
 
-void break_bond(FaceSet& c, const LawTable& laws, std::size_t k) {
+void break_bond(FaceSet& c, const LawTable& laws, const FaceFields<double>& now, std::size_t k) {
   const bool was_bonded = c.bonded[k] > 0.0;
   c.bonded[k] = 0.0;
   if (was_bonded) set_residual_strength(c, laws, k);
   c.mark_failure(k, was_bonded ? bond_breaks : 1.0);
   // The face releases altogether if its tension exceeds the residual tensile strength, too.
-  const double least = std::min(c.now.closure_a[k], c.now.closure_b[k]);
+  const double least = std::min(now.closure_a, now.closure_b);
   if (-c.stiffness[k] * least > c.tension[k]) c.carries_tension[k] = 0.0;
   c.opened[k] = 1.0;
 }

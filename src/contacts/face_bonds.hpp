@@ -21,15 +21,16 @@ void bond_faces(FaceSet& faces, const BlockSet& blocks, const Pose& pose, const 
 /// Gives face k the residual strength of its law.
 void set_residual_strength(FaceSet& faces, const LawTable& laws, std::size_t k);
 
-/// Whether face k fails in the state `now`. A bond fails where its shear force exceeds c L +
+/// Whether face k fails in this state. A bond fails where its shear force exceeds c L +
 /// tan(phi) N; in tension where -k min(da, db) > sigma_t; without tensile strength where the face
 /// gapes all along by more than 1e-6 of the smaller block's size. A face that carries tension
 /// without a bond fails in tension alone.
-bool bond_fails(const FaceSet& faces, const BlockSet& blocks, std::size_t k);
+bool bond_fails(const FaceSet& faces, const BlockSet& blocks, const FaceFields<double>& now,
+                std::size_t k);
 
 /// Face k breaks: it has its residual strength from now on, and no tensile strength if its tension
 /// exceeds the residual one, too.
-void break_bond(FaceSet& faces, const LawTable& laws, std::size_t k);
+void break_bond(FaceSet& faces, const LawTable& laws, const FaceFields<double>& now, std::size_t k);
 
 /// Accounts for `lost` (J), the decrease of the stored energy of face k at failure: as fracture
 /// energy where it is positive, as `transfer` (no physical process) where it is negative.

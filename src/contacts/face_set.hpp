@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include "base/columns.hpp"
@@ -87,6 +88,18 @@ struct FaceMemory : ChunkTable<FaceFields<ChunkColumn>, face_fields<ChunkColumn>
   std::vector<std::uint8_t> inactive;  ///< [chunks] 1: no face in it carries load now or did at the
                                        ///< step before
 };
+
+/// The state of one face, row k of `m`.
+inline FaceFields<double> row_of(const FaceMemory& m, std::size_t k) {
+  FaceFields<double> row;
+  for (std::size_t i = 0; i < std::size(face_columns); ++i)
+    row.*face_fields<double>[i].values = (m.*face_columns[i].values)[k];
+  return row;
+}
+inline void set_row(FaceMemory& m, std::size_t k, const FaceFields<double>& row) {
+  for (std::size_t i = 0; i < std::size(face_columns); ++i)
+    (m.*face_columns[i].values)[k] = row.*face_fields<double>[i].values;
+}
 
 /// Properties of a face, its current strength, and its history. The columns that a step reads come
 /// first.
@@ -180,12 +193,27 @@ struct FaceSet : ChunkTable<FaceProperties<ChunkColumn>, face_property_list<Chun
 
   bool dashpots = false;  ///< some face has dashpots, or had them in the current step
 
+  // Empty while tiles keep the states of the faces (contacts/face_tiles.hpp).
   FaceMemory now;     ///< state at step n
   FaceMemory before;  ///< state at n - 1; while step n + 1 is tried: at n
 
   /// Forces on the corners at n, N, of face k from 8 k on: x and y at start and end of `edge`, at
   /// start and end of `facing`. Whole chunks are allocated.
   std::vector<double> force;
+
+  /// Sets all states and forces to 0, that is, to those of faces which have never carried load.
+  void clear_states() {
+    for (FaceMemory* m : {&now, &before}) {
+      m->clear_rows(size());
+      m->inactive.assign(chunks(), 1);
+    }
+    force.assign(force_size(), 0.0);
+  }
+  /// Gives their memory back.
+  void drop_states() {
+    now = before = FaceMemory();
+    force = std::vector<double>();
+  }
 
   /// The faces of each edge: [nv + 1] offsets, and [2 nf] positions in `force` where its four
   /// numbers begin. Sorted by the edge on the other side, so that sums do not depend on the order

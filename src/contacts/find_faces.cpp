@@ -183,18 +183,6 @@ void complete_list(FaceSet& c, const BlockSet& b) {
   mark_bonded_chunks(c);
 }
 
-/// Makes room for the states of the new list, of which nothing is known yet.
-void take_room_for_states(FaceSet& next, FaceSet& old) {
-  const std::size_t n = next.size();
-  for (auto state : {&FaceSet::now, &FaceSet::before}) {
-    next.*state = std::move(old.*state);
-    (next.*state).set_rows(n);
-  }
-  next.force = std::move(old.force);
-  resize_afresh(next.force, next.force_size());
-  next.dashpots = old.dashpots;
-}
-
 }  // namespace
 
 void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
@@ -222,9 +210,10 @@ std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& b, const State& stat
     next.facing[k] = list[k].facing;
   }
   if (copies) {
-    next.now.clear_rows(n);
-    next.before.clear_rows(n);
-    next.force.assign(next.force_size(), 0.0);
+    next.clear_states();
+  } else {
+    next.drop_states();
+    faces.drop_states();
   }
   move_totals(next, faces);
   std::vector<std::uint8_t> stays(faces.size(), 0);
@@ -244,9 +233,8 @@ std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& b, const State& stat
   for (std::size_t k = 0; k < faces.size(); ++k) {
     if (stays[k] == 0) retire(next, faces, k);
   }
-  if (!copies) take_room_for_states(next, faces);
   complete_list(next, b);
-  if (copies) next.dashpots = dashpots_work(next.now);
+  next.dashpots = copies ? dashpots_work(next.now) : faces.dashpots;
   next.noise = rounding_of_closures(pose);
   next.reach = reach.apart;
   next.reach_behind = reach.behind;

@@ -110,12 +110,13 @@ void load_copy(FaceTiles& t, const FaceSet& c, const Pose& pose, std::size_t pla
 
 }  // namespace
 
-void load_correction(FaceTiles& t, const FaceSet& c, std::size_t k) {
+void load_correction(FaceTiles& t, const FaceSet& c, const FaceFields<double>& before,
+                     std::size_t k) {
   using Memory = FaceMemoryColumns<double>;
   for (const Id place : t.place[k]) {
     if (place == no_id) continue;
-    number_at(t.memory[1 - t.now], place, &Memory::slip_a) = c.before.slip_a[k];
-    number_at(t.memory[1 - t.now], place, &Memory::slip_b) = c.before.slip_b[k];
+    number_at(t.memory[1 - t.now], place, &Memory::slip_a) = before.slip_a;
+    number_at(t.memory[1 - t.now], place, &Memory::slip_b) = before.slip_b;
     load_sums(t, c, place, k);
   }
 }

@@ -19,8 +19,9 @@ void load_chunk_constants(FaceTiles& tiles, const FaceSet& faces, const BlockSet
                           std::size_t tile, std::size_t chunk, unsigned changed = 0xff);
 
 /// Takes over what the correction of switching has changed of face k (recompute_shear()): its slip
-/// at n - 1 and its accumulated work.
-void load_correction(FaceTiles& tiles, const FaceSet& faces, std::size_t k);
+/// at n - 1 (`before`) and its accumulated work.
+void load_correction(FaceTiles& tiles, const FaceSet& faces, const FaceFields<double>& before,
+                     std::size_t k);
 
 /// Coordinates of the corners of the face at a place, at step n (which = FaceTiles::now) or n - 1.
 void load_corners(FaceTiles& tiles, const EdgeCoordinates& at, int which, std::size_t place);

@@ -10,9 +10,9 @@
 namespace edda {
 namespace {
 
-/// Fills the row of face k in `m` with what the tiles remember of that step. Of energy, gate and
-/// closures they know only whether they are above zero: 1 stands for that.
-void recall(FaceMemory& m, const FaceTiles& t, int which, std::size_t k) {
+/// What the tiles remember of face k at that step. Of energy, gate and closures they know only
+/// whether they are above zero: 1 stands for that.
+FaceFields<double> remembered(const FaceTiles& t, int which, std::size_t k) {
   const Id place = t.place[k][0];
   const auto memory = get<FaceMemoryColumns<double>>(t.memory[which], place);
   const bool kept = t.fresh[which][place / lanes] != 0;
@@ -21,33 +21,40 @@ void recall(FaceMemory& m, const FaceTiles& t, int which, std::size_t k) {
   const auto was = [&](unsigned of) {
     return lane_bits::test(bits, of, place % lanes) ? 1.0 : 0.0;
   };
-  m.energy[k] = was(lane_bits::stored);
-  m.gate[k] = was(lane_bits::on);
-  m.closure_a[k] = was(lane_bits::closed_a);
-  m.closure_b[k] = was(lane_bits::closed_b);
-  m.switched[k] = was(lane_bits::switched);
-  m.slip_a[k] = memory.slip_a;
-  m.slip_b[k] = memory.slip_b;
-  m.spring[k] = memory.spring;
-  m.overlap[k] = memory.spring > 0.0 ? memory.overlap : 0.0;
-  m.trial_a[k] = work.trial_a;
-  m.trial_b[k] = work.trial_b;
-  m.shear_a[k] = work.shear_a;
-  m.shear_b[k] = work.shear_b;
-  m.friction_work[k] = work.friction_work;
-  m.transfer[k] = work.transfer;
-  if (!t.has_dashpots()) return;
+  FaceFields<double> m{};
+  m.energy = was(lane_bits::stored);
+  m.gate = was(lane_bits::on);
+  m.closure_a = was(lane_bits::closed_a);
+  m.closure_b = was(lane_bits::closed_b);
+  m.switched = was(lane_bits::switched);
+  m.slip_a = memory.slip_a;
+  m.slip_b = memory.slip_b;
+  m.spring = memory.spring;
+  m.overlap = memory.spring > 0.0 ? memory.overlap : 0.0;
+  m.trial_a = work.trial_a;
+  m.trial_b = work.trial_b;
+  m.shear_a = work.shear_a;
+  m.shear_b = work.shear_b;
+  m.friction_work = work.friction_work;
+  m.transfer = work.transfer;
+  if (!t.has_dashpots()) return m;
   const auto dashpots = get<DashpotMemoryColumns<double>>(t.dashpots[which], place);
-  m.damping_a[k] = dashpots.damping_a;
-  m.damping_b[k] = dashpots.damping_b;
-  m.shear_damping_a[k] = dashpots.shear_damping_a;
-  m.shear_damping_b[k] = dashpots.shear_damping_b;
-  m.damping_work[k] = work.damping_work;
-  m.damping_due[k] = work.damping_due;
+  m.damping_a = dashpots.damping_a;
+  m.damping_b = dashpots.damping_b;
+  m.shear_damping_a = dashpots.shear_damping_a;
+  m.shear_damping_b = dashpots.shear_damping_b;
+  m.damping_work = work.damping_work;
+  m.damping_due = work.damping_due;
+  return m;
 }
 
-/// Brings the accumulated work of face k up to date.
-void recall_sums(FaceSet& c, const FaceTiles& t, std::size_t k) {
+}  // namespace
+
+FaceFields<double> remembered(const FaceTiles& t, std::size_t k) {
+  return remembered(t, 1 - t.now, k);
+}
+
+void recall_work(FaceSet& c, const FaceTiles& t, std::size_t k) {
   const Id place = t.place[k][0];
   const auto sums = get<FaceSumColumns<double>>(t.sums, place);
   const auto ever = [&](unsigned of) {
@@ -60,20 +67,10 @@ void recall_sums(FaceSet& c, const FaceTiles& t, std::size_t k) {
   c.slipped[k] = ever(lane_bits::slides);
 }
 
-}  // namespace
-
-void recall_face(FaceSet& c, const FaceTiles& t, std::size_t k) {
-  recall(c.before, t, 1 - t.now, k);
-  recall(c.now, t, t.now, k);
-  recall_sums(c, t, k);
-  std::fill_n(&c.force[8 * k], 8, 0.0);
-  c.now.inactive[k / FaceSet::chunk] = 0;
-}
-
 void recall_work(FaceSet& c, const FaceTiles& t) {
   parallel_chunks(c.size(), FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      if (t.place[k][0] != no_id) recall_sums(c, t, k);
+      if (t.place[k][0] != no_id) recall_work(c, t, k);
     }
   });
 }
@@ -105,17 +102,9 @@ std::vector<std::uint8_t> chunks_that_have_acted(const FaceSet& c, const FaceTil
   return have;
 }
 
-/// Empties the rows of a chunk, but for whether the edges of each face have faced each other.
+/// Of the faces of a chunk of which none has acted, whether their edges faced each other.
 void unload_open(FaceSet& c, const FaceTiles& t, std::size_t q) {
-  const bool empty = c.now.inactive[q] != 0 && c.before.inactive[q] != 0;
   const std::size_t first = q * FaceSet::chunk, last = std::min(first + FaceSet::chunk, c.size());
-  if (!empty) {
-    constexpr std::size_t numbers = std::size(face_columns) * FaceSet::chunk;
-    std::fill_n(c.now.begin_of_chunk(q), numbers, 0.0);
-    std::fill_n(c.before.begin_of_chunk(q), numbers, 0.0);
-    std::fill_n(&c.force[8 * first], 8 * FaceSet::chunk, 0.0);
-    c.now.inactive[q] = c.before.inactive[q] = 1;
-  }
   for (std::size_t k = first; k < last; ++k) {
     const Id place = t.place[k][0];
     if (place == no_id) continue;
@@ -123,10 +112,6 @@ void unload_open(FaceSet& c, const FaceTiles& t, std::size_t q) {
     c.before.gate[k] = lane_bits::test(bits, lane_bits::on, place % lanes) ? 1.0 : 0.0;
   }
 }
-
-}  // namespace
-
-namespace {
 
 /// A face that is new in the list has no state until its first step.
 void clear_new_faces(FaceSet& c, const FaceTiles& t) {
@@ -144,14 +129,15 @@ void clear_new_faces(FaceSet& c, const FaceTiles& t) {
 
 void unload_faces(FaceSet& c, const FaceTiles& t, const FaceScene& scene, double step) {
   const std::vector<std::uint8_t> acted = chunks_that_have_acted(c, t);
+  c.clear_states();
   parallel_chunks(c.size(), FaceSet::chunk, [&](std::size_t q, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      if (t.place[k][0] != no_id) recall_sums(c, t, k);
+      if (t.place[k][0] != no_id) recall_work(c, t, k);
     }
     if (acted[q] == 0) return unload_open(c, t, q);
     c.now.inactive[q] = c.before.inactive[q] = 0;
     for (std::size_t k = begin; k < end; ++k) {
-      if (t.place[k][0] != no_id) recall(c.before, t, 1 - t.now, k);
+      if (t.place[k][0] != no_id) set_row(c.before, k, remembered(t, k));
     }
   });
   evaluate_as_decided(c, scene, step);

@@ -7,10 +7,12 @@
 
 namespace edda {
 
-/// Fills `now` and `before` of face k with what the tiles remember, which is all that a step reads
-/// of them: 1 stands for an energy, a gate or a closure above 0; and its accumulated work. Clears
-/// its forces.
-void recall_face(FaceSet& faces, const FaceTiles& tiles, std::size_t k);
+/// What the tiles remember of face k at n - 1, which is all that a step reads of it: 1 stands for
+/// an energy, a gate or a closure above 0.
+FaceFields<double> remembered(const FaceTiles& tiles, std::size_t k);
+
+/// Brings the accumulated work of face k up to date.
+void recall_work(FaceSet& faces, const FaceTiles& tiles, std::size_t k);
 
 /// Brings the accumulated work of all faces up to date.
 void recall_work(FaceSet& faces, const FaceTiles& tiles);
@@ -19,8 +21,8 @@ void recall_work(FaceSet& faces, const FaceTiles& tiles);
 bool stays_open(const FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
                 const Pose& pose, std::size_t k);
 
-/// Fills `now`, what a step reads of `before`, and the forces of all faces. step: from n - 1 to n,
-/// s.
+/// Fills `now`, what a step reads of `before`, and the forces of all faces, which have no states.
+/// step: from n - 1 to n, s.
 void unload_faces(FaceSet& faces, const FaceTiles& tiles, const FaceScene& scene, double step);
 
 /// As next_step(): adds the work of step n to the accumulated work and makes its memory that of the

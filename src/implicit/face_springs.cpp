@@ -120,8 +120,10 @@ std::vector<Id> break_overloaded(FaceSprings& springs, FaceSet& c, const BlockSe
                                  const LawTable& laws) {
   std::vector<Id> broken;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if ((c.bonded[k] == 0.0 && c.carries_tension[k] == 0.0) || !bond_fails(c, b, k)) continue;
-    break_bond(c, laws, k);
+    if (c.bonded[k] == 0.0 && c.carries_tension[k] == 0.0) continue;
+    const FaceFields<double> now = row_of(c.now, k);
+    if (!bond_fails(c, b, now, k)) continue;
+    break_bond(c, laws, now, k);
     set_limits(springs, c, k);
     broken.push_back(static_cast<Id>(k));
   }

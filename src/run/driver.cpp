@@ -159,8 +159,7 @@ void Driver::within_memory(Part part) {
   try {
     part();
   } catch (const std::bad_alloc&) {
-    // Tiles of a list that was not completed must not be read.
-    sim_.leapfrog.tiled.ahead = sim_.leapfrog.tiled.loaded = false;
+    lose_faces(sim_);
     end(Status::failed,
         "out of memory: close other programs, write fewer frames, or run a smaller model");
   }

@@ -51,12 +51,6 @@ double mobility(const StepTaken& taken, Id i, const NodeVectors& force) {
   return dot(accelerations(taken.masses, i, force), force);
 }
 
-/// Whether a face that stored energy at n - 1 opens or closes in this step or did so in the last.
-bool switches(const FaceSet& c, std::size_t k) {
-  return c.before.energy[k] > 0.0 && c.carries_tension[k] == 0.0 &&
-         (c.now.switched[k] > 0.0 || c.before.switched[k] > 0.0);
-}
-
 class Correction {
  public:
   Correction(FaceSet& faces, const StepTaken& taken, FaceSwitchingScratch& scratch,
@@ -74,10 +68,7 @@ class Correction {
   }
 
   bool find(const std::vector<Id>& among) {
-    for (const Id k : among) {
-      access_.bring(k);
-      if (switches(c_, k)) add(k);
-    }
+    for (const Id k : among) add_if_it_switches(k);
     return !scratch_.set.empty();
   }
 
@@ -103,11 +94,9 @@ class Correction {
     pushed.erase(std::unique(pushed.begin(), pushed.end()), pushed.end());
     const std::size_t known = scratch_.set.size();
     scratch_.found.clear();
-    access_.evaluate(pushed, scratch_.found);
+    access_.evaluate(pushed, scratch_.set, scratch_.found);
     for (const Id k : scratch_.found) {
-      if (is_known(k)) continue;
-      access_.bring(k);
-      if (switches(c_, k)) add(k);
+      if (!is_known(k)) add_if_it_switches(k);
     }
     pushed.clear();
     return scratch_.set.size() > known;
@@ -131,9 +120,18 @@ class Correction {
                        [&](const SwitchingFace& f) { return f.face == k; });
   }
 
-  void add(Id k) {
+  /// Where the face stored energy at n, and opens or closes in this step or did so in the last.
+  void add_if_it_switches(Id k) {
+    const FaceFields<double> before = access_.before(k);
+    if (before.energy > 0.0 && c_.carries_tension[k] == 0.0 &&
+        (before.switched > 0.0 || access_.switches(k)))
+      add(k, before);
+  }
+
+  void add(Id k, const FaceFields<double>& row) {
     SwitchingFace f{};
     f.face = k;
+    f.before = row;
     f.then = face_points(c_, pose_.x2, pose_.y2, k);
     f.at = face_points(c_, pose_.x1, pose_.y1, k);
     f.element = face_at(c_, b_, pose_.x1, pose_.y1, k);
@@ -146,8 +144,7 @@ class Correction {
                   mobility(taken_, b_.vertex_block[c_.facing[k]], on.second));
     f.alpha = 1.0;
     f.force = f.element.force;
-    const CornerForces shear =
-        end_forces(f.at, f.element, {}, {c_.before.shear_a[k], c_.before.shear_b[k]});
+    const CornerForces shear = end_forces(f.at, f.element, {}, {row.shear_a, row.shear_b});
     f.force = {f.force.p1 + shear.p1, f.force.p2 + shear.p2, f.force.q1 + shear.q1,
                f.force.q2 + shear.q2};
     scratch_.set.push_back(f);
@@ -174,7 +171,7 @@ class Correction {
     if (std::abs(left) <= negligible * (f.stored + f.stored_next)) alpha = f.alpha;
     const double change = std::abs(alpha - f.alpha);
     f.alpha = alpha;
-    const CornerForces force = recompute_shear(c_, f.element, f.at, f.then, alpha, k);
+    const CornerForces force = recompute_shear(c_, f.before, f.element, f.at, f.then, alpha, k);
     const CornerForces more = difference(force, f.force);
     f.force = force;
     f.corrected_at = ++scratch_.corrections;
@@ -206,18 +203,23 @@ class Correction {
 
 }  // namespace
 
-void FaceRows::evaluate(const std::vector<Id>& blocks, std::vector<Id>& switching) {
+void FaceRows::evaluate(const std::vector<Id>& blocks, const std::vector<SwitchingFace>& corrected,
+                        std::vector<Id>& switching) {
+  for (const SwitchingFace& f : corrected) set_row(faces_.before, f.face, f.before);
   const BlockSet& b = scene_.blocks;
   for (const Id i : blocks) {
     faces_.for_faces(b.vertex_begin[i], b.vertex_begin[i + 1], [&](Id k, bool) {
       evaluate_face(faces_, scene_, step_, k);
-      if (switches(faces_, k)) switching.push_back(k);
+      if (faces_.now.switched[k] > 0.0 || faces_.before.switched[k] > 0.0) switching.push_back(k);
     });
   }
 }
 
 void FaceRows::finish(const std::vector<SwitchingFace>& corrected) {
-  for (const SwitchingFace& f : corrected) evaluate_face(faces_, scene_, step_, f.face);
+  for (const SwitchingFace& f : corrected) {
+    set_row(faces_.before, f.face, f.before);
+    evaluate_face(faces_, scene_, step_, f.face);
+  }
 }
 
 void correct_switching(FaceSet& c, const StepTaken& taken, OpenCloseCounts& counts,

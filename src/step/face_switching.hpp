@@ -27,12 +27,13 @@ struct OpenCloseCounts {
 /// A face of which an end opened or closed in the last two steps.
 struct SwitchingFace {
   Id face;
-  FacePoints then, at;  ///< corners at n - 1 and n
-  Face element;         ///< element at n
-  CornerForces force;   ///< its force at n with the present alpha, shear included
-  double stored;        ///< U_{n-1/2}, J
-  double stored_next;   ///< U_{n+1/2}, J
-  bool was_closed;      ///< at n - 1
+  FaceFields<double> before;  ///< its state at n, with the present alpha
+  FacePoints then, at;        ///< corners at n - 1 and n
+  Face element;               ///< element at n
+  CornerForces force;         ///< its force at n with the present alpha, shear included
+  double stored;              ///< U_{n-1/2}, J
+  double stored_next;         ///< U_{n+1/2}, J
+  bool was_closed;            ///< at n - 1
   double own_work;  ///< work of the whole normal force on the displacement it makes in the step, J
   double alpha;     ///< activation factor: part of the normal force that acts
   std::uint64_t corrected_at;  ///< value of `corrections` when it was last corrected
@@ -55,12 +56,16 @@ struct FaceSwitchingScratch {
 class FaceAccess {
  public:
   virtual ~FaceAccess() = default;
-  /// Brings the row of face k up to date, `before` at least, for as long as the correction lasts.
-  virtual void bring(Id k) = 0;
+  /// Whether an end of face k opens or closes in the step to n + 1.
+  virtual bool switches(Id k) const = 0;
+  /// The state of face k at n. Brings its accumulated work up to date, for as long as the
+  /// correction lasts.
+  virtual FaceFields<double> before(Id k) = 0;
   /// Evaluates the faces of these blocks, which have been pushed, and appends those that may
-  /// switch.
-  virtual void evaluate(const std::vector<Id>& blocks, std::vector<Id>& switching) = 0;
-  /// Evaluates these faces, of which `before` has changed, at their final positions.
+  /// switch. corrected: faces of which the state at n has changed.
+  virtual void evaluate(const std::vector<Id>& blocks, const std::vector<SwitchingFace>& corrected,
+                        std::vector<Id>& switching) = 0;
+  /// Evaluates the corrected faces at their final positions.
   virtual void finish(const std::vector<SwitchingFace>& corrected) = 0;
 };
 
@@ -69,8 +74,10 @@ class FaceRows : public FaceAccess {
  public:
   FaceRows(FaceSet& faces, const FaceScene& scene, double step)
       : faces_(faces), scene_(scene), step_(step) {}
-  void bring(Id) override {}
-  void evaluate(const std::vector<Id>& blocks, std::vector<Id>& switching) override;
+  bool switches(Id k) const override { return faces_.now.switched[k] > 0.0; }
+  FaceFields<double> before(Id k) override { return row_of(faces_.before, k); }
+  void evaluate(const std::vector<Id>& blocks, const std::vector<SwitchingFace>& corrected,
+                std::vector<Id>& switching) override;
   void finish(const std::vector<SwitchingFace>& corrected) override;
 
  private:

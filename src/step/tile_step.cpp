@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "contacts/activity.hpp"
@@ -104,28 +105,27 @@ auto properties(const FaceSet& c, Id k) {
 }
 
 /// Decides activity and breaks bonds of those of these faces that ask for it. Returns those of
-/// which anything has changed. corrected: faces whose rows are ahead of the tiles.
+/// which anything has changed. corrected: faces of which the state at n is ahead of the tiles.
 std::vector<Id> decide(Simulation& sim, const std::vector<Id>& faces,
                        const std::vector<SwitchingFace>& corrected) {
   FaceTiles& t = sim.leapfrog.tiled.tiles;
   FaceSet& c = sim.motion.contacts;
   const BlockSet& b = sim.scene->blocks;
-  const auto is_corrected = [&](Id k) {
-    return std::any_of(corrected.begin(), corrected.end(),
-                       [k](const SwitchingFace& f) { return f.face == k; });
-  };
   std::vector<Id> changed;
   for (const Id k : faces) {
     const bool fails = t.has_found(lane_bits::fails, k);
     if (!fails && !t.has_found(lane_bits::decides, k)) continue;
-    const auto before = properties(c, k);
-    if (!is_corrected(k)) recall_face(c, t, k);
+    const auto known = std::find_if(corrected.begin(), corrected.end(),
+                                    [k](const SwitchingFace& f) { return f.face == k; });
+    if (known == corrected.end()) recall_work(c, t, k);
+    const FaceFields<double> before = known == corrected.end() ? remembered(t, k) : known->before;
+    const auto had = properties(c, k);
     if (fails || c.bonded[k] > 0.0 || c.carries_tension[k] > 0.0) {
-      evaluate_face(c, face_scene(sim), sim.motion.state.step, k);
+      decide_face(c, face_scene(sim), sim.motion.state.step, before, k);
     } else {
-      decide_activity(c, b, sim.motion.pose, k);
+      decide_activity(c, b, sim.motion.pose, {before.energy > 0.0, before.gate > 0.0}, k);
     }
-    if (properties(c, k) == before) continue;
+    if (properties(c, k) == had) continue;
     load_decisions(t, c, b, k);
     changed.push_back(k);
   }
@@ -133,11 +133,11 @@ std::vector<Id> decide(Simulation& sim, const std::vector<Id>& faces,
 }
 
 /// Evaluates faces once more while switching is corrected, with what is decided of them then.
-void evaluate_again(Simulation& sim, const std::vector<Id>& faces) {
-  const FaceSwitchingScratch& so_far = sim.leapfrog.switching;
-  const double pushed = so_far.pushed_by;
+void evaluate_again(Simulation& sim, const std::vector<Id>& faces,
+                    const std::vector<SwitchingFace>& corrected) {
+  const double pushed = sim.leapfrog.switching.pushed_by;
   evaluate_chunks(sim, chunks_of(sim, faces, pushed));
-  const std::vector<Id> changed = decide(sim, faces, so_far.set);
+  const std::vector<Id> changed = decide(sim, faces, corrected);
   if (!changed.empty()) evaluate_chunks(sim, chunks_of(sim, changed, pushed));
 }
 
@@ -199,9 +199,17 @@ class FacesInTiles : public FaceAccess {
  public:
   explicit FacesInTiles(Simulation& sim) : sim_(sim) {}
 
-  void bring(Id k) override { recall_face(sim_.motion.contacts, sim_.leapfrog.tiled.tiles, k); }
+  bool switches(Id k) const override {
+    const FaceTiles& t = sim_.leapfrog.tiled.tiles;
+    return t.remembers(lane_bits::switched, k);
+  }
+  FaceFields<double> before(Id k) override {
+    recall_work(sim_.motion.contacts, sim_.leapfrog.tiled.tiles, k);
+    return remembered(sim_.leapfrog.tiled.tiles, k);
+  }
 
-  void evaluate(const std::vector<Id>& blocks, std::vector<Id>& switching) override {
+  void evaluate(const std::vector<Id>& blocks, const std::vector<SwitchingFace>& corrected,
+                std::vector<Id>& switching) override {
     const BlockSet& b = sim_.scene->blocks;
     const std::size_t known = changed_.size();
     for (const Id i : blocks) {
@@ -210,7 +218,7 @@ class FacesInTiles : public FaceAccess {
     }
     const std::vector<Id> faces(changed_.begin() + static_cast<std::ptrdiff_t>(known),
                                 changed_.end());
-    evaluate_again(sim_, faces);
+    evaluate_again(sim_, faces, corrected);
     for (const Id k : faces) {
       if (sim_.leapfrog.tiled.tiles.has_found(lane_bits::switching, k)) switching.push_back(k);
     }
@@ -220,9 +228,9 @@ class FacesInTiles : public FaceAccess {
     std::vector<Id> faces;
     for (const SwitchingFace& f : corrected) {
       faces.push_back(f.face);
-      load_correction(sim_.leapfrog.tiled.tiles, sim_.motion.contacts, f.face);
+      load_correction(sim_.leapfrog.tiled.tiles, sim_.motion.contacts, f.before, f.face);
     }
-    evaluate_again(sim_, faces);
+    evaluate_again(sim_, faces, corrected);
     changed_.insert(changed_.end(), faces.begin(), faces.end());
     gather(sim_, changed_);
   }
@@ -256,6 +264,7 @@ void load_tiles(Simulation& sim) {
 void place_in_tiles(Simulation& sim) {
   TiledFaces& own = sim.leapfrog.tiled;
   next_step(sim.motion.contacts, own.tiles);
+  if (!own.ahead) sim.motion.contacts.drop_states();
   own.ahead = true;
   parallel_tasks(own.tiles.tiles.size(), sim.scene->blocks.size(), own.scratch,
                  [&](std::size_t tile, SweepScratch& scratch) {
@@ -318,6 +327,15 @@ void update_face_rows(Simulation& sim) {
   if (!own.ahead) return;
   own.ahead = false;
   unload_faces(sim.motion.contacts, own.tiles, face_scene(sim), sim.control.step_before);
+}
+
+void lose_faces(Simulation& sim) {
+  TiledFaces& own = sim.leapfrog.tiled;
+  const bool lost = std::exchange(own.ahead, false);
+  own.loaded = false;
+  own.spare = FaceTiles();
+  sim.control.face_search = FaceSearch();
+  if (lost) sim.motion.contacts.clear_states();
 }
 
 FaceSet& faces_to_change(Simulation& sim) {

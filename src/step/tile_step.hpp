@@ -1,6 +1,6 @@
 // The faces of the explicit step, in tiles (contacts/face_tiles.hpp): loaded when a step needs
-// them, left when something else changes the faces. While they are in use the rows of
-// Motion::contacts are behind: only what is decided of them is that of the step.
+// them, left when something else changes the faces. While they are in use Motion::contacts has
+// no states of the faces: only what is decided of them is that of the step.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct TiledFaces {
   double in_two_tiles = 0.0;          ///< part_in_two_tiles() as the blocks were divided
   bool corrects = false;              ///< SweepScene::corrects
   bool loaded = false;                ///< they hold the faces of the simulation
-  bool ahead = false;                 ///< and the rows of the faces are behind
+  bool ahead = false;                 ///< and the rows of the faces have no states
   std::vector<SweepScratch> scratch;  ///< by thread
   std::vector<SweepResult> results;   ///< [tiles]
   std::vector<std::uint8_t> wanted;   ///< [nb] working memory: 0 everywhere between uses
@@ -50,8 +50,12 @@ double largest_closure(const TiledFaces& tiled);
 /// Makes a new list of the faces, which remain in tiles.
 void search_in_tiles(Simulation& sim, const Reach& reach);
 
-/// Brings the rows of the faces up to date.
+/// Brings the rows of the faces up to date, with their states.
 void update_face_rows(Simulation& sim);
+
+/// Where memory has run out: tiles of a list that was not completed must not be read. The faces
+/// carry nothing then.
+void lose_faces(Simulation& sim);
 
 /// The faces, to be changed: up to date, and no longer in tiles.
 FaceSet& faces_to_change(Simulation& sim);

@@ -311,14 +311,14 @@ TEST(MovingFace, IsCutAnewUnderAPartOfItsNormalForce) {
   const Face face = face_at(m.faces, m.blocks, m.pose.x, m.pose.y, k);
   next_step(m.faces);
   const double friction = m.faces.friction_work[k], transfer = m.faces.transfer[k];
-  const CornerForces half = recompute_shear(m.faces, face, at, then, 0.5, k);
+  FaceFields<double> before = row_of(m.faces.before, k);
+  const CornerForces half = recompute_shear(m.faces, before, face, at, then, 0.5, k);
   const double normal = 2e9 * depth, limit = mu * normal;
   const Vec2 on = half.q1 + half.q2;
   EXPECT_NEAR(on.y, 0.5 * normal, 1e-9 * normal);
   EXPECT_NEAR(on.x, -0.5 * limit, 1e-9 * limit);
   // Force by force: half of the pressure, and the shear.
-  const CornerForces shear =
-      end_forces(at, face, {}, {m.faces.before.shear_a[k], m.faces.before.shear_b[k]});
+  const CornerForces shear = end_forces(at, face, {}, {before.shear_a, before.shear_b});
   EXPECT_NEAR(norm(half.p1 - 0.5 * face.force.p1 - shear.p1), 0.0, 1e-9 * normal);
   EXPECT_NEAR(norm(half.p2 - 0.5 * face.force.p2 - shear.p2), 0.0, 1e-9 * normal);
   // It slips further by limit/2k, from T_{n-1} = limit to T_n = limit/2; before, both were at the
@@ -345,7 +345,8 @@ TEST(MovingFace, AccountsForTheTransferOfWhatIsCutAnew) {
   const Face face = face_at(m.faces, m.blocks, m.pose.x, m.pose.y, k);
   next_step(m.faces);
   const double friction = m.friction(), transfer = m.transfer();
-  recompute_shear(m.faces, face, at, then, 0.5, k);
+  FaceFields<double> before = row_of(m.faces.before, k);
+  recompute_shear(m.faces, before, face, at, then, 0.5, k);
   EXPECT_NEAR(m.friction(), friction, 1e-9 * limit * l);
   EXPECT_NEAR(m.transfer() - transfer, (0.625 - 1.0) * limit * l, 1e-6 * limit * l);
 }
