@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "attachments/boundary_lines.hpp"
 #include "base/parallel.hpp"
+#include "model/contact_springs.hpp"
 
 namespace edda {
 namespace {
@@ -21,20 +23,23 @@ struct Spring {
 class AsJoints {
  public:
   AsJoints(const Model& model, const BlockSet& blocks, const std::vector<Line>& lines, double snap)
-      : model_(model), b_(blocks), lines_(lines), snap_(snap) {}
+      : model_(model), springs_(contact_springs(model)), b_(blocks), lines_(lines), snap_(snap) {}
 
   /// across: a unit vector normal to the line; faces along other lines do not count; or 0, where
   /// all do.
   double at(Id v, Vec2 across) const {
-    const double kn = stiffest(b_.vertex_block[v]);
-    if (kn == 0.0) return model_.contact.normal_stiffness;
-    const Id edges[] = {v, b_.previous[v]};
-    double length = 0.0, shortest = b_.edge_length[v];
-    for (const Id e : edges) {
-      if (on_line(e) && lies_along(e, across)) length += 0.5 * b_.edge_length[e];
-      shortest = std::min(shortest, b_.edge_length[e]);
+    const double given = stiffest(b_.vertex_block[v]);
+    if (given == 0.0 && springs_.normal_over_young == 0.0) return springs_.normal;
+    const auto kn = [&](Id e) {
+      return given > 0.0 ? given : 2.0 * springs_.normal_over_young / b_.compliance[e];
+    };
+    double sum = 0.0, least = std::numeric_limits<double>::infinity();
+    for (const Id e : {v, b_.previous[v]}) {
+      const double of_edge = 0.5 * b_.edge_length[e] * kn(e);
+      if (on_line(e) && lies_along(e, across)) sum += of_edge;
+      least = std::min(least, of_edge);
     }
-    return kn * (length > 0.0 ? length : 0.5 * shortest);
+    return sum > 0.0 ? sum : least;
   }
 
  private:
@@ -59,6 +64,7 @@ class AsJoints {
     });
   }
   const Model& model_;
+  ContactSprings springs_;
   const BlockSet& b_;
   const std::vector<Line>& lines_;
   double snap_;

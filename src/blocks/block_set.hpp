@@ -44,6 +44,8 @@ struct BlockSet {
   std::vector<Id> next, previous;   ///< [nv] neighbours along the ring
   std::vector<Index> edge_joint;    ///< [nv] law named by edge v, or none
   std::vector<double> edge_length;  ///< [nv] at the start, m
+  /// [nv] Height of the block over the edge at the start, over its Young's modulus, m/Pa.
+  std::vector<double> compliance;
   std::vector<double>
       corner;  ///< [nv] interior angle at vertex v at the start, rad (> pi: reentrant)
   std::vector<double> exterior_cosine,

@@ -46,12 +46,20 @@ double half_width(std::span<const Vec2> ring) {
   return 0.5 * least;
 }
 
+/// How far the ring reaches to the left of a line through p in the direction of `along`, m.
+double height_over(const Ring& ring, Vec2 p, Vec2 along) {
+  const Vec2 n = perp(unit(along));
+  double most = 0.0;
+  for (const Vec2 q : ring) most = std::max(most, dot(q - p, n));
+  return most;
+}
+
 double interior_angle(Vec2 before, Vec2 at, Vec2 after) {
   const Vec2 in = at - before, out = after - at;
   return std::numbers::pi - std::atan2(cross(in, out), dot(in, out));
 }
 
-void add_vertices(BlockSet& b, const BlockPolygon& polygon, const Moments& m,
+void add_vertices(BlockSet& b, const BlockPolygon& polygon, double young, const Moments& m,
                   const NodeVectors& g) {
   const Id block = static_cast<Id>(b.area.size());
   double smallest_edge = std::numeric_limits<double>::infinity(), radius = 0.0;
@@ -69,6 +77,7 @@ void add_vertices(BlockSet& b, const BlockPolygon& polygon, const Moments& m,
       b.previous.push_back(first + (i + n - 1) % n);
       b.edge_joint.push_back(polygon.joint[r][i]);
       b.edge_length.push_back(norm(after - p));
+      b.compliance.push_back(height_over(polygon.rings[0], p, after - p) / young);
       b.corner.push_back(interior_angle(before, p, after));
       const bool reentrant = b.corner.back() > std::numbers::pi * 1.001;
       b.exterior_cosine.push_back(reentrant ? 0.0 : -std::cos(b.corner.back()));
@@ -112,8 +121,8 @@ void reserve(BlockSet& b, const std::vector<BlockPolygon>& polygons) {
   b.material.reserve(nb);
   b.vertex_begin.reserve(nb + 1);
   for (auto& values : b.weight) values.reserve(nv);
-  for (auto* values :
-       {&b.edge_length, &b.corner, &b.exterior_cosine, &b.exterior_sine, &b.vertex_x, &b.vertex_y})
+  for (auto* values : {&b.edge_length, &b.compliance, &b.corner, &b.exterior_cosine,
+                       &b.exterior_sine, &b.vertex_x, &b.vertex_y})
     values->reserve(nv);
   for (auto* ids : {&b.vertex_block, &b.next, &b.previous}) ids->reserve(nv);
   b.edge_joint.reserve(nv);
@@ -137,7 +146,7 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
     const double volume = m.area * model.thickness;
     const double mass = material.density * volume;
     const Lame elastic = lame(material, model.plane);
-    add_vertices(b, polygon, m, g);
+    add_vertices(b, polygon, material.young, m, g);
     add_triangles(b, polygon);
     for (std::size_t k = 0; k < nodes_per_block; ++k) {
       b.grad_x[k].push_back(g[k].x);

@@ -70,12 +70,11 @@ void fill_constants_of_edges(FaceSet& c, const BlockSet& b, std::size_t k) {
 }
 
 void fill_constants_of_law(FaceSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
-  const double shorter = std::min(b.edge_length[c.edge[k]], b.edge_length[c.facing[k]]);
+  const FaceSides sides = sides_of(b, c.edge[k], c.facing[k]);
   const Law& law = laws.rows[c.law[k]];
   c.at_ends[k] = law.kn > 0.0 ? 0.0 : 1.0;
-  // A penalty is one spring at each end of the shorter edge.
-  c.stiffness[k] = laws.normal_stiffness(law, shorter);
-  c.shear_stiffness[k] = laws.shear_stiffness(law, shorter);
+  c.stiffness[k] = laws.normal_stiffness(law, sides);
+  c.shear_stiffness[k] = laws.shear_stiffness(law, sides);
 }
 
 double rounding_of_closures(const Pose& pose) {

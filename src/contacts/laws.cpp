@@ -44,8 +44,7 @@ Index law_of(const std::vector<LawTable::Pair>& pairs, Index a, Index b) {
 
 LawTable build_laws(const Model& model) {
   LawTable table;
-  table.default_kn = model.contact.normal_stiffness;
-  table.default_ks = model.contact.shear_stiffness;
+  table.penalty = contact_springs(model);
   table.thickness = model.thickness;
   table.default_law = model.contact.joint;
   for (const JointLaw& j : model.joints) {
@@ -94,15 +93,40 @@ LawTable build_laws(const Model& model) {
   return table;
 }
 
-double LawTable::normal_stiffness(const Law& law, double shorter) const {
-  if (law.kn > 0.0) return thickness * law.kn;
-  return 2.0 * (thickness * (law.spring > 0.0 ? law.spring : default_kn)) / shorter;
+namespace {
+
+constexpr double most_of_smaller = 4.0;
+
+}  // namespace
+
+FaceSides sides_of(const BlockSet& b, Id edge, Id facing) {
+  const bool edge_fixed = b.fixed[b.vertex_block[edge]] != 0,
+             facing_fixed = b.fixed[b.vertex_block[facing]] != 0;
+  const double of_edge = b.compliance[facing_fixed || !edge_fixed ? edge : facing],
+               of_facing = b.compliance[edge_fixed || !facing_fixed ? facing : edge];
+  return {std::min(b.edge_length[edge], b.edge_length[facing]),
+          std::min(0.5 * (of_edge + of_facing), most_of_smaller * std::min(of_edge, of_facing))};
 }
 
-double LawTable::shear_stiffness(const Law& law, double shorter) const {
+FaceSides side_of(const BlockSet& b, Id edge) {
+  return {b.edge_length[edge], most_of_smaller * b.compliance[edge]};
+}
+
+double LawTable::normal_stiffness(const Law& law, const FaceSides& sides) const {
+  if (law.kn > 0.0) return thickness * law.kn;
+  if (law.spring > 0.0) return 2.0 * (thickness * law.spring) / sides.shorter;
+  if (penalty.normal_over_young > 0.0)
+    return 2.0 * (thickness * penalty.normal_over_young) / sides.compliance;
+  return 2.0 * (thickness * penalty.normal) / sides.shorter;
+}
+
+double LawTable::shear_stiffness(const Law& law, const FaceSides& sides) const {
   if (law.ks > 0.0) return thickness * law.ks;
-  return 2.0 * (thickness * default_ks * (law.spring > 0.0 ? law.spring / default_kn : 1.0)) /
-         shorter;
+  if (law.spring > 0.0)
+    return 2.0 * (thickness * penalty.shear * (law.spring / penalty.normal)) / sides.shorter;
+  if (penalty.shear_over_young > 0.0)
+    return 2.0 * (thickness * penalty.shear_over_young) / sides.compliance;
+  return 2.0 * (thickness * penalty.shear) / sides.shorter;
 }
 
 std::uint16_t LawTable::resolve(Index edge, Index facing) const {

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "blocks/block_set.hpp"
+#include "model/contact_springs.hpp"
 #include "model/model.hpp"
 
 namespace edda {
@@ -33,6 +35,17 @@ inline bool dilates(const Law& law) {
   return law.dilation > 0.0 || law.type == LawType::barton_bandis;
 }
 
+/// The two edges of a face, as far as its penalty stiffness depends on them.
+struct FaceSides {
+  double shorter;     ///< length of the shorter one, m
+  double compliance;  ///< mean of BlockSet::compliance of the two, not counting a fixed block, but
+                      ///< four times the smaller one at most, so that a small block between large
+                      ///< ones does not sink into them, m/Pa
+};
+FaceSides sides_of(const BlockSet& blocks, Id edge, Id facing);
+/// The same against a block that is much larger.
+FaceSides side_of(const BlockSet& blocks, Id edge);
+
 struct LawTable {
   std::vector<Law> rows;  ///< in the order of Model::joints, then the built-in glued law
   std::vector<std::uint16_t>
@@ -41,7 +54,7 @@ struct LawTable {
                                    ///< divided (contacts/strength.hpp)
   bool any_changes = false;        ///< a row has `changes`
   bool any_dashpots = false;       ///< a row has `dashpots`
-  double default_kn = 0.0, default_ks = 0.0;  ///< N/m per metre of thickness
+  ContactSprings penalty{};        ///< of joints without kn
   double thickness = 1.0;
   Index default_law = none;
   /// A [[contact_pair]]: two joints or two materials, the smaller index first, with their law;
@@ -67,9 +80,11 @@ struct LawTable {
   std::uint16_t resolve(Index edge, Index facing) const;
 
   /// k and ks of a face times the thickness, N/m per m of overlap: those of the joint, or, for a
-  /// penalty, twice the spring of one end over the `shorter` edge (m).
-  double normal_stiffness(const Law& law, double shorter) const;
-  double shear_stiffness(const Law& law, double shorter) const;
+  /// penalty, twice the given spring of one end over the shorter edge. Where none is given, 20 over
+  /// the compliance of the blocks, so that joints add a twentieth to the deformation of the rock,
+  /// however it is cut (theory, section 4.2).
+  double normal_stiffness(const Law& law, const FaceSides& sides) const;
+  double shear_stiffness(const Law& law, const FaceSides& sides) const;
   /// Fraction of critical damping of contacts of this law, where those without their own have
   /// `damping`.
   double damping_of(const Law& law, double damping) const {

@@ -206,8 +206,8 @@ void move_points(PointSet& c, const BlockSet& b, const Pose& pose, const LawTabl
 }
 
 void complete_points(PointSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws) {
-  c.stiffness = laws.thickness * laws.default_kn;
-  c.shear_stiffness = laws.thickness * laws.default_ks;
+  c.stiffness = laws.thickness * laws.penalty.normal;
+  c.shear_stiffness = laws.thickness * laws.penalty.shear;
   list_springs(c, b, pose);
   gather(c, b, pose);
 }

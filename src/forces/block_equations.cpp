@@ -34,8 +34,8 @@ double corner_stiffness_bound(std::vector<DistributedSpring>& distributed_spring
 }
 
 /// Contacts of block i as if it were in contact all round: the faces in the list, and along edges
-/// without a face neighbours like the block itself. They follow from the shape of the blocks alone,
-/// so that the step does not change with the state.
+/// without a face neighbours of penalty joints that are much larger, of others like the block
+/// itself.
 std::vector<SpringOnBlock> faces_all_round(const StiffnessInputs& w, std::size_t i) {
   const BlockSet& b = w.blocks;
   const FaceSet& c = w.contacts;
@@ -45,8 +45,8 @@ std::vector<SpringOnBlock> faces_all_round(const StiffnessInputs& w, std::size_t
     const double l = b.edge_length[e];
     const Law& own = w.laws.rows[w.laws.resolve(b.edge_joint[e], b.edge_joint[e])];
     const double bare = w.alone ? 1.0 : 2.0;
-    const double kn = w.laws.normal_stiffness(own, l);
-    const double ks = w.laws.shear_stiffness(own, l);
+    const double kn = w.laws.normal_stiffness(own, side_of(b, e));
+    const double ks = w.laws.shear_stiffness(own, side_of(b, e));
     normal.assign(1, {bare * kn, l, no_id});
     shear.assign(1, {bare * ks, l, no_id});
     double zeta = w.laws.damping_of(own, w.damping.contact), shear_zeta = own.shear_damping;
@@ -143,7 +143,8 @@ std::uint64_t equations_hash(const StiffnessInputs& w, std::size_t i) {
     const double l = b.edge_length[e];
     const Law& own = w.laws.rows[w.laws.resolve(b.edge_joint[e], b.edge_joint[e])];
     hash.add(static_cast<double>(w.contacts.begin_of_edge[e + 1] - w.contacts.begin_of_edge[e]));
-    add(own, w.laws.normal_stiffness(own, l), w.laws.shear_stiffness(own, l), l, w.alone);
+    const FaceSides bare = side_of(b, e);
+    add(own, w.laws.normal_stiffness(own, bare), w.laws.shear_stiffness(own, bare), l, w.alone);
     w.contacts.for_faces(e, e + 1, [&](Id k, bool of_edge) {
       const Id f = of_edge ? w.contacts.facing[k] : w.contacts.edge[k];
       const bool fixed = b.fixed[b.vertex_block[f]] != 0;

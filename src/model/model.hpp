@@ -86,9 +86,11 @@ struct JointLaw {
 
 struct ContactDefaults {
   ContactModel model = ContactModel::faces;
-  double normal_stiffness = 0.0;  ///< Pa (N/m per metre of thickness)
-  double shear_stiffness = 0.0;   ///< Pa
-  Index joint = none;  ///< law of contacts whose edges name none; none only if no law is needed
+  // Springs at each end of a face, Pa (N/m per metre of thickness); none: they follow from the
+  // blocks (model/contact_springs.hpp).
+  std::optional<double> normal_stiffness, shear_stiffness;
+  double stiffer = 1.0;  ///< not a key: by what those that follow from the blocks are multiplied
+  Index joint = none;    ///< law of contacts whose edges name none; none only if no law is needed
   Where where;
 };
 

@@ -25,7 +25,7 @@ namespace {
 // Contact spring over Young's modulus times thickness. An edge has two such springs, so at 10 the
 // strain of a joint adds about 5 % to that of its blocks; at 0.1 it is five times that of the
 // blocks.
-constexpr double soft = 0.1, stiff = 300.0;
+constexpr double soft = 0.2, stiff = 600.0;
 constexpr double sliver = 1e-3;  // of the median edge
 
 /// Fixes a free block for as long as this exists: a copy of all blocks would take more memory than
@@ -88,22 +88,11 @@ struct Extreme {
   std::size_t contact = 0;
 };
 
-double young_of(const Simulation& sim, std::size_t i) {
-  const Index m = sim.scene->blocks.material[i];
-  return m == none ? 0.0 : sim.scene->model.materials[static_cast<std::size_t>(m)].young;
-}
-
-/// Half of a face's stiffness, that of one end, over that of the softer block.
+/// Stiffness of a face over that of the blocks behind it.
 double face_ratio(const Simulation& sim, std::size_t k) {
   const FaceSet& f = sim.motion.contacts;
-  double young = std::numeric_limits<double>::infinity();
-  for (const Id i :
-       {block_of_edge(sim.scene->blocks, f, k), block_of_facing(sim.scene->blocks, f, k)}) {
-    if (free_block(sim, i)) young = std::min(young, young_of(sim, i));
-  }
-  const double shorter = std::min(sim.scene->blocks.edge_length[f.edge[k]],
-                                  sim.scene->blocks.edge_length[f.facing[k]]);
-  return 0.5 * f.stiffness[k] * shorter / (young * sim.scene->blocks.thickness);
+  const BlockSet& b = sim.scene->blocks;
+  return f.stiffness[k] / b.thickness * sides_of(b, f.edge[k], f.facing[k]).compliance;
 }
 
 void warn_of_springs(const Simulation& sim, std::vector<std::string>& warnings) {
@@ -121,8 +110,9 @@ void warn_of_springs(const Simulation& sim, std::vector<std::string>& warnings) 
   auto where = [&](const Extreme& e) {
     const std::size_t k = e.contact;
     return fmt::format(
-        "k = {:.3g} Pa/m between {} and {} at {}, half of which times the length of the joint is "
-        "{:.2g} times young of the rock",
+        "k = {:.3g} Pa/m between {} and {} at {} is {:.2g} times the stiffness of the blocks "
+        "behind "
+        "it",
         f.stiffness[k] / sim.scene->blocks.thickness,
         block_label(sim.scene->blocks, block_of_facing(sim.scene->blocks, f, k)),
         block_label(sim.scene->blocks, block_of_edge(sim.scene->blocks, f, k)),

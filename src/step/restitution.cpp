@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "model/contact_springs.hpp"
 #include "step/simulation.hpp"
 
 namespace edda {
@@ -140,7 +141,7 @@ Result<LawDashpots> fit_part(const Model& model, const Reference& reference, con
   double least = 0.0;
   for (const Softness& soft : {bouncing, dead}) {
     const double spring =
-        std::min(model.contact.normal_stiffness, reference.rock.young / soft.factor);
+        std::min(contact_springs(model).normal, reference.rock.young / soft.factor);
     const auto left = [&](double damping) {
       return restitution_of(model, reference, law, spring, damping);
     };
@@ -175,7 +176,7 @@ std::vector<Fault> fit_restitution(Model& model, const BlockSet& blocks) {
       if (auto fault = too_stiff(law, *reference)) faults.push_back(*fault);
       law.dashpots = LawDashpots{
           plastic, plastic,
-          std::min(model.contact.normal_stiffness, reference->rock.young / housners_factor)};
+          std::min(contact_springs(model).normal, reference->rock.young / housners_factor)};
       continue;
     }
     Result<LawDashpots> found = fit_part(model, *reference, law, law.restitution->part);

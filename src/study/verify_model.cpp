@@ -129,8 +129,11 @@ Model with_finer_step(Model model, double step) {
 }
 
 Model with_stiffer_springs(Model model) {
-  model.contact.normal_stiffness *= stiffer;
-  model.contact.shear_stiffness *= stiffer;
+  ContactDefaults& contact = model.contact;
+  contact.stiffer *= stiffer;
+  for (std::optional<double>* given : {&contact.normal_stiffness, &contact.shear_stiffness}) {
+    if (*given) **given *= stiffer;
+  }
   for (Boundary& b : model.boundaries) {
     if (b.stiffness) *b.stiffness *= stiffer;
   }

@@ -154,8 +154,8 @@ TEST(StepCache, GoWithAllThatAStepIsMadeOf) {
   m.state.alive[0] = 0;
   find_faces(m.faces, m.blocks, m.state, m.pose, m.laws, 0.1);
   t.changes("no faces");
-  m.laws.default_kn *= 1e3;
-  m.laws.default_ks *= 1e3;
+  m.laws.penalty.normal *= 1e3;
+  m.laws.penalty.shear *= 1e3;
   t.changes("stiffness of bare edges");
   m.blocks.fixed[2] = 1;
   t.changes("one that moves alone");

@@ -118,15 +118,16 @@ void record_model(int row, const std::string& which, const Simulation& sim) {
   }
   for (const JointLaw& joint : m.joints) angles.push_back(joint.peak.friction_angle);
   for (const std::uint8_t f : b.fixed) fixed.push_back(f);
+  const ContactSprings springs = contact_springs(m);
   write("model", row, which,
         "\"gravity\":" + json_list(std::vector<double>{m.gravity.x, m.gravity.y}) +
             ",\"plane\":\"" + (m.plane == Plane::stress ? "stress" : "strain") +
             "\",\"density\":" + json_list(densities) + ",\"young\":" + json_list(moduli) +
             ",\"poisson\":" + json_list(ratios) + ",\"friction\":" + json_list(angles) +
-            ",\"normal_stiffness\":" + json(m.contact.normal_stiffness) + ",\"shear_stiffness\":" +
-            json(m.contact.shear_stiffness) + ",\"time\":" + json(sim.motion.state.time) +
-            ",\"steps\":" + std::to_string(sim.motion.state.steps) + ",\"fixed\":" +
-            json_list(fixed) + ",\"start\":" + outlines(sim, b.vertex_x, b.vertex_y) +
+            ",\"normal_stiffness\":" + json(springs.normal) + ",\"shear_stiffness\":" +
+            json(springs.shear) + ",\"time\":" + json(sim.motion.state.time) + ",\"steps\":" +
+            std::to_string(sim.motion.state.steps) + ",\"fixed\":" + json_list(fixed) +
+            ",\"start\":" + outlines(sim, b.vertex_x, b.vertex_y) +
             ",\"end\":" + outlines(sim, sim.motion.pose.x, sim.motion.pose.y));
 }
 

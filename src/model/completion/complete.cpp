@@ -37,15 +37,6 @@ void complete_materials(const Value& root, Reading& reading) {
 void complete_contact(const Value& root, Reading& reading) {
   Model& model = reading.model;
   const Value* node = find(&root, "contact");
-  double young = 0.0;
-  for (const Material& material : model.materials) young = std::max(young, material.young);
-  constexpr double stiffness_over_young = 10.0;
-  if (!given(node, "normal_stiffness")) {
-    model.contact.normal_stiffness = fitted(stiffness_over_young * young);
-  }
-  if (!given(node, "shear_stiffness")) {
-    model.contact.shear_stiffness = model.contact.normal_stiffness;
-  }
   if (!given(node, "joint") && model.joints.size() == 1) model.contact.joint = 0;
 }
 

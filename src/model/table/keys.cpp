@@ -60,8 +60,8 @@ constexpr std::array joint_keys{
 
 constexpr std::array contact_keys{
     Key{"model", at<&ContactDefaults::model>, choice, initial, "Contacts are faces: an edge of one block against an opposed edge of another; or points: a vertex on an edge, as in the paper, for comparison only."},
-    Key{"normal_stiffness", at<&ContactDefaults::normal_stiffness>, number(D::stiffness, above(0)), otherwise("10 x the largest young"), "Normal spring at each end of a face where the joint has no kn."},
-    Key{"shear_stiffness", at<&ContactDefaults::shear_stiffness>, number(D::stiffness, above(0)), otherwise("normal_stiffness"), "Shear spring at each end of a face where the joint has no ks."},
+    Key{"normal_stiffness", at<&ContactDefaults::normal_stiffness>, number_or("auto", D::stiffness, above(0)), otherwise("\"auto\": 10 x young between squares; such that joints add a twentieth to the deformation of the rock"), "Normal spring at each end of a face where the joint has no kn."},
+    Key{"shear_stiffness", at<&ContactDefaults::shear_stiffness>, number_or("auto", D::stiffness, above(0)), otherwise("\"auto\": as normal_stiffness"), "Shear spring at each end of a face where the joint has no ks."},
     Key{"joint", at<&ContactDefaults::joint>, joint, otherwise(if_one), "Law of contacts whose edges name none."},
 };
 
@@ -80,7 +80,7 @@ constexpr std::array boundary_keys{
     Key{"sides", at<&Boundary::sides>, words_of(side_names), otherwise("none; either this or along"), "Sides of the box round the model."},
     Key{"along", at<&Boundary::along>, polyline, otherwise("none; either this or sides"), "The polyline that the boundary follows."},
     Key{"type", at<&Boundary::type>, choice, initial, "Springs in x and y (fixed) or only across the line (roller) on each block vertex on it; springs whose far ends move at a velocity (velocity) or by a displacement (displacement); dashpots that absorb waves (viscous); a traction on the edges (stress); vertical sides that ground motion moves as the ground beyond them (free-field)."},
-    Key{"stiffness", at<&Boundary::stiffness>, number(D::stiffness, above(0)), otherwise("the largest kn of the joints of the vertex's block, times half of the faces beside the vertex that lie on the line; contact.normal_stiffness where no joint of it gives kn"), "Types fixed, roller, velocity and displacement: spring per block vertex."},
+    Key{"stiffness", at<&Boundary::stiffness>, number(D::stiffness, above(0)), otherwise("the largest kn of the joints of the vertex's block, or where none gives kn that of its penalty, times half of the faces beside the vertex that lie on the line"), "Types fixed, roller, velocity and displacement: spring per block vertex."},
     Key{"traction", at<&Boundary::traction>, shape(Kind::point, D::stress), otherwise("that of [initial_stress]; required by type stress without one"), "Type stress: traction on the edges along the line, of constant direction."},
     Key{"velocity", at<&Boundary::velocity>, shape(Kind::point, D::velocity), otherwise("none; required by type velocity"), "Type velocity: velocity at which the vertices on the line are moved."},
     Key{"displacement", at<&Boundary::displacement>, shape(Kind::point, D::length), otherwise("none; required by type displacement"), "Type displacement: displacement of the support, from where its vertices lie when it begins to act; gradual in a stage until equilibrium."},
