@@ -56,6 +56,9 @@ struct GradualChange {
   double part = 1.0;    ///< fraction applied; 1: all; below 0 while a model settles (Relaxation)
   bool weight = false;  ///< gravity is applied gradually, too
   double least = 0.0;   ///< s: time that it takes at least, where a support is displaced
+  /// Periods of the motion that it takes, times the square root of the factor by which inertia is
+  /// raised, where it is; 0: one period in any case.
+  double periods = 0.0;
 
   /// Whether the weight comes first, in the first half, and supports move on it in the second.
   bool weight_first() const { return weight && least > 0.0; }

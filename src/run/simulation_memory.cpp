@@ -44,6 +44,7 @@ void list_state(Archive& a, Simulation& s) {
   a("gradual.part", s.attached.loads.gradual.part);
   a("gradual.weight", s.attached.loads.gradual.weight);
   a("gradual.least", s.attached.loads.gradual.least);
+  a("gradual.periods", s.attached.loads.gradual.periods);
   double fraction = s.motion.damping.rayleigh ? s.motion.damping.rayleigh->fraction : 0.0;
   double frequency = s.motion.damping.rayleigh ? s.motion.damping.rayleigh->frequency : 0.0;
   a("damping.rayleigh.fraction", fraction);

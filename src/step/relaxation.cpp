@@ -178,21 +178,22 @@ void change_strength(Simulation& sim, double part) {
 }
 
 /// Increases what is applied gradually, in proportion to the frequency estimate: all of it within
-/// one period. The first loads come on more slowly where inertia has been raised, since such blocks
-/// follow more slowly than their neighbours; then the model settles (`part` is below 0 meanwhile)
-/// before the joints come down to their strength.
+/// one period, more slowly where inertia has been raised, since such blocks follow more slowly than
+/// their neighbours. After the first loads the model settles (`part` is below 0 meanwhile) before
+/// the joints come down to their strength.
 void advance_gradual_change(Simulation& sim) {
   Relaxation& relaxation = sim.relaxation;
   if (gradual_change_complete(sim)) return;
-  constexpr double periods = 1.0, settling = 1.0, increments = 100.0;
+  constexpr double settling = 1.0, increments = 100.0;
   // Before anything has moved, the frequency of the wave is used.
   const double frequency =
       relaxation.estimate.frequency > 0.0 ? relaxation.estimate.clock() : wave_frequency(sim);
   GradualChange& gradual = sim.attached.loads.gradual;
   const double before = gradual.part;
   const bool loading = relaxation.hold == Relaxation::Hold::loading;
-  const double slower = loading ? std::sqrt(raised_inertia(sim)) : 1.0;
-  const double period = 2.0 * std::numbers::pi * periods * slower / frequency;
+  const double raised = gradual.periods > 0.0 ? raised_inertia(sim) : 1.0;
+  const double periods = raised > 1.0 ? gradual.periods * std::sqrt(raised) : 1.0;
+  const double period = 2.0 * std::numbers::pi * periods / frequency;
   gradual.part += sim.motion.state.step / std::max(period, gradual.least);
   const bool strength = !relaxation.strength_to.empty() && !loading;
   if (before < 0.0 && gradual.part >= 0.0) relaxation.estimate.least = 0.5 * frequency;
@@ -262,7 +263,8 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
     if (!weight && least == 0.0) return set_strength_factors(sim, strength_factors);
     relaxation.hold = Relaxation::Hold::loading;
     constexpr double strong = 1e-3;  // strength is divided by this
-    loads.gradual = {state.time, 0.0, weight, weight ? 2.0 * least : least};
+    constexpr double periods = 1.0;  // on joints that hold
+    loads.gradual = {state.time, 0.0, weight, weight ? 2.0 * least : least, periods};
     relaxation.strength_from = relaxation.strength_to = strength_factors;
     for (double& factor : relaxation.strength_from) factor *= strong;
     return set_strength_factors(sim, relaxation.strength_from);
@@ -278,7 +280,8 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
                 return now(interval.since) || now(interval.until);
               });
   }
-  if (changes) loads.gradual = {state.time, 0.0, false, least};
+  constexpr double periods = 3.0;  // of what does not come in increments
+  if (changes) loads.gradual = {state.time, 0.0, false, least, more ? 0.0 : periods};
   relaxation.estimate.least = 0.5 * relaxation.estimate.frequency;
   relaxation.strength_from = laws.divided_by;
   relaxation.strength_to = strength_factors;

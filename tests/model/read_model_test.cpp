@@ -1,4 +1,5 @@
 #include "model/read_model.hpp"
+#include "model/contact_springs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,8 +38,9 @@ TEST(ReadModel, Defaults) {
   EXPECT_EQ(m.joints[0].residual.friction_angle, 30.0);
   EXPECT_EQ(m.joints[0].residual.cohesion, 0.0);
   EXPECT_FALSE(m.joints[0].kn || m.joints[0].ks);
-  EXPECT_EQ(m.contact.normal_stiffness, 200e9);
-  EXPECT_EQ(m.contact.shear_stiffness, 200e9);
+  EXPECT_FALSE(m.contact.normal_stiffness || m.contact.shear_stiffness);
+  EXPECT_EQ(contact_springs(m).normal, 200e9);
+  EXPECT_EQ(contact_springs(m).shear_over_young, 10.0);
   EXPECT_EQ(m.contact.joint, 0);
   ASSERT_EQ(m.blocks.size(), 2U);
   EXPECT_EQ(m.blocks[0].material, 0);
@@ -119,7 +121,8 @@ TEST(ReadModel, DefaultsThatFollowOtherKeys) {
   EXPECT_EQ(m.joints[0].residual.cohesion, 1.0);
   EXPECT_EQ(m.joints[0].kn, 10.0);
   EXPECT_EQ(m.joints[0].ks, 4.0);
-  EXPECT_EQ(m.contact.shear_stiffness, 7.0);
+  EXPECT_EQ(contact_springs(m).shear, 7.0);
+  EXPECT_EQ(contact_springs(m).shear_over_young, 0.0);
 }
 
 TEST(ReadModel, OneBlockNeedsNoLaw) {

@@ -115,7 +115,8 @@ Simulation driven(const std::string& law, double g, double duration, bool soft =
   text.replace(text.find("velocity = [0.5, 0]\n"), 20, "");
   const std::string contact = soft ? "contact = 0.2, " : "";
   text.insert(text.find("\n[output]"), "\ndamping = { " + contact + "mass = 1e4 }");
-  if (soft) text.insert(text.find("[[block]]"), "[contact]\nnormal_stiffness = 2e10\n");
+  text.insert(text.find("[[block]]"),
+              std::string("[contact]\nnormal_stiffness = ") + (soft ? "2e10\n" : "2e11\n"));
   return scene(text);
 }
 

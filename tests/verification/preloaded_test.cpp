@@ -101,7 +101,7 @@ TEST(StickThreshold, ATenthOfADegreeLessSlides) {
 /// m.
 TEST(StickThreshold, ATenthOfADegreeMoreHolds) {
   for (const double alpha : {30.0, 45.0}) {
-    const double phi = alpha + 0.1, a = radians(alpha), weight = 2.0 * 2750.0 * 9.8, kt = 2e11;
+    const double phi = alpha + 0.1, a = radians(alpha), weight = 2.0 * 2750.0 * 9.8, kt = 4e11;
     Simulation sim = stressed_ramp(alpha, phi, "20e9", 0.1);
     const Id lower = sim.scene->blocks.vertex_begin[1] + 1;  // the downhill corner of the base
     const auto along = [&] {
