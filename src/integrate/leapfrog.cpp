@@ -31,11 +31,11 @@ EDDA_VECTOR void advance_nodes(NodeView n, Kick kick, std::size_t begin, std::si
   for (std::size_t i = begin; i < end; ++i) advance_one(n, kick, i);
 }
 
-/// Blocks whose nodes have lumped masses and are damped. `free` and `local` (beta) have the numbers
-/// of the blocks from `begin` on.
+/// Blocks whose nodes have lumped masses and are damped. `free`, `local` (beta) and `by_mass` (a)
+/// have the numbers of the blocks from `begin` on.
 struct DampedView {
   ConstNodeValues mass, fx, fy, old_vx, old_vy, vx, vy;
-  const double *free, *local;
+  const double *free, *local, *by_mass;
   std::size_t begin;
   double* joules;
 };
@@ -45,8 +45,7 @@ EDDA_INLINE Vec2 half_way(Vec2 before, Vec2 after, double h_old, double h_new) {
   return 0.5 * (h_old * before + h_new * after);
 }
 
-EDDA_INLINE void add_damping_work(const DampedView& b, double mass_damping, double h_old,
-                                  double h_new, std::size_t i) {
+EDDA_INLINE void add_damping_work(const DampedView& b, double h_old, double h_new, std::size_t i) {
   double by_local = 0.0, by_mass = 0.0;
   for (std::size_t k = 0; k < nodes_per_block; ++k) {
     const Vec2 before{b.old_vx[k][i], b.old_vy[k][i]}, after{b.vx[k][i], b.vy[k][i]};
@@ -55,14 +54,14 @@ EDDA_INLINE void add_damping_work(const DampedView& b, double mass_damping, doub
     by_local -= dot(push, moved);
     by_mass += b.mass[k][i] * dot(0.5 * (before + after), moved);
   }
-  const double dissipated = by_local + mass_damping * by_mass;
+  const double dissipated = by_local + b.by_mass[i - b.begin] * by_mass;
   b.joules[i] += b.free[i - b.begin] > 0.0 ? dissipated : 0.0;
 }
 
-EDDA_VECTOR void add_damping_work_of_all(DampedView b, double mass_damping, double h_old,
-                                         double h_new, std::size_t begin, std::size_t end) {
+EDDA_VECTOR void add_damping_work_of_all(DampedView b, double h_old, double h_new,
+                                         std::size_t begin, std::size_t end) {
 #pragma omp simd
-  for (std::size_t i = begin; i < end; ++i) add_damping_work(b, mass_damping, h_old, h_new, i);
+  for (std::size_t i = begin; i < end; ++i) add_damping_work(b, h_old, h_new, i);
 }
 
 Kick kick_of(const Leap& leap, double h_of_positions) {
@@ -71,26 +70,53 @@ Kick kick_of(const Leap& leap, double h_of_positions) {
   return {(1.0 - half) / (1.0 + half), h / (1.0 + half), h_of_positions, leap.damping.local};
 }
 
+bool is_in(const std::vector<Id>* blocks, std::size_t i) {
+  return blocks != nullptr &&
+         std::binary_search(blocks->begin(), blocks->end(), static_cast<Id>(i));
+}
+
+/// The first block of [begin, end) that some damping spares; else `end`.
+std::size_t next_spared(const StepDamping& damping, std::size_t begin, std::size_t end) {
+  const bool damps = damping.local > 0.0 || damping.mass > 0.0;
+  std::size_t next = end;
+  for (const std::vector<Id>* of :
+       {damping.local > 0.0 ? damping.spared : nullptr, damps ? damping.in_flight : nullptr}) {
+    if (of == nullptr) continue;
+    const auto i = std::lower_bound(of->begin(), of->end(), static_cast<Id>(begin));
+    if (i != of->end()) next = std::min<std::size_t>(next, *i);
+  }
+  return next;
+}
+
+/// Damping of block i.
+StepDamping damping_of(const StepDamping& damping, std::size_t i) {
+  const bool flies = is_in(damping.in_flight, i);
+  return {flies ? 0.0 : damping.mass, flies || is_in(damping.spared, i) ? 0.0 : damping.local,
+          nullptr, damping.strain};
+}
+
 }  // namespace
 
 void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
   const BlockSet& b = leap.blocks;
   const Masses& masses = leap.masses;
   const StepDamping& damping = leap.damping;
-  if (damping.local > 0.0 && damping.spared != nullptr) {
-    const std::vector<Id>& spared = *damping.spared;
-    const StepDamping others{damping.mass, damping.local, nullptr, damping.strain},
-        these{damping.mass, 0.0, nullptr, damping.strain};
+  for (std::size_t i = next_spared(damping, begin, end); i < end;
+       i = next_spared(damping, begin, end)) {
+    const StepDamping all{damping.mass, damping.local, nullptr, damping.strain},
+        its = damping_of(damping, i);
     const auto damped_by = [&](const StepDamping& other) {
       return Leap{b,           masses,     leap.force_x, leap.force_y, leap.old_vx,
                   leap.old_vy, leap.h_old, leap.h_new,   other};
     };
-    auto next = std::lower_bound(spared.begin(), spared.end(), static_cast<Id>(begin));
-    for (; next != spared.end() && *next < end; ++next) {
-      advance(s, damped_by(others), begin, *next);
-      advance(s, damped_by(these), *next, *next + 1);
-      begin = *next + 1;
+    advance(s, damped_by(all), begin, i);
+    advance(s, damped_by(its), i, i + 1);
+    if (damping.strain != nullptr && its.mass != damping.mass) {
+      // W is that of a step with mass damping, in which forces change velocities by so much less.
+      const double less = 1.0 / (1.0 + 0.25 * damping.mass * (leap.h_old + leap.h_new));
+      for (std::vector<double>& stress : damping.strain->stress) stress[i] *= less;
     }
+    begin = i + 1;
   }
   const double h_new = leap.h_new;
   // With strain damping the nodes of a block move together, after all have their new velocities.
@@ -133,7 +159,7 @@ void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
 void add_and_advance(State& s, const Leap& leap, const ForcesToAdd& forces, std::size_t begin,
                      std::size_t end) {
   const StepDamping& damping = leap.damping;
-  const bool spares = damping.local > 0.0 && damping.spared != nullptr;
+  const bool spares = next_spared(damping, begin, end) < end;
   if (damping.strain == nullptr || leap.masses.kind == MassKind::consistent || spares) {
     add_to_free(leap.blocks, s, forces, begin, end);
     return advance(s, leap, begin, end);
@@ -157,31 +183,31 @@ void account_damping(const State& s, const Leap& leap, DampingWork& work) {
     add_strain_dissipation(*damping.strain, b, s, old_vx, old_vy, h_old, h_new, work.joules);
   }
   if (damping.mass == 0.0 && damping.local == 0.0) return;
-  static const std::vector<Id> no_blocks;
-  const std::vector<Id>& spared = damping.spared != nullptr ? *damping.spared : no_blocks;
   if (leap.masses.kind == MassKind::consistent) {
     parallel_for(b.size(), [&](std::size_t i) {
       if (!is_free(b, s, i)) return;
+      const StepDamping its = damping_of(damping, i);
       const NodeVectors before = vectors_of(old_vx, old_vy, i), after = vectors_of(s.vx, s.vy, i);
-      const bool is_spared = std::binary_search(spared.begin(), spared.end(), static_cast<Id>(i));
       const NodeVectors f = vectors_of(leap.force_x, leap.force_y, i);
       NodeVectors moved;
       for (std::size_t k = 0; k < nodes_per_block; ++k) {
         moved[k] = half_way(before[k], after[k], h_old, h_new);
-        const double local = is_spared ? 0.0 : damping.local;
-        work.joules[i] -= dot(local_damping(f[k], before[k], local), moved[k]);
+        work.joules[i] -= dot(local_damping(f[k], before[k], its.local), moved[k]);
       }
-      work.joules[i] += damping.mass * mass_product(leap.masses, i, 0.5 * (before + after), moved);
+      work.joules[i] += its.mass * mass_product(leap.masses, i, 0.5 * (before + after), moved);
     });
     return;
   }
   parallel_chunks(b.size(), blocks_at_once, [&](std::size_t, std::size_t begin, std::size_t end) {
     const FreeMarks free(b, s, begin, end);
-    std::array<double, blocks_at_once> local;
+    std::array<double, blocks_at_once> local, mass;
     local.fill(damping.local);
-    for (auto i = std::lower_bound(spared.begin(), spared.end(), static_cast<Id>(begin));
-         i != spared.end() && *i < end; ++i) {
-      local[*i - begin] = 0.0;
+    mass.fill(damping.mass);
+    for (std::size_t i = next_spared(damping, begin, end); i < end;
+         i = next_spared(damping, i + 1, end)) {
+      const StepDamping its = damping_of(damping, i);
+      local[i - begin] = its.local;
+      mass[i - begin] = its.mass;
     }
     const DampedView view{values_of(leap.masses.node),
                           values_of(leap.force_x),
@@ -192,9 +218,10 @@ void account_damping(const State& s, const Leap& leap, DampingWork& work) {
                           values_of(s.vy),
                           free.data(),
                           local.data(),
+                          mass.data(),
                           begin,
                           work.joules.data()};
-    add_damping_work_of_all(view, damping.mass, h_old, h_new, begin, end);
+    add_damping_work_of_all(view, h_old, h_new, begin, end);
   });
 }
 

@@ -18,6 +18,9 @@ struct StepDamping {
   const std::vector<Id>* spared = nullptr;
   /// Strain damping of the blocks, prepared for this step; null: none.
   StrainDamping* strain = nullptr;
+  /// Blocks with neither of the two, ascending: those that fly, which damping would hold in the
+  /// air. Null: none.
+  const std::vector<Id>* in_flight = nullptr;
 };
 
 /// Work dissipated by damping of nodes and strain, per block.

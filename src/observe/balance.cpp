@@ -44,13 +44,25 @@ bool is_moved(const Simulation& sim, std::size_t i) {
          speed > part * std::sqrt(usual_gravity * std::sqrt(b.area[i]));
 }
 
+/// Whether block i, which touches nothing, has fallen by a hundredth of its size. Before that it
+/// may be about to land, as where blocks are drawn a little apart from each other.
+bool has_fallen(const Simulation& sim, std::size_t i) {
+  constexpr double part = 0.01;
+  const BlockSet& b = sim.scene->blocks;
+  const Masses& masses = sim.motion.masses;
+  const double inertia = b.mass[i] * (masses.raised.empty() ? 1.0 : masses.raised[i]);
+  const Vec2 v = centroid(sim.motion.state.vx, sim.motion.state.vy, i);
+  // From rest, under this resultant.
+  return 0.5 * inertia * dot(v, v) > part * std::sqrt(b.area[i]) * resultant_on(sim, i);
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> falling_blocks(const Simulation& sim) {
   std::vector<std::uint8_t> fall = touching(sim);
   for (std::size_t i = 0; i < fall.size(); ++i) {
     const bool free = is_free(sim.scene->blocks, sim.motion.state, i);
-    fall[i] = fall[i] == 0 && free && is_moved(sim, i) ? 1 : 0;
+    fall[i] = fall[i] == 0 && free && is_moved(sim, i) && has_fallen(sim, i) ? 1 : 0;
   }
   return fall;
 }

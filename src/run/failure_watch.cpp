@@ -14,12 +14,11 @@ Watch::Watch(const Simulation& sim)
     : counted_(sim.scene->blocks.size(), 0),
       speed_(sim.scene->blocks.size(), 0.0),
       last_time_(sim.motion.state.time) {
-  const std::vector<std::uint8_t> touches = touching(sim), small = negligible_blocks(sim);
+  const std::vector<std::uint8_t> falls = falling_blocks(sim), small = negligible_blocks(sim);
   for (std::size_t i = 0; i < counted_.size(); ++i) {
     const bool loose = !sim.relaxation.loose.empty() && sim.relaxation.loose[i] != 0;
     counted_[i] =
-        is_free(sim.scene->blocks, sim.motion.state, i) && touches[i] && !loose && !small[i] ? 1
-                                                                                             : 0;
+        is_free(sim.scene->blocks, sim.motion.state, i) && !falls[i] && !loose && !small[i] ? 1 : 0;
   }
   for (std::size_t v = 0; v < sim.scene->blocks.vertex_count(); ++v)
     start_.push_back(place(sim, v));

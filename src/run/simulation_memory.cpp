@@ -37,6 +37,7 @@ void list_state(Archive& a, Simulation& s) {
   a("frequency_estimate.fx", s.relaxation.estimate.fx);
   a("frequency_estimate.fy", s.relaxation.estimate.fy);
   a("loose", s.relaxation.loose);
+  a("in_flight", s.relaxation.in_flight);
   a("seeks_equilibrium", s.relaxation.seeks_equilibrium);
   a("balanced", s.relaxation.balanced);
   a("equilibrium_ratio", s.relaxation.equilibrium_ratio);
@@ -182,6 +183,7 @@ void judge(Judge& j, const Simulation& s) {
     j.sized("pose", *values, nv);
   }
   j.below("bound.block", {s.control.bound.block}, nb, true);
+  j.below("in_flight", s.relaxation.in_flight, nb);
   j.positive("state.step", s.motion.state.step);
   j.positive("step_limit", s.control.limit);
   if (!s.motion.masses.raised.empty()) j.sized("masses.raised", s.motion.masses.raised, nb);

@@ -34,7 +34,8 @@ double energy_of_step_change(const State& s, const Leap& leap) {
 StepDamping step_damping(const Simulation& sim, StrainDamping& strain) {
   const std::vector<Id>& damped = sim.attached.dashpots.damped;
   return {mass_damping(sim), sim.motion.damping.local, damped.empty() ? nullptr : &damped,
-          sim.motion.masses.viscosity.empty() ? nullptr : &strain};
+          sim.motion.masses.viscosity.empty() ? nullptr : &strain,
+          sim.motion.damping.adaptive > 0.0 ? &sim.relaxation.in_flight : nullptr};
 }
 
 /// The step from n to n + 1, with the state at n.

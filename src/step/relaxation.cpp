@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "contacts/approach.hpp"
@@ -74,10 +75,20 @@ std::uint64_t steps_between_looks(const FrequencyEstimate& estimate, double h) {
   return static_cast<std::uint64_t>(std::clamp(wanted, least, most));
 }
 
-/// [nb] 1: counts in the frequency estimate. A block that falls or slides away has no stiffness and
-/// moves further than all others together.
-std::vector<std::uint8_t> counts_in_frequency(const Simulation& sim) {
-  std::vector<std::uint8_t> stays = touching(sim);
+/// Free blocks that touch nothing.
+std::vector<Id> blocks_in_flight(const Simulation& sim, const std::vector<std::uint8_t>& touch) {
+  std::vector<Id> fly;
+  for (std::size_t i = 0; i < touch.size(); ++i) {
+    if (touch[i] == 0 && is_free(sim.scene->blocks, sim.motion.state, i))
+      fly.push_back(static_cast<Id>(i));
+  }
+  return fly;
+}
+
+/// [nb] 1: counts in the frequency estimate, of blocks that `touch` something. A block that falls
+/// or slides away has no stiffness and moves further than all others together.
+std::vector<std::uint8_t> counts_in_frequency(const Simulation& sim,
+                                              std::vector<std::uint8_t> stays) {
   const std::vector<std::uint8_t>& loose = sim.relaxation.loose;
   for (std::size_t i = 0; i < stays.size(); ++i) {
     if (!is_free(sim.scene->blocks, sim.motion.state, i)) stays[i] = 0;
@@ -145,7 +156,9 @@ void update_estimate(Simulation& sim, const LoadsNow& at_work) {
       *nodes = zero_nodes(nb);
     }
   }
-  const std::vector<std::uint8_t> stays = counts_in_frequency(sim);
+  std::vector<std::uint8_t> touch = touching(sim);
+  sim.relaxation.in_flight = blocks_in_flight(sim, touch);
+  const std::vector<std::uint8_t> stays = counts_in_frequency(sim, std::move(touch));
   const bool none_stays =
       std::none_of(stays.begin(), stays.end(), [](std::uint8_t stay) { return stay != 0; });
   Quotient sum{std::vector<double>(nb, 0.0), std::vector<double>(nb, 0.0)};

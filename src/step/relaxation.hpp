@@ -35,6 +35,8 @@ struct Relaxation {
   FrequencyEstimate estimate;       ///< while it seeks equilibrium
   std::vector<std::uint8_t> loose;  ///< [nb] 1: does not count in it, since the block falls or
                                     ///< slides away; empty: none
+  std::vector<Id> in_flight;  ///< free blocks without contact when the frequency was estimated
+                              ///< last, ascending: adaptive damping would hold them in the air
   std::vector<double> strength_from, strength_to;  ///< [laws] strength factors while strength
                                                    ///< changes gradually
   /// At the very start joints neither slide nor break while the first loads come on; then the model
