@@ -186,10 +186,11 @@ double travel_if_free(const Simulation& sim, std::size_t i, double v, double t, 
 }
 
 std::vector<Id> loose_block_ids(const Simulation& sim) {
-  const std::vector<std::uint8_t> small = negligible_blocks(sim);
+  const std::vector<std::uint8_t> small = negligible_blocks(sim), falls = falling_blocks(sim);
   std::vector<Id> loose;
   for (std::size_t i = 0; i < sim.relaxation.loose.size(); ++i) {
-    if (sim.relaxation.loose[i] != 0 && small[i] == 0) loose.push_back(static_cast<Id>(i));
+    if (sim.relaxation.loose[i] != 0 && small[i] == 0 && falls[i] == 0)
+      loose.push_back(static_cast<Id>(i));
   }
   return loose;
 }

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "observe/balance.hpp"
 #include "run/equilibrium_search.hpp"
 #include "run/stages.hpp"
-#include "step/touching.hpp"
 
 namespace edda {
 
@@ -69,12 +69,12 @@ Id Watch::fastest() const {
   return most == speed_.end() || *most == 0.0 ? no_id : static_cast<Id>(most - speed_.begin());
 }
 
-Id Watch::goes_beyond(const Simulation& sim, const Least& touching_ones, const Least& others,
+Id Watch::goes_beyond(const Simulation& sim, const Least& supported, const Least& falling,
                       double most, double more) const {
   if (!trend_.known()) return no_id;
-  const std::vector<std::uint8_t> touches = touching(sim);
+  const std::vector<std::uint8_t> falls = falling_blocks(sim);
   for (std::size_t i = 0; i < counted_.size(); ++i) {
-    const Least& least = touches[i] != 0 ? touching_ones : others;
+    const Least& least = falls[i] != 0 ? falling : supported;
     if (!counted_[i] || speed_[i] < least.velocity) continue;
     const double so_far = gone(sim, i);
     if (so_far > least.far && trend_.to_come(i) > (so_far > most ? more : most - so_far))

@@ -44,10 +44,10 @@ class Watch {
     double velocity = 0.0;  ///< m/s
   };
   /// A block that will move beyond `most` (m) by its trend; if it has done so already, `more` (m)
-  /// further. What it must have done differs for one that has lost its contacts. no_id: there is
+  /// further. What it must have done differs for one that falls. no_id: there is
   /// none.
-  Id goes_beyond(const Simulation& sim, const Least& touching_ones, const Least& others,
-                 double most, double more) const;
+  Id goes_beyond(const Simulation& sim, const Least& supported, const Least& falling, double most,
+                 double more) const;
   /// Makes displacements count from the beginning of the time spans in which the trend was found.
   void count_from_trend(State& state) const;
   template <class Archive>
