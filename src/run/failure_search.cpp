@@ -15,10 +15,12 @@ constexpr std::uint64_t look_at_every = 32;  // steps
 // search, and at its end.
 constexpr double visible = 0.3, barely = 0.01;
 constexpr double periods_enough = 6.0;  // of the motion, before a trend counts
-// Times the failure displacement: no block deforms by its own size, nor moves a hundred times as
-// far as a support that is displaced by a part of a change (parts_of_change()), unless it falls.
-constexpr double far_by_forces = 100.0, far_by_supports = 25.0;
-constexpr double part_of_size = 0.01, slower = 10.0;
+// Of the size of a block: the failure displacement, which is larger where supports carry blocks
+// along; and how far no block moves that deforms, nor one whose support is displaced by a part of a
+// change (parts_of_change()), unless it falls.
+constexpr double by_forces = 0.01, by_supports = 0.03;
+constexpr double far_by_forces = 1.0, far_by_supports = 0.25;
+constexpr double slower = 10.0;
 
 }  // namespace
 
@@ -44,9 +46,10 @@ CollapseCriterion collapse_criterion(const Simulation& sim, Varied varied, Index
   c.acceleration = norm(model.gravity);
   if (c.acceleration == 0.0) c.acceleration = force > 0.0 ? force / mass : usual_acceleration;
   c.duration = equilibrium_time(c.size, c.acceleration);
-  c.displacement = part_of_size * c.size;
-  c.velocity = c.displacement / (slower * c.duration);
-  c.far = is_displaced(model, varied, target) ? far_by_supports : far_by_forces;
+  const bool displaced = is_displaced(model, varied, target);
+  c.displacement = (displaced ? by_supports : by_forces) * c.size;
+  c.velocity = by_forces * c.size / (slower * c.duration);
+  c.far = displaced ? far_by_supports / by_supports : far_by_forces / by_forces;
   return c;
 }
 
@@ -54,10 +57,10 @@ int parts_of_change(const Model& model, Varied varied, Index target, double from
                     const CollapseCriterion& criterion) {
   if (!is_displaced(model, varied, target)) return 1;
   // Blocks that the support carries along must not look as if they failed (`visible`).
-  constexpr double at_a_time = 0.25;
+  constexpr double at_a_time = 0.0025;  // of the size of a block
   const Vec2 whole = *model.boundaries[static_cast<std::size_t>(target)].displacement;
   const double way = norm(whole) * std::abs(to - from);
-  return std::max(1, static_cast<int>(std::ceil(way / (at_a_time * criterion.displacement))));
+  return std::max(1, static_cast<int>(std::ceil(way / (at_a_time * criterion.size))));
 }
 
 Verdict FailureSearch::end(Verdict verdict, std::string reason, Id block) {
