@@ -15,12 +15,11 @@ namespace {
 /// Glues face k temporarily. It carries tension only if both ends are flush: a corner that leans on
 /// an edge is held in shear alone.
 void glue_for_now(FaceSet& c, std::size_t k) {
-  constexpr double flush = 1e-3;  // of the overlap
-  const double least = std::min(c.now.closure_a[k] - c.locked_closure_a[k],
-                                c.now.closure_b[k] - c.locked_closure_b[k]);
+  const FaceEnds drawn{c.now.closure_a[k] - c.locked_closure_a[k],
+                       c.now.closure_b[k] - c.locked_closure_b[k]};
   c.saved_bond[k] = 1.0 + c.bonded[k] + 2.0 * c.carries_tension[k];
   c.glued[k] = c.bonded[k] = 1.0;
-  if (least > -flush * c.now.length[k]) c.carries_tension[k] = 1.0;
+  if (lies_flush_as_drawn(drawn, c.now.length[k])) c.carries_tension[k] = 1.0;
 }
 
 }  // namespace

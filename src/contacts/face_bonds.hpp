@@ -2,6 +2,8 @@
 // sections 5.1 to 5.3).
 #pragma once
 
+#include <algorithm>
+
 #include "blocks/pose.hpp"
 #include "contacts/face_set.hpp"
 #include "contacts/laws.hpp"
@@ -17,6 +19,13 @@ bool touch_as_drawn(const FaceSet& faces, const BlockSet& blocks, const Pose& po
 /// law has cohesion, tensile strength, glue or a peak friction angle above the residual one. Those
 /// with tensile strength or glue carry tension. A face is bonded as a whole and breaks as a whole.
 void bond_faces(FaceSet& faces, const BlockSet& blocks, const Pose& pose, const LawTable& laws);
+
+/// Whether two edges lie against each other as drawn along the whole overlap, within the accuracy
+/// of drawings, a thousandth of it.
+inline bool lies_flush_as_drawn(FaceEnds drawn, double length) {
+  constexpr double accuracy = 1e-3;
+  return std::min(drawn.a, drawn.b) >= -accuracy * length;
+}
 
 /// Gives face k the residual strength of its law.
 void set_residual_strength(FaceSet& faces, const LawTable& laws, std::size_t k);

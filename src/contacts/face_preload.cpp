@@ -79,7 +79,10 @@ std::vector<JointStress> preload_faces(FaceSet& c, const BlockSet& b, const Pose
   lock_pressures(c, b, traction);
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Face drawn = face_at(c, b, pose.x, pose.y, k);
-    if (!touch_as_drawn(c, b, pose, drawn, k)) continue;
+    // Edges that meet at a corner only, as at a crossing of two joints at a few degrees, have a
+    // void between them.
+    if (!touch_as_drawn(c, b, pose, drawn, k) || !lies_flush_as_drawn(drawn.closure, drawn.length))
+      continue;
     const Vec2 n = outward_normal(drawn.t);
     // `traction` runs along the facing edge from its first corner, so end b comes first.
     const EndForces on = traction(c.facing[k], 1.0 - drawn.eta.b, 1.0 - drawn.eta.a);

@@ -293,7 +293,7 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
                 return now(interval.since) || now(interval.until);
               });
   }
-  constexpr double periods = 3.0;  // of what does not come in increments
+  constexpr double periods = 2.0;  // of what does not come in increments
   if (changes) loads.gradual = {state.time, 0.0, false, least, more ? 0.0 : periods};
   relaxation.estimate.least = 0.5 * relaxation.estimate.frequency;
   relaxation.strength_from = laws.divided_by;

@@ -354,7 +354,7 @@ below = -1e-3
         # Fewer are those that came first.
         self.expect(0, "study", "s.toml", "--set", "sampling.samples=60")
         self.assertEqual(read_rows(self.dir / "s/study.csv"), before)
-        self.assertEqual(self.summary()["samples"], 60)
+        self.assertEqual(self.summary()["samples"], 120)
 
     def test_a_search_without_end_says_so(self):
         # No cohesion is so small that the slab of little dip fails.
@@ -386,7 +386,7 @@ below = -1e-3
             summary = self.summary(f"f{seed}")
             found = summary["fit"]
             self.assertTrue(found["converged"])
-            self.assertLessEqual(summary["samples"], 60)
+            self.assertLessEqual(summary["samples"], 120)
             for name, truth in {"friction": 22, "kn": 2, "k0": 2}.items():
                 self.assertAlmostEqual(found["values"][name] / truth, 1, delta=0.01)
                 self.assertLess(abs(found["values"][name] - truth), 4 * found["errors"][name])

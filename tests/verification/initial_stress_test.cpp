@@ -149,6 +149,25 @@ TEST(InitialStress, SoftJointsAreStrainedForIt) {
                                     tensor + held + explicit_run);
 }
 
+/// Two joints that cross at a few degrees: between the sides of the acute corners there is rock,
+/// and where these faces meet at the crossing they must carry none of the stress.
+TEST(InitialStress, JointsThatCrossAtAFewDegrees) {
+  for (const double angle : {3.0, 6.0, 9.0}) {
+    const double y = 5.0 * std::tan(radians(0.5 * angle));
+    const auto trace = [](double left, double right) {
+      return "[[trace]]\npoints = [[-5, " + number(left) + "], [5, " + number(right) + "]]\n";
+    };
+    Simulation sim = scene(
+        "[materials.rock]\ndensity = 2500\nyoung = 20e9\npoisson = 0.2\n[joints.j]\n"
+        "friction_angle = 35\n[domain]\njoint = 'j'\noutline = " +
+        rectangle(-5.0, -5.0, 5.0, 5.0) + "\n" + trace(-y, y) + trace(y, -y) +
+        "[[boundary]]\nsides = ['left', 'right', 'bottom']\ntype = 'roller'\n[[boundary]]\n"
+        "sides = ['top']\ntype = 'stress'\n[initial_stress]\nk0 = 0.5\nsurface_y = 50\n" +
+        explicit_run);
+    EXPECT_LT(sim.accounts.initial->unbalanced, 1e-7) << angle;
+  }
+}
+
 TEST(InitialStress, OddBlocksKeepATensor) {
   expect_stays("Voronoi, tensor, fixed",
                rock + strong + voronoi + tensor + all_fixed + explicit_run);

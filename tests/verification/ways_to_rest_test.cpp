@@ -6,7 +6,9 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
+#include "observe/balance.hpp"
 #include "verification/ways_to_rest.hpp"
 
 namespace edda::ways_to_rest_test {
@@ -74,6 +76,79 @@ TEST(WaysToRest, ANarrowColumnCarriesItsOwnWeight) {
   const auto weight = [](double y) { return -2600.0 * 9.81 * (2.0 - y); };  // y from mid-height
   EXPECT_LT(largest_difference(run_to_equilibrium(text), weight), 12e3);
   EXPECT_LT(largest_difference(run_to_equilibrium(text + "masses = 'as given'\n"), weight), 700.0);
+}
+
+/// Columns of these widths (m) and of this height, cut into rows, between rollers.
+std::string columns(const std::vector<double>& widths, double height, int rows,
+                    const std::string& stiffness) {
+  std::string text =
+      "[materials.rock]\ndensity = 2500\nyoung = 10e9\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = 35\n" +
+      stiffness + "[domain]\njoint = 'j'\n";
+  double x = 0.0;
+  std::string traces;
+  for (const double width : widths) {
+    x += width;
+    if (width != widths.back())
+      traces += "[[trace]]\npoints = [[" + number(x) + ", 0], [" + number(x) + ", " +
+                number(height) + "]]\n";
+  }
+  for (int row = 1; row < rows; ++row) {
+    const std::string y = number(row * height / rows);
+    traces += "[[trace]]\npoints = [[0, " + y + "], [" + number(x) + ", " + y + "]]\n";
+  }
+  return text + "outline = " + rectangle(0.0, 0.0, x, height) + "\n" + traces +
+         "[[boundary]]\nname = 'sides'\nsides = ['left', 'right', 'bottom']\ntype = 'roller'\n";
+}
+
+/// Without a stiffness blocks of all widths deform alike: each column carries its share of a load.
+/// (Springs of one stiffness at the ends of all faces gave narrow ones three times as much.)
+TEST(WaysToRest, NarrowBlocksCarryTheirShareByDefault) {
+  const EquilibriumRun found = run_to_equilibrium(
+      "gravity = [0, 0]\n" + columns({1.5, 0.1, 2.0, 0.5, 1.0}, 4.0, 4, "") +
+      "[[boundary]]\nsides = ['top']\ntype = 'stress'\ntraction = [0, -1e6]\n" + until_equilibrium);
+  EXPECT_LT(largest_difference(found, [](double) { return -1e6; }), 1e5);
+}
+
+/// And flat ones: H sigma (1 - nu^2)/E between smooth walls, and a twentieth for the joints.
+TEST(WaysToRest, FlatBlocksSettleAsTheRockDoes) {
+  const EquilibriumRun found = run_to_equilibrium(
+      "gravity = [0, 0]\nplane = 'stress'\n" + columns({20.0}, 3.0, 10, "") +
+      "[[boundary]]\nsides = ['top']\ntype = 'stress'\ntraction = [0, -1e6]\n" + until_equilibrium);
+  const Simulation& sim = found.run.sim;
+  double most = 0.0;
+  for (std::size_t v = 0; v < sim.scene->blocks.vertex_count(); ++v)
+    most = std::max(most, sim.scene->blocks.vertex_y[v] - sim.motion.pose.y[v]);
+  const double rock = 3.0 * 1e6 * (1.0 - 0.2 * 0.2) / 10e9;
+  EXPECT_NEAR(most / rock, 1.05, 0.02);
+}
+
+/// A load that comes and goes leaves little behind where blocks of several widths have their
+/// inertia raised: shear between them that friction then locks in.
+TEST(WaysToRest, WhatIsUnloadedForgetsItsLoad) {
+  const EquilibriumRun found = run_to_equilibrium(
+      columns({1.5, 0.5, 2.0, 0.5, 1.0}, 4.0, 4, "kn = 20e9\nks = 8e9\n") +
+      "[initial_stress]\nk0 = 0.5\nsurface_y = 4\n[[load]]\nname = 'q'\nalong = [[0, 4], [5.5, "
+      "4]]\n"
+      "pressure = 1e6\n[[stage]]\nuntil = 'equilibrium'\n[[stage]]\nuntil = 'equilibrium'\n"
+      "activate = ['q']\n[[stage]]\nuntil = 'equilibrium'\ndeactivate = ['q']\n");
+  const auto weight = [](double y) { return -2500.0 * 9.81 * (2.0 - y); };  // y from mid-height
+  EXPECT_LT(largest_difference(found, weight), 8e3);
+}
+
+/// Blocks drawn a tenth of a millimetre apart fall on each other before a stage ends.
+TEST(WaysToRest, BlocksDrawnApartLand) {
+  std::string text =
+      "[materials.rock]\ndensity = 2500\nyoung = 10e9\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = 30\n[contact]\njoint = 'j'\n[[block]]\nfixed = true\npolygon = " +
+      rectangle(-1.0, -1.0, 3.0, 0.0) + "\n";
+  for (int i = 0; i < 5; ++i) {
+    const double low = i + 1e-4 * (i + 1);
+    text += "[[block]]\npolygon = " + rectangle(0.0, low, 2.0, low + 1.0) + "\n";
+  }
+  const EquilibriumRun found = run_to_equilibrium(text + until_equilibrium);
+  expect_weight_carried(found, 1e-4);
+  EXPECT_EQ(balance_of(found.run.sim).detached, 0u);
 }
 
 /// Where nothing acts yet, blocks that lie on each other without any load do not fall.

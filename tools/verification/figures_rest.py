@@ -53,7 +53,7 @@ def _sinking(axis, series, limit):
 
 def arch(records):
     drawing, (left, middle, right) = draw.panels(1, 1, 1.15, height=2.6)
-    for axis, which in ((left, "t/R = 0.108"), (middle, "t/R = 0.107")):
+    for axis, which in ((left, "t/R = 0.1085"), (middle, "t/R = 0.107")):
         draw.blocks(axis, records.model(13, which), window=(-7.0, 7.0, -1.3, 6.5))
         axis.set_title(which)
     series = {which: columns for which, columns in sorted(records.series_of(13).items())}

@@ -97,7 +97,7 @@ ROWS = (
         "An arch of 16 equal voussoirs, centre line of radius R = 5 m, on fixed springings, under its own weight.",
         "It stands where some thrust line stays within it: t/R of at least"
         f" {exact.arch_limit(16):.4f} (limit analysis, Heyman 1969, here by linear conditions on all joints; 0.1075 for"
-        " endlessly many voussoirs). So it must stand at 0.108 and collapse at 0.107.",
+        " endlessly many voussoirs). So it must stand at 0.1085 and collapse at 0.107.",
         "The arch that collapses is drawn at the moment when a voussoir has sunk by 0.5 m."),
     Row(14, "Gravity dam with rising water",
         "A dam of 2 x 8 m, 24 kN/m3, on fixed rock, without uplift. Water rises on one side within 2 s, to a depth"
