@@ -24,7 +24,7 @@ void bond_faces(FaceSet& faces, const BlockSet& blocks, const Pose& pose, const 
 /// of drawings, a thousandth of it.
 inline bool lies_flush_as_drawn(FaceEnds drawn, double length) {
   constexpr double accuracy = 1e-3;
-  return std::min(drawn.a, drawn.b) >= -accuracy * length;
+  return std::min(drawn.a, drawn.b) > -accuracy * length;
 }
 
 /// Gives face k the residual strength of its law.

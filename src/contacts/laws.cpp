@@ -108,7 +108,7 @@ FaceSides sides_of(const BlockSet& b, Id edge, Id facing) {
           std::min(0.5 * (of_edge + of_facing), most_of_smaller * std::min(of_edge, of_facing))};
 }
 
-FaceSides side_of(const BlockSet& b, Id edge) {
+FaceSides beside_much_larger(const BlockSet& b, Id edge) {
   return {b.edge_length[edge], most_of_smaller * b.compliance[edge]};
 }
 

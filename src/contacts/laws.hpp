@@ -38,13 +38,13 @@ inline bool dilates(const Law& law) {
 /// The two edges of a face, as far as its penalty stiffness depends on them.
 struct FaceSides {
   double shorter;     ///< length of the shorter one, m
-  double compliance;  ///< mean of BlockSet::compliance of the two, not counting a fixed block, but
-                      ///< four times the smaller one at most, so that a small block between large
-                      ///< ones does not sink into them, m/Pa
+  double compliance;  ///< mean of BlockSet::compliance of the two, where a fixed block counts as
+                      ///< the other, but four times the smaller one at most, so that a small block
+                      ///< between large ones does not sink into them, m/Pa
 };
 FaceSides sides_of(const BlockSet& blocks, Id edge, Id facing);
-/// The same against a block that is much larger.
-FaceSides side_of(const BlockSet& blocks, Id edge);
+/// The same against a block that is much larger, the softest that there is.
+FaceSides beside_much_larger(const BlockSet& blocks, Id edge);
 
 struct LawTable {
   std::vector<Law> rows;  ///< in the order of Model::joints, then the built-in glued law

@@ -33,9 +33,17 @@ double corner_stiffness_bound(std::vector<DistributedSpring>& distributed_spring
   return sum;
 }
 
-/// Contacts of block i as if it were in contact all round: the faces in the list, and along edges
-/// without a face neighbours of penalty joints that are much larger, of others like the block
-/// itself.
+/// What an edge may meet beside the faces in the list: where there is none a block like its own,
+/// and else, where a penalty follows from the blocks, a much larger one, so that a thin block among
+/// large ones does not hold the step down.
+FaceSides beside_faces(const StiffnessInputs& w, Id e) {
+  const bool listed = w.contacts.begin_of_edge[e] < w.contacts.begin_of_edge[e + 1];
+  return listed ? beside_much_larger(w.blocks, e) : sides_of(w.blocks, e, e);
+}
+
+/// Contacts of block i as if it were in contact all round: the faces in the list, and along the
+/// rest of its edges what they may meet. They follow from the shape of the blocks alone, so that
+/// the step changes only with the list.
 std::vector<SpringOnBlock> faces_all_round(const StiffnessInputs& w, std::size_t i) {
   const BlockSet& b = w.blocks;
   const FaceSet& c = w.contacts;
@@ -45,8 +53,9 @@ std::vector<SpringOnBlock> faces_all_round(const StiffnessInputs& w, std::size_t
     const double l = b.edge_length[e];
     const Law& own = w.laws.rows[w.laws.resolve(b.edge_joint[e], b.edge_joint[e])];
     const double bare = w.alone ? 1.0 : 2.0;
-    const double kn = w.laws.normal_stiffness(own, side_of(b, e));
-    const double ks = w.laws.shear_stiffness(own, side_of(b, e));
+    const FaceSides sides = beside_faces(w, e);
+    const double kn = w.laws.normal_stiffness(own, sides);
+    const double ks = w.laws.shear_stiffness(own, sides);
     normal.assign(1, {bare * kn, l, no_id});
     shear.assign(1, {bare * ks, l, no_id});
     double zeta = w.laws.damping_of(own, w.damping.contact), shear_zeta = own.shear_damping;
@@ -143,7 +152,7 @@ std::uint64_t equations_hash(const StiffnessInputs& w, std::size_t i) {
     const double l = b.edge_length[e];
     const Law& own = w.laws.rows[w.laws.resolve(b.edge_joint[e], b.edge_joint[e])];
     hash.add(static_cast<double>(w.contacts.begin_of_edge[e + 1] - w.contacts.begin_of_edge[e]));
-    const FaceSides bare = side_of(b, e);
+    const FaceSides bare = beside_faces(w, e);
     add(own, w.laws.normal_stiffness(own, bare), w.laws.shear_stiffness(own, bare), l, w.alone);
     w.contacts.for_faces(e, e + 1, [&](Id k, bool of_edge) {
       const Id f = of_edge ? w.contacts.facing[k] : w.contacts.edge[k];

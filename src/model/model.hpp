@@ -77,7 +77,7 @@ struct JointLaw {
   std::optional<double> slip_distance;   ///< m: from peak to residual; coulomb: of dilation
   std::optional<double> jrc, jcs;  ///< roughness (-), strength of the walls (Pa); barton-bandis
   std::optional<double> residual_angle;  ///< degrees; barton-bandis
-  std::optional<double> kn;              ///< Pa/m; without it contact.normal_stiffness
+  std::optional<double> kn;              ///< Pa/m; without it a penalty (contact_springs.hpp)
   std::optional<double> ks;  ///< Pa/m; filled with 0.4 kn where kn is given and ks is not
   std::optional<Restitution> restitution;
   std::optional<LawDashpots> dashpots{};  ///< not a key: found from `restitution`

@@ -45,16 +45,15 @@ bool is_moved(const Simulation& sim, std::size_t i) {
 }
 
 /// Whether block i, which touches nothing, has fallen by a hundredth of its size. Before that it
-/// may be about to land, as where blocks are drawn a little apart from each other.
+/// may be about to land, as where blocks are drawn a little apart from each other. Without adaptive
+/// damping, which spares blocks in flight, its velocity does not tell.
 bool has_fallen(const Simulation& sim, std::size_t i) {
-  if (!is_explicit(sim)) return true;  // a static step takes the velocity away
+  if (sim.motion.damping.adaptive == 0.0) return true;
   constexpr double part = 0.01;
-  const BlockSet& b = sim.scene->blocks;
-  const Masses& masses = sim.motion.masses;
-  const double inertia = b.mass[i] * (masses.raised.empty() ? 1.0 : masses.raised[i]);
   const Vec2 v = centroid(sim.motion.state.vx, sim.motion.state.vy, i);
   // From rest, under this resultant.
-  return 0.5 * inertia * dot(v, v) > part * std::sqrt(b.area[i]) * resultant_on(sim, i);
+  return 0.5 * inertia_of(sim.motion.masses, i) * dot(v, v) >
+         part * std::sqrt(sim.scene->blocks.area[i]) * resultant_on(sim, i);
 }
 
 }  // namespace

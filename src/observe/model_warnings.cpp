@@ -22,9 +22,8 @@
 namespace edda {
 namespace {
 
-// Contact spring over Young's modulus times thickness. An edge has two such springs, so at 10 the
-// strain of a joint adds about 5 % to that of its blocks; at 0.1 it is five times that of the
-// blocks.
+// Stiffness of a face over that of the blocks behind it. At 20 the strain of a joint adds 5 % to
+// that of its blocks; at 0.2 it is five times that of the blocks.
 constexpr double soft = 0.2, stiff = 600.0;
 constexpr double sliver = 1e-3;  // of the median edge
 

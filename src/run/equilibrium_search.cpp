@@ -77,10 +77,10 @@ void find_loose_blocks(EquilibriumSearch& s, Simulation& sim) {
 }
 
 bool all_in_equilibrium(const EquilibriumSearch& s, const Simulation& sim) {
-  const std::vector<std::uint8_t> touches = touching(sim), small = negligible_blocks(sim);
+  const std::vector<std::uint8_t> falls = falling_blocks(sim), small = negligible_blocks(sim);
   const std::vector<double> rounding = rounding_of_forces(sim);
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
-    if (!is_free(sim.scene->blocks, sim.motion.state, i) || touches[i] == 0 || small[i] != 0)
+    if (!is_free(sim.scene->blocks, sim.motion.state, i) || falls[i] != 0 || small[i] != 0)
       continue;
     if (!sim.relaxation.loose.empty() && sim.relaxation.loose[i] != 0) continue;
     const double most = equilibrium_travel_ratio * size_of(sim, i);
@@ -126,7 +126,10 @@ void begin_equilibrium_search(EquilibriumSearch& s, Simulation& sim, const Stage
   sim.relaxation.balanced = false;
   sim.relaxation.seeks_equilibrium = stage.to_equilibrium();
   sim.relaxation.equilibrium_ratio = stage.ratio;
-  if (!sim.relaxation.seeks_equilibrium) sim.relaxation.estimate = {};
+  if (!sim.relaxation.seeks_equilibrium) {
+    sim.relaxation.estimate = {};
+    sim.relaxation.in_flight.clear();
+  }
   begin_window(s, sim);
 }
 

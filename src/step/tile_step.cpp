@@ -325,17 +325,19 @@ void search_in_tiles(Simulation& sim, const Reach& reach) {
 void update_face_rows(Simulation& sim) {
   TiledFaces& own = sim.leapfrog.tiled;
   if (!own.ahead) return;
-  own.ahead = false;
   unload_faces(sim.motion.contacts, own.tiles, face_scene(sim), sim.control.step_before);
+  own.ahead = false;
 }
 
 void lose_faces(Simulation& sim) {
   TiledFaces& own = sim.leapfrog.tiled;
-  const bool lost = std::exchange(own.ahead, false);
-  own.loaded = false;
-  own.spare = FaceTiles();
+  FaceSet& c = sim.motion.contacts;
+  own.tiles = own.spare = FaceTiles();
   sim.control.face_search = FaceSearch();
-  if (lost) sim.motion.contacts.clear_states();
+  const bool fits =
+      c.now.rows() == c.size() && c.before.rows() == c.size() && c.force.size() == c.force_size();
+  if (own.ahead || !fits) c.clear_states();
+  own.ahead = own.loaded = false;
 }
 
 FaceSet& faces_to_change(Simulation& sim) {

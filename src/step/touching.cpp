@@ -6,7 +6,7 @@
 namespace edda {
 namespace {
 
-/// As is_closed(), also where the rows of the faces are behind.
+/// As is_closed(), also where tiles hold the states of the faces.
 bool is_closed_now(const Simulation& sim, std::size_t k) {
   const FaceSet& f = sim.motion.contacts;
   if (!sim.leapfrog.tiled.ahead) return is_closed(f, k);

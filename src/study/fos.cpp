@@ -243,10 +243,14 @@ void compare_with_rigid(const Model& model, const Fos& fos, FosResult& r) {
   rigid.below_most = *found_factor <= (1.0 + rigid.slack) * rigid.most;
   if (!r.factor && rigid.below_most) return;  // the highest factor tried is no limit
   const bool lower = *found_factor < (1.0 - rigid.slack) * rigid.least;
-  rigid.text = fmt::format("rigid limit analysis: {}; {}", limit.message,
-                           !rigid.below_most ? "NO EQUILIBRIUM OF RIGID BLOCKS HAS SUCH A FACTOR"
-                           : lower           ? "the factor is lower than theirs (docs/limit.md)"
-                                             : "the factor agrees with theirs");
+  const bool bolted = !model.bolts.empty() || !model.bolt_patterns.empty();
+  rigid.text =
+      fmt::format("rigid limit analysis: {}; {}", limit.message,
+                  !rigid.below_most ? "NO EQUILIBRIUM OF RIGID BLOCKS HAS SUCH A FACTOR"
+                  : lower && bolted ? "the factor is lower, since bolts count there with all "
+                                      "their capacity, stretched or not (docs/limit.md)"
+                  : lower           ? "the factor is lower than theirs (docs/limit.md)"
+                                    : "the factor agrees with theirs");
   if (!rigid.below_most) r.warnings.push_back(rigid.text);
   r.rigid = std::move(rigid);
 }

@@ -229,6 +229,13 @@ Result<LimitResult> limit_analysis(const Model& model, LimitExtent extent) {
   r.joints = asked.rigid().joints.size();
   r.size = asked.rigid().size;
   r.warnings = prepared.value().warnings;
+  if (!sim.attached.bolts.rows.empty()) {
+    r.warnings.push_back(
+        "bolts count with any force up to their capacity; where blocks slide across a bolt and do "
+        "not stretch it, the limit is too high, also without dilation: edda fos finds what the "
+        "bolt "
+        "carries then");
+  }
   if (!asked.rigid().loose.empty()) {
     r.warnings.push_back(
         fmt::format("{} touched by nothing and left out: {}",

@@ -354,7 +354,7 @@ below = -1e-3
         # Fewer are those that came first.
         self.expect(0, "study", "s.toml", "--set", "sampling.samples=60")
         self.assertEqual(read_rows(self.dir / "s/study.csv"), before)
-        self.assertEqual(self.summary()["samples"], 120)
+        self.assertEqual(self.summary()["samples"], 60)
 
     def test_a_search_without_end_says_so(self):
         # No cohesion is so small that the slab of little dip fails.

@@ -64,6 +64,16 @@ TEST(VerifyModel, PutsBarsOnEveryMonitor) {
   }
 }
 
+/// Also of a model that ends in equilibrium.
+TEST(VerifyModel, PutsBarsOnEquilibria) {
+  const Result<Verification> v =
+      verified(monitor + "[[stage]]\nuntil = 'equilibrium'\nratio = 1e-7\n");
+  ASSERT_TRUE(v.ok());
+  EXPECT_EQ(v.value().failed, "");
+  EXPECT_LT(v.value().monitors[0].displacement.y, 0.0);
+  EXPECT_GT(v.value().monitors[0].stiffness, 0.0);
+}
+
 const std::string short_run =
     "[solver]\nduration = 0.02\n[output]\nhistory_every = 0.005\nevery = 0.01\n";
 

@@ -53,7 +53,7 @@ constexpr std::array joint_keys{
     Key{"jrc", at<&JointLaw::jrc>, number(D::plain, from_to(0, 20)), otherwise("required of barton-bandis"), "Joint roughness coefficient, for walls as long as the blocks' edges."},
     Key{"jcs", at<&JointLaw::jcs>, number(D::stress, above(0)), otherwise("required of barton-bandis"), "Compressive strength of the joint's walls."},
     Key{"residual_angle", at<&JointLaw::residual_angle>, number(D::angle, friction), otherwise("required of barton-bandis"), "Residual friction angle of barton-bandis."},
-    Key{"kn", at<&JointLaw::kn>, number(D::joint_stiffness, above(0)), otherwise("contact.normal_stiffness, as a spring at each end of a face"), "Normal stiffness of the joint: its pressure is kn times its closure."},
+    Key{"kn", at<&JointLaw::kn>, number(D::joint_stiffness, above(0)), otherwise("from the blocks, or contact.normal_stiffness at each end of a face"), "Normal stiffness of the joint: its pressure is kn times its closure."},
     Key{"ks", at<&JointLaw::ks>, number(D::joint_stiffness, above(0)), otherwise("0.4 kn"), "Shear stiffness of the joint."},
     Key{"restitution", at<&JointLaw::restitution>, number_or("housner", D::plain, from_to(0, 1)), otherwise("what remains with the damping of blocks and contacts"), "Method edda: the part of its velocity with which a block leaves after a flat impact, or \"housner\": a rocking block loses at each impact the energy of Housner's assumption. Dashpots in these contacts produce this, and unless kn is given their springs are soft: a thirtieth of the smallest young (below 0.1 a hundredth, housner a fifteenth)."},
 };
