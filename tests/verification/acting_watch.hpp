@@ -41,7 +41,8 @@ inline std::string odd_heap(unsigned seed, double friction) {
       "gravity = [0, 0]\n[materials.rock]\ndensity = 2600\nyoung = 20e9\npoisson = 0.2\n"
       "[joints.j]\nfriction_angle = " +
       number(friction) +
-      "\n[joints.glue]\ntype = 'glued'\n[contact]\njoint = 'j'\n[solver]\nduration = 1\n[domain]\n"
+      "\n[joints.glue]\ntype = 'glued'\n[contact]\njoint = 'j'\nnormal_stiffness = "
+      "2e11\n[solver]\nduration = 1\n[domain]\n"
       "outline = [[2.7,2.7],[5.1,2.7],[5.1,5.1],[2.7,5.1]]\n[[trace]]\njoint = 'j'\n"
       "points = [[3.2,3.2],[4.6,3.2],[4.6,4.6],[3.2,4.6],[3.2,3.2]]\n";
   for (int i = 0; i < side * side; ++i) {

@@ -27,7 +27,7 @@ TEST(ThrownHeap, ContactsAgreeWithBruteForce) {
     Simulation sim = thrown(thrown_blocks(seed, 3, 0.75 * (seed % 4), 30.0), 3.0 * seed, 0.5);
     HeapWatch watch(16);
     double error = 0.0;
-    while (sim.motion.state.time < 0.5 && sim.motion.state.steps < 12000) {
+    while (sim.motion.state.time < 0.5 && sim.motion.state.steps < 6000) {
       const auto failure = step(sim);
       ASSERT_FALSE(failure.has_value()) << seed << ": " << failure->message;
       watch.look(sim);
@@ -107,7 +107,7 @@ TEST(ThrownHeap, FacesActAsDefined) {
   ActingFaults sum;
   for (unsigned seed = 0; seed < 6; ++seed) {
     Simulation sim = scene(odd_heap(seed, 3.0 * seed));
-    const Acting acting = acting_in(sim, 40000);
+    const Acting acting = acting_in(sim, 15000);
     EXPECT_EQ(acting.failure, "") << seed;
     expect_acts_as_defined(acting.faults, "seed " + std::to_string(seed));
     sum.add(acting.faults);

@@ -56,7 +56,7 @@ inline std::string thrown_model(const std::vector<ThrownBlock>& heap, double fri
   std::string toml =
       "gravity = [0.0, 0.0]\n[materials.rock]\ndensity = 2600.0\nyoung = 20e9\npoisson = 0.2\n"
       "[joints.j]\nfriction_angle = " +
-      number(friction) + "\n[solver]\n" + solver;
+      number(friction) + "\n[contact]\nnormal_stiffness = 2e11\n[solver]\n" + solver;
   for (const ThrownBlock& b : heap) {
     toml += block_text(b.ring, "velocity = [" + number(b.velocity.x) + "," + number(b.velocity.y) +
                                    "]\nangular_velocity = " + number(b.spin) + "\n");
