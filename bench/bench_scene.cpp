@@ -22,6 +22,7 @@
 #include "memory.hpp"
 #include "scenes.hpp"
 #include "step/changes.hpp"
+#include "step/tile_step.hpp"
 #include "stopwatch.hpp"
 #include "true_step.hpp"
 #include "wall.hpp"
@@ -59,7 +60,8 @@ bool read_options(int argc, char** argv, Options& o) {
   return !o.scene.empty();
 }
 
-void describe(const edda::BenchScene& scene, double made_in) {
+void describe(edda::BenchScene& scene, double made_in) {
+  update_face_rows(scene.sim);
   const Simulation& s = scene.sim;
   std::size_t closed = 0;
   for (std::size_t c = 0; c < s.motion.contacts.size(); ++c) {

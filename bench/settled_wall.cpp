@@ -1,6 +1,7 @@
 #include "settled_wall.hpp"
 #include "step/changes.hpp"
 #include "step/step.hpp"
+#include "step/tile_step.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +89,8 @@ bool between_neighbours(const Sides& s) {
          (!j.is_brick() || std::abs(j.quarter - i.quarter) <= 8);
 }
 
-Equilibrium rest_of(const Simulation& s, int columns) {
+Equilibrium rest_of(Simulation& s, int columns) {
+  update_face_rows(s);
   const BlockSet& b = s.scene->blocks;
   const FaceSet& c = s.motion.contacts;
   Equilibrium rest;
