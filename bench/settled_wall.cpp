@@ -149,7 +149,7 @@ void put(Simulation& s, const Equilibrium& rest, int columns) {
 /// As at the start of a run, and then what the faces of the short wall remember.
 void touch(Simulation& s, const Equilibrium& rest, int columns) {
   const BlockSet& b = s.scene->blocks;
-  FaceSet& c = s.motion.contacts;
+  FaceSet& c = faces_to_change(s);
   evaluate_faces(c, face_scene(s), 1.0);
   begin_from_step_end(c);
   for (std::size_t k = 0; k < c.size(); ++k) {
@@ -274,6 +274,7 @@ Simulation settled_wall(int columns, int rows, const std::string& cache) {
   damping.local = 0.8;
   damp(s, damping, 200);
   damp(s, {}, 50);
+  update_face_rows(s);
   return s;
 }
 

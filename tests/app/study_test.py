@@ -386,7 +386,7 @@ below = -1e-3
             summary = self.summary(f"f{seed}")
             found = summary["fit"]
             self.assertTrue(found["converged"])
-            self.assertLessEqual(summary["samples"], 120)
+            self.assertLessEqual(summary["samples"], 250)
             for name, truth in {"friction": 22, "kn": 2, "k0": 2}.items():
                 self.assertAlmostEqual(found["values"][name] / truth, 1, delta=0.01)
                 self.assertLess(abs(found["values"][name] - truth), 4 * found["errors"][name])
