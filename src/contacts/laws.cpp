@@ -97,6 +97,12 @@ namespace {
 
 constexpr double most_of_smaller = 4.0;
 
+/// Stiffness of a penalty, N/m per m: from the blocks behind the face where `over_young` is above
+/// 0, else from a spring (N/m) at each end of the shorter edge.
+double of_penalty(double at_end, double over_young, const FaceSides& sides) {
+  return over_young > 0.0 ? 2.0 * over_young / sides.compliance : 2.0 * at_end / sides.shorter;
+}
+
 }  // namespace
 
 FaceSides sides_of(const BlockSet& b, Id edge, Id facing) {
@@ -114,19 +120,16 @@ FaceSides beside_much_larger(const BlockSet& b, Id edge) {
 
 double LawTable::normal_stiffness(const Law& law, const FaceSides& sides) const {
   if (law.kn > 0.0) return thickness * law.kn;
-  if (law.spring > 0.0) return 2.0 * (thickness * law.spring) / sides.shorter;
-  if (penalty.normal_over_young > 0.0)
-    return 2.0 * (thickness * penalty.normal_over_young) / sides.compliance;
-  return 2.0 * (thickness * penalty.normal) / sides.shorter;
+  const bool own = law.spring > 0.0;
+  return of_penalty(thickness * (own ? law.spring : penalty.normal),
+                    own ? 0.0 : thickness * penalty.normal_over_young, sides);
 }
 
 double LawTable::shear_stiffness(const Law& law, const FaceSides& sides) const {
   if (law.ks > 0.0) return thickness * law.ks;
-  if (law.spring > 0.0)
-    return 2.0 * (thickness * penalty.shear * (law.spring / penalty.normal)) / sides.shorter;
-  if (penalty.shear_over_young > 0.0)
-    return 2.0 * (thickness * penalty.shear_over_young) / sides.compliance;
-  return 2.0 * (thickness * penalty.shear) / sides.shorter;
+  const bool own = law.spring > 0.0;
+  return of_penalty(thickness * penalty.shear * (own ? law.spring / penalty.normal : 1.0),
+                    own ? 0.0 : thickness * penalty.shear_over_young, sides);
 }
 
 std::uint16_t LawTable::resolve(Index edge, Index facing) const {

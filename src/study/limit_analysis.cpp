@@ -233,8 +233,7 @@ Result<LimitResult> limit_analysis(const Model& model, LimitExtent extent) {
     r.warnings.push_back(
         "bolts count with any force up to their capacity; where blocks slide across a bolt and do "
         "not stretch it, the limit is too high, also without dilation: edda fos finds what the "
-        "bolt "
-        "carries then");
+        "bolt carries then");
   }
   if (!asked.rigid().loose.empty()) {
     r.warnings.push_back(
