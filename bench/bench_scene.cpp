@@ -1,9 +1,10 @@
 // Speed of the whole step on one scene (scenes.hpp), for tools/bench to read.
-//   bench_scene SCENE [--steps N] [--repeat N] [--threads N] [--cache DIR] [--wait] [--limit
-//   ROUNDS]
+//   bench_scene SCENE [--steps N] [--repeat N] [--threads N] [--cache DIR] [--wait]
+//               [--limit ROUNDS | --cores N]
 // Prints a line of JSON for the scene, one for each repetition of so many steps, and one for the
 // memory. With --wait each repetition waits for a line on standard input, so that something else
-// can be measured in between. --limit compares the critical step with the true one instead.
+// can be measured in between. --limit compares the critical step with the true one instead, and
+// --cores counts how so many cores would share the steps.
 #include <omp.h>
 #if __has_include(<valgrind/callgrind.h>)
 #include <valgrind/callgrind.h>
@@ -19,6 +20,7 @@
 #include <utility>
 
 #include "contacts/face_reading.hpp"
+#include "cores.hpp"
 #include "memory.hpp"
 #include "scenes.hpp"
 #include "step/changes.hpp"
@@ -33,7 +35,7 @@ using edda::Simulation;
 
 struct Options {
   std::string scene, cache;
-  long steps = 100, repeat = 1, threads = 1, limit = 0;
+  long steps = 100, repeat = 1, threads = 1, limit = 0, cores = 0;
   bool wait = false;
 };
 
@@ -53,6 +55,7 @@ bool read_options(int argc, char** argv, Options& o) {
                           : word == "--repeat"  ? &o.repeat
                           : word == "--threads" ? &o.threads
                           : word == "--limit"   ? &o.limit
+                          : word == "--cores"   ? &o.cores
                                                 : nullptr;
       if (value == nullptr || (*value = std::strtol(argv[++i], nullptr, 10)) < 1) return false;
     }
@@ -111,6 +114,22 @@ void compare_steps(Simulation& s, int rounds) {
               edda::true_critical_step(s, edda::Carrying::may, rounds));
 }
 
+/// Steps made as if there were so many cores.
+void count_cores(Simulation& s, const Options& o) {
+  omp_set_num_threads(static_cast<int>(o.cores));
+  edda::take_steps(s, 2);  // in tiles for so many
+  const edda::CountedCores counted(static_cast<int>(o.cores));
+  CALLGRIND_START_INSTRUMENTATION;
+  const Stopwatch watch(1);
+  edda::take_steps(s, o.steps);
+  const double seconds = watch.seconds();
+  CALLGRIND_STOP_INSTRUMENTATION;
+  std::printf(
+      "{\"cores\": %ld, \"steps\": %ld, \"seconds\": %.6g, \"shared\": %.6g, \"busiest\": %.6g, "
+      "\"loops\": %zu}\n",
+      o.cores, o.steps, seconds, counted.on_one(), counted.busiest(), counted.loops());
+}
+
 /// Whether there was a line before the end of the input.
 bool wait_for_line() {
   int c = std::getchar();
@@ -126,7 +145,7 @@ int main(int argc, char** argv) {
   const std::string flaw =
       good ? edda::flaw_of_scene(o.scene)
            : "bench_scene SCENE [--steps N] [--repeat N] [--threads N] [--cache DIR] "
-             "[--wait] [--limit ROUNDS]";
+             "[--wait] [--limit ROUNDS | --cores N]";
   if (!flaw.empty()) {
     std::fprintf(stderr, "%s\n", flaw.c_str());
     return 2;
@@ -140,6 +159,10 @@ int main(int argc, char** argv) {
     return 0;
   }
   edda::take_steps(scene.sim, 2);  // what grows once has grown
+  if (o.cores > 0) {
+    count_cores(scene.sim, o);
+    return 0;
+  }
   for (long i = 0; i < o.repeat; ++i) {
     if (o.wait && !wait_for_line()) return 0;
     measure(scene.sim, o);

@@ -286,13 +286,14 @@ Vec2 node_place(const Bolts& b, const State& state, std::size_t k) {
 void update_bolts(Bolts& b, const State& state) {
   if (b.rows.empty()) return;
   std::vector<Spent> spent(b.rows.size());
-  parallel_for(b.rows.size(), [&](std::size_t r) {
+  const auto update_row = [&](std::size_t r) {
     const Id first = b.begin[r], last = b.begin[r + 1];
     for (Id k = first; k < last; ++k) b.on_host[k] = {};
     disconnect_excavated(b, state, first, last);
     spent[r] = b.rows[r].grouted ? update_grouted(b, b.rows[r], state, first, last)
                                  : update_ends(b, b.rows[r], state, first);
-  });
+  };
+  parallel_for(b.rows.size(), update_row, 1000);
   b.slipped += b.pending_friction;
   b.fractured += b.pending_fracture;
   b.pending_friction = b.pending_fracture = b.work_pending = 0.0;

@@ -5,61 +5,99 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #ifndef EDDA_WORTH_SHARING  // builds that look for races and differences divide every loop among
                             // threads
-#define EDDA_WORTH_SHARING 8192
+#define EDDA_WORTH_SHARING 16000
 #endif
 
 namespace edda {
 
-/// Loops shorter than this are not worth waking other threads for.
+/// ns: loops that take less are not worth waking other threads for. The cost of an element, as
+/// the loops below take it, is a rough number.
 inline constexpr std::size_t worth_sharing = EDDA_WORTH_SHARING;
 
 /// Blocks that go through all stages of a step together, so that the results of one stage are still
 /// in the cache for the next.
-inline constexpr std::size_t blocks_at_once = 256;
+inline constexpr std::size_t blocks_at_once = 64;
 
-/// Calls body(i) for i in [0, n), in parallel. body must write only what belongs to i.
+/// Hears how long the tasks of each shared loop take, s, while these loops run on one thread
+/// (bench/cores.hpp).
+class LoopListener {
+ public:
+  virtual ~LoopListener() = default;
+  virtual double now() = 0;  ///< s
+  virtual void shared(std::span<const double> seconds_of_tasks) = 0;
+};
+inline LoopListener* loop_listener = nullptr;  ///< null: nobody listens
+
+/// Calls body(task) for [0, n) one after another, and tells the listener how long each took.
 template <class Body>
-void parallel_for(std::size_t n, Body body) {
-  if (n < worth_sharing) {
+void share_for_listener(std::size_t n, Body body) {
+  std::vector<double> seconds(n);
+  double begin = loop_listener->now();
+  for (std::size_t q = 0; q < n; ++q) {
+    body(q);
+    const double end = loop_listener->now();
+    seconds[q] = end - begin;
+    begin = end;
+  }
+  loop_listener->shared(seconds);
+}
+
+/// Calls body(task) for tasks in [0, n), in parallel: each thread takes as many in a row.
+template <class Body>
+void share(std::size_t n, Body body) {
+  if (loop_listener != nullptr) return share_for_listener(n, body);
+#pragma omp parallel for schedule(static)
+  for (std::size_t q = 0; q < n; ++q) body(q);
+}
+
+/// Calls body(i) for i in [0, n), in parallel; cost: of each, ns. body must write only what belongs
+/// to i.
+template <class Body>
+void parallel_for(std::size_t n, Body body, std::size_t cost = 4) {
+  const std::size_t at_once = std::max<std::size_t>(1, 500 / cost);
+  if (n * cost < worth_sharing || n <= at_once) {
     for (std::size_t i = 0; i < n; ++i) body(i);
     return;
   }
-#pragma omp parallel for schedule(static)
-  for (std::size_t i = 0; i < n; ++i) body(i);
+  share((n + at_once - 1) / at_once, [&](std::size_t q) {
+    const std::size_t end = std::min(n, (q + 1) * at_once);
+    for (std::size_t i = q * at_once; i < end; ++i) body(i);
+  });
 }
 
-/// Calls body(chunk, begin, end) for [0, n) cut into chunks of `size`, in parallel. body must write
-/// only what belongs to its chunk.
+/// Calls body(chunk, begin, end) for [0, n) cut into chunks of `size`, in parallel; cost: of each
+/// element, ns. body must write only what belongs to its chunk.
 template <class Body>
-void parallel_chunks(std::size_t n, std::size_t size, Body body) {
+void parallel_chunks(std::size_t n, std::size_t size, std::size_t cost, Body body) {
   const std::size_t chunks = (n + size - 1) / size;
-  if (n < worth_sharing) {
-    for (std::size_t c = 0; c < chunks; ++c) body(c, c * size, std::min(n, (c + 1) * size));
+  const auto of_chunk = [&](std::size_t c) { body(c, c * size, std::min(n, (c + 1) * size)); };
+  if (n * cost < worth_sharing || chunks < 2) {
+    for (std::size_t c = 0; c < chunks; ++c) of_chunk(c);
     return;
   }
-#pragma omp parallel for schedule(static)
-  for (std::size_t c = 0; c < chunks; ++c) body(c, c * size, std::min(n, (c + 1) * size));
+  share(chunks, of_chunk);
 }
 
-/// Calls body(task, scratch) for tasks in [0, n), in parallel; `elements`: of all of them. scratch:
+/// Calls body(task, scratch) for tasks in [0, n), in parallel; cost: of all of them, ns. scratch:
 /// working memory that no other task uses at the time. body must write only what belongs to its
 /// task.
 template <class Scratch, class Body>
-void parallel_tasks(std::size_t n, std::size_t elements, std::vector<Scratch>& scratch, Body body) {
-  if (elements < worth_sharing || n < 2) {
-    if (scratch.empty()) scratch.resize(1);
+void parallel_tasks(std::size_t n, std::size_t cost, std::vector<Scratch>& scratch, Body body) {
+  const std::size_t threads = static_cast<std::size_t>(omp_get_max_threads());
+  const bool shared = cost >= worth_sharing && n > 1;
+  scratch.resize(std::max(scratch.size(), shared ? threads : 1));
+  if (!shared) {
     for (std::size_t q = 0; q < n; ++q) body(q, scratch[0]);
     return;
   }
-  scratch.resize(std::max(scratch.size(), static_cast<std::size_t>(omp_get_max_threads())));
-#pragma omp parallel for schedule(static)
-  for (std::size_t q = 0; q < n; ++q) {
+  share(n, [&](std::size_t q) {
     body(q, scratch[static_cast<std::size_t>(omp_get_thread_num())]);
-  }
+  });
 }
 
 /// Sum of term(i) over [0, n): chunks of fixed size are summed each in order, then the chunks in
@@ -67,18 +105,15 @@ void parallel_tasks(std::size_t n, std::size_t elements, std::vector<Scratch>& s
 template <class Term>
 double ordered_sum(std::size_t n, Term term) {
   constexpr std::size_t chunk = 4096;
-  const auto sum_of = [&](std::size_t begin, std::size_t end) {
+  if (n <= chunk) {
     double sum = 0.0;
-    for (std::size_t i = begin; i < end; ++i) sum += term(i);
+    for (std::size_t i = 0; i < n; ++i) sum += term(i);
     return sum;
-  };
-  if (n <= chunk) return sum_of(0, n);
-  const std::size_t chunks = (n + chunk - 1) / chunk;
-  std::vector<double> partial(chunks, 0.0);
-#pragma omp parallel for schedule(static)
-  for (std::size_t c = 0; c < chunks; ++c) {
-    partial[c] = sum_of(c * chunk, std::min(n, (c + 1) * chunk));
   }
+  std::vector<double> partial((n + chunk - 1) / chunk, 0.0);
+  parallel_chunks(n, chunk, 2, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) partial[c] += term(i);
+  });
   double sum = 0.0;
   for (double p : partial) sum += p;
   return sum;

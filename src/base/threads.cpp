@@ -45,9 +45,7 @@ int most_threads() {
 }
 
 ThreadChoice::ThreadChoice(int most) {
-  for (const int n : {most, most / 2, 1}) {
-    if (n >= 1 && (candidates_.empty() || n < candidates_.back())) candidates_.push_back(n);
-  }
+  for (int n = most; n >= 1; n /= 2) candidates_.push_back(n);
   cost_.resize(candidates_.size());
 }
 

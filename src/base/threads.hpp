@@ -31,8 +31,8 @@ int most_threads();
 
 /// Chooses the number of threads by timing. More threads are slower where a model is small, or
 /// where another program uses the cores: each loop then waits for the thread that is not running.
-/// So steps are timed with all threads, with half of them and with one, and continue with the
-/// fastest number; this is repeated after a while. Results do not depend on the number
+/// So steps are timed with all threads, with half of them, and so on down to one, and continue with
+/// the fastest number; this is repeated after a while. Results do not depend on the number
 /// (base/parallel.hpp).
 class ThreadChoice {
  public:

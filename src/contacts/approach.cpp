@@ -110,7 +110,7 @@ void make_groups(NeighbourGroups& g, const BlockSet& b, const State& state, cons
 
 void measure(NeighbourGroups& g, const BlockSet& b, const Pose& pose, const Standing& then) {
   g.moved.resize(g.begin.size() - 1);
-  parallel_chunks(g.moved.size(), 64, [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel_chunks(g.moved.size(), 16, 150, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t q = begin; q < end; ++q) {
       Extent moved;
       for (Id p = g.begin[q]; p < g.begin[q + 1]; ++p) {

@@ -251,7 +251,7 @@ void evaluate_chunks(FaceSet& c, const AllFaces& all, const FaceScene& scene, st
 }
 
 void evaluate_all(FaceSet& c, const AllFaces& all, const FaceScene& scene) {
-  parallel_chunks(c.size(), FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel_chunks(c.size(), FaceSet::run, 40, [&](std::size_t, std::size_t begin, std::size_t end) {
     evaluate_chunks(c, all, scene, begin, end);
   });
 }
@@ -288,7 +288,7 @@ EDDA_VECTOR void end_step_of_chunk(double* properties, const double* now, const 
 /// done work.
 void end_step(FaceSet& c, bool dashpots) {
   if (c.gluing) glue_pressed(c);
-  parallel_chunks(c.size(), FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel_chunks(c.size(), FaceSet::run, 5, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t q = begin / FaceSet::chunk; q * FaceSet::chunk < end; ++q) {
       if (c.now.inactive[q] != 0) continue;
       end_step_of_chunk(c.begin_of_chunk(q), c.now.begin_of_chunk(q), c.before.begin_of_chunk(q),
@@ -366,9 +366,10 @@ void begin_from_step_end(FaceSet& c) {
 }
 
 Face face_at(const FaceSet& c, const BlockSet& b, const std::vector<double>& x,
-             const std::vector<double>& y, std::size_t k) {
-  return face_between(face_points(c, x, y, k),
-                      face_pair(c, b.exterior_cosine.data(), b.exterior_sine.data(), k));
+             const std::vector<double>& y, std::size_t k, double risen) {
+  FacePair pair = face_pair(c, b.exterior_cosine.data(), b.exterior_sine.data(), k);
+  pair.offset = {pair.offset.a - risen, pair.offset.b - risen};
+  return face_between(face_points(c, x, y, k), pair);
 }
 
 }  // namespace edda

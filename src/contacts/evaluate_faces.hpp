@@ -59,9 +59,10 @@ void count_failures(FaceSet& faces);
 /// `before` are both those of step n.
 void begin_from_step_end(FaceSet& faces);
 
-/// The element of face k at other positions, with its current properties.
+/// The element of face k at other positions, with its current properties, or with its locked
+/// closure less by `risen`.
 Face face_at(const FaceSet& faces, const BlockSet& blocks, const std::vector<double>& x,
-             const std::vector<double>& y, std::size_t k);
+             const std::vector<double>& y, std::size_t k, double risen = 0.0);
 
 /// Applies the activation factor alpha (theory, section 6.2) to the normal forces of face k at step
 /// n - 1 (`before`) and cuts its shear forces again to the limit that belongs to it. at, then: the

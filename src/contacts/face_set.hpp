@@ -2,6 +2,7 @@
 // Element and notation: contacts/face.hpp; docs/contacts.md.
 #pragma once
 
+#include <atomic>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -232,7 +233,7 @@ struct FaceSet : ChunkTable<FaceProperties<ChunkColumn>, face_property_list<Chun
   /// Marks face k as failing in the current step.
   void mark_failure(std::size_t k, double how) {
     failure[k] = how;
-    chunk_fails[k / chunk] = 1;
+    std::atomic_ref<std::uint8_t>(chunk_fails[k / chunk]).store(1, std::memory_order_relaxed);
   }
   /// Calls visit(k) for the faces that fail in the current step.
   template <class Visit>
@@ -244,6 +245,10 @@ struct FaceSet : ChunkTable<FaceProperties<ChunkColumn>, face_property_list<Chun
       }
     }
   }
+
+  /// [nf] What dilation has done in the step from n to n + 1: the opening, m, and the energy taken
+  /// from friction for it, J. Empty where no joint changes.
+  std::vector<double> risen, risen_by;
 
   std::vector<double> locked_start, locked_end;  ///< [nv] pressure of the initial stress at the two
                                                  ///< corners of an edge, N per m; empty: none

@@ -121,6 +121,7 @@ class Slots {
 void resize_chunks(FaceTiles& t, std::size_t chunks, bool dashpots) {
   for (auto* ids : {&t.face, &t.slot_e, &t.slot_f, &t.record_e, &t.record_f})
     resize_afresh(*ids, chunks * lanes);
+  resize_afresh(t.tile_of_chunk, chunks);
   t.owned.assign(chunks, 0);
   t.plain.assign(chunks, 1);
   t.bonds.assign(chunks, 0);
@@ -165,6 +166,8 @@ void lay_out_tile(FaceTiles& t, const FacesOfTiles& of, const FaceSet& c, const 
                   const std::vector<Id>& tile_of, std::size_t q, Slots& slots,
                   std::vector<Id>& halo) {
   Tile& tile = t.tiles[q];
+  std::fill(t.tile_of_chunk.data() + tile.first_chunk, t.tile_of_chunk.data() + tile.last_chunk,
+            static_cast<Id>(q));
   slots.begin(t, b, q, halo);
   std::size_t place = tile.first_chunk * lanes;
   for (Id n = of.begin[q]; n < of.begin[q + 1]; ++n, ++place) {
@@ -233,13 +236,6 @@ void divide_blocks(FaceTiles& t, const BlockSet& b, const State& state, bool wit
   }
 }
 
-std::size_t FaceTiles::tile_of_chunk(std::size_t chunk) const {
-  const auto next =
-      std::upper_bound(tiles.begin(), tiles.end(), chunk,
-                       [](std::size_t q, const Tile& t) { return q < t.first_chunk; });
-  return static_cast<std::size_t>(next - tiles.begin()) - 1;
-}
-
 void lay_out(FaceTiles& t, const FaceSet& c, const BlockSet& b,
              const std::vector<std::uint8_t>& kind) {
   const std::vector<Id> tile_of = tiles_of_blocks(t, b.size());
@@ -249,7 +245,7 @@ void lay_out(FaceTiles& t, const FaceSet& c, const BlockSet& b,
   t.place.assign(c.size(), {no_id, no_id});
   std::vector<std::vector<Id>> halos(t.tiles.size());
   std::vector<Slots> slots;
-  parallel_tasks(t.tiles.size(), b.size(), slots, [&](std::size_t q, Slots& of_thread) {
+  parallel_tasks(t.tiles.size(), 15 * c.size(), slots, [&](std::size_t q, Slots& of_thread) {
     lay_out_tile(t, of, c, b, tile_of, q, of_thread, halos[q]);
     clear_memory(t, q);
   });

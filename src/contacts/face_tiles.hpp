@@ -158,6 +158,7 @@ struct FaceTiles {
   std::vector<Id> halo;    ///< edges that face those of a tile
 
   std::size_t chunks() const { return plain.size(); }
+  std::vector<Id> tile_of_chunk;    ///< [chunks]
   std::vector<Id> face;             ///< [chunks][8] row of the FaceSet, or no_id
   std::vector<Id> slot_e, slot_f;   ///< [chunks][8] the edges, by their slots in the tile
   std::vector<std::uint8_t> owned;  ///< [chunks] bit of each lane: this copy's work counts
@@ -205,7 +206,6 @@ struct FaceTiles {
   const double* strengths_of(std::size_t tile, std::size_t chunk) const {
     return constants[tile].strengths.data() + strength_set[chunk] * strength_columns * lanes;
   }
-  std::size_t tile_of_chunk(std::size_t chunk) const;
 
  private:
   bool bit_of(const std::vector<LaneBits>& values, unsigned of, std::size_t k) const {

@@ -216,7 +216,7 @@ std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& b, const State& stat
   }
   move_totals(next, faces);
   std::vector<std::uint8_t> stays(faces.size(), 0);
-  parallel_chunks(n, FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel_chunks(n, FaceSet::run, 50, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const Id old = list[k].old;
       if (old == no_id) {

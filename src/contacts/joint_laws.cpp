@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "base/parallel.hpp"
 #include "contacts/evaluate_faces.hpp"
-#include "contacts/face_energy.hpp"
 #include "contacts/face_step.hpp"
 
 namespace edda {
@@ -61,31 +61,93 @@ void open_by(FaceSet& c, std::size_t k, double rise) {
   c.dilation_left[k] -= rise;
 }
 
-/// Opens the face by its outstanding dilation, at most by what the friction work of the step can
-/// supply.
-void lift(FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
-  const FaceMemory& m = c.before;
-  const double normal = m.normal_a[k] + m.normal_b[k];
-  const double spring = c.stiffness[k] * m.length[k] * m.gate[k];
-  if (!(m.energy[k] > 0.0) || !(spring > 0.0)) return;
-  // An opening r stores at most N r + k L r^2/2, and exactly that where the face is closed all
-  // along.
-  const double most = std::max(m.friction_work[k], 0.0);
-  const double rise = std::min(
-      c.dilation_left[k], (std::sqrt(normal * normal + 2.0 * spring * most) - normal) / spring);
-  const double before = normal_energy(c, b, pose, k);
-  open_by(c, k, rise);
-  c.friction_work[k] -= normal_energy(c, b, pose, k) - before;
+/// Part of a further slip of the joint in which it dilates, m.
+double dilating_part(const FaceSet& c, const Law& law, std::size_t k, double slip) {
+  const double left =
+      law.slip_distance > 0.0 ? std::max(law.slip_distance - c.slip_so_far[k], 0.0) : slip;
+  return law.type == LawType::barton_bandis ? slip : std::min(slip, left);
 }
 
 /// Adds a slip of the joint to its accumulated slip and to its outstanding dilation.
 void take_slip(FaceSet& c, const LawTable& laws, std::size_t k, double slip) {
-  const Law& law = laws.rows[c.law[k]];
-  const double left =
-      law.slip_distance > 0.0 ? std::max(law.slip_distance - c.slip_so_far[k], 0.0) : slip;
-  const double counts = law.type == LawType::barton_bandis ? slip : std::min(slip, left);
-  c.dilation_left[k] += in_force(c, laws, k).dilation * counts;
+  if (slip == 0.0) return;
+  const double part = dilating_part(c, laws.rows[c.law[k]], k, slip);
+  c.dilation_left[k] += in_force(c, laws, k).dilation * part;
   c.slip_so_far[k] += slip;
+}
+
+/// Plastic slip of a face between n and n + 1, m, and the work of friction on it, J.
+struct Sliding {
+  double slip = 0.0, friction = 0.0;
+};
+/// As evaluate_faces() will find it, with the normal forces `normal` at n + 1. moved: the ends
+/// along the joint.
+Sliding sliding_under(const FaceSet& c, FaceEnds moved, FaceEnds normal, std::size_t k) {
+  const FaceMemory& m = c.before;
+  Sliding both;
+  const double spring = m.spring[k], cohesion = 0.5 * c.cohesion[k] * m.cohesive[k];
+  if (!(spring > 0.0) || c.bonded[k] > 0.0) return both;
+  const auto add = [&](double slip, double more, double pressed) {
+    const double limit = std::max(cohesion + c.friction[k] * pressed, 0.0) / spring;
+    const double trial = slip + more, cut = std::max(std::abs(trial) - limit, 0.0);
+    both.slip += 0.5 * cut;
+    both.friction += 0.5 * spring * cut * (limit + (trial < 0.0 ? -slip : slip));
+  };
+  add(m.slip_a[k], moved.a, normal.a);
+  add(m.slip_b[k], moved.b, normal.b);
+  return both;
+}
+
+/// What an opening r of the face between n and n + 1 brings with it.
+struct Lift {
+  double due;       ///< m, opening that the slip of the step asks for, with what is outstanding
+  double normal;    ///< N, N_n + N_{n+1}
+  double friction;  ///< J, of the step
+};
+
+/// Opens the face by its outstanding dilation and by that of the slip between n and n + 1, at most
+/// by what the friction of this step can supply, and that of all steps up to n. An opening r takes
+/// r (N_n + N_{n+1})/2.
+void lift(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws, std::size_t k) {
+  const FaceMemory& m = c.before;
+  if (!(c.friction_work[k] > 0.0)) return;
+  const Face closed = face_at(c, b, pose.x, pose.y, k);
+  const FaceEnds moved = motion_of(closed, coordinates_at(c, pose.x, pose.y, k),
+                                   coordinates_at(c, pose.x1, pose.y1, k))
+                             .slip;
+  const Sliding in_place = sliding_under(c, moved, closed.normal, k);
+  if (!(in_place.friction > 0.0)) return;
+  const Law& law = laws.rows[c.law[k]];
+  const double outstanding = c.dilation_left[k], dilation = in_force(c, laws, k).dilation;
+  const double most = outstanding + dilation * dilating_part(c, law, k, in_place.slip);
+  if (!(most > 0.0)) return;
+  const auto after = [&](double rise) -> Lift {
+    const FaceEnds next = face_at(c, b, pose.x, pose.y, k, -rise).normal;
+    const Sliding sliding = sliding_under(c, moved, next, k);
+    return {outstanding + dilation * dilating_part(c, law, k, sliding.slip),
+            m.normal_a[k] + m.normal_b[k] + next.a + next.b, sliding.friction};
+  };
+  const auto affords = [&](double rise, const Lift& l) {
+    return 0.5 * rise * l.normal <= std::min(l.friction, c.friction_work[k]);
+  };
+  // The more it opens, the more of the slip is elastic: to where the opening is what is due, linear
+  // in between.
+  double rise = most * most / (2.0 * most - std::min(after(most).due, most));
+  Lift done = after(rise);
+  if (!affords(rise, done)) {
+    double low = 0.0, high = rise;
+    constexpr int halvings = 12;
+    for (int n = 0; n < halvings; ++n) {
+      const double middle = 0.5 * (low + high);
+      (affords(middle, after(middle)) ? low : high) = middle;
+    }
+    rise = low;
+    done = after(rise);
+  }
+  c.risen[k] = rise;
+  c.risen_by[k] = 0.5 * rise * done.normal;
+  c.friction_work[k] -= c.risen_by[k];
+  open_by(c, k, rise);
 }
 
 /// A joint that has opened by less than `hair` continues to dilate as it slips, since its
@@ -99,7 +161,7 @@ void take_slip_while_open(FaceSet& c, const BlockSet& b, const Pose& pose, const
   const FaceEnds slip = motion_of(face, now, then).slip;
   take_slip(c, laws, k, 0.5 * std::abs(slip.a + slip.b));
   const double gap = -std::max(face.closure.a, face.closure.b);
-  const double rise = std::clamp(gap, 0.0, c.dilation_left[k]);
+  const double rise = std::clamp(gap, 0.0, std::max(c.dilation_left[k], 0.0));
   open_by(c, k, rise);
 }
 
@@ -144,25 +206,35 @@ void put_strengths_in_force(FaceSet& c, const LawTable& laws) {
   }
 }
 
-void update_joint_laws(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws) {
+namespace {
+
+void update_joint_law(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
+                      std::size_t k) {
   const FaceMemory& m = c.before;
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    const Law& law = laws.rows[c.law[k]];
-    if (!law.changes) continue;
-    const double closure = std::max(m.closure_a[k], m.closure_b[k]);
-    if (m.energy[k] > 0.0 || c.carries_tension[k] > 0.0) {
-      const double cut =
-          std::abs(m.trial_a[k] - m.slip_a[k]) + std::abs(m.trial_b[k] - m.slip_b[k]);
-      take_slip(c, laws, k, c.bonded[k] > 0.0 ? 0.0 : 0.5 * cut);
-      if (c.dilation_left[k] > 0.0) lift(c, b, pose, k);
-      put_in_force(c, laws, k);
-    } else if (dilates(law) && c.opened[k] > 0.0 && m.gate[k] > 0.0 &&
-               -closure < dilation_gap * smaller_size(c, b, k)) {
-      take_slip_while_open(c, b, pose, laws, k);
-    } else if (law.type == LawType::slip_weakening && c.slip_so_far[k] < law.slip_distance) {
-      if (closure < -touching_gap * smaller_size(c, b, k)) c.slip_so_far[k] = first_slip(law);
-    }
+  const Law& law = laws.rows[c.law[k]];
+  if (!law.changes) return;
+  const double closure = std::max(m.closure_a[k], m.closure_b[k]);
+  if (m.energy[k] > 0.0 || c.carries_tension[k] > 0.0) {
+    const double cut = std::abs(m.trial_a[k] - m.slip_a[k]) + std::abs(m.trial_b[k] - m.slip_b[k]);
+    take_slip(c, laws, k, c.bonded[k] > 0.0 ? 0.0 : 0.5 * cut);
+    put_in_force(c, laws, k);
+    if (dilates(law) && m.energy[k] > 0.0) lift(c, b, pose, laws, k);
+  } else if (dilates(law) && c.opened[k] > 0.0 && m.gate[k] > 0.0 &&
+             -closure < dilation_gap * smaller_size(c, b, k)) {
+    take_slip_while_open(c, b, pose, laws, k);
+  } else if (law.type == LawType::slip_weakening && c.slip_so_far[k] < law.slip_distance) {
+    if (closure < -touching_gap * smaller_size(c, b, k)) c.slip_so_far[k] = first_slip(law);
   }
+}
+
+}  // namespace
+
+void update_joint_laws(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws) {
+  c.risen.assign(c.size(), 0.0);
+  c.risen_by.assign(c.size(), 0.0);
+  constexpr std::size_t cost = 100;
+  parallel_for(
+      c.size(), [&](std::size_t k) { update_joint_law(c, b, pose, laws, k); }, cost);
 }
 
 }  // namespace edda

@@ -10,7 +10,11 @@
 //    JRC(u) its peak value until u = u_p = L/500 (JRC/L)^0.33 and less beyond it
 //  dilation: a slip du opens the joint by tan(psi) |du|: the locked closure increases by that much,
 //    and the energy that the normal spring gains is taken from what friction dissipates, which
-//    becomes T |du| - N tan(psi) |du|.
+//    becomes T |du| - N tan(psi) |du|. The opening r between n and n + 1 is that of the slip in the
+//    same step: with the slip of the step before, N would follow it a step late, which acts like a
+//    negative dashpot, and blocks hop. In the leapfrog's terms it takes r (N_n + N_{n+1})/2 from
+//    friction, with N_{n+1} in the new position of the blocks: they give way as the joint opens,
+//    and r may be many times their closure under the load.
 #pragma once
 
 #include "blocks/pose.hpp"
@@ -30,9 +34,9 @@ double roughness_left(double slip, double peak);
 /// that is larger, the residual angle.
 double barton_angle(const Law& law, double roughness, double sigma);
 
-/// Adds the slip of the last step, opens joints that dilate, and puts the resulting strength in
-/// force. Requires pose.x1 at n, of which FaceSet::before is the memory, and pose.x at n + 1 or,
-/// with the implicit method, at n.
+/// Adds the slip up to n, puts the resulting strength in force, and opens joints that dilate by what
+/// the slip between n and n + 1 asks for. Requires pose.x1 at n, of which FaceSet::before is the
+/// memory, and pose.x at n + 1 or, with the implicit method, at n.
 void update_joint_laws(FaceSet& faces, const BlockSet& blocks, const Pose& pose,
                        const LawTable& laws);
 /// Updates the strength alone, from the accumulated slip and the present normal force.

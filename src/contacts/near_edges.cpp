@@ -188,7 +188,7 @@ std::vector<EdgePair> edges_within(NearEdges& known, const BlockSet& b, const St
     find_near_edges(known, b, state, pose, wider_reach(b, reach));
   const std::size_t all = known.first.size();
   std::vector<std::vector<EdgePair>> parts((all + pairs_at_once - 1) / pairs_at_once);
-  parallel_chunks(all, pairs_at_once, [&](std::size_t q, std::size_t begin, std::size_t end) {
+  parallel_chunks(all, pairs_at_once, 10, [&](std::size_t q, std::size_t begin, std::size_t end) {
     for_pairs_within(known, b, state, pose, reach, begin, end, [&](Id e, Id f) {
       parts[q].push_back({e, f});
     });

@@ -131,12 +131,11 @@ std::vector<NearPair> near_pairs(const BlockSet& b, const std::vector<std::uint8
   const std::size_t nv = b.vertex_count();
   // Chunks of vertices are searched in parallel and joined in order: the list does not depend on
   // the number of threads.
-  constexpr std::size_t chunk = 2048;
+  constexpr std::size_t chunk = 256;
   std::vector<std::vector<NearPair>> found((nv + chunk - 1) / chunk);
-#pragma omp parallel for schedule(static) if (found.size() > 1)
-  for (std::size_t c = 0; c < found.size(); ++c) {
+  parallel_chunks(nv, chunk, 400, [&](std::size_t c, std::size_t from, std::size_t to) {
     std::vector<Id> edges;
-    for (std::size_t v = c * chunk; v < std::min(nv, (c + 1) * chunk); ++v) {
+    for (std::size_t v = from; v < to; ++v) {
       const Id vertex = static_cast<Id>(v);
       const Id block = b.vertex_block[v];
       if (!alive[block]) continue;
@@ -157,7 +156,7 @@ std::vector<NearPair> near_pairs(const BlockSet& b, const std::vector<std::uint8
       edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
       for (Id e : edges) found[c].push_back({vertex, e});
     }
-  }
+  });
   std::size_t total = 0;
   for (const auto& part : found) total += part.size();
   std::vector<NearPair> pairs;

@@ -155,7 +155,7 @@ void load_faces(FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& p
   t.deepest.assign(t.chunks(), 0.0);
   t.now = 0;
   std::vector<char> no_scratch;
-  parallel_tasks(t.tiles.size(), b.size(), no_scratch, [&](std::size_t tile, char&) {
+  parallel_tasks(t.tiles.size(), 60 * t.face.size(), no_scratch, [&](std::size_t tile, char&) {
     const Tile& of = t.tiles[tile];
     t.constants[tile] = {};
     for (std::size_t q = of.first_chunk; q < of.last_chunk; ++q) {
@@ -172,7 +172,7 @@ void load_faces(FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& p
 void load_decisions(FaceTiles& t, const FaceSet& c, const BlockSet& b, std::size_t k) {
   for (const Id place : t.place[k]) {
     if (place == no_id) continue;
-    load_chunk_constants(t, c, b, t.tile_of_chunk(place / lanes), place / lanes,
+    load_chunk_constants(t, c, b, t.tile_of_chunk[place / lanes], place / lanes,
                          1u << place % lanes);
     load_sums(t, c, place, k);
   }

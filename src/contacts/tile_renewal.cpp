@@ -107,7 +107,7 @@ void renew_tiles(FaceTiles& t, FaceTiles& old, const FaceSet& c, const BlockSet&
   t.deepest.assign(t.chunks(), 0.0);
   const Renewal renewal{t, old, c, pose};
   std::vector<char> no_scratch;
-  parallel_tasks(t.tiles.size(), b.size(), no_scratch, [&](std::size_t tile, char&) {
+  parallel_tasks(t.tiles.size(), 40 * t.face.size(), no_scratch, [&](std::size_t tile, char&) {
     const Tile& of = t.tiles[tile];
     TileConstants& constants = t.constants[tile];
     constants.edges.clear();

@@ -68,7 +68,7 @@ void recall_work(FaceSet& c, const FaceTiles& t, std::size_t k) {
 }
 
 void recall_work(FaceSet& c, const FaceTiles& t) {
-  parallel_chunks(c.size(), FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel_chunks(c.size(), FaceSet::run, 5, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       if (t.place[k][0] != no_id) recall_work(c, t, k);
     }
@@ -115,7 +115,7 @@ void unload_open(FaceSet& c, const FaceTiles& t, std::size_t q) {
 
 /// A face that is new in the list has no state until its first step.
 void clear_new_faces(FaceSet& c, const FaceTiles& t) {
-  parallel_chunks(c.size(), FaceSet::run, [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel_chunks(c.size(), FaceSet::run, 5, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const Id place = t.place[k][0];
       const bool on = place == no_id ||
@@ -130,7 +130,7 @@ void clear_new_faces(FaceSet& c, const FaceTiles& t) {
 void unload_faces(FaceSet& c, const FaceTiles& t, const FaceScene& scene, double step) {
   const std::vector<std::uint8_t> acted = chunks_that_have_acted(c, t);
   c.clear_states();
-  parallel_chunks(c.size(), FaceSet::chunk, [&](std::size_t q, std::size_t begin, std::size_t end) {
+  parallel_chunks(c.size(), FaceSet::chunk, 60, [&](std::size_t q, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       if (t.place[k][0] != no_id) recall_work(c, t, k);
     }

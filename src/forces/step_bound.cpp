@@ -143,7 +143,8 @@ Smallest smallest_step(BlockSteps& steps, const std::vector<double>& estimates) 
     if (estimates[i] <= known) open.push_back(static_cast<Id>(i));
   }
   std::vector<double> exact(open.size());
-  parallel_for(open.size(), [&](std::size_t q) { exact[q] = steps.exact(open[q]); });
+  parallel_for(
+      open.size(), [&](std::size_t q) { exact[q] = steps.exact(open[q]); }, 10000);
   Smallest found;
   for (std::size_t q = 0; q < open.size(); ++q) {
     if (exact[q] < found.step) found = {exact[q], open[q]};
@@ -178,9 +179,12 @@ void explain(StepBound& bound, const StiffnessInputs& w, std::size_t i) {
 std::vector<double> all_below(double limit, BlockSteps& steps, const StiffnessInputs& w) {
   const std::size_t nb = w.blocks.size();
   std::vector<double> step(nb, std::numeric_limits<double>::infinity());
-  parallel_for(nb, [&](std::size_t i) {
-    if (is_free(w.blocks, w.state, i)) step[i] = steps.below(limit, i);
-  });
+  parallel_for(
+      nb,
+      [&](std::size_t i) {
+        if (is_free(w.blocks, w.state, i)) step[i] = steps.below(limit, i);
+      },
+      100);
   return step;
 }
 

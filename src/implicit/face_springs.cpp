@@ -94,7 +94,7 @@ std::size_t evaluate_springs(FaceSprings& springs, FaceSet& c, const FaceScene& 
   evaluate_with_limits(c, scene, step, springs.limits);
   springs.first = first;
   std::vector<std::size_t> changed(c.chunks(), 0);
-  parallel_chunks(c.size(), FaceSet::chunk, [&](std::size_t q, std::size_t begin, std::size_t end) {
+  parallel_chunks(c.size(), FaceSet::chunk, 5, [&](std::size_t q, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       std::uint8_t state = state_of(c, c.now, k);
       if (first) state = static_cast<std::uint8_t>(state | slides_on(springs, c.now, k));

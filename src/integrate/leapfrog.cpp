@@ -170,7 +170,7 @@ void add_and_advance(State& s, const Leap& leap, const ForcesToAdd& forces, std:
 
 void advance(State& s, const Leap& leap) {
   parallel_chunks(
-      leap.blocks.size(), blocks_at_once,
+      leap.blocks.size(), blocks_at_once, 15,
       [&](std::size_t, std::size_t begin, std::size_t end) { advance(s, leap, begin, end); });
 }
 
@@ -198,7 +198,7 @@ void account_damping(const State& s, const Leap& leap, DampingWork& work) {
     });
     return;
   }
-  parallel_chunks(b.size(), blocks_at_once, [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel_chunks(b.size(), blocks_at_once, 6, [&](std::size_t, std::size_t begin, std::size_t end) {
     const FreeMarks free(b, s, begin, end);
     std::array<double, blocks_at_once> local, mass;
     local.fill(damping.local);

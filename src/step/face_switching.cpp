@@ -62,80 +62,166 @@ class Correction {
         taken_(taken),
         access_(access) {
     scratch_.moved_at.resize(b_.size(), 0);
+    scratch_.first_face.resize(b_.size(), no_id);
     scratch_.set.clear();
-    scratch_.pushed.clear();
+    scratch_.known.clear();
     scratch_.pushed_by = 0.0;
   }
 
+  /// Adds those of these faces that switch, and are not known yet. Returns whether there are any.
   bool find(const std::vector<Id>& among) {
-    for (const Id k : among) add_if_it_switches(k);
-    return !scratch_.set.empty();
+    std::vector<SwitchingFace>& set = scratch_.set;
+    const std::size_t known = set.size();
+    for (const Id k : among) {
+      if (std::binary_search(scratch_.known.begin(), scratch_.known.end(), k)) continue;
+      set.emplace_back();
+      set.back().face = k;
+    }
+    const auto add = [&](std::size_t q) { add_if_it_switches(set[known + q]); };
+    parallel_for(set.size() - known, add, cost_of_a_face);
+    const auto added = set.begin() + static_cast<std::ptrdiff_t>(known);
+    set.erase(std::remove_if(added, set.end(),
+                             [](const SwitchingFace& f) { return f.face == no_id; }),
+              set.end());
+    for (std::size_t q = known; q < set.size(); ++q) scratch_.known.push_back(set[q].face);
+    std::sort(scratch_.known.begin(), scratch_.known.end());
+    return set.size() > known;
   }
 
-  /// One pass over the faces that switch, except those whose blocks have not moved since. Returns
-  /// whether all have converged.
-  bool pass() {
-    bool all = true;
-    for (SwitchingFace& f : scratch_.set) {
-      const Id i = b_.vertex_block[c_.edge[f.face]], j = b_.vertex_block[c_.facing[f.face]];
-      if (f.done && scratch_.moved_at[i] <= f.corrected_at &&
-          scratch_.moved_at[j] <= f.corrected_at)
-        continue;
-      all = correct(f, i, j) && all;
+  /// At most so many passes over each group of faces that share free blocks; groups do not affect
+  /// each other. Returns the most that any group took.
+  std::uint64_t pass(std::uint64_t most) {
+    divide();
+    std::vector<SwitchingGroup>& groups = scratch_.groups;
+    const auto correct_group = [&](std::size_t q) { this->correct_group(groups[q], most); };
+    parallel_for(groups.size(), correct_group,
+                 cost_of_a_face * scratch_.set.size() / std::max<std::size_t>(1, groups.size()));
+    std::uint64_t passes = 0;
+    double farthest = 0.0;
+    for (const SwitchingGroup& g : groups) {
+      passes = std::max(passes, g.passes);
+      farthest = std::max(farthest, g.pushed_by);
+      scratch_.corrections = std::max(scratch_.corrections, g.corrections);
+      scratch_.on_fixed += g.on_fixed;
     }
-    return all;
+    scratch_.pushed_by += farthest;
+    return passes;
   }
 
   /// Evaluates the faces of the blocks that were pushed again and adds those that switch now.
   /// Returns whether there are any.
   bool refresh() {
-    auto& pushed = scratch_.pushed;
+    std::vector<Id> pushed;
+    for (const SwitchingGroup& g : scratch_.groups)
+      pushed.insert(pushed.end(), g.pushed.begin(), g.pushed.end());
     std::sort(pushed.begin(), pushed.end());
     pushed.erase(std::unique(pushed.begin(), pushed.end()), pushed.end());
-    const std::size_t known = scratch_.set.size();
     scratch_.found.clear();
     access_.evaluate(pushed, scratch_.set, scratch_.found);
-    for (const Id k : scratch_.found) {
-      if (!is_known(k)) add_if_it_switches(k);
-    }
-    pushed.clear();
-    return scratch_.set.size() > known;
+    return find(scratch_.found);
+  }
+
+  bool has_converged() const {
+    return std::all_of(scratch_.groups.begin(), scratch_.groups.end(),
+                       [](const SwitchingGroup& g) { return g.converged; });
   }
 
   /// Accounts for the energy residual left after the last pass as transfer. The slip of these faces
   /// at n has changed, also where no block was pushed.
   void book() {
-    for (const SwitchingFace& f : scratch_.set) {
+    const auto book_face = [&](std::size_t q) {
+      const SwitchingFace& f = scratch_.set[q];
       const Face next = face_at(c_, b_, pose_.x, pose_.y, f.face);
       const double stored_next =
-          stored_between(f.element, f.at, next, face_points(c_, pose_.x, pose_.y, f.face), false);
-      c_.transfer[f.face] += f.stored - stored_next - f.alpha * work(f);
-    }
+          stored_between(f.risen, f.at, next, face_points(c_, pose_.x, pose_.y, f.face), false);
+      c_.transfer[f.face] += f.stored + f.risen_by - stored_next - f.alpha * work(f);
+    };
+    parallel_for(scratch_.set.size(), book_face, cost_of_a_face / 4);
     access_.finish(scratch_.set);
   }
 
  private:
-  bool is_known(Id k) const {
-    return std::any_of(scratch_.set.begin(), scratch_.set.end(),
-                       [&](const SwitchingFace& f) { return f.face == k; });
+  static constexpr std::size_t cost_of_a_face = 4000;  // ns, with some passes
+
+  Id first_block(const SwitchingFace& f) const { return b_.vertex_block[c_.edge[f.face]]; }
+  Id second_block(const SwitchingFace& f) const { return b_.vertex_block[c_.facing[f.face]]; }
+
+  /// Divides the set into groups of faces that share free blocks, directly or by others of the set.
+  void divide() {
+    const std::vector<SwitchingFace>& set = scratch_.set;
+    std::vector<Id> leader(set.size()), group_of(set.size(), no_id);
+    const auto leader_of = [&](Id q) {
+      while (leader[q] != q) q = leader[q] = leader[leader[q]];
+      return q;
+    };
+    for (Id q = 0; q < set.size(); ++q) {
+      leader[q] = q;
+      for (const Id i : {first_block(set[q]), second_block(set[q])}) {
+        if (b_.fixed[i]) continue;
+        Id& first = scratch_.first_face[i];
+        if (first == no_id) first = q;
+        const Id one = leader_of(first), other = leader_of(q);
+        leader[std::max(one, other)] = std::min(one, other);
+      }
+    }
+    std::vector<SwitchingGroup>& groups = scratch_.groups;
+    std::size_t count = 0;
+    for (Id q = 0; q < set.size(); ++q) {
+      for (const Id i : {first_block(set[q]), second_block(set[q])}) scratch_.first_face[i] = no_id;
+      Id& group = group_of[leader_of(q)];
+      if (group == no_id) {
+        group = static_cast<Id>(count++);
+        if (groups.size() < count) groups.emplace_back();
+        groups[group].begin_anew(scratch_.corrections);
+      }
+      groups[group].faces.push_back(q);
+    }
+    groups.resize(count);
   }
 
-  /// Where the face stored energy at n, and opens or closes in this step or did so in the last.
-  void add_if_it_switches(Id k) {
-    const FaceFields<double> before = access_.before(k);
-    if (before.energy > 0.0 && c_.carries_tension[k] == 0.0 &&
-        (before.switched > 0.0 || access_.switches(k)))
-      add(k, before);
+  void correct_group(SwitchingGroup& g, std::uint64_t most) {
+    while (!g.converged && g.passes < most) {
+      g.converged = pass(g);
+      ++g.passes;
+    }
   }
 
-  void add(Id k, const FaceFields<double>& row) {
-    SwitchingFace f{};
-    f.face = k;
+  /// One pass over the faces of a group, except those whose blocks have not moved since. Returns
+  /// whether all have converged.
+  bool pass(SwitchingGroup& g) {
+    bool all = true;
+    for (const Id q : g.faces) {
+      SwitchingFace& f = scratch_.set[q];
+      const Id i = first_block(f), j = second_block(f);
+      if (f.done && scratch_.moved_at[i] <= f.corrected_at &&
+          scratch_.moved_at[j] <= f.corrected_at)
+        continue;
+      all = correct(g, f, i, j) && all;
+    }
+    return all;
+  }
+
+  /// Completes f where the face stored energy at n, and opens or closes in this step or did so in
+  /// the last; elsewhere f.face becomes no_id.
+  void add_if_it_switches(SwitchingFace& f) {
+    const FaceFields<double> before = access_.before(f.face);
+    if (before.energy > 0.0 && c_.carries_tension[f.face] == 0.0 &&
+        (before.switched > 0.0 || access_.switches(f.face)))
+      return complete(f, before);
+    f.face = no_id;
+  }
+
+  void complete(SwitchingFace& f, const FaceFields<double>& row) {
+    const Id k = f.face;
     f.before = row;
     f.then = face_points(c_, pose_.x2, pose_.y2, k);
     f.at = face_points(c_, pose_.x1, pose_.y1, k);
-    f.element = face_at(c_, b_, pose_.x1, pose_.y1, k);
-    const Face before = face_at(c_, b_, pose_.x2, pose_.y2, k);
+    const bool dilates = !c_.risen.empty() && c_.risen[k] != 0.0;
+    const double risen = dilates ? c_.risen[k] : 0.0;
+    f.risen_by = dilates ? c_.risen_by[k] : 0.0;
+    f.element = f.risen = face_at(c_, b_, pose_.x1, pose_.y1, k, risen);
+    if (dilates) f.risen = face_at(c_, b_, pose_.x1, pose_.y1, k);
+    const Face before = face_at(c_, b_, pose_.x2, pose_.y2, k, risen);
     f.was_closed = before.energy > 0.0;
     f.stored = stored_between(before, f.then, f.element, f.at, false);
     const OnBlocks on = on_blocks(c_, b_, f.element.force, k);
@@ -147,7 +233,6 @@ class Correction {
     const CornerForces shear = end_forces(f.at, f.element, {}, {row.shear_a, row.shear_b});
     f.force = {f.force.p1 + shear.p1, f.force.p2 + shear.p2, f.force.q1 + shear.q1,
                f.force.q2 + shear.q2};
-    scratch_.set.push_back(f);
   }
 
   /// Work of the whole normal force over (x_{n+1} - x_{n-1})/2.
@@ -156,14 +241,14 @@ class Correction {
   }
 
   /// One iteration towards alpha F_n.(x_{n+1} - x_{n-1})/2 + U_{n+1/2} - U_{n-1/2} = 0.
-  bool correct(SwitchingFace& f, Id i, Id j) {
+  bool correct(SwitchingGroup& g, SwitchingFace& f, Id i, Id j) {
     const Id k = f.face;
     const FacePoints next_at = face_points(c_, pose_.x, pose_.y, k);
     const Face next = face_at(c_, b_, pose_.x, pose_.y, k);
     const bool closes = next.energy > 0.0;
-    f.stored_next = stored_between(f.element, f.at, next, next_at, false);
+    f.stored_next = stored_between(f.risen, f.at, next, next_at, false);
     const double whole = work(f);
-    const double left = f.alpha * whole + f.stored_next - f.stored;
+    const double left = f.alpha * whole + f.stored_next - f.stored - f.risen_by;
     const double slope = whole + 0.5 * (f.alpha - (closes ? 1.0 : 0.0)) * f.own_work;
     double alpha = f.alpha + nearest_root(left, slope, f.own_work);
     constexpr double most = 1.5;  // of a face that is closed before and after the step
@@ -174,23 +259,24 @@ class Correction {
     const CornerForces force = recompute_shear(c_, f.before, f.element, f.at, f.then, alpha, k);
     const CornerForces more = difference(force, f.force);
     f.force = force;
-    f.corrected_at = ++scratch_.corrections;
+    f.corrected_at = ++g.corrections;
     f.done = change <= converged;
     if (!any(more)) return f.done;
     const OnBlocks on = on_blocks(c_, b_, more, k);
-    if (b_.fixed[i]) scratch_.on_fixed += resultant(on.first);
-    if (b_.fixed[j]) scratch_.on_fixed += resultant(on.second);
-    push(i, on.first);
-    push(j, on.second);
-    if (!f.done) scratch_.moved_at[i] = scratch_.moved_at[j] = f.corrected_at;
+    push(g, f, i, on.first);
+    push(g, f, j, on.second);
     return f.done;
   }
 
   /// A fixed block does not move, and may have very many faces.
-  void push(Id i, const NodeVectors& force) {
-    if (b_.fixed[i]) return;
-    scratch_.pushed_by += push_block(taken_, i, force);
-    scratch_.pushed.push_back(i);
+  void push(SwitchingGroup& g, const SwitchingFace& f, Id i, const NodeVectors& force) {
+    if (b_.fixed[i]) {
+      g.on_fixed += resultant(force);
+      return;
+    }
+    g.pushed_by += push_block(taken_, i, force);
+    g.pushed.push_back(i);
+    if (!f.done) scratch_.moved_at[i] = f.corrected_at;
   }
 
   FaceSet& c_;
@@ -228,12 +314,8 @@ void correct_switching(FaceSet& c, const StepTaken& taken, OpenCloseCounts& coun
   Correction correction(c, taken, scratch, access);
   if (!correction.find(switching)) return;
   std::uint64_t passes = 0;
-  bool all = false;
   do {
-    do {
-      all = correction.pass();
-      ++passes;
-    } while (!all && passes < most_passes);
+    passes += correction.pass(most_passes - passes);
   } while (correction.refresh() && passes < most_passes);
   correction.book();
   ++counts.steps;
@@ -245,7 +327,7 @@ void correct_switching(FaceSet& c, const StepTaken& taken, OpenCloseCounts& coun
     counts.of_list = c.rebuilds;
   }
   for (const SwitchingFace& f : scratch.set) ++counts.of_face[f.face];
-  if (!all) ++counts.not_converged;
+  if (!correction.has_converged()) ++counts.not_converged;
 }
 
 std::vector<Id> switching_faces(const FaceSet& c) {

@@ -30,23 +30,49 @@ struct SwitchingFace {
   FaceFields<double> before;  ///< its state at n, with the present alpha
   FacePoints then, at;        ///< corners at n - 1 and n
   Face element;               ///< element at n
-  CornerForces force;         ///< its force at n with the present alpha, shear included
-  double stored;              ///< U_{n-1/2}, J
-  double stored_next;         ///< U_{n+1/2}, J
-  bool was_closed;            ///< at n - 1
+  Face risen;          ///< the same with the locked closure of n + 1, which dilation has raised
+  double risen_by;     ///< J, work of that dilation
+  CornerForces force;  ///< its force at n with the present alpha, shear included
+  double stored;       ///< U_{n-1/2}, J
+  double stored_next;  ///< U_{n+1/2}, J
+  bool was_closed;     ///< at n - 1
   double own_work;  ///< work of the whole normal force on the displacement it makes in the step, J
   double alpha;     ///< activation factor: part of the normal force that acts
   std::uint64_t corrected_at;  ///< value of `corrections` when it was last corrected
   bool done;                   ///< it changed by less than the tolerance then
 };
 
-/// Lists of one step, kept so that steps allocate nothing once the lists have grown.
+/// Faces that switch and share free blocks, directly or by others of the group.
+struct SwitchingGroup {
+  std::vector<Id> faces;          ///< by their places in FaceSwitchingScratch::set
+  std::vector<Id> pushed;         ///< blocks that have moved
+  double pushed_by = 0.0;         ///< m: no vertex was pushed farther
+  Vec2 on_fixed;                  ///< N: change of the forces on fixed blocks
+  std::uint64_t corrections = 0;  ///< of all steps, and those of this group
+  std::uint64_t passes = 0;
+  bool converged = false;
+
+  /// Keeps the memory of its lists.
+  void begin_anew(std::uint64_t corrections_so_far) {
+    faces.clear();
+    pushed.clear();
+    pushed_by = 0.0;
+    on_fixed = {};
+    corrections = corrections_so_far;
+    passes = 0;
+    converged = false;
+  }
+};
+
+/// Lists of one step, kept for their memory.
 struct FaceSwitchingScratch {
   std::vector<SwitchingFace> set;
-  std::vector<Id> pushed;  ///< blocks that have moved since the faces were last evaluated
-  std::vector<Id> found;   ///< faces that may switch since
+  std::vector<Id> known;               ///< the faces of the set, ascending
+  std::vector<SwitchingGroup> groups;  ///< since the set was last divided
+  std::vector<Id> found;               ///< faces that may switch since blocks were pushed
   std::vector<std::uint64_t>
-      moved_at;  ///< [nb] value of `corrections` when a face last moved the block
+      moved_at;  ///< [nb] SwitchingGroup::corrections when a face last moved the block
+  std::vector<Id> first_face;  ///< [nb] working memory: no_id everywhere between uses
   std::uint64_t corrections = 0;
   double pushed_by = 0.0;  ///< m: no vertex was pushed farther in the last correction
   Vec2 on_fixed;           ///< N: change of the forces on fixed blocks

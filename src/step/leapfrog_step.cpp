@@ -72,7 +72,7 @@ bool move(Simulation& sim, double h_old, double h_new, const LoadsNow* not_yet_g
   const ForcesToAdd to_add{sim.motion.on_faces.x, sim.motion.on_faces.y, forces.x, forces.y};
   own.largest.assign((blocks.size() + blocks_at_once - 1) / blocks_at_once, 0.0);
   parallel_chunks(
-      blocks.size(), blocks_at_once, [&](std::size_t c, std::size_t begin, std::size_t end) {
+      blocks.size(), blocks_at_once, 40, [&](std::size_t c, std::size_t begin, std::size_t end) {
         const LoadsNow* const loads = not_yet_gathered;
         if (loads != nullptr)
           gather_own_forces(forces, blocks, state, pose, springs, gravity, *loads, begin, end);
@@ -182,6 +182,8 @@ bool move_blocks(Simulation& sim, double h_old, const LoadsNow& at_work) {
 /// Evaluates the faces at n + 1, with the strength after the accumulated slip.
 void place_contacts(Simulation& sim) {
   if (sim.attached.ground.moves) sim.leapfrog.on_fixed = force_on_fixed(sim);
+  sim.motion.contacts.risen.clear();
+  sim.motion.contacts.risen_by.clear();
   if (steps_in_tiles(sim)) return place_in_tiles(sim);
   const LawTable& laws = sim.motion.laws;
   FaceSet& contacts = faces_to_change(sim);

@@ -1,5 +1,7 @@
 #include "step/tile_step.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <array>
 #include <span>
@@ -54,7 +56,7 @@ std::vector<Id> chunks_of(Simulation& sim, const std::vector<Id>& faces, double 
     for (const Id place : t.place[k]) {
       if (place == no_id) continue;
       const Id q = place / static_cast<Id>(lanes);
-      Tile& tile = t.tiles[t.tile_of_chunk(q)];
+      Tile& tile = t.tiles[t.tile_of_chunk[q]];
       if (q >= tile.awake_end) {
         if (sleeps_on(sim, tile, pushed, k)) continue;
         tile.sleep.over = true;
@@ -71,28 +73,35 @@ std::vector<Id> chunks_of(Simulation& sim, const std::vector<Id>& faces, double 
 /// it must wake.
 void evaluate_chunks(Simulation& sim, const std::vector<Id>& chunks) {
   TiledFaces& own = sim.leapfrog.tiled;
+  const FaceTiles& tiles = own.tiles;
   struct Part {
     std::size_t tile;
-    std::span<const Id> chunks;
+    std::span<const Id> chunks;  ///< none: the whole tile
+    SweepResult found;
   };
+  constexpr std::size_t most = 4;  // chunks, so that threads have equal shares
   std::vector<Part> parts;
   for (std::size_t n = 0, end = 0; n < chunks.size(); n = end) {
-    const std::size_t tile = own.tiles.tile_of_chunk(chunks[n]);
-    while (end < chunks.size() && chunks[end] < own.tiles.tiles[tile].last_chunk) ++end;
-    parts.push_back({tile, {&chunks[n], end - n}});
+    const std::size_t tile = tiles.tile_of_chunk[chunks[n]];
+    const bool some = tiles.kept[tile] != 0 && !tiles.tiles[tile].sleep.over;
+    while (end < chunks.size() && tiles.tile_of_chunk[chunks[end]] == tile &&
+           !(some && end - n == most))
+      ++end;
+    parts.push_back({tile, {&chunks[n], some ? end - n : 0}, {}});
   }
-  parallel_tasks(
-      parts.size(), chunks.size() * lanes, own.scratch, [&](std::size_t n, SweepScratch& scratch) {
-        const std::size_t tile = parts[n].tile;
-        FaceTiles& t = own.tiles;
-        const SweepResult found = t.kept[tile] != 0 && !t.tiles[tile].sleep.over
-                                      ? sweep_chunks(t, sweep_scene(sim), tile, parts[n].chunks)
-                                      : sweep(sim, tile, true, scratch);
-        SweepResult& so_far = own.results[tile];
-        so_far.decides = so_far.decides || found.decides;
-        so_far.switching = so_far.switching || found.switching;
-        so_far.fails = so_far.fails || found.fails;
-      });
+  parallel_tasks(parts.size(), 200 * chunks.size(), own.scratch,
+                 [&](std::size_t n, SweepScratch& scratch) {
+                   Part& p = parts[n];
+                   p.found = p.chunks.empty()
+                                 ? sweep(sim, p.tile, true, scratch)
+                                 : sweep_chunks(own.tiles, sweep_scene(sim), p.tile, p.chunks);
+                 });
+  for (const Part& p : parts) {
+    SweepResult& so_far = own.results[p.tile];
+    so_far.decides = so_far.decides || p.found.decides;
+    so_far.switching = so_far.switching || p.found.switching;
+    so_far.fails = so_far.fails || p.found.fails;
+  }
 }
 
 /// Properties that a decision may change and on which the forces of a face depend.
@@ -110,23 +119,31 @@ std::vector<Id> decide(Simulation& sim, const std::vector<Id>& faces,
   FaceTiles& t = sim.leapfrog.tiled.tiles;
   FaceSet& c = sim.motion.contacts;
   const BlockSet& b = sim.scene->blocks;
-  std::vector<Id> changed;
+  std::vector<Id> asking;
   for (const Id k : faces) {
-    const bool fails = t.has_found(lane_bits::fails, k);
-    if (!fails && !t.has_found(lane_bits::decides, k)) continue;
+    if (t.has_found(lane_bits::fails, k) || t.has_found(lane_bits::decides, k)) asking.push_back(k);
+  }
+  std::vector<std::uint8_t> changes(asking.size(), 0);
+  const auto decide_one = [&](std::size_t q) {
+    const Id k = asking[q];
     const auto known = std::find_if(corrected.begin(), corrected.end(),
                                     [k](const SwitchingFace& f) { return f.face == k; });
     if (known == corrected.end()) recall_work(c, t, k);
     const FaceFields<double> before = known == corrected.end() ? remembered(t, k) : known->before;
     const auto had = properties(c, k);
-    if (fails || c.bonded[k] > 0.0 || c.carries_tension[k] > 0.0) {
+    if (t.has_found(lane_bits::fails, k) || c.bonded[k] > 0.0 || c.carries_tension[k] > 0.0) {
       decide_face(c, face_scene(sim), sim.motion.state.step, before, k);
     } else {
       decide_activity(c, b, sim.motion.pose, {before.energy > 0.0, before.gate > 0.0}, k);
     }
-    if (properties(c, k) == had) continue;
-    load_decisions(t, c, b, k);
-    changed.push_back(k);
+    changes[q] = properties(c, k) == had ? 0 : 1;
+  };
+  parallel_for(asking.size(), decide_one, 1000);
+  std::vector<Id> changed;
+  for (std::size_t q = 0; q < asking.size(); ++q) {
+    if (changes[q] == 0) continue;
+    load_decisions(t, c, b, asking[q]);
+    changed.push_back(asking[q]);
   }
   return changed;
 }
@@ -166,11 +183,11 @@ void gather(Simulation& sim, const std::vector<Id>& faces) {
   mark(1);
   for (const Id k : faces) {
     for (const Id place : own.tiles.place[k]) {
-      if (place != no_id) in_tile[own.tiles.tile_of_chunk(place / lanes)] = 1;
+      if (place != no_id) in_tile[own.tiles.tile_of_chunk[place / lanes]] = 1;
     }
   }
   std::vector<char> no_scratch;
-  parallel_tasks(in_tile.size(), b.size(), no_scratch, [&](std::size_t tile, char&) {
+  parallel_tasks(in_tile.size(), 80 * faces.size(), no_scratch, [&](std::size_t tile, char&) {
     if (in_tile[tile] == 0 || own.tiles.kept[tile] == 0) return;
     gather_tile(own.tiles, b, tile, wanted, sim.motion.on_faces.x, sim.motion.on_faces.y);
   });
@@ -215,8 +232,9 @@ class FacesInTiles : public FaceAccess {
       sim_.motion.contacts.for_faces(b.vertex_begin[i], b.vertex_begin[i + 1],
                                      [&](Id k, bool) { changed_.push_back(k); });
     }
-    const std::vector<Id> faces(changed_.begin() + static_cast<std::ptrdiff_t>(known),
-                                changed_.end());
+    std::vector<Id> faces(changed_.begin() + static_cast<std::ptrdiff_t>(known), changed_.end());
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
     evaluate_again(sim_, faces, corrected);
     for (const Id k : faces) {
       if (sim_.leapfrog.tiled.tiles.has_found(lane_bits::switching, k)) switching.push_back(k);
@@ -229,6 +247,7 @@ class FacesInTiles : public FaceAccess {
       faces.push_back(f.face);
       load_correction(sim_.leapfrog.tiled.tiles, sim_.motion.contacts, f.before, f.face);
     }
+    std::sort(faces.begin(), faces.end());
     evaluate_again(sim_, faces, corrected);
     changed_.insert(changed_.end(), faces.begin(), faces.end());
     gather(sim_, changed_);
@@ -247,11 +266,27 @@ bool steps_in_tiles(const Simulation& sim) {
   return own.use && !sim.scene->at_points() && !sim.motion.laws.any_changes && !c.gluing;
 }
 
+namespace {
+
+/// Blocks of a tile, at most: fewer in a model too small for every thread to have two tiles.
+std::size_t blocks_of_tile(const Simulation& sim) {
+  constexpr std::size_t fewest = 24;
+  const std::size_t most = sim.leapfrog.tiled.most_blocks,
+                    threads = static_cast<std::size_t>(omp_get_max_threads());
+  if (threads == 1) return most;
+  return std::min(most, std::max(fewest, sim.scene->blocks.size() / (2 * threads) + 1));
+}
+
+}  // namespace
+
 void load_tiles(Simulation& sim) {
   TiledFaces& own = sim.leapfrog.tiled;
-  if (own.loaded) return;
+  const std::size_t of_tile = blocks_of_tile(sim);
+  if (own.loaded && own.blocks == of_tile) return;
+  faces_to_change(sim);
+  own.blocks = of_tile;
   const BlockSet& blocks = sim.scene->blocks;
-  divide_blocks(own.tiles, blocks, sim.motion.state, sim.attached.ground.moves, own.blocks);
+  divide_blocks(own.tiles, blocks, sim.motion.state, sim.attached.ground.moves, of_tile);
   load_faces(own.tiles, sim.motion.contacts, blocks, sim.motion.pose);
   own.results.resize(own.tiles.tiles.size());
   own.in_two_tiles = part_in_two_tiles(own.tiles);
@@ -265,7 +300,7 @@ void place_in_tiles(Simulation& sim) {
   next_step(sim.motion.contacts, own.tiles);
   if (!own.ahead) sim.motion.contacts.drop_states();
   own.ahead = true;
-  parallel_tasks(own.tiles.tiles.size(), sim.scene->blocks.size(), own.scratch,
+  parallel_tasks(own.tiles.tiles.size(), 10 * own.tiles.face.size(), own.scratch,
                  [&](std::size_t tile, SweepScratch& scratch) {
                    own.results[tile] = sweep(sim, tile, false, scratch);
                  });

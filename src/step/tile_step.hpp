@@ -21,7 +21,8 @@ struct TiledFaces {
   /// SweepScene::least_margin as a part of the list's reach. 0, for tests: no face sleeps.
   double sleep_part = 1e-9;
   double pushed = 0.0;  ///< m, SweepScene::pushed
-  std::size_t blocks = blocks_per_tile;
+  std::size_t most_blocks = blocks_per_tile;  ///< of a tile
+  std::size_t blocks = 0;                     ///< of a tile, as they were divided
   double in_two_tiles = 0.0;          ///< part_in_two_tiles() as the blocks were divided
   bool corrects = false;              ///< SweepScene::corrects
   bool loaded = false;                ///< they hold the faces of the simulation

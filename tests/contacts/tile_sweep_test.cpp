@@ -184,7 +184,7 @@ struct Drift {
     own.bonds = c.bonds;
   }
   static bool is_awake(const FaceTiles& t, Id place) {
-    return place / lanes < t.tiles[t.tile_of_chunk(place / lanes)].awake_end;
+    return place / lanes < t.tiles[t.tile_of_chunk[place / lanes]].awake_end;
   }
 
   void compare(const FaceTiles& t, bool with_fixed, std::size_t k) {

@@ -91,7 +91,7 @@ TEST(TileStep, WallThatIsHit) {
 TEST(TileStep, RowsInBetweenChangeNothing) {
   Simulation ahead = testing::prepared(hit_wall).sim, asked = testing::prepared(hit_wall).sim;
   for (Simulation* sim : {&ahead, &asked}) {
-    sim->leapfrog.tiled.blocks = 16;
+    sim->leapfrog.tiled.most_blocks = 16;
     start(*sim, 1.0);
   }
   for (int n = 0; n < 20000; ++n) {
@@ -133,7 +133,7 @@ void compare_asleep_and_awake(const std::string& text, int steps) {
   Simulation sleeping = testing::prepared(text).sim, awake = testing::prepared(text).sim;
   awake.leapfrog.tiled.sleep_part = 0.0;
   for (Simulation* sim : {&sleeping, &awake}) {
-    sim->leapfrog.tiled.blocks = 16;
+    sim->leapfrog.tiled.most_blocks = 16;
     start(*sim, 1.0);
   }
   std::size_t asleep = 0;
@@ -171,7 +171,7 @@ using Before = std::function<void(Simulation&, int)>;  // before each step
 std::uint64_t compare_with_rows(
     const std::string& text, int steps, const Before& before = [](Simulation&, int) {}) {
   Simulation tiled = testing::prepared(text).sim, rows = testing::prepared(text).sim;
-  tiled.leapfrog.tiled.blocks = 7;
+  tiled.leapfrog.tiled.most_blocks = 7;
   rows.leapfrog.tiled.use = false;
   start(tiled, 100.0);
   start(rows, 100.0);
@@ -274,7 +274,7 @@ TEST(TileStep, WorkOfDashpotsThatAreTakenAwayIsCountedOnce) {
 }
 TEST(TileStep, BlocksAreDividedAnewWhereTheirNeighboursHaveChanged) {
   Simulation sim = testing::prepared(falling_heap()).sim;
-  sim.leapfrog.tiled.blocks = 7;
+  sim.leapfrog.tiled.most_blocks = 7;
   start(sim, 100.0);
   int divided = 0;
   for (int n = 0; n < 20000; ++n) {
