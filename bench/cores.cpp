@@ -12,13 +12,14 @@ double CountedCores::now() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// Threads get equal numbers of tasks in a row, the first ones one more where they do not divide.
-void CountedCores::shared(std::span<const double> seconds_of_tasks) {
-  const std::size_t n = seconds_of_tasks.size(), each = n / cores_, more = n % cores_;
+void CountedCores::shared(std::span<const double> seconds_of_tasks,
+                          std::span<const std::size_t> weights) {
+  const std::vector<std::size_t> equal(weights.empty() ? seconds_of_tasks.size() : 0, 1);
+  const std::vector<std::size_t> first = shares(weights.empty() ? equal : weights, cores_);
   double most = 0.0;
-  for (std::size_t core = 0, task = 0; core < cores_ && task < n; ++core) {
+  for (std::size_t core = 0; core < cores_; ++core) {
     double own = 0.0;
-    for (const std::size_t end = task + each + (core < more ? 1 : 0); task < end; ++task)
+    for (std::size_t task = first[core]; task < first[core + 1]; ++task)
       own += seconds_of_tasks[task];
     most = std::max(most, own);
     on_one_ += own;

@@ -19,7 +19,8 @@ class CountedCores : public LoopListener {
   CountedCores& operator=(const CountedCores&) = delete;
 
   double now() override;  ///< of this thread alone, whatever else runs on the machine
-  void shared(std::span<const double> seconds_of_tasks) override;
+  void shared(std::span<const double> seconds_of_tasks,
+              std::span<const std::size_t> weights) override;
 
   std::size_t loops() const { return loops_; }
   double on_one() const { return on_one_; }    ///< s: all tasks of all loops

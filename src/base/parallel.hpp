@@ -10,7 +10,7 @@
 
 #ifndef EDDA_WORTH_SHARING  // builds that look for races and differences divide every loop among
                             // threads
-#define EDDA_WORTH_SHARING 16000
+#define EDDA_WORTH_SHARING 8000
 #endif
 
 namespace edda {
@@ -29,13 +29,31 @@ class LoopListener {
  public:
   virtual ~LoopListener() = default;
   virtual double now() = 0;  ///< s
-  virtual void shared(std::span<const double> seconds_of_tasks) = 0;
+  /// weights: as in share().
+  virtual void shared(std::span<const double> seconds_of_tasks,
+                      std::span<const std::size_t> weights) = 0;
 };
 inline LoopListener* loop_listener = nullptr;  ///< null: nobody listens
 
+/// The first task of each of so many threads, and the end, where tasks in a row are shared out by
+/// these weights.
+inline std::vector<std::size_t> shares(std::span<const std::size_t> weights, std::size_t threads) {
+  std::size_t all = 0, before = 0, thread = 0;
+  for (const std::size_t w : weights) all += w;
+  std::vector<std::size_t> first(threads + 1, weights.size());
+  for (std::size_t q = 0; q < weights.size(); ++q) {
+    const std::size_t twice_middle = 2 * before + weights[q];
+    for (; thread < threads && twice_middle * threads >= 2 * all * thread; ++thread) {
+      first[thread] = q;
+    }
+    before += weights[q];
+  }
+  return first;
+}
+
 /// Calls body(task) for [0, n) one after another, and tells the listener how long each took.
 template <class Body>
-void share_for_listener(std::size_t n, Body body) {
+void share_for_listener(std::size_t n, Body body, std::span<const std::size_t> weights) {
   std::vector<double> seconds(n);
   double begin = loop_listener->now();
   for (std::size_t q = 0; q < n; ++q) {
@@ -44,15 +62,25 @@ void share_for_listener(std::size_t n, Body body) {
     seconds[q] = end - begin;
     begin = end;
   }
-  loop_listener->shared(seconds);
+  loop_listener->shared(seconds, weights);
 }
 
-/// Calls body(task) for tasks in [0, n), in parallel: each thread takes as many in a row.
+/// Calls body(task) for tasks in [0, n), in parallel. Each thread takes tasks in a row: as many as
+/// the others or, with weights [n] above 0, which say how the tasks compare, as much of them.
 template <class Body>
-void share(std::size_t n, Body body) {
-  if (loop_listener != nullptr) return share_for_listener(n, body);
+void share(std::size_t n, Body body, std::span<const std::size_t> weights = {}) {
+  if (loop_listener != nullptr) return share_for_listener(n, body, weights);
+  if (weights.empty()) {
 #pragma omp parallel for schedule(static)
-  for (std::size_t q = 0; q < n; ++q) body(q);
+    for (std::size_t q = 0; q < n; ++q) body(q);
+    return;
+  }
+  const std::size_t threads = static_cast<std::size_t>(omp_get_max_threads());
+  const std::vector<std::size_t> first = shares(weights, threads);
+#pragma omp parallel for schedule(static)
+  for (std::size_t thread = 0; thread < threads; ++thread) {
+    for (std::size_t q = first[thread]; q < first[thread + 1]; ++q) body(q);
+  }
 }
 
 /// Calls body(i) for i in [0, n), in parallel; cost: of each, ns. body must write only what belongs
@@ -85,9 +113,10 @@ void parallel_chunks(std::size_t n, std::size_t size, std::size_t cost, Body bod
 
 /// Calls body(task, scratch) for tasks in [0, n), in parallel; cost: of all of them, ns. scratch:
 /// working memory that no other task uses at the time. body must write only what belongs to its
-/// task.
+/// task. weights: as in share().
 template <class Scratch, class Body>
-void parallel_tasks(std::size_t n, std::size_t cost, std::vector<Scratch>& scratch, Body body) {
+void parallel_tasks(std::size_t n, std::size_t cost, std::vector<Scratch>& scratch, Body body,
+                    std::span<const std::size_t> weights = {}) {
   const std::size_t threads = static_cast<std::size_t>(omp_get_max_threads());
   const bool shared = cost >= worth_sharing && n > 1;
   scratch.resize(std::max(scratch.size(), shared ? threads : 1));
@@ -95,9 +124,10 @@ void parallel_tasks(std::size_t n, std::size_t cost, std::vector<Scratch>& scrat
     for (std::size_t q = 0; q < n; ++q) body(q, scratch[0]);
     return;
   }
-  share(n, [&](std::size_t q) {
+  const auto with_scratch = [&](std::size_t q) {
     body(q, scratch[static_cast<std::size_t>(omp_get_thread_num())]);
-  });
+  };
+  share(n, with_scratch, weights);
 }
 
 /// Sum of term(i) over [0, n): chunks of fixed size are summed each in order, then the chunks in

@@ -38,6 +38,7 @@ struct SweepResult {
   bool decides = false;    ///< decide_activity() must be called for a face
   bool switching = false;  ///< a face may need an activation factor
   bool fails = false;      ///< a bond fails
+  std::size_t work = 0;    ///< what the sweep of the tile has taken, compared with others; >= 1
 };
 
 /// Evaluates the faces of a tile at step n: memory of n - 1 to memory of n (FaceTiles::now must be

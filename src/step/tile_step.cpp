@@ -300,10 +300,13 @@ void place_in_tiles(Simulation& sim) {
   next_step(sim.motion.contacts, own.tiles);
   if (!own.ahead) sim.motion.contacts.drop_states();
   own.ahead = true;
-  parallel_tasks(own.tiles.tiles.size(), 10 * own.tiles.face.size(), own.scratch,
-                 [&](std::size_t tile, SweepScratch& scratch) {
-                   own.results[tile] = sweep(sim, tile, false, scratch);
-                 });
+  std::vector<std::size_t> weights;
+  for (const SweepResult& last : own.results) weights.push_back(std::max<std::size_t>(1, last.work));
+  const auto sweep_one = [&](std::size_t tile, SweepScratch& scratch) {
+    own.results[tile] = sweep(sim, tile, false, scratch);
+  };
+  parallel_tasks(own.tiles.tiles.size(), 10 * own.tiles.face.size(), own.scratch, sweep_one,
+                 weights);
   own.pushed = 0.0;
   decide_after_sweep(sim);
 }
