@@ -25,13 +25,27 @@ void glue_for_now(FaceSet& c, std::size_t k) {
 }  // namespace
 
 bool touch_as_drawn(const FaceSet& c, const BlockSet& b, const Pose& pose, const Face& face,
-                    std::size_t k) {
+                    std::size_t k, double gap) {
   const FacePoints at = face_points(c, pose.x, pose.y, k);
   const double cosine = -dot(at.p2 - at.p1, at.q2 - at.q1) * c.inverse_e[k] * c.inverse_f[k];
-  const double near = touching_gap * smaller_size(c, b, k);
-  return face.length > near && cosine >= lies_along &&
-         std::abs(std::max(face.closure.a, face.closure.b)) <= near;
+  const double size = smaller_size(c, b, k);
+  return face.length > touching_gap * size && cosine >= lies_along &&
+         std::abs(std::max(face.closure.a, face.closure.b)) <= gap * size;
 }
+
+namespace {
+
+/// Lets a bonded joint be closed without stress where drawing has left a gap or an overlap. It is
+/// one from the beginning, so that its first step decides nothing of it (decide_activity()).
+void fit(FaceSet& c, const BlockSet& b, const Face& face, std::size_t k) {
+  const double most = drawn_gap * smaller_size(c, b, k);
+  const auto correction = [&](double closure) { return std::abs(closure) > most ? 0.0 : -closure; };
+  c.locked_closure_a[k] += correction(face.closure.a);
+  c.locked_closure_b[k] += correction(face.closure.b);
+  c.before.gate[k] = face.gate;
+}
+
+}  // namespace
 
 void set_residual_strength(FaceSet& c, const LawTable& laws, std::size_t k) {
   const Law& law = laws.rows[c.law[k]];
@@ -55,8 +69,8 @@ void bond_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable&
                           law.peak_tension > 0.0 || law.peak_friction > law.residual_friction;
     const bool other = drawn != c.law[k];
     if (!has_bond && !other) continue;
-    const Face face = face_at(c, b, pose.x, pose.y, k);
-    if (!touch_as_drawn(c, b, pose, face, k)) continue;
+    Face face = face_at(c, b, pose.x, pose.y, k);
+    if (!touch_as_drawn(c, b, pose, face, k, drawn_gap)) continue;
     if (other) {
       c.law[k] = drawn;
       set_residual_strength(c, laws, k);
@@ -64,6 +78,8 @@ void bond_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable&
       changes = true;
     }
     if (!has_bond) continue;
+    fit(c, b, face, k);
+    face = face_at(c, b, pose.x, pose.y, k);
     const bool flush =
         std::min(face.closure.a, face.closure.b) >= -touching_gap * smaller_size(c, b, k);
     c.acts[k] = c.leans[k] = 1.0;

@@ -10,14 +10,19 @@
 
 namespace edda {
 
-/// Whether the edges of face k lie along each other within 8 degrees and touch as drawn: the larger
-/// closure of the two ends is zero to within 1e-6 of the smaller block's size.
-bool touch_as_drawn(const FaceSet& faces, const BlockSet& blocks, const Pose& pose,
-                    const Face& face, std::size_t k);
+/// Gap or overlap, as a part of the smaller block's size, that drawing may leave in a joint: what
+/// coordinates are rounded to.
+inline constexpr double drawn_gap = 1e-3;
 
-/// Bonds the faces that touch at the start (gap within 1e-6 of the smaller block's size) and whose
-/// law has cohesion, tensile strength, glue or a peak friction angle above the residual one. Those
-/// with tensile strength or glue carry tension. A face is bonded as a whole and breaks as a whole.
+/// Whether the edges of face k lie along each other within 8 degrees and touch as drawn: the larger
+/// closure of the two ends is zero to within `gap` of the smaller block's size.
+bool touch_as_drawn(const FaceSet& faces, const BlockSet& blocks, const Pose& pose,
+                    const Face& face, std::size_t k, double gap = touching_gap);
+
+/// Bonds the faces that touch at the start, to within what drawing may leave, and whose law has
+/// cohesion, tensile strength, glue or a peak friction angle above the residual one. Those with
+/// tensile strength or glue carry tension. A face is bonded as a whole and breaks as a whole. What
+/// drawing leaves is taken back by the locked closure.
 void bond_faces(FaceSet& faces, const BlockSet& blocks, const Pose& pose, const LawTable& laws);
 
 /// Whether two edges lie against each other as drawn along the whole overlap, within the accuracy
