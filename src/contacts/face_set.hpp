@@ -2,8 +2,8 @@
 // Element and notation: contacts/face.hpp; docs/contacts.md.
 #pragma once
 
-#include <atomic>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <iterator>

@@ -130,16 +130,17 @@ void clear_new_faces(FaceSet& c, const FaceTiles& t) {
 void unload_faces(FaceSet& c, const FaceTiles& t, const FaceScene& scene, double step) {
   const std::vector<std::uint8_t> acted = chunks_that_have_acted(c, t);
   c.clear_states();
-  parallel_chunks(c.size(), FaceSet::chunk, 60, [&](std::size_t q, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      if (t.place[k][0] != no_id) recall_work(c, t, k);
-    }
-    if (acted[q] == 0) return unload_open(c, t, q);
-    c.now.inactive[q] = c.before.inactive[q] = 0;
-    for (std::size_t k = begin; k < end; ++k) {
-      if (t.place[k][0] != no_id) set_row(c.before, k, remembered(t, k));
-    }
-  });
+  parallel_chunks(c.size(), FaceSet::chunk, 60,
+                  [&](std::size_t q, std::size_t begin, std::size_t end) {
+                    for (std::size_t k = begin; k < end; ++k) {
+                      if (t.place[k][0] != no_id) recall_work(c, t, k);
+                    }
+                    if (acted[q] == 0) return unload_open(c, t, q);
+                    c.now.inactive[q] = c.before.inactive[q] = 0;
+                    for (std::size_t k = begin; k < end; ++k) {
+                      if (t.place[k][0] != no_id) set_row(c.before, k, remembered(t, k));
+                    }
+                  });
   evaluate_as_decided(c, scene, step);
   clear_new_faces(c, t);
 }

@@ -94,14 +94,16 @@ std::size_t evaluate_springs(FaceSprings& springs, FaceSet& c, const FaceScene& 
   evaluate_with_limits(c, scene, step, springs.limits);
   springs.first = first;
   std::vector<std::size_t> changed(c.chunks(), 0);
-  parallel_chunks(c.size(), FaceSet::chunk, 5, [&](std::size_t q, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      std::uint8_t state = state_of(c, c.now, k);
-      if (first) state = static_cast<std::uint8_t>(state | slides_on(springs, c.now, k));
-      if (state != springs.state[k]) ++changed[q];
-      springs.state[k] = state;
-    }
-  });
+  parallel_chunks(c.size(), FaceSet::chunk, 5,
+                  [&](std::size_t q, std::size_t begin, std::size_t end) {
+                    for (std::size_t k = begin; k < end; ++k) {
+                      std::uint8_t state = state_of(c, c.now, k);
+                      if (first)
+                        state = static_cast<std::uint8_t>(state | slides_on(springs, c.now, k));
+                      if (state != springs.state[k]) ++changed[q];
+                      springs.state[k] = state;
+                    }
+                  });
   std::size_t sum = 0;
   for (const std::size_t n : changed) sum += n;
   return sum;

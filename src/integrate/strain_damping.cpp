@@ -240,9 +240,10 @@ void add_strain_dissipation(const StrainDamping& d, const BlockSet& b, const Sta
                              values_of(old_vx),
                              values_of(old_vy),
                              joules.data()};
-  parallel_chunks(b.size(), blocks_at_once, 6, [&](std::size_t, std::size_t begin, std::size_t end) {
-    add_dissipation_of_all(view, h_old, h_new, begin, end);
-  });
+  parallel_chunks(b.size(), blocks_at_once, 6,
+                  [&](std::size_t, std::size_t begin, std::size_t end) {
+                    add_dissipation_of_all(view, h_old, h_new, begin, end);
+                  });
 }
 
 }  // namespace edda

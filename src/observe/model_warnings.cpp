@@ -62,12 +62,7 @@ bool free_block(const Simulation& sim, std::size_t i) {
 }
 
 void warn_of_sudden_gravity(const Simulation& sim, std::vector<std::string>& warnings) {
-  if (sim.accounts.initial || sim.scene->model.solver.duration == 0.0) return;
-  const Stage first = stages_of(sim.scene->model).front();
-  const Damping& d = first.damping;
-  if (first.to_equilibrium() || sim.scene->model.gravity == Vec2{} || d.mass > 0.0 ||
-      d.local > 0.0 || d.contact > 0.0 || d.adaptive > 0.0)
-    return;
+  if (!gravity_acts_at_once(sim)) return;
   bool carried = sim.attached.springs.size() > 0;
   const FaceSet& f = sim.motion.contacts;
   for (std::size_t k = 0; k < f.size() && !carried; ++k) {
@@ -240,6 +235,15 @@ void warn_of_strain_damping(const Simulation& sim, std::vector<std::string>& war
 }
 
 }  // namespace
+
+bool gravity_acts_at_once(const Simulation& sim) {
+  const Model& model = sim.scene->model;
+  const Stage first = stages_of(model).front();
+  const Damping& d = first.damping;
+  return !sim.accounts.initial && model.solver.duration > 0.0 && !first.to_equilibrium() &&
+         model.gravity != Vec2{} && d.mass == 0.0 && d.local == 0.0 && d.contact == 0.0 &&
+         d.adaptive == 0.0;
+}
 
 std::string governed_by(Simulation& sim) {
   if (!is_explicit(sim)) {

@@ -13,6 +13,10 @@ namespace edda {
 /// step". The simulation is as before afterwards.
 std::string governed_by(Simulation& sim);
 
+/// Whether gravity acts from the beginning on blocks without stress, and no damping but that of the
+/// rock removes the oscillation.
+bool gravity_acts_at_once(const Simulation& sim);
+
 /// One sentence per warning, with a remedy. Call for a simulation as created, before start().
 std::vector<std::string> model_warnings(const Simulation& sim);
 

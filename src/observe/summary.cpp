@@ -10,6 +10,7 @@
 #include "model/stage_names.hpp"
 #include "observe/damping_report.hpp"
 #include "observe/initial_stress_report.hpp"
+#include "observe/model_warnings.hpp"
 #include "observe/motion.hpp"
 #include "observe/overstress.hpp"
 #include "observe/sliver_report.hpp"
@@ -22,6 +23,8 @@ namespace {
 
 constexpr std::string_view fall_check = "number of blocks that fell freely under local damping";
 constexpr std::string_view loose_check = "number of blocks that have come loose";
+constexpr std::string_view stage_check = "number of stages without the equilibrium they look for";
+constexpr std::string_view broken_check = "number of joints that broke as gravity acted at once";
 constexpr std::string_view overlap_check = "largest overlap over half width of a block";
 constexpr std::string_view chatter_check =
     "number of times that contacts opened or closed while they chattered";
@@ -165,10 +168,16 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
   if (o.slowed_in_fall > 0) {
     checks.push_back(limited(std::string(fall_check), static_cast<double>(o.slowed_in_fall), 0.0));
   }
+  if (gravity_acts_at_once(sim)) {
+    checks.push_back(
+        limited(std::string(broken_check), static_cast<double>(sim.motion.contacts.broken), 0.0));
+  }
   const std::vector<Stage> stages = stages_of(sim.scene->model);
   if (std::any_of(stages.begin(), stages.end(),
                   [](const Stage& s) { return s.to_equilibrium(); })) {
     checks.push_back(limited(std::string(loose_check), static_cast<double>(o.loose), 0.0));
+    checks.push_back(
+        limited(std::string(stage_check), o.status == Status::collapsed ? 1.0 : 0.0, 0.0));
   }
   if (std::any_of(stages.begin(), stages.end(),
                   [](const Stage& s) { return s.until == StageEnd::collapse; })) {
@@ -221,6 +230,16 @@ std::string message_of(const Check& check, const Simulation& sim, const Outcome&
   }
   if (check.name == loose_check) {
     text += ": the given strength is not enough to hold them; edda fos finds the factor of safety";
+  }
+  if (check.name == stage_check) {
+    text +=
+        ": its blocks still move, or slide away; edda fos finds the factor of safety, and a longer "
+        "duration of the stage shows whether they come to rest";
+  }
+  if (check.name == broken_check) {
+    text +=
+        ": forces oscillate up to about twice their values in equilibrium; begin with a [[stage]] "
+        "with until = \"equilibrium\"";
   }
   if (check.name == fall_check) {
     text +=

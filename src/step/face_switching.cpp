@@ -80,9 +80,9 @@ class Correction {
     const auto add = [&](std::size_t q) { add_if_it_switches(set[known + q]); };
     parallel_for(set.size() - known, add, cost_of_a_face);
     const auto added = set.begin() + static_cast<std::ptrdiff_t>(known);
-    set.erase(std::remove_if(added, set.end(),
-                             [](const SwitchingFace& f) { return f.face == no_id; }),
-              set.end());
+    set.erase(
+        std::remove_if(added, set.end(), [](const SwitchingFace& f) { return f.face == no_id; }),
+        set.end());
     for (std::size_t q = known; q < set.size(); ++q) scratch_.known.push_back(set[q].face);
     std::sort(scratch_.known.begin(), scratch_.known.end());
     return set.size() > known;

@@ -89,13 +89,12 @@ void evaluate_chunks(Simulation& sim, const std::vector<Id>& chunks) {
       ++end;
     parts.push_back({tile, {&chunks[n], some ? end - n : 0}, {}});
   }
-  parallel_tasks(parts.size(), 200 * chunks.size(), own.scratch,
-                 [&](std::size_t n, SweepScratch& scratch) {
-                   Part& p = parts[n];
-                   p.found = p.chunks.empty()
-                                 ? sweep(sim, p.tile, true, scratch)
-                                 : sweep_chunks(own.tiles, sweep_scene(sim), p.tile, p.chunks);
-                 });
+  parallel_tasks(
+      parts.size(), 200 * chunks.size(), own.scratch, [&](std::size_t n, SweepScratch& scratch) {
+        Part& p = parts[n];
+        p.found = p.chunks.empty() ? sweep(sim, p.tile, true, scratch)
+                                   : sweep_chunks(own.tiles, sweep_scene(sim), p.tile, p.chunks);
+      });
   for (const Part& p : parts) {
     SweepResult& so_far = own.results[p.tile];
     so_far.decides = so_far.decides || p.found.decides;
@@ -301,7 +300,8 @@ void place_in_tiles(Simulation& sim) {
   if (!own.ahead) sim.motion.contacts.drop_states();
   own.ahead = true;
   std::vector<std::size_t> weights;
-  for (const SweepResult& last : own.results) weights.push_back(std::max<std::size_t>(1, last.work));
+  for (const SweepResult& last : own.results)
+    weights.push_back(std::max<std::size_t>(1, last.work));
   const auto sweep_one = [&](std::size_t tile, SweepScratch& scratch) {
     own.results[tile] = sweep(sim, tile, false, scratch);
   };

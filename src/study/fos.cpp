@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -60,6 +61,17 @@ class Search {
       count(found->second.trial);
       drop_ends();
     }
+    return bracket_;
+  }
+
+  /// Tries a factor below the highest that holds, and searches on where it fails.
+  FosBracket look_below(double factor) {
+    bracket_.below = factor;
+    return go();
+  }
+
+  /// Ends the search: the states at the ends of the bracket.
+  void finish() {
     for (const auto& [number, one] : trying_) trials_.stop(number);
     const auto lowest = made_.find(bracket_.high), highest = made_.find(bracket_.low);
     if (bracket_.fails && lowest != made_.end()) {
@@ -68,7 +80,6 @@ class Search {
       result_.failed = std::move(start_.failed);
     }
     if (bracket_.holds && highest != made_.end()) stable_ = std::move(highest->second.end);
-    return bracket_;
   }
 
   /// The state at the highest factor that holds; if there is none, the state from which the trials
@@ -225,32 +236,59 @@ Simulation at_start(const Simulation& rest, const Simulation& later) {
   return start;
 }
 
+/// The limits of rigid blocks; nothing where they have none, or it would take long.
+std::optional<LimitResult> rigid_limit(const Model& model, const Fos& fos, std::size_t blocks) {
+  constexpr std::size_t most_blocks = 5000;  // for which it takes a small part of the search
+  if (fos.varied == Varied::shaking || blocks > most_blocks) return {};
+  Result<LimitResult> found = limit_analysis(model);
+  if (!found.ok() || found.value().largest.status != LimitEnd::found) return {};
+  return std::move(found.value());
+}
+
+/// The lowest limit, of joints that slide without dilating and of those that have broken.
+double least_limit(const LimitResult& limit) {
+  const double most = limit.largest.upper;
+  return std::min(
+      {limit.largest.lower, limit.without_dilation.value_or(most), limit.residual.value_or(most)});
+}
+
+/// Between the lowest limit of rigid blocks and the highest factor that holds, where there is room:
+/// the model may fail there, too, since how it comes to rest depends on what its joints have done.
+std::optional<double> factor_below(const FosBracket& bracket, const LimitResult& limit) {
+  constexpr double worth = 0.95;
+  const double least = least_limit(limit);
+  const bool room = bracket.holds && bracket.fails && least > 0.0 && least < worth * bracket.low;
+  if (!room || limit.of_pebbles) return {};
+  return std::sqrt(least * bracket.low);
+}
+
 /// Compares the factor, or the highest one that holds where none fails, with the limits of rigid
 /// blocks.
-void compare_with_rigid(const Model& model, const Fos& fos, FosResult& r) {
-  constexpr std::size_t most_blocks = 5000;  // for which it takes a small part of the search
-  const std::optional<double> found_factor = r.status == FosStatus::above ? r.holds : r.factor;
-  if (!found_factor || fos.varied == Varied::shaking || r.blocks > most_blocks) return;
-  const Result<LimitResult> found = limit_analysis(model);
-  if (!found.ok() || found.value().largest.status != LimitEnd::found) return;
-  const LimitResult& limit = found.value();
+void compare_with_rigid(const Model& model, const Fos& fos, const LimitResult& limit,
+                        FosResult& r) {
+  const std::optional<double> factor = r.status == FosStatus::above ? r.holds : r.factor;
+  if (!factor) return;
   RigidBracket rigid;
   rigid.most = limit.largest.upper;
-  rigid.least = std::min({limit.largest.lower, limit.without_dilation.value_or(rigid.most),
-                          limit.residual.value_or(rigid.most)});
-  constexpr double elastic = 0.02;  // joints and blocks deform before they fail
-  rigid.slack = fos.tolerance + elastic;
-  rigid.below_most = *found_factor <= (1.0 + rigid.slack) * rigid.most;
+  rigid.least = least_limit(limit);
+  rigid.slack = 0.01;  // joints and blocks deform before they fail
+  rigid.below_most = limit.of_pebbles || r.holds.value_or(0.0) <= (1.0 + rigid.slack) * rigid.most;
   if (!r.factor && rigid.below_most) return;  // the highest factor tried is no limit
-  const bool lower = *found_factor < (1.0 - rigid.slack) * rigid.least;
+  const double near = fos.tolerance + 0.02;
+  const bool lower = *factor < (1.0 - near) * rigid.least;
+  const bool within = *factor < (1.0 - near) * rigid.most;
   const bool bolted = !model.bolts.empty() || !model.bolt_patterns.empty();
-  rigid.text =
-      fmt::format("rigid limit analysis: {}; {}", limit.message,
-                  !rigid.below_most ? "NO EQUILIBRIUM OF RIGID BLOCKS HAS SUCH A FACTOR"
-                  : lower && bolted ? "the factor is lower, since bolts count there with all "
-                                      "their capacity, stretched or not (docs/limit.md)"
-                  : lower           ? "the factor is lower than theirs (docs/limit.md)"
-                                    : "the factor agrees with theirs");
+  rigid.text = fmt::format(
+      "rigid limit analysis: {}; {}", limit.message,
+      limit.of_pebbles    ? "its mechanism moves pebbles alone, which do not count here"
+      : !rigid.below_most ? "NO EQUILIBRIUM OF RIGID BLOCKS HAS SUCH A FACTOR: small ledges hold "
+                            "the blocks as they "
+                            "deform; merge slivers ([quality] min_edge) or trust the lower value"
+      : lower && bolted   ? "the factor is lower, since bolts count there with all their capacity, "
+                            "stretched or not (docs/limit.md)"
+      : lower             ? "the factor is lower than theirs (docs/limit.md)"
+      : within            ? "the factor lies between theirs"
+                          : "the factor agrees with theirs");
   if (!rigid.below_most) r.warnings.push_back(rigid.text);
   r.rigid = std::move(rigid);
 }
@@ -267,13 +305,18 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
   r.criterion = start.plan.criterion;
   r.blocks = start.sim.scene->blocks.size();
   r.warnings = start.warnings;
+  std::optional<LimitResult> limit;
   if (start.status != FosStatus::found) {
     r.status = start.status;
     r.message =
         start.status == FosStatus::interrupted ? "stopped before the first trial" : start.message;
   } else {
     Search search(model, fos, start, options, r);
-    const FosBracket bracket = search.go();
+    FosBracket bracket = search.go();
+    if (options.stop == nullptr || !*options.stop) limit = rigid_limit(model, fos, r.blocks);
+    const std::optional<double> below = limit ? factor_below(bracket, *limit) : std::nullopt;
+    if (below) bracket = search.look_below(*below);
+    search.finish();
     const bool stopped = options.stop != nullptr && *options.stop && bracket.next();
     conclude(bracket, fos, stopped, r);
     const bool sound = r.failed && std::isfinite(r.failed->control.last_displacement) &&
@@ -287,7 +330,7 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
     if (!trial.reason.starts_with("diverged")) continue;
     r.warnings.push_back(fmt::format("the trial of {:.6g} {}", trial.factor, trial.reason));
   }
-  compare_with_rigid(model, fos, r);
+  if (limit) compare_with_rigid(model, fos, *limit, r);
   r.seconds = since(began);
   return r;
 }

@@ -13,6 +13,8 @@ struct FosBracket {
   double tolerance;  ///< relative width at which the search ends, in units of `low`
   bool holds = false, fails = false;  ///< `low` has been shown to hold, `high` to fail
   int widened = 0;
+  std::optional<double> below{};  ///< a factor below `low`, to be tried at last: a model may fail
+                                  ///< between factors at which it holds
 
   static constexpr int widest = 5;  ///< largest number of times an end is moved outwards
 
@@ -23,11 +25,12 @@ struct FosBracket {
     if (gave_up()) return {};
     if (!holds) return low;
     if (!fails) return high;
-    if (high - low <= tolerance * low) return {};
+    if (high - low <= tolerance * low) return below;
     return 0.5 * (low + high);
   }
 
   void take(double factor, bool stable) {
+    if (factor == below) below.reset();
     if (stable && (!holds || factor > low)) {
       low = factor;
       holds = true;
@@ -49,7 +52,7 @@ struct FosBracket {
 
   /// Whether a trial of this factor may still add information.
   bool may_ask(double factor) const {
-    return !(holds && factor <= low) && !(fails && factor >= high);
+    return factor == below || (!(holds && factor <= low) && !(fails && factor >= high));
   }
 };
 

@@ -8,6 +8,7 @@
 
 #include "base/text.hpp"
 #include "model/stage_names.hpp"
+#include "observe/balance.hpp"
 #include "observe/observe.hpp"
 #include "run/run_model.hpp"
 #include "run/wall_clock.hpp"
@@ -187,6 +188,19 @@ void add_mechanism(LimitResult& r, const Simulation& drawn, const RigidBlocks& r
   FaceSet& faces = before.motion.contacts;
   for (const RigidJoint& joint : rigid.joints) faces.now.energy[joint.face] = 1.0;
   r.mechanism = mechanism_of(before, *r.moved, moving);
+  const std::vector<std::uint8_t> pebbles = negligible_blocks(drawn);
+  const std::vector<MovingBlock>& moves = r.mechanism->blocks;
+  r.of_pebbles =
+      !moves.empty() && std::all_of(moves.begin(), moves.end(),
+                                    [&](const MovingBlock& m) { return pebbles[m.id] != 0; });
+  if (!r.of_pebbles) return;
+  const Id i = moves.front().id;
+  r.warnings.push_back(fmt::format(
+      "the mechanism moves {} alone, {:.3g} m in size, less than a tenth of the mean of all "
+      "blocks: "
+      "the limit is that of a pebble, which edda fos does not count; to find that of the others, "
+      "join it to a neighbour by [quality], or leave it out",
+      block_label(drawn.scene->blocks, i), std::sqrt(drawn.scene->blocks.area[i])));
 }
 
 /// All but the largest value.

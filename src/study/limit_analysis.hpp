@@ -34,6 +34,7 @@ struct LimitResult {
   std::optional<double> residual;      ///< largest.lower of joints that have lost their bonds; none
                                        ///< where that makes no difference
   double violation = 0.0;              ///< LimitState::violation of `largest`
+  bool of_pebbles = false;             ///< the mechanism moves pebbles alone (observe/balance.hpp)
   std::optional<Mechanism> mechanism;  ///< at `largest`, its largest displacement a hundredth of
                                        ///< the mean size of the blocks
   std::optional<Simulation> drawn, moved;  ///< the model as drawn, and moved by the mechanism

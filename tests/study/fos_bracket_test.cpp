@@ -23,6 +23,27 @@ TEST(FosBracket, Bisects) {
   EXPECT_EQ(asked(b, 1.6), (std::vector<double>{1.0, 2.0, 1.5, 1.75}));
 }
 
+/// A factor below is tried at last; where it holds, nothing changes.
+TEST(FosBracket, LooksBelow) {
+  FosBracket b{1.0, 2.0, 0.25};
+  b.below = 1.2;
+  EXPECT_EQ(asked(b, 1.6), (std::vector<double>{1.0, 2.0, 1.5, 1.75, 1.2}));
+  for (const double factor : {1.0, 2.0, 1.5, 1.75}) b.take(factor, factor < 1.6);
+  b.take(*b.next(), true);
+  EXPECT_EQ(b.next(), std::nullopt);
+  EXPECT_EQ(b.low, 1.5);
+}
+/// Where it fails, the search goes on below it, and factors above that hold no longer count.
+TEST(FosBracket, GoesOnBelowAFactorThatFails) {
+  FosBracket b{1.0, 2.0, 0.25};
+  for (const double factor : {1.0, 2.0, 1.5, 1.75}) b.take(factor, factor < 1.6);
+  b.below = 1.2;
+  EXPECT_TRUE(b.may_ask(1.2));
+  const std::vector<double> factors = asked(b, 1.1), expected{1.2, 0.6, 0.9, 1.05};
+  ASSERT_EQ(factors.size(), expected.size());
+  for (std::size_t i = 0; i < factors.size(); ++i) EXPECT_DOUBLE_EQ(factors[i], expected[i]);
+}
+
 TEST(FosBracket, MovesAnEndThatDoesNotHold) {
   FosBracket b{1.0, 2.0, 0.5};
   EXPECT_EQ(asked(b, 0.3), (std::vector<double>{1.0, 0.5, 0.25, 0.375}));
