@@ -125,3 +125,24 @@ def limit(given, programs):
         critical, now, every = steps["undamped_step"], steps["true_step"], steps["true_step_of_all"]
         print(form.format(name, str(scene["blocks"]), *(f"{x:.3e}" for x in (scene["step"], critical, now, every)),
                           f"{critical / now:.3f}", f"{critical / every:.3f}"), flush=True)
+
+
+BARRIER = 3e-6  # s, to wake the threads of a loop and to wait for the last of them
+
+
+def cores(given, programs):
+    print("As if there were so many cores, all loops on one: what no loop shares, and what the busiest thread of each has\n"
+          f"to do; {1e6 * BARRIER:.0f} us for each loop. Memory is as fast as for one core.")
+    form = "{:16s} {:>7s} {:>6s} {:>10s} {:>8s} {:>8s} {:>8s}"
+    print(form.format("scene", "blocks", "cores", "us a step", "serial", "loops", "speedup"))
+    for name in given.scene or (QUICK if given.quick else SMALL):
+        for count in (1, 2, 4, 16, 64):
+            steps = str(max(10, block_steps(given) // 4 // blocks_of(name)))
+            command = programs.scene(name, "--cores", str(count), "--steps", steps)
+            out = subprocess.run(command, env=programs.environment, check=True, capture_output=True, text=True).stdout
+            scene, r = map(json.loads, out.splitlines())
+            serial = r["seconds"] - r["shared"]
+            shared = serial + r["busiest"] + (BARRIER * r["loops"] if count > 1 else 0.0)
+            print(form.format(name, str(scene["blocks"]), str(count), f"{1e6 * r['seconds'] / r['steps']:.1f}",
+                              f"{serial / r['seconds']:.3f}", f"{r['loops'] / r['steps']:.1f}",
+                              f"{r['seconds'] / shared:.2f}"), flush=True)
