@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -19,6 +20,44 @@
 
 namespace edda {
 namespace {
+
+using RigidLimit = std::optional<LimitResult>;
+
+/// The limits of rigid blocks; nothing where there is no such analysis.
+RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks) {
+  constexpr std::size_t most_blocks = 5000;  // for which it takes a small part of the search
+  if (fos.varied == Varied::shaking || blocks > most_blocks) return {};
+  Result<LimitResult> found = limit_analysis(model);
+  if (!found.ok()) return {};
+  found.value().drawn.reset();
+  found.value().moved.reset();
+  return std::move(found.value());
+}
+
+Vec2 around(double limit) {
+  return {0.5 * limit, 2.0 * limit};
+}
+
+/// The bracket of [fos]; where that is the default, from which the search would not get as far as
+/// the limit of rigid blocks, one around this limit, unless a trial `seen` contradicts it.
+FosBracket first_bracket(const Fos& fos, const RigidLimit& rigid, const std::vector<Trial>& seen) {
+  const double reach = std::exp2(FosBracket::widest - 1);
+  const Vec2 given = fos.bracket;
+  const FosBracket usual{given.x, given.y, fos.tolerance};
+  if (given != Fos{}.bracket || !rigid || rigid->largest.status != LimitEnd::found) return usual;
+  const double limit = rigid->largest.lower;
+  if (!(limit > 0.0) || (limit >= given.x / reach && limit <= given.y * reach)) return usual;
+  const bool agrees = std::all_of(seen.begin(), seen.end(), [&](const Trial& trial) {
+    return (trial.end == TrialEnd::holds) == (trial.factor < limit);
+  });
+  if (!agrees) return usual;
+  const Vec2 moved = around(limit);
+  return {moved.x, moved.y, fos.tolerance};
+}
+
+bool is_moved(const FosBracket& begin, const Fos& fos) {
+  return begin.low != fos.bracket.x || begin.high != fos.bracket.y;
+}
 
 /// A completed trial, with its final state as long as that may be one of the two nearest to the
 /// factor of safety.
@@ -38,17 +77,18 @@ struct Trying {
 /// it may need next, but it counts and reports those alone that it has needed, in their order.
 class Search {
  public:
-  Search(const Model& model, const Fos& fos, FosStart& start, const FosOptions& options,
-         FosResult& result)
+  Search(const Model& model, const Fos& fos, const FosBracket& begin, FosStart& start,
+         const FosOptions& options, FosResult& result)
       : model_(model),
         fos_(fos),
         start_(start),
         options_(options),
         result_(result),
-        bracket_{fos.bracket.x, fos.bracket.y, fos.tolerance},
+        bracket_(begin),
         trials_(options.threads,
                 tasks_within(memory_here(), options.threads, start.sim.scene->blocks.size())) {
     for (const Trial& trial : start.seen) count(trial);
+    if (is_moved(begin, fos)) bracket_ = begin;  // to where these trials are far away
   }
 
   /// Searches until the bracket is narrow enough, or until it is stopped. Returns the bracket.
@@ -186,7 +226,19 @@ const char* what_was_varied(Varied varied) {
   return words[static_cast<int>(varied)];
 }
 
-void conclude(const FosBracket& bracket, const Fos& fos, bool stopped, FosResult& r) {
+/// How to go on where all factors tried end alike, the last of them `last`.
+std::string look_beyond(double last, bool above, const RigidLimit& rigid) {
+  Vec2 next = above ? Vec2{last, 2.0 * last} : Vec2{0.5 * last, last};
+  if (rigid && rigid->largest.status == LimitEnd::found) {
+    const double limit = rigid->largest.lower;
+    if (above ? limit > last : limit > 0.0 && limit < last) next = around(limit);
+  }
+  return fmt::format("; give fos.bracket, such as [{:.3g}, {:.3g}], to look beyond", next.x,
+                     next.y);
+}
+
+void conclude(const FosBracket& bracket, const Fos& fos, bool stopped, const RigidLimit& rigid,
+              FosResult& r) {
   if (bracket.holds) r.holds = bracket.low;
   if (bracket.fails) r.fails = bracket.high;
   const bool strength = fos.varied == Varied::strength;
@@ -197,15 +249,24 @@ void conclude(const FosBracket& bracket, const Fos& fos, bool stopped, FosResult
     if (r.fails) r.message += fmt::format("; it fails at {:.6g}", *r.fails);
   } else if (!bracket.holds) {
     r.status = FosStatus::below;
-    r.message = fmt::format("the model fails at every factor tried, down to {:.6g}: {}", *r.fails,
-                            strength ? "the failure does not depend on the strength of these joints"
-                                     : "it has another cause");
+    r.message = fmt::format("the model fails at every factor tried, down to {:.6g}", *r.fails);
+    if (!rigid || rigid->largest.status != LimitEnd::no_equilibrium) {
+      r.message += look_beyond(*r.fails, false, rigid);
+    } else {
+      r.message += strength ? ": the failure does not depend on the strength of these joints"
+                            : ": it has another cause";
+    }
   } else if (!bracket.fails) {
     r.status = FosStatus::above;
-    r.message = fmt::format(
-        "the model holds at every factor tried, up to {:.6g}: {}", *r.holds,
-        strength ? "it does not need the strength of these joints"
-                 : std::string(what_was_varied(fos.varied)) + " cannot move it in this direction");
+    r.message = fmt::format("the model holds at every factor tried, up to {:.6g}", *r.holds);
+    if (!rigid || rigid->largest.status != LimitEnd::no_limit) {
+      r.message += look_beyond(*r.holds, true, rigid);
+    } else if (strength) {
+      r.message += ": it does not need the strength of these joints";
+    } else {
+      r.message +=
+          fmt::format(": {} cannot move it in this direction", what_was_varied(fos.varied));
+    }
   } else {
     r.factor = 0.5 * (*r.holds + *r.fails);
     r.message = fmt::format("factor of safety {:.4g} (holds at {:.6g}, fails at {:.6g})", *r.factor,
@@ -227,13 +288,10 @@ Simulation at_start(const Simulation& rest, const Simulation& later) {
 
 /// Compares the factor, or the highest one that holds where none fails, with the limits of rigid
 /// blocks.
-void compare_with_rigid(const Model& model, const Fos& fos, FosResult& r) {
-  constexpr std::size_t most_blocks = 5000;  // for which it takes a small part of the search
+void compare_with_rigid(const Model& model, const Fos& fos, const RigidLimit& found, FosResult& r) {
   const std::optional<double> found_factor = r.status == FosStatus::above ? r.holds : r.factor;
-  if (!found_factor || fos.varied == Varied::shaking || r.blocks > most_blocks) return;
-  const Result<LimitResult> found = limit_analysis(model);
-  if (!found.ok() || found.value().largest.status != LimitEnd::found) return;
-  const LimitResult& limit = found.value();
+  if (!found_factor || !found || found->largest.status != LimitEnd::found) return;
+  const LimitResult& limit = *found;
   RigidBracket rigid;
   rigid.most = limit.largest.upper;
   rigid.least = std::min({limit.largest.lower, limit.without_dilation.value_or(rigid.most),
@@ -263,6 +321,7 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
   Result<FosStart> made = start_trials(model, fos, options);
   if (!made.ok()) return made.faults();
   FosStart& start = made.value();
+  RigidLimit rigid;
   FosResult r;
   r.criterion = start.plan.criterion;
   r.blocks = start.sim.scene->blocks.size();
@@ -272,10 +331,11 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
     r.message =
         start.status == FosStatus::interrupted ? "stopped before the first trial" : start.message;
   } else {
-    Search search(model, fos, start, options, r);
+    rigid = rigid_limit(model, fos, r.blocks);
+    Search search(model, fos, first_bracket(fos, rigid, start.seen), start, options, r);
     const FosBracket bracket = search.go();
     const bool stopped = options.stop != nullptr && *options.stop && bracket.next();
-    conclude(bracket, fos, stopped, r);
+    conclude(bracket, fos, stopped, rigid, r);
     const bool sound = r.failed && std::isfinite(r.failed->control.last_displacement) &&
                        r.failed->control.last_displacement < 1e100;
     if (sound) {
@@ -287,7 +347,7 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
     if (!trial.reason.starts_with("diverged")) continue;
     r.warnings.push_back(fmt::format("the trial of {:.6g} {}", trial.factor, trial.reason));
   }
-  compare_with_rigid(model, fos, r);
+  compare_with_rigid(model, fos, rigid, r);
   r.seconds = since(began);
   return r;
 }
