@@ -133,6 +133,14 @@ TEST(Plausible, BoltsAndWater) {
                  "water.0.unit_weight", "write \"9.81 kN/m3\"");
 }
 
+TEST(Plausible, WaterUnderGravityThatIsTilted) {
+  const std::string water = "[[water]]\ntable = [[10, 5], [20, 5]]\n";
+  const std::string tilted = base_with("[0.0, -9.81]", "[-4.905, -8.4957]");
+  expect_warning(tilted + water, "gravity", "draw the model inclined and leave gravity vertical");
+  EXPECT_TRUE(warnings_of(tilted).empty());
+  EXPECT_TRUE(warnings_of(base_model + water).empty());
+}
+
 TEST(Plausible, InitialStressWithCompressionAsPositive) {
   const auto with = [](const std::string& stress) {
     return base_model + "[initial_stress]\nstress = " + stress + "\n";

@@ -237,6 +237,14 @@ void check_water(const Model& model, std::vector<std::string>& warnings) {
         w < 50.0 ? fmt::format("write \"{:g} kN/m3\"", w) : std::string("write \"9.81 kN/m3\"")));
   }
   weight.report(warnings);
+  const Vec2 down = model.gravity;
+  constexpr double upright = 1e-9;
+  if (model.waters.empty() || std::abs(down.x) <= upright * norm(down)) return;
+  warnings.push_back(fmt::format(
+      "gravity: [{:g}, {:g}] is not along -y, but the pressure of [[water]] grows downwards along "
+      "y: where gravity is tilted in place of the ground, draw the model inclined and leave "
+      "gravity vertical; where its horizontal part stands for an earthquake, this is what is meant",
+      down.x, down.y));
 }
 
 /// Lowest and highest point of shapes given by corners.
