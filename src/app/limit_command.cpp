@@ -47,10 +47,11 @@ void print_end(const LimitResult& r, const std::string& folder) {
     fmt::print("  equilibrium up to {:.9g}, none from {:.9g} on\n", r.largest.lower,
                r.largest.upper);
   }
-  fmt::print(
-      "  {} rigid blocks, {} joints, {} of wall time; results in {}/ (mechanism.png, "
-      "thrust.png)\n",
-      r.blocks, r.joints, duration_text(r.seconds), folder);
+  std::string pictures = r.mechanism ? "mechanism.png" : "";
+  if (!r.forces.empty()) pictures += pictures.empty() ? "thrust.png" : ", thrust.png";
+  fmt::print("  {} rigid blocks, {} joints, {} of wall time; results in {}/{}\n", r.blocks,
+             r.joints, duration_text(r.seconds), folder,
+             pictures.empty() ? "" : " (" + pictures + ")");
 }
 
 int limit(const LimitArguments& args) {

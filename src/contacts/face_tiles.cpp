@@ -276,8 +276,9 @@ void order_records(FaceTiles& t, const FaceSet& c, const BlockSet& b, std::size_
   }
   begin[slot] = next;
   for (std::size_t place = first; place < end; ++place) {
-    if (t.slot_e[place] >= of.own_edges) t.record_e[place] = next;
-    if (t.slot_f[place] >= of.own_edges) t.record_f[place] = next;
+    const Id of_others = next + static_cast<Id>((place - first) / lanes);
+    if (t.slot_e[place] >= of.own_edges) t.record_e[place] = of_others;
+    if (t.slot_f[place] >= of.own_edges) t.record_f[place] = of_others;
   }
 }
 

@@ -175,7 +175,8 @@ struct FaceTiles {
   /// Records of four numbers for the forces of the awake faces on the edges of a tile: those on an
   /// own edge lie side by side, in the order of FaceSet::on_edge.
   std::vector<Id> record_begin;        ///< [tiles][own edges + 1]
-  std::vector<Id> record_e, record_f;  ///< [chunks][8]; an edge of another tile has the last one
+  std::vector<Id> record_e, record_f;  ///< [chunks][8]; edges of other tiles have one of the chunk
+                                       ///< alone, behind the others, which nothing reads
 
   /// The records of the last sweep of a tile, where some of its faces may be evaluated again.
   std::vector<AlignedNumbers> forces;  ///< [tiles] [records][4] on start and end of an edge, N

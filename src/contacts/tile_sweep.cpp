@@ -4,70 +4,11 @@
 #include <array>
 
 #include "contacts/chunk_loops.hpp"
+#include "contacts/tile_edges.hpp"
 #include "contacts/tile_sleep.hpp"
 
 namespace edda {
 namespace {
-
-/// Vertex data in the layout of BlockSet.
-struct Corners {
-  ConstNodeValues weight;
-  const Id *vertex_begin, *next, *previous;
-};
-
-/// Fills the records of the edges of a tile: start and end.
-EDDA_VECTOR void place_edges(const Corners& c, const Id* blocks, std::size_t count, const Id* halo,
-                             std::size_t halo_count, const double* x, const double* y, double* to) {
-  const auto corner = [&](Id v) __attribute__((always_inline)) {
-    return Two{x[v], y[v]};
-  };
-  std::size_t base = 0;
-  for (std::size_t n = 0; n < count; ++n) {
-    const Id i = blocks[n], first = c.vertex_begin[i], last = c.vertex_begin[i + 1];
-    for (Id v = first; v < last; ++v) {
-      const Two p = corner(v);
-      *reinterpret_cast<Two*>(to + 4 * (base + (v - first))) = p;
-      *reinterpret_cast<Two*>(to + 4 * (base + (c.previous[v] - first)) + 2) = p;
-    }
-    base += last - first;
-  }
-  for (std::size_t n = 0; n < halo_count; ++n) {
-    const Id v = halo[n];
-    *reinterpret_cast<Two*>(to + 4 * (base + n)) = corner(v);
-    *reinterpret_cast<Two*>(to + 4 * (base + n) + 2) = corner(c.next[v]);
-  }
-}
-
-/// The forces on the nodes of the own blocks of a tile: summed on each edge, then spread from its
-/// two corners (Eq. 15). wanted: [nb] for which blocks, or null.
-EDDA_VECTOR void gather_blocks(const Corners& c, const Id* blocks, std::size_t count,
-                               const std::uint8_t* wanted, const Id* record_begin,
-                               const double* records, NodeValues fx, NodeValues fy) {
-  for (std::size_t n = 0; n < count; ++n) {
-    const Id i = blocks[n], first = c.vertex_begin[i], last = c.vertex_begin[i + 1];
-    if (wanted != nullptr && wanted[i] == 0) {
-      record_begin += last - first;
-      continue;
-    }
-    Four from_start_and_end[nodes_per_block] = {};  // x and y from the start, x and y from the end
-    for (Id e = first; e < last; ++e) {
-      const Id begin = *record_begin, end = *++record_begin;
-      if (begin == end) continue;
-      Four sum{};
-      for (std::size_t q = begin; q < end; ++q) sum += four_at(records + 4 * q);
-      const Id to = c.next[e];
-      for (std::size_t k = 0; k < nodes_per_block; ++k) {
-        const double w = c.weight[k][e], w_to = c.weight[k][to];
-        from_start_and_end[k] += Four{w, w, w_to, w_to} * sum;
-      }
-    }
-    for (std::size_t k = 0; k < nodes_per_block; ++k) {
-      const Four& both = from_start_and_end[k];
-      fx[k][i] = both[0] + both[2];
-      fy[k][i] = both[1] + both[3];
-    }
-  }
-}
 
 /// The edges of a chunk: tables of records of four numbers, and the slots there.
 struct ChunkEdges {
@@ -289,10 +230,6 @@ void read_vertices(const FaceTiles& t, const SweepScene& scene, std::size_t q, b
   }
 }
 
-Corners corners_of(const BlockSet& b) {
-  return {values_of(b.weight), b.vertex_begin.data(), b.next.data(), b.previous.data()};
-}
-
 void place_masses(const TileInSweep& s, const BlockSet& b, const Masses& m) {
   std::size_t slot = 0;
   const auto put = [&](Id e) {
@@ -333,7 +270,8 @@ void place_tile(const TileInSweep& s) {
 
 /// Numbers of the records of a tile's forces.
 std::size_t record_numbers(const FaceTiles& t, const Tile& tile) {
-  return 4 * (std::size_t{t.record_begin[tile.first_edge + tile.own_edges]} + 1);
+  const std::size_t of_own = t.record_begin[tile.first_edge + tile.own_edges];
+  return 4 * (of_own + (tile.last_chunk - tile.first_chunk) + 1);
 }
 
 SweepResult result_of(LaneBits found) {

@@ -133,6 +133,19 @@ void warn_of_boundary(const Simulation& sim, std::vector<std::string>& warnings)
                   1.0 / std::sqrt(std::max(1.0 - sim.control.bound.boundary_part, 1e-12))));
 }
 
+/// A step that is given stays for the whole run, however small it is.
+void warn_of_small_step(const Simulation& sim, std::vector<std::string>& warnings) {
+  constexpr double small = 0.01;
+  const Solver& solver = sim.scene->model.solver;
+  const double usual = solver.safety * sim.control.bound.critical_step;
+  if (!solver.time_step || !std::isfinite(usual) || !(*solver.time_step < small * usual)) return;
+  warnings.push_back(fmt::format(
+      "solver.time_step: {:.3g} s is less than a hundredth of the {:.3g} s that "
+      "time_step = \"auto\" would take, so that a run takes {:.2g} times as many steps: "
+      "leave it out, unless that is meant",
+      *solver.time_step, usual, usual / *solver.time_step));
+}
+
 /// Warns of a few small blocks that govern the step of all others, or reports their mass scaling.
 void warn_of_few(const Simulation& sim, std::vector<std::string>& warnings) {
   const double all = ordered_sum(sim.scene->blocks.size(), [&](std::size_t i) {
@@ -280,6 +293,7 @@ std::vector<std::string> model_warnings(const Simulation& sim) {
   if (is_explicit(sim)) {
     warn_of_sudden_gravity(sim, warnings);
     warn_of_boundary(sim, warnings);
+    warn_of_small_step(sim, warnings);
     warn_of_few(sim, warnings);
   }
   warn_of_strain_damping(sim, warnings);

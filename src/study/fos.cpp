@@ -21,6 +21,46 @@
 namespace edda {
 namespace {
 
+using RigidLimit = std::optional<LimitResult>;
+
+/// The limits of rigid blocks; nothing where there is no such analysis.
+RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks) {
+  constexpr std::size_t most_blocks = 5000;  // for which it takes a small part of the search
+  if (fos.varied == Varied::shaking || blocks > most_blocks) return {};
+  Result<LimitResult> found = limit_analysis(model);
+  if (!found.ok()) return {};
+  found.value().drawn.reset();
+  found.value().moved.reset();
+  return std::move(found.value());
+}
+
+Vec2 around(double limit) {
+  return {0.5 * limit, 2.0 * limit};
+}
+
+/// The bracket of [fos]; where that is the default, from which the search would not get as far as
+/// the limit of rigid blocks, one around this limit, unless a trial `seen` contradicts it.
+FosBracket first_bracket(const Fos& fos, const RigidLimit& rigid, const std::vector<Trial>& seen) {
+  const double reach = std::exp2(FosBracket::widest - 1);
+  const Vec2 given = fos.bracket;
+  const FosBracket usual{given.x, given.y, fos.tolerance};
+  if (given != Fos{}.bracket || !rigid || rigid->largest.status != LimitEnd::found ||
+      rigid->of_pebbles)
+    return usual;
+  const double limit = rigid->largest.lower;
+  if (!(limit > 0.0) || (limit >= given.x / reach && limit <= given.y * reach)) return usual;
+  const bool agrees = std::all_of(seen.begin(), seen.end(), [&](const Trial& trial) {
+    return (trial.end == TrialEnd::holds) == (trial.factor < limit);
+  });
+  if (!agrees) return usual;
+  const Vec2 moved = around(limit);
+  return {moved.x, moved.y, fos.tolerance};
+}
+
+bool is_moved(const FosBracket& begin, const Fos& fos) {
+  return begin.low != fos.bracket.x || begin.high != fos.bracket.y;
+}
+
 /// A completed trial, with its final state as long as that may be one of the two nearest to the
 /// factor of safety.
 struct Made {
@@ -39,17 +79,18 @@ struct Trying {
 /// it may need next, but it counts and reports those alone that it has needed, in their order.
 class Search {
  public:
-  Search(const Model& model, const Fos& fos, FosStart& start, const FosOptions& options,
-         FosResult& result)
+  Search(const Model& model, const Fos& fos, const FosBracket& begin, FosStart& start,
+         const FosOptions& options, FosResult& result)
       : model_(model),
         fos_(fos),
         start_(start),
         options_(options),
         result_(result),
-        bracket_{fos.bracket.x, fos.bracket.y, fos.tolerance},
+        bracket_(begin),
         trials_(options.threads,
                 tasks_within(memory_here(), options.threads, start.sim.scene->blocks.size())) {
     for (const Trial& trial : start.seen) count(trial);
+    if (is_moved(begin, fos)) bracket_ = begin;  // to where these trials are far away
   }
 
   /// Searches until the bracket is narrow enough, or until it is stopped. Returns the bracket.
@@ -197,7 +238,19 @@ const char* what_was_varied(Varied varied) {
   return words[static_cast<int>(varied)];
 }
 
-void conclude(const FosBracket& bracket, const Fos& fos, bool stopped, FosResult& r) {
+/// How to go on where all factors tried end alike, the last of them `last`.
+std::string look_beyond(double last, bool above, const RigidLimit& rigid) {
+  Vec2 next = above ? Vec2{last, 2.0 * last} : Vec2{0.5 * last, last};
+  if (rigid && rigid->largest.status == LimitEnd::found) {
+    const double limit = rigid->largest.lower;
+    if (above ? limit > last : limit > 0.0 && limit < last) next = around(limit);
+  }
+  return fmt::format("; give fos.bracket, such as [{:.3g}, {:.3g}], to look beyond", next.x,
+                     next.y);
+}
+
+void conclude(const FosBracket& bracket, const Fos& fos, bool stopped, const RigidLimit& rigid,
+              FosResult& r) {
   if (bracket.holds) r.holds = bracket.low;
   if (bracket.fails) r.fails = bracket.high;
   const bool strength = fos.varied == Varied::strength;
@@ -208,15 +261,24 @@ void conclude(const FosBracket& bracket, const Fos& fos, bool stopped, FosResult
     if (r.fails) r.message += fmt::format("; it fails at {:.6g}", *r.fails);
   } else if (!bracket.holds) {
     r.status = FosStatus::below;
-    r.message = fmt::format("the model fails at every factor tried, down to {:.6g}: {}", *r.fails,
-                            strength ? "the failure does not depend on the strength of these joints"
-                                     : "it has another cause");
+    r.message = fmt::format("the model fails at every factor tried, down to {:.6g}", *r.fails);
+    if (!rigid || rigid->largest.status != LimitEnd::no_equilibrium) {
+      r.message += look_beyond(*r.fails, false, rigid);
+    } else {
+      r.message += strength ? ": the failure does not depend on the strength of these joints"
+                            : ": it has another cause";
+    }
   } else if (!bracket.fails) {
     r.status = FosStatus::above;
-    r.message = fmt::format(
-        "the model holds at every factor tried, up to {:.6g}: {}", *r.holds,
-        strength ? "it does not need the strength of these joints"
-                 : std::string(what_was_varied(fos.varied)) + " cannot move it in this direction");
+    r.message = fmt::format("the model holds at every factor tried, up to {:.6g}", *r.holds);
+    if (!rigid || rigid->largest.status != LimitEnd::no_limit) {
+      r.message += look_beyond(*r.holds, true, rigid);
+    } else if (strength) {
+      r.message += ": it does not need the strength of these joints";
+    } else {
+      r.message +=
+          fmt::format(": {} cannot move it in this direction", what_was_varied(fos.varied));
+    }
   } else {
     r.factor = 0.5 * (*r.holds + *r.fails);
     r.message = fmt::format("factor of safety {:.4g} (holds at {:.6g}, fails at {:.6g})", *r.factor,
@@ -236,15 +298,6 @@ Simulation at_start(const Simulation& rest, const Simulation& later) {
   return start;
 }
 
-/// The limits of rigid blocks; nothing where they have none, or it would take long.
-std::optional<LimitResult> rigid_limit(const Model& model, const Fos& fos, std::size_t blocks) {
-  constexpr std::size_t most_blocks = 5000;  // for which it takes a small part of the search
-  if (fos.varied == Varied::shaking || blocks > most_blocks) return {};
-  Result<LimitResult> found = limit_analysis(model);
-  if (!found.ok() || found.value().largest.status != LimitEnd::found) return {};
-  return std::move(found.value());
-}
-
 /// The lowest limit, of joints that slide without dilating and of those that have broken.
 double least_limit(const LimitResult& limit) {
   const double most = limit.largest.upper;
@@ -254,20 +307,21 @@ double least_limit(const LimitResult& limit) {
 
 /// Between the lowest limit of rigid blocks and the highest factor that holds, where there is room:
 /// the model may fail there, too, since how it comes to rest depends on what its joints have done.
-std::optional<double> factor_below(const FosBracket& bracket, const LimitResult& limit) {
+std::optional<double> factor_below(const FosBracket& bracket, const RigidLimit& limit) {
   constexpr double worth = 0.95;
-  const double least = least_limit(limit);
+  if (!limit || limit->largest.status != LimitEnd::found) return {};
+  const double least = least_limit(*limit);
   const bool room = bracket.holds && bracket.fails && least > 0.0 && least < worth * bracket.low;
-  if (!room || limit.of_pebbles) return {};
+  if (!room || limit->of_pebbles) return {};
   return std::sqrt(least * bracket.low);
 }
 
 /// Compares the factor, or the highest one that holds where none fails, with the limits of rigid
 /// blocks.
-void compare_with_rigid(const Model& model, const Fos& fos, const LimitResult& limit,
-                        FosResult& r) {
+void compare_with_rigid(const Model& model, const Fos& fos, const RigidLimit& found, FosResult& r) {
   const std::optional<double> factor = r.status == FosStatus::above ? r.holds : r.factor;
-  if (!factor) return;
+  if (!factor || !found || found->largest.status != LimitEnd::found) return;
+  const LimitResult& limit = *found;
   RigidBracket rigid;
   rigid.most = limit.largest.upper;
   rigid.least = least_limit(limit);
@@ -280,15 +334,15 @@ void compare_with_rigid(const Model& model, const Fos& fos, const LimitResult& l
   const bool bolted = !model.bolts.empty() || !model.bolt_patterns.empty();
   rigid.text = fmt::format(
       "rigid limit analysis: {}; {}", limit.message,
-      limit.of_pebbles    ? "its mechanism moves pebbles alone, which do not count here"
-      : !rigid.below_most ? "NO EQUILIBRIUM OF RIGID BLOCKS HAS SUCH A FACTOR: small ledges hold "
-                            "the blocks as they "
-                            "deform; merge slivers ([quality] min_edge) or trust the lower value"
-      : lower && bolted   ? "the factor is lower, since bolts count there with all their capacity, "
-                            "stretched or not (docs/limit.md)"
-      : lower             ? "the factor is lower than theirs (docs/limit.md)"
-      : within            ? "the factor lies between theirs"
-                          : "the factor agrees with theirs");
+      limit.of_pebbles ? "its mechanism moves pebbles alone, which do not count here"
+      : !rigid.below_most
+          ? "NO EQUILIBRIUM OF RIGID BLOCKS HAS SUCH A FACTOR: small ledges hold "
+            "the blocks as they deform; merge slivers ([quality] min_edge) or trust the lower value"
+      : lower && bolted ? "the factor is lower, since bolts count there with all their capacity, "
+                          "stretched or not (docs/limit.md)"
+      : lower           ? "the factor is lower than theirs (docs/limit.md)"
+      : within          ? "the factor lies between theirs"
+                        : "the factor agrees with theirs");
   if (!rigid.below_most) r.warnings.push_back(rigid.text);
   r.rigid = std::move(rigid);
 }
@@ -301,24 +355,23 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
   Result<FosStart> made = start_trials(model, fos, options);
   if (!made.ok()) return made.faults();
   FosStart& start = made.value();
+  RigidLimit rigid;
   FosResult r;
   r.criterion = start.plan.criterion;
   r.blocks = start.sim.scene->blocks.size();
   r.warnings = start.warnings;
-  std::optional<LimitResult> limit;
   if (start.status != FosStatus::found) {
     r.status = start.status;
     r.message =
         start.status == FosStatus::interrupted ? "stopped before the first trial" : start.message;
   } else {
-    Search search(model, fos, start, options, r);
+    rigid = rigid_limit(model, fos, r.blocks);
+    Search search(model, fos, first_bracket(fos, rigid, start.seen), start, options, r);
     FosBracket bracket = search.go();
-    if (options.stop == nullptr || !*options.stop) limit = rigid_limit(model, fos, r.blocks);
-    const std::optional<double> below = limit ? factor_below(bracket, *limit) : std::nullopt;
-    if (below) bracket = search.look_below(*below);
+    if (const auto below = factor_below(bracket, rigid)) bracket = search.look_below(*below);
     search.finish();
     const bool stopped = options.stop != nullptr && *options.stop && bracket.next();
-    conclude(bracket, fos, stopped, r);
+    conclude(bracket, fos, stopped, rigid, r);
     const bool sound = r.failed && std::isfinite(r.failed->control.last_displacement) &&
                        r.failed->control.last_displacement < 1e100;
     if (sound) {
@@ -330,7 +383,7 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
     if (!trial.reason.starts_with("diverged")) continue;
     r.warnings.push_back(fmt::format("the trial of {:.6g} {}", trial.factor, trial.reason));
   }
-  if (limit) compare_with_rigid(model, fos, *limit, r);
+  compare_with_rigid(model, fos, rigid, r);
   r.seconds = since(began);
   return r;
 }

@@ -221,7 +221,9 @@ void add_others(LimitResult& r, const Simulation& sim, const Fos& fos, const Lim
   }
   r.forces = thrust(sim, asked.rigid(), asked.strength_of(answer), answer.state);
   r.drawn = sim;
-  add_mechanism(r, sim, asked.rigid(), answer.state.motion);
+  // Without a limit nothing moves: what the last program left is no mechanism.
+  if (answer.end == LimitEnd::found || answer.end == LimitEnd::no_equilibrium)
+    add_mechanism(r, sim, asked.rigid(), answer.state.motion);
 }
 
 }  // namespace

@@ -53,6 +53,14 @@ TEST(Accelerogram, VelocityIsTheIntegral) {
   EXPECT_NEAR(acceleration_at(sine, 1.0 / 12.0).y, -0.8 * 3.0, 1e-12);
 }
 
+TEST(Accelerogram, NamesThatAreNotKnownGoByPosition) {
+  for (const char* names : {"time,east,up\n", "t,ax (m/s2),vertical\n", "Time (s), X, Y\n"}) {
+    const auto read = parse_acceleration_rows(std::string(names) + "0,1,2\n1,3,4\n", "f.csv", "k");
+    ASSERT_TRUE(read.ok()) << to_string(read.faults().front());
+    EXPECT_EQ(read.value().acceleration[1], (Vec2{3.0, 4.0})) << names;
+  }
+}
+
 TEST(Accelerogram, ReadsBothHeadsOfPeer) {
   const std::string body = "  .1  -.2\n 3.0E-01\n";
   for (const std::string head :
@@ -83,6 +91,8 @@ TEST(Accelerogram, ReportsWhatIsWrongAndWhere) {
         Case{true, head + "0.1 0.2\n0.3", 0, "holds 3"},
         Case{false, "0,1\n", 1, "is not three numbers"}, Case{false, "", 0, "has no rows"},
         Case{false, "0,1,2\n0,1,2\n", 2, "does not come after"},
+        Case{false, "time,ay,ax\n0,1,2\n", 1, "in another order: time,ay,ax"},
+        Case{false, "T (s), Ay (m/s2), east\n0,1,2\n", 1, "in another order"},
         Case{false, "-1,1,2\n0,1,2\n", 0, "begins before time 0"}}) {
     const auto read = c.peer ? parse_at2(c.text, {1.0, 0.0}, "f", "shaking.q.acceleration")
                              : parse_acceleration_rows(c.text, "f", "shaking.q.acceleration");

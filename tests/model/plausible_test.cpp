@@ -66,12 +66,25 @@ TEST(Plausible, Joints) {
                  "joints.rough.cohesion", "write \"5 kPa\"");
 }
 
+/// Beyond the apex of Coulomb's law a bond fails in shear, however little shear there is.
+TEST(Plausible, TensionBeyondTheApex) {
+  const auto joint = [](const std::string& keys) {
+    return base_with("friction_angle = 30.0", "friction_angle = 30.0\n" + keys);
+  };
+  expect_warning(joint("cohesion = 1e4\ntensile_strength = 6e4"), "joints.rough.tensile_strength",
+                 "at most 1.732e+04 Pa");
+  expect_warning(joint("tensile_strength = 6e4"), "joints.rough.tensile_strength", "at most 0 Pa");
+  EXPECT_TRUE(warnings_of(joint("cohesion = 1e4\ntensile_strength = 1.7e4")).empty());
+  const std::string slow = "type = 'slip-weakening'\nslip_distance = 0.01\n";  // it is no bond
+  EXPECT_TRUE(warnings_of(joint(slow + "cohesion = 1e4\ntensile_strength = 6e4")).empty());
+}
+
 TEST(Plausible, StrengthsThatAreMeantAsKilopascals) {
   const auto joint = [](const std::string& keys) {
     return base_with("friction_angle = 30.0", "friction_angle = 30.0\n" + keys);
   };
   expect_warning(joint("cohesion = 50"), "joints.rough.cohesion", "write \"50 kPa\"");
-  expect_warning(joint("tensile_strength = 200"), "joints.rough.tensile_strength",
+  expect_warning(joint("cohesion = 1e6\ntensile_strength = 200"), "joints.rough.tensile_strength",
                  "write \"200 kPa\"");
   expect_warning(joint("residual = { cohesion = 20 }"), "joints.rough.residual.cohesion",
                  "write \"20 kPa\"");
@@ -131,6 +144,14 @@ TEST(Plausible, BoltsAndWater) {
                  "bolt.b.yield_stress", "write \"500 MPa\"");
   expect_warning(base_model + "[[water]]\ntable = [[10, 5], [20, 5]]\nunit_weight = 9.81\n",
                  "water.0.unit_weight", "write \"9.81 kN/m3\"");
+}
+
+TEST(Plausible, WaterUnderGravityThatIsTilted) {
+  const std::string water = "[[water]]\ntable = [[10, 5], [20, 5]]\n";
+  const std::string tilted = base_with("[0.0, -9.81]", "[-4.905, -8.4957]");
+  expect_warning(tilted + water, "gravity", "draw the model inclined and leave gravity vertical");
+  EXPECT_TRUE(warnings_of(tilted).empty());
+  EXPECT_TRUE(warnings_of(base_model + water).empty());
 }
 
 TEST(Plausible, InitialStressWithCompressionAsPositive) {

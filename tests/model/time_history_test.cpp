@@ -18,6 +18,15 @@ TEST(TimeHistory, IsLinearBetweenRowsAndConstantBeyond) {
   EXPECT_EQ(TimeHistory{}.at(5.0, 9.0), 9.0);
 }
 
+/// Spreadsheets begin a CSV file in UTF-8 with a byte order mark.
+TEST(TimeHistory, SkipsAByteOrderMark) {
+  for (const std::string names : {"", "time,factor\n"}) {
+    const auto read = parse_time_history("\xEF\xBB\xBF" + names + "0,1\n1,3\n", "f.csv", "k");
+    ASSERT_TRUE(read.ok()) << to_string(read.faults()[0]);
+    EXPECT_EQ(read.value().at(0.5, 9.0), 2.0);
+  }
+}
+
 TEST(TimeHistory, ReportsWhatIsWrongAndWhere) {
   struct Case {
     std::string text;
@@ -31,6 +40,7 @@ TEST(TimeHistory, ReportsWhatIsWrongAndWhere) {
         Case{"0,1\n1,inf\n", 2, "is not two numbers"},
         Case{"time,x\nname,y\n", 2, "is not two numbers"},
         Case{"0,1\n0,2\n", 2, "does not come after"},
+        Case{"# push\nfactor,time\n0,1\n", 2, "in another order: factor,time"},
         Case{"0,1\n2,1\n1,1\n", 3, "does not come after"}}) {
     const auto read = parse_time_history(c.text, "f.csv", "load.0.history");
     ASSERT_FALSE(read.ok()) << c.text;

@@ -190,6 +190,9 @@ polygon = [[-9, -1], [9, -1], [9, 0], [-9, 0]]
   // A stiffness that the joint gives is used as it is.
   EXPECT_FALSE(warned({"joints.j.kn=1e5"}, "so soft"));
   EXPECT_TRUE(warned({"contact.normal_stiffness=1e12"}, "so stiff"));
+  EXPECT_FALSE(warned({}, "less than a hundredth of"));
+  EXPECT_FALSE(warned({"solver.time_step=1e-5"}, "less than a hundredth of"));
+  EXPECT_TRUE(warned({"solver.time_step=1e-7"}, "1e-07 s is less than a hundredth of the"));
   EXPECT_FALSE(warned({}, "overlap at the start"));
   EXPECT_TRUE(warned({"block.flyer.polygon=[[0, -5e-4], [1, -5e-4], [1, 1], [0, 1]]"},
                      "draw the blocks so that they touch, or cut both from one [domain] with a "

@@ -171,6 +171,43 @@ TEST(Fos, PressedTogether) {
   }
 }
 
+/// A slab of 4 x 1 m that lies level under its weight, and a push at its foot of this force.
+std::string pushed(const std::string& force) {
+  return "[materials.rock]\ndensity = 2500\nyoung = 2e9\npoisson = 0.25\n[joints.j]\n"
+         "friction_angle = 30\n[[block]]\nfixed = true\n"
+         "polygon = [[-5, -1], [5, -1], [5, 0], [-5, 0]]\n[[block]]\n"
+         "polygon = [[0, 0], [4, 0], [4, 1], [0, 1]]\n[[load]]\nname = 'push'\n"
+         "point = [0, 0.2]\nforce = [" +
+         force + ", 0]\n" + coarse + "vary = 'load:push'\n";
+}
+
+const double slides = 2500.0 * 9.81 * 4.0 * std::tan(std::numbers::pi / 6.0);
+
+/// The search begins where rigid blocks have their limit, if it would not get there otherwise.
+TEST(Fos, FindsFactorsFarFromOne) {
+  for (const double far : {400.0, 4e-4}) {
+    const FosResult r = found(pushed(fmt::format("{}", slides / far)));
+    ASSERT_TRUE(r.factor) << r.message;
+    EXPECT_NEAR(*r.factor, far, 0.05 * far);
+    EXPECT_LT(r.trials.size(), 10U);
+  }
+  expect_same_for_all_threads(model_of(pushed(fmt::format("{}", slides / 400.0))));
+}
+
+/// With a bracket of its own it stays there, and says that it has not seen all.
+TEST(Fos, SaysThatABracketMayLookBeyond) {
+  const FosResult above = found(pushed(fmt::format("{}", slides / 400.0)) + "bracket = [0.5, 2]\n");
+  EXPECT_EQ(above.status, FosStatus::above);
+  EXPECT_EQ(above.message,
+            "the model holds at every factor tried, up to 64; give fos.bracket, such as [200, "
+            "800], to look beyond");
+  const FosResult below = found(pushed(fmt::format("{}", slides / 4e-4)) + "bracket = [0.5, 2]\n");
+  EXPECT_EQ(below.status, FosStatus::below);
+  EXPECT_EQ(below.message,
+            "the model fails at every factor tried, down to 0.015625; give fos.bracket, such as "
+            "[0.0002, 0.0008], to look beyond");
+}
+
 /// Where nothing acts the reported acceleration is that from which T follows.
 TEST(Fos, TellsTheAccelerationThatItUses) {
   const FosResult r = found("gravity = [0, 0]\n" + ramp(rough, coarse, ""));

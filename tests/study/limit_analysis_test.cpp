@@ -290,6 +290,20 @@ TEST(LimitAnalysis, NamesTheOtherEndWhereThereIsNoLargest) {
   EXPECT_NE(r.message.find(fmt::format("at the other end the limit is {:.5g}", exact)),
             std::string::npos)
       << r.message;
+  EXPECT_FALSE(r.mechanism);
+}
+
+/// Where no factor moves the blocks there is no mechanism either.
+TEST(LimitAnalysis, NamesNoMechanismWhereNothingMoves) {
+  const LimitResult r =
+      limit_of(stone(0.5) +
+                   "[[block]]\nfixed = true\npolygon = [[-1, -1], [3, -1], [3, 0], [-1, 0]]\n"
+                   "[[block]]\npolygon = [[0, 0], [2, 0], [2, 1], [0, 1]]\n",
+               "strength");
+  EXPECT_EQ(r.largest.status, LimitEnd::no_limit);
+  EXPECT_EQ(r.message, "no factor of safety moves the rigid blocks");
+  EXPECT_FALSE(r.mechanism);
+  EXPECT_FALSE(r.moved);
 }
 
 }  // namespace

@@ -179,10 +179,17 @@ void check_materials(const Model& model, std::vector<std::string>& warnings) {
   for (const Doubts* doubts : {&weight, &young, &strength}) doubts->report(warnings);
 }
 
+/// The mean tension (Pa) at which the shear strength of a joint that breaks as a whole is zero.
+std::optional<double> most_tension(const JointLaw& law) {
+  const double friction = std::tan(law.peak.friction_angle * std::numbers::pi / 180.0);
+  if (law.type != LawType::coulomb || !(friction > 0.0)) return {};
+  return law.peak.cohesion / friction;
+}
+
 void check_joints(const Model& model, std::vector<std::string>& warnings) {
   constexpr double least_strength = 1e3;  // Pa
   constexpr double right_angle = 0.5 * std::numbers::pi;
-  Doubts stiffness, walls, strength, angle;
+  Doubts stiffness, walls, strength, angle, tension;
   for (const JointLaw& law : model.joints) {
     const std::string& key = law.where.key;
     if (law.kn && *law.kn < 1e6) {
@@ -203,10 +210,19 @@ void check_joints(const Model& model, std::vector<std::string>& warnings) {
       if (gives(model, law.where, name) && !has_unit(model, law.where, name))
         angle.add(radians(key + '.' + name, value));
     };
+    if (const auto most = most_tension(law); most && law.peak.tensile_strength > *most * 1.001) {
+      tension.add(fmt::format(
+          "{}.tensile_strength: {:g} Pa is above cohesion/tan(friction_angle), the apex of "
+          "Coulomb's "
+          "law: the mean tension of a joint is at most {:.4g} Pa, where its shear strength is zero "
+          "and it fails: give no more, or a higher cohesion",
+          key, law.peak.tensile_strength, *most));
+    }
     look_at_angle("friction_angle", law.peak.friction_angle);
     look_at_angle("residual_angle", law.residual_angle.value_or(0.0));
   }
-  for (const Doubts* doubts : {&stiffness, &walls, &strength, &angle}) doubts->report(warnings);
+  for (const Doubts* doubts : {&stiffness, &walls, &strength, &angle, &tension})
+    doubts->report(warnings);
 }
 
 void check_bolts(const Model& model, std::vector<std::string>& warnings) {
@@ -237,6 +253,14 @@ void check_water(const Model& model, std::vector<std::string>& warnings) {
         w < 50.0 ? fmt::format("write \"{:g} kN/m3\"", w) : std::string("write \"9.81 kN/m3\"")));
   }
   weight.report(warnings);
+  const Vec2 down = model.gravity;
+  constexpr double upright = 1e-9;
+  if (model.waters.empty() || std::abs(down.x) <= upright * norm(down)) return;
+  warnings.push_back(fmt::format(
+      "gravity: [{:g}, {:g}] is not along -y, but the pressure of [[water]] grows downwards along "
+      "y: where gravity is tilted in place of the ground, draw the model inclined and leave "
+      "gravity vertical; where its horizontal part stands for an earthquake, this is what is meant",
+      down.x, down.y));
 }
 
 /// Lowest and highest point of shapes given by corners.

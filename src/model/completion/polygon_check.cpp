@@ -43,14 +43,15 @@ void check_points(std::span<const Vec2> points, Kind kind, const Value& written,
               last ? "leave it out, a polygon closes itself" : "leave it out");
   }
   if (repeated || !closed) return;
-  constexpr double flat = 1e-12;  // area over that of the box's larger side squared: rounding only
+  constexpr double flat = 1e-12;  // over the box's larger side, or its square: rounding only
   const double size = extent(points);
-  if (std::abs(signed_area(points)) <= flat * size * size) {
-    add_fault(reading, written.place, path, "has no area",
-              "give corners that are not all on one line");
-  } else if (self_crossing(points)) {
+  const bool on_one_line = least_width(points) <= flat * size;
+  if (!on_one_line && self_crossing(points)) {
     add_fault(reading, written.place, path, "crosses or touches itself",
               "list the corners in order along the outline, each once");
+  } else if (on_one_line || std::abs(signed_area(points)) <= flat * size * size) {
+    add_fault(reading, written.place, path, "has no area",
+              "give corners that are not all on one line");
   }
 }
 

@@ -103,7 +103,11 @@ void integrate(Accelerogram& r) {
 
 Result<Accelerogram> parse_acceleration_rows(std::string_view text, const std::string& path,
                                              const std::string& key) {
-  const RowShape shape{3, "three numbers", "write time,ax,ay", "0.005,-0.12,0.03"};
+  const RowShape shape{3,
+                       "three numbers",
+                       "write time,ax,ay",
+                       "0.005,-0.12,0.03",
+                       {{"time", "t"}, {"ax", "x"}, {"ay", "y"}}};
   const Result<std::vector<double>> rows = parse_rows(text, shape, path, key);
   if (!rows) return rows.faults();
   Accelerogram record;

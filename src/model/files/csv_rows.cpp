@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "base/text.hpp"
 
@@ -32,6 +33,28 @@ std::vector<std::string_view> cells_of(std::string_view row) {
   }
 }
 
+/// The column of that name, whatever follows it, such as a unit: "Time (s)" is "time".
+std::optional<std::size_t> column_called(std::string_view cell, const RowShape& shape) {
+  std::string name;
+  for (const char c : trimmed(cell)) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) break;
+    name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  for (std::size_t k = 0; k < shape.names.size(); ++k) {
+    const auto& known = shape.names[k];
+    if (std::find(known.begin(), known.end(), name) != known.end()) return k;
+  }
+  return {};
+}
+
+/// Whether a line of names has that of another column in some column.
+bool in_other_order(const std::vector<std::string_view>& cells, const RowShape& shape) {
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    if (column_called(cells[k], shape).value_or(k) != k) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool parse_number(std::string_view text, double& value) {
@@ -50,6 +73,7 @@ Result<std::vector<double>> parse_rows(std::string_view text, const RowShape& sh
   auto fault = [&](std::string problem, std::string remedy) {
     return Fault{{key, path, line, line > 0 ? 1 : 0}, std::move(problem), std::move(remedy)};
   };
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view row = trimmed(text.substr(0, end));
@@ -60,6 +84,10 @@ Result<std::vector<double>> parse_rows(std::string_view text, const RowShape& sh
     const bool fits = cells.size() == shape.columns;
     const bool names = names_may_come && fits && std::all_of(cells.begin(), cells.end(), is_name);
     names_may_come = false;
+    if (names && in_other_order(cells, shape)) {
+      return fault("has its columns in another order: " + clipped(std::string(row)),
+                   shape.write + ", in this order, in each line");
+    }
     if (names) continue;
     const std::size_t first = numbers.size();
     bool good = fits;

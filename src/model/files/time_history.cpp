@@ -19,7 +19,11 @@ double TimeHistory::at(double t, double otherwise) const {
 
 Result<TimeHistory> parse_time_history(std::string_view text, const std::string& path,
                                        const std::string& key) {
-  const RowShape shape{2, "two numbers", "write time,value", "0.5,1.0"};
+  const RowShape shape{2,
+                       "two numbers",
+                       "write time,value",
+                       "0.5,1.0",
+                       {{"time", "t"}, {"value", "factor", "rise"}}};
   const Result<std::vector<double>> rows = parse_rows(text, shape, path, key);
   if (!rows) return rows.faults();
   TimeHistory history;

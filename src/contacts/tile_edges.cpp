@@ -1,0 +1,60 @@
+#include "contacts/tile_edges.hpp"
+
+#include "contacts/edge_records.hpp"
+
+namespace edda {
+
+EDDA_VECTOR void place_edges(const Corners& c, const Id* blocks, std::size_t count, const Id* halo,
+                             std::size_t halo_count, const double* x, const double* y, double* to) {
+  const auto corner = [&](Id v) __attribute__((always_inline)) {
+    return Two{x[v], y[v]};
+  };
+  std::size_t base = 0;
+  for (std::size_t n = 0; n < count; ++n) {
+    const Id i = blocks[n], first = c.vertex_begin[i], last = c.vertex_begin[i + 1];
+    for (Id v = first; v < last; ++v) {
+      const Two p = corner(v);
+      *reinterpret_cast<Two*>(to + 4 * (base + (v - first))) = p;
+      *reinterpret_cast<Two*>(to + 4 * (base + (c.previous[v] - first)) + 2) = p;
+    }
+    base += last - first;
+  }
+  for (std::size_t n = 0; n < halo_count; ++n) {
+    const Id v = halo[n];
+    *reinterpret_cast<Two*>(to + 4 * (base + n)) = corner(v);
+    *reinterpret_cast<Two*>(to + 4 * (base + n) + 2) = corner(c.next[v]);
+  }
+}
+
+EDDA_VECTOR void gather_blocks(const Corners& c, const Id* blocks, std::size_t count,
+                               const std::uint8_t* wanted, const Id* record_begin,
+                               const double* records, NodeValues fx, NodeValues fy) {
+  const ConstNodeValues weight = c.weight;  // copies that no store can change
+  const Id* const next = c.next;
+  for (std::size_t n = 0; n < count; ++n) {
+    const Id i = blocks[n], first = c.vertex_begin[i], last = c.vertex_begin[i + 1];
+    if (wanted != nullptr && wanted[i] == 0) {
+      record_begin += last - first;
+      continue;
+    }
+    Four from_start_and_end[nodes_per_block] = {};  // x and y from the start, x and y from the end
+    for (Id e = first; e < last; ++e) {
+      const Id begin = *record_begin, end = *++record_begin;
+      if (begin == end) continue;
+      Four sum{};
+      for (std::size_t q = begin; q < end; ++q) sum += four_at(records + 4 * q);
+      const Id to = next[e];
+      for (std::size_t k = 0; k < nodes_per_block; ++k) {
+        const double w = weight[k][e], w_to = weight[k][to];
+        from_start_and_end[k] += Four{w, w, w_to, w_to} * sum;
+      }
+    }
+    for (std::size_t k = 0; k < nodes_per_block; ++k) {
+      const Four& both = from_start_and_end[k];
+      fx[k][i] = both[0] + both[2];
+      fy[k][i] = both[1] + both[3];
+    }
+  }
+}
+
+}  // namespace edda
