@@ -87,7 +87,7 @@ void share(std::size_t n, Body body, std::span<const std::size_t> weights = {}) 
 /// to i.
 template <class Body>
 void parallel_for(std::size_t n, Body body, std::size_t cost = 4) {
-  const std::size_t at_once = std::max<std::size_t>(1, 500 / cost);
+  const std::size_t at_once = worth_sharing > 1 ? std::max<std::size_t>(1, 500 / cost) : 1;
   if (n * cost < worth_sharing || n <= at_once) {
     for (std::size_t i = 0; i < n; ++i) body(i);
     return;

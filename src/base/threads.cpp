@@ -64,8 +64,9 @@ void ThreadChoice::stepped(double seconds) {
     trying_ = true;
     return begin(0);
   }
+  if (steps_ == 1) first_ = seconds;
   if (steps_ < trial_steps || spent_ < trial_seconds) return;
-  cost_[at_] = spent_ / static_cast<double>(steps_);
+  cost_[at_] = (spent_ - first_) / static_cast<double>(steps_ - 1);
   tried_ += spent_;
   if (at_ + 1 < candidates_.size()) return begin(at_ + 1);
   trying_ = false;

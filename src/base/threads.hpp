@@ -52,6 +52,7 @@ class ThreadChoice {
   bool trying_ = true;           ///< one after another; else the best of them is in use
   std::size_t steps_ = 0;        ///< since the last change
   double spent_ = 0.0;           ///< s since then
+  double first_ = 0.0;           ///< s: of it the first step, which may lay out memory anew
   double tried_ = 0.0,
          stay_ = 0.0;      ///< s: what this round of trials has taken, how long its choice holds
   double patience_ = 4.0;  ///< stay_ / tried_, of the next choice

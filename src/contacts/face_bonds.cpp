@@ -39,7 +39,10 @@ namespace {
 /// one from the beginning, so that its first step decides nothing of it (decide_activity()).
 void fit(FaceSet& c, const BlockSet& b, const Face& face, std::size_t k) {
   const double most = drawn_gap * smaller_size(c, b, k);
-  const auto correction = [&](double closure) { return std::abs(closure) > most ? 0.0 : -closure; };
+  const auto correction = [&](double closure) {
+    const double off = std::abs(closure);
+    return off > most || off <= c.noise ? 0.0 : -closure;
+  };
   c.locked_closure_a[k] += correction(face.closure.a);
   c.locked_closure_b[k] += correction(face.closure.b);
   c.before.gate[k] = face.gate;

@@ -100,8 +100,8 @@ std::vector<JointStress> preload_faces(FaceSet& c, const BlockSet& b, const Pose
     for (int pass = 0; pass < passes; ++pass) {
       const FaceEnds closure =
           closures_of(normal, c.stiffness[k] * drawn.length * drawn.gate, c.at_ends[k] > 0.0);
-      c.locked_closure_a[k] = more * closure.a - drawn.closure.a;
-      c.locked_closure_b[k] = more * closure.b - drawn.closure.b;
+      c.locked_closure_a[k] = more * closure.a - drawn.drawn.a;
+      c.locked_closure_b[k] = more * closure.b - drawn.drawn.b;
       face = face_at(c, b, pose.x, pose.y, k);
       const double pressing = dot(face.force.q1 + face.force.q2, n);
       if (pressing != 0.0) more *= std::clamp((normal.a + normal.b) / pressing, 0.5, 2.0);

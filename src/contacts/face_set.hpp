@@ -298,8 +298,8 @@ EDDA_INLINE FacePair face_pair(const Faces& c, const double* exterior_cosine,
   return p;
 }
 
-/// Gap, as a part of the smaller block's size, up to which blocks touch: their joint may be bonded,
-/// and has its peak strength.
+/// Gap, as a part of the smaller block's size, up to which blocks touch: a bond without tensile
+/// strength fails beyond it.
 inline constexpr double touching_gap = 1e-6;
 
 /// Size of the smaller of the two blocks: the square root of its area, m.

@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::string_view fall_check = "number of blocks that fell freely under local damping";
 constexpr std::string_view loose_check = "number of blocks that have come loose";
-constexpr std::string_view stage_check = "number of stages without the equilibrium they look for";
-constexpr std::string_view broken_check = "number of joints that broke as gravity acted at once";
+constexpr std::string_view stage_check = "number of stages that found no equilibrium";
+constexpr std::string_view broken_check = "number of joints that broke where gravity acted at once";
 constexpr std::string_view overlap_check = "largest overlap over half width of a block";
 constexpr std::string_view chatter_check =
     "number of times that contacts opened or closed while they chattered";
@@ -176,8 +176,8 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
   if (std::any_of(stages.begin(), stages.end(),
                   [](const Stage& s) { return s.to_equilibrium(); })) {
     checks.push_back(limited(std::string(loose_check), static_cast<double>(o.loose), 0.0));
-    checks.push_back(
-        limited(std::string(stage_check), o.status == Status::collapsed ? 1.0 : 0.0, 0.0));
+    checks.push_back(limited(std::string(stage_check),
+                             o.status == Status::collapsed && o.loose == 0 ? 1.0 : 0.0, 0.0));
   }
   if (std::any_of(stages.begin(), stages.end(),
                   [](const Stage& s) { return s.until == StageEnd::collapse; })) {
@@ -238,8 +238,9 @@ std::string message_of(const Check& check, const Simulation& sim, const Outcome&
   }
   if (check.name == broken_check) {
     text +=
-        ": forces oscillate up to about twice their values in equilibrium; begin with a [[stage]] "
-        "with until = \"equilibrium\"";
+        ": forces reach up to about twice their values in equilibrium then, so that joints may "
+        "break "
+        "which would hold; begin with a [[stage]] with until = \"equilibrium\"";
   }
   if (check.name == fall_check) {
     text +=

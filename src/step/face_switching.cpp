@@ -116,9 +116,12 @@ class Correction {
       pushed.insert(pushed.end(), g.pushed.begin(), g.pushed.end());
     std::sort(pushed.begin(), pushed.end());
     pushed.erase(std::unique(pushed.begin(), pushed.end()), pushed.end());
-    scratch_.found.clear();
-    access_.evaluate(pushed, scratch_.set, scratch_.found);
-    return find(scratch_.found);
+    std::vector<Id>& found = scratch_.found;
+    found.clear();
+    access_.evaluate(pushed, scratch_.set, found);
+    std::sort(found.begin(), found.end());  // a face of two pushed blocks is in there twice
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return find(found);
   }
 
   bool has_converged() const {

@@ -38,7 +38,7 @@ struct SwitchingFace {
   bool was_closed;     ///< at n - 1
   double own_work;  ///< work of the whole normal force on the displacement it makes in the step, J
   double alpha;     ///< activation factor: part of the normal force that acts
-  std::uint64_t corrected_at;  ///< value of `corrections` when it was last corrected
+  std::uint64_t corrected_at;  ///< SwitchingGroup::corrections when it was last corrected
   bool done;                   ///< it changed by less than the tolerance then
 };
 
@@ -78,7 +78,8 @@ struct FaceSwitchingScratch {
   Vec2 on_fixed;           ///< N: change of the forces on fixed blocks
 };
 
-/// The faces, wherever their state is kept.
+/// The faces, wherever their state is kept. switches() and before() are called for several faces
+/// at once.
 class FaceAccess {
  public:
   virtual ~FaceAccess() = default;

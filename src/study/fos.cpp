@@ -108,6 +108,7 @@ class Search {
   /// Tries a factor below the highest that holds, and searches on where it fails.
   FosBracket look_below(double factor) {
     bracket_.below = factor;
+    bracket_.widened = 0;
     return go();
   }
 
@@ -249,6 +250,10 @@ std::string look_beyond(double last, bool above, const RigidLimit& rigid) {
                      next.y);
 }
 
+bool any_of(const std::vector<Trial>& trials, TrialEnd end) {
+  return std::any_of(trials.begin(), trials.end(), [&](const Trial& t) { return t.end == end; });
+}
+
 void conclude(const FosBracket& bracket, const Fos& fos, bool stopped, const RigidLimit& rigid,
               FosResult& r) {
   if (bracket.holds) r.holds = bracket.low;
@@ -261,7 +266,9 @@ void conclude(const FosBracket& bracket, const Fos& fos, bool stopped, const Rig
     if (r.fails) r.message += fmt::format("; it fails at {:.6g}", *r.fails);
   } else if (!bracket.holds) {
     r.status = FosStatus::below;
-    r.message = fmt::format("the model fails at every factor tried, down to {:.6g}", *r.fails);
+    r.message =
+        fmt::format("the model fails at every factor tried{}, down to {:.6g}",
+                    any_of(r.trials, TrialEnd::holds) ? " below some that hold" : "", *r.fails);
     if (!rigid || rigid->largest.status != LimitEnd::no_equilibrium) {
       r.message += look_beyond(*r.fails, false, rigid);
     } else {
@@ -270,7 +277,9 @@ void conclude(const FosBracket& bracket, const Fos& fos, bool stopped, const Rig
     }
   } else if (!bracket.fails) {
     r.status = FosStatus::above;
-    r.message = fmt::format("the model holds at every factor tried, up to {:.6g}", *r.holds);
+    r.message =
+        fmt::format("the model holds at every factor tried{}, up to {:.6g}",
+                    any_of(r.trials, TrialEnd::fails) ? " above some that fail" : "", *r.holds);
     if (!rigid || rigid->largest.status != LimitEnd::no_limit) {
       r.message += look_beyond(*r.holds, true, rigid);
     } else if (strength) {
@@ -370,6 +379,7 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
     FosBracket bracket = search.go();
     if (const auto below = factor_below(bracket, rigid)) bracket = search.look_below(*below);
     search.finish();
+    bracket.below.reset();  // where the search was stopped before it, the factor is known
     const bool stopped = options.stop != nullptr && *options.stop && bracket.next();
     conclude(bracket, fos, stopped, rigid, r);
     const bool sound = r.failed && std::isfinite(r.failed->control.last_displacement) &&

@@ -52,7 +52,7 @@ struct FosBracket {
 
   /// Whether a trial of this factor may still add information.
   bool may_ask(double factor) const {
-    return factor == below || (!(holds && factor <= low) && !(fails && factor >= high));
+    return (below && factor <= *below) || (!(holds && factor <= low) && !(fails && factor >= high));
   }
 };
 

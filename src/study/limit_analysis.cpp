@@ -195,12 +195,13 @@ void add_mechanism(LimitResult& r, const Simulation& drawn, const RigidBlocks& r
                                     [&](const MovingBlock& m) { return pebbles[m.id] != 0; });
   if (!r.of_pebbles) return;
   const Id i = moves.front().id;
+  const std::string others =
+      moves.size() > 1 ? fmt::format(" and {} as small", counted(moves.size() - 1, "other")) : "";
   r.warnings.push_back(fmt::format(
-      "the mechanism moves {} alone, {:.3g} m in size, less than a tenth of the mean of all "
-      "blocks: "
-      "the limit is that of a pebble, which edda fos does not count; to find that of the others, "
-      "join it to a neighbour by [quality], or leave it out",
-      block_label(drawn.scene->blocks, i), std::sqrt(drawn.scene->blocks.area[i])));
+      "the mechanism moves {} ({:.3g} m in size, less than a tenth of the mean of all blocks){} "
+      "alone: the limit is that of a pebble, which edda fos does not count; to find that of larger "
+      "blocks, join pebbles to a neighbour by [quality], or leave them out",
+      block_label(drawn.scene->blocks, i), std::sqrt(drawn.scene->blocks.area[i]), others));
 }
 
 /// All but the largest value.

@@ -172,6 +172,27 @@ TEST(Stages, WhatCreepsBesideAWallIsLoose) {
   EXPECT_EQ(stands.message.find("loose"), std::string::npos) << stands.message;
 }
 
+/// Two blocks on a slope, which cohesion holds in equilibrium, but not what gravity does to them
+/// where it acts at once.
+TEST(Stages, GravityAtOnceBreaksWhatWouldHold) {
+  const auto check = [](const std::string& more) {
+    PreparedRun ready = prepared(
+        "gravity = [4.905, -8.496]\n[materials.rock]\ndensity = 2500\nyoung = 1e10\npoisson = "
+        "0.25\n"
+        "[joints.j]\nfriction_angle = 5\ncohesion = 12000\n[[block]]\nfixed = true\n"
+        "polygon = [[-10, -1], [20, -1], [20, 0], [-10, 0]]\n"
+        "[[block]]\npolygon = [[0, 0], [2, 0], [2, 1], [0, 1]]\n"
+        "[[block]]\npolygon = [[2, 0], [4, 0], [4, 1], [2, 1]]\n" +
+        more);
+    const Outcome o = run(ready);
+    return std::count_if(o.failed_checks.begin(), o.failed_checks.end(), [](const auto& s) {
+      return s.find("joints that broke where gravity acted at once") < s.size();
+    });
+  };
+  EXPECT_EQ(check("[solver]\nduration = 0.3\n"), 1);
+  EXPECT_EQ(check("[[stage]]\nuntil = 'equilibrium'\n"), 0);
+}
+
 /// Blocks that have come loose are left out, or end the run.
 TEST(Stages, LooseBlocksMayEndTheRun) {
   const auto ends = [](const std::string& otherwise) {

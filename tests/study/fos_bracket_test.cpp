@@ -38,7 +38,8 @@ TEST(FosBracket, GoesOnBelowAFactorThatFails) {
   FosBracket b{1.0, 2.0, 0.25};
   for (const double factor : {1.0, 2.0, 1.5, 1.75}) b.take(factor, factor < 1.6);
   b.below = 1.2;
-  EXPECT_TRUE(b.may_ask(1.2));
+  EXPECT_TRUE(b.may_ask(1.2) && b.may_ask(0.6));
+  EXPECT_FALSE(b.may_ask(1.3));
   const std::vector<double> factors = asked(b, 1.1), expected{1.2, 0.6, 0.9, 1.05};
   ASSERT_EQ(factors.size(), expected.size());
   for (std::size_t i = 0; i < factors.size(); ++i) EXPECT_DOUBLE_EQ(factors[i], expected[i]);

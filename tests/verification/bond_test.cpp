@@ -96,8 +96,6 @@ TEST(CohesiveRamp, HoldsAboveAndGoesBelowTheCriticalCohesion) {
   }
 }
 
-/// The same with the friction of rough joints and default damping: a stage until equilibrium
-/// applies the weight gradually.
 /// Coordinates as typed leave gaps and overlaps: here of 0.3 mm all along, or at one end.
 TEST(CohesiveRamp, HoldsHoweverCoordinatesAreRounded) {
   for (const Vec2 off : {Vec2{3e-4, 3e-4}, {-3e-4, -3e-4}, {3e-4, 0.0}, {0.0, -3e-4}}) {
@@ -118,6 +116,8 @@ TEST(CohesiveRamp, HoldsHoweverCoordinatesAreRounded) {
   }
 }
 
+/// The same with the friction of rough joints and default damping: a stage until equilibrium
+/// applies the weight gradually.
 TEST(CohesiveRamp, TheCriticalCohesionIsThatOfRoughJointsToo) {
   for (const auto& [alpha, phi] :
        {std::pair{30.0, 20.0}, {30.0, 25.0}, {45.0, 30.0}, {45.0, 40.0}}) {

@@ -232,5 +232,20 @@ TEST(InitialStress, WhatDoesNotMatchMoves) {
   EXPECT_GT(loose.accounts.initial->unbalanced, 1e-2);
 }
 
+/// A bonded joint that is drawn with a gap of 0.3 mm is pressed as one without.
+TEST(InitialStress, PressesBondedJointsHoweverTheyAreDrawn) {
+  for (const double gap : {0.0, 3e-4, -3e-4}) {
+    Simulation sim = scene(
+        "gravity = [0, 0]\n[materials.rock]\ndensity = 2500\nyoung = 1e10\npoisson = 0.0\n"
+        "[joints.j]\nfriction_angle = 30\ncohesion = 1e5\n[initial_stress]\n"
+        "stress = [0.0, -1e6, 0.0]\n[solver]\nduration = 0.02\n[[block]]\nfixed = true\n"
+        "polygon = [[-1, -1], [3, -1], [3, 0], [-1, 0]]\n[[block]]\nfixed = true\n"
+        "polygon = [[-1, 1], [3, 1], [3, 2], [-1, 2]]\n[[block]]\npolygon = [[0, " +
+        number(gap) + "], [2, " + number(gap) + "], [2, 1], [0, 1]]\n");
+    run(sim, [](Simulation&) {});
+    EXPECT_LT(norm(displacement(sim, 2)), 1e-8) << gap;
+  }
+}
+
 }  // namespace
 }  // namespace edda::initial_stress_test
