@@ -13,49 +13,13 @@
 #include "run/wall_clock.hpp"
 #include "step/labels.hpp"
 #include "study/fos_bracket.hpp"
+#include "study/fos_rigid.hpp"
 #include "study/fos_start.hpp"
 #include "study/likely_factors.hpp"
-#include "study/limit_analysis.hpp"
 #include "study/side_by_side.hpp"
 
 namespace edda {
 namespace {
-
-using RigidLimit = std::optional<LimitResult>;
-
-/// The limits of rigid blocks; nothing where there is no such analysis.
-RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks) {
-  constexpr std::size_t most_blocks = 5000;  // for which it takes a small part of the search
-  if (fos.varied == Varied::shaking || blocks > most_blocks) return {};
-  Result<LimitResult> found = limit_analysis(model);
-  if (!found.ok()) return {};
-  found.value().drawn.reset();
-  found.value().moved.reset();
-  return std::move(found.value());
-}
-
-Vec2 around(double limit) {
-  return {0.5 * limit, 2.0 * limit};
-}
-
-/// The bracket of [fos]; where that is the default, from which the search would not get as far as
-/// the limit of rigid blocks, one around this limit, unless a trial `seen` contradicts it.
-FosBracket first_bracket(const Fos& fos, const RigidLimit& rigid, const std::vector<Trial>& seen) {
-  const double reach = std::exp2(FosBracket::widest - 1);
-  const Vec2 given = fos.bracket;
-  const FosBracket usual{given.x, given.y, fos.tolerance};
-  if (given != Fos{}.bracket || !rigid || rigid->largest.status != LimitEnd::found ||
-      rigid->of_pebbles)
-    return usual;
-  const double limit = rigid->largest.lower;
-  if (!(limit > 0.0) || (limit >= given.x / reach && limit <= given.y * reach)) return usual;
-  const bool agrees = std::all_of(seen.begin(), seen.end(), [&](const Trial& trial) {
-    return (trial.end == TrialEnd::holds) == (trial.factor < limit);
-  });
-  if (!agrees) return usual;
-  const Vec2 moved = around(limit);
-  return {moved.x, moved.y, fos.tolerance};
-}
 
 bool is_moved(const FosBracket& begin, const Fos& fos) {
   return begin.low != fos.bracket.x || begin.high != fos.bracket.y;
@@ -305,24 +269,6 @@ Simulation at_start(const Simulation& rest, const Simulation& later) {
                    start.motion.pose.x, start.motion.pose.y);
   }
   return start;
-}
-
-/// The lowest limit, of joints that slide without dilating and of those that have broken.
-double least_limit(const LimitResult& limit) {
-  const double most = limit.largest.upper;
-  return std::min(
-      {limit.largest.lower, limit.without_dilation.value_or(most), limit.residual.value_or(most)});
-}
-
-/// Between the lowest limit of rigid blocks and the highest factor that holds, where there is room:
-/// the model may fail there, too, since how it comes to rest depends on what its joints have done.
-std::optional<double> factor_below(const FosBracket& bracket, const RigidLimit& limit) {
-  constexpr double worth = 0.95;
-  if (!limit || limit->largest.status != LimitEnd::found) return {};
-  const double least = least_limit(*limit);
-  const bool room = bracket.holds && bracket.fails && least > 0.0 && least < worth * bracket.low;
-  if (!room || limit->of_pebbles) return {};
-  return std::sqrt(least * bracket.low);
 }
 
 /// Compares the factor, or the highest one that holds where none fails, with the limits of rigid

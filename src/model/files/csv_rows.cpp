@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/text.hpp"
+#include "model/table/nearest.hpp"
 
 namespace edda {
 namespace {
@@ -85,7 +86,7 @@ Result<std::vector<double>> parse_rows(std::string_view text, const RowShape& sh
     const bool names = names_may_come && fits && std::all_of(cells.begin(), cells.end(), is_name);
     names_may_come = false;
     if (names && in_other_order(cells, shape)) {
-      return fault("has its columns in another order: " + clipped(std::string(row)),
+      return fault("has its columns in another order: " + clipped(row),
                    shape.write + ", in this order, in each line");
     }
     if (names) continue;

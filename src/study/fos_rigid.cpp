@@ -1,0 +1,51 @@
+#include "study/fos_rigid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace edda {
+
+RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks) {
+  constexpr std::size_t most_blocks = 5000;  // for which it takes a small part of the search
+  if (fos.varied == Varied::shaking || blocks > most_blocks) return {};
+  Result<LimitResult> found = limit_analysis(model);
+  if (!found.ok()) return {};
+  found.value().drawn.reset();
+  found.value().moved.reset();
+  return std::move(found.value());
+}
+
+FosBracket first_bracket(const Fos& fos, const RigidLimit& rigid, const std::vector<Trial>& seen) {
+  const double reach = std::exp2(FosBracket::widest - 1);
+  const Vec2 given = fos.bracket;
+  const FosBracket usual{given.x, given.y, fos.tolerance};
+  if (given != Fos{}.bracket || !rigid || rigid->largest.status != LimitEnd::found ||
+      rigid->of_pebbles)
+    return usual;
+  const double limit = rigid->largest.lower;
+  if (!(limit > 0.0) || (limit >= given.x / reach && limit <= given.y * reach)) return usual;
+  const bool agrees = std::all_of(seen.begin(), seen.end(), [&](const Trial& trial) {
+    return (trial.end == TrialEnd::holds) == (trial.factor < limit);
+  });
+  if (!agrees) return usual;
+  const Vec2 moved = around(limit);
+  return {moved.x, moved.y, fos.tolerance};
+}
+
+double least_limit(const LimitResult& limit) {
+  const double most = limit.largest.upper;
+  return std::min(
+      {limit.largest.lower, limit.without_dilation.value_or(most), limit.residual.value_or(most)});
+}
+
+std::optional<double> factor_below(const FosBracket& bracket, const RigidLimit& limit) {
+  constexpr double worth = 0.95;
+  if (!limit || limit->largest.status != LimitEnd::found) return {};
+  const double least = least_limit(*limit);
+  const bool room = bracket.holds && bracket.fails && least > 0.0 && least < worth * bracket.low;
+  if (!room || limit->of_pebbles) return {};
+  return std::sqrt(least * bracket.low);
+}
+
+}  // namespace edda

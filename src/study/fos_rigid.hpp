@@ -1,0 +1,36 @@
+// What rigid limit analysis tells a search for the factor of safety: where to begin, and where else
+// to look.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "study/fos_bracket.hpp"
+#include "study/fos_trial.hpp"
+#include "study/limit_analysis.hpp"
+
+namespace edda {
+
+using RigidLimit = std::optional<LimitResult>;
+
+/// The limits of rigid blocks; nothing where there is no such analysis.
+RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks);
+
+/// A bracket around a limit.
+inline Vec2 around(double limit) {
+  return {0.5 * limit, 2.0 * limit};
+}
+
+/// The bracket of [fos]; where that is the default, from which the search would not get as far as
+/// the limit of rigid blocks, one around this limit, unless a trial `seen` contradicts it.
+FosBracket first_bracket(const Fos& fos, const RigidLimit& rigid, const std::vector<Trial>& seen);
+
+/// The lowest limit, of joints that slide without dilating and of those that have broken.
+double least_limit(const LimitResult& limit);
+
+/// Between the lowest limit of rigid blocks and the highest factor that holds, where there is room:
+/// the model may fail there, too, since how it comes to rest depends on what its joints have done.
+std::optional<double> factor_below(const FosBracket& bracket, const RigidLimit& limit);
+
+}  // namespace edda
