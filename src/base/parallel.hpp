@@ -83,21 +83,6 @@ void share(std::size_t n, Body body, std::span<const std::size_t> weights = {}) 
   }
 }
 
-/// Calls body(i) for i in [0, n), in parallel; cost: of each, ns. body must write only what belongs
-/// to i.
-template <class Body>
-void parallel_for(std::size_t n, Body body, std::size_t cost = 4) {
-  const std::size_t at_once = worth_sharing > 1 ? std::max<std::size_t>(1, 500 / cost) : 1;
-  if (n * cost < worth_sharing || n <= at_once) {
-    for (std::size_t i = 0; i < n; ++i) body(i);
-    return;
-  }
-  share((n + at_once - 1) / at_once, [&](std::size_t q) {
-    const std::size_t end = std::min(n, (q + 1) * at_once);
-    for (std::size_t i = q * at_once; i < end; ++i) body(i);
-  });
-}
-
 /// Calls body(chunk, begin, end) for [0, n) cut into chunks of `size`, in parallel; cost: of each
 /// element, ns. body must write only what belongs to its chunk.
 template <class Body>
@@ -109,6 +94,16 @@ void parallel_chunks(std::size_t n, std::size_t size, std::size_t cost, Body bod
     return;
   }
   share(chunks, of_chunk);
+}
+
+/// Calls body(i) for i in [0, n), in parallel; cost: of each, ns. body must write only what belongs
+/// to i.
+template <class Body>
+void parallel_for(std::size_t n, Body body, std::size_t cost = 4) {
+  const std::size_t at_once = worth_sharing > 1 ? std::max<std::size_t>(1, 500 / cost) : 1;
+  parallel_chunks(n, at_once, cost, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  });
 }
 
 /// Calls body(task, scratch) for tasks in [0, n), in parallel; cost: of all of them, ns. scratch:
@@ -135,14 +130,15 @@ void parallel_tasks(std::size_t n, std::size_t cost, std::vector<Scratch>& scrat
 template <class Term>
 double ordered_sum(std::size_t n, Term term) {
   constexpr std::size_t chunk = 4096;
-  if (n <= chunk) {
+  const auto sum_of = [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < n; ++i) sum += term(i);
+    for (std::size_t i = begin; i < end; ++i) sum += term(i);
     return sum;
-  }
+  };
+  if (n <= chunk) return sum_of(0, n);
   std::vector<double> partial((n + chunk - 1) / chunk, 0.0);
   parallel_chunks(n, chunk, 2, [&](std::size_t c, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) partial[c] += term(i);
+    partial[c] = sum_of(begin, end);
   });
   double sum = 0.0;
   for (double p : partial) sum += p;
