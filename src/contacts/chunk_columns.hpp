@@ -51,9 +51,9 @@ EDDA_INLINE ChunkColumns columns_of(const ChunkView& v) {
                  v.f_then,
                  v.mass_e,
                  v.mass_f,
-                 v.was,
-                 1.0 / v.step,
-                 v.noise};
+                 v.of->was[v.chunk],
+                 v.of->per_step,
+                 v.of->noise};
   if constexpr (tables != Tables::constants_alone) {
     c.before = columns_from<FaceMemoryColumns<const double*>>(v.before);
     c.memory = columns_from<FaceMemoryColumns<double*>>(v.memory);

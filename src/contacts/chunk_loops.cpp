@@ -256,12 +256,13 @@ EDDA_INLINE ChunkFound evaluate_lanes(const ChunkView& given) {
   for (std::size_t k = 0; k < lanes; ++k) {
     evaluate_lane<dashpots, use, books>(c, k, on_e, on_f, state, found, deepest);
   }
-  const ChunkFound all = conclude(given.was, {state, found, deepest}, dashpots);
+  const ChunkFound all = conclude(c.was, {state, found, deepest}, dashpots);
   const LaneBits unfit = (use == Formulas::plain ? lane_bits::field(lane_bits::rare) : 0) |
                          (books ? 0 : lane_bits::field(lane_bits::busy));
   if ((all.found & unfit) == 0) {
-    store_records(given.on, given.record_e, on_e);
-    store_records(given.on, given.record_f, on_f);
+    const SweepTables& of = *given.of;
+    store_records(of.on, of.record_e + given.chunk * lanes, on_e);
+    store_records(of.on, of.record_f + given.chunk * lanes, on_f);
   }
   return all;
 }
@@ -285,6 +286,25 @@ EDDA_INLINE ChunkFound look_at_lanes(const ChunkView& given) {
   return {bits, asking, 0.0};
 }
 }  // namespace
+
+SweepTables tables_of(FaceTiles& t, std::size_t tile, double* on, double step, double noise) {
+  const int now = t.now, old = 1 - t.now;
+  return {.edges = t.constants[tile].edges.data(),
+          .strengths = t.constants[tile].strengths.data(),
+          .edge_set = t.edge_set.data(),
+          .strength_set = t.strength_set.data(),
+          .before = t.memory[old].data(),
+          .damped_before = t.dashpots[old].data(),
+          .memory = t.memory[now].data(),
+          .damped = t.dashpots[now].data(),
+          .work = t.work[now].data(),
+          .record_e = t.record_e.data(),
+          .record_f = t.record_f.data(),
+          .was = t.bits[old].data(),
+          .on = on,
+          .per_step = 1.0 / step,
+          .noise = noise};
+}
 
 EDDA_VECTOR void stand_edges(const ChunkView& given, const double* at, const Id* slot_e,
                              const Id* slot_f) {

@@ -1,6 +1,8 @@
 // The loops over the eight faces of a chunk (contacts/face_tiles.hpp).
 #pragma once
 
+#include <array>
+
 #include "contacts/edge_records.hpp"
 #include "contacts/face_tiles.hpp"
 
@@ -24,20 +26,51 @@ struct OverlapColumns {
 };
 inline constexpr std::size_t overlap_columns = sizeof(OverlapColumns<double>) / sizeof(double);
 
-/// A chunk of faces, as its loop reads and writes it: tables of [columns][8].
-struct ChunkView {
-  const double *edges, *strengths;       ///< EdgeConstants, StrengthConstants
+/// What the loops over the chunks of a tile read and write: tables of [chunks][columns][8].
+struct SweepTables {
+  const double *edges, *strengths;       ///< EdgeConstants, StrengthConstants: by sets
+  const Id *edge_set, *strength_set;     ///< [chunks]
   const double *before, *damped_before;  ///< FaceMemoryColumns, DashpotMemoryColumns
   double *memory, *damped;
-  double* work;      ///< FaceWorkColumns
-  double* stands;    ///< StandColumns
-  double* overlaps;  ///< OverlapColumns
-  const Records *e, *f, *e_then, *f_then, *mass_e, *mass_f;
+  double* work;  ///< FaceWorkColumns
   const Id *record_e, *record_f;
-  double* on;  ///< records of the forces on the edges
-  LaneBits was;
-  double step, noise;
+  const LaneBits* was;  ///< [chunks]
+  double* on;           ///< records of the forces on the edges
+  double per_step, noise;
 };
+/// on: records of the forces, where they are stored. step: s.
+SweepTables tables_of(FaceTiles& tiles, std::size_t tile, double* on, double step, double noise);
+
+/// The corners of faces whose corners do not count: what is multiplied by them is 0.
+inline constexpr Records no_corners{};
+
+/// A chunk of faces, as its loop reads and writes it. The pointers are those of its own columns.
+struct ChunkView {
+  const SweepTables* of;
+  std::size_t chunk;
+  const double *edges, *strengths, *before, *damped_before;
+  double *memory, *damped, *work;
+  double *stands, *overlaps;  ///< StandColumns, OverlapColumns
+  const Records *e = &no_corners, *f = &no_corners;
+  const Records *e_then = &no_corners, *f_then = &no_corners;
+  const Records *mass_e = &no_corners, *mass_f = &no_corners;
+};
+inline ChunkView view_of(const SweepTables& t, std::size_t chunk, double* stands,
+                         double* overlaps) {
+  const std::size_t memory = chunk * memory_columns * lanes,
+                    dashpots = t.damped != nullptr ? chunk * dashpot_memory_columns * lanes : 0;
+  return {&t,
+          chunk,
+          t.edges + t.edge_set[chunk] * edge_columns * lanes,
+          t.strengths + t.strength_set[chunk] * strength_columns * lanes,
+          t.before + memory,
+          t.damped_before + dashpots,
+          t.memory + memory,
+          t.damped + dashpots,
+          t.work + chunk * work_columns * lanes,
+          stands,
+          overlaps};
+}
 
 /// What a loop has found: the bits to be remembered and those of the step (lane_bits), and the
 /// largest depth, m.
@@ -74,14 +107,18 @@ ChunkFound look_at_damped(const ChunkView& chunk);
 /// Reads the records of the edges of a chunk.
 void read_edges(const double* from, const Id* slot_e, const Id* slot_f, Records& e, Records& f);
 
+/// Margins by which the corners of faces that rest may stray, m, ascending (TileSleep::margins).
+using RestMargins = std::array<double, rest_levels>;
+
 /// What can happen to the faces of a chunk that have carried nothing for two steps; bits of lanes.
 struct OpenLanes {
-  unsigned near;  ///< a corner touches the other edge
-  unsigned stay;  ///< nothing changes that counts: no state but that of the corners, and no force
+  LaneBits near;  ///< a corner touches the other edge
+  LaneBits stay;  ///< a field of bits for each margin: nothing changes that counts, no state but
+                  ///< that of the corners, and no force
 };
 /// `was` of the chunk is that of the step before. `stay` holds for so many steps in each of which
 /// the ends of the edges move by e_then and f_then of the chunk (m), as long as none of them strays
-/// from there by more than `margin` (m).
-OpenLanes open_lanes(const ChunkView& chunk, double margin, double steps);
+/// from there by more than the margin.
+OpenLanes open_lanes(const ChunkView& chunk, const RestMargins& margins, double steps);
 
 }  // namespace edda

@@ -125,6 +125,7 @@ void resize_chunks(FaceTiles& t, std::size_t chunks, bool dashpots) {
   t.owned.assign(chunks, 0);
   t.plain.assign(chunks, 1);
   t.bonds.assign(chunks, 0);
+  t.rest.assign(chunks, 0.0);
   t.edge_set.assign(chunks, 0);
   t.strength_set.assign(chunks, 0);
   resize_afresh(t.sums, chunks * sum_columns * lanes);

@@ -96,7 +96,7 @@ constexpr bool test(LaneBits bits, unsigned of, std::size_t lane) {
 
 /// What a face does, in the order in which faces lie in their tile: carries load by the short
 /// formulas (is_plain()) and by the long ones, at rest and with work; touches, is looked at,
-/// sleeps.
+/// rests, sleeps.
 namespace face_kind {
 enum Kind : std::uint8_t {
   short_rest,
@@ -105,31 +105,37 @@ enum Kind : std::uint8_t {
   long_rest,
   touching,
   looked_at,
+  resting,
   asleep
 };
 }
-inline constexpr std::size_t face_kinds = 7;
+inline constexpr std::size_t face_kinds = 8;
+inline constexpr unsigned rest_levels = 2;  ///< of the last kinds
 
 using AlignedNumbers = std::vector<double, InWholeLines<double>>;
 
-/// How long the faces of a tile that sleep may do so: until a vertex of its edges has left its
-/// straight path by more than `margin`, or for a number of steps.
+/// How long the faces of a tile that rest or sleep may do so: until a corner of theirs has left its
+/// straight path by more than the margin of their chunk (FaceTiles::rest), or for a number of
+/// steps.
 struct TileSleep {
-  double margin = 0.0;   ///< m
-  double strayed = 0.0;  ///< m: upper bound of the distance of any vertex from its path
-  double fastest = 0.0;  ///< m: motion along the paths in a step, of any vertex
-  unsigned age = 0;      ///< sweeps since it was decided who sleeps, as many as steps or more
-  unsigned length = 32;  ///< steps for which they may do so
-  bool calm = false;     ///< few faces did otherwise then than before
-  bool over = true;      ///< that must be decided anew
-  AlignedNumbers from;   ///< [slots][4] where the ends of the edges were then, m
-  AlignedNumbers pace;   ///< [slots][4] how far they had come in the last step, m
+  double margin = 0.0;     ///< m, of those that sleep; where one of them would wake, it is over
+  double strayed = 0.0;    ///< m: upper bound of the distance of any vertex from its path
+  double least = 0.0;      ///< m: smallest of `allowed`
+  double fastest = 0.0;    ///< m: motion along the paths in a step, of any vertex
+  unsigned age = 0;        ///< sweeps since it was decided who sleeps, as many as steps or more
+  unsigned length = 32;    ///< steps for which they may do so
+  bool calm = false;       ///< few faces did otherwise then than before
+  bool over = true;        ///< that must be decided anew
+  AlignedNumbers from;     ///< [slots][4] where the ends of the edges were then, m
+  AlignedNumbers pace;     ///< [slots][4] how far they had come in the last step, m
+  AlignedNumbers allowed;  ///< [slots] by how much they may stray, m
 
   /// Nothing is decided; keeps the memory of its arrays.
   void begin_anew() {
     TileSleep next;
     next.from.swap(from);
     next.pace.swap(pace);
+    next.allowed.swap(allowed);
     *this = std::move(next);
   }
 };
@@ -164,7 +170,9 @@ struct FaceTiles {
   std::vector<std::uint8_t> owned;  ///< [chunks] bit of each lane: this copy's work counts
   std::vector<std::uint8_t>
       plain;  ///< [chunks] 1: is_plain() held for all its faces in the last step
-  std::vector<std::uint8_t> bonds;     ///< [chunks] as FaceSet::bonds
+  std::vector<std::uint8_t> bonds;  ///< [chunks] as FaceSet::bonds
+  std::vector<double> rest;  ///< [chunks] m: nobody looks at its faces until a corner of theirs has
+                             ///< strayed by more than that (TileSleep); 0: they are looked at
   std::vector<std::uint8_t> idle[2];   ///< [chunks] 1: no face carried load in that step
   std::vector<std::uint8_t> fresh[2];  ///< [chunks] 1: `work` holds the work of that step
 

@@ -17,6 +17,12 @@ EDDA_INLINE Between reversed(const Between& b) {
   return {-1.0 * b.w, -1.0 * b.pace};
 }
 
+/// Outward normal of an edge with the direction w, of length 1.
+EDDA_INLINE Vec2 normal_of(Vec2 w) {
+  const double length = norm(w);
+  return (1.0 / (length > 0.0 ? length : 1.0)) * outward_normal(w);
+}
+
 /// The way of corners for so many steps, in which each may stray from its straight path by up to
 /// `margin` (m).
 struct OnTheWay {
@@ -50,7 +56,8 @@ struct OnTheWay {
 /// which g changes, over |g|; so a vector along t changes by its length times about that beside its
 /// own change. The edges do not overlap as long as p2 lies before q2 along t, or q1 before p1.
 /// Where all of f lies beyond all of e along n, their surfaces stay apart as long as n turns by
-/// less than a right angle.
+/// less than a right angle; the same holds along the normals of e and of f, of which one parts the
+/// edges wherever they do not cross.
 EDDA_INLINE bool stays_as_it_is(const ChunkColumns& c, const FacePair& pair, const EdgeGeometry& o,
                                 std::size_t k, const FacePoints& at, const FacePoints& pace,
                                 const OnTheWay& way) {
@@ -74,8 +81,12 @@ EDDA_INLINE bool stays_as_it_is(const ChunkColumns& c, const FacePair& pair, con
   const bool begins = way.ahead(t, turn, reversed(p2_q2)), ends = way.ahead(t, turn, p1_q1);
   const bool opposed =
       firm & (faces_by - stretch * change > 0.0) & e_goes_on & f_goes_back & begins & ends;
-  const double gap = smaller(smaller(way.least_along(n, p1_q1), way.least_along(n, p2_q1)),
-                             smaller(way.least_along(n, p1_q2), way.least_along(n, p2_q2)));
+  const auto gap_along = [&](Vec2 m) __attribute__((always_inline)) {
+    return smaller(smaller(way.least_along(m, p1_q1), way.least_along(m, p2_q1)),
+                   smaller(way.least_along(m, p1_q2), way.least_along(m, p2_q2)));
+  };
+  const double gap =
+      larger(gap_along(n), larger(gap_along(normal_of(e.w)), gap_along(normal_of(f.w))));
   const double locked = positive_part(larger(pair.offset.a, pair.offset.b));
   const bool open = opposed & (gap > locked) & (pair.stiffness > 0.0);
   const bool loose = (c.bonded[k] == 0.0) & (pair.carries_tension == 0.0);
@@ -90,24 +101,30 @@ EDDA_INLINE bool touches_as_drawn(const FacePair& pair, const EdgeGeometry& o, d
   return (o.cosine > pair.gate_from) & (o.mb > o.ma) & (most > -noise);
 }
 
-EDDA_INLINE void look_at_lane(const ChunkColumns& c, std::size_t k, const OnTheWay& way,
-                              LaneBits& stay, LaneBits& near) {
+EDDA_INLINE void look_at_lane(const ChunkColumns& c, std::size_t k, const RestMargins& margins,
+                              double steps, LaneBits& stay, LaneBits& near) {
   const FacePair pair = pair_of(c, k);
   const FacePoints at = points_of(*c.e, *c.f, k), pace = points_of(*c.e_then, *c.f_then, k);
   const EdgeGeometry o = geometry_of_edges(at, pair);
   const LaneBits bit = bit_of_lane[k];
-  stay |= stays_as_it_is(c, pair, o, k, at, pace, way) ? bit : 0;
+  const auto stays_at = [&](unsigned level) __attribute__((always_inline)) {
+    const OnTheWay way{steps, margins[level]};
+    return stays_as_it_is(c, pair, o, k, at, pace, way) ? bit << lanes * level : 0;
+  };
+  static_assert(rest_levels == 2);  // no loop within a loop over lanes
+  stay |= stays_at(0) | stays_at(1);
   near |= touches_as_drawn(pair, o, c.noise) ? bit : 0;
 }
 
 }  // namespace
 
-EDDA_VECTOR OpenLanes open_lanes(const ChunkView& given, double margin, double steps) {
+EDDA_VECTOR OpenLanes open_lanes(const ChunkView& given, const RestMargins& margins, double steps) {
   const ChunkColumns c = columns_of<Tables::constants_alone>(given);
+  const RestMargins copy = margins;
   LaneBits stay = 0, near = 0;
 #pragma omp simd reduction(| : stay, near)
-  for (std::size_t k = 0; k < lanes; ++k) look_at_lane(c, k, {steps, margin}, stay, near);
-  return {static_cast<unsigned>(near), static_cast<unsigned>(stay)};
+  for (std::size_t k = 0; k < lanes; ++k) look_at_lane(c, k, copy, steps, stay, near);
+  return {near, stay};
 }
 
 }  // namespace edda

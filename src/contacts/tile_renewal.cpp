@@ -22,7 +22,7 @@ std::vector<std::uint8_t> kinds_of(const FaceTiles& t) {
         const auto found = [&](unsigned of) {
           return lane_bits::test(t.found[t.now][q], of, lane);
         };
-        if (q >= tile.awake_end) {
+        if (t.rest[q] > 0.0) {
           kind[k] = face_kind::asleep;
         } else if (found(lane_bits::works)) {
           kind[k] = kind_of_working(!found(lane_bits::rare), found(lane_bits::busy));

@@ -16,21 +16,82 @@ namespace {
 /// alike: the more where little changes.
 constexpr unsigned shortest_sleep = 32, longest_sleep = 256;
 
-/// Largest component of at - from - age pace.
-EDDA_VECTOR double largest_component(const double* at, const double* from, const double* pace,
-                                     double age, std::size_t count) {
-  double largest = 0.0;
-#pragma omp simd reduction(max : largest)
-  for (std::size_t n = 0; n < count; ++n) {
-    largest = larger(largest, std::abs(at[n] - from[n] - age * pace[n]));
-  }
-  return largest;
+/// Faces rest by this part of the margin by which others sleep.
+constexpr double rest_part = 0.2;
+
+RestMargins margins_of(const SweepScene& scene, const TileSleep& sleep) {
+  return {std::max(rest_part * sleep.margin, scene.least_margin),
+          std::max(sleep.margin, scene.least_margin)};
 }
 
-/// Upper bound of the distance of any vertex from its path, m.
-double distance_strayed(const TileSleep& sleep, const SweepScratch& scratch) {
-  return std::numbers::sqrt2 * largest_component(scratch.at.data(), sleep.from.data(),
-                                                 sleep.pace.data(), sleep.age, sleep.from.size());
+constexpr double without_end = 1e300;
+
+/// A distance is at most its larger component over this.
+constexpr double per_component = 1.0 / std::numbers::sqrt2;
+
+EDDA_INLINE Four size_of(Four x) {
+  return x < 0.0 ? -x : x;
+}
+EDDA_INLINE double largest_of(Four x) {
+  return larger(larger(x[0], x[1]), larger(x[2], x[3]));
+}
+
+/// How far the ends of an edge have strayed from their paths, by components, m.
+EDDA_INLINE Four strayed_at(const double* at, const double* from, const double* pace, double age,
+                            std::size_t slot) {
+  return size_of(four_at(at + 4 * slot) - four_at(from + 4 * slot) -
+                 age * four_at(pace + 4 * slot));
+}
+
+/// Edges that are looked at together.
+constexpr std::size_t run = 16;
+
+/// Returns the largest component of all edges. excess: of each run, by how much an edge has strayed
+/// farther than it is allowed; 0: none has.
+EDDA_VECTOR double look_for_strayed(const double* at, const double* from, const double* pace,
+                                    double age, const double* allowed, std::size_t edges,
+                                    double* excess) {
+  Four largest{};
+  for (std::size_t begin = 0; begin < edges; begin += run) {
+    const std::size_t end = begin + run < edges ? begin + run : edges;
+    Four beyond{};
+    for (std::size_t n = begin; n < end; ++n) {
+      const Four off = strayed_at(at, from, pace, age, n), over = off - per_component * allowed[n];
+      largest = off > largest ? off : largest;
+      beyond = over > beyond ? over : beyond;
+    }
+    *excess++ = largest_of(beyond);
+  }
+  return largest_of(largest);
+}
+
+/// Upper bound of how far any vertex has strayed, m. Fills SweepScratch::excess.
+double look_for_strayed(const TileSleep& sleep, SweepScratch& scratch) {
+  const std::size_t edges = sleep.from.size() / 4;
+  scratch.excess.resize((edges + run - 1) / run);
+  return look_for_strayed(scratch.at.data(), sleep.from.data(), sleep.pace.data(), sleep.age,
+                          sleep.allowed.data(), edges, scratch.excess.data()) /
+         per_component;
+}
+
+/// Fills SweepScratch::too_far. Returns whether there is any such edge, and allows those all.
+bool note_strayed(TileSleep& sleep, SweepScratch& scratch) {
+  const std::size_t edges = sleep.from.size() / 4;
+  bool any = false;
+  for (std::size_t r = 0; r < scratch.excess.size(); ++r) {
+    if (scratch.excess[r] == 0.0) continue;
+    if (!any) scratch.too_far.assign(sleep.allowed.size(), 0.0);
+    any = true;
+    for (std::size_t n = r * run; n < std::min(edges, (r + 1) * run); ++n) {
+      const double off = largest_of(strayed_at(scratch.at.data(), sleep.from.data(),
+                                               sleep.pace.data(), sleep.age, n)) /
+                         per_component;
+      if (off <= sleep.allowed[n]) continue;
+      scratch.too_far[n] = off;
+      sleep.allowed[n] = without_end;
+    }
+  }
+  return any;
 }
 
 /// The wider the margin, the fewer faces sleep; the narrower, the more often that is decided anew:
@@ -44,9 +105,9 @@ double next_margin(const TileSleep& sleep, double strayed, double least) {
       least);
 }
 
-void begin_sleep(const SweepScene& scene, TileSleep& sleep, const SweepScratch& scratch,
+void begin_sleep(const SweepScene& scene, TileSleep& sleep, SweepScratch& scratch,
                  std::size_t edges) {
-  const double strayed = sleep.age == 0 ? 0.0 : distance_strayed(sleep, scratch);
+  const double so_far = sleep.age == 0 ? 0.0 : look_for_strayed(sleep, scratch);
   sleep.from.assign(scratch.at.begin(),
                     scratch.at.begin() + static_cast<std::ptrdiff_t>(4 * edges));
   sleep.pace.resize(4 * (edges + 1));  // with the empty edge
@@ -56,7 +117,7 @@ void begin_sleep(const SweepScene& scene, TileSleep& sleep, const SweepScratch& 
     fastest = std::max(fastest, std::abs(sleep.pace[n]));
   }
   sleep.fastest = std::numbers::sqrt2 * fastest;
-  sleep.margin = next_margin(sleep, strayed, scene.least_margin);
+  sleep.margin = next_margin(sleep, so_far, scene.least_margin);
   if (sleep.age >= sleep.length && sleep.calm) {
     sleep.length = std::min(longest_sleep, 2 * sleep.length);
   } else if (sleep.age > 0) {
@@ -67,67 +128,68 @@ void begin_sleep(const SweepScene& scene, TileSleep& sleep, const SweepScratch& 
   sleep.over = false;
 }
 
-constexpr std::uint8_t slept = 8;  ///< and it slept before
+constexpr std::uint8_t rested = 8;  ///< and it rested or slept before
 
-/// Where fewer faces than this part of the edges would sleep, none does: to see whether they may
+/// Where fewer faces than this part of the edges would rest, none does: to see whether they may
 /// go on takes as long as to look at them.
-constexpr double worth_sleeping = 0.25;
+constexpr double worth_resting = 0.25;
 
 /// Fills SweepScratch::kind. Returns how many faces there are of each kind.
-std::array<Id, face_kinds> classify(const FaceTiles& t, std::size_t tile, double noise,
+std::array<Id, face_kinds> classify(FaceTiles& t, const SweepScene& scene, std::size_t tile,
                                     SweepScratch& scratch) {
   const Tile& of = t.tiles[tile];
   const int old = 1 - t.now;
   scratch.kind.resize((of.last_chunk - of.first_chunk) * lanes);
   std::array<Id, face_kinds> count{};
+  const RestMargins margins = margins_of(scene, of.sleep);
+  const SweepTables tables = tables_of(t, tile, nullptr, scene.step, scene.noise);
   Records e, f, pace_e, pace_f;
   std::uint8_t* next = scratch.kind.data();
   for (std::size_t q = of.first_chunk; q < of.last_chunk; ++q) {
     read_edges(scratch.at.data(), &t.slot_e[q * lanes], &t.slot_f[q * lanes], e, f);
     read_edges(of.sleep.pace.data(), &t.slot_e[q * lanes], &t.slot_f[q * lanes], pace_e, pace_f);
-    ChunkView view{};
-    view.edges = t.edges_of(tile, q);
-    view.strengths = t.strengths_of(tile, q);
+    ChunkView view = view_of(tables, q, nullptr, nullptr);
     view.e = &e;
     view.f = &f;
-    view.noise = noise;
-    view.was = t.bits[old][q];
     view.e_then = &pace_e;
     view.f_then = &pace_f;
     const LaneBits working = t.found[old][q] >> lane_bits::works & lane_bits::field(0);
-    const OpenLanes open = working == lane_bits::field(0)
-                               ? OpenLanes{}
-                               : open_lanes(view, of.sleep.margin, of.sleep.length);
+    const OpenLanes open =
+        working == lane_bits::field(0) ? OpenLanes{} : open_lanes(view, margins, of.sleep.length);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const auto found = [&](unsigned what) {
         return lane_bits::test(t.found[old][q], what, lane);
       };
-      const auto is = [&](unsigned bits) { return (bits >> lane & 1u) != 0; };
-      face_kind::Kind kind = is(open.stay)   ? face_kind::asleep
-                             : is(open.near) ? face_kind::touching
-                                             : face_kind::looked_at;
+      unsigned kind =
+          lane_bits::test(open.near, 0, lane) ? face_kind::touching : face_kind::looked_at;
+      for (unsigned level = 0; level < rest_levels; ++level) {
+        if (lane_bits::test(open.stay, lanes * level, lane)) kind = face_kind::resting + level;
+      }
       if (found(lane_bits::works))
         kind = kind_of_working(!found(lane_bits::rare), found(lane_bits::busy));
       if (t.face[q * lanes + lane] == no_id) kind = face_kind::asleep;
       ++count[kind];
-      *next++ = static_cast<std::uint8_t>(kind | (q >= of.awake_end ? slept : 0));
+      *next++ = static_cast<std::uint8_t>(kind | (t.rest[q] > 0.0 ? rested : 0));
     }
   }
-  if (count[face_kind::asleep] >= worth_sleeping * of.slots()) return count;
+  Id resting = 0;
+  for (unsigned level = 0; level < rest_levels; ++level)
+    resting += count[face_kind::resting + level];
+  if (resting >= worth_resting * of.slots()) return count;
   for (std::size_t n = 0; n < scratch.kind.size(); ++n) {
     std::uint8_t& kind = scratch.kind[n];
-    if (kind % slept != face_kind::asleep || t.face[of.first_chunk * lanes + n] == no_id) continue;
-    kind = static_cast<std::uint8_t>(face_kind::looked_at | (kind & slept));
-    --count[face_kind::asleep];
+    const std::uint8_t was = kind % rested;
+    if (was < face_kind::resting || t.face[of.first_chunk * lanes + n] == no_id) continue;
+    kind = static_cast<std::uint8_t>(face_kind::looked_at | (kind & rested));
+    --count[was];
     ++count[face_kind::looked_at];
   }
   return count;
 }
 
 /// Corners of a face that wakes at n - 1; its gate has remained as it was.
-void recall_corners(FaceTiles& t, const SweepScene& scene, std::size_t place) {
-  const Pose& pose = scene.pose;
-  load_corners(t, coordinates_at(scene.faces, pose.x1, pose.y1, t.face[place]), 1 - t.now, place);
+void recall_corners(FaceTiles& t, const FaceSet& faces, const Pose& pose, std::size_t place) {
+  load_corners(t, coordinates_at(faces, pose.x1, pose.y1, t.face[place]), 1 - t.now, place);
 }
 
 /// Marks of a chunk after faces have come and gone.
@@ -144,25 +206,85 @@ void mark_chunk(FaceTiles& t, std::size_t q, bool awake) {
   t.fresh[old][q] = t.fresh[now][q] = 0;
 }
 
+/// By how much the corners of the faces of a chunk may stray while it rests; 0: one of its faces
+/// does not.
+double rest_of(const FaceTiles& t, std::size_t q, const std::uint8_t* kind,
+               const RestMargins& margins) {
+  double rest = margins.back();
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const unsigned does = kind[lane] % rested;
+    if (t.face[q * lanes + lane] == no_id) continue;
+    if (does < face_kind::resting) return 0.0;
+    rest = std::min(rest, margins[does - face_kind::resting]);
+  }
+  return rest;
+}
+
+/// The edges of a chunk may not stray farther than by `rest`.
+void allow(const FaceTiles& t, TileSleep& sleep, std::size_t q) {
+  sleep.least = std::min(sleep.least, t.rest[q]);
+  for (std::size_t place = q * lanes; place < (q + 1) * lanes; ++place) {
+    for (const Id slot : {t.slot_e[place], t.slot_f[place]})
+      sleep.allowed[slot] = std::min(sleep.allowed[slot], t.rest[q]);
+  }
+}
+
+void set_allowed(const FaceTiles& t, std::size_t tile, TileSleep& sleep) {
+  const Tile& of = t.tiles[tile];
+  sleep.allowed.assign(of.slots(), without_end);
+  sleep.least = without_end;
+  for (std::size_t q = of.first_chunk; q < of.last_chunk; ++q) {
+    if (t.rest[q] > 0.0) allow(t, sleep, q);
+  }
+}
+
+/// Wakes the chunks with an edge that has strayed too far. Returns whether faces that sleep are to
+/// wake.
+bool wake_chunks(FaceTiles& t, const SweepScene& scene, std::size_t tile,
+                 const AlignedNumbers& too_far) {
+  Tile& of = t.tiles[tile];
+  of.sleep.least = without_end;
+  for (std::size_t q = of.first_chunk; q < of.last_chunk; ++q) {
+    if (t.rest[q] == 0.0) continue;
+    double farthest = 0.0;
+    for (std::size_t place = q * lanes; place < (q + 1) * lanes; ++place)
+      farthest = larger(farthest, larger(too_far[t.slot_e[place]], too_far[t.slot_f[place]]));
+    if (farthest > t.rest[q]) {
+      if (q >= of.awake_end) return true;
+      wake_chunk(t, scene.faces, scene.pose, q);
+    } else if (farthest > 0.0) {
+      allow(t, of.sleep, q);
+    } else {
+      of.sleep.least = std::min(of.sleep.least, t.rest[q]);
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
-bool sleep_is_over(FaceTiles& t, const SweepScene& scene, std::size_t tile,
-                   const SweepScratch& scratch) {
+void wake_chunk(FaceTiles& t, const FaceSet& faces, const Pose& pose, std::size_t q) {
+  t.rest[q] = 0.0;
+  for (std::size_t place = q * lanes; place < (q + 1) * lanes; ++place) {
+    if (t.face[place] != no_id) recall_corners(t, faces, pose, place);
+  }
+}
+
+bool sleep_is_over(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScratch& scratch) {
   TileSleep& sleep = t.tiles[tile].sleep;
   if (scene.least_margin == 0.0) return false;
   if (sleep.over) return true;
   sleep.strayed += scene.largest_move + sleep.fastest + scene.pushed;
   if (++sleep.age >= sleep.length) return true;
-  if (t.tiles[tile].awake_end == t.tiles[tile].last_chunk) return false;
-  if (sleep.strayed <= sleep.margin) return false;
-  sleep.strayed = distance_strayed(sleep, scratch);
-  return !(sleep.strayed <= sleep.margin);
+  if (sleep.strayed <= sleep.least) return false;
+  sleep.strayed = look_for_strayed(sleep, scratch);
+  return note_strayed(sleep, scratch) && wake_chunks(t, scene, tile, scratch.too_far);
 }
 
 void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScratch& scratch) {
   Tile& of = t.tiles[tile];
   begin_sleep(scene, of.sleep, scratch, of.slots() - 1);
-  const std::array<Id, face_kinds> count = classify(t, tile, scene.noise, scratch);
+  const std::array<Id, face_kinds> count = classify(t, scene, tile, scratch);
   std::vector<std::uint8_t>& kind = scratch.kind;
   std::vector<std::uint8_t>& touched = scratch.touched;
   touched.assign(of.last_chunk - of.first_chunk, 0);
@@ -175,7 +297,7 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
     end[r] = begin += count[r];
   }
   const std::size_t first = of.first_chunk * lanes;
-  const auto of_kind = [&](std::size_t n) { return std::size_t{kind[n]} % slept; };
+  const auto of_kind = [&](std::size_t n) { return std::size_t{kind[n]} % rested; };
   for (std::size_t r = 0; r < face_kinds; ++r) {
     for (std::size_t n = next[r]; n < end[r]; ++n) {
       while (of_kind(n) != r) {
@@ -193,25 +315,29 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
       (of.last_chunk - of.first_chunk) * static_cast<Id>(lanes) - count[face_kind::asleep];
   const Id was = of.awake_end;
   of.awake_end = of.first_chunk + static_cast<Id>((awake + lanes - 1) / lanes);
+  const RestMargins margins = margins_of(scene, of.sleep);
   std::size_t changed = 0;
   for (std::size_t n = 0; n < touched.size(); ++n) {
     const std::size_t q = of.first_chunk + n;
-    const bool turns = (q < was) != (q < of.awake_end);  // falls asleep or wakes
+    const double before = t.rest[q];
+    t.rest[q] = rest_of(t, q, &kind[n * lanes], margins);
+    const bool turns = (t.rest[q] > 0.0) != (before > 0.0);  // falls asleep or wakes
     if (touched[n] == 0 && !turns) continue;
     ++changed;
     if (touched[n] != 0) load_chunk_constants(t, scene.faces, scene.blocks, tile, q, touched[n]);
-    mark_chunk(t, q, q < of.awake_end);
-    if (q >= of.awake_end) continue;
+    mark_chunk(t, q, t.rest[q] == 0.0);
+    if (t.rest[q] > 0.0) continue;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const std::size_t place = q * lanes + lane;
-      if (kind[n * lanes + lane] >= slept && t.face[place] != no_id)
-        recall_corners(t, scene, place);
+      if (kind[n * lanes + lane] >= rested && t.face[place] != no_id)
+        recall_corners(t, scene.faces, scene.pose, place);
     }
   }
+  set_allowed(t, tile, of.sleep);
   drop_unused_constants(t, scene.faces, scene.blocks, tile);
   constexpr std::size_t few = 8;  // one chunk in so many
   of.sleep.calm = few * changed <= touched.size();
-  if (changed == 0) return;
+  if (changed == 0 && of.awake_end == was) return;
   order_records(t, scene.faces, scene.blocks, tile);
 }
 

@@ -10,11 +10,15 @@
 namespace edda {
 namespace {
 
-/// The edges of a chunk: tables of records of four numbers, and the slots there.
+/// The edges of chunks: tables of records of four numbers, and the slots there.
 struct ChunkEdges {
   const double *at, *then;  ///< start and end at n and n - 1, m; then: null where no face takes it
   const double* mass;       ///< EdgeInverseMass, or null
-  const Id *slot_e, *slot_f;
+  const Id *slots_e, *slots_f;  ///< [chunks][8]
+  std::size_t first = 0;        ///< chunk with which they begin
+
+  const Id* slot_e(std::size_t chunk) const { return slots_e + (chunk - first) * lanes; }
+  const Id* slot_f(std::size_t chunk) const { return slots_f + (chunk - first) * lanes; }
 };
 
 /// How the edges of a chunk stand, and where they overlap.
@@ -24,41 +28,8 @@ struct ChunkStand {
   bool overlaps_known;
 };
 
-/// The corners of faces whose corners do not count: what is multiplied by them is 0.
-constexpr Records no_corners{};
-
 /// Chunks that are evaluated together: what they need meanwhile stays in the first cache.
 constexpr std::size_t chunks_at_once = 8;
-
-ChunkView view_of(FaceTiles& t, const SweepScene& scene, std::size_t tile, std::size_t q,
-                  double* on, ChunkStand& stand) {
-  const int now = t.now, old = 1 - t.now;
-  const auto at = [q](auto& table, std::size_t columns) {
-    return table.data() + q * columns * lanes;
-  };
-  const bool damped = t.has_dashpots();
-  return {.edges = t.edges_of(tile, q),
-          .strengths = t.strengths_of(tile, q),
-          .before = at(t.memory[old], memory_columns),
-          .damped_before = damped ? at(t.dashpots[old], dashpot_memory_columns) : nullptr,
-          .memory = at(t.memory[now], memory_columns),
-          .damped = damped ? at(t.dashpots[now], dashpot_memory_columns) : nullptr,
-          .work = at(t.work[now], work_columns),
-          .stands = stand.columns,
-          .overlaps = stand.overlaps,
-          .e = &no_corners,
-          .f = &no_corners,
-          .e_then = &no_corners,
-          .f_then = &no_corners,
-          .mass_e = &no_corners,
-          .mass_f = &no_corners,
-          .record_e = &t.record_e[q * lanes],
-          .record_f = &t.record_f[q * lanes],
-          .on = on,
-          .was = t.bits[old][q],
-          .step = scene.step,
-          .noise = scene.noise};
-}
 
 /// What a chunk is evaluated for.
 enum class Needs { forces, work, dashpots };
@@ -114,7 +85,6 @@ struct TileInSweep {
   std::size_t number;
   const Tile& tile;
   SweepScratch& scratch;
-  double* on;  ///< records of the forces
 };
 
 /// Clears the records of a chunk.
@@ -135,27 +105,28 @@ bool is_idle(const FaceTiles& t, std::size_t q) {
 
 /// Evaluates a chunk whose edges stand as they are known to, and stores its forces. Returns what it
 /// has found.
-ChunkFound evaluate_standing(FaceTiles& t, ChunkView& view, std::size_t q, const ChunkEdges& edges,
+ChunkFound evaluate_standing(FaceTiles& t, ChunkView& view, const ChunkEdges& edges,
                              bool overlaps_known) {
+  const std::size_t q = view.chunk;
   if (is_idle(t, q)) {
     const ChunkFound open = t.has_dashpots() ? look_at_damped(view) : look_at_undamped(view);
     if (open.found == 0) {
       keep(t, q, open);
-      store_nothing(t, view.on, q);
+      store_nothing(t, view.of->on, q);
       return open;
     }
   }
   Records e, f, e_then, f_then, mass_e, mass_f;
   if (edges.then != nullptr) {
-    read_edges(edges.at, edges.slot_e, edges.slot_f, e, f);
-    read_edges(edges.then, edges.slot_e, edges.slot_f, e_then, f_then);
+    read_edges(edges.at, edges.slot_e(q), edges.slot_f(q), e, f);
+    read_edges(edges.then, edges.slot_e(q), edges.slot_f(q), e_then, f_then);
     view.e = &e;
     view.f = &f;
     view.e_then = &e_then;
     view.f_then = &f_then;
   }
   if (edges.mass != nullptr) {
-    read_edges(edges.mass, edges.slot_e, edges.slot_f, mass_e, mass_f);
+    read_edges(edges.mass, edges.slot_e(q), edges.slot_f(q), mass_e, mass_f);
     view.mass_e = &mass_e;
     view.mass_f = &mass_f;
   }
@@ -164,36 +135,50 @@ ChunkFound evaluate_standing(FaceTiles& t, ChunkView& view, std::size_t q, const
   return found;
 }
 
-/// Evaluates some chunks [first, last). How the edges of all of them stand comes first, and where
-/// they overlap, for the processor to compute several beside each other: each is a long chain of
-/// roots and divisions.
-LaneBits sweep_some(const TileInSweep& s, std::size_t first, std::size_t last) {
-  FaceTiles& t = s.tiles;
+/// Evaluates some chunks, not more than chunks_at_once. How the edges of all of them stand comes
+/// first, and where they overlap, for the processor to compute several beside each other: each is a
+/// long chain of roots and divisions.
+LaneBits sweep_some(FaceTiles& t, const SweepTables& tables, const ChunkEdges& edges,
+                    std::span<const std::size_t> chunks) {
   ChunkStand stands[chunks_at_once];
   ChunkView views[chunks_at_once];
-  const auto edges_of = [&](std::size_t q) {
-    return ChunkEdges{s.scratch.at.data(), s.tile.takes_then ? s.scratch.then.data() : nullptr,
-                      t.has_dashpots() ? s.scratch.mass.data() : nullptr, &t.slot_e[q * lanes],
-                      &t.slot_f[q * lanes]};
-  };
-  for (std::size_t q = first; q < last; ++q) {
-    ChunkView& view = views[q - first] = view_of(t, s.scene, s.number, q, s.on, stands[q - first]);
-    const ChunkEdges edges = edges_of(q);
-    stand_edges(view, edges.at, edges.slot_e, edges.slot_f);
+  for (std::size_t n = 0; n < chunks.size(); ++n) {
+    const std::size_t q = chunks[n];
+    views[n] = view_of(tables, q, stands[n].columns, stands[n].overlaps);
+    stand_edges(views[n], edges.at, edges.slot_e(q), edges.slot_f(q));
   }
-  for (std::size_t q = first; q < last; ++q) {
-    bool& known = stands[q - first].overlaps_known;
+  for (std::size_t n = 0; n < chunks.size(); ++n) {
+    const std::size_t q = chunks[n];
+    bool& known = stands[n].overlaps_known;
     known = (t.plain[q] == 0 || t.bonds[q] != 0) && !is_idle(t, q);
-    if (known) overlap_edges(views[q - first]);
+    if (known) overlap_edges(views[n]);
   }
   LaneBits found = 0;
-  for (std::size_t q = first; q < last; ++q) {
-    const ChunkFound here =
-        evaluate_standing(t, views[q - first], q, edges_of(q), stands[q - first].overlaps_known);
+  for (std::size_t n = 0; n < chunks.size(); ++n) {
+    const ChunkFound here = evaluate_standing(t, views[n], edges, stands[n].overlaps_known);
     found |= here.found;
-    t.deepest[q] = std::max(t.deepest[q], here.deepest);
+    t.deepest[chunks[n]] = std::max(t.deepest[chunks[n]], here.deepest);
   }
   return found;
+}
+
+/// Evaluates the chunks of a tile but those that rest or sleep.
+LaneBits sweep_chunks_of(FaceTiles& t, const Tile& of, const SweepTables& tables,
+                         const ChunkEdges& edges) {
+  LaneBits found = 0;
+  std::array<std::size_t, chunks_at_once> some;
+  std::size_t count = 0;
+  for (std::size_t q = of.first_chunk; q < of.awake_end; ++q) {
+    if (t.rest[q] > 0.0) {
+      store_nothing(t, tables.on, q);
+      continue;
+    }
+    some[count++] = q;
+    if (count < chunks_at_once) continue;
+    found |= sweep_some(t, tables, edges, some);
+    count = 0;
+  }
+  return found | sweep_some(t, tables, edges, {some.data(), count});
 }
 
 /// Records of the edges of a chunk alone.
@@ -283,7 +268,9 @@ SweepResult result_of(LaneBits found) {
 /// takes five times as long as one that does not, and a block about twice.
 std::size_t work_of(const FaceTiles& t, const Tile& of) {
   std::size_t work = 1 + 2 * std::size_t{of.last_block - of.first_block};
-  for (Id q = of.first_chunk; q < of.awake_end; ++q) work += t.idle[t.now][q] != 0 ? 1 : 5;
+  for (Id q = of.first_chunk; q < of.awake_end; ++q) {
+    if (t.rest[q] == 0.0) work += t.idle[t.now][q] != 0 ? 1 : 5;
+  }
   return work;
 }
 
@@ -292,26 +279,25 @@ std::size_t work_of(const FaceTiles& t, const Tile& of) {
 SweepResult sweep_tile(FaceTiles& t, const SweepScene& scene, std::size_t tile, bool keep,
                        SweepScratch& scratch, Nodes& force_x, Nodes& force_y) {
   const Tile& of = t.tiles[tile];
-  TileInSweep s{t, scene, tile, of, scratch, nullptr};
-  place_tile(s);
+  place_tile({t, scene, tile, of, scratch});
   const std::size_t numbers = record_numbers(t, of);
   AlignedNumbers &own = t.forces[tile], &on = t.kept[tile] != 0 ? own : scratch.on;
   on.resize(std::max(on.size(), numbers));
-  s.on = on.data();
-  LaneBits found = 0;
+  const SweepTables tables = tables_of(t, tile, on.data(), scene.step, scene.noise);
+  const ChunkEdges edges{scratch.at.data(), of.takes_then ? scratch.then.data() : nullptr,
+                         t.has_dashpots() ? scratch.mass.data() : nullptr, t.slot_e.data(),
+                         t.slot_f.data()};
   if (!scene.corrects) {
     std::fill(t.deepest.data() + of.first_chunk, t.deepest.data() + of.last_chunk, 0.0);
   }
-  for (std::size_t q = of.first_chunk; q < of.awake_end; q += chunks_at_once) {
-    found |= sweep_some(s, q, std::min<std::size_t>(of.awake_end, q + chunks_at_once));
-  }
+  const LaneBits found = sweep_chunks_of(t, of, tables, edges);
   gather_blocks(corners_of(scene.blocks), &t.blocks[of.first_block], of.last_block - of.first_block,
-                nullptr, &t.record_begin[of.first_edge], s.on, values_of(force_x),
+                nullptr, &t.record_begin[of.first_edge], on.data(), values_of(force_x),
                 values_of(force_y));
   SweepResult result = result_of(found);
   result.work = work_of(t, of);
   const bool keeps = keep || result.decides || result.switching || result.fails;
-  if (keeps && t.kept[tile] == 0) own.assign(s.on, s.on + numbers);
+  if (keeps && t.kept[tile] == 0) own.assign(on.data(), on.data() + numbers);
   t.kept[tile] = keeps ? 1 : 0;
   return result;
 }
@@ -319,17 +305,21 @@ SweepResult sweep_tile(FaceTiles& t, const SweepScene& scene, std::size_t tile, 
 SweepResult sweep_chunks(FaceTiles& t, const SweepScene& scene, std::size_t tile,
                          std::span<const Id> chunks) {
   LaneBits found = 0;
+  const SweepTables tables = tables_of(t, tile, t.forces[tile].data(), scene.step, scene.noise);
   for (const std::size_t q : chunks) {
     EdgesAlone alone;
     const bool then = t.tiles[tile].takes_then;
     read_vertices(t, scene, q, then, alone);
-    const ChunkEdges edges{alone.at[0], then ? alone.then[0] : nullptr,
-                           t.has_dashpots() ? alone.mass[0] : nullptr, slots_alone,
-                           slots_alone + lanes};
+    const ChunkEdges edges{alone.at[0],
+                           then ? alone.then[0] : nullptr,
+                           t.has_dashpots() ? alone.mass[0] : nullptr,
+                           slots_alone,
+                           slots_alone + lanes,
+                           q};
     ChunkStand stand;
-    ChunkView view = view_of(t, scene, tile, q, t.forces[tile].data(), stand);
-    stand_edges(view, edges.at, edges.slot_e, edges.slot_f);
-    const ChunkFound here = evaluate_standing(t, view, q, edges, false);
+    ChunkView view = view_of(tables, q, stand.columns, stand.overlaps);
+    stand_edges(view, edges.at, edges.slot_e(q), edges.slot_f(q));
+    const ChunkFound here = evaluate_standing(t, view, edges, false);
     found |= here.found;
     t.deepest[q] = scene.corrects ? std::max(t.deepest[q], here.deepest) : here.deepest;
   }

@@ -30,6 +30,8 @@ struct SweepScratch {
   AlignedNumbers mass;             ///< [slots][4] EdgeInverseMass; empty without dashpots
   AlignedNumbers on;               ///< [records][4] forces on start and end of an edge, N
   std::vector<std::uint8_t> kind;  ///< [places of a tile] what each face does (tile_sleep.cpp)
+  AlignedNumbers excess;           ///< [runs of slots] m: as TileSleep::allowed is exceeded there
+  AlignedNumbers too_far;  ///< [slots] m: by how much the edge has strayed where that is too far
   std::vector<std::uint8_t> touched;  ///< [chunks of a tile] lanes where faces have come and gone
 };
 

@@ -13,6 +13,7 @@
 #include "contacts/tile_loading.hpp"
 #include "contacts/tile_renewal.hpp"
 #include "contacts/tile_rows.hpp"
+#include "contacts/tile_sleep.hpp"
 #include "step/contact_search.hpp"
 #include "step/face_switching.hpp"
 #include "step/simulation.hpp"
@@ -41,10 +42,11 @@ SweepResult sweep(Simulation& sim, std::size_t tile, bool keep, SweepScratch& sc
                     sim.motion.on_faces.y);
 }
 
-/// Whether a face that sleeps in this tile may go on, although blocks have been pushed so far (m).
-bool sleeps_on(const Simulation& sim, const Tile& tile, double pushed, Id k) {
+/// Whether a face in a chunk that rests may go on, although blocks have been pushed so far (m).
+bool rests_on(const Simulation& sim, Id chunk, double pushed, Id k) {
   const TiledFaces& own = sim.leapfrog.tiled;
-  return tile.sleep.strayed + pushed <= tile.sleep.margin ||
+  const FaceTiles& t = own.tiles;
+  return t.tiles[t.tile_of_chunk[chunk]].sleep.strayed + pushed <= t.rest[chunk] ||
          stays_open(own.tiles, sim.motion.contacts, sim.scene->blocks, sim.motion.pose, k);
 }
 
@@ -56,10 +58,14 @@ std::vector<Id> chunks_of(Simulation& sim, const std::vector<Id>& faces, double 
     for (const Id place : t.place[k]) {
       if (place == no_id) continue;
       const Id q = place / static_cast<Id>(lanes);
-      Tile& tile = t.tiles[t.tile_of_chunk[q]];
-      if (q >= tile.awake_end) {
-        if (sleeps_on(sim, tile, pushed, k)) continue;
-        tile.sleep.over = true;
+      if (t.rest[q] > 0.0) {
+        if (rests_on(sim, q, pushed, k)) continue;
+        Tile& tile = t.tiles[t.tile_of_chunk[q]];
+        if (q >= tile.awake_end) {
+          tile.sleep.over = true;
+        } else {
+          wake_chunk(t, sim.motion.contacts, sim.motion.pose, q);
+        }
       }
       chunks.push_back(q);
     }

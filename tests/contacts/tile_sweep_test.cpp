@@ -36,7 +36,7 @@ struct Drift {
   double damping;
   bool with_sums = false;
   std::size_t listed = 0, kept = 0;  ///< faces that a new list has added, and taken over
-  std::size_t carrying = 0, sliding = 0, opened = 0, open = 0, asleep = 0;
+  std::size_t carrying = 0, sliding = 0, opened = 0, open = 0, asleep = 0, resting = 0;
   std::size_t only_bonded = 0, only_carried = 0;  ///< carry shear, or did so, and store no energy
   unsigned moves = 0, steady = 1;                 ///< so many moves are alike
 
@@ -184,7 +184,7 @@ struct Drift {
     own.bonds = c.bonds;
   }
   static bool is_awake(const FaceTiles& t, Id place) {
-    return place / lanes < t.tiles[t.tile_of_chunk[place / lanes]].awake_end;
+    return t.rest[place / lanes] == 0.0;
   }
 
   void compare(const FaceTiles& t, bool with_fixed, std::size_t k) {
@@ -214,6 +214,7 @@ struct Drift {
         expect_same(memory(6), at.r2, "r2", k);
       } else {
         ++asleep;
+        if (q < t.tiles[t.tile_of_chunk[q]].awake_end) ++resting;
       }
       const LaneBits bits = t.bits[t.now][q];
       EXPECT_EQ(lane_bits::test(bits, lane_bits::stored, lane), m.energy[k] > 0.0);
