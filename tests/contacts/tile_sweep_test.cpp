@@ -183,9 +183,7 @@ struct Drift {
     }
     own.bonds = c.bonds;
   }
-  static bool is_awake(const FaceTiles& t, Id place) {
-    return t.rest[place / lanes] == 0.0;
-  }
+  static bool is_awake(const FaceTiles& t, Id place) { return t.rest[place / lanes] == 0.0; }
 
   void compare(const FaceTiles& t, bool with_fixed, std::size_t k) {
     const FaceSet& c = heap.contacts;
@@ -337,6 +335,7 @@ void drift_asleep(double damping, double bonded_part, double locked_part, double
   }
   EXPECT_EQ(dashpots_work(t), damping > 0.0);
   EXPECT_GT(d.asleep, 1000u);
+  EXPECT_GT(d.resting, 100u);
   EXPECT_GT(d.listed, 100u);
   EXPECT_GT(d.kept, 1000u);
 }
