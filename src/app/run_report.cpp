@@ -39,7 +39,7 @@ class ForPeople : public RunReport {
       const std::string begins =
           masses == StageMasses::scaled
               ? fmt::format("step about {:.3g} s with scaled masses; with masses as given", step)
-              : fmt::format("step {:.4g} s;", step);
+              : fmt::format("step at most {:.4g} s;", step);
       fmt::print(stderr, "{}; {} critical step {:.4g} s, governed by {}\n",
                  counted(sim.scene->blocks.size(), "block"), begins,
                  sim.control.bound.critical_step, run.governed_by);

@@ -122,7 +122,7 @@ struct TileSleep {
   double strayed = 0.0;    ///< m: upper bound of the distance of any vertex from its path
   double least = 0.0;      ///< m: smallest of `allowed`
   double fastest = 0.0;    ///< m: motion along the paths in a step, of any vertex
-  unsigned age = 0;        ///< sweeps since it was decided who sleeps, as many as steps or more
+  unsigned age = 0;        ///< steps since it was decided who sleeps
   unsigned length = 32;    ///< steps for which they may do so
   bool calm = false;       ///< few faces did otherwise then than before
   bool over = true;        ///< that must be decided anew

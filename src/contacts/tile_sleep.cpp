@@ -275,7 +275,8 @@ bool sleep_is_over(FaceTiles& t, const SweepScene& scene, std::size_t tile, Swee
   if (scene.least_margin == 0.0) return false;
   if (sleep.over) return true;
   sleep.strayed += scene.largest_move + sleep.fastest + scene.pushed;
-  if (++sleep.age >= sleep.length) return true;
+  if (!scene.corrects) ++sleep.age;
+  if (sleep.age >= sleep.length) return true;
   if (sleep.strayed <= sleep.least) return false;
   sleep.strayed = look_for_strayed(sleep, scratch);
   return note_strayed(sleep, scratch) && wake_chunks(t, scene, tile, scratch.too_far);

@@ -160,7 +160,7 @@ void explain(StepBound& bound, const StiffnessInputs& w, std::size_t i) {
       k.stiffness(), k.mass + (0.5 * h) * k.viscous);
   const NodalVector mode = solver.eigenvectors().col(fastest);
   const double total = mode.dot(k.stiffness() * mode);
-  bound.elastic_part = mode.dot(k.elastic * mode) / total;
+  bound.elastic_part = std::max(0.0, mode.dot(k.elastic * mode) / total);  // not below by rounding
   bound.boundary_part = mode.dot(k.boundary * mode) / total;
   bound.bolt_part = mode.dot(k.bolts * mode) / total;
   bound.contact_part = 1.0 - bound.elastic_part - bound.boundary_part - bound.bolt_part;

@@ -43,6 +43,33 @@ std::size_t bonded_face(const MovedBlocks& m) {
   return static_cast<std::size_t>(std::find(bonded.begin(), bonded.end(), 1.0) - bonded.begin());
 }
 
+/// A square that is drawn so far above its base, or in it, and then bonded.
+MovedBlocks bonded_as_drawn(double gap) {
+  MovedBlocks m = square_on_base(rough_joint(30.0, cohesion, tension), thickness);
+  m.start();
+  m.put(1, {{0.0, gap}});
+  bond_faces(m.faces, m.blocks, m.pose, m.laws);
+  m.evaluate();
+  return m;
+}
+
+/// Coordinates with few digits leave gaps and overlaps; up to a thousandth of the block's size a
+/// joint has its bond there, and no stress.
+TEST(FaceBond, FitsWhatIsDrawnNearly) {
+  for (const double gap : {0.0, 3e-4, -3e-4, 0.99e-3}) {
+    MovedBlocks m = bonded_as_drawn(gap);
+    const std::size_t k = bonded_face(m);
+    ASSERT_LT(k, m.faces.size()) << gap;
+    EXPECT_NEAR(m.faces.now.closure_a[k], 0.0, 1e-12) << gap;
+    EXPECT_NEAR(m.faces.now.closure_b[k], 0.0, 1e-12) << gap;
+    EXPECT_NEAR(norm(m.force_on(1)), 0.0, 1e-12 * normal_k) << gap;
+    m.go(1, {{0.0, gap - 1e-5}});
+    EXPECT_NEAR(m.force_on(1).y, 1e-5 * normal_k, 1e-6 * normal_k) << gap;
+  }
+  for (const double gap : {1.01e-3, -1.01e-3})
+    EXPECT_EQ(bonded_face(bonded_as_drawn(gap)), bonded_as_drawn(gap).faces.size()) << gap;
+}
+
 /// One end opens while the other closes: the bond fails in tension at the open end.
 TEST(FaceBond, TearsAtTheEndThatOpens) {
   const double most = tension * thickness / normal_k;

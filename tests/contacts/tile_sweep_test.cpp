@@ -39,6 +39,9 @@ struct Drift {
   std::size_t carrying = 0, sliding = 0, opened = 0, open = 0, asleep = 0, resting = 0;
   std::size_t only_bonded = 0, only_carried = 0;  ///< carry shear, or did so, and store no energy
   unsigned moves = 0, steady = 1;                 ///< so many moves are alike
+  unsigned jolts = 0;       ///< a third of the blocks jumps by any distance in each so many moves
+  std::size_t jumper = 60;  ///< a block that moves farther than others, by this factor
+  double jump = 1.0;
 
   Drift(int blocks, double zeta, double bonded_part, double locked_part)
       : heap(odd_polygons(rng, blocks)), damping(zeta) {
@@ -76,14 +79,18 @@ struct Drift {
       rng.discard(10000);
     }
     std::mt19937 same = of_moves;
+    const bool jolted = jolts > 0 && moves % jolts == 0;
+    const double of_some = jolted ? std::pow(10.0, 2.2 + 2.2 * u(rng)) : 1.0;
     for (std::size_t i = 0; i < heap.blocks.size(); ++i) {
       if (heap.blocks.fixed[i] != 0) continue;
       const Vec2 shift{u(same), u(same)}, centre = centroid(state.x, state.y, i);
       const double turn = u(same), strain = 0.01 * u(same), size = heap.blocks.radius[i];
       NodeVectors x = vectors_of(state.x, state.y, i);
+      const double farther = i == jumper ? jump : jolted && u(rng) > 0.3 ? of_some : 1.0;
+      const double by = far * 1e-3 * farther;
       for (Vec2& node : x) {
         const Vec2 arm = node - centre;
-        node += far * 1e-3 * (size * shift + turn * perp(arm) + strain * Vec2{arm.x, -arm.y});
+        node += by * (size * shift + turn * perp(arm) + strain * Vec2{arm.x, -arm.y});
       }
       store(x, state.x, state.y, i);
     }
@@ -115,23 +122,24 @@ struct Drift {
     evaluate_faces(c, heap.scene(), 1e-3);
     Nodes fx = zero_nodes(heap.blocks.size()), fy = fx;
     SweepScratch scratch;
-    const SweepScene scene{.blocks = heap.blocks,
-                           .masses = heap.masses,
-                           .faces = own,
-                           .pose = heap.pose,
-                           .largest_move = moved,
-                           .pushed = 0.0,
-                           .least_margin = least_margin,
-                           .step = 1e-3,
-                           .noise = c.noise,
-                           .corrects = false};
+    SweepScene scene{.blocks = heap.blocks,
+                     .masses = heap.masses,
+                     .faces = own,
+                     .pose = heap.pose,
+                     .largest_move = moved,
+                     .pushed = 0.0,
+                     .least_margin = least_margin,
+                     .step = 1e-3,
+                     .noise = c.noise,
+                     .corrects = false};
     const auto sweep = [&] {
       for (std::size_t q = 0; q < t.tiles.size(); ++q)
         sweep_tile(t, scene, q, false, scratch, fx, fy);
     };
     sweep();
     take_decisions(t, own);
-    sweep();  // it may be repeated
+    scene.corrects = true;
+    sweep();
     for (std::size_t k = 0; k < c.size(); ++k) {
       compare(t, with_fixed, k);
       if (with_sums) compare_sums(t, k);
@@ -319,9 +327,10 @@ TEST(TileSweep, DoesSoWithLockedClosures) {
 /// Which faces sleep, and how faces lie within their tile, changes no bit; and none sleeps through
 /// a change.
 void drift_asleep(double damping, double bonded_part, double locked_part, double far,
-                  unsigned steady = 40) {
+                  unsigned steady = 40, unsigned jolts = 0) {
   Drift d(60, damping, bonded_part, locked_part);
   d.steady = steady;
+  d.jolts = jolts;
   d.with_sums = true;
   d.move(12, false);
   FaceTiles t;
@@ -335,7 +344,7 @@ void drift_asleep(double damping, double bonded_part, double locked_part, double
   }
   EXPECT_EQ(dashpots_work(t), damping > 0.0);
   EXPECT_GT(d.asleep, 1000u);
-  EXPECT_GT(d.resting, 100u);
+  EXPECT_GE(d.resting, far > 0.01 ? 100u : 0u);
   EXPECT_GT(d.listed, 100u);
   EXPECT_GT(d.kept, 1000u);
 }
@@ -344,6 +353,26 @@ TEST(TileSleep, ChangesNothingInSlowMotion) {
 }
 TEST(TileSleep, ChangesNothingInFastMotion) {
   drift_asleep(0.0, 0.0, 0.0, 0.2, 150);
+}
+TEST(TileSleep, EndsWhereBlocksJump) {
+  drift_asleep(0.0, 0.0, 0.0, 0.005, 1000, 7);
+}
+/// First by more than faces rest by, and less than others sleep by; and then against its
+/// neighbours.
+TEST(TileSleep, EndsWhereABlockStraysTwice) {
+  for (std::size_t i = 0; i < 60 && !testing::Test::HasFailure(); ++i) {
+    Drift d(60, 0.0, 0.0, 0.0);
+    d.steady = 1000;
+    FaceTiles t;
+    divide_blocks(t, d.heap.blocks, d.heap.state, false);
+    FaceSet own = d.heap.contacts;
+    load_faces(t, own, d.heap.blocks, d.heap.pose);
+    for (int move = 0; move < 8; ++move) {
+      d.jumper = move == 3 || move == 6 ? i : 60;
+      d.jump = move == 3 ? 3.0 : 3000.0;
+      d.move_on(t, own, false, 0.01, 1e-9);
+    }
+  }
 }
 TEST(TileSleep, ChangesNothingWithDashpots) {
   drift_asleep(0.2, 0.0, 0.0, 0.02);

@@ -61,6 +61,13 @@ class Source(unittest.TestCase):
         with self.assertRaisesRegex(mutants.Stale, r"sign: src/base/sum.cpp: begins within a statement: a \+ b;"):
             mutants.mutated(SOURCE, [mutant(text="a + b;", becomes="a;")])
 
+    def test_refuses_what_is_no_expression(self):
+        for source, row, said in (("x.a + b;", {}, "begins within a name"), ("y * a * 2.0;", {"text": "* a *"}, "an operator"),
+                                  ("if (a > b) {", {"text": "if (a > b) {", "becomes": "if (false) {"}, "not closed"),
+                                  ("  constexpr double c = a + b;", {}, "a constant is needed")):
+            with self.assertRaisesRegex(mutants.Stale, "sign: src/base/sum.cpp: .*" + said):
+                mutants.mutated(source, [mutant(**row)])
+
     def test_refuses_a_text_that_is_there_twice(self):
         twice = mutant(text="sum", becomes="a")
         with self.assertRaisesRegex(mutants.Stale, "found 3 times, not once: sum"):

@@ -1,0 +1,88 @@
+// A block that is pushed after its step moves as if the force had been there in the step.
+#include "step/push_block.hpp"
+
+#include <gtest/gtest.h>
+
+#include "blocks/build_blocks.hpp"
+#include "integrate/leapfrog.hpp"
+
+namespace edda::push_block_test {
+namespace {
+
+/// A quadrilateral that moves and turns.
+struct Moving {
+  BlockSet blocks;
+  Masses masses;
+  State state;
+  Pose pose;
+  Nodes old_vx, old_vy;
+
+  Moving() {
+    Model model;
+    model.materials.push_back({"rock", 1000.0, 1e9, 0.3, {}});
+    PolygonSet set;
+    BlockPolygon p;
+    p.rings = {{{0, 0}, {2, 0}, {2.2, 1}, {0, 1.3}}};
+    p.joint = {std::vector<Index>(4, none)};
+    p.material = 0;
+    set.blocks.push_back(p);
+    blocks = build_blocks(model, set);
+    masses = given_masses(blocks);
+    masses.viscosity = {1e-3};
+    state = initial_state(blocks, set);
+    const double vx[3] = {0.1, -0.2, 0.05}, vy[3] = {0.03, 0.1, -0.15};
+    for (std::size_t k = 0; k < 3; ++k) {
+      state.vx[k][0] = vx[k];
+      state.vy[k][0] = vy[k];
+    }
+    old_vx = state.vx;
+    old_vy = state.vy;
+    pose = {blocks.vertex_x, blocks.vertex_y, blocks.vertex_x,
+            blocks.vertex_y, blocks.vertex_x, blocks.vertex_y};
+  }
+};
+
+constexpr double h_old = 1e-4, h_new = 2e-4;
+const NodeVectors force{{{3e4, -2e4}, {1e4, 5e4}, {-2e4, 1e4}}},
+    more{{{-1e4, 4e4}, {2e4, 1e4}, {3e4, -3e4}}};
+
+/// Makes a step with the force, and with all of it in the step or some of it by a push.
+Moving moved(double mass_damping, bool strain_damped, bool pushed) {
+  Moving m;
+  Nodes fx = zero_nodes(1), fy = fx;
+  for (std::size_t k = 0; k < nodes_per_block; ++k) {
+    const Vec2 f = pushed ? force[k] : force[k] + more[k];
+    fx[k][0] = f.x;
+    fy[k][0] = f.y;
+  }
+  StrainDamping strain;
+  const double h = 0.5 * (h_old + h_new);
+  prepare(strain, m.blocks, m.masses, h / (1.0 + 0.5 * mass_damping * h));
+  StrainDamping* const damps = strain_damped ? &strain : nullptr;
+  const StepDamping damping{mass_damping, 0.0, nullptr, damps};
+  advance(m.state, {m.blocks, m.masses, fx, fy, m.old_vx, m.old_vy, h_old, h_new, damping});
+  if (pushed) {
+    push_block({m.blocks, m.masses, m.state, m.pose, h_old, h_new, mass_damping, damps}, 0, more);
+  }
+  return m;
+}
+
+TEST(PushBlock, MovesABlockAsTheForceWouldHave) {
+  constexpr double strong = 1.5 / (0.5 * (h_old + h_new));  // 1/s: half of it counts for much
+  for (const double mass_damping : {0.0, strong}) {
+    for (const bool strain_damped : {false, true}) {
+      const Moving a = moved(mass_damping, strain_damped, true),
+                   b = moved(mass_damping, strain_damped, false);
+      for (std::size_t k = 0; k < nodes_per_block; ++k) {
+        const double size = 1e-3;  // m/s: what `more` does, but for the strain of the step
+        EXPECT_NEAR(a.state.vx[k][0], b.state.vx[k][0], 1e-3 * size) << mass_damping;
+        EXPECT_NEAR(a.state.vy[k][0], b.state.vy[k][0], 1e-3 * size) << mass_damping;
+        EXPECT_NEAR(a.state.x[k][0], b.state.x[k][0], 1e-3 * size * h_new);
+        EXPECT_NEAR(a.state.y[k][0], b.state.y[k][0], 1e-3 * size * h_new);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace edda::push_block_test
