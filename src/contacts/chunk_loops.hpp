@@ -107,7 +107,7 @@ ChunkFound look_at_damped(const ChunkView& chunk);
 /// Reads the records of the edges of a chunk.
 void read_edges(const double* from, const Id* slot_e, const Id* slot_f, Records& e, Records& f);
 
-/// Margins by which the corners of faces that rest may stray, m, ascending (TileSleep::margins).
+/// Margins by which the corners of faces that rest, and that sleep, may stray, m.
 using RestMargins = std::array<double, rest_levels>;
 
 /// What can happen to the faces of a chunk that have carried nothing for two steps; bits of lanes.

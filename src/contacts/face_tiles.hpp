@@ -110,7 +110,7 @@ enum Kind : std::uint8_t {
 };
 }
 inline constexpr std::size_t face_kinds = 8;
-inline constexpr unsigned rest_levels = 2;  ///< of the last kinds
+inline constexpr unsigned rest_levels = 2;  ///< the last kinds, one for each of RestMargins
 
 using AlignedNumbers = std::vector<double, InWholeLines<double>>;
 
@@ -120,9 +120,9 @@ using AlignedNumbers = std::vector<double, InWholeLines<double>>;
 struct TileSleep {
   double margin = 0.0;     ///< m, of those that sleep; where one of them would wake, it is over
   double strayed = 0.0;    ///< m: upper bound of the distance of any vertex from its path
-  double least = 0.0;      ///< m: smallest of `allowed`
+  double least = 0.0;      ///< m: smallest `rest` of the chunks that rest
   double fastest = 0.0;    ///< m: motion along the paths in a step, of any vertex
-  unsigned age = 0;        ///< steps since it was decided who sleeps
+  unsigned age = 0;        ///< steps since it was decided who sleeps, or more
   unsigned length = 32;    ///< steps for which they may do so
   bool calm = false;       ///< few faces did otherwise then than before
   bool over = true;        ///< that must be decided anew
@@ -144,7 +144,7 @@ struct Tile {
   Id first_block = 0, last_block = 0;  ///< own blocks, in FaceTiles::blocks
   Id first_halo = 0, last_halo = 0;    ///< edges of other blocks, in FaceTiles::halo
   Id first_chunk = 0, last_chunk = 0;
-  Id awake_end = 0;   ///< the chunks from here on hold faces that sleep
+  Id awake_end = 0;   ///< the chunks from here on hold faces that sleep; others may rest
   Id first_edge = 0;  ///< of its own edges, in FaceTiles::record_begin
   Id own_edges = 0;  ///< slots of the own blocks' edges; then those of the halo, then an empty edge
   bool takes_then = false;  ///< a face needs the corners at n - 1 (FaceInputs::then)

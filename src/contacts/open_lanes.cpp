@@ -56,8 +56,9 @@ struct OnTheWay {
 /// which g changes, over |g|; so a vector along t changes by its length times about that beside its
 /// own change. The edges do not overlap as long as p2 lies before q2 along t, or q1 before p1.
 /// Where all of f lies beyond all of e along n, their surfaces stay apart as long as n turns by
-/// less than a right angle; the same holds along the normals of e and of f, of which one parts the
-/// edges wherever they do not cross.
+/// less than a right angle. The same holds along the normals of e and of f, of which one parts the
+/// edges wherever they do not cross: as both edges go on along t all the way, n stays within a
+/// right angle of either.
 EDDA_INLINE bool stays_as_it_is(const ChunkColumns& c, const FacePair& pair, const EdgeGeometry& o,
                                 std::size_t k, const FacePoints& at, const FacePoints& pace,
                                 const OnTheWay& way) {

@@ -46,8 +46,8 @@ EDDA_INLINE Four strayed_at(const double* at, const double* from, const double* 
 /// Edges that are looked at together.
 constexpr std::size_t run = 16;
 
-/// Returns the largest component of all edges. excess: of each run, by how much an edge has strayed
-/// farther than it is allowed; 0: none has.
+/// Returns the largest component of all edges. excess: of each run, by how much
+/// an edge has strayed farther than it is allowed; 0: none has.
 EDDA_VECTOR double look_for_strayed(const double* at, const double* from, const double* pace,
                                     double age, const double* allowed, std::size_t edges,
                                     double* excess) {
@@ -65,7 +65,8 @@ EDDA_VECTOR double look_for_strayed(const double* at, const double* from, const 
   return largest_of(largest);
 }
 
-/// Upper bound of how far any vertex has strayed, m. Fills SweepScratch::excess.
+/// Upper bound of how far any vertex has strayed, m. Fills
+/// SweepScratch::excess.
 double look_for_strayed(const TileSleep& sleep, SweepScratch& scratch) {
   const std::size_t edges = sleep.from.size() / 4;
   scratch.excess.resize((edges + run - 1) / run);
@@ -74,7 +75,8 @@ double look_for_strayed(const TileSleep& sleep, SweepScratch& scratch) {
          per_component;
 }
 
-/// Fills SweepScratch::too_far. Returns whether there is any such edge, and allows those all.
+/// Fills SweepScratch::too_far. Returns whether there is any such edge. Their limit is lifted:
+/// wake_chunks() sets it anew where a chunk goes on.
 bool note_strayed(TileSleep& sleep, SweepScratch& scratch) {
   const std::size_t edges = sleep.from.size() / 4;
   bool any = false;
@@ -193,13 +195,13 @@ void recall_corners(FaceTiles& t, const FaceSet& faces, const Pose& pose, std::s
 }
 
 /// Marks of a chunk after faces have come and gone.
-void mark_chunk(FaceTiles& t, std::size_t q, bool awake) {
+void mark_chunk(FaceTiles& t, std::size_t q, bool looked_at) {
   const int now = t.now, old = 1 - t.now;
   const auto any = [&](unsigned of) { return (t.found[old][q] & lane_bits::field(of)) != 0; };
   const std::uint8_t idle = any(lane_bits::works) ? 0 : 1;
   t.plain[q] = any(lane_bits::rare) ? 0 : 1;
   t.idle[old][q] = t.idle[now][q] = idle;
-  if (awake) return;
+  if (looked_at) return;
   t.bits[old][q] &= lane_bits::field(lane_bits::on);
   t.bits[now][q] = t.bits[old][q];
   t.found[old][q] = t.found[now][q] = 0;
@@ -322,7 +324,7 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
     const std::size_t q = of.first_chunk + n;
     const double before = t.rest[q];
     t.rest[q] = rest_of(t, q, &kind[n * lanes], margins);
-    const bool turns = (t.rest[q] > 0.0) != (before > 0.0);  // falls asleep or wakes
+    const bool turns = (t.rest[q] > 0.0) != (before > 0.0);  // begins or ceases to rest
     if (touched[n] == 0 && !turns) continue;
     ++changed;
     if (touched[n] != 0) load_chunk_constants(t, scene.faces, scene.blocks, tile, q, touched[n]);

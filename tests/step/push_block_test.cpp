@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "blocks/build_blocks.hpp"
 #include "integrate/leapfrog.hpp"
 
@@ -16,6 +19,7 @@ struct Moving {
   State state;
   Pose pose;
   Nodes old_vx, old_vy;
+  double pushed_by = 0.0;
 
   Moving() {
     Model model;
@@ -47,7 +51,7 @@ const NodeVectors force{{{3e4, -2e4}, {1e4, 5e4}, {-2e4, 1e4}}},
     more{{{-1e4, 4e4}, {2e4, 1e4}, {3e4, -3e4}}};
 
 /// Makes a step with the force, and with all of it in the step or some of it by a push.
-Moving moved(double mass_damping, bool strain_damped, bool pushed) {
+Moving moved(double mass_damping, bool strain_damped, bool pushed, const NodeVectors& by = more) {
   Moving m;
   Nodes fx = zero_nodes(1), fy = fx;
   for (std::size_t k = 0; k < nodes_per_block; ++k) {
@@ -62,8 +66,12 @@ Moving moved(double mass_damping, bool strain_damped, bool pushed) {
   const StepDamping damping{mass_damping, 0.0, nullptr, damps};
   advance(m.state, {m.blocks, m.masses, fx, fy, m.old_vx, m.old_vy, h_old, h_new, damping});
   if (pushed) {
-    push_block({m.blocks, m.masses, m.state, m.pose, h_old, h_new, mass_damping, damps}, 0, more);
+    m.pushed_by =
+        push_block({m.blocks, m.masses, m.state, m.pose, h_old, h_new, mass_damping, damps}, 0, by);
   }
+  m.pose.x1 = m.pose.x;
+  m.pose.y1 = m.pose.y;
+  place_vertices(m.blocks, m.state.x, m.state.y, 0, m.pose.x, m.pose.y);
   return m;
 }
 
@@ -73,8 +81,17 @@ TEST(PushBlock, MovesABlockAsTheForceWouldHave) {
     for (const bool strain_damped : {false, true}) {
       const Moving a = moved(mass_damping, strain_damped, true),
                    b = moved(mass_damping, strain_damped, false);
+      const Moving alone = moved(mass_damping, strain_damped, true, {});
+      double farthest = 0.0;
+      for (std::size_t v = 0; v < a.pose.x.size(); ++v) {
+        EXPECT_EQ(a.pose.x1[v], a.pose.x[v]) << "placed by the push";
+        EXPECT_EQ(a.pose.y1[v], a.pose.y[v]);
+        farthest = std::max(
+            farthest, std::hypot(a.pose.x[v] - alone.pose.x[v], a.pose.y[v] - alone.pose.y[v]));
+      }
+      EXPECT_NEAR(a.pushed_by, farthest, 1e-6 * farthest);
       for (std::size_t k = 0; k < nodes_per_block; ++k) {
-        const double size = 1e-3;  // m/s: what `more` does, but for the strain of the step
+        const double size = 1e-3;  // m/s: about what `more` changes
         EXPECT_NEAR(a.state.vx[k][0], b.state.vx[k][0], 1e-3 * size) << mass_damping;
         EXPECT_NEAR(a.state.vy[k][0], b.state.vy[k][0], 1e-3 * size) << mass_damping;
         EXPECT_NEAR(a.state.x[k][0], b.state.x[k][0], 1e-3 * size * h_new);

@@ -62,7 +62,7 @@ class Source(unittest.TestCase):
             mutants.mutated(SOURCE, [mutant(text="a + b;", becomes="a;")])
 
     def test_refuses_what_is_no_expression(self):
-        for source, row, said in (("x.a + b;", {}, "begins within a name"), ("y * a * 2.0;", {"text": "* a *"}, "an operator"),
+        for source, row, said in (("x.a + b;", {}, "within a name"), ("y = 2 * a + bc;", {}, "within a name"), ("y * a * 2.0;", {"text": "* a *"}, "an operator"),
                                   ("if (a > b) {", {"text": "if (a > b) {", "becomes": "if (false) {"}, "not closed"),
                                   ("  constexpr double c = a + b;", {}, "a constant is needed")):
             with self.assertRaisesRegex(mutants.Stale, "sign: src/base/sum.cpp: .*" + said):
