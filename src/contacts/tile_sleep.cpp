@@ -20,8 +20,7 @@ constexpr unsigned shortest_sleep = 32, longest_sleep = 256;
 constexpr double rest_part = 0.2;
 
 RestMargins margins_of(const SweepScene& scene, const TileSleep& sleep) {
-  return {std::max(rest_part * sleep.margin, scene.least_margin),
-          std::max(sleep.margin, scene.least_margin)};
+  return {std::max(rest_part * sleep.margin, scene.least_margin), sleep.margin};
 }
 
 constexpr double without_end = 1e300;
@@ -46,8 +45,8 @@ EDDA_INLINE Four strayed_at(const double* at, const double* from, const double* 
 /// Edges that are looked at together.
 constexpr std::size_t run = 16;
 
-/// Returns the largest component of all edges. excess: of each run, by how much
-/// an edge has strayed farther than it is allowed; 0: none has.
+/// Returns the largest component of all edges. excess: of each run, by how much an edge has strayed
+/// farther than it is allowed; 0: none has.
 EDDA_VECTOR double look_for_strayed(const double* at, const double* from, const double* pace,
                                     double age, const double* allowed, std::size_t edges,
                                     double* excess) {
@@ -65,8 +64,7 @@ EDDA_VECTOR double look_for_strayed(const double* at, const double* from, const 
   return largest_of(largest);
 }
 
-/// Upper bound of how far any vertex has strayed, m. Fills
-/// SweepScratch::excess.
+/// Upper bound of how far any vertex has strayed, m. Fills SweepScratch::excess.
 double look_for_strayed(const TileSleep& sleep, SweepScratch& scratch) {
   const std::size_t edges = sleep.from.size() / 4;
   scratch.excess.resize((edges + run - 1) / run);
@@ -138,12 +136,11 @@ constexpr double worth_resting = 0.25;
 
 /// Fills SweepScratch::kind. Returns how many faces there are of each kind.
 std::array<Id, face_kinds> classify(FaceTiles& t, const SweepScene& scene, std::size_t tile,
-                                    SweepScratch& scratch) {
+                                    const RestMargins& margins, SweepScratch& scratch) {
   const Tile& of = t.tiles[tile];
   const int old = 1 - t.now;
   scratch.kind.resize((of.last_chunk - of.first_chunk) * lanes);
   std::array<Id, face_kinds> count{};
-  const RestMargins margins = margins_of(scene, of.sleep);
   const SweepTables tables = tables_of(t, tile, nullptr, scene.step, scene.noise);
   Records e, f, pace_e, pace_f;
   std::uint8_t* next = scratch.kind.data();
@@ -252,8 +249,8 @@ bool wake_chunks(FaceTiles& t, const SweepScene& scene, std::size_t tile,
     for (std::size_t place = q * lanes; place < (q + 1) * lanes; ++place)
       farthest = larger(farthest, larger(too_far[t.slot_e[place]], too_far[t.slot_f[place]]));
     if (farthest > t.rest[q]) {
-      if (q >= of.awake_end) return true;
       wake_chunk(t, scene.faces, scene.pose, q);
+      if (of.sleep.over) return true;
     } else if (farthest > 0.0) {
       allow(t, of.sleep, q);
     } else {
@@ -266,6 +263,11 @@ bool wake_chunks(FaceTiles& t, const SweepScene& scene, std::size_t tile,
 }  // namespace
 
 void wake_chunk(FaceTiles& t, const FaceSet& faces, const Pose& pose, std::size_t q) {
+  Tile& of = t.tiles[t.tile_of_chunk[q]];
+  if (q >= of.awake_end) {
+    of.sleep.over = true;
+    return;
+  }
   t.rest[q] = 0.0;
   for (std::size_t place = q * lanes; place < (q + 1) * lanes; ++place) {
     if (t.face[place] != no_id) recall_corners(t, faces, pose, place);
@@ -287,7 +289,8 @@ bool sleep_is_over(FaceTiles& t, const SweepScene& scene, std::size_t tile, Swee
 void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScratch& scratch) {
   Tile& of = t.tiles[tile];
   begin_sleep(scene, of.sleep, scratch, of.slots() - 1);
-  const std::array<Id, face_kinds> count = classify(t, scene, tile, scratch);
+  const RestMargins margins = margins_of(scene, of.sleep);
+  const std::array<Id, face_kinds> count = classify(t, scene, tile, margins, scratch);
   std::vector<std::uint8_t>& kind = scratch.kind;
   std::vector<std::uint8_t>& touched = scratch.touched;
   touched.assign(of.last_chunk - of.first_chunk, 0);
@@ -318,7 +321,6 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
       (of.last_chunk - of.first_chunk) * static_cast<Id>(lanes) - count[face_kind::asleep];
   const Id was = of.awake_end;
   of.awake_end = of.first_chunk + static_cast<Id>((awake + lanes - 1) / lanes);
-  const RestMargins margins = margins_of(scene, of.sleep);
   std::size_t changed = 0;
   for (std::size_t n = 0; n < touched.size(); ++n) {
     const std::size_t q = of.first_chunk + n;

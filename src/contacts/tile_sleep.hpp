@@ -17,7 +17,8 @@ namespace edda {
 bool sleep_is_over(FaceTiles& tiles, const SweepScene& scene, std::size_t tile,
                    SweepScratch& scratch);
 
-/// Wakes a chunk that rests, before it is evaluated at n; pose: vertices at n and n - 1.
+/// Wakes a chunk that rests, before it is evaluated at n; where it sleeps, that must be decided
+/// anew for its tile. pose: vertices at n and n - 1.
 void wake_chunk(FaceTiles& tiles, const FaceSet& faces, const Pose& pose, std::size_t chunk);
 
 /// Wakes and lets sleep; also brings faces together that do alike. The edges have been placed at n

@@ -78,15 +78,6 @@ void keep(FaceTiles& t, std::size_t q, const ChunkFound& c) {
   t.fresh[t.now][q] = any(lane_bits::busy) ? 1 : 0;
 }
 
-/// A tile in its sweep.
-struct TileInSweep {
-  FaceTiles& tiles;
-  const SweepScene& scene;
-  std::size_t number;
-  const Tile& tile;
-  SweepScratch& scratch;
-};
-
 /// Clears the records of a chunk.
 void store_nothing(const FaceTiles& t, double* on, std::size_t q) {
   const auto clear = [&](const std::vector<Id>& record) {
@@ -163,8 +154,8 @@ LaneBits sweep_some(FaceTiles& t, const SweepTables& tables, const ChunkEdges& e
 }
 
 /// Evaluates the chunks of a tile but those that rest or sleep.
-LaneBits sweep_chunks_of(FaceTiles& t, const Tile& of, const SweepTables& tables,
-                         const ChunkEdges& edges) {
+LaneBits sweep_awake(FaceTiles& t, const Tile& of, const SweepTables& tables,
+                     const ChunkEdges& edges) {
   LaneBits found = 0;
   std::array<std::size_t, chunks_at_once> some;
   std::size_t count = 0;
@@ -215,41 +206,43 @@ void read_vertices(const FaceTiles& t, const SweepScene& scene, std::size_t q, b
   }
 }
 
-void place_masses(const TileInSweep& s, const BlockSet& b, const Masses& m) {
+void place_masses(const FaceTiles& t, const Tile& of, const BlockSet& b, const Masses& m,
+                  SweepScratch& scratch) {
   std::size_t slot = 0;
   const auto put = [&](Id e) {
-    double* const to = &s.scratch.mass[4 * slot++];
+    double* const to = &scratch.mass[4 * slot++];
     to[0] = m.point_inverse[e];
     to[1] = m.edge_inverse[e];
     to[2] = m.point_inverse[b.next[e]];
   };
-  for (Id n = s.tile.first_block; n < s.tile.last_block; ++n) {
-    const Id i = s.tiles.blocks[n];
+  for (Id n = of.first_block; n < of.last_block; ++n) {
+    const Id i = t.blocks[n];
     for (Id e = b.vertex_begin[i]; e < b.vertex_begin[i + 1]; ++e) put(e);
   }
-  for (Id n = s.tile.first_halo; n < s.tile.last_halo; ++n) put(s.tiles.halo[n]);
+  for (Id n = of.first_halo; n < of.last_halo; ++n) put(t.halo[n]);
 }
 
 /// Fills the records of a tile's edges.
-void place_tile(const TileInSweep& s) {
-  const BlockSet& b = s.scene.blocks;
-  const std::size_t numbers = 4 * std::size_t{s.tile.slots()};
+void place_tile(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScratch& scratch) {
+  const Tile& of = t.tiles[tile];
+  const BlockSet& b = scene.blocks;
+  const std::size_t numbers = 4 * std::size_t{of.slots()};
   const auto place = [&](const std::vector<double>& x, const std::vector<double>& y,
                          AlignedNumbers& to) {
     to.resize(std::max(to.size(), numbers));
-    place_edges(corners_of(b), &s.tiles.blocks[s.tile.first_block],
-                s.tile.last_block - s.tile.first_block, s.tiles.halo.data() + s.tile.first_halo,
-                s.tile.last_halo - s.tile.first_halo, x.data(), y.data(), to.data());
+    place_edges(corners_of(b), &t.blocks[of.first_block], of.last_block - of.first_block,
+                t.halo.data() + of.first_halo, of.last_halo - of.first_halo, x.data(), y.data(),
+                to.data());
     std::fill_n(&to[numbers - 4], 4, 0.0);
   };
-  const Pose& pose = s.scene.pose;
-  place(pose.x, pose.y, s.scratch.at);
-  const bool sleep_ends = sleep_is_over(s.tiles, s.scene, s.number, s.scratch);
-  if (s.tile.takes_then || sleep_ends) place(pose.x1, pose.y1, s.scratch.then);
-  if (sleep_ends) let_sleep(s.tiles, s.scene, s.number, s.scratch);
-  if (s.tiles.has_dashpots()) {
-    s.scratch.mass.resize(std::max(s.scratch.mass.size(), numbers));
-    place_masses(s, b, s.scene.masses);
+  const Pose& pose = scene.pose;
+  place(pose.x, pose.y, scratch.at);
+  const bool sleep_ends = sleep_is_over(t, scene, tile, scratch);
+  if (of.takes_then || sleep_ends) place(pose.x1, pose.y1, scratch.then);
+  if (sleep_ends) let_sleep(t, scene, tile, scratch);
+  if (t.has_dashpots()) {
+    scratch.mass.resize(std::max(scratch.mass.size(), numbers));
+    place_masses(t, of, b, scene.masses, scratch);
   }
 }
 
@@ -279,7 +272,7 @@ std::size_t work_of(const FaceTiles& t, const Tile& of) {
 SweepResult sweep_tile(FaceTiles& t, const SweepScene& scene, std::size_t tile, bool keep,
                        SweepScratch& scratch, Nodes& force_x, Nodes& force_y) {
   const Tile& of = t.tiles[tile];
-  place_tile({t, scene, tile, of, scratch});
+  place_tile(t, scene, tile, scratch);
   const std::size_t numbers = record_numbers(t, of);
   AlignedNumbers &own = t.forces[tile], &on = t.kept[tile] != 0 ? own : scratch.on;
   on.resize(std::max(on.size(), numbers));
@@ -290,7 +283,7 @@ SweepResult sweep_tile(FaceTiles& t, const SweepScene& scene, std::size_t tile, 
   if (!scene.corrects) {
     std::fill(t.deepest.data() + of.first_chunk, t.deepest.data() + of.last_chunk, 0.0);
   }
-  const LaneBits found = sweep_chunks_of(t, of, tables, edges);
+  const LaneBits found = sweep_awake(t, of, tables, edges);
   gather_blocks(corners_of(scene.blocks), &t.blocks[of.first_block], of.last_block - of.first_block,
                 nullptr, &t.record_begin[of.first_edge], on.data(), values_of(force_x),
                 values_of(force_y));

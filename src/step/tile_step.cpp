@@ -44,10 +44,9 @@ SweepResult sweep(Simulation& sim, std::size_t tile, bool keep, SweepScratch& sc
 
 /// Whether a face in a chunk that rests may go on, although blocks have been pushed so far (m).
 bool rests_on(const Simulation& sim, Id chunk, double pushed, Id k) {
-  const TiledFaces& own = sim.leapfrog.tiled;
-  const FaceTiles& t = own.tiles;
+  const FaceTiles& t = sim.leapfrog.tiled.tiles;
   return t.tiles[t.tile_of_chunk[chunk]].sleep.strayed + pushed <= t.rest[chunk] ||
-         stays_open(own.tiles, sim.motion.contacts, sim.scene->blocks, sim.motion.pose, k);
+         stays_open(t, sim.motion.contacts, sim.scene->blocks, sim.motion.pose, k);
 }
 
 /// Chunks, ascending, in which these faces lie. A tile of which one must wake is to be swept anew.
@@ -60,12 +59,7 @@ std::vector<Id> chunks_of(Simulation& sim, const std::vector<Id>& faces, double 
       const Id q = place / static_cast<Id>(lanes);
       if (t.rest[q] > 0.0) {
         if (rests_on(sim, q, pushed, k)) continue;
-        Tile& tile = t.tiles[t.tile_of_chunk[q]];
-        if (q >= tile.awake_end) {
-          tile.sleep.over = true;
-        } else {
-          wake_chunk(t, sim.motion.contacts, sim.motion.pose, q);
-        }
+        wake_chunk(t, sim.motion.contacts, sim.motion.pose, q);
       }
       chunks.push_back(q);
     }

@@ -39,8 +39,8 @@ struct Drift {
   std::size_t carrying = 0, sliding = 0, opened = 0, open = 0, asleep = 0, resting = 0;
   std::size_t only_bonded = 0, only_carried = 0;  ///< carry shear, or did so, and store no energy
   unsigned moves = 0, steady = 1;                 ///< so many moves are alike
-  unsigned jolts = 0;       ///< a third of the blocks jumps by any distance in each so many moves
-  std::size_t jumper = 60;  ///< a block that moves farther than others, by this factor
+  unsigned jolts = 0;  ///< a third of the blocks jumps by any distance in each so many moves
+  std::size_t jumper = no_id;  ///< a block that moves farther than others, by this factor
   double jump = 1.0;
 
   Drift(int blocks, double zeta, double bonded_part, double locked_part)
@@ -368,7 +368,7 @@ TEST(TileSleep, EndsWhereABlockStraysTwice) {
     FaceSet own = d.heap.contacts;
     load_faces(t, own, d.heap.blocks, d.heap.pose);
     for (int move = 0; move < 8; ++move) {
-      d.jumper = move == 3 || move == 6 ? i : 60;
+      d.jumper = move == 3 || move == 6 ? i : no_id;
       d.jump = move == 3 ? 3.0 : 3000.0;
       d.move_on(t, own, false, 0.01, 1e-9);
     }
