@@ -6,32 +6,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "blocks/build_blocks.hpp"
+#include "attachments/drawn_blocks.hpp"
 #include "integrate/leapfrog.hpp"
 
 namespace edda::push_block_test {
 namespace {
 
 /// A quadrilateral that moves and turns.
-struct Moving {
-  BlockSet blocks;
-  Masses masses;
+struct Moving : test::DrawnBlocks {
   State state;
   Pose pose;
   Nodes old_vx, old_vy;
   double pushed_by = 0.0;
 
   Moving() {
-    Model model;
-    model.materials.push_back({"rock", 1000.0, 1e9, 0.3, {}});
-    PolygonSet set;
-    BlockPolygon p;
-    p.rings = {{{0, 0}, {2, 0}, {2.2, 1}, {0, 1.3}}};
-    p.joint = {std::vector<Index>(4, none)};
-    p.material = 0;
-    set.blocks.push_back(p);
-    blocks = build_blocks(model, set);
-    masses = given_masses(blocks);
+    add({{0, 0}, {2, 0}, {2.2, 1}, {0, 1.3}});
+    build_all();
     masses.viscosity = {1e-3};
     state = initial_state(blocks, set);
     const double vx[3] = {0.1, -0.2, 0.05}, vy[3] = {0.03, 0.1, -0.15};
