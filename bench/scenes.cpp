@@ -150,6 +150,43 @@ Simulation cavern() {
   return sim;
 }
 
+/// A square of rock cut by two joint sets that cross, of the stress that its weight gives it.
+Simulation rock_at_rest(int side) {
+  const std::string toml = fmt::format(R"(
+[materials.rock]
+density = 2600.0
+young = "10 GPa"
+poisson = 0.25
+[joints.set]
+friction_angle = 35.0
+[domain]
+outline = [[0, 0], [{0}, 0], [{0}, {0}], [0, {0}]]
+material = "rock"
+joint = "set"
+[[joint_set]]
+angle = 20.0
+spacing = 1.0
+deviation = {{ spacing = 0.2 }}
+[[joint_set]]
+angle = 100.0
+spacing = 1.0
+deviation = {{ spacing = 0.2 }}
+[[boundary]]
+sides = ["left", "right", "bottom"]
+type = "roller"
+[initial_stress]
+k0 = 0.5
+surface = "outline"
+[solver]
+duration = 1000.0
+)",
+                                       side);
+  Simulation sim = built(read_model_text(toml, "rock.toml"));
+  start(sim, 1000.0);
+  take_steps(sim, 200);
+  return sim;
+}
+
 }  // namespace
 
 std::string flaw_of_scene(const std::string& name) {
@@ -159,6 +196,7 @@ std::string flaw_of_scene(const std::string& name) {
   const bool two = n.first > 0 && n.second > 0 && n.first <= most / n.second;
   if (n.kind == "wall" || n.kind == "collapse") return two ? "" : name + ": needs COLUMNSxROWS";
   if (n.kind == "heap" || n.kind == "free") return one ? "" : name + ": needs a number of blocks";
+  if (n.kind == "rock") return one ? "" : name + ": needs the length of a side, m";
   if (name == "cavern") return "";
   return name + ": no such scene";
 }
@@ -168,6 +206,7 @@ BenchScene make_scene(const std::string& name, const std::string& cache) {
   if (n.kind == "collapse") return {collapsing_wall(n.first, n.second)};
   if (n.kind == "heap") return {flowing_heap(n.first)};
   if (n.kind == "free") return {free_blocks(n.first)};
+  if (n.kind == "rock") return {rock_at_rest(n.first)};
   if (n.kind == "cavern") return {cavern()};
   BenchScene scene{settled_wall(n.first, n.second, cache)};
   scene.row_error = error_of_row_forces(scene.sim);

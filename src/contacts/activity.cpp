@@ -27,10 +27,6 @@ double centre_of_pressure(double da, double db) {
   return da > 0.0 ? da / (da - db) / 3.0 : 1.0 - db / (db - da) / 3.0;
 }
 
-bool lies_in(const BlockSet& b, const Pose& pose, Vec2 p, Id block) {
-  return inside_of(b, pose, p, block).depth > 0.0;
-}
-
 /// The points of both edges of a closed face at its centre of pressure.
 Opposite where_pressed(const FacePoints& at, const Face& face) {
   return opposite_at(at, face, centre_of_pressure(face.closure.a, face.closure.b));
@@ -58,8 +54,8 @@ bool acts_from_the_start(const FaceSet& c, const BlockSet& b, const Pose& pose,
   const double closure = std::max(face.closure.a, face.closure.b);
   if (closure <= 0.0) return false;
   const Opposite p = where_pressed(at, face);
-  if (lies_in(b, pose, p.on_facing, b.vertex_block[c.edge[k]]) &&
-      lies_in(b, pose, p.on_edge, b.vertex_block[c.facing[k]]))
+  if (lies_inside(b, pose, p.on_facing, b.vertex_block[c.edge[k]]) &&
+      lies_inside(b, pose, p.on_edge, b.vertex_block[c.facing[k]]))
     return true;
   constexpr double inside = 0.05;
   return deepest_corner(c, b, pose, at, face, k) > inside * closure;
@@ -111,7 +107,7 @@ bool corner_leans(const FaceSet& c, const BlockSet& b, const Pose& pose, const F
       opposite_at(at, face, face.closure.b >= face.closure.a ? 1.0 - beside : beside);
   const Vec2 between = 0.5 * (points.on_edge + points.on_facing);
   const std::array own{b.vertex_block[c.edge[k]], b.vertex_block[c.facing[k]]};
-  return !any_third_block(c, b, own, [&](Id i) { return lies_in(b, pose, between, i); });
+  return !any_third_block(c, b, own, [&](Id i) { return lies_inside(b, pose, between, i); });
 }
 
 }  // namespace
@@ -145,8 +141,8 @@ bool overlap_where_pressed(const FaceSet& c, const BlockSet& b, const Pose& pose
   const Opposite p = where_pressed(face_points(c, pose.x, pose.y, k), face);
   const Id edge = b.vertex_block[c.edge[k]], facing = b.vertex_block[c.facing[k]];
   const Vec2 middle = 0.5 * (p.on_edge + p.on_facing);
-  return lies_in(b, pose, p.on_edge, facing) || lies_in(b, pose, p.on_facing, edge) ||
-         (lies_in(b, pose, middle, edge) && lies_in(b, pose, middle, facing));
+  return lies_inside(b, pose, p.on_edge, facing) || lies_inside(b, pose, p.on_facing, edge) ||
+         (lies_inside(b, pose, middle, edge) && lies_inside(b, pose, middle, facing));
 }
 
 }  // namespace edda

@@ -289,8 +289,8 @@ EDDA_INLINE ChunkFound look_at_lanes(const ChunkView& given) {
 
 SweepTables tables_of(FaceTiles& t, std::size_t tile, double* on, double step, double noise) {
   const int now = t.now, old = 1 - t.now;
-  return {.edges = t.constants[tile].edges.data(),
-          .strengths = t.constants[tile].strengths.data(),
+  return {.edges = t.constants[tile].edges.numbers.data(),
+          .strengths = t.constants[tile].strengths.numbers.data(),
           .edge_set = t.edge_set.data(),
           .strength_set = t.strength_set.data(),
           .before = t.memory[old].data(),

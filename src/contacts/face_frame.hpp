@@ -26,6 +26,17 @@ struct FacePair {
       turn_q2;  ///< cosine and sine of the exterior angles of the corners
 };
 
+/// Edges of which the overlap is shorter than this part of FacePair::passing do not meet. Where
+/// four corners meet, as at every crossing of two joint sets, rounding alone makes corners overlap
+/// that lie across from each other, and let go of each other, in every step. What such an overlap
+/// could carry is lost in rounding, as the aspect gate allows it closures of twice its length at
+/// most.
+inline constexpr double least_overlap = 1e-9;
+/// Whether the overlap between these coordinates along t exists.
+EDDA_INLINE bool overlaps(double from, double to, const FacePair& pair) {
+  return to - from > least_overlap * pair.passing;
+}
+
 /// Vector from the material point at the fraction xi of e (from p1) to that at the fraction eta of
 /// f (from q2).
 EDDA_INLINE Vec2 from_point_of_e(const FacePoints& p, double xi, double eta) {
@@ -139,7 +150,7 @@ EDDA_INLINE FaceEnds gated_closure(double drawn_a, double drawn_b, const FacePai
 /// overlap, which count where no corners pass each other.
 EDDA_INLINE bool is_plain(const EdgeGeometry& o, FaceEnds drawn, const FacePair& pair) {
   const double along = (o.cosine - pair.gate_from) * pair.gate_scale, length = o.mb - o.ma;
-  const bool absent = (length <= 0.0) | (along <= 0.0) | (o.s2 <= 0.0) | (o.r1 <= o.r2);
+  const bool absent = !overlaps(o.ma, o.mb, pair) | (along <= 0.0) | (o.s2 <= 0.0) | (o.r1 <= o.r2);
   const double nearest = smaller(std::abs(o.r2), std::abs(o.s2 - o.r1));  // corner to corner
   const bool apart = nearest >= pair.passing;
   const FaceEnds gated = gated_closure(drawn.a, drawn.b, pair);
@@ -173,7 +184,7 @@ EDDA_INLINE OverlapEnds overlap_of(const EdgeGeometry& o, const FacePair& pair) 
   v.sa = v.la = o.ma;
   v.sb = v.lb = o.mb;
   const bool opposed = (o.s2 > 0.0) & (o.r1 > o.r2) & (o.cosine > pair.gate_from);
-  v.exists = (o.mb > o.ma) & opposed;
+  v.exists = overlaps(o.ma, o.mb, pair) & opposed;
   if constexpr (use != Formulas::plain) {
     const bool carries = carries_tension<use>(pair);
     const double furthest = furthest_reach * pair.passing, per_furthest = 1.0 / furthest;
@@ -191,7 +202,7 @@ EDDA_INLINE OverlapEnds overlap_of(const EdgeGeometry& o, const FacePair& pair) 
     v.pass_a = corners_passing(-o.r2, v.reach.reach, per_reach);
     v.pass_b = corners_passing(o.s2 - o.r1, v.reach.reach, per_reach);
     const double from = o.ma + v.pass_a.drawn_in, to = o.mb - v.pass_b.drawn_in;
-    v.exists = (to > from) & opposed;
+    v.exists = overlaps(from, to, pair) & opposed;
     v.sa = v.exists ? from : o.ma;
     v.sb = v.exists ? to : o.mb;
   }

@@ -369,9 +369,9 @@ EDDA_INLINE OpenFace look_at_open_face(const FaceInputs& in, const EdgeGeometry&
                drawn_b = o.closure_at_0 + o.closure_slope * o.mb;
   s.closure = {drawn_a + pair.offset.a, drawn_b + pair.offset.b};
   const double gate = smooth_step((o.cosine - pair.gate_from) * pair.gate_scale).value;
-  const double overlap = o.mb - o.ma;
-  s.length = positive_part(overlap);
-  const bool on = (overlap > 0.0) & (o.cosine > pair.gate_from) & (o.s2 > 0.0) & (o.r1 > o.r2);
+  s.length = positive_part(o.mb - o.ma);
+  const bool on =
+      overlaps(o.ma, o.mb, pair) & (o.cosine > pair.gate_from) & (o.s2 > 0.0) & (o.r1 > o.r2);
   s.gate = on ? gate : 0.0;
   s.cohesive = s.gate * s.length * flush_part(o.cosine);
   s.xi = {o.ma * o.per_e, o.mb * o.per_e};

@@ -126,8 +126,8 @@ void resize_chunks(FaceTiles& t, std::size_t chunks, bool dashpots) {
   t.plain.assign(chunks, 1);
   t.bonds.assign(chunks, 0);
   t.rest.assign(chunks, 0.0);
-  t.edge_set.assign(chunks, 0);
-  t.strength_set.assign(chunks, 0);
+  t.edge_set.assign(chunks, no_id);
+  t.strength_set.assign(chunks, no_id);
   resize_afresh(t.sums, chunks * sum_columns * lanes);
   t.ever.assign(chunks, 0);
   for (int which : {0, 1}) {

@@ -152,10 +152,21 @@ struct Tile {
   Id slots() const { return own_edges + (last_halo - first_halo) + 1; }
 };
 
-/// Constants of the chunks of a tile; chunks with equal ones share them.
+/// Constants of the chunks of a tile: sets of numbers that chunks with equal ones share, as far as
+/// they are found to be equal (ConstantSets::set_of()).
+struct ConstantSets {
+  AlignedNumbers numbers;  ///< [sets][columns][8]
+  std::vector<Id> users;   ///< [sets] how many chunks have it
+  std::vector<Id> unused;  ///< those that none has
+
+  void clear() {
+    numbers.clear();
+    users.clear();
+    unused.clear();
+  }
+};
 struct TileConstants {
-  AlignedNumbers edges;      ///< [sets][edge_columns][8]
-  AlignedNumbers strengths;  ///< [sets][strength_columns][8]
+  ConstantSets edges, strengths;  ///< of edge_columns and strength_columns
 };
 
 struct FaceTiles {
@@ -191,7 +202,7 @@ struct FaceTiles {
   std::vector<std::uint8_t> kept;      ///< [tiles] 1: they are those of the last sweep
 
   std::vector<TileConstants> constants;    ///< [tiles]
-  std::vector<Id> edge_set, strength_set;  ///< [chunks] their constants
+  std::vector<Id> edge_set, strength_set;  ///< [chunks] their constants; no_id: none yet
 
   AlignedNumbers memory[2];        ///< [chunks][memory_columns][8], of steps n and n - 1 in turn
   AlignedNumbers dashpots[2];      ///< [chunks][dashpot_memory_columns][8]; empty: no dashpots
@@ -210,10 +221,11 @@ struct FaceTiles {
   /// Of those found in the step:
   bool has_found(unsigned of, std::size_t k) const { return bit_of(found[now], of, k); }
   const double* edges_of(std::size_t tile, std::size_t chunk) const {
-    return constants[tile].edges.data() + edge_set[chunk] * edge_columns * lanes;
+    return constants[tile].edges.numbers.data() + edge_set[chunk] * edge_columns * lanes;
   }
   const double* strengths_of(std::size_t tile, std::size_t chunk) const {
-    return constants[tile].strengths.data() + strength_set[chunk] * strength_columns * lanes;
+    return constants[tile].strengths.numbers.data() +
+           strength_set[chunk] * strength_columns * lanes;
   }
 
  private:

@@ -3,6 +3,15 @@
 #include <limits>
 
 namespace edda {
+namespace {
+
+/// Whether the ray from p along x crosses the edge from s to t.
+bool crosses(Vec2 p, Vec2 s, Vec2 t) {
+  return (s.y > p.y) != (t.y > p.y) && (cross(t - s, p - s) > 0.0) == (t.y > s.y);
+}
+
+}  // namespace
+
 Inside inside_of(const BlockSet& b, const Pose& pose, Vec2 p, std::size_t j) {
   bool in = false;
   Inside found{std::numeric_limits<double>::infinity(), no_id};
@@ -10,11 +19,18 @@ Inside inside_of(const BlockSet& b, const Pose& pose, Vec2 p, std::size_t j) {
     const Vec2 s = at(pose.x, pose.y, e), t = at(pose.x, pose.y, b.next[e]);
     const double distance = distance_to_segment(p, s, t);
     if (distance < found.depth) found = {distance, e};
-    if ((s.y > p.y) == (t.y > p.y)) continue;
-    if ((cross(t - s, p - s) > 0.0) == (t.y > s.y)) in = !in;
+    if (crosses(p, s, t)) in = !in;
   }
   if (!in) found.depth = -found.depth;
   return found;
+}
+
+bool lies_inside(const BlockSet& b, const Pose& pose, Vec2 p, std::size_t j) {
+  bool in = false;
+  for (Id e = b.vertex_begin[j]; e < b.vertex_begin[j + 1]; ++e) {
+    if (crosses(p, at(pose.x, pose.y, e), at(pose.x, pose.y, b.next[e]))) in = !in;
+  }
+  return in && inside_of(b, pose, p, j).depth > 0.0;
 }
 
 }  // namespace edda

@@ -17,4 +17,7 @@ struct Inside {
 /// Position of p relative to block j in the given pose. O(number of its edges).
 Inside inside_of(const BlockSet& blocks, const Pose& pose, Vec2 p, std::size_t j);
 
+/// Whether p lies inside block j, and not on its boundary; for most blocks quicker than the depth.
+bool lies_inside(const BlockSet& blocks, const Pose& pose, Vec2 p, std::size_t j);
+
 }  // namespace edda

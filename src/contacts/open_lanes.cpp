@@ -44,9 +44,9 @@ struct OnTheWay {
   EDDA_INLINE double change(const Between& b) const {
     return steps * (std::abs(b.pace.x) + std::abs(b.pace.y)) + 2.0 * margin;
   }
-  /// Whether n . w > 0 all the way, where n turns by up to `turn` (rad, small).
-  EDDA_INLINE bool ahead(Vec2 n, double turn, const Between& b) const {
-    return least_along(n, b) > turn * longest(b);
+  /// Whether n . w > -by all the way, where n turns by up to `turn` (rad, small).
+  EDDA_INLINE bool ahead(Vec2 n, double turn, const Between& b, double by = 0.0) const {
+    return least_along(n, b) + by > turn * longest(b);
   }
 };
 
@@ -54,7 +54,8 @@ struct OnTheWay {
 /// remains so; or it was open and remains so, and the surfaces apart. With the length |g| of E - F,
 /// both edges over their lengths, the sine of the angle by which the frame turns is at most that by
 /// which g changes, over |g|; so a vector along t changes by its length times about that beside its
-/// own change. The edges do not overlap as long as p2 lies before q2 along t, or q1 before p1.
+/// own change. The edges do not overlap as long as p2 lies before q2 along t, or q1 before p1, or
+/// not farther beyond it than by an overlap that does not count.
 /// Where all of f lies beyond all of e along n, their surfaces stay apart as long as n turns by
 /// less than a right angle. The same holds along the normals of e and of f, of which one parts the
 /// edges wherever they do not cross: as both edges go on along t all the way, n stays within a
@@ -76,7 +77,9 @@ EDDA_INLINE bool stays_as_it_is(const ChunkColumns& c, const FacePair& pair, con
   const double faces_by = o.cosine - pair.gate_from;
   const bool firm = (turn < 0.5) & (change < 0.25);
   const bool shut = (change < 0.25) & (faces_by + stretch * change < 0.0);
-  const bool past_e = way.ahead(t, turn, p2_q2), short_of_e = way.ahead(t, turn, reversed(p1_q1));
+  const double least = least_overlap * pair.passing;
+  const bool past_e = way.ahead(t, turn, p2_q2, least),
+             short_of_e = way.ahead(t, turn, reversed(p1_q1), least);
   const bool beside = firm & (past_e | short_of_e);
   const bool e_goes_on = way.ahead(t, turn, e), f_goes_back = way.ahead(t, turn, f);
   const bool begins = way.ahead(t, turn, reversed(p2_q2)), ends = way.ahead(t, turn, p1_q1);
@@ -99,7 +102,7 @@ EDDA_INLINE bool stays_as_it_is(const ChunkColumns& c, const FacePair& pair, con
 EDDA_INLINE bool touches_as_drawn(const FacePair& pair, const EdgeGeometry& o, double noise) {
   const double most = larger(pair.offset.a + o.closure_at_0 + o.closure_slope * o.ma,
                              pair.offset.b + o.closure_at_0 + o.closure_slope * o.mb);
-  return (o.cosine > pair.gate_from) & (o.mb > o.ma) & (most > -noise);
+  return (o.cosine > pair.gate_from) & overlaps(o.ma, o.mb, pair) & (most > -noise);
 }
 
 EDDA_INLINE void look_at_lane(const ChunkColumns& c, std::size_t k, const RestMargins& margins,

@@ -29,17 +29,28 @@ EdgeConstants<double> no_constants() {
   return none;
 }
 
-/// The set of constants that equals this one, of the last ones in the table; appended where there
-/// is none. In regular masonry there are few, elsewhere no two are equal.
-Id set_of(AlignedNumbers& table, const double* numbers, std::size_t columns) {
+/// Gives a chunk, which had the set `was` so far, these constants: an equal set of the last ones in
+/// the table, or one of its own. In regular masonry there are few, elsewhere no two are equal.
+Id set_of(ConstantSets& sets, Id was, const double* numbers, std::size_t columns) {
+  const std::size_t size = columns * lanes, count = sets.users.size();
+  const auto at = [&](std::size_t set) { return sets.numbers.data() + set * size; };
+  if (was != no_id && --sets.users[was] == 0) sets.unused.push_back(was);
   constexpr std::size_t last = 12;
-  const std::size_t size = columns * lanes, sets = table.size() / size;
-  for (std::size_t n = sets - std::min(sets, last); n < sets; ++n) {
-    if (std::memcmp(table.data() + n * size, numbers, size * sizeof(double)) == 0)
-      return static_cast<Id>(n);
+  for (std::size_t n = count - std::min(count, last); n < count; ++n) {
+    if (sets.users[n] == 0 || std::memcmp(at(n), numbers, size * sizeof(double)) != 0) continue;
+    ++sets.users[n];
+    return static_cast<Id>(n);
   }
-  table.insert(table.end(), numbers, numbers + size);
-  return static_cast<Id>(sets);
+  if (!sets.unused.empty()) {
+    const Id set = sets.unused.back();
+    sets.unused.pop_back();
+    std::copy_n(numbers, size, at(set));
+    sets.users[set] = 1;
+    return set;
+  }
+  sets.numbers.insert(sets.numbers.end(), numbers, numbers + size);
+  sets.users.push_back(1);
+  return static_cast<Id>(count);
 }
 
 /// The memory of face k at the step of `m`, at these positions.
@@ -146,8 +157,23 @@ void load_chunk_constants(FaceTiles& t, const FaceSet& c, const BlockSet& b, std
     bonds = bonds || of.bonded[lane] > 0.0 || of.carries_tension[lane] > 0.0;
   }
   t.bonds[q] = bonds ? 1 : 0;
-  t.edge_set[q] = set_of(t.constants[tile].edges, edges, edge_columns);
-  t.strength_set[q] = set_of(t.constants[tile].strengths, strengths, strength_columns);
+  TileConstants& constants = t.constants[tile];
+  t.edge_set[q] = set_of(constants.edges, t.edge_set[q], edges, edge_columns);
+  t.strength_set[q] = set_of(constants.strengths, t.strength_set[q], strengths, strength_columns);
+}
+
+void load_constants(FaceTiles& t, const FaceSet& c, const BlockSet& b, std::size_t tile) {
+  const Tile& of = t.tiles[tile];
+  TileConstants& constants = t.constants[tile];
+  for (ConstantSets* sets : {&constants.edges, &constants.strengths}) sets->clear();
+  for (std::size_t q = of.first_chunk; q < of.last_chunk; ++q)
+    load_chunk_constants(t, c, b, tile, q);
+  for (ConstantSets* sets : {&constants.edges, &constants.strengths}) {
+    constexpr double room = 1.25;  // std::vector may have taken twice as much as it needs
+    AlignedNumbers& numbers = sets->numbers;
+    if (static_cast<double>(numbers.capacity()) > room * static_cast<double>(numbers.size()))
+      numbers.shrink_to_fit();
+  }
 }
 
 void load_faces(FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& pose) {
@@ -157,9 +183,8 @@ void load_faces(FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& p
   std::vector<char> no_scratch;
   parallel_tasks(t.tiles.size(), 60 * t.face.size(), no_scratch, [&](std::size_t tile, char&) {
     const Tile& of = t.tiles[tile];
-    t.constants[tile] = {};
+    load_constants(t, c, b, tile);
     for (std::size_t q = of.first_chunk; q < of.last_chunk; ++q) {
-      load_chunk_constants(t, c, b, tile, q);
       t.idle[0][q] = t.idle[1][q] = 1;
       for (std::size_t place = q * lanes; place < (q + 1) * lanes; ++place) {
         if (t.face[place] != no_id) load_copy(t, c, pose, place, t.face[place]);

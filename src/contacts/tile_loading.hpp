@@ -18,6 +18,10 @@ void load_decisions(FaceTiles& tiles, const FaceSet& faces, const BlockSet& bloc
 void load_chunk_constants(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
                           std::size_t tile, std::size_t chunk, unsigned changed = 0xff);
 
+/// The constants of all chunks of a tile, for which it has been laid out.
+void load_constants(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
+                    std::size_t tile);
+
 /// Takes over what the correction of switching has changed of face k (recompute_shear()): its slip
 /// at n - 1 (`before`) and its accumulated work.
 void load_correction(FaceTiles& tiles, const FaceSet& faces, const FaceFields<double>& before,

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "contacts/tile_columns.hpp"
-#include "contacts/tile_loading.hpp"
 
 namespace edda {
 namespace {
@@ -61,20 +60,6 @@ void swap_faces(FaceTiles& t, std::size_t a, std::size_t b) {
     // The other copy of the face may be looked for in another tile just now (order_records()).
     std::atomic_ref<Id>(t.place[t.face[place]][owns ? 0 : 1])
         .store(static_cast<Id>(place), std::memory_order_relaxed);
-  }
-}
-
-void drop_unused_constants(FaceTiles& t, const FaceSet& c, const BlockSet& b, std::size_t tile) {
-  const Tile& of = t.tiles[tile];
-  TileConstants& constants = t.constants[tile];
-  const std::size_t sets = std::max(constants.edges.size() / edge_columns,
-                                    constants.strengths.size() / strength_columns) /
-                           lanes;
-  constexpr std::size_t few = 16;
-  if (sets <= 2 * (of.last_chunk - of.first_chunk) + few) return;
-  constants = {};
-  for (std::size_t q = of.first_chunk; q < of.last_chunk; ++q) {
-    load_chunk_constants(t, c, b, tile, q);
   }
 }
 

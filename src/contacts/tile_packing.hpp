@@ -15,8 +15,4 @@ constexpr face_kind::Kind kind_of_working(bool short_formulas, bool works) {
 /// found. The marks and the constants of their chunks, and the records, are left to the caller.
 void swap_faces(FaceTiles& tiles, std::size_t place, std::size_t other);
 
-/// Sets of constants that chunks have left are dropped once they are more than those in use.
-void drop_unused_constants(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
-                           std::size_t tile);
-
 }  // namespace edda

@@ -109,11 +109,8 @@ void renew_tiles(FaceTiles& t, FaceTiles& old, const FaceSet& c, const BlockSet&
   std::vector<char> no_scratch;
   parallel_tasks(t.tiles.size(), 40 * t.face.size(), no_scratch, [&](std::size_t tile, char&) {
     const Tile& of = t.tiles[tile];
-    TileConstants& constants = t.constants[tile];
-    constants.edges.clear();
-    constants.strengths.clear();
+    load_constants(t, c, b, tile);
     for (std::size_t q = of.first_chunk; q < of.last_chunk; ++q) {
-      load_chunk_constants(t, c, b, tile, q);
       t.idle[0][q] = t.idle[1][q] = 1;
       for (std::size_t place = q * lanes; place < (q + 1) * lanes; ++place) {
         const Id k = t.face[place];

@@ -339,7 +339,6 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
     }
   }
   set_allowed(t, tile, of.sleep);
-  drop_unused_constants(t, scene.faces, scene.blocks, tile);
   constexpr std::size_t few = 8;  // one chunk in so many
   of.sleep.calm = few * changed <= touched.size();
   if (changed == 0 && of.awake_end == was) return;

@@ -138,8 +138,9 @@ Result<PreparedRun> prepared(Model model, BlockOrder order, ReadFor what_for) {
   std::vector<std::string> on_borders = border_points(run.sim);
   // The polygons are no longer needed: the blocks have their shapes, and all points have been
   // located.
-  run.sim.scene.edit().polygons.blocks = {};
-  run.sim.scene.edit().polygons.removed = {};
+  PolygonSet& polygons = run.sim.scene.edit().polygons;
+  polygons.blocks = std::vector<BlockPolygon>();
+  polygons.removed = std::vector<BlockPolygon>();
   run.governed_by = governed_by(run.sim);
   run.warnings = run.sim.scene->model.warnings;
   for (std::string& warning : implausible(run.sim.scene->model))

@@ -63,7 +63,7 @@ class Correction {
         access_(access) {
     scratch_.moved_at.resize(b_.size(), 0);
     scratch_.first_face.resize(b_.size(), no_id);
-    scratch_.set.clear();
+    begin_set();
     scratch_.known.clear();
     scratch_.pushed_by = 0.0;
   }
@@ -145,6 +145,14 @@ class Correction {
 
  private:
   static constexpr std::size_t cost_of_a_face = 4000;  // ns, with some passes
+
+  /// Empties the set. In the first step of a run every face may close, and in none that follows.
+  void begin_set() {
+    std::vector<SwitchingFace>& set = scratch_.set;
+    constexpr std::size_t few = 64, most = 16;
+    if (set.capacity() > most * (set.size() + few)) set = std::vector<SwitchingFace>();
+    set.clear();
+  }
 
   Id first_block(const SwitchingFace& f) const { return b_.vertex_block[c_.edge[f.face]]; }
   Id second_block(const SwitchingFace& f) const { return b_.vertex_block[c_.facing[f.face]]; }

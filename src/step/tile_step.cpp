@@ -49,6 +49,16 @@ bool rests_on(const Simulation& sim, Id chunk, double pushed, Id k) {
          stays_open(t, sim.motion.contacts, sim.scene->blocks, sim.motion.pose, k);
 }
 
+/// Whether a copy of face k is awake, or must wake since blocks have been pushed so far (m).
+bool takes_part(const Simulation& sim, double pushed, Id k) {
+  const FaceTiles& t = sim.leapfrog.tiled.tiles;
+  return std::any_of(t.place[k].begin(), t.place[k].end(), [&](Id place) {
+    if (place == no_id) return false;
+    const Id q = place / static_cast<Id>(lanes);
+    return t.rest[q] == 0.0 || !rests_on(sim, q, pushed, k);
+  });
+}
+
 /// Chunks, ascending, in which these faces lie. A tile of which one must wake is to be swept anew.
 std::vector<Id> chunks_of(Simulation& sim, const std::vector<Id>& faces, double pushed) {
   FaceTiles& t = sim.leapfrog.tiled.tiles;
@@ -227,9 +237,11 @@ class FacesInTiles : public FaceAccess {
                 std::vector<Id>& switching) override {
     const BlockSet& b = sim_.scene->blocks;
     const std::size_t known = changed_.size();
+    const double pushed = sim_.leapfrog.switching.pushed_by;
     for (const Id i : blocks) {
-      sim_.motion.contacts.for_faces(b.vertex_begin[i], b.vertex_begin[i + 1],
-                                     [&](Id k, bool) { changed_.push_back(k); });
+      sim_.motion.contacts.for_faces(b.vertex_begin[i], b.vertex_begin[i + 1], [&](Id k, bool) {
+        if (takes_part(sim_, pushed, k)) changed_.push_back(k);
+      });
     }
     std::vector<Id> faces(changed_.begin() + static_cast<std::ptrdiff_t>(known), changed_.end());
     std::sort(faces.begin(), faces.end());

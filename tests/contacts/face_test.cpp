@@ -317,6 +317,12 @@ TEST(Face, ExistsOnlyWhileEdgesOverlapAndAreOpposed) {
   const double furthest = 0.5 * r.pair.passing, u = std::sqrt(2.0) * 1e-3 / 6.0 / furthest;
   const double length = 1.0 - 0.5 * furthest * u * (2.0 - u);
   EXPECT_NEAR(face_between(r.at, r.pair).energy, 0.5 * 3e9 * 1e-6 * length, 1e-6);
+  for (const double overlap : {1e-15, 1e-11, 2e-10}) {  // rounding, up to 1e-9 of `passing`
+    r = flat(0.1 * overlap, 0.0);
+    for (Vec2* q : {&r.at.q1, &r.at.q2}) *q += Vec2{1.0 - overlap, 0.0};
+    EXPECT_EQ(face_between(r.at, r.pair).energy > 0.0, overlap > 1e-10);
+    EXPECT_EQ(face_between<Formulas::plain>(r.at, r.pair).energy > 0.0, overlap > 1e-10);
+  }
 }
 
 TEST(Face, WhatIsDeeperThanLongCarriesNothing) {

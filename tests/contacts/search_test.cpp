@@ -7,6 +7,7 @@
 
 #include "blocks/build_blocks.hpp"
 #include "blocks/pose.hpp"
+#include "contacts/inside.hpp"
 
 namespace edda::search_test {
 namespace {
@@ -114,6 +115,30 @@ TEST(NearPairs, ThinStripsBesideBlocksOfAnySize) {
     EXPECT_EQ(pairs, brute_force(b, alive, reach));
     EXPECT_GT(pairs.size(), 300u);
   }
+}
+
+/// Random points, and such as lie at the height of a corner, on a boundary, or in a corner.
+TEST(Inside, IsWhereTheDepthIsPositive) {
+  const BlockSet b = random_blocks(11, 60, 0.5);
+  Pose pose;
+  pose.x = b.vertex_x;
+  pose.y = b.vertex_y;
+  std::mt19937 rng(12);
+  std::uniform_real_distribution<double> u(-0.6, 0.6);
+  int inside = 0, outside = 0;
+  for (int n = 0; n < 20000; ++n) {
+    const auto v = static_cast<std::size_t>(rng() % b.vertex_count()), e = std::size_t{b.next[v]};
+    const std::size_t j = b.vertex_block[v];
+    Vec2 p{b.centroid_x[j] + u(rng), b.centroid_y[j] + u(rng)};
+    if (n % 4 == 1) p.y = b.vertex_y[v];
+    if (n % 4 == 2) p = 0.5 * (b.vertex(v) + b.vertex(e));
+    if (n % 16 == 3) p = b.vertex(v);
+    const bool lies = lies_inside(b, pose, p, j);
+    EXPECT_EQ(lies, inside_of(b, pose, p, j).depth > 0.0);
+    ++(lies ? inside : outside);
+  }
+  EXPECT_GT(inside, 1000);
+  EXPECT_GT(outside, 1000);
 }
 
 }  // namespace

@@ -168,6 +168,18 @@ TEST(InitialStress, JointsThatCrossAtAFewDegrees) {
   }
 }
 
+/// Where two sets cross four corners meet, and rounding alone makes those overlap that lie across.
+TEST(InitialStress, NothingOpensWhereJointSetsCross) {
+  const std::string sets =
+      "[[joint_set]]\nangle = 0.0\nspacing = 1.0\norigin = [0, 980]\n"
+      "[[joint_set]]\nangle = 90.0\nspacing = 1.0\norigin = [0, 980]\n";
+  Simulation sim =
+      scene(rock + rough + sets + from_weight("surface = 'outline'") + on_rollers + explicit_run);
+  ASSERT_GT(sim.scene->blocks.size(), 300U);
+  run(sim, [](Simulation&) {});
+  EXPECT_EQ(sim.accounts.open_close.switched, 0U);
+}
+
 TEST(InitialStress, OddBlocksKeepATensor) {
   expect_stays("Voronoi, tensor, fixed",
                rock + strong + voronoi + tensor + all_fixed + explicit_run);

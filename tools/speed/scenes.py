@@ -12,9 +12,9 @@ from speed.programs import ROOT, Running, circumstances, commit, processor
 TIMES = 5  # that a scene is measured, unless told otherwise
 HISTORY = ROOT / "bench" / "history.csv"
 SCENES = ["wall:67x30", "wall:667x30", "wall:3334x30", "wall:33334x30", "collapse:230x87", "heap:5000", "cavern",
-          "free:20000"]
-SMALL = ["wall:67x30", "collapse:67x30", "heap:2000", "cavern", "free:2000"]
-QUICK = ["wall:20x10", "collapse:20x10", "heap:200", "cavern", "free:200"]
+          "rock:50", "free:20000"]
+SMALL = ["wall:67x30", "collapse:67x30", "heap:2000", "cavern", "rock:50", "free:2000"]
+QUICK = ["wall:20x10", "collapse:20x10", "heap:200", "cavern", "rock:10", "free:200"]
 
 
 def names(given):
