@@ -289,15 +289,17 @@ EDDA_INLINE ChunkFound look_at_lanes(const ChunkView& given) {
 
 SweepTables tables_of(FaceTiles& t, std::size_t tile, double* on, double step, double noise) {
   const int now = t.now, old = 1 - t.now;
-  return {.edges = t.constants[tile].edges.numbers.data(),
+  TileNumbers& numbers = t.numbers[tile];
+  return {.first_chunk = numbers.first_chunk,
+          .edges = t.constants[tile].edges.numbers.data(),
           .strengths = t.constants[tile].strengths.numbers.data(),
           .edge_set = t.edge_set.data(),
           .strength_set = t.strength_set.data(),
-          .before = t.memory[old].data(),
-          .damped_before = t.dashpots[old].data(),
-          .memory = t.memory[now].data(),
-          .damped = t.dashpots[now].data(),
-          .work = t.work[now].data(),
+          .before = numbers.memory[old].data(),
+          .damped_before = numbers.dashpots[old].data(),
+          .memory = numbers.memory[now].data(),
+          .damped = numbers.dashpots[now].data(),
+          .work = numbers.work[now].data(),
           .record_e = t.record_e.data(),
           .record_f = t.record_f.data(),
           .was = t.bits[old].data(),

@@ -28,6 +28,7 @@ inline constexpr std::size_t overlap_columns = sizeof(OverlapColumns<double>) / 
 
 /// What the loops over the chunks of a tile read and write: tables of [chunks][columns][8].
 struct SweepTables {
+  std::size_t first_chunk;               ///< with which those of TileNumbers begin
   const double *edges, *strengths;       ///< EdgeConstants, StrengthConstants: by sets
   const Id *edge_set, *strength_set;     ///< [chunks]
   const double *before, *damped_before;  ///< FaceMemoryColumns, DashpotMemoryColumns
@@ -57,8 +58,8 @@ struct ChunkView {
 };
 inline ChunkView view_of(const SweepTables& t, std::size_t chunk, double* stands,
                          double* overlaps) {
-  const std::size_t memory = chunk * memory_columns * lanes,
-                    dashpots = t.damped != nullptr ? chunk * dashpot_memory_columns * lanes : 0;
+  const std::size_t n = chunk - t.first_chunk, memory = n * memory_columns * lanes,
+                    dashpots = t.damped != nullptr ? n * dashpot_memory_columns * lanes : 0;
   return {&t,
           chunk,
           t.edges + t.edge_set[chunk] * edge_columns * lanes,
@@ -67,7 +68,7 @@ inline ChunkView view_of(const SweepTables& t, std::size_t chunk, double* stands
           t.damped_before + dashpots,
           t.memory + memory,
           t.damped + dashpots,
-          t.work + chunk * work_columns * lanes,
+          t.work + n * work_columns * lanes,
           stands,
           overlaps};
 }

@@ -118,7 +118,14 @@ class Slots {
   std::vector<Id> slot_, tile_;
 };
 
-void resize_chunks(FaceTiles& t, std::size_t chunks, bool dashpots) {
+/// Sets the size of a table without the room that std::vector would take for more.
+void resize_table(AlignedNumbers& table, std::size_t size) {
+  if (size > table.capacity()) table.reserve(size + size / 16);
+  table.resize(size);
+  if (table.capacity() > 2 * size) table.shrink_to_fit();
+}
+
+void resize_chunks(FaceTiles& t, std::size_t chunks) {
   for (auto* ids : {&t.face, &t.slot_e, &t.slot_f, &t.record_e, &t.record_f})
     resize_afresh(*ids, chunks * lanes);
   resize_afresh(t.tile_of_chunk, chunks);
@@ -135,9 +142,6 @@ void resize_chunks(FaceTiles& t, std::size_t chunks, bool dashpots) {
     t.fresh[which].assign(chunks, 0);
     t.bits[which].assign(chunks, 0);
     t.found[which].assign(chunks, 0);
-    resize_afresh(t.work[which], chunks * work_columns * lanes);
-    resize_afresh(t.memory[which], chunks * memory_columns * lanes);
-    resize_afresh(t.dashpots[which], dashpots ? chunks * dashpot_memory_columns * lanes : 0);
   }
 }
 
@@ -190,17 +194,20 @@ void lay_out_tile(FaceTiles& t, const FacesOfTiles& of, const FaceSet& c, const 
   }
 }
 
-/// Lets no face of a tile remember anything.
-void clear_memory(FaceTiles& t, std::size_t tile) {
-  const std::size_t first = t.tiles[tile].first_chunk, chunks = t.tiles[tile].last_chunk - first;
-  const auto clear = [&](AlignedNumbers& table, std::size_t columns) {
-    if (table.empty()) return;  // a tile without faces may begin where the table ends
-    std::fill_n(table.data() + first * columns * lanes, chunks * columns * lanes, 0.0);
-  };
-  clear(t.sums, sum_columns);
-  for (const int which : {0, 1}) {
-    clear(t.memory[which], memory_columns);
-    clear(t.dashpots[which], dashpot_memory_columns);
+/// Gives the faces of a tile that carry load room for what they remember.
+void make_room(FaceTiles& t, const FacesOfTiles& of, const std::vector<std::uint8_t>& kind,
+               std::size_t q) {
+  const auto begin = of.face.begin() + of.begin[q], end = of.face.begin() + of.begin[q + 1];
+  const auto carry = static_cast<std::size_t>(
+      std::count_if(begin, end, [&](Id k) { return kind[k] < face_kind::touching; }));
+  const Tile& tile = t.tiles[q];
+  TileNumbers numbers;
+  numbers.first_chunk = tile.first_chunk;
+  numbers.resize((carry + lanes - 1) / lanes, t.dashpots);
+  t.numbers[q] = std::move(numbers);
+  if (!t.sums.empty()) {  // a tile without faces may begin where the table ends
+    std::fill_n(&t.sums[tile.first_chunk * sum_columns * lanes],
+                (tile.last_chunk - tile.first_chunk) * sum_columns * lanes, 0.0);
   }
 }
 
@@ -215,6 +222,15 @@ void join_halos(FaceTiles& t, const std::vector<std::vector<Id>>& halos) {
 }
 
 }  // namespace
+
+void TileNumbers::resize(std::size_t count, bool with_dashpots) {
+  chunks = static_cast<Id>(count);
+  for (const int which : {0, 1}) {
+    resize_table(memory[which], count * memory_columns * lanes);
+    resize_table(dashpots[which], with_dashpots ? count * dashpot_memory_columns * lanes : 0);
+    resize_table(work[which], count * work_columns * lanes);
+  }
+}
 
 void divide_blocks(FaceTiles& t, const BlockSet& b, const State& state, bool with_fixed,
                    std::size_t most) {
@@ -241,14 +257,16 @@ void lay_out(FaceTiles& t, const FaceSet& c, const BlockSet& b,
              const std::vector<std::uint8_t>& kind) {
   const std::vector<Id> tile_of = tiles_of_blocks(t, b.size());
   FacesOfTiles of = faces_of_tiles(t, c, b, tile_of);
-  if (!kind.empty()) sort_by_kind(of, kind);
-  resize_chunks(t, place_tiles(t, of, b), c.dashpots);
+  sort_by_kind(of, kind);
+  resize_chunks(t, place_tiles(t, of, b));
+  t.dashpots = c.dashpots;
+  t.numbers.resize(t.tiles.size());
   t.place.assign(c.size(), {no_id, no_id});
   std::vector<std::vector<Id>> halos(t.tiles.size());
   std::vector<Slots> slots;
   parallel_tasks(t.tiles.size(), 15 * c.size(), slots, [&](std::size_t q, Slots& of_thread) {
     lay_out_tile(t, of, c, b, tile_of, q, of_thread, halos[q]);
-    clear_memory(t, q);
+    make_room(t, of, kind, q);
   });
   join_halos(t, halos);
   t.constants.resize(t.tiles.size());

@@ -169,6 +169,21 @@ struct TileConstants {
   ConstantSets edges, strengths;  ///< of edge_columns and strength_columns
 };
 
+/// What a tile remembers of the faces in its first chunks, of steps n and n - 1 in turn
+/// (FaceTiles::now). Those in the others sleep, or have just been listed: they have carried
+/// nothing.
+struct TileNumbers {
+  Id first_chunk = 0;          ///< that of the tile
+  Id chunks = 0;               ///< of how many it remembers anything
+  AlignedNumbers memory[2];    ///< [chunks][memory_columns][8]
+  AlignedNumbers dashpots[2];  ///< [chunks][dashpot_memory_columns][8]; empty: no dashpots
+  AlignedNumbers work[2];      ///< [chunks][work_columns][8], where FaceTiles::fresh
+
+  bool holds(std::size_t chunk) const { return chunk - first_chunk < chunks; }
+  /// Remembers the faces of so many chunks; of those that are new nothing: all is 0.
+  void resize(std::size_t count, bool with_dashpots);
+};
+
 struct FaceTiles {
   std::vector<Tile> tiles;
   std::vector<Id> blocks;  ///< of the tiles, one after the other; in each ascending
@@ -204,18 +219,16 @@ struct FaceTiles {
   std::vector<TileConstants> constants;    ///< [tiles]
   std::vector<Id> edge_set, strength_set;  ///< [chunks] their constants; no_id: none yet
 
-  AlignedNumbers memory[2];        ///< [chunks][memory_columns][8], of steps n and n - 1 in turn
-  AlignedNumbers dashpots[2];      ///< [chunks][dashpot_memory_columns][8]; empty: no dashpots
-  std::vector<LaneBits> bits[2];   ///< [chunks]
-  std::vector<LaneBits> found[2];  ///< [chunks] of that step
-  AlignedNumbers work[2];          ///< [chunks][work_columns][8], where `fresh`
-  AlignedNumbers sums;             ///< [chunks][sum_columns][8]
-  std::vector<LaneBits> ever;      ///< [chunks] `opens`, `slides` of any step until n - 1
-  std::vector<double> deepest;     ///< [chunks] as FaceStep::depth, largest in the step so far, m;
-                                   ///< of a new list an upper bound of that
-  int now = 0;                     ///< which of the two is that of step n
+  bool dashpots = false;             ///< as FaceSet::dashpots
+  std::vector<TileNumbers> numbers;  ///< [tiles]
+  std::vector<LaneBits> bits[2];     ///< [chunks] of steps n and n - 1 in turn
+  std::vector<LaneBits> found[2];    ///< [chunks] of that step
+  AlignedNumbers sums;               ///< [chunks][sum_columns][8]
+  std::vector<LaneBits> ever;        ///< [chunks] `opens`, `slides` of any step until n - 1
+  std::vector<double> deepest;  ///< [chunks] as FaceStep::depth, largest in the step so far, m;
+                                ///< of a new list an upper bound of that
+  int now = 0;                  ///< which of the two is that of step n
 
-  bool has_dashpots() const { return !dashpots[0].empty(); }
   /// A bit of face k of step n, by its owned copy; false where it has none. Of those remembered:
   bool remembers(unsigned of, std::size_t k) const { return bit_of(bits[now], of, k); }
   /// Of those found in the step:
@@ -242,8 +255,9 @@ void divide_blocks(FaceTiles& tiles, const BlockSet& blocks, const State& state,
                    std::size_t most = blocks_per_tile);
 
 /// Gives each face of the list its places in the tiles, and all that has a size its size. Blocks
-/// must have been divided. All faces are awake. kind: [nf] what each face does: faces of lower
-/// kinds come first in a tile (contacts/tile_packing.hpp); empty: none is known.
+/// must have been divided. All faces are awake; nothing is remembered. kind: [nf] what each face
+/// does: faces of lower kinds come first in a tile (contacts/tile_packing.hpp), and those that
+/// carry load have room in TileNumbers.
 void lay_out(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
              const std::vector<std::uint8_t>& kind);
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <utility>
 
@@ -42,20 +43,60 @@ void put(AlignedNumbers& table, std::size_t place, const Fields& values) {
 
 /// Reads the numbers of one face from its lane of a chunk.
 template <class Fields>
-Fields get(const AlignedNumbers& table, std::size_t place) {
+Fields get(const double* chunk, std::size_t lane) {
   std::array<double, columns_in<Fields>> numbers;
-  const double* const from =
-      table.data() + place / lanes * columns_in<Fields> * lanes + place % lanes;
-  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = from[i * lanes];
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = chunk[i * lanes + lane];
   return std::bit_cast<Fields>(numbers);
 }
-
-/// The number of one face in a column of a table with the columns of Fields.
 template <class Fields>
-double& number_at(AlignedNumbers& table, std::size_t place, double Fields::*column) {
+Fields get(const AlignedNumbers& table, std::size_t place) {
+  return get<Fields>(table.data() + place / lanes * columns_in<Fields> * lanes, place % lanes);
+}
+
+/// The tables of TileNumbers, by the columns that they have.
+template <class Fields>
+inline constexpr AlignedNumbers (TileNumbers::*table_of)[2] = nullptr;
+template <>
+inline constexpr auto table_of<FaceMemoryColumns<double>> = &TileNumbers::memory;
+template <>
+inline constexpr auto table_of<DashpotMemoryColumns<double>> = &TileNumbers::dashpots;
+template <>
+inline constexpr auto table_of<FaceWorkColumns<double>> = &TileNumbers::work;
+
+/// The numbers of a chunk in one of these, of step n (which = FaceTiles::now) or n - 1. The tile
+/// must hold it.
+template <class Fields>
+double* chunk_of(TileNumbers& of, int which, std::size_t chunk) {
+  assert(of.holds(chunk));
+  return (of.*table_of<Fields>)[which].data() +
+         (chunk - of.first_chunk) * columns_in<Fields> * lanes;
+}
+template <class Fields>
+double* chunk_of(FaceTiles& t, int which, std::size_t chunk) {
+  return chunk_of<Fields>(t.numbers[t.tile_of_chunk[chunk]], which, chunk);
+}
+template <class Fields>
+void put(FaceTiles& t, int which, std::size_t place, const Fields& values) {
+  put(chunk_of<Fields>(t, which, place / lanes), place % lanes, values);
+}
+/// 0 where the tile does not hold the chunk.
+template <class Fields>
+Fields get(const TileNumbers& of, int which, std::size_t place) {
+  const std::size_t chunk = place / lanes;
+  if (!of.holds(chunk)) return {};
+  return get<Fields>((of.*table_of<Fields>)[which], place - of.first_chunk * lanes);
+}
+template <class Fields>
+Fields get(const FaceTiles& t, int which, std::size_t place) {
+  return get<Fields>(t.numbers[t.tile_of_chunk[place / lanes]], which, place);
+}
+
+/// The number of one face in a column of these.
+template <class Fields>
+double& number_at(FaceTiles& t, int which, std::size_t place, double Fields::*column) {
   Fields count{};
   const auto at = static_cast<std::size_t>(&(count.*column) - reinterpret_cast<double*>(&count));
-  return table[(place / lanes * columns_in<Fields> + at) * lanes + place % lanes];
+  return chunk_of<Fields>(t, which, place / lanes)[at * lanes + place % lanes];
 }
 
 /// The work of a face that sticks and does none, from its memory of that step.
@@ -72,9 +113,8 @@ inline FaceWorkColumns<double> no_work(const FaceMemoryColumns<double>& m) {
 inline void begin_work(FaceTiles& t, int which, std::size_t chunk) {
   if (t.fresh[which][chunk] != 0) return;
   t.fresh[which][chunk] = 1;
-  for (std::size_t place = chunk * lanes; place < (chunk + 1) * lanes; ++place) {
-    put(t.work[which], place, no_work(get<FaceMemoryColumns<double>>(t.memory[which], place)));
-  }
+  for (std::size_t place = chunk * lanes; place < (chunk + 1) * lanes; ++place)
+    put(t, which, place, no_work(get<FaceMemoryColumns<double>>(t, which, place)));
 }
 
 inline void set_bit(LaneBits& bits, unsigned of, std::size_t lane, bool is) {

@@ -56,14 +56,16 @@ Id set_of(ConstantSets& sets, Id was, const double* numbers, std::size_t columns
 /// The memory of face k at the step of `m`, at these positions.
 void load_memory(FaceTiles& t, const FaceSet& c, const FaceMemory& m, const std::vector<double>& x,
                  const std::vector<double>& y, int which, std::size_t place, std::size_t k) {
-  const EdgeCoordinates at = coordinates_at(c, x, y, k);
-  put(t.memory[which], place,
-      FaceMemoryColumns<double>{m.slip_a[k], m.slip_b[k], m.overlap[k], m.spring[k], at.s2, at.r1,
-                                at.r2});
-  if (t.has_dashpots()) {
-    put(t.dashpots[which], place,
-        DashpotMemoryColumns<double>{at.y2, at.z1, at.z2, m.damping_a[k], m.damping_b[k],
-                                     m.shear_damping_a[k], m.shear_damping_b[k]});
+  if (t.numbers[t.tile_of_chunk[place / lanes]].holds(place / lanes)) {
+    const EdgeCoordinates at = coordinates_at(c, x, y, k);
+    put(t, which, place,
+        FaceMemoryColumns<double>{m.slip_a[k], m.slip_b[k], m.overlap[k], m.spring[k], at.s2, at.r1,
+                                  at.r2});
+    if (t.dashpots) {
+      put(t, which, place,
+          DashpotMemoryColumns<double>{at.y2, at.z1, at.z2, m.damping_a[k], m.damping_b[k],
+                                       m.shear_damping_a[k], m.shear_damping_b[k]});
+    }
   }
   const bool stored = m.energy[k] > 0.0, touches = stored || m.spring[k] > 0.0;
   LaneBits& bits = t.bits[which][place / lanes];
@@ -88,7 +90,7 @@ void load_work(FaceTiles& t, const FaceMemory& m, bool opens, int which, std::si
                     work.transfer != 0.0 || work.damping_work != 0.0 || work.damping_due != 0.0;
   const std::size_t q = place / lanes;
   if (busy) begin_work(t, which, q);
-  if (t.fresh[which][q] != 0) put(t.work[which], place, work);
+  if (t.fresh[which][q] != 0) put(t, which, place, work);
   set_bit(t.found[which][q], lane_bits::opens, place % lanes, opens);
   set_bit(t.found[which][q], lane_bits::slides, place % lanes, slides);
 }
@@ -101,13 +103,23 @@ void load_sums(FaceTiles& t, const FaceSet& c, std::size_t place, std::size_t k)
   set_bit(t.ever[q], lane_bits::slides, place % lanes, c.slipped[k] > 0.0);
 }
 
+bool remembers(const FaceMemory& m, std::size_t k) {
+  return m.energy[k] > 0.0 || m.spring[k] > 0.0 || m.slip_a[k] != 0.0 || m.slip_b[k] != 0.0;
+}
+
+/// What each face does as far as rows tell, [nf].
+std::vector<std::uint8_t> kinds_of(const FaceSet& c) {
+  std::vector<std::uint8_t> kind(c.size(), face_kind::looked_at);
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (remembers(c.now, k) || remembers(c.before, k)) kind[k] = face_kind::long_rest;
+  }
+  return kind;
+}
+
 /// Fills memory and work of a copy of face k from its row.
 void load_copy(FaceTiles& t, const FaceSet& c, const Pose& pose, std::size_t place, std::size_t k) {
   const int now = t.now, old = 1 - t.now;
-  const auto remembers = [k](const FaceMemory& m) {
-    return m.energy[k] > 0.0 || m.spring[k] > 0.0 || m.slip_a[k] != 0.0 || m.slip_b[k] != 0.0;
-  };
-  const bool carries = remembers(c.now), carried = remembers(c.before);
+  const bool carries = remembers(c.now, k), carried = remembers(c.before, k);
   const bool opens = c.before.energy[k] > 0.0 && c.now.energy[k] == 0.0;
   const std::size_t q = place / lanes;
   load_memory(t, c, c.now, pose.x, pose.y, now, place, k);
@@ -126,8 +138,8 @@ void load_correction(FaceTiles& t, const FaceSet& c, const FaceFields<double>& b
   using Memory = FaceMemoryColumns<double>;
   for (const Id place : t.place[k]) {
     if (place == no_id) continue;
-    number_at(t.memory[1 - t.now], place, &Memory::slip_a) = before.slip_a;
-    number_at(t.memory[1 - t.now], place, &Memory::slip_b) = before.slip_b;
+    number_at(t, 1 - t.now, place, &Memory::slip_a) = before.slip_a;
+    number_at(t, 1 - t.now, place, &Memory::slip_b) = before.slip_b;
     load_sums(t, c, place, k);
   }
 }
@@ -177,7 +189,7 @@ void load_constants(FaceTiles& t, const FaceSet& c, const BlockSet& b, std::size
 }
 
 void load_faces(FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& pose) {
-  lay_out(t, c, b, {});
+  lay_out(t, c, b, kinds_of(c));
   t.deepest.assign(t.chunks(), 0.0);
   t.now = 0;
   std::vector<char> no_scratch;
@@ -205,14 +217,14 @@ void load_decisions(FaceTiles& t, const FaceSet& c, const BlockSet& b, std::size
 
 void load_corners(FaceTiles& t, const EdgeCoordinates& at, int which, std::size_t place) {
   using Memory = FaceMemoryColumns<double>;
-  number_at(t.memory[which], place, &Memory::s2) = at.s2;
-  number_at(t.memory[which], place, &Memory::r1) = at.r1;
-  number_at(t.memory[which], place, &Memory::r2) = at.r2;
-  if (!t.has_dashpots()) return;
+  number_at(t, which, place, &Memory::s2) = at.s2;
+  number_at(t, which, place, &Memory::r1) = at.r1;
+  number_at(t, which, place, &Memory::r2) = at.r2;
+  if (!t.dashpots) return;
   using Dashpots = DashpotMemoryColumns<double>;
-  number_at(t.dashpots[which], place, &Dashpots::y2) = at.y2;
-  number_at(t.dashpots[which], place, &Dashpots::z1) = at.z1;
-  number_at(t.dashpots[which], place, &Dashpots::z2) = at.z2;
+  number_at(t, which, place, &Dashpots::y2) = at.y2;
+  number_at(t, which, place, &Dashpots::z1) = at.z1;
+  number_at(t, which, place, &Dashpots::z2) = at.z2;
 }
 
 }  // namespace edda

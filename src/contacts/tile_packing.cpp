@@ -15,6 +15,14 @@ void swap_numbers(AlignedNumbers& table, std::size_t columns, std::size_t a, std
   for (std::size_t i = 0; i < columns; ++i) std::swap(p[i * lanes], q[i * lanes]);
 }
 
+/// The same in a table of TileNumbers; what a tile does not hold is 0.
+template <class Fields>
+void swap_numbers(TileNumbers& of, int which, std::size_t a, std::size_t b) {
+  const auto of_a = get<Fields>(of, which, a), of_b = get<Fields>(of, which, b);
+  if (of.holds(a / lanes)) put(chunk_of<Fields>(of, which, a / lanes), a % lanes, of_b);
+  if (of.holds(b / lanes)) put(chunk_of<Fields>(of, which, b / lanes), b % lanes, of_a);
+}
+
 /// Exchanges the bits of two lanes in every field.
 template <class Bits>
 void swap_bits(std::vector<Bits>& bits, Bits every, std::size_t a, std::size_t b) {
@@ -43,14 +51,16 @@ void swap_faces(FaceTiles& t, std::size_t a, std::size_t b) {
   swap_numbers(t.sums, sum_columns, a, b);
   constexpr LaneBits every = 0x0101010101010101;
   swap_bits(t.ever, every, a, b);
+  TileNumbers& numbers = t.numbers[t.tile_of_chunk[p]];
   for (const int which : {0, 1}) {
     if (t.fresh[which][p] != 0 || t.fresh[which][q] != 0) {
-      begin_work(t, which, p);
-      begin_work(t, which, q);
-      swap_numbers(t.work[which], work_columns, a, b);
+      for (const std::size_t chunk : {p, q}) {
+        if (numbers.holds(chunk)) begin_work(t, which, chunk);
+      }
+      swap_numbers<FaceWorkColumns<double>>(numbers, which, a, b);
     }
-    swap_numbers(t.memory[which], memory_columns, a, b);
-    if (t.has_dashpots()) swap_numbers(t.dashpots[which], dashpot_memory_columns, a, b);
+    swap_numbers<FaceMemoryColumns<double>>(numbers, which, a, b);
+    if (t.dashpots) swap_numbers<DashpotMemoryColumns<double>>(numbers, which, a, b);
     swap_bits(t.bits[which], every, a, b);
     swap_bits(t.found[which], every, a, b);
   }

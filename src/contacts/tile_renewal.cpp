@@ -35,8 +35,7 @@ std::vector<std::uint8_t> kinds_of(const FaceTiles& t) {
 
 /// The tiles of both lists, and what one face of the old list did.
 struct Renewal {
-  FaceTiles& next;
-  const FaceTiles& old;
+  FaceTiles &next, &old;
   const FaceSet& faces;
   const Pose& pose;
 };
@@ -50,34 +49,43 @@ void copy_bits(LaneBits& to, std::size_t lane, LaneBits from, std::size_t old_la
 /// What a face remembers of one step, and what it has done in it.
 void copy_step(const Renewal& r, int which, std::size_t place, std::size_t from) {
   const std::size_t q = place / lanes, p = from / lanes;
-  const auto memory = get<FaceMemoryColumns<double>>(r.old.memory[which], from);
-  put(r.next.memory[which], place, memory);
-  if (r.next.has_dashpots()) {
-    put(r.next.dashpots[which], place,
-        get<DashpotMemoryColumns<double>>(r.old.dashpots[which], from));
-  }
   copy_bits(r.next.bits[which][q], place % lanes, r.old.bits[which][p], from % lanes);
   copy_bits(r.next.found[which][q], place % lanes, r.old.found[which][p], from % lanes);
+  if (lane_bits::test(r.old.found[which][p], lane_bits::works, from % lanes))
+    r.next.idle[which][q] = 0;
+  if (!r.next.numbers[r.next.tile_of_chunk[q]].holds(q)) return;
+  const auto memory = get<FaceMemoryColumns<double>>(r.old, which, from);
+  put(r.next, which, place, memory);
+  if (r.next.dashpots)
+    put(r.next, which, place, get<DashpotMemoryColumns<double>>(r.old, which, from));
   const bool kept = r.old.fresh[which][p] != 0;
   if (kept) begin_work(r.next, which, q);
   if (r.next.fresh[which][q] != 0) {
-    put(r.next.work[which], place,
-        kept ? get<FaceWorkColumns<double>>(r.old.work[which], from) : no_work(memory));
+    put(r.next, which, place,
+        kept ? get<FaceWorkColumns<double>>(r.old, which, from) : no_work(memory));
   }
-  if (lane_bits::test(r.old.found[which][p], lane_bits::works, from % lanes))
-    r.next.idle[which][q] = 0;
 }
 
-/// The corners of a face that has just been listed, or has slept, at both steps.
+/// The corners of a face that has just been listed, or has slept, at both steps. Where there is no
+/// room they are found when the face wakes.
 void place_corners(const Renewal& r, std::size_t place, std::size_t k) {
+  const std::size_t q = place / lanes;
+  if (!r.next.numbers[r.next.tile_of_chunk[q]].holds(q)) return;
   const Pose& p = r.pose;
   load_corners(r.next, coordinates_at(r.faces, p.x, p.y, k), r.next.now, place);
   load_corners(r.next, coordinates_at(r.faces, p.x1, p.y1, k), 1 - r.next.now, place);
 }
 
-void renew_copy(const Renewal& r, std::size_t place, Id old, bool slept) {
+/// The copy of a face of the old list in this tile.
+Id copy_in(const FaceTiles& t, std::size_t tile, Id k) {
+  const auto [owned, other] = t.place[k];
+  const bool is_other = owned == no_id || t.tile_of_chunk[owned / lanes] != tile;
+  return is_other ? other : owned;
+}
+
+void renew_copy(const Renewal& r, std::size_t tile, std::size_t place, Id old, bool slept) {
   const Id k = r.next.face[place];
-  const Id from = old == no_id ? no_id : r.old.place[old][0];
+  const Id from = old == no_id ? no_id : copy_in(r.old, tile, old);
   if (from != no_id) {
     for (const int which : {0, 1}) copy_step(r, which, place, from);
     double& deepest = r.next.deepest[place / lanes];
@@ -114,25 +122,31 @@ void renew_tiles(FaceTiles& t, FaceTiles& old, const FaceSet& c, const BlockSet&
       t.idle[0][q] = t.idle[1][q] = 1;
       for (std::size_t place = q * lanes; place < (q + 1) * lanes; ++place) {
         const Id k = t.face[place];
-        if (k != no_id) renew_copy(renewal, place, old_row[k], kind[k] == face_kind::asleep);
+        if (k != no_id) renew_copy(renewal, tile, place, old_row[k], kind[k] == face_kind::asleep);
       }
     }
     order_records(t, c, b, tile);
+    old.numbers[tile] = TileNumbers();
   });
 }
 
 bool dashpots_work(const FaceTiles& t) {
-  using Columns = DashpotMemoryColumns<double>;
-  for (std::size_t place = 0; t.has_dashpots() && place < t.face.size(); ++place) {
-    if (t.face[place] == no_id) continue;
+  if (!t.dashpots) return false;
+  const auto works = [&](const TileNumbers& of, std::size_t place) {
+    if (t.face[place] == no_id) return false;
     if (t.fresh[t.now][place / lanes] != 0) {
-      const auto work = get<FaceWorkColumns<double>>(t.work[t.now], place);
+      const auto work = get<FaceWorkColumns<double>>(of, t.now, place);
       if (work.damping_work != 0.0 || work.damping_due != 0.0) return true;
     }
-    const Columns d = get<Columns>(t.dashpots[t.now], place);
-    if (d.damping_a != 0.0 || d.damping_b != 0.0 || d.shear_damping_a != 0.0 ||
-        d.shear_damping_b != 0.0)
-      return true;
+    const auto d = get<DashpotMemoryColumns<double>>(of, t.now, place);
+    return d.damping_a != 0.0 || d.damping_b != 0.0 || d.shear_damping_a != 0.0 ||
+           d.shear_damping_b != 0.0;
+  };
+  for (const TileNumbers& of : t.numbers) {
+    const std::size_t first = of.first_chunk * lanes, end = first + of.chunks * lanes;
+    for (std::size_t place = first; place < end; ++place) {
+      if (works(of, place)) return true;
+    }
   }
   return false;
 }

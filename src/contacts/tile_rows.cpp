@@ -14,9 +14,9 @@ namespace {
 /// whether they are above zero: 1 stands for that.
 FaceFields<double> remembered(const FaceTiles& t, int which, std::size_t k) {
   const Id place = t.place[k][0];
-  const auto memory = get<FaceMemoryColumns<double>>(t.memory[which], place);
+  const auto memory = get<FaceMemoryColumns<double>>(t, which, place);
   const bool kept = t.fresh[which][place / lanes] != 0;
-  const auto work = kept ? get<FaceWorkColumns<double>>(t.work[which], place) : no_work(memory);
+  const auto work = kept ? get<FaceWorkColumns<double>>(t, which, place) : no_work(memory);
   const LaneBits bits = t.bits[which][place / lanes];
   const auto was = [&](unsigned of) {
     return lane_bits::test(bits, of, place % lanes) ? 1.0 : 0.0;
@@ -37,8 +37,8 @@ FaceFields<double> remembered(const FaceTiles& t, int which, std::size_t k) {
   m.shear_b = work.shear_b;
   m.friction_work = work.friction_work;
   m.transfer = work.transfer;
-  if (!t.has_dashpots()) return m;
-  const auto dashpots = get<DashpotMemoryColumns<double>>(t.dashpots[which], place);
+  if (!t.dashpots) return m;
+  const auto dashpots = get<DashpotMemoryColumns<double>>(t, which, place);
   m.damping_a = dashpots.damping_a;
   m.damping_b = dashpots.damping_b;
   m.shear_damping_a = dashpots.shear_damping_a;
@@ -151,7 +151,7 @@ namespace {
 void move_friction_to_fracture(FaceSet& c, FaceTiles& t, std::size_t k) {
   for (const Id place : t.place[k]) {
     if (place == no_id || t.fresh[t.now][place / lanes] == 0) continue;
-    double& friction = number_at(t.work[t.now], place, &FaceWorkColumns<double>::friction_work);
+    double& friction = number_at(t, t.now, place, &FaceWorkColumns<double>::friction_work);
     if (place == t.place[k][0]) c.fracture_work[k] += friction;
     friction = 0.0;
   }
@@ -180,7 +180,8 @@ void next_step(FaceSet& c, FaceTiles& t) {
   parallel_tasks(t.tiles.size(), t.face.size(), no_scratch, [&](std::size_t tile, char&) {
     for (Id q = t.tiles[tile].first_chunk; q < t.tiles[tile].awake_end; ++q) {
       if (t.fresh[t.now][q] == 0) continue;
-      add_work(&t.work[t.now][q * work_columns * lanes], &t.sums[q * sum_columns * lanes]);
+      add_work(chunk_of<FaceWorkColumns<double>>(t.numbers[tile], t.now, q),
+               &t.sums[q * sum_columns * lanes]);
       t.ever[q] |= t.found[t.now][q] & lasting;
     }
   });

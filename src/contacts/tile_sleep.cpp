@@ -168,7 +168,8 @@ std::array<Id, face_kinds> classify(FaceTiles& t, const SweepScene& scene, std::
         kind = kind_of_working(!found(lane_bits::rare), found(lane_bits::busy));
       if (t.face[q * lanes + lane] == no_id) kind = face_kind::asleep;
       ++count[kind];
-      *next++ = static_cast<std::uint8_t>(kind | (t.rest[q] > 0.0 ? rested : 0));
+      const bool rests = t.rest[q] > 0.0 || !t.numbers[tile].holds(q);
+      *next++ = static_cast<std::uint8_t>(kind | (rests ? rested : 0));
     }
   }
   Id resting = 0;
@@ -189,6 +190,19 @@ std::array<Id, face_kinds> classify(FaceTiles& t, const SweepScene& scene, std::
 /// Corners of a face that wakes at n - 1; its gate has remained as it was.
 void recall_corners(FaceTiles& t, const FaceSet& faces, const Pose& pose, std::size_t place) {
   load_corners(t, coordinates_at(faces, pose.x1, pose.y1, t.face[place]), 1 - t.now, place);
+}
+
+/// Gives the faces of the first chunks of a tile, so many, room for what they remember; those of
+/// chunks that had none have carried nothing.
+void make_room(FaceTiles& t, const SweepScene& scene, std::size_t tile, std::size_t chunks) {
+  TileNumbers& numbers = t.numbers[tile];
+  const std::size_t had = numbers.chunks;
+  if (chunks <= had) return;
+  numbers.resize(chunks, t.dashpots);
+  const std::size_t first = t.tiles[tile].first_chunk;
+  for (std::size_t place = (first + had) * lanes; place < (first + chunks) * lanes; ++place) {
+    if (t.face[place] != no_id) recall_corners(t, scene.faces, scene.pose, place);
+  }
 }
 
 /// Marks of a chunk after faces have come and gone.
@@ -276,7 +290,11 @@ void wake_chunk(FaceTiles& t, const FaceSet& faces, const Pose& pose, std::size_
 
 bool sleep_is_over(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScratch& scratch) {
   TileSleep& sleep = t.tiles[tile].sleep;
-  if (scene.least_margin == 0.0) return false;
+  if (scene.least_margin == 0.0) {
+    const Tile& of = t.tiles[tile];
+    make_room(t, scene, tile, of.awake_end - of.first_chunk);
+    return false;
+  }
   if (sleep.over) return true;
   sleep.strayed += scene.largest_move + sleep.fastest + scene.pushed;
   if (!scene.corrects) ++sleep.age;
@@ -291,6 +309,10 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
   begin_sleep(scene, of.sleep, scratch, of.slots() - 1);
   const RestMargins margins = margins_of(scene, of.sleep);
   const std::array<Id, face_kinds> count = classify(t, scene, tile, margins, scratch);
+  const Id awake =
+      (of.last_chunk - of.first_chunk) * static_cast<Id>(lanes) - count[face_kind::asleep];
+  const auto awake_chunks = static_cast<Id>((awake + lanes - 1) / lanes);
+  make_room(t, scene, tile, awake_chunks);
   std::vector<std::uint8_t>& kind = scratch.kind;
   std::vector<std::uint8_t>& touched = scratch.touched;
   touched.assign(of.last_chunk - of.first_chunk, 0);
@@ -317,10 +339,8 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
       }
     }
   }
-  const Id awake =
-      (of.last_chunk - of.first_chunk) * static_cast<Id>(lanes) - count[face_kind::asleep];
   const Id was = of.awake_end;
-  of.awake_end = of.first_chunk + static_cast<Id>((awake + lanes - 1) / lanes);
+  of.awake_end = of.first_chunk + awake_chunks;
   std::size_t changed = 0;
   for (std::size_t n = 0; n < touched.size(); ++n) {
     const std::size_t q = of.first_chunk + n;
@@ -338,6 +358,7 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
         recall_corners(t, scene.faces, scene.pose, place);
     }
   }
+  t.numbers[tile].resize(awake_chunks, t.dashpots);
   set_allowed(t, tile, of.sleep);
   constexpr std::size_t few = 8;  // one chunk in so many
   of.sleep.calm = few * changed <= touched.size();

@@ -53,7 +53,7 @@ ChunkFound evaluate_chunk(FaceTiles& t, const ChunkView& view, std::size_t q, bo
   Formulas use = t.bonds[q] != 0   ? Formulas::all
                  : t.plain[q] != 0 ? Formulas::plain
                                    : Formulas::unbonded;
-  Needs needs = t.has_dashpots() ? Needs::dashpots : worked ? Needs::work : Needs::forces;
+  Needs needs = t.dashpots ? Needs::dashpots : worked ? Needs::work : Needs::forces;
   for (;;) {
     if (use != Formulas::plain && !overlaps_known) overlap_edges(view);
     const ChunkFound found = evaluate_by(use, needs, view);
@@ -100,7 +100,7 @@ ChunkFound evaluate_standing(FaceTiles& t, ChunkView& view, const ChunkEdges& ed
                              bool overlaps_known) {
   const std::size_t q = view.chunk;
   if (is_idle(t, q)) {
-    const ChunkFound open = t.has_dashpots() ? look_at_damped(view) : look_at_undamped(view);
+    const ChunkFound open = t.dashpots ? look_at_damped(view) : look_at_undamped(view);
     if (open.found == 0) {
       keep(t, q, open);
       store_nothing(t, view.of->on, q);
@@ -191,7 +191,7 @@ void read_vertices(const FaceTiles& t, const SweepScene& scene, std::size_t q, b
     const Id end = b.next[edge];
     put(to.at[slot], {p.x[edge], p.y[edge], p.x[end], p.y[end]});
     if (then) put(to.then[slot], {p.x1[edge], p.y1[edge], p.x1[end], p.y1[end]});
-    if (t.has_dashpots()) {
+    if (t.dashpots) {
       put(to.mass[slot], {m.point_inverse[edge], m.edge_inverse[edge], m.point_inverse[end], 0.0});
     }
   };
@@ -240,7 +240,7 @@ void place_tile(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepSc
   const bool sleep_ends = sleep_is_over(t, scene, tile, scratch);
   if (of.takes_then || sleep_ends) place(pose.x1, pose.y1, scratch.then);
   if (sleep_ends) let_sleep(t, scene, tile, scratch);
-  if (t.has_dashpots()) {
+  if (t.dashpots) {
     scratch.mass.resize(std::max(scratch.mass.size(), numbers));
     place_masses(t, of, b, scene.masses, scratch);
   }
@@ -278,7 +278,7 @@ SweepResult sweep_tile(FaceTiles& t, const SweepScene& scene, std::size_t tile, 
   on.resize(std::max(on.size(), numbers));
   const SweepTables tables = tables_of(t, tile, on.data(), scene.step, scene.noise);
   const ChunkEdges edges{scratch.at.data(), of.takes_then ? scratch.then.data() : nullptr,
-                         t.has_dashpots() ? scratch.mass.data() : nullptr, t.slot_e.data(),
+                         t.dashpots ? scratch.mass.data() : nullptr, t.slot_e.data(),
                          t.slot_f.data()};
   if (!scene.corrects) {
     std::fill(t.deepest.data() + of.first_chunk, t.deepest.data() + of.last_chunk, 0.0);
@@ -305,7 +305,7 @@ SweepResult sweep_chunks(FaceTiles& t, const SweepScene& scene, std::size_t tile
     read_vertices(t, scene, q, then, alone);
     const ChunkEdges edges{alone.at[0],
                            then ? alone.then[0] : nullptr,
-                           t.has_dashpots() ? alone.mass[0] : nullptr,
+                           t.dashpots ? alone.mass[0] : nullptr,
                            slots_alone,
                            slots_alone + lanes,
                            q};

@@ -23,8 +23,8 @@ double pressure_of_dashpots(const Simulation& sim, std::size_t k) {
   if (!sim.leapfrog.tiled.ahead) return m.damping_a[k] + m.damping_b[k];
   const FaceTiles& t = sim.leapfrog.tiled.tiles;
   const Id place = t.place[k][0];
-  if (!t.has_dashpots() || place == no_id) return 0.0;
-  const auto memory = get<DashpotMemoryColumns<double>>(t.dashpots[t.now], place);
+  if (!t.dashpots || place == no_id) return 0.0;
+  const auto memory = get<DashpotMemoryColumns<double>>(t, t.now, place);
   return memory.damping_a + memory.damping_b;
 }
 

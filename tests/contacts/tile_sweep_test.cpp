@@ -8,6 +8,7 @@
 #include "contacts/drifting_heap.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/face_reading.hpp"
+#include "contacts/tile_columns.hpp"
 #include "contacts/tile_loading.hpp"
 #include "contacts/tile_renewal.hpp"
 #include "contacts/tile_rows.hpp"
@@ -23,8 +24,10 @@ void expect_same(double a, double b, const char* what, std::size_t k) {
       << what << " of face " << k << ": " << a << ", " << b;
 }
 
-double number(const AlignedNumbers& table, std::size_t columns, std::size_t column, Id place) {
-  return table[(place / lanes * columns + column) * lanes + place % lanes];
+/// A number of those that a face has.
+template <class Fields>
+double number(const Fields& numbers, std::size_t column) {
+  return std::bit_cast<std::array<double, columns_in<Fields>>>(numbers)[column];
 }
 
 /// Faces of a heap that moves at random, with dashpots and bonds as wanted.
@@ -207,7 +210,7 @@ struct Drift {
       ASSERT_EQ(t.face[place], k);
       owned += t.owned[q] >> lane & 1u;
       const auto memory = [&](std::size_t column) {
-        return number(t.memory[t.now], memory_columns, column, place);
+        return number(get<FaceMemoryColumns<double>>(t, t.now, place), column);
       };
       expect_same(memory(0), m.slip_a[k], "slip a", k);
       expect_same(memory(1), m.slip_b[k], "slip b", k);
@@ -266,7 +269,7 @@ struct Drift {
       return;
     }
     for (std::size_t i = 0; i < work_columns; ++i) {
-      expect_same(number(t.work[t.now], work_columns, i, place), expected[i], "work", k);
+      expect_same(number(get<FaceWorkColumns<double>>(t, t.now, place), i), expected[i], "work", k);
     }
   }
 
@@ -276,7 +279,7 @@ struct Drift {
     const double expected[] = {c.friction_work[k], c.transfer[k], c.damping_work[k]};
     const Id place = t.place[k][0];
     for (std::size_t i = 0; i < sum_columns && place != no_id; ++i) {
-      expect_same(number(t.sums, sum_columns, i, place), expected[i], "sum", k);
+      expect_same(number(get<FaceSumColumns<double>>(t.sums, place), i), expected[i], "sum", k);
     }
   }
 
