@@ -145,14 +145,25 @@ EDDA_INLINE FaceEnds gated_closure(double drawn_a, double drawn_b, const FacePai
           drawn_b + smaller(locked_part * pair.offset.b, pair.passing)};
 }
 
+/// Distance along t of two corners that may pass each other, m: of p1 and q2, or of p2 and q1.
+EDDA_INLINE double nearest_corners(const EdgeGeometry& o) {
+  return smaller(std::abs(o.r2), std::abs(o.s2 - o.r1));
+}
+
+/// Whether the aspect gate surely removes the face: where no corners pass each other its ends are
+/// where they seem to be. deepest: the larger of gated_closure().
+EDDA_INLINE bool is_faded(const EdgeGeometry& o, double deepest, const FacePair& pair) {
+  constexpr double surely = 0.999;
+  return (o.mb - o.ma < surely * aspect_from * deepest) & (nearest_corners(o) >= pair.passing);
+}
+
 /// Whether the short formulas suffice: the face carries no tension, and either no corners pass each
 /// other and W = w = 1, or there is no overlap. drawn: the drawn closures at the ends of the
 /// overlap, which count where no corners pass each other.
 EDDA_INLINE bool is_plain(const EdgeGeometry& o, FaceEnds drawn, const FacePair& pair) {
   const double along = (o.cosine - pair.gate_from) * pair.gate_scale, length = o.mb - o.ma;
   const bool absent = !overlaps(o.ma, o.mb, pair) | (along <= 0.0) | (o.s2 <= 0.0) | (o.r1 <= o.r2);
-  const double nearest = smaller(std::abs(o.r2), std::abs(o.s2 - o.r1));  // corner to corner
-  const bool apart = nearest >= pair.passing;
+  const bool apart = nearest_corners(o) >= pair.passing;
   const FaceEnds gated = gated_closure(drawn.a, drawn.b, pair);
   constexpr double shallow = 1.001 * (aspect_from + aspect_range);
   const bool rigid = apart & (along >= 1.0) & (length >= shallow * larger(gated.a, gated.b));

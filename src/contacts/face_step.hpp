@@ -370,14 +370,15 @@ EDDA_INLINE OpenFace look_at_open_face(const FaceInputs& in, const EdgeGeometry&
   s.closure = {drawn_a + pair.offset.a, drawn_b + pair.offset.b};
   const double gate = smooth_step((o.cosine - pair.gate_from) * pair.gate_scale).value;
   s.length = positive_part(o.mb - o.ma);
-  const bool on =
-      overlaps(o.ma, o.mb, pair) & (o.cosine > pair.gate_from) & (o.s2 > 0.0) & (o.r1 > o.r2);
+  const FaceEnds gated = gated_closure(drawn_a, drawn_b, pair);
+  const double deepest = larger(gated.a, gated.b);
+  const bool on = overlaps(o.ma, o.mb, pair) & !is_faded(o, deepest, pair) &
+                  (o.cosine > pair.gate_from) & (o.s2 > 0.0) & (o.r1 > o.r2);
   s.gate = on ? gate : 0.0;
   s.cohesive = s.gate * s.length * flush_part(o.cosine);
   s.xi = {o.ma * o.per_e, o.mb * o.per_e};
   s.eta = {(o.ma - o.r2) * o.per_f, (o.mb - o.r2) * o.per_f};
-  const FaceEnds gated = gated_closure(drawn_a, drawn_b, pair);
-  const bool open = larger(larger(s.closure.a, s.closure.b), larger(gated.a, gated.b)) <= 0.0;
+  const bool open = larger(larger(s.closure.a, s.closure.b), deepest) <= 0.0;
   s.may_close = (on & !open) | needs_decision(in, on, {drawn_a, drawn_b}, false);
   return s;
 }

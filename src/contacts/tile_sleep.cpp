@@ -187,6 +187,13 @@ std::array<Id, face_kinds> classify(FaceTiles& t, const SweepScene& scene, std::
   return count;
 }
 
+/// Chunks in which the faces of a tile lie that do not sleep.
+Id chunks_awake(const Tile& of, const std::array<Id, face_kinds>& count) {
+  constexpr auto faces = static_cast<Id>(lanes);
+  const Id awake = (of.last_chunk - of.first_chunk) * faces - count[face_kind::asleep];
+  return (awake + faces - 1) / faces;
+}
+
 /// Corners of a face that wakes at n - 1; its gate has remained as it was.
 void recall_corners(FaceTiles& t, const FaceSet& faces, const Pose& pose, std::size_t place) {
   load_corners(t, coordinates_at(faces, pose.x1, pose.y1, t.face[place]), 1 - t.now, place);
@@ -309,10 +316,8 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
   begin_sleep(scene, of.sleep, scratch, of.slots() - 1);
   const RestMargins margins = margins_of(scene, of.sleep);
   const std::array<Id, face_kinds> count = classify(t, scene, tile, margins, scratch);
-  const Id awake =
-      (of.last_chunk - of.first_chunk) * static_cast<Id>(lanes) - count[face_kind::asleep];
-  const auto awake_chunks = static_cast<Id>((awake + lanes - 1) / lanes);
-  make_room(t, scene, tile, awake_chunks);
+  const Id chunks = chunks_awake(of, count);
+  make_room(t, scene, tile, chunks);
   std::vector<std::uint8_t>& kind = scratch.kind;
   std::vector<std::uint8_t>& touched = scratch.touched;
   touched.assign(of.last_chunk - of.first_chunk, 0);
@@ -340,7 +345,7 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
     }
   }
   const Id was = of.awake_end;
-  of.awake_end = of.first_chunk + awake_chunks;
+  of.awake_end = of.first_chunk + chunks;
   std::size_t changed = 0;
   for (std::size_t n = 0; n < touched.size(); ++n) {
     const std::size_t q = of.first_chunk + n;
@@ -358,7 +363,7 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
         recall_corners(t, scene.faces, scene.pose, place);
     }
   }
-  t.numbers[tile].resize(awake_chunks, t.dashpots);
+  t.numbers[tile].resize(chunks, t.dashpots);
   set_allowed(t, tile, of.sleep);
   constexpr std::size_t few = 8;  // one chunk in so many
   of.sleep.calm = few * changed <= touched.size();

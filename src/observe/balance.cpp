@@ -97,7 +97,7 @@ Balance balance_of(const Simulation& sim) {
     balance.largest = 0.0;
     return balance;
   }
-  const double scale = force_scale(sim, sim.motion.contacts, resting);
+  const double scale = force_scale(sim, resting);
   constexpr std::size_t parts = 20;
   const auto most = all.end() - static_cast<std::ptrdiff_t>(all.size() / parts);
   std::nth_element(all.begin(), most - 1, all.end());

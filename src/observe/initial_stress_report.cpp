@@ -76,7 +76,7 @@ void judge_balance(const Simulation& sim, InitialBalance& balance) {
     balance.largest = norm(on[i]);
     balance.block = static_cast<Id>(i);
   }
-  const double scale = force_scale(sim, sim.motion.contacts, free_blocks);
+  const double scale = force_scale(sim, free_blocks);
   if (sum == 0.0) return;
   balance.unbalanced = scale > 0.0 ? sum / static_cast<double>(free_blocks.size()) / scale : 1.0;
   balance.largest = scale > 0.0 ? balance.largest / scale : 1.0;

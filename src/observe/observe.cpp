@@ -8,6 +8,7 @@
 #include "contacts/face_reading.hpp"
 #include "forces/elastic.hpp"
 #include "observe/overstress.hpp"
+#include "step/faces_now.hpp"
 #include "step/ground_motion.hpp"
 
 namespace edda {
@@ -212,7 +213,7 @@ BlockStress block_stress(const Simulation& sim, const State& s, std::size_t i) {
   return stress;
 }
 
-double force_scale(const Simulation& sim, const FaceSet& f, const std::vector<Id>& blocks) {
+double force_scale(const Simulation& sim, const std::vector<Id>& blocks) {
   const LoadsNow acting = loads_at(sim.scene->model, sim.attached.loads, sim.motion.state.time);
   double loads = 0.0;
   for (const Id i : blocks) {
@@ -221,9 +222,9 @@ double force_scale(const Simulation& sim, const FaceSet& f, const std::vector<Id
   }
   double normal = 0.0;
   std::size_t carrying = 0;
-  for (std::size_t k = 0; k < f.size(); ++k) {
-    const double n = normal_force(f, k);
-    if (!is_closed(f, k) || !(n > 0.0)) continue;
+  for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) {
+    const double n = normal_force_now(sim, k);
+    if (!(n > 0.0)) continue;
     normal += n;
     carrying += 2;  // both of its ends
   }
@@ -247,7 +248,7 @@ double unbalanced_ratio(const Simulation& sim, const Instant& at) {
     free_blocks.push_back(static_cast<Id>(i));
   }
   if (force == 0.0) return 0.0;
-  const double scale = force_scale(sim, sim.motion.contacts, free_blocks);
+  const double scale = force_scale(sim, free_blocks);
   return scale > 0.0 ? force / static_cast<double>(free_blocks.size()) / scale : 1.0;
 }
 

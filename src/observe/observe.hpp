@@ -33,7 +33,7 @@ BlockStress block_stress(const Simulation& sim, const State& state, std::size_t 
 
 /// Mean normal force per end of the faces that carry load, N; where none does, the mean of weight
 /// and loads over `blocks`.
-double force_scale(const Simulation& sim, const FaceSet& contacts, const std::vector<Id>& blocks);
+double force_scale(const Simulation& sim, const std::vector<Id>& blocks);
 
 /// Mean resultant force of the free blocks, over force_scale(); 0 without any force, 1 where there
 /// is no reference.

@@ -9,6 +9,7 @@
 
 #include "contacts/face_reading.hpp"
 #include "observe/observe.hpp"
+#include "step/faces_now.hpp"
 #include "step/labels.hpp"
 #include "step/touching.hpp"
 
@@ -151,7 +152,6 @@ Equilibrium look_for_equilibrium(EquilibriumSearch& s, Simulation& sim, const St
   }
   const std::uint64_t every = !is_explicit(sim) ? 1 : s.is_far ? look_from_afar : look_every;
   if (sim.motion.state.steps % every != 0) return Equilibrium::not_yet;
-  update_face_rows(sim);
   const Balance balance = balance_of(sim);
   const bool waits = stage.falling == FallingBlocks::wait && balance.detached > 0;
   sim.relaxation.balanced = balance.resting > 0 && balance.mean_95 <= stage.ratio;
@@ -169,8 +169,8 @@ std::vector<double> rounding_of_forces(const Simulation& sim) {
   std::vector<double> force(sim.scene->blocks.size(), 0.0);
   const FaceSet& f = sim.motion.contacts;
   for (std::size_t k = 0; k < f.size(); ++k) {
-    if (!is_closed(f, k)) continue;
-    const double spring = f.stiffness[k] * f.now.length[k] * f.now.gate[k];
+    const double spring = normal_spring_now(sim, k);
+    if (spring == 0.0) continue;
     for (const Id i :
          {block_of_edge(sim.scene->blocks, f, k), block_of_facing(sim.scene->blocks, f, k)}) {
       force[i] += 0.5 * f.noise * spring;

@@ -62,11 +62,26 @@ std::vector<Id> faces_that_may_exceed(const Simulation& sim, double above) {
 
 }  // namespace
 
+bool is_closed_now(const Simulation& sim, std::size_t k) {
+  const FaceSet& c = sim.motion.contacts;
+  if (!sim.leapfrog.tiled.ahead) return is_closed(c, k);
+  const FaceTiles& t = sim.leapfrog.tiled.tiles;
+  return t.remembers(lane_bits::stored, k) || (c.bonded[k] > 0.0 && t.remembers(lane_bits::on, k));
+}
+
 double normal_force_now(const Simulation& sim, std::size_t k) {
+  if (!is_closed_now(sim, k)) return 0.0;
+  if (!sim.leapfrog.tiled.ahead) return normal_force(sim.motion.contacts, k);
   const Face face = face_now(sim, k);
-  const bool bonded = sim.motion.contacts.bonded[k] > 0.0 && face.gate > 0.0;
-  if (!bonded && !(face.energy > 0.0)) return 0.0;
   return face.normal.a + face.normal.b + pressure_of_dashpots(sim, k);
+}
+
+double normal_spring_now(const Simulation& sim, std::size_t k) {
+  if (!is_closed_now(sim, k)) return 0.0;
+  const FaceSet& c = sim.motion.contacts;
+  if (!sim.leapfrog.tiled.ahead) return c.stiffness[k] * c.now.length[k] * c.now.gate[k];
+  const Face face = face_now(sim, k);
+  return c.stiffness[k] * std::max(face.length, 0.0) * face.gate;
 }
 
 DeepestNow deepest_now(const Simulation& sim, double above) {

@@ -10,9 +10,15 @@ namespace edda {
 
 struct Simulation;
 
+/// As is_closed() of contacts/face_reading.hpp.
+bool is_closed_now(const Simulation& sim, std::size_t k);
+
 /// Normal force of face k, N, positive in compression, that of its dashpots included; 0 where it is
 /// not closed.
 double normal_force_now(const Simulation& sim, std::size_t k);
+
+/// Stiffness w W k L of face k across itself, N/m; 0 where it is not closed.
+double normal_spring_now(const Simulation& sim, std::size_t k);
 
 /// Where blocks overlap most: the face with the largest ratio of closure to the inscribed radius of
 /// the narrower block, of those at which they overlap (overlap_where_pressed()).

@@ -1,20 +1,10 @@
 #include "step/touching.hpp"
 
 #include "contacts/face_reading.hpp"
+#include "step/faces_now.hpp"
 #include "step/simulation.hpp"
 
 namespace edda {
-namespace {
-
-/// As is_closed(), also where tiles hold the states of the faces.
-bool is_closed_now(const Simulation& sim, std::size_t k) {
-  const FaceSet& f = sim.motion.contacts;
-  if (!sim.leapfrog.tiled.ahead) return is_closed(f, k);
-  const FaceTiles& t = sim.leapfrog.tiled.tiles;
-  return t.remembers(lane_bits::stored, k) || (f.bonded[k] > 0.0 && t.remembers(lane_bits::on, k));
-}
-
-}  // namespace
 
 std::vector<std::uint8_t> touching(const Simulation& sim) {
   std::vector<std::uint8_t> touches(sim.scene->blocks.size(), 0);

@@ -245,13 +245,11 @@ struct Drift {
     const FaceMemory &m = c.now, &old = c.before;
     const bool touches = m.energy[k] > 0.0 || (c.bonded[k] > 0.0 && m.gate[k] > 0.0);
     const bool worked = old.energy[k] > 0.0 || old.spring[k] > 0.0;
+    const bool opens = old.energy[k] > 0.0 && m.energy[k] == 0.0,
+               slides = m.slip_a[k] != m.trial_a[k] || m.slip_b[k] != m.trial_b[k];
     EXPECT_EQ(lane_bits::test(found, lane_bits::works, lane), touches || worked) << "face " << k;
-    EXPECT_EQ(lane_bits::test(found, lane_bits::opens, lane),
-              old.energy[k] > 0.0 && m.energy[k] == 0.0)
-        << "face " << k;
-    EXPECT_EQ(lane_bits::test(found, lane_bits::slides, lane),
-              m.slip_a[k] != m.trial_a[k] || m.slip_b[k] != m.trial_b[k])
-        << "face " << k;
+    EXPECT_EQ(lane_bits::test(found, lane_bits::opens, lane), opens) << "face " << k;
+    EXPECT_EQ(lane_bits::test(found, lane_bits::slides, lane), slides) << "face " << k;
     only_bonded += touches && m.energy[k] == 0.0;
     only_carried += worked && old.energy[k] == 0.0;
   }
@@ -322,7 +320,6 @@ TEST(TileSweep, DoesSoWithDashpotsAndFixedBlocks) {
 TEST(TileSweep, DoesSoWithBonds) {
   drift(0.0, 0.3, 0.0, 12, false);
 }
-
 TEST(TileSweep, DoesSoWithLockedClosures) {
   drift(0.2, 0.1, 0.5, 12, false);
 }
