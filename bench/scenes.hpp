@@ -17,8 +17,8 @@ struct BenchScene {
 ///   collapse:67x30   a wall that has fallen onto sharp ridges
 ///   heap:2000        so many random polygons that flow down a slope
 ///   cavern           examples/cavern.toml, let go
-///   rock:50          so many metres of rock by as many, cut by two joint sets, at rest in its
-///   stress free:2000        so many random polygons that turn, each for itself
+///   rock:50          so many metres of rock by as many, two joint sets, at rest in its stress
+///   free:2000        so many random polygons that turn, each for itself
 /// and else what is wrong with it.
 std::string flaw_of_scene(const std::string& name);
 

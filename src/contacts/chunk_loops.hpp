@@ -56,21 +56,31 @@ struct ChunkView {
   const Records *e_then = &no_corners, *f_then = &no_corners;
   const Records *mass_e = &no_corners, *mass_f = &no_corners;
 };
+/// The constants of a chunk alone.
+inline ChunkView view_of_constants(const SweepTables& t, std::size_t chunk) {
+  ChunkView view{};
+  view.of = &t;
+  view.chunk = chunk;
+  view.edges = t.edges + t.edge_set[chunk] * edge_columns * lanes;
+  view.strengths = t.strengths + t.strength_set[chunk] * strength_columns * lanes;
+  return view;
+}
+
+/// With all that the tile holds of it.
 inline ChunkView view_of(const SweepTables& t, std::size_t chunk, double* stands,
                          double* overlaps) {
-  const std::size_t n = chunk - t.first_chunk, memory = n * memory_columns * lanes,
-                    dashpots = t.damped != nullptr ? n * dashpot_memory_columns * lanes : 0;
-  return {&t,
-          chunk,
-          t.edges + t.edge_set[chunk] * edge_columns * lanes,
-          t.strengths + t.strength_set[chunk] * strength_columns * lanes,
-          t.before + memory,
-          t.damped_before + dashpots,
-          t.memory + memory,
-          t.damped + dashpots,
-          t.work + n * work_columns * lanes,
-          stands,
-          overlaps};
+  const std::size_t n = chunk - t.first_chunk, memory = n * memory_columns * lanes;
+  ChunkView view = view_of_constants(t, chunk);
+  view.before = t.before + memory;
+  view.memory = t.memory + memory;
+  view.work = t.work + n * work_columns * lanes;
+  if (t.damped != nullptr) {
+    view.damped_before = t.damped_before + n * dashpot_memory_columns * lanes;
+    view.damped = t.damped + n * dashpot_memory_columns * lanes;
+  }
+  view.stands = stands;
+  view.overlaps = overlaps;
+  return view;
 }
 
 /// What a loop has found: the bits to be remembered and those of the step (lane_bits), and the

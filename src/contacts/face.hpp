@@ -45,7 +45,7 @@ struct Face {
   Vec2 t;
   double inverse_e = 0.0,
          inverse_f = 0.0;   ///< rotation of t per motion of a corner of e (of f) along n, 1/m
-  double length = 0.0;      ///< L, m; <= 0: no overlap
+  double length = 0.0;      ///< L, m; it exists where overlaps() says so
   double cohesive = 0.0;    ///< length on which cohesion acts, m: w W L times flush_part()
   FaceEnds drawn;           ///< drawn closures at the ends, m
   FaceEnds closure;         ///< da and db, m

@@ -28,9 +28,9 @@ struct FacePair {
 
 /// Edges of which the overlap is shorter than this part of FacePair::passing do not meet. Where
 /// four corners meet, as at every crossing of two joint sets, rounding alone makes corners overlap
-/// that lie across from each other, and let go of each other, in every step. What such an overlap
-/// could carry is lost in rounding, as the aspect gate allows it closures of twice its length at
-/// most.
+/// that lie across from each other, and let go of each other, in every step. Such an overlap could
+/// carry 1.5e-10 of what the shorter edge could, and mostly nothing, since the aspect gate allows
+/// it closures of twice its length at most.
 inline constexpr double least_overlap = 1e-9;
 /// Whether the overlap between these coordinates along t exists.
 EDDA_INLINE bool overlaps(double from, double to, const FacePair& pair) {
@@ -151,7 +151,7 @@ EDDA_INLINE double nearest_corners(const EdgeGeometry& o) {
 }
 
 /// Whether the aspect gate surely removes the face: where no corners pass each other its ends are
-/// where they seem to be. deepest: the larger of gated_closure().
+/// where they seem to be. Of faces without tension; deepest: the larger of gated_closure().
 EDDA_INLINE bool is_faded(const EdgeGeometry& o, double deepest, const FacePair& pair) {
   constexpr double surely = 0.999;
   return (o.mb - o.ma < surely * aspect_from * deepest) & (nearest_corners(o) >= pair.passing);

@@ -25,7 +25,7 @@ struct FaceFields {
   C slip_a, slip_b;            ///< elastic slip u, m: T = -spring u
   C trial_a, trial_b;          ///< elastic slip before Coulomb's limit, m
   C spring;                    ///< stiffness of the shear spring of each end, N/m
-  C length;                    ///< L, m; 0: no overlap
+  C length;                    ///< L, m; 0: none (overlaps())
   C overlap;                   ///< length that the two shear springs represent, m
   C cohesive;                  ///< length along which cohesion acts, m
   C gate;                      ///< w W

@@ -195,8 +195,8 @@ void lay_out_tile(FaceTiles& t, const FacesOfTiles& of, const FaceSet& c, const 
 }
 
 /// Gives the faces of a tile that carry load room for what they remember.
-void make_room(FaceTiles& t, const FacesOfTiles& of, const std::vector<std::uint8_t>& kind,
-               std::size_t q) {
+void begin_numbers(FaceTiles& t, const FacesOfTiles& of, const std::vector<std::uint8_t>& kind,
+                   std::size_t q) {
   const auto begin = of.face.begin() + of.begin[q], end = of.face.begin() + of.begin[q + 1];
   const auto carry = static_cast<std::size_t>(
       std::count_if(begin, end, [&](Id k) { return kind[k] < face_kind::touching; }));
@@ -266,7 +266,7 @@ void lay_out(FaceTiles& t, const FaceSet& c, const BlockSet& b,
   std::vector<Slots> slots;
   parallel_tasks(t.tiles.size(), 15 * c.size(), slots, [&](std::size_t q, Slots& of_thread) {
     lay_out_tile(t, of, c, b, tile_of, q, of_thread, halos[q]);
-    make_room(t, of, kind, q);
+    begin_numbers(t, of, kind, q);
   });
   join_halos(t, halos);
   t.constants.resize(t.tiles.size());

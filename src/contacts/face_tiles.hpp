@@ -153,7 +153,7 @@ struct Tile {
 };
 
 /// Constants of the chunks of a tile: sets of numbers that chunks with equal ones share, as far as
-/// they are found to be equal (ConstantSets::set_of()).
+/// they are found to be equal.
 struct ConstantSets {
   AlignedNumbers numbers;  ///< [sets][columns][8]
   std::vector<Id> users;   ///< [sets] how many chunks have it

@@ -193,13 +193,13 @@ void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
 }
 
 std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
-                            const LawTable& laws, const Reach& reach, FaceSearch& search,
+                            const LawTable& laws, const Reach& reach, NearEdges& near,
                             const std::vector<std::uint8_t>& carry, FaceStates states) {
   const std::vector<Listed> list =
-      wanted_faces(edges_within(search.near, b, state, pose, reach), faces, carry, b, state);
+      wanted_faces(edges_within(near, b, state, pose, reach), faces, carry, b, state);
   const std::size_t n = list.size();
   const bool copies = states == FaceStates::in_rows;
-  FaceSet& next = search.spare;
+  FaceSet next;
   next.set_rows(n);
   next.law.resize(n);
   next.edge.resize(n);
@@ -211,7 +211,6 @@ std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& b, const State& stat
   if (copies) {
     next.clear_states();
   } else {
-    next.drop_states();
     faces.drop_states();
   }
   move_totals(next, faces);
@@ -241,23 +240,23 @@ std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& b, const State& stat
   next.built_y = pose.y;
   next.travel = 0.0;
   next.rebuilds = faces.rebuilds + 1;
-  std::swap(faces, next);
+  faces = std::move(next);
   std::vector<Id> old(n);
   for (std::size_t k = 0; k < n; ++k) old[k] = list[k].old;
   return old;
 }
 
 void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
-                const LawTable& laws, const Reach& reach, FaceSearch& search) {
+                const LawTable& laws, const Reach& reach, NearEdges& near) {
   std::vector<std::uint8_t> carry(faces.size());
   for (std::size_t k = 0; k < faces.size(); ++k) carry[k] = faces.now.energy[k] > 0.0 ? 1 : 0;
-  renew_faces(faces, b, state, pose, laws, reach, search, carry, FaceStates::in_rows);
+  renew_faces(faces, b, state, pose, laws, reach, near, carry, FaceStates::in_rows);
 }
 
 void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
                 const LawTable& laws, const Reach& reach) {
-  FaceSearch search;
-  find_faces(faces, b, state, pose, laws, reach, search);
+  NearEdges near;
+  find_faces(faces, b, state, pose, laws, reach, near);
 }
 
 }  // namespace edda

@@ -10,17 +10,11 @@
 
 namespace edda {
 
-/// What a search leaves to the next one, which saves time and changes nothing.
-struct FaceSearch {
-  NearEdges near;
-  FaceSet spare;  ///< the list before this one, for its memory
-};
-
 /// Lists all pairs of edges of two blocks that may act before any vertex has moved by half of
 /// reach.apart, sorted by `edge`, then by `facing`, and carries over the memory of those that were
-/// in the old list.
+/// in the old list. near: what this search leaves to the next one.
 void find_faces(FaceSet& faces, const BlockSet& blocks, const State& state, const Pose& pose,
-                const LawTable& laws, const Reach& reach, FaceSearch& search);
+                const LawTable& laws, const Reach& reach, NearEdges& near);
 void find_faces(FaceSet& faces, const BlockSet& blocks, const State& state, const Pose& pose,
                 const LawTable& laws, const Reach& reach);
 
@@ -32,7 +26,7 @@ enum class FaceStates { in_rows, elsewhere };
 /// in the old one, or no_id.
 std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& blocks, const State& state,
                             const Pose& pose, const LawTable& laws, const Reach& reach,
-                            FaceSearch& search, const std::vector<std::uint8_t>& carry,
+                            NearEdges& near, const std::vector<std::uint8_t>& carry,
                             FaceStates states);
 
 /// Fills everything that follows from the edges and laws of the faces.

@@ -82,7 +82,8 @@ EDDA_INLINE bool stays_as_it_is(const ChunkColumns& c, const FacePair& pair, con
              short_of_e = way.ahead(t, turn, reversed(p1_q1), least);
   const bool beside = firm & (past_e | short_of_e);
   const bool e_goes_on = way.ahead(t, turn, e), f_goes_back = way.ahead(t, turn, f);
-  const bool begins = way.ahead(t, turn, reversed(p2_q2)), ends = way.ahead(t, turn, p1_q1);
+  const bool begins = way.ahead(t, turn, reversed(p2_q2), -least),
+             ends = way.ahead(t, turn, p1_q1, -least);
   const bool opposed =
       firm & (faces_by - stretch * change > 0.0) & e_goes_on & f_goes_back & begins & ends;
   const auto gap_along = [&](Vec2 m) __attribute__((always_inline)) {

@@ -108,7 +108,7 @@ bool remembers(const FaceMemory& m, std::size_t k) {
 }
 
 /// What each face does as far as rows tell, [nf].
-std::vector<std::uint8_t> kinds_of(const FaceSet& c) {
+std::vector<std::uint8_t> kinds_by_rows(const FaceSet& c) {
   std::vector<std::uint8_t> kind(c.size(), face_kind::looked_at);
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (remembers(c.now, k) || remembers(c.before, k)) kind[k] = face_kind::long_rest;
@@ -189,7 +189,7 @@ void load_constants(FaceTiles& t, const FaceSet& c, const BlockSet& b, std::size
 }
 
 void load_faces(FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& pose) {
-  lay_out(t, c, b, kinds_of(c));
+  lay_out(t, c, b, kinds_by_rows(c));
   t.deepest.assign(t.chunks(), 0.0);
   t.now = 0;
   std::vector<char> no_scratch;

@@ -35,7 +35,8 @@ std::vector<std::uint8_t> kinds_of(const FaceTiles& t) {
 
 /// The tiles of both lists, and what one face of the old list did.
 struct Renewal {
-  FaceTiles &next, &old;
+  FaceTiles& next;
+  const FaceTiles& old;
   const FaceSet& faces;
   const Pose& pose;
 };
@@ -98,14 +99,14 @@ void renew_copy(const Renewal& r, std::size_t tile, std::size_t place, Id old, b
 
 }  // namespace
 
-void renew_tiles(FaceTiles& t, FaceTiles& old, const FaceSet& c, const BlockSet& b,
-                 const Pose& pose, const std::vector<Id>& old_row) {
+void renew_tiles(FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& pose,
+                 const std::vector<Id>& old_row) {
   const std::vector<std::uint8_t> did = kinds_of(t);
   std::vector<std::uint8_t> kind(c.size(), face_kind::looked_at);
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (old_row[k] != no_id) kind[k] = did[old_row[k]];
   }
-  std::swap(t, old);
+  FaceTiles old = std::exchange(t, FaceTiles());
   t.tiles.swap(old.tiles);
   t.blocks.swap(old.blocks);
   t.constants.swap(old.constants);

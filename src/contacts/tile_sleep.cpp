@@ -147,7 +147,7 @@ std::array<Id, face_kinds> classify(FaceTiles& t, const SweepScene& scene, std::
   for (std::size_t q = of.first_chunk; q < of.last_chunk; ++q) {
     read_edges(scratch.at.data(), &t.slot_e[q * lanes], &t.slot_f[q * lanes], e, f);
     read_edges(of.sleep.pace.data(), &t.slot_e[q * lanes], &t.slot_f[q * lanes], pace_e, pace_f);
-    ChunkView view = view_of(tables, q, nullptr, nullptr);
+    ChunkView view = view_of_constants(tables, q);
     view.e = &e;
     view.f = &f;
     view.e_then = &pace_e;

@@ -13,7 +13,8 @@ namespace edda {
 
 /// Adds the motion of the last step; the edges have been placed at n (SweepScratch::at). Wakes the
 /// chunks that rest and may have to be looked at. Returns whether a face that sleeps might have to
-/// wake, so that let_sleep() must be called before the tile is evaluated.
+/// wake, so that let_sleep() must be called before the tile is evaluated. Where none may sleep, it
+/// gives all faces of the tile room.
 bool sleep_is_over(FaceTiles& tiles, const SweepScene& scene, std::size_t tile,
                    SweepScratch& scratch);
 

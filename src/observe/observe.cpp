@@ -222,8 +222,7 @@ double force_scale(const Simulation& sim, const std::vector<Id>& blocks) {
   }
   double normal = 0.0;
   std::size_t carrying = 0;
-  for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) {
-    const double n = normal_force_now(sim, k);
+  for (const double n : normal_forces_now(sim)) {
     if (!(n > 0.0)) continue;
     normal += n;
     carrying += 2;  // both of its ends

@@ -16,8 +16,8 @@
 namespace edda {
 namespace {
 
-/// Steps from look to look, each of which evaluates all faces once more: while the mean unbalanced
-/// force is so many times what counts as equilibrium, and from then on.
+/// Steps from look to look, each of which evaluates the closed faces once more: while the mean
+/// unbalanced force is so many times what counts as equilibrium, and from then on.
 constexpr std::uint64_t look_from_afar = 64, look_every = 16;
 constexpr double far_from_equilibrium = 4.0;
 constexpr std::uint8_t windows = 4;  // in which a loose block continues to move
@@ -168,12 +168,12 @@ Equilibrium look_for_equilibrium(EquilibriumSearch& s, Simulation& sim, const St
 std::vector<double> rounding_of_forces(const Simulation& sim) {
   std::vector<double> force(sim.scene->blocks.size(), 0.0);
   const FaceSet& f = sim.motion.contacts;
+  const std::vector<double> springs = normal_springs_now(sim);
   for (std::size_t k = 0; k < f.size(); ++k) {
-    const double spring = normal_spring_now(sim, k);
-    if (spring == 0.0) continue;
+    if (springs[k] == 0.0) continue;
     for (const Id i :
          {block_of_edge(sim.scene->blocks, f, k), block_of_facing(sim.scene->blocks, f, k)}) {
-      force[i] += 0.5 * f.noise * spring;
+      force[i] += 0.5 * f.noise * springs[k];
     }
   }
   const BoundarySprings& s = sim.attached.springs;

@@ -106,10 +106,7 @@ Verdict FailureSearch::look(Simulation& sim) {
     return verdict_;
   const double least = equilibrium_travel_ratio * criterion_.size;
   bool in_equilibrium = velocity_ * criterion_.duration <= least;
-  if (in_equilibrium) {
-    update_face_rows(sim);
-    in_equilibrium = watch_.prospect(sim, criterion_.duration) <= least;
-  }
+  if (in_equilibrium) in_equilibrium = watch_.prospect(sim, criterion_.duration) <= least;
   found_in_sequence_ = in_equilibrium ? found_in_sequence_ + 1 : 0;
   if (found_in_sequence_ < checks_in_sequence) return Verdict::not_yet;
   return end(Verdict::holds, "in equilibrium");

@@ -35,7 +35,7 @@ void search(Simulation& sim, const Reach& reach) {
     of_no_faces.alive.assign(blocks.size(), 0);
     find_faces(contacts, blocks, of_no_faces, pose, laws, reach);
   } else {
-    find_faces(contacts, blocks, state, pose, laws, reach, sim.control.face_search);
+    find_faces(contacts, blocks, state, pose, laws, reach, sim.control.near_edges);
     set_face_dashpots(contacts, laws, sim.motion.damping.contact);
   }
   sum_face_forces(sim);

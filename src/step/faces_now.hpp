@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "base/vec2.hpp"
 
@@ -17,8 +18,10 @@ bool is_closed_now(const Simulation& sim, std::size_t k);
 /// not closed.
 double normal_force_now(const Simulation& sim, std::size_t k);
 
-/// Stiffness w W k L of face k across itself, N/m; 0 where it is not closed.
-double normal_spring_now(const Simulation& sim, std::size_t k);
+std::vector<double> normal_forces_now(const Simulation& sim);  ///< [nf]
+
+/// Stiffness w W k L of each face across itself, [nf], N/m; 0 where it is not closed.
+std::vector<double> normal_springs_now(const Simulation& sim);
 
 /// Where blocks overlap most: the face with the largest ratio of closure to the inscribed radius of
 /// the narrower block, of those at which they overlap (overlap_where_pressed()).

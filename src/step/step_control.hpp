@@ -26,7 +26,7 @@ struct StepControl {
   std::uint64_t larger_allowed_since = 0;  ///< step since which a much larger one has been allowed
   double last_displacement = 0.0;          ///< m: largest of a vertex in the last step
   NeighbourGroups neighbours;              ///< of the list of possible contacts
-  FaceSearch face_search;
+  NearEdges near_edges;
   StepCache step_cache;
   // Mass scaling.
   double scaled_step = 0.0;  ///< s: uniform step of a stage, to which inertia is raised; 0: none

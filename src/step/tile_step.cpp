@@ -362,9 +362,9 @@ void search_in_tiles(Simulation& sim, const Reach& reach) {
   motion.contacts.dashpots = dashpots_work(own.tiles);
   const std::vector<Id> old_row =
       renew_faces(motion.contacts, b, motion.state, motion.pose, motion.laws, reach,
-                  sim.control.face_search, faces_that_carry(own.tiles), FaceStates::elsewhere);
+                  sim.control.near_edges, faces_that_carry(own.tiles), FaceStates::elsewhere);
   set_face_dashpots(motion.contacts, motion.laws, motion.damping.contact);
-  renew_tiles(own.tiles, own.spare, motion.contacts, b, motion.pose, old_row);
+  renew_tiles(own.tiles, motion.contacts, b, motion.pose, old_row);
   own.ahead = true;
   own.pushed = 0.0;
   constexpr double worth = 0.15;  // of the faces, evaluated twice because neighbours have changed
@@ -381,8 +381,8 @@ void update_face_rows(Simulation& sim) {
 void lose_faces(Simulation& sim) {
   TiledFaces& own = sim.leapfrog.tiled;
   FaceSet& c = sim.motion.contacts;
-  own.tiles = own.spare = FaceTiles();
-  sim.control.face_search = FaceSearch();
+  own.tiles = FaceTiles();
+  sim.control.near_edges = NearEdges();
   const bool fits =
       c.now.rows() == c.size() && c.before.rows() == c.size() && c.force.size() == c.force_size();
   if (own.ahead || !fits) c.clear_states();

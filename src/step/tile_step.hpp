@@ -16,7 +16,6 @@ struct StepTaken;
 
 struct TiledFaces {
   FaceTiles tiles;
-  FaceTiles spare;  ///< those of the list before, for their memory
   bool use = true;  ///< false, for tests: the rows are evaluated, which gives the same bits
   /// SweepScene::least_margin as a part of the list's reach. 0, for tests: no face sleeps.
   double sleep_part = 1e-9;

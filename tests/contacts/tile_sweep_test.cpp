@@ -34,8 +34,7 @@ double number(const Fields& numbers, std::size_t column) {
 struct Drift {
   std::mt19937 rng{7}, of_moves;
   DriftingHeap heap;
-  FaceSearch search;
-  FaceTiles spare;
+  NearEdges near;
   double damping;
   bool with_sums = false;
   std::size_t listed = 0, kept = 0;  ///< faces that a new list has added, and taken over
@@ -158,11 +157,11 @@ struct Drift {
     for (std::size_t k = 0; k < own.size(); ++k)
       carry[k] = t.remembers(lane_bits::stored, k) ? 1 : 0;
     recall_work(own, t);
-    const std::vector<Id> old = renew_faces(own, h.blocks, h.state, h.pose, h.laws, reach, search,
+    const std::vector<Id> old = renew_faces(own, h.blocks, h.state, h.pose, h.laws, reach, near,
                                             carry, FaceStates::elsewhere);
     find_faces(c, h.blocks, h.state, h.pose, h.laws, reach);
     for (FaceSet* faces : {&own, &c}) set_face_dashpots(*faces, h.laws, damping);
-    renew_tiles(t, spare, own, h.blocks, h.pose, old);
+    renew_tiles(t, own, h.blocks, h.pose, old);
     ASSERT_EQ(own.size(), c.size());
     for (const auto& column : face_properties) {
       for (std::size_t k = 0; k < c.size(); ++k)
