@@ -372,8 +372,8 @@ EDDA_INLINE OpenFace look_at_open_face(const FaceInputs& in, const EdgeGeometry&
   s.length = positive_part(o.mb - o.ma);
   const FaceEnds gated = gated_closure(drawn_a, drawn_b, pair);
   const double deepest = larger(gated.a, gated.b);
-  const bool on = overlaps(o.ma, o.mb, pair) & !is_faded(o, deepest, pair) &
-                  (o.cosine > pair.gate_from) & (o.s2 > 0.0) & (o.r1 > o.r2);
+  const bool overlap = overlaps(o.ma, o.mb, pair), faded = is_faded(o, deepest, pair);
+  const bool on = overlap & !faded & (o.cosine > pair.gate_from) & (o.s2 > 0.0) & (o.r1 > o.r2);
   s.gate = on ? gate : 0.0;
   s.cohesive = s.gate * s.length * flush_part(o.cosine);
   s.xi = {o.ma * o.per_e, o.mb * o.per_e};

@@ -205,10 +205,9 @@ void begin_numbers(FaceTiles& t, const FacesOfTiles& of, const std::vector<std::
   numbers.first_chunk = tile.first_chunk;
   numbers.resize((carry + lanes - 1) / lanes, t.dashpots);
   t.numbers[q] = std::move(numbers);
-  if (!t.sums.empty()) {  // a tile without faces may begin where the table ends
-    std::fill_n(&t.sums[tile.first_chunk * sum_columns * lanes],
-                (tile.last_chunk - tile.first_chunk) * sum_columns * lanes, 0.0);
-  }
+  // A tile without faces may begin where the table ends.
+  std::fill_n(t.sums.data() + tile.first_chunk * sum_columns * lanes,
+              (tile.last_chunk - tile.first_chunk) * sum_columns * lanes, 0.0);
 }
 
 /// Joins the edges of others of all tiles.
