@@ -233,6 +233,8 @@ struct FaceTiles {
   bool remembers(unsigned of, std::size_t k) const { return bit_of(bits[now], of, k); }
   /// Of those found in the step:
   bool has_found(unsigned of, std::size_t k) const { return bit_of(found[now], of, k); }
+  /// Whether anything is remembered of the faces of a chunk (TileNumbers).
+  bool holds(std::size_t chunk) const { return numbers[tile_of_chunk[chunk]].holds(chunk); }
   const double* edges_of(std::size_t tile, std::size_t chunk) const {
     return constants[tile].edges.numbers.data() + edge_set[chunk] * edge_columns * lanes;
   }

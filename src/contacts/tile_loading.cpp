@@ -56,7 +56,7 @@ Id set_of(ConstantSets& sets, Id was, const double* numbers, std::size_t columns
 /// The memory of face k at the step of `m`, at these positions.
 void load_memory(FaceTiles& t, const FaceSet& c, const FaceMemory& m, const std::vector<double>& x,
                  const std::vector<double>& y, int which, std::size_t place, std::size_t k) {
-  if (t.numbers[t.tile_of_chunk[place / lanes]].holds(place / lanes)) {
+  if (t.holds(place / lanes)) {
     const EdgeCoordinates at = coordinates_at(c, x, y, k);
     put(t, which, place,
         FaceMemoryColumns<double>{m.slip_a[k], m.slip_b[k], m.overlap[k], m.spring[k], at.s2, at.r1,
@@ -77,22 +77,34 @@ void load_memory(FaceTiles& t, const FaceSet& c, const FaceMemory& m, const std:
   mark(lane_bits::switched, m.switched[k] > 0.0);
 }
 
-/// The work of face k in the step of `m`. Of a chunk in which no face has done any nothing is kept.
-void load_work(FaceTiles& t, const FaceMemory& m, bool opens, int which, std::size_t place,
-               std::size_t k) {
-  const FaceWorkColumns<double> work{m.friction_work[k], m.transfer[k],   m.trial_a[k],
-                                     m.trial_b[k],       m.shear_a[k],    m.shear_b[k],
-                                     m.damping_work[k],  m.damping_due[k]};
-  const bool slides = m.trial_a[k] != m.slip_a[k] || m.trial_b[k] != m.slip_b[k];
+bool slides(const FaceMemory& m, std::size_t k) {
+  return m.trial_a[k] != m.slip_a[k] || m.trial_b[k] != m.slip_b[k];
+}
+/// Whether face k has stored energy and does not any more.
+bool opens(const FaceSet& c, std::size_t k) {
+  return c.before.energy[k] > 0.0 && c.now.energy[k] == 0.0;
+}
+/// Whether the work of face k in the last step must be kept: no_work() does not hold.
+bool works(const FaceSet& c, std::size_t k) {
+  const FaceMemory& m = c.now;
   const bool sticks =
       m.shear_a[k] == -m.spring[k] * m.slip_a[k] && m.shear_b[k] == -m.spring[k] * m.slip_b[k];
-  const bool busy = opens || slides || !sticks || work.friction_work != 0.0 ||
-                    work.transfer != 0.0 || work.damping_work != 0.0 || work.damping_due != 0.0;
+  return opens(c, k) || slides(m, k) || !sticks || m.friction_work[k] != 0.0 ||
+         m.transfer[k] != 0.0 || m.damping_work[k] != 0.0 || m.damping_due[k] != 0.0;
+}
+
+/// The work of face k in the last step. Of a chunk in which no face has done any nothing is kept.
+void load_work(FaceTiles& t, const FaceSet& c, int which, std::size_t place, std::size_t k) {
+  const FaceMemory& m = c.now;
   const std::size_t q = place / lanes;
-  if (busy) begin_work(t, which, q);
-  if (t.fresh[which][q] != 0) put(t, which, place, work);
-  set_bit(t.found[which][q], lane_bits::opens, place % lanes, opens);
-  set_bit(t.found[which][q], lane_bits::slides, place % lanes, slides);
+  if (works(c, k)) begin_work(t, which, q);
+  if (t.fresh[which][q] != 0) {
+    put(t, which, place,
+        FaceWorkColumns<double>{m.friction_work[k], m.transfer[k], m.trial_a[k], m.trial_b[k],
+                                m.shear_a[k], m.shear_b[k], m.damping_work[k], m.damping_due[k]});
+  }
+  set_bit(t.found[which][q], lane_bits::opens, place % lanes, opens(c, k));
+  set_bit(t.found[which][q], lane_bits::slides, place % lanes, slides(m, k));
 }
 
 /// The accumulated work of face k.
@@ -111,7 +123,11 @@ bool remembers(const FaceMemory& m, std::size_t k) {
 std::vector<std::uint8_t> kinds_by_rows(const FaceSet& c) {
   std::vector<std::uint8_t> kind(c.size(), face_kind::looked_at);
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if (remembers(c.now, k) || remembers(c.before, k)) kind[k] = face_kind::long_rest;
+    if (works(c, k)) {
+      kind[k] = face_kind::long_work;
+    } else if (remembers(c.now, k) || remembers(c.before, k)) {
+      kind[k] = face_kind::long_rest;
+    }
   }
   return kind;
 }
@@ -120,11 +136,10 @@ std::vector<std::uint8_t> kinds_by_rows(const FaceSet& c) {
 void load_copy(FaceTiles& t, const FaceSet& c, const Pose& pose, std::size_t place, std::size_t k) {
   const int now = t.now, old = 1 - t.now;
   const bool carries = remembers(c.now, k), carried = remembers(c.before, k);
-  const bool opens = c.before.energy[k] > 0.0 && c.now.energy[k] == 0.0;
   const std::size_t q = place / lanes;
   load_memory(t, c, c.now, pose.x, pose.y, now, place, k);
   load_memory(t, c, c.before, pose.x1, pose.y1, old, place, k);
-  load_work(t, c.now, opens, now, place, k);
+  load_work(t, c, now, place, k);
   load_sums(t, c, place, k);
   set_bit(t.found[now][q], lane_bits::works, place % lanes, carries || carried);
   if (carries || carried) t.idle[now][q] = 0;

@@ -54,7 +54,7 @@ void copy_step(const Renewal& r, int which, std::size_t place, std::size_t from)
   copy_bits(r.next.found[which][q], place % lanes, r.old.found[which][p], from % lanes);
   if (lane_bits::test(r.old.found[which][p], lane_bits::works, from % lanes))
     r.next.idle[which][q] = 0;
-  if (!r.next.numbers[r.next.tile_of_chunk[q]].holds(q)) return;
+  if (!r.next.holds(q)) return;
   const auto memory = get<FaceMemoryColumns<double>>(r.old, which, from);
   put(r.next, which, place, memory);
   if (r.next.dashpots)
@@ -71,7 +71,7 @@ void copy_step(const Renewal& r, int which, std::size_t place, std::size_t from)
 /// room they are found when the face wakes.
 void place_corners(const Renewal& r, std::size_t place, std::size_t k) {
   const std::size_t q = place / lanes;
-  if (!r.next.numbers[r.next.tile_of_chunk[q]].holds(q)) return;
+  if (!r.next.holds(q)) return;
   const Pose& p = r.pose;
   load_corners(r.next, coordinates_at(r.faces, p.x, p.y, k), r.next.now, place);
   load_corners(r.next, coordinates_at(r.faces, p.x1, p.y1, k), 1 - r.next.now, place);

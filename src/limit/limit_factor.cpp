@@ -14,6 +14,7 @@ StrengthFactor strength_factor(LimitProblem problem, const std::vector<char>& di
   StrengthFactor found;
   std::vector<RigidMotion> mechanism;
   double factor = first;
+  double beyond = 0.0;  // step from a factor that holds towards one that fails
   for (int n = 0; n < most_programs; ++n) {
     problem.strength = strength_at(factor);
     Shortfall s = shortfall(problem, divided);
@@ -25,14 +26,21 @@ StrengthFactor strength_factor(LimitProblem problem, const std::vector<char>& di
         found.end = LimitEnd::no_limit;
         return found;
       }
-      factor =
-          found.fails == 0.0 ? (n == 0 ? 1.01 : 2.0) * factor : 0.5 * (found.holds + found.fails);
+      if (found.fails == 0.0) {
+        factor *= n == 0 ? 1.01 : n == 1 ? 1.1 : 2.0;
+      } else {
+        // Newton's method has come from `fails`: its error is of the second order.
+        const double open = found.fails - found.holds;
+        beyond = beyond > 0.0 ? 8.0 * beyond
+                              : std::max(0.6 * tolerance * factor, 4.0 * open * open / factor);
+        factor = found.holds + std::min(beyond, 0.5 * open);
+      }
     } else {
       found.fails = factor;
       mechanism = s.state.motion;
-      double next = s.strength > 0.0 ? factor * (1.0 - s.force / s.strength) : 0.0;
-      // Newton's method comes from above: the last step goes beyond, to where there is an
-      // equilibrium.
+      beyond = 0.0;
+      double next = s.strength > 0.0 ? factor / (1.0 + s.force / s.strength) : 0.0;
+      // Where it has come near, the next step ends beyond the limit.
       if (factor - next < 0.5 * tolerance * factor) next = factor * (1.0 - 0.6 * tolerance);
       const bool between = next > found.holds && next > 0.1 * factor;
       factor = between ? next : 0.5 * (found.holds + factor);

@@ -16,8 +16,9 @@ struct StrengthFactor {
   LimitState state;                 ///< forces at `holds`, mechanism at `fails`
 };
 /// strength_at(F): [joints] with their strength divided by F. tolerance: relative width between
-/// holds and fails; first: the factor to begin with. Newton's method on the shortfall: with the
-/// dissipation D of its mechanism it falls by D dF/F.
+/// holds and fails; first: the factor to begin with. Newton's method on the shortfall as a function
+/// of 1/F, which is linear as long as the mechanism stays the same: with its dissipation D the
+/// derivative is -D F.
 StrengthFactor strength_factor(LimitProblem problem, const std::vector<char>& divided,
                                const std::function<std::vector<RigidStrength>(double)>& strength_at,
                                double tolerance, double first = 1.0);

@@ -144,10 +144,12 @@ std::optional<double> LimitCase::without_dilation(const Answer& associated) cons
     const double change = std::abs(answer.lower - values.back());
     values.push_back(answer.lower);
     if (change <= close * std::abs(answer.lower)) return std::min(answer.lower, associated.lower);
+    // By less and less, so that programs that would alternate come to an end.
+    const double part = std::min(0.5, 2.0 / (round + 1.0));
     for (std::size_t k = 0; k < reference.size(); ++k) {
       for (std::size_t end = 0; end < 2; ++end) {
         double& normal = reference[k].normal[end];
-        normal = 0.5 * (normal + answer.state.forces[k].normal[end]);
+        normal += part * (answer.state.forces[k].normal[end] - normal);
       }
     }
   }
