@@ -123,9 +123,11 @@ class BlockSteps {
   }
   /// The exact step; call below() of this block first.
   double exact(std::size_t i) {
-    if (known_.exact[i] < 0.0) known_.exact[i] = critical_step_of(equations_of(w_, i), w_.damping);
+    if (!is_known(i)) known_.exact[i] = critical_step_of(equations_of(w_, i), w_.damping);
     return known_.exact[i];
   }
+  /// Whether the exact step is known.
+  bool is_known(std::size_t i) const { return known_.exact[i] >= 0.0; }
 
  private:
   static constexpr double unknown = -1.0;
@@ -138,16 +140,18 @@ Smallest smallest_step(BlockSteps& steps, const std::vector<double>& estimates) 
   const auto first = std::min_element(estimates.begin(), estimates.end());
   if (first == estimates.end() || !(*first < std::numeric_limits<double>::infinity())) return {};
   const double known = steps.exact(static_cast<std::size_t>(first - estimates.begin()));
-  std::vector<Id> open;
+  std::vector<Id> open, unknown;
   for (std::size_t i = 0; i < estimates.size(); ++i) {
-    if (estimates[i] <= known) open.push_back(static_cast<Id>(i));
+    if (!(estimates[i] <= known)) continue;
+    open.push_back(static_cast<Id>(i));
+    if (!steps.is_known(i)) unknown.push_back(static_cast<Id>(i));
   }
-  std::vector<double> exact(open.size());
+  // 10 us each; but threads that no step needs must be worth waking.
   parallel_for(
-      open.size(), [&](std::size_t q) { exact[q] = steps.exact(open[q]); }, 10000);
+      unknown.size(), [&](std::size_t q) { steps.exact(unknown[q]); }, 1000);
   Smallest found;
-  for (std::size_t q = 0; q < open.size(); ++q) {
-    if (exact[q] < found.step) found = {exact[q], open[q]};
+  for (const Id i : open) {
+    if (const double step = steps.exact(i); step < found.step) found = {step, i};
   }
   return found;
 }
