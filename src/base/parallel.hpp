@@ -15,8 +15,9 @@
 
 namespace edda {
 
-/// ns: loops that take less are not worth waking other threads for. The cost of an element, as
-/// the loops below take it, is a rough number.
+/// ns: loops that take less are not worth sharing. The cost of an element, as the loops below take
+/// it, is a rough number. Loops that not every step makes give a quarter of what an element takes:
+/// other threads are asleep then, and once woken keep a core busy for a while.
 inline constexpr std::size_t worth_sharing = EDDA_WORTH_SHARING;
 
 /// Blocks that go through all stages of a step together, so that the results of one stage are still

@@ -146,9 +146,9 @@ Smallest smallest_step(BlockSteps& steps, const std::vector<double>& estimates) 
     open.push_back(static_cast<Id>(i));
     if (!steps.is_known(i)) unknown.push_back(static_cast<Id>(i));
   }
-  // 10 us each; but threads that no step needs must be worth waking.
+  constexpr std::size_t cost = 2500;  // ns, a quarter of what one takes (base/parallel.hpp)
   parallel_for(
-      unknown.size(), [&](std::size_t q) { steps.exact(unknown[q]); }, 1000);
+      unknown.size(), [&](std::size_t q) { steps.exact(unknown[q]); }, cost);
   Smallest found;
   for (const Id i : open) {
     if (const double step = steps.exact(i); step < found.step) found = {step, i};
