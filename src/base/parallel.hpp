@@ -16,9 +16,13 @@
 namespace edda {
 
 /// ns: loops that take less are not worth sharing. The cost of an element, as the loops below take
-/// it, is a rough number. Loops that not every step makes give a quarter of what an element takes:
-/// other threads are asleep then, and once woken keep a core busy for a while.
+/// it, is a rough number.
 inline constexpr std::size_t worth_sharing = EDDA_WORTH_SHARING;
+
+/// By this the cost of an element is divided in loops that seldom run though they are short: they
+/// must take longer to be shared, since other threads are asleep then, and spin for a while once
+/// they are awake.
+inline constexpr std::size_t seldom = 4;
 
 /// Blocks that go through all stages of a step together, so that the results of one stage are still
 /// in the cache for the next.

@@ -171,7 +171,7 @@ struct TileConstants {
 
 /// What a tile remembers of the faces in its first chunks, of steps n and n - 1 in turn
 /// (FaceTiles::now). Those in the others sleep, or have just been listed: they have carried
-/// nothing.
+/// nothing and done no work.
 struct TileNumbers {
   Id first_chunk = 0;          ///< that of the tile
   Id chunks = 0;               ///< of how many it remembers anything
@@ -259,7 +259,7 @@ void divide_blocks(FaceTiles& tiles, const BlockSet& blocks, const State& state,
 /// Gives each face of the list its places in the tiles, and all that has a size its size. Blocks
 /// must have been divided. All faces are awake; nothing is remembered. kind: [nf] what each face
 /// does: faces of lower kinds come first in a tile (contacts/tile_packing.hpp), and those that
-/// carry load have room in TileNumbers.
+/// carry load or have done work have room in TileNumbers.
 void lay_out(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
              const std::vector<std::uint8_t>& kind);
 

@@ -80,12 +80,12 @@ void load_memory(FaceTiles& t, const FaceSet& c, const FaceMemory& m, const std:
 bool slides(const FaceMemory& m, std::size_t k) {
   return m.trial_a[k] != m.slip_a[k] || m.trial_b[k] != m.slip_b[k];
 }
-/// Whether face k has stored energy and does not any more.
+/// Whether face k stored energy at n - 1 and stores none now.
 bool opens(const FaceSet& c, std::size_t k) {
   return c.before.energy[k] > 0.0 && c.now.energy[k] == 0.0;
 }
 /// Whether the work of face k in the last step must be kept: no_work() does not hold.
-bool works(const FaceSet& c, std::size_t k) {
+bool is_busy(const FaceSet& c, std::size_t k) {
   const FaceMemory& m = c.now;
   const bool sticks =
       m.shear_a[k] == -m.spring[k] * m.slip_a[k] && m.shear_b[k] == -m.spring[k] * m.slip_b[k];
@@ -97,7 +97,7 @@ bool works(const FaceSet& c, std::size_t k) {
 void load_work(FaceTiles& t, const FaceSet& c, int which, std::size_t place, std::size_t k) {
   const FaceMemory& m = c.now;
   const std::size_t q = place / lanes;
-  if (works(c, k)) begin_work(t, which, q);
+  if (is_busy(c, k)) begin_work(t, which, q);
   if (t.fresh[which][q] != 0) {
     put(t, which, place,
         FaceWorkColumns<double>{m.friction_work[k], m.transfer[k], m.trial_a[k], m.trial_b[k],
@@ -123,7 +123,7 @@ bool remembers(const FaceMemory& m, std::size_t k) {
 std::vector<std::uint8_t> kinds_by_rows(const FaceSet& c) {
   std::vector<std::uint8_t> kind(c.size(), face_kind::looked_at);
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if (works(c, k)) {
+    if (is_busy(c, k)) {
       kind[k] = face_kind::long_work;
     } else if (remembers(c.now, k) || remembers(c.before, k)) {
       kind[k] = face_kind::long_rest;
@@ -141,8 +141,9 @@ void load_copy(FaceTiles& t, const FaceSet& c, const Pose& pose, std::size_t pla
   load_memory(t, c, c.before, pose.x1, pose.y1, old, place, k);
   load_work(t, c, now, place, k);
   load_sums(t, c, place, k);
-  set_bit(t.found[now][q], lane_bits::works, place % lanes, carries || carried);
-  if (carries || carried) t.idle[now][q] = 0;
+  const bool worked = carries || carried || is_busy(c, k);
+  set_bit(t.found[now][q], lane_bits::works, place % lanes, worked);
+  if (worked) t.idle[now][q] = 0;
   if (carried) t.idle[old][q] = 0;
 }
 

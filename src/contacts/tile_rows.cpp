@@ -130,7 +130,7 @@ void clear_new_faces(FaceSet& c, const FaceTiles& t) {
 void unload_faces(FaceSet& c, const FaceTiles& t, const FaceScene& scene, double step) {
   const std::vector<std::uint8_t> acted = chunks_that_have_acted(c, t);
   c.clear_states();
-  parallel_chunks(c.size(), FaceSet::chunk, 15,
+  parallel_chunks(c.size(), FaceSet::chunk, 60 / seldom,
                   [&](std::size_t q, std::size_t begin, std::size_t end) {
                     for (std::size_t k = begin; k < end; ++k) {
                       if (t.place[k][0] != no_id) recall_work(c, t, k);

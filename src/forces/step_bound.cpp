@@ -139,16 +139,16 @@ class BlockSteps {
 Smallest smallest_step(BlockSteps& steps, const std::vector<double>& estimates) {
   const auto first = std::min_element(estimates.begin(), estimates.end());
   if (first == estimates.end() || !(*first < std::numeric_limits<double>::infinity())) return {};
-  const double known = steps.exact(static_cast<std::size_t>(first - estimates.begin()));
-  std::vector<Id> open, unknown;
+  const double least = steps.exact(static_cast<std::size_t>(first - estimates.begin()));
+  std::vector<Id> open, to_compute;
   for (std::size_t i = 0; i < estimates.size(); ++i) {
-    if (!(estimates[i] <= known)) continue;
+    if (!(estimates[i] <= least)) continue;
     open.push_back(static_cast<Id>(i));
-    if (!steps.is_known(i)) unknown.push_back(static_cast<Id>(i));
+    if (!steps.is_known(i)) to_compute.push_back(static_cast<Id>(i));
   }
-  constexpr std::size_t cost = 2500;  // ns, a quarter of what one takes (base/parallel.hpp)
+  constexpr std::size_t cost = 10000 / seldom;  // ns
   parallel_for(
-      unknown.size(), [&](std::size_t q) { steps.exact(unknown[q]); }, cost);
+      to_compute.size(), [&](std::size_t q) { steps.exact(to_compute[q]); }, cost);
   Smallest found;
   for (const Id i : open) {
     if (const double step = steps.exact(i); step < found.step) found = {step, i};

@@ -14,7 +14,13 @@ StrengthFactor strength_factor(LimitProblem problem, const std::vector<char>& di
   StrengthFactor found;
   std::vector<RigidMotion> mechanism;
   double factor = first;
-  double beyond = 0.0;  // step from a factor that holds towards one that fails
+  double upwards = 0.0;  // last step from a factor that holds towards one that fails
+  // Newton's step from `fails` ends near the limit. If that is not just above, it is looked for
+  // eight times as far away, halfway at most.
+  const auto above_holds = [&] {
+    upwards = upwards > 0.0 ? 8.0 * upwards : 0.6 * tolerance * factor;
+    return found.holds + std::min(upwards, 0.5 * (found.fails - found.holds));
+  };
   for (int n = 0; n < most_programs; ++n) {
     problem.strength = strength_at(factor);
     Shortfall s = shortfall(problem, divided);
@@ -29,21 +35,20 @@ StrengthFactor strength_factor(LimitProblem problem, const std::vector<char>& di
       if (found.fails == 0.0) {
         factor *= n == 0 ? 1.01 : n == 1 ? 1.1 : 2.0;
       } else {
-        // Newton's method has come from `fails`: its error is of the second order.
-        const double open = found.fails - found.holds;
-        beyond = beyond > 0.0 ? 8.0 * beyond
-                              : std::max(0.6 * tolerance * factor, 4.0 * open * open / factor);
-        factor = found.holds + std::min(beyond, 0.5 * open);
+        factor = above_holds();
       }
     } else {
       found.fails = factor;
       mechanism = s.state.motion;
-      beyond = 0.0;
+      upwards = 0.0;
       double next = s.strength > 0.0 ? factor / (1.0 + s.force / s.strength) : 0.0;
-      // Where it has come near, the next step ends beyond the limit.
+      // Where it has come near, the next step goes to where there is an equilibrium.
       if (factor - next < 0.5 * tolerance * factor) next = factor * (1.0 - 0.6 * tolerance);
-      const bool between = next > found.holds && next > 0.1 * factor;
-      factor = between ? next : 0.5 * (found.holds + factor);
+      if (!(next > 0.1 * factor)) {
+        factor = 0.5 * (found.holds + factor);
+      } else {
+        factor = next > found.holds ? next : above_holds();
+      }
       if (factor < least) {
         found.end = LimitEnd::no_equilibrium;
         found.state.motion = std::move(mechanism);

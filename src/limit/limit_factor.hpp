@@ -17,8 +17,8 @@ struct StrengthFactor {
 };
 /// strength_at(F): [joints] with their strength divided by F. tolerance: relative width between
 /// holds and fails; first: the factor to begin with. Newton's method on the shortfall as a function
-/// of 1/F, which is linear as long as the mechanism stays the same: with its dissipation D the
-/// derivative is -D F.
+/// of 1/F, of which the derivative is -D F with the dissipation D of its mechanism, and which is
+/// nearly straight: for cohesion alone it is straight as long as the mechanism stays the same.
 StrengthFactor strength_factor(LimitProblem problem, const std::vector<char>& divided,
                                const std::function<std::vector<RigidStrength>(double)>& strength_at,
                                double tolerance, double first = 1.0);

@@ -144,8 +144,7 @@ class Correction {
   }
 
  private:
-  // ns, a quarter of what some passes take (base/parallel.hpp)
-  static constexpr std::size_t cost_of_a_face = 1000;
+  static constexpr std::size_t cost_of_a_face = 4000 / seldom;  // ns, with some passes
 
   /// Empties the set. In the first step of a run every face may close, and in none that follows.
   void begin_set() {

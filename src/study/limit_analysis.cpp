@@ -207,7 +207,7 @@ void add_mechanism(LimitResult& r, const Simulation& drawn, const RigidBlocks& r
 /// All but the largest value.
 void add_others(LimitResult& r, const Simulation& sim, const Fos& fos, const LimitCase& asked,
                 const LimitCase::Answer& answer) {
-  constexpr std::size_t most_bodies = 2000;  // twenty programs more, of a few seconds each
+  constexpr std::size_t most_bodies = 2000;  // up to sixty limits more, of seconds each
   if (r.blocks <= most_bodies) {
     r.without_dilation = asked.without_dilation(answer);
   } else {

@@ -128,10 +128,14 @@ LimitCase::Answer LimitCase::at_end(bool largest, StrengthOf which) const {
 std::optional<double> LimitCase::without_dilation(const Answer& associated) const {
   if (associated.end != LimitEnd::found) return {};
   constexpr double close = 1e-4, about = 1e-2;
-  constexpr int most_rounds = 20;
+  constexpr int most_rounds = 60;
   const std::vector<RigidJointForce> stress = associated.state.forces;
   std::vector<RigidJointForce> reference = stress;
   std::vector<double> values{associated.lower};
+  // Part of the new forces that the next program goes by; less where programs alternate. A value
+  // changes in proportion to it.
+  constexpr double most_part = 0.5, least_part = 0.1;
+  double part = most_part, last_change = 0.0;
   for (int round = 0; round < most_rounds; ++round) {
     const Answer answer = solve(
         true,
@@ -141,11 +145,12 @@ std::optional<double> LimitCase::without_dilation(const Answer& associated) cons
         },
         values.back());
     if (answer.end != LimitEnd::found) return {};
-    const double change = std::abs(answer.lower - values.back());
+    const double change = answer.lower - values.back();
     values.push_back(answer.lower);
-    if (change <= close * std::abs(answer.lower)) return std::min(answer.lower, associated.lower);
-    // By less and less, so that programs that would alternate come to an end.
-    const double part = std::min(0.5, 2.0 / (round + 1.0));
+    if (std::abs(change) <= close * part / most_part * std::abs(answer.lower))
+      return std::min(answer.lower, associated.lower);
+    if (change * last_change < 0.0) part = std::max(least_part, 0.7 * part);
+    last_change = change;
     for (std::size_t k = 0; k < reference.size(); ++k) {
       for (std::size_t end = 0; end < 2; ++end) {
         double& normal = reference[k].normal[end];
@@ -155,7 +160,7 @@ std::optional<double> LimitCase::without_dilation(const Answer& associated) cons
   }
   // Programs may alternate between two mechanisms.
   const auto [least, most] = std::minmax_element(values.end() - 4, values.end());
-  if (*most - *least > about * std::abs(*most)) return {};
+  if (*most - *least > about * part / most_part * std::abs(*most)) return {};
   return std::min(*least, associated.lower);
 }
 
