@@ -308,15 +308,11 @@ SweepTables tables_of(FaceTiles& t, std::size_t tile, double* on, double step, d
           .noise = noise};
 }
 
-EDDA_VECTOR void stand_edges(const ChunkView& given, const double* at, const Id* slot_e,
-                             const Id* slot_f) {
+EDDA_VECTOR void stand_edges(const ChunkView& given) {
   const ChunkColumns c = columns_of<Tables::memory>(given);
-  Records e, f;
-  read_records(at, slot_e, e);
-  read_records(at, slot_f, f);
 #pragma omp simd
   for (std::size_t k = 0; k < lanes; ++k) {
-    write_geometry(c, geometry_of_edges(points_of(e, f, k), pair_of(c, k)), k);
+    write_geometry(c, geometry_of_edges(points_of(*c.e, *c.f, k), pair_of(c, k)), k);
   }
 }
 

@@ -90,8 +90,11 @@ struct ChunkFound {
   double deepest;
 };
 
-/// Finds out how the edges stand, from their records `at` and the slots of the chunk.
-void stand_edges(const ChunkView& chunk, const double* at, const Id* slot_e, const Id* slot_f);
+/// Reads the records of the edges of a chunk. What reads the columns should come some chunks later:
+/// the processor cannot pass on at once, as one vector of eight, what is stored as two of four.
+void read_edges(const double* from, const Id* slot_e, const Id* slot_f, Records& e, Records& f);
+/// Finds out how the edges stand, from their records.
+void stand_edges(const ChunkView& chunk);
 /// Finds where they overlap, from how they stand.
 void overlap_edges(const ChunkView& chunk);
 
@@ -114,9 +117,6 @@ ChunkFound evaluate_plain_damped(const ChunkView& chunk);
 /// found: one needs more than that.
 ChunkFound look_at_undamped(const ChunkView& chunk);
 ChunkFound look_at_damped(const ChunkView& chunk);
-
-/// Reads the records of the edges of a chunk.
-void read_edges(const double* from, const Id* slot_e, const Id* slot_f, Records& e, Records& f);
 
 /// Margins by which the corners of faces that rest, and that sleep, may stray, m.
 using RestMargins = std::array<double, rest_levels>;

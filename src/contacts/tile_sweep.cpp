@@ -21,12 +21,19 @@ struct ChunkEdges {
   const Id* slot_f(std::size_t chunk) const { return slots_f + (chunk - first) * lanes; }
 };
 
-/// How the edges of a chunk stand, and where they overlap.
+/// The edges of a chunk, how they stand, and where they overlap.
 struct ChunkStand {
+  Records e, f;
   alignas(64) double columns[stand_columns * lanes];
   alignas(64) double overlaps[overlap_columns * lanes];
   bool overlaps_known;
 };
+ChunkView view_of(const SweepTables& t, std::size_t chunk, ChunkStand& stand) {
+  ChunkView view = view_of(t, chunk, stand.columns, stand.overlaps);
+  view.e = &stand.e;
+  view.f = &stand.f;
+  return view;
+}
 
 /// Chunks that are evaluated together: what they need meanwhile stays in the first cache.
 constexpr std::size_t chunks_at_once = 8;
@@ -107,12 +114,9 @@ ChunkFound evaluate_standing(FaceTiles& t, ChunkView& view, const ChunkEdges& ed
       return open;
     }
   }
-  Records e, f, e_then, f_then, mass_e, mass_f;
+  Records e_then, f_then, mass_e, mass_f;
   if (edges.then != nullptr) {
-    read_edges(edges.at, edges.slot_e(q), edges.slot_f(q), e, f);
     read_edges(edges.then, edges.slot_e(q), edges.slot_f(q), e_then, f_then);
-    view.e = &e;
-    view.f = &f;
     view.e_then = &e_then;
     view.f_then = &f_then;
   }
@@ -135,9 +139,10 @@ LaneBits sweep_some(FaceTiles& t, const SweepTables& tables, const ChunkEdges& e
   ChunkView views[chunks_at_once];
   for (std::size_t n = 0; n < chunks.size(); ++n) {
     const std::size_t q = chunks[n];
-    views[n] = view_of(tables, q, stands[n].columns, stands[n].overlaps);
-    stand_edges(views[n], edges.at, edges.slot_e(q), edges.slot_f(q));
+    views[n] = view_of(tables, q, stands[n]);
+    read_edges(edges.at, edges.slot_e(q), edges.slot_f(q), stands[n].e, stands[n].f);
   }
+  for (std::size_t n = 0; n < chunks.size(); ++n) stand_edges(views[n]);
   for (std::size_t n = 0; n < chunks.size(); ++n) {
     const std::size_t q = chunks[n];
     bool& known = stands[n].overlaps_known;
@@ -310,8 +315,9 @@ SweepResult sweep_chunks(FaceTiles& t, const SweepScene& scene, std::size_t tile
                            slots_alone + lanes,
                            q};
     ChunkStand stand;
-    ChunkView view = view_of(tables, q, stand.columns, stand.overlaps);
-    stand_edges(view, edges.at, edges.slot_e(q), edges.slot_f(q));
+    ChunkView view = view_of(tables, q, stand);
+    read_edges(edges.at, edges.slot_e(q), edges.slot_f(q), stand.e, stand.f);
+    stand_edges(view);
     const ChunkFound here = evaluate_standing(t, view, edges, false);
     found |= here.found;
     t.deepest[q] = scene.corrects ? std::max(t.deepest[q], here.deepest) : here.deepest;
