@@ -28,8 +28,9 @@ struct BlockSet {
   double thickness = 1.0;  ///< m; areas are in the plane, masses and forces include it
 
   // Read in every step.
-  Nodes grad_x, grad_y;        ///< [nodes][nb] G_k, gradient of the area coordinate w_k, 1/m
-  Nodes weight;                ///< [nodes][nv] w_k of each vertex, sum 1 (Eq. 22)
+  // Of the first node G and w follow from the others, and loops over all blocks do not read them.
+  Nodes grad_x, grad_y;        ///< [nodes][nb] G_k, gradient of the area coordinate w_k, sum 0, 1/m
+  Nodes weight;                ///< [nodes][nv] w_k of each vertex, w_0 = 1 - w_1 - w_2 (Eq. 22)
   std::vector<double> volume;  ///< [nb] area times thickness, m3
   std::vector<double> lame_lambda, lame_mu;  ///< [nb] Pa, for the model's plane
   std::vector<std::uint8_t> fixed;           ///< [nb] 1: fixed block

@@ -69,9 +69,12 @@ void add_vertices(BlockSet& b, const BlockPolygon& polygon, double young, const 
     const Id n = static_cast<Id>(ring.size());
     for (Id i = 0; i < n; ++i) {
       const Vec2 p = ring[i], after = ring[(i + 1) % n], before = ring[(i + n - 1) % n];
-      for (std::size_t k = 0; k < nodes_per_block; ++k) {
+      double first_weight = 1.0;
+      for (std::size_t k = 1; k < nodes_per_block; ++k) {
         b.weight[k].push_back(centroid_weights[k] + dot(g[k], p - m.centroid));
+        first_weight -= b.weight[k].back();
       }
+      b.weight[0].push_back(first_weight);
       b.vertex_block.push_back(block);
       b.next.push_back(first + (i + 1) % n);
       b.previous.push_back(first + (i + n - 1) % n);

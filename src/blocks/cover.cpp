@@ -126,10 +126,11 @@ Cover covering_cover(std::span<const Vec2> ring, Vec2 centroid) {
 
 NodeVectors gradients(const Cover& cover) {
   const double twice_area = cross(cover[1] - cover[0], cover[2] - cover[0]);
-  NodeVectors g;
-  for (std::size_t k = 0; k < 3; ++k) {
+  NodeVectors g{};
+  for (std::size_t k = 1; k < 3; ++k) {
     const Vec2 side = cover[(k + 2) % 3] - cover[(k + 1) % 3];
     g[k] = perp(side) / twice_area;
+    g[0] -= g[k];
   }
   return g;
 }

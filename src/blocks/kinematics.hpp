@@ -20,32 +20,35 @@ struct Deformation {
   double xx, xy, yx, yy;
 };
 
-/// sum u_k w_k: a row of F times a column of the gradients.
-template <class Values, class Weights>
-EDDA_INLINE double sum_over_nodes(const Values& u, const Weights& w, std::size_t i) {
-  double sum = u[0][i] * w[0][i];
-  for (std::size_t k = 1; k < nodes_per_block; ++k) sum += u[k][i] * w[k][i];
-  return sum;
+/// sum u_k G_k^T. The gradients of a block sum to 0, so the first node counts by the differences of
+/// the others from it. Blocks: BlockSet or a view with its gradients.
+template <class Blocks>
+EDDA_INLINE Deformation gradient_of(const Blocks& b, const NodeVectors& u, std::size_t i) {
+  Deformation f{};
+  for (std::size_t k = 1; k < nodes_per_block; ++k) {
+    const double ux = u[k].x - u[0].x, uy = u[k].y - u[0].y;
+    const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
+    f = {f.xx + ux * gx, f.xy + ux * gy, f.yx + uy * gx, f.yy + uy * gy};
+  }
+  return f;
 }
 
-/// Deformation gradient of block i. Blocks: BlockSet or a view with its gradients; Values: Nodes or
-/// pointers to them.
+/// Deformation gradient of block i. Values: Nodes or pointers to them.
 template <class Blocks, class Values>
 EDDA_INLINE Deformation deformation(const Blocks& b, const Values& x, const Values& y,
                                     std::size_t i) {
-  return {sum_over_nodes(x, b.grad_x, i), sum_over_nodes(x, b.grad_y, i),
-          sum_over_nodes(y, b.grad_x, i), sum_over_nodes(y, b.grad_y, i)};
+  return gradient_of(b, vectors_of(x, y, i), i);
 }
 
-/// f + sum u_k G_k^T: the rate of F for velocities u.
-inline Deformation deformed_by(const BlockSet& b, std::size_t i, const NodeVectors& u,
-                               Deformation f = {}) {
-  for (std::size_t k = 0; k < nodes_per_block; ++k) {
-    const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
-    f.xx += u[k].x * gx;
-    f.xy += u[k].x * gy;
-    f.yx += u[k].y * gx;
-    f.yy += u[k].y * gy;
+/// `factor` times P G_k for every node, of which the sum is 0: a tensor as forces on the nodes.
+template <class Blocks, class Stress>
+EDDA_INLINE NodeVectors on_gradients(const Blocks& b, const Stress& p, double factor,
+                                     std::size_t i) {
+  NodeVectors f{};
+  for (std::size_t k = 1; k < nodes_per_block; ++k) {
+    const double gx = factor * b.grad_x[k][i], gy = factor * b.grad_y[k][i];
+    f[k] = {p.xx * gx + p.xy * gy, p.yx * gx + p.yy * gy};
+    f[0] -= f[k];
   }
   return f;
 }

@@ -21,7 +21,7 @@ EDDA_VECTOR double place(VertexView p, ConstNodeValues x, ConstNodeValues y, std
 #pragma omp simd reduction(max : largest)
   for (std::size_t v = begin; v < end; ++v) {
     const Id i = p.block[v];
-    const double w0 = p.weight[0][v], w1 = p.weight[1][v], w2 = p.weight[2][v];
+    const double w1 = p.weight[1][v], w2 = p.weight[2][v], w0 = 1.0 - w1 - w2;
     const double px = w0 * x[0][i] + w1 * x[1][i] + w2 * x[2][i];
     const double py = w0 * y[0][i] + w1 * y[1][i] + w2 * y[2][i];
     const double dx = px - p.from_x[v], dy = py - p.from_y[v], d2 = dx * dx + dy * dy;

@@ -44,8 +44,9 @@ EDDA_VECTOR void gather_blocks(const Corners& c, const Id* blocks, std::size_t c
       Four sum{};
       for (std::size_t q = begin; q < end; ++q) sum += four_at(records + 4 * q);
       const Id to = next[e];
+      const NodeWeights at_start = weights_of(weight, e), at_end = weights_of(weight, to);
       for (std::size_t k = 0; k < nodes_per_block; ++k) {
-        const double w = weight[k][e], w_to = weight[k][to];
+        const double w = at_start[k], w_to = at_end[k];
         from_start_and_end[k] += Four{w, w, w_to, w_to} * sum;
       }
     }

@@ -40,12 +40,7 @@ inline PiolaStress stress_in(const BlockSet& b, std::size_t i, const Deformation
 /// Nodal forces f_k = -V P G_k of block i, N. Blocks: BlockSet or a view with volume and gradients.
 template <class Blocks>
 EDDA_INLINE NodeVectors elastic_forces(const Blocks& b, const PiolaStress& p, std::size_t i) {
-  NodeVectors f;
-  for (std::size_t k = 0; k < nodes_per_block; ++k) {
-    const double volume = b.volume[i], gx = b.grad_x[k][i], gy = b.grad_y[k][i];
-    f[k] = {-volume * (p.xx * gx + p.xy * gy), -volume * (p.yx * gx + p.yy * gy)};
-  }
-  return f;
+  return on_gradients(b, p, -b.volume[i], i);
 }
 
 /// P of the viscous stress eta C : dU/dt of block i, F = R U in `frame` (blocks/strain_rate.hpp).

@@ -144,18 +144,11 @@ NodalVector viscous_force(const ImplicitSolver& s, const ImplicitScene& scene,
   const BlockSet& b = scene.blocks;
   const Id i = s.block_of[row];
   if (!settings.dynamic || scene.masses.viscosity.empty()) return NodalVector::Zero();
-  const NodeVectors step = vectors_of(part_of(s.moved, row));
-  Deformation gain{};
-  for (std::size_t k = 0; k < nodes_per_block; ++k) {
-    gain.xx += step[k].x * b.grad_x[k][i] / settings.step;
-    gain.xy += step[k].x * b.grad_y[k][i] / settings.step;
-    gain.yx += step[k].y * b.grad_x[k][i] / settings.step;
-    gain.yy += step[k].y * b.grad_y[k][i] / settings.step;
-  }
+  const NodeVectors rate = (1.0 / settings.step) * vectors_of(part_of(s.moved, row));
   // With v_{n+1} = 2 D/h - v_n: twice the change of U in the step over h, less its rate before the
   // step.
   const StrainFrame before = strain_frame(deformation(b, s.start_x, s.start_y, i));
-  const StrainTerms mean = strain_rate_over(before, gain, settings.step),
+  const StrainTerms mean = strain_rate_over(before, gradient_of(b, rate, i), settings.step),
                     was = strain_rate(before, deformation(b, state.vx, state.vy, i));
   const PiolaStress p = viscous_stress(
       b, scene.masses.viscosity[i], i, strain_frame(deformation(b, state.x, state.y, i)),

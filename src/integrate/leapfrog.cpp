@@ -115,10 +115,12 @@ void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
       // W is that of a step with mass damping, in which forces change velocities by so much less.
       const double less = 1.0 / (1.0 + 0.25 * damping.mass * (leap.h_old + leap.h_new));
       for (std::vector<double>& stress : damping.strain->stress) stress[i] *= less;
+      damping.strain->work[i] *= less;
     }
     begin = i + 1;
   }
   const double h_new = leap.h_new;
+  const DampedStep step{leap.old_vx, leap.old_vy, leap.h_old, h_new};
   // With strain damping the nodes of a block move together, after all have their new velocities.
   const bool strains = damping.strain != nullptr;
   const Kick kick = kick_of(leap, strains ? 0.0 : h_new);
@@ -135,7 +137,7 @@ void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
                           s.y[k].data()};
       advance_nodes(node, kick, begin, end);
     }
-    if (strains) damp_strain_and_move(*damping.strain, b, masses, s, h_new, begin, end);
+    if (strains) damp_strain_and_move(*damping.strain, b, masses, s, step, begin, end);
     return;
   }
   for (std::size_t i = begin; i < end; ++i) {
@@ -153,7 +155,7 @@ void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
       s.y[k][i] += kick.h_new * after.y;
     }
   }
-  if (strains) damp_strain_and_move(*damping.strain, b, masses, s, h_new, begin, end);
+  if (strains) damp_strain_and_move(*damping.strain, b, masses, s, step, begin, end);
 }
 
 void add_and_advance(State& s, const Leap& leap, const ForcesToAdd& forces, std::size_t begin,
@@ -164,8 +166,9 @@ void add_and_advance(State& s, const Leap& leap, const ForcesToAdd& forces, std:
     add_to_free(leap.blocks, s, forces, begin, end);
     return advance(s, leap, begin, end);
   }
-  add_kick_and_damp(*damping.strain, leap.blocks, leap.masses, s, forces, leap.old_vx, leap.old_vy,
-                    kick_of(leap, leap.h_new), begin, end);
+  add_kick_and_damp(*damping.strain, leap.blocks, leap.masses, s, forces,
+                    {leap.old_vx, leap.old_vy, leap.h_old, leap.h_new}, kick_of(leap, leap.h_new),
+                    begin, end);
 }
 
 void advance(State& s, const Leap& leap) {
@@ -180,7 +183,9 @@ void account_damping(const State& s, const Leap& leap, DampingWork& work) {
   const Nodes &old_vx = leap.old_vx, &old_vy = leap.old_vy;
   const double h_old = leap.h_old, h_new = leap.h_new;
   if (damping.strain != nullptr) {
-    add_strain_dissipation(*damping.strain, b, s, old_vx, old_vy, h_old, h_new, work.joules);
+    const double* const of_strain = damping.strain->work.data();
+    parallel_for(
+        b.size(), [&](std::size_t i) { work.joules[i] += of_strain[i]; }, 1);
   }
   if (damping.mass == 0.0 && damping.local == 0.0) return;
   if (leap.masses.kind == MassKind::consistent) {

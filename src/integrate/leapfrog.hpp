@@ -41,7 +41,7 @@ struct Leap {
 /// v_{n+1/2} = v_{n-1/2} + a_n (h_old + h_new)/2, x_{n+1} = x_n + h_new v_{n+1/2} for the free
 /// blocks of [begin, end). Mass-proportional damping is centred: v+ = ((1 - a h/2) v- + h f/m)/(1 +
 /// a h/2). Local damping acts with beta |f| against v-, node by node. The velocities of `state` may
-/// be the arrays old_vx, old_vy.
+/// be the arrays old_vx, old_vy where the dissipation does not count.
 void advance(State& state, const Leap& leap, std::size_t begin, std::size_t end);
 /// The same for all blocks.
 void advance(State& state, const Leap& leap);

@@ -10,7 +10,7 @@ namespace {
 std::array<double, 6> compliance_of_inertia(const BlockSet& b, const Masses& masses,
                                             std::size_t i) {
   const auto rate = [&](const NodeVectors& v) {
-    const Deformation l = deformed_by(b, i, v);
+    const Deformation l = gradient_of(b, v, i);
     return StrainTerms{l.xx, l.yy, l.xy + l.yx};
   };
   NodeVectors xx, yy, xy;  // columns of B^T
@@ -56,6 +56,16 @@ StrainFrame frame_before(const BlockSet& b, const State& s, double h_new, std::s
   return strain_frame(plus(deformation(b, s.x, s.y, i), -h_new, deformation(b, s.vx, s.vy, i)));
 }
 
+/// Dissipation of s in the step in which the velocities u and then v moved the nodes by half.
+template <class Blocks>
+EDDA_INLINE double work_of(const Blocks& b, const StrainFrame& frame, const StrainTerms& s,
+                           double h_old, const NodeVectors& u, double h_new, const NodeVectors& v,
+                           std::size_t i) {
+  const NodeVectors moved = (0.5 * h_old) * u + (0.5 * h_new) * v;
+  const StrainTerms strained = strain_rate(frame, gradient_of(b, moved, i));
+  return s.xx * strained.xx + s.yy * strained.yy + s.xy * strained.xy;
+}
+
 /// v - h M^-1 B^T W d, with d the strain rate to be damped; W d is added to s.
 NodeVectors damped_velocity(StrainDamping& damping, const BlockSet& b, const Masses& masses,
                             std::size_t i, const StrainFrame& frame, const StrainTerms& rate,
@@ -64,13 +74,16 @@ NodeVectors damped_velocity(StrainDamping& damping, const BlockSet& b, const Mas
   damping.stress[0][i] += s.xx;
   damping.stress[1][i] += s.yy;
   damping.stress[2][i] += s.xy;
-  const Deformation p = stress_on_rate(frame, s);
-  NodeVectors f;
-  for (std::size_t k = 0; k < nodes_per_block; ++k) {
-    const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
-    f[k] = {p.xx * gx + p.xy * gy, p.yx * gx + p.yy * gy};
-  }
+  const NodeVectors f = on_gradients(b, stress_on_rate(frame, s), 1.0, i);
   return v - damping.step * accelerations(masses, i, f);
+}
+
+/// Dissipation of block i once its velocities are v.
+void update_work(StrainDamping& d, const BlockSet& b, const StrainFrame& frame,
+                 const DampedStep& step, std::size_t i, const NodeVectors& v) {
+  const StrainTerms s{d.stress[0][i], d.stress[1][i], d.stress[2][i]};
+  d.work[i] =
+      work_of(b, frame, s, step.h_old, vectors_of(step.old_vx, step.old_vy, i), step.h_new, v, i);
 }
 
 /// Data of the loops over blocks with lumped masses.
@@ -78,106 +91,69 @@ struct BlocksView {
   ConstNodeValues grad_x, grad_y, inverse_mass;
   std::array<const double*, 6> w;
   std::array<double*, 3> stress;
+  double* work;
   NodeValues x, y, vx, vy;
+  ConstNodeValues old_vx, old_vy;
+  double h, h_old, h_new;  ///< h: of W, StrainDamping::step
 };
-BlocksView blocks_view(StrainDamping& d, const BlockSet& b, const Masses& masses, State& s) {
+BlocksView blocks_view(StrainDamping& d, const BlockSet& b, const Masses& masses, State& s,
+                       const DampedStep& step) {
   return {values_of(b.grad_x),
           values_of(b.grad_y),
           values_of(masses.node_inverse),
           {d.matrix[0].data(), d.matrix[1].data(), d.matrix[2].data(), d.matrix[3].data(),
            d.matrix[4].data(), d.matrix[5].data()},
           {d.stress[0].data(), d.stress[1].data(), d.stress[2].data()},
+          d.work.data(),
           values_of(s.x),
           values_of(s.y),
           values_of(s.vx),
-          values_of(s.vy)};
+          values_of(s.vy),
+          values_of(step.old_vx),
+          values_of(step.old_vy),
+          d.step,
+          step.h_old,
+          step.h_new};
 }
 
-/// The rate of F for velocities v.
-EDDA_INLINE Deformation rate_of(const BlocksView& b, const NodeVectors& v, std::size_t i) {
-  Deformation l{v[0].x * b.grad_x[0][i], v[0].x * b.grad_y[0][i], v[0].y * b.grad_x[0][i],
-                v[0].y * b.grad_y[0][i]};
-  for (std::size_t k = 1; k < nodes_per_block; ++k) {
-    const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
-    l = {l.xx + v[k].x * gx, l.xy + v[k].x * gy, l.yx + v[k].y * gx, l.yy + v[k].y * gy};
-  }
-  return l;
-}
-
-/// Damps v* and moves block i.
-EDDA_INLINE void damp_and_move(const BlocksView& b, double h, double h_new, const NodeVectors& v,
-                               std::size_t i) {
+/// Damps v*, the velocities v of block i, and moves it.
+EDDA_INLINE void damp_and_move(const BlocksView& b, const NodeVectors& v, std::size_t i) {
   const StrainFrame frame = strain_frame(deformation(b, b.x, b.y, i));
-  const StrainTerms s = times(b.w, i, strain_rate_over(frame, rate_of(b, v, i), h_new));
-  const Deformation p = stress_on_rate(frame, s);
+  const StrainTerms s = times(b.w, i, strain_rate_over(frame, gradient_of(b, v, i), b.h_new));
+  const NodeVectors f = on_gradients(b, stress_on_rate(frame, s), b.h, i);
+  NodeVectors after;
+  for (std::size_t k = 0; k < nodes_per_block; ++k) {
+    const double per_mass = b.inverse_mass[k][i];
+    after[k] = {v[k].x - per_mass * f[k].x, v[k].y - per_mass * f[k].y};
+  }
   b.stress[0][i] = s.xx;
   b.stress[1][i] = s.yy;
   b.stress[2][i] = s.xy;
-  for (std::size_t k = 0; k < nodes_per_block; ++k) {
-    const double per = h * b.inverse_mass[k][i];
-    const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
-    const double vx = v[k].x - per * (p.xx * gx + p.xy * gy);
-    const double vy = v[k].y - per * (p.yx * gx + p.yy * gy);
-    b.vx[k][i] = vx;
-    b.vy[k][i] = vy;
-    b.x[k][i] += h_new * vx;
-    b.y[k][i] += h_new * vy;
-  }
+  b.work[i] = work_of(b, frame, s, b.h_old, vectors_of(b.old_vx, b.old_vy, i), b.h_new, after, i);
+  store(after, b.vx, b.vy, i);
+  add(b.h_new * after, b.x, b.y, i);
 }
 
-EDDA_INLINE void damp_and_move(const BlocksView& b, double h, double h_new, std::size_t i) {
-  damp_and_move(b, h, h_new, vectors_of(b.vx, b.vy, i), i);
-}
-
-EDDA_VECTOR void damp_and_move_all(BlocksView b, double h, double h_new, std::size_t begin,
-                                   std::size_t end) {
+EDDA_VECTOR void damp_and_move_all(BlocksView b, std::size_t begin, std::size_t end) {
 #pragma omp simd
-  for (std::size_t i = begin; i < end; ++i) damp_and_move(b, h, h_new, i);
+  for (std::size_t i = begin; i < end; ++i) damp_and_move(b, vectors_of(b.vx, b.vy, i), i);
 }
 
 /// Completes the forces of block i, kicks, damps and moves it.
-EDDA_INLINE void kick_and_move(const BlocksView& b, const FreeForces& f,
-                               const ConstNodeValues& old_vx, const ConstNodeValues& old_vy,
-                               const Kick& kick, double h, std::size_t i) {
+EDDA_INLINE void kick_and_move(const BlocksView& b, const FreeForces& f, const Kick& kick,
+                               std::size_t i) {
   NodeVectors v;
   for (std::size_t k = 0; k < nodes_per_block; ++k) {
-    v[k] = kicked_node({old_vx[k][i], old_vy[k][i]}, f.complete(k, i), b.inverse_mass[k][i], kick);
+    v[k] =
+        kicked_node({b.old_vx[k][i], b.old_vy[k][i]}, f.complete(k, i), b.inverse_mass[k][i], kick);
   }
-  damp_and_move(b, h, kick.h_new, v, i);
+  damp_and_move(b, v, i);
 }
 
-EDDA_VECTOR void add_kick_and_damp_all(BlocksView b, FreeForces f, ConstNodeValues old_vx,
-                                       ConstNodeValues old_vy, Kick kick, double h,
-                                       std::size_t begin, std::size_t end) {
+EDDA_VECTOR void add_kick_and_damp_all(BlocksView b, FreeForces f, Kick kick, std::size_t begin,
+                                       std::size_t end) {
 #pragma omp simd
-  for (std::size_t i = begin; i < end; ++i) kick_and_move(b, f, old_vx, old_vy, kick, h, i);
-}
-
-/// Data of the loop that adds up the dissipation.
-struct DissipationView {
-  ConstNodeValues grad_x, grad_y;
-  std::array<const double*, 3> stress;
-  ConstNodeValues x, y, vx, vy, old_vx, old_vy;
-  double* joules;
-};
-
-EDDA_INLINE void add_dissipation(const DissipationView& b, double h_old, double h_new,
-                                 std::size_t i) {
-  const Deformation after = deformation(b, b.vx, b.vy, i);
-  const StrainFrame frame = strain_frame(plus(deformation(b, b.x, b.y, i), -h_new, after));
-  const Deformation before = deformation(b, b.old_vx, b.old_vy, i);
-  const Deformation moved{
-      0.5 * (h_old * before.xx + h_new * after.xx), 0.5 * (h_old * before.xy + h_new * after.xy),
-      0.5 * (h_old * before.yx + h_new * after.yx), 0.5 * (h_old * before.yy + h_new * after.yy)};
-  const StrainTerms strained = strain_rate(frame, moved);
-  b.joules[i] +=
-      b.stress[0][i] * strained.xx + b.stress[1][i] * strained.yy + b.stress[2][i] * strained.xy;
-}
-
-EDDA_VECTOR void add_dissipation_of_all(DissipationView b, double h_old, double h_new,
-                                        std::size_t begin, std::size_t end) {
-#pragma omp simd
-  for (std::size_t i = begin; i < end; ++i) add_dissipation(b, h_old, h_new, i);
+  for (std::size_t i = begin; i < end; ++i) kick_and_move(b, f, kick, i);
 }
 
 }  // namespace
@@ -187,6 +163,7 @@ void prepare(StrainDamping& d, const BlockSet& b, const Masses& masses, double h
   d.step = h;
   for (auto& entry : d.matrix) entry.assign(b.size(), 0.0);
   for (auto& stress : d.stress) stress.resize(b.size(), 0.0);
+  d.work.resize(b.size(), 0.0);
   parallel_for(b.size(), [&](std::size_t i) {
     if (b.fixed[i] != 0 || !(masses.viscosity[i] > 0.0)) return;
     const std::array<double, 6> w = response(b, masses, i, h);
@@ -195,55 +172,40 @@ void prepare(StrainDamping& d, const BlockSet& b, const Masses& masses, double h
 }
 
 void damp_strain_and_move(StrainDamping& d, const BlockSet& b, const Masses& masses, State& s,
-                          double h_new, std::size_t begin, std::size_t end) {
+                          const DampedStep& step, std::size_t begin, std::size_t end) {
   if (masses.kind != MassKind::consistent) {
-    damp_and_move_all(blocks_view(d, b, masses, s), d.step, h_new, begin, end);
+    damp_and_move_all(blocks_view(d, b, masses, s, step), begin, end);
     return;
   }
   for (std::size_t i = begin; i < end; ++i) {
     if (is_free(b, s, i)) {
       const StrainFrame frame = strain_frame(deformation(b, s.x, s.y, i));
-      const StrainTerms rate = strain_rate_over(frame, deformation(b, s.vx, s.vy, i), h_new);
+      const StrainTerms rate = strain_rate_over(frame, deformation(b, s.vx, s.vy, i), step.h_new);
       for (std::vector<double>& stress : d.stress) stress[i] = 0.0;
-      store(damped_velocity(d, b, masses, i, frame, rate, vectors_of(s.vx, s.vy, i)), s.vx, s.vy,
-            i);
+      const NodeVectors after =
+          damped_velocity(d, b, masses, i, frame, rate, vectors_of(s.vx, s.vy, i));
+      store(after, s.vx, s.vy, i);
+      update_work(d, b, frame, step, i, after);
     }
-    add(h_new * vectors_of(s.vx, s.vy, i), s.x, s.y, i);
+    add(step.h_new * vectors_of(s.vx, s.vy, i), s.x, s.y, i);
   }
 }
 
 void add_kick_and_damp(StrainDamping& d, const BlockSet& b, const Masses& masses, State& s,
-                       const ForcesToAdd& forces, const Nodes& old_vx, const Nodes& old_vy,
-                       const Kick& kick, std::size_t begin, std::size_t end) {
+                       const ForcesToAdd& forces, const DampedStep& step, const Kick& kick,
+                       std::size_t begin, std::size_t end) {
   const FreeMarks free(b, s, begin, end);
-  add_kick_and_damp_all(blocks_view(d, b, masses, s), free_forces(forces, free), values_of(old_vx),
-                        values_of(old_vy), kick, d.step, begin, end);
+  add_kick_and_damp_all(blocks_view(d, b, masses, s, step), free_forces(forces, free), kick, begin,
+                        end);
 }
 
 NodeVectors damped_change(StrainDamping& d, const BlockSet& b, const Masses& masses, const State& s,
-                          double h_new, std::size_t i, const NodeVectors& change) {
-  const StrainFrame frame = frame_before(b, s, h_new, i);
-  return damped_velocity(d, b, masses, i, frame, strain_rate(frame, deformed_by(b, i, change)),
-                         change);
-}
-
-void add_strain_dissipation(const StrainDamping& d, const BlockSet& b, const State& s,
-                            const Nodes& old_vx, const Nodes& old_vy, double h_old, double h_new,
-                            std::vector<double>& joules) {
-  const DissipationView view{values_of(b.grad_x),
-                             values_of(b.grad_y),
-                             {d.stress[0].data(), d.stress[1].data(), d.stress[2].data()},
-                             values_of(s.x),
-                             values_of(s.y),
-                             values_of(s.vx),
-                             values_of(s.vy),
-                             values_of(old_vx),
-                             values_of(old_vy),
-                             joules.data()};
-  parallel_chunks(b.size(), blocks_at_once, 6,
-                  [&](std::size_t, std::size_t begin, std::size_t end) {
-                    add_dissipation_of_all(view, h_old, h_new, begin, end);
-                  });
+                          const DampedStep& step, std::size_t i, const NodeVectors& change) {
+  const StrainFrame frame = frame_before(b, s, step.h_new, i);
+  const NodeVectors remains = damped_velocity(
+      d, b, masses, i, frame, strain_rate(frame, gradient_of(b, change, i)), change);
+  update_work(d, b, frame, step, i, vectors_of(s.vx, s.vy, i) + remains);
+  return remains;
 }
 
 }  // namespace edda

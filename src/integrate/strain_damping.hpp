@@ -27,7 +27,15 @@ struct StrainDamping {
   std::array<std::vector<double>, 6>
       matrix;  ///< [6][nb] W, entries 11 12 13 22 23 33, J s; 0 for blocks without damping
   std::array<std::vector<double>, 3> stress;  ///< [3][nb] s = V sigma_v of the last step, J
-  double step = 0.0;                          ///< s: h for which W was computed; 0: none
+  std::vector<double> work;  ///< [nb] what it dissipated in the last step, J: s : B (x_{n+1} -
+                             ///< x_{n-1})/2
+  double step = 0.0;         ///< s: h for which W was computed; 0: none
+};
+
+/// The step in which strain is damped, from n to n + 1.
+struct DampedStep {
+  const Nodes &old_vx, &old_vy;  ///< [nodes][nb] v_{n-1/2}, m/s
+  double h_old, h_new;           ///< step before and after n, s
 };
 
 /// Computes W for the step h (with mass damping a it is h/(1 + a h/2)) unless it is that already.
@@ -35,26 +43,20 @@ struct StrainDamping {
 void prepare(StrainDamping& damping, const BlockSet& blocks, const Masses& masses, double h);
 
 /// Changes v* to v_{n+1/2} at the positions of step n, which then move by h_new v_{n+1/2}, for the
-/// blocks [begin, end). Stores s.
+/// blocks [begin, end). Stores s and its work.
 void damp_strain_and_move(StrainDamping& damping, const BlockSet& blocks, const Masses& masses,
-                          State& state, double h_new, std::size_t begin, std::size_t end);
+                          State& state, const DampedStep& step, std::size_t begin, std::size_t end);
 
 /// The whole step of the blocks [begin, end), not more than blocks_at_once, with lumped masses:
-/// adds the forces, makes v* of v_{n-1/2} in old_vx, old_vy by the kick, then damps and moves as
-/// above.
+/// adds the forces, makes v* of v_{n-1/2} by the kick, then damps and moves as above.
 void add_kick_and_damp(StrainDamping& damping, const BlockSet& blocks, const Masses& masses,
-                       State& state, const ForcesToAdd& forces, const Nodes& old_vx,
-                       const Nodes& old_vy, const Kick& kick, std::size_t begin, std::size_t end);
+                       State& state, const ForcesToAdd& forces, const DampedStep& step,
+                       const Kick& kick, std::size_t begin, std::size_t end);
 
 /// The part of a `change` of the velocities of block i, due to a changed force in the step just
-/// made, that remains under strain damping; updates s accordingly.
+/// made, that remains under strain damping; updates s and its work accordingly.
 NodeVectors damped_change(StrainDamping& damping, const BlockSet& blocks, const Masses& masses,
-                          const State& state, double h_new, std::size_t i,
+                          const State& state, const DampedStep& step, std::size_t i,
                           const NodeVectors& change);
-
-/// Adds the dissipation of each block in the step just made, s : B (x_{n+1} - x_{n-1})/2, J.
-void add_strain_dissipation(const StrainDamping& damping, const BlockSet& blocks,
-                            const State& state, const Nodes& old_vx, const Nodes& old_vy,
-                            double h_old, double h_new, std::vector<double>& joules);
 
 }  // namespace edda

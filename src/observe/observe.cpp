@@ -20,8 +20,9 @@ bool moves(const Simulation& sim, std::size_t i) {
 
 /// F = I + sum u_k G_k^T: exactly the identity where nothing has moved.
 Deformation deformation_of(const BlockSet& b, const State& s, std::size_t i) {
-  return deformed_by(b, i, vectors_of(s.x, s.y, i) - vectors_of(b.node_x, b.node_y, i),
-                     {1.0, 0.0, 0.0, 1.0});
+  const Deformation by =
+      gradient_of(b, vectors_of(s.x, s.y, i) - vectors_of(b.node_x, b.node_y, i), i);
+  return {1.0 + by.xx, by.xy, by.yx, 1.0 + by.yy};
 }
 
 /// Angular velocity: the rate of the polar angle in the affine motion of the block.

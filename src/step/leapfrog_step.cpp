@@ -199,8 +199,9 @@ void switch_contacts(Simulation& sim, double h_old) {
   LeapfrogStep& own = sim.leapfrog;
   own.switching.on_fixed = {};
   if (sim.scene->model.solver.switching == Switching::exact) {
-    const StepTaken taken{sim.scene->blocks, motion.masses,  motion.state,    motion.pose, h_old,
-                          motion.state.step, own.damps.mass, own.damps.strain};
+    const StepTaken taken{sim.scene->blocks, motion.masses,   motion.state, motion.pose,
+                          own.old_vx,        own.old_vy,      h_old,        motion.state.step,
+                          own.damps.mass,    own.damps.strain};
     if (own.tiled.ahead) {
       switch_in_tiles(sim, taken);
     } else {

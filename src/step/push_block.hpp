@@ -21,6 +21,7 @@ struct StepTaken {
   const Masses& masses;
   State& state;
   Pose& pose;
+  const Nodes &old_vx, &old_vy;  ///< velocities before the step, m/s
   double h_old = 0.0, h_new = 0.0, mass_damping = 0.0;
   StrainDamping* strain = nullptr;
   double kick = kick_over(0.5 * (h_old + h_new), mass_damping);  ///< s

@@ -56,8 +56,9 @@ Moving moved(double mass_damping, bool strain_damped, bool pushed, const NodeVec
   const StepDamping damping{mass_damping, 0.0, nullptr, damps};
   advance(m.state, {m.blocks, m.masses, fx, fy, m.old_vx, m.old_vy, h_old, h_new, damping});
   if (pushed) {
-    m.pushed_by =
-        push_block({m.blocks, m.masses, m.state, m.pose, h_old, h_new, mass_damping, damps}, 0, by);
+    m.pushed_by = push_block({m.blocks, m.masses, m.state, m.pose, m.old_vx, m.old_vy, h_old, h_new,
+                              mass_damping, damps},
+                             0, by);
   }
   m.pose.x1 = m.pose.x;
   m.pose.y1 = m.pose.y;
