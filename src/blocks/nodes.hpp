@@ -52,16 +52,6 @@ inline NodeWeights weights_of(const Nodes& w, std::size_t at) {
   return weights;
 }
 
-/// The same to the bit for weights of BlockSet, of which that of the first node is not read.
-EDDA_INLINE NodeWeights weights_of(const ConstNodeValues& w, std::size_t at) {
-  NodeWeights weights{1.0};
-  for (std::size_t k = 1; k < nodes_per_block; ++k) {
-    weights[k] = w[k][at];
-    weights[0] -= weights[k];
-  }
-  return weights;
-}
-
 /// Vectors of the nodes of block i. Values: Nodes or pointers to them.
 template <class Values>
 EDDA_INLINE NodeVectors vectors_of(const Values& x, const Values& y, std::size_t i) {

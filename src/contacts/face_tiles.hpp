@@ -28,7 +28,7 @@
 namespace edda {
 
 inline constexpr std::size_t lanes = 8;  ///< faces of a chunk
-inline constexpr std::size_t blocks_per_tile = 256;
+inline constexpr std::size_t blocks_per_tile = 512;
 
 /// What a step reads of a face and does not change. Members as in FacePair and FaceStrength. First
 /// what follows from its two edges.

@@ -1,5 +1,6 @@
 #include "contacts/tile_edges.hpp"
 
+#include "blocks/spread_edges.hpp"
 #include "contacts/edge_records.hpp"
 
 namespace edda {
@@ -37,24 +38,15 @@ EDDA_VECTOR void gather_blocks(const Corners& c, const Id* blocks, std::size_t c
       record_begin += last - first;
       continue;
     }
-    Four from_start_and_end[nodes_per_block] = {};  // x and y from the start, x and y from the end
+    SpreadEdges on;
     for (Id e = first; e < last; ++e) {
       const Id begin = *record_begin, end = *++record_begin;
       if (begin == end) continue;
       Four sum{};
       for (std::size_t q = begin; q < end; ++q) sum += four_at(records + 4 * q);
-      const Id to = next[e];
-      const NodeWeights at_start = weights_of(weight, e), at_end = weights_of(weight, to);
-      for (std::size_t k = 0; k < nodes_per_block; ++k) {
-        const double w = at_start[k], w_to = at_end[k];
-        from_start_and_end[k] += Four{w, w, w_to, w_to} * sum;
-      }
+      on.add(weight, e, next[e], sum);
     }
-    for (std::size_t k = 0; k < nodes_per_block; ++k) {
-      const Four& both = from_start_and_end[k];
-      fx[k][i] = both[0] + both[2];
-      fy[k][i] = both[1] + both[3];
-    }
+    store(on.on_nodes(), fx, fy, i);
   }
 }
 

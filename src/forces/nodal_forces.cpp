@@ -5,6 +5,7 @@
 
 #include "base/parallel.hpp"
 #include "blocks/free_blocks.hpp"
+#include "blocks/spread_edges.hpp"
 #include "forces/elastic.hpp"
 
 namespace edda {
@@ -21,36 +22,26 @@ FaceListView faces_of(const BlockSet& b, const FaceSet& c) {
           values_of(b.weight)};
 }
 
-/// Adds the forces of faces on the nodes of the block with the edges [first, end): summed on each
-/// edge, then spread from its two corners (Eq. 15).
-EDDA_INLINE void add_faces(NodeVectors& f, const FaceListView& c, Id first, Id end) {
-  Four from_start_and_end[nodes_per_block] = {};  // x and y from the start, x and y from the end
+/// The forces of faces on the nodes of the block with the edges [first, end).
+EDDA_INLINE NodeVectors on_faces(const FaceListView& c, Id first, Id end) {
+  SpreadEdges on;
   for (Id e = first; e < end; ++e) {
     const Id begin = c.begin_of_edge[e], last = c.begin_of_edge[e + 1];
     if (begin == last) continue;
     Four sum{};
     for (std::size_t q = begin; q < last; ++q) {
-      const double* const on = c.force + c.on_edge[q];
-      sum += Four{on[0], on[1], on[2], on[3]};
+      const double* const of_face = c.force + c.on_edge[q];
+      sum += Four{of_face[0], of_face[1], of_face[2], of_face[3]};
     }
-    const Id to = c.next[e];
-    for (std::size_t k = 0; k < nodes_per_block; ++k) {
-      const double w = c.weight[k][e], w_to = c.weight[k][to];
-      from_start_and_end[k] += Four{w, w, w_to, w_to} * sum;
-    }
+    on.add(c.weight, e, c.next[e], sum);
   }
-  for (std::size_t k = 0; k < nodes_per_block; ++k) {
-    const Four& both = from_start_and_end[k];
-    f[k] += {both[0] + both[2], both[1] + both[3]};
-  }
+  return on.on_nodes();
 }
 
 EDDA_VECTOR void sum_faces_of_blocks(FaceListView c, const Id* vertex_begin, NodeValues fx,
                                      NodeValues fy, std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
-    NodeVectors f{};
-    add_faces(f, c, vertex_begin[i], vertex_begin[i + 1]);
-    store(f, fx, fy, i);
+    store(on_faces(c, vertex_begin[i], vertex_begin[i + 1]), fx, fy, i);
   }
 }
 
@@ -193,9 +184,7 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
 }
 
 Vec2 contact_resultant(const BlockSet& b, const FaceSet& c, std::size_t i) {
-  NodeVectors f{};
-  add_faces(f, faces_of(b, c), b.vertex_begin[i], b.vertex_begin[i + 1]);
-  return resultant(f);
+  return resultant(on_faces(faces_of(b, c), b.vertex_begin[i], b.vertex_begin[i + 1]));
 }
 
 }  // namespace edda

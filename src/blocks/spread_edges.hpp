@@ -1,0 +1,38 @@
+// Forces on the nodes of a block, from those on both ends of its edges (Eq. 15).
+#pragma once
+
+#include "base/vector_loop.hpp"
+#include "blocks/block_set.hpp"
+
+// Vectors are passed between inlined functions alone.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace edda {
+
+/// The sums over the edges of one block.
+class SpreadEdges {
+ public:
+  /// Adds the force on the edge from vertex e to `to`, x and y at its start, x and y at its end
+  /// (N).
+  EDDA_INLINE void add(const ConstNodeValues& weight, Id e, Id to, Four force) {
+    on_[0] += force;
+    for (std::size_t k = 1; k < nodes_per_block; ++k) {
+      const double w = weight[k][e], w_to = weight[k][to];
+      on_[k] += Four{w, w, w_to, w_to} * force;
+    }
+  }
+  /// The forces on the nodes: the weights sum to 1, so the first has what the others leave.
+  EDDA_INLINE NodeVectors on_nodes() const {
+    NodeVectors f;
+    for (std::size_t k = 0; k < nodes_per_block; ++k) {
+      f[k] = {on_[k][0] + on_[k][2], on_[k][1] + on_[k][3]};
+    }
+    for (std::size_t k = 1; k < nodes_per_block; ++k) f[0] -= f[k];
+    return f;
+  }
+
+ private:
+  Four on_[nodes_per_block] = {};  ///< of node 0: of all nodes
+};
+
+}  // namespace edda
