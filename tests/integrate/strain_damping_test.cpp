@@ -83,15 +83,35 @@ TEST(StrainDamping, TakesTheEnergyThatItBooks) {
 }
 
 /// s . (h_old dU/dt- + h_new dU/dt+)/2.
+double work_of_step(const Strained& o, double h_old, double h_new) {
+  const StrainTerms was = o.rate(o.old_vx, o.old_vy), is = o.rate(o.state.vx, o.state.vy);
+  const double moved[3] = {h_old * was.xx + h_new * is.xx, h_old * was.yy + h_new * is.yy,
+                           h_old * was.xy + h_new * is.xy};
+  double work = 0.0;
+  for (std::size_t q = 0; q < 3; ++q) work += 0.5 * o.damping.stress[q][0] * moved[q];
+  return work;
+}
+
 TEST(StrainDamping, BooksBothStepsWhereTheyDiffer) {
   const double h_new = 3.0 * h;
   const Strained o(MassKind::matched, h, h_new);
-  const StrainTerms was = o.rate(o.old_vx, o.old_vy), is = o.rate(o.state.vx, o.state.vy);
-  double expected = 0.0;
-  const double moved[3] = {h * was.xx + h_new * is.xx, h * was.yy + h_new * is.yy,
-                           h * was.xy + h_new * is.xy};
-  for (std::size_t q = 0; q < 3; ++q) expected += 0.5 * o.damping.stress[q][0] * moved[q];
+  const double expected = work_of_step(o, h, h_new);
   EXPECT_NEAR(o.damping.work[0], expected, 1e-3 * expected);
+}
+
+TEST(StrainDamping, BooksWhatAChangeOfTheVelocitiesLeaves) {
+  const double h_new = 3.0 * h;
+  for (MassKind kind : {MassKind::matched, MassKind::consistent}) {
+    Strained o(kind, h, h_new);
+    const double without = o.damping.work[0];
+    const NodeVectors change{Vec2{0.2, 0.1}, Vec2{-0.1, 0.3}, Vec2{-0.2, -0.1}};
+    const NodeVectors remains = damped_change(o.damping, o.blocks, o.masses, o.state,
+                                              {o.old_vx, o.old_vy, h, h_new}, 0, change);
+    add(remains, o.state.vx, o.state.vy, 0);
+    const double expected = work_of_step(o, h, h_new);
+    EXPECT_GT(std::abs(expected - without), 0.01 * std::abs(without));
+    EXPECT_NEAR(o.damping.work[0], expected, 1e-3 * std::abs(expected));
+  }
 }
 
 }  // namespace
