@@ -24,9 +24,12 @@ inline constexpr std::size_t worth_sharing = EDDA_WORTH_SHARING;
 /// they are awake.
 inline constexpr std::size_t seldom = 4;
 
-/// Blocks that go through all stages of a step together, so that the results of one stage are still
-/// in the cache for the next.
-inline constexpr std::size_t blocks_at_once = 64;
+/// Blocks that go through all stages of a step together, at most: so few that the results of one
+/// stage are still in the cache for the next, and so many that the processor finds out in time what
+/// it must fetch of some fifty arrays.
+inline constexpr std::size_t blocks_at_once = 256;
+/// Where there are few of them for every thread, down to these.
+inline constexpr std::size_t fewest_at_once = 64;
 
 /// Hears how long the tasks of each shared loop take, s, while these loops run on one thread
 /// (bench/cores.hpp).
@@ -99,6 +102,15 @@ void parallel_chunks(std::size_t n, std::size_t size, std::size_t cost, Body bod
     return;
   }
   share(chunks, of_chunk);
+}
+
+/// The same for n blocks, in chunks of blocks_at_once, or of fewer where a thread would have less
+/// than four.
+template <class Body>
+void parallel_blocks(std::size_t n, std::size_t cost, Body body) {
+  const std::size_t threads = static_cast<std::size_t>(omp_get_max_threads());
+  const std::size_t fair = threads == 1 ? blocks_at_once : n / (4 * threads);
+  parallel_chunks(n, std::clamp(fair, fewest_at_once, blocks_at_once), cost, body);
 }
 
 /// Calls body(i) for i in [0, n), in parallel; cost: of each, ns. body must write only what belongs

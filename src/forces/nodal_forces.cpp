@@ -143,11 +143,10 @@ void sum_faces(NodalForces& on, const BlockSet& b, const FaceSet& contacts) {
   for (Nodes* const nodes : {&on.x, &on.y}) {
     for (auto& values : *nodes) values.resize(b.size());
   }
-  parallel_chunks(b.size(), blocks_at_once, 40,
-                  [&](std::size_t, std::size_t begin, std::size_t end) {
-                    sum_faces_of_blocks(faces_of(b, contacts), b.vertex_begin.data(),
-                                        values_of(on.x), values_of(on.y), begin, end);
-                  });
+  parallel_blocks(b.size(), 40, [&](std::size_t, std::size_t begin, std::size_t end) {
+    sum_faces_of_blocks(faces_of(b, contacts), b.vertex_begin.data(), values_of(on.x),
+                        values_of(on.y), begin, end);
+  });
 }
 
 void gather_own_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
@@ -177,10 +176,9 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
 void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
                    const NodalForces& on_faces, const BoundarySprings& springs, Vec2 gravity,
                    const LoadsNow& loads) {
-  parallel_chunks(
-      b.size(), blocks_at_once, 40, [&](std::size_t, std::size_t begin, std::size_t end) {
-        gather_forces(forces, b, state, pose, on_faces, springs, gravity, loads, begin, end);
-      });
+  parallel_blocks(b.size(), 40, [&](std::size_t, std::size_t begin, std::size_t end) {
+    gather_forces(forces, b, state, pose, on_faces, springs, gravity, loads, begin, end);
+  });
 }
 
 Vec2 contact_resultant(const BlockSet& b, const FaceSet& c, std::size_t i) {

@@ -172,9 +172,9 @@ void add_and_advance(State& s, const Leap& leap, const ForcesToAdd& forces, std:
 }
 
 void advance(State& s, const Leap& leap) {
-  parallel_chunks(
-      leap.blocks.size(), blocks_at_once, 15,
-      [&](std::size_t, std::size_t begin, std::size_t end) { advance(s, leap, begin, end); });
+  parallel_blocks(leap.blocks.size(), 15, [&](std::size_t, std::size_t begin, std::size_t end) {
+    advance(s, leap, begin, end);
+  });
 }
 
 void account_damping(const State& s, const Leap& leap, DampingWork& work) {
@@ -203,32 +203,31 @@ void account_damping(const State& s, const Leap& leap, DampingWork& work) {
     });
     return;
   }
-  parallel_chunks(b.size(), blocks_at_once, 6,
-                  [&](std::size_t, std::size_t begin, std::size_t end) {
-                    const FreeMarks free(b, s, begin, end);
-                    std::array<double, blocks_at_once> local, mass;
-                    local.fill(damping.local);
-                    mass.fill(damping.mass);
-                    for (std::size_t i = next_spared(damping, begin, end); i < end;
-                         i = next_spared(damping, i + 1, end)) {
-                      const StepDamping its = damping_of(damping, i);
-                      local[i - begin] = its.local;
-                      mass[i - begin] = its.mass;
-                    }
-                    const DampedView view{values_of(leap.masses.node),
-                                          values_of(leap.force_x),
-                                          values_of(leap.force_y),
-                                          values_of(old_vx),
-                                          values_of(old_vy),
-                                          values_of(s.vx),
-                                          values_of(s.vy),
-                                          free.data(),
-                                          local.data(),
-                                          mass.data(),
-                                          begin,
-                                          work.joules.data()};
-                    add_damping_work_of_all(view, h_old, h_new, begin, end);
-                  });
+  parallel_blocks(b.size(), 6, [&](std::size_t, std::size_t begin, std::size_t end) {
+    const FreeMarks free(b, s, begin, end);
+    std::array<double, blocks_at_once> local, mass;
+    local.fill(damping.local);
+    mass.fill(damping.mass);
+    for (std::size_t i = next_spared(damping, begin, end); i < end;
+         i = next_spared(damping, i + 1, end)) {
+      const StepDamping its = damping_of(damping, i);
+      local[i - begin] = its.local;
+      mass[i - begin] = its.mass;
+    }
+    const DampedView view{values_of(leap.masses.node),
+                          values_of(leap.force_x),
+                          values_of(leap.force_y),
+                          values_of(old_vx),
+                          values_of(old_vy),
+                          values_of(s.vx),
+                          values_of(s.vy),
+                          free.data(),
+                          local.data(),
+                          mass.data(),
+                          begin,
+                          work.joules.data()};
+    add_damping_work_of_all(view, h_old, h_new, begin, end);
+  });
 }
 
 void undo_step(State& s, const BlockSet& b, double h_new, const Nodes& old_vx,

@@ -70,21 +70,20 @@ bool move(Simulation& sim, double h_old, double h_new, const LoadsNow* not_yet_g
   const BoundarySprings& springs = sim.attached.springs;
   const Vec2 gravity = sim.scene->model.gravity;
   const ForcesToAdd to_add{sim.motion.on_faces.x, sim.motion.on_faces.y, forces.x, forces.y};
-  own.largest.assign((blocks.size() + blocks_at_once - 1) / blocks_at_once, 0.0);
-  parallel_chunks(
-      blocks.size(), blocks_at_once, 40, [&](std::size_t c, std::size_t begin, std::size_t end) {
-        const LoadsNow* const loads = not_yet_gathered;
-        if (loads != nullptr)
-          gather_own_forces(forces, blocks, state, pose, springs, gravity, *loads, begin, end);
-        if (loads != nullptr && dashpots.points.empty()) {
-          add_and_advance(state, leap, to_add, begin, end);
-        } else {
-          if (loads != nullptr) add_to_free(blocks, state, to_add, begin, end);
-          add_dashpots(forces, sim.motion.on_dashpots, dashpots, before, dashpot_step, begin, end);
-          advance(state, leap, begin, end);
-        }
-        own.largest[c] = place_next(blocks, state.x, state.y, pose, begin, end);
-      });
+  own.largest.assign(blocks.size() / fewest_at_once + 1, 0.0);
+  parallel_blocks(blocks.size(), 40, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    const LoadsNow* const loads = not_yet_gathered;
+    if (loads != nullptr)
+      gather_own_forces(forces, blocks, state, pose, springs, gravity, *loads, begin, end);
+    if (loads != nullptr && dashpots.points.empty()) {
+      add_and_advance(state, leap, to_add, begin, end);
+    } else {
+      if (loads != nullptr) add_to_free(blocks, state, to_add, begin, end);
+      add_dashpots(forces, sim.motion.on_dashpots, dashpots, before, dashpot_step, begin, end);
+      advance(state, leap, begin, end);
+    }
+    own.largest[c] = place_next(blocks, state.x, state.y, pose, begin, end);
+  });
   std::swap(pose.x, pose.x1);
   std::swap(pose.y, pose.y1);
   sim.control.last_displacement = std::sqrt(
