@@ -105,11 +105,11 @@ void parallel_chunks(std::size_t n, std::size_t size, std::size_t cost, Body bod
 }
 
 /// The same for n blocks, in chunks of blocks_at_once, or of fewer where a thread would have less
-/// than four.
+/// than sixteen.
 template <class Body>
 void parallel_blocks(std::size_t n, std::size_t cost, Body body) {
   const std::size_t threads = static_cast<std::size_t>(omp_get_max_threads());
-  const std::size_t fair = threads == 1 ? blocks_at_once : n / (4 * threads);
+  const std::size_t fair = threads == 1 ? blocks_at_once : n / (16 * threads);
   parallel_chunks(n, std::clamp(fair, fewest_at_once, blocks_at_once), cost, body);
 }
 

@@ -279,13 +279,15 @@ bool steps_in_tiles(const Simulation& sim) {
 
 namespace {
 
-/// Blocks of a tile, at most: fewer in a model too small for every thread to have two tiles.
+/// Blocks of a tile, at most. Threads that share a model need several tiles each, of which none
+/// takes much longer than the others: half of the most where they would have fewer than eight, and
+/// still less in a model too small for every thread to have two.
 std::size_t blocks_of_tile(const Simulation& sim) {
   constexpr std::size_t fewest = 24;
-  const std::size_t most = sim.leapfrog.tiled.most_blocks,
+  const std::size_t most = sim.leapfrog.tiled.most_blocks, blocks = sim.scene->blocks.size(),
                     threads = static_cast<std::size_t>(omp_get_max_threads());
-  if (threads == 1) return most;
-  return std::min(most, std::max(fewest, sim.scene->blocks.size() / (2 * threads) + 1));
+  if (threads == 1 || blocks >= 8 * threads * most) return most;
+  return std::min(most / 2, std::max(fewest, blocks / (2 * threads) + 1));
 }
 
 }  // namespace
