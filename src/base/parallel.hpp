@@ -25,10 +25,10 @@ inline constexpr std::size_t worth_sharing = EDDA_WORTH_SHARING;
 inline constexpr std::size_t seldom = 4;
 
 /// Blocks that go through all stages of a step together, at most: so few that the results of one
-/// stage are still in the cache for the next, and so many that the processor finds out in time what
-/// it must fetch of some fifty arrays.
+/// stage are still in the cache for the next, and so many that the processor fetches the next part
+/// of some fifty arrays ahead.
 inline constexpr std::size_t blocks_at_once = 256;
-/// Where there are few of them for every thread, down to these.
+/// How many it is in any case, and of what it is a multiple, so that parts begin at cache lines.
 inline constexpr std::size_t fewest_at_once = 64;
 
 /// Hears how long the tasks of each shared loop take, s, while these loops run on one thread
@@ -104,13 +104,14 @@ void parallel_chunks(std::size_t n, std::size_t size, std::size_t cost, Body bod
   share(chunks, of_chunk);
 }
 
-/// The same for n blocks, in chunks of blocks_at_once, or of fewer where a thread would have less
-/// than sixteen.
+/// The same for n blocks, in chunks of blocks_at_once, or of fewer where a thread would have fewer
+/// than sixteen chunks.
 template <class Body>
 void parallel_blocks(std::size_t n, std::size_t cost, Body body) {
   const std::size_t threads = static_cast<std::size_t>(omp_get_max_threads());
   const std::size_t fair = threads == 1 ? blocks_at_once : n / (16 * threads);
-  parallel_chunks(n, std::clamp(fair, fewest_at_once, blocks_at_once), cost, body);
+  const std::size_t size = fair / fewest_at_once * fewest_at_once;
+  parallel_chunks(n, std::clamp(size, fewest_at_once, blocks_at_once), cost, body);
 }
 
 /// Calls body(i) for i in [0, n), in parallel; cost: of each, ns. body must write only what belongs

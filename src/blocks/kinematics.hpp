@@ -40,10 +40,10 @@ EDDA_INLINE Deformation deformation(const Blocks& b, const Values& x, const Valu
   return gradient_of(b, vectors_of(x, y, i), i);
 }
 
-/// `factor` times P G_k for every node, of which the sum is 0: a tensor as forces on the nodes.
+/// Nodal forces `factor` P G_k of a stress P; they have no resultant.
 template <class Blocks, class Stress>
-EDDA_INLINE NodeVectors on_gradients(const Blocks& b, const Stress& p, double factor,
-                                     std::size_t i) {
+EDDA_INLINE NodeVectors nodal_forces_of(const Blocks& b, const Stress& p, double factor,
+                                        std::size_t i) {
   NodeVectors f{};
   for (std::size_t k = 1; k < nodes_per_block; ++k) {
     const double gx = factor * b.grad_x[k][i], gy = factor * b.grad_y[k][i];

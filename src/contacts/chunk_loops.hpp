@@ -42,7 +42,8 @@ struct SweepTables {
 /// on: records of the forces, where they are stored. step: s.
 SweepTables tables_of(FaceTiles& tiles, std::size_t tile, double* on, double step, double noise);
 
-/// The corners of faces whose corners do not count: what is multiplied by them is 0.
+/// Corners at n - 1, or masses, of faces of which they do not count: what is multiplied by them is
+/// 0.
 inline constexpr Records no_corners{};
 
 /// A chunk of faces, as its loop reads and writes it. The pointers are those of its own columns.
@@ -52,7 +53,7 @@ struct ChunkView {
   const double *edges, *strengths, *before, *damped_before;
   double *memory, *damped, *work;
   double *stands, *overlaps;  ///< StandColumns, OverlapColumns
-  const Records *e = &no_corners, *f = &no_corners;
+  const Records *e, *f;       ///< the edges
   const Records *e_then = &no_corners, *f_then = &no_corners;
   const Records *mass_e = &no_corners, *mass_f = &no_corners;
 };
@@ -90,10 +91,11 @@ struct ChunkFound {
   double deepest;
 };
 
-/// Reads the records of the edges of a chunk. What reads the columns should come some chunks later:
-/// the processor cannot pass on at once, as one vector of eight, what is stored as two of four.
+/// Reads the records of the edges of a chunk. A loop that reads the columns at once takes longer
+/// than one some chunks later: the processor cannot pass on, as one vector of eight, what it has
+/// just stored as two of four.
 void read_edges(const double* from, const Id* slot_e, const Id* slot_f, Records& e, Records& f);
-/// Finds out how the edges stand, from their records.
+/// Finds out how the edges stand, from their records (ChunkView::e, f).
 void stand_edges(const ChunkView& chunk);
 /// Finds where they overlap, from how they stand.
 void overlap_edges(const ChunkView& chunk);

@@ -1,6 +1,6 @@
 #include "contacts/tile_edges.hpp"
 
-#include "blocks/spread_edges.hpp"
+#include "blocks/edge_forces.hpp"
 #include "contacts/edge_records.hpp"
 
 namespace edda {
@@ -32,18 +32,21 @@ EDDA_VECTOR void gather_blocks(const Corners& c, const Id* blocks, std::size_t c
                                const double* records, NodeValues fx, NodeValues fy) {
   const ConstNodeValues weight = c.weight;  // copies that no store can change
   const Id* const next = c.next;
+  Id begin = *record_begin;  // of the records of an edge, which follow those of the edge before
   for (std::size_t n = 0; n < count; ++n) {
     const Id i = blocks[n], first = c.vertex_begin[i], last = c.vertex_begin[i + 1];
     if (wanted != nullptr && wanted[i] == 0) {
       record_begin += last - first;
+      begin = *record_begin;
       continue;
     }
-    SpreadEdges on;
+    const double* record = records + 4 * std::size_t{begin};
+    EdgeForces on;
     for (Id e = first; e < last; ++e) {
-      const Id begin = *record_begin, end = *++record_begin;
+      const Id end = *++record_begin;
       if (begin == end) continue;
       Four sum{};
-      for (std::size_t q = begin; q < end; ++q) sum += four_at(records + 4 * q);
+      for (; begin != end; ++begin, record += 4) sum += four_at(record);
       on.add(weight, e, next[e], sum);
     }
     store(on.on_nodes(), fx, fy, i);

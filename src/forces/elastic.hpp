@@ -40,7 +40,7 @@ inline PiolaStress stress_in(const BlockSet& b, std::size_t i, const Deformation
 /// Nodal forces f_k = -V P G_k of block i, N. Blocks: BlockSet or a view with volume and gradients.
 template <class Blocks>
 EDDA_INLINE NodeVectors elastic_forces(const Blocks& b, const PiolaStress& p, std::size_t i) {
-  return on_gradients(b, p, -b.volume[i], i);
+  return nodal_forces_of(b, p, -b.volume[i], i);
 }
 
 /// P of the viscous stress eta C : dU/dt of block i, F = R U in `frame` (blocks/strain_rate.hpp).

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "base/parallel.hpp"
+#include "blocks/edge_forces.hpp"
 #include "blocks/free_blocks.hpp"
-#include "blocks/spread_edges.hpp"
 #include "forces/elastic.hpp"
 
 namespace edda {
@@ -23,8 +23,8 @@ FaceListView faces_of(const BlockSet& b, const FaceSet& c) {
 }
 
 /// The forces of faces on the nodes of the block with the edges [first, end).
-EDDA_INLINE NodeVectors on_faces(const FaceListView& c, Id first, Id end) {
-  SpreadEdges on;
+EDDA_INLINE NodeVectors of_faces(const FaceListView& c, Id first, Id end) {
+  EdgeForces on;
   for (Id e = first; e < end; ++e) {
     const Id begin = c.begin_of_edge[e], last = c.begin_of_edge[e + 1];
     if (begin == last) continue;
@@ -41,7 +41,7 @@ EDDA_INLINE NodeVectors on_faces(const FaceListView& c, Id first, Id end) {
 EDDA_VECTOR void sum_faces_of_blocks(FaceListView c, const Id* vertex_begin, NodeValues fx,
                                      NodeValues fy, std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
-    store(on_faces(c, vertex_begin[i], vertex_begin[i + 1]), fx, fy, i);
+    store(of_faces(c, vertex_begin[i], vertex_begin[i + 1]), fx, fy, i);
   }
 }
 
@@ -182,7 +182,7 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
 }
 
 Vec2 contact_resultant(const BlockSet& b, const FaceSet& c, std::size_t i) {
-  return resultant(on_faces(faces_of(b, c), b.vertex_begin[i], b.vertex_begin[i + 1]));
+  return resultant(of_faces(faces_of(b, c), b.vertex_begin[i], b.vertex_begin[i + 1]));
 }
 
 }  // namespace edda

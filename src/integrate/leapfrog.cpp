@@ -120,7 +120,7 @@ void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
     begin = i + 1;
   }
   const double h_new = leap.h_new;
-  const DampedStep step{leap.old_vx, leap.old_vy, leap.h_old, h_new};
+  const StepsAround step{leap.old_vx, leap.old_vy, leap.h_old, h_new};
   // With strain damping the nodes of a block move together, after all have their new velocities.
   const bool strains = damping.strain != nullptr;
   const Kick kick = kick_of(leap, strains ? 0.0 : h_new);

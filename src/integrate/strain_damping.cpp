@@ -56,7 +56,8 @@ StrainFrame frame_before(const BlockSet& b, const State& s, double h_new, std::s
   return strain_frame(plus(deformation(b, s.x, s.y, i), -h_new, deformation(b, s.vx, s.vy, i)));
 }
 
-/// Dissipation of s in the step in which the velocities u and then v moved the nodes by half.
+/// Work of s over the displacement (h_old u + h_new v)/2, with the velocities u before and v after
+/// step n: the dissipation of the step.
 template <class Blocks>
 EDDA_INLINE double work_of(const Blocks& b, const StrainFrame& frame, const StrainTerms& s,
                            double h_old, const NodeVectors& u, double h_new, const NodeVectors& v,
@@ -74,13 +75,13 @@ NodeVectors damped_velocity(StrainDamping& damping, const BlockSet& b, const Mas
   damping.stress[0][i] += s.xx;
   damping.stress[1][i] += s.yy;
   damping.stress[2][i] += s.xy;
-  const NodeVectors f = on_gradients(b, stress_on_rate(frame, s), 1.0, i);
+  const NodeVectors f = nodal_forces_of(b, stress_on_rate(frame, s), 1.0, i);
   return v - damping.step * accelerations(masses, i, f);
 }
 
 /// Dissipation of block i once its velocities are v.
 void update_work(StrainDamping& d, const BlockSet& b, const StrainFrame& frame,
-                 const DampedStep& step, std::size_t i, const NodeVectors& v) {
+                 const StepsAround& step, std::size_t i, const NodeVectors& v) {
   const StrainTerms s{d.stress[0][i], d.stress[1][i], d.stress[2][i]};
   d.work[i] =
       work_of(b, frame, s, step.h_old, vectors_of(step.old_vx, step.old_vy, i), step.h_new, v, i);
@@ -97,7 +98,7 @@ struct BlocksView {
   double h, h_old, h_new;  ///< h: of W, StrainDamping::step
 };
 BlocksView blocks_view(StrainDamping& d, const BlockSet& b, const Masses& masses, State& s,
-                       const DampedStep& step) {
+                       const StepsAround& step) {
   return {values_of(b.grad_x),
           values_of(b.grad_y),
           values_of(masses.node_inverse),
@@ -120,7 +121,7 @@ BlocksView blocks_view(StrainDamping& d, const BlockSet& b, const Masses& masses
 EDDA_INLINE void damp_and_move(const BlocksView& b, const NodeVectors& v, std::size_t i) {
   const StrainFrame frame = strain_frame(deformation(b, b.x, b.y, i));
   const StrainTerms s = times(b.w, i, strain_rate_over(frame, gradient_of(b, v, i), b.h_new));
-  const NodeVectors f = on_gradients(b, stress_on_rate(frame, s), b.h, i);
+  const NodeVectors f = nodal_forces_of(b, stress_on_rate(frame, s), b.h, i);
   NodeVectors after;
   for (std::size_t k = 0; k < nodes_per_block; ++k) {
     const double per_mass = b.inverse_mass[k][i];
@@ -172,7 +173,7 @@ void prepare(StrainDamping& d, const BlockSet& b, const Masses& masses, double h
 }
 
 void damp_strain_and_move(StrainDamping& d, const BlockSet& b, const Masses& masses, State& s,
-                          const DampedStep& step, std::size_t begin, std::size_t end) {
+                          const StepsAround& step, std::size_t begin, std::size_t end) {
   if (masses.kind != MassKind::consistent) {
     damp_and_move_all(blocks_view(d, b, masses, s, step), begin, end);
     return;
@@ -186,13 +187,15 @@ void damp_strain_and_move(StrainDamping& d, const BlockSet& b, const Masses& mas
           damped_velocity(d, b, masses, i, frame, rate, vectors_of(s.vx, s.vy, i));
       store(after, s.vx, s.vy, i);
       update_work(d, b, frame, step, i, after);
+    } else {
+      d.work[i] = 0.0;
     }
     add(step.h_new * vectors_of(s.vx, s.vy, i), s.x, s.y, i);
   }
 }
 
 void add_kick_and_damp(StrainDamping& d, const BlockSet& b, const Masses& masses, State& s,
-                       const ForcesToAdd& forces, const DampedStep& step, const Kick& kick,
+                       const ForcesToAdd& forces, const StepsAround& step, const Kick& kick,
                        std::size_t begin, std::size_t end) {
   const FreeMarks free(b, s, begin, end);
   add_kick_and_damp_all(blocks_view(d, b, masses, s, step), free_forces(forces, free), kick, begin,
@@ -200,7 +203,7 @@ void add_kick_and_damp(StrainDamping& d, const BlockSet& b, const Masses& masses
 }
 
 NodeVectors damped_change(StrainDamping& d, const BlockSet& b, const Masses& masses, const State& s,
-                          const DampedStep& step, std::size_t i, const NodeVectors& change) {
+                          const StepsAround& step, std::size_t i, const NodeVectors& change) {
   const StrainFrame frame = frame_before(b, s, step.h_new, i);
   const NodeVectors remains = damped_velocity(
       d, b, masses, i, frame, strain_rate(frame, gradient_of(b, change, i)), change);

@@ -32,8 +32,8 @@ struct StrainDamping {
   double step = 0.0;         ///< s: h for which W was computed; 0: none
 };
 
-/// The step in which strain is damped, from n to n + 1.
-struct DampedStep {
+/// How the blocks came to step n, and the steps before and after it.
+struct StepsAround {
   const Nodes &old_vx, &old_vy;  ///< [nodes][nb] v_{n-1/2}, m/s
   double h_old, h_new;           ///< step before and after n, s
 };
@@ -45,18 +45,19 @@ void prepare(StrainDamping& damping, const BlockSet& blocks, const Masses& masse
 /// Changes v* to v_{n+1/2} at the positions of step n, which then move by h_new v_{n+1/2}, for the
 /// blocks [begin, end). Stores s and its work.
 void damp_strain_and_move(StrainDamping& damping, const BlockSet& blocks, const Masses& masses,
-                          State& state, const DampedStep& step, std::size_t begin, std::size_t end);
+                          State& state, const StepsAround& step, std::size_t begin,
+                          std::size_t end);
 
 /// The whole step of the blocks [begin, end), not more than blocks_at_once, with lumped masses:
 /// adds the forces, makes v* of v_{n-1/2} by the kick, then damps and moves as above.
 void add_kick_and_damp(StrainDamping& damping, const BlockSet& blocks, const Masses& masses,
-                       State& state, const ForcesToAdd& forces, const DampedStep& step,
+                       State& state, const ForcesToAdd& forces, const StepsAround& step,
                        const Kick& kick, std::size_t begin, std::size_t end);
 
 /// The part of a `change` of the velocities of block i, due to a changed force in the step just
 /// made, that remains under strain damping; updates s and its work accordingly.
 NodeVectors damped_change(StrainDamping& damping, const BlockSet& blocks, const Masses& masses,
-                          const State& state, const DampedStep& step, std::size_t i,
+                          const State& state, const StepsAround& step, std::size_t i,
                           const NodeVectors& change);
 
 }  // namespace edda

@@ -86,8 +86,8 @@ bool move(Simulation& sim, double h_old, double h_new, const LoadsNow* not_yet_g
   });
   std::swap(pose.x, pose.x1);
   std::swap(pose.y, pose.y1);
-  sim.control.last_displacement = std::sqrt(
-      own.largest.empty() ? 0.0 : *std::max_element(own.largest.begin(), own.largest.end()));
+  sim.control.last_displacement =
+      std::sqrt(*std::max_element(own.largest.begin(), own.largest.end()));
   return sim.control.last_displacement <= sim.scene->displacement_limit;
 }
 

@@ -11,7 +11,7 @@ double push_block(const StepTaken& taken, Id i, const NodeVectors& force) {
   if (b.fixed[i]) return 0.0;
   NodeVectors dv = taken.kick * accelerations(taken.masses, i, force);
   if (taken.strain != nullptr) {
-    const DampedStep step{taken.old_vx, taken.old_vy, taken.h_old, taken.h_new};
+    const StepsAround step{taken.old_vx, taken.old_vy, taken.h_old, taken.h_new};
     dv = damped_change(*taken.strain, b, taken.masses, s, step, i, dv);
   }
   add(dv, s.vx, s.vy, i);

@@ -285,15 +285,16 @@ namespace {
 std::size_t blocks_of_tile(const Simulation& sim) {
   constexpr std::size_t fewest = 24;
   const std::size_t most = sim.leapfrog.tiled.most_blocks, blocks = sim.scene->blocks.size(),
-                    threads = static_cast<std::size_t>(omp_get_max_threads());
+                    threads = static_cast<std::size_t>(sim.leapfrog.tiled.threads);
   if (threads == 1 || blocks >= 8 * threads * most) return most;
-  return std::min(most / 2, std::max(fewest, blocks / (2 * threads) + 1));
+  return std::min((most + 1) / 2, std::max(fewest, blocks / (2 * threads) + 1));
 }
 
 }  // namespace
 
 void load_tiles(Simulation& sim) {
   TiledFaces& own = sim.leapfrog.tiled;
+  own.threads = std::max(own.threads, omp_get_max_threads());
   const std::size_t of_tile = blocks_of_tile(sim);
   if (own.loaded && own.blocks == of_tile) return;
   faces_to_change(sim);

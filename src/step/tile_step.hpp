@@ -21,14 +21,15 @@ struct TiledFaces {
   double sleep_part = 1e-9;
   double pushed = 0.0;                        ///< m, SweepScene::pushed
   std::size_t most_blocks = blocks_per_tile;  ///< of a tile
-  std::size_t blocks = 0;                     ///< of a tile, as they were divided
-  double in_two_tiles = 0.0;                  ///< part_in_two_tiles() as the blocks were divided
-  bool corrects = false;                      ///< SweepScene::corrects
-  bool loaded = false;                        ///< they hold the faces of the simulation
-  bool ahead = false;                         ///< and the rows of the faces have no states
-  std::vector<SweepScratch> scratch;          ///< by thread
-  std::vector<SweepResult> results;           ///< [tiles]
-  std::vector<std::uint8_t> wanted;           ///< [nb] working memory: 0 everywhere between uses
+  int threads = 1;            ///< the most that have made a step: tiles are divided for so many
+  std::size_t blocks = 0;     ///< of a tile, as they were divided
+  double in_two_tiles = 0.0;  ///< part_in_two_tiles() as the blocks were divided
+  bool corrects = false;      ///< SweepScene::corrects
+  bool loaded = false;        ///< they hold the faces of the simulation
+  bool ahead = false;         ///< and the rows of the faces have no states
+  std::vector<SweepScratch> scratch;  ///< by thread
+  std::vector<SweepResult> results;   ///< [tiles]
+  std::vector<std::uint8_t> wanted;   ///< [nb] working memory: 0 everywhere between uses
 };
 
 /// Whether the next step keeps the faces in tiles: where all that it reads of them is in there.

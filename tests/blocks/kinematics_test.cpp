@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "blocks/build_blocks.hpp"
+#include "blocks/edge_forces.hpp"
 #include "blocks/pose.hpp"
-#include "blocks/spread_edges.hpp"
 
 namespace edda::kinematics_test {
 namespace {
@@ -67,7 +67,7 @@ TEST(Kinematics, StressDoesItsWorkOnTheGradient) {
   constexpr double factor = -0.7;
   for (const MassKind kind : kinds) {
     const BlockSet b = one_block(kind);
-    const NodeVectors f = on_gradients(b, p, factor, 0);
+    const NodeVectors f = nodal_forces_of(b, p, factor, 0);
     const double work = p.xx * gain.xx + p.xy * gain.xy + p.yx * gain.yx + p.yy * gain.yy;
     EXPECT_NEAR(dot(f, affine(b)), factor * work, 1e-11);
     EXPECT_NEAR(norm(resultant(f)), 0.0, 1e-14);
@@ -97,13 +97,13 @@ TEST(Kinematics, VerticesAreWhereTheirWeightsSay) {
   }
 }
 
-/// Forces on edges do their work on the vertices, whatever weights say.
+/// The nodal forces do the work that the forces on edges do on the vertices.
 TEST(Kinematics, ForcesOnEdgesDoTheirWorkOnTheNodes) {
   const Four forces[2] = {{3.0, -2.0, 1.0, 4.0}, {-5.0, 1.0, 2.0, -7.0}};
   constexpr Id edges[2] = {1, 3};
   for (const MassKind kind : kinds) {
     const BlockSet b = one_block(kind);
-    SpreadEdges on;
+    EdgeForces on;
     double work = 0.0;
     Vec2 sum;
     for (std::size_t q = 0; q < 2; ++q) {

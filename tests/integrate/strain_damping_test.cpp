@@ -114,5 +114,66 @@ TEST(StrainDamping, BooksWhatAChangeOfTheVelocitiesLeaves) {
   }
 }
 
+TEST(StrainDamping, BooksNothingForWhatIsExcavated) {
+  for (MassKind kind : {MassKind::matched, MassKind::consistent}) {
+    Strained o(kind, h, h);
+    EXPECT_GT(o.damping.work[0], 0.0);
+    o.state.alive[0] = 0;
+    o.state.vx = o.state.vy = o.old_vx = o.old_vy = zero_nodes(1);
+    const StepDamping of_step{0.0, 0.0, nullptr, &o.damping};
+    advance(o.state, {o.blocks, o.masses, o.none, o.none, o.old_vx, o.old_vy, h, h, of_step});
+    EXPECT_EQ(o.damping.work[0], 0.0);
+  }
+}
+
+/// A block that flies is spared by the mass damping for which W was computed.
+TEST(StrainDamping, BooksTheEnergyOfABlockThatFlies) {
+  constexpr double strong = 1.0 / h;
+  Strained o(MassKind::matched, h, h);
+  o.state.vx = o.old_vx;
+  o.state.vy = o.old_vy;
+  o.state.x = o.blocks.node_x;
+  o.state.y = o.blocks.node_y;
+  prepare(o.damping, o.blocks, o.masses, h / (1.0 + 0.5 * strong * h));
+  const std::vector<Id> flying{0};
+  const StepDamping of_step{strong, 0.0, nullptr, &o.damping, &flying};
+  advance(o.state, {o.blocks, o.masses, o.none, o.none, o.old_vx, o.old_vy, h, h, of_step});
+  const double lost = o.before - kinetic_energy(o.masses, o.state.vx, o.state.vy, 0);
+  EXPECT_GT(lost, 0.02 * o.before);
+  EXPECT_NEAR(o.damping.work[0], lost, 1e-3 * lost);
+}
+
+/// The loop that adds forces, kicks, damps and moves does what these do one after another.
+TEST(StrainDamping, DampsAsItDoesStepByStep) {
+  Strained one(MassKind::matched, h, h), all(MassKind::matched, h, h);
+  const auto forces = [](double first) {
+    Nodes f = zero_nodes(1);
+    for (std::size_t k = 0; k < nodes_per_block; ++k)
+      f[k][0] = first * (1.0 + static_cast<double>(k));
+    return f;
+  };
+  const Nodes on_x = forces(3e3), on_y = forces(-2e3);
+  const auto step = [&](Strained& o, bool at_once) {
+    Nodes fx = forces(-1e3), fy = forces(5e3);
+    const Nodes old_vx = o.state.vx, old_vy = o.state.vy;
+    const StepDamping of_step{0.0, 0.0, nullptr, &o.damping};
+    const Leap leap{o.blocks, o.masses, fx, fy, old_vx, old_vy, h, h, of_step};
+    if (at_once) {
+      add_and_advance(o.state, leap, {on_x, on_y, fx, fy}, 0, 1);
+    } else {
+      add_to_free(o.blocks, o.state, {on_x, on_y, fx, fy}, 0, 1);
+      advance(o.state, leap, 0, 1);
+    }
+    EXPECT_EQ(fx[1][0], 2.0 * 2e3);
+  };
+  step(all, true);
+  step(one, false);
+  EXPECT_EQ(all.state.x, one.state.x);
+  EXPECT_EQ(all.state.y, one.state.y);
+  EXPECT_EQ(all.state.vx, one.state.vx);
+  EXPECT_EQ(all.damping.work, one.damping.work);
+  EXPECT_GT(all.damping.work[0], 0.0);
+}
+
 }  // namespace
 }  // namespace edda::strain_damping_test

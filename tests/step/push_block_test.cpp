@@ -18,6 +18,7 @@ struct Moving : test::DrawnBlocks {
   Pose pose;
   Nodes old_vx, old_vy;
   double pushed_by = 0.0;
+  double damping_work = 0.0;  ///< J, of the strain damping
 
   Moving() {
     add({{0, 0}, {2, 0}, {2.2, 1}, {0, 1.3}});
@@ -60,6 +61,7 @@ Moving moved(double mass_damping, bool strain_damped, bool pushed, const NodeVec
                               mass_damping, damps},
                              0, by);
   }
+  if (strain_damped) m.damping_work = strain.work[0];
   m.pose.x1 = m.pose.x;
   m.pose.y1 = m.pose.y;
   place_vertices(m.blocks, m.state.x, m.state.y, 0, m.pose.x, m.pose.y);
@@ -81,6 +83,10 @@ TEST(PushBlock, MovesABlockAsTheForceWouldHave) {
             farthest, std::hypot(a.pose.x[v] - alone.pose.x[v], a.pose.y[v] - alone.pose.y[v]));
       }
       EXPECT_NEAR(a.pushed_by, farthest, 1e-6 * farthest);
+      EXPECT_NEAR(a.damping_work, b.damping_work, 1e-3 * b.damping_work);
+      if (strain_damped) {
+        EXPECT_GT(std::abs(a.damping_work - alone.damping_work), 0.005 * b.damping_work);
+      }
       for (std::size_t k = 0; k < nodes_per_block; ++k) {
         const double size = 1e-3;  // m/s: about what `more` changes
         EXPECT_NEAR(a.state.vx[k][0], b.state.vx[k][0], 1e-3 * size) << mass_damping;

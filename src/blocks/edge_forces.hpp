@@ -9,16 +9,15 @@
 
 namespace edda {
 
-/// The sums over the edges of one block.
-class SpreadEdges {
+/// Adds up the forces on the edges of one block.
+class EdgeForces {
  public:
-  /// Adds the force on the edge from vertex e to `to`, x and y at its start, x and y at its end
-  /// (N).
-  EDDA_INLINE void add(const ConstNodeValues& weight, Id e, Id to, Four force) {
-    on_[0] += force;
+  /// Adds the two forces on the edge from vertex e to `to`: x and y at e, x and y at `to`, N.
+  EDDA_INLINE void add(const ConstNodeValues& weight, Id e, Id to, Four forces) {
+    on_[0] += forces;
     for (std::size_t k = 1; k < nodes_per_block; ++k) {
       const double w = weight[k][e], w_to = weight[k][to];
-      on_[k] += Four{w, w, w_to, w_to} * force;
+      on_[k] += Four{w, w, w_to, w_to} * forces;
     }
   }
   /// The forces on the nodes: the weights sum to 1, so the first has what the others leave.
