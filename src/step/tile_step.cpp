@@ -279,9 +279,8 @@ bool steps_in_tiles(const Simulation& sim) {
 
 namespace {
 
-/// Blocks of a tile, at most. Threads that share a model need several tiles each, of which none
-/// takes much longer than the others: half of the most where they would have fewer than eight, and
-/// still less in a model too small for every thread to have two.
+/// Blocks of a tile, at most. Threads that share a model have eight tiles each, or else tiles of
+/// half the size, or still smaller ones in a model too small for two of these each.
 std::size_t blocks_of_tile(const Simulation& sim) {
   constexpr std::size_t fewest = 24;
   const std::size_t most = sim.leapfrog.tiled.most_blocks, blocks = sim.scene->blocks.size(),

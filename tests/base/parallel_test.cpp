@@ -12,9 +12,9 @@ namespace {
 /// room for where each has fewest_at_once blocks.
 TEST(ParallelBlocks, TakesEveryBlockOnce) {
   const SameThreads same;
-  for (const int threads : {1, 2, 3, 16}) {
+  for (const int threads : {1, 2, 3}) {
     omp_set_num_threads(threads);
-    for (const std::size_t n : {0u, 1u, 63u, 64u, 65u, 2026u, 20010u}) {
+    for (const std::size_t n : {0u, 1u, 63u, 64u, 65u, 2026u, 9000u, 20010u}) {
       std::vector<int> taken(n, 0);
       std::vector<int> chunks(n / fewest_at_once + 1, 0);
       parallel_blocks(n, 1000, [&](std::size_t c, std::size_t begin, std::size_t end) {
