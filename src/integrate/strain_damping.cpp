@@ -13,15 +13,11 @@ std::array<double, 6> compliance_of_inertia(const BlockSet& b, const Masses& mas
     const Deformation l = gradient_of(b, v, i);
     return StrainTerms{l.xx, l.yy, l.xy + l.yx};
   };
-  NodeVectors xx, yy, xy;  // columns of B^T
-  for (std::size_t k = 0; k < nodes_per_block; ++k) {
-    const double gx = b.grad_x[k][i], gy = b.grad_y[k][i];
-    xx[k] = {gx, 0.0};
-    yy[k] = {0.0, gy};
-    xy[k] = {gy, gx};
-  }
-  const StrainTerms p = rate(accelerations(masses, i, xx)), q = rate(accelerations(masses, i, yy)),
-                    r = rate(accelerations(masses, i, xy));
+  const auto column = [&](const Deformation& unit) {  // of M^-1 B^T
+    return accelerations(masses, i, nodal_forces_of(b, unit, 1.0, i));
+  };
+  const StrainTerms p = rate(column({1.0, 0.0, 0.0, 0.0})), q = rate(column({0.0, 0.0, 0.0, 1.0})),
+                    r = rate(column({0.0, 1.0, 1.0, 0.0}));
   return {p.xx, p.yy, p.xy, q.yy, q.xy, r.xy};
 }
 
