@@ -359,8 +359,20 @@ EDDA_VECTOR ChunkFound look_at_damped(const ChunkView& c) {
 
 EDDA_VECTOR void read_edges(const double* from, const Id* slot_e, const Id* slot_f, Records& e,
                             Records& f) {
-  read_records(from, slot_e, e);
-  read_records(from, slot_f, f);
+  const auto record = [from](Id slot) __attribute__((always_inline)) {
+    return four_at(from + 4 * std::size_t{slot});
+  };
+  read_records(record, slot_e, e);
+  read_records(record, slot_f, f);
+}
+
+EDDA_VECTOR void read_masses(const double* of_point, const double* of_edge, const Id* next,
+                             const Id* edge, const Id* facing, Records& e, Records& f) {
+  const auto record = [=](Id v) __attribute__((always_inline)) {
+    return Four{of_point[v], of_edge[v], of_point[next[v]], 0.0};
+  };
+  read_records(record, edge, e);
+  read_records(record, facing, f);
 }
 
 }  // namespace edda

@@ -95,6 +95,10 @@ struct ChunkFound {
 /// than one some chunks later: the processor cannot pass on, as one vector of eight, what it has
 /// just stored as two of four.
 void read_edges(const double* from, const Id* slot_e, const Id* slot_f, Records& e, Records& f);
+/// Reads EdgeInverseMass of the edges of a chunk, by their numbers, from Masses::point_inverse and
+/// edge_inverse.
+void read_masses(const double* of_point, const double* of_edge, const Id* next, const Id* edge,
+                 const Id* facing, Records& e, Records& f);
 /// Finds out how the edges stand, from their records (ChunkView::e, f).
 void stand_edges(const ChunkView& chunk);
 /// Finds where they overlap, from how they stand.

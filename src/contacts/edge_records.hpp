@@ -38,13 +38,12 @@ EDDA_INLINE FourByFour transposed(Four a, Four b, Four c, Four d) {
            __builtin_shufflevector(ab_13, cd_13, 2, 3, 6, 7)}};
 }
 
-/// Reads the records of the slots of a chunk.
-EDDA_INLINE void read_records(const double* from, const Id* slot, Records& to) {
-  const auto at = [&](std::size_t k) __attribute__((always_inline)) {
-    return four_at(from + 4 * std::size_t{slot[k]});
-  };
+/// Reads the records of a chunk; record(which[k]): that of lane k.
+template <class Record>
+EDDA_INLINE void read_records(Record record, const Id* which, Records& to) {
   for (std::size_t k = 0; k < lanes; k += 4) {
-    const FourByFour columns = transposed(at(k), at(k + 1), at(k + 2), at(k + 3));
+    const FourByFour columns = transposed(record(which[k]), record(which[k + 1]),
+                                          record(which[k + 2]), record(which[k + 3]));
     for (std::size_t i = 0; i < 4; ++i) *reinterpret_cast<Four*>(&to.column[i][k]) = columns.v[i];
   }
 }

@@ -26,10 +26,21 @@ double wider_reach(const BlockSet& b, const Reach& reach) {
   return reach.furthest() + std::min((wider - 1.0) * reach.apart, most_of_edge * mean);
 }
 
-constexpr double most_beyond = std::numbers::pi / 4.0;  ///< rad: for a needle
-double cosine_of_none(double beyond) {
-  return std::cos(85.0 / 180.0 * std::numbers::pi + beyond);
-}
+/// Cosine of an angle (degrees) plus (90 - alpha)/2, with the cosine of the corner alpha.
+class BesideCorner {
+ public:
+  explicit BesideCorner(double angle)
+      : cosine_(std::cos((angle + 45.0) / 180.0 * std::numbers::pi)),
+        sine_(std::sin((angle + 45.0) / 180.0 * std::numbers::pi)) {}
+  double operator()(double corner) const {
+    return cosine_ * std::sqrt(0.5 * (1.0 + corner)) + sine_ * std::sqrt(0.5 * (1.0 - corner));
+  }
+
+ private:
+  double cosine_, sine_;
+};
+const BesideCorner whole_beside(60.0), none_beside(85.0);
+constexpr double blunt = 0.0, needle = 1.0;  ///< cosines of the corners
 
 /// What the loop over pairs of edges reads.
 struct EdgesView {
@@ -91,7 +102,7 @@ EDDA_VECTOR void find_cosines(EdgesView v, Reach reach, double* cosine, std::siz
 /// Whether edges that may reach this cosine may be opposed. For most pairs the gate need not be
 /// computed: it lies between those of blunt corners and of a needle.
 bool may_oppose(const BlockSet& b, Id e, Id f, double cosine) {
-  static const double of_blunt = cosine_of_none(0.0), of_needle = cosine_of_none(most_beyond);
+  static const double of_blunt = none_beside(blunt), of_needle = none_beside(needle);
   return cosine > of_blunt || (cosine > of_needle && cosine > angle_gate(b, e, f).none);
 }
 
@@ -176,10 +187,10 @@ bool holds(NearEdges& known, const BlockSet& b, const State& state, const Pose& 
 }  // namespace
 
 AngleGate angle_gate(const BlockSet& b, Id e, Id f) {
-  const double sharpest =
-      std::min({b.corner[e], b.corner[b.next[e]], b.corner[f], b.corner[b.next[f]]});
-  const double beyond = std::max(0.0, most_beyond - 0.5 * sharpest);
-  return {std::cos(std::numbers::pi / 3.0 + beyond), cosine_of_none(beyond)};
+  double sharpest = blunt;
+  for (const Id v : {e, b.next[e], f, b.next[f]})
+    sharpest = std::max(sharpest, -b.exterior_cosine[v]);
+  return {whole_beside(sharpest), none_beside(sharpest)};
 }
 
 std::vector<EdgePair> edges_within(NearEdges& known, const BlockSet& b, const State& state,

@@ -12,8 +12,8 @@ namespace {
 
 /// The edges of chunks: tables of records of four numbers, and the slots there.
 struct ChunkEdges {
+  const SweepScene& scene;
   const double *at, *then;  ///< start and end at n and n - 1, m; then: null where no face takes it
-  const double* mass;       ///< EdgeInverseMass, or null
   const Id *slots_e, *slots_f;  ///< [chunks][8]
   std::size_t first = 0;        ///< chunk with which they begin
 
@@ -101,6 +101,19 @@ bool is_idle(const FaceTiles& t, std::size_t q) {
   return t.idle[0][q] != 0 && t.idle[1][q] != 0 && t.bonds[q] == 0;
 }
 
+/// Reads EdgeInverseMass of the edges of a chunk; lanes without a face have some other edge's.
+void read_masses(const FaceTiles& t, const SweepScene& scene, std::size_t q, Records& e,
+                 Records& f) {
+  Id edge[lanes], facing[lanes];
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const Id k = t.face[q * lanes + lane] != no_id ? t.face[q * lanes + lane] : 0;
+    edge[lane] = scene.faces.edge[k];
+    facing[lane] = scene.faces.facing[k];
+  }
+  read_masses(scene.masses.point_inverse.data(), scene.masses.edge_inverse.data(),
+              scene.blocks.next.data(), edge, facing, e, f);
+}
+
 /// Evaluates a chunk whose edges stand as they are known to, and stores its forces. Returns what it
 /// has found.
 ChunkFound evaluate_standing(FaceTiles& t, ChunkView& view, const ChunkEdges& edges,
@@ -120,8 +133,8 @@ ChunkFound evaluate_standing(FaceTiles& t, ChunkView& view, const ChunkEdges& ed
     view.e_then = &e_then;
     view.f_then = &f_then;
   }
-  if (edges.mass != nullptr) {
-    read_edges(edges.mass, edges.slot_e(q), edges.slot_f(q), mass_e, mass_f);
+  if (t.dashpots) {
+    read_masses(t, edges.scene, q, mass_e, mass_f);
     view.mass_e = &mass_e;
     view.mass_f = &mass_f;
   }
@@ -179,7 +192,7 @@ LaneBits sweep_awake(FaceTiles& t, const Tile& of, const SweepTables& tables,
 
 /// Records of the edges of a chunk alone.
 struct EdgesAlone {
-  alignas(32) double at[2 * lanes][4], then[2 * lanes][4], mass[2 * lanes][4];
+  alignas(32) double at[2 * lanes][4], then[2 * lanes][4];
 };
 constexpr Id slots_alone[2 * lanes] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
@@ -187,7 +200,6 @@ constexpr Id slots_alone[2 * lanes] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12,
 void read_vertices(const FaceTiles& t, const SweepScene& scene, std::size_t q, bool then,
                    EdgesAlone& to) {
   const BlockSet& b = scene.blocks;
-  const Masses& m = scene.masses;
   const Pose& p = scene.pose;
   const auto put = [](double* record, const std::array<double, 4>& numbers) {
     std::copy(numbers.begin(), numbers.end(), record);
@@ -196,9 +208,6 @@ void read_vertices(const FaceTiles& t, const SweepScene& scene, std::size_t q, b
     const Id end = b.next[edge];
     put(to.at[slot], {p.x[edge], p.y[edge], p.x[end], p.y[end]});
     if (then) put(to.then[slot], {p.x1[edge], p.y1[edge], p.x1[end], p.y1[end]});
-    if (t.dashpots) {
-      put(to.mass[slot], {m.point_inverse[edge], m.edge_inverse[edge], m.point_inverse[end], 0.0});
-    }
   };
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const Id k = t.face[q * lanes + lane];
@@ -206,25 +215,9 @@ void read_vertices(const FaceTiles& t, const SweepScene& scene, std::size_t q, b
       read(lane, scene.faces.edge[k]);
       read(lanes + lane, scene.faces.facing[k]);
     } else {
-      for (auto* of : {to.at, to.then, to.mass}) put(of[lane], {}), put(of[lanes + lane], {});
+      for (auto* of : {to.at, to.then}) put(of[lane], {}), put(of[lanes + lane], {});
     }
   }
-}
-
-void place_masses(const FaceTiles& t, const Tile& of, const BlockSet& b, const Masses& m,
-                  SweepScratch& scratch) {
-  std::size_t slot = 0;
-  const auto put = [&](Id e) {
-    double* const to = &scratch.mass[4 * slot++];
-    to[0] = m.point_inverse[e];
-    to[1] = m.edge_inverse[e];
-    to[2] = m.point_inverse[b.next[e]];
-  };
-  for (Id n = of.first_block; n < of.last_block; ++n) {
-    const Id i = t.blocks[n];
-    for (Id e = b.vertex_begin[i]; e < b.vertex_begin[i + 1]; ++e) put(e);
-  }
-  for (Id n = of.first_halo; n < of.last_halo; ++n) put(t.halo[n]);
 }
 
 /// Fills the records of a tile's edges.
@@ -245,10 +238,6 @@ void place_tile(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepSc
   const bool sleep_ends = sleep_is_over(t, scene, tile, scratch);
   if (of.takes_then || sleep_ends) place(pose.x1, pose.y1, scratch.then);
   if (sleep_ends) let_sleep(t, scene, tile, scratch);
-  if (t.dashpots) {
-    scratch.mass.resize(std::max(scratch.mass.size(), numbers));
-    place_masses(t, of, b, scene.masses, scratch);
-  }
 }
 
 /// Numbers of the records of a tile's forces.
@@ -282,9 +271,8 @@ SweepResult sweep_tile(FaceTiles& t, const SweepScene& scene, std::size_t tile, 
   AlignedNumbers &own = t.forces[tile], &on = t.kept[tile] != 0 ? own : scratch.on;
   on.resize(std::max(on.size(), numbers));
   const SweepTables tables = tables_of(t, tile, on.data(), scene.step, scene.noise);
-  const ChunkEdges edges{scratch.at.data(), of.takes_then ? scratch.then.data() : nullptr,
-                         t.dashpots ? scratch.mass.data() : nullptr, t.slot_e.data(),
-                         t.slot_f.data()};
+  const ChunkEdges edges{scene, scratch.at.data(), of.takes_then ? scratch.then.data() : nullptr,
+                         t.slot_e.data(), t.slot_f.data()};
   if (!scene.corrects) {
     std::fill(t.deepest.data() + of.first_chunk, t.deepest.data() + of.last_chunk, 0.0);
   }
@@ -295,7 +283,7 @@ SweepResult sweep_tile(FaceTiles& t, const SweepScene& scene, std::size_t tile, 
   SweepResult result = result_of(found);
   result.work = work_of(t, of);
   const bool keeps = keep || result.decides || result.switching || result.fails;
-  if (keeps && t.kept[tile] == 0) own.assign(on.data(), on.data() + numbers);
+  if (keeps && t.kept[tile] == 0) own.swap(scratch.on);
   t.kept[tile] = keeps ? 1 : 0;
   return result;
 }
@@ -308,12 +296,8 @@ SweepResult sweep_chunks(FaceTiles& t, const SweepScene& scene, std::size_t tile
     EdgesAlone alone;
     const bool then = t.tiles[tile].takes_then;
     read_vertices(t, scene, q, then, alone);
-    const ChunkEdges edges{alone.at[0],
-                           then ? alone.then[0] : nullptr,
-                           t.dashpots ? alone.mass[0] : nullptr,
-                           slots_alone,
-                           slots_alone + lanes,
-                           q};
+    const ChunkEdges edges{scene,       alone.at[0],         then ? alone.then[0] : nullptr,
+                           slots_alone, slots_alone + lanes, q};
     ChunkStand stand;
     ChunkView view = view_of(tables, q, stand);
     read_edges(edges.at, edges.slot_e(q), edges.slot_f(q), stand.e, stand.f);

@@ -27,7 +27,6 @@ struct SweepScene {
 struct SweepScratch {
   AlignedNumbers at;               ///< [slots][4] start and end of the edge at n, x and y
   AlignedNumbers then;             ///< [slots][4] the same at n - 1; empty unless a face takes them
-  AlignedNumbers mass;             ///< [slots][4] EdgeInverseMass; empty without dashpots
   AlignedNumbers on;               ///< [records][4] forces on start and end of an edge, N
   std::vector<std::uint8_t> kind;  ///< [places of a tile] what each face does (tile_sleep.cpp)
   AlignedNumbers excess;           ///< [runs of slots] m: as TileSleep::allowed is exceeded there
