@@ -79,6 +79,7 @@ EDDA_INLINE FacePair pair_of(const ChunkColumns& c, std::size_t k) {
   p.carries_tension = c.carries_tension[k];
   p.inverse_e = c.inverse_e[k];
   p.inverse_f = c.inverse_f[k];
+  p.length_ratio = c.length_ratio[k];
   p.gate_from = c.gate_from[k];
   p.gate_scale = c.gate_scale[k];
   p.passing = c.passing[k];

@@ -15,11 +15,11 @@ EDDA_INLINE EdgeGeometry geometry_of(const ChunkColumns& c, const FacePair& pair
   o.ty = s.ty[k];
   o.per_base = s.per_base[k];
   o.s2 = c.memory.s2[k];
-  o.y2 = s.y2[k];
+  o.y2 = c.memory.y2[k];
   o.r1 = c.memory.r1[k];
   o.z1 = s.z1[k];
   o.r2 = c.memory.r2[k];
-  o.z2 = s.z2[k];
+  o.z2 = c.memory.z2[k];
   o.per_e = s.per_e[k];
   o.per_f = s.per_f[k];
   o.slope_e = s.slope_e[k];
@@ -36,11 +36,11 @@ EDDA_INLINE void write_geometry(const ChunkColumns& c, const EdgeGeometry& o, st
   s.ty[k] = o.ty;
   s.per_base[k] = o.per_base;
   c.memory.s2[k] = o.s2;
-  s.y2[k] = o.y2;
+  c.memory.y2[k] = o.y2;
   c.memory.r1[k] = o.r1;
   s.z1[k] = o.z1;
   c.memory.r2[k] = o.r2;
-  s.z2[k] = o.z2;
+  c.memory.z2[k] = o.z2;
   s.per_e[k] = o.per_e;
   s.per_f[k] = o.per_f;
   s.slope_e[k] = o.slope_e;
@@ -119,8 +119,7 @@ EDDA_INLINE FaceInputs inputs_of(const ChunkColumns& c, std::size_t k) {
            was(lane_bits::closed_a),
            was(lane_bits::closed_b),
            was(lane_bits::switched),
-           {c.before.s2[k], dashpots ? d.y2[k] : 0.0, c.before.r1[k], dashpots ? d.z1[k] : 0.0,
-            c.before.r2[k], dashpots ? d.z2[k] : 0.0},
+           {c.before.s2[k], c.before.y2[k], c.before.r1[k], 0.0, c.before.r2[k], c.before.z2[k]},
            dashpots ? FaceEnds{d.damping_a[k], d.damping_b[k]} : FaceEnds{},
            dashpots ? FaceEnds{d.shear_damping_a[k], d.shear_damping_b[k]} : FaceEnds{}},
           mass_of(c.mass_e),
@@ -131,8 +130,7 @@ EDDA_INLINE FaceInputs inputs_of(const ChunkColumns& c, std::size_t k) {
 }
 
 template <bool dashpots>
-EDDA_INLINE void write_memory(const ChunkColumns& c, const FaceStep& s, const EdgeCoordinates& at,
-                              std::size_t k) {
+EDDA_INLINE void write_memory(const ChunkColumns& c, const FaceStep& s, std::size_t k) {
   const FaceMemoryColumns<double*>& m = c.memory;
   m.slip_a[k] = s.slip.a;
   m.slip_b[k] = s.slip.b;
@@ -140,9 +138,6 @@ EDDA_INLINE void write_memory(const ChunkColumns& c, const FaceStep& s, const Ed
   m.spring[k] = s.spring;
   if constexpr (dashpots) {
     const DashpotMemoryColumns<double*>& d = c.damped;
-    d.y2[k] = at.y2;
-    d.z1[k] = at.z1;
-    d.z2[k] = at.z2;
     d.damping_a[k] = s.damping.a;
     d.damping_b[k] = s.damping.b;
     d.shear_damping_a[k] = s.shear_damping.a;
@@ -204,7 +199,7 @@ EDDA_INLINE void evaluate_lane(const ChunkColumns& c, std::size_t k, Records& on
   const OverlapEnds overlap = overlap_of<use>(c, stands, in.pair, k);
   const Face face = face_between<use>(stands, overlap, in.pair);
   const FaceStep s = step_of_face<dashpots, false, use, books>(in, stands, face);
-  write_memory<dashpots>(c, s, stands.corners(), k);
+  write_memory<dashpots>(c, s, k);
   if constexpr (books) write_work(c, s, k);
   write_forces(on_e, on_f, s.force, k);
   const LaneBits bit = bit_of_lane[k];
@@ -266,19 +261,13 @@ EDDA_INLINE ChunkFound evaluate_lanes(const ChunkView& given) {
   }
   return all;
 }
-template <bool dashpots>
 EDDA_INLINE ChunkFound look_at_lanes(const ChunkView& given) {
-  const ChunkColumns c = columns_of<dashpots>(given);
+  const ChunkColumns c = columns_of<Tables::memory>(given);
   LaneBits bits = 0, asking = 0;
 #pragma omp simd reduction(| : bits, asking)
   for (std::size_t k = 0; k < lanes; ++k) {
     const FaceInputs in = inputs_of<false, false>(c, k);
     const OpenFace s = look_at_open_face(in, geometry_of(c, in.pair, k));
-    if constexpr (dashpots) {
-      c.damped.y2[k] = s.corners.y2;
-      c.damped.z1[k] = s.corners.z1;
-      c.damped.z2[k] = s.corners.z2;
-    }
     const LaneBits bit = bit_of_lane[k];
     bits |= s.gate > 0.0 ? bit << lane_bits::on : 0;
     asking |= s.may_close ? bit << lane_bits::decides : 0;
@@ -350,11 +339,8 @@ EDDA_VECTOR ChunkFound evaluate_plain_damped(const ChunkView& c) {
   return evaluate_lanes<true, Formulas::plain, true>(c);
 }
 
-EDDA_VECTOR ChunkFound look_at_undamped(const ChunkView& c) {
-  return look_at_lanes<false>(c);
-}
-EDDA_VECTOR ChunkFound look_at_damped(const ChunkView& c) {
-  return look_at_lanes<true>(c);
+EDDA_VECTOR ChunkFound look_at(const ChunkView& c) {
+  return look_at_lanes(c);
 }
 
 EDDA_VECTOR void read_edges(const double* from, const Id* slot_e, const Id* slot_f, Records& e,

@@ -8,11 +8,11 @@
 
 namespace edda {
 
-/// How the two edges of each face stand: what EdgeGeometry follows from beside s2, r1, and r2,
-/// which are remembered (FaceMemoryColumns).
+/// How the two edges of each face stand: what EdgeGeometry follows from beside s2, y2, r1, r2, and
+/// z2, which are remembered (FaceMemoryColumns).
 template <class C>
 struct StandColumns {
-  C tx, ty, per_base, y2, z1, z2, per_e, per_f, slope_e, slope_f, closure_at_0;
+  C tx, ty, per_base, z1, per_e, per_f, slope_e, slope_f, closure_at_0;
   C length_cosine, length_sine;
 };
 inline constexpr std::size_t stand_columns = sizeof(StandColumns<double>) / sizeof(double);
@@ -121,8 +121,7 @@ ChunkFound evaluate_plain_damped(const ChunkView& chunk);
 
 /// Updates the corners of faces that have carried nothing for two steps. `decides` of what is
 /// found: one needs more than that.
-ChunkFound look_at_undamped(const ChunkView& chunk);
-ChunkFound look_at_damped(const ChunkView& chunk);
+ChunkFound look_at(const ChunkView& chunk);
 
 /// Margins by which the corners of faces that rest, and that sleep, may stray, m.
 using RestMargins = std::array<double, rest_levels>;

@@ -55,7 +55,7 @@ struct Face {
   double share = 0.0;       ///< b
   double energy = 0.0;      ///< U, J
   FaceEnds normal;          ///< w W k L dphi/dd of each end: the normal force there, N
-  FaceEnds slope;           ///< dy/ds of the edge on which the corner at each end presses
+  double slope = 0.0;       ///< dy/ds of the edge on which a corner of the other presses
   FaceEnds along;           ///< dU/dsa and dU/dsb at fixed edges and fixed r, N
   FaceEnds of_first;        ///< weight with which each end follows the corner of e
   FrameForces pressure;     ///< forces of the normal pressure without the couples of on_corners()
@@ -220,7 +220,6 @@ EDDA_INLINE void press(Face& face, const EdgeGeometry& o, const OverlapEnds& v,
   const double by_sa = u.by_a * o.closure_slope - u.by_length,
                by_sb = u.by_b * o.closure_slope + u.by_length;
   double by_corner_a = 0.0, by_corner_b = 0.0;
-  face.slope = {v.a_by_p ? o.slope_f : o.slope_e, v.b_by_p ? o.slope_f : o.slope_e};
   double pressed = u.by_a + u.by_b, weighted = u.by_a * v.sa + u.by_b * v.sb;
   if constexpr (use != Formulas::plain) {
     const double by_reach = by_sa * v.pass_a.by_reach - by_sb * v.pass_b.by_reach;
@@ -242,6 +241,11 @@ EDDA_INLINE void press(Face& face, const EdgeGeometry& o, const OverlapEnds& v,
     face.of_first = of_first(v.pass_a, v.pass_b, v.a_by_p, v.b_by_p);
   }
   push_bounds(on, face.of_first, {-by_sa, -by_sb});
+  // Of the corner at the end of larger drawn closure; where the edges are parallel both slopes are
+  // 0, and nothing jumps as the other end becomes the deeper one.
+  const bool deep_b = o.closure_slope >= 0.0;
+  const double by_first = deep_b ? face.of_first.b : face.of_first.a;
+  face.slope = by_first * o.slope_f + (1.0 - by_first) * o.slope_e;
 }
 
 /// The part that follows from the derivatives with respect to the cosine and the sine of EdgeAngle:
@@ -314,13 +318,16 @@ EDDA_INLINE FaceEnds ends_at_bounds(const Face& face, const FacePair& pair) {
           smaller(locked.b, positive_part(face.along.b))};
 }
 
-/// Adds the forces at the ends beside the pressure, N: T along t on f and against t on e, N normal
-/// to the edge on which the corner at that end presses, and forces along t on the corners that
-/// bound the ends.
+/// Adds the forces at the ends beside the pressure, N: T along the edge on which a corner presses,
+/// T (t + slope n) on f and its reaction on e; N normal to it, N (n - slope t); and forces along t
+/// on the corners that bound the ends.
 EDDA_INLINE void add_ends(FrameForces& on, const Face& face, FaceEnds normal, FaceEnds shear,
                           FaceEnds bounds = {}) {
-  add_at(on, face.xi.a, face.eta.a, shear.a - face.slope.a * normal.a, normal.a);
-  add_at(on, face.xi.b, face.eta.b, shear.b - face.slope.b * normal.b, normal.b);
+  const auto add = [&](double xi, double eta, double along, double across) {
+    add_at(on, xi, eta, along - face.slope * across, across + face.slope * along);
+  };
+  add(face.xi.a, face.eta.a, shear.a, normal.a);
+  add(face.xi.b, face.eta.b, shear.b, normal.b);
   push_bounds(on, face.of_first, bounds);
 }
 /// The same for the shear forces alone.
@@ -328,10 +335,15 @@ EDDA_INLINE void add_shear(FrameForces& on, const Face& face, FaceEnds shear) {
   const double whole = shear.a + shear.b;
   const double on_p2 = face.xi.a * shear.a + face.xi.b * shear.b;
   const double on_q1 = face.eta.a * shear.a + face.eta.b * shear.b;
-  on.p1t -= whole - on_p2;
+  const double on_p1 = whole - on_p2, on_q2 = whole - on_q1;
+  on.p1t -= on_p1;
   on.p2t -= on_p2;
   on.q1t += on_q1;
-  on.q2t += whole - on_q1;
+  on.q2t += on_q2;
+  on.p1n -= face.slope * on_p1;
+  on.p2n -= face.slope * on_p2;
+  on.q1n += face.slope * on_q1;
+  on.q2n += face.slope * on_q2;
 }
 EDDA_INLINE CornerForces end_forces(const FacePoints& at, const Face& face, FaceEnds normal,
                                     FaceEnds shear) {

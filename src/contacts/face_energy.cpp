@@ -54,7 +54,7 @@ double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::s
   double shear = 0.0;
   if (slips) {
     const FaceEnds slip = motion_of(face, coordinates_at(c, pose.x, pose.y, k),
-                                    coordinates_at(c, pose.x1, pose.y1, k))
+                                    coordinates_at(c, pose.x1, pose.y1, k), length_ratio(c, k))
                               .slip;
     shear =
         m.spring[k] * (m.slip_a[k] * (m.slip_a[k] + slip.a) + m.slip_b[k] * (m.slip_b[k] + slip.b));

@@ -18,6 +18,7 @@ struct FacePair {
   double ends = 0.0;             ///< 1: phi_ends with the weight b; 0: phi_exact alone (b = 0)
   double carries_tension = 0.0;  ///< 1: carries tension
   double inverse_e = 0.0, inverse_f = 0.0;  ///< 1/l of the edges at the start, 1/m
+  double length_ratio = 0.0;                ///< l of f over l of e at the start
   double gate_from = 0.0;   ///< cosine of the angle between the edges from which W > 0
   double gate_scale = 1.0;  ///< 1/(cosine from which W = 1, less gate_from)
   double passing = 1.0;     ///< m: corners nearer than this share one corner weight b

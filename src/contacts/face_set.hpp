@@ -276,6 +276,12 @@ struct FaceSet : ChunkTable<FaceProperties<ChunkColumn>, face_property_list<Chun
   }
 };
 
+/// FacePair::length_ratio of face k.
+template <class Faces>
+EDDA_INLINE double length_ratio(const Faces& c, std::size_t k) {
+  return c.inverse_e[k] / c.inverse_f[k];
+}
+
 /// The element data of face k in its current state.
 template <class Faces>
 EDDA_INLINE FacePair face_pair(const Faces& c, const double* exterior_cosine,
@@ -287,6 +293,7 @@ EDDA_INLINE FacePair face_pair(const Faces& c, const double* exterior_cosine,
   p.carries_tension = c.carries_tension[k];
   p.inverse_e = c.inverse_e[k];
   p.inverse_f = c.inverse_f[k];
+  p.length_ratio = length_ratio(c, k);
   p.gate_from = c.gate_from[k];
   p.gate_scale = c.gate_scale[k];
   p.passing = c.passing[k];

@@ -32,7 +32,7 @@ struct FaceBefore {
   bool stored, on;          ///< it stored energy; its gate was open
   bool closed_a, closed_b;  ///< its ends were closed
   bool switched;            ///< one of them had just opened or closed
-  EdgeCoordinates corners;  ///< in the frame of n - 1
+  EdgeCoordinates corners;  ///< in the frame of n - 1; without z1
   FaceEnds damping, shear_damping;  ///< forces of the dashpots, N
 };
 
@@ -48,23 +48,26 @@ struct FaceInputs {
   FaceEnds limits;                 ///< of the shear forces, N, where they are given
 };
 
-/// Relative displacement, in the last step, of the two material points that lie at each end now, m:
-/// slip along the frame (theory, section 4.3), and closing normal to the edge on which the corner
-/// there presses.
+/// Relative displacement, in the last step, of the two material points that lie at each end now, m,
+/// on which the forces at the ends do their work (add_ends()): slip along the edge on which a
+/// corner presses (theory, section 4.3), and closing normal to it.
 struct EndMotion {
   FaceEnds slip, closure;
 };
-/// now, then: the corners at n and n - 1, each in the frame of its step. What has moved is taken as
-/// the difference of these coordinates, so that a face at rest has not moved by as much as a
-/// rounding error, which would add up over many steps.
+/// now, then: the corners at n and n - 1, each in the frame of its step; z1 of `then` does not
+/// count, since it follows from the frame: (z2 - z1)/lf = y2/le. What has moved is taken as the
+/// difference of these coordinates, so that a face at rest has not moved by as much as a rounding
+/// error, which would add up over many steps. length_ratio: FacePair.
 EDDA_INLINE EndMotion motion_of(const Face& face, const EdgeCoordinates& now,
-                                const EdgeCoordinates& then) {
-  const EdgeCoordinates moved{now.s2 - then.s2, now.y2 - then.y2, now.r1 - then.r1,
-                              now.z1 - then.z1, now.r2 - then.r2, now.z2 - then.z2};
-  const FaceEnds slip{along_t(moved, face.xi.a, face.eta.a), along_t(moved, face.xi.b, face.eta.b)};
-  return {slip,
-          {face.slope.a * slip.a - along_n(moved, face.xi.a, face.eta.a),
-           face.slope.b * slip.b - along_n(moved, face.xi.b, face.eta.b)}};
+                                const EdgeCoordinates& then, double length_ratio) {
+  const double y2 = now.y2 - then.y2, z2 = now.z2 - then.z2;
+  const EdgeCoordinates moved{now.s2 - then.s2, y2, now.r1 - then.r1, z2 - length_ratio * y2,
+                              now.r2 - then.r2, z2};
+  const FaceEnds along{along_t(moved, face.xi.a, face.eta.a),
+                       along_t(moved, face.xi.b, face.eta.b)},
+      across{along_n(moved, face.xi.a, face.eta.a), along_n(moved, face.xi.b, face.eta.b)};
+  return {{along.a + face.slope * across.a, along.b + face.slope * across.b},
+          {face.slope * along.a - across.a, face.slope * along.b - across.b}};
 }
 
 /// Shear force T = -spring u of one end, N, and its elastic slip u, m.
@@ -306,7 +309,7 @@ EDDA_INLINE FaceStep step_of_face(const FaceInputs& in, const EdgeGeometry& stan
   s.touches = (face.energy > 0.0) | (bonded & (face.gate > 0.0));
   const ShearSprings springs = shear_springs<books>(in, face, s.touches);
   const double spring = springs.spring, per_spring = springs.per_spring;
-  const EndMotion moved = motion_of(face, stands.corners(), old.corners);
+  const EndMotion moved = motion_of(face, stands.corners(), old.corners, pair.length_ratio);
   const EndsOfFace end = ends_of<use>(in, face, moved, springs.kept, s.touches);
   DashpotRoots roots;
   if constexpr (dashpots) roots = dashpot_roots(in, face, spring);
@@ -355,7 +358,6 @@ EDDA_INLINE FaceStep step_of_face(const FaceInputs& in, const EdgeGeometry& stan
 
 /// A face that has carried nothing for two steps, at n.
 struct OpenFace {
-  EdgeCoordinates corners;
   FaceEnds closure, xi, eta;
   double length, gate, cohesive;
   bool may_close;  ///< it may be closed, or decide_activity() must be called
@@ -364,7 +366,6 @@ struct OpenFace {
 EDDA_INLINE OpenFace look_at_open_face(const FaceInputs& in, const EdgeGeometry& o) {
   const FacePair& pair = in.pair;
   OpenFace s;
-  s.corners = o.corners();
   const double drawn_a = o.closure_at_0 + o.closure_slope * o.ma,
                drawn_b = o.closure_at_0 + o.closure_slope * o.mb;
   s.closure = {drawn_a + pair.offset.a, drawn_b + pair.offset.b};

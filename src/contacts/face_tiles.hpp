@@ -34,7 +34,7 @@ inline constexpr std::size_t blocks_per_tile = 512;
 /// what follows from its two edges.
 template <class C>
 struct EdgeConstants {
-  C stiffness, shear_stiffness, inverse_e, inverse_f, gate_from, gate_scale, passing;
+  C stiffness, shear_stiffness, inverse_e, inverse_f, length_ratio, gate_from, gate_scale, passing;
   C touching;  ///< m: bonded faces without tension fail at a larger gap
   C cosine_p1, sine_p1, cosine_p2, sine_p2, cosine_q1, sine_q1, cosine_q2, sine_q2;
 };
@@ -48,17 +48,17 @@ struct StrengthConstants {
 };
 inline constexpr std::size_t strength_columns = sizeof(StrengthConstants<double>) / sizeof(double);
 
-/// What a face remembers from step to step. Members as in FaceBefore; s2, r1, r2 of its corners.
+/// What a face remembers from step to step. Members as in FaceBefore; s2 to z2 of its corners.
 template <class C>
 struct FaceMemoryColumns {
-  C slip_a, slip_b, overlap, spring, s2, r1, r2;
+  C slip_a, slip_b, overlap, spring, s2, y2, r1, r2, z2;
 };
 inline constexpr std::size_t memory_columns = sizeof(FaceMemoryColumns<double>) / sizeof(double);
 
-/// The same where faces have dashpots: y2, z1, z2 of the corners, and the forces of the dashpots.
+/// The same where faces have dashpots: the forces of the dashpots.
 template <class C>
 struct DashpotMemoryColumns {
-  C y2, z1, z2, damping_a, damping_b, shear_damping_a, shear_damping_b;
+  C damping_a, damping_b, shear_damping_a, shear_damping_b;
 };
 inline constexpr std::size_t dashpot_memory_columns =
     sizeof(DashpotMemoryColumns<double>) / sizeof(double);

@@ -113,7 +113,7 @@ void lift(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
   if (!(c.friction_work[k] > 0.0)) return;
   const Face closed = face_at(c, b, pose.x, pose.y, k);
   const FaceEnds moved = motion_of(closed, coordinates_at(c, pose.x, pose.y, k),
-                                   coordinates_at(c, pose.x1, pose.y1, k))
+                                   coordinates_at(c, pose.x1, pose.y1, k), length_ratio(c, k))
                              .slip;
   const Sliding in_place = sliding_under(c, moved, closed.normal, k);
   if (!(in_place.friction > 0.0)) return;
@@ -158,7 +158,7 @@ void take_slip_while_open(FaceSet& c, const BlockSet& b, const Pose& pose, const
   const Face face = face_at(c, b, pose.x, pose.y, k);
   const EdgeCoordinates now = coordinates_at(c, pose.x, pose.y, k),
                         then = coordinates_at(c, pose.x1, pose.y1, k);
-  const FaceEnds slip = motion_of(face, now, then).slip;
+  const FaceEnds slip = motion_of(face, now, then, length_ratio(c, k)).slip;
   take_slip(c, laws, k, 0.5 * std::abs(slip.a + slip.b));
   const double gap = -std::max(face.closure.a, face.closure.b);
   const double rise = std::clamp(gap, 0.0, std::max(c.dilation_left[k], 0.0));

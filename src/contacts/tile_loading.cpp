@@ -13,10 +13,23 @@ namespace {
 /// The constants of one face.
 EdgeConstants<double> edge_constants(const FaceSet& c, const BlockSet& b, const FacePair& p,
                                      std::size_t k) {
-  return {p.stiffness, c.shear_stiffness[k], p.inverse_e, p.inverse_f,
-          p.gate_from, p.gate_scale,         p.passing,   touching_gap * smaller_size(c, b, k),
-          p.turn_p1.x, p.turn_p1.y,          p.turn_p2.x, p.turn_p2.y,
-          p.turn_q1.x, p.turn_q1.y,          p.turn_q2.x, p.turn_q2.y};
+  return {p.stiffness,
+          c.shear_stiffness[k],
+          p.inverse_e,
+          p.inverse_f,
+          p.length_ratio,
+          p.gate_from,
+          p.gate_scale,
+          p.passing,
+          touching_gap * smaller_size(c, b, k),
+          p.turn_p1.x,
+          p.turn_p1.y,
+          p.turn_p2.x,
+          p.turn_p2.y,
+          p.turn_q1.x,
+          p.turn_q1.y,
+          p.turn_q2.x,
+          p.turn_q2.y};
 }
 StrengthConstants<double> strength_constants(const FaceSet& c, const FacePair& p, std::size_t k) {
   return {p.ends,      c.friction[k], c.cohesion[k],   p.offset.a,   p.offset.b, p.carries_tension,
@@ -59,12 +72,12 @@ void load_memory(FaceTiles& t, const FaceSet& c, const FaceMemory& m, const std:
   if (t.holds(place / lanes)) {
     const EdgeCoordinates at = coordinates_at(c, x, y, k);
     put(t, which, place,
-        FaceMemoryColumns<double>{m.slip_a[k], m.slip_b[k], m.overlap[k], m.spring[k], at.s2, at.r1,
-                                  at.r2});
+        FaceMemoryColumns<double>{m.slip_a[k], m.slip_b[k], m.overlap[k], m.spring[k], at.s2, at.y2,
+                                  at.r1, at.r2, at.z2});
     if (t.dashpots) {
       put(t, which, place,
-          DashpotMemoryColumns<double>{at.y2, at.z1, at.z2, m.damping_a[k], m.damping_b[k],
-                                       m.shear_damping_a[k], m.shear_damping_b[k]});
+          DashpotMemoryColumns<double>{m.damping_a[k], m.damping_b[k], m.shear_damping_a[k],
+                                       m.shear_damping_b[k]});
     }
   }
   const bool stored = m.energy[k] > 0.0, touches = stored || m.spring[k] > 0.0;
@@ -234,13 +247,10 @@ void load_decisions(FaceTiles& t, const FaceSet& c, const BlockSet& b, std::size
 void load_corners(FaceTiles& t, const EdgeCoordinates& at, int which, std::size_t place) {
   using Memory = FaceMemoryColumns<double>;
   number_at(t, which, place, &Memory::s2) = at.s2;
+  number_at(t, which, place, &Memory::y2) = at.y2;
   number_at(t, which, place, &Memory::r1) = at.r1;
   number_at(t, which, place, &Memory::r2) = at.r2;
-  if (!t.dashpots) return;
-  using Dashpots = DashpotMemoryColumns<double>;
-  number_at(t, which, place, &Dashpots::y2) = at.y2;
-  number_at(t, which, place, &Dashpots::z1) = at.z1;
-  number_at(t, which, place, &Dashpots::z2) = at.z2;
+  number_at(t, which, place, &Memory::z2) = at.z2;
 }
 
 }  // namespace edda

@@ -120,7 +120,7 @@ ChunkFound evaluate_standing(FaceTiles& t, ChunkView& view, const ChunkEdges& ed
                              bool overlaps_known) {
   const std::size_t q = view.chunk;
   if (is_idle(t, q)) {
-    const ChunkFound open = t.dashpots ? look_at_damped(view) : look_at_undamped(view);
+    const ChunkFound open = look_at(view);
     if (open.found == 0) {
       keep(t, q, open);
       store_nothing(t, view.of->on, q);

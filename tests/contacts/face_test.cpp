@@ -53,6 +53,7 @@ class Faces {
     if (count_ % 7 == 0) r.pair.offset = {0.01, uniform(0.0, 0.02)};
     r.pair.inverse_e = 1.0 / le;
     r.pair.inverse_f = 1.0 / lf;
+    r.pair.length_ratio = lf / le;
     r.pair.gate_from = std::cos(85.0 * pi / 180.0);
     r.pair.gate_scale = 1.0 / (0.5 - r.pair.gate_from);
     r.pair.passing = 0.15 * std::min(le, lf);
@@ -90,12 +91,12 @@ bool is_smooth(const RandomFace& r, const Face& f) {
 /// The terms that a step omits for a plain face change no bit, except the sign of zeros.
 TEST(Face, IsTheSameWherePlainPartsAreLeftOut) {
   const auto parts = [](const Face& f) {
-    return std::array{f.length,     f.cohesive,   f.closure.a,  f.closure.b,    f.xi.a,
-                      f.xi.b,       f.eta.a,      f.eta.b,      f.gate,         f.angle_gate,
-                      f.share,      f.energy,     f.normal.a,   f.normal.b,     f.slope.a,
-                      f.slope.b,    f.along.a,    f.along.b,    f.of_first.a,   f.of_first.b,
-                      f.force.p1.x, f.force.p1.y, f.force.p2.x, f.force.p2.y,   f.force.q1.x,
-                      f.force.q1.y, f.force.q2.x, f.force.q2.y, f.pressure.p1t, f.pressure.q2n};
+    return std::array{f.length,     f.cohesive,   f.closure.a,    f.closure.b,   f.xi.a,
+                      f.xi.b,       f.eta.a,      f.eta.b,        f.gate,        f.angle_gate,
+                      f.share,      f.energy,     f.normal.a,     f.normal.b,    f.slope,
+                      f.along.a,    f.along.b,    f.of_first.a,   f.of_first.b,  f.force.p1.x,
+                      f.force.p1.y, f.force.p2.x, f.force.p2.y,   f.force.q1.x,  f.force.q1.y,
+                      f.force.q2.x, f.force.q2.y, f.pressure.p1t, f.pressure.q2n};
   };
   const auto stands = [](const Face& f) {
     return std::array{f.length, f.cohesive, f.closure.a, f.closure.b, f.xi.a,
@@ -384,7 +385,7 @@ TEST(Face, EndForcesWorkOnTheMotionOfTheEnds) {
     const auto corners = [&](const FacePoints& p) {
       return coordinates_of(p, r.pair.inverse_e, r.pair.inverse_f);
     };
-    const EndMotion motion = motion_of(face, corners(r.at), corners(then));
+    const EndMotion motion = motion_of(face, corners(r.at), corners(then), r.pair.length_ratio);
     const FaceEnds normal{1.3, -0.4}, shear{0.7, 0.9};
     const CornerForces f = end_forces(r.at, face, normal, shear);
     const double work = dot(f.p1, r.at.p1 - then.p1) + dot(f.p2, r.at.p2 - then.p2) +

@@ -217,9 +217,9 @@ struct Drift {
       if (m.spring[k] > 0.0) expect_same(memory(2), m.overlap[k], "overlap", k);
       if (is_awake(t, place)) {
         const EdgeCoordinates at = coordinates_at(c, heap.pose.x, heap.pose.y, k);
-        expect_same(memory(4), at.s2, "s2", k);
-        expect_same(memory(5), at.r1, "r1", k);
-        expect_same(memory(6), at.r2, "r2", k);
+        const double corners[] = {at.s2, at.y2, at.r1, at.r2, at.z2};
+        for (std::size_t n = 0; n < std::size(corners); ++n)
+          expect_same(memory(4 + n), corners[n], "corner", k);
       } else {
         ++asleep;
         if (q < t.tiles[t.tile_of_chunk[q]].awake_end) ++resting;

@@ -64,7 +64,7 @@ TEST(EnergyBalance, ClosesWhileEndsOpenAndClose) {
     const char *friction, *mass_damping;
     double transfer;  // fraction of all energy: overlaps that change under friction take some
   };
-  for (const Case& q : {Case{"0", "0", 1e-9}, {"25", "0", 2e-4}, {"0", "50", 1e-9}}) {
+  for (const Case& q : {Case{"0", "0", 1e-9}, {"25", "0", 2.5e-4}, {"0", "50", 1e-9}}) {
     std::string text = rock + "damping = { mass = " + q.mass_damping +
                        " }\n[contact]\nnormal_stiffness = 2e9\n[[block]]\nfixed = true\n"
                        "polygon = [[-3,-1],[3,-1],[3,0],[-3,0]]\n[[block]]\nvelocity = [1, -2]\n"

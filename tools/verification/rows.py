@@ -314,4 +314,13 @@ ROWS = (
         "Six courses of masonry, 33 units of 0.4 x 0.175 m and halves, under a seismic coefficient that `edda fos` raises slowly.",
         "The limit load of rigid blocks, 0.6428590 (Ferris and Tin-Loi 2001); stiffness does not matter.",
         "The factor is the middle of a bracket of 0.6 %."),
+    Row(66, "Corners that lean, sliding",
+        "A sled of 3 m on two pointed feet, of which the sides rise at two angles from the ground; gravity is tilted by the slope."
+        " Default settings.",
+        "Below the friction angle it stays; beyond it slides as a rigid block.",
+        "Friction acts along the edge on which a corner leans (theory, section 4.3)."),
+    Row(67, "A bar that leans against a wall",
+        "A bar of 4 m x 0.3 m with its lower corner on the floor and its upper one at the wall.",
+        "Friction at its limit at both corners, moments about the lower one.",
+        "The factor is the middle of a bracket of 0.6 %."),
 )
