@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "forces/bolt_matrix.hpp"
 
@@ -31,6 +32,17 @@ double corner_stiffness_bound(std::vector<DistributedSpring>& distributed_spring
     from = to;
   }
   return sum;
+}
+
+/// How much stiffer than its two edges say a sharp corner of this interior angle may be held. Where
+/// it leans on an edge its sides, at theta to that edge, each have their stiffness over
+/// cos(theta/2) along it (theory, section 4.3), the most where both stand at (180 - corner)/2. Only
+/// of a block that no other free one may meet: else springs count twice. A right angle is covered,
+/// too: its edges count with all of their springs.
+double of_sharp_corner(double corner) {
+  constexpr double pi = std::numbers::pi;
+  if (corner >= 0.5 * pi) return 1.0;
+  return std::cos(pi / 8.0) / std::cos(0.25 * (pi - corner));
 }
 
 /// What an edge may meet beside the faces in the list: where there is none a block like its own,
@@ -77,9 +89,11 @@ std::vector<SpringOnBlock> faces_all_round(const StiffnessInputs& w, std::size_t
       // n dashpots side by side, each computed with the mass that the corner feels, are sqrt(n)
       // times one dashpot of the whole stiffness.
       const double factor = 2.0 * std::sqrt(bare * count / w.masses.point_inverse[v]);
+      const double sharp = w.alone ? of_sharp_corner(b.corner[v]) : 1.0;
+      const double normal_here = sharp * of_normal, shear_here = sharp * of_shear;
       parts.push_back({normal.front().face, along(weights, outward_normal(t)), along(weights, t),
-                       of_normal, of_shear, factor * zeta * std::sqrt(of_normal),
-                       factor * shear_zeta * std::sqrt(of_shear)});
+                       normal_here, shear_here, factor * zeta * std::sqrt(normal_here),
+                       factor * shear_zeta * std::sqrt(shear_here)});
     }
   }
   return parts;

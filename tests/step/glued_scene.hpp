@@ -51,7 +51,7 @@ inline Nodes accelerate(Simulation& s, bool along_x) {
   return a;
 }
 
-/// 2/omega_max of the assembled system.
+/// 2/omega_max of the assembled system, linear around the present state.
 inline double true_critical_step(Simulation& s, int rounds = 3000) {
   const Nodes x0 = s.motion.state.x, y0 = s.motion.state.y;
   const std::size_t nb = s.scene->blocks.size();
@@ -64,6 +64,7 @@ inline double true_critical_step(Simulation& s, int rounds = 3000) {
       vy[k][i] = s.scene->blocks.fixed[i] ? 0.0 : u(rng);
     }
   }
+  const Nodes ax0 = accelerate(s, true), ay0 = accelerate(s, false);
   double lambda = 0.0;
   for (int round = 0; round < rounds; ++round) {
     double size = 0.0;
@@ -77,7 +78,13 @@ inline double true_critical_step(Simulation& s, int rounds = 3000) {
         s.motion.state.y[k][i] = y0[k][i] + epsilon * scale * vy[k][i];
       }
     }
-    const Nodes ax = accelerate(s, true), ay = accelerate(s, false);
+    Nodes ax = accelerate(s, true), ay = accelerate(s, false);
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t i = 0; i < nb; ++i) {
+        ax[k][i] -= ax0[k][i];
+        ay[k][i] -= ay0[k][i];
+      }
+    }
     double product = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
       for (std::size_t i = 0; i < nb; ++i) {

@@ -1,5 +1,7 @@
 // The critical step against the true limit.
+#include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "step/glued_scene.hpp"
 #include "step/step.hpp"
@@ -34,6 +36,32 @@ TEST(StepBound, SafeAndSharp) {
       // The outer blocks of these scenes touch on some sides only.
       EXPECT_GE(s.control.bound.critical_step, 0.5 * exact);
     }
+  }
+}
+
+/// A triangle of 1 m stands on its apex, of so many degrees, on a fixed floor, pressed into it.
+Simulation on_its_tip(double apex) {
+  const std::string half = std::to_string(std::tan(0.5 * apex * std::numbers::pi / 180.0));
+  Result<Model> model = read_model_text(
+      "[materials.rock]\ndensity = 2600\nyoung = 20e9\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = 60\n[[block]]\nfixed = true\npolygon = [[-3,-1],[3,-1],[3,0],[-3,0]]\n"
+      "[[block]]\npolygon = [[0,0],[" +
+          half + ",1],[-" + half + ",1]]\n[solver]\nduration = 1\n",
+      "t.toml", {});
+  if (!model.ok()) ADD_FAILURE() << to_string(model.faults()[0]);
+  Result<Simulation> sim = Simulation::create(std::move(model.value()));
+  if (!sim.ok()) ADD_FAILURE() << to_string(sim.faults()[0]);
+  for (auto& y : sim.value().motion.state.y) y[1] -= 1e-5;
+  return std::move(sim.value());
+}
+
+/// The two sides of a corner that leans both hold it along the floor.
+TEST(StepBound, SafeWhereASharpCornerLeans) {
+  for (const double apex : {5.0, 10.0, 20.0, 30.0, 40.0, 60.0, 90.0}) {
+    Simulation s = on_its_tip(apex);
+    const double exact = true_critical_step(s);
+    EXPECT_LE(s.control.bound.critical_step, exact) << apex;
+    EXPECT_GE(s.control.bound.critical_step, 0.5 * exact) << apex;
   }
 }
 

