@@ -261,19 +261,6 @@ EDDA_INLINE ChunkFound evaluate_lanes(const ChunkView& given) {
   }
   return all;
 }
-EDDA_INLINE ChunkFound look_at_lanes(const ChunkView& given) {
-  const ChunkColumns c = columns_of<Tables::memory>(given);
-  LaneBits bits = 0, asking = 0;
-#pragma omp simd reduction(| : bits, asking)
-  for (std::size_t k = 0; k < lanes; ++k) {
-    const FaceInputs in = inputs_of<false, false>(c, k);
-    const OpenFace s = look_at_open_face(in, geometry_of(c, in.pair, k));
-    const LaneBits bit = bit_of_lane[k];
-    bits |= s.gate > 0.0 ? bit << lane_bits::on : 0;
-    asking |= s.may_close ? bit << lane_bits::decides : 0;
-  }
-  return {bits, asking, 0.0};
-}
 }  // namespace
 
 SweepTables tables_of(FaceTiles& t, std::size_t tile, double* on, double step, double noise) {
@@ -339,8 +326,18 @@ EDDA_VECTOR ChunkFound evaluate_plain_damped(const ChunkView& c) {
   return evaluate_lanes<true, Formulas::plain, true>(c);
 }
 
-EDDA_VECTOR ChunkFound look_at(const ChunkView& c) {
-  return look_at_lanes(c);
+EDDA_VECTOR ChunkFound look_at(const ChunkView& given) {
+  const ChunkColumns c = columns_of<Tables::memory>(given);
+  LaneBits bits = 0, asking = 0;
+#pragma omp simd reduction(| : bits, asking)
+  for (std::size_t k = 0; k < lanes; ++k) {
+    const FaceInputs in = inputs_of<false, false>(c, k);
+    const OpenFace s = look_at_open_face(in, geometry_of(c, in.pair, k));
+    const LaneBits bit = bit_of_lane[k];
+    bits |= s.gate > 0.0 ? bit << lane_bits::on : 0;
+    asking |= s.may_close ? bit << lane_bits::decides : 0;
+  }
+  return {bits, asking, 0.0};
 }
 
 EDDA_VECTOR void read_edges(const double* from, const Id* slot_e, const Id* slot_f, Records& e,
@@ -352,10 +349,11 @@ EDDA_VECTOR void read_edges(const double* from, const Id* slot_e, const Id* slot
   read_records(record, slot_f, f);
 }
 
-EDDA_VECTOR void read_masses(const double* of_point, const double* of_edge, const Id* next,
-                             const Id* edge, const Id* facing, Records& e, Records& f) {
-  const auto record = [=](Id v) __attribute__((always_inline)) {
-    return Four{of_point[v], of_edge[v], of_point[next[v]], 0.0};
+EDDA_VECTOR void read_masses(const Masses& masses, const Id* next, const Id* edge, const Id* facing,
+                             Records& e, Records& f) {
+  const auto record = [&](Id v) __attribute__((always_inline)) {
+    const EdgeInverseMass m = inverse_mass_of_edge(masses, v, next[v]);
+    return Four{m.start, m.both, m.end, 0.0};
   };
   read_records(record, edge, e);
   read_records(record, facing, f);

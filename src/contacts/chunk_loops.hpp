@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "blocks/masses.hpp"
 #include "contacts/edge_records.hpp"
 #include "contacts/face_tiles.hpp"
 
@@ -95,10 +96,9 @@ struct ChunkFound {
 /// than one some chunks later: the processor cannot pass on, as one vector of eight, what it has
 /// just stored as two of four.
 void read_edges(const double* from, const Id* slot_e, const Id* slot_f, Records& e, Records& f);
-/// Reads EdgeInverseMass of the edges of a chunk, by their numbers, from Masses::point_inverse and
-/// edge_inverse.
-void read_masses(const double* of_point, const double* of_edge, const Id* next, const Id* edge,
-                 const Id* facing, Records& e, Records& f);
+/// Reads EdgeInverseMass of the edges of a chunk, by their numbers. next: BlockSet::next.
+void read_masses(const Masses& masses, const Id* next, const Id* edge, const Id* facing, Records& e,
+                 Records& f);
 /// Finds out how the edges stand, from their records (ChunkView::e, f).
 void stand_edges(const ChunkView& chunk);
 /// Finds where they overlap, from how they stand.

@@ -4,7 +4,7 @@
 
 #include "base/parallel.hpp"
 #include "contacts/evaluate_faces.hpp"
-#include "contacts/face_step.hpp"
+#include "contacts/face_columns.hpp"
 
 namespace edda {
 
@@ -15,9 +15,7 @@ void correct_last_step(FaceSet& c, const BlockSet& b, const Pose& pose,
   parallel_for(c.size(), [&](std::size_t k) {
     const Face now = face_at(c, b, pose.x, pose.y, k), then = face_at(c, b, pose.x1, pose.y1, k);
     const auto slip_from = [&](const std::vector<double>& x1, const std::vector<double>& y1) {
-      return motion_of(now, coordinates_at(c, pose.x, pose.y, k), coordinates_at(c, x1, y1, k),
-                       length_ratio(c, k))
-          .slip;
+      return slip_of(c, now, face_points(c, pose.x, pose.y, k), face_points(c, x1, y1, k), k);
     };
     const FaceEnds was = slip_from(old_x1, old_y1), is = slip_from(pose.x1, pose.y1);
     // Ends that stick keep their force; ends that slide slip at the new velocity.
@@ -33,10 +31,7 @@ void correct_last_step(FaceSet& c, const BlockSet& b, const Pose& pose,
 CornerForces recompute_shear(FaceSet& c, FaceFields<double>& m, const Face& face,
                              const FacePoints& at, const FacePoints& then, double alpha,
                              std::size_t k) {
-  const auto corners = [&](const FacePoints& p) {
-    return coordinates_of(p, c.inverse_e[k], c.inverse_f[k]);
-  };
-  const FaceEnds here = motion_of(face, corners(at), corners(then), length_ratio(c, k)).slip;
+  const FaceEnds here = slip_of(c, face, at, then, k);
   const double spring = m.spring, cohesion = 0.5 * c.cohesion[k] * face.cohesive;
   const auto again = [&](double normal, double trial, double slipped, double& force, double& slip) {
     const double limit = std::max(cohesion + c.friction[k] * normal, 0.0);

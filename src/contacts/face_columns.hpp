@@ -6,6 +6,15 @@
 
 namespace edda {
 
+/// EndMotion::slip of face k from the corners `then` to `at`, at which it is this element, m.
+inline FaceEnds slip_of(const FaceSet& c, const Face& face, const FacePoints& at,
+                        const FacePoints& then, std::size_t k) {
+  const auto corners = [&](const FacePoints& p) {
+    return coordinates_of(p, c.inverse_e[k], c.inverse_f[k]);
+  };
+  return motion_of(face, corners(at), corners(then), length_ratio(c, k)).slip;
+}
+
 /// What a loop over the faces of a chunk reads and writes. x, y: positions at n; x1, y1: at n - 1.
 struct FaceView : FaceProperties<const double*> {
   const Id *edge, *edge_end, *facing, *facing_end;

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "contacts/evaluate_faces.hpp"
-#include "contacts/face_step.hpp"
+#include "contacts/face_columns.hpp"
 
 namespace edda {
 namespace {
@@ -53,9 +53,8 @@ double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::s
   const Face face = face_at(c, b, pose.x, pose.y, k);
   double shear = 0.0;
   if (slips) {
-    const FaceEnds slip = motion_of(face, coordinates_at(c, pose.x, pose.y, k),
-                                    coordinates_at(c, pose.x1, pose.y1, k), length_ratio(c, k))
-                              .slip;
+    const FaceEnds slip =
+        slip_of(c, face, face_points(c, pose.x, pose.y, k), face_points(c, pose.x1, pose.y1, k), k);
     shear =
         m.spring[k] * (m.slip_a[k] * (m.slip_a[k] + slip.a) + m.slip_b[k] * (m.slip_b[k] + slip.b));
   }

@@ -8,7 +8,7 @@
 
 #include "base/parallel.hpp"
 #include "contacts/evaluate_faces.hpp"
-#include "contacts/face_step.hpp"
+#include "contacts/face_columns.hpp"
 
 namespace edda {
 namespace {
@@ -112,9 +112,8 @@ void lift(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
   const FaceMemory& m = c.before;
   if (!(c.friction_work[k] > 0.0)) return;
   const Face closed = face_at(c, b, pose.x, pose.y, k);
-  const FaceEnds moved = motion_of(closed, coordinates_at(c, pose.x, pose.y, k),
-                                   coordinates_at(c, pose.x1, pose.y1, k), length_ratio(c, k))
-                             .slip;
+  const FaceEnds moved =
+      slip_of(c, closed, face_points(c, pose.x, pose.y, k), face_points(c, pose.x1, pose.y1, k), k);
   const Sliding in_place = sliding_under(c, moved, closed.normal, k);
   if (!(in_place.friction > 0.0)) return;
   const Law& law = laws.rows[c.law[k]];
@@ -156,9 +155,8 @@ void lift(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
 void take_slip_while_open(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
                           std::size_t k) {
   const Face face = face_at(c, b, pose.x, pose.y, k);
-  const EdgeCoordinates now = coordinates_at(c, pose.x, pose.y, k),
-                        then = coordinates_at(c, pose.x1, pose.y1, k);
-  const FaceEnds slip = motion_of(face, now, then, length_ratio(c, k)).slip;
+  const FaceEnds slip =
+      slip_of(c, face, face_points(c, pose.x, pose.y, k), face_points(c, pose.x1, pose.y1, k), k);
   take_slip(c, laws, k, 0.5 * std::abs(slip.a + slip.b));
   const double gap = -std::max(face.closure.a, face.closure.b);
   const double rise = std::clamp(gap, 0.0, std::max(c.dilation_left[k], 0.0));

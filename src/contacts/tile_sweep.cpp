@@ -110,8 +110,7 @@ void read_masses(const FaceTiles& t, const SweepScene& scene, std::size_t q, Rec
     edge[lane] = scene.faces.edge[k];
     facing[lane] = scene.faces.facing[k];
   }
-  read_masses(scene.masses.point_inverse.data(), scene.masses.edge_inverse.data(),
-              scene.blocks.next.data(), edge, facing, e, f);
+  read_masses(scene.masses, scene.blocks.next.data(), edge, facing, e, f);
 }
 
 /// Evaluates a chunk whose edges stand as they are known to, and stores its forces. Returns what it

@@ -106,7 +106,7 @@ TEST(LeaningFace, FollowsOneEdgeAfterTheOtherAsCornersPass) {
 }
 
 /// The block of the corner moves along the floor: the slip is that distance over the cosine of half
-/// the angle, times the same on which the force acts.
+/// the angle.
 TEST(LeaningFace, SlipsAlongTheFloor) {
   for (const double degrees : {2.0, 30.0, 58.0}) {
     const double angle = degrees * std::numbers::pi / 180.0, way = 1e-6;
