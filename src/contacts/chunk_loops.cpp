@@ -171,10 +171,9 @@ EDDA_INLINE void write_forces(Records& on_e, Records& on_f, const CornerForces& 
 /// As bond_fails(): beyond its tensile strength, apart, or beyond its shear strength.
 EDDA_INLINE bool bond_fails_in(const ChunkColumns& c, const Face& face, const FaceStep& s,
                                std::size_t k) {
-  const double least = smaller(face.closure.a, face.closure.b),
-               largest = larger(face.closure.a, face.closure.b);
+  const double largest = larger(face.closure.a, face.closure.b);
   const bool bonded = c.bonded[k] > 0.0, carries_tension = c.carries_tension[k] > 0.0;
-  const bool torn = carries_tension & (-c.stiffness[k] * least > c.tension[k]);
+  const bool torn = carries_tension & (outer_tension(face.normal) > c.tension[k] * face.length);
   const bool apart = bonded & !carries_tension & (largest < -c.touching[k]);
   const double rounding = 2.0 * s.spring * c.noise;
   const bool sheared = bonded & (std::abs(s.shear.a + s.shear.b) >

@@ -62,6 +62,13 @@ struct Face {
   CornerForces force;       ///< forces of the normal pressure, couples included
 };
 
+/// Tensile stress of the outer fibre on the length L of a face, N, with the normal force and the
+/// moment of both ends: Navier's formula, -N/L + 6 |M|/L^2, with M = (Na - Nb) L/2. So a bond bends
+/// as far as it would with stresses that are linear along it, however the element takes them.
+EDDA_INLINE double outer_tension(FaceEnds normal) {
+  return 2.0 * larger(normal.a, normal.b) - 4.0 * smaller(normal.a, normal.b);
+}
+
 /// Adds the force with the components t and n at the fraction eta of f, and its reaction at the
 /// fraction xi of e.
 EDDA_INLINE void add_at(FrameForces& on, double xi, double eta, double t, double n) {
@@ -287,7 +294,8 @@ EDDA_INLINE Face face_between(const EdgeGeometry& o, const OverlapEnds& v, const
   face.xi = {v.sa * o.per_e, v.sb * o.per_e};
   face.eta = {(v.sa - o.r2) * o.per_f, (v.sb - o.r2) * o.per_f};
   face.drawn = {o.closure_at_0 + o.closure_slope * v.sa, o.closure_at_0 + o.closure_slope * v.sb};
-  face.closure = {face.drawn.a + pair.offset.a, face.drawn.b + pair.offset.b};
+  const double rounding = least_closed * std::abs(o.closure_slope) * pair.passing;
+  face.closure = {face.drawn.a + pair.offset.a - rounding, face.drawn.b + pair.offset.b - rounding};
   const DepthGate w = depth_gate<use>(face.drawn, face.length, pair);
   const EnergySlopes u = store_energy<use>(face, o, v, pair, w, angle);
   press<use>(face, o, v, u);

@@ -22,6 +22,11 @@ void glue_for_now(FaceSet& c, std::size_t k) {
   if (lies_flush_as_drawn(drawn, c.now.length[k])) c.carries_tension[k] = 1.0;
 }
 
+/// Whether the outer fibre of face k is in more tension than its tensile strength.
+bool is_torn(const FaceSet& c, const FaceFields<double>& now, std::size_t k) {
+  return outer_tension({now.normal_a, now.normal_b}) > c.tension[k] * now.length;
+}
+
 }  // namespace
 
 bool touch_as_drawn(const FaceSet& c, const BlockSet& b, const Pose& pose, const Face& face,
@@ -100,9 +105,8 @@ void bond_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable&
 
 bool bond_fails(const FaceSet& c, const BlockSet& b, const FaceFields<double>& now, std::size_t k) {
   if (c.glued[k] > 0.0) return false;
-  const double least = std::min(now.closure_a, now.closure_b);
   const double largest = std::max(now.closure_a, now.closure_b);
-  if (c.carries_tension[k] > 0.0 && -c.stiffness[k] * least > c.tension[k]) return true;
+  if (c.carries_tension[k] > 0.0 && is_torn(c, now, k)) return true;
   if (c.bonded[k] == 0.0) return false;
   if (c.carries_tension[k] == 0.0 && largest < -touching_gap * smaller_size(c, b, k)) return true;
   const double shear = std::abs(now.shear_a + now.shear_b);
@@ -117,8 +121,7 @@ void break_bond(FaceSet& c, const LawTable& laws, const FaceFields<double>& now,
   if (was_bonded) set_residual_strength(c, laws, k);
   c.mark_failure(k, was_bonded ? bond_breaks : 1.0);
   // The face releases altogether if its tension exceeds the residual tensile strength, too.
-  const double least = std::min(now.closure_a, now.closure_b);
-  if (-c.stiffness[k] * least > c.tension[k]) c.carries_tension[k] = 0.0;
+  if (is_torn(c, now, k)) c.carries_tension[k] = 0.0;
   c.opened[k] = 1.0;
 }
 

@@ -36,9 +36,9 @@ inline bool lies_flush_as_drawn(FaceEnds drawn, double length) {
 void set_residual_strength(FaceSet& faces, const LawTable& laws, std::size_t k);
 
 /// Whether face k fails in this state. A bond fails where its shear force exceeds c L +
-/// tan(phi) N; in tension where -k min(da, db) > sigma_t; without tensile strength where the face
-/// gapes all along by more than 1e-6 of the smaller block's size. A face that carries tension
-/// without a bond fails in tension alone.
+/// tan(phi) N; in tension where outer_tension() exceeds sigma_t L; without tensile strength where
+/// the face gapes all along by more than 1e-6 of the smaller block's size. A face that carries
+/// tension without a bond fails in tension alone.
 bool bond_fails(const FaceSet& faces, const BlockSet& blocks, const FaceFields<double>& now,
                 std::size_t k);
 

@@ -33,6 +33,10 @@ struct FacePair {
 /// carry 1.5e-10 of what the shorter edge could, and mostly nothing, since the aspect gate allows
 /// it closures of twice its length at most.
 inline constexpr double least_overlap = 1e-9;
+/// Edges that gape from a corner on are closed where what is closed of them would be longer than
+/// this part of FacePair::passing. Blocks that share a corner, as at every crossing of joints,
+/// touch there by rounding alone, and would open and close in every step.
+inline constexpr double least_closed = 1e-11;
 /// Whether the overlap between these coordinates along t exists.
 EDDA_INLINE bool overlaps(double from, double to, const FacePair& pair) {
   return to - from > least_overlap * pair.passing;

@@ -49,11 +49,12 @@ double shaking_time(const Model& model, const Fos& fos) {
 
 CollapseCriterion criterion_of(const Simulation& sim, const Model& model, const Fos& fos) {
   CollapseCriterion c = collapse_criterion(sim, fos.varied, fos.target);
-  const double usual = c.displacement;
+  constexpr double shaken = 0.01;  // of the size of a block, which an earthquake may leave
+  const bool shakes = fos.varied == Varied::shaking;
   c.shaking = shaking_time(model, fos);
-  if (fos.fails.displacement || fos.varied == Varied::shaking) c.far = 1.0;
-  c.displacement = fos.fails.displacement.value_or(usual);
-  c.velocity = fos.fails.velocity.value_or(c.velocity * c.displacement / usual);
+  if (fos.fails.displacement || shakes) c.far = 1.0;
+  c.displacement = fos.fails.displacement.value_or(shakes ? shaken * c.size : c.displacement);
+  c.velocity = fos.fails.velocity.value_or(c.velocity);
   return c;
 }
 

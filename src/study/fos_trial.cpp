@@ -27,18 +27,23 @@ class Run {
   Trial go() {
     if (plan_.criterion.shaking > 0.0 && to_.value != 0.0) {
       shake();
-      if (!over_) hold();
+      if (!over_) hold(to_.strength);
       return trial_;
     }
-    const double from = value_now();
+    double from = value_now();
+    // What becomes less does so while joints are as strong as before: they must not break
+    // meanwhile.
+    const std::vector<double> strength = sim_.motion.laws.divided_by;
+    if (to_.value < from && strength != to_.strength) {
+      if (!reaches(to_.value, strength)) return trial_;
+      from = to_.value;
+      search_ = FailureSearch(sim_, plan_.criterion);
+    }
     const int parts = parts_of_change(sim_.scene->model, plan_.varied, plan_.target, from,
                                       to_.value, plan_.criterion);
     for (int part = 1; part <= parts; ++part) {
       if (part > 1) search_ = FailureSearch(sim_, plan_.criterion);
-      over_ = false;
-      vary(from + (to_.value - from) * part / parts);
-      hold();
-      if (trial_.end != TrialEnd::holds) break;
+      if (!reaches(from + (to_.value - from) * part / parts, to_.strength)) break;
     }
     return trial_;
   }
@@ -107,17 +112,25 @@ class Run {
                  {}});
   }
 
+  /// Whether the model holds at this value of what is varied, and at this strength.
+  bool reaches(double value, const std::vector<double>& strength) {
+    over_ = false;
+    vary(value);
+    hold(strength);
+    return trial_.end == TrialEnd::holds;
+  }
+
   /// Applies what has been changed gradually, and follows the model to a verdict.
-  void hold() {
-    settle();
+  void hold(const std::vector<double>& strength) {
+    settle(strength);
     follow();
   }
 
-  void settle() {
+  void settle(const std::vector<double>& strength) {
     scale_masses(sim_, StageMasses::scaled);
     change_damping(sim_, plan_.quiet, sim_.motion.dynamic);
     sim_.relaxation.seeks_equilibrium = true;
-    begin_gradually(sim_, to_.strength, true);
+    begin_gradually(sim_, strength, true);
     search_.begin(sim_);
   }
 

@@ -24,6 +24,7 @@ using testing::coarse;
 using testing::exact;
 using testing::found;
 using testing::model_of;
+using testing::number;
 using testing::on_ramp;
 using testing::ramp;
 using testing::rough;
@@ -226,6 +227,23 @@ TEST(Fos, BelowOne) {
 
 /// Where excluded joints are too weak no factor is found; without friction, or without contact, no
 /// equilibrium is found.
+/// A block that hangs on its bond, too heavy for it: what breaks under the given weight may hold a
+/// smaller one.
+TEST(Fos, AWeightThatABrittleBondHolds) {
+  for (const double part : {0.8, 0.2}) {
+    const double weight = 2500.0 * 9.81;
+    const FosResult r = found(
+        "[materials.rock]\ndensity = 2500\nyoung = 2e9\npoisson = 0.2\n[joints.j]\nfriction_angle "
+        "= 30\ncohesion = 1e6\ntensile_strength = " +
+        number(part * weight) +
+        "\n[solver]\nduration = 1\n[[block]]\nfixed = true\npolygon = [[-1, 0], [2, 0], [2, 1], "
+        "[-1, 1]]\n[[block]]\npolygon = [[0, -1], [1, -1], [1, 0], [0, 0]]\n[fos]\nvary = "
+        "'gravity'\n");
+    ASSERT_TRUE(r.factor) << r.message;
+    EXPECT_NEAR(*r.factor / part, 1.0, 0.01);
+  }
+}
+
 TEST(Fos, NothingToBracket) {
   const FosResult below = found(ramp("friction_angle = 20\n", coarse + "exclude = ['j']\n"));
   EXPECT_EQ(below.status, FosStatus::below);

@@ -58,5 +58,27 @@ TEST(Chatter, OrdinaryRunsHaveNone) {
   }
 }
 
+/// Where joints cross, corners of blocks coincide: rounding opens and closes nothing there.
+TEST(Chatter, GroundAtRestOpensAndClosesNothing) {
+  for (const auto& [first, second] : {std::pair{30, 110}, {20, 110}, {55, 80}}) {
+    for (const char* k0 : {"0.5", "1.5"}) {
+      std::string text =
+          "[materials.rock]\ndensity = 2600\nyoung = 20e9\npoisson = 0.25\n[joints.j]\n"
+          "friction_angle = 35\n[domain]\noutline = [[0, 0], [20, 0], [20, 15], [0, 15]]\n"
+          "[[boundary]]\nsides = ['left', 'right', 'bottom']\ntype = 'roller'\n[initial_stress]\n"
+          "surface = 'outline'\nk0 = " +
+          std::string(k0) + "\n[solver]\nduration = 0.02\n";
+      for (const int angle : {first, second}) {
+        text += "[[joint_set]]\njoint = 'j'\nspacing = 3\nangle = " + std::to_string(angle) + "\n";
+      }
+      const Simulation& sim = testing::ran(text).ready.sim;
+      EXPECT_GT(sim.motion.state.steps, 1000U);
+      // Corners drawn in contact settle by up to a millionth of what the stress closes.
+      EXPECT_LT(sim.accounts.open_close.switched, 2 * sim.scene->blocks.size())
+          << first << ", " << second << ", k0 " << k0;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace edda::chatter_test

@@ -28,14 +28,15 @@ FosResult factor_of(const std::string& toml, const std::string& fos = {}) {
 }
 
 /// Compares the factor and its bracket by rigid limit analysis with its formula, and records the
-/// state of its mechanism. A ground motion has no bracket.
+/// state of its mechanism. A ground motion has no bracket. yields: what bonds that yield in
+/// bending, as those of rigid limit analysis, would hold, over what they hold until they break.
 void expect_factor(const FosResult& r, int row, const std::string& label, double exact,
-                   double bound, bool has_bracket = true) {
+                   double bound, bool has_bracket = true, double yields = 1.0) {
   ASSERT_TRUE(r.factor) << label;
   expect_relative({row, label, "factor of safety", ""}, *r.factor, exact, bound);
   ASSERT_EQ(r.rigid.has_value(), has_bracket) << label;
   if (r.rigid) {
-    expect_relative({row, label, "limit of rigid blocks", ""}, r.rigid->most, exact, 1e-3);
+    expect_relative({row, label, "limit of rigid blocks", ""}, r.rigid->most, yields * exact, 1e-3);
     EXPECT_TRUE(r.rigid->below_most) << label;
     EXPECT_LE(r.rigid->least, *r.factor * (1.0 + bound)) << label;
   }
@@ -173,6 +174,30 @@ TEST(FactorOfSafety, JointThatPulls) {
       factor_of(toml, "vary = 'load:push'\nbracket = [1.0, 20.0]\ntolerance = 0.02\n");
   expect_factor(r, 42, "hangs on its joint",
                 (c - 0.5 * weight * std::tan(radians(phi))) / (0.1 * weight), 1e-2);
+}
+
+/// Row 68: a bonded block of 1 x 4, pushed at mid-height, and a bonded block that juts out of a
+/// wall by 1.5 times its height: the bond breaks where -N/L + 6 M/L^2 is the tensile strength.
+TEST(FactorOfSafety, JointThatBends) {
+  const double weight = 4 * 26e3, tension = 3.0 * weight;
+  const std::string bond = "cohesion = '10 MPa'\ntensile_strength = ";
+  for (const std::string& stiffness : {std::string(), std::string("kn = 2e10\nks = 2e10\n")}) {
+    const std::string label = stiffness.empty() ? "penalty springs" : "kn 2e10";
+    std::string post = pushed(4.0, 2.0, 40.0);
+    post.insert(post.find("[solver]"), bond + number(tension) + "\n" + stiffness);
+    const FosResult pushed_over =
+        factor_of(post, "vary = 'load:push'\nbracket = [1.0, 8.0]\ntolerance = 0.01\n");
+    expect_factor(pushed_over, 68, "pushed, " + label,
+                  (tension + weight) / 6.0 / 2.0 / (0.1 * weight), 1e-2, true, 3.0);
+    const std::string bracket =
+        "[materials.rock]\nunit_weight = 26e3\nyoung = 2e9\npoisson = 0.2\n[joints.j]\n"
+        "friction_angle = 40\n" +
+        bond + number(2.0 * 3.0 * 26e3 * 1.5 * 1.5) + "\n" + stiffness +
+        "[solver]\nduration = 1\n[[block]]\nfixed = true\npolygon = " + rectangle(-1, -2, 0, 3) +
+        "\n[[block]]\npolygon = " + rectangle(0, 0, 1.5, 1) + "\n";
+    expect_factor(factor_of(bracket, "bracket = [1.0, 8.0]\ntolerance = 0.01\n"), 68,
+                  "bracket, " + label, 2.0, 1e-2, true, 3.0);
+  }
 }
 
 /// Row 43: the slope of sixteen blocks of Goodman and Bray (1976).

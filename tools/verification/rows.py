@@ -323,4 +323,9 @@ ROWS = (
         "A bar of 4 m x 0.3 m with its lower corner on the floor and its upper one at the wall.",
         "Friction at its limit at both corners, moments about the lower one.",
         "The factor is the middle of a bracket of 0.6 %."),
+    Row(68, "A bonded joint in bending",
+        "A block of 1 x 4 m, bonded to level ground and pushed at mid-height; a block that juts out of a wall, 1.5 m long and 1 m"
+        " high. With penalty springs and with kn of 2e10 Pa/m.",
+        "The bond breaks where the stress of its outer fibre, -N/L + 6 M/L^2, is its tensile strength.",
+        "Rigid limit analysis has the moment t L^2/2 of a bond that yields, three times as much ([limit.md](limit.md))."),
 )
