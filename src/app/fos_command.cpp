@@ -50,8 +50,12 @@ void print_end(const FosResult& r, const std::string& folder) {
   if (!lost.empty()) fmt::print("  {}\n", lost);
   if (r.rigid) fmt::print("  {}\n", r.rigid->text);
   fmt::print(
-      "  a trial fails where a corner will move further than {:.3g} m by the trend of its motion\n",
-      c.displacement);
+      "  a trial fails where a corner will move further than {:.3g} m by the trend of its "
+      "motion{}\n",
+      c.displacement,
+      r.within_limit > c.displacement
+          ? fmt::format(" ({:.3g} m where rigid blocks are in equilibrium)", r.within_limit)
+          : "");
   fmt::print("  {}, {} of wall time; results in {}/ (fos.csv, mechanism.png)\n",
              counted(r.trials.size(), "trial"), duration_text(r.seconds), folder);
 }

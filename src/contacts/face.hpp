@@ -294,8 +294,7 @@ EDDA_INLINE Face face_between(const EdgeGeometry& o, const OverlapEnds& v, const
   face.xi = {v.sa * o.per_e, v.sb * o.per_e};
   face.eta = {(v.sa - o.r2) * o.per_f, (v.sb - o.r2) * o.per_f};
   face.drawn = {o.closure_at_0 + o.closure_slope * v.sa, o.closure_at_0 + o.closure_slope * v.sb};
-  const double rounding = least_closed * std::abs(o.closure_slope) * pair.passing;
-  face.closure = {face.drawn.a + pair.offset.a - rounding, face.drawn.b + pair.offset.b - rounding};
+  face.closure = closed_by(face.drawn, o, pair);
   const DepthGate w = depth_gate<use>(face.drawn, face.length, pair);
   const EnergySlopes u = store_energy<use>(face, o, v, pair, w, angle);
   press<use>(face, o, v, u);

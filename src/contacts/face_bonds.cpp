@@ -133,7 +133,7 @@ void account_failure_energy(FaceSet& c, double lost, std::size_t k) {
 void glue_faces(FaceSet& c) {
   c.gluing = true;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if (meets(c, k) && c.glued[k] == 0.0) glue_for_now(c, k);
+    if (meets_within(c, c.noise, k) && c.glued[k] == 0.0) glue_for_now(c, k);
   }
   mark_bonded_chunks(c);
 }

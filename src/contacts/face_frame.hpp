@@ -33,10 +33,6 @@ struct FacePair {
 /// carry 1.5e-10 of what the shorter edge could, and mostly nothing, since the aspect gate allows
 /// it closures of twice its length at most.
 inline constexpr double least_overlap = 1e-9;
-/// Edges that gape from a corner on are closed where what is closed of them would be longer than
-/// this part of FacePair::passing. Blocks that share a corner, as at every crossing of joints,
-/// touch there by rounding alone, and would open and close in every step.
-inline constexpr double least_closed = 1e-11;
 /// Whether the overlap between these coordinates along t exists.
 EDDA_INLINE bool overlaps(double from, double to, const FacePair& pair) {
   return to - from > least_overlap * pair.passing;
@@ -141,6 +137,16 @@ template <Formulas use>
 EDDA_INLINE bool carries_tension(const FacePair& pair) {
   if constexpr (use != Formulas::all) return false;
   return pair.carries_tension != 0.0;
+}
+
+/// Edges that gape from a corner on are closed where what is closed of them would be longer than
+/// this part of FacePair::passing. Blocks that share a corner, as at every crossing of joints,
+/// touch there by rounding alone, and would open and close in every step.
+inline constexpr double least_closed = 1e-11;
+/// Closures at the ends: the drawn and the locked ones.
+EDDA_INLINE FaceEnds closed_by(FaceEnds drawn, const EdgeGeometry& o, const FacePair& pair) {
+  const double rounding = least_closed * std::abs(o.closure_slope) * pair.passing;
+  return {drawn.a + pair.offset.a - rounding, drawn.b + pair.offset.b - rounding};
 }
 
 /// Closures at the ends that the aspect gate compares with the overlap: the drawn ones and a

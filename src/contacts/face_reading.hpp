@@ -36,10 +36,13 @@ inline double closure_of(const FaceSet& f, std::size_t k) {
   return drawn_closure(f, {f.now.closure_a[k], f.now.closure_b[k]}, k);
 }
 
-/// Whether the face is closed, or its edges touch within rounding.
+/// Whether the face is closed, or its edges touch within this gap, m.
+inline bool meets_within(const FaceSet& f, double gap, std::size_t k) {
+  return is_closed(f, k) || (f.acts[k] > 0.0 && f.now.gate[k] > 0.0 && closure_of(f, k) >= -gap);
+}
+/// The same within rounding, corners that touch as drawn included (closed_by()).
 inline bool meets(const FaceSet& f, std::size_t k) {
-  return is_closed(f, k) ||
-         (f.acts[k] > 0.0 && f.now.gate[k] > 0.0 && closure_of(f, k) >= -f.noise);
+  return meets_within(f, f.noise + 2.0 * least_closed * f.passing[k], k);
 }
 
 /// Inscribed radius of the narrower of the two blocks of face k, m.

@@ -368,7 +368,7 @@ EDDA_INLINE OpenFace look_at_open_face(const FaceInputs& in, const EdgeGeometry&
   OpenFace s;
   const double drawn_a = o.closure_at_0 + o.closure_slope * o.ma,
                drawn_b = o.closure_at_0 + o.closure_slope * o.mb;
-  s.closure = {drawn_a + pair.offset.a, drawn_b + pair.offset.b};
+  s.closure = closed_by({drawn_a, drawn_b}, o, pair);
   const double gate = smooth_step((o.cosine - pair.gate_from) * pair.gate_scale).value;
   s.length = positive_part(o.mb - o.ma);
   const FaceEnds gated = gated_closure(drawn_a, drawn_b, pair);

@@ -13,13 +13,13 @@ namespace {
 constexpr std::uint64_t look_at_every = 32;  // steps
 // Parts of the failure displacement that a vertex must have moved for its trend to count: during a
 // search, and at its end.
-constexpr double visible = 0.3, barely = 0.001;
+constexpr double visible = 0.3, barely = 0.01;
 constexpr double periods_enough = 6.0;  // of the motion, before a trend counts
-// Of the size of a block: the failure displacement (blocks that move less may come to rest where
-// others hold them: steep blocks lean on each other after some hundredths); how far no block moves
-// that deforms, nor one whose support is displaced by a part of a change (parts_of_change()),
-// unless it falls; and the distance within 10 T at the velocity of a failure.
-constexpr double by_motion = 0.1, far_by_forces = 1.0, far_by_supports = 0.25, at_last = 0.01;
+// Of the size of a block: the failure displacement, which is larger where supports carry blocks
+// along; and how far no block moves that deforms, nor one whose support is displaced by a part of a
+// change (parts_of_change()), unless it falls.
+constexpr double by_forces = 0.01, by_supports = 0.03;
+constexpr double far_by_forces = 1.0, far_by_supports = 0.25;
 constexpr double slower = 10.0;
 
 }  // namespace
@@ -47,9 +47,9 @@ CollapseCriterion collapse_criterion(const Simulation& sim, Varied varied, Index
   if (c.acceleration == 0.0) c.acceleration = force > 0.0 ? force / mass : usual_acceleration;
   c.duration = equilibrium_time(c.size, c.acceleration);
   const bool displaced = is_displaced(model, varied, target);
-  c.displacement = by_motion * c.size;
-  c.velocity = at_last * c.size / (slower * c.duration);
-  c.far = (displaced ? far_by_supports : far_by_forces) / by_motion;
+  c.displacement = (displaced ? by_supports : by_forces) * c.size;
+  c.velocity = by_forces * c.size / (slower * c.duration);
+  c.far = displaced ? far_by_supports / by_supports : far_by_forces / by_forces;
   return c;
 }
 

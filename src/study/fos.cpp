@@ -169,7 +169,7 @@ class Search {
   void run(Trying& one, const std::stop_token& stop) const {
     one.made.end = start_.sim;
     const Loading to = loading_of(fos_, model_, start_.given, one.factor);
-    one.made.trial = run_trial(*one.made.end, start_.plan, to,
+    one.made.trial = run_trial(*one.made.end, plan_at(one.factor, fos_, start_), to,
                                [&] { return stopped() || stop.stop_requested(); });
     one.made.trial.factor = one.factor;
   }
@@ -310,9 +310,10 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
   Result<FosStart> made = start_trials(model, fos, options);
   if (!made.ok()) return made.faults();
   FosStart& start = made.value();
-  RigidLimit rigid;
+  const RigidLimit& rigid = start.rigid;
   FosResult r;
   r.criterion = start.plan.criterion;
+  r.within_limit = criterion_at(0.0, fos, r.criterion, start.rigid).displacement;
   r.blocks = start.sim.scene->blocks.size();
   r.warnings = start.warnings;
   if (start.status != FosStatus::found) {
@@ -320,7 +321,6 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
     r.message =
         start.status == FosStatus::interrupted ? "stopped before the first trial" : start.message;
   } else {
-    rigid = rigid_limit(model, fos, r.blocks);
     Search search(model, fos, first_bracket(fos, rigid, start.seen), start, options, r);
     FosBracket bracket = search.go();
     if (const auto below = factor_below(bracket, rigid)) bracket = search.look_below(*below);

@@ -50,7 +50,9 @@ struct FosResult {
   std::optional<double> factor;        ///< mid-point of the bracket
   std::optional<double> holds, fails;  ///< ends of the bracket
   CollapseCriterion criterion;
-  std::vector<Trial> trials;           ///< in the order in which one thread makes them
+  double within_limit = 0.0;  ///< m: failure displacement at factors at which rigid blocks are in
+                              ///< equilibrium
+  std::vector<Trial> trials;  ///< in the order in which one thread makes them
   std::optional<Mechanism> mechanism;  ///< at the lowest factor that failed
   std::optional<Simulation> failed;    ///< final state at that factor; displacements count from the
                                        ///< start of the trial

@@ -7,15 +7,19 @@
 namespace edda {
 namespace {
 
-void add_criterion(Json& j, const CollapseCriterion& c) {
+void add_criterion(Json& j, const FosResult& r) {
+  const CollapseCriterion& c = r.criterion;
   j.key("criterion").open_object();
   j.pair("fails_displacement", c.displacement).pair("fails_velocity", c.velocity);
+  j.pair("fails_displacement_within_rigid_limit", r.within_limit);
   j.pair("block_size", c.size).pair("acceleration", c.acceleration);
   j.pair("trial", c.duration).pair("shaking", c.shaking);
-  j.pair("text",
-         "a trial fails where a corner will move further than fails_displacement by the trend of "
-         "its motion; it holds where no block would move further than a ten-thousandth of "
-         "block_size within the time trial");
+  j.pair(
+      "text",
+      "a trial fails where a corner will move further than fails_displacement by the trend of "
+      "its motion (fails_displacement_within_rigid_limit at factors at which rigid blocks are in "
+      "equilibrium); it holds where no block would move further than a ten-thousandth of "
+      "block_size within the time trial");
   j.close();
 }
 
@@ -56,7 +60,7 @@ std::string fos_summary(const Model& model, const FosResult& r, int threads) {
   j.key("exclude").open_list();
   for (const std::string& name : fos.exclude) j.value(name);
   j.close();
-  add_criterion(j, r.criterion);
+  add_criterion(j, r);
   if (r.rigid) {
     j.key("rigid_limits").open_object();
     j.pair("least", r.rigid->least).pair("most", r.rigid->most).pair("text", r.rigid->text);

@@ -16,6 +16,19 @@ RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks) {
   return std::move(found.value());
 }
 
+CollapseCriterion criterion_at(double factor, const Fos& fos, const CollapseCriterion& usual,
+                               const RigidLimit& rigid) {
+  const bool in_equilibrium =
+      rigid && (rigid->largest.status == LimitEnd::no_limit ||
+                (rigid->largest.status == LimitEnd::found && factor <= rigid->largest.lower));
+  CollapseCriterion c = usual;
+  if (!in_equilibrium || fos.fails.displacement) return c;
+  constexpr double wider = 10.0;
+  c.displacement *= wider;
+  c.far /= wider;
+  return c;
+}
+
 FosBracket first_bracket(const Fos& fos, const RigidLimit& rigid, const std::vector<Trial>& seen) {
   const double reach = std::exp2(FosBracket::widest - 1);
   const Vec2 given = fos.bracket;

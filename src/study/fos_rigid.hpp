@@ -17,6 +17,13 @@ using RigidLimit = std::optional<LimitResult>;
 /// The limits of rigid blocks; nothing where there is no such analysis.
 RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks);
 
+/// The criterion of the trial of a factor. Blocks that have an equilibrium as rigid ones may move
+/// ten times as far before they find it: steep blocks lean on each other after some hundredths of
+/// their size. Where rigid blocks have none, what stops them lies elsewhere, such as the ground in
+/// front of a slope.
+CollapseCriterion criterion_at(double factor, const Fos& fos, const CollapseCriterion& usual,
+                               const RigidLimit& rigid);
+
 /// A bracket around a limit.
 inline Vec2 around(double limit) {
   return {0.5 * limit, 2.0 * limit};

@@ -49,12 +49,11 @@ double shaking_time(const Model& model, const Fos& fos) {
 
 CollapseCriterion criterion_of(const Simulation& sim, const Model& model, const Fos& fos) {
   CollapseCriterion c = collapse_criterion(sim, fos.varied, fos.target);
-  constexpr double shaken = 0.01;  // of the size of a block, which an earthquake may leave
-  const bool shakes = fos.varied == Varied::shaking;
+  const double usual = c.displacement;
   c.shaking = shaking_time(model, fos);
-  if (fos.fails.displacement || shakes) c.far = 1.0;
-  c.displacement = fos.fails.displacement.value_or(shakes ? shaken * c.size : c.displacement);
-  c.velocity = fos.fails.velocity.value_or(c.velocity);
+  if (fos.fails.displacement || fos.varied == Varied::shaking) c.far = 1.0;
+  c.displacement = fos.fails.displacement.value_or(usual);
+  c.velocity = fos.fails.velocity.value_or(c.velocity * c.displacement / usual);
   return c;
 }
 
@@ -181,7 +180,7 @@ Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& opti
   const Result<Outcome> outcome = run_model(prepared.value(), how);
   if (!outcome.ok()) return outcome.faults();
   const Status status = outcome.value().status;
-  Staged made{{std::move(sim), {}, {}, {}, {}, {}, {}, {}}, true, {}, 0};
+  Staged made{{std::move(sim), {}, {}, {}, {}, {}, {}, {}, {}}, true, {}, 0};
   if (ended) made.stage = *ended + (status == Status::failed ? 1 : 0);  // during the next stage
   FosStart& s = made.start;
   made.in_equilibrium = status != Status::collapsed && status != Status::failed;
@@ -249,6 +248,12 @@ Loading loading_of(const Fos& fos, const Model& model, const Loading& given, dou
   return to;
 }
 
+TrialPlan plan_at(double factor, const Fos& fos, const FosStart& start) {
+  TrialPlan plan = start.plan;
+  plan.criterion = criterion_at(factor, fos, plan.criterion, start.rigid);
+  return plan;
+}
+
 Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptions& options) {
   if (auto fault = refused(model, fos)) return *fault;
   Result<FosStart> made = at_rest(model, fos, options);
@@ -257,7 +262,9 @@ Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptio
   if (s.status != FosStatus::found) return made;
   const double given = s.given.value;
   Simulation as_given = s.sim;
-  Trial trial = run_trial(as_given, s.plan, s.given, [&] { return stopped(options); });
+  s.rigid = rigid_limit(model, fos, s.sim.scene->blocks.size());
+  Trial trial =
+      run_trial(as_given, plan_at(given, fos, s), s.given, [&] { return stopped(options); });
   trial.factor = given;
   if (trial.end == TrialEnd::stopped) {
     s.status = FosStatus::interrupted;

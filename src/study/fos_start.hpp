@@ -3,6 +3,7 @@
 
 #include "run/run_model.hpp"
 #include "study/fos.hpp"
+#include "study/fos_rigid.hpp"
 
 namespace edda {
 
@@ -11,6 +12,7 @@ struct FosStart {
   Simulation sim;
   Loading given;  ///< loading of the model as given (without ground motion)
   TrialPlan plan;
+  RigidLimit rigid;
   std::vector<Trial> seen;              ///< the trial of the factor 1, where one was made
   FosStatus status = FosStatus::found;  ///< otherwise unstable or interrupted, with a message
   std::string message;
@@ -19,8 +21,9 @@ struct FosStart {
   std::vector<std::string> warnings;
 };
 
-/// Loading of a trial of this factor.
+/// Loading of a trial of this factor, and how it is made.
 Loading loading_of(const Fos& fos, const Model& model, const Loading& given, double factor);
+TrialPlan plan_at(double factor, const Fos& fos, const FosStart& start);
 
 /// Brings the model to equilibrium. With stages: runs them to the end of the one named, and with a
 /// thousand times the strength of the joints where they do not reach equilibrium otherwise. Without

@@ -71,5 +71,28 @@ TEST(OpenFace, LooksSayWhatTheEvaluationSays) {
   EXPECT_GT(on, 5000);
 }
 
+/// Two edges that share a corner and gape from there on, and two that lie along each other.
+TEST(OpenFace, CornersThatCoincideTouchByNoRounding) {
+  for (const double degrees : {0.0, 5.0, 45.0, 80.0}) {
+    const double tilt = degrees * std::numbers::pi / 180.0, gapes = std::sin(tilt);
+    for (const double depth : {-1e-15, 0.0, 1e-15, 1e-13, 1e-10}) {
+      FacePair pair;
+      pair.stiffness = 1e9;
+      pair.inverse_e = pair.inverse_f = 1.0;
+      pair.gate_from = std::cos(85.0 * std::numbers::pi / 180.0);
+      pair.gate_scale = 1.0 / (0.5 - pair.gate_from);
+      pair.passing = 0.15;
+      for (Vec2* turn : {&pair.turn_p1, &pair.turn_p2, &pair.turn_q1, &pair.turn_q2})
+        *turn = {0, 1};
+      const Vec2 q2{0.0, depth};
+      const FacePoints at{{0.0, 0.0}, {1.0, 0.0}, q2 + Vec2{std::cos(tilt), -gapes}, q2};
+      const Face face = face_between(at, pair);
+      const bool closed = depth > (degrees == 0.0 ? 0.0 : 1e-12);
+      EXPECT_EQ(std::max(face.closure.a, face.closure.b) > 0.0, closed) << degrees << ' ' << depth;
+      EXPECT_EQ(face.energy > 0.0, closed) << degrees << ' ' << depth;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace edda::open_face_test

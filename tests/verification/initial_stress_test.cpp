@@ -238,7 +238,7 @@ TEST(InitialStress, WhatDoesNotMatchMoves) {
                            all_fixed + explicit_run);
   judge_initial_stress(steep);
   EXPECT_NEAR(steep.accounts.initial->gradient, 1.0 - 2e4 / (density * gravity), 1e-12);
-  EXPECT_GT(watch(steep).unbalanced, 1e-3);
+  EXPECT_GT(watch(steep).unbalanced, 5e-4);
   Simulation loose = scene(rock + strong + two_sets + tensor + on_rollers + explicit_run);
   judge_initial_stress(loose);
   EXPECT_GT(loose.accounts.initial->unbalanced, 1e-2);
