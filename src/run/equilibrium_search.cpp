@@ -50,8 +50,26 @@ void begin_window(EquilibriumSearch& s, const Simulation& sim) {
   }
 }
 
-/// At the end of a window: finds the blocks that continue to move.
-void find_loose_blocks(EquilibriumSearch& s, Simulation& sim) {
+/// Whether the block has moved by more than its own size.
+bool is_far_away(const Simulation& sim, std::size_t i) {
+  return norm(displacement_of(sim.motion.state, i, centroid_weights)) >= size_of(sim, i);
+}
+
+/// Blocks that fall, and have done so by more than their size, have come loose, wherever they come
+/// to lie.
+void find_fallen_blocks(Simulation& sim, const Stage& stage) {
+  if (stage.falling == FallingBlocks::wait) return;
+  const std::vector<std::uint8_t> falls = falling_blocks(sim);
+  for (std::size_t i = 0; i < falls.size(); ++i) {
+    if (falls[i] == 0 || !is_far_away(sim, i)) continue;
+    sim.relaxation.loose.resize(falls.size(), 0);
+    sim.relaxation.loose[i] = 1;
+  }
+}
+
+/// At the end of a window: finds the blocks that continue to move. What has come loose and moved far
+/// remains loose.
+void find_loose_blocks(EquilibriumSearch& s, Simulation& sim, const Stage& stage) {
   constexpr double lasting = 0.5;  // a block that reaches equilibrium has moved far less than that
   const double like_before = s.pull_before > 0.0 ? s.pull / s.pull_before : 1.0;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
@@ -68,10 +86,11 @@ void find_loose_blocks(EquilibriumSearch& s, Simulation& sim) {
         goes ? static_cast<std::uint8_t>(std::min<int>(s.windows_moving[i] + 1, windows)) : 0;
     s.moved_x[i] = now.x;
     s.moved_y[i] = now.y;
+    const bool far_away = stage.falling != FallingBlocks::wait && is_far_away(sim, i);
     if (s.windows_moving[i] >= windows) {
       sim.relaxation.loose.resize(sim.scene->blocks.size(), 0);
       sim.relaxation.loose[i] = 1;
-    } else if (!sim.relaxation.loose.empty() && s.windows_moving[i] == 0) {
+    } else if (!sim.relaxation.loose.empty() && s.windows_moving[i] == 0 && !far_away) {
       sim.relaxation.loose[i] = 0;
     }
   }
@@ -109,8 +128,7 @@ bool all_loose(const Simulation& sim) {
   if (sim.relaxation.loose.empty()) return false;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
     if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
-    const Vec2 gone = displacement_of(sim.motion.state, i, centroid_weights);
-    if (sim.relaxation.loose[i] == 0 || norm(gone) < size_of(sim, i)) return false;
+    if (sim.relaxation.loose[i] == 0 || !is_far_away(sim, i)) return false;
   }
   return true;
 }
@@ -140,13 +158,14 @@ double equilibrium_time(double size, double acceleration) {
 }
 
 Equilibrium look_for_equilibrium(EquilibriumSearch& s, Simulation& sim, const Stage& stage) {
+  if (sim.motion.state.steps % look_from_afar == 0) find_fallen_blocks(sim, stage);
   if (!gradual_change_complete(sim)) {
     s.window_began = sim.motion.state.steps;
     s.window = 0;
     return Equilibrium::not_yet;
   }
   if (sim.motion.state.steps >= s.window_began + s.window) {
-    find_loose_blocks(s, sim);
+    find_loose_blocks(s, sim, stage);
     begin_window(s, sim);
     if (all_loose(sim)) return Equilibrium::never;
   }
