@@ -67,8 +67,8 @@ void find_fallen_blocks(Simulation& sim, const Stage& stage) {
   }
 }
 
-/// At the end of a window: finds the blocks that continue to move. What has come loose and moved far
-/// remains loose.
+/// At the end of a window: finds the blocks that continue to move. What has come loose and moved
+/// far remains loose.
 void find_loose_blocks(EquilibriumSearch& s, Simulation& sim, const Stage& stage) {
   constexpr double lasting = 0.5;  // a block that reaches equilibrium has moved far less than that
   const double like_before = s.pull_before > 0.0 ? s.pull / s.pull_before : 1.0;

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 
+#include "observe/balance.hpp"
 #include "results/machine.hpp"
 #include "run/wall_clock.hpp"
 #include "step/labels.hpp"
@@ -271,35 +272,72 @@ Simulation at_start(const Simulation& rest, const Simulation& later) {
   return start;
 }
 
+/// Whether the blocks that count stand as drawn, to which rigid limits refer.
+bool stands_as_drawn(const Simulation& sim, double size) {
+  constexpr double near = 0.01;  // of the size of a block
+  const BlockSet& b = sim.scene->blocks;
+  const std::vector<std::uint8_t> small = negligible_blocks(sim);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (!is_free(b, sim.motion.state, i) || small[i] != 0) continue;
+    const Vec2 drawn{b.centroid_x[i], b.centroid_y[i]};
+    if (norm(centroid(sim.motion.state.x, sim.motion.state.y, i) - drawn) > near * size)
+      return false;
+  }
+  return true;
+}
+
+/// Where a factor beyond the limit of rigid blocks holds, the factor is that limit: a sharp tip or
+/// a small ledge stands in the way of what moves and bears whatever comes upon it, or what moves
+/// has come loose before and does not count in the trials (lost).
+void take_rigid_limit(const Fos& fos, LimitResult& limit, bool lost, FosResult& r) {
+  const double held = *r.holds;
+  const auto last = std::find_if(r.trials.begin(), r.trials.end(),
+                                 [&](const Trial& trial) { return trial.factor == held; });
+  r.rigid->text +=
+      fmt::format("; blocks that deform hold up to {:.4g}, after they have moved by {:.3g} m: {}",
+                  held, last == r.trials.end() ? 0.0 : last->displacement,
+                  lost ? "those that have come loose before do not count"
+                       : "a sharp tip or a ledge stands in their way (docs/limit.md)");
+  r.warnings.push_back(r.rigid->text);
+  r.rigid->below_most = true;
+  r.status = FosStatus::found;
+  r.holds = limit.largest.lower;
+  r.fails = limit.largest.upper;
+  r.factor = 0.5 * (*r.holds + *r.fails);
+  r.message =
+      fmt::format("{} {:.4g}, beyond which rigid blocks have no equilibrium",
+                  fos.varied == Varied::strength ? "factor of safety" : "factor", *r.factor);
+  r.mechanism = std::move(limit.mechanism);
+  r.failed = std::move(limit.moved);
+}
+
 /// Compares the factor, or the highest one that holds where none fails, with the limits of rigid
-/// blocks.
-void compare_with_rigid(const Model& model, const Fos& fos, const RigidLimit& found, FosResult& r) {
+/// blocks. Returns whether it is beyond them.
+bool compare_with_rigid(const Model& model, const Fos& fos, const RigidLimit& found, FosResult& r) {
   const std::optional<double> factor = r.status == FosStatus::above ? r.holds : r.factor;
-  if (!factor || !found || found->largest.status != LimitEnd::found) return;
+  if (!factor || !found || found->largest.status != LimitEnd::found) return false;
   const LimitResult& limit = *found;
   RigidBracket rigid;
   rigid.most = limit.largest.upper;
   rigid.least = least_limit(limit);
   rigid.slack = 0.01;  // joints and blocks deform before they fail
   rigid.below_most = limit.of_pebbles || r.holds.value_or(0.0) <= (1.0 + rigid.slack) * rigid.most;
-  if (!r.factor && rigid.below_most) return;  // the highest factor tried is no limit
+  if (!r.factor && rigid.below_most) return false;  // the highest factor tried is no limit
   const double near = fos.tolerance + 0.02;
   const bool lower = *factor < (1.0 - near) * rigid.least;
   const bool within = *factor < (1.0 - near) * rigid.most;
   const bool bolted = !model.bolts.empty() || !model.bolt_patterns.empty();
   rigid.text = fmt::format(
       "rigid limit analysis: {}; {}", limit.message,
-      limit.of_pebbles ? "its mechanism moves pebbles alone, which do not count here"
-      : !rigid.below_most
-          ? "NO EQUILIBRIUM OF RIGID BLOCKS HAS SUCH A FACTOR: small ledges hold "
-            "the blocks as they deform; merge slivers ([quality] min_edge) or trust the lower value"
-      : lower && bolted ? "the factor is lower, since bolts count there with all their capacity, "
-                          "stretched or not (docs/limit.md)"
-      : lower           ? "the factor is lower than theirs (docs/limit.md)"
-      : within          ? "the factor lies between theirs"
-                        : "the factor agrees with theirs");
-  if (!rigid.below_most) r.warnings.push_back(rigid.text);
+      limit.of_pebbles    ? "its mechanism moves pebbles alone, which do not count here"
+      : !rigid.below_most ? "no equilibrium of rigid blocks has a higher factor"
+      : lower && bolted   ? "the factor is lower, since bolts count there with all their capacity, "
+                            "stretched or not (docs/limit.md)"
+      : lower             ? "the factor is lower than theirs (docs/limit.md)"
+      : within            ? "the factor lies between theirs"
+                          : "the factor agrees with theirs");
   r.rigid = std::move(rigid);
+  return !r.rigid->below_most;
 }
 
 }  // namespace
@@ -339,7 +377,14 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
     if (!trial.reason.starts_with("diverged")) continue;
     r.warnings.push_back(fmt::format("the trial of {:.6g} {}", trial.factor, trial.reason));
   }
-  compare_with_rigid(model, fos, rigid, r);
+  if (compare_with_rigid(model, fos, rigid, r)) {
+    if (stands_as_drawn(start.sim, start.plan.criterion.size)) {
+      take_rigid_limit(fos, *start.rigid, !lost_block_ids(start.sim).empty(), r);
+    } else {
+      r.warnings.push_back(r.rigid->text +
+                           "; these refer to the blocks as drawn, and stages have moved them");
+    }
+  }
   r.seconds = since(began);
   return r;
 }

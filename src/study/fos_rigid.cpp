@@ -11,9 +11,21 @@ RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks) {
   if (fos.varied == Varied::shaking || blocks > most_blocks) return {};
   Result<LimitResult> found = limit_analysis(model);
   if (!found.ok()) return {};
-  found.value().drawn.reset();
-  found.value().moved.reset();
-  return std::move(found.value());
+  LimitResult& limit = found.value();
+  limit.drawn.reset();
+  if (limit.of_pebbles && limit.without_pebbles) {
+    limit.largest = *limit.without_pebbles;
+    limit.of_pebbles = false;
+    limit.without_dilation.reset();
+    limit.residual.reset();
+    limit.mechanism.reset();
+    limit.moved.reset();
+  }
+  // Of joints of which the friction is larger after failure.
+  const double broken = limit.residual.value_or(0.0);
+  if (limit.largest.status == LimitEnd::found && broken > limit.largest.upper)
+    limit.largest.lower = limit.largest.upper = broken;
+  return std::move(limit);
 }
 
 CollapseCriterion criterion_at(double factor, const Fos& fos, const CollapseCriterion& usual,

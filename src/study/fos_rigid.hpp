@@ -14,7 +14,8 @@ namespace edda {
 
 using RigidLimit = std::optional<LimitResult>;
 
-/// The limits of rigid blocks; nothing where there is no such analysis.
+/// The limits of rigid blocks, without the weight of pebbles where these alone would move; nothing
+/// where there is no such analysis.
 RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks);
 
 /// The criterion of the trial of a factor. Blocks that have an equilibrium as rigid ones may move

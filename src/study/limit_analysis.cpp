@@ -173,6 +173,8 @@ std::string message_of(const Fos& fos, const LimitResult& r) {
   std::string text = fmt::format("{} {:.5g}", what, r.largest.lower);
   if (r.without_dilation) text += fmt::format(", {:.5g} without dilation", *r.without_dilation);
   if (r.residual) text += fmt::format(", {:.5g} with residual strength", *r.residual);
+  if (r.without_pebbles && r.without_pebbles->status == LimitEnd::found)
+    text += fmt::format(", {:.5g} without pebbles", r.without_pebbles->lower);
   if (r.smallest && r.smallest->status == LimitEnd::found)
     text += fmt::format("; at the other end {:.5g}", r.smallest->lower);
   return text;
@@ -199,14 +201,15 @@ void add_mechanism(LimitResult& r, const Simulation& drawn, const RigidBlocks& r
       moves.size() > 1 ? fmt::format(" and {} as small", counted(moves.size() - 1, "other")) : "";
   r.warnings.push_back(fmt::format(
       "the mechanism moves {} ({:.3g} m in size, less than a tenth of the mean of all blocks){} "
-      "alone: the limit is that of a pebble, which edda fos does not count; to find that of larger "
-      "blocks, join pebbles to a neighbour by [quality], or leave them out",
+      "alone: the limit is that of a pebble, which edda fos does not count; that of larger blocks "
+      "is "
+      "the limit without the weight of pebbles",
       block_label(drawn.scene->blocks, i), std::sqrt(drawn.scene->blocks.area[i]), others));
 }
 
 /// All but the largest value.
-void add_others(LimitResult& r, const Simulation& sim, const Fos& fos, const LimitCase& asked,
-                const LimitCase::Answer& answer) {
+void add_others(LimitResult& r, const Simulation& sim, const Fos& fos, bool crushing,
+                const LimitCase& asked, const LimitCase::Answer& answer) {
   constexpr std::size_t most_bodies = 2000;  // up to sixty limits more, of seconds each
   if (r.blocks <= most_bodies) {
     r.without_dilation = asked.without_dilation(answer);
@@ -225,6 +228,9 @@ void add_others(LimitResult& r, const Simulation& sim, const Fos& fos, const Lim
   // Without a limit nothing moves: what the last program left is no mechanism.
   if (answer.end == LimitEnd::found || answer.end == LimitEnd::no_equilibrium)
     add_mechanism(r, sim, asked.rigid(), answer.state.motion);
+  if (!r.of_pebbles) return;
+  const LimitCase others(sim, fos, crushing, negligible_blocks(sim));
+  r.without_pebbles = value_of(others.at_end(true, StrengthOf::peak));
 }
 
 }  // namespace
@@ -239,7 +245,8 @@ Result<LimitResult> limit_analysis(const Model& model, LimitExtent extent) {
   // Multipliers refer to the load as given, whatever a ramp has made of it.
   if (SteppedValue* const varied = slow_value(sim.attached.loads.slow, fos.varied, fos.target))
     *varied = {1.0, 1.0};
-  const LimitCase asked(sim, fos, model.limit && model.limit->crushing);
+  const bool crushing = model.limit && model.limit->crushing;
+  const LimitCase asked(sim, fos, crushing);
   LimitResult r;
   r.vary = fos.vary;
   r.blocks = asked.rigid().bodies();
@@ -270,7 +277,7 @@ Result<LimitResult> limit_analysis(const Model& model, LimitExtent extent) {
   const LimitCase::Answer answer = asked.at_end(true, StrengthOf::peak);
   r.largest = value_of(answer);
   r.violation = answer.state.violation;
-  if (extent == LimitExtent::all) add_others(r, sim, fos, asked, answer);
+  if (extent == LimitExtent::all) add_others(r, sim, fos, crushing, asked, answer);
   r.message = message_of(fos, r);
   r.seconds = since(began);
   return r;

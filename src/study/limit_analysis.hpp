@@ -31,10 +31,11 @@ struct LimitResult {
   LimitValue largest;   ///< joints with their peak strength and an associated flow rule
   std::optional<LimitValue> smallest;      ///< at the other end; none for strength
   std::optional<double> without_dilation;  ///< largest.lower, where joints slide without dilating
-  std::optional<double> residual;      ///< largest.lower of joints that have lost their bonds; none
-                                       ///< where that makes no difference
-  double violation = 0.0;              ///< LimitState::violation of `largest`
-  bool of_pebbles = false;             ///< the mechanism moves pebbles alone (observe/balance.hpp)
+  std::optional<double> residual;  ///< largest.lower of joints that have lost their bonds; none
+                                   ///< where that makes no difference
+  double violation = 0.0;          ///< LimitState::violation of `largest`
+  bool of_pebbles = false;         ///< the mechanism moves pebbles alone (observe/balance.hpp)
+  std::optional<LimitValue> without_pebbles;  ///< then: `largest` where nothing acts on pebbles
   std::optional<Mechanism> mechanism;  ///< at `largest`, its largest displacement a hundredth of
                                        ///< the mean size of the blocks
   std::optional<Simulation> drawn, moved;  ///< the model as drawn, and moved by the mechanism

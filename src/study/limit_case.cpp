@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "contacts/laws.hpp"
 
@@ -14,8 +15,23 @@ constexpr double strength_tolerance = 1e-6;
 
 }  // namespace
 
-LimitCase::LimitCase(const Simulation& sim, const Fos& fos, bool crushing)
-    : sim_(sim), fos_(fos), crushing_(crushing), rigid_(rigid_blocks(sim)) {}
+LimitCase::LimitCase(const Simulation& sim, const Fos& fos, bool crushing,
+                     std::vector<std::uint8_t> weightless)
+    : sim_(sim),
+      fos_(fos),
+      crushing_(crushing),
+      weightless_(std::move(weightless)),
+      rigid_(rigid_blocks(sim)) {}
+
+RigidForces LimitCase::that_act(RigidForces forces) const {
+  if (weightless_.empty()) return forces;
+  for (std::size_t r = 0; r < forces.size(); ++r) {
+    const std::vector<Id>& blocks = rigid_.blocks[r];
+    if (std::all_of(blocks.begin(), blocks.end(), [&](Id i) { return weightless_[i] != 0; }))
+      forces[r] = {};
+  }
+  return forces;
+}
 
 bool LimitCase::is_spared(std::size_t law) const {
   const std::vector<JointLaw>& joints = sim_.scene->model.joints;
@@ -58,7 +74,8 @@ double* LimitCase::factor_of_varied(LoadFactors& factors) const {
 RigidForces LimitCase::dead_loads() const {
   LoadFactors factors = last_factors(sim_);
   if (double* const varied = factor_of_varied(factors)) *varied = 0.0;
-  return weights_under(rigid_, sim_, gravity_with(0.0)) + loads_with(rigid_, sim_, factors);
+  return that_act(weights_under(rigid_, sim_, gravity_with(0.0)) +
+                  loads_with(rigid_, sim_, factors));
 }
 
 /// What the multiplier acts on.
@@ -71,16 +88,16 @@ RigidForces LimitCase::live() const {
     *varied = own == 0.0 ? 1.0 : own;  // 0: not active yet
   }
   // Gravity is linear in the seismic coefficients and in its multiplier.
-  return weights_under(rigid_, sim_, gravity_with(1.0) - gravity_with(0.0)) +
-         loads_with(rigid_, sim_, factors);
+  return that_act(weights_under(rigid_, sim_, gravity_with(1.0) - gravity_with(0.0)) +
+                  loads_with(rigid_, sim_, factors));
 }
 
 RigidForces LimitCase::dead_at(double angle) const {
-  return weights_under(rigid_, sim_, gravity_with(degrees * angle)) +
-         loads_with(rigid_, sim_, last_factors(sim_));
+  return that_act(weights_under(rigid_, sim_, gravity_with(degrees * angle)) +
+                  loads_with(rigid_, sim_, last_factors(sim_)));
 }
 RigidForces LimitCase::turning_at(double angle) const {
-  return weights_under(rigid_, sim_, perp(gravity_with(degrees * angle)));
+  return that_act(weights_under(rigid_, sim_, perp(gravity_with(degrees * angle))));
 }
 
 LimitCase::Answer LimitCase::solve(bool largest, const StrengthAt& strength_at, double near) const {

@@ -1,6 +1,7 @@
 // What rigid limit analysis is asked about a model, as programs.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -14,7 +15,9 @@ namespace edda {
 /// The quantity that [fos] varies, in one state of the model.
 class LimitCase {
  public:
-  LimitCase(const Simulation& sim, const Fos& fos, bool crushing);
+  /// weightless: [nb] 1: nothing acts on this block; may be empty.
+  LimitCase(const Simulation& sim, const Fos& fos, bool crushing,
+            std::vector<std::uint8_t> weightless = {});
 
   /// The value at one end and the state there.
   struct Answer {
@@ -44,6 +47,8 @@ class LimitCase {
   Vec2 gravity_with(double value) const;
   /// Of what is varied, if that is a load; null otherwise, and where no load acts.
   double* factor_of_varied(LoadFactors& factors) const;
+  /// Without those on weightless bodies.
+  RigidForces that_act(RigidForces forces) const;
   RigidForces dead_at(double angle) const;
   RigidForces turning_at(double angle) const;
   RigidForces live() const;
@@ -53,6 +58,7 @@ class LimitCase {
   const Simulation& sim_;
   const Fos& fos_;
   bool crushing_;
+  std::vector<std::uint8_t> weightless_;
   RigidBlocks rigid_;
 };
 

@@ -39,6 +39,7 @@ std::string limit_summary(const Model& model, const LimitResult& r) {
   if (r.smallest) add_value(j, "other_end", *r.smallest);
   j.pair("without_dilation", r.without_dilation);
   j.pair("residual", r.residual);
+  if (r.without_pebbles) add_value(j, "without_pebbles", *r.without_pebbles);
   j.pair("flow_rule_violation", r.violation);
   j.pair("crushing", model.limit && model.limit->crushing);
   j.pair("blocks", r.blocks).pair("joints", r.joints);
