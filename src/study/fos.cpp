@@ -11,6 +11,7 @@
 
 #include "observe/balance.hpp"
 #include "results/machine.hpp"
+#include "run/equilibrium_search.hpp"
 #include "run/wall_clock.hpp"
 #include "step/labels.hpp"
 #include "study/fos_bracket.hpp"
