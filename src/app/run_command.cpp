@@ -10,6 +10,7 @@
 #include "model/stage_names.hpp"
 #include "results/files.hpp"
 #include "run/run_model.hpp"
+#include "study/limit_analysis.hpp"
 
 namespace edda {
 namespace {
@@ -74,6 +75,7 @@ int run(const RunArguments& args, RunReport* report) {
   RunOptions options = options_for(args, folder, *report);
   options.stop = &stop_asked;
   options.from_stage = first_stage(model.value(), args.from).value();
+  options.rigid_factor = [&](const Simulation& sim) { return rigid_factor(model.value(), sim); };
   const Result<Outcome> outcome = run_model(prepared.value(), options);
   if (!outcome.ok()) return refuse(outcome.faults());
   if (has_curve(folder)) {

@@ -73,6 +73,7 @@ struct Simulation::Impl {
   Outcome outcome;
   std::size_t last_stage = 0;  ///< of a finished run, whose driver is gone
   bool begun = false, finished = false;
+  bool changed = false;  ///< by the caller: it is no longer what the model says
   std::atomic<bool> stop{false}, pause{false};
 
   struct Repeated {

@@ -6,6 +6,7 @@
 #include "library/impl.hpp"
 #include "results/files.hpp"
 #include "step/changes.hpp"
+#include "study/limit_analysis.hpp"
 
 namespace edda::api {
 namespace {
@@ -89,6 +90,9 @@ Simulation::Impl::Impl(const Model& given, Options&& wanted)
   if (options.warn) run_options.warn = [this](const std::string& text) { warn(text); };
   run_options.stop = &stop;
   run_options.after_step = [this] { return after_step(); };
+  run_options.rigid_factor = [this](const edda::Simulation& sim) {
+    return changed ? std::nullopt : rigid_factor(model.impl().model, sim);
+  };
   if (options.progress) {
     run_options.progress_every = options.progress_every;
     run_options.progress = [this](const edda::Progress& p) { report(p); };
@@ -269,6 +273,7 @@ void Simulation::Impl::begin_change(const char* function) {
   enter();
   if (finished) raise(function, "the run is over", "make a new Simulation");
   take_back();
+  changed = true;
 }
 
 void Simulation::Impl::end_change() {

@@ -73,6 +73,8 @@ struct Outcome {
                                    ///< slowed them
   std::size_t loose = 0;  ///< most loose blocks at the end of a stage until equilibrium, pebbles
                           ///< excluded
+  std::optional<double> rigid_factor;  ///< of safety, of the blocks at the end as rigid ones; none
+                                       ///< where nothing asks for it (RunOptions::rigid_factor)
   std::vector<RampOutcome> ramps;
   std::vector<std::string> failed_checks;  ///< checks of summary.json that failed, a sentence each
   WallSeconds wall;

@@ -26,6 +26,7 @@ constexpr std::string_view loose_check = "number of blocks that have come loose"
 constexpr std::string_view stage_check = "number of stages that found no equilibrium";
 constexpr std::string_view broken_check = "number of joints that broke where gravity acted at once";
 constexpr std::string_view overlap_check = "largest overlap over half width of a block";
+constexpr std::string_view rigid_check = "strength that rigid blocks need, over that of the joints";
 constexpr std::string_view chatter_check =
     "number of times that contacts opened or closed while they chattered";
 /// Impacts and ground motion cause some events: a limit for the model, and one per free block.
@@ -188,6 +189,9 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
     checks.insert(checks.begin() + 2,
                   limited("largest step over critical step", o.step_over_critical, 1.0));
   }
+  // Joints and blocks deform before they fail.
+  if (o.rigid_factor)
+    checks.push_back(limited(std::string(rigid_check), 1.0 / *o.rigid_factor, 1.01));
   const bool rest = o.unbalanced <= equilibrium_limit;
   // While blocks still move, reactions also carry their inertia forces and are not judged.
   checks.push_back(
@@ -227,6 +231,14 @@ std::string message_of(const Check& check, const Simulation& sim, const Outcome&
         sim.motion.masses.viscosity.empty()
             ? "give the rock its damping (materials.NAME.damping = 0.5), or "
             : "");
+  }
+  if (check.name == rigid_check) {
+    text += fmt::format(
+        ": as rigid blocks the model has a factor of safety of {:.4g} and no equilibrium; a sharp "
+        "tip or a ledge holds blocks that deform, as in a kink of their base, at the heel of a "
+        "wall "
+        "or at a toe: see edda limit, and draw what tips run into lower",
+        *o.rigid_factor);
   }
   if (check.name == loose_check) {
     text += ": the given strength is not enough to hold them; edda fos finds the factor of safety";

@@ -55,6 +55,9 @@ struct RunOptions {
   const std::atomic<bool>* stop = nullptr;  ///< set from any thread: the run ends as interrupted
   std::function<bool()> after_step{};       ///< true: Driver::go_on() returns; may be empty
   std::function<void(const StageReport&)> stage_ended{};  ///< may be empty
+  /// Factor of safety of the blocks as rigid ones, asked at the end of a stage until equilibrium
+  /// that ends the run; may be empty.
+  std::function<std::optional<double>(const Simulation&)> rigid_factor{};
 };
 
 /// A run ready to start. Of its polygons only the report of the cut remains.

@@ -273,20 +273,6 @@ Simulation at_start(const Simulation& rest, const Simulation& later) {
   return start;
 }
 
-/// Whether the blocks that count stand as drawn, to which rigid limits refer.
-bool stands_as_drawn(const Simulation& sim, double size) {
-  constexpr double near = 0.01;  // of the size of a block
-  const BlockSet& b = sim.scene->blocks;
-  const std::vector<std::uint8_t> small = negligible_blocks(sim);
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    if (!is_free(b, sim.motion.state, i) || small[i] != 0) continue;
-    const Vec2 drawn{b.centroid_x[i], b.centroid_y[i]};
-    if (norm(centroid(sim.motion.state.x, sim.motion.state.y, i) - drawn) > near * size)
-      return false;
-  }
-  return true;
-}
-
 /// Where a factor beyond the limit of rigid blocks holds, the factor is that limit: a sharp tip or
 /// a small ledge stands in the way of what moves and bears whatever comes upon it, or what moves
 /// has come loose before and does not count in the trials (lost).

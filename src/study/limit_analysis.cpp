@@ -283,4 +283,40 @@ Result<LimitResult> limit_analysis(const Model& model, LimitExtent extent) {
   return r;
 }
 
+bool stands_as_drawn(const Simulation& sim, double size) {
+  constexpr double near = 0.01;  // of the size of a block
+  const BlockSet& b = sim.scene->blocks;
+  const std::vector<std::uint8_t> small = negligible_blocks(sim);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (!is_free(b, sim.motion.state, i) || small[i] != 0) continue;
+    const Vec2 drawn{b.centroid_x[i], b.centroid_y[i]};
+    if (norm(centroid(sim.motion.state.x, sim.motion.state.y, i) - drawn) > near * size)
+      return false;
+  }
+  return true;
+}
+
+std::optional<double> rigid_factor(const Model& model, const Simulation& end) {
+  constexpr std::size_t most_blocks = 600;
+  const Fos fos;
+  if (end.scene->blocks.size() > most_blocks || end.motion.contacts.gluing ||
+      without_limit(model, fos))
+    return {};
+  const Result<PreparedRun> staged = as_staged(model, fos);
+  if (!staged.ok()) return {};
+  const Simulation& sim = staged.value().sim;
+  const bool crushing = model.limit && model.limit->crushing;
+  const auto largest = [&](const LimitCase& asked) -> std::optional<double> {
+    const LimitCase::Answer peak = asked.at_end(true, StrengthOf::peak);
+    if (peak.end != LimitEnd::found) return {};
+    if (!asked.is_brittle()) return peak.upper;
+    return std::max(peak.upper, asked.at_end(true, StrengthOf::residual).upper);
+  };
+  const LimitCase all(sim, fos, crushing);
+  if (all.rigid().bodies() == 0 || !stands_as_drawn(end, all.rigid().size)) return {};
+  const std::optional<double> factor = largest(all);
+  if (!factor || *factor >= 1.0) return factor;
+  return largest(LimitCase(sim, fos, crushing, negligible_blocks(sim)));
+}
+
 }  // namespace edda

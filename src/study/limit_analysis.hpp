@@ -56,6 +56,15 @@ enum class LimitExtent {
 /// prepare_run(), and of quantities that rigid limit analysis cannot vary (ground motion).
 Result<LimitResult> limit_analysis(const Model& model, LimitExtent extent = LimitExtent::all);
 
+/// The factor of safety at the end of the stages of the blocks as rigid ones, without the weight of
+/// pebbles: what RunOptions::rigid_factor asks. None where they have moved, at the `end` of the
+/// run, by more than a hundredth of their size from where they are drawn, to which limits refer,
+/// where they have no limit, and for more than 600 blocks, for which it takes seconds.
+std::optional<double> rigid_factor(const Model& model, const Simulation& end);
+
+/// Whether the blocks that count stand as drawn, within a hundredth of this size (m).
+bool stands_as_drawn(const Simulation& sim, double size);
+
 /// limit_joints.csv and summary.json.
 std::string limit_joints_csv(const LimitResult& result);
 std::string limit_summary(const Model& model, const LimitResult& result);

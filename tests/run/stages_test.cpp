@@ -138,6 +138,26 @@ TEST(Stages, AllThatGoesAwayIsACollapse) {
       << o.message;
 }
 
+/// What falls to a floor far below has come loose, though it comes to rest there; not where the
+/// stage waits for what falls.
+TEST(Stages, WhatFallsFarIsLooseWhereverItLands) {
+  for (const double height : {0.5, 3.0}) {
+    for (const char* detached : {"report", "wait"}) {
+      const std::string high = std::to_string(height), top = std::to_string(height + 1.0);
+      PreparedRun ready = prepared(
+          "[materials.rock]\ndensity = 2600\nyoung = 1e9\npoisson = 0.25\n[joints.j]\n"
+          "friction_angle = 30\n[[block]]\nfixed = true\npolygon = [[-9, -1], [9, -1], [9, 0], "
+          "[-9, 0]]\n[[block]]\npolygon = [[0, " +
+          high + "], [1, " + high + "], [1, " + top + "], [0, " + top +
+          "]]\n[[stage]]\nuntil = 'equilibrium'\ndetached = '" + detached + "'\n");
+      const Outcome o = run(ready);
+      const bool is_lost = height > 1.0 && detached[0] == 'r';
+      EXPECT_EQ(o.status, is_lost ? Status::collapsed : Status::equilibrium) << o.message;
+      EXPECT_EQ(o.loose, is_lost ? 1U : 0U) << height << detached;
+    }
+  }
+}
+
 /// A block whose friction is four hundredths too low, beside a wall that determines the frequency:
 /// it creeps under the damping at that frequency, and is not in equilibrium.
 TEST(Stages, WhatCreepsBesideAWallIsLoose) {

@@ -1,0 +1,110 @@
+// What rigid limit analysis says where blocks that deform stand by a sharp tip, or pebbles move
+// alone.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "run/prepared.hpp"
+#include "run/run_model.hpp"
+#include "study/limit_analysis.hpp"
+#include "study/sliding_block.hpp"
+
+namespace edda::rigid_limit_test {
+namespace {
+
+using testing::found;
+using testing::model_of;
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+/// An active wedge on 50 degrees pushes a passive one along 10 degrees, across a vertical joint
+/// through the kink of their base: the tip of the active wedge stands in the kink.
+const std::string two_wedges =
+    "[materials.rock]\ndensity = 2600\nyoung = 1e10\npoisson = 0.25\n[joints.j]\n"
+    "friction_angle = 35\n[[block]]\nfixed = true\npolygon = [[-5, -8], [33.328322507, -8], "
+    "[33.328322507, 18], [25.328322507, 18], [12, 2.1159237685], [0, 0], [0, -2], [-5, -2]]\n"
+    "[[block]]\npolygon = [[0, 0], [12, 2.1159237685], [12, 18], [10.3923048454, 18]]\n[[block]]\n"
+    "polygon = [[12, 2.1159237685], [25.328322507, 18], [12, 18]]\n";
+
+/// Sum of the forces along x and y on both wedges, all of their joints at the friction angle phi:
+/// what is left of the weight of the passive one, over the weight of both.
+double left_over(double phi) {
+  const double active = 0.5 * 13.328322507 * 15.8840762315;
+  const double passive =
+      0.5 * std::abs(12.0 * 18.0 - 12.0 * 2.1159237685 + 12.0 * 18.0 - 10.3923048454 * 18.0);
+  // On the active wedge: N1 on 50 degrees, E across the vertical joint, which it slides down.
+  const double s1 = std::sin(50.0 * degree), c1 = std::cos(50.0 * degree), t = std::tan(phi);
+  // x: -N1 s1 + N1 t c1 + E = 0, y: N1 c1 + N1 t s1 + E t = W1
+  const double n1 = active / (c1 + t * s1 + t * (s1 - t * c1)), e = n1 * (s1 - t * c1);
+  const double s2 = std::sin(10.0 * degree), c2 = std::cos(10.0 * degree);
+  // On the passive wedge: y: N2 (c2 + t s2) = W2 + E t; x: E + N2 s2 = N2 t c2 at the limit
+  const double n2 = (passive + e * t) / (c2 + t * s2);
+  return (n2 * (t * c2 - s2) - e) / (active + passive);
+}
+double factor_of_two_wedges() {
+  double low = 0.2, high = 5.0;
+  for (int round = 0; round < 60; ++round) {
+    const double middle = 0.5 * (low + high);
+    (left_over(std::atan(std::tan(35.0 * degree) / middle)) > 0.0 ? low : high) = middle;
+  }
+  return low;
+}
+
+TEST(RigidLimit, IsTheFactorWhereATipHoldsWhatMoves) {
+  const FosResult r = found(two_wedges + "[solver]\nduration = 1\n");
+  ASSERT_TRUE(r.factor && r.rigid) << r.message;
+  EXPECT_NEAR(*r.factor, factor_of_two_wedges(), 1e-4);
+  EXPECT_TRUE(r.rigid->below_most);
+  EXPECT_NE(r.message.find("beyond which rigid blocks have no equilibrium"), std::string::npos);
+  ASSERT_FALSE(r.warnings.empty());
+  EXPECT_NE(r.warnings.back().find("a sharp tip or a ledge"), std::string::npos);
+  ASSERT_TRUE(r.mechanism && r.failed);
+  EXPECT_EQ(r.mechanism->blocks.size(), 2U);
+}
+
+std::vector<std::string> failed_checks_with(double strength_factor) {
+  const Model model = model_of(two_wedges + "[[stage]]\nuntil = 'equilibrium'\nstrength_factor = " +
+                               std::to_string(strength_factor) + "\n");
+  Result<PreparedRun> run = prepare_run(model);
+  if (!run.ok()) ADD_FAILURE() << to_string(run.faults()[0]);
+  RunOptions options;
+  options.rigid_factor = [&](const Simulation& sim) { return rigid_factor(model, sim); };
+  const Result<Outcome> outcome = run_model(run.value(), options);
+  EXPECT_EQ(outcome.value().status, Status::equilibrium);
+  return outcome.value().failed_checks;
+}
+
+/// A run until equilibrium says so, too.
+TEST(RigidLimit, IsACheckOfRunsUntilEquilibrium) {
+  EXPECT_TRUE(failed_checks_with(1.3).empty());
+  const std::vector<std::string> failed = failed_checks_with(1.6);
+  ASSERT_EQ(failed.size(), 1U);
+  EXPECT_NE(failed[0].find("rigid blocks"), std::string::npos) << failed[0];
+}
+
+/// A block on a slope of 30 degrees, and a pebble on one of 45: the pebble moves first.
+TEST(RigidLimit, DoesWithoutPebblesWhereTheseAloneMove) {
+  const std::string text =
+      "[materials.rock]\ndensity = 2600\nyoung = 1e9\npoisson = 0.25\n[joints.j]\n"
+      "friction_angle = 40\n[[block]]\nfixed = true\npolygon = [[0, 0], [20, 0], [20, 10], [12, "
+      "2], "
+      "[0, 8.9282032303]]\n[[block]]\npolygon = [[2, 7.7735026919], [6, 5.4641016151], "
+      "[7, 7.1961524227], [3, 9.5055534994]]\n[[block]]\npolygon = [[16, 6], [16.1, 6.1], "
+      "[16, 6.2], [15.9, 6.1]]\n[solver]\nduration = 1\n";
+  const Result<LimitResult> limit = limit_analysis(model_of(text));
+  ASSERT_TRUE(limit.ok());
+  EXPECT_TRUE(limit.value().of_pebbles);
+  EXPECT_NEAR(limit.value().largest.lower, std::tan(40.0 * degree), 1e-4);
+  const double larger = std::tan(40.0 * degree) / std::tan(30.0 * degree);
+  ASSERT_TRUE(limit.value().without_pebbles);
+  EXPECT_NEAR(limit.value().without_pebbles->lower, larger, 1e-4);
+  const FosResult r = found(text);
+  ASSERT_TRUE(r.factor && r.rigid) << r.message;
+  EXPECT_NEAR(*r.factor, larger, 0.01 * larger);
+  EXPECT_NEAR(r.rigid->most, larger, 1e-4);
+}
+
+}  // namespace
+}  // namespace edda::rigid_limit_test
