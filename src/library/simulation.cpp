@@ -91,7 +91,8 @@ Simulation::Impl::Impl(const Model& given, Options&& wanted)
   run_options.stop = &stop;
   run_options.after_step = [this] { return after_step(); };
   run_options.rigid_factor = [this](const edda::Simulation& sim) {
-    return changed ? std::nullopt : rigid_factor(model.impl().model, sim);
+    const bool as_read = !changed && !options.resume && !options.from_stage;
+    return as_read ? rigid_factor(model.impl().model, sim) : std::nullopt;
   };
   if (options.progress) {
     run_options.progress_every = options.progress_every;

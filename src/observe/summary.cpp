@@ -26,7 +26,8 @@ constexpr std::string_view loose_check = "number of blocks that have come loose"
 constexpr std::string_view stage_check = "number of stages that found no equilibrium";
 constexpr std::string_view broken_check = "number of joints that broke where gravity acted at once";
 constexpr std::string_view overlap_check = "largest overlap over half width of a block";
-constexpr std::string_view rigid_check = "strength that rigid blocks need, over that of the joints";
+constexpr std::string_view rigid_check =
+    "part of its strength that the model lacks as rigid blocks";
 constexpr std::string_view chatter_check =
     "number of times that contacts opened or closed while they chattered";
 /// Impacts and ground motion cause some events: a limit for the model, and one per free block.
@@ -189,9 +190,11 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
     checks.insert(checks.begin() + 2,
                   limited("largest step over critical step", o.step_over_critical, 1.0));
   }
-  // Joints and blocks deform before they fail.
-  if (o.rigid_factor)
-    checks.push_back(limited(std::string(rigid_check), 1.0 / *o.rigid_factor, 1.01));
+  if (o.rigid_factor) {
+    constexpr double deforms = 0.01;  // joints and blocks do so before they fail
+    checks.push_back(
+        limited(std::string(rigid_check), std::max(0.0, 1.0 - *o.rigid_factor), deforms));
+  }
   const bool rest = o.unbalanced <= equilibrium_limit;
   // While blocks still move, reactions also carry their inertia forces and are not judged.
   checks.push_back(
@@ -234,10 +237,10 @@ std::string message_of(const Check& check, const Simulation& sim, const Outcome&
   }
   if (check.name == rigid_check) {
     text += fmt::format(
-        ": as rigid blocks the model has a factor of safety of {:.4g} and no equilibrium; a sharp "
-        "tip or a ledge holds blocks that deform, as in a kink of their base, at the heel of a "
-        "wall "
-        "or at a toe: see edda limit, and draw what tips run into lower",
+        ": as rigid blocks it has a factor of safety of {:.4g} and no equilibrium; a sharp tip or "
+        "a "
+        "ledge holds blocks that deform, as in a kink of their base, at the heel of a wall or at a "
+        "toe, or a gap between blocks as drawn has closed: see edda limit",
         *o.rigid_factor);
   }
   if (check.name == loose_check) {

@@ -48,13 +48,15 @@ void Driver::write_end() {
     }
   }
   outcome_.wall.output += since(start);
+  const std::vector<Stage>& stages = sim_.scene->model.stages;
+  const bool may_ask = options_.stop == nullptr || !*options_.stop;
+  if (options_.rigid_factor && may_ask && outcome_.status == Status::equilibrium &&
+      outcome_.loose == 0 && lost_block_ids(sim_).empty() && !stages.empty() &&
+      stages.back().until == StageEnd::equilibrium)
+    outcome_.rigid_factor = options_.rigid_factor(sim_);
   outcome_.wall.cut = run_.cut_seconds;
   scale_wall_times();
   outcome_.wall.total = wall_before_ + since(started_) + run_.cut_seconds;
-  const std::vector<Stage>& stages = sim_.scene->model.stages;
-  if (options_.rigid_factor && outcome_.status == Status::equilibrium && !stages.empty() &&
-      stages.back().until == StageEnd::equilibrium)
-    outcome_.rigid_factor = options_.rigid_factor(sim_);
   for (const Check& c : checks_of(sim_, outcome_)) {
     if (c.pass) continue;
     outcome_.failed_checks.push_back(message_of(c, sim_, outcome_));

@@ -50,18 +50,19 @@ void begin_window(EquilibriumSearch& s, const Simulation& sim) {
   }
 }
 
-/// Whether the block has moved by more than its own size.
-bool is_far_away(const Simulation& sim, std::size_t i) {
-  return norm(displacement_of(sim.motion.state, i, centroid_weights)) >= size_of(sim, i);
+/// Whether the block has moved by more than its own size in this stage.
+bool has_left(const EquilibriumSearch& s, const Simulation& sim, std::size_t i) {
+  const Vec2 began{s.began_x[i], s.began_y[i]};
+  return norm(centroid(sim.motion.state.x, sim.motion.state.y, i) - began) >= size_of(sim, i);
 }
 
 /// Blocks that fall, and have done so by more than their size, have come loose, wherever they come
 /// to lie.
-void find_fallen_blocks(Simulation& sim, const Stage& stage) {
+void find_fallen_blocks(const EquilibriumSearch& s, Simulation& sim, const Stage& stage) {
   if (stage.falling == FallingBlocks::wait) return;
   const std::vector<std::uint8_t> falls = falling_blocks(sim);
   for (std::size_t i = 0; i < falls.size(); ++i) {
-    if (falls[i] == 0 || !is_far_away(sim, i)) continue;
+    if (falls[i] == 0 || !has_left(s, sim, i)) continue;
     sim.relaxation.loose.resize(falls.size(), 0);
     sim.relaxation.loose[i] = 1;
   }
@@ -86,11 +87,11 @@ void find_loose_blocks(EquilibriumSearch& s, Simulation& sim, const Stage& stage
         goes ? static_cast<std::uint8_t>(std::min<int>(s.windows_moving[i] + 1, windows)) : 0;
     s.moved_x[i] = now.x;
     s.moved_y[i] = now.y;
-    const bool far_away = stage.falling != FallingBlocks::wait && is_far_away(sim, i);
+    const bool left = stage.falling != FallingBlocks::wait && has_left(s, sim, i);
     if (s.windows_moving[i] >= windows) {
       sim.relaxation.loose.resize(sim.scene->blocks.size(), 0);
       sim.relaxation.loose[i] = 1;
-    } else if (!sim.relaxation.loose.empty() && s.windows_moving[i] == 0 && !far_away) {
+    } else if (!sim.relaxation.loose.empty() && s.windows_moving[i] == 0 && !left) {
       sim.relaxation.loose[i] = 0;
     }
   }
@@ -124,11 +125,11 @@ bool forces_are_rounding(const Simulation& sim) {
   return true;
 }
 
-bool all_loose(const Simulation& sim) {
+bool all_loose(const EquilibriumSearch& s, const Simulation& sim) {
   if (sim.relaxation.loose.empty()) return false;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
     if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
-    if (sim.relaxation.loose[i] == 0 || !is_far_away(sim, i)) return false;
+    if (sim.relaxation.loose[i] == 0 || !has_left(s, sim, i)) return false;
   }
   return true;
 }
@@ -139,6 +140,11 @@ void begin_equilibrium_search(EquilibriumSearch& s, Simulation& sim, const Stage
   const std::size_t nb = sim.scene->blocks.size();
   s = {};
   for (auto* values : {&s.from_x, &s.from_y, &s.moved_x, &s.moved_y}) values->assign(nb, 0.0);
+  for (std::size_t i = 0; i < nb; ++i) {
+    const Vec2 at = centroid(sim.motion.state.x, sim.motion.state.y, i);
+    s.began_x.push_back(at.x);
+    s.began_y.push_back(at.y);
+  }
   s.windows_moving.assign(nb, 0);
   s.to_come.assign(nb, std::numeric_limits<double>::infinity());
   sim.relaxation.loose.clear();
@@ -158,7 +164,8 @@ double equilibrium_time(double size, double acceleration) {
 }
 
 Equilibrium look_for_equilibrium(EquilibriumSearch& s, Simulation& sim, const Stage& stage) {
-  if (sim.motion.state.steps % look_from_afar == 0) find_fallen_blocks(sim, stage);
+  if (!is_explicit(sim) || sim.motion.state.steps % look_from_afar == 0)
+    find_fallen_blocks(s, sim, stage);
   if (!gradual_change_complete(sim)) {
     s.window_began = sim.motion.state.steps;
     s.window = 0;
@@ -167,7 +174,7 @@ Equilibrium look_for_equilibrium(EquilibriumSearch& s, Simulation& sim, const St
   if (sim.motion.state.steps >= s.window_began + s.window) {
     find_loose_blocks(s, sim, stage);
     begin_window(s, sim);
-    if (all_loose(sim)) return Equilibrium::never;
+    if (all_loose(s, sim)) return Equilibrium::never;
   }
   const std::uint64_t every = !is_explicit(sim) ? 1 : s.is_far ? look_from_afar : look_every;
   if (sim.motion.state.steps % every != 0) return Equilibrium::not_yet;

@@ -33,6 +33,7 @@ struct EquilibriumSearch {
                                          ///< displacement in a window times this measures the
                                          ///< acceleration that drives a block which only
                                          ///< mass-proportional damping resists
+  std::vector<double> began_x, began_y;  ///< [nb] m, centroids when the stage began
   std::vector<double> from_x, from_y;    ///< [nb] m, centroids when the window began
   std::vector<double> moved_x, moved_y;  ///< [nb] m, displacements in the last window
   std::vector<double> to_come;  ///< [nb] m: distance that the block will still move if it slows

@@ -294,6 +294,8 @@ void take_rigid_limit(const Fos& fos, LimitResult& limit, bool lost, FosResult& 
   r.message =
       fmt::format("{} {:.4g}, beyond which rigid blocks have no equilibrium",
                   fos.varied == Varied::strength ? "factor of safety" : "factor", *r.factor);
+  r.rigid->trials_hold = held;
+  if (!limit.mechanism) return;
   r.mechanism = std::move(limit.mechanism);
   r.failed = std::move(limit.moved);
 }
@@ -365,12 +367,20 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
     r.warnings.push_back(fmt::format("the trial of {:.6g} {}", trial.factor, trial.reason));
   }
   if (compare_with_rigid(model, fos, rigid, r)) {
-    if (stands_as_drawn(start.sim, start.plan.criterion.size)) {
+    if (start.as_drawn) {
       take_rigid_limit(fos, *start.rigid, !lost_block_ids(start.sim).empty(), r);
     } else {
       r.warnings.push_back(r.rigid->text +
                            "; these refer to the blocks as drawn, and stages have moved them");
     }
+  }
+  if (rigid && rigid->largest.status == LimitEnd::no_equilibrium && r.holds) {
+    r.warnings.push_back(fmt::format(
+        "rigid limit analysis: {}; blocks that deform hold at {:.4g}: a sharp tip or a ledge "
+        "stands "
+        "in their way, a gap between them as drawn has closed, or what moves has come loose before "
+        "(docs/limit.md)",
+        rigid->message, *r.holds));
   }
   r.seconds = since(began);
   return r;

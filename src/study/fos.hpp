@@ -41,7 +41,9 @@ struct RigidBracket {
   bool below_most = false;  ///< the factor is at most `most`, which no equilibrium exceeds, with
                             ///< the part `slack` beyond it
   double slack = 0.0;
-  std::string text;  ///< one sentence
+  std::optional<double> trials_hold;  ///< the highest factor that the trials hold, where it is
+                                      ///< beyond `most`, which is then the result
+  std::string text;                   ///< one sentence
 };
 
 struct FosResult {

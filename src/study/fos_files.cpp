@@ -64,6 +64,8 @@ std::string fos_summary(const Model& model, const FosResult& r, int threads) {
   if (r.rigid) {
     j.key("rigid_limits").open_object();
     j.pair("least", r.rigid->least).pair("most", r.rigid->most).pair("text", r.rigid->text);
+    j.pair("taken_from_rigid_limit", r.rigid->trials_hold.has_value());
+    j.pair("trials_hold", r.rigid->trials_hold);
     j.close();
     j.key("checks").open_list().open_object();
     j.pair("name", "factor at most that of rigid blocks")

@@ -13,7 +13,8 @@ RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks) {
   if (!found.ok()) return {};
   LimitResult& limit = found.value();
   limit.drawn.reset();
-  if (limit.of_pebbles && limit.without_pebbles) {
+  if (limit.of_pebbles && limit.without_pebbles &&
+      limit.without_pebbles->status == LimitEnd::found) {
     limit.largest = *limit.without_pebbles;
     limit.of_pebbles = false;
     limit.without_dilation.reset();
@@ -32,7 +33,7 @@ CollapseCriterion criterion_at(double factor, const Fos& fos, const CollapseCrit
                                const RigidLimit& rigid) {
   const bool in_equilibrium =
       rigid && (rigid->largest.status == LimitEnd::no_limit ||
-                (rigid->largest.status == LimitEnd::found && factor <= rigid->largest.lower));
+                (rigid->largest.status == LimitEnd::found && factor <= least_limit(*rigid)));
   CollapseCriterion c = usual;
   if (!in_equilibrium || fos.fails.displacement) return c;
   constexpr double wider = 10.0;

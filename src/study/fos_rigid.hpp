@@ -14,14 +14,14 @@ namespace edda {
 
 using RigidLimit = std::optional<LimitResult>;
 
-/// The limits of rigid blocks, without the weight of pebbles where these alone would move; nothing
+/// The limits of rigid blocks, with nothing acting on pebbles where these alone would move; nothing
 /// where there is no such analysis.
 RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks);
 
-/// The criterion of the trial of a factor. Blocks that have an equilibrium as rigid ones may move
-/// ten times as far before they find it: steep blocks lean on each other after some hundredths of
-/// their size. Where rigid blocks have none, what stops them lies elsewhere, such as the ground in
-/// front of a slope.
+/// The criterion of the trial of a factor, from blocks that stand as drawn. Blocks that have an
+/// equilibrium as rigid ones by all limits may move ten times as far before they find it: steep
+/// blocks lean on each other after some hundredths of their size. Where rigid blocks have none,
+/// what stops them lies elsewhere, such as the ground in front of a slope.
 CollapseCriterion criterion_at(double factor, const Fos& fos, const CollapseCriterion& usual,
                                const RigidLimit& rigid);
 

@@ -180,7 +180,8 @@ Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& opti
   const Result<Outcome> outcome = run_model(prepared.value(), how);
   if (!outcome.ok()) return outcome.faults();
   const Status status = outcome.value().status;
-  Staged made{{std::move(sim), {}, {}, {}, {}, {}, {}, {}, {}}, true, {}, 0};
+  Staged made;
+  made.start.sim = std::move(sim);
   if (ended) made.stage = *ended + (status == Status::failed ? 1 : 0);  // during the next stage
   FosStart& s = made.start;
   made.in_equilibrium = status != Status::collapsed && status != Status::failed;
@@ -226,7 +227,7 @@ Result<FosStart> at_rest(const Model& model, const Fos& fos, const FosOptions& o
         run.value().says);
   } else if (!lost_block_ids(s.sim).empty()) {
     s.warnings.push_back("with joints that do not fail, " + run.value().says +
-                         "; the factor is that of all other blocks");
+                         "; trials are those of all other blocks");
   }
   return std::move(s);
 }
@@ -250,7 +251,7 @@ Loading loading_of(const Fos& fos, const Model& model, const Loading& given, dou
 
 TrialPlan plan_at(double factor, const Fos& fos, const FosStart& start) {
   TrialPlan plan = start.plan;
-  plan.criterion = criterion_at(factor, fos, plan.criterion, start.rigid);
+  if (start.as_drawn) plan.criterion = criterion_at(factor, fos, plan.criterion, start.rigid);
   return plan;
 }
 
@@ -263,6 +264,7 @@ Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptio
   const double given = s.given.value;
   Simulation as_given = s.sim;
   s.rigid = rigid_limit(model, fos, s.sim.scene->blocks.size());
+  s.as_drawn = stands_as_drawn(s.sim, s.plan.criterion.size);
   Trial trial =
       run_trial(as_given, plan_at(given, fos, s), s.given, [&] { return stopped(options); });
   trial.factor = given;

@@ -13,6 +13,7 @@ struct FosStart {
   Loading given;  ///< loading of the model as given (without ground motion)
   TrialPlan plan;
   RigidLimit rigid;
+  bool as_drawn = true;                 ///< the blocks stand where `rigid` has them
   std::vector<Trial> seen;              ///< the trial of the factor 1, where one was made
   FosStatus status = FosStatus::found;  ///< otherwise unstable or interrupted, with a message
   std::string message;

@@ -10,6 +10,7 @@
 #include "model/stage_names.hpp"
 #include "observe/balance.hpp"
 #include "observe/observe.hpp"
+#include "run/equilibrium_search.hpp"
 #include "run/run_model.hpp"
 #include "run/wall_clock.hpp"
 #include "step/labels.hpp"
@@ -203,7 +204,7 @@ void add_mechanism(LimitResult& r, const Simulation& drawn, const RigidBlocks& r
       "the mechanism moves {} ({:.3g} m in size, less than a tenth of the mean of all blocks){} "
       "alone: the limit is that of a pebble, which edda fos does not count; that of larger blocks "
       "is "
-      "the limit without the weight of pebbles",
+      "the limit with nothing acting on pebbles",
       block_label(drawn.scene->blocks, i), std::sqrt(drawn.scene->blocks.area[i]), others));
 }
 
@@ -287,8 +288,10 @@ bool stands_as_drawn(const Simulation& sim, double size) {
   constexpr double near = 0.01;  // of the size of a block
   const BlockSet& b = sim.scene->blocks;
   const std::vector<std::uint8_t> small = negligible_blocks(sim);
+  const std::vector<Id> lost = lost_block_ids(sim);
   for (std::size_t i = 0; i < b.size(); ++i) {
     if (!is_free(b, sim.motion.state, i) || small[i] != 0) continue;
+    if (std::binary_search(lost.begin(), lost.end(), static_cast<Id>(i))) continue;
     const Vec2 drawn{b.centroid_x[i], b.centroid_y[i]};
     if (norm(centroid(sim.motion.state.x, sim.motion.state.y, i) - drawn) > near * size)
       return false;
@@ -306,14 +309,20 @@ std::optional<double> rigid_factor(const Model& model, const Simulation& end) {
   if (!staged.ok()) return {};
   const Simulation& sim = staged.value().sim;
   const bool crushing = model.limit && model.limit->crushing;
-  const auto largest = [&](const LimitCase& asked) -> std::optional<double> {
+  // Joints of which the friction is larger after failure hold more without their bonds.
+  const auto largest = [](const LimitCase& asked) -> std::optional<double> {
     const LimitCase::Answer peak = asked.at_end(true, StrengthOf::peak);
+    if (peak.end == LimitEnd::no_equilibrium) return 0.0;
     if (peak.end != LimitEnd::found) return {};
-    if (!asked.is_brittle()) return peak.upper;
-    return std::max(peak.upper, asked.at_end(true, StrengthOf::residual).upper);
+    if (peak.upper >= 1.0 || !asked.is_brittle()) return peak.upper;
+    const LimitCase::Answer broken = asked.at_end(true, StrengthOf::residual);
+    if (broken.end == LimitEnd::no_limit || broken.end == LimitEnd::not_solved) return {};
+    return std::max(peak.upper, broken.end == LimitEnd::found ? broken.upper : 0.0);
   };
   const LimitCase all(sim, fos, crushing);
-  if (all.rigid().bodies() == 0 || !stands_as_drawn(end, all.rigid().size)) return {};
+  if (all.rigid().bodies() == 0 || !all.rigid().loose.empty() ||
+      !stands_as_drawn(end, all.rigid().size))
+    return {};
   const std::optional<double> factor = largest(all);
   if (!factor || *factor >= 1.0) return factor;
   return largest(LimitCase(sim, fos, crushing, negligible_blocks(sim)));

@@ -62,7 +62,8 @@ Result<LimitResult> limit_analysis(const Model& model, LimitExtent extent = Limi
 /// where they have no limit, and for more than 600 blocks, for which it takes seconds.
 std::optional<double> rigid_factor(const Model& model, const Simulation& end);
 
-/// Whether the blocks that count stand as drawn, within a hundredth of this size (m).
+/// Whether the blocks that count and have not come loose stand as drawn, within a hundredth of this
+/// size (m).
 bool stands_as_drawn(const Simulation& sim, double size);
 
 /// limit_joints.csv and summary.json.

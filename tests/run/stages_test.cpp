@@ -158,6 +158,18 @@ TEST(Stages, WhatFallsFarIsLooseWhereverItLands) {
   }
 }
 
+/// What has fallen before the stage begins has not come loose in it.
+TEST(Stages, WhatFellBeforeIsNotLoose) {
+  PreparedRun ready = prepared(
+      "[materials.rock]\ndensity = 2600\nyoung = 1e9\npoisson = 0.25\n[joints.j]\nfriction_angle = "
+      "30\n[[block]]\nfixed = true\npolygon = [[-9, -1], [9, -1], [9, 0], [-9, 0]]\n[[block]]\n"
+      "polygon = [[0, 3], [1, 3], [1, 4], [0, 4]]\n[[stage]]\nduration = 0.72\n[[stage]]\nuntil = "
+      "'equilibrium'\n");
+  const Outcome o = run(ready);
+  EXPECT_EQ(o.status, Status::equilibrium) << o.message;
+  EXPECT_EQ(o.loose, 0U);
+}
+
 /// A block whose friction is four hundredths too low, beside a wall that determines the frequency:
 /// it creeps under the damping at that frequency, and is not in equilibrium.
 TEST(Stages, WhatCreepsBesideAWallIsLoose) {

@@ -84,6 +84,16 @@ TEST(RigidLimit, IsACheckOfRunsUntilEquilibrium) {
   EXPECT_NE(failed[0].find("rigid blocks"), std::string::npos) << failed[0];
 }
 
+/// Wedges that no strength of their joints holds: none of them has any.
+TEST(RigidLimit, IsZeroWhereThereIsNoEquilibriumAtAll) {
+  std::string smooth = two_wedges + "[[stage]]\nuntil = 'equilibrium'\n";
+  smooth.replace(smooth.find("= 35"), 4, "= 0");
+  const Model model = model_of(smooth);
+  const Result<PreparedRun> run = prepare_run(model);
+  ASSERT_TRUE(run.ok());
+  EXPECT_EQ(rigid_factor(model, run.value().sim), 0.0);
+}
+
 /// A block on a slope of 30 degrees, and a pebble on one of 45: the pebble moves first.
 TEST(RigidLimit, DoesWithoutPebblesWhereTheseAloneMove) {
   const std::string text =

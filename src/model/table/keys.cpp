@@ -254,7 +254,7 @@ constexpr std::array output_keys{
 };
 
 constexpr std::array fos_fails_keys{
-    Key{"displacement", at<&FosFails::displacement>, number(D::length, above(0)), otherwise("a hundredth of the mean size of the blocks"), "A trial fails where a corner of a block moves further than this."},
+    Key{"displacement", at<&FosFails::displacement>, number(D::length, above(0)), otherwise("a hundredth of the mean size of the blocks, a tenth where rigid blocks are in equilibrium"), "A trial fails where a corner of a block moves further than this."},
     Key{"velocity", at<&FosFails::velocity>, number(D::velocity, above(0)), otherwise("displacement over ten times the length of a trial"), "A trial fails where a corner still moves faster than this at its end."},
 };
 
