@@ -152,6 +152,13 @@ static void add_overstress(const Simulation& sim, std::vector<Check>& checks) {
   checks.push_back(informed("blocks over-stressed", static_cast<double>(over)));
 }
 
+static void add_rigid_check(const Outcome& o, std::vector<Check>& checks) {
+  constexpr double deforms = 0.01;  // joints and blocks do so before they fail
+  if (!o.rigid_factor) return;
+  checks.push_back(
+      limited(std::string(rigid_check), std::max(0.0, 1.0 - *o.rigid_factor), deforms));
+}
+
 std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
   std::vector<Check> checks{
       limited(std::string(overlap_check), o.overlap.ratio, overlap_limit),
@@ -190,11 +197,7 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
     checks.insert(checks.begin() + 2,
                   limited("largest step over critical step", o.step_over_critical, 1.0));
   }
-  if (o.rigid_factor) {
-    constexpr double deforms = 0.01;  // joints and blocks do so before they fail
-    checks.push_back(
-        limited(std::string(rigid_check), std::max(0.0, 1.0 - *o.rigid_factor), deforms));
-  }
+  add_rigid_check(o, checks);
   const bool rest = o.unbalanced <= equilibrium_limit;
   // While blocks still move, reactions also carry their inertia forces and are not judged.
   checks.push_back(
