@@ -86,9 +86,9 @@ TEST(FaceBond, TearsAtTheEndThatOpens) {
     const std::size_t k = bonded_face(m);
     ASSERT_LT(k, m.faces.size());
     EXPECT_EQ(m.faces.stiffness[k], normal_k);
-    const auto open = [&](double by) {
+    const auto open = [&m, sign = way](double by) {
       // Closed by 0.2 of that at the other end, by rotation about the middle of the face.
-      m.go(1, {{-0.6 * way * by, 0.4 * by}, 1.2 * way * by});
+      m.go(1, {{-0.6 * sign * by, 0.4 * by}, 1.2 * sign * by});
     };
     for (int n = 1; n <= 98; ++n) open(0.01 * n * most);
     EXPECT_EQ(m.faces.bonded[k], 1.0);
