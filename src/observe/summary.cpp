@@ -241,9 +241,8 @@ std::string message_of(const Check& check, const Simulation& sim, const Outcome&
   if (check.name == rigid_check) {
     text += fmt::format(
         ": as rigid blocks it has a factor of safety of {:.4g} and no equilibrium; a sharp tip or "
-        "a "
-        "ledge holds blocks that deform, as in a kink of their base, at the heel of a wall or at a "
-        "toe, or a gap between blocks as drawn has closed: see edda limit",
+        "a ledge holds blocks that deform, as in a kink of their base, at the heel of a wall or at "
+        "a toe, or a gap between blocks as drawn has closed: see edda limit",
         *o.rigid_factor);
   }
   if (check.name == loose_check) {

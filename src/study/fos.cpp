@@ -340,7 +340,7 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
   const RigidLimit& rigid = start.rigid;
   FosResult r;
   r.criterion = start.plan.criterion;
-  r.within_limit = criterion_at(0.0, fos, r.criterion, start.rigid).displacement;
+  r.within_limit = plan_at(0.0, fos, start).criterion.displacement;
   r.blocks = start.sim.scene->blocks.size();
   r.warnings = start.warnings;
   if (start.status != FosStatus::found) {
@@ -377,9 +377,8 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
   if (rigid && rigid->largest.status == LimitEnd::no_equilibrium && r.holds) {
     r.warnings.push_back(fmt::format(
         "rigid limit analysis: {}; blocks that deform hold at {:.4g}: a sharp tip or a ledge "
-        "stands "
-        "in their way, a gap between them as drawn has closed, or what moves has come loose before "
-        "(docs/limit.md)",
+        "stands in their way, a gap between them as drawn has closed, or what moves has come loose "
+        "before (docs/limit.md)",
         rigid->message, *r.holds));
   }
   r.seconds = since(began);

@@ -203,8 +203,7 @@ void add_mechanism(LimitResult& r, const Simulation& drawn, const RigidBlocks& r
   r.warnings.push_back(fmt::format(
       "the mechanism moves {} ({:.3g} m in size, less than a tenth of the mean of all blocks){} "
       "alone: the limit is that of a pebble, which edda fos does not count; that of larger blocks "
-      "is "
-      "the limit with nothing acting on pebbles",
+      "is the limit with nothing acting on pebbles",
       block_label(drawn.scene->blocks, i), std::sqrt(drawn.scene->blocks.area[i]), others));
 }
 

@@ -56,10 +56,11 @@ enum class LimitExtent {
 /// prepare_run(), and of quantities that rigid limit analysis cannot vary (ground motion).
 Result<LimitResult> limit_analysis(const Model& model, LimitExtent extent = LimitExtent::all);
 
-/// The factor of safety at the end of the stages of the blocks as rigid ones, without the weight of
-/// pebbles: what RunOptions::rigid_factor asks. None where they have moved, at the `end` of the
-/// run, by more than a hundredth of their size from where they are drawn, to which limits refer,
-/// where they have no limit, and for more than 600 blocks, for which it takes seconds.
+/// The factor of safety at the end of the stages of the blocks as rigid ones, with nothing acting
+/// on pebbles: what RunOptions::rigid_factor asks. 0: they have no equilibrium at any strength.
+/// None where they have moved, at the `end` of the run, by more than a hundredth of their size from
+/// where they are drawn, to which limits refer, where blocks are drawn apart or nothing moves them,
+/// and for more than 600 blocks, for which it takes seconds.
 std::optional<double> rigid_factor(const Model& model, const Simulation& end);
 
 /// Whether the blocks that count and have not come loose stand as drawn, within a hundredth of this

@@ -13,10 +13,9 @@ namespace {
 
 /// Direction in which face k slips at these positions: along the edge on which a corner of the
 /// other presses.
-Vec2 slip_direction(const Simulation& sim, const FaceSet& f, const Pose& pose, std::size_t k) {
-  const Face face = face_at(f, sim.scene->blocks, pose.x, pose.y, k);
-  const Vec2 along = face.t + face.slope * outward_normal(face.t);
-  return (1.0 / norm(along)) * along;
+Vec2 slip_direction(const Simulation& sim, const Pose& pose, std::size_t k) {
+  const Face face = face_at(sim.motion.contacts, sim.scene->blocks, pose.x, pose.y, k);
+  return unit(face.t + face.slope * outward_normal(face.t));
 }
 
 /// One end of a face: its position, and the relative displacement of its two points since then.
@@ -29,8 +28,8 @@ EndMoved end_moved(const Simulation& before, const Simulation& after, std::size_
   const FaceSet& f = before.motion.contacts;
   const FacePoints p = face_points(f, before.motion.pose.x, before.motion.pose.y, k);
   const FacePoints q = face_points(f, after.motion.pose.x, after.motion.pose.y, k);
-  const Vec2 t_was = slip_direction(before, f, before.motion.pose, k),
-             t_is = slip_direction(before, f, after.motion.pose, k);
+  const Vec2 t_was = slip_direction(before, before.motion.pose, k),
+             t_is = slip_direction(before, after.motion.pose, k);
   const Vec2 was = from_point_of_e(p, xi, eta), is = from_point_of_e(q, xi, eta);
   return {(1.0 - xi) * p.p1 + xi * p.p2 + before.scene->blocks.origin,
           std::abs(dot(is, t_is) - dot(was, t_was)),
