@@ -118,12 +118,11 @@ void warn_of_locked_toes(const Simulation& sim, std::vector<std::string>& warnin
                                 ? std::string("joint")
                                 : sim.scene->model.joints[static_cast<std::size_t>(toe.joint)].name;
   warnings.push_back(fmt::format(
-      "the {} under {} daylights at {} in an inner corner of the ground: the rock in front "
-      "supports the tip of the sliding blocks, and a factor of safety includes this support{}; if "
-      "they are to slide out, let the ground in front lie a few centimetres lower, or the {} "
-      "daylight above the corner",
+      "the {} under {} daylights at {} in an inner corner of the ground: in a run the rock in "
+      "front supports the tip of the sliding blocks{}, while as rigid blocks they slide; let the "
+      "joint daylight above the corner, by more than the blocks are to slide",
       joint, block_label(b, toe.block), place_label(b.vertex(toe.vertex) + b.origin),
-      toes.size() == 1 ? std::string{} : fmt::format(" ({} such places)", toes.size()), joint));
+      toes.size() == 1 ? std::string{} : fmt::format(" ({} such places)", toes.size())));
 }
 
 }  // namespace edda

@@ -317,8 +317,8 @@ material = "rock"
         self.expect(0, "example", "cavern")
         results = []
         for n in (1, 2, 7):
-            self.expect(0, "run", "cavern.toml", "--quiet", "-o", f"t{n}", "--threads", str(n), "--set", "solver.duration=0.002",
-                        "--set", "output.history_every=0.001")
+            self.expect(0, "run", "cavern.toml", "--quiet", "-o", f"t{n}", "--threads", str(n), "--set", "solver.duration=0.0005",
+                        "--set", "output.history_every=0.00025")
             results.append([(self.dir / f"t{n}" / f).read_bytes() for f in ("blocks.csv", "joints.csv", "history.csv")])
         self.assertEqual(results[0], results[1])
         self.assertEqual(results[0], results[2])

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -25,6 +26,28 @@ Model read(const std::string& text, const std::vector<std::string>& overrides = 
     return {};
   }
   return result.value();
+}
+
+/// 10 s, or 200 times the larger side over sqrt(young/density), of the softest rock.
+TEST(ReadModel, StagesLastLongerInLargeModels) {
+  const auto longest = [](const std::string& side) {
+    const Model m = read(
+        "[materials.soft]\ndensity = 2500\nyoung = 1e9\npoisson = 0.2\n"
+        "[materials.hard]\ndensity = 2500\nyoung = 4e9\npoisson = 0.2\n"
+        "[joints.j]\nfriction_angle = 30\n[domain]\nmaterial = 'hard'\n"
+        "outline = [[100, 0], [" +
+        side + ", 0], [" + side +
+        ", 20], [100, 20]]\n"
+        "[[stage]]\nuntil = 'equilibrium'\n"
+        "[[stage]]\nuntil = 'equilibrium'\nduration = 3\n");
+    EXPECT_EQ(m.stages.at(1).duration, 3.0);
+    EXPECT_DOUBLE_EQ(m.solver.duration, m.stages[0].duration + 3.0);
+    EXPECT_DOUBLE_EQ(m.output.history_every, 0.065) << "of 10 s and 3 s";
+    return m.stages[0].duration;
+  };
+  const double speed = std::sqrt(1e9 / 2500);
+  EXPECT_EQ(longest("120"), 10.0);
+  EXPECT_DOUBLE_EQ(longest("1100"), 200.0 * 1000.0 / speed);
 }
 
 TEST(ReadModel, Defaults) {

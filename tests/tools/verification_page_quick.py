@@ -1,6 +1,6 @@
 """The page of known answers comes out whole: every row, every bound held, figures that can be read.
 
-Usage: verification_page_quick.py BUILD_FOLDER
+Usage: verification_page_quick.py RECORDS, a folder into which the tests have recorded (tests/verification/record.hpp)
 """
 import importlib.util
 import pathlib
@@ -46,8 +46,7 @@ def main():
         sys.exit(SKIPPED)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        subprocess.run([str(ROOT / "tools" / "verification-page"), "--quick", "--program", sys.argv[1], "--out", name],
-                       check=True)
+        subprocess.run([str(ROOT / "tools" / "verification-page"), "--records", sys.argv[1], "--out", name], check=True)
         page = (folder / "verification.md").read_text(encoding="utf-8")
         assert not re.search(r"\bnan\b|\bNone\b|\binf\b", page), "a number on the page is none"
         check_rows(page)

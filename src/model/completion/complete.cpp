@@ -232,11 +232,13 @@ void check_solver(const Value& root, Reading& reading) {
 void complete_interval(const Value& root, const char* key, double& interval, double parts,
                        double most, Reading& reading) {
   const Value* value = find(find(&root, "output"), key);
-  // How long a ramp takes is not known: it counts as a stage until equilibrium.
-  double duration = reading.model.stages.empty() ? reading.model.solver.duration : 0.0;
-  for (const Stage& stage : reading.model.stages) {
-    const bool shorter = stage.ramp || stage.duration == Ramp::longest_value;
-    duration += shorter ? std::min(stage.duration, Stage{}.duration) : stage.duration;
+  // How long a ramp takes is not known, nor a stage without a duration: each counts as 10 s at
+  // most.
+  const auto& stages = reading.model.stages;
+  double duration = stages.empty() ? reading.model.solver.duration : 0.0;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const bool known = !stages[i].ramp && given(element(root, "stage", i), "duration");
+    duration += known ? stages[i].duration : std::min(stages[i].duration, Stage{}.duration);
   }
   if (value == nullptr) {
     interval = duration > 0.0 ? fitted(duration / parts) : 0.0;

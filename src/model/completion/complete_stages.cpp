@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -253,6 +254,35 @@ void check_ramp_damping(const Value* own, const Stage& stage, Reading& reading) 
             "leave damping out, or give adaptive = 0.8");
 }
 
+/// The larger of the model's width and height, m, by its outline and its blocks.
+double extent_of(const Model& model) {
+  std::vector<Vec2> corners;
+  if (model.domain) corners = model.domain->outline;
+  for (const BlockInput& block : model.blocks) {
+    corners.insert(corners.end(), block.polygon.begin(), block.polygon.end());
+  }
+  const auto span = [&](double Vec2::*along) {
+    if (corners.empty()) return 0.0;
+    const auto [low, high] = std::minmax_element(
+        corners.begin(), corners.end(), [&](Vec2 a, Vec2 b) { return a.*along < b.*along; });
+    return *high.*along - *low.*along;
+  };
+  return std::max(span(&Vec2::x), span(&Vec2::y));
+}
+
+/// s: the longest that a stage until equilibrium may take where no duration is given. Waves cross
+/// the model 200 times at least, so that a mountain has as many periods as a bench.
+double longest_by_default(const Model& model, const Stage& stage) {
+  if (stage.ramp || moves_supports(model)) return Ramp::longest_value;
+  double slowest = std::numeric_limits<double>::infinity();  // m/s
+  for (const Material& rock : model.materials) {
+    if (rock.young > 0.0 && rock.density > 0.0) {
+      slowest = std::min(slowest, std::sqrt(rock.young / rock.density));
+    }
+  }
+  return std::max(Stage{}.duration, Stage::crossings * extent_of(model) / slowest);
+}
+
 }  // namespace
 
 void complete_stages(const Value& root, Reading& reading) {
@@ -279,8 +309,9 @@ void complete_stages(const Value& root, Reading& reading) {
     const Value* own = element(root, "stage", i);
     if (!is_table(own)) continue;
     complete_ramp(own, stage, reading);
-    const bool is_slow = stage.ramp || (stage.to_equilibrium() && moves_supports(model));
-    if (is_slow && !given(own, "duration")) stage.duration = Ramp::longest_value;
+    if ((stage.ramp || stage.to_equilibrium()) && !given(own, "duration")) {
+      stage.duration = longest_by_default(model, stage);
+    }
     complete_stage_damping(own, solver, stage);
     check_ramp_damping(own, stage, reading);
     complete_masses(own, solver, stage, reading);
