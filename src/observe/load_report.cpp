@@ -68,6 +68,10 @@ std::string shaking_line(const Shaking& s, std::size_t row) {
 std::string bolts_line(const Bolts& bolts) {
   std::size_t joints = 0;
   for (std::size_t k = 0; k < bolts.size(); ++k) joints += bolts.crossing[k];
+  for (std::size_t q = 0; q < bolts.rows.size(); ++q) {
+    const Id head = bolts.begin[q];  // of an end-anchored bolt one joint is counted
+    if (!bolts.rows[q].grouted && bolts.host[head] != bolts.host[head + 1]) ++joints;
+  }
   return fmt::format("{} of {} {} {}", counted(bolts.rows.size(), "bolt"),
                      counted(bolts.size(), "node"), bolts.rows.size() == 1 ? "crosses" : "cross",
                      counted(joints, "joint"));

@@ -1,4 +1,4 @@
-// Joints and materials that are defined but not used.
+// What a model defines to no effect: joints, materials, bolts, water.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@
 namespace edda {
 
 /// A warning for each joint that no edge of a block has and no contact_pair gives, and for each
-/// material that no block has: changing them has no effect.
+/// material that no block has, for bolts within a single block, and for each water that reaches no
+/// face of a free block.
 std::vector<std::string> unused_names(const Simulation& sim);
 
 }  // namespace edda

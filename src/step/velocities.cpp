@@ -49,4 +49,27 @@ void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy) {
   sim.accounts.external_work += total_energy(sim) - energy;
 }
 
+void rest_on_ground(Simulation& sim) {
+  Ground& ground = sim.attached.ground;
+  const Vec2 v = ground.velocity;
+  if (v == Vec2{}) return;
+  faces_to_change(sim);
+  State& state = sim.motion.state;
+  Pose& pose = sim.motion.pose;
+  const double energy = total_energy(sim);
+  const bool leaps = sim.stepper->velocity_lag > 0.0;
+  const Vec2 last = leaps ? sim.control.step_before * v : Vec2{};
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (is_free(sim.scene->blocks, state, i)) add(at_every_node(-1.0 * v), state.vx, state.vy, i);
+  }
+  for (std::size_t p = 0; p < pose.x1.size(); ++p) {
+    pose.x1[p] += last.x;
+    pose.y1[p] += last.y;
+  }
+  for (Vec2& shift : sim.attached.springs.shift_1) shift += last;
+  ground.shift_1 += last;
+  ground.velocity = {};
+  sim.accounts.external_work += total_energy(sim) - energy;
+}
+
 }  // namespace edda

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "run/stages.hpp"
@@ -148,6 +149,25 @@ class Run {
     change_damping(sim_, plan_.shaken, sim_.motion.dynamic);
     step_to(start_ + plan_.criterion.shaking);
     if (!over_) scale_shaking(0.0);
+    const double latest = sim_.motion.state.time + most_steps * sim_.control.limit;
+    while (!over_ && sim_.motion.state.time < latest && !is_calm()) {
+    }
+    if (!over_) rest_on_ground(sim_);
+  }
+
+  /// Follows the motion that the ground has left, as it is damped in the model, for the time T of
+  /// the criterion. Whether no vertex has moved further meanwhile than a small part of the failure
+  /// displacement: what slides or rocks would go on, and the search for equilibrium would stop it.
+  bool is_calm() {
+    constexpr double small = 0.05;
+    constexpr int looks = 20;
+    const Watch window(sim_);
+    double furthest = 0.0;
+    for (int look = 0; look < looks && !over_; ++look) {
+      step_to(sim_.motion.state.time + plan_.criterion.duration / looks);
+      furthest = std::max(furthest, window.displacement(sim_).value);
+    }
+    return furthest <= small * plan_.criterion.displacement;
   }
 
   void follow() {

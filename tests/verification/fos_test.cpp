@@ -238,6 +238,25 @@ TEST(FactorOfSafety, ShakingThatGrows) {
   expect_factor(r, 44, "", 9.8 * std::tan(radians(phi - alpha)), 1e-2, false);
 }
 
+/// Row 44: a pulse of acceleration a for 0.2 s leaves a block on level ground with the velocity v =
+/// (a - mu g) 0.2 s, with which it slides on by v^2/(2 mu g) after its record has ended, whether
+/// the pulse is that of a frame or of a ground, which then moves on.
+TEST(FactorOfSafety, ShakingIsFollowedUntilItsMotionIsOver) {
+  const double mu = std::tan(radians(10.0)), g = 9.8, time = 0.2, most = 0.1;
+  // d = 1/2 (a - mu g) t^2 + (a - mu g)^2 t^2/(2 mu g), of q = a - mu g:
+  const double p = 0.5 * time * time, q = p / (mu * g);
+  const double exact = mu * g + (-p + std::sqrt(p * p + 4.0 * q * most)) / (2.0 * q);
+  for (const std::string apply : {"inertia", "base"}) {
+    const std::string toml = ramp(0.0, 10.0, "2e9", 1, "") +
+                             "[[shaking]]\nname = 'push'\napply = '" + apply +
+                             "'\nacceleration = 'tests/verification/short_push.csv'\n";
+    const FosResult r = factor_of(toml,
+                                  "vary = 'shaking:push'\nbracket = [1.0, 10.0]\n"
+                                  "tolerance = 0.002\nfails = { displacement = 0.1 }\n");
+    expect_factor(r, 44, "pulse, " + apply, exact, 1e-2, false);
+  }
+}
+
 /// Row 45: the dam of row 14 under a lake of 5 m whose water grows heavier: it overturns where
 /// F gw h^3/6 = gc B^2 H/2.
 TEST(FactorOfSafety, WaterThatGrows) {
