@@ -106,7 +106,7 @@ std::optional<Fault> enter_stage(Simulation& sim, const StagePlan& given, bool f
   const bool carry = sim.scene->model.solver.dynamic && !stage.to_equilibrium();
   change_damping(sim, stage.damping, carry);
   // Damping for equilibrium brings blocks to rest, not to the velocity of the ground.
-  if (stage.to_equilibrium()) rest_on_ground(sim);
+  if (stage.to_equilibrium()) lose_velocity(sim, sim.attached.ground.velocity);
   // Strength changes last: with adaptive damping it changes gradually, together with all that has
   // begun or ended to act above.
   if (stage.ramp) {

@@ -28,6 +28,20 @@ bool names_row(const std::vector<Index>& rows, Index row) {
   return std::find(rows.begin(), rows.end(), row) != rows.end();
 }
 
+/// Velocity that these ground motions (rows of Model::shakings) have given the ground, m/s.
+Vec2 velocity_of_ground_by(const Simulation& sim, const std::vector<Index>& rows) {
+  Vec2 sum;
+  for (const Index q : rows) {
+    const auto row = static_cast<std::size_t>(q);
+    const Shaking& shaking = sim.scene->model.shakings[row];
+    const double since = sim.attached.loads.intervals.shakings[row].since;
+    if (shaking.apply == ShakingKind::base) {
+      sum += velocity_at(shaking, sim.motion.state.time - since);
+    }
+  }
+  return sum;
+}
+
 /// Owner, as in WallForce, of the forces that a boundary has taken over.
 Index owner_row(const Model& model, Index boundary) {
   return static_cast<Index>(model.openings.size()) + boundary;
@@ -117,18 +131,13 @@ std::optional<Fault> install(Simulation& sim, const std::vector<Index>& which) {
 void switch_over(Simulation& sim, const NamedRows& off, const NamedRows& on) {
   const Model& model = sim.scene->model;
   Loads& loads = sim.attached.loads;
-  Ground& ground = sim.attached.ground;
   const State& state = sim.motion.state;
   const Pose& pose = sim.motion.pose;
+  // A ground that stops being moved must not jolt what stands on it.
+  lose_velocity(sim, velocity_of_ground_by(sim, off.shakings));
   const double energy = total_energy(sim);
   const NodalForces before_it = off.boundaries.empty() ? NodalForces{} : forces_now(sim);
   std::vector<WallForce> wall_forces = release_boundaries(sim, off.boundaries);
-  for (const Index q : off.shakings) {
-    const auto row = static_cast<std::size_t>(q);
-    const Shaking& shaking = model.shakings[row];
-    if (shaking.apply != ShakingKind::base) continue;
-    ground.velocity -= velocity_at(shaking, state.time - loads.intervals.shakings[row].since);
-  }
   ActiveIntervals& intervals = loads.intervals;
   set_all(intervals.boundaries, off.boundaries, on.boundaries, state.time);
   // Springs and wall forces end and begin at once. So must a traction that takes over or is taken
@@ -166,8 +175,8 @@ void switch_over(Simulation& sim, const NamedRows& off, const NamedRows& on) {
   set_all(intervals.shakings, off.shakings, on.shakings, state.time);
   const bool shakes = std::any_of(intervals.shakings.begin(), intervals.shakings.end(),
                                   [](const ActiveInterval& interval) { return interval.acts(); });
-  if (!shakes) ground.velocity = {};
   sim.accounts.external_work += total_energy(sim) - energy;
+  if (!shakes) lose_velocity(sim, sim.attached.ground.velocity);
 }
 
 void glue_joints(Simulation& sim, bool glued) {

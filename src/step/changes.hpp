@@ -52,9 +52,9 @@ void exchange_velocity_arrays(Simulation& sim);
 /// Replaces the velocities of the nodes (finite, m/s); those of blocks that are not free do not
 /// change.
 void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy);
-/// From now on the model is seen from its ground, which rests there: the ground loses its velocity,
-/// and so do all blocks, as if the last step had been made without it.
-void rest_on_ground(Simulation& sim);
+/// The ground and all free blocks lose the velocity v (m/s), as if the last step had been made
+/// without it: the model is seen from a frame that moves with v. None of its forces changes.
+void lose_velocity(Simulation& sim, Vec2 v);
 
 /// Loads the outer faces with the initial stress, on boundaries too; at creation.
 void load_boundaries_with_initial_stress(Simulation& sim);

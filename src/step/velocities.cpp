@@ -49,9 +49,8 @@ void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy) {
   sim.accounts.external_work += total_energy(sim) - energy;
 }
 
-void rest_on_ground(Simulation& sim) {
+void lose_velocity(Simulation& sim, Vec2 v) {
   Ground& ground = sim.attached.ground;
-  const Vec2 v = ground.velocity;
   if (v == Vec2{}) return;
   faces_to_change(sim);
   State& state = sim.motion.state;
@@ -68,7 +67,7 @@ void rest_on_ground(Simulation& sim) {
   }
   for (Vec2& shift : sim.attached.springs.shift_1) shift += last;
   ground.shift_1 += last;
-  ground.velocity = {};
+  ground.velocity -= v;
   sim.accounts.external_work += total_energy(sim) - energy;
 }
 

@@ -152,7 +152,7 @@ class Run {
     const double latest = sim_.motion.state.time + most_steps * sim_.control.limit;
     while (!over_ && sim_.motion.state.time < latest && !is_calm()) {
     }
-    if (!over_) rest_on_ground(sim_);
+    if (!over_) lose_velocity(sim_, sim_.attached.ground.velocity);
   }
 
   /// Follows the motion that the ground has left, as it is damped in the model, for the time T of

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
 
 #include "run/prepared.hpp"
 
@@ -110,6 +113,41 @@ TEST(Stages, ProgressHasTheFastestBlock) {
   EXPECT_NEAR(last.largest_velocity, 9.81 * o.time, 0.01);  // that which falls beside the tower
   EXPECT_EQ(last.stages, 1u);
   EXPECT_TRUE(last.stage_name.empty());
+}
+
+/// A slider on a ground that is pushed for 0.2 s and then keeps its velocity, or no longer acts.
+testing::Ran pushed(const std::string& apply, const std::string& acceleration,
+                    const std::string& then) {
+  return testing::ran(
+      "[materials.rock]\ndensity = 2500\nyoung = 2e9\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = 5\n[[block]]\nname = 'floor'\nfixed = true\n"
+      "polygon = [[-9, -1], [9, -1], [9, 0], [-9, 0]]\n[[block]]\nname = 'slider'\n"
+      "polygon = [[-1, 0], [1, 0], [1, 1], [-1, 1]]\n[[shaking]]\nname = 'push'\napply = '" +
+      apply + "'\nacceleration = " + acceleration +
+      "\n[[stage]]\nuntil = 'equilibrium'\n[[stage]]\nduration = 0.21\nactivate = ['push']\n" +
+      then + "[[stage]]\nuntil = 'equilibrium'\n");
+}
+
+/// What stands on a ground that keeps its velocity comes to rest on it, and one that stops being
+/// moved jolts nothing: as in a frame that had the same motion.
+TEST(Stages, EquilibriumIsOnTheGroundThatStillMoves) {
+  const std::string record =
+      "'" + std::string(EDDA_SOURCE_DIR) + "/tests/verification/short_push.csv'\nscale = 3";
+  const std::string sine = "{ amplitude = 2.0, frequency = 2.5 }";
+  for (const auto& [acceleration, then] :
+       {std::pair{record, std::string()},
+        {sine, std::string("[[stage]]\nduration = 0.01\ndeactivate = ['push']\n")}}) {
+    double slid[2];
+    std::size_t n = 0;
+    for (const std::string apply : {"inertia", "base"}) {
+      const testing::Ran r = pushed(apply, acceleration, then);
+      EXPECT_EQ(r.outcome.status, Status::equilibrium) << apply << ": " << r.outcome.message;
+      EXPECT_LT(norm(r.ready.sim.attached.ground.velocity), 1e-15) << apply;
+      slid[n++] = r.moved("slider").x - r.moved("floor").x;
+    }
+    EXPECT_GT(std::abs(slid[0]), 0.005);
+    EXPECT_NEAR(slid[1], slid[0], 1e-9);
+  }
 }
 
 /// Where no equilibrium exists the run reports this and the blocks that move.
