@@ -28,7 +28,7 @@ struct ChunkColumns : EdgeConstants<const double*>, StrengthConstants<const doub
   OverlapColumns<double*> overlaps;
   const Records *e, *f, *e_then, *f_then, *mass_e, *mass_f;
   LaneBits was;
-  double per_step, noise;
+  double per_step, noise, bond_strength;
 };
 /// What a loop reads and writes beside the constants and the edges.
 enum class Tables { constants_alone, memory, memory_and_dashpots };
@@ -53,7 +53,8 @@ EDDA_INLINE ChunkColumns columns_of(const ChunkView& v) {
                  v.mass_f,
                  v.of->was[v.chunk],
                  v.of->per_step,
-                 v.of->noise};
+                 v.of->noise,
+                 v.of->bond_strength};
   if constexpr (tables != Tables::constants_alone) {
     c.before = columns_from<FaceMemoryColumns<const double*>>(v.before);
     c.memory = columns_from<FaceMemoryColumns<double*>>(v.memory);

@@ -173,11 +173,12 @@ EDDA_INLINE bool bond_fails_in(const ChunkColumns& c, const Face& face, const Fa
                                std::size_t k) {
   const double largest = larger(face.closure.a, face.closure.b);
   const bool bonded = c.bonded[k] > 0.0, carries_tension = c.carries_tension[k] > 0.0;
-  const bool torn = carries_tension & (outer_tension(face.normal) > c.tension[k] * face.length);
+  const bool torn =
+      carries_tension & (outer_tension(face.normal) > c.bond_strength * c.tension[k] * face.length);
   const bool apart = bonded & !carries_tension & (largest < -c.touching[k]);
   const double rounding = 2.0 * s.spring * c.noise;
   const bool sheared = bonded & (std::abs(s.shear.a + s.shear.b) >
-                                 rounding + c.cohesion[k] * face.cohesive +
+                                 rounding + c.bond_strength * c.cohesion[k] * face.cohesive +
                                      c.friction[k] * (face.normal.a + face.normal.b));
   return (torn | apart | sheared) & (c.glued[k] == 0.0);
 }

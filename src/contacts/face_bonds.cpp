@@ -24,7 +24,15 @@ void glue_for_now(FaceSet& c, std::size_t k) {
 
 /// Whether the outer fibre of face k is in more tension than its tensile strength.
 bool is_torn(const FaceSet& c, const FaceFields<double>& now, std::size_t k) {
-  return outer_tension({now.normal_a, now.normal_b}) > c.tension[k] * now.length;
+  return outer_tension({now.normal_a, now.normal_b}) > c.bond_strength * c.tension[k] * now.length;
+}
+
+/// Whether the shear force of both ends of the bonded face k is beyond its strength.
+bool is_sheared(const FaceSet& c, const FaceFields<double>& now, std::size_t k) {
+  const double shear = std::abs(now.shear_a + now.shear_b);
+  const double rounding = 2.0 * now.spring * c.noise;
+  return shear > rounding + c.bond_strength * c.cohesion[k] * now.cohesive +
+                     c.friction[k] * (now.normal_a + now.normal_b);
 }
 
 }  // namespace
@@ -53,14 +61,19 @@ void fit(FaceSet& c, const BlockSet& b, const Face& face, std::size_t k) {
   c.before.gate[k] = face.gate;
 }
 
+void set_residual_tension(FaceSet& c, const LawTable& laws, std::size_t k) {
+  const Law& law = laws.rows[c.law[k]];
+  c.tension[k] = law.residual_tension * laws.thickness;
+  c.carries_tension[k] = law.residual_tension > 0.0 ? 1.0 : 0.0;
+}
+
 }  // namespace
 
 void set_residual_strength(FaceSet& c, const LawTable& laws, std::size_t k) {
   const Law& law = laws.rows[c.law[k]];
   c.friction[k] = law.residual_friction;
   c.cohesion[k] = law.residual_cohesion * laws.thickness;
-  c.tension[k] = law.residual_tension * laws.thickness;
-  c.carries_tension[k] = law.residual_tension > 0.0 ? 1.0 : 0.0;
+  set_residual_tension(c, laws, k);
   c.slip_so_far[k] = first_slip(law);
 }
 
@@ -108,18 +121,19 @@ bool bond_fails(const FaceSet& c, const BlockSet& b, const FaceFields<double>& n
   const double largest = std::max(now.closure_a, now.closure_b);
   if (c.carries_tension[k] > 0.0 && is_torn(c, now, k)) return true;
   if (c.bonded[k] == 0.0) return false;
-  if (c.carries_tension[k] == 0.0 && largest < -touching_gap * smaller_size(c, b, k)) return true;
-  const double shear = std::abs(now.shear_a + now.shear_b);
-  const double rounding = 2.0 * now.spring * c.noise;
-  return shear >
-         rounding + c.cohesion[k] * now.cohesive + c.friction[k] * (now.normal_a + now.normal_b);
+  if (c.carries_tension[k] == 0.0 && largest < -drawn_gap * smaller_size(c, b, k)) return true;
+  return is_sheared(c, now, k);
 }
 
 void break_bond(FaceSet& c, const LawTable& laws, const FaceFields<double>& now, std::size_t k) {
-  const bool was_bonded = c.bonded[k] > 0.0;
-  c.bonded[k] = 0.0;
-  if (was_bonded) set_residual_strength(c, laws, k);
-  c.mark_failure(k, was_bonded ? bond_breaks : 1.0);
+  // What cracks from one end as it bends is whole at the other, which is pressed.
+  const bool cracks = c.bonded[k] > 0.0 && c.carries_tension[k] > 0.0 &&
+                      std::max(now.normal_a, now.normal_b) > 0.0 && !is_sheared(c, now, k);
+  const bool breaks = c.bonded[k] > 0.0 && !cracks;
+  if (cracks) set_residual_tension(c, laws, k);
+  if (!cracks) c.bonded[k] = 0.0;
+  if (breaks) set_residual_strength(c, laws, k);
+  c.mark_failure(k, breaks ? bond_breaks : 1.0);
   // The face releases altogether if its tension exceeds the residual tensile strength, too.
   if (is_torn(c, now, k)) c.carries_tension[k] = 0.0;
   c.opened[k] = 1.0;

@@ -10,10 +10,6 @@
 
 namespace edda {
 
-/// Gap or overlap, as a part of the smaller block's size, that drawing may leave in a joint: what
-/// coordinates are rounded to.
-inline constexpr double drawn_gap = 1e-3;
-
 /// Whether the edges of face k lie along each other within 8 degrees and touch as drawn: the larger
 /// closure of the two ends is zero to within `gap` of the smaller block's size.
 bool touch_as_drawn(const FaceSet& faces, const BlockSet& blocks, const Pose& pose,
@@ -35,15 +31,25 @@ inline bool lies_flush_as_drawn(FaceEnds drawn, double length) {
 /// Gives face k the residual strength of its law.
 void set_residual_strength(FaceSet& faces, const LawTable& laws, std::size_t k);
 
+/// Whether any face has a bond that may fail.
+inline bool has_bonds(const FaceSet& faces) {
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    if (faces.bonded[k] > 0.0 && faces.glued[k] == 0.0) return true;
+  }
+  return false;
+}
+
 /// Whether face k fails in this state. A bond fails where its shear force exceeds c L +
 /// tan(phi) N; in tension where outer_tension() exceeds sigma_t L; without tensile strength where
-/// the face gapes all along by more than 1e-6 of the smaller block's size. A face that carries
+/// the face gapes all along by more than drawn_gap of the smaller block's size. A face that carries
 /// tension without a bond fails in tension alone.
 bool bond_fails(const FaceSet& faces, const BlockSet& blocks, const FaceFields<double>& now,
                 std::size_t k);
 
-/// Face k breaks: it has its residual strength from now on, and no tensile strength if its tension
-/// exceeds the residual one, too.
+/// Face k breaks. One that tension has cracked from one end, while the other is pressed, keeps its
+/// cohesion and its friction, as if it had never had more than its residual tensile strength; else
+/// it has its residual strength from now on. It has no tensile strength if its tension exceeds the
+/// residual one, too.
 void break_bond(FaceSet& faces, const LawTable& laws, const FaceFields<double>& now, std::size_t k);
 
 /// Accounts for `lost` (J), the decrease of the stored energy of face k at failure: as fracture

@@ -263,8 +263,10 @@ struct FaceSet : ChunkTable<FaceProperties<ChunkColumn>, face_property_list<Chun
   double removed_friction = 0.0, removed_damping = 0.0, removed_fracture = 0.0,
          removed_transfer = 0.0;  ///< J, of faces that have left the list
 
-  bool gluing = false;       ///< a stage glues its joints, also those that come into contact
-  std::uint64_t broken = 0;  ///< number of bonded faces that have failed so far
+  bool gluing = false;         ///< a stage glues its joints, also those that come into contact
+  double bond_strength = 1.0;  ///< bonds have so many times their cohesion and tensile strength
+                               ///< while loads come on (Relaxation::Hold)
+  std::uint64_t broken = 0;    ///< number of bonded faces that have failed so far
 
   /// Calls visit(k, of_edge) for the faces of the edges [first, end), per edge in the order of the
   /// edges on the other side; of_edge: the edge is `edge` of face k, not `facing`.
@@ -305,9 +307,9 @@ EDDA_INLINE FacePair face_pair(const Faces& c, const double* exterior_cosine,
   return p;
 }
 
-/// Gap, as a part of the smaller block's size, up to which blocks touch: a bond without tensile
-/// strength fails beyond it.
-inline constexpr double touching_gap = 1e-6;
+/// Gap, as a part of the smaller block's size, up to which blocks touch; and up to which they do so
+/// as drawn, with coordinates that were rounded, and keep the strength of that as they gape.
+inline constexpr double touching_gap = 1e-6, drawn_gap = 1e-3;
 
 /// Size of the smaller of the two blocks: the square root of its area, m.
 inline double smaller_size(const FaceSet& c, const BlockSet& b, std::size_t k) {

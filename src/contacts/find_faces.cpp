@@ -119,6 +119,7 @@ void move_totals(FaceSet& next, FaceSet& old) {
   next.removed_transfer = old.removed_transfer;
   next.broken = old.broken;
   next.gluing = old.gluing;
+  next.bond_strength = old.bond_strength;
   next.locked_start = std::move(old.locked_start);
   next.locked_end = std::move(old.locked_end);
 }

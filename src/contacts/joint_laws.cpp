@@ -221,7 +221,7 @@ void update_joint_law(FaceSet& c, const BlockSet& b, const Pose& pose, const Law
              -closure < dilation_gap * smaller_size(c, b, k)) {
     take_slip_while_open(c, b, pose, laws, k);
   } else if (law.type == LawType::slip_weakening && c.slip_so_far[k] < law.slip_distance) {
-    if (closure < -touching_gap * smaller_size(c, b, k)) c.slip_so_far[k] = first_slip(law);
+    if (closure < -drawn_gap * smaller_size(c, b, k)) c.slip_so_far[k] = first_slip(law);
   }
 }
 

@@ -21,7 +21,7 @@ EdgeConstants<double> edge_constants(const FaceSet& c, const BlockSet& b, const 
           p.gate_from,
           p.gate_scale,
           p.passing,
-          touching_gap * smaller_size(c, b, k),
+          drawn_gap * smaller_size(c, b, k),
           p.turn_p1.x,
           p.turn_p1.y,
           p.turn_p2.x,

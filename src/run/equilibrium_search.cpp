@@ -166,7 +166,11 @@ double equilibrium_time(double size, double acceleration) {
 Equilibrium look_for_equilibrium(EquilibriumSearch& s, Simulation& sim, const Stage& stage) {
   if (!is_explicit(sim) || sim.motion.state.steps % look_from_afar == 0)
     find_fallen_blocks(s, sim, stage);
+  const auto balances = [&](const Balance& b) { return b.resting > 0 && b.mean_95 <= stage.ratio; };
   if (!gradual_change_complete(sim)) {
+    const bool looks = sim.relaxation.hold == Relaxation::Hold::settling &&
+                       sim.motion.state.steps % look_from_afar == 0;
+    if (looks) sim.relaxation.balanced = balances(balance_of(sim));
     s.window_began = sim.motion.state.steps;
     s.window = 0;
     return Equilibrium::not_yet;
@@ -180,7 +184,7 @@ Equilibrium look_for_equilibrium(EquilibriumSearch& s, Simulation& sim, const St
   if (sim.motion.state.steps % every != 0) return Equilibrium::not_yet;
   const Balance balance = balance_of(sim);
   const bool waits = stage.falling == FallingBlocks::wait && balance.detached > 0;
-  sim.relaxation.balanced = balance.resting > 0 && balance.mean_95 <= stage.ratio;
+  sim.relaxation.balanced = balances(balance);
   const bool found_in_sequence =
       !waits && balance.resting > 0 &&
       ((balance.mean <= stage.ratio && (balance.mean == 0.0 || all_in_equilibrium(s, sim))) ||

@@ -44,6 +44,7 @@ void list_faces(Archive& a, FaceSet& c) {
   a("faces.travel", c.travel);
   a("faces.rebuilds", c.rebuilds);
   a("faces.gluing", c.gluing);
+  a("faces.bond_strength", c.bond_strength);
   a("faces.dashpots", c.dashpots);
   a("faces.broken", c.broken);
   a("faces.removed_friction", c.removed_friction);

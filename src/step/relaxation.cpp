@@ -9,6 +9,7 @@
 
 #include "base/parallel.hpp"
 #include "contacts/approach.hpp"
+#include "contacts/face_bonds.hpp"
 #include "step/changes.hpp"
 #include "step/simulation.hpp"
 #include "step/touching.hpp"
@@ -180,9 +181,14 @@ void update_estimate(Simulation& sim, const LoadsNow& at_work) {
       std::max(was > 0.0 ? std::sqrt(0.5 * (was * was + *now)) : std::sqrt(*now), slowest);
 }
 
+/// By this the strength of joints that hold is divided.
+constexpr double holding = 1e-3;
+
 /// Brings strength to what it is at this part of its gradual change.
 void change_strength(Simulation& sim, double part) {
   const Relaxation& relaxation = sim.relaxation;
+  double& bonds = sim.motion.contacts.bond_strength;
+  if (bonds > 1.0) bonds = 1.0 / (holding + part * (1.0 - holding));
   std::vector<double> now = relaxation.strength_to;
   for (std::size_t r = 0; r < now.size(); ++r) {
     now[r] = relaxation.strength_from[r] + part * (now[r] - relaxation.strength_from[r]);
@@ -192,12 +198,13 @@ void change_strength(Simulation& sim, double part) {
 
 /// Increases what is applied gradually, in proportion to the frequency estimate: all of it within
 /// one period, more slowly where inertia has been raised, since such blocks follow more slowly than
-/// their neighbours. After the first loads the model settles (`part` is below 0 meanwhile) before
-/// the joints come down to their strength.
+/// their neighbours. After the loads the model settles (`part` is below 0 meanwhile) before joints
+/// that hold come down to their strength: one period after the first loads; until it is in balance
+/// where bonds hold, since what has parted comes down slowly, against the damping.
 void advance_gradual_change(Simulation& sim) {
   Relaxation& relaxation = sim.relaxation;
   if (gradual_change_complete(sim)) return;
-  constexpr double settling = 1.0, increments = 100.0;
+  constexpr double settling = 1.0, settling_with_bonds = 30.0, increments = 100.0;
   // Before anything has moved, the frequency of the wave is used.
   const double frequency =
       relaxation.estimate.frequency > 0.0 ? relaxation.estimate.clock() : wave_frequency(sim);
@@ -208,17 +215,21 @@ void advance_gradual_change(Simulation& sim) {
   const double periods = raised > 1.0 ? gradual.periods * std::sqrt(raised) : 1.0;
   const double period = 2.0 * std::numbers::pi * periods / frequency;
   gradual.part += sim.motion.state.step / std::max(period, gradual.least);
+  const bool with_bonds = sim.motion.contacts.bond_strength > 1.0;
+  if (with_bonds && before < 0.0 && relaxation.balanced) gradual.part = std::max(gradual.part, 0.0);
   const bool strength = !relaxation.strength_to.empty() && !loading;
   if (before < 0.0 && gradual.part >= 0.0) relaxation.estimate.least = 0.5 * frequency;
   if (gradual.part >= 1.0 && loading) {
     constexpr double no_time = std::numeric_limits<double>::quiet_NaN();  // nothing else began then
-    gradual = {no_time, -settling, false, 0.0};
+    gradual = {no_time, with_bonds ? -settling_with_bonds : -settling, false, 0.0};
+    relaxation.balanced = false;
     relaxation.hold = Relaxation::Hold::settling;
     relaxation.estimate.least = 0.05 * frequency;  // also where all that moves falls
   } else if (gradual.part >= 1.0) {
     gradual = {};
     relaxation.hold = Relaxation::Hold::over;
     if (strength) change_strength(sim, 1.0);
+    sim.motion.contacts.bond_strength = 1.0;
   } else if (strength && gradual.part > 0.0 &&
              std::floor(increments * gradual.part) > std::floor(increments * before)) {
     change_strength(sim, gradual.part);
@@ -250,6 +261,12 @@ double time_of_displacements(const Simulation& sim) {
   return std::sqrt(6.0 * way * raised_inertia(sim) / (part_of_gravity * g));
 }
 
+/// Bonds hold from now on.
+void hold_joints(Simulation& sim) {
+  sim.relaxation.hold = Relaxation::Hold::loading;
+  if (has_bonds(sim.motion.contacts)) sim.motion.contacts.bond_strength = 1.0 / holding;
+}
+
 }  // namespace
 
 double mass_damping(const Simulation& sim) {
@@ -274,12 +291,11 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
     const double least = time_of_displacements(sim);
     const bool weight = !sim.scene->model.initial_stress;
     if (!weight && least == 0.0) return set_strength_factors(sim, strength_factors);
-    relaxation.hold = Relaxation::Hold::loading;
-    constexpr double strong = 1e-3;  // strength is divided by this
+    hold_joints(sim);
     constexpr double periods = 1.0;  // on joints that hold
     loads.gradual = {state.time, 0.0, weight, weight ? 2.0 * least : least, periods};
     relaxation.strength_from = relaxation.strength_to = strength_factors;
-    for (double& factor : relaxation.strength_from) factor *= strong;
+    for (double& factor : relaxation.strength_from) factor *= holding;
     return set_strength_factors(sim, relaxation.strength_from);
   }
   const double least = time_of_displacements(sim);
@@ -295,6 +311,7 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
   }
   constexpr double periods = 2.0;  // of what does not come in increments
   if (changes) loads.gradual = {state.time, 0.0, false, least, more ? 0.0 : periods};
+  if (changes && !more && has_bonds(sim.motion.contacts)) hold_joints(sim);
   relaxation.estimate.least = 0.5 * relaxation.estimate.frequency;
   relaxation.strength_from = laws.divided_by;
   relaxation.strength_to = strength_factors;
@@ -303,6 +320,7 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
 void end_hold(Simulation& sim) {
   if (sim.relaxation.hold == Relaxation::Hold::over) return;
   sim.relaxation.hold = Relaxation::Hold::over;
+  sim.motion.contacts.bond_strength = 1.0;
   set_strength_factors(sim, sim.relaxation.strength_to);
   sim.relaxation.strength_from.clear();
   sim.relaxation.strength_to.clear();

@@ -39,8 +39,9 @@ struct Relaxation {
                               ///< last, ascending: adaptive damping would hold them in the air
   std::vector<double> strength_from, strength_to;  ///< [laws] strength factors while strength
                                                    ///< changes gradually
-  /// At the very start joints neither slide nor break while the first loads come on; then the model
-  /// settles, and they come down to their strength.
+  /// At the very start joints neither slide nor break while the first loads come on, and later
+  /// bonds do not break while a stage's loads do; then the model settles, and they come down to
+  /// their strength.
   enum class Hold : std::uint8_t { over, loading, settling } hold = Hold::over;
 };
 
