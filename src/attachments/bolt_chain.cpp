@@ -63,10 +63,6 @@ double elongation(const Bolts& b, const std::vector<double>& slip, std::size_t k
   return f.stretch + slip[k + 1] * f.end - slip[k] * f.start;
 }
 
-bool is_dead(const Bolts& b, const State& state, std::size_t k) {
-  return state.alive[b.host[k]] == 0;
-}
-
 /// The direction m of a bolt at a node, and the point h in its host.
 struct NodeAt {
   Vec2 m, h;
@@ -229,7 +225,7 @@ void break_steel(Bolts& b, const BoltData& row, std::size_t k) {
 
 void disconnect_excavated(Bolts& b, const State& state, Id first, Id last) {
   for (std::size_t k = first; k < last; ++k) {
-    const bool dead = is_dead(b, state, k), next = k + 1 < last && is_dead(b, state, k + 1);
+    const bool dead = is_cut_off(b, state, k), next = k + 1 < last && is_cut_off(b, state, k + 1);
     if (dead) b.bonds.broken[k] = 1;
     if (dead || next) b.bars.broken[k] = b.dowels.broken[k] = 1;
   }

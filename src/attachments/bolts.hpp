@@ -129,6 +129,11 @@ void complete_bolts(Bolts& bolts, const Model& model, std::size_t blocks);
 /// Bar k in its present position.
 BarFrame bar_frame(const Bolts& bolts, const State& state, std::size_t k);
 
+/// Whether node k lies in excavated rock, so that the bolt has nothing to hold there.
+inline bool is_cut_off(const Bolts& bolts, const State& state, std::size_t k) {
+  return state.alive[bolts.host[k]] == 0;
+}
+
 /// Present position of node k, slip included.
 Vec2 node_place(const Bolts& bolts, const State& state, std::size_t k);
 

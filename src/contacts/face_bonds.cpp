@@ -128,7 +128,7 @@ bool bond_fails(const FaceSet& c, const BlockSet& b, const FaceFields<double>& n
 void break_bond(FaceSet& c, const LawTable& laws, const FaceFields<double>& now, std::size_t k) {
   // What cracks from one end as it bends is whole at the other, which is pressed.
   const bool cracks = c.bonded[k] > 0.0 && c.carries_tension[k] > 0.0 &&
-                      std::max(now.normal_a, now.normal_b) > 0.0 && !is_sheared(c, now, k);
+                      std::max(now.closure_a, now.closure_b) > 0.0 && !is_sheared(c, now, k);
   const bool breaks = c.bonded[k] > 0.0 && !cracks;
   if (cracks) set_residual_tension(c, laws, k);
   if (!cracks) c.bonded[k] = 0.0;

@@ -88,8 +88,13 @@ std::string bolts_rows(const Simulation& sim) {
       const Vec2 place = node_place(b, sim.motion.state, k) + sim.scene->blocks.origin;
       const double axial = axial_force(b, row, k, first, last);
       const double bond = b.bonded[k] > 0.0 ? b.bonds.force[k] / b.bonded[k] : 0.0;
+      // Bars that end in excavated rock have been cut with it.
+      const auto holds = [&](std::size_t n) {
+        return !is_cut_off(b, sim.motion.state, n) && !is_cut_off(b, sim.motion.state, n + 1);
+      };
       const auto near = [&](const std::vector<std::uint8_t>& flags) {
-        return (k + 1 < last && flags[k] != 0) || (k > first && flags[k - 1] != 0);
+        return (k + 1 < last && flags[k] != 0 && holds(k)) ||
+               (k > first && flags[k - 1] != 0 && holds(k - 1));
       };
       const double dowel = k + 1 < last && b.dowels.stiffness[k] > 0.0    ? b.dowels.force[k]
                            : k > first && b.dowels.stiffness[k - 1] > 0.0 ? b.dowels.force[k - 1]

@@ -15,13 +15,16 @@
 namespace edda {
 namespace {
 
-std::size_t yielded_bolts(const Bolts& b) {
+/// Bolts that have yielded or broken, not only been cut off with excavated rock.
+std::size_t yielded_bolts(const Bolts& b, const State& state) {
   std::size_t count = 0;
   for (std::size_t r = 0; r < b.rows.size(); ++r) {
     bool any = false;
     for (std::size_t k = b.begin[r]; k < b.begin[r + 1]; ++k) {
       for (const BoltSprings* s : {&b.bonds, &b.bars, &b.dowels}) {
-        any = any || s->yielded[k] != 0 || s->broken[k] != 0;
+        const bool cut = is_cut_off(b, state, k) ||
+                         (k + 1 < b.begin[r + 1] && s != &b.bonds && is_cut_off(b, state, k + 1));
+        any = any || s->yielded[k] != 0 || (s->broken[k] != 0 && !cut);
       }
     }
     count += any;
@@ -62,7 +65,7 @@ StageRecord stage_record(const Simulation& sim, const EnergyBalance& energy, dou
   r.balance = balance_of(sim);
   r.energy = energy;
   r.broken = sim.motion.contacts.broken;
-  r.yielded = yielded_bolts(sim.attached.bolts);
+  r.yielded = yielded_bolts(sim.attached.bolts, sim.motion.state);
   const FaceSet& f = sim.motion.contacts;
   for (std::size_t k = 0; k < f.size(); ++k) {
     const bool closed = is_closed(f, k);
