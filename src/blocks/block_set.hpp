@@ -51,7 +51,7 @@ struct BlockSet {
       corner;  ///< [nv] interior angle at vertex v at the start, rad (> pi: reentrant)
   std::vector<double> exterior_cosine,
       exterior_sine;  ///< [nv] of the exterior angle at the vertex; of a right angle where it is
-                      ///< reentrant
+                      ///< reentrant, 1 and 0 where the outline is straight within 0.18 degrees
 
   // Read for building and output.
   Nodes node_x, node_y;  ///< [nodes][nb] the cover's nodes X_k at the start, m

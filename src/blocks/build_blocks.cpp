@@ -82,9 +82,11 @@ void add_vertices(BlockSet& b, const BlockPolygon& polygon, double young, const 
       b.edge_length.push_back(norm(after - p));
       b.compliance.push_back(height_over(polygon.rings[0], p, after - p) / young);
       b.corner.push_back(interior_angle(before, p, after));
-      const bool reentrant = b.corner.back() > std::numbers::pi * 1.001;
-      b.exterior_cosine.push_back(reentrant ? 0.0 : -std::cos(b.corner.back()));
-      b.exterior_sine.push_back(reentrant ? 1.0 : std::sin(b.corner.back()));
+      // The weight of a corner that hardly turns would jump with the rounding of its angle.
+      const double turns = 1.0 - b.corner.back() / std::numbers::pi, hardly = 1e-3;
+      const bool reentrant = turns < -hardly, straight = std::abs(turns) <= hardly;
+      b.exterior_cosine.push_back(reentrant ? 0.0 : straight ? 1.0 : -std::cos(b.corner.back()));
+      b.exterior_sine.push_back(reentrant ? 1.0 : straight ? 0.0 : std::sin(b.corner.back()));
       b.vertex_x.push_back(p.x);
       b.vertex_y.push_back(p.y);
       smallest_edge = std::min(smallest_edge, norm(after - p));

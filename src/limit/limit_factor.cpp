@@ -87,8 +87,8 @@ LimitState tilt_limit(LimitProblem problem, bool largest,
 
 std::vector<RigidStrength> without_dilation(const RigidBlocks& rigid,
                                             std::vector<RigidStrength> given,
-                                            const std::vector<RigidJointForce>& before) {
-  constexpr double kept = 1e-3;  // part of the friction that still makes a joint dilate
+                                            const std::vector<RigidJointForce>& before,
+                                            double kept) {
   for (std::size_t k = 0; k < given.size(); ++k) {
     const double ends = rigid.joints[k].is_corner() ? 1.0 : 2.0;
     const double whole = std::max(before[k].whole(), -ends * given[k].tension);

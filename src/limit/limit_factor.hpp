@@ -32,9 +32,10 @@ LimitState tilt_limit(LimitProblem problem, bool largest,
 
 /// Strength of joints that slide without dilating, for successive programs (Gilbert, Casapulla and
 /// Ahmed 2006): nearly all of their friction is replaced by the shear strength that it has at the
-/// normal forces of the program before.
+/// normal forces of the program before. kept: the part of it that still makes a joint dilate.
 std::vector<RigidStrength> without_dilation(const RigidBlocks& rigid,
                                             std::vector<RigidStrength> given,
-                                            const std::vector<RigidJointForce>& before);
+                                            const std::vector<RigidJointForce>& before,
+                                            double kept);
 
 }  // namespace edda

@@ -77,6 +77,14 @@ class Builder {
     }
     return f;
   }
+  /// What the normal forces cost.
+  double thrust(const std::vector<double>& value) const {
+    double sum = 0.0;
+    for (const std::vector<Ray>& rays : rays_) {
+      for (const Ray& ray : rays) sum += (ray.normal[0] + ray.normal[1]) * value[ray.column];
+    }
+    return p_.thrust_cost * sum;
+  }
   std::vector<double> ties(const std::vector<double>& value) const {
     std::vector<double> all;
     for (std::size_t q = 0; q < rigid_.ties.size(); ++q)
@@ -159,8 +167,9 @@ class Builder {
     add_pair(joint, end, joint.n + shear * joint.t);
     for (const TangentRow& r : rows_)
       program.add_entry(r.row, (r.end == end ? 1.0 : 0.0) - r.slope);
-    rays_[k].push_back(
-        {program.add_column(0.0, no_bound), {end == 0 ? 1.0 : 0.0, end == 1 ? 1.0 : 0.0}, shear});
+    rays_[k].push_back({program.add_column(0.0, no_bound, -p_.thrust_cost),
+                        {end == 0 ? 1.0 : 0.0, end == 1 ? 1.0 : 0.0},
+                        shear});
   }
 
   void add_ties() {
@@ -369,7 +378,7 @@ Shortfall shortfall(const LimitProblem& p, const std::vector<char>& divided) {
       [&](const Builder& builder, const LinearAnswer& answer, std::vector<RigidJointForce> forces) {
         s.solved = answer.end == LinearEnd::optimal;
         if (!s.solved) return;
-        s.force = -answer.objective;
+        s.force = -answer.objective - builder.thrust(answer.value);
         s.state.end = LimitEnd::found;
         s.state.ties = builder.ties(answer.value);
         std::vector<RigidMotion> motion = motion_of(*p.rigid, answer.price, 1.0);

@@ -133,6 +133,36 @@ void warn_of_boundary(const Simulation& sim, std::vector<std::string>& warnings)
                   1.0 / std::sqrt(std::max(1.0 - sim.control.bound.boundary_part, 1e-12))));
 }
 
+/// Ground motion that acts in a stage until equilibrium, whose damping and masses are not those of
+/// a motion. Stages until equilibrium count as if they took no time.
+void warn_of_shaken_equilibrium(const Simulation& sim, std::vector<std::string>& warnings) {
+  const Model& model = sim.scene->model;
+  const auto names = [](const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  for (const Shaking& shaking : model.shakings) {
+    if (shaking.scale == 0.0) continue;
+    const std::vector<double>& times = shaking.record.time;
+    const double length = times.empty() ? std::numeric_limits<double>::infinity() : times.back();
+    bool acts = acts_at_first(model, shaking.name);
+    double since = 0.0;  // s
+    for (const Stage& stage : stages_of(model)) {
+      if (names(stage.activate, shaking.name)) acts = true, since = 0.0;
+      if (names(stage.deactivate, shaking.name)) acts = false;
+      if (!acts) continue;
+      if (!stage.to_equilibrium()) {
+        since += stage.duration;
+      } else if (since < length) {
+        warnings.push_back(fmt::format(
+            "{}: the ground motion acts in a stage until equilibrium{}, whose damping and masses "
+            "are made for rest: activate it in a stage with a duration of its own",
+            shaking.where.key, stage.name.empty() ? "" : fmt::format(" (\"{}\")", stage.name)));
+        break;
+      }
+    }
+  }
+}
+
 /// A step that is given stays for the whole run, however small it is.
 void warn_of_small_step(const Simulation& sim, std::vector<std::string>& warnings) {
   constexpr double small = 0.01;
@@ -292,6 +322,7 @@ std::vector<std::string> model_warnings(const Simulation& sim) {
   std::vector<std::string> warnings;
   if (is_explicit(sim)) {
     warn_of_sudden_gravity(sim, warnings);
+    warn_of_shaken_equilibrium(sim, warnings);
     warn_of_boundary(sim, warnings);
     warn_of_small_step(sim, warnings);
     warn_of_few(sim, warnings);

@@ -50,14 +50,19 @@ void begin_window(EquilibriumSearch& s, const Simulation& sim) {
   }
 }
 
-/// Whether the block has moved by more than its own size in this stage.
-bool has_left(const EquilibriumSearch& s, const Simulation& sim, std::size_t i) {
+/// How far a block has moved in this stage, over its size.
+double gone(const EquilibriumSearch& s, const Simulation& sim, std::size_t i) {
   const Vec2 began{s.began_x[i], s.began_y[i]};
-  return norm(centroid(sim.motion.state.x, sim.motion.state.y, i) - began) >= size_of(sim, i);
+  return norm(centroid(sim.motion.state.x, sim.motion.state.y, i) - began) / size_of(sim, i);
+}
+/// Whether the block has left its place in this stage: what has come loose and gone so far has done
+/// so, wherever it comes to lie.
+bool has_left(const EquilibriumSearch& s, const Simulation& sim, std::size_t i) {
+  constexpr double far = 0.1;
+  return gone(s, sim, i) >= far;
 }
 
-/// Blocks that fall, and have done so by more than their size, have come loose, wherever they come
-/// to lie.
+/// Blocks that fall, and have left their place, have come loose.
 void find_fallen_blocks(const EquilibriumSearch& s, Simulation& sim, const Stage& stage) {
   if (stage.falling == FallingBlocks::wait) return;
   const std::vector<std::uint8_t> falls = falling_blocks(sim);
@@ -97,13 +102,18 @@ void find_loose_blocks(EquilibriumSearch& s, Simulation& sim, const Stage& stage
   }
 }
 
+/// Loose blocks do not count once they have gone so far, over their size, that they will hardly
+/// stop by themselves; those that have not are loose no more where all are in equilibrium.
+constexpr double gone_for_good = 0.01;
+
 bool all_in_equilibrium(const EquilibriumSearch& s, const Simulation& sim) {
   const std::vector<std::uint8_t> falls = falling_blocks(sim), small = negligible_blocks(sim);
   const std::vector<double> rounding = rounding_of_forces(sim);
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
     if (!is_free(sim.scene->blocks, sim.motion.state, i) || falls[i] != 0 || small[i] != 0)
       continue;
-    if (!sim.relaxation.loose.empty() && sim.relaxation.loose[i] != 0) continue;
+    const bool loose = !sim.relaxation.loose.empty() && sim.relaxation.loose[i] != 0;
+    if (loose && gone(s, sim, i) >= gone_for_good) continue;
     const double most = equilibrium_travel_ratio * size_of(sim, i);
     if (sim.stepper->remaining_travel(sim, i) > most) return false;
     if (!is_explicit(sim) || s.to_come[i] <= most) continue;
@@ -190,9 +200,13 @@ Equilibrium look_for_equilibrium(EquilibriumSearch& s, Simulation& sim, const St
       ((balance.mean <= stage.ratio && (balance.mean == 0.0 || all_in_equilibrium(s, sim))) ||
        (balance.mean > stage.ratio && forces_are_rounding(sim)));
   s.found_in_sequence = found_in_sequence ? s.found_in_sequence + 1 : 0;
+  const bool found = s.found_in_sequence >= checks_in_sequence;
+  for (std::size_t i = 0; found && i < sim.relaxation.loose.size(); ++i) {
+    if (gone(s, sim, i) < gone_for_good) sim.relaxation.loose[i] = 0;
+  }
   s.is_far = !found_in_sequence &&
              std::min(balance.mean, balance.mean_95) > far_from_equilibrium * stage.ratio;
-  return s.found_in_sequence >= checks_in_sequence ? Equilibrium::found : Equilibrium::not_yet;
+  return found ? Equilibrium::found : Equilibrium::not_yet;
 }
 
 std::vector<double> rounding_of_forces(const Simulation& sim) {

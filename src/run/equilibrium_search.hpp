@@ -50,7 +50,7 @@ void begin_equilibrium_search(EquilibriumSearch& search, Simulation& sim, const 
 enum class Equilibrium {
   not_yet,
   found,
-  never,  ///< all free blocks are loose, and each has moved further than its size
+  never,  ///< all free blocks are loose, and each has moved by a tenth of its size
 };
 
 /// Call after every step. Equilibrium is found once all gradual changes are complete

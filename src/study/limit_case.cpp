@@ -100,9 +100,11 @@ RigidForces LimitCase::turning_at(double angle) const {
   return that_act(weights_under(rigid_, sim_, perp(gravity_with(degrees * angle))));
 }
 
-LimitCase::Answer LimitCase::solve(bool largest, const StrengthAt& strength_at, double near) const {
+LimitCase::Answer LimitCase::solve(bool largest, const StrengthAt& strength_at, double near,
+                                   double thrust_cost) const {
   LimitProblem problem;
   problem.rigid = &rigid_;
+  problem.thrust_cost = thrust_cost;
   if (fos_.varied == Varied::strength) {
     problem.dead = dead_loads();
     std::vector<char> divided;
@@ -142,12 +144,37 @@ LimitCase::Answer LimitCase::at_end(bool largest, StrengthOf which) const {
   return answer;
 }
 
+std::vector<RigidJointForce> LimitCase::least_thrust(const Answer& associated) const {
+  constexpr double cost = 1e-3, safely = 0.99;
+  LimitProblem problem;
+  problem.rigid = &rigid_;
+  problem.thrust_cost = cost;
+  const bool strength = fos_.varied == Varied::strength;
+  problem.strength =
+      strength_at(strength ? std::min(1.0, safely * associated.lower) : 1.0, StrengthOf::peak, {});
+  problem.dead = fos_.varied == Varied::tilt ? dead_at(0.0) : dead_loads();
+  const Shortfall found = shortfall(problem, std::vector<char>(rigid_.joints.size(), 0));
+  return found.solved ? found.state.forces : std::vector<RigidJointForce>{};
+}
+
 std::optional<double> LimitCase::without_dilation(const Answer& associated) const {
   if (associated.end != LimitEnd::found) return {};
+  const std::optional<double> one = without_dilation_from(associated.state.forces, associated, 0.0);
+  std::vector<RigidJointForce> thrust = least_thrust(associated);
+  if (thrust.empty()) return one;
+  const double cost = 1e-5 / static_cast<double>(rigid_.joints.size());
+  const std::optional<double> other = without_dilation_from(std::move(thrust), associated, cost);
+  return one && other ? std::min(*one, *other) : one ? one : other;
+}
+
+std::optional<double> LimitCase::without_dilation_from(std::vector<RigidJointForce> reference,
+                                                       const Answer& associated,
+                                                       double thrust_cost) const {
   constexpr double close = 1e-4, about = 1e-2;
   constexpr int most_rounds = 60;
+  // With a thrust that costs something, no more than that must be gained by dilation.
+  const double kept = thrust_cost > 0.0 ? 1e-2 * thrust_cost : 1e-3;
   const std::vector<RigidJointForce> stress = associated.state.forces;
-  std::vector<RigidJointForce> reference = stress;
   std::vector<double> values{associated.lower};
   // Part of the new forces that the next program goes by; less where programs alternate. A value
   // changes in proportion to it.
@@ -158,9 +185,9 @@ std::optional<double> LimitCase::without_dilation(const Answer& associated) cons
         true,
         [&](double factor) {
           return edda::without_dilation(rigid_, strength_at(factor, StrengthOf::peak, stress),
-                                        reference);
+                                        reference, kept);
         },
-        values.back());
+        values.back(), thrust_cost);
     if (answer.end != LimitEnd::found) return {};
     const double change = answer.lower - values.back();
     values.push_back(answer.lower);

@@ -28,7 +28,9 @@ class LimitCase {
   /// Joints dilate as they slide (associated flow rule).
   Answer at_end(bool largest, StrengthOf which) const;
   /// The largest value of joints that slide without dilating, from that of joints that do; it is
-  /// not unique. Empty where the successive programs do not come to an end.
+  /// not unique: the lower one of what successive programs come to from the forces of that, and
+  /// from the least thrust that carries the loads before anything is varied. Empty where neither
+  /// comes to an end.
   std::optional<double> without_dilation(const Answer& associated) const;
   /// Whether joints lose any strength at failure.
   bool is_brittle() const;
@@ -39,8 +41,13 @@ class LimitCase {
 
  private:
   using StrengthAt = std::function<std::vector<RigidStrength>(double factor)>;
-  /// near: where a factor of strength may be.
-  Answer solve(bool largest, const StrengthAt& strength_at, double near = 1.0) const;
+  /// near: where a factor of strength may be. thrust_cost: as in LimitProblem.
+  Answer solve(bool largest, const StrengthAt& strength_at, double near = 1.0,
+               double thrust_cost = 0.0) const;
+  /// Forces of the joints before anything is varied, with the least thrust.
+  std::vector<RigidJointForce> least_thrust(const Answer& associated) const;
+  std::optional<double> without_dilation_from(std::vector<RigidJointForce> reference,
+                                              const Answer& associated, double thrust_cost) const;
   std::vector<RigidStrength> strength_at(double factor, StrengthOf which,
                                          const std::vector<RigidJointForce>& last) const;
   /// Gravity at this value of what is varied, m/s2.

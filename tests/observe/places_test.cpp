@@ -113,7 +113,7 @@ TEST(LoadReport, SaysTheWetLength) {
 TEST(LoadReport, CountsInTheSingular) {
   const std::string line =
       first_load_of("[[bolt]]\ntype = \"end\"\ndiameter = 0.025\nfrom = [5, 16]\nto = [5, 19]\n");
-  EXPECT_EQ(line, "1 bolt of 2 nodes crosses 0 joints");
+  EXPECT_EQ(line, "1 bolt of 2 nodes crosses 1 joint");
 }
 
 }  // namespace

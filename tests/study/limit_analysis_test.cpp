@@ -124,6 +124,19 @@ TEST(LimitAnalysis, PanelOfFerrisAndTinLoi) {
   EXPECT_NEAR(std::tan(tilt.largest.lower * degree), 0.6428590, 1e-7);
 }
 
+/// A column of 1 m x 3 m overturns beside a lower block at kh = b/h. Dilating joints would hold it
+/// by its back, at 0.477, and so would joints that do not, if they began with that thrust.
+TEST(LimitAnalysis, AColumnOverturnsBesideALowerBlock) {
+  const LimitResult r = limit_of(
+      stone(std::tan(40.0 * degree)) +
+          "[[block]]\nfixed = true\npolygon = [[-5, -1], [6, -1], [6, 0], [-5, 0]]\n[[block]]\n"
+          "polygon = [[-2, 0], [0, 0], [0, 0.5], [-2, 0.5]]\n[[block]]\n"
+          "polygon = [[0, 0], [1, 0], [1, 3], [0, 3]]\n",
+      "kh");
+  EXPECT_GT(r.largest.lower, 0.45);
+  EXPECT_NEAR(r.without_dilation.value_or(0.0), 1.0 / 3.0, 1e-4);
+}
+
 /// Rotated with its gravity, moved far away, mirrored: the same multiplier.
 TEST(LimitAnalysis, DoesNotDependOnWhereAndHowAModelIsDrawn) {
   const double angle = 1.1, g = 9.81;
