@@ -178,6 +178,7 @@ void Driver::list_stages(Archive& a) {
   a("search.pull", search_.pull);
   a("search.pull_before", search_.pull_before);
   a("search.began_x", search_.began_x);
+  a("search.began_apart", search_.began_apart);
   a("search.began_y", search_.began_y);
   a("search.from_x", search_.from_x);
   a("search.from_y", search_.from_y);

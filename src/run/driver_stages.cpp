@@ -88,7 +88,7 @@ bool Driver::end_stage(Arrival went) {
   }
   if (went == Arrival::no_equilibrium && !reached) {
     end(Status::collapsed, fmt::format("{} does not reach equilibrium: each block slides or falls, "
-                                       "and has moved by more than a tenth of its size: {}",
+                                       "and has left its place: {}",
                                        label, still_moving(sim_, ends_.back().balance)));
     return false;
   }

@@ -56,10 +56,10 @@ double gone(const EquilibriumSearch& s, const Simulation& sim, std::size_t i) {
   return norm(centroid(sim.motion.state.x, sim.motion.state.y, i) - began) / size_of(sim, i);
 }
 /// Whether the block has left its place in this stage: what has come loose and gone so far has done
-/// so, wherever it comes to lie.
+/// so, wherever it comes to lie. One that touched nothing when the stage began was to land.
 bool has_left(const EquilibriumSearch& s, const Simulation& sim, std::size_t i) {
-  constexpr double far = 0.1;
-  return gone(s, sim, i) >= far;
+  constexpr double far = 0.1, far_in_the_air = 1.0;
+  return gone(s, sim, i) >= (s.began_apart[i] != 0 ? far_in_the_air : far);
 }
 
 /// Blocks that fall, and have left their place, have come loose.
@@ -102,9 +102,14 @@ void find_loose_blocks(EquilibriumSearch& s, Simulation& sim, const Stage& stage
   }
 }
 
-/// Loose blocks do not count once they have gone so far, over their size, that they will hardly
-/// stop by themselves; those that have not are loose no more where all are in equilibrium.
-constexpr double gone_for_good = 0.01;
+/// Whether a block is loose that has not gone so far yet that it will hardly stop by itself.
+bool waits_for_loose(const EquilibriumSearch& s, const Simulation& sim) {
+  constexpr double far = 0.01;
+  for (std::size_t i = 0; i < sim.relaxation.loose.size(); ++i) {
+    if (sim.relaxation.loose[i] != 0 && gone(s, sim, i) < far) return true;
+  }
+  return false;
+}
 
 bool all_in_equilibrium(const EquilibriumSearch& s, const Simulation& sim) {
   const std::vector<std::uint8_t> falls = falling_blocks(sim), small = negligible_blocks(sim);
@@ -112,8 +117,7 @@ bool all_in_equilibrium(const EquilibriumSearch& s, const Simulation& sim) {
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
     if (!is_free(sim.scene->blocks, sim.motion.state, i) || falls[i] != 0 || small[i] != 0)
       continue;
-    const bool loose = !sim.relaxation.loose.empty() && sim.relaxation.loose[i] != 0;
-    if (loose && gone(s, sim, i) >= gone_for_good) continue;
+    if (!sim.relaxation.loose.empty() && sim.relaxation.loose[i] != 0) continue;
     const double most = equilibrium_travel_ratio * size_of(sim, i);
     if (sim.stepper->remaining_travel(sim, i) > most) return false;
     if (!is_explicit(sim) || s.to_come[i] <= most) continue;
@@ -155,6 +159,8 @@ void begin_equilibrium_search(EquilibriumSearch& s, Simulation& sim, const Stage
     s.began_x.push_back(at.x);
     s.began_y.push_back(at.y);
   }
+  s.began_apart = touching(sim);
+  for (std::uint8_t& apart : s.began_apart) apart = apart == 0 ? 1 : 0;
   s.windows_moving.assign(nb, 0);
   s.to_come.assign(nb, std::numeric_limits<double>::infinity());
   sim.relaxation.loose.clear();
@@ -193,20 +199,17 @@ Equilibrium look_for_equilibrium(EquilibriumSearch& s, Simulation& sim, const St
   const std::uint64_t every = !is_explicit(sim) ? 1 : s.is_far ? look_from_afar : look_every;
   if (sim.motion.state.steps % every != 0) return Equilibrium::not_yet;
   const Balance balance = balance_of(sim);
-  const bool waits = stage.falling == FallingBlocks::wait && balance.detached > 0;
+  const bool waits =
+      (stage.falling == FallingBlocks::wait && balance.detached > 0) || waits_for_loose(s, sim);
   sim.relaxation.balanced = balances(balance);
   const bool found_in_sequence =
       !waits && balance.resting > 0 &&
       ((balance.mean <= stage.ratio && (balance.mean == 0.0 || all_in_equilibrium(s, sim))) ||
        (balance.mean > stage.ratio && forces_are_rounding(sim)));
   s.found_in_sequence = found_in_sequence ? s.found_in_sequence + 1 : 0;
-  const bool found = s.found_in_sequence >= checks_in_sequence;
-  for (std::size_t i = 0; found && i < sim.relaxation.loose.size(); ++i) {
-    if (gone(s, sim, i) < gone_for_good) sim.relaxation.loose[i] = 0;
-  }
   s.is_far = !found_in_sequence &&
              std::min(balance.mean, balance.mean_95) > far_from_equilibrium * stage.ratio;
-  return found ? Equilibrium::found : Equilibrium::not_yet;
+  return s.found_in_sequence >= checks_in_sequence ? Equilibrium::found : Equilibrium::not_yet;
 }
 
 std::vector<double> rounding_of_forces(const Simulation& sim) {

@@ -25,17 +25,18 @@ double equilibrium_time(double size, double acceleration);
 
 /// Data of the search in one stage until equilibrium.
 struct EquilibriumSearch {
-  int found_in_sequence = 0;             ///< checks in sequence that have found equilibrium
-  bool is_far = false;                   ///< from equilibrium, by the mean unbalanced force
-  std::uint64_t window_began = 0;        ///< step
-  std::uint64_t window = 0;              ///< steps
-  double pull = 0.0, pull_before = 0.0;  ///< 1/s2, of this window and the last one: the
-                                         ///< displacement in a window times this measures the
-                                         ///< acceleration that drives a block which only
-                                         ///< mass-proportional damping resists
-  std::vector<double> began_x, began_y;  ///< [nb] m, centroids when the stage began
-  std::vector<double> from_x, from_y;    ///< [nb] m, centroids when the window began
-  std::vector<double> moved_x, moved_y;  ///< [nb] m, displacements in the last window
+  int found_in_sequence = 0;              ///< checks in sequence that have found equilibrium
+  bool is_far = false;                    ///< from equilibrium, by the mean unbalanced force
+  std::uint64_t window_began = 0;         ///< step
+  std::uint64_t window = 0;               ///< steps
+  double pull = 0.0, pull_before = 0.0;   ///< 1/s2, of this window and the last one: the
+                                          ///< displacement in a window times this measures the
+                                          ///< acceleration that drives a block which only
+                                          ///< mass-proportional damping resists
+  std::vector<double> began_x, began_y;   ///< [nb] m, centroids when the stage began
+  std::vector<std::uint8_t> began_apart;  ///< [nb] 1: touched nothing then
+  std::vector<double> from_x, from_y;     ///< [nb] m, centroids when the window began
+  std::vector<double> moved_x, moved_y;   ///< [nb] m, displacements in the last window
   std::vector<double> to_come;  ///< [nb] m: distance that the block will still move if it slows
                                 ///< down by the ratio of the last two windows; infinite: it does
                                 ///< not slow down, or that is not known yet
@@ -50,7 +51,7 @@ void begin_equilibrium_search(EquilibriumSearch& search, Simulation& sim, const 
 enum class Equilibrium {
   not_yet,
   found,
-  never,  ///< all free blocks are loose, and each has moved by a tenth of its size
+  never,  ///< all free blocks are loose, and each has left its place
 };
 
 /// Call after every step. Equilibrium is found once all gradual changes are complete

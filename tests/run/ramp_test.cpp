@@ -279,12 +279,12 @@ TEST(Ramp, LooseBlocksAreNamedOrEndTheRun) {
       "[joints.smooth]\nfriction_angle = 2\n[contact]\njoint = 'dry'\n[[block]]\n"
       "name = 'loose'\njoint = 'smooth'\n"
       "polygon = [[1.5, 0], [2.5, 0], [2.5, 0.5], [1.5, 0.5]]\n";
-  const Ran named = ran(block_on_floor(loose + stages_with("kh = [-0.1, -0.9], steps = 8")));
-  EXPECT_NE(named.outcome.message.find("fails at kh = -0.6"), std::string::npos)
+  const Ran named = ran(block_on_floor(loose + stages_with("kh = [0.1, 0.9], steps = 8")));
+  EXPECT_NE(named.outcome.message.find("fails at kh = 0.6"), std::string::npos)
       << named.outcome.message;
   EXPECT_NE(named.outcome.message.find("come loose"), std::string::npos) << named.outcome.message;
   const Ran stopped = ran(
-      block_on_floor(loose + stages_with("kh = [-0.1, -0.9], steps = 8") + "otherwise = 'stop'\n"));
+      block_on_floor(loose + stages_with("kh = [0.1, 0.9], steps = 8") + "otherwise = 'stop'\n"));
   EXPECT_EQ(stopped.outcome.status, Status::collapsed);
   EXPECT_NE(stopped.outcome.message.find("otherwise"), std::string::npos)
       << stopped.outcome.message;

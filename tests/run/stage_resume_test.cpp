@@ -87,7 +87,7 @@ relax = { hole = 0.5 }
 install = ["crown"]
 until = "equilibrium"
 ratio = 1e-3
-duration = 0.5
+duration = 2.0
 [[stage]]
 name = "shake"
 duration = 0.05
@@ -252,7 +252,7 @@ TEST(StageResume, ResumesToTheSameBitsWithRestitution) {
     std::string model = everything;
     model.insert(model.find("[contact]"), restitution);
     // Softer joints take longer to reach equilibrium.
-    for (std::size_t at = 0; (at = model.find("duration = 0.5\n", at)) != std::string::npos;)
+    for (std::size_t at = 0; (at = model.find("duration = 2.0\n", at)) != std::string::npos;)
       model.replace(at, 14, "duration = 9.0");
     expect_resumed(model);
   }
