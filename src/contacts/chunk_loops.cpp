@@ -175,7 +175,7 @@ EDDA_INLINE bool bond_fails_in(const ChunkColumns& c, const Face& face, const Fa
   const bool bonded = c.bonded[k] > 0.0, carries_tension = c.carries_tension[k] > 0.0;
   const bool torn =
       carries_tension & (outer_tension(face.normal) > c.bond_strength * c.tension[k] * face.length);
-  const bool apart = bonded & !carries_tension & (largest < -c.touching[k]);
+  const bool apart = bonded & !carries_tension & (largest < -c.parts_at[k]);
   const double rounding = 2.0 * s.spring * c.noise;
   const bool sheared = bonded & (std::abs(s.shear.a + s.shear.b) >
                                  rounding + c.bond_strength * c.cohesion[k] * face.cohesive +

@@ -61,9 +61,11 @@ inline double shear_force(const FaceSet& f, std::size_t k) {
   return m.shear_a[k] + m.shear_b[k] + m.shear_damping_a[k] + m.shear_damping_b[k];
 }
 
-/// Shear strength c L + N tan(phi), N (theory, section 5.1).
+/// Shear strength c L + N tan(phi), N (theory, section 5.1), of bonds as they hold at present.
 inline double shear_strength(const FaceSet& f, std::size_t k) {
-  return std::max(f.cohesion[k] * f.now.cohesive[k] + f.friction[k] * normal_force(f, k), 0.0);
+  const double held = f.bonded[k] > 0.0 ? f.bond_strength : 1.0;
+  return std::max(held * f.cohesion[k] * f.now.cohesive[k] + f.friction[k] * normal_force(f, k),
+                  0.0);
 }
 
 /// Whether Coulomb's limit has cut the shear force of one of its ends in the last step.

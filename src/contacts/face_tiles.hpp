@@ -35,7 +35,7 @@ inline constexpr std::size_t blocks_per_tile = 512;
 template <class C>
 struct EdgeConstants {
   C stiffness, shear_stiffness, inverse_e, inverse_f, length_ratio, gate_from, gate_scale, passing;
-  C touching;  ///< m: bonded faces without tension fail at a larger gap
+  C parts_at;  ///< m: bonded faces without tension fail at a larger gap
   C cosine_p1, sine_p1, cosine_p2, sine_p2, cosine_q1, sine_q1, cosine_q2, sine_q2;
 };
 inline constexpr std::size_t edge_columns = sizeof(EdgeConstants<double>) / sizeof(double);

@@ -50,9 +50,10 @@ struct LimitProblem {
   const RigidBlocks* rigid = nullptr;
   std::vector<RigidStrength> strength;  ///< [joints]
   RigidForces dead, live;               ///< [bodies]
-  double thrust_cost = 0.0;  ///< of all states with the same multiplier or shortfall the one with
-                             ///< the least sum of normal forces is asked for: what one of the mean
-                             ///< weight costs beside a multiplier, or a shortfall, of 1
+  /// What a normal force of the mean weight costs beside a multiplier, or a shortfall, of 1: where
+  /// it is small, the state with the least sum of them is found of those with the same multiplier
+  /// or shortfall.
+  double thrust_cost = 0.0;
 };
 
 enum class LimitEnd {

@@ -105,8 +105,11 @@ void find_loose_blocks(EquilibriumSearch& s, Simulation& sim, const Stage& stage
 /// Whether a block is loose that has not gone so far yet that it will hardly stop by itself.
 bool waits_for_loose(const EquilibriumSearch& s, const Simulation& sim) {
   constexpr double far = 0.01;
+  if (sim.relaxation.loose.empty()) return false;
+  const std::vector<std::uint8_t> falls = falling_blocks(sim), small = negligible_blocks(sim);
   for (std::size_t i = 0; i < sim.relaxation.loose.size(); ++i) {
-    if (sim.relaxation.loose[i] != 0 && gone(s, sim, i) < far) return true;
+    const bool counts = falls[i] == 0 && small[i] == 0;
+    if (counts && sim.relaxation.loose[i] != 0 && gone(s, sim, i) < far) return true;
   }
   return false;
 }
@@ -148,6 +151,33 @@ bool all_loose(const EquilibriumSearch& s, const Simulation& sim) {
   return true;
 }
 
+/// [nb] 1: no path of closed contacts leads from the block to a fixed one or to a support.
+std::vector<std::uint8_t> unsupported(const Simulation& sim) {
+  const BlockSet& b = sim.scene->blocks;
+  const FaceSet& f = sim.motion.contacts;
+  const BoundarySprings& springs = sim.attached.springs;
+  std::vector<std::uint8_t> apart(b.size(), 1);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (!is_free(b, sim.motion.state, i)) apart[i] = 0;
+  }
+  for (std::size_t q = 0; q < springs.size(); ++q) {
+    if (springs.kxx[q] + springs.kyy[q] > 0.0) apart[b.vertex_block[springs.vertex[q]]] = 0;
+  }
+  std::vector<std::pair<Id, Id>> pairs;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    if (is_closed_now(sim, k)) pairs.push_back(blocks_of_face(b, f, k));
+  }
+  for (bool more = true; more;) {
+    more = false;
+    for (const auto& [i, j] : pairs) {
+      if (apart[i] == apart[j]) continue;
+      apart[i] = apart[j] = 0;
+      more = true;
+    }
+  }
+  return apart;
+}
+
 }  // namespace
 
 void begin_equilibrium_search(EquilibriumSearch& s, Simulation& sim, const Stage& stage) {
@@ -159,8 +189,7 @@ void begin_equilibrium_search(EquilibriumSearch& s, Simulation& sim, const Stage
     s.began_x.push_back(at.x);
     s.began_y.push_back(at.y);
   }
-  s.began_apart = touching(sim);
-  for (std::uint8_t& apart : s.began_apart) apart = apart == 0 ? 1 : 0;
+  s.began_apart = unsupported(sim);
   s.windows_moving.assign(nb, 0);
   s.to_come.assign(nb, std::numeric_limits<double>::infinity());
   sim.relaxation.loose.clear();
@@ -183,10 +212,9 @@ Equilibrium look_for_equilibrium(EquilibriumSearch& s, Simulation& sim, const St
   if (!is_explicit(sim) || sim.motion.state.steps % look_from_afar == 0)
     find_fallen_blocks(s, sim, stage);
   const auto balances = [&](const Balance& b) { return b.resting > 0 && b.mean_95 <= stage.ratio; };
-  if (!gradual_change_complete(sim)) {
-    const bool looks = sim.relaxation.hold == Relaxation::Hold::settling &&
-                       sim.motion.state.steps % look_from_afar == 0;
-    if (looks) sim.relaxation.balanced = balances(balance_of(sim));
+  const bool complete = gradual_change_complete(sim),
+             settles = sim.relaxation.hold == Relaxation::Hold::settling;
+  if (!complete && !settles) {
     s.window_began = sim.motion.state.steps;
     s.window = 0;
     return Equilibrium::not_yet;
@@ -194,7 +222,13 @@ Equilibrium look_for_equilibrium(EquilibriumSearch& s, Simulation& sim, const St
   if (sim.motion.state.steps >= s.window_began + s.window) {
     find_loose_blocks(s, sim, stage);
     begin_window(s, sim);
-    if (all_loose(s, sim)) return Equilibrium::never;
+    if (complete && all_loose(s, sim)) return Equilibrium::never;
+  }
+  if (!complete) {
+    if (sim.motion.state.steps % look_from_afar == 0) {
+      sim.relaxation.balanced = balances(balance_of(sim));
+    }
+    return Equilibrium::not_yet;
   }
   const std::uint64_t every = !is_explicit(sim) ? 1 : s.is_far ? look_from_afar : look_every;
   if (sim.motion.state.steps % every != 0) return Equilibrium::not_yet;

@@ -34,7 +34,7 @@ struct EquilibriumSearch {
                                           ///< acceleration that drives a block which only
                                           ///< mass-proportional damping resists
   std::vector<double> began_x, began_y;   ///< [nb] m, centroids when the stage began
-  std::vector<std::uint8_t> began_apart;  ///< [nb] 1: touched nothing then
+  std::vector<std::uint8_t> began_apart;  ///< [nb] 1: was in the air then, alone or with others
   std::vector<double> from_x, from_y;     ///< [nb] m, centroids when the window began
   std::vector<double> moved_x, moved_y;   ///< [nb] m, displacements in the last window
   std::vector<double> to_come;  ///< [nb] m: distance that the block will still move if it slows

@@ -204,7 +204,7 @@ void change_strength(Simulation& sim, double part) {
 void advance_gradual_change(Simulation& sim) {
   Relaxation& relaxation = sim.relaxation;
   if (gradual_change_complete(sim)) return;
-  constexpr double settling = 1.0, settling_with_bonds = 30.0, increments = 100.0;
+  constexpr double settling = 1.0, settling_with_bonds = 5.0, increments = 100.0;
   // Before anything has moved, the frequency of the wave is used.
   const double frequency =
       relaxation.estimate.frequency > 0.0 ? relaxation.estimate.clock() : wave_frequency(sim);
@@ -261,7 +261,8 @@ double time_of_displacements(const Simulation& sim) {
   return std::sqrt(6.0 * way * raised_inertia(sim) / (part_of_gravity * g));
 }
 
-/// Bonds hold from now on.
+/// What follows is loading on joints that hold, by their strength factors or, where these are left
+/// as they are, by their bonds alone.
 void hold_joints(Simulation& sim) {
   sim.relaxation.hold = Relaxation::Hold::loading;
   if (has_bonds(sim.motion.contacts)) sim.motion.contacts.bond_strength = 1.0 / holding;
@@ -321,6 +322,7 @@ void end_hold(Simulation& sim) {
   if (sim.relaxation.hold == Relaxation::Hold::over) return;
   sim.relaxation.hold = Relaxation::Hold::over;
   sim.motion.contacts.bond_strength = 1.0;
+  if (sim.attached.loads.gradual.part < 0.0) sim.attached.loads.gradual = {};
   set_strength_factors(sim, sim.relaxation.strength_to);
   sim.relaxation.strength_from.clear();
   sim.relaxation.strength_to.clear();

@@ -50,9 +50,10 @@ double mass_damping(const Simulation& sim);
 
 /// Applies gradually, over about a period of the motion, what begins or ends to act now, and this
 /// change of strength; at the very start also the weight, where the ground has no initial stress.
-/// What comes on then comes on joints that hold; once it is settled they come down to their
-/// strength, gradually, too. Used with adaptive damping. `more`: something else is to change with
-/// Loads::gradual, too.
+/// What comes on then comes on joints that hold, and later on bonds that do; once it is settled
+/// they come down to their strength, gradually, too, and so does the change of strength, which
+/// there begins after the loads. Used with adaptive damping. `more`: something else is to change
+/// with Loads::gradual, too.
 void begin_gradually(Simulation& sim, const std::vector<double>& strength_factors,
                      bool more = false);
 

@@ -66,6 +66,9 @@ void lose_velocity(Simulation& sim, Vec2 v) {
     pose.y1[p] += last.y;
   }
   for (Vec2& shift : sim.attached.springs.shift_1) shift += last;
+  for (FreeFieldColumn& column : sim.attached.free_field.columns) {
+    for (Vec2& of_column : column.velocity) of_column -= v;
+  }
   ground.shift_1 += last;
   ground.velocity -= v;
   sim.accounts.external_work += total_energy(sim) - energy;

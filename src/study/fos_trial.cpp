@@ -150,7 +150,8 @@ class Run {
     step_to(start_ + plan_.criterion.shaking);
     if (!over_) scale_shaking(0.0);
     const double latest = sim_.motion.state.time + most_steps * sim_.control.limit;
-    while (!over_ && sim_.motion.state.time < latest && !is_calm()) {
+    while (!over_ && !is_calm()) {
+      if (sim_.motion.state.time > latest) end(TrialEnd::fails, "still moving");
     }
     if (!over_) lose_velocity(sim_, sim_.attached.ground.velocity);
   }

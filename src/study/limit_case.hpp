@@ -44,7 +44,8 @@ class LimitCase {
   /// near: where a factor of strength may be. thrust_cost: as in LimitProblem.
   Answer solve(bool largest, const StrengthAt& strength_at, double near = 1.0,
                double thrust_cost = 0.0) const;
-  /// Forces of the joints before anything is varied, with the least thrust.
+  /// Forces of the joints before anything is varied, with the least thrust; empty where these loads
+  /// have no equilibrium.
   std::vector<RigidJointForce> least_thrust(const Answer& associated) const;
   std::optional<double> without_dilation_from(std::vector<RigidJointForce> reference,
                                               const Answer& associated, double thrust_cost) const;

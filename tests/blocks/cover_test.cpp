@@ -135,6 +135,26 @@ TEST(BuildBlocks, KineticEnergyOfALinearFieldIsExact) {
   }
 }
 
+/// A vertex by which an edge is divided has no exterior angle, however it is rounded; one at which
+/// the outline turns inwards counts as a right angle.
+TEST(BuildBlocks, CornersThatHardlyTurnAreStraight) {
+  Model model;
+  model.materials.push_back({"rock", 2600.0, 1e9, 0.2, {}});
+  for (const auto& [out, cosine, sine] : {std::array{0.0, 1.0, 0.0},
+                                          {1e-15, 1.0, 0.0},
+                                          {-5e-4, 1.0, 0.0},
+                                          {7e-4, 1.0, 0.0},
+                                          {0.5, 0.0, 1.0},
+                                          {-0.1, 0.0, 1.0}}) {
+    const PolygonSet set =
+        one_polygon({{0.0, 0.0}, {0.5, -out}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}, {}, 0.0);
+    const BlockSet b = build_blocks(model, set);
+    EXPECT_NEAR(b.exterior_cosine[1], cosine, 1e-12) << out;
+    EXPECT_EQ(b.exterior_sine[1] == 0.0, sine == 0.0) << out;
+    EXPECT_NEAR(b.exterior_sine[1], sine, 1e-12) << out;
+  }
+}
+
 TEST(BuildBlocks, VertexWeightsReproduceTheVertices) {
   Model model;
   model.materials.push_back({"rock", 2600.0, 1e9, 0.2, {}});

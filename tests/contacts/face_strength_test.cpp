@@ -134,6 +134,22 @@ TEST(FaceBond, StoresLikeASpringWhereItChangesToTension) {
   }
 }
 
+/// While loads come on a bond has many times its cohesion and its tensile strength; then its own.
+TEST(FaceBond, HoldsWhileItsStrengthIsRaised) {
+  MovedBlocks m = bonded_square();
+  const std::size_t k = bonded_face(m);
+  const double by_shear = cohesion * thickness / shear_k, by_pull = tension * thickness / normal_k;
+  m.faces.bond_strength = 3.0;
+  for (int n = 1; n <= 29; ++n) m.go(1, {{0.1 * n * by_shear, 0.0}});
+  EXPECT_EQ(m.faces.bonded[k], 1.0);
+  for (int n = 28; n >= 0; --n) m.go(1, {{0.1 * n * by_shear, 0.0}});
+  for (int n = 1; n <= 29; ++n) m.go(1, {{0.0, 0.1 * n * by_pull}});
+  EXPECT_EQ(m.faces.bonded[k], 1.0);
+  m.faces.bond_strength = 1.0;
+  m.go(1, {{0.0, 2.9 * by_pull}});
+  EXPECT_EQ(m.faces.bonded[k], 0.0);
+}
+
 TEST(FaceBond, ShearsAtItsCohesionAndFriction) {
   MovedBlocks m = bonded_square();
   const std::size_t k = bonded_face(m);

@@ -196,6 +196,55 @@ TEST(Stages, WhatFallsFarIsLooseWhereverItLands) {
   }
 }
 
+/// Nor has what slides out of the roof and is stopped by the floor before it has gone its own way.
+/// On its way it slides past corners at which the outline of the rock is straight.
+TEST(Stages, APlugThatTheFloorStopsIsLoose) {
+  const auto plug = [](const std::string& stage) {
+    return testing::ran(
+        "[materials.rock]\ndensity = 2500\nyoung = 20e9\npoisson = 0.2\n[joints.j]\n"
+        "friction_angle = 20\n[domain]\njoint = 'j'\noutline = [[-5, -5], [5, -5], [5, 5], [-5, "
+        "5]]\n"
+        "[[trace]]\npoints = [[-1, 0], [-1, 2], [1, 2], [1, 0]]\n[[opening]]\nname = 'room'\n"
+        "polygon = [[-1, -1.8], [1, -1.8], [1, 0], [-1, 0]]\n[[fixed]]\npoint = [-4, -4]\n"
+        "[initial_stress]\nk0 = 0.4\nsurface_y = 5\n[[stage]]\nuntil = 'equilibrium'\n[[stage]]\n"
+        "excavate = ['room']\n" +
+        stage);
+  };
+  const testing::Ran held = plug("until = 'equilibrium'\n");
+  EXPECT_EQ(held.outcome.status, Status::collapsed) << held.outcome.message;
+  EXPECT_EQ(held.outcome.loose, 1U);
+  const testing::Ran slides = plug("duration = 0.3\n");
+  EXPECT_LT(slides.outcome.largest_transfer, 1e-6);
+  EXPECT_LT(slides.outcome.largest_energy_error, 1e-6);
+}
+
+/// Columns of different heights rock to and fro as they settle, some for longer than others; none
+/// has come loose (their factor of safety is 1.04).
+TEST(Stages, WhatSettlesLateIsNotLoose) {
+  std::string toml =
+      "[materials.rock]\ndensity = 2500\nyoung = 20e9\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = 28.673\n";
+  const double c = std::cos(0.405137), s = std::sin(0.405137);
+  const auto column = [&](double u, double width, double low, double high) {
+    std::string ring;
+    for (const auto& [x, y] : {std::pair{u, low}, {u + width, low}, {u + width, high}, {u, high}}) {
+      ring += (ring.empty() ? "[" : ", [") + std::to_string(x * c - y * s) + ", " +
+              std::to_string(x * s + y * c) + "]";
+    }
+    return "[[block]]\npolygon = [" + ring + "]\n";
+  };
+  toml += column(-8.0, 21.0, -3.0, 0.0) + "fixed = true\n";
+  double u = 0.0;
+  for (const double height :
+       {1.021653, 1.875697, 3.114687, 1.935312, 3.295573, 1.585322, 2.271103}) {
+    toml += column(u, 1.0, 0.0, height);
+    u += 1.0;
+  }
+  const testing::Ran r = testing::ran(toml + "[[stage]]\nuntil = 'equilibrium'\n");
+  EXPECT_EQ(r.outcome.status, Status::equilibrium) << r.outcome.message;
+  EXPECT_EQ(r.outcome.loose, 0U) << r.outcome.message;
+}
+
 /// What has fallen before the stage begins has not come loose in it.
 TEST(Stages, WhatFellBeforeIsNotLoose) {
   PreparedRun ready = prepared(

@@ -5,7 +5,10 @@
 #include <string>
 
 #include "run/prepared.hpp"
+#include "step/changes.hpp"
+#include "step/energy_balance.hpp"
 #include "step/lone_block.hpp"
+#include "step/step.hpp"
 
 namespace edda::activation_test {
 namespace {
@@ -45,6 +48,40 @@ activate = ["quake"]
 )"));
   const double w = 4.0 * M_PI, t = 0.25;
   EXPECT_NEAR(r.moved("b").x, 3.0 / w * (t - std::sin(w * t) / w), 1e-5);
+}
+
+/// Seen from a frame that moves with v everything goes on as before, less v t: what stands on the
+/// ground, the ground, and springs between them.
+TEST(Activation, OfAFrameThatMoves) {
+  PreparedRun ready = prepared(
+      "[materials.rock]\ndensity = 2500\nyoung = 2e9\npoisson = 0.2\n[joints.j]\n"
+      "friction_angle = 20\n[[block]]\nfixed = true\npolygon = [[-9, -1], [9, -1], [9, 0], [-9, "
+      "0]]\n"
+      "[[block]]\npolygon = [[-1, 0], [1, 0], [1, 1], [-1, 1]]\n[[block]]\n"
+      "polygon = [[2, 0], [3, 0], [3, 1], [2, 1]]\n[[boundary]]\nsides = ['top']\ntype = 'fixed'\n"
+      "stiffness = 1e6\n[[shaking]]\nacceleration = { amplitude = 3, frequency = 2 }\n"
+      "[solver]\nduration = 1\n");
+  Simulation& still = ready.sim;
+  start(still, 1.0);
+  for (int n = 0; n < 400; ++n) ASSERT_FALSE(step(still));
+  Simulation moves = still;
+  const Vec2 v{0.3, -0.2};
+  const double began = still.motion.state.time;
+  lose_velocity(moves, v);
+  EXPECT_NEAR(norm(still.attached.ground.velocity - moves.attached.ground.velocity - v), 0.0,
+              1e-12);
+  for (int n = 0; n < 400; ++n) {
+    ASSERT_FALSE(step(still));
+    ASSERT_FALSE(step(moves));
+  }
+  const double t = still.motion.state.time - began;
+  EXPECT_EQ(moves.motion.state.time, still.motion.state.time);
+  for (std::size_t i = 0; i < still.scene->blocks.size(); ++i) {
+    const Vec2 apart = centroid(still.motion.state.x, still.motion.state.y, i) -
+                       centroid(moves.motion.state.x, moves.motion.state.y, i);
+    EXPECT_NEAR(norm(apart - t * v), 0.0, 1e-9) << i;
+  }
+  EXPECT_LT(std::abs(account_energy(moves).error), 1e-6);
 }
 
 /// A block that has fallen before its bolt is installed: the bolt is free of force at that

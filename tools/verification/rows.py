@@ -328,4 +328,10 @@ ROWS = (
         " high. With penalty springs and with kn of 2e10 Pa/m.",
         "The bond breaks where the stress of its outer fibre, -N/L + 6 M/L^2, is its tensile strength.",
         "Rigid limit analysis has the moment t L^2/2 of a bond that yields, three times as much ([limit.md](limit.md))."),
+    Row(69, "Cohesion under water",
+        "A block of 4 m x 2 m with cohesion on a plane of 35 degrees, above which a stage raises a lake; a dam of 3 m x 6 m with"
+        " cohesion, with and without a little tensile strength, under 5 m of water with uplift.",
+        "(c A + W' cos a tan phi)/(W' sin a) with the weight W' under buoyancy; (c B + (W - U) tan phi)/H.",
+        "Water compresses the block by far more than its weight does, so that its joint would gape while the lake rises. The heel"
+        " of the dam cracks. The factors are the middle of a bracket of 0.4 %."),
 )
