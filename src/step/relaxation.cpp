@@ -205,6 +205,7 @@ void advance_gradual_change(Simulation& sim) {
   Relaxation& relaxation = sim.relaxation;
   if (gradual_change_complete(sim)) return;
   constexpr double settling = 1.0, settling_with_bonds = 5.0, increments = 100.0;
+  constexpr double slower_with_bonds = 4.0;  // what breaks must not be thrown out
   // Before anything has moved, the frequency of the wave is used.
   const double frequency =
       relaxation.estimate.frequency > 0.0 ? relaxation.estimate.clock() : wave_frequency(sim);
@@ -214,8 +215,9 @@ void advance_gradual_change(Simulation& sim) {
   const double raised = gradual.periods > 0.0 ? raised_inertia(sim) : 1.0;
   const double periods = raised > 1.0 ? gradual.periods * std::sqrt(raised) : 1.0;
   const double period = 2.0 * std::numbers::pi * periods / frequency;
-  gradual.part += sim.motion.state.step / std::max(period, gradual.least);
   const bool with_bonds = sim.motion.contacts.bond_strength > 1.0;
+  const double slower = with_bonds && before >= 0.0 && !loading ? slower_with_bonds : 1.0;
+  gradual.part += sim.motion.state.step / std::max(slower * period, gradual.least);
   if (with_bonds && before < 0.0 && relaxation.balanced) gradual.part = std::max(gradual.part, 0.0);
   const bool strength = !relaxation.strength_to.empty() && !loading;
   if (before < 0.0 && gradual.part >= 0.0) relaxation.estimate.least = 0.5 * frequency;

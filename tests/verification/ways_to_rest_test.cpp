@@ -27,7 +27,7 @@ TEST(WaysToRest, WhatSlidesAloneDelaysNoOther) {
       "joint = 'ice'\npolygon = [[11, -1.176326981], [12, -1.352653961], "
       "[12.17364818, -0.3678462085], [11.17364818, -0.1915192285]]\n" +
       until_equilibrium);
-  EXPECT_LT(found.outcome.steps, 5500U);
+  EXPECT_LT(found.outcome.steps, 7500U);
   EXPECT_NE(found.outcome.message.find("come loose: block 2 (slider)"), std::string::npos)
       << found.outcome.message;
 }
