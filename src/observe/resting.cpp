@@ -4,32 +4,15 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include "base/text.hpp"
+#include "blocks/block_groups.hpp"
 #include "contacts/face_reading.hpp"
 #include "observe/observe.hpp"
 #include "step/labels.hpp"
 
 namespace edda {
 namespace {
-
-/// Disjoint sets that are joined pairwise; a set is identified by its lowest member.
-class Sets {
- public:
-  explicit Sets(std::size_t n) : of_(n) { std::iota(of_.begin(), of_.end(), Id{0}); }
-  Id find(Id i) {
-    while (of_[i] != i) i = of_[i] = of_[of_[i]];
-    return i;
-  }
-  void join(Id i, Id j) {
-    const Id a = find(i), b = find(j);
-    of_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Id> of_;
-};
 
 Sets groups_of(const Simulation& sim) {
   Sets sets(sim.scene->blocks.size());

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "blocks/block_groups.hpp"
 #include "contacts/face_reading.hpp"
 #include "observe/observe.hpp"
 #include "step/faces_now.hpp"
@@ -156,25 +157,20 @@ std::vector<std::uint8_t> unsupported(const Simulation& sim) {
   const BlockSet& b = sim.scene->blocks;
   const FaceSet& f = sim.motion.contacts;
   const BoundarySprings& springs = sim.attached.springs;
-  std::vector<std::uint8_t> apart(b.size(), 1);
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    if (!is_free(b, sim.motion.state, i)) apart[i] = 0;
+  Sets groups(b.size());
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    if (is_closed_now(sim, k)) groups.join(block_of_edge(b, f, k), block_of_facing(b, f, k));
+  }
+  std::vector<std::uint8_t> stands(b.size(), 0);  // by the first block of each group
+  for (Id i = 0; i < b.size(); ++i) {
+    if (!is_free(b, sim.motion.state, i)) stands[groups.find(i)] = 1;
   }
   for (std::size_t q = 0; q < springs.size(); ++q) {
-    if (springs.kxx[q] + springs.kyy[q] > 0.0) apart[b.vertex_block[springs.vertex[q]]] = 0;
+    if (springs.kxx[q] + springs.kyy[q] > 0.0)
+      stands[groups.find(b.vertex_block[springs.vertex[q]])] = 1;
   }
-  std::vector<std::pair<Id, Id>> pairs;
-  for (std::size_t k = 0; k < f.size(); ++k) {
-    if (is_closed_now(sim, k)) pairs.push_back(blocks_of_face(b, f, k));
-  }
-  for (bool more = true; more;) {
-    more = false;
-    for (const auto& [i, j] : pairs) {
-      if (apart[i] == apart[j]) continue;
-      apart[i] = apart[j] = 0;
-      more = true;
-    }
-  }
+  std::vector<std::uint8_t> apart(b.size());
+  for (Id i = 0; i < b.size(); ++i) apart[i] = stands[groups.find(i)] == 0 ? 1 : 0;
   return apart;
 }
 
