@@ -263,7 +263,8 @@ EDDA_INLINE ChunkFound evaluate_lanes(const ChunkView& given) {
 }
 }  // namespace
 
-SweepTables tables_of(FaceTiles& t, std::size_t tile, double* on, double step, double noise) {
+SweepTables tables_of(FaceTiles& t, std::size_t tile, double* on, double step,
+                      const FaceSet& faces) {
   const int now = t.now, old = 1 - t.now;
   TileNumbers& numbers = t.numbers[tile];
   return {.first_chunk = numbers.first_chunk,
@@ -281,7 +282,8 @@ SweepTables tables_of(FaceTiles& t, std::size_t tile, double* on, double step, d
           .was = t.bits[old].data(),
           .on = on,
           .per_step = 1.0 / step,
-          .noise = noise};
+          .noise = faces.noise,
+          .bond_strength = faces.bond_strength};
 }
 
 EDDA_VECTOR void stand_edges(const ChunkView& given) {

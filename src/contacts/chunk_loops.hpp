@@ -39,10 +39,11 @@ struct SweepTables {
   const LaneBits* was;  ///< [chunks]
   double* on;           ///< records of the forces on the edges
   double per_step, noise;
-  double bond_strength = 1.0;  ///< FaceSet::bond_strength
+  double bond_strength;  ///< FaceSet::bond_strength
 };
 /// on: records of the forces, where they are stored. step: s.
-SweepTables tables_of(FaceTiles& tiles, std::size_t tile, double* on, double step, double noise);
+SweepTables tables_of(FaceTiles& tiles, std::size_t tile, double* on, double step,
+                      const FaceSet& faces);
 
 /// Corners at n - 1, or masses, of faces of which they do not count: what is multiplied by them is
 /// 0.

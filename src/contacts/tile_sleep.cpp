@@ -141,7 +141,7 @@ std::array<Id, face_kinds> classify(FaceTiles& t, const SweepScene& scene, std::
   const int old = 1 - t.now;
   scratch.kind.resize((of.last_chunk - of.first_chunk) * lanes);
   std::array<Id, face_kinds> count{};
-  const SweepTables tables = tables_of(t, tile, nullptr, scene.step, scene.noise);
+  const SweepTables tables = tables_of(t, tile, nullptr, scene.step, scene.faces);
   Records e, f, pace_e, pace_f;
   std::uint8_t* next = scratch.kind.data();
   for (std::size_t q = of.first_chunk; q < of.last_chunk; ++q) {

@@ -269,8 +269,7 @@ SweepResult sweep_tile(FaceTiles& t, const SweepScene& scene, std::size_t tile, 
   const std::size_t numbers = record_numbers(t, of);
   AlignedNumbers &own = t.forces[tile], &on = t.kept[tile] != 0 ? own : scratch.on;
   on.resize(std::max(on.size(), numbers));
-  SweepTables tables = tables_of(t, tile, on.data(), scene.step, scene.noise);
-  tables.bond_strength = scene.faces.bond_strength;
+  const SweepTables tables = tables_of(t, tile, on.data(), scene.step, scene.faces);
   const ChunkEdges edges{scene, scratch.at.data(), of.takes_then ? scratch.then.data() : nullptr,
                          t.slot_e.data(), t.slot_f.data()};
   if (!scene.corrects) {
@@ -291,8 +290,7 @@ SweepResult sweep_tile(FaceTiles& t, const SweepScene& scene, std::size_t tile, 
 SweepResult sweep_chunks(FaceTiles& t, const SweepScene& scene, std::size_t tile,
                          std::span<const Id> chunks) {
   LaneBits found = 0;
-  SweepTables tables = tables_of(t, tile, t.forces[tile].data(), scene.step, scene.noise);
-  tables.bond_strength = scene.faces.bond_strength;
+  const SweepTables tables = tables_of(t, tile, t.forces[tile].data(), scene.step, scene.faces);
   for (const std::size_t q : chunks) {
     EdgesAlone alone;
     const bool then = t.tiles[tile].takes_then;

@@ -13,13 +13,12 @@ namespace edda {
 struct SweepScene {
   const BlockSet& blocks;
   const Masses& masses;
-  const FaceSet& faces;  ///< properties alone
+  const FaceSet& faces;  ///< properties alone, noise and bond_strength
   const Pose& pose;
   double largest_move;  ///< m: no vertex has moved farther in the step
   double pushed;        ///< m: nor farther by corrections after the last sweep
   double least_margin;  ///< m: of TileSleep; 0: no face sleeps
   double step;          ///< from n - 1 to n, s, for dashpots
-  double noise;         ///< m: closures up to this size are rounding of the coordinates
   bool corrects;        ///< the faces have been evaluated in this step, before blocks were pushed
 };
 

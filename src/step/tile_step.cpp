@@ -32,7 +32,6 @@ SweepScene sweep_scene(const Simulation& sim) {
           .pushed = own.pushed,
           .least_margin = own.sleep_part * motion.contacts.reach,
           .step = motion.state.step,
-          .noise = motion.contacts.noise,
           .corrects = own.corrects};
 }
 

@@ -132,7 +132,6 @@ struct Drift {
                      .pushed = 0.0,
                      .least_margin = least_margin,
                      .step = 1e-3,
-                     .noise = c.noise,
                      .corrects = false};
     const auto sweep = [&] {
       for (std::size_t q = 0; q < t.tiles.size(); ++q)
