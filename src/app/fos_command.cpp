@@ -35,7 +35,7 @@ Trouble write_results(const Model& model, const FosResult& r, const std::string&
     if (Trouble t = write("mechanism_joints.csv", mechanism_joints_csv(*r.mechanism))) return t;
     const std::string says =
         fmt::format("mechanism at factor {:.4g}: {}", *r.fails, r.mechanism->text);
-    if (Trouble t = draw_mechanism(model, *r.failed, *r.mechanism, r.criterion.size, says, folder))
+    if (Trouble t = draw_mechanism(model, *r.failed, *r.mechanism, r.size, says, folder))
       return t;
   }
   if (Trouble t = write_columns_csv(folder)) return t;
@@ -43,19 +43,18 @@ Trouble write_results(const Model& model, const FosResult& r, const std::string&
 }
 
 void print_end(const FosResult& r, const std::string& folder) {
-  const CollapseCriterion& c = r.criterion;
   fmt::print("{}\n", r.message);
   if (r.mechanism) fmt::print("  mechanism at {:.6g}: {}\n", *r.fails, r.mechanism->text);
   const std::string lost = r.mechanism ? lost_cohesion_text(*r.mechanism) : std::string();
   if (!lost.empty()) fmt::print("  {}\n", lost);
   if (r.rigid) fmt::print("  {}\n", r.rigid->text);
   fmt::print(
-      "  a trial fails where a corner will move further than {:.3g} m by the trend of its "
-      "motion{}\n",
-      c.displacement,
-      r.within_limit > c.displacement
-          ? fmt::format(" ({:.3g} m where rigid blocks are in equilibrium)", r.within_limit)
-          : "");
+      "  a trial counts as failed when {}\n",
+      r.criterion.displacement
+          ? fmt::format("a corner has moved by more than {:.3g} m", *r.criterion.displacement)
+          : fmt::format("blocks have moved by more than {:.2g} of their size as seen from those "
+                        "beside them ({:.2g} where rigid blocks have no equilibrium)",
+                        r.criterion.allowed, moved_little));
   fmt::print("  {}, {} of wall time; results in {}/ (fos.csv, mechanism.png)\n",
              counted(r.trials.size(), "trial"), duration_text(r.seconds), folder);
 }

@@ -10,10 +10,10 @@
 
 #include "attachments/bolts.hpp"
 #include "attachments/loads.hpp"
+#include "base/gravity.hpp"
 #include "blocks/kinematics.hpp"
 #include "contacts/face_reading.hpp"
 #include "limit/linear_program.hpp"
-#include "run/equilibrium_search.hpp"
 
 namespace edda {
 namespace {

@@ -13,22 +13,6 @@
 
 namespace edda {
 
-std::vector<std::uint8_t> negligible_blocks(const Simulation& sim) {
-  constexpr double small = 0.1;  // of the mean size
-  std::vector<std::uint8_t> are(sim.scene->blocks.size(), 0);
-  double size = 0.0, count = 0.0;
-  for (std::size_t i = 0; i < are.size(); ++i) {
-    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
-    size += std::sqrt(sim.scene->blocks.area[i]);
-    count += 1.0;
-  }
-  for (std::size_t i = 0; i < are.size(); ++i) {
-    are[i] = is_free(sim.scene->blocks, sim.motion.state, i) &&
-             std::sqrt(sim.scene->blocks.area[i]) * count < small * size;
-  }
-  return are;
-}
-
 double resultant_on(const Simulation& sim, std::size_t i) {
   return nodes_per_block * norm(centroid(sim.motion.forces.x, sim.motion.forces.y, i));
 }
@@ -67,14 +51,22 @@ std::vector<std::uint8_t> falling_blocks(const Simulation& sim) {
   return fall;
 }
 
+std::vector<Id> loose_blocks(const Simulation& sim) {
+  std::vector<Id> loose;
+  for (std::size_t i = 0; i < sim.relaxation.loose.size(); ++i) {
+    if (sim.relaxation.loose[i] != 0) loose.push_back(static_cast<Id>(i));
+  }
+  return loose;
+}
+
 Balance balance_of(const Simulation& sim) {
   Balance balance;
-  const std::vector<std::uint8_t> falls = falling_blocks(sim), small = negligible_blocks(sim);
+  const std::vector<std::uint8_t> falls = falling_blocks(sim);
   double sum = 0.0;
   std::vector<Id> resting;
   std::vector<double> all;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
-    if (!is_free(sim.scene->blocks, sim.motion.state, i) || small[i] != 0) continue;
+    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
     if (falls[i] != 0) {
       ++balance.detached;
       continue;

@@ -14,7 +14,7 @@ struct Simulation;
 
 /// How far the forces of the last step are from equilibrium. Blocks without contact do not count,
 /// since they fall whatever the others do, unless nothing moves them; nor do loose blocks
-/// (Relaxation::loose) and pebbles.
+/// (Relaxation::loose).
 struct Balance {
   double mean = 0.0;     ///< mean resultant of the blocks, over the mean contact normal force (the
                          ///< mean weight where no contact carries load)
@@ -35,10 +35,8 @@ double resultant_on(const Simulation& sim, std::size_t i);
 /// about to move. Where nothing acts on a model its blocks rest without carrying any load.
 std::vector<std::uint8_t> falling_blocks(const Simulation& sim);
 
-/// [nb] 1: a free block whose size (square root of the area) is less than a tenth of the mean of
-/// all free blocks. With its inertia raised by mass scaling it is slow to reach equilibrium, and
-/// the other blocks do not depend on it.
-std::vector<std::uint8_t> negligible_blocks(const Simulation& sim);
+/// Loose blocks (Relaxation::loose), ascending.
+std::vector<Id> loose_blocks(const Simulation& sim);
 
 /// The fastest blocks and the unbalanced forces, for a stage that did not reach equilibrium.
 std::string still_moving(const Simulation& sim, const Balance& balance);

@@ -73,6 +73,7 @@ struct Outcome {
                                    ///< slowed them
   std::size_t loose = 0;  ///< most loose blocks at the end of a stage until equilibrium, pebbles
                           ///< excluded
+  std::size_t unsettled = 0;  ///< stages until equilibrium that have ended without one
   std::optional<double> rigid_factor;  ///< of safety, of the blocks at the end as rigid ones; none
                                        ///< where nothing asks for it (RunOptions::rigid_factor)
   std::vector<RampOutcome> ramps;

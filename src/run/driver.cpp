@@ -29,17 +29,17 @@ constexpr double largest_gain = 0.05;
 // 1/(1 - (h/h_c)^2).
 constexpr double kinetic_bound = 20.0;
 
-/// The fastest block, where spurious energy shows first.
-std::size_t fastest_block(const Simulation& sim) {
-  std::size_t best = 0;
+/// The block with the most energy per mass, where spurious energy shows first.
+Id most_energetic(const Simulation& sim) {
+  Id best = 0;
   double most = -1.0;
-  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
-    if (sim.scene->blocks.fixed[i] || !sim.motion.state.alive[i]) continue;
-    const double speed =
+  for (Id i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
+    const double energy =
         kinetic_energy(sim.motion.masses, sim.motion.state.vx, sim.motion.state.vy, i) /
         sim.scene->blocks.mass[i];
-    if (speed > most) {
-      most = speed;
+    if (energy > most) {
+      most = energy;
       best = i;
     }
   }
@@ -306,7 +306,7 @@ bool Driver::energy_is_out_of_bounds() {
   const bool runaway = l.kinetic > kinetic_bound * scale && l.kinetic > 0.0;
   if (l.error <= largest_gain && created <= largest_gain && !runaway) return false;
   Failure failure;
-  failure.block = static_cast<Id>(fastest_block(sim_));
+  failure.block = most_energetic(sim_);
   failure.place =
       centroid(sim_.motion.state.x, sim_.motion.state.y, failure.block) + sim_.scene->blocks.origin;
   failure.time = sim_.motion.state.time;

@@ -9,7 +9,7 @@
 #include "base/threads.hpp"
 #include "checkpoint/image_bytes.hpp"
 #include "checkpoint/record.hpp"
-#include "run/equilibrium_search.hpp"
+#include "judge/judge.hpp"
 #include "run/event_times.hpp"
 #include "run/ramp.hpp"
 #include "run/recorder.hpp"
@@ -70,6 +70,11 @@ class Driver {
   template <class Archive>
   void list_stages(Archive& archive);
   enum class Arrival { there, at_rest, no_equilibrium, paused, over };
+  enum class Equilibrium {
+    not_yet,
+    found,
+    never,  ///< all free blocks have left their places
+  };
   /// Steps to the event, or until the stage has reached its equilibrium. Over: outcome_ has the
   /// reason.
   Arrival step_to(double time);
@@ -135,7 +140,7 @@ class Driver {
   std::size_t stage_ = 0;                ///< present stage
   double stage_start_ = 0.0;             ///< s
   std::uint64_t stage_steps_ = 0;        ///< steps made before it
-  EquilibriumSearch search_;             ///< of a stage until equilibrium
+  Judge judge_;                          ///< of the present stage
   RampProgress ramp_;                    ///< of the present stage, if it has a ramp
   std::vector<CurveRow> curve_;          ///< of all ramps
   std::optional<ThreadChoice> threads_;  ///< number of threads for the steps; none: it was given

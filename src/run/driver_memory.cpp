@@ -171,21 +171,11 @@ void Driver::list_stages(Archive& a) {
   a("stage.index", stage_);
   a("stage.start", stage_start_);
   a("stage.steps", stage_steps_);
-  a("search.found_in_sequence", search_.found_in_sequence);
-  a("search.is_far", search_.is_far);
-  a("search.window_began", search_.window_began);
-  a("search.window", search_.window);
-  a("search.pull", search_.pull);
-  a("search.pull_before", search_.pull_before);
-  a("search.began_x", search_.began_x);
-  a("search.began_apart", search_.began_apart);
-  a("search.began_y", search_.began_y);
-  a("search.from_x", search_.from_x);
-  a("search.from_y", search_.from_y);
-  a("search.moved_x", search_.moved_x);
-  a("search.moved_y", search_.moved_y);
-  a("search.to_come", search_.to_come);
-  a("search.windows_moving", search_.windows_moving);
+  judge_.list(a);
+  if constexpr (Archive::loads) {
+    if (!judge_.fits(sim_)) return a.refuse("what the judge remembers does not fit the model");
+  }
+  a("outcome.unsettled", outcome_.unsettled);
   a("stage.has_ended", stage_has_ended_);
   if constexpr (Archive::loads) {
     if (stage_ >= plans_.size()) {

@@ -17,7 +17,8 @@ void Driver::begin_stage(std::size_t index) {
   stage_ = index;
   stage_start_ = sim_.motion.state.time;
   stage_steps_ = sim_.motion.state.steps;
-  begin_equilibrium_search(search_, sim_, stage());
+  judge_ = Judge(sim_);
+  seek_equilibrium(sim_, stage());
   ramp_ = {};
   ramp_.since = stage_steps_;
   times_.end_at(stage_start_ + stage().longest());
@@ -27,19 +28,22 @@ void Driver::begin_stage(std::size_t index) {
   }
 }
 
-Equilibrium Driver::look_for_equilibrium() {
+Driver::Equilibrium Driver::look_for_equilibrium() {
   const Stage& now = stage();
   if (!now.to_equilibrium()) return Equilibrium::not_yet;
-  if (!ramp_.search) return edda::look_for_equilibrium(search_, sim_, now);
-  switch (look_at_increment(ramp_, sim_, now)) {
-    case Verdict::holds:
-      return Equilibrium::found;
-    case Verdict::fails:
-      return Equilibrium::never;
-    case Verdict::not_yet:
-      break;
+  if (ramp_.search) {
+    const Verdict verdict = look_at_increment(ramp_, sim_, now);
+    return verdict == Verdict::not_yet ? Equilibrium::not_yet
+           : verdict == Verdict::holds ? Equilibrium::found
+                                       : Equilibrium::never;
   }
-  return Equilibrium::not_yet;
+  if (!judge_.look(sim_) || !gradual_change_complete(sim_)) return Equilibrium::not_yet;
+  if (judge_.all_left(sim_)) return Equilibrium::never;
+  const bool found = now.falling == FallingBlocks::wait ? judge_.all_at_rest()
+                                                        : judge_.in_equilibrium();
+  const bool balanced =
+      found && (balance_of(sim_).mean <= now.ratio || forces_are_rounding(sim_));
+  return balanced ? Equilibrium::found : Equilibrium::not_yet;
 }
 
 Event Driver::search_event() const {
@@ -80,7 +84,7 @@ bool Driver::end_stage(Arrival went) {
     if (ended_by(recorder_.stages(stages_csv(sim_.scene->model, ends_)))) return false;
     save_stage();
   }
-  if (now.to_equilibrium()) outcome_.loose = std::max(outcome_.loose, lost_block_ids(sim_).size());
+  if (now.to_equilibrium()) outcome_.loose = std::max(outcome_.loose, loose_blocks(sim_).size());
   const std::string label = stage_label(sim_.scene->model, stage_);
   if (failed && !reached) {
     end(Status::collapsed, end_of_ramp(false) + not_in_equilibrium());
@@ -92,13 +96,19 @@ bool Driver::end_stage(Arrival went) {
                                        label, still_moving(sim_, ends_.back().balance)));
     return false;
   }
+  const bool last = stage_ + 1 == plans_.size() || options_.last_stage == stage_;
   if (!reached && !at_rest) {
-    end(Status::collapsed,
-        fmt::format("{} did not reach equilibrium in {:.6g} s{}: {}; give it a longer duration or "
-                    "more damping, or check what fails",
-                    label, now.longest(), now.ramp ? ", at " + ramp_at(ramp_.increment) : "",
-                    still_moving(sim_, ends_.back().balance)));
-    return false;
+    ++outcome_.unsettled;
+    const std::string not_found = fmt::format(
+        "{} is not in equilibrium after {:.6g} s, the longest that it may last{}: {}{}", label,
+        now.longest(), now.ramp ? ", at " + ramp_at(ramp_.increment) : "",
+        still_moving(sim_, ends_.back().balance), not_in_equilibrium());
+    if (last || now.ramp || now.otherwise == LooseBlocks::stop) {
+      end(now.otherwise == LooseBlocks::stop ? Status::collapsed : Status::completed, not_found);
+      return false;
+    }
+    if (options_.warn) options_.warn(not_found + "; the run goes on");
+    return true;
   }
   if (at_rest && now.otherwise == LooseBlocks::stop) {
     if (const std::string loose = not_in_equilibrium(); !loose.empty()) {
@@ -106,7 +116,7 @@ bool Driver::end_stage(Arrival went) {
       return false;
     }
   }
-  if (stage_ + 1 == plans_.size() || options_.last_stage == stage_) {
+  if (last) {
     if (now.ramp) {
       end(at_rest ? Status::equilibrium : Status::completed,
           end_of_ramp(at_rest) + not_in_equilibrium());
@@ -136,15 +146,7 @@ std::string Driver::stopped_by(const std::string& loose) const {
 
 /// Blocks that are not in equilibrium at the end of the stage, beginning with a comma; else empty.
 std::string Driver::not_in_equilibrium() const {
-  const std::string loose = loose_blocks(search_, sim_);
-  const std::string apart =
-      loose.empty() ? "" : ", except for blocks that have come loose: " + loose;
-  const std::size_t falling = balance_of(sim_).detached;
-  if (falling == 0) return apart;
-  return fmt::format("{}, {} for {} that {} freely: fastest is {}, at {:.3g} m/s", apart,
-                     loose.empty() ? "except" : "and", counted(falling, "block"),
-                     falling == 1 ? "falls" : "fall",
-                     block_label(sim_.scene->blocks, outcome_.fastest), outcome_.speed);
+  return judge_.left_text(sim_);
 }
 
 std::string Driver::motion_at_end() const {

@@ -68,8 +68,8 @@ void list_points(Archive& a, PointSet& c) {
 }
 
 /// Checks the assumptions of complete_points() and of the step.
-template <class Judge>
-void judge_points(Judge& j, const PointSet& c, const BlockSet& b, const LawTable& laws) {
+template <class Examiner>
+void examine_points(Examiner& j, const PointSet& c, const BlockSet& b, const LawTable& laws) {
   for (const auto column : point_columns) j.sized("points", c.*column, c.vertex.size());
   j.sized("points.edge", c.edge, c.vertex.size());
   j.sized("points.law", c.law, c.vertex.size());
@@ -91,9 +91,9 @@ inline bool all_finite(const FaceSet& c) {
 }
 
 /// Checks the assumptions of complete_faces() and of the step: sizes, indices, finite numbers.
-/// Judge: that of simulation_memory.cpp.
-template <class Judge>
-void judge_faces(Judge& j, const FaceSet& c, const BlockSet& b, const LawTable& laws) {
+/// Examiner: that of simulation_memory.cpp.
+template <class Examiner>
+void examine_faces(Examiner& j, const FaceSet& c, const BlockSet& b, const LawTable& laws) {
   const std::size_t n = c.size(), nv = b.vertex_count();
   j.rows("faces", c.rows(), n);
   j.rows("faces", c.now.rows(), n);

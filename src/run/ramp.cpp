@@ -1,6 +1,7 @@
 #include "run/ramp.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "observe/attachment_rows.hpp"
 #include "results/columns.hpp"
@@ -14,18 +15,37 @@ double ramp_value(const Ramp& ramp, int increment) {
   return from + (to - from) * increment / ramp.steps;
 }
 
+bool is_displaced(const Model& model, Varied varied, Index target) {
+  return varied == Varied::boundary &&
+         model.boundaries[static_cast<std::size_t>(target)].type == BoundaryType::displacement;
+}
+
+int parts_of_change(const Simulation& sim, Varied varied, Index target, double from, double to) {
+  constexpr double at_a_time = 0.0025;  // of the size of a block
+  const Model& model = sim.scene->model;
+  if (!is_displaced(model, varied, target)) return 1;
+  double size = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
+    size += std::sqrt(sim.scene->blocks.area[i]);
+    count += 1.0;
+  }
+  const Vec2 whole = *model.boundaries[static_cast<std::size_t>(target)].displacement;
+  const double way = norm(whole) * std::abs(to - from);
+  return count > 0.0 ? std::max(1, static_cast<int>(std::ceil(way * count / (at_a_time * size)))) : 1;
+}
+
 namespace {
 
 int parts_of(const RampProgress& now, const Simulation& sim, const Ramp& ramp) {
-  return parts_of_change(sim.scene->model, ramp.varied, ramp.target,
-                         ramp_value(ramp, now.increment - 1), ramp_value(ramp, now.increment),
-                         now.search->criterion());
+  return parts_of_change(sim, ramp.varied, ramp.target, ramp_value(ramp, now.increment - 1),
+                         ramp_value(ramp, now.increment));
 }
 
 void begin_part(RampProgress& ramp, Simulation& sim, const Stage& stage) {
   const double from = ramp_value(*stage.ramp, ramp.increment - 1),
                to = ramp_value(*stage.ramp, ramp.increment);
-  ramp.search.emplace(sim, collapse_criterion(sim, stage.ramp->varied, stage.ramp->target));
+  ramp.search.emplace(sim, Criterion{});
   const int parts = parts_of(ramp, sim, *stage.ramp);
   set_ramp(sim, stage, ramp.part >= parts ? to : from + (to - from) * ramp.part / parts);
   ramp.search->begin(sim);
@@ -34,7 +54,7 @@ void begin_part(RampProgress& ramp, Simulation& sim, const Stage& stage) {
 }  // namespace
 
 double moved_in_increment(const RampProgress& ramp, const Simulation& sim) {
-  return ramp.moved + (ramp.search ? ramp.search->watch().displacement(sim).value : 0.0);
+  return ramp.moved + (ramp.search ? ramp.search->judge().furthest(sim).value : 0.0);
 }
 
 void begin_increment(RampProgress& ramp, Simulation& sim, const Stage& stage) {

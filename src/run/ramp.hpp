@@ -9,7 +9,7 @@
 
 #include "observe/monitors.hpp"
 #include "observe/outcome.hpp"
-#include "run/failure_search.hpp"
+#include "judge/holding.hpp"
 
 namespace edda {
 
@@ -19,7 +19,7 @@ struct RampProgress {
   std::uint64_t since = 0;  ///< step at which it began
   int part = 1;             ///< of a displaced support: the present part of it (parts_of_change())
   double moved = 0.0;       ///< m, largest displacements of a vertex in its earlier parts together
-  std::optional<FailureSearch> search;  ///< from the first increment on
+  std::optional<Holding> search;  ///< from the first increment on
 };
 
 /// A row of curve.csv: the end of an increment.
@@ -34,6 +34,14 @@ struct CurveRow {
   std::string reason;          ///< of the verdict
   std::vector<Vec2> monitors;  ///< m, displacements [monitors]
 };
+
+/// Whether what is varied (target: as slow_value()) displaces a support.
+bool is_displaced(const Model& model, Varied varied, Index target);
+
+/// Parts in which a change of what is varied is applied, each held in turn: a support is displaced
+/// by no more at a time than a small part of the mean size of the blocks, so that they follow it;
+/// of everything else one.
+int parts_of_change(const Simulation& sim, Varied varied, Index target, double from, double to);
 
 /// Value of increment k: from the first to the last value in equal parts.
 double ramp_value(const Ramp& ramp, int increment);

@@ -22,7 +22,7 @@ void list_ramp(Archive& a, RampProgress& ramp, bool expected, const Simulation& 
   a("ramp.searches", searches);
   if constexpr (Archive::loads) {
     if (searches && !expected) return a.refuse("ramps do not fit the model");
-    if (searches) ramp.search.emplace(sim, CollapseCriterion{});
+    if (searches) ramp.search.emplace(sim, Criterion{});
   }
   if (searches) ramp.search->list(a);
 }

@@ -106,7 +106,7 @@ void list_counts(Archive& a, Simulation& s) {
 }
 
 /// Records the first value that would lead out of an array or is not finite.
-class Judge {
+class Examiner {
  public:
   const std::string& flaw() const { return flaw_; }
   template <class T>
@@ -134,7 +134,7 @@ class Judge {
 };
 
 /// Checks that blocks are in one piece and not too far away: the contact search counts cells.
-void judge_places(Judge& j, const Simulation& s) {
+void examine_places(Examiner& j, const Simulation& s) {
   const BlockSet& b = s.scene->blocks;
   double extent = 0.0;
   for (std::size_t v = 0; v < b.vertex_count(); ++v) {
@@ -162,7 +162,7 @@ void judge_places(Judge& j, const Simulation& s) {
   }
 }
 
-void judge(Judge& j, const Simulation& s) {
+void examine(Examiner& j, const Simulation& s) {
   const std::size_t nb = s.scene->blocks.size(), nv = s.scene->blocks.vertex_count();
   for (const Nodes* nodes :
        {&s.motion.state.x, &s.motion.state.y, &s.motion.state.vx, &s.motion.state.vy,
@@ -194,9 +194,9 @@ void judge(Judge& j, const Simulation& s) {
   for (std::size_t i = 0; i < s.motion.masses.raised.size() && j.flaw().empty(); ++i) {
     for (const auto& mass : s.motion.masses.node) j.positive("node_mass", mass[i]);
   }
-  judge_faces(j, s.motion.contacts, s.scene->blocks, s.motion.laws);
-  judge_points(j, s.motion.point_contacts, s.scene->blocks, s.motion.laws);
-  if (j.flaw().empty()) judge_places(j, s);
+  examine_faces(j, s.motion.contacts, s.scene->blocks, s.motion.laws);
+  examine_points(j, s.motion.point_contacts, s.scene->blocks, s.motion.laws);
+  if (j.flaw().empty()) examine_places(j, s);
 }
 
 }  // namespace
@@ -258,8 +258,8 @@ std::string recall(Simulation& sim, const Record& record) {
     return "laws.divided_by is not of these laws";
   }
   sim.motion.laws = divided_laws(sim.scene->model, factors);
-  Judge j;
-  judge(j, sim);
+  Examiner j;
+  examine(j, sim);
   if (!j.flaw().empty()) return j.flaw();
   complete_faces(sim.motion.contacts, sim.scene->blocks, sim.motion.laws);
   set_face_dashpots(sim.motion.contacts, sim.motion.laws, sim.motion.damping.contact);

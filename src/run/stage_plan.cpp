@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "run/failure_search.hpp"
+#include "run/ramp.hpp"
 #include "run/stages.hpp"
 #include "step/changes.hpp"
 #include "step/simulation.hpp"

@@ -55,6 +55,17 @@ bool is_excavated(const Simulation& sim, Index opening) {
   return true;
 }
 
+void seek_equilibrium(Simulation& sim, const Stage& stage) {
+  Relaxation& r = sim.relaxation;
+  r.loose.clear();
+  r.balanced = false;
+  r.seeks_equilibrium = stage.to_equilibrium();
+  r.equilibrium_ratio = stage.ratio;
+  if (r.seeks_equilibrium) return;
+  r.estimate = {};
+  r.in_flight.clear();
+}
+
 StageRecord stage_record(const Simulation& sim, const EnergyBalance& energy, double start,
                          std::uint64_t first_step, bool reached) {
   StageRecord r;

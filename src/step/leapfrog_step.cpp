@@ -361,15 +361,14 @@ void look_leapfrog(const Simulation& sim, Instant& at) {
   for (const Id i : sim.attached.ground.fixed_blocks) store(at_every_node(ground), vx, vy, i);
 }
 
-/// |v|/w + |R|/(m w^2) with the velocity v of the block, the resultant R of the forces on it, and
-/// the frequency w of the motion of the model (FrequencyEstimate).
-double remaining_travel_of_leapfrog(const Simulation& sim, std::size_t i) {
+/// |v|/w + R/(m w^2) with the velocity v of the block, the resultant R of the forces on it, and the
+/// frequency w of the motion of the model (FrequencyEstimate).
+double remaining_travel_of_leapfrog(const Simulation& sim, std::size_t i, double force) {
   const State& state = sim.motion.state;
-  const NodalForces& forces = sim.motion.forces;
   const double w = sim.relaxation.estimate.frequency;
+  const double speed = norm(centroid(state.vx, state.vy, i));
+  if (speed == 0.0 && force == 0.0) return 0.0;
   if (w == 0.0) return std::numeric_limits<double>::infinity();
-  const double speed = norm(centroid(state.vx, state.vy, i)),
-               force = nodes_per_block * norm(centroid(forces.x, forces.y, i));
   return speed / w + force / (inertia_of(sim.motion.masses, i) * w * w);
 }
 

@@ -198,7 +198,7 @@ std::optional<Failure> step_newmark(Simulation& sim) {
 void look_newmark(const Simulation&, Instant&) {}
 
 /// The distance that the last static step moved the block.
-double remaining_travel_of_newmark(const Simulation& sim, std::size_t i) {
+double remaining_travel_of_newmark(const Simulation& sim, std::size_t i, double) {
   const ImplicitSolver& own = sim.implicit;
   if (own.mean_velocity_x[0].empty()) return std::numeric_limits<double>::infinity();
   return sim.motion.state.step * norm(centroid(own.mean_velocity_x, own.mean_velocity_y, i));

@@ -23,8 +23,9 @@ struct Stepper {
   std::optional<Failure> (*step)(Simulation&);
   /// The complete state at the end of the last step.
   void (*look)(const Simulation&, Instant&);
-  /// Distance that block i would still move if nothing changed, m; infinite: unknown.
-  double (*remaining_travel)(const Simulation&, std::size_t i);
+  /// Distance that block i, of which the forces have this resultant (N), would still move against
+  /// the stiffness of the motion, m; infinite: unknown.
+  double (*remaining_travel)(const Simulation&, std::size_t i, double force);
 
   /// Distance that any vertex may move in the next step, m.
   double (*ahead)(const Simulation&);

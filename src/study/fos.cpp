@@ -11,7 +11,6 @@
 
 #include "observe/balance.hpp"
 #include "results/machine.hpp"
-#include "run/equilibrium_search.hpp"
 #include "run/wall_clock.hpp"
 #include "step/labels.hpp"
 #include "study/fos_bracket.hpp"
@@ -171,7 +170,7 @@ class Search {
   void run(Trying& one, const std::stop_token& stop) const {
     one.made.end = start_.sim;
     const Loading to = loading_of(fos_, model_, start_.given, one.factor);
-    one.made.trial = run_trial(*one.made.end, plan_at(one.factor, fos_, start_), to,
+    one.made.trial = run_trial(*one.made.end, plan_at(one.factor, start_), to,
                                [&] { return stopped() || stop.stop_requested(); });
     one.made.trial.factor = one.factor;
   }
@@ -261,6 +260,19 @@ void conclude(const FosBracket& bracket, const Fos& fos, bool stopped, const Rig
   }
 }
 
+void add_scales(const Simulation& sim, FosResult& r) {
+  const LoadsNow acting = loads_at(sim.scene->model, sim.attached.loads, sim.motion.state.time);
+  double count = 0.0;
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
+    r.size += std::sqrt(sim.scene->blocks.area[i]);
+    r.acceleration = std::max(r.acceleration, acceleration_on(sim, acting, i));
+    count += 1.0;
+  }
+  r.size /= std::max(count, 1.0);
+  r.duration = longest_rest_time(sim);
+}
+
 /// The equilibrium state `rest`, with the positions from which displacements of `later` count.
 Simulation at_start(const Simulation& rest, const Simulation& later) {
   Simulation start = rest;
@@ -340,7 +352,8 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
   const RigidLimit& rigid = start.rigid;
   FosResult r;
   r.criterion = start.plan.criterion;
-  r.within_limit = plan_at(0.0, fos, start).criterion.displacement;
+  r.shaking = start.plan.shaking;
+  add_scales(start.sim, r);
   r.blocks = start.sim.scene->blocks.size();
   r.warnings = start.warnings;
   if (start.status != FosStatus::found) {
@@ -368,7 +381,7 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
   }
   if (compare_with_rigid(model, fos, rigid, r)) {
     if (start.as_drawn) {
-      take_rigid_limit(fos, *start.rigid, !lost_block_ids(start.sim).empty(), r);
+      take_rigid_limit(fos, *start.rigid, !loose_blocks(start.sim).empty(), r);
     } else {
       r.warnings.push_back(r.rigid->text +
                            "; these refer to the blocks as drawn, and stages have moved them");

@@ -51,9 +51,11 @@ struct FosResult {
   std::string message;
   std::optional<double> factor;        ///< mid-point of the bracket
   std::optional<double> holds, fails;  ///< ends of the bracket
-  CollapseCriterion criterion;
-  double within_limit = 0.0;  ///< m: failure displacement at factors at which rigid blocks are in
-                              ///< equilibrium
+  Criterion criterion;
+  double size = 0.0;          ///< m, mean of the square roots of the areas of the free blocks
+  double acceleration = 0.0;  ///< m/s2, of gravity, or of the loads without it
+  double duration = 0.0;      ///< s: the longest time T of a block (rest_time())
+  double shaking = 0.0;       ///< s, duration of the ground motion that is varied; 0 without
   std::vector<Trial> trials;  ///< in the order in which one thread makes them
   std::optional<Mechanism> mechanism;  ///< at the lowest factor that failed
   std::optional<Simulation> failed;    ///< final state at that factor; displacements count from the

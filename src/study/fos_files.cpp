@@ -1,4 +1,6 @@
 // Tables and summary of a search for the factor of safety.
+#include <cmath>
+
 #include "results/columns.hpp"
 #include "results/json.hpp"
 #include "results/version.hpp"
@@ -8,18 +10,18 @@ namespace edda {
 namespace {
 
 void add_criterion(Json& j, const FosResult& r) {
-  const CollapseCriterion& c = r.criterion;
+  const Criterion& c = r.criterion;
   j.key("criterion").open_object();
   j.pair("fails_displacement", c.displacement).pair("fails_velocity", c.velocity);
-  j.pair("fails_displacement_within_rigid_limit", r.within_limit);
-  j.pair("block_size", c.size).pair("acceleration", c.acceleration);
-  j.pair("trial", c.duration).pair("shaking", c.shaking);
-  j.pair(
-      "text",
-      "a trial fails where a corner will move further than fails_displacement by the trend of "
-      "its motion (fails_displacement_within_rigid_limit at factors at which rigid blocks are in "
-      "equilibrium); it holds where no block would move further than a ten-thousandth of "
-      "block_size within the time trial");
+  j.pair("fails_part", std::isfinite(c.allowed) ? std::optional(c.allowed) : std::nullopt);
+  j.pair("little_part", moved_little).pair("rest_part", rest_part);
+  j.pair("block_size", r.size).pair("acceleration", r.acceleration);
+  j.pair("trial", r.duration).pair("shaking", r.shaking);
+  j.pair("text",
+         "a trial fails where a set of blocks moves by more than fails_part of its size as seen "
+         "from the blocks beside it (little_part at factors at which rigid blocks have no "
+         "equilibrium), or a corner by more than fails_displacement where that is given; it holds "
+         "where no block would move by more than rest_part of its size within 5 sqrt(size/g)");
   j.close();
 }
 
@@ -37,7 +39,7 @@ void add_mechanism(Json& j, const Mechanism& m) {
 std::string fos_csv(const std::vector<Trial>& trials) {
   Csv csv = begin_table(ResultFile::fos);
   for (const Trial& t : trials) {
-    csv.add(t.factor).add(t.end == TrialEnd::holds ? "holds" : "fails").add(t.displacement);
+    csv.add(t.factor).add(trial_end_name(t.end)).add(t.displacement);
     if (t.block == no_id) {
       csv.add("");
     } else {

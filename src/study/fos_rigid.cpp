@@ -29,16 +29,12 @@ RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks) {
   return std::move(limit);
 }
 
-CollapseCriterion criterion_at(double factor, const Fos& fos, const CollapseCriterion& usual,
-                               const RigidLimit& rigid) {
+Criterion criterion_at(double factor, const Criterion& usual, const RigidLimit& rigid) {
   const bool in_equilibrium =
       rigid && (rigid->largest.status == LimitEnd::no_limit ||
                 (rigid->largest.status == LimitEnd::found && factor <= least_limit(*rigid)));
-  CollapseCriterion c = usual;
-  if (!in_equilibrium || fos.fails.displacement) return c;
-  constexpr double wider = 10.0;
-  c.displacement *= wider;
-  c.far /= wider;
+  Criterion c = usual;
+  if (!in_equilibrium) c.allowed = std::min(c.allowed, moved_little);
   return c;
 }
 

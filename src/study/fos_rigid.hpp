@@ -19,11 +19,10 @@ using RigidLimit = std::optional<LimitResult>;
 RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks);
 
 /// The criterion of the trial of a factor, from blocks that stand as drawn. Blocks that have an
-/// equilibrium as rigid ones by all limits may move ten times as far before they find it: steep
-/// blocks lean on each other after some hundredths of their size. Where rigid blocks have none,
-/// what stops them lies elsewhere, such as the ground in front of a slope.
-CollapseCriterion criterion_at(double factor, const Fos& fos, const CollapseCriterion& usual,
-                               const RigidLimit& rigid);
+/// equilibrium as rigid ones by all limits may move by a tenth of their size before they find it:
+/// steep blocks lean on each other after some hundredths. Where rigid blocks have none, what stops
+/// them lies elsewhere, such as the ground in front of a slope, and they may move by little.
+Criterion criterion_at(double factor, const Criterion& usual, const RigidLimit& rigid);
 
 /// A bracket around a limit.
 inline Vec2 around(double limit) {

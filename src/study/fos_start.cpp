@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "model/stage_names.hpp"
-#include "run/equilibrium_search.hpp"
+#include "observe/balance.hpp"
 #include "study/fault_at.hpp"
 
 namespace edda {
@@ -47,13 +48,15 @@ double shaking_time(const Model& model, const Fos& fos) {
   return time;
 }
 
-CollapseCriterion criterion_of(const Simulation& sim, const Model& model, const Fos& fos) {
-  CollapseCriterion c = collapse_criterion(sim, fos.varied, fos.target);
-  const double usual = c.displacement;
-  c.shaking = shaking_time(model, fos);
-  if (fos.fails.displacement || fos.varied == Varied::shaking) c.far = 1.0;
-  c.displacement = fos.fails.displacement.value_or(usual);
-  c.velocity = fos.fails.velocity.value_or(c.velocity * c.displacement / usual);
+Criterion criterion_of(const Fos& fos) {
+  Criterion c;
+  // A ground motion may shake blocks by little; what else moves them may let them close gaps.
+  if (fos.varied == Varied::shaking) c.allowed = moved_little;
+  if (fos.fails.displacement) {
+    c.displacement = fos.fails.displacement;
+    c.allowed = std::numeric_limits<double>::infinity();
+  }
+  c.velocity = fos.fails.velocity;
   return c;
 }
 
@@ -66,14 +69,15 @@ Damping damping_for_equilibrium(const Damping& own) {
   return damping;
 }
 
-TrialPlan plan_of(const Simulation& sim, const Model& model, const Fos& fos) {
+TrialPlan plan_of(const Model& model, const Fos& fos) {
   const Damping& own = model.solver.damping;
   TrialPlan plan;
   plan.varied = fos.varied;
   plan.target = fos.target;
   if (fos.varied == Varied::shaking)
     plan.given_scale = model.shakings[static_cast<std::size_t>(fos.target)].scale;
-  plan.criterion = criterion_of(sim, model, fos);
+  plan.criterion = criterion_of(fos);
+  plan.shaking = shaking_time(model, fos);
   plan.quiet = damping_for_equilibrium(own);
   plan.shaken = own;
   return plan;
@@ -165,6 +169,7 @@ Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& opti
   if (!prepared.ok()) return prepared.faults();
   Simulation& sim = prepared.value().sim;
   if (auto fault = nothing_moves(model, sim)) return *fault;
+  const RelativeMotion drawn(sim);
   if (SteppedValue* const load = slow_value(sim.attached.loads.slow, fos.varied, fos.target);
       load != nullptr && !changes_gravity(fos.varied))
     *load = {multiplier, multiplier};
@@ -181,10 +186,12 @@ Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& opti
   if (!outcome.ok()) return outcome.faults();
   const Status status = outcome.value().status;
   Staged made;
+  made.start.as_drawn = drawn.sets(sim, moved_little, sim.relaxation.loose).empty();
   made.start.sim = std::move(sim);
   if (ended) made.stage = *ended + (status == Status::failed ? 1 : 0);  // during the next stage
   FosStart& s = made.start;
-  made.in_equilibrium = status != Status::collapsed && status != Status::failed;
+  made.in_equilibrium =
+      (status == Status::equilibrium || status == Status::completed) && outcome.value().unsettled == 0;
   made.says = outcome.value().message;
   if (auto fault = nothing_moves(model, s.sim); made.in_equilibrium && fault) return *fault;
   s.warnings = std::move(prepared.value().warnings);
@@ -193,7 +200,7 @@ Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& opti
   if (changes_gravity(fos.varied))
     s.given.value = slow_value(s.sim.attached.loads.slow, fos.varied, fos.target)->value;
   for (double& factor : s.given.strength) factor /= divided;
-  s.plan = plan_of(s.sim, model, fos);
+  s.plan = plan_of(model, fos);
   return made;
 }
 
@@ -212,7 +219,7 @@ Result<FosStart> at_rest(const Model& model, const Fos& fos, const FosOptions& o
     Result<Staged> run =
         staged(model, fos, options, fos.varied == Varied::shaking ? 0.0 : 1.0, 1.0);
     if (!run.ok()) return run.faults();
-    if (run.value().in_equilibrium && lost_block_ids(run.value().start.sim).empty())
+    if (run.value().in_equilibrium && loose_blocks(run.value().start.sim).empty())
       return std::move(run.value().start);
     if (options.say) options.say(run_again(model, run.value()));
   }
@@ -225,7 +232,7 @@ Result<FosStart> at_rest(const Model& model, const Fos& fos, const FosOptions& o
         "the model does not reach equilibrium however strong its joints are: {}; fix what falls, "
         "or check its support",
         run.value().says);
-  } else if (!lost_block_ids(s.sim).empty()) {
+  } else if (!loose_blocks(s.sim).empty()) {
     s.warnings.push_back("with joints that do not fail, " + run.value().says +
                          "; trials are those of all other blocks");
   }
@@ -249,9 +256,9 @@ Loading loading_of(const Fos& fos, const Model& model, const Loading& given, dou
   return to;
 }
 
-TrialPlan plan_at(double factor, const Fos& fos, const FosStart& start) {
+TrialPlan plan_at(double factor, const FosStart& start) {
   TrialPlan plan = start.plan;
-  if (start.as_drawn) plan.criterion = criterion_at(factor, fos, plan.criterion, start.rigid);
+  if (start.as_drawn) plan.criterion = criterion_at(factor, plan.criterion, start.rigid);
   return plan;
 }
 
@@ -264,9 +271,8 @@ Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptio
   const double given = s.given.value;
   Simulation as_given = s.sim;
   s.rigid = rigid_limit(model, fos, s.sim.scene->blocks.size());
-  s.as_drawn = stands_as_drawn(s.sim, s.plan.criterion.size);
   Trial trial =
-      run_trial(as_given, plan_at(given, fos, s), s.given, [&] { return stopped(options); });
+      run_trial(as_given, plan_at(given, s), s.given, [&] { return stopped(options); });
   trial.factor = given;
   if (trial.end == TrialEnd::stopped) {
     s.status = FosStatus::interrupted;

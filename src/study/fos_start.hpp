@@ -24,7 +24,7 @@ struct FosStart {
 
 /// Loading of a trial of this factor, and how it is made.
 Loading loading_of(const Fos& fos, const Model& model, const Loading& given, double factor);
-TrialPlan plan_at(double factor, const Fos& fos, const FosStart& start);
+TrialPlan plan_at(double factor, const FosStart& start);
 
 /// Brings the model to equilibrium. With stages: runs them to the end of the one named, and with a
 /// thousand times the strength of the joints where they do not reach equilibrium otherwise. Without

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "run/stages.hpp"
+#include "observe/balance.hpp"
+#include "run/ramp.hpp"
 #include "step/changes.hpp"
 #include "step/step.hpp"
 
@@ -20,13 +21,13 @@ class Run {
         plan_(plan),
         to_(to),
         stops_(stops),
-        whole_(sim),
-        search_(sim, plan.criterion),
+        whole_(sim, sim.relaxation.loose),
+        holding_(sim, plan.criterion),
         start_(sim.motion.state.time),
         steps_(sim.motion.state.steps) {}
 
   Trial go() {
-    if (plan_.criterion.shaking > 0.0 && to_.value != 0.0) {
+    if (plan_.shaking > 0.0 && to_.value != 0.0) {
       shake();
       if (!over_) hold(to_.strength);
       return trial_;
@@ -38,12 +39,11 @@ class Run {
     if (to_.value < from && strength != to_.strength) {
       if (!reaches(to_.value, strength)) return trial_;
       from = to_.value;
-      search_ = FailureSearch(sim_, plan_.criterion);
+      holding_ = Holding(sim_, plan_.criterion);
     }
-    const int parts = parts_of_change(sim_.scene->model, plan_.varied, plan_.target, from,
-                                      to_.value, plan_.criterion);
+    const int parts = parts_of_change(sim_, plan_.varied, plan_.target, from, to_.value);
     for (int part = 1; part <= parts; ++part) {
-      if (part > 1) search_ = FailureSearch(sim_, plan_.criterion);
+      if (part > 1) holding_ = Holding(sim_, plan_.criterion);
       if (!reaches(from + (to_.value - from) * part / parts, to_.strength)) break;
     }
     return trial_;
@@ -54,11 +54,12 @@ class Run {
     if (over_) return;
     over_ = true;
     update_face_rows(sim_);
-    const Furthest moved = whole_.displacement(sim_);
+    const Furthest moved = whole_.furthest(sim_);
     trial_.displacement = moved.value;
-    trial_.block = moved.block;
+    trial_.block = holding_.block() == no_id ? moved.block : holding_.block();
+    trial_.part = holding_.part();
     trial_.time = sim_.motion.state.time - start_;
-    trial_.velocity = search_.velocity();
+    trial_.velocity = fastest_block(sim_).value;
     trial_.unbalanced = balance_of(sim_).mean;
     trial_.steps = sim_.motion.state.steps - steps_;
     trial_.end = how;
@@ -67,8 +68,10 @@ class Run {
 
   void end_by(Verdict verdict) {
     if (verdict == Verdict::not_yet) return;
-    if (search_.by_trend()) search_.watch().count_from_trend(sim_.motion.state);
-    end(verdict == Verdict::holds ? TrialEnd::holds : TrialEnd::fails, search_.reason());
+    end(verdict == Verdict::holds   ? TrialEnd::holds
+        : verdict == Verdict::fails ? TrialEnd::fails
+                                    : TrialEnd::undecided,
+        holding_.reason());
   }
 
   /// Makes steps until this time, or until the trial ends.
@@ -83,7 +86,7 @@ class Run {
       if (const auto failure = step_ahead(sim_)) {
         return end(TrialEnd::fails, "diverged: " + failure->message);
       }
-      end_by(search_.look(sim_));
+      end_by(holding_.look(sim_));
     }
   }
 
@@ -132,7 +135,7 @@ class Run {
     change_damping(sim_, plan_.quiet, sim_.motion.dynamic);
     sim_.relaxation.seeks_equilibrium = true;
     begin_gradually(sim_, strength, true);
-    search_.begin(sim_);
+    holding_.begin(sim_);
   }
 
   void scale_shaking(double by) {
@@ -147,41 +150,41 @@ class Run {
     scale_shaking(to_.value);
     sim_.attached.loads.intervals.shakings[static_cast<std::size_t>(plan_.target)] = {start_};
     change_damping(sim_, plan_.shaken, sim_.motion.dynamic);
-    step_to(start_ + plan_.criterion.shaking);
+    step_to(start_ + plan_.shaking);
     if (!over_) scale_shaking(0.0);
     const double latest = sim_.motion.state.time + most_steps * sim_.control.limit;
     while (!over_ && !is_calm()) {
-      if (sim_.motion.state.time > latest) end(TrialEnd::fails, "still moving");
+      if (sim_.motion.state.time > latest) end(TrialEnd::undecided, "still moving");
     }
     if (!over_) lose_velocity(sim_, sim_.attached.ground.velocity);
   }
 
   /// Follows the motion that the ground has left, as it is damped in the model, for the time T of
-  /// the criterion. Whether no vertex has moved further meanwhile than a small part of the failure
-  /// displacement: what slides or rocks would go on, and the search for equilibrium would stop it.
+  /// the largest block. Whether none has moved meanwhile as seen from its neighbours: what slides or
+  /// rocks would go on, and the search for equilibrium would stop it.
   bool is_calm() {
-    constexpr double small = 0.05;
+    constexpr double small = 0.05;  // of what is little
     constexpr int looks = 20;
-    const Watch window(sim_);
-    double furthest = 0.0;
+    const RelativeMotion window(sim_);
+    bool calm = true;
     for (int look = 0; look < looks && !over_; ++look) {
-      step_to(sim_.motion.state.time + plan_.criterion.duration / looks);
-      furthest = std::max(furthest, window.displacement(sim_).value);
+      step_to(sim_.motion.state.time + longest_rest_time(sim_) / looks);
+      calm = calm && window.sets(sim_, small * moved_little, whole_.left()).empty();
     }
-    return furthest <= small * plan_.criterion.displacement;
+    return calm;
   }
 
   void follow() {
     step_to(sim_.motion.state.time + most_steps * sim_.control.limit);
-    if (!over_) end_by(search_.at_end(sim_));
+    if (!over_) end_by(holding_.at_end(sim_));
   }
 
   Simulation& sim_;
   const TrialPlan& plan_;
   const Loading& to_;
   const std::function<bool()>& stops_;
-  const Watch whole_;     ///< of the whole trial
-  FailureSearch search_;  ///< of this part of it
+  const Judge whole_;  ///< of the whole trial
+  Holding holding_;    ///< of this part of it
   Trial trial_;
   const double start_;  ///< s
   const std::uint64_t steps_;

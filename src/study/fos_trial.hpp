@@ -6,9 +6,10 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "run/failure_search.hpp"
+#include "judge/holding.hpp"
 
 namespace edda {
 
@@ -24,30 +25,40 @@ struct TrialPlan {
   Varied varied = Varied::strength;
   Index target = 0;          ///< row of loads, ground motions, waters or boundaries
   double given_scale = 1.0;  ///< of that ground motion, to which factors refer
-  CollapseCriterion criterion;
+  Criterion criterion;
+  double shaking = 0.0;  ///< s, duration of that ground motion; 0 without
   Damping quiet;   ///< damping in the search for equilibrium
   Damping shaken;  ///< damping during ground motion
 };
 
-enum class TrialEnd { holds, fails, stopped };
+enum class TrialEnd {
+  holds,
+  fails,
+  undecided,  ///< neither at rest nor gone where the steps were exhausted; counts as failed
+  stopped,
+};
+
+constexpr std::string_view trial_end_name(TrialEnd end) {
+  constexpr std::string_view names[] = {"holds", "fails", "undecided", "stopped"};
+  return names[static_cast<int>(end)];
+}
 
 /// Result of one factor: a row of fos.csv.
 struct Trial {
   double factor = 0.0;
   TrialEnd end = TrialEnd::stopped;
   std::string reason;         ///< a few words
+  double part = 0.0;          ///< largest part of its size by which a set of blocks has moved
   double displacement = 0.0;  ///< m, largest of a vertex since the start of the trial
   Id block = no_id;           ///< block of that vertex
   double time = 0.0;          ///< s since the start of the trial
-  double velocity = 0.0;    ///< m/s, largest mean velocity of a vertex between the last two checks
+  double velocity = 0.0;    ///< m/s, of the fastest block at the end
   double unbalanced = 0.0;  ///< mean resultant over mean contact force, as for stages
   std::uint64_t steps = 0;
 };
 
 /// Runs `sim`, in equilibrium, to the end of a trial under `to`. Displacements count from the start
-/// of the trial; in a trial that fails by its trend those of the state count from
-/// where the trend was found, so that they show the mechanism. `stops` is called before each step;
-/// true ends the trial.
+/// of the trial. `stops` is called before each step; true ends the trial.
 Trial run_trial(Simulation& sim, const TrialPlan& plan, const Loading& to,
                 const std::function<bool()>& stops);
 

@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "judge/judge.hpp"
 #include "model/stage_names.hpp"
 #include "observe/balance.hpp"
 #include "observe/observe.hpp"
-#include "run/equilibrium_search.hpp"
 #include "run/run_model.hpp"
 #include "run/wall_clock.hpp"
 #include "step/labels.hpp"
@@ -70,6 +70,24 @@ std::optional<Fault> without_limit(const Model& model, const Fos& fos) {
                     "give gravity = [0, -9.81]");
   }
   return {};
+}
+
+/// [nb] 1: a free block whose size (square root of the area) is less than a tenth of the mean of
+/// all free blocks.
+std::vector<std::uint8_t> negligible_blocks(const Simulation& sim) {
+  constexpr double small = 0.1;  // of the mean size
+  std::vector<std::uint8_t> are(sim.scene->blocks.size(), 0);
+  double size = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < are.size(); ++i) {
+    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
+    size += std::sqrt(sim.scene->blocks.area[i]);
+    count += 1.0;
+  }
+  for (std::size_t i = 0; i < are.size(); ++i) {
+    are[i] = is_free(sim.scene->blocks, sim.motion.state, i) &&
+             std::sqrt(sim.scene->blocks.area[i]) * count < small * size;
+  }
+  return are;
 }
 
 LimitValue value_of(const LimitCase::Answer& answer) {
@@ -283,21 +301,6 @@ Result<LimitResult> limit_analysis(const Model& model, LimitExtent extent) {
   return r;
 }
 
-bool stands_as_drawn(const Simulation& sim, double size) {
-  constexpr double near = 0.01;  // of the size of a block
-  const BlockSet& b = sim.scene->blocks;
-  const std::vector<std::uint8_t> small = negligible_blocks(sim);
-  const std::vector<Id> lost = lost_block_ids(sim);
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    if (!is_free(b, sim.motion.state, i) || small[i] != 0) continue;
-    if (std::binary_search(lost.begin(), lost.end(), static_cast<Id>(i))) continue;
-    const Vec2 drawn{b.centroid_x[i], b.centroid_y[i]};
-    if (norm(centroid(sim.motion.state.x, sim.motion.state.y, i) - drawn) > near * size)
-      return false;
-  }
-  return true;
-}
-
 std::optional<double> rigid_factor(const Model& model, const Simulation& end) {
   constexpr std::size_t most_blocks = 600;
   const Fos fos;
@@ -320,7 +323,7 @@ std::optional<double> rigid_factor(const Model& model, const Simulation& end) {
   };
   const LimitCase all(sim, fos, crushing);
   if (all.rigid().bodies() == 0 || !all.rigid().loose.empty() ||
-      !stands_as_drawn(end, all.rigid().size))
+      !RelativeMotion(sim).sets(end, moved_little, end.relaxation.loose).empty())
     return {};
   const std::optional<double> factor = largest(all);
   if (!factor || *factor >= 1.0) return factor;

@@ -63,10 +63,6 @@ Result<LimitResult> limit_analysis(const Model& model, LimitExtent extent = Limi
 /// and for more than 600 blocks, for which it takes seconds.
 std::optional<double> rigid_factor(const Model& model, const Simulation& end);
 
-/// Whether the blocks that count and have not come loose stand as drawn, within a hundredth of this
-/// size (m).
-bool stands_as_drawn(const Simulation& sim, double size);
-
 /// limit_joints.csv and summary.json.
 std::string limit_joints_csv(const LimitResult& result);
 std::string limit_summary(const Model& model, const LimitResult& result);

@@ -1,0 +1,240 @@
+#include "judge/moved_sets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "blocks/block_groups.hpp"
+#include "contacts/face_reading.hpp"
+#include "step/faces_now.hpp"
+
+namespace edda {
+namespace {
+
+constexpr double landing = 0.1;  // of the way of what was to land
+
+/// Sets of blocks and the ground while they are joined. The ground is the last member.
+class Linkage {
+ public:
+  Linkage(const Simulation& sim, const std::vector<std::vector<Id>>& neighbours)
+      : blocks_(sim.scene->blocks), neighbours_(neighbours), sets_(blocks_.size() + 1) {
+    members_.resize(blocks_.size() + 1);
+    size_.assign(blocks_.size() + 1, std::numeric_limits<double>::infinity());
+    for (Id i = 0; i < blocks_.size(); ++i) {
+      members_[i] = {i};
+      if (is_free(blocks_, sim.motion.state, i)) size_[i] = std::sqrt(blocks_.area[i]);
+    }
+    for (Id i = 0; i < blocks_.size(); ++i) {
+      if (!std::isfinite(size_[i])) join(i, ground(), 0.0);
+    }
+  }
+  Id ground() const { return static_cast<Id>(blocks_.size()); }
+
+  /// Joins the sets of two blocks. Returns the blocks of the smaller one if all its neighbours
+  /// belong to the other and it is smaller than `most` (m); else nothing.
+  std::vector<Id> join(Id i, Id j, double most) {
+    Id small = sets_.find(i), large = sets_.find(j);
+    if (small == large) return {};
+    if (size_[small] > size_[large] || (size_[small] == size_[large] && small < large))
+      std::swap(small, large);
+    std::vector<Id> moved;
+    if (size_[small] < most && all_beside(small, large)) moved = members_[small];
+    last_size_ = size_[small];
+    sets_.join(small, large);
+    const Id root = sets_.find(small), other = root == small ? large : small;
+    size_[root] = std::max(size_[small], size_[large]);
+    members_[root].insert(members_[root].end(), members_[other].begin(), members_[other].end());
+    members_[other] = {};
+    return moved;
+  }
+  /// Of the smaller set that was joined last, m.
+  double last_size() const { return last_size_; }
+
+ private:
+  /// Whether all neighbours of one set belong to the other.
+  bool all_beside(Id set, Id other) {
+    for (const Id i : members_[set]) {
+      for (const Id j : neighbours_[i]) {
+        const Id of = sets_.find(j);
+        if (of != set && of != other) return false;
+      }
+    }
+    return true;
+  }
+
+  const BlockSet& blocks_;
+  const std::vector<std::vector<Id>>& neighbours_;
+  Sets sets_;
+  std::vector<std::vector<Id>> members_;  ///< of the set with this lowest member
+  std::vector<double> size_;              ///< m, of its largest block; infinite: fixed
+  double last_size_ = 0.0;
+};
+
+/// [nb] 1: no path of closed contacts, bolts and pairs leads from the block to a fixed one or to a
+/// support.
+std::vector<std::uint8_t> unsupported(const Simulation& sim, const std::vector<Id>& small,
+                                      const std::vector<Id>& large) {
+  const BlockSet& b = sim.scene->blocks;
+  Sets groups(b.size());
+  for (std::size_t q = 0; q < small.size(); ++q) groups.join(small[q], large[q]);
+  std::vector<std::uint8_t> stands(b.size(), 0);  // by the first block of each group
+  for (Id i = 0; i < b.size(); ++i) {
+    if (!is_free(b, sim.motion.state, i)) stands[groups.find(i)] = 1;
+  }
+  const BoundarySprings& springs = sim.attached.springs;
+  for (std::size_t q = 0; q < springs.size(); ++q) {
+    if (springs.kxx[q] + springs.kyy[q] > 0.0)
+      stands[groups.find(b.vertex_block[springs.vertex[q]])] = 1;
+  }
+  std::vector<std::uint8_t> apart(b.size());
+  for (Id i = 0; i < b.size(); ++i) apart[i] = stands[groups.find(i)] == 0 ? 1 : 0;
+  return apart;
+}
+
+/// Keeps of sets within each other the larger: those found later contain or avoid the earlier ones.
+void keep_outer(std::vector<MovedSet>& sets, std::size_t blocks) {
+  std::vector<std::uint8_t> taken(blocks, 0);
+  std::vector<MovedSet> kept;
+  for (auto set = sets.rbegin(); set != sets.rend(); ++set) {
+    if (taken[set->blocks.front()] != 0) continue;
+    for (const Id i : set->blocks) taken[i] = 1;
+    kept.push_back(std::move(*set));
+  }
+  std::sort(kept.begin(), kept.end(), [](const MovedSet& a, const MovedSet& b) {
+    return a.part != b.part ? a.part > b.part : a.blocks.front() < b.blocks.front();
+  });
+  sets = std::move(kept);
+}
+
+}  // namespace
+
+RelativeMotion::RelativeMotion(const Simulation& sim)
+    : x_(sim.motion.state.x), y_(sim.motion.state.y), ground_(sim.attached.ground.shift) {
+  constexpr double near = 1e-3;  // of the smaller block: a gap across which blocks are neighbours
+  const BlockSet& b = sim.scene->blocks;
+  const FaceSet& f = sim.motion.contacts;
+  std::vector<std::pair<Id, Id>> pairs;
+  const auto add = [&](Id i, Id j) {
+    if (i == j) return;
+    pairs.push_back(size_of(sim, i) < size_of(sim, j) || (size_of(sim, i) == size_of(sim, j) && i > j)
+                        ? std::pair{i, j}
+                        : std::pair{j, i});
+  };
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    if (is_closed_now(sim, k) || meets_within(f, near * smaller_size(f, b, k), k))
+      add(block_of_edge(b, f, k), block_of_facing(b, f, k));
+  }
+  const PointSet& p = sim.motion.point_contacts;
+  for (std::size_t k = 0; k < p.size(); ++k) add(b.vertex_block[p.vertex[k]], b.vertex_block[p.edge[k]]);
+  const Bolts& bolts = sim.attached.bolts;
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  std::vector<Id> small, large;
+  for (const auto& [i, j] : pairs) {
+    small_.push_back(i);
+    large_.push_back(j);
+  }
+  // What hangs from bolts alone is supported, but moves as seen from where it was.
+  small = small_;
+  large = large_;
+  for (std::size_t r = 0; r < bolts.rows.size(); ++r) {
+    for (Id k = bolts.begin[r] + 1; k < bolts.begin[r + 1]; ++k) {
+      small.push_back(bolts.host[k - 1]);
+      large.push_back(bolts.host[k]);
+    }
+  }
+  apart_ = unsupported(sim, small, large);
+}
+
+bool RelativeMotion::fits(std::size_t blocks) const {
+  const auto below = [blocks](Id i) { return i < blocks; };
+  return x_[0].size() == blocks && y_[0].size() == blocks && apart_.size() == blocks &&
+         small_.size() == large_.size() && std::all_of(small_.begin(), small_.end(), below) &&
+         std::all_of(large_.begin(), large_.end(), below);
+}
+
+double RelativeMotion::size_of(const Simulation& sim, Id i) const {
+  const BlockSet& b = sim.scene->blocks;
+  return is_free(b, sim.motion.state, i) ? std::sqrt(b.area[i])
+                                         : std::numeric_limits<double>::infinity();
+}
+
+/// With F = dx/dX of the larger block, now and at the start: x' - x of the corners of the smaller
+/// one, x = c + F F_0^-1 (x_0 - c_0).
+double RelativeMotion::moved(const Simulation& sim, const Pair& pair) const {
+  const BlockSet& b = sim.scene->blocks;
+  const State& s = sim.motion.state;
+  const Deformation now = deformation(b, s.x, s.y, pair.large),
+                    was = deformation(b, x_, y_, pair.large);
+  const double det = was.xx * was.yy - was.xy * was.yx;
+  const Deformation g{(now.xx * was.yy - now.xy * was.yx) / det,
+                      (now.xy * was.xx - now.xx * was.xy) / det,
+                      (now.yx * was.yy - now.yy * was.yx) / det,
+                      (now.yy * was.xx - now.yx * was.xy) / det};
+  const Vec2 c = centroid(s.x, s.y, pair.large), c0 = centroid(x_, y_, pair.large);
+  double most = 0.0;
+  for (Id v = b.vertex_begin[pair.small]; v < b.vertex_begin[pair.small + 1]; ++v) {
+    const Vec2 arm = vertex_at(b, x_, y_, v) - c0;
+    const Vec2 carried = c + Vec2{g.xx * arm.x + g.xy * arm.y, g.yx * arm.x + g.yy * arm.y};
+    most = std::max(most, norm(vertex_at(b, s.x, s.y, v) - carried));
+  }
+  return most;
+}
+
+double RelativeMotion::moved_from_start(const Simulation& sim, Id i) const {
+  const BlockSet& b = sim.scene->blocks;
+  const State& s = sim.motion.state;
+  const Vec2 carried = sim.attached.ground.shift - ground_;
+  double most = 0.0;
+  for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v)
+    most = std::max(most, norm(vertex_at(b, s.x, s.y, v) - vertex_at(b, x_, y_, v) - carried));
+  return most;
+}
+
+std::vector<MovedSet> RelativeMotion::sets(const Simulation& sim, double least,
+                                           const std::vector<std::uint8_t>& left_out) const {
+  const BlockSet& b = sim.scene->blocks;
+  const State& s = sim.motion.state;
+  const auto counts = [&](Id i) {
+    return s.alive[i] != 0 && (left_out.empty() || left_out[i] == 0);
+  };
+  struct Link {
+    double distance;
+    Id i, j;
+  };
+  const Id ground = static_cast<Id>(b.size());
+  std::vector<Link> links;
+  std::vector<std::vector<Id>> neighbours(b.size());
+  for (std::size_t q = 0; q < small_.size(); ++q) {
+    const Id i = small_[q], j = large_[q];
+    if (!counts(i) || !counts(j) || !is_free(b, s, i)) continue;
+    neighbours[i].push_back(j);
+    neighbours[j].push_back(i);
+    links.push_back({moved(sim, {i, j}), i, j});
+  }
+  for (Id i = 0; i < b.size(); ++i) {
+    if (counts(i) && is_free(b, s, i)) links.push_back({moved_from_start(sim, i), i, ground});
+  }
+  std::sort(links.begin(), links.end(), [](const Link& a, const Link& c) {
+    return a.distance != c.distance ? a.distance < c.distance
+                                    : std::pair{a.i, a.j} < std::pair{c.i, c.j};
+  });
+  Linkage linkage(sim, neighbours);
+  std::vector<MovedSet> sets;
+  for (const Link& link : links) {
+    std::vector<Id> blocks = linkage.join(link.i, link.j, link.distance / least);
+    if (blocks.empty()) continue;
+    const bool lands = std::all_of(blocks.begin(), blocks.end(), [&](Id i) { return apart_[i]; });
+    const double part = (lands ? landing : 1.0) * link.distance / linkage.last_size();
+    if (!(part > least)) continue;
+    std::sort(blocks.begin(), blocks.end());
+    MovedSet set{std::move(blocks), 0.0, link.distance, part};
+    for (const Id i : set.blocks) set.area += b.area[i];
+    sets.push_back(std::move(set));
+  }
+  keep_outer(sets, b.size());
+  return sets;
+}
+
+}  // namespace edda

@@ -1,0 +1,76 @@
+// How far blocks have moved as seen from those that they touched: what moves is a set of blocks,
+// and how far it has moved is told by its own size (theory, section 11.3). Nothing here depends on
+// what is far away: neither the size of the ground, nor whether it is fixed, settles or is carried
+// along.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "step/simulation.hpp"
+
+namespace edda {
+
+/// Blocks that have moved together.
+struct MovedSet {
+  std::vector<Id> blocks;  ///< ascending
+  double area = 0.0;       ///< m2, of all of them
+  double distance = 0.0;   ///< m, that they have moved as seen from the blocks beside them
+  double part = 0.0;       ///< that distance over the size of the largest of them
+};
+
+/// Relative motion since the state in which this is created.
+///
+/// Two blocks that touch then have moved by D, the largest displacement of a corner of the smaller
+/// block as seen from the larger one, whose motion is affine; a block has also moved by D from
+/// where it was, as seen from the ground. Blocks are joined in the order of their D (single
+/// linkage). Where a set S is joined at D to a larger one that contains all its neighbours, S has
+/// moved by the part D/L of its size, L = sqrt(area) of the largest block of S. If S has other
+/// neighbours, these may have carried it along, and it is judged together with them. A set that
+/// touched nothing that anything supports was to land: a tenth of D counts.
+class RelativeMotion {
+ public:
+  RelativeMotion() = default;
+  explicit RelativeMotion(const Simulation& sim);
+
+  /// Sets that have moved by more than the part `least` of their size, the largest part first; of
+  /// sets within each other the larger. `left_out`: [nb] 1: the block does not count; may be empty.
+  std::vector<MovedSet> sets(const Simulation& sim, double least,
+                             const std::vector<std::uint8_t>& left_out = {}) const;
+
+  /// Largest displacement of a corner of block i as seen from the ground, m.
+  double moved_from_start(const Simulation& sim, Id i) const;
+
+  bool fits(std::size_t blocks) const;
+  /// Names every field that a checkpoint contains.
+  template <class Archive>
+  void list(Archive& a);
+
+ private:
+  /// Blocks that touch at the start; the second is the larger one.
+  struct Pair {
+    Id small = 0, large = 0;
+  };
+  double moved(const Simulation& sim, const Pair& pair) const;
+  double size_of(const Simulation& sim, Id i) const;
+
+  Nodes x_, y_;                     ///< [nodes][nb] m, at the start
+  Vec2 ground_;                     ///< m, displacement of the ground then
+  std::vector<Id> small_, large_;   ///< [pairs]
+  std::vector<std::uint8_t> apart_;  ///< [nb] 1: nothing supported it then
+};
+
+template <class Archive>
+void RelativeMotion::list(Archive& a) {
+  a("moved.x", x_);
+  a("moved.y", y_);
+  a("moved.ground_x", ground_.x);
+  a("moved.ground_y", ground_.y);
+  a("moved.small", small_);
+  a("moved.large", large_);
+  a("moved.apart", apart_);
+}
+
+}  // namespace edda

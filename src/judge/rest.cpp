@@ -1,0 +1,152 @@
+#include "judge/rest.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/gravity.hpp"
+#include "contacts/face_reading.hpp"
+#include "step/faces_now.hpp"
+
+namespace edda {
+namespace {
+
+/// About half a period of the motion, in steps: a block that reaches equilibrium has slowed down
+/// markedly by then.
+std::uint64_t window_of(const Simulation& sim) {
+  constexpr double least = 128.0, most = 512.0;
+  const double turn = sim.relaxation.estimate.frequency * sim.motion.state.step;
+  return static_cast<std::uint64_t>(turn > 0.0 ? std::clamp(std::numbers::pi / turn, least, most)
+                                               : least);
+}
+
+double size_of(const Simulation& sim, std::size_t i) {
+  return std::sqrt(sim.scene->blocks.area[i]);
+}
+
+/// Resultant of the forces on block i in the last step, less their rounding, N.
+double force_on(const Simulation& sim, std::size_t i, double rounding) {
+  const NodalForces& f = sim.motion.forces;
+  return std::max(nodes_per_block * norm(centroid(f.x, f.y, i)) - rounding, 0.0);
+}
+
+}  // namespace
+
+double rest_time(double size, double acceleration) {
+  constexpr double times = 5.0;
+  return times * std::sqrt(size / (acceleration > 0.0 ? acceleration : usual_acceleration));
+}
+
+double longest_rest_time(const Simulation& sim) {
+  const LoadsNow acting = loads_at(sim.scene->model, sim.attached.loads, sim.motion.state.time);
+  double longest = 0.0;
+  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
+    longest = std::max(longest, rest_time(size_of(sim, i), acceleration_on(sim, acting, i)));
+  }
+  return longest;
+}
+
+double acceleration_on(const Simulation& sim, const LoadsNow& acting, std::size_t i) {
+  const double g = norm(sim.scene->model.gravity);
+  if (g > 0.0) return g;
+  const BlockSet& b = sim.scene->blocks;
+  return norm(load_on(b, acting, sim.motion.pose, i)) / b.mass[i];
+}
+
+std::vector<double> rounding_of_forces(const Simulation& sim) {
+  std::vector<double> force(sim.scene->blocks.size(), 0.0);
+  const FaceSet& f = sim.motion.contacts;
+  const std::vector<double> springs = normal_springs_now(sim);
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    if (springs[k] == 0.0) continue;
+    for (const Id i :
+         {block_of_edge(sim.scene->blocks, f, k), block_of_facing(sim.scene->blocks, f, k)}) {
+      force[i] += 0.5 * f.noise * springs[k];
+    }
+  }
+  const BoundarySprings& s = sim.attached.springs;
+  for (std::size_t q = 0; q < s.size(); ++q)
+    force[sim.scene->blocks.vertex_block[s.vertex[q]]] += f.noise * std::max(s.kxx[q], s.kyy[q]);
+  return force;
+}
+
+bool forces_are_rounding(const Simulation& sim) {
+  const std::vector<double> rounding = rounding_of_forces(sim);
+  for (std::size_t i = 0; i < rounding.size(); ++i) {
+    if (is_free(sim.scene->blocks, sim.motion.state, i) && force_on(sim, i, rounding[i]) > 0.0)
+      return false;
+  }
+  return true;
+}
+
+void SlowingDown::begin(const Simulation& sim) {
+  const std::size_t nb = sim.scene->blocks.size();
+  *this = {};
+  for (auto* values : {&from_x_, &from_y_, &moved_x_, &moved_y_}) values->assign(nb, 0.0);
+  to_come_.assign(nb, std::numeric_limits<double>::infinity());
+  begin_window(sim);
+}
+
+bool SlowingDown::fits(std::size_t blocks) const {
+  const auto of_blocks = [blocks](const std::vector<double>* v) { return v->size() == blocks; };
+  const auto all = {&from_x_, &from_y_, &moved_x_, &moved_y_, &to_come_};
+  return std::all_of(all.begin(), all.end(), of_blocks);
+}
+
+void SlowingDown::begin_window(const Simulation& sim) {
+  const double frequency = sim.relaxation.estimate.frequency;
+  began_ = sim.motion.state.steps;
+  length_ = window_of(sim);
+  const double time = static_cast<double>(length_) * sim.motion.state.step;
+  pull_before_ = pull_;
+  pull_ = (frequency > 0.0 ? frequency : 1.0 / time) / time;
+  for (std::size_t i = 0; i < from_x_.size(); ++i) {
+    const Vec2 at = centroid(sim.motion.state.x, sim.motion.state.y, i);
+    from_x_[i] = at.x;
+    from_y_[i] = at.y;
+  }
+}
+
+/// A motion that decays towards equilibrium decreases by the same ratio q from window to window: q/(1
+/// - q) of the last one is still to come.
+void SlowingDown::look(const Simulation& sim) {
+  if (sim.motion.state.steps < began_ + length_) return;
+  const double like_before = pull_before_ > 0.0 ? pull_ / pull_before_ : 1.0;
+  for (std::size_t i = 0; i < from_x_.size(); ++i) {
+    const Vec2 now = centroid(sim.motion.state.x, sim.motion.state.y, i) - Vec2{from_x_[i], from_y_[i]},
+               was{moved_x_[i], moved_y_[i]};
+    const double ratio = dot(was, was) > 0.0 ? like_before * dot(now, was) / dot(was, was) : 1.0;
+    to_come_[i] = ratio <= 0.0  ? 0.0
+                  : ratio < 1.0 ? norm(now) * ratio / (1.0 - ratio)
+                                : std::numeric_limits<double>::infinity();
+    moved_x_[i] = now.x;
+    moved_y_[i] = now.y;
+  }
+  begin_window(sim);
+}
+
+std::vector<std::uint8_t> blocks_at_rest(const Simulation& sim, const SlowingDown* slowing) {
+  const BlockSet& b = sim.scene->blocks;
+  const State& s = sim.motion.state;
+  const std::vector<double> rounding = rounding_of_forces(sim);
+  const LoadsNow acting = loads_at(sim.scene->model, sim.attached.loads, s.time);
+  std::vector<std::uint8_t> rest(b.size(), 1);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (!is_free(b, s, i)) continue;
+    const double most = rest_part * size_of(sim, i);
+    const double force = force_on(sim, i, rounding[i]);
+    const Vec2 v = centroid(s.vx, s.vy, i);
+    if (sim.stepper->remaining_travel(sim, i, force) > most) {
+      rest[i] = 0;
+    } else if (slowing != nullptr && slowing->to_come(i) > most) {
+      const double speed = norm(v) * std::sqrt(inertia_of(sim.motion.masses, i) / b.mass[i]);
+      const double time = rest_time(size_of(sim, i), acceleration_on(sim, acting, i));
+      rest[i] = speed * time + 0.5 * force / b.mass[i] * time * time <= most ? 1 : 0;
+    }
+  }
+  return rest;
+}
+
+}  // namespace edda

@@ -1,0 +1,78 @@
+// Whether single blocks are at rest, each by its own size and time (theory, section 11.3).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "step/simulation.hpp"
+
+namespace edda {
+
+/// At rest a block would move no further than this part of its size.
+inline constexpr double rest_part = 1e-4;
+
+/// Time within which a block at rest would move no further, s: T = 5 sqrt(L/a), in which it would
+/// fall by twelve times its size L (m) under the acceleration a (m/s2) that acts on it.
+double rest_time(double size, double acceleration);
+
+/// That of the free block that has the longest, s.
+double longest_rest_time(const Simulation& sim);
+
+/// Acceleration of gravity, or that of the loads on block i where there is none, m/s2.
+double acceleration_on(const Simulation& sim, const LoadsNow& acting, std::size_t i);
+
+/// Forces at each block that follow from the rounding of coordinates, [nb] N. A small block wedged
+/// between large ones does not balance any better.
+std::vector<double> rounding_of_forces(const Simulation& sim);
+
+/// Whether no block has a resultant beyond the rounding of the forces on it, as where nothing acts
+/// on the model.
+bool forces_are_rounding(const Simulation& sim);
+
+/// Extrapolates the motion of blocks from one time window to the next, each about half a period of
+/// the motion long.
+class SlowingDown {
+ public:
+  /// Begins anew, without a trend.
+  void begin(const Simulation& sim);
+  /// Call every few steps.
+  void look(const Simulation& sim);
+  /// Distance that block i will still move if it slows down as from the last but one window to the
+  /// last, m; infinite where it does not, or where that is not known yet.
+  double to_come(std::size_t i) const { return to_come_[i]; }
+  bool fits(std::size_t blocks) const;
+  template <class Archive>
+  void list(Archive& a);
+
+ private:
+  void begin_window(const Simulation& sim);
+  std::uint64_t began_ = 0, length_ = 0;  ///< steps, of the present window
+  double pull_ = 0.0, pull_before_ = 0.0;  ///< 1/s2: the displacement in a window times this
+                                           ///< measures the acceleration that drives a block which
+                                           ///< only mass-proportional damping resists
+  std::vector<double> from_x_, from_y_;    ///< [nb] m, centroids when the window began
+  std::vector<double> moved_x_, moved_y_;  ///< [nb] m, displacements in the last window
+  std::vector<double> to_come_;            ///< [nb] m
+};
+
+template <class Archive>
+void SlowingDown::list(Archive& a) {
+  a("slowing.began", began_);
+  a("slowing.length", length_);
+  a("slowing.pull", pull_);
+  a("slowing.pull_before", pull_before_);
+  a("slowing.from_x", from_x_);
+  a("slowing.from_y", from_y_);
+  a("slowing.moved_x", moved_x_);
+  a("slowing.moved_y", moved_y_);
+  a("slowing.to_come", to_come_);
+}
+
+/// [nb] 1: the block is at rest, or not free. With the velocity v and the resultant R of the forces
+/// on it, less their rounding, it would move by no more than rest_part of its size L both against
+/// the stiffness of the motion (Stepper::remaining_travel) and, unless it is seen to slow down
+/// before that, if nothing held it: v T + R/m T^2/2 with T = rest_time(L, a), m its true mass, and v
+/// that of the same kinetic energy with this mass. `slowing`: null where nothing is extrapolated.
+std::vector<std::uint8_t> blocks_at_rest(const Simulation& sim, const SlowingDown* slowing);
+
+}  // namespace edda
